@@ -1,0 +1,38 @@
+#pragma once
+
+#include <spdlog/fmt/fmt.h>
+
+#include <stdexcept>
+#include <string>
+
+namespace sandstroke {
+
+/// What a program's exit code says (files-and-commands): 0 fine, 1 a comparison failed.
+enum class ErrorKind {
+  input = 2,      ///< bad input or usage: the user changes what was given
+  unstable = 3,   ///< not converged or unstable: the user changes settings
+  io = 4,         ///< the system would not read or write
+};
+
+/// The one exception of this program: a sentence that says what, where (file, line, key) and what to do.
+class Error : public std::runtime_error {
+ public:
+  Error(ErrorKind kind, const std::string& sentence) : std::runtime_error(sentence), kind_(kind) {}
+  ErrorKind kind() const { return kind_; }
+  int exit_code() const { return static_cast<int>(kind_); }
+
+ private:
+  ErrorKind kind_;
+};
+
+template <class... Args>
+[[noreturn]] void throw_input_error(fmt::format_string<Args...> sentence, Args&&... args) {
+  throw Error(ErrorKind::input, fmt::format(sentence, std::forward<Args>(args)...));
+}
+
+template <class... Args>
+[[noreturn]] void throw_io_error(fmt::format_string<Args...> sentence, Args&&... args) {
+  throw Error(ErrorKind::io, fmt::format(sentence, std::forward<Args>(args)...));
+}
+
+}  // namespace sandstroke

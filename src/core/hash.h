@@ -1,0 +1,24 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace sandstroke {
+
+/// FNV-1a, 64 bits: names content (a scene's text, a file's bytes). Not for security.
+class ContentHash {
+ public:
+  void add(const void* bytes, std::size_t count);
+  void add(std::string_view text) { add(text.data(), text.size()); }
+  /// 16 hexadecimal digits.
+  std::string text() const;
+
+ private:
+  std::uint64_t state_ = 0xcbf29ce484222325ULL;
+};
+
+std::string content_hash(std::string_view text);
+
+}  // namespace sandstroke

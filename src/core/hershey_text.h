@@ -1,0 +1,20 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string_view>
+#include <vector>
+
+namespace sandstroke {
+
+/// Text as pen strokes. Coordinates in units of the capital height: x to the right from the first letter's
+/// left edge, y up from the base line (capitals span 0 to 1).
+struct SingleStrokeText {
+  std::vector<std::vector<Eigen::Vector2d>> polylines;  ///< one per pen-down
+  double width = 0.0;
+};
+
+/// Draws text with a single-stroke Hershey font from hershey-fonts-data ("futural", "rowmans", "cursive", ...).
+/// Error: input, if the font or a letter is missing.
+SingleStrokeText hershey_text(std::string_view text, std::string_view font = "futural");
+
+}  // namespace sandstroke

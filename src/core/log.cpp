@@ -1,0 +1,18 @@
+#include "core/log.h"
+
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/spdlog.h>
+
+namespace sandstroke {
+
+void start_log(int verbosity) {
+  auto logger = spdlog::get("sandstroke");
+  if (!logger) logger = spdlog::stderr_color_mt("sandstroke");
+  logger->set_pattern("%^%L%$ %v");
+  logger->set_level(verbosity == 0   ? spdlog::level::warn
+                    : verbosity == 1 ? spdlog::level::info
+                                     : spdlog::level::debug);
+  spdlog::set_default_logger(logger);
+}
+
+}  // namespace sandstroke

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <chrono>
+#include <string>
+
+namespace sandstroke {
+
+/// A progress bar with the time left on stderr, for work that lasts over a second, on a terminal only.
+class Progress {
+ public:
+  explicit Progress(std::string title);
+  ~Progress();
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+
+  /// fraction done, 0 to 1; cheap enough to be called often.
+  void update(double fraction);
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  std::string title_;
+  Clock::time_point start_;
+  Clock::time_point next_draw_;
+  bool terminal_;
+  bool drawn_ = false;
+};
+
+}  // namespace sandstroke

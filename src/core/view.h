@@ -1,0 +1,26 @@
+#pragma once
+
+#include <Eigen/Core>
+
+namespace sandstroke {
+
+/// Where a camera with a name stands: `custom` takes azimuth, elevation, distance and target as they are.
+enum class ViewName { overview, stroke, top, custom };
+/// sand: as one sees it. height, difference: colour maps with contour lines and a legend, for measuring.
+enum class RenderStyle { sand, height, difference };
+
+/// How a bed is looked at ([view] in a scene). Angles in degrees; azimuth is counted from +x towards +y.
+struct ViewSettings {
+  ViewName name = ViewName::overview;
+  RenderStyle style = RenderStyle::sand;
+  double azimuth = -70.0;                               ///< deg, from the target to the camera
+  double elevation = 40.0;                              ///< deg above the horizon
+  double distance = 0.0;                                ///< m, camera to target; 0 = what frames the subject
+  Eigen::Vector3d target = Eigen::Vector3d::Zero();     ///< m
+  double field_of_view = 35.0;                          ///< deg, vertical
+  double light_azimuth = 145.0;                         ///< deg, towards the sun
+  double light_elevation = 28.0;                        ///< deg
+  int width = 1280, height = 720;                       ///< pixels
+};
+
+}  // namespace sandstroke

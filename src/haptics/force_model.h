@@ -1,0 +1,34 @@
+#pragma once
+
+#include <Eigen/Core>
+
+namespace sandstroke {
+
+enum class DragDirection { horizontal, full };
+
+/// Constants of the force on the device; the defaults are the paper's (section 4.1).
+struct ForceSettings {
+  double k_s = 1000.0;  ///< N, repulse force scale
+  double k_c = 0.5;     ///< 1/m, its growth with depth
+  double k_f = 10.0;    ///< s/m, drag per speed and repulse force
+  DragDirection drag = DragDirection::horizontal;
+};
+
+struct SandForce {
+  double repulse = 0.0;                                 ///< N, upward
+  Eigen::Vector3d drag = Eigen::Vector3d::Zero();       ///< N
+  Eigen::Vector3d total = Eigen::Vector3d::Zero();      ///< N, on the device, limited to its maximum
+  bool saturated = false;                               ///< the limit cut it
+};
+
+/// |F_r| = k_s (exp(k_c d) - 1) for depth d > 0 [m], else 0 (paper eq. 1 with the sign and bracket mended: model).
+double repulse_force(double depth, const ForceSettings& settings);
+
+/// The depth [m] at which the repulse force is `force` [N] >= 0: the inverse of repulse_force.
+double depth_of_repulse_force(double force, const ForceSettings& settings);
+
+/// Repulse and drag, F_f = -k_f v |F_r| (paper eq. 3), limited in magnitude to max_force [N].
+/// velocity [m/s]: of the tool in the bed.
+SandForce sand_force(double depth, const Eigen::Vector3d& velocity, double max_force, const ForceSettings& settings);
+
+}  // namespace sandstroke

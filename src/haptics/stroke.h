@@ -1,0 +1,33 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace sandstroke {
+
+/// A hand motion over time, recorded or scripted: n samples of a tool tip, z up. Optional columns are empty or have
+/// n entries.
+struct Stroke {
+  std::vector<double> time;                ///< s, strictly increasing
+  std::vector<Eigen::Vector3d> position;   ///< m, in `frame`
+  std::vector<Eigen::Vector3d> velocity;   ///< m/s, as recorded (optional)
+  std::vector<Eigen::Vector3d> force;      ///< N, as recorded (optional)
+  std::vector<std::uint32_t> switches;     ///< device switches, bit by bit (optional)
+  std::vector<std::uint8_t> contact;       ///< 0 = pen up (optional)
+  double nominal_rate = 0.0;               ///< Hz; 0 = unknown
+  double gap_threshold = 0.1;              ///< s; samples further apart are not joined: the tool lifts
+  std::string source;                      ///< where it came from, for people
+  std::string frame = "bed";               ///< "bed" or "device"
+  bool complete = true;                    ///< false: cut off while being recorded
+
+  std::size_t size() const { return time.size(); }
+  double duration() const { return time.empty() ? 0.0 : time.back() - time.front(); }
+};
+
+/// What every reader and maker of a stroke guarantees: at least one sample, columns of equal length, finite numbers,
+/// strictly increasing time. Error: input; `name` says which stroke, the sentence names column and sample.
+void check_stroke(const Stroke& stroke, const std::string& name);
+
+}  // namespace sandstroke

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "io/hdf5_file.h"
+#include "sim/run_result.h"
+
+namespace sandstroke {
+
+/// /trace of a run file, column by column; entry i of each belongs to tick i.
+struct RunTrace {
+  std::vector<double> time;
+  std::vector<Eigen::Vector3d> hand_position, device_position, device_force, repulse_force, drag_force;
+  std::vector<double> level, depth, displaced_volume, passivity_margin;
+  std::vector<std::uint32_t> contact, saturated;
+  std::size_t size() const { return time.size(); }
+};
+
+/// A run file (HDF5) read back. Error: io where it cannot be opened; input where it is no run file or lacks what is
+/// asked for.
+class RunFile {
+ public:
+  explicit RunFile(const std::filesystem::path& path);
+
+  const std::string& name() const { return file_.name(); }
+  bool complete() const;            ///< false: the run was cut off
+  double cell_size() const;         ///< m
+  HeightGrid initial() const;
+  HeightGrid final() const;         ///< error where the run was cut off before its end
+  bool has_final() const;
+  bool has_trace() const;
+  RunTrace trace() const;
+  /// Frames kept during the run: their times [s], and the k-th surface put together from its changed tiles.
+  std::vector<double> frame_times() const;
+  HeightGrid frame(int k) const;
+  std::string scene_text() const;   ///< the resolved scene (TOML)
+  /// Name and value of each entry of /provenance.
+  std::vector<std::pair<std::string, std::string>> provenance() const;
+
+ private:
+  Hdf5Reader file_;
+};
+
+}  // namespace sandstroke

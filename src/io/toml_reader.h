@@ -1,0 +1,72 @@
+#pragma once
+
+#include <filesystem>
+#include <limits>
+#include <map>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <toml++/toml.h>
+
+namespace sandstroke {
+
+/// Numbers a key accepts: finite, from lowest to highest; open: the ends themselves are not accepted.
+struct Range {
+  double lowest = -std::numeric_limits<double>::max();
+  double highest = std::numeric_limits<double>::max();
+  bool open = false;
+};
+inline constexpr Range any_number{};
+inline constexpr Range positive{0.0, std::numeric_limits<double>::max(), true};
+inline constexpr Range not_negative{0.0, std::numeric_limits<double>::max(), false};
+
+/// One table of a TOML file, read key by key with errors that name file, line, key, value and remedy (Error:
+/// input). Keys nobody asked for are errors too: call reject_unread() last. Keys may be dotted ("bed.cells").
+/// Copies share the document.
+class TomlReader {
+ public:
+  static TomlReader from_file(const std::filesystem::path& path);
+  static TomlReader from_text(std::string_view text, const std::string& name);
+
+  /// Sets one key from "key=value" (--set): the value is TOML, or else taken as a string.
+  void override_with(const std::string& assignment);
+
+  bool has(std::string_view key) const;
+
+  // Each returns the fallback where the key is absent.
+  double number(std::string_view key, double fallback, Range range = any_number) const;
+  int integer(std::string_view key, int fallback, int lowest, int highest) const;
+  bool boolean(std::string_view key, bool fallback) const;
+  std::string text(std::string_view key, const std::string& fallback) const;
+  /// Exactly `fallback.size()` numbers.
+  std::vector<double> numbers(std::string_view key, const std::vector<double>& fallback, Range range = any_number) const;
+  /// One number or an array of at least one.
+  std::vector<double> profile(std::string_view key, const std::vector<double>& fallback, Range range = any_number) const;
+  /// An array of points with two coordinates each ([[x, y], ...]); empty where absent.
+  std::vector<std::vector<double>> points(std::string_view key) const;
+  /// One of the names; returns its index.
+  int choice(std::string_view key, int fallback, const std::vector<std::string>& names) const;
+  /// The tables of [[key]], in order.
+  std::vector<TomlReader> tables(std::string_view key) const;
+
+  void require(std::string_view key) const;
+  /// Throws for the first key that no call above has read. In the root reader: for the whole document.
+  void reject_unread() const;
+
+  /// Throws: file, line of the key, key, then the sentence.
+  [[noreturn]] void fail(std::string_view key, const std::string& sentence) const;
+
+ private:
+  struct Document;
+  TomlReader(std::shared_ptr<Document> document, toml::table* table, std::string prefix);
+  const toml::node* find(std::string_view key) const;
+  double checked(std::string_view key, const toml::node& node, Range range) const;
+
+  std::shared_ptr<Document> document_;
+  toml::table* table_;
+  std::string prefix_;  // this table's own dotted name with a trailing dot, for messages
+};
+
+}  // namespace sandstroke

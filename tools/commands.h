@@ -1,0 +1,19 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+
+namespace sandstroke {
+
+/// What the command line asked for: runs it and returns the exit code.
+using Command = std::function<int()>;
+
+// Each adds one subcommand, which sets `chosen` when it is called.
+void add_run_command(CLI::App& app, Command& chosen);
+void add_render_command(CLI::App& app, Command& chosen);
+void add_compare_command(CLI::App& app, Command& chosen);
+void add_golden_command(CLI::App& app, Command& chosen);
+void add_stroke_command(CLI::App& app, Command& chosen);
+void add_info_command(CLI::App& app, Command& chosen);
+
+}  // namespace sandstroke
