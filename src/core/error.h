@@ -9,9 +9,9 @@ namespace sandstroke {
 
 /// What a program's exit code says (files-and-commands): 0 fine, 1 a comparison failed.
 enum class ErrorKind {
-  input = 2,      ///< bad input or usage: the user changes what was given
-  unstable = 3,   ///< not converged or unstable: the user changes settings
-  io = 4,         ///< the system would not read or write
+  input = 2,     ///< bad input or usage: the user changes what was given
+  unstable = 3,  ///< not converged or unstable: the user changes settings
+  io = 4,        ///< the system would not read or write
 };
 
 /// The one exception of this program: a sentence that says what, where (file, line, key) and what to do.

@@ -16,10 +16,13 @@ SingleStrokeText hershey_text(std::string_view text, std::string_view font_name)
   const std::string name(font_name);
   // The library joins the name to its font folder: only a plain name stays inside that.
   if (name.empty() || name.find('/') != std::string::npos)
-    throw_input_error("font '{}' is not a font name; take one of /usr/share/hershey-fonts, such as futural", name);
-  const std::unique_ptr<hershey_font, void (*)(hershey_font*)> font(hershey_font_load(name.c_str()), hershey_font_free);
+    throw_input_error("font '{}' is not a font name; take one of /usr/share/hershey-fonts, such as futural",
+                      name);
+  const std::unique_ptr<hershey_font, void (*)(hershey_font*)> font(hershey_font_load(name.c_str()),
+                                                                    hershey_font_free);
   if (!font)
-    throw_input_error("font '{}' is not installed; take one of /usr/share/hershey-fonts, such as futural", name);
+    throw_input_error("font '{}' is not installed; take one of /usr/share/hershey-fonts, such as futural",
+                      name);
 
   SingleStrokeText drawn;
   for (const char letter : text) {

@@ -13,8 +13,8 @@ struct SingleStrokeText {
   double width = 0.0;
 };
 
-/// Draws text with a single-stroke Hershey font from hershey-fonts-data ("futural", "rowmans", "cursive", ...).
-/// Error: input, if the font or a letter is missing.
+/// Draws text with a single-stroke Hershey font from hershey-fonts-data ("futural", "rowmans", "cursive",
+/// ...). Error: input, if the font or a letter is missing.
 SingleStrokeText hershey_text(std::string_view text, std::string_view font = "futural");
 
 }  // namespace sandstroke

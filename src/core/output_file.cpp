@@ -20,8 +20,8 @@ void finish_part(const fs::path& path) {
   std::error_code failure;
   fs::rename(part_path(path), path, failure);
   if (failure) {
-    throw_io_error("{}: cannot be put in place ({}); the complete result is in {}", path.string(), failure.message(),
-                   part_path(path).string());
+    throw_io_error("{}: cannot be put in place ({}); the complete result is in {}", path.string(),
+                   failure.message(), part_path(path).string());
   }
 }
 
@@ -34,7 +34,8 @@ void write_text_file(const fs::path& path, std::string_view text) {
     const std::string reason = std::strerror(errno);
     std::error_code ignored;
     fs::remove(part, ignored);
-    throw_io_error("{}: cannot be written ({}); choose another place or free disk space", path.string(), reason);
+    throw_io_error("{}: cannot be written ({}); choose another place or free disk space", path.string(),
+                   reason);
   }
   finish_part(path);
 }

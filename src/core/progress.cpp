@@ -28,8 +28,8 @@ void Progress::update(double fraction) {
   constexpr int width = 32;
   const int filled = static_cast<int>(done * width);
   const std::string bar = std::string(filled, '#') + std::string(width - filled, '.');
-  const std::string line =
-      fmt::format("\r{} [{}] {:3.0f} %, {:.0f} s left\033[K", title_, bar, 100.0 * done, elapsed / done - elapsed);
+  const std::string line = fmt::format("\r{} [{}] {:3.0f} %, {:.0f} s left\033[K", title_, bar, 100.0 * done,
+                                       elapsed / done - elapsed);
   std::fputs(line.c_str(), stderr);
   std::fflush(stderr);
   drawn_ = true;

@@ -13,14 +13,14 @@ enum class RenderStyle { sand, height, difference };
 struct ViewSettings {
   ViewName name = ViewName::overview;
   RenderStyle style = RenderStyle::sand;
-  double azimuth = -70.0;                               ///< deg, from the target to the camera
-  double elevation = 40.0;                              ///< deg above the horizon
-  double distance = 0.0;                                ///< m, camera to target; 0 = what frames the subject
-  Eigen::Vector3d target = Eigen::Vector3d::Zero();     ///< m
-  double field_of_view = 35.0;                          ///< deg, vertical
-  double light_azimuth = 145.0;                         ///< deg, towards the sun
-  double light_elevation = 28.0;                        ///< deg
-  int width = 1280, height = 720;                       ///< pixels
+  double azimuth = -70.0;                            ///< deg, from the target to the camera
+  double elevation = 40.0;                           ///< deg above the horizon
+  double distance = 0.0;                             ///< m, camera to target; 0 = what frames the subject
+  Eigen::Vector3d target = Eigen::Vector3d::Zero();  ///< m
+  double field_of_view = 35.0;                       ///< deg, vertical
+  double light_azimuth = 145.0;                      ///< deg, towards the sun
+  double light_elevation = 28.0;                     ///< deg
+  int width = 1280, height = 720;                    ///< pixels
 };
 
 }  // namespace sandstroke

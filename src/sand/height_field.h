@@ -53,7 +53,9 @@ class HeightField {
   /// The cells of a tile that lie inside the bed.
   CellRange tile_cells(int tile) const;
   /// tile_side x tile_side heights, row-major; those outside the bed are unused.
-  const double* tile_data(int tile) const { return cells_.data() + static_cast<std::size_t>(tile) * tile_area; }
+  const double* tile_data(int tile) const {
+    return cells_.data() + static_cast<std::size_t>(tile) * tile_area;
+  }
   /// Exchanges a tile's heights with `heights` (tile_area of them) and marks it as changed.
   void swap_tile(int tile, std::vector<double>& heights);
   /// Changes whenever a cell of the tile may have changed.

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <limits>
+
+namespace sandstroke {
+
+/// Numbers a setting accepts: finite, from lowest to highest; open: the ends themselves are not accepted.
+struct Range {
+  double lowest = -std::numeric_limits<double>::max();
+  double highest = std::numeric_limits<double>::max();
+  bool open = false;
+};
+inline constexpr Range any_number{};
+inline constexpr Range positive{0.0, std::numeric_limits<double>::max(), true};
+inline constexpr Range not_negative{0.0, std::numeric_limits<double>::max(), false};
+
+}  // namespace sandstroke

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "sand/height_field.h"
+
+namespace sandstroke {
+
+enum class SurfaceKind { flat, cylinder, cone, cliff, noise, ripples, file };
+
+/// What the sand looks like before anything touches it. Which fields count depends on the kind.
+struct SurfaceSettings {
+  SurfaceKind kind = SurfaceKind::flat;
+  double radius = 0.2;           ///< m: cylinder, cone (its foot)
+  double height = 0.1;           ///< m: cylinder, cone (apex), cliff
+  double amplitude = 0.005;      ///< m: noise (uniform in +- amplitude), ripples (half of crest to trough)
+  double wavelength = 0.1;       ///< m: ripples; noise (0: every cell on its own)
+  std::uint32_t seed = 1;        ///< noise
+  std::string file;              ///< a run file (its final surface) or a 16-bit grayscale PNG
+  double low = 0.0, high = 0.0;  ///< m: heights that a PNG's black and white stand for
+};
+
+/// A bed of rows x cols with any surface but `file`, centred on the origin. Cells hold averages: exact for
+/// cylinder, cliff and ripples, 8 x 8 samples for the cone.
+HeightField make_surface(const SurfaceSettings& settings, int rows, int cols, double cell_size);
+
+/// Area [m^2] of a disk of this radius at the origin inside the square cell centred at (x, y), both multiples
+/// of half a cell.
+double disk_cell_area(double radius, double x, double y, double cell_size);
+
+}  // namespace sandstroke

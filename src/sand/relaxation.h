@@ -1,0 +1,61 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "sand/height_field.h"
+
+namespace sandstroke {
+
+/// How sand that lies too steep flows (model.md, "Relaxation").
+enum class RelaxationLaw { paper, isotropic };
+/// passes: explicit Jacobi passes of the law.
+enum class RelaxationMethod { passes };
+/// tiles: only tiles with sand that can move. reference: the plain whole-field one, to check the other
+/// against. Both give the same bits.
+enum class RelaxationEngine { tiles, reference };
+
+struct RelaxationSettings {
+  RelaxationLaw law = RelaxationLaw::paper;
+  RelaxationMethod method = RelaxationMethod::passes;
+  RelaxationEngine engine = RelaxationEngine::tiles;
+  double talus_angle = 30.0;  ///< deg (angle of repose), above 0, below 90
+  double tolerance = 1e-3;    ///< a cell whose slope exceeds tan(talus) by no more than this share rests
+  double rate = 60.0;         ///< Hz, relaxations during a stroke; 0 = only after it (paper: the visual loop)
+  double share = 0.0;         ///< c: 0 = the law's own (paper 1/2, isotropic 1/4, which is also its limit)
+  std::int64_t max_passes = 1'000'000;  ///< per relaxation
+};
+
+/// c of the settings, or the law's own.
+double flow_share(const RelaxationSettings& settings);
+
+struct RelaxationOutcome {
+  std::int64_t passes = 0;
+  double residual = 0.0;  ///< of the field left behind: max over cells of slope/tan(talus) - 1, at least 0
+  double moved_volume = 0.0;       ///< m^3, all that flowed from cell to cell
+  std::int64_t cells_visited = 0;  ///< summed over passes, the last look included
+  int tiles_active_max = 0;
+  bool converged = false;  ///< every cell rests
+};
+
+/// Relaxes a bed to equilibrium, again and again as it is disturbed. Passes are Jacobi: all cells at once,
+/// from the old heights. A cell at rest (slope within the tolerance) gives nothing; so what a patch of sand
+/// does depends on its neighbourhood only, not on whether sand elsewhere still moves. With m the cell's
+/// height and T_i = tan(talus) x distance to neighbour i:
+///   paper:     dm = c max_i(m - m_i - T_i) over the 8 neighbours, shared among those with m - m_i > T_i in
+///              proportion to m - m_i (paper 3.2)
+///   isotropic: upwind slope |g| = sqrt(gx^2 + gy^2), gx = max(0, m - west, m - east)/dx; each lower axis
+///              neighbour gets c (1 - tan(talus)/|g|) (m - m_i); monotone for c <= 1/4
+/// Nothing crosses the border. Sums run over opposite pairs, so that a symmetric bed stays symmetric to the
+/// bit.
+class Relaxer {
+ public:
+  virtual ~Relaxer() = default;
+  /// Stops at equilibrium, after max_passes, when a pass changes nothing any more, or when interrupted().
+  virtual RelaxationOutcome relax(HeightField& bed) = 0;
+};
+
+/// A relaxer for one bed, which it may observe between calls.
+std::unique_ptr<Relaxer> make_relaxer(const RelaxationSettings& settings, double cell_size);
+
+}  // namespace sandstroke

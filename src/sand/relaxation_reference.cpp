@@ -1,0 +1,135 @@
+// The plain reference: both laws as they are written down, whole field, cell by cell. The oracle for faster
+// engines, so it is kept simple and shares no loop with them.
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/compensated_sum.h"
+#include "core/interrupt.h"
+#include "sand/talus_law.h"
+
+namespace sandstroke {
+namespace {
+
+struct Offset {
+  int row, col;
+};
+// Opposite neighbours side by side: sums go over pairs.
+constexpr std::array<Offset, 4> axis_neighbours = {{{0, -1}, {0, 1}, {-1, 0}, {1, 0}}};
+constexpr std::array<Offset, 4> diagonal_neighbours = {{{-1, -1}, {1, 1}, {-1, 1}, {1, -1}}};
+
+double paired_sum(const std::array<double, 4>& terms) {
+  return (terms[0] + terms[1]) + (terms[2] + terms[3]);
+}
+
+class ReferenceRelaxer : public Relaxer {
+ public:
+  ReferenceRelaxer(const RelaxationSettings& settings, double cell_size)
+      : law_(settings, cell_size), max_passes_(settings.max_passes) {}
+
+  RelaxationOutcome relax(HeightField& bed) override {
+    RelaxationOutcome outcome;
+    outcome.tiles_active_max = bed.tile_count();
+    heights_ = bed.grid();
+    CompensatedSum moved;
+    while (true) {
+      outcome.cells_visited += heights_.size();
+      outcome.residual = 0.0;
+      factors_ = HeightGrid::Zero(heights_.rows(), heights_.cols());
+      for (int row = 0; row < rows(); ++row)
+        for (int col = 0; col < cols(); ++col) factors_(row, col) = flow_factor(row, col, outcome.residual);
+      outcome.converged = (factors_ == 0.0).all();
+      if (outcome.converged || outcome.passes == max_passes_ || interrupted()) break;
+
+      HeightGrid next(heights_.rows(), heights_.cols());
+      for (int row = 0; row < rows(); ++row)
+        for (int col = 0; col < cols(); ++col)
+          next(row, col) = heights_(row, col) + net_inflow(row, col, moved);
+      const bool changed = (next != heights_).any();
+      heights_.swap(next);
+      ++outcome.passes;
+      if (!changed) break;  // what still flows is below rounding
+    }
+    outcome.moved_volume = moved.value() * bed.cell_area();
+    for (int row = 0; row < rows(); ++row)
+      for (int col = 0; col < cols(); ++col)
+        if (bed(row, col) != heights_(row, col)) bed.set(row, col, heights_(row, col));
+    return outcome;
+  }
+
+ private:
+  int rows() const { return static_cast<int>(heights_.rows()); }
+  int cols() const { return static_cast<int>(heights_.cols()); }
+
+  /// By how much (row, col) stands above its neighbour; -infinity at the wall, where nothing flows.
+  double drop(int row, int col, Offset to) const {
+    const int r = row + to.row, c = col + to.col;
+    if (r < 0 || r >= rows() || c < 0 || c >= cols()) return -std::numeric_limits<double>::infinity();
+    return heights_(row, col) - heights_(r, c);
+  }
+
+  /// The part of each drop that a cell gives away in this pass; 0 at rest. Raises `residual` to the cell's
+  /// own.
+  double flow_factor(int row, int col, double& residual) const {
+    std::array<double, 4> axis, diagonal;
+    for (int i = 0; i < 4; ++i) axis[i] = drop(row, col, axis_neighbours[i]);
+    for (int i = 0; i < 4; ++i) diagonal[i] = drop(row, col, diagonal_neighbours[i]);
+    return law_.law == RelaxationLaw::paper ? paper_factor(axis, diagonal, residual)
+                                            : isotropic_factor(axis, residual);
+  }
+
+  double paper_factor(std::array<double, 4> axis, std::array<double, 4> diagonal, double& residual) const {
+    const double axis_max = *std::max_element(axis.begin(), axis.end());
+    const double diagonal_max = *std::max_element(diagonal.begin(), diagonal.end());
+    residual = std::max({residual, axis_max / law_.axis_drop - 1.0, diagonal_max / law_.diagonal_drop - 1.0});
+    if (!(axis_max > law_.axis_limit || diagonal_max > law_.diagonal_limit)) return 0.0;
+    const double given = law_.share * std::max(axis_max - law_.axis_drop, diagonal_max - law_.diagonal_drop);
+    for (double& one : axis) one = one > law_.axis_drop ? one : 0.0;
+    for (double& one : diagonal) one = one > law_.diagonal_drop ? one : 0.0;
+    return given / (paired_sum(axis) + paired_sum(diagonal));
+  }
+
+  double isotropic_factor(const std::array<double, 4>& axis, double& residual) const {
+    const double gx = std::max({0.0, axis[0], axis[1]});
+    const double gy = std::max({0.0, axis[2], axis[3]});
+    const double steepest = std::sqrt(gx * gx + gy * gy);
+    residual = std::max(residual, steepest / law_.axis_drop - 1.0);
+    if (!(steepest > law_.axis_limit)) return 0.0;
+    return law_.share * (1.0 - law_.axis_drop / steepest);
+  }
+
+  /// Height that (row, col) gains from its neighbours less what it gives; adds what it gives to `moved`.
+  double net_inflow(int row, int col, CompensatedSum& moved) const {
+    const bool paper = law_.law == RelaxationLaw::paper;
+    double out = 0.0, in = 0.0;
+    const auto exchange = [&](const std::array<Offset, 4>& neighbours, double threshold) {
+      std::array<double, 4> given{}, received{};
+      for (int i = 0; i < 4; ++i) {
+        const double down = drop(row, col, neighbours[i]);
+        if (!std::isfinite(down)) continue;
+        const int r = row + neighbours[i].row, c = col + neighbours[i].col;
+        const double up = heights_(r, c) - heights_(row, col);
+        if (down > threshold) given[i] = factors_(row, col) * down;
+        if (up > threshold) received[i] = factors_(r, c) * up;
+      }
+      out += paired_sum(given);
+      in += paired_sum(received);
+    };
+    exchange(axis_neighbours, paper ? law_.axis_drop : 0.0);
+    if (paper) exchange(diagonal_neighbours, law_.diagonal_drop);
+    moved.add(out);
+    return in - out;
+  }
+
+  TalusLaw law_;
+  std::int64_t max_passes_;
+  HeightGrid heights_, factors_;
+};
+
+}  // namespace
+
+std::unique_ptr<Relaxer> make_reference_relaxer(const RelaxationSettings& settings, double cell_size) {
+  return std::make_unique<ReferenceRelaxer>(settings, cell_size);
+}
+
+}  // namespace sandstroke

@@ -1,0 +1,22 @@
+#pragma once
+
+#include "sand/relaxation.h"
+
+namespace sandstroke {
+
+/// Which slopes are too steep, as height differences [m] between neighbours, the form both laws compute with.
+struct TalusLaw {
+  RelaxationLaw law;
+  double share;          ///< c
+  double axis_drop;      ///< T of an axis neighbour: tan(talus) dx
+  double diagonal_drop;  ///< T of a diagonal neighbour: tan(talus) sqrt(2) dx
+  double axis_limit;     ///< above these a cell moves: T (1 + tolerance)
+  double diagonal_limit;
+
+  TalusLaw(const RelaxationSettings& settings, double cell_size);
+};
+
+std::unique_ptr<Relaxer> make_reference_relaxer(const RelaxationSettings& settings, double cell_size);
+std::unique_ptr<Relaxer> make_tile_relaxer(const RelaxationSettings& settings, double cell_size);
+
+}  // namespace sandstroke

@@ -1,0 +1,116 @@
+#include "sand/displacement.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "sand/relaxation.h"
+#include "sand/symmetry.h"
+
+namespace sandstroke {
+namespace {
+
+constexpr double R = 0.01, dx = 0.002;
+const Eigen::Vector3d down(0.0, 0.0, -1e-4);
+
+TEST(Displacement, TakesOutTheBowlAndHeapsTheRing) {
+  HeightField bed(41, 41, dx);
+  ToolFootprint footprint({R, ToolProfile::sphere});
+  footprint.place(bed, 0.0, 0.0);
+  const double tip = -0.004;
+  const double volume = displace(bed, footprint, tip, down, {Deposit::ring});
+
+  // By hand: every cell under the sphere is cut to its underside; the ring shares what was cut by sin(u) -
+  // 0.53.
+  double cut = 0.0, weights = 0.0;
+  const double s2 = R * R / std::asin(0.53);
+  for (int row = 0; row < 41; ++row)
+    for (int col = 0; col < 41; ++col) {
+      const double rho2 = std::pow((col - 20) * dx, 2) + std::pow((row - 20) * dx, 2);
+      if (rho2 <= R * R) cut += std::max(0.0, -(tip + R - std::sqrt(R * R - rho2)));
+      const double u = rho2 / s2;
+      if (u > std::asin(0.53) && u <= filter::u1()) weights += std::sin(u) - 0.53;
+    }
+  EXPECT_NEAR(volume, cut * dx * dx, 1e-15);
+  EXPECT_NEAR(bed(20, 20), tip, 1e-16);
+  EXPECT_NEAR(bed(20, 23), tip + R - std::sqrt(R * R - 36e-6), 1e-16);
+  EXPECT_NEAR(bed(20, 26), cut * (std::sin(144e-6 / s2) - 0.53) / weights, 1e-15);
+  EXPECT_NEAR(bed.volume(), 0.0, 1e-12 * volume);
+}
+
+TEST(Displacement, KeepsTheSandLevelUnderAToolAtRest) {
+  HeightField bed(60, 60, dx);
+  ToolFootprint footprint({R, ToolProfile::paper});
+  footprint.place(bed, 0.0007, -0.0003);
+  const double before = footprint.sand_level(bed);
+  ASSERT_GT(displace(bed, footprint, -0.006, down, {Deposit::ring}), 0.0);
+  // The rim's cells count in part, so a little of what lands there leaves the mean.
+  EXPECT_NEAR(footprint.sand_level(bed), before, 0.03 * 0.006);
+}
+
+TEST(Displacement, APlungeAtACellCentreIsSymmetricToTheBit) {
+  for (const ToolProfile profile : {ToolProfile::paper, ToolProfile::sphere})
+    for (const Deposit deposit : {Deposit::ring, Deposit::ahead})
+      for (const RelaxationLaw law : {RelaxationLaw::paper, RelaxationLaw::isotropic}) {
+        HeightField bed(129, 129, dx);  // the tile border runs through the patch
+        ToolFootprint footprint({R, profile});
+        RelaxationSettings relaxation;
+        relaxation.law = law;
+        const auto relaxer = make_relaxer(relaxation, dx);
+        footprint.place(bed, 0.0, 0.0);
+        for (int i = 1; i <= 30; ++i) {
+          displace(bed, footprint, -3e-4 * i, down, {deposit});
+          relaxer->relax(bed);
+        }
+        EXPECT_TRUE(has_square_symmetry(bed.grid()));
+        EXPECT_LT(bed(64, 64), -0.002);
+      }
+}
+
+TEST(Displacement, AheadPutsNothingBehindADragAndRingPutsHalfThere) {
+  for (const Deposit deposit : {Deposit::ring, Deposit::ahead}) {
+    HeightField bed(61, 61, dx);
+    ToolFootprint footprint({R, ToolProfile::sphere});
+    footprint.place(bed, 0.0, 0.0);
+    displace(bed, footprint, -0.004, {1e-4, 0.0, 0.0}, {deposit});
+    double ahead = 0.0, behind = 0.0;
+    for (int row = 0; row < 61; ++row)
+      for (int col = 0; col < 61; ++col) {
+        if (bed(row, col) <= 0.0) continue;
+        (bed.x_of(col) > 0.75 * dx ? ahead : bed.x_of(col) < -0.75 * dx ? behind : ahead) += bed(row, col);
+      }
+    if (deposit == Deposit::ahead) {
+      EXPECT_EQ(behind, 0.0);
+    } else {
+      EXPECT_GT(behind, 0.35 * (ahead + behind));
+    }
+  }
+}
+
+TEST(Displacement, ConservesVolumeAnywhereAtWallsAndCorners) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> place(-0.065, 0.065), height(-0.002, 0.002), motion(-1e-3, 1e-3);
+  for (int i = 0; i < 300; ++i) {
+    HeightField bed(60, 60, dx);
+    for (int row = 0; row < 60; ++row)
+      for (int col = 0; col < 60; ++col) bed.set(row, col, height(random));
+    const double before = bed.volume();
+    ToolFootprint footprint({R, ToolProfile::paper});
+    footprint.place(bed, place(random), place(random));
+    const double moved = displace(bed, footprint, -0.005, {motion(random), motion(random), motion(random)},
+                                  {i % 2 ? Deposit::ring : Deposit::ahead});
+    EXPECT_NEAR(bed.volume(), before, 1e-15 * 3600 * 0.002 * dx * dx + 1e-12 * moved);
+  }
+}
+
+TEST(Displacement, WhereNoRingIsInsideTheBedNothingMoves) {
+  HeightField bed(4, 4, 0.002);  // the bowl covers all of it
+  ToolFootprint footprint({R, ToolProfile::paper});
+  footprint.place(bed, 0.0, 0.0);
+  EXPECT_EQ(displace(bed, footprint, -0.005, down, {Deposit::ring}), 0.0);
+  EXPECT_TRUE((bed.grid() == 0.0).all());
+}
+
+}  // namespace
+}  // namespace sandstroke

@@ -1,0 +1,202 @@
+#include "sand/relaxation.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "sand/initial_surface.h"
+#include "sand/symmetry.h"
+
+namespace sandstroke {
+namespace {
+
+constexpr double tan30 = 0.57735026918962576451;
+
+RelaxationSettings settings(RelaxationLaw law) {
+  RelaxationSettings s;
+  s.law = law;
+  return s;
+}
+
+HeightField random_bed(int rows, int cols, double dx, double amplitude, unsigned seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> height(-amplitude, amplitude);
+  HeightField bed(rows, cols, dx);
+  for (int row = 0; row < rows; ++row)
+    for (int col = 0; col < cols; ++col) bed.set(row, col, height(random));
+  return bed;
+}
+
+class BothLaws : public testing::TestWithParam<RelaxationLaw> {};
+INSTANTIATE_TEST_SUITE_P(Laws, BothLaws, testing::Values(RelaxationLaw::paper, RelaxationLaw::isotropic),
+                         [](const auto& law) {
+                           return law.param == RelaxationLaw::paper ? "paper" : "isotropic";
+                         });
+
+TEST(PaperLaw, OnePassOfOneHighCellIsAsWritten) {
+  HeightField bed(3, 3, 1.0);
+  bed.set(1, 1, 2.0);
+  RelaxationSettings s = settings(RelaxationLaw::paper);
+  s.max_passes = 1;
+  const auto outcome = make_relaxer(s, 1.0)->relax(bed);
+  // All 8 neighbours lie 2 lower; the steepest excess is towards the axis ones: dm = 1/2 (2 - tan 30), equal
+  // shares.
+  const double given = 0.5 * (2.0 - tan30);
+  EXPECT_EQ(outcome.passes, 1);
+  EXPECT_FALSE(outcome.converged);
+  EXPECT_NEAR(bed(1, 1), 2.0 - given, 1e-15);
+  EXPECT_NEAR(bed(0, 0), given / 8.0, 1e-15);
+  EXPECT_NEAR(bed(0, 1), given / 8.0, 1e-15);
+  EXPECT_NEAR(outcome.moved_volume, given, 1e-15);
+}
+
+TEST(PaperLaw, SharesGoInProportionToTheDrop) {
+  HeightField bed(1, 3, 1.0);
+  bed.set(0, 1, 2.0);
+  bed.set(0, 2, 1.0);  // drops: 2 to the left, 1 to the right, both over tan 30
+  RelaxationSettings s = settings(RelaxationLaw::paper);
+  s.max_passes = 1;
+  make_relaxer(s, 1.0)->relax(bed);
+  const double given = 0.5 * (2.0 - tan30);
+  EXPECT_NEAR(bed(0, 0), given * 2.0 / 3.0, 1e-15);
+  EXPECT_NEAR(bed(0, 2), 1.0 + given / 3.0, 1e-15);
+}
+
+TEST(IsotropicLaw, OnePassOfOneHighCellIsAsWritten) {
+  HeightField bed(3, 3, 1.0);
+  bed.set(1, 1, 2.0);
+  RelaxationSettings s = settings(RelaxationLaw::isotropic);
+  s.max_passes = 1;
+  make_relaxer(s, 1.0)->relax(bed);
+  // gx = gy = 2, |g| = 2 sqrt 2: each axis neighbour gets 1/4 (1 - tan 30 / |g|) 2; the corners nothing.
+  const double share = 0.25 * (1.0 - tan30 / (2.0 * std::sqrt(2.0))) * 2.0;
+  EXPECT_NEAR(bed(0, 1), share, 1e-15);
+  EXPECT_NEAR(bed(1, 2), share, 1e-15);
+  EXPECT_EQ(bed(0, 0), 0.0);
+  EXPECT_NEAR(bed(1, 1), 2.0 - 4.0 * share, 1e-15);
+}
+
+TEST_P(BothLaws, TilesGiveTheBitsOfTheReference) {
+  struct Case {
+    int rows, cols;
+    double amplitude, talus;
+  };
+  unsigned seed = 1;
+  for (const Case& c : {Case{1, 1, 1.0, 30},
+                        {1, 200, 3.0, 30},
+                        {200, 1, 3.0, 20},
+                        {64, 64, 2.0, 45},
+                        {65, 130, 1.5, 30},
+                        {63, 129, 0.4, 10},
+                        {128, 70, 20.0, 60}}) {
+    RelaxationSettings s = settings(GetParam());
+    s.talus_angle = c.talus;
+    HeightField tiles = random_bed(c.rows, c.cols, 1.0, c.amplitude, ++seed);
+    HeightField plain = tiles;
+    const auto by_tiles = make_relaxer(s, 1.0);
+    s.engine = RelaxationEngine::reference;
+    const auto by_reference = make_relaxer(s, 1.0);
+    // Again after a disturbance at a tile corner: sleeping tiles must wake.
+    for (int round = 0; round < 3; ++round) {
+      const auto a = by_tiles->relax(tiles), b = by_reference->relax(plain);
+      EXPECT_TRUE((tiles.grid() == plain.grid()).all());
+      EXPECT_EQ(a.passes, b.passes);
+      EXPECT_EQ(a.residual, b.residual);
+      EXPECT_EQ(a.converged, b.converged);
+      EXPECT_NEAR(a.moved_volume, b.moved_volume, 1e-12 * (1.0 + b.moved_volume));
+      const int row = std::min(63 + round, c.rows - 1), col = std::min(64 - round, c.cols - 1);
+      tiles.set(row, col, 15.0);
+      plain.set(row, col, 15.0);
+    }
+  }
+}
+
+TEST_P(BothLaws, LeavesAResidualWithinTheToleranceAndThenChangesNothing) {
+  HeightField bed = random_bed(100, 100, 0.01, 0.1, 3);
+  const auto relaxer = make_relaxer(settings(GetParam()), 0.01);
+  const auto outcome = relaxer->relax(bed);
+  EXPECT_TRUE(outcome.converged);
+  EXPECT_LE(outcome.residual, 1e-3 * (1.0 + 1e-9));
+  EXPECT_GT(outcome.passes, 0);
+
+  const HeightGrid rest = bed.grid();
+  const auto again = make_relaxer(settings(GetParam()), 0.01)->relax(bed);
+  EXPECT_EQ(again.passes, 0);
+  EXPECT_EQ(again.moved_volume, 0.0);
+  EXPECT_TRUE((bed.grid() == rest).all());
+  EXPECT_EQ(relaxer->relax(bed).cells_visited, 0);  // nothing was disturbed: nothing is looked at
+}
+
+TEST_P(BothLaws, AResidualOfZeroChangesNothingAndZeroPassesIsTheIdentity) {
+  HeightField gentle(80, 80, 1.0);
+  for (int row = 0; row < 80; ++row)
+    for (int col = 0; col < 80; ++col) gentle.set(row, col, 0.4 * col + 0.3 * row);  // slope 0.5 < tan 30
+  const HeightGrid before = gentle.grid();
+  const auto outcome = make_relaxer(settings(GetParam()), 1.0)->relax(gentle);
+  EXPECT_EQ(outcome.residual, 0.0);
+  EXPECT_TRUE((gentle.grid() == before).all());
+
+  HeightField rough = random_bed(80, 80, 1.0, 5.0, 4);
+  const HeightGrid rough_before = rough.grid();
+  RelaxationSettings none = settings(GetParam());
+  none.max_passes = 0;
+  const auto stopped = make_relaxer(none, 1.0)->relax(rough);
+  EXPECT_EQ(stopped.passes, 0);
+  EXPECT_GT(stopped.residual, 1.0);
+  EXPECT_FALSE(stopped.converged);
+  EXPECT_TRUE((rough.grid() == rough_before).all());
+}
+
+TEST_P(BothLaws, ConservesVolume) {
+  HeightField bed = random_bed(150, 150, 0.01, 0.2, 5);
+  const double before = bed.volume();
+  const auto outcome = make_relaxer(settings(GetParam()), 0.01)->relax(bed);
+  EXPECT_LE(std::abs(bed.volume() - before), 1e-12 * outcome.moved_volume);
+}
+
+TEST_P(BothLaws, SymmetricBedsStaySymmetricToTheBit) {
+  for (const int side : {130, 131}) {
+    SurfaceSettings cylinder;
+    cylinder.kind = SurfaceKind::cylinder;
+    cylinder.radius = 0.21;
+    cylinder.height = 0.3;
+    HeightField bed = make_surface(cylinder, side, side, 1.0 / side);
+    ASSERT_TRUE(has_square_symmetry(bed.grid()));
+    make_relaxer(settings(GetParam()), bed.cell_size())->relax(bed);
+    EXPECT_TRUE(has_square_symmetry(bed.grid()));
+  }
+}
+
+TEST_P(BothLaws, WhatSandDoesDependsOnItsNeighbourhoodOnly) {
+  // Two piles far apart end as each does alone.
+  const auto pile = [](HeightField& bed, int col) {
+    for (int row = 30; row < 34; ++row) bed.set(row, col, 3.0), bed.set(row, col + 1, 2.0);
+  };
+  HeightField both(64, 400, 1.0), left(64, 400, 1.0), right(64, 400, 1.0);
+  pile(both, 50), pile(left, 50);
+  pile(both, 350), pile(right, 350);
+  right.set(20, 350, 4.0), both.set(20, 350, 4.0);
+  for (HeightField* bed : {&both, &left, &right}) make_relaxer(settings(GetParam()), 1.0)->relax(*bed);
+  EXPECT_TRUE((both.grid() == left.grid() + right.grid()).all());
+}
+
+TEST(IsotropicLaw, StaysWithinTheStartingRange) {  // monotone for c <= 1/4
+  HeightField bed = random_bed(100, 100, 0.01, 0.3, 6);
+  const double low = bed.grid().minCoeff(), high = bed.grid().maxCoeff();
+  make_relaxer(settings(RelaxationLaw::isotropic), 0.01)->relax(bed);
+  EXPECT_GE(bed.grid().minCoeff(), low);
+  EXPECT_LE(bed.grid().maxCoeff(), high);
+}
+
+TEST(TileRelaxer, LooksOnlyAtWhatIsDisturbed) {
+  HeightField bed(1024, 1024, 1.0);
+  const auto relaxer = make_relaxer(settings(RelaxationLaw::paper), 1.0);
+  EXPECT_EQ(relaxer->relax(bed).cells_visited, 1024 * 1024);  // once, to know that all rests
+  bed.set(32, 32, 0.5);                                       // below the talus slope: nothing moves
+  EXPECT_EQ(relaxer->relax(bed).cells_visited,
+            4 * 64 * 64);  // its tile and the three neighbours in this corner
+}
+
+}  // namespace
+}  // namespace sandstroke

@@ -1,0 +1,109 @@
+#include "sand/tool_footprint.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace sandstroke {
+namespace {
+
+constexpr double R = 0.01;
+
+TEST(Filter, RootsAreWhereThePaperPutsThem) {
+  EXPECT_NEAR(std::sin(filter::u0()), 0.53, 1e-15);
+  EXPECT_NEAR(filter::u0(), 0.558601, 1e-6);
+  EXPECT_NEAR(1.0 - std::cos(filter::u1()), 0.53 * filter::u1(), 1e-15);
+  EXPECT_NEAR(filter::u1(), 1.2, 0.006);  // the paper's printed limit, to its two digits
+}
+
+TEST(Filter, ItsPlaneIntegralIsZero) {
+  // integral of g over the plane = pi s^2 int_0^u1 (sin u - 0.53) du, by Simpson's rule here
+  const int n = 2000;
+  double sum = 0.0;
+  for (int i = 0; i <= n; ++i) {
+    const double u = filter::u1() * i / n;
+    sum += (i == 0 || i == n ? 1.0 : i % 2 ? 4.0 : 2.0) * (std::sin(u) - 0.53);
+  }
+  EXPECT_NEAR(sum * filter::u1() / n / 3.0, 0.0, 1e-14);
+}
+
+TEST(ToolFootprint, SampledFilterSumsToZeroAsCellsShrink) {
+  for (const int n : {101, 201, 401}) {
+    const double dx = 0.04 / n;
+    const HeightField bed(n, n, dx);
+    ToolFootprint footprint({R, ToolProfile::paper});
+    footprint.place(bed, 0.0, 0.0);
+    const double s2 = R * R / filter::u0();
+    double sum = 0.0, magnitude = 0.0;
+    for (const auto& cell : footprint.cells()) {
+      if (!cell.in_bowl && !cell.in_ring) continue;
+      const double g = std::sin((cell.x * cell.x + cell.y * cell.y) / s2) - 0.53;
+      sum += g;
+      magnitude += std::abs(g);
+    }
+    EXPECT_LT(std::abs(sum) / magnitude, 0.5 * dx / R) << n;
+  }
+}
+
+TEST(ToolFootprint, BothUndersidesHaveTheSpheresCurvatureAndWidth) {
+  const HeightField bed(401, 401, 1e-4);
+  for (const ToolProfile profile : {ToolProfile::paper, ToolProfile::sphere}) {
+    ToolFootprint footprint({R, profile});
+    footprint.place(bed, 0.0, 0.0);
+    for (const auto& cell : footprint.cells()) {
+      const double rho = std::hypot(cell.x, cell.y);
+      if (std::abs(rho - R) > 1e-12) {
+        EXPECT_EQ(cell.in_bowl, rho < R) << rho;
+      }
+      if (rho < 0.1 * R) {
+        EXPECT_NEAR(cell.underside, rho * rho / (2.0 * R), 3e-3 * rho * rho / R);
+      }
+      if (cell.in_bowl && profile == ToolProfile::sphere) {
+        // On the sphere: rho^2 + (R - z)^2 = R^2; at the rim only this form keeps its digits.
+        EXPECT_NEAR(rho * rho + std::pow(R - cell.underside, 2), R * R, 1e-18);
+      }
+    }
+  }
+}
+
+TEST(ToolFootprint, LevelOfAPlaneIsItsHeightUnderTheToolAtAnySubCellPosition) {
+  HeightField bed(200, 200, 0.001);
+  for (int row = 0; row < 200; ++row)
+    for (int col = 0; col < 200; ++col) bed.set(row, col, 0.3 * bed.x_of(col) - 0.2 * bed.y_of(row));
+  ToolFootprint footprint({R, ToolProfile::paper});
+  for (const double shift : {0.0, 0.25e-3, 0.5e-3, 0.9e-3}) {
+    footprint.place(bed, 0.01 + shift, 0.02 - shift);
+    const double hundredth_of_a_cell = 0.01 * 0.001 * std::hypot(0.3, 0.2);
+    EXPECT_NEAR(footprint.sand_level(bed), 0.3 * (0.01 + shift) - 0.2 * (0.02 - shift), hundredth_of_a_cell);
+  }
+}
+
+TEST(ToolFootprint, LevelHasNoJumpsWhileTheToolMoves) {
+  HeightField bed(60, 60, 0.002);
+  bed.set(30, 37, 0.005);  // one high cell, which the rim passes over
+  ToolFootprint footprint({R, ToolProfile::paper});
+  double last = 0.0;
+  for (int i = 0; i <= 4000; ++i) {
+    footprint.place(bed, -0.02 + 1e-5 * i, 0.0);
+    const double level = footprint.sand_level(bed);
+    if (i > 0) {
+      // The cell's weight changes at most by step / dx = 0.005 of about 1/160 of 5 mm.
+      EXPECT_LT(std::abs(level - last), 1e-5 / 0.002 * 0.005 / 140.0);
+    }
+    last = level;
+  }
+}
+
+TEST(ToolFootprint, IsEmptyOutsideTheBedAndHasNoLevel) {
+  const HeightField bed(50, 50, 0.002);
+  ToolFootprint footprint({R, ToolProfile::paper});
+  for (const double far : {0.2, 1e300, -1e300, std::numeric_limits<double>::quiet_NaN()}) {
+    footprint.place(bed, far, 0.0);
+    EXPECT_TRUE(footprint.cells().empty());
+    EXPECT_TRUE(std::isnan(footprint.sand_level(bed)));
+  }
+}
+
+}  // namespace
+}  // namespace sandstroke
