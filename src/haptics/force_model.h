@@ -15,20 +15,22 @@ struct ForceSettings {
 };
 
 struct SandForce {
-  double repulse = 0.0;                                 ///< N, upward
-  Eigen::Vector3d drag = Eigen::Vector3d::Zero();       ///< N
-  Eigen::Vector3d total = Eigen::Vector3d::Zero();      ///< N, on the device, limited to its maximum
-  bool saturated = false;                               ///< the limit cut it
+  double repulse = 0.0;                             ///< N, upward
+  Eigen::Vector3d drag = Eigen::Vector3d::Zero();   ///< N
+  Eigen::Vector3d total = Eigen::Vector3d::Zero();  ///< N, on the device, limited to its maximum
+  bool saturated = false;                           ///< the limit cut it
 };
 
-/// |F_r| = k_s (exp(k_c d) - 1) for depth d > 0 [m], else 0 (paper eq. 1 with the sign and bracket mended: model).
+/// |F_r| = k_s (exp(k_c d) - 1) for depth d > 0 [m], else 0 (paper eq. 1 with the sign and bracket mended:
+/// model).
 double repulse_force(double depth, const ForceSettings& settings);
 
 /// The depth [m] at which the repulse force is `force` [N] >= 0: the inverse of repulse_force.
 double depth_of_repulse_force(double force, const ForceSettings& settings);
 
-/// Repulse and drag, F_f = -k_f v |F_r| (paper eq. 3), limited in magnitude to max_force [N].
+/// Repulse and drag, F_f = -k_f v |F_r| (paper eq. 3), limited in magnitude to max_force [N] (0: no limit).
 /// velocity [m/s]: of the tool in the bed.
-SandForce sand_force(double depth, const Eigen::Vector3d& velocity, double max_force, const ForceSettings& settings);
+SandForce sand_force(double depth, const Eigen::Vector3d& velocity, double max_force,
+                     const ForceSettings& settings);
 
 }  // namespace sandstroke

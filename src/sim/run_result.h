@@ -8,23 +8,23 @@ namespace sandstroke {
 
 /// Everything recorded about one servo tick (a row of /trace in a run file).
 struct TickRecord {
-  double time = 0.0;                                            ///< s
-  Eigen::Vector3d hand_position = Eigen::Vector3d::Zero();      ///< m, what the hand wants, device frame
-  Eigen::Vector3d device_position = Eigen::Vector3d::Zero();    ///< m, as read from the encoders, device frame
-  Eigen::Vector3d device_force = Eigen::Vector3d::Zero();       ///< N, on the device, saturated
-  Eigen::Vector3d repulse_force = Eigen::Vector3d::Zero();      ///< N
-  Eigen::Vector3d drag_force = Eigen::Vector3d::Zero();         ///< N
-  double level = 0.0;                                           ///< m, sand level under the tool; NaN with the tool lifted
-  double depth = 0.0;                                           ///< m, of the tip below the level; negative = above
-  double displaced_volume = 0.0;                                ///< m^3, pushed aside in this tick
-  double passivity_margin = 0.0;                                ///< N s/m, Colgate & Schenkel
-  bool contact = false;                                         ///< the tool touches sand (depth > 0)
-  bool saturated = false;                                       ///< the device's maximum force cut the force
+  double time = 0.0;                                          ///< s
+  Eigen::Vector3d hand_position = Eigen::Vector3d::Zero();    ///< m, what the hand wants, device frame
+  Eigen::Vector3d device_position = Eigen::Vector3d::Zero();  ///< m, as read from the encoders, device frame
+  Eigen::Vector3d device_force = Eigen::Vector3d::Zero();     ///< N, on the device, saturated
+  Eigen::Vector3d repulse_force = Eigen::Vector3d::Zero();    ///< N
+  Eigen::Vector3d drag_force = Eigen::Vector3d::Zero();       ///< N
+  double level = 0.0;             ///< m, sand level under the tool; NaN with the tool lifted
+  double depth = 0.0;             ///< m, of the tip below the level; negative = above
+  double displaced_volume = 0.0;  ///< m^3, pushed aside in this tick
+  double passivity_margin = 0.0;  ///< N s/m, Colgate & Schenkel
+  bool contact = false;           ///< the tool touches sand (depth > 0)
+  bool saturated = false;         ///< the device's maximum force cut the force
 };
 
 /// One call of the relaxation (a row of /relaxation).
 struct RelaxationRecord {
-  double time = 0.0;          ///< s
+  double time = 0.0;  ///< s
   std::int64_t passes = 0;
   double residual = 0.0;      ///< largest slope / tan(talus) - 1 left over
   double moved_volume = 0.0;  ///< m^3, summed over passes
@@ -37,23 +37,24 @@ struct RunResult {
   double simulated_seconds = 0.0;
   std::int64_t contact_ticks = 0;
   std::int64_t saturated_ticks = 0;
-  int gaps = 0;                       ///< stroke gaps at which the tool was lifted
+  int gaps = 0;  ///< stroke gaps at which the tool was lifted
   std::int64_t passes = 0;
   std::int64_t relaxations = 0;
-  std::int64_t cells_visited = 0;     ///< by relaxation passes
+  std::int64_t cells_visited = 0;  ///< by relaxation passes
   int tiles_active_max = 0;
   double residual = 0.0;
-  bool converged = true;              ///< the last relaxation reached its tolerance
-  double volume_initial = 0.0;        ///< m^3
-  double volume_final = 0.0;          ///< m^3
-  double displaced_volume = 0.0;      ///< m^3, by the tool
-  double moved_volume = 0.0;          ///< m^3, by tool and relaxation
-  double volume_drift = 0.0;          ///< |final - initial| / moved volume; 0 where nothing moved
-  double max_force = 0.0;             ///< N
-  double max_depth = 0.0;             ///< m
-  double absorbed_energy = 0.0;       ///< J, net energy that the device gave to the sand
-  double least_absorbed_energy = 0.0; ///< J, its minimum over time; negative = sand returned more than it took
-  double least_passivity_margin = 0.0;///< N s/m, over contact ticks
+  bool converged = true;          ///< the last relaxation reached its tolerance
+  double volume_initial = 0.0;    ///< m^3
+  double volume_final = 0.0;      ///< m^3
+  double displaced_volume = 0.0;  ///< m^3, by the tool
+  double moved_volume = 0.0;      ///< m^3, by tool and relaxation
+  double volume_drift = 0.0;      ///< |final - initial| / moved volume; 0 where nothing moved
+  double max_force = 0.0;         ///< N
+  double max_depth = 0.0;         ///< m
+  double absorbed_energy = 0.0;   ///< J, net energy that the device gave to the sand
+  double least_absorbed_energy =
+      0.0;  ///< J, its minimum over time; negative = sand returned more than it took
+  double least_passivity_margin = 0.0;  ///< N s/m, over contact ticks
   int threads = 1;
   bool interrupted = false;
 };

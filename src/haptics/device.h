@@ -1,0 +1,61 @@
+#pragma once
+
+#include <Eigen/Core>
+
+namespace sandstroke {
+
+/// kinematic: the device is where the hand is. dynamic: a mass held by the hand's spring, which feels the
+/// force.
+enum class DeviceModel { kinematic, dynamic };
+enum class DevicePreset { omega3, phantom_desktop, touch, ideal };
+
+/// The simulated haptic device. Force limit and resolution come with the preset (omega3 and phantom_desktop:
+/// paper 4.2); mass, damping and the hand are typical values, not measured ones.
+struct DeviceSettings {
+  DeviceModel model = DeviceModel::kinematic;
+  DevicePreset preset = DevicePreset::omega3;
+  double servo_rate = 1000.0;                        ///< Hz
+  double scale = 1.0;                                ///< bed metres per device metre
+  Eigen::Vector3d offset = Eigen::Vector3d::Zero();  ///< m, bed position of the device's origin
+  double max_force = 12.0;                           ///< N; 0 = no limit
+  double resolution = 9e-6;                          ///< m, of the encoders (dynamic model); 0 = exact
+  double mass = 0.25;                                ///< kg
+  double damping = 1.0;                              ///< N s/m
+  double hand_stiffness = 400.0;                     ///< N/m
+  double hand_damping = 8.0;                         ///< N s/m
+};
+
+/// Sets max_force and resolution to those of settings.preset.
+void apply_device_preset(DeviceSettings& settings);
+
+/// One tick of the device along one axis, exactly (matrix exponential of the linear plant
+/// m a = k_h (x_hand - x) + b_h (v_hand - v) - b v + F), with the force F held and the hand moving uniformly
+/// during it: (x, v) after = map * (x, v, x_hand, v_hand, F) before.
+Eigen::Matrix<double, 2, 5> device_tick_map(const DeviceSettings& settings);
+
+/// The device's motion, in device metres. What instability there is is the sampled-data system's own.
+class SimulatedDevice {
+ public:
+  struct State {
+    Eigen::Vector3d position, velocity;  ///< m, m/s
+  };
+
+  /// Starts with the hand, as fast as the hand.
+  SimulatedDevice(const DeviceSettings& settings, const State& hand);
+
+  /// As the controller reads it: the position rounded to the encoders' resolution (dynamic model).
+  State read() const;
+  /// As it is.
+  const State& state() const { return state_; }
+
+  /// Moves on by one tick, during which the hand goes from one place to the next and `force` [N] is held.
+  void advance(const State& hand, const State& hand_after, const Eigen::Vector3d& force);
+
+ private:
+  DeviceSettings settings_;
+  double time_step_;
+  Eigen::Matrix<double, 2, 5> map_;
+  State state_;
+};
+
+}  // namespace sandstroke

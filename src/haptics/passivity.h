@@ -1,0 +1,32 @@
+#pragma once
+
+#include "haptics/device.h"
+#include "haptics/force_model.h"
+
+namespace sandstroke {
+
+/// b + b_h - (K T / 2 + |B|) [N s/m]: where it is positive, the sampled loop cannot create energy (Colgate &
+/// Schenkel 1997). K = scale k_s k_c exp(k_c d) is the sand's stiffness as the device feels it, B = scale k_f
+/// |F_r| its drag. repulse [N] = |F_r| at this depth [m]; above the sand (depth <= 0) K = B = 0.
+double passivity_margin(double depth, double repulse, const ForceSettings& force,
+                        const DeviceSettings& device);
+
+/// Energy that a device has given to the sand (Hannaford & Ryu 2002), exactly for a force held during each
+/// tick.
+class EnergyAccount {
+ public:
+  /// force [N] on the device while it moved by `motion` [m].
+  void add(const Eigen::Vector3d& force, const Eigen::Vector3d& motion) {
+    absorbed_ -= force.dot(motion);
+    least_ = absorbed_ < least_ ? absorbed_ : least_;
+  }
+  double absorbed() const { return absorbed_; }  ///< J
+  double least() const {
+    return least_;
+  }  ///< J, its minimum so far; negative = sand returned more than it took
+
+ private:
+  double absorbed_ = 0.0, least_ = 0.0;
+};
+
+}  // namespace sandstroke

@@ -1,0 +1,214 @@
+#include "sim/scene.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/error.h"
+
+namespace sandstroke {
+namespace {
+
+template <class Enum>
+void choose(SceneVisitor& v, const char* key, Enum& value, const std::vector<std::string>& names,
+            const char* help) {
+  int index = static_cast<int>(value);
+  v.choice(key, index, names, help);
+  value = static_cast<Enum>(index);
+}
+
+constexpr Range degrees{-360.0, 360.0, false};
+constexpr Range sharp_angle{0.0, 90.0, true};
+
+void apply_model_preset(Scene& scene) {
+  const bool paper = scene.preset == ModelPreset::paper;
+  scene.tool.profile = paper ? ToolProfile::paper : ToolProfile::sphere;
+  scene.displacement.deposit = paper ? Deposit::ring : Deposit::ahead;
+  scene.relaxation.law = paper ? RelaxationLaw::paper : RelaxationLaw::isotropic;
+}
+
+void describe_bed(SceneVisitor& v, BedSettings& bed) {
+  v.section("bed", "the sand box, centred on the origin, z up");
+  double size[2] = {bed.width, bed.depth};
+  v.numbers("size", size, 2, positive, "m", "extent along x and y");
+  bed.width = size[0], bed.depth = size[1];
+  int cells[2] = {bed.cols, bed.rows};
+  v.integers("cells", cells, 2, 1, 65536, "cells along x and y; they must come out square");
+  bed.cols = cells[0], bed.rows = cells[1];
+
+  SurfaceSettings& s = bed.surface;
+  v.section("bed.surface", "the sand before anything touches it");
+  choose(v, "kind", s.kind, {"flat", "cylinder", "cone", "cliff", "noise", "ripples", "file"}, "its shape");
+  const auto is = [&](auto... kinds) { return ((s.kind == kinds) || ...); };
+  using enum SurfaceKind;
+  if (is(cylinder, cone)) v.number("radius", s.radius, positive, "m", "of its foot");
+  if (is(cylinder, cone, cliff)) v.number("height", s.height, any_number, "m", "above z = 0");
+  if (is(noise, ripples))
+    v.number("amplitude", s.amplitude, not_negative, "m", "greatest height above z = 0");
+  if (is(noise))
+    v.number("wavelength", s.wavelength, not_negative, "m", "size of the bumps; 0: every cell on its own");
+  if (is(ripples)) v.number("wavelength", s.wavelength, positive, "m", "from crest to crest");
+  if (is(noise)) {
+    int seed = static_cast<int>(s.seed);
+    v.integers("seed", &seed, 1, 0, std::numeric_limits<int>::max(), "of the random heights");
+    s.seed = static_cast<std::uint32_t>(seed);
+  }
+  if (is(file)) {
+    v.text("file", s.file, "a run file (its final surface) or a 16-bit grayscale PNG");
+    v.number("low", s.low, any_number, "m", "height of a PNG's black");
+    v.number("high", s.high, any_number, "m", "height of a PNG's white");
+  }
+}
+
+void describe_relaxation(SceneVisitor& v, RelaxationSettings& r) {
+  v.section("relaxation", "how sand that lies too steep flows");
+  choose(v, "law", r.law, {"paper", "isotropic"},
+         "8 neighbours as published, or the same slope in every direction");
+  choose(v, "method", r.method, {"passes"}, "how the law is stepped");
+  choose(v, "engine", r.engine, {"tiles", "reference"},
+         "only sand that can move, or the plain whole field (same bits)");
+  v.number("talus_angle", r.talus_angle, sharp_angle, "deg", "angle of repose");
+  v.number("tolerance", r.tolerance, {0.0, 1.0, false}, "",
+           "slope above tan(talus_angle) that rests, as a share of it");
+  v.number("rate", r.rate, not_negative, "Hz", "relaxations during the stroke; 0: only after it");
+  v.number("share", r.share, {0.0, 1.0, false}, "",
+           "part of the excess moved in a pass; 0: the law's own (1/2, 1/4)");
+  double passes = static_cast<double>(r.max_passes);
+  v.number("max_passes", passes, {0.0, 1e15, false}, "", "in one relaxation");
+  r.max_passes = static_cast<std::int64_t>(passes);
+}
+
+void describe_device(SceneVisitor& v, DeviceSettings& d) {
+  v.section("device", "the simulated haptic device");
+  choose(v, "model", d.model, {"kinematic", "dynamic"},
+         "moved by the stroke, or a mass that the hand's spring pulls");
+  choose(v, "preset", d.preset, {"omega3", "phantom-desktop", "touch", "ideal"},
+         "sets max_force and resolution");
+  if (v.reads()) apply_device_preset(d);
+  v.number("servo_rate", d.servo_rate, {1.0, 1e6, false}, "Hz", "ticks of the haptic loop");
+  v.number("scale", d.scale, positive, "", "bed metres per device metre");
+  v.numbers("offset", d.offset.data(), 3, any_number, "m", "bed position of the device's origin");
+  v.number("max_force", d.max_force, not_negative, "N", "saturation; 0: none");
+  v.number("resolution", d.resolution, not_negative, "m", "of the encoders (dynamic model); 0: exact");
+  v.number("mass", d.mass, positive, "kg", "moved by hand and sand (dynamic model)");
+  v.number("damping", d.damping, not_negative, "N s/m", "of the device");
+  v.number("hand_stiffness", d.hand_stiffness, not_negative, "N/m", "of the hand that follows the stroke");
+  v.number("hand_damping", d.hand_damping, not_negative, "N s/m", "of the hand");
+}
+
+void describe_stroke(SceneVisitor& v, StrokeSettings& stroke) {
+  StrokePlacement& p = stroke.placement;
+  v.text("file", stroke.file, "scripted (.toml) or recorded (.h5), relative to the scene");
+  choose(v, "plane", p.plane, {"keep", "fit"},
+         "keep heights as recorded, or lay the plane through the tracing level");
+  v.number("scale", p.scale, positive, "", "of its positions");
+  v.number("rotate_z", p.rotate_z, degrees, "deg", "from +x towards +y");
+  v.number("depth", p.depth, any_number, "m", "how far below z = 0 it runs");
+  v.numbers("offset", p.offset.data(), 3, any_number, "m", "where it goes on the bed");
+  v.number("start", p.start, not_negative, "s", "leaves out what comes before");
+  double stop = std::isinf(p.stop) ? 0.0 : p.stop;
+  v.number("stop", stop, not_negative, "s", "leaves out what comes after; 0: nothing");
+  p.stop = stop > 0.0 ? stop : std::numeric_limits<double>::infinity();
+}
+
+void describe_view(SceneVisitor& v, ViewSettings& view) {
+  v.section("view", "how pictures show it");
+  choose(v, "name", view.name, {"overview", "stroke", "top", "custom"},
+         "the whole bed, what changed, from above");
+  choose(v, "style", view.style, {"sand", "height", "difference"},
+         "as one sees it, or colour maps with contour lines");
+  v.number("azimuth", view.azimuth, degrees, "deg", "of the camera, from +x towards +y");
+  v.number("elevation", view.elevation, {0.0, 90.0, false}, "deg", "of the camera above the horizon");
+  v.number("distance", view.distance, not_negative, "m", "camera to target; 0: what frames the subject");
+  v.numbers("target", view.target.data(), 3, any_number, "m", "the point looked at (name = custom)");
+  v.number("field_of_view", view.field_of_view, {1.0, 120.0, false}, "deg", "vertical");
+  v.number("light_azimuth", view.light_azimuth, degrees, "deg", "towards the sun");
+  v.number("light_elevation", view.light_elevation, sharp_angle, "deg", "of the sun");
+  int size[2] = {view.width, view.height};
+  v.integers("size", size, 2, 16, 8192, "width and height in pixels");
+  view.width = size[0], view.height = size[1];
+}
+
+}  // namespace
+
+void describe_scene(SceneVisitor& v, Scene& scene) {
+  v.section("model", "which set of choices the others start from");
+  choose(v, "preset", scene.preset, {"paper", "accurate"}, "as published; or sphere, ahead, isotropic");
+  if (v.reads()) apply_model_preset(scene);
+
+  describe_bed(v, scene.bed);
+
+  v.section("tool", "the sphere that is dragged through the sand");
+  v.number("radius", scene.tool.radius, positive, "m", "of the sphere");
+  choose(v, "profile", scene.tool.profile, {"paper", "sphere"},
+         "underside: the paper's filter, or the sphere");
+
+  v.section("displacement", "where pushed sand goes");
+  choose(v, "deposit", scene.displacement.deposit, {"ring", "ahead"},
+         "all around as published, or ahead of the motion");
+
+  v.section("force", "of the sand on the device");
+  v.number("k_s", scene.force.k_s, not_negative, "N", "repulse force k_s (exp(k_c depth) - 1)");
+  v.number("k_c", scene.force.k_c, positive, "1/m", "its growth with depth");
+  v.number("k_f", scene.force.k_f, not_negative, "s/m", "drag k_f velocity x repulse force");
+  choose(v, "drag", scene.force.drag, {"horizontal", "full"}, "velocity that is dragged");
+
+  describe_relaxation(v, scene.relaxation);
+  describe_device(v, scene.device);
+
+  if (v.optional_section("stroke", scene.stroke.has_value(),
+                         "the hand's motion; without it the bed is only relaxed")) {
+    if (!scene.stroke) scene.stroke.emplace();
+    describe_stroke(v, *scene.stroke);
+  }
+
+  v.section("output", "what the run file keeps");
+  v.number("frames", scene.output.frames, not_negative, "Hz",
+           "surfaces during the run; 0: only first and last");
+  v.flag("trace", scene.output.trace, "every tick's position, force and depth");
+
+  describe_view(v, scene.view);
+}
+
+void check_scene(const Scene& scene, const std::string& name) {
+  const BedSettings& bed = scene.bed;
+  const double dx = bed.cell_size(), dy = bed.depth / bed.rows;
+  if (std::abs(dx - dy) > 1e-9 * dx)
+    throw_input_error("{}: bed.size and bed.cells give cells of {} m by {} m; make them square", name, dx,
+                      dy);
+
+  const double cells = static_cast<double>(bed.rows) * bed.cols;
+  const double needed = 4.0 * 8.0 * cells;  // the bed, its copy for the file, pictures and passes
+  const double memory =
+      static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
+  if (needed > memory)
+    throw_input_error(
+        "{}: bed.cells = [{}, {}] needs about {:.0f} GB of memory and this machine has {:.0f}; take fewer",
+        name, bed.cols, bed.rows, needed * 1e-9, memory * 1e-9);
+
+  const double reach = ToolFootprint(scene.tool).reach();
+  if (2.0 * reach > std::min(bed.width, bed.depth))
+    throw_input_error(
+        "{}: tool.radius = {} m: the tool and its rampart ({:.3g} m) do not fit the bed ({} m by {} m); "
+        "take a smaller radius",
+        name, scene.tool.radius, 2.0 * reach, bed.width, bed.depth);
+  if (scene.stroke && scene.tool.radius < 0.5 * dx)
+    throw_input_error(
+        "{}: tool.radius = {} m is less than half a cell ({} m); take more bed.cells or a larger tool", name,
+        scene.tool.radius, dx);
+
+  const RelaxationSettings& r = scene.relaxation;
+  if (r.law == RelaxationLaw::isotropic && flow_share(r) > 0.25)
+    throw_input_error(
+        "{}: relaxation.share = {} is not stable with relaxation.law = isotropic; take 0.25 or less", name,
+        r.share);
+  if (scene.stroke && scene.stroke->file.empty())
+    throw_input_error("{}: stroke.file is missing; name a stroke (.toml or .h5) or remove [stroke]", name);
+  const SurfaceSettings& s = bed.surface;
+  if (s.kind == SurfaceKind::file && s.file.empty())
+    throw_input_error("{}: bed.surface.file is missing; name a run file or a 16-bit PNG", name);
+}
+
+}  // namespace sandstroke

@@ -1,0 +1,162 @@
+#include "sim/simulation.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+
+#include "core/error.h"
+#include "core/interrupt.h"
+
+namespace sandstroke {
+namespace {
+
+SimulatedDevice::State as_state(const Hand& hand) { return {hand.position, hand.velocity}; }
+
+/// True once per period: at the last tick before each multiple of it.
+bool comes_due(std::int64_t tick, double servo_rate, double rate) {
+  if (rate <= 0.0) return false;
+  const auto count = [&](std::int64_t t) {
+    return std::floor(static_cast<double>(t) * rate / servo_rate + 1e-9);
+  };
+  return count(tick + 1) > count(tick);
+}
+
+}  // namespace
+
+Simulation::Simulation(const Scene& scene, HeightField bed, std::optional<Stroke> stroke)
+    : scene_(scene),
+      bed_(std::move(bed)),
+      footprint_(scene.tool),
+      relaxer_(make_relaxer(scene.relaxation, bed_.cell_size())) {
+  if (!stroke) return;
+  check_inside(*stroke);
+  stroke_.emplace(std::move(*stroke));
+}
+
+void Simulation::check_inside(const Stroke& stroke) const {
+  double highest = -std::numeric_limits<double>::infinity();
+  for (int row = 0; row < bed_.rows(); ++row)
+    for (int col = 0; col < bed_.cols(); ++col) highest = std::max(highest, bed_(row, col));
+  const double half_x = 0.5 * bed_.cols() * bed_.cell_size(), half_y = 0.5 * bed_.rows() * bed_.cell_size();
+  for (std::size_t i = 0; i < stroke.size(); ++i) {
+    const Eigen::Vector3d tip = tip_of(stroke.position[i]);
+    const bool outside = std::abs(tip.x()) > half_x || std::abs(tip.y()) > half_y;
+    const bool down = stroke.contact.empty() || stroke.contact[i] != 0;
+    if (outside && down && tip.z() < highest)
+      throw_input_error(
+          "the stroke enters the sand outside the bed: at {:.3f} s it is at x = {:.4g} m, y = {:.4g} m, and "
+          "the "
+          "bed ends at {:.4g} and {:.4g} m; change stroke.scale, stroke.offset or bed.size",
+          stroke.time[i], tip.x(), tip.y(), half_x, half_y);
+  }
+}
+
+Eigen::Vector3d Simulation::tip_of(const Eigen::Vector3d& device_position) const {
+  return scene_.device.scale * device_position + scene_.device.offset;
+}
+
+TickRecord Simulation::tick(double time, const Hand& hand, SimulatedDevice& device) {
+  TickRecord record;
+  const SimulatedDevice::State reading = device.read();
+  const Eigen::Vector3d tip = tip_of(reading.position);
+  record.time = time;
+  record.hand_position = hand.position;
+  record.device_position = reading.position;
+  record.level = std::numeric_limits<double>::quiet_NaN();
+  if (hand.down) {
+    footprint_.place(bed_, tip.x(), tip.y());
+    record.level = footprint_.sand_level(bed_);
+    const double depth = record.level - tip.z();
+    if (depth > 0.0) {
+      const Eigen::Vector3d velocity = scene_.device.scale * reading.velocity;
+      const SandForce force = sand_force(depth, velocity, scene_.device.max_force, scene_.force);
+      record.contact = true;
+      record.repulse_force.z() = force.repulse;
+      record.drag_force = force.drag;
+      record.device_force = force.total;
+      record.saturated = force.saturated;
+      const Eigen::Vector3d motion = last_tip_ ? Eigen::Vector3d(tip - *last_tip_) : Eigen::Vector3d::Zero();
+      record.displaced_volume = displace(bed_, footprint_, tip.z(), motion, scene_.displacement);
+    }
+    if (!std::isnan(depth)) record.depth = depth;
+    last_tip_ = tip;
+  } else {
+    last_tip_.reset();
+  }
+  record.passivity_margin = passivity_margin(record.contact ? record.depth : 0.0, record.repulse_force.z(),
+                                             scene_.force, scene_.device);
+  return record;
+}
+
+void Simulation::relax(double time, SimulationObserver& observer) {
+  const RelaxationOutcome outcome = relaxer_->relax(bed_);
+  result_.passes += outcome.passes;
+  result_.relaxations += 1;
+  result_.cells_visited += outcome.cells_visited;
+  result_.tiles_active_max = std::max(result_.tiles_active_max, outcome.tiles_active_max);
+  result_.residual = outcome.residual;
+  result_.converged = outcome.converged;
+  result_.moved_volume += outcome.moved_volume;
+  observer.on_relaxation({time, outcome.passes, outcome.residual, outcome.moved_volume});
+}
+
+void Simulation::run_stroke(SimulationObserver& observer) {
+  const double servo_rate = scene_.device.servo_rate;
+  const double begin = stroke_->start_time();
+  const auto ticks =
+      static_cast<std::int64_t>(std::floor((stroke_->end_time() - begin) * servo_rate + 1e-9)) + 1;
+  Hand hand = stroke_->at(begin);
+  SimulatedDevice device(scene_.device, as_state(hand));
+  result_.least_passivity_margin = std::numeric_limits<double>::infinity();
+
+  for (std::int64_t k = 0; k < ticks && !interrupted(); ++k) {
+    const double time = static_cast<double>(k) / servo_rate;
+    if (k == 0) observer.on_frame(0.0, bed_);
+    const TickRecord record = tick(time, hand, device);
+
+    const Hand next =
+        stroke_->at(std::min(begin + static_cast<double>(k + 1) / servo_rate, stroke_->end_time()));
+    const Eigen::Vector3d before = device.state().position;
+    device.advance(as_state(hand), as_state(next), record.device_force);
+    energy_.add(record.device_force, device.state().position - before);
+    hand = next;
+
+    result_.ticks += 1;
+    result_.contact_ticks += record.contact;
+    result_.saturated_ticks += record.saturated;
+    result_.displaced_volume += record.displaced_volume;
+    result_.max_force = std::max(result_.max_force, record.device_force.norm());
+    if (record.contact) {
+      result_.max_depth = std::max(result_.max_depth, record.depth);
+      result_.least_passivity_margin = std::min(result_.least_passivity_margin, record.passivity_margin);
+    }
+    if (scene_.output.trace) observer.on_tick(record);
+    if (comes_due(k, servo_rate, scene_.relaxation.rate)) relax(time, observer);
+    if (comes_due(k, servo_rate, scene_.output.frames))
+      observer.on_frame(static_cast<double>(k + 1) / servo_rate, bed_);
+    observer.on_progress(static_cast<double>(k + 1) / static_cast<double>(ticks));
+  }
+  result_.simulated_seconds = static_cast<double>(result_.ticks) / servo_rate;
+  result_.gaps = static_cast<int>(stroke_->gaps().size());
+}
+
+RunResult Simulation::run(SimulationObserver& observer) {
+  const auto start = std::chrono::steady_clock::now();
+  result_.volume_initial = bed_.volume();
+  if (stroke_) run_stroke(observer);
+  if (!interrupted()) relax(result_.simulated_seconds, observer);
+  result_.interrupted = interrupted() != 0;
+  result_.volume_final = bed_.volume();
+  result_.moved_volume += result_.displaced_volume;
+  if (result_.moved_volume > 0.0)
+    result_.volume_drift = std::abs(result_.volume_final - result_.volume_initial) / result_.moved_volume;
+  result_.absorbed_energy = energy_.absorbed();
+  result_.least_absorbed_energy = energy_.least();
+  if (result_.contact_ticks == 0)
+    result_.least_passivity_margin = passivity_margin(0.0, 0.0, scene_.force, scene_.device);
+  result_.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return result_;
+}
+
+}  // namespace sandstroke

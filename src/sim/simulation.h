@@ -1,0 +1,56 @@
+#pragma once
+
+#include <optional>
+
+#include "haptics/device.h"
+#include "haptics/passivity.h"
+#include "haptics/stroke_sampler.h"
+#include "sim/run_result.h"
+#include "sim/scene.h"
+
+namespace sandstroke {
+
+/// Told what happens while a simulation runs.
+class SimulationObserver {
+ public:
+  virtual ~SimulationObserver() = default;
+  virtual void on_tick(const TickRecord&) {}
+  virtual void on_relaxation(const RelaxationRecord&) {}
+  /// output.frames times a second, the first at time 0.
+  virtual void on_frame(double /*time*/, const HeightField&) {}
+  /// Share of the stroke that is done, 0 to 1.
+  virtual void on_progress(double /*fraction*/) {}
+};
+
+/// The tick loop (model.md, "One servo tick"): hand, device, level, depth and force, displacement, and
+/// relaxation at its own rate; after the last tick the bed is relaxed to equilibrium.
+class Simulation {
+ public:
+  /// stroke: as place_stroke() leaves it; none where the bed is only relaxed. Error: input, if the stroke
+  /// enters the sand outside the bed.
+  Simulation(const Scene& scene, HeightField bed, std::optional<Stroke> stroke);
+
+  const Scene& scene() const { return scene_; }
+  const HeightField& bed() const { return bed_; }
+
+  /// Runs once, to the end or until interrupted().
+  RunResult run(SimulationObserver& observer);
+
+ private:
+  void check_inside(const Stroke& stroke) const;
+  void run_stroke(SimulationObserver& observer);
+  TickRecord tick(double time, const Hand& hand, SimulatedDevice& device);
+  void relax(double time, SimulationObserver& observer);
+  Eigen::Vector3d tip_of(const Eigen::Vector3d& device_position) const;
+
+  Scene scene_;
+  HeightField bed_;
+  std::optional<StrokeSampler> stroke_;
+  ToolFootprint footprint_;
+  std::unique_ptr<Relaxer> relaxer_;
+  std::optional<Eigen::Vector3d> last_tip_;  // of the tick before, while the tool was down
+  EnergyAccount energy_;
+  RunResult result_;
+};
+
+}  // namespace sandstroke

@@ -1,0 +1,69 @@
+#include "haptics/force_model.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace sandstroke {
+namespace {
+
+const ForceSettings paper;  // the paper's constants
+
+TEST(RepulseForce, SixMillimetresGiveThreeNewtons) {
+  EXPECT_NEAR(repulse_force(0.006, paper), 3.0, 0.005);  // "up to 3 N", closing section
+  EXPECT_NEAR(repulse_force(0.006, paper), 3.0045045033770,
+              1e-12);  // 1000 (0.003 + 0.003^2/2 + 0.003^3/6 + ...)
+}
+
+TEST(RepulseForce, IsZeroAtAndAboveTheSurface) {
+  EXPECT_EQ(repulse_force(0.0, paper), 0.0);
+  EXPECT_EQ(repulse_force(-0.01, paper), 0.0);
+}
+
+TEST(RepulseForce, KeepsItsDigitsAtTinyDepths) {
+  EXPECT_NEAR(repulse_force(1e-12, paper) / 5e-10, 1.0, 1e-12);  // exp(x) - 1 would lose 4 of them
+}
+
+TEST(RepulseForce, GrowsWithDepthAndInverts) {
+  double last = 0.0;
+  for (double depth = 1e-4; depth < 1.0; depth *= 1.5) {
+    const double force = repulse_force(depth, paper);
+    EXPECT_GT(force, last);
+    EXPECT_NEAR(depth_of_repulse_force(force, paper), depth, 1e-14 + 1e-13 * depth);
+    last = force;
+  }
+}
+
+TEST(SandForce, DragOpposesHorizontalMotion) {
+  const SandForce f = sand_force(0.006, {0.1, -0.2, 0.3}, 0.0, paper);
+  const double r = 1000.0 * (std::exp(0.003) - 1.0);
+  EXPECT_NEAR(f.repulse, r, 1e-12);
+  EXPECT_NEAR(f.drag.x(), -10.0 * 0.1 * r, 1e-12);
+  EXPECT_NEAR(f.drag.y(), 10.0 * 0.2 * r, 1e-12);
+  EXPECT_EQ(f.drag.z(), 0.0);
+  EXPECT_NEAR(f.total.z(), r, 1e-12);
+  EXPECT_FALSE(f.saturated);
+}
+
+TEST(SandForce, FullDragTakesAllComponents) {
+  ForceSettings full;
+  full.drag = DragDirection::full;
+  const SandForce f = sand_force(0.006, {0.0, 0.0, -0.3}, 0.0, full);
+  EXPECT_NEAR(f.drag.z(), 3.0 * f.repulse, 1e-12);
+}
+
+TEST(SandForce, IsLimitedInMagnitudeAndKeepsItsDirection) {
+  const SandForce free = sand_force(0.05, {0.2, 0.1, 0.0}, 0.0, paper);
+  const SandForce limited = sand_force(0.05, {0.2, 0.1, 0.0}, 12.0, paper);
+  EXPECT_TRUE(limited.saturated);
+  EXPECT_NEAR(limited.total.norm(), 12.0, 1e-12);
+  EXPECT_NEAR(limited.total.normalized().dot(free.total.normalized()), 1.0, 1e-14);
+  EXPECT_EQ(limited.repulse, free.repulse);
+}
+
+TEST(SandForce, IsZeroInTheAir) {
+  EXPECT_EQ(sand_force(-1e-9, {1.0, 1.0, 1.0}, 12.0, paper).total.norm(), 0.0);
+}
+
+}  // namespace
+}  // namespace sandstroke
