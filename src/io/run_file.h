@@ -18,24 +18,24 @@ struct RunTrace {
   std::size_t size() const { return time.size(); }
 };
 
-/// A run file (HDF5) read back. Error: io where it cannot be opened; input where it is no run file or lacks what is
-/// asked for.
+/// A run file (HDF5) read back. Error: io where it cannot be opened; input where it is no run file or lacks
+/// what is asked for.
 class RunFile {
  public:
   explicit RunFile(const std::filesystem::path& path);
 
   const std::string& name() const { return file_.name(); }
-  bool complete() const;            ///< false: the run was cut off
-  double cell_size() const;         ///< m
+  bool complete() const;     ///< false: the run was cut off
+  double cell_size() const;  ///< m
   HeightGrid initial() const;
-  HeightGrid final() const;         ///< error where the run was cut off before its end
+  HeightGrid final() const;  ///< error where the run was cut off before its end
   bool has_final() const;
   bool has_trace() const;
   RunTrace trace() const;
   /// Frames kept during the run: their times [s], and the k-th surface put together from its changed tiles.
   std::vector<double> frame_times() const;
   HeightGrid frame(int k) const;
-  std::string scene_text() const;   ///< the resolved scene (TOML)
+  std::string scene_text() const;  ///< the resolved scene (TOML)
   /// Name and value of each entry of /provenance.
   std::vector<std::pair<std::string, std::string>> provenance() const;
 

@@ -1,8 +1,6 @@
 #pragma once
 
 #include <filesystem>
-#include <limits>
-#include <map>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -10,17 +8,9 @@
 
 #include <toml++/toml.h>
 
-namespace sandstroke {
+#include "core/range.h"
 
-/// Numbers a key accepts: finite, from lowest to highest; open: the ends themselves are not accepted.
-struct Range {
-  double lowest = -std::numeric_limits<double>::max();
-  double highest = std::numeric_limits<double>::max();
-  bool open = false;
-};
-inline constexpr Range any_number{};
-inline constexpr Range positive{0.0, std::numeric_limits<double>::max(), true};
-inline constexpr Range not_negative{0.0, std::numeric_limits<double>::max(), false};
+namespace sandstroke {
 
 /// One table of a TOML file, read key by key with errors that name file, line, key, value and remedy (Error:
 /// input). Keys nobody asked for are errors too: call reject_unread() last. Keys may be dotted ("bed.cells").
@@ -32,6 +22,7 @@ class TomlReader {
 
   /// Sets one key from "key=value" (--set): the value is TOML, or else taken as a string.
   void override_with(const std::string& assignment);
+  const std::string& name() const;  ///< of the file
 
   bool has(std::string_view key) const;
 
@@ -41,9 +32,11 @@ class TomlReader {
   bool boolean(std::string_view key, bool fallback) const;
   std::string text(std::string_view key, const std::string& fallback) const;
   /// Exactly `fallback.size()` numbers.
-  std::vector<double> numbers(std::string_view key, const std::vector<double>& fallback, Range range = any_number) const;
+  std::vector<double> numbers(std::string_view key, const std::vector<double>& fallback,
+                              Range range = any_number) const;
   /// One number or an array of at least one.
-  std::vector<double> profile(std::string_view key, const std::vector<double>& fallback, Range range = any_number) const;
+  std::vector<double> profile(std::string_view key, const std::vector<double>& fallback,
+                              Range range = any_number) const;
   /// An array of points with two coordinates each ([[x, y], ...]); empty where absent.
   std::vector<std::vector<double>> points(std::string_view key) const;
   /// One of the names; returns its index.

@@ -1,0 +1,203 @@
+#include "io/hdf5_reader.h"
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+
+#include "core/error.h"
+
+namespace sandstroke {
+namespace {
+
+std::vector<hsize_t> extent_of(const Hdf5Handle& dataset) {
+  const Hdf5Handle space(H5Dget_space(dataset), H5Sclose);
+  const int rank = H5Sget_simple_extent_ndims(space);
+  std::vector<hsize_t> shape(rank > 0 ? rank : 0);
+  if (rank > 0) H5Sget_simple_extent_dims(space, shape.data(), nullptr);
+  return shape;
+}
+
+bool is_number(hid_t type) {
+  const H5T_class_t kind = H5Tget_class(type);
+  return kind == H5T_INTEGER || kind == H5T_FLOAT || kind == H5T_ENUM;
+}
+
+/// Reads a scalar string, of fixed or variable length; `read` is given the memory type and the buffer.
+template <class Read>
+bool read_string(hid_t file_type, std::string& text, const Read& read) {
+  if (H5Tget_class(file_type) != H5T_STRING) return false;
+  const Hdf5Handle memory_type(H5Tcopy(H5T_C_S1), H5Tclose);
+  H5Tset_cset(memory_type, H5Tget_cset(file_type));
+  if (H5Tis_variable_str(file_type) > 0) {
+    H5Tset_size(memory_type, H5T_VARIABLE);
+    char* characters = nullptr;
+    if (read(memory_type, &characters) < 0) return false;
+    text = characters ? characters : "";
+    H5free_memory(characters);
+    return true;
+  }
+  const std::size_t length = H5Tget_size(file_type);
+  H5Tset_size(memory_type, length + 1);
+  text.assign(length + 1, '\0');
+  if (read(memory_type, text.data()) < 0) return false;
+  text.resize(std::strlen(text.c_str()));
+  return true;
+}
+
+}  // namespace
+
+Hdf5Reader::Hdf5Reader(const std::filesystem::path& path) : name_(path.string()) {
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // errors are reported here, in the user's terms
+  if (std::filesystem::is_directory(path)) throw_io_error("{}: is a folder; name a file", name_);
+  if (!std::ifstream(path))
+    throw_io_error("{}: cannot be opened ({}); check the path", name_, std::strerror(errno));
+  if (H5Fis_hdf5(name_.c_str()) <= 0)
+    throw_input_error("{}: is not an HDF5 file; check which file was meant", name_);
+  file_ = Hdf5Handle(H5Fopen(name_.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
+  if (!file_.valid()) {
+    throw_input_error("{}: is a damaged or truncated HDF5 file, or still being written; make it again",
+                      name_);
+  }
+}
+
+void Hdf5Reader::fail(const std::string& object, const std::string& sentence) const {
+  throw_input_error("{}: {} {}", name_, object, sentence);
+}
+
+bool Hdf5Reader::has(const std::string& object) const {
+  if (object == "/") return true;
+  // H5Lexists wants every group on the way to exist.
+  for (std::size_t slash = object.find('/', 1); slash != std::string::npos;
+       slash = object.find('/', slash + 1)) {
+    if (H5Lexists(file_, object.substr(0, slash).c_str(), H5P_DEFAULT) <= 0) return false;
+  }
+  return H5Lexists(file_, object.c_str(), H5P_DEFAULT) > 0 &&
+         H5Oexists_by_name(file_, object.c_str(), H5P_DEFAULT) > 0;
+}
+
+Hdf5Handle Hdf5Reader::open_dataset(const std::string& dataset) const {
+  if (!has(dataset)) fail(dataset, "is missing; check that the file is of the kind that is wanted here");
+  Hdf5Handle opened(H5Dopen2(file_, dataset.c_str(), H5P_DEFAULT), H5Dclose);
+  if (!opened.valid())
+    fail(dataset, "is not a dataset; check that the file is of the kind that is wanted here");
+  return opened;
+}
+
+Hdf5Handle Hdf5Reader::open_numbers(const std::string& dataset, int rank, std::vector<hsize_t>& shape) const {
+  Hdf5Handle opened = open_dataset(dataset);
+  const Hdf5Handle type(H5Dget_type(opened), H5Tclose);
+  if (!is_number(type)) fail(dataset, "does not hold numbers; write it as float64");
+  shape = extent_of(opened);
+  if (static_cast<int>(shape.size()) != rank)
+    fail(dataset, fmt::format("has {} dimensions; write it with {}", shape.size(), rank));
+  hsize_t count = 1;
+  constexpr hsize_t most = hsize_t{1} << 32;
+  for (const hsize_t side : shape) {
+    if (side > most || (count *= side) > most)
+      fail(dataset, "claims over 4e9 numbers; it is damaged or too large");
+  }
+  return opened;
+}
+
+std::vector<hsize_t> Hdf5Reader::shape(const std::string& dataset) const {
+  return extent_of(open_dataset(dataset));
+}
+
+std::vector<double> Hdf5Reader::doubles(const std::string& dataset) const {
+  std::vector<hsize_t> shape;
+  const Hdf5Handle opened = open_numbers(dataset, 1, shape);
+  std::vector<double> values(shape[0]);
+  if (H5Dread(opened, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)
+    fail(dataset, "cannot be read; the file is damaged");
+  return values;
+}
+
+std::vector<std::uint32_t> Hdf5Reader::integers(const std::string& dataset) const {
+  std::vector<hsize_t> shape;
+  const Hdf5Handle opened = open_numbers(dataset, 1, shape);
+  std::vector<std::uint32_t> values(shape[0]);
+  if (H5Dread(opened, H5T_NATIVE_UINT32, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)
+    fail(dataset, "cannot be read; the file is damaged");
+  return values;
+}
+
+std::vector<Eigen::Vector3d> Hdf5Reader::vectors(const std::string& dataset) const {
+  std::vector<hsize_t> shape;
+  const Hdf5Handle opened = open_numbers(dataset, 2, shape);
+  if (shape[1] != 3) fail(dataset, fmt::format("has {} columns; write x, y, z", shape[1]));
+  std::vector<Eigen::Vector3d> values(shape[0]);
+  if (H5Dread(opened, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)
+    fail(dataset, "cannot be read; the file is damaged");
+  return values;
+}
+
+HeightGrid Hdf5Reader::grid(const std::string& dataset) const {
+  std::vector<hsize_t> shape;
+  const Hdf5Handle opened = open_numbers(dataset, 2, shape);
+  HeightGrid values(static_cast<Eigen::Index>(shape[0]), static_cast<Eigen::Index>(shape[1]));
+  if (H5Dread(opened, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)
+    fail(dataset, "cannot be read; the file is damaged");
+  return values;
+}
+
+std::string Hdf5Reader::text(const std::string& dataset) const {
+  const Hdf5Handle opened = open_dataset(dataset);
+  const Hdf5Handle type(H5Dget_type(opened), H5Tclose);
+  std::string text;
+  const bool read =
+      extent_of(opened).empty() && read_string(type, text, [&](hid_t memory_type, void* buffer) {
+        return H5Dread(opened, memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, buffer);
+      });
+  if (!read) fail(dataset, "is not a string; check that the file is of the kind that is wanted here");
+  return text;
+}
+
+bool Hdf5Reader::has_attribute(const std::string& object, const std::string& attribute) const {
+  return has(object) && H5Aexists_by_name(file_, object.c_str(), attribute.c_str(), H5P_DEFAULT) > 0;
+}
+
+Hdf5Handle Hdf5Reader::open_attribute(const std::string& object, const std::string& attribute) const {
+  if (!has_attribute(object, attribute))
+    fail(object, fmt::format("has no attribute '{}'; check that the file is of the kind that is wanted here",
+                             attribute));
+  return {H5Aopen_by_name(file_, object.c_str(), attribute.c_str(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose};
+}
+
+double Hdf5Reader::number_attribute(const std::string& object, const std::string& attribute) const {
+  const Hdf5Handle opened = open_attribute(object, attribute);
+  const Hdf5Handle type(H5Aget_type(opened), H5Tclose);
+  const Hdf5Handle space(H5Aget_space(opened), H5Sclose);
+  double value = 0.0;
+  if (!is_number(type) || H5Sget_simple_extent_npoints(space) != 1 ||
+      H5Aread(opened, H5T_NATIVE_DOUBLE, &value) < 0)
+    fail(object, fmt::format("attribute '{}' is not one number", attribute));
+  return value;
+}
+
+std::string Hdf5Reader::text_attribute(const std::string& object, const std::string& attribute) const {
+  const Hdf5Handle opened = open_attribute(object, attribute);
+  const Hdf5Handle type(H5Aget_type(opened), H5Tclose);
+  const Hdf5Handle space(H5Aget_space(opened), H5Sclose);
+  std::string text;
+  const bool read = H5Sget_simple_extent_npoints(space) == 1 &&
+                    read_string(type, text, [&](hid_t memory_type, void* buffer) {
+                      return H5Aread(opened, memory_type, buffer);
+                    });
+  if (!read) fail(object, fmt::format("attribute '{}' is not one string", attribute));
+  return text;
+}
+
+std::vector<std::string> Hdf5Reader::members(const std::string& group) const {
+  if (!has(group)) fail(group, "is missing; check that the file is of the kind that is wanted here");
+  std::vector<std::string> names;
+  const auto add = [](hid_t, const char* name, const H5L_info_t*, void* list) -> herr_t {
+    static_cast<std::vector<std::string>*>(list)->emplace_back(name);
+    return 0;
+  };
+  if (H5Literate_by_name(file_, group.c_str(), H5_INDEX_NAME, H5_ITER_INC, nullptr, add, &names,
+                         H5P_DEFAULT) < 0)
+    fail(group, "is not a group; check that the file is of the kind that is wanted here");
+  return names;
+}
+
+}  // namespace sandstroke

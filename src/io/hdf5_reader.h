@@ -1,0 +1,50 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "io/hdf5_handle.h"
+#include "sand/height_field.h"
+
+namespace sandstroke {
+
+/// An HDF5 file opened for reading. Datasets are named by their path ("/trace/time"). Every error names file
+/// and dataset. Error: io where the file cannot be opened, input where its content is not what is asked for.
+class Hdf5Reader {
+ public:
+  explicit Hdf5Reader(const std::filesystem::path& path);
+
+  const std::string& name() const { return name_; }
+  /// True where the dataset or group is there.
+  bool has(const std::string& object) const;
+  std::vector<hsize_t> shape(const std::string& dataset) const;  ///< empty for a scalar
+
+  std::vector<double> doubles(const std::string& dataset) const;           ///< rank 1
+  std::vector<Eigen::Vector3d> vectors(const std::string& dataset) const;  ///< (n, 3)
+  std::vector<std::uint32_t> integers(const std::string& dataset) const;   ///< rank 1
+  HeightGrid grid(const std::string& dataset) const;                       ///< rank 2
+  std::string text(const std::string& dataset) const;                      ///< scalar string
+
+  // Attributes of a group or dataset ("/" is the root group).
+  bool has_attribute(const std::string& object, const std::string& attribute) const;
+  double number_attribute(const std::string& object, const std::string& attribute) const;
+  std::string text_attribute(const std::string& object, const std::string& attribute) const;
+
+  /// Names of a group's members, in alphabetical order.
+  std::vector<std::string> members(const std::string& group) const;
+
+ private:
+  Hdf5Handle open_dataset(const std::string& dataset) const;
+  /// Opens a dataset of numbers with `rank` dimensions and returns its shape too.
+  Hdf5Handle open_numbers(const std::string& dataset, int rank, std::vector<hsize_t>& shape) const;
+  Hdf5Handle open_attribute(const std::string& object, const std::string& attribute) const;
+  [[noreturn]] void fail(const std::string& object, const std::string& sentence) const;
+
+  std::string name_;
+  Hdf5Handle file_;
+};
+
+}  // namespace sandstroke

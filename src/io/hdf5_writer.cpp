@@ -1,0 +1,169 @@
+#include "io/hdf5_writer.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+
+#include "core/error.h"
+#include "core/output_file.h"
+
+namespace sandstroke {
+namespace {
+
+constexpr hsize_t rows_per_chunk = 4096;  // of a growing column
+constexpr hsize_t chunk_side = 128;       // of a height field: a whole number of tiles
+
+[[noreturn]] void throw_write_error(const std::string& where) {
+  throw_io_error("{}: cannot be written; free disk space or choose another place (-o)", where);
+}
+
+Hdf5Handle string_type(std::size_t length) {
+  Hdf5Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
+  H5Tset_size(type, std::max<std::size_t>(1, length));
+  H5Tset_cset(type, H5T_CSET_UTF8);
+  return type;
+}
+
+Hdf5Handle dataset_properties(const std::vector<hsize_t>& chunk, Compression compression) {
+  Hdf5Handle properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+  if (!chunk.empty()) H5Pset_chunk(properties, static_cast<int>(chunk.size()), chunk.data());
+  if (compression != Compression::none) {
+    H5Pset_shuffle(properties);
+    H5Pset_deflate(properties, compression == Compression::small ? 9 : 1);
+  }
+  return properties;
+}
+
+}  // namespace
+
+void Hdf5Column::extend(const void* rows, std::size_t count, hid_t memory_type) {
+  if (count == 0) return;
+  const int rank = width_ == 1 ? 1 : 2;
+  const hsize_t extent[2] = {count_ + count, width_};
+  const hsize_t start[2] = {count_, 0};
+  const hsize_t block[2] = {count, width_};
+  if (H5Dset_extent(dataset_, extent) < 0) throw_write_error(where_);
+  const Hdf5Handle file_space(H5Dget_space(dataset_), H5Sclose);
+  const Hdf5Handle memory_space(H5Screate_simple(rank, block, nullptr), H5Sclose);
+  H5Sselect_hyperslab(file_space, H5S_SELECT_SET, start, nullptr, block, nullptr);
+  if (H5Dwrite(dataset_, memory_type, memory_space, file_space, H5P_DEFAULT, rows) < 0)
+    throw_write_error(where_);
+  count_ += count;
+}
+
+Hdf5Writer::Hdf5Writer(const std::filesystem::path& path) : path_(path) {
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // errors are reported here, in the user's terms
+  const std::string part = part_path(path).string();
+  if (!std::ofstream(part, std::ios::app))
+    throw_io_error("{}: cannot be written ({}); choose another place (-o)", path.string(),
+                   std::strerror(errno));
+  file_ = Hdf5Handle(H5Fcreate(part.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose);
+  check(file_.valid(), "");
+}
+
+void Hdf5Writer::check(bool done, const std::string& object) const {
+  if (!done) throw_write_error(object.empty() ? path_.string() : path_.string() + ": " + object);
+}
+
+Hdf5Handle Hdf5Writer::create(const std::string& dataset, hid_t type, const Hdf5Handle& space,
+                              const Hdf5Handle& properties) {
+  const Hdf5Handle links(H5Pcreate(H5P_LINK_CREATE), H5Pclose);
+  H5Pset_create_intermediate_group(links, 1);
+  Hdf5Handle created(H5Dcreate2(file_, dataset.c_str(), type, space, links, properties, H5P_DEFAULT),
+                     H5Dclose);
+  check(created.valid(), dataset);
+  return created;
+}
+
+void Hdf5Writer::put(const std::string& dataset, hid_t type, const std::vector<hsize_t>& shape,
+                     const void* values, Compression compression) {
+  const bool empty = std::find(shape.begin(), shape.end(), hsize_t{0}) != shape.end();
+  std::vector<hsize_t> chunk;
+  if (compression != Compression::none && !empty)
+    for (const hsize_t side : shape) chunk.push_back(std::min(side, chunk_side));
+  const Hdf5Handle space(shape.empty()
+                             ? H5Screate(H5S_SCALAR)
+                             : H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr),
+                         H5Sclose);
+  const Hdf5Handle properties = dataset_properties(chunk, chunk.empty() ? Compression::none : compression);
+  const Hdf5Handle created = create(dataset, type, space, properties);
+  if (!empty) check(H5Dwrite(created, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) >= 0, dataset);
+}
+
+void Hdf5Writer::write(const std::string& dataset, const std::vector<double>& values) {
+  put(dataset, H5T_NATIVE_DOUBLE, {values.size()}, values.data());
+}
+void Hdf5Writer::write(const std::string& dataset, const std::vector<Eigen::Vector3d>& values) {
+  put(dataset, H5T_NATIVE_DOUBLE, {values.size(), 3}, values.data());
+}
+void Hdf5Writer::write(const std::string& dataset, const std::vector<std::uint32_t>& values) {
+  put(dataset, H5T_NATIVE_UINT32, {values.size()}, values.data());
+}
+void Hdf5Writer::write(const std::string& dataset, const std::vector<std::uint8_t>& values) {
+  put(dataset, H5T_NATIVE_UINT8, {values.size()}, values.data());
+}
+void Hdf5Writer::write(const std::string& dataset, const HeightGrid& heights, Compression compression) {
+  put(dataset, H5T_NATIVE_DOUBLE,
+      {static_cast<hsize_t>(heights.rows()), static_cast<hsize_t>(heights.cols())}, heights.data(),
+      compression);
+}
+void Hdf5Writer::write(const std::string& dataset, const std::string& text) {
+  put(dataset, string_type(text.size()), {}, text.c_str());
+}
+
+void Hdf5Writer::put_attribute(const std::string& object, const std::string& attribute, hid_t type,
+                               const void* value) {
+  const Hdf5Handle space(H5Screate(H5S_SCALAR), H5Sclose);
+  const Hdf5Handle owner(H5Oopen(file_, object.c_str(), H5P_DEFAULT), H5Oclose);
+  if (H5Aexists(owner, attribute.c_str()) > 0) H5Adelete(owner, attribute.c_str());
+  const Hdf5Handle created(H5Acreate2(owner, attribute.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT),
+                           H5Aclose);
+  check(created.valid() && H5Awrite(created, type, value) >= 0, object);
+}
+
+void Hdf5Writer::attribute(const std::string& object, const std::string& attribute, double value) {
+  put_attribute(object, attribute, H5T_NATIVE_DOUBLE, &value);
+}
+void Hdf5Writer::attribute(const std::string& object, const std::string& attribute,
+                           const std::string& value) {
+  put_attribute(object, attribute, string_type(value.size()), value.c_str());
+}
+
+Hdf5Column Hdf5Writer::growing(const std::string& dataset, hid_t type, int width) {
+  const int rank = width == 1 ? 1 : 2;
+  const hsize_t shape[2] = {0, static_cast<hsize_t>(width)};
+  const hsize_t most[2] = {H5S_UNLIMITED, static_cast<hsize_t>(width)};
+  std::vector<hsize_t> chunk = {rows_per_chunk};
+  if (rank == 2) chunk.push_back(width);
+  const Hdf5Handle space(H5Screate_simple(rank, shape, most), H5Sclose);
+  Hdf5Column column;
+  column.dataset_ = create(dataset, type, space, dataset_properties(chunk, Compression::none));
+  column.where_ = path_.string() + ": " + dataset;
+  column.width_ = width;
+  return column;
+}
+
+Hdf5Column Hdf5Writer::column(const std::string& dataset, int width) {
+  return growing(dataset, H5T_NATIVE_DOUBLE, width);
+}
+Hdf5Column Hdf5Writer::byte_column(const std::string& dataset) {
+  return growing(dataset, H5T_NATIVE_UINT8, 1);
+}
+
+void Hdf5Writer::make_group(const std::string& group) {
+  const Hdf5Handle links(H5Pcreate(H5P_LINK_CREATE), H5Pclose);
+  H5Pset_create_intermediate_group(links, 1);
+  const Hdf5Handle made(H5Gcreate2(file_, group.c_str(), links, H5P_DEFAULT, H5P_DEFAULT), H5Gclose);
+  check(made.valid(), group);
+}
+
+void Hdf5Writer::flush() { check(H5Fflush(file_, H5F_SCOPE_GLOBAL) >= 0, ""); }
+
+void Hdf5Writer::finish() {
+  flush();
+  check(file_.close(), "");
+  finish_part(path_);
+}
+
+}  // namespace sandstroke

@@ -1,0 +1,76 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "io/hdf5_handle.h"
+#include "sand/height_field.h"
+
+namespace sandstroke {
+
+/// How much work a dataset's compression may be: none, fast (shuffle + deflate 1), small (shuffle + deflate
+/// 9).
+enum class Compression { none, fast, small };
+
+/// A dataset of doubles, or of bytes, that grows row by row: rank 1, or (n, width). Made by
+/// Hdf5Writer::column.
+class Hdf5Column {
+ public:
+  Hdf5Column() = default;
+  /// count rows of `width` numbers each. Error: io.
+  void append(const double* rows, std::size_t count) { extend(rows, count, H5T_NATIVE_DOUBLE); }
+  void append(const std::uint8_t* rows, std::size_t count) { extend(rows, count, H5T_NATIVE_UINT8); }
+
+ private:
+  friend class Hdf5Writer;
+  void extend(const void* rows, std::size_t count, hid_t memory_type);
+
+  std::string where_;  // file and dataset, for messages
+  Hdf5Handle dataset_;
+  hsize_t width_ = 1, count_ = 0;
+};
+
+/// An HDF5 file being written as PATH.part and renamed to PATH by finish(). Groups on the way to a dataset
+/// are made as needed. Error: io, for whatever the system refuses.
+class Hdf5Writer {
+ public:
+  explicit Hdf5Writer(const std::filesystem::path& path);
+  Hdf5Writer(const Hdf5Writer&) = delete;
+
+  void write(const std::string& dataset, const std::vector<double>& values);
+  void write(const std::string& dataset, const std::vector<Eigen::Vector3d>& values);  ///< (n, 3)
+  void write(const std::string& dataset, const std::vector<std::uint32_t>& values);
+  void write(const std::string& dataset, const std::vector<std::uint8_t>& values);
+  void write(const std::string& dataset, const HeightGrid& heights,
+             Compression compression = Compression::none);
+  void write(const std::string& dataset, const std::string& text);
+
+  void attribute(const std::string& object, const std::string& attribute, double value);
+  void attribute(const std::string& object, const std::string& attribute, const std::string& value);
+
+  Hdf5Column column(const std::string& dataset, int width = 1);
+  Hdf5Column byte_column(const std::string& dataset);
+  void make_group(const std::string& group);
+
+  /// What has been written so far can be read from the .part file from now on.
+  void flush();
+  /// Flushes, closes and renames. Without it the .part file stays.
+  void finish();
+
+ private:
+  Hdf5Handle create(const std::string& dataset, hid_t type, const Hdf5Handle& space,
+                    const Hdf5Handle& properties);
+  void put(const std::string& dataset, hid_t type, const std::vector<hsize_t>& shape, const void* values,
+           Compression compression = Compression::none);
+  Hdf5Column growing(const std::string& dataset, hid_t type, int width);
+  void put_attribute(const std::string& object, const std::string& attribute, hid_t type, const void* value);
+  void check(bool done, const std::string& object) const;
+
+  std::filesystem::path path_;
+  Hdf5Handle file_;
+};
+
+}  // namespace sandstroke

@@ -1,0 +1,105 @@
+#include "io/run_file.h"
+
+#include "core/error.h"
+
+namespace sandstroke {
+namespace {
+
+std::string frame_name(int k) { return fmt::format("/surface/frame/{:06}", k); }
+
+}  // namespace
+
+RunFile::RunFile(const std::filesystem::path& path) : file_(path) {
+  const bool is_run =
+      file_.has_attribute("/", "format") && file_.text_attribute("/", "format") == "sandstroke.run";
+  if (!is_run)
+    throw_input_error("{}: is not a sandstroke run file; make one with 'sandstroke run'", file_.name());
+  if (const double version = file_.number_attribute("/", "format_version"); version != 1)
+    throw_input_error("{}: has run format {}; this program reads format 1", file_.name(), version);
+}
+
+bool RunFile::complete() const { return file_.number_attribute("/", "complete") != 0.0; }
+
+double RunFile::cell_size() const {
+  const double size = file_.number_attribute("/surface", "cell_size");
+  if (!(size > 0.0))
+    throw_input_error("{}: /surface has cell_size {}; the file is damaged", file_.name(), size);
+  return size;
+}
+
+HeightGrid RunFile::initial() const { return file_.grid("/surface/initial"); }
+bool RunFile::has_final() const { return file_.has("/surface/final"); }
+
+HeightGrid RunFile::final() const {
+  if (!has_final() && !complete())
+    throw_input_error("{}: the run was cut off and has no final surface; run it again", file_.name());
+  return file_.grid("/surface/final");
+}
+
+bool RunFile::has_trace() const { return file_.has("/trace/time"); }
+
+RunTrace RunFile::trace() const {
+  RunTrace trace;
+  trace.time = file_.doubles("/trace/time");
+  const auto checked = [&](const std::string& name, auto column) {
+    if (column.size() != trace.size())
+      throw_input_error("{}: {} has {} rows and /trace/time {}; the file is damaged", file_.name(), name,
+                        column.size(), trace.size());
+    return column;
+  };
+  const auto vectors = [&](const std::string& name) { return checked(name, file_.vectors(name)); };
+  const auto doubles = [&](const std::string& name) { return checked(name, file_.doubles(name)); };
+  const auto integers = [&](const std::string& name) { return checked(name, file_.integers(name)); };
+  trace.hand_position = vectors("/trace/hand_position");
+  trace.device_position = vectors("/trace/device_position");
+  trace.device_force = vectors("/trace/device_force");
+  trace.repulse_force = vectors("/trace/repulse_force");
+  trace.drag_force = vectors("/trace/drag_force");
+  trace.level = doubles("/trace/level");
+  trace.depth = doubles("/trace/depth");
+  trace.displaced_volume = doubles("/trace/displaced_volume");
+  trace.passivity_margin = doubles("/trace/passivity_margin");
+  trace.contact = integers("/trace/contact");
+  trace.saturated = integers("/trace/saturated");
+  return trace;
+}
+
+std::vector<double> RunFile::frame_times() const {
+  std::vector<double> times;
+  if (!file_.has("/surface/frame")) return times;
+  for (const std::string& name : file_.members("/surface/frame"))
+    times.push_back(file_.number_attribute("/surface/frame/" + name, "time"));
+  return times;
+}
+
+HeightGrid RunFile::frame(int k) const {
+  HeightField surface(initial(), cell_size());
+  std::vector<double> heights(HeightField::tile_area);
+  for (int i = 0; i <= k; ++i) {
+    const std::vector<std::uint32_t> tiles = file_.integers(frame_name(i) + "/tiles");
+    const HeightGrid blocks = file_.grid(frame_name(i) + "/heights");
+    if (blocks.rows() != static_cast<Eigen::Index>(tiles.size()) || blocks.cols() != HeightField::tile_area)
+      throw_input_error("{}: {} has heights of the wrong shape; the file is damaged", file_.name(),
+                        frame_name(i));
+    for (std::size_t t = 0; t < tiles.size(); ++t) {
+      if (tiles[t] >= static_cast<std::uint32_t>(surface.tile_count()))
+        throw_input_error("{}: {} names tile {}, which the bed does not have; the file is damaged",
+                          file_.name(), frame_name(i), tiles[t]);
+      Eigen::Map<Eigen::ArrayXd>(heights.data(), HeightField::tile_area) =
+          blocks.row(static_cast<Eigen::Index>(t)).transpose();
+      surface.swap_tile(static_cast<int>(tiles[t]), heights);
+    }
+  }
+  return surface.grid();
+}
+
+std::string RunFile::scene_text() const { return file_.text("/scene"); }
+
+std::vector<std::pair<std::string, std::string>> RunFile::provenance() const {
+  std::vector<std::pair<std::string, std::string>> entries;
+  for (const std::string& name : file_.members("/provenance"))
+    entries.emplace_back(name, file_.text("/provenance/" + name));
+  return entries;
+}
+
+}  // namespace sandstroke

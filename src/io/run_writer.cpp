@@ -1,0 +1,174 @@
+#include "io/run_writer.h"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+
+#include "core/hash.h"
+#include "core/output_file.h"
+#include "core/version.h"
+#include "io/scene_toml.h"
+
+namespace sandstroke {
+namespace {
+
+constexpr std::size_t rows_per_write = 1000;  // about a second of ticks: what a killed run can lose
+
+/// Describes /surface to programs such as ParaView that read XDMF.
+std::string xdmf_text(const std::string& run_name, int rows, int cols, double cell_size) {
+  const auto grid = [&](const std::string& name) {
+    return fmt::format(
+        "    <Grid Name=\"{}\" GridType=\"Uniform\">\n"
+        "      <Topology TopologyType=\"2DCoRectMesh\" Dimensions=\"{} {}\"/>\n"
+        "      <Geometry GeometryType=\"Origin_DxDy\">\n"
+        "        <DataItem Dimensions=\"2\" Format=\"XML\">{} {}</DataItem>\n"
+        "        <DataItem Dimensions=\"2\" Format=\"XML\">{} {}</DataItem>\n"
+        "      </Geometry>\n"
+        "      <Attribute Name=\"height\" AttributeType=\"Scalar\" Center=\"Node\">\n"
+        "        <DataItem Dimensions=\"{} {}\" NumberType=\"Float\" Precision=\"8\" "
+        "Format=\"HDF\">{}:/surface/{}</DataItem>\n"
+        "      </Attribute>\n"
+        "    </Grid>\n",
+        name, rows, cols, -0.5 * (rows - 1) * cell_size, -0.5 * (cols - 1) * cell_size, cell_size, cell_size,
+        rows, cols, run_name, name);
+  };
+  return "<?xml version=\"1.0\"?>\n<Xdmf Version=\"2.0\">\n  <Domain>\n" + grid("initial") + grid("final") +
+         "  </Domain>\n</Xdmf>\n";
+}
+
+std::string xml_escaped(const std::string& text) {
+  std::string escaped;
+  for (const char c : text) escaped += c == '&' ? "&amp;" : c == '<' ? "&lt;" : std::string(1, c);
+  return escaped;
+}
+
+void put(const Eigen::Vector3d& v, double* out) { std::copy(v.begin(), v.end(), out); }
+
+}  // namespace
+
+RunWriter::RunWriter(const std::filesystem::path& path, const Simulation& simulation,
+                     const std::string& stroke_hash)
+    : path_(path), file_(path), keeps_trace_(simulation.scene().output.trace && simulation.scene().stroke) {
+  const HeightField& bed = simulation.bed();
+  const std::string scene = scene_text(simulation.scene());
+  file_.attribute("/", "format", "sandstroke.run");
+  file_.attribute("/", "format_version", 1.0);
+  file_.attribute("/", "complete", 0.0);
+  file_.write("/scene", scene);
+  file_.write("/provenance/version", version);
+  file_.write("/provenance/commit", commit);
+  file_.write("/provenance/compiler", compiler);
+  file_.write("/provenance/scene_hash", content_hash(scene));
+  file_.write("/provenance/stroke_hash", stroke_hash);
+  file_.write("/surface/initial", bed.grid());
+  file_.attribute("/surface", "cell_size", bed.cell_size());
+  for (int tile = 0; tile < bed.tile_count(); ++tile) frame_revisions_.push_back(bed.tile_revision(tile));
+  if (keeps_trace_) make_trace_columns();
+  make_relaxation_columns();
+  file_.flush();
+}
+
+void RunWriter::make_trace_columns() {
+  const auto add = [&](const char* name, int width, auto take) {
+    tick_fields_.push_back({file_.column(std::string("/trace/") + name, width), width, take});
+  };
+  add("time", 1, [](const TickRecord& t, double* out) { *out = t.time; });
+  add("hand_position", 3, [](const TickRecord& t, double* out) { put(t.hand_position, out); });
+  add("device_position", 3, [](const TickRecord& t, double* out) { put(t.device_position, out); });
+  add("device_force", 3, [](const TickRecord& t, double* out) { put(t.device_force, out); });
+  add("repulse_force", 3, [](const TickRecord& t, double* out) { put(t.repulse_force, out); });
+  add("drag_force", 3, [](const TickRecord& t, double* out) { put(t.drag_force, out); });
+  add("level", 1, [](const TickRecord& t, double* out) { *out = t.level; });
+  add("depth", 1, [](const TickRecord& t, double* out) { *out = t.depth; });
+  add("displaced_volume", 1, [](const TickRecord& t, double* out) { *out = t.displaced_volume; });
+  add("passivity_margin", 1, [](const TickRecord& t, double* out) { *out = t.passivity_margin; });
+  tick_flags_.emplace_back(file_.byte_column("/trace/contact"), &TickRecord::contact);
+  tick_flags_.emplace_back(file_.byte_column("/trace/saturated"), &TickRecord::saturated);
+}
+
+void RunWriter::make_relaxation_columns() {
+  const auto add = [&](const char* name, auto take) {
+    relaxation_fields_.push_back({file_.column(std::string("/relaxation/") + name), 1, take});
+  };
+  add("time", [](const RelaxationRecord& r, double* out) { *out = r.time; });
+  add("passes", [](const RelaxationRecord& r, double* out) { *out = static_cast<double>(r.passes); });
+  add("residual", [](const RelaxationRecord& r, double* out) { *out = r.residual; });
+  add("moved_volume", [](const RelaxationRecord& r, double* out) { *out = r.moved_volume; });
+}
+
+void RunWriter::on_tick(const TickRecord& tick) {
+  ticks_.push_back(tick);
+  if (ticks_.size() >= rows_per_write) write_rows();
+}
+
+void RunWriter::on_relaxation(const RelaxationRecord& relaxation) {
+  relaxations_.push_back(relaxation);
+  if (relaxations_.size() >= rows_per_write) write_rows();
+}
+
+template <class Record>
+void RunWriter::append(std::vector<Field<Record>>& fields, const std::vector<Record>& records) {
+  std::vector<double> rows;
+  for (auto& field : fields) {
+    rows.resize(records.size() * field.width);
+    for (std::size_t i = 0; i < records.size(); ++i) field.take(records[i], rows.data() + i * field.width);
+    field.column.append(rows.data(), records.size());
+  }
+}
+
+void RunWriter::write_rows() {
+  append(tick_fields_, ticks_);
+  std::vector<std::uint8_t> flags(ticks_.size());
+  for (auto& [column, flag] : tick_flags_) {
+    for (std::size_t i = 0; i < ticks_.size(); ++i) flags[i] = ticks_[i].*flag;
+    column.append(flags.data(), flags.size());
+  }
+  append(relaxation_fields_, relaxations_);
+  ticks_.clear();
+  relaxations_.clear();
+  file_.flush();
+}
+
+void RunWriter::on_frame(double time, const HeightField& surface) {
+  std::vector<std::uint32_t> changed;
+  for (int tile = 0; tile < surface.tile_count(); ++tile) {
+    if (surface.tile_revision(tile) == frame_revisions_[tile]) continue;
+    frame_revisions_[tile] = surface.tile_revision(tile);
+    changed.push_back(static_cast<std::uint32_t>(tile));
+  }
+  HeightGrid heights(static_cast<Eigen::Index>(changed.size()), HeightField::tile_area);
+  for (std::size_t i = 0; i < changed.size(); ++i) {
+    heights.row(static_cast<Eigen::Index>(i)) =
+        Eigen::Map<const Eigen::ArrayXd>(surface.tile_data(static_cast<int>(changed[i])),
+                                         HeightField::tile_area)
+            .transpose();
+  }
+  const std::string name = fmt::format("/surface/frame/{:06}", frames_++);
+  file_.write(name + "/tiles", changed);
+  file_.write(name + "/heights", heights);
+  file_.attribute(name, "time", time);
+  file_.flush();
+}
+
+void RunWriter::finish(const RunResult& result, const HeightField& surface) {
+  write_rows();
+  tick_fields_.clear();
+  tick_flags_.clear();
+  relaxation_fields_.clear();
+  file_.write("/provenance/threads", std::to_string(result.threads));
+  if (result.interrupted) {
+    file_.flush();
+    spdlog::warn("stopped: what is complete is in {}", part_path(path_).string());
+    return;
+  }
+  file_.write("/surface/final", surface.grid());
+  file_.attribute("/", "complete", 1.0);
+  file_.finish();
+
+  std::filesystem::path description = path_;
+  description.replace_extension(".xdmf");
+  write_text_file(description, xdmf_text(xml_escaped(path_.filename().string()), surface.rows(),
+                                         surface.cols(), surface.cell_size()));
+}
+
+}  // namespace sandstroke

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "io/hdf5_writer.h"
+#include "sim/simulation.h"
+
+namespace sandstroke {
+
+/// Writes a run file while the simulation runs: PATH.part, flushed about every second of simulated time so
+/// that a killed run can be read up to there, renamed when complete. Error: io.
+class RunWriter : public SimulationObserver {
+ public:
+  /// stroke_hash: of the stroke file, for provenance.
+  RunWriter(const std::filesystem::path& path, const Simulation& simulation, const std::string& stroke_hash);
+
+  void on_tick(const TickRecord& tick) override;
+  void on_relaxation(const RelaxationRecord& relaxation) override;
+  void on_frame(double time, const HeightField& surface) override;
+
+  /// Writes the final surface, puts the file in place, and an XDMF file beside it. An interrupted run has no
+  /// final surface and stays a .part file.
+  void finish(const RunResult& result, const HeightField& surface);
+
+ private:
+  // One growing dataset per field of a record, and how to take it from one.
+  template <class Record>
+  struct Field {
+    Hdf5Column column;
+    int width;
+    void (*take)(const Record&, double*);
+  };
+
+  void make_trace_columns();
+  void make_relaxation_columns();
+  template <class Record>
+  static void append(std::vector<Field<Record>>& fields, const std::vector<Record>& records);
+  void write_rows();
+
+  std::filesystem::path path_;
+  Hdf5Writer file_;
+  bool keeps_trace_;
+  std::vector<Field<TickRecord>> tick_fields_;
+  std::vector<std::pair<Hdf5Column, bool TickRecord::*>> tick_flags_;
+  std::vector<Field<RelaxationRecord>> relaxation_fields_;
+
+  std::vector<TickRecord> ticks_;  // not written yet
+  std::vector<RelaxationRecord> relaxations_;
+  std::vector<std::uint64_t> frame_revisions_;  // per tile, as of the last frame
+  int frames_ = 0;
+};
+
+}  // namespace sandstroke

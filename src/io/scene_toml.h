@@ -1,0 +1,25 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "sim/scene.h"
+
+namespace sandstroke {
+
+/// Reads a scene (TOML) and checks it. overrides: "key=value" as --set takes them. Error: input, naming file,
+/// line, key and remedy; io where the file cannot be read.
+Scene load_scene(const std::filesystem::path& path, const std::vector<std::string>& overrides = {});
+
+/// The same from text; `name` stands for the file in messages.
+Scene scene_from_text(const std::string& text, const std::string& name,
+                      const std::vector<std::string>& overrides = {});
+
+/// Every setting of a scene as TOML, such that reading it back gives the same scene.
+std::string scene_text(const Scene& scene);
+
+/// All keys as aligned lines: key, default, unit, meaning (for help pages).
+std::string scene_key_table();
+
+}  // namespace sandstroke

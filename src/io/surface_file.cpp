@@ -1,0 +1,38 @@
+#include "io/surface_file.h"
+
+#include <cmath>
+
+#include "core/error.h"
+#include "io/png_file.h"
+#include "io/run_file.h"
+
+namespace sandstroke {
+
+HeightField load_surface(const BedSettings& bed, const std::filesystem::path& folder) {
+  const SurfaceSettings& surface = bed.surface;
+  if (surface.kind != SurfaceKind::file) return make_surface(surface, bed.rows, bed.cols, bed.cell_size());
+
+  const std::filesystem::path path = folder / surface.file;
+  HeightGrid heights;
+  if (path.extension() == ".png") {
+    if (surface.low == surface.high)
+      throw_input_error(
+          "{}: bed.surface.low and high are both {} m; say what heights black and white stand for",
+          path.string(), surface.low);
+    heights = surface.low + (surface.high - surface.low) * read_height_png(path);
+  } else {
+    const RunFile run(path);
+    heights = run.final();
+    if (std::abs(run.cell_size() - bed.cell_size()) > 1e-9 * bed.cell_size())
+      throw_input_error("{}: has cells of {} m and the bed cells of {} m; change bed.size or bed.cells",
+                        path.string(), run.cell_size(), bed.cell_size());
+  }
+  if (heights.rows() != bed.rows || heights.cols() != bed.cols)
+    throw_input_error("{}: has {} x {} cells (x, y) and bed.cells = [{}, {}]; make them equal", path.string(),
+                      heights.cols(), heights.rows(), bed.cols, bed.rows);
+  if (!heights.isFinite().all())
+    throw_input_error("{}: holds heights that are not finite numbers; repair it", path.string());
+  return HeightField(heights, bed.cell_size());
+}
+
+}  // namespace sandstroke

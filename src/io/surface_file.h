@@ -1,0 +1,14 @@
+#pragma once
+
+#include <filesystem>
+
+#include "sim/scene.h"
+
+namespace sandstroke {
+
+/// The bed a scene starts from: procedural, or from a file (relative to `folder`): a run file's final
+/// surface, or a 16-bit grayscale PNG whose black and white stand for surface.low and surface.high. Its cells
+/// must be the scene's. Error: input or io, naming the file.
+HeightField load_surface(const BedSettings& bed, const std::filesystem::path& folder);
+
+}  // namespace sandstroke

@@ -1,0 +1,292 @@
+#include "io/toml_reader.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "core/error.h"
+#include "core/output_file.h"
+
+namespace sandstroke {
+
+struct TomlReader::Document {
+  std::string name;
+  toml::table root;
+  std::set<const toml::node*> read;
+  std::set<std::string> asked_for;               // every dotted key that some reader knows
+  std::map<std::string, std::string> overrides;  // dotted key -> the --set that gave it
+};
+
+namespace {
+
+toml::table parse(std::string_view text, const std::string& name) {
+  try {
+    return toml::parse(text, name);
+  } catch (const toml::parse_error& failure) {
+    throw_input_error("{}:{}: not valid TOML: {}", name, failure.source().begin.line, failure.description());
+  }
+}
+
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t replaced = diagonal + (a[i - 1] != b[j - 1]);
+      diagonal = row[j];
+      row[j] = std::min({row[j] + 1, row[j - 1] + 1, replaced});
+    }
+  }
+  return row[b.size()];
+}
+
+std::string nearest(const std::string& key, const std::set<std::string>& known) {
+  const auto closer = [&](const std::string& a, const std::string& b) {
+    return edit_distance(a, key) < edit_distance(b, key);
+  };
+  const auto best = std::min_element(known.begin(), known.end(), closer);
+  if (best == known.end() || edit_distance(*best, key) > 1 + key.size() / 3) return {};
+  return *best;
+}
+
+std::string range_text(Range range) {
+  const bool from_below = range.lowest > any_number.lowest, to_above = range.highest < any_number.highest;
+  if (from_below && to_above)
+    return range.open ? fmt::format("above {} and below {}", range.lowest, range.highest)
+                      : fmt::format("from {} to {}", range.lowest, range.highest);
+  if (from_below)
+    return range.open ? fmt::format("above {}", range.lowest) : fmt::format("{} or more", range.lowest);
+  return fmt::format("{} or less", range.highest);
+}
+
+std::string type_name(const toml::node& node) {
+  switch (node.type()) {
+    case toml::node_type::table:
+      return "a table";
+    case toml::node_type::array:
+      return "an array";
+    case toml::node_type::string:
+      return "a string";
+    case toml::node_type::integer:
+      return "an integer";
+    case toml::node_type::floating_point:
+      return "a number";
+    case toml::node_type::boolean:
+      return "true or false";
+    default:
+      return "a date or time";
+  }
+}
+
+std::vector<std::string> split(std::string_view key) {
+  std::vector<std::string> parts;
+  while (true) {
+    const auto dot = key.find('.');
+    parts.emplace_back(key.substr(0, dot));
+    if (dot == std::string_view::npos) return parts;
+    key.remove_prefix(dot + 1);
+  }
+}
+
+}  // namespace
+
+TomlReader::TomlReader(std::shared_ptr<Document> document, toml::table* table, std::string prefix)
+    : document_(std::move(document)), table_(table), prefix_(std::move(prefix)) {}
+
+TomlReader TomlReader::from_file(const std::filesystem::path& path) {
+  return from_text(read_text_file(path), path.string());
+}
+
+TomlReader TomlReader::from_text(std::string_view text, const std::string& name) {
+  auto document = std::make_shared<Document>();
+  document->name = name;
+  document->root = parse(text, name);
+  toml::table* root = &document->root;
+  return {std::move(document), root, ""};
+}
+
+const std::string& TomlReader::name() const { return document_->name; }
+
+void TomlReader::override_with(const std::string& assignment) {
+  const auto equals = assignment.find('=');
+  if (equals == 0 || equals == std::string::npos)
+    throw_input_error("--set {}: not an assignment; write --set section.key=value", assignment);
+  const std::string key = assignment.substr(0, equals);
+  const std::string value = assignment.substr(equals + 1);
+
+  toml::table parsed;
+  try {
+    parsed = toml::parse("value = " + value);
+  } catch (const toml::parse_error&) {
+    parsed.insert("value", value);  // a bare word: --set relaxation.law=isotropic
+  }
+  if (parsed.size() != 1) throw_input_error("--set {}: the value is not one TOML value", assignment);
+
+  const std::vector<std::string> parts = split(key);
+  toml::table* table = &document_->root;
+  for (std::size_t i = 0; i + 1 < parts.size(); ++i) {
+    toml::node* next = table->insert(parts[i], toml::table{}).first->second.as_table();
+    if (!next) throw_input_error("--set {}: {} is not a table in {}", assignment, parts[i], document_->name);
+    table = next->as_table();
+  }
+  parsed.begin()->second.visit([&](auto& node) { table->insert_or_assign(parts.back(), std::move(node)); });
+  document_->overrides[key] = assignment;
+}
+
+const toml::node* TomlReader::find(std::string_view key) const {
+  document_->asked_for.insert(prefix_ + std::string(key));
+  const toml::table* table = table_;
+  const std::vector<std::string> parts = split(key);
+  for (std::size_t i = 0;; ++i) {
+    const toml::node* node = table->get(parts[i]);
+    if (!node) return nullptr;
+    document_->read.insert(node);
+    if (i + 1 == parts.size()) return node;
+    table = node->as_table();
+    if (!table) fail(key, fmt::format("'{}' is {}, not a table", parts[i], type_name(*node)));
+  }
+}
+
+bool TomlReader::has(std::string_view key) const { return find(key) != nullptr; }
+
+void TomlReader::require(std::string_view key) const {
+  if (!has(key)) fail(key, "is missing; add it");
+}
+
+void TomlReader::fail(std::string_view key, const std::string& sentence) const {
+  const std::string full = prefix_ + std::string(key);
+  if (const auto set = document_->overrides.find(full); set != document_->overrides.end())
+    throw_input_error("--set {}: {} {}", set->second, full, sentence);
+  const toml::node* node = table_->at_path(key).node();
+  const toml::node* place = node ? node : table_;
+  if (const auto line = place->source().begin.line; line > 0 && (node || !prefix_.empty()))
+    throw_input_error("{}:{}: {} {}", document_->name, line, full, sentence);
+  throw_input_error("{}: {} {}", document_->name, full, sentence);
+}
+
+double TomlReader::checked(std::string_view key, const toml::node& node, Range range) const {
+  if (!node.is_number()) fail(key, fmt::format("is {}; give a number", type_name(node)));
+  const double number = *node.value<double>();
+  if (!std::isfinite(number)) fail(key, fmt::format("is {}; give a finite number", number));
+  const bool inside = range.open ? number > range.lowest && number < range.highest
+                                 : number >= range.lowest && number <= range.highest;
+  if (!inside) fail(key, fmt::format("is {}; give a number {}", number, range_text(range)));
+  return number;
+}
+
+double TomlReader::number(std::string_view key, double fallback, Range range) const {
+  const toml::node* node = find(key);
+  return node ? checked(key, *node, range) : fallback;
+}
+
+int TomlReader::integer(std::string_view key, int fallback, int lowest, int highest) const {
+  const toml::node* node = find(key);
+  if (!node) return fallback;
+  if (!node->is_integer()) fail(key, fmt::format("is {}; give an integer", type_name(*node)));
+  const std::int64_t number = *node->value<std::int64_t>();
+  if (number < lowest || number > highest)
+    fail(key, fmt::format("is {}; give an integer from {} to {}", number, lowest, highest));
+  return static_cast<int>(number);
+}
+
+bool TomlReader::boolean(std::string_view key, bool fallback) const {
+  const toml::node* node = find(key);
+  if (!node) return fallback;
+  if (!node->is_boolean()) fail(key, fmt::format("is {}; give true or false", type_name(*node)));
+  return *node->value<bool>();
+}
+
+std::string TomlReader::text(std::string_view key, const std::string& fallback) const {
+  const toml::node* node = find(key);
+  if (!node) return fallback;
+  if (!node->is_string()) fail(key, fmt::format("is {}; give a string in quotes", type_name(*node)));
+  return *node->value<std::string>();
+}
+
+std::vector<double> TomlReader::numbers(std::string_view key, const std::vector<double>& fallback,
+                                        Range range) const {
+  if (!has(key)) return fallback;
+  const std::vector<double> found = profile(key, fallback, range);
+  if (found.size() != fallback.size())
+    fail(key, fmt::format("has {} numbers; give {}", found.size(), fallback.size()));
+  return found;
+}
+
+std::vector<double> TomlReader::profile(std::string_view key, const std::vector<double>& fallback,
+                                        Range range) const {
+  const toml::node* node = find(key);
+  if (!node) return fallback;
+  const toml::array* array = node->as_array();
+  if (!array) return {checked(key, *node, range)};
+  if (array->empty()) fail(key, "is empty; give at least one number");
+  std::vector<double> found;
+  for (const toml::node& element : *array) found.push_back(checked(key, element, range));
+  return found;
+}
+
+std::vector<std::vector<double>> TomlReader::points(std::string_view key) const {
+  const toml::node* node = find(key);
+  std::vector<std::vector<double>> found;
+  if (!node) return found;
+  const char* expected = "is not a list of points; write [[x, y], [x, y], ...]";
+  if (!node->is_array()) fail(key, expected);
+  for (const toml::node& element : *node->as_array()) {
+    const toml::array* point = element.as_array();
+    if (!point || point->size() != 2) fail(key, expected);
+    found.push_back({checked(key, (*point)[0], any_number), checked(key, (*point)[1], any_number)});
+  }
+  return found;
+}
+
+int TomlReader::choice(std::string_view key, int fallback, const std::vector<std::string>& names) const {
+  if (!has(key)) return fallback;
+  const std::string name = text(key, "");
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end()) fail(key, fmt::format("is '{}'; take one of: {}", name, fmt::join(names, ", ")));
+  return static_cast<int>(found - names.begin());
+}
+
+std::vector<TomlReader> TomlReader::tables(std::string_view key) const {
+  std::vector<TomlReader> found;
+  const toml::node* node = find(key);
+  if (!node) return found;
+  if (!node->is_array_of_tables())
+    fail(key, fmt::format("is {}; write [[{}]] tables", type_name(*node), key));
+  auto* array = const_cast<toml::node*>(node)->as_array();  // the document is ours; find() only looks
+  for (toml::node& element : *array) {
+    document_->read.insert(&element);
+    found.push_back({document_, element.as_table(), prefix_ + std::string(key) + "."});
+  }
+  return found;
+}
+
+void TomlReader::reject_unread() const {
+  const auto visit = [this](const auto& self, const toml::table& table, const std::string& prefix) -> void {
+    for (const auto& [key, node] : table) {
+      const std::string full = prefix + std::string(key.str());
+      if (!document_->read.contains(&node)) {
+        const std::string suggestion = nearest(full, document_->asked_for);
+        const auto set = std::find_if(
+            document_->overrides.begin(), document_->overrides.end(),
+            [&](const auto& one) { return one.first == full || one.first.starts_with(full + "."); });
+        const std::string place = set != document_->overrides.end()
+                                      ? "--set " + set->second
+                                      : fmt::format("{}:{}", document_->name, node.source().begin.line);
+        throw_input_error("{}: unknown key {}{}", place, full,
+                          suggestion.empty() ? "; remove it (--help lists what there is)"
+                                             : fmt::format("; did you mean {}?", suggestion));
+      }
+      if (const toml::table* inner = node.as_table()) self(self, *inner, full + ".");
+      if (const toml::array* array = node.as_array()) {
+        for (const toml::node& element : *array)
+          if (const toml::table* inner = element.as_table()) self(self, *inner, full + ".");
+      }
+    }
+  };
+  visit(visit, document_->root, "");
+}
+
+}  // namespace sandstroke

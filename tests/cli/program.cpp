@@ -1,0 +1,70 @@
+#include "cli/program.h"
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <sstream>
+
+namespace sandstroke {
+namespace fs = std::filesystem;
+
+std::string read_file(const fs::path& path) {
+  std::ostringstream text;
+  text << std::ifstream(path, std::ios::binary).rdbuf();
+  return text.str();
+}
+
+void write_file(const fs::path& path, const std::string& text) {
+  std::ofstream(path, std::ios::binary) << text;
+}
+
+ProgramResult run_program(const std::vector<std::string>& arguments, const fs::path& folder,
+                          int signal_after_ms) {
+  const fs::path out = folder / ".stdout", err = folder / ".stderr";
+  std::vector<char*> argv = {const_cast<char*>("sandstroke")};
+  for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
+  argv.push_back(nullptr);
+
+  const pid_t child = fork();
+  if (child == 0) {
+    const int out_file = open(out.c_str(), O_CREAT | O_TRUNC | O_WRONLY, 0644);
+    const int err_file = open(err.c_str(), O_CREAT | O_TRUNC | O_WRONLY, 0644);
+    dup2(out_file, STDOUT_FILENO);
+    dup2(err_file, STDERR_FILENO);
+    if (chdir(folder.c_str()) == 0) execv(SANDSTROKE_PROGRAM, argv.data());
+    _exit(127);
+  }
+  if (signal_after_ms >= 0) {
+    usleep(static_cast<useconds_t>(1000 * signal_after_ms));
+    kill(child, SIGINT);
+  }
+  int status = 0;
+  waitpid(child, &status, 0);
+  ProgramResult result;
+  result.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  result.out = read_file(out);
+  result.err = read_file(err);
+  return result;
+}
+
+fs::path test_folder() {
+  const auto* test = testing::UnitTest::GetInstance()->current_test_info();
+  std::string name = std::string("cli_") + test->test_suite_name() + "_" + test->name();
+  for (char& c : name) c = c == '/' ? '_' : c;
+  const fs::path folder = fs::path(testing::TempDir()) / name;
+  fs::remove_all(folder);
+  fs::create_directories(folder);
+  write_file(folder / "scene.toml",
+             "[bed]\nsize = [0.3, 0.2]\ncells = [150, 100]\n[stroke]\nfile = \"line.toml\"\n[view]\nsize = "
+             "[320, 180]\n");
+  write_file(
+      folder / "line.toml",
+      "start = [-0.05, 0.0]\nspeed = 0.2\n[[segment]]\nkind = \"line\"\nto = [0.05, 0.0]\ndepth = 0.004\n");
+  return folder;
+}
+
+}  // namespace sandstroke

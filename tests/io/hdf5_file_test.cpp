@@ -1,0 +1,133 @@
+#include "io/hdf5_file.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "core/error.h"
+#include "core/output_file.h"
+
+namespace sandstroke {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Hdf5File : public testing::Test {
+ protected:
+  void SetUp() override {
+    path_ = fs::path(testing::TempDir()) /
+            (std::string("hdf5_") + testing::UnitTest::GetInstance()->current_test_info()->name() + ".h5");
+    fs::remove(path_);
+    fs::remove(part_path(path_));
+  }
+  void TearDown() override {
+    fs::remove(path_);
+    fs::remove(part_path(path_));
+  }
+  std::string error_of_reading(const std::function<void(const Hdf5Reader&)>& read) {
+    try {
+      read(Hdf5Reader(path_));
+    } catch (const Error& failure) {
+      return failure.what();
+    }
+    ADD_FAILURE() << "no error";
+    return {};
+  }
+  fs::path path_;
+};
+
+TEST_F(Hdf5File, GivesBackWhatWasWritten) {
+  HeightGrid grid(300, 200);
+  for (int i = 0; i < grid.size(); ++i) grid.data()[i] = 0.1 * i;
+  Hdf5Writer writer(path_);
+  writer.write("/a/b/doubles", std::vector<double>{1.0, 0.1, -1e300});
+  writer.write("/a/vectors", std::vector<Eigen::Vector3d>{{1, 2, 3}, {4, 5, 6}});
+  writer.write("/flags", std::vector<std::uint8_t>{0, 1, 255});
+  for (const Compression compression : {Compression::none, Compression::fast, Compression::small})
+    writer.write("/grid" + std::to_string(static_cast<int>(compression)), grid, compression);
+  writer.write("/text", std::string("zwei Wörter"));
+  writer.write("/empty", std::vector<double>{});
+  writer.attribute("/a", "number", 2.5);
+  writer.attribute("/a", "number", 3.5);
+  writer.attribute("/", "word", "yes");
+  writer.finish();
+
+  EXPECT_FALSE(fs::exists(part_path(path_)));
+  const Hdf5Reader reader(path_);
+  EXPECT_EQ(reader.doubles("/a/b/doubles"), (std::vector<double>{1.0, 0.1, -1e300}));
+  EXPECT_EQ(reader.vectors("/a/vectors")[1], Eigen::Vector3d(4, 5, 6));
+  EXPECT_EQ(reader.integers("/flags"), (std::vector<std::uint32_t>{0, 1, 255}));
+  for (const char* name : {"/grid0", "/grid1", "/grid2"}) EXPECT_TRUE((reader.grid(name) == grid).all());
+  EXPECT_EQ(reader.text("/text"), "zwei Wörter");
+  EXPECT_TRUE(reader.doubles("/empty").empty());
+  EXPECT_EQ(reader.number_attribute("/a", "number"), 3.5);
+  EXPECT_EQ(reader.text_attribute("/", "word"), "yes");
+  EXPECT_EQ(reader.members("/a"), (std::vector<std::string>{"b", "vectors"}));
+  EXPECT_FALSE(reader.has("/a/none/deeper"));
+}
+
+TEST_F(Hdf5File, ColumnsGrowAndCanBeReadAfterAFlushWithoutFinish) {
+  {
+    Hdf5Writer writer(path_);
+    Hdf5Column times = writer.column("/trace/time"), forces = writer.column("/trace/force", 3);
+    Hdf5Column flags = writer.byte_column("/trace/contact");
+    for (int i = 0; i < 10'000; i += 2) {
+      const double time[2] = {0.5 * i, 0.5 * (i + 1)}, force[6] = {1.0 * i, 2, 3, 4, 5, 6.0 * i};
+      const std::uint8_t flag[2] = {0, 1};
+      times.append(time, 2);
+      forces.append(force, 2);
+      flags.append(flag, 2);
+    }
+    writer.flush();
+  }
+  EXPECT_FALSE(fs::exists(path_));  // never finished
+  const Hdf5Reader reader(part_path(path_));
+  EXPECT_EQ(reader.doubles("/trace/time").size(), 10'000u);
+  EXPECT_EQ(reader.doubles("/trace/time")[9'999], 4999.5);
+  EXPECT_EQ(reader.vectors("/trace/force")[9'999], Eigen::Vector3d(4, 5, 6.0 * 9'998));
+  EXPECT_EQ(reader.integers("/trace/contact")[3], 1u);
+}
+
+TEST_F(Hdf5File, ErrorsNameFileAndDataset) {
+  Hdf5Writer writer(path_);
+  writer.write("/line", std::vector<double>{1.0, 2.0});
+  writer.write("/text", std::string("word"));
+  writer.make_group("/group");
+  writer.finish();
+  const auto says = [&](const std::function<void(const Hdf5Reader&)>& read, const std::string& dataset,
+                        const std::string& part) {
+    const std::string said = error_of_reading(read);
+    EXPECT_NE(said.find(path_.string()), std::string::npos) << said;
+    EXPECT_NE(said.find(dataset), std::string::npos) << said;
+    EXPECT_NE(said.find(part), std::string::npos) << said;
+  };
+  says([](const Hdf5Reader& r) { r.doubles("/none"); }, "/none", "missing");
+  says([](const Hdf5Reader& r) { r.grid("/line"); }, "/line", "1 dimensions");
+  says([](const Hdf5Reader& r) { r.doubles("/text"); }, "/text", "numbers");
+  says([](const Hdf5Reader& r) { r.text("/line"); }, "/line", "string");
+  says([](const Hdf5Reader& r) { r.doubles("/group"); }, "/group", "not a dataset");
+  says([](const Hdf5Reader& r) { r.number_attribute("/line", "unit"); }, "/line", "unit");
+  says([](const Hdf5Reader& r) { r.members("/line"); }, "/line", "not a group");
+}
+
+TEST_F(Hdf5File, RefusesWhatIsNoWholeHdf5File) {
+  EXPECT_NE(error_of_reading([](const Hdf5Reader&) {}).find("cannot be opened"), std::string::npos);
+  std::ofstream(path_) << "just text";
+  EXPECT_NE(error_of_reading([](const Hdf5Reader&) {}).find("not an HDF5 file"), std::string::npos);
+  {
+    Hdf5Writer writer(path_);
+    writer.write("/grid", HeightGrid(HeightGrid::Ones(200, 200)));
+    writer.finish();
+  }
+  fs::resize_file(path_, fs::file_size(path_) / 2);
+  EXPECT_NE(error_of_reading([](const Hdf5Reader& r) { r.grid("/grid"); }).find("truncated"),
+            std::string::npos);
+}
+
+TEST_F(Hdf5File, ADiskThatTakesNothingIsAnError) {
+  EXPECT_THROW(Hdf5Writer("/proc/nowhere/file.h5"), Error);
+  EXPECT_THROW(Hdf5Writer(fs::path(testing::TempDir()) / "no-such-folder" / "file.h5"), Error);
+}
+
+}  // namespace
+}  // namespace sandstroke

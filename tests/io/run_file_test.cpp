@@ -1,0 +1,104 @@
+#include "io/run_file.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+
+#include "core/error.h"
+#include "core/output_file.h"
+#include "io/run_scene.h"
+#include "io/scene_toml.h"
+
+namespace sandstroke {
+namespace {
+
+namespace fs = std::filesystem;
+
+class RunFileTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = fs::path(testing::TempDir()) /
+              (std::string("run_") + testing::UnitTest::GetInstance()->current_test_info()->name());
+    fs::create_directories(folder_);
+    std::ofstream(folder_ / "line.toml") << "start = [-0.05, 0.0]\nspeed = 0.2\n[[segment]]\nkind = 'line'\n"
+                                            "to = [0.05, 0.0]\ndepth = 0.004\n";
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  Scene scene(const std::vector<std::string>& overrides = {}) {
+    return scene_from_text("[bed]\nsize = [0.3, 0.2]\ncells = [150, 100]\n[stroke]\nfile = 'line.toml'\n",
+                           "scene.toml", overrides);
+  }
+  RunResult run(const Scene& scene, const std::string& name, int threads = 1) {
+    RunOptions options;
+    options.scene_folder = folder_;
+    options.threads = threads;
+    return run_scene(scene, folder_ / name, options);
+  }
+  fs::path folder_;
+};
+
+TEST_F(RunFileTest, HoldsWhatTheDesignPromises) {
+  const RunResult result = run(scene({"output.frames=5"}), "a.h5");
+  const RunFile file(folder_ / "a.h5");
+  EXPECT_TRUE(file.complete());
+  EXPECT_EQ(file.cell_size(), 0.002);
+  EXPECT_EQ(file.initial().rows(), 100);
+  EXPECT_EQ(file.initial().cols(), 150);
+  EXPECT_TRUE((file.initial() == 0.0).all());
+  EXPECT_LT(file.final().minCoeff(), -0.001);
+  const RunTrace trace = file.trace();
+  ASSERT_EQ(static_cast<std::int64_t>(trace.size()), result.ticks);
+  double max_force = 0.0;
+  for (const auto& force : trace.device_force) max_force = std::max(max_force, force.norm());
+  EXPECT_EQ(max_force, result.max_force);
+  EXPECT_EQ(std::count(trace.contact.begin(), trace.contact.end(), 1u), result.contact_ticks);
+  EXPECT_EQ(scene_text(scene_from_text(file.scene_text(), "stored")), scene_text(scene({"output.frames=5"})));
+
+  const std::vector<double> times = file.frame_times();
+  ASSERT_GT(times.size(), 3u);
+  EXPECT_EQ(times[0], 0.0);
+  EXPECT_DOUBLE_EQ(times[2], 0.4);
+  EXPECT_TRUE((file.frame(0) == file.initial()).all());
+  EXPECT_FALSE((file.frame(static_cast<int>(times.size()) - 1) == file.initial()).all());
+  EXPECT_NEAR(file.frame(2).sum(), 0.0, 1e-12);
+
+  EXPECT_FALSE(fs::exists(part_path(folder_ / "a.h5")));
+  EXPECT_NE(read_text_file(folder_ / "a.xdmf").find("a.h5:/surface/final"), std::string::npos);
+}
+
+TEST_F(RunFileTest, SameInputSameBitsForAnyNumberOfThreadsAndBothEngines) {
+  run(scene(), "one.h5", 1);
+  run(scene(), "two.h5", 2);
+  run(scene(), "eight.h5", 8);
+  run(scene({"relaxation.engine=reference"}), "reference.h5", 1);
+  const RunFile one(folder_ / "one.h5");
+  for (const char* name : {"two.h5", "eight.h5", "reference.h5"}) {
+    const RunFile other(folder_ / name);
+    EXPECT_TRUE((one.final() == other.final()).all()) << name;
+    EXPECT_EQ(one.trace().device_force, other.trace().device_force) << name;
+    EXPECT_EQ(one.trace().displaced_volume, other.trace().displaced_volume) << name;
+  }
+}
+
+TEST_F(RunFileTest, ASurfaceCanComeFromARunFile) {
+  run(scene(), "first.h5");
+  Scene second = scene({"bed.surface={ kind = 'file', file = 'first.h5' }"});
+  run(second, "second.h5");
+  EXPECT_TRUE((RunFile(folder_ / "second.h5").initial() == RunFile(folder_ / "first.h5").final()).all());
+  EXPECT_THROW(
+      run(scene({"bed.surface={ kind = 'file', file = 'first.h5' }", "bed.cells=[300, 200]"}), "third.h5"),
+      Error);
+}
+
+TEST_F(RunFileTest, RefusesOtherFiles) {
+  Hdf5Writer writer(folder_ / "other.h5");
+  writer.write("/data", std::vector<double>{1.0});
+  writer.finish();
+  EXPECT_THROW(RunFile(folder_ / "other.h5"), Error);
+  EXPECT_THROW(RunFile(folder_ / "line.toml"), Error);
+}
+
+}  // namespace
+}  // namespace sandstroke

@@ -1,0 +1,94 @@
+#include "io/scene_toml.h"
+
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+
+namespace sandstroke {
+namespace {
+
+Scene read(const std::string& text, const std::vector<std::string>& overrides = {}) {
+  return scene_from_text(text, "scene.toml", overrides);
+}
+
+TEST(SceneToml, AnEmptySceneIsThePapers) {
+  const Scene scene = read("");
+  EXPECT_EQ(scene.bed.width, 2.0);
+  EXPECT_EQ(scene.bed.rows, 1000);
+  EXPECT_EQ(scene.tool.radius, 0.01);
+  EXPECT_EQ(scene.force.k_s, 1000.0);
+  EXPECT_EQ(scene.force.k_c, 0.5);
+  EXPECT_EQ(scene.force.k_f, 10.0);
+  EXPECT_EQ(scene.relaxation.law, RelaxationLaw::paper);
+  EXPECT_EQ(scene.relaxation.talus_angle, 30.0);
+  EXPECT_EQ(scene.displacement.deposit, Deposit::ring);
+  EXPECT_EQ(scene.tool.profile, ToolProfile::paper);
+  EXPECT_FALSE(scene.stroke.has_value());
+}
+
+TEST(SceneToml, ThePresetIsOverriddenByKeysAndKeysBySet) {
+  const Scene scene =
+      read("[model]\npreset = 'accurate'\n[displacement]\ndeposit = 'ring'\n[relaxation]\ntalus_angle = 20\n",
+           {"relaxation.talus_angle=25"});
+  EXPECT_EQ(scene.tool.profile, ToolProfile::sphere);
+  EXPECT_EQ(scene.relaxation.law, RelaxationLaw::isotropic);
+  EXPECT_EQ(scene.displacement.deposit, Deposit::ring);
+  EXPECT_EQ(scene.relaxation.talus_angle, 25.0);
+}
+
+TEST(SceneToml, DevicePresetSetsItsLimitsAndKeysOverrideThem) {
+  EXPECT_EQ(read("[device]\npreset = 'touch'\n").device.max_force, 3.3);
+  EXPECT_EQ(read("[device]\npreset = 'touch'\nmax_force = 1\n").device.max_force, 1.0);
+}
+
+TEST(SceneToml, TheResolvedTextReadsBackAsTheSameScene) {
+  const Scene scene = read(
+      "[model]\npreset = 'accurate'\n[bed]\nsize = [0.5, 1.0]\ncells = [100, 200]\n"
+      "surface = { kind = 'noise', amplitude = 0.003, seed = 9 }\n[tool]\nradius = 0.0123456789\n"
+      "[device]\npreset = 'touch'\nmax_force = 2.5\nmodel = 'dynamic'\n"
+      "[stroke]\nfile = 'a \"b\".h5'\nplane = 'fit'\ndepth = 0.004\nstop = 3\n[view]\nname = 'top'\n");
+  const std::string text = scene_text(scene);
+  EXPECT_EQ(scene_text(read(text)), text);
+  EXPECT_NE(text.find("radius = 0.0123456789"), std::string::npos);
+  EXPECT_NE(text.find("max_force = 2.5"), std::string::npos);
+  EXPECT_EQ(read(text).stroke->file, "a \"b\".h5");
+}
+
+TEST(SceneToml, EveryKeyOfTheTableIsAccepted) {
+  const std::string table = scene_key_table();
+  for (const char* key :
+       {"bed.cells", "force.k_s", "relaxation.talus_angle", "device.servo_rate", "stroke.file", "view.size"})
+    EXPECT_NE(table.find(key), std::string::npos) << key;
+}
+
+TEST(SceneToml, RefusesWhatCannotBeMeant) {
+  const auto refuses = [](const std::string& text, const std::string& part) {
+    try {
+      read(text);
+      ADD_FAILURE() << "accepted: " << text;
+    } catch (const Error& failure) {
+      EXPECT_EQ(failure.exit_code(), 2);
+      EXPECT_NE(std::string(failure.what()).find("scene.toml"), std::string::npos) << failure.what();
+      EXPECT_NE(std::string(failure.what()).find(part), std::string::npos) << failure.what();
+    }
+  };
+  refuses("[tool]\nradus = 1\n", "did you mean tool.radius");
+  refuses("[bed]\ncells = [0, 10]\n", "from 1 to 65536");
+  refuses("[bed]\ncells = [1.5, 10]\n", "integers");
+  refuses("[bed]\ncells = [1000, 999]\n", "square");
+  refuses("[bed]\ncells = [65536, 65536]\n", "memory");
+  refuses("[bed.surface]\nradius = 1.0\n", "unknown key bed.surface.radius");  // flat has none
+  refuses("[bed]\nsurface = { kind = 'file' }\n", "bed.surface.file");
+  refuses("[relaxation]\ntalus_angle = 0\n", "above 0 and below 90");
+  refuses("[relaxation]\ntalus_angle = 90.0\n", "above 0 and below 90");
+  refuses("[relaxation]\nlaw = 'magic'\n", "paper, isotropic");
+  refuses("[relaxation]\nlaw = 'isotropic'\nshare = 0.3\n", "0.25");
+  refuses("[tool]\nradius = 3.0\n", "fit");
+  refuses("[tool]\nradius = 1e-4\n[stroke]\nfile = 'x.h5'\n", "half a cell");
+  refuses("[stroke]\nscale = 2\n", "stroke.file");
+  refuses("[device]\nservo_rate = 0\n", "device.servo_rate");
+  refuses("[force]\nk_s = inf\n", "finite");
+}
+
+}  // namespace
+}  // namespace sandstroke

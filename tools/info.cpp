@@ -1,0 +1,90 @@
+#include <spdlog/fmt/fmt.h>
+
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "commands.h"
+#include "core/error.h"
+#include "io/run_file.h"
+#include "io/scene_toml.h"
+
+namespace sandstroke {
+namespace {
+
+struct Arguments {
+  std::string file;
+  bool json = false, scene = false, scene_keys = false;
+};
+
+nlohmann::ordered_json describe(const RunFile& run) {
+  nlohmann::ordered_json facts;
+  facts["file"] = run.name();
+  facts["complete"] = run.complete();
+  const HeightGrid initial = run.initial();
+  facts["cells"] = {initial.cols(), initial.rows()};
+  facts["cell_size"] = run.cell_size();
+  const auto add_heights = [&](const char* name, const HeightGrid& heights) {
+    facts[name] = {{"lowest", heights.minCoeff()}, {"highest", heights.maxCoeff()}};
+  };
+  add_heights("initial", initial);
+  if (run.has_final()) {
+    const HeightGrid final = run.final();
+    add_heights("final", final);
+    facts["changed_cells"] = (final != initial).count();
+  }
+  facts["frames"] = run.frame_times().size();
+  if (run.has_trace()) {
+    const RunTrace trace = run.trace();
+    double force = 0.0, depth = 0.0;
+    for (const auto& f : trace.device_force) force = std::max(force, f.norm());
+    for (const double d : trace.depth) depth = std::max(depth, d);
+    facts["trace"] = {{"ticks", trace.size()},
+                      {"seconds", trace.size() > 1 ? trace.time.back() - trace.time.front() : 0.0},
+                      {"max_force", force},
+                      {"max_depth", depth}};
+  }
+  for (const auto& [name, value] : run.provenance()) facts["provenance"][name] = value;
+  return facts;
+}
+
+void print_table(const nlohmann::ordered_json& facts) {
+  const nlohmann::ordered_json flat = facts.flatten();
+  for (const auto& [path, value] : flat.items()) {
+    fmt::print("{:<24} {}\n", path.substr(1), value.is_string() ? value.get<std::string>() : value.dump());
+  }
+}
+
+int info(const Arguments& arguments) {
+  if (arguments.scene_keys) {
+    fmt::print("{}", scene_key_table());
+    return 0;
+  }
+  if (arguments.file.empty())
+    throw_input_error("info: no file given; name a run file, or ask for --scene-keys");
+  const RunFile run(arguments.file);
+  if (arguments.scene) {
+    fmt::print("{}", run.scene_text());
+  } else if (arguments.json) {
+    fmt::print("{}\n", describe(run).dump(2));
+  } else {
+    print_table(describe(run));
+  }
+  return 0;
+}
+
+}  // namespace
+
+void add_info_command(CLI::App& app, Command& chosen) {
+  CLI::App* command =
+      app.add_subcommand("info", "Show what a run file holds, or which keys a scene can have");
+  auto arguments = std::make_shared<Arguments>();
+  command->add_option("FILE", arguments->file, "Run file (HDF5)");
+  command->add_flag("--json", arguments->json, "Print one JSON object");
+  command->add_flag("--scene", arguments->scene, "Print the scene the run was made from (TOML)");
+  command->add_flag("--scene-keys", arguments->scene_keys,
+                    "List every scene key with its default, unit and meaning");
+  command->footer("Example:  sandstroke info wscg.h5");
+  command->callback([arguments, &chosen] { chosen = [arguments] { return info(*arguments); }; });
+}
+
+}  // namespace sandstroke

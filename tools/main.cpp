@@ -1,0 +1,68 @@
+#include <spdlog/spdlog.h>
+
+#include <new>
+
+#include "commands.h"
+#include "core/error.h"
+#include "core/interrupt.h"
+#include "core/log.h"
+#include "core/version.h"
+
+namespace {
+
+using namespace sandstroke;
+
+constexpr int usage_error = 2;
+constexpr int io_error = 4;
+
+int run_program(int argc, char** argv) {
+  CLI::App app(
+      "Simulates sand that is sculpted with a haptic device: a stroke goes in; a height field, a trace, a "
+      "picture "
+      "and a verdict come out.");
+  app.name("sandstroke");
+  app.set_version_flag("--version", fmt::format("sandstroke {} ({}, {})", version, commit, compiler));
+  app.require_subcommand(1);
+  app.fallthrough();
+  app.footer(
+      "Exit codes: 0 fine, 1 a comparison failed, 2 bad input or usage, 3 not converged or unstable, 4 "
+      "input/output\n"
+      "error, 130/143 stopped by a signal. Each command explains itself: sandstroke run --help");
+  bool quiet = false, verbose = false;
+  app.add_flag("-q,--quiet", quiet, "Say nothing but results, warnings and errors");
+  app.add_flag("-v,--verbose", verbose, "Say more");
+
+  Command chosen;
+  add_run_command(app, chosen);
+  add_render_command(app, chosen);
+  add_compare_command(app, chosen);
+  add_golden_command(app, chosen);
+  add_stroke_command(app, chosen);
+  add_info_command(app, chosen);
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& failure) {
+    return app.exit(failure) == 0 ? 0 : usage_error;
+  }
+  start_log(quiet ? 0 : verbose ? 2 : 1);
+  catch_interrupts();
+  return chosen();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run_program(argc, argv);
+  } catch (const Error& failure) {
+    fmt::print(stderr, "sandstroke: {}\n", failure.what());
+    return failure.exit_code();
+  } catch (const std::bad_alloc&) {
+    fmt::print(stderr, "sandstroke: out of memory; take a smaller bed or picture, or close other programs\n");
+    return io_error;
+  } catch (const std::exception& failure) {
+    fmt::print(stderr, "sandstroke: unexpected failure: {}\n", failure.what());
+    return io_error;
+  }
+}

@@ -1,0 +1,148 @@
+#include <spdlog/spdlog.h>
+
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "commands.h"
+#include "core/error.h"
+#include "core/interrupt.h"
+#include "io/png_file.h"
+#include "io/run_file.h"
+#include "io/run_scene.h"
+#include "io/scene_toml.h"
+#include "run_picture.h"
+
+namespace sandstroke {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Arguments {
+  std::string scene, output, stroke, picture;
+  std::vector<std::string> overrides;
+  double frames = -1.0;
+  int threads = 0;
+  bool json = false;
+};
+
+nlohmann::ordered_json as_json(const RunResult& r, const std::string& output) {
+  return {
+      {"output", output},
+      {"wall_seconds", r.wall_seconds},
+      {"ticks", r.ticks},
+      {"simulated_seconds", r.simulated_seconds},
+      {"real_time_factor", r.simulated_seconds / r.wall_seconds},
+      {"contact_ticks", r.contact_ticks},
+      {"saturated_ticks", r.saturated_ticks},
+      {"gaps", r.gaps},
+      {"passes", r.passes},
+      {"relaxations", r.relaxations},
+      {"cells_visited", r.cells_visited},
+      {"tiles_active_max", r.tiles_active_max},
+      {"residual", r.residual},
+      {"converged", r.converged},
+      {"volume_initial", r.volume_initial},
+      {"volume_final", r.volume_final},
+      {"volume_drift", r.volume_drift},
+      {"displaced_volume", r.displaced_volume},
+      {"moved_volume", r.moved_volume},
+      {"max_force", r.max_force},
+      {"max_depth", r.max_depth},
+      {"absorbed_energy", r.absorbed_energy},
+      {"least_absorbed_energy", r.least_absorbed_energy},
+      {"least_passivity_margin", r.least_passivity_margin},
+      {"threads", r.threads},
+      {"interrupted", r.interrupted},
+  };
+}
+
+void print_summary(const RunResult& r, const std::string& output) {
+  const auto row = [](const char* name, const std::string& value) { fmt::print("{:<18} {}\n", name, value); };
+  row("run", output);
+  if (r.ticks > 0) {
+    row("stroke",
+        fmt::format("{:.3f} s, {} ticks, {} in contact", r.simulated_seconds, r.ticks, r.contact_ticks));
+    row("speed", fmt::format("{:.1f} times real time", r.simulated_seconds / r.wall_seconds));
+    row("deepest", fmt::format("{:.3f} mm", 1e3 * r.max_depth));
+    row("largest force",
+        fmt::format("{:.3f} N{}", r.max_force,
+                    r.saturated_ticks > 0 ? fmt::format(", limited in {} ticks", r.saturated_ticks) : ""));
+    row("energy into sand", fmt::format("{:.4g} J", r.absorbed_energy));
+    if (r.gaps > 0) row("gaps", fmt::format("{}: the tool was lifted there", r.gaps));
+  }
+  row("sand moved", fmt::format("{:.6g} m^3, volume drift {:.1e} of it", r.moved_volume, r.volume_drift));
+  row("relaxation", fmt::format("{} passes, residual {:.2e}, {}", r.passes, r.residual,
+                                r.converged ? "at rest" : "NOT AT REST"));
+}
+
+int run(const Arguments& arguments) {
+  const fs::path scene_path = arguments.scene;
+  std::vector<std::string> overrides = arguments.overrides;
+  if (!arguments.stroke.empty())
+    overrides.push_back("stroke.file=" + nlohmann::json(fs::absolute(arguments.stroke).string()).dump());
+  if (arguments.frames >= 0.0) overrides.push_back(fmt::format("output.frames={}", arguments.frames));
+  const Scene scene = load_scene(scene_path, overrides);
+  const std::string output = arguments.output.empty() ? scene_path.stem().string() + ".h5" : arguments.output;
+
+  RunOptions options;
+  options.scene_folder = scene_path.parent_path();
+  options.threads = arguments.threads;
+  options.progress = true;
+  const RunResult result = run_scene(scene, output, options);
+
+  if (arguments.json) {
+    fmt::print("{}\n", as_json(result, output).dump(2));
+  } else {
+    print_summary(result, output);
+  }
+  if (result.interrupted) return 128 + interrupted();
+  if (!arguments.picture.empty()) write_png(arguments.picture, run_picture(RunFile(output), scene.view));
+  if (result.least_absorbed_energy < 0.0)
+    spdlog::warn(
+        "the sand returned up to {:.3g} J more than it took: the loop was not passive; lower force.k_s, "
+        "raise "
+        "device.servo_rate or device.damping",
+        -result.least_absorbed_energy);
+  if (!result.converged) {
+    spdlog::warn(
+        "the sand is not at rest (residual {:.2e}, tolerance {:.2e}); raise relaxation.max_passes or "
+        "relaxation.tolerance",
+        result.residual, scene.relaxation.tolerance);
+    return static_cast<int>(ErrorKind::unstable);
+  }
+  return 0;
+}
+
+}  // namespace
+
+void add_run_command(CLI::App& app, Command& chosen) {
+  CLI::App* command =
+      app.add_subcommand("run", "Simulate a scene: play its stroke through the sand and let it come to rest");
+  auto arguments = std::make_shared<Arguments>();
+  command->add_option("SCENE", arguments->scene, "Scene file (TOML)")->required();
+  command->add_option("-o,--output", arguments->output,
+                      "Run file to write (HDF5); default: SCENE's name with .h5, here");
+  command->add_option("--stroke", arguments->stroke,
+                      "Play this stroke instead of the scene's (.toml or .h5)");
+  command
+      ->add_option("--set", arguments->overrides,
+                   "Override a scene key, such as relaxation.talus_angle=35 (repeatable)")
+      ->type_name("KEY=VALUE")
+      ->take_all();
+  command->add_option("--frames", arguments->frames, "Keep surfaces during the run, this many a second [Hz]")
+      ->check(CLI::NonNegativeNumber);
+  command->add_option("--png", arguments->picture,
+                      "Draw the final surface into this picture, as the scene's [view] says");
+  command
+      ->add_option("--threads", arguments->threads,
+                   "Threads to use; 0: all cores. The result is the same for any number")
+      ->check(CLI::Range(0, 1024));
+  command->add_flag("--json", arguments->json, "Print the summary as one JSON object");
+  command->footer(
+      "Example:  sandstroke run strokes/wscg/scene.toml -o wscg.h5 --png wscg.png\n"
+      "All scene keys with units and defaults:  sandstroke info --scene-keys");
+  command->callback([arguments, &chosen] { chosen = [arguments] { return run(*arguments); }; });
+}
+
+}  // namespace sandstroke
