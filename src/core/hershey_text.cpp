@@ -28,7 +28,8 @@ SingleStrokeText hershey_text(std::string_view text, std::string_view font_name)
   for (const char letter : text) {
     const hershey_glyph* glyph = hershey_font_glyph(font.get(), static_cast<unsigned char>(letter));
     if (!glyph || (glyph->width == 0 && glyph->npaths == 0))
-      throw_input_error("font '{}' has no letter '{}'; write the text with ASCII letters", name, letter);
+      throw_input_error("font '{}' has no letter of code {}; write the text with ASCII letters", name,
+                        static_cast<int>(static_cast<unsigned char>(letter)));
     for (const hershey_path* path = glyph->paths; path; path = path->next) {
       std::vector<Eigen::Vector2d> line;
       for (int i = 0; i < path->nverts; ++i) {

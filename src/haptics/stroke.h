@@ -7,27 +7,40 @@
 
 namespace sandstroke {
 
-/// A hand motion over time, recorded or scripted: n samples of a tool tip, z up. Optional columns are empty or have
-/// n entries.
+/// Whether the pen is down at a sample. Where every sample was drawn, no flag is left for the gaps between
+/// pen strokes: so the last sample of a pen stroke says that the pen lifts right after it.
+enum PenState : std::uint8_t { pen_up = 0, pen_down = 1, pen_lifts = 2 };
+
+/// A hand motion over time, recorded or scripted: n samples of a tool tip, z up. Optional columns are empty
+/// or have n entries.
 struct Stroke {
-  std::vector<double> time;                ///< s, strictly increasing
-  std::vector<Eigen::Vector3d> position;   ///< m, in `frame`
-  std::vector<Eigen::Vector3d> velocity;   ///< m/s, as recorded (optional)
-  std::vector<Eigen::Vector3d> force;      ///< N, as recorded (optional)
-  std::vector<std::uint32_t> switches;     ///< device switches, bit by bit (optional)
-  std::vector<std::uint8_t> contact;       ///< 0 = pen up (optional)
-  double nominal_rate = 0.0;               ///< Hz; 0 = unknown
-  double gap_threshold = 0.1;              ///< s; samples further apart are not joined: the tool lifts
-  std::string source;                      ///< where it came from, for people
-  std::string frame = "bed";               ///< "bed" or "device"
-  bool complete = true;                    ///< false: cut off while being recorded
+  std::vector<double> time;               ///< s, strictly increasing
+  std::vector<Eigen::Vector3d> position;  ///< m, in `frame`
+  std::vector<Eigen::Vector3d> velocity;  ///< m/s, as recorded (optional)
+  std::vector<Eigen::Vector3d> force;     ///< N, as recorded (optional)
+  std::vector<std::uint32_t> switches;    ///< device switches, bit by bit (optional)
+  std::vector<std::uint8_t> contact;      ///< a PenState each (optional); without it the pen is down
+  double nominal_rate = 0.0;              ///< Hz; 0 = unknown
+  double gap_threshold = 0.1;             ///< s; samples further apart are not joined: the tool lifts
+  std::string source;                     ///< where it came from, for people
+  std::string frame = "bed";              ///< "bed" or "device"
+  bool complete = true;                   ///< false: cut off while being recorded
 
   std::size_t size() const { return time.size(); }
   double duration() const { return time.empty() ? 0.0 : time.back() - time.front(); }
+
+  /// The pen is down at sample i.
+  bool touches(std::size_t i) const { return contact.empty() || contact[i] != pen_up; }
+  /// Samples i and i + 1 are drawn as one line; otherwise the tool is lifted between them.
+  bool joined(std::size_t i) const {
+    return i + 1 < size() && touches(i) && touches(i + 1) && time[i + 1] - time[i] <= gap_threshold &&
+           (contact.empty() || contact[i] != pen_lifts);
+  }
 };
 
-/// What every reader and maker of a stroke guarantees: at least one sample, columns of equal length, finite numbers,
-/// strictly increasing time. Error: input; `name` says which stroke, the sentence names column and sample.
+/// What every reader and maker of a stroke guarantees: at least one sample, columns of equal length, finite
+/// numbers, strictly increasing time. Error: input; `name` says which stroke, the sentence names column and
+/// sample.
 void check_stroke(const Stroke& stroke, const std::string& name);
 
 }  // namespace sandstroke

@@ -15,7 +15,7 @@ constexpr hsize_t rows_per_chunk = 4096;  // of a growing column
 constexpr hsize_t chunk_side = 128;       // of a height field: a whole number of tiles
 
 [[noreturn]] void throw_write_error(const std::string& where) {
-  throw_io_error("{}: cannot be written; free disk space or choose another place (-o)", where);
+  throw_io_error("{}: cannot be written; free disk space or choose another place", where);
 }
 
 Hdf5Handle string_type(std::size_t length) {
@@ -56,7 +56,7 @@ Hdf5Writer::Hdf5Writer(const std::filesystem::path& path) : path_(path) {
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // errors are reported here, in the user's terms
   const std::string part = part_path(path).string();
   if (!std::ofstream(part, std::ios::app))
-    throw_io_error("{}: cannot be written ({}); choose another place (-o)", path.string(),
+    throw_io_error("{}: cannot be written ({}); choose another place", path.string(),
                    std::strerror(errno));
   file_ = Hdf5Handle(H5Fcreate(part.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose);
   check(file_.valid(), "");

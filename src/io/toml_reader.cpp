@@ -48,7 +48,8 @@ std::string nearest(const std::string& key, const std::set<std::string>& known) 
     return edit_distance(a, key) < edit_distance(b, key);
   };
   const auto best = std::min_element(known.begin(), known.end(), closer);
-  if (best == known.end() || edit_distance(*best, key) > 1 + key.size() / 3) return {};
+  // The key itself may be known: to another [[table]] of the same name.
+  if (best == known.end() || *best == key || edit_distance(*best, key) > 1 + key.size() / 3) return {};
   return *best;
 }
 

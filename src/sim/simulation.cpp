@@ -42,8 +42,7 @@ void Simulation::check_inside(const Stroke& stroke) const {
   for (std::size_t i = 0; i < stroke.size(); ++i) {
     const Eigen::Vector3d tip = tip_of(stroke.position[i]);
     const bool outside = std::abs(tip.x()) > half_x || std::abs(tip.y()) > half_y;
-    const bool down = stroke.contact.empty() || stroke.contact[i] != 0;
-    if (outside && down && tip.z() < highest)
+    if (outside && stroke.touches(i) && tip.z() < highest)
       throw_input_error(
           "the stroke enters the sand outside the bed: at {:.3f} s it is at x = {:.4g} m, y = {:.4g} m, and "
           "the "

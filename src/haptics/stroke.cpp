@@ -1,0 +1,63 @@
+#include "haptics/stroke.h"
+
+#include <cmath>
+
+#include "core/error.h"
+
+namespace sandstroke {
+namespace {
+
+void check_length(std::size_t length, const char* column, const Stroke& stroke, const std::string& name) {
+  if (length == stroke.size()) return;
+  throw_input_error("{}: {} has {} rows but time has {}; give every column one row per sample", name, column,
+                    length, stroke.size());
+}
+
+void check_vectors(const std::vector<Eigen::Vector3d>& rows, const char* column, const Stroke& stroke,
+                   const std::string& name) {
+  check_length(rows.size(), column, stroke, name);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (rows[i].allFinite()) continue;
+    throw_input_error(
+        "{}: {} of sample {} is ({}, {}, {}), which is not finite; repair or remove that sample", name,
+        column, i, rows[i].x(), rows[i].y(), rows[i].z());
+  }
+}
+
+}  // namespace
+
+void check_stroke(const Stroke& stroke, const std::string& name) {
+  if (stroke.time.empty()) throw_input_error("{}: time has no samples; a stroke needs at least one", name);
+  for (std::size_t i = 0; i < stroke.size(); ++i) {
+    const double t = stroke.time[i];
+    if (!std::isfinite(t))
+      throw_input_error("{}: time of sample {} is {}, which is not finite; repair or remove that sample",
+                        name, i, t);
+    if (i > 0 && !(t > stroke.time[i - 1])) {
+      throw_input_error(
+          "{}: time of sample {} is {} s, not later than the {} s before it; times must increase "
+          "strictly, so repair or remove that sample",
+          name, i, t, stroke.time[i - 1]);
+    }
+  }
+  check_vectors(stroke.position, "position", stroke, name);
+  if (!stroke.velocity.empty()) check_vectors(stroke.velocity, "velocity", stroke, name);
+  if (!stroke.force.empty()) check_vectors(stroke.force, "force", stroke, name);
+  if (!stroke.switches.empty()) check_length(stroke.switches.size(), "switches", stroke, name);
+  if (!stroke.contact.empty()) check_length(stroke.contact.size(), "contact", stroke, name);
+  for (std::size_t i = 0; i < stroke.contact.size(); ++i) {
+    if (stroke.contact[i] <= pen_lifts) continue;
+    throw_input_error(
+        "{}: contact of sample {} is {}; it must be 0 (pen up), 1 (down) or 2 (down, lifts right after)",
+        name, i, stroke.contact[i]);
+  }
+  if (!(stroke.gap_threshold > 0.0) || !std::isfinite(stroke.gap_threshold))
+    throw_input_error("{}: gap_threshold is {} s; it must be a positive number", name, stroke.gap_threshold);
+  if (!(stroke.nominal_rate >= 0.0) || !std::isfinite(stroke.nominal_rate))
+    throw_input_error("{}: nominal_rate is {} Hz; it must be positive, or 0 if unknown", name,
+                      stroke.nominal_rate);
+  if (stroke.frame != "bed" && stroke.frame != "device")
+    throw_input_error("{}: frame is '{}'; it must be 'bed' or 'device'", name, stroke.frame);
+}
+
+}  // namespace sandstroke

@@ -1,0 +1,112 @@
+#include "haptics/stroke_placement.h"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <numbers>
+
+#include "core/error.h"
+
+namespace sandstroke {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+template <class Row>
+void cut(std::vector<Row>& column, std::size_t begin, std::size_t end) {
+  if (column.empty()) return;
+  column.resize(end);
+  column.erase(column.begin(), column.begin() + static_cast<std::ptrdiff_t>(begin));
+}
+
+/// Keeps the samples from start to stop, and lets time begin at 0.
+void cut_time(Stroke& stroke, double start, double stop, const std::string& name) {
+  const double first = stroke.time.front();
+  std::size_t begin = 0, end = stroke.size();
+  while (begin < end && stroke.time[begin] - first < start) ++begin;
+  while (end > begin && stroke.time[end - 1] - first > stop) --end;
+  if (begin == end) {
+    throw_input_error("{}: no sample lies between start = {} s and stop = {} s; it lasts {} s", name, start,
+                      stop, stroke.duration());
+  }
+  cut(stroke.time, begin, end);
+  cut(stroke.position, begin, end);
+  cut(stroke.velocity, begin, end);
+  cut(stroke.force, begin, end);
+  cut(stroke.switches, begin, end);
+  cut(stroke.contact, begin, end);
+  const double played_first = stroke.time.front();
+  for (double& t : stroke.time) t -= played_first;
+}
+
+void rotate(Stroke& stroke, const Matrix3d& rotation) {
+  for (Vector3d& p : stroke.position) p = rotation * p;
+  for (Vector3d& v : stroke.velocity) v = rotation * v;
+  for (Vector3d& f : stroke.force) f = rotation * f;
+}
+
+/// The unit normal of the least-squares plane, with z >= 0.
+Vector3d plane_normal(const std::vector<Vector3d>& points, const Vector3d& centroid,
+                      const std::string& name) {
+  Matrix3d covariance = Matrix3d::Zero();
+  for (const Vector3d& p : points) covariance += (p - centroid) * (p - centroid).transpose();
+  const Eigen::SelfAdjointEigenSolver<Matrix3d> axes(covariance);  // eigenvalues in increasing order
+  // Squared widths: below this ratio the tracing is a line to within a millionth of its length.
+  if (points.size() < 3 || !(axes.eigenvalues()[1] > 1e-12 * axes.eigenvalues()[2])) {
+    throw_input_error(
+        "{}: plane = \"fit\" finds no plane, because its {} samples with the pen down lie on one line; "
+        "use plane = \"keep\" with offset",
+        name, points.size());
+  }
+  const Vector3d normal = axes.eigenvectors().col(0);
+  return normal.z() < 0.0 ? Vector3d(-normal) : normal;
+}
+
+void lay_level(Stroke& stroke, const std::string& name) {
+  std::vector<Vector3d> tracing;
+  for (std::size_t i = 0; i < stroke.size(); ++i) {
+    if (stroke.touches(i)) tracing.push_back(stroke.position[i]);
+  }
+  Vector3d centroid = Vector3d::Zero();
+  for (const Vector3d& p : tracing) centroid += p;
+  centroid /= static_cast<double>(std::max<std::size_t>(tracing.size(), 1));
+  const Matrix3d level =
+      Eigen::Quaterniond::FromTwoVectors(plane_normal(tracing, centroid, name), Vector3d::UnitZ())
+          .toRotationMatrix();
+
+  // About the centroid, which lies on the plane: small numbers, and z = 0 is the plane at once.
+  for (Vector3d& p : stroke.position) p -= centroid;
+  rotate(stroke, level);
+  Vector3d low = Vector3d::Constant(std::numeric_limits<double>::infinity()), high = -low;
+  for (std::size_t i = 0; i < stroke.size(); ++i) {
+    if (!stroke.touches(i)) continue;
+    low = low.cwiseMin(stroke.position[i]);
+    high = high.cwiseMax(stroke.position[i]);
+  }
+  const Vector3d centre(0.5 * (low.x() + high.x()), 0.5 * (low.y() + high.y()), 0.0);
+  for (Vector3d& p : stroke.position) p -= centre;
+}
+
+}  // namespace
+
+Stroke place_stroke(const Stroke& stroke, const StrokePlacement& placement, const std::string& name) {
+  if (!(placement.scale > 0.0))
+    throw_input_error("{}: scale is {}; it must be positive", name, placement.scale);
+  Stroke placed = stroke;
+  cut_time(placed, placement.start, placement.stop, name);
+  if (placement.plane == StrokePlane::fit) lay_level(placed, name);
+
+  for (Vector3d& p : placed.position) p *= placement.scale;
+  for (Vector3d& v : placed.velocity) v *= placement.scale;
+  if (placement.rotate_z != 0.0) {
+    const double angle = placement.rotate_z * std::numbers::pi / 180.0;
+    rotate(placed, Eigen::AngleAxisd(angle, Vector3d::UnitZ()).toRotationMatrix());
+  }
+  const Vector3d shift = placement.offset - placement.depth * Vector3d::UnitZ();
+  for (Vector3d& p : placed.position) p += shift;
+  check_stroke(placed, name);
+  return placed;
+}
+
+}  // namespace sandstroke

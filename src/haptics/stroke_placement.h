@@ -1,0 +1,36 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <limits>
+#include <string>
+
+#include "haptics/stroke.h"
+
+namespace sandstroke {
+
+/// keep: as recorded. fit: the plane through the tracing is laid level, with the tracing's centre on the
+/// origin.
+enum class StrokePlane { keep, fit };
+
+/// Where a stroke goes on the bed ([stroke] in a scene).
+struct StrokePlacement {
+  double scale = 1.0;                                ///< of positions and velocities, > 0
+  Eigen::Vector3d offset = Eigen::Vector3d::Zero();  ///< m
+  double rotate_z = 0.0;                             ///< deg, from +x towards +y
+  StrokePlane plane = StrokePlane::keep;
+  double depth = 0.0;  ///< m, how far below z = 0 the fitted plane is laid
+  double start = 0.0;  ///< s after the first sample: earlier samples are cut
+  double stop = std::numeric_limits<double>::infinity();  ///< s after the first sample: later samples are cut
+};
+
+/// The stroke as it is played: cut to start..stop, laid level (plane = fit), scaled, turned about z, lowered
+/// by `depth`, moved by `offset`; its time begins at 0. Velocities turn and scale with it, forces turn.
+///
+/// The fitted plane is the least-squares plane (total least squares) through the samples at which the pen is
+/// down. It is turned by the smallest rotation that makes it level and shifted onto z = 0; bumps about the
+/// plane stay. Error: input, naming the stroke by `name`, where nothing is left of it or its samples span no
+/// plane.
+Stroke place_stroke(const Stroke& stroke, const StrokePlacement& placement,
+                    const std::string& name = "stroke");
+
+}  // namespace sandstroke

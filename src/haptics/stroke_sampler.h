@@ -1,0 +1,55 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <vector>
+
+#include "haptics/stroke.h"
+
+namespace sandstroke {
+
+/// Where the hand is at one instant.
+struct Hand {
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< m
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< m/s, the derivative of position
+  bool down = false;                                   ///< false: lifted, nothing is touched
+};
+
+/// A stretch of time in which the tool is lifted.
+struct StrokeGap {
+  double begin = 0.0, end = 0.0;  ///< s
+};
+
+/// A stroke at any time, between its irregular samples.
+///
+/// Along each joined piece (Stroke::joined) every coordinate is a monotone piecewise cubic (Fritsch &
+/// Carlson, SIAM J. Numer. Anal. 17, 1980; slopes by the weighted harmonic mean, one-sided at the ends, as
+/// pchip does): it passes through the samples and never leaves the range of the two samples around it. Across
+/// a gap the hand moves straight and lifted. A piece of one sample is a point, down at exactly its time.
+class StrokeSampler {
+ public:
+  /// The stroke must have passed check_stroke.
+  explicit StrokeSampler(Stroke stroke);
+
+  /// Cheap (amortised O(1)) where t does not decrease from call to call; right in any order. Before the start
+  /// and after the end the hand rests, lifted.
+  Hand at(double t);
+
+  double start_time() const { return stroke_.time.front(); }
+  double end_time() const { return stroke_.time.back(); }
+  const std::vector<StrokeGap>& gaps() const { return gaps_; }
+
+ private:
+  void seek(double t);
+  void find_slopes();
+  Hand on_curve(double t) const;
+  Hand lifted(double t) const;
+  Eigen::Vector3d slope(std::size_t sample) const;
+
+  Stroke stroke_;
+  std::vector<StrokeGap> gaps_;
+  std::size_t cursor_ = 0;                   // time[cursor_] <= t < time[cursor_ + 1]
+  Eigen::Vector3d begin_slope_, end_slope_;  // of the curve at samples cursor_ and cursor_ + 1
+};
+
+}  // namespace sandstroke

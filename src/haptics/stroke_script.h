@@ -1,0 +1,71 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "haptics/force_model.h"
+#include "haptics/stroke.h"
+
+namespace sandstroke {
+
+/// How hard a segment presses along its way: values spread evenly over its arc length, the depth linear in
+/// between (so {0.008, 0.001} ends weaker than it starts).
+struct PressProfile {
+  enum class Kind { depth, force };
+  Kind kind = Kind::depth;
+  std::vector<double> values;  ///< depth: m below z = 0. force: N >= 0, the repulse force at that depth
+};
+
+// What a segment draws, in the xy plane. All lengths in m, angles in deg counted from +x towards +y.
+struct ScriptMove {
+  Eigen::Vector2d to = Eigen::Vector2d::Zero();  ///< reached in the air
+};
+struct ScriptLine {
+  std::optional<Eigen::Vector2d> from;  ///< without: the current point
+  Eigen::Vector2d to = Eigen::Vector2d::Zero();
+};
+struct ScriptArc {
+  Eigen::Vector2d centre = Eigen::Vector2d::Zero();
+  double radius = 0.0;
+  double start_angle = 0.0, end_angle = 0.0;  ///< clockwise where end < start; more than one turn is fine
+};
+struct ScriptSpline {
+  std::vector<Eigen::Vector2d> points;  ///< at least 2; a centripetal Catmull-Rom spline runs through them
+};
+struct ScriptText {
+  std::string text, font = "futural";            ///< single-stroke letters, see hershey_text
+  Eigen::Vector2d at = Eigen::Vector2d::Zero();  ///< left end of the base line
+  double height = 0.0;                           ///< of capitals
+  double angle = 0.0;                            ///< of the base line
+  double spacing = 0.0;                          ///< added between letters
+};
+
+struct ScriptSegment {
+  std::variant<ScriptMove, ScriptLine, ScriptArc, ScriptSpline, ScriptText> shape;
+  PressProfile press = {};  ///< unused by a move; a text presses like this along each of its pen strokes
+  double speed = 0.1;       ///< m/s, of the tip along its path in space; unused by a move
+  double wait = 0.0;        ///< s, rest at the segment's end
+};
+
+/// A stroke described by what it draws. The tool starts and ends in the air, at height `clearance`. A segment
+/// that begins away from the current point is reached lifted: up, across, down.
+struct StrokeScript {
+  std::string name = "script";                      ///< for messages
+  Eigen::Vector2d start = Eigen::Vector2d::Zero();  ///< m
+  double clearance = 0.02;                          ///< m above z = 0
+  double travel_speed = 0.2;                        ///< m/s, across
+  double plunge_speed = 0.05;                       ///< m/s, up and down
+  double rate = 1000.0;                             ///< Hz, samples of the stroke
+  int repeat = 1;                                   ///< times the segments are run
+  std::vector<ScriptSegment> segments;
+};
+
+/// Samples at times i / rate. Lines and arcs are exact (an arc under a sloping depth is a helix); the speed
+/// of the tip in space is the asked one throughout a path, so between samples it is never more. Error: input,
+/// naming script and segment.
+Stroke trace_script(const StrokeScript& script, const ForceSettings& force);
+
+}  // namespace sandstroke

@@ -1,0 +1,151 @@
+#include "io/png_file.h"
+
+#include <png.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/error.h"
+#include "core/output_file.h"
+
+namespace sandstroke {
+namespace {
+namespace fs = std::filesystem;
+
+/// Reads one PNG. libpng reports errors by longjmp, which must not pass over anything with a destructor: each
+/// method below that calls it sets its own return point and holds only plain data.
+class PngReader {
+ public:
+  explicit PngReader(const fs::path& path)
+      : name_(path.string()), file_(std::fopen(name_.c_str(), "rb"), std::fclose) {
+    if (!file_ || fs::is_directory(path))
+      throw_io_error("{}: cannot be opened ({}); check the path", name_,
+                     file_ ? "it is a folder" : std::strerror(errno));
+    png_byte signature[8] = {};
+    if (std::fread(signature, 1, 8, file_.get()) != 8 || png_sig_cmp(signature, 0, 8) != 0)
+      throw_input_error("{}: is not a PNG file; save the picture as PNG", name_);
+    png_ = png_create_read_struct(PNG_LIBPNG_VER_STRING, this, fail, ignore_warning);
+    info_ = png_ ? png_create_info_struct(png_) : nullptr;
+    if (!info_ || !read_header()) {
+      png_destroy_read_struct(&png_, &info_, nullptr);
+      throw_damaged();
+    }
+  }
+  ~PngReader() { png_destroy_read_struct(&png_, &info_, nullptr); }
+  PngReader(const PngReader&) = delete;
+  PngReader& operator=(const PngReader&) = delete;
+
+  const std::string& name() const { return name_; }
+  int width() const { return static_cast<int>(png_get_image_width(png_, info_)); }
+  int height() const { return static_cast<int>(png_get_image_height(png_, info_)); }
+  int bit_depth() const { return png_get_bit_depth(png_, info_); }
+  bool gray() const { return png_get_color_type(png_, info_) == PNG_COLOR_TYPE_GRAY; }
+
+  /// Must be asked before memory is taken for the pixels.
+  void check_size() const {
+    if (width() > largest_png_side || height() > largest_png_side)
+      throw_input_error("{}: has {} x {} pixels, too large to be read; make it at most {} a side", name_,
+                        width(), height(), largest_png_side);
+  }
+
+  /// Pixels of `pixel_bytes` each, rows from the top: 3 = 8-bit RGB, 2 = 16-bit gray as stored (big-endian).
+  std::vector<png_byte> pixels(int pixel_bytes) {
+    const std::size_t row_bytes = static_cast<std::size_t>(width()) * pixel_bytes;
+    std::vector<png_byte> bytes(row_bytes * height());
+    std::vector<png_bytep> rows(height());
+    for (std::size_t row = 0; row < rows.size(); ++row) rows[row] = bytes.data() + row * row_bytes;
+    if (!read_rows(rows.data(), pixel_bytes == 3)) throw_damaged();
+    return bytes;
+  }
+
+ private:
+  static void fail(png_structp png, png_const_charp message) {
+    static_cast<PngReader*>(png_get_error_ptr(png))->keep(message);
+    png_longjmp(png, 1);
+  }
+  static void ignore_warning(png_structp, png_const_charp) {}
+  void keep(const char* message) { std::snprintf(message_, sizeof message_, "%s", message); }
+
+  bool read_header() {
+    if (setjmp(png_jmpbuf(png_))) return false;
+    png_set_user_limits(png_, PNG_UINT_31_MAX, PNG_UINT_31_MAX);  // so that check_size() gives the reason
+    png_init_io(png_, file_.get());
+    png_set_sig_bytes(png_, 8);
+    png_read_info(png_, info_);
+    return true;
+  }
+
+  bool read_rows(png_bytepp rows, bool as_rgb) {
+    if (setjmp(png_jmpbuf(png_))) return false;
+    if (as_rgb) {
+      png_set_expand(png_);
+      png_set_scale_16(png_);
+      png_set_strip_alpha(png_);
+      png_set_gray_to_rgb(png_);
+    }
+    png_set_interlace_handling(png_);
+    png_read_update_info(png_, info_);
+    png_read_image(png_, rows);
+    png_read_end(png_, nullptr);
+    return true;
+  }
+
+  [[noreturn]] void throw_damaged() const {
+    throw_input_error("{}: is cut off or damaged ({}); save the PNG again", name_, message_);
+  }
+
+  std::string name_;
+  std::unique_ptr<std::FILE, int (*)(std::FILE*)> file_;
+  png_structp png_ = nullptr;
+  png_infop info_ = nullptr;
+  char message_[160] = "out of memory";
+};
+
+}  // namespace
+
+void write_png(const fs::path& path, const Image& image) {
+  png_image header{};
+  header.version = PNG_IMAGE_VERSION;
+  header.width = static_cast<png_uint_32>(image.width);
+  header.height = static_cast<png_uint_32>(image.height);
+  header.format = PNG_FORMAT_RGB;
+  const fs::path part = part_path(path);
+  if (!png_image_write_to_file(&header, part.c_str(), 0, image.rgb.data(), 0, nullptr)) {
+    std::error_code ignored;
+    fs::remove(part, ignored);
+    throw_io_error("{}: cannot be written ({}); choose another place or free disk space", path.string(),
+                   header.message);
+  }
+  finish_part(path);
+}
+
+Image read_png(const fs::path& path) {
+  PngReader png(path);
+  png.check_size();
+  Image image;
+  image.width = png.width();
+  image.height = png.height();
+  image.rgb = png.pixels(3);
+  return image;
+}
+
+HeightGrid read_height_png(const fs::path& path) {
+  PngReader png(path);
+  png.check_size();
+  if (!png.gray() || png.bit_depth() != 16)
+    throw_input_error("{}: is a {}-bit {} PNG; heights are read from a 16-bit grayscale one", png.name(),
+                      png.bit_depth(), png.gray() ? "grayscale" : "colour");
+  const std::vector<png_byte> bytes = png.pixels(2);
+  HeightGrid values(png.height(), png.width());
+  const png_byte* byte = bytes.data();
+  for (Eigen::Index row = values.rows() - 1; row >= 0; --row)
+    for (Eigen::Index col = 0; col < values.cols(); ++col, byte += 2)
+      values(row, col) = (byte[0] * 256 + byte[1]) / 65535.0;
+  return values;
+}
+
+}  // namespace sandstroke

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <filesystem>
+
+#include "core/image.h"
+#include "sand/height_field.h"
+
+namespace sandstroke {
+
+/// Largest side of a PNG that is read, in pixels.
+inline constexpr int largest_png_side = 16384;
+
+/// Writes an 8-bit RGB PNG by way of PATH.part. It holds no date: equal pictures give equal bytes. Error: io.
+void write_png(const std::filesystem::path& path, const Image& image);
+
+/// Reads any PNG as 8-bit RGB: gray and palette are expanded, 16 bits rounded to 8, transparency is dropped.
+/// Error: io where it cannot be opened; input where it is no PNG, cut off, damaged or larger than
+/// largest_png_side.
+Image read_png(const std::filesystem::path& path);
+
+/// Reads a 16-bit grayscale PNG as values from 0 (black) to 1 (white), value / 65535 exactly; the picture's
+/// lowest row is row 0 (its upper border is the highest y). Error: as read_png, and input for every other
+/// kind of PNG.
+HeightGrid read_height_png(const std::filesystem::path& path);
+
+}  // namespace sandstroke

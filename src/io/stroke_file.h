@@ -1,0 +1,22 @@
+#pragma once
+
+#include <filesystem>
+
+#include "haptics/force_model.h"
+#include "haptics/stroke.h"
+
+namespace sandstroke {
+
+/// Writes a recorded stroke (HDF5, group /stroke) by way of PATH.part. Empty optional columns are left out.
+/// Error: io.
+void write_stroke_file(const std::filesystem::path& path, const Stroke& stroke);
+
+/// Reads a recorded stroke back, to the bit, and checks all of it. Error: io where the file cannot be opened;
+/// input, naming file, dataset, sample and remedy, where its content is not a sound stroke.
+Stroke read_stroke_file(const std::filesystem::path& path);
+
+/// Reads a stroke of either form: recorded (HDF5) or scripted (.toml; `force` says how deep a scripted force
+/// presses). Error: io, input.
+Stroke load_stroke(const std::filesystem::path& path, const ForceSettings& force);
+
+}  // namespace sandstroke

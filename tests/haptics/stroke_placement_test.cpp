@@ -1,0 +1,167 @@
+#include "haptics/stroke_placement.h"
+
+#include <gmock/gmock-matchers.h>
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <numbers>
+
+#include "core/error.h"
+
+namespace sandstroke {
+namespace {
+
+using Eigen::Vector3d;
+using testing::HasSubstr;
+
+Stroke stroke_through(const std::vector<Vector3d>& points) {
+  Stroke stroke;
+  stroke.position = points;
+  for (std::size_t i = 0; i < points.size(); ++i) stroke.time.push_back(5.0 + 0.01 * static_cast<double>(i));
+  return stroke;
+}
+
+/// A flat spiral, 0.3 m wide.
+std::vector<Vector3d> flat_tracing() {
+  std::vector<Vector3d> points;
+  for (int i = 0; i < 200; ++i)
+    points.emplace_back(0.001 * i * std::cos(0.1 * i), 0.0007 * i * std::sin(0.1 * i), 0.0);
+  return points;
+}
+
+std::string complaint(const Stroke& stroke, const StrokePlacement& placement) {
+  try {
+    place_stroke(stroke, placement, "hand.h5");
+  } catch (const Error& failure) {
+    EXPECT_EQ(failure.kind(), ErrorKind::input);
+    return failure.what();
+  }
+  return "";
+}
+
+TEST(StrokePlacement, ByDefaultOnlyTimeMoves) {
+  const Stroke stroke = stroke_through(flat_tracing());
+  const Stroke placed = place_stroke(stroke, {});
+  EXPECT_EQ(placed.position, stroke.position);
+  EXPECT_EQ(placed.time.front(), 0.0);
+  EXPECT_NEAR(placed.time.back(), 1.99, 1e-12);
+}
+
+TEST(StrokePlacement, ScaleThenTurnThenDepthThenOffset) {
+  Stroke stroke = stroke_through({{1, 0, 0.5}});
+  stroke.velocity = {{3, 0, 1}};
+  stroke.force = {{0, 4, 2}};
+  StrokePlacement placement;
+  placement.scale = 2.0;
+  placement.rotate_z = 90.0;
+  placement.depth = 0.25;
+  placement.offset = {10, 20, 30};
+  const Stroke placed = place_stroke(stroke, placement);
+  EXPECT_LT((placed.position[0] - Vector3d(10, 22, 30.75)).norm(), 1e-14);
+  EXPECT_LT((placed.velocity[0] - Vector3d(0, 6, 2)).norm(), 1e-14);  // turned and scaled
+  EXPECT_LT((placed.force[0] - Vector3d(-4, 0, 2)).norm(), 1e-14);    // turned only
+}
+
+TEST(StrokePlacement, ATiltedPlaneIsLaidLevelAtTheDepth) {
+  const Eigen::Matrix3d tilt =
+      (Eigen::AngleAxisd(0.7, Vector3d(1, 2, 0.3).normalized()) * Eigen::AngleAxisd(2.0, Vector3d::UnitZ()))
+          .toRotationMatrix();
+  std::vector<Vector3d> points = flat_tracing();
+  for (Vector3d& p : points) p = tilt * p + Vector3d(0.5, -0.3, 0.8);
+  Stroke stroke = stroke_through(points);
+  stroke.force.assign(points.size(), tilt * Vector3d(0, 0, 2));  // along the normal
+  StrokePlacement placement;
+  placement.plane = StrokePlane::fit;
+  placement.depth = 0.004;
+  const Stroke placed = place_stroke(stroke, placement);
+
+  Vector3d low = placed.position[0], high = low;
+  for (std::size_t i = 0; i < placed.size(); ++i) {
+    EXPECT_NEAR(placed.position[i].z(), -0.004, 1e-12);
+    EXPECT_LT((placed.force[i] - Vector3d(0, 0, 2)).norm(), 1e-12);
+    low = low.cwiseMin(placed.position[i]);
+    high = high.cwiseMax(placed.position[i]);
+    // A rigid motion keeps every distance.
+    const double distance = (placed.position[i] - placed.position[0]).norm();
+    EXPECT_NEAR(distance, (points[i] - points[0]).norm(), 1e-12);
+  }
+  EXPECT_NEAR(low.x() + high.x(), 0.0, 1e-15);
+  EXPECT_NEAR(low.y() + high.y(), 0.0, 1e-15);
+}
+
+TEST(StrokePlacement, ALevelPlaneIsOnlyShifted) {
+  std::vector<Vector3d> points = flat_tracing();
+  for (Vector3d& p : points) p.z() = 0.26;
+  const Stroke stroke = stroke_through(points);
+  StrokePlacement placement;
+  placement.plane = StrokePlane::fit;
+  const Stroke placed = place_stroke(stroke, placement);
+  const Vector3d shift = placed.position[0] - points[0];
+  for (std::size_t i = 0; i < points.size(); ++i)
+    EXPECT_LT((placed.position[i] - points[i] - shift).norm(), 1e-14);
+}
+
+TEST(StrokePlacement, BumpsAboutThePlaneStayAndScale) {
+  // Heights +1 mm and -1 mm at the corners of a square, alternating: the best plane is the middle one.
+  const Stroke stroke = stroke_through({{0, 0, 0.101}, {0.1, 0, 0.099}, {0.1, 0.1, 0.101}, {0, 0.1, 0.099}});
+  StrokePlacement placement;
+  placement.plane = StrokePlane::fit;
+  placement.scale = 3.0;
+  placement.depth = 0.01;
+  const Stroke placed = place_stroke(stroke, placement);
+  const double expected[] = {-0.007, -0.013, -0.007, -0.013};
+  for (std::size_t i = 0; i < 4; ++i) EXPECT_NEAR(placed.position[i].z(), expected[i], 1e-14);
+}
+
+TEST(StrokePlacement, OnlySamplesWithThePenDownMakeThePlane) {
+  std::vector<Vector3d> points = flat_tracing();
+  const std::size_t drawn = points.size();
+  points.emplace_back(7, 8, 9);
+  Stroke stroke = stroke_through(points);
+  stroke.contact.assign(drawn, pen_down);
+  stroke.contact.push_back(pen_up);
+  StrokePlacement placement;
+  placement.plane = StrokePlane::fit;
+  const Stroke placed = place_stroke(stroke, placement);
+  for (std::size_t i = 0; i < drawn; ++i) EXPECT_NEAR(placed.position[i].z(), 0.0, 1e-14);
+  EXPECT_NEAR(placed.position[drawn].z(), 9.0, 1e-12);
+}
+
+TEST(StrokePlacement, CutsBySamplesAndLetsTimeBeginAtZero) {
+  Stroke stroke = stroke_through(flat_tracing());
+  stroke.contact.assign(stroke.size(), pen_down);
+  for (std::size_t i = 0; i < stroke.size(); ++i) stroke.switches.push_back(static_cast<std::uint32_t>(i));
+  StrokePlacement placement;
+  placement.start = 0.495;  // between samples 49 and 50
+  placement.stop = 1.005;   // between samples 100 and 101
+  const Stroke placed = place_stroke(stroke, placement);
+  ASSERT_EQ(placed.size(), 51u);
+  EXPECT_EQ(placed.contact.size(), 51u);
+  EXPECT_EQ(placed.switches.front(), 50u);
+  EXPECT_EQ(placed.switches.back(), 100u);
+  EXPECT_EQ(placed.position.front(), stroke.position[50]);
+  EXPECT_EQ(placed.time.front(), 0.0);
+}
+
+TEST(StrokePlacement, SaysWhatCannotBePlaced) {
+  StrokePlacement fit;
+  fit.plane = StrokePlane::fit;
+  EXPECT_THAT(complaint(stroke_through({{0, 0, 0}, {1, 0, 0}}), fit), HasSubstr("hand.h5"));
+  EXPECT_THAT(complaint(stroke_through({{0, 0, 0}, {1, 2, 3}, {2, 4, 6}, {3, 6, 9}}), fit),
+              HasSubstr("one line"));
+  EXPECT_THAT(complaint(stroke_through({{1, 1, 1}, {1, 1, 1}, {1, 1, 1}}), fit), HasSubstr("plane"));
+  Stroke lifted = stroke_through(flat_tracing());
+  lifted.contact.assign(lifted.size(), pen_up);
+  EXPECT_THAT(complaint(lifted, fit), HasSubstr("0 samples with the pen down"));
+
+  StrokePlacement late;
+  late.start = 100.0;
+  EXPECT_THAT(complaint(stroke_through(flat_tracing()), late), HasSubstr("start = 100 s"));
+  StrokePlacement none;
+  none.scale = 0.0;
+  EXPECT_THAT(complaint(stroke_through(flat_tracing()), none), HasSubstr("scale is 0"));
+}
+
+}  // namespace
+}  // namespace sandstroke

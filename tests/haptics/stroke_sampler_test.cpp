@@ -1,0 +1,192 @@
+#include "haptics/stroke_sampler.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+
+namespace sandstroke {
+namespace {
+
+using Eigen::Vector3d;
+
+/// Irregular times, rough and resting coordinates, gaps of both kinds.
+Stroke random_stroke(unsigned seed, std::size_t count) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> uniform(0.0, 1.0);
+  Stroke stroke;
+  double time = 1.5;
+  Vector3d position(0.1, -0.2, 0.3);
+  for (std::size_t i = 0; i < count; ++i) {
+    stroke.time.push_back(time);
+    stroke.position.push_back(position);
+    const double luck = uniform(random);
+    stroke.contact.push_back(luck < 0.05 ? pen_up : luck < 0.1 ? pen_lifts : pen_down);
+    time += uniform(random) < 0.03 ? 0.5 : 1e-4 + 0.03 * uniform(random);
+    for (int axis = 0; axis < 3; ++axis) {
+      if (uniform(random) < 0.7) position[axis] += 0.1 * (uniform(random) - 0.5);
+    }
+  }
+  return stroke;
+}
+
+Stroke evenly_spaced(const std::vector<Vector3d>& points, double spacing) {
+  Stroke stroke;
+  stroke.position = points;
+  for (std::size_t i = 0; i < points.size(); ++i) stroke.time.push_back(spacing * static_cast<double>(i));
+  return stroke;
+}
+
+TEST(StrokeSampler, NeverOvershootsAndNeverTouchesInAGap) {
+  for (unsigned seed = 0; seed < 20; ++seed) {
+    const Stroke stroke = random_stroke(seed, 300);
+    StrokeSampler sampler(stroke);
+    for (std::size_t i = 0; i + 1 < stroke.size(); ++i) {
+      const Vector3d low = stroke.position[i].cwiseMin(stroke.position[i + 1]);
+      const Vector3d high = stroke.position[i].cwiseMax(stroke.position[i + 1]);
+      const double h = stroke.time[i + 1] - stroke.time[i];
+      Vector3d before = stroke.position[i];
+      for (int k = 1; k < 50; ++k) {
+        const Hand hand = sampler.at(stroke.time[i] + h * k / 50);
+        ASSERT_EQ(hand.down, stroke.joined(i)) << "seed " << seed << " sample " << i;
+        for (int axis = 0; axis < 3; ++axis) {
+          ASSERT_GE(hand.position[axis], low[axis]);
+          ASSERT_LE(hand.position[axis], high[axis]);
+          // Monotone from sample to sample, up to rounding.
+          const double forward = stroke.position[i + 1][axis] >= stroke.position[i][axis] ? 1.0 : -1.0;
+          ASSERT_GE(forward * (hand.position[axis] - before[axis]), -1e-15);
+        }
+        before = hand.position;
+      }
+    }
+  }
+}
+
+TEST(StrokeSampler, ReproducesItsSamplesToTheBit) {
+  const Stroke stroke = random_stroke(7, 1000);
+  StrokeSampler sampler(stroke);
+  for (std::size_t i = 0; i < stroke.size(); ++i) {
+    const Hand hand = sampler.at(stroke.time[i]);
+    EXPECT_EQ(hand.position, stroke.position[i]) << i;
+    EXPECT_EQ(hand.down, stroke.touches(i)) << i;
+  }
+}
+
+TEST(StrokeSampler, AStraightLineAtConstantSpeedStaysOne) {
+  const Vector3d velocity(0.1, -0.05, 0.01);
+  Stroke stroke;
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> spacing(1e-3, 0.05);
+  for (double t = 0.0; t < 2.0; t += spacing(random)) {
+    stroke.time.push_back(t);
+    stroke.position.push_back(t * velocity);
+  }
+  StrokeSampler sampler(stroke);
+  for (double t = 0.0; t < sampler.end_time(); t += 0.001) {
+    const Hand hand = sampler.at(t);
+    EXPECT_LT((hand.position - t * velocity).norm(), 1e-15);
+    EXPECT_LT((hand.velocity - velocity).norm(), 1e-13);
+    EXPECT_TRUE(hand.down);
+  }
+}
+
+TEST(StrokeSampler, SlopesAreThoseOfPchip) {
+  // x = 0, 1, 3 at t = 0, 1, 2 (in units of 0.01 s): secants 1 and 2. Inner slope: harmonic mean 4/3; ends by
+  // the parabola: (3*1 - 2)/2 = 1/2 and (3*2 - 1)/2 = 5/2. y = 0, 1, 0: a turning point, inner slope 0; ends
+  // (3*1 + 1)/2 = 2 and -2. z = 0, 1, 6: secants 1 and 5; end (3*1 - 5)/2 < 0 is set to 0; inner 2*5/6 = 5/3;
+  // end (15 - 1)/2 = 7.
+  StrokeSampler sampler(evenly_spaced({{0, 0, 0}, {1, 1, 1}, {3, 0, 6}}, 0.01));
+  EXPECT_LT((sampler.at(0.0).velocity - Vector3d(50, 200, 0)).norm(), 1e-11);
+  EXPECT_LT((sampler.at(0.01).velocity - Vector3d(400.0 / 3, 0, 500.0 / 3)).norm(), 1e-11);
+  EXPECT_LT((sampler.at(0.02).velocity - Vector3d(250, -200, 700)).norm(), 1e-11);
+  // Halfway, a cubic Hermite is the mean of its ends plus h/8 of the difference of its slopes.
+  EXPECT_NEAR(sampler.at(0.005).position.x(), 0.5 + (0.5 - 4.0 / 3) / 8, 1e-14);
+}
+
+TEST(StrokeSampler, VelocityIsTheDerivativeOfPosition) {
+  StrokeSampler sampler(evenly_spaced({{0, 0, 0}, {1, 1, 1}, {3, 0, 6}, {4, 0, 6.5}}, 0.01));
+  for (const double t : {0.003, 0.0141, 0.0277}) {
+    const double dt = 1e-7;
+    const Vector3d difference = sampler.at(t + dt).position - sampler.at(t - dt).position;
+    EXPECT_LT((difference / (2 * dt) - sampler.at(t).velocity).norm(), 1e-5);
+  }
+}
+
+TEST(StrokeSampler, DoesNotLookAcrossAGap) {
+  Stroke stroke = evenly_spaced({{0, 0, 0}, {1, 0, 0}, {9, 9, 9}, {7, 7, 7}, {6, 6, 6}}, 0.01);
+  stroke.contact = {pen_down, pen_lifts, pen_down, pen_down, pen_down};
+  StrokeSampler sampler(stroke);
+  EXPECT_NEAR(sampler.at(0.005).position.x(), 0.5, 1e-15);  // a piece of two samples is straight
+  const Hand lifted = sampler.at(0.015);
+  EXPECT_FALSE(lifted.down);
+  EXPECT_LT((lifted.position - Vector3d(5, 4.5, 4.5)).norm(), 1e-12);
+  EXPECT_LT((lifted.velocity - Vector3d(800, 900, 900)).norm(), 1e-9);
+  EXPECT_TRUE(sampler.at(0.02).down);
+  ASSERT_EQ(sampler.gaps().size(), 1u);
+  EXPECT_EQ(sampler.gaps()[0].begin, 0.01);
+  EXPECT_EQ(sampler.gaps()[0].end, 0.02);
+}
+
+TEST(StrokeSampler, FindsGapsOfBothKinds) {
+  Stroke stroke;
+  stroke.time = {0.0, 0.05, 0.25, 0.30, 0.35, 0.40, 0.80, 1.20};
+  stroke.position.assign(8, Vector3d::Zero());
+  stroke.contact = {1, 1, 1, 0, 0, 1, 1, 1};
+  const StrokeSampler sampler(stroke);
+  // Too far apart; lifted over two samples (one gap); too far apart on both sides of a point (two gaps).
+  const std::vector<std::pair<double, double>> expected = {
+      {0.05, 0.25}, {0.25, 0.40}, {0.40, 0.80}, {0.80, 1.20}};
+  ASSERT_EQ(sampler.gaps().size(), expected.size());
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    EXPECT_EQ(sampler.gaps()[i].begin, expected[i].first);
+    EXPECT_EQ(sampler.gaps()[i].end, expected[i].second);
+  }
+}
+
+TEST(StrokeSampler, APieceOfOneSampleIsAPoint) {
+  Stroke stroke =
+      evenly_spaced({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}, 1.0);  // all further apart than gap_threshold
+  StrokeSampler sampler(stroke);
+  EXPECT_TRUE(sampler.at(1.0).down);
+  EXPECT_EQ(sampler.at(1.0).velocity, Vector3d::Zero());
+  EXPECT_FALSE(sampler.at(1.0 - 1e-12).down);
+  EXPECT_FALSE(sampler.at(1.0 + 1e-12).down);
+
+  stroke.contact = {pen_down, pen_up, pen_down};
+  StrokeSampler hovering(stroke);
+  EXPECT_FALSE(hovering.at(1.0).down);
+}
+
+TEST(StrokeSampler, OneSampleIsEnough) {
+  StrokeSampler sampler(evenly_spaced({{1, 2, 3}}, 1.0));
+  EXPECT_EQ(sampler.start_time(), sampler.end_time());
+  EXPECT_TRUE(sampler.at(0.0).down);
+  EXPECT_EQ(sampler.at(0.0).position, Vector3d(1, 2, 3));
+}
+
+TEST(StrokeSampler, RestsLiftedOutsideItsTime) {
+  StrokeSampler sampler(evenly_spaced({{0, 0, 0}, {1, 0, 0}}, 0.01));
+  EXPECT_EQ(sampler.at(-1.0).position, Vector3d(0, 0, 0));
+  EXPECT_FALSE(sampler.at(-1.0).down);
+  EXPECT_TRUE(sampler.at(0.01).down);
+  EXPECT_EQ(sampler.at(5.0).position, Vector3d(1, 0, 0));
+  EXPECT_FALSE(sampler.at(5.0).down);
+  EXPECT_EQ(sampler.at(5.0).velocity, Vector3d::Zero());
+}
+
+TEST(StrokeSampler, TheOrderOfCallsDoesNotMatter) {
+  const Stroke stroke = random_stroke(11, 100);
+  StrokeSampler forward(stroke), backward(stroke);
+  std::vector<Hand> hands;
+  const double step = (forward.end_time() - forward.start_time()) / 500;
+  for (int k = 0; k <= 500; ++k) hands.push_back(forward.at(forward.start_time() + k * step));
+  for (int k = 500; k >= 0; --k) {
+    const Hand hand = backward.at(backward.start_time() + k * step);
+    EXPECT_EQ(hand.position, hands[static_cast<std::size_t>(k)].position);
+    EXPECT_EQ(hand.velocity, hands[static_cast<std::size_t>(k)].velocity);
+    EXPECT_EQ(hand.down, hands[static_cast<std::size_t>(k)].down);
+  }
+}
+
+}  // namespace
+}  // namespace sandstroke

@@ -1,0 +1,248 @@
+#include "haptics/stroke_script.h"
+
+#include <gmock/gmock-matchers.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/error.h"
+
+namespace sandstroke {
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+using testing::AllOf;
+using testing::HasSubstr;
+
+constexpr double pi = std::numbers::pi;
+
+PressProfile depth(std::vector<double> values) { return {PressProfile::Kind::depth, std::move(values)}; }
+PressProfile force(std::vector<double> values) { return {PressProfile::Kind::force, std::move(values)}; }
+
+/// Starts at the first drawn point, so that the script is plunge, drawing, lift. The plunge takes 0.5 s for
+/// 10 mm of depth: 0.03 m at 0.06 m/s.
+StrokeScript script_of(std::vector<ScriptSegment> segments) {
+  StrokeScript script;
+  script.name = "test.toml";
+  script.clearance = 0.02;
+  script.plunge_speed = 0.06;
+  script.segments = std::move(segments);
+  return script;
+}
+
+Vector3d at(const Stroke& stroke, double time) {
+  return stroke.position[static_cast<std::size_t>(std::lround(time * stroke.nominal_rate))];
+}
+
+double top_speed(const Stroke& stroke) {
+  double top = 0.0;
+  for (std::size_t i = 1; i < stroke.size(); ++i)
+    top = std::max(top, (stroke.position[i] - stroke.position[i - 1]).norm() * stroke.nominal_rate);
+  return top;
+}
+
+std::string complaint(const StrokeScript& script) {
+  try {
+    trace_script(script, ForceSettings{});
+  } catch (const Error& failure) {
+    EXPECT_EQ(failure.kind(), ErrorKind::input);
+    return failure.what();
+  }
+  return "";
+}
+
+TEST(StrokeScript, PlungesDrawsAndLifts) {
+  const Stroke stroke = trace_script(script_of({{ScriptLine{{}, {0.2, 0.0}}, depth({0.01}), 0.1}}), {});
+  // 0.03 m at 0.06 m/s, 0.2 m at 0.1 m/s, 0.03 m at 0.06 m/s.
+  ASSERT_EQ(stroke.size(), 3001u);
+  for (std::size_t i = 0; i < stroke.size(); ++i) EXPECT_EQ(stroke.time[i], static_cast<double>(i) / 1000.0);
+  EXPECT_LT((at(stroke, 0.0) - Vector3d(0, 0, 0.02)).norm(), 1e-15);
+  EXPECT_LT((at(stroke, 0.25) - Vector3d(0, 0, 0.005)).norm(), 1e-15);
+  EXPECT_LT((at(stroke, 0.5) - Vector3d(0, 0, -0.01)).norm(), 1e-15);
+  EXPECT_LT((at(stroke, 1.3) - Vector3d(0.08, 0, -0.01)).norm(), 1e-14);
+  EXPECT_LT((at(stroke, 2.5) - Vector3d(0.2, 0, -0.01)).norm(), 1e-14);
+  EXPECT_LT((at(stroke, 3.0) - Vector3d(0.2, 0, 0.02)).norm(), 1e-14);
+  EXPECT_NEAR(top_speed(stroke), 0.1, 1e-12);
+  EXPECT_EQ(stroke.nominal_rate, 1000.0);
+}
+
+TEST(StrokeScript, ReachesAnotherPlaceLifted) {
+  StrokeScript script = script_of({{ScriptLine{Vector2d(0.3, 0.4), {0.4, 0.4}}, depth({0.01}), 0.1}});
+  script.travel_speed = 0.5;
+  const Stroke stroke = trace_script(script, {});  // 0.5 m across at 0.5 m/s: 1 s in the air
+  for (int i = 0; i <= 1000; ++i) {
+    const Vector3d expected(0.3e-3 * i, 0.4e-3 * i, 0.02);
+    EXPECT_LT((stroke.position[static_cast<std::size_t>(i)] - expected).norm(), 1e-15);
+  }
+  EXPECT_LT((at(stroke, 1.5) - Vector3d(0.3, 0.4, -0.01)).norm(), 1e-14);
+}
+
+TEST(StrokeScript, MoveLiftsAndTravels) {
+  StrokeScript script = script_of({{ScriptLine{{}, {0.1, 0}}, depth({0.01}), 0.1}, {ScriptMove{{0.3, 0}}}});
+  script.travel_speed = 0.4;
+  const Stroke stroke = trace_script(script, {});
+  // 0.5 plunge, 1 line, 0.5 lift, 0.5 travel, nothing left to lift.
+  EXPECT_EQ(stroke.size(), 2501u);
+  EXPECT_LT((at(stroke, 2.25) - Vector3d(0.2, 0, 0.02)).norm(), 1e-14);
+  EXPECT_LT((stroke.position.back() - Vector3d(0.3, 0, 0.02)).norm(), 1e-15);
+}
+
+TEST(StrokeScript, ConsecutiveSegmentsAreDrawnWithoutLifting) {
+  // A quarter circle from (0, 0) about (-0.1, 0), then on to the left: lifted only at the end.
+  const Stroke stroke = trace_script(script_of({{ScriptArc{{-0.1, 0}, 0.1, 0, 90}, depth({0.01}), 0.1},
+                                                {ScriptLine{{}, {-0.3, 0.1}}, depth({0.01}), 0.1}}),
+                                     {});
+  const double drawn = 0.1 * pi / 2 + 0.2;
+  EXPECT_EQ(stroke.size(), static_cast<std::size_t>(std::ceil((1.0 + drawn / 0.1) * 1000)) + 1);
+  for (double t = 0.5; t <= 0.5 + drawn / 0.1; t += 0.01) EXPECT_NEAR(at(stroke, t).z(), -0.01, 1e-15);
+}
+
+TEST(StrokeScript, AnArcIsExactAndRunsAtItsSpeed) {
+  StrokeScript script =
+      script_of({{ScriptArc{{0, 0}, 0.05, 30, -690}, depth({0.01}), 0.05}});  // two turns clockwise
+  script.start = 0.05 * Vector2d(std::cos(pi / 6), std::sin(pi / 6));
+  const Stroke stroke = trace_script(script, {});
+  const double seconds = 4 * pi * 0.05 / 0.05;
+  for (std::size_t i = 500; i <= 500 + static_cast<std::size_t>(seconds * 1000); ++i) {
+    const double angle = pi / 6 - (stroke.time[i] - 0.5);  // 1 rad/s
+    EXPECT_LT((stroke.position[i] - Vector3d(0.05 * std::cos(angle), 0.05 * std::sin(angle), -0.01)).norm(),
+              1e-13);
+  }
+  EXPECT_EQ(stroke.size(), static_cast<std::size_t>(std::ceil((1.0 + seconds) * 1000)) + 1);
+}
+
+TEST(StrokeScript, DepthRunsThroughItsValues) {
+  // Three values, on a line whose two halves slope by 3:4, so that speed in space is 5/4 of the speed across.
+  StrokeScript script = script_of({{ScriptLine{{}, {0.16, 0}}, depth({0.01, 0.07, 0.01}), 0.1}});
+  const Stroke stroke = trace_script(script, {});
+  // Each half is 0.1 m long and takes 1 s.
+  EXPECT_LT((at(stroke, 0.5) - Vector3d(0, 0, -0.01)).norm(), 1e-14);
+  EXPECT_LT((at(stroke, 1.0) - Vector3d(0.04, 0, -0.04)).norm(), 1e-14);
+  EXPECT_LT((at(stroke, 1.5) - Vector3d(0.08, 0, -0.07)).norm(), 1e-14);
+  EXPECT_LT((at(stroke, 2.5) - Vector3d(0.16, 0, -0.01)).norm(), 1e-14);
+  EXPECT_LE(top_speed(stroke), 0.1 + 1e-12);
+}
+
+TEST(StrokeScript, DepthIsSpreadOverTheWholeOfABentPath) {
+  // An arc of length 0.1 pi with depth falling from 10 to 0 mm: half the depth in the middle.
+  const Stroke stroke =
+      trace_script(script_of({{ScriptArc{{-0.1, 0}, 0.1, 0, 180}, depth({0.01, 0.0}), 0.1}}), {});
+  const double length = std::hypot(0.1 * pi, 0.01);  // of the helix
+  for (double share = 0.0; share <= 1.0; share += 0.05) {
+    const double t = 0.5 + share * length / 0.1;
+    const auto i = static_cast<std::size_t>(std::floor(t * 1000));
+    const double exact = (stroke.time[i] - 0.5) / (length / 0.1);
+    if (exact < 0.0) continue;
+    EXPECT_NEAR(stroke.position[i].z(), -0.01 * (1 - exact), 1e-14);
+    EXPECT_NEAR(std::atan2(stroke.position[i].y(), stroke.position[i].x() + 0.1), pi * exact, 1e-12);
+  }
+}
+
+TEST(StrokeScript, ForceIsPressedByItsDepth) {
+  ForceSettings settings;
+  settings.k_s = 500.0;
+  settings.k_c = 2.0;
+  StrokeScript script = script_of({{ScriptLine{{}, {0.1, 0}}, force({3.0}), 0.1}});
+  script.plunge_speed = 100.0;  // done within a sample
+  const Stroke stroke = trace_script(script, settings);
+  EXPECT_NEAR(repulse_force(-at(stroke, 0.5).z(), settings), 3.0, 1e-12);
+  EXPECT_NEAR(at(stroke, 0.5).z(), -std::log1p(3.0 / 500.0) / 2.0, 1e-15);
+
+  // Values in between: exact at each of them.
+  script.segments[0].press = force({4.0, 1.0});
+  const Stroke falling = trace_script(script, settings);
+  const auto lowest = std::min_element(falling.position.begin(), falling.position.end(),
+                                       [](const Vector3d& a, const Vector3d& b) { return a.z() < b.z(); });
+  EXPECT_NEAR(repulse_force(-lowest->z(), settings), 4.0, 0.01);
+}
+
+TEST(StrokeScript, ASplineRunsThroughItsPointsAtItsSpeed) {
+  const std::vector<Vector2d> points = {{0, 0}, {0.05, 0.03}, {0.06, 0.08}, {0.2, 0.0}};
+  StrokeScript script = script_of({{ScriptSpline{points}, depth({0.01}), 0.1}});
+  script.rate = 10000.0;
+  const Stroke stroke = trace_script(script, {});
+  for (const Vector2d& point : points) {
+    double nearest = 1.0;
+    for (const Vector3d& p : stroke.position) nearest = std::min(nearest, (p.head<2>() - point).norm());
+    EXPECT_LT(nearest, 1e-5);  // a sample every 1e-5 m
+  }
+  EXPECT_LE(top_speed(stroke), 0.1 + 1e-11);
+  // Between samples in the middle of the fine polyline the speed is all but reached.
+  EXPECT_GT((stroke.position[8000] - stroke.position[7999]).norm() * 10000, 0.0999);
+}
+
+TEST(StrokeScript, ASplineThroughPointsOnALineIsThatLine) {
+  const Stroke stroke = trace_script(
+      script_of({{ScriptSpline{{{0, 0}, {0.02, 0.01}, {0.1, 0.05}, {0.12, 0.06}}}, depth({0.01}), 0.1}}), {});
+  double before = 0.0;
+  for (const Vector3d& p : stroke.position) {
+    EXPECT_NEAR(p.y(), p.x() / 2, 1e-15);
+    EXPECT_GE(p.x(), before - 1e-15);
+    before = p.x();
+  }
+}
+
+TEST(StrokeScript, TheLetterIIsOneVerticalPenStroke) {
+  ScriptText text{"I", "futural", {0.1, 0.2}, 0.07};
+  const Stroke stroke = trace_script(script_of({{text, depth({0.01}), 0.1}}), {});
+  double low = 1.0, high = -1.0, left = 1.0, right = -1.0;
+  int plunges = 0;
+  for (std::size_t i = 0; i < stroke.size(); ++i) {
+    const Vector3d& p = stroke.position[i];
+    plunges += i > 0 && p.z() < 0.0 && stroke.position[i - 1].z() >= 0.0;
+    if (p.z() >= 0.0) continue;
+    low = std::min(low, p.y());
+    high = std::max(high, p.y());
+    left = std::min(left, p.x());
+    right = std::max(right, p.x());
+  }
+  EXPECT_EQ(plunges, 1);
+  EXPECT_NEAR(low, 0.2, 1e-4);  // to a sample
+  EXPECT_NEAR(high, 0.27, 1e-4);
+  EXPECT_NEAR(left, right, 1e-14);
+  EXPECT_GE(left, 0.1);
+}
+
+TEST(StrokeScript, TextTurnsAndSpacesItsLetters) {
+  const auto x_of_last = [](double spacing, double angle) {
+    const Stroke stroke = trace_script(
+        script_of({{ScriptText{"II", "futural", {0, 0}, 0.07, angle, spacing}, depth({0.01}), 0.1}}), {});
+    return stroke.position.back();
+  };
+  EXPECT_NEAR(x_of_last(0.03, 0).x() - x_of_last(0, 0).x(), 0.03, 1e-14);
+  const Vector3d flat = x_of_last(0.01, 0), upright = x_of_last(0.01, 90);
+  EXPECT_LT((upright - Vector3d(-flat.y(), flat.x(), flat.z())).norm(), 1e-14);
+}
+
+TEST(StrokeScript, WaitsAndRepeats) {
+  StrokeScript script = script_of({{ScriptLine{Vector2d(0, 0), {0.1, 0}}, depth({0.01}), 0.1, 0.25}});
+  script.travel_speed = 0.1;
+  EXPECT_EQ(trace_script(script, {}).size(), 2251u);  // 0.5 + 1 + 0.25 + 0.5 s
+  EXPECT_LT((at(trace_script(script, {}), 1.7) - Vector3d(0.1, 0, -0.01)).norm(), 1e-14);
+  script.repeat = 2;
+  EXPECT_EQ(trace_script(script, {}).size(), 2 * 2250u + 1000u + 1u);  // and 1 s back through the air
+}
+
+TEST(StrokeScript, SaysWhichSegmentCannotBeDrawn) {
+  const ScriptSegment good{ScriptLine{{}, {0.1, 0}}, depth({0.01})};
+  EXPECT_THAT(complaint(script_of({})), AllOf(HasSubstr("test.toml"), HasSubstr("no segments")));
+  EXPECT_THAT(complaint(script_of({good, {ScriptLine{{}, {0.1, 0}}, depth({0.01})}})),
+              AllOf(HasSubstr("test.toml: segment 2"), HasSubstr("no length")));
+  EXPECT_THAT(complaint(script_of({{ScriptLine{{}, {0.1, 0}}, {}}})), HasSubstr("neither depth nor force"));
+  EXPECT_THAT(complaint(script_of({{ScriptSpline{{{0, 0}, {1, 0}, {1, 0}}}, depth({0.01})}})),
+              HasSubstr("points 2 and 3"));
+  EXPECT_THAT(complaint(script_of({{ScriptText{"I", "nofont", {0, 0}, 0.1}, depth({0.01})}})),
+              AllOf(HasSubstr("segment 1"), HasSubstr("nofont")));
+  EXPECT_THAT(complaint(script_of({{ScriptText{"  ", "futural", {0, 0}, 0.1}, depth({0.01})}})),
+              HasSubstr("draws nothing"));
+  EXPECT_THAT(complaint(script_of({{ScriptLine{{}, {0.1, 0}}, depth({0.01, -0.03})}})),
+              HasSubstr("clearance"));
+  EXPECT_THAT(complaint(script_of({{ScriptLine{{}, {1e8, 0}}, depth({0.01})}})), HasSubstr("samples"));
+  EXPECT_THAT(complaint(script_of({{ScriptLine{{}, {1e300, 1e300}}, depth({0.01})}})), HasSubstr("samples"));
+}
+
+}  // namespace
+}  // namespace sandstroke

@@ -1,0 +1,92 @@
+#include "haptics/stroke.h"
+
+#include <gmock/gmock-matchers.h>
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "core/error.h"
+
+namespace sandstroke {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+Stroke three_samples() {
+  Stroke stroke;
+  stroke.time = {0.0, 0.01, 0.02};
+  stroke.position = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}};
+  return stroke;
+}
+
+std::string complaint(const Stroke& stroke) {
+  try {
+    check_stroke(stroke, "hand.h5");
+  } catch (const Error& failure) {
+    EXPECT_EQ(failure.kind(), ErrorKind::input);
+    return failure.what();
+  }
+  return "";
+}
+
+TEST(CheckStroke, AcceptsASoundStroke) { EXPECT_EQ(complaint(three_samples()), ""); }
+
+TEST(CheckStroke, AcceptsOneSample) {
+  Stroke stroke;
+  stroke.time = {3.0};
+  stroke.position = {{0, 0, 0}};
+  EXPECT_EQ(complaint(stroke), "");
+}
+
+TEST(CheckStroke, NamesWhatIsWrongAndWhere) {
+  EXPECT_THAT(complaint(Stroke{}), AllOf(HasSubstr("hand.h5"), HasSubstr("at least one")));
+
+  Stroke stroke = three_samples();
+  stroke.time[2] = 0.01;
+  EXPECT_THAT(complaint(stroke),
+              AllOf(HasSubstr("time of sample 2"), HasSubstr("0.01"), HasSubstr("increase")));
+
+  stroke = three_samples();
+  stroke.time[1] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THAT(complaint(stroke), AllOf(HasSubstr("time of sample 1"), HasSubstr("not finite")));
+
+  stroke = three_samples();
+  stroke.position[1].y() = std::numeric_limits<double>::infinity();
+  EXPECT_THAT(complaint(stroke), AllOf(HasSubstr("position of sample 1"), HasSubstr("inf")));
+
+  stroke = three_samples();
+  stroke.force.resize(2);
+  EXPECT_THAT(complaint(stroke), AllOf(HasSubstr("force has 2 rows"), HasSubstr("time has 3")));
+
+  stroke = three_samples();
+  stroke.contact = {1, 7, 1};
+  EXPECT_THAT(complaint(stroke), AllOf(HasSubstr("contact of sample 1"), HasSubstr("is 7")));
+
+  stroke = three_samples();
+  stroke.gap_threshold = 0.0;
+  EXPECT_THAT(complaint(stroke), HasSubstr("gap_threshold"));
+
+  stroke = three_samples();
+  stroke.frame = "robot";
+  EXPECT_THAT(complaint(stroke), AllOf(HasSubstr("frame"), HasSubstr("robot")));
+}
+
+TEST(PenState, SamplesAreJoinedWhereThePenStaysDown) {
+  Stroke stroke;
+  stroke.time = {0.0, 0.01, 0.02, 0.03, 0.04, 1.0};
+  stroke.position.assign(6, Eigen::Vector3d::Zero());
+  stroke.contact = {pen_down, pen_lifts, pen_down, pen_up, pen_down, pen_down};
+  const std::vector<bool> joined = {true, false, false, false, false /* 0.96 s apart */, false /* last */};
+  const std::vector<bool> touches = {true, true, true, false, true, true};
+  for (std::size_t i = 0; i < stroke.size(); ++i) {
+    EXPECT_EQ(stroke.joined(i), joined[i]) << i;
+    EXPECT_EQ(stroke.touches(i), touches[i]) << i;
+  }
+  stroke.contact.clear();
+  EXPECT_TRUE(stroke.joined(1));
+  EXPECT_FALSE(stroke.joined(4));
+}
+
+}  // namespace
+}  // namespace sandstroke

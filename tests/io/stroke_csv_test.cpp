@@ -1,0 +1,254 @@
+#include "io/stroke_csv.h"
+
+#include <gmock/gmock-matchers.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "core/error.h"
+#include "core/output_file.h"
+#include "haptics/stroke_placement.h"
+
+namespace sandstroke {
+namespace {
+
+namespace fs = std::filesystem;
+using Eigen::Vector3d;
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+/// t,x,y,z with a header row; s and m.
+StrokeCsvFormat txyz() {
+  StrokeCsvFormat format;
+  format.position.names = {"x", "y", "z"};
+  format.time = "t";
+  return format;
+}
+
+/// x,y,t without a header row; pen strokes parted by BREAK.
+StrokeCsvFormat drawing() {
+  StrokeCsvFormat format;
+  format.columns = {"x", "y", "t"};
+  format.position.names = {"x", "y"};
+  format.time = "t";
+  format.time_unit = time_unit("ms");
+  format.skip = "START";
+  format.pen_up = "BREAK";
+  return format;
+}
+
+Stroke parse(const std::string& text, const StrokeCsvFormat& format) {
+  return parse_stroke_csv(text, "in.csv", format);
+}
+
+std::string complaint(const std::string& text, const StrokeCsvFormat& format) {
+  try {
+    parse(text, format);
+  } catch (const Error& failure) {
+    EXPECT_EQ(failure.kind(), ErrorKind::input);
+    return failure.what();
+  }
+  return "";
+}
+
+TEST(StrokeCsv, ReadsNamedColumnsInAnyOrder) {
+  StrokeCsvFormat format = txyz();
+  format.force = VectorColumns{{"fx", "fy", "fz"}, force_unit("mN")};
+  format.velocity = VectorColumns{{"vx", "vy"}, speed_unit("cm/s")};
+  const Stroke stroke = parse(
+      "z,note,t,x,y,fx,fy,fz,vx,vy\n3,9,0.5,1,2,100,200,-300,10,20\n6,9,0.75,4,+5,0,0,1e3,0,0\n", format);
+  EXPECT_THAT(stroke.time, ElementsAre(0.5, 0.75));
+  EXPECT_THAT(stroke.position, ElementsAre(Vector3d(1, 2, 3), Vector3d(4, 5, 6)));
+  EXPECT_THAT(stroke.force, ElementsAre(Vector3d(0.1, 0.2, -0.3), Vector3d(0, 0, 1)));
+  EXPECT_THAT(stroke.velocity, ElementsAre(Vector3d(0.1, 0.2, 0), Vector3d(0, 0, 0)));
+  EXPECT_TRUE(stroke.contact.empty());
+  EXPECT_EQ(stroke.nominal_rate, 0.0);
+}
+
+TEST(StrokeCsv, WholeNumbersBecomeTheNearestDouble) {
+  EXPECT_EQ(length_unit("mm", 0).to_si(123), 0.123);
+  EXPECT_EQ(length_unit("cm", 0).to_si(123), 1.23);
+  EXPECT_EQ(length_unit("um", 0).to_si(55), 0.000055);
+  EXPECT_EQ(length_unit("in", 0).to_si(2), 0.0508);
+  EXPECT_EQ(length_unit("m", 0).to_si(0.1), 0.1);
+  EXPECT_EQ(length_unit("px", 0.25).to_si(3), 0.75);
+  EXPECT_EQ(time_unit("ms").to_si(66), 0.066);
+  EXPECT_EQ(time_unit("us").to_si(66), 0.000066);
+  EXPECT_EQ(time_unit("ns").to_si(7), 7e-9);
+  EXPECT_EQ(speed_unit("mm/s").to_si(3), 0.003);
+  EXPECT_EQ(force_unit("N").to_si(3), 3);
+}
+
+TEST(StrokeCsv, UnknownUnitsListTheKnown) {
+  const auto complaint_of = [](const auto& make) -> std::string {
+    try {
+      make();
+    } catch (const Error& failure) {
+      return failure.what();
+    }
+    return "";
+  };
+  EXPECT_THAT(complaint_of([] { length_unit("ft", 0); }), AllOf(HasSubstr("'ft'"), HasSubstr("mm")));
+  EXPECT_THAT(complaint_of([] { length_unit("px", 0); }), HasSubstr("--pixel-size"));
+  EXPECT_THAT(complaint_of([] { time_unit("min"); }), AllOf(HasSubstr("'min'"), HasSubstr("ms")));
+  EXPECT_THAT(complaint_of([] { speed_unit("km/h"); }), HasSubstr("mm/s"));
+  EXPECT_THAT(complaint_of([] { force_unit("lb"); }), HasSubstr("mN"));
+}
+
+TEST(StrokeCsv, AnEvenRateStandsForTheTimes) {
+  StrokeCsvFormat format = txyz();
+  format.time.reset();
+  format.rate = 1000.0;
+  const Stroke stroke = parse("x,y,z\n1,0,0\n2,0,0\n3,0,0\n", format);
+  EXPECT_THAT(stroke.time, ElementsAre(0.0, 0.001, 0.002));
+  EXPECT_EQ(stroke.nominal_rate, 1000.0);
+}
+
+TEST(StrokeCsv, ToleratesWhatEditorsDo) {
+  const std::string text =
+      "\xEF\xBB\xBF t , x ,y,z\r\n\r\n0, 1 ,\t2,3\r\n   \r\n1,4,5,6";  // no newline at the end
+  const Stroke stroke = parse(text, txyz());
+  EXPECT_THAT(stroke.position, ElementsAre(Vector3d(1, 2, 3), Vector3d(4, 5, 6)));
+}
+
+TEST(StrokeCsv, PenStrokesAreKeptApart) {
+  const Stroke stroke =
+      parse("START\n1,2,0\n2,2,10\nBREAK\n5,5,20\nBREAK\n7,7,30\n8,8,40\nBREAK\n", drawing());
+  EXPECT_THAT(stroke.contact, ElementsAre(pen_down, pen_lifts, pen_lifts, pen_down, pen_lifts));
+  EXPECT_EQ(stroke.position[0], Vector3d(1, 2, 0));
+  const std::vector<bool> joined = {true, false, false, true, false};
+  for (std::size_t i = 0; i < stroke.size(); ++i) {
+    EXPECT_EQ(stroke.joined(i), joined[i]) << i;
+    EXPECT_TRUE(stroke.touches(i));  // a single sample is a point that was drawn
+  }
+}
+
+TEST(StrokeCsv, EqualTimesAreAnErrorUnlessAsked) {
+  const std::string text = "START\n0,0,0\n1,0,10\n2,0,10\n3,0,10\n4,0,40\n";
+  StrokeCsvFormat format = drawing();
+  EXPECT_THAT(complaint(text, format),
+              AllOf(HasSubstr("in.csv:4:"), HasSubstr("line 3"), HasSubstr("--equal-times")));
+
+  format.equal_times = EqualTimes::drop;
+  const Stroke dropped = parse(text, format);
+  EXPECT_THAT(dropped.time, ElementsAre(0.0, 0.01, 0.04));
+  EXPECT_THAT(dropped.position, ElementsAre(Vector3d(0, 0, 0), Vector3d(1, 0, 0), Vector3d(4, 0, 0)));
+
+  format.equal_times = EqualTimes::spread;
+  const Stroke spread = parse(text, format);
+  EXPECT_EQ(spread.size(), 5u);
+  EXPECT_DOUBLE_EQ(spread.time[1], 0.01);
+  EXPECT_DOUBLE_EQ(spread.time[2], 0.02);
+  EXPECT_DOUBLE_EQ(spread.time[3], 0.03);
+  EXPECT_EQ(spread.time[4], 0.04);
+}
+
+TEST(StrokeCsv, TheLastEqualTimesAreSpacedAsBefore) {
+  StrokeCsvFormat format = drawing();
+  format.equal_times = EqualTimes::spread;
+  const Stroke stroke = parse("0,0,0\n1,0,10\n2,0,15\n3,0,15\n4,0,15\n", format);
+  EXPECT_DOUBLE_EQ(stroke.time[3], 0.020);
+  EXPECT_DOUBLE_EQ(stroke.time[4], 0.025);
+}
+
+TEST(StrokeCsv, EqualTimesDoNotStretchIntoThePauseBetweenPenStrokes) {
+  StrokeCsvFormat format = drawing();
+  format.equal_times = EqualTimes::spread;
+  const Stroke stroke = parse("0,0,0\n1,0,10\n2,0,10\nBREAK\n3,0,1000\n", format);
+  EXPECT_DOUBLE_EQ(stroke.time[2], 0.020);  // not 0.505
+  const Stroke close = parse("0,0,0\n1,0,10\n2,0,10\nBREAK\n3,0,14\n", format);
+  EXPECT_DOUBLE_EQ(close.time[2], 0.012);  // but before the next
+}
+
+TEST(StrokeCsv, DroppedSamplesLeaveTheLift) {
+  StrokeCsvFormat format = drawing();
+  format.equal_times = EqualTimes::drop;
+  const Stroke stroke = parse("0,0,0\n1,0,10\n1,0,10\nBREAK\n3,0,20\n4,0,30\n", format);
+  EXPECT_THAT(stroke.time, ElementsAre(0.0, 0.01, 0.02, 0.03));
+  EXPECT_THAT(stroke.contact, ElementsAre(pen_down, pen_lifts, pen_down, pen_down));
+}
+
+TEST(StrokeCsv, DecreasingTimeIsAlwaysAnError) {
+  for (const EqualTimes equal : {EqualTimes::error, EqualTimes::drop, EqualTimes::spread}) {
+    StrokeCsvFormat format = drawing();
+    format.equal_times = equal;
+    EXPECT_THAT(complaint("START\n0,0,5\nBREAK\n1,0,4\n", format),
+                AllOf(HasSubstr("in.csv:4:"), HasSubstr("line 2")));
+  }
+}
+
+TEST(StrokeCsv, SaysWhichLineIsBad) {
+  const StrokeCsvFormat format = txyz();
+  const std::string header = "t,x,y,z\n0,0,0,0\n";
+  EXPECT_THAT(complaint("", format), AllOf(HasSubstr("in.csv"), HasSubstr("empty")));
+  EXPECT_THAT(complaint("\r\n \n", format), HasSubstr("empty"));
+  EXPECT_THAT(complaint("t,x,y,z\n", format), AllOf(HasSubstr("in.csv"), HasSubstr("no data rows")));
+  EXPECT_THAT(complaint("t,x,y\n0,0,0\n", format),
+              AllOf(HasSubstr("in.csv:1:"), HasSubstr("no column 'z'"), HasSubstr("t, x, y")));
+  EXPECT_THAT(complaint("t,x,y,z,x\n", format),
+              AllOf(HasSubstr("in.csv:1:"), HasSubstr("2 columns"), HasSubstr("'x'")));
+  EXPECT_THAT(complaint(header + "1,2,3\n", format),
+              AllOf(HasSubstr("in.csv:3:"), HasSubstr("3 fields"), HasSubstr("4 columns")));
+  EXPECT_THAT(complaint(header + "1,2,3,4,5\n", format), HasSubstr("in.csv:3: has 5 fields"));
+  EXPECT_THAT(complaint(header + "1,2,,4\n", format),
+              AllOf(HasSubstr("in.csv:3:"), HasSubstr("column 'y' is ''")));
+  for (const std::string bad : {"nan", "inf", "-inf", "abc", "1.5mm", "1e999", "0x10", "1 2", "--1"})
+    EXPECT_THAT(complaint(header + "\n1,2,3," + bad + "\n", format),
+                AllOf(HasSubstr("in.csv:4:"), HasSubstr("'" + bad + "'")))
+        << bad;
+
+  StrokeCsvFormat headless = drawing();
+  headless.position.names = {"x", "w"};
+  EXPECT_THAT(complaint("1,2,3\n", headless), AllOf(HasSubstr("--columns"), HasSubstr("'w'")));
+  StrokeCsvFormat spread = drawing();
+  spread.equal_times = EqualTimes::spread;
+  EXPECT_THAT(complaint("1,2,3\n2,3,3\n", spread), AllOf(HasSubstr("same time"), HasSubstr("--rate")));
+}
+
+TEST(StrokeCsv, ReadsARecordingOfARobotArm) {
+  const fs::path file = fs::path(SANDSTROKE_SHARED_DATA) / "panda_comanip_force_1khz" / "symbol17_rec2.csv";
+  if (!fs::exists(file)) GTEST_SKIP() << file << " is not there";
+  StrokeCsvFormat format;
+  format.position = {{"x_m", "y_m", "z_m"}, {}};
+  format.velocity = VectorColumns{{"vx_mps", "vy_mps", "vz_mps"}, {}};
+  format.force = VectorColumns{{"fx_N", "fy_N", "fz_N"}, {}};
+  format.rate = 1000.0;
+  const Stroke stroke = read_stroke_csv(file, format);
+  ASSERT_EQ(stroke.size(), 8647u);
+  EXPECT_EQ(stroke.position[0], Vector3d(-0.5070279, -0.2422634, 0.2589536));
+  EXPECT_EQ(stroke.force[1], Vector3d(0.1831, -0.3048, -1.9535));
+  EXPECT_NEAR(stroke.duration(), 8.646, 1e-12);
+
+  // It was traced on a sheet of paper: laid level, it is flat to about a millimetre over 0.15 m.
+  StrokePlacement placement;
+  placement.plane = StrokePlane::fit;
+  for (const Vector3d& p : place_stroke(stroke, placement).position) EXPECT_LT(std::abs(p.z()), 1e-3);
+}
+
+TEST(StrokeCsv, ReadsLettersDrawnOnAScreen) {
+  const fs::path folder = fs::path(SANDSTROKE_SHARED_DATA) / "omniglot_timed_strokes" / "Greek";
+  if (!fs::exists(folder)) GTEST_SKIP() << folder << " is not there";
+  StrokeCsvFormat format = drawing();
+  format.position.unit = length_unit("px", 0.002);
+  int drawings = 0, pen_strokes = 0;
+  std::size_t points = 0, left = 0;
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    if (entry.path().extension() != ".txt") continue;
+    ++drawings;
+    format.equal_times = EqualTimes::spread;
+    const Stroke stroke = read_stroke_csv(entry.path(), format);
+    points += stroke.size();
+    for (const std::uint8_t state : stroke.contact) pen_strokes += state == pen_lifts;
+    format.equal_times = EqualTimes::drop;
+    left += read_stroke_csv(entry.path(), format).size();
+  }
+  EXPECT_EQ(drawings, 120);
+  EXPECT_EQ(pen_strokes, 184);
+  EXPECT_EQ(points, 13924u);
+  // 2.2 % of the steps from point to point have equal stamps.
+  EXPECT_NEAR(static_cast<double>(points - left) / static_cast<double>(points - 184), 0.022, 0.0005);
+}
+
+}  // namespace
+}  // namespace sandstroke

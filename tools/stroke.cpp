@@ -1,0 +1,331 @@
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "commands.h"
+#include "core/error.h"
+#include "haptics/stroke_sampler.h"
+#include "io/stroke_csv.h"
+#include "io/stroke_file.h"
+
+namespace sandstroke {
+namespace {
+
+namespace fs = std::filesystem;
+using Eigen::Vector3d;
+
+// --- info ---
+
+struct StrokeSummary {
+  std::size_t samples = 0, drawn_samples = 0, joined_samples = 0;
+  double duration = 0.0, median_spacing = 0.0;  // s
+  Vector3d low, high;                           // m
+  double top_speed = 0.0;                       // m/s, between samples that are joined
+  std::vector<StrokeGap> gaps;
+  double least_force = 0.0, greatest_force = 0.0;  // N, magnitude
+};
+
+StrokeSummary summarize(const Stroke& stroke) {
+  StrokeSummary summary;
+  summary.samples = stroke.size();
+  summary.duration = stroke.duration();
+  summary.low = summary.high = stroke.position.front();
+  std::vector<double> spacings;
+  for (std::size_t i = 0; i < stroke.size(); ++i) {
+    summary.drawn_samples += stroke.touches(i);
+    summary.low = summary.low.cwiseMin(stroke.position[i]);
+    summary.high = summary.high.cwiseMax(stroke.position[i]);
+    if (i == 0) continue;
+    spacings.push_back(stroke.time[i] - stroke.time[i - 1]);
+    if (stroke.joined(i - 1)) {
+      ++summary.joined_samples;
+      const double step = (stroke.position[i] - stroke.position[i - 1]).norm();
+      summary.top_speed = std::max(summary.top_speed, step / spacings.back());
+    }
+  }
+  if (!spacings.empty()) {
+    const auto middle = spacings.begin() + static_cast<std::ptrdiff_t>(spacings.size() / 2);
+    std::nth_element(spacings.begin(), middle, spacings.end());
+    summary.median_spacing = *middle;
+  }
+  summary.gaps = StrokeSampler(stroke).gaps();
+  if (!stroke.force.empty()) {
+    const auto shorter = [](const Vector3d& a, const Vector3d& b) { return a.norm() < b.norm(); };
+    const auto [least, greatest] = std::minmax_element(stroke.force.begin(), stroke.force.end(), shorter);
+    summary.least_force = least->norm();
+    summary.greatest_force = greatest->norm();
+  }
+  return summary;
+}
+
+nlohmann::ordered_json as_json(const std::string& file, const Stroke& stroke, const StrokeSummary& summary) {
+  nlohmann::ordered_json json;
+  json["file"] = file;
+  json["source"] = stroke.source;
+  json["frame"] = stroke.frame;
+  json["complete"] = stroke.complete;
+  json["samples"] = summary.samples;
+  json["drawn_samples"] = summary.drawn_samples;
+  json["duration"] = summary.duration;
+  json["nominal_rate"] = stroke.nominal_rate;
+  json["median_spacing"] = summary.median_spacing;
+  for (int axis = 0; axis < 3; ++axis)
+    json[std::string("extent_") + "xyz"[axis]] = {summary.low[axis], summary.high[axis]};
+  json["top_speed"] = summary.top_speed;
+  json["gap_threshold"] = stroke.gap_threshold;
+  json["gaps"] = nlohmann::json::array();
+  for (const StrokeGap& gap : summary.gaps) json["gaps"].push_back({gap.begin, gap.end});
+  if (!stroke.force.empty()) json["force"] = {summary.least_force, summary.greatest_force};
+  return json;
+}
+
+std::string as_table(const std::string& file, const Stroke& stroke, const StrokeSummary& summary) {
+  std::string table;
+  const auto row = [&table](std::string_view title, const std::string& value) {
+    table += fmt::format("{:<10}{}\n", title, value);
+  };
+  row("file", file);
+  row("source", stroke.source.empty() ? "not said" : stroke.source);
+  row("frame", stroke.frame);
+  row("complete", stroke.complete ? "yes" : "no: cut off while being recorded");
+  row("samples",
+      std::to_string(summary.samples) +
+          (stroke.contact.empty() ? "" : fmt::format(", {} with the pen down", summary.drawn_samples)));
+  row("duration", fmt::format("{:.6g} s", summary.duration));
+  row("rate",
+      fmt::format("{}, median spacing {:.6g} ms",
+                  stroke.nominal_rate > 0.0 ? fmt::format("{:.6g} Hz", stroke.nominal_rate) : "not said",
+                  1e3 * summary.median_spacing));
+  for (int axis = 0; axis < 3; ++axis) {
+    row({&"xyz"[axis], 1},
+        fmt::format("{:>10.3f} to {:>10.3f} mm, {:>10.3f} mm wide", 1e3 * summary.low[axis],
+                    1e3 * summary.high[axis], 1e3 * (summary.high[axis] - summary.low[axis])));
+  }
+  row("top speed", fmt::format("{:.4g} m/s, gaps aside", summary.top_speed));
+  double lifted = 0.0;
+  for (const StrokeGap& gap : summary.gaps) lifted += gap.end - gap.begin;
+  row("gaps", summary.gaps.empty()
+                  ? "none"
+                  : fmt::format("{}, {:.6g} s in all (pen lifted, or over {:.6g} s without a sample)",
+                                summary.gaps.size(), lifted, stroke.gap_threshold));
+  row("force", stroke.force.empty()
+                   ? "not recorded"
+                   : fmt::format("{:.4g} to {:.4g} N", summary.least_force, summary.greatest_force));
+  return table;
+}
+
+void add_info(CLI::App& stroke_app, Command& chosen) {
+  struct Options {
+    std::string file;
+    bool json = false;
+  };
+  auto options = std::make_shared<Options>();
+  CLI::App* app = stroke_app.add_subcommand("info", "Says what is in a stroke file");
+  app->add_option("FILE", options->file, "Recorded (.h5) or scripted (.toml) stroke")->required();
+  app->add_flag("--json", options->json, "One JSON object in SI units instead of a table");
+  app->callback([&chosen, options] {
+    chosen = [options] {
+      const Stroke stroke = load_stroke(options->file, ForceSettings{});
+      const StrokeSummary summary = summarize(stroke);
+      if (options->json) {
+        fmt::print("{}\n", as_json(options->file, stroke, summary).dump(2));
+      } else {
+        fmt::print("{}", as_table(options->file, stroke, summary));
+      }
+      return 0;
+    };
+  });
+}
+
+void check_output(const std::string& in, const std::string& out) {
+  std::error_code ignored;  // what is not there is not the same
+  if (fs::equivalent(in, out, ignored))
+    throw_input_error("{}: is the input itself; give the output another name", out);
+}
+
+/// Writes a stroke and tells what came out.
+void write_and_tell(const std::string& file, const Stroke& stroke) {
+  write_stroke_file(file, stroke);
+  const StrokeSummary summary = summarize(stroke);
+  spdlog::info("{}: {} samples, {:.3f} s, {:.1f} x {:.1f} x {:.1f} mm, gaps: {}", file, summary.samples,
+               summary.duration, 1e3 * (summary.high.x() - summary.low.x()),
+               1e3 * (summary.high.y() - summary.low.y()), 1e3 * (summary.high.z() - summary.low.z()),
+               summary.gaps.size());
+  if (summary.joined_samples == 0) {
+    spdlog::warn(
+        "no two samples are joined, so the tool never draws: they lie further apart than the gap threshold "
+        "of {} s",
+        stroke.gap_threshold);
+  }
+}
+
+// --- script ---
+
+void add_script(CLI::App& stroke_app, Command& chosen) {
+  struct Options {
+    std::string in, out;
+  };
+  auto options = std::make_shared<Options>();
+  CLI::App* app =
+      stroke_app.add_subcommand("script", "Samples a scripted stroke (TOML) into a recorded one (HDF5)");
+  app->add_option("IN", options->in, "Script (.toml)")->required();
+  app->add_option("OUT", options->out, "Stroke to write (.h5)")->required();
+  app->footer(
+      "A scene takes a script as it is; this is for looking at its samples. A force in it\n"
+      "becomes a depth: here by the default constants of [force], in a scene by its own.\n"
+      "A script (m, m/s, degrees, N):\n"
+      "    start = [-0.2, 0.0]           # also: clearance, travel_speed, plunge_speed, rate, repeat\n"
+      "    depth = 0.006                 # below z = 0; or force. Here for all segments, or in each\n"
+      "    speed = 0.1\n"
+      "    [[segment]]\n"
+      "    kind = \"line\"                 # also: move, arc, spline, text\n"
+      "    to = [0.2, 0.0]\n"
+      "    depth = [0.008, 0.001]        # spread along the segment: ends weaker than it starts");
+  app->callback([&chosen, options] {
+    chosen = [options] {
+      check_output(options->in, options->out);
+      if (fs::path(options->in).extension() != ".toml")
+        throw_input_error("{}: is not a script; name a .toml file", options->in);
+      write_and_tell(options->out, load_stroke(options->in, ForceSettings{}));
+      return 0;
+    };
+  });
+}
+
+// --- convert ---
+
+struct ConvertOptions {
+  std::string in, out;
+  std::vector<std::string> position, velocity, force, columns;
+  std::string position_unit, velocity_unit, force_unit, time_unit, time;
+  double rate = 0.0, pixel_size = 0.0;
+  std::string pen_up, skip, source, frame = "bed";
+  std::string equal_times = "error";
+  double gap_threshold = Stroke{}.gap_threshold;
+};
+
+Stroke convert(const ConvertOptions& options) {
+  StrokeCsvFormat format;
+  format.position = {options.position, length_unit(options.position_unit, options.pixel_size)};
+  if (!options.velocity.empty()) format.velocity = {options.velocity, speed_unit(options.velocity_unit)};
+  if (!options.force.empty()) format.force = {options.force, force_unit(options.force_unit)};
+  if (options.time.empty() == (options.rate == 0.0))
+    throw_input_error("the times are unknown or given twice; give either --time with --time-unit, or --rate");
+  if (!options.time.empty()) {
+    format.time = options.time;
+    format.time_unit = time_unit(options.time_unit);
+  }
+  format.rate = options.rate;
+  format.columns = options.columns;
+  format.pen_up = options.pen_up;
+  format.skip = options.skip;
+  format.equal_times = options.equal_times == "drop"     ? EqualTimes::drop
+                       : options.equal_times == "spread" ? EqualTimes::spread
+                                                         : EqualTimes::error;
+
+  Stroke stroke = read_stroke_csv(options.in, format);
+  stroke.gap_threshold = options.gap_threshold;
+  stroke.frame = options.frame;
+  stroke.source = options.source.empty() ? fs::path(options.in).filename().string() : options.source;
+  return stroke;
+}
+
+void add_convert(CLI::App& stroke_app, Command& chosen) {
+  auto options = std::make_shared<ConvertOptions>();
+  CLI::App* app = stroke_app.add_subcommand("convert", "Makes a stroke from a table of samples (CSV)");
+  app->add_option("IN", options->in,
+                  "Comma-separated numbers, one sample per line, column names in the first line")
+      ->required();
+  app->add_option("OUT", options->out, "Stroke to write (.h5)")->required();
+
+  // A list is one argument, so that file names may follow it.
+  const auto add_list = [app](const char* name, std::vector<std::string>& columns, const char* help) {
+    return app->add_option(name, columns, help)->delimiter(',')->allow_extra_args(false);
+  };
+  add_list("--position", options->position,
+           "Columns with the tip's x,y,z, z up; or with x,y alone (then z = 0)")
+      ->expected(2, 3)
+      ->required()
+      ->option_text("X,Y[,Z] REQUIRED");
+  app->add_option("--position-unit", options->position_unit, "m, cm, mm, um, in or px")
+      ->required()
+      ->option_text("UNIT REQUIRED");
+  app->add_option("--pixel-size", options->pixel_size, "Metres per pixel, for unit px")
+      ->check(CLI::PositiveNumber)
+      ->option_text("M");
+
+  auto* time =
+      app->add_option("--time", options->time, "Column with the time (or else --rate)")->option_text("T");
+  auto* time_unit =
+      app->add_option("--time-unit", options->time_unit, "s, ms, us or ns")->option_text("UNIT");
+  time->needs(time_unit);
+  time_unit->needs(time);
+  app->add_option("--rate", options->rate, "Instead of --time: the samples follow each other evenly")
+      ->check(CLI::PositiveNumber)
+      ->excludes(time)
+      ->option_text("HZ");
+  app->add_option("--equal-times", options->equal_times,
+                  "Where a time equals the one before it: error (default), drop (keep the first)\n"
+                  "or spread (space them evenly up to the next time)")
+      ->check(CLI::IsMember({"error", "drop", "spread"}))
+      ->option_text("RULE");
+
+  const auto add_vector = [&](const std::string& name, std::vector<std::string>& columns, std::string& unit,
+                              const char* help, const char* units) {
+    auto* vector = add_list(name.c_str(), columns, help)->expected(2, 3)->option_text("X,Y[,Z]");
+    auto* vector_unit = app->add_option(name + "-unit", unit, units)->option_text("UNIT");
+    vector->needs(vector_unit);
+    vector_unit->needs(vector);
+  };
+  add_vector("--velocity", options->velocity, options->velocity_unit, "Columns with the tip's velocity",
+             "m/s, cm/s or mm/s");
+  add_vector("--force", options->force, options->force_unit, "Columns with the recorded force", "N or mN");
+
+  add_list("--columns", options->columns, "Names of all columns, for a file without a header line")
+      ->option_text("A,B,...");
+  app->add_option("--pen-up", options->pen_up,
+                  "A line with this word lifts the pen: what follows is not joined on")
+      ->option_text("WORD");
+  app->add_option("--skip", options->skip, "Lines with this word are passed over")->option_text("WORD");
+  app->add_option("--gap-threshold", options->gap_threshold,
+                  "Samples further apart are not joined: the tool lifts (default 0.1 s)")
+      ->check(CLI::PositiveNumber)
+      ->option_text("S");
+  app->add_option("--frame", options->frame, "Whose axes these are: bed (default) or device, the haptic one")
+      ->check(CLI::IsMember({"bed", "device"}))
+      ->option_text("FRAME");
+  app->add_option("--source", options->source,
+                  "Where the samples come from, for people (default: the file's name)")
+      ->option_text("TEXT");
+  app->footer(
+      "Examples\n"
+      "  a recording at 1000 Hz, with force:\n"
+      "    sandstroke stroke convert trace.csv trace.h5 --rate 1000 \\\n"
+      "        --position x_m,y_m,z_m --position-unit m --force fx_N,fy_N,fz_N --force-unit N\n"
+      "  a letter drawn on a screen, without header line, pen strokes parted by BREAK:\n"
+      "    sandstroke stroke convert letter.txt letter.h5 --columns x,y,t \\\n"
+      "        --position x,y --position-unit px --pixel-size 0.002 --time t --time-unit ms \\\n"
+      "        --equal-times spread --skip START --pen-up BREAK --gap-threshold 0.4");
+  app->callback([&chosen, options] {
+    chosen = [options] {
+      check_output(options->in, options->out);
+      write_and_tell(options->out, convert(*options));
+      return 0;
+    };
+  });
+}
+
+}  // namespace
+
+void add_stroke_command(CLI::App& app, Command& chosen) {
+  CLI::App* stroke_app = app.add_subcommand("stroke", "Makes, converts and describes strokes (hand motions)");
+  stroke_app->require_subcommand(1);
+  add_convert(*stroke_app, chosen);
+  add_script(*stroke_app, chosen);
+  add_info(*stroke_app, chosen);
+}
+
+}  // namespace sandstroke
