@@ -27,6 +27,7 @@ Hdf5Handle string_type(std::size_t length) {
 
 Hdf5Handle dataset_properties(const std::vector<hsize_t>& chunk, Compression compression) {
   Hdf5Handle properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+  H5Pset_obj_track_times(properties, false);  // the same content, the same bytes
   if (!chunk.empty()) H5Pset_chunk(properties, static_cast<int>(chunk.size()), chunk.data());
   if (compression != Compression::none) {
     H5Pset_shuffle(properties);

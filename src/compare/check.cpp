@@ -1,0 +1,69 @@
+#include "compare/check.h"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace sandstroke {
+namespace {
+
+std::string number_text(double value, const std::string& unit) {
+  if (std::isnan(value)) return "-";
+  return unit.empty() ? fmt::format("{:.6g}", value) : fmt::format("{:.6g} {}", value, unit);
+}
+
+}  // namespace
+
+Check limit_check(std::string name, double measured, double limit, std::string unit, std::string sentence) {
+  return {std::move(name), measured <= limit, measured, limit, std::move(unit), std::move(sentence)};
+}
+
+Check fact_check(std::string name, bool passed, std::string sentence) {
+  return {std::move(name), passed, Check::no_number, Check::no_number, "", std::move(sentence)};
+}
+
+bool Comparison::passed() const { return !checks.empty() && failures() == 0; }
+
+int Comparison::failures() const {
+  return static_cast<int>(
+      std::count_if(checks.begin(), checks.end(), [](const Check& c) { return !c.passed; }));
+}
+
+std::string check_table(const Comparison& comparison) {
+  std::vector<std::array<std::string, 4>> lines{{"check", "measured", "limit", ""}};
+  for (const Check& check : comparison.checks) {
+    lines.push_back({check.name, number_text(check.measured, check.unit),
+                     number_text(check.limit, check.unit), check.passed ? "ok" : "FAILED"});
+  }
+  std::array<std::size_t, 3> widths{};
+  for (const auto& line : lines)
+    for (std::size_t i = 0; i < widths.size(); ++i) widths[i] = std::max(widths[i], line[i].size());
+
+  std::string table;
+  for (const auto& line : lines) {
+    std::string row = fmt::format("{:<{}}  {:<{}}  {:<{}}  {}", line[0], widths[0], line[1], widths[1],
+                                  line[2], widths[2], line[3]);
+    row.erase(row.find_last_not_of(' ') + 1);
+    table += row + '\n';
+  }
+  for (const Check& check : comparison.checks)
+    if (!check.passed) table += fmt::format("{}: {}\n", check.name, check.sentence);
+  return table;
+}
+
+nlohmann::json to_json(const Comparison& comparison) {
+  nlohmann::json checks = nlohmann::json::array();
+  for (const Check& check : comparison.checks) {
+    checks.push_back({{"name", check.name},
+                      {"passed", check.passed},
+                      {"measured", check.measured},
+                      {"limit", check.limit},
+                      {"unit", check.unit},
+                      {"sentence", check.sentence}});
+  }
+  return {{"name", comparison.name}, {"passed", comparison.passed()}, {"checks", std::move(checks)}};
+}
+
+}  // namespace sandstroke

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+namespace sandstroke {
+
+/// One thing that was compared, and what came out.
+struct Check {
+  static constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
+
+  std::string name;  ///< "final height"
+  bool passed = false;
+  double measured = no_number;  ///< in `unit`; NaN where nothing could be measured
+  double limit = no_number;     ///< in `unit`; NaN where there is no number to stay below
+  std::string unit;
+  std::string sentence;  ///< what was found and where
+};
+
+/// A check that holds where measured <= limit; not where measured is NaN.
+Check limit_check(std::string name, double measured, double limit, std::string unit, std::string sentence);
+
+/// A check of a fact, without numbers.
+Check fact_check(std::string name, bool passed, std::string sentence);
+
+/// The checks of one pair of runs or pictures, or of one scene.
+struct Comparison {
+  std::string name;
+  std::vector<Check> checks;
+
+  /// All of them hold, and there is at least one: comparing nothing is not a success.
+  bool passed() const;
+  int failures() const;
+};
+
+/// One aligned line per check (name, measured, limit, ok or FAILED), then the sentences of those that failed.
+std::string check_table(const Comparison& comparison);
+
+/// {"name", "passed", "checks": [{"name", "passed", "measured", "limit", "unit", "sentence"}]}; NaN becomes
+/// null.
+nlohmann::json to_json(const Comparison& comparison);
+
+}  // namespace sandstroke

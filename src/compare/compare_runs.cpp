@@ -1,0 +1,38 @@
+#include "compare/compare_runs.h"
+
+#include <optional>
+#include <utility>
+
+namespace sandstroke {
+namespace {
+
+std::optional<CountedTrace> whole_trace(const RunFile& run) {
+  if (!run.has_trace()) return std::nullopt;
+  RunTrace trace = run.trace();
+  return CountedTrace{trace.size(), std::move(trace)};
+}
+
+}  // namespace
+
+Comparison compare_runs(const RunFile& golden, const RunFile& run, const Tolerances& tolerances) {
+  Comparison comparison{run.name(), {}};
+  std::vector<Check>& checks = comparison.checks;
+
+  add_checks(checks, "golden complete", [&] { return std::vector{complete_check("golden", golden)}; });
+  add_checks(checks, "run complete", [&] { return std::vector{complete_check("run", run)}; });
+  add_checks(checks, "cell size",
+             [&] { return std::vector{cell_size_check(golden.cell_size(), run.cell_size())}; });
+  add_checks(checks, "initial height", [&] {
+    return std::vector{height_check("initial height", golden.initial(), run.initial(), golden.cell_size(),
+                                    tolerances.height)};
+  });
+  add_checks(checks, "final height", [&] {
+    return std::vector{
+        height_check("final height", golden.final(), run.final(), golden.cell_size(), tolerances.height)};
+  });
+  add_checks(checks, "trace",
+             [&] { return trace_checks(whole_trace(golden), whole_trace(run), tolerances); });
+  return comparison;
+}
+
+}  // namespace sandstroke

@@ -1,0 +1,251 @@
+#include "compare/golden.h"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <cmath>
+#include <cstdint>
+#include <optional>
+
+#include "core/error.h"
+#include "core/hash.h"
+#include "core/output_file.h"
+#include "core/version.h"
+#include "io/hdf5_file.h"
+#include "io/png_file.h"
+#include "io/toml_reader.h"
+#include "render/changed_cells.h"
+
+namespace sandstroke {
+namespace {
+namespace fs = std::filesystem;
+
+constexpr const char* content_name = "golden.h5";
+constexpr const char* picture_name = "picture.png";
+constexpr const char* provenance_name = "provenance.toml";
+
+constexpr double height_quantum = 0x1p-30;   // m
+constexpr double initial_quantum = 0x1p-20;  // m
+constexpr double force_quantum = 0x1p-20;    // N
+constexpr std::size_t trace_stride = 10;     // ticks
+
+/// An entry without one of its files is damaged: that is a finding, not an error of the system.
+fs::path existing(const fs::path& file) {
+  if (!fs::exists(file))
+    throw_input_error("{}: is missing; restore it, or make it with golden update", file.string());
+  return file;
+}
+
+std::string initial_hash(const HeightGrid& heights) {
+  ContentHash hash;
+  for (const double height : heights.reshaped<Eigen::RowMajor>()) {
+    const std::int64_t steps = std::llround(height / initial_quantum);
+    hash.add(&steps, sizeof steps);
+  }
+  return hash.text();
+}
+
+/// Keeps NaN.
+HeightGrid rounded(const HeightGrid& values, double quantum) { return (values / quantum).round() * quantum; }
+
+template <class Column>
+Column thinned(const Column& column) {
+  Column kept;
+  for (std::size_t tick = 0; tick < column.size(); tick += trace_stride) kept.push_back(column[tick]);
+  return kept;
+}
+
+std::optional<CountedTrace> thinned_trace(const RunFile& run) {
+  if (!run.has_trace()) return std::nullopt;
+  const RunTrace trace = run.trace();
+  CountedTrace kept;
+  kept.ticks = trace.size();
+  kept.rows.time = thinned(trace.time);
+  kept.rows.device_force = thinned(trace.device_force);
+  kept.rows.depth = thinned(trace.depth);
+  kept.rows.level = thinned(trace.level);
+  kept.rows.contact = thinned(trace.contact);
+  return kept;
+}
+
+// Rows of /trace/rows: time, three of the force, depth, level, contact. One table compresses as a whole.
+constexpr Eigen::Index table_rows = 7;
+
+HeightGrid as_table(const RunTrace& trace) {
+  HeightGrid table(table_rows, static_cast<Eigen::Index>(trace.size()));
+  for (Eigen::Index k = 0; k < table.cols(); ++k) {
+    table.col(k) << trace.time[k], trace.device_force[k].array(), trace.depth[k], trace.level[k],
+        trace.contact[k];
+  }
+  table.middleRows(1, 3) = rounded(table.middleRows(1, 3), force_quantum);
+  table.middleRows(4, 2) = rounded(table.middleRows(4, 2), height_quantum);
+  return table;
+}
+
+RunTrace from_table(const HeightGrid& table) {
+  RunTrace trace;
+  for (Eigen::Index k = 0; k < table.cols(); ++k) {
+    trace.time.push_back(table(0, k));
+    trace.device_force.emplace_back(table(1, k), table(2, k), table(3, k));
+    trace.depth.push_back(table(4, k));
+    trace.level.push_back(table(5, k));
+    trace.contact.push_back(table(6, k) != 0.0);
+  }
+  return trace;
+}
+
+void write_content(const fs::path& path, const RunFile& run) {
+  if (!run.complete())
+    throw_input_error("{}: was cut off; only a complete run can become golden", run.name());
+  const HeightGrid initial = run.initial(), change = height_change(run);
+  if (!change.allFinite())
+    throw_input_error("{}: has heights that are not finite; it cannot become golden", run.name());
+  CellRange block =
+      changed_cells(HeightGrid::Zero(change.rows(), change.cols()), change, 0.5 * height_quantum);
+  if (block.empty()) block = {0, 1, 0, 1};
+
+  Hdf5Writer file(path);
+  file.attribute("/", "format", "sandstroke.golden");
+  file.attribute("/", "format_version", 1.0);
+  file.make_group("/surface");
+  file.attribute("/surface", "rows", static_cast<double>(change.rows()));
+  file.attribute("/surface", "cols", static_cast<double>(change.cols()));
+  file.attribute("/surface", "cell_size", run.cell_size());
+  file.attribute("/surface", "initial_hash", initial_hash(initial));
+  const HeightGrid kept = change.block(block.row_begin, block.col_begin, block.row_end - block.row_begin,
+                                       block.col_end - block.col_begin);
+  file.write("/surface/change", rounded(kept, height_quantum), Compression::small);
+  file.attribute("/surface/change", "row", block.row_begin);
+  file.attribute("/surface/change", "col", block.col_begin);
+  if (const std::optional<CountedTrace> trace = thinned_trace(run)) {
+    file.make_group("/trace");
+    file.attribute("/trace", "ticks", static_cast<double>(trace->ticks));
+    file.write("/trace/rows", as_table(trace->rows), Compression::small);
+  }
+  file.finish();
+}
+
+/// What a run file says about itself (/provenance).
+std::string provenance_of(const RunFile& run, const std::string& entry) {
+  for (const auto& [name, value] : run.provenance())
+    if (name == entry) return value;
+  throw_input_error("{}: /provenance/{} is missing; run the scene again", run.name(), entry);
+}
+
+std::string provenance_text(const RunFile& run, const RunResult& result) {
+  return fmt::format(
+      "version = \"{}\"\ncommit = \"{}\"\ncompiler = \"{}\"\n"
+      "scene_hash = \"{}\"    # of the resolved scene\nstroke_hash = \"{}\"   # of the stroke file\n\n"
+      "[result]\nticks = {}\npasses = {}\nresidual = {:.3e}\nvolume_drift = {:.3e}\n",
+      version, commit, compiler, provenance_of(run, "scene_hash"), provenance_of(run, "stroke_hash"),
+      result.ticks, result.passes, result.residual, result.volume_drift);
+}
+
+Check same_check(const std::string& what, const std::string& entry_name, bool same) {
+  return fact_check(
+      what, same,
+      same ? what + " as recorded" : fmt::format("{} changed: golden update {}", what, entry_name));
+}
+
+}  // namespace
+
+HeightGrid height_change(const RunFile& run) {
+  const HeightGrid initial = run.initial(), final_heights = run.final();
+  if (initial.rows() != final_heights.rows() || initial.cols() != final_heights.cols() || initial.size() == 0)
+    throw_input_error("{}: /surface/initial and /surface/final differ in shape or are empty", run.name());
+  return final_heights - initial;
+}
+
+void write_golden(const fs::path& entry, const GoldenRun& run) {
+  const fs::path part = part_path(entry), replaced = part_path(fs::path(entry) += ".old");
+  try {
+    fs::remove_all(part);
+    fs::remove_all(replaced);
+    fs::create_directories(part);
+    const RunFile file(run.run_file);
+    write_content(part / content_name, file);
+    write_png(part / picture_name, run.picture);
+    write_text_file(part / provenance_name, provenance_text(file, run.result));
+    // A folder cannot be renamed onto one with content. Killed in between, the entry is missing, never half.
+    if (fs::exists(entry)) fs::rename(entry, replaced);
+    finish_part(entry);
+    fs::remove_all(replaced);
+  } catch (const fs::filesystem_error& failure) {
+    throw_io_error("{}: cannot be written ({}); check the folder's rights", entry.string(),
+                   failure.code().message());
+  }
+}
+
+GoldenContent read_golden(const fs::path& entry) {
+  const Hdf5Reader file(existing(entry / content_name));
+  if (!file.has_attribute("/", "format") || file.text_attribute("/", "format") != "sandstroke.golden" ||
+      file.number_attribute("/", "format_version") != 1.0) {
+    throw_input_error("{}: is not a golden file of format 1; make it with 'sandstroke golden update'",
+                      file.name());
+  }
+  GoldenContent content;
+  content.cell_size = file.number_attribute("/surface", "cell_size");
+  content.initial_hash = file.text_attribute("/surface", "initial_hash");
+  const double rows = file.number_attribute("/surface", "rows"),
+               cols = file.number_attribute("/surface", "cols");
+  const HeightGrid block = file.grid("/surface/change");
+  const double row = file.number_attribute("/surface/change", "row");
+  const double col = file.number_attribute("/surface/change", "col");
+  constexpr double most = 1 << 16;
+  const bool fits = row >= 0 && col >= 0 && rows <= most && cols <= most &&
+                    row + static_cast<double>(block.rows()) <= rows &&
+                    col + static_cast<double>(block.cols()) <= cols;
+  if (!fits) throw_input_error("{}: /surface/change does not lie in the bed; make it again", file.name());
+  content.change = HeightGrid::Zero(static_cast<Eigen::Index>(rows), static_cast<Eigen::Index>(cols));
+  content.change.block(static_cast<Eigen::Index>(row), static_cast<Eigen::Index>(col), block.rows(),
+                       block.cols()) = block;
+  if (file.has("/trace")) {
+    const HeightGrid table = file.grid("/trace/rows");
+    if (table.rows() != table_rows)
+      throw_input_error("{}: /trace/rows has not {} rows; make it again", file.name(), table_rows);
+    content.trace =
+        CountedTrace{static_cast<std::size_t>(file.number_attribute("/trace", "ticks")), from_table(table)};
+  }
+  return content;
+}
+
+Image read_golden_picture(const fs::path& entry) { return read_png(existing(entry / picture_name)); }
+
+Comparison compare_golden(const std::string& name, const fs::path& entry, const GoldenRun& run_of_scene,
+                          const Tolerances& tolerances) {
+  Comparison comparison{name, {}};
+  std::vector<Check>& checks = comparison.checks;
+  const RunFile run(run_of_scene.run_file);
+
+  add_checks(checks, "provenance", [&] {
+    const TomlReader provenance = TomlReader::from_file(existing(entry / provenance_name));
+    const auto same_hash = [&](const std::string& what) {
+      const std::string key = what + "_hash";
+      provenance.require(key);
+      return same_check(what, name, provenance.text(key, "") == provenance_of(run, key));
+    };
+    return std::vector{same_hash("scene"), same_hash("stroke")};
+  });
+  add_checks(checks, "run complete", [&] { return std::vector{complete_check("run", run)}; });
+
+  add_checks(checks, "golden content", [&] {
+    const GoldenContent golden = read_golden(entry);
+    std::vector<Check> found;
+    add_checks(found, "initial surface", [&] {
+      return std::vector{
+          same_check("initial surface", name, golden.initial_hash == initial_hash(run.initial()))};
+    });
+    add_checks(found, "cell size",
+               [&] { return std::vector{cell_size_check(golden.cell_size, run.cell_size())}; });
+    add_checks(found, "height change", [&] {
+      return std::vector{height_check("height change", golden.change, height_change(run), golden.cell_size,
+                                      tolerances.height)};
+    });
+    add_checks(found, "trace", [&] { return trace_checks(golden.trace, thinned_trace(run), tolerances); });
+    return found;
+  });
+  add_checks(checks, "picture",
+             [&] { return picture_checks(read_golden_picture(entry), run_of_scene.picture, tolerances); });
+  return comparison;
+}
+
+}  // namespace sandstroke

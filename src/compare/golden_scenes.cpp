@@ -1,0 +1,116 @@
+#include "compare/golden_scenes.h"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <cstdlib>
+#include <set>
+
+#include "compare/report_picture.h"
+#include "core/error.h"
+
+namespace sandstroke {
+namespace {
+namespace fs = std::filesystem;
+
+/// A folder of its own for a run file, gone at the end.
+class TemporaryFolder {
+ public:
+  TemporaryFolder() : path_((fs::temp_directory_path() / "sandstroke-XXXXXX").string()) {
+    if (!mkdtemp(path_.data()))
+      throw_io_error("{}: cannot be made; set TMPDIR to a folder with space", path_);
+  }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  ~TemporaryFolder() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+  }
+  fs::path path() const { return path_; }
+
+ private:
+  std::string path_;
+};
+
+std::set<std::string> folders_in(const fs::path& parent) {
+  std::set<std::string> names;
+  if (!fs::is_directory(parent)) return names;
+  for (const fs::directory_entry& child : fs::directory_iterator(parent)) {
+    // NAME.part: an update that was killed.
+    if (child.is_directory() && child.path().extension() != ".part")
+      names.insert(child.path().filename().string());
+  }
+  return names;
+}
+
+}  // namespace
+
+std::vector<std::string> golden_names(const GoldenFolders& folders,
+                                      const std::vector<std::string>& asked_for) {
+  if (!fs::is_directory(folders.strokes)) {
+    throw_io_error("{}: is no folder of scenes; start in the repository, or name it with --strokes",
+                   folders.strokes.string());
+  }
+  std::set<std::string> known = folders_in(folders.golden);
+  for (const std::string& name : folders_in(folders.strokes))
+    if (fs::exists(folders.scene(name))) known.insert(name);
+  if (known.empty()) {
+    throw_input_error(
+        "{}: holds no NAME/scene.toml, and {} no golden entry: nothing to do; check both folders",
+        folders.strokes.string(), folders.golden.string());
+  }
+  if (asked_for.empty()) return {known.begin(), known.end()};
+  for (const std::string& name : asked_for) {
+    if (!known.contains(name)) {
+      throw_input_error("{}: there is neither {} nor {}; known are: {}", name, folders.scene(name).string(),
+                        folders.entry(name).string(), fmt::join(known, ", "));
+    }
+  }
+  return asked_for;
+}
+
+Comparison check_golden(const std::string& name, const GoldenFolders& folders, const SceneRunner& runner,
+                        const Tolerances& tolerances, const fs::path& report) {
+  const auto failed = [&](const std::string& check, const std::string& sentence) {
+    return Comparison{name, {fact_check(check, false, sentence)}};
+  };
+  if (!fs::exists(folders.scene(name)))
+    return failed("scene", fmt::format("there is no {}; restore it or delete the golden entry",
+                                       folders.scene(name).string()));
+  if (!fs::is_directory(folders.entry(name)))
+    return failed("golden entry",
+                  fmt::format("there is none; look at the run, then: golden update {}", name));
+
+  const TemporaryFolder folder;
+  GoldenRun run;
+  try {
+    run = runner(folders.scene(name), folder.path() / "run.h5");
+  } catch (const Error& error) {
+    if (error.kind() == ErrorKind::io) throw;
+    return failed("run", error.what());
+  }
+  if (run.result.interrupted) return failed("run", "was interrupted");
+  Comparison comparison = compare_golden(name, folders.entry(name), run, tolerances);
+  if (!report.empty()) {
+    write_report(report / (name + "-height.png"), [&] {
+      const GoldenContent golden = read_golden(folders.entry(name));
+      return surface_report(name + ": change of height", golden.change, height_change(RunFile(run.run_file)),
+                            golden.cell_size, tolerances.height);
+    });
+    write_report(report / (name + "-picture.png"), [&] {
+      return picture_report(name, read_golden_picture(folders.entry(name)), run.picture, tolerances.pixel);
+    });
+  }
+  return comparison;
+}
+
+bool update_golden(const std::string& name, const GoldenFolders& folders, const SceneRunner& runner) {
+  const fs::path scene = folders.scene(name);
+  if (!fs::exists(scene))
+    throw_input_error("{}: there is no {}; check the name and --strokes", name, scene.string());
+  const TemporaryFolder folder;
+  const GoldenRun run = runner(scene, folder.path() / "run.h5");
+  if (run.result.interrupted) return false;
+  write_golden(folders.entry(name), run);
+  return true;
+}
+
+}  // namespace sandstroke

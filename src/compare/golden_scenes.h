@@ -1,0 +1,39 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "compare/golden.h"
+
+namespace sandstroke {
+
+/// Runs a scene into a run file and renders it.
+using SceneRunner =
+    std::function<GoldenRun(const std::filesystem::path& scene, const std::filesystem::path& run_file)>;
+
+/// The scenes and what they must give: strokes/NAME/scene.toml and golden/NAME/.
+struct GoldenFolders {
+  std::filesystem::path strokes = "strokes", golden = "golden";
+
+  std::filesystem::path scene(const std::string& name) const { return strokes / name / "scene.toml"; }
+  std::filesystem::path entry(const std::string& name) const { return golden / name; }
+};
+
+/// Every name with a scene or a golden entry, in alphabetical order; or those asked for, if any. Error: input
+/// for a name that has neither, or where there is none at all; io where the folder of scenes is missing.
+std::vector<std::string> golden_names(const GoldenFolders& folders,
+                                      const std::vector<std::string>& asked_for);
+
+/// Runs one scene and judges it by its golden entry. A scene without entry, an entry without scene, and a run
+/// that stops with bad input or is interrupted, are failed checks. report: a folder for NAME-height.png and
+/// NAME-picture.png, or empty.
+Comparison check_golden(const std::string& name, const GoldenFolders& folders, const SceneRunner& runner,
+                        const Tolerances& tolerances, const std::filesystem::path& report);
+
+/// Runs one scene and makes the result its golden entry; false where the run was interrupted and nothing has
+/// changed. Error: input where there is no such scene.
+bool update_golden(const std::string& name, const GoldenFolders& folders, const SceneRunner& runner);
+
+}  // namespace sandstroke

@@ -1,0 +1,155 @@
+#include "compare/report_picture.h"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <vector>
+
+#include "compare/field_difference.h"
+#include "compare/image_difference.h"
+#include "core/error.h"
+#include "io/png_file.h"
+#include "render/annotate.h"
+#include "render/colour_map.h"
+#include "render/map_picture.h"
+
+namespace sandstroke {
+namespace {
+
+constexpr int panel_width = 560, panel_height = 460;  // pixels
+constexpr int spots = 110;                            // along the longer side of a difference map
+constexpr double cap = 11.0;                          // pixels, capital letters
+constexpr int header = 56, footer = 32;               // pixels
+constexpr int gap = 10;                               // pixels, between panels
+constexpr Rgb ink = {34, 34, 38}, background = {246, 246, 246}, frame = {190, 190, 190};
+
+struct Panel {
+  std::string heading;
+  Image image;
+};
+
+/// What the stroke font can draw.
+std::string ascii(std::string text) {
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
+  return text;
+}
+
+void fill(Image& image, int left, int top, int width, int height, const Rgb& rgb) {
+  for (int y = top; y < top + height; ++y)
+    for (int x = left; x < left + width; ++x) std::copy(rgb.begin(), rgb.end(), image.pixel(x, y));
+}
+
+Image side_by_side(const std::string& title, const std::vector<Panel>& panels, const std::string& numbers) {
+  int width = gap, height = 0;
+  for (const Panel& panel : panels) {
+    width += panel.image.width + gap;
+    height = std::max(height, panel.image.height);
+  }
+  Image sheet(width, header + height + footer);
+  fill(sheet, 0, 0, sheet.width, sheet.height, background);
+  draw_text(sheet, gap, 2.0 * cap, cap, ascii(title), ink);
+  int left = gap;
+  for (const Panel& panel : panels) {
+    const Image& image = panel.image;
+    draw_text(sheet, left, header - 0.8 * cap, cap, panel.heading, ink);
+    fill(sheet, left - 1, header - 1, image.width + 2, image.height + 2, frame);
+    for (int y = 0; y < image.height; ++y)
+      std::copy_n(image.pixel(0, y), 3 * image.width, sheet.pixel(left, header + y));
+    left += image.width + gap;
+  }
+  draw_text(sheet, gap, header + height + 2.0 * cap, cap, numbers, ink);
+  return sheet;
+}
+
+/// Reduces a grid to at most `spots` blocks a side, each with its value that is furthest from zero (or not
+/// finite).
+HeightGrid extremes(const HeightGrid& values) {
+  const Eigen::Index side = (std::max(values.rows(), values.cols()) + spots - 1) / spots;
+  HeightGrid reduced = HeightGrid::Zero((values.rows() + side - 1) / side, (values.cols() + side - 1) / side);
+  for (Eigen::Index row = 0; row < values.rows(); ++row) {
+    for (Eigen::Index col = 0; col < values.cols(); ++col) {
+      double& kept = reduced(row / side, col / side);
+      if (!(std::abs(values(row, col)) <= std::abs(kept))) kept = values(row, col);
+    }
+  }
+  return reduced;
+}
+
+/// Largest finite magnitude.
+double magnitude(const HeightGrid& values) { return values.isFinite().select(values.abs(), 0.0).maxCoeff(); }
+
+Panel map_panel(const std::string& heading, const HeightGrid& values, double span) {
+  return {heading, map_picture(values, -span, span, true, panel_width, panel_height, heading)};
+}
+
+}  // namespace
+
+Image surface_report(const std::string& title, const HeightGrid& golden, const HeightGrid& run,
+                     double cell_size, double limit) {
+  const double span = std::max({magnitude(golden), magnitude(run), limit});
+  std::vector<Panel> panels{map_panel("golden", golden, span), map_panel("run", run, span)};
+  if (golden.rows() != run.rows() || golden.cols() != run.cols()) {
+    return side_by_side(title, panels,
+                        fmt::format("golden {} x {} cells, run {} x {} cells", golden.rows(), golden.cols(),
+                                    run.rows(), run.cols()));
+  }
+  const HeightGrid difference = run - golden;
+  panels.push_back(map_panel("difference", extremes(difference), std::max(magnitude(difference), limit)));
+  const FieldDifference numbers = field_difference(golden, run, cell_size);
+  return side_by_side(
+      title, panels,
+      fmt::format("max {:.4g} m at row {}, col {} (x = {:.4g} m, y = {:.4g} m), limit {:.4g} m; RMS "
+                  "{:.4g} m; volume {:+.4g} m^3",
+                  numbers.max, numbers.row, numbers.col, numbers.x, numbers.y, limit, numbers.rms,
+                  numbers.volume));
+}
+
+Image picture_report(const std::string& title, const Image& golden, const Image& run, int limit) {
+  std::vector<Panel> panels{{"golden", golden}, {"run", run}};
+  if (golden.width != run.width || golden.height != run.height) {
+    return side_by_side(title, panels,
+                        fmt::format("golden {} x {} pixels, run {} x {} pixels", golden.width, golden.height,
+                                    run.width, run.height));
+  }
+  const ImageDifference numbers = image_difference(golden, run);
+  const int span = std::max({numbers.max, limit, 1});
+  Image map(golden.width, golden.height);
+  for (int y = 0; y < map.height; ++y) {
+    for (int x = 0; x < map.width; ++x) {
+      int most = 0;
+      for (int channel = 0; channel < 3; ++channel) {
+        const int difference = run.pixel(x, y)[channel] - golden.pixel(x, y)[channel];
+        if (std::abs(difference) > std::abs(most)) most = difference;
+      }
+      const auto colour = diverging_colour(static_cast<double>(most) / span);
+      for (int channel = 0; channel < 3; ++channel)
+        map.pixel(x, y)[channel] = static_cast<std::uint8_t>(std::lround(255.0 * colour[channel]));
+    }
+  }
+  panels.push_back({fmt::format("difference (-{} blue to +{} red)", span, span), std::move(map)});
+  return side_by_side(title, panels,
+                      fmt::format("max {}/255 at x = {}, y = {}, limit {}/255; {:.4g} % of the pixels differ",
+                                  numbers.max, numbers.x, numbers.y, limit, 100.0 * numbers.share));
+}
+
+void write_report(const std::filesystem::path& path, const std::function<Image()>& draw) {
+  Image sheet;
+  try {
+    sheet = draw();
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::input) throw;
+    return;
+  }
+  std::error_code failure;
+  std::filesystem::create_directories(path.parent_path(), failure);
+  if (failure) {
+    throw_io_error("{}: cannot be made ({}); choose another --report folder", path.parent_path().string(),
+                   failure.message());
+  }
+  write_png(path, sheet);
+}
+
+}  // namespace sandstroke

@@ -1,0 +1,99 @@
+#include "compare/run_checks.h"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <cmath>
+
+#include "compare/field_difference.h"
+#include "compare/image_difference.h"
+#include "compare/trace_difference.h"
+#include "core/error.h"
+
+namespace sandstroke {
+namespace {
+
+// Ticks lie at whole multiples of the servo period, which is many times longer.
+constexpr double time_limit = 1e-9;  // s
+// Cell sizes come from the same division of the same settings; this allows for its rounding.
+constexpr double cell_size_tolerance = 1e-12;  // relative
+
+Check column_check(const std::string& name, const ColumnDifference& difference, double limit,
+                   const std::string& unit) {
+  const std::string where = fmt::format("at time {:.6g} s", difference.time);
+  return limit_check(name, difference.max, limit, unit,
+                     std::isnan(difference.max)
+                         ? fmt::format("not a number {}", where)
+                         : fmt::format("differs by {:.6g} {} {}", difference.max, unit, where));
+}
+
+}  // namespace
+
+Check complete_check(const std::string& which, const RunFile& run) {
+  const bool complete = run.complete();
+  return fact_check(which + " complete", complete,
+                    fmt::format("{}: {}", run.name(),
+                                complete ? "ran to its end" : "was cut off before its end; run it again"));
+}
+
+Check height_check(const std::string& name, const HeightGrid& golden, const HeightGrid& run, double cell_size,
+                   double limit) {
+  if (golden.rows() != run.rows() || golden.cols() != run.cols()) {
+    return fact_check(name, false,
+                      fmt::format("golden has {} x {} cells, the run {} x {}; compare runs of the same bed",
+                                  golden.rows(), golden.cols(), run.rows(), run.cols()));
+  }
+  const FieldDifference difference = field_difference(golden, run, cell_size);
+  const std::string where = fmt::format("at row {}, col {} (x = {:.6g} m, y = {:.6g} m)", difference.row,
+                                        difference.col, difference.x, difference.y);
+  if (std::isnan(difference.max))
+    return limit_check(name, difference.max, limit, "m", "not a number " + where);
+  return limit_check(name, difference.max, limit, "m",
+                     fmt::format("differs by {:.6g} m {}; RMS {:.6g} m, volume {:+.6g} m^3", difference.max,
+                                 where, difference.rms, difference.volume));
+}
+
+Check cell_size_check(double golden, double run) {
+  return limit_check("cell size", std::abs(run - golden), cell_size_tolerance * golden, "m",
+                     fmt::format("golden has cells of {} m, the run of {} m", golden, run));
+}
+
+std::vector<Check> trace_checks(const std::optional<CountedTrace>& golden,
+                                const std::optional<CountedTrace>& run, const Tolerances& tolerances) {
+  if (!golden && !run) return {fact_check("trace", true, "neither has a trace")};
+  if (!golden || !run) {
+    return {fact_check("trace", false,
+                       fmt::format("{} has no trace, the other one has; set output.trace alike",
+                                   golden ? "the run" : "golden"))};
+  }
+  Check ticks = fact_check("ticks", golden->ticks == run->ticks,
+                           fmt::format("golden has {} ticks, the run {}", golden->ticks, run->ticks));
+  ticks.measured = static_cast<double>(run->ticks);
+  ticks.limit = static_cast<double>(golden->ticks);
+
+  const TraceDifference difference = trace_difference(golden->rows, run->rows);
+  return {ticks, column_check("time", difference.time, time_limit, "s"),
+          column_check("force", difference.force, tolerances.force, "N"),
+          column_check("depth", difference.depth, tolerances.depth, "m"),
+          column_check("level", difference.level, tolerances.depth, "m")};
+}
+
+std::vector<Check> picture_checks(const Image& golden, const Image& run, const Tolerances& tolerances) {
+  const ImageDifference difference = image_difference(golden, run);
+  return {limit_check("picture", difference.max, tolerances.pixel, "/255",
+                      fmt::format("differs by {}/255 at pixel x = {}, y = {}", difference.max, difference.x,
+                                  difference.y)),
+          limit_check("picture share", 100.0 * difference.share, 100.0 * tolerances.pixel_share, "%",
+                      fmt::format("{:.4g} % of the pixels differ", 100.0 * difference.share))};
+}
+
+void add_checks(std::vector<Check>& checks, const std::string& name,
+                const std::function<std::vector<Check>()>& make) {
+  try {
+    for (Check& check : make()) checks.push_back(std::move(check));
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::input) throw;
+    checks.push_back(fact_check(name, false, error.what()));
+  }
+}
+
+}  // namespace sandstroke

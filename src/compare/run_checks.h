@@ -1,0 +1,54 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "compare/check.h"
+#include "core/image.h"
+#include "io/run_file.h"
+
+namespace sandstroke {
+
+/// How far apart two runs may be and still count as equal.
+struct Tolerances {
+  double height = 1e-6;       ///< m, any cell
+  double force = 1e-4;        ///< N, on the device, any tick
+  double depth = 1e-6;        ///< m, depth and level, any tick
+  int pixel = 2;              ///< of 255, any channel of any pixel
+  double pixel_share = 1e-3;  ///< 0 to 1, pixels that differ at all
+};
+
+// What both a pair of run files and a golden entry are judged by. Whatever is missing or of another shape is
+// a check that failed, with a sentence.
+
+/// True for a complete run.
+Check complete_check(const std::string& which, const RunFile& run);
+
+/// Two surfaces of one bed, cell by cell.
+Check height_check(const std::string& name, const HeightGrid& golden, const HeightGrid& run, double cell_size,
+                   double limit);
+
+/// Cell sizes [m]: the same up to rounding.
+Check cell_size_check(double golden, double run);
+
+/// Numbers of ticks (the same), and time, force, depth and level over the rows that both traces have. The
+/// traces may hold every n-th tick only. A trace that is missing on one side fails; on both, there is nothing
+/// to compare.
+struct CountedTrace {
+  std::size_t ticks = 0;  ///< of the whole run
+  RunTrace rows;
+};
+std::vector<Check> trace_checks(const std::optional<CountedTrace>& golden,
+                                const std::optional<CountedTrace>& run, const Tolerances& tolerances);
+
+/// Largest difference and share of differing pixels.
+std::vector<Check> picture_checks(const Image& golden, const Image& run, const Tolerances& tolerances);
+
+/// Appends what `make` returns, or, where the data it asks for is missing or damaged (Error: input), the
+/// failed check `name` with the error's sentence.
+void add_checks(std::vector<Check>& checks, const std::string& name,
+                const std::function<std::vector<Check>()>& make);
+
+}  // namespace sandstroke

@@ -1,0 +1,26 @@
+#pragma once
+
+#include "io/run_file.h"
+
+namespace sandstroke {
+
+/// How far one column of two traces is apart, tick by tick.
+struct ColumnDifference {
+  double max = 0.0;  ///< largest |difference| (of a vector: its length); NaN where a value is not a number
+  std::size_t tick = 0;  ///< where it is; the first that is not a number, if any. An index into the trace.
+  double time = 0.0;     ///< s, of that tick in the golden trace
+};
+
+/// Two traces, over the ticks that both have.
+struct TraceDifference {
+  ColumnDifference time;   ///< s
+  ColumnDifference force;  ///< N, on the device
+  ColumnDifference depth;  ///< m
+  ColumnDifference level;  ///< m
+};
+
+/// The level may be NaN where it is in both and neither tool is in contact: the tool is lifted.
+/// Only the columns named above and `contact` are looked at; each has one value per tick (Error: input).
+TraceDifference trace_difference(const RunTrace& golden, const RunTrace& run);
+
+}  // namespace sandstroke

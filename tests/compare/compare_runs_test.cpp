@@ -1,0 +1,176 @@
+#include "compare/compare_runs.h"
+
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+#include "synthetic_run.h"
+
+namespace sandstroke {
+namespace {
+
+class CompareRuns : public testing::Test {
+ protected:
+  Comparison compare() {
+    golden.write(folder / "golden.h5");
+    run.write(folder / "run.h5");
+    return compare_runs(RunFile(folder / "golden.h5"), RunFile(folder / "run.h5"), tolerances);
+  }
+
+  /// The one check that fails, with a part of its sentence.
+  void expect_only_failure(const std::string& name, const std::string& words) {
+    const Comparison comparison = compare();
+    EXPECT_EQ(comparison.failures(), 1) << check_table(comparison);
+    for (const Check& check : comparison.checks) {
+      if (check.passed) continue;
+      EXPECT_EQ(check.name, name) << check.sentence;
+      EXPECT_NE(check.sentence.find(words), std::string::npos) << check.sentence;
+    }
+  }
+
+  TestFolder folder;
+  SyntheticRun golden, run;
+  Tolerances tolerances;
+};
+
+TEST_F(CompareRuns, AFileEqualsItself) {
+  const Comparison comparison = compare();
+  EXPECT_TRUE(comparison.passed()) << check_table(comparison);
+  std::vector<std::string> names;
+  for (const Check& check : comparison.checks) names.push_back(check.name);
+  EXPECT_EQ(names, (std::vector<std::string>{"golden complete", "run complete", "cell size", "initial height",
+                                             "final height", "ticks", "time", "force", "depth", "level"}));
+}
+
+TEST_F(CompareRuns, OneChangedCellFailsAndIsNamed) {
+  run.final(5, 7) += 2e-6;
+  expect_only_failure("final height", "row 5, col 7 (x = -0.125 m, y = -0.095 m)");
+}
+
+TEST_F(CompareRuns, OneChangedInitialCellFails) {
+  run.initial(29, 39) -= 2e-6;
+  expect_only_failure("initial height", "row 29, col 39");
+}
+
+TEST_F(CompareRuns, ToleranceOfHeightHoldsAtItsLimit) {
+  tolerances.height = 0x1p-20;
+  run.final(0, 0) = 0x1p-20;
+  EXPECT_TRUE(compare().passed());
+  run.final(0, 0) = 0x1.0000000000001p-20;
+  expect_only_failure("final height", "row 0, col 0");
+  EXPECT_EQ(compare().checks[4].measured, 0x1.0000000000001p-20);
+}
+
+TEST_F(CompareRuns, ToleranceOfForceHoldsAtItsLimit) {
+  tolerances.force = 0x1p-13;
+  golden.trace.device_force[40].x() = 1.0;
+  run.trace.device_force[40].x() = 1.0 + 0x1p-13;
+  EXPECT_TRUE(compare().passed());
+  run.trace.device_force[40].x() = 1.0 + 0x1.01p-13;
+  expect_only_failure("force", "at time 0.04 s");
+}
+
+TEST_F(CompareRuns, ToleranceOfDepthAndLevelHoldsAtItsLimit) {
+  tolerances.depth = 0x1p-20;
+  golden.trace.depth[33] = golden.trace.level[34] = 0.5;
+  run.trace.depth[33] = run.trace.level[34] = 0.5 - 0x1p-20;
+  EXPECT_TRUE(compare().passed());
+  run.trace.depth[33] = 0.5 - 0x1.01p-20;
+  expect_only_failure("depth", "at time 0.033 s");
+  run.trace.depth[33] = 0.5;
+  run.trace.level[34] = 0.5 - 0x1.01p-20;
+  expect_only_failure("level", "at time 0.034 s");
+}
+
+TEST_F(CompareRuns, DifferentShapesFail) {
+  run.initial = HeightGrid::Zero(30, 41);
+  run.final = run.initial;
+  const Comparison comparison = compare();
+  EXPECT_EQ(comparison.failures(), 2);
+  EXPECT_NE(comparison.checks[4].sentence.find("30 x 40 cells, the run 30 x 41"), std::string::npos);
+}
+
+TEST_F(CompareRuns, DifferentCellSizesFail) {
+  run.cell_size = 0.0100001;
+  expect_only_failure("cell size", "0.0100001 m");
+}
+
+TEST_F(CompareRuns, ATraceInOnlyOneFails) {
+  run.has_trace = false;
+  expect_only_failure("trace", "the run has no trace");
+  run.has_trace = true;
+  golden.has_trace = false;
+  expect_only_failure("trace", "golden has no trace");
+  run.has_trace = false;
+  EXPECT_TRUE(compare().passed()) << "scenes without trace";
+}
+
+TEST_F(CompareRuns, AMissingColumnFails) {
+  run.trace.depth.clear();
+  expect_only_failure("trace", "/trace/depth");
+}
+
+TEST_F(CompareRuns, AMissingTickFails) {
+  run.trace.time.pop_back();
+  run.trace.device_force.pop_back();
+  run.trace.depth.pop_back();
+  run.trace.level.pop_back();
+  run.trace.contact.pop_back();
+  expect_only_failure("ticks", "golden has 105 ticks, the run 104");
+}
+
+TEST_F(CompareRuns, AnotherServoRateFails) {
+  for (double& time : run.trace.time) time *= 2.0;
+  expect_only_failure("time", "at time 0.104 s");
+}
+
+TEST_F(CompareRuns, AnIncompleteRunFails) {
+  run.complete = false;
+  expect_only_failure("run complete", "was cut off");
+  run.has_final = false;
+  EXPECT_EQ(compare().failures(), 2);
+  run.complete = true;
+  expect_only_failure("final height", "/surface/final");
+}
+
+TEST_F(CompareRuns, OneNanFails) {
+  run.final(12, 3) = std::numeric_limits<double>::quiet_NaN();
+  expect_only_failure("final height", "not a number at row 12, col 3");
+  golden.final = run.final;
+  expect_only_failure("final height", "not a number at row 12, col 3");
+}
+
+TEST_F(CompareRuns, OneNanInTheForceFails) {
+  run.trace.device_force[100].z() = std::numeric_limits<double>::quiet_NaN();
+  expect_only_failure("force", "not a number at time 0.1 s");
+}
+
+TEST_F(CompareRuns, WhatIsNoRunFileIsBadInput) {
+  Hdf5Writer file(folder / "other.h5");
+  file.attribute("/", "format", "sandstroke.stroke");
+  file.finish();
+  EXPECT_THROW(RunFile(folder / "other.h5"), Error);
+}
+
+TEST(Comparison, OfNothingHasNotPassed) { EXPECT_FALSE(Comparison{}.passed()); }
+
+TEST(CheckTable, IsAlignedAndExplainsWhatFailed) {
+  const Comparison comparison{"run",
+                              {limit_check("height", 1e-7, 1e-6, "m", "fine"),
+                               limit_check("a long name", 2.5, 1e-4, "N", "differs by 2.5 N")}};
+  EXPECT_EQ(check_table(comparison),
+            "check        measured  limit\n"
+            "height       1e-07 m   1e-06 m   ok\n"
+            "a long name  2.5 N     0.0001 N  FAILED\n"
+            "a long name: differs by 2.5 N\n");
+}
+
+TEST(CheckJson, HasNullForWhatIsNotANumber) {
+  const nlohmann::json json =
+      nlohmann::json::parse(to_json({"run", {fact_check("trace", false, "none")}}).dump());
+  EXPECT_EQ(json["passed"], false);
+  EXPECT_TRUE(json["checks"][0]["measured"].is_null());
+  EXPECT_EQ(json["checks"][0]["sentence"], "none");
+}
+
+}  // namespace
+}  // namespace sandstroke

@@ -1,0 +1,286 @@
+#include "compare/golden.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "compare/golden_scenes.h"
+#include "core/error.h"
+#include "core/output_file.h"
+#include "io/png_file.h"
+#include "synthetic_run.h"
+
+namespace sandstroke {
+namespace {
+namespace fs = std::filesystem;
+
+class Golden : public testing::Test {
+ protected:
+  Golden() {
+    for (int y = 0; y < picture.height; ++y)
+      for (int x = 0; x < picture.width; ++x) picture.pixel(x, y)[0] = static_cast<std::uint8_t>(x % 256);
+  }
+
+  GoldenRun finished() {
+    run.write(folder / "run.h5");
+    return {folder / "run.h5", picture, {}};
+  }
+  Comparison compare() { return compare_golden("dune", folder / "golden/dune", finished(), Tolerances{}); }
+
+  void expect_only_failure(const std::string& name, const std::string& words) {
+    const Comparison comparison = compare();
+    EXPECT_EQ(comparison.failures(), 1) << check_table(comparison);
+    for (const Check& check : comparison.checks) {
+      if (check.passed) continue;
+      EXPECT_EQ(check.name, name) << check.sentence;
+      EXPECT_NE(check.sentence.find(words), std::string::npos) << check.sentence;
+    }
+  }
+
+  TestFolder folder;
+  SyntheticRun run;
+  Image picture = Image(720, 405);
+};
+
+TEST_F(Golden, RoundTripPasses) {
+  write_golden(folder / "golden/dune", finished());
+  const Comparison comparison = compare();
+  EXPECT_TRUE(comparison.passed()) << check_table(comparison);
+  std::vector<std::string> names;
+  for (const Check& check : comparison.checks) names.push_back(check.name);
+  EXPECT_EQ(names, (std::vector<std::string>{"scene", "stroke", "run complete", "initial surface",
+                                             "cell size", "height change", "ticks", "time", "force", "depth",
+                                             "level", "picture", "picture share"}));
+}
+
+TEST_F(Golden, KeepsHeightsAndTraceToWithinHalfAQuantum) {
+  write_golden(folder / "golden/dune", finished());
+  const GoldenContent content = read_golden(folder / "golden/dune");
+  EXPECT_LE((content.change - (run.final - run.initial)).abs().maxCoeff(), 0x1p-31);
+  const Hdf5Reader file(folder / "golden/dune/golden.h5");
+  EXPECT_EQ(file.shape("/surface/change"), (std::vector<hsize_t>{6, 10})) << "only the cells that changed";
+  ASSERT_TRUE(content.trace);
+  EXPECT_EQ(content.trace->ticks, SyntheticRun::ticks);
+  const RunTrace& rows = content.trace->rows;
+  ASSERT_EQ(rows.size(), 11u) << "ticks 0, 10, ..., 100";
+  EXPECT_TRUE(std::isnan(rows.level[1])) << "lifted";
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    EXPECT_EQ(rows.time[k], run.trace.time[10 * k]);
+    EXPECT_EQ(rows.contact[k], run.trace.contact[10 * k]);
+    EXPECT_NEAR(rows.device_force[k].z(), run.trace.device_force[10 * k].z(), 0x1p-21);
+    EXPECT_NEAR(rows.depth[k], run.trace.depth[10 * k], 0x1p-31);
+  }
+}
+
+TEST_F(Golden, AnyOneCellFailsWithin2Micrometres) {
+  write_golden(folder / "golden/dune", finished());
+  const SyntheticRun golden = run;
+  for (int row = 0; row < 30; ++row) {
+    for (int col = row % 7; col < 40; col += 7) {
+      run.final(row, col) += row % 2 ? 2e-6 : -2e-6;
+      expect_only_failure("height change", fmt::format("row {}, col {} ", row, col));
+      run.final = golden.final;
+    }
+  }
+}
+
+TEST_F(Golden, ASlightDifferencePasses) {
+  write_golden(folder / "golden/dune", finished());
+  run.final += 9e-7;
+  EXPECT_TRUE(compare().passed());
+}
+
+TEST_F(Golden, AnotherInitialSurfaceFails) {
+  write_golden(folder / "golden/dune", finished());
+  run.initial(2, 2) += 1e-6;  // and the same change
+  run.final(2, 2) += 1e-6;
+  expect_only_failure("initial surface", "golden update dune");
+}
+
+TEST_F(Golden, AnotherShapeFails) {
+  write_golden(folder / "golden/dune", finished());
+  run.initial = run.final = HeightGrid::Zero(30, 41);
+  const Comparison comparison = compare();
+  EXPECT_NE(check_table(comparison).find("30 x 40 cells, the run 30 x 41"), std::string::npos);
+}
+
+TEST_F(Golden, OneForceFails) {
+  write_golden(folder / "golden/dune", finished());
+  run.trace.device_force[90].y() += 2e-4;
+  expect_only_failure("force", "at time 0.09 s");
+}
+
+TEST_F(Golden, AMissingTickOrTraceFails) {
+  write_golden(folder / "golden/dune", finished());
+  for (auto* column : {&run.trace.time, &run.trace.depth, &run.trace.level}) column->pop_back();
+  run.trace.device_force.pop_back();
+  run.trace.contact.pop_back();
+  expect_only_failure("ticks", "golden has 105 ticks, the run 104");
+  run.has_trace = false;
+  expect_only_failure("trace", "the run has no trace");
+}
+
+TEST_F(Golden, AChangedPictureFails) {
+  write_golden(folder / "golden/dune", finished());
+  for (int y = 8; y < 16; ++y)
+    for (int x = 8; x < 16; ++x) picture.pixel(x, y)[1] = 30;
+  expect_only_failure("picture", "x = 8, y = 8");
+  picture = Image(720, 404);
+  expect_only_failure("picture", "720 x 404");
+}
+
+TEST_F(Golden, AChangedSceneOrStrokeFailsAndSaysWhatToDo) {
+  write_golden(folder / "golden/dune", finished());
+  run.scene_hash = "0123456789abcdee";
+  expect_only_failure("scene", "scene changed: golden update dune");
+  run = SyntheticRun();
+  run.stroke_hash = "";
+  expect_only_failure("stroke", "stroke changed: golden update dune");
+}
+
+TEST_F(Golden, AnEntryWithoutOneOfItsFilesFails) {
+  for (const char* file : {"golden.h5", "picture.png", "provenance.toml"}) {
+    write_golden(folder / "golden/dune", finished());
+    fs::remove(folder / "golden/dune" / file);
+    EXPECT_EQ(compare().failures(), 1);
+    EXPECT_NE(check_table(compare()).find(std::string(file) + ": is missing"), std::string::npos);
+  }
+}
+
+TEST_F(Golden, AnUnchangedSurfaceAndNoTraceAreFine) {
+  run.final = run.initial;
+  run.has_trace = false;
+  write_golden(folder / "golden/dune", finished());
+  EXPECT_TRUE(compare().passed());
+  run.final(7, 7) = 2e-6;
+  expect_only_failure("height change", "row 7, col 7");
+}
+
+TEST_F(Golden, OnlyACompleteFiniteRunBecomesGolden) {
+  write_golden(folder / "golden/dune", finished());
+  run.final(1, 1) = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(write_golden(folder / "golden/dune", finished()), Error);
+  run = SyntheticRun();
+  run.complete = false;
+  EXPECT_THROW(write_golden(folder / "golden/dune", finished()), Error);
+  run.complete = true;
+  EXPECT_TRUE(compare().passed()) << "what was there has stayed";
+}
+
+TEST_F(Golden, UpdateReplacesTheWholeEntryAndLeavesNothingBeside) {
+  write_golden(folder / "golden/dune", finished());
+  std::ofstream(folder / "golden/dune/stray.txt") << "old";
+  fs::create_directories(folder / "golden/dune.part/golden.h5.part");  // left by an update that was killed
+  run.final(0, 0) = 0.001;
+  write_golden(folder / "golden/dune", finished());
+  EXPECT_TRUE(compare().passed());
+  EXPECT_FALSE(fs::exists(folder / "golden/dune/stray.txt"));
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder / "golden"), fs::directory_iterator()), 1);
+}
+
+TEST_F(Golden, IsReproducible) {
+  write_golden(folder / "a", finished());
+  write_golden(folder / "b", finished());
+  EXPECT_EQ(read_text_file(folder / "a/provenance.toml"), read_text_file(folder / "b/provenance.toml"));
+  EXPECT_EQ(read_text_file(folder / "a/picture.png"), read_text_file(folder / "b/picture.png"));
+}
+
+// --- folders of scenes ---
+
+class GoldenScenes : public Golden {
+ protected:
+  GoldenScenes() : folders{folder / "strokes", folder / "golden"} {
+    for (const char* name : {"dune", "letters"}) {
+      fs::create_directories(folders.strokes / name);
+      std::ofstream(folders.scene(name)) << "";
+    }
+  }
+  SceneRunner runner() {
+    return [this](const fs::path& scene, const fs::path& run_file) {
+      ran.push_back(scene.parent_path().filename());
+      run.write(run_file);
+      return GoldenRun{run_file, picture, {}};
+    };
+  }
+  Comparison check(const std::string& name) {
+    return check_golden(name, folders, runner(), Tolerances{}, folder / "report");
+  }
+
+  GoldenFolders folders;
+  std::vector<std::string> ran;
+};
+
+TEST_F(GoldenScenes, UpdatedSceneChecksAndReports) {
+  update_golden("dune", folders, runner());
+  EXPECT_TRUE(check("dune").passed());
+  EXPECT_EQ(ran, (std::vector<std::string>{"dune", "dune"}));
+  EXPECT_GT(read_png(folder / "report/dune-height.png").width, 0);
+  EXPECT_GE(read_png(folder / "report/dune-picture.png").width, 3 * 720);
+}
+
+TEST_F(GoldenScenes, NamesAreTheUnionOfScenesAndEntries) {
+  fs::create_directories(folders.entry("old"));
+  fs::create_directories(folders.entry("dune.part"));  // an update that was killed
+  fs::create_directories(folders.strokes / "no-scene");
+  EXPECT_EQ(golden_names(folders, {}), (std::vector<std::string>{"dune", "letters", "old"}));
+  EXPECT_EQ(golden_names(folders, {"letters"}), (std::vector<std::string>{"letters"}));
+  try {
+    golden_names(folders, {"dunes"});
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.exit_code(), 2);
+    EXPECT_NE(std::string(error.what()).find("dune, letters"), std::string::npos) << error.what();
+  }
+}
+
+TEST_F(GoldenScenes, NothingAtAllIsNoSuccess) {
+  fs::create_directories(folder / "empty");
+  EXPECT_THROW(golden_names({folder / "empty", folder / "empty"}, {}), Error);
+  EXPECT_THROW(golden_names({folder / "missing", folders.golden}, {}), Error);
+}
+
+TEST_F(GoldenScenes, MissingEntryAndMissingSceneFailWithoutARun) {
+  EXPECT_EQ(check("letters").failures(), 1);
+  EXPECT_EQ(check("letters").checks[0].name, "golden entry");
+  fs::create_directories(folders.entry("old"));
+  EXPECT_EQ(check("old").checks[0].name, "scene");
+  EXPECT_FALSE(check("old").passed());
+  EXPECT_TRUE(ran.empty());
+}
+
+TEST_F(GoldenScenes, ARunThatStopsIsAFailedCheck) {
+  update_golden("dune", folders, runner());
+  const SceneRunner stops = [](const fs::path&, const fs::path&) -> GoldenRun {
+    throw_input_error("scene.toml:3: no");
+  };
+  const Comparison comparison = check_golden("dune", folders, stops, Tolerances{}, "");
+  EXPECT_EQ(comparison.checks.at(0).sentence, "scene.toml:3: no");
+  EXPECT_FALSE(comparison.passed());
+  EXPECT_THROW(update_golden("dune", folders, stops), Error);
+  EXPECT_TRUE(check("dune").passed()) << "a failed update changes nothing";
+}
+
+TEST_F(GoldenScenes, AnInterruptedRunIsNoSuccessAndChangesNothing) {
+  update_golden("dune", folders, runner());
+  const SceneRunner interrupted = [](const fs::path&, const fs::path&) {
+    GoldenRun unfinished;
+    unfinished.result.interrupted = true;
+    return unfinished;
+  };
+  EXPECT_FALSE(check_golden("dune", folders, interrupted, Tolerances{}, "").passed());
+  EXPECT_FALSE(update_golden("dune", folders, interrupted));
+  EXPECT_TRUE(check("dune").passed());
+}
+
+TEST_F(GoldenScenes, ADamagedEntryFailsEvenWithAReport) {
+  update_golden("dune", folders, runner());
+  std::ofstream(folders.entry("dune") / "golden.h5") << "rubbish";
+  EXPECT_EQ(check("dune").failures(), 1);
+}
+
+TEST_F(GoldenScenes, UpdateOfAnUnknownSceneIsBadInput) {
+  EXPECT_THROW(update_golden("dunes", folders, runner()), Error);
+}
+
+}  // namespace
+}  // namespace sandstroke

@@ -1,0 +1,58 @@
+#include "compare/image_difference.h"
+
+#include <gtest/gtest.h>
+
+#include "compare/run_checks.h"
+#include "core/error.h"
+
+namespace sandstroke {
+namespace {
+
+bool passes(const Image& golden, const Image& run) {
+  return Comparison{"pictures", picture_checks(golden, run, Tolerances{})}.passed();
+}
+
+TEST(ImageDifference, FindsTheChannelThePlaceAndTheShare) {
+  const Image golden(20, 10);
+  Image run = golden;
+  run.pixel(3, 4)[1] = 7;
+  run.pixel(13, 9)[2] = 200;
+  const ImageDifference difference = image_difference(golden, run);
+  EXPECT_EQ(difference.max, 200);
+  EXPECT_EQ(difference.x, 13);
+  EXPECT_EQ(difference.y, 9);
+  EXPECT_DOUBLE_EQ(difference.share, 2.0 / 200.0);
+  EXPECT_EQ(image_difference(run, golden).max, 200) << "the sign does not matter";
+  EXPECT_EQ(image_difference(run, run).share, 0.0);
+}
+
+TEST(ImageDifference, RefusesDifferentSizes) {
+  EXPECT_THROW(image_difference(Image(4, 3), Image(3, 4)), Error);
+  EXPECT_THROW(image_difference(Image(), Image()), Error);
+}
+
+TEST(PictureChecks, HoldUpToBothLimitsAndNotBeyond) {
+  const Image golden(100, 100);  // 0.1 % are 10 pixels
+  Image run = golden;
+  EXPECT_TRUE(passes(golden, run));
+  for (int i = 0; i < 10; ++i) run.pixel(i, 50)[0] = 2;
+  EXPECT_TRUE(passes(golden, run));
+  run.pixel(10, 50)[0] = 1;
+  EXPECT_FALSE(passes(golden, run)) << "11 pixels";
+  run = golden;
+  run.pixel(99, 99)[2] = 3;
+  EXPECT_FALSE(passes(golden, run)) << "3/255 in one pixel";
+}
+
+TEST(PictureChecks, FailForABlockOf8x8InAGoldenPicture) {
+  const Image golden(720, 405);
+  Image run = golden;
+  for (int y = 200; y < 208; ++y)
+    for (int x = 100; x < 108; ++x) run.pixel(x, y)[0] = 10;
+  const std::vector<Check> checks = picture_checks(golden, run, Tolerances{});
+  ASSERT_FALSE((Comparison{"", checks}.passed()));
+  EXPECT_NE(checks[0].sentence.find("x = 100, y = 200"), std::string::npos) << checks[0].sentence;
+}
+
+}  // namespace
+}  // namespace sandstroke
