@@ -19,7 +19,7 @@ struct ViewSettings {
   Eigen::Vector3d target = Eigen::Vector3d::Zero();  ///< m
   double field_of_view = 35.0;                       ///< deg, vertical
   double light_azimuth = 145.0;                      ///< deg, towards the sun
-  double light_elevation = 28.0;                     ///< deg
+  double light_elevation = 20.0;                     ///< deg
   int width = 1280, height = 720;                    ///< pixels
 };
 

@@ -43,7 +43,12 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   return row[b.size()];
 }
 
+/// The known key that was most likely meant: one that goes on where `key` ends, or the one with the fewest
+/// edits.
 std::string nearest(const std::string& key, const std::set<std::string>& known) {
+  const auto next = known.upper_bound(key);
+  if (next != known.end() && next->starts_with(key) && next->find('.', key.size()) == std::string::npos)
+    return *next;
   const auto closer = [&](const std::string& a, const std::string& b) {
     return edit_distance(a, key) < edit_distance(b, key);
   };

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "core/image.h"
+
+namespace sandstroke {
+
+using Rgb = std::array<std::uint8_t, 3>;
+
+/// Draws a line of ASCII text with anti-aliased single strokes. x, y: left end of the base line in pixels, y
+/// down; cap_height: of capital letters, in pixels. What lies outside the image is cut off.
+void draw_text(Image& image, double x, double y, double cap_height, std::string_view text, Rgb rgb);
+
+/// Width in pixels of what draw_text draws.
+double text_width(double cap_height, std::string_view text);
+
+/// Capital height [pixels] that reads well in a picture of this height.
+double annotation_cap_height(int image_height);
+
+/// What a colour bar says: a quantity in metres from low to high (low < high).
+struct Legend {
+  std::string quantity = "height";
+  double low = 0.0, high = 1.0;  ///< m
+  bool diverging = false;
+  double contour_interval = 0.0;  ///< m; > 0: the bar shows the contour lines of the picture
+};
+
+/// Width [pixels] of the strip at the right border that draw_legend uses in a picture of this height.
+int legend_width(const Legend& legend, int image_height);
+
+/// Draws the colour bar with round numbers, title and unit on a light strip along the right border.
+void draw_legend(Image& image, const Legend& legend);
+
+}  // namespace sandstroke

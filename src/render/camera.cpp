@@ -1,0 +1,151 @@
+#include "render/camera.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/error.h"
+
+namespace sandstroke {
+namespace {
+
+constexpr double degree = 0.017453292519943295;
+constexpr double border = 0.05;  ///< of the picture, left free around a framed subject
+
+std::array<Eigen::Vector3d, 8> corners(const Eigen::AlignedBox3d& box) {
+  std::array<Eigen::Vector3d, 8> points;
+  for (int i = 0; i < 8; ++i) points[i] = box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(i));
+  return points;
+}
+
+/// Rows: right, up, backward of a camera at this azimuth and elevation (seen from the target).
+Eigen::Matrix3d camera_axes(double azimuth, double elevation) {
+  const double ca = std::cos(azimuth * degree), sa = std::sin(azimuth * degree);
+  const double ce = std::cos(elevation * degree), se = std::sin(elevation * degree);
+  Eigen::Matrix3d axes;
+  axes << -sa, ca, 0.0, -se * ca, -se * sa, ce, ce * ca, ce * sa, se;
+  return axes;
+}
+
+/// One pair of opposite frustum planes pushed against the subject: an eye that stands at `depth` (along the
+/// backward axis) sees all of it from anywhere between low - slope_high depth and high + slope_low depth.
+struct Fit {
+  double low, high, slope_low, slope_high;
+  Fit(const std::array<Eigen::Vector3d, 8>& points, int across, double slope_low_side, double slope_high_side)
+      : low(-1e300), high(1e300), slope_low(slope_low_side), slope_high(slope_high_side) {
+    for (const Eigen::Vector3d& p : points) {
+      low = std::max(low, p(across) + slope_high * p.z());
+      high = std::min(high, p(across) - slope_low * p.z());
+    }
+  }
+  double least_depth() const { return (low - high) / (slope_low + slope_high); }
+  double centred(double depth) const {
+    return 0.5 * ((low - slope_high * depth) + (high + slope_low * depth));
+  }
+};
+
+void check(const ViewSettings& view) {
+  if (!(view.field_of_view >= 1.0 && view.field_of_view <= 120.0))
+    throw_input_error("view: field_of_view = {} deg cannot be drawn; take 1 to 120", view.field_of_view);
+  if (!(view.elevation >= -90.0 && view.elevation <= 90.0))
+    throw_input_error("view: elevation = {} deg is no elevation; take -90 to 90", view.elevation);
+  if (!(view.distance >= 0.0 && std::isfinite(view.distance)))
+    throw_input_error("view: distance = {} m is no distance; take 0 (what frames the subject) or more",
+                      view.distance);
+  if (!std::isfinite(view.azimuth) || !view.target.allFinite())
+    throw_input_error("view: azimuth and target must be finite numbers");
+}
+
+}  // namespace
+
+double Camera::pixels_per_metre(const Eigen::AlignedBox3d& box) const {
+  return orthographic ? scale : scale / std::max(1e-9, box.exteriorDistance(eye));
+}
+
+bool Camera::misses(const Eigen::AlignedBox3d& box) const {
+  const auto points = corners(box);
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const double side : {-1.0, 1.0}) {
+      const Eigen::RowVector4d plane = to_clip.row(3) + side * to_clip.row(axis);
+      if (std::all_of(points.begin(), points.end(),
+                      [&](const Eigen::Vector3d& p) { return plane.dot(p.homogeneous().transpose()) < 0.0; }))
+        return true;
+    }
+  }
+  return false;
+}
+
+Camera make_camera(const ViewSettings& view, const Eigen::AlignedBox3d& subject,
+                   const Eigen::AlignedBox3d& scene, double right_margin) {
+  check(view);
+  const bool top = view.name == ViewName::top;
+  const Eigen::Matrix3d axes = top ? camera_axes(-90.0, 90.0) : camera_axes(view.azimuth, view.elevation);
+  const double aspect = static_cast<double>(view.width) / view.height;
+  const double tan_y = std::tan(0.5 * view.field_of_view * degree), tan_x = aspect * tan_y;
+  const double inside = 1.0 - 2.0 * border;  // of half the picture's sides
+  const double inside_right = 1.0 - 2.0 * (border + right_margin);
+
+  std::array<Eigen::Vector3d, 8> points = corners(subject);
+  for (Eigen::Vector3d& p : points) p = axes * p;
+
+  Camera camera;
+  camera.forward = -axes.row(2).transpose();
+  camera.orthographic = top;
+  Eigen::Matrix4d projection = Eigen::Matrix4d::Zero();
+  Eigen::AlignedBox3d in_camera;
+  for (const Eigen::Vector3d& p : points) in_camera.extend(p);
+  if (top) {
+    const Eigen::Vector3d extent = in_camera.sizes(), centre = in_camera.center();
+    const double half_height =
+        std::max(extent.y() / (2.0 * inside), extent.x() / (aspect * (inside + inside_right)));
+    const double half_width = aspect * half_height;
+    const double shift = 0.5 * (inside - inside_right) * half_width;  // the middle of what the margin leaves
+    camera.eye = axes.transpose() * Eigen::Vector3d(centre.x() + shift, centre.y(), in_camera.max().z());
+    camera.scale = 0.5 * view.height / half_height;
+    projection(0, 0) = 1.0 / half_width;
+    projection(1, 1) = 1.0 / half_height;
+  } else {
+    const Fit across(points, 0, tan_x * inside, tan_x * inside_right),
+        up(points, 1, tan_y * inside, tan_y * inside);
+    const double centre = in_camera.center().z(), fitting = std::max(across.least_depth(), up.least_depth());
+    const double distance = view.distance > 0.0 ? view.distance : fitting - centre;
+    if (view.name == ViewName::custom) {
+      camera.eye = view.target - camera.forward * distance;
+    } else {
+      const double depth = centre + distance;
+      camera.eye = axes.transpose() * Eigen::Vector3d(across.centred(depth), up.centred(depth), depth);
+    }
+    camera.scale = 0.5 * view.height / tan_y;
+    projection(0, 0) = 1.0 / tan_x;
+    projection(1, 1) = 1.0 / tan_y;
+  }
+
+  // The depth range holds the whole scene, but starts a little before the eye at the nearest.
+  double nearest = 1e300, farthest = -1e300;
+  for (const Eigen::Vector3d& p : corners(scene)) {
+    const double distance = camera.forward.dot(p - camera.eye);
+    nearest = std::min(nearest, distance);
+    farthest = std::max(farthest, distance);
+  }
+  const double margin = 0.01 * scene.diagonal().norm();
+  nearest -= margin;
+  farthest += margin;
+  if (top) {
+    projection(2, 2) = -2.0 / (farthest - nearest);
+    projection(2, 3) = -(farthest + nearest) / (farthest - nearest);
+    projection(3, 3) = 1.0;
+  } else {
+    farthest = std::max(farthest, margin);
+    nearest = std::max(nearest, 1e-3 * farthest);
+    projection(2, 2) = -(farthest + nearest) / (farthest - nearest);
+    projection(2, 3) = -2.0 * farthest * nearest / (farthest - nearest);
+    projection(3, 2) = -1.0;
+  }
+  Eigen::Matrix4d to_camera = Eigen::Matrix4d::Identity();
+  to_camera.topLeftCorner<3, 3>() = axes;
+  to_camera.topRightCorner<3, 1>() = -axes * camera.eye;
+  camera.to_clip = projection * to_camera;
+  return camera;
+}
+
+}  // namespace sandstroke

@@ -1,0 +1,11 @@
+#pragma once
+
+#include "sand/height_field.h"
+
+namespace sandstroke {
+
+/// The smallest rectangle that holds every cell whose height differs by more than threshold [m]; empty where
+/// none does. Error: input, where the grids differ in shape.
+CellRange changed_cells(const HeightGrid& initial, const HeightGrid& final, double threshold);
+
+}  // namespace sandstroke

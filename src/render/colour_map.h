@@ -1,0 +1,17 @@
+#pragma once
+
+#include <array>
+
+namespace sandstroke {
+
+/// Perceptually even map (viridis), dark blue at 0 to yellow at 1. Returns sRGB in [0, 1]; clamps, NaN is
+/// grey.
+std::array<double, 3> sequential_colour(double unit);
+
+/// Blue at -1, near white at 0, red at 1 (ColorBrewer RdBu). Returns sRGB in [0, 1]; clamps, NaN is grey.
+std::array<double, 3> diverging_colour(double minus_one_to_one);
+
+/// The colour of `value` on the scale from low to high; a diverging scale has its white in the middle.
+std::array<double, 3> scale_colour(double value, double low, double high, bool diverging);
+
+}  // namespace sandstroke

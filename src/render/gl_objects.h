@@ -1,0 +1,66 @@
+#pragma once
+
+// Private to src/render: OpenGL with the prototypes of its 3.3 functions, and owners of its objects.
+#define GL_GLEXT_PROTOTYPES
+#include <GL/gl.h>
+#include <GL/glext.h>
+
+#include <Eigen/Core>
+#include <string>
+#include <utility>
+
+namespace sandstroke {
+
+/// Owns one GL object. Its context must be current when it is made and when it goes.
+class GlObject {
+ public:
+  using Destroy = void (*)(GLuint);
+  GlObject() = default;
+  GlObject(GLuint id, Destroy destroy) : id_(id), destroy_(destroy) {}
+  GlObject(GlObject&& other) noexcept : id_(std::exchange(other.id_, 0)), destroy_(other.destroy_) {}
+  GlObject& operator=(GlObject&& other) noexcept {
+    std::swap(id_, other.id_);
+    std::swap(destroy_, other.destroy_);
+    return *this;
+  }
+  ~GlObject() {
+    if (id_) destroy_(id_);
+  }
+  operator GLuint() const { return id_; }
+
+ private:
+  GLuint id_ = 0;
+  Destroy destroy_ = nullptr;
+};
+
+GlObject make_texture();
+GlObject make_buffer();
+GlObject make_vertex_array();
+GlObject make_framebuffer();
+GlObject make_renderbuffer();
+
+/// Throws (io) where GL has recorded an error since the last call; `doing` says what was tried.
+void check_gl(const char* doing);
+
+/// A linked vertex and fragment shader. Error: io, with the compiler's log.
+class ShaderProgram {
+ public:
+  ShaderProgram(const std::string& name, const std::string& vertex, const std::string& fragment);
+  void use() const { glUseProgram(program_); }
+
+  // For the program in use; names that the compiler has optimised away are ignored.
+  void set(const char* name, int value) const { glUniform1i(place(name), value); }
+  void set(const char* name, double value) const { glUniform1f(place(name), static_cast<float>(value)); }
+  void set(const char* name, int x, int y) const { glUniform2i(place(name), x, y); }
+  void set(const char* name, const Eigen::Vector2d& value) const;
+  void set(const char* name, const Eigen::Vector3d& value) const;
+  void set(const char* name, const Eigen::Vector4d& value) const;
+  void set(const char* name, const Eigen::Matrix4d& value) const;
+  /// For glUniform calls that are made often.
+  GLint place(const char* name) const { return glGetUniformLocation(program_, name); }
+
+ private:
+  GlObject program_;
+};
+
+}  // namespace sandstroke

@@ -1,0 +1,278 @@
+#include "render/height_field_renderer.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "core/error.h"
+#include "render/annotate.h"
+#include "render/bed_box.h"
+#include "render/camera.h"
+#include "render/colour_map.h"
+#include "render/framebuffer.h"
+#include "render/offscreen_context.h"
+#include "render/round_scale.h"
+#include "render/shaders.h"
+#include "render/sphere_mesh.h"
+#include "render/surface_textures.h"
+#include "render/tile_mesh.h"
+
+namespace sandstroke {
+namespace {
+
+/// A context that is current from its construction on: what is made after it may use GL.
+class CurrentContext {
+ public:
+  CurrentContext() : context_(make_offscreen_context()) { context_->make_current(); }
+  ~CurrentContext() = default;
+  void make_current() { context_->make_current(); }
+
+ private:
+  std::unique_ptr<OffscreenContext> context_;
+};
+
+GlObject colour_map_texture(bool diverging) {
+  constexpr int entries = 256;
+  std::vector<float> colours;
+  for (int i = 0; i < entries; ++i)
+    for (const double channel : scale_colour(i, 0.0, entries - 1, diverging))
+      colours.push_back(static_cast<float>(channel));
+  GlObject texture = make_texture();
+  glBindTexture(GL_TEXTURE_2D, texture);
+  glTexImage2D(GL_TEXTURE_2D, 0, GL_RGB32F, entries, 1, 0, GL_RGB, GL_FLOAT, colours.data());
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+  return texture;
+}
+
+}  // namespace
+
+class HeightFieldRenderer::Drawing {
+ public:
+  Drawing(int rows, int cols, double cell_size)
+      : rows_(rows),
+        cols_(cols),
+        cell_size_(cell_size),
+        surface_(rows, cols, cell_size),
+        sand_("sand", shaders::surface_vertex(), shaders::sand_fragment()),
+        map_("map", shaders::surface_vertex(), shaders::map_fragment()),
+        wall_("box", shaders::solid_vertex(), shaders::box_fragment()),
+        ball_("tool", shaders::solid_vertex(), shaders::tool_fragment()),
+        surroundings_("surroundings", shaders::surroundings_vertex(), shaders::surroundings_fragment()),
+        sequential_(colour_map_texture(false)),
+        diverging_(colour_map_texture(true)),
+        no_vertices_(make_vertex_array()) {
+    check_gl("setting up");
+  }
+
+  Image render(const HeightField& surface, const RenderSubject& subject);
+  void make_current() { context_.make_current(); }
+
+  RenderCounters counters;
+
+ private:
+  Eigen::AlignedBox3d box_over(const CellRange& cells, double lowest, double highest) const;
+  void draw_surroundings(const RenderSubject& subject, const Camera& camera, const Sun& sun) const;
+  void draw_tiles(const ShaderProgram& program, const Camera& camera, const std::vector<int>& levels);
+  void set_light(const ShaderProgram& program, const Camera& camera, const Sun& sun) const;
+  void set_tool(const ShaderProgram& program, const ToolSphere& tool) const;
+  /// Colour scale of the picture; also puts the values where the map shader finds them.
+  Legend prepare_values(const RenderSubject& subject);
+
+  int rows_, cols_;
+  double cell_size_;
+  CurrentContext context_;  // before everything that lives in it
+  SurfaceTextures surface_;
+  TileMesh tiles_;
+  BedBox box_;
+  SphereMesh sphere_;
+  ShaderProgram sand_, map_, wall_, ball_, surroundings_;
+  GlObject sequential_, diverging_, no_vertices_;
+  std::unique_ptr<SurfaceTextures> difference_;
+  std::unique_ptr<Framebuffer> framebuffer_;
+};
+
+Eigen::AlignedBox3d HeightFieldRenderer::Drawing::box_over(const CellRange& cells, double lowest,
+                                                           double highest) const {
+  const auto x = [&](int col) { return (col - 0.5 * (cols_ - 1)) * cell_size_; };
+  const auto y = [&](int row) { return (row - 0.5 * (rows_ - 1)) * cell_size_; };
+  return {Eigen::Vector3d(x(cells.col_begin), y(cells.row_begin), lowest),
+          Eigen::Vector3d(x(cells.col_end - 1), y(cells.row_end - 1), highest)};
+}
+
+void HeightFieldRenderer::Drawing::set_light(const ShaderProgram& program, const Camera& camera,
+                                             const Sun& sun) const {
+  program.use();
+  program.set("to_clip", camera.to_clip);
+  program.set("sun_direction", sun.direction());
+  program.set("eye", camera.eye);
+  program.set("forward", camera.forward);
+  program.set("orthographic", camera.orthographic ? 1 : 0);
+}
+
+void HeightFieldRenderer::Drawing::set_tool(const ShaderProgram& program, const ToolSphere& tool) const {
+  program.set("tool", Eigen::Vector4d(tool.centre().x(), tool.centre().y(), tool.centre().z(), tool.radius));
+}
+
+void HeightFieldRenderer::Drawing::draw_surroundings(const RenderSubject& subject, const Camera& camera,
+                                                     const Sun& sun) const {
+  set_light(surroundings_, camera, sun);
+  const bool sand = subject.view.style == RenderStyle::sand;
+  Eigen::Vector3d lower = sand ? Eigen::Vector3d(0.80, 0.78, 0.755) : Eigen::Vector3d(0.93, 0.93, 0.925);
+  Eigen::Vector3d upper = sand ? Eigen::Vector3d(0.91, 0.92, 0.93) : Eigen::Vector3d(0.965, 0.965, 0.96);
+  if (subject.background)
+    lower = upper =
+        Eigen::Vector3d((*subject.background)[0], (*subject.background)[1], (*subject.background)[2]);
+  surroundings_.set("lower", lower);
+  surroundings_.set("upper", upper);
+  surroundings_.set("from_clip", Eigen::Matrix4d(camera.to_clip.inverse()));
+  surroundings_.set("box_low", Eigen::Vector3d(box_.bounds().min()));
+  surroundings_.set("box_high", Eigen::Vector3d(box_.bounds().max()));
+  surroundings_.set("shadow", sand && subject.box && !subject.background ? 1.0 : 0.0);
+  glBindVertexArray(no_vertices_);
+  glDisable(GL_DEPTH_TEST);
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+  glEnable(GL_DEPTH_TEST);
+}
+
+void HeightFieldRenderer::Drawing::draw_tiles(const ShaderProgram& program, const Camera& camera,
+                                              const std::vector<int>& levels) {
+  program.set("heights", 0);
+  program.set("bed_origin", Eigen::Vector2d(0.5 * (cols_ - 1), 0.5 * (rows_ - 1)));
+  program.set("cells", cols_, rows_);
+  program.set("cell_size", cell_size_);
+  program.set("shading", 1);
+  surface_.bind_heights(0);
+  surface_.bind_shading(1);
+  const GLint tile_origin = program.place("tile_origin"), skirt_height = program.place("skirt_height");
+  for (int tile = 0; tile < surface_.tile_count(); ++tile) {
+    const CellRange patch = surface_.tile_cells(tile, 1);
+    const TileDetail& detail = surface_.detail(tile);
+    const Eigen::AlignedBox3d bounds = box_over(patch, detail.lowest, detail.highest);
+    if (camera.misses(bounds)) continue;
+    const int level =
+        levels.empty() ? level_of_detail(detail, cell_size_, camera.pixels_per_metre(bounds)) : levels[tile];
+    glUniform2i(tile_origin, patch.col_begin, patch.row_begin);
+    // A cell below the lowest: between flat tiles, too, rounding leaves gaps of a sample here and there.
+    glUniform1f(skirt_height, static_cast<float>(detail.lowest - cell_size_));
+    tiles_.bind(level);
+    counters.triangles += tiles_.draw(level);
+    ++counters.tiles_drawn;
+  }
+}
+
+Legend HeightFieldRenderer::Drawing::prepare_values(const RenderSubject& subject) {
+  const bool difference = subject.view.style == RenderStyle::difference;
+  Legend legend;
+  double least = surface_.lowest(), greatest = surface_.highest();
+  if (difference) {
+    if (!subject.difference || subject.difference->rows() != rows_ || subject.difference->cols() != cols_)
+      throw_input_error("the style difference needs a difference of {} x {} cells to show", cols_, rows_);
+    if (!difference_) difference_ = std::make_unique<SurfaceTextures>(rows_, cols_, cell_size_);
+    difference_->update(HeightField(*subject.difference, cell_size_));
+    least = difference_->lowest(), greatest = difference_->highest();
+    legend.quantity = "difference";
+    legend.diverging = true;
+  }
+  const ValueRange range = subject.range ? *subject.range : value_range(least, greatest, difference);
+  if (!(range.low < range.high))
+    throw_input_error("a colour scale from {} to {} m is empty", range.low, range.high);
+  legend.low = range.low, legend.high = range.high;
+  legend.contour_interval =
+      subject.contour_interval > 0.0 ? subject.contour_interval : round_interval(range.high - range.low, 14);
+  return legend;
+}
+
+Image HeightFieldRenderer::Drawing::render(const HeightField& surface, const RenderSubject& subject) {
+  if (surface.rows() != rows_ || surface.cols() != cols_ || surface.cell_size() != cell_size_)
+    throw_input_error("a renderer for beds of {} x {} cells was given one of {} x {}", cols_, rows_,
+                      surface.cols(), surface.rows());
+  const ViewSettings& view = subject.view;
+  if (!(view.light_elevation > 0.0 && view.light_elevation <= 90.0))
+    throw_input_error(
+        "view: light_elevation = {} deg puts the sun below the ground; take more than 0, at most 90",
+        view.light_elevation);
+  const bool sand = view.style == RenderStyle::sand, top = view.name == ViewName::top;
+  if (!framebuffer_ || framebuffer_->width() != view.width || framebuffer_->height() != view.height)
+    framebuffer_ = std::make_unique<Framebuffer>(view.width, view.height);
+
+  counters = {};
+  counters.tiles_changed = surface_.update(surface);
+  const Sun sun{view.light_azimuth, view.light_elevation};
+  Legend legend;
+  surface_.update_shading(sun);
+  if (!sand) legend = prepare_values(subject);
+  box_.update(surface_.heights(), cell_size_, surface_.lowest());
+
+  Eigen::AlignedBox3d scene = box_.bounds();
+  scene.extend(box_over({0, rows_, 0, cols_}, surface_.lowest(), surface_.highest()));
+  Eigen::AlignedBox3d framed = scene;
+  if (view.name == ViewName::stroke) {
+    const CellRange cells = framed_cells(subject.focus, rows_, cols_, cell_size_, 0.03);
+    framed = box_over(cells, surface_.lowest(), surface_.highest());
+  }
+  if (subject.tool) {
+    scene.extend(subject.tool->centre() + Eigen::Vector3d::Constant(subject.tool->radius));
+    scene.extend(subject.tool->centre() - Eigen::Vector3d::Constant(subject.tool->radius));
+  }
+  const double legend_part = sand ? 0.0 : static_cast<double>(legend_width(legend, view.height)) / view.width;
+  const Camera camera = make_camera(view, framed, scene, legend_part);
+
+  framebuffer_->bind();
+  glEnable(GL_MULTISAMPLE);
+  glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+  draw_surroundings(subject, camera, sun);
+
+  const ShaderProgram& ground = sand ? sand_ : map_;
+  set_light(ground, camera, sun);
+  if (sand) {
+    set_tool(sand_, subject.tool.value_or(ToolSphere{Eigen::Vector3d::Zero(), 0.0}));
+  } else {
+    map_.set("values", 2);
+    map_.set("colours", 3);
+    map_.set("range", Eigen::Vector2d(legend.low, legend.high));
+    map_.set("contour_interval", legend.contour_interval);
+    map_.set("relief", top ? 0.0 : 1.0);
+    (view.style == RenderStyle::difference ? *difference_ : surface_).bind_filtered_heights(2);
+    glActiveTexture(GL_TEXTURE3);
+    glBindTexture(GL_TEXTURE_2D, legend.diverging ? diverging_ : sequential_);
+  }
+  draw_tiles(ground, camera, subject.tile_levels);
+
+  if (subject.box) {
+    set_light(wall_, camera, sun);
+    wall_.set("scale", 1.0);
+    wall_.set("offset", Eigen::Vector3d(0.0, 0.0, 0.0));
+    wall_.set("plain", sand ? 0.0 : 1.0);
+    wall_.set("half_bed", Eigen::Vector2d(0.5 * (cols_ - 1) * cell_size_, 0.5 * (rows_ - 1) * cell_size_));
+    wall_.set("wall", wall_thickness((cols_ - 1) * cell_size_, (rows_ - 1) * cell_size_));
+    box_.draw();
+  }
+  if (subject.tool) {
+    set_light(ball_, camera, sun);
+    set_tool(ball_, *subject.tool);
+    ball_.set("scale", subject.tool->radius);
+    ball_.set("offset", subject.tool->centre());
+    sphere_.draw();
+  }
+  Image image = framebuffer_->read();
+  if (!sand) draw_legend(image, legend);
+  return image;
+}
+
+HeightFieldRenderer::HeightFieldRenderer(int rows, int cols, double cell_size)
+    : drawing_(std::make_unique<Drawing>(rows, cols, cell_size)) {}
+
+HeightFieldRenderer::~HeightFieldRenderer() {
+  if (drawing_) drawing_->make_current();  // for what goes with it
+}
+
+Image HeightFieldRenderer::render(const HeightField& surface, const RenderSubject& subject) {
+  drawing_->make_current();
+  return drawing_->render(surface, subject);
+}
+
+const RenderCounters& HeightFieldRenderer::counters() const { return drawing_->counters; }
+
+}  // namespace sandstroke

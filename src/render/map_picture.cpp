@@ -1,0 +1,50 @@
+#include "render/map_picture.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "render/annotate.h"
+#include "render/colour_map.h"
+
+namespace sandstroke {
+
+Image map_picture(const HeightGrid& values, double low, double high, bool diverging, int width, int height,
+                  std::string_view quantity) {
+  Image image(width, height);
+  std::fill(image.rgb.begin(), image.rgb.end(), std::uint8_t{246});
+  const Legend legend{std::string(quantity), low, high, diverging, 0.0};
+
+  const double margin = annotation_cap_height(height);
+  const double room_x = width - legend_width(legend, height) - 2.0 * margin, room_y = height - 2.0 * margin;
+  const auto rows = static_cast<double>(values.rows()), cols = static_cast<double>(values.cols());
+  const double scale = std::min(room_x / cols, room_y / rows);  // pixels per cell
+  const int map_width = std::max(1, static_cast<int>(cols * scale));
+  const int map_height = std::max(1, static_cast<int>(rows * scale));
+  const int left = static_cast<int>(margin + 0.5 * (room_x - map_width));
+  const int top = static_cast<int>(margin + 0.5 * (room_y - map_height));
+
+  // Cells of pixel k of `pixels`: [first, last), at least one.
+  const auto first = [](int k, int pixels, double cells) {
+    return static_cast<Eigen::Index>(k * cells / pixels);
+  };
+  const auto last = [&](int k, int pixels, double cells) {
+    return std::max(first(k, pixels, cells) + 1, first(k + 1, pixels, cells));
+  };
+  for (int y = std::max(0, -top); y < std::min(map_height, height - top); ++y) {
+    const int up = map_height - 1 - y;
+    const Eigen::Index row = first(up, map_height, rows), row_count = last(up, map_height, rows) - row;
+    for (int x = std::max(0, -left); x < std::min(map_width, width - left); ++x) {
+      const Eigen::Index col = first(x, map_width, cols), col_count = last(x, map_width, cols) - col;
+      const double mean = values.block(row, col, row_count, col_count).mean();
+      const auto colour = scale_colour(std::isfinite(mean) ? mean : std::nan(""), low, high, diverging);
+      for (int channel = 0; channel < 3; ++channel)
+        image.pixel(left + x, top + y)[channel] =
+            static_cast<std::uint8_t>(std::lround(255.0 * colour[channel]));
+    }
+  }
+  draw_legend(image, legend);
+  return image;
+}
+
+}  // namespace sandstroke

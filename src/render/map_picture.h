@@ -1,0 +1,16 @@
+#pragma once
+
+#include <string_view>
+
+#include "core/image.h"
+#include "sand/height_field.h"
+
+namespace sandstroke {
+
+/// A flat map of a grid seen from above (row 0 at the bottom), coloured from low to high [m] (low < high),
+/// with a legend named `quantity`. Each pixel shows the mean of the cells it covers, or the cell it lies in;
+/// the grid keeps its aspect ratio. Cells that are not finite are grey. Needs no graphics context.
+Image map_picture(const HeightGrid& values, double low, double high, bool diverging, int width, int height,
+                  std::string_view quantity = "height");
+
+}  // namespace sandstroke

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "core/view.h"
+#include "sand/height_field.h"
+
+namespace sandstroke {
+
+/// The tool as it is drawn: a sphere whose lowest point is the tip.
+struct ToolSphere {
+  Eigen::Vector3d tip = Eigen::Vector3d::Zero();  ///< m
+  double radius = 0.01;                           ///< m
+  Eigen::Vector3d centre() const { return tip + radius * Eigen::Vector3d::UnitZ(); }
+};
+
+/// Ends of a colour scale [m].
+struct ValueRange {
+  double low = 0.0, high = 1.0;
+};
+
+/// What a picture shows besides the surface.
+struct RenderSubject {
+  ViewSettings view;
+  CellRange focus;  ///< what the view `stroke` frames; empty = the whole bed
+  std::optional<ToolSphere> tool;
+  const HeightGrid* difference = nullptr;  ///< m, the colours of style difference; of the bed's shape
+  std::optional<ValueRange> range;         ///< of the colours; else that of the values shown
+  double contour_interval = 0.0;           ///< m; 0 = a round one that gives about a dozen lines
+  bool box = true;                         ///< the wall around the bed
+  std::optional<std::array<double, 3>> background;  ///< sRGB in [0, 1], instead of the sky
+  std::vector<int> tile_levels;  ///< level of detail of each tile; empty = by its size in the picture
+};
+
+/// The cells of `focus` (of the whole bed where it is empty) grown by a tenth and at least by `margin` [m],
+/// cut to the bed: what a close-up of a stroke frames.
+CellRange framed_cells(const CellRange& focus, int rows, int cols, double cell_size, double margin);
+
+/// The colour scale of values that are shown without a given range: from the least to the greatest; around
+/// zero where `diverging`; one millimetre wide where all are equal.
+ValueRange value_range(double least, double greatest, bool diverging);
+
+}  // namespace sandstroke

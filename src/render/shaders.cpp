@@ -1,0 +1,309 @@
+#include "render/shaders.h"
+
+namespace sandstroke::shaders {
+namespace {
+
+constexpr const char* version = "#version 330 core\n";
+
+/// Light: all colours linear, until tone() turns them into sRGB.
+constexpr const char* light = R"(
+uniform vec3 sun_direction;
+uniform vec3 eye;
+uniform vec3 forward;        // used where the camera is orthographic
+uniform bool orthographic;
+const vec3 sun_colour = vec3(1.0, 0.83, 0.60) * 3.5;
+const vec3 sky_colour = vec3(0.49, 0.55, 0.70) * 0.50;
+const vec3 bounce_colour = vec3(0.55, 0.39, 0.23) * 0.55;
+
+vec3 ambient(vec3 normal) { return mix(bounce_colour, sky_colour, 0.5 + 0.5 * normal.z); }
+vec3 to_eye(vec3 place) { return orthographic ? -forward : normalize(eye - place); }
+
+vec3 linear_from_srgb(vec3 c) { return mix(c / 12.92, pow((c + 0.055) / 1.055, vec3(2.4)), step(0.04045, c)); }
+vec3 srgb_from_linear(vec3 c) {
+  c = clamp(c, 0.0, 1.0);
+  return mix(12.92 * c, 1.055 * pow(c, vec3(1.0 / 2.4)) - 0.055, step(0.0031308, c));
+}
+// A filmic curve: straight in the middle, soft towards white, so that sunlit crests keep their colour. Exposed for
+// level ground, like a camera: as bright under a high sun as under one at 28 degrees.
+vec3 tone(vec3 c) {
+  c *= clamp(1.9 / (2.95 * sun_direction.z + 0.5), 0.5, 1.8);
+  c = c * (1.0 + c * 0.12) / (1.0 + c * 0.55);
+  return srgb_from_linear(c);
+}
+)";
+
+/// Smooth random values over the bed, anchored in metres. The same integers on every machine.
+constexpr const char* noise = R"(
+vec2 lattice(ivec2 p, uint seed) {
+  uint h = uint(p.x) * 0x8da6b343u ^ uint(p.y) * 0xd8163841u ^ seed * 0xcb1ab31fu;
+  h ^= h >> 16; h *= 0x7feb352du; h ^= h >> 15; h *= 0x846ca68bu; h ^= h >> 16;
+  return vec2(h & 0xffffu, h >> 16) / 32767.5 - 1.0;
+}
+// Gradient noise (Perlin), about -1 to 1 with mean zero, and its gradient.
+vec3 gradient_noise(vec2 p, uint seed) {
+  vec2 cell = floor(p), f = p - cell;
+  ivec2 i = ivec2(cell);
+  vec2 ga = lattice(i, seed), gb = lattice(i + ivec2(1, 0), seed);
+  vec2 gc = lattice(i + ivec2(0, 1), seed), gd = lattice(i + ivec2(1, 1), seed);
+  float a = dot(ga, f), b = dot(gb, f - vec2(1.0, 0.0));
+  float c = dot(gc, f - vec2(0.0, 1.0)), d = dot(gd, f - vec2(1.0, 1.0));
+  vec2 u = f * f * f * (f * (6.0 * f - 15.0) + 10.0), du = 30.0 * f * f * (f * (f - 2.0) + 1.0);
+  float k = a - b - c + d;
+  return 2.2 * vec3(a + (b - a) * u.x + (c - a) * u.y + k * u.x * u.y,
+                    ga + u.x * (gb - ga) + u.y * (gc - ga) + u.x * u.y * (ga - gb - gc + gd) +
+                        du * (vec2(b - a, c - a) + k * u.yx));
+}
+)";
+
+/// The shading of the bed, from all its cells whatever triangles are drawn.
+constexpr const char* bed = R"(
+uniform sampler2D shading;   // slope along x and y, parts of sun and sky seen
+uniform vec2 bed_origin;     // cell coordinates of the bed's centre
+uniform ivec2 cells;
+uniform float cell_size;
+in vec3 world;
+vec2 texture_place() { return (world.xy / cell_size + bed_origin + 0.5) / vec2(cells); }
+// Metres per pixel, along the longer side of the pixel's footprint.
+float pixel_footprint() { return max(length(dFdx(world.xy)), length(dFdy(world.xy))); }
+// A texture's mean over a pixel.
+vec4 mean_over(sampler2D field, float pixel) {
+  return textureLod(field, texture_place(), log2(max(pixel / cell_size, 1.0)));
+}
+)";
+
+}  // namespace
+
+std::string surface_vertex() {
+  return std::string(version) + R"(
+layout(location = 0) in ivec3 vertex;   // column and row in the tile, 1 at the bottom of the skirt
+uniform sampler2D heights;
+uniform vec2 bed_origin;
+uniform ivec2 cells;
+uniform float cell_size;
+uniform ivec2 tile_origin;
+uniform float skirt_height;
+uniform mat4 to_clip;
+out vec3 world;
+void main() {
+  ivec2 cell = min(tile_origin + vertex.xy, cells - 1);   // the last tiles are cut at the border
+  float height = vertex.z == 0 ? texelFetch(heights, cell, 0).r : skirt_height;
+  world = vec3((vec2(cell) - bed_origin) * cell_size, height);
+  gl_Position = to_clip * vec4(world, 1.0);
+}
+)";
+}
+
+std::string solid_vertex() {
+  return std::string(version) + R"(
+layout(location = 0) in vec3 vertex;
+layout(location = 1) in vec3 vertex_normal;   // of the box
+uniform float scale;
+uniform vec3 offset;
+uniform mat4 to_clip;
+out vec3 world;
+flat out vec3 face_normal;
+void main() {
+  face_normal = vertex_normal;
+  world = scale * vertex + offset;
+  gl_Position = to_clip * vec4(world, 1.0);
+}
+)";
+}
+
+std::string surroundings_vertex() {
+  return std::string(version) + R"(
+out vec2 place;   // in the picture, -1 to 1
+void main() {
+  place = vec2(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0);
+  gl_Position = vec4(place, 1.0, 1.0);
+}
+)";
+}
+
+std::string sand_fragment() {
+  return std::string(version) + light + noise + bed + R"(
+uniform vec4 tool;           // centre and radius; radius 0 = none
+out vec4 colour;
+
+const vec3 dry_sand = vec3(0.64, 0.455, 0.265);
+const vec3 moist_sand = vec3(0.41, 0.275, 0.155);
+
+// Grains and patches: octaves of noise, each gone before a pixel covers half a wave, so that nothing shimmers.
+// x: relative change of the albedo; yz: slope of the grains.
+vec3 grain(vec2 place, float pixel) {
+  const int octaves = 8;
+  const float waves[octaves] = float[octaves](0.00045, 0.0008, 0.0014, 0.0027, 0.006, 0.016, 0.05, 0.21);
+  const float albedo[octaves] = float[octaves](0.38, 0.36, 0.28, 0.13, 0.06, 0.035, 0.04, 0.05);
+  const float relief[octaves] = float[octaves](0.16, 0.14, 0.09, 0.035, 0.014, 0.005, 0.0, 0.0);
+  const mat2 turn = mat2(0.8, 0.6, -0.6, 0.8);   // octaves share no lattice direction
+  vec3 sum = vec3(0.0);
+  mat2 frame = mat2(1.0);
+  for (int i = octaves - 1; i >= 0 && pixel < 0.5 * waves[i]; --i) {   // ends early: a mere `if` saves no time here
+    frame = turn * frame;
+    vec3 n = gradient_noise(frame * place / waves[i], uint(i));
+    float weight = 1.0 - smoothstep(0.25, 0.5, pixel / waves[i]);
+    sum += weight * vec3(albedo[i] * n.x, relief[i] * (n.yz * frame));
+  }
+  return sum;
+}
+
+// What the tool leaves of the sun (x) and of the sky (y).
+vec2 past_tool(vec3 place, vec3 normal) {
+  if (tool.w == 0.0) return vec2(1.0);
+  vec3 to = tool.xyz - place;
+  float distance = length(to), along = dot(to, sun_direction);
+  float miss = length(to - along * sun_direction) - tool.w;
+  float penumbra = 0.03 * max(along, 0.0) + 0.04 * tool.w;
+  float sun = along > 0.0 ? smoothstep(-penumbra, penumbra, miss) : 1.0;
+  float part = min(1.0, tool.w / distance);
+  return vec2(sun, 1.0 - 0.8 * part * part * clamp(0.5 + 0.5 * dot(normal, to / distance), 0.0, 1.0));
+}
+
+// Diffuse reflection of a rough ground (Oren and Nayar, roughness 0.5): flatter than Lambert's, as sand is.
+float rough_diffuse(vec3 normal, vec3 from_sun, vec3 to_viewer) {
+  float sun_part = max(dot(normal, from_sun), 0.0), view_part = max(dot(normal, to_viewer), 0.0);
+  float side = dot(from_sun, to_viewer) - sun_part * view_part;
+  return sun_part * (0.78 + 0.33 * (side > 0.0 ? side / max(max(sun_part, view_part), 1e-4) : side));
+}
+
+void main() {
+  float pixel = pixel_footprint();
+  vec4 here = mean_over(shading, pixel);
+  vec3 grains = grain(world.xy, pixel);
+  vec3 ground = normalize(vec3(-here.xy, 1.0));
+  vec3 normal = normalize(vec3(-here.xy - grains.yz, 1.0));
+  vec2 part = here.zw * past_tool(world, ground);
+
+  // Dug sand is moist and dark, heaped sand dry and light; both keep growing slowly with the height.
+  float heap = world.z / (abs(world.z) + 0.006);
+  vec3 albedo = mix(dry_sand, heap < 0.0 ? moist_sand : dry_sand * 1.13, abs(heap) * (heap < 0.0 ? 0.55 : 0.75));
+  albedo *= max(1.0 + grains.x, 0.1);
+
+  // Light that furrow walls throw at each other makes corners less dark, and warmer.
+  vec3 sky = part.y / (1.0 - albedo * (1.0 - part.y));
+  vec3 received = sun_colour * part.x * max(rough_diffuse(normal, sun_direction, to_eye(world)), 0.0) +
+                  ambient(normal) * sky;
+  colour = vec4(tone(albedo * received), 1.0);
+}
+)";
+}
+
+std::string map_fragment() {
+  return std::string(version) + light + bed + R"(
+uniform sampler2D values;    // m, what the colours show
+uniform sampler2D colours;   // the colour map, from low to high
+uniform vec2 range;          // m, its ends
+uniform float contour_interval;  // m
+uniform float relief;        // how much the light models the surface: 0 none, 1 fully
+out vec4 colour;
+// Slope of the values, smooth across cells and triangles, as the width of a line must be.
+vec2 slope_of(sampler2D field, float pixel) {
+  float reach = max(pixel / cell_size, 1.0), detail = log2(reach);
+  vec2 at = texture_place(), x = vec2(0.5 * reach / float(cells.x), 0.0), y = vec2(0.0, 0.5 * reach / float(cells.y));
+  float ne = textureLod(field, at + x + y, detail).r, nw = textureLod(field, at - x + y, detail).r;
+  float se = textureLod(field, at + x - y, detail).r, sw = textureLod(field, at - x - y, detail).r;
+  return 0.5 * vec2(ne - nw + se - sw, ne - se + nw - sw) / (reach * cell_size);
+}
+void main() {
+  float pixel = pixel_footprint();
+  float value = mean_over(values, pixel).r;
+  float unit = clamp((value - range.x) / (range.y - range.x), 0.0, 1.0);
+  vec3 mapped = texture(colours, vec2((unit * 255.0 + 0.5) / 256.0, 0.5)).rgb;
+
+  vec3 normal = normalize(vec3(-mean_over(shading, pixel).xy, 1.0));
+  const float fill = 0.6;
+  float shade = (fill + max(dot(normal, sun_direction), 0.0)) / (fill + sun_direction.z);
+  mapped *= mix(1.0, clamp(shade, 0.35, 1.25), relief);
+
+  // A contour line: one and a half pixels wide, from the value's change per pixel. Where that is nearly nothing (a
+  // plane at the height of a line) or so much that lines would touch, there is none.
+  vec2 change = slope_of(values, pixel);
+  float per_pixel = length(vec2(dot(change, dFdx(world.xy)), dot(change, dFdy(world.xy))));
+  float away = abs(value / contour_interval - round(value / contour_interval)) * contour_interval;
+  float line = 1.0 - smoothstep(0.4, 1.3, away / max(per_pixel, 1e-30));
+  line *= smoothstep(0.0005, 0.002, per_pixel / contour_interval);
+  line *= 1.0 - smoothstep(0.15, 0.4, per_pixel / contour_interval);
+  bool dark = dot(mapped, vec3(0.3, 0.6, 0.1)) < 0.35;
+  colour = vec4(mix(mapped, vec3(dark ? 0.85 : 0.05), 0.6 * line), 1.0);
+}
+)";
+}
+
+std::string box_fragment() {
+  return std::string(version) + light + noise + R"(
+uniform float wall;          // m, its thickness
+uniform float plain;         // 1: gray, for measuring; 0: wood
+uniform vec2 half_bed;       // m
+in vec3 world;
+flat in vec3 face_normal;
+out vec4 colour;
+void main() {
+  vec3 normal = dot(face_normal, to_eye(world)) < 0.0 ? -face_normal : face_normal;
+  // Boards run along the nearer side of the bed; the grain is long and thin.
+  vec2 out_of_bed = abs(world.xy) - half_bed;
+  bool along_x = out_of_bed.y > out_of_bed.x;
+  float run = along_x ? world.x : world.y, across = (along_x ? abs(world.y) : abs(world.x)) + world.z;
+  float pixel = max(length(dFdx(world)), length(dFdy(world))) / wall;
+  float fibre = gradient_noise(vec2(run / wall * 0.35, across / wall * 5.0), 31u).x * (1.0 - smoothstep(0.05, 0.12, pixel));
+  fibre += 0.8 * gradient_noise(vec2(run / wall * 0.12, across / wall * 1.7), 32u).x * (1.0 - smoothstep(0.15, 0.35, pixel));
+  vec3 albedo = mix(vec3(0.27, 0.155, 0.085) * (1.0 + 0.28 * fibre), vec3(0.33), plain);
+  vec3 received = sun_colour * 0.9 * max(dot(normal, sun_direction), 0.0) + ambient(normal);
+  colour = vec4(tone(albedo * received), 1.0);
+}
+)";
+}
+
+std::string tool_fragment() {
+  return std::string(version) + light + R"(
+uniform vec4 tool;
+in vec3 world;
+out vec4 colour;
+void main() {
+  vec3 normal = normalize(world - tool.xyz), viewer = to_eye(world);
+  vec3 mirror = reflect(-viewer, normal), halfway = normalize(viewer + sun_direction);
+  float edge = pow(1.0 - max(dot(normal, viewer), 0.0), 5.0);
+  vec3 albedo = vec3(0.11, 0.15, 0.20);
+  // The surroundings, as the polished steel sees them: sand below, sky above.
+  vec3 around = mix(vec3(0.55, 0.40, 0.26), vec3(0.62, 0.74, 0.92), smoothstep(-0.12, 0.12, mirror.z));
+  float glint = pow(max(dot(normal, halfway), 0.0), 220.0);
+  vec3 received = sun_colour * max(dot(normal, sun_direction), 0.0) + ambient(normal);
+  colour = vec4(tone(albedo * received + around * mix(0.22, 0.9, edge) + sun_colour * 2.5 * glint), 1.0);
+}
+)";
+}
+
+std::string surroundings_fragment() {
+  return std::string(version) + R"(
+uniform vec3 lower, upper;       // sRGB, at the borders of the picture
+uniform mat4 from_clip;
+uniform vec3 box_low, box_high;  // m, what stands on the ground
+uniform vec3 sun_direction;
+uniform float shadow;            // 0 none, 1 fully
+in vec2 place;
+out vec4 colour;
+float outside_box(vec2 p) {
+  vec2 away = max(box_low.xy - p, p - box_high.xy);
+  return length(max(away, 0.0)) + min(max(away.x, away.y), 0.0);
+}
+void main() {
+  vec3 tint = mix(lower, upper, smoothstep(-1.0, 1.0, place.y));
+  vec4 near = from_clip * vec4(place, -1.0, 1.0), far = from_clip * vec4(place, 1.0, 1.0);
+  vec3 from = near.xyz / near.w, ray = far.xyz / far.w - from;
+  float along = (box_low.z - from.z) / ray.z;
+  if (along > 0.0) {
+    // The ground darkens where the box takes its sky, and in its shadow, which the wall's height sets.
+    vec2 ground = from.xy + along * ray.xy;
+    float size = max(box_high.x - box_low.x, box_high.y - box_low.y), height = box_high.z - box_low.z;
+    float sky = 1.0 - 0.30 * exp(-max(outside_box(ground), 0.0) / (0.035 * size));
+    vec2 reach = sun_direction.xy / sun_direction.z * height;
+    float nearest = 1e9;
+    for (int i = 0; i <= 20; ++i) nearest = min(nearest, outside_box(ground + reach * float(i) / 20.0));
+    float sun = mix(0.72, 1.0, smoothstep(-0.1 * height, 0.35 * height, nearest));
+    tint *= mix(1.0, sky * sun, shadow);
+  }
+  colour = vec4(tint, 1.0);
+}
+)";
+}
+
+}  // namespace sandstroke::shaders

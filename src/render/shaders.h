@@ -1,0 +1,17 @@
+#pragma once
+
+#include <string>
+
+namespace sandstroke::shaders {
+
+// Sources of the vertex and fragment shaders, OpenGL 3.3 core. `world` is a place in bed coordinates [m].
+std::string surface_vertex();       ///< a tile: heights from a texture
+std::string solid_vertex();         ///< the box and the tool: vertices times `scale` plus `offset`
+std::string surroundings_vertex();  ///< one triangle over the whole picture
+std::string sand_fragment();
+std::string map_fragment();
+std::string box_fragment();
+std::string tool_fragment();
+std::string surroundings_fragment();
+
+}  // namespace sandstroke::shaders

@@ -1,0 +1,218 @@
+#include "render/surface_textures.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/error.h"
+
+namespace sandstroke {
+namespace {
+
+constexpr int side = HeightField::tile_side;
+
+GlObject texture_of(GLint internal_format, int cols, int rows, GLenum format, GLenum type) {
+  GlObject texture = make_texture();
+  glBindTexture(GL_TEXTURE_2D, texture);
+  glTexImage2D(GL_TEXTURE_2D, 0, internal_format, cols, rows, 0, format, type, nullptr);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+  check_gl("making a surface texture");
+  return texture;
+}
+
+void bind_texture(const GlObject& texture, int unit) {
+  glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
+  glBindTexture(GL_TEXTURE_2D, texture);
+}
+
+/// Central differences, smoothed across (Sobel); at the border, of what there is.
+Eigen::Vector2f slope_at(const DrawnHeights& heights, double cell_size, int row, int col) {
+  const int west = std::max(col - 1, 0), east = std::min(col + 1, static_cast<int>(heights.cols()) - 1);
+  const int south = std::max(row - 1, 0), north = std::min(row + 1, static_cast<int>(heights.rows()) - 1);
+  const auto smooth = [](float before, float at, float after) {
+    return 0.25f * (before + 2.0f * at + after);
+  };
+  const auto size = static_cast<float>(cell_size);
+  const auto& h = heights;
+  return {(smooth(h(south, east), h(row, east), h(north, east)) -
+           smooth(h(south, west), h(row, west), h(north, west))) /
+              (static_cast<float>(east - west) * size),
+          (smooth(h(north, west), h(north, col), h(north, east)) -
+           smooth(h(south, west), h(south, col), h(south, east))) /
+              (static_cast<float>(north - south) * size)};
+}
+
+/// Mean over a cell and its neighbours, so that a shadow's edge shows no steps when it is magnified.
+float softened(const DrawnHeights& seen, int row, int col) {
+  float sum = 0.0f, weights = 0.0f;
+  for (int r = std::max(row - 1, 0); r <= std::min(row + 1, static_cast<int>(seen.rows()) - 1); ++r) {
+    for (int c = std::max(col - 1, 0); c <= std::min(col + 1, static_cast<int>(seen.cols()) - 1); ++c) {
+      const float weight = static_cast<float>((r == row ? 2 : 1) * (c == col ? 2 : 1));
+      sum += weight * seen(r, c);
+      weights += weight;
+    }
+  }
+  return sum / weights;
+}
+
+}  // namespace
+
+SurfaceTextures::SurfaceTextures(int rows, int cols, double cell_size)
+    : rows_(rows),
+      cols_(cols),
+      tile_rows_((rows + side - 1) / side),
+      tile_cols_((cols + side - 1) / side),
+      cell_size_(cell_size),
+      heights_(DrawnHeights::Zero(rows, cols)),
+      details_(static_cast<std::size_t>(tile_rows_) * tile_cols_),
+      shading_outdated_(details_.size(), 1) {
+  GLint largest = 0;
+  glGetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
+  if (std::max(rows, cols) > largest || std::min(rows, cols) < 2)
+    throw_input_error("a bed of {} x {} cells cannot be drawn; pictures take 2 to {} cells a side", cols,
+                      rows, largest);
+  height_texture_ = texture_of(GL_R32F, cols, rows, GL_RED, GL_FLOAT);
+  shading_texture_ = texture_of(GL_RGBA16F, cols, rows, GL_RGBA, GL_HALF_FLOAT);
+}
+
+CellRange SurfaceTextures::tile_cells(int tile, int beyond) const {
+  const int row = tile / tile_cols_ * side, col = tile % tile_cols_ * side;
+  return {row, std::min(row + side + beyond, rows_), col, std::min(col + side + beyond, cols_)};
+}
+
+int SurfaceTextures::update(const HeightField& surface) {
+  std::vector<int> changed;
+  bool finite = true;
+  for (int tile = 0; tile < surface.tile_count(); ++tile) {
+    const CellRange cells = tile_cells(tile, 0);
+    bool differs = !filled_;
+    const double* heights = surface.tile_data(tile);
+    for (int row = cells.row_begin; row < cells.row_end; ++row, heights += side) {
+      float* drawn = heights_.row(row).data() + cells.col_begin;
+      for (int col = 0; col < cells.col_end - cells.col_begin; ++col) {
+        const auto height = static_cast<float>(heights[col]);
+        differs |= height != drawn[col];
+        finite &= std::isfinite(height);
+        drawn[col] = height;
+      }
+    }
+    if (differs) changed.push_back(tile);
+  }
+  if (!finite) {
+    filled_ = false;  // what is kept is of no use any more
+    throw_input_error(
+        "a surface with heights that are not finite cannot be drawn; check the run it comes from");
+  }
+  if (changed.empty()) return 0;
+
+  std::vector<char> detail_outdated(details_.size(), 0);
+  for (const int tile : changed) {  // a tile's patch reaches into the tiles after it
+    const int row = tile / tile_cols_, col = tile % tile_cols_;
+    for (const int r : {row, std::max(row - 1, 0)})
+      for (const int c : {col, std::max(col - 1, 0)}) detail_outdated[r * tile_cols_ + c] = 1;
+  }
+  tbb::parallel_for(0, static_cast<int>(details_.size()), [&](int tile) {
+    if (detail_outdated[tile]) details_[tile] = tile_detail(heights_, tile_cells(tile, 1));
+  });
+
+  const double highest_before = filled_ ? highest_ : -1e300;
+  lowest_ = 1e300, highest_ = -1e300;
+  for (const TileDetail& detail : details_) {
+    lowest_ = std::min(lowest_, detail.lowest);
+    highest_ = std::max(highest_, detail.highest);
+  }
+  const double relief = std::max(highest_before, highest_) - lowest_;
+
+  bind_texture(height_texture_, 0);
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
+  glPixelStorei(GL_UNPACK_ROW_LENGTH, cols_);
+  for (const int tile : changed) {
+    const CellRange cells = tile_cells(tile, 0);
+    glTexSubImage2D(GL_TEXTURE_2D, 0, cells.col_begin, cells.row_begin, cells.col_end - cells.col_begin,
+                    cells.row_end - cells.row_begin, GL_RED, GL_FLOAT,
+                    &heights_(cells.row_begin, cells.col_begin));
+    mark_shading(tile, relief);
+  }
+  glPixelStorei(GL_UNPACK_ROW_LENGTH, 0);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);  // the coarser ones wait until they are asked for
+  check_gl("uploading heights");
+  filled_ = true;
+  filtered_ = false;
+  return static_cast<int>(changed.size());
+}
+
+/// Marks the tiles whose shading a changed tile can alter: those that its shadow may reach, and its
+/// surroundings.
+void SurfaceTextures::mark_shading(int tile, double relief) {
+  const int reach = shadow_reach(sun_used_, relief, cell_size_) + 1;
+  const Eigen::Vector2d towards = sun_used_.direction().head<2>().normalized();
+  const auto shift = [&](double part) {
+    return static_cast<int>(std::lround(std::min(1e6, reach * std::abs(part))));
+  };
+  const CellRange cells = tile_cells(tile, 0);
+  const int col_low = cells.col_begin - sky_reach - (towards.x() > 0.0 ? shift(towards.x()) : 0);
+  const int col_high = cells.col_end + sky_reach + (towards.x() < 0.0 ? shift(towards.x()) : 0);
+  const int row_low = cells.row_begin - sky_reach - (towards.y() > 0.0 ? shift(towards.y()) : 0);
+  const int row_high = cells.row_end + sky_reach + (towards.y() < 0.0 ? shift(towards.y()) : 0);
+  for (int r = std::max(0, row_low) / side; r <= std::min(row_high, rows_ - 1) / side; ++r)
+    for (int c = std::max(0, col_low) / side; c <= std::min(col_high, cols_ - 1) / side; ++c)
+      shading_outdated_[r * tile_cols_ + c] = 1;
+}
+
+void SurfaceTextures::update_shading(const Sun& sun) {
+  if (!(sun == sun_used_)) {
+    std::fill(shading_outdated_.begin(), shading_outdated_.end(), char{1});
+    sun_used_ = sun;
+  }
+  std::vector<int> outdated;
+  for (int tile = 0; tile < static_cast<int>(shading_outdated_.size()); ++tile)
+    if (shading_outdated_[tile]) outdated.push_back(tile);
+  if (outdated.empty()) return;
+  if (sun_.size() == 0) {
+    sun_.resize(rows_, cols_);
+    sky_.resize(rows_, cols_);
+  }
+  tbb::parallel_for(std::size_t{0}, outdated.size(), [&](std::size_t i) {
+    const CellRange cells = tile_cells(outdated[i], 0);
+    sun_visibility(heights_, cell_size_, sun, highest_, cells, sun_);
+    sky_visibility(heights_, cell_size_, cells, sky_);
+  });
+  bind_texture(shading_texture_, 0);
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
+  std::vector<std::array<Eigen::half, 4>> texels(static_cast<std::size_t>(side) * side);
+  for (const int tile : outdated) {
+    const CellRange cells = tile_cells(tile, 0);
+    std::size_t i = 0;
+    for (int row = cells.row_begin; row < cells.row_end; ++row) {
+      for (int col = cells.col_begin; col < cells.col_end; ++col) {
+        const Eigen::Vector2f slope = slope_at(heights_, cell_size_, row, col);
+        texels[i++] = {Eigen::half(slope.x()), Eigen::half(slope.y()), Eigen::half(softened(sun_, row, col)),
+                       Eigen::half(softened(sky_, row, col))};
+      }
+    }
+    glTexSubImage2D(GL_TEXTURE_2D, 0, cells.col_begin, cells.row_begin, cells.col_end - cells.col_begin,
+                    cells.row_end - cells.row_begin, GL_RGBA, GL_HALF_FLOAT, texels.data());
+    shading_outdated_[tile] = 0;
+  }
+  glGenerateMipmap(GL_TEXTURE_2D);
+  check_gl("uploading shading");
+}
+
+void SurfaceTextures::bind_heights(int unit) const { bind_texture(height_texture_, unit); }
+
+void SurfaceTextures::bind_filtered_heights(int unit) {
+  bind_texture(height_texture_, unit);
+  if (filtered_) return;
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 1000);
+  glGenerateMipmap(GL_TEXTURE_2D);
+  filtered_ = true;
+}
+
+void SurfaceTextures::bind_shading(int unit) const { bind_texture(shading_texture_, unit); }
+
+}  // namespace sandstroke

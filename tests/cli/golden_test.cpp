@@ -1,0 +1,103 @@
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "cli/program.h"
+#include "io/hdf5_file.h"
+
+namespace sandstroke {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A folder with strokes/tiny and its golden entry.
+fs::path folder_with_golden_entry() {
+  const fs::path folder = test_folder();
+  fs::create_directories(folder / "strokes/tiny");
+  fs::rename(folder / "scene.toml", folder / "strokes/tiny/scene.toml");
+  fs::rename(folder / "line.toml", folder / "strokes/tiny/line.toml");
+  const ProgramResult update = run_program({"golden", "update", "tiny"}, folder);
+  EXPECT_EQ(update.exit_code, 0) << update.err;
+  return folder;
+}
+
+TEST(CliGolden, CheckPassesAfterUpdateAndSaysWhatItIsMadeFrom) {
+  const fs::path folder = folder_with_golden_entry();
+  const ProgramResult check = run_program({"golden", "check"}, folder);
+  EXPECT_EQ(check.exit_code, 0) << check.out << check.err;
+  const std::string provenance = read_file(folder / "golden/tiny/provenance.toml");
+  for (const char* part : {"version", "compiler", "scene_hash", "stroke_hash"})
+    EXPECT_NE(provenance.find(part), std::string::npos) << part;
+}
+
+TEST(CliGolden, AChangedStrokeOrSceneFails) {
+  const fs::path folder = folder_with_golden_entry();
+  const std::string scene = read_file(folder / "strokes/tiny/scene.toml"),
+                    stroke = read_file(folder / "strokes/tiny/line.toml");
+  write_file(folder / "strokes/tiny/scene.toml", scene + "[relaxation]\ntalus_angle = 30.1\n");
+  const ProgramResult changed = run_program({"golden", "check", "--junit", "golden.xml"}, folder);
+  EXPECT_EQ(changed.exit_code, 1);
+  EXPECT_NE(changed.out.find("golden update tiny"), std::string::npos) << changed.out;
+  EXPECT_NE(read_file(folder / "golden.xml").find("<failure"), std::string::npos);
+
+  write_file(folder / "strokes/tiny/scene.toml", scene);
+  write_file(folder / "strokes/tiny/line.toml", stroke + "speed = 0.21\n");
+  EXPECT_EQ(run_program({"golden", "check"}, folder).exit_code, 1);
+}
+
+TEST(CliGolden, AMissingEntryAndAMissingSceneFail) {
+  const fs::path folder = folder_with_golden_entry();
+  fs::rename(folder / "golden/tiny", folder / "golden/other");
+  const ProgramResult check = run_program({"golden", "check"}, folder);
+  EXPECT_EQ(check.exit_code, 1);
+  EXPECT_NE(check.out.find("tiny"), std::string::npos);
+  EXPECT_NE(check.out.find("other"), std::string::npos);
+}
+
+/// run.h5, and changed.h5: the same but for what `change` does to one dataset.
+void write_changed_copy(const fs::path& folder, const std::string& dataset, std::size_t entry,
+                        double change) {
+  fs::copy_file(folder / "run.h5", folder / "changed.h5", fs::copy_options::overwrite_existing);
+  const Hdf5Handle file(H5Fopen((folder / "changed.h5").c_str(), H5F_ACC_RDWR, H5P_DEFAULT), H5Fclose);
+  const Hdf5Handle data(H5Dopen2(file, dataset.c_str(), H5P_DEFAULT), H5Dclose);
+  const Hdf5Handle space(H5Dget_space(data), H5Sclose);
+  std::vector<double> values(static_cast<std::size_t>(H5Sget_simple_extent_npoints(space)));
+  H5Dread(data, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data());
+  values[entry] += change;
+  H5Dwrite(data, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data());
+}
+
+TEST(CliCompare, PassesForItselfAndFailsForOneCellOrOneForceSample) {
+  const fs::path folder = test_folder();
+  ASSERT_EQ(run_program({"run", "scene.toml", "-o", "run.h5"}, folder).exit_code, 0);
+  EXPECT_EQ(run_program({"compare", "run.h5", "run.h5"}, folder).exit_code, 0);
+
+  write_changed_copy(folder, "/surface/final", 50 * 150 + 70, 2e-6);
+  const ProgramResult cell = run_program({"compare", "run.h5", "changed.h5", "--json"}, folder);
+  EXPECT_EQ(cell.exit_code, 1);
+  EXPECT_FALSE(nlohmann::json::parse(cell.out)["passed"]);
+  EXPECT_EQ(run_program({"compare", "run.h5", "changed.h5", "--height-tolerance", "3e-6"}, folder).exit_code,
+            0);
+
+  write_changed_copy(folder, "/trace/device_force", 3 * 400 + 2, 0.01);
+  const ProgramResult force =
+      run_program({"compare", "run.h5", "changed.h5", "--report", "report", "--junit", "j.xml"}, folder);
+  EXPECT_EQ(force.exit_code, 1);
+  EXPECT_NE(force.out.find("FAILED"), std::string::npos);
+  EXPECT_TRUE(fs::exists(folder / "j.xml"));
+  EXPECT_FALSE(fs::is_empty(folder / "report"));
+}
+
+TEST(CliCompare, ADifferentShapeIsAFailure) {
+  const fs::path folder = test_folder();
+  ASSERT_EQ(run_program({"run", "scene.toml", "-o", "a.h5"}, folder).exit_code, 0);
+  ASSERT_EQ(run_program({"run", "scene.toml", "-o", "b.h5", "--set", "bed.size=[0.3, 0.3]", "--set",
+                         "bed.cells=[150, 150]"},
+                        folder)
+                .exit_code,
+            0);
+  EXPECT_EQ(run_program({"compare", "a.h5", "b.h5"}, folder).exit_code, 1);
+}
+
+}  // namespace
+}  // namespace sandstroke

@@ -1,0 +1,85 @@
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "cli/program.h"
+#include "io/run_file.h"
+
+namespace sandstroke {
+namespace {
+
+namespace fs = std::filesystem;
+
+nlohmann::json info(const fs::path& folder, const std::string& file) {
+  return nlohmann::json::parse(run_program({"stroke", "info", file, "--json"}, folder).out);
+}
+
+TEST(CliStroke, AScriptCanBePlayedOrConvertedFirstWithTheSameResult) {
+  const fs::path folder = test_folder();
+  ASSERT_EQ(run_program({"stroke", "script", "line.toml", "line.h5"}, folder).exit_code, 0);
+  EXPECT_EQ(info(folder, "line.h5")["samples"], info(folder, "line.toml")["samples"]);
+  ASSERT_EQ(run_program({"run", "scene.toml", "-o", "a.h5"}, folder).exit_code, 0);
+  ASSERT_EQ(run_program({"run", "scene.toml", "-o", "b.h5", "--stroke", "line.h5"}, folder).exit_code, 0);
+  EXPECT_TRUE((RunFile(folder / "a.h5").final() == RunFile(folder / "b.h5").final()).all());
+}
+
+TEST(CliStroke, ConvertsAndPlaysThePandaRecording) {
+  const fs::path data = fs::path(SANDSTROKE_SHARED_DATA) / "panda_comanip_force_1khz/symbol17_rec2.csv";
+  if (!fs::exists(data)) GTEST_SKIP() << "no recordings beside the repository (" << data << ")";
+  const fs::path folder = test_folder();
+  const ProgramResult convert =
+      run_program({"stroke", "convert", data.string(), "panda.h5", "--rate", "1000", "--position",
+                   "x_m,y_m,z_m", "--position-unit", "m", "--velocity", "vx_mps,vy_mps,vz_mps",
+                   "--velocity-unit", "m/s", "--force", "fx_N,fy_N,fz_N", "--force-unit", "N"},
+                  folder);
+  ASSERT_EQ(convert.exit_code, 0) << convert.err;
+  const nlohmann::json panda = info(folder, "panda.h5");
+  EXPECT_EQ(panda["samples"], 8647);
+  EXPECT_NEAR(panda["force"][1], 8.1, 0.05);  // SOURCE.md of the data: 8.1 N at most
+
+  const ProgramResult run = run_program({"run", "scene.toml", "-o", "out.h5", "--stroke", "panda.h5", "--set",
+                                         "stroke.plane=fit", "--set", "stroke.depth=0.004", "--json"},
+                                        folder);
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const nlohmann::json result = nlohmann::json::parse(run.out);
+  EXPECT_EQ(result["ticks"], 8647);
+  EXPECT_GT(result["contact_ticks"], 8000);
+  EXPECT_LE(result["volume_drift"], 1e-12);
+}
+
+TEST(CliStroke, ConvertsOmniglotWithAnExplicitRuleForEqualTimes) {
+  const fs::path data =
+      fs::path(SANDSTROKE_SHARED_DATA) / "omniglot_timed_strokes/Greek/character10/0403_05.txt";
+  if (!fs::exists(data)) GTEST_SKIP() << "no recordings beside the repository (" << data << ")";
+  const fs::path folder = test_folder();
+  std::vector<std::string> arguments = {
+      "stroke",     "convert", data.string(),     "letter.h5", "--columns",    "x,y,t",
+      "--position", "x,y",     "--position-unit", "px",        "--pixel-size", "0.001",
+      "--time",     "t",       "--time-unit",     "ms",        "--pen-up",     "BREAK",
+      "--skip",     "START",   "--gap-threshold", "0.4"};
+  const ProgramResult guess = run_program(arguments, folder);
+  EXPECT_EQ(guess.exit_code, 2);
+  EXPECT_NE(guess.err.find("equal-times"), std::string::npos) << guess.err;
+  arguments.insert(arguments.end(), {"--equal-times", "spread"});
+  ASSERT_EQ(run_program(arguments, folder).exit_code, 0);
+  EXPECT_EQ(info(folder, "letter.h5")["gaps"].size(), 2u);  // kappa in three pen strokes
+}
+
+TEST(CliRender, DrawsEveryViewStyleAndFrame) {
+  const fs::path folder = test_folder();
+  ASSERT_EQ(run_program({"run", "scene.toml", "-o", "a.h5", "--frames", "4"}, folder).exit_code, 0);
+  for (const char* view : {"overview", "stroke", "top"})
+    for (const char* style : {"sand", "height", "difference"}) {
+      const ProgramResult render =
+          run_program({"render", "a.h5", "-o", "a.png", "--view", view, "--style", style}, folder);
+      EXPECT_EQ(render.exit_code, 0) << view << " " << style << ": " << render.err;
+      EXPECT_GT(fs::file_size(folder / "a.png"), 5000u);
+    }
+  ASSERT_EQ(run_program({"render", "a.h5", "--frame", "all", "-o", "film", "--tool"}, folder).exit_code, 0);
+  EXPECT_TRUE(fs::exists(folder / "film/frame_0000.png"));
+  EXPECT_EQ(run_program({"compare", "a.png", "film/frame_0000.png"}, folder).exit_code, 1);
+  EXPECT_EQ(run_program({"compare", "a.png", "a.png"}, folder).exit_code, 0);
+}
+
+}  // namespace
+}  // namespace sandstroke
