@@ -1,0 +1,27 @@
+#include <gtest/gtest.h>
+
+#include "cli/program.h"
+
+namespace sandstroke {
+namespace {
+
+namespace fs = std::filesystem;
+
+TEST(CliRender, DrawsEveryViewStyleAndFrame) {
+  const fs::path folder = test_folder();
+  ASSERT_EQ(run_program({"run", "scene.toml", "-o", "a.h5", "--frames", "4"}, folder).exit_code, 0);
+  for (const char* view : {"overview", "stroke", "top"})
+    for (const char* style : {"sand", "height", "difference"}) {
+      const ProgramResult render =
+          run_program({"render", "a.h5", "-o", "a.png", "--view", view, "--style", style}, folder);
+      EXPECT_EQ(render.exit_code, 0) << view << " " << style << ": " << render.err;
+      EXPECT_GT(fs::file_size(folder / "a.png"), 5000u);
+    }
+  ASSERT_EQ(run_program({"render", "a.h5", "--frame", "all", "-o", "film", "--tool"}, folder).exit_code, 0);
+  EXPECT_TRUE(fs::exists(folder / "film/frame_0000.png"));
+  EXPECT_EQ(run_program({"compare", "a.png", "film/frame_0000.png"}, folder).exit_code, 1);
+  EXPECT_EQ(run_program({"compare", "a.png", "a.png"}, folder).exit_code, 0);
+}
+
+}  // namespace
+}  // namespace sandstroke
