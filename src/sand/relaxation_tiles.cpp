@@ -1,11 +1,11 @@
 // Relaxes only the tiles that hold sand that can move; the same bits as the reference.
 #include <tbb/enumerable_thread_specific.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 
 #include "core/compensated_sum.h"
 #include "core/interrupt.h"
+#include "core/parallel.h"
 #include "sand/talus_law.h"
 #include "sand/tile_pass.h"
 
@@ -73,17 +73,12 @@ class TileRelaxer : public Relaxer {
   void compute(const HeightField& bed) {
     if (next_.size() < active_.size()) next_.resize(active_.size());
     results_.resize(active_.size());
-    const auto one = [&](std::size_t i) {
+    constexpr std::size_t worth_threads = 4;  // tiles
+    parallel_for(active_.size(), worth_threads, [&](std::size_t i) {
       TilePass& pass = scratch_.local();
       results_[i] = pass.run(bed, active_[i], next_[i]);
       if (!results_[i].changed) residuals_[active_[i]] = pass.residual(bed, active_[i]);
-    };
-    constexpr std::size_t worth_threads = 4;  // tiles
-    if (active_.size() < worth_threads) {
-      for (std::size_t i = 0; i < active_.size(); ++i) one(i);
-    } else {
-      tbb::parallel_for(std::size_t{0}, active_.size(), one);
-    }
+    });
   }
 
   /// Puts the next heights in place and wakes the tiles that see a change. True if anything changed.

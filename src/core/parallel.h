@@ -1,0 +1,33 @@
+#pragma once
+
+#include <tbb/parallel_for.h>
+
+#include <cstddef>
+#include <thread>
+#include <vector>
+
+namespace sandstroke {
+
+/// body(i) for each i in [0, count), in any order, on as many threads as tbb::global_control allows; below
+/// `worth_threads` of them on this one. All is done, and seen here, when it returns.
+template <class Body>
+void parallel_for(std::size_t count, std::size_t worth_threads, const Body& body) {
+  if (count < worth_threads) {
+    for (std::size_t i = 0; i < count; ++i) body(i);
+    return;
+  }
+#ifdef __SANITIZE_THREAD__
+  // The thread sanitizer cannot see how TBB's own library synchronises: there, plain threads take turns.
+  constexpr std::size_t threads = 3;
+  std::vector<std::jthread> running;
+  for (std::size_t first = 0; first < threads; ++first) {
+    running.emplace_back([&body, first, count] {
+      for (std::size_t i = first; i < count; i += threads) body(i);
+    });
+  }
+#else
+  tbb::parallel_for(std::size_t{0}, count, body);
+#endif
+}
+
+}  // namespace sandstroke
