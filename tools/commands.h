@@ -8,6 +8,10 @@ namespace sandstroke {
 /// What the command line asked for: runs it and returns the exit code.
 using Command = std::function<int()>;
 
+/// What an option accepts, said in a user's words; not-a-number is refused too.
+CLI::Validator positive_number();
+CLI::Validator not_negative_number();
+
 // Each adds one subcommand, which sets `chosen` when it is called.
 void add_run_command(CLI::App& app, Command& chosen);
 void add_render_command(CLI::App& app, Command& chosen);

@@ -53,6 +53,7 @@ int compare(const Options& options) {
         "{} and {}: one is a picture and the other is not; compare two run files or two PNG pictures",
         options.golden.string(), options.run.string());
   }
+  if (!options.junit.empty()) check_output(options.junit, {options.golden, options.run});
   const Comparison comparison =
       is_picture(options.golden) ? compare_pictures(options) : compare_run_files(options);
   if (!options.junit.empty()) write_text_file(options.junit, junit_report({comparison}));
@@ -69,13 +70,13 @@ void add_compare_command(CLI::App& app, Command& chosen) {
       ->required();
   command->add_option("RUN", options->run, "What came out: likewise")->required();
   command->add_option("--height-tolerance", options->tolerances.height, "Height of any cell [m]")
-      ->check(CLI::NonNegativeNumber)
+      ->check(not_negative_number())
       ->capture_default_str();
   command->add_option("--force-tolerance", options->tolerances.force, "Force on the device in any tick [N]")
-      ->check(CLI::NonNegativeNumber)
+      ->check(not_negative_number())
       ->capture_default_str();
   command->add_option("--depth-tolerance", options->tolerances.depth, "Depth and sand level in any tick [m]")
-      ->check(CLI::NonNegativeNumber)
+      ->check(not_negative_number())
       ->capture_default_str();
   command->add_option("--pixel-tolerance", options->tolerances.pixel, "Any channel of any pixel [of 255]")
       ->check(CLI::Range(0, 255))

@@ -48,6 +48,7 @@ std::string summary(const Comparison& comparison) {
 }
 
 int check(const Options& options) {
+  if (!options.junit.empty()) check_output(options.junit, {});
   std::vector<Comparison> comparisons;
   nlohmann::json scenes = nlohmann::json::array();
   bool passed = true;

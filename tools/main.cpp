@@ -1,5 +1,6 @@
 #include <spdlog/spdlog.h>
 
+#include <cstdio>
 #include <new>
 
 #include "commands.h"
@@ -28,9 +29,8 @@ int run_program(int argc, char** argv) {
       "Exit codes: 0 fine, 1 a comparison failed, 2 bad input or usage, 3 not converged or unstable, 4 "
       "input/output\n"
       "error, 130/143 stopped by a signal. Each command explains itself: sandstroke run --help");
-  bool quiet = false, verbose = false;
+  bool quiet = false;
   app.add_flag("-q,--quiet", quiet, "Say nothing but results, warnings and errors");
-  app.add_flag("-v,--verbose", verbose, "Say more");
 
   Command chosen;
   add_run_command(app, chosen);
@@ -45,9 +45,12 @@ int run_program(int argc, char** argv) {
   } catch (const CLI::ParseError& failure) {
     return app.exit(failure) == 0 ? 0 : usage_error;
   }
-  start_log(quiet ? 0 : verbose ? 2 : 1);
+  start_log(quiet);
   catch_interrupts();
-  return chosen();
+  const int exit_code = chosen();
+  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
+    throw_io_error("the standard output cannot be written; free disk space or send it elsewhere");
+  return exit_code;
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include "commands.h"
 #include "core/error.h"
 #include "core/interrupt.h"
+#include "core/output_file.h"
 #include "core/progress.h"
 #include "io/png_file.h"
 #include "io/scene_toml.h"
@@ -28,7 +29,7 @@ struct Options {
   std::optional<double> azimuth, elevation, distance, light_azimuth, light_elevation;
   std::vector<double> target;
   double contour_interval = 0.0;
-  std::optional<bool> tool;
+  std::optional<bool> tool;  // unset: in frames, not in initial and final
 };
 
 const std::map<std::string, ViewName> view_names = {{"overview", ViewName::overview},
@@ -67,7 +68,7 @@ ViewSettings view_of(const RunFile& run, const Options& options) {
 
 fs::path default_output(const Options& options, const char* ending) {
   if (!options.output.empty()) return options.output;
-  return options.run.parent_path() / (options.run.stem().string() + ending);
+  return beside(options.run, ending);
 }
 
 int draw_film(const RunFile& run, RunPainter& painter, const Options& options) {
@@ -117,6 +118,7 @@ int render(const Options& options) {
     tool = options.tool.value_or(run.has_trace());
   }
   const fs::path output = default_output(options, ".png");
+  check_output(output, {options.run});
   write_png(output, painter.draw(surface, tool ? std::optional(time) : std::nullopt));
   fmt::print("{}\n", output.string());
   return 0;
@@ -140,9 +142,11 @@ void add_render_command(CLI::App& app, Command& chosen) {
   command->add_option("--style", options->style, "As one sees it; heights; change since the initial surface")
       ->check(CLI::IsMember(&style_names));
   command->add_option("--azimuth", options->azimuth, "Towards the camera, from +x towards +y [deg]");
-  command->add_option("--elevation", options->elevation, "Of the camera above the horizon [deg]");
-  command->add_option("--distance", options->distance,
-                      "From target to camera [m]; 0: what frames the subject");
+  command->add_option("--elevation", options->elevation, "Of the camera above the horizon [deg]")
+      ->check(CLI::Range(0.0, 90.0));
+  command
+      ->add_option("--distance", options->distance, "From target to camera [m]; 0: what frames the subject")
+      ->check(not_negative_number());
   command->add_option("--target", options->target, "What a custom view looks at [m]")
       ->type_name("X,Y,Z")
       ->delimiter(',')
@@ -151,9 +155,12 @@ void add_render_command(CLI::App& app, Command& chosen) {
   command->add_option("--light-elevation", options->light_elevation, "Of the sun above the horizon [deg]");
   command
       ->add_option("--contour", options->contour_interval, "Between contour lines [m]; 0: a round interval")
-      ->check(CLI::NonNegativeNumber);
-  command->add_flag("--tool,!--no-tool", options->tool,
-                    "Draw the tool; default: in frames, not in initial and final");
+      ->check(not_negative_number());
+  command->add_flag_callback(
+      "--tool", [options] { options->tool = true; },
+      "Draw the tool; default: in frames, not in initial and final");
+  command->add_flag_callback(
+      "--no-tool", [options] { options->tool = false; }, "Do not draw the tool");
   command->footer("Example:  sandstroke render wscg.h5 --view stroke --style height --size 1920x1080");
   command->callback([options, &chosen] { chosen = [options] { return render(*options); }; });
 }

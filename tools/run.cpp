@@ -7,6 +7,7 @@
 #include "commands.h"
 #include "core/error.h"
 #include "core/interrupt.h"
+#include "core/output_file.h"
 #include "io/png_file.h"
 #include "io/run_file.h"
 #include "io/run_scene.h"
@@ -85,20 +86,36 @@ int run(const Arguments& arguments) {
   const Scene scene = load_scene(scene_path, overrides);
   const std::string output = arguments.output.empty() ? scene_path.stem().string() + ".h5" : arguments.output;
 
+  std::vector<fs::path> files = {scene_path};
+  const fs::path folder = scene_path.parent_path();
+  if (scene.stroke) files.push_back(folder / scene.stroke->file);
+  if (scene.bed.surface.kind == SurfaceKind::file) files.push_back(folder / scene.bed.surface.file);
+  for (const fs::path& written : {fs::path(output), beside(output, ".xdmf"), fs::path(arguments.picture)}) {
+    if (written.empty()) continue;
+    check_output(written, files);
+    files.push_back(written);
+  }
+
   RunOptions options;
-  options.scene_folder = scene_path.parent_path();
+  options.scene_folder = folder;
   options.threads = arguments.threads;
   options.progress = true;
   const RunResult result = run_scene(scene, output, options);
 
+  const std::string written = result.interrupted ? part_path(output).string() : output;
   if (arguments.json) {
-    fmt::print("{}\n", as_json(result, output).dump(2));
+    fmt::print("{}\n",
+               as_json(result, written).dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
   } else {
-    print_summary(result, output);
+    print_summary(result, written);
   }
   if (result.interrupted) return 128 + interrupted();
   if (!arguments.picture.empty()) write_png(arguments.picture, run_picture(RunFile(output), scene.view));
-  if (result.least_absorbed_energy < 0.0)
+  if (result.ticks > 0 && result.contact_ticks == 0)
+    spdlog::warn("the tool never touched the sand; check stroke.plane, stroke.depth and stroke.offset");
+  // Rounding and the held force alone return a little; a loop that is not passive returns more.
+  const bool returned = result.least_absorbed_energy < -1e-3 * std::abs(result.absorbed_energy);
+  if (scene.device.model == DeviceModel::dynamic && returned)
     spdlog::warn(
         "the sand returned up to {:.3g} J more than it took: the loop was not passive; lower force.k_s, "
         "raise "
@@ -131,7 +148,7 @@ void add_run_command(CLI::App& app, Command& chosen) {
       ->type_name("KEY=VALUE")
       ->take_all();
   command->add_option("--frames", arguments->frames, "Keep surfaces during the run, this many a second [Hz]")
-      ->check(CLI::NonNegativeNumber);
+      ->check(not_negative_number());
   command->add_option("--png", arguments->picture,
                       "Draw the final surface into this picture, as the scene's [view] says");
   command

@@ -29,11 +29,12 @@ RunPainter::RunPainter(const RunFile& run, const ViewSettings& view, double cont
   // The stroke is where sand was moved by more than what settles around it.
   const double most = (last - initial_).abs().maxCoeff();
   subject_.focus = changed_cells(initial_, last, 0.02 * most);
-  if (view.style == RenderStyle::difference)
-    subject_.range = value_range(-most, most, true);
-  else
-    subject_.range = value_range(std::min(initial_.minCoeff(), last.minCoeff()),
-                                 std::max(initial_.maxCoeff(), last.maxCoeff()), false);
+  // Box, camera and colours stay the same from frame to frame.
+  subject_.extent = {std::min(initial_.minCoeff(), last.minCoeff()),
+                     std::max(initial_.maxCoeff(), last.maxCoeff())};
+  subject_.range = view.style == RenderStyle::difference
+                       ? value_range(-most, most, true)
+                       : value_range(subject_.extent->low, subject_.extent->high, false);
 }
 
 Image RunPainter::draw(const HeightGrid& surface, std::optional<double> tool_time) {

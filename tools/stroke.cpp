@@ -7,6 +7,7 @@
 
 #include "commands.h"
 #include "core/error.h"
+#include "core/output_file.h"
 #include "haptics/stroke_sampler.h"
 #include "io/stroke_csv.h"
 #include "io/stroke_file.h"
@@ -140,12 +141,6 @@ void add_info(CLI::App& stroke_app, Command& chosen) {
   });
 }
 
-void check_output(const std::string& in, const std::string& out) {
-  std::error_code ignored;  // what is not there is not the same
-  if (fs::equivalent(in, out, ignored))
-    throw_input_error("{}: is the input itself; give the output another name", out);
-}
-
 /// Writes a stroke and tells what came out.
 void write_and_tell(const std::string& file, const Stroke& stroke) {
   write_stroke_file(file, stroke);
@@ -183,10 +178,16 @@ void add_script(CLI::App& stroke_app, Command& chosen) {
       "    [[segment]]\n"
       "    kind = \"line\"                 # also: move, arc, spline, text\n"
       "    to = [0.2, 0.0]\n"
-      "    depth = [0.008, 0.001]        # spread along the segment: ends weaker than it starts");
+      "    depth = [0.008, 0.001]        # spread along the segment: ends weaker than it starts\n"
+      "Keys of a segment: speed, depth or force, wait (s); and for\n"
+      "    move    to\n"
+      "    line    to, from\n"
+      "    arc     centre, radius, start_angle, end_angle\n"
+      "    spline  points = [[x, y], ...]\n"
+      "    text    text, at, height, font, angle, spacing");
   app->callback([&chosen, options] {
     chosen = [options] {
-      check_output(options->in, options->out);
+      check_output(options->out, {options->in});
       if (fs::path(options->in).extension() != ".toml")
         throw_input_error("{}: is not a script; name a .toml file", options->in);
       write_and_tell(options->out, load_stroke(options->in, ForceSettings{}));
@@ -254,7 +255,7 @@ void add_convert(CLI::App& stroke_app, Command& chosen) {
       ->required()
       ->option_text("UNIT REQUIRED");
   app->add_option("--pixel-size", options->pixel_size, "Metres per pixel, for unit px")
-      ->check(CLI::PositiveNumber)
+      ->check(positive_number())
       ->option_text("M");
 
   auto* time =
@@ -264,7 +265,7 @@ void add_convert(CLI::App& stroke_app, Command& chosen) {
   time->needs(time_unit);
   time_unit->needs(time);
   app->add_option("--rate", options->rate, "Instead of --time: the samples follow each other evenly")
-      ->check(CLI::PositiveNumber)
+      ->check(positive_number())
       ->excludes(time)
       ->option_text("HZ");
   app->add_option("--equal-times", options->equal_times,
@@ -292,7 +293,7 @@ void add_convert(CLI::App& stroke_app, Command& chosen) {
   app->add_option("--skip", options->skip, "Lines with this word are passed over")->option_text("WORD");
   app->add_option("--gap-threshold", options->gap_threshold,
                   "Samples further apart are not joined: the tool lifts (default 0.1 s)")
-      ->check(CLI::PositiveNumber)
+      ->check(positive_number())
       ->option_text("S");
   app->add_option("--frame", options->frame, "Whose axes these are: bed (default) or device, the haptic one")
       ->check(CLI::IsMember({"bed", "device"}))
@@ -311,7 +312,7 @@ void add_convert(CLI::App& stroke_app, Command& chosen) {
       "        --equal-times spread --skip START --pen-up BREAK --gap-threshold 0.4");
   app->callback([&chosen, options] {
     chosen = [options] {
-      check_output(options->in, options->out);
+      check_output(options->out, {options->in});
       write_and_tell(options->out, convert(*options));
       return 0;
     };

@@ -5,13 +5,11 @@
 
 namespace sandstroke {
 
-void start_log(int verbosity) {
+void start_log(bool quiet) {
   auto logger = spdlog::get("sandstroke");
   if (!logger) logger = spdlog::stderr_color_mt("sandstroke");
   logger->set_pattern("%^%L%$ %v");
-  logger->set_level(verbosity == 0   ? spdlog::level::warn
-                    : verbosity == 1 ? spdlog::level::info
-                                     : spdlog::level::debug);
+  logger->set_level(quiet ? spdlog::level::warn : spdlog::level::info);
   spdlog::set_default_logger(logger);
 }
 

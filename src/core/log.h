@@ -3,7 +3,7 @@
 namespace sandstroke {
 
 /// Human text goes to stderr (stdout is for results and --json): plain lines, warnings marked.
-/// verbosity: 0 warnings only, 1 the usual, 2 debug.
-void start_log(int verbosity);
+/// quiet: warnings only.
+void start_log(bool quiet);
 
 }  // namespace sandstroke

@@ -16,6 +16,30 @@ fs::path part_path(const fs::path& path) {
   return part;
 }
 
+void check_output(const fs::path& output, const std::vector<fs::path>& others) {
+  const auto place = [](const fs::path& path) { return fs::weakly_canonical(fs::absolute(path)); };
+  for (const fs::path& other : others) {
+    std::error_code not_there;
+    if (place(output) == place(other) || fs::equivalent(output, other, not_there))
+      throw_input_error(
+          "{}: is also named as another file of this command; give the output a name of its own",
+          output.string());
+  }
+  if (fs::is_directory(output)) throw_io_error("{}: is a folder; name a file", output.string());
+  if (fs::exists(output) && !fs::is_regular_file(output))
+    throw_io_error("{}: is not a regular file; name one", output.string());
+  const fs::path folder = output.has_parent_path() ? output.parent_path() : fs::path(".");
+  if (!fs::is_directory(folder))
+    throw_io_error("{}: cannot be written, for there is no folder {}; make it first", output.string(),
+                   folder.string());
+}
+
+fs::path beside(const fs::path& path, const std::string& ending) {
+  fs::path result = path;
+  if (path.extension() == ".h5" || path.extension() == ".hdf5") result.replace_extension();
+  return result += ending;
+}
+
 void finish_part(const fs::path& path) {
   std::error_code failure;
   fs::rename(part_path(path), path, failure);
@@ -40,10 +64,15 @@ void write_text_file(const fs::path& path, std::string_view text) {
   finish_part(path);
 }
 
-std::string read_text_file(const fs::path& path) {
+void check_readable(const fs::path& path) {
   if (fs::is_directory(path)) throw_io_error("{}: is a folder; name a file", path.string());
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw_io_error("{}: cannot be opened ({}); check the path", path.string(), std::strerror(errno));
+  if (!std::ifstream(path))
+    throw_io_error("{}: cannot be opened ({}); check the path", path.string(), std::strerror(errno));
+}
+
+std::string read_text_file(const fs::path& path) {
+  check_readable(path);
+  const std::ifstream file(path, std::ios::binary);
   std::ostringstream text;
   text << file.rdbuf();
   return text.str();

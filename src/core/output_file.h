@@ -1,18 +1,30 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <string_view>
+#include <vector>
 
 namespace sandstroke {
 
 /// The name under which PATH is written until it is complete: PATH.part.
 std::filesystem::path part_path(const std::filesystem::path& path);
 
+/// Refuses, before any work is done, an output that would destroy something or cannot be: one of the inputs
+/// or of the other outputs, a folder, a device, or a place in a folder that is not there. Error: input or io.
+void check_output(const std::filesystem::path& output, const std::vector<std::filesystem::path>& others);
+
+/// PATH with its ending .h5 or .hdf5 replaced; any other name keeps its dots ("run-27.5").
+std::filesystem::path beside(const std::filesystem::path& path, const std::string& ending);
+
 /// Gives a complete PATH.part its final name. Error: io.
 void finish_part(const std::filesystem::path& path);
 
 /// Writes a whole text file by way of PATH.part, so that PATH is either complete or untouched. Error: io.
 void write_text_file(const std::filesystem::path& path, std::string_view text);
+
+/// Error: io, unless the file is there and can be read.
+void check_readable(const std::filesystem::path& path);
 
 /// Reads a whole text file. Error: io, with what to do.
 std::string read_text_file(const std::filesystem::path& path);

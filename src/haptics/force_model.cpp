@@ -21,7 +21,7 @@ SandForce sand_force(double depth, const Eigen::Vector3d& velocity, double max_f
   if (settings.drag == DragDirection::horizontal) slip.z() = 0.0;
   force.drag = -settings.k_f * force.repulse * slip;
   force.total = force.drag + Eigen::Vector3d(0.0, 0.0, force.repulse);
-  const double magnitude = force.total.norm();
+  const double magnitude = force.total.stableNorm();  // squares of huge forces overflow
   if (max_force > 0.0 && magnitude > max_force) {
     force.total *= max_force / magnitude;
     force.saturated = true;

@@ -28,7 +28,7 @@ void cut_time(Stroke& stroke, double start, double stop, const std::string& name
   while (end > begin && stroke.time[end - 1] - first > stop) --end;
   if (begin == end) {
     throw_input_error("{}: no sample lies between start = {} s and stop = {} s; it lasts {} s", name, start,
-                      stop, stroke.duration());
+                      std::min(stop, stroke.duration()), stroke.duration());
   }
   cut(stroke.time, begin, end);
   cut(stroke.position, begin, end);
@@ -95,6 +95,14 @@ Stroke place_stroke(const Stroke& stroke, const StrokePlacement& placement, cons
     throw_input_error("{}: scale is {}; it must be positive", name, placement.scale);
   Stroke placed = stroke;
   cut_time(placed, placement.start, placement.stop, name);
+  if (placed.frame == "device") {
+    // A haptic device's axes: +x towards the operator, +y to the operator's right. The operator sits at the
+    // bed's -y.
+    Matrix3d to_bed;
+    to_bed << 0, 1, 0, -1, 0, 0, 0, 0, 1;
+    rotate(placed, to_bed);
+    placed.frame = "bed";
+  }
   if (placement.plane == StrokePlane::fit) lay_level(placed, name);
 
   for (Vector3d& p : placed.position) p *= placement.scale;

@@ -30,4 +30,13 @@ class Hdf5Handle {
   herr_t (*close_)(hid_t) = nullptr;
 };
 
+/// To be called before anything else of HDF5: its errors are reported here, in the user's terms, and it does
+/// not touch open files again when the program ends (with a full disk it crashes there; every file is closed
+/// before).
+inline void prepare_hdf5() {
+  static const herr_t once = H5dont_atexit();
+  (void)once;
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+}
+
 }  // namespace sandstroke

@@ -1,10 +1,9 @@
 #include "io/hdf5_reader.h"
 
-#include <cerrno>
 #include <cstring>
-#include <fstream>
 
 #include "core/error.h"
+#include "core/output_file.h"
 
 namespace sandstroke {
 namespace {
@@ -47,10 +46,8 @@ bool read_string(hid_t file_type, std::string& text, const Read& read) {
 }  // namespace
 
 Hdf5Reader::Hdf5Reader(const std::filesystem::path& path) : name_(path.string()) {
-  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // errors are reported here, in the user's terms
-  if (std::filesystem::is_directory(path)) throw_io_error("{}: is a folder; name a file", name_);
-  if (!std::ifstream(path))
-    throw_io_error("{}: cannot be opened ({}); check the path", name_, std::strerror(errno));
+  prepare_hdf5();
+  check_readable(path);
   if (H5Fis_hdf5(name_.c_str()) <= 0)
     throw_input_error("{}: is not an HDF5 file; check which file was meant", name_);
   file_ = Hdf5Handle(H5Fopen(name_.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);

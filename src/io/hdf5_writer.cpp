@@ -54,11 +54,10 @@ void Hdf5Column::extend(const void* rows, std::size_t count, hid_t memory_type) 
 }
 
 Hdf5Writer::Hdf5Writer(const std::filesystem::path& path) : path_(path) {
-  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // errors are reported here, in the user's terms
+  prepare_hdf5();
   const std::string part = part_path(path).string();
   if (!std::ofstream(part, std::ios::app))
-    throw_io_error("{}: cannot be written ({}); choose another place", path.string(),
-                   std::strerror(errno));
+    throw_io_error("{}: cannot be written ({}); choose another place", path.string(), std::strerror(errno));
   file_ = Hdf5Handle(H5Fcreate(part.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose);
   check(file_.valid(), "");
 }

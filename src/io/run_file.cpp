@@ -27,13 +27,24 @@ double RunFile::cell_size() const {
   return size;
 }
 
-HeightGrid RunFile::initial() const { return file_.grid("/surface/initial"); }
+HeightGrid RunFile::initial() const {
+  HeightGrid heights = file_.grid("/surface/initial");
+  if (heights.size() == 0)
+    throw_input_error("{}: /surface/initial has no cells; the file is damaged", file_.name());
+  return heights;
+}
 bool RunFile::has_final() const { return file_.has("/surface/final"); }
 
 HeightGrid RunFile::final() const {
   if (!has_final() && !complete())
     throw_input_error("{}: the run was cut off and has no final surface; run it again", file_.name());
-  return file_.grid("/surface/final");
+  HeightGrid heights = file_.grid("/surface/final");
+  const auto shape = file_.shape("/surface/initial");
+  if (shape.size() != 2 || static_cast<Eigen::Index>(shape[0]) != heights.rows() ||
+      static_cast<Eigen::Index>(shape[1]) != heights.cols())
+    throw_input_error("{}: /surface/final and /surface/initial differ in shape; the file is damaged",
+                      file_.name());
+  return heights;
 }
 
 bool RunFile::has_trace() const { return file_.has("/trace/time"); }

@@ -3,6 +3,7 @@
 #include <tbb/global_control.h>
 #include <tbb/info.h>
 
+#include <algorithm>
 #include <optional>
 
 #include "core/hash.h"
@@ -34,7 +35,8 @@ class WriterWithProgress : public RunWriter {
 }  // namespace
 
 RunResult run_scene(const Scene& scene, const std::filesystem::path& output, const RunOptions& options) {
-  const int threads = options.threads > 0 ? options.threads : tbb::info::default_concurrency();
+  const int cores = tbb::info::default_concurrency();
+  const int threads = options.threads > 0 ? std::min(options.threads, cores) : cores;
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                   static_cast<std::size_t>(threads));
 

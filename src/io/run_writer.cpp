@@ -136,12 +136,13 @@ void RunWriter::on_frame(double time, const HeightField& surface) {
     frame_revisions_[tile] = surface.tile_revision(tile);
     changed.push_back(static_cast<std::uint32_t>(tile));
   }
-  HeightGrid heights(static_cast<Eigen::Index>(changed.size()), HeightField::tile_area);
+  HeightGrid heights = HeightGrid::Zero(static_cast<Eigen::Index>(changed.size()), HeightField::tile_area);
   for (std::size_t i = 0; i < changed.size(); ++i) {
-    heights.row(static_cast<Eigen::Index>(i)) =
-        Eigen::Map<const Eigen::ArrayXd>(surface.tile_data(static_cast<int>(changed[i])),
-                                         HeightField::tile_area)
-            .transpose();
+    const CellRange cells = surface.tile_cells(static_cast<int>(changed[i]));
+    for (int row = cells.row_begin; row < cells.row_end; ++row)
+      for (int col = cells.col_begin; col < cells.col_end; ++col)
+        heights(static_cast<Eigen::Index>(i),
+                (row - cells.row_begin) * HeightField::tile_side + col - cells.col_begin) = surface(row, col);
   }
   const std::string name = fmt::format("/surface/frame/{:06}", frames_++);
   file_.write(name + "/tiles", changed);
@@ -165,10 +166,8 @@ void RunWriter::finish(const RunResult& result, const HeightField& surface) {
   file_.attribute("/", "complete", 1.0);
   file_.finish();
 
-  std::filesystem::path description = path_;
-  description.replace_extension(".xdmf");
-  write_text_file(description, xdmf_text(xml_escaped(path_.filename().string()), surface.rows(),
-                                         surface.cols(), surface.cell_size()));
+  write_text_file(beside(path_, ".xdmf"), xdmf_text(xml_escaped(path_.filename().string()), surface.rows(),
+                                                    surface.cols(), surface.cell_size()));
 }
 
 }  // namespace sandstroke

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <functional>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "core/output_file.h"
 #include "io/toml_reader.h"
@@ -151,14 +152,32 @@ std::string scene_text(const Scene& scene) {
 std::string scene_key_table() {
   std::string table;
   std::string prefix;
+  std::set<std::string> shown;  // a key that several kinds of surface have is shown once
+  const auto show = [&](const SceneLister::Entry& entry) {
+    const std::string key = prefix + entry.key;
+    if (shown.insert(key).second)
+      table += fmt::format("  {:<28} {:<14} {:<7} {}\n", key, entry.value, entry.unit, entry.help);
+  };
   SceneLister lister(
       [&](const std::string& name, const std::string& help) {
-        table += fmt::format("{}[{}]  {}\n", table.empty() ? "" : "\n", name, help);
         prefix = name + ".";
+        if (shown.insert("[" + name + "]").second)
+          table += fmt::format("{}[{}]  {}\n", table.empty() ? "" : "\n", name, help);
       },
       [&](const SceneLister::Entry& entry) {
-        table += fmt::format("  {:<28} {:<14} {:<7} {}\n", prefix + entry.key, entry.value, entry.unit,
-                             entry.help);
+        show(entry);
+        if (prefix + entry.key != "bed.surface.kind") return;
+        for (const SurfaceKind kind :
+             {SurfaceKind::cylinder, SurfaceKind::noise, SurfaceKind::ripples, SurfaceKind::file}) {
+          SceneLister others([&](const std::string& name, const std::string&) { prefix = name + "."; },
+                             [&](const SceneLister::Entry& other) {
+                               if (prefix == "bed.surface.") show(other);
+                             });
+          Scene with_kind;
+          with_kind.bed.surface.kind = kind;
+          describe_scene(others, with_kind);
+        }
+        prefix = "bed.surface.";
       });
   Scene defaults;
   defaults.stroke.emplace();

@@ -14,7 +14,7 @@ HeightField load_surface(const BedSettings& bed, const std::filesystem::path& fo
 
   const std::filesystem::path path = folder / surface.file;
   HeightGrid heights;
-  if (path.extension() == ".png") {
+  if (path.extension() == ".png" || path.extension() == ".PNG") {
     if (surface.low == surface.high)
       throw_input_error(
           "{}: bed.surface.low and high are both {} m; say what heights black and white stand for",

@@ -203,14 +203,17 @@ Image HeightFieldRenderer::Drawing::render(const HeightField& surface, const Ren
   Legend legend;
   surface_.update_shading(sun);
   if (!sand) legend = prepare_values(subject);
-  box_.update(surface_.heights(), cell_size_, surface_.lowest());
+  double lowest = surface_.lowest(), highest = surface_.highest();
+  if (subject.extent)
+    lowest = std::min(lowest, subject.extent->low), highest = std::max(highest, subject.extent->high);
+  box_.update(surface_.heights(), cell_size_, lowest);
 
   Eigen::AlignedBox3d scene = box_.bounds();
-  scene.extend(box_over({0, rows_, 0, cols_}, surface_.lowest(), surface_.highest()));
+  scene.extend(box_over({0, rows_, 0, cols_}, lowest, highest));
   Eigen::AlignedBox3d framed = scene;
   if (view.name == ViewName::stroke) {
     const CellRange cells = framed_cells(subject.focus, rows_, cols_, cell_size_, 0.03);
-    framed = box_over(cells, surface_.lowest(), surface_.highest());
+    framed = box_over(cells, lowest, highest);
   }
   if (subject.tool) {
     scene.extend(subject.tool->centre() + Eigen::Vector3d::Constant(subject.tool->radius));

@@ -29,8 +29,9 @@ struct RenderSubject {
   std::optional<ToolSphere> tool;
   const HeightGrid* difference = nullptr;  ///< m, the colours of style difference; of the bed's shape
   std::optional<ValueRange> range;         ///< of the colours; else that of the values shown
-  double contour_interval = 0.0;           ///< m; 0 = a round one that gives about a dozen lines
-  bool box = true;                         ///< the wall around the bed
+  std::optional<ValueRange> extent;  ///< heights that box and camera allow for, besides the surface's own
+  double contour_interval = 0.0;     ///< m; 0 = a round one that gives about a dozen lines
+  bool box = true;                   ///< the wall around the bed
   std::optional<std::array<double, 3>> background;  ///< sRGB in [0, 1], instead of the sky
   std::vector<int> tile_levels;  ///< level of detail of each tile; empty = by its size in the picture
 };

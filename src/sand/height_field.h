@@ -37,7 +37,6 @@ class HeightField {
     cells_[index(row, col)] = height;
     ++revisions_[tile_index(row / tile_side, col / tile_side)];
   }
-  bool contains(int row, int col) const { return row >= 0 && row < rows_ && col >= 0 && col < cols_; }
 
   /// Centre of a cell [m]; row_at and col_at are the inverse, as real numbers: row_at(y_of(r)) == r.
   double x_of(int col) const { return (col - col_origin_) * cell_size_; }

@@ -35,7 +35,7 @@ struct RelaxationOutcome {
   double moved_volume = 0.0;       ///< m^3, all that flowed from cell to cell
   std::int64_t cells_visited = 0;  ///< summed over passes, the last look included
   int tiles_active_max = 0;
-  bool converged = false;  ///< every cell rests
+  bool converged = false;  ///< every cell rests, or what still flows is below rounding
 };
 
 /// Relaxes a bed to equilibrium, again and again as it is disturbed. Passes are Jacobi: all cells at once,
@@ -51,7 +51,7 @@ struct RelaxationOutcome {
 class Relaxer {
  public:
   virtual ~Relaxer() = default;
-  /// Stops at equilibrium, after max_passes, when a pass changes nothing any more, or when interrupted().
+  /// Stops at equilibrium, after max_passes (those that changed something), or when interrupted().
   virtual RelaxationOutcome relax(HeightField& bed) = 0;
 };
 

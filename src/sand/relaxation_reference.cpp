@@ -45,10 +45,10 @@ class ReferenceRelaxer : public Relaxer {
       for (int row = 0; row < rows(); ++row)
         for (int col = 0; col < cols(); ++col)
           next(row, col) = heights_(row, col) + net_inflow(row, col, moved);
-      const bool changed = (next != heights_).any();
+      outcome.converged = (next == heights_).all();  // what still flows is below rounding
+      if (outcome.converged) break;
       heights_.swap(next);
       ++outcome.passes;
-      if (!changed) break;  // what still flows is below rounding
     }
     outcome.moved_volume = moved.value() * bed.cell_area();
     for (int row = 0; row < rows(); ++row)

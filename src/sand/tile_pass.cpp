@@ -130,13 +130,14 @@ double TilePass::exchange_row(int row, double* next) const {
 TilePass::Result TilePass::run(const HeightField& bed, int tile, std::vector<double>& next) {
   load(bed, tile);
   Result result;
+  bool moving = false;
   const bool paper = law_.law == RelaxationLaw::paper;
   for (int row = 1; row < stride - 1; ++row) {
     row_moves_[row] = paper ? paper_factors(row) : isotropic_factors(row);
     if (!row_moves_[row]) std::fill_n(factors_.begin() + row * stride, stride, 0.0);
-    result.moving |= row_moves_[row];
+    moving |= row_moves_[row];
   }
-  if (!result.moving) return result;
+  if (!moving) return result;
 
   const CellRange own = bed.tile_cells(tile);
   const int rows = own.row_end - own.row_begin, cols = own.col_end - own.col_begin;

@@ -19,7 +19,6 @@ class TilePass {
 
   /// What a pass did to a tile.
   struct Result {
-    bool moving = false;   ///< some cell in or next to the tile is too steep
     bool changed = false;  ///< some height in the tile is another number now
     bool top = false, bottom = false, left = false,
          right = false;  ///< ... within `rim` cells of that border (row 0 is top)

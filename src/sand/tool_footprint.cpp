@@ -31,7 +31,7 @@ void ToolFootprint::place(const HeightField& bed, double x, double y) {
   cells_.clear();
   const double dx = bed.cell_size();
   const double tool_row = bed.row_at(y), tool_col = bed.col_at(x);
-  const double extent = reach_ / dx + 0.5;  // cells; beyond it the level weight is 0
+  const double extent = reach_ / dx + 1.0;  // cells; beyond it the level weight is 0
   if (!(tool_row + extent >= 0.0 && tool_row - extent <= bed.rows() - 1.0)) return;
   if (!(tool_col + extent >= 0.0 && tool_col - extent <= bed.cols() - 1.0)) return;
   const int row_begin = std::max(0, static_cast<int>(std::ceil(tool_row - extent)));
@@ -48,7 +48,7 @@ void ToolFootprint::place(const HeightField& bed, double x, double y) {
       cell.y = (row - tool_row) * dx;
       const double rho2 = cell.x * cell.x + cell.y * cell.y;
       const double rho = std::sqrt(rho2);
-      cell.level_weight = std::clamp((reach_ - rho) / dx + 0.5, 0.0, 1.0);
+      cell.level_weight = std::clamp((reach_ - rho) / dx + 1.0, 0.0, 1.0);
       const double u = rho2 / (filter_scale_ * filter_scale_);
       cell.in_bowl = u <= filter::u0();
       cell.in_ring = !cell.in_bowl && u <= filter::u1();

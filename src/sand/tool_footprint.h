@@ -43,8 +43,9 @@ class ToolFootprint {
 
   const std::vector<Cell>& cells() const { return cells_; }
 
-  /// Mean height [m] under the footprint (u <= u1, its rim weighted by how much of a cell it covers), which
-  /// displacement does not change. NaN where the footprint lies outside the bed.
+  /// Mean height [m] under the footprint (u <= u1 in full, fading out within a cell around it, so that it
+  /// changes continuously as the tool moves). Displacement moves sand only where the weight is 1: it does not
+  /// change the level. NaN where the footprint lies outside the bed.
   double sand_level(const HeightField& bed) const;
 
   /// rho1 = s sqrt(u1) [m]: how far the footprint reaches.

@@ -43,22 +43,24 @@ void describe_bed(SceneVisitor& v, BedSettings& bed) {
   choose(v, "kind", s.kind, {"flat", "cylinder", "cone", "cliff", "noise", "ripples", "file"}, "its shape");
   const auto is = [&](auto... kinds) { return ((s.kind == kinds) || ...); };
   using enum SurfaceKind;
-  if (is(cylinder, cone)) v.number("radius", s.radius, positive, "m", "of its foot");
-  if (is(cylinder, cone, cliff)) v.number("height", s.height, any_number, "m", "above z = 0");
+  if (is(cylinder, cone)) v.number("radius", s.radius, positive, "m", "cylinder, cone: of its foot");
+  if (is(cylinder, cone, cliff))
+    v.number("height", s.height, any_number, "m", "cylinder, cone, cliff: above z = 0");
   if (is(noise, ripples))
-    v.number("amplitude", s.amplitude, not_negative, "m", "greatest height above z = 0");
+    v.number("amplitude", s.amplitude, not_negative, "m", "noise, ripples: greatest height above z = 0");
   if (is(noise))
-    v.number("wavelength", s.wavelength, not_negative, "m", "size of the bumps; 0: every cell on its own");
-  if (is(ripples)) v.number("wavelength", s.wavelength, positive, "m", "from crest to crest");
+    v.number("wavelength", s.wavelength, not_negative, "m",
+             "noise: size of the bumps (0: every cell on its own); ripples: crest to crest");
+  if (is(ripples)) v.number("wavelength", s.wavelength, positive, "m", "ripples: crest to crest");
   if (is(noise)) {
     int seed = static_cast<int>(s.seed);
-    v.integers("seed", &seed, 1, 0, std::numeric_limits<int>::max(), "of the random heights");
+    v.integers("seed", &seed, 1, 0, std::numeric_limits<int>::max(), "noise: of the random heights");
     s.seed = static_cast<std::uint32_t>(seed);
   }
   if (is(file)) {
-    v.text("file", s.file, "a run file (its final surface) or a 16-bit grayscale PNG");
-    v.number("low", s.low, any_number, "m", "height of a PNG's black");
-    v.number("high", s.high, any_number, "m", "height of a PNG's white");
+    v.text("file", s.file, "file: a run file (its final surface) or a 16-bit grayscale PNG");
+    v.number("low", s.low, any_number, "m", "file: height of a PNG's black");
+    v.number("high", s.high, any_number, "m", "file: height of a PNG's white");
   }
 }
 
@@ -70,7 +72,7 @@ void describe_relaxation(SceneVisitor& v, RelaxationSettings& r) {
   choose(v, "engine", r.engine, {"tiles", "reference"},
          "only sand that can move, or the plain whole field (same bits)");
   v.number("talus_angle", r.talus_angle, sharp_angle, "deg", "angle of repose");
-  v.number("tolerance", r.tolerance, {0.0, 1.0, false}, "",
+  v.number("tolerance", r.tolerance, {1e-12, 1.0, false}, "",
            "slope above tan(talus_angle) that rests, as a share of it");
   v.number("rate", r.rate, not_negative, "Hz", "relaxations during the stroke; 0: only after it");
   v.number("share", r.share, {0.0, 1.0, false}, "",

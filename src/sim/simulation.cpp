@@ -59,6 +59,7 @@ TickRecord Simulation::tick(double time, const Hand& hand, SimulatedDevice& devi
   TickRecord record;
   const SimulatedDevice::State reading = device.read();
   const Eigen::Vector3d tip = tip_of(reading.position);
+  const Eigen::Vector3d true_tip = tip_of(device.state().position);  // encoder steps are no motion
   record.time = time;
   record.hand_position = hand.position;
   record.device_position = reading.position;
@@ -75,11 +76,12 @@ TickRecord Simulation::tick(double time, const Hand& hand, SimulatedDevice& devi
       record.drag_force = force.drag;
       record.device_force = force.total;
       record.saturated = force.saturated;
-      const Eigen::Vector3d motion = last_tip_ ? Eigen::Vector3d(tip - *last_tip_) : Eigen::Vector3d::Zero();
+      const Eigen::Vector3d motion =
+          last_tip_ ? Eigen::Vector3d(true_tip - *last_tip_) : Eigen::Vector3d::Zero();
       record.displaced_volume = displace(bed_, footprint_, tip.z(), motion, scene_.displacement);
     }
     if (!std::isnan(depth)) record.depth = depth;
-    last_tip_ = tip;
+    last_tip_ = true_tip;
   } else {
     last_tip_.reset();
   }
@@ -100,6 +102,25 @@ void Simulation::relax(double time, SimulationObserver& observer) {
   observer.on_relaxation({time, outcome.passes, outcome.residual, outcome.moved_volume});
 }
 
+void Simulation::check_stable(const TickRecord& record, const SimulatedDevice& device) const {
+  if (!record.device_force.allFinite() || !record.repulse_force.allFinite())
+    throw Error(
+        ErrorKind::unstable,
+        fmt::format("at {:.4f} s, {:.4g} m deep, the force is beyond any number; lower force.k_s, force.k_c, "
+                    "force.k_f or the stroke's depth",
+                    record.time, record.depth));
+  const double far =
+      100.0 * (scene_.bed.width + scene_.bed.depth) + 2.0 * tip_of(record.hand_position).norm();
+  const double distance = tip_of(device.state().position).norm();
+  if (!(distance < far))
+    throw Error(
+        ErrorKind::unstable,
+        fmt::format(
+            "at {:.4f} s the device has diverged ({:.3g} m from the bed's centre); lower force.k_s or "
+            "force.k_f, or raise device.servo_rate or device.damping",
+            record.time, distance));
+}
+
 void Simulation::run_stroke(SimulationObserver& observer) {
   const double servo_rate = scene_.device.servo_rate;
   const double begin = stroke_->start_time();
@@ -111,13 +132,14 @@ void Simulation::run_stroke(SimulationObserver& observer) {
 
   for (std::int64_t k = 0; k < ticks && !interrupted(); ++k) {
     const double time = static_cast<double>(k) / servo_rate;
-    if (k == 0) observer.on_frame(0.0, bed_);
+    if (k == 0 && scene_.output.frames > 0.0) observer.on_frame(0.0, bed_);
     const TickRecord record = tick(time, hand, device);
 
     const Hand next =
         stroke_->at(std::min(begin + static_cast<double>(k + 1) / servo_rate, stroke_->end_time()));
     const Eigen::Vector3d before = device.state().position;
     device.advance(as_state(hand), as_state(next), record.device_force);
+    check_stable(record, device);
     energy_.add(record.device_force, device.state().position - before);
     hand = next;
 
@@ -144,10 +166,17 @@ RunResult Simulation::run(SimulationObserver& observer) {
   const auto start = std::chrono::steady_clock::now();
   result_.volume_initial = bed_.volume();
   if (stroke_) run_stroke(observer);
-  if (!interrupted()) relax(result_.simulated_seconds, observer);
-  result_.interrupted = interrupted() != 0;
+  if (!interrupted()) {
+    relax(result_.simulated_seconds, observer);
+    result_.interrupted = interrupted() != 0 && !result_.converged;
+  } else {
+    result_.interrupted = true;
+  }
   result_.volume_final = bed_.volume();
   result_.moved_volume += result_.displaced_volume;
+  if (!std::isfinite(result_.volume_final) || !std::isfinite(result_.moved_volume))
+    throw Error(ErrorKind::unstable,
+                "the sand's volume is beyond any number; lower the heights of bed.surface");
   if (result_.moved_volume > 0.0)
     result_.volume_drift = std::abs(result_.volume_final - result_.volume_initial) / result_.moved_volume;
   result_.absorbed_energy = energy_.absorbed();

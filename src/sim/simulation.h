@@ -33,7 +33,7 @@ class Simulation {
   const Scene& scene() const { return scene_; }
   const HeightField& bed() const { return bed_; }
 
-  /// Runs once, to the end or until interrupted().
+  /// Runs once, to the end or until interrupted(). Error: unstable, where force or device leave all bounds.
   RunResult run(SimulationObserver& observer);
 
  private:
@@ -41,6 +41,8 @@ class Simulation {
   void run_stroke(SimulationObserver& observer);
   TickRecord tick(double time, const Hand& hand, SimulatedDevice& device);
   void relax(double time, SimulationObserver& observer);
+  /// Error: unstable, where force or device have left all bounds.
+  void check_stable(const TickRecord& record, const SimulatedDevice& device) const;
   Eigen::Vector3d tip_of(const Eigen::Vector3d& device_position) const;
 
   Scene scene_;
@@ -48,7 +50,7 @@ class Simulation {
   std::optional<StrokeSampler> stroke_;
   ToolFootprint footprint_;
   std::unique_ptr<Relaxer> relaxer_;
-  std::optional<Eigen::Vector3d> last_tip_;  // of the tick before, while the tool was down
+  std::optional<Eigen::Vector3d> last_tip_;  // true one of the tick before, while the tool was down
   EnergyAccount energy_;
   RunResult result_;
 };

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "cli/program.h"
+#include "io/hdf5_file.h"
 
 namespace sandstroke {
 namespace {
@@ -187,7 +188,32 @@ TEST(CliBadInput, TruncatedFilesAreRefused) {
   EXPECT_FALSE(fs::exists(folder / "out.png"));
 }
 
-TEST(CliBadInput, AReadOnlyFolderIsAnErrorAndKeepsTheOldFile) {
+TEST(CliBadInput, ARecordedStrokeMustBeFiniteAndRunForward) {
+  const fs::path folder = test_folder();
+  const auto write = [&](const std::vector<double>& time, double x) {
+    Hdf5Writer file(folder / "bad.h5");
+    file.write("/stroke/time", time);
+    file.write("/stroke/position", std::vector<Eigen::Vector3d>{{0, 0, 0}, {x, 0, 0}, {0.01, 0, 0}});
+    file.attribute("/stroke", "format", "sandstroke.stroke");
+    file.attribute("/stroke", "format_version", 1.0);
+    file.finish();
+  };
+  const auto refused = [&](const std::vector<std::string>& parts) {
+    const ProgramResult run =
+        run_program({"run", "scene.toml", "--stroke", "bad.h5", "-o", "out.h5"}, folder);
+    EXPECT_EQ(run.exit_code, 2) << run.err;
+    for (const std::string& part : parts) EXPECT_NE(run.err.find(part), std::string::npos) << run.err;
+    EXPECT_FALSE(fs::exists(folder / "out.h5"));
+  };
+  write({0.0, 0.1, 0.2}, std::numeric_limits<double>::quiet_NaN());
+  refused({"bad.h5", "position", "nan"});
+  write({0.0, 0.2, 0.1}, 0.005);
+  refused({"bad.h5", "time"});
+  write({0.0, 0.1}, 0.005);
+  refused({"bad.h5"});
+}
+
+TEST(CliBadInput, AReadOnlyFolderIsAnError) {
   if (geteuid() == 0) GTEST_SKIP() << "root may write anywhere";
   const fs::path folder = test_folder();
   fs::create_directory(folder / "closed");
@@ -196,7 +222,7 @@ TEST(CliBadInput, AReadOnlyFolderIsAnErrorAndKeepsTheOldFile) {
   fs::permissions(folder / "closed", fs::perms::owner_all);
 }
 
-TEST(CliBadInput, AFullDiskIsAnErrorAndLeavesNothingComplete) {
+TEST(CliBadInput, APictureOnAFullDiskIsAnErrorAndLeavesNothingComplete) {
   const fs::path folder = test_folder();
   // /dev/full takes no byte: the part file is a link to it.
   fs::create_symlink("/dev/full", folder / "out.png.part");

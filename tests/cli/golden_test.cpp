@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "cli/program.h"
 #include "io/hdf5_file.h"
@@ -43,6 +44,20 @@ TEST(CliGolden, AChangedStrokeOrSceneFails) {
   write_file(folder / "strokes/tiny/scene.toml", scene);
   write_file(folder / "strokes/tiny/line.toml", stroke + "speed = 0.21\n");
   EXPECT_EQ(run_program({"golden", "check"}, folder).exit_code, 1);
+}
+
+TEST(CliGolden, HeightsAndForcesAreJudgedNotOnlyNames) {
+  const fs::path folder = folder_with_golden_entry();
+  const std::string stroke = read_file(folder / "strokes/tiny/line.toml");
+  write_file(folder / "strokes/tiny/line.toml", stroke.substr(0, stroke.find("0.004")) + "0.00401\n");
+  const ProgramResult check = run_program({"golden", "check", "--json"}, folder);
+  EXPECT_EQ(check.exit_code, 1);
+  std::set<std::string> failed;
+  const nlohmann::json report = nlohmann::json::parse(check.out);
+  for (const auto& one : report["scenes"][0]["checks"])
+    if (!one["passed"]) failed.insert(one["name"]);
+  EXPECT_TRUE(failed.contains("height change")) << check.out;
+  EXPECT_TRUE(failed.contains("force")) << check.out;
 }
 
 TEST(CliGolden, AMissingEntryAndAMissingSceneFail) {

@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -23,8 +24,9 @@ void write_file(const fs::path& path, const std::string& text) {
 }
 
 ProgramResult run_program(const std::vector<std::string>& arguments, const fs::path& folder,
-                          int signal_after_ms) {
-  const fs::path out = folder / ".stdout", err = folder / ".stderr";
+                          const Conditions& conditions) {
+  const fs::path out = conditions.out ? fs::path(conditions.out) : folder / ".stdout",
+                 err = folder / ".stderr";
   std::vector<char*> argv = {const_cast<char*>("sandstroke")};
   for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
   argv.push_back(nullptr);
@@ -35,18 +37,23 @@ ProgramResult run_program(const std::vector<std::string>& arguments, const fs::p
     const int err_file = open(err.c_str(), O_CREAT | O_TRUNC | O_WRONLY, 0644);
     dup2(out_file, STDOUT_FILENO);
     dup2(err_file, STDERR_FILENO);
+    if (conditions.most_file_bytes > 0) {
+      const rlimit limit{conditions.most_file_bytes, conditions.most_file_bytes};
+      setrlimit(RLIMIT_FSIZE, &limit);
+      signal(SIGXFSZ, SIG_IGN);  // writing fails instead, as on a full disk
+    }
     if (chdir(folder.c_str()) == 0) execv(SANDSTROKE_PROGRAM, argv.data());
     _exit(127);
   }
-  if (signal_after_ms >= 0) {
-    usleep(static_cast<useconds_t>(1000 * signal_after_ms));
-    kill(child, SIGINT);
+  if (conditions.signal) {
+    usleep(static_cast<useconds_t>(1000 * conditions.after_ms));
+    kill(child, conditions.signal);
   }
   int status = 0;
   waitpid(child, &status, 0);
   ProgramResult result;
   result.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-  result.out = read_file(out);
+  if (!conditions.out) result.out = read_file(out);
   result.err = read_file(err);
   return result;
 }

@@ -12,9 +12,17 @@ struct ProgramResult {
   std::string out, err;
 };
 
-/// Runs build/.../sandstroke with these arguments in a folder. signal_after_ms >= 0: sends it SIGINT then.
+/// What a run of the program meets with.
+struct Conditions {
+  int signal = 0;                   ///< sent to it ...
+  int after_ms = 0;                 ///< ... so long after its start
+  std::size_t most_file_bytes = 0;  ///< a disk that is full from there on; 0: no limit
+  const char* out = nullptr;        ///< where its standard output goes instead
+};
+
+/// Runs build/.../sandstroke with these arguments in a folder.
 ProgramResult run_program(const std::vector<std::string>& arguments, const std::filesystem::path& folder,
-                          int signal_after_ms = -1);
+                          const Conditions& conditions = {});
 
 /// A fresh folder for one test, with a small scene and stroke in it: scene.toml, line.toml.
 std::filesystem::path test_folder();

@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <signal.h>
 
 #include <nlohmann/json.hpp>
 
@@ -66,21 +67,107 @@ TEST(CliRun, ARunThatIsNotAtRestSaysSoAndExitsWith3) {
   EXPECT_TRUE(RunFile(folder / "a.h5").complete());
 }
 
-TEST(CliRun, InterruptedItKeepsWhatIsCompleteAndMarksItSo) {
+/// A folder with a stroke that takes minutes.
+fs::path folder_with_long_stroke() {
   const fs::path folder = test_folder();
   write_file(folder / "long.toml",
-             "start = [-0.05, 0.0]\nspeed = 0.0001\n[[segment]]\nkind = \"line\"\nto = [0.05, 0.0]\n"
-             "depth = 0.004\n");
-  const ProgramResult run =
-      run_program({"run", "scene.toml", "-o", "a.h5", "--stroke", "long.toml"}, folder, 1500);
-  EXPECT_EQ(run.exit_code, 130) << run.err;
+             "start = [-0.05, 0.0]\nspeed = 0.0001\n[[segment]]\nkind = \"line\"\nto = [0.05, 0.0]\ndepth = "
+             "0.004\n");
+  return folder;
+}
+
+TEST(CliRun, StoppedBySignalItKeepsWhatIsCompleteAndMarksItSo) {
+  for (const int signal : {SIGINT, SIGTERM}) {
+    const fs::path folder = folder_with_long_stroke();
+    const ProgramResult run = run_program(
+        {"run", "scene.toml", "-o", "a.h5", "--stroke", "long.toml", "--json"}, folder, {signal, 1500});
+    EXPECT_EQ(run.exit_code, 128 + signal) << run.err;
+    EXPECT_FALSE(fs::exists(folder / "a.h5"));
+    EXPECT_EQ(nlohmann::json::parse(run.out)["output"], "a.h5.part");
+    const RunFile part(folder / "a.h5.part");
+    EXPECT_FALSE(part.complete());
+    EXPECT_GT(part.trace().size(), 100u);
+    const ProgramResult render = run_program({"render", "a.h5.part", "-o", "a.png"}, folder);
+    EXPECT_EQ(render.exit_code, 2);
+    EXPECT_NE(render.err.find("cut off"), std::string::npos) << render.err;
+  }
+}
+
+TEST(CliRun, KilledItLeavesWhatWasFlushedAndNothingThatLooksComplete) {
+  const fs::path folder = folder_with_long_stroke();
+  run_program({"run", "scene.toml", "-o", "a.h5", "--stroke", "long.toml"}, folder, {SIGKILL, 1500});
   EXPECT_FALSE(fs::exists(folder / "a.h5"));
   const RunFile part(folder / "a.h5.part");
   EXPECT_FALSE(part.complete());
   EXPECT_GT(part.trace().size(), 100u);
-  const ProgramResult render = run_program({"render", "a.h5.part", "-o", "a.png"}, folder);
-  EXPECT_EQ(render.exit_code, 2);
-  EXPECT_NE(render.err.find("cut off"), std::string::npos) << render.err;
+}
+
+TEST(CliRun, AFullDiskIsAnErrorAndLeavesNothingThatLooksComplete) {
+  const fs::path folder = test_folder();
+  for (const std::size_t kilobytes : {1, 30, 100, 200, 250}) {
+    const ProgramResult run =
+        run_program({"run", "scene.toml", "-o", "a.h5"}, folder, {0, 0, kilobytes * 1024});
+    EXPECT_EQ(run.exit_code, 4) << kilobytes << " kB: " << run.err;
+    EXPECT_NE(run.err.find("a.h5"), std::string::npos) << run.err;
+    EXPECT_FALSE(fs::exists(folder / "a.h5"));
+    EXPECT_FALSE(fs::exists(folder / "a.xdmf"));
+  }
+}
+
+TEST(CliRun, ResultsThatCannotBePrintedAreAnError) {
+  const fs::path folder = test_folder();
+  EXPECT_EQ(
+      run_program({"run", "scene.toml", "-o", "a.h5", "--json"}, folder, {0, 0, 0, "/dev/full"}).exit_code,
+      4);
+  EXPECT_EQ(run_program({"info", "a.h5"}, folder, {0, 0, 0, "/dev/full"}).exit_code, 4);
+}
+
+TEST(CliRun, NoOutputMayBeAnInputOrAnotherOutput) {
+  const fs::path folder = test_folder();
+  ASSERT_EQ(run_program({"stroke", "script", "line.toml", "scene.h5"}, folder).exit_code, 0);
+  const std::string recording = read_file(folder / "scene.h5"), scene = read_file(folder / "scene.toml");
+  const std::vector<std::vector<std::string>> attempts = {
+      {"run", "scene.toml", "--stroke", "scene.h5"},  // the default output's name
+      {"run", "scene.toml", "-o", "scene.toml"},
+      {"run", "scene.toml", "-o", "line.toml"},
+      {"run", "scene.toml", "-o", "a.h5", "--png", "scene.toml"},
+      {"run", "scene.toml", "-o", "a.h5", "--png", "./a.h5"},
+      {"run", "scene.toml", "-o", "a.h5", "--png", "a.xdmf"},
+      {"render", "scene.h5", "-o", "scene.h5"},
+      {"stroke", "script", "line.toml", "line.toml"}};
+  for (const auto& attempt : attempts) EXPECT_EQ(run_program(attempt, folder).exit_code, 2) << attempt.back();
+  EXPECT_EQ(read_file(folder / "scene.h5"), recording);
+  EXPECT_EQ(read_file(folder / "scene.toml"), scene);
+  EXPECT_FALSE(fs::exists(folder / "a.h5"));
+}
+
+TEST(CliRun, ADottedNameKeepsItsDots) {
+  const fs::path folder = test_folder();
+  ASSERT_EQ(run_program({"run", "scene.toml", "-o", "run-27.5"}, folder).exit_code, 0);
+  EXPECT_TRUE(fs::exists(folder / "run-27.5.xdmf"));
+}
+
+TEST(CliRun, ALoopThatDivergesSaysWhereAndExitsWith3) {
+  const fs::path folder = test_folder();
+  const ProgramResult device =
+      run_program({"run", "scene.toml", "-o", "a.h5", "--set", "device.model=dynamic", "--set",
+                   "device.preset=ideal", "--set", "force.k_f=1e6"},
+                  folder);
+  EXPECT_EQ(device.exit_code, 3) << device.err;
+  EXPECT_NE(device.err.find("diverged"), std::string::npos) << device.err;
+  const ProgramResult force =
+      run_program({"run", "scene.toml", "-o", "a.h5", "--set", "force.k_c=1e6"}, folder);
+  EXPECT_EQ(force.exit_code, 3) << force.err;
+  EXPECT_NE(force.err.find("force.k_c"), std::string::npos) << force.err;
+  EXPECT_FALSE(fs::exists(folder / "a.h5"));
+}
+
+TEST(CliRun, AToolThatNeverTouchesTheSandIsPointedOut) {
+  const fs::path folder = test_folder();
+  const ProgramResult run =
+      run_program({"run", "scene.toml", "-o", "a.h5", "--set", "stroke.depth=-0.1"}, folder);
+  EXPECT_EQ(run.exit_code, 0);
+  EXPECT_NE(run.err.find("never touched"), std::string::npos) << run.err;
 }
 
 TEST(CliInfo, ShowsARunAndTheSceneKeys) {

@@ -60,9 +60,22 @@ TEST(CliStroke, ConvertsOmniglotWithAnExplicitRuleForEqualTimes) {
   const ProgramResult guess = run_program(arguments, folder);
   EXPECT_EQ(guess.exit_code, 2);
   EXPECT_NE(guess.err.find("equal-times"), std::string::npos) << guess.err;
-  arguments.insert(arguments.end(), {"--equal-times", "spread"});
-  ASSERT_EQ(run_program(arguments, folder).exit_code, 0);
-  EXPECT_EQ(info(folder, "letter.h5")["gaps"].size(), 0u);  // gamma in one pen stroke
+  for (const char* letter : {"character03/0396_01", "character10/0403_05", "character21/0414_02"}) {
+    arguments[2] = (data.parent_path().parent_path() / (std::string(letter) + ".txt")).string();
+    std::vector<std::string> explicit_rule = arguments;
+    explicit_rule.insert(explicit_rule.end(), {"--equal-times", "spread"});
+    const ProgramResult convert = run_program(explicit_rule, folder);
+    ASSERT_EQ(convert.exit_code, 0) << convert.err;
+    EXPECT_EQ(info(folder, "letter.h5")["gaps"].size(),
+              letter == std::string("character10/0403_05") ? 2u : 0u);
+    const ProgramResult run =
+        run_program({"run", "scene.toml", "-o", "out.h5", "--stroke", "letter.h5", "--set",
+                     "stroke.plane=fit", "--set", "stroke.depth=0.004", "--png", "out.png", "--json"},
+                    folder);
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_LE(nlohmann::json::parse(run.out)["volume_drift"], 1e-12);
+    EXPECT_LT(RunFile(folder / "out.h5").final().minCoeff(), -0.002);
+  }
 }
 
 }  // namespace

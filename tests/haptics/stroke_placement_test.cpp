@@ -163,5 +163,17 @@ TEST(StrokePlacement, SaysWhatCannotBePlaced) {
   EXPECT_THAT(complaint(stroke_through(flat_tracing()), none), HasSubstr("scale is 0"));
 }
 
+TEST(PlaceStroke, TurnsDeviceAxesToTheBeds) {
+  Stroke stroke;  // +x towards the operator, who sits at the bed's -y; +y to the operator's right
+  stroke.frame = "device";
+  stroke.time = {0.0, 1.0};
+  stroke.position = {{1.0, 0.0, 0.5}, {0.0, 1.0, 0.5}};
+  stroke.force = {{1.0, 0.0, 0.0}, {0.0, 0.0, 2.0}};
+  const Stroke placed = place_stroke(stroke, StrokePlacement{});
+  EXPECT_EQ(placed.position[0], Eigen::Vector3d(0.0, -1.0, 0.5));
+  EXPECT_EQ(placed.position[1], Eigen::Vector3d(1.0, 0.0, 0.5));
+  EXPECT_EQ(placed.force[0], Eigen::Vector3d(0.0, -1.0, 0.0));
+}
+
 }  // namespace
 }  // namespace sandstroke
