@@ -1,9 +1,9 @@
 #include <spdlog/fmt/fmt.h>
 
+#include <algorithm>
 #include <charconv>
 #include <filesystem>
 #include <limits>
-#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -32,24 +32,23 @@ struct Options {
   std::optional<bool> tool;  // unset: in frames, not in initial and final
 };
 
-const std::map<std::string, ViewName> view_names = {{"overview", ViewName::overview},
-                                                    {"stroke", ViewName::stroke},
-                                                    {"top", ViewName::top},
-                                                    {"custom", ViewName::custom}};
-const std::map<std::string, RenderStyle> style_names = {
-    {"sand", RenderStyle::sand}, {"height", RenderStyle::height}, {"difference", RenderStyle::difference}};
-
 template <class Number>
 bool parse_whole(std::string_view text, Number& number) {
   const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), number);
   return failure == std::errc() && end == text.data() + text.size();
 }
 
+/// The value with this name, which is known to be one of them.
+template <class Value>
+Value named(const std::vector<std::string>& names, const std::string& name) {
+  return static_cast<Value>(std::find(names.begin(), names.end(), name) - names.begin());
+}
+
 /// The scene's view, changed by what the command line says.
 ViewSettings view_of(const RunFile& run, const Options& options) {
   ViewSettings view = scene_from_text(run.scene_text(), run.name() + ": /scene").view;
-  if (!options.view.empty()) view.name = view_names.at(options.view);
-  if (!options.style.empty()) view.style = style_names.at(options.style);
+  if (!options.view.empty()) view.name = named<ViewName>(view_names, options.view);
+  if (!options.style.empty()) view.style = named<RenderStyle>(style_names, options.style);
   view.azimuth = options.azimuth.value_or(view.azimuth);
   view.elevation = options.elevation.value_or(view.elevation);
   view.distance = options.distance.value_or(view.distance);
@@ -138,9 +137,9 @@ void add_render_command(CLI::App& app, Command& chosen) {
       ->capture_default_str();
   command->add_option("--size", options->size, "Picture size in pixels, like 1280x720")->type_name("WxH");
   command->add_option("--view", options->view, "All of it; what changes; a map; as aimed")
-      ->check(CLI::IsMember(&view_names));
+      ->check(CLI::IsMember(view_names));
   command->add_option("--style", options->style, "As one sees it; heights; change since the initial surface")
-      ->check(CLI::IsMember(&style_names));
+      ->check(CLI::IsMember(style_names));
   command->add_option("--azimuth", options->azimuth, "Towards the camera, from +x towards +y [deg]");
   command->add_option("--elevation", options->elevation, "Of the camera above the horizon [deg]")
       ->check(CLI::Range(0.0, 90.0));

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <string>
 
 namespace sandstroke {
@@ -15,9 +16,13 @@ class Progress {
 
   /// fraction done, 0 to 1; cheap enough to be called often.
   void update(double fraction);
+  /// For work whose end is not known: how much is done.
+  void count(std::int64_t done, const char* what);
 
  private:
   using Clock = std::chrono::steady_clock;
+  bool due();
+  void draw(const std::string& line);
   std::string title_;
   Clock::time_point start_;
   Clock::time_point next_draw_;

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <string>
+#include <vector>
 
 namespace sandstroke {
 
@@ -8,6 +10,10 @@ namespace sandstroke {
 enum class ViewName { overview, stroke, top, custom };
 /// sand: as one sees it. height, difference: colour maps with contour lines and a legend, for measuring.
 enum class RenderStyle { sand, height, difference };
+
+/// Their names in files and on the command line, in the order of the values.
+inline const std::vector<std::string> view_names = {"overview", "stroke", "top", "custom"};
+inline const std::vector<std::string> style_names = {"sand", "height", "difference"};
 
 /// How a bed is looked at ([view] in a scene). Angles in degrees; azimuth is counted from +x towards +y.
 struct ViewSettings {

@@ -34,10 +34,12 @@ class Hdf5Column {
 };
 
 /// An HDF5 file being written as PATH.part and renamed to PATH by finish(). Groups on the way to a dataset
-/// are made as needed. Error: io, for whatever the system refuses.
+/// are made as needed. Error: io, for whatever the system refuses, and where another process is writing the
+/// same file.
 class Hdf5Writer {
  public:
   explicit Hdf5Writer(const std::filesystem::path& path);
+  ~Hdf5Writer();
   Hdf5Writer(const Hdf5Writer&) = delete;
 
   void write(const std::string& dataset, const std::vector<double>& values);
@@ -70,6 +72,7 @@ class Hdf5Writer {
   void check(bool done, const std::string& object) const;
 
   std::filesystem::path path_;
+  int lock_ = -1;  // descriptor that keeps other processes from writing the same .part file
   Hdf5Handle file_;
 };
 

@@ -25,11 +25,17 @@ class WriterWithProgress : public RunWriter {
     if (progress) bar_.emplace("run");
   }
   void on_progress(double fraction) override {
+    fraction_ = fraction;
     if (bar_) bar_->update(fraction);
+  }
+  void on_pass(std::int64_t passes) override {
+    const bool after_the_stroke = fraction_ == 0.0 || fraction_ == 1.0;
+    if (bar_ && after_the_stroke) bar_->count(passes, "passes towards rest");
   }
 
  private:
   std::optional<Progress> bar_;
+  double fraction_ = 0.0;  // of the stroke
 };
 
 }  // namespace

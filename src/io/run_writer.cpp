@@ -7,6 +7,7 @@
 #include "core/hash.h"
 #include "core/output_file.h"
 #include "core/version.h"
+#include "core/xml_text.h"
 #include "io/scene_toml.h"
 
 namespace sandstroke {
@@ -34,12 +35,6 @@ std::string xdmf_text(const std::string& run_name, int rows, int cols, double ce
   };
   return "<?xml version=\"1.0\"?>\n<Xdmf Version=\"2.0\">\n  <Domain>\n" + grid("initial") + grid("final") +
          "  </Domain>\n</Xdmf>\n";
-}
-
-std::string xml_escaped(const std::string& text) {
-  std::string escaped;
-  for (const char c : text) escaped += c == '&' ? "&amp;" : c == '<' ? "&lt;" : std::string(1, c);
-  return escaped;
 }
 
 void put(const Eigen::Vector3d& v, double* out) { std::copy(v.begin(), v.end(), out); }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 
 #include "sand/height_field.h"
@@ -52,7 +53,9 @@ class Relaxer {
  public:
   virtual ~Relaxer() = default;
   /// Stops at equilibrium, after max_passes (those that changed something), or when interrupted().
-  virtual RelaxationOutcome relax(HeightField& bed) = 0;
+  /// after_pass, if given, is told the number of passes so far after each.
+  virtual RelaxationOutcome relax(HeightField& bed,
+                                  const std::function<void(std::int64_t)>& after_pass = {}) = 0;
 };
 
 /// A relaxer for one bed, which it may observe between calls.

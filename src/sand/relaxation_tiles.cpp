@@ -20,7 +20,7 @@ class TileRelaxer : public Relaxer {
       : scratch_([law = TalusLaw(settings, cell_size)] { return TilePass(law); }),
         max_passes_(settings.max_passes) {}
 
-  RelaxationOutcome relax(HeightField& bed) override {
+  RelaxationOutcome relax(HeightField& bed, const std::function<void(std::int64_t)>& after_pass) override {
     wake_disturbed(bed);
     RelaxationOutcome outcome;
     CompensatedSum moved;
@@ -29,7 +29,9 @@ class TileRelaxer : public Relaxer {
       const bool stop = outcome.passes == max_passes_ || interrupted();
       if (stop) break;
       compute(bed);
-      if (apply(bed, outcome, moved)) ++outcome.passes;
+      if (!apply(bed, outcome, moved)) continue;
+      ++outcome.passes;
+      if (after_pass) after_pass(outcome.passes);
     }
     outcome.converged = active_.empty();
     for (const int tile : active_) residuals_[tile] = scratch_.local().residual(bed, tile);

@@ -117,10 +117,8 @@ void describe_stroke(SceneVisitor& v, StrokeSettings& stroke) {
 
 void describe_view(SceneVisitor& v, ViewSettings& view) {
   v.section("view", "how pictures show it");
-  choose(v, "name", view.name, {"overview", "stroke", "top", "custom"},
-         "the whole bed, what changed, from above");
-  choose(v, "style", view.style, {"sand", "height", "difference"},
-         "as one sees it, or colour maps with contour lines");
+  choose(v, "name", view.name, view_names, "the whole bed, what changed, from above");
+  choose(v, "style", view.style, style_names, "as one sees it, or colour maps with contour lines");
   v.number("azimuth", view.azimuth, degrees, "deg", "of the camera, from +x towards +y");
   v.number("elevation", view.elevation, {0.0, 90.0, false}, "deg", "of the camera above the horizon");
   v.number("distance", view.distance, not_negative, "m", "camera to target; 0: what frames the subject");

@@ -91,7 +91,8 @@ TickRecord Simulation::tick(double time, const Hand& hand, SimulatedDevice& devi
 }
 
 void Simulation::relax(double time, SimulationObserver& observer) {
-  const RelaxationOutcome outcome = relaxer_->relax(bed_);
+  const RelaxationOutcome outcome =
+      relaxer_->relax(bed_, [&observer](std::int64_t passes) { observer.on_pass(passes); });
   result_.passes += outcome.passes;
   result_.relaxations += 1;
   result_.cells_visited += outcome.cells_visited;

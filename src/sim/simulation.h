@@ -20,6 +20,8 @@ class SimulationObserver {
   virtual void on_frame(double /*time*/, const HeightField&) {}
   /// Share of the stroke that is done, 0 to 1.
   virtual void on_progress(double /*fraction*/) {}
+  /// Passes of the relaxation that is going on.
+  virtual void on_pass(std::int64_t /*passes*/) {}
 };
 
 /// The tick loop (model.md, "One servo tick"): hand, device, level, depth and force, displacement, and

@@ -1,7 +1,9 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 
+#include <chrono>
 #include <nlohmann/json.hpp>
+#include <thread>
 
 #include "cli/program.h"
 #include "io/run_file.h"
@@ -100,6 +102,25 @@ TEST(CliRun, KilledItLeavesWhatWasFlushedAndNothingThatLooksComplete) {
   const RunFile part(folder / "a.h5.part");
   EXPECT_FALSE(part.complete());
   EXPECT_GT(part.trace().size(), 100u);
+}
+
+TEST(CliRun, ASecondRunCannotWriteTheSameFile) {
+  const fs::path folder = folder_with_long_stroke();
+  ProgramResult first;
+  std::thread writing([&] {
+    first = run_program({"run", "scene.toml", "-o", "a.h5", "--stroke", "long.toml"}, folder,
+                        {SIGINT, 3000, 0, "/dev/null"});
+  });
+  while (!fs::exists(folder / "a.h5.part")) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  std::this_thread::sleep_for(std::chrono::milliseconds(200));
+  const fs::path other = folder / "other";
+  fs::create_directory(other);
+  const ProgramResult second = run_program({"run", "../scene.toml", "-o", "../a.h5"}, other);
+  EXPECT_EQ(second.exit_code, 4);
+  EXPECT_NE(second.err.find("another process"), std::string::npos) << second.err;
+  writing.join();
+  EXPECT_EQ(first.exit_code, 130);
+  EXPECT_GT(RunFile(folder / "a.h5.part").trace().size(), 100u);
 }
 
 TEST(CliRun, AFullDiskIsAnErrorAndLeavesNothingThatLooksComplete) {

@@ -48,9 +48,16 @@ TEST_F(Golden, RoundTripPasses) {
   EXPECT_TRUE(comparison.passed()) << check_table(comparison);
   std::vector<std::string> names;
   for (const Check& check : comparison.checks) names.push_back(check.name);
-  EXPECT_EQ(names, (std::vector<std::string>{"scene", "stroke", "run complete", "initial surface",
-                                             "cell size", "height change", "ticks", "time", "force", "depth",
-                                             "level", "picture", "picture share"}));
+  EXPECT_EQ(names, (std::vector<std::string>{"scene", "stroke", "volume drift", "run complete",
+                                             "initial surface", "cell size", "height change", "ticks", "time",
+                                             "force", "depth", "level", "picture", "picture share"}));
+}
+
+TEST_F(Golden, SandThatIsLostOrMadeFails) {
+  write_golden(folder / "golden/dune", finished());
+  GoldenRun leaking = finished();
+  leaking.result.volume_drift = 2e-12;
+  EXPECT_FALSE(compare_golden("dune", folder / "golden/dune", leaking, Tolerances{}).passed());
 }
 
 TEST_F(Golden, KeepsHeightsAndTraceToWithinHalfAQuantum) {
