@@ -32,6 +32,7 @@ class WriterWithProgress : public RunWriter {
     const bool after_the_stroke = fraction_ == 0.0 || fraction_ == 1.0;
     if (bar_ && after_the_stroke) bar_->count(passes, "passes towards rest");
   }
+  void clear_bar() { bar_.reset(); }
 
  private:
   std::optional<Progress> bar_;
@@ -57,6 +58,7 @@ RunResult run_scene(const Scene& scene, const std::filesystem::path& output, con
   WriterWithProgress writer(output, simulation, stroke_hash, options.progress);
   RunResult result = simulation.run(writer);
   result.threads = threads;
+  writer.clear_bar();
   writer.finish(result, simulation.bed());
   return result;
 }

@@ -57,6 +57,7 @@ RunWriter::RunWriter(const std::filesystem::path& path, const Simulation& simula
   file_.write("/provenance/stroke_hash", stroke_hash);
   file_.write("/surface/initial", bed.grid());
   file_.attribute("/surface", "cell_size", bed.cell_size());
+  file_.attribute("/surface", "unit", "m");
   for (int tile = 0; tile < bed.tile_count(); ++tile) frame_revisions_.push_back(bed.tile_revision(tile));
   if (keeps_trace_) make_trace_columns();
   make_relaxation_columns();
@@ -64,31 +65,33 @@ RunWriter::RunWriter(const std::filesystem::path& path, const Simulation& simula
 }
 
 void RunWriter::make_trace_columns() {
-  const auto add = [&](const char* name, int width, auto take) {
-    tick_fields_.push_back({file_.column(std::string("/trace/") + name, width), width, take});
+  const auto add = [&](const std::string& name, int width, const char* unit, auto take) {
+    tick_fields_.push_back({file_.column("/trace/" + name, width), width, take});
+    file_.attribute("/trace/" + name, "unit", unit);
   };
-  add("time", 1, [](const TickRecord& t, double* out) { *out = t.time; });
-  add("hand_position", 3, [](const TickRecord& t, double* out) { put(t.hand_position, out); });
-  add("device_position", 3, [](const TickRecord& t, double* out) { put(t.device_position, out); });
-  add("device_force", 3, [](const TickRecord& t, double* out) { put(t.device_force, out); });
-  add("repulse_force", 3, [](const TickRecord& t, double* out) { put(t.repulse_force, out); });
-  add("drag_force", 3, [](const TickRecord& t, double* out) { put(t.drag_force, out); });
-  add("level", 1, [](const TickRecord& t, double* out) { *out = t.level; });
-  add("depth", 1, [](const TickRecord& t, double* out) { *out = t.depth; });
-  add("displaced_volume", 1, [](const TickRecord& t, double* out) { *out = t.displaced_volume; });
-  add("passivity_margin", 1, [](const TickRecord& t, double* out) { *out = t.passivity_margin; });
+  add("time", 1, "s", [](const TickRecord& t, double* out) { *out = t.time; });
+  add("hand_position", 3, "m", [](const TickRecord& t, double* out) { put(t.hand_position, out); });
+  add("device_position", 3, "m", [](const TickRecord& t, double* out) { put(t.device_position, out); });
+  add("device_force", 3, "N", [](const TickRecord& t, double* out) { put(t.device_force, out); });
+  add("repulse_force", 3, "N", [](const TickRecord& t, double* out) { put(t.repulse_force, out); });
+  add("drag_force", 3, "N", [](const TickRecord& t, double* out) { put(t.drag_force, out); });
+  add("level", 1, "m", [](const TickRecord& t, double* out) { *out = t.level; });
+  add("depth", 1, "m", [](const TickRecord& t, double* out) { *out = t.depth; });
+  add("displaced_volume", 1, "m^3", [](const TickRecord& t, double* out) { *out = t.displaced_volume; });
+  add("passivity_margin", 1, "N s/m", [](const TickRecord& t, double* out) { *out = t.passivity_margin; });
   tick_flags_.emplace_back(file_.byte_column("/trace/contact"), &TickRecord::contact);
   tick_flags_.emplace_back(file_.byte_column("/trace/saturated"), &TickRecord::saturated);
 }
 
 void RunWriter::make_relaxation_columns() {
-  const auto add = [&](const char* name, auto take) {
-    relaxation_fields_.push_back({file_.column(std::string("/relaxation/") + name), 1, take});
+  const auto add = [&](const std::string& name, const char* unit, auto take) {
+    relaxation_fields_.push_back({file_.column("/relaxation/" + name), 1, take});
+    file_.attribute("/relaxation/" + name, "unit", unit);
   };
-  add("time", [](const RelaxationRecord& r, double* out) { *out = r.time; });
-  add("passes", [](const RelaxationRecord& r, double* out) { *out = static_cast<double>(r.passes); });
-  add("residual", [](const RelaxationRecord& r, double* out) { *out = r.residual; });
-  add("moved_volume", [](const RelaxationRecord& r, double* out) { *out = r.moved_volume; });
+  add("time", "s", [](const RelaxationRecord& r, double* out) { *out = r.time; });
+  add("passes", "1", [](const RelaxationRecord& r, double* out) { *out = static_cast<double>(r.passes); });
+  add("residual", "1", [](const RelaxationRecord& r, double* out) { *out = r.residual; });
+  add("moved_volume", "m^3", [](const RelaxationRecord& r, double* out) { *out = r.moved_volume; });
 }
 
 void RunWriter::on_tick(const TickRecord& tick) {

@@ -64,6 +64,13 @@ TEST_F(RunFileTest, HoldsWhatTheDesignPromises) {
   EXPECT_FALSE((file.frame(static_cast<int>(times.size()) - 1) == file.initial()).all());
   EXPECT_NEAR(file.frame(2).sum(), 0.0, 1e-12);
 
+  const Hdf5Reader plain(folder_ / "a.h5");
+  for (const std::string& column : plain.members("/trace"))
+    EXPECT_TRUE(column == "contact" || column == "saturated" ||
+                plain.has_attribute("/trace/" + column, "unit"))
+        << column;
+  EXPECT_EQ(plain.text_attribute("/trace/device_force", "unit"), "N");
+
   EXPECT_FALSE(fs::exists(part_path(folder_ / "a.h5")));
   EXPECT_NE(read_text_file(folder_ / "a.xdmf").find("a.h5:/surface/final"), std::string::npos);
 }
