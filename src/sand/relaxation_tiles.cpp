@@ -1,6 +1,4 @@
 // Relaxes only the tiles that hold sand that can move; the same bits as the reference.
-#include <tbb/enumerable_thread_specific.h>
-
 #include <algorithm>
 
 #include "core/compensated_sum.h"
@@ -17,8 +15,7 @@ namespace {
 class TileRelaxer : public Relaxer {
  public:
   TileRelaxer(const RelaxationSettings& settings, double cell_size)
-      : scratch_([law = TalusLaw(settings, cell_size)] { return TilePass(law); }),
-        max_passes_(settings.max_passes) {}
+      : law_(settings, cell_size), max_passes_(settings.max_passes) {}
 
   RelaxationOutcome relax(HeightField& bed, const std::function<void(std::int64_t)>& after_pass) override {
     wake_disturbed(bed);
@@ -34,7 +31,7 @@ class TileRelaxer : public Relaxer {
       if (after_pass) after_pass(outcome.passes);
     }
     outcome.converged = active_.empty();
-    for (const int tile : active_) residuals_[tile] = scratch_.local().residual(bed, tile);
+    for (const int tile : active_) residuals_[tile] = TilePass::of_this_thread().residual(law_, bed, tile);
     outcome.residual = residuals_.empty() ? 0.0 : *std::max_element(residuals_.begin(), residuals_.end());
     outcome.moved_volume = moved.value() * bed.cell_area();
     for (int tile = 0; tile < bed.tile_count(); ++tile) seen_[tile] = bed.tile_revision(tile);
@@ -77,9 +74,9 @@ class TileRelaxer : public Relaxer {
     results_.resize(active_.size());
     constexpr std::size_t worth_threads = 4;  // tiles
     parallel_for(active_.size(), worth_threads, [&](std::size_t i) {
-      TilePass& pass = scratch_.local();
-      results_[i] = pass.run(bed, active_[i], next_[i]);
-      if (!results_[i].changed) residuals_[active_[i]] = pass.residual(bed, active_[i]);
+      TilePass& pass = TilePass::of_this_thread();
+      results_[i] = pass.run(law_, bed, active_[i], next_[i]);
+      if (!results_[i].changed) residuals_[active_[i]] = pass.residual(law_, bed, active_[i]);
     });
   }
 
@@ -108,7 +105,7 @@ class TileRelaxer : public Relaxer {
     return any;
   }
 
-  tbb::enumerable_thread_specific<TilePass> scratch_;
+  TalusLaw law_;
   std::int64_t max_passes_;
   std::vector<int> active_;                // tiles of the coming pass, ascending
   std::vector<char> awake_;                // per tile: belongs to the pass after it

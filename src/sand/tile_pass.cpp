@@ -22,8 +22,12 @@ double flow(double factor, double drop, double threshold) { return drop > thresh
 
 }  // namespace
 
-TilePass::TilePass(const TalusLaw& law)
-    : law_(law), heights_(stride * stride, wall), factors_(stride * stride, 0.0) {}
+TilePass::TilePass() : heights_(stride * stride, wall), factors_(stride * stride, 0.0) {}
+
+TilePass& TilePass::of_this_thread() {
+  thread_local TilePass pass;
+  return pass;
+}
 
 void TilePass::load(const HeightField& bed, int tile) {
   const CellRange own = bed.tile_cells(tile);
@@ -53,7 +57,7 @@ void TilePass::load(const HeightField& bed, int tile) {
 bool TilePass::paper_factors(int row) {
   const double* m = heights_.data() + row * stride;
   const double *n = m - stride, *s = m + stride;
-  const double axis_limit = law_.axis_limit, diagonal_limit = law_.diagonal_limit;
+  const double axis_limit = law_->axis_limit, diagonal_limit = law_->diagonal_limit;
   unsigned moves = 0;
   for (int c = 1; c < stride - 1; ++c) {
     moves |= static_cast<unsigned>(m[c] - m[c - 1] > axis_limit) |
@@ -68,7 +72,7 @@ bool TilePass::paper_factors(int row) {
   if (!moves) return false;
 
   double* factor = factors_.data() + row * stride;
-  const double T = law_.axis_drop, D = law_.diagonal_drop;
+  const double T = law_->axis_drop, D = law_->diagonal_drop;
   for (int c = 1; c < stride - 1; ++c) {
     const double west = m[c] - m[c - 1], east = m[c] - m[c + 1], north = m[c] - n[c], south = m[c] - s[c];
     const double nw = m[c] - n[c - 1], se = m[c] - s[c + 1], ne = m[c] - n[c + 1], sw = m[c] - s[c - 1];
@@ -78,7 +82,7 @@ bool TilePass::paper_factors(int row) {
       factor[c] = 0.0;
       continue;
     }
-    const double given = law_.share * std::max(axis - T, diagonal - D);
+    const double given = law_->share * std::max(axis - T, diagonal - D);
     const double axis_sum = (above(west, T) + above(east, T)) + (above(north, T) + above(south, T));
     const double diagonal_sum = (above(nw, D) + above(se, D)) + (above(ne, D) + above(sw, D));
     factor[c] = given / (axis_sum + diagonal_sum);
@@ -95,8 +99,8 @@ bool TilePass::isotropic_factors(int row) {
     const double gx = larger(m[c] - m[c - 1], larger(m[c] - m[c + 1], 0.0));
     const double gy = larger(m[c] - n[c], larger(m[c] - s[c], 0.0));
     const double steepest = std::sqrt(gx * gx + gy * gy);
-    const bool steep = steepest > law_.axis_limit;
-    factor[c] = steep ? law_.share * (1.0 - law_.axis_drop / steepest) : 0.0;
+    const bool steep = steepest > law_->axis_limit;
+    factor[c] = steep ? law_->share * (1.0 - law_->axis_drop / steepest) : 0.0;
     moves |= steep;
   }
   return moves;
@@ -108,7 +112,7 @@ double TilePass::exchange_row(int row, double* next) const {
   const double *n = m - stride, *s = m + stride;
   const double* f = factors_.data() + row * stride;
   const double *fn = f - stride, *fs = f + stride;
-  const double T = diagonals ? law_.axis_drop : 0.0, D = law_.diagonal_drop;
+  const double T = diagonals ? law_->axis_drop : 0.0, D = law_->diagonal_drop;
   double moved = 0.0;
   for (int c = rim; c < rim + side; ++c) {
     double out = (flow(f[c], m[c] - m[c - 1], T) + flow(f[c], m[c] - m[c + 1], T)) +
@@ -127,11 +131,13 @@ double TilePass::exchange_row(int row, double* next) const {
   return moved;
 }
 
-TilePass::Result TilePass::run(const HeightField& bed, int tile, std::vector<double>& next) {
+TilePass::Result TilePass::run(const TalusLaw& law, const HeightField& bed, int tile,
+                               std::vector<double>& next) {
+  law_ = &law;
   load(bed, tile);
   Result result;
   bool moving = false;
-  const bool paper = law_.law == RelaxationLaw::paper;
+  const bool paper = law_->law == RelaxationLaw::paper;
   for (int row = 1; row < stride - 1; ++row) {
     row_moves_[row] = paper ? paper_factors(row) : isotropic_factors(row);
     if (!row_moves_[row]) std::fill_n(factors_.begin() + row * stride, stride, 0.0);
@@ -164,10 +170,11 @@ TilePass::Result TilePass::run(const HeightField& bed, int tile, std::vector<dou
   return result;
 }
 
-double TilePass::residual(const HeightField& bed, int tile) {
+double TilePass::residual(const TalusLaw& law, const HeightField& bed, int tile) {
+  law_ = &law;
   load(bed, tile);
   const CellRange own = bed.tile_cells(tile);
-  const bool paper = law_.law == RelaxationLaw::paper;
+  const bool paper = law_->law == RelaxationLaw::paper;
   double residual = 0.0;
   for (int r = 0; r < own.row_end - own.row_begin; ++r) {
     const double* m = heights_.data() + (r + rim) * stride;
@@ -178,10 +185,10 @@ double TilePass::residual(const HeightField& bed, int tile) {
       if (paper) {
         const double diagonal = larger(m[c] - n[c - 1], larger(m[c] - s[c + 1], 0.0));
         const double other = larger(m[c] - n[c + 1], larger(m[c] - s[c - 1], 0.0));
-        residual = std::max({residual, std::max(gx, gy) / law_.axis_drop - 1.0,
-                             std::max(diagonal, other) / law_.diagonal_drop - 1.0});
+        residual = std::max({residual, std::max(gx, gy) / law_->axis_drop - 1.0,
+                             std::max(diagonal, other) / law_->diagonal_drop - 1.0});
       } else {
-        residual = std::max(residual, std::sqrt(gx * gx + gy * gy) / law_.axis_drop - 1.0);
+        residual = std::max(residual, std::sqrt(gx * gx + gy * gy) / law_->axis_drop - 1.0);
       }
     }
   }

@@ -15,7 +15,8 @@ class TilePass {
   static constexpr int rim = 2;  ///< inflow comes from one cell away, whose share depends on one cell further
   static constexpr int stride = side + 2 * rim;
 
-  explicit TilePass(const TalusLaw& law);
+  /// Each thread has one, so that its memory is made once and shared with nobody.
+  static TilePass& of_this_thread();
 
   /// What a pass did to a tile.
   struct Result {
@@ -26,19 +27,20 @@ class TilePass {
   };
 
   /// next: tile_area heights; complete only if the result says `changed`.
-  Result run(const HeightField& bed, int tile, std::vector<double>& next);
+  Result run(const TalusLaw& law, const HeightField& bed, int tile, std::vector<double>& next);
 
   /// Residual of a tile's cells as they are.
-  double residual(const HeightField& bed, int tile);
+  double residual(const TalusLaw& law, const HeightField& bed, int tile);
 
  private:
+  TilePass();
   void load(const HeightField& bed, int tile);
   bool paper_factors(int row);
   bool isotropic_factors(int row);
   template <bool diagonals>
   double exchange_row(int row, double* next) const;
 
-  TalusLaw law_;
+  const TalusLaw* law_ = nullptr;  // of the call that is going on
   std::vector<double>
       heights_;  // stride x stride; NaN outside the bed: every comparison with a wall is false
   std::vector<double> factors_;  // same shape; the part of each drop that a cell gives away
