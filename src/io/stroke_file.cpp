@@ -1,10 +1,10 @@
 #include "io/stroke_file.h"
 
-#include <cerrno>
 #include <cstring>
 #include <fstream>
 
 #include "core/error.h"
+#include "core/output_file.h"
 #include "haptics/stroke_script.h"
 #include "io/hdf5_file.h"
 #include "io/stroke_script_toml.h"
@@ -87,9 +87,8 @@ Stroke read_stroke_file(const std::filesystem::path& path) {
 }
 
 Stroke load_stroke(const std::filesystem::path& path, const ForceSettings& force) {
-  if (std::filesystem::is_directory(path)) throw_io_error("{}: is a folder; name a file", path.string());
+  check_readable(path);
   std::ifstream file(path, std::ios::binary);
-  if (!file) throw_io_error("{}: cannot be opened ({}); check the path", path.string(), std::strerror(errno));
   constexpr char hdf5_signature[] = "\x89HDF\r\n\x1a\n";
   char begin[sizeof hdf5_signature - 1] = {};
   file.read(begin, sizeof begin);

@@ -1,10 +1,13 @@
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <cmath>
 #include <filesystem>
 #include <limits>
 #include <string>
 
+#include "compare/check.h"
 #include "io/run_file.h"
 
 namespace sandstroke {
@@ -79,5 +82,16 @@ class TestFolder {
  private:
   std::string path_;
 };
+
+/// Exactly one check fails: the one with this name, with these words in its sentence.
+inline void expect_only_failure(const Comparison& comparison, const std::string& name,
+                                const std::string& words) {
+  EXPECT_EQ(comparison.failures(), 1) << check_table(comparison);
+  for (const Check& check : comparison.checks) {
+    if (check.passed) continue;
+    EXPECT_EQ(check.name, name) << check.sentence;
+    EXPECT_NE(check.sentence.find(words), std::string::npos) << check.sentence;
+  }
+}
 
 }  // namespace sandstroke
