@@ -41,6 +41,7 @@ nlohmann::ordered_json as_json(const RunResult& r, const std::string& output) {
       {"relaxations", r.relaxations},
       {"cells_visited", r.cells_visited},
       {"tiles_active_max", r.tiles_active_max},
+      {"wake_ups", r.wake_ups},
       {"residual", r.residual},
       {"converged", r.converged},
       {"volume_initial", r.volume_initial},

@@ -85,7 +85,6 @@ std::vector<double> RunFile::frame_times() const {
 
 HeightGrid RunFile::frame(int k) const {
   HeightField surface(initial(), cell_size());
-  std::vector<double> heights(HeightField::tile_area);
   for (int i = 0; i <= k; ++i) {
     const std::vector<std::uint32_t> tiles = file_.integers(frame_name(i) + "/tiles");
     const HeightGrid blocks = file_.grid(frame_name(i) + "/heights");
@@ -96,9 +95,8 @@ HeightGrid RunFile::frame(int k) const {
       if (tiles[t] >= static_cast<std::uint32_t>(surface.tile_count()))
         throw_input_error("{}: {} names tile {}, which the bed does not have; the file is damaged",
                           file_.name(), frame_name(i), tiles[t]);
-      Eigen::Map<Eigen::ArrayXd>(heights.data(), HeightField::tile_area) =
-          blocks.row(static_cast<Eigen::Index>(t)).transpose();
-      surface.swap_tile(static_cast<int>(tiles[t]), heights);
+      std::copy_n(blocks.row(static_cast<Eigen::Index>(t)).data(), HeightField::tile_area,
+                  surface.tile_heights(surface.touch(static_cast<int>(tiles[t]))));
     }
   }
   return surface.grid();

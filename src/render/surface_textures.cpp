@@ -88,10 +88,12 @@ CellRange SurfaceTextures::tile_cells(int tile, int beyond) const {
 int SurfaceTextures::update(const HeightField& surface) {
   std::vector<int> changed;
   bool finite = true;
+  std::vector<double> block(BedGeometry::tile_area);
   for (int tile = 0; tile < surface.tile_count(); ++tile) {
     const CellRange cells = tile_cells(tile, 0);
     bool differs = !filled_;
-    const double* heights = surface.tile_data(tile);
+    surface.read_tile(tile, block.data());
+    const double* heights = block.data();
     for (int row = cells.row_begin; row < cells.row_end; ++row, heights += side) {
       float* drawn = heights_.row(row).data() + cells.col_begin;
       for (int col = 0; col < cells.col_end - cells.col_begin; ++col) {

@@ -1,52 +1,141 @@
 #include "sand/height_field.h"
 
-#include <algorithm>
+#include <new>
 
 #include "core/compensated_sum.h"
 
 namespace sandstroke {
+namespace {
+
+class FlatRule : public SurfaceRule {
+ public:
+  void fill(const BedGeometry&, const CellRange& cells, double* out) const override {
+    for (int row = 0; row < cells.rows(); ++row, out += BedGeometry::tile_side)
+      std::fill(out, out + cells.cols(), 0.0);
+  }
+  double steepest(const BedGeometry&, const CellRange&) const override { return 0.0; }
+  double highest() const override { return 0.0; }
+};
+
+std::uint32_t* zeros(int count) {
+  void* memory = std::calloc(static_cast<std::size_t>(count), sizeof(std::uint32_t));
+  if (!memory) throw std::bad_alloc();
+  return static_cast<std::uint32_t*>(memory);
+}
+
+}  // namespace
 
 HeightField::HeightField(int rows, int cols, double cell_size)
-    : rows_(rows),
-      cols_(cols),
-      cell_size_(cell_size),
-      row_origin_(0.5 * (rows - 1)),
-      col_origin_(0.5 * (cols - 1)),
-      tile_rows_((rows + tile_side - 1) / tile_side),
-      tile_cols_((cols + tile_side - 1) / tile_side),
-      cells_(static_cast<std::size_t>(tile_rows_) * tile_cols_ * tile_area, 0.0),
-      revisions_(static_cast<std::size_t>(tile_rows_) * tile_cols_, 0) {}
+    : HeightField(rows, cols, cell_size, std::make_shared<FlatRule>()) {}
+
+HeightField::HeightField(int rows, int cols, double cell_size, std::shared_ptr<const SurfaceRule> untouched)
+    : BedGeometry(rows, cols, cell_size), untouched_(std::move(untouched)), slots_(zeros(tile_count())) {}
 
 HeightField::HeightField(const HeightGrid& heights, double cell_size)
     : HeightField(static_cast<int>(heights.rows()), static_cast<int>(heights.cols()), cell_size) {
-  for (int row = 0; row < rows_; ++row)
-    for (int col = 0; col < cols_; ++col) cells_[index(row, col)] = heights(row, col);
+  for (int tile = 0; tile < tile_count(); ++tile) {
+    double* out = tile_heights(make_tile(tile));
+    const CellRange cells = tile_cells(tile);
+    for (int row = cells.row_begin; row < cells.row_end; ++row, out += tile_side)
+      std::copy_n(&heights(row, cells.col_begin), cells.cols(), out);
+  }
 }
 
-CellRange HeightField::tile_cells(int tile) const {
-  const int row = tile / tile_cols_ * tile_side;
-  const int col = tile % tile_cols_ * tile_side;
-  return {row, std::min(row + tile_side, rows_), col, std::min(col + tile_side, cols_)};
+HeightField::HeightField(const HeightField& other)
+    : BedGeometry(other),
+      untouched_(other.untouched_),
+      slots_(zeros(tile_count())),
+      disturbed_(other.disturbed_) {
+  tiles_.reserve(other.tiles_.size());
+  for (const auto& tile : other.tiles_) {
+    slots_.get()[tile->index] = static_cast<std::uint32_t>(tiles_.size()) + 1;
+    tiles_.push_back(std::make_unique<Tile>(*tile));
+  }
 }
 
-void HeightField::swap_tile(int tile, std::vector<double>& heights) {
-  std::swap_ranges(heights.begin(), heights.begin() + tile_area,
-                   cells_.begin() + static_cast<std::ptrdiff_t>(tile) * tile_area);
-  ++revisions_[tile];
+HeightField& HeightField::operator=(const HeightField& other) { return *this = HeightField(other); }
+
+int HeightField::make_tile(int tile) {
+  auto made = std::make_unique<Tile>();  // zeros, outside the bed too
+  made->index = tile;
+  made->revision = 1;
+  untouched_->fill(*this, tile_cells(tile), made->heights.data());
+  tiles_.push_back(std::move(made));
+  slots_.get()[tile] = static_cast<std::uint32_t>(tiles_.size());
+  return touched_tiles() - 1;
+}
+
+void HeightField::settle() {
+  for (const int slot : disturbed_) {
+    tiles_[slot]->disturbed = {};
+    tiles_[slot]->listed = false;
+  }
+  disturbed_.clear();
+}
+
+void HeightField::read_tile(int tile, double* out) const {
+  const int slot = slot_of(tile);
+  if (slot < 0) return untouched_->fill(*this, tile_cells(tile), out);
+  const CellRange cells = tile_cells(tile);
+  for (int row = 0; row < cells.rows(); ++row)
+    std::copy_n(tile_heights(slot) + row * tile_side, cells.cols(), out + row * tile_side);
 }
 
 HeightGrid HeightField::grid() const {
-  HeightGrid heights(rows_, cols_);
-  for (int row = 0; row < rows_; ++row)
-    for (int col = 0; col < cols_; ++col) heights(row, col) = (*this)(row, col);
+  HeightGrid heights(rows(), cols());
+  std::array<double, tile_area> block;
+  for (int tile = 0; tile < tile_count(); ++tile) {
+    read_tile(tile, block.data());
+    const CellRange cells = tile_cells(tile);
+    for (int row = 0; row < cells.rows(); ++row)
+      std::copy_n(block.data() + row * tile_side, cells.cols(),
+                  &heights(cells.row_begin + row, cells.col_begin));
+  }
   return heights;
 }
 
 double HeightField::volume() const {
   CompensatedSum sum;
-  for (int row = 0; row < rows_; ++row)
-    for (int col = 0; col < cols_; ++col) sum.add((*this)(row, col));
+  std::array<double, tile_area> block;
+  const auto add_block = [&](const CellRange& cells, double sign) {
+    for (int row = 0; row < cells.rows(); ++row)
+      for (int col = 0; col < cells.cols(); ++col) sum.add(sign * block[row * tile_side + col]);
+  };
+  // What the rule gives ...
+  visit_quarters({0, tile_rows(), 0, tile_cols()}, [&](const CellRange& tiles) {
+    const CellRange cells = cells_of_tiles(tiles);
+    if (untouched_->steepest(*this, cells) == 0.0) {
+      const double height = untouched_->height(*this, cells.row_begin, cells.col_begin);
+      sum.add(height * (static_cast<double>(cells.rows()) * cells.cols()));
+      return false;
+    }
+    if (tiles.rows() == 1 && tiles.cols() == 1) {
+      untouched_->fill(*this, cells, block.data());
+      add_block(cells, 1.0);
+    }
+    return true;
+  });
+  // ... and what the tiles that exist have more or less.
+  for (int slot = 0; slot < touched_tiles(); ++slot) {
+    const CellRange cells = tile_cells(tile_of(slot));
+    untouched_->fill(*this, cells, block.data());
+    add_block(cells, -1.0);
+    read_tile(tile_of(slot), block.data());
+    add_block(cells, 1.0);
+  }
   return sum.value() * cell_area();
+}
+
+double HeightField::highest() const {
+  double highest =
+      touched_tiles() < tile_count() ? untouched_->highest() : -std::numeric_limits<double>::infinity();
+  for (int slot = 0; slot < touched_tiles(); ++slot) {
+    const CellRange cells = tile_cells(tile_of(slot));
+    for (int row = 0; row < cells.rows(); ++row)
+      for (int col = 0; col < cells.cols(); ++col)
+        highest = std::max(highest, tile_heights(slot)[row * tile_side + col]);
+  }
+  return highest;
 }
 
 }  // namespace sandstroke

@@ -1,85 +1,123 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstdint>
+#include <cstdlib>
+#include <memory>
 #include <vector>
+
+#include "sand/bed_geometry.h"
+#include "sand/surface_rule.h"
 
 namespace sandstroke {
 
 /// A bed seen as one block, height(row, col) in m; row-major, as files and pictures take it.
 using HeightGrid = Eigen::Array<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-/// A half-open rectangle of cells: row_begin <= row < row_end, likewise col.
-struct CellRange {
-  int row_begin = 0, row_end = 0, col_begin = 0, col_end = 0;
-  bool empty() const { return row_begin >= row_end || col_begin >= col_end; }
-};
+/// A flag per cell of a tile: bit c of word r is cell (r, c).
+using CellFlags = std::array<std::uint64_t, BedGeometry::tile_side>;
 
-/// Rows x cols mean cell heights [m] over a rectangle centred on the origin. x grows with col, y with row.
-/// Cells are kept in square tiles: the unit in which sand is relaxed, written and drawn, each with a revision
-/// that changes when one of its cells does.
-class HeightField {
+/// Mean cell heights [m] of a bed. A tile of cells comes into being when something touches it; until then it
+/// is the initial surface by rule. So memory follows what is touched, not the bed. Tiles that exist are
+/// numbered by `slot`, in the order in which they came, and each has a revision that changes when one of its
+/// cells does.
+class HeightField : public BedGeometry {
  public:
-  static constexpr int tile_side = 64;  ///< cells
-
   /// A flat bed at z = 0. cell_size [m] > 0.
   HeightField(int rows, int cols, double cell_size);
+  /// A bed that follows a rule.
+  HeightField(int rows, int cols, double cell_size, std::shared_ptr<const SurfaceRule> untouched);
+  /// All tiles exist.
   HeightField(const HeightGrid& heights, double cell_size);
+  HeightField(const HeightField& other);
+  HeightField& operator=(const HeightField& other);
+  HeightField(HeightField&&) = default;
+  HeightField& operator=(HeightField&&) = default;
 
-  int rows() const { return rows_; }
-  int cols() const { return cols_; }
-  double cell_size() const { return cell_size_; }
-  double cell_area() const { return cell_size_ * cell_size_; }
-
-  double operator()(int row, int col) const { return cells_[index(row, col)]; }
-  /// Sets one cell and marks its tile as changed.
+  double operator()(int row, int col) const {
+    const int slot = slot_of(tile_index(row / tile_side, col / tile_side));
+    return slot < 0 ? untouched_->height(*this, row, col) : tiles_[slot]->heights[in_tile(row, col)];
+  }
+  /// Sets one cell. The next relaxation looks at it.
   void set(int row, int col, double height) {
-    cells_[index(row, col)] = height;
-    ++revisions_[tile_index(row / tile_side, col / tile_side)];
+    const int slot = touch(tile_index(row / tile_side, col / tile_side));
+    tiles_[slot]->heights[in_tile(row, col)] = height;
+    mark_disturbed(slot, row % tile_side, std::uint64_t{1} << (col % tile_side));
   }
 
-  /// Centre of a cell [m]; row_at and col_at are the inverse, as real numbers: row_at(y_of(r)) == r.
-  double x_of(int col) const { return (col - col_origin_) * cell_size_; }
-  double y_of(int row) const { return (row - row_origin_) * cell_size_; }
-  double col_at(double x) const { return x / cell_size_ + col_origin_; }
-  double row_at(double y) const { return y / cell_size_ + row_origin_; }
+  const SurfaceRule& untouched() const { return *untouched_; }
 
-  // --- tiles: tile (i, j) holds rows [i * tile_side, ...) and cols [j * tile_side, ...) ---
-  int tile_rows() const { return tile_rows_; }
-  int tile_cols() const { return tile_cols_; }
-  int tile_count() const { return tile_rows_ * tile_cols_; }
-  int tile_index(int tile_row, int tile_col) const { return tile_row * tile_cols_ + tile_col; }
-  /// The cells of a tile that lie inside the bed.
-  CellRange tile_cells(int tile) const;
-  /// tile_side x tile_side heights, row-major; those outside the bed are unused.
-  const double* tile_data(int tile) const {
-    return cells_.data() + static_cast<std::size_t>(tile) * tile_area;
+  // --- tiles that exist ---
+  int touched_tiles() const { return static_cast<int>(tiles_.size()); }
+  /// The slot of a tile (by its index); -1 while it does not exist.
+  int slot_of(int tile) const { return static_cast<int>(slots_.get()[tile]) - 1; }
+  int tile_of(int slot) const { return tiles_[slot]->index; }
+  /// Brings a tile into being, as its rule says, if it does not exist; its slot.
+  int touch(int tile) {
+    const int slot = slot_of(tile);
+    return slot >= 0 ? slot : make_tile(tile);
   }
-  /// Exchanges a tile's heights with `heights` (tile_area of them) and marks it as changed.
-  void swap_tile(int tile, std::vector<double>& heights);
-  /// Changes whenever a cell of the tile may have changed.
-  std::uint64_t tile_revision(int tile) const { return revisions_[tile]; }
+  /// tile_side x tile_side heights, row-major, on a 64-byte boundary; those outside the bed are unused.
+  const double* tile_heights(int slot) const { return tiles_[slot]->heights.data(); }
+  /// For writing; whoever writes calls mark_changed, or mark_disturbed where the next relaxation is to know.
+  double* tile_heights(int slot) { return tiles_[slot]->heights.data(); }
+  void mark_changed(int slot) { ++tiles_[slot]->revision; }
+  void mark_disturbed(int slot, int row_in_tile, std::uint64_t cells) {
+    Tile& tile = *tiles_[slot];
+    ++tile.revision;
+    tile.disturbed[row_in_tile] |= cells;
+    if (tile.listed) return;
+    tile.listed = true;
+    disturbed_.push_back(slot);
+  }
+
+  /// Slots of the tiles, and in each the cells, that were set since settle().
+  const std::vector<int>& disturbed_tiles() const { return disturbed_; }
+  const CellFlags& disturbed_cells(int slot) const { return tiles_[slot]->disturbed; }
+  void settle();
+
+  /// Changes whenever a cell of the tile may have changed; 0 while it does not exist. By tile index.
+  std::uint64_t tile_revision(int tile) const {
+    const int slot = slot_of(tile);
+    return slot < 0 ? 0 : tiles_[slot]->revision;
+  }
+  /// Copies a tile, touched or not, by its index: rows tile_side apart; cells outside the bed are left alone.
+  void read_tile(int tile, double* out) const;
 
   HeightGrid grid() const;
-
-  /// sum(h) dx^2 [m^3], compensated, in fixed order.
+  /// sum(h) dx^2 [m^3], compensated. Untouched tiles cost nothing where they are level.
   double volume() const;
+  /// No cell is higher [m]: exact for cells in tiles that exist, the rule's bound for others.
+  double highest() const;
 
-  static constexpr int tile_area = tile_side * tile_side;
+  /// Heap memory of the tiles that exist [bytes].
+  std::size_t bytes() const { return tiles_.size() * sizeof(Tile); }
+  static constexpr std::size_t bytes_per_tile() { return sizeof(Tile); }
 
  private:
-  std::size_t index(int row, int col) const {
-    const auto r = static_cast<unsigned>(row), c = static_cast<unsigned>(col);
-    const std::size_t tile = (r / tile_side) * static_cast<std::size_t>(tile_cols_) + c / tile_side;
-    return tile * tile_area + (r % tile_side) * tile_side + c % tile_side;
-  }
+  struct alignas(64) Tile {
+    std::array<double, tile_area> heights;
+    CellFlags disturbed;  // set since settle()
+    std::uint64_t revision;
+    int index;
+    bool listed;  // in disturbed_
+  };
+  struct Free {
+    void operator()(std::uint32_t* memory) const { std::free(memory); }
+  };
 
-  int rows_, cols_;
-  double cell_size_;
-  double row_origin_, col_origin_;  // the bed's centre in cell indices, (n - 1) / 2
-  int tile_rows_, tile_cols_;
-  std::vector<double> cells_;  // tile after tile
-  std::vector<std::uint64_t> revisions_;
+  static std::size_t in_tile(int row, int col) {
+    const auto r = static_cast<unsigned>(row), c = static_cast<unsigned>(col);
+    return (r % tile_side) * tile_side + c % tile_side;
+  }
+  int make_tile(int tile);
+
+  std::shared_ptr<const SurfaceRule> untouched_;
+  // Per tile of the bed: slot + 1, or 0. From calloc: pages of a huge bed that nobody touches stay unreal.
+  std::unique_ptr<std::uint32_t, Free> slots_;
+  std::vector<std::unique_ptr<Tile>> tiles_;
+  std::vector<int> disturbed_;
 };
 
 }  // namespace sandstroke

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <utility>
 
 namespace sandstroke {
 namespace {
@@ -30,6 +32,10 @@ double lattice_noise(std::int64_t row, std::int64_t col, std::uint32_t seed) {
   return static_cast<double>(z >> 11) * 0x1.0p-52 - 1.0;
 }
 
+/// The steepest rise of smooth_noise between lattice points that differ by 1: of t^3 (6 t^2 - 15 t + 10), at
+/// 1/2.
+constexpr double steepest_fade = 1.875;
+
 /// Lattice noise joined smoothly between points one unit apart.
 double smooth_noise(double row, double col, std::uint32_t seed) {
   const double r0 = std::floor(row), c0 = std::floor(col);
@@ -52,6 +58,41 @@ double cone_average(double x, double y, double dx, const SurfaceSettings& s) {
   return s.height * sum / (n * n);
 }
 
+constexpr double any_slope = std::numeric_limits<double>::infinity();
+
+/// Least and largest distance [m] of cell centres in a range from the z axis.
+std::pair<double, double> distances(const BedGeometry& bed, const CellRange& cells) {
+  const auto along = [](double first, double last) {
+    const double least = first > 0.0 ? first : std::max(0.0, -last);
+    return std::pair(least, std::max(std::abs(first), std::abs(last)));
+  };
+  const auto [near_x, far_x] = along(bed.x_of(cells.col_begin), bed.x_of(cells.col_end - 1));
+  const auto [near_y, far_y] = along(bed.y_of(cells.row_begin), bed.y_of(cells.row_end - 1));
+  return {std::hypot(near_x, near_y), std::hypot(far_x, far_y)};
+}
+
+/// A rule made of height(x, y) [m] at a cell's centre and a bound of the slope over a range.
+template <class Height, class Steepest>
+class FormulaRule : public SurfaceRule {
+ public:
+  FormulaRule(Height height, Steepest steepest, double highest)
+      : height_(height), steepest_(steepest), highest_(highest) {}
+  void fill(const BedGeometry& bed, const CellRange& cells, double* out) const override {
+    for (int row = cells.row_begin; row < cells.row_end; ++row, out += BedGeometry::tile_side)
+      for (int col = cells.col_begin; col < cells.col_end; ++col)
+        out[col - cells.col_begin] = height_(bed.x_of(col), bed.y_of(row));
+  }
+  double steepest(const BedGeometry& bed, const CellRange& cells) const override {
+    return steepest_(bed, cells);
+  }
+  double highest() const override { return highest_; }
+
+ private:
+  Height height_;
+  Steepest steepest_;
+  double highest_;
+};
+
 }  // namespace
 
 double disk_cell_area(double radius, double x, double y, double cell_size) {
@@ -70,45 +111,69 @@ double disk_cell_area(double radius, double x, double y, double cell_size) {
 }
 
 HeightField make_surface(const SurfaceSettings& settings, int rows, int cols, double cell_size) {
-  HeightField bed(rows, cols, cell_size);
-  const auto fill = [&](auto height) {
-    for (int row = 0; row < rows; ++row)
-      for (int col = 0; col < cols; ++col) bed.set(row, col, height(bed.x_of(col), bed.y_of(row)));
+  const BedGeometry bed(rows, cols, cell_size);
+  const auto with = [&](auto height, auto steepest, double highest) {
+    return HeightField(
+        rows, cols, cell_size,
+        std::make_shared<FormulaRule<decltype(height), decltype(steepest)>>(height, steepest, highest));
   };
-  switch (settings.kind) {
+  const auto everywhere = [](double slope) {
+    return [slope](const BedGeometry&, const CellRange&) { return slope; };
+  };
+  // By the distance of a range's cells from the z axis, to the next cell.
+  const auto round = [](double inside, double at_the_rim, double radius) {
+    return [=](const BedGeometry& b, const CellRange& cells) {
+      const auto [nearest, farthest] = distances(b, cells);
+      if (nearest >= radius + b.cell_size()) return 0.0;
+      return farthest <= radius - b.cell_size() ? inside : at_the_rim;
+    };
+  };
+  const SurfaceSettings s = settings;  // into the rules, by value
+  switch (s.kind) {
     case SurfaceKind::flat:
     case SurfaceKind::file:
       break;
     case SurfaceKind::cylinder:
-      fill([&](double x, double y) {
-        return settings.height * (disk_cell_area(settings.radius, x, y, cell_size) / (cell_size * cell_size));
-      });
-      break;
-    case SurfaceKind::cone:
-      fill([&](double x, double y) { return cone_average(x, y, cell_size, settings); });
-      break;
+      return with(
+          [=](double x, double y) {
+            return s.height * (disk_cell_area(s.radius, x, y, cell_size) / (cell_size * cell_size));
+          },
+          round(1e-9, any_slope, s.radius), std::max(0.0, s.height));  // inside, equal but for rounding
+    case SurfaceKind::cone: {
+      const double slope = std::abs(s.height) / s.radius;
+      return with([=](double x, double y) { return cone_average(x, y, cell_size, s); },
+                  round(slope, slope, s.radius), std::max(0.0, s.height));
+    }
     case SurfaceKind::cliff:
-      fill([&](double x, double) { return settings.height * std::clamp(0.5 - x / cell_size, 0.0, 1.0); });
-      break;
+      return with([=](double x, double) { return s.height * std::clamp(0.5 - x / cell_size, 0.0, 1.0); },
+                  [](const BedGeometry& b, const CellRange& cells) {
+                    const double first = b.x_of(cells.col_begin), last = b.x_of(cells.col_end - 1);
+                    return first >= b.cell_size() || last <= -b.cell_size() ? 0.0 : any_slope;
+                  },
+                  std::max(0.0, s.height));
     case SurfaceKind::noise:
-      fill([&, scale = settings.wavelength > 0.0 ? settings.wavelength : cell_size](double x, double y) {
-        if (settings.wavelength > 0.0)
-          return settings.amplitude * smooth_noise(y / scale, x / scale, settings.seed);
-        return settings.amplitude *
-               lattice_noise(std::llround(bed.row_at(y)), std::llround(bed.col_at(x)), settings.seed);
-      });
-      break;
+      if (s.wavelength > 0.0)
+        return with(
+            [=](double x, double y) {
+              return s.amplitude * smooth_noise(y / s.wavelength, x / s.wavelength, s.seed);
+            },
+            everywhere(steepest_fade * std::numbers::sqrt2 * 2.0 * s.amplitude / s.wavelength), s.amplitude);
+      return with(
+          [=](double x, double y) {
+            return s.amplitude *
+                   lattice_noise(std::llround(bed.row_at(y)), std::llround(bed.col_at(x)), s.seed);
+          },
+          everywhere(std::numbers::sqrt2 * 2.0 * s.amplitude / cell_size), s.amplitude);
     case SurfaceKind::ripples: {
       // The mean of a sine over a cell is the sine at its centre, weakened by sinc(pi dx / wavelength).
-      const double phase = std::numbers::pi * cell_size / settings.wavelength;
-      const double amplitude = settings.amplitude * std::sin(phase) / phase;
-      fill([&](double x, double) {
-        return amplitude * std::sin(2.0 * std::numbers::pi * x / settings.wavelength);
-      });
-      break;
+      const double phase = std::numbers::pi * cell_size / s.wavelength;
+      const double amplitude = s.amplitude * std::sin(phase) / phase;
+      return with(
+          [=](double x, double) { return amplitude * std::sin(2.0 * std::numbers::pi * x / s.wavelength); },
+          everywhere(2.0 * std::numbers::pi * s.amplitude / s.wavelength), s.amplitude);
     }
   }
-  return bed;
+  return HeightField(rows, cols, cell_size);
 }
 
 }  // namespace sandstroke

@@ -21,8 +21,8 @@ struct SurfaceSettings {
   double low = 0.0, high = 0.0;  ///< m: heights that a PNG's black and white stand for
 };
 
-/// A bed of rows x cols with any surface but `file`, centred on the origin. Cells hold averages: exact for
-/// cylinder, cliff and ripples, 8 x 8 samples for the cone.
+/// A bed of rows x cols with any surface but `file`, centred on the origin, by rule: no tile exists yet.
+/// Cells hold averages: exact for cylinder, cliff and ripples, 8 x 8 samples for the cone.
 HeightField make_surface(const SurfaceSettings& settings, int rows, int cols, double cell_size);
 
 /// Area [m^2] of a disk of this radius at the origin inside the square cell centred at (x, y), both multiples

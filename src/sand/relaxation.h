@@ -33,10 +33,12 @@ double flow_share(const RelaxationSettings& settings);
 struct RelaxationOutcome {
   std::int64_t passes = 0;
   double residual = 0.0;  ///< of the field left behind: max over cells of slope/tan(talus) - 1, at least 0
-  double moved_volume = 0.0;       ///< m^3, all that flowed from cell to cell
-  std::int64_t cells_visited = 0;  ///< summed over passes, the last look included
+  double moved_volume = 0.0;  ///< m^3, all that flowed from cell to cell
+  std::int64_t cells_visited =
+      0;  ///< cells that might have moved, summed over passes, the last look included
   int tiles_active_max = 0;
-  bool converged = false;  ///< every cell rests, or what still flows is below rounding
+  std::int64_t wake_ups = 0;  ///< of tiles at rest
+  bool converged = false;     ///< every cell rests, or what still flows is below rounding
 };
 
 /// Relaxes a bed to equilibrium, again and again as it is disturbed. Passes are Jacobi: all cells at once,

@@ -35,9 +35,7 @@ Simulation::Simulation(const Scene& scene, HeightField bed, std::optional<Stroke
 }
 
 void Simulation::check_inside(const Stroke& stroke) const {
-  double highest = -std::numeric_limits<double>::infinity();
-  for (int row = 0; row < bed_.rows(); ++row)
-    for (int col = 0; col < bed_.cols(); ++col) highest = std::max(highest, bed_(row, col));
+  const double highest = bed_.highest();
   const double half_x = 0.5 * bed_.cols() * bed_.cell_size(), half_y = 0.5 * bed_.rows() * bed_.cell_size();
   for (std::size_t i = 0; i < stroke.size(); ++i) {
     const Eigen::Vector3d tip = tip_of(stroke.position[i]);
@@ -96,6 +94,7 @@ void Simulation::relax(double time, SimulationObserver& observer) {
   result_.passes += outcome.passes;
   result_.relaxations += 1;
   result_.cells_visited += outcome.cells_visited;
+  result_.wake_ups += outcome.wake_ups;
   result_.tiles_active_max = std::max(result_.tiles_active_max, outcome.tiles_active_max);
   result_.residual = outcome.residual;
   result_.converged = outcome.converged;

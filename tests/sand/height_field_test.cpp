@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace sandstroke {
 namespace {
 
@@ -22,14 +24,96 @@ TEST(HeightField, KeepsEveryCellInItsTile) {
   EXPECT_EQ(bed.tile_rows(), 2);
   EXPECT_EQ(bed.tile_cols(), 3);
   EXPECT_TRUE((bed.grid() == heights).all());
+  std::vector<double> block(BedGeometry::tile_area);
   for (int tile = 0; tile < bed.tile_count(); ++tile) {
     const CellRange cells = bed.tile_cells(tile);
+    bed.read_tile(tile, block.data());
     for (int row = cells.row_begin; row < cells.row_end; ++row)
       for (int col = cells.col_begin; col < cells.col_end; ++col) {
-        const int in_tile = (row - cells.row_begin) * HeightField::tile_side + col - cells.col_begin;
-        EXPECT_EQ(bed.tile_data(tile)[in_tile], heights(row, col));
+        const int in_tile = (row - cells.row_begin) * BedGeometry::tile_side + col - cells.col_begin;
+        EXPECT_EQ(block[in_tile], heights(row, col));
+        EXPECT_EQ(bed.tile_heights(bed.slot_of(tile))[in_tile], heights(row, col));
       }
   }
+}
+
+/// A rule with a slope of 0.1 along x, level in the bed's left half.
+class Bend : public SurfaceRule {
+ public:
+  static double at(double x) { return 0.3 + 0.1 * std::max(0.0, x); }
+  void fill(const BedGeometry& bed, const CellRange& cells, double* out) const override {
+    for (int row = 0; row < cells.rows(); ++row)
+      for (int col = 0; col < cells.cols(); ++col)
+        out[row * BedGeometry::tile_side + col] = at(bed.x_of(cells.col_begin + col));
+  }
+  double steepest(const BedGeometry& bed, const CellRange& cells) const override {
+    return bed.x_of(cells.col_end - 1) <= 0.0 ? 0.0 : 0.1;
+  }
+  double highest() const override { return 1e9; }
+};
+
+TEST(HeightField, UntouchedTilesFollowTheirRuleAndDoNotExist) {
+  HeightField bed(150, 300, 0.01, std::make_shared<Bend>());
+  EXPECT_EQ(bed.touched_tiles(), 0);
+  EXPECT_EQ(bed.tile_revision(3), 0u);
+  const HeightGrid before = bed.grid();
+  for (const int col : {0, 63, 64, 150, 299}) {
+    EXPECT_EQ(bed(149, col), Bend::at(bed.x_of(col)));
+    EXPECT_EQ(before(17, col), Bend::at(bed.x_of(col)));
+  }
+  EXPECT_EQ(bed.touched_tiles(), 0);  // reading touches nothing
+  EXPECT_EQ(bed.bytes(), 0u);
+
+  bed.set(70, 200, 5.0);
+  EXPECT_EQ(bed.touched_tiles(), 1);
+  EXPECT_EQ(bed.tile_of(0), bed.tile_index(1, 3));
+  EXPECT_EQ(bed.bytes(), HeightField::bytes_per_tile());
+  HeightGrid expected = before;
+  expected(70, 200) = 5.0;
+  EXPECT_TRUE((bed.grid() == expected).all());
+}
+
+TEST(HeightField, VolumeIsTheSumOfTheCellsWhetherTheirTilesExistOrNot) {
+  HeightField bed(150, 300, 0.01, std::make_shared<Bend>());
+  EXPECT_NEAR(bed.volume(), bed.grid().sum() * 1e-4, 1e-12);
+  bed.set(70, 200, 5.0);
+  bed.set(3, 3, -2.0);
+  EXPECT_NEAR(bed.volume(), bed.grid().sum() * 1e-4, 1e-12);
+}
+
+TEST(HeightField, ACopyIsItsOwn) {
+  HeightField bed(100, 100, 0.01);
+  bed.set(1, 2, 3.0);
+  HeightField copy = bed;
+  bed.set(1, 2, 4.0);
+  bed.set(80, 80, 1.0);
+  EXPECT_EQ(copy(1, 2), 3.0);
+  EXPECT_EQ(copy(80, 80), 0.0);
+  EXPECT_EQ(copy.touched_tiles(), 1);
+  copy = bed;
+  EXPECT_TRUE((copy.grid() == bed.grid()).all());
+}
+
+TEST(HeightField, KnowsWhatWasSetUntilItIsSettled) {
+  HeightField bed(130, 130, 0.01);
+  bed.set(64, 63, 1.0);
+  bed.set(64, 3, 1.0);
+  ASSERT_EQ(bed.disturbed_tiles(), (std::vector<int>{0}));
+  EXPECT_EQ(bed.disturbed_cells(0)[0], std::uint64_t{1} << 63 | std::uint64_t{1} << 3);
+  bed.settle();
+  EXPECT_TRUE(bed.disturbed_tiles().empty());
+  EXPECT_EQ(bed.disturbed_cells(0)[0], 0u);
+}
+
+TEST(HeightField, AHugeBedCostsWhatIsTouched) {
+  HeightField bed(65536, 65536, 0.002);
+  bed.set(40000, 30000, 0.25);
+  bed.set(65535, 65535, 0.5);
+  EXPECT_EQ(bed(40000, 30000), 0.25);
+  EXPECT_EQ(bed(65535, 65534), 0.0);
+  EXPECT_EQ(bed.bytes(), 2 * HeightField::bytes_per_tile());
+  EXPECT_NEAR(bed.volume(), 0.75 * 4e-6, 1e-20);
+  EXPECT_EQ(bed.highest(), 0.5);
 }
 
 TEST(HeightField, OnlyTheTileOfAChangedCellChangesRevision) {

@@ -203,13 +203,28 @@ TEST(IsotropicLaw, StaysWithinTheStartingRange) {  // monotone for c <= 1/4
   EXPECT_LE(bed.grid().maxCoeff(), high);
 }
 
-TEST(TileRelaxer, LooksOnlyAtWhatIsDisturbed) {
+TEST(TileRelaxer, LooksOnlyAtWhatCanMove) {
   HeightField bed(1024, 1024, 1.0);
   const auto relaxer = make_relaxer(settings(RelaxationLaw::paper), 1.0);
-  EXPECT_EQ(relaxer->relax(bed).cells_visited, 1024 * 1024);  // once, to know that all rests
-  bed.set(32, 32, 0.5);                                       // below the talus slope: nothing moves
-  EXPECT_EQ(relaxer->relax(bed).cells_visited,
-            4 * 64 * 64);  // its tile and the three neighbours in this corner
+  EXPECT_EQ(relaxer->relax(bed).cells_visited, 0);  // level by rule
+  EXPECT_EQ(bed.touched_tiles(), 0);
+  bed.set(63, 64, 0.5);  // below the talus slope: nothing moves
+  const auto look = relaxer->relax(bed);
+  EXPECT_EQ(look.cells_visited, 5 * 5);  // what can see it, in four tiles
+  EXPECT_EQ(look.wake_ups, 4);
+  EXPECT_EQ(look.tiles_active_max, 4);
+  EXPECT_EQ(look.passes, 0);
+  EXPECT_EQ(relaxer->relax(bed).cells_visited, 0);
+}
+
+TEST(TileRelaxer, CountsHowOftenTilesWake) {
+  HeightField bed(64, 192, 1.0);
+  const auto relaxer = make_relaxer(settings(RelaxationLaw::paper), 1.0);
+  bed.set(32, 32, 1.0);  // one pass moves it, and then it rests
+  EXPECT_EQ(relaxer->relax(bed).wake_ups, 1);
+  bed.set(32, 61, 1.0);  // flows within 2 cells of the next tile, which looks and rests
+  EXPECT_EQ(relaxer->relax(bed).wake_ups, 2);
+  EXPECT_EQ(bed.touched_tiles(), 2);
 }
 
 }  // namespace

@@ -1,0 +1,84 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "core/parallel.h"
+#include "sand/relaxation.h"
+#include "sand/tile_activity.h"
+#include "sand/tile_kernels.h"
+
+namespace sandstroke {
+
+/// Heights of the tiles that exist, by slot.
+using TileHeights = std::function<double*(int slot)>;
+
+/// The sand of a bed that can move, and one law's flow in it: what the steppers (passes, rkl) are made of. A
+/// pass is compute_flow, then advance: two sweeps over the active tiles, on more threads where that pays,
+/// with the same bits for any number of them.
+class ActiveSand {
+ public:
+  ActiveSand(const TalusLaw& law, double cell_size);
+
+  /// Takes up what was set since the last relaxation.
+  void begin(HeightField& bed);
+  bool at_rest() const { return activity_.tiles().empty(); }
+  const std::vector<int>& tiles() const { return activity_.tiles(); }  ///< active ones, by slot
+  const CellFlags& cells(int slot) const { return activity_.cells(slot); }
+  void activate(HeightField& bed, int slot, const CellFlags& cells) { activity_.add(bed, slot, cells); }
+
+  /// Every active cell's gain in a pass over these heights. Returns the sum of outflows [m].
+  double compute_flow(const HeightField& bed, const TileHeights& heights);
+  /// As computed last for tiles()[i].
+  const TileFlow& flow(std::size_t i) const { return *flows_[i]; }
+
+  /// Calls apply(i, slot, flow, changed) for each active tile: it changes the tile's heights, flags in
+  /// `changed` the cells that are another number now, and returns whether there is one. Next active: the
+  /// cells that see a change. False where nothing changed, and nothing is active.
+  template <class Apply>
+  bool advance(HeightField& bed, const Apply& apply) {
+    for_active_tiles([&](std::size_t i) {
+      const int slot = activity_.tiles()[i];
+      any_changed_[i] = apply(slot, *flows_[i], changed_[i]);
+    });
+    activity_.advance(bed, changed_, any_changed_);
+    return !at_rest();
+  }
+
+  /// Ends a relaxation: residual of the whole bed, and the counters since begin().
+  void end(const HeightField& bed, RelaxationOutcome& outcome);
+
+ private:
+  template <class Body>
+  void for_active_tiles(const Body& body) const {
+    parallel_for(activity_.tiles().size(), active_cells_ >= cells_worth_threads, body);
+  }
+  void look_at_active_cells();
+
+  // Below this many active cells in a pass, handing tiles to other threads costs more than it saves
+  // (measured: tests/bench, Threads).
+  static constexpr std::int64_t cells_worth_threads = 20'000;
+
+  TalusLaw law_;
+  double stable_slope_;  // rise over run: where no slope is above it, both laws leave all sand at rest
+  TileActivity activity_;
+
+  std::vector<std::unique_ptr<TileFlow>> flows_;  // per active tile, as are the next two
+  std::vector<CellFlags> changed_;
+  std::vector<char> any_changed_;
+
+  struct Look {
+    CellFlags cells{};                                          // active at some time in this relaxation
+    std::array<double, HeightField::tile_area / 8> steepest{};  // residual of each group of 8 cells
+    double residual = 0.0;                                      // of the tile, after the relaxation before
+    bool listed = false;                                        // in looked_at_
+  };
+  std::vector<Look> looks_;  // per slot
+  std::vector<int> looked_at_;
+
+  std::int64_t active_cells_ = 0, cells_visited_ = 0, wake_ups_before_ = 0;
+  int tiles_active_max_ = 0;
+};
+
+}  // namespace sandstroke

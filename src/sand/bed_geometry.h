@@ -1,0 +1,70 @@
+#pragma once
+
+#include <algorithm>
+
+namespace sandstroke {
+
+/// A half-open rectangle of cells: row_begin <= row < row_end, likewise col.
+struct CellRange {
+  int row_begin = 0, row_end = 0, col_begin = 0, col_end = 0;
+  bool empty() const { return row_begin >= row_end || col_begin >= col_end; }
+  int rows() const { return row_end - row_begin; }
+  int cols() const { return col_end - col_begin; }
+  bool operator==(const CellRange&) const = default;
+};
+
+/// Rows x cols square cells over a rectangle centred on the origin, x growing with col, y with row; and how
+/// they are grouped into square tiles.
+class BedGeometry {
+ public:
+  /// Cells. 64: a row of a tile is one machine word of flags and eight AVX-512 vectors.
+  static constexpr int tile_side = 64;
+  static constexpr int tile_area = tile_side * tile_side;
+
+  /// cell_size [m] > 0.
+  BedGeometry(int rows, int cols, double cell_size)
+      : rows_(rows),
+        cols_(cols),
+        cell_size_(cell_size),
+        row_origin_(0.5 * (rows - 1)),
+        col_origin_(0.5 * (cols - 1)),
+        tile_rows_((rows + tile_side - 1) / tile_side),
+        tile_cols_((cols + tile_side - 1) / tile_side) {}
+
+  int rows() const { return rows_; }
+  int cols() const { return cols_; }
+  double cell_size() const { return cell_size_; }
+  double cell_area() const { return cell_size_ * cell_size_; }
+  CellRange cells() const { return {0, rows_, 0, cols_}; }
+
+  /// Centre of a cell [m]; row_at and col_at are the inverse, as real numbers: row_at(y_of(r)) == r.
+  double x_of(int col) const { return (col - col_origin_) * cell_size_; }
+  double y_of(int row) const { return (row - row_origin_) * cell_size_; }
+  double col_at(double x) const { return x / cell_size_ + col_origin_; }
+  double row_at(double y) const { return y / cell_size_ + row_origin_; }
+
+  // Tile (i, j) holds rows [i * tile_side, ...) and cols [j * tile_side, ...); its index is i * tile_cols() +
+  // j.
+  int tile_rows() const { return tile_rows_; }
+  int tile_cols() const { return tile_cols_; }
+  int tile_count() const { return tile_rows_ * tile_cols_; }
+  int tile_index(int tile_row, int tile_col) const { return tile_row * tile_cols_ + tile_col; }
+  /// The cells of a tile that lie inside the bed.
+  CellRange tile_cells(int tile) const {
+    const int row = tile / tile_cols_ * tile_side, col = tile % tile_cols_ * tile_side;
+    return {row, std::min(row + tile_side, rows_), col, std::min(col + tile_side, cols_)};
+  }
+  /// The cells of a rectangle of tiles, given by tile rows and columns.
+  CellRange cells_of_tiles(const CellRange& tiles) const {
+    return {tiles.row_begin * tile_side, std::min(tiles.row_end * tile_side, rows_),
+            tiles.col_begin * tile_side, std::min(tiles.col_end * tile_side, cols_)};
+  }
+
+ private:
+  int rows_, cols_;
+  double cell_size_;
+  double row_origin_, col_origin_;  // the bed's centre in cell indices, (n - 1) / 2
+  int tile_rows_, tile_cols_;
+};
+
+}  // namespace sandstroke

@@ -1,0 +1,37 @@
+#pragma once
+
+#include "sand/bed_geometry.h"
+
+namespace sandstroke {
+
+/// The height of every cell before anything touches it, as a rule: sand that nobody touches needs no memory.
+class SurfaceRule {
+ public:
+  virtual ~SurfaceRule() = default;
+  /// Heights [m] of `cells`, row after row, rows tile_side apart in `out`.
+  virtual void fill(const BedGeometry& bed, const CellRange& cells, double* out) const = 0;
+  /// No slope (rise over run) between cells of this range is larger; 0 where all have the same height.
+  virtual double steepest(const BedGeometry& bed, const CellRange& cells) const = 0;
+  /// No cell is higher [m].
+  virtual double highest() const = 0;
+
+  double height(const BedGeometry& bed, int row, int col) const {
+    double height = 0.0;
+    fill(bed, {row, row + 1, col, col + 1}, &height);
+    return height;
+  }
+};
+
+/// Calls visit(tiles) for rectangles of tiles, given by tile rows and columns: first for all of them, then,
+/// wherever `visit` returned true, for its quarters, down to single tiles.
+template <class Visit>
+void visit_quarters(const CellRange& tiles, const Visit& visit) {
+  if (tiles.empty() || !visit(tiles) || (tiles.rows() == 1 && tiles.cols() == 1)) return;
+  const int row = tiles.row_begin + (tiles.rows() + 1) / 2, col = tiles.col_begin + (tiles.cols() + 1) / 2;
+  visit_quarters(CellRange{tiles.row_begin, row, tiles.col_begin, col}, visit);
+  visit_quarters(CellRange{tiles.row_begin, row, col, tiles.col_end}, visit);
+  visit_quarters(CellRange{row, tiles.row_end, tiles.col_begin, col}, visit);
+  visit_quarters(CellRange{row, tiles.row_end, col, tiles.col_end}, visit);
+}
+
+}  // namespace sandstroke

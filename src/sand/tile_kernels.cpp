@@ -1,0 +1,339 @@
+#include "sand/tile_kernels.h"
+
+#include <cmath>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "sand/tile_kernels.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace sandstroke {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+constexpr int side = BedGeometry::tile_side;
+constexpr int group = 8;
+constexpr int groups = side / group;
+
+const hn::CappedTag<double, group> d;
+using V = hn::Vec<decltype(d)>;
+constexpr int lanes = static_cast<int>(hn::MaxLanes(d));
+
+/// The lower one; a wall (NaN) as `a` loses.
+HWY_INLINE V lower(V a, V b) {
+#if HWY_ARCH_X86
+  return hn::Min(a, b);  // min*pd: the second operand where one is NaN
+#else
+  return hn::IfThenElse(hn::Lt(a, b), a, b);
+#endif
+}
+
+/// The higher one; a wall (NaN) as `a` loses.
+HWY_INLINE V higher(V a, V b) {
+#if HWY_ARCH_X86
+  return hn::Max(a, b);
+#else
+  return hn::IfThenElse(hn::Gt(a, b), a, b);
+#endif
+}
+
+HWY_INLINE V above(V x, V threshold) { return hn::IfThenElseZero(hn::Gt(x, threshold), x); }
+
+/// Flags of up to 8 lanes, as the low bits.
+HWY_INLINE unsigned bits(hn::Mask<decltype(d)> mask) {
+  uint8_t bytes[8] = {};
+  hn::StoreMaskBits(d, mask, bytes);
+  return bytes[0];
+}
+HWY_INLINE hn::Mask<decltype(d)> lanes_of(unsigned flags) {
+  const uint8_t bytes[8] = {static_cast<uint8_t>(flags)};
+  return hn::LoadMaskBits(d, bytes);
+}
+
+/// A cell and its neighbours, `lanes` of them from column `c`.
+struct Around {
+  V m, w, e, n, s;
+  HWY_INLINE Around(const double* row, int c)
+      : m(hn::Load(d, row + c)),
+        w(hn::LoadU(d, row + c - 1)),
+        e(hn::LoadU(d, row + c + 1)),
+        n(hn::Load(d, row + c - TilePatch::stride)),
+        s(hn::Load(d, row + c + TilePatch::stride)) {}
+};
+struct Corners {
+  V nw, ne, sw, se;
+  HWY_INLINE Corners(const double* row, int c)
+      : nw(hn::LoadU(d, row + c - TilePatch::stride - 1)),
+        ne(hn::LoadU(d, row + c - TilePatch::stride + 1)),
+        sw(hn::LoadU(d, row + c + TilePatch::stride - 1)),
+        se(hn::LoadU(d, row + c + TilePatch::stride + 1)) {}
+};
+
+// The steepest drops of a cell, at least 0: subtraction is monotone, so the drop to the lowest neighbour is
+// the largest of the drops.
+HWY_INLINE V axis_drop(const Around& a) {
+  return hn::Sub(a.m, lower(a.w, lower(a.e, lower(a.n, lower(a.s, a.m)))));
+}
+HWY_INLINE V diagonal_drop(V m, const Corners& k) {
+  return hn::Sub(m, lower(k.nw, lower(k.se, lower(k.ne, lower(k.sw, m)))));
+}
+HWY_INLINE V squared_slope(const Around& a) {
+  const V gx = hn::Sub(a.m, lower(a.w, lower(a.e, a.m))), gy = hn::Sub(a.m, lower(a.n, lower(a.s, a.m)));
+  return hn::Add(hn::Mul(gx, gx), hn::Mul(gy, gy));
+}
+
+/// Factors of the cells of a group. Bits: those that are not 0.
+struct PaperFactors {
+  V T, D, axis_limit, diagonal_limit, share;
+  explicit PaperFactors(const TalusLaw& law)
+      : T(hn::Set(d, law.axis_drop)),
+        D(hn::Set(d, law.diagonal_drop)),
+        axis_limit(hn::Set(d, law.axis_limit)),
+        diagonal_limit(hn::Set(d, law.diagonal_limit)),
+        share(hn::Set(d, law.share)) {}
+
+  HWY_INLINE unsigned operator()(const double* row, int c, double* factors) const {
+    const Around a(row, c);
+    const Corners k(row, c);
+    const V axis = axis_drop(a), diagonal = diagonal_drop(a.m, k);
+    const auto moves = hn::Or(hn::Gt(axis, axis_limit), hn::Gt(diagonal, diagonal_limit));
+    if (hn::AllFalse(d, moves)) {
+      hn::Store(hn::Zero(d), d, factors + c);
+      return 0;
+    }
+    const V given = hn::Mul(share, hn::Max(hn::Sub(axis, T), hn::Sub(diagonal, D)));
+    const V axis_sum = hn::Add(hn::Add(above(hn::Sub(a.m, a.w), T), above(hn::Sub(a.m, a.e), T)),
+                               hn::Add(above(hn::Sub(a.m, a.n), T), above(hn::Sub(a.m, a.s), T)));
+    const V diagonal_sum = hn::Add(hn::Add(above(hn::Sub(a.m, k.nw), D), above(hn::Sub(a.m, k.se), D)),
+                                   hn::Add(above(hn::Sub(a.m, k.ne), D), above(hn::Sub(a.m, k.sw), D)));
+    hn::Store(hn::IfThenElseZero(moves, hn::Div(given, hn::Add(axis_sum, diagonal_sum))), d, factors + c);
+    return bits(moves);
+  }
+};
+
+struct IsotropicFactors {
+  V T, limit, surely_at_rest, share, one;
+  explicit IsotropicFactors(const TalusLaw& law)
+      : T(hn::Set(d, law.axis_drop)),
+        limit(hn::Set(d, law.axis_limit)),
+        surely_at_rest(hn::Set(d, law.axis_limit * law.axis_limit * (1.0 - 1e-14))),
+        share(hn::Set(d, law.share)),
+        one(hn::Set(d, 1.0)) {}
+
+  HWY_INLINE unsigned operator()(const double* row, int c, double* factors) const {
+    const V square = squared_slope(Around(row, c));
+    if (hn::AllFalse(d, hn::Gt(square, surely_at_rest))) {
+      hn::Store(hn::Zero(d), d, factors + c);
+      return 0;
+    }
+    const V steepest = hn::Sqrt(square);
+    const auto moves = hn::Gt(steepest, limit);
+    const V factor = hn::Mul(share, hn::Sub(one, hn::Div(T, steepest)));
+    hn::Store(hn::IfThenElseZero(moves, factor), d, factors + c);
+    return bits(moves);
+  }
+};
+
+/// Which cells of a row and of its rim have a factor.
+struct MovingRow {
+  std::uint64_t own = 0;
+  bool west = false, east = false;
+};
+
+/// Flags of the cells in or beside a row's flagged ones: in the tile, and the rim's.
+struct WideRow {
+  std::uint64_t own;
+  bool west, east;
+};
+HWY_INLINE WideRow widened(std::uint64_t row) {
+  return {row | row << 1 | row >> 1, (row & 1) != 0, row >> (side - 1) != 0};
+}
+
+template <class Factors>
+HWY_INLINE MovingRow factor_row(const Factors& factors_of, TilePatch& patch, int row, const WideRow& cells) {
+  const double* heights = patch.heights(row);
+  double* factors = patch.factors(row);
+  MovingRow moving;
+  const auto one_group = [&](int begin) {
+    unsigned flags = 0;
+    for (int c = 0; c < group; c += lanes) flags |= factors_of(heights, begin + c, factors) << c;
+    return flags;
+  };
+  const auto clear = [&](int begin) {
+    for (int c = 0; c < group; c += lanes) hn::Store(hn::Zero(d), d, factors + begin + c);
+  };
+  if (cells.west) {
+    moving.west = (one_group(-group) >> (group - 1)) & 1;
+  } else {
+    clear(-group);
+  }
+  const unsigned wanted = groups_of(cells.own);
+  for (int g = 0; g < groups; ++g) {
+    if (wanted >> g & 1) {
+      moving.own |= static_cast<std::uint64_t>(one_group(g * group)) << (g * group);
+    } else {
+      clear(g * group);
+    }
+  }
+  if (cells.east) {
+    moving.east = one_group(side) & 1;
+  } else {
+    clear(side);
+  }
+  return moving;
+}
+
+/// What a cell gives to (out) and takes from (in, negative) one neighbour; at most one of them is not 0.
+struct Exchange {
+  V out, in;
+};
+HWY_INLINE Exchange exchange(V m, V factor, V neighbour, V neighbour_factor, V threshold, V negative) {
+  const V drop = hn::Sub(m, neighbour);
+  return {hn::IfThenElseZero(hn::Gt(drop, threshold), hn::Mul(factor, drop)),
+          hn::IfThenElseZero(hn::Lt(drop, negative), hn::Mul(neighbour_factor, drop))};
+}
+HWY_INLINE Exchange sum(const Exchange& a, const Exchange& b) {
+  return {hn::Add(a.out, b.out), hn::Add(a.in, b.in)};
+}
+
+template <bool diagonals>
+struct GainOf {
+  V T, minus_T, D, minus_D;
+  explicit GainOf(const TalusLaw& law)
+      : T(hn::Set(d, diagonals ? law.axis_drop : 0.0)),
+        minus_T(hn::Neg(T)),
+        D(hn::Set(d, law.diagonal_drop)),
+        minus_D(hn::Neg(D)) {}
+
+  /// Inflow less outflow of the flagged cells; adds the outflow to `given`.
+  HWY_INLINE V operator()(const double* row, const double* factors, int c, hn::Mask<decltype(d)> cells,
+                          V& given) const {
+    const Around m(row, c), f(factors, c);
+    Exchange all =
+        sum(sum(exchange(m.m, f.m, m.w, f.w, T, minus_T), exchange(m.m, f.m, m.e, f.e, T, minus_T)),
+            sum(exchange(m.m, f.m, m.n, f.n, T, minus_T), exchange(m.m, f.m, m.s, f.s, T, minus_T)));
+    if constexpr (diagonals) {
+      const Corners k(row, c), fk(factors, c);
+      all = sum(
+          all,
+          sum(sum(exchange(m.m, f.m, k.nw, fk.nw, D, minus_D), exchange(m.m, f.m, k.se, fk.se, D, minus_D)),
+              sum(exchange(m.m, f.m, k.ne, fk.ne, D, minus_D), exchange(m.m, f.m, k.sw, fk.sw, D, minus_D))));
+    }
+    given = hn::Add(given, hn::IfThenElseZero(cells, all.out));
+    return hn::IfThenElseZero(cells, hn::Neg(hn::Add(all.in, all.out)));
+  }
+};
+
+template <class Factors, class Gain>
+HWY_INLINE void flow_of(const TalusLaw& law, TilePatch& patch, const CellFlags& active, TileFlow& flow) {
+  const RowSpan span = row_span(active);
+  const auto active_row = [&](int row) { return row < 0 || row >= side ? 0 : active[row]; };
+  std::array<MovingRow, side + 2> moving_rows{};  // from row -1
+  const Factors factors(law);
+  for (int row = span.begin - 1; row <= span.end; ++row)
+    moving_rows[row + 1] =
+        factor_row(factors, patch, row, widened(active_row(row - 1) | active_row(row) | active_row(row + 1)));
+
+  const Gain gain(law);
+  V given[group / lanes];
+  for (V& sum_of_lane : given) sum_of_lane = hn::Zero(d);
+  flow.moved = {};
+  for (int row = span.begin; row < span.end; ++row) {
+    const MovingRow &n = moving_rows[row], &m = moving_rows[row + 1], &s = moving_rows[row + 2];
+    const std::uint64_t own = n.own | m.own | s.own;
+    const std::uint64_t west = n.west | m.west | s.west, east = n.east | m.east | s.east;
+    const std::uint64_t cells = (own | own << 1 | own >> 1 | west | east << (side - 1)) & active[row];
+    flow.moved[row] = cells;
+    for (unsigned wanted = groups_of(cells); wanted; wanted &= wanted - 1) {
+      const int begin = std::countr_zero(wanted) * group;
+      for (int c = 0; c < group; c += lanes) {
+        const auto flagged = lanes_of(static_cast<unsigned>(cells >> (begin + c)) & ((1u << lanes) - 1));
+        hn::Store(gain(patch.heights(row), patch.factors(row), begin + c, flagged, given[c / lanes]), d,
+                  flow.gain.data() + row * side + begin + c);
+      }
+    }
+  }
+  alignas(64) double by_lane[group];
+  for (int c = 0; c < group; c += lanes) hn::Store(given[c / lanes], d, by_lane + c);
+  flow.given = ((by_lane[0] + by_lane[1]) + (by_lane[2] + by_lane[3])) +
+               ((by_lane[4] + by_lane[5]) + (by_lane[6] + by_lane[7]));
+}
+
+void ComputeFlow(const TalusLaw& law, TilePatch& patch, const CellFlags& active, TileFlow& flow) {
+  if (law.law == RelaxationLaw::paper) {
+    flow_of<PaperFactors, GainOf<true>>(law, patch, active, flow);
+  } else {
+    flow_of<IsotropicFactors, GainOf<false>>(law, patch, active, flow);
+  }
+}
+
+bool ApplyFlow(const TileFlow& flow, double* heights, CellFlags& changed) {
+  bool any = false;
+  for (int row = 0; row < side; ++row) {
+    std::uint64_t flags = 0;
+    for (unsigned wanted = groups_of(flow.moved[row]); wanted; wanted &= wanted - 1) {
+      const int begin = std::countr_zero(wanted) * group;
+      for (int c = 0; c < group; c += lanes) {
+        double* cell = heights + row * side + begin + c;
+        const V old = hn::Load(d, cell);
+        const V next = hn::Add(old, hn::Load(d, flow.gain.data() + row * side + begin + c));
+        hn::Store(next, d, cell);
+        flags |= static_cast<std::uint64_t>(bits(hn::Ne(next, old))) << (begin + c);
+      }
+    }
+    changed[row] = flags;
+    any |= flags != 0;
+  }
+  return any;
+}
+
+void ComputeResiduals(const TalusLaw& law, const TilePatch& patch, const CellFlags& cells, double* steepest) {
+  const RowSpan span = row_span(cells);
+  for (int row = span.begin; row < span.end; ++row) {
+    for (unsigned wanted = groups_of(cells[row]); wanted; wanted &= wanted - 1) {
+      const int g = std::countr_zero(wanted);
+      V axis = hn::Zero(d), diagonal = hn::Zero(d);  // isotropic: axis holds the slope's square
+      for (int c = g * group; c < (g + 1) * group; c += lanes) {
+        const Around a(patch.heights(row), c);
+        if (law.law == RelaxationLaw::paper) {
+          axis = higher(axis_drop(a), axis);
+          diagonal = higher(diagonal_drop(a.m, Corners(patch.heights(row), c)), diagonal);
+        } else {
+          axis = higher(squared_slope(a), axis);
+        }
+      }
+      const double axis_max = hn::GetLane(hn::MaxOfLanes(d, axis));
+      const double diagonal_max = hn::GetLane(hn::MaxOfLanes(d, diagonal));
+      steepest[row * groups + g] =
+          law.law == RelaxationLaw::paper
+              ? std::max(axis_max / law.axis_drop, diagonal_max / law.diagonal_drop) - 1.0
+              : std::sqrt(axis_max) / law.axis_drop - 1.0;
+    }
+  }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace sandstroke
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace sandstroke {
+
+HWY_EXPORT(ComputeFlow);
+HWY_EXPORT(ApplyFlow);
+HWY_EXPORT(ComputeResiduals);
+
+void compute_flow(const TalusLaw& law, TilePatch& patch, const CellFlags& active, TileFlow& flow) {
+  HWY_DYNAMIC_DISPATCH(ComputeFlow)(law, patch, active, flow);
+}
+bool apply_flow(const TileFlow& flow, double* heights, CellFlags& changed) {
+  return HWY_DYNAMIC_DISPATCH(ApplyFlow)(flow, heights, changed);
+}
+void compute_residuals(const TalusLaw& law, const TilePatch& patch, const CellFlags& cells,
+                       double* steepest) {
+  HWY_DYNAMIC_DISPATCH(ComputeResiduals)(law, patch, cells, steepest);
+}
+
+}  // namespace sandstroke
+#endif

@@ -1,0 +1,32 @@
+#pragma once
+
+#include "sand/cell_flags.h"
+#include "sand/talus_law.h"
+#include "sand/tile_patch.h"
+
+namespace sandstroke {
+
+/// What the sand of a tile does in one pass.
+struct TileFlow {
+  CellFlags moved;  ///< cells whose gain was computed; that of others is 0
+  alignas(64)
+      std::array<double, BedGeometry::tile_area> gain;  ///< m: inflow less outflow; groups with a moved cell
+  double given = 0.0;                                   ///< m: sum of outflows
+};
+
+// Vector code (Highway) for the best instruction set of the machine. Each cell's expression is evaluated in
+// the reference's order, without contraction, and sums run over 8 lanes whatever the vectors' width: the same
+// bits everywhere.
+
+/// The law's flow of the active cells, from a loaded patch. Cells at rest cost a comparison with their
+/// neighbours.
+void compute_flow(const TalusLaw& law, TilePatch& patch, const CellFlags& active, TileFlow& flow);
+
+/// heights += gain; flags the cells that are another number now. Returns false where none is.
+bool apply_flow(const TileFlow& flow, double* heights, CellFlags& changed);
+
+/// slope / tan(talus) - 1 of the steepest cell in each group of 8 that holds a flagged cell, from a loaded
+/// patch. steepest: tile_area / 8 numbers; other groups' are left alone.
+void compute_residuals(const TalusLaw& law, const TilePatch& patch, const CellFlags& cells, double* steepest);
+
+}  // namespace sandstroke
