@@ -1,6 +1,6 @@
 #pragma once
 
-#include <vector>
+#include <hwy/aligned_allocator.h>
 
 #include "sand/height_field.h"
 
@@ -18,46 +18,73 @@ struct ToolSettings {
 /// u0 = asin(0.53), positive up to u1, where its plane integral vanishes: 1 - cos(u1) = 0.53 u1.
 namespace filter {
 inline constexpr double offset = 0.53;
-double u0();
-double u1();
+inline constexpr double u0 = 0.5586005653428008;
+inline constexpr double u1 = 1.195907635584353;
 }  // namespace filter
 
-/// The cells under and around a tool at a sub-cell position, with what each means to it. Placing it again
-/// reuses the memory.
+/// What a footprint is computed from.
+struct FootprintShape {
+  ToolProfile profile;
+  double radius;         ///< m
+  double filter_scale2;  ///< m^2, s^2: u = rho^2 / s^2
+  double amplitude;      ///< m, a: the bowl has the sphere's curvature at the tip
+  double reach;          ///< m, rho1 = s sqrt(u1)
+};
+
+/// The cells under and around a tool at a sub-cell position: the sand there, and what each cell means to the
+/// tool. A window of rows x cols cells, kept row after row, `stride` doubles apart (a multiple of 8; what
+/// lies beyond cols has no weight). Placing it again reuses the memory.
 class ToolFootprint {
  public:
-  struct Cell {
-    int row, col;
-    double x, y;          ///< m, cell centre relative to the tool's axis
-    double level_weight;  ///< share in the sand level, 0 to 1
-    double underside;     ///< m, tool's underside above its tip; bowl cells only
-    double rampart;       ///< positive filter, sin(u) - 0.53; ring cells only
-    bool in_bowl, in_ring;
-  };
-
   /// Needs radius > 0.
   explicit ToolFootprint(const ToolSettings& settings);
 
-  /// Moves the tool's axis to (x, y) [m]. Cells outside the bed are left out.
+  /// Moves the tool's axis to (x, y) [m] and reads the sand there. Cells outside the bed are left out.
   void place(const HeightField& bed, double x, double y);
 
-  const std::vector<Cell>& cells() const { return cells_; }
+  /// The window, in cells of the bed; empty where the tool is outside it.
+  const CellRange& cells() const { return cells_; }
+  int stride() const { return stride_; }
+  double tool_row() const { return tool_row_; }  ///< the axis, in cells
+  double tool_col() const { return tool_col_; }
+  double cell_size() const { return cell_size_; }
 
   /// Mean height [m] under the footprint (u <= u1 in full, fading out within a cell around it, so that it
   /// changes continuously as the tool moves). Displacement moves sand only where the weight is 1: it does not
   /// change the level. NaN where the footprint lies outside the bed.
-  double sand_level(const HeightField& bed) const;
+  double sand_level() const { return level_; }
+
+  // Row r of the window.
+  double* heights(int row) { return heights_.get() + at(row); }  ///< m, of the sand
+  const double* heights(int row) const { return heights_.get() + at(row); }
+  /// Tool's underside above its tip [m]; infinite outside the bowl (u <= u0).
+  double* underside(int row) { return underside_.get() + at(row); }
+  const double* underside(int row) const { return underside_.get() + at(row); }
+  /// Positive filter sin(u) - 0.53; 0 outside the ring (u0 < u <= u1).
+  double* rampart(int row) { return rampart_.get() + at(row); }
+  const double* rampart(int row) const { return rampart_.get() + at(row); }
+  /// Scratch.
+  double* weights(int row) { return weights_.get() + at(row); }
+  unsigned char* flags(int row) { return flags_.get() + at(row) / 8; }  ///< of 8 cells each
+
+  /// Writes the flagged cells' heights to the bed.
+  void write_flagged(HeightField& bed);
 
   /// rho1 = s sqrt(u1) [m]: how far the footprint reaches.
-  double reach() const { return reach_; }
+  double reach() const { return shape_.reach; }
 
  private:
-  double radius_;
-  ToolProfile profile_;
-  double filter_scale_;  // s: u = (rho/s)^2
-  double amplitude_;     // a: the bowl has the sphere's curvature at the tip
-  double reach_;
-  std::vector<Cell> cells_;
+  std::size_t at(int row) const { return static_cast<std::size_t>(row) * stride_; }
+  void make_room();
+  void read_heights(const HeightField& bed);
+
+  FootprintShape shape_;
+  CellRange cells_;
+  int stride_ = 0;
+  double tool_row_ = 0.0, tool_col_ = 0.0, cell_size_ = 0.0, level_;
+  std::size_t room_ = 0;
+  hwy::AlignedFreeUniquePtr<double[]> heights_, underside_, rampart_, weights_;
+  hwy::AlignedFreeUniquePtr<unsigned char[]> flags_;
 };
 
 }  // namespace sandstroke

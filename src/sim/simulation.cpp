@@ -64,7 +64,7 @@ TickRecord Simulation::tick(double time, const Hand& hand, SimulatedDevice& devi
   record.level = std::numeric_limits<double>::quiet_NaN();
   if (hand.down) {
     footprint_.place(bed_, tip.x(), tip.y());
-    record.level = footprint_.sand_level(bed_);
+    record.level = footprint_.sand_level();
     const double depth = record.level - tip.z();
     if (depth > 0.0) {
       const Eigen::Vector3d velocity = scene_.device.scale * reading.velocity;
