@@ -24,11 +24,12 @@ bool comes_due(std::int64_t tick, double servo_rate, double rate) {
 
 }  // namespace
 
-Simulation::Simulation(const Scene& scene, HeightField bed, std::optional<Stroke> stroke)
+Simulation::Simulation(const Scene& scene, HeightField bed, std::optional<Stroke> stroke,
+                       std::unique_ptr<Relaxer> relaxer)
     : scene_(scene),
       bed_(std::move(bed)),
       footprint_(scene.tool),
-      relaxer_(make_relaxer(scene.relaxation, bed_.cell_size())) {
+      relaxer_(relaxer ? std::move(relaxer) : make_relaxer(scene.relaxation, bed_.cell_size())) {
   if (!stroke) return;
   check_inside(*stroke);
   stroke_.emplace(std::move(*stroke));
