@@ -8,8 +8,11 @@
 namespace sandstroke {
 
 // Both laws compare slopes along rows, columns and diagonals; the isotropic one adds up two of them.
-ActiveSand::ActiveSand(const TalusLaw& law, double cell_size)
-    : law_(law), stable_slope_(law.axis_drop / cell_size / std::sqrt(2.0) * (1.0 - 1e-9)) {}
+ActiveSand::ActiveSand(const TalusLaw& law, double cell_size, bool holds_still)
+    : law_(law),
+      holds_still_(holds_still),
+      stable_slope_(law.axis_drop / cell_size / std::sqrt(2.0) * (1.0 - 1e-9)),
+      activity_(holds_still) {}
 
 void ActiveSand::begin(HeightField& bed) {
   cells_visited_ = 0;
@@ -43,11 +46,42 @@ double ActiveSand::compute_flow(const HeightField& bed, const TileHeights& heigh
     const int slot = tiles()[i];
     TilePatch& patch = TilePatch::of_this_thread();
     patch.load(bed, slot, cells(slot), heights);
-    sandstroke::compute_flow(law_, patch, cells(slot), *flows_[i]);
+    if (holds_still_) {
+      GiverFlags givers;
+      load_givers(bed, slot, givers);
+      sandstroke::compute_flow(law_, patch, cells(slot), &givers, *flows_[i]);
+    } else {
+      sandstroke::compute_flow(law_, patch, cells(slot), nullptr, *flows_[i]);
+    }
   });
   CompensatedSum given;
   for (std::size_t i = 0; i < tiles().size(); ++i) given.add(flows_[i]->given);
   return given.value();
+}
+
+void ActiveSand::load_givers(const HeightField& bed, int slot, GiverFlags& givers) const {
+  constexpr int side = HeightField::tile_side;
+  const int tile = bed.tile_of(slot), tile_row = tile / bed.tile_cols(), tile_col = tile % bed.tile_cols();
+  // Row `from` of the tile at (row_step, col_step), as `count` rows of the flags from row `to` on.
+  const auto load = [&](int row_step, int col_step, int from, int to, int count, const auto& put) {
+    const int row = tile_row + row_step, col = tile_col + col_step;
+    if (row < 0 || row >= bed.tile_rows() || col < 0 || col >= bed.tile_cols()) return;
+    const int other = bed.slot_of(bed.tile_index(row, col));
+    if (other < 0) return;
+    const CellFlags* flags = activity_.givers(other);
+    if (!flags) return;
+    for (int r = 0; r < count; ++r) put(givers.rows[to + r], (*flags)[from + r]);
+  };
+  for (int col_step = -1; col_step <= 1; ++col_step) {
+    const auto put = [col_step](GiverFlags::Row& row, std::uint64_t flags) {
+      if (col_step < 0) row.west = flags >> (side - 1) != 0;
+      if (col_step == 0) row.own = flags;
+      if (col_step > 0) row.east = (flags & 1) != 0;
+    };
+    load(-1, col_step, side - 1, 0, 1, put);
+    load(0, col_step, 0, 1, side, put);
+    load(1, col_step, 0, side + 1, 1, put);
+  }
 }
 
 void ActiveSand::end(const HeightField& bed, RelaxationOutcome& outcome) {

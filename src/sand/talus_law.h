@@ -18,5 +18,6 @@ struct TalusLaw {
 
 std::unique_ptr<Relaxer> make_reference_relaxer(const RelaxationSettings& settings, double cell_size);
 std::unique_ptr<Relaxer> make_tile_relaxer(const RelaxationSettings& settings, double cell_size);
+std::unique_ptr<Relaxer> make_rkl_relaxer(const RelaxationSettings& settings, double cell_size);
 
 }  // namespace sandstroke

@@ -8,10 +8,21 @@ namespace sandstroke {
 
 /// What the sand of a tile does in one pass.
 struct TileFlow {
-  CellFlags moved;  ///< cells whose gain was computed; that of others is 0
+  CellFlags moved{};  ///< cells whose gain was computed; that of others is 0
   alignas(64)
-      std::array<double, BedGeometry::tile_area> gain;  ///< m: inflow less outflow; groups with a moved cell
-  double given = 0.0;                                   ///< m: sum of outflows
+      std::array<double, BedGeometry::tile_area> gain{};  ///< m: inflow less outflow; in groups that moved
+  double given = 0.0;                                     ///< m: sum of outflows
+  double axis_drop = 0.0;      ///< m: the largest drop between neighbours that was met (isotropic: dx |g|)
+  double diagonal_drop = 0.0;  ///< m: the same between diagonal ones (paper law)
+};
+
+/// The cells that may give, of a tile and one cell around it; all others are held still.
+struct GiverFlags {
+  struct Row {
+    std::uint64_t own = 0;
+    bool west = false, east = false;
+  };
+  std::array<Row, BedGeometry::tile_side + 2> rows;  ///< from row -1
 };
 
 // Vector code (Highway) for the best instruction set of the machine. Each cell's expression is evaluated in
@@ -19,8 +30,9 @@ struct TileFlow {
 // bits everywhere.
 
 /// The law's flow of the active cells, from a loaded patch. Cells at rest cost a comparison with their
-/// neighbours.
-void compute_flow(const TalusLaw& law, TilePatch& patch, const CellFlags& active, TileFlow& flow);
+/// neighbours. givers: none = all cells may give.
+void compute_flow(const TalusLaw& law, TilePatch& patch, const CellFlags& active, const GiverFlags* givers,
+                  TileFlow& flow);
 
 /// heights += gain; flags the cells that are another number now. Returns false where none is.
 bool apply_flow(const TileFlow& flow, double* heights, CellFlags& changed);
@@ -28,5 +40,30 @@ bool apply_flow(const TileFlow& flow, double* heights, CellFlags& changed);
 /// slope / tan(talus) - 1 of the steepest cell in each group of 8 that holds a flagged cell, from a loaded
 /// patch. steepest: tile_area / 8 numbers; other groups' are left alone.
 void compute_residuals(const TalusLaw& law, const TilePatch& patch, const CellFlags& cells, double* steepest);
+
+// --- super time stepping (relaxation_rkl.cpp) ---
+
+/// What a super-step keeps of a tile.
+struct SuperStepTile {
+  alignas(64) std::array<double, BedGeometry::tile_area> before;      ///< m: heights one stage ago
+  alignas(64) std::array<double, BedGeometry::tile_area> first_gain;  ///< m: F of the step's start ...
+  CellFlags first_moved;                                              ///< ... in groups with one of these
+};
+
+/// How a flow F differs from F0, that of the step's start.
+struct FlowChange {
+  double difference;  ///< m: max |F - F0|
+  double product;     ///< m^2: sum F F0
+};
+FlowChange compare_flows(const TileFlow& flow, const SuperStepTile& tile);
+
+struct StageRange {
+  double low, high;  ///< m: of the new heights
+  bool changed;
+};
+/// heights Y, tile.before Z: Y, Z = Y + momentum (Y - Z) + step F, Y, in the active cells' groups. Flags the
+/// cells that are another number now.
+StageRange super_stage(const TileFlow& flow, const CellFlags& active, double momentum, double step,
+                       double* heights, SuperStepTile& tile, CellFlags& changed);
 
 }  // namespace sandstroke

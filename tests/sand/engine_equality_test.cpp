@@ -1,5 +1,5 @@
-// The engine against the plain whole-field reference, bit for bit: random beds, tools and angles, on any number of
-// threads and every instruction set of the machine.
+// The engine against the plain whole-field reference, bit for bit: random beds, tools and angles, on any
+// number of threads and every instruction set of the machine.
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 #include <tbb/task_arena.h>
@@ -25,19 +25,20 @@ class InstructionSet {
 
 template <class Body>
 void on_threads(int threads, const Body& body) {
-  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, 8);  // more than the machine has
+  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
+                                  8);  // more than the machine has
   tbb::task_arena(threads).execute(body);
 }
 
-/// A bed, and a tool that works on it, drawn at random: sizes that are no whole number of tiles, walls and tile
-/// borders hugged, gentle and steep talus angles, flat, rough, bumpy and cliff beds.
+/// A bed, and a tool that works on it, drawn at random: sizes that are no whole number of tiles, walls and
+/// tile borders hugged, gentle and steep talus angles, flat, rough, bumpy and cliff beds.
 class RandomScene {
  public:
   RandomScene(unsigned seed, int least_side, int largest_side) : random_(seed) {
     const int rows = whole(least_side, largest_side), cols = whole(least_side, largest_side);
     SurfaceSettings surface;
-    const SurfaceKind kinds[] = {SurfaceKind::flat, SurfaceKind::noise, SurfaceKind::cliff, SurfaceKind::cylinder,
-                                 SurfaceKind::ripples};
+    const SurfaceKind kinds[] = {SurfaceKind::flat, SurfaceKind::noise, SurfaceKind::cliff,
+                                 SurfaceKind::cylinder, SurfaceKind::ripples};
     surface.kind = kinds[whole(0, 4)];
     surface.seed = seed;
     surface.height = surface.kind == SurfaceKind::flat ? 0.0 : real(-8.0, 8.0) * dx;
@@ -65,7 +66,8 @@ class RandomScene {
     for (HeightField* one : beds) {
       ToolFootprint footprint(tool);
       footprint.place(*one, one->x_of(0) + col * dx, one->y_of(0) + row * dx);
-      if (!footprint.cells().empty()) displace(*one, footprint, footprint.sand_level() - depth, motion, deposit);
+      if (!footprint.cells().empty())
+        displace(*one, footprint, footprint.sand_level() - depth, motion, deposit);
     }
   }
 
