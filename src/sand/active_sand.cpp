@@ -38,14 +38,14 @@ void ActiveSand::look_at_active_cells() {
   tiles_active_max_ = std::max(tiles_active_max_, static_cast<int>(tiles().size()));
 }
 
-double ActiveSand::compute_flow(const HeightField& bed, const TileHeights& heights) {
+double ActiveSand::compute_flow(const HeightField& bed, const std::function<void(int, const TileFlow&)>& then) {
   look_at_active_cells();
   while (flows_.size() < tiles().size()) flows_.push_back(std::make_unique<TileFlow>());
   if (changed_.size() < tiles().size()) changed_.resize(tiles().size()), any_changed_.resize(tiles().size());
   for_active_tiles([&](std::size_t i) {
     const int slot = tiles()[i];
     TilePatch& patch = TilePatch::of_this_thread();
-    patch.load(bed, slot, cells(slot), heights);
+    patch.load(bed, slot, cells(slot));
     if (holds_still_) {
       GiverFlags givers;
       load_givers(bed, slot, givers);
@@ -53,6 +53,7 @@ double ActiveSand::compute_flow(const HeightField& bed, const TileHeights& heigh
     } else {
       sandstroke::compute_flow(law_, patch, cells(slot), nullptr, *flows_[i]);
     }
+    if (then) then(slot, *flows_[i]);
   });
   CompensatedSum given;
   for (std::size_t i = 0; i < tiles().size(); ++i) given.add(flows_[i]->given);
@@ -87,12 +88,11 @@ void ActiveSand::load_givers(const HeightField& bed, int slot, GiverFlags& giver
 void ActiveSand::end(const HeightField& bed, RelaxationOutcome& outcome) {
   look_at_active_cells();
   cells_visited_ -= active_cells_;  // looked at for their residual only
-  const auto heights = [&bed](int slot) { return bed.tile_heights(slot); };
   parallel_for(looked_at_.size(), cells_visited_ >= cells_worth_threads, [&](std::size_t i) {
     const int slot = looked_at_[i];
     Look& look = looks_[slot];
     TilePatch& patch = TilePatch::of_this_thread();
-    patch.load(bed, slot, look.cells, heights);
+    patch.load(bed, slot, look.cells);
     compute_residuals(law_, patch, look.cells, look.steepest.data());
     look.residual = std::max(0.0, *std::max_element(look.steepest.begin(), look.steepest.end()));
   });

@@ -11,9 +11,6 @@
 
 namespace sandstroke {
 
-/// Heights of the tiles that exist, by slot.
-using TileHeights = std::function<double*(int slot)>;
-
 /// The sand of a bed that can move, and one law's flow in it: what the steppers (passes, rkl) are made of. A
 /// pass is compute_flow, then advance: two sweeps over the active tiles, on more threads where that pays,
 /// with the same bits for any number of them.
@@ -30,8 +27,9 @@ class ActiveSand {
   const CellFlags& cells(int slot) const { return activity_.cells(slot); }
   void rest() { activity_.rest(); }  ///< nothing is active any more
 
-  /// Every active cell's gain in a pass over these heights. Returns the sum of outflows [m].
-  double compute_flow(const HeightField& bed, const TileHeights& heights);
+  /// Every active cell's gain in a pass. then(slot, flow), if given, is called for each active tile, from any thread.
+  /// Returns the sum of outflows [m].
+  double compute_flow(const HeightField& bed, const std::function<void(int, const TileFlow&)>& then = {});
   /// As computed last for tiles()[i].
   const TileFlow& flow(std::size_t i) const { return *flows_[i]; }
   /// body(slot, flow) for each active tile.

@@ -68,7 +68,7 @@ class RklRelaxer : public Relaxer {
     SuperStepTile kept;
     FlowChange change{};           // from F0, in the last pass
     double first_peak = 0.0;       // m: max |F0|
-    StageRange range{};            // of the last stage
+    HeightRange range{};           // of the active cells, after the last stage
     std::int64_t relaxation = -1;  // whose range knows this tile
     std::int64_t step = -1;        // super-step that it takes part in
     std::int64_t pass = -1;        // the last in which it was active
@@ -108,61 +108,52 @@ class RklRelaxer : public Relaxer {
     travelled_ += tau * first.difference;
   }
 
-  /// F of the heights as they are, and whether any slope is beyond the tolerance.
+  /// F of the heights as they are, how it differs from F0, and whether any slope is beyond the tolerance.
   void compute_flow(HeightField& bed) {
-    given_ = sand_.compute_flow(bed, [&bed](int slot) { return bed.tile_heights(slot); });
+    for (const int slot : sand_.tiles()) take_in(bed, slot);
+    given_ = sand_.compute_flow(
+        bed, [this](int slot, const TileFlow& flow) { tile(slot).change = compare_flows(flow, tile(slot).kept); });
     too_steep_ = false;
     for (std::size_t i = 0; i < sand_.tiles().size(); ++i) {
       const TileFlow& flow = sand_.flow(i);
       too_steep_ |= flow.axis_drop > law_.axis_limit || flow.diagonal_drop > law_.diagonal_limit;
     }
-    for (const int slot : sand_.tiles()) take_in(bed, slot);
   }
 
-  /// Gives an active tile its place in the step, and its heights theirs in the range.
+  /// Gives an active tile its place in the step, and its starting heights theirs in the range.
   void take_in(const HeightField& bed, int slot) {
     if (tiles_.size() <= static_cast<std::size_t>(slot)) tiles_.resize(slot + 1);
     if (!tiles_[slot]) tiles_[slot] = std::make_unique<StepTile>();
     StepTile& joining = tile(slot);
     joining.pass = outcome_.passes;
-    if (joining.step != step_) {
-      joining.step = step_;
-      joining.kept.first_moved = {};
-      joining.first_peak = 0.0;
-      std::copy_n(bed.tile_heights(slot), HeightField::tile_area, joining.kept.before.begin());
-      in_step_.push_back(slot);
+    if (joining.relaxation != relaxation_) {
+      joining.relaxation = relaxation_;
+      const CellRange cells = bed.tile_cells(bed.tile_of(slot));
+      const HeightRange range = range_of(bed.tile_heights(slot), cells.rows(), cells.cols());
+      low_ = std::min(low_, range.low), high_ = std::max(high_, range.high);
     }
-    if (joining.relaxation == relaxation_) return;
-    joining.relaxation = relaxation_;
-    const CellRange cells = bed.tile_cells(bed.tile_of(slot));
-    for (int row = 0; row < cells.rows(); ++row) {
-      const double* heights = bed.tile_heights(slot) + row * HeightField::tile_side;
-      const auto [least, most] = std::minmax_element(heights, heights + cells.cols());
-      low_ = std::min(low_, *least), high_ = std::max(high_, *most);
-    }
+    if (joining.step == step_) return;
+    joining.step = step_;
+    joining.kept.stepped = joining.kept.first_moved = {};
+    joining.first_peak = 0.0;
+    in_step_.push_back(slot);
   }
 
   /// Keeps the flow as F0. Returns max |F0| and sum F0^2.
   FlowChange start_step(const HeightField& bed) {
     for (const int slot : sand_.tiles()) take_in(bed, slot);
     sand_.for_each_tile([&](int slot, const TileFlow& flow) {
-      StepTile& starting = tile(slot);
-      starting.first_peak = compare_flows(flow, starting.kept).difference;  // there is no F0 yet
-      starting.kept.first_gain = flow.gain;
-      starting.kept.first_moved = flow.moved;
-      starting.change = {starting.first_peak, compare_flows(flow, starting.kept).product};
+      tile(slot).change = keep_first_flow(flow, tile(slot).kept);
+      tile(slot).first_peak = tile(slot).change.difference;
     });
     return sum_of_changes();
   }
 
   /// max |F - F0| and sum F F0 of the flow as computed last.
   FlowChange change_from_start() {
-    sand_.for_each_tile(
-        [&](int slot, const TileFlow& flow) { tile(slot).change = compare_flows(flow, tile(slot).kept); });
     FlowChange all = sum_of_changes();
     for (const int slot : in_step_)  // no flow any more
-      if (tile(slot).pass != outcome_.passes)
-        all.difference = std::max(all.difference, tile(slot).first_peak);
+      if (tile(slot).pass != outcome_.passes) all.difference = std::max(all.difference, tile(slot).first_peak);
     return all;
   }
 
@@ -177,18 +168,18 @@ class RklRelaxer : public Relaxer {
   }
 
   bool advance(HeightField& bed, double momentum, double step) {
-    return sand_.advance(bed, [&](int slot, const TileFlow& flow, CellFlags& changed) {
-      StageRange& range = tile(slot).range;
-      range = super_stage(flow, sand_.cells(slot), momentum, step, bed.tile_heights(slot), tile(slot).kept,
-                          changed);
-      if (range.changed) bed.mark_changed(slot);
-      return range.changed;
+    return sand_.advance(bed, [&](int slot, const TileFlow& flow, CellFlags& cells) {
+      tile(slot).range =
+          super_stage(flow, sand_.cells(slot), momentum, step, bed.tile_heights(slot), tile(slot).kept, cells);
+      if (!any(cells)) return false;
+      bed.mark_changed(slot);
+      return true;
     });
   }
 
   /// Whether the last stage took any height out of the range of the starting ones.
   bool left_range() {
-    return std::any_of(in_step_.begin(), in_step_.end(), [&](int slot) {
+    return std::any_of(in_step_.begin(), in_step_.end(), [this](int slot) {
       const StepTile& one = tile(slot);
       return one.pass == outcome_.passes - 1 && (one.range.low < low_ || one.range.high > high_);
     });
@@ -196,8 +187,7 @@ class RklRelaxer : public Relaxer {
 
   void take_back(HeightField& bed) {
     ++outcome_.rejected_stages;
-    for (const int slot : in_step_)
-      std::copy_n(tile(slot).kept.before.begin(), HeightField::tile_area, bed.tile_heights(slot));
+    for (const int slot : in_step_) take_back_stage(tile(slot).kept, bed.tile_heights(slot));
     compute_flow(bed);
   }
 
@@ -214,7 +204,7 @@ class RklRelaxer : public Relaxer {
   // Of this relaxation.
   RelaxationOutcome outcome_;
   CompensatedSum moved_;
-  double low_ = 0.0, high_ = 0.0;  // m: range of the starting heights
+  double low_ = 0.0, high_ = 0.0;  // m: range of the starting heights, in the tiles that took part
   double travelled_ = 0.0;         // m: how far sand has moved, sum of tau max |F0|
   double given_ = 0.0;             // m: sum of outflows of F
   bool too_steep_ = false;

@@ -346,59 +346,108 @@ void ComputeResiduals(const TalusLaw& law, const TilePatch& patch, const CellFla
   }
 }
 
-/// Calls body(offset in the tile, gain, F0) for the vectors in which either flow moved a cell.
-template <class Body>
-HWY_INLINE void for_either(const TileFlow& flow, const SuperStepTile& tile, const Body& body) {
-  for (int row = 0; row < side; ++row) {
-    const unsigned now = groups_of(flow.moved[row]), first = groups_of(tile.first_moved[row]);
-    for (unsigned wanted = now | first; wanted; wanted &= wanted - 1) {
-      const int g = std::countr_zero(wanted), begin = row * side + g * group;
-      for (int at = begin; at < begin + group; at += lanes) {
-        const V gain = now >> g & 1 ? hn::Load(d, flow.gain.data() + at) : hn::Zero(d);
-        const V before = first >> g & 1 ? hn::Load(d, tile.first_gain.data() + at) : hn::Zero(d);
-        body(at % group, gain, before);
-      }
-    }
+/// Calls body(row, group) for the groups that `groups(row)` flags.
+template <class Groups, class Body>
+HWY_INLINE void for_groups(const Groups& groups_in, const Body& body) {
+  for (int row = 0; row < side; ++row)
+    for (unsigned wanted = groups_in(row); wanted; wanted &= wanted - 1) body(row, std::countr_zero(wanted));
+}
+
+/// max |F - F0| and sum F F0, lane by lane.
+struct Comparison {
+  V difference, products[group / lanes];
+  HWY_INLINE Comparison() : difference(hn::Zero(d)) {
+    for (V& of_lane : products) of_lane = hn::Zero(d);
   }
+  HWY_INLINE void add(int lane, V subtracted, V factor, V gain) {
+    difference = hn::Max(difference, hn::Abs(hn::Sub(gain, subtracted)));
+    products[lane / lanes] = hn::Add(products[lane / lanes], hn::Mul(gain, factor));
+  }
+  HWY_INLINE FlowChange all() const { return {largest(difference), total(products)}; }
+};
+
+FlowChange KeepFirstFlow(const TileFlow& flow, SuperStepTile& tile) {
+  Comparison first;
+  for (int row = 0; row < side; ++row) tile.first_moved[row] = static_cast<std::uint8_t>(groups_of(flow.moved[row]));
+  for_groups([&](int row) { return tile.first_moved[row]; },
+             [&](int row, int g) {
+               for (int c = 0; c < group; c += lanes) {
+                 const int at = row * side + g * group + c;
+                 const V gain = hn::Load(d, flow.gain.data() + at);
+                 first.add(c, hn::Zero(d), gain, gain);
+                 hn::Store(gain, d, tile.first_gain.data() + at);
+               }
+             });
+  return first.all();
 }
 
 FlowChange CompareFlows(const TileFlow& flow, const SuperStepTile& tile) {
-  V difference = hn::Zero(d), products[group / lanes];
-  for (V& of_lane : products) of_lane = hn::Zero(d);
-  for_either(flow, tile, [&](int lane, V gain, V before) {
-    difference = hn::Max(difference, hn::Abs(hn::Sub(gain, before)));
-    products[lane / lanes] = hn::Add(products[lane / lanes], hn::Mul(gain, before));
-  });
-  return {largest(difference), total(products)};
+  Comparison change;
+  for_groups([&](int row) { return groups_of(flow.moved[row]) | tile.first_moved[row]; },
+             [&](int row, int g) {
+               const bool now = groups_of(flow.moved[row]) >> g & 1, first = tile.first_moved[row] >> g & 1;
+               for (int c = 0; c < group; c += lanes) {
+                 const int at = row * side + g * group + c;
+                 const V gain = now ? hn::Load(d, flow.gain.data() + at) : hn::Zero(d);
+                 const V before = first ? hn::Load(d, tile.first_gain.data() + at) : hn::Zero(d);
+                 change.add(c, before, before, gain);
+               }
+             });
+  return change.all();
 }
 
-StageRange SuperStage(const TileFlow& flow, const CellFlags& active, double momentum, double step,
-                      double* heights, SuperStepTile& tile, CellFlags& changed) {
-  const V momentum_of_one = hn::Set(d, momentum), step_of_one = hn::Set(d, step);
-  V low = hn::Set(d, std::numeric_limits<double>::infinity()), high = hn::Neg(low);
-  bool any = false;
-  for (int row = 0; row < side; ++row) {
-    std::uint64_t flags = 0;
-    const unsigned moved = groups_of(flow.moved[row]);
-    for (unsigned wanted = groups_of(active[row]); wanted; wanted &= wanted - 1) {
-      const int g = std::countr_zero(wanted), begin = g * group;
-      for (int c = begin; c < begin + group; c += lanes) {
-        double *y = heights + row * side + c, *z = tile.before.data() + row * side + c;
-        const V now = hn::Load(d, y), speed = hn::Mul(momentum_of_one, hn::Sub(now, hn::Load(d, z)));
-        V next = hn::Add(now, speed);
-        if (moved >> g & 1)
-          next = hn::Add(next, hn::Mul(step_of_one, hn::Load(d, flow.gain.data() + row * side + c)));
-        hn::Store(now, d, z);
-        hn::Store(next, d, y);
-        low = hn::Min(low, next);
-        high = hn::Max(high, next);
-        flags |= static_cast<std::uint64_t>(bits(hn::Ne(next, now))) << c;
-      }
-    }
-    changed[row] = flags;
-    any |= flags != 0;
+/// Lowest and highest, lane by lane.
+struct Range {
+  V low, high;
+  HWY_INLINE Range() : low(hn::Set(d, std::numeric_limits<double>::infinity())), high(hn::Neg(low)) {}
+  HWY_INLINE void add(V heights, hn::Mask<decltype(d)> counts) {
+    low = hn::IfThenElse(counts, hn::Min(low, heights), low);
+    high = hn::IfThenElse(counts, hn::Max(high, heights), high);
   }
-  return {hn::GetLane(hn::MinOfLanes(d, low)), largest(high), any};
+  HWY_INLINE HeightRange all() const { return {hn::GetLane(hn::MinOfLanes(d, low)), largest(high)}; }
+};
+
+HeightRange RangeOf(const double* heights, int rows, int cols) {
+  Range range;
+  for (int row = 0; row < rows; ++row)
+    for (int c = 0; c < cols; c += lanes)
+      range.add(hn::Load(d, heights + row * side + c), hn::FirstN(d, static_cast<std::size_t>(cols - c)));
+  return range.all();
+}
+
+HeightRange SuperStage(const TileFlow& flow, const CellFlags& active, double momentum, double step, double* heights,
+                       SuperStepTile& tile, CellFlags& changed) {
+  const V momentum_of_one = hn::Set(d, momentum), step_of_one = hn::Set(d, step);
+  Range range;
+  changed = {};
+  for_groups([&](int row) { return groups_of(active[row]); },
+             [&](int row, int g) {
+               const bool moved = groups_of(flow.moved[row]) >> g & 1, stepped = tile.stepped[row] >> g & 1;
+               for (int c = g * group; c < (g + 1) * group; c += lanes) {
+                 const int at = row * side + c;
+                 const V now = hn::Load(d, heights + at);
+                 V next = now;
+                 if (stepped) {
+                   const V before = hn::Load(d, tile.before.data() + at);
+                   next = hn::Add(next, hn::Mul(momentum_of_one, hn::Sub(now, before)));
+                 }
+                 if (moved) next = hn::Add(next, hn::Mul(step_of_one, hn::Load(d, flow.gain.data() + at)));
+                 hn::Store(now, d, tile.before.data() + at);
+                 hn::Store(next, d, heights + at);
+                 range.add(next, lanes_of(static_cast<unsigned>(active[row] >> c) & ((1u << lanes) - 1)));
+                 changed[row] |= static_cast<std::uint64_t>(bits(hn::Ne(next, now))) << c;
+               }
+             });
+  for (int row = 0; row < side; ++row) tile.stepped[row] |= static_cast<std::uint8_t>(groups_of(active[row]));
+  return range.all();
+}
+
+void TakeBackStage(const SuperStepTile& tile, double* heights) {
+  for_groups([&](int row) { return tile.stepped[row]; },
+             [&](int row, int g) {
+               for (int at = row * side + g * group, end = at + group; at < end; at += lanes)
+                 hn::Store(hn::Load(d, tile.before.data() + at), d, heights + at);
+             });
 }
 
 }  // namespace HWY_NAMESPACE
@@ -411,17 +460,26 @@ namespace sandstroke {
 HWY_EXPORT(ComputeFlow);
 HWY_EXPORT(ApplyFlow);
 HWY_EXPORT(ComputeResiduals);
+HWY_EXPORT(KeepFirstFlow);
 HWY_EXPORT(CompareFlows);
+HWY_EXPORT(RangeOf);
 HWY_EXPORT(SuperStage);
+HWY_EXPORT(TakeBackStage);
 
 void compute_flow(const TalusLaw& law, TilePatch& patch, const CellFlags& active, const GiverFlags* givers,
                   TileFlow& flow) {
   HWY_DYNAMIC_DISPATCH(ComputeFlow)(law, patch, active, givers, flow);
 }
+FlowChange keep_first_flow(const TileFlow& flow, SuperStepTile& tile) {
+  return HWY_DYNAMIC_DISPATCH(KeepFirstFlow)(flow, tile);
+}
 FlowChange compare_flows(const TileFlow& flow, const SuperStepTile& tile) {
   return HWY_DYNAMIC_DISPATCH(CompareFlows)(flow, tile);
 }
-StageRange super_stage(const TileFlow& flow, const CellFlags& active, double momentum, double step,
+HeightRange range_of(const double* heights, int rows, int cols) {
+  return HWY_DYNAMIC_DISPATCH(RangeOf)(heights, rows, cols);
+}
+HeightRange super_stage(const TileFlow& flow, const CellFlags& active, double momentum, double step,
                        double* heights, SuperStepTile& tile, CellFlags& changed) {
   return HWY_DYNAMIC_DISPATCH(SuperStage)(flow, active, momentum, step, heights, tile, changed);
 }
@@ -431,6 +489,9 @@ bool apply_flow(const TileFlow& flow, double* heights, CellFlags& changed) {
 void compute_residuals(const TalusLaw& law, const TilePatch& patch, const CellFlags& cells,
                        double* steepest) {
   HWY_DYNAMIC_DISPATCH(ComputeResiduals)(law, patch, cells, steepest);
+}
+void take_back_stage(const SuperStepTile& tile, double* heights) {
+  HWY_DYNAMIC_DISPATCH(TakeBackStage)(tile, heights);
 }
 
 }  // namespace sandstroke

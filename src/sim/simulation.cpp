@@ -94,6 +94,8 @@ void Simulation::relax(double time, SimulationObserver& observer) {
       relaxer_->relax(bed_, [&observer](std::int64_t passes) { observer.on_pass(passes); });
   result_.passes += outcome.passes;
   result_.relaxations += 1;
+  result_.super_steps += outcome.super_steps;
+  result_.rejected_stages += outcome.rejected_stages;
   result_.cells_visited += outcome.cells_visited;
   result_.wake_ups += outcome.wake_ups;
   result_.tiles_active_max = std::max(result_.tiles_active_max, outcome.tiles_active_max);
