@@ -38,7 +38,8 @@ void ActiveSand::look_at_active_cells() {
   tiles_active_max_ = std::max(tiles_active_max_, static_cast<int>(tiles().size()));
 }
 
-double ActiveSand::compute_flow(const HeightField& bed, const std::function<void(int, const TileFlow&)>& then) {
+double ActiveSand::compute_flow(const HeightField& bed,
+                                const std::function<void(int, const TileFlow&)>& then) {
   look_at_active_cells();
   while (flows_.size() < tiles().size()) flows_.push_back(std::make_unique<TileFlow>());
   if (changed_.size() < tiles().size()) changed_.resize(tiles().size()), any_changed_.resize(tiles().size());

@@ -27,8 +27,8 @@ class ActiveSand {
   const CellFlags& cells(int slot) const { return activity_.cells(slot); }
   void rest() { activity_.rest(); }  ///< nothing is active any more
 
-  /// Every active cell's gain in a pass. then(slot, flow), if given, is called for each active tile, from any thread.
-  /// Returns the sum of outflows [m].
+  /// Every active cell's gain in a pass. then(slot, flow), if given, is called for each active tile, from any
+  /// thread. Returns the sum of outflows [m].
   double compute_flow(const HeightField& bed, const std::function<void(int, const TileFlow&)>& then = {});
   /// As computed last for tiles()[i].
   const TileFlow& flow(std::size_t i) const { return *flows_[i]; }

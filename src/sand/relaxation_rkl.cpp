@@ -111,8 +111,9 @@ class RklRelaxer : public Relaxer {
   /// F of the heights as they are, how it differs from F0, and whether any slope is beyond the tolerance.
   void compute_flow(HeightField& bed) {
     for (const int slot : sand_.tiles()) take_in(bed, slot);
-    given_ = sand_.compute_flow(
-        bed, [this](int slot, const TileFlow& flow) { tile(slot).change = compare_flows(flow, tile(slot).kept); });
+    given_ = sand_.compute_flow(bed, [this](int slot, const TileFlow& flow) {
+      tile(slot).change = compare_flows(flow, tile(slot).kept);
+    });
     too_steep_ = false;
     for (std::size_t i = 0; i < sand_.tiles().size(); ++i) {
       const TileFlow& flow = sand_.flow(i);
@@ -153,7 +154,8 @@ class RklRelaxer : public Relaxer {
   FlowChange change_from_start() {
     FlowChange all = sum_of_changes();
     for (const int slot : in_step_)  // no flow any more
-      if (tile(slot).pass != outcome_.passes) all.difference = std::max(all.difference, tile(slot).first_peak);
+      if (tile(slot).pass != outcome_.passes)
+        all.difference = std::max(all.difference, tile(slot).first_peak);
     return all;
   }
 
@@ -169,8 +171,8 @@ class RklRelaxer : public Relaxer {
 
   bool advance(HeightField& bed, double momentum, double step) {
     return sand_.advance(bed, [&](int slot, const TileFlow& flow, CellFlags& cells) {
-      tile(slot).range =
-          super_stage(flow, sand_.cells(slot), momentum, step, bed.tile_heights(slot), tile(slot).kept, cells);
+      tile(slot).range = super_stage(flow, sand_.cells(slot), momentum, step, bed.tile_heights(slot),
+                                     tile(slot).kept, cells);
       if (!any(cells)) return false;
       bed.mark_changed(slot);
       return true;

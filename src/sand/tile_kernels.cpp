@@ -368,7 +368,8 @@ struct Comparison {
 
 FlowChange KeepFirstFlow(const TileFlow& flow, SuperStepTile& tile) {
   Comparison first;
-  for (int row = 0; row < side; ++row) tile.first_moved[row] = static_cast<std::uint8_t>(groups_of(flow.moved[row]));
+  for (int row = 0; row < side; ++row)
+    tile.first_moved[row] = static_cast<std::uint8_t>(groups_of(flow.moved[row]));
   for_groups([&](int row) { return tile.first_moved[row]; },
              [&](int row, int g) {
                for (int c = 0; c < group; c += lanes) {
@@ -415,8 +416,8 @@ HeightRange RangeOf(const double* heights, int rows, int cols) {
   return range.all();
 }
 
-HeightRange SuperStage(const TileFlow& flow, const CellFlags& active, double momentum, double step, double* heights,
-                       SuperStepTile& tile, CellFlags& changed) {
+HeightRange SuperStage(const TileFlow& flow, const CellFlags& active, double momentum, double step,
+                       double* heights, SuperStepTile& tile, CellFlags& changed) {
   const V momentum_of_one = hn::Set(d, momentum), step_of_one = hn::Set(d, step);
   Range range;
   changed = {};
@@ -480,7 +481,7 @@ HeightRange range_of(const double* heights, int rows, int cols) {
   return HWY_DYNAMIC_DISPATCH(RangeOf)(heights, rows, cols);
 }
 HeightRange super_stage(const TileFlow& flow, const CellFlags& active, double momentum, double step,
-                       double* heights, SuperStepTile& tile, CellFlags& changed) {
+                        double* heights, SuperStepTile& tile, CellFlags& changed) {
   return HWY_DYNAMIC_DISPATCH(SuperStage)(flow, active, momentum, step, heights, tile, changed);
 }
 bool apply_flow(const TileFlow& flow, double* heights, CellFlags& changed) {

@@ -69,7 +69,8 @@ void describe_relaxation(SceneVisitor& v, RelaxationSettings& r) {
   v.section("relaxation", "how sand that lies too steep flows");
   choose(v, "law", r.law, {"paper", "isotropic"},
          "8 neighbours as published, or the same slope in every direction");
-  choose(v, "method", r.method, {"passes", "rkl"}, "plain passes, or super time steps: the same rest in far fewer");
+  choose(v, "method", r.method, {"passes", "rkl"},
+         "plain passes, or super time steps: the same rest in far fewer");
   if (r.method == RelaxationMethod::rkl)
     v.number("step_tolerance", r.step_tolerance, {1e-6, 10.0, false}, "",
              "method rkl: error of a super step, as a share of how far sand has moved");
@@ -210,7 +211,9 @@ void check_scene(const Scene& scene, const std::string& name) {
         r.share);
   if (r.method == RelaxationMethod::rkl && r.engine == RelaxationEngine::reference)
     throw_input_error(
-        "{}: relaxation.engine = reference has no method rkl; set relaxation.method = passes, or engine = tiles", name);
+        "{}: relaxation.engine = reference has no method rkl; set relaxation.method = passes, or engine = "
+        "tiles",
+        name);
   if (scene.stroke && scene.stroke->file.empty())
     throw_input_error("{}: stroke.file is missing; name a stroke (.toml or .h5) or remove [stroke]", name);
   const SurfaceSettings& s = bed.surface;

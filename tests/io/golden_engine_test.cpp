@@ -1,0 +1,121 @@
+// Every relaxation of every scene in strokes/ by the engine against the plain reference, bit for bit. The
+// reference works on a window around what was disturbed: what sand does depends on its neighbourhood only, so
+// this says as much as the whole field as long as nothing near the window's border moves, which is checked.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "core/error.h"
+#include "haptics/stroke_placement.h"
+#include "io/scene_toml.h"
+#include "io/stroke_file.h"
+#include "io/surface_file.h"
+#include "sim/simulation.h"
+
+namespace sandstroke {
+namespace {
+namespace fs = std::filesystem;
+
+const fs::path strokes = fs::path(SANDSTROKE_SOURCE) / "strokes";
+
+std::vector<std::string> scene_names() {
+  std::vector<std::string> names;
+  for (const auto& entry : fs::directory_iterator(strokes))
+    if (fs::exists(entry.path() / "scene.toml")) names.push_back(entry.path().filename());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+/// Relaxes with the engine, and the window around the disturbed cells with the reference.
+class CheckedRelaxer : public Relaxer {
+ public:
+  CheckedRelaxer(const RelaxationSettings& settings, double cell_size)
+      : settings_(settings), engine_(make_relaxer(settings, cell_size)) {
+    settings_.engine = RelaxationEngine::reference;
+  }
+
+  RelaxationOutcome relax(HeightField& bed, const std::function<void(std::int64_t)>& after_pass) override {
+    CellRange window = first_ ? bed.cells() : disturbed(bed);
+    first_ = false;
+    const HeightField before = window_of(bed, window);
+    const RelaxationOutcome outcome = engine_->relax(bed, after_pass);
+    ++relaxations;
+    HeightField after = before;
+    const RelaxationOutcome plain = make_relaxer(settings_, bed.cell_size())->relax(after);
+    EXPECT_EQ(outcome.passes, plain.passes);
+    const HeightGrid expected = after.grid(), start = before.grid();
+    EXPECT_TRUE((window_of(bed, window).grid() == expected).all()) << "relaxation " << relaxations;
+    for (int row = 0; row < window.rows(); ++row)
+      for (int col = 0; col < window.cols(); ++col) {
+        if (expected(row, col) == start(row, col)) continue;
+        const bool inside = (row >= 3 || window.row_begin == 0) && (col >= 3 || window.col_begin == 0) &&
+                            (row < window.rows() - 3 || window.row_end == bed.rows()) &&
+                            (col < window.cols() - 3 || window.col_end == bed.cols());
+        EXPECT_TRUE(inside) << "the window is too small";
+      }
+    return outcome;
+  }
+
+  std::int64_t relaxations = 0;
+
+ private:
+  static CellRange disturbed(const HeightField& bed) {
+    CellRange range{bed.rows(), 0, bed.cols(), 0};
+    for (const int slot : bed.disturbed_tiles()) {
+      const CellRange tile = bed.tile_cells(bed.tile_of(slot));
+      for (int row = 0; row < tile.rows(); ++row)
+        for (int col = 0; col < tile.cols(); ++col) {
+          if (!(bed.disturbed_cells(slot)[row] >> col & 1)) continue;
+          range.row_begin = std::min(range.row_begin, tile.row_begin + row);
+          range.row_end = std::max(range.row_end, tile.row_begin + row + 1);
+          range.col_begin = std::min(range.col_begin, tile.col_begin + col);
+          range.col_end = std::max(range.col_end, tile.col_begin + col + 1);
+        }
+    }
+    if (range.empty()) return {0, 1, 0, 1};
+    constexpr int margin = 24;  // cells
+    return {std::max(range.row_begin - margin, 0), std::min(range.row_end + margin, bed.rows()),
+            std::max(range.col_begin - margin, 0), std::min(range.col_end + margin, bed.cols())};
+  }
+
+  static HeightField window_of(const HeightField& bed, const CellRange& window) {
+    HeightGrid heights(window.rows(), window.cols());
+    for (int row = 0; row < window.rows(); ++row)
+      for (int col = 0; col < window.cols(); ++col)
+        heights(row, col) = bed(window.row_begin + row, window.col_begin + col);
+    return HeightField(heights, bed.cell_size());
+  }
+
+  RelaxationSettings settings_;
+  std::unique_ptr<Relaxer> engine_;
+  bool first_ = true;
+};
+
+class GoldenScene : public testing::TestWithParam<std::string> {};
+INSTANTIATE_TEST_SUITE_P(Scenes, GoldenScene, testing::ValuesIn(scene_names()), [](const auto& scene) {
+  std::string name = scene.param;
+  std::replace(name.begin(), name.end(), '-', '_');
+  return name;
+});
+
+TEST_P(GoldenScene, EngineEqualsTheReferenceInEveryRelaxation) {
+  const fs::path folder = strokes / GetParam();
+  Scene scene = load_scene(folder / "scene.toml", {});
+  if (scene.bed.surface.kind == SurfaceKind::file) GTEST_SKIP() << "continues from another scene's run file";
+  scene.relaxation.method = RelaxationMethod::passes;
+  std::optional<Stroke> stroke;
+  if (scene.stroke) {
+    const fs::path path = folder / scene.stroke->file;
+    stroke = place_stroke(load_stroke(path, scene.force), scene.stroke->placement, path.string());
+  }
+  auto relaxer = std::make_unique<CheckedRelaxer>(scene.relaxation, scene.bed.cell_size());
+  const CheckedRelaxer& checked = *relaxer;
+  Simulation simulation(scene, load_surface(scene.bed, folder), std::move(stroke), std::move(relaxer));
+  SimulationObserver nobody;
+  const RunResult result = simulation.run(nobody);
+  EXPECT_EQ(result.relaxations, checked.relaxations);
+  EXPECT_GT(result.moved_volume, 0.0);
+}
+
+}  // namespace
+}  // namespace sandstroke

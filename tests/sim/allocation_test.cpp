@@ -1,0 +1,76 @@
+// The tick loop allocates nothing once the tiles under a stroke exist: every operator new of this program is
+// counted.
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cstdlib>
+#include <new>
+
+#include "sim/simulation.h"
+
+namespace {
+
+std::atomic<std::int64_t> allocations = 0;
+
+void* counted(std::size_t size, std::size_t alignment) {
+  ++allocations;
+  void* memory = nullptr;
+  if (posix_memalign(&memory, std::max(alignment, sizeof(void*)), size ? size : 1) != 0)
+    throw std::bad_alloc();
+  return memory;
+}
+
+}  // namespace
+
+void* operator new(std::size_t size) { return counted(size, alignof(std::max_align_t)); }
+void* operator new(std::size_t size, std::align_val_t alignment) {
+  return counted(size, static_cast<std::size_t>(alignment));
+}
+void operator delete(void* memory) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+void operator delete(void* memory, std::align_val_t) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }
+
+namespace sandstroke {
+namespace {
+
+/// Counts what is allocated from one tick to another.
+struct AllocationsBetween : SimulationObserver {
+  std::int64_t from, to, tick = 0, before = 0, between = -1;
+  AllocationsBetween(std::int64_t first, std::int64_t last) : from(first), to(last) {}
+  void on_tick(const TickRecord&) override {
+    if (tick == from) before = allocations;
+    if (tick == to) between = allocations - before;
+    ++tick;
+  }
+};
+
+TEST(TickLoop, AllocatesNothingOnceItsTilesExist) {
+  for (const auto& [law, method] : {std::pair(RelaxationLaw::paper, RelaxationMethod::passes),
+                                    std::pair(RelaxationLaw::isotropic, RelaxationMethod::passes),
+                                    std::pair(RelaxationLaw::isotropic, RelaxationMethod::rkl)}) {
+    Scene scene;
+    scene.bed.width = scene.bed.depth = 0.4;
+    scene.bed.cols = scene.bed.rows = 200;
+    scene.relaxation.law = law;
+    scene.relaxation.method = method;
+    scene.stroke.emplace();
+    scene.stroke->file = "in memory";
+    Stroke stroke;  // to and fro across tile borders, deeper each time
+    stroke.gap_threshold = 1e9;
+    for (int i = 0; i <= 12; ++i) {
+      stroke.time.push_back(0.5 * i);
+      stroke.position.emplace_back(i % 2 ? 0.05 : -0.05, 0.01, -0.001 - 2e-4 * i);
+    }
+    const BedSettings& bed = scene.bed;
+    Simulation simulation(scene, make_surface(bed.surface, bed.rows, bed.cols, bed.cell_size()), stroke);
+    AllocationsBetween observer(4000, 6000);
+    const RunResult result = simulation.run(observer);
+    EXPECT_GT(result.contact_ticks, 5000);
+    EXPECT_EQ(observer.between, 0);
+    EXPECT_GT(allocations, 0);  // they are counted
+  }
+}
+
+}  // namespace
+}  // namespace sandstroke
