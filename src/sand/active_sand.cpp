@@ -1,15 +1,13 @@
 #include "sand/active_sand.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "core/compensated_sum.h"
 
 namespace sandstroke {
 
-// Both laws compare slopes along rows, columns and diagonals; the isotropic one adds up two of them.
 ActiveSand::ActiveSand(const TalusLaw& law, double cell_size)
-    : law_(law), stable_slope_(law.axis_drop / cell_size / std::sqrt(2.0) * (1.0 - 1e-9)) {}
+    : law_(law), stable_slope_(stable_slope(law, cell_size)) {}
 
 void ActiveSand::begin(HeightField& bed) {
   cells_visited_ = 0;

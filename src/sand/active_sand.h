@@ -61,7 +61,7 @@ class ActiveSand {
   static constexpr std::int64_t cells_worth_threads = 20'000;
 
   TalusLaw law_;
-  double stable_slope_;  // rise over run: where no slope is above it, both laws leave all sand at rest
+  double stable_slope_;  // rise over run
   TileActivity activity_;
 
   std::vector<std::unique_ptr<TileFlow>> flows_;  // per active tile, as are the next two
