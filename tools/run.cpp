@@ -39,6 +39,8 @@ nlohmann::ordered_json as_json(const RunResult& r, const std::string& output) {
       {"gaps", r.gaps},
       {"passes", r.passes},
       {"relaxations", r.relaxations},
+      {"super_steps", r.super_steps},
+      {"rejected_stages", r.rejected_stages},
       {"cells_visited", r.cells_visited},
       {"tiles_active_max", r.tiles_active_max},
       {"wake_ups", r.wake_ups},

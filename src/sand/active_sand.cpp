@@ -6,8 +6,11 @@
 
 namespace sandstroke {
 
-ActiveSand::ActiveSand(const TalusLaw& law, double cell_size)
-    : law_(law), stable_slope_(stable_slope(law, cell_size)) {}
+ActiveSand::ActiveSand(const TalusLaw& law, double cell_size, bool holds_still)
+    : law_(law),
+      holds_still_(holds_still),
+      stable_slope_(stable_slope(law, cell_size)),
+      activity_(holds_still) {}
 
 void ActiveSand::begin(HeightField& bed) {
   cells_visited_ = 0;
@@ -33,30 +36,61 @@ void ActiveSand::look_at_active_cells() {
   tiles_active_max_ = std::max(tiles_active_max_, static_cast<int>(tiles().size()));
 }
 
-double ActiveSand::compute_flow(const HeightField& bed, const TileHeights& heights) {
+double ActiveSand::compute_flow(const HeightField& bed, const std::function<void(int, const TileFlow&)>& then) {
   look_at_active_cells();
   while (flows_.size() < tiles().size()) flows_.push_back(std::make_unique<TileFlow>());
   if (changed_.size() < tiles().size()) changed_.resize(tiles().size()), any_changed_.resize(tiles().size());
   for_active_tiles([&](std::size_t i) {
     const int slot = tiles()[i];
     TilePatch& patch = TilePatch::of_this_thread();
-    patch.load(bed, slot, cells(slot), heights);
-    sandstroke::compute_flow(law_, patch, cells(slot), *flows_[i]);
+    patch.load(bed, slot, cells(slot));
+    if (holds_still_) {
+      GiverFlags givers;
+      load_givers(bed, slot, givers);
+      sandstroke::compute_flow(law_, patch, cells(slot), &givers, *flows_[i]);
+    } else {
+      sandstroke::compute_flow(law_, patch, cells(slot), nullptr, *flows_[i]);
+    }
+    if (then) then(slot, *flows_[i]);
   });
   CompensatedSum given;
   for (std::size_t i = 0; i < tiles().size(); ++i) given.add(flows_[i]->given);
   return given.value();
 }
 
+void ActiveSand::load_givers(const HeightField& bed, int slot, GiverFlags& givers) const {
+  constexpr int side = HeightField::tile_side;
+  const int tile = bed.tile_of(slot), tile_row = tile / bed.tile_cols(), tile_col = tile % bed.tile_cols();
+  // Row `from` of the tile at (row_step, col_step), as `count` rows of the flags from row `to` on.
+  const auto load = [&](int row_step, int col_step, int from, int to, int count, const auto& put) {
+    const int row = tile_row + row_step, col = tile_col + col_step;
+    if (row < 0 || row >= bed.tile_rows() || col < 0 || col >= bed.tile_cols()) return;
+    const int other = bed.slot_of(bed.tile_index(row, col));
+    if (other < 0) return;
+    const CellFlags* flags = activity_.givers(other);
+    if (!flags) return;
+    for (int r = 0; r < count; ++r) put(givers.rows[to + r], (*flags)[from + r]);
+  };
+  for (int col_step = -1; col_step <= 1; ++col_step) {
+    const auto put = [col_step](GiverFlags::Row& row, std::uint64_t flags) {
+      if (col_step < 0) row.west = flags >> (side - 1) != 0;
+      if (col_step == 0) row.own = flags;
+      if (col_step > 0) row.east = (flags & 1) != 0;
+    };
+    load(-1, col_step, side - 1, 0, 1, put);
+    load(0, col_step, 0, 1, side, put);
+    load(1, col_step, 0, side + 1, 1, put);
+  }
+}
+
 void ActiveSand::end(const HeightField& bed, RelaxationOutcome& outcome) {
   look_at_active_cells();
   cells_visited_ -= active_cells_;  // looked at for their residual only
-  const auto heights = [&bed](int slot) { return bed.tile_heights(slot); };
   parallel_for(looked_at_.size(), cells_visited_ >= cells_worth_threads, [&](std::size_t i) {
     const int slot = looked_at_[i];
     Look& look = looks_[slot];
     TilePatch& patch = TilePatch::of_this_thread();
-    patch.load(bed, slot, look.cells, heights);
+    patch.load(bed, slot, look.cells);
     compute_residuals(law_, patch, look.cells, look.steepest.data());
     look.residual = std::max(0.0, *std::max_element(look.steepest.begin(), look.steepest.end()));
   });

@@ -11,29 +11,34 @@
 
 namespace sandstroke {
 
-/// Heights of the tiles that exist, by slot.
-using TileHeights = std::function<double*(int slot)>;
-
 /// The sand of a bed that can move, and one law's flow in it: what the steppers (passes, rkl) are made of. A
 /// pass is compute_flow, then advance: two sweeps over the active tiles, on more threads where that pays,
 /// with the same bits for any number of them.
 class ActiveSand {
  public:
-  ActiveSand(const TalusLaw& law, double cell_size);
+  /// holds_still: only cells within one of a change may give; all other sand is held still, whatever its
+  /// slope.
+  ActiveSand(const TalusLaw& law, double cell_size, bool holds_still = false);
 
   /// Takes up what was set since the last relaxation.
   void begin(HeightField& bed);
   bool at_rest() const { return activity_.tiles().empty(); }
   const std::vector<int>& tiles() const { return activity_.tiles(); }  ///< active ones, by slot
   const CellFlags& cells(int slot) const { return activity_.cells(slot); }
-  void activate(HeightField& bed, int slot, const CellFlags& cells) { activity_.add(bed, slot, cells); }
+  void rest() { activity_.rest(); }  ///< nothing is active any more
 
-  /// Every active cell's gain in a pass over these heights. Returns the sum of outflows [m].
-  double compute_flow(const HeightField& bed, const TileHeights& heights);
+  /// Every active cell's gain in a pass. then(slot, flow), if given, is called for each active tile, from any thread.
+  /// Returns the sum of outflows [m].
+  double compute_flow(const HeightField& bed, const std::function<void(int, const TileFlow&)>& then = {});
   /// As computed last for tiles()[i].
   const TileFlow& flow(std::size_t i) const { return *flows_[i]; }
+  /// body(slot, flow) for each active tile.
+  template <class Body>
+  void for_each_tile(const Body& body) const {
+    for_active_tiles([&](std::size_t i) { body(tiles()[i], flow(i)); });
+  }
 
-  /// Calls apply(i, slot, flow, changed) for each active tile: it changes the tile's heights, flags in
+  /// Calls apply(slot, flow, changed) for each active tile: it changes the tile's heights, flags in
   /// `changed` the cells that are another number now, and returns whether there is one. Next active: the
   /// cells that see a change. False where nothing changed, and nothing is active.
   template <class Apply>
@@ -60,7 +65,10 @@ class ActiveSand {
   // (measured: tests/bench, Threads).
   static constexpr std::int64_t cells_worth_threads = 20'000;
 
+  void load_givers(const HeightField& bed, int slot, GiverFlags& givers) const;
+
   TalusLaw law_;
+  bool holds_still_;
   double stable_slope_;  // rise over run
   TileActivity activity_;
 

@@ -34,8 +34,9 @@ std::int64_t tiles_to_relax(const HeightField& bed, const RelaxationSettings& se
 }
 
 std::unique_ptr<Relaxer> make_relaxer(const RelaxationSettings& settings, double cell_size) {
-  return settings.engine == RelaxationEngine::tiles ? make_tile_relaxer(settings, cell_size)
-                                                    : make_reference_relaxer(settings, cell_size);
+  if (settings.engine == RelaxationEngine::reference) return make_reference_relaxer(settings, cell_size);
+  return settings.method == RelaxationMethod::rkl ? make_rkl_relaxer(settings, cell_size)
+                                                  : make_tile_relaxer(settings, cell_size);
 }
 
 }  // namespace sandstroke

@@ -10,8 +10,9 @@ namespace sandstroke {
 
 /// How sand that lies too steep flows (model.md, "Relaxation").
 enum class RelaxationLaw { paper, isotropic };
-/// passes: explicit Jacobi passes of the law.
-enum class RelaxationMethod { passes };
+/// passes: explicit Jacobi passes of the law. rkl: super time steps, which reach the rest that small steps of
+/// the law reach in far fewer passes (relaxation_rkl.cpp).
+enum class RelaxationMethod { passes, rkl };
 /// tiles: only tiles with sand that can move. reference: the plain whole-field one, to check the other
 /// against. Both give the same bits.
 enum class RelaxationEngine { tiles, reference };
@@ -20,10 +21,11 @@ struct RelaxationSettings {
   RelaxationLaw law = RelaxationLaw::paper;
   RelaxationMethod method = RelaxationMethod::passes;
   RelaxationEngine engine = RelaxationEngine::tiles;
-  double talus_angle = 30.0;  ///< deg (angle of repose), above 0, below 90
-  double tolerance = 1e-3;    ///< a cell whose slope exceeds tan(talus) by no more than this share rests
-  double rate = 60.0;         ///< Hz, relaxations during a stroke; 0 = only after it (paper: the visual loop)
-  double share = 0.0;         ///< c: 0 = the law's own (paper 1/2, isotropic 1/4, which is also its limit)
+  double talus_angle = 30.0;    ///< deg (angle of repose), above 0, below 90
+  double tolerance = 1e-3;      ///< a cell whose slope exceeds tan(talus) by no more than this share rests
+  double step_tolerance = 0.1;  ///< rkl: error of a super-step, as a share of how far sand has moved
+  double rate = 60.0;  ///< Hz, relaxations during a stroke; 0 = only after it (paper: the visual loop)
+  double share = 0.0;  ///< c: 0 = the law's own (paper 1/2, isotropic 1/4, which is also its limit)
   std::int64_t max_passes = 1'000'000;  ///< per relaxation
 };
 
@@ -32,6 +34,8 @@ double flow_share(const RelaxationSettings& settings);
 
 struct RelaxationOutcome {
   std::int64_t passes = 0;
+  std::int64_t super_steps = 0;      ///< rkl; the passes are their stages
+  std::int64_t rejected_stages = 0;  ///< rkl: taken back, since heights left the range of the starting ones
   double residual = 0.0;  ///< of the field left behind: max over cells of slope/tan(talus) - 1, at least 0
   double moved_volume = 0.0;  ///< m^3, all that flowed from cell to cell
   std::int64_t cells_visited =

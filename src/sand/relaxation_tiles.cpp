@@ -15,10 +15,9 @@ class TileRelaxer : public Relaxer {
   RelaxationOutcome relax(HeightField& bed, const std::function<void(std::int64_t)>& after_pass) override {
     RelaxationOutcome outcome;
     CompensatedSum moved;
-    const TileHeights heights = [&bed](int slot) { return bed.tile_heights(slot); };
     sand_.begin(bed);
     while (!sand_.at_rest() && outcome.passes != max_passes_ && !interrupted()) {
-      moved.add(sand_.compute_flow(bed, heights));
+      moved.add(sand_.compute_flow(bed));
       const bool changed = sand_.advance(bed, [&bed](int slot, const TileFlow& flow, CellFlags& cells) {
         if (!apply_flow(flow, bed.tile_heights(slot), cells)) return false;
         bed.mark_changed(slot);

@@ -22,5 +22,6 @@ double stable_slope(const TalusLaw& law, double cell_size);
 
 std::unique_ptr<Relaxer> make_reference_relaxer(const RelaxationSettings& settings, double cell_size);
 std::unique_ptr<Relaxer> make_tile_relaxer(const RelaxationSettings& settings, double cell_size);
+std::unique_ptr<Relaxer> make_rkl_relaxer(const RelaxationSettings& settings, double cell_size);
 
 }  // namespace sandstroke

@@ -18,20 +18,14 @@ std::uint64_t columns(int begin, int end) {
 
 }  // namespace
 
-std::int64_t TileActivity::cell_count() const {
-  std::int64_t cells = 0;
-  for (const int slot : tiles_) cells += count(active_[slot]);
-  return cells;
-}
-
 void TileActivity::wake_disturbed(HeightField& bed, double stable_slope) {
   if (first_time_) {
     first_time_ = false;
     CellFlags all;
     all.fill(~std::uint64_t{0});
-    for (int slot = 0, end = bed.touched_tiles(); slot < end; ++slot)
-      wake(bed, bed.tile_of(slot), 0, all.data(), side);
-    visit_steep_tiles(bed, stable_slope, [&](int tile) { wake(bed, tile, 0, all.data(), side); });
+    const int existing = bed.touched_tiles();
+    for (int slot = 0; slot < existing; ++slot) wake_around(bed, slot, all);
+    visit_steep_tiles(bed, stable_slope, [&](int tile) { wake_around(bed, bed.touch(tile), all); });
   } else {
     for (const int slot : bed.disturbed_tiles()) wake_around(bed, slot, bed.disturbed_cells(slot));
   }
@@ -39,75 +33,93 @@ void TileActivity::wake_disturbed(HeightField& bed, double stable_slope) {
   make_seen_tiles(bed);
 }
 
+void TileActivity::rest() {
+  for (const int slot : tiles_) {
+    marks_[slot].active = marks_[slot].givers = {};
+    marks_[slot].listed = false;
+  }
+  tiles_.clear();
+}
+
 void TileActivity::advance(HeightField& bed, const std::vector<CellFlags>& changed,
                            const std::vector<char>& any_changed) {
-  for (const int slot : tiles_) {
-    active_[slot] = {};
-    listed_[slot] = 0;
-    was_active_[slot] = 1;
-  }
-  tiles_before_.swap(tiles_);
-  tiles_.clear();
+  tiles_before_ = tiles_;
+  for (const int slot : tiles_before_) marks_[slot].was_active = true;
+  rest();
   for (std::size_t i = 0; i < tiles_before_.size(); ++i)
     if (any_changed[i]) wake_around(bed, tiles_before_[i], changed[i]);
-  for (const int slot : tiles_before_) was_active_[slot] = 0;
+  for (const int slot : tiles_before_) marks_[slot].was_active = false;
   make_seen_tiles(bed);
 }
 
-void TileActivity::add(HeightField& bed, int slot, const CellFlags& cells) {
-  wake(bed, bed.tile_of(slot), 0, cells.data(), side);
-}
-
-void TileActivity::wake(HeightField& bed, int tile, int row_begin, const std::uint64_t* rows, int count) {
+void TileActivity::wake(HeightField& bed, int tile, int row_begin, const std::uint64_t* active,
+                        const std::uint64_t* givers, int count) {
   const CellRange cells = bed.tile_cells(tile);
   const std::uint64_t inside = columns(0, cells.cols());
   count = std::min(count, cells.rows() - row_begin);
   std::uint64_t some = 0;
-  for (int r = 0; r < count; ++r) some |= rows[r] & inside;
+  for (int r = 0; r < count; ++r) some |= active[r] & inside;
   if (!some) return;
   const int slot = bed.touch(tile);
-  if (active_.size() <= static_cast<std::size_t>(slot)) {
-    active_.resize(slot + 1);
-    listed_.resize(slot + 1);
-    was_active_.resize(slot + 1);
-  }
-  for (int r = 0; r < count; ++r) active_[slot][row_begin + r] |= rows[r] & inside;
-  if (listed_[slot]) return;
-  listed_[slot] = 1;
-  wake_ups_ += !was_active_[slot];
+  if (marks_.size() <= static_cast<std::size_t>(slot)) marks_.resize(slot + 1);
+  Marks& marks = marks_[slot];
+  for (int r = 0; r < count; ++r) marks.active[row_begin + r] |= active[r] & inside;
+  if (tells_givers_)
+    for (int r = 0; r < count; ++r) marks.givers[row_begin + r] |= givers[r] & inside;
+  if (marks.listed) return;
+  marks.listed = true;
+  wake_ups_ += !marks.was_active;
   tiles_.push_back(slot);
 }
 
-void TileActivity::wake_around(HeightField& bed, int slot, const CellFlags& changed) {
-  // Row r of these is row r - reach of the tile: what is flagged there, in the tile and in those beside it.
+namespace {
+
+/// Flags within some cells of a tile's flagged ones, in the tile and in those beside it. Row r of these is
+/// row r - reach of the tile.
+struct Spread {
   std::array<std::uint64_t, side + 2 * reach> own{}, west{}, east{};
+
+  template <int by>
+  void add(const CellFlags& flags, RowSpan span) {
+    for (int row = span.begin; row < span.end; ++row) {
+      const std::uint64_t f = flags[row];
+      std::uint64_t o = f | f << 1 | f >> 1, w = f << (side - 1), e = f >> (side - 1);
+      if constexpr (by == 2) o |= f << 2 | f >> 2, w |= f << (side - 2), e |= f >> (side - 2);
+      for (int r = row + reach - by; r <= row + reach + by; ++r) own[r] |= o, west[r] |= w, east[r] |= e;
+    }
+  }
+};
+
+}  // namespace
+
+void TileActivity::wake_around(HeightField& bed, int slot, const CellFlags& changed) {
   const RowSpan span = row_span(changed);
   if (span.begin == span.end) return;
-  std::uint64_t any_west = 0, any_east = 0;
-  for (int row = span.begin; row < span.end; ++row) {
-    const std::uint64_t c = changed[row];
-    const std::uint64_t o = c | c << 1 | c << 2 | c >> 1 | c >> 2;
-    const std::uint64_t w = c << 63 | c << 62, e = c >> 63 | c >> 62;
-    any_west |= w, any_east |= e;
-    for (int r = row; r <= row + 2 * reach; ++r) own[r] |= o, west[r] |= w, east[r] |= e;
-  }
+  Spread active, givers;
+  active.add<reach>(changed, span);
+  if (tells_givers_) givers.add<1>(changed, span);
+
   const int tile_row = bed.tile_of(slot) / bed.tile_cols(), tile_col = bed.tile_of(slot) % bed.tile_cols();
-  const auto wake_column = [&](int col, const auto& rows) {
+  const auto wake_column = [&](int col, const auto& rows, const auto& giving) {
     if (col < 0 || col >= bed.tile_cols()) return;
-    wake(bed, bed.tile_index(tile_row, col), 0, rows.data() + reach, side);
+    wake(bed, bed.tile_index(tile_row, col), 0, rows.data() + reach, giving.data() + reach, side);
     if (span.begin < reach && tile_row > 0)
-      wake(bed, bed.tile_index(tile_row - 1, col), side - reach, rows.data(), reach);
+      wake(bed, bed.tile_index(tile_row - 1, col), side - reach, rows.data(), giving.data(), reach);
     if (span.end > side - reach && tile_row + 1 < bed.tile_rows())
-      wake(bed, bed.tile_index(tile_row + 1, col), 0, rows.data() + reach + side, reach);
+      wake(bed, bed.tile_index(tile_row + 1, col), 0, rows.data() + reach + side,
+           giving.data() + reach + side, reach);
   };
-  wake_column(tile_col, own);
-  if (any_west) wake_column(tile_col - 1, west);
-  if (any_east) wake_column(tile_col + 1, east);
+  std::uint64_t west = 0, east = 0;
+  for (int row = span.begin; row < span.end + 2 * reach; ++row)
+    west |= active.west[row], east |= active.east[row];
+  wake_column(tile_col, active.own, givers.own);
+  if (west) wake_column(tile_col - 1, active.west, givers.west);
+  if (east) wake_column(tile_col + 1, active.east, givers.east);
 }
 
 void TileActivity::make_seen_tiles(HeightField& bed) {
   for (const int slot : tiles_) {
-    const CellFlags& active = active_[slot];
+    const CellFlags& active = marks_[slot].active;
     std::uint64_t all = 0;
     for (const std::uint64_t row : active) all |= row;
     const bool sees_north = (active[0] | active[1]) != 0,

@@ -13,6 +13,10 @@ namespace sandstroke {
 /// on tiles at all.
 class TileActivity {
  public:
+  /// tells_givers: also say which cells may give, those within one of a change, for a stepper that holds all
+  /// other sand still.
+  explicit TileActivity(bool tells_givers) : tells_givers_(tells_givers) {}
+
   /// Takes up what was set since the last call and forgets it (HeightField::settle). The first time: every
   /// tile that exists, and those whose rule allows a slope above stable_slope (rise over run), which come
   /// into being.
@@ -20,15 +24,19 @@ class TileActivity {
 
   /// Slots of the tiles with active cells. All tiles that an active cell can see exist.
   const std::vector<int>& tiles() const { return tiles_; }
-  const CellFlags& cells(int slot) const { return active_[slot]; }
-  std::int64_t cell_count() const;
+  const CellFlags& cells(int slot) const { return marks_[slot].active; }
 
   /// Next active: all cells within two of those that changed. changed[i] belongs to tiles()[i] and counts
   /// where any_changed[i].
   void advance(HeightField& bed, const std::vector<CellFlags>& changed, const std::vector<char>& any_changed);
 
-  /// Makes a tile's flagged cells active besides those that are.
-  void add(HeightField& bed, int slot, const CellFlags& cells);
+  /// Nothing is active any more.
+  void rest();
+
+  /// Cells of a tile that may give; null where none may.
+  const CellFlags* givers(int slot) const {
+    return static_cast<std::size_t>(slot) < marks_.size() ? &marks_[slot].givers : nullptr;
+  }
 
   /// How often a tile at rest became active, since construction.
   std::int64_t wake_ups() const { return wake_ups_; }
@@ -36,13 +44,20 @@ class TileActivity {
  private:
   /// Wakes all cells within two of the flagged ones.
   void wake_around(HeightField& bed, int slot, const CellFlags& changed);
-  void wake(HeightField& bed, int tile, int row_begin, const std::uint64_t* rows, int count);
+  /// Flags rows [row_begin, row_begin + count) of a tile; those outside the bed are left out.
+  void wake(HeightField& bed, int tile, int row_begin, const std::uint64_t* active,
+            const std::uint64_t* givers, int count);
   void make_seen_tiles(HeightField& bed);
 
+  struct Marks {
+    CellFlags active{}, givers{};
+    bool listed = false;      // in tiles_
+    bool was_active = false;  // in tiles_before_
+  };
+
+  bool tells_givers_;
+  std::vector<Marks> marks_;  // per slot
   std::vector<int> tiles_;
-  std::vector<CellFlags> active_;  // per slot
-  std::vector<char> listed_;       // per slot: in tiles_
-  std::vector<char> was_active_;   // per slot: in tiles_before_
   std::vector<int> tiles_before_;  // during advance(): tiles_ of the pass before
   std::int64_t wake_ups_ = 0;
   bool first_time_ = true;

@@ -1,6 +1,7 @@
 #include "sand/tile_kernels.h"
 
 #include <cmath>
+#include <limits>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "sand/tile_kernels.cpp"
@@ -83,7 +84,25 @@ HWY_INLINE V squared_slope(const Around& a) {
   return hn::Add(hn::Mul(gx, gx), hn::Mul(gy, gy));
 }
 
-/// Factors of the cells of a group. Bits: those that are not 0.
+/// The largest drops met, lane by lane; isotropic: axis holds their squares' sum.
+struct Drops {
+  V axis, diagonal;
+  HWY_INLINE Drops() : axis(hn::Zero(d)), diagonal(hn::Zero(d)) {}
+};
+
+/// Which of the cells in a vector may give: all, or those with a flag.
+struct AllGive {
+  HWY_INLINE hn::Mask<decltype(d)> operator()(hn::Mask<decltype(d)> moves) const { return moves; }
+};
+struct FlaggedGive {
+  unsigned flags;
+  HWY_INLINE hn::Mask<decltype(d)> operator()(hn::Mask<decltype(d)> moves) const {
+    return hn::And(moves, lanes_of(flags & ((1u << lanes) - 1)));
+  }
+};
+
+// Factors of the cells in a vector. Bits: those that are not 0.
+
 struct PaperFactors {
   V T, D, axis_limit, diagonal_limit, share;
   explicit PaperFactors(const TalusLaw& law)
@@ -93,11 +112,15 @@ struct PaperFactors {
         diagonal_limit(hn::Set(d, law.diagonal_limit)),
         share(hn::Set(d, law.share)) {}
 
-  HWY_INLINE unsigned operator()(const double* row, int c, double* factors) const {
+  template <class MayGive>
+  HWY_INLINE unsigned operator()(const double* row, int c, double* factors, const MayGive& may_give,
+                                 Drops& steepest) const {
     const Around a(row, c);
     const Corners k(row, c);
     const V axis = axis_drop(a), diagonal = diagonal_drop(a.m, k);
-    const auto moves = hn::Or(hn::Gt(axis, axis_limit), hn::Gt(diagonal, diagonal_limit));
+    steepest.axis = higher(axis, steepest.axis);
+    steepest.diagonal = higher(diagonal, steepest.diagonal);
+    const auto moves = may_give(hn::Or(hn::Gt(axis, axis_limit), hn::Gt(diagonal, diagonal_limit)));
     if (hn::AllFalse(d, moves)) {
       hn::Store(hn::Zero(d), d, factors + c);
       return 0;
@@ -121,63 +144,66 @@ struct IsotropicFactors {
         share(hn::Set(d, law.share)),
         one(hn::Set(d, 1.0)) {}
 
-  HWY_INLINE unsigned operator()(const double* row, int c, double* factors) const {
+  template <class MayGive>
+  HWY_INLINE unsigned operator()(const double* row, int c, double* factors, const MayGive& may_give,
+                                 Drops& steepest) const {
     const V square = squared_slope(Around(row, c));
+    steepest.axis = higher(square, steepest.axis);
     if (hn::AllFalse(d, hn::Gt(square, surely_at_rest))) {
       hn::Store(hn::Zero(d), d, factors + c);
       return 0;
     }
-    const V steepest = hn::Sqrt(square);
-    const auto moves = hn::Gt(steepest, limit);
-    const V factor = hn::Mul(share, hn::Sub(one, hn::Div(T, steepest)));
+    const V slope = hn::Sqrt(square);
+    const auto moves = may_give(hn::Gt(slope, limit));
+    const V factor = hn::Mul(share, hn::Sub(one, hn::Div(T, slope)));
     hn::Store(hn::IfThenElseZero(moves, factor), d, factors + c);
     return bits(moves);
   }
 };
 
-/// Which cells of a row and of its rim have a factor.
-struct MovingRow {
-  std::uint64_t own = 0;
-  bool west = false, east = false;
-};
-
-/// Flags of the cells in or beside a row's flagged ones: in the tile, and the rim's.
-struct WideRow {
-  std::uint64_t own;
-  bool west, east;
-};
+/// Flags of a row's cells and of its rim's.
+using WideRow = GiverFlags::Row;
 HWY_INLINE WideRow widened(std::uint64_t row) {
   return {row | row << 1 | row >> 1, (row & 1) != 0, row >> (side - 1) != 0};
 }
 
+/// Computes the factors of a row's flagged groups; returns the cells that have one. givers: null = all.
 template <class Factors>
-HWY_INLINE MovingRow factor_row(const Factors& factors_of, TilePatch& patch, int row, const WideRow& cells) {
+HWY_INLINE WideRow factor_row(const Factors& factors_of, TilePatch& patch, int row, const WideRow& cells,
+                              const WideRow* givers, Drops& steepest) {
   const double* heights = patch.heights(row);
   double* factors = patch.factors(row);
-  MovingRow moving;
-  const auto one_group = [&](int begin) {
+  const auto one_group = [&](int begin, std::uint64_t may_give) {
     unsigned flags = 0;
-    for (int c = 0; c < group; c += lanes) flags |= factors_of(heights, begin + c, factors) << c;
+    for (int c = 0; c < group; c += lanes) {
+      flags |= (givers ? factors_of(heights, begin + c, factors,
+                                    FlaggedGive{static_cast<unsigned>(may_give >> c)}, steepest)
+                       : factors_of(heights, begin + c, factors, AllGive{}, steepest))
+               << c;
+    }
     return flags;
   };
   const auto clear = [&](int begin) {
     for (int c = 0; c < group; c += lanes) hn::Store(hn::Zero(d), d, factors + begin + c);
   };
+  WideRow moving;
   if (cells.west) {
-    moving.west = (one_group(-group) >> (group - 1)) & 1;
+    const unsigned last = 1u << (group - 1);
+    moving.west = (one_group(-group, givers && givers->west ? last : 0) & last) != 0;
   } else {
     clear(-group);
   }
   const unsigned wanted = groups_of(cells.own);
   for (int g = 0; g < groups; ++g) {
     if (wanted >> g & 1) {
-      moving.own |= static_cast<std::uint64_t>(one_group(g * group)) << (g * group);
+      const unsigned moves = one_group(g * group, givers ? givers->own >> (g * group) : 0);
+      moving.own |= static_cast<std::uint64_t>(moves) << (g * group);
     } else {
       clear(g * group);
     }
   }
   if (cells.east) {
-    moving.east = one_group(side) & 1;
+    moving.east = one_group(side, givers && givers->east) & 1;
   } else {
     clear(side);
   }
@@ -225,24 +251,35 @@ struct GainOf {
   }
 };
 
+HWY_INLINE double total(const V (&sums)[group / lanes]) {
+  alignas(64) double lane[group];
+  for (int c = 0; c < group; c += lanes) hn::Store(sums[c / lanes], d, lane + c);
+  return ((lane[0] + lane[1]) + (lane[2] + lane[3])) + ((lane[4] + lane[5]) + (lane[6] + lane[7]));
+}
+
+HWY_INLINE double largest(V v) { return hn::GetLane(hn::MaxOfLanes(d, v)); }
+
 template <class Factors, class Gain>
-HWY_INLINE void flow_of(const TalusLaw& law, TilePatch& patch, const CellFlags& active, TileFlow& flow) {
+HWY_INLINE void flow_of(const TalusLaw& law, TilePatch& patch, const CellFlags& active,
+                        const GiverFlags* givers, TileFlow& flow) {
   const RowSpan span = row_span(active);
   const auto active_row = [&](int row) { return row < 0 || row >= side ? 0 : active[row]; };
-  std::array<MovingRow, side + 2> moving_rows{};  // from row -1
+  std::array<WideRow, side + 2> moving;  // from row -1
   const Factors factors(law);
+  Drops steepest;
   for (int row = span.begin - 1; row <= span.end; ++row)
-    moving_rows[row + 1] =
-        factor_row(factors, patch, row, widened(active_row(row - 1) | active_row(row) | active_row(row + 1)));
+    moving[row + 1] =
+        factor_row(factors, patch, row, widened(active_row(row - 1) | active_row(row) | active_row(row + 1)),
+                   givers ? &givers->rows[row + 1] : nullptr, steepest);
 
   const Gain gain(law);
   V given[group / lanes];
-  for (V& sum_of_lane : given) sum_of_lane = hn::Zero(d);
+  for (V& of_lane : given) of_lane = hn::Zero(d);
   flow.moved = {};
   for (int row = span.begin; row < span.end; ++row) {
-    const MovingRow &n = moving_rows[row], &m = moving_rows[row + 1], &s = moving_rows[row + 2];
+    const WideRow &n = moving[row], &m = moving[row + 1], &s = moving[row + 2];
     const std::uint64_t own = n.own | m.own | s.own;
-    const std::uint64_t west = n.west | m.west | s.west, east = n.east | m.east | s.east;
+    const std::uint64_t west = n.west || m.west || s.west, east = n.east || m.east || s.east;
     const std::uint64_t cells = (own | own << 1 | own >> 1 | west | east << (side - 1)) & active[row];
     flow.moved[row] = cells;
     for (unsigned wanted = groups_of(cells); wanted; wanted &= wanted - 1) {
@@ -254,17 +291,18 @@ HWY_INLINE void flow_of(const TalusLaw& law, TilePatch& patch, const CellFlags& 
       }
     }
   }
-  alignas(64) double by_lane[group];
-  for (int c = 0; c < group; c += lanes) hn::Store(given[c / lanes], d, by_lane + c);
-  flow.given = ((by_lane[0] + by_lane[1]) + (by_lane[2] + by_lane[3])) +
-               ((by_lane[4] + by_lane[5]) + (by_lane[6] + by_lane[7]));
+  flow.given = total(given);
+  flow.axis_drop =
+      law.law == RelaxationLaw::paper ? largest(steepest.axis) : std::sqrt(largest(steepest.axis));
+  flow.diagonal_drop = largest(steepest.diagonal);
 }
 
-void ComputeFlow(const TalusLaw& law, TilePatch& patch, const CellFlags& active, TileFlow& flow) {
+void ComputeFlow(const TalusLaw& law, TilePatch& patch, const CellFlags& active, const GiverFlags* givers,
+                 TileFlow& flow) {
   if (law.law == RelaxationLaw::paper) {
-    flow_of<PaperFactors, GainOf<true>>(law, patch, active, flow);
+    flow_of<PaperFactors, GainOf<true>>(law, patch, active, givers, flow);
   } else {
-    flow_of<IsotropicFactors, GainOf<false>>(law, patch, active, flow);
+    flow_of<IsotropicFactors, GainOf<false>>(law, patch, active, givers, flow);
   }
 }
 
@@ -289,28 +327,127 @@ bool ApplyFlow(const TileFlow& flow, double* heights, CellFlags& changed) {
 }
 
 void ComputeResiduals(const TalusLaw& law, const TilePatch& patch, const CellFlags& cells, double* steepest) {
+  const bool paper = law.law == RelaxationLaw::paper;
   const RowSpan span = row_span(cells);
   for (int row = span.begin; row < span.end; ++row) {
     for (unsigned wanted = groups_of(cells[row]); wanted; wanted &= wanted - 1) {
       const int g = std::countr_zero(wanted);
-      V axis = hn::Zero(d), diagonal = hn::Zero(d);  // isotropic: axis holds the slope's square
+      Drops drops;
       for (int c = g * group; c < (g + 1) * group; c += lanes) {
         const Around a(patch.heights(row), c);
-        if (law.law == RelaxationLaw::paper) {
-          axis = higher(axis_drop(a), axis);
-          diagonal = higher(diagonal_drop(a.m, Corners(patch.heights(row), c)), diagonal);
-        } else {
-          axis = higher(squared_slope(a), axis);
-        }
+        drops.axis = higher(paper ? axis_drop(a) : squared_slope(a), drops.axis);
+        if (paper)
+          drops.diagonal = higher(diagonal_drop(a.m, Corners(patch.heights(row), c)), drops.diagonal);
       }
-      const double axis_max = hn::GetLane(hn::MaxOfLanes(d, axis));
-      const double diagonal_max = hn::GetLane(hn::MaxOfLanes(d, diagonal));
-      steepest[row * groups + g] =
-          law.law == RelaxationLaw::paper
-              ? std::max(axis_max / law.axis_drop, diagonal_max / law.diagonal_drop) - 1.0
-              : std::sqrt(axis_max) / law.axis_drop - 1.0;
+      const double axis = largest(drops.axis), diagonal = largest(drops.diagonal);
+      steepest[row * groups + g] = paper ? std::max(axis / law.axis_drop, diagonal / law.diagonal_drop) - 1.0
+                                         : std::sqrt(axis) / law.axis_drop - 1.0;
     }
   }
+}
+
+/// Calls body(row, group) for the groups that `groups(row)` flags.
+template <class Groups, class Body>
+HWY_INLINE void for_groups(const Groups& groups_in, const Body& body) {
+  for (int row = 0; row < side; ++row)
+    for (unsigned wanted = groups_in(row); wanted; wanted &= wanted - 1) body(row, std::countr_zero(wanted));
+}
+
+/// max |F - F0| and sum F F0, lane by lane.
+struct Comparison {
+  V difference, products[group / lanes];
+  HWY_INLINE Comparison() : difference(hn::Zero(d)) {
+    for (V& of_lane : products) of_lane = hn::Zero(d);
+  }
+  HWY_INLINE void add(int lane, V subtracted, V factor, V gain) {
+    difference = hn::Max(difference, hn::Abs(hn::Sub(gain, subtracted)));
+    products[lane / lanes] = hn::Add(products[lane / lanes], hn::Mul(gain, factor));
+  }
+  HWY_INLINE FlowChange all() const { return {largest(difference), total(products)}; }
+};
+
+FlowChange KeepFirstFlow(const TileFlow& flow, SuperStepTile& tile) {
+  Comparison first;
+  for (int row = 0; row < side; ++row) tile.first_moved[row] = static_cast<std::uint8_t>(groups_of(flow.moved[row]));
+  for_groups([&](int row) { return tile.first_moved[row]; },
+             [&](int row, int g) {
+               for (int c = 0; c < group; c += lanes) {
+                 const int at = row * side + g * group + c;
+                 const V gain = hn::Load(d, flow.gain.data() + at);
+                 first.add(c, hn::Zero(d), gain, gain);
+                 hn::Store(gain, d, tile.first_gain.data() + at);
+               }
+             });
+  return first.all();
+}
+
+FlowChange CompareFlows(const TileFlow& flow, const SuperStepTile& tile) {
+  Comparison change;
+  for_groups([&](int row) { return groups_of(flow.moved[row]) | tile.first_moved[row]; },
+             [&](int row, int g) {
+               const bool now = groups_of(flow.moved[row]) >> g & 1, first = tile.first_moved[row] >> g & 1;
+               for (int c = 0; c < group; c += lanes) {
+                 const int at = row * side + g * group + c;
+                 const V gain = now ? hn::Load(d, flow.gain.data() + at) : hn::Zero(d);
+                 const V before = first ? hn::Load(d, tile.first_gain.data() + at) : hn::Zero(d);
+                 change.add(c, before, before, gain);
+               }
+             });
+  return change.all();
+}
+
+/// Lowest and highest, lane by lane.
+struct Range {
+  V low, high;
+  HWY_INLINE Range() : low(hn::Set(d, std::numeric_limits<double>::infinity())), high(hn::Neg(low)) {}
+  HWY_INLINE void add(V heights, hn::Mask<decltype(d)> counts) {
+    low = hn::IfThenElse(counts, hn::Min(low, heights), low);
+    high = hn::IfThenElse(counts, hn::Max(high, heights), high);
+  }
+  HWY_INLINE HeightRange all() const { return {hn::GetLane(hn::MinOfLanes(d, low)), largest(high)}; }
+};
+
+HeightRange RangeOf(const double* heights, int rows, int cols) {
+  Range range;
+  for (int row = 0; row < rows; ++row)
+    for (int c = 0; c < cols; c += lanes)
+      range.add(hn::Load(d, heights + row * side + c), hn::FirstN(d, static_cast<std::size_t>(cols - c)));
+  return range.all();
+}
+
+HeightRange SuperStage(const TileFlow& flow, const CellFlags& active, double momentum, double step, double* heights,
+                       SuperStepTile& tile, CellFlags& changed) {
+  const V momentum_of_one = hn::Set(d, momentum), step_of_one = hn::Set(d, step);
+  Range range;
+  changed = {};
+  for_groups([&](int row) { return groups_of(active[row]); },
+             [&](int row, int g) {
+               const bool moved = groups_of(flow.moved[row]) >> g & 1, stepped = tile.stepped[row] >> g & 1;
+               for (int c = g * group; c < (g + 1) * group; c += lanes) {
+                 const int at = row * side + c;
+                 const V now = hn::Load(d, heights + at);
+                 V next = now;
+                 if (stepped) {
+                   const V before = hn::Load(d, tile.before.data() + at);
+                   next = hn::Add(next, hn::Mul(momentum_of_one, hn::Sub(now, before)));
+                 }
+                 if (moved) next = hn::Add(next, hn::Mul(step_of_one, hn::Load(d, flow.gain.data() + at)));
+                 hn::Store(now, d, tile.before.data() + at);
+                 hn::Store(next, d, heights + at);
+                 range.add(next, lanes_of(static_cast<unsigned>(active[row] >> c) & ((1u << lanes) - 1)));
+                 changed[row] |= static_cast<std::uint64_t>(bits(hn::Ne(next, now))) << c;
+               }
+             });
+  for (int row = 0; row < side; ++row) tile.stepped[row] |= static_cast<std::uint8_t>(groups_of(active[row]));
+  return range.all();
+}
+
+void TakeBackStage(const SuperStepTile& tile, double* heights) {
+  for_groups([&](int row) { return tile.stepped[row]; },
+             [&](int row, int g) {
+               for (int at = row * side + g * group, end = at + group; at < end; at += lanes)
+                 hn::Store(hn::Load(d, tile.before.data() + at), d, heights + at);
+             });
 }
 
 }  // namespace HWY_NAMESPACE
@@ -323,9 +460,28 @@ namespace sandstroke {
 HWY_EXPORT(ComputeFlow);
 HWY_EXPORT(ApplyFlow);
 HWY_EXPORT(ComputeResiduals);
+HWY_EXPORT(KeepFirstFlow);
+HWY_EXPORT(CompareFlows);
+HWY_EXPORT(RangeOf);
+HWY_EXPORT(SuperStage);
+HWY_EXPORT(TakeBackStage);
 
-void compute_flow(const TalusLaw& law, TilePatch& patch, const CellFlags& active, TileFlow& flow) {
-  HWY_DYNAMIC_DISPATCH(ComputeFlow)(law, patch, active, flow);
+void compute_flow(const TalusLaw& law, TilePatch& patch, const CellFlags& active, const GiverFlags* givers,
+                  TileFlow& flow) {
+  HWY_DYNAMIC_DISPATCH(ComputeFlow)(law, patch, active, givers, flow);
+}
+FlowChange keep_first_flow(const TileFlow& flow, SuperStepTile& tile) {
+  return HWY_DYNAMIC_DISPATCH(KeepFirstFlow)(flow, tile);
+}
+FlowChange compare_flows(const TileFlow& flow, const SuperStepTile& tile) {
+  return HWY_DYNAMIC_DISPATCH(CompareFlows)(flow, tile);
+}
+HeightRange range_of(const double* heights, int rows, int cols) {
+  return HWY_DYNAMIC_DISPATCH(RangeOf)(heights, rows, cols);
+}
+HeightRange super_stage(const TileFlow& flow, const CellFlags& active, double momentum, double step,
+                       double* heights, SuperStepTile& tile, CellFlags& changed) {
+  return HWY_DYNAMIC_DISPATCH(SuperStage)(flow, active, momentum, step, heights, tile, changed);
 }
 bool apply_flow(const TileFlow& flow, double* heights, CellFlags& changed) {
   return HWY_DYNAMIC_DISPATCH(ApplyFlow)(flow, heights, changed);
@@ -333,6 +489,9 @@ bool apply_flow(const TileFlow& flow, double* heights, CellFlags& changed) {
 void compute_residuals(const TalusLaw& law, const TilePatch& patch, const CellFlags& cells,
                        double* steepest) {
   HWY_DYNAMIC_DISPATCH(ComputeResiduals)(law, patch, cells, steepest);
+}
+void take_back_stage(const SuperStepTile& tile, double* heights) {
+  HWY_DYNAMIC_DISPATCH(TakeBackStage)(tile, heights);
 }
 
 }  // namespace sandstroke

@@ -26,6 +26,7 @@ void apply_model_preset(Scene& scene) {
   scene.tool.profile = paper ? ToolProfile::paper : ToolProfile::sphere;
   scene.displacement.deposit = paper ? Deposit::ring : Deposit::ahead;
   scene.relaxation.law = paper ? RelaxationLaw::paper : RelaxationLaw::isotropic;
+  scene.relaxation.method = paper ? RelaxationMethod::passes : RelaxationMethod::rkl;
 }
 
 void describe_bed(SceneVisitor& v, BedSettings& bed) {
@@ -67,9 +68,12 @@ void describe_relaxation(SceneVisitor& v, RelaxationSettings& r) {
   v.section("relaxation", "how sand that lies too steep flows");
   choose(v, "law", r.law, {"paper", "isotropic"},
          "8 neighbours as published, or the same slope in every direction");
-  choose(v, "method", r.method, {"passes"}, "how the law is stepped");
+  choose(v, "method", r.method, {"passes", "rkl"}, "plain passes, or super time steps: the same rest in far fewer");
+  if (r.method == RelaxationMethod::rkl)
+    v.number("step_tolerance", r.step_tolerance, {1e-6, 10.0, false}, "",
+             "method rkl: error of a super step, as a share of how far sand has moved");
   choose(v, "engine", r.engine, {"tiles", "reference"},
-         "only sand that can move, or the plain whole field (same bits)");
+         "only sand that can move, or the plain whole field (same bits; method passes)");
   v.number("talus_angle", r.talus_angle, sharp_angle, "deg", "angle of repose");
   v.number("tolerance", r.tolerance, {1e-12, 1.0, false}, "",
            "slope above tan(talus_angle) that rests, as a share of it");
@@ -146,7 +150,7 @@ double memory_of_bed(const Scene& scene) {
 
 void describe_scene(SceneVisitor& v, Scene& scene) {
   v.section("model", "which set of choices the others start from");
-  choose(v, "preset", scene.preset, {"paper", "accurate"}, "as published; or sphere, ahead, isotropic");
+  choose(v, "preset", scene.preset, {"paper", "accurate"}, "as published; or sphere, ahead, isotropic, rkl");
   if (v.reads()) apply_model_preset(scene);
 
   describe_bed(v, scene.bed);
@@ -212,6 +216,9 @@ void check_scene(const Scene& scene, const std::string& name) {
     throw_input_error(
         "{}: relaxation.share = {} is not stable with relaxation.law = isotropic; take 0.25 or less", name,
         r.share);
+  if (r.method == RelaxationMethod::rkl && r.engine == RelaxationEngine::reference)
+    throw_input_error(
+        "{}: relaxation.engine = reference has no method rkl; set relaxation.method = passes, or engine = tiles", name);
   if (scene.stroke && scene.stroke->file.empty())
     throw_input_error("{}: stroke.file is missing; name a stroke (.toml or .h5) or remove [stroke]", name);
   const SurfaceSettings& s = bed.surface;

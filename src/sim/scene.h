@@ -16,7 +16,7 @@
 
 namespace sandstroke {
 
-/// As published (paper), or with each choice for accuracy: sphere, ahead, isotropic.
+/// As published (paper), or with each choice for accuracy: sphere, ahead, isotropic, rkl.
 enum class ModelPreset { paper, accurate };
 
 struct BedSettings {

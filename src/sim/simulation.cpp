@@ -24,11 +24,12 @@ bool comes_due(std::int64_t tick, double servo_rate, double rate) {
 
 }  // namespace
 
-Simulation::Simulation(const Scene& scene, HeightField bed, std::optional<Stroke> stroke)
+Simulation::Simulation(const Scene& scene, HeightField bed, std::optional<Stroke> stroke,
+                       std::unique_ptr<Relaxer> relaxer)
     : scene_(scene),
       bed_(std::move(bed)),
       footprint_(scene.tool),
-      relaxer_(make_relaxer(scene.relaxation, bed_.cell_size())) {
+      relaxer_(relaxer ? std::move(relaxer) : make_relaxer(scene.relaxation, bed_.cell_size())) {
   if (!stroke) return;
   check_inside(*stroke);
   stroke_.emplace(std::move(*stroke));
@@ -93,6 +94,8 @@ void Simulation::relax(double time, SimulationObserver& observer) {
       relaxer_->relax(bed_, [&observer](std::int64_t passes) { observer.on_pass(passes); });
   result_.passes += outcome.passes;
   result_.relaxations += 1;
+  result_.super_steps += outcome.super_steps;
+  result_.rejected_stages += outcome.rejected_stages;
   result_.cells_visited += outcome.cells_visited;
   result_.wake_ups += outcome.wake_ups;
   result_.tiles_active_max = std::max(result_.tiles_active_max, outcome.tiles_active_max);

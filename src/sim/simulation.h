@@ -28,9 +28,10 @@ class SimulationObserver {
 /// relaxation at its own rate; after the last tick the bed is relaxed to equilibrium.
 class Simulation {
  public:
-  /// stroke: as place_stroke() leaves it; none where the bed is only relaxed. Error: input, if the stroke
-  /// enters the sand outside the bed.
-  Simulation(const Scene& scene, HeightField bed, std::optional<Stroke> stroke);
+  /// stroke: as place_stroke() leaves it; none where the bed is only relaxed. relaxer: none = as the scene
+  /// says. Error: input, if the stroke enters the sand outside the bed.
+  Simulation(const Scene& scene, HeightField bed, std::optional<Stroke> stroke,
+             std::unique_ptr<Relaxer> relaxer = nullptr);
 
   const Scene& scene() const { return scene_; }
   const HeightField& bed() const { return bed_; }

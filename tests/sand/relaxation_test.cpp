@@ -220,6 +220,7 @@ TEST(TileRelaxer, LooksOnlyAtWhatCanMove) {
 TEST(TileRelaxer, CountsHowOftenTilesWake) {
   HeightField bed(64, 192, 1.0);
   const auto relaxer = make_relaxer(settings(RelaxationLaw::paper), 1.0);
+  EXPECT_EQ(relaxer->relax(bed).wake_ups, 0);
   bed.set(32, 32, 1.0);  // one pass moves it, and then it rests
   EXPECT_EQ(relaxer->relax(bed).wake_ups, 1);
   bed.set(32, 61, 1.0);  // flows within 2 cells of the next tile, which looks and rests

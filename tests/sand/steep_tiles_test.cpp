@@ -8,7 +8,7 @@
 namespace sandstroke {
 namespace {
 
-TEST(SteepTiles, TheFirstRelaxationFindsNoMoreThanCounted) {
+TEST(SteepTiles, TheFirstRelaxationLooksAtThemAndWhatIsBesideThem) {
   using enum SurfaceKind;
   for (const auto kind : {flat, cylinder, cone, cliff, noise, ripples}) {
     SurfaceSettings surface;
@@ -20,7 +20,8 @@ TEST(SteepTiles, TheFirstRelaxationFindsNoMoreThanCounted) {
     settings.max_passes = 0;
     const std::int64_t counted = tiles_to_relax(bed, settings);
     const int tiles_active = make_relaxer(settings, bed.cell_size())->relax(bed).tiles_active_max;
-    EXPECT_EQ(tiles_active, counted) << static_cast<int>(kind);
+    EXPECT_GE(tiles_active, counted) << static_cast<int>(kind);
+    EXPECT_LE(tiles_active, 3 * counted) << static_cast<int>(kind);
     settings.engine = RelaxationEngine::reference;
     EXPECT_EQ(tiles_to_relax(bed, settings), bed.tile_count());
   }

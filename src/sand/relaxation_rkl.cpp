@@ -1,0 +1,219 @@
+// Super time stepping: first-order Runge-Kutta-Legendre steps (Meyer, Balsara & Aslam, MNRAS 422, 2012) that
+// do not know in advance how long they will be. At its stability limit c, the scheme of s stages is
+//   Y(j+1) = Y(j) + j/(j+1) (Y(j) - Y(j-1)) + c (2j+1)/(j+1) F(Y(j)),
+// without s in it: every Y(j) is the end of a valid step of length c j(j+1)/2, which j plain passes would
+// take to c j. So stages go on until F(Y(j)), which the next one needs anyway, says stop; nothing is computed
+// for the controller alone.
+//   e = tau/2 max|F - F0| / (travelled + tau max|F0|), foreseen for the stage to come, is the error of the
+//   step relative to how far sand has moved in this relaxation; it stays below the step tolerance. A step
+//   also ends where the flow has decayed or turned against its start (sum F F0 < 2 % of sum F0^2): momentum
+//   would overspread.
+// The stages flow wherever the slope exceeds tan(talus); the tolerance says only when all is done. (With a
+// gate in the stages, its jumps make long steps chatter.) But sand that no change has come near is held
+// still.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <vector>
+
+#include "core/compensated_sum.h"
+#include "core/interrupt.h"
+#include "sand/active_sand.h"
+#include "sand/talus_law.h"
+
+namespace sandstroke {
+namespace {
+
+/// As the law is between stages: no tolerance, and a flow F for c = 1.
+TalusLaw ungated(const RelaxationSettings& settings, double cell_size) {
+  RelaxationSettings law = settings;
+  law.tolerance = 0.0;
+  law.share = 1.0;
+  return TalusLaw(law, cell_size);
+}
+
+class RklRelaxer : public Relaxer {
+ public:
+  RklRelaxer(const RelaxationSettings& settings, double cell_size)
+      : law_(settings, cell_size),
+        step_tolerance_(settings.step_tolerance),
+        max_passes_(settings.max_passes),
+        largest_share_(std::min(law_.share, 0.25)),
+        sand_(ungated(settings, cell_size), cell_size, true) {}
+
+  RelaxationOutcome relax(HeightField& bed, const std::function<void(std::int64_t)>& after_pass) override {
+    outcome_ = {};
+    moved_ = {};
+    low_ = std::numeric_limits<double>::infinity(), high_ = -low_;
+    ++relaxation_, ++step_;
+    travelled_ = 0.0;
+    too_steep_ = false;
+    in_step_.clear();
+    double share = largest_share_ / 8.0;  // small steps through the violent start
+    sand_.begin(bed);
+    if (!sand_.at_rest()) compute_flow(bed);
+    while (goes_on()) {
+      super_step(bed, share, after_pass);
+      share = std::min(2.0 * share, largest_share_);
+    }
+    if (!too_steep_) sand_.rest();
+    outcome_.moved_volume = moved_.value() * bed.cell_area();
+    sand_.end(bed, outcome_);
+    return outcome_;
+  }
+
+ private:
+  struct StepTile {
+    SuperStepTile kept;
+    FlowChange change{};           // from F0, in the last pass
+    double first_peak = 0.0;       // m: max |F0|
+    HeightRange range{};           // of the active cells, after the last stage
+    std::int64_t relaxation = -1;  // whose range knows this tile
+    std::int64_t step = -1;        // super-step that it takes part in
+    std::int64_t pass = -1;        // the last in which it was active
+  };
+
+  bool goes_on() const {
+    return !sand_.at_rest() && too_steep_ && outcome_.passes < max_passes_ && !interrupted();
+  }
+  StepTile& tile(int slot) { return *tiles_[slot]; }
+
+  void super_step(HeightField& bed, double share, const std::function<void(std::int64_t)>& after_pass) {
+    ++step_;
+    ++outcome_.super_steps;
+    in_step_.clear();
+    const FlowChange first = start_step(bed);  // max |F0|, sum F0^2
+    double tau = 0.0, flowing = 0.0;
+    for (int j = 0;; ++j) {
+      const double momentum = j / (j + 1.0), step = share * (2.0 * j + 1.0) / (j + 1.0);
+      if (!advance(bed, momentum, step)) break;  // what still flows is below rounding
+      ++outcome_.passes;
+      if (after_pass) after_pass(outcome_.passes);
+      if (j > 0 && left_range()) {
+        take_back(bed);
+        break;
+      }
+      flowing = momentum * flowing + step * given_;
+      moved_.add(flowing);
+      tau = share * (j + 1.0) * (j + 2.0) / 2.0;
+      compute_flow(bed);
+      if (!goes_on()) break;
+      const FlowChange change = change_from_start();
+      const double error = 0.5 * tau * change.difference / (travelled_ + tau * first.difference);
+      const double growth =
+          (j + 3.0) / (j + 1.0);  // of tau in the stage to come; the error grows like its square
+      if (error * growth * growth > step_tolerance_ || change.product < 0.02 * first.product) break;
+    }
+    travelled_ += tau * first.difference;
+  }
+
+  /// F of the heights as they are, how it differs from F0, and whether any slope is beyond the tolerance.
+  void compute_flow(HeightField& bed) {
+    for (const int slot : sand_.tiles()) take_in(bed, slot);
+    given_ = sand_.compute_flow(
+        bed, [this](int slot, const TileFlow& flow) { tile(slot).change = compare_flows(flow, tile(slot).kept); });
+    too_steep_ = false;
+    for (std::size_t i = 0; i < sand_.tiles().size(); ++i) {
+      const TileFlow& flow = sand_.flow(i);
+      too_steep_ |= flow.axis_drop > law_.axis_limit || flow.diagonal_drop > law_.diagonal_limit;
+    }
+  }
+
+  /// Gives an active tile its place in the step, and its starting heights theirs in the range.
+  void take_in(const HeightField& bed, int slot) {
+    if (tiles_.size() <= static_cast<std::size_t>(slot)) tiles_.resize(slot + 1);
+    if (!tiles_[slot]) tiles_[slot] = std::make_unique<StepTile>();
+    StepTile& joining = tile(slot);
+    joining.pass = outcome_.passes;
+    if (joining.relaxation != relaxation_) {
+      joining.relaxation = relaxation_;
+      const CellRange cells = bed.tile_cells(bed.tile_of(slot));
+      const HeightRange range = range_of(bed.tile_heights(slot), cells.rows(), cells.cols());
+      low_ = std::min(low_, range.low), high_ = std::max(high_, range.high);
+    }
+    if (joining.step == step_) return;
+    joining.step = step_;
+    joining.kept.stepped = joining.kept.first_moved = {};
+    joining.first_peak = 0.0;
+    in_step_.push_back(slot);
+  }
+
+  /// Keeps the flow as F0. Returns max |F0| and sum F0^2.
+  FlowChange start_step(const HeightField& bed) {
+    for (const int slot : sand_.tiles()) take_in(bed, slot);
+    sand_.for_each_tile([&](int slot, const TileFlow& flow) {
+      tile(slot).change = keep_first_flow(flow, tile(slot).kept);
+      tile(slot).first_peak = tile(slot).change.difference;
+    });
+    return sum_of_changes();
+  }
+
+  /// max |F - F0| and sum F F0 of the flow as computed last.
+  FlowChange change_from_start() {
+    FlowChange all = sum_of_changes();
+    for (const int slot : in_step_)  // no flow any more
+      if (tile(slot).pass != outcome_.passes) all.difference = std::max(all.difference, tile(slot).first_peak);
+    return all;
+  }
+
+  FlowChange sum_of_changes() {
+    double difference = 0.0;
+    CompensatedSum product;
+    for (const int slot : sand_.tiles()) {
+      difference = std::max(difference, tile(slot).change.difference);
+      product.add(tile(slot).change.product);
+    }
+    return {difference, product.value()};
+  }
+
+  bool advance(HeightField& bed, double momentum, double step) {
+    return sand_.advance(bed, [&](int slot, const TileFlow& flow, CellFlags& cells) {
+      tile(slot).range =
+          super_stage(flow, sand_.cells(slot), momentum, step, bed.tile_heights(slot), tile(slot).kept, cells);
+      if (!any(cells)) return false;
+      bed.mark_changed(slot);
+      return true;
+    });
+  }
+
+  /// Whether the last stage took any height out of the range of the starting ones.
+  bool left_range() {
+    return std::any_of(in_step_.begin(), in_step_.end(), [this](int slot) {
+      const StepTile& one = tile(slot);
+      return one.pass == outcome_.passes - 1 && (one.range.low < low_ || one.range.high > high_);
+    });
+  }
+
+  void take_back(HeightField& bed) {
+    ++outcome_.rejected_stages;
+    for (const int slot : in_step_) take_back_stage(tile(slot).kept, bed.tile_heights(slot));
+    compute_flow(bed);
+  }
+
+  TalusLaw law_;  // decides what rests
+  double step_tolerance_;
+  std::int64_t max_passes_;
+  double largest_share_;  // c: isotropic 1/4, which is its limit
+  ActiveSand sand_;
+
+  std::vector<std::unique_ptr<StepTile>> tiles_;  // per slot
+  std::vector<int> in_step_;                      // slots of the tiles in this super-step
+  std::int64_t relaxation_ = 0, step_ = 0;        // which one this is
+
+  // Of this relaxation.
+  RelaxationOutcome outcome_;
+  CompensatedSum moved_;
+  double low_ = 0.0, high_ = 0.0;  // m: range of the starting heights, in the tiles that took part
+  double travelled_ = 0.0;         // m: how far sand has moved, sum of tau max |F0|
+  double given_ = 0.0;             // m: sum of outflows of F
+  bool too_steep_ = false;
+};
+
+}  // namespace
+
+std::unique_ptr<Relaxer> make_rkl_relaxer(const RelaxationSettings& settings, double cell_size) {
+  return std::make_unique<RklRelaxer>(settings, cell_size);
+}
+
+}  // namespace sandstroke

@@ -1,0 +1,162 @@
+// The engine against the plain whole-field reference, bit for bit: random beds, tools and angles, on any
+// number of threads and every instruction set of the machine.
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+#include <tbb/task_arena.h>
+
+#include <hwy/targets.h>
+
+#include <numbers>
+#include <random>
+
+#include "sand/displacement.h"
+#include "sand/initial_surface.h"
+#include "sand/relaxation.h"
+
+namespace sandstroke {
+namespace {
+
+/// Uses one instruction set while it lives.
+class InstructionSet {
+ public:
+  explicit InstructionSet(std::int64_t target) { hwy::SetSupportedTargetsForTest(target); }
+  ~InstructionSet() { hwy::SetSupportedTargetsForTest(0); }
+};
+
+template <class Body>
+void on_threads(int threads, const Body& body) {
+  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
+                                  8);  // more than the machine has
+  tbb::task_arena(threads).execute(body);
+}
+
+/// A bed, and a tool that works on it, drawn at random: sizes that are no whole number of tiles, walls and
+/// tile borders hugged, gentle and steep talus angles, flat, rough, bumpy and cliff beds.
+class RandomScene {
+ public:
+  RandomScene(unsigned seed, int least_side, int largest_side) : random_(seed) {
+    const int rows = whole(least_side, largest_side), cols = whole(least_side, largest_side);
+    SurfaceSettings surface;
+    const SurfaceKind kinds[] = {SurfaceKind::flat, SurfaceKind::noise, SurfaceKind::cliff,
+                                 SurfaceKind::cylinder, SurfaceKind::ripples};
+    surface.kind = kinds[whole(0, 4)];
+    surface.seed = seed;
+    surface.height = surface.kind == SurfaceKind::flat ? 0.0 : real(-8.0, 8.0) * dx;
+    surface.radius = real(2.0, 30.0) * dx;
+    surface.amplitude = real(0.0, 6.0) * dx;
+    surface.wavelength = whole(0, 1) || surface.kind == SurfaceKind::ripples ? real(5.0, 60.0) * dx : 0.0;
+    bed = make_surface(surface, rows, cols, dx);
+    relaxation.law = whole(0, 1) ? RelaxationLaw::paper : RelaxationLaw::isotropic;
+    relaxation.talus_angle = real(3.0, 70.0);
+    relaxation.tolerance = whole(0, 3) ? 1e-3 : 0.05;
+    relaxation.share = whole(0, 2) ? 0.0 : real(0.05, relaxation.law == RelaxationLaw::paper ? 0.5 : 0.25);
+    relaxation.max_passes = 60;  // the reference is slow
+    tool.radius = real(0.6, 7.0) * dx;
+    tool.profile = whole(0, 1) ? ToolProfile::paper : ToolProfile::sphere;
+    deposit.deposit = whole(0, 1) ? Deposit::ring : Deposit::ahead;
+  }
+
+  /// Pushes the tool into each bed, at the same place: anywhere, along a tile border, or along a wall.
+  void push(std::initializer_list<HeightField*> beds) {
+    const int at = whole(0, 2);
+    const double row = at == 0 ? real(0, bed.rows()) : at == 1 ? real(61, 67) : real(0, 3);
+    const double col = at == 0 ? real(0, bed.cols()) : at == 1 ? real(60, 68) : real(0, bed.cols());
+    const double depth = real(0.0, 4.0) * dx;
+    const Eigen::Vector3d motion(real(-dx, dx), real(-dx, dx), real(-dx, dx));
+    for (HeightField* one : beds) {
+      ToolFootprint footprint(tool);
+      footprint.place(*one, one->x_of(0) + col * dx, one->y_of(0) + row * dx);
+      if (!footprint.cells().empty())
+        displace(*one, footprint, footprint.sand_level() - depth, motion, deposit);
+    }
+  }
+
+  int whole(int low, int high) { return std::uniform_int_distribution<int>(low, high)(random_); }
+  double real(double low, double high) { return std::uniform_real_distribution<double>(low, high)(random_); }
+
+  static constexpr double dx = 0.002;
+  HeightField bed{1, 1, dx};
+  RelaxationSettings relaxation;
+  ToolSettings tool;
+  DisplacementSettings deposit;
+
+ private:
+  std::mt19937 random_;
+};
+
+/// Lets both engines work on a scene and compares every bit after each relaxation.
+void expect_equal_engines(RandomScene& scene) {
+  HeightField by_engine = scene.bed, by_reference = scene.bed;
+  RelaxationSettings settings = scene.relaxation;
+  const auto engine = make_relaxer(settings, scene.dx);
+  settings.engine = RelaxationEngine::reference;
+  const auto reference = make_relaxer(settings, scene.dx);
+  for (int round = 0; round < 4; ++round) {
+    const RelaxationOutcome a = engine->relax(by_engine), b = reference->relax(by_reference);
+    ASSERT_TRUE((by_engine.grid() == by_reference.grid()).all()) << "round " << round;
+    ASSERT_EQ(a.passes, b.passes) << "round " << round;
+    ASSERT_EQ(a.residual, b.residual) << "round " << round;
+    ASSERT_NEAR(a.moved_volume, b.moved_volume, 1e-12 * (1e-6 + b.moved_volume));
+    scene.push({&by_engine, &by_reference});
+  }
+}
+
+const int thread_counts[] = {1, 2, 3, 8};
+
+TEST(Engine, EqualsTheReferenceOn200RandomScenes) {
+  const std::vector<std::int64_t> targets = hwy::SupportedAndGeneratedTargets();
+  for (unsigned seed = 1; seed <= 200; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    const InstructionSet set(targets[seed % targets.size()]);
+    on_threads(thread_counts[seed / targets.size() % 4], [&] {
+      RandomScene scene(seed, 1, 140);
+      expect_equal_engines(scene);
+    });
+    ASSERT_FALSE(testing::Test::HasFailure());
+  }
+}
+
+TEST(Engine, EqualsTheReferenceWithEveryInstructionSetAndThreadCount) {
+  for (const std::int64_t target : hwy::SupportedAndGeneratedTargets())
+    for (const int threads : thread_counts)
+      for (const unsigned seed : {1001u, 1002u, 1003u}) {
+        SCOPED_TRACE(std::string(hwy::TargetName(target)) + ", threads " + std::to_string(threads));
+        const InstructionSet set(target);
+        on_threads(threads, [&] {
+          RandomScene scene(seed, 200, 260);  // rough: enough active cells for several threads
+          SurfaceSettings rough;
+          rough.kind = SurfaceKind::noise;
+          rough.amplitude = 5.0 * scene.dx;
+          rough.wavelength = 0.0;
+          rough.seed = seed;
+          scene.bed = make_surface(rough, scene.bed.rows(), scene.bed.cols(), scene.dx);
+          scene.relaxation.max_passes = 6;
+          expect_equal_engines(scene);
+        });
+        ASSERT_FALSE(testing::Test::HasFailure());
+      }
+}
+
+TEST(Tool, IsTheSameBitsWithEveryInstructionSet) {
+  const std::vector<std::int64_t> targets = hwy::SupportedAndGeneratedTargets();
+  for (unsigned seed = 1; seed <= 40; ++seed) {
+    std::vector<HeightGrid> beds;
+    std::vector<double> levels;
+    for (const std::int64_t target : targets) {
+      const InstructionSet set(target);
+      RandomScene scene(seed, 20, 140);
+      for (int i = 0; i < 3; ++i) scene.push({&scene.bed});
+      ToolFootprint footprint(scene.tool);
+      footprint.place(scene.bed, 0.1 * scene.dx, -0.3 * scene.dx);
+      beds.push_back(scene.bed.grid());
+      levels.push_back(footprint.sand_level());
+    }
+    for (std::size_t i = 1; i < targets.size(); ++i) {
+      EXPECT_TRUE((beds[i] == beds[0]).all()) << hwy::TargetName(targets[i]) << ", seed " << seed;
+      EXPECT_EQ(levels[i], levels[0]) << hwy::TargetName(targets[i]) << ", seed " << seed;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace sandstroke
