@@ -99,6 +99,8 @@ int run(const Arguments& arguments) {
     files.push_back(written);
   }
 
+  if (!arguments.picture.empty()) check_drawable(scene.bed.rows, scene.bed.cols);
+
   RunOptions options;
   options.scene_folder = folder;
   options.threads = arguments.threads;

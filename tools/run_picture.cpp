@@ -21,8 +21,8 @@ HeightGrid last_surface(const RunFile& run, const HeightGrid& initial) {
 RunPainter::RunPainter(const RunFile& run, const ViewSettings& view, double contour_interval)
     : run_(run),
       scene_(scene_from_text(run.scene_text(), run.name() + ": /scene")),
-      initial_(run.initial()),
-      renderer_(static_cast<int>(initial_.rows()), static_cast<int>(initial_.cols()), run.cell_size()) {
+      renderer_(run.rows(), run.cols(), run.cell_size()),
+      initial_(run.initial()) {
   const HeightGrid last = last_surface(run, initial_);
   subject_.view = view;
   subject_.contour_interval = contour_interval;

@@ -27,8 +27,8 @@ class RunPainter {
 
   const RunFile& run_;
   Scene scene_;
+  HeightFieldRenderer renderer_;  // before the surfaces: it refuses beds that cannot be drawn
   HeightGrid initial_;
-  HeightFieldRenderer renderer_;
   RenderSubject subject_;
   std::optional<RunTrace> trace_;
 };

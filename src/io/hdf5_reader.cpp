@@ -3,6 +3,7 @@
 #include <cstring>
 
 #include "core/error.h"
+#include "core/memory.h"
 #include "core/output_file.h"
 
 namespace sandstroke {
@@ -131,6 +132,14 @@ std::vector<Eigen::Vector3d> Hdf5Reader::vectors(const std::string& dataset) con
 HeightGrid Hdf5Reader::grid(const std::string& dataset) const {
   std::vector<hsize_t> shape;
   const Hdf5Handle opened = open_numbers(dataset, 2, shape);
+  // A file says nothing about how large that is: parts that were never written take no room in it. Whoever
+  // works with a grid holds a few of its size.
+  const double needed = 4.0 * sizeof(double) * static_cast<double>(shape[0]) * static_cast<double>(shape[1]);
+  if (needed > physical_memory())
+    fail(dataset,
+         fmt::format("has {} x {} numbers: working with all of them takes about {:.0f} GB of memory and this "
+                     "machine has {:.0f}; read a part of it, for example with h5py",
+                     shape[0], shape[1], needed * 1e-9, physical_memory() * 1e-9));
   HeightGrid values(static_cast<Eigen::Index>(shape[0]), static_cast<Eigen::Index>(shape[1]));
   if (H5Dread(opened, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)
     fail(dataset, "cannot be read; the file is damaged");

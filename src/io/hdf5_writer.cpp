@@ -55,6 +55,13 @@ void Hdf5Column::extend(const void* rows, std::size_t count, hid_t memory_type) 
   count_ += count;
 }
 
+void Hdf5Chunks::write(int row, int col, const double* numbers) {
+  const hsize_t first[2] = {static_cast<hsize_t>(row), static_cast<hsize_t>(col)};
+  // As it is, past HDF5's cache of chunks: nothing is to be converted.
+  if (H5Dwrite_chunk(dataset_, H5P_DEFAULT, 0, first, size() * sizeof(double), numbers) < 0)
+    throw_write_error(where_);
+}
+
 Hdf5Writer::Hdf5Writer(const std::filesystem::path& path) : path_(path) {
   prepare_hdf5();
   const std::string part = part_path(path).string();
@@ -164,6 +171,22 @@ Hdf5Column Hdf5Writer::column(const std::string& dataset, int width) {
 }
 Hdf5Column Hdf5Writer::byte_column(const std::string& dataset) {
   return growing(dataset, H5T_NATIVE_UINT8, 1);
+}
+
+Hdf5Chunks Hdf5Writer::chunks(const std::string& dataset, std::array<int, 2> shape, std::array<int, 2> chunk,
+                              double fill) {
+  Hdf5Chunks chunks;
+  chunks.rows_ = std::clamp(shape[0], 1, chunk[0]);
+  chunks.cols_ = std::clamp(shape[1], 1, chunk[1]);
+  chunks.where_ = path_.string() + ": " + dataset;
+  const hsize_t extent[2] = {static_cast<hsize_t>(shape[0]), static_cast<hsize_t>(shape[1])};
+  const Hdf5Handle space(H5Screate_simple(2, extent, nullptr), H5Sclose);
+  const Hdf5Handle properties = dataset_properties({chunks.rows_, chunks.cols_}, Compression::none);
+  H5Pset_fill_value(properties, H5T_NATIVE_DOUBLE, &fill);
+  H5Pset_alloc_time(properties, H5D_ALLOC_TIME_INCR);
+  H5Pset_fill_time(properties, H5D_FILL_TIME_IFSET);  // with "never", missing chunks would not read as it
+  chunks.dataset_ = create(dataset, H5T_NATIVE_DOUBLE, space, properties);
+  return chunks;
 }
 
 void Hdf5Writer::make_group(const std::string& group) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -33,6 +34,23 @@ class Hdf5Column {
   hsize_t width_ = 1, count_ = 0;
 };
 
+/// A dataset of doubles of rank 2, written chunk by chunk. Chunks that are never written take no room in the
+/// file and read as the fill value. Made by Hdf5Writer::chunks.
+class Hdf5Chunks {
+ public:
+  std::size_t cols() const { return cols_; }          ///< of a chunk
+  std::size_t size() const { return rows_ * cols_; }  ///< numbers in a chunk
+  /// A whole chunk, row after row, by its first row and column in the dataset; what lies outside the dataset
+  /// does not matter. Error: io.
+  void write(int row, int col, const double* numbers);
+
+ private:
+  friend class Hdf5Writer;
+  std::string where_;  // file and dataset, for messages
+  Hdf5Handle dataset_;
+  std::size_t rows_ = 1, cols_ = 1;
+};
+
 /// An HDF5 file being written as PATH.part and renamed to PATH by finish(). Groups on the way to a dataset
 /// are made as needed. Error: io, for whatever the system refuses, and where another process is writing the
 /// same file.
@@ -55,6 +73,9 @@ class Hdf5Writer {
 
   Hdf5Column column(const std::string& dataset, int width = 1);
   Hdf5Column byte_column(const std::string& dataset);
+  /// chunk: rows and columns, cut where the dataset has fewer.
+  Hdf5Chunks chunks(const std::string& dataset, std::array<int, 2> shape, std::array<int, 2> chunk,
+                    double fill);
   void make_group(const std::string& group);
 
   /// What has been written so far can be read from the .part file from now on.

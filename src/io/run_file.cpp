@@ -1,5 +1,7 @@
 #include "io/run_file.h"
 
+#include <limits>
+
 #include "core/error.h"
 
 namespace sandstroke {
@@ -27,24 +29,29 @@ double RunFile::cell_size() const {
   return size;
 }
 
+std::vector<hsize_t> RunFile::shape() const {
+  const std::vector<hsize_t> shape = file_.shape("/surface/initial");
+  constexpr hsize_t most = std::numeric_limits<int>::max();
+  if (shape.size() != 2 || shape[0] > most || shape[1] > most || shape[0] * shape[1] == 0)
+    throw_input_error("{}: /surface/initial is no grid of cells; the file is damaged", file_.name());
+  return shape;
+}
+int RunFile::rows() const { return static_cast<int>(shape()[0]); }
+int RunFile::cols() const { return static_cast<int>(shape()[1]); }
+
 HeightGrid RunFile::initial() const {
-  HeightGrid heights = file_.grid("/surface/initial");
-  if (heights.size() == 0)
-    throw_input_error("{}: /surface/initial has no cells; the file is damaged", file_.name());
-  return heights;
+  shape();  // that there is one
+  return file_.grid("/surface/initial");
 }
 bool RunFile::has_final() const { return file_.has("/surface/final"); }
 
 HeightGrid RunFile::final() const {
   if (!has_final() && !complete())
     throw_input_error("{}: the run was cut off and has no final surface; run it again", file_.name());
-  HeightGrid heights = file_.grid("/surface/final");
-  const auto shape = file_.shape("/surface/initial");
-  if (shape.size() != 2 || static_cast<Eigen::Index>(shape[0]) != heights.rows() ||
-      static_cast<Eigen::Index>(shape[1]) != heights.cols())
+  if (file_.shape("/surface/final") != shape())
     throw_input_error("{}: /surface/final and /surface/initial differ in shape; the file is damaged",
                       file_.name());
-  return heights;
+  return file_.grid("/surface/final");
 }
 
 bool RunFile::has_trace() const { return file_.has("/trace/time"); }

@@ -27,6 +27,8 @@ class RunFile {
   const std::string& name() const { return file_.name(); }
   bool complete() const;     ///< false: the run was cut off
   double cell_size() const;  ///< m
+  int rows() const;          ///< cells along y and x
+  int cols() const;
   HeightGrid initial() const;
   HeightGrid final() const;  ///< error where the run was cut off before its end
   bool has_final() const;
@@ -40,6 +42,8 @@ class RunFile {
   std::vector<std::pair<std::string, std::string>> provenance() const;
 
  private:
+  std::vector<hsize_t> shape() const;  // of /surface/initial
+
   Hdf5Reader file_;
 };
 

@@ -8,6 +8,7 @@
 #include "core/output_file.h"
 #include "core/version.h"
 #include "core/xml_text.h"
+#include "io/bed_writer.h"
 #include "io/scene_toml.h"
 
 namespace sandstroke {
@@ -55,10 +56,11 @@ RunWriter::RunWriter(const std::filesystem::path& path, const Simulation& simula
   file_.write("/provenance/compiler", compiler);
   file_.write("/provenance/scene_hash", content_hash(scene));
   file_.write("/provenance/stroke_hash", stroke_hash);
-  file_.write("/surface/initial", bed.grid());
+  write_bed(file_, "/surface/initial", bed);
   file_.attribute("/surface", "cell_size", bed.cell_size());
   file_.attribute("/surface", "unit", "m");
-  for (int tile = 0; tile < bed.tile_count(); ++tile) frame_revisions_.push_back(bed.tile_revision(tile));
+  for (int slot = 0; slot < bed.touched_tiles(); ++slot)
+    frame_revisions_.push_back(bed.tile_revision(bed.tile_of(slot)));
   if (keeps_trace_) make_trace_columns();
   make_relaxation_columns();
   file_.flush();
@@ -128,23 +130,26 @@ void RunWriter::write_rows() {
 }
 
 void RunWriter::on_frame(double time, const HeightField& surface) {
+  frame_revisions_.resize(surface.touched_tiles(), HeightField::new_tile_revision);
   std::vector<std::uint32_t> changed;
-  for (int tile = 0; tile < surface.tile_count(); ++tile) {
-    if (surface.tile_revision(tile) == frame_revisions_[tile]) continue;
-    frame_revisions_[tile] = surface.tile_revision(tile);
+  for (int slot = 0; slot < surface.touched_tiles(); ++slot) {
+    const int tile = surface.tile_of(slot);
+    if (surface.tile_revision(tile) == frame_revisions_[slot]) continue;
+    frame_revisions_[slot] = surface.tile_revision(tile);
     changed.push_back(static_cast<std::uint32_t>(tile));
   }
-  HeightGrid heights = HeightGrid::Zero(static_cast<Eigen::Index>(changed.size()), HeightField::tile_area);
-  for (std::size_t i = 0; i < changed.size(); ++i) {
-    const CellRange cells = surface.tile_cells(static_cast<int>(changed[i]));
-    for (int row = cells.row_begin; row < cells.row_end; ++row)
-      for (int col = cells.col_begin; col < cells.col_end; ++col)
-        heights(static_cast<Eigen::Index>(i),
-                (row - cells.row_begin) * HeightField::tile_side + col - cells.col_begin) = surface(row, col);
-  }
+  std::sort(changed.begin(), changed.end());
   const std::string name = fmt::format("/surface/frame/{:06}", frames_++);
   file_.write(name + "/tiles", changed);
-  file_.write(name + "/heights", heights);
+  Hdf5Chunks heights =
+      file_.chunks(name + "/heights", {static_cast<int>(changed.size()), HeightField::tile_area},
+                   {1, HeightField::tile_area}, 0.0);
+  std::vector<double> block(HeightField::tile_area);
+  for (std::size_t i = 0; i < changed.size(); ++i) {
+    std::fill(block.begin(), block.end(), 0.0);  // outside the bed
+    surface.read_tile(static_cast<int>(changed[i]), block.data());
+    heights.write(static_cast<int>(i), 0, block.data());
+  }
   file_.attribute(name, "time", time);
   file_.flush();
 }
@@ -160,7 +165,7 @@ void RunWriter::finish(const RunResult& result, const HeightField& surface) {
     spdlog::warn("stopped: what is complete is in {}", part_path(path_).string());
     return;
   }
-  file_.write("/surface/final", surface.grid());
+  write_bed(file_, "/surface/final", surface);
   file_.attribute("/", "complete", 1.0);
   file_.finish();
 

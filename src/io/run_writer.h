@@ -49,7 +49,7 @@ class RunWriter : public SimulationObserver {
 
   std::vector<TickRecord> ticks_;  // not written yet
   std::vector<RelaxationRecord> relaxations_;
-  std::vector<std::uint64_t> frame_revisions_;  // per tile, as of the last frame
+  std::vector<std::uint64_t> frame_revisions_;  // per slot, as of the last frame
   int frames_ = 0;
 };
 

@@ -48,6 +48,11 @@ GlObject colour_map_texture(bool diverging) {
 
 }  // namespace
 
+void check_drawable(int rows, int cols) {
+  const CurrentContext context;
+  SurfaceTextures::check_size(rows, cols);
+}
+
 class HeightFieldRenderer::Drawing {
  public:
   Drawing(int rows, int cols, double cell_size)

@@ -15,6 +15,10 @@ struct RenderCounters {
   std::int64_t triangles = 0;  ///< of the sand
 };
 
+/// Whether the graphics system can draw a bed of this size: the errors of HeightFieldRenderer's constructor,
+/// without the memory that it takes.
+void check_drawable(int rows, int cols);
+
 /// Draws beds of one size, off screen, on the CPU. What it keeps from picture to picture only saves time: a
 /// picture depends on surface and subject alone, to the bit.
 ///

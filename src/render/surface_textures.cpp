@@ -62,20 +62,24 @@ float softened(const DrawnHeights& seen, int row, int col) {
 
 }  // namespace
 
-SurfaceTextures::SurfaceTextures(int rows, int cols, double cell_size)
-    : rows_(rows),
-      cols_(cols),
-      tile_rows_((rows + side - 1) / side),
-      tile_cols_((cols + side - 1) / side),
-      cell_size_(cell_size),
-      heights_(DrawnHeights::Zero(rows, cols)),
-      details_(static_cast<std::size_t>(tile_rows_) * tile_cols_),
-      shading_outdated_(details_.size(), 1) {
+void SurfaceTextures::check_size(int rows, int cols) {
   GLint largest = 0;
   glGetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
   if (std::max(rows, cols) > largest || std::min(rows, cols) < 2)
     throw_input_error("a bed of {} x {} cells cannot be drawn; pictures take 2 to {} cells a side", cols,
                       rows, largest);
+}
+
+SurfaceTextures::SurfaceTextures(int rows, int cols, double cell_size)
+    : rows_(rows),
+      cols_(cols),
+      tile_rows_((rows + side - 1) / side),
+      tile_cols_((cols + side - 1) / side),
+      cell_size_(cell_size) {
+  check_size(rows, cols);  // before any memory is taken for it
+  heights_ = DrawnHeights::Zero(rows, cols);
+  details_.resize(static_cast<std::size_t>(tile_rows_) * tile_cols_);
+  shading_outdated_.assign(details_.size(), 1);
   height_texture_ = texture_of(GL_R32F, cols, rows, GL_RED, GL_FLOAT);
   shading_texture_ = texture_of(GL_RGBA16F, cols, rows, GL_RGBA, GL_HALF_FLOAT);
 }

@@ -15,7 +15,10 @@ namespace sandstroke {
 /// never on what was shown before.
 class SurfaceTextures {
  public:
-  /// Error: input, where the bed has a side of fewer than 2 cells or more than a texture can have.
+  /// Error: input, where the bed has a side of fewer than 2 cells or more than a texture can have. A context
+  /// must be current.
+  static void check_size(int rows, int cols);
+  /// Error: as check_size, before any memory is taken.
   SurfaceTextures(int rows, int cols, double cell_size);
 
   /// Takes a surface of the same shape over; returns the number of tiles that changed. Error: input, where

@@ -1,17 +1,15 @@
 #include "sand/active_sand.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "core/compensated_sum.h"
 
 namespace sandstroke {
 
-// Both laws compare slopes along rows, columns and diagonals; the isotropic one adds up two of them.
 ActiveSand::ActiveSand(const TalusLaw& law, double cell_size, bool holds_still)
     : law_(law),
       holds_still_(holds_still),
-      stable_slope_(law.axis_drop / cell_size / std::sqrt(2.0) * (1.0 - 1e-9)),
+      stable_slope_(stable_slope(law, cell_size)),
       activity_(holds_still) {}
 
 void ActiveSand::begin(HeightField& bed) {

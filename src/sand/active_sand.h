@@ -69,7 +69,7 @@ class ActiveSand {
 
   TalusLaw law_;
   bool holds_still_;
-  double stable_slope_;  // rise over run: where no slope is above it, both laws leave all sand at rest
+  double stable_slope_;  // rise over run
   TileActivity activity_;
 
   std::vector<std::unique_ptr<TileFlow>> flows_;  // per active tile, as are the next two

@@ -43,6 +43,10 @@ class BedGeometry {
   double col_at(double x) const { return x / cell_size_ + col_origin_; }
   double row_at(double y) const { return y / cell_size_ + row_origin_; }
 
+  /// From the bed's centre to a cell's, in cells: whole or half numbers, so exact.
+  double cols_from_centre(int col) const { return col - col_origin_; }
+  double rows_from_centre(int row) const { return row - row_origin_; }
+
   // Tile (i, j) holds rows [i * tile_side, ...) and cols [j * tile_side, ...); its index is i * tile_cols() +
   // j.
   int tile_rows() const { return tile_rows_; }

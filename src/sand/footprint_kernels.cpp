@@ -47,23 +47,23 @@ class Offsets {
  public:
   explicit Offsets(const ToolFootprint& f)
       : dx_(f.cell_size()),
-        col_(f.cells().col_begin),
         cols_(f.cells().cols()),
-        row_(f.cells().row_begin),
-        tool_col_(f.tool_col()),
-        tool_row_(f.tool_row()) {}
+        first_x_(f.first_x()),
+        first_y_(f.first_y()),
+        axis_x_(f.axis_x()),
+        axis_y_(f.axis_y()) {}
   HWY_INLINE V x(int col) const {
     const V index = hn::Iota(d, col);
-    const V x = hn::Mul(hn::Sub(hn::Iota(d, col_ + col), hn::Set(d, tool_col_)), hn::Set(d, dx_));
+    const V x = hn::Mul(hn::Sub(hn::Iota(d, first_x_ + col), hn::Set(d, axis_x_)), hn::Set(d, dx_));
     return hn::IfThenElse(hn::Lt(index, hn::Set(d, cols_)), x,
                           hn::Set(d, std::numeric_limits<double>::infinity()));
   }
-  double y(int row) const { return (row_ + row - tool_row_) * dx_; }
+  double y(int row) const { return (first_y_ + row - axis_y_) * dx_; }
 
  private:
   double dx_;
-  int col_, cols_, row_;
-  double tool_col_, tool_row_;
+  int cols_;
+  double first_x_, first_y_, axis_x_, axis_y_;
 };
 
 double ShapeFootprint(const FootprintShape& shape, ToolFootprint& f) {

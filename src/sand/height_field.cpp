@@ -34,7 +34,9 @@ HeightField::HeightField(int rows, int cols, double cell_size, std::shared_ptr<c
 HeightField::HeightField(const HeightGrid& heights, double cell_size)
     : HeightField(static_cast<int>(heights.rows()), static_cast<int>(heights.cols()), cell_size) {
   for (int tile = 0; tile < tile_count(); ++tile) {
-    double* out = tile_heights(make_tile(tile));
+    const int slot = make_tile(tile);
+    mark_changed(slot);
+    double* out = tile_heights(slot);
     const CellRange cells = tile_cells(tile);
     for (int row = cells.row_begin; row < cells.row_end; ++row, out += tile_side)
       std::copy_n(&heights(row, cells.col_begin), cells.cols(), out);
@@ -58,7 +60,7 @@ HeightField& HeightField::operator=(const HeightField& other) { return *this = H
 int HeightField::make_tile(int tile) {
   auto made = std::make_unique<Tile>();  // zeros, outside the bed too
   made->index = tile;
-  made->revision = 1;
+  made->revision = new_tile_revision;
   untouched_->fill(*this, tile_cells(tile), made->heights.data());
   tiles_.push_back(std::move(made));
   slots_.get()[tile] = static_cast<std::uint32_t>(tiles_.size());

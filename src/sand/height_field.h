@@ -78,6 +78,8 @@ class HeightField : public BedGeometry {
   void settle();
 
   /// Changes whenever a cell of the tile may have changed; 0 while it does not exist. By tile index.
+  /// new_tile_revision: it came into being by rule and is still as the rule says.
+  static constexpr std::uint64_t new_tile_revision = 1;
   std::uint64_t tile_revision(int tile) const {
     const int slot = slot_of(tile);
     return slot < 0 ? 0 : tiles_[slot]->revision;

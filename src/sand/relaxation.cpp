@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "sand/steep_tiles.h"
 #include "sand/talus_law.h"
 
 namespace sandstroke {
@@ -19,6 +20,18 @@ TalusLaw::TalusLaw(const RelaxationSettings& settings, double cell_size)
       diagonal_drop(axis_drop * std::numbers::sqrt2),
       axis_limit(axis_drop * (1.0 + settings.tolerance)),
       diagonal_limit(diagonal_drop * (1.0 + settings.tolerance)) {}
+
+double stable_slope(const TalusLaw& law, double cell_size) {
+  return law.axis_drop / cell_size / std::sqrt(2.0) * (1.0 - 1e-9);
+}
+
+std::int64_t tiles_to_relax(const HeightField& bed, const RelaxationSettings& settings) {
+  if (settings.engine == RelaxationEngine::reference) return bed.tile_count();
+  std::int64_t tiles = bed.touched_tiles();
+  visit_steep_tiles(bed, stable_slope(TalusLaw(settings, bed.cell_size()), bed.cell_size()),
+                    [&](int tile) { tiles += bed.slot_of(tile) < 0; });
+  return tiles;
+}
 
 std::unique_ptr<Relaxer> make_relaxer(const RelaxationSettings& settings, double cell_size) {
   if (settings.engine == RelaxationEngine::reference) return make_reference_relaxer(settings, cell_size);

@@ -64,6 +64,9 @@ class Relaxer {
                                   const std::function<void(std::int64_t)>& after_pass = {}) = 0;
 };
 
+/// How many tiles the first relaxation of a bed brings into being or finds there: what it takes memory for.
+std::int64_t tiles_to_relax(const HeightField& bed, const RelaxationSettings& settings);
+
 /// A relaxer for one bed, which it may observe between calls.
 std::unique_ptr<Relaxer> make_relaxer(const RelaxationSettings& settings, double cell_size);
 

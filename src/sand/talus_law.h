@@ -16,6 +16,10 @@ struct TalusLaw {
   TalusLaw(const RelaxationSettings& settings, double cell_size);
 };
 
+/// Where no slope (rise over run) is above this, both laws leave all sand at rest: they compare slopes along
+/// rows, columns and diagonals; the isotropic one adds up two of them.
+double stable_slope(const TalusLaw& law, double cell_size);
+
 std::unique_ptr<Relaxer> make_reference_relaxer(const RelaxationSettings& settings, double cell_size);
 std::unique_ptr<Relaxer> make_tile_relaxer(const RelaxationSettings& settings, double cell_size);
 std::unique_ptr<Relaxer> make_rkl_relaxer(const RelaxationSettings& settings, double cell_size);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "sand/steep_tiles.h"
+
 namespace sandstroke {
 namespace {
 
@@ -23,15 +25,7 @@ void TileActivity::wake_disturbed(HeightField& bed, double stable_slope) {
     all.fill(~std::uint64_t{0});
     const int existing = bed.touched_tiles();
     for (int slot = 0; slot < existing; ++slot) wake_around(bed, slot, all);
-    visit_quarters({0, bed.tile_rows(), 0, bed.tile_cols()}, [&](const CellRange& tiles) {
-      const CellRange own = bed.cells_of_tiles(tiles);
-      const CellRange seen = {std::max(own.row_begin - 1, 0), std::min(own.row_end + 1, bed.rows()),
-                              std::max(own.col_begin - 1, 0), std::min(own.col_end + 1, bed.cols())};
-      if (bed.untouched().steepest(bed, seen) <= stable_slope) return false;
-      if (tiles.rows() == 1 && tiles.cols() == 1)
-        wake_around(bed, bed.touch(bed.tile_index(tiles.row_begin, tiles.col_begin)), all);
-      return true;
-    });
+    visit_steep_tiles(bed, stable_slope, [&](int tile) { wake_around(bed, bed.touch(tile), all); });
   } else {
     for (const int slot : bed.disturbed_tiles()) wake_around(bed, slot, bed.disturbed_cells(slot));
   }

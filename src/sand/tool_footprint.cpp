@@ -2,10 +2,23 @@
 
 #include <cmath>
 #include <limits>
+#include <tuple>
 
 #include "sand/footprint_kernels.h"
 
 namespace sandstroke {
+namespace {
+
+/// [begin, end) of `count` cells in a line whose centres lie between two places, in cells from its centre.
+std::pair<int, int> cells_between(double low, double high, int count) {
+  // That centre is cell (count - 1) / 2, maybe a half: adding that first rounds alike for any even count.
+  const int centre = (count - 1) / 2;
+  const double half = count % 2 == 0 ? 0.5 : 0.0;
+  return {std::max(0, centre + static_cast<int>(std::ceil(low + half))),
+          std::min(count - 1, centre + static_cast<int>(std::floor(high + half))) + 1};
+}
+
+}  // namespace
 
 ToolFootprint::ToolFootprint(const ToolSettings& settings)
     : shape_{settings.profile, settings.radius, settings.radius * settings.radius / filter::u0,
@@ -16,15 +29,14 @@ void ToolFootprint::place(const HeightField& bed, double x, double y) {
   cells_ = {};
   level_ = std::numeric_limits<double>::quiet_NaN();
   cell_size_ = bed.cell_size();
-  tool_row_ = bed.row_at(y), tool_col_ = bed.col_at(x);
+  axis_x_ = x / cell_size_, axis_y_ = y / cell_size_;
   const double extent = shape_.reach / cell_size_ + 1.0;  // cells; beyond it the level weight is 0
-  if (!(tool_row_ + extent >= 0.0 && tool_row_ - extent <= bed.rows() - 1.0)) return;
-  if (!(tool_col_ + extent >= 0.0 && tool_col_ - extent <= bed.cols() - 1.0)) return;
-  cells_.row_begin = std::max(0, static_cast<int>(std::ceil(tool_row_ - extent)));
-  cells_.row_end = std::min(bed.rows() - 1, static_cast<int>(std::floor(tool_row_ + extent))) + 1;
-  cells_.col_begin = std::max(0, static_cast<int>(std::ceil(tool_col_ - extent)));
-  cells_.col_end = std::min(bed.cols() - 1, static_cast<int>(std::floor(tool_col_ + extent))) + 1;
+  if (!(std::abs(axis_y_) <= bed.rows_from_centre(bed.rows() - 1) + extent)) return;
+  if (!(std::abs(axis_x_) <= bed.cols_from_centre(bed.cols() - 1) + extent)) return;
+  std::tie(cells_.row_begin, cells_.row_end) = cells_between(axis_y_ - extent, axis_y_ + extent, bed.rows());
+  std::tie(cells_.col_begin, cells_.col_end) = cells_between(axis_x_ - extent, axis_x_ + extent, bed.cols());
   if (cells_.empty()) return cells_ = {}, void();
+  first_x_ = bed.cols_from_centre(cells_.col_begin), first_y_ = bed.rows_from_centre(cells_.row_begin);
   stride_ = (cells_.cols() + 7) / 8 * 8;
   make_room();
   read_heights(bed);

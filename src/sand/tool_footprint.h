@@ -45,8 +45,12 @@ class ToolFootprint {
   /// The window, in cells of the bed; empty where the tool is outside it.
   const CellRange& cells() const { return cells_; }
   int stride() const { return stride_; }
-  double tool_row() const { return tool_row_; }  ///< the axis, in cells
-  double tool_col() const { return tool_col_; }
+  // In cells from the bed's centre, so that a tool means the same bits on a bed of any size: its axis, and
+  // the window's first cell.
+  double axis_x() const { return axis_x_; }
+  double axis_y() const { return axis_y_; }
+  double first_x() const { return first_x_; }
+  double first_y() const { return first_y_; }
   double cell_size() const { return cell_size_; }
 
   /// Mean height [m] under the footprint (u <= u1 in full, fading out within a cell around it, so that it
@@ -81,7 +85,7 @@ class ToolFootprint {
   FootprintShape shape_;
   CellRange cells_;
   int stride_ = 0;
-  double tool_row_ = 0.0, tool_col_ = 0.0, cell_size_ = 0.0, level_;
+  double axis_x_ = 0.0, axis_y_ = 0.0, first_x_ = 0.0, first_y_ = 0.0, cell_size_ = 0.0, level_;
   std::size_t room_ = 0;
   hwy::AlignedFreeUniquePtr<double[]> heights_, underside_, rampart_, weights_;
   hwy::AlignedFreeUniquePtr<unsigned char[]> flags_;

@@ -1,12 +1,11 @@
 #include "sim/scene.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "core/error.h"
+#include "core/memory.h"
 
 namespace sandstroke {
 namespace {
@@ -136,6 +135,18 @@ void describe_view(SceneVisitor& v, ViewSettings& view) {
   view.width = size[0], view.height = size[1];
 }
 
+/// About what the bed takes at the start of a run [bytes]: sand that rests by rule until something touches it
+/// takes nothing.
+double memory_of_bed(const Scene& scene) {
+  const BedSettings& bed = scene.bed;
+  const std::int64_t tiles =
+      bed.surface.kind == SurfaceKind::file
+          ? BedGeometry(bed.rows, bed.cols, bed.cell_size()).tile_count()
+          : tiles_to_relax(make_surface(bed.surface, bed.rows, bed.cols, bed.cell_size()), scene.relaxation);
+  constexpr double copies = 3.0;  // its heights, what flows, and how steep it was left; or a file's heights
+  return copies * static_cast<double>(HeightField::bytes_per_tile()) * static_cast<double>(tiles);
+}
+
 }  // namespace
 
 void describe_scene(SceneVisitor& v, Scene& scene) {
@@ -184,10 +195,7 @@ void check_scene(const Scene& scene, const std::string& name) {
     throw_input_error("{}: bed.size and bed.cells give cells of {} m by {} m; make them square", name, dx,
                       dy);
 
-  const double cells = static_cast<double>(bed.rows) * bed.cols;
-  const double needed = 4.0 * 8.0 * cells;  // the bed, its copy for the file, pictures and passes
-  const double memory =
-      static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
+  const double needed = memory_of_bed(scene), memory = physical_memory();
   if (needed > memory)
     throw_input_error(
         "{}: bed.cells = [{}, {}] needs about {:.0f} GB of memory and this machine has {:.0f}; take fewer",

@@ -50,8 +50,10 @@ ProgramResult run_program(const std::vector<std::string>& arguments, const fs::p
     kill(child, conditions.signal);
   }
   int status = 0;
-  waitpid(child, &status, 0);
+  rusage usage{};
+  wait4(child, &status, 0, &usage);
   ProgramResult result;
+  result.peak_memory = 1024.0 * static_cast<double>(usage.ru_maxrss);
   result.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
   if (!conditions.out) result.out = read_file(out);
   result.err = read_file(err);

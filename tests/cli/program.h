@@ -10,6 +10,7 @@ namespace sandstroke {
 struct ProgramResult {
   int exit_code = -1;  ///< 128 + signal, if one ended it
   std::string out, err;
+  double peak_memory = 0.0;  ///< bytes, resident
 };
 
 /// What a run of the program meets with.

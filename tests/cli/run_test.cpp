@@ -69,11 +69,11 @@ TEST(CliRun, ARunThatIsNotAtRestSaysSoAndExitsWith3) {
   EXPECT_TRUE(RunFile(folder / "a.h5").complete());
 }
 
-/// A folder with a stroke that takes minutes.
+/// A folder with a stroke that takes hours, of which a second simulates many minutes.
 fs::path folder_with_long_stroke() {
   const fs::path folder = test_folder();
   write_file(folder / "long.toml",
-             "start = [-0.05, 0.0]\nspeed = 0.0001\n[[segment]]\nkind = \"line\"\nto = [0.05, 0.0]\ndepth = "
+             "start = [-0.05, 0.0]\nspeed = 0.00001\n[[segment]]\nkind = \"line\"\nto = [0.05, 0.0]\ndepth = "
              "0.004\n");
   return folder;
 }

@@ -9,6 +9,9 @@
 #include "core/output_file.h"
 #include "io/run_scene.h"
 #include "io/scene_toml.h"
+#include "io/stroke_file.h"
+#include "io/surface_file.h"
+#include "sim/simulation.h"
 
 namespace sandstroke {
 namespace {
@@ -86,6 +89,35 @@ TEST_F(RunFileTest, SameInputSameBitsForAnyNumberOfThreadsAndBothEngines) {
     EXPECT_TRUE((one.final() == other.final()).all()) << name;
     EXPECT_EQ(one.trace().device_force, other.trace().device_force) << name;
     EXPECT_EQ(one.trace().displaced_volume, other.trace().displaced_volume) << name;
+  }
+}
+
+TEST_F(RunFileTest, FramesHoldTilesThatCameIntoBeingBetweenThem) {
+  struct Frames : SimulationObserver {
+    std::vector<HeightGrid> grids;
+    std::vector<int> tiles;
+    void on_frame(double, const HeightField& surface) override {
+      grids.push_back(surface.grid());
+      tiles.push_back(surface.touched_tiles());
+    }
+  } frames;
+  // Ripples that rest by rule: a tile may come into being and stay as it was.
+  const Scene rippled = scene({"output.frames=20", "bed.surface={ kind = 'ripples', amplitude = 0.001 }"});
+  run(rippled, "a.h5");
+  Simulation(
+      rippled, load_surface(rippled.bed, folder_),
+      place_stroke(load_stroke(folder_ / "line.toml", rippled.force), rippled.stroke->placement, "line.toml"))
+      .run(frames);
+  EXPECT_EQ(frames.tiles.front(), 0);
+  EXPECT_LT(frames.tiles[1], frames.tiles.back());
+  const RunFile file(folder_ / "a.h5");
+  ASSERT_EQ(file.frame_times().size(), frames.grids.size());
+  for (std::size_t k = 0; k < frames.grids.size(); ++k)
+    EXPECT_TRUE((file.frame(static_cast<int>(k)) == frames.grids[k]).all()) << k;
+  const Hdf5Reader plain(folder_ / "a.h5");
+  for (const std::string& name : plain.members("/surface/frame")) {
+    const std::vector<std::uint32_t> tiles = plain.integers("/surface/frame/" + name + "/tiles");
+    EXPECT_TRUE(std::is_sorted(tiles.begin(), tiles.end()));
   }
 }
 

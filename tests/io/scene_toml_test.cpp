@@ -107,7 +107,7 @@ TEST(SceneToml, RefusesWhatCannotBeMeant) {
   refuses("[bed]\ncells = [0, 10]\n", "from 1 to 65536");
   refuses("[bed]\ncells = [1.5, 10]\n", "integers");
   refuses("[bed]\ncells = [1000, 999]\n", "square");
-  refuses("[bed]\ncells = [65536, 65536]\n", "memory");
+  refuses("[bed]\ncells = [65536, 65536]\nsurface = { kind = 'noise', amplitude = 1.0 }\n", "memory");
   refuses("[bed.surface]\nradius = 1.0\n", "unknown key bed.surface.radius");  // flat has none
   refuses("[bed]\nsurface = { kind = 'file' }\n", "bed.surface.file");
   refuses("[relaxation]\ntalus_angle = 0\n", "above 0 and below 90");

@@ -17,8 +17,8 @@ void for_each_cell(const HeightField& bed, const ToolFootprint& footprint, const
   const CellRange& cells = footprint.cells();
   for (int r = 0; r < cells.rows(); ++r)
     for (int c = 0; c < footprint.stride(); ++c) {
-      const double x = (cells.col_begin + c - footprint.tool_col()) * bed.cell_size();
-      const double y = (cells.row_begin + r - footprint.tool_row()) * bed.cell_size();
+      const double x = (footprint.first_x() + c - footprint.axis_x()) * bed.cell_size();
+      const double y = (footprint.first_y() + r - footprint.axis_y()) * bed.cell_size();
       if (c < cells.cols()) {
         body(std::sqrt(x * x + y * y), footprint.underside(r)[c], footprint.rampart(r)[c]);
       } else {

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <string>
+
+#include "io/hdf5_writer.h"
+
+namespace sandstroke {
+
+/// Writes a bed's heights [m] as a dataset (rows, cols), chunk by chunk: the file and the memory that this
+/// takes follow the sand that is not at the level that most of the bed has by its rule. That level is the
+/// dataset's fill value: any HDF5 reader sees the whole bed. Error: io.
+void write_bed(Hdf5Writer& file, const std::string& dataset, const HeightField& bed);
+
+}  // namespace sandstroke

@@ -1,0 +1,21 @@
+#pragma once
+
+#include "sand/height_field.h"
+
+namespace sandstroke {
+
+/// Calls visit(tile) for the tiles whose rule allows a slope (rise over run) above `slope` between their
+/// cells or to those beside them.
+template <class Visit>
+void visit_steep_tiles(const HeightField& bed, double slope, const Visit& visit) {
+  visit_quarters({0, bed.tile_rows(), 0, bed.tile_cols()}, [&](const CellRange& tiles) {
+    const CellRange own = bed.cells_of_tiles(tiles);
+    const CellRange seen = {std::max(own.row_begin - 1, 0), std::min(own.row_end + 1, bed.rows()),
+                            std::max(own.col_begin - 1, 0), std::min(own.col_end + 1, bed.cols())};
+    if (bed.untouched().steepest(bed, seen) <= slope) return false;
+    if (tiles.rows() == 1 && tiles.cols() == 1) visit(bed.tile_index(tiles.row_begin, tiles.col_begin));
+    return true;
+  });
+}
+
+}  // namespace sandstroke

@@ -1,0 +1,90 @@
+#include "io/bed_writer.h"
+
+#include <gtest/gtest.h>
+
+#include "core/output_file.h"
+#include "io/hdf5_file.h"
+#include "sand/initial_surface.h"
+
+namespace sandstroke {
+namespace {
+
+namespace fs = std::filesystem;
+
+class BedWriter : public testing::Test {
+ protected:
+  void SetUp() override {
+    path_ = fs::path(testing::TempDir()) /
+            (std::string("bed_") + testing::UnitTest::GetInstance()->current_test_info()->name() + ".h5");
+  }
+  void TearDown() override { fs::remove(path_); }
+
+  HeightGrid written(const HeightField& bed) {
+    Hdf5Writer file(path_);
+    write_bed(file, "/bed", bed);
+    file.finish();
+    return Hdf5Reader(path_).grid("/bed");
+  }
+  fs::path path_;
+};
+
+SurfaceSettings surface_of(SurfaceKind kind) {
+  SurfaceSettings surface;
+  surface.kind = kind;
+  return surface;
+}
+
+TEST_F(BedWriter, EverySurfaceReadsAsItsGridWhateverTheBedsSize) {
+  using enum SurfaceKind;
+  constexpr std::pair<int, int> sizes[] = {{1, 1}, {1, 300}, {50, 30}, {64, 128}, {129, 127}, {400, 333}};
+  for (const auto kind : {flat, cylinder, cone, cliff, noise, ripples})
+    for (const auto& [rows, cols] : sizes) {
+      HeightField bed = make_surface(surface_of(kind), rows, cols, 0.002);
+      ASSERT_EQ(bed.touched_tiles(), 0);
+      EXPECT_TRUE((written(bed) == bed.grid()).all())
+          << static_cast<int>(kind) << ": " << rows << " x " << cols;
+      EXPECT_EQ(bed.touched_tiles(), 0);
+      bed.set(rows - 1, cols - 1, -0.25);
+      bed.set(rows / 2, cols / 3, 0.125);
+      EXPECT_TRUE((written(bed) == bed.grid()).all())
+          << static_cast<int>(kind) << ": " << rows << " x " << cols;
+    }
+}
+
+TEST_F(BedWriter, ABedGivenAsNumbersReadsAsThem) {
+  const HeightGrid heights = HeightGrid::Random(150, 200);
+  EXPECT_TRUE((written(HeightField(heights, 0.01)) == heights).all());
+}
+
+TEST_F(BedWriter, TheFileFollowsWhatIsNotLevel) {
+  const auto bytes = [&](const HeightField& bed) {
+    Hdf5Writer file(path_);
+    write_bed(file, "/bed", bed);
+    file.finish();
+    return fs::file_size(path_);
+  };
+  constexpr int side = 1 << 16;
+  constexpr std::size_t chunk = 128 * 128 * sizeof(double), rest = 10'000;
+  HeightField bed(side, side, 0.002);
+  EXPECT_LT(bytes(bed), rest);
+  bed.set(side - 1, 0, 0.5);
+  EXPECT_LT(bytes(bed), chunk + rest);
+  bed.set(side - 65, 1, 0.5);  // in another tile of the same chunk
+  EXPECT_LT(bytes(bed), chunk + rest);
+  bed.set(5, side / 2, 0.5);
+  EXPECT_LT(bytes(bed), 2 * chunk + rest);
+
+  SurfaceSettings plateau = surface_of(SurfaceKind::cylinder);
+  plateau.radius = 0.1;  // 50 cells, over the corner of four chunks
+  EXPECT_LT(bytes(make_surface(plateau, side, side, 0.002)), 4 * chunk + rest);
+
+  // A cliff's foot and its top are level: what most sand has is not written, be it low or high.
+  for (const double height : {0.1, -0.1}) {
+    SurfaceSettings cliff = surface_of(SurfaceKind::cliff);
+    cliff.height = height;
+    EXPECT_LT(bytes(make_surface(cliff, 128, 1024, 0.002)), 5 * chunk + rest);
+  }
+}
+
+}  // namespace
+}  // namespace sandstroke

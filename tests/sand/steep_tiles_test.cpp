@@ -1,0 +1,38 @@
+#include "sand/steep_tiles.h"
+
+#include <gtest/gtest.h>
+
+#include "sand/initial_surface.h"
+#include "sand/relaxation.h"
+
+namespace sandstroke {
+namespace {
+
+TEST(SteepTiles, TheFirstRelaxationLooksAtThemAndWhatIsBesideThem) {
+  using enum SurfaceKind;
+  for (const auto kind : {flat, cylinder, cone, cliff, noise, ripples}) {
+    SurfaceSettings surface;
+    surface.kind = kind;
+    surface.radius = 0.3;
+    surface.height = 0.25;
+    HeightField bed = make_surface(surface, 1000, 900, 0.002);
+    RelaxationSettings settings;
+    settings.max_passes = 0;
+    const std::int64_t counted = tiles_to_relax(bed, settings);
+    const int tiles_active = make_relaxer(settings, bed.cell_size())->relax(bed).tiles_active_max;
+    EXPECT_GE(tiles_active, counted) << static_cast<int>(kind);
+    EXPECT_LE(tiles_active, 3 * counted) << static_cast<int>(kind);
+    settings.engine = RelaxationEngine::reference;
+    EXPECT_EQ(tiles_to_relax(bed, settings), bed.tile_count());
+  }
+}
+
+TEST(SteepTiles, TilesThatExistCount) {
+  HeightField bed(1000, 1000, 0.002);
+  EXPECT_EQ(tiles_to_relax(bed, {}), 0);
+  bed.set(500, 500, 0.1);
+  EXPECT_EQ(tiles_to_relax(bed, {}), 1);
+}
+
+}  // namespace
+}  // namespace sandstroke

@@ -1,0 +1,58 @@
+#include "sim/scene.h"
+
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+#include "core/memory.h"
+
+namespace sandstroke {
+namespace {
+
+/// Larger than any machine's memory, cell by cell.
+Scene huge_scene() {
+  Scene scene;
+  scene.bed.cols = scene.bed.rows = 65536;
+  scene.bed.width = scene.bed.depth = 0.002 * 65536;
+  return scene;
+}
+
+TEST(CheckScene, SandThatRestsByRuleNeedsNoMemory) {
+  using enum SurfaceKind;
+  for (const auto kind : {flat, cylinder, cone, cliff, ripples}) {
+    Scene scene = huge_scene();
+    scene.bed.surface.kind = kind;
+    EXPECT_NO_THROW(check_scene(scene, "huge.toml")) << static_cast<int>(kind);
+  }
+  Scene bumps = huge_scene();
+  bumps.bed.surface.kind = noise;
+  bumps.bed.surface.wavelength = 1.0;  // far less steep than the talus
+  EXPECT_NO_THROW(check_scene(bumps, "huge.toml"));
+}
+
+TEST(CheckScene, SandThatWillMoveMustFitTheMemory) {
+  if (physical_memory() > 100e9) GTEST_SKIP() << "this machine has memory for it";
+  const auto refused = [](const Scene& scene) {
+    try {
+      check_scene(scene, "huge.toml");
+      ADD_FAILURE() << "not refused";
+    } catch (const Error& failure) {
+      EXPECT_EQ(failure.kind(), ErrorKind::input);
+      for (const char* part : {"huge.toml", "bed.cells = [65536, 65536]", "GB of memory"})
+        EXPECT_NE(std::string(failure.what()).find(part), std::string::npos) << failure.what();
+    }
+  };
+  Scene rough = huge_scene();
+  rough.bed.surface.kind = SurfaceKind::noise;
+  rough.bed.surface.wavelength = 0.0;
+  refused(rough);
+  Scene read = huge_scene();
+  read.bed.surface.kind = SurfaceKind::file;
+  read.bed.surface.file = "run.h5";
+  refused(read);
+  Scene whole_field = huge_scene();
+  whole_field.relaxation.engine = RelaxationEngine::reference;
+  refused(whole_field);
+}
+
+}  // namespace
+}  // namespace sandstroke
