@@ -13,10 +13,18 @@ inline bool any(const CellFlags& flags) {
   return all != 0;
 }
 
+/// Not with std::popcount, which is a call per word where the compiler may not assume the instruction.
 inline int count(const CellFlags& flags) {
-  int count = 0;
-  for (const std::uint64_t row : flags) count += std::popcount(row);
-  return count;
+  constexpr std::uint64_t twos = 0x3333333333333333u, fours = 0x0f0f0f0f0f0f0f0fu,
+                          bytes = 0x00ff00ff00ff00ffu;
+  std::uint64_t sums = 0;  // four of 16 bits each
+  for (std::uint64_t row : flags) {
+    row -= row >> 1 & 0x5555555555555555u;
+    row = (row & twos) + (row >> 2 & twos);
+    row = (row + (row >> 4)) & fours;
+    sums += (row & bytes) + (row >> 8 & bytes);
+  }
+  return static_cast<int>((sums * 0x0001000100010001u) >> 48);
 }
 
 /// Rows of a tile from the first to the last with a flag, half-open; empty where there is none.
