@@ -90,10 +90,11 @@ void ToolFootprint::write_flagged(HeightField& bed) {
     for (int row = cells_.row_begin; row < cells_.row_end; ++row) {
       const double* in = heights(row - cells_.row_begin) + (first - cells_.col_begin);
       const unsigned char* flagged = flags(row - cells_.row_begin);
-      std::uint64_t changed = 0;
-      for (int i = first - cells_.col_begin; i < end - cells_.col_begin; ++i)
-        changed |= static_cast<std::uint64_t>(flagged[i / 8] >> (i % 8) & 1)
-                   << ((cells_.col_begin + i) % side);
+      std::uint64_t changed = 0;  // no flag lies beyond the window's last column
+      for (int i = (first - cells_.col_begin) / 8; i <= (end - 1 - cells_.col_begin) / 8; ++i) {
+        const int at = cells_.col_begin + 8 * i - tile_col * side;
+        changed |= at < 0 ? std::uint64_t{flagged[i]} >> -at : std::uint64_t{flagged[i]} << at;
+      }
       if (!changed) continue;
       const int slot = bed.touch(bed.tile_index(row / side, tile_col));
       std::copy_n(in, end - first, bed.tile_heights(slot) + (row % side) * side + first % side);
