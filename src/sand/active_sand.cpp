@@ -22,7 +22,7 @@ void ActiveSand::begin(HeightField& bed) {
 void ActiveSand::look_at_active_cells() {
   active_cells_ = 0;
   for (const int slot : tiles()) {
-    if (looks_.size() <= static_cast<std::size_t>(slot)) looks_.resize(slot + 1);
+    if (looks_.size() <= static_cast<std::size_t>(slot)) looks_.resize(slot + 1), residuals_.resize(slot + 1);
     Look& look = looks_[slot];
     if (!look.listed) {
       look.listed = true;
@@ -93,7 +93,7 @@ void ActiveSand::end(const HeightField& bed, RelaxationOutcome& outcome) {
     TilePatch& patch = TilePatch::of_this_thread();
     patch.load(bed, slot, look.cells);
     compute_residuals(law_, patch, look.cells, look.steepest.data());
-    look.residual = std::max(0.0, *std::max_element(look.steepest.begin(), look.steepest.end()));
+    residuals_[slot] = std::max(0.0, *std::max_element(look.steepest.begin(), look.steepest.end()));
   });
   for (const int slot : looked_at_) {
     looks_[slot].cells = {};
@@ -102,7 +102,7 @@ void ActiveSand::end(const HeightField& bed, RelaxationOutcome& outcome) {
   looked_at_.clear();
 
   outcome.residual = 0.0;
-  for (const Look& look : looks_) outcome.residual = std::max(outcome.residual, look.residual);
+  for (const double residual : residuals_) outcome.residual = std::max(outcome.residual, residual);
   outcome.converged = at_rest();
   outcome.cells_visited = cells_visited_;
   outcome.tiles_active_max = tiles_active_max_;

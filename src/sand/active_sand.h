@@ -79,10 +79,10 @@ class ActiveSand {
   struct Look {
     CellFlags cells{};                                          // active at some time in this relaxation
     std::array<double, HeightField::tile_area / 8> steepest{};  // residual of each group of 8 cells
-    double residual = 0.0;                                      // of the tile, after the relaxation before
     bool listed = false;                                        // in looked_at_
   };
-  std::vector<Look> looks_;  // per slot
+  std::vector<Look> looks_;        // per slot
+  std::vector<double> residuals_;  // per slot, after the relaxation before
   std::vector<int> looked_at_;
 
   std::int64_t active_cells_ = 0, cells_visited_ = 0, wake_ups_before_ = 0;
