@@ -6,9 +6,10 @@
 
 namespace sandstroke {
 
-ActiveSand::ActiveSand(const TalusLaw& law, double cell_size, bool holds_still)
+ActiveSand::ActiveSand(const TalusLaw& law, double cell_size, bool holds_still, std::int64_t worth_threads)
     : law_(law),
       holds_still_(holds_still),
+      worth_threads_(worth_threads),
       stable_slope_(stable_slope(law, cell_size)),
       activity_(holds_still) {}
 
@@ -87,7 +88,7 @@ void ActiveSand::load_givers(const HeightField& bed, int slot, GiverFlags& giver
 void ActiveSand::end(const HeightField& bed, RelaxationOutcome& outcome) {
   look_at_active_cells();
   cells_visited_ -= active_cells_;  // looked at for their residual only
-  parallel_for(looked_at_.size(), cells_visited_ >= cells_worth_threads, [&](std::size_t i) {
+  parallel_for(looked_at_.size(), cells_visited_ >= worth_threads_, [&](std::size_t i) {
     const int slot = looked_at_[i];
     Look& look = looks_[slot];
     TilePatch& patch = TilePatch::of_this_thread();

@@ -16,9 +16,14 @@ namespace sandstroke {
 /// with the same bits for any number of them.
 class ActiveSand {
  public:
+  // Below this many active cells in a pass, handing tiles to other threads costs more than it saves
+  // (measured: tests/bench/active_sand_bench).
+  static constexpr std::int64_t cells_worth_threads = 20'000;
+
   /// holds_still: only cells within one of a change may give; all other sand is held still, whatever its
   /// slope.
-  ActiveSand(const TalusLaw& law, double cell_size, bool holds_still = false);
+  ActiveSand(const TalusLaw& law, double cell_size, bool holds_still = false,
+             std::int64_t worth_threads = cells_worth_threads);
 
   /// Takes up what was set since the last relaxation.
   void begin(HeightField& bed);
@@ -57,18 +62,14 @@ class ActiveSand {
  private:
   template <class Body>
   void for_active_tiles(const Body& body) const {
-    parallel_for(activity_.tiles().size(), active_cells_ >= cells_worth_threads, body);
+    parallel_for(activity_.tiles().size(), active_cells_ >= worth_threads_, body);
   }
-  void look_at_active_cells();
-
-  // Below this many active cells in a pass, handing tiles to other threads costs more than it saves
-  // (measured: tests/bench, Threads).
-  static constexpr std::int64_t cells_worth_threads = 20'000;
-
   void load_givers(const HeightField& bed, int slot, GiverFlags& givers) const;
+  void look_at_active_cells();
 
   TalusLaw law_;
   bool holds_still_;
+  std::int64_t worth_threads_;
   double stable_slope_;  // rise over run
   TileActivity activity_;
 

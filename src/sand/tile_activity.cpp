@@ -74,18 +74,25 @@ void TileActivity::wake(HeightField& bed, int tile, int row_begin, const std::ui
 
 namespace {
 
-/// Flags within some cells of a tile's flagged ones, in the tile and in those beside it. Row r of these is
-/// row r - reach of the tile.
+/// Flags within `by` cells of a tile's flagged ones, in the tile and in those beside it, in rows [begin,
+/// end). Row r is row r - reach of the tile.
 struct Spread {
-  std::array<std::uint64_t, side + 2 * reach> own{}, west{}, east{};
+  std::array<std::uint64_t, side + 2 * reach> own, west, east;
+  std::uint64_t any_west = 0, any_east = 0;
 
   template <int by>
-  void add(const CellFlags& flags, RowSpan span) {
-    for (int row = span.begin; row < span.end; ++row) {
-      const std::uint64_t f = flags[row];
-      std::uint64_t o = f | f << 1 | f >> 1, w = f << (side - 1), e = f >> (side - 1);
-      if constexpr (by == 2) o |= f << 2 | f >> 2, w |= f << (side - 2), e |= f >> (side - 2);
-      for (int r = row + reach - by; r <= row + reach + by; ++r) own[r] |= o, west[r] |= w, east[r] |= e;
+  void fill(const CellFlags& flags, int begin, int end) {
+    for (int r = begin; r < end; ++r) {
+      std::uint64_t f = 0;
+      for (int row = std::max(r - reach - by, 0); row <= std::min(r - reach + by, side - 1); ++row)
+        f |= flags[row];
+      own[r] = f | f << 1 | f >> 1;
+      west[r] = f << (side - 1), east[r] = f >> (side - 1);
+      if constexpr (by == 2) {
+        own[r] |= f << 2 | f >> 2;
+        west[r] |= f << (side - 2), east[r] |= f >> (side - 2);
+      }
+      any_west |= west[r], any_east |= east[r];
     }
   }
 };
@@ -95,26 +102,25 @@ struct Spread {
 void TileActivity::wake_around(HeightField& bed, int slot, const CellFlags& changed) {
   const RowSpan span = row_span(changed);
   if (span.begin == span.end) return;
+  const int begin = span.begin, end = span.end + 2 * reach;
   Spread active, givers;
-  active.add<reach>(changed, span);
-  if (tells_givers_) givers.add<1>(changed, span);
+  active.fill<reach>(changed, begin, end);
+  if (tells_givers_) givers.fill<1>(changed, begin, end);
 
   const int tile_row = bed.tile_of(slot) / bed.tile_cols(), tile_col = bed.tile_of(slot) % bed.tile_cols();
   const auto wake_column = [&](int col, const auto& rows, const auto& giving) {
     if (col < 0 || col >= bed.tile_cols()) return;
-    wake(bed, bed.tile_index(tile_row, col), 0, rows.data() + reach, giving.data() + reach, side);
-    if (span.begin < reach && tile_row > 0)
-      wake(bed, bed.tile_index(tile_row - 1, col), side - reach, rows.data(), giving.data(), reach);
-    if (span.end > side - reach && tile_row + 1 < bed.tile_rows())
-      wake(bed, bed.tile_index(tile_row + 1, col), 0, rows.data() + reach + side,
-           giving.data() + reach + side, reach);
+    const auto wake_rows = [&](int row, int to, int first, int last) {
+      wake(bed, bed.tile_index(row, col), to, rows.data() + first, giving.data() + first, last - first);
+    };
+    const int first = std::max(begin, reach), last = std::min(end, side + reach);
+    wake_rows(tile_row, first - reach, first, last);
+    if (begin < reach && tile_row > 0) wake_rows(tile_row - 1, side - reach + begin, begin, reach);
+    if (end > side + reach && tile_row + 1 < bed.tile_rows()) wake_rows(tile_row + 1, 0, side + reach, end);
   };
-  std::uint64_t west = 0, east = 0;
-  for (int row = span.begin; row < span.end + 2 * reach; ++row)
-    west |= active.west[row], east |= active.east[row];
   wake_column(tile_col, active.own, givers.own);
-  if (west) wake_column(tile_col - 1, active.west, givers.west);
-  if (east) wake_column(tile_col + 1, active.east, givers.east);
+  if (active.any_west) wake_column(tile_col - 1, active.west, givers.west);
+  if (active.any_east) wake_column(tile_col + 1, active.east, givers.east);
 }
 
 void TileActivity::make_seen_tiles(HeightField& bed) {

@@ -167,7 +167,8 @@ HWY_INLINE WideRow widened(std::uint64_t row) {
   return {row | row << 1 | row >> 1, (row & 1) != 0, row >> (side - 1) != 0};
 }
 
-/// Computes the factors of a row's flagged groups; returns the cells that have one. givers: null = all.
+/// Computes the factors of a row's flagged groups (others keep what they had: no active cell sees them);
+/// returns the cells that have one. givers: null = all.
 template <class Factors>
 HWY_INLINE WideRow factor_row(const Factors& factors_of, TilePatch& patch, int row, const WideRow& cells,
                               const WideRow* givers, Drops& steepest) {
@@ -183,30 +184,17 @@ HWY_INLINE WideRow factor_row(const Factors& factors_of, TilePatch& patch, int r
     }
     return flags;
   };
-  const auto clear = [&](int begin) {
-    for (int c = 0; c < group; c += lanes) hn::Store(hn::Zero(d), d, factors + begin + c);
-  };
-  WideRow moving;
+  WideRow moving{};
   if (cells.west) {
     const unsigned last = 1u << (group - 1);
     moving.west = (one_group(-group, givers && givers->west ? last : 0) & last) != 0;
-  } else {
-    clear(-group);
   }
-  const unsigned wanted = groups_of(cells.own);
-  for (int g = 0; g < groups; ++g) {
-    if (wanted >> g & 1) {
-      const unsigned moves = one_group(g * group, givers ? givers->own >> (g * group) : 0);
-      moving.own |= static_cast<std::uint64_t>(moves) << (g * group);
-    } else {
-      clear(g * group);
-    }
+  for (unsigned wanted = groups_of(cells.own); wanted; wanted &= wanted - 1) {
+    const int begin = std::countr_zero(wanted) * group;
+    const unsigned moves = one_group(begin, givers ? givers->own >> begin : 0);
+    moving.own |= static_cast<std::uint64_t>(moves) << begin;
   }
-  if (cells.east) {
-    moving.east = one_group(side, givers && givers->east) & 1;
-  } else {
-    clear(side);
-  }
+  if (cells.east) moving.east = one_group(side, givers && givers->east) & 1;
   return moving;
 }
 
@@ -264,7 +252,7 @@ HWY_INLINE void flow_of(const TalusLaw& law, TilePatch& patch, const CellFlags& 
                         const GiverFlags* givers, TileFlow& flow) {
   const RowSpan span = row_span(active);
   const auto active_row = [&](int row) { return row < 0 || row >= side ? 0 : active[row]; };
-  std::array<WideRow, side + 2> moving;  // from row -1
+  std::array<WideRow, side + 2> moving;  // from row -1; those around the span
   const Factors factors(law);
   Drops steepest;
   for (int row = span.begin - 1; row <= span.end; ++row)
@@ -308,7 +296,9 @@ void ComputeFlow(const TalusLaw& law, TilePatch& patch, const CellFlags& active,
 
 bool ApplyFlow(const TileFlow& flow, double* heights, CellFlags& changed) {
   bool any = false;
-  for (int row = 0; row < side; ++row) {
+  changed = {};
+  const RowSpan span = row_span(flow.moved);
+  for (int row = span.begin; row < span.end; ++row) {
     std::uint64_t flags = 0;
     for (unsigned wanted = groups_of(flow.moved[row]); wanted; wanted &= wanted - 1) {
       const int begin = std::countr_zero(wanted) * group;

@@ -19,8 +19,8 @@ struct TileFlow {
 /// The cells that may give, of a tile and one cell around it; all others are held still.
 struct GiverFlags {
   struct Row {
-    std::uint64_t own = 0;
-    bool west = false, east = false;
+    std::uint64_t own;
+    bool west, east;
   };
   std::array<Row, BedGeometry::tile_side + 2> rows;  ///< from row -1
 };
