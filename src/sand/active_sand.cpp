@@ -20,8 +20,8 @@ void ActiveSand::begin(HeightField& bed) {
   activity_.wake_disturbed(bed, stable_slope_);
 }
 
-void ActiveSand::look_at_active_cells() {
-  active_cells_ = 0;
+std::int64_t ActiveSand::look_at_active_cells() {
+  std::int64_t cells_looked_at = 0;
   for (const int slot : tiles()) {
     if (looks_.size() <= static_cast<std::size_t>(slot)) looks_.resize(slot + 1), residuals_.resize(slot + 1);
     Look& look = looks_[slot];
@@ -29,17 +29,19 @@ void ActiveSand::look_at_active_cells() {
       look.listed = true;
       looked_at_.push_back(slot);
     }
-    const CellFlags& active = activity_.cells(slot);
+    const CellFlags& active = cells(slot);
     for (int row = 0; row < HeightField::tile_side; ++row) look.cells[row] |= active[row];
-    active_cells_ += count(active);
+    cells_looked_at += count(active);
   }
-  cells_visited_ += active_cells_;
-  tiles_active_max_ = std::max(tiles_active_max_, static_cast<int>(tiles().size()));
+  return cells_looked_at;
 }
 
 double ActiveSand::compute_flow(const HeightField& bed,
                                 const std::function<void(int, const TileFlow&)>& then) {
-  look_at_active_cells();
+  const std::int64_t cells_looked_at = look_at_active_cells();
+  cells_visited_ += cells_looked_at;
+  tiles_active_max_ = std::max(tiles_active_max_, static_cast<int>(tiles().size()));
+  work_ = cells_looked_at + work_per_tile * static_cast<std::int64_t>(tiles().size());
   while (flows_.size() < tiles().size()) flows_.push_back(std::make_unique<TileFlow>());
   if (changed_.size() < tiles().size()) changed_.resize(tiles().size()), any_changed_.resize(tiles().size());
   for_active_tiles([&](std::size_t i) {
@@ -86,9 +88,9 @@ void ActiveSand::load_givers(const HeightField& bed, int slot, GiverFlags& giver
 }
 
 void ActiveSand::end(const HeightField& bed, RelaxationOutcome& outcome) {
-  look_at_active_cells();
-  cells_visited_ -= active_cells_;  // looked at for their residual only
-  parallel_for(looked_at_.size(), cells_visited_ >= worth_threads_, [&](std::size_t i) {
+  look_at_active_cells();  // where the relaxation was cut off
+  const std::int64_t work = work_per_tile * static_cast<std::int64_t>(looked_at_.size());
+  parallel_for(looked_at_.size(), work >= worth_threads_, [&](std::size_t i) {
     const int slot = looked_at_[i];
     Look& look = looks_[slot];
     TilePatch& patch = TilePatch::of_this_thread();

@@ -16,14 +16,14 @@ namespace sandstroke {
 /// with the same bits for any number of them.
 class ActiveSand {
  public:
-  // Below this many active cells in a pass, handing tiles to other threads costs more than it saves
-  // (measured: tests/bench/active_sand_bench).
-  static constexpr std::int64_t cells_worth_threads = 20'000;
+  // Passes with less work go on one thread: handing out tiles would cost more than it saves. In cells; a tile
+  // with any active ones costs as much as 400 more (measured: tests/bench/active_sand_bench.cpp).
+  static constexpr std::int64_t work_worth_threads = 8'000, work_per_tile = 400;
 
   /// holds_still: only cells within one of a change may give; all other sand is held still, whatever its
   /// slope.
   ActiveSand(const TalusLaw& law, double cell_size, bool holds_still = false,
-             std::int64_t worth_threads = cells_worth_threads);
+             std::int64_t worth_threads = work_worth_threads);
 
   /// Takes up what was set since the last relaxation.
   void begin(HeightField& bed);
@@ -62,10 +62,10 @@ class ActiveSand {
  private:
   template <class Body>
   void for_active_tiles(const Body& body) const {
-    parallel_for(activity_.tiles().size(), active_cells_ >= worth_threads_, body);
+    parallel_for(tiles().size(), work_ >= worth_threads_, body);
   }
   void load_givers(const HeightField& bed, int slot, GiverFlags& givers) const;
-  void look_at_active_cells();
+  std::int64_t look_at_active_cells();
 
   TalusLaw law_;
   bool holds_still_;
@@ -86,7 +86,7 @@ class ActiveSand {
   std::vector<double> residuals_;  // per slot, after the relaxation before
   std::vector<int> looked_at_;
 
-  std::int64_t active_cells_ = 0, cells_visited_ = 0, wake_ups_before_ = 0;
+  std::int64_t work_ = 0, cells_visited_ = 0, wake_ups_before_ = 0;
   int tiles_active_max_ = 0;
 };
 

@@ -1,0 +1,140 @@
+// sandstroke_bench: what whole runs cost, as one JSON object. All on one thread, all in one go, so that its
+// figures can be compared with each other; between runs on a busy machine compare ratios.
+#include "bench/end_to_end.h"
+
+#include <hwy/targets.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <tbb/global_control.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <ctime>
+#include <fstream>
+#include <iostream>
+#include <stdexcept>
+#include <thread>
+
+#include "core/version.h"
+
+namespace sandstroke {
+namespace {
+
+double peak_rss() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) * 1024.0;
+}
+
+std::string cpu_name() {
+  std::ifstream info("/proc/cpuinfo");
+  for (std::string line; std::getline(info, line);)
+    if (line.starts_with("model name")) return line.substr(line.find(':') + 2);
+  return "unknown";
+}
+
+void write_all(int file, const std::string& text) {
+  for (std::size_t done = 0; done < text.size();) {
+    const ssize_t n = write(file, text.data() + done, text.size() - done);
+    if (n <= 0) _exit(2);
+    done += static_cast<std::size_t>(n);
+  }
+}
+
+}  // namespace
+
+nlohmann::json in_child(const std::function<nlohmann::json()>& measure) {
+  int ends[2];
+  if (pipe(ends) != 0) throw std::runtime_error("no pipe");
+  const pid_t child = fork();
+  if (child < 0) throw std::runtime_error("no child process");
+  if (child == 0) {
+    close(ends[0]);
+    try {
+      const double before = peak_rss();
+      nlohmann::json result = measure();
+      result["peak_rss_bytes"] = peak_rss() - before;
+      write_all(ends[1], result.dump());
+      _exit(0);
+    } catch (const std::exception& error) {
+      std::cerr << error.what() << '\n';
+      _exit(1);
+    }
+  }
+  close(ends[1]);
+  std::string text;
+  char buffer[4096];
+  for (ssize_t n; (n = read(ends[0], buffer, sizeof buffer)) > 0;)
+    text.append(buffer, static_cast<std::size_t>(n));
+  close(ends[0]);
+  int status = 0;
+  waitpid(child, &status, 0);
+  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) throw std::runtime_error("a measurement failed");
+  return nlohmann::json::parse(text);
+}
+
+double cpu_seconds() {
+  timespec time{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+nlohmann::json spread(const std::vector<double>& values) {
+  return {{"median", median(values)},
+          {"least", *std::min_element(values.begin(), values.end())},
+          {"largest", *std::max_element(values.begin(), values.end())},
+          {"repeats", values.size()}};
+}
+
+nlohmann::json describe_machine() {
+  const auto targets = hwy::SupportedAndGeneratedTargets();  // best first
+  return {{"cpu", cpu_name()},
+          {"cores", std::thread::hardware_concurrency()},
+          {"compiler", compiler},
+          {"instruction_set", targets.empty() ? "unknown" : hwy::TargetName(targets.front())},
+          {"version", version},
+          {"commit", commit}};
+}
+
+}  // namespace sandstroke
+
+int main(int argc, char** argv) {
+  using namespace sandstroke;
+  CLI::App app("Measures whole runs of sandstroke on one thread and prints one JSON object");
+  BenchOptions options;
+  std::string output;
+  app.add_flag("--quick", options.quick, "Seconds rather than minutes: smaller beds, shorter strokes");
+  app.add_option("-o,--output", output, "Write the report to this file");
+  CLI11_PARSE(app, argc, argv);
+
+  try {
+    const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
+    nlohmann::ordered_json report;
+    report["machine"] = describe_machine();
+    report["quick"] = options.quick;
+    report["paper_scene"] = in_child([&] { return measure_paper_scene(options); });
+    report["bed_sizes"] = measure_bed_sizes(options);
+    report["tile_sizes"] = in_child(measure_tile_sizes);
+    report["cones"] = in_child([&] { return measure_cones(options); });
+    report["rough_beds"] = in_child([&] { return measure_rough_beds(options); });
+    const std::string text = report.dump(2) + "\n";
+    if (output.empty()) {
+      std::cout << text;
+    } else {
+      std::ofstream file(output);
+      file << text;
+      if (!file.flush()) throw std::runtime_error("cannot write " + output);
+    }
+    return 0;
+  } catch (const std::exception& error) {
+    std::cerr << "sandstroke_bench: " << error.what() << '\n';
+    return 1;
+  }
+}

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+namespace sandstroke {
+
+/// How thoroughly to measure.
+struct BenchOptions {
+  bool quick = false;  ///< seconds rather than minutes: smaller beds, shorter strokes
+};
+
+// The parts of the report. Each runs in a child process, so that none finds memory that another has warmed
+// up.
+nlohmann::json measure_paper_scene(const BenchOptions& options);
+nlohmann::json measure_bed_sizes(const BenchOptions& options);
+nlohmann::json measure_tile_sizes();
+nlohmann::json measure_cones(const BenchOptions& options);
+nlohmann::json measure_rough_beds(const BenchOptions& options);
+nlohmann::json describe_machine();
+
+/// Runs `measure` in a child process and adds "peak_rss_bytes": by how much it raised its resident memory.
+nlohmann::json in_child(const std::function<nlohmann::json()>& measure);
+
+/// CPU time of this process [s]: other programs disturb it less than they do the clock on the wall.
+double cpu_seconds();
+
+double median(std::vector<double> values);
+
+/// {median, least, largest} of repeated measurements.
+nlohmann::json spread(const std::vector<double>& values);
+
+}  // namespace sandstroke

@@ -1,0 +1,136 @@
+// Sand left to itself: how long it takes to rest, and how near it comes to the exact shape.
+#include <chrono>
+#include <cmath>
+#include <numbers>
+
+#include "bench/end_to_end.h"
+#include "sand/initial_surface.h"
+#include "sand/relaxation.h"
+
+namespace sandstroke {
+namespace {
+
+struct Method {
+  const char* name;
+  RelaxationMethod method;
+  double share;  // 0: the law's own
+};
+constexpr Method passes{"passes", RelaxationMethod::passes, 0.0};
+constexpr Method rkl{"rkl", RelaxationMethod::rkl, 0.0};
+
+/// What both are held against: the same law in small steps.
+Method small_steps(double share) { return {"small steps", RelaxationMethod::passes, share}; }
+
+/// Relaxes a bed and tells what that took.
+nlohmann::json relax(HeightField& bed, const Method& method) {
+  RelaxationSettings settings;
+  settings.law = RelaxationLaw::isotropic;
+  settings.method = method.method;
+  settings.share = method.share;
+  const auto relaxer = make_relaxer(settings, bed.cell_size());
+  const double volume = bed.volume();
+  const auto begin = std::chrono::steady_clock::now();
+  const double cpu_begin = cpu_seconds();
+  const RelaxationOutcome outcome = relaxer->relax(bed);
+  const double cpu = cpu_seconds() - cpu_begin;
+  const std::chrono::duration<double> time = std::chrono::steady_clock::now() - begin;
+  return {{"method", method.name},
+          {"cells", bed.rows()},
+          {"passes", outcome.passes},
+          {"super_steps", outcome.super_steps},
+          {"rejected_stages", outcome.rejected_stages},
+          {"seconds", time.count()},
+          {"cpu_seconds", cpu},
+          {"ns_per_cell_and_pass", 1e9 * cpu / static_cast<double>(outcome.cells_visited)},
+          {"residual", outcome.residual},
+          {"converged", outcome.converged},
+          {"volume_drift", std::abs(bed.volume() - volume) / outcome.moved_volume}};
+}
+
+/// The peers' pile: a cylinder of R = 60 and H = 80 cells on 512 x 512, or the same with other cells. What it
+/// becomes is a cone of the same volume; errors are over its apex.
+struct Cone {
+  nlohmann::json row;
+  HeightField bed;
+};
+Cone cone(const Method& method, int n) {
+  SurfaceSettings cylinder;
+  cylinder.kind = SurfaceKind::cylinder;
+  cylinder.radius = 60.0 / 512.0 * n, cylinder.height = 80.0 / 512.0 * n;
+  HeightField bed = make_surface(cylinder, n, n, 1.0);
+  nlohmann::json row = relax(bed, method);
+
+  const double t = std::tan(std::numbers::pi / 6.0);
+  const double foot = std::cbrt(3.0 * cylinder.radius * cylinder.radius * cylinder.height / t),
+               apex = t * foot;
+  double squares = 0.0, largest = 0.0;
+  int cells_under_cone = 0;
+  for (int r = 0; r < n; ++r)
+    for (int c = 0; c < n; ++c) {
+      const double exact = std::max(0.0, t * (foot - std::hypot(bed.x_of(c), bed.y_of(r))));
+      const double error = std::abs(bed(r, c) - exact);
+      squares += error * error;
+      largest = std::max(largest, error);
+      cells_under_cone += exact > 0.0;
+    }
+  row["rms_over_apex"] = std::sqrt(squares / n / n) / apex;  // of the whole bed
+  row["rms_under_cone_over_apex"] = std::sqrt(squares / cells_under_cone) / apex;
+  row["max_over_apex"] = largest / apex;
+  row["apex"] = apex;
+  return {row, bed};
+}
+
+}  // namespace
+
+nlohmann::json measure_cones(const BenchOptions& options) {
+  const int n = options.quick ? 128 : 512;
+  nlohmann::json rows = nlohmann::json::array();
+  const Cone plain = cone(passes, n), super = cone(rkl, n), limit = cone(small_steps(0.1), n);
+  for (const Cone* one : {&plain, &super, &limit}) {
+    rows.push_back(one->row);
+    rows.back()["rms_to_small_steps_over_apex"] =
+        std::sqrt((one->bed.grid() - limit.bed.grid()).square().mean()) / one->row["apex"].get<double>();
+  }
+  for (const int larger : {2 * n, 4 * n}) rows.push_back(cone(rkl, larger).row);
+  const auto ratio = [&](const char* key) {
+    return plain.row[key].get<double>() / super.row[key].get<double>();
+  };
+  return {{"rows", rows},
+          {"passes_over_rkl", {{"passes", ratio("passes")}, {"cpu_seconds", ratio("cpu_seconds")}}}};
+}
+
+nlohmann::json measure_rough_beds(const BenchOptions& options) {
+  nlohmann::json rows = nlohmann::json::array();
+  double worst_error = 0.0, least_ratio = 1e300;
+  std::vector<double> cpu_ratios;
+  for (std::uint32_t seed = 1; seed <= 10; ++seed) {
+    SurfaceSettings noise;
+    noise.kind = SurfaceKind::noise;
+    noise.amplitude = 20.0;  // cells
+    noise.wavelength = 0.0;
+    noise.seed = seed;
+    const int n = options.quick ? 64 : 256;
+    HeightField plain = make_surface(noise, n, n, 1.0), super = plain, limit = plain;
+    const HeightGrid start = plain.grid();
+    nlohmann::json of_plain = relax(plain, passes), of_super = relax(super, rkl);
+    relax(limit, small_steps(0.02));
+    const HeightGrid end = limit.grid();
+    const auto error = [&](const HeightField& bed) {
+      return (bed.grid() - end).abs().sum() / (end - start).abs().sum();
+    };
+    of_plain["l1_to_small_steps_over_moved"] = error(plain);
+    of_super["l1_to_small_steps_over_moved"] = error(super);
+    worst_error = std::max(worst_error, error(super));
+    least_ratio = std::min(least_ratio, of_plain["passes"].get<double>() / of_super["passes"].get<double>());
+    cpu_ratios.push_back(of_plain["cpu_seconds"].get<double>() / of_super["cpu_seconds"].get<double>());
+    for (nlohmann::json* row : {&of_plain, &of_super}) {
+      (*row)["seed"] = seed;
+      rows.push_back(*row);
+    }
+  }
+  return {{"rows", rows},
+          {"worst_rkl_error", worst_error},
+          {"passes_over_rkl", {{"passes_least", least_ratio}, {"cpu_seconds_median", median(cpu_ratios)}}}};
+}
+
+}  // namespace sandstroke
