@@ -14,7 +14,10 @@
 namespace sandstroke {
 namespace {
 
-constexpr std::size_t rows_per_write = 1000;  // about a second of ticks: what a killed run can lose
+// What a killed run can lose. Not after fewer rows or sooner: a run that is killed while it flushes leaves a
+// file that cannot be read, and ticks may take microseconds.
+constexpr std::chrono::milliseconds time_per_write{500};
+constexpr std::size_t least_rows_per_write = 1000, most_rows_per_write = 50'000;
 
 /// Describes /surface to programs such as ParaView that read XDMF.
 std::string xdmf_text(const std::string& run_name, int rows, int cols, double cell_size) {
@@ -98,12 +101,17 @@ void RunWriter::make_relaxation_columns() {
 
 void RunWriter::on_tick(const TickRecord& tick) {
   ticks_.push_back(tick);
-  if (ticks_.size() >= rows_per_write) write_rows();
+  if (ticks_.size() % least_rows_per_write == 0) write_rows_in_time();
 }
 
 void RunWriter::on_relaxation(const RelaxationRecord& relaxation) {
   relaxations_.push_back(relaxation);
-  if (relaxations_.size() >= rows_per_write) write_rows();
+  if (relaxations_.size() % least_rows_per_write == 0) write_rows_in_time();
+}
+
+void RunWriter::write_rows_in_time() {
+  const bool full = std::max(ticks_.size(), relaxations_.size()) >= most_rows_per_write;
+  if (full || std::chrono::steady_clock::now() - written_ >= time_per_write) write_rows();
 }
 
 template <class Record>
@@ -127,6 +135,7 @@ void RunWriter::write_rows() {
   ticks_.clear();
   relaxations_.clear();
   file_.flush();
+  written_ = std::chrono::steady_clock::now();
 }
 
 void RunWriter::on_frame(double time, const HeightField& surface) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <filesystem>
 #include <string>
 #include <utility>
@@ -10,8 +11,8 @@
 
 namespace sandstroke {
 
-/// Writes a run file while the simulation runs: PATH.part, flushed about every second of simulated time so
-/// that a killed run can be read up to there, renamed when complete. Error: io.
+/// Writes a run file while the simulation runs: PATH.part, flushed about twice a second so that a killed
+/// run can be read up to there, renamed when complete. Error: io.
 class RunWriter : public SimulationObserver {
  public:
   /// stroke_hash: of the stroke file, for provenance.
@@ -38,6 +39,7 @@ class RunWriter : public SimulationObserver {
   void make_relaxation_columns();
   template <class Record>
   static void append(std::vector<Field<Record>>& fields, const std::vector<Record>& records);
+  void write_rows_in_time();
   void write_rows();
 
   std::filesystem::path path_;
@@ -47,6 +49,7 @@ class RunWriter : public SimulationObserver {
   std::vector<std::pair<Hdf5Column, bool TickRecord::*>> tick_flags_;
   std::vector<Field<RelaxationRecord>> relaxation_fields_;
 
+  std::chrono::steady_clock::time_point written_ = std::chrono::steady_clock::now();
   std::vector<TickRecord> ticks_;  // not written yet
   std::vector<RelaxationRecord> relaxations_;
   std::vector<std::uint64_t> frame_revisions_;  // per slot, as of the last frame

@@ -69,11 +69,14 @@ TEST(CliRun, ARunThatIsNotAtRestSaysSoAndExitsWith3) {
   EXPECT_TRUE(RunFile(folder / "a.h5").complete());
 }
 
-/// A folder with a stroke that takes hours, of which a second simulates many minutes.
+/// A folder with a stroke that takes minutes: slow, and with a tool that covers many cells.
 fs::path folder_with_long_stroke() {
   const fs::path folder = test_folder();
+  write_file(folder / "scene.toml",
+             "[bed]\nsize = [0.3, 0.2]\ncells = [1200, 800]\n[tool]\nradius = 0.02\n[stroke]\nfile = "
+             "\"line.toml\"\n");
   write_file(folder / "long.toml",
-             "start = [-0.05, 0.0]\nspeed = 0.00001\n[[segment]]\nkind = \"line\"\nto = [0.05, 0.0]\ndepth = "
+             "start = [-0.05, 0.0]\nspeed = 0.0001\n[[segment]]\nkind = \"line\"\nto = [0.05, 0.0]\ndepth = "
              "0.004\n");
   return folder;
 }
