@@ -8,8 +8,8 @@
 
 namespace sandstroke {
 
-/// body(i) for each i in [0, count), in any order, on as many threads as tbb::global_control allows, or, where they
-/// are not worth their while, on this one. All is done, and seen here, when it returns.
+/// body(i) for each i in [0, count), in any order, on as many threads as tbb::global_control allows, or,
+/// where they are not worth their while, on this one. All is done, and seen here, when it returns.
 template <class Body>
 void parallel_for(std::size_t count, bool worth_threads, const Body& body) {
   if (!worth_threads || count < 2) {

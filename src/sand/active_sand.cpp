@@ -21,6 +21,7 @@ void ActiveSand::begin(HeightField& bed) {
 }
 
 std::int64_t ActiveSand::look_at_active_cells() {
+  tiles_active_max_ = std::max(tiles_active_max_, static_cast<int>(tiles().size()));
   std::int64_t cells_looked_at = 0;
   for (const int slot : tiles()) {
     if (looks_.size() <= static_cast<std::size_t>(slot)) looks_.resize(slot + 1), residuals_.resize(slot + 1);
@@ -40,7 +41,6 @@ double ActiveSand::compute_flow(const HeightField& bed,
                                 const std::function<void(int, const TileFlow&)>& then) {
   const std::int64_t cells_looked_at = look_at_active_cells();
   cells_visited_ += cells_looked_at;
-  tiles_active_max_ = std::max(tiles_active_max_, static_cast<int>(tiles().size()));
   work_ = cells_looked_at + work_per_tile * static_cast<std::int64_t>(tiles().size());
   while (flows_.size() < tiles().size()) flows_.push_back(std::make_unique<TileFlow>());
   if (changed_.size() < tiles().size()) changed_.resize(tiles().size()), any_changed_.resize(tiles().size());

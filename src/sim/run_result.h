@@ -42,8 +42,8 @@ struct RunResult {
   std::int64_t relaxations = 0;
   std::int64_t super_steps = 0;      ///< method rkl; the passes are their stages
   std::int64_t rejected_stages = 0;  ///< method rkl: stages taken back
-  std::int64_t cells_visited = 0;  ///< by relaxation passes
-  std::int64_t wake_ups = 0;       ///< of tiles at rest
+  std::int64_t cells_visited = 0;    ///< by relaxation passes
+  std::int64_t wake_ups = 0;         ///< of tiles at rest
   int tiles_active_max = 0;
   double residual = 0.0;
   bool converged = true;          ///< the last relaxation reached its tolerance

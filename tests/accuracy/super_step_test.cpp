@@ -1,5 +1,5 @@
-// Super time stepping against the exact cone and against the small-step limit of the same law: how near, and in how many
-// passes. (Times are the business of tests/bench.)
+// Super time stepping against the exact cone and against the small-step limit of the same law: how near, and
+// in how many passes. (Times are the business of tests/bench.)
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -13,7 +13,8 @@ namespace {
 
 const double t = std::tan(std::numbers::pi / 6.0);
 
-/// The cone that peers are measured with: a cylinder of R = 60, H = 80 cells on 512^2, or as much on another side.
+/// The cone that peers are measured with: a cylinder of R = 60, H = 80 cells on 512^2, or as much on another
+/// side.
 struct PeersCone {
   int side;
   double radius = 60.0 * side / 512, height = 80.0 * side / 512;
@@ -30,7 +31,8 @@ struct PeersCone {
     double sum = 0.0;
     for (int row = 0; row < side; ++row)
       for (int col = 0; col < side; ++col)
-        sum += std::pow(bed(row, col) - std::max(0.0, apex - t * std::hypot(bed.x_of(col), bed.y_of(row))), 2);
+        sum +=
+            std::pow(bed(row, col) - std::max(0.0, apex - t * std::hypot(bed.x_of(col), bed.y_of(row))), 2);
     return std::sqrt(sum) / side / apex;
   }
   double distance(const HeightField& a, const HeightField& b) const {
@@ -49,7 +51,8 @@ RelaxationOutcome relax(HeightField& bed, RelaxationMethod method, double share 
 TEST(SuperSteps, ReachThePeersConeInAFortiethOfThePasses) {
   const PeersCone cone{512};
   HeightField super = cone.start(), plain = cone.start(), small_steps = cone.start();
-  const RelaxationOutcome few = relax(super, RelaxationMethod::rkl), many = relax(plain, RelaxationMethod::passes);
+  const RelaxationOutcome few = relax(super, RelaxationMethod::rkl),
+                          many = relax(plain, RelaxationMethod::passes);
   relax(small_steps, RelaxationMethod::passes, 0.1);
   ASSERT_TRUE(few.converged && many.converged);
   EXPECT_LE(40 * few.passes, many.passes);
