@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "core/parallel.h"
+#include "sand/flow_kernels.h"
 #include "sand/relaxation.h"
 #include "sand/tile_activity.h"
-#include "sand/tile_kernels.h"
 
 namespace sandstroke {
 

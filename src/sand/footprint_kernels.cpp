@@ -7,30 +7,11 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "sand/lanes-inl.h"
+
 HWY_BEFORE_NAMESPACE();
 namespace sandstroke {
 namespace HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
-
-constexpr int group = 8;
-const hn::CappedTag<double, group> d;
-using V = hn::Vec<decltype(d)>;
-constexpr int lanes = static_cast<int>(hn::MaxLanes(d));
-
-/// A sum over the window: 8 of them, by column, added up at the end.
-class LaneSum {
- public:
-  HWY_INLINE void add(int col, V terms) {
-    double* lane = sums_ + col % group;
-    hn::Store(hn::Add(hn::Load(d, lane), terms), d, lane);
-  }
-  HWY_INLINE double total() const {
-    return ((sums_[0] + sums_[1]) + (sums_[2] + sums_[3])) + ((sums_[4] + sums_[5]) + (sums_[6] + sums_[7]));
-  }
-
- private:
-  alignas(64) double sums_[group] = {};
-};
 
 /// sin(u) for 0 <= u <= 1.2: the series up to u^17, whose remainder is below 3e-16.
 HWY_INLINE V sine(V u) {
@@ -108,10 +89,8 @@ double ShapeFootprint(const FootprintShape& shape, ToolFootprint& f) {
   return weight > 0.0 ? heights.total() / weight : std::numeric_limits<double>::quiet_NaN();
 }
 
-HWY_INLINE void set_flags(unsigned char* flags, int col, hn::Mask<decltype(d)> mask) {
-  uint8_t bits[8] = {};
-  hn::StoreMaskBits(d, mask, bits);
-  flags[col / group] = static_cast<unsigned char>(flags[col / group] | bits[0] << (col % group));
+HWY_INLINE void set_flags(unsigned char* flags, int col, Mask mask) {
+  flags[col / group] = static_cast<unsigned char>(flags[col / group] | bits(mask) << (col % group));
 }
 
 Carved Carve(ToolFootprint& f, double tip_height, const RingFront& front) {

@@ -1,25 +1,20 @@
-#include "sand/tile_kernels.h"
+#include "sand/flow_kernels.h"
 
 #include <cmath>
-#include <limits>
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "sand/tile_kernels.cpp"
+#define HWY_TARGET_INCLUDE "sand/flow_kernels.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
+
+#include "sand/lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace sandstroke {
 namespace HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
 
 constexpr int side = BedGeometry::tile_side;
-constexpr int group = 8;
 constexpr int groups = side / group;
-
-const hn::CappedTag<double, group> d;
-using V = hn::Vec<decltype(d)>;
-constexpr int lanes = static_cast<int>(hn::MaxLanes(d));
 
 /// The lower one; a wall (NaN) as `a` loses.
 HWY_INLINE V lower(V a, V b) {
@@ -40,17 +35,6 @@ HWY_INLINE V higher(V a, V b) {
 }
 
 HWY_INLINE V above(V x, V threshold) { return hn::IfThenElseZero(hn::Gt(x, threshold), x); }
-
-/// Flags of up to 8 lanes, as the low bits.
-HWY_INLINE unsigned bits(hn::Mask<decltype(d)> mask) {
-  uint8_t bytes[8] = {};
-  hn::StoreMaskBits(d, mask, bytes);
-  return bytes[0];
-}
-HWY_INLINE hn::Mask<decltype(d)> lanes_of(unsigned flags) {
-  const uint8_t bytes[8] = {static_cast<uint8_t>(flags)};
-  return hn::LoadMaskBits(d, bytes);
-}
 
 /// A cell and its neighbours, `lanes` of them from column `c`.
 struct Around {
@@ -92,13 +76,11 @@ struct Drops {
 
 /// Which of the cells in a vector may give: all, or those with a flag.
 struct AllGive {
-  HWY_INLINE hn::Mask<decltype(d)> operator()(hn::Mask<decltype(d)> moves) const { return moves; }
+  HWY_INLINE Mask operator()(Mask moves) const { return moves; }
 };
 struct FlaggedGive {
   unsigned flags;
-  HWY_INLINE hn::Mask<decltype(d)> operator()(hn::Mask<decltype(d)> moves) const {
-    return hn::And(moves, lanes_of(flags & ((1u << lanes) - 1)));
-  }
+  HWY_INLINE Mask operator()(Mask moves) const { return hn::And(moves, lanes_of(flags)); }
 };
 
 // Factors of the cells in a vector. Bits: those that are not 0.
@@ -221,8 +203,7 @@ struct GainOf {
         minus_D(hn::Neg(D)) {}
 
   /// Inflow less outflow of the flagged cells; adds the outflow to `given`.
-  HWY_INLINE V operator()(const double* row, const double* factors, int c, hn::Mask<decltype(d)> cells,
-                          V& given) const {
+  HWY_INLINE V operator()(const double* row, const double* factors, int c, Mask cells, LaneSum& given) const {
     const Around m(row, c), f(factors, c);
     Exchange all =
         sum(sum(exchange(m.m, f.m, m.w, f.w, T, minus_T), exchange(m.m, f.m, m.e, f.e, T, minus_T)),
@@ -234,18 +215,10 @@ struct GainOf {
           sum(sum(exchange(m.m, f.m, k.nw, fk.nw, D, minus_D), exchange(m.m, f.m, k.se, fk.se, D, minus_D)),
               sum(exchange(m.m, f.m, k.ne, fk.ne, D, minus_D), exchange(m.m, f.m, k.sw, fk.sw, D, minus_D))));
     }
-    given = hn::Add(given, hn::IfThenElseZero(cells, all.out));
+    given.add(c, hn::IfThenElseZero(cells, all.out));
     return hn::IfThenElseZero(cells, hn::Neg(hn::Add(all.in, all.out)));
   }
 };
-
-HWY_INLINE double total(const V (&sums)[group / lanes]) {
-  alignas(64) double lane[group];
-  for (int c = 0; c < group; c += lanes) hn::Store(sums[c / lanes], d, lane + c);
-  return ((lane[0] + lane[1]) + (lane[2] + lane[3])) + ((lane[4] + lane[5]) + (lane[6] + lane[7]));
-}
-
-HWY_INLINE double largest(V v) { return hn::GetLane(hn::MaxOfLanes(d, v)); }
 
 template <class Factors, class Gain>
 HWY_INLINE void flow_of(const TalusLaw& law, TilePatch& patch, const CellFlags& active,
@@ -261,8 +234,7 @@ HWY_INLINE void flow_of(const TalusLaw& law, TilePatch& patch, const CellFlags& 
                    givers ? &givers->rows[row + 1] : nullptr, steepest);
 
   const Gain gain(law);
-  V given[group / lanes];
-  for (V& of_lane : given) of_lane = hn::Zero(d);
+  LaneSum given;
   flow.moved = {};
   for (int row = span.begin; row < span.end; ++row) {
     const WideRow &n = moving[row], &m = moving[row + 1], &s = moving[row + 2];
@@ -273,13 +245,13 @@ HWY_INLINE void flow_of(const TalusLaw& law, TilePatch& patch, const CellFlags& 
     for (unsigned wanted = groups_of(cells); wanted; wanted &= wanted - 1) {
       const int begin = std::countr_zero(wanted) * group;
       for (int c = 0; c < group; c += lanes) {
-        const auto flagged = lanes_of(static_cast<unsigned>(cells >> (begin + c)) & ((1u << lanes) - 1));
-        hn::Store(gain(patch.heights(row), patch.factors(row), begin + c, flagged, given[c / lanes]), d,
+        const Mask flagged = lanes_of(cells >> (begin + c));
+        hn::Store(gain(patch.heights(row), patch.factors(row), begin + c, flagged, given), d,
                   flow.gain.data() + row * side + begin + c);
       }
     }
   }
-  flow.given = total(given);
+  flow.given = given.total();
   flow.axis_drop =
       law.law == RelaxationLaw::paper ? largest(steepest.axis) : std::sqrt(largest(steepest.axis));
   flow.diagonal_drop = largest(steepest.diagonal);
@@ -336,111 +308,6 @@ void ComputeResiduals(const TalusLaw& law, const TilePatch& patch, const CellFla
   }
 }
 
-/// Calls body(row, group) for the groups that `groups(row)` flags.
-template <class Groups, class Body>
-HWY_INLINE void for_groups(const Groups& groups_in, const Body& body) {
-  for (int row = 0; row < side; ++row)
-    for (unsigned wanted = groups_in(row); wanted; wanted &= wanted - 1) body(row, std::countr_zero(wanted));
-}
-
-/// max |F - F0| and sum F F0, lane by lane.
-struct Comparison {
-  V difference, products[group / lanes];
-  HWY_INLINE Comparison() : difference(hn::Zero(d)) {
-    for (V& of_lane : products) of_lane = hn::Zero(d);
-  }
-  HWY_INLINE void add(int lane, V subtracted, V factor, V gain) {
-    difference = hn::Max(difference, hn::Abs(hn::Sub(gain, subtracted)));
-    products[lane / lanes] = hn::Add(products[lane / lanes], hn::Mul(gain, factor));
-  }
-  HWY_INLINE FlowChange all() const { return {largest(difference), total(products)}; }
-};
-
-FlowChange KeepFirstFlow(const TileFlow& flow, SuperStepTile& tile) {
-  Comparison first;
-  for (int row = 0; row < side; ++row)
-    tile.first_moved[row] = static_cast<std::uint8_t>(groups_of(flow.moved[row]));
-  for_groups([&](int row) { return tile.first_moved[row]; },
-             [&](int row, int g) {
-               for (int c = 0; c < group; c += lanes) {
-                 const int at = row * side + g * group + c;
-                 const V gain = hn::Load(d, flow.gain.data() + at);
-                 first.add(c, hn::Zero(d), gain, gain);
-                 hn::Store(gain, d, tile.first_gain.data() + at);
-               }
-             });
-  return first.all();
-}
-
-FlowChange CompareFlows(const TileFlow& flow, const SuperStepTile& tile) {
-  Comparison change;
-  for_groups([&](int row) { return groups_of(flow.moved[row]) | tile.first_moved[row]; },
-             [&](int row, int g) {
-               const bool now = groups_of(flow.moved[row]) >> g & 1, first = tile.first_moved[row] >> g & 1;
-               for (int c = 0; c < group; c += lanes) {
-                 const int at = row * side + g * group + c;
-                 const V gain = now ? hn::Load(d, flow.gain.data() + at) : hn::Zero(d);
-                 const V before = first ? hn::Load(d, tile.first_gain.data() + at) : hn::Zero(d);
-                 change.add(c, before, before, gain);
-               }
-             });
-  return change.all();
-}
-
-/// Lowest and highest, lane by lane.
-struct Range {
-  V low, high;
-  HWY_INLINE Range() : low(hn::Set(d, std::numeric_limits<double>::infinity())), high(hn::Neg(low)) {}
-  HWY_INLINE void add(V heights, hn::Mask<decltype(d)> counts) {
-    low = hn::IfThenElse(counts, hn::Min(low, heights), low);
-    high = hn::IfThenElse(counts, hn::Max(high, heights), high);
-  }
-  HWY_INLINE HeightRange all() const { return {hn::GetLane(hn::MinOfLanes(d, low)), largest(high)}; }
-};
-
-HeightRange RangeOf(const double* heights, int rows, int cols) {
-  Range range;
-  for (int row = 0; row < rows; ++row)
-    for (int c = 0; c < cols; c += lanes)
-      range.add(hn::Load(d, heights + row * side + c), hn::FirstN(d, static_cast<std::size_t>(cols - c)));
-  return range.all();
-}
-
-HeightRange SuperStage(const TileFlow& flow, const CellFlags& active, double momentum, double step,
-                       double* heights, SuperStepTile& tile, CellFlags& changed) {
-  const V momentum_of_one = hn::Set(d, momentum), step_of_one = hn::Set(d, step);
-  Range range;
-  changed = {};
-  for_groups([&](int row) { return groups_of(active[row]); },
-             [&](int row, int g) {
-               const bool moved = groups_of(flow.moved[row]) >> g & 1, stepped = tile.stepped[row] >> g & 1;
-               for (int c = g * group; c < (g + 1) * group; c += lanes) {
-                 const int at = row * side + c;
-                 const V now = hn::Load(d, heights + at);
-                 V next = now;
-                 if (stepped) {
-                   const V before = hn::Load(d, tile.before.data() + at);
-                   next = hn::Add(next, hn::Mul(momentum_of_one, hn::Sub(now, before)));
-                 }
-                 if (moved) next = hn::Add(next, hn::Mul(step_of_one, hn::Load(d, flow.gain.data() + at)));
-                 hn::Store(now, d, tile.before.data() + at);
-                 hn::Store(next, d, heights + at);
-                 range.add(next, lanes_of(static_cast<unsigned>(active[row] >> c) & ((1u << lanes) - 1)));
-                 changed[row] |= static_cast<std::uint64_t>(bits(hn::Ne(next, now))) << c;
-               }
-             });
-  for (int row = 0; row < side; ++row) tile.stepped[row] |= static_cast<std::uint8_t>(groups_of(active[row]));
-  return range.all();
-}
-
-void TakeBackStage(const SuperStepTile& tile, double* heights) {
-  for_groups([&](int row) { return tile.stepped[row]; },
-             [&](int row, int g) {
-               for (int at = row * side + g * group, end = at + group; at < end; at += lanes)
-                 hn::Store(hn::Load(d, tile.before.data() + at), d, heights + at);
-             });
-}
-
 }  // namespace HWY_NAMESPACE
 }  // namespace sandstroke
 HWY_AFTER_NAMESPACE();
@@ -451,28 +318,10 @@ namespace sandstroke {
 HWY_EXPORT(ComputeFlow);
 HWY_EXPORT(ApplyFlow);
 HWY_EXPORT(ComputeResiduals);
-HWY_EXPORT(KeepFirstFlow);
-HWY_EXPORT(CompareFlows);
-HWY_EXPORT(RangeOf);
-HWY_EXPORT(SuperStage);
-HWY_EXPORT(TakeBackStage);
 
 void compute_flow(const TalusLaw& law, TilePatch& patch, const CellFlags& active, const GiverFlags* givers,
                   TileFlow& flow) {
   HWY_DYNAMIC_DISPATCH(ComputeFlow)(law, patch, active, givers, flow);
-}
-FlowChange keep_first_flow(const TileFlow& flow, SuperStepTile& tile) {
-  return HWY_DYNAMIC_DISPATCH(KeepFirstFlow)(flow, tile);
-}
-FlowChange compare_flows(const TileFlow& flow, const SuperStepTile& tile) {
-  return HWY_DYNAMIC_DISPATCH(CompareFlows)(flow, tile);
-}
-HeightRange range_of(const double* heights, int rows, int cols) {
-  return HWY_DYNAMIC_DISPATCH(RangeOf)(heights, rows, cols);
-}
-HeightRange super_stage(const TileFlow& flow, const CellFlags& active, double momentum, double step,
-                        double* heights, SuperStepTile& tile, CellFlags& changed) {
-  return HWY_DYNAMIC_DISPATCH(SuperStage)(flow, active, momentum, step, heights, tile, changed);
 }
 bool apply_flow(const TileFlow& flow, double* heights, CellFlags& changed) {
   return HWY_DYNAMIC_DISPATCH(ApplyFlow)(flow, heights, changed);
@@ -480,9 +329,6 @@ bool apply_flow(const TileFlow& flow, double* heights, CellFlags& changed) {
 void compute_residuals(const TalusLaw& law, const TilePatch& patch, const CellFlags& cells,
                        double* steepest) {
   HWY_DYNAMIC_DISPATCH(ComputeResiduals)(law, patch, cells, steepest);
-}
-void take_back_stage(const SuperStepTile& tile, double* heights) {
-  HWY_DYNAMIC_DISPATCH(TakeBackStage)(tile, heights);
 }
 
 }  // namespace sandstroke

@@ -1,5 +1,5 @@
 // Cost of one 64 x 64 tile in a pass, part by part, on every instruction set of this machine.
-#include "sand/tile_kernels.h"
+#include "sand/flow_kernels.h"
 
 #include <benchmark/benchmark.h>
 #include <hwy/targets.h>

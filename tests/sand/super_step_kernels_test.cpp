@@ -1,4 +1,4 @@
-#include "sand/tile_kernels.h"
+#include "sand/super_step_kernels.h"
 
 #include <gtest/gtest.h>
 

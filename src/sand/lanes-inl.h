@@ -1,0 +1,63 @@
+// Vectors as all kernels here use them: groups of 8 doubles, as many vectors as that takes. Included once per
+// instruction set (Highway's convention for -inl.h files).
+#if defined(SANDSTROKE_SAND_LANES_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef SANDSTROKE_SAND_LANES_INL_H_
+#undef SANDSTROKE_SAND_LANES_INL_H_
+#else
+#define SANDSTROKE_SAND_LANES_INL_H_
+#endif
+
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace sandstroke {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+constexpr int group = 8;  // cells
+const hn::CappedTag<double, group> d;
+using V = hn::Vec<decltype(d)>;
+using Mask = hn::Mask<decltype(d)>;
+constexpr int lanes = static_cast<int>(hn::MaxLanes(d));
+
+/// Flags of a vector's lanes, as the low bits.
+HWY_INLINE unsigned bits(Mask mask) {
+  uint8_t bytes[8] = {};
+  hn::StoreMaskBits(d, mask, bytes);
+  return bytes[0];
+}
+/// The lanes that the low bits flag.
+HWY_INLINE Mask lanes_of(std::uint64_t flags) {
+  const uint8_t bytes[8] = {static_cast<uint8_t>(flags & ((1u << lanes) - 1))};
+  return hn::LoadMaskBits(d, bytes);
+}
+
+HWY_INLINE double largest(V v) { return hn::GetLane(hn::MaxOfLanes(d, v)); }
+HWY_INLINE double least(V v) { return hn::GetLane(hn::MinOfLanes(d, v)); }
+
+/// A sum that does not depend on the vectors' width: one for each of a group's 8 places, added up at the end.
+class LaneSum {
+ public:
+  HWY_INLINE LaneSum() {
+    for (V& sum : sums_) sum = hn::Zero(d);
+  }
+  /// `place`: column of the vector's first lane.
+  HWY_INLINE void add(int place, V terms) {
+    V& sum = sums_[place % group / lanes];
+    sum = hn::Add(sum, terms);
+  }
+  HWY_INLINE double total() const {
+    alignas(64) double s[group];
+    for (int i = 0; i < group; i += lanes) hn::Store(sums_[i / lanes], d, s + i);
+    return ((s[0] + s[1]) + (s[2] + s[3])) + ((s[4] + s[5]) + (s[6] + s[7]));
+  }
+
+ private:
+  V sums_[group / lanes];
+};
+
+}  // namespace HWY_NAMESPACE
+}  // namespace sandstroke
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,153 @@
+#include "sand/super_step_kernels.h"
+
+#include <limits>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "sand/super_step_kernels.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "sand/lanes-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace sandstroke {
+namespace HWY_NAMESPACE {
+
+constexpr int side = BedGeometry::tile_side;
+
+/// Calls body(row, group) for the groups that groups_in(row) flags.
+template <class Groups, class Body>
+HWY_INLINE void for_groups(const Groups& groups_in, const Body& body) {
+  for (int row = 0; row < side; ++row)
+    for (unsigned wanted = groups_in(row); wanted; wanted &= wanted - 1) body(row, std::countr_zero(wanted));
+}
+
+/// max |F - F0| and sum F F0, lane by lane.
+struct Comparison {
+  V difference;
+  LaneSum product;
+  HWY_INLINE Comparison() : difference(hn::Zero(d)) {}
+  HWY_INLINE void add(int place, V flow, V other, V factor) {
+    difference = hn::Max(difference, hn::Abs(hn::Sub(flow, other)));
+    product.add(place, hn::Mul(flow, factor));
+  }
+  HWY_INLINE FlowChange all() const { return {largest(difference), product.total()}; }
+};
+
+FlowChange KeepFirstFlow(const TileFlow& flow, SuperStepTile& tile) {
+  Comparison first;
+  for (int row = 0; row < side; ++row)
+    tile.first_moved[row] = static_cast<std::uint8_t>(groups_of(flow.moved[row]));
+  for_groups([&](int row) { return tile.first_moved[row]; },
+             [&](int row, int g) {
+               for (int c = 0; c < group; c += lanes) {
+                 const int at = row * side + g * group + c;
+                 const V gain = hn::Load(d, flow.gain.data() + at);
+                 first.add(c, gain, hn::Zero(d), gain);
+                 hn::Store(gain, d, tile.first_gain.data() + at);
+               }
+             });
+  return first.all();
+}
+
+FlowChange CompareFlows(const TileFlow& flow, const SuperStepTile& tile) {
+  Comparison change;
+  for_groups([&](int row) { return groups_of(flow.moved[row]) | tile.first_moved[row]; },
+             [&](int row, int g) {
+               const bool now = groups_of(flow.moved[row]) >> g & 1, first = tile.first_moved[row] >> g & 1;
+               for (int c = 0; c < group; c += lanes) {
+                 const int at = row * side + g * group + c;
+                 const V gain = now ? hn::Load(d, flow.gain.data() + at) : hn::Zero(d);
+                 const V before = first ? hn::Load(d, tile.first_gain.data() + at) : hn::Zero(d);
+                 change.add(c, gain, before, before);
+               }
+             });
+  return change.all();
+}
+
+/// Lowest and highest, lane by lane.
+struct Range {
+  V low, high;
+  HWY_INLINE Range() : low(hn::Set(d, std::numeric_limits<double>::infinity())), high(hn::Neg(low)) {}
+  HWY_INLINE void add(V heights, Mask counts) {
+    low = hn::IfThenElse(counts, hn::Min(low, heights), low);
+    high = hn::IfThenElse(counts, hn::Max(high, heights), high);
+  }
+  HWY_INLINE HeightRange all() const { return {least(low), largest(high)}; }
+};
+
+HeightRange RangeOf(const double* heights, int rows, int cols) {
+  Range range;
+  for (int row = 0; row < rows; ++row)
+    for (int c = 0; c < cols; c += lanes)
+      range.add(hn::Load(d, heights + row * side + c), hn::FirstN(d, static_cast<std::size_t>(cols - c)));
+  return range.all();
+}
+
+HeightRange SuperStage(const TileFlow& flow, const CellFlags& active, double momentum, double step,
+                       double* heights, SuperStepTile& tile, CellFlags& changed) {
+  const V momentum_of_one = hn::Set(d, momentum), step_of_one = hn::Set(d, step);
+  Range range;
+  changed = {};
+  for_groups([&](int row) { return groups_of(active[row]); },
+             [&](int row, int g) {
+               const bool moved = groups_of(flow.moved[row]) >> g & 1, stepped = tile.stepped[row] >> g & 1;
+               for (int c = g * group; c < (g + 1) * group; c += lanes) {
+                 const int at = row * side + c;
+                 const V now = hn::Load(d, heights + at);
+                 V next = now;
+                 if (stepped) {
+                   const V before = hn::Load(d, tile.before.data() + at);
+                   next = hn::Add(next, hn::Mul(momentum_of_one, hn::Sub(now, before)));
+                 }
+                 if (moved) next = hn::Add(next, hn::Mul(step_of_one, hn::Load(d, flow.gain.data() + at)));
+                 hn::Store(now, d, tile.before.data() + at);
+                 hn::Store(next, d, heights + at);
+                 range.add(next, lanes_of(active[row] >> c));
+                 changed[row] |= static_cast<std::uint64_t>(bits(hn::Ne(next, now))) << c;
+               }
+             });
+  for (int row = 0; row < side; ++row) tile.stepped[row] |= static_cast<std::uint8_t>(groups_of(active[row]));
+  return range.all();
+}
+
+void TakeBackStage(const SuperStepTile& tile, double* heights) {
+  for_groups([&](int row) { return tile.stepped[row]; },
+             [&](int row, int g) {
+               for (int at = row * side + g * group, end = at + group; at < end; at += lanes)
+                 hn::Store(hn::Load(d, tile.before.data() + at), d, heights + at);
+             });
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace sandstroke
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace sandstroke {
+
+HWY_EXPORT(KeepFirstFlow);
+HWY_EXPORT(CompareFlows);
+HWY_EXPORT(RangeOf);
+HWY_EXPORT(SuperStage);
+HWY_EXPORT(TakeBackStage);
+
+FlowChange keep_first_flow(const TileFlow& flow, SuperStepTile& tile) {
+  return HWY_DYNAMIC_DISPATCH(KeepFirstFlow)(flow, tile);
+}
+FlowChange compare_flows(const TileFlow& flow, const SuperStepTile& tile) {
+  return HWY_DYNAMIC_DISPATCH(CompareFlows)(flow, tile);
+}
+HeightRange range_of(const double* heights, int rows, int cols) {
+  return HWY_DYNAMIC_DISPATCH(RangeOf)(heights, rows, cols);
+}
+HeightRange super_stage(const TileFlow& flow, const CellFlags& active, double momentum, double step,
+                        double* heights, SuperStepTile& tile, CellFlags& changed) {
+  return HWY_DYNAMIC_DISPATCH(SuperStage)(flow, active, momentum, step, heights, tile, changed);
+}
+void take_back_stage(const SuperStepTile& tile, double* heights) {
+  HWY_DYNAMIC_DISPATCH(TakeBackStage)(tile, heights);
+}
+
+}  // namespace sandstroke
+#endif
