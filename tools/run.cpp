@@ -76,7 +76,8 @@ void print_summary(const RunResult& r, const std::string& output) {
     if (r.gaps > 0) row("gaps", fmt::format("{}: the tool was lifted there", r.gaps));
   }
   row("sand moved", fmt::format("{:.6g} m^3, volume drift {:.1e} of it", r.moved_volume, r.volume_drift));
-  row("relaxation", fmt::format("{} passes, residual {:.2e}, {}", r.passes, r.residual,
+  const std::string steps = r.super_steps > 0 ? fmt::format(" in {} super steps", r.super_steps) : "";
+  row("relaxation", fmt::format("{} passes{}, residual {:.2e}, {}", r.passes, steps, r.residual,
                                 r.converged ? "at rest" : "NOT AT REST"));
 }
 

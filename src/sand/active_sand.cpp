@@ -49,7 +49,7 @@ double ActiveSand::compute_flow(const HeightField& bed,
     TilePatch& patch = TilePatch::of_this_thread();
     patch.load(bed, slot, cells(slot));
     if (holds_still_) {
-      GiverFlags givers;
+      GiverFlags givers{};
       load_givers(bed, slot, givers);
       sandstroke::compute_flow(law_, patch, cells(slot), &givers, *flows_[i]);
     } else {

@@ -1,8 +1,15 @@
-// Every relaxation of every scene in strokes/ by the engine against the plain reference, bit for bit. The
-// reference works on a window around what was disturbed: what sand does depends on its neighbourhood only, so
-// this says as much as the whole field as long as nothing near the window's border moves, which is checked.
+// Every relaxation of every scene in strokes/ by the engine, with every instruction set of the machine on 1,
+// 2, 3 and 8 threads, against the plain reference, bit for bit. The reference works on a window around what
+// was disturbed: what sand does depends on its neighbourhood only, so this says as much as the whole field as
+// long as nothing near the window's border moves, which is checked.
 #include <gtest/gtest.h>
+#include <tbb/global_control.h>
+#include <tbb/task_arena.h>
 
+#include <hwy/targets.h>
+#include <bit>
+#include <cstring>
+#include <deque>
 #include <filesystem>
 
 #include "core/error.h"
@@ -26,7 +33,48 @@ std::vector<std::string> scene_names() {
   return names;
 }
 
-/// Relaxes with the engine, and the window around the disturbed cells with the reference.
+/// The engine with one instruction set and number of threads, on a bed of its own that follows another one.
+class Variant {
+ public:
+  Variant(const RelaxationSettings& settings, const HeightField& bed, std::int64_t target, int threads)
+      : bed_(bed), relaxer_(make_relaxer(settings, bed.cell_size())), target_(target), arena_(threads) {}
+
+  /// Sets what was set in `bed` since the last relaxation, and relaxes.
+  std::int64_t follow(const HeightField& bed) {
+    for (const int slot : bed.disturbed_tiles()) {
+      const CellRange tile = bed.tile_cells(bed.tile_of(slot));
+      for (int row = 0; row < tile.rows(); ++row)
+        for (std::uint64_t cells = bed.disturbed_cells(slot)[row]; cells; cells &= cells - 1) {
+          const int r = tile.row_begin + row, c = tile.col_begin + std::countr_zero(cells);
+          bed_.set(r, c, bed(r, c));
+        }
+    }
+    std::int64_t passes = 0;
+    hwy::SetSupportedTargetsForTest(target_);
+    arena_.execute([&] { passes = relaxer_->relax(bed_).passes; });
+    hwy::SetSupportedTargetsForTest(0);
+    return passes;
+  }
+  /// The same bits in these tiles (slots of `bed`).
+  bool equals(const HeightField& bed, const std::vector<int>& slots) const {
+    return std::all_of(slots.begin(), slots.end(), [&](int slot) {
+      std::array<double, BedGeometry::tile_area> own{}, other{};
+      bed_.read_tile(bed.tile_of(slot), own.data());
+      bed.read_tile(bed.tile_of(slot), other.data());
+      return std::memcmp(own.data(), other.data(), sizeof own) == 0;
+    });
+  }
+  std::string name() const { return hwy::TargetName(target_); }
+
+ private:
+  HeightField bed_;
+  std::unique_ptr<Relaxer> relaxer_;
+  std::int64_t target_;
+  tbb::task_arena arena_;
+};
+
+/// Relaxes with the engine, its variants follow, and the window around the disturbed cells with the
+/// reference.
 class CheckedRelaxer : public Relaxer {
  public:
   CheckedRelaxer(const RelaxationSettings& settings, double cell_size)
@@ -38,7 +86,22 @@ class CheckedRelaxer : public Relaxer {
     CellRange window = first_ ? bed.cells() : disturbed(bed);
     first_ = false;
     const HeightField before = window_of(bed, window);
+    std::int64_t variant_passes = -1;
+    for (Variant& variant : variants(bed)) {
+      const std::int64_t passes = variant.follow(bed);
+      if (variant_passes < 0) variant_passes = passes;
+      EXPECT_EQ(passes, variant_passes) << variant.name();
+    }
     const RelaxationOutcome outcome = engine_->relax(bed, after_pass);
+    EXPECT_EQ(variant_passes, outcome.passes);
+    std::vector<int> changed;  // tiles
+    revisions_.resize(bed.touched_tiles(), 0);
+    for (int slot = 0; slot < bed.touched_tiles(); ++slot)
+      if (std::exchange(revisions_[slot], bed.tile_revision(bed.tile_of(slot))) !=
+          bed.tile_revision(bed.tile_of(slot)))
+        changed.push_back(slot);
+    for (const Variant& variant : variants_)
+      EXPECT_TRUE(variant.equals(bed, changed)) << variant.name() << ", relaxation " << relaxations;
     ++relaxations;
     HeightField after = before;
     const RelaxationOutcome plain = make_relaxer(settings_, bed.cell_size())->relax(after);
@@ -86,8 +149,21 @@ class CheckedRelaxer : public Relaxer {
     return HeightField(heights, bed.cell_size());
   }
 
+  std::deque<Variant>& variants(const HeightField& bed) {
+    if (variants_.empty()) {
+      RelaxationSettings settings = settings_;
+      settings.engine = RelaxationEngine::tiles;
+      for (const std::int64_t target : hwy::SupportedAndGeneratedTargets())
+        for (const int threads : {1, 2, 3, 8}) variants_.emplace_back(settings, bed, target, threads);
+    }
+    return variants_;
+  }
+
+  tbb::global_control threads_{tbb::global_control::max_allowed_parallelism, 8};
   RelaxationSettings settings_;
   std::unique_ptr<Relaxer> engine_;
+  std::deque<Variant> variants_;
+  std::vector<std::uint64_t> revisions_;  // per slot, when the variants were last compared
   bool first_ = true;
 };
 
