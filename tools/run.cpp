@@ -13,6 +13,7 @@
 #include "io/run_scene.h"
 #include "io/scene_toml.h"
 #include "run_picture.h"
+#include "sand/instruction_set.h"
 
 namespace sandstroke {
 namespace {
@@ -57,6 +58,7 @@ nlohmann::ordered_json as_json(const RunResult& r, const std::string& output) {
       {"least_absorbed_energy", r.least_absorbed_energy},
       {"least_passivity_margin", r.least_passivity_margin},
       {"threads", r.threads},
+      {"instruction_set", instruction_set()},
       {"interrupted", r.interrupted},
   };
 }

@@ -10,6 +10,7 @@
 #include "core/xml_text.h"
 #include "io/bed_writer.h"
 #include "io/scene_toml.h"
+#include "sand/instruction_set.h"
 
 namespace sandstroke {
 namespace {
@@ -57,6 +58,7 @@ RunWriter::RunWriter(const std::filesystem::path& path, const Simulation& simula
   file_.write("/provenance/version", version);
   file_.write("/provenance/commit", commit);
   file_.write("/provenance/compiler", compiler);
+  file_.write("/provenance/instruction_set", instruction_set());
   file_.write("/provenance/scene_hash", content_hash(scene));
   file_.write("/provenance/stroke_hash", stroke_hash);
   write_bed(file_, "/surface/initial", bed);

@@ -2,7 +2,6 @@
 // figures can be compared with each other; between runs on a busy machine compare ratios.
 #include "bench/end_to_end.h"
 
-#include <hwy/targets.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <tbb/global_control.h>
@@ -17,6 +16,7 @@
 #include <thread>
 
 #include "core/version.h"
+#include "sand/instruction_set.h"
 
 namespace sandstroke {
 namespace {
@@ -94,11 +94,10 @@ nlohmann::json spread(const std::vector<double>& values) {
 }
 
 nlohmann::json describe_machine() {
-  const auto targets = hwy::SupportedAndGeneratedTargets();  // best first
   return {{"cpu", cpu_name()},
           {"cores", std::thread::hardware_concurrency()},
           {"compiler", compiler},
-          {"instruction_set", targets.empty() ? "unknown" : hwy::TargetName(targets.front())},
+          {"instruction_set", instruction_set()},
           {"version", version},
           {"commit", commit}};
 }
@@ -124,6 +123,7 @@ int main(int argc, char** argv) {
     report["tile_sizes"] = in_child(measure_tile_sizes);
     report["cones"] = in_child([&] { return measure_cones(options); });
     report["rough_beds"] = in_child([&] { return measure_rough_beds(options); });
+    report["paper_law"] = in_child([&] { return measure_paper_law(options); });
     const std::string text = report.dump(2) + "\n";
     if (output.empty()) {
       std::cout << text;

@@ -18,6 +18,7 @@ nlohmann::json measure_bed_sizes(const BenchOptions& options);
 nlohmann::json measure_tile_sizes();
 nlohmann::json measure_cones(const BenchOptions& options);
 nlohmann::json measure_rough_beds(const BenchOptions& options);
+nlohmann::json measure_paper_law(const BenchOptions& options);
 nlohmann::json describe_machine();
 
 /// Runs `measure` in a child process and adds "peak_rss_bytes": by how much it raised its resident memory.
