@@ -50,7 +50,7 @@ nlohmann::ordered_json describe(const RunFile& run) {
 void print_table(const nlohmann::ordered_json& facts) {
   const nlohmann::ordered_json flat = facts.flatten();
   for (const auto& [path, value] : flat.items()) {
-    fmt::print("{:<24} {}\n", path.substr(1), value.is_string() ? value.get<std::string>() : value.dump());
+    fmt::print("{:<27} {}\n", path.substr(1), value.is_string() ? value.get<std::string>() : value.dump());
   }
 }
 
