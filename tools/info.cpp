@@ -1,9 +1,12 @@
 #include <spdlog/fmt/fmt.h>
 
+#include <algorithm>
+#include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "commands.h"
+#include "compare/field_difference.h"
 #include "core/error.h"
 #include "io/run_file.h"
 #include "io/scene_toml.h"
@@ -16,21 +19,33 @@ struct Arguments {
   bool json = false, scene = false, scene_keys = false;
 };
 
+/// Of a bed as a run file gives it: level where no tile exists.
+nlohmann::ordered_json range_of(const HeightField& bed) {
+  double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
+  const auto take = [&](double height) {
+    lowest = std::min(lowest, height), highest = std::max(highest, height);
+  };
+  if (bed.touched_tiles() < bed.tile_count()) take(bed.untouched().height(bed, 0, 0));
+  for (int slot = 0; slot < bed.touched_tiles(); ++slot) {
+    const CellRange cells = bed.tile_cells(bed.tile_of(slot));
+    for (int row = 0; row < cells.rows(); ++row)
+      std::for_each_n(bed.tile_heights(slot) + row * HeightField::tile_side, cells.cols(), take);
+  }
+  return {{"lowest", lowest}, {"highest", highest}};
+}
+
 nlohmann::ordered_json describe(const RunFile& run) {
   nlohmann::ordered_json facts;
   facts["file"] = run.name();
   facts["complete"] = run.complete();
-  const HeightGrid initial = run.initial();
+  const HeightField initial = run.initial_bed();
   facts["cells"] = {initial.cols(), initial.rows()};
   facts["cell_size"] = run.cell_size();
-  const auto add_heights = [&](const char* name, const HeightGrid& heights) {
-    facts[name] = {{"lowest", heights.minCoeff()}, {"highest", heights.maxCoeff()}};
-  };
-  add_heights("initial", initial);
+  facts["initial"] = range_of(initial);
   if (run.has_final()) {
-    const HeightGrid final = run.final();
-    add_heights("final", final);
-    facts["changed_cells"] = (final != initial).count();
+    const HeightField final = run.final_bed();
+    facts["final"] = range_of(final);
+    facts["changed_cells"] = field_difference(initial, final).cells;
   }
   facts["frames"] = run.frame_times().size();
   if (run.has_trace()) {

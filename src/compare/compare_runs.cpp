@@ -23,12 +23,11 @@ Comparison compare_runs(const RunFile& golden, const RunFile& run, const Toleran
   add_checks(checks, "cell size",
              [&] { return std::vector{cell_size_check(golden.cell_size(), run.cell_size())}; });
   add_checks(checks, "initial height", [&] {
-    return std::vector{height_check("initial height", golden.initial(), run.initial(), golden.cell_size(),
-                                    tolerances.height)};
+    return std::vector{
+        height_check("initial height", golden.initial_bed(), run.initial_bed(), tolerances.height)};
   });
   add_checks(checks, "final height", [&] {
-    return std::vector{
-        height_check("final height", golden.final(), run.final(), golden.cell_size(), tolerances.height)};
+    return std::vector{height_check("final height", golden.final_bed(), run.final_bed(), tolerances.height)};
   });
   add_checks(checks, "trace",
              [&] { return trace_checks(whole_trace(golden), whole_trace(run), tolerances); });

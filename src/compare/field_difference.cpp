@@ -2,45 +2,78 @@
 
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "core/compensated_sum.h"
 #include "core/error.h"
 
 namespace sandstroke {
 
-FieldDifference field_difference(const HeightGrid& golden, const HeightGrid& run, double cell_size) {
-  if (golden.rows() != run.rows() || golden.cols() != run.cols() || golden.size() == 0) {
-    throw_input_error(
-        "surfaces of {} x {} and {} x {} cells cannot be subtracted; compare runs of the same bed",
-        golden.rows(), golden.cols(), run.rows(), run.cols());
-  }
-  const int rows = static_cast<int>(golden.rows()), cols = static_cast<int>(golden.cols());
+namespace {
+
+[[noreturn]] void refuse(Eigen::Index golden_rows, Eigen::Index golden_cols, Eigen::Index rows,
+                         Eigen::Index cols) {
+  throw_input_error(
+      "surfaces of {} x {} and {} x {} cells cannot be subtracted; compare runs of the same bed", golden_rows,
+      golden_cols, rows, cols);
+}
+
+/// Where no tile exists, both are at one and the same height.
+bool equal_where_untouched(const HeightField& golden, const HeightField& run) {
+  const auto is_level = [](const HeightField& bed) {
+    return bed.untouched().steepest(bed, bed.cells()) == 0.0;
+  };
+  return is_level(golden) && is_level(run) &&
+         golden.untouched().height(golden, 0, 0) == run.untouched().height(run, 0, 0);
+}
+
+}  // namespace
+
+FieldDifference field_difference(const HeightField& golden, const HeightField& run) {
+  if (golden.rows() != run.rows() || golden.cols() != run.cols() || golden.rows() == 0 || golden.cols() == 0)
+    refuse(golden.rows(), golden.cols(), run.rows(), run.cols());
   FieldDifference result;
   CompensatedSum sum, squares;
-  const auto mark = [&](int row, int col, double max) {
-    result.max = max;
-    result.row = row;
-    result.col = col;
+  // The largest, and of equal ones the first, row by row; a cell that is not finite before any number.
+  const auto compare = [&](int row, int col, double difference) {
+    const bool finite = std::isfinite(difference), was_finite = !std::isnan(result.max);
+    const bool earlier = row < result.row || (row == result.row && col < result.col);
+    const double size = std::abs(difference);
+    const bool worse =
+        finite ? was_finite && (size > result.max || (size == result.max && size > 0.0 && earlier))
+               : was_finite || earlier;
+    if (!worse) return;
+    result.max = finite ? size : std::numeric_limits<double>::quiet_NaN();
+    result.row = row, result.col = col;
   };
-  for (int row = 0; row < rows; ++row) {
-    for (int col = 0; col < cols; ++col) {
-      const double difference = run(row, col) - golden(row, col);
-      // Two equal infinities subtract to NaN, so that this sees every kind of cell that is not finite.
-      if (!std::isfinite(difference)) {
-        if (!std::isnan(result.max)) mark(row, col, std::numeric_limits<double>::quiet_NaN());
-      } else if (std::abs(difference) > result.max) {  // false once max is NaN
-        mark(row, col, std::abs(difference));
+  const bool skip_untouched = equal_where_untouched(golden, run);
+  std::vector<double> a(HeightField::tile_area), b(HeightField::tile_area);
+  for (int tile = 0; tile < golden.tile_count(); ++tile) {
+    if (skip_untouched && golden.slot_of(tile) < 0 && run.slot_of(tile) < 0) continue;
+    golden.read_tile(tile, a.data());
+    run.read_tile(tile, b.data());
+    const CellRange cells = golden.tile_cells(tile);
+    for (int row = 0; row < cells.rows(); ++row)
+      for (int col = 0; col < cells.cols(); ++col) {
+        const int at = row * HeightField::tile_side + col;
+        const double difference =
+            b[at] - a[at];  // two equal infinities give NaN: nothing that is not finite is missed
+        compare(cells.row_begin + row, cells.col_begin + col, difference);
+        result.cells += difference != 0.0;
+        sum.add(difference);
+        squares.add(difference * difference);
       }
-      sum.add(difference);
-      squares.add(difference * difference);
-    }
   }
-  result.rms = std::sqrt(squares.value() / static_cast<double>(golden.size()));
-  result.volume = sum.value() * cell_size * cell_size;
-  const HeightField bed(rows, cols, cell_size);
-  result.x = bed.x_of(result.col);
-  result.y = bed.y_of(result.row);
+  result.rms = std::sqrt(squares.value() / (static_cast<double>(golden.rows()) * golden.cols()));
+  result.volume = sum.value() * golden.cell_area();
+  result.x = golden.x_of(result.col);
+  result.y = golden.y_of(result.row);
   return result;
+}
+
+FieldDifference field_difference(const HeightGrid& golden, const HeightGrid& run, double cell_size) {
+  if (golden.size() == 0 || run.size() == 0) refuse(golden.rows(), golden.cols(), run.rows(), run.cols());
+  return field_difference(HeightField(golden, cell_size), HeightField(run, cell_size));
 }
 
 }  // namespace sandstroke

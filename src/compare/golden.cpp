@@ -241,8 +241,8 @@ Comparison compare_golden(const std::string& name, const fs::path& entry, const 
     add_checks(found, "cell size",
                [&] { return std::vector{cell_size_check(golden.cell_size, run.cell_size())}; });
     add_checks(found, "height change", [&] {
-      return std::vector{height_check("height change", golden.change, height_change(run), golden.cell_size,
-                                      tolerances.height)};
+      return std::vector{height_check("height change", HeightField(golden.change, golden.cell_size),
+                                      HeightField(height_change(run), golden.cell_size), tolerances.height)};
     });
     add_checks(found, "trace", [&] { return trace_checks(golden.trace, thinned_trace(run), tolerances); });
     return found;

@@ -35,14 +35,13 @@ Check complete_check(const std::string& which, const RunFile& run) {
                                 complete ? "ran to its end" : "was cut off before its end; run it again"));
 }
 
-Check height_check(const std::string& name, const HeightGrid& golden, const HeightGrid& run, double cell_size,
-                   double limit) {
+Check height_check(const std::string& name, const HeightField& golden, const HeightField& run, double limit) {
   if (golden.rows() != run.rows() || golden.cols() != run.cols()) {
     return fact_check(name, false,
                       fmt::format("golden has {} x {} cells, the run {} x {}; compare runs of the same bed",
                                   golden.rows(), golden.cols(), run.rows(), run.cols()));
   }
-  const FieldDifference difference = field_difference(golden, run, cell_size);
+  const FieldDifference difference = field_difference(golden, run);
   const std::string where = fmt::format("at row {}, col {} (x = {:.6g} m, y = {:.6g} m)", difference.row,
                                         difference.col, difference.x, difference.y);
   if (std::isnan(difference.max))

@@ -27,8 +27,7 @@ struct Tolerances {
 Check complete_check(const std::string& which, const RunFile& run);
 
 /// Two surfaces of one bed, cell by cell.
-Check height_check(const std::string& name, const HeightGrid& golden, const HeightGrid& run, double cell_size,
-                   double limit);
+Check height_check(const std::string& name, const HeightField& golden, const HeightField& run, double limit);
 
 /// Cell sizes [m]: the same up to rounding.
 Check cell_size_check(double golden, double run);

@@ -1,5 +1,6 @@
 #include "io/hdf5_reader.h"
 
+#include <algorithm>
 #include <cstring>
 
 #include "core/error.h"
@@ -144,6 +145,44 @@ HeightGrid Hdf5Reader::grid(const std::string& dataset) const {
   if (H5Dread(opened, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)
     fail(dataset, "cannot be read; the file is damaged");
   return values;
+}
+
+HeightField Hdf5Reader::bed(const std::string& dataset, double cell_size) const {
+  std::vector<hsize_t> shape;
+  const Hdf5Handle opened = open_numbers(dataset, 2, shape);
+  const Hdf5Handle properties(H5Dget_create_plist(opened), H5Pclose);
+  hsize_t chunk[2], written = 0;
+  const Hdf5Handle space(H5Dget_space(opened), H5Sclose);
+  if (H5Pget_layout(properties) != H5D_CHUNKED || H5Pget_chunk(properties, 2, chunk) != 2)
+    return HeightField(grid(dataset), cell_size);
+  constexpr hsize_t largest = 65536;  // rows and columns, as in a scene
+  if (shape[0] > largest || shape[1] > largest)
+    fail(dataset, fmt::format("has {} x {} cells; a bed has at most {} a side", shape[0], shape[1], largest));
+  double level = 0.0;
+  if (H5Pget_fill_value(properties, H5T_NATIVE_DOUBLE, &level) < 0 ||
+      H5Dget_num_chunks(opened, space, &written) < 0)
+    fail(dataset, "cannot be read; the file is damaged");
+  HeightField bed(static_cast<int>(shape[0]), static_cast<int>(shape[1]), cell_size,
+                  std::make_shared<LevelRule>(level));
+  for (hsize_t i = 0; i < written; ++i) {
+    hsize_t start[2], bytes;
+    unsigned skipped_filters;
+    if (H5Dget_chunk_info(opened, space, i, start, &skipped_filters, nullptr, &bytes) < 0 ||
+        start[0] >= shape[0] || start[1] >= shape[1])
+      fail(dataset, "cannot be read; the file is damaged");
+    const hsize_t block[2] = {std::min(chunk[0], shape[0] - start[0]),
+                              std::min(chunk[1], shape[1] - start[1])};
+    HeightGrid heights(static_cast<Eigen::Index>(block[0]), static_cast<Eigen::Index>(block[1]));
+    const Hdf5Handle memory_space(H5Screate_simple(2, block, nullptr), H5Sclose);
+    H5Sselect_hyperslab(space, H5S_SELECT_SET, start, nullptr, block, nullptr);
+    if (H5Dread(opened, H5T_NATIVE_DOUBLE, memory_space, space, H5P_DEFAULT, heights.data()) < 0)
+      fail(dataset, "cannot be read; the file is damaged");
+    for (Eigen::Index row = 0; row < heights.rows(); ++row)
+      for (Eigen::Index col = 0; col < heights.cols(); ++col)
+        bed.set(static_cast<int>(start[0]) + static_cast<int>(row),
+                static_cast<int>(start[1]) + static_cast<int>(col), heights(row, col));
+  }
+  return bed;
 }
 
 std::string Hdf5Reader::text(const std::string& dataset) const {

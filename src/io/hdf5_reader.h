@@ -25,8 +25,10 @@ class Hdf5Reader {
   std::vector<double> doubles(const std::string& dataset) const;           ///< rank 1
   std::vector<Eigen::Vector3d> vectors(const std::string& dataset) const;  ///< (n, 3)
   std::vector<std::uint32_t> integers(const std::string& dataset) const;   ///< rank 1
-  HeightGrid grid(const std::string& dataset) const;                       ///< rank 2
-  std::string text(const std::string& dataset) const;                      ///< scalar string
+  /// Rank 2, of any size: where nothing was written no tile exists, and the bed is at the fill value.
+  HeightField bed(const std::string& dataset, double cell_size) const;
+  HeightGrid grid(const std::string& dataset) const;   ///< rank 2
+  std::string text(const std::string& dataset) const;  ///< scalar string
 
   // Attributes of a group or dataset ("/" is the root group).
   bool has_attribute(const std::string& object, const std::string& attribute) const;

@@ -182,9 +182,11 @@ Hdf5Chunks Hdf5Writer::chunks(const std::string& dataset, std::array<int, 2> sha
   const hsize_t extent[2] = {static_cast<hsize_t>(shape[0]), static_cast<hsize_t>(shape[1])};
   const Hdf5Handle space(H5Screate_simple(2, extent, nullptr), H5Sclose);
   const Hdf5Handle properties = dataset_properties({chunks.rows_, chunks.cols_}, Compression::none);
-  H5Pset_fill_value(properties, H5T_NATIVE_DOUBLE, &fill);
-  H5Pset_alloc_time(properties, H5D_ALLOC_TIME_INCR);
-  H5Pset_fill_time(properties, H5D_FILL_TIME_IFSET);  // with "never", missing chunks would not read as it
+  check(H5Pset_fill_value(properties, H5T_NATIVE_DOUBLE, &fill) >= 0 &&
+            H5Pset_alloc_time(properties, H5D_ALLOC_TIME_INCR) >= 0 &&
+            H5Pset_fill_time(properties, H5D_FILL_TIME_IFSET) >=
+                0,  // "never": missing chunks would not read as it
+        dataset);
   chunks.dataset_ = create(dataset, H5T_NATIVE_DOUBLE, space, properties);
   return chunks;
 }

@@ -40,8 +40,8 @@ class Hdf5Chunks {
  public:
   std::size_t cols() const { return cols_; }          ///< of a chunk
   std::size_t size() const { return rows_ * cols_; }  ///< numbers in a chunk
-  /// A whole chunk, row after row, by its first row and column in the dataset; what lies outside the dataset
-  /// does not matter. Error: io.
+  /// A whole chunk, row after row, by its first row and column in the dataset (multiples of the chunk's);
+  /// what lies outside the dataset does not matter. Error: io.
   void write(int row, int col, const double* numbers);
 
  private:

@@ -43,15 +43,30 @@ HeightGrid RunFile::initial() const {
   shape();  // that there is one
   return file_.grid("/surface/initial");
 }
+
+HeightField RunFile::initial_bed() const {
+  shape();
+  return file_.bed("/surface/initial", cell_size());
+}
+
 bool RunFile::has_final() const { return file_.has("/surface/final"); }
 
-HeightGrid RunFile::final() const {
+void RunFile::check_final() const {
   if (!has_final() && !complete())
     throw_input_error("{}: the run was cut off and has no final surface; run it again", file_.name());
   if (file_.shape("/surface/final") != shape())
     throw_input_error("{}: /surface/final and /surface/initial differ in shape; the file is damaged",
                       file_.name());
+}
+
+HeightGrid RunFile::final() const {
+  check_final();
   return file_.grid("/surface/final");
+}
+
+HeightField RunFile::final_bed() const {
+  check_final();
+  return file_.bed("/surface/final", cell_size());
 }
 
 bool RunFile::has_trace() const { return file_.has("/trace/time"); }

@@ -31,6 +31,9 @@ class RunFile {
   int cols() const;
   HeightGrid initial() const;
   HeightGrid final() const;  ///< error where the run was cut off before its end
+  /// The same as beds, in which only what the file holds exists: for beds of any size.
+  HeightField initial_bed() const;
+  HeightField final_bed() const;
   bool has_final() const;
   bool has_trace() const;
   RunTrace trace() const;
@@ -43,6 +46,7 @@ class RunFile {
 
  private:
   std::vector<hsize_t> shape() const;  // of /surface/initial
+  void check_final() const;            // that it is there, in the same shape
 
   Hdf5Reader file_;
 };

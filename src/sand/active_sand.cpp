@@ -71,9 +71,8 @@ void ActiveSand::load_givers(const HeightField& bed, int slot, GiverFlags& giver
     if (row < 0 || row >= bed.tile_rows() || col < 0 || col >= bed.tile_cols()) return;
     const int other = bed.slot_of(bed.tile_index(row, col));
     if (other < 0) return;
-    const CellFlags* flags = activity_.givers(other);
-    if (!flags) return;
-    for (int r = 0; r < count; ++r) put(givers.rows[to + r], (*flags)[from + r]);
+    const CellFlags& flags = activity_.givers(other);
+    for (int r = 0; r < count; ++r) put(givers.rows[to + r], flags[from + r]);
   };
   for (int col_step = -1; col_step <= 1; ++col_step) {
     const auto put = [col_step](GiverFlags::Row& row, std::uint64_t flags) {

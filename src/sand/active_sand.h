@@ -56,6 +56,11 @@ class ActiveSand {
     return !at_rest();
   }
 
+  /// Heap memory for each tile that has been active at once with all others [bytes].
+  static constexpr std::size_t bytes_per_tile() {
+    return sizeof(TileFlow) + sizeof(CellFlags) + sizeof(Look) + TileActivity::bytes_per_tile();
+  }
+
   /// Ends a relaxation: residual of the whole bed, and the counters since begin().
   void end(const HeightField& bed, RelaxationOutcome& outcome);
 

@@ -1,5 +1,6 @@
 #include "sand/footprint_kernels.h"
 
+#include <algorithm>
 #include <limits>
 
 #undef HWY_TARGET_INCLUDE

@@ -1,21 +1,12 @@
 #include "sand/height_field.h"
 
+#include <limits>
 #include <new>
 
 #include "core/compensated_sum.h"
 
 namespace sandstroke {
 namespace {
-
-class FlatRule : public SurfaceRule {
- public:
-  void fill(const BedGeometry&, const CellRange& cells, double* out) const override {
-    for (int row = 0; row < cells.rows(); ++row, out += BedGeometry::tile_side)
-      std::fill(out, out + cells.cols(), 0.0);
-  }
-  double steepest(const BedGeometry&, const CellRange&) const override { return 0.0; }
-  double highest() const override { return 0.0; }
-};
 
 std::uint32_t* zeros(int count) {
   void* memory = std::calloc(static_cast<std::size_t>(count), sizeof(std::uint32_t));
@@ -26,7 +17,7 @@ std::uint32_t* zeros(int count) {
 }  // namespace
 
 HeightField::HeightField(int rows, int cols, double cell_size)
-    : HeightField(rows, cols, cell_size, std::make_shared<FlatRule>()) {}
+    : HeightField(rows, cols, cell_size, std::make_shared<LevelRule>(0.0)) {}
 
 HeightField::HeightField(int rows, int cols, double cell_size, std::shared_ptr<const SurfaceRule> untouched)
     : BedGeometry(rows, cols, cell_size), untouched_(std::move(untouched)), slots_(zeros(tile_count())) {}

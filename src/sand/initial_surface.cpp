@@ -80,7 +80,8 @@ class FormulaRule : public SurfaceRule {
   void fill(const BedGeometry& bed, const CellRange& cells, double* out) const override {
     for (int row = cells.row_begin; row < cells.row_end; ++row, out += BedGeometry::tile_side)
       for (int col = cells.col_begin; col < cells.col_end; ++col)
-        out[col - cells.col_begin] = height_(bed.x_of(col), bed.y_of(row));
+        out[col - cells.col_begin] =
+            height_(bed.x_of(col), bed.y_of(row)) + 0.0;  // no -0.0: equal is the same bits
   }
   double steepest(const BedGeometry& bed, const CellRange& cells) const override {
     return steepest_(bed, cells);

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "sand/active_sand.h"
 #include "sand/steep_tiles.h"
 #include "sand/talus_law.h"
 
@@ -31,6 +32,13 @@ std::int64_t tiles_to_relax(const HeightField& bed, const RelaxationSettings& se
   visit_steep_tiles(bed, stable_slope(TalusLaw(settings, bed.cell_size()), bed.cell_size()),
                     [&](int tile) { tiles += bed.slot_of(tile) < 0; });
   return tiles;
+}
+
+std::size_t bytes_per_relaxed_tile(const RelaxationSettings& settings) {
+  if (settings.engine == RelaxationEngine::reference)  // heights, factors and the next heights
+    return HeightField::bytes_per_tile() + 3 * sizeof(double) * HeightField::tile_area;
+  return HeightField::bytes_per_tile() + ActiveSand::bytes_per_tile() +
+         (settings.method == RelaxationMethod::rkl ? rkl_bytes_per_tile() : 0);
 }
 
 std::unique_ptr<Relaxer> make_relaxer(const RelaxationSettings& settings, double cell_size) {

@@ -13,8 +13,8 @@ enum class RelaxationLaw { paper, isotropic };
 /// passes: explicit Jacobi passes of the law. rkl: super time steps, which reach the rest that small steps of
 /// the law reach in far fewer passes (relaxation_rkl.cpp).
 enum class RelaxationMethod { passes, rkl };
-/// tiles: only tiles with sand that can move. reference: the plain whole-field one, to check the other
-/// against. Both give the same bits.
+/// tiles: only sand that can move. reference: the plain whole-field one, to check the other against (method
+/// passes only). Both give the same bits.
 enum class RelaxationEngine { tiles, reference };
 
 struct RelaxationSettings {
@@ -37,9 +37,10 @@ struct RelaxationOutcome {
   std::int64_t super_steps = 0;      ///< rkl; the passes are their stages
   std::int64_t rejected_stages = 0;  ///< rkl: taken back, since heights left the range of the starting ones
   double residual = 0.0;  ///< of the field left behind: max over cells of slope/tan(talus) - 1, at least 0
-  double moved_volume = 0.0;  ///< m^3, all that flowed from cell to cell
-  std::int64_t cells_visited =
-      0;  ///< cells that might have moved, summed over passes, the last look included
+  /// m^3, what flowed from cell to cell. The engine leaves out cells that pass on exactly as much as they
+  /// take.
+  double moved_volume = 0.0;
+  std::int64_t cells_visited = 0;  ///< that might have moved, summed over passes, the last look included
   int tiles_active_max = 0;
   std::int64_t wake_ups = 0;  ///< of tiles at rest
   bool converged = false;     ///< every cell rests, or what still flows is below rounding
@@ -47,8 +48,9 @@ struct RelaxationOutcome {
 
 /// Relaxes a bed to equilibrium, again and again as it is disturbed. Passes are Jacobi: all cells at once,
 /// from the old heights. A cell at rest (slope within the tolerance) gives nothing; so what a patch of sand
-/// does depends on its neighbourhood only, not on whether sand elsewhere still moves. With m the cell's
-/// height and T_i = tan(talus) x distance to neighbour i:
+/// does depends on its neighbourhood only, not on whether sand elsewhere still moves. (The stages of rkl have
+/// no tolerance, and its steps are as long as the whole of the moving sand allows.) With m the cell's height
+/// and T_i = tan(talus) x distance to neighbour i:
 ///   paper:     dm = c max_i(m - m_i - T_i) over the 8 neighbours, shared among those with m - m_i > T_i in
 ///              proportion to m - m_i (paper 3.2)
 ///   isotropic: upwind slope |g| = sqrt(gx^2 + gy^2), gx = max(0, m - west, m - east)/dx; each lower axis
@@ -58,16 +60,21 @@ struct RelaxationOutcome {
 class Relaxer {
  public:
   virtual ~Relaxer() = default;
-  /// Stops at equilibrium, after max_passes (those that changed something), or when interrupted().
+  /// Stops at equilibrium, after max_passes (those that changed something, rejected ones included), or when
+  /// interrupted().
   /// after_pass, if given, is told the number of passes so far after each.
   virtual RelaxationOutcome relax(HeightField& bed,
                                   const std::function<void(std::int64_t)>& after_pass = {}) = 0;
 };
 
-/// How many tiles the first relaxation of a bed brings into being or finds there: what it takes memory for.
+/// How many tiles a bed has, or its rule makes steep enough to move: the first relaxation wakes them, and
+/// brings those beside them into being.
 std::int64_t tiles_to_relax(const HeightField& bed, const RelaxationSettings& settings);
+/// Memory that relaxing takes for each of them [bytes], the bed's own included.
+std::size_t bytes_per_relaxed_tile(const RelaxationSettings& settings);
 
-/// A relaxer for one bed, which it may observe between calls.
+/// The relaxer of one bed. It takes up what was set in it since the last call (HeightField::settle), so a bed
+/// can have only one at a time.
 std::unique_ptr<Relaxer> make_relaxer(const RelaxationSettings& settings, double cell_size);
 
 }  // namespace sandstroke

@@ -27,12 +27,20 @@ class TileRelaxer : public Relaxer {
       ++outcome.passes;
       if (after_pass) after_pass(outcome.passes);
     }
+    if (!sand_.at_rest()) look_for_rest(bed);  // cut off: perhaps the last pass was enough
     outcome.moved_volume = moved.value() * bed.cell_area();
     sand_.end(bed, outcome);
     return outcome;
   }
 
  private:
+  void look_for_rest(const HeightField& bed) {
+    sand_.compute_flow(bed);
+    for (std::size_t i = 0; i < sand_.tiles().size(); ++i)
+      if (any(sand_.flow(i).moved)) return;
+    sand_.rest();
+  }
+
   std::int64_t max_passes_;
   ActiveSand sand_;
 };

@@ -22,47 +22,38 @@ HWY_INLINE void for_groups(const Groups& groups_in, const Body& body) {
     for (unsigned wanted = groups_in(row); wanted; wanted &= wanted - 1) body(row, std::countr_zero(wanted));
 }
 
-/// max |F - F0| and sum F F0, lane by lane.
-struct Comparison {
-  V difference;
-  LaneSum product;
-  HWY_INLINE Comparison() : difference(hn::Zero(d)) {}
-  HWY_INLINE void add(int place, V flow, V other, V factor) {
-    difference = hn::Max(difference, hn::Abs(hn::Sub(flow, other)));
-    product.add(place, hn::Mul(flow, factor));
-  }
-  HWY_INLINE FlowChange all() const { return {largest(difference), product.total()}; }
-};
-
-FlowChange KeepFirstFlow(const TileFlow& flow, SuperStepTile& tile) {
-  Comparison first;
+FlowSize KeepFirstFlow(const TileFlow& flow, SuperStepTile& tile) {
+  V peak = hn::Zero(d);
+  LaneSum square;
   for (int row = 0; row < side; ++row)
     tile.first_moved[row] = static_cast<std::uint8_t>(groups_of(flow.moved[row]));
   for_groups([&](int row) { return tile.first_moved[row]; },
              [&](int row, int g) {
-               for (int c = 0; c < group; c += lanes) {
-                 const int at = row * side + g * group + c;
-                 const V gain = hn::Load(d, flow.gain.data() + at);
-                 first.add(c, gain, hn::Zero(d), gain);
-                 hn::Store(gain, d, tile.first_gain.data() + at);
+               for (int c = g * group; c < (g + 1) * group; c += lanes) {
+                 const V gain = hn::Load(d, flow.gain.data() + row * side + c);
+                 peak = hn::Max(peak, hn::Abs(gain));
+                 square.add(c, hn::Mul(gain, gain));
+                 hn::Store(gain, d, tile.first_gain.data() + row * side + c);
                }
              });
-  return first.all();
+  return {largest(peak), square.total()};
 }
 
 FlowChange CompareFlows(const TileFlow& flow, const SuperStepTile& tile) {
-  Comparison change;
+  V difference = hn::Zero(d);
+  LaneSum product;
   for_groups([&](int row) { return groups_of(flow.moved[row]) | tile.first_moved[row]; },
              [&](int row, int g) {
                const bool now = groups_of(flow.moved[row]) >> g & 1, first = tile.first_moved[row] >> g & 1;
-               for (int c = 0; c < group; c += lanes) {
-                 const int at = row * side + g * group + c;
+               for (int c = g * group; c < (g + 1) * group; c += lanes) {
+                 const int at = row * side + c;
                  const V gain = now ? hn::Load(d, flow.gain.data() + at) : hn::Zero(d);
                  const V before = first ? hn::Load(d, tile.first_gain.data() + at) : hn::Zero(d);
-                 change.add(c, gain, before, before);
+                 difference = hn::Max(difference, hn::Abs(hn::Sub(gain, before)));
+                 product.add(c, hn::Mul(gain, before));
                }
              });
-  return change.all();
+  return {largest(difference), product.total()};
 }
 
 /// Lowest and highest, lane by lane.
@@ -132,7 +123,7 @@ HWY_EXPORT(RangeOf);
 HWY_EXPORT(SuperStage);
 HWY_EXPORT(TakeBackStage);
 
-FlowChange keep_first_flow(const TileFlow& flow, SuperStepTile& tile) {
+FlowSize keep_first_flow(const TileFlow& flow, SuperStepTile& tile) {
   return HWY_DYNAMIC_DISPATCH(KeepFirstFlow)(flow, tile);
 }
 FlowChange compare_flows(const TileFlow& flow, const SuperStepTile& tile) {

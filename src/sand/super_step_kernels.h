@@ -4,23 +4,29 @@
 
 namespace sandstroke {
 
-/// What a super-step keeps of a tile, in groups of 8 cells: bit g of a row's byte is its group g.
+/// What a super-step keeps of a tile.
 struct SuperStepTile {
+  /// Groups of 8 cells: bit g of a row's byte is its group g.
   using Groups = std::array<std::uint8_t, BedGeometry::tile_side>;
-  alignas(64) std::array<double, BedGeometry::tile_area> before;  ///< m: heights one stage ago ...
-  alignas(
-      64) std::array<double, BedGeometry::tile_area> first_gain;  ///< m: F0, the flow of the step's start ...
-  Groups stepped;      ///< ... in groups that took part in a stage of this step
-  Groups first_moved;  ///< ... in groups where it is not 0
+  /// m: heights one stage ago, in the groups of `stepped`.
+  alignas(64) std::array<double, BedGeometry::tile_area> before;
+  /// m: F0, the flow of the step's start, in the groups of `first_moved`; elsewhere it is 0.
+  alignas(64) std::array<double, BedGeometry::tile_area> first_gain;
+  Groups stepped, first_moved;
 };
+
+struct FlowSize {
+  double peak;    ///< m: max |F|
+  double square;  ///< m^2: sum F^2
+};
+/// Keeps a flow as F0.
+FlowSize keep_first_flow(const TileFlow& flow, SuperStepTile& tile);
 
 /// How a flow F differs from F0.
 struct FlowChange {
   double difference;  ///< m: max |F - F0|
   double product;     ///< m^2: sum F F0
 };
-/// Keeps a flow as F0; compares it with no flow and with itself: max |F0|, sum F0^2.
-FlowChange keep_first_flow(const TileFlow& flow, SuperStepTile& tile);
 FlowChange compare_flows(const TileFlow& flow, const SuperStepTile& tile);
 
 /// Lowest and highest of some heights [m].

@@ -22,6 +22,21 @@ class SurfaceRule {
   }
 };
 
+/// All cells at one height [m].
+class LevelRule : public SurfaceRule {
+ public:
+  explicit LevelRule(double height) : height_(height) {}
+  void fill(const BedGeometry&, const CellRange& cells, double* out) const override {
+    for (int row = 0; row < cells.rows(); ++row, out += BedGeometry::tile_side)
+      std::fill(out, out + cells.cols(), height_);
+  }
+  double steepest(const BedGeometry&, const CellRange&) const override { return 0.0; }
+  double highest() const override { return height_; }
+
+ private:
+  double height_;
+};
+
 /// Calls visit(tiles) for rectangles of tiles, given by tile rows and columns: first for all of them, then,
 /// wherever `visit` returned true, for its quarters, down to single tiles.
 template <class Visit>

@@ -22,6 +22,8 @@ double stable_slope(const TalusLaw& law, double cell_size);
 
 std::unique_ptr<Relaxer> make_reference_relaxer(const RelaxationSettings& settings, double cell_size);
 std::unique_ptr<Relaxer> make_tile_relaxer(const RelaxationSettings& settings, double cell_size);
+/// What make_rkl_relaxer takes besides ActiveSand.
+std::size_t rkl_bytes_per_tile();
 std::unique_ptr<Relaxer> make_rkl_relaxer(const RelaxationSettings& settings, double cell_size);
 
 }  // namespace sandstroke

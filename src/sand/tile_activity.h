@@ -33,11 +33,13 @@ class TileActivity {
   /// Nothing is active any more.
   void rest();
 
-  /// Cells of a tile that may give; null where none may.
-  const CellFlags* givers(int slot) const {
-    return static_cast<std::size_t>(slot) < marks_.size() ? &marks_[slot].givers : nullptr;
+  /// Cells of a tile that may give.
+  const CellFlags& givers(int slot) const {
+    static constexpr CellFlags none{};
+    return static_cast<std::size_t>(slot) < marks_.size() ? marks_[slot].givers : none;
   }
 
+  static constexpr std::size_t bytes_per_tile() { return sizeof(Marks); }
   /// How often a tile at rest became active, since construction.
   std::int64_t wake_ups() const { return wake_ups_; }
 

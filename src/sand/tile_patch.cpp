@@ -46,8 +46,7 @@ void TilePatch::load(const HeightField& bed, int slot, const CellFlags& cells) {
         double* out = heights(row) + col_part * side;
         const int in_source = row - part * side;
         const int until = in_source < rows_inside ? cols : first;
-        const double* in = source + in_source * side;
-        for (int col = first; col < until; ++col) out[col] = in[col];
+        for (int col = first; col < until; ++col) out[col] = source[in_source * side + col];
         for (int col = until; col < last; ++col) out[col] = wall;
       }
     }

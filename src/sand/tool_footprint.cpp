@@ -1,5 +1,6 @@
 #include "sand/tool_footprint.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <tuple>

@@ -67,11 +67,10 @@ class ToolFootprint {
   /// Positive filter sin(u) - 0.53; 0 outside the ring (u0 < u <= u1).
   double* rampart(int row) { return rampart_.get() + at(row); }
   const double* rampart(int row) const { return rampart_.get() + at(row); }
-  /// Scratch.
+  // Of one displacement (displace): the ring's share of each cell, and a flag for each cell whose height was
+  // changed here (8 to a byte), which write_flagged then writes to the bed.
   double* weights(int row) { return weights_.get() + at(row); }
-  unsigned char* flags(int row) { return flags_.get() + at(row) / 8; }  ///< of 8 cells each
-
-  /// Writes the flagged cells' heights to the bed.
+  unsigned char* flags(int row) { return flags_.get() + at(row) / 8; }
   void write_flagged(HeightField& bed);
 
   /// rho1 = s sqrt(u1) [m]: how far the footprint reaches.

@@ -143,8 +143,7 @@ double memory_of_bed(const Scene& scene) {
       bed.surface.kind == SurfaceKind::file
           ? BedGeometry(bed.rows, bed.cols, bed.cell_size()).tile_count()
           : tiles_to_relax(make_surface(bed.surface, bed.rows, bed.cols, bed.cell_size()), scene.relaxation);
-  constexpr double copies = 3.0;  // its heights, what flows, and how steep it was left; or a file's heights
-  return copies * static_cast<double>(HeightField::bytes_per_tile()) * static_cast<double>(tiles);
+  return static_cast<double>(bytes_per_relaxed_tile(scene.relaxation)) * static_cast<double>(tiles);
 }
 
 }  // namespace

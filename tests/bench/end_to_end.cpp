@@ -94,12 +94,9 @@ nlohmann::json spread(const std::vector<double>& values) {
 }
 
 nlohmann::json describe_machine() {
-  return {{"cpu", cpu_name()},
-          {"cores", std::thread::hardware_concurrency()},
-          {"compiler", compiler},
-          {"instruction_set", instruction_set()},
-          {"version", version},
-          {"commit", commit}};
+  return {{"cpu", cpu_name()},    {"cores", std::thread::hardware_concurrency()},
+          {"compiler", compiler}, {"instruction_set", instruction_set()},
+          {"version", version},   {"commit", commit}};
 }
 
 }  // namespace sandstroke

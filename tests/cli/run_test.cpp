@@ -63,7 +63,7 @@ TEST(CliRun, AnotherStrokeCanBePlayed) {
 TEST(CliRun, ARunThatIsNotAtRestSaysSoAndExitsWith3) {
   const fs::path folder = test_folder();
   const ProgramResult run =
-      run_program({"run", "scene.toml", "-o", "a.h5", "--set", "relaxation.max_passes=1"}, folder);
+      run_program({"run", "scene.toml", "-o", "a.h5", "--set", "relaxation.max_passes=0"}, folder);
   EXPECT_EQ(run.exit_code, 3);
   EXPECT_NE(run.err.find("not at rest"), std::string::npos);
   EXPECT_TRUE(RunFile(folder / "a.h5").complete());

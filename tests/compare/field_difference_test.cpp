@@ -28,8 +28,31 @@ TEST(FieldDifference, OneCellGivesPlaceRmsAndVolume) {
   EXPECT_EQ(difference.col, 6);
   EXPECT_DOUBLE_EQ(difference.x, 1.0);   // two cells right of the middle of nine
   EXPECT_DOUBLE_EQ(difference.y, 0.75);  // one and a half above the middle of four
+  EXPECT_EQ(difference.cells, 1);
   EXPECT_DOUBLE_EQ(difference.rms, 0.25 / 6.0);
   EXPECT_DOUBLE_EQ(difference.volume, -0.25 * 0.25);
+}
+
+TEST(FieldDifference, OfHugeBedsCostsWhatIsTouchedAndIsTheSame) {
+  HeightField golden(65536, 65536, 0.5), run = golden;
+  golden.set(40000, 7, 1.0);  // only on one side
+  run.set(123, 60000, -2.0);
+  run.set(123, 60001, 2.0);  // as large, and later
+  const FieldDifference difference = field_difference(golden, run);
+  EXPECT_EQ(difference.max, 2.0);
+  EXPECT_EQ(difference.row, 123);
+  EXPECT_EQ(difference.col, 60000);
+  EXPECT_EQ(difference.cells, 3);
+  EXPECT_DOUBLE_EQ(difference.rms, 3.0 / 65536.0);
+  EXPECT_DOUBLE_EQ(difference.volume, -0.25);
+}
+
+TEST(FieldDifference, UntouchedTilesAtDifferentLevelsDiffer) {
+  const HeightField golden(100, 100, 1.0), run(100, 100, 1.0, std::make_shared<LevelRule>(0.5));
+  const FieldDifference difference = field_difference(golden, run);
+  EXPECT_EQ(difference.max, 0.5);
+  EXPECT_EQ(difference.cells, 100 * 100);
+  EXPECT_DOUBLE_EQ(difference.volume, 5000.0);
 }
 
 TEST(FieldDifference, TheLargestOfSeveralAndTheFirstOfEqualOnes) {

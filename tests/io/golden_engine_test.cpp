@@ -7,6 +7,7 @@
 #include <tbb/task_arena.h>
 
 #include <hwy/targets.h>
+#include <algorithm>
 #include <bit>
 #include <cstring>
 #include <deque>
@@ -85,7 +86,7 @@ class CheckedRelaxer : public Relaxer {
   RelaxationOutcome relax(HeightField& bed, const std::function<void(std::int64_t)>& after_pass) override {
     CellRange window = first_ ? bed.cells() : disturbed(bed);
     first_ = false;
-    const HeightField before = window_of(bed, window);
+    const HeightField before = window_of(bed, window), whole_before = bed;
     std::int64_t variant_passes = -1;
     for (Variant& variant : variants(bed)) {
       const std::int64_t passes = variant.follow(bed);
@@ -100,6 +101,7 @@ class CheckedRelaxer : public Relaxer {
       if (std::exchange(revisions_[slot], bed.tile_revision(bed.tile_of(slot))) !=
           bed.tile_revision(bed.tile_of(slot)))
         changed.push_back(slot);
+    for (const int slot : changed) EXPECT_TRUE(same_outside(window, bed, whole_before, slot));
     for (const Variant& variant : variants_)
       EXPECT_TRUE(variant.equals(bed, changed)) << variant.name() << ", relaxation " << relaxations;
     ++relaxations;
@@ -122,6 +124,19 @@ class CheckedRelaxer : public Relaxer {
   std::int64_t relaxations = 0;
 
  private:
+  /// No cell of a tile outside the window has changed.
+  static bool same_outside(const CellRange& window, const HeightField& bed, const HeightField& before,
+                           int slot) {
+    const CellRange tile = bed.tile_cells(bed.tile_of(slot));
+    for (int row = tile.row_begin; row < tile.row_end; ++row)
+      for (int col = tile.col_begin; col < tile.col_end; ++col) {
+        const bool inside = row >= window.row_begin && row < window.row_end && col >= window.col_begin &&
+                            col < window.col_end;
+        if (!inside && bed(row, col) != before(row, col)) return false;
+      }
+    return true;
+  }
+
   static CellRange disturbed(const HeightField& bed) {
     CellRange range{bed.rows(), 0, bed.cols(), 0};
     for (const int slot : bed.disturbed_tiles()) {
