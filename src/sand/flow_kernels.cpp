@@ -74,13 +74,38 @@ struct Drops {
   HWY_INLINE Drops() : axis(hn::Zero(d)), diagonal(hn::Zero(d)) {}
 };
 
-/// Which of the cells in a vector may give: all, or those with a flag.
-struct AllGive {
-  HWY_INLINE Mask operator()(Mask moves) const { return moves; }
+// Which cells may give, and whether anyone asks how steep the sand is.
+
+/// All may, and nobody does.
+struct FreeSand {
+  explicit FreeSand(const GiverFlags*) {}
+  HWY_INLINE void begin_row(int) {}
+  HWY_INLINE Mask may_give(int, Mask moves) const { return moves; }
+  HWY_INLINE void meet(V, V) {}
+  HWY_INLINE Drops steepest() const { return {}; }
 };
-struct FlaggedGive {
-  unsigned flags;
-  HWY_INLINE Mask operator()(Mask moves) const { return hn::And(moves, lanes_of(flags)); }
+
+/// Those with a flag.
+class HeldSand {
+ public:
+  explicit HeldSand(const GiverFlags* givers) : givers_(givers), row_(nullptr) {}
+  HWY_INLINE void begin_row(int row) { row_ = &givers_->rows[row + 1]; }
+  HWY_INLINE Mask may_give(int c, Mask moves) const {
+    const std::uint64_t flags = c < 0       ? std::uint64_t{row_->west} << (group - 1) >> (c + group)
+                                : c >= side ? std::uint64_t{row_->east} >> (c - side)
+                                            : row_->own >> c;
+    return hn::And(moves, lanes_of(flags));
+  }
+  HWY_INLINE void meet(V axis, V diagonal) {
+    steepest_.axis = higher(axis, steepest_.axis);
+    steepest_.diagonal = higher(diagonal, steepest_.diagonal);
+  }
+  HWY_INLINE Drops steepest() const { return steepest_; }
+
+ private:
+  const GiverFlags* givers_;
+  const GiverFlags::Row* row_;
+  Drops steepest_;
 };
 
 // Factors of the cells in a vector. Bits: those that are not 0.
@@ -94,15 +119,13 @@ struct PaperFactors {
         diagonal_limit(hn::Set(d, law.diagonal_limit)),
         share(hn::Set(d, law.share)) {}
 
-  template <class MayGive>
-  HWY_INLINE unsigned operator()(const double* row, int c, double* factors, const MayGive& may_give,
-                                 Drops& steepest) const {
+  template <class Sand>
+  HWY_INLINE unsigned operator()(const double* row, int c, double* factors, Sand& sand) const {
     const Around a(row, c);
     const Corners k(row, c);
     const V axis = axis_drop(a), diagonal = diagonal_drop(a.m, k);
-    steepest.axis = higher(axis, steepest.axis);
-    steepest.diagonal = higher(diagonal, steepest.diagonal);
-    const auto moves = may_give(hn::Or(hn::Gt(axis, axis_limit), hn::Gt(diagonal, diagonal_limit)));
+    sand.meet(axis, diagonal);
+    const Mask moves = sand.may_give(c, hn::Or(hn::Gt(axis, axis_limit), hn::Gt(diagonal, diagonal_limit)));
     if (hn::AllFalse(d, moves)) {
       hn::Store(hn::Zero(d), d, factors + c);
       return 0;
@@ -126,17 +149,16 @@ struct IsotropicFactors {
         share(hn::Set(d, law.share)),
         one(hn::Set(d, 1.0)) {}
 
-  template <class MayGive>
-  HWY_INLINE unsigned operator()(const double* row, int c, double* factors, const MayGive& may_give,
-                                 Drops& steepest) const {
+  template <class Sand>
+  HWY_INLINE unsigned operator()(const double* row, int c, double* factors, Sand& sand) const {
     const V square = squared_slope(Around(row, c));
-    steepest.axis = higher(square, steepest.axis);
+    sand.meet(square, hn::Zero(d));
     if (hn::AllFalse(d, hn::Gt(square, surely_at_rest))) {
       hn::Store(hn::Zero(d), d, factors + c);
       return 0;
     }
     const V slope = hn::Sqrt(square);
-    const auto moves = may_give(hn::Gt(slope, limit));
+    const Mask moves = sand.may_give(c, hn::Gt(slope, limit));
     const V factor = hn::Mul(share, hn::Sub(one, hn::Div(T, slope)));
     hn::Store(hn::IfThenElseZero(moves, factor), d, factors + c);
     return bits(moves);
@@ -150,33 +172,25 @@ HWY_INLINE WideRow widened(std::uint64_t row) {
 }
 
 /// Computes the factors of a row's flagged groups (others keep what they had: no active cell sees them);
-/// returns the cells that have one. givers: null = all.
-template <class Factors>
+/// returns the cells that have one.
+template <class Factors, class Sand>
 HWY_INLINE WideRow factor_row(const Factors& factors_of, TilePatch& patch, int row, const WideRow& cells,
-                              const WideRow* givers, Drops& steepest) {
+                              Sand& sand) {
   const double* heights = patch.heights(row);
   double* factors = patch.factors(row);
-  const auto one_group = [&](int begin, std::uint64_t may_give) {
+  sand.begin_row(row);
+  const auto one_group = [&](int begin) {
     unsigned flags = 0;
-    for (int c = 0; c < group; c += lanes) {
-      flags |= (givers ? factors_of(heights, begin + c, factors,
-                                    FlaggedGive{static_cast<unsigned>(may_give >> c)}, steepest)
-                       : factors_of(heights, begin + c, factors, AllGive{}, steepest))
-               << c;
-    }
+    for (int c = 0; c < group; c += lanes) flags |= factors_of(heights, begin + c, factors, sand) << c;
     return flags;
   };
   WideRow moving{};
-  if (cells.west) {
-    const unsigned last = 1u << (group - 1);
-    moving.west = (one_group(-group, givers && givers->west ? last : 0) & last) != 0;
-  }
+  if (cells.west) moving.west = (one_group(-group) >> (group - 1)) & 1;
   for (unsigned wanted = groups_of(cells.own); wanted; wanted &= wanted - 1) {
     const int begin = std::countr_zero(wanted) * group;
-    const unsigned moves = one_group(begin, givers ? givers->own >> begin : 0);
-    moving.own |= static_cast<std::uint64_t>(moves) << begin;
+    moving.own |= static_cast<std::uint64_t>(one_group(begin)) << begin;
   }
-  if (cells.east) moving.east = one_group(side, givers && givers->east) & 1;
+  if (cells.east) moving.east = one_group(side) & 1;
   return moving;
 }
 
@@ -220,18 +234,17 @@ struct GainOf {
   }
 };
 
-template <class Factors, class Gain>
+template <class Factors, class Gain, class Sand>
 HWY_INLINE void flow_of(const TalusLaw& law, TilePatch& patch, const CellFlags& active,
                         const GiverFlags* givers, TileFlow& flow) {
   const RowSpan span = row_span(active);
   const auto active_row = [&](int row) { return row < 0 || row >= side ? 0 : active[row]; };
   std::array<WideRow, side + 2> moving;  // from row -1; those around the span
   const Factors factors(law);
-  Drops steepest;
+  Sand sand(givers);
   for (int row = span.begin - 1; row <= span.end; ++row)
-    moving[row + 1] =
-        factor_row(factors, patch, row, widened(active_row(row - 1) | active_row(row) | active_row(row + 1)),
-                   givers ? &givers->rows[row + 1] : nullptr, steepest);
+    moving[row + 1] = factor_row(factors, patch, row,
+                                 widened(active_row(row - 1) | active_row(row) | active_row(row + 1)), sand);
 
   const Gain gain(law);
   LaneSum given;
@@ -252,6 +265,7 @@ HWY_INLINE void flow_of(const TalusLaw& law, TilePatch& patch, const CellFlags& 
     }
   }
   flow.given = given.total();
+  const Drops steepest = sand.steepest();
   flow.axis_drop =
       law.law == RelaxationLaw::paper ? largest(steepest.axis) : std::sqrt(largest(steepest.axis));
   flow.diagonal_drop = largest(steepest.diagonal);
@@ -260,9 +274,11 @@ HWY_INLINE void flow_of(const TalusLaw& law, TilePatch& patch, const CellFlags& 
 void ComputeFlow(const TalusLaw& law, TilePatch& patch, const CellFlags& active, const GiverFlags* givers,
                  TileFlow& flow) {
   if (law.law == RelaxationLaw::paper) {
-    flow_of<PaperFactors, GainOf<true>>(law, patch, active, givers, flow);
+    givers ? flow_of<PaperFactors, GainOf<true>, HeldSand>(law, patch, active, givers, flow)
+           : flow_of<PaperFactors, GainOf<true>, FreeSand>(law, patch, active, givers, flow);
   } else {
-    flow_of<IsotropicFactors, GainOf<false>>(law, patch, active, givers, flow);
+    givers ? flow_of<IsotropicFactors, GainOf<false>, HeldSand>(law, patch, active, givers, flow)
+           : flow_of<IsotropicFactors, GainOf<false>, FreeSand>(law, patch, active, givers, flow);
   }
 }
 

@@ -12,6 +12,7 @@ struct TileFlow {
   alignas(64)
       std::array<double, BedGeometry::tile_area> gain{};  ///< m: inflow less outflow; in groups that moved
   double given = 0.0;                                     ///< m: sum of outflows
+  // Where sand is held still (givers):
   double axis_drop = 0.0;      ///< m: the largest drop between neighbours that was met (isotropic: dx |g|)
   double diagonal_drop = 0.0;  ///< m: the same between diagonal ones (paper law)
 };
