@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "core/compensated_sum.h"
@@ -20,11 +21,8 @@ namespace {
 
 /// Where no tile exists, both are at one and the same height.
 bool equal_where_untouched(const HeightField& golden, const HeightField& run) {
-  const auto is_level = [](const HeightField& bed) {
-    return bed.untouched().steepest(bed, bed.cells()) == 0.0;
-  };
-  return is_level(golden) && is_level(run) &&
-         golden.untouched().height(golden, 0, 0) == run.untouched().height(run, 0, 0);
+  const std::optional<double> level = golden.untouched().level(golden, golden.cells());
+  return level && level == run.untouched().level(run, run.cells());
 }
 
 }  // namespace

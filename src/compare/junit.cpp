@@ -5,7 +5,6 @@
 #include "core/xml_text.h"
 
 namespace sandstroke {
-namespace {}  // namespace
 
 std::string junit_report(const std::vector<Comparison>& comparisons) {
   std::size_t tests = 0;

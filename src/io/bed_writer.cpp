@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <vector>
 
 namespace sandstroke {
@@ -12,20 +13,14 @@ constexpr int side = BedGeometry::tile_side;
 // one takes 1.5 times as long; with 256 a stroke's file grows.
 constexpr int chunk_tiles = 2;  // along each side
 
-bool is_level(const HeightField& bed, const CellRange& cells) {
-  return bed.untouched().steepest(bed, cells) == 0.0;
-}
-double level_of(const HeightField& bed, const CellRange& cells) {
-  return bed.untouched().height(bed, cells.row_begin, cells.col_begin);
-}
-
 /// The height that most level sand has by the bed's rule; 0 where none is level.
 double commonest_level(const HeightField& bed) {
   std::map<double, double> cells_at;
   visit_quarters({0, bed.tile_rows(), 0, bed.tile_cols()}, [&](const CellRange& tiles) {
     const CellRange cells = bed.cells_of_tiles(tiles);
-    if (!is_level(bed, cells)) return true;
-    cells_at[level_of(bed, cells)] += static_cast<double>(cells.rows()) * cells.cols();
+    const std::optional<double> level = bed.untouched().level(bed, cells);
+    if (!level) return true;
+    cells_at[*level] += static_cast<double>(cells.rows()) * cells.cols();
     return false;
   });
   const auto most = std::max_element(cells_at.begin(), cells_at.end(),
@@ -43,8 +38,8 @@ std::vector<bool> chunks_to_write(const HeightField& bed, int chunk_rows, int ch
     const CellRange cells =
         bed.cells_of_tiles({chunks.row_begin * chunk_tiles, chunks.row_end * chunk_tiles,
                             chunks.col_begin * chunk_tiles, chunks.col_end * chunk_tiles});
-    const bool level = is_level(bed, cells);
-    if (level && level_of(bed, cells) == fill) return false;
+    const std::optional<double> level = bed.untouched().level(bed, cells);
+    if (level == fill) return false;
     if (level || (chunks.rows() == 1 && chunks.cols() == 1))
       for (int row = chunks.row_begin; row < chunks.row_end; ++row)
         for (int col = chunks.col_begin; col < chunks.col_end; ++col) want(row, col);
@@ -65,20 +60,16 @@ void write_bed(Hdf5Writer& file, const std::string& dataset, const HeightField& 
   const int chunk_rows = (bed.tile_rows() + chunk_tiles - 1) / chunk_tiles,
             chunk_cols = (bed.tile_cols() + chunk_tiles - 1) / chunk_tiles;
   const std::vector<bool> wanted = chunks_to_write(bed, chunk_rows, chunk_cols, fill);
-  std::vector<double> chunk(chunks.size(), fill), block(BedGeometry::tile_area);
+  std::vector<double> chunk(chunks.size(), fill);
   for (std::size_t i = 0; i < wanted.size(); ++i) {
     if (!wanted[i]) continue;
     const int tile_row = static_cast<int>(i) / chunk_cols * chunk_tiles,
               tile_col = static_cast<int>(i) % chunk_cols * chunk_tiles;
     for (int row = tile_row; row < std::min(tile_row + chunk_tiles, bed.tile_rows()); ++row)
-      for (int col = tile_col; col < std::min(tile_col + chunk_tiles, bed.tile_cols()); ++col) {
-        const int tile = bed.tile_index(row, col);
-        bed.read_tile(tile, block.data());
-        const CellRange cells = bed.tile_cells(tile);
-        double* out = chunk.data() + (row - tile_row) * side * chunks.cols() + (col - tile_col) * side;
-        for (int r = 0; r < cells.rows(); ++r)
-          std::copy_n(block.data() + r * side, cells.cols(), out + r * chunks.cols());
-      }
+      for (int col = tile_col; col < std::min(tile_col + chunk_tiles, bed.tile_cols()); ++col)
+        bed.read_tile(bed.tile_index(row, col),
+                      chunk.data() + (row - tile_row) * side * chunks.cols() + (col - tile_col) * side,
+                      static_cast<std::ptrdiff_t>(chunks.cols()));
     chunks.write(tile_row * side, tile_col * side, chunk.data());
   }
 }

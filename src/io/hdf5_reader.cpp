@@ -155,7 +155,7 @@ HeightField Hdf5Reader::bed(const std::string& dataset, double cell_size) const 
   const Hdf5Handle space(H5Dget_space(opened), H5Sclose);
   if (H5Pget_layout(properties) != H5D_CHUNKED || H5Pget_chunk(properties, 2, chunk) != 2)
     return HeightField(grid(dataset), cell_size);
-  constexpr hsize_t largest = 65536;  // rows and columns, as in a scene
+  constexpr hsize_t largest = BedGeometry::most_cells;
   if (shape[0] > largest || shape[1] > largest)
     fail(dataset, fmt::format("has {} x {} cells; a bed has at most {} a side", shape[0], shape[1], largest));
   double level = 0.0;

@@ -64,12 +64,10 @@ double ActiveSand::compute_flow(const HeightField& bed,
 
 void ActiveSand::load_givers(const HeightField& bed, int slot, GiverFlags& givers) const {
   constexpr int side = HeightField::tile_side;
-  const int tile = bed.tile_of(slot), tile_row = tile / bed.tile_cols(), tile_col = tile % bed.tile_cols();
   // Row `from` of the tile at (row_step, col_step), as `count` rows of the flags from row `to` on.
   const auto load = [&](int row_step, int col_step, int from, int to, int count, const auto& put) {
-    const int row = tile_row + row_step, col = tile_col + col_step;
-    if (row < 0 || row >= bed.tile_rows() || col < 0 || col >= bed.tile_cols()) return;
-    const int other = bed.slot_of(bed.tile_index(row, col));
+    const int beside = bed.tile_beside(bed.tile_of(slot), row_step, col_step);
+    const int other = beside < 0 ? -1 : bed.slot_of(beside);
     if (other < 0) return;
     const CellFlags& flags = activity_.givers(other);
     for (int r = 0; r < count; ++r) put(givers.rows[to + r], flags[from + r]);

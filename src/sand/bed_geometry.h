@@ -20,6 +20,7 @@ class BedGeometry {
   /// Cells. 64: a row of a tile is one machine word of flags and eight AVX-512 vectors.
   static constexpr int tile_side = 64;
   static constexpr int tile_area = tile_side * tile_side;
+  static constexpr int most_cells = 65536;  ///< along a side
 
   /// cell_size [m] > 0.
   BedGeometry(int rows, int cols, double cell_size)
@@ -57,6 +58,11 @@ class BedGeometry {
   CellRange tile_cells(int tile) const {
     const int row = tile / tile_cols_ * tile_side, col = tile % tile_cols_ * tile_side;
     return {row, std::min(row + tile_side, rows_), col, std::min(col + tile_side, cols_)};
+  }
+  /// The tile so many tile rows and columns away; -1 outside the bed.
+  int tile_beside(int tile, int row_step, int col_step) const {
+    const int row = tile / tile_cols_ + row_step, col = tile % tile_cols_ + col_step;
+    return row < 0 || row >= tile_rows_ || col < 0 || col >= tile_cols_ ? -1 : tile_index(row, col);
   }
   /// The cells of a rectangle of tiles, given by tile rows and columns.
   CellRange cells_of_tiles(const CellRange& tiles) const {

@@ -7,11 +7,14 @@
 
 namespace sandstroke {
 
-inline bool any(const CellFlags& flags) {
+/// Which columns have a flag.
+inline std::uint64_t columns_of(const CellFlags& flags) {
   std::uint64_t all = 0;
   for (const std::uint64_t row : flags) all |= row;
-  return all != 0;
+  return all;
 }
+
+inline bool any(const CellFlags& flags) { return columns_of(flags) != 0; }
 
 /// Not with std::popcount, which is a call per word where the compiler may not assume the instruction.
 inline int count(const CellFlags& flags) {

@@ -52,7 +52,7 @@ int HeightField::make_tile(int tile) {
   auto made = std::make_unique<Tile>();  // zeros, outside the bed too
   made->index = tile;
   made->revision = new_tile_revision;
-  untouched_->fill(*this, tile_cells(tile), made->heights.data());
+  untouched_->fill(*this, tile_cells(tile), made->heights.data(), tile_side);
   tiles_.push_back(std::move(made));
   slots_.get()[tile] = static_cast<std::uint32_t>(tiles_.size());
   return touched_tiles() - 1;
@@ -66,23 +66,19 @@ void HeightField::settle() {
   disturbed_.clear();
 }
 
-void HeightField::read_tile(int tile, double* out) const {
+void HeightField::read_tile(int tile, double* out, std::ptrdiff_t stride) const {
   const int slot = slot_of(tile);
-  if (slot < 0) return untouched_->fill(*this, tile_cells(tile), out);
   const CellRange cells = tile_cells(tile);
+  if (slot < 0) return untouched_->fill(*this, cells, out, stride);
   for (int row = 0; row < cells.rows(); ++row)
-    std::copy_n(tile_heights(slot) + row * tile_side, cells.cols(), out + row * tile_side);
+    std::copy_n(tile_heights(slot) + row * tile_side, cells.cols(), out + row * stride);
 }
 
 HeightGrid HeightField::grid() const {
   HeightGrid heights(rows(), cols());
-  std::array<double, tile_area> block;
   for (int tile = 0; tile < tile_count(); ++tile) {
-    read_tile(tile, block.data());
     const CellRange cells = tile_cells(tile);
-    for (int row = 0; row < cells.rows(); ++row)
-      std::copy_n(block.data() + row * tile_side, cells.cols(),
-                  &heights(cells.row_begin + row, cells.col_begin));
+    read_tile(tile, &heights(cells.row_begin, cells.col_begin), cols());
   }
   return heights;
 }
@@ -97,13 +93,12 @@ double HeightField::volume() const {
   // What the rule gives ...
   visit_quarters({0, tile_rows(), 0, tile_cols()}, [&](const CellRange& tiles) {
     const CellRange cells = cells_of_tiles(tiles);
-    if (untouched_->steepest(*this, cells) == 0.0) {
-      const double height = untouched_->height(*this, cells.row_begin, cells.col_begin);
-      sum.add(height * (static_cast<double>(cells.rows()) * cells.cols()));
+    if (const std::optional<double> height = untouched_->level(*this, cells)) {
+      sum.add(*height * (static_cast<double>(cells.rows()) * cells.cols()));
       return false;
     }
     if (tiles.rows() == 1 && tiles.cols() == 1) {
-      untouched_->fill(*this, cells, block.data());
+      untouched_->fill(*this, cells, block.data(), tile_side);
       add_block(cells, 1.0);
     }
     return true;
@@ -111,7 +106,7 @@ double HeightField::volume() const {
   // ... and what the tiles that exist have more or less.
   for (int slot = 0; slot < touched_tiles(); ++slot) {
     const CellRange cells = tile_cells(tile_of(slot));
-    untouched_->fill(*this, cells, block.data());
+    untouched_->fill(*this, cells, block.data(), tile_side);
     add_block(cells, -1.0);
     read_tile(tile_of(slot), block.data());
     add_block(cells, 1.0);

@@ -84,8 +84,8 @@ class HeightField : public BedGeometry {
     const int slot = slot_of(tile);
     return slot < 0 ? 0 : tiles_[slot]->revision;
   }
-  /// Copies a tile, touched or not, by its index: rows tile_side apart; cells outside the bed are left alone.
-  void read_tile(int tile, double* out) const;
+  /// Copies a tile, touched or not, by its index, rows `stride` apart; cells outside the bed are left alone.
+  void read_tile(int tile, double* out, std::ptrdiff_t stride = tile_side) const;
 
   HeightGrid grid() const;
   /// sum(h) dx^2 [m^3], compensated. Untouched tiles cost nothing where they are level.

@@ -77,8 +77,9 @@ class FormulaRule : public SurfaceRule {
  public:
   FormulaRule(Height height, Steepest steepest, double highest)
       : height_(height), steepest_(steepest), highest_(highest) {}
-  void fill(const BedGeometry& bed, const CellRange& cells, double* out) const override {
-    for (int row = cells.row_begin; row < cells.row_end; ++row, out += BedGeometry::tile_side)
+  void fill(const BedGeometry& bed, const CellRange& cells, double* out,
+            std::ptrdiff_t stride) const override {
+    for (int row = cells.row_begin; row < cells.row_end; ++row, out += stride)
       for (int col = cells.col_begin; col < cells.col_end; ++col)
         out[col - cells.col_begin] =
             height_(bed.x_of(col), bed.y_of(row)) + 0.0;  // no -0.0: equal is the same bits

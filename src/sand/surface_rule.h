@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cstddef>
+#include <optional>
+
 #include "sand/bed_geometry.h"
 
 namespace sandstroke {
@@ -8,8 +11,9 @@ namespace sandstroke {
 class SurfaceRule {
  public:
   virtual ~SurfaceRule() = default;
-  /// Heights [m] of `cells`, row after row, rows tile_side apart in `out`.
-  virtual void fill(const BedGeometry& bed, const CellRange& cells, double* out) const = 0;
+  /// Heights [m] of `cells`, row after row, rows `stride` apart in `out`.
+  virtual void fill(const BedGeometry& bed, const CellRange& cells, double* out,
+                    std::ptrdiff_t stride) const = 0;
   /// No slope (rise over run) between cells of this range is larger; 0 where all have the same height.
   virtual double steepest(const BedGeometry& bed, const CellRange& cells) const = 0;
   /// No cell is higher [m].
@@ -17,8 +21,13 @@ class SurfaceRule {
 
   double height(const BedGeometry& bed, int row, int col) const {
     double height = 0.0;
-    fill(bed, {row, row + 1, col, col + 1}, &height);
+    fill(bed, {row, row + 1, col, col + 1}, &height, 1);
     return height;
+  }
+  /// The one height [m] of all cells of this range; none where they differ.
+  std::optional<double> level(const BedGeometry& bed, const CellRange& cells) const {
+    if (steepest(bed, cells) != 0.0) return std::nullopt;
+    return height(bed, cells.row_begin, cells.col_begin);
   }
 };
 
@@ -26,9 +35,8 @@ class SurfaceRule {
 class LevelRule : public SurfaceRule {
  public:
   explicit LevelRule(double height) : height_(height) {}
-  void fill(const BedGeometry&, const CellRange& cells, double* out) const override {
-    for (int row = 0; row < cells.rows(); ++row, out += BedGeometry::tile_side)
-      std::fill(out, out + cells.cols(), height_);
+  void fill(const BedGeometry&, const CellRange& cells, double* out, std::ptrdiff_t stride) const override {
+    for (int row = 0; row < cells.rows(); ++row, out += stride) std::fill(out, out + cells.cols(), height_);
   }
   double steepest(const BedGeometry&, const CellRange&) const override { return 0.0; }
   double highest() const override { return height_; }

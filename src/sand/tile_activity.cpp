@@ -107,36 +107,33 @@ void TileActivity::wake_around(HeightField& bed, int slot, const CellFlags& chan
   active.fill<reach>(changed, begin, end);
   if (tells_givers_) givers.fill<1>(changed, begin, end);
 
-  const int tile_row = bed.tile_of(slot) / bed.tile_cols(), tile_col = bed.tile_of(slot) % bed.tile_cols();
-  const auto wake_column = [&](int col, const auto& rows, const auto& giving) {
-    if (col < 0 || col >= bed.tile_cols()) return;
-    const auto wake_rows = [&](int row, int to, int first, int last) {
-      wake(bed, bed.tile_index(row, col), to, rows.data() + first, giving.data() + first, last - first);
+  const auto wake_column = [&](int col_step, const auto& rows, const auto& giving) {
+    const auto wake_rows = [&](int row_step, int to, int first, int last) {
+      const int tile = bed.tile_beside(bed.tile_of(slot), row_step, col_step);
+      if (tile >= 0) wake(bed, tile, to, rows.data() + first, giving.data() + first, last - first);
     };
     const int first = std::max(begin, reach), last = std::min(end, side + reach);
-    wake_rows(tile_row, first - reach, first, last);
-    if (begin < reach && tile_row > 0) wake_rows(tile_row - 1, side - reach + begin, begin, reach);
-    if (end > side + reach && tile_row + 1 < bed.tile_rows()) wake_rows(tile_row + 1, 0, side + reach, end);
+    wake_rows(0, first - reach, first, last);
+    if (begin < reach) wake_rows(-1, side - reach + begin, begin, reach);
+    if (end > side + reach) wake_rows(1, 0, side + reach, end);
   };
-  wake_column(tile_col, active.own, givers.own);
-  if (active.any_west) wake_column(tile_col - 1, active.west, givers.west);
-  if (active.any_east) wake_column(tile_col + 1, active.east, givers.east);
+  wake_column(0, active.own, givers.own);
+  if (active.any_west) wake_column(-1, active.west, givers.west);
+  if (active.any_east) wake_column(1, active.east, givers.east);
 }
 
 void TileActivity::make_seen_tiles(HeightField& bed) {
   for (const int slot : tiles_) {
     const CellFlags& active = marks_[slot].active;
-    std::uint64_t all = 0;
-    for (const std::uint64_t row : active) all |= row;
+    const std::uint64_t all = columns_of(active);
     const bool sees_north = (active[0] | active[1]) != 0,
                sees_south = (active[side - 2] | active[side - 1]) != 0;
     const bool sees_west = (all & columns(0, reach)) != 0,
                sees_east = (all & columns(side - reach, side)) != 0;
-    const int tile = bed.tile_of(slot), tile_row = tile / bed.tile_cols(), tile_col = tile % bed.tile_cols();
-    for (int row = tile_row - sees_north; row <= tile_row + sees_south; ++row)
-      for (int col = tile_col - sees_west; col <= tile_col + sees_east; ++col)
-        if (row >= 0 && row < bed.tile_rows() && col >= 0 && col < bed.tile_cols())
-          bed.touch(bed.tile_index(row, col));
+    for (int row_step = -sees_north; row_step <= sees_south; ++row_step)
+      for (int col_step = -sees_west; col_step <= sees_east; ++col_step)
+        if (const int tile = bed.tile_beside(bed.tile_of(slot), row_step, col_step); tile >= 0)
+          bed.touch(tile);
   }
 }
 

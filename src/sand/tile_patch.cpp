@@ -18,13 +18,10 @@ TilePatch& TilePatch::of_this_thread() {
 
 void TilePatch::load(const HeightField& bed, int slot, const CellFlags& cells) {
   constexpr double wall = std::numeric_limits<double>::quiet_NaN();
-  const int tile = bed.tile_of(slot), tile_row = tile / bed.tile_cols(), tile_col = tile % bed.tile_cols();
   const RowSpan span = row_span(cells);
   // Columns in groups of 8: those with a flagged cell, one more on either side, and what their cells compare
   // with.
-  std::uint64_t all = 0;
-  for (int row = span.begin; row < span.end; ++row) all |= cells[row];
-  const unsigned groups = groups_of(all);
+  const unsigned groups = groups_of(columns_of(cells));
   if (!groups) return;
   const int col_begin = std::max((std::countr_zero(groups) - 1) * margin - 1, -rim);
   const int col_end = std::min((static_cast<int>(std::bit_width(groups)) + 1) * margin + 1, side + rim);
@@ -36,16 +33,14 @@ void TilePatch::load(const HeightField& bed, int slot, const CellFlags& cells) {
       const int first = std::max(col_begin - col_part * side, 0);
       const int last = std::min(col_end - col_part * side, side);
       if (first >= last) continue;
-      const int r = tile_row + part, c = tile_col + col_part;
-      const bool inside = r >= 0 && r < bed.tile_rows() && c >= 0 && c < bed.tile_cols();
-      const int other = !inside ? -1 : part == 0 && col_part == 0 ? slot : bed.slot_of(bed.tile_index(r, c));
+      const int beside = bed.tile_beside(bed.tile_of(slot), part, col_part);
+      const int other = beside < 0 ? -1 : bed.slot_of(beside);
       const double* source = other < 0 ? nullptr : bed.tile_heights(other);
-      const int cols = other < 0 ? first : std::clamp(bed.cols() - c * side, first, last);  // inside the bed
-      const int rows_inside = other < 0 ? 0 : bed.rows() - r * side;
+      const CellRange inside = other < 0 ? CellRange{} : bed.tile_cells(beside);
       for (int row = begin; row < end; ++row) {
         double* out = heights(row) + col_part * side;
         const int in_source = row - part * side;
-        const int until = in_source < rows_inside ? cols : first;
+        const int until = in_source < inside.rows() ? std::clamp(inside.cols(), first, last) : first;
         for (int col = first; col < until; ++col) out[col] = source[in_source * side + col];
         for (int col = until; col < last; ++col) out[col] = wall;
       }

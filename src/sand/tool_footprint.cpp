@@ -77,7 +77,7 @@ void ToolFootprint::read_heights(const HeightField& bed) {
       double* out = heights(row - cells_.row_begin) + (first - cells_.col_begin);
       const int slot = bed.slot_of(bed.tile_index(row / side, tile_col));
       if (slot < 0) {
-        bed.untouched().fill(bed, {row, row + 1, first, end}, out);
+        bed.untouched().fill(bed, {row, row + 1, first, end}, out, stride_);
       } else {
         std::copy_n(bed.tile_heights(slot) + (row % side) * side + first % side, end - first, out);
       }

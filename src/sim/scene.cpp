@@ -35,7 +35,7 @@ void describe_bed(SceneVisitor& v, BedSettings& bed) {
   v.numbers("size", size, 2, positive, "m", "extent along x and y");
   bed.width = size[0], bed.depth = size[1];
   int cells[2] = {bed.cols, bed.rows};
-  v.integers("cells", cells, 2, 1, 65536, "cells along x and y; they must come out square");
+  v.integers("cells", cells, 2, 1, BedGeometry::most_cells, "cells along x and y; they must come out square");
   bed.cols = cells[0], bed.rows = cells[1];
 
   SurfaceSettings& s = bed.surface;

@@ -29,7 +29,8 @@ class SimulationObserver {
 class Simulation {
  public:
   /// stroke: as place_stroke() leaves it; none where the bed is only relaxed. relaxer: none = as the scene
-  /// says. Error: input, if the stroke enters the sand outside the bed.
+  /// says. Error: input, if the stroke may enter sand outside the bed: there, below the highest that the
+  /// surface can be.
   Simulation(const Scene& scene, HeightField bed, std::optional<Stroke> stroke,
              std::unique_ptr<Relaxer> relaxer = nullptr);
 

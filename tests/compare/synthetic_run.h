@@ -9,6 +9,7 @@
 
 #include "compare/check.h"
 #include "io/run_file.h"
+#include "test_folder.h"
 
 namespace sandstroke {
 
@@ -65,22 +66,6 @@ struct SyntheticRun {
     }
     file.finish();
   }
-};
-
-/// An empty folder of its own for a test, gone afterwards.
-class TestFolder {
- public:
-  TestFolder() : path_((std::filesystem::temp_directory_path() / "sandstroke-test-XXXXXX").string()) {
-    if (!mkdtemp(path_.data())) throw std::runtime_error("no temporary folder");
-  }
-  TestFolder(const TestFolder&) = delete;
-  ~TestFolder() { std::filesystem::remove_all(path_); }
-  std::filesystem::path operator/(const std::string& name) const {
-    return std::filesystem::path(path_) / name;
-  }
-
- private:
-  std::string path_;
 };
 
 /// Exactly one check fails: the one with this name, with these words in its sentence.

@@ -5,6 +5,7 @@
 #include "core/output_file.h"
 #include "io/hdf5_file.h"
 #include "sand/initial_surface.h"
+#include "test_folder.h"
 
 namespace sandstroke {
 namespace {
@@ -13,19 +14,14 @@ namespace fs = std::filesystem;
 
 class BedWriter : public testing::Test {
  protected:
-  void SetUp() override {
-    path_ = fs::path(testing::TempDir()) /
-            (std::string("bed_") + testing::UnitTest::GetInstance()->current_test_info()->name() + ".h5");
-  }
-  void TearDown() override { fs::remove(path_); }
-
   HeightGrid written(const HeightField& bed) {
     Hdf5Writer file(path_);
     write_bed(file, "/bed", bed);
     file.finish();
     return Hdf5Reader(path_).grid("/bed");
   }
-  fs::path path_;
+  TestFolder folder_;
+  const fs::path path_ = folder_ / "bed.h5";
 };
 
 SurfaceSettings surface_of(SurfaceKind kind) {

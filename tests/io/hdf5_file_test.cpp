@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "core/output_file.h"
+#include "test_folder.h"
 
 namespace sandstroke {
 namespace {
@@ -14,16 +15,6 @@ namespace fs = std::filesystem;
 
 class Hdf5File : public testing::Test {
  protected:
-  void SetUp() override {
-    path_ = fs::path(testing::TempDir()) /
-            (std::string("hdf5_") + testing::UnitTest::GetInstance()->current_test_info()->name() + ".h5");
-    fs::remove(path_);
-    fs::remove(part_path(path_));
-  }
-  void TearDown() override {
-    fs::remove(path_);
-    fs::remove(part_path(path_));
-  }
   std::string error_of_reading(const std::function<void(const Hdf5Reader&)>& read) {
     try {
       read(Hdf5Reader(path_));
@@ -33,7 +24,8 @@ class Hdf5File : public testing::Test {
     ADD_FAILURE() << "no error";
     return {};
   }
-  fs::path path_;
+  TestFolder folder_;
+  const fs::path path_ = folder_ / "file.h5";
 };
 
 TEST_F(Hdf5File, GivesBackWhatWasWritten) {
@@ -126,7 +118,7 @@ TEST_F(Hdf5File, RefusesWhatIsNoWholeHdf5File) {
 
 TEST_F(Hdf5File, ADiskThatTakesNothingIsAnError) {
   EXPECT_THROW(Hdf5Writer("/proc/nowhere/file.h5"), Error);
-  EXPECT_THROW(Hdf5Writer(fs::path(testing::TempDir()) / "no-such-folder" / "file.h5"), Error);
+  EXPECT_THROW(Hdf5Writer(folder_ / "no-such-folder/file.h5"), Error);
 }
 
 }  // namespace

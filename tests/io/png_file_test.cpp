@@ -12,6 +12,7 @@
 
 #include "core/error.h"
 #include "core/output_file.h"
+#include "test_folder.h"
 
 namespace sandstroke {
 namespace {
@@ -19,13 +20,6 @@ namespace fs = std::filesystem;
 
 class PngFile : public testing::Test {
  protected:
-  void SetUp() override {
-    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = fs::temp_directory_path() /
-              ("sandstroke_png_" + std::string(test->name()) + std::to_string(getpid()));
-    fs::create_directories(folder_);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
   fs::path file(const std::string& name) const { return folder_ / name; }
 
   /// A PNG as libpng itself writes it; rows from the top, 16-bit samples big-endian.
@@ -61,7 +55,7 @@ class PngFile : public testing::Test {
     return "";
   }
 
-  fs::path folder_;
+  TestFolder folder_;
 };
 
 Image test_image(int width, int height) {
@@ -125,7 +119,7 @@ TEST_F(PngFile, RefusesWhatIsNoPng) {
   EXPECT_NE(refusal([&] { read_png(file("empty.png")); }).find("not a PNG"), std::string::npos);
   EXPECT_NE(refusal([&] { read_png(file("absent.png")); }, ErrorKind::io).find("absent.png"),
             std::string::npos);
-  EXPECT_NE(refusal([&] { read_png(folder_); }, ErrorKind::io).find("folder"), std::string::npos);
+  EXPECT_NE(refusal([&] { read_png(folder_.path()); }, ErrorKind::io).find("folder"), std::string::npos);
 }
 
 TEST_F(PngFile, RefusesEveryTruncation) {

@@ -12,6 +12,7 @@
 #include "io/stroke_file.h"
 #include "io/surface_file.h"
 #include "sim/simulation.h"
+#include "test_folder.h"
 
 namespace sandstroke {
 namespace {
@@ -21,13 +22,9 @@ namespace fs = std::filesystem;
 class RunFileTest : public testing::Test {
  protected:
   void SetUp() override {
-    folder_ = fs::path(testing::TempDir()) /
-              (std::string("run_") + testing::UnitTest::GetInstance()->current_test_info()->name());
-    fs::create_directories(folder_);
     std::ofstream(folder_ / "line.toml") << "start = [-0.05, 0.0]\nspeed = 0.2\n[[segment]]\nkind = 'line'\n"
                                             "to = [0.05, 0.0]\ndepth = 0.004\n";
   }
-  void TearDown() override { fs::remove_all(folder_); }
 
   Scene scene(const std::vector<std::string>& overrides = {}) {
     return scene_from_text("[bed]\nsize = [0.3, 0.2]\ncells = [150, 100]\n[stroke]\nfile = 'line.toml'\n",
@@ -35,11 +32,11 @@ class RunFileTest : public testing::Test {
   }
   RunResult run(const Scene& scene, const std::string& name, int threads = 1) {
     RunOptions options;
-    options.scene_folder = folder_;
+    options.scene_folder = folder_.path();
     options.threads = threads;
     return run_scene(scene, folder_ / name, options);
   }
-  fs::path folder_;
+  TestFolder folder_;
 };
 
 TEST_F(RunFileTest, HoldsWhatTheDesignPromises) {
@@ -105,7 +102,7 @@ TEST_F(RunFileTest, FramesHoldTilesThatCameIntoBeingBetweenThem) {
   const Scene rippled = scene({"output.frames=20", "bed.surface={ kind = 'ripples', amplitude = 0.001 }"});
   run(rippled, "a.h5");
   Simulation(
-      rippled, load_surface(rippled.bed, folder_),
+      rippled, load_surface(rippled.bed, folder_.path()),
       place_stroke(load_stroke(folder_ / "line.toml", rippled.force), rippled.stroke->placement, "line.toml"))
       .run(frames);
   EXPECT_EQ(frames.tiles.front(), 0);

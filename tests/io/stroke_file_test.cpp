@@ -10,6 +10,7 @@
 #include "core/error.h"
 #include "core/output_file.h"
 #include "io/hdf5_file.h"
+#include "test_folder.h"
 
 namespace sandstroke {
 namespace {
@@ -20,13 +21,6 @@ using testing::HasSubstr;
 
 class StrokeFile : public testing::Test {
  protected:
-  StrokeFile() {
-    const std::string test = testing::UnitTest::GetInstance()->current_test_info()->name();
-    folder_ = fs::path(testing::TempDir()) / ("stroke_file_test_" + test);
-    fs::create_directories(folder_);
-  }
-  ~StrokeFile() override { fs::remove_all(folder_); }
-
   /// A stroke file with something spoilt or left out by `write`, after which its attributes are those given.
   fs::path file_with(const std::function<void(Hdf5Writer&)>& write) {
     const fs::path path = folder_ / "spoilt.h5";
@@ -36,7 +30,7 @@ class StrokeFile : public testing::Test {
     return path;
   }
 
-  fs::path folder_;
+  TestFolder folder_;
 };
 
 void write_good_columns(Hdf5Writer& file) {
@@ -186,7 +180,7 @@ TEST_F(StrokeFile, LoadsByContentOrExtension) {
   write_text_file(text, "no HDF5");
   EXPECT_THAT(complaint(text), AllOf(HasSubstr("text.h5"), HasSubstr("HDF5")));
   EXPECT_THAT(complaint(folder_ / "absent.h5", ErrorKind::io), HasSubstr("absent.h5"));
-  EXPECT_THAT(complaint(folder_, ErrorKind::io), HasSubstr("folder"));
+  EXPECT_THAT(complaint(folder_.path(), ErrorKind::io), HasSubstr("folder"));
 }
 
 }  // namespace

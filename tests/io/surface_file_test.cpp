@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "core/error.h"
+#include "test_folder.h"
 
 namespace sandstroke {
 namespace {
@@ -36,7 +37,7 @@ void write_gray16(const fs::path& path, int width, int height, const std::vector
 }
 
 TEST(SurfaceFile, APngGivesHeightsBetweenLowAndHighWithItsTopAtLargeY) {
-  const fs::path folder = testing::TempDir();
+  const TestFolder folder;
   write_gray16(folder / "heights.png", 2, 2, {0, 65535, 13107, 52428});  // 0, 1; 0.2, 0.8
   BedSettings bed;
   bed.width = bed.depth = 0.2;
@@ -44,18 +45,17 @@ TEST(SurfaceFile, APngGivesHeightsBetweenLowAndHighWithItsTopAtLargeY) {
   bed.surface.kind = SurfaceKind::file;
   bed.surface.file = "heights.png";
   bed.surface.low = -0.01, bed.surface.high = 0.03;
-  const HeightField surface = load_surface(bed, folder);
+  const HeightField surface = load_surface(bed, folder.path());
   EXPECT_NEAR(surface(1, 0), -0.01, 1e-15);  // row 1 is the larger y
   EXPECT_NEAR(surface(1, 1), 0.03, 1e-15);
   EXPECT_NEAR(surface(0, 0), -0.01 + 0.2 * 0.04, 1e-15);
   EXPECT_NEAR(surface(0, 1), -0.01 + 0.8 * 0.04, 1e-15);
 
   bed.surface.high = bed.surface.low;  // a range must be stated
-  EXPECT_THROW(load_surface(bed, folder), Error);
+  EXPECT_THROW(load_surface(bed, folder.path()), Error);
   bed.surface.high = 0.03;
   bed.cols = 4;  // and the cells must be those of the bed
-  EXPECT_THROW(load_surface(bed, folder), Error);
-  fs::remove(folder / "heights.png");
+  EXPECT_THROW(load_surface(bed, folder.path()), Error);
 }
 
 }  // namespace

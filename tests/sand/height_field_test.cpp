@@ -41,10 +41,11 @@ TEST(HeightField, KeepsEveryCellInItsTile) {
 class Bend : public SurfaceRule {
  public:
   static double at(double x) { return 0.3 + 0.1 * std::max(0.0, x); }
-  void fill(const BedGeometry& bed, const CellRange& cells, double* out) const override {
+  void fill(const BedGeometry& bed, const CellRange& cells, double* out,
+            std::ptrdiff_t stride) const override {
     for (int row = 0; row < cells.rows(); ++row)
       for (int col = 0; col < cells.cols(); ++col)
-        out[row * BedGeometry::tile_side + col] = at(bed.x_of(cells.col_begin + col));
+        out[row * stride + col] = at(bed.x_of(cells.col_begin + col));
   }
   double steepest(const BedGeometry& bed, const CellRange& cells) const override {
     return bed.x_of(cells.col_end - 1) <= 0.0 ? 0.0 : 0.1;
