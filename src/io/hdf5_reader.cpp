@@ -4,7 +4,7 @@
 #include <cstring>
 
 #include "core/error.h"
-#include "core/memory.h"
+#include "core/machine.h"
 #include "core/output_file.h"
 
 namespace sandstroke {

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "core/error.h"
-#include "core/memory.h"
+#include "core/machine.h"
 
 namespace sandstroke {
 namespace {

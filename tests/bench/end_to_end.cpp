@@ -13,10 +13,8 @@
 #include <fstream>
 #include <iostream>
 #include <stdexcept>
-#include <thread>
 
-#include "core/version.h"
-#include "sand/instruction_set.h"
+#include "report/page.h"
 
 namespace sandstroke {
 namespace {
@@ -25,13 +23,6 @@ double peak_rss() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
   return static_cast<double>(usage.ru_maxrss) * 1024.0;
-}
-
-std::string cpu_name() {
-  std::ifstream info("/proc/cpuinfo");
-  for (std::string line; std::getline(info, line);)
-    if (line.starts_with("model name")) return line.substr(line.find(':') + 2);
-  return "unknown";
 }
 
 void write_all(int file, const std::string& text) {
@@ -91,12 +82,6 @@ nlohmann::json spread(const std::vector<double>& values) {
           {"least", *std::min_element(values.begin(), values.end())},
           {"largest", *std::max_element(values.begin(), values.end())},
           {"repeats", values.size()}};
-}
-
-nlohmann::json describe_machine() {
-  return {{"cpu", cpu_name()},    {"cores", std::thread::hardware_concurrency()},
-          {"compiler", compiler}, {"instruction_set", instruction_set()},
-          {"version", version},   {"commit", commit}};
 }
 
 }  // namespace sandstroke

@@ -2,7 +2,7 @@
 #include <spdlog/fmt/fmt.h>
 
 #include "cli/program.h"
-#include "core/memory.h"
+#include "core/machine.h"
 #include "io/hdf5_file.h"
 
 namespace sandstroke {

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "core/error.h"
-#include "core/memory.h"
+#include "core/machine.h"
 
 namespace sandstroke {
 namespace {

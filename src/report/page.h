@@ -1,0 +1,20 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+
+namespace sandstroke {
+
+/// What draws a page: page.js, and a script of the page's own.
+enum class PageScript { bench, stress };
+
+/// One self-contained HTML page: style, chart library (with its licence), scripts and data are embedded, so
+/// that it needs no network. Text in `data` may come from anywhere: nothing in it ends the page's script
+/// element, and the scripts put it into the page as text only.
+std::string html_page(std::string_view title, PageScript script, const nlohmann::ordered_json& data);
+
+/// The machine and the build that measured: cpu, cores, compiler, instruction_set, version, commit.
+nlohmann::ordered_json describe_machine();
+
+}  // namespace sandstroke

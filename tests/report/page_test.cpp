@@ -1,0 +1,24 @@
+#include "report/page.h"
+
+#include <gtest/gtest.h>
+
+namespace sandstroke {
+namespace {
+
+TEST(Page, HoldsAllItNeedsAndNothingFromAnywhereElse) {
+  const std::string page = html_page("Sand & stress", PageScript::stress, {{"key", "value"}});
+  EXPECT_EQ(page.find("<script src"), std::string::npos);
+  EXPECT_EQ(page.find("<link"), std::string::npos);
+  EXPECT_NE(page.find("<title>Sand &amp; stress</title>"), std::string::npos);
+  EXPECT_NE(page.find("Licensed to the Apache Software Foundation"), std::string::npos);
+}
+
+TEST(Page, DataCannotEndItsScriptElement) {
+  const std::string page =
+      html_page("t", PageScript::bench, {{"name", "</script><script>alert(1)</script>"}});
+  EXPECT_EQ(page.find("<script>alert(1)"), std::string::npos);
+  EXPECT_NE(page.find("\\u003c/script>"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace sandstroke
