@@ -25,11 +25,12 @@ struct Arguments {
   std::vector<std::string> overrides;
   double frames = -1.0;
   int threads = 0;
+  std::string estimate_error;  // coarser, finer or empty
   bool json = false;
 };
 
 nlohmann::ordered_json as_json(const RunResult& r, const std::string& output) {
-  return {
+  nlohmann::ordered_json json = {
       {"output", output},
       {"wall_seconds", r.wall_seconds},
       {"ticks", r.ticks},
@@ -61,6 +62,13 @@ nlohmann::ordered_json as_json(const RunResult& r, const std::string& output) {
       {"instruction_set", instruction_set()},
       {"interrupted", r.interrupted},
   };
+  if (r.error) {
+    const ErrorEstimate& e = *r.error;
+    json["error_estimate"] = {{"height_share", e.height_share}, {"height_rms", e.height_rms},
+                              {"height_max", e.height_max},     {"force_rms", e.force_rms},
+                              {"force_max", e.force_max},       {"wall_seconds", e.wall_seconds}};
+  }
+  return json;
 }
 
 void print_summary(const RunResult& r, const std::string& output) {
@@ -81,6 +89,13 @@ void print_summary(const RunResult& r, const std::string& output) {
   const std::string steps = r.super_steps > 0 ? fmt::format(" in {} super steps", r.super_steps) : "";
   row("relaxation", fmt::format("{} passes{}, residual {:.2e}, {}", r.passes, steps, r.residual,
                                 r.converged ? "at rest" : "NOT AT REST"));
+  if (!r.error) return;
+  row("error of heights",
+      fmt::format("+-{:.3g} mm rms, {:.3g} mm at most; {:.2g} % of the changed sand lies elsewhere",
+                  1e3 * r.error->height_rms, 1e3 * r.error->height_max, 100.0 * r.error->height_share));
+  if (r.ticks > 0)
+    row("error of force",
+        fmt::format("+-{:.3g} N rms, {:.3g} N at most", r.error->force_rms, r.error->force_max));
 }
 
 int run(const Arguments& arguments) {
@@ -108,6 +123,8 @@ int run(const Arguments& arguments) {
   options.scene_folder = folder;
   options.threads = arguments.threads;
   options.progress = true;
+  if (!arguments.estimate_error.empty())
+    options.second = arguments.estimate_error == "finer" ? SecondSolution::finer : SecondSolution::coarser;
   const RunResult result = run_scene(scene, output, options);
 
   const std::string written = result.interrupted ? part_path(output).string() : output;
@@ -163,6 +180,12 @@ void add_run_command(CLI::App& app, Command& chosen) {
       ->add_option("--threads", arguments->threads,
                    "Threads to use; 0: all cores. The result is the same for any number")
       ->check(CLI::Range(0, 1024));
+  command
+      ->add_flag(
+          "--estimate-error{coarser}", arguments->estimate_error,
+          "Tell how far heights and forces may be from those of ever smaller steps, by a second run with "
+          "steps twice as large (cheap); --estimate-error=finer: half as large (10 to 20 times the run)")
+      ->check(CLI::IsMember({"coarser", "finer"}));
   command->add_flag("--json", arguments->json, "Print the summary as one JSON object");
   command->footer(
       "Example:  sandstroke run strokes/wscg/scene.toml -o wscg.h5 --png wscg.png\n"

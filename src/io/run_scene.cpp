@@ -1,5 +1,6 @@
 #include "io/run_scene.h"
 
+#include <spdlog/spdlog.h>
 #include <tbb/global_control.h>
 #include <tbb/info.h>
 
@@ -7,6 +8,7 @@
 #include <optional>
 
 #include "core/hash.h"
+#include "core/interrupt.h"
 #include "core/output_file.h"
 #include "core/progress.h"
 #include "io/run_writer.h"
@@ -16,13 +18,17 @@
 namespace sandstroke {
 namespace {
 
-/// A run writer that also draws the progress bar.
+/// A run writer that also draws the progress bar, and keeps the forces where they are asked for.
 class WriterWithProgress : public RunWriter {
  public:
   WriterWithProgress(const std::filesystem::path& path, const Simulation& simulation,
-                     const std::string& stroke_hash, bool progress)
-      : RunWriter(path, simulation, stroke_hash) {
+                     const std::string& stroke_hash, bool progress, bool keep_force)
+      : RunWriter(path, simulation, stroke_hash), keep_force_(keep_force) {
     if (progress) bar_.emplace("run");
+  }
+  void on_tick(const TickRecord& tick) override {
+    RunWriter::on_tick(tick);
+    if (keep_force_) force_.push_back(tick.device_force);
   }
   void on_progress(double fraction) override {
     fraction_ = fraction;
@@ -33,10 +39,13 @@ class WriterWithProgress : public RunWriter {
     if (bar_ && after_the_stroke) bar_->count(passes, "passes towards rest");
   }
   void clear_bar() { bar_.reset(); }
+  const std::vector<Eigen::Vector3d>& force() const { return force_; }
 
  private:
   std::optional<Progress> bar_;
   double fraction_ = 0.0;  // of the stroke
+  bool keep_force_;
+  std::vector<Eigen::Vector3d> force_;  // N, per tick
 };
 
 }  // namespace
@@ -54,12 +63,20 @@ RunResult run_scene(const Scene& scene, const std::filesystem::path& output, con
     stroke = place_stroke(load_stroke(path, scene.force), scene.stroke->placement, path.string());
     stroke_hash = content_hash(read_text_file(path));
   }
-  Simulation simulation(scene, load_surface(scene.bed, options.scene_folder), std::move(stroke));
-  WriterWithProgress writer(output, simulation, stroke_hash, options.progress);
+  if (options.second) second_scene(scene, *options.second);  // refused before any work, if at all
+  const HeightField start = load_surface(scene.bed, options.scene_folder);
+  Simulation simulation(scene, start, stroke);
+  WriterWithProgress writer(output, simulation, stroke_hash, options.progress, options.second.has_value());
   RunResult result = simulation.run(writer);
   result.threads = threads;
   writer.clear_bar();
   writer.finish(result, simulation.bed());
+  if (options.second && !result.interrupted) {
+    if (options.progress) spdlog::info("estimating the error");
+    const Solution run{simulation.bed(), writer.force()};
+    const ErrorEstimate error = estimate_error(scene, start, stroke, run, *options.second);
+    if (!interrupted()) result.error = error;
+  }
   return result;
 }
 

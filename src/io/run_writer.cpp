@@ -102,6 +102,7 @@ void RunWriter::make_relaxation_columns() {
 }
 
 void RunWriter::on_tick(const TickRecord& tick) {
+  if (!keeps_trace_) return;
   ticks_.push_back(tick);
   if (ticks_.size() % least_rows_per_write == 0) write_rows_in_time();
 }

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace sandstroke {
@@ -28,6 +29,17 @@ struct RelaxationRecord {
   std::int64_t passes = 0;
   double residual = 0.0;      ///< largest slope / tan(talus) - 1 left over
   double moved_volume = 0.0;  ///< m^3, summed over passes
+};
+
+/// How far a run is from what ever smaller steps (cells, ticks, times between relaxations, tolerances) would
+/// give.
+struct ErrorEstimate {
+  double height_share = 0.0;  ///< sand that lies elsewhere, as a share of the sand that is not where it was
+  double height_rms = 0.0;    ///< m, over the cells that changed
+  double height_max = 0.0;    ///< m
+  double force_rms = 0.0;     ///< N, over the ticks with a force
+  double force_max = 0.0;     ///< N
+  double wall_seconds = 0.0;  ///< what the estimate took
 };
 
 /// What a whole run amounts to (`run --json`).
@@ -60,6 +72,7 @@ struct RunResult {
   double least_passivity_margin = 0.0;  ///< N s/m, over contact ticks
   int threads = 1;
   bool interrupted = false;
+  std::optional<ErrorEstimate> error;  ///< where it was asked for
 };
 
 }  // namespace sandstroke

@@ -155,7 +155,7 @@ void Simulation::run_stroke(SimulationObserver& observer) {
       result_.max_depth = std::max(result_.max_depth, record.depth);
       result_.least_passivity_margin = std::min(result_.least_passivity_margin, record.passivity_margin);
     }
-    if (scene_.output.trace) observer.on_tick(record);
+    observer.on_tick(record);
     if (comes_due(k, servo_rate, scene_.relaxation.rate)) relax(time, observer);
     if (comes_due(k, servo_rate, scene_.output.frames))
       observer.on_frame(static_cast<double>(k + 1) / servo_rate, bed_);

@@ -194,6 +194,30 @@ TEST(CliRun, AToolThatNeverTouchesTheSandIsPointedOut) {
   EXPECT_NE(run.err.find("never touched"), std::string::npos) << run.err;
 }
 
+TEST(CliRun, EstimatesItsErrorOnRequest) {
+  const fs::path folder = test_folder();
+  const ProgramResult plain = run_program({"run", "scene.toml", "--json"}, folder);
+  EXPECT_FALSE(nlohmann::json::parse(plain.out).contains("error_estimate"));
+  const ProgramResult run = run_program({"run", "--estimate-error", "scene.toml", "--json"}, folder);
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const nlohmann::json estimate = nlohmann::json::parse(run.out)["error_estimate"];
+  EXPECT_GT(estimate["height_share"], 0.0);
+  EXPECT_LT(estimate["height_share"], 1.0);
+  EXPECT_GE(estimate["height_max"], estimate["height_rms"]);
+  EXPECT_GE(estimate["force_max"], estimate["force_rms"]);
+}
+
+TEST(CliRun, RefusesToEstimateTheErrorOfABedWithoutCoarserCellsBeforeAnyWork) {
+  const fs::path folder = test_folder();
+  const ProgramResult run =
+      run_program({"run", "scene.toml", "--estimate-error", "--set", "bed.cells=[15,16]", "--set",
+                   "bed.size=[0.15,0.16]", "-o", "odd.h5"},
+                  folder);
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_NE(run.err.find("bed.cells = [15, 16]"), std::string::npos) << run.err;
+  EXPECT_FALSE(fs::exists(folder / "odd.h5.part"));
+}
+
 TEST(CliInfo, ShowsARunAndTheSceneKeys) {
   const fs::path folder = test_folder();
   ASSERT_EQ(run_program({"run", "scene.toml", "-o", "a.h5"}, folder).exit_code, 0);

@@ -1,0 +1,199 @@
+#include "sim/error_estimate.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <numeric>
+#include <set>
+
+#include "core/error.h"
+
+namespace sandstroke {
+namespace {
+
+/// Keeps the force of every tick.
+struct ForceTrace : SimulationObserver {
+  std::vector<Eigen::Vector3d> force;
+  void on_tick(const TickRecord& tick) override { force.push_back(tick.device_force); }
+};
+
+/// Which of `there` intervals that divide a length one of `here` others covers, and what share of it each
+/// does.
+struct Cover {
+  int begin = 0;
+  std::vector<double> share;
+};
+std::vector<Cover> covers(int here, int there) {
+  std::vector<Cover> covers(here);
+  const double ratio = static_cast<double>(there) / here;
+  for (int i = 0; i < here; ++i) {
+    const double from = i * ratio, to = (i + 1) * ratio;
+    covers[i].begin = std::min(static_cast<int>(from + 1e-9), there - 1);
+    for (int k = covers[i].begin; k < there && (k == covers[i].begin || k < to - 1e-9); ++k)
+      covers[i].share.push_back((std::min(to, k + 1.0) - std::max<double>(from, k)) / ratio);
+  }
+  return covers;
+}
+
+/// A bed's mean heights in the cells of another over the same rectangle.
+class Averages {
+ public:
+  Averages(const HeightField& bed, int rows, int cols)
+      : bed_(bed), rows_(covers(rows, bed.rows())), cols_(covers(cols, bed.cols())) {}
+  double operator()(int row, int col) const {
+    const Cover &rows = rows_[row], &cols = cols_[col];
+    double sum = 0.0;
+    for (std::size_t i = 0; i < rows.share.size(); ++i)
+      for (std::size_t j = 0; j < cols.share.size(); ++j)
+        sum += rows.share[i] * cols.share[j] *
+               bed_(rows.begin + static_cast<int>(i), cols.begin + static_cast<int>(j));
+    return sum;
+  }
+
+ private:
+  const HeightField& bed_;
+  std::vector<Cover> rows_, cols_;
+};
+
+/// Tiles of `coarse` in which it, or the finer bed, is no longer as its rule says.
+std::set<int> touched_tiles(const HeightField& fine, const HeightField& coarse) {
+  std::set<int> tiles;
+  for (int slot = 0; slot < coarse.touched_tiles(); ++slot) tiles.insert(coarse.tile_of(slot));
+  const auto tile_of = [&](int fine_cell, int fine_cells, int cells) {
+    return static_cast<int>(static_cast<std::int64_t>(fine_cell) * cells / fine_cells) /
+           BedGeometry::tile_side;
+  };
+  for (int slot = 0; slot < fine.touched_tiles(); ++slot) {
+    const CellRange cells = fine.tile_cells(fine.tile_of(slot));
+    for (int i = tile_of(cells.row_begin, fine.rows(), coarse.rows());
+         i <= tile_of(cells.row_end - 1, fine.rows(), coarse.rows()); ++i)
+      for (int j = tile_of(cells.col_begin, fine.cols(), coarse.cols());
+           j <= tile_of(cells.col_end - 1, fine.cols(), coarse.cols()); ++j)
+        tiles.insert(coarse.tile_index(i, j));
+  }
+  return tiles;
+}
+
+/// Sums over differences of heights (times area) or forces (per tick).
+struct Distance {
+  double sum = 0.0, squares = 0.0, max = 0.0;
+  void add(double difference, double weight) {
+    sum += weight * difference;
+    squares += weight * difference * difference;
+    max = std::max(max, difference);
+  }
+};
+
+Distance height_distance(const HeightField& fine, const HeightField& coarse) {
+  Distance distance;
+  const Averages averages(fine, coarse.rows(), coarse.cols());
+  for (const int tile : touched_tiles(fine, coarse)) {
+    const CellRange cells = coarse.tile_cells(tile);
+    for (int row = cells.row_begin; row < cells.row_end; ++row)
+      for (int col = cells.col_begin; col < cells.col_end; ++col)
+        distance.add(std::abs(averages(row, col) - coarse(row, col)), coarse.cell_area());
+  }
+  return distance;
+}
+
+/// Every second tick of `fine` is one of `coarse`.
+Distance force_distance(const std::vector<Eigen::Vector3d>& fine,
+                        const std::vector<Eigen::Vector3d>& coarse) {
+  Distance distance;
+  for (std::size_t k = 0; k < coarse.size() && 2 * k < fine.size(); ++k)
+    distance.add((coarse[k] - fine[2 * k]).norm(), 1.0);
+  return distance;
+}
+
+/// Where cells cannot be made anew by rule, they are averaged, or split.
+HeightField start_of(const Scene& second, const HeightField& start) {
+  const SurfaceSettings& surface = second.bed.surface;
+  const bool cell_by_cell =
+      surface.kind == SurfaceKind::file || (surface.kind == SurfaceKind::noise && surface.wavelength == 0.0);
+  const int rows = second.bed.rows, cols = second.bed.cols;
+  if (!cell_by_cell) return make_surface(surface, rows, cols, second.bed.cell_size());
+  const Averages averages(start, rows, cols);
+  return HeightField(HeightGrid::NullaryExpr(rows, cols, averages), second.bed.cell_size());
+}
+
+Solution solve(const Scene& scene, const HeightField& start, const std::optional<Stroke>& stroke) {
+  ForceTrace trace;
+  Simulation simulation(scene, start_of(scene, start), stroke);
+  simulation.run(trace);
+  return {simulation.bed(), std::move(trace.force)};
+}
+
+/// The sand that is not where it was.
+struct Change {
+  double volume = 0.0, area = 0.0;  // m^3, m^2
+};
+Change change_of(const HeightField& start, const HeightField& end) {
+  Change change;
+  for (int slot = 0; slot < end.touched_tiles(); ++slot) {
+    const CellRange cells = end.tile_cells(end.tile_of(slot));
+    for (int row = cells.row_begin; row < cells.row_end; ++row)
+      for (int col = cells.col_begin; col < cells.col_end; ++col) {
+        const double difference = std::abs(end(row, col) - start(row, col));
+        change.volume += difference * end.cell_area();
+        change.area += difference > 0.0 ? end.cell_area() : 0.0;
+      }
+  }
+  return change;
+}
+
+}  // namespace
+
+Scene second_scene(const Scene& scene, SecondSolution which) {
+  const bool coarser = which == SecondSolution::coarser;
+  const double factor = coarser ? 2.0 : 0.5;
+  const int units = std::gcd(scene.bed.rows, scene.bed.cols),
+            units_then = coarser ? (units + 1) / 2 : 2 * units;
+  if (units_then == units)
+    throw_input_error(
+        "the error cannot be estimated: bed.cells = [{}, {}] cannot be made coarser, since larger square "
+        "cells do "
+        "not fill the bed; take even numbers, or the finer solution",
+        scene.bed.cols, scene.bed.rows);
+  Scene second = scene;
+  second.bed.rows = scene.bed.rows / units * units_then;
+  second.bed.cols = scene.bed.cols / units * units_then;
+  second.device.servo_rate /= factor;
+  second.relaxation.rate /= factor;
+  second.relaxation.tolerance *= factor;
+  second.relaxation.step_tolerance *= factor;
+  second.output.frames = 0.0;
+  check_scene(second, coarser ? "the coarser solution that tells the error"
+                              : "the finer solution that tells the error");
+  return second;
+}
+
+ErrorEstimate estimate_error(const Scene& scene, const HeightField& start,
+                             const std::optional<Stroke>& stroke, const Solution& run, SecondSolution which) {
+  const auto begin = std::chrono::steady_clock::now();
+  const Scene second_settings = second_scene(scene, which);
+  const Solution second = solve(second_settings, start, stroke);
+  const bool coarser = which == SecondSolution::coarser;
+  const Solution &coarse = coarser ? second : run, &fine = coarser ? run : second;
+
+  // Errors e(run) = C and e(coarser) = r C, or e(run) = r C and e(finer) = C; the distance is (r - 1) C.
+  const auto error_over_distance = [&](double r) { return (coarser ? 1.0 : r) / (r - 1.0); };
+  const double of_heights = error_over_distance(coarse.surface.cell_size() / fine.surface.cell_size()),
+               of_forces = error_over_distance(2.0);
+  const Distance height = height_distance(fine.surface, coarse.surface),
+                 force = force_distance(fine.force, coarse.force);
+  const Change change = change_of(start, run.surface);
+  const auto forces = std::count_if(coarse.force.begin(), coarse.force.end(),
+                                    [](const Eigen::Vector3d& f) { return f.squaredNorm() > 0.0; });
+  ErrorEstimate estimate;
+  if (change.volume > 0.0) {
+    estimate.height_share = of_heights * height.sum / change.volume;
+    estimate.height_rms = of_heights * std::sqrt(height.squares / change.area);
+  }
+  estimate.height_max = of_heights * height.max;
+  if (forces > 0) estimate.force_rms = of_forces * std::sqrt(force.squares / static_cast<double>(forces));
+  estimate.force_max = of_forces * force.max;
+  estimate.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  return estimate;
+}
+
+}  // namespace sandstroke

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "sim/simulation.h"
+
+namespace sandstroke {
+
+/// What a scene comes to.
+struct Solution {
+  HeightField surface;
+  std::vector<Eigen::Vector3d> force;  ///< N, on the device, per tick
+};
+
+/// The second solution that a run is held against: every step twice as large (cheap: about an eighth of the
+/// run), or half as large (dear: about eight times the run, but seldom fooled by cells that happen to lie
+/// well).
+enum class SecondSolution { coarser, finer };
+
+/// The scene with all steps twice or half as large; cells as nearly as square ones divide the bed. Error:
+/// input, where there are no such cells, or check_scene() refuses them.
+Scene second_scene(const Scene& scene, SecondSolution which);
+
+/// Richardson's estimate: all parts of the method are of first order, so that with steps r times as large the
+/// error is r times as large, and the distance between two solutions tells it. start: the run's initial
+/// surface; stroke: as the run had it. Error: unstable, where the second solution is.
+ErrorEstimate estimate_error(const Scene& scene, const HeightField& start,
+                             const std::optional<Stroke>& stroke, const Solution& run, SecondSolution which);
+
+}  // namespace sandstroke
