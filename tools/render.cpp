@@ -75,10 +75,7 @@ int draw_film(const RunFile& run, RunPainter& painter, const Options& options) {
   if (times.empty())
     throw_input_error("{}: holds no frames; run the scene again with --frames HZ", run.name());
   const fs::path folder = default_output(options, "_frames");
-  std::error_code failure;
-  fs::create_directories(folder, failure);
-  if (failure)
-    throw_io_error("{}: this folder cannot be made ({}); choose another", folder.string(), failure.message());
+  make_folder(folder);
   const bool tool = options.tool.value_or(run.has_trace());
   Progress progress("render");
   for (std::size_t k = 0; k < times.size(); ++k) {

@@ -10,6 +10,7 @@
 #include "compare/field_difference.h"
 #include "compare/image_difference.h"
 #include "core/error.h"
+#include "core/output_file.h"
 #include "io/png_file.h"
 #include "render/annotate.h"
 #include "render/colour_map.h"
@@ -143,12 +144,7 @@ void write_report(const std::filesystem::path& path, const std::function<Image()
     if (error.kind() != ErrorKind::input) throw;
     return;
   }
-  std::error_code failure;
-  std::filesystem::create_directories(path.parent_path(), failure);
-  if (failure) {
-    throw_io_error("{}: cannot be made ({}); choose another --report folder", path.parent_path().string(),
-                   failure.message());
-  }
+  make_folder(path.parent_path());
   write_png(path, sheet);
 }
 

@@ -1,5 +1,7 @@
 #include "core/output_file.h"
 
+#include <unistd.h>
+
 #include <cerrno>
 #include <cstring>
 #include <fstream>
@@ -32,6 +34,16 @@ void check_output(const fs::path& output, const std::vector<fs::path>& others) {
   if (!fs::is_directory(folder))
     throw_io_error("{}: cannot be written, for there is no folder {}; make it first", output.string(),
                    folder.string());
+}
+
+void make_folder(const fs::path& folder) {
+  std::error_code failure;
+  fs::create_directories(folder, failure);
+  if (failure)
+    throw_io_error("{}: this folder cannot be made ({}); choose another", folder.string(), failure.message());
+  if (access(folder.c_str(), W_OK) != 0)
+    throw_io_error("{}: nothing can be written in this folder ({}); choose another", folder.string(),
+                   std::strerror(errno));
 }
 
 fs::path beside(const fs::path& path, const std::string& ending) {

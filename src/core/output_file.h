@@ -14,6 +14,10 @@ std::filesystem::path part_path(const std::filesystem::path& path);
 /// or of the other outputs, a folder, a device, or a place in a folder that is not there. Error: input or io.
 void check_output(const std::filesystem::path& output, const std::vector<std::filesystem::path>& others);
 
+/// Makes a folder, and those above it, unless it is there. Error: io, if that fails or nothing can be written
+/// in it.
+void make_folder(const std::filesystem::path& folder);
+
 /// PATH with its ending .h5 or .hdf5 replaced; any other name keeps its dots ("run-27.5").
 std::filesystem::path beside(const std::filesystem::path& path, const std::string& ending);
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "core/error.h"
+#include "test_folder.h"
 
 namespace sandstroke {
 namespace {
@@ -28,6 +29,16 @@ TEST(OutputFile, ErrorsNameFileAndRemedy) {
   }
   EXPECT_THROW(read_text_file("/nowhere/at/all.txt"), Error);
   EXPECT_THROW(read_text_file("/"), Error);
+}
+
+TEST(MakeFolder, MakesAllOnTheWayAndSaysWhatIsInIt) {
+  const TestFolder folder;
+  make_folder(folder / "a/b/c");
+  EXPECT_TRUE(fs::is_directory(folder / "a/b/c"));
+  make_folder(folder / "a/b/c");
+  write_text_file(folder / "file", "text");
+  EXPECT_THROW(make_folder(folder / "file"), Error);
+  EXPECT_THROW(make_folder(folder / "file/below"), Error);
 }
 
 }  // namespace
