@@ -15,8 +15,10 @@
   extern "C" const char sandstroke_asset_##name##_end[]
 SANDSTROKE_ASSET(charts);
 SANDSTROKE_ASSET(charts_license);
+SANDSTROKE_ASSET(charts_notice);
 SANDSTROKE_ASSET(style);
 SANDSTROKE_ASSET(page);
+SANDSTROKE_ASSET(plot);
 SANDSTROKE_ASSET(bench);
 SANDSTROKE_ASSET(stress);
 #undef SANDSTROKE_ASSET
@@ -61,10 +63,12 @@ std::string html_page(std::string_view title, PageScript script, const nlohmann:
   page +=
       "</style>\n</head>\n<body>\n<main id=\"page\"></main>\n<script type=\"application/json\" id=\"data\">";
   page += script_safe(data);
-  page += "</script>\n<!-- The chart library's licence:\n";
+  page += "</script>\n<!-- The chart library's notice and licence:\n";
+  page += SANDSTROKE_ASSET(charts_notice);
   page += SANDSTROKE_ASSET(charts_license);
   page += "-->\n";
-  for (const std::string_view text : {SANDSTROKE_ASSET(charts), SANDSTROKE_ASSET(page), text_of(script)}) {
+  for (const std::string_view text :
+       {SANDSTROKE_ASSET(charts), SANDSTROKE_ASSET(page), SANDSTROKE_ASSET(plot), text_of(script)}) {
     page += "<script>\n";
     page += text;
     page += "\n</script>\n";

@@ -6,7 +6,7 @@
 
 namespace sandstroke {
 
-/// What draws a page: page.js, and a script of the page's own.
+/// What draws a page: page.js and plot.js, which all pages share, and a script of the page's own.
 enum class PageScript { bench, stress };
 
 /// One self-contained HTML page: style, chart library (with its licence), scripts and data are embedded, so

@@ -1,1 +1,236 @@
 "use strict";
+// The work-precision study: for each problem run time against error, error against resolution and slope
+// errors by direction; then orders, estimates and all runs as tables.
+
+/** What a page of the study is about, in the order of the runs. */
+const seriesOf = (runs) => [...new Set(runs.map((run) => run.series))];
+const toTwo = (value) => (isNumber(value) ? withMinus(value.toFixed(2)) : "–");
+const plotted = (run, ...names) => names.every((name) => isNumber(run[name]) && run[name] > 0);
+
+drawPage((data, main) => {
+  const { problems, columns, runs, orders, estimates, notes } = data;
+  const looks = new Map(seriesOf(runs).map((series, i) => [series, lookOf(i)]));
+  const column = (name) => columns.find((one) => one.name === name) ?? { name, title: name, unit: "" };
+  const tip = (problem, run) =>
+    tipOf(`${run.series} · ${run.label}`,
+          columns.filter(({ name }) => isNumber(run[name]))
+            .map(({ name, title, unit }) => [withUnit(name === problem.error ? problem.error_title : title, unit),
+                                             run[name]]));
+
+  /** The points of a series as a line; its look is the series'. */
+  const curve = (problem, series, points, x, y, xName) => {
+    const { colour, symbol, dash } = looks.get(series);
+    return {
+      type: "line", name: series, symbol, symbolSize: 8, itemStyle: { color: colour },
+      lineStyle: { color: colour, type: dash, width: 1.75 }, emphasis: { focus: "series" },
+      data: points.map((run) => ({ value: [x.at(run[xName]), y.at(run[problem.error])], run })),
+    };
+  };
+  const legendOf = (shown, text = (series) => series) =>
+    shown.map((series) => ({ name: series, text: text(series), series: true, ...looks.get(series) }));
+  const frame = (problem, x, y, series) => ({
+    ...chartBase((item) => item.data?.run && tip(problem, item.data.run)),
+    xAxis: x.axis,
+    yAxis: { ...y.axis, nameGap: 46 },
+    series,
+  });
+  const convergedLine = (problem, x, y) =>
+    lineOf("converged", [[x.from, problem.converged_to], [x.to, problem.converged_to]], x, y,
+           { colour: "#5b6670", dash: "dotted" });
+  const convergedLegend = { name: "converged", text: "how far the reference is converged", colour: "#5b6670",
+                            dash: "dotted", series: true };
+
+  /** Run time against error, the points as they were run; no run beats one on the front in both. */
+  function workChart(problem, own) {
+    const points = own.filter((run) => plotted(run, "wall_seconds", problem.error));
+    if (points.length === 0) return null;
+    const shown = seriesOf(points);
+    const known = isNumber(problem.converged_to) && problem.converged_to > 0;
+    const { title, unit } = column("wall_seconds");
+    const x = scaleOf(points.map((run) => run.wall_seconds), { logarithmic: true, title, unit });
+    const y = scaleOf([...points.map((run) => run[problem.error]), ...(known ? [problem.converged_to] : [])],
+                      { logarithmic: true, title: problem.error_title, unit: problem.error_unit });
+    const front = points.filter((run) => run.pareto).sort((a, b) => a.wall_seconds - b.wall_seconds);
+    const left = points.length < own.length
+      ? ` ${own.length - points.length} of ${own.length} runs have no place on logarithmic axes: see the table.` : "";
+    const lines = shown.map((series) =>
+      curve(problem, series, points.filter((run) => run.series === series), x, y, "wall_seconds"));
+    const legend = legendOf(shown);
+    if (front.length > 0) {
+      const [first, last] = [front[0], front.at(-1)];
+      lines.push({
+        type: "line", name: "front", step: "end", silent: true, symbol: "none", z: 1,
+        lineStyle: { color: "#333333", width: 5, opacity: 0.16 },
+        data: [[x.at(first.wall_seconds), y.high],
+               ...front.map((run) => [x.at(run.wall_seconds), y.at(run[problem.error])]),
+               [x.high, y.at(last[problem.error])]],
+      }, {
+        type: "scatter", name: "front", silent: true, symbol: "circle", symbolSize: 15, z: 4,
+        itemStyle: { color: "transparent", borderColor: "#1d2329", borderWidth: 1.5 },
+        data: front.map((run) => [x.at(run.wall_seconds), y.at(run[problem.error])]),
+      });
+      legend.push({ name: "front", text: "Pareto front: no run is both faster and more exact", colour: "#1d2329",
+                    symbol: "ring", dash: "none", series: true });
+    }
+    if (known) {
+      lines.push(convergedLine(problem, x, y));
+      legend.push(convergedLegend);
+    }
+    return chart({ title: "Run time against error", note: `Lower left is better.${left}`, legend,
+                   option: frame(problem, x, y, lines) });
+  }
+
+  /** Error against cells, for the series that vary them: the smallest error at each number of cells. */
+  function convergenceChart(problem, own) {
+    const best = new Map();
+    for (const run of own.filter((one) => plotted(one, "cells", problem.error))) {
+      const at = best.get(run.series) ?? best.set(run.series, new Map()).get(run.series);
+      if (!at.has(run.cells) || run[problem.error] < at.get(run.cells)[problem.error]) at.set(run.cells, run);
+    }
+    const varied = [...best].filter(([, at]) => at.size > 1)
+      .map(([series, at]) => [series, [...at.values()].sort((a, b) => a.cells - b.cells)]);
+    if (varied.length === 0) return null;
+    const all = varied.flatMap(([, points]) => points);
+    const known = isNumber(problem.converged_to) && problem.converged_to > 0;
+    const { title, unit } = column("cells");
+    const x = scaleOf(all.map((run) => run.cells), { logarithmic: true, title, unit });
+    const y = scaleOf([...all.map((run) => run[problem.error]), ...(known ? [problem.converged_to] : [])],
+                      { logarithmic: true, title: problem.error_title, unit: problem.error_unit });
+    const text = (series) => {
+      const fit = orders.find((one) =>
+        one.problem === problem.name && one.series === series && one.error === problem.error);
+      return fit && isNumber(fit.order)
+        ? `${series}: order ${toTwo(fit.order)} (${toTwo(fit.low)} to ${toTwo(fit.high)})` : series;
+    };
+    const lines = varied.map(([series, points]) => curve(problem, series, points, x, y, "cells"));
+    const legend = legendOf(varied.map(([series]) => series), text);
+    if (known) {
+      lines.push(convergedLine(problem, x, y));
+      legend.push(convergedLegend);
+    }
+    return chart({ title: "Error against resolution",
+                   note: "The smallest error of each series at each resolution. Orders as fitted, with their confidence.",
+                   legend, option: frame(problem, x, y, lines) });
+  }
+
+  /** Slope errors by direction, of each series' run with the most cells. asinh: linear within the bound of
+      0.15 degrees, logarithmic far beyond it. */
+  function slopeChart(problem, own) {
+    const bound = 0.15;
+    const at = (error) => (isNumber(error) ? Math.asinh(error / bound) : null);
+    const finest = seriesOf(own).map((series) => own
+      .filter((run) => run.series === series && run.directions?.length && run.slope_error?.some(isNumber))
+      .reduce((best, run) => (!best || (run.cells ?? 0) > (best.cells ?? 0) ? run : best), null)).filter(Boolean);
+    if (finest.length === 0) return null;
+    const places = finest.flatMap((run) => run.slope_error.map(at)).filter((place) => place !== null);
+    const low = Math.min(at(-bound), ...places) - 0.6, high = Math.max(at(bound), ...places) + 0.15;
+    const rings = [0, bound, 0.5, 2, 8, 30].flatMap((value) => (value > 0 ? [-value, value] : [value]))
+      .filter((value) => at(value) > low + 0.4 && at(value) < high).sort((a, b) => a - b);
+    const circle = (value, type, width) => ({
+      type: "line", coordinateSystem: "polar", name: "bound", silent: true, symbol: "none", z: 1,
+      lineStyle: { color: "#1d2329", width, type },
+      data: Array.from({ length: 181 }, (_, i) => [at(value), 2 * i]),
+    });
+    const lines = finest.map((run) => {
+      const { colour, symbol, dash } = looks.get(run.series);
+      const points = run.directions.map((direction, i) => ({
+        value: [at(run.slope_error[i]), direction], tip: [direction, run.slope_error[i], run] }));
+      const gap = Math.max(...run.directions.slice(1).map((direction, i) => direction - run.directions[i]));
+      const closes = 360 - (run.directions.at(-1) - run.directions[0]) <= 1.5 * gap;
+      return {
+        type: "line", coordinateSystem: "polar", name: run.series, symbol, symbolSize: 5, data: closes
+          ? [...points, { ...points[0], value: [points[0].value[0], points[0].value[1] + 360] }] : points,
+        itemStyle: { color: colour }, lineStyle: { color: colour, type: dash, width: 1.75 },
+        emphasis: { focus: "series" },
+      };
+    });
+    const base = chartBase((item) => item.data?.tip && tipOf(`${item.data.tip[2].series} · ${item.data.tip[2].label}`, [
+      ["direction (°)", item.data.tip[0]], ["slope error (°)", item.data.tip[1]]]));
+    const legend = finest.map((run) => ({ name: run.series, series: true, ...looks.get(run.series),
+                                          text: isNumber(run.cells) ? `${run.series}, ${format(run.cells)} cells` : run.series }));
+    legend.push({ name: "bound", text: "no error, and ±0.15°", colour: "#1d2329", dash: "dashed", series: true });
+    return chart({
+      title: "Slope error by direction",
+      note: "Degrees of slope too steep (outwards) or too flat (inwards), at the finest resolution. Linear within ±0.15°, logarithmic beyond.",
+      legend, height: "25rem",
+      option: {
+        ...base,
+        polar: { radius: "78%", center: ["50%", "50%"] },
+        angleAxis: { type: "value", min: 0, max: 360, interval: 45, startAngle: 0, clockwise: false,
+                     axisLine: { lineStyle: { color: "#8b969e" } }, axisTick: { show: false },
+                     axisLabel: { formatter: (angle) => `${angle}°`, color: "#1d2329", fontSize: 11 },
+                     splitLine: { lineStyle: { color: "#e9edef" } } },
+        radiusAxis: { type: "value", min: low, max: high, axisLine: { show: false }, z: 5,
+                      axisTick: { show: false, customValues: rings.map(at) },
+                      axisLabel: { customValues: rings.filter((value) => value >= 0 || value < -bound).map(at), fontSize: 10,
+                                   backgroundColor: "#ffffffd0", padding: [1, 2], color: "#1d2329",
+                                   formatter: (place) => tickText(Number((bound * Math.sinh(place)).toPrecision(3))) },
+                      splitLine: { lineStyle: { color: "#e9edef" } } },
+        series: [circle(0, "solid", 1), circle(-bound, "dashed", 1), circle(bound, "dashed", 1), ...lines],
+      },
+    });
+  }
+
+  main.append(el("h1", {}, document.title), machineLine(data.machine));
+  if (data.quick) main.append(el("p", { class: "warning" }, "A quick run: few and coarse runs, to see that all works."));
+  if (runs.length === 0) {
+    main.append(el("p", {}, "Nothing was measured: this study holds no runs."));
+  } else {
+    main.append(el("p", {},
+      "Each point is a run. Run time is the median of repeats, taken in turn so that a change of the machine's " +
+      "speed meets all alike. The error is the distance to the known answer, or to a converged solution; below " +
+      "the dotted line errors mean nothing, since that answer is not known any better. Point at a symbol for " +
+      "its figures, click on a name to hide its line."));
+  }
+  const titleOf = new Map(problems.map((problem) => [problem.name, problem.title]));
+  const sections = problems.map((problem, i) => [`problem-${i + 1}`, problem.title]);
+  const tables = [["orders", "Orders of convergence", orders], ["estimates", "Estimated and true errors", estimates],
+                  ["runs", "All runs", runs]].filter(([, , rows]) => rows.length > 0);
+  main.append(contents([...sections, ...tables]));
+
+  problems.forEach((problem, i) => {
+    const own = runs.filter((run) => run.problem === problem.name);
+    const drawn = [workChart, convergenceChart, slopeChart].map((draw) => draw(problem, own)).filter(Boolean);
+    main.append(el("section", { id: sections[i][0] }, el("h2", {}, problem.title), el("p", {}, problem.text),
+                   drawn.length ? el("div", { class: "charts lead" }, ...drawn)
+                                : el("p", { class: "quiet" }, "No run of this problem can be drawn.")));
+  });
+
+  const problemColumn = { name: "problem", title: "Problem", value: (row) => titleOf.get(row.problem) ?? row.problem };
+  const bodies = {
+    orders: () => [
+      el("p", {}, "The error falls as the resolution to the power of the order. The range is that of 95 % confidence."),
+      table([problemColumn, { name: "series", title: "Series" },
+             { name: "error", title: "Error", value: (row) => column(row.error).title },
+             ...[["order", "Order"], ["low", "from"], ["high", "to"]].map(([name, title]) =>
+               ({ name, title, cell: (row) => toTwo(row[name]) })),
+             { name: "points", title: "Points" }], orders, { label: "Orders of convergence" }).element],
+    estimates: () => {
+      const outside = (row) => isNumber(row.ratio) && (row.ratio < 1 / 3 || row.ratio > 3);
+      const count = estimates.filter(outside).length;
+      return [
+        el("p", {}, "What a run states as its own error, against the true one. ",
+           el("span", { class: count ? "bad" : "good" },
+              count ? `${count} of ${estimates.length} are not within a factor of 3.`
+                    : `All ${estimates.length} are within a factor of 3.`)),
+        table([problemColumn, { name: "label", title: "Run" }, { name: "quantity", title: "Quantity" },
+               { name: "estimate", title: "Estimate" }, { name: "truth", title: "Truth" },
+               { name: "ratio", title: "Ratio", cell: (row) => outside(row)
+                 ? el("span", { class: "bad" }, `${format(row.ratio, false)} ✗`) : null }],
+              estimates, { label: "Estimated and true errors", rowClass: (row) => (outside(row) ? "surprise" : null) }).element];
+    },
+    runs: () => {
+      const all = table([problemColumn, { name: "series", title: "Series" }, { name: "label", title: "Run" },
+                         ...columns, { name: "pareto", title: "Front", value: (row) => (row.pareto ? "●" : null),
+                                        cell: (row) => (row.pareto ? "●" : "") }],
+                        runs, { label: "All runs" });
+      const choice = el("select", { change: (event) => all.show((row) =>
+        event.target.value === "" || row.problem === problems[Number(event.target.value)].name) },
+        el("option", { value: "" }, "all"), ...problems.map((problem, i) => el("option", { value: i }, problem.title)));
+      return [el("div", { class: "controls" }, el("label", {}, "Problem ", choice)), all.element];
+    },
+  };
+  for (const [id, title] of tables) main.append(el("section", { id }, el("h2", {}, title), ...bodies[id]()));
+  if (notes.length > 0)
+    main.append(el("section", { id: "notes" }, el("h2", {}, "Notes"), ...notes.map((note) => el("p", {}, note))));
+});

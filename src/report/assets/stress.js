@@ -1,1 +1,215 @@
 "use strict";
+// The stability report: the outcome, maps of verdicts over two settings, measured against exact boundaries,
+// traces, and every case.
+
+// Light to dark from harmless to bad, and a sign each, so that grey print tells them apart.
+const verdicts = new Map([
+  ["stable", { fill: "#d3e6f2", sign: "", ink: "#1d2329" }],
+  ["limit cycle", { fill: "#efb23e", sign: "~", ink: "#1d2329" }],
+  ["refused", { fill: "#c3c9ce", sign: "–", ink: "#1d2329" }],
+  ["not converged", { fill: "#7a63b3", sign: "⋯", ink: "#ffffff" }],
+  ["diverged", { fill: "#ad3a06", sign: "×", ink: "#ffffff" }],
+  ["broken", { fill: "#111111", sign: "!", ink: "#ffffff" }],
+]);
+const unknownVerdict = { fill: "#ffffff", sign: "?", ink: "#1d2329" };
+const lookOfVerdict = (name) => verdicts.get(name) ?? unknownVerdict;
+const surpriseColour = "#ff5fb0";
+const theory = [{ colour: "#000000", dash: "solid" }, { colour: "#00695c", dash: "dashed" },
+                { colour: "#6a1b9a", dash: "dotted" }, { colour: "#0b5c8f", dash: "solid" }];
+const verdictMark = (name) => el("span", { class: "verdict" }, swatch(lookOfVerdict(name)), name);
+const count = (n, one, many = `${one}s`) => `${format(n)} ${n === 1 ? one : many}`;
+
+/** The borders between the cells of a map: midway between its values, in the axis' own measure. */
+function borders(places) {
+  const middle = places.slice(1).map((place, i) => (place + places[i]) / 2);
+  if (middle.length === 0) return [places[0] - 0.5, places[0] + 0.5];
+  return [2 * places[0] - middle[0], ...middle, 2 * places.at(-1) - middle.at(-1)];
+}
+
+function mapChart(map) {
+  const named = ({ name, unit, logarithmic }) => ({ logarithmic, margin: 0, title: name, unit });
+  const edges = ({ values, logarithmic }) => {
+    const found = borders(logarithmic ? values.map(Math.log10) : values);
+    return logarithmic ? found.map((place) => 10 ** place) : found;
+  };
+  const [xEdges, yEdges] = [edges(map.x), edges(map.y)];
+  const x = scaleOf(xEdges, named(map.x)), y = scaleOf(yEdges, named(map.y));
+  const cells = map.verdict.flatMap((row, j) => row.map((verdict, i) => ({
+    value: [x.at(xEdges[i]), y.at(yEdges[j]), x.at(xEdges[i + 1]), y.at(yEdges[j + 1])],
+    verdict, i, j, surprise: map.surprise[j]?.[i] === true,
+  })));
+  const corners = (api) => {
+    const [left, bottom] = api.coord([api.value(0), api.value(1)]);
+    const [right, top] = api.coord([api.value(2), api.value(3)]);
+    return { x: left, y: top, width: right - left, height: bottom - top };
+  };
+  const cellSeries = {
+    type: "custom", name: "verdict", data: cells, progressive: 0, z: 1, encode: { x: [0, 2], y: [1, 3] },
+    renderItem: (params, api) => {
+      const { fill, sign, ink } = lookOfVerdict(cells[params.dataIndex].verdict);
+      const shape = corners(api);
+      const size = Math.min(shape.width, shape.height, 13);
+      const box = { type: "rect", shape, style: { fill, stroke: "#ffffff", lineWidth: 0.75 } };
+      if (!sign || size < 7) return box;
+      return { type: "group", children: [box, {
+        type: "text", silent: true,
+        style: { text: sign, x: shape.x + shape.width / 2, y: shape.y + shape.height / 2, fill: ink, opacity: 0.75,
+                 fontSize: size, align: "center", verticalAlign: "middle" } }] };
+    },
+  };
+  const surprises = cells.filter((cell) => cell.surprise);
+  const surpriseSeries = {
+    type: "custom", name: "surprise", data: surprises, progressive: 0, z: 4, silent: true,
+    encode: { x: [0, 2], y: [1, 3] },
+    renderItem: (params, api) => ({ type: "group", children: [["#111111", 5], [surpriseColour, 2.5]].map(
+      ([stroke, lineWidth]) => ({ type: "rect", shape: corners(api), style: { fill: "none", stroke, lineWidth } })) }),
+  };
+  // A white line beneath each, since they cross dark and light.
+  const curves = map.curves.flatMap((curve, i) => [
+    lineOf(curve.name, curve.points, x, y, { colour: "#ffffff", width: 5 }, { z: 2, clip: true }),
+    lineOf(curve.name, curve.points, x, y, { ...theory[i % theory.length], width: 2 }, { z: 3, clip: true }),
+  ]);
+  const present = [...verdicts.keys()].map((name) => [name, cells.filter((cell) => cell.verdict === name).length])
+    .filter(([, cellCount]) => cellCount > 0);
+  const legend = present.map(([name, cellCount]) =>
+    ({ name, text: `${name}, ${count(cellCount, "cell")}`, ...lookOfVerdict(name) }));
+  if (surprises.length > 0)
+    legend.push({ name: "surprise", text: count(surprises.length, "surprise"), fill: "#ffffff", colour: surpriseColour });
+  legend.push(...map.curves.map((curve, i) => ({ name: curve.name, series: true, ...theory[i % theory.length] })));
+  return chart({
+    title: map.title, note: map.text, legend,
+    option: {
+      ...chartBase(({ data }) => data.verdict && tipOf(data.surprise ? `${data.verdict}: a surprise` : data.verdict, [
+        [withUnit(map.x.name, map.x.unit), map.x.values[data.i]], [withUnit(map.y.name, map.y.unit), map.y.values[data.j]]])),
+      xAxis: { ...x.axis, splitLine: { show: false } },
+      yAxis: { ...y.axis, nameGap: 46, splitLine: { show: false } },
+      series: [cellSeries, ...curves, surpriseSeries],
+    },
+  });
+}
+
+/** How far the measured boundaries are from the exact ones, and how far inside the passive ones are. */
+function boundaryCharts(boundaries) {
+  const usable = boundaries.filter((one) => one.exact > 0 && isNumber(one.measured));
+  if (usable.length === 0) return [];
+  const [blue, orange] = [lookOf(0), lookOf(1)];
+  const exactAxis = { logarithmic: true, title: "exact boundary", unit: "N/m" };
+  const base = chartBase(({ data }) => data.one && tipOf(data.one.settings, [
+    ["measured (N/m)", data.one.measured], ["exact (N/m)", data.one.exact],
+    ["measured / exact", data.one.measured / data.one.exact], ["passive up to (N/m)", data.one.passive]]));
+  const points = (name, look, x, y, value, among = usable) => ({
+    type: "scatter", name, symbol: look.symbol, symbolSize: 8, itemStyle: { color: look.colour, opacity: 0.75 },
+    data: among.map((one) => ({ value: [x.at(one.exact), y.at(value(one))], one })),
+  });
+
+  const x = scaleOf(usable.map((one) => one.exact), exactAxis);
+  const ratio = scaleOf([0.97, 1.03, ...usable.map((one) => one.measured / one.exact)], { title: "measured / exact" });
+  const measured = { ...points("measured", blue, x, ratio, (one) => one.measured / one.exact),
+                     markArea: { silent: true, itemStyle: { color: "#009e73", opacity: 0.12 },
+                                 data: [[{ yAxis: 0.98 }, { yAxis: 1.02 }]] } };
+  const one = lineOf("exact", [[x.from, 1], [x.to, 1]], x, ratio, { colour: "#333333", width: 1 });
+  const charts = [chart({
+    title: "Measured against exact boundary",
+    note: "The largest stable stiffness, by bisection, over that at which an eigenvalue of the one-tick map leaves the unit circle.",
+    legend: [{ name: "measured", ...blue, dash: "none", series: true }, { name: "band", text: "within 2 %", fill: "#dff2ec" }],
+    option: { ...base, xAxis: x.axis, yAxis: { ...ratio.axis, nameGap: 46 }, series: [one, measured] },
+  })];
+
+  const passive = usable.filter((item) => item.passive > 0);
+  if (passive.length > 0) {
+    const y = scaleOf(usable.flatMap((item) => [item.measured, item.passive]),
+                      { logarithmic: true, title: "stiffness", unit: "N/m" });
+    charts.push(chart({
+      title: "The passivity condition is the narrower one",
+      note: "Stiffness up to which Colgate & Schenkel's condition promises stability, and up to which the loop is stable.",
+      legend: [{ name: "measured", text: "stable up to, measured", ...blue, dash: "none", series: true },
+               { name: "passive", text: "passive up to", ...orange, dash: "none", series: true },
+               { name: "exact", text: "exact boundary", colour: "#333333", dash: "solid", series: true }],
+      option: { ...base, xAxis: x.axis, yAxis: { ...y.axis, nameGap: 46 }, series: [
+        lineOf("exact", [[x.from, x.from], [x.to, x.to]], x, y, { colour: "#333333", width: 1 }, { clip: true }),
+        points("measured", blue, x, y, (item) => item.measured, usable.filter((item) => item.measured > 0)),
+        points("passive", orange, x, y, (item) => item.passive, passive)] },
+    }));
+  }
+  return charts;
+}
+
+function traceChart(trace) {
+  const x = scaleOf(trace.time, { margin: 0, title: "time", unit: "s" });
+  const y = scaleOf(trace.series.flatMap(({ values }) => values), { title: trace.y_name });
+  return chart({
+    title: trace.title, note: trace.text,
+    legend: trace.series.map(({ name }, i) => ({ name, ...lookOf(i), symbol: "none", series: true })),
+    option: {
+      ...chartBase(() => null),
+      xAxis: x.axis,
+      yAxis: { ...y.axis, nameGap: 46 },
+      series: trace.series.map(({ name, values }, i) =>
+        lineOf(name, values.map((value, k) => [trace.time[k], value]), x, y, lookOf(i), { sampling: "minmax" })),
+    },
+  });
+}
+
+/** The cases group by group, with a switch that leaves surprises only. */
+function caseTables(cases) {
+  const groups = [...new Set(cases.map((one) => one.group))].map((name) => {
+    const own = cases.filter((one) => one.group === name);
+    const surprises = own.filter((one) => one.surprise).length;
+    const rows = table([
+      { name: "name", title: "Case" }, { name: "settings", title: "Settings" },
+      { name: "verdict", title: "Verdict", cell: (one) => verdictMark(one.verdict) },
+      { name: "expected", title: "Expected", value: (one) => one.expected.join(" or ") },
+      { name: "surprise", title: "Surprise", value: (one) => (one.surprise ? 1 : 0),
+        cell: (one) => (one.surprise ? el("span", { class: "bad" }, "surprise") : "") },
+      { name: "detail", title: "Detail" },
+    ], own, { label: name, rowClass: (one) => (one.surprise ? "surprise" : null) });
+    const section = el("div", {}, el("h3", {}, name, " ",
+      el("span", { class: "quiet" }, `${count(own.length, "case")}, ${count(surprises, "surprise")}`)), rows.element);
+    return { section, rows, surprises };
+  });
+  const filter = (event) => groups.forEach(({ section, rows, surprises }) => {
+    rows.show((one) => one.surprise || !event.target.checked);
+    section.hidden = event.target.checked && surprises === 0;
+  });
+  return [el("div", { class: "controls" }, el("label", {}, el("input", { type: "checkbox", change: filter }),
+                                              "surprises only")),
+          ...groups.map(({ section }) => section)];
+}
+
+drawPage((data, main) => {
+  const { cases, maps, boundaries, traces, surprises } = data;
+  const mapCells = maps.reduce((sum, map) => sum + map.verdict.reduce((cells, row) => cells + row.length, 0), 0);
+  main.append(el("h1", {}, document.title), machineLine(data.machine));
+  if (data.quick) main.append(el("p", { class: "warning" }, "A quick run: coarser maps, fewer and shorter cases."));
+  const fact = (name, value, kind = null) => el("div", {}, el("dt", {}, name), el("dd", { class: kind }, value));
+  const nothing = cases.length + mapCells + boundaries.length === 0;
+  if (nothing) {
+    main.append(el("p", {}, "Nothing was tested: this report holds no cases and no maps."));
+  } else {
+    main.append(
+      el("dl", { class: "facts" }, fact("Surprises", format(surprises), surprises ? "bad" : "good"),
+         fact("Cases", format(cases.length)), fact("Map cells", format(mapCells)),
+         fact("Boundaries", format(boundaries.length)),
+         isNumber(data.seconds) ? fact("Run time", `${data.seconds < 10 ? data.seconds.toFixed(1) : Math.round(data.seconds)} s`) : null),
+      el("p", {}, surprises
+        ? el("span", { class: "bad" }, `${count(surprises, "verdict was", "verdicts were")} not as expected.`)
+        : "Every case ended as it was expected to."),
+      el("p", {}, "Each case and each cell of a map has a verdict, and one or several that theory or common sense " +
+        "expect; another one is a surprise, and outlined. The signs are:"),
+      el("ul", { class: "legend" }, ...[...verdicts.keys()].map((name) => el("li", {}, verdictMark(name)))));
+  }
+  const sections = [
+    ["maps", "Maps", maps, () => [el("div", { class: "charts" }, ...maps.map(mapChart))]],
+    ["boundaries", "Boundaries of stability", boundaries, () => [
+      el("div", { class: "charts" }, ...boundaryCharts(boundaries)),
+      table([{ name: "settings", title: "Settings" }, { name: "measured", title: "Measured", unit: "N/m" },
+             { name: "exact", title: "Exact", unit: "N/m" },
+             { name: "ratio", title: "Measured / exact", value: (one) => (one.exact ? one.measured / one.exact : null) },
+             { name: "passive", title: "Passive up to", unit: "N/m" }],
+            boundaries, { label: "Boundaries of stability" }).element]],
+    ["traces", "Traces", traces, () => [el("div", { class: "charts" }, ...traces.map(traceChart))]],
+    ["cases", "Cases", cases, () => caseTables(cases)],
+  ].filter(([, , content]) => content.length > 0);
+  main.append(contents(sections));
+  for (const [id, title, , parts] of sections) main.append(el("section", { id }, el("h2", {}, title), ...parts()));
+});

@@ -1,0 +1,170 @@
+"use strict";
+// Charts of every page: looks, scales with their ticks, legends and tooltips. Text from the data reaches the
+// chart library as text of SVG elements, and tooltips as elements made here.
+
+// Okabe & Ito's palette, but for its yellow, which is lost on white. A symbol goes
+// with each colour, so that grey print tells them apart.
+const colours = ["#0072b2", "#d55e00", "#009e73", "#b65c92", "#e69f00", "#3fa7e0", "#333333"];
+const symbols = ["circle", "rect", "triangle", "diamond", "roundRect", "arrow", "pin"];
+const dashes = ["solid", "dashed", "dotted"];
+/** The look of the i-th series, the same in every chart of a page. */
+const lookOf = (i) => ({
+  colour: colours[i % colours.length],
+  symbol: symbols[i % symbols.length],
+  dash: dashes[Math.floor(i / colours.length) % dashes.length],
+});
+
+// ---- Scales. ECharts draws everything on linear axes, of the values' logarithms where one is asked for: so
+// ticks are ours, and rectangles and lines meet on any axis.
+
+/** Round values between low and high, about `count` of them. */
+function roundTicks(low, high, count = 6) {
+  const raw = (high - low) / count;
+  const unit = 10 ** Math.floor(Math.log10(raw));
+  const step = [1, 2, 5, 10].find((m) => m * unit >= raw * 0.999) * unit;
+  const ticks = [];
+  for (let k = Math.ceil(low / step - 1e-9); k * step <= high + 1e-9 * step; k += 1) ticks.push(k * step);
+  return ticks;
+}
+
+/** Ticks from 10^low to 10^high, with the labelled ones among them. */
+function logarithmicTicks(low, high) {
+  const between = (mantissas) => {
+    const found = [];
+    for (let k = Math.floor(low); k <= high; k += 1)
+      for (const m of mantissas) {
+        const at = k + Math.log10(m);
+        if (at >= low - 1e-9 && at <= high + 1e-9) found.push(Number(`${m}e${k}`));
+      }
+    return found;
+  };
+  const decades = high - low;
+  if (decades < 0.5) {
+    const ticks = roundTicks(10 ** low, 10 ** high, 4);
+    return { ticks, labelled: ticks };
+  }
+  if (decades < 2.2)
+    return { ticks: between([1, 2, 3, 4, 5, 6, 7, 8, 9]), labelled: between(decades < 1 ? [1, 2, 3, 4, 5, 7] : [1, 2, 5]) };
+  const every = Math.ceil(decades / 7);
+  return {
+    ticks: between(decades < 5 ? [1, 2, 3, 4, 5, 6, 7, 8, 9] : [1]),
+    labelled: between([1]).filter((value) => Math.round(Math.log10(value)) % every === 0),
+  };
+}
+
+/**
+ * Where values stand on an axis. `values` are what it must hold (others than positive ones have no place on a
+ * logarithmic one); `margin` is the share of the axis left free at each end.
+ */
+function scaleOf(values, { logarithmic = false, margin = 0.05, title = "", unit = "" } = {}) {
+  const at = (value) => {
+    if (!isNumber(value) || (logarithmic && value <= 0)) return null;
+    return logarithmic ? Math.log10(value) : value;
+  };
+  let low = Infinity, high = -Infinity;
+  for (const place of values.map(at))
+    if (place !== null) [low, high] = [Math.min(low, place), Math.max(high, place)];
+  if (low > high) [low, high] = [0, 1];
+  const least = logarithmic ? 0.3 : Math.max(Math.abs(high) * 1e-6, 1e-12);
+  const free = margin * Math.max(high - low, margin > 0 || high === low ? least : 0);
+  low -= free;
+  high += free;
+  const { ticks, labelled } = logarithmic
+    ? logarithmicTicks(low, high)
+    : { ticks: roundTicks(low, high), labelled: roundTicks(low, high) };
+  const back = (place) => (logarithmic ? 10 ** place : place);
+  const places = ticks.map(at);
+  const axis = {
+    type: "value", min: low, max: high, name: withUnit(title, unit), nameLocation: "middle", nameGap: 30,
+    nameTextStyle: { color: "#1d2329", fontSize: 12 },
+    axisLine: { show: true, onZero: false, lineStyle: { color: "#8b969e" } },
+    axisTick: { show: true, customValues: places, length: 4 },
+    axisLabel: {
+      customValues: labelled.map(at), color: "#1d2329", fontSize: 11, hideOverlap: true,
+      formatter: (place) => tickText(back(place)),
+    },
+    splitLine: { lineStyle: { color: ticks.map((tick) => (labelled.includes(tick) ? "#dde2e6" : "#f1f3f5")) } },
+  };
+  return { at, low, high, from: back(low), to: back(high), axis };
+}
+
+// ---- Charts.
+const charts = [];
+
+/** The small picture beside a name in a legend: a line with its symbol, or a filled square with a sign in it. */
+function swatch({ colour, symbol, dash, fill, sign, ink }) {
+  const space = "http://www.w3.org/2000/svg";
+  const make = (tag, attributes, text = "") => {
+    const shape = document.createElementNS(space, tag);
+    for (const [name, value] of Object.entries(attributes)) shape.setAttribute(name, value);
+    shape.textContent = text;
+    return shape;
+  };
+  const picture = make("svg", { width: fill ? 14 : 26, height: 14, "aria-hidden": "true" });
+  if (fill) {
+    picture.append(make("rect", { width: 14, height: 14, rx: 2, fill, stroke: colour ?? "#00000033",
+                                  "stroke-width": colour ? 3 : 1 }));
+    if (sign) picture.append(
+      make("text", { x: 7, y: 11, "text-anchor": "middle", "font-size": 11, fill: ink }, sign));
+    return picture;
+  }
+  const dashed = { dashed: "6 3", dotted: "2 3" }[dash] ?? "none";
+  if (dash !== "none")
+    picture.append(make("path", { d: "M0 7H26", stroke: colour, "stroke-width": 2, "stroke-dasharray": dashed }));
+  const outline = {
+    circle: "M13 3a4 4 0 1 0 0.01 0z", ring: "M13 2a5 5 0 1 0 0.01 0z", rect: "M9 3h8v8h-8z",
+    triangle: "M13 2l5 9h-10z", diamond: "M13 2l5 5-5 5-5-5z", roundRect: "M10.5 3h5l1.5 1.5v5l-1.5 1.5h-5l-1.5-1.5v-5z",
+    arrow: "M13 2l4 10-4-3-4 3z", pin: "M13 13l-4-6a4 4 0 1 1 8 0z",
+  }[symbol];
+  if (outline)
+    picture.append(make("path", { d: outline, fill: symbol === "ring" ? "none" : colour, stroke: colour,
+                                  "stroke-width": 1.5 }));
+  return picture;
+}
+
+/**
+ * A chart with its title and legend. `legend`: [{name, text, colour, symbol, dash, fill, ...}]; an entry with
+ * `series: true` hides and shows the series of its name. It is drawn once the page stands.
+ */
+function chart({ title, note = null, legend = [], option, height = null }) {
+  const canvas = el("div", { class: "canvas", style: height && `height: ${height}` });
+  const one = { canvas, option, drawn: null };
+  const toggle = (name) => (event) => {
+    const button = event.currentTarget;
+    button.setAttribute("aria-pressed", button.getAttribute("aria-pressed") === "false");
+    one.drawn.dispatchAction({ type: "legendToggleSelect", name });
+  };
+  const entries = legend.map((entry) => {
+    const parts = [swatch(entry), el("span", {}, entry.text ?? entry.name)];
+    return el("li", {}, entry.series
+      ? el("button", { type: "button", "aria-pressed": "true", click: toggle(entry.name) }, ...parts)
+      : el("span", {}, ...parts));
+  });
+  charts.push(one);
+  option.legend = { show: false };
+  option.aria = {
+    enabled: true,
+    label: { description: [title, ...legend.map((entry) => entry.text ?? entry.name)].join("; ") },
+  };
+  return el("figure", {}, el("figcaption", {}, title, note && el("small", {}, note)), canvas,
+            entries.length ? el("ul", { class: "legend" }, ...entries) : null);
+}
+
+/** What every chart's option starts from. `tip(item)` gives what is shown about the item under the pointer. */
+const chartBase = (tip) => ({
+  animation: false,
+  textStyle: { fontFamily: "system-ui, -apple-system, 'Segoe UI', Roboto, 'Noto Sans', 'DejaVu Sans', sans-serif" },
+  grid: { left: 64, right: 18, top: 14, bottom: 48 },
+  tooltip: { trigger: "item", confine: true, formatter: (item) => tip(item) ?? "" },
+});
+
+/** A tooltip: a heading, and names with their values. */
+const tipOf = (heading, pairs) =>
+  el("div", { class: "tip" }, el("strong", {}, heading),
+     el("dl", {}, ...pairs.flatMap(([name, value]) => [el("dt", {}, name), el("dd", {}, format(value))])));
+
+/** A line, through [x, y] in the data's values. */
+const lineOf = (name, points, x, y, look, more = {}) => ({
+  type: "line", name, data: points.map(([px, py]) => [x.at(px), y.at(py)]), symbol: "none", silent: true,
+  lineStyle: { color: look.colour, type: look.dash ?? "solid", width: look.width ?? 1.5 }, ...more,
+});

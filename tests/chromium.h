@@ -1,0 +1,75 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "test_folder.h"
+
+namespace sandstroke {
+
+/// What headless Chromium made of a page.
+struct OpenedPage {
+  std::string dom;                   ///< the document once it had settled
+  std::vector<std::string> console;  ///< what scripts and browser wrote to the console
+  nlohmann::json answer;             ///< of the probe
+};
+
+/// Opens a page and asks it: `probe` is a JavaScript expression, evaluated once the page's scripts ran; its
+/// value comes back as JSON. It sees what the scripts declared.
+inline OpenedPage open_in_chromium(const std::string& page, const std::string& probe = "null") {
+  const TestFolder folder;
+  std::ofstream(folder / "page.html")
+      << page << "<script>document.documentElement.dataset.answer = encodeURIComponent(JSON.stringify("
+      << probe << "))</script>\n";
+  // The page is ours and reads nothing else: no sandbox, which root (as in CI) could not have. Virtual time
+  // runs until nothing is left to do, at most so many milliseconds.
+  const std::string at = folder.path().string();
+  const std::string command =
+      "timeout 120 chromium --headless --no-sandbox --disable-gpu --disable-dev-shm-usage --disable-quic "
+      "--no-first-run --disable-background-networking --disable-component-update --disable-sync "
+      "--window-size=1200,4000 --virtual-time-budget=10000 --enable-logging=stderr --user-data-dir='" +
+      at + "/profile' --dump-dom 'file://" + at + "/page.html' > '" + at + "/dom' 2> '" + at + "/log'";
+  OpenedPage opened;
+  EXPECT_EQ(std::system(command.c_str()), 0) << "Chromium did not end well";
+  std::ostringstream dom;
+  dom << std::ifstream(folder / "dom").rdbuf();
+  opened.dom = dom.str();
+  std::ifstream log(folder / "log");
+  for (std::string line; std::getline(log, line);)
+    if (line.find("CONSOLE") != std::string::npos) opened.console.push_back(line);
+
+  const std::string name = "data-answer=\"";
+  const std::size_t begin = opened.dom.find(name), end = opened.dom.find('"', begin + name.size());
+  if (begin == std::string::npos || end == std::string::npos) {
+    ADD_FAILURE() << "the page did not answer the probe: " << probe;
+    return opened;
+  }
+  std::string text;
+  for (std::size_t i = begin + name.size(); i < end; ++i)
+    if (opened.dom[i] == '%') {
+      text += static_cast<char>(std::stoi(opened.dom.substr(i + 1, 2), nullptr, 16));
+      i += 2;
+    } else {
+      text += opened.dom[i];
+    }
+  opened.answer = nlohmann::json::parse(text, nullptr, false);
+  return opened;
+}
+
+/// Tests that look at pages: skipped where Chromium is not installed, but not in CI.
+class ChromiumTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (std::system("command -v chromium > /dev/null") == 0) return;
+    if (std::getenv("CI")) FAIL() << "Chromium is not installed: run tools/setup";
+    GTEST_SKIP() << "Chromium is not installed, so pages cannot be looked at: run tools/setup";
+  }
+};
+
+}  // namespace sandstroke
