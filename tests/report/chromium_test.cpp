@@ -206,7 +206,6 @@ TEST_F(Stress, SurprisesOnlyLeavesSurprisesOnly) {
   EXPECT_EQ(page.answer, Json({4, {"in a corner"}}));
 }
 
-// What a page must say when it holds nothing.
 TEST_F(AnyPage, WithoutDataSaysSo) {
   const Json none = Json::array();
   const Json bench = {{"problems", none}, {"columns", none},   {"runs", none},
@@ -224,7 +223,43 @@ TEST_F(AnyPage, WithoutDataSaysSo) {
   }
 }
 
-// A page that fails counts and tells it, rather than to stay empty.
+// Numbers that leave a chart no room, or nothing to draw.
+TEST_F(AnyPage, ValuesWithoutASpreadOrAPlaceAreNoErrors) {
+  Json bench = bench_data();
+  for (Json& run : bench["runs"]) {
+    run["wall_seconds"] = 1.0;
+    run["l1"] = run["problem"] == "cone" ? Json(1e-300) : Json(nullptr);
+    run["cells"] = 512;
+    if (run["slope_error"].is_array())
+      for (Json& error : run["slope_error"]) error = nullptr;
+  }
+  Json stress = stress_data();
+  stress["maps"] = {stress["maps"][0]};
+  Json& map = stress["maps"][0];
+  map["x"]["values"] = {1e3};
+  map["y"]["values"] = {1e300};
+  map["verdict"] = {{"diverged"}};
+  map["surprise"] = {{true}};
+  for (Json& boundary : stress["boundaries"]) boundary["measured"] = nullptr;
+  Json& trace = stress["traces"][0];
+  trace["time"] = {0.5};
+  for (Json& series : trace["series"]) series["values"] = {1e300};
+  // The cone's run times; the map and the trace.
+  for (const auto& [script, data, charts] :
+       {std::tuple{PageScript::bench, bench, 1}, std::tuple{PageScript::stress, stress, 2}}) {
+    const OpenedPage page = open(
+        script, data,
+        function(
+            R"js(
+      return [)js" +
+            state +
+            R"js(, [...document.querySelectorAll(".canvas")].map((one) => /NaN|Infinity/.test(one.innerHTML))];)js"));
+    EXPECT_EQ(page.answer[0], Json({"true", charts, 0}));
+    for (const auto& broken : page.answer[1]) EXPECT_EQ(broken, false);
+    EXPECT_TRUE(page.console.empty()) << page.console.front();
+  }
+}
+
 TEST_F(AnyPage, AnErrorIsCountedAndShown) {
   const OpenedPage page = open(PageScript::bench, {{"runs", 5}},
                                "[" + state + ", document.querySelector('.warning')?.textContent]");

@@ -10,7 +10,16 @@ TEST(Page, HoldsAllItNeedsAndNothingFromAnywhereElse) {
   EXPECT_EQ(page.find("<script src"), std::string::npos);
   EXPECT_EQ(page.find("<link"), std::string::npos);
   EXPECT_NE(page.find("<title>Sand &amp; stress</title>"), std::string::npos);
-  EXPECT_NE(page.find("Licensed to the Apache Software Foundation"), std::string::npos);
+}
+
+TEST(Page, HoldsTheLicenceAndTheNoticeOfTheChartLibraryInAComment) {
+  const std::string page = html_page("t", PageScript::bench, {});
+  const std::size_t begin = page.find("<!--"), end = page.find("-->", begin);
+  ASSERT_NE(end, std::string::npos);
+  const std::string comment = page.substr(begin, end - begin);
+  EXPECT_NE(comment.find("Apache License\n"), std::string::npos);
+  EXPECT_NE(comment.find("END OF TERMS AND CONDITIONS"), std::string::npos);
+  EXPECT_NE(comment.find("This product includes software developed at"), std::string::npos);
 }
 
 TEST(Page, DataCannotEndItsScriptElement) {

@@ -207,12 +207,12 @@ drawPage((data, main) => {
              { name: "points", title: "Points" }], orders, { label: "Orders of convergence" }).element],
     estimates: () => {
       const outside = (row) => isNumber(row.ratio) && (row.ratio < 1 / 3 || row.ratio > 3);
-      const count = estimates.filter(outside).length;
+      const known = estimates.filter((row) => isNumber(row.ratio)), count = known.filter(outside).length;
       return [
         el("p", {}, "What a run states as its own error, against the true one. ",
            el("span", { class: count ? "bad" : "good" },
-              count ? `${count} of ${estimates.length} are not within a factor of 3.`
-                    : `All ${estimates.length} are within a factor of 3.`)),
+              count ? `${count} of ${known.length} are not within a factor of 3.`
+                    : `All ${known.length} are within a factor of 3.`)),
         table([problemColumn, { name: "label", title: "Run" }, { name: "quantity", title: "Quantity" },
                { name: "estimate", title: "Estimate" }, { name: "truth", title: "Truth" },
                { name: "ratio", title: "Ratio", cell: (row) => outside(row)

@@ -43,11 +43,12 @@ function logarithmicTicks(low, high) {
     const ticks = roundTicks(10 ** low, 10 ** high, 4);
     return { ticks, labelled: ticks };
   }
+  const all = [1, 2, 3, 4, 5, 6, 7, 8, 9];
   if (decades < 2.2)
-    return { ticks: between([1, 2, 3, 4, 5, 6, 7, 8, 9]), labelled: between(decades < 1 ? [1, 2, 3, 4, 5, 7] : [1, 2, 5]) };
+    return { ticks: between(all), labelled: between(decades < 1 ? [1, 2, 3, 4, 5, 7] : [1, 2, 5]) };
   const every = Math.ceil(decades / 7);
   return {
-    ticks: between(decades < 5 ? [1, 2, 3, 4, 5, 6, 7, 8, 9] : [1]),
+    ticks: between(decades < 5 ? all : [1]),
     labelled: between([1]).filter((value) => Math.round(Math.log10(value)) % every === 0),
   };
 }
@@ -66,7 +67,8 @@ function scaleOf(values, { logarithmic = false, margin = 0.05, title = "", unit 
     if (place !== null) [low, high] = [Math.min(low, place), Math.max(high, place)];
   if (low > high) [low, high] = [0, 1];
   const least = logarithmic ? 0.3 : Math.max(Math.abs(high) * 1e-6, 1e-12);
-  const free = margin * Math.max(high - low, margin > 0 || high === low ? least : 0);
+  if (high === low || (margin > 0 && high - low < least)) [low, high] = [low - least / 2, high + least / 2];
+  const free = margin * (high - low);
   low -= free;
   high += free;
   const { ticks, labelled } = logarithmic
@@ -154,7 +156,7 @@ function chart({ title, note = null, legend = [], option, height = null }) {
 const chartBase = (tip) => ({
   animation: false,
   textStyle: { fontFamily: "system-ui, -apple-system, 'Segoe UI', Roboto, 'Noto Sans', 'DejaVu Sans', sans-serif" },
-  grid: { left: 64, right: 18, top: 14, bottom: 48 },
+  grid: { left: 64, right: 26, top: 14, bottom: 48 },
   tooltip: { trigger: "item", confine: true, formatter: (item) => tip(item) ?? "" },
 });
 

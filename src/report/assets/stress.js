@@ -134,18 +134,32 @@ function boundaryCharts(boundaries) {
   return charts;
 }
 
+/** In words: how far off the worst is, and whether a passive loop was unstable. */
+function boundaryText(boundaries) {
+  const off = boundaries.map((one) => Math.abs(one.measured / one.exact - 1)).filter(isNumber);
+  const outside = off.filter((value) => value > 0.02).length;
+  const broken = boundaries.filter((one) => isNumber(one.measured) && one.passive > one.measured).length;
+  const say = (bad, text) => el("span", { class: bad ? "bad" : "good" }, text);
+  return el("p", {}, say(outside, outside ? `${outside} of ${off.length} differ by more than 2 % from the exact boundary`
+                                          : `All ${off.length} are within 2 % of the exact boundary`),
+            off.length ? ` (at most ${format(100 * Math.max(...off), false)} %); ` : "; ",
+            say(broken, broken ? `${count(broken, "setting")} unstable where the passivity condition holds.`
+                               : "every passive loop is stable."));
+}
+
 function traceChart(trace) {
+  const lookOfTrace = (i) => ({ ...lookOf(i), dash: dashes[i % dashes.length], symbol: "none" });
   const x = scaleOf(trace.time, { margin: 0, title: "time", unit: "s" });
   const y = scaleOf(trace.series.flatMap(({ values }) => values), { title: trace.y_name });
   return chart({
     title: trace.title, note: trace.text,
-    legend: trace.series.map(({ name }, i) => ({ name, ...lookOf(i), symbol: "none", series: true })),
+    legend: trace.series.map(({ name }, i) => ({ name, ...lookOfTrace(i), series: true })),
     option: {
       ...chartBase(() => null),
       xAxis: x.axis,
       yAxis: { ...y.axis, nameGap: 46 },
       series: trace.series.map(({ name, values }, i) =>
-        lineOf(name, values.map((value, k) => [trace.time[k], value]), x, y, lookOf(i), { sampling: "minmax" })),
+        lineOf(name, values.map((value, k) => [trace.time[k], value]), x, y, lookOfTrace(i), { sampling: "minmax" })),
     },
   });
 }
@@ -201,7 +215,7 @@ drawPage((data, main) => {
   const sections = [
     ["maps", "Maps", maps, () => [el("div", { class: "charts" }, ...maps.map(mapChart))]],
     ["boundaries", "Boundaries of stability", boundaries, () => [
-      el("div", { class: "charts" }, ...boundaryCharts(boundaries)),
+      boundaryText(boundaries), el("div", { class: "charts" }, ...boundaryCharts(boundaries)),
       table([{ name: "settings", title: "Settings" }, { name: "measured", title: "Measured", unit: "N/m" },
              { name: "exact", title: "Exact", unit: "N/m" },
              { name: "ratio", title: "Measured / exact", value: (one) => (one.exact ? one.measured / one.exact : null) },
