@@ -1,7 +1,9 @@
 #include "chromium.h"
 
-#include <fmt/format.h>
+#include <spdlog/fmt/fmt.h>
 
+#include <algorithm>
+#include <map>
 #include <set>
 
 #include "report/page.h"
@@ -194,6 +196,19 @@ TEST_F(Stress, ACurveCrossesTheCellItsPointIsIn) {
     return [at[2] - (cell.x + cell.width / 2), at[3] - (cell.y + cell.height / 2)];)js"));
   EXPECT_NEAR(page.answer[0], 0.0, 1.0);
   EXPECT_NEAR(page.answer[1], 0.0, 1.0);
+}
+
+TEST_F(Stress, SaysHowManyBoundariesAreOffAndWhichPassiveLoopsAreNotStable) {
+  Json data = stress_data();
+  const std::string probe =
+      "[...document.querySelectorAll('#boundaries p span')].map((one) => [one.className, "
+      "one.textContent.split(' ').slice(0, 3).join(' ')])";
+  EXPECT_EQ(open(PageScript::stress, data, probe).answer,
+            Json::array({{"good", "All 2 are"}, {"good", "every loop is"}}));
+  data["boundaries"][0]["measured"] = 206.0;  // 3 % off
+  data["boundaries"][1]["measured"] = nullptr;
+  EXPECT_EQ(open(PageScript::stress, data, probe).answer,
+            Json::array({{"bad", "2 of 2"}, {"bad", "1 not seen"}}));
 }
 
 TEST_F(Stress, SurprisesOnlyLeavesSurprisesOnly) {

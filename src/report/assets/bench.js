@@ -2,26 +2,25 @@
 // The work-precision study: for each problem run time against error, error against resolution and slope
 // errors by direction; then orders, estimates and all runs as tables.
 
-/** What a page of the study is about, in the order of the runs. */
+/** The series, in the order of the runs. */
 const seriesOf = (runs) => [...new Set(runs.map((run) => run.series))];
+/** Whether the row has a place on logarithmic axes. */
+const plotted = (row, ...names) => names.every((name) => isNumber(row[name]) && row[name] > 0);
 const toTwo = (value) => (isNumber(value) ? withMinus(value.toFixed(2)) : "–");
-const plotted = (run, ...names) => names.every((name) => isNumber(run[name]) && run[name] > 0);
 
 drawPage((data, main) => {
   const { problems, columns, runs, orders, estimates, notes } = data;
   const looks = new Map(seriesOf(runs).map((series, i) => [series, lookOf(i)]));
   const column = (name) => columns.find((one) => one.name === name) ?? { name, title: name, unit: "" };
   const tip = (problem, run) =>
-    tipOf(`${run.series} · ${run.label}`,
-          columns.filter(({ name }) => isNumber(run[name]))
-            .map(({ name, title, unit }) => [withUnit(name === problem.error ? problem.error_title : title, unit),
-                                             run[name]]));
+    tipOf(`${run.series} · ${run.label}`, columns.filter(({ name }) => isNumber(run[name])).map((one) =>
+      [withUnit(one.name === problem.error ? problem.error_title : one.title, one.unit), run[one.name]]));
 
   /** The points of a series as a line; its look is the series'. */
   const curve = (problem, series, points, x, y, xName) => {
     const { colour, symbol, dash } = looks.get(series);
     return {
-      type: "line", name: series, symbol, symbolSize: 8, itemStyle: { color: colour },
+      type: "line", name: series, symbol: outlined(symbol), symbolSize: 8, itemStyle: { color: colour },
       lineStyle: { color: colour, type: dash, width: 1.75 }, emphasis: { focus: "series" },
       data: points.map((run) => ({ value: [x.at(run[xName]), y.at(run[problem.error])], run })),
     };
@@ -34,25 +33,29 @@ drawPage((data, main) => {
     yAxis: { ...y.axis, nameGap: 46 },
     series,
   });
-  const convergedLine = (problem, x, y) =>
-    lineOf("converged", [[x.from, problem.converged_to], [x.to, problem.converged_to]], x, y,
-           { colour: "#5b6670", dash: "dotted" });
-  const convergedLegend = { name: "converged", text: "how far the reference is converged", colour: "#5b6670",
-                            dash: "dotted", series: true };
+  const errorScale = (problem, points) =>
+    scaleOf([...points.map((run) => run[problem.error]), problem.converged_to],
+            { logarithmic: true, title: problem.error_title, unit: problem.error_unit });
+  /** Where the problem's reference is itself only converged so far: a line, and its name in the legend. */
+  const addReference = (problem, x, y, lines, legend) => {
+    if (!plotted(problem, "converged_to")) return;
+    const look = { colour: "#5b6670", dash: "dotted" };
+    lines.push(lineOf("converged", [[x.from, problem.converged_to], [x.to, problem.converged_to]], x, y, look));
+    legend.push({ name: "converged", text: "how far the reference is converged", series: true, ...look });
+  };
 
   /** Run time against error, the points as they were run; no run beats one on the front in both. */
   function workChart(problem, own) {
     const points = own.filter((run) => plotted(run, "wall_seconds", problem.error));
     if (points.length === 0) return null;
     const shown = seriesOf(points);
-    const known = isNumber(problem.converged_to) && problem.converged_to > 0;
     const { title, unit } = column("wall_seconds");
     const x = scaleOf(points.map((run) => run.wall_seconds), { logarithmic: true, title, unit });
-    const y = scaleOf([...points.map((run) => run[problem.error]), ...(known ? [problem.converged_to] : [])],
-                      { logarithmic: true, title: problem.error_title, unit: problem.error_unit });
+    const y = errorScale(problem, points);
     const front = points.filter((run) => run.pareto).sort((a, b) => a.wall_seconds - b.wall_seconds);
-    const left = points.length < own.length
-      ? ` ${own.length - points.length} of ${own.length} runs have no place on logarithmic axes: see the table.` : "";
+    const left = own.length - points.length;
+    const note = "Lower left is better." +
+      (left > 0 ? ` ${left} of ${own.length} runs have no place on logarithmic axes: see the table.` : "");
     const lines = shown.map((series) =>
       curve(problem, series, points.filter((run) => run.series === series), x, y, "wall_seconds"));
     const legend = legendOf(shown);
@@ -70,14 +73,10 @@ drawPage((data, main) => {
         data: front.map((run) => [x.at(run.wall_seconds), y.at(run[problem.error])]),
       });
       legend.push({ name: "front", text: "Pareto front: no run is both faster and more exact", colour: "#1d2329",
-                    symbol: "ring", dash: "none", series: true });
+                    symbol: symbols[0], hollow: true, dash: "none", series: true });
     }
-    if (known) {
-      lines.push(convergedLine(problem, x, y));
-      legend.push(convergedLegend);
-    }
-    return chart({ title: "Run time against error", note: `Lower left is better.${left}`, legend,
-                   option: frame(problem, x, y, lines) });
+    addReference(problem, x, y, lines, legend);
+    return chart({ title: "Run time against error", note, legend, option: frame(problem, x, y, lines) });
   }
 
   /** Error against cells, for the series that vary them: the smallest error at each number of cells. */
@@ -91,11 +90,9 @@ drawPage((data, main) => {
       .map(([series, at]) => [series, [...at.values()].sort((a, b) => a.cells - b.cells)]);
     if (varied.length === 0) return null;
     const all = varied.flatMap(([, points]) => points);
-    const known = isNumber(problem.converged_to) && problem.converged_to > 0;
     const { title, unit } = column("cells");
     const x = scaleOf(all.map((run) => run.cells), { logarithmic: true, title, unit });
-    const y = scaleOf([...all.map((run) => run[problem.error]), ...(known ? [problem.converged_to] : [])],
-                      { logarithmic: true, title: problem.error_title, unit: problem.error_unit });
+    const y = errorScale(problem, all);
     const text = (series) => {
       const fit = orders.find((one) =>
         one.problem === problem.name && one.series === series && one.error === problem.error);
@@ -104,13 +101,12 @@ drawPage((data, main) => {
     };
     const lines = varied.map(([series, points]) => curve(problem, series, points, x, y, "cells"));
     const legend = legendOf(varied.map(([series]) => series), text);
-    if (known) {
-      lines.push(convergedLine(problem, x, y));
-      legend.push(convergedLegend);
-    }
-    return chart({ title: "Error against resolution",
-                   note: "The smallest error of each series at each resolution. Orders as fitted, with their confidence.",
-                   legend, option: frame(problem, x, y, lines) });
+    addReference(problem, x, y, lines, legend);
+    return chart({
+      title: "Error against resolution",
+      note: "The smallest error of each series at each resolution. Orders as fitted, with their confidence.",
+      legend, option: frame(problem, x, y, lines),
+    });
   }
 
   /** Slope errors by direction, of each series' run with the most cells. asinh: linear within the bound of
@@ -118,61 +114,65 @@ drawPage((data, main) => {
   function slopeChart(problem, own) {
     const bound = 0.15;
     const at = (error) => (isNumber(error) ? Math.asinh(error / bound) : null);
-    const finest = seriesOf(own).map((series) => own
-      .filter((run) => run.series === series && run.directions?.length && run.slope_error?.some(isNumber))
-      .reduce((best, run) => (!best || (run.cells ?? 0) > (best.cells ?? 0) ? run : best), null)).filter(Boolean);
-    if (finest.length === 0) return null;
+    const known = own.filter((run) => run.directions?.length && run.slope_error?.some(isNumber));
+    if (known.length === 0) return null;
+    const finest = seriesOf(known).map((series) => known.filter((run) => run.series === series)
+      .reduce((best, run) => ((run.cells ?? 0) > (best.cells ?? 0) ? run : best)));
     const places = finest.flatMap((run) => run.slope_error.map(at)).filter((place) => place !== null);
     const low = Math.min(at(-bound), ...places) - 0.6, high = Math.max(at(bound), ...places) + 0.15;
     const rings = [0, bound, 0.5, 2, 8, 30].flatMap((value) => (value > 0 ? [-value, value] : [value]))
       .filter((value) => at(value) > low + 0.4 && at(value) < high).sort((a, b) => a - b);
-    const circle = (value, type, width) => ({
-      type: "line", coordinateSystem: "polar", name: "bound", silent: true, symbol: "none", z: 1,
-      lineStyle: { color: "#1d2329", width, type },
+    const circle = (value) => ({
+      type: "line", coordinateSystem: "polar", silent: true, symbol: "none", z: 1,
+      ...(Math.abs(value) > bound ? { name: "grid", lineStyle: { color: "#e9edef", width: 1 } }
+        : { name: "bound", lineStyle: { color: "#1d2329", width: 1, type: value === 0 ? "solid" : "dashed" } }),
       data: Array.from({ length: 181 }, (_, i) => [at(value), 2 * i]),
     });
     const lines = finest.map((run) => {
       const { colour, symbol, dash } = looks.get(run.series);
       const points = run.directions.map((direction, i) => ({
-        value: [at(run.slope_error[i]), direction], tip: [direction, run.slope_error[i], run] }));
+        value: [at(run.slope_error[i]), direction], direction, error: run.slope_error[i], run }));
       const gap = Math.max(...run.directions.slice(1).map((direction, i) => direction - run.directions[i]));
       const closes = 360 - (run.directions.at(-1) - run.directions[0]) <= 1.5 * gap;
+      if (closes) points.push({ ...points[0], value: [points[0].value[0], run.directions[0] + 360] });
       return {
-        type: "line", coordinateSystem: "polar", name: run.series, symbol, symbolSize: 5, data: closes
-          ? [...points, { ...points[0], value: [points[0].value[0], points[0].value[1] + 360] }] : points,
+        type: "line", coordinateSystem: "polar", name: run.series, symbol: outlined(symbol), symbolSize: 5,
         itemStyle: { color: colour }, lineStyle: { color: colour, type: dash, width: 1.75 },
-        emphasis: { focus: "series" },
+        emphasis: { focus: "series" }, data: points,
       };
     });
-    const base = chartBase((item) => item.data?.tip && tipOf(`${item.data.tip[2].series} · ${item.data.tip[2].label}`, [
-      ["direction (°)", item.data.tip[0]], ["slope error (°)", item.data.tip[1]]]));
-    const legend = finest.map((run) => ({ name: run.series, series: true, ...looks.get(run.series),
-                                          text: isNumber(run.cells) ? `${run.series}, ${format(run.cells)} cells` : run.series }));
-    legend.push({ name: "bound", text: "no error, and ±0.15°", colour: "#1d2329", dash: "dashed", series: true });
+    const tipOfPoint = ({ direction, error, run }) =>
+      tipOf(`${run.series} · ${run.label}`, [["direction (°)", direction], ["slope error (°)", error]]);
+    const legend = finest.map((run) => ({
+      name: run.series, series: true, ...looks.get(run.series),
+      text: run.series + (isNumber(run.cells) ? `, ${format(run.cells)} cells` : ""),
+    }));
+    legend.push({ name: "bound", text: "no error, and ±0.15°", series: true, colour: "#1d2329", dash: "dashed" });
     return chart({
       title: "Slope error by direction",
-      note: "Degrees of slope too steep (outwards) or too flat (inwards), at the finest resolution. Linear within ±0.15°, logarithmic beyond.",
+      note: "Degrees of slope too steep (outwards) or too flat (inwards), at the finest resolution. " +
+        "Linear within ±0.15°, logarithmic beyond.",
       legend, height: "25rem",
       option: {
-        ...base,
+        ...chartBase((item) => item.data?.run && tipOfPoint(item.data)),
         polar: { radius: "78%", center: ["50%", "50%"] },
         angleAxis: { type: "value", min: 0, max: 360, interval: 45, startAngle: 0, clockwise: false,
                      axisLine: { lineStyle: { color: "#8b969e" } }, axisTick: { show: false },
                      axisLabel: { formatter: (angle) => `${angle}°`, color: "#1d2329", fontSize: 11 },
                      splitLine: { lineStyle: { color: "#e9edef" } } },
-        radiusAxis: { type: "value", min: low, max: high, axisLine: { show: false }, z: 5,
-                      axisTick: { show: false, customValues: rings.map(at) },
-                      axisLabel: { customValues: rings.filter((value) => value >= 0 || value < -bound).map(at), fontSize: 10,
-                                   backgroundColor: "#ffffffd0", padding: [1, 2], color: "#1d2329",
-                                   formatter: (place) => tickText(Number((bound * Math.sinh(place)).toPrecision(3))) },
-                      splitLine: { lineStyle: { color: "#e9edef" } } },
-        series: [circle(0, "solid", 1), circle(-bound, "dashed", 1), circle(bound, "dashed", 1), ...lines],
+        radiusAxis: { type: "value", min: low, max: high, axisLine: { show: false }, axisTick: { show: false },
+                      splitLine: { show: false }, z: 5, axisLabel: {
+                        customValues: rings.filter((value) => value !== -bound).map(at), fontSize: 10,
+                        backgroundColor: "#ffffffd0", padding: [1, 2], color: "#1d2329",
+                        formatter: (place) => tickText(Number((bound * Math.sinh(place)).toPrecision(3))) } },
+        series: [...rings.map(circle), ...lines],
       },
     });
   }
 
   main.append(el("h1", {}, document.title), machineLine(data.machine));
-  if (data.quick) main.append(el("p", { class: "warning" }, "A quick run: few and coarse runs, to see that all works."));
+  if (data.quick)
+    main.append(el("p", { class: "warning" }, "A quick run: few and coarse runs, to see that all works."));
   if (runs.length === 0) {
     main.append(el("p", {}, "Nothing was measured: this study holds no runs."));
   } else {
@@ -184,8 +184,9 @@ drawPage((data, main) => {
   }
   const titleOf = new Map(problems.map((problem) => [problem.name, problem.title]));
   const sections = problems.map((problem, i) => [`problem-${i + 1}`, problem.title]);
-  const tables = [["orders", "Orders of convergence", orders], ["estimates", "Estimated and true errors", estimates],
-                  ["runs", "All runs", runs]].filter(([, , rows]) => rows.length > 0);
+  const tables = [["orders", "Orders of convergence", orders],
+                  ["estimates", "Estimated and true errors", estimates], ["runs", "All runs", runs]]
+    .filter(([, , rows]) => rows.length > 0);
   main.append(contents([...sections, ...tables]));
 
   problems.forEach((problem, i) => {
@@ -196,10 +197,12 @@ drawPage((data, main) => {
                                 : el("p", { class: "quiet" }, "No run of this problem can be drawn.")));
   });
 
-  const problemColumn = { name: "problem", title: "Problem", value: (row) => titleOf.get(row.problem) ?? row.problem };
+  const problemColumn = { name: "problem", title: "Problem",
+                          value: (row) => titleOf.get(row.problem) ?? row.problem };
   const bodies = {
     orders: () => [
-      el("p", {}, "The error falls as the resolution to the power of the order. The range is that of 95 % confidence."),
+      el("p", {}, "The error falls as the resolution to the power of the order; the range is that of 95 % " +
+                  "confidence."),
       table([problemColumn, { name: "series", title: "Series" },
              { name: "error", title: "Error", value: (row) => column(row.error).title },
              ...[["order", "Order"], ["low", "from"], ["high", "to"]].map(([name, title]) =>
@@ -217,7 +220,8 @@ drawPage((data, main) => {
                { name: "estimate", title: "Estimate" }, { name: "truth", title: "Truth" },
                { name: "ratio", title: "Ratio", cell: (row) => outside(row)
                  ? el("span", { class: "bad" }, `${format(row.ratio, false)} ✗`) : null }],
-              estimates, { label: "Estimated and true errors", rowClass: (row) => (outside(row) ? "surprise" : null) }).element];
+              estimates, { label: "Estimated and true errors",
+                           rowClass: (row) => (outside(row) ? "surprise" : null) }).element];
     },
     runs: () => {
       const all = table([problemColumn, { name: "series", title: "Series" }, { name: "label", title: "Run" },
@@ -226,7 +230,8 @@ drawPage((data, main) => {
                         runs, { label: "All runs" });
       const choice = el("select", { change: (event) => all.show((row) =>
         event.target.value === "" || row.problem === problems[Number(event.target.value)].name) },
-        el("option", { value: "" }, "all"), ...problems.map((problem, i) => el("option", { value: i }, problem.title)));
+        el("option", { value: "" }, "all"),
+        ...problems.map((problem, i) => el("option", { value: i }, problem.title)));
       return [el("div", { class: "controls" }, el("label", {}, "Problem ", choice)), all.element];
     },
   };

@@ -1,6 +1,6 @@
 "use strict";
-// What every page shares: elements, numbers, scales, charts, tables, and drawPage(), which says on
-// <html data-ready data-charts data-errors> how it went. Text from the data only ever becomes text nodes.
+// What every page shares (but for its charts, see plot.js): elements, numbers, tables, and drawPage(), which
+// says on <html data-ready data-charts data-errors> how it went. Text from the data only becomes text nodes.
 
 const errors = { count: 0 };
 const countError = () => {
@@ -51,8 +51,9 @@ function format(value, whole = Number.isInteger(value)) {
 /** The label of a tick: as short as it can be. */
 function tickText(value) {
   const size = Math.abs(value);
-  if (size === 0 || (size >= 0.9999e-4 && size < 9.999e3)) return withMinus(String(Number(value.toPrecision(6))));
-  const [mantissa, exponent] = Number(value.toPrecision(6)).toExponential().split("e");
+  const short = Number(value.toPrecision(6));
+  if (size === 0 || (size >= 0.9999e-4 && size < 9.999e3)) return withMinus(String(short));
+  const [mantissa, exponent] = short.toExponential().split("e");
   const power = powerOfTen(Number(exponent));
   return mantissa === "1" ? power : `${withMinus(mantissa)}×${power}`;
 }

@@ -2,10 +2,13 @@
 // Charts of every page: looks, scales with their ticks, legends and tooltips. Text from the data reaches the
 // chart library as text of SVG elements, and tooltips as elements made here.
 
-// Okabe & Ito's palette, but for its yellow, which is lost on white. A symbol goes
-// with each colour, so that grey print tells them apart.
+// Okabe & Ito's palette, but for its yellow, which is lost on white. A symbol goes with each colour, so that
+// grey print tells them apart.
 const colours = ["#0072b2", "#d55e00", "#009e73", "#b65c92", "#e69f00", "#3fa7e0", "#333333"];
-const symbols = ["circle", "rect", "triangle", "diamond", "roundRect", "arrow", "pin"];
+const symbols = [  // outlines in a square of 10
+  "M5 0a5 5 0 1 0 0.01 0z", "M0 0h10v10h-10z", "M5 0l5.5 10h-11z", "M5 0l5 5-5 5-5-5z", "M5 10l5.5-10h-11z",
+  "M3.3 0h3.4v3.3h3.3v3.4h-3.3v3.3h-3.4v-3.3h-3.3v-3.4h3.3z", "M2 0h6l3 5-3 5h-6l-3-5z",
+];
 const dashes = ["solid", "dashed", "dotted"];
 /** The look of the i-th series, the same in every chart of a page. */
 const lookOf = (i) => ({
@@ -93,8 +96,8 @@ function scaleOf(values, { logarithmic = false, margin = 0.05, title = "", unit 
 // ---- Charts.
 const charts = [];
 
-/** The small picture beside a name in a legend: a line with its symbol, or a filled square with a sign in it. */
-function swatch({ colour, symbol, dash, fill, sign, ink }) {
+/** The small picture beside a name: a line with its symbol, or a filled square with a sign in it. */
+function swatch({ colour, symbol, hollow, dash, fill, sign, ink }) {
   const space = "http://www.w3.org/2000/svg";
   const make = (tag, attributes, text = "") => {
     const shape = document.createElementNS(space, tag);
@@ -112,15 +115,11 @@ function swatch({ colour, symbol, dash, fill, sign, ink }) {
   }
   const dashed = { dashed: "6 3", dotted: "2 3" }[dash] ?? "none";
   if (dash !== "none")
-    picture.append(make("path", { d: "M0 7H26", stroke: colour, "stroke-width": 2, "stroke-dasharray": dashed }));
-  const outline = {
-    circle: "M13 3a4 4 0 1 0 0.01 0z", ring: "M13 2a5 5 0 1 0 0.01 0z", rect: "M9 3h8v8h-8z",
-    triangle: "M13 2l5 9h-10z", diamond: "M13 2l5 5-5 5-5-5z", roundRect: "M10.5 3h5l1.5 1.5v5l-1.5 1.5h-5l-1.5-1.5v-5z",
-    arrow: "M13 2l4 10-4-3-4 3z", pin: "M13 13l-4-6a4 4 0 1 1 8 0z",
-  }[symbol];
-  if (outline)
-    picture.append(make("path", { d: outline, fill: symbol === "ring" ? "none" : colour, stroke: colour,
-                                  "stroke-width": 1.5 }));
+    picture.append(make("path", { d: "M0 7H26", stroke: colour, "stroke-width": 2,
+                                  "stroke-dasharray": dashed }));
+  if (symbol)
+    picture.append(make("path", { d: symbol, transform: "translate(9 3) scale(0.8)", "stroke-width": 1.75,
+                                  fill: hollow ? "none" : colour, stroke: hollow ? colour : "none" }));
   return picture;
 }
 
@@ -164,6 +163,9 @@ const chartBase = (tip) => ({
 const tipOf = (heading, pairs) =>
   el("div", { class: "tip" }, el("strong", {}, heading),
      el("dl", {}, ...pairs.flatMap(([name, value]) => [el("dt", {}, name), el("dd", {}, format(value))])));
+
+/** How the chart library is told a symbol. */
+const outlined = (symbol) => `path://${symbol}`;
 
 /** A line, through [x, y] in the data's values. */
 const lineOf = (name, points, x, y, look, more = {}) => ({

@@ -61,8 +61,11 @@ function mapChart(map) {
   const surpriseSeries = {
     type: "custom", name: "surprise", data: surprises, progressive: 0, z: 4, silent: true,
     encode: { x: [0, 2], y: [1, 3] },
-    renderItem: (params, api) => ({ type: "group", children: [["#111111", 5], [surpriseColour, 2.5]].map(
-      ([stroke, lineWidth]) => ({ type: "rect", shape: corners(api), style: { fill: "none", stroke, lineWidth } })) }),
+    renderItem: (params, api) => {
+      const outline = (stroke, lineWidth) =>
+        ({ type: "rect", shape: corners(api), style: { fill: "none", stroke, lineWidth } });
+      return { type: "group", children: [outline("#111111", 5), outline(surpriseColour, 2.5)] };
+    },
   };
   // A white line beneath each, since they cross dark and light.
   const curves = map.curves.flatMap((curve, i) => [
@@ -74,13 +77,16 @@ function mapChart(map) {
   const legend = present.map(([name, cellCount]) =>
     ({ name, text: `${name}, ${count(cellCount, "cell")}`, ...lookOfVerdict(name) }));
   if (surprises.length > 0)
-    legend.push({ name: "surprise", text: count(surprises.length, "surprise"), fill: "#ffffff", colour: surpriseColour });
+    legend.push({ name: "surprise", text: count(surprises.length, "surprise"), fill: "#ffffff",
+                  colour: surpriseColour });
   legend.push(...map.curves.map((curve, i) => ({ name: curve.name, series: true, ...theory[i % theory.length] })));
+  const tip = ({ verdict, surprise, i, j }) =>
+    tipOf(surprise ? `${verdict}: a surprise` : verdict, [[withUnit(map.x.name, map.x.unit), map.x.values[i]],
+                                                          [withUnit(map.y.name, map.y.unit), map.y.values[j]]]);
   return chart({
     title: map.title, note: map.text, legend,
     option: {
-      ...chartBase(({ data }) => data.verdict && tipOf(data.surprise ? `${data.verdict}: a surprise` : data.verdict, [
-        [withUnit(map.x.name, map.x.unit), map.x.values[data.i]], [withUnit(map.y.name, map.y.unit), map.y.values[data.j]]])),
+      ...chartBase(({ data }) => data.verdict && tip(data)),
       xAxis: { ...x.axis, splitLine: { show: false } },
       yAxis: { ...y.axis, nameGap: 46, splitLine: { show: false } },
       series: [cellSeries, ...curves, surpriseSeries],
@@ -98,20 +104,24 @@ function boundaryCharts(boundaries) {
     ["measured (N/m)", data.one.measured], ["exact (N/m)", data.one.exact],
     ["measured / exact", data.one.measured / data.one.exact], ["passive up to (N/m)", data.one.passive]]));
   const points = (name, look, x, y, value, among = usable) => ({
-    type: "scatter", name, symbol: look.symbol, symbolSize: 8, itemStyle: { color: look.colour, opacity: 0.75 },
+    type: "scatter", name, symbol: outlined(look.symbol), symbolSize: 8,
+    itemStyle: { color: look.colour, opacity: 0.75 },
     data: among.map((one) => ({ value: [x.at(one.exact), y.at(value(one))], one })),
   });
 
   const x = scaleOf(usable.map((one) => one.exact), exactAxis);
-  const ratio = scaleOf([0.97, 1.03, ...usable.map((one) => one.measured / one.exact)], { title: "measured / exact" });
+  const ratio = scaleOf([0.97, 1.03, ...usable.map((one) => one.measured / one.exact)],
+                        { title: "measured / exact" });
   const measured = { ...points("measured", blue, x, ratio, (one) => one.measured / one.exact),
                      markArea: { silent: true, itemStyle: { color: "#009e73", opacity: 0.12 },
                                  data: [[{ yAxis: 0.98 }, { yAxis: 1.02 }]] } };
   const one = lineOf("exact", [[x.from, 1], [x.to, 1]], x, ratio, { colour: "#333333", width: 1 });
   const charts = [chart({
     title: "Measured against exact boundary",
-    note: "The largest stable stiffness, by bisection, over that at which an eigenvalue of the one-tick map leaves the unit circle.",
-    legend: [{ name: "measured", ...blue, dash: "none", series: true }, { name: "band", text: "within 2 %", fill: "#dff2ec" }],
+    note: "The largest stable stiffness, by bisection, over that at which an eigenvalue of the one-tick map " +
+      "leaves the unit circle.",
+    legend: [{ name: "measured", ...blue, dash: "none", series: true },
+             { name: "band", text: "within 2 %", fill: "#dff2ec" }],
     option: { ...base, xAxis: x.axis, yAxis: { ...ratio.axis, nameGap: 46 }, series: [one, measured] },
   })];
 
@@ -121,7 +131,8 @@ function boundaryCharts(boundaries) {
                       { logarithmic: true, title: "stiffness", unit: "N/m" });
     charts.push(chart({
       title: "The passivity condition is the narrower one",
-      note: "Stiffness up to which Colgate & Schenkel's condition promises stability, and up to which the loop is stable.",
+      note: "Stiffness up to which Colgate & Schenkel's condition promises stability, and up to which the loop " +
+        "is stable.",
       legend: [{ name: "measured", text: "stable up to, measured", ...blue, dash: "none", series: true },
                { name: "passive", text: "passive up to", ...orange, dash: "none", series: true },
                { name: "exact", text: "exact boundary", colour: "#333333", dash: "solid", series: true }],
@@ -134,21 +145,22 @@ function boundaryCharts(boundaries) {
   return charts;
 }
 
-/** In words: how far off the worst is, and whether a passive loop was unstable. */
+/** In words: how far off the worst is, and whether passive loops were stable. What was not measured is neither. */
 function boundaryText(boundaries) {
-  const off = boundaries.map((one) => Math.abs(one.measured / one.exact - 1)).filter(isNumber);
-  const outside = off.filter((value) => value > 0.02).length;
-  const broken = boundaries.filter((one) => isNumber(one.measured) && one.passive > one.measured).length;
-  const say = (bad, text) => el("span", { class: bad ? "bad" : "good" }, text);
-  return el("p", {}, say(outside, outside ? `${outside} of ${off.length} differ by more than 2 % from the exact boundary`
-                                          : `All ${off.length} are within 2 % of the exact boundary`),
-            off.length ? ` (at most ${format(100 * Math.max(...off), false)} %); ` : "; ",
-            say(broken, broken ? `${count(broken, "setting")} unstable where the passivity condition holds.`
-                               : "every passive loop is stable."));
+  const off = boundaries.filter((one) => isNumber(one.measured) && one.exact > 0)
+    .map((one) => Math.abs(one.measured / one.exact - 1));
+  const all = boundaries.length, outside = all - off.filter((value) => value <= 0.02).length;
+  const unstable = all - boundaries.filter((one) => isNumber(one.measured) && one.measured >= one.passive).length;
+  const say = (bad, ifBad, ifGood) => el("span", { class: bad ? "bad" : "good" }, bad ? ifBad : ifGood);
+  return el("p", {}, say(outside, `${outside} of ${all} are not within 2 % of the exact boundary`,
+                         `All ${all} are within 2 % of the exact boundary`),
+            off.length ? ` (at most ${(100 * Math.max(...off)).toFixed(2)} % off); ` : "; ",
+            say(unstable, `${unstable} not seen stable as far as the passivity condition holds.`,
+                "every loop is stable where the passivity condition holds."));
 }
 
 function traceChart(trace) {
-  const lookOfTrace = (i) => ({ ...lookOf(i), dash: dashes[i % dashes.length], symbol: "none" });
+  const lookOfTrace = (i) => ({ ...lookOf(i), dash: dashes[i % dashes.length], symbol: null });
   const x = scaleOf(trace.time, { margin: 0, title: "time", unit: "s" });
   const y = scaleOf(trace.series.flatMap(({ values }) => values), { title: trace.y_name });
   return chart({
@@ -159,7 +171,8 @@ function traceChart(trace) {
       xAxis: x.axis,
       yAxis: { ...y.axis, nameGap: 46 },
       series: trace.series.map(({ name, values }, i) =>
-        lineOf(name, values.map((value, k) => [trace.time[k], value]), x, y, lookOfTrace(i), { sampling: "minmax" })),
+        lineOf(name, values.map((value, k) => [trace.time[k], value]), x, y, lookOfTrace(i),
+               { sampling: "minmax" })),
     },
   });
 }
@@ -177,8 +190,8 @@ function caseTables(cases) {
         cell: (one) => (one.surprise ? el("span", { class: "bad" }, "surprise") : "") },
       { name: "detail", title: "Detail" },
     ], own, { label: name, rowClass: (one) => (one.surprise ? "surprise" : null) });
-    const section = el("div", {}, el("h3", {}, name, " ",
-      el("span", { class: "quiet" }, `${count(own.length, "case")}, ${count(surprises, "surprise")}`)), rows.element);
+    const summary = `${count(own.length, "case")}, ${count(surprises, "surprise")}`;
+    const section = el("div", {}, el("h3", {}, name, " ", el("span", { class: "quiet" }, summary)), rows.element);
     return { section, rows, surprises };
   });
   const filter = (event) => groups.forEach(({ section, rows, surprises }) => {
@@ -194,7 +207,8 @@ drawPage((data, main) => {
   const { cases, maps, boundaries, traces, surprises } = data;
   const mapCells = maps.reduce((sum, map) => sum + map.verdict.reduce((cells, row) => cells + row.length, 0), 0);
   main.append(el("h1", {}, document.title), machineLine(data.machine));
-  if (data.quick) main.append(el("p", { class: "warning" }, "A quick run: coarser maps, fewer and shorter cases."));
+  if (data.quick)
+    main.append(el("p", { class: "warning" }, "A quick run: coarser maps, fewer and shorter cases."));
   const fact = (name, value, kind = null) => el("div", {}, el("dt", {}, name), el("dd", { class: kind }, value));
   const nothing = cases.length + mapCells + boundaries.length === 0;
   if (nothing) {
@@ -204,7 +218,7 @@ drawPage((data, main) => {
       el("dl", { class: "facts" }, fact("Surprises", format(surprises), surprises ? "bad" : "good"),
          fact("Cases", format(cases.length)), fact("Map cells", format(mapCells)),
          fact("Boundaries", format(boundaries.length)),
-         isNumber(data.seconds) ? fact("Run time", `${data.seconds < 10 ? data.seconds.toFixed(1) : Math.round(data.seconds)} s`) : null),
+         isNumber(data.seconds) ? fact("Run time", `${tickText(Number(data.seconds.toPrecision(3)))} s`) : null),
       el("p", {}, surprises
         ? el("span", { class: "bad" }, `${count(surprises, "verdict was", "verdicts were")} not as expected.`)
         : "Every case ended as it was expected to."),
@@ -218,7 +232,8 @@ drawPage((data, main) => {
       boundaryText(boundaries), el("div", { class: "charts" }, ...boundaryCharts(boundaries)),
       table([{ name: "settings", title: "Settings" }, { name: "measured", title: "Measured", unit: "N/m" },
              { name: "exact", title: "Exact", unit: "N/m" },
-             { name: "ratio", title: "Measured / exact", value: (one) => (one.exact ? one.measured / one.exact : null) },
+             { name: "ratio", title: "Measured / exact",
+               value: (one) => (one.exact && isNumber(one.measured) ? one.measured / one.exact : null) },
              { name: "passive", title: "Passive up to", unit: "N/m" }],
             boundaries, { label: "Boundaries of stability" }).element]],
     ["traces", "Traces", traces, () => [el("div", { class: "charts" }, ...traces.map(traceChart))]],
