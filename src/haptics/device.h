@@ -56,6 +56,7 @@ class SimulatedDevice {
   State read() const;
   /// As it is.
   const State& state() const { return state_; }
+  const DeviceSettings& settings() const { return settings_; }
 
   /// The velocity u [m/s], per axis, for which a held drag force -drag u, drag >= 0 [N s/m], beside the held
   /// `force` [N] takes energy whatever the drag, mass, hand and time step T (DragVelocity::implicit).

@@ -13,9 +13,10 @@ bool drops_tick(std::int64_t tick, double share) {
   return static_cast<double>(bits >> 11) * 0x1p-53 < share;
 }
 
-LateForce::LateForce(const DeviceSettings& settings)
+LateForce::LateForce(const DeviceSettings& settings, const Eigen::Vector3d& before)
     : dropped_share_(settings.dropped_ticks),
-      under_way_(static_cast<std::size_t>(settings.delay), Eigen::Vector3d::Zero()) {}
+      given_out_(before),
+      under_way_(static_cast<std::size_t>(settings.delay), before) {}
 
 Eigen::Vector3d LateForce::act(const Eigen::Vector3d& computed) {
   const std::int64_t tick = tick_++;

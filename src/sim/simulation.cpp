@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "core/interrupt.h"
+#include "haptics/device_force.h"
 
 namespace sandstroke {
 namespace {
@@ -55,18 +56,6 @@ Eigen::Vector3d Simulation::tip_of(const Eigen::Vector3d& device_position) const
   return scene_.device.scale * device_position + scene_.device.offset;
 }
 
-SandForce Simulation::force_at(double depth, const Hand& hand, const Hand& next,
-                               const SimulatedDevice& device) const {
-  const DeviceSettings& settings = scene_.device;
-  Eigen::Vector3d velocity = device.state().velocity;
-  if (settings.model == DeviceModel::dynamic && settings.drag == DragVelocity::implicit) {
-    const double repulse = repulse_force(depth, scene_.force);
-    velocity = device.drag_velocity(as_state(hand), as_state(next), {0.0, 0.0, repulse},
-                                    felt_sand(depth, repulse, settings.scale, scene_.force).drag);
-  }
-  return sand_force(depth, settings.scale * velocity, settings.max_force, scene_.force);
-}
-
 TickRecord Simulation::tick(double time, const Hand& hand, const Hand& next, const SimulatedDevice& device) {
   TickRecord record;
   Eigen::Vector3d computed = Eigen::Vector3d::Zero();
@@ -82,7 +71,7 @@ TickRecord Simulation::tick(double time, const Hand& hand, const Hand& next, con
     record.level = footprint_.sand_level();
     const double depth = record.level - tip.z();
     if (depth > 0.0) {
-      const SandForce force = force_at(depth, hand, next, device);
+      const SandForce force = force_on_device(depth, device, as_state(hand), as_state(next), scene_.force);
       record.contact = true;
       record.repulse_force.z() = force.repulse;
       record.drag_force = force.drag;

@@ -47,7 +47,6 @@ class Simulation {
   /// What the sand does in the tick in which the hand goes from one place to the next; device_force is the
   /// force that acts.
   TickRecord tick(double time, const Hand& hand, const Hand& next, const SimulatedDevice& device);
-  SandForce force_at(double depth, const Hand& hand, const Hand& next, const SimulatedDevice& device) const;
   void relax(double time, SimulationObserver& observer);
   /// Error: unstable, where force or device have left all bounds.
   void check_stable(const TickRecord& record, const SimulatedDevice& device) const;
