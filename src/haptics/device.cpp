@@ -1,5 +1,6 @@
 #include "haptics/device.h"
 
+#include <algorithm>
 #include <cmath>
 #include <unsupported/Eigen/MatrixFunctions>
 
@@ -49,16 +50,32 @@ SimulatedDevice::State SimulatedDevice::read() const {
   return reading;
 }
 
+Eigen::Vector2d SimulatedDevice::after_tick(int axis, const State& hand, const State& hand_after,
+                                            double force) const {
+  const double hand_speed = (hand_after.position[axis] - hand.position[axis]) / time_step_;
+  Eigen::Matrix<double, 5, 1> before;
+  before << state_.position[axis], state_.velocity[axis], hand.position[axis], hand_speed, force;
+  return map_ * before;
+}
+
+Eigen::Vector3d SimulatedDevice::drag_velocity(const State& hand, const State& hand_after,
+                                               const Eigen::Vector3d& force, double drag) const {
+  const double way_of_drag = map_(0, 4) * drag;  // per velocity
+  Eigen::Vector3d velocity;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double way = after_tick(axis, hand, hand_after, force[axis])[0] - state_.position[axis];
+    velocity[axis] = way / (way_of_drag + std::max(time_step_, way_of_drag));
+  }
+  return velocity;
+}
+
 void SimulatedDevice::advance(const State& hand, const State& hand_after, const Eigen::Vector3d& force) {
   if (settings_.model == DeviceModel::kinematic) {
     state_ = hand_after;
     return;
   }
   for (int axis = 0; axis < 3; ++axis) {
-    const double hand_speed = (hand_after.position[axis] - hand.position[axis]) / time_step_;
-    Eigen::Matrix<double, 5, 1> before;
-    before << state_.position[axis], state_.velocity[axis], hand.position[axis], hand_speed, force[axis];
-    const Eigen::Vector2d after = map_ * before;
+    const Eigen::Vector2d after = after_tick(axis, hand, hand_after, force[axis]);
     state_.position[axis] = after[0];
     state_.velocity[axis] = after[1];
   }

@@ -7,6 +7,10 @@ namespace sandstroke {
 /// kinematic: the device is where the hand is. dynamic: a mass held by the hand's spring, which feels the
 /// force.
 enum class DeviceModel { kinematic, dynamic };
+/// Of which velocity the drag is taken. sampled: the one read at the start of the tick, as published.
+/// implicit: the mean velocity of the tick itself (SimulatedDevice::mean_velocity), so that drag can only
+/// take energy.
+enum class DragVelocity { sampled, implicit };
 enum class DevicePreset { omega3, phantom_desktop, touch, ideal };
 
 /// The simulated haptic device. Force limit and resolution come with the preset (omega3 and phantom_desktop:
@@ -23,6 +27,11 @@ struct DeviceSettings {
   double damping = 1.0;                              ///< N s/m
   double hand_stiffness = 400.0;                     ///< N/m
   double hand_damping = 8.0;                         ///< N s/m
+  // Of the dynamic model's loop (LateForce):
+  int delay = 0;  ///< ticks from reading the position to the force that follows from it
+  double dropped_ticks =
+      0.0;  ///< share of ticks, below 1, in which the loop is late and its last force stays
+  DragVelocity drag = DragVelocity::sampled;
 };
 
 /// Sets max_force and resolution to those of settings.preset.
@@ -47,11 +56,30 @@ class SimulatedDevice {
   State read() const;
   /// As it is.
   const State& state() const { return state_; }
+  const DeviceSettings& settings() const { return settings_; }
+
+  /// The velocity u [m/s], per axis, for which a held drag force -drag u, drag >= 0 [N s/m], beside the held
+  /// `force` [N] takes energy whatever the drag, mass, hand and time step T (DragVelocity::implicit).
+  /// With way = x_free - x, where the tick leads without drag, and g = map(0,4) > 0, the way that a held
+  /// newton makes: u = way / (g drag + max(T, g drag)).
+  /// - g drag <= T: u = (way - g drag u) / T, the mean velocity of the very tick: second order in T.
+  /// - Above it that drag would reverse the motion (v -> -v for drag -> infinity): u is then as large as
+  /// stops a
+  ///   free mass at the tick's end, where g = T^2 / (2 m).
+  /// Either way the device moves by way - g drag u, of the sign of u: the energy drag u (way - g drag u) >= 0
+  /// goes into the sand. (Not so for drag by the velocity at the tick's end: map(1,4) < 0 where the hand
+  /// swings the mass through more than half a period in a tick.) Presumes that the force acts in this very
+  /// tick, and knows the hand's way in it.
+  Eigen::Vector3d drag_velocity(const State& hand, const State& hand_after, const Eigen::Vector3d& force,
+                                double drag) const;
 
   /// Moves on by one tick, during which the hand goes from one place to the next and `force` [N] is held.
   void advance(const State& hand, const State& hand_after, const Eigen::Vector3d& force);
 
  private:
+  /// Position and velocity along one axis after a tick.
+  Eigen::Vector2d after_tick(int axis, const State& hand, const State& hand_after, double force) const;
+
   DeviceSettings settings_;
   double time_step_;
   Eigen::Matrix<double, 2, 5> map_;

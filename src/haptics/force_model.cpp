@@ -12,6 +12,12 @@ double depth_of_repulse_force(double force, const ForceSettings& settings) {
   return std::log1p(force / settings.k_s) / settings.k_c;
 }
 
+FeltSand felt_sand(double depth, double repulse, double scale, const ForceSettings& settings) {
+  if (depth <= 0.0) return {};
+  return {scale * settings.k_s * settings.k_c * std::exp(settings.k_c * depth),
+          scale * settings.k_f * repulse};
+}
+
 SandForce sand_force(double depth, const Eigen::Vector3d& velocity, double max_force,
                      const ForceSettings& settings) {
   SandForce force;

@@ -14,6 +14,14 @@ struct ForceSettings {
   DragDirection drag = DragDirection::horizontal;
 };
 
+/// Sand as a device feels it that moves `scale` bed metres per metre: what its motion is resisted by, about a
+/// depth.
+struct FeltSand {
+  double stiffness = 0.0;  ///< K = scale k_s k_c exp(k_c d) [N/m]; 0 above the sand
+  double drag = 0.0;       ///< B = scale k_f |F_r| [N s/m], along the directions that are dragged
+};
+FeltSand felt_sand(double depth, double repulse, double scale, const ForceSettings& settings);
+
 struct SandForce {
   double repulse = 0.0;                             ///< N, upward
   Eigen::Vector3d drag = Eigen::Vector3d::Zero();   ///< N

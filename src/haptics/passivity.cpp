@@ -1,16 +1,12 @@
 #include "haptics/passivity.h"
 
-#include <cmath>
-
 namespace sandstroke {
 
 double passivity_margin(double depth, double repulse, const ForceSettings& force,
                         const DeviceSettings& device) {
   const double damping = device.damping + device.hand_damping;
-  if (depth <= 0.0) return damping;
-  const double stiffness = device.scale * force.k_s * force.k_c * std::exp(force.k_c * depth);
-  const double drag = device.scale * force.k_f * repulse;
-  return damping - (0.5 * stiffness / device.servo_rate + drag);
+  const FeltSand sand = felt_sand(depth, repulse, device.scale, force);
+  return damping - ((0.5 + device.delay) * sand.stiffness / device.servo_rate + sand.drag);
 }
 
 }  // namespace sandstroke

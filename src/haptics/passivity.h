@@ -5,9 +5,11 @@
 
 namespace sandstroke {
 
-/// b + b_h - (K T / 2 + |B|) [N s/m]: where it is positive, the sampled loop cannot create energy (Colgate &
-/// Schenkel 1997). K = scale k_s k_c exp(k_c d) is the sand's stiffness as the device feels it, B = scale k_f
-/// |F_r| its drag. repulse [N] = |F_r| at this depth [m]; above the sand (depth <= 0) K = B = 0.
+/// b + b_h - (K (T / 2 + delay) + |B|) [N s/m]: where it is positive, the sampled loop cannot create energy.
+/// Colgate & Schenkel (1997) ask for b > T/2 max over angles w of Re((1 - e^-iw) H(e^iw)) / (1 - cos w), and
+/// for a spring that acts n ticks late, H = K e^-inw, that is K T/2 sin((n + 1/2) w) / sin(w/2) <= K T (n +
+/// 1/2); the drag's part stays |B|. Dropped ticks are not in it. K and B: felt_sand. repulse [N] = |F_r| at
+/// this depth [m].
 double passivity_margin(double depth, double repulse, const ForceSettings& force,
                         const DeviceSettings& device);
 

@@ -149,10 +149,26 @@ std::string scene_text(const Scene& scene) {
   return text;
 }
 
+namespace {
+
+/// Default scenes but for this key, with keys of its section that only other choices of it have.
+std::vector<Scene> scenes_with_more_keys(const std::string& key) {
+  std::vector<Scene> scenes;
+  if (key == "bed.surface.kind")
+    for (const SurfaceKind kind :
+         {SurfaceKind::cylinder, SurfaceKind::noise, SurfaceKind::ripples, SurfaceKind::file})
+      scenes.emplace_back().bed.surface.kind = kind;
+  if (key == "relaxation.method") scenes.emplace_back().relaxation.method = RelaxationMethod::rkl;
+  if (key == "device.model") scenes.emplace_back().device.model = DeviceModel::dynamic;
+  return scenes;
+}
+
+}  // namespace
+
 std::string scene_key_table() {
   std::string table;
   std::string prefix;
-  std::set<std::string> shown;  // a key that several kinds of surface have is shown once
+  std::set<std::string> shown;  // a key that several choices have is shown once
   const auto show = [&](const SceneLister::Entry& entry) {
     const std::string key = prefix + entry.key;
     if (shown.insert(key).second)
@@ -166,18 +182,16 @@ std::string scene_key_table() {
       },
       [&](const SceneLister::Entry& entry) {
         show(entry);
-        if (prefix + entry.key != "bed.surface.kind") return;
-        for (const SurfaceKind kind :
-             {SurfaceKind::cylinder, SurfaceKind::noise, SurfaceKind::ripples, SurfaceKind::file}) {
-          SceneLister others([&](const std::string& name, const std::string&) { prefix = name + "."; },
-                             [&](const SceneLister::Entry& other) {
-                               if (prefix == "bed.surface.") show(other);
-                             });
-          Scene with_kind;
-          with_kind.bed.surface.kind = kind;
-          describe_scene(others, with_kind);
+        const std::string section = prefix;
+        for (const Scene& other : scenes_with_more_keys(section + entry.key)) {
+          SceneLister more([&](const std::string& name, const std::string&) { prefix = name + "."; },
+                           [&](const SceneLister::Entry& key) {
+                             if (prefix == section) show(key);
+                           });
+          Scene shown_to = other;
+          describe_scene(more, shown_to);
         }
-        prefix = "bed.surface.";
+        prefix = section;
       });
   Scene defaults;
   defaults.stroke.emplace();

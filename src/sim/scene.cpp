@@ -102,6 +102,12 @@ void describe_device(SceneVisitor& v, DeviceSettings& d) {
   v.number("damping", d.damping, not_negative, "N s/m", "of the device");
   v.number("hand_stiffness", d.hand_stiffness, not_negative, "N/m", "of the hand that follows the stroke");
   v.number("hand_damping", d.hand_damping, not_negative, "N s/m", "of the hand");
+  if (d.model != DeviceModel::dynamic) return;
+  v.integers("delay", &d.delay, 1, 0, 1000, "dynamic model: ticks until the sand's force acts");
+  v.number("dropped_ticks", d.dropped_ticks, {0.0, 0.99, false}, "",
+           "dynamic model: share of ticks in which the loop is late and its last force stays");
+  choose(v, "drag", d.drag, {"sampled", "implicit"},
+         "dynamic model: drag by the velocity read before a tick, or by that in the tick");
 }
 
 void describe_stroke(SceneVisitor& v, StrokeSettings& stroke) {
@@ -220,6 +226,12 @@ void check_scene(const Scene& scene, const std::string& name) {
     throw_input_error(
         "{}: relaxation.engine = reference has no method rkl; set relaxation.method = passes, or engine = "
         "tiles",
+        name);
+  const DeviceSettings& device = scene.device;
+  if (device.drag == DragVelocity::implicit && (device.delay > 0 || device.dropped_ticks > 0.0))
+    throw_input_error(
+        "{}: device.drag = implicit is for a force that acts in the tick it is computed in; set device.delay "
+        "= 0 and device.dropped_ticks = 0, or device.drag = sampled",
         name);
   if (scene.stroke && scene.stroke->file.empty())
     throw_input_error("{}: stroke.file is missing; name a stroke (.toml or .h5) or remove [stroke]", name);

@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "core/interrupt.h"
+#include "haptics/device_force.h"
 
 namespace sandstroke {
 namespace {
@@ -29,7 +30,8 @@ Simulation::Simulation(const Scene& scene, HeightField bed, std::optional<Stroke
     : scene_(scene),
       bed_(std::move(bed)),
       footprint_(scene.tool),
-      relaxer_(relaxer ? std::move(relaxer) : make_relaxer(scene.relaxation, bed_.cell_size())) {
+      relaxer_(relaxer ? std::move(relaxer) : make_relaxer(scene.relaxation, bed_.cell_size())),
+      late_force_(scene.device) {
   if (!stroke) return;
   check_inside(*stroke);
   stroke_.emplace(std::move(*stroke));
@@ -54,8 +56,9 @@ Eigen::Vector3d Simulation::tip_of(const Eigen::Vector3d& device_position) const
   return scene_.device.scale * device_position + scene_.device.offset;
 }
 
-TickRecord Simulation::tick(double time, const Hand& hand, SimulatedDevice& device) {
+TickRecord Simulation::tick(double time, const Hand& hand, const Hand& next, const SimulatedDevice& device) {
   TickRecord record;
+  Eigen::Vector3d computed = Eigen::Vector3d::Zero();
   const SimulatedDevice::State reading = device.read();
   const Eigen::Vector3d tip = tip_of(reading.position);
   const Eigen::Vector3d true_tip = tip_of(device.state().position);  // encoder steps are no motion
@@ -68,12 +71,11 @@ TickRecord Simulation::tick(double time, const Hand& hand, SimulatedDevice& devi
     record.level = footprint_.sand_level();
     const double depth = record.level - tip.z();
     if (depth > 0.0) {
-      const Eigen::Vector3d velocity = scene_.device.scale * reading.velocity;
-      const SandForce force = sand_force(depth, velocity, scene_.device.max_force, scene_.force);
+      const SandForce force = force_on_device(depth, device, as_state(hand), as_state(next), scene_.force);
       record.contact = true;
       record.repulse_force.z() = force.repulse;
       record.drag_force = force.drag;
-      record.device_force = force.total;
+      computed = force.total;
       record.saturated = force.saturated;
       const Eigen::Vector3d motion =
           last_tip_ ? Eigen::Vector3d(true_tip - *last_tip_) : Eigen::Vector3d::Zero();
@@ -84,6 +86,7 @@ TickRecord Simulation::tick(double time, const Hand& hand, SimulatedDevice& devi
   } else {
     last_tip_.reset();
   }
+  record.device_force = late_force_.act(computed);
   record.passivity_margin = passivity_margin(record.contact ? record.depth : 0.0, record.repulse_force.z(),
                                              scene_.force, scene_.device);
   return record;
@@ -136,10 +139,9 @@ void Simulation::run_stroke(SimulationObserver& observer) {
   for (std::int64_t k = 0; k < ticks && !interrupted(); ++k) {
     const double time = static_cast<double>(k) / servo_rate;
     if (k == 0 && scene_.output.frames > 0.0) observer.on_frame(0.0, bed_);
-    const TickRecord record = tick(time, hand, device);
-
     const Hand next =
         stroke_->at(std::min(begin + static_cast<double>(k + 1) / servo_rate, stroke_->end_time()));
+    const TickRecord record = tick(time, hand, next, device);
     const Eigen::Vector3d before = device.state().position;
     device.advance(as_state(hand), as_state(next), record.device_force);
     check_stable(record, device);

@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "haptics/device.h"
+#include "haptics/late_force.h"
 #include "haptics/passivity.h"
 #include "haptics/stroke_sampler.h"
 #include "sim/run_result.h"
@@ -43,7 +44,9 @@ class Simulation {
  private:
   void check_inside(const Stroke& stroke) const;
   void run_stroke(SimulationObserver& observer);
-  TickRecord tick(double time, const Hand& hand, SimulatedDevice& device);
+  /// What the sand does in the tick in which the hand goes from one place to the next; device_force is the
+  /// force that acts.
+  TickRecord tick(double time, const Hand& hand, const Hand& next, const SimulatedDevice& device);
   void relax(double time, SimulationObserver& observer);
   /// Error: unstable, where force or device have left all bounds.
   void check_stable(const TickRecord& record, const SimulatedDevice& device) const;
@@ -55,6 +58,7 @@ class Simulation {
   ToolFootprint footprint_;
   std::unique_ptr<Relaxer> relaxer_;
   std::optional<Eigen::Vector3d> last_tip_;  // true one of the tick before, while the tool was down
+  LateForce late_force_;
   EnergyAccount energy_;
   RunResult result_;
 };

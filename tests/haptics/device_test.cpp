@@ -158,6 +158,8 @@ TEST(Passivity, MarginIsColgateAndSchenkels) {
   const double K = 2.0 * 1000.0 * 0.5 * std::exp(0.003), B = 2.0 * 10.0 * repulse;
   EXPECT_NEAR(passivity_margin(depth, repulse, force, device), 7.0 - (K * 1e-3 / 2.0 + B), 1e-12);
   EXPECT_EQ(passivity_margin(0.0, 0.0, force, device), 7.0);
+  device.delay = 3;  // a spring that acts three ticks late is (1/2 + 3) T old on average
+  EXPECT_NEAR(passivity_margin(depth, repulse, force, device), 7.0 - (K * 3.5e-3 + B), 1e-12);
 }
 
 TEST(EnergyAccount, CountsWhatTheDeviceGives) {

@@ -43,6 +43,17 @@ TEST(SceneToml, DevicePresetSetsItsLimitsAndKeysOverrideThem) {
   EXPECT_EQ(read("[device]\npreset = 'touch'\nmax_force = 1\n").device.max_force, 1.0);
 }
 
+TEST(SceneToml, ALateLoopIsADynamicDevices) {
+  const DeviceSettings late = read("[device]\nmodel = 'dynamic'\ndelay = 12\ndropped_ticks = 0.25\n").device;
+  EXPECT_EQ(late.delay, 12);
+  EXPECT_EQ(late.dropped_ticks, 0.25);
+  EXPECT_EQ(read("[device]\nmodel = 'dynamic'\ndrag = 'implicit'\n").device.drag, DragVelocity::implicit);
+  for (const char* text :
+       {"[device]\ndelay = 1\n", "[device]\nmodel = 'dynamic'\ndelay = -1\n",
+        "[device]\nmodel = 'dynamic'\ndelay = 1001\n", "[device]\nmodel = 'dynamic'\ndropped_ticks = 1.0\n"})
+    EXPECT_THROW(read(text), Error) << text;
+}
+
 TEST(SceneToml, TheResolvedTextReadsBackAsTheSameScene) {
   const Scene scene = read(
       "[model]\npreset = 'accurate'\n[bed]\nsize = [0.5, 1.0]\ncells = [100, 200]\n"
@@ -69,6 +80,9 @@ TEST(SceneToml, EveryKeyOfTheTableIsAKeyOfScenesAndItsValueTheDefault) {
     value = value.starts_with("[") ? value.substr(0, value.find(']') + 1) : value.substr(0, value.find(' '));
     if (key == "stroke.file" || key == "bed.surface.file") value = "\"x.h5\"";  // these must be given
     std::vector<std::string> overrides = {key + "=" + value};
+    for (const char* of_dynamic : {"device.delay", "device.dropped_ticks", "device.drag"})
+      if (key == of_dynamic) overrides.push_back("device.model=dynamic");
+    if (key == "relaxation.step_tolerance") overrides.push_back("relaxation.method=rkl");
     if (key.starts_with("stroke.")) overrides.push_back("stroke.file=\"x.h5\"");
     if (key.starts_with("bed.surface.") && key != "bed.surface.kind") {
       bool accepted = false;  // by the kinds of surface that have it

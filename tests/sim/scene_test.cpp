@@ -54,5 +54,24 @@ TEST(CheckScene, SandThatWillMoveMustFitTheMemory) {
   refused(whole_field);
 }
 
+TEST(CheckScene, ImplicitDragIsForAForceThatActsAtOnce) {
+  Scene scene;
+  scene.device.model = DeviceModel::dynamic;
+  scene.device.drag = DragVelocity::implicit;
+  EXPECT_NO_THROW(check_scene(scene, "late.toml"));
+  for (const auto& [delay, dropped] : {std::pair(1, 0.0), std::pair(0, 0.1)}) {
+    scene.device.delay = delay;
+    scene.device.dropped_ticks = dropped;
+    try {
+      check_scene(scene, "late.toml");
+      ADD_FAILURE() << "not refused";
+    } catch (const Error& failure) {
+      EXPECT_EQ(failure.kind(), ErrorKind::input);
+      for (const char* part : {"late.toml", "device.drag", "device.delay = 0", "device.dropped_ticks = 0"})
+        EXPECT_NE(std::string(failure.what()).find(part), std::string::npos) << failure.what();
+    }
+  }
+}
+
 }  // namespace
 }  // namespace sandstroke

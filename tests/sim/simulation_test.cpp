@@ -170,6 +170,55 @@ TEST(Simulation, DynamicDeviceLagsBehindAndIsPushedBack) {
   EXPECT_GE(result.least_absorbed_energy, -1e-6);
 }
 
+TEST(Simulation, TheForceThatActsIsTheOneComputedTicksBefore) {
+  Scene scene = small_scene();
+  scene.device.model = DeviceModel::dynamic;
+  scene.device.delay = 7;
+  scene.device.dropped_ticks = 0.3;
+  Simulation simulation(scene, flat_bed(scene), through({{-0.02, 0, 0.002}, {-0.02, 0, -0.008}}, 0.5));
+  Recording recording;
+  const RunResult result = simulation.run(recording);
+  ASSERT_GT(result.contact_ticks, 100);
+  // What acts moves the device: along z the exact map of each tick gives the next position.
+  const Eigen::Matrix<double, 2, 5> map = device_tick_map(scene.device);
+  LateForce late(scene.device);
+  double absorbed = 0.0;
+  Eigen::Vector2d state(recording.ticks[0].device_position.z(), -0.02);
+  for (std::size_t k = 0; k + 1 < recording.ticks.size(); ++k) {
+    const TickRecord& tick = recording.ticks[k];
+    const Eigen::Vector3d computed = tick.repulse_force + tick.drag_force;
+    EXPECT_EQ(tick.device_force, late.act(computed)) << k;
+    Eigen::Matrix<double, 5, 1> before;
+    const double hand = tick.hand_position.z(), next = recording.ticks[k + 1].hand_position.z();
+    before << state, hand, (next - hand) * scene.device.servo_rate, tick.device_force.z();
+    const Eigen::Vector2d after = map * before;
+    absorbed -= tick.device_force.z() * (after[0] - state[0]);
+    state = after;
+    EXPECT_NEAR(recording.ticks[k + 1].device_position.z(), state[0], scene.device.resolution) << k;
+  }
+  EXPECT_NEAR(result.absorbed_energy, absorbed, 0.01 * absorbed);  // the last tick is not in the sum
+}
+
+TEST(Simulation, ImplicitDragHoldsWhereSampledDragThrowsTheDevice) {
+  // B = k_f F_r = 10 s/m x 60 N is above 2 m / T = 500 N s/m.
+  Scene scene = small_scene();
+  scene.device.model = DeviceModel::dynamic;
+  scene.device.preset = DevicePreset::ideal;
+  apply_device_preset(scene.device);
+  scene.force.k_s = 20'000.0;
+  const auto run = [&](DragVelocity drag) {
+    scene.device.drag = drag;
+    Simulation simulation(scene, flat_bed(scene),
+                          through({{-0.05, 0, 0.0}, {-0.05, 0, -0.16}, {0.05, 0, -0.16}}, 0.5));
+    Recording recording;
+    return simulation.run(recording);
+  };
+  EXPECT_THROW(run(DragVelocity::sampled), Error);
+  const RunResult held = run(DragVelocity::implicit);
+  EXPECT_GT(held.max_force, 50.0);
+  EXPECT_GT(held.absorbed_energy, 0.0);
+}
+
 TEST(Simulation, ASceneWithoutAStrokeIsACollapse) {
   Scene scene = small_scene();
   scene.stroke.reset();

@@ -1,0 +1,13 @@
+#pragma once
+
+#include "haptics/device.h"
+#include "haptics/force_model.h"
+
+namespace sandstroke {
+
+/// What sand does to a device whose tip is `depth` [m] below the level, as a controller computes it in the
+/// tick in which the hand goes from one place to the next: drag by the velocity that device.drag says.
+SandForce force_on_device(double depth, const SimulatedDevice& device, const SimulatedDevice::State& hand,
+                          const SimulatedDevice::State& hand_after, const ForceSettings& settings);
+
+}  // namespace sandstroke

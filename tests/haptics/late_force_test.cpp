@@ -1,0 +1,68 @@
+#include "haptics/late_force.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+namespace sandstroke {
+namespace {
+
+DeviceSettings late(int delay, double dropped_ticks) {
+  DeviceSettings settings;
+  settings.delay = delay;
+  settings.dropped_ticks = dropped_ticks;
+  return settings;
+}
+
+/// The force computed in a tick: tells which tick it is from.
+Eigen::Vector3d of_tick(int k) { return {k + 1.0, -2.0 * k, 3.0}; }
+
+TEST(LateForce, ActsAtOnceByDefault) {
+  LateForce force(late(0, 0.0));
+  for (int k = 0; k < 10; ++k) EXPECT_EQ(force.act(of_tick(k)), of_tick(k));
+}
+
+TEST(LateForce, ActsAfterItsDelay) {
+  for (const int delay : {1, 2, 20}) {
+    LateForce force(late(delay, 0.0));
+    for (int k = 0; k < 100; ++k)
+      EXPECT_EQ(force.act(of_tick(k)), k < delay ? Eigen::Vector3d::Zero().eval() : of_tick(k - delay));
+  }
+}
+
+TEST(LateForce, ALateLoopGivesOutItsLastForceAgain) {
+  for (const int delay : {0, 3}) {
+    LateForce force(late(delay, 0.4));
+    std::vector<Eigen::Vector3d> given_out;
+    Eigen::Vector3d last = Eigen::Vector3d::Zero();
+    for (int k = 0; k < 200; ++k) {
+      if (!drops_tick(k, 0.4)) last = of_tick(k);
+      given_out.push_back(last);
+      const Eigen::Vector3d acts = force.act(of_tick(k));
+      if (k < delay) continue;
+      EXPECT_EQ(acts, given_out[static_cast<std::size_t>(k - delay)]);
+    }
+  }
+}
+
+TEST(DropsTick, DropsTheShareAskedForWithoutAPattern) {
+  constexpr int ticks = 200'000;
+  for (const double share : {0.0, 0.01, 0.3, 0.9}) {
+    const double deviation = std::sqrt(share * (1.0 - share) / ticks);  // of the mean of as many coins
+    int dropped = 0, twice = 0;
+    for (int k = 0; k < ticks; ++k) {
+      dropped += drops_tick(k, share);
+      twice += drops_tick(k, share) && drops_tick(k + 1, share);
+    }
+    EXPECT_NEAR(dropped / double{ticks}, share, 4.0 * deviation);
+    EXPECT_NEAR(twice / double{ticks}, share * share, 8.0 * deviation);  // neighbours are independent
+  }
+}
+
+TEST(DropsTick, AHigherShareDropsMoreTicksAndNoneLess) {
+  for (int k = 0; k < 1000; ++k) EXPECT_LE(drops_tick(k, 0.2), drops_tick(k, 0.3));
+}
+
+}  // namespace
+}  // namespace sandstroke
