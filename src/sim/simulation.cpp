@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "core/interrupt.h"
+#include "sand/tool_path.h"
 
 namespace sandstroke {
 namespace {
@@ -64,6 +65,9 @@ TickRecord Simulation::tick(double time, const Hand& hand, SimulatedDevice& devi
   record.device_position = reading.position;
   record.level = std::numeric_limits<double>::quiet_NaN();
   if (hand.down) {
+    const Eigen::Vector3d motion =
+        last_tip_ ? Eigen::Vector3d(true_tip - *last_tip_) : Eigen::Vector3d::Zero();
+    record.displaced_volume = displace_between(bed_, footprint_, tip - motion, tip, scene_.displacement);
     footprint_.place(bed_, tip.x(), tip.y());
     record.level = footprint_.sand_level();
     const double depth = record.level - tip.z();
@@ -75,9 +79,7 @@ TickRecord Simulation::tick(double time, const Hand& hand, SimulatedDevice& devi
       record.drag_force = force.drag;
       record.device_force = force.total;
       record.saturated = force.saturated;
-      const Eigen::Vector3d motion =
-          last_tip_ ? Eigen::Vector3d(true_tip - *last_tip_) : Eigen::Vector3d::Zero();
-      record.displaced_volume = displace(bed_, footprint_, tip.z(), motion, scene_.displacement);
+      record.displaced_volume += displace(bed_, footprint_, tip.z(), motion, scene_.displacement);
     }
     if (!std::isnan(depth)) record.depth = depth;
     last_tip_ = true_tip;
@@ -106,7 +108,7 @@ void Simulation::relax(double time, SimulationObserver& observer) {
 }
 
 void Simulation::check_stable(const TickRecord& record, const SimulatedDevice& device) const {
-  if (!record.device_force.allFinite() || !record.repulse_force.allFinite())
+  if (!record.device_force.allFinite())
     throw Error(
         ErrorKind::unstable,
         fmt::format("at {:.4f} s, {:.4g} m deep, the force is beyond any number; lower force.k_s, force.k_c, "
