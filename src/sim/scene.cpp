@@ -193,6 +193,11 @@ void check_scene(const Scene& scene, const std::string& name) {
   if (std::abs(dx - dy) > 1e-9 * dx)
     throw_input_error("{}: bed.size and bed.cells give cells of {} m by {} m; make them square", name, dx,
                       dy);
+  // Cubes of lengths, and squares of drops between cells, must be numbers: sand in cells of 1e-160 m lies
+  // still.
+  if (!(dx >= 1e-100 && dx <= 1e100))
+    throw_input_error("{}: bed.size and bed.cells give cells of {} m; take cells of 1e-100 to 1e100 m", name,
+                      dx);
 
   const double needed = memory_of_bed(scene), memory = physical_memory();
   if (needed > memory)
@@ -201,7 +206,7 @@ void check_scene(const Scene& scene, const std::string& name) {
         name, bed.cols, bed.rows, needed * 1e-9, memory * 1e-9);
 
   const double reach = ToolFootprint(scene.tool).reach();
-  if (2.0 * reach > std::min(bed.width, bed.depth))
+  if (scene.stroke && 2.0 * reach > std::min(bed.width, bed.depth))
     throw_input_error(
         "{}: tool.radius = {} m: the tool and its rampart ({:.3g} m) do not fit the bed ({} m by {} m); "
         "take a smaller radius",
