@@ -83,8 +83,6 @@ TickRecord Simulation::tick(double time, const Hand& hand, SimulatedDevice& devi
     }
     if (!std::isnan(depth)) record.depth = depth;
     last_tip_ = true_tip;
-  } else {
-    last_tip_.reset();
   }
   record.passivity_margin = passivity_margin(record.contact ? record.depth : 0.0, record.repulse_force.z(),
                                              scene_.force, scene_.device);
@@ -107,15 +105,16 @@ void Simulation::relax(double time, SimulationObserver& observer) {
   observer.on_relaxation({time, outcome.passes, outcome.residual, outcome.moved_volume});
 }
 
-void Simulation::check_stable(const TickRecord& record, const SimulatedDevice& device) const {
+void Simulation::check_stable(const TickRecord& record, const Hand& next,
+                              const SimulatedDevice& device) const {
   if (!record.device_force.allFinite())
     throw Error(
         ErrorKind::unstable,
         fmt::format("at {:.4f} s, {:.4g} m deep, the force is beyond any number; lower force.k_s, force.k_c, "
                     "force.k_f or the stroke's depth",
                     record.time, record.depth));
-  const double far =
-      100.0 * (scene_.bed.width + scene_.bed.depth) + 2.0 * tip_of(record.hand_position).norm();
+  const double hand = std::max(tip_of(record.hand_position).norm(), tip_of(next.position).norm());
+  const double far = 100.0 * (scene_.bed.width + scene_.bed.depth) + 2.0 * hand;
   const double distance = tip_of(device.state().position).norm();
   if (!(distance < far))
     throw Error(
@@ -140,19 +139,20 @@ void Simulation::run_stroke(SimulationObserver& observer) {
     if (k == 0 && scene_.output.frames > 0.0) observer.on_frame(0.0, bed_);
     const TickRecord record = tick(time, hand, device);
 
-    const Hand next =
-        stroke_->at(std::min(begin + static_cast<double>(k + 1) / servo_rate, stroke_->end_time()));
+    const double next_time = std::min(begin + static_cast<double>(k + 1) / servo_rate, stroke_->end_time());
+    const Hand next = stroke_->at(next_time);
     const Eigen::Vector3d before = device.state().position;
     device.advance(as_state(hand), as_state(next), record.device_force);
-    check_stable(record, device);
+    check_stable(record, next, device);
     energy_.add(record.device_force, device.state().position - before);
     hand = next;
+    if (stroke_->lifts_between(begin + time, next_time)) last_tip_.reset();
 
     result_.ticks += 1;
     result_.contact_ticks += record.contact;
     result_.saturated_ticks += record.saturated;
     result_.displaced_volume += record.displaced_volume;
-    result_.max_force = std::max(result_.max_force, record.device_force.norm());
+    result_.max_force = std::max(result_.max_force, record.device_force.stableNorm());
     if (record.contact) {
       result_.max_depth = std::max(result_.max_depth, record.depth);
       result_.least_passivity_margin = std::min(result_.least_passivity_margin, record.passivity_margin);
