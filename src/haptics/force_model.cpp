@@ -4,8 +4,15 @@
 
 namespace sandstroke {
 
+namespace {
+
+/// Nothing stays nothing, also times infinity.
+double product(double a, double b) { return a == 0.0 || b == 0.0 ? 0.0 : a * b; }
+
+}  // namespace
+
 double repulse_force(double depth, const ForceSettings& settings) {
-  return depth > 0.0 ? settings.k_s * std::expm1(settings.k_c * depth) : 0.0;
+  return depth > 0.0 ? product(settings.k_s, std::expm1(settings.k_c * depth)) : 0.0;
 }
 
 double depth_of_repulse_force(double force, const ForceSettings& settings) {
@@ -14,8 +21,8 @@ double depth_of_repulse_force(double force, const ForceSettings& settings) {
 
 FeltSand felt_sand(double depth, double repulse, double scale, const ForceSettings& settings) {
   if (depth <= 0.0) return {};
-  return {scale * settings.k_s * settings.k_c * std::exp(settings.k_c * depth),
-          scale * settings.k_f * repulse};
+  return {product(scale * settings.k_s * settings.k_c, std::exp(settings.k_c * depth)),
+          product(scale * settings.k_f, repulse)};
 }
 
 SandForce sand_force(double depth, const Eigen::Vector3d& velocity, double max_force,
@@ -25,11 +32,13 @@ SandForce sand_force(double depth, const Eigen::Vector3d& velocity, double max_f
   if (force.repulse == 0.0) return force;
   Eigen::Vector3d slip = velocity;
   if (settings.drag == DragDirection::horizontal) slip.z() = 0.0;
-  force.drag = -settings.k_f * force.repulse * slip;
+  const double drag = product(settings.k_f, force.repulse);
+  force.drag = -slip.unaryExpr([drag](double speed) { return product(drag, speed); });
   force.total = force.drag + Eigen::Vector3d(0.0, 0.0, force.repulse);
-  const double magnitude = force.total.stableNorm();  // squares of huge forces overflow
-  if (max_force > 0.0 && magnitude > max_force) {
-    force.total *= max_force / magnitude;
+  if (max_force > 0.0 && !(force.total.stableNorm() <= max_force)) {  // squares of huge forces overflow
+    // At a depth beyond any sense the forces do, too; their direction does not depend on it.
+    const Eigen::Vector3d direction = Eigen::Vector3d::UnitZ() - settings.k_f * slip;
+    force.total = max_force * direction.stableNormalized();
     force.saturated = true;
   }
   return force;

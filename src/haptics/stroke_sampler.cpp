@@ -44,6 +44,12 @@ StrokeSampler::StrokeSampler(Stroke stroke) : stroke_(std::move(stroke)) {
   find_slopes();
 }
 
+bool StrokeSampler::lifts_between(double begin, double end) const {
+  const auto gap = std::upper_bound(gaps_.begin(), gaps_.end(), begin,
+                                    [](double time, const StrokeGap& one) { return time < one.end; });
+  return gap != gaps_.end() && gap->begin < end;
+}
+
 void StrokeSampler::seek(double t) {
   const std::vector<double>& time = stroke_.time;
   const std::size_t before = cursor_;

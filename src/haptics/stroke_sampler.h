@@ -38,6 +38,8 @@ class StrokeSampler {
   double start_time() const { return stroke_.time.front(); }
   double end_time() const { return stroke_.time.back(); }
   const std::vector<StrokeGap>& gaps() const { return gaps_; }
+  /// Whether the tool is lifted at any time between two [s], begin < end, themselves left out.
+  bool lifts_between(double begin, double end) const;
 
  private:
   void seek(double t);

@@ -73,6 +73,7 @@ class ToolFootprint {
   unsigned char* flags(int row) { return flags_.get() + at(row) / 8; }
   void write_flagged(HeightField& bed);
 
+  double radius() const { return shape_.radius; }  ///< m, of the sphere
   /// rho1 = s sqrt(u1) [m]: how far the footprint reaches.
   double reach() const { return shape_.reach; }
 

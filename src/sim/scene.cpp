@@ -21,14 +21,6 @@ void choose(SceneVisitor& v, const char* key, Enum& value, const std::vector<std
 constexpr Range degrees{-360.0, 360.0, false};
 constexpr Range sharp_angle{0.0, 90.0, true};
 
-void apply_model_preset(Scene& scene) {
-  const bool paper = scene.preset == ModelPreset::paper;
-  scene.tool.profile = paper ? ToolProfile::paper : ToolProfile::sphere;
-  scene.displacement.deposit = paper ? Deposit::ring : Deposit::ahead;
-  scene.relaxation.law = paper ? RelaxationLaw::paper : RelaxationLaw::isotropic;
-  scene.relaxation.method = paper ? RelaxationMethod::passes : RelaxationMethod::rkl;
-}
-
 void describe_bed(SceneVisitor& v, BedSettings& bed) {
   v.section("bed", "the sand box, centred on the origin, z up");
   double size[2] = {bed.width, bed.depth};
@@ -193,12 +185,25 @@ void describe_scene(SceneVisitor& v, Scene& scene) {
   describe_view(v, scene.view);
 }
 
+void apply_model_preset(Scene& scene) {
+  const bool paper = scene.preset == ModelPreset::paper;
+  scene.tool.profile = paper ? ToolProfile::paper : ToolProfile::sphere;
+  scene.displacement.deposit = paper ? Deposit::ring : Deposit::ahead;
+  scene.relaxation.law = paper ? RelaxationLaw::paper : RelaxationLaw::isotropic;
+  scene.relaxation.method = paper ? RelaxationMethod::passes : RelaxationMethod::rkl;
+}
+
 void check_scene(const Scene& scene, const std::string& name) {
   const BedSettings& bed = scene.bed;
   const double dx = bed.cell_size(), dy = bed.depth / bed.rows;
   if (std::abs(dx - dy) > 1e-9 * dx)
     throw_input_error("{}: bed.size and bed.cells give cells of {} m by {} m; make them square", name, dx,
                       dy);
+  // Cubes of lengths, and squares of drops between cells, must be numbers: sand in cells of 1e-160 m lies
+  // still.
+  if (!(dx >= 1e-100 && dx <= 1e100))
+    throw_input_error("{}: bed.size and bed.cells give cells of {} m; take cells of 1e-100 to 1e100 m", name,
+                      dx);
 
   const double needed = memory_of_bed(scene), memory = physical_memory();
   if (needed > memory)
@@ -207,7 +212,7 @@ void check_scene(const Scene& scene, const std::string& name) {
         name, bed.cols, bed.rows, needed * 1e-9, memory * 1e-9);
 
   const double reach = ToolFootprint(scene.tool).reach();
-  if (2.0 * reach > std::min(bed.width, bed.depth))
+  if (scene.stroke && 2.0 * reach > std::min(bed.width, bed.depth))
     throw_input_error(
         "{}: tool.radius = {} m: the tool and its rampart ({:.3g} m) do not fit the bed ({} m by {} m); "
         "take a smaller radius",

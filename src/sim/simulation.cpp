@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "core/interrupt.h"
 #include "haptics/device_force.h"
+#include "sand/tool_path.h"
 
 namespace sandstroke {
 namespace {
@@ -67,6 +68,9 @@ TickRecord Simulation::tick(double time, const Hand& hand, const Hand& next, con
   record.device_position = reading.position;
   record.level = std::numeric_limits<double>::quiet_NaN();
   if (hand.down) {
+    const Eigen::Vector3d motion =
+        last_tip_ ? Eigen::Vector3d(true_tip - *last_tip_) : Eigen::Vector3d::Zero();
+    record.displaced_volume = displace_between(bed_, footprint_, tip - motion, tip, scene_.displacement);
     footprint_.place(bed_, tip.x(), tip.y());
     record.level = footprint_.sand_level();
     const double depth = record.level - tip.z();
@@ -77,14 +81,10 @@ TickRecord Simulation::tick(double time, const Hand& hand, const Hand& next, con
       record.drag_force = force.drag;
       computed = force.total;
       record.saturated = force.saturated;
-      const Eigen::Vector3d motion =
-          last_tip_ ? Eigen::Vector3d(true_tip - *last_tip_) : Eigen::Vector3d::Zero();
-      record.displaced_volume = displace(bed_, footprint_, tip.z(), motion, scene_.displacement);
+      record.displaced_volume += displace(bed_, footprint_, tip.z(), motion, scene_.displacement);
     }
     if (!std::isnan(depth)) record.depth = depth;
     last_tip_ = true_tip;
-  } else {
-    last_tip_.reset();
   }
   record.device_force = late_force_.act(computed);
   record.passivity_margin = passivity_margin(record.contact ? record.depth : 0.0, record.repulse_force.z(),
@@ -108,15 +108,16 @@ void Simulation::relax(double time, SimulationObserver& observer) {
   observer.on_relaxation({time, outcome.passes, outcome.residual, outcome.moved_volume});
 }
 
-void Simulation::check_stable(const TickRecord& record, const SimulatedDevice& device) const {
-  if (!record.device_force.allFinite() || !record.repulse_force.allFinite())
+void Simulation::check_stable(const TickRecord& record, const Hand& next,
+                              const SimulatedDevice& device) const {
+  if (!record.device_force.allFinite())
     throw Error(
         ErrorKind::unstable,
         fmt::format("at {:.4f} s, {:.4g} m deep, the force is beyond any number; lower force.k_s, force.k_c, "
                     "force.k_f or the stroke's depth",
                     record.time, record.depth));
-  const double far =
-      100.0 * (scene_.bed.width + scene_.bed.depth) + 2.0 * tip_of(record.hand_position).norm();
+  const double hand = std::max(tip_of(record.hand_position).norm(), tip_of(next.position).norm());
+  const double far = 100.0 * (scene_.bed.width + scene_.bed.depth) + 2.0 * hand;
   const double distance = tip_of(device.state().position).norm();
   if (!(distance < far))
     throw Error(
@@ -139,20 +140,22 @@ void Simulation::run_stroke(SimulationObserver& observer) {
   for (std::int64_t k = 0; k < ticks && !interrupted(); ++k) {
     const double time = static_cast<double>(k) / servo_rate;
     if (k == 0 && scene_.output.frames > 0.0) observer.on_frame(0.0, bed_);
-    const Hand next =
-        stroke_->at(std::min(begin + static_cast<double>(k + 1) / servo_rate, stroke_->end_time()));
+    const double next_time = std::min(begin + static_cast<double>(k + 1) / servo_rate, stroke_->end_time());
+    const Hand next = stroke_->at(next_time);
     const TickRecord record = tick(time, hand, next, device);
+
     const Eigen::Vector3d before = device.state().position;
     device.advance(as_state(hand), as_state(next), record.device_force);
-    check_stable(record, device);
+    check_stable(record, next, device);
     energy_.add(record.device_force, device.state().position - before);
     hand = next;
+    if (stroke_->lifts_between(begin + time, next_time)) last_tip_.reset();
 
     result_.ticks += 1;
     result_.contact_ticks += record.contact;
     result_.saturated_ticks += record.saturated;
     result_.displaced_volume += record.displaced_volume;
-    result_.max_force = std::max(result_.max_force, record.device_force.norm());
+    result_.max_force = std::max(result_.max_force, record.device_force.stableNorm());
     if (record.contact) {
       result_.max_depth = std::max(result_.max_depth, record.depth);
       result_.least_passivity_margin = std::min(result_.least_passivity_margin, record.passivity_margin);

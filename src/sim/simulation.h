@@ -48,8 +48,8 @@ class Simulation {
   /// force that acts.
   TickRecord tick(double time, const Hand& hand, const Hand& next, const SimulatedDevice& device);
   void relax(double time, SimulationObserver& observer);
-  /// Error: unstable, where force or device have left all bounds.
-  void check_stable(const TickRecord& record, const SimulatedDevice& device) const;
+  /// Error: unstable, where force or device, on its way to `next`, have left all bounds.
+  void check_stable(const TickRecord& record, const Hand& next, const SimulatedDevice& device) const;
   Eigen::Vector3d tip_of(const Eigen::Vector3d& device_position) const;
 
   Scene scene_;
@@ -57,7 +57,7 @@ class Simulation {
   std::optional<StrokeSampler> stroke_;
   ToolFootprint footprint_;
   std::unique_ptr<Relaxer> relaxer_;
-  std::optional<Eigen::Vector3d> last_tip_;  // true one of the tick before, while the tool was down
+  std::optional<Eigen::Vector3d> last_tip_;  // true one of the tick before; none where it was lifted since
   LateForce late_force_;
   EnergyAccount energy_;
   RunResult result_;

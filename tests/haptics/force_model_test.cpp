@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 namespace sandstroke {
 namespace {
@@ -59,6 +60,30 @@ TEST(SandForce, IsLimitedInMagnitudeAndKeepsItsDirection) {
   EXPECT_NEAR(limited.total.norm(), 12.0, 1e-12);
   EXPECT_NEAR(limited.total.normalized().dot(free.total.normalized()), 1.0, 1e-14);
   EXPECT_EQ(limited.repulse, free.repulse);
+}
+
+TEST(SandForce, OfALimitedDeviceIsDefinedAtAnyDepth) {
+  // exp(k_c d) overflows; the limit leaves max_force along e_z - k_f slip.
+  const Eigen::Vector3d velocity(0.2, 0.0, -0.1);
+  const Eigen::Vector3d direction = Eigen::Vector3d(-10.0 * 0.2, 0.0, 1.0).normalized();
+  for (const double depth : {1e2, 1e3, 1e4, 1e300}) {
+    const SandForce f = sand_force(depth, velocity, 12.0, paper);
+    EXPECT_NEAR((f.total - 12.0 * direction).norm(), 0.0, 1e-13);
+    EXPECT_TRUE(f.saturated);
+    EXPECT_FALSE(f.drag.hasNaN());
+  }
+  const SandForce free = sand_force(1e4, velocity, 0.0, paper);
+  EXPECT_EQ(free.total.z(), std::numeric_limits<double>::infinity());
+  EXPECT_FALSE(free.total.hasNaN());
+}
+
+TEST(SandForce, WithoutStiffnessOrDragStaysZeroAtAnyDepth) {
+  ForceSettings nothing = paper;
+  nothing.k_s = 0.0;
+  EXPECT_EQ(sand_force(1e4, {0.1, 0.0, 0.0}, 0.0, nothing).total.norm(), 0.0);
+  ForceSettings frictionless = paper;
+  frictionless.k_f = 0.0;
+  EXPECT_EQ(sand_force(1e4, {0.1, 0.0, 0.0}, 12.0, frictionless).drag.norm(), 0.0);
 }
 
 TEST(SandForce, IsZeroInTheAir) {

@@ -143,6 +143,19 @@ TEST(StrokeSampler, FindsGapsOfBothKinds) {
   }
 }
 
+TEST(StrokeSampler, KnowsALiftBetweenAnyTwoTimes) {
+  Stroke stroke = evenly_spaced({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}, {4, 0, 0}}, 0.01);
+  stroke.contact = {pen_down, pen_lifts, pen_down, pen_down, pen_lifts};  // lifted from 0.01 to 0.02 s
+  const StrokeSampler sampler(stroke);
+  const auto lifts = [&](double begin, double end) { return sampler.lifts_between(begin, end); };
+  EXPECT_FALSE(lifts(0.0, 0.01));
+  EXPECT_TRUE(lifts(0.0, 0.011));
+  EXPECT_TRUE(lifts(0.01, 0.02));
+  EXPECT_TRUE(lifts(0.012, 0.015));
+  EXPECT_TRUE(lifts(0.0, 0.04));
+  EXPECT_FALSE(lifts(0.02, 0.04));
+}
+
 TEST(StrokeSampler, APieceOfOneSampleIsAPoint) {
   Stroke stroke =
       evenly_spaced({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}, 1.0);  // all further apart than gap_threshold

@@ -73,5 +73,24 @@ TEST(CheckScene, ImplicitDragIsForAForceThatActsAtOnce) {
   }
 }
 
+TEST(CheckScene, AToolThatNoStrokeUsesNeedNotFitTheBed) {
+  Scene scene;
+  scene.bed.width = scene.bed.depth = 0.01;  // less than the rampart of the tool
+  scene.bed.cols = scene.bed.rows = 10;
+  EXPECT_NO_THROW(check_scene(scene, "scene"));
+  scene.stroke.emplace();
+  scene.stroke->file = "in memory";
+  EXPECT_THROW(check_scene(scene, "scene"), Error);
+}
+
+TEST(CheckScene, CellsMustHaveVolumesThatAreNumbers) {
+  for (const double dx : {1e-308, 1e-160, 1e-101, 1e101, 1e300}) {
+    Scene scene;
+    scene.bed.cols = scene.bed.rows = 10;
+    scene.bed.width = scene.bed.depth = 10 * dx;
+    EXPECT_THROW(check_scene(scene, "scene"), Error) << dx;
+  }
+}
+
 }  // namespace
 }  // namespace sandstroke

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 #include "core/error.h"
 
@@ -72,6 +73,65 @@ TEST(Simulation, EncoderStepsDoNotTurnTheDepositOfASlowDrag) {
   const double exact = lowest(0.0);
   EXPECT_GT(exact, 0.003);
   EXPECT_NEAR(lowest(30e-6), exact, 0.1 * exact);
+}
+
+TEST(Simulation, AFastDragLeavesTheFurrowOfAFinerServoRate) {
+  // 20 m/s: two tool radii a tick.
+  const auto furrow_depth = [](bool accurate, double servo_rate, RunResult& result) {
+    Scene scene = small_scene();
+    scene.device.servo_rate = servo_rate;
+    if (accurate) {
+      scene.tool.profile = ToolProfile::sphere;
+      scene.displacement.deposit = Deposit::ahead;
+    }
+    Simulation simulation(scene, flat_bed(scene), through({{-0.1, 0, -0.006}, {0.1, 0, -0.006}}, 0.01));
+    SimulationObserver nobody;
+    result = simulation.run(nobody);
+    return -simulation.bed().grid().middleCols(50, 50).colwise().minCoeff().mean();
+  };
+  for (const bool accurate : {false, true}) {
+    RunResult coarse, fine;
+    const double depth = furrow_depth(accurate, 20'000.0, fine);
+    EXPECT_GT(depth, 0.003);
+    EXPECT_NEAR(furrow_depth(accurate, 1000.0, coarse), depth, 0.03 * depth);
+    EXPECT_EQ(coarse.ticks, 11);
+    EXPECT_LE(coarse.volume_drift, 1e-12);
+    EXPECT_NEAR(coarse.displaced_volume / fine.displaced_volume, 1.0, 0.1);
+  }
+}
+
+TEST(Simulation, WhatIsReachedLiftedIsNoPath) {
+  const Scene scene = small_scene();
+  Stroke stroke = through({{-0.08, 0, -0.006}, {0.08, 0, -0.006}}, 1e-3);
+  stroke.contact = {pen_lifts, pen_down};
+  Simulation simulation(scene, flat_bed(scene), stroke);
+  SimulationObserver nobody;
+  const RunResult result = simulation.run(nobody);
+  EXPECT_EQ(result.contact_ticks, 2);
+  EXPECT_EQ(simulation.bed().grid().middleCols(60, 30).abs().maxCoeff(), 0.0);
+}
+
+TEST(Simulation, ALimitedDeviceIsHeldByItsLimitAtAnyDepth) {
+  Scene scene = small_scene();
+  const Stroke plunge = through({{0, 0, 0}, {0, 0, -1e4}}, 0.01);  // exp(k_c d) overflows
+  Recording recording;
+  Simulation simulation(scene, flat_bed(scene), plunge);
+  const RunResult result = simulation.run(recording);
+  EXPECT_NEAR(result.max_force, scene.device.max_force, 1e-12);
+  EXPECT_TRUE(std::isfinite(result.absorbed_energy));
+  EXPECT_LE(result.volume_drift, 1e-12);
+  EXPECT_EQ(result.least_passivity_margin, -std::numeric_limits<double>::infinity());
+  for (const TickRecord& tick : recording.ticks) EXPECT_TRUE(tick.device_force.allFinite());
+
+  scene.device.max_force = 0.0;
+  Simulation unlimited(scene, flat_bed(scene), plunge);
+  try {
+    unlimited.run(recording);
+    FAIL() << "a force beyond any number went unnoticed";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::unstable);
+    EXPECT_NE(std::string(error.what()).find("force is beyond any number"), std::string::npos);
+  }
 }
 
 TEST(Simulation, TicksAtTheServoRateAndRelaxesAtItsOwn) {
