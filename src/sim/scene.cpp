@@ -21,14 +21,6 @@ void choose(SceneVisitor& v, const char* key, Enum& value, const std::vector<std
 constexpr Range degrees{-360.0, 360.0, false};
 constexpr Range sharp_angle{0.0, 90.0, true};
 
-void apply_model_preset(Scene& scene) {
-  const bool paper = scene.preset == ModelPreset::paper;
-  scene.tool.profile = paper ? ToolProfile::paper : ToolProfile::sphere;
-  scene.displacement.deposit = paper ? Deposit::ring : Deposit::ahead;
-  scene.relaxation.law = paper ? RelaxationLaw::paper : RelaxationLaw::isotropic;
-  scene.relaxation.method = paper ? RelaxationMethod::passes : RelaxationMethod::rkl;
-}
-
 void describe_bed(SceneVisitor& v, BedSettings& bed) {
   v.section("bed", "the sand box, centred on the origin, z up");
   double size[2] = {bed.width, bed.depth};
@@ -185,6 +177,14 @@ void describe_scene(SceneVisitor& v, Scene& scene) {
   v.flag("trace", scene.output.trace, "every tick's position, force and depth");
 
   describe_view(v, scene.view);
+}
+
+void apply_model_preset(Scene& scene) {
+  const bool paper = scene.preset == ModelPreset::paper;
+  scene.tool.profile = paper ? ToolProfile::paper : ToolProfile::sphere;
+  scene.displacement.deposit = paper ? Deposit::ring : Deposit::ahead;
+  scene.relaxation.law = paper ? RelaxationLaw::paper : RelaxationLaw::isotropic;
+  scene.relaxation.method = paper ? RelaxationMethod::passes : RelaxationMethod::rkl;
 }
 
 void check_scene(const Scene& scene, const std::string& name) {

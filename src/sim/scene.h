@@ -50,6 +50,9 @@ struct Scene {
   ViewSettings view;
 };
 
+/// Sets what scene.preset stands for.
+void apply_model_preset(Scene& scene);
+
 /// What describe_scene() shows each setting to: a reader sets the value, a writer prints it, a help page
 /// explains it.
 class SceneVisitor {
