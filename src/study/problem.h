@@ -71,7 +71,6 @@ struct Problem {
 /// A rule for relaxing sand that is not this library's, to stand beside it.
 struct Peer {
   std::string name;
-  int most_cells;  ///< along a side
   std::function<RelaxationOutcome(HeightField& bed, double talus_angle)> relax;
 };
 

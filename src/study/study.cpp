@@ -176,7 +176,7 @@ ConvergenceOrder fit_order(const std::vector<std::pair<double, double>>& points)
 Study run_study(const StudyOptions& options) {
   const std::vector<ProblemMaker> makers = chosen_makers(options.problems);
   const int repeats = options.repeats > 0 ? options.repeats : options.quick ? 3 : 5;
-  const TimeLimits limits = options.quick ? TimeLimits{2.0, 0.5} : TimeLimits{30.0, 8.0};
+  const TimeLimits limits = options.quick ? TimeLimits{2.0, 0.5} : TimeLimits{15.0, 8.0};
   Study study;
   study.quick = options.quick;
   const auto share = 1.0 / static_cast<double>(makers.size());

@@ -49,7 +49,7 @@ TEST(DrainedCrater, ShowsThePapersTwoDegreesAtAnyCellSizeAndTheIsotropicLawNone)
   const Problem problem = crater_problem({});
   for (const auto& [contender, score] : run_series(problem, "paper passes", 128)) {
     EXPECT_LT(score.l1, 2e-3);  // of the octagon: what the tolerance leaves
-    EXPECT_NEAR(score.slope_error, 2.0, 0.1) << contender.label;
+    EXPECT_NEAR(score.slope_error, 2.0, 0.2) << contender.label;
   }
   double last = 2.0;
   for (const auto& [contender, score] : run_series(problem, "isotropic rkl", 128)) {

@@ -86,15 +86,15 @@ RelaxationOutcome half_the_excess(HeightField& bed, double talus_angle, int coun
   return outcome;
 }
 
-Peer jacobi(int count, int most_cells) {
-  return {fmt::format("peers: half the excess, {} passes", count), most_cells,
+Peer jacobi(int count) {
+  return {fmt::format("peers: half the excess, {} passes", count),
           [count](HeightField& bed, double talus_angle) { return half_the_excess(bed, talus_angle, count); }};
 }
 
 }  // namespace
 
 std::vector<Peer> published_peers() {
-  return {{"peers: 4 neighbours", 256, four_neighbours}, jacobi(50, 512), jacobi(500, 512)};
+  return {{"peers: 4 neighbours", four_neighbours}, jacobi(50), jacobi(500)};
 }
 
 }  // namespace sandstroke

@@ -104,7 +104,7 @@ TEST_F(QuickStudy, PeersStandBesideTheOthers) {
   options.quick = true;
   options.problems = {"cliff"};
   options.repeats = 1;
-  options.peers = {{"nothing", 64, [](HeightField&, double) { return RelaxationOutcome{}; }}};
+  options.peers = {{"nothing", [](HeightField&, double) { return RelaxationOutcome{}; }}};
   const Study study = run_study(options);
   int found = 0;
   for (const StudyRun& run : study.runs) {
@@ -112,7 +112,7 @@ TEST_F(QuickStudy, PeersStandBesideTheOthers) {
     ++found;
     EXPECT_NEAR(run.error, 1.0, 1e-12);  // all that should move did not
   }
-  EXPECT_EQ(found, 1);
+  EXPECT_GT(found, 1);
 }
 
 TEST_F(QuickStudy, RefusesAProblemThatIsNotThere) {
