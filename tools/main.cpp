@@ -38,6 +38,7 @@ int run_program(int argc, char** argv) {
   add_compare_command(app, chosen);
   add_golden_command(app, chosen);
   add_stroke_command(app, chosen);
+  add_bench_command(app, chosen);
   add_info_command(app, chosen);
 
   try {

@@ -133,6 +133,14 @@ void Hdf5Writer::write(const std::string& dataset, const HeightGrid& heights, Co
 void Hdf5Writer::write(const std::string& dataset, const std::string& text) {
   put(dataset, string_type(text.size()), {}, text.c_str());
 }
+void Hdf5Writer::write(const std::string& dataset, const std::vector<std::string>& texts) {
+  std::size_t longest = 0;
+  for (const std::string& text : texts) longest = std::max(longest, text.size());
+  const Hdf5Handle type = string_type(longest);
+  std::string block;
+  for (const std::string& text : texts) block += text + std::string(H5Tget_size(type) - text.size(), '\0');
+  put(dataset, type, {texts.size()}, block.data());
+}
 
 void Hdf5Writer::put_attribute(const std::string& object, const std::string& attribute, hid_t type,
                                const void* value) {

@@ -67,6 +67,7 @@ class Hdf5Writer {
   void write(const std::string& dataset, const HeightGrid& heights,
              Compression compression = Compression::none);
   void write(const std::string& dataset, const std::string& text);
+  void write(const std::string& dataset, const std::vector<std::string>& texts);  ///< of the longest's length
 
   void attribute(const std::string& object, const std::string& attribute, double value);
   void attribute(const std::string& object, const std::string& attribute, const std::string& value);

@@ -3,22 +3,20 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "sand/initial_surface.h"
 #include "sand/relaxation.h"
+#include "study/exact_shapes.h"
 
 namespace sandstroke {
 namespace {
-
-const double t = std::tan(std::numbers::pi / 6.0);
 
 /// The cone that peers are measured with: a cylinder of R = 60, H = 80 cells on 512^2, or as much on another
 /// side.
 struct PeersCone {
   int side;
   double radius = 60.0 * side / 512, height = 80.0 * side / 512;
-  double foot = std::cbrt(3.0 * radius * radius * height / t), apex = t * foot;
+  ExactCone exact = collapsed_cylinder(radius, height, RelaxationSettings{}.talus_angle);
 
   HeightField start() const {
     SurfaceSettings cylinder;
@@ -31,12 +29,11 @@ struct PeersCone {
     double sum = 0.0;
     for (int row = 0; row < side; ++row)
       for (int col = 0; col < side; ++col)
-        sum +=
-            std::pow(bed(row, col) - std::max(0.0, apex - t * std::hypot(bed.x_of(col), bed.y_of(row))), 2);
-    return std::sqrt(sum) / side / apex;
+        sum += std::pow(bed(row, col) - exact(bed.x_of(col), bed.y_of(row)), 2);
+    return std::sqrt(sum) / side / exact.top();
   }
   double distance(const HeightField& a, const HeightField& b) const {
-    return std::sqrt((a.grid() - b.grid()).square().sum()) / side / apex;
+    return std::sqrt((a.grid() - b.grid()).square().sum()) / side / exact.top();
   }
 };
 

@@ -1,11 +1,11 @@
 // Sand left to itself: how long it takes to rest, and how near it comes to the exact shape.
 #include <chrono>
 #include <cmath>
-#include <numbers>
 
 #include "bench/end_to_end.h"
 #include "sand/initial_surface.h"
 #include "sand/relaxation.h"
+#include "study/exact_shapes.h"
 
 namespace sandstroke {
 namespace {
@@ -66,18 +66,17 @@ Cone cone(const Method& method, int n) {
   HeightField bed = make_surface(cylinder, n, n, 1.0);
   nlohmann::json row = relax(bed, method);
 
-  const double t = std::tan(std::numbers::pi / 6.0);
-  const double foot = std::cbrt(3.0 * cylinder.radius * cylinder.radius * cylinder.height / t),
-               apex = t * foot;
+  const ExactCone exact =
+      collapsed_cylinder(cylinder.radius, cylinder.height, RelaxationSettings{}.talus_angle);
+  const double apex = exact.top();
   double squares = 0.0, largest = 0.0;
   int cells_under_cone = 0;
   for (int r = 0; r < n; ++r)
     for (int c = 0; c < n; ++c) {
-      const double exact = std::max(0.0, t * (foot - std::hypot(bed.x_of(c), bed.y_of(r))));
-      const double error = std::abs(bed(r, c) - exact);
+      const double height = exact(bed.x_of(c), bed.y_of(r)), error = std::abs(bed(r, c) - height);
       squares += error * error;
       largest = std::max(largest, error);
-      cells_under_cone += exact > 0.0;
+      cells_under_cone += height > 0.0;
     }
   row["rms_over_apex"] = std::sqrt(squares / n / n) / apex;  // of the whole bed
   row["rms_under_cone_over_apex"] = std::sqrt(squares / cells_under_cone) / apex;

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "io/hdf5_writer.h"
+
+namespace sandstroke {
+
+/// A column of results: a number or a text per row. Not-a-number: the column says nothing about that row.
+struct TableColumn {
+  std::string name;   ///< as in files
+  std::string title;  ///< for people
+  std::string unit;   ///< empty: none
+  std::variant<std::vector<double>, std::vector<std::string>> values;
+};
+
+/// Results of many runs: columns of equal length.
+struct Table {
+  std::vector<TableColumn> columns;
+  std::size_t rows() const;
+};
+
+/// Names in the first line; an empty field where there is no number. Fields with commas or quotes are quoted
+/// (RFC 4180).
+std::string csv_text(const Table& table);
+
+/// One dataset of rank 1 per column in the group, with its title and unit as attributes.
+void write_table(Hdf5Writer& file, const std::string& group, const Table& table);
+
+/// {column: value} of a row; null where there is no number.
+nlohmann::ordered_json row_json(const Table& table, std::size_t row);
+/// [{name, title, unit}].
+nlohmann::ordered_json columns_json(const Table& table);
+
+/// Aligned text with the titles above, for a terminal. Numbers with `digits` significant ones.
+std::string aligned_text(const Table& table, int digits = 4);
+
+}  // namespace sandstroke

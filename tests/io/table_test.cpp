@@ -1,0 +1,65 @@
+#include "io/table.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "io/hdf5_reader.h"
+#include "test_folder.h"
+
+namespace sandstroke {
+namespace {
+
+const double none = std::nan("");
+
+Table small_table() {
+  return {{{"name", "Name", "", std::vector<std::string>{"a", "b, \"c\""}},
+           {"time", "Time", "s", std::vector<double>{0.1, none}},
+           {"count", "Count", "", std::vector<double>{512.0, 1e-7}}}};
+}
+
+TEST(Table, AsCsvQuotesWhatNeedsItAndLeavesEmptyWhatIsNotThere) {
+  EXPECT_EQ(csv_text(small_table()), "name,time,count\na,0.1,512\n\"b, \"\"c\"\"\",,1e-07\n");
+}
+
+TEST(Table, AsJsonHasNullWhereThereIsNoNumber) {
+  const nlohmann::ordered_json row = row_json(small_table(), 1), columns = columns_json(small_table());
+  EXPECT_EQ(row["name"], "b, \"c\"");
+  EXPECT_TRUE(row["time"].is_null());
+  EXPECT_EQ(row["count"], 1e-7);
+  EXPECT_EQ(columns[1].dump(), R"({"name":"time","title":"Time","unit":"s"})");
+}
+
+TEST(Table, AsHdf5HasADatasetPerColumnWithItsUnit) {
+  const TestFolder folder;
+  {
+    Hdf5Writer file(folder / "table.h5");
+    write_table(file, "/runs", small_table());
+    file.finish();
+  }
+  const Hdf5Reader file(folder / "table.h5");
+  EXPECT_EQ(file.shape("/runs/name"), std::vector<hsize_t>{2});
+  EXPECT_EQ(file.doubles("/runs/time")[0], 0.1);
+  EXPECT_TRUE(std::isnan(file.doubles("/runs/time")[1]));
+  EXPECT_EQ(file.text_attribute("/runs/time", "unit"), "s");
+  EXPECT_EQ(file.text_attribute("/runs/count", "title"), "Count");
+  EXPECT_FALSE(file.has_attribute("/runs/count", "unit"));
+}
+
+TEST(Table, AsTextIsAlignedNumbersToTheRight) {
+  EXPECT_EQ(aligned_text(small_table(), 3),
+            "Name    Time [s]  Count\n"
+            "a            0.1    512\n"
+            "b, \"c\"         -  1e-07\n");
+}
+
+TEST(Table, WithoutRowsIsItsNames) {
+  const Table empty{{{"a", "A", "", std::vector<double>{}}, {"b", "B", "", std::vector<std::string>{}}}};
+  EXPECT_EQ(csv_text(empty), "a,b\n");
+  const TestFolder folder;
+  Hdf5Writer file(folder / "table.h5");
+  EXPECT_NO_THROW(write_table(file, "/runs", empty));
+}
+
+}  // namespace
+}  // namespace sandstroke

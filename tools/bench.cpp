@@ -1,0 +1,61 @@
+#include <spdlog/fmt/fmt.h>
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+#include "commands.h"
+#include "core/interrupt.h"
+#include "core/progress.h"
+#include "study/study_files.h"
+#include "study/study_table.h"
+
+namespace sandstroke {
+namespace {
+
+struct Options {
+  StudyOptions study;
+  std::filesystem::path folder = "bench";
+  bool json = false;
+};
+
+int bench(const Options& options) {
+  const StudyFiles files(options.folder);
+  std::optional<Progress> bar(std::in_place, "bench");
+  StudyOptions study_options = options.study;
+  study_options.progress = [&](double done) { bar->update(done); };
+  const Study study = run_study(study_options);
+  bar.reset();
+  if (interrupted()) return 128 + interrupted();
+  files.write(study);
+  if (options.json)
+    fmt::print("{}\n", study_json(study).dump(2));
+  else
+    fmt::print("{}\npage  {}\n", study_summary(study), files.page().string());
+  return 0;
+}
+
+}  // namespace
+
+void add_bench_command(CLI::App& app, Command& chosen) {
+  auto options = std::make_shared<Options>();
+  std::vector<std::string> names;
+  for (const ProblemMaker& maker : problem_makers()) names.emplace_back(maker.name);
+  CLI::App* command = app.add_subcommand(
+      "bench", "Run time against error: problems with known answers, solved with many settings");
+  command->add_option("--scene", options->study.problems, "Only this problem (repeatable)")
+      ->check(CLI::IsMember(names));
+  command->add_option("-o,--output", options->folder, "Folder for bench.html, bench.csv and bench.h5")
+      ->capture_default_str();
+  command->add_flag("--quick", options->study.quick, "Half a minute: coarser grids, shorter strokes");
+  command->add_option("--repeats", options->study.repeats, "Of each run; default: 5, quick 3")
+      ->check(CLI::Range(1, 1000));
+  command->add_option("--threads", options->study.threads, "Of all runs but those that vary it")
+      ->check(CLI::Range(1, 1024))
+      ->capture_default_str();
+  command->add_flag("--json", options->json, "Print the page's data as one JSON object");
+  command->footer("Example:  sandstroke bench --quick -o bench");
+  command->callback([options, &chosen] { chosen = [options] { return bench(*options); }; });
+}
+
+}  // namespace sandstroke
