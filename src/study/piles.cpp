@@ -1,53 +1,22 @@
 // Sand left to itself until it rests, against exact shapes.
-#include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <memory>
-#include <optional>
 
 #include "core/error.h"
+#include "core/stopwatch.h"
 #include "sand/initial_surface.h"
 #include "study/problem.h"
-#include "study/surface_error.h"
+#include "study/shape_score.h"
 
 namespace sandstroke {
 namespace {
 
-constexpr double talus_angle = 30.0;  // deg
-constexpr double bed_width = 2.0;     // m
-constexpr int band_rows = 64;         // of shapes that do not change along y
+const double talus_angle = RelaxationSettings{}.talus_angle;  // deg
+constexpr double bed_width = 2.0;                             // m
+constexpr int band_rows = 64;                                 // of shapes that do not change along y
 
 /// Relaxes a bed and says what that took.
 using Relaxing = std::function<RelaxationOutcome(HeightField&)>;
-
-double seconds_since(std::chrono::steady_clock::time_point begin) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-}
-
-/// What sand comes to.
-struct Shape {
-  ExactSurface exact;
-  double height;               // m, of the exact surface
-  std::optional<Flank> flank;  // whose slope is measured
-};
-
-Score judge(const HeightField& bed, const HeightField& start, const RelaxationOutcome& outcome,
-            const Shape& shape) {
-  Score score;
-  const SurfaceError error = surface_error(bed, start, shape.exact);
-  score.passes = static_cast<double>(outcome.passes);
-  score.cells_visited = static_cast<double>(outcome.cells_visited);
-  score.l1 = error.l1;
-  score.rms_height = error.rms, score.rms_relative = error.rms / shape.height;
-  score.largest_height = error.largest, score.largest_relative = error.largest / shape.height;
-  score.converged = outcome.converged;
-  if (shape.flank) {
-    score.slope_errors = flank_slope_errors(bed, *shape.flank);
-    for (const double slope_error : score.slope_errors)
-      score.slope_error = std::fmax(score.slope_error, std::abs(slope_error));
-  }
-  return score;
-}
 
 struct Pile {
   std::function<HeightField(int cells)> start;
@@ -57,19 +26,11 @@ struct Pile {
 Trial collapse(const Pile& pile, int cells, const Relaxing& relax) {
   const HeightField start = pile.start(cells);
   HeightField bed = start;
-  const auto begin = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   const RelaxationOutcome outcome = relax(bed);
-  Trial trial{seconds_since(begin), judge(bed, start, outcome, pile.shape)};
+  Trial trial{watch.seconds(), score_of(bed, start, outcome, pile.shape)};
   trial.score.volume_drift = std::abs(bed.volume() - start.volume()) / outcome.moved_volume;
   return trial;
-}
-
-RelaxationSettings relaxation(RelaxationLaw law, RelaxationMethod method) {
-  RelaxationSettings settings;
-  settings.law = law;
-  settings.method = method;
-  settings.talus_angle = talus_angle;
-  return settings;
 }
 
 /// The contenders of one pile.
@@ -112,21 +73,21 @@ class PileField {
 
   /// The curves that all piles have.
   void add_laws_and_methods() {
-    const RelaxationSettings super = relaxation(RelaxationLaw::isotropic, RelaxationMethod::rkl);
+    const RelaxationSettings super{.law = RelaxationLaw::isotropic, .method = RelaxationMethod::rkl};
     add_sizes("isotropic rkl", super);
     RelaxationSettings close = super;
     close.tolerance = 1e-4;
     add_sizes("isotropic rkl, tolerance 1e-4", close);
-    add_sizes("isotropic passes", relaxation(RelaxationLaw::isotropic, RelaxationMethod::passes));
-    add_sizes("paper passes", relaxation(RelaxationLaw::paper, RelaxationMethod::passes));
-    add_sizes("paper rkl", relaxation(RelaxationLaw::paper, RelaxationMethod::rkl));
+    add_sizes("isotropic passes", {.law = RelaxationLaw::isotropic, .method = RelaxationMethod::passes});
+    add_sizes("paper passes", {.law = RelaxationLaw::paper, .method = RelaxationMethod::passes});
+    add_sizes("paper rkl", {.law = RelaxationLaw::paper, .method = RelaxationMethod::rkl});
     add_peers();
   }
 
   /// Curves over the other knobs, each alone.
   void add_knobs() {
     const int cells = options_.quick ? 128 : 512;
-    const RelaxationSettings super = relaxation(RelaxationLaw::isotropic, RelaxationMethod::rkl);
+    const RelaxationSettings super{.law = RelaxationLaw::isotropic, .method = RelaxationMethod::rkl};
     for (const double step_tolerance : {10.0, 3.0, 1.0, 0.3, 0.1, 0.03, 0.01, 0.003}) {
       RelaxationSettings settings = super;
       settings.step_tolerance = step_tolerance;
@@ -140,7 +101,7 @@ class PileField {
           options_.threads, false);
     }
     for (const double share : {0.25, 0.2, 0.1, 0.05}) {
-      RelaxationSettings settings = relaxation(RelaxationLaw::isotropic, RelaxationMethod::passes);
+      RelaxationSettings settings{.law = RelaxationLaw::isotropic, .method = RelaxationMethod::passes};
       settings.share = share;
       add("share of a pass, 128 cells", fmt::format("share {}", share), 128, settings, options_.threads,
           false);
@@ -158,10 +119,6 @@ class PileField {
   const ProblemOptions& options_;
 };
 
-Problem pile_problem(const char* name, const char* title, const std::string& text) {
-  return {name, title, text, "l1", "misplaced sand, of the sand that has to move", "", {}};
-}
-
 Pile heap(SurfaceKind kind, double radius, double height, const ExactCone& cone) {
   SurfaceSettings surface;
   surface.kind = kind;
@@ -175,9 +132,9 @@ Pile heap(SurfaceKind kind, double radius, double height, const ExactCone& cone)
 Problem cylinder_problem(const ProblemOptions& options) {
   // The pile that peers are measured with (R = 60, H = 80 cells on 512 x 512).
   const double radius = 60.0 / 512.0 * bed_width, height = 80.0 / 512.0 * bed_width;
-  Problem problem = pile_problem("cylinder", "Cylinder to cone",
-                                 "A cylinder collapses on a flat bed; the truth is the talus cone of its "
-                                 "volume.");
+  Problem problem = shape_problem("cylinder", "Cylinder to cone",
+                                  "A cylinder collapses on a flat bed; the truth is the talus cone of its "
+                                  "volume.");
   PileField field(
       problem, heap(SurfaceKind::cylinder, radius, height, collapsed_cylinder(radius, height, talus_angle)),
       options);
@@ -188,9 +145,9 @@ Problem cylinder_problem(const ProblemOptions& options) {
 
 Problem truncated_problem(const ProblemOptions& options) {
   const double radius = 0.5, height = 0.2;
-  Problem problem = pile_problem("truncated", "Low cylinder to truncated cone",
-                                 "A low cylinder loses its edge; the truth is the truncated talus cone of "
-                                 "its volume, whose plateau nothing has reached.");
+  Problem problem = shape_problem("truncated", "Low cylinder to truncated cone",
+                                  "A low cylinder loses its edge; the truth is the truncated talus cone of "
+                                  "its volume, whose plateau nothing has reached.");
   PileField(problem,
             heap(SurfaceKind::cylinder, radius, height, collapsed_cylinder(radius, height, talus_angle)),
             options)
@@ -200,8 +157,8 @@ Problem truncated_problem(const ProblemOptions& options) {
 
 Problem cone_problem(const ProblemOptions& options) {
   const double radius = 0.5, height = 0.6;
-  Problem problem = pile_problem("cone", "Steep cone to talus cone",
-                                 "A cone of 50 degrees slips; the truth is the talus cone of its volume.");
+  Problem problem = shape_problem("cone", "Steep cone to talus cone",
+                                  "A cone of 50 degrees slips; the truth is the talus cone of its volume.");
   PileField(problem, heap(SurfaceKind::cone, radius, height, collapsed_cone(radius, height, talus_angle)),
             options)
       .add_laws_and_methods();
@@ -212,9 +169,9 @@ Problem cliff_problem(const ProblemOptions& options) {
   SurfaceSettings cliff;
   cliff.kind = SurfaceKind::cliff;
   cliff.height = 0.4;
-  Problem problem = pile_problem("cliff", "Cliff to ramp",
-                                 "A vertical cliff slips; the truth is a ramp of the talus angle centred "
-                                 "on its edge.");
+  Problem problem = shape_problem("cliff", "Cliff to ramp",
+                                  "A vertical cliff slips; the truth is a ramp of the talus angle centred "
+                                  "on its edge.");
   const auto start = [cliff](int cells) { return make_surface(cliff, band_rows, cells, bed_width / cells); };
   PileField(problem, {start, {collapsed_cliff(cliff.height, talus_angle), cliff.height, {}}}, options)
       .add_laws_and_methods();
@@ -224,9 +181,9 @@ Problem cliff_problem(const ProblemOptions& options) {
 Problem trench_problem(const ProblemOptions& options) {
   const double half_width = 0.125, depth = 0.3;  // m; whole cells from 64 on
   const ExactTrench exact = filled_slot(half_width, depth, talus_angle);
-  Problem problem = pile_problem("trench", "Slot to V",
-                                 "A slot with vertical walls fills from both sides; the truth is the V of "
-                                 "its area.");
+  Problem problem = shape_problem("trench", "Slot to V",
+                                  "A slot with vertical walls fills from both sides; the truth is the V of "
+                                  "its area.");
   const auto start = [=](int cells) {
     HeightField bed(band_rows, cells, bed_width / cells);
     for (int row = 0; row < band_rows; ++row)
@@ -235,67 +192,6 @@ Problem trench_problem(const ProblemOptions& options) {
     return bed;
   };
   PileField(problem, {start, {exact, exact.depth(), {}}}, options).add_laws_and_methods();
-  return problem;
-}
-
-namespace {
-
-constexpr double hole_radius = 0.1;  // m: a hole of one cell would be a point, of infinite curvature
-
-/// Cuts the sand in the hole down to the crater until no more follows.
-Trial drain(int cells, const ExactCrater& crater, const RelaxationSettings& settings) {
-  const HeightField start(cells, cells, bed_width / cells);
-  HeightField bed = start;
-  const auto begin = std::chrono::steady_clock::now();
-  const auto relaxer = make_relaxer(settings, bed.cell_size());
-  RelaxationOutcome total;
-  for (bool flowed = true; flowed; flowed = flowed && total.converged) {
-    for (int row = 0; row < cells; ++row)
-      for (int col = 0; col < cells; ++col) {
-        const double x = bed.x_of(col), y = bed.y_of(row);
-        if (std::hypot(x, y) > hole_radius) continue;
-        if (bed(row, col) > crater(x, y)) bed.set(row, col, crater(x, y));
-      }
-    const RelaxationOutcome outcome = relaxer->relax(bed);
-    flowed = outcome.passes > 0;
-    total.passes += outcome.passes;
-    total.cells_visited += outcome.cells_visited;
-    total.converged = outcome.converged;
-  }
-  return {seconds_since(begin),
-          judge(bed, start, total,
-                {crater, crater.depth, Flank{crater.slope, hole_radius, crater.depth / crater.slope}})};
-}
-
-}  // namespace
-
-Problem crater_problem(const ProblemOptions& options) {
-  constexpr double depth = 0.25;  // m
-  Problem problem = pile_problem("octagon", "Drained crater: octagon or cone",
-                                 "Sand drains through a hole until none follows; all of it has slid, so the "
-                                 "truth is the steepest shape of the law: the paper's octagon, or a cone.");
-  const auto add = [&](const std::string& series, const std::string& label, int cells,
-                       const RelaxationSettings& settings, bool refines) {
-    const double dx = bed_width / cells;
-    Contender contender{series, label, settings_of(settings, BedGeometry(cells, cells, dx), options.threads),
-                        refines ? dx : not_applicable, nullptr};
-    contender.run = [=] { return drain(cells, drained_crater(depth, talus_angle, settings.law), settings); };
-    problem.contenders.push_back(std::move(contender));
-  };
-  using enum RelaxationLaw;
-  using enum RelaxationMethod;
-  for (const auto& [series, law, method] :
-       {std::tuple("paper passes", paper, passes), std::tuple("paper rkl", paper, rkl),
-        std::tuple("isotropic passes", isotropic, passes), std::tuple("isotropic rkl", isotropic, rkl)})
-    for (const int cells : {32, 48, 64, 96, 128, 192, 256}) {
-      if (options.quick && cells > 96) continue;
-      add(series, fmt::format("{} cells", cells), cells, relaxation(law, method), true);
-    }
-  for (const double tolerance : {1e-2, 3e-3, 1e-3, 3e-4, 1e-4}) {
-    RelaxationSettings settings = relaxation(paper, passes);
-    settings.tolerance = tolerance;
-    add("paper passes, tolerance, 64 cells", fmt::format("tolerance {}", tolerance), 64, settings, false);
-  }
   return problem;
 }
 

@@ -94,6 +94,7 @@ Problem truncated_problem(const ProblemOptions& options);
 Problem cone_problem(const ProblemOptions& options);
 Problem cliff_problem(const ProblemOptions& options);
 Problem trench_problem(const ProblemOptions& options);
+// Sand that drains (crater.cpp).
 Problem crater_problem(const ProblemOptions& options);
 // The device's work, against closed forms (contact.cpp).
 Problem plunge_problem(const ProblemOptions& options);

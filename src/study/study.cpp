@@ -13,16 +13,12 @@
 namespace sandstroke {
 namespace {
 
-/// How long one run may take, and all repeats of it [s].
-struct TimeLimits {
-  double run, repeats;
+/// What a study may take. Cells, not seconds, decide what is left out, so that a busy machine leaves out the
+/// same; a cell takes 5 to 20 ns.
+struct Limits {
+  double cells_visited;  // by one run
+  double seconds;        // by all repeats of a run after the first
 };
-
-/// Plain passes over n x n cells number n^2: with twice the cells a run takes 16 times as long at worst.
-double foreseen_seconds(const StudyRun& smaller, const RunSettings& larger) {
-  const double ratio = larger.cells / smaller.settings.cells;
-  return smaller.wall_seconds * (std::isnan(ratio) ? 1.0 : std::pow(std::max(1.0, ratio), 4.0));
-}
 
 std::vector<ProblemMaker> chosen_makers(const std::vector<std::string>& names) {
   if (names.empty()) return problem_makers();
@@ -38,10 +34,22 @@ std::vector<ProblemMaker> chosen_makers(const std::vector<std::string>& names) {
   return chosen;
 }
 
+/// How many cells a run will visit, from the series' last and, where there is one, the one before it. (Plain
+/// passes over n x n cells number n^2, and visit n^4.)
+double foreseen_visits(double cells, const StudyRun& last, const StudyRun* before) {
+  const double ratio = cells / last.settings.cells;
+  if (!(ratio > 1.0)) return last.score.cells_visited;
+  double power = 4.0;
+  if (before && before->settings.cells < last.settings.cells)
+    power = std::log(last.score.cells_visited / before->score.cells_visited) /
+            std::log(last.settings.cells / before->settings.cells);
+  return last.score.cells_visited * std::pow(ratio, power);
+}
+
 /// The contenders of one problem, their repeats in turn.
 class Race {
  public:
-  Race(const Problem& problem, const TimeLimits& limits, Study& study)
+  Race(const Problem& problem, const Limits& limits, Study& study)
       : problem_(problem), limits_(limits), study_(study) {}
 
   /// progress: share of this problem that is done.
@@ -60,21 +68,21 @@ class Race {
 
  private:
   bool goes_on(std::size_t i) const {
-    return runs_[i].repeats > 0 && (runs_[i].repeats + 1) * runs_[i].wall_seconds <= limits_.repeats;
+    return runs_[i].repeats > 0 && (runs_[i].repeats + 1) * runs_[i].wall_seconds <= limits_.seconds;
   }
 
-  /// Whether the time limit allows a first run, judged by the series' last.
+  /// Whether the limit allows a run at all.
   bool fits(std::size_t i) {
     const Contender& contender = problem_.contenders[i];
-    for (std::size_t j = i; j-- > 0;) {
-      if (problem_.contenders[j].series != contender.series) continue;
-      if (runs_[j].repeats == 0) return left_out(contender, "a coarser run was");
-      const double foreseen = foreseen_seconds(runs_[j], contender.settings);
-      return foreseen <= limits_.run ||
-             left_out(contender,
-                      fmt::format("it might take {:.0f} s (limit {:.0f} s)", foreseen, limits_.run));
-    }
-    return true;
+    const StudyRun *last = nullptr, *before = nullptr;  // of the series
+    for (std::size_t j = 0; j < i; ++j)
+      if (problem_.contenders[j].series == contender.series) before = last, last = &runs_[j];
+    if (!last) return true;
+    if (last->repeats == 0) return left_out(contender, "a coarser run was");
+    const double foreseen = foreseen_visits(contender.settings.cells, *last, before);
+    return !(foreseen > limits_.cells_visited) ||
+           left_out(contender, fmt::format("it would visit some {:.0e} cells (limit {:.0e})", foreseen,
+                                           limits_.cells_visited));
   }
   bool left_out(const Contender& contender, const std::string& why) {
     study_.notes.push_back(
@@ -101,7 +109,7 @@ class Race {
   }
 
   const Problem& problem_;
-  const TimeLimits limits_;
+  const Limits limits_;
   Study& study_;
   std::vector<StudyRun> runs_;
   std::vector<std::vector<double>> seconds_;  // of each run's repeats, sorted
@@ -173,17 +181,26 @@ ConvergenceOrder fit_order(const std::vector<std::pair<double, double>>& points)
   return fit;
 }
 
+namespace {
+
+/// (Limits of TBB do not nest upwards: this one must not last while contenders set theirs.)
+Problem make(const ProblemMaker& maker, const ProblemOptions& options) {
+  const tbb::global_control threads(tbb::global_control::max_allowed_parallelism,
+                                    static_cast<std::size_t>(options.threads));
+  return maker.make(options);
+}
+
+}  // namespace
+
 Study run_study(const StudyOptions& options) {
   const std::vector<ProblemMaker> makers = chosen_makers(options.problems);
   const int repeats = options.repeats > 0 ? options.repeats : options.quick ? 3 : 5;
-  const TimeLimits limits = options.quick ? TimeLimits{2.0, 0.5} : TimeLimits{15.0, 8.0};
+  const Limits limits = options.quick ? Limits{5e7, 0.5} : Limits{1.5e9, 8.0};
   Study study;
   study.quick = options.quick;
   const auto share = 1.0 / static_cast<double>(makers.size());
   for (std::size_t i = 0; i < makers.size() && !interrupted(); ++i) {
-    const tbb::global_control threads(tbb::global_control::max_allowed_parallelism,
-                                      static_cast<std::size_t>(options.threads));
-    study.problems.push_back(makers[i].make(options));
+    study.problems.push_back(make(makers[i], options));
     const Problem& problem = study.problems.back();
     std::vector<StudyRun> runs = Race(problem, limits, study).run(repeats, [&](double done) {
       options.progress(share * (static_cast<double>(i) + done));

@@ -61,6 +61,20 @@ nlohmann::ordered_json number_or_null(double value) {
   return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json();
 }
 
+/// The run of a problem with the least error, and before it the fastest with no more than twice that.
+std::vector<const StudyRun*> best_of(const std::vector<StudyRun>& runs, const std::string& problem) {
+  const StudyRun *nearest = nullptr, *fastest = nullptr;
+  const auto in_race = [&](const StudyRun& run) { return run.pareto && run.problem == problem; };
+  for (const StudyRun& run : runs)
+    if (in_race(run) && (!nearest || run.error < nearest->error)) nearest = &run;
+  for (const StudyRun& run : runs)
+    if (in_race(run) && run.error <= 2.0 * nearest->error &&
+        (!fastest || run.wall_seconds < fastest->wall_seconds))
+      fastest = &run;
+  if (fastest == nearest) return nearest ? std::vector{nearest} : std::vector<const StudyRun*>{};
+  return {fastest, nearest};
+}
+
 std::string title_of(const Study& study, const std::string& problem) {
   for (const Problem& one : study.problems)
     if (one.name == problem) return one.title;
@@ -140,15 +154,11 @@ nlohmann::ordered_json study_json(const Study& study) {
 
 std::string study_summary(const Study& study) {
   std::vector<StudyRun> best;
-  std::vector<double> errors;
   for (const Problem& problem : study.problems) {
-    std::vector<StudyRun> front;
-    for (const StudyRun& run : study.runs)
-      if (run.problem == problem.name && run.pareto) front.push_back(run);
-    std::sort(front.begin(), front.end(),
-              [](const StudyRun& a, const StudyRun& b) { return a.wall_seconds < b.wall_seconds; });
-    best.insert(best.end(), front.begin(), front.end());
+    const std::vector<const StudyRun*> ends = best_of(study.runs, problem.name);
+    for (const StudyRun* run : ends) best.push_back(*run);
   }
+  std::vector<double> errors;
   Table table;
   const Table all = runs_table(best);
   for (const char* name : {"problem", "series", "label", "wall_seconds", "passes"})
@@ -160,7 +170,8 @@ std::string study_summary(const Study& study) {
     if (column.name == "problem")
       for (std::string& name : std::get<std::vector<std::string>>(column.values))
         name = title_of(study, name);
-  std::string text = "Fastest for what they reach, problem by problem\n" + aligned_text(table, 3);
+  std::string text =
+      "Nearest to the truth, and the fastest with no more than twice that error\n" + aligned_text(table, 3);
   if (!study.orders.empty())
     text += "\nOrders of convergence\n" + aligned_text(orders_table(study.orders), 3);
   for (const Problem& problem : study.problems)

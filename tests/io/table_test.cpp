@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstring>
 
 #include "io/hdf5_reader.h"
 #include "test_folder.h"
@@ -16,6 +17,19 @@ Table small_table() {
   return {{{"name", "Name", "", std::vector<std::string>{"a", "b, \"c\""}},
            {"time", "Time", "s", std::vector<double>{0.1, none}},
            {"count", "Count", "", std::vector<double>{512.0, 1e-7}}}};
+}
+
+std::vector<std::string> fixed_length_texts(const std::filesystem::path& path, const char* name) {
+  const Hdf5Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
+  const Hdf5Handle dataset(H5Dopen2(file, name, H5P_DEFAULT), H5Dclose);
+  const Hdf5Handle type(H5Dget_type(dataset), H5Tclose);
+  const std::size_t length = H5Tget_size(type);
+  std::vector<char> block(H5Dget_storage_size(dataset));
+  H5Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, block.data());
+  std::vector<std::string> texts;
+  for (std::size_t i = 0; i < block.size(); i += length)
+    texts.emplace_back(block.data() + i, strnlen(block.data() + i, length));
+  return texts;
 }
 
 TEST(Table, AsCsvQuotesWhatNeedsItAndLeavesEmptyWhatIsNotThere) {
@@ -39,6 +53,8 @@ TEST(Table, AsHdf5HasADatasetPerColumnWithItsUnit) {
   }
   const Hdf5Reader file(folder / "table.h5");
   EXPECT_EQ(file.shape("/runs/name"), std::vector<hsize_t>{2});
+  EXPECT_EQ(fixed_length_texts(folder / "table.h5", "/runs/name"),
+            (std::vector<std::string>{"a", "b, \"c\""}));
   EXPECT_EQ(file.doubles("/runs/time")[0], 0.1);
   EXPECT_TRUE(std::isnan(file.doubles("/runs/time")[1]));
   EXPECT_EQ(file.text_attribute("/runs/time", "unit"), "s");

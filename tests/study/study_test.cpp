@@ -2,17 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <nlohmann/json.hpp>
-#include <set>
 
 #include "core/error.h"
-#include "core/output_file.h"
-#include "io/hdf5_reader.h"
-#include "study/study_files.h"
-#include "study/study_table.h"
-#include "test_folder.h"
 
 namespace sandstroke {
 namespace {
@@ -58,34 +51,12 @@ TEST(Pareto, FrontIsWhatNothingBeatsInBoth) {
   EXPECT_EQ(front, (std::vector<bool>{true, true, false, false, false, true, true}));
 }
 
-TEST(Problems, HaveNamesOfTheirOwnAndCurvesThatCanBeRead) {
-  std::set<std::string> names;
-  ProblemOptions quick;
-  quick.quick = true;
-  for (const ProblemMaker& maker : problem_makers()) {
-    EXPECT_TRUE(names.insert(maker.name).second) << maker.name;
-    const Problem problem = maker.make(quick);
-    EXPECT_EQ(problem.name, maker.name);
-    EXPECT_NO_THROW(number_in(problem.error, StudyRun{}));
-    std::set<std::pair<std::string, std::string>> points;
-    for (const Contender& one : problem.contenders)
-      EXPECT_TRUE(points.emplace(one.series, one.label).second) << one.series << ", " << one.label;
-  }
-}
-
-class QuickStudy : public testing::Test {
- protected:
-  static Study plunge() {
-    StudyOptions options;
-    options.quick = true;
-    options.problems = {"plunge"};
-    options.repeats = 2;
-    return run_study(options);
-  }
-};
-
-TEST_F(QuickStudy, RunsEachContenderRepeatsItAndFitsItsOrder) {
-  const Study study = plunge();
+TEST(QuickStudy, RunsEachContenderRepeatsItAndFitsItsOrder) {
+  StudyOptions options;
+  options.quick = true;
+  options.problems = {"plunge"};
+  options.repeats = 2;
+  const Study study = run_study(options);
   ASSERT_EQ(study.problems.size(), 1u);
   EXPECT_EQ(study.runs.size(), study.problems[0].contenders.size());
   for (const StudyRun& run : study.runs) {
@@ -96,26 +67,59 @@ TEST_F(QuickStudy, RunsEachContenderRepeatsItAndFitsItsOrder) {
   }
   ASSERT_EQ(study.orders.size(), 1u);
   EXPECT_NEAR(study.orders[0].order, 1.0, 0.01);  // a force held for a tick is late by half of it
-  EXPECT_TRUE(study.notes.empty());
 }
 
-TEST_F(QuickStudy, PeersStandBesideTheOthers) {
+/// A study of the cliff with rules that leave the sand as it is, but tell this how many cells they met.
+Study study_idle_peers(int repeats, double cells_visited,
+                       const std::function<void(const char*, const HeightField&)>& tell) {
   StudyOptions options;
   options.quick = true;
   options.problems = {"cliff"};
-  options.repeats = 1;
-  options.peers = {{"nothing", [](HeightField&, double) { return RelaxationOutcome{}; }}};
-  const Study study = run_study(options);
+  options.repeats = repeats;
+  for (const char* name : {"one", "two"})
+    options.peers.push_back({name, [=](HeightField& bed, double) {
+                               tell(name, bed);
+                               RelaxationOutcome outcome;
+                               outcome.cells_visited = static_cast<std::int64_t>(cells_visited);
+                               return outcome;
+                             }});
+  return run_study(options);
+}
+
+TEST(QuickStudy, PeersStandBesideTheOthers) {
   int found = 0;
-  for (const StudyRun& run : study.runs) {
-    if (run.series != "nothing") continue;
+  for (const StudyRun& run : study_idle_peers(1, 1.0, [](const char*, const HeightField&) {}).runs) {
+    if (run.series != "one") continue;
     ++found;
     EXPECT_NEAR(run.error, 1.0, 1e-12);  // all that should move did not
   }
-  EXPECT_GT(found, 1);
+  EXPECT_EQ(found, 3);  // sizes
 }
 
-TEST_F(QuickStudy, RefusesAProblemThatIsNotThere) {
+TEST(QuickStudy, RepeatsInTurnSoThatDriftHitsAllAlike) {
+  std::vector<std::pair<std::string, int>> met;
+  study_idle_peers(2, 1.0,
+                   [&](const char* name, const HeightField& bed) { met.emplace_back(name, bed.cols()); });
+  const std::vector<std::pair<std::string, int>> once = {{"one", 64}, {"one", 128}, {"one", 256},
+                                                         {"two", 64}, {"two", 128}, {"two", 256}};
+  std::vector<std::pair<std::string, int>> twice = once;
+  twice.insert(twice.end(), once.begin(), once.end());
+  EXPECT_EQ(met, twice);
+}
+
+TEST(QuickStudy, LeavesOutWhatWouldTakeTooLongAndSaysSo) {
+  int largest = 0;
+  const Study study = study_idle_peers(
+      1, 1e7, [&](const char*, const HeightField& bed) { largest = std::max(largest, bed.cols()); });
+  EXPECT_EQ(largest, 64);  // 1e7 cells with 64 are 1.6e8 with 128
+  const auto noted = std::count_if(study.notes.begin(), study.notes.end(), [](const std::string& note) {
+    return note.find("one, 128 cells") != std::string::npos ||
+           note.find("one, 256 cells") != std::string::npos;
+  });
+  EXPECT_EQ(noted, 2);
+}
+
+TEST(QuickStudy, RefusesAProblemThatIsNotThere) {
   StudyOptions options;
   options.problems = {"plunge", "castle"};
   try {
@@ -125,44 +129,6 @@ TEST_F(QuickStudy, RefusesAProblemThatIsNotThere) {
     EXPECT_EQ(failure.kind(), ErrorKind::input);
     EXPECT_NE(std::string(failure.what()).find("castle"), std::string::npos);
     EXPECT_NE(std::string(failure.what()).find("stroke-paper"), std::string::npos);
-  }
-}
-
-TEST_F(QuickStudy, LeavesPageTableAndDataThatSayTheSame) {
-  Study study = plunge();
-  study.estimates.push_back({"plunge", "a", "force", 2.0, 1.0});
-  study.notes = {"left out"};
-  const nlohmann::ordered_json json = study_json(study);
-  EXPECT_EQ(json["runs"].size(), study.runs.size());
-  for (const auto& column : json["columns"])
-    EXPECT_TRUE(json["runs"][0].contains(column["name"].get<std::string>())) << column["name"];
-  EXPECT_TRUE(json["runs"][0]["l1"].is_null());
-  EXPECT_TRUE(json["runs"][0]["pareto"].is_boolean());
-  EXPECT_TRUE(json["problems"][0]["converged_to"].is_null());
-  EXPECT_EQ(json["estimates"][0]["ratio"], 2.0);
-  EXPECT_EQ(json["notes"][0], "left out");
-
-  const TestFolder folder;
-  const StudyFiles files(folder / "new/folder");
-  files.write(study);
-  const std::string csv = read_text_file(folder / "new/folder/bench.csv");
-  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), static_cast<int>(study.runs.size()) + 1);
-  const Hdf5Reader data(folder / "new/folder/bench.h5");
-  const std::vector<double> errors = data.doubles("/runs/work_error");
-  for (std::size_t i = 0; i < study.runs.size(); ++i) EXPECT_EQ(errors[i], study.runs[i].error);
-  EXPECT_EQ(data.text_attribute("/runs/wall_seconds", "unit"), "s");
-  EXPECT_EQ(data.grid("/slope_error").rows(), static_cast<int>(study.runs.size()));
-  EXPECT_NE(read_text_file(files.page()).find("Work of a plunge"), std::string::npos);
-}
-
-TEST(StudyFilesTest, APlaceThatCannotBeWrittenIsRefusedAtOnce) {
-  const TestFolder folder;
-  std::ofstream(folder / "file") << "text";
-  try {
-    StudyFiles(folder / "file");
-    FAIL();
-  } catch (const Error& failure) {
-    EXPECT_EQ(failure.kind(), ErrorKind::io);
   }
 }
 
