@@ -116,13 +116,6 @@ HeightField start_of(const Scene& second, const HeightField& start) {
   return HeightField(HeightGrid::NullaryExpr(rows, cols, averages), second.bed.cell_size());
 }
 
-Solution solve(const Scene& scene, const HeightField& start, const std::optional<Stroke>& stroke) {
-  ForceTrace trace;
-  Simulation simulation(scene, start_of(scene, start), stroke);
-  simulation.run(trace);
-  return {simulation.bed(), std::move(trace.force)};
-}
-
 /// The sand that is not where it was.
 struct Change {
   double volume = 0.0, area = 0.0;  // m^3, m^2
@@ -142,6 +135,13 @@ Change change_of(const HeightField& start, const HeightField& end) {
 }
 
 }  // namespace
+
+Solution solve(const Scene& scene, const HeightField& start, const std::optional<Stroke>& stroke) {
+  ForceTrace trace;
+  Simulation simulation(scene, start, stroke);
+  simulation.run(trace);
+  return {simulation.bed(), std::move(trace.force)};
+}
 
 Scene second_scene(const Scene& scene, SecondSolution which) {
   const bool coarser = which == SecondSolution::coarser;
@@ -171,7 +171,7 @@ ErrorEstimate estimate_error(const Scene& scene, const HeightField& start,
                              const std::optional<Stroke>& stroke, const Solution& run, SecondSolution which) {
   const auto begin = std::chrono::steady_clock::now();
   const Scene second_settings = second_scene(scene, which);
-  const Solution second = solve(second_settings, start, stroke);
+  const Solution second = solve(second_settings, start_of(second_settings, start), stroke);
   const bool coarser = which == SecondSolution::coarser;
   const Solution &coarse = coarser ? second : run, &fine = coarser ? run : second;
 

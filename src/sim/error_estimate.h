@@ -14,6 +14,9 @@ struct Solution {
   std::vector<Eigen::Vector3d> force;  ///< N, on the device, per tick
 };
 
+/// Runs a scene from this surface. Error: unstable.
+Solution solve(const Scene& scene, const HeightField& start, const std::optional<Stroke>& stroke);
+
 /// The second solution that a run is held against: every step twice as large (cheap: about an eighth of the
 /// run), or half as large (dear: about eight times the run, but seldom fooled by cells that happen to lie
 /// well).

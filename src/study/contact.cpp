@@ -3,6 +3,7 @@
 
 #include "core/error.h"
 #include "sim/simulation.h"
+#include "study/error_checks.h"
 #include "study/exact_shapes.h"
 #include "study/problem.h"
 
@@ -101,6 +102,19 @@ Problem drag_problem(const ProblemOptions& options) {
     const double tip = -0.97 * slot_depth;
     const double exact = drag_work(level - tip, speed, length, scene.force);
     const Stroke stroke = straight({-0.5 * length, centre, tip}, {0.5 * length, centre, tip}, length / speed);
+    if (cells_per_radius == 8.0) {
+      Scene cell_by_cell = scene;
+      cell_by_cell.bed.surface.kind = SurfaceKind::file;
+      cell_by_cell.bed.surface.file = "in memory";
+      const SandForce exact_force = sand_force(level - tip, {speed, 0.0, 0.0}, 0.0, scene.force);
+      problem.check_errors = [=] {
+        return check_errors("8 cells per radius", cell_by_cell, bed, stroke, [&](const Solution& run) {
+          double squares = 0.0;
+          for (const Eigen::Vector3d& force : run.force) squares += (force - exact_force.total).squaredNorm();
+          return TrueError{.force_rms = std::sqrt(squares / static_cast<double>(run.force.size()))};
+        });
+      };
+    }
     problem.contenders.push_back(
         work_contender("cell size", fmt::format("{} cells per radius", cells_per_radius), scene,
                        options.threads, dx, [=] { return work_trial(scene, bed, stroke, exact); }));

@@ -5,6 +5,7 @@
 #include "core/error.h"
 #include "core/stopwatch.h"
 #include "sand/initial_surface.h"
+#include "study/error_checks.h"
 #include "study/problem.h"
 #include "study/shape_score.h"
 
@@ -21,6 +22,7 @@ using Relaxing = std::function<RelaxationOutcome(HeightField&)>;
 struct Pile {
   std::function<HeightField(int cells)> start;
   Shape shape;
+  SurfaceSettings surface;  // the start's rule; kind file: none
 };
 
 Trial collapse(const Pile& pile, int cells, const Relaxing& relax) {
@@ -82,6 +84,25 @@ class PileField {
     add_sizes("paper passes", {.law = RelaxationLaw::paper, .method = RelaxationMethod::passes});
     add_sizes("paper rkl", {.law = RelaxationLaw::paper, .method = RelaxationMethod::rkl});
     add_peers();
+    add_error_checks();
+  }
+
+  /// What a run says of its own error.
+  void add_error_checks() {
+    Scene scene;
+    scene.preset = ModelPreset::accurate;
+    apply_model_preset(scene);
+    scene.bed.cols = options_.quick ? 128 : 256;
+    const HeightField start = pile_->start(scene.bed.cols);
+    scene.bed.rows = start.rows();
+    scene.bed.width = bed_width, scene.bed.depth = start.rows() * start.cell_size();
+    scene.bed.surface = pile_->surface;
+    problem_.check_errors = [=, pile = pile_] {
+      return check_errors(
+          fmt::format("{} cells", scene.bed.cols), scene, start, {}, [&](const Solution& run) {
+            return TrueError{.height_share = surface_error(run.surface, start, pile->shape.exact).l1};
+          });
+    };
   }
 
   /// Curves over the other knobs, each alone.
@@ -124,7 +145,8 @@ Pile heap(SurfaceKind kind, double radius, double height, const ExactCone& cone)
   surface.kind = kind;
   surface.radius = radius, surface.height = height;
   return {[surface](int cells) { return make_surface(surface, cells, cells, bed_width / cells); },
-          {cone, cone.top(), Flank{cone.slope, cone.plateau, cone.foot}}};
+          {cone, cone.top(), Flank{cone.slope, cone.plateau, cone.foot}},
+          surface};
 }
 
 }  // namespace
@@ -172,9 +194,11 @@ Problem cliff_problem(const ProblemOptions& options) {
   Problem problem = shape_problem("cliff", "Cliff to ramp",
                                   "A vertical cliff slips; the truth is a ramp of the talus angle centred "
                                   "on its edge.");
-  const auto start = [cliff](int cells) { return make_surface(cliff, band_rows, cells, bed_width / cells); };
-  PileField(problem, {start, {collapsed_cliff(cliff.height, talus_angle), cliff.height, {}}}, options)
-      .add_laws_and_methods();
+  Pile pile;
+  pile.start = [cliff](int cells) { return make_surface(cliff, band_rows, cells, bed_width / cells); };
+  pile.shape.exact = collapsed_cliff(cliff.height, talus_angle), pile.shape.height = cliff.height;
+  pile.surface = cliff;
+  PileField(problem, pile, options).add_laws_and_methods();
   return problem;
 }
 
@@ -191,7 +215,10 @@ Problem trench_problem(const ProblemOptions& options) {
         if (std::abs(bed.x_of(col)) < half_width) bed.set(row, col, -depth);
     return bed;
   };
-  PileField(problem, {start, {exact, exact.depth(), {}}}, options).add_laws_and_methods();
+  SurfaceSettings cell_by_cell;
+  cell_by_cell.kind = SurfaceKind::file;
+  cell_by_cell.file = "in memory";
+  PileField(problem, {start, {exact, exact.depth(), {}}, cell_by_cell}, options).add_laws_and_methods();
   return problem;
 }
 

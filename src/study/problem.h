@@ -57,6 +57,13 @@ struct Contender {
   std::function<Trial()> run;    ///< gives the same score each time
 };
 
+/// An error that a run states of itself (sim/error_estimate.h), beside its true one.
+struct ErrorCheck {
+  std::string problem, label;
+  std::string quantity;  ///< "height" (share of the changed sand) or "force" (rms, N)
+  double estimate, truth;
+};
+
 /// A problem with a known answer.
 struct Problem {
   std::string name, title;
@@ -64,7 +71,9 @@ struct Problem {
   std::string error;        ///< the column that counts as its error
   std::string error_title;  ///< what that is here
   std::string error_unit;
-  std::vector<Contender> contenders;     ///< within a series, the cheap ones first
+  std::vector<Contender> contenders;  ///< within a series, the cheap ones first
+  /// What runs of it say of their own error; none where `sandstroke run` cannot run it.
+  std::function<std::vector<ErrorCheck>()> check_errors = {};
   double converged_to = not_applicable;  ///< how far a computed reference is from a coarser one, as `error`
 };
 

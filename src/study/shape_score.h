@@ -10,7 +10,7 @@ namespace sandstroke {
 /// What sand comes to where a problem ends.
 struct Shape {
   ExactSurface exact;
-  double height;               ///< m, of the exact surface
+  double height = 0.0;         ///< m, of the exact surface
   std::optional<Flank> flank;  ///< whose slope is measured
 };
 

@@ -6,6 +6,7 @@
 #include "core/error.h"
 #include "haptics/stroke_script.h"
 #include "sim/simulation.h"
+#include "study/error_checks.h"
 #include "study/problem.h"
 #include "study/surface_error.h"
 
@@ -59,13 +60,17 @@ double largest(const std::vector<Eigen::Vector3d>& values) {
   return norm;
 }
 
+/// Misplaced sand against a run on as fine a grid or a finer one, that began flat.
+SurfaceError surface_distance(const HeightGrid& heights, const Replay& truth) {
+  const HeightGrid exact = coarsened(truth.heights, static_cast<int>(truth.heights.rows() / heights.rows()));
+  return surface_error(heights, HeightGrid::Zero(exact.rows(), exact.cols()), exact);
+}
+
 /// Against a run on as fine a grid or a finer one, that began flat.
 Score judge(const Replay& run, const Replay& truth) {
   Score score;
-  const HeightGrid exact =
-      coarsened(truth.heights, static_cast<int>(truth.heights.rows() / run.heights.rows()));
-  const SurfaceError error = surface_error(run.heights, HeightGrid::Zero(exact.rows(), exact.cols()), exact);
-  const double height = exact.maxCoeff() - exact.minCoeff();
+  const SurfaceError error = surface_distance(run.heights, truth);
+  const double height = truth.heights.maxCoeff() - truth.heights.minCoeff();
   score.passes = static_cast<double>(run.result.passes);
   score.cells_visited = static_cast<double>(run.result.cells_visited);
   score.l1 = error.l1;
@@ -76,6 +81,25 @@ Score judge(const Replay& run, const Replay& truth) {
   score.volume_drift = run.result.volume_drift;
   score.converged = run.result.converged;
   return score;
+}
+
+/// What a run of the scene says of its error, beside its distance to the truth.
+std::vector<ErrorCheck> check_errors(const std::string& label, const Scene& scene, const Stroke& stroke,
+                                     const Replay& truth) {
+  const auto every = static_cast<std::size_t>(std::llround(scene.device.servo_rate / sample_rate));
+  const auto judge = [&](const Solution& run) {
+    TrueError error;
+    error.height_share = surface_distance(run.surface.grid(), truth).l1;
+    double squares = 0.0, forces = 0.0;
+    for (std::size_t i = 0; i < truth.force.size() && i * every < run.force.size(); ++i) {
+      squares += (run.force[i * every] - truth.force[i]).squaredNorm();
+      forces += run.force[i * every].squaredNorm() > 0.0;
+    }
+    error.force_rms = std::sqrt(squares / forces);
+    return error;
+  };
+  return check_errors(label, scene, HeightField(scene.bed.rows, scene.bed.cols, scene.bed.cell_size()),
+                      stroke, judge);
 }
 
 Contender stroke_contender(const std::string& series, const std::string& label, const Scene& scene,
@@ -126,6 +150,11 @@ Problem dynamic_problem(const ProblemOptions& options) {
     problem.contenders.push_back(stroke_contender("force held for a tick",
                                                   fmt::format("servo rate {} Hz", rate), at_rate(rate),
                                                   options.threads, 1.0 / rate, stroke, truth));
+  problem.check_errors = [=] {  // cells count here, too: the level under the tool is a mean of theirs
+    Scene eighth = scene;
+    for (int halvings = 0; halvings < 3; ++halvings) eighth = second_scene(eighth, SecondSolution::finer);
+    return check_errors("1000 Hz, 5 cells per radius", scene, stroke, replay(eighth, stroke));
+  };
   return problem;
 }
 
@@ -199,6 +228,9 @@ Problem stroke_problem(ModelPreset preset, const ProblemOptions& options) {
     scene.relaxation.step_tolerance = step_tolerance;
     add("step tolerance alone", fmt::format("step tolerance {}", step_tolerance), scene, not_applicable);
   }
+  problem.check_errors = [=] {
+    return check_errors("5 cells per radius", refined(preset, 1, 1, 1), stroke, *truth);
+  };
   return problem;
 }
 

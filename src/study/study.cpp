@@ -208,6 +208,11 @@ Study run_study(const StudyOptions& options) {
     mark_pareto(runs);
     add_orders(problem, runs, study.orders);
     study.runs.insert(study.runs.end(), runs.begin(), runs.end());
+    if (!problem.check_errors || interrupted()) continue;
+    for (ErrorCheck& check : problem.check_errors()) {
+      check.problem = problem.name;
+      study.estimates.push_back(std::move(check));
+    }
   }
   return study;
 }

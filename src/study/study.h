@@ -29,19 +29,12 @@ struct ConvergenceOrder {
   int points;
 };
 
-/// An error bar that a run stated of itself, beside its true error.
-struct ErrorEstimate {
-  std::string problem, label;
-  std::string quantity;    ///< "height" or "force"
-  double estimate, truth;  ///< in the quantity's unit
-};
-
 struct Study {
   bool quick = false;
   std::vector<Problem> problems;  ///< with their contenders
   std::vector<StudyRun> runs;
   std::vector<ConvergenceOrder> orders;
-  std::vector<ErrorEstimate> estimates;
+  std::vector<ErrorCheck> estimates;
   std::vector<std::string> notes;  ///< what was left out, and why
 };
 

@@ -142,7 +142,7 @@ nlohmann::ordered_json study_json(const Study& study) {
     json["runs"].push_back(std::move(run));
   }
   for (std::size_t i = 0; i < study.orders.size(); ++i) json["orders"].push_back(row_json(orders, i));
-  for (const ErrorEstimate& one : study.estimates)
+  for (const ErrorCheck& one : study.estimates)
     json["estimates"].push_back({{"problem", one.problem},
                                  {"label", one.label},
                                  {"quantity", one.quantity},
