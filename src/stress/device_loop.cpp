@@ -115,9 +115,10 @@ LoopRun run_loop(const LoopSettings& settings, std::int64_t ticks) {
     run.swing = swing[w];
     run.growth = swing[w] / swing[w / 2];
     run.verdict = Verdict::stable;
-    if (w > 0 && swing[w] <= 1e-4 * swing[0]) return run;
+    if (swing[w] <= 1e-4 * settings.disturbance) return run;
   }
-  if (run.growth < 0.5 || run.swing <= settings.device.resolution) return run;
+  const bool falls = run.growth < 0.5 && run.swing < 0.95 * swing[windows - 2];
+  if (falls || run.swing <= settings.device.resolution) return run;
   const bool grows = std::holds_alternative<Wall>(settings.against) && run.growth > 2.0;
   run.verdict = grows ? Verdict::diverged : Verdict::limit_cycle;
   return run;

@@ -72,8 +72,8 @@ struct LoopRun {
 /// - diverged: off its rest by more than `far`; against a wall, where what grows grows for ever, also where
 /// the
 ///   swing doubled over the second half.
-/// - stable: the swing fell to 1e-4 of the first window's, or fell to less than half over the second half, or
-///   is within one step of the encoders, which they cannot tell from rest.
+/// - stable: the swing fell to 1e-4 of the disturbance, or to less than half over the second half and still
+///   falls, or is within one step of the encoders, which they cannot tell from rest.
 /// - limit_cycle: neither. A dither of more than one encoder step is one, by quantisation.
 LoopRun run_loop(const LoopSettings& settings, std::int64_t ticks);
 
