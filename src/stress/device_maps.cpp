@@ -208,11 +208,11 @@ std::vector<LoopMapPlan> device_map_plans(bool quick) {
              return sand_of_stiffness(2e3, device);
            }),
       plan("rate-scale", "Servo rate and workspace scale",
-           "The paper's constants (k_s 1000 N, k_c 0.5 1/m, k_f 10 s/m) under 3 N, no force limit: what a "
+           "The paper's constants (k_s 1000 N, k_c 0.5 1/m, k_f 10 s/m) under 3 N, 12 N at most: what a "
            "device metre is in the bed multiplies both stiffness and drag.",
            servo_rate, y("scale", "", 0.1, 1000.0),
            [](double rate, double scale) {
-             DeviceSettings device = ideal_device();
+             DeviceSettings device = limited_device();
              device.servo_rate = rate, device.scale = scale;
              return pressed_with(pressing, device, ForceSettings{});
            }),

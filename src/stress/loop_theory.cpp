@@ -57,7 +57,9 @@ double growth_at(const LoopSettings& settings, double gain) {
 
 double spectral_radius(const LoopSettings& settings) {
   const FeltAlong felt = felt_about_rest(settings);
-  return std::max(spectral_radius(settings, felt.x), spectral_radius(settings, felt.z));
+  const double along_z = spectral_radius(settings, felt.z);
+  if (std::holds_alternative<Wall>(settings.against)) return along_z;
+  return std::max(spectral_radius(settings, felt.x), along_z);
 }
 
 double exact_boundary_gain(const LoopSettings& settings) {
