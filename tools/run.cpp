@@ -14,6 +14,7 @@
 #include "io/scene_toml.h"
 #include "run_picture.h"
 #include "sand/instruction_set.h"
+#include "sim/simulation.h"
 
 namespace sandstroke {
 namespace {
@@ -138,13 +139,10 @@ int run(const Arguments& arguments) {
   if (!arguments.picture.empty()) write_png(arguments.picture, run_picture(RunFile(output), scene.view));
   if (result.ticks > 0 && result.contact_ticks == 0)
     spdlog::warn("the tool never touched the sand; check stroke.plane, stroke.depth and stroke.offset");
-  // Rounding and the held force alone return a little; a loop that is not passive returns more.
-  const bool returned = result.least_absorbed_energy < -1e-3 * std::abs(result.absorbed_energy);
-  if (scene.device.model == DeviceModel::dynamic && returned)
+  if (scene.device.model == DeviceModel::dynamic && loop_returned_energy(result, scene.device))
     spdlog::warn(
         "the sand returned up to {:.3g} J more than it took: the loop was not passive; lower force.k_s, "
-        "raise "
-        "device.servo_rate or device.damping",
+        "force.k_f, device.delay or device.dropped_ticks, or raise device.servo_rate or device.damping",
         -result.least_absorbed_energy);
   if (!result.converged) {
     spdlog::warn(

@@ -23,8 +23,10 @@ State rest_of(const LoopSettings& settings) {
   return {{0.0, 0.0, -sand->depth / settings.device.scale}, {sand->speed, 0.0, 0.0}};
 }
 
-State disturbed(State state, double disturbance) {
-  state.position += Eigen::Vector3d(disturbance, 0.0, disturbance);
+State disturbed(const LoopSettings& settings) {
+  State state = rest_of(settings);
+  state.position.z() += settings.disturbance;
+  if (std::holds_alternative<PressedSand>(settings.against)) state.position.x() += settings.disturbance;
   return state;
 }
 
@@ -64,11 +66,12 @@ DeviceLoop::DeviceLoop(const LoopSettings& settings)
     : settings_(settings),
       rest_(rest_of(settings)),
       lead_(Eigen::Vector3d::Zero()),
-      device_(settings.device, disturbed(rest_, settings.disturbance)),
-      late_force_(settings.device, force_at_rest(settings)) {
+      device_(settings.device, disturbed(settings)),
+      late_force_(settings.device, force_at_rest(settings)),
+      force_(force_at_rest(settings)) {
   // At rest the hand's spring holds what sand and damping take: k_h lead = b v - F.
   const DeviceSettings& d = settings.device;
-  const Eigen::Vector3d held = d.damping * rest_.velocity - force_at_rest(settings);
+  const Eigen::Vector3d held = d.damping * rest_.velocity - force_;
   if (!held.isZero(0.0)) lead_ = held / d.hand_stiffness;
 }
 
@@ -81,6 +84,10 @@ Eigen::Vector3d DeviceLoop::off_rest() const {
   return device_.state().position - (hand_at(tick_).position - lead_);
 }
 
+Eigen::Vector3d DeviceLoop::heading_off_rest() const {
+  return off_rest() + (device_.state().velocity - rest_.velocity) / settings_.device.servo_rate;
+}
+
 Eigen::Vector3d DeviceLoop::force_now(const State& hand, const State& next) const {
   const State reading = device_.read();
   if (const auto* wall = std::get_if<Wall>(&settings_.against))
@@ -91,7 +98,8 @@ Eigen::Vector3d DeviceLoop::force_now(const State& hand, const State& next) cons
 
 void DeviceLoop::tick() {
   const State hand = hand_at(tick_), next = hand_at(tick_ + 1);
-  device_.advance(hand, next, late_force_.act(force_now(hand, next)));
+  force_ = late_force_.act(force_now(hand, next));
+  device_.advance(hand, next, force_);
   ++tick_;
 }
 
@@ -104,7 +112,7 @@ LoopRun run_loop(const LoopSettings& settings, std::int64_t ticks) {
   for (std::size_t w = 0; w < windows; ++w) {
     Swing of_window;
     for (std::int64_t k = 0; k < window; ++k) {
-      of_window.add(loop.off_rest());
+      of_window.add(loop.heading_off_rest());
       loop.tick();
       if (!(loop.off_rest().cwiseAbs().maxCoeff() < settings.far)) {  // NaN is far, too
         const double infinite = std::numeric_limits<double>::infinity();
@@ -115,9 +123,10 @@ LoopRun run_loop(const LoopSettings& settings, std::int64_t ticks) {
     run.swing = swing[w];
     run.growth = swing[w] / swing[w / 2];
     run.verdict = Verdict::stable;
-    if (w > 0 && swing[w] <= 1e-4 * swing[0]) return run;
+    if (swing[w] <= 1e-4 * settings.disturbance) return run;
   }
-  if (run.growth < 0.5 || run.swing <= settings.device.resolution) return run;
+  const bool falls = run.growth < 0.5 && run.swing < 0.95 * swing[windows - 2];
+  if (falls || run.swing <= settings.device.resolution) return run;
   const bool grows = std::holds_alternative<Wall>(settings.against) && run.growth > 2.0;
   run.verdict = grows ? Verdict::diverged : Verdict::limit_cycle;
   return run;

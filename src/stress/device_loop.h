@@ -27,7 +27,7 @@ struct PressedSand {
 struct LoopSettings {
   DeviceSettings device;
   std::variant<Wall, PressedSand> against;
-  double disturbance = 1e-6;  ///< m, along x and z
+  double disturbance = 1e-6;  ///< m, along z and, in sand, x
   double far = 1e3;           ///< m off its rest, where a device has diverged
 };
 
@@ -48,6 +48,11 @@ class DeviceLoop {
   void tick();
   /// m, from where the device would rest or, drawn along, steadily be.
   Eigen::Vector3d off_rest() const;
+  /// m, from where it would be a tick later, with the speed that it has. At half the servo rate a device
+  /// turns round within each tick and is in the same place at every start of one: only its speed tells.
+  Eigen::Vector3d heading_off_rest() const;
+  const SimulatedDevice& device() const { return device_; }
+  const Eigen::Vector3d& force() const { return force_; }  ///< N, that acted in the last tick
 
  private:
   SimulatedDevice::State hand_at(std::int64_t tick) const;
@@ -59,6 +64,7 @@ class DeviceLoop {
   Eigen::Vector3d lead_;         // m, of the hand before the device at rest
   SimulatedDevice device_;
   LateForce late_force_;
+  Eigen::Vector3d force_;
 };
 
 struct LoopRun {
@@ -72,8 +78,8 @@ struct LoopRun {
 /// - diverged: off its rest by more than `far`; against a wall, where what grows grows for ever, also where
 /// the
 ///   swing doubled over the second half.
-/// - stable: the swing fell to 1e-4 of the first window's, or fell to less than half over the second half, or
-///   is within one step of the encoders, which they cannot tell from rest.
+/// - stable: the swing fell to 1e-4 of the disturbance, or to less than half over the second half and still
+///   falls, or is within one step of the encoders, which they cannot tell from rest.
 /// - limit_cycle: neither. A dither of more than one encoder step is one, by quantisation.
 LoopRun run_loop(const LoopSettings& settings, std::int64_t ticks);
 

@@ -57,7 +57,9 @@ double growth_at(const LoopSettings& settings, double gain) {
 
 double spectral_radius(const LoopSettings& settings) {
   const FeltAlong felt = felt_about_rest(settings);
-  return std::max(spectral_radius(settings, felt.x), spectral_radius(settings, felt.z));
+  const double along_z = spectral_radius(settings, felt.z);
+  if (std::holds_alternative<Wall>(settings.against)) return along_z;
+  return std::max(spectral_radius(settings, felt.x), along_z);
 }
 
 double exact_boundary_gain(const LoopSettings& settings) {
@@ -89,7 +91,7 @@ double oldest_force(const DeviceSettings& device, std::int64_t ticks) {
 }
 
 double mean_growth_with_drops(const LoopSettings& settings) {
-  constexpr int ticks = 20'000;
+  constexpr int first = 1'000, ticks = 20'000;  // the first ones turn the state to what grows most
   const Wall felt = felt_about_rest(settings).z;
   const Eigen::Matrix<double, 2, 5> map = device_tick_map(settings.device);
   Eigen::Matrix3d dropped = Eigen::Matrix3d::Identity();
@@ -100,12 +102,12 @@ double mean_growth_with_drops(const LoopSettings& settings) {
   std::mt19937 random(1);  // another sequence than drops_tick's
   Eigen::Vector3d state(1.0, 0.0, -felt.stiffness);
   double logarithm = 0.0;
-  for (int k = 0; k < ticks; ++k) {
+  for (int k = -first; k < ticks; ++k) {
     const bool late = 0x1p-32 * static_cast<double>(random()) < settings.device.dropped_ticks;
     state = ((late ? dropped : fresh) * state).eval();
     const double size = state.cwiseAbs().maxCoeff();
     state /= size;
-    logarithm += std::log(size);
+    if (k >= 0) logarithm += std::log(size);
   }
   return std::exp(logarithm / ticks);
 }
@@ -126,7 +128,9 @@ double swing_of_encoders(const LoopSettings& settings) {
 std::int64_t ticks_to_decide(const LoopSettings& settings) {
   const double slowest =
       std::min(std::abs(growth_at(settings, 1.0 - band)), std::abs(growth_at(settings, 1.0 + band)));
-  return static_cast<std::int64_t>(std::clamp(2.0 * std::log(shown_by) / slowest, least_ticks, most_ticks));
+  const double to_show = 2.0 * std::log(shown_by) / slowest;
+  const double to_forget = 2.0 * std::log(1e8) / std::abs(growth_at(settings, 0.0));  // how it began
+  return static_cast<std::int64_t>(std::clamp(std::max(to_show, to_forget), least_ticks, most_ticks));
 }
 
 std::vector<Verdict> expected_verdicts(const LoopSettings& settings, std::int64_t ticks) {

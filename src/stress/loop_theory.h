@@ -34,7 +34,8 @@ double mean_growth_with_drops(const LoopSettings& settings);
 /// swing more: step K sum |h|, h the closed loop's position after a force of one newton for one tick.
 double swing_of_encoders(const LoopSettings& settings);
 
-/// So many ticks that a loop whose gain is 5 % off the boundary shows on which side it is.
+/// So many ticks that a loop whose gain is 5 % off the boundary shows on which side it is, and that the free
+/// device has forgotten how it began.
 std::int64_t ticks_to_decide(const LoopSettings& settings);
 
 /// What the eigenvalue lets expect of run_loop: where the boundary is within 5 % of the gain, or so many
