@@ -15,9 +15,10 @@ namespace {
 
 SimulatedDevice::State as_state(const Hand& hand) { return {hand.position, hand.velocity}; }
 
-/// True once per period: at the last tick before each multiple of it.
+/// True once per period: at the last tick before each multiple of it; at most once a tick.
 bool comes_due(std::int64_t tick, double servo_rate, double rate) {
   if (rate <= 0.0) return false;
+  if (rate >= servo_rate) return true;  // also where rate x tick overflows
   const auto count = [&](std::int64_t t) {
     return std::floor(static_cast<double>(t) * rate / servo_rate + 1e-9);
   };
@@ -34,6 +35,10 @@ Simulation::Simulation(const Scene& scene, HeightField bed, std::optional<Stroke
       relaxer_(relaxer ? std::move(relaxer) : make_relaxer(scene.relaxation, bed_.cell_size())),
       late_force_(scene.device) {
   if (!stroke) return;
+  if (!(stroke->duration() * scene.device.servo_rate < 1e15))
+    throw_input_error(
+        "the stroke lasts {} s, more ticks at {} Hz than can be played; repair its times, or set stroke.stop",
+        stroke->duration(), scene.device.servo_rate);
   check_inside(*stroke);
   stroke_.emplace(std::move(*stroke));
 }

@@ -31,7 +31,7 @@ class Simulation {
  public:
   /// stroke: as place_stroke() leaves it; none where the bed is only relaxed. relaxer: none = as the scene
   /// says. Error: input, if the stroke may enter sand outside the bed: there, below the highest that the
-  /// surface can be.
+  /// surface can be; or if it has 1e15 ticks or more.
   Simulation(const Scene& scene, HeightField bed, std::optional<Stroke> stroke,
              std::unique_ptr<Relaxer> relaxer = nullptr);
 

@@ -15,7 +15,7 @@ constexpr const char* group = "strokes";
 constexpr double half = 0.15;  // m, of the bed's sides
 constexpr int cells = 150;     // along each
 
-/// Where the hand is at a time [s]: m.
+/// Where the hand is [m] at a time from 0 to 1 s.
 using Motion = std::function<Eigen::Vector3d(double)>;
 
 struct ExtremeStroke {
@@ -130,17 +130,29 @@ void play_long(StressReport& report, bool accurate, const char* name, const Moti
                               {Verdict::stable}));
 }
 
+/// What no bed, and no clock, has room for.
+void refuse(StressReport& report) {
+  const Scene scene = scene_of(false, DeviceModel::kinematic);
+  const Motion leaves = [](double t) { return V(0.2 * t, 0.0, -0.005); };
+  report.cases.push_back(play(scene, stroke_of(leaves, 1.0, 1000.0), "over the edge",
+                              "5 mm deep, to 50 mm beyond the bed", {Verdict::refused}));
+  Stroke endless = stroke_of(leaves, 0.5, 1000.0);
+  endless.time.back() = 1e300;
+  report.cases.push_back(play(scene, endless, "beyond numbers long", "1e300 s", {Verdict::refused}));
+}
+
 }  // namespace
 
 void stress_strokes(StressReport& report, const StressOptions& options) {
   const double short_ones = options.quick ? 0.8 : 0.05;  // of the time they all take
-  const double seconds = options.quick ? 0.5 : 2.0;
+  const double seconds = options.quick ? 0.5 : 1.0;
   double done = 0.0;
   for (const ExtremeStroke& extreme : strokes)
     for (const bool accurate : {false, true}) {
       play_extreme(report, extreme, accurate, stroke_of(extreme.at, seconds, 1000.0));
       options.progress(done += 0.5 * short_ones / std::size(strokes));
     }
+  refuse(report);
   const auto circle = [](double t) { return V(0.06 * std::cos(t), 0.06 * std::sin(t), -0.005); };
   const auto rest = [](double) { return V(0.0, 0.0, -0.006); };
   for (const bool accurate : {false, true}) {

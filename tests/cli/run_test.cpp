@@ -179,11 +179,25 @@ TEST(CliRun, ALoopThatDivergesSaysWhereAndExitsWith3) {
                   folder);
   EXPECT_EQ(device.exit_code, 3) << device.err;
   EXPECT_NE(device.err.find("diverged"), std::string::npos) << device.err;
-  const ProgramResult force =
-      run_program({"run", "scene.toml", "-o", "a.h5", "--set", "force.k_c=1e6"}, folder);
+  const ProgramResult force = run_program(
+      {"run", "scene.toml", "-o", "a.h5", "--set", "force.k_c=1e6", "--set", "device.max_force=0"}, folder);
   EXPECT_EQ(force.exit_code, 3) << force.err;
   EXPECT_NE(force.err.find("force.k_c"), std::string::npos) << force.err;
   EXPECT_FALSE(fs::exists(folder / "a.h5"));
+}
+
+TEST(CliRun, ALimitedForceHoldsWhereTheSandsIsBeyondNumbers) {
+  const fs::path folder = test_folder();
+  const ProgramResult run =
+      run_program({"run", "scene.toml", "-o", "a.h5", "--set", "force.k_c=1e6", "--json"}, folder);
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const nlohmann::json json = nlohmann::json::parse(run.out);
+  EXPECT_NEAR(json["max_force"], 12.0, 1e-12);
+  EXPECT_TRUE(json["least_passivity_margin"].is_null());  // JSON has no infinity
+  const RunTrace trace = RunFile(folder / "a.h5").trace();
+  for (const auto& force : trace.device_force) EXPECT_TRUE(force.allFinite());
+  EXPECT_EQ(run_program({"compare", "a.h5", "a.h5"}, folder).exit_code, 0);
+  EXPECT_EQ(run_program({"info", "a.h5"}, folder).exit_code, 0);
 }
 
 TEST(CliRun, AToolThatNeverTouchesTheSandIsPointedOut) {

@@ -100,6 +100,27 @@ TEST(Simulation, AFastDragLeavesTheFurrowOfAFinerServoRate) {
   }
 }
 
+TEST(Simulation, RelaxesOnceATickAtMost) {
+  for (const double rate : {1000.0, 1e6, 1e308}) {
+    Scene scene = small_scene();
+    scene.relaxation.rate = rate;
+    Simulation simulation(scene, flat_bed(scene), through({{0, 0, -0.002}, {0.01, 0, -0.002}}, 0.1));
+    SimulationObserver nobody;
+    EXPECT_EQ(simulation.run(nobody).relaxations, 101 + 1) << rate;
+  }
+}
+
+TEST(Simulation, RefusesAStrokeOfMoreTicksThanCanBePlayed) {
+  const Scene scene = small_scene();
+  try {
+    Simulation(scene, flat_bed(scene), through({{0, 0, -0.002}, {0.01, 0, -0.002}}, 1e300));
+    FAIL() << "not refused";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::input);
+    EXPECT_NE(std::string(error.what()).find("lasts 1e+300 s"), std::string::npos) << error.what();
+  }
+}
+
 TEST(Simulation, WhatIsReachedLiftedIsNoPath) {
   const Scene scene = small_scene();
   Stroke stroke = through({{-0.08, 0, -0.006}, {0.08, 0, -0.006}}, 1e-3);
