@@ -39,6 +39,7 @@ int run_program(int argc, char** argv) {
   add_golden_command(app, chosen);
   add_stroke_command(app, chosen);
   add_bench_command(app, chosen);
+  add_stress_command(app, chosen);
   add_info_command(app, chosen);
 
   try {

@@ -1,12 +1,12 @@
 #include "sim/error_estimate.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <numeric>
 #include <set>
 
 #include "core/error.h"
+#include "core/stopwatch.h"
 
 namespace sandstroke {
 namespace {
@@ -169,7 +169,7 @@ Scene second_scene(const Scene& scene, SecondSolution which) {
 
 ErrorEstimate estimate_error(const Scene& scene, const HeightField& start,
                              const std::optional<Stroke>& stroke, const Solution& run, SecondSolution which) {
-  const auto begin = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   const Scene second_settings = second_scene(scene, which);
   const Solution second = solve(second_settings, start_of(second_settings, start), stroke);
   const bool coarser = which == SecondSolution::coarser;
@@ -192,7 +192,7 @@ ErrorEstimate estimate_error(const Scene& scene, const HeightField& start,
   estimate.height_max = of_heights * height.max;
   if (forces > 0) estimate.force_rms = of_forces * std::sqrt(force.squares / static_cast<double>(forces));
   estimate.force_max = of_forces * force.max;
-  estimate.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  estimate.wall_seconds = watch.seconds();
   return estimate;
 }
 

@@ -4,6 +4,9 @@
 
 namespace sandstroke {
 
+/// All parts, one after the other; what is missing where it was interrupted() is no surprise.
+StressReport stress_all(const StressOptions& options);
+
 // The parts of the stress test. Each adds its cases, maps, boundaries and traces to the report.
 
 /// The haptic loop against wall and sand: where it is stable, swings or diverges.
