@@ -65,7 +65,7 @@ Problem crater_problem(const ProblemOptions& options) {
   for (const double tolerance : {1e-2, 3e-3, 1e-3, 3e-4, 1e-4}) {
     RelaxationSettings settings{.law = paper, .method = passes};
     settings.tolerance = tolerance;
-    add("paper passes, tolerance, 64 cells", fmt::format("tolerance {}", tolerance), 64, settings, false);
+    add("paper passes, tolerance", fmt::format("tolerance {}, 64 cells", tolerance), 64, settings, false);
   }
   return problem;
 }

@@ -112,24 +112,24 @@ class PileField {
     for (const double step_tolerance : {10.0, 3.0, 1.0, 0.3, 0.1, 0.03, 0.01, 0.003}) {
       RelaxationSettings settings = super;
       settings.step_tolerance = step_tolerance;
-      add(fmt::format("step tolerance, {} cells", cells), fmt::format("step tolerance {}", step_tolerance),
-          cells, settings, options_.threads, false);
+      add("step tolerance", fmt::format("step tolerance {}, {} cells", step_tolerance, cells), cells,
+          settings, options_.threads, false);
     }
     for (const double tolerance : {1e-2, 3e-3, 1e-3, 3e-4, 1e-4, 1e-5}) {
       RelaxationSettings settings = super;
       settings.tolerance = tolerance;
-      add(fmt::format("tolerance, {} cells", cells), fmt::format("tolerance {}", tolerance), cells, settings,
+      add("tolerance", fmt::format("tolerance {}, {} cells", tolerance, cells), cells, settings,
           options_.threads, false);
     }
     for (const double share : {0.25, 0.2, 0.1, 0.05}) {
       RelaxationSettings settings{.law = RelaxationLaw::isotropic, .method = RelaxationMethod::passes};
       settings.share = share;
-      add("share of a pass, 128 cells", fmt::format("share {}", share), 128, settings, options_.threads,
+      add("share of a pass", fmt::format("share {}, 128 cells", share), 128, settings, options_.threads,
           false);
     }
     for (const int threads : {1, 2})
-      add(fmt::format("threads, {} cells", most_cells()),
-          fmt::format("{} thread{}", threads, threads == 1 ? "" : "s"), most_cells(), super, threads, false);
+      add("threads", fmt::format("{} thread{}, {} cells", threads, threads == 1 ? "" : "s", most_cells()),
+          most_cells(), super, threads, false);
   }
 
  private:
@@ -193,7 +193,8 @@ Problem cliff_problem(const ProblemOptions& options) {
   cliff.height = 0.4;
   Problem problem = shape_problem("cliff", "Cliff to ramp",
                                   "A vertical cliff slips; the truth is a ramp of the talus angle centred "
-                                  "on its edge.");
+                                  "on its edge. Both laws are exact along an axis: the tolerance is all that "
+                                  "is left.");
   Pile pile;
   pile.start = [cliff](int cells) { return make_surface(cliff, band_rows, cells, bed_width / cells); };
   pile.shape.exact = collapsed_cliff(cliff.height, talus_angle), pile.shape.height = cliff.height;
@@ -207,7 +208,8 @@ Problem trench_problem(const ProblemOptions& options) {
   const ExactTrench exact = filled_slot(half_width, depth, talus_angle);
   Problem problem = shape_problem("trench", "Slot to V",
                                   "A slot with vertical walls fills from both sides; the truth is the V of "
-                                  "its area.");
+                                  "its area. Both laws are exact along an axis: the tolerance is all that is "
+                                  "left.");
   const auto start = [=](int cells) {
     HeightField bed(band_rows, cells, bed_width / cells);
     for (int row = 0; row < band_rows; ++row)
