@@ -5,6 +5,7 @@
 #include <cmath>
 #include <random>
 
+#include "stress/bisection.h"
 #include "stress/loop_theory.h"
 
 namespace sandstroke {
@@ -73,16 +74,12 @@ double passive_gain(const LoopSettings& settings) {
 
 double measured_boundary_gain(const LoopSettings& settings) {
   constexpr std::int64_t ticks = 20'000;
-  const auto settles = [&](double gain) {
-    const LoopRun run = run_loop(with_gain(settings, gain), ticks);
-    return run.growth < 1.0;
-  };
+  const auto settles = [&](double gain) { return run_loop(with_gain(settings, gain), ticks).growth < 1.0; };
   double low = passive_gain(settings);
   while (!settles(low)) low *= 0.5;
   double high = 2.0 * low;
   while (settles(high)) low = high, high *= 2.0;
-  while (high / low > 1.001) (settles(std::sqrt(low * high)) ? low : high) = std::sqrt(low * high);
-  return std::sqrt(low * high);
+  return boundary_between(low, high, 1e-3, settles);
 }
 
 Boundary boundary_of(const LoopSettings& settings) {

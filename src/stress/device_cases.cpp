@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <functional>
+#include <limits>
 
 #include "core/error.h"
 #include "sim/simulation.h"
@@ -50,7 +51,7 @@ struct Outcome {
 
 /// N, peak to peak along any axis, of the force from one time [s] to another.
 double swing_between(const std::vector<TickRecord>& ticks, double from, double to) {
-  Eigen::Vector3d low = ticks.back().device_force, high = low;
+  Eigen::Vector3d low = Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity()), high = -low;
   for (const TickRecord& tick : ticks) {
     if (tick.time < from || tick.time > to) continue;
     low = low.cwiseMin(tick.device_force);

@@ -187,16 +187,16 @@ std::vector<LoopMapPlan> device_map_plans(bool quick) {
             device.servo_rate = rate;
             return sand_of_stiffness(K, device);
           }),
-      plan("mass-damping", "Mass and damping of the device",
-           "Sand of 20 kN/m under 3 N at 1 kHz, 12 N at most, the hand without damping. Damping helps until "
-           "it "
-           "is so strong that a light device follows within a tick.",
-           x("mass", "kg", 0.01, 10.0), y("damping", "N s/m", 0.1, 100.0),
-           [](double mass, double damping) {
-             DeviceSettings device = limited_device();
-             device.mass = mass, device.damping = damping, device.hand_damping = 0.0;
-             return sand_of_stiffness(20e3, device);
-           }),
+      plan(
+          "mass-damping", "Mass and damping of the device",
+          "Sand of 20 kN/m under 3 N at 1 kHz, 12 N at most, the hand without damping. Stable from b = K T/2 "
+          "on, whatever the mass; a light device gets by with a little less.",
+          x("mass", "kg", 0.01, 10.0), y("damping", "N s/m", 0.1, 100.0),
+          [](double mass, double damping) {
+            DeviceSettings device = limited_device();
+            device.mass = mass, device.damping = damping, device.hand_damping = 0.0;
+            return sand_of_stiffness(20e3, device);
+          }),
       plan("hand", "The hand's stiffness and damping",
            "Sand of 2 kN/m under 3 N at 100 Hz, 12 N at most, the device's own damping 1 N s/m: the damping "
            "decides, and stiffness helps only where the hand is stiffer than the sand.",

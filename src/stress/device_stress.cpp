@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/interrupt.h"
 #include "core/parallel.h"
+#include "stress/bisection.h"
 #include "stress/device_boundaries.h"
 #include "stress/device_cases.h"
 #include "stress/device_maps.h"
@@ -53,29 +55,27 @@ void add_drag_gain(StressReport& report) {
   loop.device.model = DeviceModel::dynamic;
   loop.device.preset = DevicePreset::ideal;
   apply_device_preset(loop.device);
-  ForceSettings force;
+  const ForceSettings paper;
   const auto at = [&](double k_f) {
+    ForceSettings force;
     force.k_f = k_f;
     loop.against = PressedSand{force, depth_of_repulse_force(3.0, force), 0.1};
     return loop;
   };
   for (const DragVelocity velocity : {DragVelocity::sampled, DragVelocity::implicit}) {
     loop.device.drag = velocity;
-    double stable = 10.0, unstable = 1e6;
-    const bool ends = run_loop(at(unstable), 20'000).verdict != Verdict::stable;
-    while (ends && unstable / stable > 1.001) {
-      const double middle = std::sqrt(stable * unstable);
-      (run_loop(at(middle), 20'000).growth < 1.0 ? stable : unstable) = middle;
-    }
+    const double most = 1e6;
+    const bool ends = run_loop(at(most), 20'000).verdict != Verdict::stable;
+    const auto settles = [&](double k_f) { return run_loop(at(k_f), 20'000).growth < 1.0; };
+    const double largest = ends ? boundary_between(paper.k_f, most, 1e-3, settles) : most;
     const bool implicit = velocity == DragVelocity::implicit;
-    report.cases.push_back(
-        {"device loop, drag",
-         implicit ? "implicit" : "sampled",
-         "1 kHz, 3 N, 0.1 m/s; k_f is raised to 1e6 s/m",
-         {implicit ? Verdict::stable : Verdict::diverged},
-         ends ? Verdict::diverged : Verdict::stable,
-         ends ? fmt::format("stable up to k_f = {:.4g} s/m, {:.3g} times the paper's", stable, stable / 10.0)
-              : "stable up to k_f = 1e6 s/m"});
+    report.cases.push_back({"device loop, drag",
+                            implicit ? "implicit" : "sampled",
+                            "1 kHz, 3 N, 0.1 m/s; k_f is raised to 1e6 s/m",
+                            {implicit ? Verdict::stable : Verdict::diverged},
+                            ends ? Verdict::diverged : Verdict::stable,
+                            fmt::format("stable up to k_f = {:.4g} s/m, {:.3g} times the paper's", largest,
+                                        largest / paper.k_f)});
   }
 }
 
@@ -90,6 +90,7 @@ void stress_device_loop(StressReport& report, const StressOptions& options) {
   add_drag_gain(report);
   step();
   for (const LoopMapPlan& plan : plans) {
+    if (interrupted()) return;
     report.maps.push_back(draw_map(plan));
     step();
   }

@@ -6,6 +6,9 @@
 #include <limits>
 #include <random>
 
+#include "haptics/passivity.h"
+#include "stress/bisection.h"
+
 namespace sandstroke {
 namespace {
 
@@ -68,17 +71,14 @@ double exact_boundary_gain(const LoopSettings& settings) {
   while (!stable(low)) low *= 0.5;
   while (stable(high))
     if ((high *= 2.0) > 1e12) return std::numeric_limits<double>::infinity();
-  while (high / low > 1.0 + 1e-6) (stable(std::sqrt(low * high)) ? low : high) = std::sqrt(low * high);
-  return low;
+  return boundary_between(low, high, 1e-6, stable);
 }
 
 double passivity_margin(const LoopSettings& settings) {
   const DeviceSettings& device = settings.device;
   const FeltAlong felt = felt_about_rest(settings);
-  const auto needed = [&](const Wall& along) {
-    return (0.5 + device.delay) * along.stiffness / device.servo_rate + along.damping;
-  };
-  return device.damping + device.hand_damping - std::max(needed(felt.x), needed(felt.z));
+  return std::min(passivity_margin(felt.x.stiffness, felt.x.damping, device),
+                  passivity_margin(felt.z.stiffness, felt.z.damping, device));
 }
 
 double oldest_force(const DeviceSettings& device, std::int64_t ticks) {

@@ -200,6 +200,21 @@ TEST(CliRun, ALimitedForceHoldsWhereTheSandsIsBeyondNumbers) {
   EXPECT_EQ(run_program({"info", "a.h5"}, folder).exit_code, 0);
 }
 
+TEST(CliRun, ALateLoopThatReturnsEnergySaysSoAndAPassiveOneDoesNot) {
+  const fs::path folder = test_folder();
+  const auto run = [&](const char* delay) {
+    return run_program({"run", "scene.toml", "-o", "a.h5", "--set", "device.model=dynamic", "--set",
+                        "force.k_f=0.0", "--set", "stroke.depth=0.012", "--set", delay},
+                       folder);
+  };
+  const ProgramResult late = run("device.delay=60"), on_time = run("device.delay=0");
+  EXPECT_EQ(late.exit_code, 0) << late.err;
+  EXPECT_NE(late.err.find("returned up to"), std::string::npos) << late.err;
+  EXPECT_NE(late.err.find("device.delay"), std::string::npos) << late.err;
+  EXPECT_EQ(on_time.exit_code, 0);
+  EXPECT_EQ(on_time.err.find("returned"), std::string::npos) << on_time.err;
+}
+
 TEST(CliRun, AToolThatNeverTouchesTheSandIsPointedOut) {
   const fs::path folder = test_folder();
   const ProgramResult run =

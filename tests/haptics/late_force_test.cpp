@@ -31,6 +31,14 @@ TEST(LateForce, ActsAfterItsDelay) {
   }
 }
 
+TEST(LateForce, BeginsWithTheForceThatActsBefore) {
+  const Eigen::Vector3d before(1.0, 2.0, 3.0);
+  LateForce force(late(2, 0.0), before);
+  EXPECT_EQ(force.act(of_tick(0)), before);
+  EXPECT_EQ(force.act(of_tick(1)), before);
+  EXPECT_EQ(force.act(of_tick(2)), of_tick(0));
+}
+
 TEST(LateForce, ALateLoopGivesOutItsLastForceAgain) {
   for (const int delay : {0, 3}) {
     LateForce force(late(delay, 0.4));

@@ -1,0 +1,49 @@
+#include "haptics/device_force.h"
+
+#include <gtest/gtest.h>
+
+namespace sandstroke {
+namespace {
+
+const SimulatedDevice::State moving{{0.0, 0.0, -0.003}, {0.1, -0.2, 0.05}};
+const SimulatedDevice::State hand{{0.0, 0.0, -0.01}, {0.1, 0.0, 0.0}},
+    hand_after{{1e-4, 0.0, -0.01}, {0.1, 0.0, 0.0}};
+
+SimulatedDevice device_with(DragVelocity drag, DeviceModel model = DeviceModel::dynamic) {
+  DeviceSettings settings;
+  settings.model = model;
+  settings.preset = DevicePreset::ideal;
+  apply_device_preset(settings);
+  settings.scale = 2.0;
+  settings.drag = drag;
+  return SimulatedDevice(settings, moving);
+}
+
+TEST(ForceOnDevice, SampledDragIsByTheVelocityReadInBedMetres) {
+  const ForceSettings force;
+  const SandForce sand = force_on_device(0.006, device_with(DragVelocity::sampled), hand, hand_after, force);
+  const SandForce plain = sand_force(0.006, 2.0 * moving.velocity, 0.0, force);
+  EXPECT_EQ(sand.total, plain.total);
+}
+
+TEST(ForceOnDevice, ImplicitDragIsByTheWayOfTheTickItself) {
+  for (const DragDirection direction : {DragDirection::horizontal, DragDirection::full}) {
+    ForceSettings force;
+    force.drag = direction;
+    SimulatedDevice device = device_with(DragVelocity::implicit);
+    const SandForce sand = force_on_device(0.006, device, hand, hand_after, force);
+    device.advance(hand, hand_after, sand.total);
+    Eigen::Vector3d slip = 2.0 * (device.state().position - moving.position) * 1000.0;
+    if (direction == DragDirection::horizontal) slip.z() = 0.0;
+    EXPECT_NEAR((sand.drag + force.k_f * sand.repulse * slip).norm(), 0.0, 1e-9);
+  }
+}
+
+TEST(ForceOnDevice, AKinematicDeviceIsDraggedByItsOwnVelocity) {
+  const SandForce sand = force_on_device(0.006, device_with(DragVelocity::implicit, DeviceModel::kinematic),
+                                         hand, hand_after, ForceSettings{});
+  EXPECT_EQ(sand.total, sand_force(0.006, 2.0 * moving.velocity, 0.0, ForceSettings{}).total);
+}
+
+}  // namespace
+}  // namespace sandstroke
