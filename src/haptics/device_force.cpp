@@ -1,5 +1,7 @@
 #include "haptics/device_force.h"
 
+#include <algorithm>
+
 namespace sandstroke {
 
 SandForce force_on_device(double depth, const SimulatedDevice& device, const SimulatedDevice::State& hand,
@@ -7,7 +9,8 @@ SandForce force_on_device(double depth, const SimulatedDevice& device, const Sim
   const DeviceSettings& d = device.settings();
   Eigen::Vector3d velocity = device.state().velocity;
   if (d.model == DeviceModel::dynamic && d.drag == DragVelocity::implicit) {
-    const double repulse = repulse_force(depth, settings);
+    // So large that the velocity depends on it no more; beyond, it would be infinity / infinity.
+    const double repulse = std::min(repulse_force(depth, settings), 1e100);
     velocity = device.drag_velocity(hand, hand_after, {0.0, 0.0, repulse},
                                     felt_sand(depth, repulse, d.scale, settings).drag);
   }

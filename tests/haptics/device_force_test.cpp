@@ -45,5 +45,19 @@ TEST(ForceOnDevice, AKinematicDeviceIsDraggedByItsOwnVelocity) {
   EXPECT_EQ(sand.total, sand_force(0.006, 2.0 * moving.velocity, 0.0, ForceSettings{}).total);
 }
 
+TEST(ForceOnDevice, OfALimitedDeviceIsANumberAtAnyDepthWithImplicitDragToo) {
+  ForceSettings full;
+  full.drag = DragDirection::full;
+  DeviceSettings settings;
+  settings.model = DeviceModel::dynamic;
+  settings.drag = DragVelocity::implicit;
+  const SimulatedDevice::State start{Eigen::Vector3d::Zero(), Eigen::Vector3d(0.1, 0.0, -0.1)};
+  const SimulatedDevice device(settings, start);
+  for (const double depth : {10.0, 1e3, 1e4}) {  // exp(k_c d) overflows from 1.4 km on
+    const SandForce force = force_on_device(depth, device, start, start, full);
+    EXPECT_NEAR(force.total.norm(), settings.max_force, 1e-12) << depth;
+  }
+}
+
 }  // namespace
 }  // namespace sandstroke
