@@ -77,6 +77,13 @@ TEST(SandForce, OfALimitedDeviceIsDefinedAtAnyDepth) {
   EXPECT_FALSE(free.total.hasNaN());
 }
 
+TEST(SandForce, OfALimitedDeviceIsDefinedWhereInfiniteDragMeetsInfiniteRepulse) {
+  ForceSettings full = paper;
+  full.drag = DragDirection::full;
+  const SandForce rising = sand_force(1e4, {0.0, 0.0, 0.05}, 12.0, full);  // drag is half of repulse
+  EXPECT_NEAR((rising.total - Eigen::Vector3d(0.0, 0.0, 12.0)).norm(), 0.0, 1e-13);
+}
+
 TEST(SandForce, WithoutStiffnessOrDragStaysZeroAtAnyDepth) {
   ForceSettings nothing = paper;
   nothing.k_s = 0.0;
