@@ -16,7 +16,8 @@
 
 namespace sandstroke {
 
-/// As published (paper), or with each choice for accuracy: sphere, ahead, isotropic, rkl.
+/// As published (paper), or with each choice for accuracy: sphere, ahead, isotropic, rkl, relaxed 240
+/// times a second.
 enum class ModelPreset { paper, accurate };
 
 struct BedSettings {
