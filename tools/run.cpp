@@ -180,9 +180,10 @@ void add_run_command(CLI::App& app, Command& chosen) {
       ->check(CLI::Range(0, 1024));
   command
       ->add_flag(
-          "--estimate-error{coarser}", arguments->estimate_error,
+          "--estimate-error{finer}", arguments->estimate_error,
           "Tell how far heights and forces may be from those of ever smaller steps, by a second run with "
-          "steps twice as large (cheap); --estimate-error=finer: half as large (10 to 20 times the run)")
+          "steps half as large (10 to 20 times the run); --estimate-error=coarser: twice as large (a tenth "
+          "of the run, but blind to what a tool of few cells gets wrong)")
       ->check(CLI::IsMember({"coarser", "finer"}));
   command->add_flag("--json", arguments->json, "Print the summary as one JSON object");
   command->footer(

@@ -17,8 +17,8 @@ struct Solution {
 /// Runs a scene from this surface. Error: unstable.
 Solution solve(const Scene& scene, const HeightField& start, const std::optional<Stroke>& stroke);
 
-/// The second solution that a run is held against: every step twice as large (cheap: about an eighth of the
-/// run), or half as large (dear: about eight times the run, but seldom fooled by cells that happen to lie
+/// The second solution that a run is held against: every step half as large (10 to 20 times the run), or
+/// twice as large (a tenth of the run, but fooled by a tool of few cells, or by cells that happen to lie
 /// well).
 enum class SecondSolution { coarser, finer };
 

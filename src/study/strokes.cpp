@@ -182,6 +182,8 @@ Scene refined(ModelPreset preset, int cells_by, int tolerance_by, int period_by)
   scene.bed.cols = scene.bed.rows = 120 * cells_by;
   scene.relaxation.tolerance /= tolerance_by;
   scene.relaxation.rate *= period_by;
+  scene.device.servo_rate *=
+      std::ceil(scene.relaxation.rate / scene.device.servo_rate);  // once a tick at most
   return scene;
 }
 

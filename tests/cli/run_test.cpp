@@ -239,7 +239,7 @@ TEST(CliRun, EstimatesItsErrorOnRequest) {
 TEST(CliRun, RefusesToEstimateTheErrorOfABedWithoutCoarserCellsBeforeAnyWork) {
   const fs::path folder = test_folder();
   const ProgramResult run =
-      run_program({"run", "scene.toml", "--estimate-error", "--set", "bed.cells=[15,16]", "--set",
+      run_program({"run", "scene.toml", "--estimate-error=coarser", "--set", "bed.cells=[15,16]", "--set",
                    "bed.size=[0.15,0.16]", "-o", "odd.h5"},
                   folder);
   EXPECT_EQ(run.exit_code, 2);
