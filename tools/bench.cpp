@@ -43,17 +43,24 @@ void add_bench_command(CLI::App& app, Command& chosen) {
   for (const ProblemMaker& maker : problem_makers()) names.emplace_back(maker.name);
   CLI::App* command = app.add_subcommand(
       "bench", "Run time against error: problems with known answers, solved with many settings");
-  command->add_option("--scene", options->study.problems, "Only this problem (repeatable)")
+  command
+      ->add_option("--scene", options->study.problems, "Only this one of the built-in problems (repeatable)")
       ->check(CLI::IsMember(names));
-  command->add_option("-o,--output", options->folder, "Folder for bench.html, bench.csv and bench.h5")
+  command
+      ->add_option("-o,--output", options->folder,
+                   "Folder for bench.html, bench.csv and bench.h5, made where it is not there")
       ->capture_default_str();
-  command->add_flag("--quick", options->study.quick, "Half a minute: coarser grids, shorter strokes");
-  command->add_option("--repeats", options->study.repeats, "Of each run; default: 5, quick 3")
+  command->add_flag("--quick", options->study.quick,
+                    "15 seconds rather than 5 minutes: coarser grids, shorter strokes");
+  command
+      ->add_option("--repeats", options->study.repeats,
+                   "How often each run is timed; the median counts. Default: 5, quick 3")
       ->check(CLI::Range(1, 1000));
   command->add_option("--threads", options->study.threads, "Of all runs but those that vary it")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
-  command->add_flag("--json", options->json, "Print the page's data as one JSON object");
+  command->add_flag("--json", options->json,
+                    "Print the page's data as one JSON object instead of the tables");
   command->footer("Example:  sandstroke bench --quick -o bench");
   command->callback([options, &chosen] { chosen = [options] { return bench(*options); }; });
 }

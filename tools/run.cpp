@@ -182,8 +182,9 @@ void add_run_command(CLI::App& app, Command& chosen) {
       ->add_flag(
           "--estimate-error{finer}", arguments->estimate_error,
           "Tell how far heights and forces may be from those of ever smaller steps, by a second run with "
-          "steps half as large (10 to 20 times the run); --estimate-error=coarser: twice as large (a tenth "
-          "of the run, but blind to what a tool of few cells gets wrong)")
+          "steps half as large (10 to 20 times the run). --estimate-error=coarser, with the =: twice as "
+          "large "
+          "(a tenth of the run, but blind to what a tool of few cells gets wrong)")
       ->check(CLI::IsMember({"coarser", "finer"}));
   command->add_flag("--json", arguments->json, "Print the summary as one JSON object");
   command->footer(

@@ -98,10 +98,14 @@ void add_stress_command(CLI::App& app, Command& chosen) {
   CLI::App* command = app.add_subcommand(
       "stress", "Test numerical stability to the breaking point: device loop, relaxation, strokes");
   auto arguments = std::make_shared<Arguments>();
-  command->add_option("-o,--output", arguments->output, "Folder for the page, stress.html")
+  command
+      ->add_option("-o,--output", arguments->output,
+                   "Folder for the page, stress.html, made where it is not there")
       ->capture_default_str();
-  command->add_flag("--quick", arguments->quick, "Coarser maps and fewer cases: under a minute");
-  command->add_flag("--json", arguments->json, "Print all verdicts as one JSON object instead of the table");
+  command->add_flag("--quick", arguments->quick,
+                    "10 seconds rather than 7 minutes: coarser maps, fewer and shorter cases");
+  command->add_flag("--json", arguments->json,
+                    "Print the page's data as one JSON object instead of the table");
   command->footer(
       "Each case has an expected verdict; one that ends otherwise is a surprise, and the exit code is then "
       "3.\n"
