@@ -151,6 +151,8 @@ int run(const Arguments& arguments) {
         result.residual, scene.relaxation.tolerance);
     return static_cast<int>(ErrorKind::unstable);
   }
+  if (options.second && !result.error)  // the run is complete, the estimate is not
+    return interrupted() ? 128 + interrupted() : static_cast<int>(ErrorKind::unstable);
   return 0;
 }
 

@@ -28,9 +28,8 @@ struct DeviceSettings {
   double hand_stiffness = 400.0;                     ///< N/m
   double hand_damping = 8.0;                         ///< N s/m
   // Of the dynamic model's loop (LateForce):
-  int delay = 0;  ///< ticks from reading the position to the force that follows from it
-  double dropped_ticks =
-      0.0;  ///< share of ticks, below 1, in which the loop is late and its last force stays
+  int delay = 0;               ///< ticks from reading the position to the force that follows from it
+  double dropped_ticks = 0.0;  ///< share of ticks, below 1, in which the loop is late: its last force stays
   DragVelocity drag = DragVelocity::sampled;
 };
 
@@ -64,8 +63,7 @@ class SimulatedDevice {
   /// newton makes: u = way / (g drag + max(T, g drag)).
   /// - g drag <= T: u = (way - g drag u) / T, the mean velocity of the very tick: second order in T.
   /// - Above it that drag would reverse the motion (v -> -v for drag -> infinity): u is then as large as
-  /// stops a
-  ///   free mass at the tick's end, where g = T^2 / (2 m).
+  ///   stops a free mass at the tick's end, where g = T^2 / (2 m).
   /// Either way the device moves by way - g drag u, of the sign of u: the energy drag u (way - g drag u) >= 0
   /// goes into the sand. (Not so for drag by the velocity at the tick's end: map(1,4) < 0 where the hand
   /// swings the mass through more than half a period in a tick.) Presumes that the force acts in this very

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "core/error.h"
 #include "core/hash.h"
 #include "core/interrupt.h"
 #include "core/output_file.h"
@@ -64,8 +65,10 @@ RunResult run_scene(const Scene& scene, const std::filesystem::path& output, con
     stroke_hash = content_hash(read_text_file(path));
   }
   if (options.second) second_scene(scene, *options.second);  // refused before any work, if at all
-  const HeightField start = load_surface(scene.bed, options.scene_folder);
-  Simulation simulation(scene, start, stroke);
+  HeightField bed = load_surface(scene.bed, options.scene_folder);
+  std::optional<HeightField> start;
+  if (options.second) start = bed;
+  Simulation simulation(scene, std::move(bed), stroke);
   WriterWithProgress writer(output, simulation, stroke_hash, options.progress, options.second.has_value());
   RunResult result = simulation.run(writer);
   result.threads = threads;
@@ -74,8 +77,14 @@ RunResult run_scene(const Scene& scene, const std::filesystem::path& output, con
   if (options.second && !result.interrupted) {
     if (options.progress) spdlog::info("estimating the error");
     const Solution run{simulation.bed(), writer.force()};
-    const ErrorEstimate error = estimate_error(scene, start, stroke, run, *options.second);
-    if (!interrupted()) result.error = error;
+    try {
+      const ErrorEstimate error = estimate_error(scene, *start, stroke, run, *options.second);
+      if (!interrupted()) result.error = error;
+    } catch (const Error& failure) {  // the run itself stands
+      if (failure.kind() != ErrorKind::unstable) throw;
+      spdlog::warn("the error cannot be estimated, for the {} solution is unstable: {}",
+                   *options.second == SecondSolution::finer ? "finer" : "coarser", failure.what());
+    }
   }
   return result;
 }

@@ -16,8 +16,9 @@ struct RunOptions {
   std::optional<SecondSolution> second;      ///< estimate the error, from this
 };
 
-/// Loads bed and stroke, simulates, writes the run file, and then, where asked, estimates its error. Error:
-/// input, io or unstable.
+/// Loads bed and stroke, simulates, writes the run file, and then, where asked, estimates its error: none
+/// where it was interrupted, or where the second solution is unstable, which it warns of. Error: input, io or
+/// unstable.
 RunResult run_scene(const Scene& scene, const std::filesystem::path& output, const RunOptions& options);
 
 }  // namespace sandstroke

@@ -154,7 +154,19 @@ Scene second_scene(const Scene& scene, SecondSolution which) {
         "cells do "
         "not fill the bed; take even numbers, or the finer solution",
         scene.bed.cols, scene.bed.rows);
+  const DeviceSettings& device = scene.device;
+  if (device.dropped_ticks > 0.0)
+    throw_input_error(
+        "the error cannot be estimated: device.dropped_ticks = {} is a share of ticks, so that with other "
+        "ticks the loop is late by another time; set it to 0",
+        device.dropped_ticks);
+  if (coarser && device.delay % 2 != 0)
+    throw_input_error(
+        "the error cannot be estimated: device.delay = {} is not a whole number of ticks that are twice as "
+        "long; take an even one, or the finer solution",
+        device.delay);
   Scene second = scene;
+  second.device.delay = coarser ? device.delay / 2 : 2 * device.delay;  // as late
   second.bed.rows = scene.bed.rows / units * units_then;
   second.bed.cols = scene.bed.cols / units * units_then;
   second.device.servo_rate /= factor;

@@ -22,8 +22,9 @@ Solution solve(const Scene& scene, const HeightField& start, const std::optional
 /// well).
 enum class SecondSolution { coarser, finer };
 
-/// The scene with all steps twice or half as large; cells as nearly as square ones divide the bed. Error:
-/// input, where there are no such cells, or check_scene() refuses them.
+/// The scene with all steps twice or half as large; cells as nearly as square ones divide the bed; the
+/// device's loop as late. Error: input, where there are no such cells, or check_scene() refuses them, or no
+/// such ticks.
 Scene second_scene(const Scene& scene, SecondSolution which);
 
 /// Richardson's estimate: all parts of the method are of first order, so that with steps r times as large the

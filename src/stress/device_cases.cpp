@@ -83,6 +83,7 @@ Outcome simulate(const Scene& scene) {
             : "no more returned than taken",
         result.least_passivity_margin);
   } catch (const Error& error) {
+    if (error.kind() != ErrorKind::unstable) outcome.verdict = Verdict::refused;
     outcome.detail = error.what();
   }
   outcome.ticks = std::move(trace.ticks);

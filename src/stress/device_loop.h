@@ -76,8 +76,7 @@ struct LoopRun {
 /// Runs the loop for so many ticks or until it is decided, by the swing, peak to peak, over each of 16
 /// windows:
 /// - diverged: off its rest by more than `far`; against a wall, where what grows grows for ever, also where
-/// the
-///   swing doubled over the second half.
+///   the swing doubled over the second half.
 /// - stable: the swing fell to 1e-4 of the disturbance, or to less than half over the second half and still
 ///   falls, or is within one step of the encoders, which they cannot tell from rest.
 /// - limit_cycle: neither. A dither of more than one encoder step is one, by quantisation.

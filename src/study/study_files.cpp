@@ -1,6 +1,5 @@
 #include "study/study_files.h"
 
-#include "core/error.h"
 #include "core/output_file.h"
 #include "report/page.h"
 #include "study/study_table.h"
@@ -10,10 +9,7 @@ namespace sandstroke {
 namespace fs = std::filesystem;
 
 StudyFiles::StudyFiles(const fs::path& folder) : folder_(folder) {
-  std::error_code failure;
-  fs::create_directories(folder, failure);
-  if (!fs::is_directory(folder))
-    throw_io_error("{}: cannot be made ({}); name a folder with -o", folder.string(), failure.message());
+  make_folder(folder);
   for (const fs::path& file : {page(), table(), data()}) check_output(file, {});
 }
 

@@ -215,6 +215,46 @@ TEST(CliRun, ALateLoopThatReturnsEnergySaysSoAndAPassiveOneDoesNot) {
   EXPECT_EQ(on_time.err.find("returned"), std::string::npos) << on_time.err;
 }
 
+TEST(CliRun, AnEstimateFromAnUnstableSolutionIsNoneButTheRunStands) {
+  // K = 13 kN/m: stable at 1 kHz, not at 500 Hz, where the unlimited force throws the device off.
+  const fs::path folder = test_folder();
+  const ProgramResult run = run_program({"run",
+                                         "scene.toml",
+                                         "-o",
+                                         "a.h5",
+                                         "--png",
+                                         "a.png",
+                                         "--estimate-error=coarser",
+                                         "--json",
+                                         "--set",
+                                         "device.model=dynamic",
+                                         "--set",
+                                         "device.max_force=0",
+                                         "--set",
+                                         "force.k_f=0.0",
+                                         "--set",
+                                         "force.k_s=1",
+                                         "--set",
+                                         "force.k_c=2000",
+                                         "--set",
+                                         "stroke.depth=0.015"},
+                                        folder);
+  EXPECT_EQ(run.exit_code, 3) << run.out;
+  EXPECT_NE(run.err.find("the coarser solution is unstable"), std::string::npos) << run.err;
+  ASSERT_FALSE(run.out.empty()) << run.err;
+  EXPECT_FALSE(nlohmann::json::parse(run.out).contains("error_estimate"));
+  EXPECT_TRUE(RunFile(folder / "a.h5").complete());
+  EXPECT_TRUE(fs::exists(folder / "a.png"));
+}
+
+TEST(CliRun, StoppedWhileItEstimatesItsErrorIsStopped) {
+  const fs::path folder = test_folder();  // the run takes a moment, its finer solution seconds
+  const ProgramResult run = run_program({"run", "scene.toml", "-o", "a.h5", "--estimate-error=finer", "--set",
+                                         "device.servo_rate=100000", "--set", "relaxation.rate=100000"},
+                                        folder, {SIGINT, 1500});
+  EXPECT_EQ(run.exit_code, 130) << run.out << run.err;
+}
+
 TEST(CliRun, AToolThatNeverTouchesTheSandIsPointedOut) {
   const fs::path folder = test_folder();
   const ProgramResult run =

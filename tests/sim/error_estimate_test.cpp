@@ -66,8 +66,23 @@ TEST(SecondScene, OddBedsGetCellsAsNearAsSquareOnesFill) {
   EXPECT_EQ(second_scene(scene, SecondSolution::finer).bed.rows, 20);
 }
 
+TEST(SecondScene, IsAsLateAsTheRun) {
+  Scene scene = stroke_scene(50);
+  scene.device.model = DeviceModel::dynamic;
+  scene.device.delay = 40;
+  for (const SecondSolution which : {SecondSolution::coarser, SecondSolution::finer}) {
+    const DeviceSettings second = second_scene(scene, which).device;
+    EXPECT_EQ(second.delay / second.servo_rate, 0.040);
+  }
+  scene.device.delay = 5;
+  EXPECT_THROW(second_scene(scene, SecondSolution::coarser), Error);
+  EXPECT_EQ(second_scene(scene, SecondSolution::finer).device.delay, 10);
+  scene.device.delay = 0, scene.device.dropped_ticks = 0.1;
+  EXPECT_THROW(second_scene(scene, SecondSolution::finer), Error);
+}
+
 TEST(SecondScene, RefusesCellsThatTheToolDoesNotCover) {
-  Scene scene = stroke_scene(10);  // 10 mm, and the tool's radius is 10 mm
+  Scene scene = stroke_scene(10);  // cells of 10 mm, of 20 mm in the coarser one
   scene.tool.radius = 0.006;
   EXPECT_THROW(second_scene(scene, SecondSolution::coarser), Error);
 }
