@@ -29,7 +29,7 @@ int bench(const Options& options) {
   if (interrupted()) return 128 + interrupted();
   files.write(study);
   if (options.json)
-    fmt::print("{}\n", study_json(study).dump(2));
+    fmt::print("{}\n", study_json(study).dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
   else
     fmt::print("{}\npage  {}\n", study_summary(study), files.page().string());
   return 0;

@@ -67,7 +67,8 @@ nlohmann::ordered_json as_json(const RunResult& r, const std::string& output) {
     const ErrorEstimate& e = *r.error;
     json["error_estimate"] = {{"height_share", e.height_share}, {"height_rms", e.height_rms},
                               {"height_max", e.height_max},     {"force_rms", e.force_rms},
-                              {"force_max", e.force_max},       {"wall_seconds", e.wall_seconds}};
+                              {"force_max", e.force_max},       {"at_rest", e.at_rest},
+                              {"wall_seconds", e.wall_seconds}};
   }
   return json;
 }
@@ -83,7 +84,11 @@ void print_summary(const RunResult& r, const std::string& output) {
     row("largest force",
         fmt::format("{:.3f} N{}", r.max_force,
                     r.saturated_ticks > 0 ? fmt::format(", limited in {} ticks", r.saturated_ticks) : ""));
-    row("energy into sand", fmt::format("{:.4g} J", r.absorbed_energy));
+    row("energy into sand",
+        fmt::format("{:.4g} J{}", r.absorbed_energy,
+                    returned_energy(r) ? fmt::format(", at worst {:.3g} J more returned than taken",
+                                                     -r.least_absorbed_energy)
+                                       : ""));
     if (r.gaps > 0) row("gaps", fmt::format("{}: the tool was lifted there", r.gaps));
   }
   row("sand moved", fmt::format("{:.6g} m^3, volume drift {:.1e} of it", r.moved_volume, r.volume_drift));

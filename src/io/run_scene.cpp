@@ -76,10 +76,14 @@ RunResult run_scene(const Scene& scene, const std::filesystem::path& output, con
   writer.finish(result, simulation.bed());
   if (options.second && !result.interrupted) {
     if (options.progress) spdlog::info("estimating the error");
-    const Solution run{simulation.bed(), writer.force()};
+    const Solution run{simulation.bed(), writer.force(), result.converged};
     try {
       const ErrorEstimate error = estimate_error(scene, *start, stroke, run, *options.second);
       if (!interrupted()) result.error = error;
+      if (!interrupted() && !error.at_rest)
+        spdlog::warn(
+            "the estimated error says little, for the sand is not at rest in both solutions; raise "
+            "relaxation.max_passes");
     } catch (const Error& failure) {  // the run itself stands
       if (failure.kind() != ErrorKind::unstable) throw;
       spdlog::warn("the error cannot be estimated, for the {} solution is unstable: {}",

@@ -139,8 +139,8 @@ Change change_of(const HeightField& start, const HeightField& end) {
 Solution solve(const Scene& scene, const HeightField& start, const std::optional<Stroke>& stroke) {
   ForceTrace trace;
   Simulation simulation(scene, start, stroke);
-  simulation.run(trace);
-  return {simulation.bed(), std::move(trace.force)};
+  const RunResult result = simulation.run(trace);
+  return {simulation.bed(), std::move(trace.force), result.converged};
 }
 
 Scene second_scene(const Scene& scene, SecondSolution which) {
@@ -204,6 +204,7 @@ ErrorEstimate estimate_error(const Scene& scene, const HeightField& start,
   estimate.height_max = of_heights * height.max;
   if (forces > 0) estimate.force_rms = of_forces * std::sqrt(force.squares / static_cast<double>(forces));
   estimate.force_max = of_forces * force.max;
+  estimate.at_rest = run.at_rest && second.at_rest;
   estimate.wall_seconds = watch.seconds();
   return estimate;
 }

@@ -12,6 +12,7 @@ namespace sandstroke {
 struct Solution {
   HeightField surface;
   std::vector<Eigen::Vector3d> force;  ///< N, on the device, per tick
+  bool at_rest = true;                 ///< the sand came to rest in the end
 };
 
 /// Runs a scene from this surface. Error: unstable.

@@ -39,6 +39,7 @@ struct ErrorEstimate {
   double height_max = 0.0;    ///< m
   double force_rms = 0.0;     ///< N, over the ticks with a force
   double force_max = 0.0;     ///< N
+  bool at_rest = true;        ///< both solutions came to rest; otherwise the estimate says little
   double wall_seconds = 0.0;  ///< what the estimate took
 };
 

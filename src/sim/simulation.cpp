@@ -200,9 +200,13 @@ RunResult Simulation::run(SimulationObserver& observer) {
   return result_;
 }
 
+bool returned_energy(const RunResult& result) {
+  return result.least_absorbed_energy < -1e-3 * std::abs(result.absorbed_energy);
+}
+
 bool loop_returned_energy(const RunResult& result, const DeviceSettings& device) {
   const bool passive = result.least_passivity_margin > 0.0 && device.dropped_ticks == 0.0;
-  return !passive && result.least_absorbed_energy < -1e-3 * std::abs(result.absorbed_energy);
+  return !passive && returned_energy(result);
 }
 
 }  // namespace sandstroke

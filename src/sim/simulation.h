@@ -63,9 +63,12 @@ class Simulation {
   RunResult result_;
 };
 
-/// True where the sand returned more energy than it took (beyond a thousandth of what went in, for rounding),
-/// and the loop may be to blame: it was not passive throughout. A passive loop, too, may return a little,
-/// which its dampers take, or lift the tool on sand that rises under it.
+/// The sand returned more energy than it took, by more than rounding and a force held for a tick do: a share
+/// of 1e-3.
+bool returned_energy(const RunResult& result);
+
+/// returned_energy(), and the loop may be to blame: it was not passive throughout. A passive loop, too, may
+/// return a little, which its dampers take, or lift the tool on sand that rises under it.
 bool loop_returned_energy(const RunResult& result, const DeviceSettings& device);
 
 }  // namespace sandstroke

@@ -80,7 +80,7 @@ struct Problem {
 /// A rule for relaxing sand that is not this library's, to stand beside it.
 struct Peer {
   std::string name;
-  std::function<RelaxationOutcome(HeightField& bed, double talus_angle)> relax;
+  std::function<RelaxationOutcome(HeightField& bed, double talus_angle)> relax;  ///< talus angle in deg
 };
 
 struct ProblemOptions {
