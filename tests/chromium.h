@@ -20,6 +20,11 @@ struct OpenedPage {
   nlohmann::json answer;             ///< of the probe
 };
 
+/// A probe: [ready, charts, errors] as a page says itself.
+inline const std::string page_state =
+    "[document.documentElement.dataset.ready, Number(document.documentElement.dataset.charts),"
+    " Number(document.documentElement.dataset.errors)]";
+
 /// Opens a page and asks it: `probe` is a JavaScript expression, evaluated once the page's scripts ran; its
 /// value comes back as JSON. It sees what the scripts declared.
 inline OpenedPage open_in_chromium(const std::string& page, const std::string& probe = "null") {

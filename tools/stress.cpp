@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -13,6 +14,7 @@
 #include "core/output_file.h"
 #include "core/progress.h"
 #include "core/stopwatch.h"
+#include "io/table.h"
 #include "report/page.h"
 
 namespace sandstroke {
@@ -25,40 +27,37 @@ struct Arguments {
   bool quick = false, json = false;
 };
 
-/// How many cases of each group ended how, and which surprised.
-void print_summary(const StressReport& report) {
-  std::vector<std::string> groups;
-  for (const StressCase& one : report.cases)
-    if (std::find(groups.begin(), groups.end(), one.group) == groups.end()) groups.push_back(one.group);
-  const std::vector<Verdict> verdicts = {Verdict::stable,  Verdict::limit_cycle,   Verdict::diverged,
-                                         Verdict::refused, Verdict::not_converged, Verdict::broken};
-  fmt::print("{:<44}", "");
-  for (const Verdict verdict : verdicts) fmt::print("{:>14}", name_of(verdict));
-  fmt::print("{:>11}\n", "surprises");
-  const auto row = [&](const std::string& name, const std::vector<Verdict>& seen, std::ptrdiff_t surprises) {
-    fmt::print("{:<44}", name);
-    for (const Verdict verdict : verdicts)
-      fmt::print("{:>14}", std::count(seen.begin(), seen.end(), verdict));
-    fmt::print("{:>11}\n", surprises);
-  };
-  for (const std::string& group : groups) {
-    std::vector<Verdict> seen;
-    std::ptrdiff_t surprises = 0;
-    for (const StressCase& one : report.cases) {
-      if (one.group != group) continue;
-      seen.push_back(one.verdict);
-      surprises += one.surprise();
+/// How many cases of each group, and cells of each map, ended how, and how many surprised.
+Table counts(const StressReport& report) {
+  constexpr Verdict verdicts[] = {Verdict::stable,  Verdict::limit_cycle,   Verdict::diverged,
+                                  Verdict::refused, Verdict::not_converged, Verdict::broken};
+  std::vector<std::string> names;
+  std::map<Verdict, std::vector<double>> seen;
+  std::vector<double> surprises;
+  const auto add = [&](const std::string& name, Verdict verdict, bool surprise) {
+    const auto row = static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
+    if (row == names.size()) {
+      names.push_back(name);
+      for (const Verdict any : verdicts) seen[any].push_back(0.0);
+      surprises.push_back(0.0);
     }
-    row(group, seen, surprises);
-  }
-  for (const StabilityMap& map : report.maps) {
-    std::vector<Verdict> seen;
-    std::ptrdiff_t surprises = 0;
-    for (const auto& verdicts_of_row : map.verdict)
-      seen.insert(seen.end(), verdicts_of_row.begin(), verdicts_of_row.end());
-    for (const auto& flags : map.surprise) surprises += std::count(flags.begin(), flags.end(), true);
-    row("map: " + map.title, seen, surprises);
-  }
+    seen[verdict][row] += 1.0;
+    surprises[row] += surprise;
+  };
+  for (const StressCase& one : report.cases) add(one.group, one.verdict, one.surprise());
+  for (const StabilityMap& map : report.maps)
+    for (std::size_t row = 0; row < map.verdict.size(); ++row)
+      for (std::size_t col = 0; col < map.verdict[row].size(); ++col)
+        add("map: " + map.title, map.verdict[row][col], map.surprise[row][col]);
+  Table table{{{"name", "", "", names}}};
+  for (const Verdict verdict : verdicts)
+    table.columns.push_back({name_of(verdict), name_of(verdict), "", seen[verdict]});
+  table.columns.push_back({"surprises", "surprises", "", surprises});
+  return table;
+}
+
+void print_summary(const StressReport& report) {
+  fmt::print("{}", aligned_text(counts(report), 9));
   for (const StressCase& one : report.cases)
     if (one.surprise())
       spdlog::error("surprise: {}, {}: {} where {} was expected ({})", one.group, one.name,

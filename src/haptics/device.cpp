@@ -23,6 +23,14 @@ void apply_device_preset(DeviceSettings& settings) {
   }
 }
 
+DeviceSettings ideal_device() {
+  DeviceSettings settings;
+  settings.model = DeviceModel::dynamic;
+  settings.preset = DevicePreset::ideal;
+  apply_device_preset(settings);
+  return settings;
+}
+
 Eigen::Matrix<double, 2, 5> device_tick_map(const DeviceSettings& settings) {
   // State (x, v, x_hand, v_hand, F): the inputs are carried along as states that move uniformly or not at
   // all.

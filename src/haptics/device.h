@@ -36,6 +36,9 @@ struct DeviceSettings {
 /// Sets max_force and resolution to those of settings.preset.
 void apply_device_preset(DeviceSettings& settings);
 
+/// Dynamic, with exact encoders and no force limit; all else as by default.
+DeviceSettings ideal_device();
+
 /// One tick of the device along one axis, exactly (matrix exponential of the linear plant
 /// m a = k_h (x_hand - x) + b_h (v_hand - v) - b v + F), with the force F held and the hand moving uniformly
 /// during it: (x, v) after = map * (x, v, x_hand, v_hand, F) before.

@@ -54,6 +54,10 @@ void write_table(Hdf5Writer& file, const std::string& group, const Table& table)
   }
 }
 
+nlohmann::ordered_json number_or_null(double value) {
+  return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json();
+}
+
 nlohmann::ordered_json row_json(const Table& table, std::size_t row) {
   nlohmann::ordered_json json;
   for (const TableColumn& column : table.columns) {
@@ -61,8 +65,7 @@ nlohmann::ordered_json row_json(const Table& table, std::size_t row) {
     if (!numbers)
       json[column.name] = text_at(column, row);
     else
-      json[column.name] =
-          std::isfinite((*numbers)[row]) ? nlohmann::ordered_json((*numbers)[row]) : nlohmann::ordered_json();
+      json[column.name] = number_or_null((*numbers)[row]);
   }
   return json;
 }

@@ -30,6 +30,9 @@ std::string csv_text(const Table& table);
 /// One dataset of rank 1 per column in the group, with its title and unit as attributes.
 void write_table(Hdf5Writer& file, const std::string& group, const Table& table);
 
+/// JSON has neither infinity nor not-a-number: null.
+nlohmann::ordered_json number_or_null(double value);
+
 /// {column: value} of a row; null where there is no number.
 nlohmann::ordered_json row_json(const Table& table, std::size_t row);
 /// [{name, title, unit}].

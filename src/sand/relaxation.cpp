@@ -9,6 +9,8 @@
 
 namespace sandstroke {
 
+double talus_slope(double talus_angle) { return std::tan(talus_angle * std::numbers::pi / 180.0); }
+
 double flow_share(const RelaxationSettings& settings) {
   if (settings.share > 0.0) return settings.share;
   return settings.law == RelaxationLaw::paper ? 0.5 : 0.25;
@@ -17,7 +19,7 @@ double flow_share(const RelaxationSettings& settings) {
 TalusLaw::TalusLaw(const RelaxationSettings& settings, double cell_size)
     : law(settings.law),
       share(flow_share(settings)),
-      axis_drop(std::tan(settings.talus_angle * std::numbers::pi / 180.0) * cell_size),
+      axis_drop(talus_slope(settings.talus_angle) * cell_size),
       diagonal_drop(axis_drop * std::numbers::sqrt2),
       axis_limit(axis_drop * (1.0 + settings.tolerance)),
       diagonal_limit(diagonal_drop * (1.0 + settings.tolerance)) {}

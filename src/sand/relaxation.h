@@ -29,6 +29,9 @@ struct RelaxationSettings {
   std::int64_t max_passes = 1'000'000;  ///< per relaxation
 };
 
+/// tan(talus angle [deg]): rise over run.
+double talus_slope(double talus_angle);
+
 /// c of the settings, or the law's own.
 double flow_share(const RelaxationSettings& settings);
 

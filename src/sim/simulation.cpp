@@ -1,12 +1,12 @@
 #include "sim/simulation.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <limits>
 
 #include "core/error.h"
 #include "core/interrupt.h"
+#include "core/stopwatch.h"
 #include "haptics/device_force.h"
 #include "sand/tool_path.h"
 
@@ -176,7 +176,7 @@ void Simulation::run_stroke(SimulationObserver& observer) {
 }
 
 RunResult Simulation::run(SimulationObserver& observer) {
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   result_.volume_initial = bed_.volume();
   if (stroke_) run_stroke(observer);
   if (!interrupted()) {
@@ -196,7 +196,7 @@ RunResult Simulation::run(SimulationObserver& observer) {
   result_.least_absorbed_energy = energy_.least();
   if (result_.contact_ticks == 0)
     result_.least_passivity_margin = passivity_margin(0.0, 0.0, scene_.force, scene_.device);
-  result_.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  result_.wall_seconds = watch.seconds();
   return result_;
 }
 

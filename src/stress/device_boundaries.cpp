@@ -37,9 +37,7 @@ std::vector<LoopSettings> varied_loops(int count) {
   for (int i = 0; i < count; ++i) {
     LoopSettings& loop = loops.emplace_back();
     DeviceSettings& d = loop.device;
-    d.model = DeviceModel::dynamic;
-    d.preset = DevicePreset::ideal;
-    apply_device_preset(d);
+    d = ideal_device();
     d.servo_rate = between(50.0, 20e3);
     d.mass = between(0.02, 2.0);
     d.damping = between(0.1, 10.0);

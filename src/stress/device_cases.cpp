@@ -110,9 +110,7 @@ std::vector<Verdict> expected_of(const Scene& scene) {
   const DeviceSettings& device = scene.device;
   const auto ticks = static_cast<std::int64_t>(held * device.servo_rate);
   if (device.dropped_ticks == 0.0) return expected_verdicts(loop, ticks);
-  const Wall felt = felt_about_rest(loop).z;
-  const bool passive = device.damping + device.hand_damping > felt.stiffness * oldest_force(device, ticks);
-  if (passive && scene.force.k_f == 0.0) return {Verdict::stable};
+  if (margin_by_age(loop, ticks) > 0.0 && scene.force.k_f == 0.0) return {Verdict::stable};
   return {Verdict::stable, Verdict::limit_cycle, Verdict::diverged};
 }
 

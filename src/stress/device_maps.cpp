@@ -13,15 +13,6 @@ constexpr double force_limit = 12.0;  // N, of its omega3
 constexpr const char* eigenvalue = "eigenvalue of the exact tick leaves the unit circle";
 constexpr const char* passive = "Colgate & Schenkel: b = K (T/2 + delay) + |B|";
 
-/// The default device with exact encoders and no force limit.
-DeviceSettings ideal_device() {
-  DeviceSettings device;
-  device.model = DeviceModel::dynamic;
-  device.preset = DevicePreset::ideal;
-  apply_device_preset(device);
-  return device;
-}
-
 DeviceSettings limited_device() {
   DeviceSettings device = ideal_device();
   device.max_force = force_limit;
@@ -50,8 +41,7 @@ LoopSettings sand_of_stiffness(double K, const DeviceSettings& device) {
 }
 
 bool differs_from_eigenvalue(const LoopSettings& loop, const LoopRun& run, std::int64_t ticks) {
-  const std::vector<Verdict> expected = expected_verdicts(loop, ticks);
-  return std::find(expected.begin(), expected.end(), run.verdict) == expected.end();
+  return !is_among(run.verdict, expected_verdicts(loop, ticks));
 }
 
 double beyond_unit_circle(const LoopSettings& loop) { return spectral_radius(loop) - 1.0; }
@@ -85,18 +75,16 @@ LoopMapPlan dropped_ticks(const MapAxis& x, const MapAxis& stiffness) {
              loop.against = Wall{K, 0.0};
              return loop;
            });
-  const auto margin_by_age = [](const LoopSettings& loop) {
-    const DeviceSettings& d = loop.device;
-    return d.damping + d.hand_damping - felt_about_rest(loop).z.stiffness * oldest_force(d, 20'000);
-  };
-  map.ticks = [](const LoopSettings&) { return std::int64_t{20'000}; };
-  map.surprising = [margin_by_age](const LoopSettings& loop, const LoopRun& run, std::int64_t ticks) {
-    return (margin_by_age(loop) > 0.0 && run.verdict != Verdict::stable) ||
+  constexpr std::int64_t all_ticks = 20'000;
+  map.ticks = [](const LoopSettings&) { return all_ticks; };
+  map.surprising = [](const LoopSettings& loop, const LoopRun& run, std::int64_t ticks) {
+    return (margin_by_age(loop, ticks) > 0.0 && run.verdict != Verdict::stable) ||
            differs_from_eigenvalue(loop, run, ticks);
   };
   map.curves = {{"random products of exact ticks neither grow nor shrink",
                  [](const LoopSettings& at) { return mean_growth_with_drops(at) - 1.0; }},
-                {"b = K x age of the oldest force", margin_by_age}};
+                {"b = K x age of the oldest force",
+                 [](const LoopSettings& at) { return margin_by_age(at, all_ticks); }}};
   return map;
 }
 

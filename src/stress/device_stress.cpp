@@ -52,9 +52,7 @@ void add_boundaries(StressReport& report) {
 /// Drawn along under 3 N: the largest k_f that is stable.
 void add_drag_gain(StressReport& report) {
   LoopSettings loop;
-  loop.device.model = DeviceModel::dynamic;
-  loop.device.preset = DevicePreset::ideal;
-  apply_device_preset(loop.device);
+  loop.device = ideal_device();
   const ForceSettings paper;
   const auto at = [&](double k_f) {
     ForceSettings force;

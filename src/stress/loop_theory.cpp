@@ -90,6 +90,12 @@ double oldest_force(const DeviceSettings& device, std::int64_t ticks) {
   return (1.0 + device.delay + longest) / device.servo_rate;
 }
 
+double margin_by_age(const LoopSettings& settings, std::int64_t ticks) {
+  const DeviceSettings& device = settings.device;
+  return device.damping + device.hand_damping -
+         felt_about_rest(settings).z.stiffness * oldest_force(device, ticks);
+}
+
 double mean_growth_with_drops(const LoopSettings& settings) {
   constexpr int first = 1'000, ticks = 20'000;  // the first ones turn the state to what grows most
   const Wall felt = felt_about_rest(settings).z;

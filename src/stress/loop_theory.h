@@ -24,6 +24,8 @@ double passivity_margin(const LoopSettings& settings);
 /// A spring that acts up to an age late returns at most K age times the integral of v^2 (|x(t) - x(t - age)|
 /// is at most the integral of |v| over it), and the dampers take that if b > K age: then the loop is stable.
 double oldest_force(const DeviceSettings& device, std::int64_t ticks);
+/// b + b_h - K age [N s/m], of the oldest force in so many ticks, along z.
+double margin_by_age(const LoopSettings& settings, std::int64_t ticks);
 
 /// Against a wall with dropped ticks and no delay: the mean growth per tick of (x, v, held force) under
 /// products of the two exact tick maps in random order (the largest Lyapunov exponent, Furstenberg & Kesten

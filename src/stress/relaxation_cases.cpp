@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <random>
 
 #include "stress/judged_run.h"
@@ -33,7 +32,7 @@ HeightField make_bed(BedKind kind, const BedSize& size, double height, double ta
   HeightGrid heights = HeightGrid::Zero(size.rows, size.cols);
   std::mt19937 random(7);
   const auto any = [&random] { return static_cast<double>(random()) / 2147483647.5 - 1.0; };
-  const double rise = size.dx * std::tan(talus_angle * std::numbers::pi / 180.0);
+  const double rise = size.dx * talus_slope(talus_angle);
   for (int row = 0; row < size.rows; ++row)
     for (int col = 0; col < size.cols; ++col) {
       const bool centre = row == size.rows / 2 && col == size.cols / 2;

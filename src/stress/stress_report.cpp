@@ -22,9 +22,11 @@ const char* name_of(Verdict verdict) {
   return "";
 }
 
-bool StressCase::surprise() const {
-  return std::find(expected.begin(), expected.end(), verdict) == expected.end();
+bool is_among(Verdict verdict, const std::vector<Verdict>& expected) {
+  return std::find(expected.begin(), expected.end(), verdict) != expected.end();
 }
+
+bool StressCase::surprise() const { return !is_among(verdict, expected); }
 
 int StressReport::surprises() const {
   auto count =

@@ -13,6 +13,7 @@ namespace sandstroke {
 /// number, or no end: never expected.
 enum class Verdict { stable, limit_cycle, diverged, refused, not_converged, broken };
 const char* name_of(Verdict verdict);
+bool is_among(Verdict verdict, const std::vector<Verdict>& expected);
 
 /// One case and what was expected of it. `expected` may allow several: the theory then decides no further.
 struct StressCase {

@@ -5,25 +5,20 @@
 #include <numbers>
 
 namespace sandstroke {
-namespace {
-
-double slope_of(double talus_angle) { return std::tan(talus_angle * std::numbers::pi / 180.0); }
-
-}  // namespace
 
 double ExactCone::operator()(double x, double y) const {
   return std::max(0.0, slope * (foot - std::max(plateau, std::hypot(x, y))));
 }
 
 ExactCone collapsed_cylinder(double radius, double height, double talus_angle) {
-  const double t = slope_of(talus_angle), width = height / t;  // of the flank
+  const double t = talus_slope(talus_angle), width = height / t;  // of the flank
   if (height >= std::sqrt(3.0) * radius * t) return {t, 0.0, std::cbrt(3.0 * radius * radius * width)};
   const double plateau = (-3.0 * width + std::sqrt(36.0 * radius * radius - 3.0 * width * width)) / 6.0;
   return {t, plateau, plateau + width};
 }
 
 ExactCone collapsed_cone(double radius, double height, double talus_angle) {
-  const double t = slope_of(talus_angle);
+  const double t = talus_slope(talus_angle);
   return {t, 0.0, std::cbrt(radius * radius * height / t)};
 }
 
@@ -31,14 +26,14 @@ double ExactRamp::operator()(double x, double) const {
   return std::clamp(0.5 * height - slope * x, 0.0, height);
 }
 
-ExactRamp collapsed_cliff(double height, double talus_angle) { return {slope_of(talus_angle), height}; }
+ExactRamp collapsed_cliff(double height, double talus_angle) { return {talus_slope(talus_angle), height}; }
 
 double ExactTrench::operator()(double x, double) const {
   return std::min(0.0, -slope * (half_width - std::abs(x)));
 }
 
 ExactTrench filled_slot(double half_width, double depth, double talus_angle) {
-  const double t = slope_of(talus_angle);
+  const double t = talus_slope(talus_angle);
   return {t, std::sqrt(2.0 * half_width * depth / t)};  // the V has the slot's area
 }
 
@@ -48,7 +43,7 @@ double ExactCrater::operator()(double x, double y) const {
 }
 
 ExactCrater drained_crater(double depth, double talus_angle, RelaxationLaw law) {
-  return {law, slope_of(talus_angle), depth};
+  return {law, talus_slope(talus_angle), depth};
 }
 
 double octile_distance(double x, double y) {

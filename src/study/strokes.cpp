@@ -129,9 +129,7 @@ Problem dynamic_problem(const ProblemOptions& options) {
   Scene scene;
   scene.bed.width = scene.bed.depth = 0.2;
   scene.bed.cols = scene.bed.rows = 100;
-  scene.device.model = DeviceModel::dynamic;
-  scene.device.preset = DevicePreset::ideal;
-  apply_device_preset(scene.device);
+  scene.device = ideal_device();
   scene.relaxation.rate = 0.0;  // sand that slips between ticks is another matter
   Stroke stroke;
   stroke.gap_threshold = 1.0;

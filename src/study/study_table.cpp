@@ -57,10 +57,6 @@ const std::vector<Column> columns = {
 #undef TEXT
 #undef NUMBER
 
-nlohmann::ordered_json number_or_null(double value) {
-  return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json();
-}
-
 /// The run of a problem with the least error, and before it the fastest with no more than twice that.
 std::vector<const StudyRun*> best_of(const std::vector<StudyRun>& runs, const std::string& problem) {
   const StudyRun *nearest = nullptr, *fastest = nullptr;

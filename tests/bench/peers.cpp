@@ -10,7 +10,7 @@ namespace sandstroke {
 namespace {
 
 double axis_drop(const HeightField& bed, double talus_angle) {
-  return std::tan(talus_angle * std::numbers::pi / 180.0) * bed.cell_size();
+  return talus_slope(talus_angle) * bed.cell_size();
 }
 
 /// Four neighbours, until all is at rest: where two cells that share a side differ by more than the talus

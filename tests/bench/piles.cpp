@@ -1,8 +1,8 @@
 // Sand left to itself: how long it takes to rest, and how near it comes to the exact shape.
-#include <chrono>
 #include <cmath>
 
 #include "bench/end_to_end.h"
+#include "core/stopwatch.h"
 #include "sand/initial_surface.h"
 #include "sand/relaxation.h"
 #include "study/exact_shapes.h"
@@ -35,17 +35,17 @@ nlohmann::json relax(HeightField& bed, const Method& method) {
   settings.share = method.share;
   const auto relaxer = make_relaxer(settings, bed.cell_size());
   const double volume = bed.volume();
-  const auto begin = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   const double cpu_begin = cpu_seconds();
   const RelaxationOutcome outcome = relaxer->relax(bed);
   const double cpu = cpu_seconds() - cpu_begin;
-  const std::chrono::duration<double> time = std::chrono::steady_clock::now() - begin;
+  const double seconds = watch.seconds();
   return {{"method", method.name},
           {"cells", bed.rows()},
           {"passes", outcome.passes},
           {"super_steps", outcome.super_steps},
           {"rejected_stages", outcome.rejected_stages},
-          {"seconds", time.count()},
+          {"seconds", seconds},
           {"cpu_seconds", cpu},
           {"ns_per_cell_and_pass", 1e9 * cpu / static_cast<double>(outcome.cells_visited)},
           {"residual", outcome.residual},

@@ -14,11 +14,6 @@ namespace fs = std::filesystem;
 
 using CliPages = ChromiumTest;
 
-/// [ready, charts, errors] as a page says itself.
-const std::string state =
-    "[document.documentElement.dataset.ready, Number(document.documentElement.dataset.charts),"
-    " Number(document.documentElement.dataset.errors)]";
-
 TEST_F(CliPages, BenchDrawsEveryProblem) {
   const fs::path folder = test_folder();
   const ProgramResult run =
@@ -26,7 +21,7 @@ TEST_F(CliPages, BenchDrawsEveryProblem) {
   ASSERT_EQ(run.exit_code, 0) << run.err;
   const nlohmann::json data = nlohmann::json::parse(run.out);
   EXPECT_GE(data["problems"].size(), 11u);
-  const OpenedPage page = open_in_chromium(read_file(folder / "out/bench.html"), state);
+  const OpenedPage page = open_in_chromium(read_file(folder / "out/bench.html"), page_state);
   EXPECT_TRUE(page.console.empty()) << page.console.front();
   EXPECT_EQ(page.answer[0], "true");
   EXPECT_EQ(page.answer[2], 0);
@@ -40,7 +35,7 @@ TEST_F(CliPages, StressDrawsEveryMapAndNothingSurprises) {
   const nlohmann::json data = nlohmann::json::parse(run.out);
   EXPECT_EQ(data["surprises"], 0);
   EXPECT_GE(data["boundaries"].size(), 50u);
-  const OpenedPage page = open_in_chromium(read_file(folder / "out/stress.html"), state);
+  const OpenedPage page = open_in_chromium(read_file(folder / "out/stress.html"), page_state);
   EXPECT_TRUE(page.console.empty()) << page.console.front();
   EXPECT_EQ(page.answer[0], "true");
   EXPECT_EQ(page.answer[2], 0);

@@ -10,10 +10,8 @@ const SimulatedDevice::State hand{{0.0, 0.0, -0.01}, {0.1, 0.0, 0.0}},
     hand_after{{1e-4, 0.0, -0.01}, {0.1, 0.0, 0.0}};
 
 SimulatedDevice device_with(DragVelocity drag, DeviceModel model = DeviceModel::dynamic) {
-  DeviceSettings settings;
+  DeviceSettings settings = ideal_device();
   settings.model = model;
-  settings.preset = DevicePreset::ideal;
-  apply_device_preset(settings);
   settings.scale = 2.0;
   settings.drag = drag;
   return SimulatedDevice(settings, moving);

@@ -11,14 +11,6 @@
 namespace sandstroke {
 namespace {
 
-DeviceSettings dynamic_device() {
-  DeviceSettings settings;
-  settings.model = DeviceModel::dynamic;
-  settings.preset = DevicePreset::ideal;
-  apply_device_preset(settings);
-  return settings;
-}
-
 SimulatedDevice::State resting_at(double z) { return {{0.0, 0.0, z}, Eigen::Vector3d::Zero()}; }
 
 TEST(DevicePresets, HaveThePapersFigures) {
@@ -43,7 +35,7 @@ TEST(KinematicDevice, IsWhereTheHandIs) {
 
 TEST(DynamicDevice, MovesWithAUniformHandInSteadyState) {
   // A hand at constant speed leads the device by b v / k_h, for ever.
-  DeviceSettings settings = dynamic_device();
+  DeviceSettings settings = ideal_device();
   const double v = 0.1, lag = settings.damping * v / settings.hand_stiffness;
   SimulatedDevice device(settings, {{-lag, 0.0, 0.0}, {v, 0.0, 0.0}});
   for (int k = 0; k < 1000; ++k)
@@ -55,7 +47,7 @@ TEST(DynamicDevice, MovesWithAUniformHandInSteadyState) {
 
 TEST(DynamicDevice, TickMapIsExactWhateverTheRate) {
   // One tick of 10 ms is ten of 1 ms with the same held inputs.
-  DeviceSettings slow = dynamic_device(), fast = slow;
+  DeviceSettings slow = ideal_device(), fast = slow;
   slow.servo_rate = 100.0;
   SimulatedDevice one(slow, resting_at(0.01)), ten(fast, resting_at(0.01));
   const Eigen::Vector3d force(0.3, -0.2, 1.5);
@@ -69,7 +61,7 @@ TEST(DynamicDevice, TickMapIsExactWhateverTheRate) {
 }
 
 TEST(DynamicDevice, ReadsItsEncoders) {
-  DeviceSettings settings = dynamic_device();
+  DeviceSettings settings = ideal_device();
   settings.resolution = 3e-5;
   SimulatedDevice device(settings, resting_at(1.234567e-3));
   const double z = device.read().position.z();
@@ -80,7 +72,7 @@ TEST(DynamicDevice, ReadsItsEncoders) {
 
 TEST(DynamicDevice, APlungeEqualsAMegahertzIntegration) {
   // The sand's force at flat, undisturbed level 0, updated at 1 kHz and held in between, in both.
-  const DeviceSettings settings = dynamic_device();
+  const DeviceSettings settings = ideal_device();
   const ForceSettings force;
   SimulatedDevice device(settings, resting_at(0.002));
   double x = 0.002, v = 0.0;
@@ -137,7 +129,7 @@ bool settles(const DeviceSettings& settings, double stiffness) {
 
 TEST(DynamicDevice, SpringWallTurnsUnstableWhereTheEigenvalueSays) {
   for (const double rate : {500.0, 1000.0, 4000.0}) {
-    DeviceSettings settings = dynamic_device();
+    DeviceSettings settings = ideal_device();
     settings.servo_rate = rate;
     const auto bisect = [](auto stable) {
       double low = 1.0, high = 1e7;

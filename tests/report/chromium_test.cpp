@@ -23,11 +23,6 @@ OpenedPage open(PageScript script, const Json& data, const std::string& probe) {
   return open_in_chromium(html_page("Title", script, data), probe);
 }
 
-/// [ready, charts, errors] as the page says itself.
-const std::string state =
-    "[document.documentElement.dataset.ready, Number(document.documentElement.dataset.charts),"
-    " Number(document.documentElement.dataset.errors)]";
-
 /// A probe from statements that return its value.
 std::string function(const std::string& body) { return "(() => {" + body + "})()"; }
 
@@ -37,7 +32,7 @@ using AnyPage = ChromiumTest;
 
 TEST_F(Bench, LoadsWithoutErrorsAndDrawsTheChartsOfItsData) {
   // The cone varies its cells and knows directions, the drag does neither.
-  const OpenedPage page = open(PageScript::bench, bench_data(), state);
+  const OpenedPage page = open(PageScript::bench, bench_data(), page_state);
   EXPECT_EQ(page.answer, Json({"true", 4, 0}));
   EXPECT_TRUE(page.console.empty()) << page.console.front();
 }
@@ -153,7 +148,7 @@ TEST_F(Bench, MarksEstimatesThatAreNotWithinAFactorOfThree) {
 
 TEST_F(Stress, LoadsWithoutErrorsAndDrawsTheChartsOfItsData) {
   // Two maps, two charts of boundaries, a trace.
-  const OpenedPage page = open(PageScript::stress, stress_data(), state);
+  const OpenedPage page = open(PageScript::stress, stress_data(), page_state);
   EXPECT_EQ(page.answer, Json({"true", 5, 0}));
   EXPECT_TRUE(page.console.empty()) << page.console.front();
 }
@@ -231,7 +226,7 @@ TEST_F(AnyPage, WithoutDataSaysSo) {
        {std::tuple{PageScript::bench, bench, "Nothing was measured"},
         std::tuple{PageScript::stress, stress, "Nothing was tested"}}) {
     const OpenedPage page =
-        open(script, data, "[" + state + ", document.getElementById('page').textContent]");
+        open(script, data, "[" + page_state + ", document.getElementById('page').textContent]");
     EXPECT_EQ(page.answer[0], Json({"true", 0, 0}));
     EXPECT_NE(page.answer[1].get<std::string>().find(sentence), std::string::npos) << page.answer[1];
     EXPECT_TRUE(page.console.empty()) << page.console.front();
@@ -267,7 +262,7 @@ TEST_F(AnyPage, ValuesWithoutASpreadOrAPlaceAreNoErrors) {
         function(
             R"js(
       return [)js" +
-            state +
+            page_state +
             R"js(, [...document.querySelectorAll(".canvas")].map((one) => /NaN|Infinity/.test(one.innerHTML))];)js"));
     EXPECT_EQ(page.answer[0], Json({"true", charts, 0}));
     for (const auto& broken : page.answer[1]) EXPECT_EQ(broken, false);
@@ -277,7 +272,7 @@ TEST_F(AnyPage, ValuesWithoutASpreadOrAPlaceAreNoErrors) {
 
 TEST_F(AnyPage, AnErrorIsCountedAndShown) {
   const OpenedPage page = open(PageScript::bench, {{"runs", 5}},
-                               "[" + state + ", document.querySelector('.warning')?.textContent]");
+                               "[" + page_state + ", document.querySelector('.warning')?.textContent]");
   EXPECT_EQ(page.answer[0], Json({"true", 0, 1}));
   EXPECT_NE(page.answer[1].get<std::string>().find("could not be drawn"), std::string::npos);
   EXPECT_EQ(page.console.size(), 1u);
@@ -319,7 +314,8 @@ TEST_F(AnyPage, TextOfTheDataStaysText) {
       const main = document.getElementById("page");
       const kinds = (root) => [...new Set([...root.querySelectorAll("*")].map((one) => one.localName))];
       return { state: )js" +
-        state + R"js(, text: main.textContent, kinds: kinds(main), tips: main.querySelectorAll(".tip").length,
+        page_state +
+        R"js(, text: main.textContent, kinds: kinds(main), tips: main.querySelectorAll(".tip").length,
                drawn: [...main.querySelectorAll(".canvas svg text")].map((one) => one.textContent).join("") };)js");
     const OpenedPage page = open(script, data, probe);
     const int charts = script == PageScript::bench ? 4 : 5;

@@ -283,9 +283,7 @@ TEST(Simulation, TheForceThatActsIsTheOneComputedTicksBefore) {
 TEST(Simulation, ImplicitDragHoldsWhereSampledDragThrowsTheDevice) {
   // B = k_f F_r = 10 s/m x 60 N is above 2 m / T = 500 N s/m.
   Scene scene = small_scene();
-  scene.device.model = DeviceModel::dynamic;
-  scene.device.preset = DevicePreset::ideal;
-  apply_device_preset(scene.device);
+  scene.device = ideal_device();
   scene.force.k_s = 20'000.0;
   const auto run = [&](DragVelocity drag) {
     scene.device.drag = drag;

@@ -11,14 +11,6 @@ namespace {
 
 constexpr std::int64_t ticks = 20'000;
 
-DeviceSettings ideal_device() {
-  DeviceSettings device;
-  device.model = DeviceModel::dynamic;
-  device.preset = DevicePreset::ideal;
-  apply_device_preset(device);
-  return device;
-}
-
 LoopSettings sand(double k_s, const DeviceSettings& device) {
   LoopSettings loop;
   loop.device = device;

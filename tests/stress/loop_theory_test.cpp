@@ -12,9 +12,7 @@ namespace {
 /// Damped by 10 N s/m in all, against a wall.
 LoopSettings wall(double stiffness, double damping, double mass) {
   LoopSettings loop;
-  loop.device.model = DeviceModel::dynamic;
-  loop.device.preset = DevicePreset::ideal;
-  apply_device_preset(loop.device);
+  loop.device = ideal_device();
   loop.device.mass = mass;
   loop.device.damping = 10.0, loop.device.hand_damping = loop.device.hand_stiffness = 0.0;
   loop.against = Wall{stiffness, damping};
