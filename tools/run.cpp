@@ -55,6 +55,7 @@ nlohmann::ordered_json as_json(const RunResult& r, const std::string& output) {
       {"displaced_volume", r.displaced_volume},
       {"moved_volume", r.moved_volume},
       {"max_force", r.max_force},
+      {"mean_force", r.mean_force},
       {"max_depth", r.max_depth},
       {"absorbed_energy", r.absorbed_energy},
       {"least_absorbed_energy", r.least_absorbed_energy},
