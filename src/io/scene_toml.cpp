@@ -149,6 +149,17 @@ std::string scene_text(const Scene& scene) {
   return text;
 }
 
+std::string setting_unit(const Scene& scene, const std::string& key) {
+  std::string unit, prefix;
+  SceneLister lister([&](const std::string& name, const std::string&) { prefix = name + "."; },
+                     [&](const SceneLister::Entry& entry) {
+                       if (prefix + entry.key == key) unit = entry.unit;
+                     });
+  Scene copy = scene;
+  describe_scene(lister, copy);
+  return unit;
+}
+
 namespace {
 
 /// Default scenes but for this key, with keys of its section that only other choices of it have.

@@ -41,6 +41,15 @@ class TomlReader {
   std::vector<std::vector<double>> points(std::string_view key) const;
   /// One of the names; returns its index.
   int choice(std::string_view key, int fallback, const std::vector<std::string>& names) const;
+  /// An array of strings.
+  std::vector<std::string> texts(std::string_view key, const std::vector<std::string>& fallback) const;
+  /// What a file says about settings it does not know: dotted keys of all values in table `key`, relative to
+  /// it, in the order of the file. A table that holds the key `leaf` counts as a value.
+  std::vector<std::string> keys_in(std::string_view key, std::string_view leaf = {}) const;
+  /// A value as TOML text, on one line; of an array, each element.
+  std::string literal(std::string_view key) const;
+  std::vector<std::string> literals(std::string_view key) const;
+  bool is_table(std::string_view key) const;
   /// The tables of [[key]], in order.
   std::vector<TomlReader> tables(std::string_view key) const;
 
