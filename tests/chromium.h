@@ -13,6 +13,12 @@
 
 namespace sandstroke {
 
+/// Starts headless Chromium. The pages are ours and read nothing else: no sandbox, which root (as in CI)
+/// could not have. To it come --user-data-dir, --window-size and what is to be done.
+inline const std::string chromium_command =
+    "chromium --headless --no-sandbox --disable-gpu --disable-dev-shm-usage --disable-quic --no-first-run "
+    "--disable-background-networking --disable-component-update --disable-sync";
+
 /// What headless Chromium made of a page.
 struct OpenedPage {
   std::string dom;                   ///< the document once it had settled
@@ -32,14 +38,12 @@ inline OpenedPage open_in_chromium(const std::string& page, const std::string& p
   std::ofstream(folder / "page.html")
       << page << "<script>document.documentElement.dataset.answer = encodeURIComponent(JSON.stringify("
       << probe << "))</script>\n";
-  // The page is ours and reads nothing else: no sandbox, which root (as in CI) could not have. Virtual time
-  // runs until nothing is left to do, at most so many milliseconds.
+  // Virtual time runs until nothing is left to do, at most so many milliseconds.
   const std::string at = folder.path().string();
   const std::string command =
-      "timeout 120 chromium --headless --no-sandbox --disable-gpu --disable-dev-shm-usage --disable-quic "
-      "--no-first-run --disable-background-networking --disable-component-update --disable-sync "
-      "--window-size=1200,4000 --virtual-time-budget=10000 --enable-logging=stderr --user-data-dir='" +
-      at + "/profile' --dump-dom 'file://" + at + "/page.html' > '" + at + "/dom' 2> '" + at + "/log'";
+      "timeout 120 " + chromium_command +
+      " --window-size=1200,4000 --virtual-time-budget=10000 --enable-logging=stderr --user-data-dir='" + at +
+      "/profile' --dump-dom 'file://" + at + "/page.html' > '" + at + "/dom' 2> '" + at + "/log'";
   OpenedPage opened;
   EXPECT_EQ(std::system(command.c_str()), 0) << "Chromium did not end well";
   std::ostringstream dom;

@@ -3,17 +3,15 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
-#include <cmath>
-#include <cstdlib>
 #include <vector>
 
+#include "compare/difference_map.h"
 #include "compare/field_difference.h"
 #include "compare/image_difference.h"
 #include "core/error.h"
 #include "core/output_file.h"
 #include "io/png_file.h"
 #include "render/annotate.h"
-#include "render/colour_map.h"
 #include "render/map_picture.h"
 
 namespace sandstroke {
@@ -65,23 +63,6 @@ Image side_by_side(const std::string& title, const std::vector<Panel>& panels, c
   return sheet;
 }
 
-/// Reduces a grid to at most `spots` blocks a side, each with its value that is furthest from zero (or not
-/// finite).
-HeightGrid extremes(const HeightGrid& values) {
-  const Eigen::Index side = (std::max(values.rows(), values.cols()) + spots - 1) / spots;
-  HeightGrid reduced = HeightGrid::Zero((values.rows() + side - 1) / side, (values.cols() + side - 1) / side);
-  for (Eigen::Index row = 0; row < values.rows(); ++row) {
-    for (Eigen::Index col = 0; col < values.cols(); ++col) {
-      double& kept = reduced(row / side, col / side);
-      if (!(std::abs(values(row, col)) <= std::abs(kept))) kept = values(row, col);
-    }
-  }
-  return reduced;
-}
-
-/// Largest finite magnitude.
-double magnitude(const HeightGrid& values) { return values.isFinite().select(values.abs(), 0.0).maxCoeff(); }
-
 Panel map_panel(const std::string& heading, const HeightGrid& values, double span) {
   return {heading, map_picture(values, -span, span, true, panel_width, panel_height, heading)};
 }
@@ -90,7 +71,7 @@ Panel map_panel(const std::string& heading, const HeightGrid& values, double spa
 
 Image surface_report(const std::string& title, const HeightGrid& golden, const HeightGrid& run,
                      double cell_size, double limit) {
-  const double span = std::max({magnitude(golden), magnitude(run), limit});
+  const double span = std::max({finite_magnitude(golden), finite_magnitude(run), limit});
   std::vector<Panel> panels{map_panel("golden", golden, span), map_panel("run", run, span)};
   if (golden.rows() != run.rows() || golden.cols() != run.cols()) {
     return side_by_side(title, panels,
@@ -98,7 +79,8 @@ Image surface_report(const std::string& title, const HeightGrid& golden, const H
                                     run.rows(), run.cols()));
   }
   const HeightGrid difference = run - golden;
-  panels.push_back(map_panel("difference", extremes(difference), std::max(magnitude(difference), limit)));
+  panels.push_back(map_panel("difference", at_spots(difference, spots_of(difference, spots)),
+                             std::max(finite_magnitude(difference), limit)));
   const FieldDifference numbers = field_difference(golden, run, cell_size);
   return side_by_side(
       title, panels,
@@ -117,20 +99,8 @@ Image picture_report(const std::string& title, const Image& golden, const Image&
   }
   const ImageDifference numbers = image_difference(golden, run);
   const int span = std::max({numbers.max, limit, 1});
-  Image map(golden.width, golden.height);
-  for (int y = 0; y < map.height; ++y) {
-    for (int x = 0; x < map.width; ++x) {
-      int most = 0;
-      for (int channel = 0; channel < 3; ++channel) {
-        const int difference = run.pixel(x, y)[channel] - golden.pixel(x, y)[channel];
-        if (std::abs(difference) > std::abs(most)) most = difference;
-      }
-      const auto colour = diverging_colour(static_cast<double>(most) / span);
-      for (int channel = 0; channel < 3; ++channel)
-        map.pixel(x, y)[channel] = static_cast<std::uint8_t>(std::lround(255.0 * colour[channel]));
-    }
-  }
-  panels.push_back({fmt::format("difference (-{} blue to +{} red)", span, span), std::move(map)});
+  panels.push_back({fmt::format("difference (-{} blue to +{} red)", span, span),
+                    picture_difference_map(golden, run, span)});
   return side_by_side(title, panels,
                       fmt::format("max {}/255 at x = {}, y = {}, limit {}/255; {:.4g} % of the pixels differ",
                                   numbers.max, numbers.x, numbers.y, limit, 100.0 * numbers.share));

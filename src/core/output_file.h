@@ -24,7 +24,8 @@ std::filesystem::path beside(const std::filesystem::path& path, const std::strin
 /// Writes a complete PATH.part through to the disk and gives it its final name. Error: io.
 void finish_part(const std::filesystem::path& path);
 
-/// Writes a whole text file by way of PATH.part, so that PATH is either complete or untouched. Error: io.
+/// Writes a whole file, of text or any bytes, by way of PATH.part, so that PATH is either complete or
+/// untouched. Error: io.
 void write_text_file(const std::filesystem::path& path, std::string_view text);
 
 /// Error: io, unless the file is there and can be read.

@@ -107,21 +107,22 @@ class PngReader {
 
 }  // namespace
 
-void write_png(const fs::path& path, const Image& image) {
+std::string encode_png(const Image& image) {
   png_image header{};
   header.version = PNG_IMAGE_VERSION;
   header.width = static_cast<png_uint_32>(image.width);
   header.height = static_cast<png_uint_32>(image.height);
   header.format = PNG_FORMAT_RGB;
-  const fs::path part = part_path(path);
-  if (!png_image_write_to_file(&header, part.c_str(), 0, image.rgb.data(), 0, nullptr)) {
-    std::error_code ignored;
-    fs::remove(part, ignored);
-    throw_io_error("{}: cannot be written ({}); choose another place or free disk space", path.string(),
+  png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(header);
+  std::string bytes(size, '\0');
+  if (!png_image_write_to_memory(&header, bytes.data(), &size, 0, image.rgb.data(), 0, nullptr))
+    throw_io_error("a picture of {} x {} pixels cannot be encoded as PNG ({})", image.width, image.height,
                    header.message);
-  }
-  finish_part(path);
+  bytes.resize(size);
+  return bytes;
 }
+
+void write_png(const fs::path& path, const Image& image) { write_text_file(path, encode_png(image)); }
 
 Image read_png(const fs::path& path) {
   PngReader png(path);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "core/image.h"
 #include "sand/height_field.h"
@@ -10,7 +11,11 @@ namespace sandstroke {
 /// Largest side of a PNG that is read, in pixels.
 inline constexpr int largest_png_side = 16384;
 
-/// Writes an 8-bit RGB PNG by way of PATH.part. It holds no date: equal pictures give equal bytes. Error: io.
+/// An 8-bit RGB PNG as bytes. It holds no date: equal pictures give equal bytes. Error: io,
+/// where libpng refuses.
+std::string encode_png(const Image& image);
+
+/// Writes the same by way of PATH.part. Error: io.
 void write_png(const std::filesystem::path& path, const Image& image);
 
 /// Reads any PNG as 8-bit RGB: gray and palette are expanded, 16 bits rounded to 8, transparency is dropped.

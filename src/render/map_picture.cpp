@@ -9,6 +9,30 @@
 
 namespace sandstroke {
 
+Image plain_map(const HeightGrid& values, double low, double high, bool diverging, int width, int height) {
+  const auto rows = static_cast<double>(values.rows()), cols = static_cast<double>(values.cols());
+  // Cells of pixel k of `pixels`: [first, last), at least one.
+  const auto first = [](int k, int pixels, double cells) {
+    return static_cast<Eigen::Index>(k * cells / pixels);
+  };
+  const auto last = [&](int k, int pixels, double cells) {
+    return std::max(first(k, pixels, cells) + 1, first(k + 1, pixels, cells));
+  };
+  Image map(width, height);
+  for (int y = 0; y < height; ++y) {
+    const int up = height - 1 - y;
+    const Eigen::Index row = first(up, height, rows), row_count = last(up, height, rows) - row;
+    for (int x = 0; x < width; ++x) {
+      const Eigen::Index col = first(x, width, cols), col_count = last(x, width, cols) - col;
+      const double mean = values.block(row, col, row_count, col_count).mean();
+      const auto colour = scale_colour(std::isfinite(mean) ? mean : std::nan(""), low, high, diverging);
+      for (int channel = 0; channel < 3; ++channel)
+        map.pixel(x, y)[channel] = static_cast<std::uint8_t>(std::lround(255.0 * colour[channel]));
+    }
+  }
+  return map;
+}
+
 Image map_picture(const HeightGrid& values, double low, double high, bool diverging, int width, int height,
                   std::string_view quantity) {
   Image image(width, height);
@@ -24,25 +48,10 @@ Image map_picture(const HeightGrid& values, double low, double high, bool diverg
   const int left = static_cast<int>(margin + 0.5 * (room_x - map_width));
   const int top = static_cast<int>(margin + 0.5 * (room_y - map_height));
 
-  // Cells of pixel k of `pixels`: [first, last), at least one.
-  const auto first = [](int k, int pixels, double cells) {
-    return static_cast<Eigen::Index>(k * cells / pixels);
-  };
-  const auto last = [&](int k, int pixels, double cells) {
-    return std::max(first(k, pixels, cells) + 1, first(k + 1, pixels, cells));
-  };
-  for (int y = std::max(0, -top); y < std::min(map_height, height - top); ++y) {
-    const int up = map_height - 1 - y;
-    const Eigen::Index row = first(up, map_height, rows), row_count = last(up, map_height, rows) - row;
-    for (int x = std::max(0, -left); x < std::min(map_width, width - left); ++x) {
-      const Eigen::Index col = first(x, map_width, cols), col_count = last(x, map_width, cols) - col;
-      const double mean = values.block(row, col, row_count, col_count).mean();
-      const auto colour = scale_colour(std::isfinite(mean) ? mean : std::nan(""), low, high, diverging);
-      for (int channel = 0; channel < 3; ++channel)
-        image.pixel(left + x, top + y)[channel] =
-            static_cast<std::uint8_t>(std::lround(255.0 * colour[channel]));
-    }
-  }
+  const Image map = plain_map(values, low, high, diverging, map_width, map_height);
+  for (int y = std::max(0, -top); y < std::min(map_height, height - top); ++y)
+    for (int x = std::max(0, -left); x < std::min(map_width, width - left); ++x)
+      std::copy_n(map.pixel(x, y), 3, image.pixel(left + x, top + y));
   draw_legend(image, legend);
   return image;
 }

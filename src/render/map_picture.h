@@ -8,8 +8,11 @@
 namespace sandstroke {
 
 /// A flat map of a grid seen from above (row 0 at the bottom), coloured from low to high [m] (low < high),
-/// with a legend named `quantity`. Each pixel shows the mean of the cells it covers, or the cell it lies in;
-/// the grid keeps its aspect ratio. Cells that are not finite are grey. Needs no graphics context.
+/// over width x height pixels. Each shows the mean of the cells it covers, or the cell it lies in. Cells that
+/// are not finite are grey. Needs no graphics context.
+Image plain_map(const HeightGrid& values, double low, double high, bool diverging, int width, int height);
+
+/// The same in its own aspect ratio within a picture of width x height, with a legend named `quantity`.
 Image map_picture(const HeightGrid& values, double low, double high, bool diverging, int width, int height,
                   std::string_view quantity = "height");
 

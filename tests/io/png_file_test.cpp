@@ -82,6 +82,11 @@ TEST_F(PngFile, EqualPicturesGiveEqualBytes) {
   EXPECT_EQ(read_text_file(file("a.png")), read_text_file(file("b.png")));
 }
 
+TEST_F(PngFile, InMemoryItIsWhatIsWritten) {
+  write_png(file("a.png"), test_image(37, 23));
+  EXPECT_EQ(encode_png(test_image(37, 23)), read_text_file(file("a.png")));
+}
+
 TEST_F(PngFile, ReadsGrayAndTransparentPicturesAsRgb) {
   const Image gray = read_png(raw_png("gray.png", 2, 1, 8, PNG_COLOR_TYPE_GRAY, {10, 200}));
   EXPECT_EQ(gray.rgb, (std::vector<std::uint8_t>{10, 10, 10, 200, 200, 200}));

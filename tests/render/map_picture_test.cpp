@@ -23,6 +23,18 @@ int count(const Image& image, const std::array<double, 3>& colour, int x_begin, 
 
 int map_end(int width, int height) { return width - legend_width({"height", 0.0, 1.0, false, 0.0}, height); }
 
+TEST(PlainMap, APixelPerCellIsThatCellFromTheTopRowDown) {
+  HeightGrid values(2, 3);
+  values << 0.0, 0.1, 0.2,  //
+      0.3, 0.4, 0.5;
+  const Image map = plain_map(values, 0.0, 1.0, false, 3, 2);
+  for (int row = 0; row < 2; ++row)
+    for (int col = 0; col < 3; ++col)
+      for (int channel = 0; channel < 3; ++channel)
+        EXPECT_EQ(map.pixel(col, 1 - row)[channel],
+                  std::lround(255 * sequential_colour(values(row, col))[channel]));
+}
+
 TEST(MapPicture, RowZeroIsAtTheBottom) {
   HeightGrid values = HeightGrid::Zero(2, 2);
   values.row(1) = 1.0;
