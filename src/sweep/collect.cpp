@@ -2,7 +2,9 @@
 
 #include "core/output_file.h"
 #include "io/table.h"
+#include "report/page.h"
 #include "sweep/sweep_file.h"
+#include "sweep/sweep_page.h"
 
 namespace sandstroke {
 namespace {
@@ -34,8 +36,7 @@ Table sweep_table(const CollectedSweep& sweep) {
   for (std::size_t i = 0; i < metrics.size(); ++i)
     add(metrics[i].name, metrics[i].title, metrics[i].unit, number,
         [&](std::size_t point) { return sweep.metric(point, i); });
-  add("reason", "reason", "", text,
-      [&](std::size_t point) { return sweep.results[point] ? sweep.results[point]->reason : std::string(); });
+  add("reason", "reason", "", text, [&](std::size_t point) { return sweep.reason(point); });
   return table;
 }
 
@@ -46,6 +47,9 @@ CollectReport collect(const SweepFolder& folder) {
   const CollectedSweep sweep(folder, report);
   write_sweep_file(folder.path() / "sweep.h5", sweep, report.content_hash);
   write_text_file(folder.path() / "sweep.csv", csv_text(sweep_table(sweep)));
+  const nlohmann::ordered_json data = sweep_page_data(sweep, report);
+  const std::string title = "Sweep " + data["title"].get<std::string>();
+  write_text_file(folder.path() / "sweep.html", html_page(title, PageScript::sweep, data));
   return report;
 }
 

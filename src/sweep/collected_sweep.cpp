@@ -9,11 +9,6 @@
 namespace sandstroke {
 namespace {
 
-/// "1 point is", "3 points are".
-std::string counted(std::size_t count, const std::string& noun) {
-  return fmt::format("{} {}{}", count, noun, count == 1 ? " is" : "s are");
-}
-
 bool same_bed(const BedGeometry& a, const BedGeometry& b) {
   return a.rows() == b.rows() && a.cols() == b.cols() && a.cell_size() == b.cell_size();
 }
@@ -48,14 +43,14 @@ void read_surfaces(CollectedSweep& sweep, CollectReport& report) {
 }  // namespace
 
 CollectedSweep::CollectedSweep(const SweepFolder& of, CollectReport& report)
-    : folder(of), results(of.points()), surfaces(of.points()) {
+    : folder(of), results(of.points()), unreadable(of.points()), surfaces(of.points()) {
   std::string first_unreadable, first_failed;
   for (std::size_t point = 0; point < results.size(); ++point) {
     results[point] = folder.read(point);
     if (!results[point]) {
-      const bool there = std::filesystem::exists(folder.point_file(point));
-      if (there && report.unreadable == 0) first_unreadable = folder.point_file(point).string();
-      ++(there ? report.unreadable : report.missing);
+      unreadable[point] = std::filesystem::exists(folder.point_file(point));
+      if (unreadable[point] && report.unreadable == 0) first_unreadable = folder.point_file(point).string();
+      ++(unreadable[point] ? report.unreadable : report.missing);
     } else if (failed(results[point]->verdict)) {
       if (report.failed++ == 0) first_failed = fmt::format("point {}: {}", point, results[point]->reason);
     } else {
@@ -80,12 +75,21 @@ double CollectedSweep::metric(std::size_t point, std::size_t metric) const {
   return results[point] ? results[point]->metrics[metric] : PointResult::none;
 }
 
+std::string CollectedSweep::reason(std::size_t point) const {
+  if (unreadable[point]) return "its file is cut off or damaged";
+  return results[point] ? results[point]->reason : "";
+}
+
 std::size_t CollectedSweep::verdict(std::size_t point) const {
   return results[point] ? static_cast<std::size_t>(results[point]->verdict) : verdict_names.size();
 }
 
 const std::string& CollectedSweep::verdict_name(std::size_t point) const {
   return results[point] ? verdict_names[verdict(point)] : missing_verdict;
+}
+
+std::string counted(std::size_t count, const std::string& noun) {
+  return fmt::format("{} {}{}", count, noun, count == 1 ? " is" : "s are");
 }
 
 std::string content_hash(const CollectedSweep& sweep) {

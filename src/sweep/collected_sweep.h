@@ -32,12 +32,18 @@ struct CollectedSweep {
   /// Index into verdict_names; their number stands for missing_verdict.
   std::size_t verdict(std::size_t point) const;
   const std::string& verdict_name(std::size_t point) const;
+  /// Why it has no metrics; empty where it has, or is still to run.
+  std::string reason(std::size_t point) const;
 
   const SweepFolder& folder;
   std::vector<std::optional<PointResult>> results;
+  std::vector<bool> unreadable;
   std::vector<std::optional<KeptSurface>> surfaces;
   std::optional<BedGeometry> bed;  ///< of all surfaces; none where none was kept, or they differ
 };
+
+/// "1 point is", "3 points are".
+std::string counted(std::size_t count, const std::string& noun);
 
 /// Of axes, verdicts, reasons, metrics (but for timings) and surfaces: the same for two sweeps with the same
 /// content, wherever and in whatever order they ran.

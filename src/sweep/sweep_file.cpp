@@ -85,8 +85,7 @@ class SweepFile {
     }
     file_.attribute("verdict", "flag_values", values);
     file_.attribute("verdict", "flag_meanings", meanings + missing_verdict);
-    const auto reasons = over_points<std::string>(
-        [&](std::size_t point) { return sweep_.results[point] ? sweep_.results[point]->reason : ""; });
+    const auto reasons = over_points<std::string>([&](std::size_t point) { return sweep_.reason(point); });
     if (std::any_of(reasons.begin(), reasons.end(),
                     [](const std::string& reason) { return !reason.empty(); }))
       put("reason", reasons);

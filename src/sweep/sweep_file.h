@@ -13,7 +13,7 @@ namespace sandstroke {
 ///   NAME of each metric, not-a-number where there is none; attributes units, long_name
 ///   point              the index
 ///   verdict            flag_values, flag_meanings as the CF conventions have them
-///   reason             why points failed, where some did
+///   reason             why points have no metrics, where some have none and say so
 ///   surface            (shape, ny, nx) m over scales y and x: virtual, read from points/, which go with the
 ///                      file; where all beds are the same
 ///   /timing/NAME       metrics that differ from run to run: all else is the same

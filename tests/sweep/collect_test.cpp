@@ -145,7 +145,7 @@ TEST_F(Collect, AGridIsArraysOverScalesWithWhatIsMissingLeftOut) {
             "2,27.5,paper,missing,,,,\n"
             "3,27.5,accurate,unstable,,,,it blew up\n"
             "4,35,paper,at rest,0.14285714285714285,68,0.4,\n"
-            "5,35,accurate,missing,,,,\n");
+            "5,35,accurate,missing,,,,its file is cut off or damaged\n");
 }
 
 TEST_F(Collect, ALatinHypercubeIsArraysAlongItsPoints) {
