@@ -74,9 +74,8 @@ SweepStatus sweep_status(const SweepFolder& folder, const std::optional<SlurmJob
 std::string SweepStatus::advice() const {
   const std::string again = "run the same command again";
   if (missing == 0)
-    return fmt::format(
-        "all points are done{}: collect them with sandstroke sweep collect",
-        failures.empty() ? "" : fmt::format(", but {} failed", counted(failures.size(), "point")));
+    return fmt::format("all points are done{}: collect them with sandstroke sweep collect",
+                       failures.empty() ? "" : fmt::format(", but {} failed", failures.size()));
   if (!array) return fmt::format("{} missing: {}", counted(missing, "point"), again);
   if (!queue_trouble.empty())
     return fmt::format("{} missing, and what is queued cannot be known: {}; when nothing is, {}",
