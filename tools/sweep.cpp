@@ -11,6 +11,7 @@
 #include "core/progress.h"
 #include "io/table.h"
 #include "sweep/run_sweep.h"
+#include "sweep_parts.h"
 
 namespace sandstroke {
 namespace {
@@ -22,6 +23,7 @@ struct Arguments {
   int jobs = 0;
   std::string shard;
   bool dry_run = false, json = false;
+  SlurmArguments slurm;
 };
 
 Shard parse_shard(const std::string& text) {
@@ -112,6 +114,8 @@ int sweep(const Arguments& arguments) {
 
   const SweepFolder folder = SweepFolder::make(
       arguments.output.empty() ? arguments.plan.stem() : arguments.output, sweep.manifest());
+  if (arguments.slurm.submit)
+    return submit_sweep(arguments.slurm, arguments.plan, folder, sweep.groups(), arguments.json);
   SweepCounters counters;
   {
     Progress bar("sweep");
@@ -144,15 +148,20 @@ void add_sweep_command(CLI::App& app, Command& chosen) {
   command->add_option("-o,--output", arguments->output,
                       "Folder for the results; default: PLAN's name without .toml, here. One that holds a "
                       "part of this sweep is gone on with");
-  command
-      ->add_option("--jobs", arguments->jobs,
-                   "Simulations at a time; 0: as many as cores. The results are the same for any number")
-      ->check(CLI::Range(0, 1024));
-  command->add_option("--shard", arguments->shard, "Only this part: the I-th of N, such as 1/4")
-      ->type_name("I/N");
+  CLI::Option* jobs =
+      command
+          ->add_option("--jobs", arguments->jobs,
+                       "Simulations at a time; 0: as many as cores. The results are the same for any number")
+          ->check(CLI::Range(0, 1024));
+  CLI::Option* shard =
+      command->add_option("--shard", arguments->shard, "Only this part: the I-th of N, such as 1/4")
+          ->type_name("I/N");
   command->add_flag("--dry-run", arguments->dry_run,
                     "Only say how many points there are, the first of them, and what they may take");
   command->add_flag("--json", arguments->json, "Print the summary as one JSON object");
+  add_slurm_options(*command, arguments->slurm);
+  command->get_option("--slurm")->excludes(shard)->excludes(jobs);
+  add_sweep_status_command(*command, chosen);
   command->footer(
       "A plan:\n"
       "  [sweep]\n"

@@ -34,6 +34,14 @@ std::string view_text(const Scene& scene) {
 
 }  // namespace
 
+std::vector<PointGroup> Shard::among(const std::vector<PointGroup>& groups) const {
+  std::vector<PointGroup> mine;
+  for (auto group = static_cast<std::size_t>(index - 1); group < groups.size();
+       group += static_cast<std::size_t>(of))
+    mine.push_back(groups[group]);
+  return mine;
+}
+
 struct Sweep::Work {
   std::vector<PointGroup> groups;  // what is to be done
   std::size_t points = 0;          // in them
@@ -154,11 +162,9 @@ SweepCounters Sweep::run(const SweepFolder& folder, const SweepOptions& options)
   SweepCounters counters;
   Work work;
   work.progress = options.progress;
-  const auto of = static_cast<std::size_t>(options.shard.of);
-  for (std::size_t group = static_cast<std::size_t>(options.shard.index - 1); group < groups_.size();
-       group += of) {
+  for (const PointGroup& group : options.shard.among(groups_)) {
     PointGroup missing;
-    for (const std::size_t point : groups_[group]) {
+    for (const std::size_t point : group) {
       const std::optional<PointResult> done = folder.read(point);
       counters.points += 1;
       counters.done_before += done.has_value();

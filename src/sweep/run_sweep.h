@@ -16,6 +16,8 @@ using PointGroup = std::vector<std::size_t>;
 /// A part of a sweep: groups i, i + of, ... of those that the plan has.
 struct Shard {
   int index = 1, of = 1;  ///< counted from 1
+
+  std::vector<PointGroup> among(const std::vector<PointGroup>& groups) const;
 };
 
 struct SweepOptions {
