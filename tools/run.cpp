@@ -12,6 +12,7 @@
 #include "io/run_file.h"
 #include "io/run_scene.h"
 #include "io/scene_toml.h"
+#include "io/toml_reader.h"
 #include "run_picture.h"
 #include "sand/instruction_set.h"
 #include "sim/simulation.h"
@@ -109,7 +110,7 @@ int run(const Arguments& arguments) {
   const fs::path scene_path = arguments.scene;
   std::vector<std::string> overrides = arguments.overrides;
   if (!arguments.stroke.empty())
-    overrides.push_back("stroke.file=" + nlohmann::json(fs::absolute(arguments.stroke).string()).dump());
+    overrides.push_back("stroke.file=" + toml_string(fs::absolute(arguments.stroke).string()));
   if (arguments.frames >= 0.0) overrides.push_back(fmt::format("output.frames={}", arguments.frames));
   const Scene scene = load_scene(scene_path, overrides);
   const std::string output = arguments.output.empty() ? scene_path.stem().string() + ".h5" : arguments.output;

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <functional>
-#include <nlohmann/json.hpp>
 #include <set>
 
 #include "core/output_file.h"
@@ -97,7 +96,7 @@ class SceneLister : public SceneVisitor {
     tell_({key, value ? "true" : "false", "", help});
   }
   void text(const char* key, std::string& value, const char* help) override {
-    tell_({key, nlohmann::json(value).dump(), "", help});  // TOML's basic strings escape as JSON does
+    tell_({key, toml_string(value), "", help});
   }
   void choice(const char* key, int& value, const std::vector<std::string>& names, const char* help) override {
     tell_({key, '"' + names[value] + '"', "", fmt::format("{} ({})", help, fmt::join(names, " | "))});

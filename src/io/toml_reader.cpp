@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
 
@@ -10,6 +11,8 @@
 #include "core/output_file.h"
 
 namespace sandstroke {
+
+std::string toml_string(const std::string& text) { return nlohmann::json(text).dump(); }
 
 struct TomlReader::Document {
   std::string name;
@@ -101,6 +104,7 @@ std::vector<std::string> split(std::string_view key) {
 /// A value as TOML text, on one line: a number in the shortest digits that give it back.
 std::string literal_of(const toml::node& node) {
   if (const auto* number = node.as_floating_point()) return fmt::format("{}", number->get());
+  if (const auto* text = node.as_string()) return toml_string(text->get());
   if (const toml::array* array = node.as_array()) {
     std::vector<std::string> elements;
     for (const toml::node& element : *array) elements.push_back(literal_of(element));

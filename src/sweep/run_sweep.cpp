@@ -14,6 +14,7 @@
 #include "core/interrupt.h"
 #include "core/output_file.h"
 #include "core/stopwatch.h"
+#include "core/temporary_folder.h"
 #include "core/version.h"
 #include "io/png_file.h"
 #include "io/run_file.h"
@@ -24,24 +25,6 @@ namespace sandstroke {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// A folder that goes when it is done with.
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    std::string name = (fs::temp_directory_path() / "sandstroke-XXXXXX").string();
-    if (!mkdtemp(name.data())) throw_io_error("{}: no folder can be made there; set TMPDIR", name);
-    path_ = name;
-  }
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_;
-};
 
 std::string view_text(const Scene& scene) {
   Scene named;

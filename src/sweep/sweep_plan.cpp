@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <set>
 
 #include "core/error.h"
@@ -87,8 +86,7 @@ SweepDesign read_design(const TomlReader& toml, const SweepPlan& plan) {
       const fs::path path = plan.file.parent_path() / stroke;
       check_readable(path);
       axis.values.push_back(
-          nlohmann::json(fs::relative(path, plan.scene_folder().empty() ? "." : plan.scene_folder()).string())
-              .dump());
+          toml_string(fs::relative(path, plan.scene_folder().empty() ? "." : plan.scene_folder()).string()));
     }
     design.axes.push_back(std::move(axis));
     ranges.emplace_back();

@@ -7,6 +7,7 @@
 #include "core/error.h"
 #include "core/output_file.h"
 #include "sand/initial_surface.h"
+#include "test_folder.h"
 
 namespace sandstroke {
 namespace {
@@ -15,12 +16,8 @@ namespace fs = std::filesystem;
 
 class AFolder : public testing::Test {
  protected:
-  AFolder() { fs::remove_all(path); }
-  ~AFolder() override { fs::remove_all(path); }
-
-  const fs::path path = fs::temp_directory_path() /
-                        ("sandstroke_sweep_folder_" +
-                         std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
+  TestFolder temporary;
+  const fs::path path = temporary / "sweep";
 };
 
 SweepManifest manifest() {
