@@ -94,6 +94,9 @@ function detailPanel({ axes, metrics }) {
   };
 }
 
+/** What is drawn: one axis alone is always drawn as lines. */
+const kindOf = ({ chart, second }) => (second === null ? "lines" : chart);
+
 /** Choices of the view; changed() once one was made, move(axis, i) when a slider was moved. */
 function viewControls({ axes, metrics, points, latin }, view, changed, move) {
   const field = (label, input) => el("label", {}, label, input);
@@ -107,11 +110,8 @@ function viewControls({ axes, metrics, points, latin }, view, changed, move) {
     if (view.second === Number(value)) view.second = view.x;
     view.x = Number(value);
   });
-  const second = choice("second", [["", "none"], ...titled], (value) => {
-    const chosen = value === "" ? null : Number(value);
-    if (chosen === view.x) view.x = view.second ?? (chosen + 1) % axes.length;
-    view.second = chosen;
-  });
+  const second = choice("second", [["", "none"], ...titled],
+                        (value) => { view.second = value === "" ? null : Number(value); });
   const kind = choice("chart", [["lines", "lines"], ["map", "heat map"]], (value) => {
     view.chart = value;
     if (value === "map") view.second ??= view.x === 0 ? 1 : 0;
@@ -141,12 +141,12 @@ function viewControls({ axes, metrics, points, latin }, view, changed, move) {
       const values = points.map((point) => point.metrics[view.metric]).filter(isNumber);
       log.disabled = values.length === 0 || values.some((value) => value <= 0);
       view.log = view.log && !log.disabled;
-      if (view.second === null) view.chart = "lines";
       metric.value = view.metric;
       x.value = view.x;
+      for (const option of second.options) option.disabled = option.value === String(view.x);
       second.value = view.second ?? "";
       second.disabled = kind.disabled = axes.length < 2;
-      kind.value = view.chart;
+      kind.value = kindOf(view);
       log.checked = view.log;
       sliders.forEach(({ label, show }, i) => {
         label.hidden = i === view.x || i === view.second;
@@ -274,7 +274,7 @@ drawPage((data, main) => {
 
   /** The view stands in the address, so that a link leads back to it. */
   const write = () => {
-    const state = { metric: metrics[view.metric]?.name ?? "", chart: view.chart, x: axes[view.x].name,
+    const state = { metric: metrics[view.metric]?.name ?? "", chart: kindOf(view), x: axes[view.x].name,
                     second: axes[view.second]?.name ?? "", ...(view.log ? { log: "1" } : {}),
                     point: sweep.pointAt(view.at)?.point ?? "" };
     history.replaceState(null, "", `#${new URLSearchParams(state)}`);
@@ -287,7 +287,7 @@ drawPage((data, main) => {
     view.x = find(axes, "x") ?? view.x;
     view.second = find(axes, "second");
     if (view.second === view.x) view.second = null;
-    view.chart = state.get("chart") === "map" && view.second !== null ? "map" : "lines";
+    view.chart = state.get("chart") === "map" ? "map" : "lines";
     view.log = state.has("log");
     view.at = points.find(({ point }) => String(point) === state.get("point"))?.at ?? view.at;
   };
@@ -342,7 +342,7 @@ drawPage((data, main) => {
   const redraw = () => {
     controls.sync();
     if (metrics.length > 0) {
-      drawn = (latin ? scatterChart : view.chart === "map" ? mapChart : linesChart)(sweep, view);
+      drawn = (latin ? scatterChart : kindOf(view) === "map" ? mapChart : linesChart)(sweep, view);
       place.show({ ...drawn, click: ({ data }) => data?.point && select(data.point) });
     }
     pictures?.show();

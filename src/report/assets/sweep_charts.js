@@ -108,7 +108,7 @@ function linesChart(sweep, view) {
   }
   if (without.length) y.low = y.axis.min -= (y.high - y.low) * (0.02 + 0.045 * Math.min(6, Math.max(...steps.values())));
   const families = (second?.order ?? [null]).map((i) => ({
-    name: second ? second.text(i) : metric.title,
+    name: `line ${i}`, text: second?.text(i),
     points: shown.filter(({ at }) => i === null || at[view.second] === i).sort((a, b) => x.place(a.at[view.x]) - x.place(b.at[view.x])),
   })).filter(({ points }) => points.length > 0);
   // Colours of the ramp where they tell an order that has more steps than there are colours.
@@ -135,13 +135,13 @@ function linesChart(sweep, view) {
     : { value: [xScale.at(point.at[view.x]), y.low], symbolOffset: [0, height.get(point) ?? -8] });
   const doubtful = shown.filter((point) => isDoubtful(point) && isNumber(valueOf(point)));
   return {
-    mark: (point) => [ring(point ? [place(point)] : [])],
+    mark: (point) => [ring(point ? [{ point, ...place(point) }] : [])],
     title: `${metric.title} along ${x.name}`, note, many: shown.length > manyItems,
     bar: bar ? colourBar(scaleOf(second.values, { logarithmic: second.logarithmic, margin: 0, title: second.name,
                                                   unit: second.unit }), gradeFrom) : null,
     legend: [
       ...(second && !bar ? [{ name: `${withUnit(second.name, second.unit)}:` },
-                            ...families.map(({ name }, i) => ({ name, ...looks[i], series: true }))] : []),
+                            ...families.map(({ name, text }, i) => ({ name, text, ...looks[i], series: true }))] : []),
       ...(doubtful.length ? [{ name: "doubtful", text: "hollow: not at rest, or active", colour: "#333333",
                                symbol: symbols[0], hollow: true, dash: "none" }] : []),
       ...legend.map(marked),
@@ -197,7 +197,7 @@ function scatterChart(sweep, view) {
   const signs = { type: "scatter", name: "without", symbolSize: 9, z: 5, clip: false,
                   data: signSeries(without, place, offset) };
   return {
-    mark: (point) => [ring(point ? [{ value: place(point), symbolOffset: [0, offset(point)] }] : [])],
+    mark: (point) => [ring(point ? [{ point, value: place(point), symbolOffset: [0, offset(point)] }] : [])],
     title: second ? `${metric.title} over ${x.name} and ${second.name}` : `${metric.title} against ${x.name}`,
     note, many: shown.length > manyItems, bar: colour && colourBar(colour), height: second && "26rem",
     legend: legend.map(marked),
