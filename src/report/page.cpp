@@ -21,6 +21,7 @@ SANDSTROKE_ASSET(page);
 SANDSTROKE_ASSET(plot);
 SANDSTROKE_ASSET(bench);
 SANDSTROKE_ASSET(stress);
+SANDSTROKE_ASSET(compare);
 #undef SANDSTROKE_ASSET
 
 namespace sandstroke {
@@ -37,6 +38,9 @@ std::string_view text_of(PageScript script) {
       return SANDSTROKE_ASSET(bench);
     case PageScript::stress:
       return SANDSTROKE_ASSET(stress);
+    case PageScript::compare:
+      return SANDSTROKE_ASSET(compare);
+      SANDSTROKE_ASSET(compare);
   }
   return {};
 }

@@ -1,0 +1,336 @@
+"use strict";
+// A comparison: the outcome and its checks; maps of golden, run and difference, with a slider that wipes between
+// two of them; traces over time; and what is known about the files.
+
+const unitText = (unit) => unit.replace(/^um$/, "µm");
+const withUnitOf = (value, unit) => [format(value, unit === "" || Number.isInteger(value)), unit].join("\u00a0").trim();
+const lookOfSide = { golden: { colour: colours[0] }, run: { colour: colours[1], dash: "dashed" } };
+
+// ---- Maps.
+
+/** What the colours of a map mean. */
+function colourScale({ title, unit, low, high, colours: steps }) {
+  const place = (value) => `${(100 * (value - low)) / (high - low)}%`;
+  return el("div", { class: "scale" },
+            el("div", { class: "bar", style: `background: linear-gradient(to right, ${steps.join(", ")})` }),
+            el("div", { class: "marks" }, ...roundTicks(low, high, 5).map((tick) =>
+              el("span", { style: `left: ${place(tick)}` }, tickText(tick)))),
+            el("div", {}, withUnit(title, unitText(unit))));
+}
+
+/** A map, which fills its place, with a ring around the largest difference where it shows that. */
+function layer(part, map) {
+  const picture = el("img", { src: map.picture, width: map.width, height: map.height, draggable: "false",
+                              alt: `${part.title}: ${map.name}` });
+  // Cells stay squares where they are larger than a pixel; the browser's mean shows them where smaller.
+  new ResizeObserver(() => {
+    picture.style.imageRendering = picture.clientWidth > map.width ? "pixelated" : "auto";
+  }).observe(picture);
+  const ringed = map.name === "difference" && part.largest;
+  const { x, y } = part.extent ?? {};
+  const share = ([from, to], value) => `${(100 * (value - from)) / (to - from)}%`;
+  return el("div", { class: "layer" }, picture, ringed
+    ? el("div", { class: "ring", title: "the largest difference",
+                  style: `left: ${share(x, part.largest.x)}; bottom: ${share(y, part.largest.y)}` })
+    : null);
+}
+
+/** The values under the pointer: a function of the place, as shares of width and height from the upper left. */
+function reader(part) {
+  if (!part.spots) return null;
+  const floats = (text) => {
+    const bytes = Uint8Array.from(atob(text), (character) => character.charCodeAt(0));
+    const view = new DataView(bytes.buffer);
+    return Float32Array.from({ length: bytes.length / 4 }, (_, i) => view.getFloat32(4 * i, true));
+  };
+  const { side, cols, cells } = part.spots;
+  const golden = floats(part.spots.golden), difference = floats(part.spots.difference);
+  const [{ scale }, , { scale: finer }] = part.maps;
+  const inUnit = (value, { one, unit }) => `${format(value / one, false)} ${unitText(unit)}`;
+  const metres = ([from, to], at) => `${format(Number((from + at * (to - from)).toPrecision(4)), false)} m`;
+  return (right, down) => {
+    const row = Math.floor(((1 - down) * cells[0]) / side), col = Math.floor((right * cells[1]) / side);
+    const spot = row * cols + col;
+    if (!(spot >= 0 && spot < golden.length)) return "";
+    return `x ${metres(part.extent.x, right)}, y ${metres(part.extent.y, 1 - down)}: ` +
+      `golden ${inUnit(golden[spot], scale)}, run ${inUnit(golden[spot] + difference[spot], scale)}, ` +
+      `difference ${inUnit(difference[spot], finer)}`;
+  };
+}
+
+/** Layers over one another, and a line that says the values under the pointer. */
+function stage(part, map, ...layers) {
+  const read = reader(part);
+  const readout = el("p", { class: "readout quiet" });
+  const show = (event) => {
+    const { left, top, width, height } = element.getBoundingClientRect();
+    readout.textContent = read((event.clientX - left) / width, (event.clientY - top) / height);
+  };
+  const element = el("div", {
+    class: "stage", style: `aspect-ratio: ${map.width} / ${map.height}`, pointermove: read && show,
+    pointerleave: () => { readout.textContent = ""; },
+  }, ...layers);
+  return { element, readout: read ? readout : null };
+}
+
+const mapFigure = (part, map) => {
+  const { element, readout } = stage(part, map, layer(part, map));
+  return el("figure", {}, el("figcaption", {}, map.name[0].toUpperCase() + map.name.slice(1),
+                             map.text ? el("small", {}, map.text) : null),
+            element, map.scale ? colourScale(map.scale) : null, readout);
+};
+
+/** Two maps over one another: the first left of an edge, which a slider or the pointer moves, the other right. */
+function wipe(part) {
+  const named = new Map(part.maps.map((map) => [map.name, map]));
+  const pairs = [["golden", "run"], ["golden", "difference"], ["run", "difference"]];
+  const places = el("div", { class: "layer" });
+  const edge = el("div", { class: "edge" });
+  const tags = [el("span", { class: "tag" }), el("span", { class: "tag right" })];
+  const scales = el("div", { class: "charts" });
+  const slider = el("input", { type: "range", min: 0, max: 100, step: "any", value: 50, input: () => move() });
+  const size = part.maps[0];
+  const { element, readout } = stage(part, size, places, edge, ...tags);
+
+  let pair = pairs[0];
+  const move = () => {
+    const share = Number(slider.value);
+    edge.style.left = `${share}%`;
+    places.lastChild.style.clipPath = `inset(0 0 0 ${share}%)`;
+    slider.setAttribute("aria-valuetext", `${pair[0]} on the left ${Math.round(share)} %, ${pair[1]} on the right`);
+  };
+  const choose = (chosen) => {
+    pair = chosen;
+    places.replaceChildren(...pair.map((name) => layer(part, named.get(name))));
+    tags.forEach((tag, i) => { tag.textContent = pair[i]; });
+    const seen = [...new Map(pair.map((name) => named.get(name).scale).filter(Boolean).map((one) => [one.title, one]))
+      .values()];
+    scales.replaceChildren(...seen.map(colourScale));
+    slider.setAttribute("aria-label", `Wipe between ${pair.join(" and ")}`);
+    move();
+  };
+  const follow = (event) => {
+    const { left, width } = element.getBoundingClientRect();
+    slider.value = (100 * (event.clientX - left)) / width;
+    move();
+  };
+  element.classList.add("wipe");
+  element.addEventListener("pointerdown", (event) => {
+    element.setPointerCapture(event.pointerId);
+    slider.focus({ preventScroll: true });
+    event.preventDefault();
+    follow(event);
+  });
+  element.addEventListener("pointermove", (event) => {
+    if (element.hasPointerCapture(event.pointerId)) follow(event);
+  });
+  choose(pair);
+  const choice = el("select", { change: (event) => choose(pairs[Number(event.target.value)]) },
+                    ...pairs.map((names, i) => el("option", { value: i }, names.join(" and "))));
+  return el("figure", {},
+            el("div", { class: "controls" }, el("label", {}, "Wipe between ", choice),
+               el("span", { class: "quiet" }, "Drag the edge, or move the slider with the arrow keys.")),
+            el("div", { class: "narrow", style: `max-width: calc(44rem * ${size.width / size.height})` },
+               element, slider), readout, scales);
+}
+
+function drawMaps(part) {
+  const [{ width, height }] = part.maps;
+  const aligned = part.maps.length === 3;
+  const layout = !aligned ? "charts" : width > 2 * height ? "charts wide" : "charts three";
+  return [el("p", {}, part.text), aligned ? wipe(part) : null,
+          el("div", { class: layout }, ...part.maps.map((map) => mapFigure(part, map)))];
+}
+
+// ---- Traces.
+
+/** An axis whose ticks follow what is zoomed into, and its least extent. */
+const zoomedAxis = (title, unit, least = null) => {
+  const { axis } = scaleOf([], { title, unit });
+  const { min, max, ...rest } = axis;
+  return {
+    ...rest, axisTick: { show: true, length: 4 }, splitLine: { lineStyle: { color: "#dde2e6" } },
+    axisLabel: { color: "#1d2329", fontSize: 11, hideOverlap: true, formatter: tickText },
+    ...(least ? { min: (data) => Math.min(data.min, least[0]), max: (data) => Math.max(data.max, least[1]) }
+              : { scale: true }),
+  };
+};
+
+const lineThrough = (name, { time, value }, look) => ({
+  type: "line", name, symbol: "none", data: time.map((t, i) => [t, value[i]]),
+  lineStyle: { color: look.colour, type: look.dash ?? "solid", width: 1.5 }, itemStyle: { color: look.colour },
+});
+
+/** What a quantity's two charts draw: golden and run, and how far they are apart. */
+function seriesOfQuantity(quantity) {
+  const own = ["golden", "run"].filter((name) => quantity[name])
+    .map((name) => lineThrough(name, quantity[name], lookOfSide[name]));
+  const { limit } = quantity;
+  const apart = quantity.difference ? [{
+    ...lineThrough("difference", quantity.difference, { colour: colours[2] }),
+    markArea: { silent: true, itemStyle: { color: "#009e73", opacity: 0.14 }, data: [[{ yAxis: -limit }, { yAxis: limit }]] },
+  }] : [];
+  return { own, apart };
+}
+
+/** The charts of the quantities of a group, one of which is chosen. */
+function groupCharts(group, quantities, time) {
+  const tip = (unit) => (items) => tipOf(`${format(items[0].value[0])} s`, items.map(({ seriesName, value }) =>
+    [withUnit(seriesName, unit), value[1]]));
+  const optionOf = (quantity, series, least) => ({
+    ...chartBase(() => null),
+    grid: { left: 72, right: 26, top: 14, bottom: 48 },
+    tooltip: { trigger: "axis", confine: true, formatter: tip(quantity.unit), axisPointer: { animation: false } },
+    xAxis: { ...zoomedAxis("time", "s"), min: time[0], max: time[1] },
+    yAxis: { ...zoomedAxis(quantity.name, quantity.unit, least), nameGap: 54 },
+    dataZoom: [{ type: "inside", zoomOnMouseWheel: "ctrl", moveOnMouseMove: true, moveOnMouseWheel: false }],
+    series,
+  });
+  const options = (quantity) => {
+    const { own, apart } = seriesOfQuantity(quantity);
+    return [optionOf(quantity, own, null), optionOf(quantity, apart, [-quantity.limit, quantity.limit])];
+  };
+  const [own, apart] = options(quantities[0]);
+  const figures = [chart({
+    title: group, option: own, height: "17rem",
+    legend: own.series.map(({ name }) => ({ name, series: true, ...lookOfSide[name] })),
+  })];
+  const drawn = [charts.at(-1)];
+  if (apart.series.length > 0) {
+    figures.push(chart({
+      title: `${group}: difference`, option: apart, height: "17rem",
+      note: "run − golden, tick by tick; of the magnitude, the length of the difference.",
+      legend: [{ name: "difference", colour: colours[2], dash: "solid" },
+               { name: "limit", text: "within the limit", fill: "#dff2ec" }],
+    }));
+    drawn.push(charts.at(-1));
+  }
+  const choose = (event) => {
+    const changed = options(quantities[Number(event.target.value)]);
+    drawn.forEach((one, i) => one.drawn.setOption({ yAxis: changed[i].yAxis, series: changed[i].series,
+                                                    tooltip: changed[i].tooltip }));
+  };
+  const choice = el("select", { change: choose },
+                    ...quantities.map(({ name }, i) => el("option", { value: i }, name)));
+  return { choice: el("label", {}, `${group} `, choice), figures };
+}
+
+/** Buttons that zoom all charts over time alike. */
+function zoomButtons() {
+  let [start, end] = [0, 100];
+  const zoom = (from, to) => {
+    const width = Math.min(to - from, 100);
+    start = Math.max(0, Math.min(from, 100 - width));
+    end = start + width;
+    charts[0].drawn.dispatchAction({ type: "dataZoom", start, end });
+  };
+  const about = (factor) => () => {
+    const [middle, half] = [(start + end) / 2, (factor * (end - start)) / 2];
+    zoom(middle - half, middle + half);
+  };
+  const by = (share) => () => zoom(start + share * (end - start), end + share * (end - start));
+  const button = (text, label, click) => el("button", { type: "button", "aria-label": label, title: label, click }, text);
+  const listen = () => charts[0].drawn.on("datazoom", () => {
+    [{ start, end }] = charts[0].drawn.getOption().dataZoom;
+  });
+  return { listen, element: el("span", { class: "buttons", role: "group", "aria-label": "Zoom over time" },
+    button("+", "zoom in", about(0.5)), button("−", "zoom out", about(2)), button("←", "earlier", by(-0.5)),
+    button("→", "later", by(0.5)), button("whole", "all of the time", () => zoom(0, 100))) };
+}
+
+let afterDrawing = () => {};
+
+function drawTraces(part) {
+  const curves = part.quantities.flatMap(({ golden, run }) => [golden, run].filter(Boolean));
+  const ends = curves.flatMap(({ time }) => [time[0], time.at(-1)]).filter(isNumber);
+  const time = ends.length ? [Math.min(...ends), Math.max(...ends)] : [0, 1];
+  const names = [...new Set(part.quantities.map(({ group }) => group))];
+  const groups = names.map((name) => groupCharts(name, part.quantities.filter(({ group }) => group === name), time));
+  const buttons = zoomButtons();
+  afterDrawing = () => {
+    for (const { drawn } of charts) drawn.group = "time";
+    echarts.connect("time");
+    buttons.listen();
+  };
+  return [el("p", {}, part.text),
+          el("div", { class: "controls" }, ...groups.map(({ choice }) => choice), el("span", {}, "Zoom ", buttons.element),
+             el("span", { class: "quiet" }, "or Ctrl and the mouse wheel over a chart; drag to move.")),
+          el("div", { class: "charts single" }, ...groups.flatMap(({ figures }) => figures))];
+}
+
+// ---- The files.
+
+/** The settings of a resolved scene, as "section.key" and value. */
+function settingsOf(scene) {
+  let section = "";
+  const settings = new Map();
+  for (const line of scene.split("\n")) {
+    const head = /^\[(.*)\]$/.exec(line), entry = /^(\S+) = (.*)$/.exec(line);
+    if (head) section = `${head[1]}.`;
+    else if (entry) settings.set(section + entry[1], entry[2]);
+  }
+  return settings;
+}
+
+/** Rows of what golden and run say, from two maps. */
+const rowsOf = (golden, run) => [...new Set([...golden.keys(), ...run.keys()])].map((name) =>
+  ({ name, golden: golden.get(name) ?? null, run: run.get(name) ?? null }));
+
+function sideTable(rows, title, label) {
+  return table([{ name: "name", title }, { name: "golden", title: "Golden" }, { name: "run", title: "Run" }],
+               rows, { label, rowClass: (row) => (row.name !== "file" && row.golden !== row.run ? "surprise" : null) })
+    .element;
+}
+
+function drawFiles({ golden, run }) {
+  const parts = [sideTable(rowsOf(new Map([["file", golden.name], ...golden.provenance]),
+                                  new Map([["file", run.name], ...run.provenance])), "", "Files")];
+  if (golden.scene && run.scene) {
+    const changed = rowsOf(settingsOf(golden.scene), settingsOf(run.scene)).filter((row) => row.golden !== row.run);
+    parts.push(changed.length ? el("h3", {}, "Settings that differ") : el("p", {}, "The scenes have the same settings."),
+               changed.length ? sideTable(changed, "Setting", "Settings that differ") : null);
+  }
+  return parts;
+}
+
+// ---- The page.
+
+function checkTable(checks) {
+  const failedFirst = [...checks].sort((a, b) => a.passed - b.passed);
+  return table([
+    { name: "name", title: "Check" },
+    { name: "passed", title: "Verdict", value: (check) => (check.passed ? "holds" : "failed"),
+      cell: (check) => el("span", { class: check.passed ? "good" : "bad" }, check.passed ? "holds" : "failed") },
+    { name: "measured", title: "Measured" }, { name: "limit", title: "Limit" }, { name: "unit", title: "Unit" },
+    { name: "sentence", title: "What was found" },
+  ], failedFirst, { label: "Checks", rowClass: (check) => (check.passed ? null : "surprise") }).element;
+}
+
+drawPage((data, main) => {
+  const { checks, parts, missing } = data;
+  const failed = checks.filter((check) => !check.passed);
+  const fact = (name, value, kind = null) => el("div", {}, el("dt", {}, name), el("dd", { class: kind }, value));
+  const measured = ["final height", "height change", "force", "picture"]
+    .map((name) => checks.find((check) => check.name === name)).filter((check) => check && isNumber(check.measured));
+  main.append(
+    el("h1", {}, document.title), machineLine(data.machine),
+    el("dl", { class: "facts" },
+       fact("Verdict", data.passed ? "equal" : "different", data.passed ? "good" : "bad"),
+       fact("Failed checks", `${failed.length} of ${checks.length}`, failed.length ? "bad" : "good"),
+       ...measured.map((check) => fact(`Largest difference: ${check.name}`, withUnitOf(check.measured, check.unit),
+                                       check.passed ? null : "bad"))),
+    ...failed.map((check) => el("p", { class: "warning" }, el("strong", {}, check.name), `: ${check.sentence}`)),
+    ...missing.map(({ name, sentence }) => el("p", { class: "warning" }, el("strong", {}, `${name} is not shown`),
+                                              `: ${sentence}`)),
+    data.passed ? el("p", {}, "All differences are within their limits.") : "");
+  const kinds = { maps: drawMaps, traces: drawTraces };
+  const sections = [
+    ["checks", "Checks", () => [checkTable(checks)]],
+    ...parts.map((part, i) => [`part-${i + 1}`, part.title, () => kinds[part.kind](part)]),
+    ["files", "Files", () => drawFiles(data)],
+  ];
+  main.append(contents(sections));
+  for (const [id, title, draw] of sections)
+    main.append(el("section", { id }, el("h2", {}, title), ...draw().filter(Boolean)));
+});
+afterDrawing();
