@@ -24,7 +24,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr int most_pixels = 1400;  // of a map, along its longer side
-constexpr int most_spots = 300;    // of a difference, likewise
+constexpr int most_spots = 500;    // of a difference, likewise
+constexpr int most_numbers = 250;  // of values that can be read off, likewise
 constexpr int scale_colours = 21;
 constexpr double settled = 0.02;  // of the largest change: what settles around a stroke
 
@@ -80,9 +81,10 @@ Image height_map(const HeightGrid& values, const ValueRange& range, bool around_
 }
 
 /// Each cell with the value of its spot: as many cells as the surfaces, so that a place is the same pixel.
-HeightGrid spread(const HeightGrid& at_spots, const Spots& spots, Eigen::Index rows, Eigen::Index cols) {
-  return HeightGrid::NullaryExpr(rows, cols, [&](Eigen::Index row, Eigen::Index col) {
-    return at_spots(row / spots.side, col / spots.side);
+HeightGrid spread(const HeightGrid& values, const Spots& spots) {
+  const HeightGrid seen = at_spots(values, spots);
+  return HeightGrid::NullaryExpr(values.rows(), values.cols(), [&](Eigen::Index row, Eigen::Index col) {
+    return seen(row / spots.side, col / spots.side);
   });
 }
 
@@ -94,6 +96,16 @@ std::string float_text(const HeightGrid& values) {
     for (const int shift : {0, 8, 16, 24}) bytes += static_cast<char>(bits >> shift & 255u);
   }
   return base64(bytes);
+}
+
+/// What can be read off: the golden height and the difference [m] of the worst cell of each spot.
+Json numbers_json(const HeightGrid& golden, const HeightGrid& difference) {
+  const Spots spots = spots_of(difference, most_numbers);
+  return {{"side", spots.side},
+          {"cols", spots.cols},
+          {"cells", {difference.rows(), difference.cols()}},
+          {"golden", float_text(at_spots(golden, spots))},
+          {"difference", float_text(at_spots(difference, spots))}};
 }
 
 std::string shown_text(const ComparedSurfaces& surfaces, const CellRange& shown) {
@@ -158,7 +170,6 @@ Json surfaces_part(const ComparedSurfaces& s) {
   const double span = std::max(finite_magnitude(difference), s.limit);
   const ValueRange difference_range = value_range(-span, span, true);
   const Spots spots = spots_of(difference, most_spots);
-  const HeightGrid worst = at_spots(difference, spots);
   const FieldDifference whole = field_difference(s.golden, s.run, s.cell_size);
   std::string text = fmt::format(
       "Largest {:.4g} m at x = {:.4g} m, y = {:.4g} m (row {}, col {}), limit {:.4g} m; RMS {:.4g} m; volume "
@@ -167,21 +178,14 @@ Json surfaces_part(const ComparedSurfaces& s) {
   if (spots.side > 1)
     text +=
         fmt::format(" Each spot of {0} x {0} cells has the colour of its largest difference.", spots.side);
-  maps.push_back(
-      map_json("difference",
-               height_map(spread(worst, spots, difference.rows(), difference.cols()), difference_range, true),
-               height_scale("run − golden", difference_range, true), text));
+  maps.push_back(map_json("difference", height_map(spread(difference, spots), difference_range, true),
+                          height_scale("run − golden", difference_range, true), text));
 
   const BedGeometry bed(static_cast<int>(s.golden.rows()), static_cast<int>(s.golden.cols()), s.cell_size);
   const double half = 0.5 * s.cell_size;
   part["extent"] = {{"x", {bed.x_of(shown.col_begin) - half, bed.x_of(shown.col_end - 1) + half}},
                     {"y", {bed.y_of(shown.row_begin) - half, bed.y_of(shown.row_end - 1) + half}}};
-  part["spots"] = {{"side", spots.side},
-                   {"rows", spots.rows},
-                   {"cols", spots.cols},
-                   {"cells", {difference.rows(), difference.cols()}},
-                   {"golden", float_text(at_spots(golden, spots))},
-                   {"difference", float_text(worst)}};
+  part["spots"] = numbers_json(golden, difference);
   const bool in_sight = whole.row >= shown.row_begin && whole.row < shown.row_end &&
                         whole.col >= shown.col_begin && whole.col < shown.col_end;
   if (whole.max != 0.0 && in_sight) part["largest"] = {{"x", whole.x}, {"y", whole.y}};
