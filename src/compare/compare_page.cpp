@@ -64,10 +64,6 @@ void add_part(ComparePage& page, const std::string& name, const std::function<Js
   }
 }
 
-bool differ(const HeightGrid& a, const HeightGrid& b, double limit) {
-  return a.rows() != b.rows() || a.cols() != b.cols() || !((a - b).abs() <= limit).all();
-}
-
 std::string title_of(const fs::path& golden, const fs::path& run) {
   return fmt::format("{} against {}", run.filename().string(), golden.filename().string());
 }
@@ -81,10 +77,11 @@ ComparePage run_page(const RunFile& golden, const RunFile& run, const Comparison
   ComparePage page = start_page(title_of(golden.name(), run.name()), comparison, side(golden), side(run));
   add_part(page, "Initial height", [&]() -> Json {
     const HeightGrid a = golden.initial(), b = run.initial();
-    if (!differ(a, b, tolerances.height)) return nullptr;
-    const HeightGrid none_a = HeightGrid::Zero(a.rows(), a.cols()),
-                     none_b = HeightGrid::Zero(b.rows(), b.cols());
-    return surfaces_part({"Initial height", a, b, none_a, none_b, golden.cell_size(), tolerances.height});
+    const bool same_shape = a.rows() == b.rows() && a.cols() == b.cols();
+    if (!same_shape || ((a - b).abs() <= tolerances.height).all()) return nullptr;
+    const HeightGrid unchanged = HeightGrid::Zero(a.rows(), a.cols());
+    return surfaces_part(
+        {"Initial height", a, b, unchanged, unchanged, golden.cell_size(), tolerances.height});
   });
   add_part(page, "Final height", [&] {
     return surfaces_part({"Final height", golden.final(), run.final(), height_change(golden),

@@ -109,6 +109,7 @@ Curve thinned_curve(const Curve& curve, std::size_t most) {
 
 Json traces_part(const std::optional<CountedTrace>& golden, const std::optional<CountedTrace>& run,
                  const Tolerances& tolerances) {
+  if (!golden && !run) return nullptr;
   Json part{{"kind", "traces"},
             {"title", "Force and depth over time"},
             {"text", text(golden, run)},

@@ -3,7 +3,7 @@
 // two of them; traces over time; and what is known about the files.
 
 const unitText = (unit) => unit.replace(/^um$/, "µm");
-const withUnitOf = (value, unit) => [format(value, unit === "" || Number.isInteger(value)), unit].join("\u00a0").trim();
+const valueWithUnit = (value, unit) => format(value) + (unit === "" || unit.startsWith("/") ? "" : "\u00a0") + unit;
 const lookOfSide = { golden: { colour: colours[0] }, run: { colour: colours[1], dash: "dashed" } };
 
 // ---- Maps.
@@ -127,17 +127,17 @@ function wipe(part) {
   choose(pair);
   const choice = el("select", { change: (event) => choose(pairs[Number(event.target.value)]) },
                     ...pairs.map((names, i) => el("option", { value: i }, names.join(" and "))));
+  const most = size.scale ? `calc(44rem * ${size.width / size.height})` : `${size.width}px`;
   return el("figure", {},
             el("div", { class: "controls" }, el("label", {}, "Wipe between ", choice),
                el("span", { class: "quiet" }, "Drag the edge, or move the slider with the arrow keys.")),
-            el("div", { class: "narrow", style: `max-width: calc(44rem * ${size.width / size.height})` },
-               element, slider), readout, scales);
+            el("div", { class: "narrow", style: `max-width: ${most}` }, element, slider), readout, scales);
 }
 
 function drawMaps(part) {
   const [{ width, height }] = part.maps;
   const aligned = part.maps.length === 3;
-  const layout = !aligned ? "charts" : width > 2 * height ? "charts wide" : "charts three";
+  const layout = !aligned ? "charts" : width > 1.5 * height ? "charts wide" : "charts three";
   return [el("p", {}, part.text), aligned ? wipe(part) : null,
           el("div", { class: layout }, ...part.maps.map((map) => mapFigure(part, map)))];
 }
@@ -295,7 +295,7 @@ function sideTable(rows, title, label) {
 
 function drawFiles({ golden, run }) {
   const parts = [sideTable(rowsOf(new Map([["file", golden.name], ...golden.provenance]),
-                                  new Map([["file", run.name], ...run.provenance])), "", "Files")];
+                                  new Map([["file", run.name], ...run.provenance])), "Entry", "Files")];
   if (golden.scene && run.scene) {
     const changed = rowsOf(settingsOf(golden.scene), settingsOf(run.scene)).filter((row) => row.golden !== row.run);
     parts.push(changed.length ? el("h3", {}, "Settings that differ") : el("p", {}, "The scenes have the same settings."),
@@ -329,7 +329,7 @@ drawPage((data, main) => {
     el("dl", { class: "facts" },
        fact("Verdict", data.passed ? "equal" : "different", data.passed ? "good" : "bad"),
        fact("Failed checks", `${failed.length} of ${checks.length}`, failed.length ? "bad" : "good"),
-       ...measured.map((check) => fact(`Largest difference: ${check.name}`, withUnitOf(check.measured, check.unit),
+       ...measured.map((check) => fact(`Largest difference: ${check.name}`, valueWithUnit(check.measured, check.unit),
                                        check.passed ? null : "bad"))),
     ...missing.map(({ name, sentence }) => el("p", { class: "warning" }, el("strong", {}, `${name} is not shown`),
                                               `: ${sentence}`)),
