@@ -6,7 +6,9 @@
 // grey print tells them apart.
 const colours = ["#0072b2", "#d55e00", "#009e73", "#b65c92", "#e69f00", "#3fa7e0", "#333333"];
 const symbols = [  // outlines in a square of 10
-  "M5 0a5 5 0 1 0 0.01 0z", "M0 0h10v10h-10z", "M5 0l5.5 10h-11z", "M5 0l5 5-5 5-5-5z", "M5 10l5.5-10h-11z",
+  // A circle of one arc would be drawn, but never found under the pointer.
+  "M5 0a5 5 0 0 1 0 10a5 5 0 0 1 0-10z", "M0 0h10v10h-10z", "M5 0l5.5 10h-11z", "M5 0l5 5-5 5-5-5z",
+  "M5 10l5.5-10h-11z",
   "M3.3 0h3.4v3.3h3.3v3.4h-3.3v3.3h-3.4v-3.3h-3.3v-3.4h3.3z", "M2 0h6l3 5-3 5h-6l-3-5z",
 ];
 const dashes = ["solid", "dashed", "dotted"];
@@ -248,7 +250,8 @@ function borders(places) {
 function rectangle(api) {
   const [left, bottom] = api.coord([api.value(0), api.value(1)]);
   const [right, top] = api.coord([api.value(2), api.value(3)]);
-  return { x: left, y: top, width: right - left, height: bottom - top };
+  const [x, y] = [Math.round(left), Math.round(top)];  // on whole pixels, so that cells leave no seam
+  return { x, y, width: Math.round(right) - x, height: Math.round(bottom) - y };
 }
 
 /** Cells; look(cell) gives {fill, sign, ink}. */
