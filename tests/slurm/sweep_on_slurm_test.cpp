@@ -12,6 +12,7 @@
 
 #include "cli/program.h"
 #include "core/child_process.h"
+#include "io/hdf5_reader.h"
 #include "sweep/slurm_jobs.h"
 #include "sweep/sweep_folder.h"
 #include "test_folder.h"
@@ -137,20 +138,28 @@ class SweepOnSlurm : public testing::Test {
 };
 
 TEST_F(SweepOnSlurm, AnArrayGivesWhatALocalSweepGives) {
+  const std::string output = "it's 100 %A; $x";  // which sbatch and shells would take for something else
   const SlurmJobs jobs =
-      submit("array", {"--tasks", "3", "--time", "10", "--sbatch-option", "--comment=\"two words\""});
+      submit(output, {"--tasks", "3", "--time", "10", "--sbatch-option", "--comment=\"two words\""});
   ASSERT_EQ(jobs.tasks.size(), 3u);
-  const ProgramResult again = sweep({"plan.toml", "-o", "array", "--slurm"});
+  const ProgramResult again = sweep({"plan.toml", "-o", output, "--slurm"});
   EXPECT_EQ(again.exit_code, 2);
   EXPECT_NE(again.err.find("was submitted already"), std::string::npos) << again.err;
   EXPECT_TRUE(comes_true([&] { return ended(jobs); }));
-  expect_as_local("array");
-  EXPECT_EQ(status("array")["missing"], 0);
-  EXPECT_TRUE(fs::exists(folder / "array" / "sweep.h5")) << logs("array");
+  expect_as_local(output);
+  EXPECT_EQ(status(output)["missing"], 0);
+  for (const SlurmTask& task : jobs.tasks)
+    EXPECT_TRUE(fs::exists(folder / output / "slurm" / fmt::format("{}_{}.log", jobs.array, task.number)));
 
-  const ProgramResult done = sweep({"plan.toml", "-o", "array", "--slurm"});
+  // The last job has collected it.
+  ASSERT_TRUE(fs::exists(folder / output / "sweep.h5")) << logs(output);
+  EXPECT_EQ(sweep({"collect", "local"}).exit_code, 0);
+  EXPECT_EQ(Hdf5Reader(folder / output / "sweep.h5").text_attribute("/", "content_hash"),
+            Hdf5Reader(folder / "local" / "sweep.h5").text_attribute("/", "content_hash"));
+
+  const ProgramResult done = sweep({"plan.toml", "-o", output, "--slurm"});
   EXPECT_NE(done.out.find("all points are done"), std::string::npos) << done.err;
-  EXPECT_EQ(read_slurm_jobs(folder / "array")->array, jobs.array);
+  EXPECT_EQ(read_slurm_jobs(folder / output)->array, jobs.array);
 }
 
 TEST_F(SweepOnSlurm, KilledTasksAreRequeuedOrRunAgain) {
