@@ -1,10 +1,12 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
 
 #include "commands.h"
+#include "compare/compare_page.h"
 #include "compare/compare_runs.h"
 #include "compare/junit.h"
 #include "compare/report_picture.h"
@@ -25,6 +27,12 @@ struct Options {
 
 bool is_picture(const fs::path& path) { return path.extension() == ".png" || path.extension() == ".PNG"; }
 
+void write_page(const Options& options, const std::function<ComparePage()>& make) {
+  if (options.report.empty()) return;
+  make_folder(options.report);
+  write_text_file(options.report / "compare.html", make().html());
+}
+
 Comparison compare_run_files(const Options& options) {
   const RunFile golden(options.golden), run(options.run);
   if (!options.report.empty()) {
@@ -33,7 +41,9 @@ Comparison compare_run_files(const Options& options) {
                             golden.cell_size(), options.tolerances.height);
     });
   }
-  return compare_runs(golden, run, options.tolerances);
+  Comparison comparison = compare_runs(golden, run, options.tolerances);
+  write_page(options, [&] { return run_page(golden, run, comparison, options.tolerances); });
+  return comparison;
 }
 
 Comparison compare_pictures(const Options& options) {
@@ -44,6 +54,9 @@ Comparison compare_pictures(const Options& options) {
   }
   Comparison comparison{options.run.string(), {}};
   add_checks(comparison.checks, "picture", [&] { return picture_checks(golden, run, options.tolerances); });
+  write_page(options, [&] {
+    return picture_page(options.golden, golden, options.run, run, comparison, options.tolerances);
+  });
   return comparison;
 }
 
@@ -85,7 +98,8 @@ void add_compare_command(CLI::App& app, Command& chosen) {
       ->add_option("--pixel-share", options->tolerances.pixel_share, "Pixels that may differ at all [0 to 1]")
       ->check(CLI::Range(0.0, 1.0))
       ->capture_default_str();
-  command->add_option("--report", options->report, "Folder for a picture of the difference");
+  command->add_option("--report", options->report,
+                      "Folder for a page on what differs (compare.html) and a picture of it");
   command->add_option("--junit", options->junit, "File for the checks as JUnit XML");
   command->add_flag("--json", options->json, "Print one JSON object instead of the table");
   command->footer(

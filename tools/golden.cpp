@@ -93,7 +93,8 @@ void add_golden_command(CLI::App& app, Command& chosen) {
       golden->add_subcommand("check", "Run all scenes, or those named; exit code 1 if one differs");
   check_command->add_option("NAME", options->names, "Scenes (default: all)");
   add_folder_options(check_command, *options);
-  check_command->add_option("--report", options->report, "Folder for pictures of the differences");
+  check_command->add_option("--report", options->report,
+                            "Folder for a page and pictures of the differences of each scene");
   check_command->add_option("--junit", options->junit, "File for the checks as JUnit XML");
   check_command->add_flag("--json", options->json, "Print one JSON object instead of lines");
   check_command->callback([options, &chosen] { chosen = [options] { return check(*options); }; });

@@ -122,10 +122,11 @@ int sweep(const Arguments& arguments) {
     options.progress = [&bar](double fraction) { bar.update(fraction); };
     counters = sweep.run(folder, options);
   }
-  if (arguments.json)
-    fmt::print("{}\n", as_json(counters, folder).dump(2));
-  else
-    print_summary(counters, folder);
+  if (!arguments.json) print_summary(counters, folder);
+  nlohmann::ordered_json json = as_json(counters, folder);
+  const bool all = !counters.interrupted && options.shard.of == 1;
+  if (all) json["content_hash"] = collect_sweep(folder, arguments.json).content_hash;
+  if (arguments.json) fmt::print("{}\n", json.dump(2));
   if (counters.interrupted) {
     spdlog::warn("stopped with {} of {} points done; the same command goes on from there",
                  counters.done_before + counters.run, counters.points);
@@ -162,6 +163,7 @@ void add_sweep_command(CLI::App& app, Command& chosen) {
   add_slurm_options(*command, arguments->slurm);
   command->get_option("--slurm")->excludes(shard)->excludes(jobs);
   add_sweep_status_command(*command, chosen);
+  add_sweep_collect_command(*command, chosen);
   command->footer(
       "A plan:\n"
       "  [sweep]\n"

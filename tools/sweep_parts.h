@@ -1,15 +1,20 @@
 #pragma once
 
 #include "commands.h"
+#include "sweep/collect.h"
 #include "sweep/run_sweep.h"
 #include "sweep/slurm_script.h"
 #include "sweep/sweep_folder.h"
 
 namespace sandstroke {
 
-// What `sweep` does besides sweeping; the first adds `sweep status`.
+// What `sweep` does besides sweeping; the first two add `sweep status` and `sweep collect`.
 
 void add_sweep_status_command(CLI::App& sweep, Command& chosen);
+void add_sweep_collect_command(CLI::App& sweep, Command& chosen);
+
+/// Collects a sweep and says what came of it (json: not on the standard output).
+CollectReport collect_sweep(const SweepFolder& folder, bool json);
 
 /// `sweep --slurm`, and the options that say what to ask of the cluster.
 struct SlurmArguments {

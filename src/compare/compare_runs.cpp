@@ -1,18 +1,14 @@
 #include "compare/compare_runs.h"
 
-#include <optional>
 #include <utility>
 
 namespace sandstroke {
-namespace {
 
 std::optional<CountedTrace> whole_trace(const RunFile& run) {
   if (!run.has_trace()) return std::nullopt;
   RunTrace trace = run.trace();
   return CountedTrace{trace.size(), std::move(trace)};
 }
-
-}  // namespace
 
 Comparison compare_runs(const RunFile& golden, const RunFile& run, const Tolerances& tolerances) {
   Comparison comparison{run.name(), {}};

@@ -54,19 +54,6 @@ Column thinned(const Column& column) {
   return kept;
 }
 
-std::optional<CountedTrace> thinned_trace(const RunFile& run) {
-  if (!run.has_trace()) return std::nullopt;
-  const RunTrace trace = run.trace();
-  CountedTrace kept;
-  kept.ticks = trace.size();
-  kept.rows.time = thinned(trace.time);
-  kept.rows.device_force = thinned(trace.device_force);
-  kept.rows.depth = thinned(trace.depth);
-  kept.rows.level = thinned(trace.level);
-  kept.rows.contact = thinned(trace.contact);
-  return kept;
-}
-
 // Rows of /trace/rows: time, three of the force, depth, level, contact. One table compresses as a whole.
 constexpr Eigen::Index table_rows = 7;
 
@@ -116,7 +103,7 @@ void write_content(const fs::path& path, const RunFile& run) {
   file.write("/surface/change", rounded(kept, height_quantum), Compression::small);
   file.attribute("/surface/change", "row", block.row_begin);
   file.attribute("/surface/change", "col", block.col_begin);
-  if (const std::optional<CountedTrace> trace = thinned_trace(run)) {
+  if (const std::optional<CountedTrace> trace = golden_trace(run)) {
     file.make_group("/trace");
     file.attribute("/trace", "ticks", static_cast<double>(trace->ticks));
     file.write("/trace/rows", as_table(trace->rows), Compression::small);
@@ -147,6 +134,19 @@ Check same_check(const std::string& what, const std::string& entry_name, bool sa
 }
 
 }  // namespace
+
+std::optional<CountedTrace> golden_trace(const RunFile& run) {
+  if (!run.has_trace()) return std::nullopt;
+  const RunTrace trace = run.trace();
+  CountedTrace kept;
+  kept.ticks = trace.size();
+  kept.rows.time = thinned(trace.time);
+  kept.rows.device_force = thinned(trace.device_force);
+  kept.rows.depth = thinned(trace.depth);
+  kept.rows.level = thinned(trace.level);
+  kept.rows.contact = thinned(trace.contact);
+  return kept;
+}
 
 HeightGrid height_change(const RunFile& run) {
   const HeightGrid initial = run.initial(), final_heights = run.final();
@@ -208,6 +208,14 @@ GoldenContent read_golden(const fs::path& entry) {
   return content;
 }
 
+std::vector<std::pair<std::string, std::string>> golden_provenance(const fs::path& entry) {
+  const TomlReader file = TomlReader::from_file(existing(entry / provenance_name));
+  std::vector<std::pair<std::string, std::string>> entries;
+  for (const char* key : {"version", "commit", "compiler", "scene_hash", "stroke_hash"})
+    if (file.has(key)) entries.emplace_back(key, file.text(key, ""));
+  return entries;
+}
+
 Image read_golden_picture(const fs::path& entry) { return read_png(existing(entry / picture_name)); }
 
 Comparison compare_golden(const std::string& name, const fs::path& entry, const GoldenRun& run_of_scene,
@@ -244,7 +252,7 @@ Comparison compare_golden(const std::string& name, const fs::path& entry, const 
       return std::vector{height_check("height change", HeightField(golden.change, golden.cell_size),
                                       HeightField(height_change(run), golden.cell_size), tolerances.height)};
     });
-    add_checks(found, "trace", [&] { return trace_checks(golden.trace, thinned_trace(run), tolerances); });
+    add_checks(found, "trace", [&] { return trace_checks(golden.trace, golden_trace(run), tolerances); });
     return found;
   });
   add_checks(checks, "picture",

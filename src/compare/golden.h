@@ -3,6 +3,8 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "compare/check.h"
 #include "compare/run_checks.h"
@@ -50,9 +52,14 @@ struct GoldenContent {
 // Error: input where the file is missing or damaged.
 GoldenContent read_golden(const std::filesystem::path& entry);
 Image read_golden_picture(const std::filesystem::path& entry);
+/// Name and value of what provenance.toml says about the build and what it ran.
+std::vector<std::pair<std::string, std::string>> golden_provenance(const std::filesystem::path& entry);
 
 /// Final - initial heights [m] of a run.
 HeightGrid height_change(const RunFile& run);
+
+/// The trace of a run as a golden entry keeps it, but not rounded; none where the run has none.
+std::optional<CountedTrace> golden_trace(const RunFile& run);
 
 /// Judges a run by a golden entry: the same scene and stroke, initial surface, change of heights, trace,
 /// picture.

@@ -5,8 +5,10 @@
 #include <cstdlib>
 #include <set>
 
+#include "compare/compare_page.h"
 #include "compare/report_picture.h"
 #include "core/error.h"
+#include "core/output_file.h"
 
 namespace sandstroke {
 namespace {
@@ -98,6 +100,9 @@ Comparison check_golden(const std::string& name, const GoldenFolders& folders, c
     write_report(report / (name + "-picture.png"), [&] {
       return picture_report(name, read_golden_picture(folders.entry(name)), run.picture, tolerances.pixel);
     });
+    make_folder(report);
+    write_text_file(report / (name + ".html"),
+                    golden_page(name, folders.entry(name), run, comparison, tolerances).html());
   }
   return comparison;
 }

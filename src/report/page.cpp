@@ -25,6 +25,9 @@ SANDSTROKE_ASSET(stress);
 SANDSTROKE_ASSET(sweep_charts);
 SANDSTROKE_ASSET(sweep_points);
 SANDSTROKE_ASSET(sweep);
+SANDSTROKE_ASSET(sweep_style);
+SANDSTROKE_ASSET(compare);
+SANDSTROKE_ASSET(compare_style);
 #undef SANDSTROKE_ASSET
 
 namespace sandstroke {
@@ -35,14 +38,23 @@ std::string_view between(const char* begin, const char* end) {
 }
 #define SANDSTROKE_ASSET(name) between(sandstroke_asset_##name, sandstroke_asset_##name##_end)
 
-std::vector<std::string_view> texts_of(PageScript script) {
+/// What a page has of its own.
+struct PageAssets {
+  std::vector<std::string_view> scripts;
+  std::string_view style;
+};
+
+PageAssets assets_of(PageScript script) {
   switch (script) {
     case PageScript::bench:
-      return {SANDSTROKE_ASSET(bench)};
+      return {{SANDSTROKE_ASSET(bench)}, {}};
     case PageScript::stress:
-      return {SANDSTROKE_ASSET(stress)};
+      return {{SANDSTROKE_ASSET(stress)}, {}};
     case PageScript::sweep:
-      return {SANDSTROKE_ASSET(sweep_charts), SANDSTROKE_ASSET(sweep_points), SANDSTROKE_ASSET(sweep)};
+      return {{SANDSTROKE_ASSET(sweep_charts), SANDSTROKE_ASSET(sweep_points), SANDSTROKE_ASSET(sweep)},
+              SANDSTROKE_ASSET(sweep_style)};
+    case PageScript::compare:
+      return {{SANDSTROKE_ASSET(compare)}, SANDSTROKE_ASSET(compare_style)};
   }
   return {};
 }
@@ -59,6 +71,7 @@ std::string script_safe(const nlohmann::ordered_json& data) {
 }  // namespace
 
 std::string html_page(std::string_view title, PageScript script, const nlohmann::ordered_json& data) {
+  const PageAssets own = assets_of(script);
   const std::string name = xml_escaped(std::string(title));
   std::string page = fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
@@ -66,6 +79,7 @@ std::string html_page(std::string_view title, PageScript script, const nlohmann:
       "initial-scale=1\">\n<title>{}</title>\n<style>\n",
       name);
   page += SANDSTROKE_ASSET(style);
+  page += own.style;
   page +=
       "</style>\n</head>\n<body>\n<main id=\"page\"></main>\n<script type=\"application/json\" id=\"data\">";
   page += script_safe(data);
@@ -73,7 +87,7 @@ std::string html_page(std::string_view title, PageScript script, const nlohmann:
   page += SANDSTROKE_ASSET(charts_notice);
   page += SANDSTROKE_ASSET(charts_license);
   page += "-->\n";
-  std::vector<std::string_view> texts = texts_of(script);
+  std::vector<std::string_view> texts = own.scripts;
   texts.insert(texts.begin(), {SANDSTROKE_ASSET(charts), SANDSTROKE_ASSET(page), SANDSTROKE_ASSET(plot)});
   for (const std::string_view text : texts) {
     page += "<script>\n";

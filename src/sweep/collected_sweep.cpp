@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/counted.h"
 #include "core/error.h"
 #include "core/hash.h"
 
@@ -86,10 +87,6 @@ std::size_t CollectedSweep::verdict(std::size_t point) const {
 
 const std::string& CollectedSweep::verdict_name(std::size_t point) const {
   return results[point] ? verdict_names[verdict(point)] : missing_verdict;
-}
-
-std::string counted(std::size_t count, const std::string& noun) {
-  return fmt::format("{} {}{}", count, noun, count == 1 ? " is" : "s are");
 }
 
 std::string content_hash(const CollectedSweep& sweep) {

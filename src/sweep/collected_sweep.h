@@ -42,9 +42,6 @@ struct CollectedSweep {
   std::optional<BedGeometry> bed;  ///< of all surfaces; none where none was kept, or they differ
 };
 
-/// "1 point is", "3 points are".
-std::string counted(std::size_t count, const std::string& noun);
-
 /// Of axes, verdicts, reasons, metrics (but for timings) and surfaces: the same for two sweeps with the same
 /// content, wherever and in whatever order they ran.
 std::string content_hash(const CollectedSweep& sweep);

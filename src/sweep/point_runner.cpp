@@ -73,7 +73,7 @@ class Measures {
     set("max_force", r.max_force);
     set("mean_force", contact ? r.mean_force : PointResult::none);
     set("work", r.absorbed_energy);
-    set("returned_energy", -r.least_absorbed_energy);
+    set("returned_energy", std::max(0.0, -r.least_absorbed_energy));
     set("passivity_margin", r.least_passivity_margin);
     set("saturated_share", contact ? static_cast<double>(r.saturated_ticks) / ticks : PointResult::none);
   }

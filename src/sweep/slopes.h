@@ -16,10 +16,12 @@ struct SlopeMeasures {
 
 /// Steepest way down from a cell, rise over run: over the eight triangles that its centre makes with those of
 /// its neighbours (Tarboton 1997, Water Resources Research 33, "D-infinity"); 0 in a pit. Exact on planes of
-/// any direction, and on a crest or an edge it is the slope of the flank. Central differences would say 0 on
-/// a crest; the isotropic law's upwind slope is up to sqrt 2 too steep on a peak, where sand falls off along
-/// both axes, and the paper's law has no slope between its eight directions. Sand at rest by the paper's law
-/// is at most tan(talus) x 1.0824 steep by this measure, its octagon's slope (model.md).
+/// any direction; on a crest or an edge it is the flank's. Central differences say 0 on a crest and are low
+/// beside it; the paper's law itself knows eight directions only. Sand at rest by that law is at most
+/// tan(talus) x 1.0824 steep by this measure, as its octagon is (model.md). Where contours bend within a
+/// cell, sand at rest by the isotropic law may read steeper than by its own upwind slope: drags at 5 cells
+/// per tool radius at most 34.0 degrees for 30 (in turn, its slope has sand of the paper's law at 38.9: it
+/// adds both axes on every peak).
 double descent_slope(const HeightField& bed, int row, int col);
 
 /// Over the cells whose height is not what it was. talus_angle [deg]. Fields of one shape; tiles that exist

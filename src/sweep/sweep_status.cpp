@@ -5,17 +5,14 @@
 #include <algorithm>
 #include <cctype>
 
+#include "core/counted.h"
+
 namespace sandstroke {
 namespace {
 
 std::string lower(std::string text) {
   for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   return text;
-}
-
-/// "1 point is", "2 points are".
-std::string counted(std::size_t count, const std::string& noun) {
-  return fmt::format("{} {}", count, count == 1 ? noun + " is" : noun + "s are");
 }
 
 /// Adds what the queue says to a task whose points are counted.

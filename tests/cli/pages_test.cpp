@@ -1,4 +1,5 @@
-// The pages that bench and stress leave, from quick runs of the program, in headless Chromium.
+// The pages that bench, stress, compare and golden leave, from quick runs of the program, in headless
+// Chromium.
 #include <gtest/gtest.h>
 
 #include <csignal>
@@ -40,6 +41,48 @@ TEST_F(CliPages, StressDrawsEveryMapAndNothingSurprises) {
   EXPECT_EQ(page.answer[0], "true");
   EXPECT_EQ(page.answer[2], 0);
   EXPECT_GE(page.answer[1], data["maps"].size() + data["traces"].size());
+}
+
+/// The page is drawn, without errors: its number of charts and the titles of its sections.
+nlohmann::json drawn_page(const fs::path& page) {
+  const OpenedPage opened = open_in_chromium(
+      read_file(page),
+      "[" + page_state + ", [...document.querySelectorAll('h2')].map((h) => h.textContent)]");
+  EXPECT_TRUE(opened.console.empty()) << opened.console.front();
+  EXPECT_EQ(opened.answer[0][0], "true");
+  EXPECT_EQ(opened.answer[0][2], 0);
+  return {opened.answer[0][1], opened.answer[1]};
+}
+
+TEST_F(CliPages, CompareDrawsTwoRunsAndTwoPictures) {
+  const fs::path folder = test_folder();
+  ASSERT_EQ(run_program({"run", "scene.toml", "-o", "a.h5", "--png", "a.png"}, folder).exit_code, 0);
+  ASSERT_EQ(
+      run_program({"run", "scene.toml", "-o", "b.h5", "--png", "b.png", "--set", "relaxation.talus_angle=25"},
+                  folder)
+          .exit_code,
+      0);
+  const ProgramResult runs = run_program({"compare", "a.h5", "b.h5", "--report", "runs"}, folder);
+  EXPECT_EQ(runs.exit_code, 1) << runs.err;
+  EXPECT_EQ(drawn_page(folder / "runs/compare.html"),
+            nlohmann::json({4, {"Checks", "Final height", "Force and depth over time", "Files"}}));
+  EXPECT_NE(read_file(folder / "runs/compare.html").find("talus_angle"), std::string::npos);
+  const ProgramResult pictures = run_program({"compare", "a.png", "b.png", "--report", "pictures"}, folder);
+  EXPECT_EQ(pictures.exit_code, 1) << pictures.err;
+  EXPECT_EQ(drawn_page(folder / "pictures/compare.html"),
+            nlohmann::json({0, {"Checks", "Picture", "Files"}}));
+}
+
+TEST_F(CliPages, GoldenCheckDrawsAPageForEachScene) {
+  const fs::path folder = test_folder();
+  fs::create_directories(folder / "strokes/tiny");
+  fs::rename(folder / "scene.toml", folder / "strokes/tiny/scene.toml");
+  fs::rename(folder / "line.toml", folder / "strokes/tiny/line.toml");
+  ASSERT_EQ(run_program({"golden", "update", "tiny"}, folder).exit_code, 0);
+  ASSERT_EQ(run_program({"golden", "check", "--report", "report"}, folder).exit_code, 0);
+  EXPECT_EQ(
+      drawn_page(folder / "report/tiny.html"),
+      nlohmann::json({4, {"Checks", "Change of height", "Picture", "Force and depth over time", "Files"}}));
 }
 
 TEST(CliStress, RefusesAFolderThatCannotBeWrittenBeforeAnyWork) {

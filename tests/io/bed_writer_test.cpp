@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "core/output_file.h"
 #include "io/hdf5_file.h"
 #include "sand/initial_surface.h"
@@ -50,6 +52,25 @@ TEST_F(BedWriter, EverySurfaceReadsAsItsGridWhateverTheBedsSize) {
 TEST_F(BedWriter, ABedGivenAsNumbersReadsAsThem) {
   const HeightGrid heights = HeightGrid::Random(150, 200);
   EXPECT_TRUE((written(HeightField(heights, 0.01)) == heights).all());
+}
+
+TEST_F(BedWriter, WhatWasWrittenIsVisitedRowByRowAndTheRestReadsAsTheFillValue) {
+  HeightField bed(400, 333, 0.01, std::make_shared<LevelRule>(0.5));
+  for (const auto& [row, col] : {std::pair{390, 2}, {3, 330}, {3, 4}}) bed.set(row, col, -0.25);
+  written(bed);
+  const Hdf5Reader file(path_);
+  HeightGrid put_together = HeightGrid::Constant(400, 333, file.fill_value("/bed"));
+  std::vector<std::pair<Eigen::Index, Eigen::Index>> starts;
+  file.visit_written("/bed", [&](Eigen::Index row, Eigen::Index col, const HeightGrid& heights) {
+    starts.emplace_back(row, col);
+    put_together.block(row, col, heights.rows(), heights.cols()) = heights;
+  });
+  EXPECT_TRUE((put_together == bed.grid()).all());
+  EXPECT_EQ(starts.size(), 3u);
+  EXPECT_TRUE(std::is_sorted(starts.begin(), starts.end()));
+  const BedGeometry geometry = file.bed_geometry("/bed", 0.01);
+  EXPECT_EQ(geometry.rows(), 400);
+  EXPECT_EQ(geometry.cols(), 333);
 }
 
 TEST_F(BedWriter, TheFileFollowsWhatIsNotLevel) {

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cstdlib>
 #include <cstring>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <thread>
 
@@ -59,38 +60,42 @@ bool same_bits(const double* a, const double* b, Eigen::Index count) {
   return std::memcmp(a, b, static_cast<std::size_t>(count) * sizeof(double)) == 0;
 }
 
-/// Twelve simulations of 24 points.
+/// One plan, of twelve simulations for 24 points, swept into a folder per test.
 class SweepOnSlurm : public testing::Test {
  protected:
-  void SetUp() override {
+  static void SetUpTestSuite() {
     ASSERT_NE(cluster, "") << "run this program by tests/slurm/cluster";
+    suite = std::make_unique<TestFolder>();
+    folder = suite->path();
     write_file(folder / "scene.toml",
                "[bed]\nsize = [0.4, 0.3]\ncells = [400, 300]\n[stroke]\nfile = \"line.toml\"\n");
     write_file(folder / "line.toml",
-               "start = [-0.1, 0.0]\nspeed = 0.02\n[[segment]]\nkind = \"line\"\nto = [0.1, 0.0]\ndepth = "
+               "start = [-0.1, 0.0]\nspeed = 0.03\n[[segment]]\nkind = \"line\"\nto = [0.1, 0.0]\ndepth = "
                "0.006\n");
     write_file(
         folder / "plan.toml",
         "[sweep]\nscene = \"scene.toml\"\nkeep = [\"surface\"]\n[axes]\nrelaxation.talus_angle = { from = "
         "20, to = 42, count = 12 }\nforce.k_s = [500, 1000]\n");
+    ASSERT_EQ(sweep({"plan.toml", "-o", "local"}).exit_code, 0);
   }
+  static void TearDownTestSuite() { suite.reset(); }
 
-  ProgramResult sweep(std::vector<std::string> arguments) const {
+  static ProgramResult sweep(std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(), "sweep");
-    return run_program(arguments, folder.path());
+    return run_program(arguments, folder);
   }
   /// Submits it and says with which jobs.
-  SlurmJobs submit(const std::string& output, const std::vector<std::string>& options) const {
+  static SlurmJobs submit(const std::string& output, const std::vector<std::string>& options) {
     std::vector<std::string> arguments = {"plan.toml", "-o", output, "--slurm"};
     arguments.insert(arguments.end(), options.begin(), options.end());
     const ProgramResult result = sweep(arguments);
     EXPECT_EQ(result.exit_code, 0) << result.err;
     return read_slurm_jobs(folder / output).value_or(SlurmJobs{});
   }
-  nlohmann::json status(const std::string& output) const {
+  static nlohmann::json status(const std::string& output) {
     return nlohmann::json::parse(sweep({"status", output, "--json"}).out, nullptr, false);
   }
-  bool some_point_done(const std::string& output, const SlurmTask& task) const {
+  static bool some_point_done(const std::string& output, const SlurmTask& task) {
     const SweepFolder swept = SweepFolder::open(folder / output);
     return std::any_of(task.points.begin(), task.points.end(),
                        [&](std::size_t point) { return fs::exists(swept.point_file(point)); });
@@ -101,7 +106,7 @@ class SweepOnSlurm : public testing::Test {
     return queue.tasks && std::none_of(queue.tasks->begin(), queue.tasks->end(),
                                        [](const QueuedTask& task) { return task.alive(); });
   }
-  std::string logs(const std::string& output) const {
+  static std::string logs(const std::string& output) {
     std::string text;
     for (const fs::directory_entry& entry : fs::directory_iterator(folder / output / "slurm"))
       if (entry.path().extension() == ".log")
@@ -110,10 +115,7 @@ class SweepOnSlurm : public testing::Test {
   }
 
   /// Every bit of every point is as a sweep on this machine has it.
-  void expect_as_local(const std::string& output) const {
-    if (!fs::exists(folder / "local")) {
-      ASSERT_EQ(sweep({"plan.toml", "-o", "local"}).exit_code, 0);
-    }
+  static void expect_as_local(const std::string& output) {
     const SweepFolder local = SweepFolder::open(folder / "local"), other = SweepFolder::open(folder / output);
     for (std::size_t point = 0; point < local.points(); ++point) {
       const auto expected = local.read(point), result = other.read(point);
@@ -130,67 +132,68 @@ class SweepOnSlurm : public testing::Test {
     }
   }
 
-  TestFolder folder;
+  static inline std::unique_ptr<TestFolder> suite;
+  static inline fs::path folder;
 };
 
 TEST_F(SweepOnSlurm, AnArrayGivesWhatALocalSweepGives) {
   const SlurmJobs jobs =
-      submit("out", {"--tasks", "3", "--time", "10", "--sbatch-option", "--comment=\"two words\""});
+      submit("array", {"--tasks", "3", "--time", "10", "--sbatch-option", "--comment=\"two words\""});
   ASSERT_EQ(jobs.tasks.size(), 3u);
-  const ProgramResult again = sweep({"plan.toml", "-o", "out", "--slurm"});
+  const ProgramResult again = sweep({"plan.toml", "-o", "array", "--slurm"});
   EXPECT_EQ(again.exit_code, 2);
   EXPECT_NE(again.err.find("was submitted already"), std::string::npos) << again.err;
   EXPECT_TRUE(comes_true([&] { return ended(jobs); }));
-  expect_as_local("out");
-  EXPECT_EQ(status("out")["missing"], 0);
-  EXPECT_TRUE(fs::exists(folder / "out" / "sweep.h5")) << logs("out");
+  expect_as_local("array");
+  EXPECT_EQ(status("array")["missing"], 0);
+  EXPECT_TRUE(fs::exists(folder / "array" / "sweep.h5")) << logs("array");
 
-  const ProgramResult done = sweep({"plan.toml", "-o", "out", "--slurm"});
+  const ProgramResult done = sweep({"plan.toml", "-o", "array", "--slurm"});
   EXPECT_NE(done.out.find("all points are done"), std::string::npos) << done.err;
-  EXPECT_EQ(read_slurm_jobs(folder / "out")->array, jobs.array);
+  EXPECT_EQ(read_slurm_jobs(folder / "array")->array, jobs.array);
 }
 
 TEST_F(SweepOnSlurm, KilledTasksAreRequeuedOrRunAgain) {
-  const SlurmJobs jobs = submit("out", {"--tasks", "2"});
+  const SlurmJobs jobs = submit("killed", {"--tasks", "2"});
   ASSERT_EQ(jobs.tasks.size(), 2u);
   ASSERT_TRUE(comes_true(
-      [&] { return some_point_done("out", jobs.tasks[0]) && some_point_done("out", jobs.tasks[1]); }));
-  // The first is requeued, which Slurm does by and by; at once where it is told so.
+      [&] { return some_point_done("killed", jobs.tasks[0]) && some_point_done("killed", jobs.tasks[1]); }));
+  // The first is requeued: Slurm lets such a task wait for two minutes, unless told otherwise.
   const std::string first = std::to_string(jobs.array) + "_1";
   slurm({"scontrol", "requeue", first});
   const pid_t second = process_of(jobs.array, 2);
   ASSERT_GT(second, 0);
   kill(second, SIGKILL);
-  ASSERT_TRUE(comes_true([&] { return status("out")["tasks"][1]["state"] == "gone"; }));
-  const nlohmann::json killed = status("out");
+  ASSERT_TRUE(comes_true([&] { return status("killed")["tasks"][1]["state"] == "gone"; }));
+  const nlohmann::json killed = status("killed");
   EXPECT_EQ(killed["tasks"][0]["state"], "requeued");
   EXPECT_GT(killed["tasks"][0]["missing"], 0);
   EXPECT_GT(killed["tasks"][1]["missing"], 0);
-  slurm({"scontrol", "update", "JobId=" + first, "StartTime=now"});
+  slurm({"scontrol", "update", "JobId=" + first, "StartTime=now+2"});
   EXPECT_TRUE(comes_true([&] { return ended(jobs); }));
-  EXPECT_EQ(status("out")["tasks"][0]["state"], "done") << logs("out");
-  EXPECT_EQ(status("out")["advice"].get<std::string>().find("1 task is gone and left "), 0u);
+  EXPECT_EQ(status("killed")["tasks"][0]["state"], "done") << logs("killed");
+  EXPECT_EQ(status("killed")["advice"].get<std::string>().find("1 task is gone and left "), 0u);
 
-  const SlurmJobs rest = submit("out", {"--tasks", "2"});
+  const SlurmJobs rest = submit("killed", {"--tasks", "2"});
   ASSERT_EQ(rest.tasks.size(), 1u);
   EXPECT_EQ(rest.tasks[0].number, 2);
   EXPECT_TRUE(comes_true([&] { return ended(rest); }));
-  expect_as_local("out");
+  expect_as_local("killed");
 }
 
 TEST_F(SweepOnSlurm, WhatAKilledControllerLeavesIsFinishedHere) {
-  const SlurmJobs jobs = submit("out", {"--tasks", "4"});
-  ASSERT_TRUE(comes_true([&] { return some_point_done("out", jobs.tasks[0]); }));
+  const SlurmJobs jobs = submit("orphaned", {"--tasks", "4"});
+  ASSERT_TRUE(comes_true([&] { return some_point_done("orphaned", jobs.tasks[0]); }));
   kill(std::stoi(read_file(cluster + "/slurmctld.pid")), SIGKILL);
-  EXPECT_EQ(sweep({"plan.toml", "-o", "out"}).exit_code, 0);
-  expect_as_local("out");
-  const nlohmann::json without = status("out");
+  EXPECT_EQ(sweep({"plan.toml", "-o", "orphaned"}).exit_code, 0);
+  expect_as_local("orphaned");
+  const nlohmann::json without = status("orphaned");
   EXPECT_EQ(without["missing"], 0);
   EXPECT_NE(without["queue_trouble"], "");
 
   slurm({cluster + "/controller"});
   EXPECT_TRUE(comes_true([&] { return ended(jobs); }));
-  expect_as_local("out");
+  expect_as_local("orphaned");
 }
 
 }  // namespace

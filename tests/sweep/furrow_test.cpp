@@ -6,6 +6,8 @@
 #include <functional>
 #include <numbers>
 
+#include "sim/simulation.h"
+
 namespace sandstroke {
 namespace {
 
@@ -78,6 +80,21 @@ void expect_profile(const FurrowMeasures& measures, const Profile& profile, doub
   EXPECT_NEAR(measures.rampart, profile.rampart(), error);
   EXPECT_NEAR(measures.width, 2.0 * profile.half_width, 2.0 * error / profile.slope());
 }
+
+/// Where the tip is in contact.
+class ContactPath : public SimulationObserver {
+ public:
+  void on_tick(const TickRecord& tick) override {
+    const bool touches = tick.depth > 0.0;
+    if (touches && !touched_) path.pieces.push_back(path.points.size());
+    if (touches) path.points.push_back(tick.device_position.head<2>());
+    touched_ = touches;
+  }
+  TipPath path;
+
+ private:
+  bool touched_ = false;
+};
 
 TEST(Furrow, OnCentresOfCellsIsExact) {
   // The line lies on a row's centres; edges, crests and the deepest point are on samples.
@@ -234,6 +251,31 @@ TEST(Furrow, OnTheLargestBedOnlyItsTilesAreLookedAt) {
     for (int col = 62700; col < 62900; ++col)
       after.set(row, col, profile(line.distance(after.x_of(col), after.y_of(row))));
   expect_profile(measure_furrow(before, after, line.path(), radius), profile);
+}
+
+TEST(Furrow, OfAShallowDragIsAsDeepAsItsTipWhicheverWayItGoes) {
+  // At 2 mm what the tool pushes ahead of it stays out of the furrow (model.md, "Displacement").
+  for (const double angle : {0.0, 0.5, std::numbers::pi / 4}) {
+    Scene scene;
+    scene.bed.width = scene.bed.depth = 0.3;
+    scene.bed.cols = scene.bed.rows = 150;
+    scene.displacement.deposit = Deposit::ahead;
+    const double x = 0.1 * std::cos(angle), y = 0.1 * std::sin(angle);
+    Stroke stroke;
+    stroke.gap_threshold = 10.0;
+    stroke.time = {0.0, 0.5, 2.5};
+    stroke.position = {{-x, -y, 0.01}, {-x, -y, -0.002}, {x, y, -0.002}};
+    const HeightField before(150, 150, 0.002);
+    Simulation simulation(scene, before, std::move(stroke));
+    ContactPath contact;
+    simulation.run(contact);
+    const FurrowMeasures measures = measure_furrow(before, simulation.bed(), contact.path, scene.tool.radius);
+    EXPECT_NEAR(measures.depth, 0.002, 0.1 * 0.002) << angle;
+    EXPECT_GT(measures.rampart, 0.0);
+    // Between the width of the tool's cap at that depth and that of the sphere.
+    EXPECT_GT(measures.width, 2.0 * std::sqrt(2.0 * 0.01 * 0.002 - 0.002 * 0.002) - 0.002) << angle;
+    EXPECT_LT(measures.width, 0.02) << angle;
+  }
 }
 
 }  // namespace

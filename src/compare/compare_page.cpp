@@ -1,0 +1,124 @@
+#include "compare/compare_page.h"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <functional>
+#include <utility>
+#include <vector>
+
+#include "compare/compare_runs.h"
+#include "compare/page_curves.h"
+#include "compare/page_maps.h"
+#include "core/error.h"
+#include "report/page.h"
+
+namespace sandstroke {
+namespace {
+
+using Json = nlohmann::ordered_json;
+namespace fs = std::filesystem;
+
+/// What `make` returns; empty where the file does not say it.
+template <class Make>
+auto as_far_as_known(const Make& make) -> decltype(make()) {
+  try {
+    return make();
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::input) throw;
+    return {};
+  }
+}
+
+/// One of the two that are compared: its file, name and value of its provenance, its resolved scene.
+Json side(const std::string& name, const std::vector<std::pair<std::string, std::string>>& provenance = {},
+          const std::string& scene = "") {
+  Json entries = Json::array();
+  for (const auto& [entry, value] : provenance) entries.push_back({entry, value});
+  return {{"name", name}, {"provenance", entries}, {"scene", scene}};
+}
+
+Json side(const RunFile& run) {
+  return side(run.name(), as_far_as_known([&] { return run.provenance(); }),
+              as_far_as_known([&] { return run.scene_text(); }));
+}
+
+ComparePage start_page(const std::string& title, const Comparison& comparison, Json golden, Json run) {
+  return {title,
+          {{"machine", describe_machine()},
+           {"passed", comparison.passed()},
+           {"checks", to_json(comparison)["checks"]},
+           {"golden", std::move(golden)},
+           {"run", std::move(run)},
+           {"parts", Json::array()},
+           {"missing", Json::array()}}};
+}
+
+/// Appends what `make` returns, unless that is null; where it finds its data missing or damaged (Error:
+/// input), the sentence why `name` is not shown.
+void add_part(ComparePage& page, const std::string& name, const std::function<Json()>& make) {
+  try {
+    if (Json part = make(); !part.is_null()) page.data["parts"].push_back(std::move(part));
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::input) throw;
+    page.data["missing"].push_back({{"name", name}, {"sentence", error.what()}});
+  }
+}
+
+std::string title_of(const fs::path& golden, const fs::path& run) {
+  return fmt::format("{} against {}", run.filename().string(), golden.filename().string());
+}
+
+}  // namespace
+
+std::string ComparePage::html() const { return html_page(title, PageScript::compare, data); }
+
+ComparePage run_page(const RunFile& golden, const RunFile& run, const Comparison& comparison,
+                     const Tolerances& tolerances) {
+  ComparePage page = start_page(title_of(golden.name(), run.name()), comparison, side(golden), side(run));
+  add_part(page, "Initial height", [&]() -> Json {
+    const HeightGrid a = golden.initial(), b = run.initial();
+    const bool same_shape = a.rows() == b.rows() && a.cols() == b.cols();
+    if (!same_shape || ((a - b).abs() <= tolerances.height).all()) return nullptr;
+    const HeightGrid unchanged = HeightGrid::Zero(a.rows(), a.cols());
+    return surfaces_part(
+        {"Initial height", a, b, unchanged, unchanged, golden.cell_size(), tolerances.height});
+  });
+  add_part(page, "Final height", [&] {
+    return surfaces_part({"Final height", golden.final(), run.final(), height_change(golden),
+                          height_change(run), golden.cell_size(), tolerances.height});
+  });
+  add_part(page, "Traces", [&] { return traces_part(whole_trace(golden), whole_trace(run), tolerances); });
+  return page;
+}
+
+ComparePage picture_page(const fs::path& golden_file, const Image& golden, const fs::path& run_file,
+                         const Image& run, const Comparison& comparison, const Tolerances& tolerances) {
+  ComparePage page = start_page(title_of(golden_file, run_file), comparison, side(golden_file.string()),
+                                side(run_file.string()));
+  add_part(page, "Picture", [&] { return pictures_part("Picture", golden, run, tolerances.pixel); });
+  return page;
+}
+
+ComparePage golden_page(const std::string& name, const fs::path& entry, const GoldenRun& run_of_scene,
+                        const Comparison& comparison, const Tolerances& tolerances) {
+  const RunFile run(run_of_scene.run_file);
+  Json run_side = side(run);
+  run_side["name"] = fmt::format("the run of scene {}", name);
+  ComparePage page =
+      start_page(fmt::format("{} against its golden entry", name), comparison,
+                 side(entry.string(), as_far_as_known([&] { return golden_provenance(entry); })), run_side);
+  add_part(page, "Change of height", [&] {
+    const GoldenContent golden = read_golden(entry);
+    const HeightGrid change = height_change(run);
+    return surfaces_part({"Change of height", golden.change, change, golden.change, change, golden.cell_size,
+                          tolerances.height, true});
+  });
+  add_part(page, "Picture", [&] {
+    return pictures_part("Picture", read_golden_picture(entry), run_of_scene.picture, tolerances.pixel);
+  });
+  add_part(page, "Traces",
+           [&] { return traces_part(read_golden(entry).trace, golden_trace(run), tolerances); });
+  return page;
+}
+
+}  // namespace sandstroke
