@@ -38,6 +38,7 @@ int run_program(int argc, char** argv) {
   add_render_command(app, chosen);
   add_compare_command(app, chosen);
   add_golden_command(app, chosen);
+  add_sweep_command(app, chosen);
   add_stroke_command(app, chosen);
   add_bench_command(app, chosen);
   add_stress_command(app, chosen);

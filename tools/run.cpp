@@ -12,6 +12,7 @@
 #include "io/run_file.h"
 #include "io/run_scene.h"
 #include "io/scene_toml.h"
+#include "io/toml_reader.h"
 #include "run_picture.h"
 #include "sand/instruction_set.h"
 #include "sim/simulation.h"
@@ -55,6 +56,7 @@ nlohmann::ordered_json as_json(const RunResult& r, const std::string& output) {
       {"displaced_volume", r.displaced_volume},
       {"moved_volume", r.moved_volume},
       {"max_force", r.max_force},
+      {"mean_force", r.mean_force},
       {"max_depth", r.max_depth},
       {"absorbed_energy", r.absorbed_energy},
       {"least_absorbed_energy", r.least_absorbed_energy},
@@ -108,7 +110,7 @@ int run(const Arguments& arguments) {
   const fs::path scene_path = arguments.scene;
   std::vector<std::string> overrides = arguments.overrides;
   if (!arguments.stroke.empty())
-    overrides.push_back("stroke.file=" + nlohmann::json(fs::absolute(arguments.stroke).string()).dump());
+    overrides.push_back("stroke.file=" + toml_string(fs::absolute(arguments.stroke).string()));
   if (arguments.frames >= 0.0) overrides.push_back(fmt::format("output.frames={}", arguments.frames));
   const Scene scene = load_scene(scene_path, overrides);
   const std::string output = arguments.output.empty() ? scene_path.stem().string() + ".h5" : arguments.output;

@@ -4,7 +4,7 @@
 
 #include "core/error.h"
 #include "io/scene_toml.h"
-#include "render/changed_cells.h"
+#include "render/change_picture.h"
 
 namespace sandstroke {
 namespace {
@@ -23,18 +23,7 @@ RunPainter::RunPainter(const RunFile& run, const ViewSettings& view, double cont
       scene_(scene_from_text(run.scene_text(), run.name() + ": /scene")),
       renderer_(run.rows(), run.cols(), run.cell_size()),
       initial_(run.initial()) {
-  const HeightGrid last = last_surface(run, initial_);
-  subject_.view = view;
-  subject_.contour_interval = contour_interval;
-  // The stroke is where sand was moved by more than what settles around it.
-  const double most = (last - initial_).abs().maxCoeff();
-  subject_.focus = changed_cells(initial_, last, 0.02 * most);
-  // Box, camera and colours stay the same from frame to frame.
-  subject_.extent = {std::min(initial_.minCoeff(), last.minCoeff()),
-                     std::max(initial_.maxCoeff(), last.maxCoeff())};
-  subject_.range = view.style == RenderStyle::difference
-                       ? value_range(-most, most, true)
-                       : value_range(subject_.extent->low, subject_.extent->high, false);
+  subject_ = subject_of_change(initial_, last_surface(run, initial_), view, contour_interval);
 }
 
 Image RunPainter::draw(const HeightGrid& surface, std::optional<double> tool_time) {

@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <limits>
-#include <optional>
 #include <vector>
 
 #include "core/compensated_sum.h"
@@ -17,12 +16,6 @@ namespace {
   throw_input_error(
       "surfaces of {} x {} and {} x {} cells cannot be subtracted; compare runs of the same bed", golden_rows,
       golden_cols, rows, cols);
-}
-
-/// Where no tile exists, both are at one and the same height.
-bool equal_where_untouched(const HeightField& golden, const HeightField& run) {
-  const std::optional<double> level = golden.untouched().level(golden, golden.cells());
-  return level && level == run.untouched().level(run, run.cells());
 }
 
 }  // namespace
@@ -44,7 +37,7 @@ FieldDifference field_difference(const HeightField& golden, const HeightField& r
     result.max = finite ? size : std::numeric_limits<double>::quiet_NaN();
     result.row = row, result.col = col;
   };
-  const bool skip_untouched = equal_where_untouched(golden, run);
+  const bool skip_untouched = same_where_untouched(golden, run);
   std::vector<double> a(HeightField::tile_area), b(HeightField::tile_area);
   for (int tile = 0; tile < golden.tile_count(); ++tile) {
     if (skip_untouched && golden.slot_of(tile) < 0 && run.slot_of(tile) < 0) continue;

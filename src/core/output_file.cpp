@@ -1,5 +1,6 @@
 #include "core/output_file.h"
 
+#include <fcntl.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -53,11 +54,20 @@ fs::path beside(const fs::path& path, const std::string& ending) {
 }
 
 void finish_part(const fs::path& path) {
+  const fs::path part = part_path(path);
+  // On the disk before it has its name: after a power failure, too, a file of that name is complete.
+  const int file = open(part.c_str(), O_RDONLY | O_CLOEXEC);
+  const bool safe = file >= 0 && fsync(file) == 0;
+  const std::string reason = std::strerror(errno);
+  if (file >= 0) close(file);
+  if (!safe)
+    throw_io_error("{}: cannot be written ({}); free disk space or choose another place", path.string(),
+                   reason);
   std::error_code failure;
-  fs::rename(part_path(path), path, failure);
+  fs::rename(part, path, failure);
   if (failure) {
     throw_io_error("{}: cannot be put in place ({}); the complete result is in {}", path.string(),
-                   failure.message(), part_path(path).string());
+                   failure.message(), part.string());
   }
 }
 

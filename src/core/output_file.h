@@ -21,7 +21,7 @@ void make_folder(const std::filesystem::path& folder);
 /// PATH with its ending .h5 or .hdf5 replaced; any other name keeps its dots ("run-27.5").
 std::filesystem::path beside(const std::filesystem::path& path, const std::string& ending);
 
-/// Gives a complete PATH.part its final name. Error: io.
+/// Writes a complete PATH.part through to the disk and gives it its final name. Error: io.
 void finish_part(const std::filesystem::path& path);
 
 /// Writes a whole file, of text or any bytes, by way of PATH.part, so that PATH is either complete or

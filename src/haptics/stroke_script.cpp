@@ -260,6 +260,12 @@ void run_segment(Pen& pen, const ScriptSegment& segment, const StrokeScript& scr
 
 }  // namespace
 
+bool presses_by_force(const StrokeScript& script) {
+  return std::any_of(script.segments.begin(), script.segments.end(), [](const ScriptSegment& segment) {
+    return segment.press.kind == PressProfile::Kind::force;
+  });
+}
+
 Stroke trace_script(const StrokeScript& script, const ForceSettings& force) {
   if (script.segments.empty()) throw_input_error("{}: it has no segments; add at least one", script.name);
   Pen pen(script);

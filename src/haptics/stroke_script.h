@@ -63,6 +63,9 @@ struct StrokeScript {
   std::vector<ScriptSegment> segments;
 };
 
+/// Whether the force constants decide how deep any of it goes.
+bool presses_by_force(const StrokeScript& script);
+
 /// Samples at times i / rate. Lines and arcs are exact (an arc under a sloping depth is a helix); the speed
 /// of the tip in space is the asked one throughout a path, so between samples it is never more. Error: input,
 /// naming script and segment.

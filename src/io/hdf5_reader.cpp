@@ -1,6 +1,7 @@
 #include "io/hdf5_reader.h"
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 
 #include "core/error.h"
@@ -147,41 +148,64 @@ HeightGrid Hdf5Reader::grid(const std::string& dataset) const {
   return values;
 }
 
-HeightField Hdf5Reader::bed(const std::string& dataset, double cell_size) const {
+BedGeometry Hdf5Reader::bed_geometry(const std::string& dataset, double cell_size) const {
+  std::vector<hsize_t> shape;
+  open_numbers(dataset, 2, shape);
+  constexpr hsize_t largest = BedGeometry::most_cells;
+  if (shape[0] > largest || shape[1] > largest)
+    fail(dataset, fmt::format("has {} x {} cells; a bed has at most {} a side", shape[0], shape[1], largest));
+  return {static_cast<int>(shape[0]), static_cast<int>(shape[1]), cell_size};
+}
+
+double Hdf5Reader::fill_value(const std::string& dataset) const {
+  const Hdf5Handle opened = open_dataset(dataset);
+  const Hdf5Handle properties(H5Dget_create_plist(opened), H5Pclose);
+  double fill = 0.0;
+  if (H5Pget_fill_value(properties, H5T_NATIVE_DOUBLE, &fill) < 0)
+    fail(dataset, "cannot be read; the file is damaged");
+  return fill;
+}
+
+void Hdf5Reader::visit_written(
+    const std::string& dataset,
+    const std::function<void(Eigen::Index, Eigen::Index, const HeightGrid&)>& visit) const {
   std::vector<hsize_t> shape;
   const Hdf5Handle opened = open_numbers(dataset, 2, shape);
   const Hdf5Handle properties(H5Dget_create_plist(opened), H5Pclose);
   hsize_t chunk[2], written = 0;
-  const Hdf5Handle space(H5Dget_space(opened), H5Sclose);
   if (H5Pget_layout(properties) != H5D_CHUNKED || H5Pget_chunk(properties, 2, chunk) != 2)
-    return HeightField(grid(dataset), cell_size);
-  constexpr hsize_t largest = BedGeometry::most_cells;
-  if (shape[0] > largest || shape[1] > largest)
-    fail(dataset, fmt::format("has {} x {} cells; a bed has at most {} a side", shape[0], shape[1], largest));
-  double level = 0.0;
-  if (H5Pget_fill_value(properties, H5T_NATIVE_DOUBLE, &level) < 0 ||
-      H5Dget_num_chunks(opened, space, &written) < 0)
-    fail(dataset, "cannot be read; the file is damaged");
-  HeightField bed(static_cast<int>(shape[0]), static_cast<int>(shape[1]), cell_size,
-                  std::make_shared<LevelRule>(level));
+    return visit(0, 0, grid(dataset));
+  const Hdf5Handle space(H5Dget_space(opened), H5Sclose);
+  if (H5Dget_num_chunks(opened, space, &written) < 0) fail(dataset, "cannot be read; the file is damaged");
+  std::vector<std::array<hsize_t, 2>> starts(written);
   for (hsize_t i = 0; i < written; ++i) {
-    hsize_t start[2], bytes;
+    hsize_t bytes;
     unsigned skipped_filters;
-    if (H5Dget_chunk_info(opened, space, i, start, &skipped_filters, nullptr, &bytes) < 0 ||
-        start[0] >= shape[0] || start[1] >= shape[1])
+    if (H5Dget_chunk_info(opened, space, i, starts[i].data(), &skipped_filters, nullptr, &bytes) < 0 ||
+        starts[i][0] >= shape[0] || starts[i][1] >= shape[1])
       fail(dataset, "cannot be read; the file is damaged");
+  }
+  std::sort(starts.begin(), starts.end());
+  for (const auto& start : starts) {
     const hsize_t block[2] = {std::min(chunk[0], shape[0] - start[0]),
                               std::min(chunk[1], shape[1] - start[1])};
     HeightGrid heights(static_cast<Eigen::Index>(block[0]), static_cast<Eigen::Index>(block[1]));
     const Hdf5Handle memory_space(H5Screate_simple(2, block, nullptr), H5Sclose);
-    H5Sselect_hyperslab(space, H5S_SELECT_SET, start, nullptr, block, nullptr);
+    H5Sselect_hyperslab(space, H5S_SELECT_SET, start.data(), nullptr, block, nullptr);
     if (H5Dread(opened, H5T_NATIVE_DOUBLE, memory_space, space, H5P_DEFAULT, heights.data()) < 0)
       fail(dataset, "cannot be read; the file is damaged");
+    visit(static_cast<Eigen::Index>(start[0]), static_cast<Eigen::Index>(start[1]), heights);
+  }
+}
+
+HeightField Hdf5Reader::bed(const std::string& dataset, double cell_size) const {
+  const BedGeometry shape = bed_geometry(dataset, cell_size);
+  HeightField bed(shape.rows(), shape.cols(), cell_size, std::make_shared<LevelRule>(fill_value(dataset)));
+  visit_written(dataset, [&](Eigen::Index first_row, Eigen::Index first_col, const HeightGrid& heights) {
     for (Eigen::Index row = 0; row < heights.rows(); ++row)
       for (Eigen::Index col = 0; col < heights.cols(); ++col)
-        bed.set(static_cast<int>(start[0]) + static_cast<int>(row),
-                static_cast<int>(start[1]) + static_cast<int>(col), heights(row, col));
-  }
+        bed.set(static_cast<int>(first_row + row), static_cast<int>(first_col + col), heights(row, col));
+  });
   return bed;
 }
 

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,15 @@ class Hdf5Reader {
   std::vector<double> doubles(const std::string& dataset) const;           ///< rank 1
   std::vector<Eigen::Vector3d> vectors(const std::string& dataset) const;  ///< (n, 3)
   std::vector<std::uint32_t> integers(const std::string& dataset) const;   ///< rank 1
+  /// Shape of a dataset of rank 2 as that of a bed.
+  BedGeometry bed_geometry(const std::string& dataset, double cell_size) const;
+  /// What a dataset of numbers reads as where nothing was written.
+  double fill_value(const std::string& dataset) const;
+  /// The parts of a dataset of rank 2 that were written, one at a time, by their first row and column, row by
+  /// row. So a huge one with little in it costs little.
+  void visit_written(
+      const std::string& dataset,
+      const std::function<void(Eigen::Index row, Eigen::Index col, const HeightGrid& heights)>& visit) const;
   /// Rank 2, of any size: where nothing was written no tile exists, and the bed is at the fill value.
   HeightField bed(const std::string& dataset, double cell_size) const;
   HeightGrid grid(const std::string& dataset) const;   ///< rank 2

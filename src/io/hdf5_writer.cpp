@@ -27,6 +27,13 @@ Hdf5Handle string_type(std::size_t length) {
   return type;
 }
 
+/// Of a scalar where the shape is empty.
+Hdf5Handle space_of(const std::vector<hsize_t>& shape) {
+  return {shape.empty() ? H5Screate(H5S_SCALAR)
+                        : H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr),
+          H5Sclose};
+}
+
 Hdf5Handle dataset_properties(const std::vector<hsize_t>& chunk, Compression compression) {
   Hdf5Handle properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
   H5Pset_obj_track_times(properties, false);  // the same content, the same bytes
@@ -104,10 +111,7 @@ void Hdf5Writer::put(const std::string& dataset, hid_t type, const std::vector<h
   std::vector<hsize_t> chunk;
   if (compression != Compression::none && !empty)
     for (const hsize_t side : shape) chunk.push_back(std::min(side, chunk_side));
-  const Hdf5Handle space(shape.empty()
-                             ? H5Screate(H5S_SCALAR)
-                             : H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr),
-                         H5Sclose);
+  const Hdf5Handle space = space_of(shape);
   const Hdf5Handle properties = dataset_properties(chunk, chunk.empty() ? Compression::none : compression);
   const Hdf5Handle created = create(dataset, type, space, properties);
   if (!empty) check(H5Dwrite(created, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) >= 0, dataset);
@@ -143,21 +147,21 @@ void Hdf5Writer::write(const std::string& dataset, const std::vector<std::string
 }
 
 void Hdf5Writer::put_attribute(const std::string& object, const std::string& attribute, hid_t type,
-                               const void* value) {
-  const Hdf5Handle space(H5Screate(H5S_SCALAR), H5Sclose);
+                               const std::vector<hsize_t>& shape, const void* values) {
+  const Hdf5Handle space = space_of(shape);
   const Hdf5Handle owner(H5Oopen(file_, object.c_str(), H5P_DEFAULT), H5Oclose);
   if (H5Aexists(owner, attribute.c_str()) > 0) H5Adelete(owner, attribute.c_str());
   const Hdf5Handle created(H5Acreate2(owner, attribute.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT),
                            H5Aclose);
-  check(created.valid() && H5Awrite(created, type, value) >= 0, object);
+  check(created.valid() && H5Awrite(created, type, values) >= 0, object);
 }
 
 void Hdf5Writer::attribute(const std::string& object, const std::string& attribute, double value) {
-  put_attribute(object, attribute, H5T_NATIVE_DOUBLE, &value);
+  put_attribute(object, attribute, H5T_NATIVE_DOUBLE, {}, &value);
 }
 void Hdf5Writer::attribute(const std::string& object, const std::string& attribute,
                            const std::string& value) {
-  put_attribute(object, attribute, string_type(value.size()), value.c_str());
+  put_attribute(object, attribute, string_type(value.size()), {}, value.c_str());
 }
 
 Hdf5Column Hdf5Writer::growing(const std::string& dataset, hid_t type, int width) {

@@ -84,14 +84,19 @@ class Hdf5Writer {
   /// Flushes, closes and renames. Without it the .part file stays.
   void finish();
 
- private:
+ protected:
   Hdf5Handle create(const std::string& dataset, hid_t type, const Hdf5Handle& space,
                     const Hdf5Handle& properties);
   void put(const std::string& dataset, hid_t type, const std::vector<hsize_t>& shape, const void* values,
            Compression compression = Compression::none);
-  Hdf5Column growing(const std::string& dataset, hid_t type, int width);
-  void put_attribute(const std::string& object, const std::string& attribute, hid_t type, const void* value);
+  /// shape: empty for a scalar.
+  void put_attribute(const std::string& object, const std::string& attribute, hid_t type,
+                     const std::vector<hsize_t>& shape, const void* values);
   void check(bool done, const std::string& object) const;
+  hid_t file() const { return file_; }
+
+ private:
+  Hdf5Column growing(const std::string& dataset, hid_t type, int width);
 
   std::filesystem::path path_;
   int lock_ = -1;  // descriptor that keeps other processes from writing the same .part file

@@ -77,7 +77,7 @@ void RunWriter::make_trace_columns() {
     file_.attribute("/trace/" + name, "unit", unit);
   };
   add("time", 1, "s", [](const TickRecord& t, double* out) { *out = t.time; });
-  add("hand_position", 3, "m", [](const TickRecord& t, double* out) { put(t.hand_position, out); });
+  add("hand_position", 3, "m", [](const TickRecord& t, double* out) { put(t.hand.position, out); });
   add("device_position", 3, "m", [](const TickRecord& t, double* out) { put(t.device_position, out); });
   add("device_force", 3, "N", [](const TickRecord& t, double* out) { put(t.device_force, out); });
   add("repulse_force", 3, "N", [](const TickRecord& t, double* out) { put(t.repulse_force, out); });

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <functional>
-#include <nlohmann/json.hpp>
 #include <set>
 
 #include "core/output_file.h"
@@ -97,7 +96,7 @@ class SceneLister : public SceneVisitor {
     tell_({key, value ? "true" : "false", "", help});
   }
   void text(const char* key, std::string& value, const char* help) override {
-    tell_({key, nlohmann::json(value).dump(), "", help});  // TOML's basic strings escape as JSON does
+    tell_({key, toml_string(value), "", help});
   }
   void choice(const char* key, int& value, const std::vector<std::string>& names, const char* help) override {
     tell_({key, '"' + names[value] + '"', "", fmt::format("{} ({})", help, fmt::join(names, " | "))});
@@ -147,6 +146,17 @@ std::string scene_text(const Scene& scene) {
   Scene copy = scene;  // a visitor could change it; this one does not
   describe_scene(writer, copy);
   return text;
+}
+
+std::string setting_unit(const Scene& scene, const std::string& key) {
+  std::string unit, prefix;
+  SceneLister lister([&](const std::string& name, const std::string&) { prefix = name + "."; },
+                     [&](const SceneLister::Entry& entry) {
+                       if (prefix + entry.key == key) unit = entry.unit;
+                     });
+  Scene copy = scene;
+  describe_scene(lister, copy);
+  return unit;
 }
 
 namespace {

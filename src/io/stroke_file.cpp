@@ -86,14 +86,25 @@ Stroke read_stroke_file(const std::filesystem::path& path) {
   return stroke;
 }
 
-Stroke load_stroke(const std::filesystem::path& path, const ForceSettings& force) {
+namespace {
+
+bool is_recorded(const std::filesystem::path& path) {
   check_readable(path);
   std::ifstream file(path, std::ios::binary);
   constexpr char hdf5_signature[] = "\x89HDF\r\n\x1a\n";
   char begin[sizeof hdf5_signature - 1] = {};
   file.read(begin, sizeof begin);
-  if (path.extension() == ".h5" || std::memcmp(begin, hdf5_signature, sizeof begin) == 0)
-    return read_stroke_file(path);
+  return path.extension() == ".h5" || std::memcmp(begin, hdf5_signature, sizeof begin) == 0;
+}
+
+}  // namespace
+
+bool stroke_depends_on_force(const std::filesystem::path& path) {
+  return !is_recorded(path) && path.extension() == ".toml" && presses_by_force(read_stroke_script(path));
+}
+
+Stroke load_stroke(const std::filesystem::path& path, const ForceSettings& force) {
+  if (is_recorded(path)) return read_stroke_file(path);
   if (path.extension() == ".toml") return trace_script(read_stroke_script(path), force);
   throw_input_error(
       "{}: is neither a recorded stroke (.h5) nor a scripted one (.toml); convert a table of "

@@ -19,4 +19,7 @@ Stroke read_stroke_file(const std::filesystem::path& path);
 /// presses). Error: io, input.
 Stroke load_stroke(const std::filesystem::path& path, const ForceSettings& force);
 
+/// Whether load_stroke's `force` makes a difference. Error: io, input.
+bool stroke_depends_on_force(const std::filesystem::path& path);
+
 }  // namespace sandstroke

@@ -3,12 +3,16 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <set>
+#include <sstream>
 
 #include "core/error.h"
 #include "core/output_file.h"
 
 namespace sandstroke {
+
+std::string toml_string(const std::string& text) { return nlohmann::json(text).dump(); }
 
 struct TomlReader::Document {
   std::string name;
@@ -95,6 +99,20 @@ std::vector<std::string> split(std::string_view key) {
     if (dot == std::string_view::npos) return parts;
     key.remove_prefix(dot + 1);
   }
+}
+
+/// A value as TOML text, on one line: a number in the shortest digits that give it back.
+std::string literal_of(const toml::node& node) {
+  if (const auto* number = node.as_floating_point()) return fmt::format("{}", number->get());
+  if (const auto* text = node.as_string()) return toml_string(text->get());
+  if (const toml::array* array = node.as_array()) {
+    std::vector<std::string> elements;
+    for (const toml::node& element : *array) elements.push_back(literal_of(element));
+    return fmt::format("[{}]", fmt::join(elements, ", "));
+  }
+  std::ostringstream text;
+  node.visit([&](const auto& value) { text << value; });
+  return text.str();
 }
 
 }  // namespace
@@ -253,6 +271,63 @@ int TomlReader::choice(std::string_view key, int fallback, const std::vector<std
   const auto found = std::find(names.begin(), names.end(), name);
   if (found == names.end()) fail(key, fmt::format("is '{}'; take one of: {}", name, fmt::join(names, ", ")));
   return static_cast<int>(found - names.begin());
+}
+
+std::vector<std::string> TomlReader::texts(std::string_view key,
+                                           const std::vector<std::string>& fallback) const {
+  const toml::node* node = find(key);
+  if (!node) return fallback;
+  std::vector<std::string> found;
+  if (!node->is_array()) fail(key, fmt::format("is {}; give a list of strings", type_name(*node)));
+  for (const toml::node& element : *node->as_array()) {
+    if (!element.is_string()) fail(key, fmt::format("holds {}; give strings", type_name(element)));
+    found.push_back(*element.value<std::string>());
+  }
+  return found;
+}
+
+std::vector<std::string> TomlReader::keys_in(std::string_view key, std::string_view leaf) const {
+  const toml::node* top = find(key);
+  if (!top) return {};
+  if (!top->is_table()) fail(key, fmt::format("is {}; write a [{}] table", type_name(*top), key));
+  std::vector<std::pair<toml::source_position, std::string>> found;
+  const auto visit = [&](const auto& self, const toml::table& table, const std::string& prefix) -> void {
+    for (const auto& [name, node] : table) {
+      if (name.str().find('.') != std::string_view::npos)
+        fail(key, fmt::format("holds \"{}\"; write dotted keys without quotes", name.str()));
+      const toml::table* inner = node.as_table();
+      const std::string full = prefix + std::string(name.str());
+      if (inner && !(leaf.size() > 0 && inner->contains(leaf)))
+        self(self, *inner, full + ".");
+      else
+        found.emplace_back(name.source().begin, full);
+    }
+  };
+  visit(visit, *top->as_table(), "");
+  std::sort(found.begin(), found.end());
+  std::vector<std::string> keys;
+  for (auto& [place, full] : found) keys.push_back(std::move(full));
+  return keys;
+}
+
+std::string TomlReader::literal(std::string_view key) const {
+  const toml::node* node = find(key);
+  return node ? literal_of(*node) : "";
+}
+
+std::vector<std::string> TomlReader::literals(std::string_view key) const {
+  const toml::node* node = find(key);
+  std::vector<std::string> found;
+  if (!node) return found;
+  const toml::array* array = node->as_array();
+  if (!array) return {literal_of(*node)};
+  for (const toml::node& element : *array) found.push_back(literal_of(element));
+  return found;
+}
+
+bool TomlReader::is_table(std::string_view key) const {
+  const toml::node* node = find(key);
+  return node && node->is_table();
 }
 
 std::vector<TomlReader> TomlReader::tables(std::string_view key) const {

@@ -12,6 +12,9 @@
 
 namespace sandstroke {
 
+/// Text as a TOML string; its basic strings escape as JSON's do.
+std::string toml_string(const std::string& text);
+
 /// One table of a TOML file, read key by key with errors that name file, line, key, value and remedy (Error:
 /// input). Keys nobody asked for are errors too: call reject_unread() last. Keys may be dotted ("bed.cells").
 /// Copies share the document.
@@ -41,6 +44,15 @@ class TomlReader {
   std::vector<std::vector<double>> points(std::string_view key) const;
   /// One of the names; returns its index.
   int choice(std::string_view key, int fallback, const std::vector<std::string>& names) const;
+  /// An array of strings.
+  std::vector<std::string> texts(std::string_view key, const std::vector<std::string>& fallback) const;
+  /// What a file says about settings it does not know: dotted keys of all values in table `key`, relative to
+  /// it, in the order of the file. A table that holds the key `leaf` counts as a value.
+  std::vector<std::string> keys_in(std::string_view key, std::string_view leaf = {}) const;
+  /// A value as TOML text, on one line; of an array, each element.
+  std::string literal(std::string_view key) const;
+  std::vector<std::string> literals(std::string_view key) const;
+  bool is_table(std::string_view key) const;
   /// The tables of [[key]], in order.
   std::vector<TomlReader> tables(std::string_view key) const;
 

@@ -3,6 +3,7 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <thread>
+#include <vector>
 
 #include "core/machine.h"
 #include "core/version.h"
@@ -21,6 +22,10 @@ SANDSTROKE_ASSET(page);
 SANDSTROKE_ASSET(plot);
 SANDSTROKE_ASSET(bench);
 SANDSTROKE_ASSET(stress);
+SANDSTROKE_ASSET(sweep_charts);
+SANDSTROKE_ASSET(sweep);
+SANDSTROKE_ASSET(compare_maps);
+SANDSTROKE_ASSET(compare_traces);
 SANDSTROKE_ASSET(compare);
 #undef SANDSTROKE_ASSET
 
@@ -32,15 +37,16 @@ std::string_view between(const char* begin, const char* end) {
 }
 #define SANDSTROKE_ASSET(name) between(sandstroke_asset_##name, sandstroke_asset_##name##_end)
 
-std::string_view text_of(PageScript script) {
+std::vector<std::string_view> texts_of(PageScript script) {
   switch (script) {
     case PageScript::bench:
-      return SANDSTROKE_ASSET(bench);
+      return {SANDSTROKE_ASSET(bench)};
     case PageScript::stress:
-      return SANDSTROKE_ASSET(stress);
+      return {SANDSTROKE_ASSET(stress)};
+    case PageScript::sweep:
+      return {SANDSTROKE_ASSET(sweep_charts), SANDSTROKE_ASSET(sweep)};
     case PageScript::compare:
-      return SANDSTROKE_ASSET(compare);
-      SANDSTROKE_ASSET(compare);
+      return {SANDSTROKE_ASSET(compare_maps), SANDSTROKE_ASSET(compare_traces), SANDSTROKE_ASSET(compare)};
   }
   return {};
 }
@@ -71,8 +77,9 @@ std::string html_page(std::string_view title, PageScript script, const nlohmann:
   page += SANDSTROKE_ASSET(charts_notice);
   page += SANDSTROKE_ASSET(charts_license);
   page += "-->\n";
-  for (const std::string_view text :
-       {SANDSTROKE_ASSET(charts), SANDSTROKE_ASSET(page), SANDSTROKE_ASSET(plot), text_of(script)}) {
+  std::vector<std::string_view> texts = texts_of(script);
+  texts.insert(texts.begin(), {SANDSTROKE_ASSET(charts), SANDSTROKE_ASSET(page), SANDSTROKE_ASSET(plot)});
+  for (const std::string_view text : texts) {
     page += "<script>\n";
     page += text;
     page += "\n</script>\n";

@@ -6,8 +6,8 @@
 
 namespace sandstroke {
 
-/// What draws a page: page.js and plot.js, which all pages share, and a script of the page's own.
-enum class PageScript { bench, stress, compare };
+/// What draws a page: page.js and plot.js, which all pages share, and scripts of the page's own.
+enum class PageScript { bench, stress, sweep, compare };
 
 /// One self-contained HTML page: style, chart library (with its licence), scripts and data are embedded, so
 /// that it needs no network. Text in `data` may come from anywhere: nothing in it ends the page's script

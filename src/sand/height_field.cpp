@@ -126,4 +126,10 @@ double HeightField::highest() const {
   return highest;
 }
 
+bool same_where_untouched(const HeightField& one, const HeightField& other) {
+  if (&one.untouched() == &other.untouched()) return true;
+  const std::optional<double> level = one.untouched().level(one, one.cells());
+  return level && level == other.untouched().level(other, other.cells());
+}
+
 }  // namespace sandstroke

@@ -122,4 +122,7 @@ class HeightField : public BedGeometry {
   std::vector<int> disturbed_;
 };
 
+/// Where neither bed (of one shape) has a tile, both are known to have the same heights.
+bool same_where_untouched(const HeightField& one, const HeightField& other);
+
 }  // namespace sandstroke

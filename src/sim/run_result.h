@@ -5,12 +5,14 @@
 #include <optional>
 #include <vector>
 
+#include "haptics/stroke_sampler.h"
+
 namespace sandstroke {
 
 /// Everything recorded about one servo tick (a row of /trace in a run file).
 struct TickRecord {
-  double time = 0.0;                                          ///< s
-  Eigen::Vector3d hand_position = Eigen::Vector3d::Zero();    ///< m, what the hand wants, device frame
+  double time = 0.0;  ///< s
+  Hand hand, next;    ///< what the hand wants at its start and end, device frame
   Eigen::Vector3d device_position = Eigen::Vector3d::Zero();  ///< m, as read from the encoders, device frame
   Eigen::Vector3d device_force = Eigen::Vector3d::Zero();     ///< N, on the device, saturated
   Eigen::Vector3d repulse_force = Eigen::Vector3d::Zero();    ///< N
@@ -66,6 +68,7 @@ struct RunResult {
   double moved_volume = 0.0;      ///< m^3, by tool and relaxation
   double volume_drift = 0.0;      ///< |final - initial| / moved volume; 0 where nothing moved
   double max_force = 0.0;         ///< N
+  double mean_force = 0.0;        ///< N, its magnitude over contact ticks
   double max_depth = 0.0;         ///< m
   double absorbed_energy = 0.0;   ///< J, net energy that the device gave to the sand
   double least_absorbed_energy =

@@ -7,13 +7,10 @@
 #include "core/error.h"
 #include "core/interrupt.h"
 #include "core/stopwatch.h"
-#include "haptics/device_force.h"
 #include "sand/tool_path.h"
 
 namespace sandstroke {
 namespace {
-
-SimulatedDevice::State as_state(const Hand& hand) { return {hand.position, hand.velocity}; }
 
 /// True once per period: at the last tick before each multiple of it; at most once a tick.
 bool comes_due(std::int64_t tick, double servo_rate, double rate) {
@@ -32,8 +29,7 @@ Simulation::Simulation(const Scene& scene, HeightField bed, std::optional<Stroke
     : scene_(scene),
       bed_(std::move(bed)),
       footprint_(scene.tool),
-      relaxer_(relaxer ? std::move(relaxer) : make_relaxer(scene.relaxation, bed_.cell_size())),
-      late_force_(scene.device) {
+      relaxer_(relaxer ? std::move(relaxer) : make_relaxer(scene.relaxation, bed_.cell_size())) {
   if (!stroke) return;
   if (!(stroke->duration() * scene.device.servo_rate < 1e15))
     throw_input_error(
@@ -62,14 +58,14 @@ Eigen::Vector3d Simulation::tip_of(const Eigen::Vector3d& device_position) const
   return scene_.device.scale * device_position + scene_.device.offset;
 }
 
-TickRecord Simulation::tick(double time, const Hand& hand, const Hand& next, const SimulatedDevice& device) {
+TickRecord Simulation::tick(double time, const Hand& hand, const Hand& next, DeviceSide& side) {
   TickRecord record;
-  Eigen::Vector3d computed = Eigen::Vector3d::Zero();
-  const SimulatedDevice::State reading = device.read();
+  const SimulatedDevice::State reading = side.device().read();
   const Eigen::Vector3d tip = tip_of(reading.position);
-  const Eigen::Vector3d true_tip = tip_of(device.state().position);  // encoder steps are no motion
+  const Eigen::Vector3d true_tip = tip_of(side.device().state().position);  // encoder steps are no motion
   record.time = time;
-  record.hand_position = hand.position;
+  record.hand = hand;
+  record.next = next;
   record.device_position = reading.position;
   record.level = std::numeric_limits<double>::quiet_NaN();
   if (hand.down) {
@@ -80,20 +76,13 @@ TickRecord Simulation::tick(double time, const Hand& hand, const Hand& next, con
     record.level = footprint_.sand_level();
     const double depth = record.level - tip.z();
     if (depth > 0.0) {
-      const SandForce force = force_on_device(depth, device, as_state(hand), as_state(next), scene_.force);
       record.contact = true;
-      record.repulse_force.z() = force.repulse;
-      record.drag_force = force.drag;
-      computed = force.total;
-      record.saturated = force.saturated;
       record.displaced_volume += displace(bed_, footprint_, tip.z(), motion, scene_.displacement);
     }
     if (!std::isnan(depth)) record.depth = depth;
     last_tip_ = true_tip;
   }
-  record.device_force = late_force_.act(computed);
-  record.passivity_margin = passivity_margin(record.contact ? record.depth : 0.0, record.repulse_force.z(),
-                                             scene_.force, scene_.device);
+  side.feel(record);
   return record;
 }
 
@@ -113,15 +102,8 @@ void Simulation::relax(double time, SimulationObserver& observer) {
   observer.on_relaxation({time, outcome.passes, outcome.residual, outcome.moved_volume});
 }
 
-void Simulation::check_stable(const TickRecord& record, const Hand& next,
-                              const SimulatedDevice& device) const {
-  if (!record.device_force.allFinite())
-    throw Error(
-        ErrorKind::unstable,
-        fmt::format("at {:.4f} s, {:.4g} m deep, the force is beyond any number; lower force.k_s, force.k_c, "
-                    "force.k_f or the stroke's depth",
-                    record.time, record.depth));
-  const double hand = std::max(tip_of(record.hand_position).norm(), tip_of(next.position).norm());
+void Simulation::check_near(const TickRecord& record, const SimulatedDevice& device) const {
+  const double hand = std::max(tip_of(record.hand.position).norm(), tip_of(record.next.position).norm());
   const double far = 100.0 * (scene_.bed.width + scene_.bed.depth) + 2.0 * hand;
   const double distance = tip_of(device.state().position).norm();
   if (!(distance < far))
@@ -139,8 +121,7 @@ void Simulation::run_stroke(SimulationObserver& observer) {
   const auto ticks =
       static_cast<std::int64_t>(std::floor((stroke_->end_time() - begin) * servo_rate + 1e-9)) + 1;
   Hand hand = stroke_->at(begin);
-  SimulatedDevice device(scene_.device, as_state(hand));
-  result_.least_passivity_margin = std::numeric_limits<double>::infinity();
+  DeviceSide device(scene_.force, scene_.device, hand);
 
   for (std::int64_t k = 0; k < ticks && !interrupted(); ++k) {
     const double time = static_cast<double>(k) / servo_rate;
@@ -149,28 +130,22 @@ void Simulation::run_stroke(SimulationObserver& observer) {
     const Hand next = stroke_->at(next_time);
     const TickRecord record = tick(time, hand, next, device);
 
-    const Eigen::Vector3d before = device.state().position;
-    device.advance(as_state(hand), as_state(next), record.device_force);
-    check_stable(record, next, device);
-    energy_.add(record.device_force, device.state().position - before);
+    device.advance(record);
+    check_near(record, device.device());
     hand = next;
     if (stroke_->lifts_between(begin + time, next_time)) last_tip_.reset();
 
     result_.ticks += 1;
     result_.contact_ticks += record.contact;
-    result_.saturated_ticks += record.saturated;
     result_.displaced_volume += record.displaced_volume;
-    result_.max_force = std::max(result_.max_force, record.device_force.stableNorm());
-    if (record.contact) {
-      result_.max_depth = std::max(result_.max_depth, record.depth);
-      result_.least_passivity_margin = std::min(result_.least_passivity_margin, record.passivity_margin);
-    }
+    if (record.contact) result_.max_depth = std::max(result_.max_depth, record.depth);
     observer.on_tick(record);
     if (comes_due(k, servo_rate, scene_.relaxation.rate)) relax(time, observer);
     if (comes_due(k, servo_rate, scene_.output.frames))
       observer.on_frame(static_cast<double>(k + 1) / servo_rate, bed_);
     observer.on_progress(static_cast<double>(k + 1) / static_cast<double>(ticks));
   }
+  device.report(result_);
   result_.simulated_seconds = static_cast<double>(result_.ticks) / servo_rate;
   result_.gaps = static_cast<int>(stroke_->gaps().size());
 }
@@ -192,10 +167,7 @@ RunResult Simulation::run(SimulationObserver& observer) {
                 "the sand's volume is beyond any number; lower the heights of bed.surface");
   if (result_.moved_volume > 0.0)
     result_.volume_drift = std::abs(result_.volume_final - result_.volume_initial) / result_.moved_volume;
-  result_.absorbed_energy = energy_.absorbed();
-  result_.least_absorbed_energy = energy_.least();
-  if (result_.contact_ticks == 0)
-    result_.least_passivity_margin = passivity_margin(0.0, 0.0, scene_.force, scene_.device);
+  if (!stroke_) result_.least_passivity_margin = passivity_margin(0.0, 0.0, scene_.force, scene_.device);
   result_.wall_seconds = watch.seconds();
   return result_;
 }

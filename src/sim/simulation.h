@@ -2,10 +2,8 @@
 
 #include <optional>
 
-#include "haptics/device.h"
-#include "haptics/late_force.h"
-#include "haptics/passivity.h"
 #include "haptics/stroke_sampler.h"
+#include "sim/device_side.h"
 #include "sim/run_result.h"
 #include "sim/scene.h"
 
@@ -44,12 +42,11 @@ class Simulation {
  private:
   void check_inside(const Stroke& stroke) const;
   void run_stroke(SimulationObserver& observer);
-  /// What the sand does in the tick in which the hand goes from one place to the next; device_force is the
-  /// force that acts.
-  TickRecord tick(double time, const Hand& hand, const Hand& next, const SimulatedDevice& device);
+  /// What sand and device do in the tick in which the hand goes from one place to the next.
+  TickRecord tick(double time, const Hand& hand, const Hand& next, DeviceSide& device);
   void relax(double time, SimulationObserver& observer);
-  /// Error: unstable, where force or device, on its way to `next`, have left all bounds.
-  void check_stable(const TickRecord& record, const Hand& next, const SimulatedDevice& device) const;
+  /// Error: unstable, where the device, at the end of a tick, has left all bounds.
+  void check_near(const TickRecord& record, const SimulatedDevice& device) const;
   Eigen::Vector3d tip_of(const Eigen::Vector3d& device_position) const;
 
   Scene scene_;
@@ -58,8 +55,6 @@ class Simulation {
   ToolFootprint footprint_;
   std::unique_ptr<Relaxer> relaxer_;
   std::optional<Eigen::Vector3d> last_tip_;  // true one of the tick before; none where it was lifted since
-  LateForce late_force_;
-  EnergyAccount energy_;
   RunResult result_;
 };
 

@@ -164,7 +164,7 @@ TEST(Simulation, TicksAtTheServoRateAndRelaxesAtItsOwn) {
   EXPECT_EQ(result.ticks, 1001);
   EXPECT_EQ(recording.ticks.size(), 1001u);
   EXPECT_DOUBLE_EQ(recording.ticks[250].time, 0.25);
-  EXPECT_NEAR(recording.ticks[250].hand_position.x(), 0.0125, 1e-15);
+  EXPECT_NEAR(recording.ticks[250].hand.position.x(), 0.0125, 1e-15);
   EXPECT_EQ(result.relaxations, 61);  // 60 in a second, and the one at the end
   EXPECT_EQ(recording.frames.size(), 11u);
   EXPECT_TRUE(result.converged);
@@ -245,8 +245,8 @@ TEST(Simulation, DynamicDeviceLagsBehindAndIsPushedBack) {
   Recording recording;
   const RunResult result = simulation.run(recording);
   const TickRecord& last = recording.ticks.back();
-  EXPECT_LT(last.device_position.x(), last.hand_position.x() - 1e-4);
-  EXPECT_GT(last.device_position.z(), last.hand_position.z() + 1e-3);
+  EXPECT_LT(last.device_position.x(), last.hand.position.x() - 1e-4);
+  EXPECT_GT(last.device_position.z(), last.hand.position.z() + 1e-3);
   EXPECT_GT(result.absorbed_energy, 0.0);
   EXPECT_GE(result.least_absorbed_energy, -1e-6);
 }
@@ -270,7 +270,7 @@ TEST(Simulation, TheForceThatActsIsTheOneComputedTicksBefore) {
     const Eigen::Vector3d computed = tick.repulse_force + tick.drag_force;
     EXPECT_EQ(tick.device_force, late.act(computed)) << k;
     Eigen::Matrix<double, 5, 1> before;
-    const double hand = tick.hand_position.z(), next = recording.ticks[k + 1].hand_position.z();
+    const double hand = tick.hand.position.z(), next = recording.ticks[k + 1].hand.position.z();
     before << state, hand, (next - hand) * scene.device.servo_rate, tick.device_force.z();
     const Eigen::Vector2d after = map * before;
     absorbed -= tick.device_force.z() * (after[0] - state[0]);

@@ -48,6 +48,12 @@ function format(value, whole = Number.isInteger(value)) {
   return `${withMinus(mantissa)}×${powerOfTen(Number(exponent))}`;
 }
 
+/** A setting as text: as it was given, to six digits. */
+function exact(value) {
+  const size = Math.abs(value);
+  return size === 0 || (size >= 1e-4 && size < 1e9) ? grouped(Number(value.toPrecision(6))) : tickText(value);
+}
+
 /** The label of a tick: as short as it can be. */
 function tickText(value) {
   const size = Math.abs(value);
@@ -59,42 +65,78 @@ function tickText(value) {
 }
 
 const withUnit = (title, unit) => (unit ? `${title} (${unit})` : title);
+const count = (n, one, many = `${one}s`) => `${format(n)} ${n === 1 ? one : many}`;
+/** Orders text, numbers in it by their size. */
+const collator = new Intl.Collator("en", { numeric: true });
 
 // ---- Tables.
 
+/** Leafs through `rows`, `perPage` at a time: draw(part) shows a part. Returns its element, and take(rows). */
+function pager(perPage, draw) {
+  let rows = [], start = 0;
+  const turn = (pages) => () => {
+    start = Math.max(0, Math.min(start + pages * perPage, rows.length - 1));
+    show();
+  };
+  const text = el("span", { role: "status" });
+  const [back, on] = [el("button", { type: "button", click: turn(-1) }, "‹ previous"),
+                      el("button", { type: "button", click: turn(1) }, "next ›")];
+  const element = el("div", { class: "controls pager" }, back, text, on);
+  const show = () => {
+    const end = Math.min(start + perPage, rows.length);
+    element.hidden = rows.length <= perPage;
+    text.textContent = `${format(start + 1)} to ${format(end)} of ${format(rows.length)}`;
+    back.disabled = start === 0;
+    on.disabled = end === rows.length;
+    draw(rows.slice(start, end));
+  };
+  return { element, take: (all) => { rows = all; start = 0; show(); } };
+}
+
 /**
  * A table that sorts by a click (or Enter) on a column's head: numbers by size, text by its order, none last.
- * columns: {name, title, unit, value(row) to sort by, cell(row) to show}; only name is needed.
- * Returns its element, and show(keep), which hides the rows that keep(row) refuses.
+ * columns: {name, title, unit, value(row) to sort by, cell(row) to show}; only name is needed. `perPage` rows
+ * are shown at a time; choose(row) is called for the row that is clicked.
+ * Returns its element; show(keep), which leaves the rows that keep(row) wants and says how many; mark(row), which
+ * sets one off; and texts(row), what its cells say.
  */
-function table(columns, rows, { label, rowClass = () => null } = {}) {
+function table(columns, rows, { label, rowClass = () => null, perPage = Infinity, choose = null } = {}) {
   const valueOf = (column) => column.value ?? ((row) => row[column.name]);
   const kinds = columns.map((column) => {
     const values = rows.map(valueOf(column)).filter((value) => value !== null && value !== undefined);
     return { numeric: values.length > 0 && values.every(isNumber), whole: values.every(Number.isInteger) };
   });
-  const lines = rows.map((row) => ({
-    row,
-    line: el("tr", { class: rowClass(row) }, ...columns.map((column, i) =>
-      el("td", { class: kinds[i].numeric ? "number" : null },
-         column.cell?.(row) ?? format(valueOf(column)(row), kinds[i].whole)))),
-  }));
-  const body = el("tbody", {}, ...lines.map(({ line }) => line));
+  const textOf = (row, i) => format(valueOf(columns[i])(row), kinds[i].whole);
+  let sorted = [...rows], keep = () => true, marked = null;
+  const lines = new Map();  // made when first shown
+  const lineOf = (row) => {
+    if (!lines.has(row))
+      lines.set(row, el("tr", { class: rowClass(row), click: choose && (() => choose(row)) },
+        ...columns.map((column, i) =>
+          el("td", { class: kinds[i].numeric ? "number" : null }, column.cell?.(row) ?? textOf(row, i)))));
+    lines.get(row).toggleAttribute("data-marked", row === marked);
+    return lines.get(row);
+  };
+  const body = el("tbody");
+  const pages = pager(perPage, (part) => body.replaceChildren(...part.map(lineOf)));
+  const show = () => {
+    const kept = sorted.filter(keep);
+    pages.take(kept);
+    return kept.length;
+  };
 
   const sort = (column, head) => {
     const down = head.getAttribute("aria-sort") === "ascending";
     for (const other of heads) other.removeAttribute("aria-sort");
     head.setAttribute("aria-sort", down ? "descending" : "ascending");
     const none = (value) => value === null || value === undefined;
-    const order = (a, b) => (isNumber(a) && isNumber(b)
-      ? a - b
-      : String(a).localeCompare(String(b), "en", { numeric: true }));
-    lines.sort((a, b) => {
-      const [p, q] = [valueOf(column)(a.row), valueOf(column)(b.row)];
+    const order = (a, b) => (isNumber(a) && isNumber(b) ? a - b : collator.compare(String(a), String(b)));
+    sorted.sort((a, b) => {
+      const [p, q] = [valueOf(column)(a), valueOf(column)(b)];
       if (none(p) || none(q)) return none(p) - none(q);
       return down ? order(q, p) : order(p, q);
     });
-    body.append(...lines.map(({ line }) => line));
+    show();
   };
   const heads = columns.map((column, i) => {
     const head = el("th", { scope: "col", class: kinds[i].numeric ? "number" : null });
@@ -102,10 +144,19 @@ function table(columns, rows, { label, rowClass = () => null } = {}) {
                    column.unit ? el("small", {}, ` ${column.unit}`) : null));
     return head;
   });
+  show();
   return {
-    element: el("div", { class: "scroll", tabindex: "0", role: "region", "aria-label": label },
-                el("table", {}, el("thead", {}, el("tr", {}, ...heads)), body)),
-    show: (keep) => lines.forEach(({ row, line }) => { line.hidden = !keep(row); }),
+    element: el("div", {},
+      el("div", { class: "scroll", tabindex: "0", role: "region", "aria-label": label },
+         el("table", { class: choose && "choice" }, el("thead", {}, el("tr", {}, ...heads)), body)),
+      perPage < rows.length ? pages.element : null),
+    show: (wanted) => { keep = wanted; return show(); },
+    mark: (row) => {
+      lines.get(marked)?.removeAttribute("data-marked");
+      marked = row;
+      lines.get(marked)?.setAttribute("data-marked", "");
+    },
+    texts: (row) => columns.map((column, i) => textOf(row, i)),
   };
 }
 
@@ -118,6 +169,9 @@ function machineLine(machine = {}) {
                  version && `sandstroke ${version}`, commit && `commit ${commit}`];
   return el("p", { class: "machine" }, parts.filter(Boolean).join(" · "));
 }
+
+/** A figure among those that say the outcome. */
+const fact = (name, value, kind = null) => el("div", {}, el("dt", {}, name), el("dd", { class: kind }, value));
 
 /** Links to the sections: [id, title]. */
 const contents = (sections) =>
@@ -135,11 +189,7 @@ function drawPage(draw) {
   };
   try {
     draw(JSON.parse(document.getElementById("data").textContent), main);
-    for (const one of charts) {
-      one.drawn = echarts.init(one.canvas, null, { renderer: "svg" });
-      one.drawn.setOption(one.option);
-      new ResizeObserver(() => one.drawn.resize()).observe(one.canvas);
-    }
+    charts.filter(({ drawn }) => !drawn).forEach(drawChart);
     addEventListener("beforeprint", printing(true));
     addEventListener("afterprint", printing(false));
   } catch (error) {

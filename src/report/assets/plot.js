@@ -78,19 +78,49 @@ function scaleOf(values, { logarithmic = false, margin = 0.05, title = "", unit 
     ? logarithmicTicks(low, high)
     : { ticks: roundTicks(low, high), labelled: roundTicks(low, high) };
   const back = (place) => (logarithmic ? 10 ** place : place);
-  const places = ticks.map(at);
-  const axis = {
-    type: "value", min: low, max: high, name: withUnit(title, unit), nameLocation: "middle", nameGap: 30,
-    nameTextStyle: { color: "#1d2329", fontSize: 12 },
-    axisLine: { show: true, onZero: false, lineStyle: { color: "#8b969e" } },
-    axisTick: { show: true, customValues: places, length: 4 },
-    axisLabel: {
-      customValues: labelled.map(at), color: "#1d2329", fontSize: 11, hideOverlap: true,
-      formatter: (place) => tickText(back(place)),
-    },
-    splitLine: { lineStyle: { color: ticks.map((tick) => (labelled.includes(tick) ? "#dde2e6" : "#f1f3f5")) } },
-  };
+  const axis = axisOf(low, high, withUnit(title, unit), ticks.map(at), labelled.map(at),
+                      (place) => tickText(back(place)));
+  axis.splitLine.lineStyle.color = ticks.map((tick) => (labelled.includes(tick) ? "#dde2e6" : "#f1f3f5"));
   return { at, low, high, from: back(low), to: back(high), axis };
+}
+
+/** Where names stand on an axis: the i-th at i. */
+function nameScale(names, { title = "" } = {}) {
+  const [low, high] = [-0.5, names.length - 0.5], places = names.map((_, i) => i);
+  const axis = axisOf(low, high, title, places, places, (i) => names[i]);
+  Object.assign(axis.axisLabel, { width: 56, overflow: "truncate" });
+  return { at: (i) => i, low, high, axis };
+}
+
+/** An axis with ticks, labelled ones among them, that text(place) names. */
+const axisOf = (low, high, name, ticks, labelled, text) => ({
+  type: "value", min: low, max: high, name, nameLocation: "middle", nameGap: 30,
+  nameTextStyle: { color: "#1d2329", fontSize: 12 },
+  axisLine: { show: true, onZero: false, lineStyle: { color: "#8b969e" } },
+  axisTick: { show: true, customValues: ticks, length: 4 },
+  axisLabel: { customValues: labelled, color: "#1d2329", fontSize: 11, hideOverlap: true, formatter: text },
+  splitLine: { lineStyle: { color: "#dde2e6" } },
+});
+
+// ---- Colours for numbers: from light to dark, which grey print keeps.
+const rampColours = ["#fdf5cc", "#cbe7bf", "#76c5bf", "#3394bd", "#2b60a4", "#222a63"];
+/** The colour at a share between 0 and 1. */
+const ramp = (share) => echarts.color.lerp(Math.min(Math.max(share, 0), 1), rampColours);
+/** Text on that colour. */
+const rampInk = (share) => (share > 0.55 ? "#ffffff" : "#1d2329");
+/** The share of a scale (without margin) that a value takes. */
+const shareOf = (scale, value) => (scale.at(value) - scale.low) / (scale.high - scale.low);
+
+/** What colours mean: a bar with the ticks of a scale. They are the ramp's, from a share of it on, or `stops`. */
+function colourBar(scale, from = 0, stops = Array.from({ length: 11 }, (_, i) => ramp(from + (1 - from) * (i / 10)))) {
+  const { axisLabel, name } = scale.axis;
+  const ticks = axisLabel.customValues.map((place) => {
+    const share = (place - scale.low) / (scale.high - scale.low);
+    return el("span", { style: `left: ${100 * share}%` }, axisLabel.formatter(place));
+  });
+  return el("div", { class: "bar" }, el("span", {}, name),
+            el("div", {}, el("div", { class: "ramp", style: `background: linear-gradient(to right, ${stops})` }),
+               el("div", { class: "ticks", "aria-hidden": "true" }, ...ticks)));
 }
 
 // ---- Charts.
@@ -123,23 +153,26 @@ function swatch({ colour, symbol, hollow, dash, fill, sign, ink }) {
   return picture;
 }
 
+const verdictMark = (look, name) => el("span", { class: "verdict" }, swatch(look), name);
+
 /**
  * A chart with its title and legend. `legend`: [{name, text, colour, symbol, dash, fill, ...}]; an entry with
- * `series: true` hides and shows the series of its name. It is drawn once the page stands.
+ * `series: true` hides and shows the series of its name, one without colour heads what follows. `bar` is a
+ * colour bar; click(item) is told what was clicked. It is drawn once the page stands, as SVG but for `many` items.
  */
-function chart({ title, note = null, legend = [], option, height = null }) {
+function chart({ title, note = null, legend = [], bar = null, option, height = null, click = null, many = false }) {
   const canvas = el("div", { class: "canvas", style: height && `height: ${height}` });
-  const one = { canvas, option, drawn: null };
+  const one = { canvas, option, click, renderer: many ? "canvas" : "svg", drawn: null };
   const toggle = (name) => (event) => {
     const button = event.currentTarget;
     button.setAttribute("aria-pressed", button.getAttribute("aria-pressed") === "false");
     one.drawn.dispatchAction({ type: "legendToggleSelect", name });
   };
   const entries = legend.map((entry) => {
-    const parts = [swatch(entry), el("span", {}, entry.text ?? entry.name)];
+    const parts = [entry.colour || entry.fill ? swatch(entry) : null, el("span", {}, entry.text ?? entry.name)];
     return el("li", {}, entry.series
       ? el("button", { type: "button", "aria-pressed": "true", click: toggle(entry.name) }, ...parts)
-      : el("span", {}, ...parts));
+      : el("span", {}, ...parts.filter(Boolean)));
   });
   charts.push(one);
   option.legend = { show: false };
@@ -147,8 +180,37 @@ function chart({ title, note = null, legend = [], option, height = null }) {
     enabled: true,
     label: { description: [title, ...legend.map((entry) => entry.text ?? entry.name)].join("; ") },
   };
-  return el("figure", {}, el("figcaption", {}, title, note && el("small", {}, note)), canvas,
+  return el("figure", {}, el("figcaption", {}, title, note && el("small", {}, note)), canvas, bar,
             entries.length ? el("ul", { class: "legend" }, ...entries) : null);
+}
+
+function drawChart(one) {
+  one.drawn = echarts.init(one.canvas, null, { renderer: one.renderer });
+  one.drawn.setOption(one.option);
+  if (one.click) one.drawn.on("click", one.click);
+  one.observer = new ResizeObserver(() => one.drawn.resize());
+  one.observer.observe(one.canvas);
+}
+
+/** A place for charts one after the other: show(what) draws chart(what) there, change(option) what is drawn. */
+function chartPlace(attributes) {
+  const element = el("div", attributes);
+  let one = null;
+  const remove = () => {
+    one.observer?.disconnect();
+    one.drawn?.dispose();
+    charts.splice(charts.indexOf(one), 1);
+  };
+  return {
+    element,
+    show: (what) => {
+      if (one) remove();
+      element.replaceChildren(chart(what));
+      one = charts.at(-1);
+      if (element.isConnected) drawChart(one);
+    },
+    change: (option) => one.drawn?.setOption(option),
+  };
 }
 
 /** What every chart's option starts from. `tip(item)` gives what is shown about the item under the pointer. */
@@ -171,4 +233,46 @@ const outlined = (symbol) => `path://${symbol}`;
 const lineOf = (name, points, x, y, look, more = {}) => ({
   type: "line", name, data: points.map(([px, py]) => [x.at(px), y.at(py)]), symbol: "none", silent: true,
   lineStyle: { color: look.colour, type: look.dash ?? "solid", width: look.width ?? 1.5 }, ...more,
+});
+
+// ---- Maps: rectangles, which are items with `value: [left, bottom, right, top]` in places of the axes.
+
+/** The borders between cells: midway between their places. */
+function borders(places) {
+  const middle = places.slice(1).map((place, i) => (place + places[i]) / 2);
+  if (middle.length === 0) return [places[0] - 0.5, places[0] + 0.5];
+  return [2 * places[0] - middle[0], ...middle, 2 * places.at(-1) - middle.at(-1)];
+}
+
+function rectangle(api) {
+  const [left, bottom] = api.coord([api.value(0), api.value(1)]);
+  const [right, top] = api.coord([api.value(2), api.value(3)]);
+  return { x: left, y: top, width: right - left, height: bottom - top };
+}
+
+/** Cells; look(cell) gives {fill, sign, ink}. */
+const cellSeries = (name, cells, look) => ({
+  type: "custom", name, data: cells, progressive: 0, z: 1, encode: { x: [0, 2], y: [1, 3] },
+  renderItem: (params, api) => {
+    const { fill, sign, ink } = look(cells[params.dataIndex]);
+    const shape = rectangle(api);
+    const size = Math.min(shape.width, shape.height, 13);
+    const box = { type: "rect", shape, style: { fill, stroke: "#ffffff", lineWidth: size < 7 ? 0 : 0.75 } };
+    if (!sign || size < 7) return box;
+    return { type: "group", children: [box, {
+      type: "text", silent: true,
+      style: { text: sign, x: shape.x + shape.width / 2, y: shape.y + shape.height / 2, fill: ink, opacity: 0.75,
+               fontSize: size, align: "center", verticalAlign: "middle" } }] };
+  },
+});
+
+/** Outlines of cells. */
+const outlineSeries = (name, cells, colour) => ({
+  type: "custom", id: name, name, data: cells, progressive: 0, z: 4, silent: true,
+  encode: { x: [0, 2], y: [1, 3] },
+  renderItem: (params, api) => {
+    const outline = (stroke, lineWidth) =>
+      ({ type: "rect", shape: rectangle(api), style: { fill: "none", stroke, lineWidth } });
+    return { type: "group", children: [outline("#111111", 5), outline(colour, 2.5)] };
+  },
 });

@@ -16,15 +16,6 @@ const lookOfVerdict = (name) => verdicts.get(name) ?? unknownVerdict;
 const surpriseColour = "#ff5fb0";
 const theory = [{ colour: "#000000", dash: "solid" }, { colour: "#00695c", dash: "dashed" },
                 { colour: "#6a1b9a", dash: "dotted" }, { colour: "#0b5c8f", dash: "solid" }];
-const verdictMark = (name) => el("span", { class: "verdict" }, swatch(lookOfVerdict(name)), name);
-const count = (n, one, many = `${one}s`) => `${format(n)} ${n === 1 ? one : many}`;
-
-/** The borders between the cells of a map: midway between its values, in the axis' own measure. */
-function borders(places) {
-  const middle = places.slice(1).map((place, i) => (place + places[i]) / 2);
-  if (middle.length === 0) return [places[0] - 0.5, places[0] + 0.5];
-  return [2 * places[0] - middle[0], ...middle, 2 * places.at(-1) - middle.at(-1)];
-}
 
 function mapChart(map) {
   const named = ({ name, unit, logarithmic }) => ({ logarithmic, margin: 0, title: name, unit });
@@ -38,35 +29,7 @@ function mapChart(map) {
     value: [x.at(xEdges[i]), y.at(yEdges[j]), x.at(xEdges[i + 1]), y.at(yEdges[j + 1])],
     verdict, i, j, surprise: map.surprise[j]?.[i] === true,
   })));
-  const corners = (api) => {
-    const [left, bottom] = api.coord([api.value(0), api.value(1)]);
-    const [right, top] = api.coord([api.value(2), api.value(3)]);
-    return { x: left, y: top, width: right - left, height: bottom - top };
-  };
-  const cellSeries = {
-    type: "custom", name: "verdict", data: cells, progressive: 0, z: 1, encode: { x: [0, 2], y: [1, 3] },
-    renderItem: (params, api) => {
-      const { fill, sign, ink } = lookOfVerdict(cells[params.dataIndex].verdict);
-      const shape = corners(api);
-      const size = Math.min(shape.width, shape.height, 13);
-      const box = { type: "rect", shape, style: { fill, stroke: "#ffffff", lineWidth: 0.75 } };
-      if (!sign || size < 7) return box;
-      return { type: "group", children: [box, {
-        type: "text", silent: true,
-        style: { text: sign, x: shape.x + shape.width / 2, y: shape.y + shape.height / 2, fill: ink, opacity: 0.75,
-                 fontSize: size, align: "center", verticalAlign: "middle" } }] };
-    },
-  };
   const surprises = cells.filter((cell) => cell.surprise);
-  const surpriseSeries = {
-    type: "custom", name: "surprise", data: surprises, progressive: 0, z: 4, silent: true,
-    encode: { x: [0, 2], y: [1, 3] },
-    renderItem: (params, api) => {
-      const outline = (stroke, lineWidth) =>
-        ({ type: "rect", shape: corners(api), style: { fill: "none", stroke, lineWidth } });
-      return { type: "group", children: [outline("#111111", 5), outline(surpriseColour, 2.5)] };
-    },
-  };
   // A white line beneath each, since they cross dark and light.
   const curves = map.curves.flatMap((curve, i) => [
     lineOf(curve.name, curve.points, x, y, { colour: "#ffffff", width: 5 }, { z: 2, clip: true }),
@@ -89,7 +52,8 @@ function mapChart(map) {
       ...chartBase(({ data }) => data.verdict && tip(data)),
       xAxis: { ...x.axis, splitLine: { show: false } },
       yAxis: { ...y.axis, nameGap: 46, splitLine: { show: false } },
-      series: [cellSeries, ...curves, surpriseSeries],
+      series: [cellSeries("verdict", cells, ({ verdict }) => lookOfVerdict(verdict)), ...curves,
+               outlineSeries("surprise", surprises, surpriseColour)],
     },
   });
 }
@@ -184,7 +148,7 @@ function caseTables(cases) {
     const surprises = own.filter((one) => one.surprise).length;
     const rows = table([
       { name: "name", title: "Case" }, { name: "settings", title: "Settings" },
-      { name: "verdict", title: "Verdict", cell: (one) => verdictMark(one.verdict) },
+      { name: "verdict", title: "Verdict", cell: (one) => verdictMark(lookOfVerdict(one.verdict), one.verdict) },
       { name: "expected", title: "Expected", value: (one) => one.expected.join(" or ") },
       { name: "surprise", title: "Surprise", value: (one) => (one.surprise ? 1 : 0),
         cell: (one) => (one.surprise ? el("span", { class: "bad" }, "surprise") : "") },
@@ -209,7 +173,6 @@ drawPage((data, main) => {
   main.append(el("h1", {}, document.title), machineLine(data.machine));
   if (data.quick)
     main.append(el("p", { class: "warning" }, "A quick run: coarser maps, fewer and shorter cases."));
-  const fact = (name, value, kind = null) => el("div", {}, el("dt", {}, name), el("dd", { class: kind }, value));
   const nothing = cases.length + mapCells + boundaries.length === 0;
   if (nothing) {
     main.append(el("p", {}, "Nothing was tested: this report holds no cases and no maps."));
@@ -224,7 +187,7 @@ drawPage((data, main) => {
         : "Every case ended as it was expected to."),
       el("p", {}, "Each case and each cell of a map has a verdict, and one or several that theory or common sense " +
         "expect; another one is a surprise, and outlined. The signs are:"),
-      el("ul", { class: "legend" }, ...[...verdicts.keys()].map((name) => el("li", {}, verdictMark(name)))));
+      el("ul", { class: "legend" }, ...[...verdicts.keys()].map((name) => el("li", {}, verdictMark(lookOfVerdict(name), name)))));
   }
   const sections = [
     ["maps", "Maps", maps, () => [el("div", { class: "charts" }, ...maps.map(mapChart))]],

@@ -1,0 +1,26 @@
+#include "core/temporary_folder.h"
+
+#include <stdlib.h>
+
+#include <cerrno>
+#include <cstring>
+
+#include "core/error.h"
+
+namespace sandstroke {
+namespace fs = std::filesystem;
+
+TemporaryFolder::TemporaryFolder() {
+  std::string name = (fs::temp_directory_path() / "sandstroke-XXXXXX").string();
+  if (!mkdtemp(name.data()))
+    throw_io_error("{}: no folder can be made there ({}); set TMPDIR to another place", name,
+                   std::strerror(errno));
+  path_ = name;
+}
+
+TemporaryFolder::~TemporaryFolder() {
+  std::error_code ignored;
+  fs::remove_all(path_, ignored);
+}
+
+}  // namespace sandstroke

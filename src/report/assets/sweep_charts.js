@@ -1,0 +1,207 @@
+"use strict";
+// The charts of a sweep's report: a metric along an axis as lines, over two axes as a map, and the scattered
+// points of a Latin hypercube. Points without a value have their place and sign in each.
+
+const cross = "M0.5 2l1.5-1.5 3 3 3-3 1.5 1.5-3 3 3 3-1.5 1.5-3-3-3 3-1.5-1.5 3-3z";
+// The look of a verdict in maps, and its mark among symbols where a point has no value because of it.
+const verdicts = new Map([
+  ["at rest", { fill: "#d3e6f2", sign: "", ink: "#1d2329" }],
+  ["not at rest", { fill: "#efb23e", sign: "~", ink: "#1d2329" }],
+  ["active", { fill: "#7a63b3", sign: "!", ink: "#ffffff" }],
+  ["unstable", { fill: "#ad3a06", sign: "×", ink: "#ffffff", mark: { colour: "#ad3a06", symbol: cross } }],
+  ["refused", { fill: "#9aa3aa", sign: "–", ink: "#1d2329", mark: { colour: "#5b6670", symbol: symbols[1] } }],
+  ["missing", { fill: "#eceff1", sign: "?", ink: "#1d2329", mark: { colour: "#5b6670", symbol: symbols[0], hollow: true } }],
+]);
+const noValue = { fill: "#ffffff", sign: "∅", ink: "#1d2329", mark: { colour: "#5b6670", symbol: symbols[4], hollow: true } };
+const lookOfVerdict = (name) => verdicts.get(name) ?? noValue;
+/** Why a point has no value of a metric: its verdict, where that is the reason. */
+const nameWithout = ({ verdict }) => (lookOfVerdict(verdict).mark && verdicts.has(verdict) ? verdict : "no value");
+const lookWithout = (point) => lookOfVerdict(nameWithout(point));
+const isDoubtful = ({ verdict }) => verdict === "not at rest" || verdict === "active";
+const selectedColour = "#ff5fb0";
+const manyItems = 1500;
+
+/** An axis with the place of its i-th value, the order of its values, and their text. */
+function prepareAxis(axis) {
+  const { name, unit, values } = axis;
+  const numeric = axis.numeric && values.every(isNumber);
+  const logarithmic = numeric && axis.log && values.every((value) => value > 0);
+  const place = (i) => (numeric ? (logarithmic ? Math.log10(values[i]) : values[i]) : i);
+  const order = values.map((_, i) => i).sort((a, b) => place(a) - place(b));
+  const rank = [];
+  order.forEach((i, k) => { rank[i] = k; });
+  const text = (i) => (numeric ? exact(values[i]) : String(values[i] ?? "–"));
+  const scale = () => (numeric
+    ? { ...scaleOf(values, { logarithmic, title: name, unit }), at: place }
+    : nameScale(values.map(String), { title: withUnit(name, unit) }));
+  /** The scale on which the cell of the i-th value reaches from edges[i][0] to edges[i][1]. */
+  const cells = () => {
+    const found = borders(order.map(place));
+    const back = (at) => (logarithmic ? 10 ** at : at);
+    return {
+      ...(numeric ? scaleOf(found.map(back), { logarithmic, margin: 0, title: name, unit }) : scale()),
+      edges: values.map((_, i) => [found[rank[i]], found[rank[i] + 1]]),
+    };
+  };
+  return { ...axis, numeric, logarithmic, place, order, rank, text, scale, cells };
+}
+
+/**
+ * What all charts of a view start from: the points on it, the metric's scale over the whole sweep (so that it
+ * stays while other axes move), what a tooltip says, and the legend of the points without a value.
+ */
+function viewOf(sweep, view) {
+  const { axes, metrics, points } = sweep;
+  const metric = metrics[view.metric];
+  const [x, second] = [axes[view.x], axes[view.second]];
+  const valueOf = (point) => point.metrics[view.metric] ?? null;
+  const fixed = sweep.latin ? [] : axes.map((_, i) => i).filter((i) => i !== view.x && i !== view.second);
+  const shown = points.filter(({ at }) => fixed.every((i) => at[i] === view.at[i]));
+  const all = points.map(valueOf).filter(isNumber);
+  const scaled = (margin, title = metric.title) => scaleOf(all, { logarithmic: view.log, margin, title, unit: metric.unit });
+  const tip = (item) => {
+    const point = item.data?.point;
+    return point && tipOf(`point ${point.point}: ${point.verdict}`, [
+      ...axes.map((axis, i) => [withUnit(axis.name, axis.unit), axis.text(point.at[i])]),
+      [withUnit(metric.title, metric.unit), valueOf(point)],
+      ...(point.reason ? [["reason", point.reason]] : [])]);
+  };
+  const without = shown.filter((point) => !isNumber(valueOf(point)));
+  const legend = [...new Set(without.map(nameWithout))].map((name) => {
+    const own = without.filter((point) => nameWithout(point) === name);
+    return { name, text: `${name}: ${count(own.length, "point")}`, ...lookWithout(own[0]) };
+  });
+  const note = [
+    fixed.length ? `At ${fixed.map((i) => `${axes[i].name} = ${axes[i].text(view.at[i])} ${axes[i].unit}`.trim()).join(", ")}.` : "",
+    without.length === shown.length ? "No point here has a value of this metric." : "",
+  ].filter(Boolean).join(" ") || null;
+  return { metric, x, second, valueOf, shown, without, scaled, tip, legend, note };
+}
+
+/** An entry of the legend where points are symbols. */
+const marked = ({ name, text, mark }) => ({ name, text, ...mark, dash: "none" });
+
+/** How the selected point is set off among symbols. */
+const ring = (data) => ({
+  type: "scatter", id: "selected", name: "selected", silent: true, z: 6, data, symbol: outlined(symbols[0]),
+  symbolSize: 17, itemStyle: { color: "none", borderColor: "#111111", borderWidth: 2.5 },
+});
+
+/** Symbols of points that have no value; place(point) is where. */
+const signSeries = (points, place, offset = () => 0) =>
+  points.map((point) => {
+    const { symbol, colour, hollow } = lookWithout(point).mark;
+    return { point, value: place(point), symbol: outlined(symbol), symbolOffset: [0, offset(point)],
+             itemStyle: { color: hollow ? "#ffffff" : colour, borderColor: colour, borderWidth: hollow ? 1.75 : 0 } };
+  });
+
+/** The metric along one axis; a line for each value of a second one. Points without a value lie on the ground. */
+function linesChart(sweep, view) {
+  const { metric, x, second, valueOf, shown, without, scaled, tip, legend, note } = viewOf(sweep, view);
+  const xScale = x.scale(), y = scaled(0.08);
+  // Signs stand one above the other where lines lack a value at the same place, on ground of their own.
+  const height = new Map(), steps = new Map();
+  for (const point of without) {
+    const step = steps.get(point.at[view.x]) ?? 0;
+    steps.set(point.at[view.x], step + 1);
+    height.set(point, -8 - 12 * (step % 6));
+  }
+  if (without.length) y.low = y.axis.min -= (y.high - y.low) * (0.02 + 0.045 * Math.min(6, Math.max(...steps.values())));
+  const families = (second?.order ?? [null]).map((i) => ({
+    name: second ? second.text(i) : metric.title,
+    points: shown.filter(({ at }) => i === null || at[view.second] === i).sort((a, b) => x.place(a.at[view.x]) - x.place(b.at[view.x])),
+  })).filter(({ points }) => points.length > 0);
+  // Colours of the ramp where they tell an order that has more steps than there are colours.
+  const graded = second?.numeric && families.length > colours.length;
+  const bar = graded && families.length > 2 * colours.length;
+  const gradeFrom = 0.22;
+  const looks = families.map((_, i) => (graded
+    ? { ...lookOf(i), colour: ramp(gradeFrom + (1 - gradeFrom) * i / (families.length - 1)), dash: "solid" } : lookOf(i)));
+  const symbolSize = shown.length > 400 ? 4 : 8;
+  const lines = families.map(({ name, points }, i) => ({
+    type: "line", name, symbol: outlined(looks[i].symbol), symbolSize, showAllSymbol: true, triggerLineEvent: false,
+    lineStyle: { color: looks[i].colour, type: looks[i].dash, width: 1.75 }, itemStyle: { color: looks[i].colour },
+    data: points.map((point) => ({
+      point, value: [xScale.at(point.at[view.x]), y.at(valueOf(point))],
+      ...(isDoubtful(point) ? { itemStyle: { color: "#ffffff", borderColor: looks[i].colour, borderWidth: 2 } } : {}),
+    })),
+  }));
+  const signs = {
+    type: "scatter", name: "without", symbolSize: 9, z: 5, clip: false,
+    data: signSeries(without, (point) => [xScale.at(point.at[view.x]), y.low], (point) => height.get(point)),
+  };
+  const place = (point) => (isNumber(valueOf(point))
+    ? { value: [xScale.at(point.at[view.x]), y.at(valueOf(point))] }
+    : { value: [xScale.at(point.at[view.x]), y.low], symbolOffset: [0, height.get(point) ?? -8] });
+  const doubtful = shown.filter((point) => isDoubtful(point) && isNumber(valueOf(point)));
+  return {
+    mark: (point) => [ring(point ? [place(point)] : [])],
+    title: `${metric.title} along ${x.name}`, note, many: shown.length > manyItems,
+    bar: bar ? colourBar(scaleOf(second.values, { logarithmic: second.logarithmic, margin: 0, title: second.name,
+                                                  unit: second.unit }), gradeFrom) : null,
+    legend: [
+      ...(second && !bar ? [{ name: `${withUnit(second.name, second.unit)}:` },
+                            ...families.map(({ name }, i) => ({ name, ...looks[i], series: true }))] : []),
+      ...(doubtful.length ? [{ name: "doubtful", text: "hollow: not at rest, or active", colour: "#333333",
+                               symbol: symbols[0], hollow: true, dash: "none" }] : []),
+      ...legend.map(marked),
+    ],
+    option: { ...chartBase(tip), xAxis: xScale.axis, yAxis: { ...y.axis, nameGap: 46 },
+              series: [...lines, signs, ring([])] },
+  };
+}
+
+/** The metric over two axes: a cell for each pair of their values. */
+function mapChart(sweep, view) {
+  const { metric, x, second, valueOf, shown, scaled, tip, legend, note } = viewOf(sweep, view);
+  const [xCells, yCells] = [x.cells(), second.cells()], scale = scaled(0);
+  const cellOf = (point) => {
+    const [left, right] = xCells.edges[point.at[view.x]], [bottom, top] = yCells.edges[point.at[view.second]];
+    return { point, value: [left, bottom, right, top] };
+  };
+  const look = ({ point }) => {
+    if (!isNumber(valueOf(point))) return lookWithout(point);
+    const share = shareOf(scale, valueOf(point));
+    return { fill: ramp(share), sign: isDoubtful(point) ? lookOfVerdict(point.verdict).sign : "", ink: rampInk(share) };
+  };
+  const doubtful = [...new Set(shown.filter(isDoubtful).map(({ verdict }) => verdict))].map((name) =>
+    ({ name, ...lookOfVerdict(name), fill: "#ffffff", ink: "#1d2329" }));
+  return {
+    mark: (point) => [outlineSeries("selected", point ? [cellOf(point)] : [], selectedColour)],
+    title: `${metric.title} over ${x.name} and ${second.name}`, note, many: shown.length > manyItems,
+    bar: colourBar(scale), legend: [...doubtful, ...legend], height: "26rem",
+    option: { ...chartBase(tip), xAxis: { ...xCells.axis, splitLine: { show: false } },
+              yAxis: { ...yCells.axis, nameGap: 46, splitLine: { show: false } },
+              series: [cellSeries("cells", shown.map(cellOf), look), outlineSeries("selected", [], selectedColour)] },
+  };
+}
+
+/** Points of a Latin hypercube: the metric against one axis, or by colour over two. */
+function scatterChart(sweep, view) {
+  const { metric, x, second, valueOf, shown, without, scaled, tip, legend, note } = viewOf(sweep, view);
+  const xScale = x.scale(), y = second ? second.scale() : scaled(0.08), colour = second && scaled(0);
+  const place = (point) => [xScale.at(point.at[view.x]),
+                            second ? y.at(point.at[view.second]) : y.at(valueOf(point)) ?? y.low];
+  const offset = (point) => (second || isNumber(valueOf(point)) ? 0 : -8);
+  const size = shown.length > manyItems ? 5 : 10;
+  const known = {
+    type: "scatter", name: metric.title, symbolSize: size, symbol: outlined(symbols[0]), large: false, progressive: 0,
+    data: shown.filter((point) => isNumber(valueOf(point))).map((point) => {
+      const fill = colour ? ramp(shareOf(colour, valueOf(point))) : colours[0];
+      const hollow = !colour && isDoubtful(point);
+      return { point, value: place(point),
+               itemStyle: { color: hollow ? "#ffffff" : fill, opacity: 0.9, borderWidth: hollow ? 2 : colour ? 0.75 : 0,
+                            borderColor: colour ? "#5b6670" : fill } };
+    }),
+  };
+  const signs = { type: "scatter", name: "without", symbolSize: 9, z: 5, clip: false,
+                  data: signSeries(without, place, offset) };
+  return {
+    mark: (point) => [ring(point ? [{ value: place(point), symbolOffset: [0, offset(point)] }] : [])],
+    title: second ? `${metric.title} over ${x.name} and ${second.name}` : `${metric.title} against ${x.name}`,
+    note, many: shown.length > manyItems, bar: colour && colourBar(colour), height: second && "26rem",
+    legend: legend.map(marked),
+    option: { ...chartBase(tip), xAxis: xScale.axis, yAxis: { ...y.axis, nameGap: 46 },
+              series: [known, signs, ring([])] },
+  };
+}

@@ -1,0 +1,66 @@
+#include "sim/device_side.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "core/error.h"
+#include "haptics/device_force.h"
+
+namespace sandstroke {
+namespace {
+
+SimulatedDevice::State as_state(const Hand& hand) { return {hand.position, hand.velocity}; }
+
+}  // namespace
+
+DeviceSide::DeviceSide(const ForceSettings& force, const DeviceSettings& device, const Hand& hand)
+    : force_(force),
+      device_(device, as_state(hand)),
+      late_force_(device),
+      least_margin_(std::numeric_limits<double>::infinity()) {}
+
+void DeviceSide::feel(TickRecord& record) {
+  Eigen::Vector3d computed = Eigen::Vector3d::Zero();
+  if (record.contact) {
+    const SandForce force =
+        force_on_device(record.depth, device_, as_state(record.hand), as_state(record.next), force_);
+    record.repulse_force = {0.0, 0.0, force.repulse};
+    record.drag_force = force.drag;
+    record.saturated = force.saturated;
+    computed = force.total;
+  }
+  record.device_force = late_force_.act(computed);
+  record.passivity_margin = passivity_margin(record.contact ? record.depth : 0.0, record.repulse_force.z(),
+                                             force_, device_.settings());
+}
+
+void DeviceSide::advance(const TickRecord& record) {
+  const Eigen::Vector3d before = device_.state().position;
+  device_.advance(as_state(record.hand), as_state(record.next), record.device_force);
+  if (!record.device_force.allFinite())
+    throw Error(
+        ErrorKind::unstable,
+        fmt::format("at {:.4f} s, {:.4g} m deep, the force is beyond any number; lower force.k_s, force.k_c, "
+                    "force.k_f or the stroke's depth",
+                    record.time, record.depth));
+  energy_.add(record.device_force, device_.state().position - before);
+  const double force = record.device_force.stableNorm();
+  max_force_ = std::max(max_force_, force);
+  saturated_ticks_ += record.saturated;
+  if (!record.contact) return;
+  contact_ticks_ += 1;
+  contact_force_.add(force);
+  least_margin_ = std::min(least_margin_, record.passivity_margin);
+}
+
+void DeviceSide::report(RunResult& result) const {
+  result.saturated_ticks = saturated_ticks_;
+  result.max_force = max_force_;
+  result.mean_force = contact_ticks_ > 0 ? contact_force_.value() / static_cast<double>(contact_ticks_) : 0.0;
+  result.absorbed_energy = energy_.absorbed();
+  result.least_absorbed_energy = energy_.least();
+  result.least_passivity_margin =
+      contact_ticks_ > 0 ? least_margin_ : passivity_margin(0.0, 0.0, force_, device_.settings());
+}
+
+}  // namespace sandstroke

@@ -1,0 +1,39 @@
+#pragma once
+
+#include "core/compensated_sum.h"
+#include "haptics/device.h"
+#include "haptics/force_model.h"
+#include "haptics/late_force.h"
+#include "haptics/passivity.h"
+#include "sim/run_result.h"
+
+namespace sandstroke {
+
+/// The device's side of a run: where it is, what it feels of the sand, and what that amounts to. The sand's
+/// side needs to know where it is, no more: the sand of a kinematic device is the same whatever its forces.
+class DeviceSide {
+ public:
+  /// Starts with the hand.
+  DeviceSide(const ForceSettings& force, const DeviceSettings& device, const Hand& hand);
+
+  const SimulatedDevice& device() const { return device_; }
+
+  /// Fills in forces and passivity margin of a tick of which hand, depth and contact are known.
+  void feel(TickRecord& record);
+  /// Moves on to the end of that tick. Error: unstable, where the force is beyond any number.
+  void advance(const TickRecord& record);
+
+  /// Writes forces, energy and passivity of all ticks into the result.
+  void report(RunResult& result) const;
+
+ private:
+  ForceSettings force_;
+  SimulatedDevice device_;
+  LateForce late_force_;
+  EnergyAccount energy_;
+  CompensatedSum contact_force_;  // N, over contact ticks
+  std::int64_t contact_ticks_ = 0, saturated_ticks_ = 0;
+  double max_force_ = 0.0, least_margin_;
+};
+
+}  // namespace sandstroke

@@ -1,0 +1,69 @@
+#include "sweep/kept_surface.h"
+
+#include <cmath>
+
+#include "core/error.h"
+#include "core/hash.h"
+#include "io/hdf5_file.h"
+
+namespace sandstroke {
+namespace {
+
+const std::string surface = "/surface";
+
+/// Calls visit(row, col, heights) for each part of it that is not at its level throughout, row by row.
+template <class Visit>
+void visit_parts(const Hdf5Reader& file, double level, const Visit& visit) {
+  file.visit_written(surface, [&](Eigen::Index row, Eigen::Index col, const HeightGrid& heights) {
+    if (!(heights == level).all()) visit(row, col, heights);
+  });
+}
+
+BedGeometry geometry(const Hdf5Reader& file) {
+  const double cell_size = file.number_attribute(surface, "cell_size");
+  if (!(cell_size > 0.0) || !std::isfinite(cell_size))
+    throw_input_error("{}: {} has cells of {} m; sweep this point again", file.name(), surface, cell_size);
+  return file.bed_geometry(surface, cell_size);
+}
+
+}  // namespace
+
+KeptSurface inspect_surface(const std::filesystem::path& point_file) {
+  const Hdf5Reader file(point_file);
+  KeptSurface kept{geometry(file), 0.0, ""};
+  const double level = file.fill_value(surface), cell_size = kept.bed.cell_size();
+  if (std::isfinite(level)) kept.highest = std::abs(level);
+  ContentHash hash;
+  hash.add(fmt::format("{} {} ", kept.bed.rows(), kept.bed.cols()));
+  hash.add(&cell_size, sizeof cell_size);
+  hash.add(&level, sizeof level);
+  visit_parts(file, level, [&](Eigen::Index row, Eigen::Index col, const HeightGrid& heights) {
+    kept.highest = std::max(kept.highest, heights.isFinite().select(heights.abs(), 0.0).maxCoeff());
+    hash.add(fmt::format("{} {} ", row, col));
+    hash.add(heights.data(), static_cast<std::size_t>(heights.size()) * sizeof(double));
+  });
+  kept.hash = hash.text();
+  return kept;
+}
+
+HeightGrid coarse_surface(const std::filesystem::path& point_file, int most) {
+  const Hdf5Reader file(point_file);
+  const BedGeometry bed = geometry(file);
+  const Eigen::Index side = (std::max(bed.rows(), bed.cols()) + most - 1) / most;
+  const double level = file.fill_value(surface);
+  HeightGrid above = HeightGrid::Zero((bed.rows() + side - 1) / side, (bed.cols() + side - 1) / side);
+  visit_parts(file, level, [&](Eigen::Index first_row, Eigen::Index first_col, const HeightGrid& heights) {
+    for (Eigen::Index row = 0; row < heights.rows(); ++row)
+      for (Eigen::Index col = 0; col < heights.cols(); ++col)
+        above((first_row + row) / side, (first_col + col) / side) += heights(row, col) - level;
+  });
+  // Blocks at the far borders may hold fewer cells.
+  for (Eigen::Index row = 0; row < above.rows(); ++row)
+    for (Eigen::Index col = 0; col < above.cols(); ++col) {
+      const auto cells = std::min(side, bed.rows() - row * side) * std::min(side, bed.cols() - col * side);
+      above(row, col) = level + above(row, col) / static_cast<double>(cells);
+    }
+  return above;
+}
+
+}  // namespace sandstroke

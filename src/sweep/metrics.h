@@ -1,0 +1,40 @@
+#pragma once
+
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace sandstroke {
+
+/// What a point of a sweep came to. at_rest: as it should be. not_at_rest: relaxation.max_passes were not
+/// enough. active: it came to rest, but the loop gave out energy. unstable: force or device left all bounds.
+/// refused: the scene cannot be run.
+enum class PointVerdict { at_rest, not_at_rest, active, unstable, refused };
+inline const std::vector<std::string> verdict_names = {"at rest", "not at rest", "active", "unstable",
+                                                       "refused"};
+/// No metrics came of it.
+inline bool failed(PointVerdict verdict) {
+  return verdict == PointVerdict::unstable || verdict == PointVerdict::refused;
+}
+
+/// One number that is collected of each point.
+struct Metric {
+  std::string name;   ///< max_force
+  std::string title;  ///< "peak force"
+  std::string unit;
+  bool timing = false;  ///< differs from run to run
+};
+
+/// All there are, in the order in which they are shown.
+const std::vector<Metric>& all_metrics();
+
+/// Of one point.
+struct PointResult {
+  static constexpr double none = std::numeric_limits<double>::quiet_NaN();
+
+  PointVerdict verdict = PointVerdict::at_rest;
+  std::string reason;           ///< where it failed: the error's sentence
+  std::vector<double> metrics;  ///< in the order of the sweep's; none where one means nothing
+};
+
+}  // namespace sandstroke

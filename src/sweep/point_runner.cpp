@@ -1,0 +1,182 @@
+#include "sweep/point_runner.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "compare/field_difference.h"
+#include "core/error.h"
+#include "sweep/furrow.h"
+#include "sweep/slopes.h"
+
+namespace sandstroke {
+namespace {
+
+/// One scene's device on sand that a simulation moves.
+struct Feeler {
+  const Scene* scene;
+  std::optional<DeviceSide> device;  // from the first tick on
+  std::string failure;               // why it went no further
+
+  void on_tick(TickRecord record) {
+    if (!failure.empty()) return;
+    if (!device) device.emplace(scene->force, scene->device, record.hand);
+    record.repulse_force.setZero(), record.drag_force.setZero();
+    record.saturated = false;
+    try {
+      device->feel(record);
+      device->advance(record);
+    } catch (const Error& unstable) {
+      failure = unstable.what();
+    }
+  }
+};
+
+/// Follows the tip, and lets each feeler feel.
+class Followers : public SimulationObserver {
+ public:
+  Followers(const Scene& scene, std::vector<Feeler>& feelers)
+      : device_(scene.device), spacing_(0.25 * scene.tool.radius), feelers_(feelers) {}
+
+  void on_tick(const TickRecord& record) override {
+    for (Feeler& feeler : feelers_) feeler.on_tick(record);
+    if (record.contact) {
+      const Eigen::Vector2d tip = (device_.scale * record.device_position + device_.offset).head<2>();
+      if (!in_contact_) path_.pieces.push_back(path_.points.size());
+      if (!in_contact_ || (tip - path_.points.back()).norm() >= spacing_) path_.points.push_back(tip);
+    }
+    in_contact_ = record.contact;
+  }
+  const TipPath& path() const { return path_; }
+
+ private:
+  DeviceSettings device_;
+  double spacing_;  // m
+  std::vector<Feeler>& feelers_;
+  TipPath path_;
+  bool in_contact_ = false;
+};
+
+PointVerdict verdict_of(const RunResult& result, const Scene& scene) {
+  if (!result.converged) return PointVerdict::not_at_rest;
+  const bool active =
+      scene.device.model == DeviceModel::dynamic && loop_returned_energy(result, scene.device);
+  return active ? PointVerdict::active : PointVerdict::at_rest;
+}
+
+/// What a run came to, by the metrics' names.
+class Measures {
+ public:
+  void add_forces(const RunResult& r) {
+    const bool contact = r.contact_ticks > 0;
+    const auto ticks = static_cast<double>(r.contact_ticks);
+    set("max_force", r.max_force);
+    set("mean_force", contact ? r.mean_force : PointResult::none);
+    set("work", r.absorbed_energy);
+    set("returned_energy", -r.least_absorbed_energy);
+    set("passivity_margin", r.least_passivity_margin);
+    set("saturated_share", contact ? static_cast<double>(r.saturated_ticks) / ticks : PointResult::none);
+  }
+  void add_sand(const RunResult& r) {
+    set("max_depth", r.contact_ticks > 0 ? r.max_depth : PointResult::none);
+    set("displaced_volume", r.displaced_volume);
+    set("moved_volume", r.moved_volume);
+    set("volume_drift", r.volume_drift);
+    set("passes", static_cast<double>(r.passes));
+    set("residual", r.residual);
+    set("wall_seconds", r.wall_seconds);
+    set("real_time_factor", r.ticks > 0 ? r.simulated_seconds / r.wall_seconds : PointResult::none);
+  }
+  void set(const std::string& name, double value) { values_[name] = value; }
+  std::vector<double> of(const std::vector<Metric>& metrics) const {
+    std::vector<double> values;
+    for (const Metric& metric : metrics) {
+      const auto found = values_.find(metric.name);
+      values.push_back(found == values_.end() ? PointResult::none : found->second);
+    }
+    return values;
+  }
+
+ private:
+  std::map<std::string, double> values_;
+};
+
+bool wants(const std::vector<Metric>& metrics, std::initializer_list<const char*> names) {
+  return std::any_of(metrics.begin(), metrics.end(), [&](const Metric& metric) {
+    return std::find(names.begin(), names.end(), metric.name) != names.end();
+  });
+}
+
+/// Shapes of the surface, as far as they are asked for.
+void add_shapes(Measures& measures, const std::vector<Metric>& metrics, const Scene& scene,
+                const HeightField& initial, const HeightField& final, const TipPath& path,
+                const HeightField* golden) {
+  if (wants(metrics, {"furrow_depth", "furrow_width", "rampart_height"})) {
+    const FurrowMeasures furrow = measure_furrow(initial, final, path, scene.tool.radius);
+    measures.set("furrow_depth", furrow.depth);
+    measures.set("furrow_width", furrow.width);
+    measures.set("rampart_height", furrow.rampart);
+  }
+  if (wants(metrics, {"slope_mean", "slope_max", "slope_at_talus"})) {
+    const SlopeMeasures slopes = measure_slopes(initial, final, scene.relaxation.talus_angle);
+    measures.set("slope_mean", slopes.mean);
+    measures.set("slope_max", slopes.steepest);
+    measures.set("slope_at_talus", slopes.share_at_talus);
+  }
+  if (golden && wants(metrics, {"golden_max", "golden_rms", "golden_volume"})) {
+    const FieldDifference difference = field_difference(*golden, final);
+    measures.set("golden_max", difference.max);
+    measures.set("golden_rms", difference.rms);
+    measures.set("golden_volume", difference.volume);
+  }
+}
+
+}  // namespace
+
+PointResult failed_point(const Error& error, std::size_t metrics) {
+  const PointVerdict verdict =
+      error.kind() == ErrorKind::unstable ? PointVerdict::unstable : PointVerdict::refused;
+  return {verdict, error.what(), std::vector<double>(metrics, PointResult::none)};
+}
+
+std::optional<SharedRunResult> run_shared(const SharedRun& run, const std::vector<Metric>& metrics,
+                                          const HeightField* golden) {
+  Scene scene = run.scenes.front();
+  std::vector<Feeler> feelers;
+  if (scene.device.model == DeviceModel::kinematic) {
+    for (const Scene& felt : run.scenes) feelers.push_back({&felt, {}, {}});
+    scene.force.k_s = 0.0;  // the sand's own run feels nothing, and so cannot fail for a force
+  }
+  Followers followers(scene, feelers);
+  try {
+    Simulation simulation(scene, run.bed, run.stroke);
+    const RunResult sand = simulation.run(followers);
+    if (sand.interrupted) return std::nullopt;
+    Measures shared;
+    shared.add_sand(sand);
+    add_shapes(shared, metrics, scene, run.bed, simulation.bed(), followers.path(), golden);
+
+    SharedRunResult result{{}, simulation.bed()};
+    for (std::size_t i = 0; i < run.scenes.size(); ++i) {
+      RunResult felt = sand;
+      if (i < feelers.size()) {
+        if (!feelers[i].failure.empty()) {
+          result.points.push_back(
+              failed_point(Error(ErrorKind::unstable, feelers[i].failure), metrics.size()));
+          continue;
+        }
+        if (feelers[i].device) feelers[i].device->report(felt);
+      }
+      Measures measures = shared;
+      measures.add_forces(felt);
+      result.points.push_back({verdict_of(felt, run.scenes[i]), "", measures.of(metrics)});
+    }
+    return result;
+  } catch (const Error& error) {
+    if (error.kind() == ErrorKind::io) throw;
+    return SharedRunResult{std::vector<PointResult>(run.scenes.size(), failed_point(error, metrics.size())),
+                           run.bed};
+  }
+}
+
+}  // namespace sandstroke

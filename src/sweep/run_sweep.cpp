@@ -1,0 +1,217 @@
+#include "sweep/run_sweep.h"
+
+#include <tbb/global_control.h>
+#include <tbb/info.h>
+
+#include <algorithm>
+#include <atomic>
+#include <exception>
+#include <mutex>
+#include <thread>
+
+#include "core/error.h"
+#include "core/hash.h"
+#include "core/interrupt.h"
+#include "core/output_file.h"
+#include "core/stopwatch.h"
+#include "core/temporary_folder.h"
+#include "core/version.h"
+#include "io/png_file.h"
+#include "io/run_file.h"
+#include "io/scene_toml.h"
+#include "sweep/point_runner.h"
+
+namespace sandstroke {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string view_text(const Scene& scene) {
+  Scene named;
+  named.view = scene.view;
+  return scene_text(named);
+}
+
+}  // namespace
+
+std::vector<PointGroup> Shard::among(const std::vector<PointGroup>& groups) const {
+  std::vector<PointGroup> mine;
+  for (auto group = static_cast<std::size_t>(index - 1); group < groups.size();
+       group += static_cast<std::size_t>(of))
+    mine.push_back(groups[group]);
+  return mine;
+}
+
+struct Sweep::Work {
+  std::vector<PointGroup> groups;  // what is to be done
+  std::size_t points = 0;          // in them
+  std::optional<HeightField> golden;
+  std::function<void(double)> progress;
+
+  std::atomic<std::size_t> next = 0;
+  std::mutex mutex;  // of all below
+  std::size_t points_done = 0, groups_done = 0, failed = 0;
+  std::exception_ptr failure;
+};
+
+Sweep::Sweep(SweepPlan plan) : plan_(std::move(plan)), inputs_(plan_.scene_folder()) {
+  const auto add_file = [&](const fs::path& path) {
+    if (!files_.contains(path.string())) files_[path.string()] = content_hash(read_text_file(path));
+  };
+  std::map<std::string, std::size_t> group_of;  // by sand_key
+  for (std::size_t point = 0; point < plan_.design.points() && !interrupted(); ++point) {
+    try {
+      const Scene scene = plan_.scene_of(point);
+      if (plan_.keep_picture) check_drawable(scene.bed.rows, scene.bed.cols);
+      if (scene.stroke) add_file(plan_.scene_folder() / scene.stroke->file);
+      if (scene.bed.surface.kind == SurfaceKind::file)
+        add_file(plan_.scene_folder() / scene.bed.surface.file);
+      const auto [found, is_new] =
+          group_of.try_emplace(sand_key(scene, inputs_.stroke(scene).get()), groups_.size());
+      if (is_new) groups_.emplace_back();
+      groups_[found->second].push_back(point);
+    } catch (const Error& error) {
+      if (error.kind() == ErrorKind::io) throw;
+      refused_[point] = error.what();
+      groups_.push_back({point});
+    }
+  }
+}
+
+SweepManifest Sweep::manifest() const {
+  SweepManifest m;
+  m.scene = fs::absolute(plan_.scene).lexically_normal().string();
+  m.settings = plan_.settings;
+  m.design = plan_.design;
+  m.metrics = plan_.metrics;
+  m.keep_surface = plan_.keep_surface, m.keep_picture = plan_.keep_picture;
+  m.inputs.emplace_back(m.scene, content_hash(plan_.scene_text));
+  for (const auto& [file, hash] : files_) m.inputs.emplace_back(file, hash);
+  if (!plan_.golden.empty()) {
+    m.golden = fs::absolute(plan_.golden).lexically_normal().string();
+    m.inputs.emplace_back(m.golden, content_hash(read_text_file(plan_.golden)));
+  }
+  m.version = version, m.commit = commit;
+  return m;
+}
+
+std::optional<std::size_t> Sweep::run_group(const SweepFolder& folder, const std::vector<std::size_t>& points,
+                                            const HeightField* golden, ChangePainter& painter) {
+  const std::size_t metrics = folder.metrics().size();
+  const auto write = [&](std::size_t point, const PointResult& result, const std::string& scene,
+                         const HeightField* surface) {
+    const std::scoped_lock lock(inputs_.files());
+    folder.write(point, result, scene, surface);
+  };
+  if (const auto refused = refused_.find(points.front()); refused != refused_.end()) {
+    write(points.front(), failed_point(Error(ErrorKind::input, refused->second), metrics), "", nullptr);
+    return 1;
+  }
+
+  std::vector<Scene> scenes;
+  for (const std::size_t point : points) scenes.push_back(plan_.scene_of(point));
+  const std::shared_ptr<const SweepStroke> stroke = inputs_.stroke(scenes.front());
+  const std::shared_ptr<const HeightField> bed = inputs_.bed(scenes.front().bed);
+  const std::optional<SharedRunResult> result = run_shared(
+      {scenes, *bed, stroke ? std::optional(stroke->stroke) : std::nullopt}, folder.metrics(), golden);
+  if (!result) return std::nullopt;
+
+  std::size_t failures = 0;
+  std::optional<Image> picture;
+  std::string pictured_view;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const bool surface = !failed(result->points[i].verdict);
+    failures += !surface;
+    if (surface && plan_.keep_picture) {
+      if (const std::string view = view_text(scenes[i]); !picture || view != pictured_view) {
+        picture = painter.draw(*bed, result->surface, scenes[i].view);
+        pictured_view = view;
+      }
+      write_png(folder.picture_file(points[i]), *picture);
+    }
+    write(points[i], result->points[i], scene_text(scenes[i]),
+          surface && plan_.keep_surface ? &result->surface : nullptr);
+  }
+  return failures;
+}
+
+void Sweep::work_through(const SweepFolder& folder, Work& work) {
+  ChangePainter painter;
+  while (!interrupted()) {
+    const std::size_t mine = work.next++;
+    if (mine >= work.groups.size()) return;
+    try {
+      const std::optional<std::size_t> failures =
+          run_group(folder, work.groups[mine], work.golden ? &*work.golden : nullptr, painter);
+      if (!failures) return;
+      const std::scoped_lock lock(work.mutex);
+      work.groups_done += 1;
+      work.failed += *failures;
+      work.points_done += work.groups[mine].size();
+      work.progress(static_cast<double>(work.points_done) / static_cast<double>(work.points));
+    } catch (...) {
+      const std::scoped_lock lock(work.mutex);
+      work.failure = std::current_exception();
+      work.next = work.groups.size();  // nobody begins another
+      return;
+    }
+  }
+}
+
+SweepCounters Sweep::run(const SweepFolder& folder, const SweepOptions& options) {
+  SweepCounters counters;
+  Work work;
+  work.progress = options.progress;
+  for (const PointGroup& group : options.shard.among(groups_)) {
+    PointGroup missing;
+    for (const std::size_t point : group) {
+      const std::optional<PointResult> done = folder.read(point);
+      counters.points += 1;
+      counters.done_before += done.has_value();
+      work.failed += done && failed(done->verdict);
+      if (!done) missing.push_back(point);
+    }
+    work.points += missing.size();
+    if (!missing.empty()) work.groups.push_back(std::move(missing));
+  }
+  if (!plan_.golden.empty()) work.golden = RunFile(plan_.golden).final_bed();
+
+  const int cores = tbb::info::default_concurrency();
+  const int jobs = std::min(options.jobs > 0 ? options.jobs : cores,
+                            static_cast<int>(std::max<std::size_t>(1, work.groups.size())));
+  // Each job is a thread of its own; what cores are left help them.
+  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
+                                  static_cast<std::size_t>(std::max(1, cores - jobs + 1)));
+  {
+    std::vector<std::jthread> others;
+    for (int job = 1; job < jobs; ++job) others.emplace_back([&] { work_through(folder, work); });
+    work_through(folder, work);
+  }
+  if (work.failure) std::rethrow_exception(work.failure);
+
+  counters.run = work.points_done;
+  counters.failed = work.failed;
+  counters.simulations = work.groups_done;
+  counters.strokes_loaded = inputs_.strokes_loaded();
+  counters.beds_loaded = inputs_.beds_loaded();
+  counters.interrupted = work.points_done < work.points;
+  return counters;
+}
+
+Sweep::Estimate Sweep::estimate() {
+  const TemporaryFolder temporary;
+  const SweepFolder folder = SweepFolder::make(temporary.path(), manifest());
+  const PointGroup& middle = groups_[groups_.size() / 2];
+  std::optional<HeightField> golden;
+  if (!plan_.golden.empty()) golden = RunFile(plan_.golden).final_bed();
+  ChangePainter painter;
+  const Stopwatch watch;
+  run_group(folder, {middle.front()}, golden ? &*golden : nullptr, painter);
+  Estimate estimate;
+  estimate.seconds = watch.seconds() * static_cast<double>(groups_.size());
+  for (const auto& file : fs::directory_iterator(folder.path() / "points"))
+    estimate.bytes += static_cast<double>(file.file_size() * plan_.design.points());
+  return estimate;
+}
+
+}  // namespace sandstroke

@@ -1,0 +1,77 @@
+#pragma once
+
+#include <functional>
+#include <map>
+
+#include "render/change_picture.h"
+#include "sweep/sweep_folder.h"
+#include "sweep/sweep_inputs.h"
+#include "sweep/sweep_plan.h"
+
+namespace sandstroke {
+
+/// Points that one simulation serves.
+using PointGroup = std::vector<std::size_t>;
+
+/// A part of a sweep: groups i, i + of, ... of those that the plan has.
+struct Shard {
+  int index = 1, of = 1;  ///< counted from 1
+
+  std::vector<PointGroup> among(const std::vector<PointGroup>& groups) const;
+};
+
+struct SweepOptions {
+  int jobs = 0;  ///< simulations at a time; 0: as many as cores
+  Shard shard;
+  std::function<void(double)> progress = [](double) {};  ///< share of the points to do that are done
+};
+
+/// What a call of run_sweep did; counts are of the shard's points.
+struct SweepCounters {
+  std::size_t points = 0;       ///< that belong to it
+  std::size_t done_before = 0;  ///< found done
+  std::size_t run = 0;          ///< done now
+  std::size_t failed = 0;       ///< of all done: unstable or refused
+  std::size_t simulations = 0;  ///< run now: points of equal sand share one
+  int strokes_loaded = 0, beds_loaded = 0;
+  bool interrupted = false;
+};
+
+/// A plan made ready: what each point's scene is, and which of them share their sand. Error: io, where a file
+/// that is named cannot be read.
+class Sweep {
+ public:
+  explicit Sweep(SweepPlan plan);
+
+  const SweepPlan& plan() const { return plan_; }
+  const std::vector<PointGroup>& groups() const { return groups_; }
+  SweepManifest manifest() const;
+
+  /// Runs what the folder does not hold yet of the shard's points. Points that fail are recorded; what
+  /// cannot be written ends it. Stops at the next tick when interrupted(). Error: io.
+  SweepCounters run(const SweepFolder& folder, const SweepOptions& options);
+
+  /// Runs one point of a group, in the middle of them, and its picture, and says what that took.
+  struct Estimate {
+    double seconds = 0.0;  ///< for all, on one core
+    double bytes = 0.0;    ///< for all
+  };
+  Estimate estimate();
+
+ private:
+  struct Work;
+  /// Takes group after group from what is to be done.
+  void work_through(const SweepFolder& folder, Work& work);
+  /// Runs these points of a group and writes their files; how many failed, or nothing where it was
+  /// interrupted().
+  std::optional<std::size_t> run_group(const SweepFolder& folder, const std::vector<std::size_t>& points,
+                                       const HeightField* golden, ChangePainter& painter);
+
+  SweepPlan plan_;
+  SweepInputs inputs_;
+  std::vector<PointGroup> groups_;
+  std::map<std::size_t, std::string> refused_;  // points whose settings do not go together, and why
+  std::map<std::string, std::string> files_;    // that scenes name, and their hashes
+};
+
+}  // namespace sandstroke

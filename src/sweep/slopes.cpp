@@ -1,0 +1,60 @@
+#include "sweep/slopes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/compensated_sum.h"
+
+namespace sandstroke {
+
+double descent_slope(const HeightField& bed, int row, int col) {
+  // Round the cell, beginning and ending east; beyond a wall there is no way down.
+  constexpr int row_steps[] = {0, 1, 1, 1, 0, -1, -1, -1, 0}, col_steps[] = {1, 1, 0, -1, -1, -1, 0, 1, 1};
+  double drops[9];
+  const double here = bed(row, col);
+  for (int i = 0; i < 9; ++i) {
+    const int r = row + row_steps[i], c = col + col_steps[i];
+    const bool inside = r >= 0 && r < bed.rows() && c >= 0 && c < bed.cols();
+    drops[i] = inside ? here - bed(r, c) : std::numeric_limits<double>::quiet_NaN();
+  }
+  double steepest = 0.0;
+  for (int i = 0; i < 8; ++i) {
+    const double to_axis = drops[i + i % 2], to_diagonal = drops[i + 1 - i % 2];
+    const double onwards = to_diagonal - to_axis;  // from the axis neighbour to the diagonal one
+    // The triangle's own slope where that leads down within it, otherwise along its nearer side.
+    const double slope = onwards < 0.0       ? to_axis
+                         : onwards > to_axis ? to_diagonal / std::numbers::sqrt2
+                                             : std::hypot(to_axis, onwards);
+    if (slope > steepest) steepest = slope;
+  }
+  return steepest / bed.cell_size();
+}
+
+SlopeMeasures measure_slopes(const HeightField& initial, const HeightField& final, double talus_angle) {
+  const bool skip_untouched = same_where_untouched(initial, final);
+  std::vector<double> before(HeightField::tile_area), after(HeightField::tile_area);
+  CompensatedSum sum;
+  double steepest = 0.0, changed = 0.0, at_talus = 0.0;
+  for (int tile = 0; tile < initial.tile_count(); ++tile) {
+    if (skip_untouched && initial.slot_of(tile) < 0 && final.slot_of(tile) < 0) continue;
+    initial.read_tile(tile, before.data());
+    final.read_tile(tile, after.data());
+    const CellRange cells = initial.tile_cells(tile);
+    for (int row = 0; row < cells.rows(); ++row)
+      for (int col = 0; col < cells.cols(); ++col) {
+        const int at = row * HeightField::tile_side + col;
+        if (before[at] == after[at]) continue;
+        const double angle = std::atan(descent_slope(final, cells.row_begin + row, cells.col_begin + col)) *
+                             180.0 / std::numbers::pi;
+        sum.add(angle);
+        steepest = std::max(steepest, angle);
+        changed += 1.0;
+        at_talus += std::abs(angle - talus_angle) <= 1.0;
+      }
+  }
+  if (changed == 0.0) return {};
+  return {sum.value() / changed, steepest, at_talus / changed};
+}
+
+}  // namespace sandstroke

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <limits>
+
+#include "sand/height_field.h"
+
+namespace sandstroke {
+
+/// Slopes of sand that moved. Not-a-number: none did.
+struct SlopeMeasures {
+  double mean = std::numeric_limits<double>::quiet_NaN();      ///< deg, over cells that changed
+  double steepest = std::numeric_limits<double>::quiet_NaN();  ///< deg, of them
+  double share_at_talus =
+      std::numeric_limits<double>::quiet_NaN();  ///< of them, within 1 degree of the talus angle
+};
+
+/// Steepest way down from a cell, rise over run: over the eight triangles that its centre makes with those of
+/// its neighbours (Tarboton 1997, Water Resources Research 33, "D-infinity"); 0 in a pit. Exact on planes of
+/// any direction, and on a crest or an edge it is the slope of the flank. Central differences would say 0 on
+/// a crest; the isotropic law's upwind slope is up to sqrt 2 too steep on a peak, where sand falls off along
+/// both axes, and the paper's law has no slope between its eight directions. Sand at rest by the paper's law
+/// is at most tan(talus) x 1.0824 steep by this measure, its octagon's slope (model.md).
+double descent_slope(const HeightField& bed, int row, int col);
+
+/// Over the cells whose height is not what it was. talus_angle [deg]. Fields of one shape; tiles that exist
+/// in neither cost nothing where both are the same there.
+SlopeMeasures measure_slopes(const HeightField& initial, const HeightField& final, double talus_angle);
+
+}  // namespace sandstroke

@@ -1,0 +1,150 @@
+#include "sweep/slurm_jobs.h"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <charconv>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "core/child_process.h"
+#include "core/error.h"
+#include "core/output_file.h"
+
+namespace sandstroke {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr const char* queue_format = "--Format=ArrayJobID:|,ArrayTaskID:|,State:|,RestartCnt:|,Reason:|";
+
+fs::path jobs_path(const fs::path& sweep_folder) { return sweep_folder / "slurm" / "jobs.json"; }
+
+void write_slurm_jobs(const fs::path& path, const SlurmJobs& jobs) {
+  Json tasks = Json::array();
+  for (const SlurmTask& task : jobs.tasks)
+    tasks.push_back({{"number", task.number}, {"points", task.points}});
+  write_text_file(path, Json{{"format", "sandstroke.slurm"},
+                             {"array", jobs.array},
+                             {"collect", jobs.collect},
+                             {"of", jobs.of},
+                             {"tasks", tasks}}
+                                .dump() +
+                            "\n");
+}
+
+/// The whole number that a text begins with, or `otherwise`.
+template <class Number>
+Number leading_number(const std::string& text, Number otherwise) {
+  std::from_chars(text.data(), text.data() + text.size(), otherwise);
+  return otherwise;
+}
+
+/// The job's id.
+long submit(const std::vector<std::string>& options, const fs::path& script) {
+  std::vector<std::string> words = {"sbatch", "--parsable"};
+  words.insert(words.end(), options.begin(), options.end());
+  words.push_back(fs::absolute(script).string());
+  const std::optional<ChildResult> result = run_child(words);
+  if (!result)
+    throw_io_error("sbatch is not installed here; submit the sweep where Slurm is, or leave out --slurm");
+  const long id = leading_number(result->out, 0L);  // "id", or "id;cluster"
+  if (result->exit_code != 0 || id <= 0)
+    throw_input_error("Slurm did not take {}: {}", script.string(),
+                      result->err.empty() ? "sbatch said nothing" : result->err);
+  return id;
+}
+
+/// Slurm would run the same points twice.
+void refuse_if_alive(const fs::path& sweep_folder) {
+  const std::optional<SlurmJobs> last = read_slurm_jobs(sweep_folder);
+  if (!last) return;
+  const SlurmQueue queue = ask_slurm_queue(*last);
+  if (!queue.tasks)
+    throw_io_error(
+        "whether the sweep's last jobs are still queued is not known: {}; try again later, or run it here: "
+        "leave out --slurm",
+        queue.trouble);
+  const auto alive = std::count_if(queue.tasks->begin(), queue.tasks->end(),
+                                   [](const QueuedTask& task) { return task.alive(); });
+  if (alive > 0)
+    throw_input_error(
+        "{}: was submitted already, and {} of its jobs {} still queued; let them end, or end them: "
+        "scancel {} {}",
+        sweep_folder.string(), alive, alive == 1 ? "is" : "are", last->array,
+        last->collect ? std::to_string(last->collect) : "");
+}
+
+}  // namespace
+
+std::optional<SlurmJobs> read_slurm_jobs(const fs::path& sweep_folder) {
+  const fs::path path = jobs_path(sweep_folder);
+  if (!fs::exists(path)) return std::nullopt;
+  try {
+    const Json json = Json::parse(read_text_file(path));
+    SlurmJobs jobs{json.at("array"), json.at("collect"), json.at("of"), {}};
+    for (const Json& task : json.at("tasks")) jobs.tasks.push_back({task.at("number"), task.at("points")});
+    return jobs;
+  } catch (const Json::exception&) {
+    throw_input_error("{}: is damaged; see with squeue what is queued, and remove the file", path.string());
+  }
+}
+
+bool QueuedTask::alive() const {
+  static const std::vector<std::string> ended = {"BOOT_FAIL",     "CANCELLED", "COMPLETED", "DEADLINE",
+                                                 "FAILED",        "NODE_FAIL", "PREEMPTED", "REVOKED",
+                                                 "OUT_OF_MEMORY", "TIMEOUT"};
+  return std::find(ended.begin(), ended.end(), state) == ended.end();
+}
+
+std::vector<QueuedTask> parse_queue(const std::string& text) {
+  std::vector<QueuedTask> tasks;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    std::vector<std::string> fields;
+    std::istringstream rest(line);
+    for (std::string field; std::getline(rest, field, '|');) fields.push_back(field);
+    const long job = fields.size() >= 5 ? leading_number(fields[0], 0L) : 0;
+    if (job > 0)
+      tasks.push_back({job, leading_number(fields[1], 0), fields[2], leading_number(fields[3], 0),
+                       fields[4] == "None" ? "" : fields[4]});
+  }
+  return tasks;
+}
+
+SlurmQueue ask_slurm_queue(const SlurmJobs& jobs) {
+  // Of two jobs squeue says what it knows; of one that it has forgotten, that there is no such job.
+  const std::optional<ChildResult> result = run_child(
+      {"squeue", "--noheader", "--array", "--states=all",
+       fmt::format("--jobs={},{}", jobs.array, jobs.collect ? jobs.collect : jobs.array), queue_format});
+  if (!result) return {std::nullopt, "squeue is not installed here"};
+  if (result->exit_code != 0) return {std::nullopt, result->err};
+  return {parse_queue(result->out), ""};
+}
+
+SlurmJobs submit_to_slurm(const SlurmOptions& options, const SlurmWork& work, std::vector<SlurmTask> tasks,
+                          int of) {
+  const fs::path sweep_folder = work.start / work.folder, folder = sweep_folder / "slurm";
+  refuse_if_alive(sweep_folder);
+  std::vector<int> numbers;
+  for (const SlurmTask& task : tasks) numbers.push_back(task.number);
+  make_folder(folder);
+  write_text_file(folder / "job.sh", array_script(options, work, numbers, of));
+  write_text_file(folder / "collect.sh", collect_script(options, work));
+
+  SlurmJobs jobs{submit({}, folder / "job.sh"), 0, of, std::move(tasks)};
+  write_slurm_jobs(jobs_path(sweep_folder), jobs);
+  try {
+    jobs.collect = submit({fmt::format("--dependency=afterany:{}", jobs.array)}, folder / "collect.sh");
+    write_slurm_jobs(jobs_path(sweep_folder), jobs);
+  } catch (const Error& refused) {
+    spdlog::warn(
+        "the sweep's tasks are queued, but nothing will collect them: {}; do it when they have ended: "
+        "sandstroke sweep collect {}",
+        refused.what(), work.folder.string());
+  }
+  return jobs;
+}
+
+}  // namespace sandstroke

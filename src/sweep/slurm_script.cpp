@@ -1,0 +1,104 @@
+#include "sweep/slurm_script.h"
+
+#include <algorithm>
+#include <cctype>
+
+#include "core/error.h"
+#include "core/shell_text.h"
+
+namespace sandstroke {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool has_control_character(const std::string& text) {
+  return std::any_of(text.begin(), text.end(), [](unsigned char c) { return std::iscntrl(c); });
+}
+
+/// "#SBATCH --NAME=VALUE", or nothing where there is no value.
+std::string option_line(const std::string& name, const std::string& value) {
+  if (has_control_character(value) || value.find_first_of(" '\"\\#") != std::string::npos)
+    throw_input_error("{}: '{}' is not one plain word; name it as sbatch knows it", name, value);
+  return value.empty() ? "" : fmt::format("#SBATCH {}={}\n", name, value);
+}
+
+/// Where jobs write: a file in DIR/slurm.
+std::string log_lines(const SlurmWork& work, const std::string& name) {
+  const std::string folder = (work.start / work.folder / "slurm").lexically_normal().string();
+  if (has_control_character(folder) || folder.find_first_of("\"\\") != std::string::npos)
+    throw_input_error(
+        "{}: Slurm writes no logs into a folder whose name has quotes, backslashes or line breaks; choose "
+        "another -o",
+        folder);
+  std::string escaped;  // Slurm puts job ids and the like for %j
+  for (const char c : folder) escaped += c == '%' ? std::string("%%") : std::string(1, c);
+  return fmt::format("#SBATCH --output=\"{}/{}\"\n#SBATCH --open-mode=append\n", escaped, name);
+}
+
+std::string resource_lines(const SlurmOptions& options) {
+  std::string text = option_line("--mem", options.memory) + option_line("--time", options.time) +
+                     option_line("--partition", options.partition) +
+                     option_line("--account", options.account);
+  for (const std::string& line : options.lines) {
+    if (line.empty() || line.front() != '-' || has_control_character(line))
+      throw_input_error("--sbatch-option: '{}' is no line of options; give one like --qos=long", line);
+    text += fmt::format("#SBATCH {}\n", line);
+  }
+  return text;
+}
+
+/// A word of a shell that no program takes for an option.
+std::string file_argument(const fs::path& file) {
+  return shell_quoted(file.string().starts_with('-') ? fs::path(".") / file : file);
+}
+
+/// The job becomes the program, so that Slurm's signals reach it.
+std::string program_lines(const SlurmWork& work, const std::string& arguments) {
+  return fmt::format("cd {} || exit\nexec {} sweep {}\n", shell_quoted(work.start),
+                     shell_quoted(work.program), arguments);
+}
+
+}  // namespace
+
+int default_tasks(std::size_t simulations, int cpus_per_task) {
+  const std::size_t each = 4 * static_cast<std::size_t>(cpus_per_task);
+  return static_cast<int>(std::clamp<std::size_t>((simulations + each - 1) / each, 1, 1000));
+}
+
+std::string array_text(const std::vector<int>& tasks) {
+  std::string text;
+  for (std::size_t first = 0, last; first < tasks.size(); first = last + 1) {
+    for (last = first; last + 1 < tasks.size() && tasks[last + 1] == tasks[last] + 1;) ++last;
+    if (first > 0) text += ',';
+    text += last > first ? fmt::format("{}-{}", tasks[first], tasks[last]) : std::to_string(tasks[first]);
+  }
+  return text;
+}
+
+std::string array_script(const SlurmOptions& options, const SlurmWork& work, const std::vector<int>& tasks,
+                         int of) {
+  const std::string arguments =
+      fmt::format(R"({} -o {} --shard "$SLURM_ARRAY_TASK_ID"/{} --jobs "$SLURM_CPUS_PER_TASK")",
+                  file_argument(work.plan), file_argument(work.folder), of);
+  return fmt::format(R"(#!/bin/sh
+# Each task runs what is missing of its part of the sweep; any of them may run again.
+#SBATCH --job-name=sandstroke
+#SBATCH --array={}
+#SBATCH --cpus-per-task={}
+#SBATCH --requeue
+#SBATCH --signal=B:TERM@30
+{}{}{})",
+                     array_text(tasks), options.cpus_per_task, log_lines(work, "%A_%a.log"),
+                     resource_lines(options), program_lines(work, arguments));
+}
+
+std::string collect_script(const SlurmOptions& options, const SlurmWork& work) {
+  return fmt::format(R"(#!/bin/sh
+# Collects the sweep when its tasks have ended, however they did.
+#SBATCH --job-name=sandstroke-collect
+{}{}{})",
+                     log_lines(work, "collect_%j.log"), resource_lines(options),
+                     program_lines(work, "collect " + file_argument(work.folder)));
+}
+
+}  // namespace sandstroke

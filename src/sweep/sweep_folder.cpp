@@ -1,0 +1,188 @@
+#include "sweep/sweep_folder.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "core/error.h"
+#include "core/output_file.h"
+#include "core/shell_text.h"
+#include "io/bed_writer.h"
+#include "io/hdf5_file.h"
+#include "io/scene_toml.h"
+
+namespace sandstroke {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+Json to_json(const SweepManifest& m) {
+  Json axes = Json::array(), inputs = Json::array();
+  for (const SweepAxis& axis : m.design.axes)
+    axes.push_back(
+        {{"key", axis.key}, {"unit", axis.unit}, {"logarithmic", axis.logarithmic}, {"values", axis.values}});
+  for (const auto& [file, hash] : m.inputs) inputs.push_back({{"file", file}, {"hash", hash}});
+  return {{"format", "sandstroke.sweep"},
+          {"format_version", 1},
+          {"version", m.version},
+          {"commit", m.commit},
+          {"scene", m.scene},
+          {"settings", m.settings},
+          {"design", m.design.grid ? "grid" : "latin"},
+          {"axes", axes},
+          {"metrics", m.metrics},
+          {"keep_surface", m.keep_surface},
+          {"keep_picture", m.keep_picture},
+          {"golden", m.golden},
+          {"inputs", inputs}};
+}
+
+SweepManifest from_json(const Json& json) {
+  SweepManifest m;
+  m.version = json.at("version");
+  m.commit = json.at("commit");
+  m.scene = json.at("scene");
+  m.settings = json.at("settings");
+  m.design.grid = json.at("design") == "grid";
+  for (const Json& axis : json.at("axes"))
+    m.design.axes.push_back({axis.at("key"), axis.at("unit"), axis.at("logarithmic"), axis.at("values")});
+  m.metrics = json.at("metrics");
+  m.keep_surface = json.at("keep_surface");
+  m.keep_picture = json.at("keep_picture");
+  m.golden = json.at("golden");
+  for (const Json& input : json.at("inputs")) m.inputs.emplace_back(input.at("file"), input.at("hash"));
+  return m;
+}
+
+/// What decides the results: a scene that was moved is still the same.
+Json without_places(Json manifest) {
+  manifest.erase("scene");
+  manifest.erase("golden");
+  for (Json& input : manifest["inputs"]) input.erase("file");
+  return manifest;
+}
+
+fs::path manifest_path(const fs::path& folder) { return folder / "manifest.json"; }
+
+/// An axis or metric of this name, as it is in the manifest, is one of the program's.
+const Metric* find_metric(const std::string& name) {
+  const auto found = std::find_if(all_metrics().begin(), all_metrics().end(),
+                                  [&](const Metric& metric) { return metric.name == name; });
+  return found == all_metrics().end() ? nullptr : &*found;
+}
+
+}  // namespace
+
+SweepFolder::SweepFolder(fs::path path, SweepManifest manifest)
+    : path_(std::move(path)), manifest_(std::move(manifest)) {
+  for (const std::string& name : manifest_.metrics) {
+    const Metric* metric = find_metric(name);
+    if (!metric)
+      throw_input_error("{}: this program has no metric '{}'; use the one that began the sweep ({}, {})",
+                        manifest_path(path_).string(), name, manifest_.version, manifest_.commit);
+    metrics_.push_back(*metric);
+  }
+}
+
+SweepFolder SweepFolder::make(const fs::path& path, const SweepManifest& manifest) {
+  if (fs::exists(manifest_path(path))) {
+    SweepFolder there = open(path);
+    const Json old_one = without_places(to_json(there.manifest_)),
+               new_one = without_places(to_json(manifest));
+    for (const auto& [key, value] : new_one.items())
+      if (old_one.at(key) != value)
+        throw_input_error(
+            "{}: holds another sweep: its {} differ{} from this one's; choose another -o, or remove the "
+            "folder",
+            path.string(), key == "inputs" ? "scene, strokes or other files" : key,
+            key == "axes" || key == "inputs" || key == "settings" || key == "metrics" ? "" : "s");
+    return there;
+  }
+  if (fs::is_directory(path) && !fs::is_empty(path))
+    throw_input_error("{}: holds other files and no sweep; choose another -o, or an empty folder",
+                      path.string());
+  make_folder(path / "points");
+  SweepFolder made(path, manifest);
+  write_text_file(manifest_path(path), to_json(manifest).dump(2) + "\n");
+  return made;
+}
+
+SweepFolder SweepFolder::open(const fs::path& path) {
+  const fs::path file = manifest_path(path);
+  if (!fs::exists(file))
+    throw_io_error("{}: is no folder of a sweep, for it has no manifest.json; name what -o named",
+                   path.string());
+  try {
+    const Json json = Json::parse(read_text_file(file));
+    if (json.at("format") != "sandstroke.sweep" || json.at("format_version") != 1)
+      throw_input_error("{}: has a format that this program does not read; use the one that began the sweep",
+                        file.string());
+    SweepManifest manifest = from_json(json);
+    if (manifest.design.axes.empty())
+      throw_input_error("{}: has no axes; it is damaged: remove the folder and sweep again", file.string());
+    return {path, std::move(manifest)};
+  } catch (const Json::exception&) {
+    throw_input_error("{}: is damaged; remove the folder and sweep again", file.string());
+  }
+}
+
+fs::path SweepFolder::point_file(std::size_t point) const {
+  return path_ / "points" / fmt::format("{:06}.h5", point);
+}
+fs::path SweepFolder::picture_file(std::size_t point) const {
+  return path_ / "points" / fmt::format("{:06}.png", point);
+}
+
+std::optional<PointResult> SweepFolder::read(std::size_t point) const {
+  const fs::path path = point_file(point);
+  if (!fs::exists(path)) return std::nullopt;
+  try {
+    const Hdf5Reader file(path);
+    PointResult result;
+    const auto verdict =
+        std::find(verdict_names.begin(), verdict_names.end(), file.text_attribute("/", "verdict"));
+    if (verdict == verdict_names.end() || file.number_attribute("/", "point") != static_cast<double>(point))
+      return std::nullopt;
+    result.verdict = static_cast<PointVerdict>(verdict - verdict_names.begin());
+    result.reason = file.text_attribute("/", "reason");
+    for (const Metric& metric : metrics_)
+      result.metrics.push_back(file.number_attribute("/metrics", metric.name));
+    return result;
+  } catch (const Error&) {
+    return std::nullopt;
+  }
+}
+
+HeightField SweepFolder::read_surface(std::size_t point) const {
+  const Hdf5Reader file(point_file(point));
+  return file.bed("/surface", file.number_attribute("/surface", "cell_size"));
+}
+
+void SweepFolder::write(std::size_t point, const PointResult& result, const std::string& scene_text,
+                        const HeightField* surface) const {
+  Hdf5Writer file(point_file(point));
+  file.attribute("/", "format", "sandstroke.point");
+  file.attribute("/", "format_version", 1);
+  file.attribute("/", "point", static_cast<double>(point));
+  file.attribute("/", "verdict", verdict_names[static_cast<std::size_t>(result.verdict)]);
+  file.attribute("/", "reason", result.reason);
+  file.write("/scene", scene_text);
+  file.make_group("/metrics");
+  for (std::size_t i = 0; i < metrics_.size(); ++i)
+    file.attribute("/metrics", metrics_[i].name, result.metrics[i]);
+  if (surface) {
+    write_bed(file, "/surface", *surface);
+    file.attribute("/surface", "cell_size", surface->cell_size());
+  }
+  file.finish();
+}
+
+std::string SweepFolder::command(std::size_t point) const {
+  std::string command = "sandstroke run " + shell_quoted(manifest_.scene);
+  const auto set = [&](const std::string& setting) { command += " --set " + shell_quoted(setting); };
+  for (const std::string& setting : manifest_.settings) set(setting);
+  for (const std::string& setting : design().settings(point)) set(setting);
+  return command + fmt::format(" -o point-{:06}.h5", point);
+}
+
+}  // namespace sandstroke

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sand/height_field.h"
+#include "sweep/metrics.h"
+#include "sweep/sweep_design.h"
+
+namespace sandstroke {
+
+/// What a sweep is: two sweeps with the same manifest have the same results.
+struct SweepManifest {
+  std::string scene;                  ///< the scene's file, as one names it from where the sweep was begun
+  std::vector<std::string> settings;  ///< "key=value" of every point
+  SweepDesign design;
+  std::vector<std::string> metrics;  ///< names
+  bool keep_surface = false, keep_picture = false;
+  std::string golden;  ///< run file whose final surface each is compared with; empty: none
+  /// File and hash of what it reads, the scene first.
+  std::vector<std::pair<std::string, std::string>> inputs;
+  std::string version, commit;  ///< of the program
+};
+
+/// The folder of a sweep:
+///   manifest.json         SweepManifest, written before any point
+///   points/000042.h5      one point, complete or not there: attributes of / format = "sandstroke.point",
+///                         format_version = 1, point, verdict, reason; of /metrics one per metric;
+///                         /scene the resolved scene; /surface (ny, nx) m, where it is kept
+///   points/000042.png     its picture, where it is kept; written before the .h5
+///   sweep.h5 .csv .html   what collect() makes of them
+class SweepFolder {
+ public:
+  /// Makes the folder, or takes up one that holds the same sweep. Error: input, where it holds another one
+  /// (naming what differs), or other files; io.
+  static SweepFolder make(const std::filesystem::path& path, const SweepManifest& manifest);
+  /// Opens what make() made. Error: io, input.
+  static SweepFolder open(const std::filesystem::path& path);
+
+  const std::filesystem::path& path() const { return path_; }
+  const SweepManifest& manifest() const { return manifest_; }
+  const SweepDesign& design() const { return manifest_.design; }
+  std::size_t points() const { return manifest_.design.points(); }
+  /// Of the manifest's names.
+  const std::vector<Metric>& metrics() const { return metrics_; }
+
+  std::filesystem::path point_file(std::size_t point) const;
+  std::filesystem::path picture_file(std::size_t point) const;
+  /// A point that is done; none where its file is missing or cannot be read (cut off).
+  std::optional<PointResult> read(std::size_t point) const;
+  /// Its final surface, where it was kept. Error: io, input.
+  HeightField read_surface(std::size_t point) const;
+
+  /// Writes one point's file: whole, on the disk, or not at all. Error: io.
+  void write(std::size_t point, const PointResult& result, const std::string& scene_text,
+             const HeightField* surface) const;
+
+  /// The command that runs one point by itself.
+  std::string command(std::size_t point) const;
+
+ private:
+  SweepFolder(std::filesystem::path path, SweepManifest manifest);
+
+  std::filesystem::path path_;
+  SweepManifest manifest_;
+  std::vector<Metric> metrics_;
+};
+
+}  // namespace sandstroke

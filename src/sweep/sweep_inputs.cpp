@@ -1,0 +1,89 @@
+#include "sweep/sweep_inputs.h"
+
+#include <spdlog/fmt/fmt.h>
+
+#include "core/hash.h"
+#include "io/scene_toml.h"
+#include "io/stroke_file.h"
+#include "io/surface_file.h"
+
+namespace sandstroke {
+namespace {
+
+constexpr std::size_t most_samples_kept = 10'000'000;  // of strokes: about a gigabyte
+
+template <class T>
+void add(ContentHash& hash, const std::vector<T>& column) {
+  hash.add(column.data(), column.size() * sizeof(T));
+}
+
+/// Of all that a run takes from a stroke.
+std::string hash_of(const Stroke& stroke) {
+  ContentHash hash;
+  add(hash, stroke.time);
+  add(hash, stroke.position);
+  add(hash, stroke.contact);
+  hash.add(&stroke.gap_threshold, sizeof stroke.gap_threshold);
+  return hash.text();
+}
+
+/// Default settings but for these: as text, they name them.
+std::string text_of(const BedSettings& bed) {
+  Scene scene;
+  scene.bed = bed;
+  return scene_text(scene);
+}
+
+}  // namespace
+
+std::shared_ptr<const SweepStroke> SweepInputs::stroke(const Scene& scene) {
+  if (!scene.stroke) return nullptr;
+  const std::filesystem::path path = scene_folder_ / scene.stroke->file;
+  const std::scoped_lock lock(files_);
+  const auto [by_force, is_new] = by_force_.try_emplace(path.string());
+  if (is_new) by_force->second = stroke_depends_on_force(path);
+  Scene named;
+  named.stroke = scene.stroke;
+  if (by_force->second) named.force = scene.force;
+  const std::string key = scene_text(named);
+  if (const auto found = strokes_.find(key); found != strokes_.end()) return found->second;
+  auto loaded = std::make_shared<SweepStroke>();
+  loaded->stroke = place_stroke(load_stroke(path, scene.force), scene.stroke->placement, path.string());
+  loaded->hash = hash_of(loaded->stroke);
+  strokes_loaded_ += 1;
+  stroke_samples_ += loaded->stroke.size();
+  if (stroke_samples_ > most_samples_kept) {
+    strokes_.clear();
+    stroke_samples_ = loaded->stroke.size();
+  }
+  return strokes_[key] = loaded;
+}
+
+std::shared_ptr<const HeightField> SweepInputs::bed(const BedSettings& bed) {
+  const std::string key = text_of(bed);
+  const std::scoped_lock lock(files_);
+  if (auto there = beds_[key].lock()) return last_bed_ = there;
+  last_bed_ = std::make_shared<const HeightField>(load_surface(bed, scene_folder_));
+  beds_[key] = last_bed_;
+  beds_loaded_ += 1;
+  return last_bed_;
+}
+
+std::string sand_key(const Scene& scene, const SweepStroke* stroke) {
+  Scene named = scene;
+  named.stroke.reset();
+  named.output = {};
+  named.view = {};
+  named.preset = ModelPreset::paper;  // sets other settings, no more
+  if (scene.device.model == DeviceModel::kinematic) {
+    named.force = {};
+    const DeviceSettings& device = scene.device;
+    named.device = {};
+    named.device.servo_rate = device.servo_rate;
+    named.device.scale = device.scale;
+    named.device.offset = device.offset;
+  }
+  return scene_text(named) + (stroke ? stroke->hash : "");
+}
+
+}  // namespace sandstroke

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+
+#include "haptics/stroke.h"
+#include "sand/height_field.h"
+#include "sim/scene.h"
+#include "sweep/sweep_plan.h"
+
+namespace sandstroke {
+
+/// A placed stroke, and a hash of what it holds.
+struct SweepStroke {
+  Stroke stroke;
+  std::string hash;
+};
+
+/// Strokes and beds that points of a sweep start from, each loaded once for all points that share it. For use
+/// by several threads. Error: input, io.
+class SweepInputs {
+ public:
+  explicit SweepInputs(std::filesystem::path scene_folder) : scene_folder_(std::move(scene_folder)) {}
+
+  /// The stroke that a scene plays; none where it has none.
+  std::shared_ptr<const SweepStroke> stroke(const Scene& scene);
+  std::shared_ptr<const HeightField> bed(const BedSettings& bed);
+
+  int strokes_loaded() const { return strokes_loaded_; }
+  int beds_loaded() const { return beds_loaded_; }
+  /// Held by whoever reads or writes an HDF5 file: the library is not made for several threads.
+  std::mutex& files() { return files_; }
+
+ private:
+  std::filesystem::path scene_folder_;
+  std::mutex files_;
+  std::map<std::string, bool> by_force_;  // stroke files that force constants make a difference to
+  std::map<std::string, std::shared_ptr<const SweepStroke>> strokes_;  // by file and settings
+  std::size_t stroke_samples_ = 0;                                     // in strokes_
+  std::map<std::string, std::weak_ptr<const HeightField>> beds_;       // by their settings
+  std::shared_ptr<const HeightField> last_bed_;                        // kept for the points to come
+  int strokes_loaded_ = 0, beds_loaded_ = 0;
+};
+
+/// What decides a point's sand: points of equal keys have the same surfaces throughout. `stroke`: as
+/// SweepInputs has it.
+std::string sand_key(const Scene& scene, const SweepStroke* stroke);
+
+}  // namespace sandstroke

@@ -1,0 +1,122 @@
+#include "sweep/sweep_page.h"
+
+#include <algorithm>
+
+#include "core/error.h"
+#include "io/png_file.h"
+#include "io/table.h"
+#include "report/data_uri.h"
+#include "report/page.h"
+#include "sweep/thumbnail.h"
+
+namespace sandstroke {
+namespace {
+
+using Json = nlohmann::ordered_json;
+namespace fs = std::filesystem;
+
+Json axes_json(const SweepDesign& design) {
+  Json axes = Json::array();
+  for (const SweepAxis& axis : design.axes) {
+    Json values = Json::array();
+    const bool numeric = axis.numeric();
+    for (std::size_t i = 0; i < axis.values.size(); ++i)
+      values.push_back(numeric ? Json(axis.number(i)) : Json(axis.label(i)));
+    axes.push_back({{"name", axis.key},
+                    {"unit", axis.unit},
+                    {"log", axis.logarithmic},
+                    {"numeric", numeric},
+                    {"values", std::move(values)}});
+  }
+  return axes;
+}
+
+/// Pictures of points as data URIs, null where there is none.
+class Thumbnails {
+ public:
+  explicit Thumbnails(const CollectedSweep& sweep) : sweep_(sweep) {
+    for (const std::optional<KeptSurface>& surface : sweep.surfaces)
+      if (surface) span_ = std::max(span_, surface->highest);
+    if (span_ == 0.0) span_ = 1.0;  // all sand at 0
+  }
+
+  /// Its picture, where that was kept; or a map of its surface, of all points on one scale.
+  Json of(std::size_t point) {
+    if (!sweep_.results[point] || failed(sweep_.results[point]->verdict)) return nullptr;
+    const SweepFolder& folder = sweep_.folder;
+    try {
+      if (folder.manifest().keep_picture)
+        return uri(shrunk(read_png(folder.picture_file(point)), thumbnail_width));
+    } catch (const Error& failure) {
+      if (pictures_missing_++ == 0) first_missing_ = failure.what();
+    }
+    if (!sweep_.surfaces[point]) return nullptr;
+    return uri(surface_thumbnail(folder.point_file(point), span_));
+  }
+
+  void report_missing(CollectReport& report) const {
+    if (pictures_missing_ > 0)
+      report.sentences.push_back(
+          fmt::format("{} missing; remove the files of these points and sweep again. The first: {}",
+                      counted(pictures_missing_, "picture"), first_missing_));
+  }
+
+ private:
+  static Json uri(const Image& image) { return data_uri("image/png", encode_png(image)); }
+
+  const CollectedSweep& sweep_;
+  double span_ = 0.0;  // m
+  std::size_t pictures_missing_ = 0;
+  std::string first_missing_;
+};
+
+Json points_json(const CollectedSweep& sweep, CollectReport& report) {
+  const SweepDesign& design = sweep.folder.design();
+  const SweepManifest& manifest = sweep.folder.manifest();
+  const bool kept = manifest.keep_picture || manifest.keep_surface;
+  const bool thumbnails_fit = sweep.results.size() <= most_thumbnails;
+  if (kept && !thumbnails_fit)
+    report.sentences.push_back(fmt::format(
+        "the page shows no pictures: there are more than {} points. They are in points/", most_thumbnails));
+  Thumbnails thumbnails(sweep);
+  Json points = Json::array();
+  for (std::size_t point = 0; point < sweep.results.size(); ++point) {
+    Json at = Json::array(), metrics = Json::array();
+    for (std::size_t axis = 0; axis < design.axes.size(); ++axis) at.push_back(design.value_at(point, axis));
+    for (std::size_t metric = 0; metric < sweep.folder.metrics().size(); ++metric)
+      metrics.push_back(number_or_null(sweep.metric(point, metric)));
+    points.push_back({{"point", point},
+                      {"at", std::move(at)},
+                      {"verdict", sweep.verdict_name(point)},
+                      {"reason", sweep.reason(point)},
+                      {"metrics", std::move(metrics)},
+                      {"thumbnail", kept && thumbnails_fit ? thumbnails.of(point) : Json()},
+                      {"command", sweep.folder.command(point)}});
+  }
+  thumbnails.report_missing(report);
+  return points;
+}
+
+}  // namespace
+
+Json sweep_page_data(const CollectedSweep& sweep, CollectReport& report) {
+  Json metrics = Json::array();
+  for (const Metric& metric : sweep.folder.metrics())
+    metrics.push_back({{"name", metric.name}, {"title", metric.title}, {"unit", metric.unit}});
+  // A file in it: the folder itself may be named "." or end in a slash.
+  const fs::path file = fs::absolute(sweep.folder.point_file(0)).lexically_normal();
+  return {{"title", file.parent_path().parent_path().filename().string()},
+          {"machine", describe_machine()},
+          {"scene", sweep.folder.manifest().scene},
+          {"design", sweep.folder.design().grid ? "grid" : "latin"},
+          {"axes", axes_json(sweep.folder.design())},
+          {"metrics", std::move(metrics)},
+          {"points", points_json(sweep, report)},
+          {"counts",
+           {{"points", sweep.results.size()},
+            {"done", report.done},
+            {"failed", report.failed},
+            {"missing", report.missing + report.unreadable}}}};
+}
+
+}  // namespace sandstroke

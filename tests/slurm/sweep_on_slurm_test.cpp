@@ -1,0 +1,197 @@
+// Sweeps on a real cluster: tests/slurm/cluster runs this program.
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdlib>
+#include <cstring>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "cli/program.h"
+#include "core/child_process.h"
+#include "sweep/slurm_jobs.h"
+#include "sweep/sweep_folder.h"
+#include "test_folder.h"
+
+namespace sandstroke {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::string cluster = std::getenv("SANDSTROKE_CLUSTER") ? std::getenv("SANDSTROKE_CLUSTER") : "";
+
+/// Asks again and again. The bound only ends what would never come.
+template <class Condition>
+bool comes_true(const Condition& condition) {
+  const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(2);
+  while (!condition()) {
+    if (std::chrono::steady_clock::now() > end) return false;
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  }
+  return true;
+}
+
+/// The program that a task of an array runs in this cluster; 0: there is none.
+pid_t process_of(long array, int task) {
+  for (const fs::directory_entry& entry : fs::directory_iterator("/proc")) {
+    const std::string name = entry.path().filename();
+    if (name.find_first_not_of("0123456789") != std::string::npos) continue;
+    const std::string environment = '\0' + read_file(entry.path() / "environ");
+    const auto has = [&](const std::string& variable) {
+      return environment.find('\0' + variable + '\0') != std::string::npos;
+    };
+    if (has("SANDSTROKE_CLUSTER=" + cluster) && has("SLURM_ARRAY_JOB_ID=" + std::to_string(array)) &&
+        has("SLURM_ARRAY_TASK_ID=" + std::to_string(task)))
+      return std::stoi(name);
+  }
+  return 0;
+}
+
+int slurm(const std::vector<std::string>& words) {
+  const auto result = run_child(words);
+  EXPECT_TRUE(result && result->exit_code == 0) << words[0] << ": " << (result ? result->err : "not there");
+  return result ? result->exit_code : -1;
+}
+
+bool same_bits(const double* a, const double* b, Eigen::Index count) {
+  return std::memcmp(a, b, static_cast<std::size_t>(count) * sizeof(double)) == 0;
+}
+
+/// Twelve simulations of 24 points.
+class SweepOnSlurm : public testing::Test {
+ protected:
+  void SetUp() override {
+    ASSERT_NE(cluster, "") << "run this program by tests/slurm/cluster";
+    write_file(folder / "scene.toml",
+               "[bed]\nsize = [0.4, 0.3]\ncells = [400, 300]\n[stroke]\nfile = \"line.toml\"\n");
+    write_file(folder / "line.toml",
+               "start = [-0.1, 0.0]\nspeed = 0.02\n[[segment]]\nkind = \"line\"\nto = [0.1, 0.0]\ndepth = "
+               "0.006\n");
+    write_file(
+        folder / "plan.toml",
+        "[sweep]\nscene = \"scene.toml\"\nkeep = [\"surface\"]\n[axes]\nrelaxation.talus_angle = { from = "
+        "20, to = 42, count = 12 }\nforce.k_s = [500, 1000]\n");
+  }
+
+  ProgramResult sweep(std::vector<std::string> arguments) const {
+    arguments.insert(arguments.begin(), "sweep");
+    return run_program(arguments, folder.path());
+  }
+  /// Submits it and says with which jobs.
+  SlurmJobs submit(const std::string& output, const std::vector<std::string>& options) const {
+    std::vector<std::string> arguments = {"plan.toml", "-o", output, "--slurm"};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    const ProgramResult result = sweep(arguments);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    return read_slurm_jobs(folder / output).value_or(SlurmJobs{});
+  }
+  nlohmann::json status(const std::string& output) const {
+    return nlohmann::json::parse(sweep({"status", output, "--json"}).out, nullptr, false);
+  }
+  bool some_point_done(const std::string& output, const SlurmTask& task) const {
+    const SweepFolder swept = SweepFolder::open(folder / output);
+    return std::any_of(task.points.begin(), task.points.end(),
+                       [&](std::size_t point) { return fs::exists(swept.point_file(point)); });
+  }
+  /// No job of it is left in the queue.
+  static bool ended(const SlurmJobs& jobs) {
+    const SlurmQueue queue = ask_slurm_queue(jobs);
+    return queue.tasks && std::none_of(queue.tasks->begin(), queue.tasks->end(),
+                                       [](const QueuedTask& task) { return task.alive(); });
+  }
+  std::string logs(const std::string& output) const {
+    std::string text;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder / output / "slurm"))
+      if (entry.path().extension() == ".log")
+        text += entry.path().filename().string() + ":\n" + read_file(entry.path());
+    return text;
+  }
+
+  /// Every bit of every point is as a sweep on this machine has it.
+  void expect_as_local(const std::string& output) const {
+    if (!fs::exists(folder / "local")) {
+      ASSERT_EQ(sweep({"plan.toml", "-o", "local"}).exit_code, 0);
+    }
+    const SweepFolder local = SweepFolder::open(folder / "local"), other = SweepFolder::open(folder / output);
+    for (std::size_t point = 0; point < local.points(); ++point) {
+      const auto expected = local.read(point), result = other.read(point);
+      ASSERT_TRUE(result) << "point " << point << " is missing; the tasks' logs:\n" << logs(output);
+      EXPECT_EQ(result->verdict, expected->verdict);
+      for (std::size_t i = 0; i < local.metrics().size(); ++i) {
+        const bool same =
+            local.metrics()[i].timing || same_bits(&result->metrics[i], &expected->metrics[i], 1);
+        EXPECT_TRUE(same) << local.metrics()[i].name << " of point " << point;
+      }
+      const HeightGrid surface = other.read_surface(point).grid(), there = local.read_surface(point).grid();
+      ASSERT_EQ(surface.size(), there.size());
+      EXPECT_TRUE(same_bits(surface.data(), there.data(), surface.size())) << "surface of point " << point;
+    }
+  }
+
+  TestFolder folder;
+};
+
+TEST_F(SweepOnSlurm, AnArrayGivesWhatALocalSweepGives) {
+  const SlurmJobs jobs =
+      submit("out", {"--tasks", "3", "--time", "10", "--sbatch-option", "--comment=\"two words\""});
+  ASSERT_EQ(jobs.tasks.size(), 3u);
+  const ProgramResult again = sweep({"plan.toml", "-o", "out", "--slurm"});
+  EXPECT_EQ(again.exit_code, 2);
+  EXPECT_NE(again.err.find("was submitted already"), std::string::npos) << again.err;
+  EXPECT_TRUE(comes_true([&] { return ended(jobs); }));
+  expect_as_local("out");
+  EXPECT_EQ(status("out")["missing"], 0);
+  EXPECT_TRUE(fs::exists(folder / "out" / "sweep.h5")) << logs("out");
+
+  const ProgramResult done = sweep({"plan.toml", "-o", "out", "--slurm"});
+  EXPECT_NE(done.out.find("all points are done"), std::string::npos) << done.err;
+  EXPECT_EQ(read_slurm_jobs(folder / "out")->array, jobs.array);
+}
+
+TEST_F(SweepOnSlurm, KilledTasksAreRequeuedOrRunAgain) {
+  const SlurmJobs jobs = submit("out", {"--tasks", "2"});
+  ASSERT_EQ(jobs.tasks.size(), 2u);
+  ASSERT_TRUE(comes_true(
+      [&] { return some_point_done("out", jobs.tasks[0]) && some_point_done("out", jobs.tasks[1]); }));
+  // The first is requeued, which Slurm does by and by; at once where it is told so.
+  const std::string first = std::to_string(jobs.array) + "_1";
+  slurm({"scontrol", "requeue", first});
+  const pid_t second = process_of(jobs.array, 2);
+  ASSERT_GT(second, 0);
+  kill(second, SIGKILL);
+  ASSERT_TRUE(comes_true([&] { return status("out")["tasks"][1]["state"] == "gone"; }));
+  const nlohmann::json killed = status("out");
+  EXPECT_EQ(killed["tasks"][0]["state"], "requeued");
+  EXPECT_GT(killed["tasks"][0]["missing"], 0);
+  EXPECT_GT(killed["tasks"][1]["missing"], 0);
+  slurm({"scontrol", "update", "JobId=" + first, "StartTime=now"});
+  EXPECT_TRUE(comes_true([&] { return ended(jobs); }));
+  EXPECT_EQ(status("out")["tasks"][0]["state"], "done") << logs("out");
+  EXPECT_EQ(status("out")["advice"].get<std::string>().find("1 task is gone and left "), 0u);
+
+  const SlurmJobs rest = submit("out", {"--tasks", "2"});
+  ASSERT_EQ(rest.tasks.size(), 1u);
+  EXPECT_EQ(rest.tasks[0].number, 2);
+  EXPECT_TRUE(comes_true([&] { return ended(rest); }));
+  expect_as_local("out");
+}
+
+TEST_F(SweepOnSlurm, WhatAKilledControllerLeavesIsFinishedHere) {
+  const SlurmJobs jobs = submit("out", {"--tasks", "4"});
+  ASSERT_TRUE(comes_true([&] { return some_point_done("out", jobs.tasks[0]); }));
+  kill(std::stoi(read_file(cluster + "/slurmctld.pid")), SIGKILL);
+  EXPECT_EQ(sweep({"plan.toml", "-o", "out"}).exit_code, 0);
+  expect_as_local("out");
+  const nlohmann::json without = status("out");
+  EXPECT_EQ(without["missing"], 0);
+  EXPECT_NE(without["queue_trouble"], "");
+
+  slurm({cluster + "/controller"});
+  EXPECT_TRUE(comes_true([&] { return ended(jobs); }));
+  expect_as_local("out");
+}
+
+}  // namespace
+}  // namespace sandstroke

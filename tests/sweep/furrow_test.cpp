@@ -1,0 +1,240 @@
+#include "sweep/furrow.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <numbers>
+
+namespace sandstroke {
+namespace {
+
+using Eigen::Vector2d;
+
+constexpr double radius = 0.01;  // m, of the tool
+constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+
+/// A V with parabolic ramparts on both sides, by distance from its middle line. Its slope is the same on
+/// both sides of its edge.
+struct Profile {
+  double depth = 0.005, half_width = 0.01, heap = 0.016;  // m; heap: width of a rampart
+
+  double slope() const { return depth / half_width; }
+  double rampart() const { return 0.25 * slope() * heap; }
+  double operator()(double distance) const {
+    if (distance < half_width) return slope() * distance - depth;
+    const double u = (distance - half_width) / heap;
+    return u < 1.0 ? 4.0 * rampart() * u * (1.0 - u) : 0.0;
+  }
+  /// No measured height is further off. The slope bounds how much it changes from the cells that are
+  /// interpolated, half a cell's diagonal away on average, and to the next sample, a quarter of a cell;
+  /// `aside`: how far [m] chords of a curved path lie from it.
+  double height_error(double cell, double aside) const {
+    return slope() * ((std::numbers::sqrt2 / 2 + 0.25) * cell + aside);
+  }
+};
+
+using Shape = std::function<double(double x, double y)>;
+
+HeightField bed_of(int rows, int cols, double cell, const Shape& height) {
+  HeightField bed(rows, cols, cell);
+  for (int row = 0; row < rows; ++row)
+    for (int col = 0; col < cols; ++col) bed.set(row, col, height(bed.x_of(col), bed.y_of(row)));
+  return bed;
+}
+
+const Shape flat = [](double, double) { return 0.0; };
+const Shape slanting = [](double x, double y) { return 0.3 * x - 0.1 * y; };
+const Shape rippled = [](double x, double) { return 0.004 * std::sin(400.0 * x); };
+
+/// One piece, as ticks at 1 kHz and 0.1 m/s give it.
+TipPath path_along(const std::function<Vector2d(double)>& place, double length) {
+  TipPath path{{}, {0}};
+  for (double s = 0.0; s <= length; s += 1e-4) path.points.push_back(place(s));
+  return path;
+}
+
+struct Line {
+  Vector2d from, direction;
+  double length;
+  double distance(double x, double y) const {
+    const Vector2d to = Vector2d(x, y) - from;
+    return std::abs(to.x() * direction.y() - to.y() * direction.x());
+  }
+  TipPath path() const {
+    return path_along([this](double s) -> Vector2d { return from + s * direction; }, length);
+  }
+};
+
+/// On a bed with cells of 1 mm, 240 x 300.
+FurrowMeasures measured(const Shape& initial, const Shape& change, const TipPath& path) {
+  const Shape sum = [&](double x, double y) { return initial(x, y) + change(x, y); };
+  return measure_furrow(bed_of(240, 300, 1e-3, initial), bed_of(240, 300, 1e-3, sum), path, radius);
+}
+
+void expect_profile(const FurrowMeasures& measures, const Profile& profile, double aside = 0.0) {
+  const double error = profile.height_error(1e-3, aside);
+  EXPECT_NEAR(measures.depth, profile.depth, error);
+  EXPECT_NEAR(measures.rampart, profile.rampart(), error);
+  EXPECT_NEAR(measures.width, 2.0 * profile.half_width, 2.0 * error / profile.slope());
+}
+
+TEST(Furrow, OnCentresOfCellsIsExact) {
+  // The line lies on a row's centres; edges, crests and the deepest point are on samples.
+  const HeightField before(239, 300, 1e-3);
+  const Profile profile;
+  const HeightField after = bed_of(239, 300, 1e-3, [&](double, double y) { return profile(std::abs(y)); });
+  const TipPath path{{{-0.1, 0.0}, {0.0, 0.0}, {0.1, 0.0}}, {0}};
+  const FurrowMeasures measures = measure_furrow(before, after, path, radius);
+  EXPECT_NEAR(measures.depth, profile.depth, 1e-15);
+  EXPECT_NEAR(measures.width, 2.0 * profile.half_width, 1e-14);
+  EXPECT_NEAR(measures.rampart, profile.rampart(), 1e-15);
+}
+
+TEST(Furrow, HasItsMeasuresInAnyDirectionOnAnyBed) {
+  const Profile profile;
+  for (const double angle : {0.0, 0.3, std::numbers::pi / 4, 1.2, std::numbers::pi / 2, 2.5})
+    for (const Shape& initial : {flat, slanting, rippled}) {
+      SCOPED_TRACE(angle);
+      const Vector2d direction(std::cos(angle), std::sin(angle));
+      const Line line{Vector2d(0.0003, 0.0002) - 0.07 * direction, direction, 0.14};
+      expect_profile(
+          measured(
+              initial, [&](double x, double y) { return profile(line.distance(x, y)); }, line.path()),
+          profile);
+    }
+}
+
+TEST(Furrow, AlongACircleToo) {
+  const Profile profile;
+  const double bend = 0.07;
+  const TipPath path = path_along(
+      [&](double s) -> Vector2d { return bend * Vector2d(std::cos(s / bend), std::sin(s / bend)); },
+      2.0 * std::numbers::pi * bend);
+  const double chord = 0.5 * radius + 1e-4;
+  for (const Shape& initial : {flat, slanting, rippled})
+    expect_profile(
+        measured(
+            initial, [&](double x, double y) { return profile(std::abs(std::hypot(x, y) - bend)); }, path),
+        profile, chord * chord / (8.0 * bend));
+}
+
+TEST(Furrow, IsTheSameThereAndBackAndWithAHandThatTrembles) {
+  const Profile profile;
+  const Line line{{-0.08, 0.0002}, {1.0, 0.0}, 0.16};
+  const Shape change = [&](double x, double y) { return profile(line.distance(x, y)); };
+  const FurrowMeasures there = measured(flat, change, line.path());
+  TipPath back = line.path(), trembling = line.path(), resting = line.path();
+  std::reverse(back.points.begin(), back.points.end());
+  const FurrowMeasures back_again = measured(flat, change, back);
+  EXPECT_NEAR(back_again.depth, there.depth, 1e-12);
+  EXPECT_NEAR(back_again.width, there.width, 1e-12);
+  EXPECT_NEAR(back_again.rampart, there.rampart, 1e-12);
+  // By a tenth of a millimetre, more than an encoder's step, and as far as a tick's way.
+  for (std::size_t i = 0; i < trembling.points.size(); ++i) trembling.points[i].y() += i % 2 ? 5e-5 : -5e-5;
+  expect_profile(measured(flat, change, trembling), profile, 5e-5);
+  // A tool that rests before it lifts adds no stations.
+  resting.points.insert(resting.points.end(), 100'000, resting.points.back());
+  EXPECT_EQ(measured(flat, change, resting).depth, there.depth);
+}
+
+TEST(Furrow, CrossingsEndsAndNeighboursDoNotCount) {
+  const Profile profile, crossing{0.01, 0.01, 0.01}, neighbour{0.02, 0.02, 0.03};
+  const Line line{{-0.08, 0.0002}, {1.0, 0.0}, 0.16};
+  const Shape change = [&](double x, double y) {
+    if (std::abs(x) < 0.02) return crossing(std::abs(x));
+    // Its rampart, higher, begins beyond that of the line, and has its crest within the sections.
+    const double beside = neighbour(std::abs(y - 0.08));
+    return beside + (x > 0.075 ? 0.0 : profile(line.distance(x, y)));
+  };
+  expect_profile(measured(flat, change, line.path()), profile);
+}
+
+TEST(Furrow, TheMedianIsOverTheLengthOfAllPieces) {
+  // 40 radii of one stroke against 30 taps, one radius each, of another depth: the stroke decides.
+  const Profile profile, tap{0.002, 0.004, 0.004};
+  TipPath path = Line{{-0.12, 0.05}, {1.0, 0.0}, 0.24}.path();
+  for (int i = 0; i < 20; ++i) {
+    path.pieces.push_back(path.points.size());
+    path.points.insert(path.points.end(), 50, Vector2d(-0.12 + 0.012 * i, -0.05));
+  }
+  expect_profile(measured(
+                     flat,
+                     [&](double x, double y) {
+                       const double nearest = std::remainder(x + 0.12, 0.012);
+                       return y > 0.0 ? profile(std::abs(y - 0.05)) : tap(std::hypot(nearest, y + 0.05));
+                     },
+                     path),
+                 profile);
+}
+
+TEST(Furrow, APointContactIsASectionThroughIt) {
+  const Profile profile;
+  const TipPath path{std::vector<Vector2d>(200, Vector2d(0.0204, -0.0301)), {0}};
+  for (const Shape& initial : {flat, slanting, rippled})
+    expect_profile(
+        measured(
+            initial, [&](double x, double y) { return profile(std::hypot(x - 0.0204, y + 0.0301)); }, path),
+        profile);
+}
+
+TEST(Furrow, UntouchedSandBetweenFurrowAndRampartIsPassed) {
+  // A sphere less deep than its radius cuts a cap narrower than itself; the ring it fills begins at its
+  // radius.
+  const Profile profile{0.001, 0.005, 0.016};
+  const Line line{{-0.08, 0.0}, {1.0, 0.0}, 0.16};
+  const Shape change = [&](double x, double y) {
+    const double r = line.distance(x, y);
+    return profile(r < 0.005 ? r : r < 0.01 ? 1.0 : r - 0.005);
+  };
+  expect_profile(measured(flat, change, line.path()), profile);
+}
+
+TEST(Furrow, NextToTheBorderHasItsDepthAndOneRampart) {
+  const Profile profile;
+  const Line line{{-0.1, 0.1142}, {1.0, 0.0}, 0.2};  // 5.8 mm inside
+  const FurrowMeasures measures = measured(
+      flat, [&](double x, double y) { return profile(line.distance(x, y)); }, line.path());
+  EXPECT_NEAR(measures.depth, profile.depth, profile.height_error(1e-3, 0.0));
+  EXPECT_NEAR(measures.rampart, profile.rampart(), profile.height_error(1e-3, 0.0));
+  EXPECT_TRUE(std::isnan(measures.width));
+
+  // Along most of its way outside: only what is inside counts.
+  const Line leaving{{0.1, 0.0}, {1.0, 0.0}, 0.5};
+  expect_profile(
+      measured(
+          flat, [&](double x, double y) { return profile(leaving.distance(x, y)); }, leaving.path()),
+      profile);
+  const FurrowMeasures outside = measured(flat, flat, Line{{0.2, 0.0}, {1.0, 0.0}, 0.1}.path());
+  EXPECT_TRUE(std::isnan(outside.depth) && std::isnan(outside.width) && std::isnan(outside.rampart));
+}
+
+TEST(Furrow, WithoutContactThereIsNothingAndWithoutChangeNoFurrow) {
+  const FurrowMeasures none = measured(slanting, flat, TipPath{});
+  EXPECT_TRUE(std::isnan(none.depth) && std::isnan(none.width) && std::isnan(none.rampart));
+  const Line line{{-0.08, 0.0}, {1.0, 0.0}, 0.16};
+  const FurrowMeasures unchanged = measured(rippled, flat, line.path());
+  EXPECT_EQ(unchanged.depth, 0.0);
+  EXPECT_EQ(unchanged.width, 0.0);
+  EXPECT_EQ(unchanged.rampart, 0.0);
+  // A furrow that was filled beyond the brim is none, and all of it is rampart.
+  const FurrowMeasures filled = measured(
+      flat, [](double, double y) { return std::max(0.0, 0.004 - std::abs(y)); }, line.path());
+  EXPECT_EQ(filled.depth, 0.0);
+  EXPECT_EQ(filled.width, 0.0);
+  EXPECT_NEAR(filled.rampart, 0.004, 1e-3);
+}
+
+TEST(Furrow, OnTheLargestBedOnlyItsTilesAreLookedAt) {
+  const HeightField before(65536, 65536, 1e-3);
+  HeightField after = before;
+  const Profile profile;
+  const Line line{{30.0, -20.0}, {1.0, 0.0}, 0.1};
+  for (int row = 12734; row < 12802; ++row)
+    for (int col = 62700; col < 62900; ++col)
+      after.set(row, col, profile(line.distance(after.x_of(col), after.y_of(row))));
+  expect_profile(measure_furrow(before, after, line.path(), radius), profile);
+}
+
+}  // namespace
+}  // namespace sandstroke

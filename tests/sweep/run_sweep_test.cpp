@@ -1,0 +1,187 @@
+#include "sweep/run_sweep.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/error.h"
+#include "core/output_file.h"
+#include "io/png_file.h"
+#include "test_folder.h"
+
+namespace sandstroke {
+namespace {
+
+namespace fs = std::filesystem;
+
+class ASweep : public testing::Test {
+ protected:
+  ASweep() {
+    write_text_file(temporary / "scene.toml",
+                    "[bed]\nsize = [0.2, 0.2]\ncells = [80, 80]\n[stroke]\nfile = \"line.toml\"\n"
+                    "[view]\nsize = [64, 48]\n");
+    write_text_file(temporary / "line.toml",
+                    "start = [-0.05, 0]\nspeed = 0.2\n[[segment]]\nkind = \"line\"\nto = [0.05, 0]\n"
+                    "depth = 0.005\n");
+  }
+
+  Sweep sweep(
+      const std::string& sweep_keys = "",
+      const std::string& axes = "relaxation.talus_angle = [25, 35]\nforce.k_s = [500, 1000, 2000]\n") {
+    write_text_file(temporary / "plan.toml",
+                    "[sweep]\nscene = \"scene.toml\"\n" + sweep_keys + "[axes]\n" + axes);
+    return Sweep(load_plan(temporary / "plan.toml"));
+  }
+  SweepFolder folder(const Sweep& sweep, const std::string& name) {
+    return SweepFolder::make(temporary / name, sweep.manifest());
+  }
+
+  TestFolder temporary;
+};
+
+SweepOptions with_jobs(int jobs, Shard shard = {}) {
+  SweepOptions options;
+  options.jobs = jobs;
+  options.shard = shard;
+  return options;
+}
+
+/// Same verdicts, metrics (but for times) and surfaces, to the bit.
+void expect_equal(const SweepFolder& a, const SweepFolder& b) {
+  ASSERT_EQ(a.points(), b.points());
+  for (std::size_t point = 0; point < a.points(); ++point) {
+    const auto one = a.read(point), other = b.read(point);
+    ASSERT_TRUE(one && other) << point;
+    EXPECT_EQ(one->verdict, other->verdict);
+    EXPECT_EQ(one->reason, other->reason);
+    for (std::size_t i = 0; i < a.metrics().size(); ++i) {
+      if (a.metrics()[i].timing) continue;
+      const double p = one->metrics[i], q = other->metrics[i];
+      EXPECT_TRUE(p == q || (std::isnan(p) && std::isnan(q))) << point << " " << a.metrics()[i].name;
+    }
+    if (a.manifest().keep_surface) {
+      EXPECT_TRUE((a.read_surface(point).grid() == b.read_surface(point).grid()).all());
+    }
+  }
+}
+
+TEST_F(ASweep, PointsOfEqualSandShareASimulationAndTheirInputs) {
+  Sweep s = sweep();
+  const SweepCounters counters = s.run(folder(s, "out"), {});
+  EXPECT_EQ(counters.points, 6u);
+  EXPECT_EQ(counters.run, 6u);
+  EXPECT_EQ(counters.simulations, 2u);
+  EXPECT_EQ(counters.strokes_loaded, 1);
+  EXPECT_EQ(counters.beds_loaded, 1);
+  EXPECT_EQ(counters.failed, 0u);
+}
+
+TEST_F(ASweep, OfADynamicDeviceSharesNothingButInputs) {
+  Sweep s = sweep("", "device.model = [\"dynamic\"]\nforce.k_s = [500, 1000]\n");
+  const SweepCounters counters = s.run(folder(s, "out"), {});
+  EXPECT_EQ(counters.simulations, 2u);
+  EXPECT_EQ(counters.beds_loaded, 1);
+}
+
+TEST_F(ASweep, AScriptThatPressesByForceIsAnotherStrokeForOtherConstants) {
+  write_text_file(temporary / "line.toml",
+                  "start = [-0.05, 0]\n[[segment]]\nkind = \"line\"\nto = [0.05, 0]\nforce = 2.0\n");
+  Sweep s = sweep();
+  const SweepCounters counters = s.run(folder(s, "out"), {});
+  EXPECT_EQ(counters.simulations, 6u);
+  EXPECT_EQ(counters.strokes_loaded, 3);
+}
+
+TEST_F(ASweep, GivesTheSameForAnyNumberOfJobsAndShards) {
+  Sweep s = sweep("keep = [\"surface\"]\n");
+  const SweepFolder one = folder(s, "one"), many = folder(s, "many"), shards = folder(s, "shards");
+  s.run(one, with_jobs(1));
+  s.run(many, with_jobs(3));
+  expect_equal(one, many);
+  std::size_t run = 0;
+  for (int i = 1; i <= 3; ++i) {
+    const SweepCounters counters = s.run(shards, with_jobs(1, {i, 3}));
+    run += counters.run;
+    EXPECT_LE(counters.simulations, 1u);  // two groups: one shard has none
+  }
+  EXPECT_EQ(run, 6u);
+  expect_equal(one, shards);
+}
+
+TEST_F(ASweep, ARerunDoesOnlyWhatIsMissingOrWasCutOff) {
+  Sweep s = sweep("keep = [\"surface\"]\n");
+  const SweepFolder whole = folder(s, "whole"), broken = folder(s, "broken");
+  s.run(whole, {});
+  s.run(broken, {});
+  fs::remove(broken.point_file(1));
+  fs::resize_file(broken.point_file(5), 100);
+  write_text_file(broken.path() / "points/000004.h5.part", "of a run that was killed");
+  const SweepCounters counters = s.run(broken, {});
+  EXPECT_EQ(counters.done_before, 4u);
+  EXPECT_EQ(counters.run, 2u);
+  EXPECT_EQ(counters.simulations, 2u);
+  expect_equal(whole, broken);
+  EXPECT_EQ(s.run(broken, {}).simulations, 0u);
+}
+
+TEST_F(ASweep, AFailingPointIsRecordedAndDoesNotStopTheRest) {
+  // Each value can be, but scaled by 30 the stroke leaves the bed.
+  Sweep s = sweep("", "device.scale = [1, 30]\nforce.k_s = [500, 1000]\n");
+  const SweepFolder out = folder(s, "out");
+  const SweepCounters counters = s.run(out, {});
+  EXPECT_EQ(counters.run, 4u);
+  EXPECT_EQ(counters.failed, 2u);
+  EXPECT_EQ(out.read(0)->verdict, PointVerdict::at_rest);
+  EXPECT_EQ(out.read(3)->verdict, PointVerdict::refused);
+  EXPECT_NE(out.read(3)->reason.find("outside the bed"), std::string::npos);
+  EXPECT_EQ(s.run(out, {}).failed, 2u);  // counted, not run, again
+}
+
+TEST_F(ASweep, SettingsThatDoNotGoTogetherAreRefusedPoints) {
+  Sweep s = sweep("", "bed.cells = [[160, 160], [80, 80]]\ntool.radius = [0.01, 0.002, 0.0007]\n");
+  const SweepFolder out = folder(s, "out");
+  EXPECT_EQ(s.run(out, {}).failed, 1u);  // less than half a cell, of the coarse bed only
+  EXPECT_EQ(out.read(5)->verdict, PointVerdict::refused);
+  EXPECT_EQ(out.read(2)->verdict, PointVerdict::at_rest);
+}
+
+TEST_F(ASweep, KeepsPicturesAndSurfacesWhereAskedTo) {
+  Sweep s = sweep("keep = [\"picture\", \"surface\"]\n", "force.k_s = [500, 1000]\n");
+  const SweepFolder out = folder(s, "out");
+  s.run(out, {});
+  EXPECT_EQ(read_png(out.picture_file(1)).width, 64);
+  EXPECT_GT(out.read_surface(1).grid().maxCoeff(), 0.0);
+  Sweep bare = sweep("", "force.k_s = [500, 1000]\n");
+  const SweepFolder without = folder(bare, "bare");
+  bare.run(without, {});
+  EXPECT_FALSE(fs::exists(without.picture_file(0)));
+}
+
+TEST_F(ASweep, WhatCannotBeWrittenEndsIt) {
+  Sweep s = sweep();
+  const SweepFolder out = folder(s, "out");
+  fs::remove_all(out.path() / "points");
+  EXPECT_THROW(s.run(out, with_jobs(2)), Error);
+}
+
+TEST_F(ASweep, AnEstimateLeavesNothingAndCountsAllPoints) {
+  Sweep s = sweep("keep = [\"surface\"]\n");
+  const Sweep::Estimate estimate = s.estimate();
+  EXPECT_GT(estimate.seconds, 0.0);
+  const SweepFolder out = folder(s, "out");
+  s.run(out, {});
+  double bytes = 0.0;
+  for (const auto& file : fs::directory_iterator(out.path() / "points"))
+    bytes += static_cast<double>(file.file_size());
+  EXPECT_NEAR(estimate.bytes / bytes, 1.0, 0.1);
+}
+
+TEST_F(ASweep, ItsManifestTellsItsInputsApart) {
+  const SweepManifest before = sweep().manifest();
+  EXPECT_EQ(sweep().manifest().inputs, before.inputs);
+  write_text_file(temporary / "line.toml", read_text_file(temporary / "line.toml") + "wait = 0.1\n");
+  EXPECT_NE(sweep().manifest().inputs, before.inputs);
+}
+
+}  // namespace
+}  // namespace sandstroke

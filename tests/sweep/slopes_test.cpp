@@ -1,0 +1,126 @@
+#include "sweep/slopes.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <numbers>
+
+#include "sand/relaxation.h"
+
+namespace sandstroke {
+namespace {
+
+constexpr double cell = 0.01;
+double degrees(double slope) { return std::atan(slope) * 180.0 / std::numbers::pi; }
+
+HeightField bed_of(int side, const std::function<double(double x, double y)>& height) {
+  HeightField bed(side, side, cell);
+  for (int row = 0; row < side; ++row)
+    for (int col = 0; col < side; ++col) bed.set(row, col, height(bed.x_of(col), bed.y_of(row)));
+  return bed;
+}
+
+TEST(DescentSlope, IsExactOnPlanesOfAnyDirection) {
+  for (int turn = 0; turn < 64; ++turn) {
+    const double angle = turn * std::numbers::pi / 32;
+    const HeightField bed =
+        bed_of(5, [&](double x, double y) { return 0.7 * (x * std::cos(angle) + y * std::sin(angle)); });
+    EXPECT_NEAR(descent_slope(bed, 2, 2), 0.7, 1e-13) << angle;
+  }
+}
+
+TEST(DescentSlope, OnACrestIsItsFlanksAndInAPitZero) {
+  const HeightField crest = bed_of(9, [](double, double y) { return -0.5 * std::abs(y); });
+  EXPECT_NEAR(descent_slope(crest, 4, 4), 0.5, 1e-13);
+  const HeightField diagonal = bed_of(9, [](double x, double y) { return -0.5 * std::abs(x - y); });
+  EXPECT_NEAR(descent_slope(diagonal, 4, 4), 0.5 * std::numbers::sqrt2, 1e-13);
+  const HeightField pit = bed_of(9, [](double x, double y) { return std::hypot(x, y); });
+  EXPECT_EQ(descent_slope(pit, 4, 4), 0.0);
+}
+
+TEST(DescentSlope, NothingFallsBeyondAWall) {
+  const HeightField bed = bed_of(4, [](double x, double) { return 0.5 * x; });
+  EXPECT_NEAR(descent_slope(bed, 0, 3), 0.5, 1e-13);  // down along the wall
+  EXPECT_EQ(descent_slope(bed, 0, 0), 0.0);           // the lowest column
+  EXPECT_EQ(descent_slope(HeightField(HeightGrid::Constant(1, 1, 3.0), cell), 0, 0), 0.0);
+}
+
+TEST(DescentSlope, OfAConeIsItsOwnUpToTheBendOfItsContours) {
+  // The way down turns by 1 / distance; half of a cell's turn on the triangle's first side, one and a half on
+  // its second, which begins a cell away.
+  const HeightField cone = bed_of(101, [](double x, double y) { return -0.6 * std::hypot(x, y); });
+  for (int row = 1; row < 100; ++row)
+    for (int col = 1; col < 100; ++col) {
+      const double distance = std::hypot(cone.x_of(col), cone.y_of(row)) - std::numbers::sqrt2 * cell;
+      if (distance < cell) continue;
+      EXPECT_NEAR(descent_slope(cone, row, col), 0.6, 0.6 * 2.0 * cell / distance) << row << ' ' << col;
+    }
+  // At the tip: that of the octagonal pyramid through the cells around it.
+  EXPECT_NEAR(descent_slope(cone, 50, 50), 0.6 * std::hypot(1.0, std::numbers::sqrt2 - 1.0), 1e-13);
+}
+
+TEST(Slopes, AreOfCellsThatChanged) {
+  const HeightField before = bed_of(100, [](double, double y) { return 0.1 * y; });
+  HeightField after = before;
+  // Rows 20 to 79 are tilted the other way, about the middle.
+  for (int row = 20; row < 80; ++row)
+    for (int col = 0; col < 100; ++col) after.set(row, col, -0.5 * after.y_of(row));
+  const SlopeMeasures measures = measure_slopes(before, after, degrees(0.5) + 0.9);
+  // The first tilted row looks down its slope; the last one too, on the old bed's side, as a cliff.
+  const double cliff = degrees((after(79, 0) - after(80, 0)) / cell), flank = degrees(0.5);
+  const double first = degrees(std::max(0.5, (after(20, 0) - after(19, 0)) / cell));
+  EXPECT_LT(cliff, 0.0);  // the lowest row is a gutter
+  EXPECT_NEAR(measures.mean, (58.0 * flank + first) / 60.0, 1e-10);
+  EXPECT_NEAR(measures.steepest, std::max(first, flank), 1e-10);
+  EXPECT_NEAR(measures.share_at_talus, 58.0 / 60.0, 1e-15);
+  EXPECT_EQ(measure_slopes(before, after, flank + 1.1).share_at_talus, 0.0);
+}
+
+TEST(Slopes, NothingChangedMeansNone) {
+  const HeightField bed = bed_of(20, [](double x, double) { return 0.4 * x; });
+  const SlopeMeasures measures = measure_slopes(bed, bed, 30.0);
+  EXPECT_TRUE(std::isnan(measures.mean) && std::isnan(measures.steepest) &&
+              std::isnan(measures.share_at_talus));
+}
+
+TEST(Slopes, OnTheLargestBedOnlyItsTilesAreLookedAt) {
+  const HeightField before(65536, 65536, cell);
+  HeightField after = before;
+  after.set(40000, 63, cell);  // beside a tile that does not exist
+  const SlopeMeasures measures = measure_slopes(before, after, 45.0);
+  EXPECT_NEAR(measures.mean, 45.0, 1e-12);
+  EXPECT_NEAR(measures.share_at_talus, 1.0, 0.0);
+}
+
+TEST(Slopes, OfSandAtRestByThePapersLawAreAtMostItsOctagons) {
+  // Drops to axis neighbours of at most T and to diagonal ones of at most sqrt 2 T bound a triangle's slope
+  // by sqrt(1 + (sqrt 2 - 1)^2) = 1.0824 T (model.md).
+  const HeightField before = bed_of(96, [](double x, double y) {
+    return std::hypot(x, y) < 0.2 ? 0.15 : 0.01 * std::sin(50.0 * x + 31.0 * y);
+  });
+  HeightField after = before;
+  RelaxationSettings settings;
+  settings.law = RelaxationLaw::paper;
+  settings.talus_angle = 30.0;
+  ASSERT_TRUE(make_relaxer(settings, cell)->relax(after).converged);
+  const double octagon = std::hypot(1.0, std::numbers::sqrt2 - 1.0) * std::tan(std::numbers::pi / 6);
+  const SlopeMeasures measures = measure_slopes(before, after, 30.0);
+  EXPECT_LE(measures.steepest, degrees(octagon * (1.0 + settings.tolerance)) + 1e-9);
+  EXPECT_GT(measures.steepest, 30.0);
+  EXPECT_LT(measures.mean, measures.steepest);
+}
+
+TEST(Slopes, OfAConeAreItsAngle) {
+  const double slope = std::tan(std::numbers::pi / 6);
+  const HeightField before(201, 201, cell);
+  const HeightField cone =
+      bed_of(201, [&](double x, double y) { return std::max(0.0, slope * (0.8 - std::hypot(x, y))); });
+  const SlopeMeasures measures = measure_slopes(before, cone, 30.0);
+  // Cells within r of the middle are off by 1 / r (cells) at most, the last ring at the foot by any amount.
+  EXPECT_NEAR(measures.mean, 30.0, 0.5);
+  EXPECT_GT(measures.share_at_talus, 0.9);
+}
+
+}  // namespace
+}  // namespace sandstroke

@@ -1,0 +1,75 @@
+#include "sweep/sweep_design.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace sandstroke {
+namespace {
+
+SweepAxis axis(const std::string& key, std::vector<std::string> values) {
+  return {key, "", false, std::move(values)};
+}
+
+TEST(SweepDesign, AGridHasEveryCombinationOnceTheLastAxisFastest) {
+  const SweepDesign design{true, {axis("a", {"1", "2"}), axis("b", {"x", "y", "z"}), axis("c", {"5"})}};
+  EXPECT_EQ(design.shape(), (std::vector<std::size_t>{2, 3, 1}));
+  ASSERT_EQ(design.points(), 6u);
+  std::set<std::vector<std::string>> seen;
+  for (std::size_t point = 0; point < design.points(); ++point) {
+    seen.insert(design.settings(point));
+    // The index in an array of that shape, as C orders it.
+    EXPECT_EQ((design.value_at(point, 0) * 3 + design.value_at(point, 1)) * 1 + design.value_at(point, 2),
+              point);
+  }
+  EXPECT_EQ(seen.size(), 6u);
+  EXPECT_EQ(design.settings(5), (std::vector<std::string>{"a=2", "b=z", "c=5"}));
+}
+
+TEST(SweepDesign, ALatinPointTakesTheValueOfItsIndex) {
+  const SweepDesign design{false, {axis("a", {"3", "1", "2"}), axis("b", {"x", "z", "y"})}};
+  EXPECT_EQ(design.shape(), std::vector<std::size_t>{3});
+  EXPECT_EQ(design.settings(1), (std::vector<std::string>{"a=1", "b=z"}));
+}
+
+TEST(SweepDesign, TellsNumbersFromText) {
+  EXPECT_TRUE(axis("a", {"1", "2.5", "-3e5"}).numeric());
+  EXPECT_FALSE(axis("a", {"1", "\"x\""}).numeric());
+  EXPECT_FALSE(axis("a", {"[1, 2]"}).numeric());
+  EXPECT_EQ(axis("a", {"2.5"}).number(0), 2.5);
+  EXPECT_EQ(axis("a", {"\"paper\""}).label(0), "paper");
+}
+
+TEST(Spread, EndsAreExactAndStepsAreTheDecimalsOneMeans) {
+  EXPECT_EQ(spread(20.0, 45.0, 11, false)[3], 27.5);
+  EXPECT_EQ(spread(0.1, 0.5, 5, false), (std::vector<double>{0.1, 0.2, 0.3, 0.4, 0.5}));
+  EXPECT_EQ(spread(1.0, 10000.0, 5, true), (std::vector<double>{1.0, 10.0, 100.0, 1000.0, 10000.0}));
+  EXPECT_EQ(spread(1.0 / 3.0, 1e-17, 2, true), (std::vector<double>{1.0 / 3.0, 1e-17}));
+  EXPECT_EQ(spread(7.0, 9.0, 1, false), std::vector<double>{7.0});
+}
+
+TEST(LatinHypercube, EachAxisHasOneNumberInEachNth) {
+  constexpr std::size_t n = 97;
+  const auto samples = latin_hypercube(3, n, 5);
+  for (const std::vector<double>& axis : samples) {
+    std::set<int> strata;
+    for (const double x : axis) {
+      EXPECT_GE(x, 0.0);
+      EXPECT_LT(x, 1.0);
+      strata.insert(static_cast<int>(std::floor(x * n)));
+    }
+    EXPECT_EQ(strata.size(), n);
+    EXPECT_FALSE(std::is_sorted(axis.begin(), axis.end()));
+  }
+  EXPECT_NE(samples[0], samples[1]);
+}
+
+TEST(LatinHypercube, FollowsFromItsSeed) {
+  EXPECT_EQ(latin_hypercube(2, 10, 1), latin_hypercube(2, 10, 1));
+  EXPECT_NE(latin_hypercube(2, 10, 1), latin_hypercube(2, 10, 2));
+}
+
+}  // namespace
+}  // namespace sandstroke

@@ -1,0 +1,116 @@
+#include "sweep/sweep_folder.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "core/error.h"
+#include "core/output_file.h"
+#include "sand/initial_surface.h"
+#include "test_folder.h"
+
+namespace sandstroke {
+namespace {
+
+namespace fs = std::filesystem;
+
+class AFolder : public testing::Test {
+ protected:
+  TestFolder temporary;
+  const fs::path path = temporary / "sweep";
+};
+
+SweepManifest manifest() {
+  SweepManifest m;
+  m.scene = "/somewhere/it's here/scene.toml";
+  m.settings = {"bed.cells=[64, 64]"};
+  m.design = {true,
+              {{"relaxation.talus_angle", "deg", false, {"20", "30"}},
+               {"model.preset", "", false, {"\"paper\"", "\"accurate\""}}}};
+  m.metrics = {"max_force", "work"};
+  m.inputs = {{"scene.toml", "0123"}};
+  m.version = "1", m.commit = "abc";
+  return m;
+}
+
+std::string refusal(const fs::path& path, const SweepManifest& m) {
+  try {
+    SweepFolder::make(path, m);
+  } catch (const Error& failure) {
+    return failure.what();
+  }
+  return "";
+}
+
+TEST_F(AFolder, IsTakenUpBySameSweepAndOpenedAsItWasMade) {
+  SweepFolder::make(path, manifest());
+  SweepManifest moved = manifest();
+  moved.scene = "/elsewhere/scene.toml", moved.inputs[0].first = "there.toml";
+  EXPECT_EQ(SweepFolder::make(path, moved).manifest().scene, manifest().scene);
+  const SweepFolder opened = SweepFolder::open(path);
+  EXPECT_EQ(opened.points(), 4u);
+  EXPECT_EQ(opened.metrics()[1].name, "work");
+  EXPECT_EQ(opened.design().settings(3), manifest().design.settings(3));
+  EXPECT_EQ(opened.command(2),
+            "sandstroke run '/somewhere/it'\\''s here/scene.toml' --set 'bed.cells=[64, 64]' --set "
+            "relaxation.talus_angle=30 --set 'model.preset=\"paper\"' -o point-000002.h5");
+}
+
+TEST_F(AFolder, OfAnotherSweepIsRefusedAndSaysWhatDiffers) {
+  SweepFolder::make(path, manifest());
+  SweepManifest other = manifest();
+  other.design.axes[0].values.push_back("40");
+  EXPECT_NE(refusal(path, other).find("its axes differ"), std::string::npos) << refusal(path, other);
+  other = manifest();
+  other.inputs[0].second = "4567";
+  EXPECT_NE(refusal(path, other).find("scene, strokes or other files"), std::string::npos);
+  other = manifest();
+  other.commit = "def";
+  EXPECT_NE(refusal(path, other).find("commit"), std::string::npos);
+}
+
+TEST_F(AFolder, WithFilesOfOthersOrADamagedManifestIsRefused) {
+  fs::create_directories(path);
+  write_text_file(path / "thesis.txt", "precious");
+  EXPECT_NE(refusal(path, manifest()).find("other files"), std::string::npos);
+  EXPECT_THROW(SweepFolder::open(path), Error);
+  for (const char* text : {"", "{", "{}", "[]", R"({"format": 5})"}) {
+    write_text_file(path / "manifest.json", text);
+    EXPECT_THROW(SweepFolder::open(path), Error) << text;
+  }
+}
+
+TEST_F(AFolder, GivesPointsBackToTheBit) {
+  const SweepFolder folder = SweepFolder::make(path, manifest());
+  EXPECT_FALSE(folder.read(3));
+  HeightField surface = make_surface({}, 70, 90, 0.25);
+  surface.set(3, 80, -0.1);
+  folder.write(3, {PointVerdict::active, "", {0.1, PointResult::none}}, "[bed]\n", &surface);
+  const auto result = folder.read(3);
+  ASSERT_TRUE(result);
+  EXPECT_EQ(result->verdict, PointVerdict::active);
+  EXPECT_EQ(result->metrics[0], 0.1);
+  EXPECT_TRUE(std::isnan(result->metrics[1]));
+  EXPECT_TRUE((folder.read_surface(3).grid() == surface.grid()).all());
+  EXPECT_EQ(folder.read_surface(3).cell_size(), 0.25);
+
+  folder.write(1, {PointVerdict::unstable, "it \"blew\" up", {PointResult::none, PointResult::none}}, "",
+               nullptr);
+  EXPECT_EQ(folder.read(1)->reason, "it \"blew\" up");
+}
+
+TEST_F(AFolder, APointThatWasCutOffIsMissing) {
+  const SweepFolder folder = SweepFolder::make(path, manifest());
+  folder.write(2, {PointVerdict::at_rest, "", {1.0, 2.0}}, "", nullptr);
+  fs::resize_file(folder.point_file(2), fs::file_size(folder.point_file(2)) / 2);
+  EXPECT_FALSE(folder.read(2));
+  std::ofstream(folder.point_file(1)) << "";
+  EXPECT_FALSE(folder.read(1));
+  // Another point's file under this name.
+  folder.write(0, {PointVerdict::at_rest, "", {1.0, 2.0}}, "", nullptr);
+  fs::rename(folder.point_file(0), folder.point_file(2));
+  EXPECT_FALSE(folder.read(2));
+}
+
+}  // namespace
+}  // namespace sandstroke
