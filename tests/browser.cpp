@@ -269,6 +269,10 @@ void Browser::press(const std::string& key) {
                               : held == "Control" ? 2
                                                   : 0}};
   if (!one.text.empty() && held != "Control") event["text"] = one.text;
+  static const std::map<std::string, std::string> editing = {
+      {"a", "selectAll"}, {"c", "copy"}, {"v", "paste"}};
+  if (const auto found = editing.find(one.key); held == "Control" && found != editing.end())
+    event["commands"] = {found->second};  // which a desktop would give these keys
   call("Input.dispatchKeyEvent", event);
   event["type"] = "keyUp";
   event.erase("text");
@@ -281,8 +285,10 @@ void Browser::type(const std::string& text) {
 
 void Browser::choose(const std::string& selector, const std::string& text) {
   const std::string one = "document.querySelector(" + quoted(selector) + ")";
-  const Json place = evaluate(one + ".focus(), [..." + one +
-                              ".options].findIndex((option) => option.text === " + quoted(text) + ")");
+  const Json place = evaluate(
+      one + ".focus(), [..." + one +
+      ".options].filter(({ disabled }) => !disabled).findIndex((option) => option.text === " + quoted(text) +
+      ")");
   require(place >= 0, selector + " has no option \"" + text + "\"");
   press("Home");
   for (int i = 0; i < place; ++i) press("ArrowDown");

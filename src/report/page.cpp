@@ -23,6 +23,7 @@ SANDSTROKE_ASSET(plot);
 SANDSTROKE_ASSET(bench);
 SANDSTROKE_ASSET(stress);
 SANDSTROKE_ASSET(sweep_charts);
+SANDSTROKE_ASSET(sweep_points);
 SANDSTROKE_ASSET(sweep);
 SANDSTROKE_ASSET(compare_maps);
 SANDSTROKE_ASSET(compare_traces);
@@ -44,7 +45,7 @@ std::vector<std::string_view> texts_of(PageScript script) {
     case PageScript::stress:
       return {SANDSTROKE_ASSET(stress)};
     case PageScript::sweep:
-      return {SANDSTROKE_ASSET(sweep_charts), SANDSTROKE_ASSET(sweep)};
+      return {SANDSTROKE_ASSET(sweep_charts), SANDSTROKE_ASSET(sweep_points), SANDSTROKE_ASSET(sweep)};
     case PageScript::compare:
       return {SANDSTROKE_ASSET(compare_maps), SANDSTROKE_ASSET(compare_traces), SANDSTROKE_ASSET(compare)};
   }

@@ -1,4 +1,4 @@
-#include "chromium.h"
+#include "browser.h"
 
 #include <spdlog/fmt/fmt.h>
 
@@ -6,6 +6,7 @@
 #include <map>
 #include <set>
 
+#include "hostile_text.h"
 #include "report/page.h"
 
 namespace sandstroke {
@@ -26,9 +27,9 @@ OpenedPage open(PageScript script, const Json& data, const std::string& probe) {
 /// A probe from statements that return its value.
 std::string function(const std::string& body) { return "(() => {" + body + "})()"; }
 
-using Bench = ChromiumTest;
-using Stress = ChromiumTest;
-using AnyPage = ChromiumTest;
+using Bench = BrowserTest;
+using Stress = BrowserTest;
+using AnyPage = BrowserTest;
 
 TEST_F(Bench, LoadsWithoutErrorsAndDrawsTheChartsOfItsData) {
   // The cone varies its cells and knows directions, the drag does neither.
@@ -88,6 +89,22 @@ TEST_F(Bench, AnErrorOfZeroIsLeftOutOfALogarithmicChartAndSaidSo) {
       open(PageScript::bench, bench_data(),
            "[...document.querySelectorAll('figcaption small')].map((note) => note.textContent).at(-1)");
   EXPECT_NE(page.answer.get<std::string>().find("1 of 4 runs"), std::string::npos) << page.answer;
+}
+
+TEST_F(Bench, EverySymbolShowsItsFiguresUnderThePointer) {
+  browser().open_text(html_page("Title", PageScript::bench, bench_data()));
+  browser().centre(".canvas");
+  const Json places = browser().evaluate(function(R"js(
+    const { canvas, drawn, option } = charts[0], box = canvas.getBoundingClientRect();
+    return option.series.flatMap(({ data }) => data).filter((item) => item.run).map(({ value, run }) => {
+      const [x, y] = drawn.convertToPixel({ xAxisIndex: 0, yAxisIndex: 0 }, value);
+      return [box.x + x, box.y + y, `${run.series} · ${run.label}`];
+    });)js"));
+  EXPECT_GT(places.size(), 0u);
+  for (const Json& place : places) {
+    browser().hover(Point{place[0], place[1]});
+    browser().wait_for("document.querySelector('.tip strong')?.textContent === " + place[2].dump());
+  }
 }
 
 TEST_F(Bench, ANameInTheLegendHidesItsCurveAndShowsItAgain) {
@@ -276,28 +293,6 @@ TEST_F(AnyPage, AnErrorIsCountedAndShown) {
   EXPECT_EQ(page.answer[0], Json({"true", 0, 1}));
   EXPECT_NE(page.answer[1].get<std::string>().find("could not be drawn"), std::string::npos);
   EXPECT_EQ(page.console.size(), 1u);
-}
-
-const std::string hostile =
-    "</script><script>document.documentElement.dataset.hacked = 1</script>"
-    "<img src=x onerror=\"document.documentElement.dataset.hacked = "
-    "1\"><!--'\"&lt;{a|b}\x01\x7f\u202e\u00e9\U0001f4a5 ";
-
-/// Every text of the data becomes hostile, in the same way, so that what refers still refers. Names of
-/// columns stay.
-void poison(Json& data, const std::string& key = "") {
-  if (data.is_string() && key != "error" && key != "column") data = hostile + data.get<std::string>();
-  if (data.is_object())
-    for (auto& [name, value] : data.items()) poison(value, name);
-  if (data.is_array())
-    for (Json& value : data) {
-      if (key == "columns") {
-        value["title"] = hostile;
-        value["unit"] = hostile;
-      } else {
-        poison(value, key);
-      }
-    }
 }
 
 TEST_F(AnyPage, TextOfTheDataStaysText) {

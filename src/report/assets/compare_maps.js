@@ -6,7 +6,8 @@ const unitText = (unit) => unit.replace(/^um$/, "µm");
 
 /** What the colours of a map mean. */
 const barOf = ({ title, unit, low, high, colours: stops }) =>
-  colourBar(scaleOf([low, high], { margin: 0, title, unit: unitText(unit) }), 0, stops);
+  colourBar({ name: withUnit(title, unitText(unit)), low, high, stops,
+              ticks: roundTicks(low, high, 5).map((tick) => [tick, tickText(tick)]) });
 
 /** A map, which fills its place, with a ring around the largest difference where it shows that. */
 function layer(part, map) {

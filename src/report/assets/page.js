@@ -32,8 +32,10 @@ const powerOfTen = (exponent) =>
   "10" + String(exponent).replace(/[-0-9]/g, (c) => (c === "-" ? "⁻" : "⁰¹²³⁴⁵⁶⁷⁸⁹"[c]));
 const withMinus = (text) => text.replace("-", "−");
 
-const grouped = (value) =>
-  withMinus(Math.abs(value) < 1e4 ? String(value) : String(value).replace(/\B(?=(\d{3})+$)/g, "\u202f"));
+const grouped = (value) => {
+  const [whole, ...rest] = String(value).split(".");
+  return withMinus([Math.abs(value) < 1e4 ? whole : whole.replace(/\B(?=(\d{3})+$)/g, "\u202f"), ...rest].join("."));
+};
 
 /** A number as text: to four digits, or in full where it is `whole`; "–" for none. */
 function format(value, whole = Number.isInteger(value)) {
@@ -71,7 +73,10 @@ const collator = new Intl.Collator("en", { numeric: true });
 
 // ---- Tables.
 
-/** Leafs through `rows`, `perPage` at a time: draw(part) shows a part. Returns its element, and take(rows). */
+/**
+ * Leafs through rows, `perPage` at a time: draw(part) shows a part. Returns its element; take(rows); and
+ * reveal(row), which turns to the page of a row.
+ */
 function pager(perPage, draw) {
   let rows = [], start = 0;
   const turn = (pages) => () => {
@@ -90,7 +95,16 @@ function pager(perPage, draw) {
     on.disabled = end === rows.length;
     draw(rows.slice(start, end));
   };
-  return { element, take: (all) => { rows = all; start = 0; show(); } };
+  return {
+    element,
+    take: (all) => { rows = all; start = 0; show(); },
+    reveal: (row) => {
+      const i = rows.indexOf(row), first = i - (i % perPage);
+      if (i < 0 || first === start) return;
+      start = first;
+      show();
+    },
+  };
 }
 
 /**
@@ -98,7 +112,7 @@ function pager(perPage, draw) {
  * columns: {name, title, unit, value(row) to sort by, cell(row) to show}; only name is needed. `perPage` rows
  * are shown at a time; choose(row) is called for the row that is clicked.
  * Returns its element; show(keep), which leaves the rows that keep(row) wants and says how many; mark(row), which
- * sets one off; and texts(row), what its cells say.
+ * sets one off and brings it into sight; and texts(row), what its cells say.
  */
 function table(columns, rows, { label, rowClass = () => null, perPage = Infinity, choose = null } = {}) {
   const valueOf = (column) => column.value ?? ((row) => row[column.name]);
@@ -145,16 +159,25 @@ function table(columns, rows, { label, rowClass = () => null, perPage = Infinity
     return head;
   });
   show();
+  const head = el("thead", {}, el("tr", {}, ...heads));
+  const box = el("div", { class: "scroll", tabindex: "0", role: "region", "aria-label": label },
+                 el("table", { class: choose && "choice" }, head, body));
+  /** Scrolls within the box: not the page, where something else may be looked at. */
+  const reveal = (line) => {
+    const low = line.offsetTop + line.offsetHeight - box.clientHeight, high = line.offsetTop - head.offsetHeight;
+    if (box.scrollTop < low || box.scrollTop > high) box.scrollTop = (low + high) / 2;
+  };
   return {
-    element: el("div", {},
-      el("div", { class: "scroll", tabindex: "0", role: "region", "aria-label": label },
-         el("table", { class: choose && "choice" }, el("thead", {}, el("tr", {}, ...heads)), body)),
-      perPage < rows.length ? pages.element : null),
+    element: el("div", {}, box, perPage < rows.length ? pages.element : null),
     show: (wanted) => { keep = wanted; return show(); },
     mark: (row) => {
+      if (row === marked) return;
       lines.get(marked)?.removeAttribute("data-marked");
       marked = row;
-      lines.get(marked)?.setAttribute("data-marked", "");
+      pages.reveal(row);
+      const line = lines.get(row);
+      line?.setAttribute("data-marked", "");
+      if (line?.isConnected) reveal(line);
     },
     texts: (row) => columns.map((column, i) => textOf(row, i)),
   };

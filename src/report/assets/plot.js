@@ -6,7 +6,9 @@
 // grey print tells them apart.
 const colours = ["#0072b2", "#d55e00", "#009e73", "#b65c92", "#e69f00", "#3fa7e0", "#333333"];
 const symbols = [  // outlines in a square of 10
-  "M5 0a5 5 0 1 0 0.01 0z", "M0 0h10v10h-10z", "M5 0l5.5 10h-11z", "M5 0l5 5-5 5-5-5z", "M5 10l5.5-10h-11z",
+  // A circle of one arc would be drawn, but never found under the pointer.
+  "M5 0a5 5 0 0 1 0 10a5 5 0 0 1 0-10z", "M0 0h10v10h-10z", "M5 0l5.5 10h-11z", "M5 0l5 5-5 5-5-5z",
+  "M5 10l5.5-10h-11z",
   "M3.3 0h3.4v3.3h3.3v3.4h-3.3v3.3h-3.4v-3.3h-3.3v-3.4h3.3z", "M2 0h6l3 5-3 5h-6l-3-5z",
 ];
 const dashes = ["solid", "dashed", "dotted"];
@@ -111,16 +113,20 @@ const rampInk = (share) => (share > 0.55 ? "#ffffff" : "#1d2329");
 /** The share of a scale (without margin) that a value takes. */
 const shareOf = (scale, value) => (scale.at(value) - scale.low) / (scale.high - scale.low);
 
-/** What colours mean: a bar with the ticks of a scale. They are the ramp's, from a share of it on, or `stops`. */
-function colourBar(scale, from = 0, stops = Array.from({ length: 11 }, (_, i) => ramp(from + (1 - from) * (i / 10)))) {
-  const { axisLabel, name } = scale.axis;
-  const ticks = axisLabel.customValues.map((place) => {
-    const share = (place - scale.low) / (scale.high - scale.low);
-    return el("span", { style: `left: ${100 * share}%` }, axisLabel.formatter(place));
-  });
-  return el("div", { class: "bar" }, el("span", {}, name),
-            el("div", {}, el("div", { class: "ramp", style: `background: linear-gradient(to right, ${stops})` }),
-               el("div", { class: "ticks", "aria-hidden": "true" }, ...ticks)));
+/** What colours mean: a bar of colour stops from low to high, with ticks [value, text]. */
+function colourBar({ name, low, high, ticks, stops }) {
+  const marks = ticks.map(([value, text]) =>
+    el("span", { style: `left: ${(100 * (value - low)) / (high - low)}%` }, text));
+  return el("div", { class: "colours" }, el("span", {}, name),
+            el("div", {}, el("div", { class: "bar", style: `background: linear-gradient(to right, ${stops})` }),
+               el("div", { class: "marks" }, ...marks)));
+}
+
+/** That of the ramp, from a share of it on, over a scale. */
+function rampBar({ low, high, axis: { name, axisLabel } }, from = 0) {
+  const ticks = axisLabel.customValues.map((place) => [place, axisLabel.formatter(place)]);
+  const stops = Array.from({ length: 11 }, (_, i) => ramp(from + (1 - from) * (i / 10)));
+  return colourBar({ name, low, high, ticks, stops });
 }
 
 // ---- Charts.
@@ -247,7 +253,8 @@ function borders(places) {
 function rectangle(api) {
   const [left, bottom] = api.coord([api.value(0), api.value(1)]);
   const [right, top] = api.coord([api.value(2), api.value(3)]);
-  return { x: left, y: top, width: right - left, height: bottom - top };
+  const [x, y] = [Math.round(left), Math.round(top)];  // on whole pixels, so that cells leave no seam
+  return { x, y, width: Math.round(right) - x, height: Math.round(bottom) - y };
 }
 
 /** Cells; look(cell) gives {fill, sign, ink}. */

@@ -187,7 +187,8 @@ drawPage((data, main) => {
         : "Every case ended as it was expected to."),
       el("p", {}, "Each case and each cell of a map has a verdict, and one or several that theory or common sense " +
         "expect; another one is a surprise, and outlined. The signs are:"),
-      el("ul", { class: "legend" }, ...[...verdicts.keys()].map((name) => el("li", {}, verdictMark(lookOfVerdict(name), name)))));
+      el("ul", { class: "legend" },
+         ...[...verdicts].map(([name, look]) => el("li", {}, verdictMark(look, name)))));
   }
   const sections = [
     ["maps", "Maps", maps, () => [el("div", { class: "charts" }, ...maps.map(mapChart))]],

@@ -10,9 +10,11 @@ const verdicts = new Map([
   ["active", { fill: "#7a63b3", sign: "!", ink: "#ffffff" }],
   ["unstable", { fill: "#ad3a06", sign: "×", ink: "#ffffff", mark: { colour: "#ad3a06", symbol: cross } }],
   ["refused", { fill: "#9aa3aa", sign: "–", ink: "#1d2329", mark: { colour: "#5b6670", symbol: symbols[1] } }],
-  ["missing", { fill: "#eceff1", sign: "?", ink: "#1d2329", mark: { colour: "#5b6670", symbol: symbols[0], hollow: true } }],
+  ["missing", { fill: "#eceff1", sign: "?", ink: "#1d2329",
+                mark: { colour: "#5b6670", symbol: symbols[0], hollow: true } }],
 ]);
-const noValue = { fill: "#ffffff", sign: "∅", ink: "#1d2329", mark: { colour: "#5b6670", symbol: symbols[4], hollow: true } };
+const noValue = { fill: "#ffffff", sign: "∅", ink: "#1d2329",
+                  mark: { colour: "#5b6670", symbol: symbols[4], hollow: true } };
 const lookOfVerdict = (name) => verdicts.get(name) ?? noValue;
 /** Why a point has no value of a metric: its verdict, where that is the reason. */
 const nameWithout = ({ verdict }) => (lookOfVerdict(verdict).mark && verdicts.has(verdict) ? verdict : "no value");
@@ -31,8 +33,8 @@ function prepareAxis(axis) {
   const rank = [];
   order.forEach((i, k) => { rank[i] = k; });
   const text = (i) => (numeric ? exact(values[i]) : String(values[i] ?? "–"));
-  const scale = () => (numeric
-    ? { ...scaleOf(values, { logarithmic, title: name, unit }), at: place }
+  const scale = (margin) => (numeric
+    ? { ...scaleOf(values, { logarithmic, margin, title: name, unit }), at: place }
     : nameScale(values.map(String), { title: withUnit(name, unit) }));
   /** The scale on which the cell of the i-th value reaches from edges[i][0] to edges[i][1]. */
   const cells = () => {
@@ -46,6 +48,12 @@ function prepareAxis(axis) {
   return { ...axis, numeric, logarithmic, place, order, rank, text, scale, cells };
 }
 
+/** The points that a view shows: those that share the selected one's values of its `fixed` axes. */
+function sliceOf({ axes, points, latin }, view) {
+  const fixed = latin ? [] : axes.map((_, i) => i).filter((i) => i !== view.x && i !== view.second);
+  return { fixed, shown: points.filter(({ at }) => fixed.every((i) => at[i] === view.at[i])) };
+}
+
 /**
  * What all charts of a view start from: the points on it, the metric's scale over the whole sweep (so that it
  * stays while other axes move), what a tooltip says, and the legend of the points without a value.
@@ -55,10 +63,10 @@ function viewOf(sweep, view) {
   const metric = metrics[view.metric];
   const [x, second] = [axes[view.x], axes[view.second]];
   const valueOf = (point) => point.metrics[view.metric] ?? null;
-  const fixed = sweep.latin ? [] : axes.map((_, i) => i).filter((i) => i !== view.x && i !== view.second);
-  const shown = points.filter(({ at }) => fixed.every((i) => at[i] === view.at[i]));
+  const { fixed, shown } = sliceOf(sweep, view);
   const all = points.map(valueOf).filter(isNumber);
-  const scaled = (margin, title = metric.title) => scaleOf(all, { logarithmic: view.log, margin, title, unit: metric.unit });
+  const scaled = (margin) =>
+    scaleOf(all, { logarithmic: view.log, margin, title: metric.title, unit: metric.unit });
   const tip = (item) => {
     const point = item.data?.point;
     return point && tipOf(`point ${point.point}: ${point.verdict}`, [
@@ -71,15 +79,18 @@ function viewOf(sweep, view) {
     const own = without.filter((point) => nameWithout(point) === name);
     return { name, text: `${name}: ${count(own.length, "point")}`, ...lookWithout(own[0]) };
   });
-  const note = [
-    fixed.length ? `At ${fixed.map((i) => `${axes[i].name} = ${axes[i].text(view.at[i])} ${axes[i].unit}`.trim()).join(", ")}.` : "",
-    without.length === shown.length ? "No point here has a value of this metric." : "",
-  ].filter(Boolean).join(" ") || null;
+  const held = fixed.map((i) => `${axes[i].name} = ${axes[i].text(view.at[i])} ${axes[i].unit}`.trim());
+  const note = [held.length > 0 && `At ${held.join(", ")}.`,
+                without.length === shown.length && "No point here has a value of this metric."]
+    .filter(Boolean).join(" ") || null;
   return { metric, x, second, valueOf, shown, without, scaled, tip, legend, note };
 }
 
 /** An entry of the legend where points are symbols. */
 const marked = ({ name, text, mark }) => ({ name, text, ...mark, dash: "none" });
+
+/** Room below a scale's values for signs, some one above the other. */
+const addGround = (y, signs) => { y.low = y.axis.min -= (y.high - y.low) * (0.02 + 0.045 * signs); };
 
 /** How the selected point is set off among symbols. */
 const ring = (data) => ({
@@ -106,20 +117,21 @@ function linesChart(sweep, view) {
     steps.set(point.at[view.x], step + 1);
     height.set(point, -8 - 12 * (step % 6));
   }
-  if (without.length) y.low = y.axis.min -= (y.high - y.low) * (0.02 + 0.045 * Math.min(6, Math.max(...steps.values())));
+  if (without.length > 0) addGround(y, Math.min(6, Math.max(...steps.values())));
   const families = (second?.order ?? [null]).map((i) => ({
-    name: second ? second.text(i) : metric.title,
-    points: shown.filter(({ at }) => i === null || at[view.second] === i).sort((a, b) => x.place(a.at[view.x]) - x.place(b.at[view.x])),
+    name: `line ${i}`, text: second?.text(i),
+    points: shown.filter(({ at }) => i === null || at[view.second] === i)
+      .sort((a, b) => x.rank[a.at[view.x]] - x.rank[b.at[view.x]]),
   })).filter(({ points }) => points.length > 0);
   // Colours of the ramp where they tell an order that has more steps than there are colours.
   const graded = second?.numeric && families.length > colours.length;
   const bar = graded && families.length > 2 * colours.length;
   const gradeFrom = 0.22;
-  const looks = families.map((_, i) => (graded
-    ? { ...lookOf(i), colour: ramp(gradeFrom + (1 - gradeFrom) * i / (families.length - 1)), dash: "solid" } : lookOf(i)));
+  const grade = (i) => ramp(gradeFrom + (1 - gradeFrom) * (i / (families.length - 1)));
+  const looks = families.map((_, i) => (graded ? { ...lookOf(i), colour: grade(i), dash: "solid" } : lookOf(i)));
   const symbolSize = shown.length > 400 ? 4 : 8;
   const lines = families.map(({ name, points }, i) => ({
-    type: "line", name, symbol: outlined(looks[i].symbol), symbolSize, showAllSymbol: true, triggerLineEvent: false,
+    type: "line", name, symbol: outlined(looks[i].symbol), symbolSize, showAllSymbol: true,
     lineStyle: { color: looks[i].colour, type: looks[i].dash, width: 1.75 }, itemStyle: { color: looks[i].colour },
     data: points.map((point) => ({
       point, value: [xScale.at(point.at[view.x]), y.at(valueOf(point))],
@@ -135,13 +147,12 @@ function linesChart(sweep, view) {
     : { value: [xScale.at(point.at[view.x]), y.low], symbolOffset: [0, height.get(point) ?? -8] });
   const doubtful = shown.filter((point) => isDoubtful(point) && isNumber(valueOf(point)));
   return {
-    mark: (point) => [ring(point ? [place(point)] : [])],
+    mark: (point) => [ring(point ? [{ point, ...place(point) }] : [])],
     title: `${metric.title} along ${x.name}`, note, many: shown.length > manyItems,
-    bar: bar ? colourBar(scaleOf(second.values, { logarithmic: second.logarithmic, margin: 0, title: second.name,
-                                                  unit: second.unit }), gradeFrom) : null,
+    bar: bar ? rampBar(second.scale(0), gradeFrom) : null,
     legend: [
       ...(second && !bar ? [{ name: `${withUnit(second.name, second.unit)}:` },
-                            ...families.map(({ name }, i) => ({ name, ...looks[i], series: true }))] : []),
+                            ...families.map(({ name, text }, i) => ({ name, text, ...looks[i], series: true }))] : []),
       ...(doubtful.length ? [{ name: "doubtful", text: "hollow: not at rest, or active", colour: "#333333",
                                symbol: symbols[0], hollow: true, dash: "none" }] : []),
       ...legend.map(marked),
@@ -162,14 +173,15 @@ function mapChart(sweep, view) {
   const look = ({ point }) => {
     if (!isNumber(valueOf(point))) return lookWithout(point);
     const share = shareOf(scale, valueOf(point));
-    return { fill: ramp(share), sign: isDoubtful(point) ? lookOfVerdict(point.verdict).sign : "", ink: rampInk(share) };
+    const sign = isDoubtful(point) ? lookOfVerdict(point.verdict).sign : "";
+    return { fill: ramp(share), sign, ink: rampInk(share) };
   };
   const doubtful = [...new Set(shown.filter(isDoubtful).map(({ verdict }) => verdict))].map((name) =>
     ({ name, ...lookOfVerdict(name), fill: "#ffffff", ink: "#1d2329" }));
   return {
     mark: (point) => [outlineSeries("selected", point ? [cellOf(point)] : [], selectedColour)],
     title: `${metric.title} over ${x.name} and ${second.name}`, note, many: shown.length > manyItems,
-    bar: colourBar(scale), legend: [...doubtful, ...legend], height: "26rem",
+    bar: rampBar(scale), legend: [...doubtful, ...legend], height: "26rem",
     option: { ...chartBase(tip), xAxis: { ...xCells.axis, splitLine: { show: false } },
               yAxis: { ...yCells.axis, nameGap: 46, splitLine: { show: false } },
               series: [cellSeries("cells", shown.map(cellOf), look), outlineSeries("selected", [], selectedColour)] },
@@ -180,26 +192,27 @@ function mapChart(sweep, view) {
 function scatterChart(sweep, view) {
   const { metric, x, second, valueOf, shown, without, scaled, tip, legend, note } = viewOf(sweep, view);
   const xScale = x.scale(), y = second ? second.scale() : scaled(0.08), colour = second && scaled(0);
+  if (!second && without.length > 0) addGround(y, 1);
   const place = (point) => [xScale.at(point.at[view.x]),
                             second ? y.at(point.at[view.second]) : y.at(valueOf(point)) ?? y.low];
   const offset = (point) => (second || isNumber(valueOf(point)) ? 0 : -8);
   const size = shown.length > manyItems ? 5 : 10;
   const known = {
-    type: "scatter", name: metric.title, symbolSize: size, symbol: outlined(symbols[0]), large: false, progressive: 0,
+    type: "scatter", name: "known", symbolSize: size, symbol: outlined(symbols[0]), progressive: 0,
     data: shown.filter((point) => isNumber(valueOf(point))).map((point) => {
       const fill = colour ? ramp(shareOf(colour, valueOf(point))) : colours[0];
       const hollow = !colour && isDoubtful(point);
       return { point, value: place(point),
-               itemStyle: { color: hollow ? "#ffffff" : fill, opacity: 0.9, borderWidth: hollow ? 2 : colour ? 0.75 : 0,
-                            borderColor: colour ? "#5b6670" : fill } };
+               itemStyle: { color: hollow ? "#ffffff" : fill, opacity: 0.9, borderColor: colour ? "#5b6670" : fill,
+                            borderWidth: hollow ? 2 : colour ? 0.75 : 0 } };
     }),
   };
   const signs = { type: "scatter", name: "without", symbolSize: 9, z: 5, clip: false,
                   data: signSeries(without, place, offset) };
   return {
-    mark: (point) => [ring(point ? [{ value: place(point), symbolOffset: [0, offset(point)] }] : [])],
+    mark: (point) => [ring(point ? [{ point, value: place(point), symbolOffset: [0, offset(point)] }] : [])],
     title: second ? `${metric.title} over ${x.name} and ${second.name}` : `${metric.title} against ${x.name}`,
-    note, many: shown.length > manyItems, bar: colour && colourBar(colour), height: second && "26rem",
+    note, many: shown.length > manyItems, bar: colour && rampBar(colour), height: second && "26rem",
     legend: legend.map(marked),
     option: { ...chartBase(tip), xAxis: xScale.axis, yAxis: { ...y.axis, nameGap: 46 },
               series: [known, signs, ring([])] },
