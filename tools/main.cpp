@@ -27,14 +27,10 @@ int run_program(int argc, char** argv) {
   app.fallthrough();
   app.footer(
       "Exit codes: 0 fine, 1 a comparison failed, 2 bad input or usage, 3 not at rest, unstable, a failed "
-      "point "
-      "of
-      "
-      "sweep or a surprise of stress, 4 input/output error, 130/143 stopped by a signal. Each command "
-      "explains "
-      "itself:
-      "
-      "sandstroke run --help");
+      "point\n"
+      "of sweep or a surprise of stress, 4 input/output error, 130/143 stopped by a signal. Each command "
+      "explains\n"
+      "itself: sandstroke run --help");
   bool quiet = false;
   app.add_flag("-q,--quiet", quiet, "Say nothing but results, warnings and errors");
 
