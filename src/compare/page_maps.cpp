@@ -206,11 +206,12 @@ Json pictures_part(const std::string& title, const Image& golden, const Image& r
   const ImageDifference whole = image_difference(golden, run);
   const int span = std::max({whole.max, limit, 1});
   const ValueRange range{-static_cast<double>(span), static_cast<double>(span)};
-  maps.push_back(map_json(
-      "difference", picture_difference_map(golden, run, span),
-      scale_json("run − golden, the channel that differs most", range, "of 255", 1.0, true),
-      fmt::format("Largest {} of 255 at pixel x = {}, y = {}, limit {}; {:.4g} % of the pixels differ.",
-                  whole.max, whole.x, whole.y, limit, 100.0 * whole.share)));
+  maps.push_back(
+      map_json("difference", picture_difference_map(golden, run, span),
+               scale_json("run − golden", range, "of 255", 1.0, true),
+               fmt::format("Largest {} of 255 at pixel x = {}, y = {}, limit {}; {:.4g} % of the pixels "
+                           "differ. Each pixel has the colour of its channel that differs most.",
+                           whole.max, whole.x, whole.y, limit, 100.0 * whole.share)));
   part["extent"] = {{"x", {0, golden.width}}, {"y", {golden.height, 0}}};
   if (whole.max > 0) part["largest"] = {{"x", whole.x + 0.5}, {"y", whole.y + 0.5}};
   return part;

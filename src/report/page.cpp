@@ -26,6 +26,8 @@ SANDSTROKE_ASSET(sweep_charts);
 SANDSTROKE_ASSET(sweep_points);
 SANDSTROKE_ASSET(sweep);
 SANDSTROKE_ASSET(sweep_style);
+SANDSTROKE_ASSET(compare_maps);
+SANDSTROKE_ASSET(compare_traces);
 SANDSTROKE_ASSET(compare);
 SANDSTROKE_ASSET(compare_style);
 #undef SANDSTROKE_ASSET
@@ -54,7 +56,8 @@ PageAssets assets_of(PageScript script) {
       return {{SANDSTROKE_ASSET(sweep_charts), SANDSTROKE_ASSET(sweep_points), SANDSTROKE_ASSET(sweep)},
               SANDSTROKE_ASSET(sweep_style)};
     case PageScript::compare:
-      return {{SANDSTROKE_ASSET(compare)}, SANDSTROKE_ASSET(compare_style)};
+      return {{SANDSTROKE_ASSET(compare_maps), SANDSTROKE_ASSET(compare_traces), SANDSTROKE_ASSET(compare)},
+              SANDSTROKE_ASSET(compare_style)};
   }
   return {};
 }

@@ -22,9 +22,9 @@ const std::vector<Metric>& all_metrics() {
       {"slope_at_talus", "share of changed sand within 1 deg of the talus angle", ""},
       {"passes", "relaxation passes", ""},
       {"residual", "residual slope above the talus angle", ""},
-      {"golden_max", "largest difference from the golden surface", "m"},
-      {"golden_rms", "RMS difference from the golden surface", "m"},
-      {"golden_volume", "sand more than in the golden surface", "m^3"},
+      {"golden_max", "largest difference from the golden surface", "m", false, true},
+      {"golden_rms", "RMS difference from the golden surface", "m", false, true},
+      {"golden_volume", "sand more than in the golden surface", "m^3", false, true},
       {"wall_seconds", "run time of the simulation", "s", true},
       {"real_time_factor", "simulated time per run time", "", true},
   };

@@ -22,7 +22,8 @@ struct Metric {
   std::string name;   ///< max_force
   std::string title;  ///< "peak force"
   std::string unit;
-  bool timing = false;  ///< differs from run to run
+  bool timing = false;        ///< differs from run to run
+  bool needs_golden = false;  ///< a surface to compare with
 };
 
 /// All there are, in the order in which they are shown.

@@ -141,13 +141,16 @@ SweepDesign read_design(const TomlReader& toml, const SweepPlan& plan) {
 }
 
 std::vector<std::string> read_metrics(const TomlReader& toml) {
-  std::vector<std::string> known;
-  for (const Metric& metric : all_metrics()) known.push_back(metric.name);
+  std::vector<std::string> known;  // but for those that lack what they need
+  const bool golden = toml.has("sweep.golden");
+  for (const Metric& metric : all_metrics())
+    if (golden || !metric.needs_golden) known.push_back(metric.name);
   const std::vector<std::string> metrics = toml.texts("sweep.metrics", known);
   if (metrics.empty()) toml.fail("sweep.metrics", "is empty; name one or remove it");
   for (const std::string& metric : metrics) {
     if (std::find(known.begin(), known.end(), metric) == known.end())
-      toml.fail("sweep.metrics", fmt::format("names '{}'; take from: {}", metric, fmt::join(known, ", ")));
+      toml.fail("sweep.metrics", fmt::format("names '{}'; take from: {}{}", metric, fmt::join(known, ", "),
+                                             golden ? "" : " (and with sweep.golden what differs from it)"));
     if (std::count(metrics.begin(), metrics.end(), metric) > 1)
       toml.fail("sweep.metrics", fmt::format("names '{}' twice; name it once", metric));
   }

@@ -106,6 +106,7 @@ int main(int argc, char** argv) {
     report["cones"] = in_child([&] { return measure_cones(options); });
     report["rough_beds"] = in_child([&] { return measure_rough_beds(options); });
     report["paper_law"] = in_child([&] { return measure_paper_law(options); });
+    report["sweeps"] = in_child([&] { return measure_sweeps(options); });
     const std::string text = report.dump(2) + "\n";
     if (output.empty()) {
       std::cout << text;

@@ -115,10 +115,10 @@ class SweepPage : public BrowserTest {
     browser().open_text(html_page("Sweep", PageScript::sweep, data));
     EXPECT_EQ(browser().evaluate("document.documentElement.dataset.errors"), "0");
     if (state.empty()) return;
-    browser().evaluate("location.hash = " + Json(state).dump());
-    browser().wait_for(
-        "document.querySelector('select[name=x]').value !== '' && decodeURIComponent("
-        "location.hash).startsWith('#metric')");
+    browser().evaluate(
+        "new Promise((done) => { addEventListener('hashchange', () => done(), { once: true });"
+        "location.hash = " +
+        Json(state).dump() + "; })");
   }
   void TearDown() override {
     if (IsSkipped()) return;
@@ -193,7 +193,7 @@ TEST_F(SweepPage, AMapHasACellForEachPointInItsPlaceAndColour) {
   })())js");
   EXPECT_EQ(drawn[0], Json({1, 1, 1, 1, 1, 1, 1, 1}));
   EXPECT_EQ(drawn[1], Json({2, 1, 1})) << "unstable, refused, missing";
-  EXPECT_EQ(text(".bar > span"), "peak force (N)");
+  EXPECT_EQ(text(".colours > span"), "peak force (N)");
   EXPECT_EQ(texts("figure .legend li"), Json({"unstable: 2 points", "refused: 1 point", "missing: 1 point"}));
 }
 
@@ -439,6 +439,8 @@ TEST_F(SweepPage, ALinkLeadsBackToTheView) {
   EXPECT_EQ(ask("location.hash"), "#metric=max_force&chart=lines&x=force.k_s&second=&point=8");
   open(grid_data(), "x=nothing&point=99&chart=odd&metric=");
   EXPECT_EQ(selected(), "Point 0");
+  open(grid_data(), "point=8");
+  EXPECT_EQ(selected(), "Point 8");
 }
 
 TEST_F(SweepPage, ALatinHypercubeIsScattered) {
@@ -465,7 +467,7 @@ TEST_F(SweepPage, ALatinHypercubeIsScattered) {
   EXPECT_EQ(selected(), "Point 4") << "the next angle";
   browser().choose("select[name=second]", "force.k_s");
   EXPECT_EQ(items("known")[0][3], Json({4, {25, 3}}));
-  EXPECT_EQ(text(".bar > span"), "peak force (N)");
+  EXPECT_EQ(text(".colours > span"), "peak force (N)");
   browser().click(at(27, 4));
   EXPECT_EQ(selected(), "Point 2");
 }
@@ -563,7 +565,7 @@ TEST_F(SweepPage, TenThousandPointsAreDrawn) {
   EXPECT_LE(ask("document.querySelectorAll('.picture').length"), 200);
   browser().choose("select[name=chart]", "lines");
   EXPECT_EQ(items("line ").size(), 100u);
-  EXPECT_EQ(text(".bar > span"), "b") << "a bar instead of a hundred names";
+  EXPECT_EQ(text(".colours > span"), "b") << "a bar instead of a hundred names";
 
   Json spread = Json::array();
   for (int i = 0; i < 10000; ++i) spread.push_back(7919 * i % 10007);

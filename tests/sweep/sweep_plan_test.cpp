@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/error.h"
@@ -105,7 +106,14 @@ TEST_F(APlan, StrokesAreAnAxisWhoseFilesAreRelativeToThePlan) {
 }
 
 TEST_F(APlan, CollectsAllMetricsOrThoseNamed) {
-  EXPECT_EQ(load(std::string(begin_plan) + "[axes]\nforce.k_s = [1]\n").metrics.size(), all_metrics().size());
+  const auto needs = [](const Metric& metric) { return metric.needs_golden; };
+  EXPECT_EQ(load(std::string(begin_plan) + "[axes]\nforce.k_s = [1]\n").metrics.size(),
+            all_metrics().size() -
+                static_cast<std::size_t>(std::count_if(all_metrics().begin(), all_metrics().end(), needs)));
+  write_text_file(folder / "golden.h5", "checked when it is read");
+  EXPECT_EQ(
+      load(std::string(begin_plan) + "golden = \"golden.h5\"\n[axes]\nforce.k_s = [1]\n").metrics.size(),
+      all_metrics().size());
   const SweepPlan plan =
       load(std::string(begin_plan) +
            "metrics = [\"work\", \"passes\"]\nkeep = [\"picture\"]\n[axes]\nforce.k_s = [1]\n");
@@ -157,6 +165,7 @@ TEST_F(APlan, IsRefusedInOneSentenceThatSaysWhere) {
       {start + "strokes = []\n[axes]\nforce.k_s = [1]\n", "sweep.strokes is empty"},
       {start + "strokes = [\"other.toml\"]\n[axes]\nstroke.file = [\"x\"]\n", "also in sweep.strokes"},
       {start + "metrics = [\"weight\"]\n[axes]\nforce.k_s = [1]\n", "names 'weight'; take from: max_force"},
+      {start + "metrics = [\"golden_rms\"]\n[axes]\nforce.k_s = [1]\n", "and with sweep.golden"},
       {start + "metrics = []\n[axes]\nforce.k_s = [1]\n", "sweep.metrics is empty"},
       {start + "keep = [\"all\"]\n[axes]\nforce.k_s = [1]\n", "take from: surface, picture"},
       {"[sweep\n", "plan.toml:1: not valid TOML"},

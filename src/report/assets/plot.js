@@ -113,17 +113,20 @@ const rampInk = (share) => (share > 0.55 ? "#ffffff" : "#1d2329");
 /** The share of a scale (without margin) that a value takes. */
 const shareOf = (scale, value) => (scale.at(value) - scale.low) / (scale.high - scale.low);
 
-/** What the ramp's colours mean: a bar with the ticks of a scale. `from`: the share of the ramp it begins at. */
-function colourBar(scale, from = 0) {
+/** What colours mean: a bar of colour stops from low to high, with ticks [value, text]. */
+function colourBar({ name, low, high, ticks, stops }) {
+  const marks = ticks.map(([value, text]) =>
+    el("span", { style: `left: ${(100 * (value - low)) / (high - low)}%` }, text));
+  return el("div", { class: "colours" }, el("span", {}, name),
+            el("div", {}, el("div", { class: "bar", style: `background: linear-gradient(to right, ${stops})` }),
+               el("div", { class: "marks" }, ...marks)));
+}
+
+/** That of the ramp, from a share of it on, over a scale. */
+function rampBar({ low, high, axis: { name, axisLabel } }, from = 0) {
+  const ticks = axisLabel.customValues.map((place) => [place, axisLabel.formatter(place)]);
   const stops = Array.from({ length: 11 }, (_, i) => ramp(from + (1 - from) * (i / 10)));
-  const { axisLabel, name } = scale.axis;
-  const ticks = axisLabel.customValues.map((place) => {
-    const share = (place - scale.low) / (scale.high - scale.low);
-    return el("span", { style: `left: ${100 * share}%` }, axisLabel.formatter(place));
-  });
-  return el("div", { class: "bar" }, el("span", {}, name),
-            el("div", {}, el("div", { class: "ramp", style: `background: linear-gradient(to right, ${stops})` }),
-               el("div", { class: "ticks", "aria-hidden": "true" }, ...ticks)));
+  return colourBar({ name, low, high, ticks, stops });
 }
 
 // ---- Charts.

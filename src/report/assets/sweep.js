@@ -115,12 +115,11 @@ drawPage((data, main) => {
       const i = all.findIndex(({ name }) => name === state.get(key));
       return i < 0 ? null : i;
     };
-    if (!state.has("x")) return;
     view.metric = find(metrics, "metric") ?? view.metric;
     view.x = find(axes, "x") ?? view.x;
-    view.second = find(axes, "second");
+    if (state.has("second")) view.second = find(axes, "second");
     if (view.second === view.x) view.second = null;
-    view.chart = state.get("chart") === "map" ? "map" : "lines";
+    if (state.has("chart")) view.chart = state.get("chart") === "map" ? "map" : "lines";
     view.log = state.has("log");
     view.at = points.find(({ point }) => String(point) === state.get("point"))?.at ?? view.at;
   };

@@ -149,7 +149,7 @@ function linesChart(sweep, view) {
   return {
     mark: (point) => [ring(point ? [{ point, ...place(point) }] : [])],
     title: `${metric.title} along ${x.name}`, note, many: shown.length > manyItems,
-    bar: bar ? colourBar(second.scale(0), gradeFrom) : null,
+    bar: bar ? rampBar(second.scale(0), gradeFrom) : null,
     legend: [
       ...(second && !bar ? [{ name: `${withUnit(second.name, second.unit)}:` },
                             ...families.map(({ name, text }, i) => ({ name, text, ...looks[i], series: true }))] : []),
@@ -181,7 +181,7 @@ function mapChart(sweep, view) {
   return {
     mark: (point) => [outlineSeries("selected", point ? [cellOf(point)] : [], selectedColour)],
     title: `${metric.title} over ${x.name} and ${second.name}`, note, many: shown.length > manyItems,
-    bar: colourBar(scale), legend: [...doubtful, ...legend], height: "26rem",
+    bar: rampBar(scale), legend: [...doubtful, ...legend], height: "26rem",
     option: { ...chartBase(tip), xAxis: { ...xCells.axis, splitLine: { show: false } },
               yAxis: { ...yCells.axis, nameGap: 46, splitLine: { show: false } },
               series: [cellSeries("cells", shown.map(cellOf), look), outlineSeries("selected", [], selectedColour)] },
@@ -212,7 +212,7 @@ function scatterChart(sweep, view) {
   return {
     mark: (point) => [ring(point ? [{ point, value: place(point), symbolOffset: [0, offset(point)] }] : [])],
     title: second ? `${metric.title} over ${x.name} and ${second.name}` : `${metric.title} against ${x.name}`,
-    note, many: shown.length > manyItems, bar: colour && colourBar(colour), height: second && "26rem",
+    note, many: shown.length > manyItems, bar: colour && rampBar(colour), height: second && "26rem",
     legend: legend.map(marked),
     option: { ...chartBase(tip), xAxis: xScale.axis, yAxis: { ...y.axis, nameGap: 46 },
               series: [known, signs, ring([])] },

@@ -91,6 +91,10 @@ function gallery(sweep, view, select, keys) {
     buttons.set(point, one);
     return one;
   };
+  // All as the first one is shaped.
+  const first = new Image();
+  first.onload = () => body.style.setProperty("--aspect", first.naturalWidth / first.naturalHeight);
+  first.src = thumbnailOf(sweep.points.find(thumbnailOf));
   let marked = null, shown = [];
   const mark = (point) => {
     buttons.get(marked)?.removeAttribute("data-marked");

@@ -1,0 +1,134 @@
+"use strict";
+// Maps of a comparison: golden, run and their difference side by side, and two of them over one another with a
+// slider that wipes between them.
+
+const unitText = (unit) => unit.replace(/^um$/, "µm");
+
+/** What the colours of a map mean. */
+const barOf = ({ title, unit, low, high, colours: stops }) =>
+  colourBar({ name: withUnit(title, unitText(unit)), low, high, stops,
+              ticks: roundTicks(low, high, 5).map((tick) => [tick, tickText(tick)]) });
+
+/** A map, which fills its place, with a ring around the largest difference where it shows that. */
+function layer(part, map) {
+  const picture = el("img", { src: map.picture, width: map.width, height: map.height, draggable: "false",
+                              alt: `${part.title}: ${map.name}` });
+  // Cells stay squares where they are larger than a pixel; the browser's mean shows them where smaller.
+  new ResizeObserver(() => {
+    picture.style.imageRendering = picture.clientWidth > map.width ? "pixelated" : "auto";
+  }).observe(picture);
+  const ringed = map.name === "difference" && part.largest;
+  const { x, y } = part.extent ?? {};
+  const share = ([from, to], value) => `${(100 * (value - from)) / (to - from)}%`;
+  return el("div", { class: "layer" }, picture, ringed
+    ? el("div", { class: "ring", title: "the largest difference",
+                  style: `left: ${share(x, part.largest.x)}; bottom: ${share(y, part.largest.y)}` })
+    : null);
+}
+
+/** The values under the pointer: a function of the place, as shares of width and height from the upper left. */
+function reader(part) {
+  if (!part.spots) return null;
+  const floats = (text) => {
+    const bytes = Uint8Array.from(atob(text), (character) => character.charCodeAt(0));
+    const view = new DataView(bytes.buffer);
+    return Float32Array.from({ length: bytes.length / 4 }, (_, i) => view.getFloat32(4 * i, true));
+  };
+  const { side, cols, cells } = part.spots;
+  const golden = floats(part.spots.golden), difference = floats(part.spots.difference);
+  const [{ scale }, , { scale: finer }] = part.maps;
+  const inUnit = (value, { one, unit }) => `${format(value / one, false)} ${unitText(unit)}`;
+  const metres = ([from, to], at) => `${format(Number((from + at * (to - from)).toPrecision(4)), false)} m`;
+  return (right, down) => {
+    const row = Math.floor(((1 - down) * cells[0]) / side), col = Math.floor((right * cells[1]) / side);
+    const spot = row * cols + col;
+    if (!(spot >= 0 && spot < golden.length)) return "";
+    return `x ${metres(part.extent.x, right)}, y ${metres(part.extent.y, 1 - down)}: ` +
+      `golden ${inUnit(golden[spot], scale)}, run ${inUnit(golden[spot] + difference[spot], scale)}, ` +
+      `difference ${inUnit(difference[spot], finer)}`;
+  };
+}
+
+/** Layers over one another, and a line that says the values under the pointer. */
+function stage(part, map, ...layers) {
+  const read = reader(part);
+  const readout = el("p", { class: "readout quiet" });
+  const show = (event) => {
+    const { left, top, width, height } = element.getBoundingClientRect();
+    readout.textContent = read((event.clientX - left) / width, (event.clientY - top) / height);
+  };
+  const element = el("div", {
+    class: "stage", style: `aspect-ratio: ${map.width} / ${map.height}`, pointermove: read && show,
+    pointerleave: () => { readout.textContent = ""; },
+  }, ...layers);
+  return { element, readout: read ? readout : null };
+}
+
+const mapFigure = (part, map) => {
+  const { element, readout } = stage(part, map, layer(part, map));
+  return el("figure", {}, el("figcaption", {}, map.name[0].toUpperCase() + map.name.slice(1),
+                             map.text ? el("small", {}, map.text) : null),
+            element, map.scale ? barOf(map.scale) : null, readout);
+};
+
+/** Two maps over one another: the first left of an edge, which a slider or the pointer moves, the other right. */
+function wipe(part) {
+  const named = new Map(part.maps.map((map) => [map.name, map]));
+  const pairs = [["golden", "run"], ["golden", "difference"], ["run", "difference"]];
+  const places = el("div", { class: "layer" });
+  const edge = el("div", { class: "edge" });
+  const tags = [el("span", { class: "tag" }), el("span", { class: "tag right" })];
+  const scales = el("div", { class: "charts" });
+  const slider = el("input", { type: "range", min: 0, max: 100, step: "any", value: 50, input: () => move() });
+  const size = part.maps[0];
+  const { element, readout } = stage(part, size, places, edge, ...tags);
+
+  let pair = pairs[0];
+  const move = () => {
+    const share = Number(slider.value);
+    edge.style.left = `${share}%`;
+    places.lastChild.style.clipPath = `inset(0 0 0 ${share}%)`;
+    slider.setAttribute("aria-valuetext", `${pair[0]} on the left ${Math.round(share)} %, ${pair[1]} on the right`);
+  };
+  const choose = (chosen) => {
+    pair = chosen;
+    places.replaceChildren(...pair.map((name) => layer(part, named.get(name))));
+    tags.forEach((tag, i) => { tag.textContent = pair[i]; });
+    const seen = [...new Map(pair.map((name) => named.get(name).scale).filter(Boolean).map((one) => [one.title, one]))
+      .values()];
+    scales.replaceChildren(...seen.map(barOf));
+    slider.setAttribute("aria-label", `Wipe between ${pair.join(" and ")}`);
+    move();
+  };
+  const follow = (event) => {
+    const { left, width } = element.getBoundingClientRect();
+    slider.value = (100 * (event.clientX - left)) / width;
+    move();
+  };
+  element.classList.add("wipe");
+  element.addEventListener("pointerdown", (event) => {
+    element.setPointerCapture(event.pointerId);
+    slider.focus({ preventScroll: true });
+    event.preventDefault();
+    follow(event);
+  });
+  element.addEventListener("pointermove", (event) => {
+    if (element.hasPointerCapture(event.pointerId)) follow(event);
+  });
+  choose(pair);
+  const choice = el("select", { change: (event) => choose(pairs[Number(event.target.value)]) },
+                    ...pairs.map((names, i) => el("option", { value: i }, names.join(" and "))));
+  const most = size.scale ? `calc(44rem * ${size.width / size.height})` : `${size.width}px`;
+  return el("figure", {},
+            el("div", { class: "controls" }, el("label", {}, "Wipe between ", choice),
+               el("span", { class: "quiet" }, "Drag the edge, or move the slider with the arrow keys.")),
+            el("div", { class: "narrow", style: `max-width: ${most}` }, element, slider), readout, scales);
+}
+
+function drawMaps(part) {
+  const [{ width, height }] = part.maps;
+  const aligned = part.maps.length === 3;
+  const layout = !aligned ? "charts" : width > 1.5 * height ? "charts wide" : "charts three";
+  return [el("p", {}, part.text), aligned ? wipe(part) : null,
+          el("div", { class: layout }, ...part.maps.map((map) => mapFigure(part, map)))];
+}

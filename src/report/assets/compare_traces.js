@@ -1,0 +1,128 @@
+"use strict";
+// Traces of a comparison over time: golden and run, and how far they are apart, in charts that zoom alike.
+
+const lookOfSide = { golden: { colour: colours[0] }, run: { colour: colours[1], dash: "dashed" } };
+const lookOfDifference = { colour: colours[2] };
+
+/**
+ * A chart of curves over time: {name, look, curve}. `limit`: a band around zero that it holds, if any. Its
+ * show(from, to) zooms to a stretch of time [s], with round ticks, and heights that fit what is in sight.
+ */
+function timeChart({ title, note, legend, whole }) {
+  let shown = { curves: [], quantity: "", unit: "", limit: null };
+  const look = { height: "17rem", title, note, legend };
+  const axes = (from, to) => {
+    const inSight = shown.curves.flatMap(({ curve: { time, value } }) => {
+      const after = time.findIndex((t) => t >= from), before = time.findLastIndex((t) => t <= to);
+      return value.slice(Math.max(0, after - 1), before + 2);
+    });
+    const x = scaleOf([from, to], { margin: 0, title: "time", unit: "s" });
+    const y = scaleOf(shown.limit === null ? inSight : [...inSight, -shown.limit, shown.limit],
+                      { title: shown.quantity, unit: shown.unit });
+    return { xAxis: { ...x.axis, min: whole[0], max: whole[1] }, yAxis: { ...y.axis, nameGap: 62 } };
+  };
+  const series = () => shown.curves.map(({ name, look: own, curve }, i) => ({
+    type: "line", name, symbol: "none", data: curve.time.map((t, k) => [t, curve.value[k]]),
+    lineStyle: { color: own.colour, type: own.dash ?? "solid", width: 1.5 }, itemStyle: { color: own.colour },
+    markArea: i > 0 || shown.limit === null ? undefined
+      : { silent: true, itemStyle: { color: "#009e73", opacity: 0.14 },
+          data: [[{ yAxis: -shown.limit }, { yAxis: shown.limit }]] },
+  }));
+  const tip = (items) => tipOf(`${format(items[0].value[0])} s`,
+                               items.map(({ seriesName, value }) => [withUnit(seriesName, shown.unit), value[1]]));
+  const option = {
+    ...chartBase(() => null),
+    grid: { left: 88, right: 26, top: 14, bottom: 48 },
+    tooltip: { trigger: "axis", confine: true, formatter: tip, axisPointer: { animation: false } },
+    dataZoom: [{ type: "inside", filterMode: "none", zoomOnMouseWheel: "ctrl", moveOnMouseWheel: false }],
+  };
+  const element = chart({ ...look, option });
+  const one = charts.at(-1);
+  const update = (change) => (one.drawn ? one.drawn.setOption(change) : Object.assign(option, change));
+  return {
+    element, one,
+    draw: (content) => {
+      shown = content;
+      update({ ...axes(...whole), series: series() });
+    },
+    show: (from, to) => {
+      const share = (t) => (100 * (t - whole[0])) / (whole[1] - whole[0]);
+      update({ ...axes(from, to), dataZoom: [{ start: share(from), end: share(to) }] });
+    },
+  };
+}
+
+/** Two charts of the quantities of a group, one of which is chosen: golden and run, and how far they are apart. */
+function groupCharts(group, quantities, whole) {
+  const sides = ["golden", "run"].filter((name) => quantities[0][name]);
+  const values = timeChart({
+    title: group, whole, legend: sides.map((name) => ({ name, series: true, ...lookOfSide[name] })) });
+  const apart = quantities[0].difference && timeChart({
+    title: `${group}: difference`, whole,
+    note: "run − golden, tick by tick" +
+      (quantities.some(({ name }) => name === "magnitude") ? "; of the magnitude, the length of the difference." : "."),
+    legend: [{ name: "difference", ...lookOfDifference, dash: "solid" },
+             { name: "limit", text: "within the limit", fill: "#dff2ec" }],
+  });
+  const choose = (quantity) => {
+    const { name, unit, limit } = quantity;
+    values.draw({ quantity: name, unit, limit: null,
+                  curves: sides.map((side) => ({ name: side, look: lookOfSide[side], curve: quantity[side] })) });
+    apart?.draw({ quantity: name, unit, limit,
+                  curves: [{ name: "difference", look: lookOfDifference, curve: quantity.difference }] });
+  };
+  choose(quantities[0]);
+  return { charts: [values, apart].filter(Boolean), names: quantities.map(({ name }) => name),
+           choose: (i) => choose(quantities[i]) };
+}
+
+/** Charts that zoom alike: by buttons, and whichever of them the pointer zooms. */
+function zoomTogether(timeCharts, whole) {
+  let [from, to] = whole;
+  const show = (start, end) => {
+    const width = Math.min(end - start, whole[1] - whole[0]);
+    from = Math.max(whole[0], Math.min(start, whole[1] - width));
+    to = from + width;
+    timeCharts.forEach((one) => one.show(from, to));
+  };
+  const about = (factor) => () =>
+    show((from + to) / 2 - (factor * (to - from)) / 2, (from + to) / 2 + (factor * (to - from)) / 2);
+  const by = (share) => () => show(from + share * (to - from), to + share * (to - from));
+  const button = (text, label, click) =>
+    el("button", { type: "button", "aria-label": label, title: label, click }, text);
+  return {
+    buttons: el("span", { class: "buttons", role: "group", "aria-label": "Zoom over time" },
+                button("+", "zoom in", about(0.5)), button("−", "zoom out", about(2)),
+                button("←", "earlier", by(-0.5)), button("→", "later", by(0.5)),
+                button("whole", "all of the time", () => show(...whole))),
+    again: () => show(from, to),
+    listen: () => timeCharts.forEach(({ one }) => one.drawn.on("datazoom", (event) => {
+      const { start, end } = event.batch?.[0] ?? event;
+      const at = (share) => whole[0] + (share / 100) * (whole[1] - whole[0]);
+      show(at(start), at(end));
+    })),
+  };
+}
+
+let afterDrawing = () => {};
+
+function drawTraces(part) {
+  const ends = part.quantities.flatMap(({ golden, run }) => [golden, run].filter(Boolean))
+    .flatMap(({ time }) => [time[0], time.at(-1)]).filter(isNumber);
+  if (ends.length === 0) return [el("p", {}, part.text)];
+  const first = Math.min(...ends), whole = [first, Math.max(...ends, first + 1e-9)];
+  const groups = [...new Set(part.quantities.map(({ group }) => group))].map((name) =>
+    ({ name, ...groupCharts(name, part.quantities.filter(({ group }) => group === name), whole) }));
+  const all = groups.flatMap((group) => group.charts);
+  const zoom = zoomTogether(all, whole);
+  afterDrawing = zoom.listen;
+  const choiceOf = ({ name, names, choose }) => el("label", {}, `${name} `, el("select", {
+    change: (event) => {
+      choose(Number(event.target.value));
+      zoom.again();
+    } }, ...names.map((one, i) => el("option", { value: i }, one))));
+  return [el("p", {}, part.text),
+          el("div", { class: "controls" }, ...groups.map(choiceOf), el("span", {}, "Zoom ", zoom.buttons)),
+          el("p", { class: "quiet" }, "The wheel of the mouse with Ctrl zooms as well, and dragging moves."),
+          el("div", { class: "charts single" }, ...all.map(({ element }) => element))];
+}

@@ -1,0 +1,162 @@
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "cli/program.h"
+
+namespace sandstroke {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+class CliSweep : public testing::Test {
+ protected:
+  CliSweep() {
+    plan("relaxation.talus_angle = [25, 30, 35]\nforce.k_s = { from = 500, to = 1500, count = 3 }\n");
+  }
+  void plan(const std::string& axes, const std::string& keys = "") {
+    write_file(folder / "plan.toml", "[sweep]\nscene = \"scene.toml\"\n" + keys + "[axes]\n" + axes);
+  }
+  ProgramResult sweep(std::vector<std::string> arguments, const Conditions& conditions = {}) {
+    arguments.insert(arguments.begin(), "sweep");
+    return run_program(arguments, folder, conditions);
+  }
+  Json json(std::vector<std::string> arguments) {
+    arguments.push_back("--json");
+    const ProgramResult result = sweep(std::move(arguments));
+    EXPECT_EQ(result.err, "");
+    return Json::parse(result.out);
+  }
+  std::string content(const std::string& output) { return json({"collect", output}).at("content_hash"); }
+
+  const fs::path folder = test_folder();
+};
+
+TEST_F(CliSweep, RunsCollectsAndSaysWhatItSaved) {
+  const ProgramResult result = sweep({"plan.toml", "-o", "out"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(result.out.find("9: 9 run now"), std::string::npos) << result.out;
+  for (const char* name : {"sweep.h5", "sweep.csv", "sweep.html"})
+    EXPECT_TRUE(fs::exists(folder / "out" / name));
+  const std::string csv = read_file(folder / "out/sweep.csv");
+  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 10);
+
+  const Json again = json({"plan.toml", "-o", "out"});
+  EXPECT_EQ(again["done_before"], 9);
+  EXPECT_EQ(again["simulations"], 0);
+  const Json fresh = json({"plan.toml", "-o", "fresh"});
+  EXPECT_EQ(fresh["simulations"], 3);  // of nine points
+  EXPECT_EQ(fresh["strokes_loaded"], 1);
+  EXPECT_EQ(fresh["content_hash"], again["content_hash"]);
+}
+
+TEST_F(CliSweep, APointsCommandGivesThePointsFigures) {
+  plan("relaxation.talus_angle = [25, 35]\nmodel.preset = [\"paper\", \"accurate\"]\n",
+       "metrics = [\"work\", \"max_force\"]\n");
+  ASSERT_EQ(sweep({"plan.toml", "-o", "out"}).exit_code, 0);
+  const std::string page = read_file(folder / "out/sweep.html");
+  const auto begin = page.find("type=\"application/json\" id=\"data\">") + 34;
+  const Json data = Json::parse(page.substr(begin, page.find("</script>", begin) - begin));
+  const std::string command = data["points"][3]["command"];
+  const std::string start = "sandstroke run ";
+  ASSERT_TRUE(command.starts_with(start));
+  // As a shell takes it.
+  const std::string line = "cd '" + folder.string() + "' && " + SANDSTROKE_PROGRAM + " run " +
+                           command.substr(start.size()) + " --json > run.json";
+  ASSERT_EQ(std::system(line.c_str()), 0) << line;
+  const Json run = Json::parse(read_file(folder / "run.json"));
+  EXPECT_EQ(run["absorbed_energy"], data["points"][3]["metrics"][0]);
+  EXPECT_EQ(run["max_force"], data["points"][3]["metrics"][1]);
+}
+
+TEST_F(CliSweep, InterruptedAndKilledItGoesOnToTheSameEnd) {
+  // Enough of them that signals meet it at work: each is a simulation of its own.
+  plan("device.model = [\"dynamic\"]\nforce.k_s = { from = 500, to = 900, count = 120 }\n");
+  ASSERT_EQ(sweep({"plan.toml", "-o", "whole"}).exit_code, 0);
+  const ProgramResult interrupted = sweep({"plan.toml", "-o", "out"}, {.signal = SIGINT, .after_ms = 250});
+  if (interrupted.exit_code != 0) {  // not on a machine that is done by then
+    EXPECT_EQ(interrupted.exit_code, 130);
+    EXPECT_NE(interrupted.err.find("the same command goes on from there"), std::string::npos)
+        << interrupted.err;
+    EXPECT_FALSE(fs::exists(folder / "out/sweep.h5"));
+  }
+  sweep({"plan.toml", "-o", "out"}, {.signal = SIGKILL, .after_ms = 250});
+  const Json status = json({"status", "out"});
+  EXPECT_EQ(status["done"].get<int>() + status["missing"].get<int>(), 120);
+  const Json resumed = json({"plan.toml", "-o", "out"});
+  EXPECT_EQ(resumed["done_before"], status["done"]);
+  EXPECT_EQ(resumed["run"], status["missing"]);
+  EXPECT_EQ(resumed["content_hash"], content("whole"));
+}
+
+TEST_F(CliSweep, ShardsMakeOneWhole) {
+  ASSERT_EQ(sweep({"plan.toml", "-o", "whole"}).exit_code, 0);
+  EXPECT_EQ(sweep({"plan.toml", "-o", "out", "--shard", "2/2"}).exit_code, 0);
+  EXPECT_FALSE(fs::exists(folder / "out/sweep.h5"));
+  EXPECT_NE(json({"status", "out"})["missing"], 0);
+  EXPECT_EQ(sweep({"plan.toml", "-o", "out", "--shard", "1/2"}).exit_code, 0);
+  EXPECT_EQ(content("out"), content("whole"));
+}
+
+TEST_F(CliSweep, ADryRunCountsAndLeavesNothing) {
+  const ProgramResult result = sweep({"plan.toml", "-o", "out", "--dry-run"});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_NE(result.out.find("9 points by 3 simulations"), std::string::npos) << result.out;
+  EXPECT_FALSE(fs::exists(folder / "out"));
+}
+
+TEST_F(CliSweep, FailingPointsAreExitCodeThreeAndStatusSaysWhy) {
+  plan("device.scale = [1, 30]\n");
+  const ProgramResult result = sweep({"plan.toml", "-o", "out"});
+  EXPECT_EQ(result.exit_code, 3);
+  EXPECT_NE(result.err.find("1 point"), std::string::npos) << result.err;
+  const ProgramResult status = sweep({"status", "out"});
+  EXPECT_NE(status.out.find("outside the bed"), std::string::npos) << status.out;
+}
+
+TEST_F(CliSweep, RefusesInASentenceAndTouchesNothing) {
+  ASSERT_EQ(sweep({"plan.toml", "-o", "out"}).exit_code, 0);
+  const auto before = fs::last_write_time(folder / "out/sweep.h5");
+  fs::create_directories(folder / "mine");
+  write_file(folder / "mine/thesis.txt", "precious");
+  write_file(folder / "other.toml", "[sweep]\nscene = \"scene.toml\"\n[axes]\nforce.k_s = [1]\n");
+  const std::vector<std::tuple<std::vector<std::string>, int, std::string>> cases = {
+      {{}, 2, "name a plan"},
+      {{"none.toml"}, 4, "none.toml: cannot be opened"},
+      {{"scene.toml"}, 2, "sweep.scene is missing"},
+      {{"plan.toml", "--shard", "3/2"}, 2, "--shard 3/2: write I/N"},
+      {{"plan.toml", "--shard", "0/2"}, 2, "--shard 0/2"},
+      {{"plan.toml", "--shard", "1"}, 2, "--shard 1"},
+      {{"plan.toml", "--shard", "1/2x"}, 2, "--shard 1/2x"},
+      {{"plan.toml", "--jobs", "-1"}, 2, "--jobs"},
+      {{"other.toml", "-o", "out"}, 2, "out: holds another sweep: its axes differ"},
+      {{"plan.toml", "-o", "mine"}, 2, "mine: holds other files"},
+      {{"plan.toml", "-o", "scene.toml"}, 4, "scene.toml"},
+      {{"status", "mine"}, 4, "mine: is no folder of a sweep"},
+      {{"collect", "none"}, 4, "none: is no folder of a sweep"},
+  };
+  for (const auto& [arguments, exit_code, sentence] : cases) {
+    const ProgramResult result = sweep(arguments);
+    EXPECT_EQ(result.exit_code, exit_code) << sentence;
+    EXPECT_NE(result.err.find(sentence), std::string::npos) << result.err;
+  }
+  EXPECT_EQ(fs::last_write_time(folder / "out/sweep.h5"), before);
+  EXPECT_EQ(read_file(folder / "mine/thesis.txt"), "precious");
+  EXPECT_FALSE(fs::exists(folder / "plan"));
+}
+
+TEST_F(CliSweep, AFullDiskEndsItAndLeavesNoPointThatLooksComplete) {
+  plan("force.k_s = [500, 1000]\n", "keep = [\"surface\"]\n");
+  const ProgramResult result = sweep({"plan.toml", "-o", "out"}, {.most_file_bytes = 20'000});
+  EXPECT_EQ(result.exit_code, 4);
+  EXPECT_NE(result.err.find("cannot be written"), std::string::npos) << result.err;
+  for (const auto& file : fs::directory_iterator(folder / "out/points"))
+    EXPECT_EQ(file.path().extension(), ".part");
+  EXPECT_EQ(sweep({"plan.toml", "-o", "out"}).exit_code, 0);
+}
+
+}  // namespace
+}  // namespace sandstroke
