@@ -562,7 +562,9 @@ TEST_F(SweepPage, TenThousandPointsAreDrawn) {
   browser().click("input[name=filter]");
   browser().type("=0.5");
   EXPECT_EQ(text("#points .controls [role=status]"), "0 of 10\u202f000 points");
-  EXPECT_LE(ask("document.querySelectorAll('.picture').length"), 200);
+  EXPECT_EQ(ask("document.querySelectorAll('.picture').length"), 120);
+  EXPECT_EQ(ask("document.querySelectorAll('.picture[data-marked]').length"), 1)
+      << "they turn to its page too";
   browser().choose("select[name=chart]", "lines");
   EXPECT_EQ(items("line ").size(), 100u);
   EXPECT_EQ(text(".colours > span"), "b") << "a bar instead of a hundred names";

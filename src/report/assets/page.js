@@ -28,8 +28,8 @@ function el(tag, attributes = {}, ...children) {
 
 // ---- Numbers.
 const isNumber = (value) => typeof value === "number" && Number.isFinite(value);
-const powerOfTen = (exponent) =>
-  "10" + String(exponent).replace(/[-0-9]/g, (c) => (c === "-" ? "⁻" : "⁰¹²³⁴⁵⁶⁷⁸⁹"[c]));
+const raised = (exponent) => String(exponent).replace(/[-0-9]/g, (c) => (c === "-" ? "⁻" : "⁰¹²³⁴⁵⁶⁷⁸⁹"[c]));
+const powerOfTen = (exponent) => `10${raised(exponent)}`;
 const withMinus = (text) => text.replace("-", "−");
 
 const grouped = (value) => {
@@ -153,8 +153,10 @@ function table(columns, rows, { label, rowClass = () => null, perPage = Infinity
     show();
   };
   const heads = columns.map((column, i) => {
-    const head = el("th", { scope: "col", class: kinds[i].numeric ? "number" : null });
-    head.append(el("button", { type: "button", click: () => sort(column, head) }, column.title ?? column.name,
+    const title = column.title ?? column.name;
+    const head = el("th", { scope: "col", class: kinds[i].numeric ? "number" : null,
+                            style: `min-width: ${Math.min(title.length + 4, 20)}ch` });
+    head.append(el("button", { type: "button", click: () => sort(column, head) }, title,
                    column.unit ? el("small", {}, ` ${column.unit}`) : null));
     return head;
   });

@@ -4,9 +4,10 @@
 // the axes that a chart does not show are its own.
 
 function readSweep(data) {
-  const axes = data.axes.map(prepareAxis);
+  const shown = (one) => ({ ...one, unit: one.unit.replace(/\^(-?\d+)/g, (all, power) => raised(power)) });
+  const axes = data.axes.map(shown).map(prepareAxis), metrics = data.metrics.map(shown);
   const byPlace = new Map(data.points.map((point) => [point.at.join(), point]));
-  return { ...data, axes, latin: data.design === "latin", pointAt: (at) => byPlace.get(at.join()) ?? null };
+  return { ...data, axes, metrics, latin: data.design === "latin", pointAt: (at) => byPlace.get(at.join()) ?? null };
 }
 
 /** What was swept, in words. */

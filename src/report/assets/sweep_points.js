@@ -65,10 +65,9 @@ function detailPanel({ axes, metrics }) {
         el("h2", {}, `Point ${point.point}`), verdictMark(lookOfVerdict(point.verdict), point.verdict),
         point.reason ? el("p", { class: isDone(point) ? "quiet" : "bad" }, point.reason) : null,
         picture && el("img", { src: picture, alt: `The sand of point ${point.point}` }),
-        el("h3", {}, "Axes"), rows(values), el("h3", {}, "Metrics"),
-        rows(metrics.map(({ title, unit }, i) =>
+        el("h3", {}, "Axes"), rows(values), el("h3", {}, "Command"), commandLine(point.command),
+        metrics.length > 0 && el("h3", {}, "Metrics"), rows(metrics.map(({ title, unit }, i) =>
           [title, format(point.metrics[i] ?? null), isNumber(point.metrics[i]) && unit])),
-        el("h3", {}, "Command"), commandLine(point.command),
       ].filter(Boolean));
     },
   };
@@ -118,7 +117,7 @@ function gallery(sweep, view, select, keys) {
     buttons.clear();
     pages.element.hidden = true;
     body.className = "rows";
-    body.style.gridTemplateColumns = `max-content repeat(${x.order.length}, minmax(0, 7rem))`;
+    body.style.gridTemplateColumns = `max-content repeat(${x.order.length}, minmax(0, 10rem))`;
     const at = new Map(shown.map((point) => [`${point.at[view.x]},${point.at[view.second]}`, point]));
     const label = (text) => el("small", {}, text);
     body.replaceChildren(
