@@ -152,7 +152,7 @@ void add_sweep_command(CLI::App& app, Command& chosen) {
   CLI::Option* jobs =
       command
           ->add_option("--jobs", arguments->jobs,
-                       "Simulations at a time; 0: as many as cores. The results are the same for any number")
+                       "Cores to use, each for a simulation; 0: all. The results are the same for any number")
           ->check(CLI::Range(0, 1024));
   CLI::Option* shard =
       command->add_option("--shard", arguments->shard, "Only this part: the I-th of N, such as 1/4")

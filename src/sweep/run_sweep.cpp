@@ -176,9 +176,9 @@ SweepCounters Sweep::run(const SweepFolder& folder, const SweepOptions& options)
   }
   if (!plan_.golden.empty()) work.golden = RunFile(plan_.golden).final_bed();
 
-  const int cores = tbb::info::default_concurrency();
-  const int jobs = std::min(options.jobs > 0 ? options.jobs : cores,
-                            static_cast<int>(std::max<std::size_t>(1, work.groups.size())));
+  // Of a cluster's node, or beside other shards, a sweep has no more cores than it was given.
+  const int cores = options.jobs > 0 ? options.jobs : tbb::info::default_concurrency();
+  const int jobs = std::min(cores, static_cast<int>(std::max<std::size_t>(1, work.groups.size())));
   // Each job is a thread of its own; what cores are left help them.
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                   static_cast<std::size_t>(std::max(1, cores - jobs + 1)));

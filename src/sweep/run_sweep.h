@@ -21,7 +21,7 @@ struct Shard {
 };
 
 struct SweepOptions {
-  int jobs = 0;  ///< simulations at a time; 0: as many as cores
+  int jobs = 0;  ///< cores, and at most so many simulations at a time; 0: all cores
   Shard shard;
   std::function<void(double)> progress = [](double) {};  ///< share of the points to do that are done
 };

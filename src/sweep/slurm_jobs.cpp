@@ -98,6 +98,10 @@ bool QueuedTask::alive() const {
   return std::find(ended.begin(), ended.end(), state) == ended.end();
 }
 
+bool QueuedTask::held() const {  // JobHeldUser, launch_failed_requeued_held, ...
+  return alive() && (reason.find("Held") != std::string::npos || reason.find("held") != std::string::npos);
+}
+
 std::vector<QueuedTask> parse_queue(const std::string& text) {
   std::vector<QueuedTask> tasks;
   std::istringstream lines(text);

@@ -36,6 +36,8 @@ struct QueuedTask {
 
   /// Has not ended, and may yet run.
   bool alive() const;
+  /// Waits until somebody releases it.
+  bool held() const;
 };
 
 /// What squeue prints of jobs by queue_format. Lines that are no such thing are left out.

@@ -26,7 +26,9 @@ void add_queued(TaskStatus& task, const SlurmJobs& jobs, const SlurmQueue& queue
   task.alive = found->alive();
   task.restarts = found->restarts;
   if (task.alive) {
-    task.state = found->restarts > 0 && found->state == "PENDING" ? "requeued" : lower(found->state);
+    task.state = found->held()                                      ? "held"
+                 : found->restarts > 0 && found->state == "PENDING" ? "requeued"
+                                                                    : lower(found->state);
     task.reason = found->reason;
   } else if (task.missing > 0) {
     task.reason = lower(found->state);
@@ -77,19 +79,21 @@ std::string SweepStatus::advice() const {
   if (!queue_trouble.empty())
     return fmt::format("{} missing, and what is queued cannot be known: {}; when nothing is, {}",
                        counted(missing, "point"), queue_trouble, again);
-  std::size_t alive = 0, gone = 0, left = 0;
+  std::size_t alive = 0, held = 0, gone = 0, left = 0;
   for (const TaskStatus& task : tasks) {
     alive += task.alive;
+    held += task.state == "held";
     gone += !task.alive && task.missing > 0;
     left += task.alive ? 0 : task.missing;
   }
-  const std::string lost = gone == 0 ? ""
-                                     : fmt::format("{} gone and left {} point{}", counted(gone, "task"), left,
-                                                   left == 1 ? "" : "s");
-  if (alive == 0) return (lost.empty() ? counted(missing, "point") + " missing" : lost) + ": " + again;
+  if (held > 0)
+    return fmt::format("{} held: scontrol release {}; or scancel {}, and {}", counted(held, "task"), *array,
+                       *array, again);
+  const std::string lost =
+      fmt::format("{} gone and left {} point{}", counted(gone, "task"), left, left == 1 ? "" : "s");
+  if (alive == 0) return (gone > 0 ? lost : counted(missing, "point") + " missing") + ": " + again;
   const std::string wait = counted(alive, "task") + " queued or running";
-  return lost.empty() ? wait + ": wait"
-                      : fmt::format("{}; {}: wait for the others, then {}", wait, lost, again);
+  return gone > 0 ? fmt::format("{}; {}: wait for the others, then {}", wait, lost, again) : wait + ": wait";
 }
 
 Table open_tasks(const SweepStatus& status) {

@@ -91,6 +91,14 @@ TEST_F(SweepStatusTest, TasksThatAreAtWorkAreWaitedFor) {
             "3 tasks are queued or running: wait");
 }
 
+TEST_F(SweepStatusTest, HeldTasksAreNotWaitedFor) {
+  const SweepStatus status = queued(
+      "12|1|RUNNING|0|None|\n12|2|PENDING|1|launch failed requeued held|\n12|3|PENDING|0|JobHeldUser|\n");
+  EXPECT_EQ(status.tasks[1].state, "held");
+  EXPECT_EQ(status.advice(),
+            "2 tasks are held: scontrol release 12; or scancel 12, and run the same command again");
+}
+
 TEST_F(SweepStatusTest, WhatGoneTasksLeftIsCounted) {
   done({0, 3, 7});
   const SweepStatus status = queued("12|3|TIMEOUT|0|None|\n");
