@@ -267,6 +267,16 @@ TEST_F(ComparePageInBrowser, AComponentOfTheForceIsChosenAndAllChartsZoomAlike) 
   expect_no_errors();
 }
 
+TEST_F(ComparePageInBrowser, PointingAtAChartReadsOffBothTraces) {
+  open(DifferentPair().page());
+  browser().hover("#part-2 .canvas");
+  browser().wait_for("document.querySelector('#part-2 .tip')");
+  EXPECT_EQ(
+      browser().evaluate("[...document.querySelectorAll('#part-2 .tip dt')].map((one) => one.textContent)"),
+      Json({"golden (N)", "run (N)"}));
+  expect_no_errors();
+}
+
 TEST_F(ComparePageInBrowser, WhatIsMissingIsSaidAndTheRestIsDrawn) {
   Pair pair;
   pair.run.complete = pair.run.has_final = pair.run.has_trace = false;

@@ -10,7 +10,6 @@ const lookOfDifference = { colour: colours[2] };
  */
 function timeChart({ title, note, legend, whole }) {
   let shown = { curves: [], quantity: "", unit: "", limit: null };
-  const look = { height: "17rem", title, note, legend };
   const axes = (from, to) => {
     const inSight = shown.curves.flatMap(({ curve: { time, value } }) => {
       const after = time.findIndex((t) => t >= from), before = time.findLastIndex((t) => t <= to);
@@ -36,7 +35,7 @@ function timeChart({ title, note, legend, whole }) {
     tooltip: { trigger: "axis", confine: true, formatter: tip, axisPointer: { animation: false } },
     dataZoom: [{ type: "inside", filterMode: "none", zoomOnMouseWheel: "ctrl", moveOnMouseWheel: false }],
   };
-  const element = chart({ ...look, option });
+  const element = chart({ title, note, legend, option, height: "17rem" });
   const one = charts.at(-1);
   const update = (change) => (one.drawn ? one.drawn.setOption(change) : Object.assign(option, change));
   return {
