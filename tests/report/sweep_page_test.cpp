@@ -273,6 +273,13 @@ TEST_F(SweepPage, ControlsChooseMetricAxesAndKindOfChart) {
   EXPECT_EQ(ask("document.documentElement.dataset.errors"), "0");
 }
 
+TEST_F(SweepPage, PrintsUnitsAsTheyAreWritten) {
+  Json data = grid_data();
+  data["metrics"][0]["unit"] = "m^3";
+  open(data, as_map);
+  EXPECT_EQ(text(".colours > span"), "peak force (m³)");
+}
+
 TEST_F(SweepPage, ALogarithmicScaleIsOfferedWhereAllValuesArePositive) {
   Json data = grid_data();
   data["points"][0]["metrics"][1] = -1.0;

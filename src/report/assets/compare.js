@@ -56,7 +56,6 @@ function checkTable(checks) {
 drawPage((data, main) => {
   const { checks, parts, missing } = data;
   const failed = checks.filter((check) => !check.passed);
-  const fact = (name, value, kind = null) => el("div", {}, el("dt", {}, name), el("dd", { class: kind }, value));
   const measured = ["final height", "height change", "force", "picture"]
     .map((name) => checks.find((check) => check.name === name)).filter((check) => check && isNumber(check.measured));
   main.append(

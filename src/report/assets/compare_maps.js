@@ -2,8 +2,6 @@
 // Maps of a comparison: golden, run and their difference side by side, and two of them over one another with a
 // slider that wipes between them.
 
-const unitText = (unit) => unit.replace(/^um$/, "µm");
-
 /** What the colours of a map mean. */
 const barOf = ({ title, unit, low, high, colours: stops }) =>
   colourBar({ name: withUnit(title, unitText(unit)), low, high, stops,

@@ -66,6 +66,8 @@ function tickText(value) {
   return mantissa === "1" ? power : `${withMinus(mantissa)}×${power}`;
 }
 
+/** A unit as it is printed: um as µm, m^3 as m³. */
+const unitText = (unit) => unit.replace(/^um$/, "µm").replace(/\^(-?\d+)/g, (all, power) => raised(power));
 const withUnit = (title, unit) => (unit ? `${title} (${unit})` : title);
 const count = (n, one, many = `${one}s`) => `${format(n)} ${n === 1 ? one : many}`;
 /** Orders text, numbers in it by their size. */

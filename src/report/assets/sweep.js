@@ -4,7 +4,7 @@
 // the axes that a chart does not show are its own.
 
 function readSweep(data) {
-  const shown = (one) => ({ ...one, unit: one.unit.replace(/\^(-?\d+)/g, (all, power) => raised(power)) });
+  const shown = (one) => ({ ...one, unit: unitText(one.unit) });
   const axes = data.axes.map(shown).map(prepareAxis), metrics = data.metrics.map(shown);
   const byPlace = new Map(data.points.map((point) => [point.at.join(), point]));
   return { ...data, axes, metrics, latin: data.design === "latin", pointAt: (at) => byPlace.get(at.join()) ?? null };
