@@ -98,8 +98,9 @@ void add_compare_command(CLI::App& app, Command& chosen) {
       ->add_option("--pixel-share", options->tolerances.pixel_share, "Pixels that may differ at all [0 to 1]")
       ->check(CLI::Range(0.0, 1.0))
       ->capture_default_str();
-  command->add_option("--report", options->report,
-                      "Folder for a page on what differs (compare.html) and a picture of it");
+  command->add_option(
+      "--report", options->report,
+      "Folder for a page (compare.html: checks, maps, forces) and a picture of the difference");
   command->add_option("--junit", options->junit, "File for the checks as JUnit XML");
   command->add_flag("--json", options->json, "Print one JSON object instead of the table");
   command->footer(

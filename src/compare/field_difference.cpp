@@ -1,5 +1,6 @@
 #include "compare/field_difference.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -18,11 +19,30 @@ namespace {
       golden_cols, rows, cols);
 }
 
+/// visit(row, col, run - golden) for every cell of every tile in which the two may differ. Two equal
+/// infinities give NaN: nothing that is not finite is missed.
+template <class Visit>
+void visit_differences(const HeightField& golden, const HeightField& run, const Visit& visit) {
+  if (golden.rows() != run.rows() || golden.cols() != run.cols() || golden.rows() == 0 || golden.cols() == 0)
+    refuse(golden.rows(), golden.cols(), run.rows(), run.cols());
+  const bool skip_untouched = same_where_untouched(golden, run);
+  std::vector<double> a(HeightField::tile_area), b(HeightField::tile_area);
+  for (int tile = 0; tile < golden.tile_count(); ++tile) {
+    if (skip_untouched && golden.slot_of(tile) < 0 && run.slot_of(tile) < 0) continue;
+    golden.read_tile(tile, a.data());
+    run.read_tile(tile, b.data());
+    const CellRange cells = golden.tile_cells(tile);
+    for (int row = 0; row < cells.rows(); ++row)
+      for (int col = 0; col < cells.cols(); ++col) {
+        const int at = row * HeightField::tile_side + col;
+        visit(cells.row_begin + row, cells.col_begin + col, b[at] - a[at]);
+      }
+  }
+}
+
 }  // namespace
 
 FieldDifference field_difference(const HeightField& golden, const HeightField& run) {
-  if (golden.rows() != run.rows() || golden.cols() != run.cols() || golden.rows() == 0 || golden.cols() == 0)
-    refuse(golden.rows(), golden.cols(), run.rows(), run.cols());
   FieldDifference result;
   CompensatedSum sum, squares;
   // The largest, and of equal ones the first, row by row; a cell that is not finite before any number.
@@ -37,24 +57,12 @@ FieldDifference field_difference(const HeightField& golden, const HeightField& r
     result.max = finite ? size : std::numeric_limits<double>::quiet_NaN();
     result.row = row, result.col = col;
   };
-  const bool skip_untouched = same_where_untouched(golden, run);
-  std::vector<double> a(HeightField::tile_area), b(HeightField::tile_area);
-  for (int tile = 0; tile < golden.tile_count(); ++tile) {
-    if (skip_untouched && golden.slot_of(tile) < 0 && run.slot_of(tile) < 0) continue;
-    golden.read_tile(tile, a.data());
-    run.read_tile(tile, b.data());
-    const CellRange cells = golden.tile_cells(tile);
-    for (int row = 0; row < cells.rows(); ++row)
-      for (int col = 0; col < cells.cols(); ++col) {
-        const int at = row * HeightField::tile_side + col;
-        const double difference =
-            b[at] - a[at];  // two equal infinities give NaN: nothing that is not finite is missed
-        compare(cells.row_begin + row, cells.col_begin + col, difference);
-        result.cells += difference != 0.0;
-        sum.add(difference);
-        squares.add(difference * difference);
-      }
-  }
+  visit_differences(golden, run, [&](int row, int col, double difference) {
+    compare(row, col, difference);
+    result.cells += difference != 0.0;
+    sum.add(difference);
+    squares.add(difference * difference);
+  });
   result.rms = std::sqrt(squares.value() / (static_cast<double>(golden.rows()) * golden.cols()));
   result.volume = sum.value() * golden.cell_area();
   result.x = golden.x_of(result.col);
@@ -65,6 +73,18 @@ FieldDifference field_difference(const HeightField& golden, const HeightField& r
 FieldDifference field_difference(const HeightGrid& golden, const HeightGrid& run, double cell_size) {
   if (golden.size() == 0 || run.size() == 0) refuse(golden.rows(), golden.cols(), run.rows(), run.cols());
   return field_difference(HeightField(golden, cell_size), HeightField(run, cell_size));
+}
+
+CellRange differing_cells(const HeightField& golden, const HeightField& run, double limit) {
+  CellRange range{golden.rows(), 0, golden.cols(), 0};
+  visit_differences(golden, run, [&](int row, int col, double difference) {
+    if (std::abs(difference) <= limit) return;
+    range.row_begin = std::min(range.row_begin, row);
+    range.row_end = std::max(range.row_end, row + 1);
+    range.col_begin = std::min(range.col_begin, col);
+    range.col_end = std::max(range.col_end, col + 1);
+  });
+  return range.empty() ? CellRange{} : range;
 }
 
 }  // namespace sandstroke

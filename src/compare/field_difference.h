@@ -19,4 +19,8 @@ struct FieldDifference {
 FieldDifference field_difference(const HeightField& golden, const HeightField& run);
 FieldDifference field_difference(const HeightGrid& golden, const HeightGrid& run, double cell_size);
 
+/// The smallest rectangle that holds every cell in which they differ by more than limit [m] or are not
+/// finite; empty where none does. Shapes and cost as above.
+CellRange differing_cells(const HeightField& golden, const HeightField& run, double limit);
+
 }  // namespace sandstroke

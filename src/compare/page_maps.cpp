@@ -10,6 +10,7 @@
 #include "compare/difference_map.h"
 #include "compare/field_difference.h"
 #include "compare/image_difference.h"
+#include "core/error.h"
 #include "io/png_file.h"
 #include "render/changed_cells.h"
 #include "render/colour_map.h"
@@ -27,14 +28,17 @@ constexpr int most_pixels = 1400;  // of a map, along its longer side
 constexpr int most_spots = 500;    // of a difference, likewise
 constexpr int most_numbers = 250;  // of values that can be read off, likewise
 constexpr int scale_colours = 21;
-constexpr double settled = 0.02;  // of the largest change: what settles around a stroke
+constexpr double most_shown = 5e7;  // cells: each costs some 40 bytes of memory
 
-bool same_shape(const HeightGrid& a, const HeightGrid& b) {
-  return a.rows() == b.rows() && a.cols() == b.cols();
-}
-
-HeightGrid block(const HeightGrid& values, const CellRange& cells) {
-  return values.block(cells.row_begin, cells.col_begin, cells.rows(), cells.cols());
+HeightGrid block(const HeightField& bed, const CellRange& cells) {
+  if (static_cast<double>(cells.rows()) * cells.cols() > most_shown)
+    throw_input_error(
+        "{} x {} cells are to be shown, too many for a page; read them from both files, for example with "
+        "h5py",
+        cells.rows(), cells.cols());
+  return HeightGrid::NullaryExpr(cells.rows(), cells.cols(), [&](Eigen::Index row, Eigen::Index col) {
+    return bed(cells.row_begin + static_cast<int>(row), cells.col_begin + static_cast<int>(col));
+  });
 }
 
 ValueRange finite_range(const HeightGrid& values) {
@@ -108,9 +112,7 @@ Json numbers_json(const HeightGrid& golden, const HeightGrid& difference) {
           {"difference", float_text(at_spots(difference, spots))}};
 }
 
-std::string shown_text(const ComparedSurfaces& surfaces, const CellRange& shown) {
-  const BedGeometry bed(static_cast<int>(surfaces.golden.rows()), static_cast<int>(surfaces.golden.cols()),
-                        surfaces.cell_size);
+std::string shown_text(const BedGeometry& bed, const CellRange& shown) {
   const std::string cells = fmt::format("{} x {} cells of {:.4g} m", bed.cols(), bed.rows(), bed.cell_size());
   if (shown == bed.cells()) return fmt::format("The whole bed of {}.", cells);
   const double half = 0.5 * bed.cell_size();
@@ -125,33 +127,29 @@ std::string shown_text(const ComparedSurfaces& surfaces, const CellRange& shown)
 }  // namespace
 
 CellRange shown_cells(const ComparedSurfaces& s) {
-  if (!same_shape(s.golden, s.run)) return {};
-  const HeightGrid difference = s.run - s.golden;
+  if (s.golden.rows() != s.run.rows() || s.golden.cols() != s.run.cols()) return {};
   CellRange all;
-  const auto add = [&](const HeightGrid& change, double threshold) {
-    const CellRange range = changed_cells(HeightGrid::Zero(change.rows(), change.cols()), change, threshold);
+  const auto add = [&](const CellRange& range) {
     if (range.empty()) return;
     all = all.empty()
               ? range
               : CellRange{std::min(all.row_begin, range.row_begin), std::max(all.row_end, range.row_end),
                           std::min(all.col_begin, range.col_begin), std::max(all.col_end, range.col_end)};
   };
-  const bool finite =
-      difference.isFinite().all() && s.golden_change.isFinite().all() && s.run_change.isFinite().all();
-  if (finite) {
-    add(s.golden_change, settled * finite_magnitude(s.golden_change));
-    add(s.run_change, settled * finite_magnitude(s.run_change));
-    add(difference, s.limit);
-  }
-  return framed_cells(all, static_cast<int>(difference.rows()), static_cast<int>(difference.cols()),
-                      s.cell_size, 0.0);
+  const auto add_moved = [&](const HeightField& initial, const HeightField& final) {
+    add(differing_cells(initial, final, settled_share * field_difference(initial, final).max));
+  };
+  add_moved(s.golden_initial, s.golden);
+  add_moved(s.run_initial, s.run);
+  add(differing_cells(s.golden, s.run, s.limit));
+  return framed_cells(all, s.golden.rows(), s.golden.cols(), s.golden.cell_size(), 0.0);
 }
 
 Json surfaces_part(const ComparedSurfaces& s) {
   const CellRange shown = shown_cells(s);
   const bool alike = !shown.empty();
-  const HeightGrid golden = alike ? block(s.golden, shown) : s.golden;
-  const HeightGrid run = alike ? block(s.run, shown) : s.run;
+  const HeightGrid golden = block(s.golden, alike ? shown : s.golden.cells());
+  const HeightGrid run = block(s.run, alike ? shown : s.run.cells());
   const ValueRange a = finite_range(golden), b = finite_range(run);
   const ValueRange range = value_range(std::min(a.low, b.low), std::max(a.high, b.high), s.around_zero);
   const Json scale = height_scale(s.title, range, s.around_zero);
@@ -164,13 +162,13 @@ Json surfaces_part(const ComparedSurfaces& s) {
                                golden.rows(), golden.cols(), run.rows(), run.cols());
     return part;
   }
-  part["text"] = shown_text(s, shown);
+  part["text"] = shown_text(s.golden, shown);
 
   const HeightGrid difference = run - golden;
   const double span = std::max(finite_magnitude(difference), s.limit);
   const ValueRange difference_range = value_range(-span, span, true);
   const Spots spots = spots_of(difference, most_spots);
-  const FieldDifference whole = field_difference(s.golden, s.run, s.cell_size);
+  const FieldDifference whole = field_difference(s.golden, s.run);
   std::string text = fmt::format(
       "Largest {:.4g} m at x = {:.4g} m, y = {:.4g} m (row {}, col {}), limit {:.4g} m; RMS {:.4g} m; volume "
       "{:+.4g} m³.",
@@ -181,8 +179,8 @@ Json surfaces_part(const ComparedSurfaces& s) {
   maps.push_back(map_json("difference", height_map(spread(difference, spots), difference_range, true),
                           height_scale("run − golden", difference_range, true), text));
 
-  const BedGeometry bed(static_cast<int>(s.golden.rows()), static_cast<int>(s.golden.cols()), s.cell_size);
-  const double half = 0.5 * s.cell_size;
+  const BedGeometry& bed = s.golden;
+  const double half = 0.5 * bed.cell_size();
   part["extent"] = {{"x", {bed.x_of(shown.col_begin) - half, bed.x_of(shown.col_end - 1) + half}},
                     {"y", {bed.y_of(shown.row_begin) - half, bed.y_of(shown.row_end - 1) + half}}};
   part["spots"] = numbers_json(golden, difference);

@@ -11,19 +11,17 @@ namespace sandstroke {
 // Golden, run and their difference as maps: a part of a page. All maps of a part have equally many pixels and
 // show the same place in the same pixel, unless golden and run differ in shape: then there is no difference.
 
-/// Two surfaces of one bed, or two changes of height.
+/// Two surfaces, or two changes of height, each with what it was initially.
 struct ComparedSurfaces {
   std::string title;  ///< "Final height"
-  HeightGrid golden, run;
-  HeightGrid golden_change, run_change;  ///< m, since the initial surface
-  double cell_size = 0.0;                ///< m, golden's
-  double limit = 0.0;                    ///< m, up to which they count as equal
-  bool around_zero = false;              ///< colours of heights: from blue to red, with white at zero
+  HeightField golden, golden_initial, run, run_initial;
+  double limit = 0.0;        ///< m, up to which they count as equal
+  bool around_zero = false;  ///< colours of heights: from blue to red, with white at zero
 };
 
 /// The part of the bed where sand was moved in one of them (by more than what settles around it), or where
-/// they differ by more than the limit; with a margin. The whole bed where there is nothing to see, where
-/// something is not finite, and where they differ in shape (then empty).
+/// they differ by more than the limit; with a margin. The whole bed where there is no such part, and where a
+/// height is not finite; empty where they differ in shape.
 CellRange shown_cells(const ComparedSurfaces& surfaces);
 
 /// The difference's colours span at least +-limit; each of its spots shows its largest difference, and has it

@@ -13,7 +13,7 @@ RenderSubject subject_of_change(const HeightGrid& initial, const HeightGrid& las
   subject.contour_interval = contour_interval;
   // The stroke is where sand was moved by more than what settles around it.
   const double most = (last - initial).abs().maxCoeff();
-  subject.focus = changed_cells(initial, last, 0.02 * most);
+  subject.focus = changed_cells(initial, last, settled_share * most);
   // Box, camera and colours stay the same from frame to frame.
   subject.extent = {std::min(initial.minCoeff(), last.minCoeff()),
                     std::max(initial.maxCoeff(), last.maxCoeff())};

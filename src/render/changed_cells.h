@@ -4,6 +4,9 @@
 
 namespace sandstroke {
 
+/// What settles around a stroke moves by no more than this share of the largest change.
+inline constexpr double settled_share = 0.02;
+
 /// The smallest rectangle that holds every cell whose height differs by more than threshold [m]; empty where
 /// none does. Error: input, where the grids differ in shape.
 CellRange changed_cells(const HeightGrid& initial, const HeightGrid& final, double threshold);

@@ -51,19 +51,16 @@ HeightGrid coarse_surface(const std::filesystem::path& point_file, int most) {
   const BedGeometry bed = geometry(file);
   const Eigen::Index side = (std::max(bed.rows(), bed.cols()) + most - 1) / most;
   const double level = file.fill_value(surface);
-  HeightGrid above = HeightGrid::Zero((bed.rows() + side - 1) / side, (bed.cols() + side - 1) / side);
+  HeightGrid coarse =
+      HeightGrid::Constant((bed.rows() + side - 1) / side, (bed.cols() + side - 1) / side, level);
   visit_parts(file, level, [&](Eigen::Index first_row, Eigen::Index first_col, const HeightGrid& heights) {
     for (Eigen::Index row = 0; row < heights.rows(); ++row)
-      for (Eigen::Index col = 0; col < heights.cols(); ++col)
-        above((first_row + row) / side, (first_col + col) / side) += heights(row, col) - level;
+      for (Eigen::Index col = 0; col < heights.cols(); ++col) {
+        double& kept = coarse((first_row + row) / side, (first_col + col) / side);
+        if (std::abs(heights(row, col) - level) > std::abs(kept - level)) kept = heights(row, col);
+      }
   });
-  // Blocks at the far borders may hold fewer cells.
-  for (Eigen::Index row = 0; row < above.rows(); ++row)
-    for (Eigen::Index col = 0; col < above.cols(); ++col) {
-      const auto cells = std::min(side, bed.rows() - row * side) * std::min(side, bed.cols() - col * side);
-      above(row, col) = level + above(row, col) / static_cast<double>(cells);
-    }
-  return above;
+  return coarse;
 }
 
 }  // namespace sandstroke

@@ -17,7 +17,8 @@ struct KeptSurface {
 /// /surface of a point's file. Error: io, input, where it is not there or cannot be read.
 KeptSurface inspect_surface(const std::filesystem::path& point_file);
 
-/// Its heights [m] in square blocks of cells, the mean of each, at most `most` blocks along a side.
+/// Its heights [m] in square blocks of cells, at most `most` along a side: of each block the cell furthest
+/// from the bed's commonest level, so that a furrow narrower than a block does not fade among its ramparts.
 HeightGrid coarse_surface(const std::filesystem::path& point_file, int most);
 
 }  // namespace sandstroke

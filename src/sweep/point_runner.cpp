@@ -139,25 +139,26 @@ PointResult failed_point(const Error& error, std::size_t metrics) {
   return {verdict, error.what(), std::vector<double>(metrics, PointResult::none)};
 }
 
-std::optional<SharedRunResult> run_shared(const SharedRun& run, const std::vector<Metric>& metrics,
+std::optional<SharedRunResult> run_shared(const std::vector<Scene>& scenes, const HeightField& bed,
+                                          const Stroke* stroke, const std::vector<Metric>& metrics,
                                           const HeightField* golden) {
-  Scene scene = run.scenes.front();
+  Scene scene = scenes.front();
   std::vector<Feeler> feelers;
   if (scene.device.model == DeviceModel::kinematic) {
-    for (const Scene& felt : run.scenes) feelers.push_back({&felt, {}, {}});
+    for (const Scene& felt : scenes) feelers.push_back({&felt, {}, {}});
     scene.force.k_s = 0.0;  // the sand's own run feels nothing, and so cannot fail for a force
   }
   Followers followers(scene, feelers);
   try {
-    Simulation simulation(scene, run.bed, run.stroke);
+    Simulation simulation(scene, bed, stroke ? std::optional(*stroke) : std::nullopt);
     const RunResult sand = simulation.run(followers);
     if (sand.interrupted) return std::nullopt;
     Measures shared;
     shared.add_sand(sand);
-    add_shapes(shared, metrics, scene, run.bed, simulation.bed(), followers.path(), golden);
+    add_shapes(shared, metrics, scene, bed, simulation.bed(), followers.path(), golden);
 
     SharedRunResult result{{}, simulation.bed()};
-    for (std::size_t i = 0; i < run.scenes.size(); ++i) {
+    for (std::size_t i = 0; i < scenes.size(); ++i) {
       RunResult felt = sand;
       if (i < feelers.size()) {
         if (!feelers[i].failure.empty()) {
@@ -169,13 +170,12 @@ std::optional<SharedRunResult> run_shared(const SharedRun& run, const std::vecto
       }
       Measures measures = shared;
       measures.add_forces(felt);
-      result.points.push_back({verdict_of(felt, run.scenes[i]), "", measures.of(metrics)});
+      result.points.push_back({verdict_of(felt, scenes[i]), "", measures.of(metrics)});
     }
     return result;
   } catch (const Error& error) {
     if (error.kind() == ErrorKind::io) throw;
-    return SharedRunResult{std::vector<PointResult>(run.scenes.size(), failed_point(error, metrics.size())),
-                           run.bed};
+    return SharedRunResult{std::vector<PointResult>(scenes.size(), failed_point(error, metrics.size())), bed};
   }
 }
 

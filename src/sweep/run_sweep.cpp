@@ -112,8 +112,8 @@ std::optional<std::size_t> Sweep::run_group(const SweepFolder& folder, const std
   for (const std::size_t point : points) scenes.push_back(plan_.scene_of(point));
   const std::shared_ptr<const SweepStroke> stroke = inputs_.stroke(scenes.front());
   const std::shared_ptr<const HeightField> bed = inputs_.bed(scenes.front().bed);
-  const std::optional<SharedRunResult> result = run_shared(
-      {scenes, *bed, stroke ? std::optional(stroke->stroke) : std::nullopt}, folder.metrics(), golden);
+  const std::optional<SharedRunResult> result =
+      run_shared(scenes, *bed, stroke ? &stroke->stroke : nullptr, folder.metrics(), golden);
   if (!result) return std::nullopt;
 
   std::size_t failures = 0;

@@ -1,5 +1,7 @@
 #include "sweep/sweep_folder.h"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
@@ -98,12 +100,22 @@ SweepFolder SweepFolder::make(const fs::path& path, const SweepManifest& manifes
             key == "axes" || key == "inputs" || key == "settings" || key == "metrics" ? "" : "s");
     return there;
   }
-  if (fs::is_directory(path) && !fs::is_empty(path))
-    throw_input_error("{}: holds other files and no sweep; choose another -o, or an empty folder",
-                      path.string());
+  if (fs::is_directory(path))
+    for (const auto& entry : fs::directory_iterator(path)) {
+      const std::string name = entry.path().filename().string();
+      // Another process may be making the same folder.
+      if (name == "points" || name.starts_with("manifest")) continue;
+      throw_input_error("{}: holds other files and no sweep; choose another -o, or an empty folder",
+                        path.string());
+    }
   make_folder(path / "points");
   SweepFolder made(path, manifest);
-  write_text_file(manifest_path(path), to_json(manifest).dump(2) + "\n");
+  const fs::path own = path / fmt::format("manifest-{}.json", getpid());
+  write_text_file(own, to_json(manifest).dump(2) + "\n");
+  std::error_code failure;
+  fs::rename(own, manifest_path(path), failure);
+  if (failure)
+    throw_io_error("{}: cannot be put in place ({})", manifest_path(path).string(), failure.message());
   return made;
 }
 

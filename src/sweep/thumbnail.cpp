@@ -33,13 +33,10 @@ Image shrunk(const Image& picture, int width) {
 }
 
 Image surface_thumbnail(const std::filesystem::path& point_file, double span) {
-  const HeightGrid heights = coarse_surface(point_file, 2 * thumbnail_width);
-  const double scale =
-      static_cast<double>(thumbnail_width) / static_cast<double>(std::max(heights.rows(), heights.cols()));
-  const auto pixels = [&](Eigen::Index cells) {
-    return std::max(1, static_cast<int>(std::lround(scale * static_cast<double>(cells))));
-  };
-  return plain_map(heights, -span, span, true, pixels(heights.cols()), pixels(heights.rows()));
+  const HeightGrid heights = coarse_surface(point_file, thumbnail_width);
+  const auto rows = static_cast<int>(heights.rows()), cols = static_cast<int>(heights.cols());
+  const int pixels = thumbnail_width / std::max(rows, cols);  // of a block; 1 unless the bed has few cells
+  return plain_map(heights, -span, span, true, pixels * cols, pixels * rows);
 }
 
 }  // namespace sandstroke

@@ -86,7 +86,8 @@ TEST(CliHugeBed, WhatWouldTakeAllOfItIsRefusedAtOnce) {
   refused({"run", "huge.toml", "-o", "a.h5", "--set", "bed.surface={kind='noise', wavelength=0.0}"},
           "GB of memory");
   for (const std::vector<std::string>& arguments :
-       {std::vector<std::string>{"info", "huge.h5"}, {"compare", "huge.h5", "huge.h5"}}) {
+       {std::vector<std::string>{"info", "huge.h5"},
+        {"compare", "huge.h5", "huge.h5", "--report", "report"}}) {
     const ProgramResult result = run_program(arguments, folder);
     EXPECT_EQ(result.exit_code, 0) << result.err;
     EXPECT_LT(result.peak_memory, 1.5 * peak) << arguments.front();

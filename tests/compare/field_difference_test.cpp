@@ -84,6 +84,20 @@ TEST(FieldDifference, ACellThatIsNotFiniteIsReportedBeforeAnyNumber) {
   }
 }
 
+TEST(DifferingCells, AreTheSmallestRectangleAroundWhatDiffersByMoreThanTheLimit) {
+  const HeightField golden(200, 300, 0.01);
+  HeightField run = golden;
+  EXPECT_TRUE(differing_cells(golden, run, 0.0).empty());
+  run.set(20, 250, 1e-3);
+  run.set(130, 30, -1e-3);
+  run.set(199, 299, 1e-4);
+  EXPECT_EQ(differing_cells(golden, run, 1e-4), (CellRange{20, 131, 30, 251}));
+  EXPECT_TRUE(differing_cells(golden, run, 1e-3).empty());
+  run.set(0, 0, std::numeric_limits<double>::quiet_NaN());
+  EXPECT_EQ(differing_cells(golden, run, 1.0), (CellRange{0, 1, 0, 1}));
+  EXPECT_THROW(differing_cells(golden, HeightField(200, 301, 0.01), 1.0), Error);
+}
+
 TEST(FieldDifference, RefusesDifferentShapes) {
   EXPECT_THROW(field_difference(HeightGrid::Zero(3, 4), HeightGrid::Zero(4, 3), 1.0), Error);
   EXPECT_THROW(field_difference(HeightGrid(), HeightGrid(), 1.0), Error);

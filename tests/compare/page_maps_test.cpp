@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "compare/difference_map.h"
+#include "core/error.h"
 #include "core/output_file.h"
 #include "io/png_file.h"
 #include "test_folder.h"
@@ -66,15 +67,16 @@ std::vector<std::pair<int, int>> differing(const Image& a, const Image& b) {
 
 constexpr double cell_size = 0.01, limit = 1e-6;
 
+HeightField level(int rows, int cols) { return HeightField(rows, cols, cell_size); }
+
 /// A furrow in the middle of a bed, and a run of it that has one more cell raised.
 ComparedSurfaces furrow(int rows, int cols, int row, int col) {
-  ComparedSurfaces s{"Final height", HeightGrid::Zero(rows, cols), {}, {}, {}, cell_size, limit};
-  s.golden.block(rows / 2, cols / 3, 3, cols / 3) = -0.01;
-  s.run = s.golden;
-  s.run(row, col) += 0.004;
-  s.golden_change = s.golden;
-  s.run_change = s.run;
-  return s;
+  HeightField golden = level(rows, cols);
+  for (int r = rows / 2; r < rows / 2 + 3; ++r)
+    for (int c = cols / 3; c < 2 * cols / 3; ++c) golden.set(r, c, -0.01);
+  HeightField run = golden;
+  run.set(row, col, golden(row, col) + 0.004);
+  return {"Final height", golden, level(rows, cols), run, level(rows, cols), limit};
 }
 
 TEST(ShownCells, HoldWhatWasMovedAndWhatDiffersAndLeaveOutTheRest) {
@@ -93,10 +95,10 @@ TEST(ShownCells, HoldWhatWasMovedAndWhatDiffersAndLeaveOutTheRest) {
 TEST(ShownCells, AreTheWholeBedWhereNothingMovedOrSomethingIsNotFinite) {
   ComparedSurfaces s = furrow(30, 40, 15, 20);
   const CellRange whole{0, 30, 0, 40};
-  s.golden(3, 3) = std::nan("");
+  s.golden.set(3, 3, std::nan(""));
   EXPECT_EQ(shown_cells(s), whole);
-  const HeightGrid flat = HeightGrid::Zero(30, 40);
-  EXPECT_EQ(shown_cells({"Final height", flat, flat, flat, flat, cell_size, limit}), whole);
+  const HeightField flat = level(30, 40);
+  EXPECT_EQ(shown_cells({"Final height", flat, flat, flat, flat, limit}), whole);
 }
 
 TEST(SurfacesPart, APlaceIsTheSamePixelInAllThreeMaps) {
@@ -138,7 +140,7 @@ TEST(SurfacesPart, GoldenAndRunHaveOneScaleAndTheDifferenceOneAroundZero) {
 
 TEST(SurfacesPart, OfALargeBedASingleCellIsSeenAndReadOff) {
   ComparedSurfaces s = furrow(900, 3000, 2, 3);
-  s.run(897, 2996) -= 0.002;
+  s.run.set(897, 2996, s.golden(897, 2996) - 0.002);
   const Json part = surfaces_part(s);
   const Image golden = picture_of(part["maps"][0]), difference = picture_of(part["maps"][2]);
   EXPECT_LE(golden.width, 1400);
@@ -165,7 +167,7 @@ TEST(SurfacesPart, OfALargeBedASingleCellIsSeenAndReadOff) {
 
 TEST(SurfacesPart, OfDifferentShapesHasBothAndNoDifference) {
   ComparedSurfaces s = furrow(60, 40, 30, 20);
-  s.run = s.run_change = HeightGrid::Zero(50, 40);
+  s.run = s.run_initial = level(50, 40);
   const Json part = surfaces_part(s);
   EXPECT_EQ(part["maps"].size(), 2u);
   EXPECT_NE(part["text"].get<std::string>().find("60 x 40 cells, the run 50 x 40"), std::string::npos);
@@ -174,14 +176,13 @@ TEST(SurfacesPart, OfDifferentShapesHasBothAndNoDifference) {
 
 TEST(SurfacesPart, NumbersThatAreNoneAreGreyAndLeaveTheRestVisible) {
   ComparedSurfaces s = furrow(60, 60, 30, 30);
-  s.run(5, 7) = std::nan("");
+  s.run.set(5, 7, std::nan(""));
   const Json part = surfaces_part(s);
   const Image difference = picture_of(part["maps"][2]);
   const std::uint8_t* pixel = difference.pixel(7, 59 - 5);
   EXPECT_EQ(std::vector<int>(pixel, pixel + 3), (std::vector<int>{128, 128, 128}));
   EXPECT_DOUBLE_EQ(part["maps"][2]["scale"]["high"], 4.0);
-  s.golden.setConstant(std::nan(""));
-  s.run = s.golden;
+  s.golden = s.run = HeightField(HeightGrid::Constant(60, 60, std::nan("")), cell_size);
   for (const Json& map : surfaces_part(s)["maps"]) {
     EXPECT_TRUE(std::isfinite(map["scale"]["low"].get<double>()));
     EXPECT_LT(map["scale"]["low"], map["scale"]["high"]);
@@ -195,6 +196,20 @@ TEST(SurfacesPart, OfEqualSurfacesAndNoToleranceHasAScaleToo) {
   const Json part = surfaces_part(s);
   EXPECT_LT(part["maps"][2]["scale"]["low"], part["maps"][2]["scale"]["high"]);
   EXPECT_FALSE(part.contains("largest"));
+}
+
+TEST(SurfacesPart, OfAHugeBedShowsWhatWasTouched) {
+  const int side = BedGeometry::most_cells;
+  ComparedSurfaces s{"Final height",    level(side, side), level(side, side),
+                     level(side, side), level(side, side), limit};
+  EXPECT_THROW(surfaces_part(s), Error) << "all of it is too much for a page";
+  for (int col = 40000; col < 40100; ++col) s.golden.set(30000, col, -0.01);
+  s.run = s.golden;
+  s.run.set(30050, 40050, 0.004);
+  const Json part = surfaces_part(s);
+  ASSERT_EQ(part["maps"].size(), 3u);
+  EXPECT_LT(part["maps"][0]["width"], 200);
+  EXPECT_DOUBLE_EQ(part["largest"]["x"], s.golden.x_of(40050));
 }
 
 TEST(PicturesPart, HoldsThePicturesAsTheyAreAndTheirDifference) {

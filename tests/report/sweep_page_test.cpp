@@ -326,12 +326,13 @@ TEST_F(SweepPage, PicturesStandAsTheAxesOfTheChart) {
             Json({"point 2", "point 5", "point 8", "point 11", "point 1", "point 4", "point 7", "point 10",
                   "point 0", "point 3", "point 6", "point 9"}));
   EXPECT_EQ(ask("document.querySelectorAll('.picture img').length"), 8);
-  EXPECT_EQ(ask("[...document.querySelectorAll('.picture img')].every((one) => one.complete && "
-                "one.naturalWidth === 1)"),
-            true);
+  browser().wait_for(
+      "document.querySelector('.gallery [role=group]').style.getPropertyValue('--aspect') === '1'");
   browser().click(".picture:nth-of-type(4)");
   EXPECT_EQ(selected(), "Point 11");
-  EXPECT_EQ(ask("document.querySelector('.detail img').naturalWidth"), 1);
+  for (const char* images : {".picture img", ".detail img"})
+    browser().wait_for(std::string("[...document.querySelectorAll('") + images +
+                       "')].every((one) => one.complete && one.naturalWidth === 1)");
 }
 
 TEST_F(SweepPage, TheTableSortsAndFilters) {

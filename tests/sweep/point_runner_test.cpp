@@ -40,7 +40,8 @@ double metric(const PointResult& point, const std::string& name) {
 }
 
 SharedRunResult run(const std::vector<Scene>& scenes) {
-  return *run_shared({scenes, bed_of(scenes.front()), a_drag()}, all_metrics(), nullptr);
+  const Stroke stroke = a_drag();
+  return *run_shared(scenes, bed_of(scenes.front()), &stroke, all_metrics(), nullptr);
 }
 
 TEST(SharedRun, IsToTheBitWhatEachSceneGivesAlone) {
@@ -101,8 +102,7 @@ TEST(SharedRun, WithoutAStrokeMeasuresTheSandAlone) {
   scene.stroke.reset();
   scene.bed.surface.kind = SurfaceKind::cylinder;
   scene.bed.surface.radius = 0.05, scene.bed.surface.height = 0.03;
-  const PointResult point =
-      run_shared({{scene}, bed_of(scene), std::nullopt}, all_metrics(), nullptr)->points[0];
+  const PointResult point = run_shared({scene}, bed_of(scene), nullptr, all_metrics(), nullptr)->points[0];
   EXPECT_EQ(point.verdict, PointVerdict::at_rest);
   EXPECT_GT(metric(point, "moved_volume"), 0.0);
   EXPECT_TRUE(std::isnan(metric(point, "mean_force")));
@@ -112,16 +112,17 @@ TEST(SharedRun, WithoutAStrokeMeasuresTheSandAlone) {
 
 TEST(SharedRun, AFurrowIsAsWideAsItsToolAndTheGoldenSurfaceIsSubtracted) {
   const Scene scene = small_scene();
+  const Stroke stroke = a_drag();
   const SharedRunResult first = run({scene});
   EXPECT_GT(metric(first.points[0], "furrow_depth"), 0.001);
   EXPECT_GT(metric(first.points[0], "rampart_height"), 0.0);
   EXPECT_NEAR(metric(first.points[0], "furrow_width"), 2.0 * scene.tool.radius, scene.tool.radius);
   const HeightField flat = bed_of(scene);
   const PointResult against_itself =
-      run_shared({{scene}, bed_of(scene), a_drag()}, all_metrics(), &first.surface)->points[0];
+      run_shared({scene}, bed_of(scene), &stroke, all_metrics(), &first.surface)->points[0];
   EXPECT_EQ(metric(against_itself, "golden_max"), 0.0);
   const PointResult against_flat =
-      run_shared({{scene}, bed_of(scene), a_drag()}, all_metrics(), &flat)->points[0];
+      run_shared({scene}, bed_of(scene), &stroke, all_metrics(), &flat)->points[0];
   EXPECT_EQ(metric(against_flat, "golden_max"), first.surface.grid().abs().maxCoeff());
   EXPECT_NEAR(metric(against_flat, "golden_volume"), 0.0, 1e-12);
 }

@@ -80,6 +80,12 @@ TEST_F(AFolder, WithFilesOfOthersOrADamagedManifestIsRefused) {
   }
 }
 
+TEST_F(AFolder, ThatAnotherProcessIsMakingIsTakenUp) {
+  fs::create_directories(path / "points");
+  write_text_file(path / "manifest-1.json.part", "{");
+  EXPECT_EQ(SweepFolder::make(path, manifest()).points(), 4u);
+}
+
 TEST_F(AFolder, GivesPointsBackToTheBit) {
   const SweepFolder folder = SweepFolder::make(path, manifest());
   EXPECT_FALSE(folder.read(3));

@@ -63,15 +63,30 @@ TEST_F(ASurface, IsKnownAndMadeCoarseWithoutBeingRead) {
   EXPECT_EQ(kept.bed.cols(), 500);
   EXPECT_EQ(kept.bed.cell_size(), 0.5);
   EXPECT_EQ(kept.highest, 0.499);
-  const HeightGrid coarse = coarse_surface(path, 72), whole = bed.grid();
+  const HeightGrid coarse = coarse_surface(path, 72), above = bed.grid() - 0.25;
   ASSERT_EQ(coarse.rows(), 43);
   ASSERT_EQ(coarse.cols(), 72);
   for (int row = 0; row < 43; ++row)
-    for (int col = 0; col < 72; ++col)
-      EXPECT_NEAR(
-          coarse(row, col),
-          whole.block(7 * row, 7 * col, std::min(7, 300 - 7 * row), std::min(7, 500 - 7 * col)).mean(),
-          1e-15);
+    for (int col = 0; col < 72; ++col) {
+      const auto block =
+          above.block(7 * row, 7 * col, std::min(7, 300 - 7 * row), std::min(7, 500 - 7 * col));
+      EXPECT_NEAR(std::abs(coarse(row, col) - 0.25), block.abs().maxCoeff(), 1e-15);
+    }
+}
+
+TEST_F(ASurface, ShowsAFurrowNarrowerThanAPixelAndSmallBedsInWholePixels) {
+  HeightField bed(1000, 1000, 0.002);
+  for (int col = 0; col < 1000; ++col) bed.set(500, col, -0.1), bed.set(501, col, 0.05);
+  write(bed);
+  const Image map = surface_thumbnail(path, 0.1);
+  ASSERT_EQ(map.width, 167);  // blocks of 6 cells
+  ASSERT_EQ(map.height, 167);
+  const auto furrow = scale_colour(-0.1, -0.1, 0.1, true);
+  for (int x = 0; x < map.width; ++x) EXPECT_EQ(map.pixel(x, 166 - 83)[2], std::lround(255.0 * furrow[2]));
+
+  write(HeightField(30, 50, 0.002));
+  EXPECT_EQ(surface_thumbnail(path, 0.1).width, 150);
+  EXPECT_EQ(surface_thumbnail(path, 0.1).height, 90);
 }
 
 TEST_F(ASurface, OfTheLargestBedIsAThumbnailLikeAnyOther) {

@@ -89,6 +89,11 @@ function viewOf(sweep, view) {
 /** An entry of the legend where points are symbols. */
 const marked = ({ name, text, mark }) => ({ name, text, ...mark, dash: "none" });
 
+/** What hollow symbols, or heavy edges, are: where there are any. */
+const doubtfulEntry = (points, how) => (points.some(isDoubtful)
+  ? [{ name: "doubtful", text: `${how}: not at rest, or active`, colour: "#333333", symbol: symbols[0], hollow: true,
+       dash: "none" }] : []);
+
 /** Room below a scale's values for signs, some one above the other. */
 const addGround = (y, signs) => { y.low = y.axis.min -= (y.high - y.low) * (0.02 + 0.045 * signs); };
 
@@ -145,7 +150,6 @@ function linesChart(sweep, view) {
   const place = (point) => (isNumber(valueOf(point))
     ? { value: [xScale.at(point.at[view.x]), y.at(valueOf(point))] }
     : { value: [xScale.at(point.at[view.x]), y.low], symbolOffset: [0, height.get(point) ?? -8] });
-  const doubtful = shown.filter((point) => isDoubtful(point) && isNumber(valueOf(point)));
   return {
     mark: (point) => [ring(point ? [{ point, ...place(point) }] : [])],
     title: `${metric.title} along ${x.name}`, note, many: shown.length > manyItems,
@@ -153,9 +157,7 @@ function linesChart(sweep, view) {
     legend: [
       ...(second && !bar ? [{ name: `${withUnit(second.name, second.unit)}:` },
                             ...families.map(({ name, text }, i) => ({ name, text, ...looks[i], series: true }))] : []),
-      ...(doubtful.length ? [{ name: "doubtful", text: "hollow: not at rest, or active", colour: "#333333",
-                               symbol: symbols[0], hollow: true, dash: "none" }] : []),
-      ...legend.map(marked),
+      ...doubtfulEntry(shown, "hollow"), ...legend.map(marked),
     ],
     option: { ...chartBase(tip), xAxis: xScale.axis, yAxis: { ...y.axis, nameGap: 46 },
               series: [...lines, signs, ring([])] },
@@ -200,11 +202,11 @@ function scatterChart(sweep, view) {
   const known = {
     type: "scatter", name: "known", symbolSize: size, symbol: outlined(symbols[0]), progressive: 0,
     data: shown.filter((point) => isNumber(valueOf(point))).map((point) => {
-      const fill = colour ? ramp(shareOf(colour, valueOf(point))) : colours[0];
-      const hollow = !colour && isDoubtful(point);
-      return { point, value: place(point),
-               itemStyle: { color: hollow ? "#ffffff" : fill, opacity: 0.9, borderColor: colour ? "#5b6670" : fill,
-                            borderWidth: hollow ? 2 : colour ? 0.75 : 0 } };
+      const doubtful = isDoubtful(point), fill = doubtful ? "#ffffff" : colours[0];
+      return { point, value: place(point), itemStyle: colour
+        ? { color: ramp(shareOf(colour, valueOf(point))), borderColor: doubtful ? "#111111" : "#5b6670",
+            borderWidth: doubtful ? 2.25 : 0.75, opacity: 1 }
+        : { color: fill, borderColor: colours[0], borderWidth: doubtful ? 2 : 0 } };
     }),
   };
   const signs = { type: "scatter", name: "without", symbolSize: 9, z: 5, clip: false,
@@ -213,7 +215,7 @@ function scatterChart(sweep, view) {
     mark: (point) => [ring(point ? [{ point, value: place(point), symbolOffset: [0, offset(point)] }] : [])],
     title: second ? `${metric.title} over ${x.name} and ${second.name}` : `${metric.title} against ${x.name}`,
     note, many: shown.length > manyItems, bar: colour && rampBar(colour), height: second && "26rem",
-    legend: legend.map(marked),
+    legend: [...doubtfulEntry(shown, colour ? "heavy edge" : "hollow"), ...legend.map(marked)],
     option: { ...chartBase(tip), xAxis: xScale.axis, yAxis: { ...y.axis, nameGap: 46 },
               series: [known, signs, ring([])] },
   };
