@@ -18,7 +18,7 @@ struct Arguments {
   bool json = false;
 };
 
-void print(const SweepStatus& status) {
+void print(const SweepStatus& status, const fs::path& folder) {
   const auto row = [](const char* name, const std::string& value) { fmt::print("{:<8} {}\n", name, value); };
   std::string verdicts;
   for (std::size_t i = 0; i < status.verdicts.size(); ++i)
@@ -38,6 +38,7 @@ void print(const SweepStatus& status) {
     const Table open = open_tasks(status);
     row("tasks", fmt::format("{}, of which {} done; job array {}", status.tasks.size(),
                              status.tasks.size() - open.rows(), *status.array));
+    row("logs", (folder / "slurm").string());
     if (open.rows() > 0) fmt::print("\n{}\n", aligned_text(open));
   }
   row("next", status.advice());
@@ -50,7 +51,7 @@ int status(const Arguments& arguments) {
   if (arguments.json)
     fmt::print("{}\n", as_json(status).dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
   else
-    print(status);
+    print(status, folder.path());
   return 0;
 }
 

@@ -140,6 +140,10 @@ class SweepOnSlurm : public testing::Test {
 
 TEST_F(SweepOnSlurm, AnArrayGivesWhatALocalSweepGives) {
   const std::string output = "it's 100 %A; $x";  // which sbatch and shells would take for something else
+  const ProgramResult refused = sweep({"plan.toml", "-o", output, "--slurm", "--partition", "nowhere"});
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_NE(refused.err.find("invalid partition specified: nowhere"), std::string::npos) << refused.err;
+
   const SlurmJobs jobs =
       submit(output, {"--tasks", "3", "--time", "10", "--sbatch-option", "--comment=\"two words\""});
   ASSERT_EQ(jobs.tasks.size(), 3u);
