@@ -37,10 +37,28 @@ void add_queued(TaskStatus& task, const SlurmJobs& jobs, const SlurmQueue& queue
 
 }  // namespace
 
+namespace {
+
+bool is_collected(const SweepFolder& folder) {
+  namespace fs = std::filesystem;
+  const fs::path file = folder.path() / "sweep.h5";
+  if (!fs::exists(file)) return false;
+  const fs::file_time_type collected = fs::last_write_time(file);
+  for (std::size_t point = 0; point < folder.points(); ++point) {
+    std::error_code missing;
+    const fs::file_time_type written = fs::last_write_time(folder.point_file(point), missing);
+    if (!missing && written > collected) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
 SweepStatus sweep_status(const SweepFolder& folder, const std::optional<SlurmJobs>& jobs,
                          const SlurmQueue& queue) {
   SweepStatus status;
   status.points = folder.points();
+  status.collected = is_collected(folder);
   std::vector<bool> point_missing(folder.points()), point_failed(folder.points());
   for (std::size_t point = 0; point < folder.points(); ++point) {
     const std::optional<PointResult> result = folder.read(point);
@@ -73,8 +91,9 @@ SweepStatus sweep_status(const SweepFolder& folder, const std::optional<SlurmJob
 std::string SweepStatus::advice() const {
   const std::string again = "run the same command again";
   if (missing == 0)
-    return fmt::format("all points are done{}: collect them with sandstroke sweep collect",
-                       failures.empty() ? "" : fmt::format(", but {} failed", failures.size()));
+    return fmt::format("all points are done{}: {}",
+                       failures.empty() ? "" : fmt::format(", but {} failed", failures.size()),
+                       collected ? "sweep.html shows them" : "collect them with sandstroke sweep collect");
   if (!array) return fmt::format("{} missing: {}", counted(missing, "point"), again);
   if (!queue_trouble.empty())
     return fmt::format("{} missing, and what is queued cannot be known: {}; when nothing is, {}",
@@ -137,6 +156,7 @@ nlohmann::ordered_json as_json(const SweepStatus& status) {
           {"done", status.points - status.missing},
           {"failed", status.failures.size()},
           {"missing", status.missing},
+          {"collected", status.collected},
           {"verdicts", verdicts},
           {"failures", failures},
           {"job_array", status.array ? Json(*status.array) : Json()},

@@ -3,6 +3,7 @@
 #include "core/output_file.h"
 #include "core/stopwatch.h"
 #include "core/temporary_folder.h"
+#include "sim/simulation.h"
 #include "sweep/run_sweep.h"
 
 namespace sandstroke {

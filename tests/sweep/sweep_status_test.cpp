@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <fstream>
 
 #include "test_folder.h"
@@ -56,6 +57,11 @@ TEST_F(SweepStatusTest, CountsWhatTheFolderHolds) {
 TEST_F(SweepStatusTest, SaysWhenAllIsDone) {
   done({0, 1, 2, 3, 4, 5, 6});
   done({7}, PointVerdict::not_at_rest);
+  EXPECT_EQ(local().advice(), "all points are done: collect them with sandstroke sweep collect");
+  std::ofstream(folder.path() / "sweep.h5") << "collected";
+  EXPECT_EQ(local().advice(), "all points are done: sweep.html shows them");
+  const auto collected = std::filesystem::last_write_time(folder.path() / "sweep.h5");
+  std::filesystem::last_write_time(folder.point_file(3), collected + std::chrono::seconds(1));
   EXPECT_EQ(local().advice(), "all points are done: collect them with sandstroke sweep collect");
 }
 
