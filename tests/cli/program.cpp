@@ -45,8 +45,16 @@ ProgramResult run_program(const std::vector<std::string>& arguments, const fs::p
     if (chdir(folder.c_str()) == 0) execv(SANDSTROKE_PROGRAM, argv.data());
     _exit(127);
   }
+  const auto ended = [child] {
+    siginfo_t info{};
+    return waitid(P_PID, static_cast<id_t>(child), &info, WEXITED | WNOHANG | WNOWAIT) == 0 &&
+           info.si_pid == child;
+  };
   if (conditions.signal) {
-    usleep(static_cast<useconds_t>(1000 * conditions.after_ms));
+    if (conditions.when)
+      while (!conditions.when() && !ended()) usleep(2000);
+    else
+      usleep(static_cast<useconds_t>(1000 * conditions.after_ms));
     kill(child, conditions.signal);
   }
   int status = 0;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -16,9 +17,10 @@ struct ProgramResult {
 /// What a run of the program meets with.
 struct Conditions {
   int signal = 0;                   ///< sent to it ...
-  int after_ms = 0;                 ///< ... so long after its start
+  int after_ms = 0;                 ///< ... so long after its start ...
   std::size_t most_file_bytes = 0;  ///< a disk that is full from there on; 0: no limit
   const char* out = nullptr;        ///< where its standard output goes instead
+  std::function<bool()> when = {};  ///< ... or, where there is one, as soon as this holds
 };
 
 /// Runs build/.../sandstroke with these arguments in a folder.

@@ -73,19 +73,27 @@ TEST_F(CliSweep, APointsCommandGivesThePointsFigures) {
 }
 
 TEST_F(CliSweep, InterruptedAndKilledItGoesOnToTheSameEnd) {
-  // Enough of them that signals meet it at work: each is a simulation of its own.
-  plan("device.model = [\"dynamic\"]\nforce.k_s = { from = 500, to = 900, count = 120 }\n");
+  // Each is a simulation of its own.
+  plan("device.model = [\"dynamic\"]\nforce.k_s = { from = 500, to = 900, count = 60 }\n");
   ASSERT_EQ(sweep({"plan.toml", "-o", "whole"}).exit_code, 0);
-  const ProgramResult interrupted = sweep({"plan.toml", "-o", "out"}, {.signal = SIGINT, .after_ms = 250});
-  if (interrupted.exit_code != 0) {  // not on a machine that is done by then
-    EXPECT_EQ(interrupted.exit_code, 130);
-    EXPECT_NE(interrupted.err.find("the same command goes on from there"), std::string::npos)
-        << interrupted.err;
-    EXPECT_FALSE(fs::exists(folder / "out/sweep.h5"));
-  }
-  sweep({"plan.toml", "-o", "out"}, {.signal = SIGKILL, .after_ms = 250});
+  const auto signal_after = [&](int signal, int points) {
+    Conditions conditions{signal};
+    conditions.when = [points, place = folder / "out/points"] {
+      const auto is_point = [](const fs::directory_entry& file) { return file.path().extension() == ".h5"; };
+      return fs::exists(place) && std::count_if(fs::directory_iterator(place), {}, is_point) >= points;
+    };
+    return conditions;
+  };
+  const ProgramResult interrupted = sweep({"plan.toml", "-o", "out", "--jobs", "1"}, signal_after(SIGINT, 5));
+  EXPECT_EQ(interrupted.exit_code, 130);
+  EXPECT_NE(interrupted.err.find("the same command goes on from there"), std::string::npos)
+      << interrupted.err;
+  EXPECT_FALSE(fs::exists(folder / "out/sweep.h5"));
+  EXPECT_EQ(sweep({"plan.toml", "-o", "out", "--jobs", "1"}, signal_after(SIGKILL, 20)).exit_code,
+            128 + SIGKILL);
   const Json status = json({"status", "out"});
-  EXPECT_EQ(status["done"].get<int>() + status["missing"].get<int>(), 120);
+  EXPECT_GE(status["done"], 20);
+  EXPECT_GT(status["missing"], 0);
   const Json resumed = json({"plan.toml", "-o", "out"});
   EXPECT_EQ(resumed["done_before"], status["done"]);
   EXPECT_EQ(resumed["run"], status["missing"]);
