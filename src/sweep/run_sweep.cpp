@@ -103,15 +103,25 @@ std::optional<std::size_t> Sweep::run_group(const SweepFolder& folder, const std
     const std::scoped_lock lock(inputs_.files());
     folder.write(point, result, scene, surface);
   };
-  if (const auto refused = refused_.find(points.front()); refused != refused_.end()) {
-    write(points.front(), failed_point(Error(ErrorKind::input, refused->second), metrics), "", nullptr);
-    return 1;
-  }
-
   std::vector<Scene> scenes;
+  const auto refuse = [&](const std::string& reason) {
+    for (std::size_t i = 0; i < points.size(); ++i)
+      write(points[i], failed_point(Error(ErrorKind::input, reason), metrics),
+            i < scenes.size() ? scene_text(scenes[i]) : "", nullptr);
+    return points.size();
+  };
+  if (const auto refused = refused_.find(points.front()); refused != refused_.end())
+    return refuse(refused->second);
+
   for (const std::size_t point : points) scenes.push_back(plan_.scene_of(point));
   const std::shared_ptr<const SweepStroke> stroke = inputs_.stroke(scenes.front());
-  const std::shared_ptr<const HeightField> bed = inputs_.bed(scenes.front().bed);
+  std::shared_ptr<const HeightField> bed;
+  try {
+    bed = inputs_.bed(scenes.front().bed);
+  } catch (const Error& error) {
+    if (error.kind() == ErrorKind::io) throw;
+    return refuse(error.what());
+  }
   const std::optional<SharedRunResult> result =
       run_shared(scenes, *bed, stroke ? &stroke->stroke : nullptr, folder.metrics(), golden);
   if (!result) return std::nullopt;

@@ -145,6 +145,17 @@ TEST_F(ASweep, SettingsThatDoNotGoTogetherAreRefusedPoints) {
   EXPECT_EQ(out.read(2)->verdict, PointVerdict::at_rest);
 }
 
+TEST_F(ASweep, ABedThatCannotBeReadRefusesItsOwnPointsOnly) {
+  write_text_file(temporary / "bed.png", "no picture");
+  Sweep s = sweep("",
+                  "bed.surface.file = [\"bed.png\"]\nforce.k_s = [500, 1000]\n"
+                  "bed.surface.kind = [\"file\"]\n");
+  const SweepFolder out = folder(s, "out");
+  EXPECT_EQ(s.run(out, {}).failed, 2u);
+  EXPECT_EQ(out.read(1)->verdict, PointVerdict::refused);
+  EXPECT_NE(out.read(1)->reason.find("bed.png"), std::string::npos) << out.read(1)->reason;
+}
+
 TEST_F(ASweep, KeepsPicturesAndSurfacesWhereAskedTo) {
   Sweep s = sweep("keep = [\"picture\", \"surface\"]\n", "force.k_s = [500, 1000]\n");
   const SweepFolder out = folder(s, "out");
