@@ -128,7 +128,8 @@ SweepFolder SweepFolder::make(const fs::path& path, const SweepManifest& manifes
   make_folder(path / "points");
   SweepFolder made(path, manifest);
   const fs::path own = path / fmt::format("manifest-{}.json", getpid());
-  write_text_file(own, to_json(manifest).dump(2) + "\n");
+  // A folder's name may be no UTF-8.
+  write_text_file(own, to_json(manifest).dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
   std::error_code failure;
   fs::rename(own, manifest_path(path), failure);
   if (failure)
