@@ -63,9 +63,13 @@ int dry_run(Sweep& sweep, const Arguments& arguments) {
   const Sweep::Estimate estimate = sweep.estimate();
   if (interrupted()) return 128 + interrupted();
   const SweepDesign& design = sweep.plan().design;
+  if (!sweep.refused().empty())
+    spdlog::warn("the settings of {} points do not go together, the first, point {}: {}",
+                 sweep.refused().size(), sweep.refused().begin()->first, sweep.refused().begin()->second);
   if (arguments.json) {
     fmt::print("{}\n", nlohmann::ordered_json{{"points", design.points()},
                                               {"simulations", sweep.groups().size()},
+                                              {"refused", sweep.refused().size()},
                                               {"seconds_on_one_core", estimate.seconds},
                                               {"bytes", estimate.bytes}}
                            .dump(2));
@@ -126,7 +130,7 @@ int sweep(const Arguments& arguments) {
   nlohmann::ordered_json json = as_json(counters, folder);
   const bool all = !counters.interrupted && options.shard.of == 1;
   if (all) json["content_hash"] = collect_sweep(folder, arguments.json).content_hash;
-  if (arguments.json) fmt::print("{}\n", json.dump(2));
+  if (arguments.json) fmt::print("{}\n", json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
   if (counters.interrupted) {
     spdlog::warn("stopped with {} of {} points done; the same command goes on from there",
                  counters.done_before + counters.run, counters.points);

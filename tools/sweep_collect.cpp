@@ -26,7 +26,7 @@ int collect_command(const Arguments& arguments) {
                                               {"unreadable", report.unreadable},
                                               {"surfaces_missing", report.surfaces_missing},
                                               {"content_hash", report.content_hash}}
-                           .dump(2));
+                           .dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
   return 0;
 }
 

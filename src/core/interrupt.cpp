@@ -1,11 +1,13 @@
 #include "core/interrupt.h"
 
+#include <atomic>
 #include <csignal>
 
 namespace sandstroke {
 namespace {
 
-volatile std::sig_atomic_t caught_signal = 0;
+std::atomic<int> caught_signal = 0;                    // set by one thread and asked for by others
+static_assert(std::atomic<int>::is_always_lock_free);  // or no signal handler might set it
 
 void remember_signal(int signal) {
   caught_signal = signal;

@@ -286,7 +286,8 @@ std::vector<std::string> TomlReader::texts(std::string_view key,
   return found;
 }
 
-std::vector<std::string> TomlReader::keys_in(std::string_view key, std::string_view leaf) const {
+std::vector<std::string> TomlReader::keys_in(std::string_view key,
+                                             const std::vector<std::string>& leaves) const {
   const toml::node* top = find(key);
   if (!top) return {};
   if (!top->is_table()) fail(key, fmt::format("is {}; write a [{}] table", type_name(*top), key));
@@ -297,7 +298,8 @@ std::vector<std::string> TomlReader::keys_in(std::string_view key, std::string_v
         fail(key, fmt::format("holds \"{}\"; write dotted keys without quotes", name.str()));
       const toml::table* inner = node.as_table();
       const std::string full = prefix + std::string(name.str());
-      if (inner && !(leaf.size() > 0 && inner->contains(leaf)))
+      const auto in_it = [&](const std::string& leaf) { return inner->contains(leaf); };
+      if (inner && std::none_of(leaves.begin(), leaves.end(), in_it))
         self(self, *inner, full + ".");
       else
         found.emplace_back(name.source().begin, full);

@@ -167,7 +167,7 @@ RunResult Simulation::run(SimulationObserver& observer) {
                 "the sand's volume is beyond any number; lower the heights of bed.surface");
   if (result_.moved_volume > 0.0)
     result_.volume_drift = std::abs(result_.volume_final - result_.volume_initial) / result_.moved_volume;
-  if (!stroke_) result_.least_passivity_margin = passivity_margin(0.0, 0.0, scene_.force, scene_.device);
+  if (!stroke_) DeviceSide(scene_.force, scene_.device, Hand{}).report(result_);
   result_.wall_seconds = watch.seconds();
   return result_;
 }

@@ -145,7 +145,10 @@ std::optional<SharedRunResult> run_shared(const std::vector<Scene>& scenes, cons
   Scene scene = scenes.front();
   std::vector<Feeler> feelers;
   if (scene.device.model == DeviceModel::kinematic) {
-    for (const Scene& felt : scenes) feelers.push_back({&felt, {}, {}});
+    for (const Scene& felt : scenes) {
+      feelers.push_back({&felt, {}, {}});
+      if (!stroke) feelers.back().device.emplace(felt.force, felt.device, Hand{});  // there are no ticks
+    }
     scene.force.k_s = 0.0;  // the sand's own run feels nothing, and so cannot fail for a force
   }
   Followers followers(scene, feelers);
@@ -166,7 +169,7 @@ std::optional<SharedRunResult> run_shared(const std::vector<Scene>& scenes, cons
               failed_point(Error(ErrorKind::unstable, feelers[i].failure), metrics.size()));
           continue;
         }
-        if (feelers[i].device) feelers[i].device->report(felt);
+        feelers[i].device->report(felt);
       }
       Measures measures = shared;
       measures.add_forces(felt);

@@ -7,6 +7,7 @@
 #include <atomic>
 #include <exception>
 #include <mutex>
+#include <set>
 #include <thread>
 
 #include "core/error.h"
@@ -55,8 +56,10 @@ struct Sweep::Work {
 };
 
 Sweep::Sweep(SweepPlan plan) : plan_(std::move(plan)), inputs_(plan_.scene_folder()) {
+  std::set<fs::path> known_files;
   const auto add_file = [&](const fs::path& path) {
-    if (!files_.contains(path.string())) files_[path.string()] = content_hash(read_text_file(path));
+    if (known_files.insert(path).second)
+      files_.emplace_back(path.string(), content_hash(read_text_file(path)));
   };
   std::map<std::string, std::size_t> group_of;  // by sand_key
   for (std::size_t point = 0; point < plan_.design.points() && !interrupted(); ++point) {
@@ -103,15 +106,25 @@ std::optional<std::size_t> Sweep::run_group(const SweepFolder& folder, const std
     const std::scoped_lock lock(inputs_.files());
     folder.write(point, result, scene, surface);
   };
-  if (const auto refused = refused_.find(points.front()); refused != refused_.end()) {
-    write(points.front(), failed_point(Error(ErrorKind::input, refused->second), metrics), "", nullptr);
-    return 1;
-  }
-
   std::vector<Scene> scenes;
+  const auto refuse = [&](const std::string& reason) {
+    for (std::size_t i = 0; i < points.size(); ++i)
+      write(points[i], failed_point(Error(ErrorKind::input, reason), metrics),
+            i < scenes.size() ? scene_text(scenes[i]) : "", nullptr);
+    return points.size();
+  };
+  if (const auto refused = refused_.find(points.front()); refused != refused_.end())
+    return refuse(refused->second);
+
   for (const std::size_t point : points) scenes.push_back(plan_.scene_of(point));
   const std::shared_ptr<const SweepStroke> stroke = inputs_.stroke(scenes.front());
-  const std::shared_ptr<const HeightField> bed = inputs_.bed(scenes.front().bed);
+  std::shared_ptr<const HeightField> bed;
+  try {
+    bed = inputs_.bed(scenes.front().bed);
+  } catch (const Error& error) {
+    if (error.kind() == ErrorKind::io) throw;
+    return refuse(error.what());
+  }
   const std::optional<SharedRunResult> result =
       run_shared(scenes, *bed, stroke ? &stroke->stroke : nullptr, folder.metrics(), golden);
   if (!result) return std::nullopt;
@@ -201,12 +214,14 @@ SweepCounters Sweep::run(const SweepFolder& folder, const SweepOptions& options)
 Sweep::Estimate Sweep::estimate() {
   const TemporaryFolder temporary;
   const SweepFolder folder = SweepFolder::make(temporary.path(), manifest());
-  const PointGroup& middle = groups_[groups_.size() / 2];
+  std::size_t measured = groups_.size() / 2;  // or the next one that can be run
+  for (std::size_t i = 0; i < groups_.size() && refused_.contains(groups_[measured].front()); ++i)
+    measured = (measured + 1) % groups_.size();
   std::optional<HeightField> golden;
   if (!plan_.golden.empty()) golden = RunFile(plan_.golden).final_bed();
   ChangePainter painter;
   const Stopwatch watch;
-  run_group(folder, {middle.front()}, golden ? &*golden : nullptr, painter);
+  run_group(folder, {groups_[measured].front()}, golden ? &*golden : nullptr, painter);
   Estimate estimate;
   estimate.seconds = watch.seconds() * static_cast<double>(groups_.size());
   for (const auto& file : fs::directory_iterator(folder.path() / "points"))

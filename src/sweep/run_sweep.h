@@ -46,6 +46,8 @@ class Sweep {
   const SweepPlan& plan() const { return plan_; }
   const std::vector<PointGroup>& groups() const { return groups_; }
   SweepManifest manifest() const;
+  /// Points whose settings do not go together, and why.
+  const std::map<std::size_t, std::string>& refused() const { return refused_; }
 
   /// Runs what the folder does not hold yet of the shard's points. Points that fail are recorded; what
   /// cannot be written ends it. Stops at the next tick when interrupted(). Error: io.
@@ -70,8 +72,9 @@ class Sweep {
   SweepPlan plan_;
   SweepInputs inputs_;
   std::vector<PointGroup> groups_;
-  std::map<std::size_t, std::string> refused_;  // points whose settings do not go together, and why
-  std::map<std::string, std::string> files_;    // that scenes name, and their hashes
+  std::map<std::size_t, std::string> refused_;
+  // That scenes name, and their hashes; in order of use, which does not depend on where they are.
+  std::vector<std::pair<std::string, std::string>> files_;
 };
 
 }  // namespace sandstroke

@@ -17,8 +17,6 @@ bool as_number(const std::string& text, double& number) {
   return failure == std::errc() && end == text.data() + text.size();
 }
 
-double rounded(double value) { return std::stod(fmt::format("{:.12g}", value)); }
-
 }  // namespace
 
 bool SweepAxis::numeric() const {
@@ -66,13 +64,19 @@ std::vector<std::string> SweepDesign::settings(std::size_t point) const {
   return settings;
 }
 
+double rounded(double value, double size) {
+  return std::abs(value) < 1e-12 * std::abs(size) ? 0.0 : std::stod(fmt::format("{:.12g}", value));
+}
+
 std::vector<double> spread(double from, double to, std::size_t count, bool logarithmic) {
   std::vector<double> values(count, from);
+  const double size = logarithmic ? 0.0 : std::max(std::abs(from), std::abs(to));
   for (std::size_t i = 1; i < count; ++i) {
     const double share = static_cast<double>(i) / static_cast<double>(count - 1);
-    values[i] = i + 1 == count ? to
-                : logarithmic  ? rounded(from * std::pow(to / from, share))
-                               : rounded(from + (to - from) * share);
+    values[i] =
+        i + 1 == count
+            ? to
+            : rounded(logarithmic ? from * std::pow(to / from, share) : from + (to - from) * share, size);
   }
   return values;
 }

@@ -36,8 +36,12 @@ struct SweepDesign {
   std::vector<std::string> settings(std::size_t point) const;
 };
 
+/// To 12 digits, so that 0.1 + 2 x 0.1 is 0.3; and 0 where it is no more than that of numbers of that size,
+/// so that -0.3 + 3 x 0.1 is 0.
+double rounded(double value, double size);
+
 /// Numbers from `from` to `to` [count >= 1], evenly spread, or evenly in their logarithm (from, to > 0), the
-/// ends exactly; rounded to 12 digits, so that 0.1 + 2 x 0.1 is 0.3.
+/// ends exactly, the others rounded.
 std::vector<double> spread(double from, double to, std::size_t count, bool logarithmic);
 
 /// Latin hypercube (McKay, Beckman & Conover 1979): for each of `axes`, n numbers in [0, 1), one in each

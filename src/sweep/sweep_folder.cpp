@@ -64,9 +64,18 @@ Json without_places(Json manifest) {
   return manifest;
 }
 
+/// It has points, and a value of each axis for each.
+bool is_whole(const SweepDesign& design) {
+  return !design.axes.empty() &&
+         std::all_of(design.axes.begin(), design.axes.end(), [&](const SweepAxis& axis) {
+           return !axis.values.empty() &&
+                  (design.grid || axis.values.size() == design.axes.front().values.size());
+         });
+}
+
 fs::path manifest_path(const fs::path& folder) { return folder / "manifest.json"; }
 
-/// An axis or metric of this name, as it is in the manifest, is one of the program's.
+/// None where the program has no metric of this name.
 const Metric* find_metric(const std::string& name) {
   const auto found = std::find_if(all_metrics().begin(), all_metrics().end(),
                                   [&](const Metric& metric) { return metric.name == name; });
@@ -103,15 +112,24 @@ SweepFolder SweepFolder::make(const fs::path& path, const SweepManifest& manifes
   if (fs::is_directory(path))
     for (const auto& entry : fs::directory_iterator(path)) {
       const std::string name = entry.path().filename().string();
-      // Another process may be making the same folder.
-      if (name == "points" || name.starts_with("manifest")) continue;
+      // Another process may be making the same folder. Points come after its manifest: without it, nobody
+      // knows what they are of.
+      if (name.starts_with("manifest")) continue;
+      if (name == "points") {
+        if (fs::is_empty(entry.path()) || fs::exists(manifest_path(path))) continue;
+        throw_input_error(
+            "{}: holds points, but not the manifest.json that says of which sweep; choose another -o, or "
+            "remove the folder",
+            path.string());
+      }
       throw_input_error("{}: holds other files and no sweep; choose another -o, or an empty folder",
                         path.string());
     }
   make_folder(path / "points");
   SweepFolder made(path, manifest);
   const fs::path own = path / fmt::format("manifest-{}.json", getpid());
-  write_text_file(own, to_json(manifest).dump(2) + "\n");
+  // A folder's name may be no UTF-8.
+  write_text_file(own, to_json(manifest).dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
   std::error_code failure;
   fs::rename(own, manifest_path(path), failure);
   if (failure)
@@ -130,12 +148,10 @@ SweepFolder SweepFolder::open(const fs::path& path) {
       throw_input_error("{}: has a format that this program does not read; use the one that began the sweep",
                         file.string());
     SweepManifest manifest = from_json(json);
-    if (manifest.design.axes.empty())
-      throw_input_error("{}: has no axes; it is damaged: remove the folder and sweep again", file.string());
-    return {path, std::move(manifest)};
+    if (is_whole(manifest.design)) return {path, std::move(manifest)};
   } catch (const Json::exception&) {
-    throw_input_error("{}: is damaged; remove the folder and sweep again", file.string());
   }
+  throw_input_error("{}: is damaged; remove the folder and sweep again", file.string());
 }
 
 fs::path SweepFolder::point_file(std::size_t point) const {

@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* stroke_key = "stroke.file";
+const std::string stroke_key = "stroke.file";
 
 std::vector<std::string> as_literals(const std::vector<double>& numbers) {
   std::vector<std::string> literals;
@@ -40,7 +40,7 @@ struct AxisRange {
 
 AxisRange read_range(const TomlReader& toml, const std::string& key, int most) {
   AxisRange range;
-  toml.require(key + ".to");
+  for (const char* end : {".from", ".to"}) toml.require(key + end);
   range.from = toml.number(key + ".from", 0.0);
   range.to = toml.number(key + ".to", 0.0);
   range.logarithmic = toml.choice(key + ".scale", 0, {"linear", "log"}) == 1;
@@ -63,7 +63,7 @@ AxisRange read_range(const TomlReader& toml, const std::string& key, int most) {
   if (steps >= most)
     toml.fail(key + ".step", fmt::format("gives {:.0f} values; sweep.max_points is {}", steps + 1.0, most));
   range.count = static_cast<std::size_t>(steps) + 1;
-  range.to = std::stod(fmt::format("{:.12g}", range.from + steps * step));  // the last step's end
+  range.to = rounded(range.from + steps * step, range.from);  // the last step's end
   return range;
 }
 
@@ -79,6 +79,10 @@ SweepDesign read_design(const TomlReader& toml, const SweepPlan& plan) {
   for (const char* key : {"sweep.samples", "sweep.seed"})
     if (design.grid && toml.has(key)) toml.fail(key, "is for design = \"latin\"; remove it or set that");
 
+  const auto check_distinct = [&](const std::string& key, const std::vector<std::string>& values) {
+    if (std::set(values.begin(), values.end()).size() < values.size())
+      toml.fail(key, "has a value twice; give each once");
+  };
   std::vector<AxisRange> ranges;
   if (const auto strokes = toml.texts("sweep.strokes", {}); !strokes.empty()) {
     SweepAxis axis{stroke_key, "", false, {}};
@@ -88,15 +92,19 @@ SweepDesign read_design(const TomlReader& toml, const SweepPlan& plan) {
       axis.values.push_back(
           toml_string(fs::relative(path, plan.scene_folder().empty() ? "." : plan.scene_folder()).string()));
     }
+    check_distinct("sweep.strokes", axis.values);
+    if (toml.has("set." + stroke_key))
+      toml.fail("set." + stroke_key, "is also in sweep.strokes; remove one of them");
     design.axes.push_back(std::move(axis));
     ranges.emplace_back();
   } else if (toml.has("sweep.strokes")) {
     toml.fail("sweep.strokes", "is empty; name a stroke or remove it");
   }
-  for (const std::string& name : toml.keys_in("axes", "from")) {
+  for (const std::string& name : toml.keys_in("axes", {"from", "to", "step", "count"})) {
     const std::string key = "axes." + name;
     if (toml.has("set." + name)) toml.fail(key, "is also in [set]; remove one of them");
-    if (name == stroke_key && !ranges.empty()) toml.fail(key, "is also in sweep.strokes; remove one of them");
+    if (name == stroke_key && toml.has("sweep.strokes"))
+      toml.fail(key, "is also in sweep.strokes; remove one of them");
     SweepAxis axis{name, "", false, {}};
     AxisRange range;
     if (toml.is_table(key)) {
@@ -109,9 +117,8 @@ SweepDesign read_design(const TomlReader& toml, const SweepPlan& plan) {
     } else {
       axis.values = toml.literals(key);
       if (axis.values.empty()) toml.fail(key, "is empty; give at least one value");
-      if (std::set(axis.values.begin(), axis.values.end()).size() < axis.values.size())
-        toml.fail(key, "has a value twice; give each once");
     }
+    check_distinct(key, axis.values);
     design.axes.push_back(std::move(axis));
     ranges.push_back(range);
   }
@@ -178,12 +185,21 @@ Scene try_scene(const TomlReader& toml, const SweepPlan& plan, const std::vector
   }
 }
 
+/// Whatever its axes.
+bool fails_without_axes(const SweepPlan& plan) {
+  try {
+    scene_from_text(plan.scene_text, plan.scene.string(), plan.settings);
+    return false;
+  } catch (const Error&) {
+    return true;
+  }
+}
+
 /// Each value of each axis, beside the first of the others.
 void check_values(const TomlReader& toml, SweepPlan& plan) {
-  const auto first = plan.settings;
   std::vector<std::string> firsts = plan.settings;
   for (const std::string& setting : plan.design.settings(0)) firsts.push_back(setting);
-  const Scene scene = try_scene(toml, plan, firsts, "");
+  const Scene scene = try_scene(toml, plan, firsts, fails_without_axes(plan) ? "" : "axes");
   for (std::size_t i = 0; i < plan.design.axes.size(); ++i) {
     SweepAxis& axis = plan.design.axes[i];
     axis.unit = setting_unit(scene, axis.key);

@@ -110,6 +110,17 @@ TEST(SharedRun, WithoutAStrokeMeasuresTheSandAlone) {
   EXPECT_LE(metric(point, "slope_max"), std::atan(std::tan(M_PI / 6) * 1.0824 * 1.002) * 180.0 / M_PI);
 }
 
+TEST(SharedRun, WithoutAStrokeEachSceneHasTheMarginOfItsOwnDevice) {
+  std::vector<Scene> scenes(2, small_scene());
+  for (Scene& scene : scenes) scene.stroke.reset();
+  scenes[1].device.damping += 4.0;
+  const SharedRunResult shared = *run_shared(scenes, bed_of(scenes[0]), nullptr, all_metrics(), nullptr);
+  SimulationObserver nobody;
+  for (std::size_t i = 0; i < scenes.size(); ++i)
+    EXPECT_EQ(metric(shared.points[i], "passivity_margin"),
+              Simulation(scenes[i], bed_of(scenes[i]), std::nullopt).run(nobody).least_passivity_margin);
+}
+
 TEST(SharedRun, AFurrowIsAsWideAsItsToolAndTheGoldenSurfaceIsSubtracted) {
   const Scene scene = small_scene();
   const Stroke stroke = a_drag();

@@ -145,6 +145,17 @@ TEST_F(ASweep, SettingsThatDoNotGoTogetherAreRefusedPoints) {
   EXPECT_EQ(out.read(2)->verdict, PointVerdict::at_rest);
 }
 
+TEST_F(ASweep, ABedThatCannotBeReadRefusesItsOwnPointsOnly) {
+  write_text_file(temporary / "bed.png", "no picture");
+  Sweep s = sweep("",
+                  "bed.surface.file = [\"bed.png\"]\nforce.k_s = [500, 1000]\n"
+                  "bed.surface.kind = [\"file\"]\n");
+  const SweepFolder out = folder(s, "out");
+  EXPECT_EQ(s.run(out, {}).failed, 2u);
+  EXPECT_EQ(out.read(1)->verdict, PointVerdict::refused);
+  EXPECT_NE(out.read(1)->reason.find("bed.png"), std::string::npos) << out.read(1)->reason;
+}
+
 TEST_F(ASweep, KeepsPicturesAndSurfacesWhereAskedTo) {
   Sweep s = sweep("keep = [\"picture\", \"surface\"]\n", "force.k_s = [500, 1000]\n");
   const SweepFolder out = folder(s, "out");
@@ -181,6 +192,41 @@ TEST_F(ASweep, ItsManifestTellsItsInputsApart) {
   EXPECT_EQ(sweep().manifest().inputs, before.inputs);
   write_text_file(temporary / "line.toml", read_text_file(temporary / "line.toml") + "wait = 0.1\n");
   EXPECT_NE(sweep().manifest().inputs, before.inputs);
+}
+
+TEST_F(ASweep, ItsManifestIsTheSameHoweverItsFilesAreNamed) {
+  fs::create_directories(temporary / "m");
+  fs::create_directory_symlink(temporary / "m", temporary / "z");
+  for (const char* name : {"scene.toml", "line.toml"}) fs::copy(temporary / name, temporary / "m" / name);
+  const std::string elsewhere = (temporary / "n.toml").string();
+  write_text_file(elsewhere, read_text_file(temporary / "line.toml") + "wait = 0.1\n");
+  write_text_file(
+      temporary / "m/plan.toml",
+      "[sweep]\nscene = \"scene.toml\"\n[axes]\nstroke.file = [\"line.toml\", \"" + elsewhere + "\"]\n");
+  const SweepManifest one = Sweep(load_plan(temporary / "m/plan.toml")).manifest();
+  SweepFolder::make(temporary / "out", one);
+  EXPECT_NO_THROW(
+      SweepFolder::make(temporary / "out", Sweep(load_plan(temporary / "z/plan.toml")).manifest()));
+}
+
+TEST_F(ASweep, MayLieInAFolderWhoseNameIsNoUtf8) {
+  const fs::path odd = temporary.path() / "\xff";
+  fs::create_directories(odd);
+  for (const char* name : {"scene.toml", "line.toml"}) fs::copy(temporary / name, odd / name);
+  write_text_file(odd / "plan.toml", "[sweep]\nscene = \"scene.toml\"\n[axes]\nforce.k_s = [500]\n");
+  Sweep s(load_plan(odd / "plan.toml"));
+  const SweepFolder out = SweepFolder::make(odd / "out", s.manifest());
+  EXPECT_EQ(s.run(out, {}).run, 1u);
+  EXPECT_EQ(s.run(SweepFolder::make(odd / "out", s.manifest()), {}).done_before, 1u);
+}
+
+TEST_F(ASweep, AnEstimateMeasuresAPointThatCanBeRun) {
+  // The one in the middle has a tool of less than half a cell.
+  Sweep s = sweep("keep = [\"surface\"]\n",
+                  "tool.radius = [0.01, 0.0007, 0.002]\nbed.cells = [[160, 160], [80, 80]]\n");
+  ASSERT_EQ(s.refused().size(), 1u);
+  EXPECT_EQ(s.refused().begin()->first, 3u);
+  EXPECT_GT(s.estimate().bytes, 6 * 80 * 80 * sizeof(double));
 }
 
 }  // namespace

@@ -45,6 +45,7 @@ TEST(SweepDesign, TellsNumbersFromText) {
 TEST(Spread, EndsAreExactAndStepsAreTheDecimalsOneMeans) {
   EXPECT_EQ(spread(20.0, 45.0, 11, false)[3], 27.5);
   EXPECT_EQ(spread(0.1, 0.5, 5, false), (std::vector<double>{0.1, 0.2, 0.3, 0.4, 0.5}));
+  EXPECT_EQ(spread(-0.1, 0.5, 7, false), (std::vector<double>{-0.1, 0.0, 0.1, 0.2, 0.3, 0.4, 0.5}));
   EXPECT_EQ(spread(1.0, 10000.0, 5, true), (std::vector<double>{1.0, 10.0, 100.0, 1000.0, 10000.0}));
   EXPECT_EQ(spread(1.0 / 3.0, 1e-17, 2, true), (std::vector<double>{1.0 / 3.0, 1e-17}));
   EXPECT_EQ(spread(7.0, 9.0, 1, false), std::vector<double>{7.0});

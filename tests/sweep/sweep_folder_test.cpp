@@ -86,6 +86,23 @@ TEST_F(AFolder, ThatAnotherProcessIsMakingIsTakenUp) {
   EXPECT_EQ(SweepFolder::make(path, manifest()).points(), 4u);
 }
 
+TEST_F(AFolder, WithPointsButNoManifestIsRefused) {
+  SweepFolder::make(path, manifest()).write(0, {PointVerdict::at_rest, "", {1.0, 2.0}}, "", nullptr);
+  fs::remove(path / "manifest.json");
+  EXPECT_NE(refusal(path, manifest()).find("holds points"), std::string::npos) << refusal(path, manifest());
+}
+
+TEST_F(AFolder, WhoseManifestHasNotAValueOfEachAxisForEachPointIsRefused) {
+  for (const bool grid : {true, false}) {
+    SweepManifest damaged = manifest();
+    damaged.design.grid = grid;
+    damaged.design.axes[1].values.resize(grid ? 0 : 1);
+    SweepFolder::make(path, damaged);
+    EXPECT_THROW(SweepFolder::open(path), Error) << grid;
+    fs::remove(path / "manifest.json");
+  }
+}
+
 TEST_F(AFolder, GivesPointsBackToTheBit) {
   const SweepFolder folder = SweepFolder::make(path, manifest());
   EXPECT_FALSE(folder.read(3));

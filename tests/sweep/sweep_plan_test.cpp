@@ -73,6 +73,8 @@ TEST_F(APlan, AStepThatDoesNotReachTheEndStopsBeforeIt) {
             (std::vector<std::string>{"1", "1.4", "1.8"}));
   EXPECT_EQ(axes("view.azimuth = { from = 30, to = -30, step = -30 }").axes[0].values,
             (std::vector<std::string>{"30", "0", "-30"}));
+  EXPECT_EQ(axes("view.azimuth = { from = -0.3, to = 0.05, step = 0.1 }").axes[0].values,
+            (std::vector<std::string>{"-0.3", "-0.2", "-0.1", "0"}));
 }
 
 TEST_F(APlan, ALatinHypercubeFillsRangesAndLists) {
@@ -103,6 +105,10 @@ TEST_F(APlan, StrokesAreAnAxisWhoseFilesAreRelativeToThePlan) {
   EXPECT_EQ(scene.stroke->file, "../other.toml");
   EXPECT_EQ(scene.force.k_s, 2.0);
   EXPECT_EQ(scene.bed.cols, 80);
+}
+
+TEST_F(APlan, StrokesMayBeAnAxisLikeAnyOther) {
+  EXPECT_EQ(axes("force.k_s = [1]\nstroke.file = [\"line.toml\", \"../other.toml\"]\n").points(), 2u);
 }
 
 TEST_F(APlan, CollectsAllMetricsOrThoseNamed) {
@@ -143,6 +149,12 @@ TEST_F(APlan, IsRefusedInOneSentenceThatSaysWhere) {
       {axes + "force.k_s = [1, nan]\n", "axes.force.k_s cannot be nan"},
       {axes + "tool.radius = [0.01, 0.2]\n", "plan.toml:4: axes.tool.radius leads to a scene that cannot be"},
       {axes + "force.k_s = { from = 1 }\n", "axes.force.k_s.to is missing"},
+      {axes + "force.k_s = { to = 2, step = 1 }\n", "axes.force.k_s.from is missing"},
+      {axes + "force.k_s = { step = 1 }\n", "axes.force.k_s.from is missing"},
+      {axes + "force.k_s = { start = 1, stop = 2 }\n", "plan.toml:3: axes leads to a scene that cannot be: "},
+      {axes + "force.k_s = { from = 1, to = 1, count = 3 }\n",
+       "plan.toml:4: axes.force.k_s has a value twice"},
+      {start + "strokes = [\"other.toml\", \"scenes/../other.toml\"]\n", "sweep.strokes has a value twice"},
       {axes + "force.k_s = { from = 1, to = 2 }\n", "says not how many values; add count or step"},
       {axes + "force.k_s = { from = 1, to = 2, step = 0 }\n", "axes.force.k_s.step"},
       {axes + "force.k_s = { from = 1, to = 2, step = -1 }\n", "does not lead from 1 to 2"},
@@ -164,6 +176,8 @@ TEST_F(APlan, IsRefusedInOneSentenceThatSaysWhere) {
       {start + "[set]\nforce.k_s = -5\n[axes]\nforce.k_f = [1]\n", "plan.toml:4: set.force.k_s cannot be -5"},
       {start + "strokes = []\n[axes]\nforce.k_s = [1]\n", "sweep.strokes is empty"},
       {start + "strokes = [\"other.toml\"]\n[axes]\nstroke.file = [\"x\"]\n", "also in sweep.strokes"},
+      {start + "strokes = [\"other.toml\"]\n[set]\nstroke.file = \"x\"\n",
+       "plan.toml:5: set.stroke.file is also in sweep.strokes"},
       {start + "metrics = [\"weight\"]\n[axes]\nforce.k_s = [1]\n", "names 'weight'; take from: max_force"},
       {start + "metrics = [\"golden_rms\"]\n[axes]\nforce.k_s = [1]\n", "and with sweep.golden"},
       {start + "metrics = []\n[axes]\nforce.k_s = [1]\n", "sweep.metrics is empty"},
