@@ -104,6 +104,7 @@ std::vector<std::string> split(std::string_view key) {
 /// A value as TOML text, on one line: a number in the shortest digits that give it back.
 std::string literal_of(const toml::node& node) {
   if (const auto* number = node.as_floating_point()) return fmt::format("{}", number->get());
+  if (const auto* number = node.as_integer()) return fmt::format("{}", number->get());  // decimal
   if (const auto* text = node.as_string()) return toml_string(text->get());
   if (const toml::array* array = node.as_array()) {
     std::vector<std::string> elements;

@@ -140,6 +140,7 @@ TEST_F(APlan, IsRefusedInOneSentenceThatSaysWhere) {
       {start + "colour = 1\n[axes]\nforce.k_s = [1]\n", "plan.toml:3: unknown key sweep.colour"},
       {axes + "force.k_s = []\n", "plan.toml:4: axes.force.k_s is empty"},
       {axes + "force.k_s = [1, 1]\n", "plan.toml:4: axes.force.k_s has a value twice"},
+      {axes + "device.delay = [16, 0x10]\n", "plan.toml:4: axes.device.delay has a value twice"},
       {axes + "force.ks = [1]\n",
        "plan.toml:4: axes.force.ks cannot be 1: unknown key force.ks; did you mean force.k_s?"},
       {axes + "force.k_s = [1]\nrelaxation.talus_angle = [30, 95]\n",
