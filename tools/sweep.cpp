@@ -68,7 +68,7 @@ int dry_run(Sweep& sweep, const Arguments& arguments) {
                  sweep.refused().size(), sweep.refused().begin()->first, sweep.refused().begin()->second);
   if (arguments.json) {
     fmt::print("{}\n", nlohmann::ordered_json{{"points", design.points()},
-                                              {"simulations", sweep.groups().size()},
+                                              {"simulations", sweep.simulations()},
                                               {"refused", sweep.refused().size()},
                                               {"seconds_on_one_core", estimate.seconds},
                                               {"bytes", estimate.bytes}}
@@ -78,7 +78,7 @@ int dry_run(Sweep& sweep, const Arguments& arguments) {
   fmt::print("{}", aligned_text(first_points(design, 5), 9));
   if (design.points() > 5) fmt::print("...\n");
   fmt::print("\n{} points by {} simulations; about {} on one core and {:.3g} MB, by one point measured\n",
-             design.points(), sweep.groups().size(), duration(estimate.seconds), estimate.bytes * 1e-6);
+             design.points(), sweep.simulations(), duration(estimate.seconds), estimate.bytes * 1e-6);
   return 0;
 }
 

@@ -51,7 +51,7 @@ struct Sweep::Work {
 
   std::atomic<std::size_t> next = 0;
   std::mutex mutex;  // of all below
-  std::size_t points_done = 0, groups_done = 0, failed = 0;
+  std::size_t points_done = 0, simulations = 0, failed = 0;
   std::exception_ptr failure;
 };
 
@@ -98,8 +98,9 @@ SweepManifest Sweep::manifest() const {
   return m;
 }
 
-std::optional<std::size_t> Sweep::run_group(const SweepFolder& folder, const std::vector<std::size_t>& points,
-                                            const HeightField* golden, ChangePainter& painter) {
+std::optional<Sweep::Outcome> Sweep::run_group(const SweepFolder& folder,
+                                               const std::vector<std::size_t>& points,
+                                               const HeightField* golden, ChangePainter& painter) {
   const std::size_t metrics = folder.metrics().size();
   const auto write = [&](std::size_t point, const PointResult& result, const std::string& scene,
                          const HeightField* surface) {
@@ -111,7 +112,7 @@ std::optional<std::size_t> Sweep::run_group(const SweepFolder& folder, const std
     for (std::size_t i = 0; i < points.size(); ++i)
       write(points[i], failed_point(Error(ErrorKind::input, reason), metrics),
             i < scenes.size() ? scene_text(scenes[i]) : "", nullptr);
-    return points.size();
+    return Outcome{points.size(), false};
   };
   if (const auto refused = refused_.find(points.front()); refused != refused_.end())
     return refuse(refused->second);
@@ -129,12 +130,12 @@ std::optional<std::size_t> Sweep::run_group(const SweepFolder& folder, const std
       run_shared(scenes, *bed, stroke ? &stroke->stroke : nullptr, folder.metrics(), golden);
   if (!result) return std::nullopt;
 
-  std::size_t failures = 0;
+  Outcome outcome{0, true};
   std::optional<Image> picture;
   std::string pictured_view;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const bool surface = !failed(result->points[i].verdict);
-    failures += !surface;
+    outcome.failed += !surface;
     if (surface && plan_.keep_picture) {
       if (const std::string view = view_text(scenes[i]); !picture || view != pictured_view) {
         picture = painter.draw(*bed, result->surface, scenes[i].view);
@@ -145,7 +146,7 @@ std::optional<std::size_t> Sweep::run_group(const SweepFolder& folder, const std
     write(points[i], result->points[i], scene_text(scenes[i]),
           surface && plan_.keep_surface ? &result->surface : nullptr);
   }
-  return failures;
+  return outcome;
 }
 
 void Sweep::work_through(const SweepFolder& folder, Work& work) {
@@ -154,12 +155,12 @@ void Sweep::work_through(const SweepFolder& folder, Work& work) {
     const std::size_t mine = work.next++;
     if (mine >= work.groups.size()) return;
     try {
-      const std::optional<std::size_t> failures =
+      const std::optional<Outcome> outcome =
           run_group(folder, work.groups[mine], work.golden ? &*work.golden : nullptr, painter);
-      if (!failures) return;
+      if (!outcome) return;
       const std::scoped_lock lock(work.mutex);
-      work.groups_done += 1;
-      work.failed += *failures;
+      work.simulations += outcome->simulated;
+      work.failed += outcome->failed;
       work.points_done += work.groups[mine].size();
       work.progress(static_cast<double>(work.points_done) / static_cast<double>(work.points));
     } catch (...) {
@@ -204,7 +205,7 @@ SweepCounters Sweep::run(const SweepFolder& folder, const SweepOptions& options)
 
   counters.run = work.points_done;
   counters.failed = work.failed;
-  counters.simulations = work.groups_done;
+  counters.simulations = work.simulations;
   counters.strokes_loaded = inputs_.strokes_loaded();
   counters.beds_loaded = inputs_.beds_loaded();
   counters.interrupted = work.points_done < work.points;
@@ -223,7 +224,7 @@ Sweep::Estimate Sweep::estimate() {
   const Stopwatch watch;
   run_group(folder, {groups_[measured].front()}, golden ? &*golden : nullptr, painter);
   Estimate estimate;
-  estimate.seconds = watch.seconds() * static_cast<double>(groups_.size());
+  estimate.seconds = watch.seconds() * static_cast<double>(simulations());
   for (const auto& file : fs::directory_iterator(folder.path() / "points"))
     estimate.bytes += static_cast<double>(file.file_size() * plan_.design.points());
   return estimate;

@@ -48,6 +48,8 @@ class Sweep {
   SweepManifest manifest() const;
   /// Points whose settings do not go together, and why.
   const std::map<std::size_t, std::string>& refused() const { return refused_; }
+  /// That the points take, as far as is known before they run.
+  std::size_t simulations() const { return groups_.size() - refused_.size(); }
 
   /// Runs what the folder does not hold yet of the shard's points. Points that fail are recorded; what
   /// cannot be written ends it. Stops at the next tick when interrupted(). Error: io.
@@ -64,10 +66,13 @@ class Sweep {
   struct Work;
   /// Takes group after group from what is to be done.
   void work_through(const SweepFolder& folder, Work& work);
-  /// Runs these points of a group and writes their files; how many failed, or nothing where it was
-  /// interrupted().
-  std::optional<std::size_t> run_group(const SweepFolder& folder, const std::vector<std::size_t>& points,
-                                       const HeightField* golden, ChangePainter& painter);
+  struct Outcome {
+    std::size_t failed = 0;  // points
+    bool simulated = false;
+  };
+  /// Runs these points of a group and writes their files. Nothing where it was interrupted().
+  std::optional<Outcome> run_group(const SweepFolder& folder, const std::vector<std::size_t>& points,
+                                   const HeightField* golden, ChangePainter& painter);
 
   SweepPlan plan_;
   SweepInputs inputs_;

@@ -140,7 +140,10 @@ TEST_F(ASweep, AFailingPointIsRecordedAndDoesNotStopTheRest) {
 TEST_F(ASweep, SettingsThatDoNotGoTogetherAreRefusedPoints) {
   Sweep s = sweep("", "bed.cells = [[160, 160], [80, 80]]\ntool.radius = [0.01, 0.002, 0.0007]\n");
   const SweepFolder out = folder(s, "out");
-  EXPECT_EQ(s.run(out, {}).failed, 1u);  // less than half a cell, of the coarse bed only
+  const SweepCounters counters = s.run(out, {});
+  EXPECT_EQ(counters.failed, 1u);  // less than half a cell, of the coarse bed only
+  EXPECT_EQ(counters.simulations, 5u);
+  EXPECT_EQ(s.simulations(), 5u);
   EXPECT_EQ(out.read(5)->verdict, PointVerdict::refused);
   EXPECT_EQ(out.read(2)->verdict, PointVerdict::at_rest);
 }
