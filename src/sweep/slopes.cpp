@@ -18,17 +18,18 @@ double descent_slope(const HeightField& bed, int row, int col) {
     const bool inside = r >= 0 && r < bed.rows() && c >= 0 && c < bed.cols();
     drops[i] = inside ? here - bed(r, c) : std::numeric_limits<double>::quiet_NaN();
   }
-  double steepest = 0.0;
+  double steepest = 0.0;  // squared
   for (int i = 0; i < 8; ++i) {
     const double to_axis = drops[i + i % 2], to_diagonal = drops[i + 1 - i % 2];
     const double onwards = to_diagonal - to_axis;  // from the axis neighbour to the diagonal one
-    // The triangle's own slope where that leads down within it, otherwise along its nearer side.
-    const double slope = onwards < 0.0       ? to_axis
-                         : onwards > to_axis ? to_diagonal / std::numbers::sqrt2
-                                             : std::hypot(to_axis, onwards);
-    if (slope > steepest) steepest = slope;
+    // The triangle's own slope where that leads down within it, otherwise along its nearer side, where that
+    // leads down.
+    const double square = onwards < 0.0       ? to_axis * std::max(0.0, to_axis)
+                          : onwards > to_axis ? 0.5 * to_diagonal * std::max(0.0, to_diagonal)
+                                              : to_axis * to_axis + onwards * onwards;
+    if (square > steepest) steepest = square;
   }
-  return steepest / bed.cell_size();
+  return std::sqrt(steepest) / bed.cell_size();
 }
 
 SlopeMeasures measure_slopes(const HeightField& initial, const HeightField& final, double talus_angle) {

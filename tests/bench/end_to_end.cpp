@@ -90,8 +90,9 @@ int main(int argc, char** argv) {
   using namespace sandstroke;
   CLI::App app("Measures whole runs of sandstroke on one thread and prints one JSON object");
   BenchOptions options;
-  std::string output;
+  std::string output, only;
   app.add_flag("--quick", options.quick, "Seconds rather than minutes: smaller beds, shorter strokes");
+  app.add_option("--only", only, "One part of the report, such as sweeps");
   app.add_option("-o,--output", output, "Write the report to this file");
   CLI11_PARSE(app, argc, argv);
 
@@ -100,13 +101,16 @@ int main(int argc, char** argv) {
     nlohmann::ordered_json report;
     report["machine"] = describe_machine();
     report["quick"] = options.quick;
-    report["paper_scene"] = in_child([&] { return measure_paper_scene(options); });
-    report["bed_sizes"] = measure_bed_sizes(options);
-    report["tile_sizes"] = in_child(measure_tile_sizes);
-    report["cones"] = in_child([&] { return measure_cones(options); });
-    report["rough_beds"] = in_child([&] { return measure_rough_beds(options); });
-    report["paper_law"] = in_child([&] { return measure_paper_law(options); });
-    report["sweeps"] = in_child([&] { return measure_sweeps(options); });
+    const auto add = [&](const std::string& name, const std::function<nlohmann::json()>& measure) {
+      if (only.empty() || name == only) report[name] = measure();
+    };
+    add("paper_scene", [&] { return in_child([&] { return measure_paper_scene(options); }); });
+    add("bed_sizes", [&] { return measure_bed_sizes(options); });
+    add("tile_sizes", [&] { return in_child(measure_tile_sizes); });
+    add("cones", [&] { return in_child([&] { return measure_cones(options); }); });
+    add("rough_beds", [&] { return in_child([&] { return measure_rough_beds(options); }); });
+    add("paper_law", [&] { return in_child([&] { return measure_paper_law(options); }); });
+    add("sweeps", [&] { return in_child([&] { return measure_sweeps(options); }); });
     const std::string text = report.dump(2) + "\n";
     if (output.empty()) {
       std::cout << text;
