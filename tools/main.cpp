@@ -1,6 +1,7 @@
 #include <spdlog/spdlog.h>
 
 #include <cstdio>
+#include <filesystem>
 #include <new>
 
 #include "commands.h"
@@ -68,6 +69,10 @@ int main(int argc, char** argv) {
     return failure.exit_code();
   } catch (const std::bad_alloc&) {
     fmt::print(stderr, "sandstroke: out of memory; take a smaller bed or picture, or close other programs\n");
+    return io_error;
+  } catch (const std::filesystem::filesystem_error& failure) {
+    fmt::print(stderr, "sandstroke: {}: {}; check the path, and who may use it\n", failure.path1().string(),
+               failure.code().message());
     return io_error;
   } catch (const std::exception& failure) {
     fmt::print(stderr, "sandstroke: unexpected failure: {}\n", failure.what());

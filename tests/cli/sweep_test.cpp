@@ -166,5 +166,16 @@ TEST_F(CliSweep, AFullDiskEndsItAndLeavesNoPointThatLooksComplete) {
   EXPECT_EQ(sweep({"plan.toml", "-o", "out"}).exit_code, 0);
 }
 
+TEST_F(CliSweep, ANameThatTheSystemRefusesIsSaidInASentence) {
+  const std::string name(300, 'a');
+  for (const std::vector<std::string>& arguments :
+       {std::vector<std::string>{"status", name}, {"collect", name}, {"plan.toml", "-o", name}}) {
+    const ProgramResult result = sweep(arguments);
+    EXPECT_EQ(result.exit_code, 4);
+    EXPECT_EQ(result.err.find("unexpected"), std::string::npos) << result.err;
+    EXPECT_NE(result.err.find("File name too long"), std::string::npos) << result.err;
+  }
+}
+
 }  // namespace
 }  // namespace sandstroke
