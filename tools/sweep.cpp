@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "commands.h"
+#include "core/counted.h"
 #include "core/error.h"
 #include "core/interrupt.h"
 #include "core/progress.h"
@@ -82,10 +83,45 @@ int dry_run(Sweep& sweep, const Arguments& arguments) {
   return 0;
 }
 
+/// All that a plan can say.
+std::string plan_help() {
+  std::vector<std::string> metrics;
+  for (const Metric& metric : all_metrics()) metrics.push_back(metric.name);
+  std::string lines;
+  for (std::size_t i = 0; i < metrics.size(); i += 6)
+    lines += fmt::format(
+        "  {}\n",
+        fmt::join(metrics.begin() + static_cast<std::ptrdiff_t>(i),
+                  metrics.begin() + static_cast<std::ptrdiff_t>(std::min(i + 6, metrics.size())), " "));
+  return R"(A plan (TOML; only scene and one axis are needed; files are relative to the plan):
+  [sweep]
+  scene = "scene.toml"                 # what every point starts from
+  strokes = ["a.toml", "b.h5"]         # instead of the scene's; the first axis
+  design = "grid"                      # every combination; or "latin": a Latin hypercube of
+  samples = 200                        #   so many points
+  seed = 1                             #   by this seed
+  metrics = ["work", "furrow_depth"]   # to collect; default: all
+  keep = ["surface", "picture"]        # of each point; default: neither
+  golden = "golden.h5"                 # run whose final surface each point's is compared with
+  max_points = 10000                   # more are refused
+  [set]                                # settings of every point (sandstroke info --scene-keys lists them)
+  bed.cells = [500, 500]
+  [axes]                               # what varies; the last one fastest
+  relaxation.talus_angle = { from = 20, to = 45, step = 2.5 }
+  force.k_s = { from = 100, to = 10000, count = 5, scale = "log" }
+  force.k_f = { from = 1, to = 20 }    # latin: anything between
+  model.preset = ["paper", "accurate"]
+Metrics:
+)" + lines;
+}
+
 void print_summary(const SweepCounters& counters, const SweepFolder& folder) {
   const auto row = [](const char* name, const std::string& value) { fmt::print("{:<12} {}\n", name, value); };
-  row("points", fmt::format("{}: {} run now, {} before, {} failed", counters.points, counters.run,
-                            counters.done_before, counters.failed));
+  std::string verdicts;
+  for (std::size_t i = 0; i < counters.verdicts.size(); ++i)
+    if (counters.verdicts[i] > 0) verdicts += fmt::format(", {} {}", counters.verdicts[i], verdict_names[i]);
+  row("points", fmt::format("{}: {} run now, {} before{}", counters.points, counters.run,
+                            counters.done_before, verdicts));
   row("simulations",
       fmt::format(
           "{}{}", counters.simulations,
@@ -99,7 +135,9 @@ nlohmann::ordered_json as_json(const SweepCounters& c, const SweepFolder& folder
           {"points", c.points},
           {"run", c.run},
           {"done_before", c.done_before},
-          {"failed", c.failed},
+          {"failed", c.failed()},
+          {"not_at_rest", c.of(PointVerdict::not_at_rest)},
+          {"active", c.of(PointVerdict::active)},
           {"simulations", c.simulations},
           {"beds_loaded", c.beds_loaded},
           {"strokes_loaded", c.strokes_loaded},
@@ -136,12 +174,17 @@ int sweep(const Arguments& arguments) {
                  counters.done_before + counters.run, counters.points);
     return 128 + interrupted();
   }
-  if (counters.failed > 0) {
-    spdlog::warn("{} points failed; sandstroke sweep status {} says why", counters.failed,
-                 folder.path().string());
-    return static_cast<int>(ErrorKind::unstable);
-  }
-  return 0;
+  if (const std::size_t active = counters.of(PointVerdict::active))
+    spdlog::warn("{} active: the sand returned energy there, the loop was not passive",
+                 counted(active, "point"));
+  const std::size_t restless = counters.of(PointVerdict::not_at_rest);
+  if (restless > 0)
+    spdlog::warn("{} not at rest; raise relaxation.max_passes or relaxation.tolerance",
+                 counted(restless, "point"));
+  if (counters.failed() > 0 && !all)  // collecting said so
+    spdlog::warn("{} without result; sandstroke sweep status {} says why",
+                 counted(counters.failed(), "point"), folder.path().string());
+  return counters.failed() + restless > 0 ? static_cast<int>(ErrorKind::unstable) : 0;
 }
 
 }  // namespace
@@ -161,22 +204,23 @@ void add_sweep_command(CLI::App& app, Command& chosen) {
   CLI::Option* shard =
       command->add_option("--shard", arguments->shard, "Only this part: the I-th of N, such as 1/4")
           ->type_name("I/N");
-  command->add_flag("--dry-run", arguments->dry_run,
-                    "Only say how many points there are, the first of them, and what they may take");
+  command
+      ->add_flag("--dry-run", arguments->dry_run,
+                 "Only say how many points there are, the first of them, and what they may take")
+      ->excludes(shard);
   command->add_flag("--json", arguments->json, "Print the summary as one JSON object");
   add_slurm_options(*command, arguments->slurm);
   command->get_option("--slurm")->excludes(shard)->excludes(jobs);
   add_sweep_status_command(*command, chosen);
   add_sweep_collect_command(*command, chosen);
   command->footer(
-      "A plan:\n"
-      "  [sweep]\n"
-      "  scene = \"scene.toml\"\n"
-      "  [axes]\n"
-      "  relaxation.talus_angle = { from = 20, to = 45, step = 2.5 }\n"
-      "  force.k_s = { from = 100, to = 10000, count = 5, scale = \"log\" }\n"
+      plan_help() +
       "Example:  sandstroke sweep plan.toml -o results\n"
-      "Exit code 3: points failed. Stopped (Ctrl-C, or by force), the same command goes on.");
+      "A point is at rest, as it should be; not at rest (relaxation.max_passes were not enough); active "
+      "(sand\n"
+      "returned energy to the device: the loop was not passive); unstable, or refused: no result, and why.\n"
+      "Exit code 3: some are not at rest or have no result. Stopped (Ctrl-C, or by force), the same command "
+      "goes on.");
   command->callback([arguments, command, &chosen] {
     if (command->get_subcommands().empty()) chosen = [arguments] { return sweep(*arguments); };
   });

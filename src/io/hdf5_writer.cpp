@@ -1,11 +1,6 @@
 #include "io/hdf5_writer.h"
 
-#include <fcntl.h>
-#include <unistd.h>
-
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
 
 #include "core/error.h"
 #include "core/output_file.h"
@@ -72,23 +67,11 @@ void Hdf5Chunks::write(int row, int col, const double* numbers) {
 Hdf5Writer::Hdf5Writer(const std::filesystem::path& path) : path_(path) {
   prepare_hdf5();
   const std::string part = part_path(path).string();
-  lock_ = open(part.c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0666);
-  if (lock_ < 0)
-    throw_io_error("{}: cannot be written ({}); choose another place", path.string(), std::strerror(errno));
-  struct flock whole_file {};
-  whole_file.l_type = F_WRLCK;
-  whole_file.l_whence = SEEK_SET;
-  // Bound to this descriptor: HDF5 opens and closes the file on its own.
-  if (fcntl(lock_, F_OFD_SETLK, &whole_file) < 0) {
-    close(lock_);
+  lock_ = FileLock::try_take(part);
+  if (!lock_)
     throw_io_error("{}: another process is writing it; wait for it or choose another name", path.string());
-  }
   file_ = Hdf5Handle(H5Fcreate(part.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose);
   check(file_.valid(), "");
-}
-
-Hdf5Writer::~Hdf5Writer() {
-  if (lock_ >= 0) close(lock_);
 }
 
 void Hdf5Writer::check(bool done, const std::string& object) const {

@@ -4,9 +4,11 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "core/file_lock.h"
 #include "io/hdf5_handle.h"
 #include "sand/height_field.h"
 
@@ -57,7 +59,6 @@ class Hdf5Chunks {
 class Hdf5Writer {
  public:
   explicit Hdf5Writer(const std::filesystem::path& path);
-  ~Hdf5Writer();
   Hdf5Writer(const Hdf5Writer&) = delete;
 
   void write(const std::string& dataset, const std::vector<double>& values);
@@ -99,7 +100,7 @@ class Hdf5Writer {
   Hdf5Column growing(const std::string& dataset, hid_t type, int width);
 
   std::filesystem::path path_;
-  int lock_ = -1;  // descriptor that keeps other processes from writing the same .part file
+  std::optional<FileLock> lock_;  // of the .part file
   Hdf5Handle file_;
 };
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <limits>
 #include <string>
 #include <vector>
@@ -12,6 +13,9 @@ namespace sandstroke {
 enum class PointVerdict { at_rest, not_at_rest, active, unstable, refused };
 inline const std::vector<std::string> verdict_names = {"at rest", "not at rest", "active", "unstable",
                                                        "refused"};
+/// How many points came to each verdict.
+using VerdictCounts = std::array<std::size_t, 5>;
+
 /// No metrics came of it.
 inline bool failed(PointVerdict verdict) {
   return verdict == PointVerdict::unstable || verdict == PointVerdict::refused;

@@ -123,7 +123,8 @@ void add_shapes(Measures& measures, const std::vector<Metric>& metrics, const Sc
     measures.set("slope_max", slopes.steepest);
     measures.set("slope_at_talus", slopes.share_at_talus);
   }
-  if (golden && wants(metrics, {"golden_max", "golden_rms", "golden_volume"})) {
+  const bool fits = golden && golden->rows() == final.rows() && golden->cols() == final.cols();
+  if (fits && wants(metrics, {"golden_max", "golden_rms", "golden_volume"})) {
     const FieldDifference difference = field_difference(*golden, final);
     measures.set("golden_max", difference.max);
     measures.set("golden_rms", difference.rms);

@@ -11,6 +11,7 @@
 #include <thread>
 
 #include "core/error.h"
+#include "core/file_lock.h"
 #include "core/hash.h"
 #include "core/interrupt.h"
 #include "core/output_file.h"
@@ -33,6 +34,10 @@ std::string view_text(const Scene& scene) {
   return scene_text(named);
 }
 
+void add(VerdictCounts& counts, const VerdictCounts& more) {
+  for (std::size_t i = 0; i < counts.size(); ++i) counts[i] += more[i];
+}
+
 }  // namespace
 
 std::vector<PointGroup> Shard::among(const std::vector<PointGroup>& groups) const {
@@ -51,7 +56,8 @@ struct Sweep::Work {
 
   std::atomic<std::size_t> next = 0;
   std::mutex mutex;  // of all below
-  std::size_t points_done = 0, simulations = 0, failed = 0;
+  std::size_t points_done = 0, simulations = 0;
+  VerdictCounts verdicts{};
   std::exception_ptr failure;
 };
 
@@ -61,11 +67,15 @@ Sweep::Sweep(SweepPlan plan) : plan_(std::move(plan)), inputs_(plan_.scene_folde
     if (known_files.insert(path).second)
       files_.emplace_back(path.string(), content_hash(read_text_file(path)));
   };
+  const std::optional<HeightField> golden = this->golden();
+  bool golden_fits = false;
   std::map<std::string, std::size_t> group_of;  // by sand_key
   for (std::size_t point = 0; point < plan_.design.points() && !interrupted(); ++point) {
     try {
       const Scene scene = plan_.scene_of(point);
       if (plan_.keep_picture) check_drawable(scene.bed.rows, scene.bed.cols);
+      golden_fits =
+          golden_fits || (golden && golden->rows() == scene.bed.rows && golden->cols() == scene.bed.cols);
       if (scene.stroke) add_file(plan_.scene_folder() / scene.stroke->file);
       if (scene.bed.surface.kind == SurfaceKind::file)
         add_file(plan_.scene_folder() / scene.bed.surface.file);
@@ -79,6 +89,15 @@ Sweep::Sweep(SweepPlan plan) : plan_(std::move(plan)), inputs_(plan_.scene_folde
       groups_.push_back({point});
     }
   }
+  if (golden && !golden_fits && !interrupted())
+    throw_input_error(
+        "{}: sweep.golden has {} x {} cells (x, y), and no point's bed has; name a run of this scene",
+        plan_.file.string(), golden->cols(), golden->rows());
+}
+
+std::optional<HeightField> Sweep::golden() const {
+  if (plan_.golden.empty()) return std::nullopt;
+  return RunFile(plan_.golden).final_bed();
 }
 
 SweepManifest Sweep::manifest() const {
@@ -112,7 +131,9 @@ std::optional<Sweep::Outcome> Sweep::run_group(const SweepFolder& folder,
     for (std::size_t i = 0; i < points.size(); ++i)
       write(points[i], failed_point(Error(ErrorKind::input, reason), metrics),
             i < scenes.size() ? scene_text(scenes[i]) : "", nullptr);
-    return Outcome{points.size(), false};
+    Outcome outcome;
+    outcome.verdicts[static_cast<std::size_t>(PointVerdict::refused)] = points.size();
+    return outcome;
   };
   if (const auto refused = refused_.find(points.front()); refused != refused_.end())
     return refuse(refused->second);
@@ -130,12 +151,12 @@ std::optional<Sweep::Outcome> Sweep::run_group(const SweepFolder& folder,
       run_shared(scenes, *bed, stroke ? &stroke->stroke : nullptr, folder.metrics(), golden);
   if (!result) return std::nullopt;
 
-  Outcome outcome{0, true};
+  Outcome outcome{{}, true};
   std::optional<Image> picture;
   std::string pictured_view;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const bool surface = !failed(result->points[i].verdict);
-    outcome.failed += !surface;
+    outcome.verdicts[static_cast<std::size_t>(result->points[i].verdict)] += 1;
     if (surface && plan_.keep_picture) {
       if (const std::string view = view_text(scenes[i]); !picture || view != pictured_view) {
         picture = painter.draw(*bed, result->surface, scenes[i].view);
@@ -160,7 +181,7 @@ void Sweep::work_through(const SweepFolder& folder, Work& work) {
       if (!outcome) return;
       const std::scoped_lock lock(work.mutex);
       work.simulations += outcome->simulated;
-      work.failed += outcome->failed;
+      add(work.verdicts, outcome->verdicts);
       work.points_done += work.groups[mine].size();
       work.progress(static_cast<double>(work.points_done) / static_cast<double>(work.points));
     } catch (...) {
@@ -176,19 +197,26 @@ SweepCounters Sweep::run(const SweepFolder& folder, const SweepOptions& options)
   SweepCounters counters;
   Work work;
   work.progress = options.progress;
+  const fs::path lock_path =
+      folder.path() / "points" / fmt::format(".shard-{}-of-{}", options.shard.index, options.shard.of);
+  const std::optional<FileLock> lock = FileLock::try_take(lock_path);
+  if (!lock)
+    throw_io_error(
+        "{}: another process is at this part of the sweep; wait for it, or share the work by --shard",
+        folder.path().string());
   for (const PointGroup& group : options.shard.among(groups_)) {
     PointGroup missing;
     for (const std::size_t point : group) {
       const std::optional<PointResult> done = folder.read(point);
       counters.points += 1;
       counters.done_before += done.has_value();
-      work.failed += done && failed(done->verdict);
+      if (done) work.verdicts[static_cast<std::size_t>(done->verdict)] += 1;
       if (!done) missing.push_back(point);
     }
     work.points += missing.size();
     if (!missing.empty()) work.groups.push_back(std::move(missing));
   }
-  if (!plan_.golden.empty()) work.golden = RunFile(plan_.golden).final_bed();
+  work.golden = golden();
 
   // Of a cluster's node, or beside other shards, a sweep has no more cores than it was given.
   const int cores = options.jobs > 0 ? options.jobs : tbb::info::default_concurrency();
@@ -204,7 +232,7 @@ SweepCounters Sweep::run(const SweepFolder& folder, const SweepOptions& options)
   if (work.failure) std::rethrow_exception(work.failure);
 
   counters.run = work.points_done;
-  counters.failed = work.failed;
+  counters.verdicts = work.verdicts;
   counters.simulations = work.simulations;
   counters.strokes_loaded = inputs_.strokes_loaded();
   counters.beds_loaded = inputs_.beds_loaded();
@@ -218,8 +246,7 @@ Sweep::Estimate Sweep::estimate() {
   std::size_t measured = groups_.size() / 2;  // or the next one that can be run
   for (std::size_t i = 0; i < groups_.size() && refused_.contains(groups_[measured].front()); ++i)
     measured = (measured + 1) % groups_.size();
-  std::optional<HeightField> golden;
-  if (!plan_.golden.empty()) golden = RunFile(plan_.golden).final_bed();
+  const std::optional<HeightField> golden = this->golden();
   ChangePainter painter;
   const Stopwatch watch;
   run_group(folder, {groups_[measured].front()}, golden ? &*golden : nullptr, painter);

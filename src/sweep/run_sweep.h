@@ -31,14 +31,18 @@ struct SweepCounters {
   std::size_t points = 0;       ///< that belong to it
   std::size_t done_before = 0;  ///< found done
   std::size_t run = 0;          ///< done now
-  std::size_t failed = 0;       ///< of all done: unstable or refused
+  VerdictCounts verdicts{};     ///< of all done
   std::size_t simulations = 0;  ///< run now: points of equal sand share one
   int strokes_loaded = 0, beds_loaded = 0;
   bool interrupted = false;
+
+  std::size_t of(PointVerdict verdict) const { return verdicts[static_cast<std::size_t>(verdict)]; }
+  /// Without metrics.
+  std::size_t failed() const { return of(PointVerdict::unstable) + of(PointVerdict::refused); }
 };
 
 /// A plan made ready: what each point's scene is, and which of them share their sand. Error: io, where a file
-/// that is named cannot be read.
+/// that is named cannot be read; input, where a golden surface is of no point's shape.
 class Sweep {
  public:
   explicit Sweep(SweepPlan plan);
@@ -52,7 +56,8 @@ class Sweep {
   std::size_t simulations() const { return groups_.size() - refused_.size(); }
 
   /// Runs what the folder does not hold yet of the shard's points. Points that fail are recorded; what
-  /// cannot be written ends it. Stops at the next tick when interrupted(). Error: io.
+  /// cannot be written ends it. Stops at the next tick when interrupted(). Error: io, also where another
+  /// process is at the same shard.
   SweepCounters run(const SweepFolder& folder, const SweepOptions& options);
 
   /// Runs one point of a group, in the middle of them, and its picture, and says what that took.
@@ -67,12 +72,15 @@ class Sweep {
   /// Takes group after group from what is to be done.
   void work_through(const SweepFolder& folder, Work& work);
   struct Outcome {
-    std::size_t failed = 0;  // points
+    VerdictCounts verdicts{};
     bool simulated = false;
   };
   /// Runs these points of a group and writes their files. Nothing where it was interrupted().
   std::optional<Outcome> run_group(const SweepFolder& folder, const std::vector<std::size_t>& points,
                                    const HeightField* golden, ChangePainter& painter);
+
+  /// The surface that each is compared with, if there is one.
+  std::optional<HeightField> golden() const;
 
   SweepPlan plan_;
   SweepInputs inputs_;

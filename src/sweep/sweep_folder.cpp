@@ -100,13 +100,19 @@ SweepFolder SweepFolder::make(const fs::path& path, const SweepManifest& manifes
     SweepFolder there = open(path);
     const Json old_one = without_places(to_json(there.manifest_)),
                new_one = without_places(to_json(manifest));
-    for (const auto& [key, value] : new_one.items())
-      if (old_one.at(key) != value)
+    for (const auto& [key, value] : new_one.items()) {
+      if (old_one.at(key) == value) continue;
+      if (key == "version" || key == "commit")
         throw_input_error(
-            "{}: holds another sweep: its {} differ{} from this one's; choose another -o, or remove the "
-            "folder",
-            path.string(), key == "inputs" ? "scene, strokes or other files" : key,
-            key == "axes" || key == "inputs" || key == "settings" || key == "metrics" ? "" : "s");
+            "{}: was begun by another version of sandstroke ({}, {}), whose results may differ; choose "
+            "another "
+            "-o, or remove the folder",
+            path.string(), there.manifest_.version, there.manifest_.commit);
+      throw_input_error(
+          "{}: holds another sweep: its {} differ{} from this one's; choose another -o, or remove the folder",
+          path.string(), key == "inputs" ? "scene, strokes or other files" : key,
+          key == "axes" || key == "inputs" || key == "settings" || key == "metrics" ? "" : "s");
+    }
     return there;
   }
   if (fs::is_directory(path))

@@ -3,6 +3,7 @@
 #include <spdlog/fmt/fmt.h>
 
 #include "core/hash.h"
+#include "core/machine.h"
 #include "io/scene_toml.h"
 #include "io/stroke_file.h"
 #include "io/surface_file.h"
@@ -62,11 +63,16 @@ std::shared_ptr<const SweepStroke> SweepInputs::stroke(const Scene& scene) {
 std::shared_ptr<const HeightField> SweepInputs::bed(const BedSettings& bed) {
   const std::string key = text_of(bed);
   const std::scoped_lock lock(files_);
-  if (auto there = beds_[key].lock()) return last_bed_ = there;
-  last_bed_ = std::make_shared<const HeightField>(load_surface(bed, scene_folder_));
-  beds_[key] = last_bed_;
+  if (const auto found = beds_.find(key); found != beds_.end()) return found->second;
+  auto loaded = std::make_shared<const HeightField>(load_surface(bed, scene_folder_));
   beds_loaded_ += 1;
-  return last_bed_;
+  const auto bytes = static_cast<double>(loaded->bytes());
+  bed_bytes_ += bytes;
+  if (bed_bytes_ > 0.25 * physical_memory()) {
+    beds_.clear();
+    bed_bytes_ = bytes;
+  }
+  return beds_[key] = loaded;
 }
 
 std::string sand_key(const Scene& scene, const SweepStroke* stroke) {

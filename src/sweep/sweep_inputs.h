@@ -41,8 +41,8 @@ class SweepInputs {
   std::map<std::string, bool> by_force_;  // stroke files that force constants make a difference to
   std::map<std::string, std::shared_ptr<const SweepStroke>> strokes_;  // by file and settings
   std::size_t stroke_samples_ = 0;                                     // in strokes_
-  std::map<std::string, std::weak_ptr<const HeightField>> beds_;       // by their settings
-  std::shared_ptr<const HeightField> last_bed_;                        // kept for the points to come
+  std::map<std::string, std::shared_ptr<const HeightField>> beds_;     // by their settings
+  double bed_bytes_ = 0.0;                                             // of beds_
   int strokes_loaded_ = 0, beds_loaded_ = 0;
 };
 

@@ -1,6 +1,7 @@
 #include "sweep/sweep_page.h"
 
 #include <algorithm>
+#include <map>
 
 #include "core/counted.h"
 #include "core/error.h"
@@ -16,19 +17,37 @@ namespace {
 using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
-Json axes_json(const SweepDesign& design) {
-  Json axes = Json::array();
-  for (const SweepAxis& axis : design.axes) {
-    Json values = Json::array();
+/// An axis' values as the page has them: each text once, though points of a Latin hypercube may share it.
+struct PageAxis {
+  PageAxis(const SweepAxis& axis, bool join_texts) {
     const bool numeric = axis.numeric();
-    for (std::size_t i = 0; i < axis.values.size(); ++i)
+    std::map<std::string, std::size_t> seen;
+    for (std::size_t i = 0; i < axis.values.size(); ++i) {
+      const auto [text, is_new] = seen.try_emplace(axis.label(i), values.size());
+      if (join_texts && !numeric && !is_new) {
+        place.push_back(text->second);
+        continue;
+      }
+      place.push_back(values.size());
       values.push_back(numeric ? Json(axis.number(i)) : Json(axis.label(i)));
-    axes.push_back({{"name", axis.key},
-                    {"unit", axis.unit},
-                    {"log", axis.logarithmic},
-                    {"numeric", numeric},
-                    {"values", std::move(values)}});
+    }
+    json = {{"name", axis.key},
+            {"unit", axis.unit},
+            {"log", axis.logarithmic},
+            {"numeric", numeric},
+            {"values", values}};
   }
+
+  Json values = Json::array(), json;
+  std::vector<std::size_t> place;  // of each of the axis' values in these
+};
+
+std::vector<PageAxis> page_axes(const SweepDesign& design) {
+  // Points are told apart by their places on the axes.
+  const bool join_texts = std::any_of(design.axes.begin(), design.axes.end(),
+                                      [](const SweepAxis& axis) { return axis.numeric(); });
+  std::vector<PageAxis> axes;
+  for (const SweepAxis& axis : design.axes) axes.emplace_back(axis, join_texts);
   return axes;
 }
 
@@ -71,7 +90,7 @@ class Thumbnails {
   std::string first_missing_;
 };
 
-Json points_json(const CollectedSweep& sweep, CollectReport& report) {
+Json points_json(const CollectedSweep& sweep, const std::vector<PageAxis>& axes, CollectReport& report) {
   const SweepDesign& design = sweep.folder.design();
   const SweepManifest& manifest = sweep.folder.manifest();
   const bool kept = manifest.keep_picture || manifest.keep_surface;
@@ -83,7 +102,8 @@ Json points_json(const CollectedSweep& sweep, CollectReport& report) {
   Json points = Json::array();
   for (std::size_t point = 0; point < sweep.results.size(); ++point) {
     Json at = Json::array(), metrics = Json::array();
-    for (std::size_t axis = 0; axis < design.axes.size(); ++axis) at.push_back(design.value_at(point, axis));
+    for (std::size_t axis = 0; axis < design.axes.size(); ++axis)
+      at.push_back(axes[axis].place[design.value_at(point, axis)]);
     for (std::size_t metric = 0; metric < sweep.folder.metrics().size(); ++metric)
       metrics.push_back(number_or_null(sweep.metric(point, metric)));
     points.push_back({{"point", point},
@@ -104,15 +124,18 @@ Json sweep_page_data(const CollectedSweep& sweep, CollectReport& report) {
   Json metrics = Json::array();
   for (const Metric& metric : sweep.folder.metrics())
     metrics.push_back({{"name", metric.name}, {"title", metric.title}, {"unit", metric.unit}});
+  const std::vector<PageAxis> axes = page_axes(sweep.folder.design());
+  Json axes_json = Json::array();
+  for (const PageAxis& axis : axes) axes_json.push_back(axis.json);
   // A file in it: the folder itself may be named "." or end in a slash.
   const fs::path file = fs::absolute(sweep.folder.point_file(0)).lexically_normal();
   return {{"title", file.parent_path().parent_path().filename().string()},
           {"machine", describe_machine()},
           {"scene", sweep.folder.manifest().scene},
           {"design", sweep.folder.design().grid ? "grid" : "latin"},
-          {"axes", axes_json(sweep.folder.design())},
+          {"axes", std::move(axes_json)},
           {"metrics", std::move(metrics)},
-          {"points", points_json(sweep, report)},
+          {"points", points_json(sweep, axes, report)},
           {"counts",
            {{"points", sweep.results.size()},
             {"done", report.done},

@@ -56,6 +56,7 @@ AxisRange read_range(const TomlReader& toml, const std::string& key, int most) {
   if (!toml.has(key + ".step")) return range;
   const double step = toml.number(key + ".step", 1.0);
   if (range.logarithmic) toml.fail(key + ".step", "does not go with scale = \"log\"; give count");
+  if (step == 0.0) toml.fail(key + ".step", "is 0; give one that leads from `from` to `to`");
   const double steps = std::floor((range.to - range.from) / step + 1e-9);
   if (!(steps >= 0.0))
     toml.fail(key + ".step",

@@ -5,8 +5,10 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "core/file_lock.h"
 #include "core/output_file.h"
 #include "io/png_file.h"
+#include "io/run_scene.h"
 #include "test_folder.h"
 
 namespace sandstroke {
@@ -73,7 +75,7 @@ TEST_F(ASweep, PointsOfEqualSandShareASimulationAndTheirInputs) {
   EXPECT_EQ(counters.simulations, 2u);
   EXPECT_EQ(counters.strokes_loaded, 1);
   EXPECT_EQ(counters.beds_loaded, 1);
-  EXPECT_EQ(counters.failed, 0u);
+  EXPECT_EQ(counters.failed(), 0u);
 }
 
 TEST_F(ASweep, OfADynamicDeviceSharesNothingButInputs) {
@@ -130,18 +132,18 @@ TEST_F(ASweep, AFailingPointIsRecordedAndDoesNotStopTheRest) {
   const SweepFolder out = folder(s, "out");
   const SweepCounters counters = s.run(out, {});
   EXPECT_EQ(counters.run, 4u);
-  EXPECT_EQ(counters.failed, 2u);
+  EXPECT_EQ(counters.failed(), 2u);
   EXPECT_EQ(out.read(0)->verdict, PointVerdict::at_rest);
   EXPECT_EQ(out.read(3)->verdict, PointVerdict::refused);
   EXPECT_NE(out.read(3)->reason.find("outside the bed"), std::string::npos);
-  EXPECT_EQ(s.run(out, {}).failed, 2u);  // counted, not run, again
+  EXPECT_EQ(s.run(out, {}).failed(), 2u);  // counted, not run, again
 }
 
 TEST_F(ASweep, SettingsThatDoNotGoTogetherAreRefusedPoints) {
   Sweep s = sweep("", "bed.cells = [[160, 160], [80, 80]]\ntool.radius = [0.01, 0.002, 0.0007]\n");
   const SweepFolder out = folder(s, "out");
   const SweepCounters counters = s.run(out, {});
-  EXPECT_EQ(counters.failed, 1u);  // less than half a cell, of the coarse bed only
+  EXPECT_EQ(counters.failed(), 1u);  // less than half a cell, of the coarse bed only
   EXPECT_EQ(counters.simulations, 5u);
   EXPECT_EQ(s.simulations(), 5u);
   EXPECT_EQ(out.read(5)->verdict, PointVerdict::refused);
@@ -154,7 +156,7 @@ TEST_F(ASweep, ABedThatCannotBeReadRefusesItsOwnPointsOnly) {
                   "bed.surface.file = [\"bed.png\"]\nforce.k_s = [500, 1000]\n"
                   "bed.surface.kind = [\"file\"]\n");
   const SweepFolder out = folder(s, "out");
-  EXPECT_EQ(s.run(out, {}).failed, 2u);
+  EXPECT_EQ(s.run(out, {}).failed(), 2u);
   EXPECT_EQ(out.read(1)->verdict, PointVerdict::refused);
   EXPECT_NE(out.read(1)->reason.find("bed.png"), std::string::npos) << out.read(1)->reason;
 }
@@ -169,6 +171,37 @@ TEST_F(ASweep, KeepsPicturesAndSurfacesWhereAskedTo) {
   const SweepFolder without = folder(bare, "bare");
   bare.run(without, {});
   EXPECT_FALSE(fs::exists(without.picture_file(0)));
+}
+
+TEST_F(ASweep, AnotherProcessAtTheSamePartIsRefusedAndAtAnotherPartIsNot) {
+  Sweep s = sweep();
+  const SweepFolder out = folder(s, "out");
+  const auto other = FileLock::try_take(out.path() / "points/.shard-1-of-1");
+  ASSERT_TRUE(other);
+  EXPECT_THROW(s.run(out, {}), Error);
+  EXPECT_EQ(s.run(out, with_jobs(1, {2, 2})).run, 3u);
+}
+
+TEST_F(ASweep, AGoldenSurfaceOfAnotherShapeIsRefusedOrComparedWithThoseItFits) {
+  Sweep first = sweep("", "force.k_s = [1000]\n");
+  const Scene scene = first.plan().scene_of(0);
+  RunOptions options;
+  options.scene_folder = temporary.path();
+  run_scene(scene, temporary / "golden.h5", options);
+  EXPECT_THROW(sweep("golden = \"golden.h5\"\n", "bed.cells = [[160, 160]]\n"), Error);
+  Sweep s = sweep("golden = \"golden.h5\"\nmetrics = [\"golden_max\", \"work\"]\n",
+                  "bed.cells = [[160, 160], [80, 80]]\n");
+  const SweepFolder out = folder(s, "out");
+  EXPECT_EQ(s.run(out, {}).failed(), 0u);
+  EXPECT_TRUE(std::isnan(out.read(0)->metrics[0]));
+  EXPECT_FALSE(std::isnan(out.read(0)->metrics[1]));
+  EXPECT_EQ(out.read(1)->metrics[0], 0.0);
+}
+
+TEST_F(ASweep, EachBedIsLoadedOnceWhateverTheOrder) {
+  Sweep s = sweep(
+      "", "force.k_s = [1, 2]\nrelaxation.talus_angle = [20, 30, 40]\nbed.cells = [[80, 80], [160, 160]]\n");
+  EXPECT_EQ(s.run(folder(s, "out"), {}).beds_loaded, 2);
 }
 
 TEST_F(ASweep, WhatCannotBeWrittenEndsIt) {

@@ -66,7 +66,7 @@ TEST_F(AFolder, OfAnotherSweepIsRefusedAndSaysWhatDiffers) {
   EXPECT_NE(refusal(path, other).find("scene, strokes or other files"), std::string::npos);
   other = manifest();
   other.commit = "def";
-  EXPECT_NE(refusal(path, other).find("commit"), std::string::npos);
+  EXPECT_NE(refusal(path, other).find("another version of sandstroke (1, abc)"), std::string::npos);
 }
 
 TEST_F(AFolder, WithFilesOfOthersOrADamagedManifestIsRefused) {

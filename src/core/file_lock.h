@@ -1,0 +1,27 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <utility>
+
+namespace sandstroke {
+
+/// Keeps other processes, and other holders in this one, from what a file stands for; gone with its holder,
+/// however that ends.
+class FileLock {
+ public:
+  /// Makes the file where it is not there. None: somebody holds it. Error: io.
+  static std::optional<FileLock> try_take(const std::filesystem::path& path);
+  FileLock(FileLock&& other) noexcept;
+  FileLock& operator=(FileLock&& other) noexcept {
+    std::swap(descriptor_, other.descriptor_);
+    return *this;
+  }
+  ~FileLock();
+
+ private:
+  explicit FileLock(int descriptor) : descriptor_(descriptor) {}
+  int descriptor_;
+};
+
+}  // namespace sandstroke
