@@ -104,7 +104,6 @@ std::string content_hash(const CollectedSweep& sweep) {
   for (std::size_t point = 0; point < sweep.results.size(); ++point) {
     add(sweep.verdict_name(point));
     if (!sweep.results[point]) continue;
-    add(sweep.results[point]->reason);
     for (std::size_t i = 0; i < metrics.size(); ++i) {
       if (metrics[i].timing) continue;
       // Not-a-numbers may have been made in different ways.

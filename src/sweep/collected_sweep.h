@@ -42,8 +42,8 @@ struct CollectedSweep {
   std::optional<BedGeometry> bed;  ///< of all surfaces; none where none was kept, or they differ
 };
 
-/// Of axes, verdicts, reasons, metrics (but for timings) and surfaces: the same for two sweeps with the same
-/// content, wherever and in whatever order they ran.
+/// Of axes, verdicts, metrics (but for timings) and surfaces: the same for two sweeps with the same content,
+/// wherever and in whatever order they ran. Not of reasons: they name files as each call found them.
 std::string content_hash(const CollectedSweep& sweep);
 
 }  // namespace sandstroke

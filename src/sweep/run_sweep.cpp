@@ -34,10 +34,6 @@ std::string view_text(const Scene& scene) {
   return scene_text(named);
 }
 
-void add(VerdictCounts& counts, const VerdictCounts& more) {
-  for (std::size_t i = 0; i < counts.size(); ++i) counts[i] += more[i];
-}
-
 }  // namespace
 
 std::vector<PointGroup> Shard::among(const std::vector<PointGroup>& groups) const {
@@ -59,6 +55,13 @@ struct Sweep::Work {
   std::size_t points_done = 0, simulations = 0;
   VerdictCounts verdicts{};
   std::exception_ptr failure;
+
+  void count(const PointResult& done) {
+    const std::scoped_lock lock(mutex);
+    verdicts[static_cast<std::size_t>(done.verdict)] += 1;
+    points_done += 1;
+    progress(static_cast<double>(points_done) / static_cast<double>(points));
+  }
 };
 
 Sweep::Sweep(SweepPlan plan) : plan_(std::move(plan)), inputs_(plan_.scene_folder()) {
@@ -117,23 +120,24 @@ SweepManifest Sweep::manifest() const {
   return m;
 }
 
-std::optional<Sweep::Outcome> Sweep::run_group(const SweepFolder& folder,
-                                               const std::vector<std::size_t>& points,
-                                               const HeightField* golden, ChangePainter& painter) {
+bool Sweep::run_group(const SweepFolder& folder, const std::vector<std::size_t>& points,
+                      const HeightField* golden, ChangePainter& painter,
+                      const std::function<void(const PointResult&)>& written) {
   const std::size_t metrics = folder.metrics().size();
   const auto write = [&](std::size_t point, const PointResult& result, const std::string& scene,
                          const HeightField* surface) {
-    const std::scoped_lock lock(inputs_.files());
-    folder.write(point, result, scene, surface);
+    {
+      const std::scoped_lock lock(inputs_.files());
+      folder.write(point, result, scene, surface);
+    }
+    written(result);
   };
   std::vector<Scene> scenes;
   const auto refuse = [&](const std::string& reason) {
     for (std::size_t i = 0; i < points.size(); ++i)
       write(points[i], failed_point(Error(ErrorKind::input, reason), metrics),
             i < scenes.size() ? scene_text(scenes[i]) : "", nullptr);
-    Outcome outcome;
-    outcome.verdicts[static_cast<std::size_t>(PointVerdict::refused)] = points.size();
-    return outcome;
+    return false;
   };
   if (const auto refused = refused_.find(points.front()); refused != refused_.end())
     return refuse(refused->second);
@@ -149,14 +153,12 @@ std::optional<Sweep::Outcome> Sweep::run_group(const SweepFolder& folder,
   }
   const std::optional<SharedRunResult> result =
       run_shared(scenes, *bed, stroke ? &stroke->stroke : nullptr, folder.metrics(), golden);
-  if (!result) return std::nullopt;
+  if (!result) return false;
 
-  Outcome outcome{{}, true};
   std::optional<Image> picture;
   std::string pictured_view;
-  for (std::size_t i = 0; i < points.size(); ++i) {
+  for (std::size_t i = 0; i < points.size() && (i == 0 || !interrupted()); ++i) {
     const bool surface = !failed(result->points[i].verdict);
-    outcome.verdicts[static_cast<std::size_t>(result->points[i].verdict)] += 1;
     if (surface && plan_.keep_picture) {
       if (const std::string view = view_text(scenes[i]); !picture || view != pictured_view) {
         picture = painter.draw(*bed, result->surface, scenes[i].view);
@@ -167,7 +169,7 @@ std::optional<Sweep::Outcome> Sweep::run_group(const SweepFolder& folder,
     write(points[i], result->points[i], scene_text(scenes[i]),
           surface && plan_.keep_surface ? &result->surface : nullptr);
   }
-  return outcome;
+  return true;
 }
 
 void Sweep::work_through(const SweepFolder& folder, Work& work) {
@@ -176,14 +178,10 @@ void Sweep::work_through(const SweepFolder& folder, Work& work) {
     const std::size_t mine = work.next++;
     if (mine >= work.groups.size()) return;
     try {
-      const std::optional<Outcome> outcome =
-          run_group(folder, work.groups[mine], work.golden ? &*work.golden : nullptr, painter);
-      if (!outcome) return;
+      const bool simulated = run_group(folder, work.groups[mine], work.golden ? &*work.golden : nullptr,
+                                       painter, [&](const PointResult& result) { work.count(result); });
       const std::scoped_lock lock(work.mutex);
-      work.simulations += outcome->simulated;
-      add(work.verdicts, outcome->verdicts);
-      work.points_done += work.groups[mine].size();
-      work.progress(static_cast<double>(work.points_done) / static_cast<double>(work.points));
+      work.simulations += simulated;
     } catch (...) {
       const std::scoped_lock lock(work.mutex);
       work.failure = std::current_exception();
@@ -249,7 +247,8 @@ Sweep::Estimate Sweep::estimate() {
   const std::optional<HeightField> golden = this->golden();
   ChangePainter painter;
   const Stopwatch watch;
-  run_group(folder, {groups_[measured].front()}, golden ? &*golden : nullptr, painter);
+  run_group(folder, {groups_[measured].front()}, golden ? &*golden : nullptr, painter,
+            [](const PointResult&) {});
   Estimate estimate;
   estimate.seconds = watch.seconds() * static_cast<double>(simulations());
   for (const auto& file : fs::directory_iterator(folder.path() / "points"))

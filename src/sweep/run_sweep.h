@@ -71,13 +71,10 @@ class Sweep {
   struct Work;
   /// Takes group after group from what is to be done.
   void work_through(const SweepFolder& folder, Work& work);
-  struct Outcome {
-    VerdictCounts verdicts{};
-    bool simulated = false;
-  };
-  /// Runs these points of a group and writes their files. Nothing where it was interrupted().
-  std::optional<Outcome> run_group(const SweepFolder& folder, const std::vector<std::size_t>& points,
-                                   const HeightField* golden, ChangePainter& painter);
+  /// Runs these points of a group and writes their files, which it tells of each; stops when interrupted().
+  /// Whether a simulation served them.
+  bool run_group(const SweepFolder& folder, const std::vector<std::size_t>& points, const HeightField* golden,
+                 ChangePainter& painter, const std::function<void(const PointResult&)>& written);
 
   /// The surface that each is compared with, if there is one.
   std::optional<HeightField> golden() const;

@@ -100,6 +100,17 @@ TEST_F(CliSweep, InterruptedAndKilledItGoesOnToTheSameEnd) {
   EXPECT_EQ(resumed["content_hash"], content("whole"));
 }
 
+TEST_F(CliSweep, InterruptedItStopsBetweenPointsThatShareASimulation) {
+  plan("force.k_s = { from = 100, to = 2000, count = 4000 }\n", "metrics = [\"max_force\"]\n");
+  Conditions interrupt;
+  interrupt.signal = SIGINT;
+  interrupt.when = [this] { return fs::exists(folder / "out/points/000000.h5"); };
+  const ProgramResult stopped = sweep({"plan.toml", "-o", "out"}, interrupt);
+  EXPECT_EQ(stopped.exit_code, 130) << stopped.err;
+  EXPECT_NE(stopped.err.find("of 4000 points done"), std::string::npos) << stopped.err;
+  EXPECT_FALSE(fs::exists(folder / "out/points/003999.h5"));
+}
+
 TEST_F(CliSweep, ShardsMakeOneWhole) {
   ASSERT_EQ(sweep({"plan.toml", "-o", "whole"}).exit_code, 0);
   EXPECT_EQ(sweep({"plan.toml", "-o", "out", "--shard", "2/2"}).exit_code, 0);
