@@ -1,0 +1,31 @@
+#include "haptics/recording.h"
+
+namespace sandstroke {
+
+const char* stop_reason_text(StopReason reason) {
+  switch (reason) {
+    case StopReason::duration:
+      return "the time was up";
+    case StopReason::stroke_end:
+      return "the stroke played was over";
+    case StopReason::stop_switch:
+      return "the stop switch was pressed";
+    case StopReason::key:
+      return "a key was pressed";
+    case StopReason::signal:
+      return "a signal came";
+    case StopReason::device_lost:
+      return "the device no longer answered";
+    case StopReason::stall:
+      return "the loop stood still";
+    case StopReason::disk:
+      return "the disk took no more";
+    case StopReason::no_number:
+      return "the force was no number";
+  }
+  return "unknown";
+}
+
+bool is_complete(StopReason reason) { return reason <= StopReason::key; }
+
+}  // namespace sandstroke

@@ -1,0 +1,83 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <string>
+
+#include "haptics/haptic_device.h"
+
+namespace sandstroke {
+
+/// What was out of the ordinary about a sample (bits).
+enum SampleFlag : std::uint32_t {
+  late_sample = 1,          ///< read more than half a tick after its time
+  after_skipped_ticks = 2,  ///< ticks before it were skipped, unread or dropped: more than a tick has passed
+  clamped_force = 4,        ///< the force was cut to the limit
+  ramped_force = 8,         ///< the force was still being faded in
+  rate_limited_force = 16,  ///< the force was held back from jumping
+  refused_force = 32,       ///< the force was no number: none was given
+  held_sand = 64,           ///< the tool did not dig, for the eroding bed was too far behind
+};
+
+/// One servo tick, as recorded. Plain bytes: it goes through ring and journal as it is.
+struct RecordedSample {
+  std::uint64_t sequence = 0;  ///< the tick's number: those missing between two samples are gone
+  std::int64_t time = 0;       ///< ns, monotonic clock, right before the device was read
+  double position[3] = {};     ///< m, as read, in the device's frame
+  double velocity[3] = {};     ///< m/s, as read
+  double force[3] = {};        ///< N, commanded, in the device's frame
+  std::uint32_t switches = 0;
+  std::uint32_t flags = 0;  ///< SampleFlag
+};
+static_assert(sizeof(RecordedSample) == 96);
+
+/// What the system gave of what was asked of it, for a loop that must not wait.
+struct Scheduling {
+  std::string policy = "SCHED_OTHER";  ///< obtained, as sched(7) names it
+  int priority = 0;
+  bool memory_locked = false;
+  std::string advice;  ///< what it costs that something was refused, and how to get it; empty: nothing was
+};
+
+/// Known before the first sample.
+struct RecordingHeader {
+  DeviceSpecification device;
+  std::string source;         ///< as the device was named: "scripted:wscg.toml"
+  std::string started;        ///< wall clock, ISO 8601, UTC
+  double nominal_rate = 0.0;  ///< Hz
+  Scheduling scheduling;
+  double force_limit = 0.0;  ///< N; 0 = no force was given
+  std::string felt_scene;    ///< the scene's resolved TOML text, with live sand; else empty
+};
+
+/// Where every tick went: elapsed = recorded + skipped + unread + dropped.
+struct TickCounts {
+  std::int64_t elapsed = 0;   ///< ticks since the first, which is counted
+  std::int64_t recorded = 0;  ///< are in the file
+  std::int64_t skipped = 0;   ///< their time had passed when the loop came to them; never made up
+  std::int64_t unread = 0;    ///< the device gave nothing, or no number
+  std::int64_t dropped = 0;   ///< the ring was full: the disk did not keep up
+  // Of the recorded ones, by flag:
+  std::int64_t late = 0, clamped = 0, ramped = 0, rate_limited = 0, refused = 0, held = 0;
+};
+
+/// How long after their time ticks began.
+struct Lateness {
+  double mean = 0.0, p99 = 0.0, max = 0.0;  ///< s
+};
+
+/// Why a recording ended. Only the first four are what somebody asked for.
+enum class StopReason { duration, stroke_end, stop_switch, key, signal, device_lost, stall, disk, no_number };
+/// "the time was up", ... for people and files.
+const char* stop_reason_text(StopReason reason);
+/// As asked for: the recording is complete.
+bool is_complete(StopReason reason);
+
+/// Known after the last sample.
+struct RecordingFooter {
+  TickCounts ticks;
+  Lateness lateness;
+  StopReason reason = StopReason::signal;
+};
+
+}  // namespace sandstroke

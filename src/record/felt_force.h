@@ -1,0 +1,24 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+
+#include "haptics/haptic_device.h"
+
+namespace sandstroke {
+
+/// A force, and what was out of the ordinary about it (SampleFlag).
+struct FeltForce {
+  Eigen::Vector3d force = Eigen::Vector3d::Zero();  ///< N, in the device's frame
+  std::uint32_t flags = 0;
+};
+
+/// What the recorded hand feels. Called in the servo loop: no waiting, throwing, or taking memory.
+class FeltWorld {
+ public:
+  virtual ~FeltWorld() = default;
+  /// For a device read at `time` [s] since the recording began; times increase.
+  virtual FeltForce feel(double time, const DeviceReading& reading) noexcept = 0;
+};
+
+}  // namespace sandstroke

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <cstdint>
+
+namespace sandstroke {
+
+/// The time that the servo loop lives by [ns]. Tests give it one that goes as they like.
+class LoopClock {
+ public:
+  virtual ~LoopClock() = default;
+  virtual std::int64_t now() noexcept = 0;
+  /// Returns at `time` or later, at once where that has passed.
+  virtual void sleep_until(std::int64_t time) noexcept = 0;
+};
+
+/// CLOCK_MONOTONIC, slept on to absolute times.
+class MonotonicClock : public LoopClock {
+ public:
+  std::int64_t now() noexcept override;
+  void sleep_until(std::int64_t time) noexcept override;
+};
+
+}  // namespace sandstroke
