@@ -7,6 +7,7 @@
 #include "commands.h"
 #include "core/interrupt.h"
 #include "core/progress.h"
+#include "print_json.h"
 #include "study/study_files.h"
 #include "study/study_table.h"
 
@@ -29,7 +30,7 @@ int bench(const Options& options) {
   if (interrupted()) return 128 + interrupted();
   files.write(study);
   if (options.json)
-    fmt::print("{}\n", study_json(study).dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+    print_json(study_json(study));
   else
     fmt::print("{}\npage  {}\n", study_summary(study), files.page().string());
   return 0;

@@ -13,6 +13,7 @@
 #include "core/error.h"
 #include "core/output_file.h"
 #include "io/png_file.h"
+#include "print_json.h"
 
 namespace sandstroke {
 namespace {
@@ -70,7 +71,10 @@ int compare(const Options& options) {
   const Comparison comparison =
       is_picture(options.golden) ? compare_pictures(options) : compare_run_files(options);
   if (!options.junit.empty()) write_text_file(options.junit, junit_report({comparison}));
-  fmt::print("{}", options.json ? to_json(comparison).dump(2) + "\n" : check_table(comparison));
+  if (options.json)
+    print_json(to_json(comparison));
+  else
+    fmt::print("{}", check_table(comparison));
   return comparison.passed() ? 0 : 1;
 }
 

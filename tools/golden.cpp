@@ -13,6 +13,7 @@
 #include "core/output_file.h"
 #include "io/run_scene.h"
 #include "io/scene_toml.h"
+#include "print_json.h"
 #include "run_picture.h"
 
 namespace sandstroke {
@@ -62,7 +63,7 @@ int check(const Options& options) {
     std::fflush(stdout);
   }
   if (!options.junit.empty()) write_text_file(options.junit, junit_report(comparisons));
-  if (options.json) fmt::print("{}\n", nlohmann::json{{"passed", passed}, {"scenes", scenes}}.dump(2));
+  if (options.json) print_json(nlohmann::json{{"passed", passed}, {"scenes", scenes}});
   return passed ? 0 : 1;
 }
 

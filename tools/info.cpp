@@ -10,6 +10,7 @@
 #include "core/error.h"
 #include "io/run_file.h"
 #include "io/scene_toml.h"
+#include "print_json.h"
 
 namespace sandstroke {
 namespace {
@@ -80,7 +81,7 @@ int info(const Arguments& arguments) {
   if (arguments.scene) {
     fmt::print("{}", run.scene_text());
   } else if (arguments.json) {
-    fmt::print("{}\n", describe(run).dump(2));
+    print_json(describe(run));
   } else {
     print_table(describe(run));
   }

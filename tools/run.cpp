@@ -13,6 +13,7 @@
 #include "io/run_scene.h"
 #include "io/scene_toml.h"
 #include "io/toml_reader.h"
+#include "print_json.h"
 #include "run_picture.h"
 #include "sand/instruction_set.h"
 #include "sim/simulation.h"
@@ -137,8 +138,7 @@ int run(const Arguments& arguments) {
 
   const std::string written = result.interrupted ? part_path(output).string() : output;
   if (arguments.json) {
-    fmt::print("{}\n",
-               as_json(result, written).dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+    print_json(as_json(result, written));
   } else {
     print_summary(result, written);
   }

@@ -15,6 +15,7 @@
 #include "core/progress.h"
 #include "core/stopwatch.h"
 #include "io/table.h"
+#include "print_json.h"
 #include "report/page.h"
 
 namespace sandstroke {
@@ -83,7 +84,7 @@ int stress(const Arguments& arguments) {
   data["seconds"] = watch.seconds();
   write_text_file(page, html_page("sandstroke stress: numerical stability", PageScript::stress, data));
   if (arguments.json) {
-    fmt::print("{}\n", data.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+    print_json(data);
   } else {
     print_summary(report);
     fmt::print("\nThe maps: {}\n", page.string());

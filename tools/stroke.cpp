@@ -11,6 +11,7 @@
 #include "haptics/stroke_sampler.h"
 #include "io/stroke_csv.h"
 #include "io/stroke_file.h"
+#include "print_json.h"
 
 namespace sandstroke {
 namespace {
@@ -132,7 +133,7 @@ void add_info(CLI::App& stroke_app, Command& chosen) {
       const Stroke stroke = load_stroke(options->file, ForceSettings{});
       const StrokeSummary summary = summarize(stroke);
       if (options->json) {
-        fmt::print("{}\n", as_json(options->file, stroke, summary).dump(2));
+        print_json(as_json(options->file, stroke, summary));
       } else {
         fmt::print("{}", as_table(options->file, stroke, summary));
       }

@@ -11,6 +11,7 @@
 #include "core/interrupt.h"
 #include "core/progress.h"
 #include "io/table.h"
+#include "print_json.h"
 #include "sweep/run_sweep.h"
 #include "sweep_parts.h"
 
@@ -68,12 +69,11 @@ int dry_run(Sweep& sweep, const Arguments& arguments) {
     spdlog::warn("the settings of {} points do not go together, the first, point {}: {}",
                  sweep.refused().size(), sweep.refused().begin()->first, sweep.refused().begin()->second);
   if (arguments.json) {
-    fmt::print("{}\n", nlohmann::ordered_json{{"points", design.points()},
-                                              {"simulations", sweep.simulations()},
-                                              {"refused", sweep.refused().size()},
-                                              {"seconds_on_one_core", estimate.seconds},
-                                              {"bytes", estimate.bytes}}
-                           .dump(2));
+    print_json(nlohmann::ordered_json{{"points", design.points()},
+                                      {"simulations", sweep.simulations()},
+                                      {"refused", sweep.refused().size()},
+                                      {"seconds_on_one_core", estimate.seconds},
+                                      {"bytes", estimate.bytes}});
     return 0;
   }
   fmt::print("{}", aligned_text(first_points(design, 5), 9));
@@ -81,38 +81,6 @@ int dry_run(Sweep& sweep, const Arguments& arguments) {
   fmt::print("\n{} points by {} simulations; about {} on one core and {:.3g} MB, by one point measured\n",
              design.points(), sweep.simulations(), duration(estimate.seconds), estimate.bytes * 1e-6);
   return 0;
-}
-
-/// All that a plan can say.
-std::string plan_help() {
-  std::vector<std::string> metrics;
-  for (const Metric& metric : all_metrics()) metrics.push_back(metric.name);
-  std::string lines;
-  for (std::size_t i = 0; i < metrics.size(); i += 6)
-    lines += fmt::format(
-        "  {}\n",
-        fmt::join(metrics.begin() + static_cast<std::ptrdiff_t>(i),
-                  metrics.begin() + static_cast<std::ptrdiff_t>(std::min(i + 6, metrics.size())), " "));
-  return R"(A plan (TOML; only scene and one axis are needed; files are relative to the plan):
-  [sweep]
-  scene = "scene.toml"                 # what every point starts from
-  strokes = ["a.toml", "b.h5"]         # instead of the scene's; the first axis
-  design = "grid"                      # every combination; or "latin": a Latin hypercube of
-  samples = 200                        #   so many points
-  seed = 1                             #   by this seed
-  metrics = ["work", "furrow_depth"]   # to collect; default: all
-  keep = ["surface", "picture"]        # of each point; default: neither
-  golden = "golden.h5"                 # run whose final surface each point's is compared with
-  max_points = 10000                   # more are refused
-  [set]                                # settings of every point (sandstroke info --scene-keys lists them)
-  bed.cells = [500, 500]
-  [axes]                               # what varies; the last one fastest
-  relaxation.talus_angle = { from = 20, to = 45, step = 2.5 }
-  force.k_s = { from = 100, to = 10000, count = 5, scale = "log" }
-  force.k_f = { from = 1, to = 20 }    # latin: anything between
-  model.preset = ["paper", "accurate"]
-Metrics:
-)" + lines;
 }
 
 void print_summary(const SweepCounters& counters, const SweepFolder& folder) {
@@ -168,7 +136,7 @@ int sweep(const Arguments& arguments) {
   nlohmann::ordered_json json = as_json(counters, folder);
   const bool all = !counters.interrupted && options.shard.of == 1;
   if (all) json["content_hash"] = collect_sweep(folder, arguments.json).content_hash;
-  if (arguments.json) fmt::print("{}\n", json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+  if (arguments.json) print_json(json);
   if (counters.interrupted) {
     spdlog::warn("stopped with {} of {} points done; the same command goes on from there",
                  counters.done_before + counters.run, counters.points);
@@ -188,6 +156,22 @@ int sweep(const Arguments& arguments) {
 }
 
 }  // namespace
+
+void add_sweep_folder_command(CLI::App& sweep, const char* name, const char* help, const char* footer,
+                              int (*run)(const SweepFolder& folder, bool json), Command& chosen) {
+  struct FolderArguments {
+    fs::path folder;
+    bool json = false;
+  };
+  CLI::App* command = sweep.add_subcommand(name, help);
+  auto arguments = std::make_shared<FolderArguments>();
+  command->add_option("FOLDER", arguments->folder, "Of the sweep: what -o named")->required();
+  command->add_flag("--json", arguments->json, "Print it as one JSON object");
+  command->footer(footer);
+  command->callback([arguments, run, &chosen] {
+    chosen = [arguments, run] { return run(SweepFolder::open(arguments->folder), arguments->json); };
+  });
+}
 
 void add_sweep_command(CLI::App& app, Command& chosen) {
   CLI::App* command = app.add_subcommand("sweep", "Run a scene again and again with other settings");

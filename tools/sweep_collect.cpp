@@ -1,32 +1,24 @@
 #include <spdlog/spdlog.h>
 
-#include <filesystem>
-#include <memory>
 #include <nlohmann/json.hpp>
 
+#include "print_json.h"
 #include "sweep_parts.h"
 
 namespace sandstroke {
 namespace {
 
-struct Arguments {
-  std::filesystem::path folder;
-  bool json = false;
-};
-
-int collect_command(const Arguments& arguments) {
-  const SweepFolder folder = SweepFolder::open(arguments.folder);
-  const CollectReport report = collect_sweep(folder, arguments.json);
-  if (arguments.json)
-    fmt::print("{}\n", nlohmann::ordered_json{{"folder", folder.path().string()},
-                                              {"points", folder.points()},
-                                              {"done", report.done},
-                                              {"failed", report.failed},
-                                              {"missing", report.missing},
-                                              {"unreadable", report.unreadable},
-                                              {"surfaces_missing", report.surfaces_missing},
-                                              {"content_hash", report.content_hash}}
-                           .dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+int collect_command(const SweepFolder& folder, bool json) {
+  const CollectReport report = collect_sweep(folder, json);
+  if (json)
+    print_json(nlohmann::ordered_json{{"folder", folder.path().string()},
+                                      {"points", folder.points()},
+                                      {"done", report.done},
+                                      {"failed", report.failed},
+                                      {"missing", report.missing},
+                                      {"unreadable", report.unreadable},
+                                      {"surfaces_missing", report.surfaces_missing},
+                                      {"content_hash", report.content_hash}});
   return 0;
 }
 
@@ -45,16 +37,12 @@ CollectReport collect_sweep(const SweepFolder& folder, bool json) {
 }
 
 void add_sweep_collect_command(CLI::App& sweep, Command& chosen) {
-  CLI::App* command = sweep.add_subcommand(
-      "collect", "Put a sweep's points together: sweep.html, sweep.h5 and sweep.csv in its folder");
-  auto arguments = std::make_shared<Arguments>();
-  command->add_option("FOLDER", arguments->folder, "Of the sweep: what -o named")->required();
-  command->add_flag("--json", arguments->json, "Print the summary as one JSON object");
-  command->footer(
+  add_sweep_folder_command(
+      sweep, "collect", "Put a sweep's points together: sweep.html, sweep.h5 and sweep.csv in its folder",
       "Takes what is there, whether the sweep is complete or not; a sweep that ends in one call does it "
       "itself.\n"
-      "Example:  sandstroke sweep collect results");
-  command->callback([arguments, &chosen] { chosen = [arguments] { return collect_command(*arguments); }; });
+      "Example:  sandstroke sweep collect results",
+      collect_command, chosen);
 }
 
 }  // namespace sandstroke

@@ -8,8 +8,11 @@
 
 namespace sandstroke {
 
-// What `sweep` does besides sweeping; the first two add `sweep status` and `sweep collect`.
+// What `sweep` does besides sweeping; first `sweep status` and `sweep collect`.
 
+/// A subcommand of `sweep` that takes the folder of one, and --json.
+void add_sweep_folder_command(CLI::App& sweep, const char* name, const char* help, const char* footer,
+                              int (*run)(const SweepFolder& folder, bool json), Command& chosen);
 void add_sweep_status_command(CLI::App& sweep, Command& chosen);
 void add_sweep_collect_command(CLI::App& sweep, Command& chosen);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "print_json.h"
 #include "sweep/slurm_jobs.h"
 #include "sweep_parts.h"
 
@@ -59,7 +60,7 @@ int submit_sweep(const SlurmArguments& arguments, const fs::path& plan, const Sw
   std::vector<SlurmTask> tasks = tasks_to_do(folder, groups, of);
   if (tasks.empty()) {
     if (json)
-      fmt::print("{}\n", nlohmann::ordered_json{{"folder", folder.path().string()}, {"tasks", 0}}.dump(2));
+      print_json(nlohmann::ordered_json{{"folder", folder.path().string()}, {"tasks", 0}});
     else
       fmt::print("all points are done: sandstroke sweep collect {}\n", folder.path().string());
     return 0;
@@ -67,11 +68,10 @@ int submit_sweep(const SlurmArguments& arguments, const fs::path& plan, const Sw
   const SlurmWork work{fs::read_symlink("/proc/self/exe"), fs::current_path(), plan, folder.path()};
   const SlurmJobs jobs = submit_to_slurm(options, work, std::move(tasks), of);
   if (json)
-    fmt::print("{}\n", nlohmann::ordered_json{{"folder", folder.path().string()},
-                                              {"tasks", jobs.tasks.size()},
-                                              {"array", jobs.array},
-                                              {"collect", jobs.collect}}
-                           .dump(2));
+    print_json(nlohmann::ordered_json{{"folder", folder.path().string()},
+                                      {"tasks", jobs.tasks.size()},
+                                      {"array", jobs.array},
+                                      {"collect", jobs.collect}});
   else
     fmt::print("submitted job array {} of {} tasks, and job {} that collects\nsandstroke sweep status {}\n",
                jobs.array, jobs.tasks.size(), jobs.collect, folder.path().string());

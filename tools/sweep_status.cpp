@@ -4,19 +4,14 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <memory>
 
+#include "print_json.h"
 #include "sweep_parts.h"
 
 namespace sandstroke {
 namespace {
 
 namespace fs = std::filesystem;
-
-struct Arguments {
-  fs::path folder;
-  bool json = false;
-};
 
 void print(const SweepStatus& status, const fs::path& folder) {
   const auto row = [](const char* name, const std::string& value) { fmt::print("{:<8} {}\n", name, value); };
@@ -44,12 +39,11 @@ void print(const SweepStatus& status, const fs::path& folder) {
   row("next", status.advice());
 }
 
-int status(const Arguments& arguments) {
-  const SweepFolder folder = SweepFolder::open(arguments.folder);
+int status_command(const SweepFolder& folder, bool json) {
   const std::optional<SlurmJobs> jobs = read_slurm_jobs(folder.path());
   const SweepStatus status = sweep_status(folder, jobs, jobs ? ask_slurm_queue(*jobs) : SlurmQueue{});
-  if (arguments.json)
-    fmt::print("{}\n", as_json(status).dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+  if (json)
+    print_json(as_json(status));
   else
     print(status, folder.path());
   return 0;
@@ -58,17 +52,13 @@ int status(const Arguments& arguments) {
 }  // namespace
 
 void add_sweep_status_command(CLI::App& sweep, Command& chosen) {
-  CLI::App* command = sweep.add_subcommand("status", "Say how far a sweep is, and what to do next");
-  auto arguments = std::make_shared<Arguments>();
-  command->add_option("FOLDER", arguments->folder, "Of the sweep: what -o named")->required();
-  command->add_flag("--json", arguments->json, "Print it as one JSON object");
-  command->footer(
+  add_sweep_folder_command(
+      sweep, "status", "Say how far a sweep is, and what to do next",
       "Counts the points in the folder, whoever ran them; where the sweep was submitted to Slurm, says what "
-      "became "
-      "of\n"
+      "became of\n"
       "its tasks.\n"
-      "Example:  sandstroke sweep status results");
-  command->callback([arguments, &chosen] { chosen = [arguments] { return status(*arguments); }; });
+      "Example:  sandstroke sweep status results",
+      status_command, chosen);
 }
 
 }  // namespace sandstroke

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <vector>
 
 #include "core/compensated_sum.h"
 #include "core/error.h"
@@ -25,19 +24,7 @@ template <class Visit>
 void visit_differences(const HeightField& golden, const HeightField& run, const Visit& visit) {
   if (golden.rows() != run.rows() || golden.cols() != run.cols() || golden.rows() == 0 || golden.cols() == 0)
     refuse(golden.rows(), golden.cols(), run.rows(), run.cols());
-  const bool skip_untouched = same_where_untouched(golden, run);
-  std::vector<double> a(HeightField::tile_area), b(HeightField::tile_area);
-  for (int tile = 0; tile < golden.tile_count(); ++tile) {
-    if (skip_untouched && golden.slot_of(tile) < 0 && run.slot_of(tile) < 0) continue;
-    golden.read_tile(tile, a.data());
-    run.read_tile(tile, b.data());
-    const CellRange cells = golden.tile_cells(tile);
-    for (int row = 0; row < cells.rows(); ++row)
-      for (int col = 0; col < cells.cols(); ++col) {
-        const int at = row * HeightField::tile_side + col;
-        visit(cells.row_begin + row, cells.col_begin + col, b[at] - a[at]);
-      }
-  }
+  visit_cells_of_both(golden, run, [&](int row, int col, double a, double b) { visit(row, col, b - a); });
 }
 
 }  // namespace

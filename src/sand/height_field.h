@@ -125,4 +125,23 @@ class HeightField : public BedGeometry {
 /// Where neither bed (of one shape) has a tile, both are known to have the same heights.
 bool same_where_untouched(const HeightField& one, const HeightField& other);
 
+/// visit(row, col, height in one, height in other) [m] for every cell of every tile in which two beds of one
+/// shape may differ.
+template <class Visit>
+void visit_cells_of_both(const HeightField& one, const HeightField& other, const Visit& visit) {
+  const bool skip_untouched = same_where_untouched(one, other);
+  std::vector<double> a(HeightField::tile_area), b(HeightField::tile_area);
+  for (int tile = 0; tile < one.tile_count(); ++tile) {
+    if (skip_untouched && one.slot_of(tile) < 0 && other.slot_of(tile) < 0) continue;
+    one.read_tile(tile, a.data());
+    other.read_tile(tile, b.data());
+    const CellRange cells = one.tile_cells(tile);
+    for (int row = 0; row < cells.rows(); ++row)
+      for (int col = 0; col < cells.cols(); ++col) {
+        const int at = row * HeightField::tile_side + col;
+        visit(cells.row_begin + row, cells.col_begin + col, a[at], b[at]);
+      }
+  }
+}
+
 }  // namespace sandstroke

@@ -21,8 +21,6 @@ struct Feeler {
   void on_tick(TickRecord record) {
     if (!failure.empty()) return;
     if (!device) device.emplace(scene->force, scene->device, record.hand);
-    record.repulse_force.setZero(), record.drag_force.setZero();
-    record.saturated = false;
     try {
       device->feel(record);
       device->advance(record);

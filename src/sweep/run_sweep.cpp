@@ -47,7 +47,6 @@ std::vector<PointGroup> Shard::among(const std::vector<PointGroup>& groups) cons
 struct Sweep::Work {
   std::vector<PointGroup> groups;  // what is to be done
   std::size_t points = 0;          // in them
-  std::optional<HeightField> golden;
   std::function<void(double)> progress;
 
   std::atomic<std::size_t> next = 0;
@@ -70,7 +69,7 @@ Sweep::Sweep(SweepPlan plan) : plan_(std::move(plan)), inputs_(plan_.scene_folde
     if (known_files.insert(path).second)
       files_.emplace_back(path.string(), content_hash(read_text_file(path)));
   };
-  const std::optional<HeightField> golden = this->golden();
+  if (!plan_.golden.empty()) golden_ = RunFile(plan_.golden).final_bed();
   bool golden_fits = false;
   std::map<std::string, std::size_t> group_of;  // by sand_key
   for (std::size_t point = 0; point < plan_.design.points() && !interrupted(); ++point) {
@@ -78,7 +77,7 @@ Sweep::Sweep(SweepPlan plan) : plan_(std::move(plan)), inputs_(plan_.scene_folde
       const Scene scene = plan_.scene_of(point);
       if (plan_.keep_picture) check_drawable(scene.bed.rows, scene.bed.cols);
       golden_fits =
-          golden_fits || (golden && golden->rows() == scene.bed.rows && golden->cols() == scene.bed.cols);
+          golden_fits || (golden_ && golden_->rows() == scene.bed.rows && golden_->cols() == scene.bed.cols);
       if (scene.stroke) add_file(plan_.scene_folder() / scene.stroke->file);
       if (scene.bed.surface.kind == SurfaceKind::file)
         add_file(plan_.scene_folder() / scene.bed.surface.file);
@@ -92,15 +91,10 @@ Sweep::Sweep(SweepPlan plan) : plan_(std::move(plan)), inputs_(plan_.scene_folde
       groups_.push_back({point});
     }
   }
-  if (golden && !golden_fits && !interrupted())
+  if (golden_ && !golden_fits && !interrupted())
     throw_input_error(
         "{}: sweep.golden has {} x {} cells (x, y), and no point's bed has; name a run of this scene",
-        plan_.file.string(), golden->cols(), golden->rows());
-}
-
-std::optional<HeightField> Sweep::golden() const {
-  if (plan_.golden.empty()) return std::nullopt;
-  return RunFile(plan_.golden).final_bed();
+        plan_.file.string(), golden_->cols(), golden_->rows());
 }
 
 SweepManifest Sweep::manifest() const {
@@ -121,8 +115,7 @@ SweepManifest Sweep::manifest() const {
 }
 
 bool Sweep::run_group(const SweepFolder& folder, const std::vector<std::size_t>& points,
-                      const HeightField* golden, ChangePainter& painter,
-                      const std::function<void(const PointResult&)>& written) {
+                      ChangePainter& painter, const std::function<void(const PointResult&)>& written) {
   const std::size_t metrics = folder.metrics().size();
   const auto write = [&](std::size_t point, const PointResult& result, const std::string& scene,
                          const HeightField* surface) {
@@ -151,8 +144,8 @@ bool Sweep::run_group(const SweepFolder& folder, const std::vector<std::size_t>&
     if (error.kind() == ErrorKind::io) throw;
     return refuse(error.what());
   }
-  const std::optional<SharedRunResult> result =
-      run_shared(scenes, *bed, stroke ? &stroke->stroke : nullptr, folder.metrics(), golden);
+  const std::optional<SharedRunResult> result = run_shared(scenes, *bed, stroke ? &stroke->stroke : nullptr,
+                                                           folder.metrics(), golden_ ? &*golden_ : nullptr);
   if (!result) return false;
 
   std::optional<Image> picture;
@@ -178,8 +171,8 @@ void Sweep::work_through(const SweepFolder& folder, Work& work) {
     const std::size_t mine = work.next++;
     if (mine >= work.groups.size()) return;
     try {
-      const bool simulated = run_group(folder, work.groups[mine], work.golden ? &*work.golden : nullptr,
-                                       painter, [&](const PointResult& result) { work.count(result); });
+      const bool simulated = run_group(folder, work.groups[mine], painter,
+                                       [&](const PointResult& result) { work.count(result); });
       const std::scoped_lock lock(work.mutex);
       work.simulations += simulated;
     } catch (...) {
@@ -214,7 +207,6 @@ SweepCounters Sweep::run(const SweepFolder& folder, const SweepOptions& options)
     work.points += missing.size();
     if (!missing.empty()) work.groups.push_back(std::move(missing));
   }
-  work.golden = golden();
 
   // Of a cluster's node, or beside other shards, a sweep has no more cores than it was given.
   const int cores = options.jobs > 0 ? options.jobs : tbb::info::default_concurrency();
@@ -244,11 +236,9 @@ Sweep::Estimate Sweep::estimate() {
   std::size_t measured = groups_.size() / 2;  // or the next one that can be run
   for (std::size_t i = 0; i < groups_.size() && refused_.contains(groups_[measured].front()); ++i)
     measured = (measured + 1) % groups_.size();
-  const std::optional<HeightField> golden = this->golden();
   ChangePainter painter;
   const Stopwatch watch;
-  run_group(folder, {groups_[measured].front()}, golden ? &*golden : nullptr, painter,
-            [](const PointResult&) {});
+  run_group(folder, {groups_[measured].front()}, painter, [](const PointResult&) {});
   Estimate estimate;
   estimate.seconds = watch.seconds() * static_cast<double>(simulations());
   for (const auto& file : fs::directory_iterator(folder.path() / "points"))

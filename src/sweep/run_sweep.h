@@ -73,14 +73,12 @@ class Sweep {
   void work_through(const SweepFolder& folder, Work& work);
   /// Runs these points of a group and writes their files, which it tells of each; stops when interrupted().
   /// Whether a simulation served them.
-  bool run_group(const SweepFolder& folder, const std::vector<std::size_t>& points, const HeightField* golden,
-                 ChangePainter& painter, const std::function<void(const PointResult&)>& written);
-
-  /// The surface that each is compared with, if there is one.
-  std::optional<HeightField> golden() const;
+  bool run_group(const SweepFolder& folder, const std::vector<std::size_t>& points, ChangePainter& painter,
+                 const std::function<void(const PointResult&)>& written);
 
   SweepPlan plan_;
   SweepInputs inputs_;
+  std::optional<HeightField> golden_;  // surface that each is compared with
   std::vector<PointGroup> groups_;
   std::map<std::size_t, std::string> refused_;
   // That scenes name, and their hashes; in order of use, which does not depend on where they are.

@@ -33,27 +33,16 @@ double descent_slope(const HeightField& bed, int row, int col) {
 }
 
 SlopeMeasures measure_slopes(const HeightField& initial, const HeightField& final, double talus_angle) {
-  const bool skip_untouched = same_where_untouched(initial, final);
-  std::vector<double> before(HeightField::tile_area), after(HeightField::tile_area);
   CompensatedSum sum;
   double steepest = 0.0, changed = 0.0, at_talus = 0.0;
-  for (int tile = 0; tile < initial.tile_count(); ++tile) {
-    if (skip_untouched && initial.slot_of(tile) < 0 && final.slot_of(tile) < 0) continue;
-    initial.read_tile(tile, before.data());
-    final.read_tile(tile, after.data());
-    const CellRange cells = initial.tile_cells(tile);
-    for (int row = 0; row < cells.rows(); ++row)
-      for (int col = 0; col < cells.cols(); ++col) {
-        const int at = row * HeightField::tile_side + col;
-        if (before[at] == after[at]) continue;
-        const double angle = std::atan(descent_slope(final, cells.row_begin + row, cells.col_begin + col)) *
-                             180.0 / std::numbers::pi;
-        sum.add(angle);
-        steepest = std::max(steepest, angle);
-        changed += 1.0;
-        at_talus += std::abs(angle - talus_angle) <= 1.0;
-      }
-  }
+  visit_cells_of_both(initial, final, [&](int row, int col, double before, double after) {
+    if (before == after) return;
+    const double angle = std::atan(descent_slope(final, row, col)) * 180.0 / std::numbers::pi;
+    sum.add(angle);
+    steepest = std::max(steepest, angle);
+    changed += 1.0;
+    at_talus += std::abs(angle - talus_angle) <= 1.0;
+  });
   if (changed == 0.0) return {};
   return {sum.value() / changed, steepest, at_talus / changed};
 }

@@ -169,7 +169,7 @@ std::vector<std::string> read_metrics(const TomlReader& toml) {
 Scene try_scene(const TomlReader& toml, const SweepPlan& plan, const std::vector<std::string>& settings,
                 const std::string& tried_key) {
   try {
-    return scene_from_text(plan.scene_text, plan.scene.string(), settings);
+    return plan.scene_with(settings);
   } catch (const Error& failure) {
     const std::string sentence = failure.what();
     for (const std::string& setting : settings) {
@@ -189,7 +189,7 @@ Scene try_scene(const TomlReader& toml, const SweepPlan& plan, const std::vector
 /// Whatever its axes.
 bool fails_without_axes(const SweepPlan& plan) {
   try {
-    scene_from_text(plan.scene_text, plan.scene.string(), plan.settings);
+    plan.scene_with(plan.settings);
     return false;
   } catch (const Error&) {
     return true;
@@ -214,10 +214,45 @@ void check_values(const TomlReader& toml, SweepPlan& plan) {
 
 }  // namespace
 
+Scene SweepPlan::scene_with(const std::vector<std::string>& all_settings) const {
+  return scene_from_text(scene_text, scene.string(), all_settings);
+}
+
 Scene SweepPlan::scene_of(std::size_t point) const {
   std::vector<std::string> all = settings;
   for (const std::string& setting : design.settings(point)) all.push_back(setting);
-  return scene_from_text(scene_text, scene.string(), all);
+  return scene_with(all);
+}
+
+std::string plan_help() {
+  std::vector<std::string> metrics;
+  for (const Metric& metric : all_metrics()) metrics.push_back(metric.name);
+  std::string lines;
+  for (std::size_t i = 0; i < metrics.size(); i += 6)
+    lines += fmt::format(
+        "  {}\n",
+        fmt::join(metrics.begin() + static_cast<std::ptrdiff_t>(i),
+                  metrics.begin() + static_cast<std::ptrdiff_t>(std::min(i + 6, metrics.size())), " "));
+  return R"(A plan (TOML; only scene and one axis are needed; files are relative to the plan):
+  [sweep]
+  scene = "scene.toml"                 # what every point starts from
+  strokes = ["a.toml", "b.h5"]         # instead of the scene's; the first axis
+  design = "grid"                      # every combination; or "latin": a Latin hypercube of
+  samples = 200                        #   so many points
+  seed = 1                             #   by this seed
+  metrics = ["work", "furrow_depth"]   # to collect; default: all
+  keep = ["surface", "picture"]        # of each point; default: neither
+  golden = "golden.h5"                 # run whose final surface each point's is compared with
+  max_points = 10000                   # more are refused
+  [set]                                # settings of every point (sandstroke info --scene-keys lists them)
+  bed.cells = [500, 500]
+  [axes]                               # what varies; the last one fastest
+  relaxation.talus_angle = { from = 20, to = 45, step = 2.5 }
+  force.k_s = { from = 100, to = 10000, count = 5, scale = "log" }
+  force.k_f = { from = 1, to = 20 }    # latin: anything between
+  model.preset = ["paper", "accurate"]
+Metrics:
+)" + lines;
 }
 
 SweepPlan load_plan(const fs::path& path) {

@@ -10,6 +10,8 @@
 namespace sandstroke {
 namespace {
 
+namespace fs = std::filesystem;
+
 std::string lower(std::string text) {
   for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   return text;
@@ -35,12 +37,7 @@ void add_queued(TaskStatus& task, const SlurmJobs& jobs, const SlurmQueue& queue
   }
 }
 
-}  // namespace
-
-namespace {
-
 bool is_collected(const SweepFolder& folder) {
-  namespace fs = std::filesystem;
   const fs::path file = folder.path() / "sweep.h5";
   if (!fs::exists(file)) return false;
   const fs::file_time_type collected = fs::last_write_time(file);
