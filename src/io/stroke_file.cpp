@@ -54,6 +54,7 @@ void write_stroke_file(const std::filesystem::path& path, const Stroke& stroke) 
   if (!stroke.velocity.empty()) file.write("/stroke/velocity", stroke.velocity);
   if (!stroke.force.empty()) file.write("/stroke/force", stroke.force);
   if (!stroke.switches.empty()) file.write("/stroke/switches", stroke.switches);
+  if (!stroke.flags.empty()) file.write("/stroke/flags", stroke.flags);
   if (!stroke.contact.empty()) file.write("/stroke/contact", stroke.contact);
   file.attribute(group, "format", std::string(format));
   file.attribute(group, "format_version", format_version);
@@ -75,6 +76,7 @@ Stroke read_stroke_file(const std::filesystem::path& path) {
   if (file.has("/stroke/velocity")) stroke.velocity = file.vectors("/stroke/velocity");
   if (file.has("/stroke/force")) stroke.force = file.vectors("/stroke/force");
   if (file.has("/stroke/switches")) stroke.switches = file.integers("/stroke/switches");
+  if (file.has("/stroke/flags")) stroke.flags = file.integers("/stroke/flags");
   if (file.has("/stroke/contact")) stroke.contact = contact_states(file.integers("/stroke/contact"), name);
   const auto has = [&](const char* attribute) { return file.has_attribute(group, attribute); };
   if (has("nominal_rate")) stroke.nominal_rate = file.number_attribute(group, "nominal_rate");
