@@ -166,9 +166,10 @@ TEST(LiveSand, TakesNoMemoryInTheLoop) {
   scene.displacement.deposit = Deposit::ahead;
   LiveSand sand(scene, bed_of(scene), "bed");
   sand.start();
+  const std::vector<double> times = even_times(3.0);
   const std::int64_t before = allocations_of_this_thread();
   std::int64_t contact = 0;
-  for (const double t : even_times(3.0)) contact += sand.feel(t, {SmoothHand::at(t)}).force.z() > 0.0;
+  for (const double t : times) contact += sand.feel(t, {SmoothHand::at(t)}).force.z() > 0.0;
   EXPECT_EQ(allocations_of_this_thread(), before);
   EXPECT_GT(contact, 500);
   sand.finish();
