@@ -35,6 +35,7 @@ void cut_time(Stroke& stroke, double start, double stop, const std::string& name
   cut(stroke.velocity, begin, end);
   cut(stroke.force, begin, end);
   cut(stroke.switches, begin, end);
+  cut(stroke.flags, begin, end);
   cut(stroke.contact, begin, end);
   const double played_first = stroke.time.front();
   for (double& t : stroke.time) t -= played_first;

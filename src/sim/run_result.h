@@ -34,6 +34,12 @@ struct RelaxationRecord {
   double moved_volume = 0.0;  ///< m^3, summed over passes
 };
 
+/// How far the forces of a run are from others, over the ticks in which they can be compared.
+struct ForceDifference {
+  std::int64_t ticks = 0;
+  double rms = 0.0, max = 0.0;  ///< N, of the difference's magnitude
+};
+
 /// How far a run is from what ever smaller steps (cells, ticks, times between relaxations, tolerances) would
 /// give.
 struct ErrorEstimate {
@@ -77,7 +83,8 @@ struct RunResult {
   double least_passivity_margin = 0.0;  ///< N s/m, over contact ticks
   int threads = 1;
   bool interrupted = false;
-  std::optional<ErrorEstimate> error;  ///< where it was asked for
+  std::optional<ErrorEstimate> error;             ///< where it was asked for
+  std::optional<ForceDifference> recorded_force;  ///< where the stroke was recorded with forces
 };
 
 }  // namespace sandstroke
