@@ -456,7 +456,8 @@ TEST_F(ServoLoopTest, AllocatesNothing) {
   };
   device.takes_force = [](const Vector3d& force) { return force.x() < 4.5 || force.x() > 4.6; };
   SpscRing<RecordedSample> small(4096);  // and then full
-  ServoLoop loop(device, &world, clock, small, settings);
+  const auto opened = open_device();
+  ServoLoop loop(*opened, &world, clock, small, settings);
   const std::int64_t before = allocations_of_this_thread();
   const RecordingFooter footer = loop.run();
   EXPECT_EQ(allocations_of_this_thread(), before);
