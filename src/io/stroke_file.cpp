@@ -35,6 +35,7 @@ void write_stroke_file(const std::filesystem::path& path, const Stroke& stroke) 
   if (!stroke.velocity.empty()) file.write("/stroke/velocity", stroke.velocity);
   if (!stroke.force.empty()) file.write("/stroke/force", stroke.force);
   if (!stroke.switches.empty()) file.write("/stroke/switches", stroke.switches);
+  if (!stroke.flags.empty()) file.write("/stroke/flags", stroke.flags);
   if (!stroke.contact.empty()) file.write("/stroke/contact", stroke.contact);
   write_stroke_attributes(file, stroke);
   file.finish();
@@ -50,6 +51,7 @@ Stroke read_stroke_file(const std::filesystem::path& path) {
   if (file.has("/stroke/velocity")) stroke.velocity = file.vectors("/stroke/velocity");
   if (file.has("/stroke/force")) stroke.force = file.vectors("/stroke/force");
   if (file.has("/stroke/switches")) stroke.switches = file.integers("/stroke/switches");
+  if (file.has("/stroke/flags")) stroke.flags = file.integers("/stroke/flags");
   if (file.has("/stroke/contact")) stroke.contact = contact_states(file.integers("/stroke/contact"), name);
   read_stroke_attributes(file, stroke);
   check_stroke(stroke, name);
