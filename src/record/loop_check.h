@@ -1,6 +1,6 @@
 #pragma once
 
-#include "haptics/recording.h"
+#include "record/loop_thread.h"
 
 namespace sandstroke {
 
@@ -11,7 +11,10 @@ struct LoopCheck {
   bool fit = false;  ///< no tick was skipped, and 99 of 100 are less than a tenth of a tick late
 };
 
+/// What the figures say: of a loop that ran its time.
+bool is_fit(const RecordingFooter& loop, double rate);
+
 /// Runs the loop for `seconds` at `rate` [Hz] without a device, under the scheduling that record() asks for.
-LoopCheck check_loop(double seconds, double rate, int priority);
+LoopCheck check_loop(double seconds, double rate, int priority, const RecordingWatcher& watcher = {});
 
 }  // namespace sandstroke

@@ -15,6 +15,8 @@ class SampleWriter {
   SampleWriter(SpscRing<RecordedSample>& ring, JournalWriter& journal, ServoLoop& loop);
   /// Writes what is left; the loop has ended. Error: io, as the journal had it.
   void finish();
+  /// Samples that are in the journal; from any thread.
+  std::int64_t written() const;
   ~SampleWriter();
 };
 

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -17,7 +18,7 @@ struct TickRecord {
   Eigen::Vector3d device_force = Eigen::Vector3d::Zero();     ///< N, on the device, saturated
   Eigen::Vector3d repulse_force = Eigen::Vector3d::Zero();    ///< N
   Eigen::Vector3d drag_force = Eigen::Vector3d::Zero();       ///< N
-  double level = 0.0;             ///< m, sand level under the tool; NaN with the tool lifted
+  double level = std::numeric_limits<double>::quiet_NaN();    ///< m, sand level under the tool; NaN: lifted
   double depth = 0.0;             ///< m, of the tip below the level; negative = above
   double displaced_volume = 0.0;  ///< m^3, pushed aside in this tick
   double passivity_margin = 0.0;  ///< N s/m, Colgate & Schenkel

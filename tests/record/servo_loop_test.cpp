@@ -4,6 +4,7 @@
 
 #include <limits>
 
+#include "allocations.h"
 #include "record/seen_device.h"
 
 namespace sandstroke {
@@ -436,6 +437,37 @@ TEST_F(ServoLoopTest, TellsHowFarItIs) {
     return true;
   };
   run(&world);
+}
+
+TEST_F(ServoLoopTest, AllocatesNothing) {
+  if (!allocations_are_counted()) GTEST_SKIP() << "sanitizers bring their own allocator";
+  settings.duration = 10.0;
+  settings.stop_switch = 0;
+  settings.force = {8.0, 1.0, 1000.0};
+  FakeWorld world([](double time) {
+    return FeltForce{Vector3d::Constant(10.0 * std::sin(time)), held_sand};
+  });
+  device.reads = [&](double time, DeviceReading& reading) {
+    const auto tick = std::llround(time * 1000);
+    if (tick % 17 == 0) clock.add(3 * ms);
+    if (tick % 23 == 0) reading.position.x() = nan;
+    reading.switches = tick % 2 == 0;
+    return tick % 29 != 0;
+  };
+  device.takes_force = [](const Vector3d& force) { return force.x() < 4.5 || force.x() > 4.6; };
+  SpscRing<RecordedSample> small(4096);  // and then full
+  const auto opened = open_device();
+  ServoLoop loop(*opened, &world, clock, small, settings);
+  const std::int64_t before = allocations_of_this_thread();
+  const RecordingFooter footer = loop.run();
+  EXPECT_EQ(allocations_of_this_thread(), before);
+  EXPECT_GT(before, 0);
+  EXPECT_EQ(footer.reason, StopReason::duration);
+  const TickCounts& ticks = footer.ticks;
+  EXPECT_EQ(ticks.elapsed, 10'000);
+  EXPECT_EQ(ticks.elapsed, ticks.recorded + ticks.skipped + ticks.unread + ticks.dropped);
+  for (const std::int64_t some : {ticks.recorded, ticks.skipped, ticks.unread, ticks.dropped})
+    EXPECT_GT(some, 0);
 }
 
 }  // namespace
