@@ -22,6 +22,8 @@ const char* stop_reason_text(StopReason reason) {
       return "the disk took no more";
     case StopReason::no_number:
       return "the force was no number";
+    case StopReason::error:
+      return "the program failed";
   }
   return "unknown";
 }

@@ -25,7 +25,7 @@ struct RecordedSample {
   std::int64_t time = 0;       ///< ns, monotonic clock, right before the device was read
   double position[3] = {};     ///< m, as read, in the device's frame
   double velocity[3] = {};     ///< m/s, as read
-  double force[3] = {};        ///< N, commanded, in the device's frame
+  double force[3] = {};        ///< N, commanded last (and taken), in the device's frame
   std::uint32_t switches = 0;
   std::uint32_t flags = 0;  ///< SampleFlag
 };
@@ -61,13 +61,24 @@ struct TickCounts {
   std::int64_t late = 0, clamped = 0, ramped = 0, rate_limited = 0, refused = 0, held = 0;
 };
 
-/// How long after their time ticks began.
+/// How long after their time the loop came to ticks, those among them that it skipped for it.
 struct Lateness {
   double mean = 0.0, p99 = 0.0, max = 0.0;  ///< s
 };
 
 /// Why a recording ended. Only the first four are what somebody asked for.
-enum class StopReason { duration, stroke_end, stop_switch, key, signal, device_lost, stall, disk, no_number };
+enum class StopReason {
+  duration,
+  stroke_end,
+  stop_switch,
+  key,
+  signal,
+  device_lost,
+  stall,
+  disk,
+  no_number,
+  error
+};
 /// "the time was up", ... for people and files.
 const char* stop_reason_text(StopReason reason);
 /// As asked for: the recording is complete.

@@ -1,8 +1,11 @@
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 
 namespace sandstroke {
+
+inline std::int64_t to_nanoseconds(double seconds) { return std::llround(seconds * 1e9); }
 
 /// The time that the servo loop lives by [ns]. Tests give it one that goes as they like.
 class LoopClock {
