@@ -12,6 +12,8 @@ class FileLock {
  public:
   /// Makes the file where it is not there. None: somebody holds it. Error: io.
   static std::optional<FileLock> try_take(const std::filesystem::path& path);
+  /// With others that only read the file, which is there. None: somebody has taken it. Error: io.
+  static std::optional<FileLock> try_share(const std::filesystem::path& path);
   FileLock(FileLock&& other) noexcept;
   FileLock& operator=(FileLock&& other) noexcept {
     std::swap(descriptor_, other.descriptor_);
@@ -21,6 +23,8 @@ class FileLock {
 
  private:
   explicit FileLock(int descriptor) : descriptor_(descriptor) {}
+  bool lock(short type);
+
   int descriptor_;
 };
 

@@ -12,7 +12,8 @@ class ContentHash {
  public:
   void add(const void* bytes, std::size_t count);
   void add(std::string_view text) { add(text.data(), text.size()); }
-  /// 16 hexadecimal digits.
+  std::uint64_t value() const { return state_; }
+  /// The value in 16 hexadecimal digits.
   std::string text() const;
 
  private:

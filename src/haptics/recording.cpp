@@ -24,8 +24,16 @@ const char* stop_reason_text(StopReason reason) {
       return "the force was no number";
     case StopReason::error:
       return "the program failed";
+    case StopReason::cut_off:
+      return "cut off";
   }
   return "unknown";
+}
+
+std::optional<StopReason> stop_reason_of(std::string_view text) {
+  for (int i = 0; i <= static_cast<int>(StopReason::cut_off); ++i)
+    if (const auto reason = static_cast<StopReason>(i); text == stop_reason_text(reason)) return reason;
+  return std::nullopt;
 }
 
 bool is_complete(StopReason reason) { return reason <= StopReason::key; }

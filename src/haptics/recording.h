@@ -2,7 +2,9 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <optional>
 #include <string>
+#include <string_view>
 
 #include "haptics/haptic_device.h"
 
@@ -18,6 +20,9 @@ enum SampleFlag : std::uint32_t {
   refused_force = 32,       ///< the force was no number: none was given
   held_sand = 64,           ///< the tool did not dig, for the eroding bed was too far behind
 };
+
+/// What is added to the name of STROKE.h5 while it is being recorded: the name of its journal.
+inline constexpr const char* journal_extension = ".recording";
 
 /// One servo tick, as recorded. Plain bytes: it goes through ring and journal as it is.
 struct RecordedSample {
@@ -50,7 +55,8 @@ struct RecordingHeader {
   std::string felt_scene;    ///< the scene's resolved TOML text, with live sand; else empty
 };
 
-/// Where every tick went: elapsed = recorded + skipped + unread + dropped.
+/// Where every tick went: elapsed = recorded + skipped + unread + dropped. Of a recording that was cut off it
+/// is not known why ticks are missing: they are all counted as skipped.
 struct TickCounts {
   std::int64_t elapsed = 0;   ///< ticks since the first, which is counted
   std::int64_t recorded = 0;  ///< are in the file
@@ -61,12 +67,14 @@ struct TickCounts {
   std::int64_t late = 0, clamped = 0, ramped = 0, rate_limited = 0, refused = 0, held = 0;
 };
 
-/// How long after their time the loop came to ticks, those among them that it skipped for it.
+/// How long after their time the loop came to ticks, those among them that it skipped for it; not-a-number of
+/// a recording that was cut off.
 struct Lateness {
   double mean = 0.0, p99 = 0.0, max = 0.0;  ///< s
 };
 
 /// Why a recording ended. Only the first four are what somebody asked for.
+/// cut_off: nobody was left to say why (kill -9, a power failure).
 enum class StopReason {
   duration,
   stroke_end,
@@ -77,10 +85,13 @@ enum class StopReason {
   stall,
   disk,
   no_number,
-  error
+  error,
+  cut_off
 };
 /// "the time was up", ... for people and files.
 const char* stop_reason_text(StopReason reason);
+/// The reason of such a text; none where it is no reason's.
+std::optional<StopReason> stop_reason_of(std::string_view text);
 /// As asked for: the recording is complete.
 bool is_complete(StopReason reason);
 

@@ -2,14 +2,25 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <fstream>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "core/file_lock.h"
 #include "haptics/recording.h"
 
 namespace sandstroke {
+
+// The journal of a recording, all little-endian:
+//   "sandstroke.recording"  20 bytes, and a uint32: the format's version, 1
+//   blocks, each
+//     uint32 kind           1 header, 2 sample, 3 footer
+//     uint32 length         of the content, bytes
+//     uint64 checksum       FNV-1a of kind, length and content
+//     content               sample: RecordedSample's 96 bytes; header, footer: JSON (recording_json.h)
+// A header first, then samples, then the footer, unless the recording was cut off.
 
 /// Where the samples of STROKE.h5 are until the recording is over: STROKE.h5.recording.
 std::filesystem::path journal_path(const std::filesystem::path& stroke_file);
@@ -20,24 +31,57 @@ class JournalWriter {
  public:
   /// Error: io, also where the file is there (an earlier recording that nobody repaired is not overwritten).
   JournalWriter(const std::filesystem::path& path, const RecordingHeader& header);
+  JournalWriter(const JournalWriter&) = delete;
+  ~JournalWriter();
+  /// With the system when it returns: no end of this program loses them. Where that takes no more, those
+  /// that it did take are sound, and the next call goes on after them.
   void append(std::span<const RecordedSample> samples);
   /// On the disk: a power failure does not lose it either.
   void sync();
+  /// On the disk, and free for readers.
   void finish(const RecordingFooter& footer);
+
+ private:
+  /// Blocks of equal size. After a failure the file ends with the last whole one.
+  void write(const std::string& blocks, std::size_t block_size);
+  [[noreturn]] void fail(int error) const;
+
+  std::filesystem::path path_;
+  int file_ = -1;
+  std::optional<FileLock> lock_;  // while it is being written
+  std::uint64_t size_ = 0;        // bytes of whole blocks
+  std::string blocks_;            // of one append
 };
 
 /// Reads back what there is of a recording.
 class JournalReader {
  public:
-  /// Error: io, input (not a journal, or cut off within its header).
+  /// Error: io (also where it is still being written), input (not a journal, or cut off within its header).
   explicit JournalReader(const std::filesystem::path& path);
-  const RecordingHeader& header() const;
-  /// The next samples, at most `most`; empty at the end of the sound ones.
+  const RecordingHeader& header() const { return header_; }
+  /// The next samples, at most `most`; empty at the end of the sound ones. Sequence and time increase. Error:
+  /// io, where the disk does not give what it holds.
   std::vector<RecordedSample> next(std::size_t most);
   /// After the last: none, where it was cut off.
-  const std::optional<RecordingFooter>& footer() const;
-  /// Bytes after the last sound sample that are none (cut off while being written, or damaged).
-  std::uint64_t lost_bytes() const;
+  const std::optional<RecordingFooter>& footer() const { return footer_; }
+  /// After the last sample: bytes that follow what is sound (cut off while being written, or damaged).
+  std::uint64_t lost_bytes() const { return size_ - sound_; }
+
+ private:
+  struct Block;
+  /// The next one, if it is whole and its checksum right.
+  std::optional<Block> read_block();
+  /// Exactly so many bytes; false where the file ends before.
+  bool read(void* bytes, std::size_t count);
+
+  std::string name_;
+  std::optional<FileLock> lock_;
+  std::ifstream file_;
+  std::uint64_t size_ = 0, sound_ = 0;  // bytes: of the file, and up to the end of its last sound block
+  RecordingHeader header_;
+  std::optional<RecordingFooter> footer_;
+  std::int64_t last_sequence_ = -1, last_time_ = -1;
+  bool at_end_ = false;
 };
 
 }  // namespace sandstroke

@@ -1,0 +1,53 @@
+#pragma once
+
+#include "haptics/recording.h"
+
+namespace sandstroke {
+
+// What header and footer of a recording say, field by field, under the names that they have in every file:
+// visit(name, field), of std::string, double, int, std::int64_t, bool or StopReason. Who reads and who writes
+// goes through the same list.
+
+/// Header: RecordingHeader, const where it is only read.
+template <class Header, class Visit>
+void visit_header(Header& header, const Visit& visit) {
+  visit("source", header.source);
+  visit("frame", header.device.frame);
+  visit("nominal_rate", header.nominal_rate);
+  visit("started", header.started);
+  visit("device_model", header.device.model);
+  visit("device_manufacturer", header.device.manufacturer);
+  visit("device_max_force", header.device.max_force);
+  visit("device_max_stiffness", header.device.max_stiffness);
+  visit("device_workspace_radius", header.device.workspace_radius);
+  visit("device_switches", header.device.switches);
+  visit("device_measures_velocity", header.device.measures_velocity);
+  visit("scheduling", header.scheduling.policy);
+  visit("scheduling_priority", header.scheduling.priority);
+  visit("scheduling_advice", header.scheduling.advice);
+  visit("memory_locked", header.scheduling.memory_locked);
+  visit("force_limit", header.force_limit);
+  visit("felt_scene", header.felt_scene);
+}
+
+/// Footer: RecordingFooter, const where it is only read.
+template <class Footer, class Visit>
+void visit_footer(Footer& footer, const Visit& visit) {
+  visit("stop_reason", footer.reason);
+  visit("ticks_elapsed", footer.ticks.elapsed);
+  visit("ticks_recorded", footer.ticks.recorded);
+  visit("ticks_skipped", footer.ticks.skipped);
+  visit("ticks_unread", footer.ticks.unread);
+  visit("ticks_dropped", footer.ticks.dropped);
+  visit("ticks_late", footer.ticks.late);
+  visit("ticks_clamped", footer.ticks.clamped);
+  visit("ticks_ramped", footer.ticks.ramped);
+  visit("ticks_rate_limited", footer.ticks.rate_limited);
+  visit("ticks_refused", footer.ticks.refused);
+  visit("ticks_held", footer.ticks.held);
+  visit("lateness_mean", footer.lateness.mean);
+  visit("lateness_p99", footer.lateness.p99);
+  visit("lateness_max", footer.lateness.max);
+}
+
+}  // namespace sandstroke

@@ -1,0 +1,228 @@
+#include "record/journal.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <bit>
+#include <cerrno>
+#include <cstring>
+#include <string_view>
+
+#include "core/error.h"
+#include "core/hash.h"
+#include "core/output_file.h"
+#include "record/recording_json.h"
+
+namespace sandstroke {
+namespace fs = std::filesystem;
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "numbers go into the journal as they are");
+
+constexpr std::string_view signature = "sandstroke.recording";
+constexpr std::uint32_t format_version = 1;
+
+enum BlockKind : std::uint32_t { header_block = 1, sample_block = 2, footer_block = 3 };
+
+struct BlockFrame {
+  std::uint32_t kind = 0, length = 0;
+  std::uint64_t checksum = 0;
+};
+static_assert(sizeof(BlockFrame) == 16);
+constexpr std::size_t sample_block_size = sizeof(BlockFrame) + sizeof(RecordedSample);
+
+std::uint64_t checksum(const BlockFrame& frame, const void* content) {
+  ContentHash hash;
+  hash.add(&frame.kind, sizeof frame.kind);
+  hash.add(&frame.length, sizeof frame.length);
+  hash.add(content, frame.length);
+  return hash.value();
+}
+
+void put_block(std::string& blocks, BlockKind kind, const void* content, std::size_t length) {
+  BlockFrame frame{kind, static_cast<std::uint32_t>(length), 0};
+  frame.checksum = checksum(frame, content);
+  blocks.append(reinterpret_cast<const char*>(&frame), sizeof frame);
+  blocks.append(static_cast<const char*>(content), length);
+}
+
+/// Names of devices and files may be no UTF-8: what is not is replaced.
+template <class Part>
+void put_block(std::string& blocks, BlockKind kind, const Part& part) {
+  const std::string text = as_json(part).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  put_block(blocks, kind, text.data(), text.size());
+}
+
+/// So that a new file's name, too, survives a power failure, where the file system can do that.
+void sync_folder_of(const fs::path& path) {
+  const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+  const int descriptor = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor < 0) return;
+  fsync(descriptor);
+  close(descriptor);
+}
+
+}  // namespace
+
+fs::path journal_path(const fs::path& stroke_file) {
+  fs::path journal = stroke_file;
+  journal += journal_extension;
+  return journal;
+}
+
+// --- JournalWriter ---
+
+JournalWriter::JournalWriter(const fs::path& path, const RecordingHeader& header)
+    : path_(path), file_(open(path.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0666)) {
+  if (file_ < 0 && errno == EEXIST)
+    throw_io_error(
+        "{}: is there already, a recording that was cut off; make a stroke of it (sandstroke stroke repair "
+        "{}), then remove it, or choose another name",
+        path.string(), path.string());
+  if (file_ < 0) fail(errno);
+  try {
+    lock_ = FileLock::try_take(path);
+    if (!lock_) throw_io_error("{}: another process is using it; choose another name", path.string());
+    std::string begin(signature);
+    begin.append(reinterpret_cast<const char*>(&format_version), sizeof format_version);
+    put_block(begin, header_block, header);
+    write(begin, begin.size());
+    sync();
+    sync_folder_of(path);
+  } catch (...) {
+    unlink(path.c_str());  // there is nothing in it, and it would be in the next one's way
+    close(file_);
+    throw;
+  }
+}
+
+JournalWriter::~JournalWriter() {
+  if (file_ >= 0) close(file_);
+}
+
+void JournalWriter::fail(int error) const {
+  throw_io_error("{}: cannot be written ({}); free disk space or choose another place", path_.string(),
+                 std::strerror(error));
+}
+
+void JournalWriter::write(const std::string& blocks, std::size_t block_size) {
+  std::size_t done = 0;
+  while (done < blocks.size()) {
+    const ssize_t taken =
+        pwrite(file_, blocks.data() + done, blocks.size() - done, static_cast<off_t>(size_ + done));
+    if (taken > 0) done += static_cast<std::size_t>(taken);
+    if (taken > 0 || (taken < 0 && errno == EINTR)) continue;
+    const int error = taken < 0 ? errno : ENOSPC;
+    size_ += done - done % block_size;
+    // Where it cannot be cut off, the reader finds half a block there, and the next write goes over it.
+    [[maybe_unused]] const int cut = ftruncate(file_, static_cast<off_t>(size_));
+    fail(error);
+  }
+  size_ += done;
+}
+
+void JournalWriter::append(std::span<const RecordedSample> samples) {
+  blocks_.clear();
+  for (const RecordedSample& sample : samples) put_block(blocks_, sample_block, &sample, sizeof sample);
+  write(blocks_, sample_block_size);
+}
+
+void JournalWriter::sync() {
+  if (fdatasync(file_) < 0) fail(errno);
+}
+
+void JournalWriter::finish(const RecordingFooter& footer) {
+  std::string block;
+  put_block(block, footer_block, footer);
+  write(block, block.size());
+  sync();
+  lock_.reset();
+}
+
+// --- JournalReader ---
+
+struct JournalReader::Block {
+  std::uint32_t kind = 0;
+  std::string content;
+};
+
+JournalReader::JournalReader(const fs::path& path) : name_(path.string()) {
+  if (fs::exists(path) && !fs::is_directory(path) && !fs::is_regular_file(path))
+    throw_input_error("{}: is not a regular file; name one", name_);
+  check_readable(path);
+  lock_ = FileLock::try_share(path);
+  if (!lock_)
+    throw_io_error("{}: is still being recorded; wait for its end, or end that program first", name_);
+  size_ = fs::file_size(path);
+  file_.open(path, std::ios::binary);
+
+  char begin[signature.size()] = {};
+  if (!read(begin, sizeof begin) || std::string_view(begin, sizeof begin) != signature)
+    throw_input_error("{}: is not the journal of a recording; check which file was meant", name_);
+  std::uint32_t version = format_version;
+  const bool has_version = read(&version, sizeof version);
+  if (version != format_version)
+    throw_input_error("{}: has journal format {}; this program reads format {}", name_, version,
+                      format_version);
+  sound_ = sizeof begin + sizeof version;
+  try {
+    const std::optional<Block> block = has_version ? read_block() : std::nullopt;
+    if (block && block->kind == header_block) {
+      header_ = header_from_json(nlohmann::ordered_json::parse(block->content));
+      return;
+    }
+  } catch (const nlohmann::json::exception&) {  // as if cut off
+  }
+  throw_input_error("{}: was cut off, or is damaged, within its header: there is no sample in it; remove it",
+                    name_);
+}
+
+bool JournalReader::read(void* bytes, std::size_t count) {
+  file_.read(static_cast<char*>(bytes), static_cast<std::streamsize>(count));
+  if (file_.bad()) throw_io_error("{}: cannot be read; check the disk", name_);
+  return file_.good();
+}
+
+std::optional<JournalReader::Block> JournalReader::read_block() {
+  BlockFrame frame;
+  // A damaged length may say anything: no memory is taken for more than there is.
+  if (size_ - sound_ < sizeof frame || !read(&frame, sizeof frame)) return std::nullopt;
+  if (frame.length > size_ - sound_ - sizeof frame) return std::nullopt;
+  Block block{frame.kind, std::string(frame.length, '\0')};
+  if (!read(block.content.data(), frame.length)) return std::nullopt;
+  if (checksum(frame, block.content.data()) != frame.checksum) return std::nullopt;
+  sound_ += sizeof frame + frame.length;
+  return block;
+}
+
+std::vector<RecordedSample> JournalReader::next(std::size_t most) {
+  std::vector<RecordedSample> samples;
+  while (!at_end_ && samples.size() < most) {
+    const std::uint64_t begin = sound_;
+    const std::optional<Block> block = read_block();
+    at_end_ = true;  // unless a sample says otherwise
+    if (!block) break;
+    if (block->kind == sample_block && block->content.size() == sizeof(RecordedSample)) {
+      RecordedSample sample;
+      std::memcpy(&sample, block->content.data(), sizeof sample);
+      const auto sequence = static_cast<std::int64_t>(sample.sequence);
+      if (sequence > last_sequence_ && sample.time > last_time_) {
+        last_sequence_ = sequence;
+        last_time_ = sample.time;
+        samples.push_back(sample);
+        at_end_ = false;
+        continue;
+      }
+    } else if (block->kind == footer_block) {
+      try {
+        footer_ = footer_from_json(nlohmann::ordered_json::parse(block->content));
+        continue;
+      } catch (const nlohmann::json::exception&) {  // damaged
+      }
+    }
+    sound_ = begin;
+  }
+  return samples;
+}
+
+}  // namespace sandstroke

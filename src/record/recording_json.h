@@ -1,0 +1,19 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include "haptics/recording.h"
+
+namespace sandstroke {
+
+// Header and footer of a recording as JSON objects, by the names of recording_fields.h. Numbers that are not
+// finite are null.
+
+nlohmann::ordered_json as_json(const RecordingHeader& header);
+nlohmann::ordered_json as_json(const RecordingFooter& footer);
+
+/// nlohmann::json::exception, where a field is missing or of another kind.
+RecordingHeader header_from_json(const nlohmann::ordered_json& json);
+RecordingFooter footer_from_json(const nlohmann::ordered_json& json);
+
+}  // namespace sandstroke

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cmath>
+#include <vector>
+
+#include "haptics/recording.h"
+
+namespace sandstroke {
+
+/// A header in which every field says something.
+inline RecordingHeader full_header() {
+  RecordingHeader header;
+  header.device = {"Möbius 3", "A \"maker\"", "device", 12.5, 1e3 / 3.0, 0.08, 4, true};
+  header.source = "scripted:wscg.toml";
+  header.started = "2026-11-21T18:00:00Z";
+  header.nominal_rate = 999.5;
+  header.scheduling = {"SCHED_FIFO", 80, true, "all was given\nthat was asked"};
+  header.force_limit = 3.3;
+  header.felt_scene = "[bed]\nsize = [1.0, 1.0]\n";
+  return header;
+}
+
+inline RecordingFooter full_footer() {
+  RecordingFooter footer;
+  footer.ticks = {40, 20, 10, 7, 3, 6, 5, 4, 3, 2, 1};
+  footer.lateness = {1e-6 / 3.0, 2e-5, 3e-4};
+  footer.reason = StopReason::stop_switch;
+  return footer;
+}
+
+/// Samples that are all different, with numbers of any size, and every second tick missing.
+inline std::vector<RecordedSample> made_samples(int count) {
+  std::vector<RecordedSample> samples;
+  for (int i = 0; i < count; ++i) {
+    RecordedSample sample;
+    sample.sequence = static_cast<std::uint64_t>(2 * i);
+    sample.time = (std::int64_t{1} << 52) + 2000003 * i;
+    for (int axis = 0; axis < 3; ++axis) {
+      sample.position[axis] = std::sin(i + axis) / 3.0;
+      sample.velocity[axis] = std::ldexp(1.0 + i, -1060 + axis);
+      sample.force[axis] = -1e300 / (1 + i + axis);
+    }
+    sample.switches = i == 0 ? 0xffffffffu : static_cast<std::uint32_t>(i);
+    sample.flags = static_cast<std::uint32_t>(i % 128);
+    samples.push_back(sample);
+  }
+  return samples;
+}
+
+}  // namespace sandstroke
