@@ -9,6 +9,8 @@ namespace sandstroke {
 StrokeDevice::StrokeDevice(Stroke stroke, std::string name) : sampler_(std::move(stroke)) {
   std::uint32_t ever_pressed = 0;
   for (const std::uint32_t pressed : sampler_.stroke().switches) ever_pressed |= pressed;
+  for (const StrokeGap& gap : sampler_.gaps())
+    longest_silence_ = std::max(longest_silence_, gap.end - gap.begin);
   specification_.model = std::move(name);
   specification_.manufacturer = "sandstroke";
   specification_.frame = sampler_.stroke().frame;

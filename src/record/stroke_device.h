@@ -26,6 +26,8 @@ class StrokeDevice : public HapticDevice {
   const DeviceSpecification& specification() const override { return specification_; }
   /// The stroke's.
   std::optional<double> duration() const override { return sampler_.stroke().duration(); }
+  /// Its longest gap.
+  double longest_silence() const override { return longest_silence_; }
   /// time [s]: since the stroke's first sample. The switches are those of the last sample until then.
   bool read(double time, DeviceReading& reading) noexcept override;
   bool command(const Eigen::Vector3d& force) noexcept override;
@@ -38,6 +40,7 @@ class StrokeDevice : public HapticDevice {
  private:
   StrokeSampler sampler_;
   DeviceSpecification specification_;
+  double longest_silence_ = 0.0;                // s
   std::array<std::atomic<double>, 3> force_{};  // N
 };
 
