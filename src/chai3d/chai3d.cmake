@@ -1,0 +1,20 @@
+# CHAI3D as chai3d_system: found where somebody has built it (README), nothing of it is here.
+find_package(chai3d CONFIG QUIET)  # lower case, and of no version: its version file is malformed
+if(NOT chai3d_FOUND)
+  message(FATAL_ERROR "SANDSTROKE_CHAI3D=ON needs CHAI3D: give the folder in which it was built, which has "
+                      "chai3dConfig.cmake in it, as -Dchai3d_DIR=FOLDER (it is now: ${chai3d_DIR})")
+endif()
+get_target_property(chai3d_archive chai3d LOCATION)
+if(NOT EXISTS "${chai3d_archive}")
+  message(FATAL_ERROR "CHAI3D is configured but not built in ${chai3d_DIR}: build its target chai3d first")
+endif()
+find_library(CHAI3D_DRD_LIBRARY drd HINTS ${CHAI3D_LIBRARY_DIRS} REQUIRED)
+find_library(CHAI3D_USB_LIBRARY usb-1.0 REQUIRED)
+
+add_library(chai3d_system INTERFACE)
+# Of its headers only its own: it would bring an Eigen beside ours.
+target_include_directories(chai3d_system SYSTEM INTERFACE ${CHAI3D_SOURCE_DIR}/src)
+# Its package does not say so, but it was compiled with it; without it classes have other sizes.
+target_compile_definitions(chai3d_system INTERFACE LINUX)
+# Not all of CHAI3D_LIBRARIES: OpenGL and sound are of parts that devices do not need.
+target_link_libraries(chai3d_system INTERFACE chai3d ${CHAI3D_DRD_LIBRARY} ${CHAI3D_USB_LIBRARY} pthread dl)

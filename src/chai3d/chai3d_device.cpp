@@ -1,0 +1,174 @@
+#include "chai3d/chai3d_device.h"
+
+#include <spdlog/spdlog.h>
+
+#include <chrono>
+#include <thread>
+
+#include "core/error.h"
+// CHAI3D's headers are in this file only.
+#ifndef LINUX
+#error "CHAI3D was compiled with LINUX; without it its classes have other sizes here than in its library"
+#endif
+#include "devices/CGenericHapticDevice.h"
+#include "devices/CHapticDeviceHandler.h"
+
+namespace sandstroke {
+namespace {
+
+using chai3d::cHapticDeviceInfo;
+using chai3d::cVector3d;
+
+DeviceSpecification specification_of(const cHapticDeviceInfo& info) {
+  DeviceSpecification specification;
+  specification.model = info.m_modelName;
+  specification.manufacturer = info.m_manufacturerName;
+  // CHAI3D's frame (+x towards the operator, +y to the operator's right, +z up) is the device's, by name.
+  if (info.m_actuatedPosition)
+    specification.max_force = info.m_maxLinearForce;  // trackers have motors in none
+  specification.max_stiffness = info.m_maxLinearStiffness;
+  specification.workspace_radius = info.m_workspaceRadius;
+  specification.switches = 0;  // CHAI3D does not say
+  specification.measures_velocity = true;
+  return specification;
+}
+
+bool is_phantom(chai3d::cHapticDeviceModel model) {
+  return model >= chai3d::C_HAPTIC_DEVICE_PHANTOM_TOUCH && model <= chai3d::C_HAPTIC_DEVICE_PHANTOM_OTHER;
+}
+
+Eigen::Vector3d from_chai3d(const cVector3d& vector) { return {vector.x(), vector.y(), vector.z()}; }
+
+}  // namespace
+
+std::vector<DeviceSpecification> list_chai3d_devices() {
+  chai3d::cHapticDeviceHandler handler;
+  std::vector<DeviceSpecification> devices;
+  for (unsigned index = 0; index < handler.getNumDevices(); ++index) {
+    cHapticDeviceInfo info;
+    if (handler.getDeviceSpecifications(info, index)) devices.push_back(specification_of(info));
+  }
+  return devices;
+}
+
+std::unique_ptr<HapticDevice> make_chai3d_device(int index) {
+  chai3d::cHapticDeviceHandler handler;
+  // The number is asked for first: where there is no device, getDevice gives out a dummy.
+  const int count = static_cast<int>(handler.getNumDevices());
+  if (count == 0)
+    throw_io_error(
+        "CHAI3D finds no haptic device: connect it, switch it on and let this user reach it (Force "
+        "Dimension: "
+        "the udev rule in CHAI3D's externals/DHD/doc/linux; 3D Systems: libHD.so and CHAI3D's "
+        "libhdPhantom.so "
+        "where the loader finds them)");
+  if (index < 0 || index >= count)
+    throw_input_error("there is no haptic device {}: CHAI3D finds {}, counted from 0", index, count);
+  chai3d::cGenericHapticDevicePtr device;
+  if (!handler.getDevice(device, static_cast<unsigned>(index)))
+    throw_io_error("CHAI3D does not give out haptic device {}: unplug it, plug it in again, and try again",
+                   index);
+  return std::make_unique<Chai3dDevice>(device);
+}
+
+Chai3dDevice::Chai3dDevice(std::shared_ptr<chai3d::cGenericHapticDevice> device)
+    : device_(std::move(device)) {
+  const cHapticDeviceInfo info = device_->getSpecifications();
+  // The dummy that getDevice gives out where there is no device is not available, and leaves its model unset.
+  if (!device_->isDeviceAvailable() || !info.m_sensedPosition ||
+      info.m_model == chai3d::C_HAPTIC_DEVICE_VIRTUAL)
+    throw_io_error("\"{}\" is no real haptic device: connect one, and switch it on", info.m_modelName);
+  specification_ = specification_of(info);
+  phantom_ = is_phantom(info.m_model);
+}
+
+void Chai3dDevice::open() {
+  if (open_) return;
+  if (!device_->open() || !device_->isDeviceReady())
+    throw_io_error(
+        "the haptic device {} cannot be opened: end other programs that use it, unplug it, plug it in again, "
+        "and try again",
+        specification_.model);
+  specification_ = specification_of(device_->getSpecifications());  // now it has been asked itself
+  released_ = false;
+  motors_on_ = false;
+  open_ = true;
+}
+
+void Chai3dDevice::calibrate() {
+  spdlog::warn("the haptic device {} may now move by itself to calibrate: keep hands and things off it",
+               specification_.model);
+  constexpr bool even_if_calibrated = false;
+  const bool calibrated = device_->calibrate(even_if_calibrated);
+  device_->enableForces(false);  // Force Dimension's are left with motors on
+  if (!calibrated)
+    throw_io_error(
+        "the haptic device {} did not calibrate: clear its way, or calibrate it by hand as its manual "
+        "says, and try again",
+        specification_.model);
+}
+
+bool Chai3dDevice::read(double, DeviceReading& reading) noexcept {
+  if (!open_ || !device_->isDeviceReady()) return false;
+  cVector3d position(0, 0, 0), velocity(0, 0, 0);
+  unsigned switches = 0;
+  // cPhantomDevice::getPosition (3.3.0) returns `error != 0`, so false on success, of a call that fails only
+  // while the device is not open. So what it returns is not asked of a Phantom, whichever way round it is.
+  const bool positioned = device_->getPosition(position) || phantom_;
+  // The velocity is what CHAI3D makes of its readings within 15 ms by the clock on the wall (Force Dimension:
+  // of another reading, which takes its time). The position is what was measured.
+  if (!positioned || !device_->getLinearVelocity(velocity) || !device_->getUserSwitches(switches))
+    return false;
+  reading.position = from_chai3d(position);
+  reading.velocity = from_chai3d(velocity);
+  reading.switches = switches;
+  return true;
+}
+
+bool Chai3dDevice::command(const Eigen::Vector3d& force) noexcept {
+  if (!open_) return false;
+  // Nothing is sent until there is a force: the first one sent, be it zero, switches on the motors of Force
+  // Dimension's devices, past the button on them that has them off.
+  if (!motors_on_ && force.isZero(0.0)) return true;
+  if (released_) return false;
+  if (!force.allFinite()) {
+    if (motors_on_) send(Eigen::Vector3d::Zero());
+    return false;
+  }
+  const bool taken = (motors_on_.exchange(true) || device_->enableForces(true)) && send(force);
+  if (released_) motors_off();  // while this force was on its way: the last word is release()'s
+  return taken;
+}
+
+void Chai3dDevice::release() noexcept {
+  const std::scoped_lock lock(releasing_);
+  released_ = true;
+  // Whatever the loop is doing, for it may hang in there. CHAI3D's classes lock nothing: a second call
+  // changes only their copies of the last force, which nobody reads. Below them, a Phantom's force is a
+  // number that the driver's own thread sends (and goes on sending, however long the loop hangs: that is why
+  // this must be); Force Dimension's driver locks each transfer, so that this waits for one that hangs, no
+  // longer.
+  if (open_ && motors_on_) motors_off();
+}
+
+void Chai3dDevice::close() noexcept {
+  release();
+  const std::scoped_lock lock(releasing_);
+  if (!open_.exchange(false)) return;
+  device_->enableForces(false);
+  // Closing ends the driver's thread that sends a Phantom its force, 1000 times a second: first the zero.
+  if (phantom_) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  device_->close();
+}
+
+bool Chai3dDevice::send(const Eigen::Vector3d& force) noexcept {
+  return device_->setForce(cVector3d(force.x(), force.y(), force.z()));
+}
+
+void Chai3dDevice::motors_off() noexcept {
+  motors_on_ = false;
+  send(Eigen::Vector3d::Zero());
+  device_->enableForces(false);
+}
+
+}  // namespace sandstroke
