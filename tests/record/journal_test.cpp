@@ -70,7 +70,7 @@ class Journal : public testing::Test {
     return read_text_file(path);
   }
   fs::path file_of(const std::string& bytes) {
-    write_text_file(folder_ / "journal", bytes);
+    std::ofstream(folder_ / "journal", std::ios::binary) << bytes;
     return folder_ / "journal";
   }
 
@@ -231,7 +231,7 @@ std::string garbage(std::mt19937_64& random) {
 TEST_F(Journal, AnyBytesAreReadToTheirEndOrRefused) {
   std::mt19937_64 random(6);
   const std::string sound = bytes_of(made_samples(2));
-  for (int i = 0; i < 3000; ++i) {
+  for (int i = 0; i < 2000; ++i) {
     const std::string begin = i % 2 == 0 ? sound : sound.substr(0, 24);
     const std::string bytes = begin + garbage(random);
     try {

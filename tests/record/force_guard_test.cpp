@@ -1,0 +1,120 @@
+#include "record/force_guard.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <random>
+
+#include "haptics/recording.h"
+
+namespace sandstroke {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double largest = std::numeric_limits<double>::max();
+
+ForceLimits limits(double max_force, double ramp, double rate) { return {max_force, ramp, rate}; }
+
+TEST(ForceGuard, LetsThroughWhatKeepsToAllLimits) {
+  const ForceGuard guard(limits(5.0, 0.5, 1000.0), 1000.0);
+  const FeltForce given = guard.admit(0.5, {{1.0, 2.0, 3.0}, held_sand}, {1.0, 2.0, 2.5});
+  EXPECT_EQ(given.force, Vector3d(1.0, 2.0, 3.0));
+  EXPECT_EQ(given.flags, held_sand);
+}
+
+TEST(ForceGuard, RefusesWhatIsNoNumberAtOnce) {
+  const ForceGuard guard(limits(5.0, 0.0, 1000.0), 1000.0);
+  for (const double bad : {nan, infinity, -infinity}) {
+    for (int axis = 0; axis < 3; ++axis) {
+      Vector3d wanted(1.0, 1.0, 1.0);
+      wanted[axis] = bad;
+      const FeltForce given = guard.admit(1.0, {wanted, held_sand}, {0.0, 0.0, 5.0});
+      EXPECT_EQ(given.force, Vector3d::Zero());
+      EXPECT_EQ(given.flags, held_sand | refused_force);
+    }
+  }
+}
+
+TEST(ForceGuard, FadesInLinearly) {
+  const ForceGuard guard(limits(100.0, 2.0, infinity), 1000.0);
+  for (const double time : {0.0, 0.5, 1.0, 1.5}) {
+    const FeltForce given = guard.admit(time, {{0.0, 0.0, 8.0}}, Vector3d::Zero());
+    EXPECT_EQ(given.force, Vector3d(0.0, 0.0, 4.0 * time));
+    EXPECT_EQ(given.flags, ramped_force);
+  }
+  EXPECT_EQ(guard.admit(2.0, {{0.0, 0.0, 8.0}}, Vector3d::Zero()).flags, 0u);
+  EXPECT_EQ(guard.admit(0.0, {}, Vector3d::Zero()).flags, 0u) << "nothing fades where there is no force";
+}
+
+TEST(ForceGuard, CutsTheMagnitudeAndKeepsTheDirection) {
+  const ForceGuard guard(limits(5.0, 0.0, infinity), 1000.0);
+  for (const double size : {6.0, 1e3, 1e200, largest}) {
+    const FeltForce given = guard.admit(0.0, {Vector3d(0.0, 0.6, -0.8) * size}, Vector3d::Zero());
+    EXPECT_NEAR((given.force - Vector3d(0.0, 3.0, -4.0)).norm(), 0.0, 1e-14);
+    EXPECT_EQ(given.flags, clamped_force);
+  }
+  const FeltForce given = guard.admit(0.0, {Vector3d::Constant(largest)}, Vector3d::Zero());
+  EXPECT_NEAR(given.force.norm(), 5.0, 1e-14) << "though its norm is beyond all numbers";
+}
+
+TEST(ForceGuard, GivesNoneAtAllWhereTheLimitIsZero) {
+  const ForceGuard guard(limits(0.0, 0.0, infinity), 1000.0);
+  for (const double size : {1e-300, 1.0, largest}) {
+    const FeltForce given = guard.admit(0.0, {{0.0, size, 0.0}}, Vector3d::Zero());
+    EXPECT_EQ(given.force, Vector3d::Zero());
+    EXPECT_EQ(given.flags, clamped_force);
+  }
+}
+
+TEST(ForceGuard, ApproachesAForceThatJumpsByTheRatePerTick) {
+  const ForceGuard guard(limits(12.0, 0.0, 1000.0), 500.0);  // 2 N per tick
+  Vector3d held = Vector3d::Zero();
+  for (int tick = 1; tick <= 5; ++tick) {
+    const FeltForce given = guard.admit(tick, {{0.0, 0.0, 9.0}}, held);
+    held = given.force;
+    EXPECT_NEAR(held.z(), std::min(2.0 * tick, 9.0), 1e-14);
+    EXPECT_EQ(given.flags, tick < 5 ? rate_limited_force : 0u);
+  }
+}
+
+TEST(ForceGuard, KeepsItsPromiseForAnyForces) {
+  std::mt19937_64 random(6);
+  std::normal_distribution<double> normal;
+  std::uniform_real_distribution<double> exponent(-5.0, 5.0), uniform;
+  for (int series = 0; series < 200; ++series) {
+    const double max_force = std::pow(10.0, exponent(random)), rate = std::pow(10.0, exponent(random) + 3.0);
+    const double ramp = uniform(random), step = rate / 1000.0;
+    const ForceGuard guard(limits(max_force, ramp, rate), 1000.0);
+    Vector3d held = Vector3d::Zero();
+    double time = 0.0;
+    for (int tick = 0; tick < 500; ++tick) {
+      time += 0.01 * uniform(random);
+      Vector3d wanted(normal(random), normal(random), normal(random));
+      wanted *= max_force * std::pow(10.0, exponent(random));
+      if (uniform(random) < 0.02) wanted[tick % 3] = tick % 2 == 0 ? nan : infinity;
+      if (uniform(random) < 0.02) wanted[tick % 3] = largest;
+      const FeltForce given = guard.admit(time, {wanted}, held);
+
+      ASSERT_TRUE(given.force.allFinite());
+      ASSERT_LE(given.force.norm(), max_force * (1.0 + 1e-14));
+      if (given.flags & refused_force) {
+        ASSERT_FALSE(wanted.allFinite());
+        ASSERT_EQ(given.force, Vector3d::Zero());
+        ASSERT_EQ(given.flags, refused_force);
+      } else {
+        ASSERT_LE((given.force - held).norm(), step + 1e-15 * max_force);
+      }
+      if (given.flags == 0) {
+        ASSERT_EQ(given.force, wanted);
+      }
+      ASSERT_EQ((given.flags & ramped_force) != 0, wanted.allFinite() && time < ramp);
+      held = given.force;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace sandstroke
