@@ -1,6 +1,6 @@
 #pragma once
 
-#include "haptics/recording.h"
+#include "record/recorder.h"
 
 namespace sandstroke {
 
@@ -11,7 +11,8 @@ struct LoopCheck {
   bool fit = false;  ///< no tick was skipped, and 99 of 100 are less than a tenth of a tick late
 };
 
-/// Runs the loop for `seconds` at `rate` [Hz] without a device, under the scheduling that record() asks for.
-LoopCheck check_loop(double seconds, double rate, int priority);
+/// Runs the loop for settings.servo.duration without a device, under the scheduling that record() asks for;
+/// watcher as record()'s.
+LoopCheck check_loop(const RecorderSettings& settings, const RecordingWatcher& watcher);
 
 }  // namespace sandstroke
