@@ -66,6 +66,9 @@ nlohmann::ordered_json as_json(const RunResult& r, const std::string& output) {
       {"instruction_set", instruction_set()},
       {"interrupted", r.interrupted},
   };
+  if (r.recorded_force)
+    json["recorded_force"] = {
+        {"ticks", r.recorded_force->ticks}, {"rms", r.recorded_force->rms}, {"max", r.recorded_force->max}};
   if (r.error) {
     const ErrorEstimate& e = *r.error;
     json["error_estimate"] = {{"height_share", e.height_share}, {"height_rms", e.height_rms},
@@ -87,6 +90,10 @@ void print_summary(const RunResult& r, const std::string& output) {
     row("largest force",
         fmt::format("{:.3f} N{}", r.max_force,
                     r.saturated_ticks > 0 ? fmt::format(", limited in {} ticks", r.saturated_ticks) : ""));
+    if (r.recorded_force)
+      row("recorded force",
+          fmt::format("{:.3g} N rms, {:.3g} N at most from this run's, over {} ticks", r.recorded_force->rms,
+                      r.recorded_force->max, r.recorded_force->ticks));
     row("energy into sand",
         fmt::format("{:.4g} J{}", r.absorbed_energy,
                     returned_energy(r) ? fmt::format(", at worst {:.3g} J more returned than taken",

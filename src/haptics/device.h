@@ -36,6 +36,11 @@ struct DeviceSettings {
 /// Sets max_force and resolution to those of settings.preset.
 void apply_device_preset(DeviceSettings& settings);
 
+/// Where on the bed a device's tip is [m] that is at `position` [device m].
+inline Eigen::Vector3d tip_of(const DeviceSettings& settings, const Eigen::Vector3d& position) {
+  return settings.scale * position + settings.offset;
+}
+
 /// Dynamic, with exact encoders and no force limit; all else as by default.
 DeviceSettings ideal_device();
 

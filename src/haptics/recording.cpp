@@ -2,6 +2,15 @@
 
 namespace sandstroke {
 
+void count_flags(std::uint32_t flags, TickCounts& ticks) {
+  ticks.late += (flags & late_sample) != 0;
+  ticks.clamped += (flags & clamped_force) != 0;
+  ticks.ramped += (flags & ramped_force) != 0;
+  ticks.rate_limited += (flags & rate_limited_force) != 0;
+  ticks.refused += (flags & refused_force) != 0;
+  ticks.held += (flags & held_sand) != 0;
+}
+
 const char* stop_reason_text(StopReason reason) {
   switch (reason) {
     case StopReason::duration:

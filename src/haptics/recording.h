@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "haptics/haptic_device.h"
 
@@ -67,6 +68,9 @@ struct TickCounts {
   std::int64_t late = 0, clamped = 0, ramped = 0, rate_limited = 0, refused = 0, held = 0;
 };
 
+/// Counts a recorded sample's flags.
+void count_flags(std::uint32_t flags, TickCounts& ticks);
+
 /// How long after their time the loop came to ticks, those among them that it skipped for it; not-a-number of
 /// a recording that was cut off.
 struct Lateness {
@@ -100,6 +104,17 @@ struct RecordingFooter {
   TickCounts ticks;
   Lateness lateness;
   StopReason reason = StopReason::signal;
+};
+
+/// A recording, read once from its beginning. Error: io.
+class Recording {
+ public:
+  virtual ~Recording() = default;
+  virtual const RecordingHeader& header() const = 0;
+  /// The next samples, at most `most`; none at the end. Sequence and time increase.
+  virtual std::vector<RecordedSample> next(std::size_t most) = 0;
+  /// After the last sample: none, where it was cut off.
+  virtual const std::optional<RecordingFooter>& footer() const = 0;
 };
 
 }  // namespace sandstroke

@@ -6,7 +6,7 @@ namespace sandstroke {
 
 // What header and footer of a recording say, field by field, under the names that they have in every file:
 // visit(name, field), of std::string, double, int, std::int64_t, bool or StopReason. Who reads and who writes
-// goes through the same list.
+// goes through the same list. The first three are also what any stroke file says.
 
 /// Header: RecordingHeader, const where it is only read.
 template <class Header, class Visit>

@@ -44,6 +44,7 @@ void check_stroke(const Stroke& stroke, const std::string& name) {
   if (!stroke.velocity.empty()) check_vectors(stroke.velocity, "velocity", stroke, name);
   if (!stroke.force.empty()) check_vectors(stroke.force, "force", stroke, name);
   if (!stroke.switches.empty()) check_length(stroke.switches.size(), "switches", stroke, name);
+  if (!stroke.flags.empty()) check_length(stroke.flags.size(), "flags", stroke, name);
   if (!stroke.contact.empty()) check_length(stroke.contact.size(), "contact", stroke, name);
   for (std::size_t i = 0; i < stroke.contact.size(); ++i) {
     if (stroke.contact[i] <= pen_lifts) continue;

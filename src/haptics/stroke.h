@@ -19,6 +19,7 @@ struct Stroke {
   std::vector<Eigen::Vector3d> velocity;  ///< m/s, as recorded (optional)
   std::vector<Eigen::Vector3d> force;     ///< N, as recorded (optional)
   std::vector<std::uint32_t> switches;    ///< device switches, bit by bit (optional)
+  std::vector<std::uint32_t> flags;       ///< a recorder's SampleFlag bits (optional)
   std::vector<std::uint8_t> contact;      ///< a PenState each (optional); without it the pen is down
   double nominal_rate = 0.0;              ///< Hz; 0 = unknown
   double gap_threshold = 0.1;             ///< s; samples further apart are not joined: the tool lifts

@@ -35,6 +35,7 @@ void cut_time(Stroke& stroke, double start, double stop, const std::string& name
   cut(stroke.velocity, begin, end);
   cut(stroke.force, begin, end);
   cut(stroke.switches, begin, end);
+  cut(stroke.flags, begin, end);
   cut(stroke.contact, begin, end);
   const double played_first = stroke.time.front();
   for (double& t : stroke.time) t -= played_first;
@@ -90,29 +91,30 @@ void lay_level(Stroke& stroke, const std::string& name) {
 
 }  // namespace
 
+PointPlacement point_placement(const StrokePlacement& placement, const std::string& frame) {
+  PointPlacement place;
+  if (frame == "device") place.axes << 0, 1, 0, -1, 0, 0, 0, 0, 1;
+  place.scale = placement.scale;
+  const double angle = placement.rotate_z * std::numbers::pi / 180.0;
+  if (angle != 0.0) place.turn = Eigen::AngleAxisd(angle, Vector3d::UnitZ()).toRotationMatrix();
+  place.shift = placement.offset - placement.depth * Vector3d::UnitZ();
+  return place;
+}
+
 Stroke place_stroke(const Stroke& stroke, const StrokePlacement& placement, const std::string& name) {
   if (!(placement.scale > 0.0))
     throw_input_error("{}: scale is {}; it must be positive", name, placement.scale);
   Stroke placed = stroke;
   cut_time(placed, placement.start, placement.stop, name);
-  if (placed.frame == "device") {
-    // A haptic device's axes: +x towards the operator, +y to the operator's right. The operator sits at the
-    // bed's -y.
-    Matrix3d to_bed;
-    to_bed << 0, 1, 0, -1, 0, 0, 0, 0, 1;
-    rotate(placed, to_bed);
-    placed.frame = "bed";
-  }
+  const PointPlacement place = point_placement(placement, placed.frame);
+  rotate(placed, place.axes);
+  placed.frame = "bed";
   if (placement.plane == StrokePlane::fit) lay_level(placed, name);
 
-  for (Vector3d& p : placed.position) p *= placement.scale;
-  for (Vector3d& v : placed.velocity) v *= placement.scale;
-  if (placement.rotate_z != 0.0) {
-    const double angle = placement.rotate_z * std::numbers::pi / 180.0;
-    rotate(placed, Eigen::AngleAxisd(angle, Vector3d::UnitZ()).toRotationMatrix());
-  }
-  const Vector3d shift = placement.offset - placement.depth * Vector3d::UnitZ();
-  for (Vector3d& p : placed.position) p += shift;
+  for (Vector3d& p : placed.position) p *= place.scale;
+  for (Vector3d& v : placed.velocity) v *= place.scale;
+  rotate(placed, place.turn);
+  for (Vector3d& p : placed.position) p += place.shift;
   check_stroke(placed, name);
   return placed;
 }

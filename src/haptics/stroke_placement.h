@@ -23,6 +23,25 @@ struct StrokePlacement {
   double stop = std::numeric_limits<double>::infinity();  ///< s after the first sample: later samples are cut
 };
 
+/// Where single points of a stroke go; all of a placement but the fit of a plane, which needs the whole
+/// stroke.
+struct PointPlacement {
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< from the stroke's frame to the bed's
+  double scale = 1.0;
+  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();  ///< about z
+  Eigen::Vector3d shift = Eigen::Vector3d::Zero();     ///< m
+
+  Eigen::Vector3d position(const Eigen::Vector3d& p) const { return turn * (scale * (axes * p)) + shift; }
+  /// A force on the bed's axes, on those of the stroke's frame.
+  Eigen::Vector3d force_back(const Eigen::Vector3d& force) const {
+    return axes.transpose() * (turn.transpose() * force);
+  }
+};
+
+/// frame "device": a haptic device's axes, +x towards the operator, +y to the operator's right; the operator
+/// sits at the bed's -y.
+PointPlacement point_placement(const StrokePlacement& placement, const std::string& frame);
+
 /// The stroke as it is played: cut to start..stop, turned from the device's axes (frame "device") to the
 /// bed's, laid level (plane = fit), scaled, turned about z, lowered by `depth`, moved by `offset`; its time
 /// begins at 0. Velocities turn and scale with it, forces turn.

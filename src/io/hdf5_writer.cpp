@@ -161,13 +161,6 @@ Hdf5Column Hdf5Writer::growing(const std::string& dataset, hid_t type, int width
   return column;
 }
 
-Hdf5Column Hdf5Writer::column(const std::string& dataset, int width) {
-  return growing(dataset, H5T_NATIVE_DOUBLE, width);
-}
-Hdf5Column Hdf5Writer::byte_column(const std::string& dataset) {
-  return growing(dataset, H5T_NATIVE_UINT8, 1);
-}
-
 Hdf5Chunks Hdf5Writer::chunks(const std::string& dataset, std::array<int, 2> shape, std::array<int, 2> chunk,
                               double fill) {
   Hdf5Chunks chunks;

@@ -18,14 +18,22 @@ namespace sandstroke {
 /// 9).
 enum class Compression { none, fast, small };
 
-/// A dataset of doubles, or of bytes, that grows row by row: rank 1, or (n, width). Made by
-/// Hdf5Writer::column.
+// The types of numbers in columns.
+inline hid_t hdf5_type(double) { return H5T_NATIVE_DOUBLE; }
+inline hid_t hdf5_type(std::uint8_t) { return H5T_NATIVE_UINT8; }
+inline hid_t hdf5_type(std::uint32_t) { return H5T_NATIVE_UINT32; }
+inline hid_t hdf5_type(std::int64_t) { return H5T_NATIVE_INT64; }
+inline hid_t hdf5_type(std::uint64_t) { return H5T_NATIVE_UINT64; }
+
+/// A dataset of numbers that grows row by row: rank 1, or (n, width). Made by Hdf5Writer::column.
 class Hdf5Column {
  public:
   Hdf5Column() = default;
   /// count rows of `width` numbers each. Error: io.
-  void append(const double* rows, std::size_t count) { extend(rows, count, H5T_NATIVE_DOUBLE); }
-  void append(const std::uint8_t* rows, std::size_t count) { extend(rows, count, H5T_NATIVE_UINT8); }
+  template <class Number>
+  void append(const Number* rows, std::size_t count) {
+    extend(rows, count, hdf5_type(Number{}));
+  }
 
  private:
   friend class Hdf5Writer;
@@ -73,8 +81,10 @@ class Hdf5Writer {
   void attribute(const std::string& object, const std::string& attribute, double value);
   void attribute(const std::string& object, const std::string& attribute, const std::string& value);
 
-  Hdf5Column column(const std::string& dataset, int width = 1);
-  Hdf5Column byte_column(const std::string& dataset);
+  template <class Number = double>
+  Hdf5Column column(const std::string& dataset, int width = 1) {
+    return growing(dataset, hdf5_type(Number{}), width);
+  }
   /// chunk: rows and columns, cut where the dataset has fewer.
   Hdf5Chunks chunks(const std::string& dataset, std::array<int, 2> shape, std::array<int, 2> chunk,
                     double fill);

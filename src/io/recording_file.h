@@ -1,30 +1,27 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
 #include <optional>
-#include <vector>
 
 #include "haptics/recording.h"
 
 namespace sandstroke {
 
-/// Gives the next samples, in order; none at the end.
-using NextSamples = std::function<std::vector<RecordedSample>()>;
-
-/// Writes a recording as a stroke file (read_stroke_file takes it) with the recorder's columns `sequence`,
-/// `monotonic_time` (ns), `flags`, and what header and footer say as attributes of /stroke; by way of
-/// PATH.part. footer: none, where it was cut off: then the counts are made from the samples. Error: io;
-/// input, where there is no sample.
-void write_recording_file(const std::filesystem::path& path, const RecordingHeader& header,
-                          const std::optional<RecordingFooter>& footer, const NextSamples& next);
-
-/// What a stroke file says of how it was recorded; none where no recorder made it. Error: io, input.
+/// What a stroke file says of how it was recorded.
 struct RecordingInfo {
   RecordingHeader header;
   RecordingFooter footer;
   bool complete = false;
 };
+
+/// Writes a recording as a stroke file (read_stroke_file takes it) by way of PATH.part, and gives back what
+/// it says. Beside the stroke's columns there are `sequence`, `monotonic_time` [ns] and `flags`; beside its
+/// attributes those of recording_fields.h, `clock` and `clock_start` [ns], the first sample's. Counts of
+/// recorded ticks are those of the samples that are there; without a footer all are made from them. Error:
+/// io; input, where there is no sample.
+RecordingInfo write_recording_file(const std::filesystem::path& path, Recording& recording);
+
+/// None where no recorder made the stroke. Error: io, input.
 std::optional<RecordingInfo> read_recording_info(const std::filesystem::path& path);
 
 }  // namespace sandstroke

@@ -15,21 +15,26 @@
 #include "io/run_writer.h"
 #include "io/stroke_file.h"
 #include "io/surface_file.h"
+#include "sim/recorded_force.h"
 
 namespace sandstroke {
 namespace {
 
-/// A run writer that also draws the progress bar, and keeps the forces where they are asked for.
+/// A run writer that also draws the progress bar, keeps the forces where they are asked for, and compares
+/// them with those recorded with the stroke.
 class WriterWithProgress : public RunWriter {
  public:
   WriterWithProgress(const std::filesystem::path& path, const Simulation& simulation,
-                     const std::string& stroke_hash, bool progress, bool keep_force)
+                     const std::string& stroke_hash, const std::optional<Stroke>& stroke, bool progress,
+                     bool keep_force)
       : RunWriter(path, simulation, stroke_hash), keep_force_(keep_force) {
+    if (stroke && !stroke->force.empty()) recorded_force_.emplace(*stroke);
     if (progress) bar_.emplace("run");
   }
   void on_tick(const TickRecord& tick) override {
     RunWriter::on_tick(tick);
     if (keep_force_) force_.push_back(tick.device_force);
+    if (recorded_force_) recorded_force_->compare(tick);
   }
   void on_progress(double fraction) override {
     fraction_ = fraction;
@@ -41,12 +46,14 @@ class WriterWithProgress : public RunWriter {
   }
   void clear_bar() { bar_.reset(); }
   const std::vector<Eigen::Vector3d>& force() const { return force_; }
+  const std::optional<RecordedForce>& recorded_force() const { return recorded_force_; }
 
  private:
   std::optional<Progress> bar_;
   double fraction_ = 0.0;  // of the stroke
   bool keep_force_;
   std::vector<Eigen::Vector3d> force_;  // N, per tick
+  std::optional<RecordedForce> recorded_force_;
 };
 
 }  // namespace
@@ -69,9 +76,11 @@ RunResult run_scene(const Scene& scene, const std::filesystem::path& output, con
   std::optional<HeightField> start;
   if (options.second) start = bed;
   Simulation simulation(scene, std::move(bed), stroke);
-  WriterWithProgress writer(output, simulation, stroke_hash, options.progress, options.second.has_value());
+  WriterWithProgress writer(output, simulation, stroke_hash, stroke, options.progress,
+                            options.second.has_value());
   RunResult result = simulation.run(writer);
   result.threads = threads;
+  if (writer.recorded_force()) result.recorded_force = writer.recorded_force()->difference();
   writer.clear_bar();
   writer.finish(result, simulation.bed());
   if (options.second && !result.interrupted) {

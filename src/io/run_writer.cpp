@@ -86,8 +86,8 @@ void RunWriter::make_trace_columns() {
   add("depth", 1, "m", [](const TickRecord& t, double* out) { *out = t.depth; });
   add("displaced_volume", 1, "m^3", [](const TickRecord& t, double* out) { *out = t.displaced_volume; });
   add("passivity_margin", 1, "N s/m", [](const TickRecord& t, double* out) { *out = t.passivity_margin; });
-  tick_flags_.emplace_back(file_.byte_column("/trace/contact"), &TickRecord::contact);
-  tick_flags_.emplace_back(file_.byte_column("/trace/saturated"), &TickRecord::saturated);
+  tick_flags_.emplace_back(file_.column<std::uint8_t>("/trace/contact"), &TickRecord::contact);
+  tick_flags_.emplace_back(file_.column<std::uint8_t>("/trace/saturated"), &TickRecord::saturated);
 }
 
 void RunWriter::make_relaxation_columns() {

@@ -53,17 +53,14 @@ class JournalWriter {
   std::string blocks_;            // of one append
 };
 
-/// Reads back what there is of a recording.
-class JournalReader {
+/// Reads back what there is of a recording: up to the last sound sample, whatever follows.
+class JournalReader : public Recording {
  public:
   /// Error: io (also where it is still being written), input (not a journal, or cut off within its header).
   explicit JournalReader(const std::filesystem::path& path);
-  const RecordingHeader& header() const { return header_; }
-  /// The next samples, at most `most`; empty at the end of the sound ones. Sequence and time increase. Error:
-  /// io, where the disk does not give what it holds.
-  std::vector<RecordedSample> next(std::size_t most);
-  /// After the last: none, where it was cut off.
-  const std::optional<RecordingFooter>& footer() const { return footer_; }
+  const RecordingHeader& header() const override { return header_; }
+  std::vector<RecordedSample> next(std::size_t most) override;
+  const std::optional<RecordingFooter>& footer() const override { return footer_; }
   /// After the last sample: bytes that follow what is sound (cut off while being written, or damaged).
   std::uint64_t lost_bytes() const { return size_ - sound_; }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "record/recorder.h"
+#include "record/loop_thread.h"
 
 namespace sandstroke {
 
@@ -11,8 +11,10 @@ struct LoopCheck {
   bool fit = false;  ///< no tick was skipped, and 99 of 100 are less than a tenth of a tick late
 };
 
-/// Runs the loop for settings.servo.duration without a device, under the scheduling that record() asks for;
-/// watcher as record()'s.
-LoopCheck check_loop(const RecorderSettings& settings, const RecordingWatcher& watcher);
+/// What the figures say: of a loop that ran its time.
+bool is_fit(const RecordingFooter& loop, double rate);
+
+/// Runs the loop for `seconds` at `rate` [Hz] without a device, under the scheduling that record() asks for.
+LoopCheck check_loop(double seconds, double rate, int priority, const RecordingWatcher& watcher = {});
 
 }  // namespace sandstroke

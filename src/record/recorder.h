@@ -1,9 +1,8 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
 
-#include "record/servo_loop.h"
+#include "record/loop_thread.h"
 
 namespace sandstroke {
 
@@ -19,15 +18,14 @@ struct RecorderSettings {
 struct RecordingReport {
   RecordingHeader header;
   RecordingFooter footer;
+  std::string disk_error;  ///< empty: the journal is whole; else why it is not, and without a footer
 };
-
-/// Called about ten times a second in the thread that records, which is not the loop's: to show where it is,
-/// and to ask whether to stop.
-using RecordingWatcher = std::function<std::optional<StopReason>(const ServoProgress&)>;
 
 /// A whole recording into a journal: device opened (and calibrated) before the loop's thread starts, which is
 /// joined; writer and watchdog; whatever ends it, device released and closed, journal finished. header: what
-/// the caller knows (source, felt scene); the rest is filled in. Error: io.
+/// the caller knows (source, felt scene); the rest is filled in. A disk that takes no more ends it for the
+/// reason `disk`, and what is in the journal is kept. Error: io, before the first sample; input, for a switch
+/// that the device has not; what the watcher throws, after the journal was finished.
 RecordingReport record(HapticDevice& device, FeltWorld* world, const RecorderSettings& settings,
                        RecordingHeader header, const std::filesystem::path& journal,
                        const RecordingWatcher& watcher);

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <condition_variable>
+#include <exception>
+#include <mutex>
 #include <thread>
 
 #include "record/journal.h"
@@ -7,15 +10,32 @@
 
 namespace sandstroke {
 
-/// Carries samples from the ring to the journal, in a thread of its own at normal priority: about 20 times a
-/// second, and through to the disk twice a second. Where the disk takes no more it stops the loop (disk) and
-/// keeps emptying nothing.
+/// Carries samples from the ring to the journal, in a thread of its own: about 20 times a second, and through
+/// to the disk twice a second. Where the disk takes no more it stops the loop (disk) and carries no more.
 class SampleWriter {
  public:
+  /// By a thread of normal priority: its own gets the same.
   SampleWriter(SpscRing<RecordedSample>& ring, JournalWriter& journal, ServoLoop& loop);
+  SampleWriter(const SampleWriter&) = delete;
   /// Writes what is left; the loop has ended. Error: io, as the journal had it.
   void finish();
-  ~SampleWriter();
+  ~SampleWriter() { end(); }
+
+ private:
+  void run() noexcept;
+  void empty_ring();
+  /// Waits for the next turn; false at the end.
+  bool wait();
+  void end();
+
+  SpscRing<RecordedSample>& ring_;
+  JournalWriter& journal_;
+  ServoLoop& loop_;
+  std::exception_ptr failure_;  // the thread's while it runs
+  std::mutex mutex_;
+  std::condition_variable ending_;
+  bool ended_ = false;
+  std::thread thread_;
 };
 
 }  // namespace sandstroke

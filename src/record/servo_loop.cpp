@@ -18,15 +18,6 @@ std::int64_t ticks_in(double seconds, double rate) {
 
 void copy(const Vector3d& from, double (&to)[3]) { Eigen::Map<Vector3d>{to} = from; }
 
-void count_flags(std::uint32_t flags, TickCounts& ticks) {
-  ticks.late += (flags & late_sample) != 0;
-  ticks.clamped += (flags & clamped_force) != 0;
-  ticks.ramped += (flags & ramped_force) != 0;
-  ticks.rate_limited += (flags & rate_limited_force) != 0;
-  ticks.refused += (flags & refused_force) != 0;
-  ticks.held += (flags & held_sand) != 0;
-}
-
 ForceLimits limited(ForceLimits limits, double max_force) {
   limits.max_force = max_force;
   return limits;

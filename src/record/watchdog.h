@@ -1,17 +1,38 @@
 #pragma once
 
+#include <condition_variable>
+#include <mutex>
 #include <thread>
 
 #include "record/servo_loop.h"
 
 namespace sandstroke {
 
-/// Looks after a loop from a thread of its own: where it has given no sign of life for `limit` [s] (a call
-/// into the device hangs, the machine stands still), the device is released and the loop told to stop.
+/// Now that it is `now`, a loop whose last sign of life was at `heartbeat` (0: it does not run) stands still.
+/// All [ns]. The limit itself is none.
+bool has_stalled(std::int64_t now, std::int64_t heartbeat, std::int64_t limit);
+
+/// What a watchdog does at each look. True: the loop stands still, and is told to stop; the device is
+/// released. The loop is told first: a force that it is about to command it then takes back itself.
+bool release_if_stalled(ServoLoop& loop, HapticDevice& device, std::int64_t now, std::int64_t limit);
+
+/// Looks after a loop from a thread of its own, four times per limit: where it has given no sign of life for
+/// `limit` [s] (a call into the device hangs, the machine stands still), the device is released and the loop
+/// told to stop.
 class Watchdog {
  public:
-  Watchdog(ServoLoop& loop, HapticDevice& device, LoopClock& clock, double limit);
+  /// loop_priority: SCHED_FIFO's, of the loop. The watchdog asks for the next one, for a loop that hangs may
+  /// do so busily.
+  Watchdog(ServoLoop& loop, HapticDevice& device, LoopClock& clock, double limit, int loop_priority);
   ~Watchdog();
+
+ private:
+  void watch(ServoLoop& loop, HapticDevice& device, LoopClock& clock, std::int64_t limit);
+
+  std::mutex mutex_;
+  std::condition_variable ended_;
+  bool ends_ = false;
+  std::thread thread_;
 };
 
 }  // namespace sandstroke

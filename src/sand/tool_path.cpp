@@ -31,7 +31,8 @@ struct Part {
 }  // namespace
 
 double displace_between(HeightField& bed, ToolFootprint& footprint, const Eigen::Vector3d& from,
-                        const Eigen::Vector3d& to, const DisplacementSettings& settings) {
+                        const Eigen::Vector3d& to, const DisplacementSettings& settings,
+                        std::optional<double> highest) {
   const Eigen::Vector3d motion = to - from;
   const double step = longest_step * footprint.radius();
   if (!(motion.head<2>().stableNorm() > step)) return 0.0;
@@ -41,7 +42,8 @@ double displace_between(HeightField& bed, ToolFootprint& footprint, const Eigen:
   Part part;
   part.clip(from.x(), motion.x(), -half_x, half_x);
   part.clip(from.y(), motion.y(), -half_y, half_y);
-  part.clip(from.z(), motion.z(), -std::numeric_limits<double>::infinity(), bed.highest());
+  part.clip(from.z(), motion.z(), -std::numeric_limits<double>::infinity(),
+            highest ? *highest : bed.highest());
   if (!(part.begin < part.end)) return 0.0;
 
   const Eigen::Vector3d enters = from + part.begin * motion, way = (part.end - part.begin) * motion;

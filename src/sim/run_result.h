@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -17,7 +18,7 @@ struct TickRecord {
   Eigen::Vector3d device_force = Eigen::Vector3d::Zero();     ///< N, on the device, saturated
   Eigen::Vector3d repulse_force = Eigen::Vector3d::Zero();    ///< N
   Eigen::Vector3d drag_force = Eigen::Vector3d::Zero();       ///< N
-  double level = 0.0;             ///< m, sand level under the tool; NaN with the tool lifted
+  double level = std::numeric_limits<double>::quiet_NaN();    ///< m, sand level under the tool; NaN: lifted
   double depth = 0.0;             ///< m, of the tip below the level; negative = above
   double displaced_volume = 0.0;  ///< m^3, pushed aside in this tick
   double passivity_margin = 0.0;  ///< N s/m, Colgate & Schenkel
@@ -31,6 +32,12 @@ struct RelaxationRecord {
   std::int64_t passes = 0;
   double residual = 0.0;      ///< largest slope / tan(talus) - 1 left over
   double moved_volume = 0.0;  ///< m^3, summed over passes
+};
+
+/// How far the forces of a run are from others, over the ticks in which they can be compared.
+struct ForceDifference {
+  std::int64_t ticks = 0;
+  double rms = 0.0, max = 0.0;  ///< N, of the difference's magnitude
 };
 
 /// How far a run is from what ever smaller steps (cells, ticks, times between relaxations, tolerances) would
@@ -76,7 +83,8 @@ struct RunResult {
   double least_passivity_margin = 0.0;  ///< N s/m, over contact ticks
   int threads = 1;
   bool interrupted = false;
-  std::optional<ErrorEstimate> error;  ///< where it was asked for
+  std::optional<ErrorEstimate> error;             ///< where it was asked for
+  std::optional<ForceDifference> recorded_force;  ///< where the stroke was recorded with forces
 };
 
 }  // namespace sandstroke

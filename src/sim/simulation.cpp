@@ -2,12 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "core/error.h"
 #include "core/interrupt.h"
 #include "core/stopwatch.h"
-#include "sand/tool_path.h"
 
 namespace sandstroke {
 namespace {
@@ -28,7 +26,7 @@ Simulation::Simulation(const Scene& scene, HeightField bed, std::optional<Stroke
                        std::unique_ptr<Relaxer> relaxer)
     : scene_(scene),
       bed_(std::move(bed)),
-      footprint_(scene.tool),
+      sand_(scene.tool, scene.displacement),
       relaxer_(relaxer ? std::move(relaxer) : make_relaxer(scene.relaxation, bed_.cell_size())) {
   if (!stroke) return;
   if (!(stroke->duration() * scene.device.servo_rate < 1e15))
@@ -43,7 +41,7 @@ void Simulation::check_inside(const Stroke& stroke) const {
   const double highest = bed_.highest();
   const double half_x = 0.5 * bed_.cols() * bed_.cell_size(), half_y = 0.5 * bed_.rows() * bed_.cell_size();
   for (std::size_t i = 0; i < stroke.size(); ++i) {
-    const Eigen::Vector3d tip = tip_of(stroke.position[i]);
+    const Eigen::Vector3d tip = tip_of(scene_.device, stroke.position[i]);
     const bool outside = std::abs(tip.x()) > half_x || std::abs(tip.y()) > half_y;
     if (outside && stroke.touches(i) && tip.z() < highest)
       throw_input_error(
@@ -54,33 +52,21 @@ void Simulation::check_inside(const Stroke& stroke) const {
   }
 }
 
-Eigen::Vector3d Simulation::tip_of(const Eigen::Vector3d& device_position) const {
-  return scene_.device.scale * device_position + scene_.device.offset;
-}
-
 TickRecord Simulation::tick(double time, const Hand& hand, const Hand& next, DeviceSide& side) {
   TickRecord record;
   const SimulatedDevice::State reading = side.device().read();
-  const Eigen::Vector3d tip = tip_of(reading.position);
-  const Eigen::Vector3d true_tip = tip_of(side.device().state().position);  // encoder steps are no motion
+  const Eigen::Vector3d tip = tip_of(scene_.device, reading.position);
+  const Eigen::Vector3d true_tip = tip_of(scene_.device, side.device().state().position);
   record.time = time;
   record.hand = hand;
   record.next = next;
   record.device_position = reading.position;
-  record.level = std::numeric_limits<double>::quiet_NaN();
   if (hand.down) {
-    const Eigen::Vector3d motion =
-        last_tip_ ? Eigen::Vector3d(true_tip - *last_tip_) : Eigen::Vector3d::Zero();
-    record.displaced_volume = displace_between(bed_, footprint_, tip - motion, tip, scene_.displacement);
-    footprint_.place(bed_, tip.x(), tip.y());
-    record.level = footprint_.sand_level();
-    const double depth = record.level - tip.z();
-    if (depth > 0.0) {
-      record.contact = true;
-      record.displaced_volume += displace(bed_, footprint_, tip.z(), motion, scene_.displacement);
-    }
-    if (!std::isnan(depth)) record.depth = depth;
-    last_tip_ = true_tip;
+    const Touch touch = sand_.move(bed_, tip, true_tip);
+    record.level = touch.level;
+    record.depth = touch.depth;
+    record.displaced_volume = touch.displaced_volume;
+    record.contact = touch.contact;
   }
   side.feel(record);
   return record;
@@ -103,9 +89,10 @@ void Simulation::relax(double time, SimulationObserver& observer) {
 }
 
 void Simulation::check_near(const TickRecord& record, const SimulatedDevice& device) const {
-  const double hand = std::max(tip_of(record.hand.position).norm(), tip_of(record.next.position).norm());
+  const double hand = std::max(tip_of(scene_.device, record.hand.position).norm(),
+                               tip_of(scene_.device, record.next.position).norm());
   const double far = 100.0 * (scene_.bed.width + scene_.bed.depth) + 2.0 * hand;
-  const double distance = tip_of(device.state().position).norm();
+  const double distance = tip_of(scene_.device, device.state().position).norm();
   if (!(distance < far))
     throw Error(
         ErrorKind::unstable,
@@ -133,7 +120,7 @@ void Simulation::run_stroke(SimulationObserver& observer) {
     device.advance(record);
     check_near(record, device.device());
     hand = next;
-    if (stroke_->lifts_between(begin + time, next_time)) last_tip_.reset();
+    if (stroke_->lifts_between(begin + time, next_time)) sand_.lift();
 
     result_.ticks += 1;
     result_.contact_ticks += record.contact;

@@ -5,6 +5,7 @@
 #include "haptics/stroke_sampler.h"
 #include "sim/device_side.h"
 #include "sim/run_result.h"
+#include "sim/sand_side.h"
 #include "sim/scene.h"
 
 namespace sandstroke {
@@ -47,14 +48,12 @@ class Simulation {
   void relax(double time, SimulationObserver& observer);
   /// Error: unstable, where the device, at the end of a tick, has left all bounds.
   void check_near(const TickRecord& record, const SimulatedDevice& device) const;
-  Eigen::Vector3d tip_of(const Eigen::Vector3d& device_position) const;
 
   Scene scene_;
   HeightField bed_;
   std::optional<StrokeSampler> stroke_;
-  ToolFootprint footprint_;
+  SandSide sand_;
   std::unique_ptr<Relaxer> relaxer_;
-  std::optional<Eigen::Vector3d> last_tip_;  // true one of the tick before; none where it was lifted since
   RunResult result_;
 };
 

@@ -62,7 +62,7 @@ TEST_F(Hdf5File, ColumnsGrowAndCanBeReadAfterAFlushWithoutFinish) {
   {
     Hdf5Writer writer(path_);
     Hdf5Column times = writer.column("/trace/time"), forces = writer.column("/trace/force", 3);
-    Hdf5Column flags = writer.byte_column("/trace/contact");
+    Hdf5Column flags = writer.column<std::uint8_t>("/trace/contact");
     for (int i = 0; i < 10'000; i += 2) {
       const double time[2] = {0.5 * i, 0.5 * (i + 1)}, force[6] = {1.0 * i, 2, 3, 4, 5, 6.0 * i};
       const std::uint8_t flag[2] = {0, 1};

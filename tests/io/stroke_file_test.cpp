@@ -176,6 +176,9 @@ TEST_F(StrokeFile, LoadsByContentOrExtension) {
   const fs::path table = folder_ / "table.csv";
   write_text_file(table, "x,y,z\n");
   EXPECT_THAT(complaint(table), AllOf(HasSubstr("table.csv"), HasSubstr("sandstroke stroke convert")));
+  const fs::path journal = folder_ / "cut.h5.recording";
+  write_text_file(journal, "sandstroke.recording");
+  EXPECT_THAT(complaint(journal), HasSubstr("sandstroke stroke repair " + journal.string()));
   const fs::path text = folder_ / "text.h5";
   write_text_file(text, "no HDF5");
   EXPECT_THAT(complaint(text), AllOf(HasSubstr("text.h5"), HasSubstr("HDF5")));

@@ -70,6 +70,7 @@ class Journal : public testing::Test {
     return read_text_file(path);
   }
   fs::path file_of(const std::string& bytes) {
+    fs::remove(folder_ / "journal");
     std::ofstream(folder_ / "journal", std::ios::binary) << bytes;
     return folder_ / "journal";
   }

@@ -34,7 +34,7 @@ inline std::vector<RecordedSample> made_samples(int count) {
   for (int i = 0; i < count; ++i) {
     RecordedSample sample;
     sample.sequence = static_cast<std::uint64_t>(2 * i);
-    sample.time = (std::int64_t{1} << 52) + 2000003 * i;
+    sample.time = (std::int64_t{1} << 52) + std::int64_t{2000003} * i;
     for (int axis = 0; axis < 3; ++axis) {
       sample.position[axis] = std::sin(i + axis) / 3.0;
       sample.velocity[axis] = std::ldexp(1.0 + i, -1060 + axis);

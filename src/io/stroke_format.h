@@ -1,0 +1,20 @@
+#pragma once
+
+#include "haptics/stroke.h"
+#include "io/hdf5_file.h"
+
+namespace sandstroke {
+
+// What makes an HDF5 file a stroke: the group /stroke and its attributes.
+
+inline constexpr const char* stroke_group = "/stroke";
+
+/// Error: input, unless the file is a stroke in the format of this program.
+void check_stroke_format(const Hdf5Reader& file);
+
+/// All that a stroke says beside its columns; the group is there. Error: io.
+void write_stroke_attributes(Hdf5Writer& file, const Stroke& stroke);
+/// What is not said stays as it is. Error: input.
+void read_stroke_attributes(const Hdf5Reader& file, Stroke& stroke);
+
+}  // namespace sandstroke

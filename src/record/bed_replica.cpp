@@ -1,0 +1,34 @@
+#include "record/bed_replica.h"
+
+namespace sandstroke {
+namespace {
+
+HeightField with_all_tiles(HeightField bed) {
+  for (int tile = 0; tile < bed.tile_count(); ++tile) bed.touch(tile);
+  return bed;
+}
+
+}  // namespace
+
+BedReplica::BedReplica(const HeightField& bed) : bed_(with_all_tiles(bed)), known_(bed_) {
+  // So that the list of disturbed tiles has its memory.
+  for (int slot = 0; slot < bed_.touched_tiles(); ++slot) bed_.mark_disturbed(slot, 0, 0);
+  bed_.settle();
+  for (int slot = 0; slot < bed_.touched_tiles(); ++slot)
+    told_revisions_.push_back(bed_.tile_revision(bed_.tile_of(slot)));
+}
+
+void BedReplica::take(const SandChange& change, bool disturbs) {
+  constexpr int side = HeightField::tile_side;
+  const int slot = bed_.slot_of(bed_.tile_index(change.row / side, change.col / side));
+  const int row = change.row % side, col = change.col % side;
+  const int at = row * side + col;
+  bed_.tile_heights(slot)[at] += change.change;
+  known_.tile_heights(slot)[at] += change.change;
+  if (disturbs)
+    bed_.mark_disturbed(slot, row, std::uint64_t{1} << col);
+  else
+    bed_.mark_changed(slot);
+}
+
+}  // namespace sandstroke

@@ -1,0 +1,67 @@
+#include "record/eroder.h"
+
+#include <algorithm>
+#include <chrono>
+
+namespace sandstroke {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr double idle_rate = 60.0;  // Hz, of taking what was dug where nothing is relaxed
+
+}  // namespace
+
+Eroder::Eroder(const HeightField& bed, const RelaxationSettings& settings, SandRing& dug, SandRing& slipped)
+    : replica_(bed),
+      rate_(settings.rate),
+      relaxer_(make_relaxer(settings, bed.cell_size())),
+      dug_(dug),
+      slipped_(slipped) {}
+
+void Eroder::give(const SandChange& change) {
+  while (!slipped_.push(change)) {
+    if (stopping_) {
+      held_.push_back(change);
+      return;
+    }
+    std::this_thread::sleep_for(1ms);
+  }
+}
+
+void Eroder::turn() {
+  std::vector<SandChange> before;
+  before.swap(held_);
+  for (const SandChange& change : before) give(change);
+
+  SandChange change;
+  while (dug_.pop(change)) replica_.take(change, true);
+  if (rate_ <= 0.0) return;
+  const RelaxationOutcome outcome = relaxer_->relax(replica_.bed());
+  report_.relaxations += 1;
+  report_.passes += outcome.passes;
+  report_.converged = outcome.converged;
+  replica_.tell_changed([this](const SandChange& slipped) { give(slipped); });
+  report_.most_waiting = std::max(report_.most_waiting, slipped_.size());
+}
+
+void Eroder::start() {
+  stopping_ = false;
+  thread_ = std::thread([this] {
+    const auto period = std::chrono::duration_cast<std::chrono::steady_clock::duration>(
+        std::chrono::duration<double>(1.0 / (rate_ > 0.0 ? rate_ : idle_rate)));
+    auto due = std::chrono::steady_clock::now();
+    while (!stopping_) {
+      turn();
+      due = std::max(due + period, std::chrono::steady_clock::now());
+      std::this_thread::sleep_until(due);
+    }
+  });
+}
+
+void Eroder::stop() {
+  stopping_ = true;
+  if (thread_.joinable()) thread_.join();
+}
+
+}  // namespace sandstroke

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <thread>
+
+#include "record/bed_replica.h"
+#include "record/spsc_ring.h"
+#include "sand/relaxation.h"
+
+namespace sandstroke {
+
+using SandRing = SpscRing<SandChange>;
+
+/// How the erosion of a live bed went.
+struct ErosionReport {
+  std::int64_t relaxations = 0, passes = 0;
+  bool converged = true;         ///< the last relaxation
+  std::size_t most_waiting = 0;  ///< changes that the servo loop had not taken yet, at most
+};
+
+/// Lets a bed that is felt live slip, outside the servo loop as in the paper (section 4): takes what the tool
+/// dug from `dug`, relaxes its own replica, and gives what slipped to `slipped`.
+class Eroder {
+ public:
+  Eroder(const HeightField& bed, const RelaxationSettings& settings, SandRing& dug, SandRing& slipped);
+  ~Eroder() { stop(); }
+
+  /// In a thread of its own, settings.rate times a second, or, where one relaxation takes longer, one after
+  /// the other.
+  void start();
+  /// Ends that thread, after the relaxation that is going on.
+  void stop();
+
+  /// By the thread, or, where none runs, by the caller. The thread waits where `slipped` is full; what it
+  /// could not give before stop(), or a caller at all, is given with the next turn.
+  void turn();
+
+  /// Nothing is left to be given.
+  bool all_given() const { return held_.empty(); }
+  const HeightField& bed() const { return replica_.bed(); }
+  const ErosionReport& report() const { return report_; }
+
+ private:
+  void give(const SandChange& change);
+
+  BedReplica replica_;
+  double rate_;
+  std::unique_ptr<Relaxer> relaxer_;
+  SandRing &dug_, &slipped_;
+  std::vector<SandChange> held_;  // could not be given before the stop
+  std::atomic<bool> stopping_ = true;
+  ErosionReport report_;
+  std::thread thread_;
+};
+
+}  // namespace sandstroke

@@ -1,0 +1,123 @@
+#include "record/live_sand.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.h"
+#include "core/machine.h"
+#include "haptics/recording.h"
+
+namespace sandstroke {
+namespace {
+
+constexpr std::size_t ring_size = std::size_t{1} << 20;   // changes: 16 MB each way
+constexpr int most_taken = 4096;                          // changes per tick: some 10 us
+constexpr double gap_threshold = Stroke{}.gap_threshold;  // s: what `run` does not join is not joined here
+
+const HeightField& checked(const Scene& scene, const HeightField& bed) {
+  const auto refuse_unless = [](bool felt, const char* key, const char* why) {
+    if (!felt) throw_input_error("{}: {}; leave it out where sand is felt live (--feel)", key, why);
+  };
+  refuse_unless(scene.device.model == DeviceModel::kinematic, "device.model",
+                "\"dynamic\" simulates a device, and the hand holds a real one");
+  if (scene.stroke) {
+    const StrokePlacement& placement = scene.stroke->placement;
+    refuse_unless(placement.plane == StrokePlane::keep, "stroke.plane",
+                  "\"fit\" needs the whole stroke before it begins");
+    refuse_unless(placement.start == 0.0 && std::isinf(placement.stop), "stroke.start and stroke.stop",
+                  "they cut a stroke that is not there yet");
+  }
+  // Here and in the eroding thread, each with what the other knows.
+  const double bytes = 4.0 * bed.tile_count() * static_cast<double>(HeightField::bytes_per_tile());
+  if (bytes > 0.5 * physical_memory())
+    throw_input_error(
+        "bed.cells: {} x {} cells felt live take {:.1f} GB, more than half of this machine's memory; take "
+        "fewer",
+        bed.cols(), bed.rows(), 1e-9 * bytes);
+  return bed;
+}
+
+}  // namespace
+
+LiveSand::LiveSand(const Scene& scene, const HeightField& bed, const std::string& frame)
+    : force_(scene.force),
+      device_(scene.device),
+      placement_(point_placement(scene.stroke ? scene.stroke->placement : StrokePlacement{}, frame)),
+      highest_(bed.highest()),
+      dug_(ring_size),
+      slipped_(ring_size),
+      replica_(checked(scene, bed)),
+      eroder_(bed, scene.relaxation, dug_, slipped_),
+      sand_(scene.tool, scene.displacement) {
+  sand_.look(replica_.bed(), Eigen::Vector3d::Zero());  // takes the footprint's memory
+}
+
+Eigen::Vector3d LiveSand::velocity(double time, const Eigen::Vector3d& tip) {
+  const std::int64_t known = std::min<std::int64_t>(readings_, velocity_window);
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();
+  if (known > 0) {
+    const Past& past = past_[static_cast<std::size_t>((readings_ - known) % velocity_window)];
+    velocity = (tip - past.tip) / (time - past.time);
+  }
+  past_[static_cast<std::size_t>(readings_++ % velocity_window)] = {time, tip};
+  return velocity;
+}
+
+void LiveSand::take_slipped(int most) {
+  SandChange change;
+  for (int i = 0; i < most && slipped_.pop(change); ++i) {
+    replica_.take(change, false);
+    highest_ = std::max(highest_, replica_.bed()(change.row, change.col));
+  }
+}
+
+std::size_t LiveSand::changes_of_move(const Eigen::Vector3d& tip) const {
+  const ToolFootprint& footprint = sand_.footprint();
+  const double cells = 2.0 * footprint.reach() / replica_.bed().cell_size() + 3.0;
+  const double way = sand_.last_tip() ? (tip - *sand_.last_tip()).head<2>().norm() : 0.0;
+  const double most = cells * cells * (2.0 * way / footprint.radius() + 2.0);
+  return most < static_cast<double>(ring_size) ? static_cast<std::size_t>(most) : ring_size + 1;
+}
+
+FeltForce LiveSand::feel(double time, const DeviceReading& reading) noexcept {
+  take_slipped(most_taken);
+  const Eigen::Vector3d tip = tip_of(device_, placement_.position(reading.position));
+  if (readings_ > 0 &&
+      time - past_[static_cast<std::size_t>((readings_ - 1) % velocity_window)].time > gap_threshold) {
+    sand_.lift();
+    readings_ = 0;
+  }
+  const Eigen::Vector3d speed = velocity(time, tip);
+
+  FeltForce felt;
+  Touch touch;
+  if (dug_.room() >= changes_of_move(tip)) {
+    touch = sand_.move(replica_.bed(), tip, tip, highest_);
+    replica_.tell_disturbed([this](const SandChange& change) {
+      dug_.push(change);
+      highest_ = std::max(highest_, replica_.bed()(change.row, change.col));
+    });
+  } else {
+    touch = sand_.look(replica_.bed(), tip);
+    sand_.lift();
+    felt.flags |= held_sand;
+    ++report_.held_ticks;
+  }
+  if (touch.contact) {
+    ++report_.contact_ticks;
+    felt.force = placement_.force_back(sand_force(touch.depth, speed, device_.max_force, force_).total);
+  }
+  return felt;
+}
+
+LiveSandReport LiveSand::finish() {
+  eroder_.stop();
+  do {
+    eroder_.turn();
+    take_slipped(static_cast<int>(ring_size));
+  } while (!eroder_.all_given());
+  report_.erosion = eroder_.report();
+  return report_;
+}
+
+}  // namespace sandstroke

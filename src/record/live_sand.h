@@ -1,0 +1,74 @@
+#pragma once
+
+#include <array>
+#include <string>
+
+#include "haptics/stroke_placement.h"
+#include "record/eroder.h"
+#include "record/felt_force.h"
+#include "sim/sand_side.h"
+#include "sim/scene.h"
+
+namespace sandstroke {
+
+/// What came of feeling sand live.
+struct LiveSandReport {
+  ErosionReport erosion;
+  std::int64_t contact_ticks = 0;
+  std::int64_t held_ticks = 0;  ///< the tool did not dig, for the eroding bed was too far behind
+};
+
+/// Sand under a recorded hand: the scene's tool, displacement and force in the servo loop, its erosion in a
+/// thread of its own (paper 4). A `run` of the recorded stroke in the same scene has the same sand and
+/// forces, but for
+/// - time: it plays a smooth curve through the samples, at even ticks;
+/// - velocity: of that curve, while here only the past is known (velocity_window);
+/// - erosion: there at the tick it is due, here when its thread has come to it.
+class LiveSand : public FeltWorld {
+ public:
+  /// The velocity that drag is taken of is the mean over this many ticks, so that it lags by half of them:
+  /// the encoders' steps over one tick alone would be felt (9 um in 1 ms are 9 mm/s).
+  static constexpr int velocity_window = 4;
+
+  /// frame: of the device (DeviceSpecification). Error: input, naming the key, where the scene is of a kind
+  /// that cannot be felt live: a simulated device, a stroke placed by its plane or cut, or a bed too large
+  /// for memory.
+  LiveSand(const Scene& scene, const HeightField& bed, const std::string& frame);
+
+  /// Starts eroding; the recording is about to begin.
+  void start() { eroder_.start(); }
+  FeltForce feel(double time, const DeviceReading& reading) noexcept override;
+  /// The recording is over: stops eroding, and brings both beds together.
+  LiveSandReport finish();
+
+  /// Lets sand slip once, where it was not started: for a loop whose time is not the wall's.
+  void erode() { eroder_.turn(); }
+  /// As the hand feels it.
+  const HeightField& bed() const { return replica_.bed(); }
+  /// As it erodes.
+  const HeightField& eroding_bed() const { return eroder_.bed(); }
+
+ private:
+  struct Past {
+    double time;
+    Eigen::Vector3d tip;
+  };
+
+  Eigen::Vector3d velocity(double time, const Eigen::Vector3d& tip);
+  void take_slipped(int most);
+  std::size_t changes_of_move(const Eigen::Vector3d& tip) const;
+
+  ForceSettings force_;
+  DeviceSettings device_;
+  PointPlacement placement_;
+  double highest_;  // m: no sand is higher
+  SandRing dug_, slipped_;
+  BedReplica replica_;
+  Eroder eroder_;
+  SandSide sand_;
+  std::array<Past, velocity_window> past_;  // the last readings, newest at (readings_ - 1) modulo its size
+  std::int64_t readings_ = 0;               // since the tool was lifted
+  LiveSandReport report_;
+};
+
+}  // namespace sandstroke

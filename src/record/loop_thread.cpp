@@ -1,0 +1,44 @@
+#include "record/loop_thread.h"
+
+#include <chrono>
+#include <utility>
+
+#include "core/interrupt.h"
+#include "record/real_time.h"
+
+namespace sandstroke {
+
+LoopThread::LoopThread(ServoLoop& loop, int priority, bool lock_memory) : loop_(loop) {
+  std::promise<Scheduling> scheduling;
+  std::promise<RecordingFooter> footer;
+  std::future<Scheduling> asked = scheduling.get_future();
+  footer_ = footer.get_future();
+  thread_ = std::thread([&loop, priority, lock_memory, go = go_.get_future(),
+                         scheduling = std::move(scheduling), footer = std::move(footer)]() mutable {
+    scheduling.set_value(ask_for_real_time(priority, lock_memory));
+    go.wait();
+    footer.set_value(loop.run());
+  });
+  scheduling_ = asked.get();
+}
+
+LoopThread::~LoopThread() {
+  loop_.stop(StopReason::error);
+  if (!started_) start();
+  thread_.join();
+}
+
+void LoopThread::start() {
+  started_ = true;
+  go_.set_value();
+}
+
+void LoopThread::watch(const RecordingWatcher& watcher) {
+  while (footer_.wait_for(std::chrono::milliseconds(100)) != std::future_status::ready) {
+    if (interrupted()) loop_.stop(StopReason::signal);
+    if (!watcher) continue;
+    if (const std::optional<StopReason> reason = watcher(loop_.progress())) loop_.stop(*reason);
+  }
+}
+
+}  // namespace sandstroke

@@ -1,0 +1,208 @@
+#include "record/live_sand.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "core/error.h"
+#include "sim/simulation.h"
+
+namespace sandstroke {
+namespace {
+
+Scene small_scene() {
+  Scene scene;
+  scene.bed.width = scene.bed.depth = 0.3;
+  scene.bed.cols = scene.bed.rows = 150;
+  return scene;
+}
+
+HeightField bed_of(const Scene& scene) {
+  return make_surface(scene.bed.surface, scene.bed.rows, scene.bed.cols, scene.bed.cell_size());
+}
+
+/// A hand that dips in and out of the sand on a winding way: smooth, so that its acceleration is known.
+struct SmoothHand {
+  static constexpr double radius = 0.06, turn = 2.0 * std::numbers::pi / 2.0, dip = 0.006,
+                          dive = 2.0 * std::numbers::pi / 0.7;
+  static Eigen::Vector3d at(double t) {
+    return {radius * std::cos(turn * t), radius * std::sin(turn * t), 0.001 + dip * std::cos(dive * t)};
+  }
+  static constexpr double speed() { return radius * turn + dip * dive; }
+  static constexpr double acceleration() { return radius * turn * turn + dip * dive * dive; }
+};
+
+Stroke sampled(const std::vector<double>& times) {
+  Stroke stroke;
+  stroke.time = times;
+  for (const double t : times) stroke.position.push_back(SmoothHand::at(t));
+  return stroke;
+}
+
+struct Ticks : SimulationObserver {
+  std::vector<TickRecord> ticks;
+  void on_tick(const TickRecord& tick) override { ticks.push_back(tick); }
+};
+
+struct Feeling {
+  std::vector<Eigen::Vector3d> forces;  // N, per sample
+  HeightGrid bed, eroding;
+  LiveSandReport report;
+};
+
+/// Feels at these times; the sand slips as often as the scene says, by the loop's own time.
+Feeling feel_all(const Scene& scene, const std::vector<double>& times) {
+  LiveSand sand(scene, bed_of(scene), "bed");
+  Feeling feeling;
+  for (const double t : times) {
+    feeling.forces.push_back(sand.feel(t, {SmoothHand::at(t)}).force);
+    const double rate = scene.relaxation.rate, next = std::floor((t + 1e-3) * rate + 1e-9);
+    if (next > std::floor(t * rate + 1e-9)) sand.erode();
+  }
+  feeling.report = sand.finish();
+  feeling.bed = sand.bed().grid();
+  feeling.eroding = sand.eroding_bed().grid();
+  return feeling;
+}
+
+std::vector<double> even_times(double seconds) {
+  std::vector<double> times;
+  for (int k = 0; k < static_cast<int>(1000.0 * seconds); ++k)
+    times.push_back(static_cast<double>(k) / 1000.0);
+  return times;
+}
+
+TEST(LiveSand, OfEvenTicksHasTheSandAndTheRepulseForceThatARunOfThemHas) {
+  Scene scene = small_scene();
+  const std::vector<double> times = even_times(2.5);
+  const Feeling felt = feel_all(scene, times);
+  EXPECT_GT(felt.report.contact_ticks, 500);
+  EXPECT_GT(felt.report.erosion.passes, 100);
+  EXPECT_EQ(felt.report.held_ticks, 0);
+
+  scene.stroke.emplace();
+  Simulation simulation(scene, bed_of(scene), sampled(times));
+  Ticks run;
+  const RunResult result = simulation.run(run);
+  ASSERT_EQ(run.ticks.size(), times.size());
+  // Two beds that differ by rounding may differ about whether a cell rests: by the tolerance of its slope.
+  const double tip =
+      scene.relaxation.tolerance * talus_slope(scene.relaxation.talus_angle) * scene.bed.cell_size();
+  const double stiffness = scene.force.k_s * scene.force.k_c * std::exp(scene.force.k_c * 0.01);
+  // Drag is horizontal: what is felt upward is the repulse force.
+  const double lag = 0.5e-3 * LiveSand::velocity_window + 1e-3;  // s; the second: of the run's slope
+  double most = 0.0;
+  for (std::size_t k = 0; k < times.size(); ++k) {
+    const TickRecord& tick = run.ticks[k];
+    EXPECT_NEAR(felt.forces[k].z(), tick.repulse_force.z(), stiffness * tip) << times[k];
+    const double drag = scene.force.k_f * tick.repulse_force.z() * SmoothHand::acceleration() * lag;
+    EXPECT_LE((felt.forces[k] - tick.device_force).norm(), drag + 2.0 * stiffness * tip) << times[k];
+    most = std::max(most, felt.forces[k].norm());
+  }
+  EXPECT_GT(most, 2.0);
+  EXPECT_LT((felt.bed - felt.eroding).abs().maxCoeff(), 1e-12);
+  EXPECT_LT((felt.bed - simulation.bed().grid()).abs().maxCoeff(), 10.0 * tip);
+  EXPECT_GT(result.moved_volume, 0.0);
+}
+
+TEST(LiveSand, OfUnevenTicksIsWithinTheBoundOfSampling) {
+  // Ticks up to 0.4 ms late, some missing; sand that does not slip, so that nothing but sampling differs.
+  Scene scene = small_scene();
+  scene.relaxation.rate = 0.0;
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> late(0.0, 0.4e-3);
+  std::vector<double> times = {0.0};
+  for (int k = 1; k < 2500; ++k)
+    if (k % 97 != 0 && k % 501 > 4) times.push_back(k * 1e-3 + late(random));
+  const Feeling felt = feel_all(scene, times);
+
+  scene.stroke.emplace();
+  Simulation simulation(scene, bed_of(scene), sampled(times));
+  Ticks run;
+  simulation.run(run);
+  // The run's tick before or after a sample is as near as a tick; the hand has gone that far, its force
+  // changed by as much, and the level under it by the tool's own furrow, which is no deeper than the hand
+  // goes in that time, plus what it had not yet dug on its way there: twice the way in all.
+  const double longest = 6e-3;  // s, between samples
+  const double way = SmoothHand::speed() * 1e-3, lag = 0.5 * LiveSand::velocity_window * 1e-3 + longest;
+  const double stiffness = scene.force.k_s * scene.force.k_c * std::exp(scene.force.k_c * 0.01);
+  double most = 0.0, worst = 0.0;
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    const auto k = static_cast<std::size_t>(std::lround(times[i] * 1000.0));
+    if (k >= run.ticks.size()) continue;
+    const TickRecord& tick = run.ticks[k];
+    const double repulse = std::max(felt.forces[i].z(), tick.repulse_force.z());
+    const double bound = 2.0 * stiffness * way * (1.0 + scene.force.k_f * SmoothHand::speed()) +
+                         scene.force.k_f * repulse * SmoothHand::acceleration() * lag;
+    const double error = (felt.forces[i] - tick.device_force).norm();
+    EXPECT_LE(error, bound) << times[i];
+    worst = std::max(worst, error / bound);
+    most = std::max(most, felt.forces[i].norm());
+  }
+  EXPECT_GT(most, 2.0);
+  RecordProperty("largest_share_of_the_bound", std::to_string(worst));
+}
+
+TEST(LiveSand, ErodingInItsOwnThreadLosesNoSand) {
+  Scene scene = small_scene();
+  scene.relaxation.rate = 1000.0;
+  const HeightField start = bed_of(scene);
+  LiveSand sand(scene, start, "bed");
+  sand.start();
+  for (const double t : even_times(2.0)) sand.feel(t, {SmoothHand::at(t)});
+  const LiveSandReport report = sand.finish();
+  EXPECT_GT(report.erosion.relaxations, 0);
+  EXPECT_LT((sand.bed().grid() - sand.eroding_bed().grid()).abs().maxCoeff(), 1e-12);
+  EXPECT_LT(std::abs(sand.bed().volume() - start.volume()), 1e-15);
+}
+
+TEST(LiveSand, FeelsInTheDevicesAxesAndScale) {
+  // The operator pushes away (-x of the device): the drag on the hand points back to him (+x).
+  Scene scene = small_scene();
+  scene.relaxation.rate = 0.0;
+  scene.device.scale = 5.0;
+  LiveSand sand(scene, bed_of(scene), "device");
+  FeltForce felt;
+  for (int k = 0; k < 100; ++k) felt = sand.feel(k * 1e-3, {Eigen::Vector3d(0.005 - 1e-4 * k, 0.0, -0.001)});
+  EXPECT_GT(felt.force.z(), 0.0);
+  const double repulse = repulse_force(0.005, scene.force);
+  EXPECT_NEAR(felt.force.z(), repulse, 0.3 * repulse);  // the furrow's own level is lower than the bed's
+  EXPECT_NEAR(felt.force.x() / felt.force.z(), scene.force.k_f * 0.5, 1e-9);  // 0.1 m/s x 5
+  EXPECT_NEAR(felt.force.y(), 0.0, 1e-12);
+}
+
+TEST(LiveSand, AFarJumpDoesNotDigAcrossTheBed) {
+  // Two readings more than the gap threshold apart are not joined.
+  Scene scene = small_scene();
+  scene.relaxation.rate = 0.0;
+  LiveSand sand(scene, bed_of(scene), "bed");
+  sand.feel(0.0, {Eigen::Vector3d(-0.1, 0.0, -0.004)});
+  sand.feel(0.2, {Eigen::Vector3d(0.1, 0.0, -0.004)});
+  EXPECT_EQ(sand.bed()(75, 75), 0.0);
+  EXPECT_LT(sand.bed()(75, 25), 0.0);
+  EXPECT_LT(sand.bed()(75, 125), 0.0);
+}
+
+TEST(LiveSand, RefusesScenesThatCannotBeFelt) {
+  const auto sentence = [](const Scene& scene) -> std::string {
+    try {
+      LiveSand sand(scene, bed_of(scene), "device");
+    } catch (const Error& failure) {
+      return failure.what();
+    }
+    return "";
+  };
+  Scene dynamic = small_scene(), fitted = small_scene(), cut = small_scene();
+  dynamic.device.model = DeviceModel::dynamic;
+  fitted.stroke.emplace().placement.plane = StrokePlane::fit;
+  cut.stroke.emplace().placement.start = 1.0;
+  EXPECT_NE(sentence(dynamic).find("device.model"), std::string::npos);
+  EXPECT_NE(sentence(fitted).find("stroke.plane"), std::string::npos);
+  EXPECT_NE(sentence(cut).find("stroke.start"), std::string::npos);
+  EXPECT_EQ(sentence(small_scene()), "");
+}
+
+}  // namespace
+}  // namespace sandstroke

@@ -1,0 +1,39 @@
+#include "record/loop_check.h"
+
+#include <gtest/gtest.h>
+
+namespace sandstroke {
+namespace {
+
+TEST(IsFit, AsksForEveryTickAndForATenthOfOne) {
+  RecordingFooter loop;
+  loop.reason = StopReason::duration;
+  loop.ticks.elapsed = loop.ticks.recorded = 1000;
+  loop.lateness = {1e-5, 0.99e-4, 0.9e-3};
+  EXPECT_TRUE(is_fit(loop, 1000.0));
+  EXPECT_FALSE(is_fit(loop, 2000.0));
+  loop.lateness.p99 = 1.01e-4;
+  EXPECT_FALSE(is_fit(loop, 1000.0));
+  loop.lateness.p99 = 1e-5;
+  loop.ticks.skipped = 1;
+  EXPECT_FALSE(is_fit(loop, 1000.0));
+  loop.ticks.skipped = 0;
+  loop.reason = StopReason::key;
+  EXPECT_FALSE(is_fit(loop, 1000.0)) << "it has not seen the time that it was to see";
+}
+
+TEST(CheckLoop, AccountsForEachTick) {
+  const LoopCheck check = check_loop(0.3, 1000.0, 0);
+  EXPECT_EQ(check.loop.reason, StopReason::duration);
+  EXPECT_EQ(check.loop.ticks.elapsed, 300);
+  EXPECT_EQ(check.loop.ticks.recorded + check.loop.ticks.skipped, 300);
+}
+
+TEST(CheckLoop, StopsWhenItIsAsked) {
+  const LoopCheck check = check_loop(1e6, 1000.0, 0, [](const ServoProgress&) { return StopReason::key; });
+  EXPECT_EQ(check.loop.reason, StopReason::key);
+  EXPECT_FALSE(check.fit);
+}
+
+}  // namespace
+}  // namespace sandstroke
