@@ -48,7 +48,7 @@ ServoLoop::ServoLoop(HapticDevice& device, FeltWorld* world, LoopClock& clock, S
 }
 
 RecordingFooter ServoLoop::run() noexcept {
-  start_ = last_answer_ = last_number_ = clock_.now();
+  start_ = clock_.now();
   while (true) {
     if (ticks_.elapsed > last_tick_) stop(end_reason_);
     // Right after the last tick's command: where the watchdog has released the device since the tick looked,
@@ -110,8 +110,17 @@ void ServoLoop::serve_tick(std::int64_t now) noexcept {
     ++ticks_.unread;
     command(Vector3d::Zero());
   }
-  if (answers) last_answer_ = now;
-  if (now - last_answer_ >= silence_) stop(StopReason::device_lost);
+  stop_where_it_lasts(!answers, silent_since_, now, StopReason::device_lost);
+}
+
+void ServoLoop::stop_where_it_lasts(bool fails, std::optional<std::int64_t>& since, std::int64_t now,
+                                    StopReason reason) noexcept {
+  if (!fails) {
+    since.reset();
+    return;
+  }
+  if (!since) since = now;
+  if (now - *since >= silence_) stop(reason);
 }
 
 bool ServoLoop::read(double time, DeviceReading& reading) noexcept {
@@ -122,8 +131,7 @@ FeltForce ServoLoop::feel(std::int64_t now, const DeviceReading& reading) noexce
   if (!world_) return {};
   const double time = 1e-9 * static_cast<double>(now - start_);
   const FeltForce given = guard_.admit(time, world_->feel(time, reading), held_);
-  if ((given.flags & refused_force) == 0) last_number_ = now;
-  if (now - last_number_ >= silence_) stop(StopReason::no_number);
+  stop_where_it_lasts((given.flags & refused_force) != 0, wrong_since_, now, StopReason::no_number);
   return given;
 }
 
