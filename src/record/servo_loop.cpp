@@ -32,12 +32,13 @@ ServoLoop::ServoLoop(HapticDevice& device, FeltWorld* world, LoopClock& clock, S
       clock_(clock),
       ring_(ring),
       rate_(settings.rate),
-      silence_(to_nanoseconds(settings.silence)),
       last_tick_(std::numeric_limits<std::int64_t>::max()),
       end_reason_(StopReason::duration),
       gives_force_(device.specification().max_force > 0.0),
       force_limit_(world ? std::min(settings.force.max_force, device.specification().max_force) : 0.0),
-      guard_(limited(settings.force, force_limit_), settings.rate) {
+      guard_(limited(settings.force, force_limit_), settings.rate),
+      silent_{to_nanoseconds(settings.silence + device.longest_silence()), StopReason::device_lost, {}},
+      wrong_{to_nanoseconds(settings.silence), StopReason::no_number, {}} {
   if (settings.duration) last_tick_ = ticks_in(*settings.duration, rate_) - 1;
   if (const std::optional<double> stroke = device.duration();
       stroke && ticks_in(*stroke, rate_) < last_tick_) {
@@ -110,17 +111,16 @@ void ServoLoop::serve_tick(std::int64_t now) noexcept {
     ++ticks_.unread;
     command(Vector3d::Zero());
   }
-  stop_where_it_lasts(!answers, silent_since_, now, StopReason::device_lost);
+  stop_where_it_lasts(!answers, silent_, now);
 }
 
-void ServoLoop::stop_where_it_lasts(bool fails, std::optional<std::int64_t>& since, std::int64_t now,
-                                    StopReason reason) noexcept {
+void ServoLoop::stop_where_it_lasts(bool fails, Fault& fault, std::int64_t now) noexcept {
   if (!fails) {
-    since.reset();
+    fault.since.reset();
     return;
   }
-  if (!since) since = now;
-  if (now - *since >= silence_) stop(reason);
+  if (!fault.since) fault.since = now;
+  if (now - *fault.since >= fault.limit) stop(fault.reason);
 }
 
 bool ServoLoop::read(double time, DeviceReading& reading) noexcept {
@@ -131,7 +131,7 @@ FeltForce ServoLoop::feel(std::int64_t now, const DeviceReading& reading) noexce
   if (!world_) return {};
   const double time = 1e-9 * static_cast<double>(now - start_);
   const FeltForce given = guard_.admit(time, world_->feel(time, reading), held_);
-  stop_where_it_lasts((given.flags & refused_force) != 0, wrong_since_, now, StopReason::no_number);
+  stop_where_it_lasts((given.flags & refused_force) != 0, wrong_, now);
   return given;
 }
 

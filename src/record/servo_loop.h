@@ -56,13 +56,17 @@ class ServoLoop {
   std::int64_t heartbeat() const noexcept { return heartbeat_.load(std::memory_order_acquire); }
 
  private:
+  struct Fault {
+    std::int64_t limit;  // ns that it may last
+    StopReason reason;   // to stop after that
+    std::optional<std::int64_t> since;
+  };
   bool stopped() const noexcept { return reason_.load() != going_on; }
   std::int64_t tick_time(std::int64_t tick) const noexcept;
   std::int64_t wait_for_tick() noexcept;
   void serve_tick(std::int64_t now) noexcept;
   /// What fails, from tick to tick, stops the loop in the end.
-  void stop_where_it_lasts(bool fails, std::optional<std::int64_t>& since, std::int64_t now,
-                           StopReason reason) noexcept;
+  void stop_where_it_lasts(bool fails, Fault& fault, std::int64_t now) noexcept;
   bool read(double time, DeviceReading& reading) noexcept;
   FeltForce feel(std::int64_t now, const DeviceReading& reading) noexcept;
   bool command(const Eigen::Vector3d& force) noexcept;
@@ -74,7 +78,6 @@ class ServoLoop {
   LoopClock& clock_;
   SpscRing<RecordedSample>& ring_;
   double rate_;
-  std::int64_t silence_;  // ns
   std::int64_t last_tick_;
   StopReason end_reason_;  // after the last tick
   bool gives_force_;
@@ -83,10 +86,10 @@ class ServoLoop {
   std::optional<StopSwitch> stop_switch_;
 
   // The loop's own while it runs:
-  std::int64_t start_ = 0;                                  // ns
-  std::optional<std::int64_t> silent_since_, wrong_since_;  // ns: the device, the world
-  std::uint64_t expected_ = 0;                              // sequence number, where nothing is missing
-  Eigen::Vector3d held_ = Eigen::Vector3d::Zero();          // N, by the device
+  std::int64_t start_ = 0;                          // ns
+  Fault silent_, wrong_;                            // the device, the world
+  std::uint64_t expected_ = 0;                      // sequence number, where nothing is missing
+  Eigen::Vector3d held_ = Eigen::Vector3d::Zero();  // N, by the device
   TickCounts ticks_;
   LatenessHistogram lateness_;
 

@@ -278,7 +278,7 @@ TEST_F(RecordingFile, ALongOneTakesNoMoreMemory) {
       getrusage(RUSAGE_SELF, &usage);
       return usage.ru_maxrss;  // kB
     };
-    const long of_few = peak(20000), of_many = peak(400000);  // 38 MB of samples
+    const long of_few = peak(300000), of_many = peak(900000);  // 29 and 86 MB of samples
     _exit(of_many - of_few < 8000 ? 0 : 1);
   }
   int status = 0;
