@@ -29,7 +29,7 @@ struct BlockFrame {
   std::uint64_t checksum = 0;
 };
 static_assert(sizeof(BlockFrame) == 16);
-constexpr std::size_t sample_block_size = sizeof(BlockFrame) + sizeof(RecordedSample);
+static_assert(journal_sample_bytes == sizeof(BlockFrame) + sizeof(RecordedSample));
 
 std::uint64_t checksum(const BlockFrame& frame, const void* content) {
   ContentHash hash;
@@ -124,7 +124,7 @@ void JournalWriter::write(const std::string& blocks, std::size_t block_size) {
 void JournalWriter::append(std::span<const RecordedSample> samples) {
   blocks_.clear();
   for (const RecordedSample& sample : samples) put_block(blocks_, sample_block, &sample, sizeof sample);
-  write(blocks_, sample_block_size);
+  write(blocks_, journal_sample_bytes);
 }
 
 void JournalWriter::sync() {
