@@ -42,6 +42,7 @@ int run_program(int argc, char** argv) {
   add_golden_command(app, chosen);
   add_sweep_command(app, chosen);
   add_stroke_command(app, chosen);
+  add_record_command(app, chosen);
   add_bench_command(app, chosen);
   add_stress_command(app, chosen);
   add_info_command(app, chosen);

@@ -1,8 +1,9 @@
 # CHAI3D as chai3d_system: found where somebody has built it (README), nothing of it is here.
+set(given "${chai3d_DIR}")
 find_package(chai3d CONFIG QUIET)  # lower case, and of no version: its version file is malformed
 if(NOT chai3d_FOUND)
-  message(FATAL_ERROR "SANDSTROKE_CHAI3D=ON needs CHAI3D: give the folder in which it was built, which has "
-                      "chai3dConfig.cmake in it, as -Dchai3d_DIR=FOLDER (it is now: ${chai3d_DIR})")
+  message(FATAL_ERROR "SANDSTROKE_CHAI3D=ON needs CHAI3D, which is not in chai3d_DIR=\"${given}\": give the folder in "
+                      "which it was built, with its chai3dConfig.cmake, as -Dchai3d_DIR=FOLDER")
 endif()
 get_target_property(chai3d_archive chai3d LOCATION)
 if(NOT EXISTS "${chai3d_archive}")

@@ -58,10 +58,8 @@ std::unique_ptr<HapticDevice> make_chai3d_device(int index) {
   if (count == 0)
     throw_io_error(
         "CHAI3D finds no haptic device: connect it, switch it on and let this user reach it (Force "
-        "Dimension: "
-        "the udev rule in CHAI3D's externals/DHD/doc/linux; 3D Systems: libHD.so and CHAI3D's "
-        "libhdPhantom.so "
-        "where the loader finds them)");
+        "Dimension: the udev rule in CHAI3D's externals/DHD/doc/linux; 3D Systems: libHD.so and CHAI3D's "
+        "libhdPhantom.so where the loader finds them)");
   if (index < 0 || index >= count)
     throw_input_error("there is no haptic device {}: CHAI3D finds {}, counted from 0", index, count);
   chai3d::cGenericHapticDevicePtr device;

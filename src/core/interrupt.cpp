@@ -21,6 +21,13 @@ void catch_interrupts() {
   std::signal(SIGTERM, remember_signal);
 }
 
+void catch_all_interrupts() {
+  catch_interrupts();
+  std::signal(SIGQUIT, remember_signal);
+  if (std::signal(SIGHUP, remember_signal) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);
+  std::signal(SIGTSTP, SIG_IGN);
+}
+
 int interrupted() { return caught_signal; }
 
 }  // namespace sandstroke

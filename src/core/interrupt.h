@@ -6,6 +6,10 @@ namespace sandstroke {
 /// ends the program at once.
 void catch_interrupts();
 
+/// The same for a terminal that is closed (unless nohup asks to outlive that) and Ctrl-\, and Ctrl-Z does
+/// nothing: for work that must not stand still, or end at once.
+void catch_all_interrupts();
+
 /// The signal caught so far, or 0.
 int interrupted();
 

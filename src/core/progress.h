@@ -4,15 +4,14 @@
 #include <cstdint>
 #include <string>
 
+#include "core/status_line.h"
+
 namespace sandstroke {
 
 /// A progress bar with the time left on stderr, for work that lasts over a second, on a terminal only.
 class Progress {
  public:
   explicit Progress(std::string title);
-  ~Progress();
-  Progress(const Progress&) = delete;
-  Progress& operator=(const Progress&) = delete;
 
   /// fraction done, 0 to 1; cheap enough to be called often.
   void update(double fraction);
@@ -22,12 +21,10 @@ class Progress {
  private:
   using Clock = std::chrono::steady_clock;
   bool due();
-  void draw(const std::string& line);
   std::string title_;
   Clock::time_point start_;
   Clock::time_point next_draw_;
-  bool terminal_;
-  bool drawn_ = false;
+  StatusLine line_;
 };
 
 }  // namespace sandstroke

@@ -39,6 +39,8 @@ class HapticDevice {
   virtual const DeviceSpecification& specification() const = 0;
   /// For how long there is something to record [s]; none: as long as a hand holds it.
   virtual std::optional<double> duration() const { return std::nullopt; }
+  /// For how long it may give nothing and is still there [s]: a recorded stroke that is played has gaps.
+  virtual double longest_silence() const { return 0.0; }
 
   /// In the servo loop, and so without waiting, throwing or taking memory. time [s]: since the recording
   /// began; a real device does not need it, what stands in for a hand moves by it. False: it gave nothing.

@@ -32,11 +32,13 @@ struct Stroke {
 
   /// The pen is down at sample i.
   bool touches(std::size_t i) const { return contact.empty() || contact[i] != pen_up; }
-  /// Samples i and i + 1 are drawn as one line; otherwise the tool is lifted between them.
-  bool joined(std::size_t i) const {
-    return i + 1 < size() && touches(i) && touches(i + 1) && time[i + 1] - time[i] <= gap_threshold &&
+  /// It is known where the hand is between samples i and i + 1.
+  bool sampled_between(std::size_t i) const {
+    return i + 1 < size() && time[i + 1] - time[i] <= gap_threshold &&
            (contact.empty() || contact[i] != pen_lifts);
   }
+  /// Samples i and i + 1 are drawn as one line; otherwise the tool is lifted between them.
+  bool joined(std::size_t i) const { return sampled_between(i) && touches(i) && touches(i + 1); }
 };
 
 /// What every reader and maker of a stroke guarantees: at least one sample, columns of equal length, finite

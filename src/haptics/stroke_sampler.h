@@ -35,6 +35,7 @@ class StrokeSampler {
   /// and after the end the hand rests, lifted.
   Hand at(double t);
 
+  const Stroke& stroke() const { return stroke_; }
   double start_time() const { return stroke_.time.front(); }
   double end_time() const { return stroke_.time.back(); }
   const std::vector<StrokeGap>& gaps() const { return gaps_; }

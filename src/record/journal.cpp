@@ -124,7 +124,15 @@ void JournalWriter::write(const std::string& blocks, std::size_t block_size) {
 void JournalWriter::append(std::span<const RecordedSample> samples) {
   blocks_.clear();
   for (const RecordedSample& sample : samples) put_block(blocks_, sample_block, &sample, sizeof sample);
-  write(blocks_, journal_sample_bytes);
+  const std::uint64_t begin = size_;
+  const auto count = [&] { samples_ += static_cast<std::int64_t>((size_ - begin) / journal_sample_bytes); };
+  try {
+    write(blocks_, journal_sample_bytes);
+  } catch (...) {
+    count();
+    throw;
+  }
+  count();
 }
 
 void JournalWriter::sync() {

@@ -41,6 +41,8 @@ class JournalWriter {
   void append(std::span<const RecordedSample> samples);
   /// On the disk: a power failure does not lose it either.
   void sync();
+  /// Samples that are in it, whole; after a failure too, where not all of an append were taken.
+  std::int64_t samples() const { return samples_; }
   /// On the disk, and free for readers.
   void finish(const RecordingFooter& footer);
 
@@ -53,7 +55,8 @@ class JournalWriter {
   int file_ = -1;
   std::optional<FileLock> lock_;  // while it is being written
   std::uint64_t size_ = 0;        // bytes of whole blocks
-  std::string blocks_;            // of one append
+  std::int64_t samples_ = 0;
+  std::string blocks_;  // of one append
 };
 
 /// Reads back what there is of a recording: up to the last sound sample, whatever follows.

@@ -33,6 +33,7 @@ ServoLoop::ServoLoop(HapticDevice& device, FeltWorld* world, LoopClock& clock, S
       ring_(ring),
       rate_(settings.rate),
       silence_(to_nanoseconds(settings.silence)),
+      device_silence_(silence_ + to_nanoseconds(device.longest_silence())),
       last_tick_(std::numeric_limits<std::int64_t>::max()),
       end_reason_(StopReason::duration),
       gives_force_(device.specification().max_force > 0.0),
@@ -111,7 +112,7 @@ void ServoLoop::serve_tick(std::int64_t now) noexcept {
     command(Vector3d::Zero());
   }
   if (answers) last_answer_ = now;
-  if (now - last_answer_ >= silence_) stop(StopReason::device_lost);
+  if (now - last_answer_ >= device_silence_) stop(StopReason::device_lost);
 }
 
 bool ServoLoop::read(double time, DeviceReading& reading) noexcept {

@@ -71,7 +71,7 @@ class ServoLoop {
   LoopClock& clock_;
   SpscRing<RecordedSample>& ring_;
   double rate_;
-  std::int64_t silence_;  // ns
+  std::int64_t silence_, device_silence_;  // ns
   std::int64_t last_tick_;
   StopReason end_reason_;  // after the last tick
   bool gives_force_;

@@ -1,16 +1,47 @@
 #pragma once
 
+#include <array>
+#include <atomic>
+#include <string>
+
 #include "haptics/haptic_device.h"
 #include "haptics/stroke_sampler.h"
 
 namespace sandstroke {
 
-/// A device whose hand moves along a stroke, scripted or recorded, in real time, and feels nothing: for
-/// people without one.
+/// A device whose hand moves along a stroke, scripted or recorded, in real time, and rests at its end: for
+/// people without one. It takes any force and feels nothing.
+///
+/// Where the stroke has no samples (they are further apart than its gap_threshold, or the pen lifts) nobody
+/// knows where the hand was, so nothing is read: what is recorded has the same gap, not a line drawn across
+/// it. A device knows no pen: samples with the pen up are played as positions like all others, so what was
+/// lifted on a tablet must be lifted in space (as scripts do, by their clearance) not to be drawn.
 class StrokeDevice : public HapticDevice {
  public:
-  /// name: of its specification's model.
+  /// The stroke must have passed check_stroke. name: of its specification's model.
   StrokeDevice(Stroke stroke, std::string name);
+
+  void open() override {}
+  void calibrate() override {}
+  const DeviceSpecification& specification() const override { return specification_; }
+  /// The stroke's.
+  std::optional<double> duration() const override { return sampler_.stroke().duration(); }
+  /// Its longest gap.
+  double longest_silence() const override { return longest_silence_; }
+  /// time [s]: since the stroke's first sample. The switches are those of the last sample until then.
+  bool read(double time, DeviceReading& reading) noexcept override;
+  bool command(const Eigen::Vector3d& force) noexcept override;
+  void release() noexcept override { command(Eigen::Vector3d::Zero()); }
+  void close() noexcept override { release(); }
+
+  /// The last force commanded [N]; from any thread.
+  Eigen::Vector3d force() const;
+
+ private:
+  StrokeSampler sampler_;
+  DeviceSpecification specification_;
+  double longest_silence_ = 0.0;                // s
+  std::array<std::atomic<double>, 3> force_{};  // N
 };
 
 }  // namespace sandstroke

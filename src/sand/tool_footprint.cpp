@@ -47,7 +47,9 @@ void ToolFootprint::place(const HeightField& bed, double x, double y) {
 void ToolFootprint::make_room() {
   const std::size_t needed = at(cells_.rows());
   if (needed <= room_) return;
-  room_ = needed + needed / 4;  // the window's size changes by a row or column as the tool moves
+  // As the tool moves, the window gains a row or a column, and so perhaps 8 of the stride: not in a servo
+  // loop.
+  room_ = static_cast<std::size_t>(cells_.rows() + 1) * (stride_ + 8);
   for (auto* memory : {&heights_, &underside_, &rampart_, &weights_}) {
     *memory = hwy::AllocateAligned<double>(room_);
     std::fill_n(memory->get(), room_, 0.0);

@@ -1,5 +1,7 @@
 #include "record/seen_device.h"
 
+#include <gtest/gtest.h>
+
 #include "chai3d/chai3d_device.h"
 #include "devices/CGenericHapticDevice.h"
 
@@ -77,9 +79,13 @@ class SeenDevice : public HapticDevice {
   explicit SeenDevice(FakeDevice& played)
       : played_(played), device_(std::make_shared<PlayedDevice>(played)), seen_(device_) {}
 
-  void open() override { seen_.open(); }
+  void open() override {
+    seen_.open();
+    specification_ = seen_.specification();
+    specification_.switches = played_.specification().switches;  // CHAI3D does not say
+  }
   void calibrate() override { seen_.calibrate(); }
-  const DeviceSpecification& specification() const override { return seen_.specification(); }
+  const DeviceSpecification& specification() const override { return specification_; }
   std::optional<double> duration() const override { return played_.duration(); }
   bool read(double time, DeviceReading& reading) noexcept override {
     device_->time = time;
@@ -90,8 +96,9 @@ class SeenDevice : public HapticDevice {
     return seen_.command(force);
   }
   void release() noexcept override {
-    ++played_.released;
     seen_.release();
+    EXPECT_EQ(played_.held, Vector3d::Zero());
+    played_.release();
   }
   void close() noexcept override { seen_.close(); }
 
@@ -99,6 +106,7 @@ class SeenDevice : public HapticDevice {
   FakeDevice& played_;
   std::shared_ptr<PlayedDevice> device_;
   Chai3dDevice seen_;
+  DeviceSpecification specification_;
 };
 
 }  // namespace

@@ -6,7 +6,9 @@
 #include <numbers>
 #include <random>
 
+#include "allocations.h"
 #include "core/error.h"
+#include "haptics/recording.h"
 #include "sim/simulation.h"
 
 namespace sandstroke {
@@ -156,6 +158,43 @@ TEST(LiveSand, ErodingInItsOwnThreadLosesNoSand) {
   EXPECT_GT(report.erosion.relaxations, 0);
   EXPECT_LT((sand.bed().grid() - sand.eroding_bed().grid()).abs().maxCoeff(), 1e-12);
   EXPECT_LT(std::abs(sand.bed().volume() - start.volume()), 1e-15);
+}
+
+TEST(LiveSand, TakesNoMemoryInTheLoop) {
+  if (!allocations_are_counted()) GTEST_SKIP() << "allocations are not counted under sanitizers";
+  Scene scene = small_scene();
+  scene.displacement.deposit = Deposit::ahead;
+  LiveSand sand(scene, bed_of(scene), "bed");
+  sand.start();
+  const std::vector<double> times = even_times(3.0);
+  const std::int64_t before = allocations_of_this_thread();
+  std::int64_t contact = 0;
+  for (const double t : times) contact += sand.feel(t, {SmoothHand::at(t)}).force.z() > 0.0;
+  EXPECT_EQ(allocations_of_this_thread(), before);
+  EXPECT_GT(contact, 500);
+  sand.finish();
+}
+
+TEST(LiveSand, ThatErodesTooSlowlyIsFeltButNotDug) {
+  // Nobody takes what is dug: when the way to the eroding bed is full, the tool stops digging, and says so;
+  // no sand is lost.
+  Scene scene = small_scene();
+  const HeightField start = bed_of(scene);
+  LiveSand sand(scene, start, "bed");
+  std::uint32_t flags = 0;
+  FeltForce felt;
+  for (int k = 0; k < 100'000 && !(flags & held_sand); ++k) {
+    const double angle = 0.05 * k;
+    felt = sand.feel(k * 1e-3,
+                     {Eigen::Vector3d(0.1 * std::cos(angle), 0.1 * std::sin(angle), -0.01 - 1e-6 * k)});
+    flags |= felt.flags;
+  }
+  EXPECT_EQ(flags, held_sand);
+  EXPECT_GT(felt.force.z(), 0.0);
+  const LiveSandReport report = sand.finish();
+  EXPECT_EQ(report.held_ticks, 1);
+  EXPECT_LT((sand.bed().grid() - sand.eroding_bed().grid()).abs().maxCoeff(), 1e-12);
+  EXPECT_LT(std::abs(sand.bed().volume() - start.volume()), 1e-13);
 }
 
 TEST(LiveSand, FeelsInTheDevicesAxesAndScale) {

@@ -29,11 +29,18 @@ TEST(SpscRing, LosesNothingBetweenTwoThreads) {
   SpscRing<int> ring(64);
   constexpr int count = 200'000;
   std::thread filler([&] {
-    for (int i = 0; i < count;) i += ring.push(i);
+    for (int i = 0; i < count;)
+      if (ring.push(i))
+        ++i;
+      else
+        std::this_thread::yield();
   });
   for (int expected = 0; expected < count;) {
     int item = -1;
-    if (!ring.pop(item)) continue;
+    if (!ring.pop(item)) {
+      std::this_thread::yield();
+      continue;
+    }
     ASSERT_EQ(item, expected);
     ++expected;
   }

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "record/fake_device.h"
+#include "record/seen_device.h"
 
 namespace sandstroke {
 namespace {
@@ -27,8 +27,13 @@ class StalledLoopTest : public testing::Test {
     settings.force = {8.0, 0.0, 1e9};
     settings.duration = 0.1;
   }
+  void make_loop() {
+    opened = seen(device);
+    opened->open();
+    loop.emplace(*opened, &world, clock, ring, settings);
+  }
   /// As the watchdog's thread would find it.
-  bool look() { return release_if_stalled(loop.value(), device, clock.now(), limit); }
+  bool look() { return release_if_stalled(loop.value(), *opened, clock.now(), limit); }
   void hang(std::int64_t time) { clock.add(time); }
   static bool in_tick(double time, int tick) { return std::llround(time * 1000) == tick; }
 
@@ -37,6 +42,7 @@ class StalledLoopTest : public testing::Test {
   FakeWorld world{[](double) { return FeltForce{{0.0, 0.0, 5.0}, 0}; }};
   SpscRing<RecordedSample> ring{1024};
   ServoSettings settings;
+  std::shared_ptr<HapticDevice> opened;
   std::optional<ServoLoop> loop;
 };
 
@@ -56,7 +62,7 @@ TEST_F(StalledLoopTest, IsReleasedAndGivesNoForceAfterwards) {
     }
     return true;
   };
-  loop.emplace(device, &world, clock, ring, settings);
+  make_loop();
   const RecordingFooter footer = loop->run();
   EXPECT_EQ(footer.reason, StopReason::stall);
   EXPECT_EQ(footer.ticks.elapsed, 31);
@@ -77,13 +83,13 @@ TEST_F(StalledLoopTest, TakesBackAForceThatItWasAboutToCommand) {
     }
     return true;
   };
-  loop.emplace(device, &world, clock, ring, settings);
+  make_loop();
   EXPECT_EQ(loop->run().reason, StopReason::stall);
   EXPECT_EQ(device.held, Vector3d::Zero());
 }
 
 TEST_F(StalledLoopTest, IsNoneThatHasNotBegunOrIsOver) {
-  loop.emplace(device, &world, clock, ring, settings);
+  make_loop();
   hang(10 * limit);
   EXPECT_FALSE(look());
   EXPECT_EQ(loop->run().reason, StopReason::duration);

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string>
+
+namespace sandstroke {
+
+/// One line on stderr that is drawn over and over, on a terminal only and not where the log is quiet; gone
+/// with its holder.
+class StatusLine {
+ public:
+  StatusLine();
+  ~StatusLine() { clear(); }
+  StatusLine(const StatusLine&) = delete;
+  StatusLine& operator=(const StatusLine&) = delete;
+
+  /// Somebody sees it.
+  bool visible() const { return visible_; }
+  void draw(const std::string& text);
+  void clear();
+
+ private:
+  bool visible_, drawn_ = false;
+};
+
+}  // namespace sandstroke

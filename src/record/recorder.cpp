@@ -1,0 +1,89 @@
+#include "record/recorder.h"
+
+#include <spdlog/fmt/chrono.h>
+
+#include <cmath>
+#include <ctime>
+#include <exception>
+#include <utility>
+
+#include "core/error.h"
+#include "record/journal.h"
+#include "record/sample_writer.h"
+#include "record/watchdog.h"
+
+namespace sandstroke {
+namespace {
+
+/// A device that is open as long as this is there.
+class OpenDevice {
+ public:
+  explicit OpenDevice(HapticDevice& device) : device_(device) { device_.open(); }
+  OpenDevice(const OpenDevice&) = delete;
+  ~OpenDevice() {
+    device_.release();
+    device_.close();
+  }
+
+ private:
+  HapticDevice& device_;
+};
+
+void check_stop_switch(std::optional<int> number, const DeviceSpecification& device) {
+  const int most = device.switches > 0 ? std::min(device.switches, 32) : 32;  // 0: it does not say
+  if (number && (*number < 0 || *number >= most)) {
+    throw_input_error("stop switch {}: {} has the switches 0 to {}; choose one of them", *number,
+                      device.model, most - 1);
+  }
+}
+
+std::string utc_now() { return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr))); }
+
+}  // namespace
+
+RecordingReport record(HapticDevice& device, FeltWorld* world, const RecorderSettings& settings,
+                       RecordingHeader header, const std::filesystem::path& journal,
+                       const RecordingWatcher& watcher) {
+  const OpenDevice open(device);
+  check_stop_switch(settings.servo.stop_switch, device.specification());
+  if (settings.calibrate) device.calibrate();
+
+  MonotonicClock clock;
+  SpscRing<RecordedSample> ring(static_cast<std::size_t>(std::ceil(settings.ring * settings.servo.rate)));
+  ServoLoop loop(device, world, clock, ring, settings.servo);
+  LoopThread thread(loop, settings.priority, settings.lock_memory);
+
+  header.device = device.specification();
+  header.nominal_rate = settings.servo.rate;
+  header.scheduling = thread.scheduling();
+  header.force_limit = loop.force_limit();
+  header.started = utc_now();
+  JournalWriter file(journal, header);
+  SampleWriter writer(ring, file, loop);
+  const Watchdog watchdog(loop, device, clock, settings.watchdog, settings.priority);
+
+  thread.start();
+  std::exception_ptr failure;
+  try {
+    thread.watch(watcher);
+  } catch (...) {
+    failure = std::current_exception();
+    loop.stop(StopReason::error);
+  }
+  RecordingReport report{std::move(header), thread.footer(), {}};
+  try {
+    writer.finish();
+    file.finish(report.footer);
+  } catch (const Error& error) {
+    // What the loop put into the ring and is not in the file is no more recorded than what found it full.
+    TickCounts& ticks = report.footer.ticks;
+    ticks.dropped += ticks.recorded - file.samples();
+    ticks.recorded = file.samples();
+    report.footer.reason = StopReason::disk;
+    report.disk_error = error.what();
+  }
+  if (failure) std::rethrow_exception(failure);
+  return report;
+}
+
+}  // namespace sandstroke

@@ -1,0 +1,44 @@
+#include "record/stroke_device.h"
+
+#include <algorithm>
+#include <bit>
+#include <limits>
+#include <utility>
+
+namespace sandstroke {
+StrokeDevice::StrokeDevice(Stroke stroke, std::string name) : sampler_(std::move(stroke)) {
+  std::uint32_t ever_pressed = 0;
+  for (const std::uint32_t pressed : sampler_.stroke().switches) ever_pressed |= pressed;
+  for (const StrokeGap& gap : sampler_.gaps())
+    longest_silence_ = std::max(longest_silence_, gap.end - gap.begin);
+  specification_.model = std::move(name);
+  specification_.manufacturer = "sandstroke";
+  specification_.frame = sampler_.stroke().frame;
+  specification_.max_force = std::numeric_limits<double>::max();  // a number, as files need it
+  specification_.switches = std::bit_width(ever_pressed);
+  specification_.measures_velocity = true;  // the derivative of its positions, exactly
+}
+
+bool StrokeDevice::read(double time, DeviceReading& reading) noexcept {
+  const Stroke& stroke = sampler_.stroke();
+  const double t = sampler_.start_time() + time;
+  const auto after = std::upper_bound(stroke.time.begin(), stroke.time.end(), t) - stroke.time.begin();
+  const auto last = static_cast<std::size_t>(std::max<std::ptrdiff_t>(after, 1) - 1);
+  if (last + 1 < stroke.size() && t > stroke.time[last] && !stroke.sampled_between(last)) return false;
+  const Hand hand = sampler_.at(t);
+  reading = {hand.position, hand.velocity, stroke.switches.empty() ? 0 : stroke.switches[last]};
+  return true;
+}
+
+bool StrokeDevice::command(const Eigen::Vector3d& force) noexcept {
+  for (int axis = 0; axis < 3; ++axis) force_[axis].store(force[axis], std::memory_order_relaxed);
+  return true;
+}
+
+Eigen::Vector3d StrokeDevice::force() const {
+  Eigen::Vector3d force;
+  for (int axis = 0; axis < 3; ++axis) force[axis] = force_[axis].load(std::memory_order_relaxed);
+  return force;
+}
+
+}  // namespace sandstroke

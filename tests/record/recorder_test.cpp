@@ -1,0 +1,226 @@
+#include "record/recorder.h"
+
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <csignal>
+#include <fstream>
+#include <stdexcept>
+
+#include "core/error.h"
+#include "core/interrupt.h"
+#include "record/fake_device.h"
+#include "record/journal.h"
+#include "test_folder.h"
+
+namespace sandstroke {
+namespace {
+
+using Eigen::Vector3d;
+
+/// Recordings on the real clock: what is asserted holds whatever the machine does to it.
+class RecorderTest : public testing::Test {
+ protected:
+  RecorderTest() {
+    device.description.model = "fake";
+    device.description.max_force = 12.0;
+    device.description.switches = 2;
+    settings.lock_memory = false;  // of the whole test program
+    settings.servo.duration = 0.2;
+    settings.servo.force.max_force = 8.0;
+    // A machine that stands still is no subject here.
+    settings.watchdog = settings.servo.silence = 1e3;
+  }
+  RecordingReport run(FeltWorld* world = nullptr, const RecordingWatcher& watcher = {}) {
+    return record(device, world, settings, {}, journal, watcher);
+  }
+  void expect_device_left_safe() const {
+    EXPECT_EQ(device.opened, 1);
+    EXPECT_EQ(device.closed, 1);
+    EXPECT_GE(device.released, 1);
+    EXPECT_EQ(device.held, Vector3d::Zero());
+  }
+  /// What the journal holds: how many samples, and whether there is a footer.
+  std::pair<std::int64_t, std::optional<RecordingFooter>> kept() const {
+    JournalReader reader(journal);
+    std::int64_t samples = 0;
+    for (auto some = reader.next(1000); !some.empty(); some = reader.next(1000)) {
+      samples += static_cast<std::int64_t>(some.size());
+    }
+    return {samples, reader.footer()};
+  }
+
+  TestFolder folder;
+  std::filesystem::path journal = folder.path() / "a.h5.recording";
+  FakeDevice device;
+  RecorderSettings settings;
+};
+
+TEST_F(RecorderTest, AccountsForEachTickAndKeepsEachSample) {
+  settings.servo.duration = 1.0;
+  FakeWorld world([](double time) { return FeltForce{{0.0, 0.0, time}, 0}; });
+  int looks = 0;
+  RecordingHeader known;
+  known.source = "fake:";
+  const RecordingReport report =
+      record(device, &world, settings, known, journal, [&](const ServoProgress& progress) {
+        EXPECT_LE(progress.recorded, progress.elapsed);
+        ++looks;
+        return std::nullopt;
+      });
+  EXPECT_GT(looks, 0);
+  EXPECT_EQ(report.disk_error, "");
+  EXPECT_EQ(report.footer.reason, StopReason::duration);
+  const TickCounts& ticks = report.footer.ticks;
+  EXPECT_EQ(ticks.elapsed, 1000);
+  EXPECT_EQ(ticks.elapsed, ticks.recorded + ticks.skipped + ticks.unread + ticks.dropped);
+  EXPECT_EQ(ticks.unread + ticks.dropped, 0);
+  expect_device_left_safe();
+  EXPECT_EQ(device.calibrated, 0) << "for nobody asked for it";
+
+  const auto [samples, footer] = kept();
+  EXPECT_EQ(samples, ticks.recorded);
+  ASSERT_TRUE(footer);
+  EXPECT_EQ(footer->ticks.elapsed, ticks.elapsed);
+  EXPECT_EQ(footer->ticks.skipped, ticks.skipped);
+  EXPECT_EQ(footer->reason, StopReason::duration);
+  const RecordingHeader header = JournalReader(journal).header();
+  EXPECT_EQ(header.source, "fake:");
+  EXPECT_EQ(header.device.model, "fake");
+  EXPECT_EQ(header.nominal_rate, 1000.0);
+  EXPECT_EQ(header.force_limit, 8.0);
+  EXPECT_EQ(header.started.size(), 20u) << header.started;
+  EXPECT_EQ(header.scheduling.policy, report.header.scheduling.policy);
+  EXPECT_EQ(header.scheduling.advice.empty(), header.scheduling.policy == "SCHED_FIFO");
+}
+
+TEST_F(RecorderTest, GivesNoForceWithoutAWorld) {
+  EXPECT_EQ(run().header.force_limit, 0.0);
+  expect_device_left_safe();
+}
+
+TEST_F(RecorderTest, CalibratesWhereItIsAsked) {
+  settings.calibrate = true;
+  run();
+  EXPECT_EQ(device.calibrated, 1);
+}
+
+TEST_F(RecorderTest, StopsWhenTheWatcherSaysSo) {
+  settings.servo.duration.reset();
+  const RecordingReport report = run(nullptr, [](const ServoProgress&) { return StopReason::key; });
+  EXPECT_EQ(report.footer.reason, StopReason::key);
+  EXPECT_EQ(kept().second->reason, StopReason::key);
+  expect_device_left_safe();
+}
+
+TEST_F(RecorderTest, KeepsTheRecordingOfAWatcherThatThrows) {
+  settings.servo.duration.reset();
+  EXPECT_THROW(
+      run(nullptr,
+          [](const ServoProgress&) -> std::optional<StopReason> { throw std::runtime_error("no terminal"); }),
+      std::runtime_error);
+  ASSERT_TRUE(kept().second);
+  EXPECT_EQ(kept().second->reason, StopReason::error);
+  EXPECT_EQ(kept().first, kept().second->ticks.recorded);
+  expect_device_left_safe();
+}
+
+TEST_F(RecorderTest, OverwritesNoJournalAndLeavesTheDeviceSafe) {
+  std::ofstream(journal) << "another's";
+  EXPECT_THROW(run(), Error);
+  expect_device_left_safe();
+  std::string text;
+  std::getline(std::ifstream(journal), text);
+  EXPECT_EQ(text, "another's");
+}
+
+TEST_F(RecorderTest, RefusesASwitchThatTheDeviceHasNot) {
+  for (const auto& [number, switches, right] : {std::tuple{2, 2, false},
+                                                {1, 2, true},
+                                                {31, 0, true},
+                                                {32, 0, false},
+                                                {32, 64, false},
+                                                {-1, 2, false}}) {
+    std::filesystem::remove(journal);
+    device.description.switches = switches;
+    settings.servo.duration = 0.001;
+    settings.servo.stop_switch = number;
+    if (right) {
+      EXPECT_NO_THROW(run());
+    } else {
+      EXPECT_THROW(run(), Error) << number << " of " << switches;
+    }
+    EXPECT_EQ(device.opened, device.closed);
+  }
+}
+
+TEST_F(RecorderTest, KeepsWhatADiskTookBeforeItWasFull) {
+  settings.servo.duration.reset();
+  // The system refuses files beyond a size as it refuses a full disk's.
+  std::signal(SIGXFSZ, SIG_IGN);
+  rlimit before{};
+  getrlimit(RLIMIT_FSIZE, &before);
+  rlimit small = before;
+  small.rlim_cur = 20'000;
+  setrlimit(RLIMIT_FSIZE, &small);
+  const RecordingReport report = run();
+  setrlimit(RLIMIT_FSIZE, &before);
+  std::signal(SIGXFSZ, SIG_DFL);
+
+  EXPECT_EQ(report.footer.reason, StopReason::disk);
+  EXPECT_NE(report.disk_error.find(journal.string()), std::string::npos) << report.disk_error;
+  const auto [samples, footer] = kept();
+  EXPECT_FALSE(footer);
+  EXPECT_GT(samples, 100);
+  EXPECT_EQ(samples, report.footer.ticks.recorded);
+  const TickCounts& ticks = report.footer.ticks;
+  EXPECT_EQ(ticks.elapsed, ticks.recorded + ticks.skipped + ticks.unread + ticks.dropped);
+  expect_device_left_safe();
+}
+
+/// Whose read hangs in one tick, until somebody releases it.
+class HangingDevice : public FakeDevice {
+ public:
+  bool read(double, DeviceReading&) noexcept override {
+    if (++reads_ < 20) return true;
+    while (!free_) std::this_thread::yield();
+    return true;
+  }
+  void release() noexcept override { free_ = true; }
+
+ private:
+  int reads_ = 0;
+  std::atomic<bool> free_ = false;
+};
+
+TEST_F(RecorderTest, FreesALoopThatHangsInTheDevice) {
+  HangingDevice hanging;
+  hanging.description.max_force = 12.0;
+  settings.servo.duration.reset();
+  settings.watchdog = 0.05;
+  FakeWorld world([](double) { return FeltForce{{0.0, 0.0, 1.0}, 0}; });
+  const RecordingReport report = record(hanging, &world, settings, {}, journal, {});
+  EXPECT_EQ(report.footer.reason, StopReason::stall);
+  EXPECT_EQ(kept().second->reason, StopReason::stall);
+  EXPECT_EQ(hanging.held, Vector3d::Zero());
+  EXPECT_EQ(hanging.closed, 1);
+}
+
+using RecorderDeathTest = RecorderTest;  // run first, before there are threads that a fork would lose
+
+TEST_F(RecorderDeathTest, StopsAtAnInterrupt) {
+  settings.servo.duration.reset();
+  EXPECT_EXIT(
+      {
+        catch_interrupts();
+        std::raise(SIGINT);
+        _exit(run().footer.reason == StopReason::signal ? 0 : 1);
+      },
+      testing::ExitedWithCode(0), "");
+  EXPECT_EQ(kept().second->reason, StopReason::signal);
+}
+
+}  // namespace
+}  // namespace sandstroke

@@ -1,0 +1,178 @@
+#include <spdlog/spdlog.h>
+
+#include <memory>
+
+#include "commands.h"
+#include "core/error.h"
+#include "core/interrupt.h"
+#include "core/output_file.h"
+#include "find_device.h"
+#include "io/recording_file.h"
+#include "record/journal.h"
+#include "record_display.h"
+#include "record_parts.h"
+#include "stop_keys.h"
+
+namespace sandstroke {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Arguments {
+  std::string output, device;
+  RecorderSettings settings;
+  double duration = 0.0;  // s; 0: not given
+  int stop_switch = -1;   // not given
+  bool list = false, check = false, overwrite = false, no_memory_lock = false, json = false;
+};
+
+RecorderSettings recorder_settings(const Arguments& arguments) {
+  RecorderSettings settings = arguments.settings;
+  if (arguments.duration > 0.0) settings.servo.duration = arguments.duration;
+  if (arguments.stop_switch >= 0) settings.servo.stop_switch = arguments.stop_switch;
+  settings.lock_memory = !arguments.no_memory_lock;
+  return settings;
+}
+
+/// A recording cannot be made again: nothing that may be one is written over unasked.
+void check_free(const fs::path& output, bool overwrite) {
+  if (fs::exists(output) && !overwrite)
+    throw_input_error("{}: is there already; name another file, or say --overwrite", output.string());
+  const fs::path journal = journal_path(output);
+  if (fs::exists(journal))
+    throw_input_error(
+        "{}: is there, so a recording of this name was cut off, or still goes on; sandstroke stroke repair "
+        "{} "
+        "makes a stroke of it",
+        journal.string(), journal.string());
+}
+
+RecordingReport record_stroke(HapticDevice& device, const Arguments& arguments) {
+  RecordingHeader header;
+  header.source = arguments.device;
+  catch_all_interrupts();
+  StopKeys keys;
+  RecordDisplay display(keys.listening() ? "; q ends it" : "");
+  return record(device, nullptr, recorder_settings(arguments), header, journal_path(arguments.output),
+                [&](const ServoProgress& progress) -> std::optional<StopReason> {
+                  display.show(progress);
+                  if (interrupted()) return StopReason::signal;
+                  if (keys.pressed()) return StopReason::key;
+                  return std::nullopt;
+                });
+}
+
+/// The journal goes once the stroke is whole.
+void write_stroke(const fs::path& output, const RecordingReport& report) {
+  const fs::path journal = journal_path(output);
+  if (report.footer.ticks.recorded == 0) {
+    fs::remove(journal);
+    throw_io_error("{}: nothing was recorded, for {}; sandstroke record --list shows what is connected",
+                   output.string(), stop_reason_text(report.footer.reason));
+  }
+  try {
+    JournalReader reader(journal);
+    write_recording_file(output, report.header, report.footer, [&] { return reader.next(4096); });
+  } catch (const Error& failure) {
+    throw_io_error("{}. What was recorded is in {}: sandstroke stroke repair {} makes the stroke of it",
+                   failure.what(), journal.string(), journal.string());
+  }
+  fs::remove(journal);
+}
+
+void warn(const RecordingReport& report, const std::string& output) {
+  const RecordingFooter& footer = report.footer;
+  if (!is_complete(footer.reason))
+    spdlog::warn("{} is incomplete, for {}; it holds what was recorded until then", output,
+                 stop_reason_text(footer.reason));
+  if (!report.header.scheduling.advice.empty()) spdlog::warn("{}", report.header.scheduling.advice);
+}
+
+int exit_code(StopReason reason) {
+  if (is_complete(reason)) return 0;
+  if (reason == StopReason::signal) return 128 + interrupted();
+  return static_cast<int>(reason == StopReason::no_number ? ErrorKind::unstable : ErrorKind::io);
+}
+
+int record(const Arguments& arguments) {
+  if (arguments.list) return list_devices(arguments.json);
+  if (arguments.check) return check_machine(recorder_settings(arguments), arguments.json);
+  if (arguments.output.empty() || arguments.device.empty())
+    throw_input_error(
+        "record needs a file to write and a device: sandstroke record -o STROKE.h5 --device NAME; sandstroke "
+        "record --list shows which there are");
+
+  check_output(arguments.output, {});
+  check_free(arguments.output, arguments.overwrite);
+  const std::unique_ptr<HapticDevice> device = find_device(arguments.device, ForceSettings{});
+  const RecordingReport report = record_stroke(*device, arguments);
+  write_stroke(arguments.output, report);
+  print_recording(report, arguments.output, arguments.json);
+  warn(report, arguments.output);
+  return exit_code(report.footer.reason);
+}
+
+/// Slower, the watchdog would take every tick for a stall; faster, no device is.
+CLI::Validator servo_rate() {
+  return CLI::Validator(
+      [](std::string& text) -> std::string {
+        double rate = 0.0;
+        return CLI::detail::lexical_cast(text, rate) && rate >= 100.0 && rate <= 10000.0
+                   ? ""
+                   : text + " is not a number of 100 to 10000";
+      },
+      "100 to 10000");
+}
+
+}  // namespace
+
+void add_record_command(CLI::App& app, Command& chosen) {
+  CLI::App* command = app.add_subcommand(
+      "record", "Records a stroke from a haptic device, or from a stand-in that plays one, tick by tick");
+  auto arguments = std::make_shared<Arguments>();
+  RecorderSettings& settings = arguments->settings;
+  command->add_option("-o,--output", arguments->output, "Stroke to write (.h5)")->option_text("STROKE.h5");
+  command
+      ->add_option("--device", arguments->device,
+                   "chai3d, chai3d:N, scripted:FILE.toml or replay:FILE.h5 (see --list)")
+      ->option_text("NAME");
+  auto* list = command->add_flag("--list", arguments->list, "Say which devices and stand-ins there are");
+  auto* check = command->add_flag(
+      "--check", arguments->check,
+      "Measure whether this machine keeps the loop's times, without a device (10 s, or --duration)");
+  list->excludes(check);
+  command
+      ->add_option(
+          "--duration", arguments->duration,
+          "End after so long [s]; without: at the end of the stroke that is played, or by q, Ctrl-C or "
+          "--stop-switch")
+      ->check(positive_number())
+      ->option_text("S");
+  command->add_option("--rate", settings.servo.rate, "Ticks a second [Hz]")
+      ->check(servo_rate())
+      ->capture_default_str();
+  command
+      ->add_option("--stop-switch", arguments->stop_switch, "End when this switch of the device is pressed")
+      ->check(CLI::Range(0, 31))
+      ->option_text("K");
+  command->add_flag("--calibrate", settings.calibrate,
+                    "Calibrate the device first, which MAY MOVE ITS ARM: keep clear of it");
+  command
+      ->add_option("--priority", settings.priority,
+                   "Real-time priority (SCHED_FIFO) of the loop, 1 to 99; 0: not asked for")
+      ->check(CLI::Range(0, 99))
+      ->capture_default_str();
+  command->add_flag("--no-memory-lock", arguments->no_memory_lock,
+                    "Do not ask for memory that is never paged out");
+  command->add_flag("--overwrite", arguments->overwrite, "STROKE.h5 may be there: replace it");
+  command->add_flag("--json", arguments->json, "One JSON object in SI units instead of a table");
+  command->footer(
+      "Ended by a time, a key, a switch or its stroke, a recording is complete. Whatever else ends it: what "
+      "was\n"
+      "recorded is kept, marked incomplete; where even that was prevented (kill -9, power), it is in\n"
+      "STROKE.h5.recording, and sandstroke stroke repair saves it.\n"
+      "Example:  sandstroke record --device scripted:strokes/wscg/stroke.toml -o wscg.h5");
+  command->callback([arguments, &chosen] { chosen = [arguments] { return record(*arguments); }; });
+}
+
+}  // namespace sandstroke

@@ -1,0 +1,59 @@
+#include <spdlog/spdlog.h>
+
+#include "core/interrupt.h"
+#include "core/progress.h"
+#include "print_json.h"
+#include "record/loop_check.h"
+#include "record/recording_json.h"
+#include "record_parts.h"
+
+namespace sandstroke {
+namespace {
+
+constexpr int not_fit = 1;
+
+/// What may help, where the scheduling was all that was asked for.
+constexpr const char* other_remedies =
+    "close other programs, switch power saving off (cpupower frequency-set -g performance), or take a lower "
+    "--rate";
+
+void print_table(const LoopCheck& check, const ServoSettings& servo) {
+  const auto row = [](const char* name, const std::string& value) { fmt::print("{:<12} {}\n", name, value); };
+  row("loop", fmt::format("{:.3f} s at {:.6g} Hz", static_cast<double>(check.loop.ticks.elapsed) / servo.rate,
+                          servo.rate));
+  row("scheduling", scheduling_text(check.scheduling));
+  row("ticks", ticks_text(check.loop.ticks));
+  row("lateness", lateness_text(check.loop));
+  const std::string remedy = check.scheduling.advice.empty() ? other_remedies : check.scheduling.advice;
+  row("verdict", check.fit ? "fit to record at this rate" : "NOT FIT to record at this rate: " + remedy);
+}
+
+}  // namespace
+
+int check_machine(RecorderSettings settings, bool json) {
+  if (!settings.servo.duration) settings.servo.duration = 10.0;
+  LoopCheck check;
+  {
+    Progress bar("check");
+    check = check_loop(settings, [&](const ServoProgress& progress) -> std::optional<StopReason> {
+      bar.update(progress.time / *settings.servo.duration);
+      return interrupted() ? std::optional(StopReason::signal) : std::nullopt;
+    });
+  }
+  if (json) {
+    nlohmann::ordered_json object = {{"fit", check.fit},
+                                     {"nominal_rate", settings.servo.rate},
+                                     {"scheduling", check.scheduling.policy},
+                                     {"scheduling_priority", check.scheduling.priority},
+                                     {"memory_locked", check.scheduling.memory_locked},
+                                     {"scheduling_advice", check.scheduling.advice}};
+    object.update(as_json(check.loop));
+    print_json(object);
+  } else {
+    print_table(check, settings.servo);
+  }
+  if (interrupted()) return 128 + interrupted();
+  return check.fit ? 0 : not_fit;
+}
+
+}  // namespace sandstroke
