@@ -77,9 +77,14 @@ RecordingReport record_stroke(HapticDevice& device, FeltWorld* world, RecordingH
                 });
 }
 
-/// The journal goes once the stroke is whole.
-void write_stroke(const fs::path& output) {
+/// The journal goes once the stroke is whole, or where there is nothing in it.
+void write_stroke(const fs::path& output, const RecordingFooter& recorded) {
   const fs::path journal = journal_path(output);
+  if (recorded.ticks.recorded == 0) {
+    fs::remove(journal);
+    throw_io_error("{}: was not written, for nothing was recorded: {}", output.string(),
+                   stop_reason_text(recorded.reason));
+  }
   try {
     JournalReader reader(journal);
     write_recording_file(output, reader);
@@ -131,7 +136,7 @@ int record(const Arguments& arguments) {
       record_stroke(*device, sand ? &*sand : nullptr, std::move(header), arguments);
   std::optional<LiveSandReport> felt_sand;
   if (sand) felt_sand = sand->finish();
-  write_stroke(arguments.output);
+  write_stroke(arguments.output, report.footer);
   print_recording(report, felt_sand, arguments.output, arguments.json);
   warn(report, arguments.output);
   return exit_code(report.footer.reason);
