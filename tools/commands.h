@@ -2,6 +2,8 @@
 
 #include <CLI/CLI.hpp>
 #include <functional>
+#include <string>
+#include <vector>
 
 namespace sandstroke {
 
@@ -11,6 +13,9 @@ using Command = std::function<int()>;
 /// What an option accepts, said in a user's words; not-a-number is refused too.
 CLI::Validator positive_number();
 CLI::Validator not_negative_number();
+
+/// --set, which overrides keys of a scene: for load_scene.
+CLI::Option* add_set_option(CLI::App& command, std::vector<std::string>& overrides);
 
 // Each adds one subcommand, which sets `chosen` when it is called.
 void add_run_command(CLI::App& app, Command& chosen);

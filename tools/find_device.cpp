@@ -30,24 +30,29 @@ std::unique_ptr<HapticDevice> make_chai3d_device(int) {
                     knows_chai3d ? "" : ", and chai3d where this program is built with it");
 }
 
-std::unique_ptr<HapticDevice> find_chai3d_device(const std::string& name, const std::string& number) {
-  int index = 0;
-  const auto [end, failure] = std::from_chars(number.data(), number.data() + number.size(), index);
-  if (failure != std::errc() || end != number.data() + number.size() || index < 0) throw_no_such_device(name);
-  return make_chai3d_device(index);
+/// N of "chai3d:N".
+int device_number(const std::string& name) {
+  const char *begin = name.data() + name.find(':') + 1, *end = name.data() + name.size();
+  int number = 0;
+  const auto [stopped, failure] = std::from_chars(begin, end, number);
+  if (failure != std::errc() || stopped != end || number < 0) throw_no_such_device(name);
+  return number;
 }
 
 }  // namespace
 
+std::filesystem::path file_played(const std::string& name) {
+  for (const std::string kind : {"scripted:", "replay:"})
+    if (name.starts_with(kind)) return name.substr(kind.size());
+  return {};
+}
+
 std::unique_ptr<HapticDevice> find_device(const std::string& name, const ForceSettings& force) {
-  const std::size_t colon = name.find(':');
-  const std::string kind = name.substr(0, colon);
-  const std::string which = colon == std::string::npos ? "" : name.substr(colon + 1);
-  if (name == "chai3d") return find_chai3d_device(name, "0");
-  if (kind == "chai3d") return find_chai3d_device(name, which);
-  if ((kind == "scripted" || kind == "replay") && !which.empty())
-    return std::make_unique<StrokeDevice>(load_stroke(which, force), name);
-  throw_no_such_device(name);
+  if (name == "chai3d") return make_chai3d_device(0);
+  if (name.starts_with("chai3d:")) return make_chai3d_device(device_number(name));
+  const std::filesystem::path file = file_played(name);
+  if (file.empty()) throw_no_such_device(name);
+  return std::make_unique<StrokeDevice>(load_stroke(file, force), name);
 }
 
 std::vector<ConnectedDevice> connected_devices() {

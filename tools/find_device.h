@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
@@ -13,6 +14,9 @@ namespace sandstroke {
 /// "replay:FILE.h5" (a stand-in that plays this stroke; `force` says how deep a scripted force presses). It
 /// is not open yet. Error: input, listing what there is; io where a file cannot be read.
 std::unique_ptr<HapticDevice> find_device(const std::string& name, const ForceSettings& force);
+
+/// The file that the device of a name plays; empty: none.
+std::filesystem::path file_played(const std::string& name);
 
 /// A device that is connected, and how to name it.
 struct ConnectedDevice {

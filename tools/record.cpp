@@ -1,6 +1,8 @@
 #include <spdlog/spdlog.h>
 
+#include <limits>
 #include <memory>
+#include <optional>
 
 #include "commands.h"
 #include "core/error.h"
@@ -8,6 +10,8 @@
 #include "core/output_file.h"
 #include "find_device.h"
 #include "io/recording_file.h"
+#include "io/scene_toml.h"
+#include "io/surface_file.h"
 #include "record/journal.h"
 #include "record_display.h"
 #include "record_parts.h"
@@ -19,7 +23,8 @@ namespace {
 namespace fs = std::filesystem;
 
 struct Arguments {
-  std::string output, device;
+  std::string output, device, felt_scene;
+  std::vector<std::string> overrides;  // of the felt scene
   RecorderSettings settings;
   double duration = 0.0;  // s; 0: not given
   int stop_switch = -1;   // not given
@@ -31,6 +36,7 @@ RecorderSettings recorder_settings(const Arguments& arguments) {
   if (arguments.duration > 0.0) settings.servo.duration = arguments.duration;
   if (arguments.stop_switch >= 0) settings.servo.stop_switch = arguments.stop_switch;
   settings.lock_memory = !arguments.no_memory_lock;
+  if (arguments.felt_scene.empty()) settings.servo.force.max_force = 0.0;  // nothing is felt
   return settings;
 }
 
@@ -47,32 +53,41 @@ void check_free(const fs::path& output, bool overwrite) {
         journal.string(), journal.string());
 }
 
-RecordingReport record_stroke(HapticDevice& device, const Arguments& arguments) {
-  RecordingHeader header;
-  header.source = arguments.device;
+/// The files that may not be written over, for they are read.
+std::vector<fs::path> inputs(const Arguments& arguments, const std::optional<Scene>& felt) {
+  std::vector<fs::path> files;
+  if (const fs::path played = file_played(arguments.device); !played.empty()) files.push_back(played);
+  if (!felt) return files;
+  files.push_back(arguments.felt_scene);
+  if (felt->bed.surface.kind == SurfaceKind::file)
+    files.push_back(fs::path(arguments.felt_scene).parent_path() / felt->bed.surface.file);
+  return files;
+}
+
+RecordingReport record_stroke(HapticDevice& device, FeltWorld* world, RecordingHeader header,
+                              const Arguments& arguments) {
   catch_all_interrupts();
   StopKeys keys;
   RecordDisplay display(keys.listening() ? "; q ends it" : "");
-  return record(device, nullptr, recorder_settings(arguments), header, journal_path(arguments.output),
+  return record(device, world, recorder_settings(arguments), std::move(header),
+                journal_path(arguments.output),
                 [&](const ServoProgress& progress) -> std::optional<StopReason> {
                   display.show(progress);
-                  if (interrupted()) return StopReason::signal;
-                  if (keys.pressed()) return StopReason::key;
-                  return std::nullopt;
+                  return keys.pressed() ? std::optional(StopReason::key) : std::nullopt;
                 });
 }
 
-/// The journal goes once the stroke is whole.
-void write_stroke(const fs::path& output, const RecordingReport& report) {
+/// The journal goes once the stroke is whole, or where there is nothing in it.
+void write_stroke(const fs::path& output, const RecordingFooter& recorded) {
   const fs::path journal = journal_path(output);
-  if (report.footer.ticks.recorded == 0) {
+  if (recorded.ticks.recorded == 0) {
     fs::remove(journal);
-    throw_io_error("{}: nothing was recorded, for {}; sandstroke record --list shows what is connected",
-                   output.string(), stop_reason_text(report.footer.reason));
+    throw_io_error("{}: was not written, for nothing was recorded: {}", output.string(),
+                   stop_reason_text(recorded.reason));
   }
   try {
     JournalReader reader(journal);
-    write_recording_file(output, report.header, report.footer, [&] { return reader.next(4096); });
+    write_recording_file(output, reader);
   } catch (const Error& failure) {
     throw_io_error("{}. What was recorded is in {}: sandstroke stroke repair {} makes the stroke of it",
                    failure.what(), journal.string(), journal.string());
@@ -102,12 +117,27 @@ int record(const Arguments& arguments) {
         "record needs a file to write and a device: sandstroke record -o STROKE.h5 --device NAME; sandstroke "
         "record --list shows which there are");
 
-  check_output(arguments.output, {});
+  std::optional<Scene> felt;
+  if (!arguments.felt_scene.empty()) felt = load_scene(arguments.felt_scene, arguments.overrides);
+  check_output(arguments.output, inputs(arguments, felt));
   check_free(arguments.output, arguments.overwrite);
-  const std::unique_ptr<HapticDevice> device = find_device(arguments.device, ForceSettings{});
-  const RecordingReport report = record_stroke(*device, arguments);
-  write_stroke(arguments.output, report);
-  print_recording(report, arguments.output, arguments.json);
+  const std::unique_ptr<HapticDevice> device =
+      find_device(arguments.device, felt ? felt->force : ForceSettings{});
+  RecordingHeader header;
+  header.source = arguments.device;
+  std::optional<LiveSand> sand;
+  if (felt) {
+    const fs::path folder = fs::path(arguments.felt_scene).parent_path();
+    sand.emplace(*felt, load_surface(felt->bed, folder), device->specification().frame);
+    header.felt_scene = scene_text(*felt);
+    sand->start();
+  }
+  const RecordingReport report =
+      record_stroke(*device, sand ? &*sand : nullptr, std::move(header), arguments);
+  std::optional<LiveSandReport> felt_sand;
+  if (sand) felt_sand = sand->finish();
+  write_stroke(arguments.output, report.footer);
+  print_recording(report, felt_sand, arguments.output, arguments.json);
   warn(report, arguments.output);
   return exit_code(report.footer.reason);
 }
@@ -131,6 +161,7 @@ void add_record_command(CLI::App& app, Command& chosen) {
       "record", "Records a stroke from a haptic device, or from a stand-in that plays one, tick by tick");
   auto arguments = std::make_shared<Arguments>();
   RecorderSettings& settings = arguments->settings;
+  settings.servo.force.max_force = std::numeric_limits<double>::max();
   command->add_option("-o,--output", arguments->output, "Stroke to write (.h5)")->option_text("STROKE.h5");
   command
       ->add_option("--device", arguments->device,
@@ -155,6 +186,29 @@ void add_record_command(CLI::App& app, Command& chosen) {
       ->add_option("--stop-switch", arguments->stop_switch, "End when this switch of the device is pressed")
       ->check(CLI::Range(0, 31))
       ->option_text("K");
+  auto* feel =
+      command
+          ->add_option("--feel", arguments->felt_scene,
+                       "The hand feels this scene's sand while it is recorded; a run of the stroke in it "
+                       "has the same sand and forces. Without: no force at all")
+          ->option_text("SCENE.toml");
+  add_set_option(*command, arguments->overrides)->needs(feel);
+  command
+      ->add_option("--max-force", settings.servo.force.max_force,
+                   "Most force on the hand [N]; without: what the device and the scene allow")
+      ->check(not_negative_number())
+      ->option_text("N")
+      ->needs(feel);
+  command->add_option("--force-ramp", settings.servo.force.ramp, "Force fades in over so long [s]")
+      ->check(not_negative_number())
+      ->capture_default_str()
+      ->needs(feel);
+  command
+      ->add_option("--force-rate", settings.servo.force.rate,
+                   "Force changes by no more than this [N/s], also after a late tick")
+      ->check(positive_number())
+      ->capture_default_str()
+      ->needs(feel);
   command->add_flag("--calibrate", settings.calibrate,
                     "Calibrate the device first, which MAY MOVE ITS ARM: keep clear of it");
   command

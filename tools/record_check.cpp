@@ -30,14 +30,14 @@ void print_table(const LoopCheck& check, const ServoSettings& servo) {
 
 }  // namespace
 
-int check_machine(RecorderSettings settings, bool json) {
-  if (!settings.servo.duration) settings.servo.duration = 10.0;
+int check_machine(const RecorderSettings& settings, bool json) {
+  const double seconds = settings.servo.duration.value_or(10.0);
   LoopCheck check;
   {
     Progress bar("check");
-    check = check_loop(settings, [&](const ServoProgress& progress) -> std::optional<StopReason> {
-      bar.update(progress.time / *settings.servo.duration);
-      return interrupted() ? std::optional(StopReason::signal) : std::nullopt;
+    check = check_loop(seconds, settings.servo.rate, settings.priority, [&](const ServoProgress& progress) {
+      bar.update(progress.time / seconds);
+      return std::nullopt;
     });
   }
   if (json) {

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 
+#include "record/live_sand.h"
 #include "record/recorder.h"
 
 namespace sandstroke {
@@ -13,10 +15,11 @@ int list_devices(bool json);
 
 /// `record --check`: what this machine does to a loop with these settings but without a device, in 10 s where
 /// they say no duration.
-int check_machine(RecorderSettings settings, bool json);
+int check_machine(const RecorderSettings& settings, bool json);
 
-/// On the standard output, as a table or as one JSON object.
-void print_recording(const RecordingReport& report, const std::filesystem::path& file, bool json);
+/// On the standard output, as a table or as one JSON object. felt: none, where no sand was.
+void print_recording(const RecordingReport& report, const std::optional<LiveSandReport>& felt,
+                     const std::filesystem::path& file, bool json);
 
 // Lines of such tables:
 /// "SCHED_FIFO 80, memory locked"

@@ -14,8 +14,15 @@ std::string force_text(double limit, const TickCounts& ticks) {
   if (ticks.clamped > 0) text += fmt::format(", cut to the limit in {}", ticks.clamped);
   if (ticks.rate_limited > 0) text += fmt::format(", kept from jumping in {}", ticks.rate_limited);
   if (ticks.refused > 0) text += fmt::format(", no number in {}", ticks.refused);
-  if (ticks.held > 0) text += fmt::format("; the sand did not keep up in {}", ticks.held);
   return text;
+}
+
+std::string sand_text(const LiveSandReport& felt) {
+  return fmt::format("touched in {} ticks, relaxed {} times, {}{}", felt.contact_ticks,
+                     felt.erosion.relaxations, felt.erosion.converged ? "at rest" : "NOT AT REST",
+                     felt.held_ticks > 0
+                         ? fmt::format("; not dug in {} ticks, for its erosion was behind", felt.held_ticks)
+                         : "");
 }
 
 double seconds(const RecordingReport& report) {
@@ -45,7 +52,8 @@ std::string lateness_text(const RecordingFooter& footer) {
       1e6 * footer.lateness.mean, 1e6 * footer.lateness.p99, 1e6 * footer.lateness.max, footer.ticks.late);
 }
 
-void print_recording(const RecordingReport& report, const std::filesystem::path& file, bool json) {
+void print_recording(const RecordingReport& report, const std::optional<LiveSandReport>& felt,
+                     const std::filesystem::path& file, bool json) {
   const RecordingHeader& header = report.header;
   const RecordingFooter& footer = report.footer;
   if (json) {
@@ -53,6 +61,13 @@ void print_recording(const RecordingReport& report, const std::filesystem::path&
         {"output", file.string()}, {"complete", is_complete(footer.reason)}, {"seconds", seconds(report)}};
     object.update(as_json(footer));
     object.update(as_json(header));
+    object.erase("felt_scene");  // a page of text, which is in the file
+    if (felt)
+      object["felt"] = {{"contact_ticks", felt->contact_ticks},
+                        {"held_ticks", felt->held_ticks},
+                        {"relaxations", felt->erosion.relaxations},
+                        {"passes", felt->erosion.passes},
+                        {"converged", felt->erosion.converged}};
     print_json(object);
     return;
   }
@@ -65,6 +80,7 @@ void print_recording(const RecordingReport& report, const std::filesystem::path&
   row("lateness", lateness_text(footer));
   row("scheduling", scheduling_text(header.scheduling));
   row("force", force_text(header.force_limit, footer.ticks));
+  if (felt) row("sand", sand_text(*felt));
 }
 
 }  // namespace sandstroke

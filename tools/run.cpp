@@ -181,11 +181,7 @@ void add_run_command(CLI::App& app, Command& chosen) {
                       "Run file to write (HDF5); default: SCENE's name with .h5, here");
   command->add_option("--stroke", arguments->stroke,
                       "Play this stroke instead of the scene's (.toml or .h5)");
-  command
-      ->add_option("--set", arguments->overrides,
-                   "Override a scene key, such as relaxation.talus_angle=35 (repeatable)")
-      ->type_name("KEY=VALUE")
-      ->take_all();
+  add_set_option(*command, arguments->overrides);
   command->add_option("--frames", arguments->frames, "Keep surfaces during the run, this many a second [Hz]")
       ->check(not_negative_number());
   command->add_option("--png", arguments->picture,

@@ -27,4 +27,11 @@ CLI::Validator not_negative_number() {
   return finite_number("NUMBER >= 0", "a number of 0 or more", [](double value) { return value >= 0.0; });
 }
 
+CLI::Option* add_set_option(CLI::App& command, std::vector<std::string>& overrides) {
+  return command
+      .add_option("--set", overrides, "Override a scene key, such as relaxation.talus_angle=35 (repeatable)")
+      ->type_name("KEY=VALUE")
+      ->take_all();
+}
+
 }  // namespace sandstroke

@@ -2,7 +2,9 @@
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
+#include <linux/capability.h>
 #include <signal.h>
+#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -23,6 +25,19 @@ void write_file(const fs::path& path, const std::string& text) {
   std::ofstream(path, std::ios::binary) << text;
 }
 
+namespace {
+
+/// For what is executed next.
+void refuse_real_time() {
+  const rlimit none{0, 0};
+  setrlimit(RLIMIT_RTPRIO, &none);
+  setrlimit(RLIMIT_MEMLOCK, &none);
+  prctl(PR_CAPBSET_DROP, CAP_SYS_NICE);  // root's; others have none
+  prctl(PR_CAPBSET_DROP, CAP_IPC_LOCK);
+}
+
+}  // namespace
+
 ProgramResult run_program(const std::vector<std::string>& arguments, const fs::path& folder,
                           const Conditions& conditions) {
   const fs::path out = conditions.out ? fs::path(conditions.out) : folder / ".stdout",
@@ -42,6 +57,7 @@ ProgramResult run_program(const std::vector<std::string>& arguments, const fs::p
       setrlimit(RLIMIT_FSIZE, &limit);
       signal(SIGXFSZ, SIG_IGN);  // writing fails instead, as on a full disk
     }
+    if (conditions.real_time_refused) refuse_real_time();
     if (chdir(folder.c_str()) == 0) execv(SANDSTROKE_PROGRAM, argv.data());
     _exit(127);
   }

@@ -21,6 +21,7 @@ struct Conditions {
   std::size_t most_file_bytes = 0;  ///< a disk that is full from there on; 0: no limit
   const char* out = nullptr;        ///< where its standard output goes instead
   std::function<bool()> when = {};  ///< ... or, where there is one, as soon as this holds
+  bool real_time_refused = false;   ///< no permission for real-time scheduling, nor for locked memory
 };
 
 /// Runs build/.../sandstroke with these arguments in a folder.
