@@ -1,146 +1,19 @@
 #include <spdlog/spdlog.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "commands.h"
 #include "core/error.h"
 #include "core/output_file.h"
-#include "haptics/stroke_sampler.h"
 #include "io/stroke_csv.h"
 #include "io/stroke_file.h"
-#include "print_json.h"
+#include "stroke_parts.h"
 
 namespace sandstroke {
 namespace {
 
 namespace fs = std::filesystem;
-using Eigen::Vector3d;
-
-// --- info ---
-
-struct StrokeSummary {
-  std::size_t samples = 0, drawn_samples = 0, joined_samples = 0;
-  double duration = 0.0, median_spacing = 0.0;  // s
-  Vector3d low, high;                           // m
-  double top_speed = 0.0;                       // m/s, between samples that are joined
-  std::vector<StrokeGap> gaps;
-  double least_force = 0.0, greatest_force = 0.0;  // N, magnitude
-};
-
-StrokeSummary summarize(const Stroke& stroke) {
-  StrokeSummary summary;
-  summary.samples = stroke.size();
-  summary.duration = stroke.duration();
-  summary.low = summary.high = stroke.position.front();
-  std::vector<double> spacings;
-  for (std::size_t i = 0; i < stroke.size(); ++i) {
-    summary.drawn_samples += stroke.touches(i);
-    summary.low = summary.low.cwiseMin(stroke.position[i]);
-    summary.high = summary.high.cwiseMax(stroke.position[i]);
-    if (i == 0) continue;
-    spacings.push_back(stroke.time[i] - stroke.time[i - 1]);
-    if (stroke.joined(i - 1)) {
-      ++summary.joined_samples;
-      const double step = (stroke.position[i] - stroke.position[i - 1]).norm();
-      summary.top_speed = std::max(summary.top_speed, step / spacings.back());
-    }
-  }
-  if (!spacings.empty()) {
-    const auto middle = spacings.begin() + static_cast<std::ptrdiff_t>(spacings.size() / 2);
-    std::nth_element(spacings.begin(), middle, spacings.end());
-    summary.median_spacing = *middle;
-  }
-  summary.gaps = StrokeSampler(stroke).gaps();
-  if (!stroke.force.empty()) {
-    const auto shorter = [](const Vector3d& a, const Vector3d& b) { return a.norm() < b.norm(); };
-    const auto [least, greatest] = std::minmax_element(stroke.force.begin(), stroke.force.end(), shorter);
-    summary.least_force = least->norm();
-    summary.greatest_force = greatest->norm();
-  }
-  return summary;
-}
-
-nlohmann::ordered_json as_json(const std::string& file, const Stroke& stroke, const StrokeSummary& summary) {
-  nlohmann::ordered_json json;
-  json["file"] = file;
-  json["source"] = stroke.source;
-  json["frame"] = stroke.frame;
-  json["complete"] = stroke.complete;
-  json["samples"] = summary.samples;
-  json["drawn_samples"] = summary.drawn_samples;
-  json["duration"] = summary.duration;
-  json["nominal_rate"] = stroke.nominal_rate;
-  json["median_spacing"] = summary.median_spacing;
-  for (int axis = 0; axis < 3; ++axis)
-    json[std::string("extent_") + "xyz"[axis]] = {summary.low[axis], summary.high[axis]};
-  json["top_speed"] = summary.top_speed;
-  json["gap_threshold"] = stroke.gap_threshold;
-  json["gaps"] = nlohmann::json::array();
-  for (const StrokeGap& gap : summary.gaps) json["gaps"].push_back({gap.begin, gap.end});
-  if (!stroke.force.empty()) json["force"] = {summary.least_force, summary.greatest_force};
-  return json;
-}
-
-std::string as_table(const std::string& file, const Stroke& stroke, const StrokeSummary& summary) {
-  std::string table;
-  const auto row = [&table](std::string_view title, const std::string& value) {
-    table += fmt::format("{:<10}{}\n", title, value);
-  };
-  row("file", file);
-  row("source", stroke.source.empty() ? "not said" : stroke.source);
-  row("frame", stroke.frame);
-  row("complete", stroke.complete ? "yes" : "no: cut off while being recorded");
-  row("samples",
-      std::to_string(summary.samples) +
-          (stroke.contact.empty() ? "" : fmt::format(", {} with the pen down", summary.drawn_samples)));
-  row("duration", fmt::format("{:.6g} s", summary.duration));
-  row("rate",
-      fmt::format("{}, median spacing {:.6g} ms",
-                  stroke.nominal_rate > 0.0 ? fmt::format("{:.6g} Hz", stroke.nominal_rate) : "not said",
-                  1e3 * summary.median_spacing));
-  for (int axis = 0; axis < 3; ++axis) {
-    row({&"xyz"[axis], 1},
-        fmt::format("{:>10.3f} to {:>10.3f} mm, {:>10.3f} mm wide", 1e3 * summary.low[axis],
-                    1e3 * summary.high[axis], 1e3 * (summary.high[axis] - summary.low[axis])));
-  }
-  row("top speed", fmt::format("{:.4g} m/s, gaps aside", summary.top_speed));
-  double lifted = 0.0;
-  for (const StrokeGap& gap : summary.gaps) lifted += gap.end - gap.begin;
-  row("gaps", summary.gaps.empty()
-                  ? "none"
-                  : fmt::format("{}, {:.6g} s in all (pen lifted, or over {:.6g} s without a sample)",
-                                summary.gaps.size(), lifted, stroke.gap_threshold));
-  row("force", stroke.force.empty()
-                   ? "not recorded"
-                   : fmt::format("{:.4g} to {:.4g} N", summary.least_force, summary.greatest_force));
-  return table;
-}
-
-void add_info(CLI::App& stroke_app, Command& chosen) {
-  struct Options {
-    std::string file;
-    bool json = false;
-  };
-  auto options = std::make_shared<Options>();
-  CLI::App* app = stroke_app.add_subcommand("info", "Says what is in a stroke file");
-  app->add_option("FILE", options->file, "Recorded (.h5) or scripted (.toml) stroke")->required();
-  app->add_flag("--json", options->json, "One JSON object in SI units instead of a table");
-  app->callback([&chosen, options] {
-    chosen = [options] {
-      const Stroke stroke = load_stroke(options->file, ForceSettings{});
-      const StrokeSummary summary = summarize(stroke);
-      if (options->json) {
-        print_json(as_json(options->file, stroke, summary));
-      } else {
-        fmt::print("{}", as_table(options->file, stroke, summary));
-      }
-      return 0;
-    };
-  });
-}
 
 /// Writes a stroke and tells what came out.
 void write_and_tell(const std::string& file, const Stroke& stroke) {
@@ -323,11 +196,13 @@ void add_convert(CLI::App& stroke_app, Command& chosen) {
 }  // namespace
 
 void add_stroke_command(CLI::App& app, Command& chosen) {
-  CLI::App* stroke_app = app.add_subcommand("stroke", "Makes, converts and describes strokes (hand motions)");
+  CLI::App* stroke_app =
+      app.add_subcommand("stroke", "Makes, converts, repairs and describes strokes (hand motions)");
   stroke_app->require_subcommand(1);
   add_convert(*stroke_app, chosen);
   add_script(*stroke_app, chosen);
-  add_info(*stroke_app, chosen);
+  add_stroke_info_command(*stroke_app, chosen);
+  add_stroke_repair_command(*stroke_app, chosen);
 }
 
 }  // namespace sandstroke

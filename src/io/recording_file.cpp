@@ -123,8 +123,9 @@ RecordingInfo write_recording_file(const std::filesystem::path& path, Recording&
   info.header = recording.header();
   std::vector<RecordedSample> samples = recording.next(block_samples);
   if (samples.empty())
-    throw_input_error("{}: cannot be made, for nothing was recorded: there is no sample; record again",
-                      path.string());
+    throw_input_error(
+        "{}: cannot be made, for there is no sample in the recording; remove its journal and record again",
+        path.string());
   Hdf5Writer file(path);
   SampleColumns columns(file, info.header);
   const std::int64_t start = samples.front().time;

@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "core/error.h"
+#include "io/stroke_format.h"
 
 namespace sandstroke {
 namespace {
@@ -14,6 +15,9 @@ std::string frame_name(int k) { return fmt::format("/surface/frame/{:06}", k); }
 RunFile::RunFile(const std::filesystem::path& path) : file_(path) {
   const bool is_run =
       file_.has_attribute("/", "format") && file_.text_attribute("/", "format") == "sandstroke.run";
+  if (!is_run && file_.has(stroke_group))
+    throw_input_error("{}: is a stroke, not a run file; 'sandstroke stroke info {}' says what is in it",
+                      file_.name(), file_.name());
   if (!is_run)
     throw_input_error("{}: is not a sandstroke run file; make one with 'sandstroke run'", file_.name());
   if (const double version = file_.number_attribute("/", "format_version"); version != 1)

@@ -68,7 +68,11 @@ RunResult run_scene(const Scene& scene, const std::filesystem::path& output, con
   std::string stroke_hash;
   if (scene.stroke) {
     const std::filesystem::path path = options.scene_folder / scene.stroke->file;
-    stroke = place_stroke(load_stroke(path, scene.force), scene.stroke->placement, path.string());
+    const Stroke loaded = load_stroke(path, scene.force);
+    if (!loaded.complete)
+      spdlog::warn("{}: was cut off while it was recorded; the run ends where the stroke does",
+                   path.string());
+    stroke = place_stroke(loaded, scene.stroke->placement, path.string());
     stroke_hash = content_hash(read_text_file(path));
   }
   if (options.second) second_scene(scene, *options.second);  // refused before any work, if at all

@@ -58,8 +58,6 @@ Stroke read_stroke_file(const std::filesystem::path& path) {
   return stroke;
 }
 
-namespace {
-
 bool is_recorded(const std::filesystem::path& path) {
   check_readable(path);
   std::ifstream file(path, std::ios::binary);
@@ -68,8 +66,6 @@ bool is_recorded(const std::filesystem::path& path) {
   file.read(begin, sizeof begin);
   return path.extension() == ".h5" || std::memcmp(begin, hdf5_signature, sizeof begin) == 0;
 }
-
-}  // namespace
 
 bool stroke_depends_on_force(const std::filesystem::path& path) {
   return !is_recorded(path) && path.extension() == ".toml" && presses_by_force(read_stroke_script(path));

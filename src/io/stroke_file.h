@@ -15,6 +15,9 @@ void write_stroke_file(const std::filesystem::path& path, const Stroke& stroke);
 /// input, naming file, dataset, sample and remedy, where its content is not a sound stroke.
 Stroke read_stroke_file(const std::filesystem::path& path);
 
+/// Whether a stroke is a recorded one (HDF5), by its name or its first bytes. Error: io.
+bool is_recorded(const std::filesystem::path& path);
+
 /// Reads a stroke of either form: recorded (HDF5) or scripted (.toml; `force` says how deep a scripted force
 /// presses). Error: io, input.
 Stroke load_stroke(const std::filesystem::path& path, const ForceSettings& force);

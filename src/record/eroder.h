@@ -26,8 +26,8 @@ class Eroder {
   Eroder(const HeightField& bed, const RelaxationSettings& settings, SandRing& dug, SandRing& slipped);
   ~Eroder() { stop(); }
 
-  /// In a thread of its own, settings.rate times a second, or, where one relaxation takes longer, one after
-  /// the other.
+  /// In a thread of its own, settings.rate times a second, or, where that takes longer, one after the other.
+  /// Sand that has far to go does so in several turns.
   void start();
   /// Ends that thread, after the relaxation that is going on.
   void stop();
@@ -35,7 +35,8 @@ class Eroder {
   /// By the thread, or, where none runs, by the caller. The thread waits where `slipped` is full; what it
   /// could not give before stop(), or a caller at all, is given with the next turn.
   void turn();
-
+  /// The same, but for the relaxation.
+  void exchange();
   /// Nothing is left to be given.
   bool all_given() const { return held_.empty(); }
   const HeightField& bed() const { return replica_.bed(); }

@@ -29,7 +29,7 @@ struct BlockFrame {
   std::uint64_t checksum = 0;
 };
 static_assert(sizeof(BlockFrame) == 16);
-constexpr std::size_t sample_block_size = sizeof(BlockFrame) + sizeof(RecordedSample);
+static_assert(journal_sample_bytes == sizeof(BlockFrame) + sizeof(RecordedSample));
 
 std::uint64_t checksum(const BlockFrame& frame, const void* content) {
   ContentHash hash;
@@ -125,9 +125,9 @@ void JournalWriter::append(std::span<const RecordedSample> samples) {
   blocks_.clear();
   for (const RecordedSample& sample : samples) put_block(blocks_, sample_block, &sample, sizeof sample);
   const std::uint64_t begin = size_;
-  const auto count = [&] { samples_ += static_cast<std::int64_t>((size_ - begin) / sample_block_size); };
+  const auto count = [&] { samples_ += static_cast<std::int64_t>((size_ - begin) / journal_sample_bytes); };
   try {
-    write(blocks_, sample_block_size);
+    write(blocks_, journal_sample_bytes);
   } catch (...) {
     count();
     throw;

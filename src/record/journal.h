@@ -22,6 +22,9 @@ namespace sandstroke {
 //     content               sample: RecordedSample's 96 bytes; header, footer: JSON (recording_json.h)
 // A header first, then samples, then the footer, unless the recording was cut off.
 
+/// Of a sample's block.
+inline constexpr std::size_t journal_sample_bytes = 16 + sizeof(RecordedSample);
+
 /// Where the samples of STROKE.h5 are until the recording is over: STROKE.h5.recording.
 std::filesystem::path journal_path(const std::filesystem::path& stroke_file);
 

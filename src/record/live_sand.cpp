@@ -113,7 +113,7 @@ FeltForce LiveSand::feel(double time, const DeviceReading& reading) noexcept {
 LiveSandReport LiveSand::finish() {
   eroder_.stop();
   do {
-    eroder_.turn();
+    eroder_.exchange();
     take_slipped(static_cast<int>(ring_size));
   } while (!eroder_.all_given());
   report_.erosion = eroder_.report();

@@ -32,13 +32,13 @@ ServoLoop::ServoLoop(HapticDevice& device, FeltWorld* world, LoopClock& clock, S
       clock_(clock),
       ring_(ring),
       rate_(settings.rate),
-      silence_(to_nanoseconds(settings.silence)),
-      device_silence_(silence_ + to_nanoseconds(device.longest_silence())),
       last_tick_(std::numeric_limits<std::int64_t>::max()),
       end_reason_(StopReason::duration),
       gives_force_(device.specification().max_force > 0.0),
       force_limit_(world ? std::min(settings.force.max_force, device.specification().max_force) : 0.0),
-      guard_(limited(settings.force, force_limit_), settings.rate) {
+      guard_(limited(settings.force, force_limit_), settings.rate),
+      silent_{to_nanoseconds(settings.silence + device.longest_silence()), StopReason::device_lost, {}},
+      wrong_{to_nanoseconds(settings.silence), StopReason::no_number, {}} {
   if (settings.duration) last_tick_ = ticks_in(*settings.duration, rate_) - 1;
   if (const std::optional<double> stroke = device.duration();
       stroke && ticks_in(*stroke, rate_) < last_tick_) {
@@ -49,7 +49,7 @@ ServoLoop::ServoLoop(HapticDevice& device, FeltWorld* world, LoopClock& clock, S
 }
 
 RecordingFooter ServoLoop::run() noexcept {
-  start_ = last_answer_ = last_number_ = clock_.now();
+  start_ = clock_.now();
   while (true) {
     if (ticks_.elapsed > last_tick_) stop(end_reason_);
     // Right after the last tick's command: where the watchdog has released the device since the tick looked,
@@ -111,8 +111,16 @@ void ServoLoop::serve_tick(std::int64_t now) noexcept {
     ++ticks_.unread;
     command(Vector3d::Zero());
   }
-  if (answers) last_answer_ = now;
-  if (now - last_answer_ >= device_silence_) stop(StopReason::device_lost);
+  stop_where_it_lasts(!answers, silent_, now);
+}
+
+void ServoLoop::stop_where_it_lasts(bool fails, Fault& fault, std::int64_t now) noexcept {
+  if (!fails) {
+    fault.since.reset();
+    return;
+  }
+  if (!fault.since) fault.since = now;
+  if (now - *fault.since >= fault.limit) stop(fault.reason);
 }
 
 bool ServoLoop::read(double time, DeviceReading& reading) noexcept {
@@ -123,8 +131,7 @@ FeltForce ServoLoop::feel(std::int64_t now, const DeviceReading& reading) noexce
   if (!world_) return {};
   const double time = 1e-9 * static_cast<double>(now - start_);
   const FeltForce given = guard_.admit(time, world_->feel(time, reading), held_);
-  if ((given.flags & refused_force) == 0) last_number_ = now;
-  if (now - last_number_ >= silence_) stop(StopReason::no_number);
+  stop_where_it_lasts((given.flags & refused_force) != 0, wrong_, now);
   return given;
 }
 

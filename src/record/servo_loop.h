@@ -18,9 +18,9 @@ struct ServoSettings {
   ForceLimits force;
   std::optional<int> stop_switch;  ///< the switch (from 0, to 31) that ends the recording when it is pressed
   double debounce = 0.02;          ///< s that it must be down for; and up once before, to count at all
-  /// s that the device may give no reading (or take no force), or the world no number, before the loop stops
-  /// (device_lost, no_number). Until then no force is given: what fails once costs a tick, not the recording;
-  /// what goes on failing is not hidden.
+  /// s for which the device may go on giving no reading (or taking no force), or the world no number, before
+  /// the loop stops (device_lost, no_number). Until then no force is given: what fails once costs a tick, not
+  /// the recording; what goes on failing is not hidden.
   double silence = 0.1;
 };
 
@@ -56,10 +56,17 @@ class ServoLoop {
   std::int64_t heartbeat() const noexcept { return heartbeat_.load(std::memory_order_acquire); }
 
  private:
+  struct Fault {
+    std::int64_t limit;  // ns that it may last
+    StopReason reason;   // to stop after that
+    std::optional<std::int64_t> since;
+  };
   bool stopped() const noexcept { return reason_.load() != going_on; }
   std::int64_t tick_time(std::int64_t tick) const noexcept;
   std::int64_t wait_for_tick() noexcept;
   void serve_tick(std::int64_t now) noexcept;
+  /// What fails, from tick to tick, stops the loop in the end.
+  void stop_where_it_lasts(bool fails, Fault& fault, std::int64_t now) noexcept;
   bool read(double time, DeviceReading& reading) noexcept;
   FeltForce feel(std::int64_t now, const DeviceReading& reading) noexcept;
   bool command(const Eigen::Vector3d& force) noexcept;
@@ -71,7 +78,6 @@ class ServoLoop {
   LoopClock& clock_;
   SpscRing<RecordedSample>& ring_;
   double rate_;
-  std::int64_t silence_, device_silence_;  // ns
   std::int64_t last_tick_;
   StopReason end_reason_;  // after the last tick
   bool gives_force_;
@@ -80,9 +86,10 @@ class ServoLoop {
   std::optional<StopSwitch> stop_switch_;
 
   // The loop's own while it runs:
-  std::int64_t start_ = 0, last_answer_ = 0, last_number_ = 0;  // ns
-  std::uint64_t expected_ = 0;                                  // sequence number, where nothing is missing
-  Eigen::Vector3d held_ = Eigen::Vector3d::Zero();              // N, by the device
+  std::int64_t start_ = 0;                          // ns
+  Fault silent_, wrong_;                            // the device, the world
+  std::uint64_t expected_ = 0;                      // sequence number, where nothing is missing
+  Eigen::Vector3d held_ = Eigen::Vector3d::Zero();  // N, by the device
   TickCounts ticks_;
   LatenessHistogram lateness_;
 

@@ -6,11 +6,24 @@
 #include <utility>
 
 namespace sandstroke {
+namespace {
+
+/// Gaps with one sample between them are one [s]: no tick may meet that sample.
+double longest_gap(const Stroke& stroke) {
+  double longest = 0.0, begin = 0.0;
+  for (std::size_t i = 0; i + 1 < stroke.size(); ++i) {
+    if (i == 0 || stroke.sampled_between(i - 1)) begin = stroke.time[i];
+    if (!stroke.sampled_between(i)) longest = std::max(longest, stroke.time[i + 1] - begin);
+  }
+  return longest;
+}
+
+}  // namespace
+
 StrokeDevice::StrokeDevice(Stroke stroke, std::string name) : sampler_(std::move(stroke)) {
   std::uint32_t ever_pressed = 0;
   for (const std::uint32_t pressed : sampler_.stroke().switches) ever_pressed |= pressed;
-  for (const StrokeGap& gap : sampler_.gaps())
-    longest_silence_ = std::max(longest_silence_, gap.end - gap.begin);
+  longest_silence_ = longest_gap(sampler_.stroke());
   specification_.model = std::move(name);
   specification_.manufacturer = "sandstroke";
   specification_.frame = sampler_.stroke().frame;

@@ -111,6 +111,7 @@ int main(int argc, char** argv) {
     add("rough_beds", [&] { return in_child([&] { return measure_rough_beds(options); }); });
     add("paper_law", [&] { return in_child([&] { return measure_paper_law(options); }); });
     add("sweeps", [&] { return in_child([&] { return measure_sweeps(options); }); });
+    add("recording", [&] { return in_child([&] { return measure_recording(options); }); });
     const std::string text = report.dump(2) + "\n";
     if (output.empty()) {
       std::cout << text;

@@ -20,6 +20,7 @@ nlohmann::json measure_cones(const BenchOptions& options);
 nlohmann::json measure_rough_beds(const BenchOptions& options);
 nlohmann::json measure_paper_law(const BenchOptions& options);
 nlohmann::json measure_sweeps(const BenchOptions& options);
+nlohmann::json measure_recording(const BenchOptions& options);
 
 /// Runs `measure` in a child process and adds "peak_rss_bytes": by how much it raised its resident memory.
 nlohmann::json in_child(const std::function<nlohmann::json()>& measure);

@@ -153,13 +153,6 @@ TEST(Chai3dDevice, GivesNothingOnceUnplugged) {
   }
 }
 
-/// As cPhantomDevice of 3.3.0: false where it read, true where not.
-class FakePhantom : public FakeChai3d {
- public:
-  using FakeChai3d::FakeChai3d;
-  bool getPosition(chai3d::cVector3d& value) override { return !FakeChai3d::getPosition(value); }
-};
-
 TEST(Chai3dDevice, OfAPhantomTakesThePositionThoughItIsToldThatItFailed) {
   for (const auto model : {chai3d::C_HAPTIC_DEVICE_PHANTOM_TOUCH, chai3d::C_HAPTIC_DEVICE_PHANTOM_OMNI,
                            chai3d::C_HAPTIC_DEVICE_PHANTOM_DESKTOP, chai3d::C_HAPTIC_DEVICE_PHANTOM_15_6DOF,

@@ -104,4 +104,11 @@ class FakeChai3d : public chai3d::cGenericHapticDevice {
   bool motors_ = false;
 };
 
+/// As cPhantomDevice of 3.3.0: false where it read, true where not.
+class FakePhantom : public FakeChai3d {
+ public:
+  using FakeChai3d::FakeChai3d;
+  bool getPosition(chai3d::cVector3d& value) override { return !FakeChai3d::getPosition(value); }
+};
+
 }  // namespace sandstroke

@@ -5,14 +5,17 @@
 #include <unistd.h>
 
 #include <atomic>
+#include <cmath>
 #include <csignal>
+#include <cstring>
 #include <fstream>
+#include <limits>
 #include <stdexcept>
 
 #include "core/error.h"
 #include "core/interrupt.h"
-#include "record/fake_device.h"
 #include "record/journal.h"
+#include "record/seen_device.h"
 #include "test_folder.h"
 
 namespace sandstroke {
@@ -34,7 +37,7 @@ class RecorderTest : public testing::Test {
     settings.watchdog = settings.servo.silence = 1e3;
   }
   RecordingReport run(FeltWorld* world = nullptr, const RecordingWatcher& watcher = {}) {
-    return record(device, world, settings, {}, journal, watcher);
+    return record(*seen(device), world, settings, {}, journal, watcher);
   }
   void expect_device_left_safe() const {
     EXPECT_EQ(device.opened, 1);
@@ -65,7 +68,7 @@ TEST_F(RecorderTest, AccountsForEachTickAndKeepsEachSample) {
   RecordingHeader known;
   known.source = "fake:";
   const RecordingReport report =
-      record(device, &world, settings, known, journal, [&](const ServoProgress& progress) {
+      record(*seen(device), &world, settings, known, journal, [&](const ServoProgress& progress) {
         EXPECT_LE(progress.recorded, progress.elapsed);
         ++looks;
         return std::nullopt;
@@ -94,6 +97,53 @@ TEST_F(RecorderTest, AccountsForEachTickAndKeepsEachSample) {
   EXPECT_EQ(header.started.size(), 20u) << header.started;
   EXPECT_EQ(header.scheduling.policy, report.header.scheduling.policy);
   EXPECT_EQ(header.scheduling.advice.empty(), header.scheduling.policy == "SCHED_FIFO");
+}
+
+TEST_F(RecorderTest, KeepsWhatTheDeviceGaveBitByBit) {
+  std::vector<DeviceReading> given;
+  std::int64_t errors = 0;
+  device.reads = [&](double, DeviceReading& reading) {
+    const double n = static_cast<double>(given.size());
+    reading.position = Vector3d(std::sin(n), -1.0 / (1.0 + n), 1e-9 * n);
+    reading.velocity = Vector3d(std::cos(n), n, -0.0);
+    reading.switches = 0x9e3779b9U * static_cast<std::uint32_t>(given.size());
+    DeviceReading sound = reading;
+    const std::size_t kind = (given.size() + static_cast<std::size_t>(errors)) % 20;
+    if (kind == 7) reading.position.y() = std::numeric_limits<double>::quiet_NaN();
+    if (kind == 11) reading.velocity.x() = std::numeric_limits<double>::infinity();
+    if (kind == 7 || kind == 11 || kind == 13) {
+      ++errors;
+    } else {
+      given.push_back(sound);
+    }
+    return kind != 13;
+  };
+  const TickCounts ticks = run().footer.ticks;
+  EXPECT_GT(errors, 0);
+  EXPECT_EQ(ticks.unread, errors);
+  ASSERT_EQ(ticks.dropped, 0);
+  JournalReader reader(journal);
+  const std::vector<RecordedSample> samples = reader.next(1000);
+  ASSERT_EQ(samples.size(), given.size());
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    EXPECT_EQ(std::memcmp(samples[i].position, given[i].position.data(), sizeof samples[i].position), 0);
+    EXPECT_EQ(std::memcmp(samples[i].velocity, given[i].velocity.data(), sizeof samples[i].velocity), 0);
+    EXPECT_EQ(samples[i].switches, given[i].switches);
+  }
+}
+
+TEST_F(RecorderTest, KeepsTheRecordingOfADeviceThatIsUnplugged) {
+  settings.servo.duration.reset();
+  settings.servo.silence = 0.02;
+  std::int64_t readings = 0;
+  device.reads = [&](double, DeviceReading&) { return ++readings <= 50; };
+  FakeWorld world([](double) { return FeltForce{{0.0, 0.0, 5.0}, 0}; });
+  const RecordingReport report = run(&world);
+  EXPECT_EQ(report.footer.reason, StopReason::device_lost);
+  EXPECT_EQ(report.footer.ticks.recorded, 50);
+  EXPECT_EQ(kept().first, 50);
+  EXPECT_EQ(kept().second->reason, StopReason::device_lost);
+  expect_device_left_safe();
 }
 
 TEST_F(RecorderTest, GivesNoForceWithoutAWorld) {
@@ -201,7 +251,7 @@ TEST_F(RecorderTest, FreesALoopThatHangsInTheDevice) {
   settings.servo.duration.reset();
   settings.watchdog = 0.05;
   FakeWorld world([](double) { return FeltForce{{0.0, 0.0, 1.0}, 0}; });
-  const RecordingReport report = record(hanging, &world, settings, {}, journal, {});
+  const RecordingReport report = record(*seen(hanging), &world, settings, {}, journal, {});
   EXPECT_EQ(report.footer.reason, StopReason::stall);
   EXPECT_EQ(kept().second->reason, StopReason::stall);
   EXPECT_EQ(hanging.held, Vector3d::Zero());

@@ -224,8 +224,8 @@ TEST_F(ServoLoopTest, TakesADeviceThatStaysSilentForLost) {
   const RecordingFooter footer = run();
   EXPECT_EQ(footer.reason, StopReason::device_lost);
   EXPECT_EQ(footer.ticks.recorded, 30);
-  EXPECT_EQ(footer.ticks.unread, 50) << "the last one is 0.05 s after the last reading";
-  EXPECT_EQ(footer.ticks.elapsed, 80);
+  EXPECT_EQ(footer.ticks.unread, 51) << "the last one is 0.05 s after the first";
+  EXPECT_EQ(footer.ticks.elapsed, 81);
 }
 
 TEST_F(ServoLoopTest, TakesADeviceThatNeverAnswersForLost) {
@@ -353,8 +353,21 @@ TEST_F(ServoLoopTest, EndsWhereTheForceStaysNoNumber) {
   FakeWorld world([](double time) { return FeltForce{{0.0, 0.0, time > 0.0295 ? nan : 5.0}, 0}; });
   const RecordingFooter footer = run(&world);
   EXPECT_EQ(footer.reason, StopReason::no_number);
-  EXPECT_EQ(footer.ticks.elapsed, 50) << "tick 29 was the last with a force; 0.02 s later is tick 49";
-  EXPECT_EQ(footer.ticks.refused, 20);
+  EXPECT_EQ(footer.ticks.elapsed, 51) << "no number from tick 30 on; 0.02 s later is tick 50";
+  EXPECT_EQ(footer.ticks.refused, 21);
+}
+
+TEST_F(ServoLoopTest, TakesNoSingleFailureAfterAHangForALastingOne) {
+  settings.silence = 0.02;
+  FakeWorld world([&](double time) { return FeltForce{{0.0, 0.0, in_tick(time, 40, 40) ? nan : 5.0}, 0}; });
+  device.reads = [&](double time, DeviceReading&) {
+    if (in_tick(time, 9, 9) || in_tick(time, 59, 59)) clock.add(31 * ms);
+    return !in_tick(time, 90, 90);
+  };
+  const RecordingFooter footer = run(&world);
+  EXPECT_EQ(footer.reason, StopReason::duration);
+  EXPECT_EQ(footer.ticks.refused, 1);
+  EXPECT_EQ(footer.ticks.unread, 1);
 }
 
 TEST_F(ServoLoopTest, RecordsTheForceThatTheDeviceHoldsWhereItTakesNoOther) {

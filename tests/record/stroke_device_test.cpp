@@ -4,6 +4,10 @@
 
 #include <cmath>
 
+#include "allocations.h"
+#include "record/fake_device.h"
+#include "record/servo_loop.h"
+
 namespace sandstroke {
 namespace {
 
@@ -78,6 +82,23 @@ TEST(StrokeDevice, GivesNothingWhereTheStrokeHasNoSamples) {
     EXPECT_TRUE(device.read(read, reading));
   for (const double unread : {0.101, 0.3, 0.499, 0.601, 0.649})
     EXPECT_FALSE(device.read(unread, reading)) << unread;
+}
+
+TEST(StrokeDevice, IsNotTakenForLostInAGapAndPlaysOnAfterIt) {
+  Stroke stroke;  // two gaps in ticks 51 to 400, with a sample between them that no tick meets
+  stroke.time = {0.0, 0.0505, 0.2005, 0.4005, 0.4504};
+  stroke.position.assign(5, Vector3d::Zero());
+  StrokeDevice device(stroke, "gaps");
+  FakeClock clock;
+  SpscRing<RecordedSample> ring(1024);
+  ServoLoop loop(device, nullptr, clock, ring, {});
+  const std::int64_t before = allocations_of_this_thread();
+  const RecordingFooter footer = loop.run();
+  EXPECT_EQ(allocations_of_this_thread(), before);
+  EXPECT_EQ(footer.reason, StopReason::stroke_end);
+  EXPECT_EQ(footer.ticks.elapsed, 451);
+  EXPECT_EQ(footer.ticks.unread, 350);
+  EXPECT_EQ(footer.ticks.recorded, 101);
 }
 
 TEST(StrokeDevice, PlaysSamplesWithThePenUpAsPositions) {
