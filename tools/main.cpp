@@ -27,10 +27,9 @@ int run_program(int argc, char** argv) {
   app.require_subcommand(1);
   app.fallthrough();
   app.footer(
-      "Exit codes: 0 fine, 1 a comparison failed, 2 bad input or usage, 3 not at rest, unstable, a failed "
-      "point\n"
-      "of sweep or a surprise of stress, 4 input/output error, 130/143 stopped by a signal. Each command "
-      "explains\n"
+      "Exit codes: 0 fine, 1 a comparison failed or a machine is not fit to record, 2 bad input or usage,\n"
+      "3 not at rest, unstable, a failed point of sweep or a surprise of stress, 4 input/output error,\n"
+      "130/143 stopped by a signal. Each command explains "
       "itself: sandstroke run --help");
   bool quiet = false;
   app.add_flag("-q,--quiet", quiet, "Say nothing but results, warnings and errors");

@@ -1,6 +1,5 @@
 #include <spdlog/spdlog.h>
 
-#include <limits>
 #include <memory>
 #include <optional>
 
@@ -44,13 +43,7 @@ RecorderSettings recorder_settings(const Arguments& arguments) {
 void check_free(const fs::path& output, bool overwrite) {
   if (fs::exists(output) && !overwrite)
     throw_input_error("{}: is there already; name another file, or say --overwrite", output.string());
-  const fs::path journal = journal_path(output);
-  if (fs::exists(journal))
-    throw_input_error(
-        "{}: is there, so a recording of this name was cut off, or still goes on; sandstroke stroke repair "
-        "{} "
-        "makes a stroke of it",
-        journal.string(), journal.string());
+  check_no_journal(journal_path(output));
 }
 
 /// The files that may not be written over, for they are read.
@@ -100,6 +93,7 @@ void warn(const RecordingReport& report, const std::string& output) {
   if (!is_complete(footer.reason))
     spdlog::warn("{} is incomplete, for {}; it holds what was recorded until then", output,
                  stop_reason_text(footer.reason));
+  if (!report.disk_error.empty()) spdlog::warn("{}", report.disk_error);
   if (!report.header.scheduling.advice.empty()) spdlog::warn("{}", report.header.scheduling.advice);
 }
 
@@ -161,7 +155,7 @@ void add_record_command(CLI::App& app, Command& chosen) {
       "record", "Records a stroke from a haptic device, or from a stand-in that plays one, tick by tick");
   auto arguments = std::make_shared<Arguments>();
   RecorderSettings& settings = arguments->settings;
-  settings.servo.force.max_force = std::numeric_limits<double>::max();
+  settings.servo.force.max_force = any_force;
   command->add_option("-o,--output", arguments->output, "Stroke to write (.h5)")->option_text("STROKE.h5");
   command
       ->add_option("--device", arguments->device,

@@ -9,8 +9,8 @@ namespace {
 
 std::string force_text(double limit, const TickCounts& ticks) {
   if (limit == 0.0) return "none";
-  std::string text = limit < 1e6 ? fmt::format("up to {:.3g} N", limit) : "without a limit";
-  text += fmt::format("; faded in in {} ticks", ticks.ramped);
+  std::string text = limit < any_force ? fmt::format("up to {:.3g} N", limit) : "all that the sand gives";
+  text += fmt::format("; faded in over {} ticks", ticks.ramped);
   if (ticks.clamped > 0) text += fmt::format(", cut to the limit in {}", ticks.clamped);
   if (ticks.rate_limited > 0) text += fmt::format(", kept from jumping in {}", ticks.rate_limited);
   if (ticks.refused > 0) text += fmt::format(", no number in {}", ticks.refused);

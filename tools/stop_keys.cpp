@@ -12,6 +12,11 @@
 namespace sandstroke {
 namespace {
 
+bool has_input() {
+  pollfd keyboard = {STDIN_FILENO, POLLIN, 0};
+  return poll(&keyboard, 1, 0) > 0 && (keyboard.revents & POLLIN) != 0;
+}
+
 // What ends a program, among it what a driver may do wrong.
 constexpr std::array ending_signals = {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGABRT, SIGSEGV, SIGBUS, SIGFPE};
 
@@ -38,6 +43,7 @@ void leave_terminal_and_pass_on(int signal) {
 StopKeys::StopKeys() {
   // A job in the background that touches the terminal would be stopped.
   if (tcgetpgrp(STDIN_FILENO) != getpgrp() || tcgetattr(STDIN_FILENO, &terminal_before) != 0) return;
+  if (has_input()) return;  // typed ahead, or pasted: for the shell
   terminal_taken = true;
   struct sigaction leave = {};
   leave.sa_handler = leave_terminal_and_pass_on;
@@ -55,8 +61,7 @@ StopKeys::StopKeys() {
 StopKeys::~StopKeys() { leave_terminal(); }
 
 bool StopKeys::pressed() {
-  pollfd keyboard = {STDIN_FILENO, POLLIN, 0};
-  if (!listening_ || poll(&keyboard, 1, 0) <= 0 || !(keyboard.revents & POLLIN)) return false;
+  if (!listening_ || !has_input()) return false;
   char bytes[64];
   const ssize_t count = read(STDIN_FILENO, bytes, sizeof bytes);
   const std::string_view typed(bytes, count > 0 ? static_cast<std::size_t>(count) : 0);

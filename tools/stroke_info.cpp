@@ -68,7 +68,8 @@ std::string recording_rows(const RecordingInfo& recording, const StrokeSummary& 
   const auto& [header, footer, complete] = recording;
   std::string device = header.device.model;
   if (!header.device.manufacturer.empty()) device += fmt::format(" ({})", header.device.manufacturer);
-  if (header.device.max_force > 0.0) device += fmt::format(", gives up to {:.4g} N", header.device.max_force);
+  if (header.device.max_force > 0.0 && header.device.max_force < any_force)
+    device += fmt::format(", gives up to {:.4g} N", header.device.max_force);
   return table_row("device", device) + table_row("recorded", header.started) +
          table_row("loop", fmt::format("{:.6g} Hz asked, {:.6g} samples a second; {}", header.nominal_rate,
                                        reached_rate(summary), scheduling_text(header.scheduling))) +

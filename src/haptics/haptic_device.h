@@ -2,10 +2,14 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 
 namespace sandstroke {
+
+/// N: the maximum of what takes any force and feels none. A number, for infinity is none in files.
+inline constexpr double any_force = std::numeric_limits<double>::max();
 
 /// What a device says of itself.
 struct DeviceSpecification {
@@ -35,7 +39,7 @@ class HapticDevice {
   virtual void open() = 0;
   /// May move the arm, so nobody calls it unasked. Error: io.
   virtual void calibrate() = 0;
-  /// Of an open device.
+  /// Known before it is opened, but for what only an open device tells of itself (not its frame).
   virtual const DeviceSpecification& specification() const = 0;
   /// For how long there is something to record [s]; none: as long as a hand holds it.
   virtual std::optional<double> duration() const { return std::nullopt; }

@@ -70,16 +70,23 @@ fs::path journal_path(const fs::path& stroke_file) {
   return journal;
 }
 
-// --- JournalWriter ---
-
-JournalWriter::JournalWriter(const fs::path& path, const RecordingHeader& header)
-    : path_(path), file_(open(path.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0666)) {
-  if (file_ < 0 && errno == EEXIST)
+void check_no_journal(const fs::path& path) {
+  if (fs::exists(path))
     throw_io_error(
         "{}: is there already, a recording that was cut off; make a stroke of it (sandstroke stroke repair "
         "{}), then remove it, or choose another name",
         path.string(), path.string());
-  if (file_ < 0) fail(errno);
+}
+
+// --- JournalWriter ---
+
+JournalWriter::JournalWriter(const fs::path& path, const RecordingHeader& header)
+    : path_(path), file_(open(path.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0666)) {
+  if (file_ < 0) {
+    const int error = errno;
+    if (error == EEXIST) check_no_journal(path);
+    fail(error);
+  }
   try {
     lock_ = FileLock::try_take(path);
     if (!lock_) throw_io_error("{}: another process is using it; choose another name", path.string());

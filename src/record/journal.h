@@ -27,12 +27,14 @@ inline constexpr std::size_t journal_sample_bytes = 16 + sizeof(RecordedSample);
 
 /// Where the samples of STROKE.h5 are until the recording is over: STROKE.h5.recording.
 std::filesystem::path journal_path(const std::filesystem::path& stroke_file);
+/// Error: io, where this journal is there: an earlier recording that nobody repaired is not overwritten.
+void check_no_journal(const std::filesystem::path& path);
 
 /// A recording while it goes on: a file that is only ever appended to, sample by sample with a checksum each,
 /// so that whatever ends the program, all that was written can be read. Error: io.
 class JournalWriter {
  public:
-  /// Error: io, also where the file is there (an earlier recording that nobody repaired is not overwritten).
+  /// Error: io, also as check_no_journal.
   JournalWriter(const std::filesystem::path& path, const RecordingHeader& header);
   JournalWriter(const JournalWriter&) = delete;
   ~JournalWriter();

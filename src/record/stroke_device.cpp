@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <limits>
 #include <utility>
 
 namespace sandstroke {
@@ -27,7 +26,7 @@ StrokeDevice::StrokeDevice(Stroke stroke, std::string name) : sampler_(std::move
   specification_.model = std::move(name);
   specification_.manufacturer = "sandstroke";
   specification_.frame = sampler_.stroke().frame;
-  specification_.max_force = std::numeric_limits<double>::max();  // a number, as files need it
+  specification_.max_force = any_force;
   specification_.switches = std::bit_width(ever_pressed);
   specification_.measures_velocity = true;  // the derivative of its positions, exactly
 }

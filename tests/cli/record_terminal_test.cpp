@@ -21,9 +21,11 @@ namespace fs = std::filesystem;
 /// The program at a terminal; its standard output goes to a file.
 class AtTerminal {
  public:
-  AtTerminal(const std::vector<std::string>& arguments, const fs::path& folder) : out_(folder / ".stdout") {
+  AtTerminal(const std::vector<std::string>& arguments, const fs::path& folder, const char* typed_ahead = "")
+      : out_(folder / ".stdout") {
     if (openpty(&master_, &slave_, nullptr, nullptr, nullptr) != 0) throw std::runtime_error("no terminal");
     before_ = settings();
+    type(typed_ahead);
     std::vector<char*> argv = {const_cast<char*>("sandstroke")};
     for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
     argv.push_back(nullptr);
@@ -64,6 +66,11 @@ class AtTerminal {
     waitpid(child_, &status, 0);
     ended_ = true;
     return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  }
+  /// A line that nobody has read.
+  bool has_unread_input() const {
+    pollfd input = {slave_, POLLIN, 0};
+    return poll(&input, 1, 0) == 1;
   }
   const std::string& shown() const { return shown_; }
   std::string out() const { return read_file(out_); }
@@ -154,6 +161,16 @@ TEST(CliRecordTerminal, AnErrorLeavesTheTerminalAsBefore) {
   AtTerminal program({"record", "-o", "nowhere/a.h5", "--device", "scripted:line.toml"}, folder);
   EXPECT_EQ(program.wait(), 4) << program.shown();
   EXPECT_TRUE(program.is_as_before());
+}
+
+TEST(CliRecordTerminal, WhatWasTypedAheadIsForTheShell) {
+  const fs::path folder = folder_with_long_stroke();
+  std::vector<std::string> arguments = record_line;
+  arguments.insert(arguments.end(), {"--duration", "0.3"});
+  AtTerminal program(arguments, folder, "quit\n");
+  EXPECT_EQ(program.wait(), 0) << program.shown();
+  EXPECT_EQ(nlohmann::json::parse(program.out())["stop_reason"], "the time was up");
+  EXPECT_TRUE(program.has_unread_input());
 }
 
 TEST(CliRecordTerminal, QuietHidesTheLineAndKeysStillWork) {

@@ -150,7 +150,7 @@ TEST(CliRecord, KilledItsJournalBecomesAStrokeThatRuns) {
   EXPECT_EQ(run_program(record_line, folder, killed).exit_code, 128 + SIGKILL);
   EXPECT_FALSE(fs::exists(folder / "a.h5"));
   const ProgramResult again = run_program(record_line, folder);  // what was recorded is not written over
-  EXPECT_EQ(again.exit_code, 2);
+  EXPECT_EQ(again.exit_code, 4);
   EXPECT_NE(again.err.find("stroke repair a.h5.recording"), std::string::npos) << again.err;
 
   const ProgramResult repair = run_program({"stroke", "repair", "a.h5.recording", "--json"}, folder);

@@ -306,7 +306,7 @@ TEST(CliInfo, ShowsARunAndTheSceneKeys) {
 
 TEST(CliHelp, EveryCommandExplainsItself) {
   const fs::path folder = test_folder();
-  for (const char* command : {"run", "render", "compare", "golden", "stroke", "info"}) {
+  for (const char* command : {"run", "render", "compare", "golden", "stroke", "record", "info"}) {
     const ProgramResult help = run_program({command, "--help"}, folder);
     EXPECT_EQ(help.exit_code, 0);
     EXPECT_GT(help.out.size(), 200u) << command;
