@@ -288,6 +288,37 @@ TEST(CliRecord, SandCanBeFelt) {
   EXPECT_LE(most, 3.0 * (1.0 + 1e-12));
 }
 
+TEST(CliRecord, ARunOfAFeltStrokeHasTheForcesThatWereFelt) {
+  // The bound of live_sand.h, with the spacing that this machine reached; without erosion during the stroke,
+  // whose times are the wall's.
+  const fs::path folder = test_folder();
+  constexpr double radius = 0.04, turn = 3.0, dip = 0.006, dive = 9.0;  // m, 1/s
+  Stroke hand;
+  for (int i = 0; i <= 2000; ++i) {
+    const double t = 1e-3 * i;
+    hand.time.push_back(t);
+    hand.position.emplace_back(radius * std::cos(turn * t), radius * std::sin(turn * t),
+                               0.001 + dip * std::cos(dive * t));
+  }
+  write_stroke_file(folder / "hand.h5", hand);
+  ASSERT_EQ(run_program({"record", "-o", "felt.h5", "--device", "replay:hand.h5", "--feel", "scene.toml",
+                         "--set", "relaxation.rate=0", "--force-ramp", "0"},
+                        folder)
+                .exit_code,
+            0);
+  const ProgramResult run = run_program(
+      {"run", "scene.toml", "--stroke", "felt.h5", "--set", "relaxation.rate=0", "--json"}, folder);
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const json said = json::parse(run.out);
+  const double h = largest_spacing(read_stroke_file(folder / "felt.h5"));
+  const double speed = radius * turn + dip * dive, acceleration = radius * turn * turn + dip * dive * dive;
+  const double repulse = said["max_force"], stiffness = 1000.0 * 0.5 * std::exp(0.5 * 0.01), k_f = 10.0;
+  EXPECT_GT(said["recorded_force"]["ticks"], 1000);
+  EXPECT_GT(repulse, 1.0);
+  EXPECT_LE(said["recorded_force"]["max"],
+            2.0 * stiffness * speed * h * (1.0 + k_f * speed) + k_f * repulse * acceleration * 4.0 * h);
+}
+
 TEST(CliRecord, ListSaysWhatThereIs) {
   const fs::path folder = test_folder();
   const ProgramResult table = run_program({"record", "--list"}, folder);
