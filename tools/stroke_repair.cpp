@@ -92,11 +92,15 @@ void print_table(const Task& task, const Repair& done, bool removed) {
 int repair_command(const Arguments& arguments) {
   const Task task = task_of(arguments);
   const Repair done = repair(task);
-  if (arguments.remove) fs::remove(task.journal);
+  std::error_code failure;
+  const bool removed = arguments.remove && fs::remove(task.journal, failure);
   if (arguments.json)
-    print_json(describe(task, done, arguments.remove));
+    print_json(describe(task, done, removed));
   else
-    print_table(task, done, arguments.remove);
+    print_table(task, done, removed);
+  if (failure)
+    throw_io_error("{}: cannot be removed ({}); the stroke is written, so remove it yourself",
+                   task.journal.string(), failure.message());
   return 0;
 }
 
