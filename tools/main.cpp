@@ -17,6 +17,9 @@ using namespace sandstroke;
 constexpr int usage_error = 2;
 constexpr int io_error = 4;
 
+/// A standard error that takes nothing changes no exit code (fmt::print would throw).
+void complain(const std::string& sentence) { std::fputs(("sandstroke: " + sentence + "\n").c_str(), stderr); }
+
 int run_program(int argc, char** argv) {
   CLI::App app(
       "Simulates sand that is sculpted with a haptic device: a stroke goes in; a height field, a trace, a "
@@ -65,17 +68,17 @@ int main(int argc, char** argv) {
   try {
     return run_program(argc, argv);
   } catch (const Error& failure) {
-    fmt::print(stderr, "sandstroke: {}\n", failure.what());
+    complain(failure.what());
     return failure.exit_code();
   } catch (const std::bad_alloc&) {
-    fmt::print(stderr, "sandstroke: out of memory; take a smaller bed or picture, or close other programs\n");
+    complain("out of memory; take a smaller bed or picture, or close other programs");
     return io_error;
   } catch (const std::filesystem::filesystem_error& failure) {
-    fmt::print(stderr, "sandstroke: {}: {}; check the path, and who may use it\n", failure.path1().string(),
-               failure.code().message());
+    complain(fmt::format("{}: {}; check the path, and who may use it", failure.path1().string(),
+                         failure.code().message()));
     return io_error;
   } catch (const std::exception& failure) {
-    fmt::print(stderr, "sandstroke: unexpected failure: {}\n", failure.what());
+    complain(fmt::format("unexpected failure: {}", failure.what()));
     return io_error;
   }
 }

@@ -7,6 +7,7 @@
 #include <sys/wait.h>
 #include <termios.h>
 #include <unistd.h>
+#include <utmp.h>
 
 #include <cstring>
 #include <nlohmann/json.hpp>
@@ -50,7 +51,9 @@ class AtTerminal {
       if (!read_more()) return false;
     return true;
   }
-  void type(const char* keys) { EXPECT_EQ(write(master_, keys, std::strlen(keys)), std::strlen(keys)); }
+  void type(const char* keys) {
+    EXPECT_EQ(write(master_, keys, std::strlen(keys)), static_cast<ssize_t>(std::strlen(keys)));
+  }
   void send(int signal) { kill(child_, signal); }
   bool keys_come_unseen() const { return (settings().c_lflag & (ICANON | ECHO)) == 0; }
   bool is_as_before() const {
