@@ -27,7 +27,8 @@ class Chai3dDevice : public HapticDevice {
   ~Chai3dDevice() override { close(); }
 
   void open() override;
-  /// Only where the device says that it needs it. Warns in the log before.
+  /// Only where the device says that it needs it. Warns in the log before. Motors are off afterwards: an arm
+  /// that nobody holds sinks.
   void calibrate() override;
   const DeviceSpecification& specification() const override { return specification_; }
   /// A reading is whole or none: false where position, velocity or switches were not to be had.
