@@ -28,11 +28,6 @@ using testing::HasSubstr;
 
 constexpr std::size_t sample_block = 16 + 96;  // bytes, as journal.h says
 
-bool same_bytes(const std::vector<RecordedSample>& a, const std::vector<RecordedSample>& b) {
-  return a.size() == b.size() &&
-         (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(RecordedSample)) == 0);
-}
-
 std::vector<RecordedSample> first(const std::vector<RecordedSample>& samples, std::size_t count) {
   return {samples.begin(), samples.begin() + static_cast<std::ptrdiff_t>(count)};
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstring>
 #include <vector>
 
 #include "haptics/recording.h"
@@ -45,6 +46,11 @@ inline std::vector<RecordedSample> made_samples(int count) {
     samples.push_back(sample);
   }
   return samples;
+}
+
+inline bool same_bytes(const std::vector<RecordedSample>& a, const std::vector<RecordedSample>& b) {
+  return a.size() == b.size() &&
+         (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(RecordedSample)) == 0);
 }
 
 }  // namespace sandstroke

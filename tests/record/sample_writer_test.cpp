@@ -6,8 +6,6 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <cstring>
-
 #include "core/error.h"
 #include "record/made_recording.h"
 #include "test_folder.h"
@@ -51,9 +49,7 @@ void push(SpscRing<RecordedSample>& ring, const std::vector<RecordedSample>& sam
 
 bool holds(const fs::path& path, const std::vector<RecordedSample>& samples) {
   JournalReader reader(path);
-  const std::vector<RecordedSample> back = reader.next(samples.size() + 1);
-  return back.size() == samples.size() &&
-         std::memcmp(back.data(), samples.data(), samples.size() * sizeof(RecordedSample)) == 0;
+  return same_bytes(reader.next(samples.size() + 1), samples);
 }
 
 TEST(SampleWriter, WritesAllThatGoesIntoTheRing) {
