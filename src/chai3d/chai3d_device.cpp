@@ -71,8 +71,9 @@ std::unique_ptr<HapticDevice> make_chai3d_device(int index) {
 
 Chai3dDevice::Chai3dDevice(std::shared_ptr<chai3d::cGenericHapticDevice> device)
     : device_(std::move(device)) {
-  const cHapticDeviceInfo info = device_->getSpecifications();
-  // The dummy that getDevice gives out where there is no device is not available, and leaves its model unset.
+  // The dummy that getDevice gives out where there is no device is not available, and its model is never set:
+  // it must not be read, nor copied.
+  const cHapticDeviceInfo& info = device_->m_specifications;
   if (!device_->isDeviceAvailable() || !info.m_sensedPosition ||
       info.m_model == chai3d::C_HAPTIC_DEVICE_VIRTUAL)
     throw_io_error("\"{}\" is no real haptic device: connect one, and switch it on", info.m_modelName);
@@ -87,7 +88,7 @@ void Chai3dDevice::open() {
         "the haptic device {} cannot be opened: end other programs that use it, unplug it, plug it in again, "
         "and try again",
         specification_.model);
-  specification_ = specification_of(device_->getSpecifications());  // now it has been asked itself
+  specification_ = specification_of(device_->m_specifications);  // now it has been asked itself
   released_ = false;
   motors_on_ = false;
   open_ = true;
