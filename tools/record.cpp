@@ -104,6 +104,8 @@ int exit_code(StopReason reason) {
 }
 
 int record(const Arguments& arguments) {
+  if ((arguments.list || arguments.check) && !(arguments.output.empty() && arguments.device.empty()))
+    throw_input_error("record --list and --check record nothing; leave out -o and --device");
   if (arguments.list) return list_devices(arguments.json);
   if (arguments.check) return check_machine(recorder_settings(arguments), arguments.json);
   if (arguments.output.empty() || arguments.device.empty())

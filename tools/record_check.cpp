@@ -35,7 +35,7 @@ int check_machine(const RecorderSettings& settings, bool json) {
   LoopCheck check;
   {
     Progress bar("check");
-    check = check_loop(seconds, settings.servo.rate, settings.priority, [&](const ServoProgress& progress) {
+    check = check_loop(seconds, settings, [&](const ServoProgress& progress) {
       bar.update(progress.time / seconds);
       return std::nullopt;
     });

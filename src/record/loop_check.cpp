@@ -1,7 +1,5 @@
 #include "record/loop_check.h"
 
-#include "record/recorder.h"
-
 namespace sandstroke {
 namespace {
 
@@ -25,16 +23,15 @@ bool is_fit(const RecordingFooter& loop, double rate) {
   return loop.reason == StopReason::duration && loop.ticks.skipped == 0 && loop.lateness.p99 < 0.1 / rate;
 }
 
-LoopCheck check_loop(double seconds, double rate, int priority, const RecordingWatcher& watcher) {
-  const RecorderSettings settings;
+LoopCheck check_loop(double seconds, const RecorderSettings& settings, const RecordingWatcher& watcher) {
+  const double rate = settings.servo.rate;
   ServoSettings servo = settings.servo;
-  servo.rate = rate;
   servo.duration = seconds;
   NoDevice device;
   MonotonicClock clock;
   SpscRing<RecordedSample> ring(static_cast<std::size_t>(rate) + 1);  // of a second: emptied ten times in it
   ServoLoop loop(device, nullptr, clock, ring, servo);
-  LoopThread thread(loop, priority, settings.lock_memory);
+  LoopThread thread(loop, settings.priority, settings.lock_memory);
   thread.start();
   thread.watch([&](const ServoProgress& progress) {
     RecordedSample sample;

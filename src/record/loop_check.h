@@ -1,6 +1,6 @@
 #pragma once
 
-#include "record/loop_thread.h"
+#include "record/recorder.h"
 
 namespace sandstroke {
 
@@ -14,7 +14,8 @@ struct LoopCheck {
 /// What the figures say: of a loop that ran its time.
 bool is_fit(const RecordingFooter& loop, double rate);
 
-/// Runs the loop for `seconds` at `rate` [Hz] without a device, under the scheduling that record() asks for.
-LoopCheck check_loop(double seconds, double rate, int priority, const RecordingWatcher& watcher = {});
+/// Runs the loop for `seconds` without a device, at the rate and under the scheduling that record() has with
+/// these settings.
+LoopCheck check_loop(double seconds, const RecorderSettings& settings, const RecordingWatcher& watcher = {});
 
 }  // namespace sandstroke

@@ -40,7 +40,10 @@ class AtTerminal {
     }
   }
   ~AtTerminal() {
-    if (!ended_) kill(child_, SIGKILL), wait();
+    if (!ended_) {
+      kill(child_, SIGKILL);
+      wait();
+    }
     close(master_);
     close(slave_);
   }

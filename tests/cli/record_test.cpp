@@ -246,6 +246,7 @@ TEST(CliRecord, WhatIsWrongIsSaidBeforeAnythingIsRecorded) {
       {{"record", "-o", "nowhere/a.h5", "--device", "scripted:line.toml"}, 4, "nowhere"},
       {{"record", "-o", ".", "--device", "scripted:line.toml", "--overwrite"}, 4, "folder"},
       {{"record", "--list", "--check"}, 2, "--list"},
+      {with(record_line, {"--check"}), 2, "leave out"},
   };
   for (const auto& [arguments, exit_code, part] : attempts) {
     const ProgramResult result = run_program(arguments, folder);
