@@ -98,6 +98,27 @@ TEST(CliRecord, EndsWhenTheTimeIsUp) {
   EXPECT_LE(read_stroke_file(folder / "a.h5").size(), 60u);
 }
 
+TEST(CliRecord, SandIsFeltAtTheRateOfItsSceneUnlessAnotherIsGiven) {
+  const fs::path folder = test_folder();
+  const std::vector<std::string> feel =
+      with(record_line, {"--overwrite", "--json", "--duration", "0.2", "--feel", "scene.toml"});
+  const auto rate_with = [&](const std::vector<std::string>& more) {
+    const ProgramResult result = run_program(with(feel, more), folder);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    const json said = json::parse(result.out);
+    EXPECT_EQ(said["ticks_elapsed"], 0.2 * said["nominal_rate"].get<double>());
+    return said["nominal_rate"].get<double>();
+  };
+  EXPECT_EQ(rate_with({}), 1000.0);
+  EXPECT_EQ(rate_with({"--set", "device.servo_rate=500"}), 500.0);
+  EXPECT_EQ(rate_with({"--set", "device.servo_rate=500", "--rate", "250"}), 250.0);
+  EXPECT_EQ(rate_with({"--set", "device.servo_rate=20", "--rate", "250"}), 250.0);
+  const ProgramResult slow = run_program(with(feel, {"--set", "device.servo_rate=20"}), folder);
+  EXPECT_EQ(slow.exit_code, 2);
+  for (const char* part : {"device.servo_rate", "--rate"})
+    EXPECT_NE(slow.err.find(part), std::string::npos) << slow.err;
+}
+
 TEST(CliRecord, ARecordingCanBePlayedAndRecordedAgain) {
   const fs::path folder = test_folder();
   ASSERT_EQ(run_program(with(record_line, {"--duration", "0.6"}), folder).exit_code, 0);
