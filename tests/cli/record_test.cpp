@@ -33,6 +33,14 @@ std::function<bool()> recording(const fs::path& folder, std::uintmax_t bytes = 2
   };
 }
 
+/// So that what ends the recording comes before its stroke's end, however late it comes.
+fs::path folder_with_long_stroke() {
+  const fs::path folder = test_folder();
+  write_file(folder / "line.toml", read_file(folder / "line.toml") +
+                                       "[[segment]]\nkind = \"move\"\nto = [0.06, 0.0]\nwait = 300.0\n");
+  return folder;
+}
+
 double largest_spacing(const Stroke& stroke) {
   double largest = 0.0;
   for (std::size_t i = 1; i < stroke.size(); ++i)
@@ -148,7 +156,7 @@ TEST(CliRecord, AStrokeWithAGapIsPlayedToItsEnd) {
 
 TEST(CliRecord, StoppedBySignalItKeepsWhatThereIsAndMarksIt) {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
-    const fs::path folder = test_folder();
+    const fs::path folder = folder_with_long_stroke();
     Conditions stopped{signal};
     stopped.when = recording(folder);
     const ProgramResult result = run_program(with(record_line, {"--json"}), folder, stopped);
@@ -165,7 +173,7 @@ TEST(CliRecord, StoppedBySignalItKeepsWhatThereIsAndMarksIt) {
 }
 
 TEST(CliRecord, KilledItsJournalBecomesAStrokeThatRuns) {
-  const fs::path folder = test_folder();
+  const fs::path folder = folder_with_long_stroke();
   Conditions killed{SIGKILL};
   killed.when = recording(folder, 80'000);  // over 700 samples: the tool is in the sand
   EXPECT_EQ(run_program(record_line, folder, killed).exit_code, 128 + SIGKILL);
