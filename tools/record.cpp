@@ -26,16 +26,32 @@ struct Arguments {
   std::vector<std::string> overrides;  // of the felt scene
   RecorderSettings settings;
   double duration = 0.0;  // s; 0: not given
+  double rate = 0.0;      // Hz; 0: not given
   int stop_switch = -1;   // not given
   bool list = false, check = false, overwrite = false, no_memory_lock = false, json = false;
 };
 
-RecorderSettings recorder_settings(const Arguments& arguments) {
+// Hz. Slower, the watchdog would take every tick for a stall; faster, no device is.
+constexpr double slowest = 100.0, fastest = 10000.0;
+
+/// The rate given, or that at which `run` will play the stroke in the scene that is felt.
+double servo_rate(const Arguments& arguments, const std::optional<Scene>& felt) {
+  if (arguments.rate > 0.0) return arguments.rate;
+  if (!felt) return ServoSettings{}.rate;
+  const double rate = felt->device.servo_rate;
+  if (!(rate >= slowest && rate <= fastest))
+    throw_input_error("device.servo_rate: {} Hz is no rate of a recording, {} to {}; name one: --rate 1000",
+                      rate, slowest, fastest);
+  return rate;
+}
+
+RecorderSettings recorder_settings(const Arguments& arguments, const std::optional<Scene>& felt) {
   RecorderSettings settings = arguments.settings;
+  settings.servo.rate = servo_rate(arguments, felt);
   if (arguments.duration > 0.0) settings.servo.duration = arguments.duration;
   if (arguments.stop_switch >= 0) settings.servo.stop_switch = arguments.stop_switch;
   settings.lock_memory = !arguments.no_memory_lock;
-  if (arguments.felt_scene.empty()) settings.servo.force.max_force = 0.0;  // nothing is felt
+  if (!felt) settings.servo.force.max_force = 0.0;  // nothing is felt
   return settings;
 }
 
@@ -57,13 +73,12 @@ std::vector<fs::path> inputs(const Arguments& arguments, const std::optional<Sce
   return files;
 }
 
-RecordingReport record_stroke(HapticDevice& device, FeltWorld* world, RecordingHeader header,
-                              const Arguments& arguments) {
+RecordingReport record_stroke(HapticDevice& device, FeltWorld* world, const RecorderSettings& settings,
+                              RecordingHeader header, const fs::path& output) {
   catch_all_interrupts();
   StopKeys keys;
   RecordDisplay display(keys.listening() ? "; q ends it" : "");
-  return record(device, world, recorder_settings(arguments), std::move(header),
-                journal_path(arguments.output),
+  return record(device, world, settings, std::move(header), journal_path(output),
                 [&](const ServoProgress& progress) -> std::optional<StopReason> {
                   display.show(progress);
                   return keys.pressed() ? std::optional(StopReason::key) : std::nullopt;
@@ -107,7 +122,7 @@ int record(const Arguments& arguments) {
   if ((arguments.list || arguments.check) && !(arguments.output.empty() && arguments.device.empty()))
     throw_input_error("record --list and --check record nothing; leave out -o and --device");
   if (arguments.list) return list_devices(arguments.json);
-  if (arguments.check) return check_machine(recorder_settings(arguments), arguments.json);
+  if (arguments.check) return check_machine(recorder_settings(arguments, {}), arguments.json);
   if (arguments.output.empty() || arguments.device.empty())
     throw_input_error(
         "record needs a file to write and a device: sandstroke record -o STROKE.h5 --device NAME; sandstroke "
@@ -115,6 +130,7 @@ int record(const Arguments& arguments) {
 
   std::optional<Scene> felt;
   if (!arguments.felt_scene.empty()) felt = load_scene(arguments.felt_scene, arguments.overrides);
+  const RecorderSettings settings = recorder_settings(arguments, felt);
   check_output(arguments.output, inputs(arguments, felt));
   check_free(arguments.output, arguments.overwrite);
   const std::unique_ptr<HapticDevice> device =
@@ -129,7 +145,7 @@ int record(const Arguments& arguments) {
     sand->start();
   }
   const RecordingReport report =
-      record_stroke(*device, sand ? &*sand : nullptr, std::move(header), arguments);
+      record_stroke(*device, sand ? &*sand : nullptr, settings, std::move(header), arguments.output);
   std::optional<LiveSandReport> felt_sand;
   if (sand) felt_sand = sand->finish();
   write_stroke(arguments.output, report.footer);
@@ -138,16 +154,15 @@ int record(const Arguments& arguments) {
   return exit_code(report.footer.reason);
 }
 
-/// Slower, the watchdog would take every tick for a stall; faster, no device is.
-CLI::Validator servo_rate() {
+CLI::Validator recording_rate() {
   return CLI::Validator(
       [](std::string& text) -> std::string {
         double rate = 0.0;
-        return CLI::detail::lexical_cast(text, rate) && rate >= 100.0 && rate <= 10000.0
+        return CLI::detail::lexical_cast(text, rate) && rate >= slowest && rate <= fastest
                    ? ""
-                   : text + " is not a number of 100 to 10000";
+                   : fmt::format("{} is not a number of {} to {}", text, slowest, fastest);
       },
-      "100 to 10000");
+      fmt::format("{} to {}", slowest, fastest));
 }
 
 }  // namespace
@@ -175,9 +190,11 @@ void add_record_command(CLI::App& app, Command& chosen) {
           "--stop-switch")
       ->check(positive_number())
       ->option_text("S");
-  command->add_option("--rate", settings.servo.rate, "Ticks a second [Hz]")
-      ->check(servo_rate())
-      ->capture_default_str();
+  command
+      ->add_option("--rate", arguments->rate,
+                   "Ticks a second [Hz]; without: 1000, or with --feel the scene's device.servo_rate")
+      ->check(recording_rate())
+      ->option_text("HZ");
   command
       ->add_option("--stop-switch", arguments->stop_switch, "End when this switch of the device is pressed")
       ->check(CLI::Range(0, 31))

@@ -7,7 +7,8 @@ namespace sandstroke {
 void catch_interrupts();
 
 /// The same for a terminal that is closed (unless nohup asks to outlive that) and Ctrl-\, and Ctrl-Z does
-/// nothing: for work that must not stand still, or end at once.
+/// nothing: for work that must not stand still, nor end before it has let go. So those that come within a
+/// second of the first are taken for the same one: a closed terminal sends two, a key that is held many.
 void catch_all_interrupts();
 
 /// The signal caught so far, or 0.

@@ -2,13 +2,14 @@
 
 #include <algorithm>
 #include <chrono>
+#include <limits>
 
 namespace sandstroke {
 namespace {
 
 using namespace std::chrono_literals;
 
-constexpr double idle_rate = 60.0;  // Hz, of taking what was dug where nothing is relaxed
+constexpr std::chrono::duration<double> longest_wait(1.0 / 60.0);  // s, with what was dug, and to be stopped
 // Where sand has far to go it is felt, and stopped, on its way: some 50 ms of a million moving cells.
 constexpr std::int64_t most_passes = 50;
 
@@ -57,16 +58,22 @@ void Eroder::turn() {
 
 void Eroder::start() {
   stopping_ = false;
-  thread_ = std::thread([this] {
-    const auto period = std::chrono::duration_cast<std::chrono::steady_clock::duration>(
-        std::chrono::duration<double>(1.0 / (rate_ > 0.0 ? rate_ : idle_rate)));
-    auto due = std::chrono::steady_clock::now();
-    while (!stopping_) {
+  thread_ = std::thread([this] { run(); });
+}
+
+void Eroder::run() {
+  using Seconds = std::chrono::duration<double>;
+  const auto now = [] { return Seconds(std::chrono::steady_clock::now().time_since_epoch()); };
+  const Seconds period(rate_ > 0.0 ? 1.0 / rate_ : std::numeric_limits<double>::infinity());
+  for (Seconds due = now(); !stopping_;) {
+    if (now() >= due) {
       turn();
-      due = std::max(due + period, std::chrono::steady_clock::now());
-      std::this_thread::sleep_until(due);
+      due = std::max(due + period, now());
+    } else {
+      exchange();
     }
-  });
+    std::this_thread::sleep_for(std::min(due - now(), longest_wait));
+  }
 }
 
 void Eroder::stop() {

@@ -27,7 +27,7 @@ class Eroder {
   ~Eroder() { stop(); }
 
   /// In a thread of its own, settings.rate times a second, or, where that takes longer, one after the other.
-  /// Sand that has far to go does so in several turns.
+  /// Sand that has far to go does so in several turns. What was dug is taken 60 times a second at least.
   void start();
   /// Ends that thread, after the relaxation that is going on.
   void stop();
@@ -43,6 +43,7 @@ class Eroder {
   const ErosionReport& report() const { return report_; }
 
  private:
+  void run();
   void give(const SandChange& change);
 
   BedReplica replica_;

@@ -62,6 +62,14 @@ void sync_folder_of(const fs::path& path) {
   close(descriptor);
 }
 
+/// A journal's lock, for reading it.
+FileLock share_finished(const fs::path& path) {
+  std::optional<FileLock> lock = FileLock::try_share(path);
+  if (!lock)
+    throw_io_error("{}: is still being recorded; wait for its end, or end that program first", path.string());
+  return std::move(*lock);
+}
+
 }  // namespace
 
 fs::path journal_path(const fs::path& stroke_file) {
@@ -71,11 +79,13 @@ fs::path journal_path(const fs::path& stroke_file) {
 }
 
 void check_no_journal(const fs::path& path) {
-  if (fs::exists(path))
-    throw_io_error(
-        "{}: is there already, a recording that was cut off; make a stroke of it (sandstroke stroke repair "
-        "{}), then remove it, or choose another name",
-        path.string(), path.string());
+  if (!fs::exists(path)) return;
+  if (fs::is_regular_file(path)) share_finished(path);
+  throw_io_error(
+      "{}: is there already, a recording that was cut off; make a stroke of it (sandstroke stroke repair "
+      "{}), "
+      "then remove it, or choose another name",
+      path.string(), path.string());
 }
 
 // --- JournalWriter ---
@@ -165,9 +175,7 @@ JournalReader::JournalReader(const fs::path& path) : name_(path.string()) {
   if (fs::exists(path) && !fs::is_directory(path) && !fs::is_regular_file(path))
     throw_input_error("{}: is not a regular file; name one", name_);
   check_readable(path);
-  lock_ = FileLock::try_share(path);
-  if (!lock_)
-    throw_io_error("{}: is still being recorded; wait for its end, or end that program first", name_);
+  lock_ = share_finished(path);
   size_ = fs::file_size(path);
   file_.open(path, std::ios::binary);
 

@@ -27,7 +27,7 @@ TEST(SpscRing, GivesBackInOrderWhatItTookAndRefusesWhatDoesNotFit) {
 
 TEST(SpscRing, LosesNothingBetweenTwoThreads) {
   SpscRing<int> ring(64);
-  constexpr int count = 200'000;
+  constexpr int count = 20'000;
   std::thread filler([&] {
     for (int i = 0; i < count;)
       if (ring.push(i))
