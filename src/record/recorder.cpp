@@ -60,7 +60,8 @@ RecordingReport record(HapticDevice& device, FeltWorld* world, const RecorderSet
   header.started = utc_now();
   JournalWriter file(journal, header);
   SampleWriter writer(ring, file, loop);
-  const Watchdog watchdog(loop, device, clock, settings.watchdog, settings.priority);
+  std::optional<Watchdog> watchdog;
+  if (loop.force_limit() > 0.0) watchdog.emplace(loop, device, clock, settings.watchdog, settings.priority);
 
   thread.start();
   std::exception_ptr failure;

@@ -258,6 +258,20 @@ TEST_F(RecorderTest, FreesALoopThatHangsInTheDevice) {
   EXPECT_EQ(hanging.closed, 1);
 }
 
+TEST_F(RecorderTest, GoesOnAfterAHangWhereNoForceCouldBeGiven) {
+  FakeDevice slow;
+  int reads = 0;
+  slow.reads = [&](double, DeviceReading&) {
+    if (++reads == 20) std::this_thread::sleep_for(std::chrono::milliseconds(60));
+    return true;
+  };
+  settings.servo.duration = 0.1;
+  settings.watchdog = 0.01;
+  const RecordingReport report = record(*seen(slow), nullptr, settings, {}, journal, {});
+  EXPECT_EQ(report.footer.reason, StopReason::duration);
+  EXPECT_GE(report.footer.ticks.skipped, 58);
+}
+
 using RecorderDeathTest = RecorderTest;  // run first, before there are threads that a fork would lose
 
 TEST_F(RecorderDeathTest, StopsAtAnInterrupt) {
