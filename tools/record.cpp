@@ -12,6 +12,7 @@
 #include "io/scene_toml.h"
 #include "io/surface_file.h"
 #include "record/journal.h"
+#include "record/real_time.h"
 #include "record_display.h"
 #include "record_parts.h"
 #include "stop_keys.h"
@@ -119,8 +120,9 @@ int exit_code(StopReason reason) {
 }
 
 int record(const Arguments& arguments) {
-  if ((arguments.list || arguments.check) && !(arguments.output.empty() && arguments.device.empty()))
-    throw_input_error("record --list and --check record nothing; leave out -o and --device");
+  if ((arguments.list || arguments.check) &&
+      !(arguments.output.empty() && arguments.device.empty() && arguments.felt_scene.empty()))
+    throw_input_error("record --list and --check record nothing; leave out -o, --device and --feel");
   if (arguments.list) return list_devices(arguments.json);
   if (arguments.check) return check_machine(recorder_settings(arguments, {}), arguments.json);
   if (arguments.output.empty() || arguments.device.empty())
@@ -226,8 +228,9 @@ void add_record_command(CLI::App& app, Command& chosen) {
                     "Calibrate the device first, which MAY MOVE ITS ARM: keep clear of it");
   command
       ->add_option("--priority", settings.priority,
-                   "Real-time priority (SCHED_FIFO) of the loop, 1 to 99; 0: not asked for")
-      ->check(CLI::Range(0, 99))
+                   fmt::format("Real-time priority (SCHED_FIFO) of the loop, 1 to {}; 0: not asked for",
+                               highest_loop_priority))
+      ->check(CLI::Range(0, highest_loop_priority))
       ->capture_default_str();
   command->add_flag("--no-memory-lock", arguments->no_memory_lock,
                     "Do not ask for memory that is never paged out");

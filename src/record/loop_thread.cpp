@@ -29,6 +29,7 @@ LoopThread::~LoopThread() {
 }
 
 void LoopThread::start() {
+  if (interrupted()) loop_.stop(StopReason::signal);
   started_ = true;
   go_.set_value();
 }

@@ -22,6 +22,7 @@ class LoopThread {
   ~LoopThread();
 
   const Scheduling& scheduling() const { return scheduling_; }
+  /// After an interrupt the loop ends before its first tick.
   void start();
   /// Until the loop is over, or the watcher throws. Interrupts (core/interrupt.h) stop the loop.
   void watch(const RecordingWatcher& watcher);

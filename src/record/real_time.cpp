@@ -46,7 +46,7 @@ std::string advice(int refused_priority, bool memory_refused) {
       refused_priority > 0 && memory_refused ? ", and " : "",
       memory_refused ? "memory that was swapped out can hold it up for as long as a disk takes" : "");
   const std::string limits = fmt::format(
-      "{}{}{}", refused_priority > 0 ? fmt::format("rtprio {}", refused_priority) : "",
+      "{}{}{}", refused_priority > 0 ? fmt::format("rtprio {}", watchdog_priority(refused_priority)) : "",
       refused_priority > 0 && memory_refused ? " and " : "", memory_refused ? "memlock unlimited" : "");
   return fmt::format(
       "{} refused: {}; allow your user {} in /etc/security/limits.conf and log in again, or the program by "

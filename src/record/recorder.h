@@ -8,7 +8,7 @@ namespace sandstroke {
 
 struct RecorderSettings {
   ServoSettings servo;
-  int priority = 80;  ///< SCHED_FIFO; 0 = not asked for
+  int priority = 80;  ///< SCHED_FIFO, at most highest_loop_priority; 0 = not asked for
   bool lock_memory = true;
   double watchdog = 0.1;   ///< s, where a force may be given; else a loop that stood still just goes on
   double ring = 10.0;      ///< s of samples that the disk may be behind

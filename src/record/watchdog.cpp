@@ -1,6 +1,5 @@
 #include "record/watchdog.h"
 
-#include <algorithm>
 #include <chrono>
 
 #include "record/real_time.h"
@@ -20,7 +19,7 @@ bool release_if_stalled(ServoLoop& loop, HapticDevice& device, std::int64_t now,
 
 Watchdog::Watchdog(ServoLoop& loop, HapticDevice& device, LoopClock& clock, double limit, int loop_priority)
     : thread_([this, &loop, &device, &clock, limit, loop_priority] {
-        if (loop_priority > 0) ask_for_real_time(std::min(loop_priority + 1, 99), false);
+        if (loop_priority > 0) ask_for_real_time(watchdog_priority(loop_priority), false);
         watch(loop, device, clock, to_nanoseconds(limit));
       }) {}
 

@@ -21,8 +21,7 @@ bool release_if_stalled(ServoLoop& loop, HapticDevice& device, std::int64_t now,
 /// told to stop.
 class Watchdog {
  public:
-  /// loop_priority: SCHED_FIFO's, of the loop. The watchdog asks for the next one, for a loop that hangs may
-  /// do so busily.
+  /// loop_priority: SCHED_FIFO's, of the loop; 0: not asked for. The watchdog asks for watchdog_priority.
   Watchdog(ServoLoop& loop, HapticDevice& device, LoopClock& clock, double limit, int loop_priority);
   ~Watchdog();
 

@@ -261,7 +261,7 @@ TEST(CliRecord, WhatIsWrongIsSaidBeforeAnythingIsRecorded) {
       {with(record_line, {"--rate", "0"}), 2, "--rate"},
       {with(record_line, {"--rate", "nan"}), 2, "--rate"},
       {with(record_line, {"--rate", "1e9"}), 2, "--rate"},
-      {with(record_line, {"--priority", "100"}), 2, "--priority"},
+      {with(record_line, {"--priority", "99"}), 2, "--priority"},
       {with(record_line, {"--stop-switch", "32"}), 2, "--stop-switch"},
       {with(record_line, {"--max-force", "3"}), 2, "--feel"},
       {with(record_line, {"--set", "force.k_s=1"}), 2, "--feel"},
@@ -276,6 +276,7 @@ TEST(CliRecord, WhatIsWrongIsSaidBeforeAnythingIsRecorded) {
       {{"record", "-o", ".", "--device", "scripted:line.toml", "--overwrite"}, 4, "folder"},
       {{"record", "--list", "--check"}, 2, "--list"},
       {with(record_line, {"--check"}), 2, "leave out"},
+      {{"record", "--check", "--feel", "scene.toml"}, 2, "leave out"},
   };
   for (const auto& [arguments, exit_code, part] : attempts) {
     const ProgramResult result = run_program(arguments, folder);

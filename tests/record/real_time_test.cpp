@@ -52,6 +52,7 @@ TEST(AskForRealTimeDeathTest, LeavesAUserWithLittleLockedMemoryAllTheOther) {
         const Scheduling given = ask_for_real_time(80, true);
         if (given.policy != "SCHED_OTHER" || given.priority != 0 || given.memory_locked) _exit(1);
         if (!says_what_was_refused(given)) _exit(2);
+        if (given.advice.find("rtprio 81 ") == std::string::npos) _exit(4);  // the watchdog's, too
         const std::vector<char> memory(std::size_t{64} << 20, 'x');  // refused, if its locking were asked for
         _exit(memory.back() == 'x' ? 0 : 3);
       },

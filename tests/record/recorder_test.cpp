@@ -276,6 +276,21 @@ using RecorderDeathTest = RecorderTest;  // run first, before there are threads 
 
 TEST_F(RecorderDeathTest, StopsAtAnInterrupt) {
   settings.servo.duration.reset();
+  device.reads = [readings = 0](double, DeviceReading&) mutable {
+    if (++readings == 5) std::raise(SIGINT);
+    return true;
+  };
+  EXPECT_EXIT(
+      {
+        catch_interrupts();
+        _exit(run().footer.reason == StopReason::signal ? 0 : 1);
+      },
+      testing::ExitedWithCode(0), "");
+  EXPECT_EQ(kept().second->reason, StopReason::signal);
+}
+
+TEST_F(RecorderDeathTest, DoesNotBeginAfterAnInterrupt) {  // while the arm moved to calibrate, say
+  settings.servo.duration.reset();
   EXPECT_EXIT(
       {
         catch_interrupts();
@@ -284,6 +299,7 @@ TEST_F(RecorderDeathTest, StopsAtAnInterrupt) {
       },
       testing::ExitedWithCode(0), "");
   EXPECT_EQ(kept().second->reason, StopReason::signal);
+  EXPECT_EQ(kept().second->ticks.elapsed, 0);
 }
 
 }  // namespace
