@@ -62,6 +62,10 @@ void sync_folder_of(const fs::path& path) {
   close(descriptor);
 }
 
+[[noreturn]] void throw_still_recorded(const fs::path& path) {
+  throw_io_error("{}: is still being recorded; wait for its end, or end that program first", path.string());
+}
+
 }  // namespace
 
 fs::path journal_path(const fs::path& stroke_file) {
@@ -71,11 +75,12 @@ fs::path journal_path(const fs::path& stroke_file) {
 }
 
 void check_no_journal(const fs::path& path) {
-  if (fs::exists(path))
-    throw_io_error(
-        "{}: is there already, a recording that was cut off; make a stroke of it (sandstroke stroke repair "
-        "{}), then remove it, or choose another name",
-        path.string(), path.string());
+  if (!fs::exists(path)) return;
+  if (!FileLock::try_share(path)) throw_still_recorded(path);
+  throw_io_error(
+      "{}: is there already, a recording that was cut off; make a stroke of it (sandstroke stroke repair "
+      "{}), then remove it, or choose another name",
+      path.string(), path.string());
 }
 
 // --- JournalWriter ---
@@ -166,8 +171,7 @@ JournalReader::JournalReader(const fs::path& path) : name_(path.string()) {
     throw_input_error("{}: is not a regular file; name one", name_);
   check_readable(path);
   lock_ = FileLock::try_share(path);
-  if (!lock_)
-    throw_io_error("{}: is still being recorded; wait for its end, or end that program first", name_);
+  if (!lock_) throw_still_recorded(path);
   size_ = fs::file_size(path);
   file_.open(path, std::ios::binary);
 

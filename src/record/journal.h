@@ -27,7 +27,8 @@ inline constexpr std::size_t journal_sample_bytes = 16 + sizeof(RecordedSample);
 
 /// Where the samples of STROKE.h5 are until the recording is over: STROKE.h5.recording.
 std::filesystem::path journal_path(const std::filesystem::path& stroke_file);
-/// Error: io, where this journal is there: an earlier recording that nobody repaired is not overwritten.
+/// Error: io, where this journal is there: a recording that goes on, or an earlier one that nobody repaired,
+/// is not overwritten.
 void check_no_journal(const std::filesystem::path& path);
 
 /// A recording while it goes on: a file that is only ever appended to, sample by sample with a checksum each,

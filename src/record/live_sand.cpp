@@ -16,7 +16,9 @@ constexpr double gap_threshold = Stroke{}.gap_threshold;  // s: what `run` does 
 
 const HeightField& checked(const Scene& scene, const HeightField& bed) {
   const auto refuse_unless = [](bool felt, const char* key, const char* why) {
-    if (!felt) throw_input_error("{}: {}; leave it out where sand is felt live (--feel)", key, why);
+    if (!felt)
+      throw_input_error("{}: {}; leave it out, or --set it otherwise, where sand is felt live (--feel)", key,
+                        why);
   };
   refuse_unless(scene.device.model == DeviceModel::kinematic, "device.model",
                 "\"dynamic\" simulates a device, and the hand holds a real one");

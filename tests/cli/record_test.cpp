@@ -185,6 +185,51 @@ TEST(CliRecord, NothingIsWrittenOverUnasked) {
   EXPECT_EQ(read_file(folder / "scene.toml"), scene);
 }
 
+TEST(CliRecord, AFileThatComesWhileItIsRecordedIsNotWrittenOver) {
+  const fs::path folder = test_folder();
+  Conditions meanwhile;
+  meanwhile.signal = SIGTERM;
+  meanwhile.when = [&folder, going_on = recording(folder)] {
+    if (!going_on()) return false;
+    write_file(folder / "a.h5", "precious");
+    return true;
+  };
+  const ProgramResult result = run_program(record_line, folder, meanwhile);
+  EXPECT_EQ(result.exit_code, 4) << result.err;
+  EXPECT_NE(result.err.find("stroke repair"), std::string::npos) << result.err;
+  EXPECT_EQ(read_file(folder / "a.h5"), "precious");
+  ASSERT_EQ(run_program({"stroke", "repair", "a.h5.recording", "b.h5"}, folder).exit_code, 0);
+  EXPECT_GT(read_stroke_file(folder / "b.h5").size(), 100u);
+}
+
+TEST(CliRecord, AJournalThatSomebodyRemovesIsToldAsLost) {
+  const fs::path folder = test_folder();
+  Conditions meanwhile;
+  meanwhile.signal = SIGTERM;
+  meanwhile.when = [&folder, going_on = recording(folder)] {
+    return going_on() && fs::remove(folder / "a.h5.recording");
+  };
+  const ProgramResult result = run_program(record_line, folder, meanwhile);
+  EXPECT_EQ(result.exit_code, 4) << result.err;
+  EXPECT_NE(result.err.find("somebody removed"), std::string::npos) << result.err;
+  EXPECT_EQ(result.err.find("stroke repair"), std::string::npos) << result.err;
+}
+
+TEST(CliRecord, WhatIsBeingRecordedIsNotToldAsCutOff) {
+  const fs::path folder = test_folder();
+  ProgramResult second;
+  Conditions meanwhile;
+  meanwhile.signal = SIGTERM;
+  meanwhile.when = [&, going_on = recording(folder)] {
+    if (!going_on()) return false;
+    second = run_program(record_line, folder);
+    return true;
+  };
+  EXPECT_EQ(run_program(record_line, folder, meanwhile).exit_code, 128 + SIGTERM);
+  EXPECT_EQ(second.exit_code, 4);
+  EXPECT_NE(second.err.find("is still being recorded"), std::string::npos) << second.err;
+}
+
 TEST(CliRecord, AFullDiskStopsItAndKeepsWhatTheDiskTook) {
   const fs::path folder = test_folder();
   const ProgramResult result = run_program(record_line, folder, {0, 0, 30'000});
@@ -222,7 +267,7 @@ TEST(CliRecord, WhatIsWrongIsSaidBeforeAnythingIsRecorded) {
       {{"record"}, 2, "--list"},
       {{"record", "-o", "a.h5"}, 2, "--device"},
       {with(to_a, {"mouse"}), 2, "scripted:FILE.toml"},
-      {with(to_a, {"scripted:"}), 2, "scripted:FILE.toml"},
+      {with(to_a, {"scripted:"}), 2, "names no stroke"},
       {with(to_a, {"chai3d:one"}), 2, "there is no such device"},
       {with(to_a, {"chai3d:-1"}), 2, "there is no such device"},
       {with(to_a, {"scripted:none.toml"}), 4, "none.toml"},
@@ -247,6 +292,8 @@ TEST(CliRecord, WhatIsWrongIsSaidBeforeAnythingIsRecorded) {
       {{"record", "-o", ".", "--device", "scripted:line.toml", "--overwrite"}, 4, "folder"},
       {{"record", "--list", "--check"}, 2, "--list"},
       {with(record_line, {"--check"}), 2, "leave out"},
+      {{"record", "--check", "--feel", "scene.toml"}, 2, "leave out"},
+      {{"record", "--list", "--feel", "scene.toml"}, 2, "leave out"},
   };
   for (const auto& [arguments, exit_code, part] : attempts) {
     const ProgramResult result = run_program(arguments, folder);
@@ -361,6 +408,9 @@ TEST(CliRecord, WithoutPermissionForRealTimeItRecordsAndSaysWhatThatCosts) {
   const ProgramResult check =
       run_program({"record", "--check", "--duration", "0.2", "--json"}, folder, refused);
   EXPECT_EQ(json::parse(check.out)["scheduling_advice"], said["scheduling_advice"]);
+  // Fit or not: what was refused is told.
+  const ProgramResult table = run_program({"record", "--check", "--duration", "0.2"}, folder, refused);
+  EXPECT_NE(table.out.find("limits.conf"), std::string::npos) << table.out;
 
   const ProgramResult unasked =
       run_program({"record", "-o", "b.h5", "--device", "scripted:line.toml", "--duration", "0.2",
