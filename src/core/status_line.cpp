@@ -1,17 +1,31 @@
 #include "core/status_line.h"
 
 #include <spdlog/spdlog.h>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <cstdio>
 
 namespace sandstroke {
+namespace {
+
+/// Of the terminal; 0: it does not say.
+std::size_t columns() {
+  winsize terminal{};
+  return ioctl(STDERR_FILENO, TIOCGWINSZ, &terminal) == 0 ? terminal.ws_col : 0;
+}
+
+}  // namespace
 
 StatusLine::StatusLine() : visible_(isatty(STDERR_FILENO) != 0 && spdlog::should_log(spdlog::level::info)) {}
 
 void StatusLine::draw(const std::string& text) {
   if (!visible_) return;
-  std::fputs(("\r" + text + "\033[K").c_str(), stderr);
+  std::string line = "\r" + text;
+  // What is longer would go on in the next line, and stay there. The last column stays free: what clears the
+  // rest of the line may clear it, too.
+  if (const std::size_t most = columns(); most > 0 && line.size() > most) line.resize(most);
+  std::fputs((line + "\033[K").c_str(), stderr);
   std::fflush(stderr);
   drawn_ = true;
 }

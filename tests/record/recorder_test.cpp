@@ -94,7 +94,7 @@ TEST_F(RecorderTest, AccountsForEachTickAndKeepsEachSample) {
   EXPECT_EQ(header.device.model, "fake");
   EXPECT_EQ(header.nominal_rate, 1000.0);
   EXPECT_EQ(header.force_limit, 8.0);
-  EXPECT_EQ(header.started.size(), 20u) << header.started;
+  EXPECT_EQ(header.started.size(), 24u) << header.started;
   EXPECT_EQ(header.scheduling.policy, report.header.scheduling.policy);
   EXPECT_EQ(header.scheduling.advice.empty(), header.scheduling.policy == "SCHED_FIFO");
 }
