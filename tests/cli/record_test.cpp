@@ -33,6 +33,14 @@ std::function<bool()> recording(const fs::path& folder, std::uintmax_t bytes = 2
   };
 }
 
+/// So that what ends the recording comes before its stroke's end, however late it comes.
+fs::path folder_with_long_stroke() {
+  const fs::path folder = test_folder();
+  write_file(folder / "line.toml", read_file(folder / "line.toml") +
+                                       "[[segment]]\nkind = \"move\"\nto = [0.06, 0.0]\nwait = 300.0\n");
+  return folder;
+}
+
 double largest_spacing(const Stroke& stroke) {
   double largest = 0.0;
   for (std::size_t i = 1; i < stroke.size(); ++i)
@@ -98,6 +106,27 @@ TEST(CliRecord, EndsWhenTheTimeIsUp) {
   EXPECT_LE(read_stroke_file(folder / "a.h5").size(), 60u);
 }
 
+TEST(CliRecord, SandIsFeltAtTheRateOfItsSceneUnlessAnotherIsGiven) {
+  const fs::path folder = test_folder();
+  const std::vector<std::string> feel =
+      with(record_line, {"--overwrite", "--json", "--duration", "0.2", "--feel", "scene.toml"});
+  const auto rate_with = [&](const std::vector<std::string>& more) {
+    const ProgramResult result = run_program(with(feel, more), folder);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    const json said = json::parse(result.out);
+    EXPECT_EQ(said["ticks_elapsed"], 0.2 * said["nominal_rate"].get<double>());
+    return said["nominal_rate"].get<double>();
+  };
+  EXPECT_EQ(rate_with({}), 1000.0);
+  EXPECT_EQ(rate_with({"--set", "device.servo_rate=500"}), 500.0);
+  EXPECT_EQ(rate_with({"--set", "device.servo_rate=500", "--rate", "250"}), 250.0);
+  EXPECT_EQ(rate_with({"--set", "device.servo_rate=20", "--rate", "250"}), 250.0);
+  const ProgramResult slow = run_program(with(feel, {"--set", "device.servo_rate=20"}), folder);
+  EXPECT_EQ(slow.exit_code, 2);
+  for (const char* part : {"device.servo_rate", "--rate"})
+    EXPECT_NE(slow.err.find(part), std::string::npos) << slow.err;
+}
+
 TEST(CliRecord, ARecordingCanBePlayedAndRecordedAgain) {
   const fs::path folder = test_folder();
   ASSERT_EQ(run_program(with(record_line, {"--duration", "0.6"}), folder).exit_code, 0);
@@ -127,7 +156,7 @@ TEST(CliRecord, AStrokeWithAGapIsPlayedToItsEnd) {
 
 TEST(CliRecord, StoppedBySignalItKeepsWhatThereIsAndMarksIt) {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
-    const fs::path folder = test_folder();
+    const fs::path folder = folder_with_long_stroke();
     Conditions stopped{signal};
     stopped.when = recording(folder);
     const ProgramResult result = run_program(with(record_line, {"--json"}), folder, stopped);
@@ -144,7 +173,7 @@ TEST(CliRecord, StoppedBySignalItKeepsWhatThereIsAndMarksIt) {
 }
 
 TEST(CliRecord, KilledItsJournalBecomesAStrokeThatRuns) {
-  const fs::path folder = test_folder();
+  const fs::path folder = folder_with_long_stroke();
   Conditions killed{SIGKILL};
   killed.when = recording(folder, 80'000);  // over 700 samples: the tool is in the sand
   EXPECT_EQ(run_program(record_line, folder, killed).exit_code, 128 + SIGKILL);
@@ -277,7 +306,7 @@ TEST(CliRecord, WhatIsWrongIsSaidBeforeAnythingIsRecorded) {
       {with(record_line, {"--rate", "0"}), 2, "--rate"},
       {with(record_line, {"--rate", "nan"}), 2, "--rate"},
       {with(record_line, {"--rate", "1e9"}), 2, "--rate"},
-      {with(record_line, {"--priority", "100"}), 2, "--priority"},
+      {with(record_line, {"--priority", "99"}), 2, "--priority"},
       {with(record_line, {"--stop-switch", "32"}), 2, "--stop-switch"},
       {with(record_line, {"--max-force", "3"}), 2, "--feel"},
       {with(record_line, {"--set", "force.k_s=1"}), 2, "--feel"},
