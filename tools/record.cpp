@@ -162,6 +162,10 @@ int record(const Arguments& arguments) {
   write_stroke(arguments.output, report.footer, arguments.overwrite);
   print_recording(report, felt_sand, arguments.output, arguments.json);
   warn(report, arguments.output);
+  if (felt_sand && felt_sand->contact_ticks == 0)
+    spdlog::warn(
+        "the tool never touched the sand; place the device's positions on it: --set stroke.offset and "
+        "stroke.scale");
   return exit_code(report.footer.reason);
 }
 
@@ -197,8 +201,7 @@ void add_record_command(CLI::App& app, Command& chosen) {
   command
       ->add_option(
           "--duration", arguments->duration,
-          "End after so long [s]; without: at the end of the stroke that is played, or by q, Ctrl-C or "
-          "--stop-switch")
+          "End after so long [s]; without: at the end of the stroke that is played, or by q or --stop-switch")
       ->check(positive_number())
       ->option_text("S");
   command
@@ -246,10 +249,11 @@ void add_record_command(CLI::App& app, Command& chosen) {
   command->add_flag("--overwrite", arguments->overwrite, "STROKE.h5 may be there: replace it");
   command->add_flag("--json", arguments->json, "One JSON object in SI units instead of a table");
   command->footer(
-      "Ended by a time, a key, a switch or its stroke, a recording is complete. Whatever else ends it: what "
-      "was\n"
-      "recorded is kept, marked incomplete; where even that was prevented (kill -9, power), it is in\n"
-      "STROKE.h5.recording, and sandstroke stroke repair saves it.\n"
+      "Ended by a time, its stroke, a switch or a key (q, Esc, Enter, space), a recording is complete. "
+      "Whatever\n"
+      "else ends it, Ctrl-C too: what was recorded is kept, marked incomplete. Where even that was "
+      "prevented\n"
+      "(kill -9, power), it is in STROKE.h5.recording: sandstroke stroke repair STROKE.h5 saves it.\n"
       "Example:  sandstroke record --device scripted:strokes/wscg/stroke.toml -o wscg.h5");
   command->callback([arguments, &chosen] { chosen = [arguments] { return record(*arguments); }; });
 }

@@ -18,11 +18,11 @@ std::string force_text(double limit, const TickCounts& ticks) {
 }
 
 std::string sand_text(const LiveSandReport& felt) {
-  return fmt::format("touched in {} ticks, relaxed {} times, {}{}", felt.contact_ticks,
-                     felt.erosion.relaxations, felt.erosion.converged ? "at rest" : "NOT AT REST",
-                     felt.held_ticks > 0
-                         ? fmt::format("; not dug in {} ticks, for its erosion was behind", felt.held_ticks)
-                         : "");
+  return fmt::format(
+      "touched in {} ticks, relaxed {} times, {}{}", felt.contact_ticks, felt.erosion.relaxations,
+      felt.erosion.converged ? "at rest" : "still slipping at the end",
+      felt.held_ticks > 0 ? fmt::format("; not dug in {} ticks, for its erosion was behind", felt.held_ticks)
+                          : "");
 }
 
 double seconds(const RecordingReport& report) {

@@ -15,12 +15,18 @@ std::size_t columns() {
   return ioctl(STDERR_FILENO, TIOCGWINSZ, &terminal) == 0 ? terminal.ws_col : 0;
 }
 
+/// Another job has the terminal, and somebody types there. None: it is no terminal of this session.
+bool in_background() {
+  const pid_t foreground = tcgetpgrp(STDERR_FILENO);
+  return foreground >= 0 && foreground != getpgrp();
+}
+
 }  // namespace
 
 StatusLine::StatusLine() : visible_(isatty(STDERR_FILENO) != 0 && spdlog::should_log(spdlog::level::info)) {}
 
 void StatusLine::draw(const std::string& text) {
-  if (!visible_) return;
+  if (!visible_ || in_background()) return;
   std::string line = "\r" + text;
   // What is longer would go on in the next line, and stay there. The last column stays free: what clears the
   // rest of the line may clear it, too.

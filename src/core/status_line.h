@@ -4,8 +4,8 @@
 
 namespace sandstroke {
 
-/// One line on stderr that is drawn over and over, on a terminal only and not where the log is quiet; gone
-/// with its holder.
+/// One line on stderr that is drawn over and over, on a terminal only, not where the log is quiet nor while
+/// the program runs in the background; gone with its holder.
 class StatusLine {
  public:
   StatusLine();

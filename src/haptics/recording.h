@@ -48,9 +48,10 @@ struct Scheduling {
 /// Known before the first sample.
 struct RecordingHeader {
   DeviceSpecification device;
-  std::string source;         ///< as the device was named: "scripted:wscg.toml"
-  std::string started;        ///< wall clock before the first tick, ISO 8601 with ms, UTC
-  double nominal_rate = 0.0;  ///< Hz
+  std::string source;              ///< as the device was named: "scripted:wscg.toml"
+  std::string started;             ///< wall clock before the first tick, ISO 8601 with ms, UTC ...
+  double started_monotonic = 0.0;  ///< s: ... and at that moment the clock that samples are timed by
+  double nominal_rate = 0.0;       ///< Hz
   Scheduling scheduling;
   double force_limit = 0.0;  ///< N; 0 = no force was given
   std::string felt_scene;    ///< the scene's resolved TOML text, with live sand; else empty

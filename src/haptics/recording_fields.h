@@ -15,6 +15,7 @@ void visit_header(Header& header, const Visit& visit) {
   visit("frame", header.device.frame);
   visit("nominal_rate", header.nominal_rate);
   visit("started", header.started);
+  visit("started_monotonic", header.started_monotonic);
   visit("device_model", header.device.model);
   visit("device_manufacturer", header.device.manufacturer);
   visit("device_max_force", header.device.max_force);

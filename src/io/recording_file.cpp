@@ -78,7 +78,7 @@ constexpr ColumnText column_texts[] = {
 constexpr const char* attribute_units =
     "s, Hz, m, N, N/m; clock_start: ns; yes and no: 1 and 0; of the device 0 means none or unknown, a force "
     "of "
-    "1.8e308 N any";
+    "1.8e308 N any. A sample's wall time: started + monotonic_time / 1e9 - started_monotonic";
 
 void describe(Hdf5Writer& file, const RecordingHeader& header) {
   for (const auto& [name, units, description] : column_texts) {

@@ -20,7 +20,8 @@ class NoDevice : public HapticDevice {
 }  // namespace
 
 bool is_fit(const RecordingFooter& loop, double rate) {
-  return loop.reason == StopReason::duration && loop.ticks.skipped == 0 && loop.lateness.p99 < 0.1 / rate;
+  return loop.reason == StopReason::duration && loop.ticks.skipped == 0 &&
+         loop.lateness.p99 < fit_lateness / rate;
 }
 
 LoopCheck check_loop(double seconds, const RecorderSettings& settings, const RecordingWatcher& watcher) {

@@ -4,6 +4,9 @@
 
 namespace sandstroke {
 
+/// Of a tick: how late at most 99 ticks of 100 are on a machine that is fit.
+inline constexpr double fit_lateness = 0.1;
+
 /// What a machine does to a servo loop without a device.
 struct LoopCheck {
   Scheduling scheduling;

@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 class AtTerminal {
  public:
   AtTerminal(const std::vector<std::string>& arguments, const fs::path& folder, const char* typed_ahead = "",
-             unsigned short columns = 80)
+             unsigned short columns = 80, bool in_background = false)
       : out_(folder / ".stdout") {
     const winsize size = {24, columns, 0, 0};
     if (openpty(&master_, &slave_, nullptr, nullptr, &size) != 0) throw std::runtime_error("no terminal");
@@ -38,6 +38,14 @@ class AtTerminal {
       close(master_);
       login_tty(slave_);
       dup2(open(out_.c_str(), O_CREAT | O_TRUNC | O_WRONLY, 0644), STDOUT_FILENO);
+      // The terminal stays with the group that this process leads; what it starts in another one runs
+      // without.
+      if (in_background && fork() != 0) {
+        int status = 0;
+        ::wait(&status);
+        _exit(WEXITSTATUS(status));
+      }
+      if (in_background) setpgid(0, 0);
       if (chdir(folder.c_str()) == 0) execv(SANDSTROKE_PROGRAM, argv.data());
       _exit(127);
     }
@@ -195,6 +203,15 @@ TEST(CliRecordTerminal, TheLineStaysOneLineInANarrowTerminal) {
     EXPECT_EQ(line.find('\n'), line.npos) << line;
     EXPECT_LT(line.substr(0, line.find(erase)).size(), columns) << line;
   }
+}
+
+TEST(CliRecordTerminal, InTheBackgroundItDrawsNothing) {
+  const fs::path folder = folder_with_long_stroke();
+  std::vector<std::string> arguments = record_line;
+  arguments.insert(arguments.end(), {"--duration", "0.5"});
+  AtTerminal program(arguments, folder, "", 80, true);
+  EXPECT_EQ(program.wait(), 0) << program.shown();
+  EXPECT_EQ(program.shown().find(" Hz"), std::string::npos) << program.shown();
 }
 
 TEST(CliRecordTerminal, QuietHidesTheLineAndKeysStillWork) {

@@ -365,6 +365,20 @@ TEST(CliRecord, SandCanBeFelt) {
   EXPECT_LE(most, 3.0 * (1.0 + 1e-12));
 }
 
+TEST(CliRecord, SandThatWasNeverTouchedIsTold) {
+  const fs::path folder = test_folder();
+  const auto record_at = [&](const char* offset) {
+    return run_program({"record", "-o", "a.h5", "--overwrite", "--device", "scripted:line.toml", "--feel",
+                        "scene.toml", "--set", offset},
+                       folder);
+  };
+  const ProgramResult above = record_at("stroke.offset=[0, 0, 1]"),
+                      in_it = record_at("stroke.offset=[0, 0, 0]");
+  EXPECT_EQ(above.exit_code, 0) << above.err;
+  EXPECT_NE(above.err.find("never touched"), std::string::npos) << above.err;
+  EXPECT_EQ(in_it.err.find("never touched"), std::string::npos) << in_it.err;
+}
+
 TEST(CliRecord, ARunOfAFeltStrokeHasTheForcesThatWereFelt) {
   // The bound of live_sand.h, with the spacing that this machine reached; without erosion during the stroke,
   // whose times are the wall's.
@@ -418,6 +432,7 @@ TEST(CliRecord, CheckMeasuresThisMachine) {
   EXPECT_LE(said["lateness_mean"], said["lateness_max"]);
   const ProgramResult table = run_program({"record", "--check", "--duration", "0.2"}, folder);
   EXPECT_NE(table.out.find("verdict"), std::string::npos) << table.out;
+  EXPECT_NE(table.out.find("less than 100 us in 99 of 100"), std::string::npos) << table.out;
 }
 
 TEST(CliRecord, WithoutPermissionForRealTimeItRecordsAndSaysWhatThatCosts) {

@@ -13,7 +13,8 @@ inline RecordingHeader full_header() {
   RecordingHeader header;
   header.device = {"Möbius 3", "A \"maker\"", "device", 12.5, 1e3 / 3.0, 0.08, 4, true};
   header.source = "scripted:wscg.toml";
-  header.started = "2026-11-21T18:00:00Z";
+  header.started = "2026-11-21T18:00:00.250Z";
+  header.started_monotonic = 1e6 / 3.0;
   header.nominal_rate = 999.5;
   header.scheduling = {"SCHED_FIFO", 80, true, "all was given\nthat was asked"};
   header.force_limit = 3.3;

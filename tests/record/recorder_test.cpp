@@ -89,12 +89,15 @@ TEST_F(RecorderTest, AccountsForEachTickAndKeepsEachSample) {
   EXPECT_EQ(footer->ticks.elapsed, ticks.elapsed);
   EXPECT_EQ(footer->ticks.skipped, ticks.skipped);
   EXPECT_EQ(footer->reason, StopReason::duration);
-  const RecordingHeader header = JournalReader(journal).header();
+  JournalReader reader(journal);
+  const RecordingHeader header = reader.header();
   EXPECT_EQ(header.source, "fake:");
   EXPECT_EQ(header.device.model, "fake");
   EXPECT_EQ(header.nominal_rate, 1000.0);
   EXPECT_EQ(header.force_limit, 8.0);
   EXPECT_EQ(header.started.size(), 24u) << header.started;
+  EXPECT_GT(header.started_monotonic, 0.0);
+  EXPECT_LT(header.started_monotonic, 1e-9 * static_cast<double>(reader.next(1).at(0).time));
   EXPECT_EQ(header.scheduling.policy, report.header.scheduling.policy);
   EXPECT_EQ(header.scheduling.advice.empty(), header.scheduling.policy == "SCHED_FIFO");
 }
