@@ -5,7 +5,7 @@
 namespace sandstroke {
 
 /// One line on stderr that is drawn over and over, on a terminal only and not where the log is quiet; gone
-/// with its holder.
+/// with its holder. A terminal that is held (Ctrl-S) is left out, for who draws must not be held with it.
 class StatusLine {
  public:
   StatusLine();
