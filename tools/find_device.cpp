@@ -51,6 +51,8 @@ std::unique_ptr<HapticDevice> find_device(const std::string& name, const ForceSe
   if (name == "chai3d") return make_chai3d_device(0);
   if (name.starts_with("chai3d:")) return make_chai3d_device(device_number(name));
   const std::filesystem::path file = file_played(name);
+  if (name == "scripted:" || name == "replay:")
+    throw_input_error("--device {}: names no stroke; say which: scripted:FILE.toml or replay:FILE.h5", name);
   if (file.empty()) throw_no_such_device(name);
   return std::make_unique<StrokeDevice>(load_stroke(file, force), name);
 }

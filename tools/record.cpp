@@ -87,16 +87,25 @@ RecordingReport record_stroke(HapticDevice& device, FeltWorld* world, const Reco
 }
 
 /// The journal goes once the stroke is whole, or where there is nothing in it.
-void write_stroke(const fs::path& output, const RecordingFooter& recorded) {
+void write_stroke(const fs::path& output, const RecordingFooter& recorded, bool overwrite) {
   const fs::path journal = journal_path(output);
   if (recorded.ticks.recorded == 0) {
     fs::remove(journal);
     throw_io_error("{}: was not written, for nothing was recorded: {}", output.string(),
                    stop_reason_text(recorded.reason));
   }
+  std::optional<JournalReader> reader;
   try {
-    JournalReader reader(journal);
-    write_recording_file(output, reader);
+    reader.emplace(journal);
+  } catch (const Error& failure) {
+    throw_io_error(
+        "{}; while it was recorded, somebody removed or replaced that file, and with it what was recorded",
+        failure.what());
+  }
+  try {
+    if (fs::exists(output) && !overwrite)
+      throw_io_error("{}: came into being while it was recorded, and is not written over", output.string());
+    write_recording_file(output, *reader);
   } catch (const Error& failure) {
     throw_io_error("{}. What was recorded is in {}: sandstroke stroke repair {} makes the stroke of it",
                    failure.what(), journal.string(), journal.string());
@@ -150,7 +159,7 @@ int record(const Arguments& arguments) {
       record_stroke(*device, sand ? &*sand : nullptr, settings, std::move(header), arguments.output);
   std::optional<LiveSandReport> felt_sand;
   if (sand) felt_sand = sand->finish();
-  write_stroke(arguments.output, report.footer);
+  write_stroke(arguments.output, report.footer, arguments.overwrite);
   print_recording(report, felt_sand, arguments.output, arguments.json);
   warn(report, arguments.output);
   return exit_code(report.footer.reason);

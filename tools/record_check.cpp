@@ -24,8 +24,13 @@ void print_table(const LoopCheck& check, const ServoSettings& servo) {
   row("scheduling", scheduling_text(check.scheduling));
   row("ticks", ticks_text(check.loop.ticks));
   row("lateness", lateness_text(check.loop));
-  const std::string remedy = check.scheduling.advice.empty() ? other_remedies : check.scheduling.advice;
-  row("verdict", check.fit ? "fit to record at this rate" : "NOT FIT to record at this rate: " + remedy);
+  const std::string& advice = check.scheduling.advice;
+  if (check.fit) {
+    row("verdict",
+        "fit to record at this rate" + (advice.empty() ? "" : ", while nothing else runs: " + advice));
+  } else {
+    row("verdict", "NOT FIT to record at this rate: " + (advice.empty() ? other_remedies : advice));
+  }
 }
 
 }  // namespace

@@ -26,7 +26,7 @@ void print_recording(const RecordingReport& report, const std::optional<LiveSand
 std::string scheduling_text(const Scheduling& scheduling);
 /// Where the ticks went, without what did not happen.
 std::string ticks_text(const TickCounts& ticks);
-/// "12 us on average, 30 us or less in 99 of 100, 410 us at most; late by half a tick: 3"
+/// "12 us on average, 30 us or less in 99 of 100, 410 us at most; recorded over half a tick late: 3"
 std::string lateness_text(const RecordingFooter& footer);
 
 }  // namespace sandstroke

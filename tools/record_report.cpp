@@ -10,7 +10,7 @@ namespace {
 std::string force_text(double limit, const TickCounts& ticks) {
   if (limit == 0.0) return "none";
   std::string text = limit < any_force ? fmt::format("up to {:.3g} N", limit) : "all that the sand gives";
-  text += fmt::format("; faded in over {} ticks", ticks.ramped);
+  if (ticks.ramped > 0) text += fmt::format("; still fading in during {} ticks", ticks.ramped);
   if (ticks.clamped > 0) text += fmt::format(", cut to the limit in {}", ticks.clamped);
   if (ticks.rate_limited > 0) text += fmt::format(", kept from jumping in {}", ticks.rate_limited);
   if (ticks.refused > 0) text += fmt::format(", no number in {}", ticks.refused);
@@ -48,7 +48,8 @@ std::string ticks_text(const TickCounts& ticks) {
 
 std::string lateness_text(const RecordingFooter& footer) {
   return fmt::format(
-      "{:.0f} us on average, {:.0f} us or less in 99 of 100, {:.0f} us at most; by over half a tick: {}",
+      "{:.0f} us on average, {:.0f} us or less in 99 of 100, {:.0f} us at most; recorded over half a tick "
+      "late: {}",
       1e6 * footer.lateness.mean, 1e6 * footer.lateness.p99, 1e6 * footer.lateness.max, footer.ticks.late);
 }
 

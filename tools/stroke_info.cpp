@@ -74,9 +74,10 @@ std::string recording_rows(const RecordingInfo& recording, const StrokeSummary& 
          table_row("loop", fmt::format("{:.6g} Hz asked, {:.6g} samples a second; {}", header.nominal_rate,
                                        reached_rate(summary), scheduling_text(header.scheduling))) +
          table_row("ticks", recorded_ticks_text(footer)) +
-         table_row("lateness", std::isnan(footer.lateness.mean)
-                                   ? fmt::format("not known; by over half a tick: {}", footer.ticks.late)
-                                   : lateness_text(footer)) +
+         table_row("lateness",
+                   std::isnan(footer.lateness.mean)
+                       ? fmt::format("not known; recorded over half a tick late: {}", footer.ticks.late)
+                       : lateness_text(footer)) +
          table_row("ended", stop_reason_text(footer.reason));
 }
 

@@ -2,6 +2,7 @@
 
 #include <poll.h>
 #include <spdlog/spdlog.h>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <cstdio>
@@ -14,13 +15,23 @@ bool takes_output() {
   return poll(&terminal, 1, 0) > 0 && (terminal.revents & POLLOUT) != 0;
 }
 
+/// Of the terminal; 0: it does not say.
+std::size_t columns() {
+  winsize terminal{};
+  return ioctl(STDERR_FILENO, TIOCGWINSZ, &terminal) == 0 ? terminal.ws_col : 0;
+}
+
 }  // namespace
 
 StatusLine::StatusLine() : visible_(isatty(STDERR_FILENO) != 0 && spdlog::should_log(spdlog::level::info)) {}
 
 void StatusLine::draw(const std::string& text) {
   if (!visible_ || !takes_output()) return;
-  std::fputs(("\r" + text + "\033[K").c_str(), stderr);
+  std::string line = "\r" + text;
+  // What is longer would go on in the next line, and stay there. The last column stays free: what clears the
+  // rest of the line may clear it, too.
+  if (const std::size_t most = columns(); most > 0 && line.size() > most) line.resize(most);
+  std::fputs((line + "\033[K").c_str(), stderr);
   std::fflush(stderr);
   drawn_ = true;
 }

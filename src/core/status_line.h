@@ -15,6 +15,7 @@ class StatusLine {
 
   /// Somebody sees it.
   bool visible() const { return visible_; }
+  /// Cut to the width of the terminal.
   void draw(const std::string& text);
   void clear();
 

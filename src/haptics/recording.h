@@ -49,7 +49,7 @@ struct Scheduling {
 struct RecordingHeader {
   DeviceSpecification device;
   std::string source;         ///< as the device was named: "scripted:wscg.toml"
-  std::string started;        ///< wall clock, ISO 8601, UTC
+  std::string started;        ///< wall clock before the first tick, ISO 8601 with ms, UTC
   double nominal_rate = 0.0;  ///< Hz
   Scheduling scheduling;
   double force_limit = 0.0;  ///< N; 0 = no force was given

@@ -56,6 +56,41 @@ class SampleColumns {
   std::optional<Hdf5Column> velocity_, force_;
 };
 
+/// In the file, for who reads it without this program.
+struct ColumnText {
+  const char *name, *units, *description;  // units: empty of what has none
+};
+constexpr ColumnText column_texts[] = {
+    {"time", "s", "since the first sample: right before the device was read"},
+    {"position", "m", "as the device gave it, in its frame (attribute frame of /stroke)"},
+    {"velocity", "m/s", "as the device gave it, in its frame"},
+    {"force", "N",
+     "on the hand, commanded after this reading and held until the next, in the device's frame"},
+    {"switches", "", "that were pressed: switch k is bit k"},
+    {"sequence", "", "number of the tick, from 0: of ticks whose number is missing there is no sample"},
+    {"monotonic_time", "ns", "time, as the system's clock gave it (attribute clock of /stroke)"},
+    {"flags", "",
+     "sum of: 1 read over half a tick late, 2 ticks before it are missing, 4 force cut to the limit, 8 force "
+     "still fading in, 16 force kept from jumping, 32 force was no number and not given, 64 tool did not "
+     "dig, "
+     "for the sand's erosion was behind"},
+};
+constexpr const char* attribute_units =
+    "s, Hz, m, N, N/m; clock_start: ns; yes and no: 1 and 0; of the device 0 means none or unknown, a force "
+    "of "
+    "1.8e308 N any";
+
+void describe(Hdf5Writer& file, const RecordingHeader& header) {
+  for (const auto& [name, units, description] : column_texts) {
+    if (name == std::string_view("velocity") && !header.device.measures_velocity) continue;
+    if (name == std::string_view("force") && header.force_limit == 0.0) continue;
+    const std::string column = std::string(group) + "/" + name;
+    if (*units != 0) file.attribute(column, "units", std::string(units));
+    file.attribute(column, "description", std::string(description));
+  }
+  file.attribute(group, "units", std::string(attribute_units));
+}
+
 /// recorded: the counts of the samples there are, with elapsed as far as these reach.
 RecordingFooter settled_footer(const std::optional<RecordingFooter>& footer, const TickCounts& recorded) {
   RecordingFooter settled;
@@ -149,6 +184,7 @@ RecordingInfo write_recording_file(const std::filesystem::path& path, Recording&
   visit_footer(info.footer, PutAttribute{file});
   file.attribute(group, "clock", std::string("CLOCK_MONOTONIC"));
   file.attribute(group, "clock_start", static_cast<double>(start));
+  describe(file, info.header);
   file.finish();
   return info;
 }

@@ -83,8 +83,7 @@ void check_no_journal(const fs::path& path) {
   if (fs::is_regular_file(path)) share_finished(path);
   throw_io_error(
       "{}: is there already, a recording that was cut off; make a stroke of it (sandstroke stroke repair "
-      "{}), "
-      "then remove it, or choose another name",
+      "{}), then remove it, or choose another name",
       path.string(), path.string());
 }
 

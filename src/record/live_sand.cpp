@@ -11,12 +11,14 @@ namespace sandstroke {
 namespace {
 
 constexpr std::size_t ring_size = std::size_t{1} << 20;   // changes: 16 MB each way
-constexpr int most_taken = 4096;                          // changes per tick: some 10 us
+constexpr int most_taken = 4096;                          // changes per tick: some 50 us
 constexpr double gap_threshold = Stroke{}.gap_threshold;  // s: what `run` does not join is not joined here
 
 const HeightField& checked(const Scene& scene, const HeightField& bed) {
   const auto refuse_unless = [](bool felt, const char* key, const char* why) {
-    if (!felt) throw_input_error("{}: {}; leave it out where sand is felt live (--feel)", key, why);
+    if (!felt)
+      throw_input_error("{}: {}; leave it out, or --set it otherwise, where sand is felt live (--feel)", key,
+                        why);
   };
   refuse_unless(scene.device.model == DeviceModel::kinematic, "device.model",
                 "\"dynamic\" simulates a device, and the hand holds a real one");

@@ -2,6 +2,7 @@
 
 #include <spdlog/fmt/chrono.h>
 
+#include <chrono>
 #include <cmath>
 #include <ctime>
 #include <exception>
@@ -37,7 +38,12 @@ void check_stop_switch(std::optional<int> number, const DeviceSpecification& dev
   }
 }
 
-std::string utc_now() { return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr))); }
+std::string utc_now() {
+  using namespace std::chrono;
+  const auto now = duration_cast<milliseconds>(system_clock::now().time_since_epoch()).count();
+  return fmt::format("{:%Y-%m-%dT%H:%M:%S}.{:03}Z", fmt::gmtime(static_cast<std::time_t>(now / 1000)),
+                     now % 1000);
+}
 
 }  // namespace
 
@@ -60,7 +66,8 @@ RecordingReport record(HapticDevice& device, FeltWorld* world, const RecorderSet
   header.started = utc_now();
   JournalWriter file(journal, header);
   SampleWriter writer(ring, file, loop);
-  const Watchdog watchdog(loop, device, clock, settings.watchdog, settings.priority);
+  std::optional<Watchdog> watchdog;
+  if (loop.force_limit() > 0.0) watchdog.emplace(loop, device, clock, settings.watchdog, settings.priority);
 
   thread.start();
   std::exception_ptr failure;

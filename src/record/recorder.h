@@ -10,7 +10,7 @@ struct RecorderSettings {
   ServoSettings servo;
   int priority = 80;  ///< SCHED_FIFO, at most highest_loop_priority; 0 = not asked for
   bool lock_memory = true;
-  double watchdog = 0.1;   ///< s
+  double watchdog = 0.1;   ///< s, where a force may be given; else a loop that stood still just goes on
   double ring = 10.0;      ///< s of samples that the disk may be behind
   bool calibrate = false;  ///< may move the arm
 };

@@ -11,6 +11,7 @@
 
 #include <cstring>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "cli/program.h"
 
@@ -22,9 +23,11 @@ namespace fs = std::filesystem;
 /// The program at a terminal; its standard output goes to a file.
 class AtTerminal {
  public:
-  AtTerminal(const std::vector<std::string>& arguments, const fs::path& folder, const char* typed_ahead = "")
+  AtTerminal(const std::vector<std::string>& arguments, const fs::path& folder, const char* typed_ahead = "",
+             unsigned short columns = 80)
       : out_(folder / ".stdout") {
-    if (openpty(&master_, &slave_, nullptr, nullptr, nullptr) != 0) throw std::runtime_error("no terminal");
+    const winsize size = {24, columns, 0, 0};
+    if (openpty(&master_, &slave_, nullptr, nullptr, &size) != 0) throw std::runtime_error("no terminal");
     before_ = settings();
     type(typed_ahead);
     std::vector<char*> argv = {const_cast<char*>("sandstroke")};
@@ -190,6 +193,21 @@ TEST(CliRecordTerminal, WhatWasTypedAheadIsForTheShell) {
   EXPECT_EQ(program.wait(), 0) << program.shown();
   EXPECT_EQ(nlohmann::json::parse(program.out())["stop_reason"], "the time was up");
   EXPECT_TRUE(program.has_unread_input());
+}
+
+TEST(CliRecordTerminal, TheLineStaysOneLineInANarrowTerminal) {
+  const fs::path folder = folder_with_long_stroke();
+  constexpr std::size_t columns = 24;
+  AtTerminal program(record_line, folder, "", columns);
+  ASSERT_TRUE(program.shows("record 1.")) << program.shown();
+  program.type("q");
+  EXPECT_EQ(program.wait(), 0) << program.shown();
+  std::istringstream shown(program.shown());
+  const std::string erase = "\033[K";
+  for (std::string line; std::getline(shown, line, '\r');) {
+    EXPECT_EQ(line.find('\n'), line.npos) << line;
+    EXPECT_LT(line.substr(0, line.find(erase)).size(), columns) << line;
+  }
 }
 
 TEST(CliRecordTerminal, QuietHidesTheLineAndKeysStillWork) {

@@ -33,14 +33,6 @@ std::function<bool()> recording(const fs::path& folder, std::uintmax_t bytes = 2
   };
 }
 
-/// So that what ends the recording comes before its stroke's end, however late it comes.
-fs::path folder_with_long_stroke() {
-  const fs::path folder = test_folder();
-  write_file(folder / "line.toml", read_file(folder / "line.toml") +
-                                       "[[segment]]\nkind = \"move\"\nto = [0.06, 0.0]\nwait = 300.0\n");
-  return folder;
-}
-
 double largest_spacing(const Stroke& stroke) {
   double largest = 0.0;
   for (std::size_t i = 1; i < stroke.size(); ++i)
@@ -106,27 +98,6 @@ TEST(CliRecord, EndsWhenTheTimeIsUp) {
   EXPECT_LE(read_stroke_file(folder / "a.h5").size(), 60u);
 }
 
-TEST(CliRecord, SandIsFeltAtTheRateOfItsSceneUnlessAnotherIsGiven) {
-  const fs::path folder = test_folder();
-  const std::vector<std::string> feel =
-      with(record_line, {"--overwrite", "--json", "--duration", "0.2", "--feel", "scene.toml"});
-  const auto rate_with = [&](const std::vector<std::string>& more) {
-    const ProgramResult result = run_program(with(feel, more), folder);
-    EXPECT_EQ(result.exit_code, 0) << result.err;
-    const json said = json::parse(result.out);
-    EXPECT_EQ(said["ticks_elapsed"], 0.2 * said["nominal_rate"].get<double>());
-    return said["nominal_rate"].get<double>();
-  };
-  EXPECT_EQ(rate_with({}), 1000.0);
-  EXPECT_EQ(rate_with({"--set", "device.servo_rate=500"}), 500.0);
-  EXPECT_EQ(rate_with({"--set", "device.servo_rate=500", "--rate", "250"}), 250.0);
-  EXPECT_EQ(rate_with({"--set", "device.servo_rate=20", "--rate", "250"}), 250.0);
-  const ProgramResult slow = run_program(with(feel, {"--set", "device.servo_rate=20"}), folder);
-  EXPECT_EQ(slow.exit_code, 2);
-  for (const char* part : {"device.servo_rate", "--rate"})
-    EXPECT_NE(slow.err.find(part), std::string::npos) << slow.err;
-}
-
 TEST(CliRecord, ARecordingCanBePlayedAndRecordedAgain) {
   const fs::path folder = test_folder();
   ASSERT_EQ(run_program(with(record_line, {"--duration", "0.6"}), folder).exit_code, 0);
@@ -156,7 +127,7 @@ TEST(CliRecord, AStrokeWithAGapIsPlayedToItsEnd) {
 
 TEST(CliRecord, StoppedBySignalItKeepsWhatThereIsAndMarksIt) {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
-    const fs::path folder = folder_with_long_stroke();
+    const fs::path folder = test_folder();
     Conditions stopped{signal};
     stopped.when = recording(folder);
     const ProgramResult result = run_program(with(record_line, {"--json"}), folder, stopped);
@@ -173,7 +144,7 @@ TEST(CliRecord, StoppedBySignalItKeepsWhatThereIsAndMarksIt) {
 }
 
 TEST(CliRecord, KilledItsJournalBecomesAStrokeThatRuns) {
-  const fs::path folder = folder_with_long_stroke();
+  const fs::path folder = test_folder();
   Conditions killed{SIGKILL};
   killed.when = recording(folder, 80'000);  // over 700 samples: the tool is in the sand
   EXPECT_EQ(run_program(record_line, folder, killed).exit_code, 128 + SIGKILL);
@@ -214,6 +185,51 @@ TEST(CliRecord, NothingIsWrittenOverUnasked) {
   EXPECT_EQ(read_file(folder / "scene.toml"), scene);
 }
 
+TEST(CliRecord, AFileThatComesWhileItIsRecordedIsNotWrittenOver) {
+  const fs::path folder = test_folder();
+  Conditions meanwhile;
+  meanwhile.signal = SIGTERM;
+  meanwhile.when = [&folder, going_on = recording(folder)] {
+    if (!going_on()) return false;
+    write_file(folder / "a.h5", "precious");
+    return true;
+  };
+  const ProgramResult result = run_program(record_line, folder, meanwhile);
+  EXPECT_EQ(result.exit_code, 4) << result.err;
+  EXPECT_NE(result.err.find("stroke repair"), std::string::npos) << result.err;
+  EXPECT_EQ(read_file(folder / "a.h5"), "precious");
+  ASSERT_EQ(run_program({"stroke", "repair", "a.h5.recording", "b.h5"}, folder).exit_code, 0);
+  EXPECT_GT(read_stroke_file(folder / "b.h5").size(), 100u);
+}
+
+TEST(CliRecord, AJournalThatSomebodyRemovesIsToldAsLost) {
+  const fs::path folder = test_folder();
+  Conditions meanwhile;
+  meanwhile.signal = SIGTERM;
+  meanwhile.when = [&folder, going_on = recording(folder)] {
+    return going_on() && fs::remove(folder / "a.h5.recording");
+  };
+  const ProgramResult result = run_program(record_line, folder, meanwhile);
+  EXPECT_EQ(result.exit_code, 4) << result.err;
+  EXPECT_NE(result.err.find("somebody removed"), std::string::npos) << result.err;
+  EXPECT_EQ(result.err.find("stroke repair"), std::string::npos) << result.err;
+}
+
+TEST(CliRecord, WhatIsBeingRecordedIsNotToldAsCutOff) {
+  const fs::path folder = test_folder();
+  ProgramResult second;
+  Conditions meanwhile;
+  meanwhile.signal = SIGTERM;
+  meanwhile.when = [&, going_on = recording(folder)] {
+    if (!going_on()) return false;
+    second = run_program(record_line, folder);
+    return true;
+  };
+  EXPECT_EQ(run_program(record_line, folder, meanwhile).exit_code, 128 + SIGTERM);
+  EXPECT_EQ(second.exit_code, 4);
+  EXPECT_NE(second.err.find("is still being recorded"), std::string::npos) << second.err;
+}
+
 TEST(CliRecord, AFullDiskStopsItAndKeepsWhatTheDiskTook) {
   const fs::path folder = test_folder();
   const ProgramResult result = run_program(record_line, folder, {0, 0, 30'000});
@@ -251,7 +267,7 @@ TEST(CliRecord, WhatIsWrongIsSaidBeforeAnythingIsRecorded) {
       {{"record"}, 2, "--list"},
       {{"record", "-o", "a.h5"}, 2, "--device"},
       {with(to_a, {"mouse"}), 2, "scripted:FILE.toml"},
-      {with(to_a, {"scripted:"}), 2, "scripted:FILE.toml"},
+      {with(to_a, {"scripted:"}), 2, "names no stroke"},
       {with(to_a, {"chai3d:one"}), 2, "there is no such device"},
       {with(to_a, {"chai3d:-1"}), 2, "there is no such device"},
       {with(to_a, {"scripted:none.toml"}), 4, "none.toml"},
@@ -261,7 +277,7 @@ TEST(CliRecord, WhatIsWrongIsSaidBeforeAnythingIsRecorded) {
       {with(record_line, {"--rate", "0"}), 2, "--rate"},
       {with(record_line, {"--rate", "nan"}), 2, "--rate"},
       {with(record_line, {"--rate", "1e9"}), 2, "--rate"},
-      {with(record_line, {"--priority", "99"}), 2, "--priority"},
+      {with(record_line, {"--priority", "100"}), 2, "--priority"},
       {with(record_line, {"--stop-switch", "32"}), 2, "--stop-switch"},
       {with(record_line, {"--max-force", "3"}), 2, "--feel"},
       {with(record_line, {"--set", "force.k_s=1"}), 2, "--feel"},
@@ -277,6 +293,7 @@ TEST(CliRecord, WhatIsWrongIsSaidBeforeAnythingIsRecorded) {
       {{"record", "--list", "--check"}, 2, "--list"},
       {with(record_line, {"--check"}), 2, "leave out"},
       {{"record", "--check", "--feel", "scene.toml"}, 2, "leave out"},
+      {{"record", "--list", "--feel", "scene.toml"}, 2, "leave out"},
   };
   for (const auto& [arguments, exit_code, part] : attempts) {
     const ProgramResult result = run_program(arguments, folder);
@@ -391,6 +408,9 @@ TEST(CliRecord, WithoutPermissionForRealTimeItRecordsAndSaysWhatThatCosts) {
   const ProgramResult check =
       run_program({"record", "--check", "--duration", "0.2", "--json"}, folder, refused);
   EXPECT_EQ(json::parse(check.out)["scheduling_advice"], said["scheduling_advice"]);
+  // Fit or not: what was refused is told.
+  const ProgramResult table = run_program({"record", "--check", "--duration", "0.2"}, folder, refused);
+  EXPECT_NE(table.out.find("limits.conf"), std::string::npos) << table.out;
 
   const ProgramResult unasked =
       run_program({"record", "-o", "b.h5", "--device", "scripted:line.toml", "--duration", "0.2",

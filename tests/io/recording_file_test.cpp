@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstring>
 #include <filesystem>
+#include <map>
 
 #include "core/error.h"
 #include "core/output_file.h"
@@ -91,6 +92,28 @@ class RecordingFile : public testing::Test {
   TestFolder folder_;
   fs::path path_ = folder_ / "recorded.h5";
 };
+
+TEST_F(RecordingFile, SaysOfEachColumnWhatItIsAndInWhichUnit) {
+  for (const double force_limit : {0.0, 3.0}) {
+    RecordingHeader header = full_header();
+    header.force_limit = force_limit;
+    header.device.measures_velocity = force_limit > 0.0;
+    write(made_samples(3), full_footer(), header);
+    const Hdf5Reader file(path_);
+    const std::map<std::string, std::string> units = {
+        {"time", "s"},    {"position", "m"}, {"velocity", "m/s"}, {"force", "N"},
+        {"switches", ""}, {"sequence", ""},  {"flags", ""},       {"monotonic_time", "ns"}};
+    for (const auto& [name, unit] : units) {
+      const std::string column = "/stroke/" + name;
+      ASSERT_EQ(file.has(column), force_limit > 0.0 || (name != "velocity" && name != "force")) << name;
+      if (!file.has(column)) continue;
+      EXPECT_FALSE(file.text_attribute(column, "description").empty()) << name;
+      EXPECT_EQ(file.has_attribute(column, "units") ? file.text_attribute(column, "units") : "", unit);
+    }
+    for (std::uint32_t flag = late_sample; flag <= held_sand; flag *= 2)
+      EXPECT_THAT(file.text_attribute("/stroke/flags", "description"), HasSubstr(fmt::format(" {} ", flag)));
+  }
+}
 
 TEST_F(RecordingFile, HoldsTheSamplesToTheBit) {
   for (const int count : {1, 4095, 4096, 4097, 10000}) {  // about the blocks it is written in

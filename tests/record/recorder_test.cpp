@@ -94,7 +94,7 @@ TEST_F(RecorderTest, AccountsForEachTickAndKeepsEachSample) {
   EXPECT_EQ(header.device.model, "fake");
   EXPECT_EQ(header.nominal_rate, 1000.0);
   EXPECT_EQ(header.force_limit, 8.0);
-  EXPECT_EQ(header.started.size(), 20u) << header.started;
+  EXPECT_EQ(header.started.size(), 24u) << header.started;
   EXPECT_EQ(header.scheduling.policy, report.header.scheduling.policy);
   EXPECT_EQ(header.scheduling.advice.empty(), header.scheduling.policy == "SCHED_FIFO");
 }
@@ -256,6 +256,20 @@ TEST_F(RecorderTest, FreesALoopThatHangsInTheDevice) {
   EXPECT_EQ(kept().second->reason, StopReason::stall);
   EXPECT_EQ(hanging.held, Vector3d::Zero());
   EXPECT_EQ(hanging.closed, 1);
+}
+
+TEST_F(RecorderTest, GoesOnAfterAHangWhereNoForceCouldBeGiven) {
+  FakeDevice slow;
+  int reads = 0;
+  slow.reads = [&](double, DeviceReading&) {
+    if (++reads == 20) std::this_thread::sleep_for(std::chrono::milliseconds(60));
+    return true;
+  };
+  settings.servo.duration = 0.1;
+  settings.watchdog = 0.01;
+  const RecordingReport report = record(*seen(slow), nullptr, settings, {}, journal, {});
+  EXPECT_EQ(report.footer.reason, StopReason::duration);
+  EXPECT_GE(report.footer.ticks.skipped, 58);
 }
 
 using RecorderDeathTest = RecorderTest;  // run first, before there are threads that a fork would lose
