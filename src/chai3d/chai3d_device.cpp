@@ -134,7 +134,9 @@ bool Chai3dDevice::command(const Eigen::Vector3d& force) noexcept {
     if (motors_on_) send(Eigen::Vector3d::Zero());
     return false;
   }
-  const bool taken = (motors_on_.exchange(true) || device_->enableForces(true)) && send(force);
+  const bool motors = motors_on_.exchange(true) || device_->enableForces(true);
+  if (!motors) motors_on_ = false;  // to be tried again: no later force is given while they are off
+  const bool taken = motors && send(force);
   if (released_) motors_off();  // while this force was on its way: the last word is release()'s
   return taken;
 }

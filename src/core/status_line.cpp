@@ -1,5 +1,6 @@
 #include "core/status_line.h"
 
+#include <poll.h>
 #include <spdlog/spdlog.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
@@ -8,6 +9,11 @@
 
 namespace sandstroke {
 namespace {
+
+bool takes_output() {
+  pollfd terminal = {STDERR_FILENO, POLLOUT, 0};
+  return poll(&terminal, 1, 0) > 0 && (terminal.revents & POLLOUT) != 0;
+}
 
 /// Of the terminal; 0: it does not say.
 std::size_t columns() {
@@ -26,7 +32,7 @@ bool in_background() {
 StatusLine::StatusLine() : visible_(isatty(STDERR_FILENO) != 0 && spdlog::should_log(spdlog::level::info)) {}
 
 void StatusLine::draw(const std::string& text) {
-  if (!visible_ || in_background()) return;
+  if (!visible_ || in_background() || !takes_output()) return;
   std::string line = "\r" + text;
   // What is longer would go on in the next line, and stay there. The last column stays free: what clears the
   // rest of the line may clear it, too.
@@ -37,7 +43,7 @@ void StatusLine::draw(const std::string& text) {
 }
 
 void StatusLine::clear() {
-  if (drawn_) std::fputs("\r\033[K", stderr);
+  if (drawn_ && takes_output()) std::fputs("\r\033[K", stderr);
   drawn_ = false;
 }
 

@@ -199,6 +199,17 @@ TEST(Chai3dDevice, SaysWhereAForceWasNotTaken) {
   EXPECT_FALSE(opened.device.command(Vector3d::UnitX()));
 }
 
+TEST(Chai3dDevice, TakesNoForceForGivenWhileItsMotorsDoNotSwitchOn) {
+  Opened opened;
+  opened.fake->switches_on = false;
+  for (int tick = 0; tick < 3; ++tick) EXPECT_FALSE(opened.device.command(Vector3d::UnitX()));
+  EXPECT_EQ(opened.fake->held(), Vector3d::Zero());
+  opened.fake->switches_on = true;
+  EXPECT_TRUE(opened.device.command(Vector3d::UnitX()));
+  EXPECT_TRUE(opened.fake->motors());
+  EXPECT_EQ(opened.fake->held(), Vector3d::UnitX());
+}
+
 TEST(Chai3dDevice, HasNoForceAndNoMotorsAfterRelease) {
   Opened opened;
   ASSERT_TRUE(opened.device.command(Vector3d::UnitX()));

@@ -16,6 +16,7 @@ class FakeChai3d : public chai3d::cGenericHapticDevice {
   // What it gives:
   bool opens = true, calibrates = true;
   bool gives_position = true, gives_velocity = true, gives_switches = true, takes_force = true;
+  bool switches_on = true;
   chai3d::cVector3d position{0, 0, 0}, velocity{0, 0, 0};
   unsigned switches = 0;
   std::function<void(const Eigen::Vector3d&)> on_force;  ///< called while a force is on its way
@@ -68,6 +69,7 @@ class FakeChai3d : public chai3d::cGenericHapticDevice {
   bool getUserSwitches(unsigned& value) override { return give(gives_switches, switches, value); }
   bool enableForces(bool enabled) override {
     note(enabled ? "motors on" : "motors off");
+    if (enabled && !switches_on) return false;
     set_motors(enabled);
     return true;
   }

@@ -152,6 +152,19 @@ TEST(CliRecordTerminal, OtherKeysDoNothing) {
   EXPECT_EQ(program.wait(), 0) << program.shown();
 }
 
+TEST(CliRecordTerminal, ATerminalThatIsHeldDoesNotHoldTheRecording) {
+  const fs::path folder = folder_with_long_stroke();
+  AtTerminal program(record_line, folder);
+  ASSERT_TRUE(program.shows(" Hz")) << program.shown();
+  program.type("\023");  // Ctrl-S: nothing is shown until Ctrl-Q
+  const auto size = [&] { return fs::file_size(folder / "a.h5.recording"); };
+  for (const auto enough = size() + 100'000; size() < enough;) usleep(2000);  // some more lines are due
+  program.type("q");
+  while (!fs::exists(folder / "a.h5")) usleep(2000);
+  program.type("\021");
+  EXPECT_EQ(program.wait(), 0) << program.shown();
+}
+
 TEST(CliRecordTerminal, SignalsLeaveTheTerminalAsBefore) {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGABRT}) {
     const fs::path folder = folder_with_long_stroke();
