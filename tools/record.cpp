@@ -157,9 +157,9 @@ int record(const Arguments& arguments) {
   }
   const RecordingReport report =
       record_stroke(*device, sand ? &*sand : nullptr, settings, std::move(header), arguments.output);
+  write_stroke(arguments.output, report.footer, arguments.overwrite);
   std::optional<LiveSandReport> felt_sand;
   if (sand) felt_sand = sand->finish();
-  write_stroke(arguments.output, report.footer, arguments.overwrite);
   print_recording(report, felt_sand, arguments.output, arguments.json);
   warn(report, arguments.output);
   if (felt_sand && felt_sand->contact_ticks == 0)

@@ -5,8 +5,8 @@
 namespace sandstroke {
 
 /// One line on stderr that is drawn over and over, on a terminal only, not where the log is quiet nor while
-/// the program runs in the background; gone with its holder. A terminal that is held (Ctrl-S) is left out, for
-/// who draws must not be held with it.
+/// the program runs in the background; gone with its holder. A terminal that is held (Ctrl-S) is left out,
+/// for who draws must not be held with it.
 class StatusLine {
  public:
   StatusLine();

@@ -20,10 +20,11 @@ RelaxationSettings in_short_turns(RelaxationSettings settings) {
 
 }  // namespace
 
-Eroder::Eroder(const HeightField& bed, const RelaxationSettings& settings, SandRing& dug, SandRing& slipped)
+Eroder::Eroder(const HeightField& bed, const RelaxationSettings& settings, SandRing& dug, SandRing& slipped,
+               std::unique_ptr<Relaxer> relaxer)
     : replica_(bed),
       rate_(settings.rate),
-      relaxer_(make_relaxer(in_short_turns(settings), bed.cell_size())),
+      relaxer_(relaxer ? std::move(relaxer) : make_relaxer(in_short_turns(settings), bed.cell_size())),
       dug_(dug),
       slipped_(slipped) {}
 
@@ -58,7 +59,13 @@ void Eroder::turn() {
 
 void Eroder::start() {
   stopping_ = false;
-  thread_ = std::thread([this] { run(); });
+  thread_ = std::thread([this] {
+    try {
+      run();
+    } catch (...) {  // the hand goes on feeling: a program that ended here would not release the device
+      failure_ = std::current_exception();
+    }
+  });
 }
 
 void Eroder::run() {

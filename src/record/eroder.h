@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <exception>
 #include <memory>
 #include <thread>
 
@@ -23,7 +24,9 @@ struct ErosionReport {
 /// dug from `dug`, relaxes its own replica, and gives what slipped to `slipped`.
 class Eroder {
  public:
-  Eroder(const HeightField& bed, const RelaxationSettings& settings, SandRing& dug, SandRing& slipped);
+  /// relaxer: none = as the settings say.
+  Eroder(const HeightField& bed, const RelaxationSettings& settings, SandRing& dug, SandRing& slipped,
+         std::unique_ptr<Relaxer> relaxer = nullptr);
   ~Eroder() { stop(); }
 
   /// In a thread of its own, settings.rate times a second, or, where that takes longer, one after the other.
@@ -37,6 +40,8 @@ class Eroder {
   void turn();
   /// The same, but for the relaxation.
   void exchange();
+  /// What ended the thread, if anything did but stop().
+  const std::exception_ptr& failure() const { return failure_; }
   /// Nothing is left to be given.
   bool all_given() const { return held_.empty(); }
   const HeightField& bed() const { return replica_.bed(); }
@@ -53,6 +58,7 @@ class Eroder {
   std::vector<SandChange> held_;  // could not be given before the stop
   std::atomic<bool> stopping_ = true;
   ErosionReport report_;
+  std::exception_ptr failure_;  // the thread's while it runs
   std::thread thread_;
 };
 

@@ -114,6 +114,7 @@ FeltForce LiveSand::feel(double time, const DeviceReading& reading) noexcept {
 
 LiveSandReport LiveSand::finish() {
   eroder_.stop();
+  if (eroder_.failure()) std::rethrow_exception(eroder_.failure());
   do {
     eroder_.exchange();
     take_slipped(static_cast<int>(ring_size));

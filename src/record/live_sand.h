@@ -44,7 +44,8 @@ class LiveSand : public FeltWorld {
   /// Starts eroding; the recording is about to begin.
   void start() { eroder_.start(); }
   FeltForce feel(double time, const DeviceReading& reading) noexcept override;
-  /// The recording is over: stops eroding, and brings both beds together.
+  /// The recording is over: stops eroding, and brings both beds together. Throws what eroding may have failed
+  /// of.
   LiveSandReport finish();
 
   /// Lets sand slip once, where it was not started: for a loop whose time is not the wall's.

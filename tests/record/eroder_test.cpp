@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <new>
+
 namespace sandstroke {
 namespace {
 
@@ -20,6 +22,25 @@ TEST(Eroder, ThatErodesOnceInAnAgeTakesWhatIsDugMeanwhileAndEndsWhenItIsAsked) {
     for (int i = 0; i < 3; ++i) EXPECT_EQ(eroder.bed()(5, i), -1e-6);
     EXPECT_EQ(eroder.report().relaxations, rate > 0.0 ? 1 : 0);
   }
+}
+
+/// Of a machine without memory left.
+class FailingRelaxer : public Relaxer {
+ public:
+  RelaxationOutcome relax(HeightField&, const std::function<void(std::int64_t)>&) override {
+    throw std::bad_alloc();
+  }
+};
+
+TEST(Eroder, ThatFailsEndsItsThreadAndNotTheProgram) {
+  SandRing dug(8), slipped(8);
+  Eroder eroder(HeightField(10, 10, 0.01), {}, dug, slipped, std::make_unique<FailingRelaxer>());
+  eroder.start();
+  dug.push({5, 5, -1e-6});
+  while (dug.size() > 0) std::this_thread::yield();  // in the first turn, which fails right after
+  eroder.stop();
+  ASSERT_TRUE(eroder.failure());
+  EXPECT_THROW(std::rethrow_exception(eroder.failure()), std::bad_alloc);
 }
 
 }  // namespace

@@ -157,7 +157,8 @@ TEST(LiveSand, ErodingInItsOwnThreadLosesNoSand) {
   int ticks = 0;
   for (const double t : even_times(2.0)) {
     sand.feel(t, {SmoothHand::at(t)});
-    if (++ticks % 20 == 0) std::this_thread::sleep_for(std::chrono::milliseconds(1));  // its turn, most likely
+    if (++ticks % 20 == 0)
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));  // its turn, most likely
   }
   sand.finish();
   EXPECT_LT((sand.bed().grid() - sand.eroding_bed().grid()).abs().maxCoeff(), 1e-12);
