@@ -4,13 +4,7 @@
 #include <cerrno>
 #include <cstdlib>
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)  // gcc
-#define SANITIZED
-#elif defined(__has_feature)  // clang
-#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
-#define SANITIZED
-#endif
-#endif
+#include "sanitized.h"
 
 namespace {
 
@@ -24,7 +18,7 @@ namespace sandstroke {
 std::int64_t allocations() { return by_all; }
 std::int64_t allocations_of_this_thread() { return by_this_thread; }
 
-#ifdef SANITIZED
+#ifdef SANDSTROKE_MEMORY_IS_SANITIZED
 bool allocations_are_counted() { return false; }
 #else
 bool allocations_are_counted() { return true; }
@@ -32,7 +26,7 @@ bool allocations_are_counted() { return true; }
 
 }  // namespace sandstroke
 
-#ifndef SANITIZED
+#ifndef SANDSTROKE_MEMORY_IS_SANITIZED
 
 namespace {
 
