@@ -35,8 +35,8 @@ class FailingRelaxer : public Relaxer {
 TEST(Eroder, ThatFailsEndsItsThreadAndNotTheProgram) {
   SandRing dug(8), slipped(8);
   Eroder eroder(HeightField(10, 10, 0.01), {}, dug, slipped, std::make_unique<FailingRelaxer>());
-  eroder.start();
   dug.push({5, 5, -1e-6});
+  eroder.start();
   while (dug.size() > 0) std::this_thread::yield();  // in the first turn, which fails right after
   eroder.stop();
   ASSERT_TRUE(eroder.failure());
