@@ -65,7 +65,7 @@ double reached_rate(const StrokeSummary& summary) {
 }
 
 std::string recording_rows(const RecordingInfo& recording, const StrokeSummary& summary) {
-  const auto& [header, footer, complete] = recording;
+  const auto& [header, footer] = recording;
   std::string device = header.device.model;
   if (!header.device.manufacturer.empty()) device += fmt::format(" ({})", header.device.manufacturer);
   if (header.device.max_force > 0.0 && header.device.max_force < any_force)

@@ -59,7 +59,7 @@ Repair repair(const Task& task) {
 
 nlohmann::ordered_json describe(const Task& task, const Repair& done, bool removed) {
   nlohmann::ordered_json json = {{"journal", task.journal.string()}, {"journal_removed", removed},
-                                 {"output", task.output.string()},   {"complete", done.recording.complete},
+                                 {"output", task.output.string()},   {"complete", done.recording.complete()},
                                  {"duration", done.duration},        {"lost_bytes", done.lost_bytes}};
   json.update(as_json(done.recording.footer));
   return json;

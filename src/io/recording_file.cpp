@@ -172,13 +172,12 @@ RecordingInfo write_recording_file(const std::filesystem::path& path, Recording&
     for (const RecordedSample& sample : samples) count_flags(sample.flags, counted);
   }
   info.footer = settled_footer(recording.footer(), counted);
-  info.complete = is_complete(info.footer.reason);
 
   Stroke stroke;  // what is said of it
   stroke.nominal_rate = info.header.nominal_rate;
   stroke.source = info.header.source;
   stroke.frame = info.header.device.frame;
-  stroke.complete = info.complete;
+  stroke.complete = info.complete();
   write_stroke_attributes(file, stroke);
   visit_header(info.header, PutAttribute{file});
   visit_footer(info.footer, PutAttribute{file});
@@ -196,9 +195,6 @@ std::optional<RecordingInfo> read_recording_info(const std::filesystem::path& pa
   RecordingInfo info;
   visit_header(info.header, TakeAttribute{file});
   visit_footer(info.footer, TakeAttribute{file});
-  Stroke stroke;
-  read_stroke_attributes(file, stroke);
-  info.complete = stroke.complete;
   return info;
 }
 

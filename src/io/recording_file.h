@@ -11,7 +11,7 @@ namespace sandstroke {
 struct RecordingInfo {
   RecordingHeader header;
   RecordingFooter footer;
-  bool complete = false;
+  bool complete() const { return is_complete(footer.reason); }
 };
 
 /// Writes a recording as a stroke file (read_stroke_file takes it) by way of PATH.part, and gives back what

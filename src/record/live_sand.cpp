@@ -58,10 +58,10 @@ Eigen::Vector3d LiveSand::velocity(double time, const Eigen::Vector3d& tip) {
   const std::int64_t known = std::min<std::int64_t>(readings_, velocity_window);
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();
   if (known > 0) {
-    const Past& past = past_[static_cast<std::size_t>((readings_ - known) % velocity_window)];
-    velocity = (tip - past.tip) / (time - past.time);
+    const Past& before = past(readings_ - known);
+    velocity = (tip - before.tip) / (time - before.time);
   }
-  past_[static_cast<std::size_t>(readings_++ % velocity_window)] = {time, tip};
+  past(readings_++) = {time, tip};
   return velocity;
 }
 
@@ -84,8 +84,7 @@ std::size_t LiveSand::changes_of_move(const Eigen::Vector3d& tip) const {
 FeltForce LiveSand::feel(double time, const DeviceReading& reading) noexcept {
   take_slipped(most_taken);
   const Eigen::Vector3d tip = tip_of(device_, placement_.position(reading.position));
-  if (readings_ > 0 &&
-      time - past_[static_cast<std::size_t>((readings_ - 1) % velocity_window)].time > gap_threshold) {
+  if (readings_ > 0 && time - past(readings_ - 1).time > gap_threshold) {
     sand_.lift();
     readings_ = 0;
   }

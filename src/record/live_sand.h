@@ -62,6 +62,8 @@ class LiveSand : public FeltWorld {
   };
 
   Eigen::Vector3d velocity(double time, const Eigen::Vector3d& tip);
+  /// Of the last velocity_window readings, by their number.
+  Past& past(std::int64_t reading) { return past_[static_cast<std::size_t>(reading % velocity_window)]; }
   void take_slipped(int most);
   std::size_t changes_of_move(const Eigen::Vector3d& tip) const;
 
@@ -73,8 +75,8 @@ class LiveSand : public FeltWorld {
   BedReplica replica_;
   Eroder eroder_;
   SandSide sand_;
-  std::array<Past, velocity_window> past_;  // the last readings, newest at (readings_ - 1) modulo its size
-  std::int64_t readings_ = 0;               // since the tool was lifted
+  std::array<Past, velocity_window> past_;
+  std::int64_t readings_ = 0;  // since the tool was lifted
   LiveSandReport report_;
 };
 

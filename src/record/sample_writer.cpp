@@ -3,6 +3,8 @@
 #include <chrono>
 #include <vector>
 
+#include "record/stoppable_sleep.h"
+
 namespace sandstroke {
 namespace {
 
@@ -13,11 +15,14 @@ constexpr std::size_t block_samples = 1024;
 }  // namespace
 
 SampleWriter::SampleWriter(SpscRing<RecordedSample>& ring, JournalWriter& journal, ServoLoop& loop)
-    : ring_(ring), journal_(journal), loop_(loop), thread_([this] { run(); }) {}
+    : ring_(ring),
+      journal_(journal),
+      loop_(loop),
+      thread_([this](const std::stop_token& stop) { run(stop); }) {}
 
-void SampleWriter::run() noexcept {
+void SampleWriter::run(const std::stop_token& stop) noexcept {
   try {
-    for (int turns = 1; wait(); ++turns) {
+    for (int turns = 1; sleep_unless_stopped(stop, turn); ++turns) {
       empty_ring();
       if (turns % turns_per_sync == 0) journal_.sync();
     }
@@ -37,23 +42,9 @@ void SampleWriter::empty_ring() {
   } while (block.size() == block_samples);
 }
 
-bool SampleWriter::wait() {
-  std::unique_lock lock(mutex_);
-  return !ending_.wait_for(lock, turn, [this] { return ended_; });
-}
-
-void SampleWriter::end() {
-  if (!thread_.joinable()) return;
-  {
-    const std::lock_guard lock(mutex_);
-    ended_ = true;
-  }
-  ending_.notify_one();
-  thread_.join();
-}
-
 void SampleWriter::finish() {
-  end();
+  thread_.request_stop();
+  if (thread_.joinable()) thread_.join();
   if (failure_) std::rethrow_exception(failure_);
 }
 

@@ -1,8 +1,6 @@
 #pragma once
 
-#include <condition_variable>
 #include <exception>
-#include <mutex>
 #include <thread>
 
 #include "record/journal.h"
@@ -19,23 +17,16 @@ class SampleWriter {
   SampleWriter(const SampleWriter&) = delete;
   /// Writes what is left; the loop has ended. Error: io, as the journal had it.
   void finish();
-  ~SampleWriter() { end(); }
 
  private:
-  void run() noexcept;
+  void run(const std::stop_token& stop) noexcept;
   void empty_ring();
-  /// Waits for the next turn; false at the end.
-  bool wait();
-  void end();
 
   SpscRing<RecordedSample>& ring_;
   JournalWriter& journal_;
   ServoLoop& loop_;
   std::exception_ptr failure_;  // the thread's while it runs
-  std::mutex mutex_;
-  std::condition_variable ending_;
-  bool ended_ = false;
-  std::thread thread_;
+  std::jthread thread_;
 };
 
 }  // namespace sandstroke

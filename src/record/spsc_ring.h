@@ -21,10 +21,7 @@ class SpscRing {
   std::size_t capacity() const { return items_.size(); }
 
   /// By the one thread that fills it. Room for at least so many.
-  std::size_t room() {
-    const std::size_t end = end_.load(std::memory_order_relaxed);
-    return items_.size() - (end - begin_.load(std::memory_order_acquire));
-  }
+  std::size_t room() const { return capacity() - size(); }
   /// False: it is full, and the item is not in it.
   bool push(const Item& item) {
     const std::size_t end = end_.load(std::memory_order_relaxed);

@@ -1,8 +1,7 @@
 #include "record/watchdog.h"
 
-#include <chrono>
-
 #include "record/real_time.h"
+#include "record/stoppable_sleep.h"
 
 namespace sandstroke {
 
@@ -18,25 +17,11 @@ bool release_if_stalled(ServoLoop& loop, HapticDevice& device, std::int64_t now,
 }
 
 Watchdog::Watchdog(ServoLoop& loop, HapticDevice& device, LoopClock& clock, double limit, int loop_priority)
-    : thread_([this, &loop, &device, &clock, limit, loop_priority] {
+    : thread_([&loop, &device, &clock, limit = to_nanoseconds(limit),
+               loop_priority](const std::stop_token& stop) {
         if (loop_priority > 0) ask_for_real_time(watchdog_priority(loop_priority), false);
-        watch(loop, device, clock, to_nanoseconds(limit));
+        while (sleep_unless_stopped(stop, std::chrono::nanoseconds(limit / 4)))
+          if (release_if_stalled(loop, device, clock.now(), limit)) return;
       }) {}
-
-Watchdog::~Watchdog() {
-  {
-    const std::lock_guard lock(mutex_);
-    ends_ = true;
-  }
-  ended_.notify_one();
-  thread_.join();
-}
-
-void Watchdog::watch(ServoLoop& loop, HapticDevice& device, LoopClock& clock, std::int64_t limit) {
-  std::unique_lock lock(mutex_);
-  while (!ended_.wait_for(lock, std::chrono::nanoseconds(limit / 4), [this] { return ends_; })) {
-    if (release_if_stalled(loop, device, clock.now(), limit)) return;
-  }
-}
 
 }  // namespace sandstroke

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <condition_variable>
-#include <mutex>
 #include <thread>
 
 #include "record/servo_loop.h"
@@ -23,15 +21,9 @@ class Watchdog {
  public:
   /// loop_priority: SCHED_FIFO's, of the loop; 0: not asked for. The watchdog asks for watchdog_priority.
   Watchdog(ServoLoop& loop, HapticDevice& device, LoopClock& clock, double limit, int loop_priority);
-  ~Watchdog();
 
  private:
-  void watch(ServoLoop& loop, HapticDevice& device, LoopClock& clock, std::int64_t limit);
-
-  std::mutex mutex_;
-  std::condition_variable ended_;
-  bool ends_ = false;
-  std::thread thread_;
+  std::jthread thread_;
 };
 
 }  // namespace sandstroke

@@ -132,7 +132,7 @@ TEST(CliStrokeRepair, AFinishedJournalBecomesACompleteStroke) {
   EXPECT_THAT(repair.out, AllOf(HasSubstr("nothing: the recording was finished"), HasSubstr("removed"),
                                 HasSubstr("a key was pressed")));
   EXPECT_FALSE(fs::exists(folder / "hand.h5.recording"));
-  EXPECT_TRUE(read_recording_info(folder / "hand.h5")->complete);
+  EXPECT_TRUE(read_recording_info(folder / "hand.h5")->complete());
   const ProgramResult run = run_program({"run", "scene.toml", "--stroke", "hand.h5", "-o", "a.h5"}, folder);
   EXPECT_EQ(run.exit_code, 0);
   EXPECT_EQ(run.err, "") << "nothing to warn of";

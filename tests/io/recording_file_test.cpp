@@ -65,7 +65,7 @@ std::vector<std::string> fields(const RecordingInfo& info) {
   };
   visit_header(info.header, add);
   visit_footer(info.footer, add);
-  all.push_back(fmt::format("complete: {}", info.complete));
+  all.push_back(fmt::format("complete: {}", info.complete()));
   return all;
 }
 
@@ -176,9 +176,8 @@ TEST_F(RecordingFile, HasNoColumnOfWhatWasNotMeasuredOrGiven) {
 
 TEST_F(RecordingFile, SaysHowItWasRecorded) {
   for (int reason = 0; reason < static_cast<int>(StopReason::cut_off); ++reason) {
-    RecordingInfo expected{full_header(), full_footer(), false};
+    RecordingInfo expected{full_header(), full_footer()};
     expected.footer.reason = static_cast<StopReason>(reason);
-    expected.complete = is_complete(expected.footer.reason);
     // made_samples(20) has the flags 0, 1, ..., 19.
     TickCounts& ticks = expected.footer.ticks;
     ticks.late = 10, ticks.clamped = 8, ticks.ramped = 8, ticks.rate_limited = 4;
@@ -188,7 +187,7 @@ TEST_F(RecordingFile, SaysHowItWasRecorded) {
     const std::optional<RecordingInfo> back = read_recording_info(path_);
     ASSERT_TRUE(back);
     EXPECT_EQ(fields(*back), fields(expected));
-    EXPECT_EQ(read_stroke_file(path_).complete, expected.complete);
+    EXPECT_EQ(read_stroke_file(path_).complete, expected.complete());
   }
   const Hdf5Reader file(path_);
   EXPECT_EQ(file.text_attribute("/stroke", "clock"), "CLOCK_MONOTONIC");
@@ -198,7 +197,7 @@ TEST_F(RecordingFile, SaysHowItWasRecorded) {
 TEST_F(RecordingFile, WithoutAFooterItsTicksAreCounted) {
   write(made_samples(20), std::nullopt);
   const RecordingInfo info = *read_recording_info(path_);
-  EXPECT_FALSE(info.complete);
+  EXPECT_FALSE(info.complete());
   EXPECT_FALSE(read_stroke_file(path_).complete);
   EXPECT_EQ(info.footer.reason, StopReason::cut_off);
   EXPECT_EQ(Hdf5Reader(path_).text_attribute("/stroke", "stop_reason"), "cut off");
@@ -223,7 +222,7 @@ TEST_F(RecordingFile, SamplesThatTheDiskDidNotTakeAreDropped) {
   EXPECT_EQ(ticks.recorded, 12);
   EXPECT_EQ(ticks.dropped, 3 + 8);
   EXPECT_EQ(ticks.elapsed, ticks.recorded + ticks.skipped + ticks.unread + ticks.dropped);
-  EXPECT_FALSE(info.complete);
+  EXPECT_FALSE(info.complete());
 }
 
 TEST_F(RecordingFile, NothingRecordedMakesNoFile) {
@@ -251,7 +250,7 @@ TEST_F(RecordingFile, RefusesCountsThatAreNone) {
     file.write("/stroke/time", std::vector<double>{0.0});
     file.attribute("/stroke", "format", std::string("sandstroke.stroke"));
     file.attribute("/stroke", "format_version", 1.0);
-    const RecordingInfo info{full_header(), full_footer(), true};
+    const RecordingInfo info{full_header(), full_footer()};
     const auto put = [&](const char* name, const auto& field) {
       if constexpr (std::is_convertible_v<decltype(field), std::string>)
         file.attribute("/stroke", name, std::string(field));
