@@ -18,15 +18,11 @@ namespace sandstroke {
 std::int64_t allocations() { return by_all; }
 std::int64_t allocations_of_this_thread() { return by_this_thread; }
 
-#ifdef SANDSTROKE_MEMORY_IS_SANITIZED
-bool allocations_are_counted() { return false; }
-#else
-bool allocations_are_counted() { return true; }
-#endif
+bool allocations_are_counted() { return !sanitized; }
 
 }  // namespace sandstroke
 
-#ifndef SANDSTROKE_MEMORY_IS_SANITIZED
+#ifndef SANDSTROKE_SANITIZE
 
 namespace {
 

@@ -19,7 +19,7 @@
 namespace sandstroke {
 namespace {
 
-using Json = nlohmann::json;
+using Json = nlohmann::ordered_json;
 constexpr int limit_ms = 60'000;  // of any answer: only ever met when something hangs
 
 void require(bool holds, const std::string& what) {

@@ -33,7 +33,7 @@ class Browser {
   void open_text(const std::string& page);
 
   /// The value of a JavaScript expression, as JSON; a promise is awaited. What scripts declared is in sight.
-  nlohmann::json evaluate(const std::string& expression);
+  nlohmann::ordered_json evaluate(const std::string& expression);
   /// Waits until a JavaScript expression holds.
   void wait_for(const std::string& condition);
 
@@ -59,9 +59,10 @@ class Browser {
   const std::vector<std::string>& errors() const { return errors_; }
 
  private:
-  nlohmann::json call(const std::string& method, const nlohmann::json& parameters = nlohmann::json::object());
-  nlohmann::json next_message();
-  void note_event(const nlohmann::json& event);
+  nlohmann::ordered_json call(const std::string& method,
+                              const nlohmann::ordered_json& parameters = nlohmann::ordered_json::object());
+  nlohmann::ordered_json next_message();
+  void note_event(const nlohmann::ordered_json& event);
   void mouse(const char* type, Point at, int buttons);
 
   const TestFolder folder_;

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "sanitized.h"
 #include "test_folder.h"
 
 namespace sandstroke {
@@ -23,7 +24,7 @@ inline const std::string chromium_command =
 struct OpenedPage {
   std::string dom;                   ///< the document once it had settled
   std::vector<std::string> console;  ///< what scripts and browser wrote to the console
-  nlohmann::json answer;             ///< of the probe
+  nlohmann::ordered_json answer;     ///< of the probe
 };
 
 /// A probe: [ready, charts, errors] as a page says itself.
@@ -67,14 +68,16 @@ inline OpenedPage open_in_chromium(const std::string& page, const std::string& p
     } else {
       text += opened.dom[i];
     }
-  opened.answer = nlohmann::json::parse(text, nullptr, false);
+  opened.answer = nlohmann::ordered_json::parse(text, nullptr, false);
   return opened;
 }
 
-/// Tests that look at pages: skipped where Chromium is not installed, but not in CI.
+/// Tests that look at pages: skipped under sanitizers, and where Chromium is not installed, but then not in
+/// CI.
 class ChromiumTest : public testing::Test {
  protected:
   void SetUp() override {
+    if (sanitized) GTEST_SKIP() << "no sanitizer sees what pages do";
     if (std::system("command -v chromium > /dev/null") == 0) return;
     if (std::getenv("CI")) FAIL() << "Chromium is not installed: run tools/setup";
     GTEST_SKIP() << "Chromium is not installed, so pages cannot be looked at: run tools/setup";

@@ -1,10 +1,13 @@
 #pragma once
 
-// Whether a sanitizer keeps this program's memory, in its own way: then it is neither counted nor measured.
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)  // gcc
-#define SANDSTROKE_MEMORY_IS_SANITIZED
-#elif defined(__has_feature)  // clang
-#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
-#define SANDSTROKE_MEMORY_IS_SANITIZED
+namespace sandstroke {
+
+/// Whether a sanitizer watches this program: memory is then not counted or measured (the sanitizer keeps it in
+/// its own way), and what takes long does less of the same.
+#ifdef SANDSTROKE_SANITIZE
+constexpr bool sanitized = true;
+#else
+constexpr bool sanitized = false;
 #endif
-#endif
+
+}  // namespace sandstroke

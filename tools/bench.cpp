@@ -46,10 +46,12 @@ void add_bench_command(CLI::App& app, Command& chosen) {
       "bench", "Run time against error: problems with known answers, solved with many settings");
   command
       ->add_option("--scene", options->study.problems, "Only this one of the built-in problems (repeatable)")
+      ->allow_extra_args(false)
       ->check(CLI::IsMember(names));
   command
       ->add_option("-o,--output", options->folder,
                    "Folder for bench.html, bench.csv and bench.h5, made where it is not there")
+      ->type_name("FOLDER")
       ->capture_default_str();
   command->add_flag("--quick", options->study.quick,
                     "15 seconds rather than 5 minutes: coarser grids, shorter strokes");

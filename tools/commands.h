@@ -18,6 +18,7 @@ CLI::Validator not_negative_number();
 CLI::Option* add_set_option(CLI::App& command, std::vector<std::string>& overrides);
 
 // Each adds one subcommand, which sets `chosen` when it is called.
+void add_init_command(CLI::App& app, Command& chosen);
 void add_run_command(CLI::App& app, Command& chosen);
 void add_render_command(CLI::App& app, Command& chosen);
 void add_compare_command(CLI::App& app, Command& chosen);
@@ -28,5 +29,7 @@ void add_record_command(CLI::App& app, Command& chosen);
 void add_bench_command(CLI::App& app, Command& chosen);
 void add_stress_command(CLI::App& app, Command& chosen);
 void add_info_command(CLI::App& app, Command& chosen);
+void add_completion_command(CLI::App& app, Command& chosen);
+void add_help_command(CLI::App& app, Command& chosen);
 
 }  // namespace sandstroke

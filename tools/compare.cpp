@@ -84,8 +84,9 @@ void add_compare_command(CLI::App& app, Command& chosen) {
   auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand("compare", "Compare two run files, or two PNG pictures");
   command->add_option("GOLDEN", options->golden, "What it should be: a run file or a PNG picture")
+      ->type_name("FILE.h5|.png")
       ->required();
-  command->add_option("RUN", options->run, "What came out: likewise")->required();
+  command->add_option("RUN", options->run, "What came out: likewise")->type_name("FILE.h5|.png")->required();
   command->add_option("--height-tolerance", options->tolerances.height, "Height of any cell [m]")
       ->check(not_negative_number())
       ->capture_default_str();
@@ -102,10 +103,11 @@ void add_compare_command(CLI::App& app, Command& chosen) {
       ->add_option("--pixel-share", options->tolerances.pixel_share, "Pixels that may differ at all [0 to 1]")
       ->check(CLI::Range(0.0, 1.0))
       ->capture_default_str();
-  command->add_option(
-      "--report", options->report,
-      "Folder for a page (compare.html: checks, maps, forces) and a picture of the difference");
-  command->add_option("--junit", options->junit, "File for the checks as JUnit XML");
+  command
+      ->add_option("--report", options->report,
+                   "Folder for a page (compare.html: checks, maps, forces) and a picture of the difference")
+      ->type_name("FOLDER");
+  command->add_option("--junit", options->junit, "File for the checks as JUnit XML")->type_name("FILE.xml");
   command->add_flag("--json", options->json, "Print one JSON object instead of the table");
   command->footer(
       "Example:  sandstroke compare golden.h5 run.h5 --report difference\nExit code 1: they differ.");

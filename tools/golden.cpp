@@ -77,8 +77,10 @@ int update(const Options& options) {
 
 void add_folder_options(CLI::App* command, Options& options) {
   command->add_option("--strokes", options.folders.strokes, "Folder with NAME/scene.toml")
+      ->type_name("FOLDER")
       ->capture_default_str();
   command->add_option("--golden", options.folders.golden, "Folder with what they must give")
+      ->type_name("FOLDER")
       ->capture_default_str();
 }
 
@@ -92,17 +94,20 @@ void add_golden_command(CLI::App& app, Command& chosen) {
 
   CLI::App* check_command =
       golden->add_subcommand("check", "Run all scenes, or those named; exit code 1 if one differs");
-  check_command->add_option("NAME", options->names, "Scenes (default: all)");
+  check_command->add_option("NAME", options->names, "Scenes (default: all)")->type_name("SCENE");
   add_folder_options(check_command, *options);
-  check_command->add_option("--report", options->report,
-                            "Folder for a page and pictures of the differences of each scene");
-  check_command->add_option("--junit", options->junit, "File for the checks as JUnit XML");
+  check_command
+      ->add_option("--report", options->report,
+                   "Folder for a page and pictures of the differences of each scene")
+      ->type_name("FOLDER");
+  check_command->add_option("--junit", options->junit, "File for the checks as JUnit XML")
+      ->type_name("FILE.xml");
   check_command->add_flag("--json", options->json, "Print one JSON object instead of lines");
   check_command->callback([options, &chosen] { chosen = [options] { return check(*options); }; });
 
   CLI::App* update_command =
       golden->add_subcommand("update", "Make what scenes give now their golden entries");
-  update_command->add_option("NAME", options->names, "Scenes")->required();
+  update_command->add_option("NAME", options->names, "Scenes")->type_name("SCENE")->required();
   add_folder_options(update_command, *options);
   update_command->callback([options, &chosen] { chosen = [options] { return update(*options); }; });
 }

@@ -9,6 +9,7 @@
 #include "compare/field_difference.h"
 #include "core/error.h"
 #include "io/run_file.h"
+#include "io/scene_keys.h"
 #include "io/scene_toml.h"
 #include "print_json.h"
 
@@ -94,7 +95,7 @@ void add_info_command(CLI::App& app, Command& chosen) {
   CLI::App* command =
       app.add_subcommand("info", "Show what a run file holds, or which keys a scene can have");
   auto arguments = std::make_shared<Arguments>();
-  command->add_option("FILE", arguments->file, "Run file (HDF5)");
+  command->add_option("FILE", arguments->file, "Run file (HDF5)")->type_name("FILE.h5")->option_text("(.h5)");
   command->add_flag("--json", arguments->json, "Print one JSON object");
   command->add_flag("--scene", arguments->scene, "Print the scene the run was made from (TOML)");
   command->add_flag("--scene-keys", arguments->scene_keys,

@@ -3,22 +3,34 @@
 #include <cstdio>
 #include <filesystem>
 #include <new>
+#include <string_view>
+#include <system_error>
 
 #include "commands.h"
 #include "core/error.h"
 #include "core/interrupt.h"
 #include "core/log.h"
+#include "core/machine.h"
 #include "core/version.h"
+#include "sand/instruction_set.h"
+#include "usage_sentence.h"
 
 namespace {
 
 using namespace sandstroke;
 
-constexpr int usage_error = 2;
 constexpr int io_error = 4;
 
 /// A standard error that takes nothing changes no exit code (fmt::print would throw).
 void complain(const std::string& sentence) { std::fputs(("sandstroke: " + sentence + "\n").c_str(), stderr); }
+
+int complain_of_threads(const std::exception& failure) {
+  complain(fmt::format(
+      "the system gives no more threads ({}); close other programs, or raise the limit of threads or memory "
+      "(ulimit -u, ulimit -v)",
+      failure.what()));
+  return io_error;
+}
 
 int run_program(int argc, char** argv) {
   CLI::App app(
@@ -26,18 +38,19 @@ int run_program(int argc, char** argv) {
       "picture "
       "and a verdict come out.");
   app.name("sandstroke");
-  app.set_version_flag("--version", fmt::format("sandstroke {} ({}, {})", version, commit, compiler));
+  app.set_version_flag("--version", fmt::format("{}, {}", build, instruction_set()));
   app.require_subcommand(1);
   app.fallthrough();
   app.footer(
       "Exit codes: 0 fine, 1 a comparison failed or a machine is not fit to record, 2 bad input or usage,\n"
       "3 not at rest, unstable, a failed point of sweep or a surprise of stress, 4 input/output error,\n"
-      "130/143 stopped by a signal. Each command explains "
-      "itself: sandstroke run --help");
+      "130/143 stopped by a signal.\n"
+      "To begin: sandstroke init FOLDER. Each command explains itself: sandstroke run --help");
   bool quiet = false;
   app.add_flag("-q,--quiet", quiet, "Say nothing but results, warnings and errors");
 
   Command chosen;
+  add_init_command(app, chosen);
   add_run_command(app, chosen);
   add_render_command(app, chosen);
   add_compare_command(app, chosen);
@@ -48,11 +61,15 @@ int run_program(int argc, char** argv) {
   add_bench_command(app, chosen);
   add_stress_command(app, chosen);
   add_info_command(app, chosen);
+  add_completion_command(app, chosen);
+  add_help_command(app, chosen);  // last: it knows the others
 
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& failure) {
-    return app.exit(failure) == 0 ? 0 : usage_error;
+    const std::string sentence = usage_sentence(app, failure);
+    if (sentence.empty()) return app.exit(failure);  // help or the version was asked for
+    throw_input_error("{}", sentence);
   }
   start_log(quiet);
   catch_interrupts();
@@ -66,6 +83,7 @@ int run_program(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   try {
+    share_heap_if_limited();
     return run_program(argc, argv);
   } catch (const Error& failure) {
     complain(failure.what());
@@ -77,7 +95,11 @@ int main(int argc, char** argv) {
     complain(fmt::format("{}: {}; check the path, and who may use it", failure.path1().string(),
                          failure.code().message()));
     return io_error;
+  } catch (const std::system_error& failure) {
+    return complain_of_threads(failure);
   } catch (const std::exception& failure) {
+    if (std::string_view(failure.what()).starts_with("pthread_create"))  // TBB's
+      return complain_of_threads(failure);
     complain(fmt::format("unexpected failure: {}", failure.what()));
     return io_error;
   }

@@ -188,7 +188,9 @@ void add_record_command(CLI::App& app, Command& chosen) {
   auto arguments = std::make_shared<Arguments>();
   RecorderSettings& settings = arguments->settings;
   settings.servo.force.max_force = any_force;
-  command->add_option("-o,--output", arguments->output, "Stroke to write (.h5)")->option_text("STROKE.h5");
+  command->add_option("-o,--output", arguments->output, "Stroke to write (.h5)")
+      ->type_name("FILE.h5")
+      ->option_text("STROKE.h5");
   command
       ->add_option("--device", arguments->device,
                    "chai3d, chai3d:N, scripted:FILE.toml or replay:FILE.h5 (see --list)")
@@ -210,7 +212,8 @@ void add_record_command(CLI::App& app, Command& chosen) {
       ->check(recording_rate())
       ->option_text("HZ");
   command
-      ->add_option("--stop-switch", arguments->stop_switch, "End when this switch of the device is pressed")
+      ->add_option("--stop-switch", arguments->stop_switch,
+                   "End when this switch of the device is pressed, counted from 0")
       ->check(CLI::Range(0, 31))
       ->option_text("K");
   auto* feel =
@@ -218,6 +221,7 @@ void add_record_command(CLI::App& app, Command& chosen) {
           ->add_option("--feel", arguments->felt_scene,
                        "The hand feels this scene's sand while it is recorded; a run of the stroke in it "
                        "has the same sand and forces. Without: no force at all")
+          ->type_name("FILE.toml")
           ->option_text("SCENE.toml");
   add_set_option(*command, arguments->overrides)->needs(feel);
   command

@@ -1,4 +1,4 @@
-#include <spdlog/fmt/fmt.h>
+#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <charconv>
@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "commands.h"
@@ -14,6 +15,7 @@
 #include "core/interrupt.h"
 #include "core/output_file.h"
 #include "core/progress.h"
+#include "io/film_file.h"
 #include "io/png_file.h"
 #include "io/scene_toml.h"
 #include "run_picture.h"
@@ -23,12 +25,13 @@ namespace {
 namespace fs = std::filesystem;
 
 struct Options {
-  fs::path run, output;
+  fs::path run, output, video;
   std::string frame = "final", size;
   std::string view, style;
   std::optional<double> azimuth, elevation, distance, light_azimuth, light_elevation;
   std::vector<double> target;
-  double contour_interval = 0.0;
+  std::optional<double> contour_interval;
+  std::optional<double> fps;
   std::optional<bool> tool;  // unset: in frames, not in initial and final
 };
 
@@ -44,9 +47,25 @@ Value named(const std::vector<std::string>& names, const std::string& name) {
   return static_cast<Value>(std::find(names.begin(), names.end(), name) - names.begin());
 }
 
+/// Refuses what would change nothing in this view.
+void reject_ignored(const Options& options, const ViewSettings& view) {
+  if (!options.target.empty() && view.name != ViewName::custom)
+    throw_input_error("--target needs --view custom; the view is {}",
+                      view_names[static_cast<std::size_t>(view.name)]);
+  if (view.name == ViewName::top)
+    for (const auto& [name, given] : {std::pair("--azimuth", options.azimuth),
+                                      {"--elevation", options.elevation},
+                                      {"--distance", options.distance}})
+      if (given)
+        throw_input_error("{} needs --view overview, stroke or custom; the view is top, straight from above",
+                          name);
+  if (options.contour_interval && view.style == RenderStyle::sand)
+    throw_input_error("--contour needs --style height or difference; the style sand draws no contour lines");
+}
+
 /// The scene's view, changed by what the command line says.
-ViewSettings view_of(const RunFile& run, const Options& options) {
-  ViewSettings view = scene_from_text(run.scene_text(), run.name() + ": /scene").view;
+ViewSettings view_of(const Scene& scene, const Options& options) {
+  ViewSettings view = scene.view;
   if (!options.view.empty()) view.name = named<ViewName>(view_names, options.view);
   if (!options.style.empty()) view.style = named<RenderStyle>(style_names, options.style);
   view.azimuth = options.azimuth.value_or(view.azimuth);
@@ -62,6 +81,7 @@ ViewSettings view_of(const RunFile& run, const Options& options) {
         !parse_whole(size.substr(x + 1), view.height))
       throw_input_error("--size {} is no size in pixels; write it like 1280x720", size);
   }
+  reject_ignored(options, view);
   return view;
 }
 
@@ -70,30 +90,74 @@ fs::path default_output(const Options& options, const char* ending) {
   return beside(options.run, ending);
 }
 
-int draw_film(const RunFile& run, RunPainter& painter, const Options& options) {
+/// Draws the frames, one after the other, and gives them to take(k, image) until that returns false. The exit
+/// code.
+template <class Take>
+int draw_frames(const RunFile& run, const ViewSettings& view, const Options& options, const Take& take) {
   const std::vector<double> times = run.frame_times();
-  if (times.empty())
-    throw_input_error("{}: holds no frames; run the scene again with --frames HZ", run.name());
-  const fs::path folder = default_output(options, "_frames");
-  make_folder(folder);
   const bool tool = options.tool.value_or(run.has_trace());
+  RunPainter painter(run, view, options.contour_interval.value_or(0.0));
+  RunFrames frames(run);
   Progress progress("render");
   for (std::size_t k = 0; k < times.size(); ++k) {
     const Image image =
-        painter.draw(run.frame(static_cast<int>(k)), tool ? std::optional(times[k]) : std::nullopt);
-    write_png(folder / fmt::format("frame_{:04}.png", k), image);
-    if (interrupted()) return 128 + interrupted();
+        painter.draw(frames.surface(static_cast<int>(k)), tool ? std::optional(times[k]) : std::nullopt);
+    if (!take(k, image) || interrupted()) return 128 + interrupted();
     progress.update(static_cast<double>(k + 1) / static_cast<double>(times.size()));
   }
+  return 0;
+}
+
+int draw_pictures(const RunFile& run, const ViewSettings& view, const Options& options) {
+  const fs::path folder = default_output(options, "_frames");
+  make_folder(folder);
+  const auto picture = [&](std::size_t k) { return folder / fmt::format("frame_{:04}.png", k); };
+  const int exit_code = draw_frames(run, view, options, [&](std::size_t k, const Image& image) {
+    write_png(picture(k), image);
+    return true;
+  });
+  if (exit_code != 0) return exit_code;
+  for (std::size_t k = 0; k < run.frame_times().size(); ++k)
+    if (!fs::exists(picture(k)))
+      throw_io_error("{}: somebody removed it while others were drawn; render again", picture(k).string());
   fmt::print("{}\n", folder.string());
   return 0;
 }
 
-int render(const Options& options) {
-  const RunFile run(options.run);
-  RunPainter painter(run, view_of(run, options), options.contour_interval);
-  if (options.frame == "all") return draw_film(run, painter, options);
+int draw_film(const RunFile& run, const Scene& scene, const ViewSettings& view, const Options& options) {
+  check_output(options.video, {options.run});
+  const double own_rate = std::min(scene.output.frames, scene.device.servo_rate);
+  const double rate = options.fps.value_or(own_rate);
+  FilmWriter film(options.video, view.width, view.height, rate);
+  spdlog::info("{} frames, {:g} a second: {}", run.frame_times().size(), rate,
+               rate == own_rate ? "film time is stroke time"
+                                : fmt::format("{:g} times as fast as the stroke", rate / own_rate));
+  const int exit_code =
+      draw_frames(run, view, options, [&](std::size_t, const Image& image) { return film.add(image); });
+  if (exit_code != 0) return exit_code;
+  if (!film.finish()) return 128 + interrupted();
+  fmt::print("{}\n", options.video.string());
+  return 0;
+}
 
+/// Of a run that holds frames.
+std::vector<double> frame_times(const RunFile& run) {
+  std::vector<double> times = run.frame_times();
+  if (times.empty())
+    throw_input_error("{}: holds no frames; run the scene again with --frames HZ", run.name());
+  return times;
+}
+
+int render(const Options& options) {
+  if (!options.video.empty()) check_film_name(options.video);
+  const RunFile run(options.run);
+  const Scene scene = scene_from_text(run.scene_text(), run.name() + ": /scene");
+  const ViewSettings view = view_of(scene, options);
+  if (options.frame == "all") {
+    frame_times(run);
+    return options.video.empty() ? draw_pictures(run, view, options) : draw_film(run, scene, view, options);
+  }
+  RunPainter painter(run, view, options.contour_interval.value_or(0.0));
   HeightGrid surface;
   double time = 0.0;
   bool tool = options.tool.value_or(false);
@@ -103,13 +167,13 @@ int render(const Options& options) {
     surface = run.final();
     time = std::numeric_limits<double>::infinity();
   } else {
-    const std::vector<double> times = run.frame_times();
     int k = 0;
     if (!parse_whole(options.frame, k))
       throw_input_error("--frame {} is no frame; take final, initial, all or a number", options.frame);
+    const std::vector<double> times = frame_times(run);
     if (k < 0 || k >= static_cast<int>(times.size()))
-      throw_input_error("{}: holds no frame {}, but {} of them, counted from 0", run.name(), k, times.size());
-    surface = run.frame(k);
+      throw_input_error("{}: holds no frame {}; take 0 to {}", run.name(), k, times.size() - 1);
+    surface = RunFrames(run).surface(k);
     time = times[static_cast<std::size_t>(k)];
     tool = options.tool.value_or(run.has_trace());
   }
@@ -124,41 +188,68 @@ int render(const Options& options) {
 
 void add_render_command(CLI::App& app, Command& chosen) {
   auto options = std::make_shared<Options>();
+  const std::string scenes = "; default: the scene's [view]";
   CLI::App* command =
       app.add_subcommand("render", "Draw the surfaces of a run (the scene's [view], unless told otherwise)");
-  command->add_option("RUN", options->run, "Run file (HDF5)")->required();
-  command->add_option(
-      "-o,--output", options->output,
-      "Picture (PNG), or the folder for --frame all; default: RUN.png or RUN_frames/ beside RUN");
-  command->add_option("--frame", options->frame, "final, initial, all, or a frame's number from 0")
-      ->capture_default_str();
-  command->add_option("--size", options->size, "Picture size in pixels, like 1280x720")->type_name("WxH");
-  command->add_option("--view", options->view, "All of it; what changes; a map; as aimed")
+  command->add_option("RUN", options->run, "Run file (HDF5)")->type_name("FILE.h5")->required();
+  command
+      ->add_option("-o,--output", options->output,
+                   "Picture (PNG), or the folder for --frame all; default: RUN.png or RUN_frames/ beside RUN")
+      ->type_name("FILE.png");
+  CLI::Option* frame =
+      command->add_option("--frame", options->frame, "final, initial, all, or a frame's number from 0")
+          ->capture_default_str();
+  CLI::Option* video = command
+                           ->add_option("--video", options->video,
+                                        fmt::format("Film of all frames ({}), by the program ffmpeg",
+                                                    fmt::join(film_endings(), ", ")))
+                           ->type_name(fmt::format("FILE{}", fmt::join(film_endings(), "|")))
+                           ->excludes("--output");
+  command
+      ->add_option("--fps", options->fps,
+                   "Film's frames a second; default: the run's, so that film time is stroke time")
+      ->needs(video)
+      ->check(positive_number());
+  command->add_option("--size", options->size, "Picture size in pixels, like 1280x720" + scenes)
+      ->type_name("WxH");
+  command->add_option("--view", options->view, "All of it; what changes; a map; as aimed" + scenes)
       ->check(CLI::IsMember(view_names));
-  command->add_option("--style", options->style, "As one sees it; heights; change since the initial surface")
+  command
+      ->add_option("--style", options->style,
+                   "As one sees it; heights; change since the initial surface" + scenes)
       ->check(CLI::IsMember(style_names));
-  command->add_option("--azimuth", options->azimuth, "Towards the camera, from +x towards +y [deg]");
-  command->add_option("--elevation", options->elevation, "Of the camera above the horizon [deg]")
+  command->add_option("--azimuth", options->azimuth, "Towards the camera, from +x towards +y [deg]" + scenes);
+  command->add_option("--elevation", options->elevation, "Of the camera above the horizon [deg]" + scenes)
       ->check(CLI::Range(0.0, 90.0));
   command
-      ->add_option("--distance", options->distance, "From target to camera [m]; 0: what frames the subject")
+      ->add_option("--distance", options->distance,
+                   "From target to camera [m]; 0: what frames the subject" + scenes)
       ->check(not_negative_number());
-  command->add_option("--target", options->target, "What a custom view looks at [m]")
+  command->add_option("--target", options->target, "What a custom view looks at [m]" + scenes)
       ->type_name("X,Y,Z")
       ->delimiter(',')
       ->expected(3);
-  command->add_option("--light-azimuth", options->light_azimuth, "Towards the sun [deg]");
-  command->add_option("--light-elevation", options->light_elevation, "Of the sun above the horizon [deg]");
+  command->add_option("--light-azimuth", options->light_azimuth, "Towards the sun [deg]" + scenes);
+  command->add_option("--light-elevation", options->light_elevation,
+                      "Of the sun above the horizon [deg]" + scenes);
   command
-      ->add_option("--contour", options->contour_interval, "Between contour lines [m]; 0: a round interval")
+      ->add_option("--contour", options->contour_interval,
+                   "Between contour lines [m]; 0, the default: a round interval")
       ->check(not_negative_number());
   command->add_flag_callback(
       "--tool", [options] { options->tool = true; },
       "Draw the tool; default: in frames, not in initial and final");
   command->add_flag_callback(
       "--no-tool", [options] { options->tool = false; }, "Do not draw the tool");
-  command->footer("Example:  sandstroke render wscg.h5 --view stroke --style height --size 1920x1080");
-  command->callback([options, &chosen] { chosen = [options] { return render(*options); }; });
+  command->footer(
+      "Examples:  sandstroke render wscg.h5 --view stroke --style height --size 1920x1080\n"
+      "           sandstroke render wscg.h5 --frame all --video wscg.mp4");
+  command->callback([options, frame, video, &chosen] {
+    if (video->count() > 0 && frame->count() == 0) options->frame = "all";
+    if (video->count() > 0 && options->frame != "all")
+      throw CLI::ValidationError("--video", "is a film of all frames: leave out --frame " + options->frame);
+    chosen = [options] { return render(*options); };
+  });
 }
 
 }  // namespace sandstroke

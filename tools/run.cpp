@@ -176,19 +176,23 @@ void add_run_command(CLI::App& app, Command& chosen) {
   CLI::App* command =
       app.add_subcommand("run", "Simulate a scene: play its stroke through the sand and let it come to rest");
   auto arguments = std::make_shared<Arguments>();
-  command->add_option("SCENE", arguments->scene, "Scene file (TOML)")->required();
-  command->add_option("-o,--output", arguments->output,
-                      "Run file to write (HDF5); default: SCENE's name with .h5, here");
-  command->add_option("--stroke", arguments->stroke,
-                      "Play this stroke instead of the scene's (.toml or .h5)");
+  command->add_option("SCENE", arguments->scene, "Scene file (TOML)")->type_name("FILE.toml")->required();
+  command
+      ->add_option("-o,--output", arguments->output,
+                   "Run file to write (HDF5); default: SCENE's name with .h5, here")
+      ->type_name("FILE.h5");
+  command->add_option("--stroke", arguments->stroke, "Play this stroke instead of the scene's (.toml or .h5)")
+      ->type_name("FILE.toml|.h5");
   add_set_option(*command, arguments->overrides);
   command->add_option("--frames", arguments->frames, "Keep surfaces during the run, this many a second [Hz]")
       ->check(not_negative_number());
-  command->add_option("--png", arguments->picture,
-                      "Draw the final surface into this picture, as the scene's [view] says");
+  command
+      ->add_option("--png", arguments->picture,
+                   "Draw the final surface into this picture, as the scene's [view] says")
+      ->type_name("FILE.png");
   command
       ->add_option("--threads", arguments->threads,
-                   "Threads to use; 0: all cores. The result is the same for any number")
+                   "Threads to use; 0, the default: all cores. The result is the same for any number")
       ->check(CLI::Range(0, 1024));
   command
       ->add_flag(

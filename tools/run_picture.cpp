@@ -13,7 +13,7 @@ namespace {
 HeightGrid last_surface(const RunFile& run, const HeightGrid& initial) {
   if (run.has_final()) return run.final();
   const auto frames = static_cast<int>(run.frame_times().size());
-  return frames > 0 ? run.frame(frames - 1) : initial;
+  return frames > 0 ? RunFrames(run).surface(frames - 1) : initial;
 }
 
 }  // namespace

@@ -101,6 +101,7 @@ void add_stress_command(CLI::App& app, Command& chosen) {
   command
       ->add_option("-o,--output", arguments->output,
                    "Folder for the page, stress.html, made where it is not there")
+      ->type_name("FOLDER")
       ->capture_default_str();
   command->add_flag("--quick", arguments->quick,
                     "10 seconds rather than 7 minutes: coarser maps, fewer and shorter cases");

@@ -8,6 +8,7 @@
 #include "core/output_file.h"
 #include "io/stroke_csv.h"
 #include "io/stroke_file.h"
+#include "io/stroke_script_toml.h"
 #include "stroke_parts.h"
 
 namespace sandstroke {
@@ -40,25 +41,12 @@ void add_script(CLI::App& stroke_app, Command& chosen) {
   auto options = std::make_shared<Options>();
   CLI::App* app =
       stroke_app.add_subcommand("script", "Samples a scripted stroke (TOML) into a recorded one (HDF5)");
-  app->add_option("IN", options->in, "Script (.toml)")->required();
-  app->add_option("OUT", options->out, "Stroke to write (.h5)")->required();
-  app->footer(
-      "A scene takes a script as it is; this is for looking at its samples. A force in it\n"
-      "becomes a depth: here by the default constants of [force], in a scene by its own.\n"
-      "A script (m, m/s, degrees, N):\n"
-      "    start = [-0.2, 0.0]           # also: clearance, travel_speed, plunge_speed, rate, repeat\n"
-      "    depth = 0.006                 # below z = 0; or force. Here for all segments, or in each\n"
-      "    speed = 0.1\n"
-      "    [[segment]]\n"
-      "    kind = \"line\"                 # also: move, arc, spline, text\n"
-      "    to = [0.2, 0.0]\n"
-      "    depth = [0.008, 0.001]        # spread along the segment: ends weaker than it starts\n"
-      "Keys of a segment: speed, depth or force, wait (s); and for\n"
-      "    move    to\n"
-      "    line    to, from\n"
-      "    arc     centre, radius, start_angle, end_angle\n"
-      "    spline  points = [[x, y], ...]\n"
-      "    text    text, at, height, font, angle, spacing");
+  app->add_option("IN", options->in, "Script (.toml)")->type_name("FILE.toml")->required();
+  app->add_option("OUT", options->out, "Stroke to write (.h5)")->type_name("FILE.h5")->required();
+  app->footer(std::string() +
+              "A scene takes a script as it is; this is for looking at its samples. A force in it\n"
+              "becomes a depth: here by the default constants of [force], in a scene by its own.\n" +
+              script_help());
   app->callback([&chosen, options] {
     chosen = [options] {
       check_output(options->out, {options->in});
@@ -113,8 +101,9 @@ void add_convert(CLI::App& stroke_app, Command& chosen) {
   CLI::App* app = stroke_app.add_subcommand("convert", "Makes a stroke from a table of samples (CSV)");
   app->add_option("IN", options->in,
                   "Comma-separated numbers, one sample per line, column names in the first line")
+      ->type_name("FILE.csv|.txt")
       ->required();
-  app->add_option("OUT", options->out, "Stroke to write (.h5)")->required();
+  app->add_option("OUT", options->out, "Stroke to write (.h5)")->type_name("FILE.h5")->required();
 
   // A list is one argument, so that file names may follow it.
   const auto add_list = [app](const char* name, std::vector<std::string>& columns, const char* help) {

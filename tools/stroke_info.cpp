@@ -156,7 +156,10 @@ void add_stroke_info_command(CLI::App& stroke_app, Command& chosen) {
   };
   auto options = std::make_shared<Options>();
   CLI::App* app = stroke_app.add_subcommand("info", "Says what is in a stroke file");
-  app->add_option("FILE", options->file, "Recorded (.h5) or scripted (.toml) stroke")->required();
+  app->add_option("FILE", options->file, "Recorded (.h5) or scripted (.toml) stroke")
+      ->type_name("FILE.h5|.toml")
+      ->option_text("REQUIRED")
+      ->required();
   app->add_flag("--json", options->json, "One JSON object in SI units instead of a table");
   app->callback([&chosen, options] {
     chosen = [options] {

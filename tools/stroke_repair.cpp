@@ -113,8 +113,11 @@ void add_stroke_repair_command(CLI::App& stroke, Command& chosen) {
   command
       ->add_option("FILE", arguments->file,
                    "The recording's journal, STROKE.h5.recording; or STROKE.h5, which it was to become")
+      ->type_name("FILE.recording|.h5")
+      ->option_text("REQUIRED")
       ->required();
-  command->add_option("OUT", arguments->output, "Stroke to write (.h5); default: STROKE.h5");
+  command->add_option("OUT", arguments->output, "Stroke to write (.h5); default: STROKE.h5")
+      ->type_name("FILE.h5");
   command->add_flag("--remove", arguments->remove, "Remove the journal once the stroke is written");
   command->add_flag("--json", arguments->json, "Print what was done as one JSON object");
   command->footer(

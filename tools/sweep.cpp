@@ -135,7 +135,12 @@ int sweep(const Arguments& arguments) {
   if (!arguments.json) print_summary(counters, folder);
   nlohmann::ordered_json json = as_json(counters, folder);
   const bool all = !counters.interrupted && options.shard.of == 1;
-  if (all) json["content_hash"] = collect_sweep(folder, arguments.json).content_hash;
+  bool lost = false;
+  if (all) {
+    const CollectReport collected = collect_sweep(folder, arguments.json);
+    json["content_hash"] = collected.content_hash;
+    lost = collected.missing + collected.unreadable > 0;  // somebody removed or damaged points
+  }
   if (arguments.json) print_json(json);
   if (counters.interrupted) {
     spdlog::warn("stopped with {} of {} points done; the same command goes on from there",
@@ -152,6 +157,7 @@ int sweep(const Arguments& arguments) {
   if (counters.failed() > 0 && !all)  // collecting said so
     spdlog::warn("{} without result; sandstroke sweep status {} says why",
                  counted(counters.failed(), "point"), folder.path().string());
+  if (lost) return static_cast<int>(ErrorKind::io);
   return counters.failed() + restless > 0 ? static_cast<int>(ErrorKind::unstable) : 0;
 }
 
@@ -165,7 +171,10 @@ void add_sweep_folder_command(CLI::App& sweep, const char* name, const char* hel
   };
   CLI::App* command = sweep.add_subcommand(name, help);
   auto arguments = std::make_shared<FolderArguments>();
-  command->add_option("FOLDER", arguments->folder, "Of the sweep: what -o named")->required();
+  command->add_option("FOLDER", arguments->folder, "Of the sweep: what -o named")
+      ->type_name("FOLDER")
+      ->option_text("REQUIRED")
+      ->required();
   command->add_flag("--json", arguments->json, "Print it as one JSON object");
   command->footer(footer);
   command->callback([arguments, run, &chosen] {
@@ -176,10 +185,12 @@ void add_sweep_folder_command(CLI::App& sweep, const char* name, const char* hel
 void add_sweep_command(CLI::App& app, Command& chosen) {
   CLI::App* command = app.add_subcommand("sweep", "Run a scene again and again with other settings");
   auto arguments = std::make_shared<Arguments>();
-  command->add_option("PLAN", arguments->plan, "What to vary (TOML)");
-  command->add_option("-o,--output", arguments->output,
-                      "Folder for the results; default: PLAN's name without .toml, here. One that holds a "
-                      "part of this sweep is gone on with");
+  command->add_option("PLAN", arguments->plan, "What to vary (TOML)")->type_name("FILE.toml");
+  command
+      ->add_option("-o,--output", arguments->output,
+                   "Folder for the results; default: PLAN's name without .toml, here. One that holds a "
+                   "part of this sweep is gone on with")
+      ->type_name("FOLDER");
   CLI::Option* jobs =
       command
           ->add_option("--jobs", arguments->jobs,

@@ -31,6 +31,7 @@ CLI::Option* add_set_option(CLI::App& command, std::vector<std::string>& overrid
   return command
       .add_option("--set", overrides, "Override a scene key, such as relaxation.talus_angle=35 (repeatable)")
       ->type_name("KEY=VALUE")
+      ->allow_extra_args(false)  // what follows its one value is not another
       ->take_all();
 }
 

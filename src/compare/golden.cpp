@@ -1,9 +1,11 @@
 #include "compare/golden.h"
 
+#include <fcntl.h>
 #include <spdlog/fmt/fmt.h>
 
 #include <cmath>
 #include <cstdint>
+#include <cstdio>
 #include <optional>
 
 #include "core/error.h"
@@ -155,20 +157,40 @@ HeightGrid height_change(const RunFile& run) {
   return final_heights - initial;
 }
 
+namespace {
+
+/// Puts a folder in another one's place, if there is one: all old or all new at any moment. Afterwards the
+/// first is the old one, or not there.
+void exchange_folder(const fs::path& made, const fs::path& place) {
+  sync_folder_of(made / content_name);
+  if (renameat2(AT_FDCWD, made.c_str(), AT_FDCWD, place.c_str(), RENAME_EXCHANGE) != 0) {
+    // There is none yet, or a file system that exchanges nothing: then, killed in between, it is missing,
+    // never half.
+    const fs::path old = part_path(fs::path(place) += ".old");
+    fs::remove_all(old);
+    if (fs::exists(place)) fs::rename(place, old);
+    fs::rename(made, place);
+    fs::remove_all(old);
+  }
+  sync_folder_of(place);
+}
+
+}  // namespace
+
 void write_golden(const fs::path& entry, const GoldenRun& run) {
-  const fs::path part = part_path(entry), replaced = part_path(fs::path(entry) += ".old");
   try {
+    if (entry.has_parent_path()) fs::create_directories(entry.parent_path());
+    const FileLock lock = take_part(entry);
+    const fs::path part = part_path(fs::path(entry) += ".new");
     fs::remove_all(part);
-    fs::remove_all(replaced);
-    fs::create_directories(part);
+    fs::create_directory(part);
     const RunFile file(run.run_file);
     write_content(part / content_name, file);
     write_png(part / picture_name, run.picture);
     write_text_file(part / provenance_name, provenance_text(file, run.result));
-    // A folder cannot be renamed onto one with content. Killed in between, the entry is missing, never half.
-    if (fs::exists(entry)) fs::rename(entry, replaced);
-    finish_part(entry);
-    fs::remove_all(replaced);
+    exchange_folder(part, entry);
+    fs::remove_all(part);
+    fs::remove(part_path(entry));
   } catch (const fs::filesystem_error& failure) {
     throw_io_error("{}: cannot be written ({}); check the folder's rights", entry.string(),
                    failure.code().message());

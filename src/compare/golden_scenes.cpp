@@ -2,35 +2,17 @@
 
 #include <spdlog/fmt/fmt.h>
 
-#include <cstdlib>
 #include <set>
 
 #include "compare/compare_page.h"
 #include "compare/report_picture.h"
 #include "core/error.h"
 #include "core/output_file.h"
+#include "core/temporary_folder.h"
 
 namespace sandstroke {
 namespace {
 namespace fs = std::filesystem;
-
-/// A folder of its own for a run file, gone at the end.
-class TemporaryFolder {
- public:
-  TemporaryFolder() : path_((fs::temp_directory_path() / "sandstroke-XXXXXX").string()) {
-    if (!mkdtemp(path_.data()))
-      throw_io_error("{}: cannot be made; set TMPDIR to a folder with space", path_);
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  fs::path path() const { return path_; }
-
- private:
-  std::string path_;
-};
 
 std::set<std::string> folders_in(const fs::path& parent) {
   std::set<std::string> names;
@@ -84,9 +66,9 @@ Comparison check_golden(const std::string& name, const GoldenFolders& folders, c
   const TemporaryFolder folder;
   GoldenRun run;
   try {
-    run = runner(folders.scene(name), folder.path() / "run.h5");
+    run = runner(folders.scene(name), folder / "run.h5");
   } catch (const Error& error) {
-    if (error.kind() == ErrorKind::io) throw;
+    if (is_of_the_machine(error)) throw;
     return failed("run", error.what());
   }
   if (run.result.interrupted) return failed("run", "was interrupted");
@@ -108,11 +90,15 @@ Comparison check_golden(const std::string& name, const GoldenFolders& folders, c
 }
 
 bool update_golden(const std::string& name, const GoldenFolders& folders, const SceneRunner& runner) {
+  if (fs::path(name).filename() != name || name == "." || name == "..")
+    throw_input_error("{}: is no name of a scene but a path; name a folder in {}", name,
+                      folders.strokes.string());
   const fs::path scene = folders.scene(name);
   if (!fs::exists(scene))
     throw_input_error("{}: there is no {}; check the name and --strokes", name, scene.string());
+  make_folder(folders.golden);  // or refused before the run
   const TemporaryFolder folder;
-  const GoldenRun run = runner(scene, folder.path() / "run.h5");
+  const GoldenRun run = runner(scene, folder / "run.h5");
   if (run.result.interrupted) return false;
   write_golden(folders.entry(name), run);
   return true;

@@ -2,6 +2,7 @@
 
 #include <spdlog/fmt/fmt.h>
 
+#include "core/version.h"
 #include "core/xml_text.h"
 
 namespace sandstroke {
@@ -25,9 +26,9 @@ std::string junit_report(const std::vector<Comparison>& comparisons) {
     suites += "  </testsuite>\n";
   }
   return fmt::format(
-      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites tests=\"{}\" "
+      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"{}\" tests=\"{}\" "
       "failures=\"{}\">\n{}</testsuites>\n",
-      tests, failures, suites);
+      xml_escaped(build), tests, failures, suites);
 }
 
 }  // namespace sandstroke

@@ -44,7 +44,7 @@ HeightGrid block(const HeightField& bed, const CellRange& cells) {
 ValueRange finite_range(const HeightGrid& values) {
   const auto finite = values.isFinite();
   if (!finite.any()) return {0.0, 0.0};
-  return {finite.select(values, INFINITY).minCoeff(), finite.select(values, -INFINITY).maxCoeff()};
+  return {finite.select(values, HUGE_VAL).minCoeff(), finite.select(values, -HUGE_VAL).maxCoeff()};
 }
 
 /// What colours mean: from low to high in a unit of which one is `one` [m], or 1 for numbers without one.

@@ -25,6 +25,17 @@ class Error : public std::runtime_error {
   ErrorKind kind_;
 };
 
+/// Bad input for this machine: with more memory it is fine.
+class NotEnoughMemory : public Error {
+ public:
+  explicit NotEnoughMemory(const std::string& sentence) : Error(ErrorKind::input, sentence) {}
+};
+
+/// Elsewhere, or later, the same input may do: says nothing about it.
+inline bool is_of_the_machine(const Error& error) {
+  return error.kind() == ErrorKind::io || dynamic_cast<const NotEnoughMemory*>(&error);
+}
+
 template <class... Args>
 [[noreturn]] void throw_input_error(fmt::format_string<Args...> sentence, Args&&... args) {
   throw Error(ErrorKind::input, fmt::format(sentence, std::forward<Args>(args)...));

@@ -1,6 +1,7 @@
 #include "core/file_lock.h"
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -11,11 +12,22 @@
 namespace sandstroke {
 
 std::optional<FileLock> FileLock::try_take(const std::filesystem::path& path) {
-  FileLock taken(open(path.c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0666));
-  if (taken.descriptor_ < 0)
-    throw_io_error("{}: cannot be written ({}); choose another place", path.string(), std::strerror(errno));
-  if (!taken.lock(F_WRLCK)) return std::nullopt;
-  return taken;
+  // Again, where its last holder renamed or removed it between open and lock: that is no longer this file.
+  while (true) {
+    FileLock taken(open(path.c_str(), O_CREAT | O_RDWR | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK, 0666));
+    if (taken.descriptor_ < 0 && errno == ELOOP)
+      throw_io_error("{}: is a link, and nothing is written through one; remove it", path.string());
+    if (taken.descriptor_ < 0)
+      throw_io_error("{}: cannot be written ({}); choose another place or free disk space", path.string(),
+                     std::strerror(errno));
+    struct stat held {
+    }, there{};
+    if (fstat(taken.descriptor_, &held) != 0 || !S_ISREG(held.st_mode))
+      throw_io_error("{}: is not a regular file; remove it or choose another place", path.string());
+    if (!taken.lock(F_WRLCK)) return std::nullopt;
+    if (stat(path.c_str(), &there) == 0 && held.st_dev == there.st_dev && held.st_ino == there.st_ino)
+      return taken;
+  }
 }
 
 std::optional<FileLock> FileLock::try_share(const std::filesystem::path& path) {

@@ -10,7 +10,8 @@ namespace sandstroke {
 /// however that ends.
 class FileLock {
  public:
-  /// Makes the file where it is not there. None: somebody holds it. Error: io.
+  /// Makes the file where it is not there. None: somebody holds it. Error: io; also where something else than
+  /// a file has its name, as a link to one that nobody meant.
   static std::optional<FileLock> try_take(const std::filesystem::path& path);
   /// With others that only read the file, which is there. None: somebody has taken it. Error: io.
   static std::optional<FileLock> try_share(const std::filesystem::path& path);

@@ -4,31 +4,30 @@ extern "C" {  // the header has no C++ guard of its own
 #include <hersheyfont.h>
 }
 
-#include <memory>
-#include <string>
-
 #include "core/error.h"
 
 namespace sandstroke {
 
-SingleStrokeText hershey_text(std::string_view text, std::string_view font_name) {
-  constexpr double capital_height = 21.0;  // the library's units: y up from the base line
-  const std::string name(font_name);
+HersheyFont::HersheyFont(std::string_view name) : name_(name) {
   // The library joins the name to its font folder: only a plain name stays inside that.
-  if (name.empty() || name.find('/') != std::string::npos)
+  if (name_.empty() || name_.find('/') != std::string::npos)
     throw_input_error("font '{}' is not a font name; take one of /usr/share/hershey-fonts, such as futural",
-                      name);
-  const std::unique_ptr<hershey_font, void (*)(hershey_font*)> font(hershey_font_load(name.c_str()),
-                                                                    hershey_font_free);
+                      name_);
+  hershey_font* font = hershey_font_load(name_.c_str());
   if (!font)
     throw_input_error("font '{}' is not installed; take one of /usr/share/hershey-fonts, such as futural",
-                      name);
+                      name_);
+  font_ = std::shared_ptr<hershey_font>(font, hershey_font_free);
+}
 
+SingleStrokeText HersheyFont::draw(std::string_view text) const {
+  constexpr double capital_height = 21.0;  // the library's units: y up from the base line
+  auto* font = static_cast<hershey_font*>(font_.get());
   SingleStrokeText drawn;
   for (const char letter : text) {
-    const hershey_glyph* glyph = hershey_font_glyph(font.get(), static_cast<unsigned char>(letter));
+    const hershey_glyph* glyph = hershey_font_glyph(font, static_cast<unsigned char>(letter));
     if (!glyph || (glyph->width == 0 && glyph->npaths == 0))
-      throw_input_error("font '{}' has no letter of code {}; write the text with ASCII letters", name,
+      throw_input_error("font '{}' has no letter of code {}; write the text with ASCII letters", name_,
                         static_cast<int>(static_cast<unsigned char>(letter)));
     for (const hershey_path* path = glyph->paths; path; path = path->next) {
       std::vector<Eigen::Vector2d> line;
@@ -40,6 +39,10 @@ SingleStrokeText hershey_text(std::string_view text, std::string_view font_name)
     drawn.width += glyph->width / capital_height;
   }
   return drawn;
+}
+
+SingleStrokeText hershey_text(std::string_view text, std::string_view font) {
+  return HersheyFont(font).draw(text);
 }
 
 }  // namespace sandstroke

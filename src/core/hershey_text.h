@@ -1,6 +1,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <memory>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -13,8 +15,20 @@ struct SingleStrokeText {
   double width = 0.0;
 };
 
-/// Draws text with a single-stroke Hershey font from hershey-fonts-data ("futural", "rowmans", "cursive",
-/// ...). Error: input, if the font or a letter is missing.
+/// A single-stroke Hershey font from hershey-fonts-data ("futural", "rowmans", "cursive", ...), read once.
+class HersheyFont {
+ public:
+  /// Error: input, if there is no such font.
+  explicit HersheyFont(std::string_view name);
+  /// Error: input, if a letter is missing.
+  SingleStrokeText draw(std::string_view text) const;
+
+ private:
+  std::string name_;
+  std::shared_ptr<void> font_;
+};
+
+/// Draws text with a font of that name. Error: input, if the font or a letter is missing.
 SingleStrokeText hershey_text(std::string_view text, std::string_view font = "futural");
 
 }  // namespace sandstroke

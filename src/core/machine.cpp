@@ -1,13 +1,115 @@
 #include "core/machine.h"
 
+#include <malloc.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <fstream>
+#include <limits>
+#include <sstream>
+
+#include "core/error.h"
 
 namespace sandstroke {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double unlimited = std::numeric_limits<double>::infinity();
+
+/// The number after a name in lines of "name number", as in /proc/meminfo; 0 where it is not there.
+double number_after(const fs::path& file, const std::string& name) {
+  std::ifstream lines(file);
+  double number = 0.0;
+  for (std::string line; std::getline(lines, line);)
+    if (std::istringstream words(line); words >> line && line == name && words >> number) return number;
+  return 0.0;
+}
+
+/// The number that a file holds; none where it holds a word ("max"), or is not there.
+double number_in(const fs::path& file, double none) {
+  double number = none;
+  return std::ifstream(file) >> number ? number : none;
+}
+
+struct GroupFiles {
+  const char *limit, *usage, *cached;  // cached: names in memory.stat, of what is given up when it gets tight
+};
+constexpr GroupFiles version_1{"memory.limit_in_bytes", "memory.usage_in_bytes", "total_"},
+    version_2{"memory.max", "memory.current", ""};
+
+double room_in(const fs::path& group, const GroupFiles& files) {
+  const double limit = number_in(group / files.limit, unlimited);
+  if (limit >= 0x1p62) return unlimited;  // version 1 says so by a huge number
+  double taken = number_in(group / files.usage, 0.0);
+  for (const char* kind : {"active_file", "inactive_file"})
+    taken -= number_after(group / "memory.stat", std::string(files.cached) + kind);
+  return limit - taken;
+}
+
+/// What is left of a limit of setrlimit(2), of which the process has taken what /proc/self/status says.
+double room_of(__rlimit_resource resource, const char* taken) {
+  rlimit limit{};
+  if (getrlimit(resource, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return unlimited;
+  return static_cast<double>(limit.rlim_cur) - 1024.0 * number_after("/proc/self/status", taken);
+}
+
+}  // namespace
 
 double physical_memory() {
   return static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
+}
+
+MemoryRoom memory_room() {
+  const fs::path machine = "/proc/meminfo";
+  const double free = 1024.0 * (number_after(machine, "MemAvailable:") + number_after(machine, "SwapFree:"));
+  std::ostringstream groups;
+  groups << std::ifstream("/proc/self/cgroup").rdbuf();
+  MemoryRoom least{free > 0.0 ? free : physical_memory(), "this machine has {:.3g} GB free"};
+  const auto consider = [&](double room, const char* reason) {
+    if (room < least.bytes) least = {std::max(0.0, room), reason};
+  };
+  consider(control_group_room(groups.str(), "/sys/fs/cgroup"),
+           "its control group (container or job) leaves it {:.3g} GB");
+  consider(room_of(RLIMIT_AS, "VmSize:"), "the limit of its address space (ulimit -v) leaves it {:.3g} GB");
+  consider(room_of(RLIMIT_DATA, "VmData:"), "the limit of its data (ulimit -d) leaves it {:.3g} GB");
+  least.reason = fmt::format(fmt::runtime(least.reason), 1e-9 * least.bytes);
+  return least;
+}
+
+void check_memory(double bytes, const std::string& what, const std::string& remedy, double share) {
+  const MemoryRoom room = memory_room();
+  if (bytes > share * room.bytes)
+    throw NotEnoughMemory(
+        fmt::format("{} takes about {:.3g} GB of memory{}, and {}; {}", what, 1e-9 * bytes,
+                    share < 1.0 ? fmt::format(", which may be {:.3g} of what there is", share) : "",
+                    room.reason, remedy));
+}
+
+void share_heap_if_limited() {
+  rlimit limit{};
+  if (getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY) mallopt(M_ARENA_MAX, 1);
+}
+
+double control_group_room(const std::string& groups, const fs::path& mount) {
+  double least = unlimited;
+  std::istringstream lines(groups);
+  for (std::string line; std::getline(lines, line);) {  // "4:cpu,memory:/path", or "0::/path" of version 2
+    const std::size_t first = line.find(':'), second = line.find(':', first + 1);
+    if (second == std::string::npos) continue;
+    const std::string controllers = fmt::format(",{},", line.substr(first + 1, second - first - 1));
+    const bool is_version_2 = controllers == ",,";
+    if (!is_version_2 && controllers.find(",memory,") == std::string::npos) continue;
+    // Those above limit it too. In a container its own group may be mounted as the topmost.
+    const fs::path top = is_version_2 ? mount : mount / "memory";
+    fs::path group = fs::path(line.substr(second + 1)).relative_path();
+    for (;; group = group.parent_path()) {
+      least = std::min(least, room_in(top / group, is_version_2 ? version_2 : version_1));
+      if (group.empty()) break;
+    }
+  }
+  return least;
 }
 
 std::string cpu_name() {

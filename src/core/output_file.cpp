@@ -19,6 +19,23 @@ fs::path part_path(const fs::path& path) {
   return part;
 }
 
+FileLock take_part(const fs::path& path) {
+  std::optional<FileLock> lock = FileLock::try_take(part_path(path));
+  if (!lock)
+    throw_io_error("{}: another process is writing it; wait for it or choose another name", path.string());
+  return std::move(*lock);
+}
+
+namespace {
+
+void check_takes_files(const fs::path& folder) {
+  if (access(folder.c_str(), W_OK) != 0)
+    throw_io_error("{}: nothing can be written in this folder ({}); choose another", folder.string(),
+                   std::strerror(errno));
+}
+
+}  // namespace
+
 void check_output(const fs::path& output, const std::vector<fs::path>& others) {
   const auto place = [](const fs::path& path) { return fs::weakly_canonical(fs::absolute(path)); };
   for (const fs::path& other : others) {
@@ -35,6 +52,7 @@ void check_output(const fs::path& output, const std::vector<fs::path>& others) {
   if (!fs::is_directory(folder))
     throw_io_error("{}: cannot be written, for there is no folder {}; make it first", output.string(),
                    folder.string());
+  check_takes_files(folder);
 }
 
 void make_folder(const fs::path& folder) {
@@ -42,15 +60,21 @@ void make_folder(const fs::path& folder) {
   fs::create_directories(folder, failure);
   if (failure)
     throw_io_error("{}: this folder cannot be made ({}); choose another", folder.string(), failure.message());
-  if (access(folder.c_str(), W_OK) != 0)
-    throw_io_error("{}: nothing can be written in this folder ({}); choose another", folder.string(),
-                   std::strerror(errno));
+  check_takes_files(folder);
 }
 
 fs::path beside(const fs::path& path, const std::string& ending) {
   fs::path result = path;
   if (path.extension() == ".h5" || path.extension() == ".hdf5") result.replace_extension();
   return result += ending;
+}
+
+void sync_folder_of(const fs::path& path) {
+  const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+  const int descriptor = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor < 0) return;
+  fsync(descriptor);
+  close(descriptor);
 }
 
 void finish_part(const fs::path& path) {
@@ -69,9 +93,11 @@ void finish_part(const fs::path& path) {
     throw_io_error("{}: cannot be put in place ({}); the complete result is in {}", path.string(),
                    failure.message(), part.string());
   }
+  sync_folder_of(path);
 }
 
 void write_text_file(const fs::path& path, std::string_view text) {
+  const FileLock lock = take_part(path);
   const fs::path part = part_path(path);
   std::ofstream file(part, std::ios::binary);
   file << text;
@@ -86,14 +112,24 @@ void write_text_file(const fs::path& path, std::string_view text) {
   finish_part(path);
 }
 
-void check_readable(const fs::path& path) {
-  if (fs::is_directory(path)) throw_io_error("{}: is a folder; name a file", path.string());
+namespace {
+
+void check_opens(const fs::path& path, bool may_be_pipe) {
+  const fs::file_status status = fs::status(path);
+  if (fs::is_directory(status)) throw_io_error("{}: is a folder; name a file", path.string());
+  if (may_be_pipe && fs::is_fifo(status)) return;
+  if (fs::exists(status) && !fs::is_regular_file(status))  // a device has no end, a pipe may have none
+    throw_io_error("{}: is not a regular file; name one", path.string());
   if (!std::ifstream(path))
     throw_io_error("{}: cannot be opened ({}); check the path", path.string(), std::strerror(errno));
 }
 
+}  // namespace
+
+void check_readable(const fs::path& path) { check_opens(path, false); }
+
 std::string read_text_file(const fs::path& path) {
-  check_readable(path);
+  check_opens(path, true);
   const std::ifstream file(path, std::ios::binary);
   std::ostringstream text;
   text << file.rdbuf();

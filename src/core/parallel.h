@@ -16,7 +16,7 @@ void parallel_for(std::size_t count, bool worth_threads, const Body& body) {
     for (std::size_t i = 0; i < count; ++i) body(i);
     return;
   }
-#ifdef __SANITIZE_THREAD__
+#ifdef SANDSTROKE_SANITIZE_THREADS
   // The thread sanitizer cannot see how TBB's own library synchronises: there, plain threads take turns.
   constexpr std::size_t threads = 3;
   std::vector<std::jthread> running;

@@ -11,6 +11,9 @@
 
 namespace sandstroke {
 
+/// Of a recording: in files counts are doubles, of which not every whole number beyond is one.
+inline constexpr std::int64_t most_ticks = std::int64_t{1} << 53;
+
 /// What was out of the ordinary about a sample (bits).
 enum SampleFlag : std::uint32_t {
   late_sample = 1,          ///< read more than half a tick after its time

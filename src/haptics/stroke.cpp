@@ -7,6 +7,10 @@
 namespace sandstroke {
 namespace {
 
+// Beyond these, speeds between samples and the cubic terms of a curve through them are no numbers any more.
+constexpr double most = 1e50;         // s, m
+constexpr double least_step = 1e-50;  // s
+
 void check_length(std::size_t length, const char* column, const Stroke& stroke, const std::string& name) {
   if (length == stroke.size()) return;
   throw_input_error("{}: {} has {} rows but time has {}; give every column one row per sample", name, column,
@@ -30,17 +34,24 @@ void check_stroke(const Stroke& stroke, const std::string& name) {
   if (stroke.time.empty()) throw_input_error("{}: time has no samples; a stroke needs at least one", name);
   for (std::size_t i = 0; i < stroke.size(); ++i) {
     const double t = stroke.time[i];
-    if (!std::isfinite(t))
-      throw_input_error("{}: time of sample {} is {}, which is not finite; repair or remove that sample",
-                        name, i, t);
-    if (i > 0 && !(t > stroke.time[i - 1])) {
+    if (!(std::abs(t) <= most))
       throw_input_error(
-          "{}: time of sample {} is {} s, not later than the {} s before it; times must increase "
-          "strictly, so repair or remove that sample",
-          name, i, t, stroke.time[i - 1]);
+          "{}: time of sample {} is {} s, which is not finite, or beyond {}; repair or remove that sample",
+          name, i, t, most);
+    if (i > 0 && !(t - stroke.time[i - 1] >= least_step)) {
+      throw_input_error(
+          "{}: time of sample {} is {} s, not later than the {} s before it; times must increase (by {} s or "
+          "more), so repair or remove that sample",
+          name, i, t, stroke.time[i - 1], least_step);
     }
   }
   check_vectors(stroke.position, "position", stroke, name);
+  for (std::size_t i = 0; i < stroke.size(); ++i) {
+    if ((stroke.position[i].array().abs() <= most).all()) continue;
+    throw_input_error(
+        "{}: position of sample {} is ({}, {}, {}) m, beyond {} m; repair or remove that sample", name, i,
+        stroke.position[i].x(), stroke.position[i].y(), stroke.position[i].z(), most);
+  }
   if (!stroke.velocity.empty()) check_vectors(stroke.velocity, "velocity", stroke, name);
   if (!stroke.force.empty()) check_vectors(stroke.force, "force", stroke, name);
   if (!stroke.switches.empty()) check_length(stroke.switches.size(), "switches", stroke, name);

@@ -42,8 +42,8 @@ struct Stroke {
 };
 
 /// What every reader and maker of a stroke guarantees: at least one sample, columns of equal length, finite
-/// numbers, strictly increasing time. Error: input; `name` says which stroke, the sentence names column and
-/// sample.
+/// numbers, times and positions of at most 1e50, times that increase by at least 1e-50 s. Error: input;
+/// `name` says which stroke, the sentence names column and sample.
 void check_stroke(const Stroke& stroke, const std::string& name);
 
 }  // namespace sandstroke

@@ -3,6 +3,7 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 
 #include "core/error.h"
@@ -12,6 +13,10 @@ namespace {
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
+
+// deg. The plane of a plunge, a drag along a line and a lift is upright: made level, it would lie on its
+// side.
+constexpr double steepest_table = 45.0;
 
 template <class Row>
 void cut(std::vector<Row>& column, std::size_t begin, std::size_t end) {
@@ -47,7 +52,7 @@ void rotate(Stroke& stroke, const Matrix3d& rotation) {
   for (Vector3d& f : stroke.force) f = rotation * f;
 }
 
-/// The unit normal of the least-squares plane, with z >= 0.
+/// The unit normal of the least-squares plane, with z > 0.
 Vector3d plane_normal(const std::vector<Vector3d>& points, const Vector3d& centroid,
                       const std::string& name) {
   Matrix3d covariance = Matrix3d::Zero();
@@ -60,8 +65,23 @@ Vector3d plane_normal(const std::vector<Vector3d>& points, const Vector3d& centr
         "use plane = \"keep\" with offset",
         name, points.size());
   }
-  const Vector3d normal = axes.eigenvectors().col(0);
-  return normal.z() < 0.0 ? Vector3d(-normal) : normal;
+  if (axes.eigenvalues()[1] < 4.0 * axes.eigenvalues()[0]) {
+    throw_input_error(
+        "{}: plane = \"fit\" finds no plane, because its samples with the pen down are less than twice as "
+        "wide "
+        "as they are thick, so they are no tracing on a table; set stroke.plane = \"keep\"",
+        name);
+  }
+  Vector3d normal = axes.eigenvectors().col(0);
+  if (normal.z() < 0.0) normal = -normal;
+  const double tilt = std::atan2(normal.head<2>().norm(), normal.z()) * 180.0 / std::numbers::pi;
+  if (tilt > steepest_table) {
+    throw_input_error(
+        "{}: its samples with the pen down fit a plane tilted {:.3g} deg, so they are no tracing on a table; "
+        "set stroke.plane = \"keep\"",
+        name, tilt);
+  }
+  return normal;
 }
 
 void lay_level(Stroke& stroke, const std::string& name) {

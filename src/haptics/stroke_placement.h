@@ -48,8 +48,8 @@ PointPlacement point_placement(const StrokePlacement& placement, const std::stri
 ///
 /// The fitted plane is the least-squares plane (total least squares) through the samples at which the pen is
 /// down. It is turned by the smallest rotation that makes it level and shifted onto z = 0; bumps about the
-/// plane stay. Error: input, naming the stroke by `name`, where nothing is left of it or its samples span no
-/// plane.
+/// plane stay. Error: input, naming the stroke by `name`, where nothing is left of it, or its samples span no
+/// plane or one steeper than 45 deg.
 Stroke place_stroke(const Stroke& stroke, const StrokePlacement& placement,
                     const std::string& name = "stroke");
 

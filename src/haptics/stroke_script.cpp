@@ -13,8 +13,9 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr double most_samples = 2e7;  // over five hours at 1000 Hz, 640 MB
-constexpr double same_point = 1e-9;   // m
+constexpr double most_samples = 2e7;   // over five hours at 1000 Hz, 640 MB
+constexpr int most_legs = 20'000'000;  // straight or round: seconds of work, however few samples they give
+constexpr double same_point = 1e-9;    // m
 
 double radians(double degrees) { return degrees * std::numbers::pi / 180.0; }
 
@@ -139,6 +140,8 @@ class Pen {
     add(curve, begin, end, end_z, std::hypot((end - begin) * curve.length, end_z - z_) / speed);
   }
   void add(const Curve& curve, double begin, double end, double end_z, double seconds) {
+    if (++legs_ > most_legs)
+      throw_input_error("it is over {} short lines; lower repeat, or draw less", most_legs);
     const double end_time = time_ + seconds;
     if (!(end_time * script_.rate < most_samples)) {
       throw_input_error("it ends after {} s, over {} samples at rate = {} Hz; raise the speeds or lower rate",
@@ -162,14 +165,19 @@ class Pen {
   Vector2d point_;
   double z_;
   double time_ = 0.0;
+  int legs_ = 0;
   Stroke stroke_;
 };
 
 /// Centripetal Catmull-Rom (Barry & Goldman's pyramid): no loops and no overshoot between uneven points.
 Path spline_path(const std::vector<Vector2d>& points) {
-  // Aimed at for a leg: as far as a tool at 0.1 m/s gets within a servo tick of 1 ms.
-  constexpr double fine = 1e-4;  // m
   const std::size_t count = points.size();
+  double length = 0.0;  // m, about
+  for (std::size_t i = 0; i + 1 < count; ++i) length += (points[i + 1] - points[i]).norm();
+  if (!std::isfinite(length)) throw_input_error("its points lie infinitely far apart; move them closer");
+  // Aimed at for a leg: as far as a tool at 0.1 m/s gets within a servo tick of 1 ms; farther where there
+  // would be millions of legs.
+  const double fine = std::max(1e-4, 1e-6 * length);  // m
   Path path;
   for (std::size_t i = 0; i + 1 < count; ++i) {
     const Vector2d p1 = points[i], p2 = points[i + 1];
@@ -198,10 +206,11 @@ Path spline_path(const std::vector<Vector2d>& points) {
 std::vector<Path> text_paths(const ScriptText& text) {
   const double angle = radians(text.angle);
   const Vector2d along(std::cos(angle), std::sin(angle)), up(-along.y(), along.x());
+  const HersheyFont font(text.font);
   std::vector<Path> paths;
   double x = 0.0;  // m along the base line
   for (const char letter : text.text) {
-    const SingleStrokeText drawn = hershey_text({&letter, 1}, text.font);
+    const SingleStrokeText drawn = font.draw({&letter, 1});
     const auto place = [&](const Vector2d& p) -> Vector2d {
       return text.at + (x + p.x() * text.height) * along + p.y() * text.height * up;
     };

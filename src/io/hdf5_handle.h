@@ -22,6 +22,8 @@ class Hdf5Handle {
 
   /// False where closing failed (a full disk shows here at the latest).
   bool close() { return id_ < 0 || close_(std::exchange(id_, H5I_INVALID_HID)) >= 0; }
+  /// Nobody's any more: it is never closed.
+  void release() { id_ = H5I_INVALID_HID; }
   operator hid_t() const { return id_; }
   bool valid() const { return id_ >= 0; }
 
@@ -32,9 +34,12 @@ class Hdf5Handle {
 
 /// To be called before anything else of HDF5: its errors are reported here, in the user's terms, and it does
 /// not touch open files again when the program ends (with a full disk it crashes there; every file is closed
-/// before).
+/// before). Code is not loaded because a file asks for a filter.
 inline void prepare_hdf5() {
-  static const herr_t once = H5dont_atexit();
+  static const herr_t once = [] {
+    H5dont_atexit();  // must be the first call
+    return H5PLset_loading_state(0);
+  }();
   (void)once;
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
 }

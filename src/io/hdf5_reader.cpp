@@ -7,6 +7,7 @@
 #include "core/error.h"
 #include "core/machine.h"
 #include "core/output_file.h"
+#include "io/hdf5_storage.h"
 
 namespace sandstroke {
 namespace {
@@ -24,7 +25,8 @@ bool is_number(hid_t type) {
   return kind == H5T_INTEGER || kind == H5T_FLOAT || kind == H5T_ENUM;
 }
 
-/// Reads a scalar string, of fixed or variable length; `read` is given the memory type and the buffer.
+/// Reads a scalar string, of fixed or variable length, if it is one; `read` is given the memory type and the
+/// buffer.
 template <class Read>
 bool read_string(hid_t file_type, std::string& text, const Read& read) {
   if (H5Tget_class(file_type) != H5T_STRING) return false;
@@ -33,7 +35,7 @@ bool read_string(hid_t file_type, std::string& text, const Read& read) {
   if (H5Tis_variable_str(file_type) > 0) {
     H5Tset_size(memory_type, H5T_VARIABLE);
     char* characters = nullptr;
-    if (read(memory_type, &characters) < 0) return false;
+    read(memory_type, &characters);
     text = characters ? characters : "";
     H5free_memory(characters);
     return true;
@@ -41,7 +43,7 @@ bool read_string(hid_t file_type, std::string& text, const Read& read) {
   const std::size_t length = H5Tget_size(file_type);
   H5Tset_size(memory_type, length + 1);
   text.assign(length + 1, '\0');
-  if (read(memory_type, text.data()) < 0) return false;
+  read(memory_type, text.data());
   text.resize(std::strlen(text.c_str()));
   return true;
 }
@@ -58,6 +60,13 @@ Hdf5Reader::Hdf5Reader(const std::filesystem::path& path) : name_(path.string())
     throw_input_error("{}: is a damaged or truncated HDF5 file, or still being written; make it again",
                       name_);
   }
+  hsize_t bytes = 0;
+  H5Fget_filesize(file_, &bytes);
+  file_bytes_ = static_cast<double>(bytes);
+  access_ = Hdf5Handle(H5Pcreate(H5P_DATASET_ACCESS), H5Pclose);
+  const auto refuse = [](const char*, const char*, const char*, const char*, unsigned*, hid_t,
+                         void*) -> herr_t { return -1; };
+  H5Pset_elink_cb(access_, refuse, nullptr);
 }
 
 void Hdf5Reader::fail(const std::string& object, const std::string& sentence) const {
@@ -69,17 +78,18 @@ bool Hdf5Reader::has(const std::string& object) const {
   // H5Lexists wants every group on the way to exist.
   for (std::size_t slash = object.find('/', 1); slash != std::string::npos;
        slash = object.find('/', slash + 1)) {
-    if (H5Lexists(file_, object.substr(0, slash).c_str(), H5P_DEFAULT) <= 0) return false;
+    if (H5Lexists(file_, object.substr(0, slash).c_str(), access_) <= 0) return false;
   }
-  return H5Lexists(file_, object.c_str(), H5P_DEFAULT) > 0 &&
-         H5Oexists_by_name(file_, object.c_str(), H5P_DEFAULT) > 0;
+  return H5Lexists(file_, object.c_str(), access_) > 0 &&
+         H5Oexists_by_name(file_, object.c_str(), access_) > 0;
 }
 
 Hdf5Handle Hdf5Reader::open_dataset(const std::string& dataset) const {
   if (!has(dataset)) fail(dataset, "is missing; check that the file is of the kind that is wanted here");
-  Hdf5Handle opened(H5Dopen2(file_, dataset.c_str(), H5P_DEFAULT), H5Dclose);
+  Hdf5Handle opened(H5Dopen2(file_, dataset.c_str(), access_), H5Dclose);
   if (!opened.valid())
     fail(dataset, "is not a dataset; check that the file is of the kind that is wanted here");
+  if (const std::string fault = layout_fault(opened, file_bytes_); !fault.empty()) fail(dataset, fault);
   return opened;
 }
 
@@ -99,35 +109,52 @@ Hdf5Handle Hdf5Reader::open_numbers(const std::string& dataset, int rank, std::v
   return opened;
 }
 
+Hdf5Handle Hdf5Reader::open_column(const std::string& dataset, int rank, std::size_t row_bytes,
+                                   std::vector<hsize_t>& shape) const {
+  Hdf5Handle opened = open_numbers(dataset, rank, shape);
+  if (static_cast<double>(shape[0]) * static_cast<double>(row_bytes) > most_unpacked(file_bytes_))
+    fail(dataset,
+         fmt::format("claims {} rows, but its file has {} bytes; it is damaged", shape[0], file_bytes_));
+  return opened;
+}
+
+void Hdf5Reader::read(const std::string& dataset, const Hdf5Handle& opened, hid_t memory_type,
+                      void* values) const {
+  if (const std::string fault = storage_fault(opened, file_bytes_); !fault.empty()) fail(dataset, fault);
+  constexpr double most_chunks = 2e5;  // for each of which HDF5 takes memory
+  if (const double chunks = chunk_count(opened); chunks > most_chunks)
+    fail(dataset,
+         fmt::format("is cut into {:.0f} chunks; make them larger: h5repack -l CHUNK=... OLD NEW", chunks));
+  if (H5Dread(opened, memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) < 0)
+    fail(dataset, "cannot be read; the file is damaged");
+}
+
 std::vector<hsize_t> Hdf5Reader::shape(const std::string& dataset) const {
   return extent_of(open_dataset(dataset));
 }
 
 std::vector<double> Hdf5Reader::doubles(const std::string& dataset) const {
   std::vector<hsize_t> shape;
-  const Hdf5Handle opened = open_numbers(dataset, 1, shape);
+  const Hdf5Handle opened = open_column(dataset, 1, sizeof(double), shape);
   std::vector<double> values(shape[0]);
-  if (H5Dread(opened, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)
-    fail(dataset, "cannot be read; the file is damaged");
+  read(dataset, opened, H5T_NATIVE_DOUBLE, values.data());
   return values;
 }
 
 std::vector<std::uint32_t> Hdf5Reader::integers(const std::string& dataset) const {
   std::vector<hsize_t> shape;
-  const Hdf5Handle opened = open_numbers(dataset, 1, shape);
+  const Hdf5Handle opened = open_column(dataset, 1, sizeof(std::uint32_t), shape);
   std::vector<std::uint32_t> values(shape[0]);
-  if (H5Dread(opened, H5T_NATIVE_UINT32, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)
-    fail(dataset, "cannot be read; the file is damaged");
+  read(dataset, opened, H5T_NATIVE_UINT32, values.data());
   return values;
 }
 
 std::vector<Eigen::Vector3d> Hdf5Reader::vectors(const std::string& dataset) const {
   std::vector<hsize_t> shape;
-  const Hdf5Handle opened = open_numbers(dataset, 2, shape);
+  const Hdf5Handle opened = open_column(dataset, 2, sizeof(Eigen::Vector3d), shape);
   if (shape[1] != 3) fail(dataset, fmt::format("has {} columns; write x, y, z", shape[1]));
   std::vector<Eigen::Vector3d> values(shape[0]);
-  if (H5Dread(opened, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)
-    fail(dataset, "cannot be read; the file is damaged");
+  read(dataset, opened, H5T_NATIVE_DOUBLE, values.data());
   return values;
 }
 
@@ -136,15 +163,12 @@ HeightGrid Hdf5Reader::grid(const std::string& dataset) const {
   const Hdf5Handle opened = open_numbers(dataset, 2, shape);
   // A file says nothing about how large that is: parts that were never written take no room in it. Whoever
   // works with a grid holds a few of its size.
-  const double needed = 4.0 * sizeof(double) * static_cast<double>(shape[0]) * static_cast<double>(shape[1]);
-  if (needed > physical_memory())
-    fail(dataset,
-         fmt::format("has {} x {} numbers: working with all of them takes about {:.0f} GB of memory and this "
-                     "machine has {:.0f}; read a part of it, for example with h5py",
-                     shape[0], shape[1], needed * 1e-9, physical_memory() * 1e-9));
+  check_memory(
+      4.0 * sizeof(double) * static_cast<double>(shape[0]) * static_cast<double>(shape[1]),
+      fmt::format("{}: {} has {} x {} numbers: working with all of them", name_, dataset, shape[0], shape[1]),
+      "read a part of it, for example with h5py");
   HeightGrid values(static_cast<Eigen::Index>(shape[0]), static_cast<Eigen::Index>(shape[1]));
-  if (H5Dread(opened, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)
-    fail(dataset, "cannot be read; the file is damaged");
+  read(dataset, opened, H5T_NATIVE_DOUBLE, values.data());
   return values;
 }
 
@@ -172,21 +196,18 @@ void Hdf5Reader::visit_written(
   std::vector<hsize_t> shape;
   const Hdf5Handle opened = open_numbers(dataset, 2, shape);
   const Hdf5Handle properties(H5Dget_create_plist(opened), H5Pclose);
-  hsize_t chunk[2], written = 0;
-  if (H5Pget_layout(properties) != H5D_CHUNKED || H5Pget_chunk(properties, 2, chunk) != 2)
-    return visit(0, 0, grid(dataset));
+  if (H5Pget_layout(properties) != H5D_CHUNKED) return visit(0, 0, grid(dataset));
+  std::vector<std::array<hsize_t, 2>> starts;
+  const std::string fault = storage_fault(opened, file_bytes_, [&](const hsize_t* start) {
+    starts.push_back({start[0], start[1]});
+  });
+  if (!fault.empty()) fail(dataset, fault);
+  hsize_t chunk[2] = {1, 1};
+  H5Pget_chunk(properties, 2, chunk);
   const Hdf5Handle space(H5Dget_space(opened), H5Sclose);
-  if (H5Dget_num_chunks(opened, space, &written) < 0) fail(dataset, "cannot be read; the file is damaged");
-  std::vector<std::array<hsize_t, 2>> starts(written);
-  for (hsize_t i = 0; i < written; ++i) {
-    hsize_t bytes;
-    unsigned skipped_filters;
-    if (H5Dget_chunk_info(opened, space, i, starts[i].data(), &skipped_filters, nullptr, &bytes) < 0 ||
-        starts[i][0] >= shape[0] || starts[i][1] >= shape[1])
-      fail(dataset, "cannot be read; the file is damaged");
-  }
   std::sort(starts.begin(), starts.end());
   for (const auto& start : starts) {
+    if (start[0] >= shape[0] || start[1] >= shape[1]) fail(dataset, "cannot be read; the file is damaged");
     const hsize_t block[2] = {std::min(chunk[0], shape[0] - start[0]),
                               std::min(chunk[1], shape[1] - start[1])};
     HeightGrid heights(static_cast<Eigen::Index>(block[0]), static_cast<Eigen::Index>(block[1]));
@@ -212,24 +233,27 @@ HeightField Hdf5Reader::bed(const std::string& dataset, double cell_size) const 
 std::string Hdf5Reader::text(const std::string& dataset) const {
   const Hdf5Handle opened = open_dataset(dataset);
   const Hdf5Handle type(H5Dget_type(opened), H5Tclose);
+  if (static_cast<double>(H5Tget_size(type)) > most_unpacked(file_bytes_))
+    fail(dataset, fmt::format("claims {} letters, but its file has {} bytes; it is damaged",
+                              H5Tget_size(type), file_bytes_));
   std::string text;
-  const bool read =
+  const bool is_text =
       extent_of(opened).empty() && read_string(type, text, [&](hid_t memory_type, void* buffer) {
-        return H5Dread(opened, memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, buffer);
+        read(dataset, opened, memory_type, buffer);
       });
-  if (!read) fail(dataset, "is not a string; check that the file is of the kind that is wanted here");
+  if (!is_text) fail(dataset, "is not a string; check that the file is of the kind that is wanted here");
   return text;
 }
 
 bool Hdf5Reader::has_attribute(const std::string& object, const std::string& attribute) const {
-  return has(object) && H5Aexists_by_name(file_, object.c_str(), attribute.c_str(), H5P_DEFAULT) > 0;
+  return has(object) && H5Aexists_by_name(file_, object.c_str(), attribute.c_str(), access_) > 0;
 }
 
 Hdf5Handle Hdf5Reader::open_attribute(const std::string& object, const std::string& attribute) const {
   if (!has_attribute(object, attribute))
     fail(object, fmt::format("has no attribute '{}'; check that the file is of the kind that is wanted here",
                              attribute));
-  return {H5Aopen_by_name(file_, object.c_str(), attribute.c_str(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose};
+  return {H5Aopen_by_name(file_, object.c_str(), attribute.c_str(), H5P_DEFAULT, access_), H5Aclose};
 }
 
 double Hdf5Reader::number_attribute(const std::string& object, const std::string& attribute) const {
@@ -248,11 +272,13 @@ std::string Hdf5Reader::text_attribute(const std::string& object, const std::str
   const Hdf5Handle type(H5Aget_type(opened), H5Tclose);
   const Hdf5Handle space(H5Aget_space(opened), H5Sclose);
   std::string text;
-  const bool read = H5Sget_simple_extent_npoints(space) == 1 &&
-                    read_string(type, text, [&](hid_t memory_type, void* buffer) {
-                      return H5Aread(opened, memory_type, buffer);
-                    });
-  if (!read) fail(object, fmt::format("attribute '{}' is not one string", attribute));
+  const bool is_text =
+      H5Sget_simple_extent_npoints(space) == 1 &&
+      read_string(type, text, [&](hid_t memory_type, void* buffer) {
+        if (H5Aread(opened, memory_type, buffer) < 0)
+          fail(object, fmt::format("attribute '{}' cannot be read; the file is damaged", attribute));
+      });
+  if (!is_text) fail(object, fmt::format("attribute '{}' is not one string", attribute));
   return text;
 }
 
@@ -263,8 +289,7 @@ std::vector<std::string> Hdf5Reader::members(const std::string& group) const {
     static_cast<std::vector<std::string>*>(list)->emplace_back(name);
     return 0;
   };
-  if (H5Literate_by_name(file_, group.c_str(), H5_INDEX_NAME, H5_ITER_INC, nullptr, add, &names,
-                         H5P_DEFAULT) < 0)
+  if (H5Literate_by_name(file_, group.c_str(), H5_INDEX_NAME, H5_ITER_INC, nullptr, add, &names, access_) < 0)
     fail(group, "is not a group; check that the file is of the kind that is wanted here");
   return names;
 }

@@ -14,6 +14,8 @@ namespace sandstroke {
 
 /// An HDF5 file opened for reading. Datasets are named by their path ("/trace/time"). Every error names file
 /// and dataset. Error: io where the file cannot be opened, input where its content is not what is asked for.
+/// No other file is opened for it, and no more memory taken for columns and text than most_unpacked() of its
+/// size; grids may be of any size, which is the machine's to hold.
 class Hdf5Reader {
  public:
   explicit Hdf5Reader(const std::filesystem::path& path);
@@ -50,6 +52,10 @@ class Hdf5Reader {
 
  private:
   Hdf5Handle open_dataset(const std::string& dataset) const;
+  void read(const std::string& dataset, const Hdf5Handle& opened, hid_t memory_type, void* values) const;
+  /// Opens a column and reads its shape; so many bytes per row will be taken for it.
+  Hdf5Handle open_column(const std::string& dataset, int rank, std::size_t row_bytes,
+                         std::vector<hsize_t>& shape) const;
   /// Opens a dataset of numbers with `rank` dimensions and returns its shape too.
   Hdf5Handle open_numbers(const std::string& dataset, int rank, std::vector<hsize_t>& shape) const;
   Hdf5Handle open_attribute(const std::string& object, const std::string& attribute) const;
@@ -57,6 +63,8 @@ class Hdf5Reader {
 
   std::string name_;
   Hdf5Handle file_;
+  Hdf5Handle access_;  // of objects: links into other files are not followed
+  double file_bytes_ = 0.0;
 };
 
 }  // namespace sandstroke

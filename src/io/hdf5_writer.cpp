@@ -1,9 +1,13 @@
 #include "io/hdf5_writer.h"
 
+#include <fcntl.h>
+
 #include <algorithm>
+#include <cerrno>
 
 #include "core/error.h"
 #include "core/output_file.h"
+#include "core/version.h"
 
 namespace sandstroke {
 namespace {
@@ -64,14 +68,29 @@ void Hdf5Chunks::write(int row, int col, const double* numbers) {
     throw_write_error(where_);
 }
 
-Hdf5Writer::Hdf5Writer(const std::filesystem::path& path) : path_(path) {
+Hdf5Writer::Hdf5Writer(const std::filesystem::path& path) : path_(path), lock_(take_part(path)) {
   prepare_hdf5();
-  const std::string part = part_path(path).string();
-  lock_ = FileLock::try_take(part);
-  if (!lock_)
-    throw_io_error("{}: another process is writing it; wait for it or choose another name", path.string());
-  file_ = Hdf5Handle(H5Fcreate(part.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose);
-  check(file_.valid(), "");
+  file_ = Hdf5Handle(H5Fcreate(part_path(path).c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose);
+  try {
+    check(file_.valid(), "");
+    attribute("/", "written_by", std::string(build));
+  } catch (const Error&) {
+    drop();
+    throw;
+  }
+}
+
+Hdf5Writer::~Hdf5Writer() {
+  if (!flushed_) drop();
+  // Closing would write what has come since the last flush, half of it where the disk is full: what was
+  // flushed stays as it is.
+  file_.release();
+}
+
+void Hdf5Writer::drop() {
+  file_.close();
+  std::error_code ignored;
+  std::filesystem::remove(part_path(path_), ignored);
 }
 
 void Hdf5Writer::check(bool done, const std::string& object) const {
@@ -79,11 +98,10 @@ void Hdf5Writer::check(bool done, const std::string& object) const {
 }
 
 Hdf5Handle Hdf5Writer::create(const std::string& dataset, hid_t type, const Hdf5Handle& space,
-                              const Hdf5Handle& properties) {
+                              const Hdf5Handle& properties, hid_t access) {
   const Hdf5Handle links(H5Pcreate(H5P_LINK_CREATE), H5Pclose);
   H5Pset_create_intermediate_group(links, 1);
-  Hdf5Handle created(H5Dcreate2(file_, dataset.c_str(), type, space, links, properties, H5P_DEFAULT),
-                     H5Dclose);
+  Hdf5Handle created(H5Dcreate2(file_, dataset.c_str(), type, space, links, properties, access), H5Dclose);
   check(created.valid(), dataset);
   return created;
 }
@@ -154,8 +172,11 @@ Hdf5Column Hdf5Writer::growing(const std::string& dataset, hid_t type, int width
   std::vector<hsize_t> chunk = {rows_per_chunk};
   if (rank == 2) chunk.push_back(width);
   const Hdf5Handle space(H5Screate_simple(rank, shape, most), H5Sclose);
+  // Rows go to the file at once, not when a cache is full: what a flush takes is known before.
+  const Hdf5Handle access(H5Pcreate(H5P_DATASET_ACCESS), H5Pclose);
+  H5Pset_chunk_cache(access, 0, 0, H5D_CHUNK_CACHE_W0_DEFAULT);
   Hdf5Column column;
-  column.dataset_ = create(dataset, type, space, dataset_properties(chunk, Compression::none));
+  column.dataset_ = create(dataset, type, space, dataset_properties(chunk, Compression::none), access);
   column.where_ = path_.string() + ": " + dataset;
   column.width_ = width;
   return column;
@@ -186,11 +207,28 @@ void Hdf5Writer::make_group(const std::string& group) {
   check(made.valid(), group);
 }
 
-void Hdf5Writer::flush() { check(H5Fflush(file_, H5F_SCOPE_GLOBAL) >= 0, ""); }
+/// Takes room on the disk for all that a flush writes, before it writes over any of what is there.
+void Hdf5Writer::reserve() {
+  constexpr hsize_t most_made_by_flushing = 64 * 1024;  // bytes
+  hsize_t size = 0;
+  void* descriptor = nullptr;
+  check(H5Fget_filesize(file_, &size) >= 0 && H5Fget_vfd_handle(file_, H5P_DEFAULT, &descriptor) >= 0, "");
+  const bool reserved = fallocate(*static_cast<int*>(descriptor), FALLOC_FL_KEEP_SIZE, 0,
+                                  static_cast<off_t>(size + most_made_by_flushing)) == 0;
+  check(reserved || (errno != ENOSPC && errno != EDQUOT), "");  // not every file system can
+}
+
+void Hdf5Writer::flush() {
+  reserve();
+  check(H5Fflush(file_, H5F_SCOPE_GLOBAL) >= 0, "");
+  flushed_ = true;
+}
 
 void Hdf5Writer::finish() {
   flush();
   check(file_.close(), "");
+  const std::filesystem::path part = part_path(path_);
+  std::filesystem::resize_file(part, std::filesystem::file_size(part));  // gives back what was reserved
   finish_part(path_);
 }
 

@@ -4,7 +4,6 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -68,6 +67,8 @@ class Hdf5Writer {
  public:
   explicit Hdf5Writer(const std::filesystem::path& path);
   Hdf5Writer(const Hdf5Writer&) = delete;
+  /// Without finish() the .part file stays, if anything was flushed into it.
+  ~Hdf5Writer();
 
   void write(const std::string& dataset, const std::vector<double>& values);
   void write(const std::string& dataset, const std::vector<Eigen::Vector3d>& values);  ///< (n, 3)
@@ -92,12 +93,12 @@ class Hdf5Writer {
 
   /// What has been written so far can be read from the .part file from now on.
   void flush();
-  /// Flushes, closes and renames. Without it the .part file stays.
+  /// Flushes, closes and renames.
   void finish();
 
  protected:
   Hdf5Handle create(const std::string& dataset, hid_t type, const Hdf5Handle& space,
-                    const Hdf5Handle& properties);
+                    const Hdf5Handle& properties, hid_t access = H5P_DEFAULT);
   void put(const std::string& dataset, hid_t type, const std::vector<hsize_t>& shape, const void* values,
            Compression compression = Compression::none);
   /// shape: empty for a scalar.
@@ -107,11 +108,16 @@ class Hdf5Writer {
   hid_t file() const { return file_; }
 
  private:
+  void reserve();
   Hdf5Column growing(const std::string& dataset, hid_t type, int width);
 
+  /// Away with a .part file that holds nothing.
+  void drop();
+
   std::filesystem::path path_;
-  std::optional<FileLock> lock_;  // of the .part file
+  FileLock lock_;  // of the .part file
   Hdf5Handle file_;
+  bool flushed_ = false;
 };
 
 }  // namespace sandstroke

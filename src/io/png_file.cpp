@@ -1,6 +1,7 @@
 #include "io/png_file.h"
 
 #include <png.h>
+#include <zlib.h>
 
 #include <cerrno>
 #include <cstdio>
@@ -11,6 +12,7 @@
 
 #include "core/error.h"
 #include "core/output_file.h"
+#include "core/version.h"
 
 namespace sandstroke {
 namespace {
@@ -20,11 +22,10 @@ namespace fs = std::filesystem;
 /// method below that calls it sets its own return point and holds only plain data.
 class PngReader {
  public:
-  explicit PngReader(const fs::path& path)
-      : name_(path.string()), file_(std::fopen(name_.c_str(), "rb"), std::fclose) {
-    if (!file_ || fs::is_directory(path))
-      throw_io_error("{}: cannot be opened ({}); check the path", name_,
-                     file_ ? "it is a folder" : std::strerror(errno));
+  explicit PngReader(const fs::path& path) : name_(path.string()), file_(nullptr, std::fclose) {
+    check_readable(path);
+    file_.reset(std::fopen(name_.c_str(), "rb"));
+    if (!file_) throw_io_error("{}: cannot be opened ({}); check the path", name_, std::strerror(errno));
     png_byte signature[8] = {};
     if (std::fread(signature, 1, 8, file_.get()) != 8 || png_sig_cmp(signature, 0, 8) != 0)
       throw_input_error("{}: is not a PNG file; save the picture as PNG", name_);
@@ -105,6 +106,20 @@ class PngReader {
   char message_[160] = "out of memory";
 };
 
+/// Four bytes, the highest first.
+std::string big_endian(std::size_t number) {
+  std::string bytes;
+  for (int shift = 24; shift >= 0; shift -= 8) bytes += static_cast<char>(number >> shift & 0xff);
+  return bytes;
+}
+
+/// A tEXt chunk as PNG defines it: keyword and text are Latin-1.
+std::string text_chunk(const std::string& keyword, const std::string& text) {
+  const std::string data = "tEXt" + keyword + '\0' + text;
+  const uLong sum = crc32(0, reinterpret_cast<const Bytef*>(data.data()), static_cast<uInt>(data.size()));
+  return big_endian(data.size() - 4) + data + big_endian(sum);
+}
+
 }  // namespace
 
 std::string encode_png(const Image& image) {
@@ -119,6 +134,8 @@ std::string encode_png(const Image& image) {
     throw_io_error("a picture of {} x {} pixels cannot be encoded as PNG ({})", image.width, image.height,
                    header.message);
   bytes.resize(size);
+  constexpr std::size_t header_end = 8 + 25;  // signature and IHDR, which comes first
+  bytes.insert(header_end, text_chunk("Software", build));
   return bytes;
 }
 

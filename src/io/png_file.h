@@ -11,8 +11,8 @@ namespace sandstroke {
 /// Largest side of a PNG that is read, in pixels.
 inline constexpr int largest_png_side = 16384;
 
-/// An 8-bit RGB PNG as bytes. It holds no date: equal pictures give equal bytes. Error: io,
-/// where libpng refuses.
+/// An 8-bit RGB PNG as bytes. It says which build made it, and no date: from one build, equal pictures are
+/// equal bytes. Error: io, where libpng refuses.
 std::string encode_png(const Image& image);
 
 /// Writes the same by way of PATH.part. Error: io.

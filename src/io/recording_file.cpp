@@ -11,7 +11,6 @@
 namespace sandstroke {
 namespace {
 
-constexpr const char* group = stroke_group;
 constexpr std::size_t block_samples = 4096;
 
 /// The samples' columns, written block by block.
@@ -84,11 +83,11 @@ void describe(Hdf5Writer& file, const RecordingHeader& header) {
   for (const auto& [name, units, description] : column_texts) {
     if (name == std::string_view("velocity") && !header.device.measures_velocity) continue;
     if (name == std::string_view("force") && header.force_limit == 0.0) continue;
-    const std::string column = std::string(group) + "/" + name;
+    const std::string column = std::string(stroke_group) + "/" + name;
     if (*units != 0) file.attribute(column, "units", std::string(units));
     file.attribute(column, "description", std::string(description));
   }
-  file.attribute(group, "units", std::string(attribute_units));
+  file.attribute(stroke_group, "units", std::string(attribute_units));
 }
 
 /// recorded: the counts of the samples there are, with elapsed as far as these reach.
@@ -116,37 +115,43 @@ RecordingFooter settled_footer(const std::optional<RecordingFooter>& footer, con
 struct PutAttribute {
   Hdf5Writer& file;
 
-  void operator()(const char* name, const std::string& text) const { file.attribute(group, name, text); }
+  void operator()(const char* name, const std::string& text) const {
+    file.attribute(stroke_group, name, text);
+  }
   void operator()(const char* name, const StopReason& reason) const {
-    file.attribute(group, name, std::string(stop_reason_text(reason)));
+    file.attribute(stroke_group, name, std::string(stop_reason_text(reason)));
   }
   template <class Number>
   void operator()(const char* name, const Number& number) const {
-    file.attribute(group, name, static_cast<double>(number));
+    file.attribute(stroke_group, name, static_cast<double>(number));
   }
 };
 
 struct TakeAttribute {
   const Hdf5Reader& file;
 
-  void operator()(const char* name, std::string& text) const { text = file.text_attribute(group, name); }
+  void operator()(const char* name, std::string& text) const {
+    text = file.text_attribute(stroke_group, name);
+  }
   void operator()(const char* name, StopReason& reason) const {
-    const std::string text = file.text_attribute(group, name);
+    const std::string text = file.text_attribute(stroke_group, name);
     const std::optional<StopReason> known = stop_reason_of(text);
     if (!known)
       throw_input_error("{}: {} has {} '{}', which this program does not know; read it with a later one",
-                        file.name(), group, name, text);
+                        file.name(), stroke_group, name, text);
     reason = *known;
   }
-  void operator()(const char* name, double& number) const { number = file.number_attribute(group, name); }
+  void operator()(const char* name, double& number) const {
+    number = file.number_attribute(stroke_group, name);
+  }
   /// A count, or yes or no.
   template <class Count>
   void operator()(const char* name, Count& count) const {
-    const double number = file.number_attribute(group, name);
-    constexpr double most = 1ll << 53;  // from there on not every number is there
+    const double number = file.number_attribute(stroke_group, name);
+    constexpr double most = most_ticks;
     if (!(std::abs(number) < std::min(most, static_cast<double>(std::numeric_limits<Count>::max()) + 1.0)))
-      throw_input_error("{}: {} has {} {}, which is no count; the file is damaged", file.name(), group, name,
-                        number);
+      throw_input_error("{}: {} has {} {}, which is no count; the file is damaged", file.name(), stroke_group,
+                        name, number);
     count = static_cast<Count>(number);
   }
 };
@@ -181,8 +186,8 @@ RecordingInfo write_recording_file(const std::filesystem::path& path, Recording&
   write_stroke_attributes(file, stroke);
   visit_header(info.header, PutAttribute{file});
   visit_footer(info.footer, PutAttribute{file});
-  file.attribute(group, "clock", std::string("CLOCK_MONOTONIC"));
-  file.attribute(group, "clock_start", static_cast<double>(start));
+  file.attribute(stroke_group, "clock", std::string("CLOCK_MONOTONIC"));
+  file.attribute(stroke_group, "clock_start", static_cast<double>(start));
   describe(file, info.header);
   file.finish();
   return info;
@@ -191,7 +196,7 @@ RecordingInfo write_recording_file(const std::filesystem::path& path, Recording&
 std::optional<RecordingInfo> read_recording_info(const std::filesystem::path& path) {
   const Hdf5Reader file(path);
   check_stroke_format(file);
-  if (!file.has_attribute(group, "stop_reason")) return std::nullopt;
+  if (!file.has_attribute(stroke_group, "stop_reason")) return std::nullopt;
   RecordingInfo info;
   visit_header(info.header, TakeAttribute{file});
   visit_footer(info.footer, TakeAttribute{file});

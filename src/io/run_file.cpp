@@ -109,23 +109,20 @@ std::vector<double> RunFile::frame_times() const {
   return times;
 }
 
-HeightGrid RunFile::frame(int k) const {
-  HeightField surface(initial(), cell_size());
-  for (int i = 0; i <= k; ++i) {
-    const std::vector<std::uint32_t> tiles = file_.integers(frame_name(i) + "/tiles");
-    const HeightGrid blocks = file_.grid(frame_name(i) + "/heights");
-    if (blocks.rows() != static_cast<Eigen::Index>(tiles.size()) || blocks.cols() != HeightField::tile_area)
-      throw_input_error("{}: {} has heights of the wrong shape; the file is damaged", file_.name(),
-                        frame_name(i));
-    for (std::size_t t = 0; t < tiles.size(); ++t) {
-      if (tiles[t] >= static_cast<std::uint32_t>(surface.tile_count()))
-        throw_input_error("{}: {} names tile {}, which the bed does not have; the file is damaged",
-                          file_.name(), frame_name(i), tiles[t]);
-      std::copy_n(blocks.row(static_cast<Eigen::Index>(t)).data(), HeightField::tile_area,
-                  surface.tile_heights(surface.touch(static_cast<int>(tiles[t]))));
-    }
+int RunFile::apply_frame(int k, HeightField& surface) const {
+  const std::vector<std::uint32_t> tiles = file_.integers(frame_name(k) + "/tiles");
+  if (file_.shape(frame_name(k) + "/heights") != std::vector<hsize_t>{tiles.size(), HeightField::tile_area})
+    throw_input_error("{}: {} has heights of the wrong shape; the file is damaged", file_.name(),
+                      frame_name(k));
+  const HeightGrid blocks = file_.grid(frame_name(k) + "/heights");
+  for (std::size_t t = 0; t < tiles.size(); ++t) {
+    if (tiles[t] >= static_cast<std::uint32_t>(surface.tile_count()))
+      throw_input_error("{}: {} names tile {}, which the bed does not have; the file is damaged",
+                        file_.name(), frame_name(k), tiles[t]);
+    std::copy_n(blocks.row(static_cast<Eigen::Index>(t)).data(), HeightField::tile_area,
+                surface.tile_heights(surface.touch(static_cast<int>(tiles[t]))));
   }
-  return surface.grid();
+  return static_cast<int>(tiles.size());
 }
 
 std::string RunFile::scene_text() const { return file_.text("/scene"); }
@@ -135,6 +132,15 @@ std::vector<std::pair<std::string, std::string>> RunFile::provenance() const {
   for (const std::string& name : file_.members("/provenance"))
     entries.emplace_back(name, file_.text("/provenance/" + name));
   return entries;
+}
+
+HeightGrid RunFrames::surface(int k) {
+  if (!surface_ || k < applied_ - 1) {
+    surface_.emplace(run_.initial(), run_.cell_size());
+    applied_ = 0;
+  }
+  for (; applied_ <= k; ++applied_) tiles_read_ += run_.apply_frame(applied_, *surface_);
+  return surface_->grid();
 }
 
 }  // namespace sandstroke

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -37,9 +39,10 @@ class RunFile {
   bool has_final() const;
   bool has_trace() const;
   RunTrace trace() const;
-  /// Frames kept during the run: their times [s], and the k-th surface put together from its changed tiles.
+  /// Times of the frames kept during the run [s]; RunFrames has their surfaces.
   std::vector<double> frame_times() const;
-  HeightGrid frame(int k) const;
+  /// Makes the k-th frame of the one before (of the initial surface): how many tiles changed.
+  int apply_frame(int k, HeightField& surface) const;
   std::string scene_text() const;  ///< the resolved scene (TOML)
   /// Name and value of each entry of /provenance.
   std::vector<std::pair<std::string, std::string>> provenance() const;
@@ -49,6 +52,23 @@ class RunFile {
   void check_final() const;            // that it is there, in the same shape
 
   Hdf5Reader file_;
+};
+
+/// The surfaces of a run's frames, put together from what changed: asked for in sequence, each change is read
+/// once.
+class RunFrames {
+ public:
+  explicit RunFrames(const RunFile& run) : run_(run) {}
+
+  /// The k-th, which the run holds. Further back than the last one asked for: from the start again.
+  HeightGrid surface(int k);
+  std::int64_t tiles_read() const { return tiles_read_; }
+
+ private:
+  const RunFile& run_;
+  std::optional<HeightField> surface_;  // after `applied_` frames
+  int applied_ = 0;
+  std::int64_t tiles_read_ = 0;
 };
 
 }  // namespace sandstroke

@@ -73,7 +73,8 @@ RunResult run_scene(const Scene& scene, const std::filesystem::path& output, con
       spdlog::warn("{}: was cut off while it was recorded; the run ends where the stroke does",
                    path.string());
     stroke = place_stroke(loaded, scene.stroke->placement, path.string());
-    stroke_hash = content_hash(read_text_file(path));
+    // Not of a recorded stroke's bytes: they tell which build wrote it, too.
+    stroke_hash = is_recorded(path) ? content_hash(loaded) : content_hash(read_text_file(path));
   }
   if (options.second) second_scene(scene, *options.second);  // refused before any work, if at all
   HeightField bed = load_surface(scene.bed, options.scene_folder);

@@ -163,7 +163,7 @@ void RunWriter::on_frame(double time, const HeightField& surface) {
     heights.write(static_cast<int>(i), 0, block.data());
   }
   file_.attribute(name, "time", time);
-  file_.flush();
+  write_rows_in_time();
 }
 
 void RunWriter::finish(const RunResult& result, const HeightField& surface) {
@@ -179,10 +179,12 @@ void RunWriter::finish(const RunResult& result, const HeightField& surface) {
   }
   write_bed(file_, "/surface/final", surface);
   file_.attribute("/", "complete", 1.0);
+  const std::filesystem::path xdmf = beside(path_, ".xdmf");
+  std::filesystem::remove(
+      xdmf);  // of an earlier run: it would describe this one's surface by that one's cells
   file_.finish();
-
-  write_text_file(beside(path_, ".xdmf"), xdmf_text(xml_escaped(path_.filename().string()), surface.rows(),
-                                                    surface.cols(), surface.cell_size()));
+  write_text_file(xdmf, xdmf_text(xml_escaped(path_.filename().string()), surface.rows(), surface.cols(),
+                                  surface.cell_size()));
 }
 
 }  // namespace sandstroke

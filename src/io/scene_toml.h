@@ -19,10 +19,4 @@ Scene scene_from_text(const std::string& text, const std::string& name,
 /// Every setting of a scene as TOML, such that reading it back gives the same scene.
 std::string scene_text(const Scene& scene);
 
-/// Unit of a setting that this scene has, by its dotted name; empty: none, or no such setting.
-std::string setting_unit(const Scene& scene, const std::string& key);
-
-/// All keys as aligned lines: key, default, unit, meaning (for help pages).
-std::string scene_key_table();
-
 }  // namespace sandstroke

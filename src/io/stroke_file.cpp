@@ -4,6 +4,7 @@
 #include <fstream>
 
 #include "core/error.h"
+#include "core/hash.h"
 #include "core/output_file.h"
 #include "haptics/recording.h"
 #include "haptics/stroke_script.h"
@@ -23,6 +24,11 @@ std::vector<std::uint8_t> contact_states(const std::vector<std::uint32_t>& value
     states.push_back(static_cast<std::uint8_t>(value));
   }
   return states;
+}
+
+template <class T>
+void add(ContentHash& hash, const std::vector<T>& column) {
+  hash.add(column.data(), column.size() * sizeof(T));
 }
 
 }  // namespace
@@ -69,6 +75,15 @@ bool is_recorded(const std::filesystem::path& path) {
 
 bool stroke_depends_on_force(const std::filesystem::path& path) {
   return !is_recorded(path) && path.extension() == ".toml" && presses_by_force(read_stroke_script(path));
+}
+
+std::string content_hash(const Stroke& stroke) {
+  ContentHash hash;
+  add(hash, stroke.time);
+  add(hash, stroke.position);
+  add(hash, stroke.contact);
+  hash.add(&stroke.gap_threshold, sizeof stroke.gap_threshold);
+  return hash.text();
 }
 
 Stroke load_stroke(const std::filesystem::path& path, const ForceSettings& force) {

@@ -22,6 +22,9 @@ bool is_recorded(const std::filesystem::path& path);
 /// presses). Error: io, input.
 Stroke load_stroke(const std::filesystem::path& path, const ForceSettings& force);
 
+/// Of all that a run takes from a stroke.
+std::string content_hash(const Stroke& stroke);
+
 /// Whether load_stroke's `force` makes a difference. Error: io, input.
 bool stroke_depends_on_force(const std::filesystem::path& path);
 

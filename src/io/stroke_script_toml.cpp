@@ -123,6 +123,30 @@ StrokeScript read(const TomlReader& toml) {
 
 }  // namespace
 
+std::string script_help() {
+  return R"(A script (TOML; m, m/s, degrees, N, s):
+  start = [-0.2, 0.0]           # where the tool begins, in the air
+  depth = 0.006                 # below z = 0; or force. Here for all segments, or in each
+  speed = 0.1                   # of the tip while it draws; likewise
+  clearance = 0.02              # height above z = 0 at which it travels ...
+  travel_speed = 0.2            #   at this speed
+  plunge_speed = 0.05           # up and down
+  repeat = 1                    # times that the segments are run
+  rate = 1000                   # samples a second
+  [[segment]]
+  kind = "line"                 # also: move, arc, spline, text
+  to = [0.2, 0.0]
+  depth = [0.008, 0.001]        # a list is spread along the segment: it ends weaker than it begins
+  wait = 0.5                    # rest at its end
+Keys of a segment: kind, speed, depth or force, wait; and for
+  move    to
+  line    to; from (default: where the tool is)
+  arc     centre, radius, start_angle, end_angle (clockwise where that is less)
+  spline  points = [[x, y], ...]
+  text    text, at, height; font ("futural"), angle, spacing
+)";
+}
+
 StrokeScript read_stroke_script(const std::filesystem::path& path) {
   return read(TomlReader::from_file(path));
 }

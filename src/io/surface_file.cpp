@@ -14,6 +14,11 @@ HeightField load_surface(const BedSettings& bed, const std::filesystem::path& fo
 
   const std::filesystem::path path = folder / surface.file;
   HeightGrid heights;
+  const auto check_cells = [&](Eigen::Index rows, Eigen::Index cols) {
+    if (rows != bed.rows || cols != bed.cols)
+      throw_input_error("{}: has {} x {} cells (x, y) and bed.cells = [{}, {}]; make them equal",
+                        path.string(), cols, rows, bed.cols, bed.rows);
+  };
   if (path.extension() == ".png" || path.extension() == ".PNG") {
     if (surface.low == surface.high)
       throw_input_error(
@@ -22,14 +27,13 @@ HeightField load_surface(const BedSettings& bed, const std::filesystem::path& fo
     heights = surface.low + (surface.high - surface.low) * read_height_png(path);
   } else {
     const RunFile run(path);
+    check_cells(run.rows(), run.cols());  // before memory is taken for them
     heights = run.final();
     if (std::abs(run.cell_size() - bed.cell_size()) > 1e-9 * bed.cell_size())
       throw_input_error("{}: has cells of {} m and the bed cells of {} m; change bed.size or bed.cells",
                         path.string(), run.cell_size(), bed.cell_size());
   }
-  if (heights.rows() != bed.rows || heights.cols() != bed.cols)
-    throw_input_error("{}: has {} x {} cells (x, y) and bed.cells = [{}, {}]; make them equal", path.string(),
-                      heights.cols(), heights.rows(), bed.cols, bed.rows);
+  check_cells(heights.rows(), heights.cols());
   if (!heights.isFinite().all())
     throw_input_error("{}: holds heights that are not finite numbers; repair it", path.string());
   return HeightField(heights, bed.cell_size());

@@ -8,11 +8,22 @@
 #include <sstream>
 
 #include "core/error.h"
+#include "core/nearest_name.h"
 #include "core/output_file.h"
 
 namespace sandstroke {
 
 std::string toml_string(const std::string& text) { return nlohmann::json(text).dump(); }
+
+std::string range_text(Range range) {
+  const bool from_below = range.lowest > any_number.lowest, to_above = range.highest < any_number.highest;
+  if (from_below && to_above)
+    return range.open ? fmt::format("above {} and below {}", range.lowest, range.highest)
+                      : fmt::format("from {} to {}", range.lowest, range.highest);
+  if (from_below)
+    return range.open ? fmt::format("above {}", range.lowest) : fmt::format("{} or more", range.lowest);
+  return to_above ? fmt::format("{} or less", range.highest) : "";
+}
 
 struct TomlReader::Document {
   std::string name;
@@ -24,52 +35,56 @@ struct TomlReader::Document {
 
 namespace {
 
+constexpr int most_parts = 16;  // of a dotted key
+
+/// The line with the first key of more parts; 0: none. toml++ bounds how deep arrays and inline tables are
+/// nested (256), but version 3.3 not what dotted keys make: taking that apart overflows the stack.
+int line_of_too_deep_key(std::string_view text) {
+  int line = 1, dots = 0;
+  const auto skip = [&](std::size_t count) {
+    line +=
+        static_cast<int>(std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(count), '\n'));
+    text.remove_prefix(count);
+  };
+  const auto skip_string = [&](std::string_view quote) {
+    const bool escapes = quote.front() == '"', one_line = quote.size() == 1;
+    std::size_t end = quote.size();
+    while (end < text.size() && !text.substr(end).starts_with(quote) && !(one_line && text[end] == '\n'))
+      end += escapes && text[end] == '\\' ? 2 : 1;
+    end += quote.size();
+    for (int i = 0; i < 2 && !one_line && end < text.size() && text[end] == quote.front(); ++i) ++end;
+    skip(std::min(end, text.size()));
+  };
+  while (!text.empty()) {
+    const char c = text.front();
+    if (c == '"' || c == '\'') {
+      const std::string three(3, c);
+      skip_string(text.starts_with(three) ? three : three.substr(0, 1));
+      continue;
+    }
+    if (c == '#') {
+      skip(std::min(text.find('\n'), text.size()));
+      continue;
+    }
+    if (c == '.' && ++dots == most_parts) return line;
+    if (std::string_view("=,[]{}\n").find(c) != std::string_view::npos) dots = 0;
+    skip(1);
+  }
+  return 0;
+}
+
+void check_key_depth(std::string_view text, const std::string& name) {
+  if (const int line = line_of_too_deep_key(text))
+    throw_input_error("{}:{}: a key has over {} parts; no setting lies so deep", name, line, most_parts);
+}
+
 toml::table parse(std::string_view text, const std::string& name) {
+  check_key_depth(text, name);
   try {
     return toml::parse(text, name);
   } catch (const toml::parse_error& failure) {
     throw_input_error("{}:{}: not valid TOML: {}", name, failure.source().begin.line, failure.description());
   }
-}
-
-std::size_t edit_distance(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = row[0];
-    row[0] = i;
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t replaced = diagonal + (a[i - 1] != b[j - 1]);
-      diagonal = row[j];
-      row[j] = std::min({row[j] + 1, row[j - 1] + 1, replaced});
-    }
-  }
-  return row[b.size()];
-}
-
-/// The known key that was most likely meant: one that goes on where `key` ends, or the one with the fewest
-/// edits.
-std::string nearest(const std::string& key, const std::set<std::string>& known) {
-  const auto next = known.upper_bound(key);
-  if (next != known.end() && next->starts_with(key) && next->find('.', key.size()) == std::string::npos)
-    return *next;
-  const auto closer = [&](const std::string& a, const std::string& b) {
-    return edit_distance(a, key) < edit_distance(b, key);
-  };
-  const auto best = std::min_element(known.begin(), known.end(), closer);
-  // The key itself may be known: to another [[table]] of the same name.
-  if (best == known.end() || *best == key || edit_distance(*best, key) > 1 + key.size() / 3) return {};
-  return *best;
-}
-
-std::string range_text(Range range) {
-  const bool from_below = range.lowest > any_number.lowest, to_above = range.highest < any_number.highest;
-  if (from_below && to_above)
-    return range.open ? fmt::format("above {} and below {}", range.lowest, range.highest)
-                      : fmt::format("from {} to {}", range.lowest, range.highest);
-  if (from_below)
-    return range.open ? fmt::format("above {}", range.lowest) : fmt::format("{} or more", range.lowest);
-  return fmt::format("{} or less", range.highest);
 }
 
 std::string type_name(const toml::node& node) {
@@ -91,7 +106,7 @@ std::string type_name(const toml::node& node) {
   }
 }
 
-std::vector<std::string> split(std::string_view key) {
+std::vector<std::string> parts_of(std::string_view key) {
   std::vector<std::string> parts;
   while (true) {
     const auto dot = key.find('.');
@@ -141,6 +156,7 @@ void TomlReader::override_with(const std::string& assignment) {
     throw_input_error("--set {}: not an assignment; write --set section.key=value", assignment);
   const std::string key = assignment.substr(0, equals);
   const std::string value = assignment.substr(equals + 1);
+  check_key_depth(assignment, "--set");
 
   toml::table parsed;
   try {
@@ -150,7 +166,7 @@ void TomlReader::override_with(const std::string& assignment) {
   }
   if (parsed.size() != 1) throw_input_error("--set {}: the value is not one TOML value", assignment);
 
-  const std::vector<std::string> parts = split(key);
+  const std::vector<std::string> parts = parts_of(key);
   toml::table* table = &document_->root;
   for (std::size_t i = 0; i + 1 < parts.size(); ++i) {
     toml::node* next = table->insert(parts[i], toml::table{}).first->second.as_table();
@@ -164,7 +180,7 @@ void TomlReader::override_with(const std::string& assignment) {
 const toml::node* TomlReader::find(std::string_view key) const {
   document_->asked_for.insert(prefix_ + std::string(key));
   const toml::table* table = table_;
-  const std::vector<std::string> parts = split(key);
+  const std::vector<std::string> parts = parts_of(key);
   for (std::size_t i = 0;; ++i) {
     const toml::node* node = table->get(parts[i]);
     if (!node) return nullptr;
@@ -352,7 +368,7 @@ void TomlReader::reject_unread() const {
     for (const auto& [key, node] : table) {
       const std::string full = prefix + std::string(key.str());
       if (!document_->read.contains(&node)) {
-        const std::string suggestion = nearest(full, document_->asked_for);
+        const std::string suggestion = nearest_name(full, document_->asked_for);
         const auto set = std::find_if(
             document_->overrides.begin(), document_->overrides.end(),
             [&](const auto& one) { return one.first == full || one.first.starts_with(full + "."); });
@@ -360,8 +376,9 @@ void TomlReader::reject_unread() const {
                                       ? "--set " + set->second
                                       : fmt::format("{}:{}", document_->name, node.source().begin.line);
         throw_input_error("{}: unknown key {}{}", place, full,
-                          suggestion.empty() ? "; remove it (--help lists what there is)"
-                                             : fmt::format("; did you mean {}?", suggestion));
+                          suggestion.empty()
+                              ? "; remove it (sandstroke help scene, script or plan says which there are)"
+                              : fmt::format("; did you mean {}?", suggestion));
       }
       if (const toml::table* inner = node.as_table()) self(self, *inner, full + ".");
       if (const toml::array* array = node.as_array()) {

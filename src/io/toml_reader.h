@@ -15,6 +15,9 @@ namespace sandstroke {
 /// Text as a TOML string; its basic strings escape as JSON's do.
 std::string toml_string(const std::string& text);
 
+/// "above 0 and below 90"; empty for any number.
+std::string range_text(Range range);
+
 /// One table of a TOML file, read key by key with errors that name file, line, key, value and remedy (Error:
 /// input). Keys nobody asked for are errors too: call reject_unread() last. Keys may be dotted ("bed.cells").
 /// Copies share the document.

@@ -1,6 +1,7 @@
 #include "record/journal.h"
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <bit>
@@ -51,15 +52,6 @@ template <class Part>
 void put_block(std::string& blocks, BlockKind kind, const Part& part) {
   const std::string text = as_json(part).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
   put_block(blocks, kind, text.data(), text.size());
-}
-
-/// So that a new file's name, too, survives a power failure, where the file system can do that.
-void sync_folder_of(const fs::path& path) {
-  const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
-  const int descriptor = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (descriptor < 0) return;
-  fsync(descriptor);
-  close(descriptor);
 }
 
 /// A journal's lock, for reading it.
@@ -153,6 +145,11 @@ void JournalWriter::append(std::span<const RecordedSample> samples) {
 
 void JournalWriter::sync() {
   if (fdatasync(file_) < 0) fail(errno);
+  struct stat written {
+  }, there{};
+  if (fstat(file_, &written) != 0 || stat(path_.c_str(), &there) != 0 || written.st_dev != there.st_dev ||
+      written.st_ino != there.st_ino)
+    throw_io_error("{}: somebody removed or replaced this file while it was recorded", path_.string());
 }
 
 void JournalWriter::finish(const RecordingFooter& footer) {
@@ -228,7 +225,7 @@ std::vector<RecordedSample> JournalReader::next(std::size_t most) {
       RecordedSample sample;
       std::memcpy(&sample, block->content.data(), sizeof sample);
       const auto sequence = static_cast<std::int64_t>(sample.sequence);
-      if (sequence > last_sequence_ && sample.time > last_time_) {
+      if (sequence > last_sequence_ && sequence < most_ticks && sample.time > last_time_) {
         last_sequence_ = sequence;
         last_time_ = sample.time;
         samples.push_back(sample);

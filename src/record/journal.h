@@ -42,7 +42,8 @@ class JournalWriter {
   /// With the system when it returns: no end of this program loses them. Where that takes no more, those
   /// that it did take are sound, and the next call goes on after them.
   void append(std::span<const RecordedSample> samples);
-  /// On the disk: a power failure does not lose it either.
+  /// On the disk: a power failure does not lose it either. Error: io, also where the file was removed: what
+  /// goes on would be lost.
   void sync();
   /// Samples that are in it, whole; after a failure too, where not all of an append were taken.
   std::int64_t samples() const { return samples_; }

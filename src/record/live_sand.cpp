@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t ring_size = std::size_t{1} << 20;   // changes: 16 MB each way
 constexpr int most_taken = 4096;                          // changes per tick: some 50 us
-constexpr double gap_threshold = Stroke{}.gap_threshold;  // s: what `run` does not join is not joined here
+const double gap_threshold = Stroke{}.gap_threshold;  // s: what `run` does not join is not joined here
 
 const HeightField& checked(const Scene& scene, const HeightField& bed) {
   const auto refuse_unless = [](bool felt, const char* key, const char* why) {
@@ -30,12 +30,8 @@ const HeightField& checked(const Scene& scene, const HeightField& bed) {
                   "they cut a stroke that is not there yet");
   }
   // Here and in the eroding thread, each with what the other knows.
-  const double bytes = 4.0 * bed.tile_count() * static_cast<double>(HeightField::bytes_per_tile());
-  if (bytes > 0.5 * physical_memory())
-    throw_input_error(
-        "bed.cells: {} x {} cells felt live take {:.1f} GB, more than half of this machine's memory; take "
-        "fewer",
-        bed.cols(), bed.rows(), 1e-9 * bytes);
+  check_memory(4.0 * bed.tile_count() * static_cast<double>(HeightField::bytes_per_tile()),
+               fmt::format("bed.cells = [{}, {}], felt live,", bed.cols(), bed.rows()), "take fewer", 0.5);
   return bed;
 }
 

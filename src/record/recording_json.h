@@ -12,7 +12,7 @@ namespace sandstroke {
 nlohmann::ordered_json as_json(const RecordingHeader& header);
 nlohmann::ordered_json as_json(const RecordingFooter& footer);
 
-/// nlohmann::json::exception, where a field is missing or of another kind.
+/// nlohmann::json::exception, where a field is missing or of another kind, or a count none.
 RecordingHeader header_from_json(const nlohmann::ordered_json& json);
 RecordingFooter footer_from_json(const nlohmann::ordered_json& json);
 

@@ -19,7 +19,7 @@ struct Station {
 };
 
 /// Once around the bed, from the corner of row 0, column 0.
-std::vector<Station> border(const DrawnHeights& heights, double cell_size) {
+std::vector<Station> stations_along_border(const DrawnHeights& heights, double cell_size) {
   const auto rows = static_cast<int>(heights.rows()), cols = static_cast<int>(heights.cols());
   std::vector<Station> stations;
   const auto add = [&](int row, int col) {
@@ -54,7 +54,7 @@ void BedBox::update(const DrawnHeights& heights, double cell_size, double lowest
   const double depth = static_cast<double>(heights.rows() - 1) * cell_size;
   const double thickness = wall_thickness(width, depth);
   const double ground = lowest - 3.0 * thickness;
-  const std::vector<Station> stations = border(heights, cell_size);
+  const std::vector<Station> stations = stations_along_border(heights, cell_size);
   const auto count = static_cast<int>(stations.size());
 
   // The rim: the highest sand within a wall's thickness along the border, and a little more.

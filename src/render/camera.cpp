@@ -4,13 +4,13 @@
 #include <array>
 #include <cmath>
 
+#include "core/angle.h"
 #include "core/error.h"
 
 namespace sandstroke {
 namespace {
 
-constexpr double degree = 0.017453292519943295;
-constexpr double border = 0.05;  ///< of the picture, left free around a framed subject
+constexpr double picture_border = 0.05;  ///< of the picture, left free around a framed subject
 
 std::array<Eigen::Vector3d, 8> corners(const Eigen::AlignedBox3d& box) {
   std::array<Eigen::Vector3d, 8> points;
@@ -82,8 +82,8 @@ Camera make_camera(const ViewSettings& view, const Eigen::AlignedBox3d& subject,
   const Eigen::Matrix3d axes = top ? camera_axes(-90.0, 90.0) : camera_axes(view.azimuth, view.elevation);
   const double aspect = static_cast<double>(view.width) / view.height;
   const double tan_y = std::tan(0.5 * view.field_of_view * degree), tan_x = aspect * tan_y;
-  const double inside = 1.0 - 2.0 * border;  // of half the picture's sides
-  const double inside_right = 1.0 - 2.0 * (border + right_margin);
+  const double inside = 1.0 - 2.0 * picture_border;  // of half the picture's sides
+  const double inside_right = 1.0 - 2.0 * (picture_border + right_margin);
 
   std::array<Eigen::Vector3d, 8> points = corners(subject);
   for (Eigen::Vector3d& p : points) p = axes * p;

@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
+#include <thread>
 #include <vector>
 
 #include "core/error.h"
+#include "core/machine.h"
 #include "render/annotate.h"
 #include "render/bed_box.h"
 #include "render/camera.h"
@@ -24,11 +27,26 @@ namespace {
 /// A context that is current from its construction on: what is made after it may use GL.
 class CurrentContext {
  public:
-  CurrentContext() : context_(make_offscreen_context()) { context_->make_current(); }
+  CurrentContext() {
+    // Where it finds no memory, Mesa or its compiler ends the program. Measured: 90 MB and threads' stacks.
+    // Those who draw at the same time may not have taken theirs yet.
+    check_memory(living_.count * (100e6 + 10e6 * std::thread::hardware_concurrency()), "drawing",
+                 "allow more, or do without pictures");
+    context_ = make_offscreen_context();
+    context_->make_current();
+  }
   ~CurrentContext() = default;
   void make_current() { context_->make_current(); }
 
  private:
+  /// Counts those that there are.
+  struct Living {
+    Living() { ++count; }
+    ~Living() { --count; }
+    static inline std::atomic<int> count = 0;
+  };
+
+  Living living_;
   std::unique_ptr<OffscreenContext> context_;
 };
 

@@ -6,10 +6,10 @@
 #include <limits>
 #include <utility>
 
+#include "core/angle.h"
+
 namespace sandstroke {
 namespace {
-
-constexpr double degree = 0.017453292519943295;
 
 /// Slopes of the horizon towards one direction, for the cells of one rectangle.
 class Horizon {

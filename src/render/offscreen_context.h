@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdlib>
 #include <memory>
 
 namespace sandstroke {
@@ -10,11 +11,21 @@ namespace sandstroke {
 class OffscreenContext {
  public:
   virtual ~OffscreenContext() = default;
+  OffscreenContext(const OffscreenContext&) = delete;
+  OffscreenContext& operator=(const OffscreenContext&) = delete;
   /// Error: io.
   virtual void make_current() = 0;
+
+ protected:
+  OffscreenContext() {
+    // With 512-bit vectors llvmpipe of Mesa 22 crashes on multisampled targets; it reads this once per
+    // process.
+    setenv("LP_NATIVE_VECTOR_WIDTH", "256", 1);
+  }
 };
 
-/// Software rendering (Mesa's OSMesa). Error: io, with what is missing.
+/// Software rendering by Mesa's llvmpipe, through OSMesa or EGL: which of them, the build says
+/// (SANDSTROKE_GL). Error: io, with what is missing.
 std::unique_ptr<OffscreenContext> make_offscreen_context();
 
 }  // namespace sandstroke

@@ -1,12 +1,12 @@
 #include "render/surface_textures.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "core/error.h"
+#include "core/machine.h"
+#include "core/parallel.h"
 
 namespace sandstroke {
 namespace {
@@ -68,6 +68,9 @@ void SurfaceTextures::check_size(int rows, int cols) {
   if (std::max(rows, cols) > largest || std::min(rows, cols) < 2)
     throw_input_error("a bed of {} x {} cells cannot be drawn; pictures take 2 to {} cells a side", cols,
                       rows, largest);
+  constexpr double bytes_per_cell = 64.0;  // measured: heights, textures, and what is drawn as doubles
+  check_memory(bytes_per_cell * rows * cols, fmt::format("drawing a bed of {} x {} cells", cols, rows),
+               "take fewer");
 }
 
 SurfaceTextures::SurfaceTextures(int rows, int cols, double cell_size)
@@ -122,8 +125,8 @@ int SurfaceTextures::update(const HeightField& surface) {
     for (const int r : {row, std::max(row - 1, 0)})
       for (const int c : {col, std::max(col - 1, 0)}) detail_outdated[r * tile_cols_ + c] = 1;
   }
-  tbb::parallel_for(0, static_cast<int>(details_.size()), [&](int tile) {
-    if (detail_outdated[tile]) details_[tile] = tile_detail(heights_, tile_cells(tile, 1));
+  parallel_for(details_.size(), true, [&](std::size_t tile) {
+    if (detail_outdated[tile]) details_[tile] = tile_detail(heights_, tile_cells(static_cast<int>(tile), 1));
   });
 
   const double highest_before = filled_ ? highest_ : -1e300;
@@ -183,7 +186,7 @@ void SurfaceTextures::update_shading(const Sun& sun) {
     sun_.resize(rows_, cols_);
     sky_.resize(rows_, cols_);
   }
-  tbb::parallel_for(std::size_t{0}, outdated.size(), [&](std::size_t i) {
+  parallel_for(outdated.size(), true, [&](std::size_t i) {
     const CellRange cells = tile_cells(outdated[i], 0);
     sun_visibility(heights_, cell_size_, sun, highest_, cells, sun_);
     sky_visibility(heights_, cell_size_, cells, sky_);

@@ -5,40 +5,32 @@
 #include <thread>
 #include <vector>
 
+#include "core/asset.h"
 #include "core/machine.h"
 #include "core/version.h"
 #include "core/xml_text.h"
 #include "sand/instruction_set.h"
 
 // Embedded by assets.S.
-#define SANDSTROKE_ASSET(name)                     \
-  extern "C" const char sandstroke_asset_##name[]; \
-  extern "C" const char sandstroke_asset_##name##_end[]
-SANDSTROKE_ASSET(charts);
-SANDSTROKE_ASSET(charts_license);
-SANDSTROKE_ASSET(charts_notice);
-SANDSTROKE_ASSET(style);
-SANDSTROKE_ASSET(page);
-SANDSTROKE_ASSET(plot);
-SANDSTROKE_ASSET(bench);
-SANDSTROKE_ASSET(stress);
-SANDSTROKE_ASSET(sweep_charts);
-SANDSTROKE_ASSET(sweep_points);
-SANDSTROKE_ASSET(sweep);
-SANDSTROKE_ASSET(sweep_style);
-SANDSTROKE_ASSET(compare_maps);
-SANDSTROKE_ASSET(compare_traces);
-SANDSTROKE_ASSET(compare);
-SANDSTROKE_ASSET(compare_style);
-#undef SANDSTROKE_ASSET
+SANDSTROKE_DECLARE_ASSET(charts);
+SANDSTROKE_DECLARE_ASSET(charts_license);
+SANDSTROKE_DECLARE_ASSET(charts_notice);
+SANDSTROKE_DECLARE_ASSET(style);
+SANDSTROKE_DECLARE_ASSET(page);
+SANDSTROKE_DECLARE_ASSET(plot);
+SANDSTROKE_DECLARE_ASSET(bench);
+SANDSTROKE_DECLARE_ASSET(stress);
+SANDSTROKE_DECLARE_ASSET(sweep_charts);
+SANDSTROKE_DECLARE_ASSET(sweep_points);
+SANDSTROKE_DECLARE_ASSET(sweep);
+SANDSTROKE_DECLARE_ASSET(sweep_style);
+SANDSTROKE_DECLARE_ASSET(compare_maps);
+SANDSTROKE_DECLARE_ASSET(compare_traces);
+SANDSTROKE_DECLARE_ASSET(compare);
+SANDSTROKE_DECLARE_ASSET(compare_style);
 
 namespace sandstroke {
 namespace {
-
-std::string_view between(const char* begin, const char* end) {
-  return {begin, static_cast<std::size_t>(end - begin)};
-}
-#define SANDSTROKE_ASSET(name) between(sandstroke_asset_##name, sandstroke_asset_##name##_end)
 
 /// What a page has of its own.
 struct PageAssets {
@@ -79,8 +71,8 @@ std::string html_page(std::string_view title, PageScript script, const nlohmann:
   std::string page = fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
       "<meta name=\"viewport\" content=\"width=device-width, "
-      "initial-scale=1\">\n<title>{}</title>\n<style>\n",
-      name);
+      "initial-scale=1\">\n<meta name=\"generator\" content=\"{}\">\n<title>{}</title>\n<style>\n",
+      xml_escaped(build), name);
   page += SANDSTROKE_ASSET(style);
   page += own.style;
   page +=

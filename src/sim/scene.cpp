@@ -207,11 +207,8 @@ void check_scene(const Scene& scene, const std::string& name) {
     throw_input_error("{}: bed.size and bed.cells give cells of {} m; take cells of 1e-100 to 1e100 m", name,
                       dx);
 
-  const double needed = memory_of_bed(scene), memory = physical_memory();
-  if (needed > memory)
-    throw_input_error(
-        "{}: bed.cells = [{}, {}] needs about {:.0f} GB of memory and this machine has {:.0f}; take fewer",
-        name, bed.cols, bed.rows, needed * 1e-9, memory * 1e-9);
+  check_memory(memory_of_bed(scene), fmt::format("{}: bed.cells = [{}, {}]", name, bed.cols, bed.rows),
+               "take fewer");
 
   const double reach = ToolFootprint(scene.tool).reach();
   if (scene.stroke && 2.0 * reach > std::min(bed.width, bed.depth))

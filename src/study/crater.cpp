@@ -9,12 +9,12 @@
 namespace sandstroke {
 namespace {
 
-constexpr double bed_width = 2.0, depth = 0.25;  // m
+constexpr double crater_bed_width = 2.0, depth = 0.25;  // m
 constexpr double hole_radius = 0.1;  // m: a hole of one cell would be a point, of infinite curvature
 
 /// Cuts the sand in the hole down to the crater until no more follows.
 Trial drain(int cells, const ExactCrater& crater, const RelaxationSettings& settings) {
-  const HeightField start(cells, cells, bed_width / cells);
+  const HeightField start(cells, cells, crater_bed_width / cells);
   HeightField bed = start;
   const Stopwatch watch;
   const auto relaxer = make_relaxer(settings, bed.cell_size());
@@ -45,7 +45,7 @@ Problem crater_problem(const ProblemOptions& options) {
                                   "truth is the steepest shape of the law: the paper's octagon, or a cone.");
   const auto add = [&](const std::string& series, const std::string& label, int cells,
                        const RelaxationSettings& settings, bool refines) {
-    const double dx = bed_width / cells;
+    const double dx = crater_bed_width / cells;
     Contender contender{series, label, settings_of(settings, BedGeometry(cells, cells, dx), options.threads),
                         refines ? dx : not_applicable, nullptr};
     contender.run = [=] {

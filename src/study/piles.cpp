@@ -13,7 +13,7 @@ namespace sandstroke {
 namespace {
 
 const double talus_angle = RelaxationSettings{}.talus_angle;  // deg
-constexpr double bed_width = 2.0;                             // m
+constexpr double pile_bed_width = 2.0;                        // m
 constexpr int band_rows = 64;                                 // of shapes that do not change along y
 
 /// Relaxes a bed and says what that took.
@@ -63,9 +63,9 @@ class PileField {
   void add_peers() {
     for (const Peer& peer : options_.peers)
       for (int cells = 64; cells <= most_cells(); cells *= 2) {
-        Contender contender{peer.name, fmt::format("{} cells", cells), {}, bed_width / cells, nullptr};
+        Contender contender{peer.name, fmt::format("{} cells", cells), {}, pile_bed_width / cells, nullptr};
         contender.settings.method = "peer";
-        contender.settings.cells = cells, contender.settings.cell_size = bed_width / cells;
+        contender.settings.cells = cells, contender.settings.cell_size = pile_bed_width / cells;
         contender.run = [pile = pile_, cells, relax = peer.relax] {
           return collapse(*pile, cells, [&](HeightField& sand) { return relax(sand, talus_angle); });
         };
@@ -95,7 +95,7 @@ class PileField {
     scene.bed.cols = options_.quick ? 128 : 256;
     const HeightField start = pile_->start(scene.bed.cols);
     scene.bed.rows = start.rows();
-    scene.bed.width = bed_width, scene.bed.depth = start.rows() * start.cell_size();
+    scene.bed.width = pile_bed_width, scene.bed.depth = start.rows() * start.cell_size();
     scene.bed.surface = pile_->surface;
     problem_.check_errors = [=, pile = pile_] {
       return check_errors(
@@ -144,7 +144,7 @@ Pile heap(SurfaceKind kind, double radius, double height, const ExactCone& cone)
   SurfaceSettings surface;
   surface.kind = kind;
   surface.radius = radius, surface.height = height;
-  return {[surface](int cells) { return make_surface(surface, cells, cells, bed_width / cells); },
+  return {[surface](int cells) { return make_surface(surface, cells, cells, pile_bed_width / cells); },
           {cone, cone.top(), Flank{cone.slope, cone.plateau, cone.foot}},
           surface};
 }
@@ -153,7 +153,7 @@ Pile heap(SurfaceKind kind, double radius, double height, const ExactCone& cone)
 
 Problem cylinder_problem(const ProblemOptions& options) {
   // The pile that peers are measured with (R = 60, H = 80 cells on 512 x 512).
-  const double radius = 60.0 / 512.0 * bed_width, height = 80.0 / 512.0 * bed_width;
+  const double radius = 60.0 / 512.0 * pile_bed_width, height = 80.0 / 512.0 * pile_bed_width;
   Problem problem = shape_problem("cylinder", "Cylinder to cone",
                                   "A cylinder collapses on a flat bed; the truth is the talus cone of its "
                                   "volume.");
@@ -196,7 +196,7 @@ Problem cliff_problem(const ProblemOptions& options) {
                                   "on its edge. Both laws are exact along an axis: the tolerance is all that "
                                   "is left.");
   Pile pile;
-  pile.start = [cliff](int cells) { return make_surface(cliff, band_rows, cells, bed_width / cells); };
+  pile.start = [cliff](int cells) { return make_surface(cliff, band_rows, cells, pile_bed_width / cells); };
   pile.shape.exact = collapsed_cliff(cliff.height, talus_angle), pile.shape.height = cliff.height;
   pile.surface = cliff;
   PileField(problem, pile, options).add_laws_and_methods();
@@ -211,7 +211,7 @@ Problem trench_problem(const ProblemOptions& options) {
                                   "its area. Both laws are exact along an axis: the tolerance is all that is "
                                   "left.");
   const auto start = [=](int cells) {
-    HeightField bed(band_rows, cells, bed_width / cells);
+    HeightField bed(band_rows, cells, pile_bed_width / cells);
     for (int row = 0; row < band_rows; ++row)
       for (int col = 0; col < cells; ++col)
         if (std::abs(bed.x_of(col)) < half_width) bed.set(row, col, -depth);

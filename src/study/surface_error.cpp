@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "core/angle.h"
 #include "core/compensated_sum.h"
 
 namespace sandstroke {
@@ -32,7 +32,6 @@ SurfaceError surface_error(const HeightField& bed, const HeightField& start, con
 namespace {
 
 constexpr int directions = 36;
-constexpr double degree = std::numbers::pi / 180.0;
 
 /// The slope of the least-squares line through points, as they come.
 class LineFit {

@@ -176,7 +176,7 @@ std::optional<SharedRunResult> run_shared(const std::vector<Scene>& scenes, cons
     }
     return result;
   } catch (const Error& error) {
-    if (error.kind() == ErrorKind::io) throw;
+    if (is_of_the_machine(error)) throw;
     return SharedRunResult{std::vector<PointResult>(scenes.size(), failed_point(error, metrics.size())), bed};
   }
 }

@@ -66,8 +66,9 @@ struct Sweep::Work {
 Sweep::Sweep(SweepPlan plan) : plan_(std::move(plan)), inputs_(plan_.scene_folder()) {
   std::set<fs::path> known_files;
   const auto add_file = [&](const fs::path& path) {
-    if (known_files.insert(path).second)
-      files_.emplace_back(path.string(), content_hash(read_text_file(path)));
+    if (!known_files.insert(path).second) return;
+    check_readable(path);
+    files_.emplace_back(path.string(), content_hash(read_text_file(path)));
   };
   if (!plan_.golden.empty()) golden_ = RunFile(plan_.golden).final_bed();
   bool golden_fits = false;
@@ -86,7 +87,7 @@ Sweep::Sweep(SweepPlan plan) : plan_(std::move(plan)), inputs_(plan_.scene_folde
       if (is_new) groups_.emplace_back();
       groups_[found->second].push_back(point);
     } catch (const Error& error) {
-      if (error.kind() == ErrorKind::io) throw;
+      if (is_of_the_machine(error)) throw;
       refused_[point] = error.what();
       groups_.push_back({point});
     }
@@ -141,7 +142,7 @@ bool Sweep::run_group(const SweepFolder& folder, const std::vector<std::size_t>&
   try {
     bed = inputs_.bed(scenes.front().bed);
   } catch (const Error& error) {
-    if (error.kind() == ErrorKind::io) throw;
+    if (is_of_the_machine(error)) throw;
     return refuse(error.what());
   }
   const std::optional<SharedRunResult> result = run_shared(scenes, *bed, stroke ? &stroke->stroke : nullptr,

@@ -10,6 +10,7 @@
 #include "core/child_process.h"
 #include "core/error.h"
 #include "core/output_file.h"
+#include "sweep/sweep_folder.h"
 
 namespace sandstroke {
 namespace {
@@ -133,6 +134,7 @@ SlurmJobs submit_to_slurm(const SlurmOptions& options, const SlurmWork& work, st
   refuse_if_alive(sweep_folder);
   std::vector<int> numbers;
   for (const SlurmTask& task : tasks) numbers.push_back(task.number);
+  refuse_link(folder);
   make_folder(folder);
   write_text_file(folder / "job.sh", array_script(options, work, numbers, of));
   write_text_file(folder / "collect.sh", collect_script(options, work));

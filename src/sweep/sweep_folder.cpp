@@ -84,6 +84,12 @@ const Metric* find_metric(const std::string& name) {
 
 }  // namespace
 
+void refuse_link(const fs::path& folder) {
+  if (fs::is_symlink(folder))
+    throw_input_error("{}: is a link, and nothing is written through one; remove it or choose another -o",
+                      folder.string());
+}
+
 SweepFolder::SweepFolder(fs::path path, SweepManifest manifest)
     : path_(std::move(path)), manifest_(std::move(manifest)) {
   for (const std::string& name : manifest_.metrics) {
@@ -96,6 +102,7 @@ SweepFolder::SweepFolder(fs::path path, SweepManifest manifest)
 }
 
 SweepFolder SweepFolder::make(const fs::path& path, const SweepManifest& manifest) {
+  refuse_link(path / "points");
   if (fs::exists(manifest_path(path))) {
     SweepFolder there = open(path);
     const Json old_one = without_places(to_json(there.manifest_)),
@@ -113,6 +120,7 @@ SweepFolder SweepFolder::make(const fs::path& path, const SweepManifest& manifes
           path.string(), key == "inputs" ? "scene, strokes or other files" : key,
           key == "axes" || key == "inputs" || key == "settings" || key == "metrics" ? "" : "s");
     }
+    make_folder(path / "points");  // somebody may have removed it: then all are missing
     return there;
   }
   if (fs::is_directory(path))

@@ -24,6 +24,10 @@ struct SweepManifest {
   std::string version, commit;  ///< of the program
 };
 
+/// Refuses a folder within a sweep's that is a link: what is written there would lie where nobody named.
+/// Error: input.
+void refuse_link(const std::filesystem::path& folder);
+
 /// The folder of a sweep:
 ///   manifest.json         SweepManifest, written before any point
 ///   points/000042.h5      one point, complete or not there: attributes of / format = "sandstroke.point",

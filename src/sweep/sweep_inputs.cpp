@@ -2,7 +2,6 @@
 
 #include <spdlog/fmt/fmt.h>
 
-#include "core/hash.h"
 #include "core/machine.h"
 #include "io/scene_toml.h"
 #include "io/stroke_file.h"
@@ -12,21 +11,6 @@ namespace sandstroke {
 namespace {
 
 constexpr std::size_t most_samples_kept = 10'000'000;  // of strokes: about a gigabyte
-
-template <class T>
-void add(ContentHash& hash, const std::vector<T>& column) {
-  hash.add(column.data(), column.size() * sizeof(T));
-}
-
-/// Of all that a run takes from a stroke.
-std::string hash_of(const Stroke& stroke) {
-  ContentHash hash;
-  add(hash, stroke.time);
-  add(hash, stroke.position);
-  add(hash, stroke.contact);
-  hash.add(&stroke.gap_threshold, sizeof stroke.gap_threshold);
-  return hash.text();
-}
 
 /// Default settings but for these: as text, they name them.
 std::string text_of(const BedSettings& bed) {
@@ -50,7 +34,7 @@ std::shared_ptr<const SweepStroke> SweepInputs::stroke(const Scene& scene) {
   if (const auto found = strokes_.find(key); found != strokes_.end()) return found->second;
   auto loaded = std::make_shared<SweepStroke>();
   loaded->stroke = place_stroke(load_stroke(path, scene.force), scene.stroke->placement, path.string());
-  loaded->hash = hash_of(loaded->stroke);
+  loaded->hash = content_hash(loaded->stroke);
   strokes_loaded_ += 1;
   stroke_samples_ += loaded->stroke.size();
   if (stroke_samples_ > most_samples_kept) {
@@ -68,7 +52,7 @@ std::shared_ptr<const HeightField> SweepInputs::bed(const BedSettings& bed) {
   beds_loaded_ += 1;
   const auto bytes = static_cast<double>(loaded->bytes());
   bed_bytes_ += bytes;
-  if (bed_bytes_ > 0.25 * physical_memory()) {
+  if (bed_bytes_ > 0.25 * memory_room().bytes) {
     beds_.clear();
     bed_bytes_ = bytes;
   }

@@ -8,6 +8,7 @@
 
 #include "core/error.h"
 #include "core/output_file.h"
+#include "io/scene_keys.h"
 #include "io/scene_toml.h"
 #include "io/toml_reader.h"
 #include "sweep/metrics.h"
@@ -18,6 +19,8 @@ namespace {
 namespace fs = std::filesystem;
 
 const std::string stroke_key = "stroke.file";
+constexpr std::size_t most_values =
+    1'000'000;  // of all axes: each is tried in a scene, which takes two minutes
 
 std::vector<std::string> as_literals(const std::vector<double>& numbers) {
   std::vector<std::string> literals;
@@ -84,6 +87,11 @@ SweepDesign read_design(const TomlReader& toml, const SweepPlan& plan) {
     if (std::set(values.begin(), values.end()).size() < values.size())
       toml.fail(key, "has a value twice; give each once");
   };
+  std::size_t all_values = 0;
+  const auto count_values = [&](std::size_t more) {
+    if ((all_values += more) > most_values)
+      toml.fail("axes", fmt::format("give over {} values, each to be tried; take fewer", most_values));
+  };
   std::vector<AxisRange> ranges;
   if (const auto strokes = toml.texts("sweep.strokes", {}); !strokes.empty()) {
     SweepAxis axis{stroke_key, "", false, {}};
@@ -119,6 +127,7 @@ SweepDesign read_design(const TomlReader& toml, const SweepPlan& plan) {
       axis.values = toml.literals(key);
       if (axis.values.empty()) toml.fail(key, "is empty; give at least one value");
     }
+    count_values(axis.values.size());
     check_distinct(key, axis.values);
     design.axes.push_back(std::move(axis));
     ranges.push_back(range);
@@ -135,6 +144,7 @@ SweepDesign read_design(const TomlReader& toml, const SweepPlan& plan) {
                             points, most));
     return design;
   }
+  for (std::size_t i = 0; i < design.axes.size(); ++i) count_values(samples);
   const auto sampled = latin_hypercube(design.axes.size(), samples, seed);
   for (std::size_t i = 0; i < design.axes.size(); ++i) {
     std::vector<std::string> values;
@@ -261,6 +271,7 @@ SweepPlan load_plan(const fs::path& path) {
   plan.file = path;
   toml.require("sweep.scene");
   plan.scene = path.parent_path() / toml.text("sweep.scene", "");
+  check_readable(plan.scene);
   plan.scene_text = read_text_file(plan.scene);
   for (const std::string& key : toml.keys_in("set"))
     plan.settings.push_back(key + "=" + toml.literal("set." + key));

@@ -107,6 +107,7 @@ int main(int argc, char** argv) {
     add("paper_scene", [&] { return in_child([&] { return measure_paper_scene(options); }); });
     add("bed_sizes", [&] { return measure_bed_sizes(options); });
     add("tile_sizes", [&] { return in_child(measure_tile_sizes); });
+    add("long_stroke", [&] { return in_child([&] { return measure_long_stroke(options); }); });
     add("cones", [&] { return in_child([&] { return measure_cones(options); }); });
     add("rough_beds", [&] { return in_child([&] { return measure_rough_beds(options); }); });
     add("paper_law", [&] { return in_child([&] { return measure_paper_law(options); }); });

@@ -16,6 +16,7 @@ struct BenchOptions {
 nlohmann::json measure_paper_scene(const BenchOptions& options);
 nlohmann::json measure_bed_sizes(const BenchOptions& options);
 nlohmann::json measure_tile_sizes();
+nlohmann::json measure_long_stroke(const BenchOptions& options);
 nlohmann::json measure_cones(const BenchOptions& options);
 nlohmann::json measure_rough_beds(const BenchOptions& options);
 nlohmann::json measure_paper_law(const BenchOptions& options);

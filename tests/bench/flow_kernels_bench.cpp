@@ -9,7 +9,7 @@
 namespace sandstroke {
 namespace {
 
-constexpr int side = BedGeometry::tile_side;
+constexpr int tile_side = BedGeometry::tile_side;
 
 /// Within it, the kernels use one instruction set.
 class OnlyTarget {
@@ -33,9 +33,9 @@ struct Tile {
   TilePatch patch;
   TileFlow flow;
 
-  Tile(RelaxationLaw relaxation_law, SandState state, const CellFlags& active = square_of_cells(0, side))
+  Tile(RelaxationLaw relaxation_law, SandState state, const CellFlags& active = square_of_cells(0, tile_side))
       : law(relaxation_settings(relaxation_law), 1.0),
-        bed(noisy_plane(3 * side, 3 * side, state)),
+        bed(noisy_plane(3 * tile_side, 3 * tile_side, state)),
         cells(active) {
     load();
   }
@@ -50,7 +50,7 @@ void flow_bench(benchmark::State& state, std::int64_t target, RelaxationLaw law,
     compute_flow(tile.law, tile.patch, tile.cells, nullptr, tile.flow);
     benchmark::ClobberMemory();
   }
-  if (count(tile.flow.moved) != (sand == SandState::moving ? side * side : 0))
+  if (count(tile.flow.moved) != (sand == SandState::moving ? tile_side * tile_side : 0))
     state.SkipWithError("the sand is not in the state it should be in");
   clock.report(state, count(tile.cells));
 }
@@ -71,7 +71,7 @@ void apply_bench(benchmark::State& state, std::int64_t target) {
 void residuals_bench(benchmark::State& state, std::int64_t target, RelaxationLaw law) {
   const OnlyTarget only(target);
   Tile tile(law, SandState::moving);
-  std::array<double, side * side / 8> steepest;
+  std::array<double, tile_side * tile_side / 8> steepest;
   const CellClock clock;
   for (auto _ : state) {
     compute_residuals(tile.law, tile.patch, tile.cells, steepest.data());
@@ -83,7 +83,8 @@ void residuals_bench(benchmark::State& state, std::int64_t target, RelaxationLaw
 /// Loading does not depend on the instruction set: plain copies. cells: a square of the tile's middle.
 void load_bench(benchmark::State& state) {
   const int half = static_cast<int>(state.range(0)) / 2;
-  Tile tile(RelaxationLaw::paper, SandState::moving, square_of_cells(side / 2 - half, side / 2 + half));
+  Tile tile(RelaxationLaw::paper, SandState::moving,
+            square_of_cells(tile_side / 2 - half, tile_side / 2 + half));
   const CellClock clock;
   for (auto _ : state) {
     tile.load();
@@ -96,8 +97,8 @@ BENCHMARK(load_bench)->Name("patch_load/cells")->Arg(16)->Arg(64);
 /// A small square of active cells, as under a tool: load, flow and apply.
 void small_patch_bench(benchmark::State& state, RelaxationLaw law) {
   const int half = static_cast<int>(state.range(0)) / 2;
-  Tile tile(law, SandState::moving, square_of_cells(side / 2 - half, side / 2 + half));
-  std::array<double, side * side> heights{};
+  Tile tile(law, SandState::moving, square_of_cells(tile_side / 2 - half, tile_side / 2 + half));
+  std::array<double, tile_side * tile_side> heights{};
   CellFlags changed;
   const CellClock clock;
   for (auto _ : state) {
@@ -112,7 +113,7 @@ void small_patch_bench(benchmark::State& state, RelaxationLaw law) {
 /// The plain reference, whole field, for comparison: `passes` of them and the look that precedes each.
 void reference_bench(benchmark::State& state, RelaxationLaw law, SandState sand) {
   constexpr int passes = 4;
-  const HeightField start = noisy_plane(3 * side, 3 * side, sand);
+  const HeightField start = noisy_plane(3 * tile_side, 3 * tile_side, sand);
   RelaxationSettings settings = relaxation_settings(law);
   settings.max_passes = passes;
   const auto relaxer = make_reference_relaxer(settings, 1.0);
@@ -122,10 +123,10 @@ void reference_bench(benchmark::State& state, RelaxationLaw law, SandState sand)
     benchmark::DoNotOptimize(relaxer->relax(bed));
   }
   const int looks = sand == SandState::moving ? passes + 1 : 1;
-  clock.report(state, std::int64_t{9} * side * side * looks);
+  clock.report(state, std::int64_t{9} * tile_side * tile_side * looks);
 }
 
-const bool registered = [] {
+const bool flow_kernels_registered = [] {
   constexpr RelaxationLaw laws[] = {RelaxationLaw::paper, RelaxationLaw::isotropic};
   constexpr std::pair<SandState, const char*> states[] = {{SandState::at_rest, "rest"},
                                                           {SandState::moving, "moving"}};

@@ -1,9 +1,14 @@
 // Strokes replayed: against the clock, against the reference engine, and on beds of all sizes.
+#include <unistd.h>
+
 #include <chrono>
 #include <cstring>
+#include <fstream>
 #include <set>
+#include <utility>
 
 #include "bench/end_to_end.h"
+#include "core/hash.h"
 #include "haptics/stroke_script.h"
 #include "sim/simulation.h"
 
@@ -191,6 +196,62 @@ nlohmann::json measure_tile_sizes() {
     result["sides"].push_back({{"side", side}, {"blocks", blocks.size()}, {"bytes", bytes}});
   }
   return result;
+}
+
+namespace {
+
+/// At the end of each minute of a stroke: the CPU time it took, and the memory that is resident.
+class Minutes : public SimulationObserver {
+ public:
+  explicit Minutes(double seconds) : seconds_(seconds) {}
+  void on_tick(const TickRecord& record) override {
+    if (record.time < seconds_ * static_cast<double>(cpu_seconds.size() + 1)) return;
+    const double now = sandstroke::cpu_seconds();
+    cpu_seconds.push_back(now - std::exchange(last_, now));
+    std::int64_t pages = 0, resident = 0;
+    std::ifstream("/proc/self/statm") >> pages >> resident;
+    resident_bytes.push_back(static_cast<double>(resident * sysconf(_SC_PAGESIZE)));
+  }
+  std::vector<double> cpu_seconds, resident_bytes;
+
+ private:
+  double seconds_, last_ = sandstroke::cpu_seconds();
+};
+
+}  // namespace
+
+/// The paper's scene for an hour, twice: WSCG over and over, by a hand that never stops.
+nlohmann::json measure_long_stroke(const BenchOptions& options) {
+  const double minute = options.quick ? 1.0 : 60.0;  // s
+  const Stroke stroke = wscg(0.44, -0.9, {-0.18}, 60.0 * minute);
+  nlohmann::json runs = nlohmann::json::array();
+  for (int i = 0; i < 2; ++i) {
+    Scene scene;
+    Simulation simulation(scene, HeightField(scene.bed.rows, scene.bed.cols, scene.bed.cell_size()), stroke);
+    Minutes minutes(minute);
+    const RunResult result = simulation.run(minutes);
+    const HeightGrid heights = simulation.bed().grid();
+    ContentHash hash;
+    hash.add(heights.data(), static_cast<std::size_t>(heights.size()) * sizeof(double));
+    const std::vector<double>&cpu = minutes.cpu_seconds, &memory = minutes.resident_bytes;
+    // The first minutes dig what later ones find dug, so the end is compared with the second ten.
+    const auto of = [&](const std::vector<double>& values, std::size_t first) {
+      return median({values.begin() + first, values.begin() + first + 10});
+    };
+    runs.push_back({{"ticks", result.ticks},
+                    {"content_hash", hash.text()},
+                    {"moved_volume", result.moved_volume},
+                    {"volume_drift", result.volume_drift},
+                    {"passes", result.passes},
+                    {"minutes", cpu.size()},
+                    {"first_minute_cpu_seconds", cpu.front()},
+                    {"last_minute_cpu_seconds", cpu.back()},
+                    {"minutes_10_to_20_cpu_seconds", of(cpu, 10)},
+                    {"last_ten_minutes_cpu_seconds", of(cpu, cpu.size() - 10)},
+                    {"first_minute_resident_bytes", memory.front()},
+                    {"last_minute_resident_bytes", memory.back()}});
+  }
+  return {{"same_bits", runs[0]["content_hash"] == runs[1]["content_hash"]}, {"runs", runs}};
 }
 
 }  // namespace sandstroke

@@ -48,7 +48,7 @@ Case csv(const std::string& name, const std::string& text, std::vector<std::stri
 
 const std::vector<Case> cases = {
     {"NoCommand", {}, 2, {"--help"}, {}},
-    {"UnknownCommand", {"rnu", "scene.toml"}, 2, {"--help"}, {}},
+    {"UnknownCommand", {"rnu", "scene.toml"}, 2, {"did you mean run?"}, {}},
     {"UnknownOption", {"run", "scene.toml", "--fast"}, 2, {"--fast"}, {}},
     {"NegativeThreads", {"run", "scene.toml", "--threads", "-1"}, 2, {"threads"}, {}},
     {"MissingScene", {"run", "none.toml", "-o", "out.h5"}, 4, {"none.toml", "cannot be opened"}, {}},

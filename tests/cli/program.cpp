@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <linux/capability.h>
 #include <signal.h>
+#include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -27,6 +28,11 @@ void write_file(const fs::path& path, const std::string& text) {
 
 namespace {
 
+std::string written_to(int file) {
+  std::string text(static_cast<std::size_t>(lseek(file, 0, SEEK_END)), '\0');
+  return pread(file, text.data(), text.size(), 0) < 0 ? "" : text;
+}
+
 /// For what is executed next.
 void refuse_real_time() {
   const rlimit none{0, 0};
@@ -40,24 +46,26 @@ void refuse_real_time() {
 
 ProgramResult run_program(const std::vector<std::string>& arguments, const fs::path& folder,
                           const Conditions& conditions) {
-  const fs::path out = conditions.out ? fs::path(conditions.out) : folder / ".stdout",
-                 err = folder / ".stderr";
+  // In memory: the folder may be full, read-only, or gone.
+  const int out = conditions.out ? open(conditions.out, O_WRONLY | O_CLOEXEC)
+                                 : memfd_create("out", MFD_CLOEXEC),
+            err = memfd_create("err", MFD_CLOEXEC);
   std::vector<char*> argv = {const_cast<char*>("sandstroke")};
   for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
   argv.push_back(nullptr);
 
   const pid_t child = fork();
   if (child == 0) {
-    const int out_file = open(out.c_str(), O_CREAT | O_TRUNC | O_WRONLY, 0644);
-    const int err_file = open(err.c_str(), O_CREAT | O_TRUNC | O_WRONLY, 0644);
-    dup2(out_file, STDOUT_FILENO);
-    dup2(err_file, STDERR_FILENO);
+    dup2(out, STDOUT_FILENO);
+    dup2(err, STDERR_FILENO);
     if (conditions.most_file_bytes > 0) {
       const rlimit limit{conditions.most_file_bytes, conditions.most_file_bytes};
       setrlimit(RLIMIT_FSIZE, &limit);
       signal(SIGXFSZ, SIG_IGN);  // writing fails instead, as on a full disk
     }
+    if (!conditions.path.empty()) setenv("PATH", conditions.path.c_str(), 1);
     if (conditions.real_time_refused) refuse_real_time();
+    if (conditions.in_child) conditions.in_child();
     if (chdir(folder.c_str()) == 0) execv(SANDSTROKE_PROGRAM, argv.data());
     _exit(127);
   }
@@ -79,8 +87,10 @@ ProgramResult run_program(const std::vector<std::string>& arguments, const fs::p
   ProgramResult result;
   result.peak_memory = 1024.0 * static_cast<double>(usage.ru_maxrss);
   result.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-  if (!conditions.out) result.out = read_file(out);
-  result.err = read_file(err);
+  if (!conditions.out) result.out = written_to(out);
+  result.err = written_to(err);
+  close(out);
+  close(err);
   return result;
 }
 

@@ -16,12 +16,14 @@ struct ProgramResult {
 
 /// What a run of the program meets with.
 struct Conditions {
-  int signal = 0;                   ///< sent to it ...
-  int after_ms = 0;                 ///< ... so long after its start ...
-  std::size_t most_file_bytes = 0;  ///< a disk that is full from there on; 0: no limit
-  const char* out = nullptr;        ///< where its standard output goes instead
-  std::function<bool()> when = {};  ///< ... or, where there is one, as soon as this holds
-  bool real_time_refused = false;   ///< no permission for real-time scheduling, nor for locked memory
+  int signal = 0;                       ///< sent to it ...
+  double after_ms = 0.0;                ///< ... so long after its start ...
+  std::size_t most_file_bytes = 0;      ///< a disk that is full from there on; 0: no limit
+  const char* out = nullptr;            ///< where its standard output goes instead
+  std::function<bool()> when = {};      ///< ... or, where there is one, as soon as this holds
+  std::string path = {};                ///< where it finds other programs, instead of PATH
+  bool real_time_refused = false;       ///< no permission for real-time scheduling, nor for locked memory
+  std::function<void()> in_child = {};  ///< what else befalls it: called where it is about to start
 };
 
 /// Runs build/.../sandstroke with these arguments in a folder.

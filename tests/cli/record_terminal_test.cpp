@@ -119,19 +119,19 @@ class AtTerminal {
 };
 
 /// A hand that rests, for longer than any test waits.
-fs::path folder_with_long_stroke() {
+fs::path folder_with_resting_hand() {
   const fs::path folder = test_folder();
   write_file(folder / "line.toml", "[[segment]]\nkind = \"move\"\nto = [0.05, 0.0]\nwait = 300.0\n");
   return folder;
 }
 
-const std::vector<std::string> record_line = {"record", "-o", "a.h5", "--device", "scripted:line.toml",
-                                              "--json"};
+const std::vector<std::string> record_to_json = {"record", "-o", "a.h5", "--device", "scripted:line.toml",
+                                                 "--json"};
 
 TEST(CliRecordTerminal, AKeyEndsARecordingAndTheTerminalIsAsBefore) {
   for (const char* key : {"q", "\033", "\n", " "}) {
-    const fs::path folder = folder_with_long_stroke();
-    AtTerminal program(record_line, folder);
+    const fs::path folder = folder_with_resting_hand();
+    AtTerminal program(record_to_json, folder);
     ASSERT_TRUE(program.shows(" Hz")) << program.shown();
     EXPECT_TRUE(program.keys_come_unseen());
     program.type(key);
@@ -142,8 +142,8 @@ TEST(CliRecordTerminal, AKeyEndsARecordingAndTheTerminalIsAsBefore) {
 }
 
 TEST(CliRecordTerminal, OtherKeysDoNothing) {
-  const fs::path folder = folder_with_long_stroke();
-  AtTerminal program(record_line, folder);
+  const fs::path folder = folder_with_resting_hand();
+  AtTerminal program(record_to_json, folder);
   ASSERT_TRUE(program.shows(" Hz"));
   program.type("x\032");  // Ctrl-Z would leave the hand with the last force
   program.type("\033[A");
@@ -153,8 +153,8 @@ TEST(CliRecordTerminal, OtherKeysDoNothing) {
 }
 
 TEST(CliRecordTerminal, ATerminalThatIsHeldDoesNotHoldTheRecording) {
-  const fs::path folder = folder_with_long_stroke();
-  AtTerminal program(record_line, folder);
+  const fs::path folder = folder_with_resting_hand();
+  AtTerminal program(record_to_json, folder);
   ASSERT_TRUE(program.shows(" Hz")) << program.shown();
   program.type("\023");  // Ctrl-S: nothing is shown until Ctrl-Q
   const auto size = [&] { return fs::file_size(folder / "a.h5.recording"); };
@@ -167,8 +167,8 @@ TEST(CliRecordTerminal, ATerminalThatIsHeldDoesNotHoldTheRecording) {
 
 TEST(CliRecordTerminal, SignalsLeaveTheTerminalAsBefore) {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGABRT}) {
-    const fs::path folder = folder_with_long_stroke();
-    AtTerminal program(record_line, folder);
+    const fs::path folder = folder_with_resting_hand();
+    AtTerminal program(record_to_json, folder);
     ASSERT_TRUE(program.shows(" Hz")) << program.shown();
     program.send(signal);
     EXPECT_EQ(program.wait(), 128 + signal) << program.shown();
@@ -178,8 +178,8 @@ TEST(CliRecordTerminal, SignalsLeaveTheTerminalAsBefore) {
 }
 
 TEST(CliRecordTerminal, CtrlCIsASignal) {
-  const fs::path folder = folder_with_long_stroke();
-  AtTerminal program(record_line, folder);
+  const fs::path folder = folder_with_resting_hand();
+  AtTerminal program(record_to_json, folder);
   ASSERT_TRUE(program.shows(" Hz")) << program.shown();
   program.type("\003");
   EXPECT_EQ(program.wait(), 130) << program.shown();
@@ -187,15 +187,15 @@ TEST(CliRecordTerminal, CtrlCIsASignal) {
 }
 
 TEST(CliRecordTerminal, AnErrorLeavesTheTerminalAsBefore) {
-  const fs::path folder = folder_with_long_stroke();
+  const fs::path folder = folder_with_resting_hand();
   AtTerminal program({"record", "-o", "nowhere/a.h5", "--device", "scripted:line.toml"}, folder);
   EXPECT_EQ(program.wait(), 4) << program.shown();
   EXPECT_TRUE(program.is_as_before());
 }
 
 TEST(CliRecordTerminal, WhatWasTypedAheadIsForTheShell) {
-  const fs::path folder = folder_with_long_stroke();
-  std::vector<std::string> arguments = record_line;
+  const fs::path folder = folder_with_resting_hand();
+  std::vector<std::string> arguments = record_to_json;
   arguments.insert(arguments.end(), {"--duration", "0.3"});
   AtTerminal program(arguments, folder, "quit\n");
   EXPECT_EQ(program.wait(), 0) << program.shown();
@@ -204,9 +204,9 @@ TEST(CliRecordTerminal, WhatWasTypedAheadIsForTheShell) {
 }
 
 TEST(CliRecordTerminal, TheLineStaysOneLineInANarrowTerminal) {
-  const fs::path folder = folder_with_long_stroke();
+  const fs::path folder = folder_with_resting_hand();
   constexpr std::size_t columns = 24;
-  AtTerminal program(record_line, folder, "", columns);
+  AtTerminal program(record_to_json, folder, "", columns);
   ASSERT_TRUE(program.shows("record 1.")) << program.shown();
   program.type("q");
   EXPECT_EQ(program.wait(), 0) << program.shown();
@@ -219,8 +219,8 @@ TEST(CliRecordTerminal, TheLineStaysOneLineInANarrowTerminal) {
 }
 
 TEST(CliRecordTerminal, InTheBackgroundItDrawsNothing) {
-  const fs::path folder = folder_with_long_stroke();
-  std::vector<std::string> arguments = record_line;
+  const fs::path folder = folder_with_resting_hand();
+  std::vector<std::string> arguments = record_to_json;
   arguments.insert(arguments.end(), {"--duration", "0.5"});
   AtTerminal program(arguments, folder, "", 80, true);
   EXPECT_EQ(program.wait(), 0) << program.shown();
@@ -228,8 +228,8 @@ TEST(CliRecordTerminal, InTheBackgroundItDrawsNothing) {
 }
 
 TEST(CliRecordTerminal, QuietHidesTheLineAndKeysStillWork) {
-  const fs::path folder = folder_with_long_stroke();
-  std::vector<std::string> arguments = record_line;
+  const fs::path folder = folder_with_resting_hand();
+  std::vector<std::string> arguments = record_to_json;
   arguments.push_back("--quiet");
   AtTerminal program(arguments, folder);
   while (!fs::exists(folder / "a.h5.recording") || fs::file_size(folder / "a.h5.recording") < 20'000)

@@ -70,7 +70,7 @@ TEST(CliRun, ARunThatIsNotAtRestSaysSoAndExitsWith3) {
 }
 
 /// A folder with a stroke that takes minutes: slow, and with a tool that covers many cells.
-fs::path folder_with_long_stroke() {
+fs::path folder_with_slow_stroke() {
   const fs::path folder = test_folder();
   write_file(folder / "scene.toml",
              "[bed]\nsize = [0.3, 0.2]\ncells = [1200, 800]\n[tool]\nradius = 0.02\n[stroke]\nfile = "
@@ -83,7 +83,7 @@ fs::path folder_with_long_stroke() {
 
 TEST(CliRun, StoppedBySignalItKeepsWhatIsCompleteAndMarksItSo) {
   for (const int signal : {SIGINT, SIGTERM}) {
-    const fs::path folder = folder_with_long_stroke();
+    const fs::path folder = folder_with_slow_stroke();
     const ProgramResult run = run_program(
         {"run", "scene.toml", "-o", "a.h5", "--stroke", "long.toml", "--json"}, folder, {signal, 1500});
     EXPECT_EQ(run.exit_code, 128 + signal) << run.err;
@@ -99,7 +99,7 @@ TEST(CliRun, StoppedBySignalItKeepsWhatIsCompleteAndMarksItSo) {
 }
 
 TEST(CliRun, KilledItLeavesWhatWasFlushedAndNothingThatLooksComplete) {
-  const fs::path folder = folder_with_long_stroke();
+  const fs::path folder = folder_with_slow_stroke();
   Conditions killed{SIGKILL};
   killed.when = [part = folder / "a.h5.part"] { return fs::exists(part) && fs::file_size(part) > 1'000'000; };
   run_program({"run", "scene.toml", "-o", "a.h5", "--stroke", "long.toml"}, folder, killed);
@@ -110,7 +110,7 @@ TEST(CliRun, KilledItLeavesWhatWasFlushedAndNothingThatLooksComplete) {
 }
 
 TEST(CliRun, ASecondRunCannotWriteTheSameFile) {
-  const fs::path folder = folder_with_long_stroke();
+  const fs::path folder = folder_with_slow_stroke();
   ProgramResult first;
   std::thread writing([&] {
     first = run_program({"run", "scene.toml", "-o", "a.h5", "--stroke", "long.toml"}, folder,

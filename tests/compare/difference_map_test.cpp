@@ -11,7 +11,7 @@ namespace {
 
 TEST(Spots, AnyOneCellIsSeenWhateverIsAroundIt) {
   // 23 x 37 cells in spots of 4 x 4: those at the end are cut off.
-  for (const double value : {1.0, -1.0, std::nan(""), double{INFINITY}}) {
+  for (const double value : {1.0, -1.0, std::nan(""), HUGE_VAL}) {
     for (int row = 0; row < 23; ++row) {
       for (int col = row % 3; col < 37; col += 3) {
         HeightGrid values = HeightGrid::Constant(23, 37, 1e-3);
@@ -43,7 +43,7 @@ TEST(Spots, OtherGridsAreReadAtTheSameCells) {
 
 TEST(FiniteMagnitude, LeavesOutWhatIsNotFinite) {
   HeightGrid values(1, 4);
-  values << 1.0, -3.0, std::nan(""), -INFINITY;
+  values << 1.0, -3.0, std::nan(""), -HUGE_VAL;
   EXPECT_EQ(finite_magnitude(values), 3.0);
   EXPECT_EQ(finite_magnitude(HeightGrid::Constant(2, 2, std::nan(""))), 0.0);
 }

@@ -47,6 +47,24 @@ TEST_F(Golden, RoundTripPasses) {
                                              "force", "depth", "level", "picture", "picture share"}));
 }
 
+TEST_F(Golden, WhatAKilledUpdateLeftIsNoEntryAndInNobodysWay) {
+  fs::create_directories(folder / "golden/dune.new.part");
+  write_text_file(folder / "golden/dune.new.part/golden.h5", "half");
+  write_text_file(folder / "golden/dune.part", "");  // its lock
+  for (int update = 0; update < 2; ++update) {       // where there is no entry, and where there is one
+    write_golden(folder / "golden/dune", finished());
+    EXPECT_TRUE(compare().passed());
+    EXPECT_EQ(std::distance(fs::directory_iterator(folder / "golden"), fs::directory_iterator()), 1);
+  }
+}
+
+TEST_F(Golden, IsNotWrittenByTwoAtATime) {
+  write_golden(folder / "golden/dune", finished());
+  const FileLock writing = take_part(folder / "golden/dune");
+  EXPECT_THROW(write_golden(folder / "golden/dune", finished()), Error);
+  EXPECT_TRUE(compare().passed());
+}
+
 TEST_F(Golden, SandThatIsLostOrMadeFails) {
   write_golden(folder / "golden/dune", finished());
   GoldenRun leaking = finished();
@@ -171,7 +189,7 @@ TEST_F(Golden, OnlyACompleteFiniteRunBecomesGolden) {
 TEST_F(Golden, UpdateReplacesTheWholeEntryAndLeavesNothingBeside) {
   write_golden(folder / "golden/dune", finished());
   std::ofstream(folder / "golden/dune/stray.txt") << "old";
-  fs::create_directories(folder / "golden/dune.part/golden.h5.part");  // left by an update that was killed
+  fs::create_directories(folder / "golden/dune.new.part/golden.h5.part");  // left by an update that was killed
   run.final(0, 0) = 0.001;
   write_golden(folder / "golden/dune", finished());
   EXPECT_TRUE(compare().passed());
@@ -281,6 +299,9 @@ TEST_F(GoldenScenes, ADamagedEntryFailsEvenWithAReport) {
 
 TEST_F(GoldenScenes, UpdateOfAnUnknownSceneIsBadInput) {
   EXPECT_THROW(update_golden("dunes", folders, runner()), Error);
+  // One that is there, by a path that leads out of both folders and in again.
+  for (const char* name : {"../strokes/dune", "./dune", "dune/", "..", ".", ""})
+    EXPECT_THROW(update_golden(name, folders, runner()), Error) << name;
 }
 
 }  // namespace

@@ -5,6 +5,8 @@
 #include <map>
 #include <stdexcept>
 
+#include "core/version.h"
+
 namespace sandstroke {
 namespace {
 
@@ -101,6 +103,7 @@ TEST(Junit, CountsAndNamesWhatFailed) {
       {"collapse", {fact_check("scene", false, "scene changed"), fact_check("picture", false, "gone")}}};
   const Element root = StrictXml(junit_report(comparisons)).document();
   EXPECT_EQ(root.name, "testsuites");
+  EXPECT_EQ(root.attributes.at("name"), build);
   EXPECT_EQ(root.attributes.at("tests"), "4");
   EXPECT_EQ(root.attributes.at("failures"), "3");
   ASSERT_EQ(root.children.size(), 2u);

@@ -61,7 +61,7 @@ TEST(ThinnedCurve, KeepsGapsAndTheExtremesBesideThem) {
   const Curve kept = thinned_curve(curve_of(1000,
                                             [](std::size_t i) {
                                               if (i == 500) return nan;
-                                              if (i == 503) return double{INFINITY};
+                                              if (i == 503) return HUGE_VAL;
                                               return i == 501 ? 7.0 : i == 502 ? -7.0 : 0.0;
                                             }),
                                    20);

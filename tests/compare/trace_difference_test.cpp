@@ -10,7 +10,7 @@
 namespace sandstroke {
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
 
 TEST(TraceDifference, IsZeroForEqualTracesWithALiftedTool) {
   const RunTrace trace = SyntheticRun().trace;
@@ -47,15 +47,15 @@ TEST(TraceDifference, NanCountsWhereTheToolIsNotLiftedOrOnlyOneHasIt) {
   EXPECT_EQ(trace_difference(golden, run).level.tick, 5u);
 
   run = golden;
-  run.level[50] = nan;
+  run.level[50] = no_number;
   run.level[60] += 100.0;
   EXPECT_TRUE(std::isnan(trace_difference(golden, run).level.max));
   EXPECT_EQ(trace_difference(golden, run).level.tick, 50u);
   EXPECT_TRUE(std::isnan(trace_difference(run, run).level.max)) << "in contact, NaN is never right";
 
   run = golden;
-  run.device_force[3].y() = nan;
-  run.depth[4] = nan;
+  run.device_force[3].y() = no_number;
+  run.depth[4] = no_number;
   EXPECT_TRUE(std::isnan(trace_difference(run, run).force.max)) << "a force is never NaN, not even lifted";
   EXPECT_TRUE(std::isnan(trace_difference(run, run).depth.max)) << "nor is a depth";
 }

@@ -1,9 +1,18 @@
 #include "core/child_process.h"
 
 #include <gtest/gtest.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "test_folder.h"
 
 namespace sandstroke {
 namespace {
+
+namespace fs = std::filesystem;
 
 TEST(ChildProcess, NoShellTakesItsWordsApart) {
   const auto result = run_child({"printf", "%s|", "two words", "$HOME", "a'b\"c", "; exit 1", "*", ""});
@@ -33,7 +42,51 @@ TEST(ChildProcess, SaysWhatSignalEndedIt) {
   EXPECT_EQ(result->exit_code, 143);
 }
 
-TEST(ChildProcess, ThereIsNoSuchProgram) { EXPECT_FALSE(run_child({"sandstroke-no-such-program"})); }
+TEST(ChildProcess, ThereIsNoSuchProgram) {
+  EXPECT_FALSE(run_child({"sandstroke-no-such-program"}));
+  EXPECT_FALSE(FedChild::start({"sandstroke-no-such-program"}));
+}
+
+TEST(ChildProcess, TakesAllThatItIsFed) {
+  auto child = FedChild::start({"sh", "-c", "cat; echo end >&2; exit 3"});
+  ASSERT_TRUE(child);
+  std::string all;
+  for (char c = 'a'; c < 'f'; ++c) {
+    const std::string part(300'000, c);
+    EXPECT_TRUE(child->feed(part.data(), part.size()));
+    all += part;
+  }
+  const auto result = child->wait();
+  ASSERT_TRUE(result);
+  EXPECT_EQ(result->exit_code, 3);
+  EXPECT_TRUE(result->out == all);
+  EXPECT_EQ(result->err, "end");
+}
+
+TEST(ChildProcess, OneThatTakesNoMoreIsNoSignal) {
+  auto child = FedChild::start({"sh", "-c", "head -c 10; exit 5"});
+  ASSERT_TRUE(child);
+  const std::string part(3'000'000, 'x');
+  EXPECT_FALSE(child->feed(part.data(), part.size()));
+  const auto result = child->wait();
+  ASSERT_TRUE(result);
+  EXPECT_EQ(result->exit_code, 5);
+  EXPECT_EQ(result->out, "xxxxxxxxxx");
+}
+
+TEST(ChildProcess, NobodyWaitsForItItIsKilled) {
+  const TestFolder folder;
+  const std::string file = (folder / "pid").string();
+  {
+    auto child = FedChild::start({"sh", "-c", "echo $$ > " + file + "; exec sleep 1000"});
+    ASSERT_TRUE(child);
+    while (!fs::exists(file) || fs::file_size(file) == 0) usleep(1000);
+  }
+  pid_t process = 0;
+  std::ifstream(file) >> process;
+  ASSERT_GT(process, 0);
+  EXPECT_EQ(kill(process, 0), -1);
+}
 
 }  // namespace
 }  // namespace sandstroke

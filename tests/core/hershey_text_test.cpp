@@ -23,6 +23,15 @@ TEST(HersheyText, LettersFollowEachOther) {
   EXPECT_TRUE(hershey_text(" ").polylines.empty());
 }
 
+TEST(HersheyText, AFontIsReadOnceForManyTexts) {
+  const HersheyFont font("futural");
+  for (const char* text : {"W", "S", "WS"}) {
+    const SingleStrokeText drawn = font.draw(text), alone = hershey_text(text);
+    EXPECT_EQ(drawn.width, alone.width);
+    EXPECT_EQ(drawn.polylines, alone.polylines);
+  }
+}
+
 TEST(HersheyText, RefusesFontsAndLettersThatAreNotThere) {
   EXPECT_THROW(hershey_text("A", "no-such-font"), Error);
   EXPECT_THROW(hershey_text("A", "../futural"), Error);

@@ -1,6 +1,7 @@
 #include "core/output_file.h"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include "core/error.h"
 #include "test_folder.h"
@@ -19,6 +20,27 @@ TEST(OutputFile, IsPutInPlaceWhole) {
   fs::remove(path);
 }
 
+TEST(OutputFile, IsNotWrittenByTwoAtATime) {
+  const TestFolder folder;
+  const fs::path path = folder / "file";
+  {
+    const FileLock writing = take_part(path);
+    EXPECT_THROW(write_text_file(path, "another's"), Error);
+    EXPECT_THROW(take_part(path), Error);
+    EXPECT_FALSE(fs::exists(path));
+    EXPECT_TRUE(fs::exists(part_path(path)));  // of the one that has it
+  }
+  write_text_file(path, "mine");  // whoever had it was killed
+  EXPECT_EQ(read_text_file(path), "mine");
+}
+
+TEST(OutputFile, ThatTakesAPlaceOfAFolderIsRefusedAndLeavesNothing) {
+  const TestFolder folder;
+  make_folder(folder / "file.part");
+  EXPECT_THROW(write_text_file(folder / "file", "text"), Error);
+  EXPECT_FALSE(fs::exists(folder / "file"));
+}
+
 TEST(OutputFile, ErrorsNameFileAndRemedy) {
   try {
     write_text_file("/nowhere/at/all.txt", "text");
@@ -29,6 +51,38 @@ TEST(OutputFile, ErrorsNameFileAndRemedy) {
   }
   EXPECT_THROW(read_text_file("/nowhere/at/all.txt"), Error);
   EXPECT_THROW(read_text_file("/"), Error);
+  EXPECT_THROW(read_text_file("/dev/zero"), Error);  // which has no end
+}
+
+TEST(OutputFile, NothingIsWrittenThroughALinkOrPipe) {
+  const TestFolder folder;
+  write_text_file(folder / "precious", "text");
+  const fs::path path = folder / "file";
+  for (const char* target : {"precious", "nothing"}) {
+    fs::create_symlink(target, part_path(path));
+    EXPECT_THROW(write_text_file(path, "bad"), Error);
+    EXPECT_THROW(take_part(path), Error);
+    fs::remove(part_path(path));
+  }
+  EXPECT_EQ(read_text_file(folder / "precious"), "text");
+  EXPECT_FALSE(fs::exists(folder / "nothing"));
+  EXPECT_FALSE(fs::exists(path));
+  ASSERT_EQ(mkfifo(part_path(path).c_str(), 0600), 0);
+  EXPECT_THROW(write_text_file(path, "bad"), Error);
+  fs::remove(part_path(path));
+  // A link to where the file is to be: the file takes its place, what it led to stays.
+  fs::create_symlink("precious", path);
+  write_text_file(path, "new");
+  EXPECT_EQ(read_text_file(folder / "precious"), "text");
+  EXPECT_FALSE(fs::is_symlink(path));
+}
+
+TEST(OutputFile, WhatMightNeverEndIsNoInput) {
+  const TestFolder folder;
+  ASSERT_EQ(mkfifo((folder / "pipe").c_str(), 0600), 0);
+  EXPECT_THROW(check_readable(folder / "pipe"), Error);
+  EXPECT_THROW(check_readable("/dev/zero"), Error);
+  EXPECT_THROW(read_text_file("/dev/zero"), Error);
 }
 
 TEST(MakeFolder, MakesAllOnTheWayAndSaysWhatIsInIt) {

@@ -19,32 +19,32 @@ DeviceSettings light_device(double servo_rate) {
   return settings;
 }
 
-const State moving{{1e-3, -2e-3, 3e-3}, {0.2, -0.1, 0.05}};
-const State hand{{0.0, 0.0, 0.0}, {0.1, 0.0, -0.1}}, hand_after{{1e-4, 0.0, -1e-4}, {0.1, 0.0, -0.1}};
+const State fast{{1e-3, -2e-3, 3e-3}, {0.2, -0.1, 0.05}};
+const State held_hand{{0.0, 0.0, 0.0}, {0.1, 0.0, -0.1}}, next_hand{{1e-4, 0.0, -1e-4}, {0.1, 0.0, -0.1}};
 
 TEST(DragVelocity, IsTheMeanOneOfTheTick) {
   for (const double rate : {50.0, 1000.0, 20000.0})
     for (const double drag : {0.0, 0.1, 1.0, 4.9}) {  // below 2 m / T
-      SimulatedDevice device(light_device(rate), moving);
+      SimulatedDevice device(light_device(rate), fast);
       const Eigen::Vector3d pressing(0.0, 0.0, 2.0);
-      const Eigen::Vector3d velocity = device.drag_velocity(hand, hand_after, pressing, drag);
-      device.advance(hand, hand_after, pressing - drag * velocity);
-      const Eigen::Vector3d motion = device.state().position - moving.position;
+      const Eigen::Vector3d velocity = device.drag_velocity(held_hand, next_hand, pressing, drag);
+      device.advance(held_hand, next_hand, pressing - drag * velocity);
+      const Eigen::Vector3d motion = device.state().position - fast.position;
       EXPECT_NEAR((motion * rate - velocity).norm(), 0.0, 1e-9) << rate << " Hz, " << drag << " N s/m";
     }
 }
 
 TEST(DragVelocity, WithoutDragIsTheFreeDevices) {
-  SimulatedDevice device(light_device(1000.0), moving);
-  const Eigen::Vector3d velocity = device.drag_velocity(hand, hand_after, Eigen::Vector3d::Zero(), 0.0);
-  device.advance(hand, hand_after, Eigen::Vector3d::Zero());
-  EXPECT_NEAR((device.state().position - moving.position - 1e-3 * velocity).norm(), 0.0, 1e-15);
+  SimulatedDevice device(light_device(1000.0), fast);
+  const Eigen::Vector3d velocity = device.drag_velocity(held_hand, next_hand, Eigen::Vector3d::Zero(), 0.0);
+  device.advance(held_hand, next_hand, Eigen::Vector3d::Zero());
+  EXPECT_NEAR((device.state().position - fast.position - 1e-3 * velocity).norm(), 0.0, 1e-15);
 }
 
 TEST(DragVelocity, OfAShortTickIsTheVelocityReadBeforeIt) {
-  const SimulatedDevice device(light_device(1e6), moving);
-  const Eigen::Vector3d velocity = device.drag_velocity(hand, hand, Eigen::Vector3d::Zero(), 10.0);
-  EXPECT_NEAR((velocity - moving.velocity).norm(), 0.0, 1e-3 * moving.velocity.norm());
+  const SimulatedDevice device(light_device(1e6), fast);
+  const Eigen::Vector3d velocity = device.drag_velocity(held_hand, held_hand, Eigen::Vector3d::Zero(), 10.0);
+  EXPECT_NEAR((velocity - fast.velocity).norm(), 0.0, 1e-3 * fast.velocity.norm());
 }
 
 TEST(DragVelocity, StopsAFreeMassAtMost) {
@@ -52,11 +52,11 @@ TEST(DragVelocity, StopsAFreeMassAtMost) {
   settings.damping = settings.hand_stiffness = settings.hand_damping = 0.0;
   const double m = settings.mass, deadbeat = 2.0 * m * 1000.0;
   for (const double drag : {0.1 * deadbeat, 0.99 * deadbeat, deadbeat, 3.0 * deadbeat, 1e9 * deadbeat}) {
-    SimulatedDevice device(settings, moving);
-    const Eigen::Vector3d velocity = device.drag_velocity(moving, moving, Eigen::Vector3d::Zero(), drag);
-    device.advance(moving, moving, -drag * velocity);
+    SimulatedDevice device(settings, fast);
+    const Eigen::Vector3d velocity = device.drag_velocity(fast, fast, Eigen::Vector3d::Zero(), drag);
+    device.advance(fast, fast, -drag * velocity);
     const double share = std::min(drag / deadbeat, 1.0);  // the trapezoidal rule's, as far as it brakes
-    const Eigen::Vector3d expected = (1.0 - share) / (1.0 + share) * moving.velocity;
+    const Eigen::Vector3d expected = (1.0 - share) / (1.0 + share) * fast.velocity;
     EXPECT_NEAR((device.state().velocity - expected).norm(), 0.0, 1e-12) << drag;
   }
 }
@@ -69,11 +69,11 @@ TEST(ImplicitDrag, IsAPlainDampersInTheLimitOfShortTicks) {
   for (const double rate : {1000.0, 2000.0, 4000.0}) {
     DeviceSettings settings = light_device(rate);
     settings.damping = settings.hand_stiffness = settings.hand_damping = 0.0;
-    SimulatedDevice device(settings, moving);
+    SimulatedDevice device(settings, fast);
     for (int k = 0; k < static_cast<int>(seconds * rate); ++k)
-      device.advance(moving, moving, -B * device.drag_velocity(moving, moving, Eigen::Vector3d::Zero(), B));
+      device.advance(fast, fast, -B * device.drag_velocity(fast, fast, Eigen::Vector3d::Zero(), B));
     const double m = settings.mass;
-    const Eigen::Vector3d exact = moving.position + moving.velocity * m / B * -std::expm1(-B * seconds / m);
+    const Eigen::Vector3d exact = fast.position + fast.velocity * m / B * -std::expm1(-B * seconds / m);
     const double error = (device.state().position - exact).norm();
     if (error_before > 0.0) {
       EXPECT_NEAR(error_before / error, 4.0, 0.1) << rate;
@@ -87,7 +87,7 @@ TEST(ImplicitDrag, TakesEnergyInEveryTickWhateverDragAndTimeStep) {
        {20.0, 50.0, 1000.0, 20000.0})  // at 20 Hz the hand swings the mass 1.6 times a tick
     for (const double drag : {1e-3, 1.0, 1e3, 1e6}) {
       const State rest{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
-      SimulatedDevice device(light_device(rate), moving);
+      SimulatedDevice device(light_device(rate), fast);
       for (int k = 0; k < 20'000; ++k) {
         const Eigen::Vector3d force = -drag * device.drag_velocity(rest, rest, Eigen::Vector3d::Zero(), drag);
         const Eigen::Vector3d before = device.state().position;
@@ -95,7 +95,7 @@ TEST(ImplicitDrag, TakesEnergyInEveryTickWhateverDragAndTimeStep) {
         const Eigen::Vector3d motion = device.state().position - before;
         ASSERT_LE((force.array() * motion.array()).maxCoeff(), 1e-15) << rate << " Hz, " << drag << " N s/m";
       }
-      EXPECT_LT(device.state().position.norm(), 2.0 * moving.position.norm());
+      EXPECT_LT(device.state().position.norm(), 2.0 * fast.position.norm());
     }
 }
 

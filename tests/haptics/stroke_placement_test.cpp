@@ -163,6 +163,32 @@ TEST(StrokePlacement, SaysWhatCannotBePlaced) {
   EXPECT_THAT(complaint(stroke_through(flat_tracing()), none), HasSubstr("scale is 0"));
 }
 
+/// A plunge, a drag along a line and a lift lie in an upright plane: level, the drag would lie on its side.
+TEST(StrokePlacement, RefusesAPlaneThatIsNoTable) {
+  StrokePlacement fit;
+  fit.plane = StrokePlane::fit;
+  std::vector<Vector3d> drag;
+  for (int i = 0; i <= 40; ++i) drag.emplace_back(-0.1, 0.0, 0.001 * (40 - i));
+  for (int i = 0; i <= 100; ++i) drag.emplace_back(0.002 * i - 0.1, 0.0, 0.0);
+  for (int i = 0; i <= 40; ++i) drag.emplace_back(0.1, 0.0, 0.001 * i);
+  EXPECT_THAT(
+      complaint(stroke_through(drag), fit),
+      testing::AllOf(HasSubstr("hand.h5"), HasSubstr("tilted 90 deg"), HasSubstr("stroke.plane = \"keep\"")));
+  const auto tilted = [](double degrees) {
+    std::vector<Vector3d> points = flat_tracing();
+    const Eigen::AngleAxisd tilt(degrees * std::numbers::pi / 180.0, Vector3d(3, -4, 0) / 5.0);
+    for (Vector3d& p : points) p = tilt * p;
+    return stroke_through(points);
+  };
+  for (const double degrees : {-44.9, 0.0, 44.9, 180.0}) EXPECT_EQ(complaint(tilted(degrees), fit), "");
+  for (const double degrees : {-45.1, 45.1, 134.9})
+    EXPECT_THAT(complaint(tilted(degrees), fit), HasSubstr("no tracing on a table"));
+  // Along x, as thick as it is wide: any plane through the line would do.
+  std::vector<Vector3d> rod;
+  for (int i = 0; i < 400; ++i) rod.emplace_back(0.001 * i, 0.001 * std::cos(i), 0.001 * std::sin(i));
+  EXPECT_THAT(complaint(stroke_through(rod), fit), HasSubstr("twice as wide"));
+}
+
 TEST(PlaceStroke, TurnsDeviceAxesToTheBeds) {
   Stroke stroke;  // +x towards the operator, who sits at the bed's -y; +y to the operator's right
   stroke.frame = "device";

@@ -244,5 +244,27 @@ TEST(StrokeScript, SaysWhichSegmentCannotBeDrawn) {
   EXPECT_THAT(complaint(script_of({{ScriptLine{{}, {1e300, 1e300}}, depth({0.01})}})), HasSubstr("samples"));
 }
 
+TEST(StrokeScript, LongSplinesTakeNoMoreThanTheirStroke) {
+  // 1000 points in zigzag, 20 m apart: legs of 0.1 mm would take 15 GB.
+  ScriptSpline spline;
+  for (int i = 0; i < 1000; ++i) spline.points.emplace_back(0.0, i % 2 * 20.0);
+  StrokeScript script = script_of({{spline, depth({0.01}), 50.0}});
+  script.rate = 20.0;
+  const Stroke stroke = trace_script(script, {});
+  EXPECT_NEAR(stroke.duration(), 1.0 + 999 * 20.0 / 50.0, 0.1);
+}
+
+TEST(StrokeScript, RefusesWorkWithoutEndThatGivesFewSamples) {
+  // On the spot nearly, so that its time says nothing of how much is drawn.
+  ScriptSpline spline;
+  for (int i = 0; i < 2000; ++i) spline.points.emplace_back(1e-12 * i, 0.0);
+  StrokeScript script = script_of({{spline, depth({0.01}), 50.0}});
+  script.repeat = 1000;
+  EXPECT_THAT(complaint(script),
+              AllOf(HasSubstr("segment 1"), HasSubstr("short lines"), HasSubstr("repeat")));
+  script.segments = {{ScriptSpline{{{-1e308, 0}, {1e308, 0}}}, depth({0.01})}};
+  EXPECT_THAT(complaint(script), HasSubstr("infinitely far"));
+}
+
 }  // namespace
 }  // namespace sandstroke

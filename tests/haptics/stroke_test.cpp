@@ -56,6 +56,18 @@ TEST(CheckStroke, NamesWhatIsWrongAndWhere) {
   EXPECT_THAT(complaint(stroke), AllOf(HasSubstr("position of sample 1"), HasSubstr("inf")));
 
   stroke = three_samples();
+  stroke.position[1].y() = 1e300;
+  EXPECT_THAT(complaint(stroke), AllOf(HasSubstr("position of sample 1"), HasSubstr("1e+300")));
+
+  stroke = three_samples();
+  stroke.time = {-1e300, 0.0, 1e300};
+  EXPECT_THAT(complaint(stroke), AllOf(HasSubstr("time of sample 0"), HasSubstr("-1e+300")));
+
+  stroke = three_samples();
+  stroke.time = {0.0, 1e-102, 2e-102};  // a rate of 1e102 Hz
+  EXPECT_THAT(complaint(stroke), AllOf(HasSubstr("time of sample 1"), HasSubstr("1e-102")));
+
+  stroke = three_samples();
   stroke.force.resize(2);
   EXPECT_THAT(complaint(stroke), AllOf(HasSubstr("force has 2 rows"), HasSubstr("time has 3")));
 

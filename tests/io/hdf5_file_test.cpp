@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "core/output_file.h"
+#include "core/version.h"
 #include "test_folder.h"
 
 namespace sandstroke {
@@ -54,6 +55,7 @@ TEST_F(Hdf5File, GivesBackWhatWasWritten) {
   EXPECT_TRUE(reader.doubles("/empty").empty());
   EXPECT_EQ(reader.number_attribute("/a", "number"), 3.5);
   EXPECT_EQ(reader.text_attribute("/", "word"), "yes");
+  EXPECT_EQ(reader.text_attribute("/", "written_by"), build);
   EXPECT_EQ(reader.members("/a"), (std::vector<std::string>{"b", "vectors"}));
   EXPECT_FALSE(reader.has("/a/none/deeper"));
 }
@@ -119,6 +121,81 @@ TEST_F(Hdf5File, RefusesWhatIsNoWholeHdf5File) {
 TEST_F(Hdf5File, ADiskThatTakesNothingIsAnError) {
   EXPECT_THROW(Hdf5Writer("/proc/nowhere/file.h5"), Error);
   EXPECT_THROW(Hdf5Writer(folder_ / "no-such-folder/file.h5"), Error);
+}
+
+/// A file whose datasets lie in others, each in another way.
+class Hdf5OfOthers : public Hdf5File {
+ protected:
+  void SetUp() override {
+    const fs::path secret = folder_ / "secret.h5";
+    {
+      Hdf5Writer writer(secret);
+      writer.write("/group/numbers", std::vector<double>(4, 42.0));
+      writer.attribute("/group", "word", "secret");
+      writer.finish();
+    }
+    std::ofstream(folder_ / "secret.bin") << std::string(32, 'x');
+    {
+      Hdf5Writer writer(path_);
+      writer.write("/own", std::vector<double>(4, 1.0));
+      writer.finish();
+    }
+    file_ = Hdf5Handle(H5Fopen(path_.c_str(), H5F_ACC_RDWR, H5P_DEFAULT), H5Fclose);
+    space_ = Hdf5Handle(H5Screate_simple(1, &count_, nullptr), H5Sclose);
+    properties_ = Hdf5Handle(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+  }
+  void make(const char* dataset) {
+    const Hdf5Handle made(
+        H5Dcreate2(file_, dataset, H5T_NATIVE_DOUBLE, space_, H5P_DEFAULT, properties_, H5P_DEFAULT),
+        H5Dclose);
+    ASSERT_TRUE(made.valid());
+  }
+  void expect_refusal(const std::string& dataset, const std::string& reason) {
+    ASSERT_TRUE(file_.close());
+    const std::string sentence = error_of_reading([&](const Hdf5Reader& reader) { reader.doubles(dataset); });
+    EXPECT_NE(sentence.find(dataset + " " + reason), std::string::npos) << sentence;
+  }
+  Hdf5Handle file_, space_, properties_;
+  const hsize_t count_ = 4;
+};
+
+TEST_F(Hdf5OfOthers, LinksIntoAnotherFileAreNotFollowed) {
+  H5Lcreate_external("secret.h5", "/group", file_, "/linked", H5P_DEFAULT, H5P_DEFAULT);
+  H5Lcreate_soft("/linked/numbers", file_, "/detour", H5P_DEFAULT, H5P_DEFAULT);
+  H5Lcreate_soft("/linked", file_, "/round", H5P_DEFAULT, H5P_DEFAULT);
+  expect_refusal("/linked", "is missing");
+  expect_refusal("/detour", "is missing");
+  const Hdf5Reader reader(path_);
+  EXPECT_EQ(reader.doubles("/own").size(), 4u);
+  EXPECT_FALSE(reader.has("/round"));
+  EXPECT_FALSE(reader.has("/round/numbers"));
+  EXPECT_FALSE(reader.has("/linked/numbers"));
+  EXPECT_THROW(reader.text_attribute("/linked", "word"), Error);
+  EXPECT_THROW(reader.text_attribute("/round", "word"), Error);
+  EXPECT_THROW(reader.members("/linked"), Error);
+  EXPECT_THROW(reader.members("/round"), Error);
+}
+
+TEST_F(Hdf5OfOthers, NoCodeIsLoadedForAFilter) {
+  const H5Z_class2_t filter = {
+      H5Z_CLASS_T_VERS,
+      300,
+      1,
+      1,
+      "own",
+      nullptr,
+      nullptr,
+      [](unsigned, std::size_t, const unsigned*, std::size_t bytes, std::size_t*, void**) { return bytes; }};
+  H5Zregister(&filter);
+  H5Pset_chunk(properties_, 1, &count_);
+  H5Pset_filter(properties_, filter.id, 0, 0, nullptr);
+  make("/packed");
+  ASSERT_TRUE(file_.close());
+  H5Zunregister(filter.id);
+  expect_refusal("/packed", "is packed in a way that is not read here");
+  unsigned loading = 1;
+  H5PLget_loading_state(&loading);
+  EXPECT_EQ(loading, 0u);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "dataset_shape.h"
 #include "io/hdf5_reader.h"
 #include "test_folder.h"
 
@@ -80,7 +81,7 @@ TEST_F(AGrid, OfOtherFilesReadsTheirNumbersAndNothingWhereThereAreNone) {
     file.write_virtual("all", {2, 2}, 2, 3, {{3, "part1.h5"}, {0, "part2.h5"}, {2, "lost.h5"}}, "/deep/h");
     file.finish();
   }
-  EXPECT_EQ(Hdf5Reader(path).shape("all"), (std::vector<hsize_t>{2, 2, 2, 3}));
+  EXPECT_EQ(dataset_shape(path, "all"), (std::vector<hsize_t>{2, 2, 2, 3}));
   const std::vector<double> all = read(path, "all", 24);
   for (std::size_t i = 0; i < 6; ++i) {
     EXPECT_EQ(all[i], 20.0 + static_cast<double>(i));       // (0, 0)

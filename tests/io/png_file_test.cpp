@@ -12,6 +12,7 @@
 
 #include "core/error.h"
 #include "core/output_file.h"
+#include "core/version.h"
 #include "test_folder.h"
 
 namespace sandstroke {
@@ -80,6 +81,21 @@ TEST_F(PngFile, EqualPicturesGiveEqualBytes) {
   write_png(file("a.png"), test_image(64, 64));
   write_png(file("b.png"), test_image(64, 64));
   EXPECT_EQ(read_text_file(file("a.png")), read_text_file(file("b.png")));
+}
+
+TEST_F(PngFile, SaysWhichBuildMadeIt) {
+  const std::string bytes = encode_png(test_image(37, 23));
+  std::FILE* in = fmemopen(const_cast<char*>(bytes.data()), bytes.size(), "rb");
+  png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
+  png_infop info = png_create_info_struct(png);
+  png_init_io(png, in);
+  png_read_info(png, info);
+  png_textp texts = nullptr;
+  ASSERT_EQ(png_get_text(png, info, &texts, nullptr), 1);
+  EXPECT_STREQ(texts[0].key, "Software");
+  EXPECT_STREQ(texts[0].text, build);
+  png_destroy_read_struct(&png, &info, nullptr);
+  std::fclose(in);
 }
 
 TEST_F(PngFile, InMemoryItIsWhatIsWritten) {

@@ -60,9 +60,10 @@ TEST_F(RunFileTest, HoldsWhatTheDesignPromises) {
   ASSERT_GT(times.size(), 3u);
   EXPECT_EQ(times[0], 0.0);
   EXPECT_DOUBLE_EQ(times[2], 0.4);
-  EXPECT_TRUE((file.frame(0) == file.initial()).all());
-  EXPECT_FALSE((file.frame(static_cast<int>(times.size()) - 1) == file.initial()).all());
-  EXPECT_NEAR(file.frame(2).sum(), 0.0, 1e-12);
+  RunFrames frames(file);
+  EXPECT_TRUE((frames.surface(0) == file.initial()).all());
+  EXPECT_FALSE((frames.surface(static_cast<int>(times.size()) - 1) == file.initial()).all());
+  EXPECT_NEAR(frames.surface(2).sum(), 0.0, 1e-12);
 
   const Hdf5Reader plain(folder_ / "a.h5");
   for (const std::string& column : plain.members("/trace"))
@@ -109,13 +110,21 @@ TEST_F(RunFileTest, FramesHoldTilesThatCameIntoBeingBetweenThem) {
   EXPECT_LT(frames.tiles[1], frames.tiles.back());
   const RunFile file(folder_ / "a.h5");
   ASSERT_EQ(file.frame_times().size(), frames.grids.size());
-  for (std::size_t k = 0; k < frames.grids.size(); ++k)
-    EXPECT_TRUE((file.frame(static_cast<int>(k)) == frames.grids[k]).all()) << k;
+  const int count = static_cast<int>(frames.grids.size());
+  RunFrames in_sequence(file), backwards(file);
+  for (int k = 0; k < count; ++k) {
+    EXPECT_TRUE((in_sequence.surface(k) == frames.grids[k]).all()) << k;
+    EXPECT_TRUE((in_sequence.surface(k) == frames.grids[k]).all()) << k << " again";
+    EXPECT_TRUE((backwards.surface(count - 1 - k) == frames.grids[count - 1 - k]).all()) << k;
+  }
+  std::int64_t tiles_held = 0;
   const Hdf5Reader plain(folder_ / "a.h5");
   for (const std::string& name : plain.members("/surface/frame")) {
     const std::vector<std::uint32_t> tiles = plain.integers("/surface/frame/" + name + "/tiles");
     EXPECT_TRUE(std::is_sorted(tiles.begin(), tiles.end()));
+    tiles_held += static_cast<std::int64_t>(tiles.size());
   }
+  EXPECT_EQ(in_sequence.tiles_read(), tiles_held) << "each change is read once";
 }
 
 TEST_F(RunFileTest, ASurfaceCanComeFromARunFile) {

@@ -1,3 +1,4 @@
+#include "io/scene_keys.h"
 #include "io/scene_toml.h"
 
 #include <gtest/gtest.h>

@@ -91,6 +91,15 @@ TEST_F(StrokeFile, ComesBackToTheBit) {
   expect_same(load_stroke(path, {}), full_stroke());
 }
 
+TEST_F(StrokeFile, ItsContentHashIsOfWhatARunTakesFromIt) {
+  const Stroke stroke = full_stroke();
+  Stroke other = stroke;
+  other.source = "elsewhere";
+  EXPECT_EQ(content_hash(other), content_hash(stroke));
+  other.position.back().x() += 1e-12;
+  EXPECT_NE(content_hash(other), content_hash(stroke));
+}
+
 TEST_F(StrokeFile, OptionalColumnsMayBeAbsent) {
   Stroke stroke;
   stroke.time = {0.0};

@@ -15,7 +15,7 @@ using testing::HasSubstr;
 
 StrokeScript parse(const std::string& text) { return parse_stroke_script(text, "s.toml"); }
 
-std::string complaint(const std::string& text) {
+std::string script_complaint(const std::string& text) {
   try {
     parse(text);
   } catch (const Error& failure) {
@@ -121,51 +121,64 @@ TEST(StrokeScriptToml, HasSensibleDefaults) {
   EXPECT_EQ(script.repeat, 1);
 }
 
+TEST(StrokeScriptToml, TheExampleOfTheHelpIsAScriptWithTheDefaults) {
+  const std::string help = script_help();
+  const std::size_t begin = help.find('\n');
+  const StrokeScript script = parse(help.substr(begin, help.find("Keys of a segment") - begin)), defaults;
+  EXPECT_EQ(script.clearance, defaults.clearance);
+  EXPECT_EQ(script.travel_speed, defaults.travel_speed);
+  EXPECT_EQ(script.plunge_speed, defaults.plunge_speed);
+  EXPECT_EQ(script.rate, defaults.rate);
+  EXPECT_EQ(script.repeat, defaults.repeat);
+  EXPECT_EQ(script.segments.at(0).speed, ScriptSegment{}.speed);
+}
+
 TEST(StrokeScriptToml, ErrorsNameFileLineAndKey) {
-  EXPECT_THAT(complaint("start = [0, 0]\n"),
+  EXPECT_THAT(script_complaint("start = [0, 0]\n"),
               AllOf(HasSubstr("s.toml"), HasSubstr("segment"), HasSubstr("missing")));
-  EXPECT_THAT(complaint(segment("to = [0, 0]\n")), AllOf(HasSubstr("s.toml:2:"), HasSubstr("kind")));
-  EXPECT_THAT(complaint(segment("kind = \"circle\"\n")),
+  EXPECT_THAT(script_complaint(segment("to = [0, 0]\n")), AllOf(HasSubstr("s.toml:2:"), HasSubstr("kind")));
+  EXPECT_THAT(script_complaint(segment("kind = \"circle\"\n")),
               AllOf(HasSubstr("s.toml:3:"), HasSubstr("circle"), HasSubstr("arc")));
-  EXPECT_THAT(complaint(segment("kind = \"line\"\n")), AllOf(HasSubstr("segment.to"), HasSubstr("missing")));
-  EXPECT_THAT(complaint(segment("kind = \"line\"\nto = [1, 2, 3]\n")),
+  EXPECT_THAT(script_complaint(segment("kind = \"line\"\n")),
+              AllOf(HasSubstr("segment.to"), HasSubstr("missing")));
+  EXPECT_THAT(script_complaint(segment("kind = \"line\"\nto = [1, 2, 3]\n")),
               AllOf(HasSubstr("s.toml:4:"), HasSubstr("segment.to")));
-  EXPECT_THAT(complaint(segment("kind = \"line\"\nto = [1, nan]\n")), HasSubstr("s.toml:4:"));
-  EXPECT_THAT(complaint(segment("kind = \"line\"\nto = [1, 2]\nspeed = 0\n")),
+  EXPECT_THAT(script_complaint(segment("kind = \"line\"\nto = [1, nan]\n")), HasSubstr("s.toml:4:"));
+  EXPECT_THAT(script_complaint(segment("kind = \"line\"\nto = [1, 2]\nspeed = 0\n")),
               AllOf(HasSubstr("s.toml:5:"), HasSubstr("segment.speed")));
-  EXPECT_THAT(complaint(segment("kind = \"line\"\nto = [1, 2]\ndepth = inf\n")),
+  EXPECT_THAT(script_complaint(segment("kind = \"line\"\nto = [1, 2]\ndepth = inf\n")),
               AllOf(HasSubstr("s.toml:5:"), HasSubstr("depth")));
-  EXPECT_THAT(complaint(segment("kind = \"line\"\nto = [1, 2]\ndepth = []\n")),
+  EXPECT_THAT(script_complaint(segment("kind = \"line\"\nto = [1, 2]\ndepth = []\n")),
               AllOf(HasSubstr("s.toml:5:"), HasSubstr("depth")));
-  EXPECT_THAT(complaint(segment("kind = \"line\"\nto = [1, 2]\nforce = -1\n")),
+  EXPECT_THAT(script_complaint(segment("kind = \"line\"\nto = [1, 2]\nforce = -1\n")),
               AllOf(HasSubstr("s.toml:5:"), HasSubstr("force")));
-  EXPECT_THAT(complaint(segment("kind = \"line\"\nto = [1, 2]\nforce = 1\ndepth = 0.01\n")),
+  EXPECT_THAT(script_complaint(segment("kind = \"line\"\nto = [1, 2]\nforce = 1\ndepth = 0.01\n")),
               AllOf(HasSubstr("s.toml:5:"), HasSubstr("only one")));
-  EXPECT_THAT(complaint("depth = 0.01\nforce = 1\n[[segment]]\n"),
+  EXPECT_THAT(script_complaint("depth = 0.01\nforce = 1\n[[segment]]\n"),
               AllOf(HasSubstr("s.toml:2:"), HasSubstr("only one")));
-  EXPECT_THAT(complaint("[[segment]]\nkind = \"line\"\nto = [1, 2]\n"),
+  EXPECT_THAT(script_complaint("[[segment]]\nkind = \"line\"\nto = [1, 2]\n"),
               AllOf(HasSubstr("s.toml:2:"), HasSubstr("neither depth nor force")));
-  EXPECT_THAT(complaint(segment("kind = \"spline\"\npoints = [[0, 0]]\n")),
+  EXPECT_THAT(script_complaint(segment("kind = \"spline\"\npoints = [[0, 0]]\n")),
               AllOf(HasSubstr("s.toml:4:"), HasSubstr("2 points")));
-  EXPECT_THAT(complaint(segment("kind = \"arc\"\ncentre = [0, 0]\nradius = -1\n")),
+  EXPECT_THAT(script_complaint(segment("kind = \"arc\"\ncentre = [0, 0]\nradius = -1\n")),
               AllOf(HasSubstr("s.toml:5:"), HasSubstr("radius")));
-  EXPECT_THAT(complaint(segment("kind = \"text\"\ntext = \"\"\n")),
+  EXPECT_THAT(script_complaint(segment("kind = \"text\"\ntext = \"\"\n")),
               AllOf(HasSubstr("s.toml:4:"), HasSubstr("text")));
-  EXPECT_THAT(complaint(segment("kind = \"text\"\ntext = \"S\u00e4nd\"\n")),
+  EXPECT_THAT(script_complaint(segment("kind = \"text\"\ntext = \"S\u00e4nd\"\n")),
               AllOf(HasSubstr("s.toml:4:"), HasSubstr("ASCII")));
-  EXPECT_THAT(complaint(segment("kind = \"line\"\nto = [1, 2]\nwait = -1\n")),
+  EXPECT_THAT(script_complaint(segment("kind = \"line\"\nto = [1, 2]\nwait = -1\n")),
               AllOf(HasSubstr("s.toml:5:"), HasSubstr("wait")));
-  EXPECT_THAT(complaint("rate = 1\n"), AllOf(HasSubstr("s.toml:1:"), HasSubstr("rate")));
-  EXPECT_THAT(complaint("repeat = 0\n"), AllOf(HasSubstr("s.toml:1:"), HasSubstr("repeat")));
-  EXPECT_THAT(complaint("clearance = -0.1\n"), AllOf(HasSubstr("s.toml:1:"), HasSubstr("clearance")));
+  EXPECT_THAT(script_complaint("rate = 1\n"), AllOf(HasSubstr("s.toml:1:"), HasSubstr("rate")));
+  EXPECT_THAT(script_complaint("repeat = 0\n"), AllOf(HasSubstr("s.toml:1:"), HasSubstr("repeat")));
+  EXPECT_THAT(script_complaint("clearance = -0.1\n"), AllOf(HasSubstr("s.toml:1:"), HasSubstr("clearance")));
 }
 
 TEST(StrokeScriptToml, UnknownKeysAreErrors) {
-  EXPECT_THAT(complaint(segment("kind = \"line\"\nto = [1, 2]\ndept = 0.01\n")),
+  EXPECT_THAT(script_complaint(segment("kind = \"line\"\nto = [1, 2]\ndept = 0.01\n")),
               AllOf(HasSubstr("s.toml:5:"), HasSubstr("segment.dept")));
-  EXPECT_THAT(complaint(segment("kind = \"line\"\nto = [1, 2]\nradius = 0.01\n")),
+  EXPECT_THAT(script_complaint(segment("kind = \"line\"\nto = [1, 2]\nradius = 0.01\n")),
               AllOf(HasSubstr("s.toml:5:"), HasSubstr("radius")));
-  EXPECT_THAT(complaint("travle_speed = 1\n" + segment("kind = \"line\"\nto = [1, 2]\n")),
+  EXPECT_THAT(script_complaint("travle_speed = 1\n" + segment("kind = \"line\"\nto = [1, 2]\n")),
               AllOf(HasSubstr("s.toml:1:"), HasSubstr("travel_speed")));
 }
 

@@ -7,7 +7,7 @@
 namespace sandstroke {
 namespace {
 
-TomlReader read(const std::string& text) { return TomlReader::from_text(text, "file.toml"); }
+TomlReader toml_of(const std::string& text) { return TomlReader::from_text(text, "file.toml"); }
 
 /// The sentence of the error that `act` throws.
 template <class Act>
@@ -30,7 +30,7 @@ std::string error_of(const Act& act) {
 
 TEST(TomlReader, GivesValuesAndFallbacks) {
   const TomlReader toml =
-      read("a = 1.5\n[b]\nc = 2\nd = 'x'\ne = [1, 2.5]\nf = true\ng = [[1, 2], [3, 4]]\n");
+      toml_of("a = 1.5\n[b]\nc = 2\nd = 'x'\ne = [1, 2.5]\nf = true\ng = [[1, 2], [3, 4]]\n");
   EXPECT_EQ(toml.number("a", 0.0), 1.5);
   EXPECT_EQ(toml.number("b.c", 0.0), 2.0);
   EXPECT_EQ(toml.integer("b.c", 0, 0, 9), 2);
@@ -46,7 +46,7 @@ TEST(TomlReader, GivesValuesAndFallbacks) {
 
 TEST(TomlReader, ErrorsNameFileLineKeyValueAndRemedy) {
   const TomlReader toml =
-      read("\n[tool]\nradius = -1.0\nname = 3\nlist = [1, 'x']\nbad = nan\nkind = 'round'\n");
+      toml_of("\n[tool]\nradius = -1.0\nname = 3\nlist = [1, 'x']\nbad = nan\nkind = 'round'\n");
   EXPECT_SAYS(toml.number("tool.radius", 1.0, positive), "file.toml:3", "tool.radius", "-1", "above 0");
   EXPECT_SAYS(toml.text("tool.name", ""), "file.toml:4", "tool.name", "integer", "string");
   EXPECT_SAYS(toml.profile("tool.list", {}), "file.toml:5", "tool.list", "number");
@@ -58,21 +58,43 @@ TEST(TomlReader, ErrorsNameFileLineKeyValueAndRemedy) {
 }
 
 TEST(TomlReader, RejectsSyntaxErrorsWithTheirLine) {
-  EXPECT_SAYS(read("a = 1\nb = = 2\n"), "file.toml:2", "TOML");
+  EXPECT_SAYS(toml_of("a = 1\nb = = 2\n"), "file.toml:2", "TOML");
+}
+
+/// Each part is a table within the one before: a hundred thousand of them overflowed the stack.
+TEST(TomlReader, RejectsKeysOfManyParts) {
+  const auto key = [](int parts, const std::string& part) {
+    std::string dotted = part;
+    for (int i = 1; i < parts; ++i) dotted += "." + part;
+    return dotted;
+  };
+  for (const std::string word : {"a", "'#'", "\"\\\"=\"", " a\t"}) {
+    EXPECT_NO_THROW(toml_of(key(16, word) + " = 1\n[b." + key(15, word) + "]\n"));
+    EXPECT_SAYS(toml_of("x = 1\n" + key(100'000, word) + " = 1\n"), "file.toml:2", "over 16 parts");
+    EXPECT_SAYS(toml_of("[" + key(17, word) + "]\n"), "file.toml:1", "over 16 parts");
+    EXPECT_SAYS(toml_of("x = { y = 1, " + key(17, word) + " = 1 }\n"), "file.toml:1", "over 16 parts");
+    EXPECT_SAYS(toml_of("x = \"\"\"\n a\\\"\"\"\"\"\"\n" + key(17, word) + " = 1\n"), "file.toml:3",
+                "over 16 parts");
+    EXPECT_SAYS(toml_of("").override_with(key(17, word) + "=1"), "--set", "over 16 parts");
+  }
+  // Where dots are no key's.
+  const std::string dots = key(50, "a");
+  EXPECT_NO_THROW(toml_of("# " + dots + "\nx = '" + dots + "' # " + dots + "\ny = '''\n" + dots + "\n'''\n"));
+  EXPECT_NO_THROW(toml_of("x = [" + std::string(50 * 4, ' ').replace(0, 8, "1.0, 2.0") + "]\n"));
 }
 
 TEST(TomlReader, RejectsKeysNobodyReadAndSuggestsTheNearest) {
-  const TomlReader toml = read("[force]\nk_s = 1.0\nk_d = 2.0\n");
+  const TomlReader toml = toml_of("[force]\nk_s = 1.0\nk_d = 2.0\n");
   toml.number("force.k_s", 0.0);
   toml.number("force.k_c", 0.0);
   EXPECT_SAYS(toml.reject_unread(), "file.toml:3", "force.k_d", "did you mean force.k_");
-  const TomlReader section = read("[frce]\nk_s = 1.0\n");
+  const TomlReader section = toml_of("[frce]\nk_s = 1.0\n");
   section.number("force.k_s", 0.0);
   EXPECT_SAYS(section.reject_unread(), "file.toml:1", "frce");
 }
 
 TEST(TomlReader, OverridesAreValuesOrBareWordsAndNamedInErrors) {
-  TomlReader toml = read("[relaxation]\nlaw = 'paper'\n");
+  TomlReader toml = toml_of("[relaxation]\nlaw = 'paper'\n");
   toml.override_with("relaxation.law=isotropic");
   toml.override_with("relaxation.talus_angle=35");
   toml.override_with("bed.cells=[3, 4]");
@@ -88,7 +110,7 @@ TEST(TomlReader, OverridesAreValuesOrBareWordsAndNamedInErrors) {
 }
 
 TEST(TomlReader, ReadsArraysOfTables) {
-  const TomlReader toml = read("[[segment]]\nspeed = 1\n[[segment]]\nspeed = -2\nx = 1\n");
+  const TomlReader toml = toml_of("[[segment]]\nspeed = 1\n[[segment]]\nspeed = -2\nx = 1\n");
   const auto segments = toml.tables("segment");
   ASSERT_EQ(segments.size(), 2u);
   EXPECT_EQ(segments[0].number("speed", 0.0), 1.0);

@@ -92,6 +92,29 @@ TEST_F(Journal, LiesBesideItsStroke) {
   EXPECT_EQ(journal_path("a.b/stroke.h5"), fs::path("a.b/stroke.h5.recording"));
 }
 
+/// With checksums that are right: only a writer gone wrong, or an enemy, makes such.
+TEST_F(Journal, NumbersBeyondAllCountsAreDamage) {
+  std::vector<RecordedSample> samples = made_samples(3);
+  samples[2].sequence = std::uint64_t{1} << 62;
+  JournalReader far(file_of(bytes_of(samples)));
+  EXPECT_EQ(all_samples(far).size(), 2u);
+  EXPECT_EQ(far.lost_bytes(), journal_sample_bytes);
+
+  for (const std::int64_t count : {std::numeric_limits<std::int64_t>::min(), std::int64_t{-1}, most_ticks + 1,
+                                   std::numeric_limits<std::int64_t>::max()}) {
+    RecordingFooter footer = full_footer();
+    footer.ticks.unread = count;
+    JournalReader reader(file_of(bytes_of(made_samples(3), footer)));
+    EXPECT_EQ(all_samples(reader).size(), 3u);
+    EXPECT_FALSE(reader.footer());
+  }
+  nlohmann::ordered_json header = as_json(full_header());
+  for (const double count : {1.5, 1e300, -1e300}) {
+    header["device_switches"] = count;
+    EXPECT_THROW(header_from_json(header), nlohmann::json::exception);
+  }
+}
+
 TEST_F(Journal, ComesBackToTheBit) {
   const fs::path path = folder_ / "a";
   const std::vector<RecordedSample> samples = made_samples(100);
@@ -343,6 +366,21 @@ TEST_F(Journal, AfterAFullDiskItGoesOn) {
   JournalReader reader(folder_ / "a");
   EXPECT_TRUE(same_bytes(all_samples(reader), {samples[0], samples[1], samples[3]}));
   EXPECT_TRUE(reader.footer());
+}
+
+TEST_F(Journal, OneThatSomebodyRemovedOrReplacedIsNotWrittenOnInVain) {
+  const fs::path path = folder_ / "a";
+  for (const bool replaced : {false, true}) {
+    fs::remove(path);
+    JournalWriter writer(path, full_header());
+    writer.append(made_samples(10));
+    writer.sync();
+    fs::remove(path);
+    if (replaced) write_text_file(path, "another's");
+    EXPECT_THROW(writer.sync(), Error);
+    EXPECT_THROW(writer.finish(full_footer()), Error);
+  }
+  EXPECT_EQ(read_text_file(path), "another's");
 }
 
 TEST_F(Journal, WithoutRoomForTheHeaderNothingStays) {

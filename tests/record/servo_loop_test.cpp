@@ -13,7 +13,7 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr std::int64_t ms = 1'000'000;  // ns, a tick at 1 kHz
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
 
 /// A loop of 1 kHz on a device that works, for 100 ticks, until a test changes it.
 class ServoLoopTest : public testing::Test {
@@ -209,7 +209,7 @@ TEST_F(ServoLoopTest, CountsTicksInWhichTheDeviceGaveNothing) {
 
 TEST_F(ServoLoopTest, CountsReadingsThatAreNoNumbersAsNone) {
   device.reads = [&](double time, DeviceReading& reading) {
-    if (in_tick(time, 20, 20)) reading.position.y() = nan;
+    if (in_tick(time, 20, 20)) reading.position.y() = no_number;
     if (in_tick(time, 30, 30)) reading.velocity.z() = std::numeric_limits<double>::infinity();
     return true;
   };
@@ -337,7 +337,9 @@ TEST_F(ServoLoopTest, GivesNoForceWhileTheDeviceIsNotReadAndRisesFromZeroAgain) 
 }
 
 TEST_F(ServoLoopTest, GivesNoForceForOneThatIsNoNumberAndGoesOn) {
-  FakeWorld world([&](double time) { return FeltForce{{0.0, 0.0, in_tick(time, 50, 59) ? nan : 5.0}, 0}; });
+  FakeWorld world([&](double time) {
+    return FeltForce{{0.0, 0.0, in_tick(time, 50, 59) ? no_number : 5.0}, 0};
+  });
   const RecordingFooter footer = run(&world);
   EXPECT_EQ(footer.reason, StopReason::duration);
   EXPECT_EQ(footer.ticks.recorded, 100);
@@ -350,7 +352,7 @@ TEST_F(ServoLoopTest, GivesNoForceForOneThatIsNoNumberAndGoesOn) {
 TEST_F(ServoLoopTest, EndsWhereTheForceStaysNoNumber) {
   settings.duration.reset();
   settings.silence = 0.02;
-  FakeWorld world([](double time) { return FeltForce{{0.0, 0.0, time > 0.0295 ? nan : 5.0}, 0}; });
+  FakeWorld world([](double time) { return FeltForce{{0.0, 0.0, time > 0.0295 ? no_number : 5.0}, 0}; });
   const RecordingFooter footer = run(&world);
   EXPECT_EQ(footer.reason, StopReason::no_number);
   EXPECT_EQ(footer.ticks.elapsed, 51) << "no number from tick 30 on; 0.02 s later is tick 50";
@@ -359,7 +361,9 @@ TEST_F(ServoLoopTest, EndsWhereTheForceStaysNoNumber) {
 
 TEST_F(ServoLoopTest, TakesNoSingleFailureAfterAHangForALastingOne) {
   settings.silence = 0.02;
-  FakeWorld world([&](double time) { return FeltForce{{0.0, 0.0, in_tick(time, 40, 40) ? nan : 5.0}, 0}; });
+  FakeWorld world([&](double time) {
+    return FeltForce{{0.0, 0.0, in_tick(time, 40, 40) ? no_number : 5.0}, 0};
+  });
   device.reads = [&](double time, DeviceReading&) {
     if (in_tick(time, 9, 9) || in_tick(time, 59, 59)) clock.add(31 * ms);
     return !in_tick(time, 90, 90);
@@ -463,7 +467,7 @@ TEST_F(ServoLoopTest, AllocatesNothing) {
   device.reads = [&](double time, DeviceReading& reading) {
     const auto tick = std::llround(time * 1000);
     if (tick % 17 == 0) clock.add(3 * ms);
-    if (tick % 23 == 0) reading.position.x() = nan;
+    if (tick % 23 == 0) reading.position.x() = no_number;
     reading.switches = tick % 2 == 0;
     return tick % 29 != 0;
   };

@@ -4,10 +4,11 @@
 
 #include <cmath>
 
+#include "core/angle.h"
+
 namespace sandstroke {
 namespace {
 
-constexpr double degree = 0.017453292519943295;
 constexpr double cell_size = 0.002;
 
 DrawnHeights visibility(const DrawnHeights& heights, const Sun& sun) {

@@ -3,7 +3,7 @@
 namespace sandstroke {
 namespace {
 
-using Json = nlohmann::json;
+using Json = nlohmann::ordered_json;
 
 // The driver itself: what pages are tested with must send what a person sends, and not pass over mishaps.
 

@@ -9,7 +9,7 @@ namespace sandstroke {
 inline const std::string hostile =
     "</script><script>document.documentElement.dataset.hacked = 1</script>"
     "<img src=x onerror=\"document.documentElement.dataset.hacked = "
-    "1\"><!--'\"&lt;{a|b}\x01\x7f\u202e\u00e9\U0001f4a5 ";
+    "1\"><!--'\"&lt;{a|b}{b}%s${1}`]]>javascript:alert(1)\x01\x7f\u2028\u2029\u202e\u00e9\U0001f4a5 ";
 
 /// Every text of the data becomes hostile, in the same way, so that what refers still refers. Names of
 /// columns and designs stay.

@@ -4,9 +4,11 @@
 
 #include <cmath>
 #include <random>
+#include <vector>
 
 #include "sand/initial_surface.h"
 #include "sand/symmetry.h"
+#include "sanitized.h"
 
 namespace sandstroke {
 namespace {
@@ -170,7 +172,7 @@ TEST_P(BothLaws, ConservesVolume) {
 }
 
 TEST_P(BothLaws, SymmetricBedsStaySymmetricToTheBit) {
-  for (const int side : {130, 131}) {
+  for (const int side : sanitized ? std::vector{66, 67} : std::vector{130, 131}) {
     SurfaceSettings cylinder;
     cylinder.kind = SurfaceKind::cylinder;
     cylinder.radius = 0.21;

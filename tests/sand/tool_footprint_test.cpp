@@ -8,7 +8,7 @@
 namespace sandstroke {
 namespace {
 
-constexpr double R = 0.01;
+constexpr double radius = 0.01;
 
 /// Calls body(distance to the tool's axis, underside, rampart) for each cell of the footprint, and checks
 /// that what lies beyond its columns means nothing to the tool.
@@ -50,9 +50,9 @@ TEST(ToolFootprint, SampledFilterSumsToZeroAsCellsShrink) {
   for (const int n : {101, 201, 401}) {
     const double dx = 0.04 / n;
     const HeightField bed(n, n, dx);
-    ToolFootprint footprint({R, ToolProfile::paper});
+    ToolFootprint footprint({radius, ToolProfile::paper});
     footprint.place(bed, 0.0, 0.0);
-    const double s2 = R * R / filter::u0;
+    const double s2 = radius * radius / filter::u0;
     double sum = 0.0, magnitude = 0.0;
     for_each_cell(bed, footprint, [&](double rho, double underside, double rampart) {
       if (std::isinf(underside) && rampart == 0.0) return;
@@ -63,32 +63,34 @@ TEST(ToolFootprint, SampledFilterSumsToZeroAsCellsShrink) {
       sum += g;
       magnitude += std::abs(g);
     });
-    EXPECT_LT(std::abs(sum) / magnitude, 0.5 * dx / R) << n;
+    EXPECT_LT(std::abs(sum) / magnitude, 0.5 * dx / radius) << n;
   }
 }
 
 TEST(ToolFootprint, BothUndersidesHaveTheSpheresCurvatureAndWidth) {
   const HeightField bed(401, 401, 1e-4);
   for (const ToolProfile profile : {ToolProfile::paper, ToolProfile::sphere}) {
-    ToolFootprint footprint({R, profile});
+    ToolFootprint footprint({radius, profile});
     footprint.place(bed, 0.0, 0.0);
     for_each_cell(bed, footprint, [&](double rho, double underside, double rampart) {
       const bool in_bowl = std::isfinite(underside);
-      if (std::abs(rho - R) > 1e-12) {
-        EXPECT_EQ(in_bowl, rho < R) << rho;
+      if (std::abs(rho - radius) > 1e-12) {
+        EXPECT_EQ(in_bowl, rho < radius) << rho;
       }
       if (in_bowl) {
         EXPECT_EQ(rampart, 0.0);
       }
       if (in_bowl && profile == ToolProfile::paper) {
-        EXPECT_NEAR(underside, R / (2.0 * filter::u0) * std::sin(rho * rho / (R * R) * filter::u0), 1e-17);
+        EXPECT_NEAR(underside,
+                    radius / (2.0 * filter::u0) * std::sin(rho * rho / (radius * radius) * filter::u0),
+                    1e-17);
       }
-      if (rho < 0.1 * R) {
-        EXPECT_NEAR(underside, rho * rho / (2.0 * R), 3e-3 * rho * rho / R);
+      if (rho < 0.1 * radius) {
+        EXPECT_NEAR(underside, rho * rho / (2.0 * radius), 3e-3 * rho * rho / radius);
       }
       if (in_bowl && profile == ToolProfile::sphere) {
         // On the sphere: rho^2 + (R - z)^2 = R^2; at the rim only this form keeps its digits.
-        EXPECT_NEAR(rho * rho + std::pow(R - underside, 2), R * R, 1e-18);
+        EXPECT_NEAR(rho * rho + std::pow(radius - underside, 2), radius * radius, 1e-18);
       }
     });
   }
@@ -98,7 +100,7 @@ TEST(ToolFootprint, LevelOfAPlaneIsItsHeightUnderTheToolAtAnySubCellPosition) {
   HeightField bed(200, 200, 0.001);
   for (int row = 0; row < 200; ++row)
     for (int col = 0; col < 200; ++col) bed.set(row, col, 0.3 * bed.x_of(col) - 0.2 * bed.y_of(row));
-  ToolFootprint footprint({R, ToolProfile::paper});
+  ToolFootprint footprint({radius, ToolProfile::paper});
   for (const double shift : {0.0, 0.25e-3, 0.5e-3, 0.9e-3}) {
     footprint.place(bed, 0.01 + shift, 0.02 - shift);
     const double hundredth_of_a_cell = 0.01 * 0.001 * std::hypot(0.3, 0.2);
@@ -109,7 +111,7 @@ TEST(ToolFootprint, LevelOfAPlaneIsItsHeightUnderTheToolAtAnySubCellPosition) {
 TEST(ToolFootprint, LevelHasNoJumpsWhileTheToolMoves) {
   HeightField bed(60, 60, 0.002);
   bed.set(30, 37, 0.005);  // one high cell, which the rim passes over
-  ToolFootprint footprint({R, ToolProfile::paper});
+  ToolFootprint footprint({radius, ToolProfile::paper});
   double last = 0.0;
   for (int i = 0; i <= 4000; ++i) {
     footprint.place(bed, -0.02 + 1e-5 * i, 0.0);
@@ -124,7 +126,7 @@ TEST(ToolFootprint, LevelHasNoJumpsWhileTheToolMoves) {
 
 TEST(ToolFootprint, IsEmptyOutsideTheBedAndHasNoLevel) {
   const HeightField bed(50, 50, 0.002);
-  ToolFootprint footprint({R, ToolProfile::paper});
+  ToolFootprint footprint({radius, ToolProfile::paper});
   for (const double far : {0.2, 1e300, -1e300, std::numeric_limits<double>::quiet_NaN()}) {
     footprint.place(bed, far, 0.0);
     EXPECT_TRUE(footprint.cells().empty());

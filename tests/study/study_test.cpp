@@ -60,7 +60,8 @@ TEST(QuickStudy, RunsEachContenderRepeatsItAndFitsItsOrder) {
   ASSERT_EQ(study.problems.size(), 1u);
   EXPECT_EQ(study.runs.size(), study.problems[0].contenders.size());
   for (const StudyRun& run : study.runs) {
-    EXPECT_EQ(run.repeats, 2.0);
+    EXPECT_GE(run.repeats, 1.0);  // only once where that takes long
+    EXPECT_LE(run.repeats, 2.0);
     EXPECT_LE(run.least_seconds, run.wall_seconds);
     EXPECT_LE(run.wall_seconds, run.largest_seconds);
     EXPECT_EQ(run.error, run.score.work_error);

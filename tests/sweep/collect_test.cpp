@@ -9,6 +9,7 @@
 #include <functional>
 
 #include "core/output_file.h"
+#include "dataset_shape.h"
 #include "io/hdf5_file.h"
 #include "sand/initial_surface.h"
 #include "sweep/sweep_file.h"
@@ -182,7 +183,7 @@ TEST_F(Collect, SurfacesAreThoseOfThePointsFromAnywhereAndAfterAMove) {
     }
     EXPECT_EQ(collect(folder).surfaces_missing, 0u);
   }
-  EXPECT_EQ(Hdf5Reader(file()).shape("surface"), (std::vector<hsize_t>{3, 2, rows, cols}));
+  EXPECT_EQ(dataset_shape(file(), "surface"), (std::vector<hsize_t>{3, 2, rows, cols}));
   EXPECT_EQ(scales_of(file(), "surface"), (Names{"/relaxation.talus_angle", "/model.preset", "/y", "/x"}));
   const BedGeometry bed(rows, cols, cell);
   EXPECT_EQ(Hdf5Reader(file()).doubles("y")[69], bed.y_of(69));
@@ -254,7 +255,7 @@ TEST_F(Collect, HugeBedsCostWhatIsInThem) {
   bed.set(50000, 7, 0.5);
   for (const std::size_t point : {0, 1}) folder.write(point, result_of(point), "", &bed);
   EXPECT_EQ(collect(folder).surfaces_missing, 0u);
-  EXPECT_EQ(Hdf5Reader(file()).shape("surface"), (std::vector<hsize_t>{3, 2, 65536, 65536}));
+  EXPECT_EQ(dataset_shape(file(), "surface"), (std::vector<hsize_t>{3, 2, 65536, 65536}));
   EXPECT_LT(fs::file_size(file()), 2'000'000u);
 }
 

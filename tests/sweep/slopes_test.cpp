@@ -11,11 +11,11 @@
 namespace sandstroke {
 namespace {
 
-constexpr double cell = 0.01;
+constexpr double cell_size = 0.01;
 double degrees(double slope) { return std::atan(slope) * 180.0 / std::numbers::pi; }
 
 HeightField bed_of(int side, const std::function<double(double x, double y)>& height) {
-  HeightField bed(side, side, cell);
+  HeightField bed(side, side, cell_size);
   for (int row = 0; row < side; ++row)
     for (int col = 0; col < side; ++col) bed.set(row, col, height(bed.x_of(col), bed.y_of(row)));
   return bed;
@@ -43,17 +43,17 @@ TEST(DescentSlope, NothingFallsBeyondAWall) {
   const HeightField bed = bed_of(4, [](double x, double) { return 0.5 * x; });
   EXPECT_NEAR(descent_slope(bed, 0, 3), 0.5, 1e-13);  // down along the wall
   EXPECT_EQ(descent_slope(bed, 0, 0), 0.0);           // the lowest column
-  EXPECT_EQ(descent_slope(HeightField(HeightGrid::Constant(1, 1, 3.0), cell), 0, 0), 0.0);
+  EXPECT_EQ(descent_slope(HeightField(HeightGrid::Constant(1, 1, 3.0), cell_size), 0, 0), 0.0);
 }
 
 TEST(DescentSlope, OfAConeIsItsOwnUpToTheBendOfItsContours) {
-  // The way down turns by 1 / distance; half of a cell's turn on the triangle's first side, one and a half on
-  // its second, which begins a cell away.
+  // The way down turns by 1 / distance; half of a cell's turn on the triangle's first side, one and a
+  // half on its second, which begins a cell away.
   const HeightField cone = bed_of(101, [](double x, double y) { return -0.6 * std::hypot(x, y); });
   for (int row = 1; row < 100; ++row)
     for (int col = 1; col < 100; ++col) {
-      const double distance = std::hypot(cone.x_of(col), cone.y_of(row)) - std::numbers::sqrt2 * cell;
-      if (distance < cell) continue;
+      const double distance = std::hypot(cone.x_of(col), cone.y_of(row)) - std::numbers::sqrt2 * cell_size;
+      if (distance < cell_size) continue;
       EXPECT_NEAR(descent_slope(cone, row, col), 0.6, 0.6 * 2.0 * cell / distance) << row << ' ' << col;
     }
   // At the tip: that of the octagonal pyramid through the cells around it.
@@ -68,8 +68,8 @@ TEST(Slopes, AreOfCellsThatChanged) {
     for (int col = 0; col < 100; ++col) after.set(row, col, -0.5 * after.y_of(row));
   const SlopeMeasures measures = measure_slopes(before, after, degrees(0.5) + 0.9);
   // The first tilted row looks down its slope; the last one too, on the old bed's side, as a cliff.
-  const double cliff = degrees((after(79, 0) - after(80, 0)) / cell), flank = degrees(0.5);
-  const double first = degrees(std::max(0.5, (after(20, 0) - after(19, 0)) / cell));
+  const double cliff = degrees((after(79, 0) - after(80, 0)) / cell_size), flank = degrees(0.5);
+  const double first = degrees(std::max(0.5, (after(20, 0) - after(19, 0)) / cell_size));
   EXPECT_LT(cliff, 0.0);  // the lowest row is a gutter
   EXPECT_NEAR(measures.mean, (58.0 * flank + first) / 60.0, 1e-10);
   EXPECT_NEAR(measures.steepest, std::max(first, flank), 1e-10);
@@ -85,9 +85,9 @@ TEST(Slopes, NothingChangedMeansNone) {
 }
 
 TEST(Slopes, OnTheLargestBedOnlyItsTilesAreLookedAt) {
-  const HeightField before(65536, 65536, cell);
+  const HeightField before(65536, 65536, cell_size);
   HeightField after = before;
-  after.set(40000, 63, cell);  // beside a tile that does not exist
+  after.set(40000, 63, cell_size);  // beside a tile that does not exist
   const SlopeMeasures measures = measure_slopes(before, after, 45.0);
   EXPECT_NEAR(measures.mean, 45.0, 1e-12);
   EXPECT_NEAR(measures.share_at_talus, 1.0, 0.0);
@@ -103,7 +103,7 @@ TEST(Slopes, OfSandAtRestByThePapersLawAreAtMostItsOctagons) {
   RelaxationSettings settings;
   settings.law = RelaxationLaw::paper;
   settings.talus_angle = 30.0;
-  ASSERT_TRUE(make_relaxer(settings, cell)->relax(after).converged);
+  ASSERT_TRUE(make_relaxer(settings, cell_size)->relax(after).converged);
   const double octagon = std::hypot(1.0, std::numbers::sqrt2 - 1.0) * std::tan(std::numbers::pi / 6);
   const SlopeMeasures measures = measure_slopes(before, after, 30.0);
   EXPECT_LE(measures.steepest, degrees(octagon * (1.0 + settings.tolerance)) + 1e-9);
@@ -113,7 +113,7 @@ TEST(Slopes, OfSandAtRestByThePapersLawAreAtMostItsOctagons) {
 
 TEST(Slopes, OfAConeAreItsAngle) {
   const double slope = std::tan(std::numbers::pi / 6);
-  const HeightField before(201, 201, cell);
+  const HeightField before(201, 201, cell_size);
   const HeightField cone =
       bed_of(201, [&](double x, double y) { return std::max(0.0, slope * (0.8 - std::hypot(x, y))); });
   const SlopeMeasures measures = measure_slopes(before, cone, 30.0);

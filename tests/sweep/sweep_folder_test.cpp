@@ -86,6 +86,13 @@ TEST_F(AFolder, ThatAnotherProcessIsMakingIsTakenUp) {
   EXPECT_EQ(SweepFolder::make(path, manifest()).points(), 4u);
 }
 
+TEST_F(AFolder, WhosePointsLieElsewhereIsRefused) {
+  fs::create_directories(path);
+  fs::create_directories(temporary / "elsewhere");
+  fs::create_directory_symlink(temporary / "elsewhere", path / "points");
+  EXPECT_NE(refusal(path, manifest()).find("is a link"), std::string::npos) << refusal(path, manifest());
+}
+
 TEST_F(AFolder, WithPointsButNoManifestIsRefused) {
   SweepFolder::make(path, manifest()).write(0, {PointVerdict::at_rest, "", {1.0, 2.0}}, "", nullptr);
   fs::remove(path / "manifest.json");

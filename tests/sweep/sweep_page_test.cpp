@@ -15,9 +15,8 @@ namespace sandstroke {
 namespace {
 
 using Json = nlohmann::ordered_json;
-constexpr double none = PointResult::none;
 
-SweepManifest manifest() {
+SweepManifest page_manifest() {
   SweepManifest m;
   m.scene = "strokes/wscg/scene.toml";
   m.design = {true,
@@ -41,9 +40,10 @@ class ASweepPage : public testing::Test {
 };
 
 TEST_F(ASweepPage, ShowsDesignPointsAndCounts) {
-  const SweepFolder folder = make(manifest());
-  folder.write(0, {PointVerdict::not_at_rest, "", {1.5, none}}, "", nullptr);
-  folder.write(3, {PointVerdict::refused, "no <such> thing", {none, none}}, "", nullptr);
+  const SweepFolder folder = make(page_manifest());
+  folder.write(0, {PointVerdict::not_at_rest, "", {1.5, PointResult::none}}, "", nullptr);
+  folder.write(3, {PointVerdict::refused, "no <such> thing", {PointResult::none, PointResult::none}}, "",
+               nullptr);
   std::ofstream(folder.point_file(2)) << "cut off";
   const Json data = data_of(folder, report);
   EXPECT_EQ(data["title"], "study");
@@ -73,7 +73,7 @@ TEST_F(ASweepPage, ShowsDesignPointsAndCounts) {
 }
 
 TEST_F(ASweepPage, OfALatinHypercubeHasAValueForEachPoint) {
-  SweepManifest m = manifest();
+  SweepManifest m = page_manifest();
   m.design = {false,
               {{"force.k_s", "N", true, {"1", "3", "2"}}, {"force.k_f", "s/m", false, {"7", "8", "9"}}}};
   const Json data = data_of(make(m), report);
@@ -84,7 +84,7 @@ TEST_F(ASweepPage, OfALatinHypercubeHasAValueForEachPoint) {
 }
 
 TEST_F(ASweepPage, ShowsThePictureThatWasKeptOrAMapOfTheSurface) {
-  SweepManifest m = manifest();
+  SweepManifest m = page_manifest();
   m.keep_picture = m.keep_surface = true;
   const SweepFolder folder = make(m);
   HeightField bed(40, 60, 0.1), higher = bed;
@@ -107,7 +107,7 @@ TEST_F(ASweepPage, ShowsThePictureThatWasKeptOrAMapOfTheSurface) {
 }
 
 TEST_F(ASweepPage, ShowsLevelSandToo) {
-  SweepManifest m = manifest();
+  SweepManifest m = page_manifest();
   m.keep_surface = true;
   const SweepFolder folder = make(m);
   const HeightField level(10, 10, 0.1);
@@ -117,7 +117,7 @@ TEST_F(ASweepPage, ShowsLevelSandToo) {
 }
 
 TEST_F(ASweepPage, OfVeryManyPointsHasNoPicturesAndSaysSo) {
-  SweepManifest m = manifest();
+  SweepManifest m = page_manifest();
   m.keep_surface = true;
   std::vector<std::string> values;
   for (std::size_t i = 0; i <= most_thumbnails; ++i) values.push_back(std::to_string(i));
@@ -130,7 +130,7 @@ TEST_F(ASweepPage, OfVeryManyPointsHasNoPicturesAndSaysSo) {
 }
 
 TEST_F(ASweepPage, IsWrittenWithTheSweepsName) {
-  const SweepFolder folder = make(manifest());
+  const SweepFolder folder = make(page_manifest());
   collect(SweepFolder::open(parent.path() / "study" / "" / "."));
   const std::string page = read_text_file(parent / "study/sweep.html");
   EXPECT_NE(page.find("<title>Sweep study</title>"), std::string::npos);

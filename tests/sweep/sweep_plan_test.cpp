@@ -1,6 +1,7 @@
 #include "sweep/sweep_plan.h"
 
 #include <gtest/gtest.h>
+#include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
 #include <cmath>
@@ -190,6 +191,21 @@ TEST_F(APlan, IsRefusedInOneSentenceThatSaysWhere) {
     EXPECT_NE(refused.find(sentence), std::string::npos) << plan << "\n" << refused;
     EXPECT_EQ(refused.find('\n'), std::string::npos) << refused;
   }
+}
+
+/// A plan of a few kilobytes could ask for 1e10 numbers.
+TEST_F(APlan, ValuesWithoutEndAreRefusedBeforeTheyAreMade) {
+  std::string ranges, open_ranges;
+  for (int i = 0; i < 200; ++i) {
+    ranges += fmt::format("a.b{} = {{ from = 0, to = 1, count = 10000 }}\n", i);
+    open_ranges += fmt::format("a.b{} = {{ from = 0, to = 1 }}\n", i);
+  }
+  EXPECT_NE(refusal(std::string(begin_plan) + "[axes]\n" + ranges).find("axes give over 1000000 values"),
+            std::string::npos);
+  const std::string latin = std::string(begin_plan) + "design = \"latin\"\nmax_points = 10000000\n";
+  EXPECT_NE(
+      refusal(latin + "samples = 10000000\n[axes]\n" + open_ranges).find("axes give over 1000000 values"),
+      std::string::npos);
 }
 
 TEST_F(APlan, FilesThatAreNotThereAreRefused) {

@@ -3,7 +3,6 @@
 #include <GL/osmesa.h>
 
 #include <array>
-#include <cstdlib>
 
 #include "core/error.h"
 
@@ -13,9 +12,6 @@ namespace {
 class OsMesaContext : public OffscreenContext {
  public:
   OsMesaContext() {
-    // With 512-bit vectors llvmpipe of Mesa 22 crashes on multisampled targets; it reads this once per
-    // process.
-    setenv("LP_NATIVE_VECTOR_WIDTH", "256", 1);
     constexpr std::array<int, 13> attributes = {OSMESA_FORMAT,
                                                 OSMESA_RGBA,
                                                 OSMESA_DEPTH_BITS,
@@ -34,8 +30,6 @@ class OsMesaContext : public OffscreenContext {
       throw_io_error("no OpenGL 3.3 core context could be made; install a Mesa with OSMesa and llvmpipe");
   }
   ~OsMesaContext() override { OSMesaDestroyContext(context_); }
-  OsMesaContext(const OsMesaContext&) = delete;
-  OsMesaContext& operator=(const OsMesaContext&) = delete;
 
   void make_current() override {
     if (!OSMesaMakeCurrent(context_, unused_.data(), GL_UNSIGNED_BYTE, side, side))

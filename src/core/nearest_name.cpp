@@ -1,0 +1,40 @@
+#include "core/nearest_name.h"
+
+#include <algorithm>
+#include <string_view>
+#include <vector>
+
+namespace sandstroke {
+namespace {
+
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t replaced = diagonal + (a[i - 1] != b[j - 1]);
+      diagonal = row[j];
+      row[j] = std::min({row[j] + 1, row[j - 1] + 1, replaced});
+    }
+  }
+  return row[b.size()];
+}
+
+}  // namespace
+
+std::string nearest_name(const std::string& name, const std::set<std::string>& known) {
+  const auto next = known.upper_bound(name);
+  if (next != known.end() && next->starts_with(name) && next->find('.', name.size()) == std::string::npos)
+    return *next;
+  const auto closer = [&](const std::string& a, const std::string& b) {
+    return edit_distance(a, name) < edit_distance(b, name);
+  };
+  const auto best = std::min_element(known.begin(), known.end(), closer);
+  // The name itself may be known: a key, to another [[table]] of the same name.
+  if (best == known.end() || *best == name || edit_distance(*best, name) > 1 + name.size() / 3) return {};
+  return *best;
+}
+
+}  // namespace sandstroke

@@ -1,0 +1,6 @@
+# find_package(sandstroke): targets sandstroke::core, ::sand, ::haptics and ::sim, each with what it links.
+include(CMakeFindDependencyMacro)
+foreach(dependency Eigen3 spdlog TBB hwy)
+  find_dependency(${dependency} CONFIG)
+endforeach()
+include(${CMAKE_CURRENT_LIST_DIR}/sandstroke-targets.cmake)

@@ -1,0 +1,75 @@
+#include "core/machine.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/error.h"
+#include "core/output_file.h"
+#include "test_folder.h"
+
+namespace sandstroke {
+namespace {
+
+namespace fs = std::filesystem;
+
+class ControlGroups : public testing::Test {
+ protected:
+  void say(const fs::path& group, const std::string& file, const std::string& text) {
+    fs::create_directories(mount / group);
+    write_text_file(mount / group / file, text);
+  }
+  double room(const std::string& groups) { return control_group_room(groups, mount.path()); }
+
+  TestFolder mount;
+};
+
+TEST_F(ControlGroups, NoneIsNoLimit) {
+  EXPECT_TRUE(std::isinf(room("")));
+  EXPECT_TRUE(std::isinf(room("0::/\n")));
+  EXPECT_TRUE(std::isinf(room("0::/some/where\n4:memory:/else\nno group\n")));
+  say("", "memory.max", "max\n");
+  say("memory", "memory.limit_in_bytes", "9223372036854771712\n");
+  EXPECT_TRUE(std::isinf(room("0::/\n4:memory:/\n")));
+}
+
+TEST_F(ControlGroups, TheTightestOnTheWayUpCountsLessWhatIsTakenAndNotCached) {
+  say("job/step", "memory.max", "1000\n");
+  say("job/step", "memory.current", "400\n");
+  say("job/step", "memory.stat", "anon 100\nactive_file 50\ninactive_file 150\n");
+  EXPECT_EQ(room("0::/job/step\n"), 800.0);
+  say("job", "memory.max", "700\n");
+  say("job", "memory.current", "600\n");
+  EXPECT_EQ(room("0::/job/step\n"), 100.0);
+  EXPECT_EQ(room("0::/job\n"), 100.0);
+  EXPECT_TRUE(std::isinf(room("0::/other\n")));
+}
+
+TEST_F(ControlGroups, VersionOneSaysItInItsOwnWords) {
+  say("memory/job", "memory.limit_in_bytes", "1000\n");
+  say("memory/job", "memory.usage_in_bytes", "900\n");
+  say("memory/job", "memory.stat", "active_file 1\ntotal_active_file 200\ntotal_inactive_file 100\n");
+  EXPECT_EQ(room("12:cpu,cpuacct:/\n5:hugetlb,memory:/job\n0::/\n"), 400.0);
+  // A container sees its own group as the topmost, and is told its path outside.
+  say("memory", "memory.limit_in_bytes", "300\n");
+  EXPECT_EQ(room("5:memory:/docker/4711\n"), 300.0);
+}
+
+TEST(Memory, MoreThanThereIsIsRefusedWithWhoAllowsHowMuch) {
+  const MemoryRoom room = memory_room();
+  EXPECT_GT(room.bytes, 0.0);
+  EXPECT_LE(room.bytes, physical_memory() * 10.0);  // with swap
+  EXPECT_NO_THROW(check_memory(1.0, "a grain", "take none"));
+  try {
+    check_memory(1e18, "a desert", "take a smaller one");
+    FAIL();
+  } catch (const Error& refused) {
+    EXPECT_EQ(refused.kind(), ErrorKind::input);
+    const std::string sentence = refused.what();
+    for (const char* part : {"a desert takes about 1e+09 GB of memory", "GB", "take a smaller one"})
+      EXPECT_NE(sentence.find(part), std::string::npos) << sentence;
+  }
+}
+
+}  // namespace
+}  // namespace sandstroke

@@ -1,0 +1,160 @@
+// Loaded into the program by LD_PRELOAD: a system that fails on request, by SANDSTROKE_FAULT =
+//   count:FILE   does not fail, and says in FILE at the end how many calls changed a file
+//   kill:N       kills the program right before the N-th of these calls, counted from 1
+//   full:N       from the N-th on the disk is full
+//   clock        the wall clock jumps by days, to and fro, each time it is asked
+#include <dlfcn.h>
+#include <fcntl.h>
+#include <signal.h>
+#include <sys/time.h>
+#include <sys/uio.h>
+#include <time.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+#include <cstdarg>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+
+namespace {
+
+/// The system's own function of this name.
+template <class Function>
+Function* real(const char* name) {
+  return reinterpret_cast<Function*>(dlsym(RTLD_NEXT, name));
+}
+
+/// What SANDSTROKE_FAULT says of this kind; null where it names another one.
+const char* fault(const char* kind) {
+  const char* text = std::getenv("SANDSTROKE_FAULT");
+  const std::size_t length = std::strlen(kind);
+  return text && std::strncmp(text, kind, length) == 0 ? text + length : nullptr;
+}
+
+std::atomic<long> calls = 0;
+
+/// To be asked before every call that changes a file. False: the disk is full.
+bool goes_on() {
+  static const char* const kill_at = fault("kill:");
+  static const char* const full_from = fault("full:");
+  const long call = ++calls;
+  if (kill_at && call == std::atol(kill_at)) kill(getpid(), SIGKILL);
+  if (!full_from || call < std::atol(full_from)) return true;
+  errno = ENOSPC;
+  return false;
+}
+
+/// 0, 1 and 2 are what the program says, not its files.
+bool takes(int file) { return file <= 2 || goes_on(); }
+
+__attribute__((destructor)) void say_count() {
+  const char* path = fault("count:");
+  if (!path) return;
+  if (std::FILE* file = std::fopen(path, "w")) {
+    std::fprintf(file, "%ld", calls.load());
+    std::fclose(file);
+  }
+}
+
+timespec jumped(timespec time) {
+  static std::atomic<long> asked = 0;
+  constexpr long day = 86'400;
+  const long jumps = asked++;
+  time.tv_sec += (jumps % 2 == 0 ? -3 : 2) * day * (1 + jumps % 5);
+  return time;
+}
+
+}  // namespace
+
+extern "C" {
+
+ssize_t write(int file, const void* bytes, size_t count) {
+  return takes(file) ? real<decltype(write)>("write")(file, bytes, count) : -1;
+}
+ssize_t writev(int file, const iovec* parts, int count) {
+  return takes(file) ? real<decltype(writev)>("writev")(file, parts, count) : -1;
+}
+ssize_t pwrite(int file, const void* bytes, size_t count, off_t place) {
+  return takes(file) ? real<decltype(pwrite)>("pwrite")(file, bytes, count, place) : -1;
+}
+ssize_t pwrite64(int file, const void* bytes, size_t count, off_t place) {
+  return takes(file) ? real<decltype(pwrite)>("pwrite64")(file, bytes, count, place) : -1;
+}
+int fsync(int file) { return takes(file) ? real<decltype(fsync)>("fsync")(file) : -1; }
+int fdatasync(int file) { return takes(file) ? real<decltype(fdatasync)>("fdatasync")(file) : -1; }
+
+int fallocate64(int file, int mode, off_t place, off_t size) {
+  return takes(file) ? real<decltype(fallocate64)>("fallocate64")(file, mode, place, size) : -1;
+}
+int fallocate(int file, int mode, off_t place, off_t size) { return fallocate64(file, mode, place, size); }
+
+// What needs no room never finds the disk full.
+int ftruncate64(int file, off_t size) noexcept {
+  const bool room = goes_on();
+  return room || size == 0 ? real<int(int, off_t)>("ftruncate64")(file, size) : -1;
+}
+int ftruncate(int file, off_t size) noexcept { return ftruncate64(file, size); }
+int rename(const char* from, const char* to) noexcept {
+  goes_on();
+  return real<int(const char*, const char*)>("rename")(from, to);
+}
+int renameat2(int from_place, const char* from, int to_place, const char* to, unsigned flags) noexcept {
+  goes_on();
+  return real<int(int, const char*, int, const char*, unsigned)>("renameat2")(from_place, from, to_place, to,
+                                                                              flags);
+}
+int unlink(const char* path) noexcept {
+  goes_on();
+  return real<int(const char*)>("unlink")(path);
+}
+int unlinkat(int place, const char* path, int flags) noexcept {
+  goes_on();
+  return real<int(int, const char*, int)>("unlinkat")(place, path, flags);
+}
+int remove(const char* path) noexcept {
+  goes_on();
+  return real<int(const char*)>("remove")(path);
+}
+int mkdir(const char* path, mode_t mode) noexcept {
+  return goes_on() ? real<int(const char*, mode_t)>("mkdir")(path, mode) : -1;
+}
+char* mkdtemp(char* path) noexcept { return goes_on() ? real<char*(char*)>("mkdtemp")(path) : nullptr; }
+
+#define SANDSTROKE_OPEN(name)                                          \
+  int name(const char* path, int flags, ...) {                         \
+    mode_t mode = 0;                                                   \
+    if (flags & O_CREAT) {                                             \
+      va_list rest;                                                    \
+      va_start(rest, flags);                                           \
+      mode = va_arg(rest, mode_t);                                     \
+      va_end(rest);                                                    \
+    }                                                                  \
+    const bool room = (flags & (O_CREAT | O_TRUNC)) == 0 || goes_on(); \
+    if (!room && access(path, F_OK) != 0) return errno = ENOSPC, -1;   \
+    return real<int(const char*, int, ...)>(#name)(path, flags, mode); \
+  }
+SANDSTROKE_OPEN(open)
+SANDSTROKE_OPEN(open64)
+
+int clock_gettime(clockid_t clock, timespec* time) noexcept {
+  const int failure = real<int(clockid_t, timespec*)>("clock_gettime")(clock, time);
+  static const bool jumps = fault("clock");
+  if (failure == 0 && clock == CLOCK_REALTIME && jumps) *time = jumped(*time);
+  return failure;
+}
+int gettimeofday(timeval* time, void*) noexcept {
+  timespec now;
+  const int failure = clock_gettime(CLOCK_REALTIME, &now);
+  *time = {now.tv_sec, now.tv_nsec / 1000};
+  return failure;
+}
+time_t time(time_t* time) noexcept {
+  timespec now;
+  clock_gettime(CLOCK_REALTIME, &now);
+  if (time) *time = now.tv_sec;
+  return now.tv_sec;
+}
+
+}  // extern "C"

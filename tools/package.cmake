@@ -1,0 +1,45 @@
+# What is installed beside program, manual and libraries, and the Debian packages of it all (tools/package).
+include(GNUInstallDirs)
+set(doc ${CMAKE_INSTALL_DATAROOTDIR}/doc)
+install(FILES README.md DESTINATION ${doc}/sandstroke COMPONENT program)
+install(DIRECTORY strokes/ DESTINATION ${doc}/sandstroke/examples COMPONENT program)
+# Debian has the texts of common licences, and wants one file that says which apply to what.
+install(FILES LICENSE src/report/assets/echarts.LICENSE src/report/assets/echarts.NOTICE
+        DESTINATION ${doc}/sandstroke COMPONENT licences)
+
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_CONTACT "The sandstroke authors <maintainers@sandstroke.invalid>")
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_COMPONENTS_ALL program development)
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
+
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME sandstroke)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS hershey-fonts-data)  # the letters of scripted strokes
+if(SANDSTROKE_GL STREQUAL "egl" OR NOT TARGET sandstroke_osmesa)  # loads it by itself, unseen by dpkg-shlibdeps
+  string(APPEND CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS ", libgl1-mesa-dri")
+endif()
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS ffmpeg)  # films: render --video
+set(CPACK_DEBIAN_PROGRAM_DESCRIPTION "Plays scripted or recorded strokes through a bed of sand: a stroke goes in;
+a height field, a force trace, a picture and a verdict come out, the same
+bits for the same input. Needs neither a screen nor the haptic device.")
+
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libsandstroke-dev)
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
+    "libeigen3-dev, libspdlog-dev, libtbb-dev, libhwy-dev, libhersheyfont-dev")
+set(CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION "For programs of your own: the simulation (sand, haptics, sim) as static
+libraries, with headers and a CMake package.")
+
+configure_file(tools/debian/changelog.in changelog @ONLY)
+execute_process(COMMAND ${GZIP} -9nc changelog OUTPUT_FILE changelog.gz WORKING_DIRECTORY ${PROJECT_BINARY_DIR})
+foreach(component PROGRAM DEVELOPMENT)
+  string(TOLOWER ${component} lower)
+  install(FILES tools/debian/copyright ${PROJECT_BINARY_DIR}/changelog.gz
+          DESTINATION ${doc}/${CPACK_DEBIAN_${component}_PACKAGE_NAME} COMPONENT ${lower})
+endforeach()
+include(CPack)
