@@ -19,7 +19,7 @@ namespace sandstroke {
 namespace {
 namespace fs = std::filesystem;
 
-struct Options {
+struct CompareArguments {
   fs::path golden, run;
   Tolerances tolerances;
   fs::path report, junit;
@@ -28,50 +28,51 @@ struct Options {
 
 bool is_picture(const fs::path& path) { return path.extension() == ".png" || path.extension() == ".PNG"; }
 
-void write_page(const Options& options, const std::function<ComparePage()>& make) {
-  if (options.report.empty()) return;
-  make_folder(options.report);
-  write_text_file(options.report / "compare.html", make().html());
+void write_page(const CompareArguments& arguments, const std::function<ComparePage()>& make) {
+  if (arguments.report.empty()) return;
+  make_folder(arguments.report);
+  write_text_file(arguments.report / "compare.html", make().html());
 }
 
-Comparison compare_run_files(const Options& options) {
-  const RunFile golden(options.golden), run(options.run);
-  if (!options.report.empty()) {
-    write_report(options.report / "height.png", [&] {
-      return surface_report(options.run.string() + ": final height", golden.final(), run.final(),
-                            golden.cell_size(), options.tolerances.height);
+Comparison compare_run_files(const CompareArguments& arguments) {
+  const RunFile golden(arguments.golden), run(arguments.run);
+  if (!arguments.report.empty()) {
+    write_report(arguments.report / "height.png", [&] {
+      return surface_report(arguments.run.string() + ": final height", golden.final(), run.final(),
+                            golden.cell_size(), arguments.tolerances.height);
     });
   }
-  Comparison comparison = compare_runs(golden, run, options.tolerances);
-  write_page(options, [&] { return run_page(golden, run, comparison, options.tolerances); });
+  Comparison comparison = compare_runs(golden, run, arguments.tolerances);
+  write_page(arguments, [&] { return run_page(golden, run, comparison, arguments.tolerances); });
   return comparison;
 }
 
-Comparison compare_pictures(const Options& options) {
-  const Image golden = read_png(options.golden), run = read_png(options.run);
-  if (!options.report.empty()) {
-    write_report(options.report / "picture.png",
-                 [&] { return picture_report(options.run.string(), golden, run, options.tolerances.pixel); });
+Comparison compare_pictures(const CompareArguments& arguments) {
+  const Image golden = read_png(arguments.golden), run = read_png(arguments.run);
+  if (!arguments.report.empty()) {
+    write_report(arguments.report / "picture.png", [&] {
+      return picture_report(arguments.run.string(), golden, run, arguments.tolerances.pixel);
+    });
   }
-  Comparison comparison{options.run.string(), {}};
-  add_checks(comparison.checks, "picture", [&] { return picture_checks(golden, run, options.tolerances); });
-  write_page(options, [&] {
-    return picture_page(options.golden, golden, options.run, run, comparison, options.tolerances);
+  Comparison comparison{arguments.run.string(), {}};
+  add_checks(comparison.checks, "picture", [&] { return picture_checks(golden, run, arguments.tolerances); });
+  write_page(arguments, [&] {
+    return picture_page(arguments.golden, golden, arguments.run, run, comparison, arguments.tolerances);
   });
   return comparison;
 }
 
-int compare(const Options& options) {
-  if (is_picture(options.golden) != is_picture(options.run)) {
+int compare(const CompareArguments& arguments) {
+  if (is_picture(arguments.golden) != is_picture(arguments.run)) {
     throw_input_error(
         "{} and {}: one is a picture and the other is not; compare two run files or two PNG pictures",
-        options.golden.string(), options.run.string());
+        arguments.golden.string(), arguments.run.string());
   }
-  if (!options.junit.empty()) check_output(options.junit, {options.golden, options.run});
+  if (!arguments.junit.empty()) check_output(arguments.junit, {arguments.golden, arguments.run});
   const Comparison comparison =
-      is_picture(options.golden) ? compare_pictures(options) : compare_run_files(options);
-  if (!options.junit.empty()) write_text_file(options.junit, junit_report({comparison}));
-  if (options.json)
+      is_picture(arguments.golden) ? compare_pictures(arguments) : compare_run_files(arguments);
+  if (!arguments.junit.empty()) write_text_file(arguments.junit, junit_report({comparison}));
+  if (arguments.json)
     print_json(to_json(comparison));
   else
     fmt::print("{}", check_table(comparison));
@@ -81,37 +82,41 @@ int compare(const Options& options) {
 }  // namespace
 
 void add_compare_command(CLI::App& app, Command& chosen) {
-  auto options = std::make_shared<Options>();
+  auto arguments = std::make_shared<CompareArguments>();
   CLI::App* command = app.add_subcommand("compare", "Compare two run files, or two PNG pictures");
-  command->add_option("GOLDEN", options->golden, "What it should be: a run file or a PNG picture")
+  command->add_option("GOLDEN", arguments->golden, "What it should be: a run file or a PNG picture")
       ->type_name("FILE.h5|.png")
       ->required();
-  command->add_option("RUN", options->run, "What came out: likewise")->type_name("FILE.h5|.png")->required();
-  command->add_option("--height-tolerance", options->tolerances.height, "Height of any cell [m]")
+  command->add_option("RUN", arguments->run, "What came out: likewise")
+      ->type_name("FILE.h5|.png")
+      ->required();
+  command->add_option("--height-tolerance", arguments->tolerances.height, "Height of any cell [m]")
       ->check(not_negative_number())
       ->capture_default_str();
-  command->add_option("--force-tolerance", options->tolerances.force, "Force on the device in any tick [N]")
+  command->add_option("--force-tolerance", arguments->tolerances.force, "Force on the device in any tick [N]")
       ->check(not_negative_number())
       ->capture_default_str();
-  command->add_option("--depth-tolerance", options->tolerances.depth, "Depth and sand level in any tick [m]")
+  command
+      ->add_option("--depth-tolerance", arguments->tolerances.depth, "Depth and sand level in any tick [m]")
       ->check(not_negative_number())
       ->capture_default_str();
-  command->add_option("--pixel-tolerance", options->tolerances.pixel, "Any channel of any pixel [of 255]")
+  command->add_option("--pixel-tolerance", arguments->tolerances.pixel, "Any channel of any pixel [of 255]")
       ->check(CLI::Range(0, 255))
       ->capture_default_str();
   command
-      ->add_option("--pixel-share", options->tolerances.pixel_share, "Pixels that may differ at all [0 to 1]")
+      ->add_option("--pixel-share", arguments->tolerances.pixel_share,
+                   "Pixels that may differ at all [0 to 1]")
       ->check(CLI::Range(0.0, 1.0))
       ->capture_default_str();
   command
-      ->add_option("--report", options->report,
+      ->add_option("--report", arguments->report,
                    "Folder for a page (compare.html: checks, maps, forces) and a picture of the difference")
       ->type_name("FOLDER");
-  command->add_option("--junit", options->junit, "File for the checks as JUnit XML")->type_name("FILE.xml");
-  command->add_flag("--json", options->json, "Print one JSON object instead of the table");
+  command->add_option("--junit", arguments->junit, "File for the checks as JUnit XML")->type_name("FILE.xml");
+  command->add_flag("--json", arguments->json, "Print one JSON object instead of the table");
   command->footer(
       "Example:  sandstroke compare golden.h5 run.h5 --report difference\nExit code 1: they differ.");
-  command->callback([options, &chosen] { chosen = [options] { return compare(*options); }; });
+  command->callback([arguments, &chosen] { chosen = [arguments] { return compare(*arguments); }; });
 }
 
 }  // namespace sandstroke

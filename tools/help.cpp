@@ -10,7 +10,7 @@
 namespace sandstroke {
 namespace {
 
-struct Arguments {
+struct HelpArguments {
   std::vector<std::string> words;
   bool man = false;
 };
@@ -21,7 +21,7 @@ const HelpTopic* topic_named(const std::string& name) {
   return nullptr;
 }
 
-std::string help(const CLI::App& app, const Arguments& arguments) {
+std::string help(const CLI::App& app, const HelpArguments& arguments) {
   const std::string asked = fmt::format("{}", fmt::join(arguments.words, " "));
   if (const HelpTopic* topic = topic_named(asked))
     return arguments.man ? topic_manual(*topic) : topic->text();
@@ -41,7 +41,7 @@ std::string help(const CLI::App& app, const Arguments& arguments) {
 void add_help_command(CLI::App& app, Command& chosen) {
   CLI::App* command =
       app.add_subcommand("help", "Explain a command, or the keys of a file: scene, script, plan");
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<HelpArguments>();
   std::vector<std::string> names;
   for (const HelpTopic& topic : help_topics()) names.push_back(topic.name);
   for (const NamedCommand& other : command_tree(app))

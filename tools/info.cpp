@@ -16,7 +16,7 @@
 namespace sandstroke {
 namespace {
 
-struct Arguments {
+struct InfoArguments {
   std::string file;
   bool json = false, scene = false, scene_keys = false;
 };
@@ -71,7 +71,7 @@ void print_table(const nlohmann::ordered_json& facts) {
   }
 }
 
-int info(const Arguments& arguments) {
+int info(const InfoArguments& arguments) {
   if (arguments.scene_keys) {
     fmt::print("{}", scene_key_table());
     return 0;
@@ -94,7 +94,7 @@ int info(const Arguments& arguments) {
 void add_info_command(CLI::App& app, Command& chosen) {
   CLI::App* command =
       app.add_subcommand("info", "Show what a run file holds, or which keys a scene can have");
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<InfoArguments>();
   command->add_option("FILE", arguments->file, "Run file (HDF5)")->type_name("FILE.h5")->option_text("(.h5)");
   command->add_flag("--json", arguments->json, "Print one JSON object");
   command->add_flag("--scene", arguments->scene, "Print the scene the run was made from (TOML)");

@@ -22,7 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Arguments {
+struct RecordArguments {
   std::string output, device, felt_scene;
   std::vector<std::string> overrides;  // of the felt scene
   RecorderSettings settings;
@@ -36,7 +36,7 @@ struct Arguments {
 constexpr double slowest = 100.0, fastest = 10000.0;
 
 /// The rate given, or that at which `run` will play the stroke in the scene that is felt.
-double servo_rate(const Arguments& arguments, const std::optional<Scene>& felt) {
+double servo_rate(const RecordArguments& arguments, const std::optional<Scene>& felt) {
   if (arguments.rate > 0.0) return arguments.rate;
   if (!felt) return ServoSettings{}.rate;
   const double rate = felt->device.servo_rate;
@@ -46,7 +46,7 @@ double servo_rate(const Arguments& arguments, const std::optional<Scene>& felt) 
   return rate;
 }
 
-RecorderSettings recorder_settings(const Arguments& arguments, const std::optional<Scene>& felt) {
+RecorderSettings recorder_settings(const RecordArguments& arguments, const std::optional<Scene>& felt) {
   RecorderSettings settings = arguments.settings;
   settings.servo.rate = servo_rate(arguments, felt);
   if (arguments.duration > 0.0) settings.servo.duration = arguments.duration;
@@ -64,7 +64,7 @@ void check_free(const fs::path& output, bool overwrite) {
 }
 
 /// The files that may not be written over, for they are read.
-std::vector<fs::path> inputs(const Arguments& arguments, const std::optional<Scene>& felt) {
+std::vector<fs::path> inputs(const RecordArguments& arguments, const std::optional<Scene>& felt) {
   std::vector<fs::path> files;
   if (const fs::path played = file_played(arguments.device); !played.empty()) files.push_back(played);
   if (!felt) return files;
@@ -128,7 +128,7 @@ int exit_code(StopReason reason) {
   return static_cast<int>(reason == StopReason::no_number ? ErrorKind::unstable : ErrorKind::io);
 }
 
-int record(const Arguments& arguments) {
+int record(const RecordArguments& arguments) {
   if ((arguments.list || arguments.check) &&
       !(arguments.output.empty() && arguments.device.empty() && arguments.felt_scene.empty()))
     throw_input_error("record --list and --check record nothing; leave out -o, --device and --feel");
@@ -185,7 +185,7 @@ CLI::Validator recording_rate() {
 void add_record_command(CLI::App& app, Command& chosen) {
   CLI::App* command = app.add_subcommand(
       "record", "Records a stroke from a haptic device, or from a stand-in that plays one, tick by tick");
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<RecordArguments>();
   RecorderSettings& settings = arguments->settings;
   settings.servo.force.max_force = any_force;
   command->add_option("-o,--output", arguments->output, "Stroke to write (.h5)")

@@ -24,7 +24,7 @@ namespace sandstroke {
 namespace {
 namespace fs = std::filesystem;
 
-struct Options {
+struct RenderArguments {
   fs::path run, output, video;
   std::string frame = "final", size;
   std::string view, style;
@@ -48,55 +48,55 @@ Value named(const std::vector<std::string>& names, const std::string& name) {
 }
 
 /// Refuses what would change nothing in this view.
-void reject_ignored(const Options& options, const ViewSettings& view) {
-  if (!options.target.empty() && view.name != ViewName::custom)
+void reject_ignored(const RenderArguments& arguments, const ViewSettings& view) {
+  if (!arguments.target.empty() && view.name != ViewName::custom)
     throw_input_error("--target needs --view custom; the view is {}",
                       view_names[static_cast<std::size_t>(view.name)]);
   if (view.name == ViewName::top)
-    for (const auto& [name, given] : {std::pair("--azimuth", options.azimuth),
-                                      {"--elevation", options.elevation},
-                                      {"--distance", options.distance}})
+    for (const auto& [name, given] : {std::pair("--azimuth", arguments.azimuth),
+                                      {"--elevation", arguments.elevation},
+                                      {"--distance", arguments.distance}})
       if (given)
         throw_input_error("{} needs --view overview, stroke or custom; the view is top, straight from above",
                           name);
-  if (options.contour_interval && view.style == RenderStyle::sand)
+  if (arguments.contour_interval && view.style == RenderStyle::sand)
     throw_input_error("--contour needs --style height or difference; the style sand draws no contour lines");
 }
 
 /// The scene's view, changed by what the command line says.
-ViewSettings view_of(const Scene& scene, const Options& options) {
+ViewSettings view_of(const Scene& scene, const RenderArguments& arguments) {
   ViewSettings view = scene.view;
-  if (!options.view.empty()) view.name = named<ViewName>(view_names, options.view);
-  if (!options.style.empty()) view.style = named<RenderStyle>(style_names, options.style);
-  view.azimuth = options.azimuth.value_or(view.azimuth);
-  view.elevation = options.elevation.value_or(view.elevation);
-  view.distance = options.distance.value_or(view.distance);
-  view.light_azimuth = options.light_azimuth.value_or(view.light_azimuth);
-  view.light_elevation = options.light_elevation.value_or(view.light_elevation);
-  if (!options.target.empty()) view.target = Eigen::Vector3d(options.target.data());
-  if (!options.size.empty()) {
-    const std::string_view size = options.size;
+  if (!arguments.view.empty()) view.name = named<ViewName>(view_names, arguments.view);
+  if (!arguments.style.empty()) view.style = named<RenderStyle>(style_names, arguments.style);
+  view.azimuth = arguments.azimuth.value_or(view.azimuth);
+  view.elevation = arguments.elevation.value_or(view.elevation);
+  view.distance = arguments.distance.value_or(view.distance);
+  view.light_azimuth = arguments.light_azimuth.value_or(view.light_azimuth);
+  view.light_elevation = arguments.light_elevation.value_or(view.light_elevation);
+  if (!arguments.target.empty()) view.target = Eigen::Vector3d(arguments.target.data());
+  if (!arguments.size.empty()) {
+    const std::string_view size = arguments.size;
     const std::size_t x = size.find('x');
     if (x == std::string::npos || !parse_whole(size.substr(0, x), view.width) ||
         !parse_whole(size.substr(x + 1), view.height))
       throw_input_error("--size {} is no size in pixels; write it like 1280x720", size);
   }
-  reject_ignored(options, view);
+  reject_ignored(arguments, view);
   return view;
 }
 
-fs::path default_output(const Options& options, const char* ending) {
-  if (!options.output.empty()) return options.output;
-  return beside(options.run, ending);
+fs::path default_output(const RenderArguments& arguments, const char* ending) {
+  if (!arguments.output.empty()) return arguments.output;
+  return beside(arguments.run, ending);
 }
 
 /// Draws the frames, one after the other, and gives them to take(k, image) until that returns false. The exit
 /// code.
 template <class Take>
-int draw_frames(const RunFile& run, const ViewSettings& view, const Options& options, const Take& take) {
-  const std::vector<double> times = run.frame_times();
-  const bool tool = options.tool.value_or(run.has_trace());
-  RunPainter painter(run, view, options.contour_interval.value_or(0.0));
+int draw_frames(const RunFile& run, const std::vector<double>& times, const ViewSettings& view,
+                const RenderArguments& arguments, const Take& take) {
+  const bool tool = arguments.tool.value_or(run.has_trace());
+  RunPainter painter(run, view, arguments.contour_interval.value_or(0.0));
   RunFrames frames(run);
   Progress progress("render");
   for (std::size_t k = 0; k < times.size(); ++k) {
@@ -108,35 +108,37 @@ int draw_frames(const RunFile& run, const ViewSettings& view, const Options& opt
   return 0;
 }
 
-int draw_pictures(const RunFile& run, const ViewSettings& view, const Options& options) {
-  const fs::path folder = default_output(options, "_frames");
+int draw_pictures(const RunFile& run, const std::vector<double>& times, const ViewSettings& view,
+                  const RenderArguments& arguments) {
+  const fs::path folder = default_output(arguments, "_frames");
   make_folder(folder);
   const auto picture = [&](std::size_t k) { return folder / fmt::format("frame_{:04}.png", k); };
-  const int exit_code = draw_frames(run, view, options, [&](std::size_t k, const Image& image) {
+  const int exit_code = draw_frames(run, times, view, arguments, [&](std::size_t k, const Image& image) {
     write_png(picture(k), image);
     return true;
   });
   if (exit_code != 0) return exit_code;
-  for (std::size_t k = 0; k < run.frame_times().size(); ++k)
+  for (std::size_t k = 0; k < times.size(); ++k)
     if (!fs::exists(picture(k)))
       throw_io_error("{}: somebody removed it while others were drawn; render again", picture(k).string());
   fmt::print("{}\n", folder.string());
   return 0;
 }
 
-int draw_film(const RunFile& run, const Scene& scene, const ViewSettings& view, const Options& options) {
-  check_output(options.video, {options.run});
+int draw_film(const RunFile& run, const std::vector<double>& times, const Scene& scene,
+              const ViewSettings& view, const RenderArguments& arguments) {
+  check_output(arguments.video, {arguments.run});
   const double own_rate = std::min(scene.output.frames, scene.device.servo_rate);
-  const double rate = options.fps.value_or(own_rate);
-  FilmWriter film(options.video, view.width, view.height, rate);
-  spdlog::info("{} frames, {:g} a second: {}", run.frame_times().size(), rate,
+  const double rate = arguments.fps.value_or(own_rate);
+  FilmWriter film(arguments.video, view.width, view.height, rate);
+  spdlog::info("{} frames, {:g} a second: {}", times.size(), rate,
                rate == own_rate ? "film time is stroke time"
                                 : fmt::format("{:g} times as fast as the stroke", rate / own_rate));
-  const int exit_code =
-      draw_frames(run, view, options, [&](std::size_t, const Image& image) { return film.add(image); });
+  const int exit_code = draw_frames(run, times, view, arguments,
+                                    [&](std::size_t, const Image& image) { return film.add(image); });
   if (exit_code != 0) return exit_code;
   if (!film.finish()) return 128 + interrupted();
-  fmt::print("{}\n", options.video.string());
+  fmt::print("{}\n", arguments.video.string());
   return 0;
 }
 
@@ -148,37 +150,38 @@ std::vector<double> frame_times(const RunFile& run) {
   return times;
 }
 
-int render(const Options& options) {
-  if (!options.video.empty()) check_film_name(options.video);
-  const RunFile run(options.run);
+int render(const RenderArguments& arguments) {
+  if (!arguments.video.empty()) check_film_name(arguments.video);
+  const RunFile run(arguments.run);
   const Scene scene = scene_from_text(run.scene_text(), run.name() + ": /scene");
-  const ViewSettings view = view_of(scene, options);
-  if (options.frame == "all") {
-    frame_times(run);
-    return options.video.empty() ? draw_pictures(run, view, options) : draw_film(run, scene, view, options);
+  const ViewSettings view = view_of(scene, arguments);
+  if (arguments.frame == "all") {
+    const std::vector<double> times = frame_times(run);
+    return arguments.video.empty() ? draw_pictures(run, times, view, arguments)
+                                   : draw_film(run, times, scene, view, arguments);
   }
-  RunPainter painter(run, view, options.contour_interval.value_or(0.0));
+  RunPainter painter(run, view, arguments.contour_interval.value_or(0.0));
   HeightGrid surface;
   double time = 0.0;
-  bool tool = options.tool.value_or(false);
-  if (options.frame == "initial") {
+  bool tool = arguments.tool.value_or(false);
+  if (arguments.frame == "initial") {
     surface = run.initial();
-  } else if (options.frame == "final") {
+  } else if (arguments.frame == "final") {
     surface = run.final();
     time = std::numeric_limits<double>::infinity();
   } else {
     int k = 0;
-    if (!parse_whole(options.frame, k))
-      throw_input_error("--frame {} is no frame; take final, initial, all or a number", options.frame);
+    if (!parse_whole(arguments.frame, k))
+      throw_input_error("--frame {} is no frame; take final, initial, all or a number", arguments.frame);
     const std::vector<double> times = frame_times(run);
     if (k < 0 || k >= static_cast<int>(times.size()))
       throw_input_error("{}: holds no frame {}; take 0 to {}", run.name(), k, times.size() - 1);
     surface = RunFrames(run).surface(k);
     time = times[static_cast<std::size_t>(k)];
-    tool = options.tool.value_or(run.has_trace());
+    tool = arguments.tool.value_or(run.has_trace());
   }
-  const fs::path output = default_output(options, ".png");
-  check_output(output, {options.run});
+  const fs::path output = default_output(arguments, ".png");
+  check_output(output, {arguments.run});
   write_png(output, painter.draw(surface, tool ? std::optional(time) : std::nullopt));
   fmt::print("{}\n", output.string());
   return 0;
@@ -187,68 +190,69 @@ int render(const Options& options) {
 }  // namespace
 
 void add_render_command(CLI::App& app, Command& chosen) {
-  auto options = std::make_shared<Options>();
+  auto arguments = std::make_shared<RenderArguments>();
   const std::string scenes = "; default: the scene's [view]";
   CLI::App* command =
       app.add_subcommand("render", "Draw the surfaces of a run (the scene's [view], unless told otherwise)");
-  command->add_option("RUN", options->run, "Run file (HDF5)")->type_name("FILE.h5")->required();
+  command->add_option("RUN", arguments->run, "Run file (HDF5)")->type_name("FILE.h5")->required();
   command
-      ->add_option("-o,--output", options->output,
+      ->add_option("-o,--output", arguments->output,
                    "Picture (PNG), or the folder for --frame all; default: RUN.png or RUN_frames/ beside RUN")
       ->type_name("FILE.png");
   CLI::Option* frame =
-      command->add_option("--frame", options->frame, "final, initial, all, or a frame's number from 0")
+      command->add_option("--frame", arguments->frame, "final, initial, all, or a frame's number from 0")
           ->capture_default_str();
   CLI::Option* video = command
-                           ->add_option("--video", options->video,
+                           ->add_option("--video", arguments->video,
                                         fmt::format("Film of all frames ({}), by the program ffmpeg",
                                                     fmt::join(film_endings(), ", ")))
                            ->type_name(fmt::format("FILE{}", fmt::join(film_endings(), "|")))
                            ->excludes("--output");
   command
-      ->add_option("--fps", options->fps,
+      ->add_option("--fps", arguments->fps,
                    "Film's frames a second; default: the run's, so that film time is stroke time")
       ->needs(video)
       ->check(positive_number());
-  command->add_option("--size", options->size, "Picture size in pixels, like 1280x720" + scenes)
+  command->add_option("--size", arguments->size, "Picture size in pixels, like 1280x720" + scenes)
       ->type_name("WxH");
-  command->add_option("--view", options->view, "All of it; what changes; a map; as aimed" + scenes)
+  command->add_option("--view", arguments->view, "All of it; what changes; a map; as aimed" + scenes)
       ->check(CLI::IsMember(view_names));
   command
-      ->add_option("--style", options->style,
+      ->add_option("--style", arguments->style,
                    "As one sees it; heights; change since the initial surface" + scenes)
       ->check(CLI::IsMember(style_names));
-  command->add_option("--azimuth", options->azimuth, "Towards the camera, from +x towards +y [deg]" + scenes);
-  command->add_option("--elevation", options->elevation, "Of the camera above the horizon [deg]" + scenes)
+  command->add_option("--azimuth", arguments->azimuth,
+                      "Towards the camera, from +x towards +y [deg]" + scenes);
+  command->add_option("--elevation", arguments->elevation, "Of the camera above the horizon [deg]" + scenes)
       ->check(CLI::Range(0.0, 90.0));
   command
-      ->add_option("--distance", options->distance,
+      ->add_option("--distance", arguments->distance,
                    "From target to camera [m]; 0: what frames the subject" + scenes)
       ->check(not_negative_number());
-  command->add_option("--target", options->target, "What a custom view looks at [m]" + scenes)
+  command->add_option("--target", arguments->target, "What a custom view looks at [m]" + scenes)
       ->type_name("X,Y,Z")
       ->delimiter(',')
       ->expected(3);
-  command->add_option("--light-azimuth", options->light_azimuth, "Towards the sun [deg]" + scenes);
-  command->add_option("--light-elevation", options->light_elevation,
+  command->add_option("--light-azimuth", arguments->light_azimuth, "Towards the sun [deg]" + scenes);
+  command->add_option("--light-elevation", arguments->light_elevation,
                       "Of the sun above the horizon [deg]" + scenes);
   command
-      ->add_option("--contour", options->contour_interval,
+      ->add_option("--contour", arguments->contour_interval,
                    "Between contour lines [m]; 0, the default: a round interval")
       ->check(not_negative_number());
   command->add_flag_callback(
-      "--tool", [options] { options->tool = true; },
+      "--tool", [arguments] { arguments->tool = true; },
       "Draw the tool; default: in frames, not in initial and final");
   command->add_flag_callback(
-      "--no-tool", [options] { options->tool = false; }, "Do not draw the tool");
+      "--no-tool", [arguments] { arguments->tool = false; }, "Do not draw the tool");
   command->footer(
       "Examples:  sandstroke render wscg.h5 --view stroke --style height --size 1920x1080\n"
       "           sandstroke render wscg.h5 --frame all --video wscg.mp4");
-  command->callback([options, frame, video, &chosen] {
-    if (video->count() > 0 && frame->count() == 0) options->frame = "all";
-    if (video->count() > 0 && options->frame != "all")
-      throw CLI::ValidationError("--video", "is a film of all frames: leave out --frame " + options->frame);
-    chosen = [options] { return render(*options); };
+  command->callback([arguments, frame, video, &chosen] {
+    if (video->count() > 0 && frame->count() == 0) arguments->frame = "all";
+    if (video->count() > 0 && arguments->frame != "all")
+      throw CLI::ValidationError("--video", "is a film of all frames: leave out --frame " + arguments->frame);
+    chosen = [arguments] { return render(*arguments); };
   });
 }
 

@@ -23,7 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Arguments {
+struct RunArguments {
   std::string scene, output, stroke, picture;
   std::vector<std::string> overrides;
   double frames = -1.0;
@@ -114,7 +114,7 @@ void print_summary(const RunResult& r, const std::string& output) {
         fmt::format("+-{:.3g} N rms, {:.3g} N at most", r.error->force_rms, r.error->force_max));
 }
 
-int run(const Arguments& arguments) {
+int run(const RunArguments& arguments) {
   const fs::path scene_path = arguments.scene;
   std::vector<std::string> overrides = arguments.overrides;
   if (!arguments.stroke.empty())
@@ -175,7 +175,7 @@ int run(const Arguments& arguments) {
 void add_run_command(CLI::App& app, Command& chosen) {
   CLI::App* command =
       app.add_subcommand("run", "Simulate a scene: play its stroke through the sand and let it come to rest");
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<RunArguments>();
   command->add_option("SCENE", arguments->scene, "Scene file (TOML)")->type_name("FILE.toml")->required();
   command
       ->add_option("-o,--output", arguments->output,

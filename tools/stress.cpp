@@ -23,7 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Arguments {
+struct StressArguments {
   fs::path output = "stress";
   bool quick = false, json = false;
 };
@@ -66,7 +66,7 @@ void print_summary(const StressReport& report) {
                     one.detail);
 }
 
-int stress(const Arguments& arguments) {
+int stress(const StressArguments& arguments) {
   const fs::path page = arguments.output / "stress.html";
   make_folder(arguments.output);
   check_output(page, {});
@@ -97,7 +97,7 @@ int stress(const Arguments& arguments) {
 void add_stress_command(CLI::App& app, Command& chosen) {
   CLI::App* command = app.add_subcommand(
       "stress", "Test numerical stability to the breaking point: device loop, relaxation, strokes");
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<StressArguments>();
   command
       ->add_option("-o,--output", arguments->output,
                    "Folder for the page, stress.html, made where it is not there")

@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Arguments {
+struct RepairArguments {
   std::string file, output;
   bool remove = false, json = false;
 };
@@ -26,7 +26,7 @@ struct Task {
 };
 
 /// file: STROKE.h5.recording, or the STROKE.h5 that it is to become.
-Task task_of(const Arguments& arguments) {
+Task task_of(const RepairArguments& arguments) {
   const fs::path file = arguments.file;
   Task task;
   task.journal = file.extension() == journal_extension ? file : journal_path(file);
@@ -89,7 +89,7 @@ void print_table(const Task& task, const Repair& done, bool removed) {
                              removed ? "removed" : "kept; remove it when the stroke is as it should be"));
 }
 
-int repair_command(const Arguments& arguments) {
+int repair_command(const RepairArguments& arguments) {
   const Task task = task_of(arguments);
   const Repair done = repair(task);
   std::error_code failure;
@@ -109,7 +109,7 @@ int repair_command(const Arguments& arguments) {
 void add_stroke_repair_command(CLI::App& stroke, Command& chosen) {
   CLI::App* command = stroke.add_subcommand(
       "repair", "Makes a stroke of a recording that was cut off, and says what was lost");
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<RepairArguments>();
   command
       ->add_option("FILE", arguments->file,
                    "The recording's journal, STROKE.h5.recording; or STROKE.h5, which it was to become")

@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Arguments {
+struct SweepArguments {
   fs::path plan, output;
   int jobs = 0;
   std::string shard;
@@ -61,7 +61,7 @@ std::string duration(double seconds) {
   return fmt::format("{:.1f} h", seconds / 3600.0);
 }
 
-int dry_run(Sweep& sweep, const Arguments& arguments) {
+int dry_run(Sweep& sweep, const SweepArguments& arguments) {
   const Sweep::Estimate estimate = sweep.estimate();
   if (interrupted()) return 128 + interrupted();
   const SweepDesign& design = sweep.plan().design;
@@ -112,7 +112,7 @@ nlohmann::ordered_json as_json(const SweepCounters& c, const SweepFolder& folder
           {"interrupted", c.interrupted}};
 }
 
-int sweep(const Arguments& arguments) {
+int sweep(const SweepArguments& arguments) {
   if (arguments.plan.empty())
     throw_input_error("sweep: name a plan, or say status or collect (sandstroke sweep --help)");
   SweepOptions options;
@@ -184,7 +184,7 @@ void add_sweep_folder_command(CLI::App& sweep, const char* name, const char* hel
 
 void add_sweep_command(CLI::App& app, Command& chosen) {
   CLI::App* command = app.add_subcommand("sweep", "Run a scene again and again with other settings");
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<SweepArguments>();
   command->add_option("PLAN", arguments->plan, "What to vary (TOML)")->type_name("FILE.toml");
   command
       ->add_option("-o,--output", arguments->output,
