@@ -4,9 +4,11 @@
 
 #include <Eigen/Eigenvalues>
 #include <cmath>
+#include <vector>
 
 #include "haptics/force_model.h"
 #include "haptics/passivity.h"
+#include "sanitized.h"
 
 namespace sandstroke {
 namespace {
@@ -128,7 +130,7 @@ bool settles(const DeviceSettings& settings, double stiffness) {
 }
 
 TEST(DynamicDevice, SpringWallTurnsUnstableWhereTheEigenvalueSays) {
-  for (const double rate : {500.0, 1000.0, 4000.0}) {
+  for (const double rate : sanitized ? std::vector{1000.0} : std::vector{500.0, 1000.0, 4000.0}) {
     DeviceSettings settings = ideal_device();
     settings.servo_rate = rate;
     const auto bisect = [](auto stable) {

@@ -13,7 +13,6 @@
 #include <cstring>
 #include <deque>
 #include <filesystem>
-#include <limits>
 
 #include "core/error.h"
 #include "haptics/stroke_placement.h"
@@ -87,10 +86,7 @@ class CheckedRelaxer : public Relaxer {
   }
 
   RelaxationOutcome relax(HeightField& bed, const std::function<void(std::int64_t)>& after_pass) override {
-    if (relaxations >= most_checked) {
-      ++relaxations;
-      return engine_->relax(bed, after_pass);
-    }
+    if (sanitized && relaxations == 3) throw Enough{};
     CellRange window = first_ ? bed.cells() : disturbed(bed);
     first_ = false;
     const HeightField before = window_of(bed, window), whole_before = bed;
@@ -129,10 +125,9 @@ class CheckedRelaxer : public Relaxer {
   }
 
   std::int64_t relaxations = 0;
+  struct Enough {};
 
  private:
-  static constexpr std::int64_t most_checked = sanitized ? 3 : std::numeric_limits<std::int64_t>::max();
-
   /// No cell of a tile outside the window has changed.
   static bool same_outside(const CellRange& window, const HeightField& bed, const HeightField& before,
                            int slot) {
@@ -213,9 +208,13 @@ TEST_P(GoldenScene, EngineEqualsTheReferenceInEveryRelaxation) {
   const CheckedRelaxer& checked = *relaxer;
   Simulation simulation(scene, load_surface(scene.bed, folder), std::move(stroke), std::move(relaxer));
   SimulationObserver nobody;
-  const RunResult result = simulation.run(nobody);
-  EXPECT_EQ(result.relaxations, checked.relaxations);
-  EXPECT_GT(result.moved_volume, 0.0);
+  try {
+    const RunResult result = simulation.run(nobody);
+    EXPECT_EQ(result.relaxations, checked.relaxations);
+    EXPECT_GT(result.moved_volume, 0.0);
+  } catch (CheckedRelaxer::Enough) {
+    GTEST_SKIP() << "the first relaxations only";
+  }
 }
 
 }  // namespace

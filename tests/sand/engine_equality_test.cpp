@@ -164,8 +164,7 @@ TEST(Engine, EqualsTheReferenceOn200RandomScenes) {
 TEST(Engine, EqualsTheReferenceWithEveryInstructionSetAndThreadCount) {
   for (const std::int64_t target : hwy::SupportedAndGeneratedTargets())
     for (const int threads : thread_counts)
-      for (const unsigned seed : {1001u, 1002u, 1003u}) {
-        if (sanitized && seed > 1001u) continue;
+      for (const unsigned seed : sanitized ? std::vector{1001u} : std::vector{1001u, 1002u, 1003u}) {
         SCOPED_TRACE(std::string(hwy::TargetName(target)) + ", threads " + std::to_string(threads));
         const InstructionSet set(target);
         on_threads(threads, [&] {
@@ -176,7 +175,7 @@ TEST(Engine, EqualsTheReferenceWithEveryInstructionSetAndThreadCount) {
           rough.wavelength = 0.0;
           rough.seed = seed;
           scene.bed = make_surface(rough, scene.bed.rows(), scene.bed.cols(), scene.dx);
-          scene.relaxation.max_passes = 6;
+          scene.relaxation.max_passes = sanitized ? 1 : 6;
           expect_equal_engines(scene);
         });
         ASSERT_FALSE(testing::Test::HasFailure());

@@ -117,7 +117,7 @@ TEST_P(BothLaws, TilesGiveTheBitsOfTheReference) {
 TEST_P(BothLaws, EnginesAgreeWhereWhatFlowsIsBelowRounding) {
   RelaxationSettings s = settings(GetParam());
   s.tolerance = 0.0;
-  s.max_passes = 20'000;
+  s.max_passes = sanitized ? 1'000 : 20'000;
   HeightField tiles = random_bed(20, 20, 0.01, 0.1, 2), plain = tiles;
   const auto a = make_relaxer(s, 0.01)->relax(tiles);
   s.engine = RelaxationEngine::reference;
