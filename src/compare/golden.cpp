@@ -190,7 +190,7 @@ void write_golden(const fs::path& entry, const GoldenRun& run) {
     write_text_file(part / provenance_name, provenance_text(file, run.result));
     exchange_folder(part, entry);
     fs::remove_all(part);
-    fs::remove(part_path(entry));
+    drop_part(entry);
   } catch (const fs::filesystem_error& failure) {
     throw_io_error("{}: cannot be written ({}); check the folder's rights", entry.string(),
                    failure.code().message());
