@@ -6,6 +6,8 @@
 #include <numbers>
 #include <utility>
 
+#include "core/hash.h"
+
 namespace sandstroke {
 namespace {
 
@@ -22,14 +24,12 @@ double quadrant_area(double r, double x0, double x1, double y0, double y1) {
          y0 * (some_until - full_until);
 }
 
-/// A reproducible number in [-1, 1) for a lattice point (SplitMix64's finaliser).
+/// A reproducible number in [-1, 1) for a lattice point.
 double lattice_noise(std::int64_t row, std::int64_t col, std::uint32_t seed) {
-  std::uint64_t z = static_cast<std::uint64_t>(row) * 0x9e3779b97f4a7c15ULL +
-                    static_cast<std::uint64_t>(col) * 0xd1b54a32d192ed03ULL + seed * 0x2545f4914f6cdd1dULL;
-  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
-  z = (z ^ (z >> 27)) * 0x94d049bb133111ebULL;
-  z ^= z >> 31;
-  return static_cast<double>(z >> 11) * 0x1.0p-52 - 1.0;
+  return 2.0 * unit_hash(static_cast<std::uint64_t>(row) * 0x9e3779b97f4a7c15ULL +
+                         static_cast<std::uint64_t>(col) * 0xd1b54a32d192ed03ULL +
+                         seed * 0x2545f4914f6cdd1dULL) -
+         1.0;
 }
 
 /// The steepest rise of smooth_noise between lattice points that differ by 1: of t^3 (6 t^2 - 15 t + 10), at
