@@ -1,11 +1,14 @@
 #pragma once
 
-#include <bit>
+#include <array>
 #include <cstdint>
 
-#include "sand/height_field.h"
+#include "sand/bed_geometry.h"
 
 namespace sandstroke {
+
+/// A flag per cell of a tile: bit c of word r is cell (r, c).
+using CellFlags = std::array<std::uint64_t, BedGeometry::tile_side>;
 
 /// Which columns have a flag.
 inline std::uint64_t columns_of(const CellFlags& flags) {
