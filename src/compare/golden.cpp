@@ -100,8 +100,7 @@ void write_content(const fs::path& path, const RunFile& run) {
   file.attribute("/surface", "cols", static_cast<double>(change.cols()));
   file.attribute("/surface", "cell_size", run.cell_size());
   file.attribute("/surface", "initial_hash", initial_hash(initial));
-  const HeightGrid kept = change.block(block.row_begin, block.col_begin, block.row_end - block.row_begin,
-                                       block.col_end - block.col_begin);
+  const HeightGrid kept = change.block(block.row_begin, block.col_begin, block.rows(), block.cols());
   file.write("/surface/change", rounded(kept, height_quantum), Compression::small);
   file.attribute("/surface/change", "row", block.row_begin);
   file.attribute("/surface/change", "col", block.col_begin);

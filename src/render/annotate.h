@@ -1,15 +1,11 @@
 #pragma once
 
-#include <array>
-#include <cstdint>
 #include <string>
 #include <string_view>
 
 #include "core/image.h"
 
 namespace sandstroke {
-
-using Rgb = std::array<std::uint8_t, 3>;
 
 /// Draws a line of ASCII text with anti-aliased single strokes. x, y: left end of the base line in pixels, y
 /// down; cap_height: of capital letters, in pixels. What lies outside the image is cut off.
