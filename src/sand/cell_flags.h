@@ -44,8 +44,10 @@ inline RowSpan row_span(const CellFlags& flags) {
   return span;
 }
 
-/// Cells are computed in groups of 8 neighbours in a row, whatever the width of the machine's vectors. Bit g
-/// of the result: one of the flags 8 g ... 8 g + 7 is set.
+/// Cells are computed in groups of so many neighbours in a row, whatever the width of the machine's vectors.
+inline constexpr int cells_per_group = 8;
+
+/// Bit g: one of the flags 8 g ... 8 g + 7 is set.
 inline unsigned groups_of(std::uint64_t row) {
   row |= row >> 4;
   row |= row >> 2;

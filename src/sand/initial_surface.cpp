@@ -99,17 +99,16 @@ class FormulaRule : public SurfaceRule {
 
 double disk_cell_area(double radius, double x, double y, double cell_size) {
   // Folded into one octant, so that the area has the symmetries of the square to the bit.
-  double far = std::max(std::abs(x), std::abs(y)), near = std::min(std::abs(x), std::abs(y));
-  const double half = 0.5 * cell_size;
-  const auto span = [half](double centre, double& copies) {
-    copies = centre < half ? 2.0 : 1.0;  // a cell across the axis is two mirrored halves
-    return centre < half ? 0.0 : centre - half;
+  struct Span {
+    double begin, end, copies;
   };
-  double far_copies, near_copies;
-  const double far_begin = span(far, far_copies), near_begin = span(near, near_copies);
-  const double far_end = far_copies == 2.0 ? half : far + half,
-               near_end = near_copies == 2.0 ? half : near + half;
-  return far_copies * near_copies * quadrant_area(radius, far_begin, far_end, near_begin, near_end);
+  const auto span_about = [half = 0.5 * cell_size](double centre) -> Span {
+    if (centre < half) return {0.0, half, 2.0};  // a cell across the axis is two mirrored halves
+    return {centre - half, centre + half, 1.0};
+  };
+  const Span far = span_about(std::max(std::abs(x), std::abs(y))),
+             near = span_about(std::min(std::abs(x), std::abs(y)));
+  return far.copies * near.copies * quadrant_area(radius, far.begin, far.end, near.begin, near.end);
 }
 
 HeightField make_surface(const SurfaceSettings& settings, int rows, int cols, double cell_size) {
