@@ -130,7 +130,8 @@ void draw_legend(Image& image, const Legend& legend) {
                    as_bytes(scale_colour(value, legend.low, legend.high, legend.diverging)));
   }
   const double line = std::max(1.0, 0.08 * cap);
-  if (legend.contour_interval > 0.0) {
+  const double spacing = legend.contour_interval / (legend.high - legend.low) * (bottom - top);  // pixels
+  if (spacing > line) {  // where lines would touch there are none, as in the picture
     for (double k = std::ceil(legend.low / legend.contour_interval);
          k * legend.contour_interval <= legend.high; ++k) {
       const double y = y_at(k * legend.contour_interval);

@@ -22,7 +22,8 @@ struct Legend {
   std::string quantity = "height";
   double low = 0.0, high = 1.0;  ///< m
   bool diverging = false;
-  double contour_interval = 0.0;  ///< m; > 0: the bar shows the contour lines of the picture
+  double contour_interval =
+      0.0;  ///< m; > 0: the bar shows the picture's contour lines, unless they would touch
 };
 
 /// Width [pixels] of the strip at the right border that draw_legend uses in a picture of this height.
