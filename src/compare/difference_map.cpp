@@ -52,9 +52,8 @@ Image picture_difference_map(const Image& golden, const Image& run, int span) {
         const int difference = run.pixel(x, y)[channel] - golden.pixel(x, y)[channel];
         if (std::abs(difference) > std::abs(most)) most = difference;
       }
-      const auto colour = diverging_colour(static_cast<double>(most) / span);
-      for (int channel = 0; channel < 3; ++channel)
-        map.pixel(x, y)[channel] = static_cast<std::uint8_t>(std::lround(255.0 * colour[channel]));
+      const Rgb rgb = as_bytes(diverging_colour(static_cast<double>(most) / span));
+      std::copy(rgb.begin(), rgb.end(), map.pixel(x, y));
     }
   }
   return map;

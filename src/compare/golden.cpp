@@ -100,8 +100,7 @@ void write_content(const fs::path& path, const RunFile& run) {
   file.attribute("/surface", "cols", static_cast<double>(change.cols()));
   file.attribute("/surface", "cell_size", run.cell_size());
   file.attribute("/surface", "initial_hash", initial_hash(initial));
-  const HeightGrid kept = change.block(block.row_begin, block.col_begin, block.row_end - block.row_begin,
-                                       block.col_end - block.col_begin);
+  const HeightGrid kept = change.block(block.row_begin, block.col_begin, block.rows(), block.cols());
   file.write("/surface/change", rounded(kept, height_quantum), Compression::small);
   file.attribute("/surface/change", "row", block.row_begin);
   file.attribute("/surface/change", "col", block.col_begin);
@@ -190,7 +189,7 @@ void write_golden(const fs::path& entry, const GoldenRun& run) {
     write_text_file(part / provenance_name, provenance_text(file, run.result));
     exchange_folder(part, entry);
     fs::remove_all(part);
-    fs::remove(part_path(entry));
+    drop_part(entry);
   } catch (const fs::filesystem_error& failure) {
     throw_io_error("{}: cannot be written ({}); check the folder's rights", entry.string(),
                    failure.code().message());

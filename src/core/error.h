@@ -7,7 +7,7 @@
 
 namespace sandstroke {
 
-/// What a program's exit code says (files-and-commands): 0 fine, 1 a comparison failed.
+/// What a program's exit code says: 0 fine, 1 a comparison failed.
 enum class ErrorKind {
   input = 2,     ///< bad input or usage: the user changes what was given
   unstable = 3,  ///< not converged or unstable: the user changes settings

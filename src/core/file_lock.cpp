@@ -11,6 +11,13 @@
 
 namespace sandstroke {
 
+bool still_named(int descriptor, const std::filesystem::path& path) {
+  struct stat open_file {};
+  struct stat named {};
+  return fstat(descriptor, &open_file) == 0 && stat(path.c_str(), &named) == 0 &&
+         open_file.st_dev == named.st_dev && open_file.st_ino == named.st_ino;
+}
+
 std::optional<FileLock> FileLock::try_take(const std::filesystem::path& path) {
   // Again, where its last holder renamed or removed it between open and lock: that is no longer this file.
   while (true) {
@@ -20,13 +27,11 @@ std::optional<FileLock> FileLock::try_take(const std::filesystem::path& path) {
     if (taken.descriptor_ < 0)
       throw_io_error("{}: cannot be written ({}); choose another place or free disk space", path.string(),
                      std::strerror(errno));
-    struct stat held {
-    }, there{};
-    if (fstat(taken.descriptor_, &held) != 0 || !S_ISREG(held.st_mode))
+    struct stat opened {};
+    if (fstat(taken.descriptor_, &opened) != 0 || !S_ISREG(opened.st_mode))
       throw_io_error("{}: is not a regular file; remove it or choose another place", path.string());
     if (!taken.lock(F_WRLCK)) return std::nullopt;
-    if (stat(path.c_str(), &there) == 0 && held.st_dev == there.st_dev && held.st_ino == there.st_ino)
-      return taken;
+    if (still_named(taken.descriptor_, path)) return taken;
   }
 }
 

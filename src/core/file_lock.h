@@ -6,6 +6,9 @@
 
 namespace sandstroke {
 
+/// Whether the name still means this open file: nobody renamed, removed or replaced it.
+bool still_named(int descriptor, const std::filesystem::path& path);
+
 /// Keeps other processes, and other holders in this one, from what a file stands for; gone with its holder,
 /// however that ends.
 class FileLock {

@@ -22,4 +22,13 @@ class ContentHash {
 
 std::string content_hash(std::string_view text);
 
+/// A number in [0, 1), the same for the same bits and as good as random for others: the upper 53 bits of
+/// SplitMix64's finaliser (Steele, Lea, Flood, OOPSLA 2014).
+inline double unit_hash(std::uint64_t bits) {
+  bits = (bits ^ (bits >> 30)) * 0xbf58476d1ce4e5b9ULL;
+  bits = (bits ^ (bits >> 27)) * 0x94d049bb133111ebULL;
+  bits ^= bits >> 31;
+  return static_cast<double>(bits >> 11) * 0x1p-53;
+}
+
 }  // namespace sandstroke

@@ -8,24 +8,22 @@ extern "C" {  // the header has no C++ guard of its own
 
 namespace sandstroke {
 
-HersheyFont::HersheyFont(std::string_view name) : name_(name) {
+HersheyFont::HersheyFont(std::string_view name) : name_(name), font_(nullptr, hershey_font_free) {
   // The library joins the name to its font folder: only a plain name stays inside that.
   if (name_.empty() || name_.find('/') != std::string::npos)
     throw_input_error("font '{}' is not a font name; take one of /usr/share/hershey-fonts, such as futural",
                       name_);
-  hershey_font* font = hershey_font_load(name_.c_str());
-  if (!font)
+  font_.reset(hershey_font_load(name_.c_str()));
+  if (!font_)
     throw_input_error("font '{}' is not installed; take one of /usr/share/hershey-fonts, such as futural",
                       name_);
-  font_ = std::shared_ptr<hershey_font>(font, hershey_font_free);
 }
 
 SingleStrokeText HersheyFont::draw(std::string_view text) const {
   constexpr double capital_height = 21.0;  // the library's units: y up from the base line
-  auto* font = static_cast<hershey_font*>(font_.get());
   SingleStrokeText drawn;
   for (const char letter : text) {
-    const hershey_glyph* glyph = hershey_font_glyph(font, static_cast<unsigned char>(letter));
+    const hershey_glyph* glyph = hershey_font_glyph(font_.get(), static_cast<unsigned char>(letter));
     if (!glyph || (glyph->width == 0 && glyph->npaths == 0))
       throw_input_error("font '{}' has no letter of code {}; write the text with ASCII letters", name_,
                         static_cast<int>(static_cast<unsigned char>(letter)));

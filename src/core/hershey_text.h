@@ -6,6 +6,8 @@
 #include <string_view>
 #include <vector>
 
+struct hershey_font;  // of the library hersheyfont
+
 namespace sandstroke {
 
 /// Text as pen strokes. Coordinates in units of the capital height: x to the right from the first letter's
@@ -25,7 +27,7 @@ class HersheyFont {
 
  private:
   std::string name_;
-  std::shared_ptr<void> font_;
+  std::unique_ptr<hershey_font, void (*)(hershey_font*)> font_;
 };
 
 /// Draws text with a font of that name. Error: input, if the font or a letter is missing.

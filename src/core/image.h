@@ -1,10 +1,14 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
 namespace sandstroke {
+
+/// A colour as images hold it: sRGB, 8 bits a channel.
+using Rgb = std::array<std::uint8_t, 3>;
 
 /// 8-bit RGB, rows from the top; pixel (x, y) starts at rgb[3 (y width + x)].
 struct Image {

@@ -48,11 +48,16 @@ double room_in(const fs::path& group, const GroupFiles& files) {
   return limit - taken;
 }
 
-/// What is left of a limit of setrlimit(2), of which the process has taken what /proc/self/status says.
-double room_of(__rlimit_resource resource, const char* taken) {
+/// A limit of setrlimit(2).
+double limit_of(__rlimit_resource resource) {
   rlimit limit{};
   if (getrlimit(resource, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return unlimited;
-  return static_cast<double>(limit.rlim_cur) - 1024.0 * number_after("/proc/self/status", taken);
+  return static_cast<double>(limit.rlim_cur);
+}
+
+/// What is left of it; what the process has taken is in /proc/self/status under a name.
+double room_of(__rlimit_resource resource, const char* taken) {
+  return limit_of(resource) - 1024.0 * number_after("/proc/self/status", taken);
 }
 
 }  // namespace
@@ -88,8 +93,7 @@ void check_memory(double bytes, const std::string& what, const std::string& reme
 }
 
 void share_heap_if_limited() {
-  rlimit limit{};
-  if (getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY) mallopt(M_ARENA_MAX, 1);
+  if (limit_of(RLIMIT_AS) < unlimited) mallopt(M_ARENA_MAX, 1);
 }
 
 double control_group_room(const std::string& groups, const fs::path& mount) {

@@ -26,7 +26,16 @@ FileLock take_part(const fs::path& path) {
   return std::move(*lock);
 }
 
+void drop_part(const fs::path& path) {
+  std::error_code ignored;
+  fs::remove(part_path(path), ignored);
+}
+
 namespace {
+
+fs::path folder_of(const fs::path& path) {
+  return path.has_parent_path() ? path.parent_path() : fs::path(".");
+}
 
 void check_takes_files(const fs::path& folder) {
   if (access(folder.c_str(), W_OK) != 0)
@@ -48,7 +57,7 @@ void check_output(const fs::path& output, const std::vector<fs::path>& others) {
   if (fs::is_directory(output)) throw_io_error("{}: is a folder; name a file", output.string());
   if (fs::exists(output) && !fs::is_regular_file(output))
     throw_io_error("{}: is not a regular file; name one", output.string());
-  const fs::path folder = output.has_parent_path() ? output.parent_path() : fs::path(".");
+  const fs::path folder = folder_of(output);
   if (!fs::is_directory(folder))
     throw_io_error("{}: cannot be written, for there is no folder {}; make it first", output.string(),
                    folder.string());
@@ -70,8 +79,7 @@ fs::path beside(const fs::path& path, const std::string& ending) {
 }
 
 void sync_folder_of(const fs::path& path) {
-  const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
-  const int descriptor = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  const int descriptor = open(folder_of(path).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (descriptor < 0) return;
   fsync(descriptor);
   close(descriptor);
@@ -98,14 +106,12 @@ void finish_part(const fs::path& path) {
 
 void write_text_file(const fs::path& path, std::string_view text) {
   const FileLock lock = take_part(path);
-  const fs::path part = part_path(path);
-  std::ofstream file(part, std::ios::binary);
+  std::ofstream file(part_path(path), std::ios::binary);
   file << text;
   file.close();
   if (!file) {
     const std::string reason = std::strerror(errno);
-    std::error_code ignored;
-    fs::remove(part, ignored);
+    drop_part(path);
     throw_io_error("{}: cannot be written ({}); choose another place or free disk space", path.string(),
                    reason);
   }

@@ -19,6 +19,9 @@ std::filesystem::path part_path(const std::filesystem::path& path);
 /// process has it.
 FileLock take_part(const std::filesystem::path& path);
 
+/// Removes PATH.part, which holds nothing that is to be kept. Where it cannot, it stays: never an error.
+void drop_part(const std::filesystem::path& path);
+
 /// Refuses, before any work is done, an output that would destroy something or cannot be: one of the inputs
 /// or other outputs, a folder, a device, or in a folder that is not there or read-only. Error: input or io.
 void check_output(const std::filesystem::path& output, const std::vector<std::filesystem::path>& others);

@@ -43,7 +43,7 @@ void StatusLine::draw(const std::string& text) {
 }
 
 void StatusLine::clear() {
-  if (drawn_ && takes_output()) std::fputs("\r\033[K", stderr);
+  if (drawn_ && !in_background() && takes_output()) std::fputs("\r\033[K", stderr);
   drawn_ = false;
 }
 

@@ -8,8 +8,8 @@ namespace sandstroke {
 /// force.
 enum class DeviceModel { kinematic, dynamic };
 /// Of which velocity the drag is taken. sampled: the one read at the start of the tick, as published.
-/// implicit: the mean velocity of the tick itself (SimulatedDevice::mean_velocity), so that drag can only
-/// take energy.
+/// implicit: one of the tick itself (SimulatedDevice::drag_velocity), so that drag can only take
+/// energy.
 enum class DragVelocity { sampled, implicit };
 enum class DevicePreset { omega3, phantom_desktop, touch, ideal };
 

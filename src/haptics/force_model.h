@@ -29,8 +29,8 @@ struct SandForce {
   bool saturated = false;                           ///< the limit cut it
 };
 
-/// |F_r| = k_s (exp(k_c d) - 1) for depth d > 0 [m], else 0 (paper eq. 1 with the sign and bracket mended:
-/// model). Infinite where it is beyond any number.
+/// |F_r| = k_s (exp(k_c d) - 1) for depth d > 0 [m], else 0 (paper eq. 1 with the sign and bracket mended).
+/// Infinite where it is beyond any number.
 double repulse_force(double depth, const ForceSettings& settings);
 
 /// The depth [m] at which the repulse force is `force` [N] >= 0: the inverse of repulse_force.

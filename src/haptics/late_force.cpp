@@ -2,15 +2,12 @@
 
 #include <utility>
 
+#include "core/hash.h"
+
 namespace sandstroke {
 
 bool drops_tick(std::int64_t tick, double share) {
-  // The finaliser of SplitMix64 (Steele, Lea, Flood, OOPSLA 2014), of which 53 bits make a number in [0, 1).
-  std::uint64_t bits = (static_cast<std::uint64_t>(tick) + 1) * 0x9e3779b97f4a7c15ULL;
-  bits = (bits ^ (bits >> 30)) * 0xbf58476d1ce4e5b9ULL;
-  bits = (bits ^ (bits >> 27)) * 0x94d049bb133111ebULL;
-  bits ^= bits >> 31;
-  return static_cast<double>(bits >> 11) * 0x1p-53 < share;
+  return unit_hash((static_cast<std::uint64_t>(tick) + 1) * 0x9e3779b97f4a7c15ULL) < share;
 }
 
 LateForce::LateForce(const DeviceSettings& settings, const Eigen::Vector3d& before)

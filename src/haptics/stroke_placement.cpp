@@ -99,13 +99,10 @@ void lay_level(Stroke& stroke, const std::string& name) {
   // About the centroid, which lies on the plane: small numbers, and z = 0 is the plane at once.
   for (Vector3d& p : stroke.position) p -= centroid;
   rotate(stroke, level);
-  Vector3d low = Vector3d::Constant(std::numeric_limits<double>::infinity()), high = -low;
-  for (std::size_t i = 0; i < stroke.size(); ++i) {
-    if (!stroke.touches(i)) continue;
-    low = low.cwiseMin(stroke.position[i]);
-    high = high.cwiseMax(stroke.position[i]);
-  }
-  const Vector3d centre(0.5 * (low.x() + high.x()), 0.5 * (low.y() + high.y()), 0.0);
+  Eigen::AlignedBox3d extent;
+  for (std::size_t i = 0; i < stroke.size(); ++i)
+    if (stroke.touches(i)) extent.extend(stroke.position[i]);
+  const Vector3d centre(extent.center().x(), extent.center().y(), 0.0);
   for (Vector3d& p : stroke.position) p -= centre;
 }
 

@@ -73,18 +73,15 @@ std::vector<std::string> film_endings() {
 void check_film_name(const fs::path& path) { format_of(path); }
 
 FilmWriter::Part::~Part() {
-  std::error_code ignored;
-  if (!keep) fs::remove(path, ignored);
+  if (!keep) drop_part(path);
 }
 
 FilmWriter::FilmWriter(const fs::path& path, int width, int height, double rate)
-    : path_(path),
-      part_{part_path(path), take_part(path)},
-      ffmpeg_(start_ffmpeg(path, width, height, rate)) {}
+    : part_{path, take_part(path)}, ffmpeg_(start_ffmpeg(path, width, height, rate)) {}
 
 void FilmWriter::fail(const ChildResult& result) const {
   const std::size_t line = result.err.find_last_of('\n');  // none: from the first on
-  throw_io_error("{}: ffmpeg cannot write it: {}", path_.string(),
+  throw_io_error("{}: ffmpeg cannot write it: {}", part_.path.string(),
                  result.err.empty()
                      ? fmt::format("it ended with exit code {} before its time", result.exit_code)
                      : result.err.substr(line + 1));
@@ -102,7 +99,7 @@ bool FilmWriter::finish() {
   if (!result || (result->exit_code != 0 && interrupted())) return false;
   if (result->exit_code != 0) fail(*result);
   part_.keep = true;
-  finish_part(path_);
+  finish_part(part_.path);
   return true;
 }
 

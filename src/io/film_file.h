@@ -30,7 +30,8 @@ class FilmWriter {
   bool finish();
 
  private:
-  struct Part {  // PATH.part: ours alone, gone unless it is kept
+  /// PATH.part: ours alone, gone unless it is kept.
+  struct Part {
     std::filesystem::path path;
     FileLock lock;
     bool keep = false;
@@ -38,7 +39,6 @@ class FilmWriter {
   };
   [[noreturn]] void fail(const ChildResult& result) const;
 
-  std::filesystem::path path_;
   Part part_;
   FedChild ffmpeg_;  // after the file that it writes: gone before it
 };

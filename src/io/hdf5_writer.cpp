@@ -89,8 +89,7 @@ Hdf5Writer::~Hdf5Writer() {
 
 void Hdf5Writer::drop() {
   file_.close();
-  std::error_code ignored;
-  std::filesystem::remove(part_path(path_), ignored);
+  drop_part(path_);
 }
 
 void Hdf5Writer::check(bool done, const std::string& object) const {

@@ -1,7 +1,6 @@
 #include "record/journal.h"
 
 #include <fcntl.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <bit>
@@ -145,10 +144,7 @@ void JournalWriter::append(std::span<const RecordedSample> samples) {
 
 void JournalWriter::sync() {
   if (fdatasync(file_) < 0) fail(errno);
-  struct stat written {
-  }, there{};
-  if (fstat(file_, &written) != 0 || stat(path_.c_str(), &there) != 0 || written.st_dev != there.st_dev ||
-      written.st_ino != there.st_ino)
+  if (!still_named(file_, path_))
     throw_io_error("{}: somebody removed or replaced this file while it was recorded", path_.string());
 }
 

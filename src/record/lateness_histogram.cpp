@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "record/loop_clock.h"
+
 namespace sandstroke {
 
 void LatenessHistogram::add(std::int64_t late) noexcept {
@@ -21,8 +23,7 @@ Lateness LatenessHistogram::summary() const noexcept {
     counted += ticks_[i];
     if (counted >= rank) p99 = std::min(max_, static_cast<std::int64_t>(i + 1) * bin);
   }
-  return {1e-9 * static_cast<double>(sum_) / static_cast<double>(all_), 1e-9 * static_cast<double>(p99),
-          1e-9 * static_cast<double>(max_)};
+  return {to_seconds(sum_) / static_cast<double>(all_), to_seconds(p99), to_seconds(max_)};
 }
 
 }  // namespace sandstroke

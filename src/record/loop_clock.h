@@ -6,6 +6,7 @@
 namespace sandstroke {
 
 inline std::int64_t to_nanoseconds(double seconds) { return std::llround(seconds * 1e9); }
+inline double to_seconds(std::int64_t nanoseconds) { return 1e-9 * static_cast<double>(nanoseconds); }
 
 /// The time that the servo loop lives by [ns]. Tests give it one that goes as they like.
 class LoopClock {

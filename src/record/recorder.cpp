@@ -64,7 +64,7 @@ RecordingReport record(HapticDevice& device, FeltWorld* world, const RecorderSet
   header.scheduling = thread.scheduling();
   header.force_limit = loop.force_limit();
   header.started = utc_now();
-  header.started_monotonic = 1e-9 * static_cast<double>(clock.now());
+  header.started_monotonic = to_seconds(clock.now());
   JournalWriter file(journal, header);
   SampleWriter writer(ring, file, loop);
   std::optional<Watchdog> watchdog;

@@ -78,12 +78,9 @@ void ServoLoop::stop(StopReason reason) noexcept {
 }
 
 ServoProgress ServoLoop::progress() const noexcept {
-  return {1e-9 * static_cast<double>(time_.load(relaxed)),
-          elapsed_.load(relaxed),
-          recorded_.load(relaxed),
-          force_.load(relaxed),
-          1e-9 * static_cast<double>(late_.load(relaxed)),
-          1e-9 * static_cast<double>(max_late_.load(relaxed))};
+  return {to_seconds(time_.load(relaxed)), elapsed_.load(relaxed),
+          recorded_.load(relaxed),         force_.load(relaxed),
+          to_seconds(late_.load(relaxed)), to_seconds(max_late_.load(relaxed))};
 }
 
 /// From the tick's number, not from the tick before: nothing adds up where a tick is no whole number of
@@ -101,7 +98,7 @@ std::int64_t ServoLoop::wait_for_tick() noexcept {
 void ServoLoop::serve_tick(std::int64_t now) noexcept {
   DeviceReading reading;
   bool answers = false;
-  if (read(1e-9 * static_cast<double>(now - start_), reading)) {
+  if (read(to_seconds(now - start_), reading)) {
     FeltForce given = feel(now, reading);
     if (stopped()) given.force.setZero();  // perhaps for a call that hung: its force is of another time
     answers = command(given.force);
@@ -129,7 +126,7 @@ bool ServoLoop::read(double time, DeviceReading& reading) noexcept {
 
 FeltForce ServoLoop::feel(std::int64_t now, const DeviceReading& reading) noexcept {
   if (!world_) return {};
-  const double time = 1e-9 * static_cast<double>(now - start_);
+  const double time = to_seconds(now - start_);
   const FeltForce given = guard_.admit(time, world_->feel(time, reading), held_);
   stop_where_it_lasts((given.flags & refused_force) != 0, wrong_, now);
   return given;

@@ -126,14 +126,12 @@ void draw_legend(Image& image, const Legend& legend) {
 
   for (int y = static_cast<int>(top); y < static_cast<int>(bottom); ++y) {
     const double value = legend.low + (bottom - y - 0.5) / (bottom - top) * (legend.high - legend.low);
-    const auto colour = scale_colour(value, legend.low, legend.high, legend.diverging);
-    Rgb rgb;
-    for (int channel = 0; channel < 3; ++channel)
-      rgb[channel] = static_cast<std::uint8_t>(std::lround(255.0 * colour[channel]));
-    fill_rectangle(image, left, y, left + layout.bar_width, y + 1, rgb);
+    fill_rectangle(image, left, y, left + layout.bar_width, y + 1,
+                   as_bytes(scale_colour(value, legend.low, legend.high, legend.diverging)));
   }
   const double line = std::max(1.0, 0.08 * cap);
-  if (legend.contour_interval > 0.0) {
+  const double spacing = legend.contour_interval / (legend.high - legend.low) * (bottom - top);  // pixels
+  if (spacing > line) {  // where lines would touch there are none, as in the picture
     for (double k = std::ceil(legend.low / legend.contour_interval);
          k * legend.contour_interval <= legend.high; ++k) {
       const double y = y_at(k * legend.contour_interval);

@@ -1,15 +1,11 @@
 #pragma once
 
-#include <array>
-#include <cstdint>
 #include <string>
 #include <string_view>
 
 #include "core/image.h"
 
 namespace sandstroke {
-
-using Rgb = std::array<std::uint8_t, 3>;
 
 /// Draws a line of ASCII text with anti-aliased single strokes. x, y: left end of the base line in pixels, y
 /// down; cap_height: of capital letters, in pixels. What lies outside the image is cut off.
@@ -26,7 +22,8 @@ struct Legend {
   std::string quantity = "height";
   double low = 0.0, high = 1.0;  ///< m
   bool diverging = false;
-  double contour_interval = 0.0;  ///< m; > 0: the bar shows the contour lines of the picture
+  double contour_interval =
+      0.0;  ///< m; > 0: the bar shows the picture's contour lines, unless they would touch
 };
 
 /// Width [pixels] of the strip at the right border that draw_legend uses in a picture of this height.

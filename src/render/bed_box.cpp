@@ -19,12 +19,12 @@ struct Station {
 };
 
 /// Once around the bed, from the corner of row 0, column 0.
-std::vector<Station> stations_along_border(const DrawnHeights& heights, double cell_size) {
-  const auto rows = static_cast<int>(heights.rows()), cols = static_cast<int>(heights.cols());
+std::vector<Station> stations_along_border(const BedGeometry& bed, const DrawnHeights& heights) {
+  const int rows = bed.rows(), cols = bed.cols();
   std::vector<Station> stations;
   const auto add = [&](int row, int col) {
     const auto side = [](int i, int count) { return i == 0 ? -1.0 : i == count - 1 ? 1.0 : 0.0; };
-    stations.push_back({{(col - 0.5 * (cols - 1)) * cell_size, (row - 0.5 * (rows - 1)) * cell_size},
+    stations.push_back({{bed.x_of(col), bed.y_of(row)},
                         {side(col, cols), side(row, rows)},
                         static_cast<double>(heights(row, col))});
   };
@@ -37,8 +37,6 @@ std::vector<Station> stations_along_border(const DrawnHeights& heights, double c
 
 }  // namespace
 
-double wall_thickness(double width, double depth) { return 0.012 * std::max(width, depth); }
-
 BedBox::BedBox() : layout_(make_vertex_array()), vertices_(make_buffer()) {
   glBindVertexArray(layout_);
   glBindBuffer(GL_ARRAY_BUFFER, vertices_);
@@ -49,12 +47,11 @@ BedBox::BedBox() : layout_(make_vertex_array()), vertices_(make_buffer()) {
                         reinterpret_cast<const void*>(offsetof(Vertex, normal)));
 }
 
-void BedBox::update(const DrawnHeights& heights, double cell_size, double lowest) {
-  const double width = static_cast<double>(heights.cols() - 1) * cell_size;
-  const double depth = static_cast<double>(heights.rows() - 1) * cell_size;
-  const double thickness = wall_thickness(width, depth);
+void BedBox::update(const BedGeometry& bed, const DrawnHeights& heights, double lowest) {
+  const double cell_size = bed.cell_size();
+  const double thickness = 0.012 * std::max((bed.cols() - 1) * cell_size, (bed.rows() - 1) * cell_size);
   const double ground = lowest - 3.0 * thickness;
-  const std::vector<Station> stations = stations_along_border(heights, cell_size);
+  const std::vector<Station> stations = stations_along_border(bed, heights);
   const auto count = static_cast<int>(stations.size());
 
   // The rim: the highest sand within a wall's thickness along the border, and a little more.
@@ -90,6 +87,7 @@ void BedBox::update(const DrawnHeights& heights, double cell_size, double lowest
       }
     }
   }
+  wall_thickness_ = thickness;
   vertex_count_ = static_cast<int>(vertices.size());
   glBindBuffer(GL_ARRAY_BUFFER, vertices_);
   glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(vertices.size() * sizeof(Vertex)), vertices.data(),

@@ -13,18 +13,17 @@ class BedBox {
  public:
   BedBox();
   /// Rebuilds the wall around a surface.
-  void update(const DrawnHeights& heights, double cell_size, double lowest);
+  void update(const BedGeometry& bed, const DrawnHeights& heights, double lowest);
   void draw() const;
   /// All of the wall and the ground it stands on, [m].
   const Eigen::AlignedBox3d& bounds() const { return bounds_; }
+  double wall_thickness() const { return wall_thickness_; }  ///< m
 
  private:
   GlObject layout_, vertices_;
   int vertex_count_ = 0;
   Eigen::AlignedBox3d bounds_;
+  double wall_thickness_ = 0.0;
 };
-
-/// Thickness of the wall [m] for a bed of this width and depth.
-double wall_thickness(double width, double depth);
 
 }  // namespace sandstroke

@@ -24,10 +24,10 @@ RenderSubject subject_of_change(const HeightGrid& initial, const HeightGrid& las
 }
 
 Image ChangePainter::draw(const HeightField& initial, const HeightField& last, const ViewSettings& view) {
-  if (!renderer_ || rows_ != last.rows() || cols_ != last.cols() || cell_size_ != last.cell_size()) {
+  if (!renderer_ || !bed_->is_like(last)) {
     renderer_.reset();  // before the next: two take twice the memory
+    bed_ = last;
     renderer_ = std::make_unique<HeightFieldRenderer>(last.rows(), last.cols(), last.cell_size());
-    rows_ = last.rows(), cols_ = last.cols(), cell_size_ = last.cell_size();
   }
   const HeightGrid before = initial.grid(), after = last.grid();
   RenderSubject subject = subject_of_change(before, after, view);

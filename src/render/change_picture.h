@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "render/height_field_renderer.h"
 
@@ -20,8 +21,7 @@ class ChangePainter {
 
  private:
   std::unique_ptr<HeightFieldRenderer> renderer_;
-  int rows_ = 0, cols_ = 0;
-  double cell_size_ = 0.0;
+  std::optional<BedGeometry> bed_;  // that it draws
 };
 
 }  // namespace sandstroke

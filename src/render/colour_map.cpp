@@ -44,4 +44,11 @@ std::array<double, 3> scale_colour(double value, double low, double high, bool d
   return diverging ? diverging_colour(2.0 * unit - 1.0) : sequential_colour(unit);
 }
 
+Rgb as_bytes(const std::array<double, 3>& colour) {
+  Rgb rgb;
+  for (int channel = 0; channel < 3; ++channel)
+    rgb[channel] = static_cast<std::uint8_t>(std::lround(255.0 * colour[channel]));
+  return rgb;
+}
+
 }  // namespace sandstroke

@@ -2,6 +2,8 @@
 
 #include <array>
 
+#include "core/image.h"
+
 namespace sandstroke {
 
 /// Perceptually even map (viridis), dark blue at 0 to yellow at 1. Returns sRGB in [0, 1]; clamps, NaN is
@@ -13,5 +15,8 @@ std::array<double, 3> diverging_colour(double minus_one_to_one);
 
 /// The colour of `value` on the scale from low to high; a diverging scale has its white in the middle.
 std::array<double, 3> scale_colour(double value, double low, double high, bool diverging);
+
+/// A colour given in [0, 1], as images hold it.
+Rgb as_bytes(const std::array<double, 3>& colour);
 
 }  // namespace sandstroke

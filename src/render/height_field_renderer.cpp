@@ -1,20 +1,15 @@
 #include "render/height_field_renderer.h"
 
 #include <algorithm>
-#include <array>
-#include <atomic>
-#include <cmath>
-#include <thread>
 #include <vector>
 
 #include "core/error.h"
-#include "core/machine.h"
 #include "render/annotate.h"
 #include "render/bed_box.h"
 #include "render/camera.h"
 #include "render/colour_map.h"
+#include "render/current_context.h"
 #include "render/framebuffer.h"
-#include "render/offscreen_context.h"
 #include "render/round_scale.h"
 #include "render/shaders.h"
 #include "render/sphere_mesh.h"
@@ -23,32 +18,6 @@
 
 namespace sandstroke {
 namespace {
-
-/// A context that is current from its construction on: what is made after it may use GL.
-class CurrentContext {
- public:
-  CurrentContext() {
-    // Where it finds no memory, Mesa or its compiler ends the program. Measured: 90 MB and threads' stacks.
-    // Those who draw at the same time may not have taken theirs yet.
-    check_memory(living_.count * (100e6 + 10e6 * std::thread::hardware_concurrency()), "drawing",
-                 "allow more, or do without pictures");
-    context_ = make_offscreen_context();
-    context_->make_current();
-  }
-  ~CurrentContext() = default;
-  void make_current() { context_->make_current(); }
-
- private:
-  /// Counts those that there are.
-  struct Living {
-    Living() { ++count; }
-    ~Living() { --count; }
-    static inline std::atomic<int> count = 0;
-  };
-
-  Living living_;
-  std::unique_ptr<OffscreenContext> context_;
-};
 
 GlObject colour_map_texture(bool diverging) {
   constexpr int entries = 256;
@@ -73,11 +42,9 @@ void check_drawable(int rows, int cols) {
 
 class HeightFieldRenderer::Drawing {
  public:
-  Drawing(int rows, int cols, double cell_size)
-      : rows_(rows),
-        cols_(cols),
-        cell_size_(cell_size),
-        surface_(rows, cols, cell_size),
+  explicit Drawing(const BedGeometry& bed)
+      : bed_(bed),
+        surface_(bed),
         sand_("sand", shaders::surface_vertex(), shaders::sand_fragment()),
         map_("map", shaders::surface_vertex(), shaders::map_fragment()),
         wall_("box", shaders::solid_vertex(), shaders::box_fragment()),
@@ -95,16 +62,22 @@ class HeightFieldRenderer::Drawing {
   RenderCounters counters;
 
  private:
-  Eigen::AlignedBox3d box_over(const CellRange& cells, double lowest, double highest) const;
-  void draw_surroundings(const RenderSubject& subject, const Camera& camera, const Sun& sun) const;
-  void draw_tiles(const ShaderProgram& program, const Camera& camera, const std::vector<int>& levels);
-  void set_light(const ShaderProgram& program, const Camera& camera, const Sun& sun) const;
-  void set_tool(const ShaderProgram& program, const ToolSphere& tool) const;
+  void check(const HeightField& surface, const ViewSettings& view) const;
   /// Colour scale of the picture; also puts the values where the map shader finds them.
   Legend prepare_values(const RenderSubject& subject);
+  Eigen::AlignedBox3d box_over(const CellRange& cells, double lowest, double highest) const;
+  /// Of heights: `extent`. legend_part: of the picture's width.
+  Camera camera_for(const RenderSubject& subject, const ValueRange& extent, double legend_part) const;
+  void set_light(const ShaderProgram& program, const Camera& camera, const Sun& sun) const;
+  void set_tool(const ShaderProgram& program, const ToolSphere& tool) const;
+  void draw_surroundings(const RenderSubject& subject, const Camera& camera, const Sun& sun) const;
+  void draw_sand(const RenderSubject& subject, const Camera& camera, const Sun& sun);
+  void draw_map(const RenderSubject& subject, const Legend& legend, const Camera& camera, const Sun& sun);
+  void draw_tiles(const ShaderProgram& program, const Camera& camera, const std::vector<int>& levels);
+  void draw_box(RenderStyle style, const Camera& camera, const Sun& sun) const;
+  void draw_tool(const ToolSphere& tool, const Camera& camera, const Sun& sun) const;
 
-  int rows_, cols_;
-  double cell_size_;
+  BedGeometry bed_;
   CurrentContext context_;  // before everything that lives in it
   SurfaceTextures surface_;
   TileMesh tiles_;
@@ -118,10 +91,8 @@ class HeightFieldRenderer::Drawing {
 
 Eigen::AlignedBox3d HeightFieldRenderer::Drawing::box_over(const CellRange& cells, double lowest,
                                                            double highest) const {
-  const auto x = [&](int col) { return (col - 0.5 * (cols_ - 1)) * cell_size_; };
-  const auto y = [&](int row) { return (row - 0.5 * (rows_ - 1)) * cell_size_; };
-  return {Eigen::Vector3d(x(cells.col_begin), y(cells.row_begin), lowest),
-          Eigen::Vector3d(x(cells.col_end - 1), y(cells.row_end - 1), highest)};
+  return {Eigen::Vector3d(bed_.x_of(cells.col_begin), bed_.y_of(cells.row_begin), lowest),
+          Eigen::Vector3d(bed_.x_of(cells.col_end - 1), bed_.y_of(cells.row_end - 1), highest)};
 }
 
 void HeightFieldRenderer::Drawing::set_light(const ShaderProgram& program, const Camera& camera,
@@ -162,23 +133,24 @@ void HeightFieldRenderer::Drawing::draw_surroundings(const RenderSubject& subjec
 void HeightFieldRenderer::Drawing::draw_tiles(const ShaderProgram& program, const Camera& camera,
                                               const std::vector<int>& levels) {
   program.set("heights", 0);
-  program.set("bed_origin", Eigen::Vector2d(0.5 * (cols_ - 1), 0.5 * (rows_ - 1)));
-  program.set("cells", cols_, rows_);
-  program.set("cell_size", cell_size_);
+  program.set("bed_origin", Eigen::Vector2d(bed_.col_at(0.0), bed_.row_at(0.0)));
+  program.set("cells", bed_.cols(), bed_.rows());
+  program.set("cell_size", bed_.cell_size());
   program.set("shading", 1);
   surface_.bind_heights(0);
   surface_.bind_shading(1);
   const GLint tile_origin = program.place("tile_origin"), skirt_height = program.place("skirt_height");
-  for (int tile = 0; tile < surface_.tile_count(); ++tile) {
-    const CellRange patch = surface_.tile_cells(tile, 1);
+  for (int tile = 0; tile < bed_.tile_count(); ++tile) {
+    const CellRange patch = surface_.patch(tile);
     const TileDetail& detail = surface_.detail(tile);
     const Eigen::AlignedBox3d bounds = box_over(patch, detail.lowest, detail.highest);
     if (camera.misses(bounds)) continue;
-    const int level =
-        levels.empty() ? level_of_detail(detail, cell_size_, camera.pixels_per_metre(bounds)) : levels[tile];
+    const int level = levels.empty()
+                          ? level_of_detail(detail, bed_.cell_size(), camera.pixels_per_metre(bounds))
+                          : levels[tile];
     glUniform2i(tile_origin, patch.col_begin, patch.row_begin);
     // A cell below the lowest: between flat tiles, too, rounding leaves gaps of a sample here and there.
-    glUniform1f(skirt_height, static_cast<float>(detail.lowest - cell_size_));
+    glUniform1f(skirt_height, static_cast<float>(detail.lowest - bed_.cell_size()));
     tiles_.bind(level);
     counters.triangles += tiles_.draw(level);
     ++counters.tiles_drawn;
@@ -190,10 +162,12 @@ Legend HeightFieldRenderer::Drawing::prepare_values(const RenderSubject& subject
   Legend legend;
   double least = surface_.lowest(), greatest = surface_.highest();
   if (difference) {
-    if (!subject.difference || subject.difference->rows() != rows_ || subject.difference->cols() != cols_)
-      throw_input_error("the style difference needs a difference of {} x {} cells to show", cols_, rows_);
-    if (!difference_) difference_ = std::make_unique<SurfaceTextures>(rows_, cols_, cell_size_);
-    difference_->update(HeightField(*subject.difference, cell_size_));
+    if (!subject.difference || subject.difference->rows() != bed_.rows() ||
+        subject.difference->cols() != bed_.cols())
+      throw_input_error("the style difference needs a difference of {} x {} cells to show", bed_.cols(),
+                        bed_.rows());
+    if (!difference_) difference_ = std::make_unique<SurfaceTextures>(bed_);
+    difference_->update(HeightField(*subject.difference, bed_.cell_size()));
     least = difference_->lowest(), greatest = difference_->highest();
     legend.quantity = "difference";
     legend.diverging = true;
@@ -207,88 +181,109 @@ Legend HeightFieldRenderer::Drawing::prepare_values(const RenderSubject& subject
   return legend;
 }
 
-Image HeightFieldRenderer::Drawing::render(const HeightField& surface, const RenderSubject& subject) {
-  if (surface.rows() != rows_ || surface.cols() != cols_ || surface.cell_size() != cell_size_)
-    throw_input_error("a renderer for beds of {} x {} cells was given one of {} x {}", cols_, rows_,
-                      surface.cols(), surface.rows());
-  const ViewSettings& view = subject.view;
+void HeightFieldRenderer::Drawing::check(const HeightField& surface, const ViewSettings& view) const {
+  if (!bed_.is_like(surface))
+    throw_input_error("a renderer for beds of {} x {} cells was given one of {} x {}", bed_.cols(),
+                      bed_.rows(), surface.cols(), surface.rows());
   if (!(view.light_elevation > 0.0 && view.light_elevation <= 90.0))
     throw_input_error(
         "view: light_elevation = {} deg puts the sun below the ground; take more than 0, at most 90",
         view.light_elevation);
-  const bool sand = view.style == RenderStyle::sand, top = view.name == ViewName::top;
+}
+
+Camera HeightFieldRenderer::Drawing::camera_for(const RenderSubject& subject, const ValueRange& extent,
+                                                double legend_part) const {
+  Eigen::AlignedBox3d scene = box_.bounds();
+  scene.extend(box_over(bed_.cells(), extent.low, extent.high));
+  Eigen::AlignedBox3d framed = scene;
+  if (subject.view.name == ViewName::stroke) {
+    const CellRange cells = framed_cells(subject.focus, bed_.rows(), bed_.cols(), bed_.cell_size(), 0.03);
+    framed = box_over(cells, extent.low, extent.high);
+  }
+  if (subject.tool) {
+    scene.extend(subject.tool->centre() + Eigen::Vector3d::Constant(subject.tool->radius));
+    scene.extend(subject.tool->centre() - Eigen::Vector3d::Constant(subject.tool->radius));
+  }
+  return make_camera(subject.view, framed, scene, legend_part);
+}
+
+void HeightFieldRenderer::Drawing::draw_sand(const RenderSubject& subject, const Camera& camera,
+                                             const Sun& sun) {
+  set_light(sand_, camera, sun);
+  set_tool(sand_, subject.tool.value_or(ToolSphere{Eigen::Vector3d::Zero(), 0.0}));
+  draw_tiles(sand_, camera, subject.tile_levels);
+}
+
+void HeightFieldRenderer::Drawing::draw_map(const RenderSubject& subject, const Legend& legend,
+                                            const Camera& camera, const Sun& sun) {
+  set_light(map_, camera, sun);
+  map_.set("values", 2);
+  map_.set("colours", 3);
+  map_.set("range", Eigen::Vector2d(legend.low, legend.high));
+  map_.set("contour_interval", legend.contour_interval);
+  map_.set("relief", subject.view.name == ViewName::top ? 0.0 : 1.0);
+  (subject.view.style == RenderStyle::difference ? *difference_ : surface_).bind_filtered_heights(2);
+  glActiveTexture(GL_TEXTURE3);
+  glBindTexture(GL_TEXTURE_2D, legend.diverging ? diverging_ : sequential_);
+  draw_tiles(map_, camera, subject.tile_levels);
+}
+
+void HeightFieldRenderer::Drawing::draw_box(RenderStyle style, const Camera& camera, const Sun& sun) const {
+  set_light(wall_, camera, sun);
+  wall_.set("scale", 1.0);
+  wall_.set("offset", Eigen::Vector3d(0.0, 0.0, 0.0));
+  wall_.set("plain", style == RenderStyle::sand ? 0.0 : 1.0);
+  wall_.set("half_bed", Eigen::Vector2d(bed_.x_of(bed_.cols() - 1), bed_.y_of(bed_.rows() - 1)));
+  wall_.set("wall", box_.wall_thickness());
+  box_.draw();
+}
+
+void HeightFieldRenderer::Drawing::draw_tool(const ToolSphere& tool, const Camera& camera,
+                                             const Sun& sun) const {
+  set_light(ball_, camera, sun);
+  set_tool(ball_, tool);
+  ball_.set("scale", tool.radius);
+  ball_.set("offset", tool.centre());
+  sphere_.draw();
+}
+
+Image HeightFieldRenderer::Drawing::render(const HeightField& surface, const RenderSubject& subject) {
+  const ViewSettings& view = subject.view;
+  check(surface, view);
   if (!framebuffer_ || framebuffer_->width() != view.width || framebuffer_->height() != view.height)
     framebuffer_ = std::make_unique<Framebuffer>(view.width, view.height);
 
   counters = {};
   counters.tiles_changed = surface_.update(surface);
   const Sun sun{view.light_azimuth, view.light_elevation};
-  Legend legend;
   surface_.update_shading(sun);
-  if (!sand) legend = prepare_values(subject);
-  double lowest = surface_.lowest(), highest = surface_.highest();
+  std::optional<Legend> legend;  // of a map
+  if (view.style != RenderStyle::sand) legend = prepare_values(subject);
+  const double legend_part =
+      legend ? static_cast<double>(legend_width(*legend, view.height)) / view.width : 0.0;
+  ValueRange extent{surface_.lowest(), surface_.highest()};
   if (subject.extent)
-    lowest = std::min(lowest, subject.extent->low), highest = std::max(highest, subject.extent->high);
-  box_.update(surface_.heights(), cell_size_, lowest);
-
-  Eigen::AlignedBox3d scene = box_.bounds();
-  scene.extend(box_over({0, rows_, 0, cols_}, lowest, highest));
-  Eigen::AlignedBox3d framed = scene;
-  if (view.name == ViewName::stroke) {
-    const CellRange cells = framed_cells(subject.focus, rows_, cols_, cell_size_, 0.03);
-    framed = box_over(cells, lowest, highest);
-  }
-  if (subject.tool) {
-    scene.extend(subject.tool->centre() + Eigen::Vector3d::Constant(subject.tool->radius));
-    scene.extend(subject.tool->centre() - Eigen::Vector3d::Constant(subject.tool->radius));
-  }
-  const double legend_part = sand ? 0.0 : static_cast<double>(legend_width(legend, view.height)) / view.width;
-  const Camera camera = make_camera(view, framed, scene, legend_part);
+    extent = {std::min(extent.low, subject.extent->low), std::max(extent.high, subject.extent->high)};
+  box_.update(bed_, surface_.heights(), extent.low);
+  const Camera camera = camera_for(subject, extent, legend_part);
 
   framebuffer_->bind();
   glEnable(GL_MULTISAMPLE);
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
   draw_surroundings(subject, camera, sun);
-
-  const ShaderProgram& ground = sand ? sand_ : map_;
-  set_light(ground, camera, sun);
-  if (sand) {
-    set_tool(sand_, subject.tool.value_or(ToolSphere{Eigen::Vector3d::Zero(), 0.0}));
-  } else {
-    map_.set("values", 2);
-    map_.set("colours", 3);
-    map_.set("range", Eigen::Vector2d(legend.low, legend.high));
-    map_.set("contour_interval", legend.contour_interval);
-    map_.set("relief", top ? 0.0 : 1.0);
-    (view.style == RenderStyle::difference ? *difference_ : surface_).bind_filtered_heights(2);
-    glActiveTexture(GL_TEXTURE3);
-    glBindTexture(GL_TEXTURE_2D, legend.diverging ? diverging_ : sequential_);
-  }
-  draw_tiles(ground, camera, subject.tile_levels);
-
-  if (subject.box) {
-    set_light(wall_, camera, sun);
-    wall_.set("scale", 1.0);
-    wall_.set("offset", Eigen::Vector3d(0.0, 0.0, 0.0));
-    wall_.set("plain", sand ? 0.0 : 1.0);
-    wall_.set("half_bed", Eigen::Vector2d(0.5 * (cols_ - 1) * cell_size_, 0.5 * (rows_ - 1) * cell_size_));
-    wall_.set("wall", wall_thickness((cols_ - 1) * cell_size_, (rows_ - 1) * cell_size_));
-    box_.draw();
-  }
-  if (subject.tool) {
-    set_light(ball_, camera, sun);
-    set_tool(ball_, *subject.tool);
-    ball_.set("scale", subject.tool->radius);
-    ball_.set("offset", subject.tool->centre());
-    sphere_.draw();
-  }
+  if (legend)
+    draw_map(subject, *legend, camera, sun);
+  else
+    draw_sand(subject, camera, sun);
+  if (subject.box) draw_box(view.style, camera, sun);
+  if (subject.tool) draw_tool(*subject.tool, camera, sun);
   Image image = framebuffer_->read();
-  if (!sand) draw_legend(image, legend);
+  if (legend) draw_legend(image, *legend);
   return image;
 }
 
 HeightFieldRenderer::HeightFieldRenderer(int rows, int cols, double cell_size)
-    : drawing_(std::make_unique<Drawing>(rows, cols, cell_size)) {}
+    : drawing_(std::make_unique<Drawing>(BedGeometry(rows, cols, cell_size))) {}
 
 HeightFieldRenderer::~HeightFieldRenderer() {
   if (drawing_) drawing_->make_current();  // for what goes with it

@@ -21,8 +21,8 @@ class Horizon {
         sign_((along_x_ ? ux : uy) < 0.0 ? -1 : 1),
         drift_(along_x_ ? uy / std::abs(ux) : ux / std::abs(uy)),
         step_length_(cell_size * std::sqrt(1.0 + drift_ * drift_)),
-        slopes_(DrawnHeights::Constant(cells.row_end - cells.row_begin, cells.col_end - cells.col_begin,
-                                       -std::numeric_limits<float>::infinity())) {}
+        slopes_(DrawnHeights::Constant(cells.rows(), cells.cols(), -std::numeric_limits<float>::infinity())) {
+  }
 
   double step_length() const { return step_length_; }
   const DrawnHeights& slopes() const { return slopes_; }
@@ -80,12 +80,8 @@ int shadow_reach(const Sun& sun, double relief, double cell_size) {
 
 void sun_visibility(const DrawnHeights& heights, double cell_size, const Sun& sun, double highest,
                     const CellRange& cells, DrawnHeights& visible) {
-  const auto part = [&](auto& grid) {
-    return grid.block(cells.row_begin, cells.col_begin, cells.row_end - cells.row_begin,
-                      cells.col_end - cells.col_begin);
-  };
-  const auto here = part(heights);
-  auto seen = part(visible);
+  const auto here = heights.block(cells.row_begin, cells.col_begin, cells.rows(), cells.cols());
+  auto seen = visible.block(cells.row_begin, cells.col_begin, cells.rows(), cells.cols());
   Horizon horizon(heights, cell_size, cells, std::cos(sun.azimuth * degree), std::sin(sun.azimuth * degree));
   const int reach =
       std::min(shadow_reach(sun, highest - static_cast<double>(here.minCoeff()), horizon.step_length()),
@@ -103,8 +99,7 @@ void sun_visibility(const DrawnHeights& heights, double cell_size, const Sun& su
 void sky_visibility(const DrawnHeights& heights, double cell_size, const CellRange& cells,
                     DrawnHeights& visible) {
   constexpr std::array<int, 7> distances = {1, 2, 3, 5, 8, 12, sky_reach};
-  auto seen = visible.block(cells.row_begin, cells.col_begin, cells.row_end - cells.row_begin,
-                            cells.col_end - cells.col_begin);
+  auto seen = visible.block(cells.row_begin, cells.col_begin, cells.rows(), cells.cols());
   seen.setZero();
   for (const auto& [ux, uy] :
        {std::pair{1, 0}, {1, 1}, {0, 1}, {-1, 1}, {-1, 0}, {-1, -1}, {0, -1}, {1, -1}}) {

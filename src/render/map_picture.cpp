@@ -25,9 +25,8 @@ Image plain_map(const HeightGrid& values, double low, double high, bool divergin
     for (int x = 0; x < width; ++x) {
       const Eigen::Index col = first(x, width, cols), col_count = last(x, width, cols) - col;
       const double mean = values.block(row, col, row_count, col_count).mean();
-      const auto colour = scale_colour(std::isfinite(mean) ? mean : std::nan(""), low, high, diverging);
-      for (int channel = 0; channel < 3; ++channel)
-        map.pixel(x, y)[channel] = static_cast<std::uint8_t>(std::lround(255.0 * colour[channel]));
+      const Rgb rgb = as_bytes(scale_colour(std::isfinite(mean) ? mean : std::nan(""), low, high, diverging));
+      std::copy(rgb.begin(), rgb.end(), map.pixel(x, y));
     }
   }
   return map;

@@ -1,6 +1,7 @@
 #include "render/sphere_mesh.h"
 
 #include <cmath>
+#include <numbers>
 #include <utility>
 #include <vector>
 
@@ -8,7 +9,7 @@ namespace sandstroke {
 
 SphereMesh::SphereMesh() : layout_(make_vertex_array()), vertices_(make_buffer()) {
   constexpr int meridians = 96, parallels = 48;
-  constexpr double pi = 3.14159265358979323846;
+  using std::numbers::pi;
   const auto point = [&](int i, int j) {
     const double around = 2.0 * pi * (i % meridians) / meridians, down = pi * j / parallels;
     return Eigen::Vector3d(std::sin(down) * std::cos(around), std::sin(down) * std::sin(around),

@@ -73,37 +73,34 @@ void SurfaceTextures::check_size(int rows, int cols) {
                "take fewer");
 }
 
-SurfaceTextures::SurfaceTextures(int rows, int cols, double cell_size)
-    : rows_(rows),
-      cols_(cols),
-      tile_rows_((rows + side - 1) / side),
-      tile_cols_((cols + side - 1) / side),
-      cell_size_(cell_size) {
-  check_size(rows, cols);  // before any memory is taken for it
-  heights_ = DrawnHeights::Zero(rows, cols);
-  details_.resize(static_cast<std::size_t>(tile_rows_) * tile_cols_);
+SurfaceTextures::SurfaceTextures(const BedGeometry& bed) : bed_(bed) {
+  check_size(bed.rows(), bed.cols());  // before any memory is taken for it
+  heights_ = DrawnHeights::Zero(bed.rows(), bed.cols());
+  details_.resize(bed.tile_count());
   shading_outdated_.assign(details_.size(), 1);
-  height_texture_ = texture_of(GL_R32F, cols, rows, GL_RED, GL_FLOAT);
-  shading_texture_ = texture_of(GL_RGBA16F, cols, rows, GL_RGBA, GL_HALF_FLOAT);
+  height_texture_ = texture_of(GL_R32F, bed.cols(), bed.rows(), GL_RED, GL_FLOAT);
+  shading_texture_ = texture_of(GL_RGBA16F, bed.cols(), bed.rows(), GL_RGBA, GL_HALF_FLOAT);
 }
 
-CellRange SurfaceTextures::tile_cells(int tile, int beyond) const {
-  const int row = tile / tile_cols_ * side, col = tile % tile_cols_ * side;
-  return {row, std::min(row + side + beyond, rows_), col, std::min(col + side + beyond, cols_)};
+CellRange SurfaceTextures::patch(int tile) const {
+  CellRange cells = bed_.tile_cells(tile);
+  cells.row_end = std::min(cells.row_end + 1, bed_.rows());
+  cells.col_end = std::min(cells.col_end + 1, bed_.cols());
+  return cells;
 }
 
 int SurfaceTextures::update(const HeightField& surface) {
   std::vector<int> changed;
   bool finite = true;
   std::vector<double> block(BedGeometry::tile_area);
-  for (int tile = 0; tile < surface.tile_count(); ++tile) {
-    const CellRange cells = tile_cells(tile, 0);
+  for (int tile = 0; tile < bed_.tile_count(); ++tile) {
+    const CellRange cells = bed_.tile_cells(tile);
     bool differs = !filled_;
     surface.read_tile(tile, block.data());
     const double* heights = block.data();
     for (int row = cells.row_begin; row < cells.row_end; ++row, heights += side) {
       float* drawn = heights_.row(row).data() + cells.col_begin;
-      for (int col = 0; col < cells.col_end - cells.col_begin; ++col) {
+      for (int col = 0; col < cells.cols(); ++col) {
         const auto height = static_cast<float>(heights[col]);
         differs |= height != drawn[col];
         finite &= std::isfinite(height);
@@ -121,12 +118,13 @@ int SurfaceTextures::update(const HeightField& surface) {
 
   std::vector<char> detail_outdated(details_.size(), 0);
   for (const int tile : changed) {  // a tile's patch reaches into the tiles after it
-    const int row = tile / tile_cols_, col = tile % tile_cols_;
-    for (const int r : {row, std::max(row - 1, 0)})
-      for (const int c : {col, std::max(col - 1, 0)}) detail_outdated[r * tile_cols_ + c] = 1;
+    for (const int row_step : {-1, 0})
+      for (const int col_step : {-1, 0})
+        if (const int before = bed_.tile_beside(tile, row_step, col_step); before >= 0)
+          detail_outdated[before] = 1;
   }
   parallel_for(details_.size(), true, [&](std::size_t tile) {
-    if (detail_outdated[tile]) details_[tile] = tile_detail(heights_, tile_cells(static_cast<int>(tile), 1));
+    if (detail_outdated[tile]) details_[tile] = tile_detail(heights_, patch(static_cast<int>(tile)));
   });
 
   const double highest_before = filled_ ? highest_ : -1e300;
@@ -139,12 +137,11 @@ int SurfaceTextures::update(const HeightField& surface) {
 
   bind_texture(height_texture_, 0);
   glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
-  glPixelStorei(GL_UNPACK_ROW_LENGTH, cols_);
+  glPixelStorei(GL_UNPACK_ROW_LENGTH, bed_.cols());
   for (const int tile : changed) {
-    const CellRange cells = tile_cells(tile, 0);
-    glTexSubImage2D(GL_TEXTURE_2D, 0, cells.col_begin, cells.row_begin, cells.col_end - cells.col_begin,
-                    cells.row_end - cells.row_begin, GL_RED, GL_FLOAT,
-                    &heights_(cells.row_begin, cells.col_begin));
+    const CellRange cells = bed_.tile_cells(tile);
+    glTexSubImage2D(GL_TEXTURE_2D, 0, cells.col_begin, cells.row_begin, cells.cols(), cells.rows(), GL_RED,
+                    GL_FLOAT, &heights_(cells.row_begin, cells.col_begin));
     mark_shading(tile, relief);
   }
   glPixelStorei(GL_UNPACK_ROW_LENGTH, 0);
@@ -158,19 +155,19 @@ int SurfaceTextures::update(const HeightField& surface) {
 /// Marks the tiles whose shading a changed tile can alter: those that its shadow may reach, and its
 /// surroundings.
 void SurfaceTextures::mark_shading(int tile, double relief) {
-  const int reach = shadow_reach(sun_used_, relief, cell_size_) + 1;
+  const int reach = shadow_reach(sun_used_, relief, bed_.cell_size()) + 1;
   const Eigen::Vector2d towards = sun_used_.direction().head<2>().normalized();
   const auto shift = [&](double part) {
     return static_cast<int>(std::lround(std::min(1e6, reach * std::abs(part))));
   };
-  const CellRange cells = tile_cells(tile, 0);
+  const CellRange cells = bed_.tile_cells(tile);
   const int col_low = cells.col_begin - sky_reach - (towards.x() > 0.0 ? shift(towards.x()) : 0);
   const int col_high = cells.col_end + sky_reach + (towards.x() < 0.0 ? shift(towards.x()) : 0);
   const int row_low = cells.row_begin - sky_reach - (towards.y() > 0.0 ? shift(towards.y()) : 0);
   const int row_high = cells.row_end + sky_reach + (towards.y() < 0.0 ? shift(towards.y()) : 0);
-  for (int r = std::max(0, row_low) / side; r <= std::min(row_high, rows_ - 1) / side; ++r)
-    for (int c = std::max(0, col_low) / side; c <= std::min(col_high, cols_ - 1) / side; ++c)
-      shading_outdated_[r * tile_cols_ + c] = 1;
+  for (int r = std::max(0, row_low) / side; r <= std::min(row_high, bed_.rows() - 1) / side; ++r)
+    for (int c = std::max(0, col_low) / side; c <= std::min(col_high, bed_.cols() - 1) / side; ++c)
+      shading_outdated_[bed_.tile_index(r, c)] = 1;
 }
 
 void SurfaceTextures::update_shading(const Sun& sun) {
@@ -183,29 +180,29 @@ void SurfaceTextures::update_shading(const Sun& sun) {
     if (shading_outdated_[tile]) outdated.push_back(tile);
   if (outdated.empty()) return;
   if (sun_.size() == 0) {
-    sun_.resize(rows_, cols_);
-    sky_.resize(rows_, cols_);
+    sun_.resize(bed_.rows(), bed_.cols());
+    sky_.resize(bed_.rows(), bed_.cols());
   }
   parallel_for(outdated.size(), true, [&](std::size_t i) {
-    const CellRange cells = tile_cells(outdated[i], 0);
-    sun_visibility(heights_, cell_size_, sun, highest_, cells, sun_);
-    sky_visibility(heights_, cell_size_, cells, sky_);
+    const CellRange cells = bed_.tile_cells(outdated[i]);
+    sun_visibility(heights_, bed_.cell_size(), sun, highest_, cells, sun_);
+    sky_visibility(heights_, bed_.cell_size(), cells, sky_);
   });
   bind_texture(shading_texture_, 0);
   glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
   std::vector<std::array<Eigen::half, 4>> texels(static_cast<std::size_t>(side) * side);
   for (const int tile : outdated) {
-    const CellRange cells = tile_cells(tile, 0);
+    const CellRange cells = bed_.tile_cells(tile);
     std::size_t i = 0;
     for (int row = cells.row_begin; row < cells.row_end; ++row) {
       for (int col = cells.col_begin; col < cells.col_end; ++col) {
-        const Eigen::Vector2f slope = slope_at(heights_, cell_size_, row, col);
+        const Eigen::Vector2f slope = slope_at(heights_, bed_.cell_size(), row, col);
         texels[i++] = {Eigen::half(slope.x()), Eigen::half(slope.y()), Eigen::half(softened(sun_, row, col)),
                        Eigen::half(softened(sky_, row, col))};
       }
     }
-    glTexSubImage2D(GL_TEXTURE_2D, 0, cells.col_begin, cells.row_begin, cells.col_end - cells.col_begin,
-                    cells.row_end - cells.row_begin, GL_RGBA, GL_HALF_FLOAT, texels.data());
+    glTexSubImage2D(GL_TEXTURE_2D, 0, cells.col_begin, cells.row_begin, cells.cols(), cells.rows(), GL_RGBA,
+                    GL_HALF_FLOAT, texels.data());
     shading_outdated_[tile] = 0;
   }
   glGenerateMipmap(GL_TEXTURE_2D);

@@ -19,7 +19,7 @@ class SurfaceTextures {
   /// must be current.
   static void check_size(int rows, int cols);
   /// Error: as check_size, before any memory is taken.
-  SurfaceTextures(int rows, int cols, double cell_size);
+  explicit SurfaceTextures(const BedGeometry& bed);
 
   /// Takes a surface of the same shape over; returns the number of tiles that changed. Error: input, where
   /// heights are not finite.
@@ -28,9 +28,8 @@ class SurfaceTextures {
   void update_shading(const Sun& sun);
 
   const DrawnHeights& heights() const { return heights_; }
-  int tile_count() const { return tile_rows_ * tile_cols_; }
-  /// The cells of a tile, and `beyond` rows and columns of the tiles after it where there are any.
-  CellRange tile_cells(int tile, int beyond) const;
+  /// The cells of a tile, and the first row and column of the tiles after it where there are any.
+  CellRange patch(int tile) const;
   const TileDetail& detail(int tile) const { return details_[tile]; }
   double lowest() const { return lowest_; }
   double highest() const { return highest_; }
@@ -46,8 +45,7 @@ class SurfaceTextures {
  private:
   void mark_shading(int tile, double relief);
 
-  int rows_, cols_, tile_rows_, tile_cols_;
-  double cell_size_;
+  BedGeometry bed_;
   DrawnHeights heights_, sun_, sky_;
   std::vector<TileDetail> details_;
   std::vector<char> shading_outdated_;

@@ -6,7 +6,7 @@
 namespace sandstroke {
 
 TileDetail tile_detail(const DrawnHeights& heights, const CellRange& patch) {
-  const int rows = patch.row_end - patch.row_begin, cols = patch.col_end - patch.col_begin;
+  const int rows = patch.rows(), cols = patch.cols();
   const auto cells = heights.block(patch.row_begin, patch.col_begin, rows, cols);
   TileDetail detail;
   detail.lowest = static_cast<double>(cells.minCoeff());

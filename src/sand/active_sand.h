@@ -83,9 +83,9 @@ class ActiveSand {
   std::vector<char> any_changed_;
 
   struct Look {
-    CellFlags cells{};                                          // active at some time in this relaxation
-    std::array<double, HeightField::tile_area / 8> steepest{};  // residual of each group of 8 cells
-    bool listed = false;                                        // in looked_at_
+    CellFlags cells{};  // active at some time in this relaxation
+    std::array<double, HeightField::tile_area / cells_per_group> steepest{};  // residual of each group
+    bool listed = false;                                                      // in looked_at_
   };
   std::vector<Look> looks_;        // per slot
   std::vector<double> residuals_;  // per slot, after the relaxation before

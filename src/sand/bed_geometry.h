@@ -37,6 +37,10 @@ class BedGeometry {
   double cell_size() const { return cell_size_; }
   double cell_area() const { return cell_size_ * cell_size_; }
   CellRange cells() const { return {0, rows_, 0, cols_}; }
+  /// Another bed has as many cells, of the same size.
+  bool is_like(const BedGeometry& other) const {
+    return rows_ == other.rows_ && cols_ == other.cols_ && cell_size_ == other.cell_size_;
+  }
 
   /// Centre of a cell [m]; row_at and col_at are the inverse, as real numbers: row_at(y_of(r)) == r.
   double x_of(int col) const { return (col - col_origin_) * cell_size_; }

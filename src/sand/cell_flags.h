@@ -1,11 +1,14 @@
 #pragma once
 
-#include <bit>
+#include <array>
 #include <cstdint>
 
-#include "sand/height_field.h"
+#include "sand/bed_geometry.h"
 
 namespace sandstroke {
+
+/// A flag per cell of a tile: bit c of word r is cell (r, c).
+using CellFlags = std::array<std::uint64_t, BedGeometry::tile_side>;
 
 /// Which columns have a flag.
 inline std::uint64_t columns_of(const CellFlags& flags) {
@@ -41,8 +44,10 @@ inline RowSpan row_span(const CellFlags& flags) {
   return span;
 }
 
-/// Cells are computed in groups of 8 neighbours in a row, whatever the width of the machine's vectors. Bit g
-/// of the result: one of the flags 8 g ... 8 g + 7 is set.
+/// Cells are computed in groups of so many neighbours in a row, whatever the width of the machine's vectors.
+inline constexpr int cells_per_group = 8;
+
+/// Bit g: one of the flags 8 g ... 8 g + 7 is set.
 inline unsigned groups_of(std::uint64_t row) {
   row |= row >> 4;
   row |= row >> 2;

@@ -1,5 +1,6 @@
 #include "sand/flow_kernels.h"
 
+#include <bit>
 #include <cmath>
 
 #undef HWY_TARGET_INCLUDE

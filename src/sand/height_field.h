@@ -8,15 +8,13 @@
 #include <vector>
 
 #include "sand/bed_geometry.h"
+#include "sand/cell_flags.h"
 #include "sand/surface_rule.h"
 
 namespace sandstroke {
 
 /// A bed seen as one block, height(row, col) in m; row-major, as files and pictures take it.
 using HeightGrid = Eigen::Array<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-
-/// A flag per cell of a tile: bit c of word r is cell (r, c).
-using CellFlags = std::array<std::uint64_t, BedGeometry::tile_side>;
 
 /// Mean cell heights [m] of a bed. A tile of cells comes into being when something touches it; until then it
 /// is the initial surface by rule. So memory follows what is touched, not the bed. Tiles that exist are

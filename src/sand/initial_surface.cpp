@@ -6,6 +6,8 @@
 #include <numbers>
 #include <utility>
 
+#include "core/hash.h"
+
 namespace sandstroke {
 namespace {
 
@@ -22,14 +24,12 @@ double quadrant_area(double r, double x0, double x1, double y0, double y1) {
          y0 * (some_until - full_until);
 }
 
-/// A reproducible number in [-1, 1) for a lattice point (SplitMix64's finaliser).
+/// A reproducible number in [-1, 1) for a lattice point.
 double lattice_noise(std::int64_t row, std::int64_t col, std::uint32_t seed) {
-  std::uint64_t z = static_cast<std::uint64_t>(row) * 0x9e3779b97f4a7c15ULL +
-                    static_cast<std::uint64_t>(col) * 0xd1b54a32d192ed03ULL + seed * 0x2545f4914f6cdd1dULL;
-  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
-  z = (z ^ (z >> 27)) * 0x94d049bb133111ebULL;
-  z ^= z >> 31;
-  return static_cast<double>(z >> 11) * 0x1.0p-52 - 1.0;
+  return 2.0 * unit_hash(static_cast<std::uint64_t>(row) * 0x9e3779b97f4a7c15ULL +
+                         static_cast<std::uint64_t>(col) * 0xd1b54a32d192ed03ULL +
+                         seed * 0x2545f4914f6cdd1dULL) -
+         1.0;
 }
 
 /// The steepest rise of smooth_noise between lattice points that differ by 1: of t^3 (6 t^2 - 15 t + 10), at
@@ -99,17 +99,16 @@ class FormulaRule : public SurfaceRule {
 
 double disk_cell_area(double radius, double x, double y, double cell_size) {
   // Folded into one octant, so that the area has the symmetries of the square to the bit.
-  double far = std::max(std::abs(x), std::abs(y)), near = std::min(std::abs(x), std::abs(y));
-  const double half = 0.5 * cell_size;
-  const auto span = [half](double centre, double& copies) {
-    copies = centre < half ? 2.0 : 1.0;  // a cell across the axis is two mirrored halves
-    return centre < half ? 0.0 : centre - half;
+  struct Span {
+    double begin, end, copies;
   };
-  double far_copies, near_copies;
-  const double far_begin = span(far, far_copies), near_begin = span(near, near_copies);
-  const double far_end = far_copies == 2.0 ? half : far + half,
-               near_end = near_copies == 2.0 ? half : near + half;
-  return far_copies * near_copies * quadrant_area(radius, far_begin, far_end, near_begin, near_end);
+  const auto span_about = [half = 0.5 * cell_size](double centre) -> Span {
+    if (centre < half) return {0.0, half, 2.0};  // a cell across the axis is two mirrored halves
+    return {centre - half, centre + half, 1.0};
+  };
+  const Span far = span_about(std::max(std::abs(x), std::abs(y))),
+             near = span_about(std::min(std::abs(x), std::abs(y)));
+  return far.copies * near.copies * quadrant_area(radius, far.begin, far.end, near.begin, near.end);
 }
 
 HeightField make_surface(const SurfaceSettings& settings, int rows, int cols, double cell_size) {

@@ -9,12 +9,14 @@
 
 #include <hwy/highway.h>
 
+#include "sand/cell_flags.h"
+
 HWY_BEFORE_NAMESPACE();
 namespace sandstroke {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-constexpr int group = 8;  // cells
+constexpr int group = cells_per_group;
 const hn::CappedTag<double, group> d;
 using V = hn::Vec<decltype(d)>;
 using Mask = hn::Mask<decltype(d)>;

@@ -8,7 +8,7 @@
 
 namespace sandstroke {
 
-/// How sand that lies too steep flows (model.md, "Relaxation").
+/// How sand that lies too steep flows: as Relaxer says.
 enum class RelaxationLaw { paper, isotropic };
 /// passes: explicit Jacobi passes of the law. rkl: super time steps, which reach the rest that small steps of
 /// the law reach in far fewer passes (relaxation_rkl.cpp).

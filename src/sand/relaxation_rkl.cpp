@@ -15,7 +15,6 @@
 // until the change at its ends comes near: 0.9 % of the moved sand from the small-step limit, instead of
 // 0.5.)
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <memory>
 #include <vector>

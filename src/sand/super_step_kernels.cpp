@@ -1,5 +1,6 @@
 #include "sand/super_step_kernels.h"
 
+#include <bit>
 #include <limits>
 
 #undef HWY_TARGET_INCLUDE

@@ -19,12 +19,13 @@ TilePatch& TilePatch::of_this_thread() {
 void TilePatch::load(const HeightField& bed, int slot, const CellFlags& cells) {
   constexpr double wall = std::numeric_limits<double>::quiet_NaN();
   const RowSpan span = row_span(cells);
-  // Columns in groups of 8: those with a flagged cell, one more on either side, and what their cells compare
+  // Columns in whole groups: those with a flagged cell, one more on either side, and what their cells compare
   // with.
   const unsigned groups = groups_of(columns_of(cells));
   if (!groups) return;
-  const int col_begin = std::max((std::countr_zero(groups) - 1) * margin - 1, -rim);
-  const int col_end = std::min((static_cast<int>(std::bit_width(groups)) + 1) * margin + 1, side + rim);
+  const int col_begin = std::max((std::countr_zero(groups) - 1) * cells_per_group - 1, -rim);
+  const int col_end =
+      std::min((static_cast<int>(std::bit_width(groups)) + 1) * cells_per_group + 1, side + rim);
   for (int part = -1; part <= 1; ++part) {  // the tile row above, the tile's own, the one below
     const int begin = std::max(span.begin - rim, part * side);
     const int end = std::min(span.end + rim, (part + 1) * side);

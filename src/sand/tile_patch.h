@@ -13,7 +13,7 @@ class TilePatch {
  public:
   static constexpr int side = BedGeometry::tile_side;
   static constexpr int rim = 2;  ///< inflow comes from one cell away, whose share depends on one cell further
-  static constexpr int margin = 8;  ///< doubles before column 0 and after the last: a group each
+  static constexpr int margin = cells_per_group;  ///< doubles before column 0 and after the last
   static constexpr int stride = side + 2 * margin;
 
   TilePatch();

@@ -36,9 +36,12 @@ void ToolFootprint::place(const HeightField& bed, double x, double y) {
   if (!(std::abs(axis_x_) <= bed.cols_from_centre(bed.cols() - 1) + extent)) return;
   std::tie(cells_.row_begin, cells_.row_end) = cells_between(axis_y_ - extent, axis_y_ + extent, bed.rows());
   std::tie(cells_.col_begin, cells_.col_end) = cells_between(axis_x_ - extent, axis_x_ + extent, bed.cols());
-  if (cells_.empty()) return cells_ = {}, void();
+  if (cells_.empty()) {
+    cells_ = {};
+    return;
+  }
   first_x_ = bed.cols_from_centre(cells_.col_begin), first_y_ = bed.rows_from_centre(cells_.row_begin);
-  stride_ = (cells_.cols() + 7) / 8 * 8;
+  stride_ = (cells_.cols() + cells_per_group - 1) / cells_per_group * cells_per_group;
   make_room();
   read_heights(bed);
   level_ = shape_footprint(shape_, *this);
@@ -47,14 +50,14 @@ void ToolFootprint::place(const HeightField& bed, double x, double y) {
 void ToolFootprint::make_room() {
   const std::size_t needed = at(cells_.rows());
   if (needed <= room_) return;
-  // As the tool moves, the window gains a row or a column, and so perhaps 8 of the stride: not in a servo
-  // loop.
-  room_ = static_cast<std::size_t>(cells_.rows() + 1) * (stride_ + 8);
+  // As the tool moves, the window gains a row or a column, and so perhaps a group of the stride: not in a
+  // servo loop.
+  room_ = static_cast<std::size_t>(cells_.rows() + 1) * (stride_ + cells_per_group);
   for (auto* memory : {&heights_, &underside_, &rampart_, &weights_}) {
     *memory = hwy::AllocateAligned<double>(room_);
     std::fill_n(memory->get(), room_, 0.0);
   }
-  flags_ = hwy::AllocateAligned<unsigned char>(room_ / 8 + 1);
+  flags_ = hwy::AllocateAligned<unsigned char>(room_ / cells_per_group + 1);
 }
 
 namespace {
@@ -94,9 +97,11 @@ void ToolFootprint::write_flagged(HeightField& bed) {
       const double* in = heights(row - cells_.row_begin) + (first - cells_.col_begin);
       const unsigned char* flagged = flags(row - cells_.row_begin);
       std::uint64_t changed = 0;  // no flag lies beyond the window's last column
-      for (int i = (first - cells_.col_begin) / 8; i <= (end - 1 - cells_.col_begin) / 8; ++i) {
-        const int at = cells_.col_begin + 8 * i - tile_col * side;
-        changed |= at < 0 ? std::uint64_t{flagged[i]} >> -at : std::uint64_t{flagged[i]} << at;
+      for (int group = (first - cells_.col_begin) / cells_per_group;
+           group <= (end - 1 - cells_.col_begin) / cells_per_group; ++group) {
+        const int at = cells_.col_begin + cells_per_group * group - tile_col * side;
+        const std::uint64_t bits = flagged[group];
+        changed |= at < 0 ? bits >> -at : bits << at;
       }
       if (!changed) continue;
       const int slot = bed.touch(bed.tile_index(row / side, tile_col));

@@ -14,8 +14,9 @@ struct ToolSettings {
   ToolProfile profile = ToolProfile::paper;
 };
 
-/// The paper's filter g(u) = sin(u) - 0.53, u = (rho/s)^2 (figure 2; read as in model.md): negative up to
-/// u0 = asin(0.53), positive up to u1, where its plane integral vanishes: 1 - cos(u1) = 0.53 u1.
+/// The paper's filter g(u) = sin(u) - 0.53, u = (rho/s)^2 (figure 2): negative up to u0 = asin(0.53),
+/// positive up to u1, where its plane integral vanishes: 1 - cos(u1) = 0.53 u1. (The paper prints u1 as 1.2,
+/// and its limits for rho/s where only u makes that integral vanish.)
 namespace filter {
 inline constexpr double offset = 0.53;
 inline constexpr double u0 = 0.5586005653428008;
@@ -32,7 +33,7 @@ struct FootprintShape {
 };
 
 /// The cells under and around a tool at a sub-cell position: the sand there, and what each cell means to the
-/// tool. A window of rows x cols cells, kept row after row, `stride` doubles apart (a multiple of 8; what
+/// tool. A window of rows x cols cells, kept row after row, `stride` doubles apart (whole groups; what
 /// lies beyond cols has no weight). Placing it again reuses the memory.
 class ToolFootprint {
  public:
@@ -68,9 +69,9 @@ class ToolFootprint {
   double* rampart(int row) { return rampart_.get() + at(row); }
   const double* rampart(int row) const { return rampart_.get() + at(row); }
   // Of one displacement (displace): the ring's share of each cell, and a flag for each cell whose height was
-  // changed here (8 to a byte), which write_flagged then writes to the bed.
+  // changed here (a group to a byte), which write_flagged then writes to the bed.
   double* weights(int row) { return weights_.get() + at(row); }
-  unsigned char* flags(int row) { return flags_.get() + at(row) / 8; }
+  unsigned char* flags(int row) { return flags_.get() + at(row) / cells_per_group; }
   void write_flagged(HeightField& bed);
 
   double radius() const { return shape_.radius; }  ///< m, of the sphere

@@ -24,7 +24,7 @@ class SimulationObserver {
   virtual void on_pass(std::int64_t /*passes*/) {}
 };
 
-/// The tick loop (model.md, "One servo tick"): hand, device, level, depth and force, displacement, and
+/// The tick loop: hand, device, level, depth and force, displacement, and
 /// relaxation at its own rate; after the last tick the bed is relaxed to equilibrium.
 class Simulation {
  public:

@@ -11,10 +11,6 @@ namespace sandstroke {
 /// dropped ticks; the gain is to be chosen. The same in every run.
 std::vector<LoopSettings> varied_loops(int count);
 
-/// The gain at which a little disturbance stops dying out and starts to grow, by bisection on the simulated
-/// loop to 0.1 %.
-double measured_boundary_gain(const LoopSettings& settings);
-
 /// The gain up to which Colgate & Schenkel's condition holds (passivity_margin).
 double passive_gain(const LoopSettings& settings);
 

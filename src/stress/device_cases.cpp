@@ -2,9 +2,8 @@
 
 #include <spdlog/fmt/fmt.h>
 
-#include <cmath>
+#include <Eigen/Geometry>
 #include <functional>
-#include <limits>
 
 #include "core/error.h"
 #include "sim/simulation.h"
@@ -51,13 +50,10 @@ struct Outcome {
 
 /// N, peak to peak along any axis, of the force from one time [s] to another.
 double swing_between(const std::vector<TickRecord>& ticks, double from, double to) {
-  Eigen::Vector3d low = Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity()), high = -low;
-  for (const TickRecord& tick : ticks) {
-    if (tick.time < from || tick.time > to) continue;
-    low = low.cwiseMin(tick.device_force);
-    high = high.cwiseMax(tick.device_force);
-  }
-  return (high - low).maxCoeff();
+  Eigen::AlignedBox3d forces;
+  for (const TickRecord& tick : ticks)
+    if (tick.time >= from && tick.time <= to) forces.extend(tick.device_force);
+  return forces.sizes().maxCoeff();
 }
 
 Outcome simulate(const Scene& scene) {

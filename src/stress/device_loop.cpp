@@ -1,8 +1,11 @@
 #include "stress/device_loop.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <limits>
+
+#include "haptics/device_force.h"
 
 namespace sandstroke {
 namespace {
@@ -29,19 +32,6 @@ State disturbed(const LoopSettings& settings) {
   if (std::holds_alternative<PressedSand>(settings.against)) state.position.x() += settings.disturbance;
   return state;
 }
-
-/// Least and greatest of the values along each axis.
-class Swing {
- public:
-  void add(const Eigen::Vector3d& value) {
-    low_ = low_.cwiseMin(value);
-    high_ = high_.cwiseMax(value);
-  }
-  double peak_to_peak() const { return (high_ - low_).maxCoeff(); }
-
- private:
-  Eigen::Vector3d low_ = Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity()), high_ = -low_;
-};
 
 }  // namespace
 
@@ -110,16 +100,16 @@ LoopRun run_loop(const LoopSettings& settings, std::int64_t ticks) {
   DeviceLoop loop(settings);
   LoopRun run;
   for (std::size_t w = 0; w < windows; ++w) {
-    Swing of_window;
+    Eigen::AlignedBox3d places;
     for (std::int64_t k = 0; k < window; ++k) {
-      of_window.add(loop.heading_off_rest());
+      places.extend(loop.heading_off_rest());
       loop.tick();
       if (!(loop.off_rest().cwiseAbs().maxCoeff() < settings.far)) {  // NaN is far, too
         const double infinite = std::numeric_limits<double>::infinity();
         return {Verdict::diverged, infinite, infinite};
       }
     }
-    swing[w] = of_window.peak_to_peak();
+    swing[w] = places.sizes().maxCoeff();
     run.swing = swing[w];
     run.growth = swing[w] / swing[w / 2];
     run.verdict = Verdict::stable;

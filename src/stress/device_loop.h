@@ -3,7 +3,8 @@
 #include <cstdint>
 #include <variant>
 
-#include "haptics/device_force.h"
+#include "haptics/device.h"
+#include "haptics/force_model.h"
 #include "haptics/late_force.h"
 #include "stress/stress_report.h"
 

@@ -2,8 +2,6 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <random>
 
 #include "stress/judged_run.h"
@@ -86,7 +84,9 @@ Scene scene_of(const BedSize& size, const Method& method) {
   return scene;
 }
 
-constexpr const char* relaxation_group = "relaxation";
+Variations variations(std::string name, std::string settings, std::vector<Verdict> expected) {
+  return {"relaxation", std::move(name), std::move(settings), std::move(expected)};
+}
 
 /// One kind of bed at one talus angle, of any size. Up to so many cells high; beyond, see towers().
 StressCase beds(const Method& method, BedKind kind, double talus_angle, bool quick) {
@@ -95,8 +95,8 @@ StressCase beds(const Method& method, BedKind kind, double talus_angle, bool qui
       quick ? Values{1e-310, 1e-12, 1e-4, 1e4} : Values{5e-324, 1e-310, 1e-12, 1e-6, 1e-3, 1.0, 1e3, 1e6};
   const Values cell_sizes = quick ? Values{1e-6, 1e3} : Values{1e-6, 1e-3, 1.0, 1e3};
   const double most = quick ? 100.0 : 1000.0;
-  Variations all(
-      relaxation_group, fmt::format("{}, {}, talus {}", method.name, name_of(kind), talus_angle),
+  Variations all = variations(
+      fmt::format("{}, {}, talus {}", method.name, name_of(kind), talus_angle),
       fmt::format("talus angle {} deg; cells of 1e-6 to 1e3 m; heights from {} m to {} cells; 1 x 1, "
                   "1 x 50, 33 x 31 and 66 x 66 cells",
                   talus_angle, heights.front(), most),
@@ -119,9 +119,9 @@ StressCase beds(const Method& method, BedKind kind, double talus_angle, bool qui
 /// unless what flows falls below rounding first.
 StressCase towers(const Method& method, bool quick) {
   const int passes = quick ? 100 : 2000;
-  Variations all(relaxation_group, fmt::format("{}, towers", method.name),
-                 fmt::format("heights of 1e4 to 1e100 cells; at most {} passes", passes),
-                 {Verdict::stable, Verdict::not_converged});
+  Variations all = variations(fmt::format("{}, towers", method.name),
+                              fmt::format("heights of 1e4 to 1e100 cells; at most {} passes", passes),
+                              {Verdict::stable, Verdict::not_converged});
   for (const BedKind kind : bed_kinds)
     for (const double dx : {1e-6, 1.0})
       for (const double height : {1e4, 1e9, 1e100}) {
@@ -142,9 +142,9 @@ StressCase towers(const Method& method, bool quick) {
 StressCase shares(const Method& method, double share, bool quick) {
   const double most = quick ? 50.0 : 500.0;
   const bool refused = method.law == RelaxationLaw::isotropic && share > 0.25;
-  Variations all(relaxation_group, fmt::format("{}, share {}", method.name, share),
-                 fmt::format("relaxation.share {}; heights of 10 and {} cells", share, most),
-                 {refused ? Verdict::refused : Verdict::stable});
+  Variations all = variations(fmt::format("{}, share {}", method.name, share),
+                              fmt::format("relaxation.share {}; heights of 10 and {} cells", share, most),
+                              {refused ? Verdict::refused : Verdict::stable});
   for (const BedKind kind : bed_kinds)
     for (const double height : {10.0, most}) {
       const BedSize size{40, 50, 0.002};
@@ -158,9 +158,9 @@ StressCase shares(const Method& method, double share, bool quick) {
 
 /// What no double can hold.
 StressCase beyond_numbers(const Method& method) {
-  Variations all(relaxation_group, fmt::format("{}, beyond numbers", method.name),
-                 "cells of 1e-307, 1e-160 and 1e110 m; heights of 1e307 m; at most 100 passes",
-                 {Verdict::refused});
+  Variations all = variations(fmt::format("{}, beyond numbers", method.name),
+                              "cells of 1e-307, 1e-160 and 1e110 m; heights of 1e307 m; at most 100 passes",
+                              {Verdict::refused});
   for (const auto& [dx, height] : {std::pair(1e-307, 1e-306), std::pair(1e-160, 1e-159),
                                    std::pair(1e110, 1e111), std::pair(1.0, 1e307)}) {
     const BedSize size{40, 50, dx};

@@ -11,7 +11,6 @@
 namespace sandstroke {
 namespace {
 
-constexpr const char* stroke_group = "strokes";
 constexpr double half = 0.15;  // m, of the bed's sides
 constexpr int cells = 150;     // along each
 
@@ -84,7 +83,7 @@ StressCase play(const Scene& scene, const Stroke& stroke, std::string name, std:
   const std::string figures =
       fmt::format("{} ticks, {:.3g} N, {:.3g} m deep, volume drift {:.1e} of {:.3g} m^3 moved", r.ticks,
                   r.max_force, r.max_depth, r.volume_drift, r.moved_volume);
-  return {stroke_group,        std::move(name), std::move(settings),
+  return {"strokes",           std::move(name), std::move(settings),
           std::move(expected), run.verdict,     run.reason.empty() ? figures : run.reason};
 }
 

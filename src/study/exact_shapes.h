@@ -7,7 +7,7 @@
 
 namespace sandstroke {
 
-// What sand comes to rest as, and what a device's work is, in closed form (model.md, "Exact references").
+// What sand comes to rest as, and what a device's work is, in closed form.
 // Heights and lengths in m, talus angles in deg. The shapes hold for the isotropic law; those that do not
 // change along y or along x hold for both, and the crater comes in both laws' shapes.
 

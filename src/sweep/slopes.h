@@ -18,7 +18,7 @@ struct SlopeMeasures {
 /// its neighbours (Tarboton 1997, Water Resources Research 33, "D-infinity"); 0 in a pit. Exact on planes of
 /// any direction; on a crest or an edge it is the flank's. Central differences say 0 on a crest and are low
 /// beside it; the paper's law itself knows eight directions only. Sand at rest by that law is at most
-/// tan(talus) x 1.0824 steep by this measure, as its octagon is (model.md). Where contours bend within a
+/// tan(talus) x 1.0824 steep by this measure, as its octagon is. Where contours bend within a
 /// cell, sand at rest by the isotropic law may read steeper than by its own upwind slope: drags at 5 cells
 /// per tool radius at most 34.0 degrees for 30 (in turn, its slope has sand of the paper's law at 38.9: it
 /// adds both axes on every peak).

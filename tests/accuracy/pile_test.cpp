@@ -1,4 +1,4 @@
-// Equilibrium shapes against their closed forms (model.md, "Exact references").
+// Equilibrium shapes against their closed forms (study/exact_shapes.h).
 #include <gtest/gtest.h>
 
 #include <cmath>

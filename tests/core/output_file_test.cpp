@@ -1,7 +1,9 @@
 #include "core/output_file.h"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include "core/error.h"
 #include "test_folder.h"
@@ -83,6 +85,34 @@ TEST(OutputFile, WhatMightNeverEndIsNoInput) {
   EXPECT_THROW(check_readable(folder / "pipe"), Error);
   EXPECT_THROW(check_readable("/dev/zero"), Error);
   EXPECT_THROW(read_text_file("/dev/zero"), Error);
+}
+
+TEST(OutputFile, WhatIsNotToBeKeptLeavesNothing) {
+  const TestFolder folder;
+  write_text_file(folder / "file", "text");
+  {
+    const FileLock writing = take_part(folder / "file");
+    drop_part(folder / "file");
+  }
+  EXPECT_FALSE(fs::exists(part_path(folder / "file")));
+  EXPECT_EQ(read_text_file(folder / "file"), "text");
+  drop_part(folder / "file");  // there is none: no error
+  drop_part("/nowhere/at/all.txt");
+}
+
+TEST(OpenFile, IsStillNamedUntilAnotherHasItsName) {
+  const TestFolder folder;
+  write_text_file(folder / "file", "text");
+  const int file = open((folder / "file").c_str(), O_RDONLY);
+  ASSERT_GE(file, 0);
+  EXPECT_TRUE(still_named(file, folder / "file"));
+  fs::create_hard_link(folder / "file", folder / "again");
+  EXPECT_TRUE(still_named(file, folder / "again"));
+  write_text_file(folder / "file", "text");  // alike, but another
+  EXPECT_FALSE(still_named(file, folder / "file"));
+  EXPECT_FALSE(still_named(file, folder / "nothing"));
+  close(file);
+  EXPECT_FALSE(still_named(file, folder / "again"));
 }
 
 TEST(MakeFolder, MakesAllOnTheWayAndSaysWhatIsInIt) {

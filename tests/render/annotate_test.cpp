@@ -79,6 +79,16 @@ TEST(Annotate, LegendStaysInsideItsStrip) {
   }
 }
 
+TEST(Annotate, LegendShowsNoContourLinesThatWouldTouchHoweverManyThereAre) {
+  const auto drawn = [](double contour_interval) {
+    Image image = white(400, 300);
+    draw_legend(image, {"height", -1.0, 1.0, false, contour_interval});
+    return image.rgb;
+  };
+  EXPECT_NE(drawn(0.1), drawn(0.0));
+  for (const double interval : {1e-3, 1e-9, 1e-300}) EXPECT_EQ(drawn(interval), drawn(0.0)) << interval;
+}
+
 TEST(Annotate, LegendBarRunsThroughTheColourMap) {
   const Legend legend{"height", 0.0, 1.0, false, 0.0};
   Image image = white(800, 600);

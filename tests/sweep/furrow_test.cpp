@@ -254,7 +254,7 @@ TEST(Furrow, OnTheLargestBedOnlyItsTilesAreLookedAt) {
 }
 
 TEST(Furrow, OfAShallowDragIsAsDeepAsItsTipWhicheverWayItGoes) {
-  // At 2 mm what the tool pushes ahead of it stays out of the furrow (model.md, "Displacement").
+  // At 2 mm what the tool pushes ahead of it stays out of the furrow.
   for (const double angle : {0.0, 0.5, std::numbers::pi / 4}) {
     Scene scene;
     scene.bed.width = scene.bed.depth = 0.3;

@@ -95,7 +95,7 @@ TEST(Slopes, OnTheLargestBedOnlyItsTilesAreLookedAt) {
 
 TEST(Slopes, OfSandAtRestByThePapersLawAreAtMostItsOctagons) {
   // Drops to axis neighbours of at most T and to diagonal ones of at most sqrt 2 T bound a triangle's slope
-  // by sqrt(1 + (sqrt 2 - 1)^2) = 1.0824 T (model.md).
+  // by sqrt(1 + (sqrt 2 - 1)^2) = 1.0824 T.
   const HeightField before = bed_of(96, [](double x, double y) {
     return std::hypot(x, y) < 0.2 ? 0.15 : 0.01 * std::sin(50.0 * x + 31.0 * y);
   });

@@ -1,0 +1,18 @@
+#include "render/current_context.h"
+
+#include <thread>
+
+#include "core/machine.h"
+
+namespace sandstroke {
+
+CurrentContext::CurrentContext() {
+  // Where it finds no memory, Mesa or its compiler ends the program. Measured: 90 MB and threads' stacks.
+  // Those who draw at the same time may not have taken theirs yet.
+  check_memory(living_.count * (100e6 + 10e6 * std::thread::hardware_concurrency()), "drawing",
+               "allow more, or do without pictures");
+  context_ = make_offscreen_context();
+  context_->make_current();
+}
+
+}  // namespace sandstroke
