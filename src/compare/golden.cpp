@@ -1,13 +1,12 @@
 #include "compare/golden.h"
 
-#include <fcntl.h>
 #include <spdlog/fmt/fmt.h>
 
 #include <cmath>
 #include <cstdint>
-#include <cstdio>
 #include <optional>
 
+#include "compare/replace_folder.h"
 #include "core/error.h"
 #include "core/hash.h"
 #include "core/output_file.h"
@@ -157,26 +156,6 @@ HeightGrid height_change(const RunFile& run) {
   return final_heights - initial;
 }
 
-namespace {
-
-/// Puts a folder in another one's place, if there is one: all old or all new at any moment. Afterwards the
-/// first is the old one, or not there.
-void exchange_folder(const fs::path& made, const fs::path& place) {
-  sync_folder_of(made / content_name);
-  if (renameat2(AT_FDCWD, made.c_str(), AT_FDCWD, place.c_str(), RENAME_EXCHANGE) != 0) {
-    // There is none yet, or a file system that exchanges nothing: then, killed in between, it is missing,
-    // never half.
-    const fs::path old = part_path(fs::path(place) += ".old");
-    fs::remove_all(old);
-    if (fs::exists(place)) fs::rename(place, old);
-    fs::rename(made, place);
-    fs::remove_all(old);
-  }
-  sync_folder_of(place);
-}
-
-}  // namespace
-
 void write_golden(const fs::path& entry, const GoldenRun& run) {
   try {
     if (entry.has_parent_path()) fs::create_directories(entry.parent_path());
@@ -188,7 +167,8 @@ void write_golden(const fs::path& entry, const GoldenRun& run) {
     write_content(part / content_name, file);
     write_png(part / picture_name, run.picture);
     write_text_file(part / provenance_name, provenance_text(file, run.result));
-    exchange_folder(part, entry);
+    sync_folder_of(part / content_name);
+    replace_folder(part, entry);
     fs::remove_all(part);
     fs::remove(part_path(entry));
   } catch (const fs::filesystem_error& failure) {
