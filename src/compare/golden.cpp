@@ -1,15 +1,15 @@
 #include "compare/golden.h"
 
-#include <fcntl.h>
 #include <spdlog/fmt/fmt.h>
 
 #include <cmath>
 #include <cstdint>
-#include <cstdio>
 #include <optional>
 
+#include "compare/replace_folder.h"
 #include "core/error.h"
 #include "core/hash.h"
+#include "core/machine.h"
 #include "core/output_file.h"
 #include "core/version.h"
 #include "io/hdf5_file.h"
@@ -156,26 +156,6 @@ HeightGrid height_change(const RunFile& run) {
   return final_heights - initial;
 }
 
-namespace {
-
-/// Puts a folder in another one's place, if there is one: all old or all new at any moment. Afterwards the
-/// first is the old one, or not there.
-void exchange_folder(const fs::path& made, const fs::path& place) {
-  sync_folder_of(made / content_name);
-  if (renameat2(AT_FDCWD, made.c_str(), AT_FDCWD, place.c_str(), RENAME_EXCHANGE) != 0) {
-    // There is none yet, or a file system that exchanges nothing: then, killed in between, it is missing,
-    // never half.
-    const fs::path old = part_path(fs::path(place) += ".old");
-    fs::remove_all(old);
-    if (fs::exists(place)) fs::rename(place, old);
-    fs::rename(made, place);
-    fs::remove_all(old);
-  }
-  sync_folder_of(place);
-}
-
-}  // namespace
-
 void write_golden(const fs::path& entry, const GoldenRun& run) {
   try {
     if (entry.has_parent_path()) fs::create_directories(entry.parent_path());
@@ -187,7 +167,8 @@ void write_golden(const fs::path& entry, const GoldenRun& run) {
     write_content(part / content_name, file);
     write_png(part / picture_name, run.picture);
     write_text_file(part / provenance_name, provenance_text(file, run.result));
-    exchange_folder(part, entry);
+    sync_folder_of(part / content_name);
+    replace_folder(part, entry);
     fs::remove_all(part);
     drop_part(entry);
   } catch (const fs::filesystem_error& failure) {
@@ -204,18 +185,22 @@ GoldenContent read_golden(const fs::path& entry) {
                       file.name());
   }
   GoldenContent content;
-  content.cell_size = file.number_attribute("/surface", "cell_size");
+  content.cell_size = file.cell_size("/surface");
   content.initial_hash = file.text_attribute("/surface", "initial_hash");
   const double rows = file.number_attribute("/surface", "rows"),
                cols = file.number_attribute("/surface", "cols");
   const HeightGrid block = file.grid("/surface/change");
   const double row = file.number_attribute("/surface/change", "row");
   const double col = file.number_attribute("/surface/change", "col");
-  constexpr double most = 1 << 16;
-  const bool fits = row >= 0 && col >= 0 && rows <= most && cols <= most &&
+  constexpr double most = BedGeometry::most_cells;
+  const bool fits = rows >= 1 && cols >= 1 && rows <= most && cols <= most && row >= 0 && col >= 0 &&
                     row + static_cast<double>(block.rows()) <= rows &&
                     col + static_cast<double>(block.cols()) <= cols;
   if (!fits) throw_input_error("{}: /surface/change does not lie in the bed; make it again", file.name());
+  check_memory(
+      4.0 * sizeof(double) * rows * cols,
+      fmt::format("{}: its bed has {} x {} cells: working with all of them", file.name(), rows, cols),
+      "check that it is the file that was meant");
   content.change = HeightGrid::Zero(static_cast<Eigen::Index>(rows), static_cast<Eigen::Index>(cols));
   content.change.block(static_cast<Eigen::Index>(row), static_cast<Eigen::Index>(col), block.rows(),
                        block.cols()) = block;
@@ -223,8 +208,10 @@ GoldenContent read_golden(const fs::path& entry) {
     const HeightGrid table = file.grid("/trace/rows");
     if (table.rows() != table_rows)
       throw_input_error("{}: /trace/rows has not {} rows; make it again", file.name(), table_rows);
-    content.trace =
-        CountedTrace{static_cast<std::size_t>(file.number_attribute("/trace", "ticks")), from_table(table)};
+    const double ticks = file.number_attribute("/trace", "ticks");
+    if (!(ticks >= 0.0 && ticks <= 0x1p53 && ticks == std::floor(ticks)))
+      throw_input_error("{}: /trace has {} ticks; make it again", file.name(), ticks);
+    content.trace = CountedTrace{static_cast<std::size_t>(ticks), from_table(table)};
   }
   return content;
 }

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <vector>
 
 #include "compare/difference_map.h"
 #include "compare/field_difference.h"

@@ -90,7 +90,7 @@ void add_checks(std::vector<Check>& checks, const std::string& name,
   try {
     for (Check& check : make()) checks.push_back(std::move(check));
   } catch (const Error& error) {
-    if (error.kind() != ErrorKind::input) throw;
+    if (is_of_the_machine(error)) throw;
     checks.push_back(fact_check(name, false, error.what()));
   }
 }

@@ -46,7 +46,8 @@ std::vector<Check> trace_checks(const std::optional<CountedTrace>& golden,
 std::vector<Check> picture_checks(const Image& golden, const Image& run, const Tolerances& tolerances);
 
 /// Appends what `make` returns, or, where the data it asks for is missing or damaged (Error: input), the
-/// failed check `name` with the error's sentence.
+/// failed check `name` with the error's sentence. What is_of_the_machine() says nothing about the data:
+/// Error.
 void add_checks(std::vector<Check>& checks, const std::string& name,
                 const std::function<std::vector<Check>()>& make);
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstring>
 
 #include "core/error.h"
@@ -280,6 +281,13 @@ std::string Hdf5Reader::text_attribute(const std::string& object, const std::str
       });
   if (!is_text) fail(object, fmt::format("attribute '{}' is not one string", attribute));
   return text;
+}
+
+double Hdf5Reader::cell_size(const std::string& object) const {
+  const double size = number_attribute(object, "cell_size");
+  if (!(size > 0.0 && std::isfinite(size)))
+    fail(object, fmt::format("has cell_size {}; the file is damaged", size));
+  return size;
 }
 
 std::vector<std::string> Hdf5Reader::members(const std::string& group) const {

@@ -46,6 +46,7 @@ class Hdf5Reader {
   bool has_attribute(const std::string& object, const std::string& attribute) const;
   double number_attribute(const std::string& object, const std::string& attribute) const;
   std::string text_attribute(const std::string& object, const std::string& attribute) const;
+  double cell_size(const std::string& object) const;  ///< m, its attribute: finite and above 0
 
   /// Names of a group's members, in alphabetical order.
   std::vector<std::string> members(const std::string& group) const;

@@ -1,6 +1,5 @@
 #include "io/recording_file.h"
 
-#include <array>
 #include <cmath>
 #include <limits>
 

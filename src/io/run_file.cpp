@@ -26,12 +26,7 @@ RunFile::RunFile(const std::filesystem::path& path) : file_(path) {
 
 bool RunFile::complete() const { return file_.number_attribute("/", "complete") != 0.0; }
 
-double RunFile::cell_size() const {
-  const double size = file_.number_attribute("/surface", "cell_size");
-  if (!(size > 0.0))
-    throw_input_error("{}: /surface has cell_size {}; the file is damaged", file_.name(), size);
-  return size;
-}
+double RunFile::cell_size() const { return file_.cell_size("/surface"); }
 
 std::vector<hsize_t> RunFile::shape() const {
   const std::vector<hsize_t> shape = file_.shape("/surface/initial");

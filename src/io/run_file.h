@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "io/hdf5_file.h"
-#include "sim/run_result.h"
 
 namespace sandstroke {
 

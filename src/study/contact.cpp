@@ -1,7 +1,8 @@
 // The work of a kinematic device in sand, against closed forms.
+#include <spdlog/fmt/fmt.h>
+
 #include <cmath>
 
-#include "core/error.h"
 #include "sim/simulation.h"
 #include "study/error_checks.h"
 #include "study/exact_shapes.h"

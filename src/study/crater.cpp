@@ -1,8 +1,9 @@
 // Sand that drains through a hole: each law against the steepest shape that it allows.
+#include <spdlog/fmt/fmt.h>
+
 #include <cmath>
 #include <tuple>
 
-#include "core/error.h"
 #include "core/stopwatch.h"
 #include "study/shape_score.h"
 

@@ -1,8 +1,9 @@
 // Sand left to itself until it rests, against exact shapes.
+#include <spdlog/fmt/fmt.h>
+
 #include <cmath>
 #include <memory>
 
-#include "core/error.h"
 #include "core/stopwatch.h"
 #include "sand/initial_surface.h"
 #include "study/error_checks.h"

@@ -1,9 +1,10 @@
 // Strokes whose truth has to be computed: the same run, finer.
+#include <spdlog/fmt/fmt.h>
+
 #include <algorithm>
 #include <cmath>
 #include <memory>
 
-#include "core/error.h"
 #include "haptics/stroke_script.h"
 #include "sim/simulation.h"
 #include "study/error_checks.h"

@@ -1,6 +1,5 @@
 #include "sweep/collected_sweep.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "core/counted.h"

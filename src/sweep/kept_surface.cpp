@@ -1,8 +1,9 @@
 #include "sweep/kept_surface.h"
 
+#include <spdlog/fmt/fmt.h>
+
 #include <cmath>
 
-#include "core/error.h"
 #include "core/hash.h"
 #include "io/hdf5_file.h"
 
@@ -19,12 +20,7 @@ void visit_parts(const Hdf5Reader& file, double level, const Visit& visit) {
   });
 }
 
-BedGeometry geometry(const Hdf5Reader& file) {
-  const double cell_size = file.number_attribute(surface, "cell_size");
-  if (!(cell_size > 0.0) || !std::isfinite(cell_size))
-    throw_input_error("{}: {} has cells of {} m; sweep this point again", file.name(), surface, cell_size);
-  return file.bed_geometry(surface, cell_size);
-}
+BedGeometry geometry(const Hdf5Reader& file) { return file.bed_geometry(surface, file.cell_size(surface)); }
 
 }  // namespace
 

@@ -1,11 +1,11 @@
 #include "sweep/point_runner.h"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 
 #include "compare/field_difference.h"
 #include "core/error.h"
+#include "sim/simulation.h"
 #include "sweep/furrow.h"
 #include "sweep/slopes.h"
 
@@ -132,10 +132,8 @@ void add_shapes(Measures& measures, const std::vector<Metric>& metrics, const Sc
 
 }  // namespace
 
-PointResult failed_point(const Error& error, std::size_t metrics) {
-  const PointVerdict verdict =
-      error.kind() == ErrorKind::unstable ? PointVerdict::unstable : PointVerdict::refused;
-  return {verdict, error.what(), std::vector<double>(metrics, PointResult::none)};
+PointResult failed_point(PointVerdict verdict, const std::string& reason, std::size_t metrics) {
+  return {verdict, reason, std::vector<double>(metrics, PointResult::none)};
 }
 
 std::optional<SharedRunResult> run_shared(const std::vector<Scene>& scenes, const HeightField& bed,
@@ -164,8 +162,7 @@ std::optional<SharedRunResult> run_shared(const std::vector<Scene>& scenes, cons
       RunResult felt = sand;
       if (i < feelers.size()) {
         if (!feelers[i].failure.empty()) {
-          result.points.push_back(
-              failed_point(Error(ErrorKind::unstable, feelers[i].failure), metrics.size()));
+          result.points.push_back(failed_point(PointVerdict::unstable, feelers[i].failure, metrics.size()));
           continue;
         }
         feelers[i].device->report(felt);
@@ -177,7 +174,10 @@ std::optional<SharedRunResult> run_shared(const std::vector<Scene>& scenes, cons
     return result;
   } catch (const Error& error) {
     if (is_of_the_machine(error)) throw;
-    return SharedRunResult{std::vector<PointResult>(scenes.size(), failed_point(error, metrics.size())), bed};
+    const PointVerdict verdict =
+        error.kind() == ErrorKind::unstable ? PointVerdict::unstable : PointVerdict::refused;
+    const PointResult point = failed_point(verdict, error.what(), metrics.size());
+    return SharedRunResult{std::vector<PointResult>(scenes.size(), point), bed};
   }
 }
 

@@ -1,16 +1,17 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
-#include "core/error.h"
-#include "sim/simulation.h"
+#include "haptics/stroke.h"
+#include "sim/scene.h"
 #include "sweep/metrics.h"
 
 namespace sandstroke {
 
-/// The result of a point that an error ended; so many metrics, none of which it has.
-PointResult failed_point(const Error& error, std::size_t metrics);
+/// The result of a point that failed; so many metrics, none of which it has.
+PointResult failed_point(PointVerdict verdict, const std::string& reason, std::size_t metrics);
 
 struct SharedRunResult {
   std::vector<PointResult> points;  ///< of each scene, with these metrics

@@ -129,7 +129,7 @@ bool Sweep::run_group(const SweepFolder& folder, const std::vector<std::size_t>&
   std::vector<Scene> scenes;
   const auto refuse = [&](const std::string& reason) {
     for (std::size_t i = 0; i < points.size(); ++i)
-      write(points[i], failed_point(Error(ErrorKind::input, reason), metrics),
+      write(points[i], failed_point(PointVerdict::refused, reason, metrics),
             i < scenes.size() ? scene_text(scenes[i]) : "", nullptr);
     return false;
   };

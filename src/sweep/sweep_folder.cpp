@@ -195,11 +195,6 @@ std::optional<PointResult> SweepFolder::read(std::size_t point) const {
   }
 }
 
-HeightField SweepFolder::read_surface(std::size_t point) const {
-  const Hdf5Reader file(point_file(point));
-  return file.bed("/surface", file.number_attribute("/surface", "cell_size"));
-}
-
 void SweepFolder::write(std::size_t point, const PointResult& result, const std::string& scene_text,
                         const HeightField* surface) const {
   Hdf5Writer file(point_file(point));

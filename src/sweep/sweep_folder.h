@@ -54,8 +54,6 @@ class SweepFolder {
   std::filesystem::path picture_file(std::size_t point) const;
   /// A point that is done; none where its file is missing or cannot be read (cut off).
   std::optional<PointResult> read(std::size_t point) const;
-  /// Its final surface, where it was kept. Error: io, input.
-  HeightField read_surface(std::size_t point) const;
 
   /// Writes one point's file: whole, on the disk, or not at all. Error: io.
   void write(std::size_t point, const PointResult& result, const std::string& scene_text,

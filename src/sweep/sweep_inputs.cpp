@@ -1,7 +1,5 @@
 #include "sweep/sweep_inputs.h"
 
-#include <spdlog/fmt/fmt.h>
-
 #include "core/machine.h"
 #include "io/scene_toml.h"
 #include "io/stroke_file.h"

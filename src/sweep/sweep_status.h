@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -26,8 +25,8 @@ struct TaskStatus {
 /// How far a sweep is.
 struct SweepStatus {
   std::size_t points = 0, missing = 0;
-  bool collected = false;                 ///< sweep.h5 is there, and younger than every point
-  std::array<std::size_t, 5> verdicts{};  ///< points of each PointVerdict
+  bool collected = false;  ///< sweep.h5 is there, and younger than every point
+  VerdictCounts verdicts{};
   std::vector<std::pair<std::size_t, std::string>> failures;  ///< point and reason
   std::optional<long> array;                                  ///< the job array's id, where it was submitted
   std::vector<TaskStatus> tasks;                              ///< of it

@@ -1,7 +1,6 @@
 #include "sweep/thumbnail.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "render/map_picture.h"
 #include "sweep/kept_surface.h"

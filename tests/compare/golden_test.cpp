@@ -2,10 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <fstream>
 
 #include "compare/golden_scenes.h"
 #include "core/error.h"
+#include "core/machine.h"
 #include "core/output_file.h"
 #include "io/png_file.h"
 #include "synthetic_run.h"
@@ -29,6 +31,24 @@ class Golden : public testing::Test {
 
   void expect_only_failure(const std::string& name, const std::string& words) {
     sandstroke::expect_only_failure(compare(), name, words);
+  }
+  /// A golden.h5 that says what it wants of a bed whose changed block is given.
+  void claim(double rows, double cols, double cell_size, double ticks, const HeightGrid& block) {
+    Hdf5Writer file(folder / "golden/dune/golden.h5");
+    file.attribute("/", "format", "sandstroke.golden");
+    file.attribute("/", "format_version", 1.0);
+    file.make_group("/surface");
+    file.attribute("/surface", "rows", rows);
+    file.attribute("/surface", "cols", cols);
+    file.attribute("/surface", "cell_size", cell_size);
+    file.attribute("/surface", "initial_hash", "");
+    file.write("/surface/change", block);
+    file.attribute("/surface/change", "row", 0.0);
+    file.attribute("/surface/change", "col", 0.0);
+    file.make_group("/trace");
+    file.attribute("/trace", "ticks", ticks);
+    file.write("/trace/rows", HeightGrid::Zero(7, 1));
+    file.finish();
   }
 
   TestFolder folder;
@@ -166,6 +186,37 @@ TEST_F(Golden, AnEntryWithoutOneOfItsFilesFails) {
   }
 }
 
+TEST_F(Golden, ADamagedEntryIsNotBelieved) {
+  write_golden(folder / "golden/dune", finished());
+  const HeightGrid one = HeightGrid::Zero(1, 1), none = HeightGrid::Zero(0, 0);
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN(), infinite = HUGE_VAL;
+  claim(30, 40, 0.01, 1, one);
+  EXPECT_NO_THROW(read_golden(folder / "golden/dune"));
+  for (const double side : {0.0, -1.0, 65537.0, nan}) {
+    claim(side, 40, 0.01, 1, none);
+    expect_only_failure("golden content", "does not lie in the bed");
+    claim(30, side, 0.01, 1, none);
+    expect_only_failure("golden content", "does not lie in the bed");
+  }
+  for (const double cell_size : {0.0, -0.01, nan, infinite}) {
+    claim(30, 40, cell_size, 1, one);
+    expect_only_failure("golden content", "cell_size");
+  }
+  for (const double ticks : {-1.0, 0.5, nan, infinite}) {
+    claim(30, 40, 0.01, ticks, one);
+    expect_only_failure("golden content", "ticks");
+  }
+}
+
+TEST_F(Golden, ASmallEntryOfAHugeBedIsRefusedBeforeItTakesMemory) {
+  constexpr double side = BedGeometry::most_cells;
+  if (memory_room().bytes > 4.0 * sizeof(double) * side * side) GTEST_SKIP() << "there is room for it";
+  write_golden(folder / "golden/dune", finished());
+  claim(side, side, 0.01, 1, HeightGrid::Zero(1, 1));
+  EXPECT_THROW(read_golden(folder / "golden/dune"), NotEnoughMemory);
+  EXPECT_THROW(compare(), NotEnoughMemory) << "that says nothing about the run";
+}
+
 TEST_F(Golden, AnUnchangedSurfaceAndNoTraceAreFine) {
   run.final = run.initial;
   run.has_trace = false;
@@ -189,7 +240,8 @@ TEST_F(Golden, OnlyACompleteFiniteRunBecomesGolden) {
 TEST_F(Golden, UpdateReplacesTheWholeEntryAndLeavesNothingBeside) {
   write_golden(folder / "golden/dune", finished());
   std::ofstream(folder / "golden/dune/stray.txt") << "old";
-  fs::create_directories(folder / "golden/dune.new.part/golden.h5.part");  // left by an update that was killed
+  fs::create_directories(folder /
+                         "golden/dune.new.part/golden.h5.part");  // left by an update that was killed
   run.final(0, 0) = 0.001;
   write_golden(folder / "golden/dune", finished());
   EXPECT_TRUE(compare().passed());

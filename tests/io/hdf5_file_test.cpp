@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <fstream>
 
 #include "core/error.h"
@@ -58,6 +59,23 @@ TEST_F(Hdf5File, GivesBackWhatWasWritten) {
   EXPECT_EQ(reader.text_attribute("/", "written_by"), build);
   EXPECT_EQ(reader.members("/a"), (std::vector<std::string>{"b", "vectors"}));
   EXPECT_FALSE(reader.has("/a/none/deeper"));
+}
+
+TEST_F(Hdf5File, ACellSizeIsFiniteAndAboveZero) {
+  const auto write = [&](double cell_size) {
+    Hdf5Writer writer(path_);
+    writer.make_group("/surface");
+    writer.attribute("/surface", "cell_size", cell_size);
+    writer.finish();
+  };
+  write(0.25);
+  EXPECT_EQ(Hdf5Reader(path_).cell_size("/surface"), 0.25);
+  for (const double wrong : {0.0, -0.25, std::nan(""), HUGE_VAL}) {
+    write(wrong);
+    EXPECT_NE(error_of_reading([](const Hdf5Reader& file) { file.cell_size("/surface"); }).find("cell_size"),
+              std::string::npos)
+        << wrong;
+  }
 }
 
 TEST_F(Hdf5File, ColumnsGrowAndCanBeReadAfterAFlushWithoutFinish) {

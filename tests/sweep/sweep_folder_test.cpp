@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "core/output_file.h"
+#include "io/hdf5_reader.h"
 #include "sand/initial_surface.h"
 #include "test_folder.h"
 
@@ -121,8 +122,9 @@ TEST_F(AFolder, GivesPointsBackToTheBit) {
   EXPECT_EQ(result->verdict, PointVerdict::active);
   EXPECT_EQ(result->metrics[0], 0.1);
   EXPECT_TRUE(std::isnan(result->metrics[1]));
-  EXPECT_TRUE((folder.read_surface(3).grid() == surface.grid()).all());
-  EXPECT_EQ(folder.read_surface(3).cell_size(), 0.25);
+  const Hdf5Reader file(folder.point_file(3));
+  EXPECT_TRUE((file.grid("/surface") == surface.grid()).all());
+  EXPECT_EQ(file.number_attribute("/surface", "cell_size"), 0.25);
 
   folder.write(1, {PointVerdict::unstable, "it \"blew\" up", {PointResult::none, PointResult::none}}, "",
                nullptr);
