@@ -19,6 +19,16 @@ bool still_named(int descriptor, const std::filesystem::path& path) {
 }
 
 std::optional<FileLock> FileLock::try_take(const std::filesystem::path& path) {
+  return take(path, F_OFD_SETLK);
+}
+
+FileLock FileLock::wait_and_take(const std::filesystem::path& path) {
+  std::optional<FileLock> taken = take(path, F_OFD_SETLKW);
+  if (!taken) throw_io_error("{}: cannot be locked ({})", path.string(), std::strerror(errno));
+  return std::move(*taken);
+}
+
+std::optional<FileLock> FileLock::take(const std::filesystem::path& path, int how) {
   // Again, where its last holder renamed or removed it between open and lock: that is no longer this file.
   while (true) {
     FileLock taken(open(path.c_str(), O_CREAT | O_RDWR | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK, 0666));
@@ -30,7 +40,7 @@ std::optional<FileLock> FileLock::try_take(const std::filesystem::path& path) {
     struct stat opened {};
     if (fstat(taken.descriptor_, &opened) != 0 || !S_ISREG(opened.st_mode))
       throw_io_error("{}: is not a regular file; remove it or choose another place", path.string());
-    if (!taken.lock(F_WRLCK)) return std::nullopt;
+    if (!taken.lock(F_WRLCK, how)) return std::nullopt;
     if (still_named(taken.descriptor_, path)) return taken;
   }
 }
@@ -39,16 +49,19 @@ std::optional<FileLock> FileLock::try_share(const std::filesystem::path& path) {
   FileLock shared(open(path.c_str(), O_RDONLY | O_CLOEXEC));
   if (shared.descriptor_ < 0)
     throw_io_error("{}: cannot be opened ({}); check the path", path.string(), std::strerror(errno));
-  if (!shared.lock(F_RDLCK)) return std::nullopt;
+  if (!shared.lock(F_RDLCK, F_OFD_SETLK)) return std::nullopt;
   return shared;
 }
 
-bool FileLock::lock(short type) {
+bool FileLock::lock(short type, int how) {
   struct flock whole_file {};
   whole_file.l_type = type;
   whole_file.l_whence = SEEK_SET;
   // Bound to this descriptor: others of the same process may open and close the file on their own.
-  return fcntl(descriptor_, F_OFD_SETLK, &whole_file) == 0;
+  int result;
+  do result = fcntl(descriptor_, how, &whole_file);
+  while (result != 0 && errno == EINTR);
+  return result == 0;
 }
 
 FileLock::FileLock(FileLock&& other) noexcept : descriptor_(std::exchange(other.descriptor_, -1)) {}

@@ -16,6 +16,8 @@ class FileLock {
   /// Makes the file where it is not there. None: somebody holds it. Error: io; also where something else than
   /// a file has its name, as a link to one that nobody meant.
   static std::optional<FileLock> try_take(const std::filesystem::path& path);
+  /// The same, of a file that others may be looking at for a moment: waits for them.
+  static FileLock wait_and_take(const std::filesystem::path& path);
   /// With others that only read the file, which is there. None: somebody has taken it. Error: io.
   static std::optional<FileLock> try_share(const std::filesystem::path& path);
   FileLock(FileLock&& other) noexcept;
@@ -27,7 +29,8 @@ class FileLock {
 
  private:
   explicit FileLock(int descriptor) : descriptor_(descriptor) {}
-  bool lock(short type);
+  static std::optional<FileLock> take(const std::filesystem::path& path, int how);
+  bool lock(short type, int how);
 
   int descriptor_;
 };

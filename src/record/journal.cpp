@@ -88,8 +88,7 @@ JournalWriter::JournalWriter(const fs::path& path, const RecordingHeader& header
     fail(error);
   }
   try {
-    lock_ = FileLock::try_take(path);
-    if (!lock_) throw_io_error("{}: another process is using it; choose another name", path.string());
+    lock_ = FileLock::wait_and_take(path);  // it is ours: others can only be asking whose it is
     std::string begin(signature);
     begin.append(reinterpret_cast<const char*>(&format_version), sizeof format_version);
     put_block(begin, header_block, header);

@@ -1,7 +1,6 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 
-#include <chrono>
 #include <nlohmann/json.hpp>
 #include <thread>
 
@@ -81,11 +80,21 @@ fs::path folder_with_slow_stroke() {
   return folder;
 }
 
+/// Sends the signal once ticks have been written.
+Conditions stopped_on_its_way(int signal, const fs::path& folder) {
+  Conditions stopped{signal};
+  stopped.when = [part = folder / "a.h5.part"] {
+    return fs::exists(part) && fs::file_size(part) > 1'000'000;
+  };
+  return stopped;
+}
+
 TEST(CliRun, StoppedBySignalItKeepsWhatIsCompleteAndMarksItSo) {
   for (const int signal : {SIGINT, SIGTERM}) {
     const fs::path folder = folder_with_slow_stroke();
-    const ProgramResult run = run_program(
-        {"run", "scene.toml", "-o", "a.h5", "--stroke", "long.toml", "--json"}, folder, {signal, 1500});
+    const ProgramResult run =
+        run_program({"run", "scene.toml", "-o", "a.h5", "--stroke", "long.toml", "--json"}, folder,
+                    stopped_on_its_way(signal, folder));
     EXPECT_EQ(run.exit_code, 128 + signal) << run.err;
     EXPECT_FALSE(fs::exists(folder / "a.h5"));
     EXPECT_EQ(nlohmann::json::parse(run.out)["output"], "a.h5.part");
@@ -100,9 +109,8 @@ TEST(CliRun, StoppedBySignalItKeepsWhatIsCompleteAndMarksItSo) {
 
 TEST(CliRun, KilledItLeavesWhatWasFlushedAndNothingThatLooksComplete) {
   const fs::path folder = folder_with_slow_stroke();
-  Conditions killed{SIGKILL};
-  killed.when = [part = folder / "a.h5.part"] { return fs::exists(part) && fs::file_size(part) > 1'000'000; };
-  run_program({"run", "scene.toml", "-o", "a.h5", "--stroke", "long.toml"}, folder, killed);
+  run_program({"run", "scene.toml", "-o", "a.h5", "--stroke", "long.toml"}, folder,
+              stopped_on_its_way(SIGKILL, folder));
   EXPECT_FALSE(fs::exists(folder / "a.h5"));
   const RunFile part(folder / "a.h5.part");
   EXPECT_FALSE(part.complete());
@@ -111,19 +119,19 @@ TEST(CliRun, KilledItLeavesWhatWasFlushedAndNothingThatLooksComplete) {
 
 TEST(CliRun, ASecondRunCannotWriteTheSameFile) {
   const fs::path folder = folder_with_slow_stroke();
-  ProgramResult first;
-  std::thread writing([&] {
-    first = run_program({"run", "scene.toml", "-o", "a.h5", "--stroke", "long.toml"}, folder,
-                        {SIGINT, 3000, 0, "/dev/null"});
-  });
-  while (!fs::exists(folder / "a.h5.part")) std::this_thread::sleep_for(std::chrono::milliseconds(10));
-  std::this_thread::sleep_for(std::chrono::milliseconds(200));
   const fs::path other = folder / "other";
   fs::create_directory(other);
-  const ProgramResult second = run_program({"run", "../scene.toml", "-o", "../a.h5"}, other);
+  ProgramResult second;
+  Conditions meanwhile = stopped_on_its_way(SIGINT, folder);
+  meanwhile.when = [&, going_on = meanwhile.when] {
+    if (!going_on()) return false;
+    second = run_program({"run", "../scene.toml", "-o", "../a.h5"}, other);
+    return true;
+  };
+  const ProgramResult first =
+      run_program({"run", "scene.toml", "-o", "a.h5", "--stroke", "long.toml"}, folder, meanwhile);
   EXPECT_EQ(second.exit_code, 4);
   EXPECT_NE(second.err.find("another process"), std::string::npos) << second.err;
-  writing.join();
   EXPECT_EQ(first.exit_code, 130);
   EXPECT_GT(RunFile(folder / "a.h5.part").trace().size(), 100u);
 }
