@@ -61,10 +61,18 @@ std::string duration(double seconds) {
   return fmt::format("{:.1f} h", seconds / 3600.0);
 }
 
+void warn_of_depth(const Sweep& sweep) {
+  if (sweep.too_deep().empty()) return;
+  const auto& [point, sentence] = *sweep.too_deep().begin();
+  spdlog::warn("points whose stroke goes deep: {}, the first, point {}: {}", sweep.too_deep().size(), point,
+               sentence);
+}
+
 int dry_run(Sweep& sweep, const Arguments& arguments) {
   const Sweep::Estimate estimate = sweep.estimate();
   if (interrupted()) return 128 + interrupted();
   const SweepDesign& design = sweep.plan().design;
+  warn_of_depth(sweep);
   if (!sweep.refused().empty())
     spdlog::warn("the settings of {} points do not go together, the first, point {}: {}",
                  sweep.refused().size(), sweep.refused().begin()->first, sweep.refused().begin()->second);
@@ -142,6 +150,7 @@ int sweep(const Arguments& arguments) {
     lost = collected.missing + collected.unreadable > 0;  // somebody removed or damaged points
   }
   if (arguments.json) print_json(json);
+  warn_of_depth(sweep);
   if (counters.interrupted) {
     spdlog::warn("stopped with {} of {} points done; the same command goes on from there",
                  counters.done_before + counters.run, counters.points);

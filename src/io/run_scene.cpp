@@ -16,6 +16,7 @@
 #include "io/stroke_file.h"
 #include "io/surface_file.h"
 #include "sim/recorded_force.h"
+#include "sim/stroke_depth.h"
 
 namespace sandstroke {
 namespace {
@@ -66,21 +67,26 @@ RunResult run_scene(const Scene& scene, const std::filesystem::path& output, con
 
   std::optional<Stroke> stroke;
   std::string stroke_hash;
+  std::filesystem::path stroke_path;
   if (scene.stroke) {
-    const std::filesystem::path path = options.scene_folder / scene.stroke->file;
-    const Stroke loaded = load_stroke(path, scene.force);
+    stroke_path = options.scene_folder / scene.stroke->file;
+    const Stroke loaded = load_stroke(stroke_path, scene.force);
     if (!loaded.complete)
       spdlog::warn("{}: was cut off while it was recorded; the run ends where the stroke does",
-                   path.string());
-    stroke = place_stroke(loaded, scene.stroke->placement, path.string());
+                   stroke_path.string());
+    stroke = place_stroke(loaded, scene.stroke->placement, stroke_path.string());
     // Not of a recorded stroke's bytes: they tell which build wrote it, too.
-    stroke_hash = is_recorded(path) ? content_hash(loaded) : content_hash(read_text_file(path));
+    stroke_hash = is_recorded(stroke_path) ? content_hash(loaded) : content_hash(read_text_file(stroke_path));
   }
   if (options.second) second_scene(scene, *options.second);  // refused before any work, if at all
   HeightField bed = load_surface(scene.bed, options.scene_folder);
   std::optional<HeightField> start;
   if (options.second) start = bed;
   Simulation simulation(scene, std::move(bed), stroke);
+  if (stroke) {
+    const std::string warning = depth_warning(scene, simulation.bed(), *stroke, stroke_path.string());
+    if (!warning.empty()) spdlog::warn("{}", warning);
+  }
   WriterWithProgress writer(output, simulation, stroke_hash, stroke, options.progress,
                             options.second.has_value());
   RunResult result = simulation.run(writer);

@@ -265,6 +265,19 @@ TEST(CliRun, AToolThatNeverTouchesTheSandIsPointedOut) {
   EXPECT_NE(run.err.find("never touched"), std::string::npos) << run.err;
 }
 
+TEST(CliRun, AStrokeInMillimetresIsPointedOut) {
+  const fs::path folder = test_folder();
+  const auto said = [&](const char* depth) {
+    return run_program({"run", "scene.toml", "-o", "a.h5", "--quiet", "--set", depth}, folder).err;
+  };
+  const std::string warning = said("stroke.depth=5");  // 5 mm and the script's 4 mm were meant
+  EXPECT_NE(warning.find("line.toml: goes 5.004 m deep into the sand"), std::string::npos) << warning;
+  EXPECT_NE(warning.find("500 times tool.radius = 0.01 m"), std::string::npos) << warning;
+  EXPECT_NE(warning.find("stroke.depth"), std::string::npos) << warning;
+  EXPECT_EQ(said("stroke.depth=0.19"), "");
+  EXPECT_NE(said("stroke.depth=0.2"), "");
+}
+
 TEST(CliRun, EstimatesItsErrorOnRequest) {
   const fs::path folder = test_folder();
   const ProgramResult plain = run_program({"run", "scene.toml", "--json"}, folder);

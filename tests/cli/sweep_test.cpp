@@ -53,6 +53,16 @@ TEST_F(CliSweep, RunsCollectsAndSaysWhatItSaved) {
   EXPECT_EQ(fresh["content_hash"], again["content_hash"]);
 }
 
+TEST_F(CliSweep, StrokesInMillimetresArePointedOut) {
+  plan("stroke.depth = [0.001, 4, 5]\n");
+  for (const std::vector<std::string>& how : {{"--dry-run"}, std::vector<std::string>{"-o", "out"}}) {
+    std::vector<std::string> words = {"plan.toml"};
+    words.insert(words.end(), how.begin(), how.end());
+    const std::string said = sweep(words).err;
+    EXPECT_NE(said.find("the first, point 1: line.toml: goes 4.004 m deep"), std::string::npos) << said;
+  }
+}
+
 TEST_F(CliSweep, APointsCommandGivesThePointsFigures) {
   plan("relaxation.talus_angle = [25, 35]\nmodel.preset = [\"paper\", \"accurate\"]\n",
        "metrics = [\"work\", \"max_force\"]\n");
