@@ -110,7 +110,8 @@ void add_compare_command(CLI::App& app, Command& chosen) {
   command->add_option("--junit", options->junit, "File for the checks as JUnit XML")->type_name("FILE.xml");
   command->add_flag("--json", options->json, "Print one JSON object instead of the table");
   command->footer(
-      "Example:  sandstroke compare golden.h5 run.h5 --report difference\nExit code 1: they differ.");
+      "Example:  sandstroke compare before.h5 after.h5 --report difference\n"
+      "Exit code 1: they differ. Entries of golden/ are for sandstroke golden check.");
   command->callback([options, &chosen] { chosen = [options] { return compare(*options); }; });
 }
 

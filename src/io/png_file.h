@@ -2,11 +2,15 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 #include "core/image.h"
 #include "sand/height_field.h"
 
 namespace sandstroke {
+
+/// How every PNG begins.
+inline constexpr std::string_view png_signature = "\x89PNG\r\n\x1a\n";
 
 /// Largest side of a PNG that is read, in pixels.
 inline constexpr int largest_png_side = 16384;

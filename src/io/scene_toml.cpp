@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/error.h"
+#include "io/input_kind.h"
 #include "io/scene_keys.h"
 #include "io/toml_reader.h"
 
@@ -86,6 +88,7 @@ std::string scene_text(const Scene& scene) {
   for (const SceneSection& section : scene_settings(scene)) {
     text += fmt::format("{}[{}]\n", text.empty() ? "" : "\n", section.name);
     for (const SceneKey& key : section.keys) text += fmt::format("{} = {}\n", key.key(), key.value);
+  expect_kind(path, {InputKind::scene});
   }
   return text;
 }

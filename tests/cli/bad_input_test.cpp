@@ -142,9 +142,14 @@ const std::vector<Case> cases = {
      {"furlong"},
      {{"a.csv", "x,y,z\n1,2,3\n"}}},
     {"RenderOfNothing", {"render", "none.h5"}, 4, {"none.h5"}, {}},
-    {"RenderOfText", {"render", "scene.toml"}, 2, {"scene.toml", "HDF5"}, {}},
+    {"RenderOfScene", {"render", "scene.toml"}, 2, {"scene.toml: is a scene, not a run file"}, {}},
+    {"RenderOfText", {"render", "a.txt"}, 2, {"a.txt", "HDF5"}, {{"a.txt", "sand"}}},
     {"CompareWithNothing", {"compare", "none.h5", "none.h5"}, 4, {"none.h5"}, {}},
-    {"InfoOfText", {"info", "line.toml"}, 2, {"line.toml", "HDF5"}, {}},
+    {"InfoOfScript",
+     {"info", "line.toml"},
+     2,
+     {"is a stroke script", "sandstroke stroke info line.toml"},
+     {}},
     {"GoldenOfUnknownScene",
      {"golden", "check", "nosuch", "--strokes", SANDSTROKE_SOURCE "/strokes"},
      2,
@@ -182,6 +187,46 @@ TEST(CliBadInput, TruncatedFilesAreRefused) {
   for (const char* name : {"run.h5", "line.h5"})
     fs::resize_file(folder / name, fs::file_size(folder / name) / 2);
   const ProgramResult render = run_program({"render", "run.h5", "-o", "out.png"}, folder);
+    {"PictureThatIsNoPng",
+     {"run", "scene.toml", "-o", "out.h5", "--png", "out.jpg"},
+     2,
+     {"out.jpg: pictures are written as PNG; give it a name that ends with .png"},
+     {}},
+    {"StrokeAsScene",
+     {"run", "line.toml", "-o", "out.h5"},
+     2,
+     {"line.toml: is a stroke script, not a scene; "},
+     {}},
+    {"PlanAsScene",
+     {"run", "plan.toml", "-o", "out.h5"},
+     2,
+     {"plan.toml: is a sweep plan, not a scene; run it: sandstroke sweep plan.toml"},
+     {{"plan.toml", "[sweep]\nscene = 'scene.toml'\n"}}},
+    {"SceneAsPlan",
+     {"sweep", "scene.toml"},
+     2,
+     {"scene.toml: is a scene, not a sweep plan; run it: sandstroke run scene.toml"},
+     {}},
+    {"PlanOfAPlan",
+     {"sweep", "plan.toml"},
+     2,
+     {"plan.toml: is a sweep plan, not a scene"},
+     {{"plan.toml", "[sweep]\nscene = 'plan.toml'\n"}}},
+    {"SceneAsStroke",
+     {"run", "scene.toml", "-o", "out.h5", "--stroke", "scene.toml"},
+     2,
+     {"scene.toml: is a scene, not a stroke"},
+     {}},
+    {"SceneToSample",
+     {"stroke", "script", "scene.toml", "out.h5"},
+     2,
+     {"scene.toml: is a scene, not a stroke"},
+     {}},
+    {"PlanAsStroke",
+     {"stroke", "info", "plan.toml"},
+     2,
+     {"plan.toml: is a sweep plan, not a stroke"},
+     {{"plan.toml", "[axes]\nforce.k_s = [1, 2]\n"}}},
   EXPECT_EQ(render.exit_code, 2);
   EXPECT_NE(render.err.find("run.h5"), std::string::npos);
   EXPECT_NE(render.err.find("truncated"), std::string::npos) << render.err;
@@ -224,6 +269,27 @@ TEST(CliBadInput, AReadOnlyFolderIsAnError) {
   fs::permissions(folder / "closed", fs::perms::owner_read | fs::perms::owner_exec);
   EXPECT_EQ(run_program({"run", "scene.toml", "-o", "closed/out.h5"}, folder).exit_code, 4);
   fs::permissions(folder / "closed", fs::perms::owner_all);
+TEST(CliBadInput, Hdf5FilesOfOtherKindsAreNamed) {
+  const fs::path folder = test_folder();
+  ASSERT_EQ(run_program({"run", "scene.toml", "-o", "run.h5"}, folder).exit_code, 0);
+  ASSERT_EQ(run_program({"stroke", "script", "line.toml", "line.h5"}, folder).exit_code, 0);
+  fs::copy_file(SANDSTROKE_SOURCE "/golden/hole/golden.h5", folder / "golden.h5");
+  const auto refused = [&](const std::vector<std::string>& words, const std::string& sentence) {
+    const ProgramResult result = run_program(words, folder);
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_NE(result.err.find(sentence), std::string::npos) << result.err;
+  };
+  refused({"info", "line.h5"}, "line.h5: is a stroke, not a run file; ");
+  refused({"render", "line.h5"}, "line.h5: is a stroke, not a run file; ");
+  refused({"run", "line.h5"}, "line.h5: is a stroke, not a scene; ");
+  refused({"run", "run.h5"}, "run.h5: is a run file, not a scene; ");
+  refused({"sweep", "run.h5"}, "run.h5: is a run file, not a sweep plan; ");
+  refused({"run", "scene.toml", "--stroke", "run.h5"}, "run.h5: is a run file, not a stroke; ");
+  refused({"stroke", "info", "run.h5"}, "run.h5: is a run file, not a stroke; ");
+  refused({"info", "golden.h5"}, "golden.h5: is a golden entry's content, not a run file; ");
+  refused({"compare", "golden.h5", "run.h5"}, "golden.h5: is a golden entry's content, not a run file; ");
+}
+
 }
 
 TEST(CliBadInput, APictureOnAFullDiskIsAnErrorAndLeavesNothingComplete) {

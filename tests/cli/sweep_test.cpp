@@ -155,7 +155,7 @@ TEST_F(CliSweep, RefusesInASentenceAndTouchesNothing) {
   const std::vector<std::tuple<std::vector<std::string>, int, std::string>> cases = {
       {{}, 2, "name a plan"},
       {{"none.toml"}, 4, "none.toml: cannot be opened"},
-      {{"scene.toml"}, 2, "sweep.scene is missing"},
+      {{"scene.toml"}, 2, "scene.toml: is a scene, not a sweep plan"},
       {{"plan.toml", "--shard", "3/2"}, 2, "--shard 3/2: write I/N"},
       {{"plan.toml", "--shard", "0/2"}, 2, "--shard 0/2"},
       {{"plan.toml", "--shard", "1"}, 2, "--shard 1"},
