@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "core/interrupt.h"
 #include "core/output_file.h"
+#include "io/input_kind.h"
 #include "io/png_file.h"
 #include "io/run_file.h"
 #include "io/run_scene.h"
@@ -116,6 +117,19 @@ void print_summary(const RunResult& r, const std::string& output) {
 
 int run(const Arguments& arguments) {
   const fs::path scene_path = arguments.scene;
+/// A name that nobody chose must not cost another scene's finished run, or any other file.
+void check_default_output(const fs::path& output, const fs::path& scene_path, const Scene& scene) {
+  if (!fs::exists(output)) return;
+  const std::string remedy = "name another file with -o, or this one to replace it";
+  if (kind_of(output) != InputKind::run)
+    throw_input_error("{}: is there and is no run; {}", output.string(), remedy);
+  const RunFile run(output);
+  if (run.scene_text() == scene_text(scene)) return;
+  for (const auto& [name, value] : run.provenance())
+    if (name == "scene_file" && value != scene_file_entry(scene_path, output))
+      throw_input_error("{}: is the run of another scene, {}; {}", output.string(), value, remedy);
+}
+
   std::vector<std::string> overrides = arguments.overrides;
   if (!arguments.stroke.empty())
     overrides.push_back("stroke.file=" + toml_string(fs::absolute(arguments.stroke).string()));
@@ -124,6 +138,7 @@ int run(const Arguments& arguments) {
   const std::string output = arguments.output.empty() ? scene_path.stem().string() + ".h5" : arguments.output;
 
   std::vector<fs::path> files = {scene_path};
+  if (arguments.output.empty()) check_default_output(output, scene_path, scene);
   const fs::path folder = scene_path.parent_path();
   if (scene.stroke) files.push_back(folder / scene.stroke->file);
   if (scene.bed.surface.kind == SurfaceKind::file) files.push_back(folder / scene.bed.surface.file);
@@ -142,6 +157,7 @@ int run(const Arguments& arguments) {
   if (!arguments.estimate_error.empty())
     options.second = arguments.estimate_error == "finer" ? SecondSolution::finer : SecondSolution::coarser;
   const RunResult result = run_scene(scene, output, options);
+  options.scene_file = scene_path;
 
   const std::string written = result.interrupted ? part_path(output).string() : output;
   if (arguments.json) {
@@ -178,8 +194,10 @@ void add_run_command(CLI::App& app, Command& chosen) {
   auto arguments = std::make_shared<Arguments>();
   command->add_option("SCENE", arguments->scene, "Scene file (TOML)")->type_name("FILE.toml")->required();
   command
-      ->add_option("-o,--output", arguments->output,
-                   "Run file to write (HDF5); default: SCENE's name with .h5, here")
+      ->add_option(
+          "-o,--output", arguments->output,
+          "Run file to write (HDF5); default: SCENE's name with .h5, here, unless that is the run of "
+          "another scene")
       ->type_name("FILE.h5");
   command->add_option("--stroke", arguments->stroke, "Play this stroke instead of the scene's (.toml or .h5)")
       ->type_name("FILE.toml|.h5");

@@ -26,9 +26,9 @@ namespace {
 class WriterWithProgress : public RunWriter {
  public:
   WriterWithProgress(const std::filesystem::path& path, const Simulation& simulation,
-                     const std::string& stroke_hash, const std::optional<Stroke>& stroke, bool progress,
-                     bool keep_force)
-      : RunWriter(path, simulation, stroke_hash), keep_force_(keep_force) {
+                     const std::string& stroke_hash, const std::string& scene_file,
+                     const std::optional<Stroke>& stroke, bool progress, bool keep_force)
+      : RunWriter(path, simulation, stroke_hash, scene_file), keep_force_(keep_force) {
     if (stroke && !stroke->force.empty()) recorded_force_.emplace(*stroke);
     if (progress) bar_.emplace("run");
   }
@@ -59,6 +59,11 @@ class WriterWithProgress : public RunWriter {
 
 }  // namespace
 
+std::string scene_file_entry(const std::filesystem::path& scene_file, const std::filesystem::path& run_file) {
+  const std::filesystem::path folder = std::filesystem::absolute(run_file).parent_path();
+  return std::filesystem::proximate(scene_file, folder).generic_string();
+}
+
 RunResult run_scene(const Scene& scene, const std::filesystem::path& output, const RunOptions& options) {
   const int cores = tbb::info::default_concurrency();
   const int threads = options.threads > 0 ? std::min(options.threads, cores) : cores;
@@ -87,7 +92,9 @@ RunResult run_scene(const Scene& scene, const std::filesystem::path& output, con
     const std::string warning = depth_warning(scene, simulation.bed(), *stroke, stroke_path.string());
     if (!warning.empty()) spdlog::warn("{}", warning);
   }
-  WriterWithProgress writer(output, simulation, stroke_hash, stroke, options.progress,
+  const std::string scene_file =
+      options.scene_file.empty() ? "" : scene_file_entry(options.scene_file, output);
+  WriterWithProgress writer(output, simulation, stroke_hash, scene_file, stroke, options.progress,
                             options.second.has_value());
   RunResult result = simulation.run(writer);
   result.threads = threads;

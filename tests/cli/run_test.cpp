@@ -40,6 +40,41 @@ TEST(CliRun, JsonIsOneObjectWithTheDesignsNames) {
 
 TEST(CliRun, SetOverridesSceneKeys) {
   const fs::path folder = test_folder();
+TEST(CliRun, TheDefaultNameNeverCostsAnotherScenesRun) {
+  const fs::path folder = test_folder();
+  fs::create_directory(folder / "other");
+  fs::copy_file(folder / "line.toml", folder / "other/line.toml");
+  write_file(folder / "other/scene.toml", read_file(folder / "scene.toml") + "[force]\nk_s = 500\n");
+  ASSERT_EQ(run_program({"run", "scene.toml"}, folder).exit_code, 0);
+  const std::string first = read_file(folder / "scene.h5");
+
+  const ProgramResult other = run_program({"run", "other/scene.toml"}, folder);
+  EXPECT_EQ(other.exit_code, 2);
+  EXPECT_EQ(
+      other.err,
+      "sandstroke: scene.h5: is the run of another scene, scene.toml; name another file with -o, or this "
+      "one to replace it\n");
+  EXPECT_EQ(read_file(folder / "scene.h5"), first);
+
+  // Again, with other settings, and from elsewhere: the same scene.
+  EXPECT_EQ(run_program({"run", "scene.toml", "--set", "force.k_s=600"}, folder).exit_code, 0);
+  EXPECT_EQ(run_program({"run", fs::absolute(folder / "scene.toml").string()}, folder).exit_code, 0);
+  fs::create_directory(folder / "moved");
+  for (const char* name : {"scene.toml", "line.toml", "scene.h5"})
+    fs::rename(folder / name, folder / "moved" / name);
+  EXPECT_EQ(run_program({"run", "scene.toml", "--set", "force.k_s=700"}, folder / "moved").exit_code, 0);
+  // Asked for by name.
+  EXPECT_EQ(run_program({"run", "../other/scene.toml", "-o", "scene.h5"}, folder / "moved").exit_code, 0);
+}
+
+TEST(CliRun, TheDefaultNameNeverCostsAFileThatIsNoRun) {
+  const fs::path folder = test_folder();
+  ASSERT_EQ(run_program({"stroke", "script", "line.toml", "scene.h5"}, folder).exit_code, 0);
+  const std::string stroke = read_file(folder / "scene.h5");
+  EXPECT_EQ(run_program({"run", "scene.toml"}, folder).exit_code, 2);
+  EXPECT_EQ(read_file(folder / "scene.h5"), stroke);
+}
+
   const ProgramResult run =
       run_program({"run", "scene.toml", "-o", "a.h5", "--set", "relaxation.law=isotropic", "--set",
                    "force.k_s=500", "--frames", "10"},
