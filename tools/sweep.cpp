@@ -13,6 +13,7 @@
 #include "io/table.h"
 #include "print_json.h"
 #include "sweep/run_sweep.h"
+#include "sweep/slurm_jobs.h"
 #include "sweep_parts.h"
 
 namespace sandstroke {
@@ -130,6 +131,7 @@ int sweep(const Arguments& arguments) {
   if (interrupted()) return 128 + interrupted();
   if (arguments.dry_run) return dry_run(sweep, arguments);
 
+  if (arguments.slurm.submit) check_slurm();
   const SweepFolder folder = SweepFolder::make(
       arguments.output.empty() ? arguments.plan.stem() : arguments.output, sweep.manifest());
   if (arguments.slurm.submit)

@@ -53,6 +53,15 @@ TEST_F(CliSweep, RunsCollectsAndSaysWhatItSaved) {
   EXPECT_EQ(fresh["content_hash"], again["content_hash"]);
 }
 
+TEST_F(CliSweep, WithoutAClusterNothingIsLeft) {
+  Conditions conditions;
+  conditions.path = folder.string();  // where no sbatch is
+  const ProgramResult result = sweep({"plan.toml", "-o", "out", "--slurm"}, conditions);
+  EXPECT_EQ(result.exit_code, 4);
+  EXPECT_NE(result.err.find("sbatch is not installed here"), std::string::npos) << result.err;
+  EXPECT_FALSE(fs::exists(folder / "out"));
+}
+
 TEST_F(CliSweep, StrokesInMillimetresArePointedOut) {
   plan("stroke.depth = [0.001, 4, 5]\n");
   for (const std::vector<std::string>& how : {{"--dry-run"}, std::vector<std::string>{"-o", "out"}}) {
