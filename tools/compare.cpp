@@ -26,8 +26,6 @@ struct Options {
   bool json = false;
 };
 
-bool is_picture(const fs::path& path) { return path.extension() == ".png" || path.extension() == ".PNG"; }
-
 void write_page(const Options& options, const std::function<ComparePage()>& make) {
   if (options.report.empty()) return;
   make_folder(options.report);
@@ -62,14 +60,14 @@ Comparison compare_pictures(const Options& options) {
 }
 
 int compare(const Options& options) {
-  if (is_picture(options.golden) != is_picture(options.run)) {
+  if (has_picture_name(options.golden) != has_picture_name(options.run)) {
     throw_input_error(
         "{} and {}: one is a picture and the other is not; compare two run files or two PNG pictures",
         options.golden.string(), options.run.string());
   }
   if (!options.junit.empty()) check_output(options.junit, {options.golden, options.run});
   const Comparison comparison =
-      is_picture(options.golden) ? compare_pictures(options) : compare_run_files(options);
+      has_picture_name(options.golden) ? compare_pictures(options) : compare_run_files(options);
   if (!options.junit.empty()) write_text_file(options.junit, junit_report({comparison}));
   if (options.json)
     print_json(to_json(comparison));

@@ -80,9 +80,11 @@ nlohmann::ordered_json as_json(const RunResult& r, const std::string& output) {
   return json;
 }
 
+void row(const char* name, const std::string& value) { fmt::print("{:<18} {}\n", name, value); }
+
 void print_summary(const RunResult& r, const std::string& output) {
-  const auto row = [](const char* name, const std::string& value) { fmt::print("{:<18} {}\n", name, value); };
   row("run", output);
+  if (!r.interrupted) row("for ParaView", beside(output, ".xdmf").string());
   if (r.ticks > 0) {
     row("stroke",
         fmt::format("{:.3f} s, {} ticks, {} in contact", r.simulated_seconds, r.ticks, r.contact_ticks));
@@ -115,8 +117,6 @@ void print_summary(const RunResult& r, const std::string& output) {
         fmt::format("+-{:.3g} N rms, {:.3g} N at most", r.error->force_rms, r.error->force_max));
 }
 
-int run(const Arguments& arguments) {
-  const fs::path scene_path = arguments.scene;
 /// A name that nobody chose must not cost another scene's finished run, or any other file.
 void check_default_output(const fs::path& output, const fs::path& scene_path, const Scene& scene) {
   if (!fs::exists(output)) return;
@@ -130,15 +130,17 @@ void check_default_output(const fs::path& output, const fs::path& scene_path, co
       throw_input_error("{}: is the run of another scene, {}; {}", output.string(), value, remedy);
 }
 
+int run(const Arguments& arguments) {
+  const fs::path scene_path = arguments.scene;
   std::vector<std::string> overrides = arguments.overrides;
   if (!arguments.stroke.empty())
     overrides.push_back("stroke.file=" + toml_string(fs::absolute(arguments.stroke).string()));
   if (arguments.frames >= 0.0) overrides.push_back(fmt::format("output.frames={}", arguments.frames));
   const Scene scene = load_scene(scene_path, overrides);
   const std::string output = arguments.output.empty() ? scene_path.stem().string() + ".h5" : arguments.output;
+  if (arguments.output.empty()) check_default_output(output, scene_path, scene);
 
   std::vector<fs::path> files = {scene_path};
-  if (arguments.output.empty()) check_default_output(output, scene_path, scene);
   const fs::path folder = scene_path.parent_path();
   if (scene.stroke) files.push_back(folder / scene.stroke->file);
   if (scene.bed.surface.kind == SurfaceKind::file) files.push_back(folder / scene.bed.surface.file);
@@ -148,16 +150,19 @@ void check_default_output(const fs::path& output, const fs::path& scene_path, co
     files.push_back(written);
   }
 
-  if (!arguments.picture.empty()) check_drawable(scene.bed.rows, scene.bed.cols);
+  if (!arguments.picture.empty()) {
+    check_picture_name(arguments.picture);
+    check_drawable(scene.bed.rows, scene.bed.cols);
+  }
 
   RunOptions options;
   options.scene_folder = folder;
+  options.scene_file = scene_path;
   options.threads = arguments.threads;
   options.progress = true;
   if (!arguments.estimate_error.empty())
     options.second = arguments.estimate_error == "finer" ? SecondSolution::finer : SecondSolution::coarser;
   const RunResult result = run_scene(scene, output, options);
-  options.scene_file = scene_path;
 
   const std::string written = result.interrupted ? part_path(output).string() : output;
   if (arguments.json) {
@@ -166,7 +171,10 @@ void check_default_output(const fs::path& output, const fs::path& scene_path, co
     print_summary(result, written);
   }
   if (result.interrupted) return 128 + interrupted();
-  if (!arguments.picture.empty()) write_png(arguments.picture, run_picture(RunFile(output), scene.view));
+  if (!arguments.picture.empty()) {
+    write_png(arguments.picture, run_picture(RunFile(output), scene.view));
+    if (!arguments.json) row("picture", arguments.picture);
+  }
   if (result.ticks > 0 && result.contact_ticks == 0)
     spdlog::warn("the tool never touched the sand; check stroke.plane, stroke.depth and stroke.offset");
   if (scene.device.model == DeviceModel::dynamic && loop_returned_energy(result, scene.device))

@@ -19,6 +19,10 @@ inline constexpr int largest_png_side = 16384;
 /// equal bytes. Error: io, where libpng refuses.
 std::string encode_png(const Image& image);
 
+bool has_picture_name(const std::filesystem::path& path);
+/// Refuses a picture to write that others would take for something else than a PNG. Error: input.
+void check_picture_name(const std::filesystem::path& path);
+
 /// Writes the same by way of PATH.part. Error: io.
 void write_png(const std::filesystem::path& path, const Image& image);
 

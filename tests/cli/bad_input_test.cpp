@@ -187,38 +187,6 @@ const std::vector<Case> cases = {
      2,
      {"nosuch"},
      {}},
-    {"UnwritableFolder",
-     {"run", "scene.toml", "-o", "nowhere/out.h5"},
-     4,
-     {"nowhere/out.h5", "cannot be written"},
-     {}},
-};
-
-class BadInput : public testing::TestWithParam<Case> {};
-INSTANTIATE_TEST_SUITE_P(Cli, BadInput, testing::ValuesIn(cases),
-                         [](const auto& one) { return one.param.name; });
-
-TEST_P(BadInput, IsOneSentenceAndLeavesNothingBehind) {
-  const Case& c = GetParam();
-  const fs::path folder = test_folder();
-  for (const auto& [name, text] : c.files) write_file(folder / name, text);
-  const ProgramResult result = run_program(c.arguments, folder);
-  EXPECT_EQ(result.exit_code, c.exit_code) << result.err;
-  const std::string said = result.err + result.out;
-  for (const std::string& part : c.parts)
-    EXPECT_NE(said.find(part), std::string::npos) << "no '" << part << "' in: " << said;
-  EXPECT_EQ(said.find("unexpected"), std::string::npos) << said;
-  EXPECT_LE(std::count(said.begin(), said.end(), '\n'), 3) << said;
-  EXPECT_FALSE(fs::exists(folder / "out.h5"));
-}
-
-TEST(CliBadInput, TruncatedFilesAreRefused) {
-  const fs::path folder = test_folder();
-  ASSERT_EQ(run_program({"run", "scene.toml", "-o", "run.h5"}, folder).exit_code, 0);
-  ASSERT_EQ(run_program({"stroke", "script", "line.toml", "line.h5"}, folder).exit_code, 0);
-  for (const char* name : {"run.h5", "line.h5"})
-    fs::resize_file(folder / name, fs::file_size(folder / name) / 2);
-  const ProgramResult render = run_program({"render", "run.h5", "-o", "out.png"}, folder);
     {"PictureThatIsNoPng",
      {"run", "scene.toml", "-o", "out.h5", "--png", "out.jpg"},
      2,
@@ -259,6 +227,38 @@ TEST(CliBadInput, TruncatedFilesAreRefused) {
      2,
      {"plan.toml: is a sweep plan, not a stroke"},
      {{"plan.toml", "[axes]\nforce.k_s = [1, 2]\n"}}},
+    {"UnwritableFolder",
+     {"run", "scene.toml", "-o", "nowhere/out.h5"},
+     4,
+     {"nowhere/out.h5", "cannot be written"},
+     {}},
+};
+
+class BadInput : public testing::TestWithParam<Case> {};
+INSTANTIATE_TEST_SUITE_P(Cli, BadInput, testing::ValuesIn(cases),
+                         [](const auto& one) { return one.param.name; });
+
+TEST_P(BadInput, IsOneSentenceAndLeavesNothingBehind) {
+  const Case& c = GetParam();
+  const fs::path folder = test_folder();
+  for (const auto& [name, text] : c.files) write_file(folder / name, text);
+  const ProgramResult result = run_program(c.arguments, folder);
+  EXPECT_EQ(result.exit_code, c.exit_code) << result.err;
+  const std::string said = result.err + result.out;
+  for (const std::string& part : c.parts)
+    EXPECT_NE(said.find(part), std::string::npos) << "no '" << part << "' in: " << said;
+  EXPECT_EQ(said.find("unexpected"), std::string::npos) << said;
+  EXPECT_LE(std::count(said.begin(), said.end(), '\n'), 3) << said;
+  EXPECT_FALSE(fs::exists(folder / "out.h5"));
+}
+
+TEST(CliBadInput, TruncatedFilesAreRefused) {
+  const fs::path folder = test_folder();
+  ASSERT_EQ(run_program({"run", "scene.toml", "-o", "run.h5"}, folder).exit_code, 0);
+  ASSERT_EQ(run_program({"stroke", "script", "line.toml", "line.h5"}, folder).exit_code, 0);
+  for (const char* name : {"run.h5", "line.h5"})
+    fs::resize_file(folder / name, fs::file_size(folder / name) / 2);
+  const ProgramResult render = run_program({"render", "run.h5", "-o", "out.png"}, folder);
   EXPECT_EQ(render.exit_code, 2);
   EXPECT_NE(render.err.find("run.h5"), std::string::npos);
   EXPECT_NE(render.err.find("truncated"), std::string::npos) << render.err;
@@ -267,6 +267,27 @@ TEST(CliBadInput, TruncatedFilesAreRefused) {
   EXPECT_NE(run.err.find("line.h5"), std::string::npos);
   EXPECT_FALSE(fs::exists(folder / "out.h5"));
   EXPECT_FALSE(fs::exists(folder / "out.png"));
+}
+
+TEST(CliBadInput, Hdf5FilesOfOtherKindsAreNamed) {
+  const fs::path folder = test_folder();
+  ASSERT_EQ(run_program({"run", "scene.toml", "-o", "run.h5"}, folder).exit_code, 0);
+  ASSERT_EQ(run_program({"stroke", "script", "line.toml", "line.h5"}, folder).exit_code, 0);
+  fs::copy_file(SANDSTROKE_SOURCE "/golden/hole/golden.h5", folder / "golden.h5");
+  const auto refused = [&](const std::vector<std::string>& words, const std::string& sentence) {
+    const ProgramResult result = run_program(words, folder);
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_NE(result.err.find(sentence), std::string::npos) << result.err;
+  };
+  refused({"info", "line.h5"}, "line.h5: is a stroke, not a run file; ");
+  refused({"render", "line.h5"}, "line.h5: is a stroke, not a run file; ");
+  refused({"run", "line.h5"}, "line.h5: is a stroke, not a scene; ");
+  refused({"run", "run.h5"}, "run.h5: is a run file, not a scene; ");
+  refused({"sweep", "run.h5"}, "run.h5: is a run file, not a sweep plan; ");
+  refused({"run", "scene.toml", "--stroke", "run.h5"}, "run.h5: is a run file, not a stroke; ");
+  refused({"stroke", "info", "run.h5"}, "run.h5: is a run file, not a stroke; ");
+  refused({"info", "golden.h5"}, "golden.h5: is a golden entry's content, not a run file; ");
+  refused({"compare", "golden.h5", "run.h5"}, "golden.h5: is a golden entry's content, not a run file; ");
 }
 
 TEST(CliBadInput, ARecordedStrokeMustBeFiniteAndRunForward) {
@@ -301,27 +322,6 @@ TEST(CliBadInput, AReadOnlyFolderIsAnError) {
   fs::permissions(folder / "closed", fs::perms::owner_read | fs::perms::owner_exec);
   EXPECT_EQ(run_program({"run", "scene.toml", "-o", "closed/out.h5"}, folder).exit_code, 4);
   fs::permissions(folder / "closed", fs::perms::owner_all);
-TEST(CliBadInput, Hdf5FilesOfOtherKindsAreNamed) {
-  const fs::path folder = test_folder();
-  ASSERT_EQ(run_program({"run", "scene.toml", "-o", "run.h5"}, folder).exit_code, 0);
-  ASSERT_EQ(run_program({"stroke", "script", "line.toml", "line.h5"}, folder).exit_code, 0);
-  fs::copy_file(SANDSTROKE_SOURCE "/golden/hole/golden.h5", folder / "golden.h5");
-  const auto refused = [&](const std::vector<std::string>& words, const std::string& sentence) {
-    const ProgramResult result = run_program(words, folder);
-    EXPECT_EQ(result.exit_code, 2);
-    EXPECT_NE(result.err.find(sentence), std::string::npos) << result.err;
-  };
-  refused({"info", "line.h5"}, "line.h5: is a stroke, not a run file; ");
-  refused({"render", "line.h5"}, "line.h5: is a stroke, not a run file; ");
-  refused({"run", "line.h5"}, "line.h5: is a stroke, not a scene; ");
-  refused({"run", "run.h5"}, "run.h5: is a run file, not a scene; ");
-  refused({"sweep", "run.h5"}, "run.h5: is a run file, not a sweep plan; ");
-  refused({"run", "scene.toml", "--stroke", "run.h5"}, "run.h5: is a run file, not a stroke; ");
-  refused({"stroke", "info", "run.h5"}, "run.h5: is a run file, not a stroke; ");
-  refused({"info", "golden.h5"}, "golden.h5: is a golden entry's content, not a run file; ");
-  refused({"compare", "golden.h5", "run.h5"}, "golden.h5: is a golden entry's content, not a run file; ");
-}
-
 }
 
 TEST(CliBadInput, APictureOnAFullDiskIsAnErrorAndLeavesNothingComplete) {

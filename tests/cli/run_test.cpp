@@ -21,6 +21,8 @@ TEST(CliRun, WritesARunFileXdmfAndPicture) {
   EXPECT_TRUE(fs::exists(folder / "a.xdmf"));
   EXPECT_GT(fs::file_size(folder / "a.png"), 1000u);
   EXPECT_NE(run.out.find("volume drift"), std::string::npos);
+  EXPECT_NE(run.out.find("for ParaView       a.xdmf\n"), std::string::npos) << run.out;
+  EXPECT_NE(run.out.find("picture            a.png\n"), std::string::npos) << run.out;
 }
 
 TEST(CliRun, JsonIsOneObjectWithTheDesignsNames) {
@@ -38,8 +40,6 @@ TEST(CliRun, JsonIsOneObjectWithTheDesignsNames) {
   EXPECT_TRUE(fs::exists(folder / "scene.h5"));  // the default name
 }
 
-TEST(CliRun, SetOverridesSceneKeys) {
-  const fs::path folder = test_folder();
 TEST(CliRun, TheDefaultNameNeverCostsAnotherScenesRun) {
   const fs::path folder = test_folder();
   fs::create_directory(folder / "other");
@@ -75,6 +75,8 @@ TEST(CliRun, TheDefaultNameNeverCostsAFileThatIsNoRun) {
   EXPECT_EQ(read_file(folder / "scene.h5"), stroke);
 }
 
+TEST(CliRun, SetOverridesSceneKeys) {
+  const fs::path folder = test_folder();
   const ProgramResult run =
       run_program({"run", "scene.toml", "-o", "a.h5", "--set", "relaxation.law=isotropic", "--set",
                    "force.k_s=500", "--frames", "10"},
@@ -344,6 +346,11 @@ TEST(CliInfo, ShowsARunAndTheSceneKeys) {
   EXPECT_EQ(json["cells"][0], 150);
   EXPECT_TRUE(json["complete"]);
   EXPECT_TRUE(json["provenance"].contains("version"));
+  const std::string table = run_program({"info", "a.h5"}, folder).out;
+  for (const char* line : {"cell_size                   0.002 m\n", "initial/lowest              0.0 m\n"})
+    EXPECT_NE(table.find(line), std::string::npos) << table;
+  for (const char* unit : {" s\ntrace/max_force", " N\ntrace/max_depth"})
+    EXPECT_NE(table.find(unit), std::string::npos) << table;
   EXPECT_NE(run_program({"info", "--scene-keys"}, folder).out.find("relaxation.talus_angle"),
             std::string::npos);
   const ProgramResult scene = run_program({"info", "a.h5", "--scene"}, folder);
