@@ -220,7 +220,12 @@ void add_sweep_command(CLI::App& app, Command& chosen) {
   add_sweep_status_command(*command, chosen);
   add_sweep_collect_command(*command, chosen);
   command->footer(
-      plan_help() +
+      "A plan (all that it can say: sandstroke help plan):\n"
+      "  [sweep]\n"
+      "  scene = \"scene.toml\"\n"
+      "  [axes]\n"
+      "  relaxation.talus_angle = { from = 20, to = 45, step = 2.5 }\n"
+      "  force.k_s = [500, 1000]\n"
       "Example:  sandstroke sweep plan.toml -o results\n"
       "A point is at rest, as it should be; not at rest (relaxation.max_passes were not enough); active "
       "(sand\n"
