@@ -133,6 +133,10 @@ SlurmQueue ask_slurm_queue(const SlurmJobs& jobs) {
 
 void check_slurm() {
   if (!run_child({"sbatch", "--version"})) fail_without_slurm();
+  const std::optional<ChildResult> queue = run_child({"squeue", "--noheader", "--me"});
+  if (queue && queue->exit_code != 0)
+    throw_io_error("no cluster answers here ({}); submit the sweep where Slurm is, or leave out --slurm",
+                   queue->err.substr(queue->err.rfind('\n') + 1));
 }
 
 SlurmJobs submit_to_slurm(const SlurmOptions& options, const SlurmWork& work, std::vector<SlurmTask> tasks,

@@ -50,7 +50,7 @@ struct SlurmQueue {
 };
 SlurmQueue ask_slurm_queue(const SlurmJobs& jobs);
 
-/// Error: io, where sbatch is not installed: for before anything is written.
+/// Error: io, where sbatch is not installed or no cluster answers: for before anything is written.
 void check_slurm();
 
 /// Writes DIR/slurm/job.sh and collect.sh, submits them, the second after the first, and writes jobs.json.
