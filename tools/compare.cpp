@@ -26,8 +26,6 @@ struct CompareArguments {
   bool json = false;
 };
 
-bool is_picture(const fs::path& path) { return path.extension() == ".png" || path.extension() == ".PNG"; }
-
 void write_page(const CompareArguments& arguments, const std::function<ComparePage()>& make) {
   if (arguments.report.empty()) return;
   make_folder(arguments.report);
@@ -63,14 +61,14 @@ Comparison compare_pictures(const CompareArguments& arguments) {
 }
 
 int compare(const CompareArguments& arguments) {
-  if (is_picture(arguments.golden) != is_picture(arguments.run)) {
+  if (has_picture_name(arguments.golden) != has_picture_name(arguments.run)) {
     throw_input_error(
         "{} and {}: one is a picture and the other is not; compare two run files or two PNG pictures",
         arguments.golden.string(), arguments.run.string());
   }
   if (!arguments.junit.empty()) check_output(arguments.junit, {arguments.golden, arguments.run});
   const Comparison comparison =
-      is_picture(arguments.golden) ? compare_pictures(arguments) : compare_run_files(arguments);
+      has_picture_name(arguments.golden) ? compare_pictures(arguments) : compare_run_files(arguments);
   if (!arguments.junit.empty()) write_text_file(arguments.junit, junit_report({comparison}));
   if (arguments.json)
     print_json(to_json(comparison));
@@ -115,7 +113,8 @@ void add_compare_command(CLI::App& app, Command& chosen) {
   command->add_option("--junit", arguments->junit, "File for the checks as JUnit XML")->type_name("FILE.xml");
   command->add_flag("--json", arguments->json, "Print one JSON object instead of the table");
   command->footer(
-      "Example:  sandstroke compare golden.h5 run.h5 --report difference\nExit code 1: they differ.");
+      "Example:  sandstroke compare before.h5 after.h5 --report difference\n"
+      "Exit code 1: they differ. Entries of golden/ are for sandstroke golden check.");
   command->callback([arguments, &chosen] { chosen = [arguments] { return compare(*arguments); }; });
 }
 

@@ -61,6 +61,8 @@ std::string tables(const CLI::App& app) {
       names += " " + dashed(*option, "", " ");
       if (option->get_items_expected_max() > 0)
         values += one_case("'" + dashed(*option, command.name + " ", "'|'") + "'", kind_of(*option));
+      else if (kind_of(*option) != "none")  // a flag that takes a value behind =
+        values += one_case("'" + dashed(*option, command.name + " ", "='|'") + "='", kind_of(*option));
     }
     options += one_case("'" + command.name + "'", names.substr(1));
     int place = 0;

@@ -5,6 +5,7 @@
 #include "command_tree.h"
 #include "commands.h"
 #include "core/error.h"
+#include "help_formatter.h"
 #include "manual.h"
 
 namespace sandstroke {
@@ -29,8 +30,8 @@ std::string help(const CLI::App& app, const HelpArguments& arguments) {
   if (!arguments.man)
     for (const NamedCommand& command : command_tree(app))
       if (command.name == asked)
-        return CLI::Formatter().make_help(command.app, "sandstroke" + (asked.empty() ? "" : " " + asked),
-                                          CLI::AppFormatMode::Normal) +
+        return HelpFormatter().make_help(command.app, "sandstroke" + (asked.empty() ? "" : " " + asked),
+                                         CLI::AppFormatMode::Normal) +
                "\n";
   throw_input_error("help {}: there is no page of that; take scene, script, plan{}", asked,
                     arguments.man ? ", or nothing for the commands" : " or a command (sandstroke --help)");

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -65,9 +66,14 @@ nlohmann::ordered_json describe(const RunFile& run) {
 }
 
 void print_table(const nlohmann::ordered_json& facts) {
+  static const std::map<std::string, std::string> units = {{"cell_size", "m"}, {"lowest", "m"},
+                                                           {"highest", "m"},   {"seconds", "s"},
+                                                           {"max_force", "N"}, {"max_depth", "m"}};
   const nlohmann::ordered_json flat = facts.flatten();
   for (const auto& [path, value] : flat.items()) {
-    fmt::print("{:<27} {}\n", path.substr(1), value.is_string() ? value.get<std::string>() : value.dump());
+    const auto unit = units.find(path.substr(path.rfind('/') + 1));
+    fmt::print("{:<27} {}{}\n", path.substr(1), value.is_string() ? value.get<std::string>() : value.dump(),
+               unit == units.end() ? "" : " " + unit->second);
   }
 }
 

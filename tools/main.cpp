@@ -2,6 +2,7 @@
 
 #include <cstdio>
 #include <filesystem>
+#include <memory>
 #include <new>
 #include <string_view>
 #include <system_error>
@@ -12,6 +13,7 @@
 #include "core/log.h"
 #include "core/machine.h"
 #include "core/version.h"
+#include "help_formatter.h"
 #include "sand/instruction_set.h"
 #include "usage_sentence.h"
 
@@ -38,6 +40,7 @@ int run_program(int argc, char** argv) {
       "picture "
       "and a verdict come out.");
   app.name("sandstroke");
+  app.formatter(std::make_shared<HelpFormatter>());  // of all commands
   app.set_version_flag("--version", fmt::format("{}, {}", build, instruction_set()));
   app.require_subcommand(1);
   app.fallthrough();

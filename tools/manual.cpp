@@ -6,6 +6,7 @@
 
 #include "command_tree.h"
 #include "core/version.h"
+#include "help_formatter.h"
 #include "io/scene_keys.h"
 #include "io/stroke_script_toml.h"
 #include "sweep/sweep_plan.h"
@@ -68,13 +69,13 @@ std::string page_of(const HelpTopic& topic) { return fmt::format("sandstroke-{}"
 
 /// What --help says of each option.
 std::string options_text(const CLI::App& app) {
-  const CLI::Formatter words;
+  const HelpFormatter words;
   std::string text;
   for (const CLI::Option* option : positional_options(app))
     text += entry("\\fI" + roff(option->get_name(true)) + "\\fR" + roff(words.make_option_opts(option)),
                   option->get_description());
   for (const CLI::Option* option : named_options(app))
-    text += entry(bold(option->get_name(false, true)) + roff(words.make_option_opts(option)),
+    text += entry(bold(words.make_option_name(option, false)) + roff(words.make_option_opts(option)),
                   option->get_description());
   return text;
 }
@@ -82,7 +83,7 @@ std::string options_text(const CLI::App& app) {
 std::string command_text(const NamedCommand& command) {
   const CLI::App& app = *command.app;
   const std::string name = "sandstroke " + command.name;
-  std::string usage = CLI::Formatter().make_usage(&app, name);
+  std::string usage = HelpFormatter().make_usage(&app, name);
   usage = usage.substr(usage.find(name) + name.size());
   usage.erase(usage.find_last_not_of('\n') + 1);
   std::string text = fmt::format(".SS {}{}\n{}", bold(name), roff(usage), filled(app.get_description()));

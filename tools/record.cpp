@@ -194,6 +194,7 @@ void add_record_command(CLI::App& app, Command& chosen) {
   command
       ->add_option("--device", arguments->device,
                    "chai3d, chai3d:N, scripted:FILE.toml or replay:FILE.h5 (see --list)")
+      ->type_name("{chai3d,replay:,scripted:}")
       ->option_text("NAME");
   auto* list = command->add_flag("--list", arguments->list, "Say which devices and stand-ins there are");
   auto* check = command->add_flag(

@@ -85,7 +85,9 @@ ViewSettings view_of(const Scene& scene, const RenderArguments& arguments) {
   return view;
 }
 
-fs::path default_output(const RenderArguments& arguments, const char* ending) {
+std::string frame_name(std::size_t k) { return fmt::format("frame_{:04}", k); }
+
+fs::path default_output(const RenderArguments& arguments, const std::string& ending) {
   if (!arguments.output.empty()) return arguments.output;
   return beside(arguments.run, ending);
 }
@@ -112,7 +114,7 @@ int draw_pictures(const RunFile& run, const std::vector<double>& times, const Vi
                   const RenderArguments& arguments) {
   const fs::path folder = default_output(arguments, "_frames");
   make_folder(folder);
-  const auto picture = [&](std::size_t k) { return folder / fmt::format("frame_{:04}.png", k); };
+  const auto picture = [&](std::size_t k) { return folder / (frame_name(k) + ".png"); };
   const int exit_code = draw_frames(run, times, view, arguments, [&](std::size_t k, const Image& image) {
     write_png(picture(k), image);
     return true;
@@ -162,10 +164,12 @@ int render(const RenderArguments& arguments) {
   }
   RunPainter painter(run, view, arguments.contour_interval.value_or(0.0));
   HeightGrid surface;
+  std::string ending = ".png";
   double time = 0.0;
   bool tool = arguments.tool.value_or(false);
   if (arguments.frame == "initial") {
     surface = run.initial();
+    ending = "_initial.png";
   } else if (arguments.frame == "final") {
     surface = run.final();
     time = std::numeric_limits<double>::infinity();
@@ -177,10 +181,12 @@ int render(const RenderArguments& arguments) {
     if (k < 0 || k >= static_cast<int>(times.size()))
       throw_input_error("{}: holds no frame {}; take 0 to {}", run.name(), k, times.size() - 1);
     surface = RunFrames(run).surface(k);
+    ending = "_" + frame_name(static_cast<std::size_t>(k)) + ".png";
     time = times[static_cast<std::size_t>(k)];
     tool = arguments.tool.value_or(run.has_trace());
   }
-  const fs::path output = default_output(arguments, ".png");
+  const fs::path output = default_output(arguments, ending);
+  check_picture_name(output);
   check_output(output, {arguments.run});
   write_png(output, painter.draw(surface, tool ? std::optional(time) : std::nullopt));
   fmt::print("{}\n", output.string());
@@ -196,11 +202,14 @@ void add_render_command(CLI::App& app, Command& chosen) {
       app.add_subcommand("render", "Draw the surfaces of a run (the scene's [view], unless told otherwise)");
   command->add_option("RUN", arguments->run, "Run file (HDF5)")->type_name("FILE.h5")->required();
   command
-      ->add_option("-o,--output", arguments->output,
-                   "Picture (PNG), or the folder for --frame all; default: RUN.png or RUN_frames/ beside RUN")
+      ->add_option(
+          "-o,--output", arguments->output,
+          "Picture (PNG), or the folder for --frame all; default, beside RUN: RUN.png, RUN_initial.png, "
+          "RUN_frame_0000.png, ..., RUN_frames/")
       ->type_name("FILE.png");
   CLI::Option* frame =
       command->add_option("--frame", arguments->frame, "final, initial, all, or a frame's number from 0")
+          ->type_name("{final,initial,all}|K")
           ->capture_default_str();
   CLI::Option* video = command
                            ->add_option("--video", arguments->video,

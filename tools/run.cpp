@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "core/interrupt.h"
 #include "core/output_file.h"
+#include "io/input_kind.h"
 #include "io/png_file.h"
 #include "io/run_file.h"
 #include "io/run_scene.h"
@@ -79,9 +80,11 @@ nlohmann::ordered_json as_json(const RunResult& r, const std::string& output) {
   return json;
 }
 
+void row(const char* name, const std::string& value) { fmt::print("{:<18} {}\n", name, value); }
+
 void print_summary(const RunResult& r, const std::string& output) {
-  const auto row = [](const char* name, const std::string& value) { fmt::print("{:<18} {}\n", name, value); };
   row("run", output);
+  if (!r.interrupted) row("for ParaView", beside(output, ".xdmf").string());
   if (r.ticks > 0) {
     row("stroke",
         fmt::format("{:.3f} s, {} ticks, {} in contact", r.simulated_seconds, r.ticks, r.contact_ticks));
@@ -114,6 +117,19 @@ void print_summary(const RunResult& r, const std::string& output) {
         fmt::format("+-{:.3g} N rms, {:.3g} N at most", r.error->force_rms, r.error->force_max));
 }
 
+/// A name that nobody chose must not cost another scene's finished run, or any other file.
+void check_default_output(const fs::path& output, const fs::path& scene_path, const Scene& scene) {
+  if (!fs::exists(output)) return;
+  const std::string remedy = "name another file with -o, or this one to replace it";
+  if (kind_of(output) != InputKind::run)
+    throw_input_error("{}: is there and is no run; {}", output.string(), remedy);
+  const RunFile run(output);
+  if (run.scene_text() == scene_text(scene)) return;
+  for (const auto& [name, value] : run.provenance())
+    if (name == "scene_file" && value != scene_file_entry(scene_path, output))
+      throw_input_error("{}: is the run of another scene, {}; {}", output.string(), value, remedy);
+}
+
 int run(const RunArguments& arguments) {
   const fs::path scene_path = arguments.scene;
   std::vector<std::string> overrides = arguments.overrides;
@@ -122,6 +138,7 @@ int run(const RunArguments& arguments) {
   if (arguments.frames >= 0.0) overrides.push_back(fmt::format("output.frames={}", arguments.frames));
   const Scene scene = load_scene(scene_path, overrides);
   const std::string output = arguments.output.empty() ? scene_path.stem().string() + ".h5" : arguments.output;
+  if (arguments.output.empty()) check_default_output(output, scene_path, scene);
 
   std::vector<fs::path> files = {scene_path};
   const fs::path folder = scene_path.parent_path();
@@ -133,10 +150,14 @@ int run(const RunArguments& arguments) {
     files.push_back(written);
   }
 
-  if (!arguments.picture.empty()) check_drawable(scene.bed.rows, scene.bed.cols);
+  if (!arguments.picture.empty()) {
+    check_picture_name(arguments.picture);
+    check_drawable(scene.bed.rows, scene.bed.cols);
+  }
 
   RunOptions options;
   options.scene_folder = folder;
+  options.scene_file = scene_path;
   options.threads = arguments.threads;
   options.progress = true;
   if (!arguments.estimate_error.empty())
@@ -150,7 +171,10 @@ int run(const RunArguments& arguments) {
     print_summary(result, written);
   }
   if (result.interrupted) return 128 + interrupted();
-  if (!arguments.picture.empty()) write_png(arguments.picture, run_picture(RunFile(output), scene.view));
+  if (!arguments.picture.empty()) {
+    write_png(arguments.picture, run_picture(RunFile(output), scene.view));
+    if (!arguments.json) row("picture", arguments.picture);
+  }
   if (result.ticks > 0 && result.contact_ticks == 0)
     spdlog::warn("the tool never touched the sand; check stroke.plane, stroke.depth and stroke.offset");
   if (scene.device.model == DeviceModel::dynamic && loop_returned_energy(result, scene.device))
@@ -178,8 +202,10 @@ void add_run_command(CLI::App& app, Command& chosen) {
   auto arguments = std::make_shared<RunArguments>();
   command->add_option("SCENE", arguments->scene, "Scene file (TOML)")->type_name("FILE.toml")->required();
   command
-      ->add_option("-o,--output", arguments->output,
-                   "Run file to write (HDF5); default: SCENE's name with .h5, here")
+      ->add_option(
+          "-o,--output", arguments->output,
+          "Run file to write (HDF5); default: SCENE's name with .h5, here, unless that is the run of "
+          "another scene")
       ->type_name("FILE.h5");
   command->add_option("--stroke", arguments->stroke, "Play this stroke instead of the scene's (.toml or .h5)")
       ->type_name("FILE.toml|.h5");

@@ -8,7 +8,6 @@
 #include "core/output_file.h"
 #include "io/stroke_csv.h"
 #include "io/stroke_file.h"
-#include "io/stroke_script_toml.h"
 #include "stroke_parts.h"
 
 namespace sandstroke {
@@ -43,10 +42,11 @@ void add_script(CLI::App& stroke_app, Command& chosen) {
       stroke_app.add_subcommand("script", "Samples a scripted stroke (TOML) into a recorded one (HDF5)");
   app->add_option("IN", options->in, "Script (.toml)")->type_name("FILE.toml")->required();
   app->add_option("OUT", options->out, "Stroke to write (.h5)")->type_name("FILE.h5")->required();
-  app->footer(std::string() +
-              "A scene takes a script as it is; this is for looking at its samples. A force in it\n"
-              "becomes a depth: here by the default constants of [force], in a scene by its own.\n" +
-              script_help());
+  app->footer(
+      "A scene takes a script as it is; this is for looking at its samples. A force in it\n"
+      "becomes a depth: here by the default constants of [force], in a scene by its own.\n"
+      "All that a script can say: sandstroke help script\n"
+      "Example:  sandstroke stroke script stroke.toml stroke.h5");
   app->callback([&chosen, options] {
     chosen = [options] {
       check_output(options->out, {options->in});

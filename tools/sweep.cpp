@@ -13,6 +13,7 @@
 #include "io/table.h"
 #include "print_json.h"
 #include "sweep/run_sweep.h"
+#include "sweep/slurm_jobs.h"
 #include "sweep_parts.h"
 
 namespace sandstroke {
@@ -61,10 +62,18 @@ std::string duration(double seconds) {
   return fmt::format("{:.1f} h", seconds / 3600.0);
 }
 
+void warn_of_depth(const Sweep& sweep) {
+  if (sweep.too_deep().empty()) return;
+  const auto& [point, sentence] = *sweep.too_deep().begin();
+  spdlog::warn("points whose stroke goes deep: {}, the first, point {}: {}", sweep.too_deep().size(), point,
+               sentence);
+}
+
 int dry_run(Sweep& sweep, const SweepArguments& arguments) {
   const Sweep::Estimate estimate = sweep.estimate();
   if (interrupted()) return 128 + interrupted();
   const SweepDesign& design = sweep.plan().design;
+  warn_of_depth(sweep);
   if (!sweep.refused().empty())
     spdlog::warn("the settings of {} points do not go together, the first, point {}: {}",
                  sweep.refused().size(), sweep.refused().begin()->first, sweep.refused().begin()->second);
@@ -122,6 +131,7 @@ int sweep(const SweepArguments& arguments) {
   if (interrupted()) return 128 + interrupted();
   if (arguments.dry_run) return dry_run(sweep, arguments);
 
+  if (arguments.slurm.submit) check_slurm();
   const SweepFolder folder = SweepFolder::make(
       arguments.output.empty() ? arguments.plan.stem() : arguments.output, sweep.manifest());
   if (arguments.slurm.submit)
@@ -142,6 +152,7 @@ int sweep(const SweepArguments& arguments) {
     lost = collected.missing + collected.unreadable > 0;  // somebody removed or damaged points
   }
   if (arguments.json) print_json(json);
+  warn_of_depth(sweep);
   if (counters.interrupted) {
     spdlog::warn("stopped with {} of {} points done; the same command goes on from there",
                  counters.done_before + counters.run, counters.points);
@@ -209,7 +220,12 @@ void add_sweep_command(CLI::App& app, Command& chosen) {
   add_sweep_status_command(*command, chosen);
   add_sweep_collect_command(*command, chosen);
   command->footer(
-      plan_help() +
+      "A plan (all that it can say: sandstroke help plan):\n"
+      "  [sweep]\n"
+      "  scene = \"scene.toml\"\n"
+      "  [axes]\n"
+      "  relaxation.talus_angle = { from = 20, to = 45, step = 2.5 }\n"
+      "  force.k_s = [500, 1000]\n"
       "Example:  sandstroke sweep plan.toml -o results\n"
       "A point is at rest, as it should be; not at rest (relaxation.max_passes were not enough); active "
       "(sand\n"

@@ -20,7 +20,7 @@ CLI::Validator finite_number(const char* name, const char* wanted, bool (*accept
 }  // namespace
 
 CLI::Validator positive_number() {
-  return finite_number("POSITIVE", "a number above 0", [](double value) { return value > 0.0; });
+  return finite_number("NUMBER > 0", "a number above 0", [](double value) { return value > 0.0; });
 }
 
 CLI::Validator not_negative_number() {

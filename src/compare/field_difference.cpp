@@ -14,8 +14,8 @@ namespace {
 [[noreturn]] void refuse(Eigen::Index golden_rows, Eigen::Index golden_cols, Eigen::Index rows,
                          Eigen::Index cols) {
   throw_input_error(
-      "surfaces of {} x {} and {} x {} cells cannot be subtracted; compare runs of the same bed", golden_rows,
-      golden_cols, rows, cols);
+      "surfaces of {} x {} and {} x {} cells (x, y) cannot be subtracted; compare runs of the same bed",
+      golden_cols, golden_rows, cols, rows);
 }
 
 /// visit(row, col, run - golden) for every cell of every tile in which the two may differ. Two equal

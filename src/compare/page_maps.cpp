@@ -158,7 +158,7 @@ Json surfaces_part(const ComparedSurfaces& s) {
   maps.push_back(map_json("run", height_map(run, range, s.around_zero), scale));
   if (!alike) {
     part["text"] = fmt::format("They differ in shape: golden has {} x {} cells, the run {} x {}.",
-                               golden.rows(), golden.cols(), run.rows(), run.cols());
+                               golden.cols(), golden.rows(), run.cols(), run.rows());
     return part;
   }
   part["text"] = shown_text(s.golden, shown);

@@ -75,8 +75,8 @@ Image surface_report(const std::string& title, const HeightGrid& golden, const H
   std::vector<Panel> panels{map_panel("golden", golden, span), map_panel("run", run, span)};
   if (golden.rows() != run.rows() || golden.cols() != run.cols()) {
     return side_by_side(title, panels,
-                        fmt::format("golden {} x {} cells, run {} x {} cells", golden.rows(), golden.cols(),
-                                    run.rows(), run.cols()));
+                        fmt::format("golden {} x {} cells, run {} x {} cells", golden.cols(), golden.rows(),
+                                    run.cols(), run.rows()));
   }
   const HeightGrid difference = run - golden;
   panels.push_back(map_panel("difference", at_spots(difference, spots_of(difference, spots)),

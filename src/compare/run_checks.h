@@ -26,7 +26,7 @@ struct Tolerances {
 /// True for a complete run.
 Check complete_check(const std::string& which, const RunFile& run);
 
-/// Two surfaces of one bed, cell by cell.
+/// Two surfaces of one bed, cell by cell; beds of other cells fail.
 Check height_check(const std::string& name, const HeightField& golden, const HeightField& run, double limit);
 
 /// Cell sizes [m]: the same up to rounding.

@@ -22,18 +22,25 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   return row[b.size()];
 }
 
+/// Of a dotted key.
+std::string_view last_part(std::string_view name) { return name.substr(name.rfind('.') + 1); }
+
 }  // namespace
 
 std::string nearest_name(const std::string& name, const std::set<std::string>& known) {
+  if (known.contains(name)) return {};  // a key, to another [[table]] of the same name
   const auto next = known.upper_bound(name);
   if (next != known.end() && next->starts_with(name) && next->find('.', name.size()) == std::string::npos)
     return *next;
+  std::string same_last;
+  for (const std::string& one : known)
+    if (last_part(one) == last_part(name)) same_last += (same_last.empty() ? "" : " or ") + one;
+  if (!same_last.empty()) return same_last;
   const auto closer = [&](const std::string& a, const std::string& b) {
     return edit_distance(a, name) < edit_distance(b, name);
   };
   const auto best = std::min_element(known.begin(), known.end(), closer);
-  // The name itself may be known: a key, to another [[table]] of the same name.
-  if (best == known.end() || *best == name || edit_distance(*best, name) > 1 + name.size() / 3) return {};
+  if (best == known.end() || edit_distance(*best, name) > 1 + name.size() / 3) return {};
   return *best;
 }
 

@@ -134,6 +134,12 @@ void check_opens(const fs::path& path, bool may_be_pipe) {
 
 void check_readable(const fs::path& path) { check_opens(path, false); }
 
+bool begins_with(const fs::path& path, std::string_view signature) {
+  std::string begin(signature.size(), '\0');
+  std::ifstream file(path, std::ios::binary);
+  return file.read(begin.data(), static_cast<std::streamsize>(begin.size())) && begin == signature;
+}
+
 std::string read_text_file(const fs::path& path) {
   check_opens(path, true);
   const std::ifstream file(path, std::ios::binary);

@@ -47,6 +47,9 @@ void write_text_file(const std::filesystem::path& path, std::string_view text);
 /// pipe, which might never end.
 void check_readable(const std::filesystem::path& path);
 
+/// False also where it cannot be read.
+bool begins_with(const std::filesystem::path& path, std::string_view signature);
+
 /// Reads a whole text file, or pipe. Error: io, with what to do.
 std::string read_text_file(const std::filesystem::path& path);
 

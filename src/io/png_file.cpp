@@ -139,6 +139,15 @@ std::string encode_png(const Image& image) {
   return bytes;
 }
 
+bool has_picture_name(const std::filesystem::path& path) {
+  return path.extension() == ".png" || path.extension() == ".PNG";
+}
+
+void check_picture_name(const std::filesystem::path& path) {
+  if (!has_picture_name(path))
+    throw_input_error("{}: pictures are written as PNG; give it a name that ends with .png", path.string());
+}
+
 void write_png(const fs::path& path, const Image& image) { write_text_file(path, encode_png(image)); }
 
 Image read_png(const fs::path& path) {

@@ -2,11 +2,15 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 #include "core/image.h"
 #include "sand/height_field.h"
 
 namespace sandstroke {
+
+/// How every PNG begins.
+inline constexpr std::string_view png_signature = "\x89PNG\r\n\x1a\n";
 
 /// Largest side of a PNG that is read, in pixels.
 inline constexpr int largest_png_side = 16384;
@@ -14,6 +18,10 @@ inline constexpr int largest_png_side = 16384;
 /// An 8-bit RGB PNG as bytes. It says which build made it, and no date: from one build, equal pictures are
 /// equal bytes. Error: io, where libpng refuses.
 std::string encode_png(const Image& image);
+
+bool has_picture_name(const std::filesystem::path& path);
+/// Refuses a picture to write that others would take for something else than a PNG. Error: input.
+void check_picture_name(const std::filesystem::path& path);
 
 /// Writes the same by way of PATH.part. Error: io.
 void write_png(const std::filesystem::path& path, const Image& image);

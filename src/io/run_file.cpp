@@ -3,22 +3,22 @@
 #include <limits>
 
 #include "core/error.h"
-#include "io/stroke_format.h"
+#include "io/input_kind.h"
 
 namespace sandstroke {
 namespace {
 
 std::string frame_name(int k) { return fmt::format("/surface/frame/{:06}", k); }
 
+const std::filesystem::path& run_path(const std::filesystem::path& path) {
+  expect_kind(path, {InputKind::run});
+  return path;
+}
+
 }  // namespace
 
-RunFile::RunFile(const std::filesystem::path& path) : file_(path) {
-  const bool is_run =
-      file_.has_attribute("/", "format") && file_.text_attribute("/", "format") == "sandstroke.run";
-  if (!is_run && file_.has(stroke_group))
-    throw_input_error("{}: is a stroke, not a run file; 'sandstroke stroke info {}' says what is in it",
-                      file_.name(), file_.name());
-  if (!is_run)
+RunFile::RunFile(const std::filesystem::path& path) : file_(run_path(path)) {
+  if (!file_.has_attribute("/", "format") || file_.text_attribute("/", "format") != "sandstroke.run")
     throw_input_error("{}: is not a sandstroke run file; make one with 'sandstroke run'", file_.name());
   if (const double version = file_.number_attribute("/", "format_version"); version != 1)
     throw_input_error("{}: has run format {}; this program reads format 1", file_.name(), version);

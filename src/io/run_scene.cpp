@@ -16,6 +16,7 @@
 #include "io/stroke_file.h"
 #include "io/surface_file.h"
 #include "sim/recorded_force.h"
+#include "sim/stroke_depth.h"
 
 namespace sandstroke {
 namespace {
@@ -25,9 +26,9 @@ namespace {
 class WriterWithProgress : public RunWriter {
  public:
   WriterWithProgress(const std::filesystem::path& path, const Simulation& simulation,
-                     const std::string& stroke_hash, const std::optional<Stroke>& stroke, bool progress,
-                     bool keep_force)
-      : RunWriter(path, simulation, stroke_hash), keep_force_(keep_force) {
+                     const std::string& stroke_hash, const std::string& scene_file,
+                     const std::optional<Stroke>& stroke, bool progress, bool keep_force)
+      : RunWriter(path, simulation, stroke_hash, scene_file), keep_force_(keep_force) {
     if (stroke && !stroke->force.empty()) recorded_force_.emplace(*stroke);
     if (progress) bar_.emplace("run");
   }
@@ -58,6 +59,11 @@ class WriterWithProgress : public RunWriter {
 
 }  // namespace
 
+std::string scene_file_entry(const std::filesystem::path& scene_file, const std::filesystem::path& run_file) {
+  const std::filesystem::path folder = std::filesystem::absolute(run_file).parent_path();
+  return std::filesystem::proximate(scene_file, folder).generic_string();
+}
+
 RunResult run_scene(const Scene& scene, const std::filesystem::path& output, const RunOptions& options) {
   const int cores = tbb::info::default_concurrency();
   const int threads = options.threads > 0 ? std::min(options.threads, cores) : cores;
@@ -66,22 +72,29 @@ RunResult run_scene(const Scene& scene, const std::filesystem::path& output, con
 
   std::optional<Stroke> stroke;
   std::string stroke_hash;
+  std::filesystem::path stroke_path;
   if (scene.stroke) {
-    const std::filesystem::path path = options.scene_folder / scene.stroke->file;
-    const Stroke loaded = load_stroke(path, scene.force);
+    stroke_path = options.scene_folder / scene.stroke->file;
+    const Stroke loaded = load_stroke(stroke_path, scene.force);
     if (!loaded.complete)
       spdlog::warn("{}: was cut off while it was recorded; the run ends where the stroke does",
-                   path.string());
-    stroke = place_stroke(loaded, scene.stroke->placement, path.string());
+                   stroke_path.string());
+    stroke = place_stroke(loaded, scene.stroke->placement, stroke_path.string());
     // Not of a recorded stroke's bytes: they tell which build wrote it, too.
-    stroke_hash = is_recorded(path) ? content_hash(loaded) : content_hash(read_text_file(path));
+    stroke_hash = is_recorded(stroke_path) ? content_hash(loaded) : content_hash(read_text_file(stroke_path));
   }
   if (options.second) second_scene(scene, *options.second);  // refused before any work, if at all
   HeightField bed = load_surface(scene.bed, options.scene_folder);
   std::optional<HeightField> start;
   if (options.second) start = bed;
   Simulation simulation(scene, std::move(bed), stroke);
-  WriterWithProgress writer(output, simulation, stroke_hash, stroke, options.progress,
+  if (stroke) {
+    const std::string warning = depth_warning(scene, simulation.bed(), *stroke, stroke_path.string());
+    if (!warning.empty()) spdlog::warn("{}", warning);
+  }
+  const std::string scene_file =
+      options.scene_file.empty() ? "" : scene_file_entry(options.scene_file, output);
+  WriterWithProgress writer(output, simulation, stroke_hash, scene_file, stroke, options.progress,
                             options.second.has_value());
   RunResult result = simulation.run(writer);
   result.threads = threads;

@@ -11,10 +11,15 @@ namespace sandstroke {
 
 struct RunOptions {
   std::filesystem::path scene_folder = ".";  ///< what file names in the scene are relative to
+  std::filesystem::path scene_file;          ///< for /provenance; empty: there is none
   int threads = 0;                           ///< 0: all cores
   bool progress = false;                     ///< a bar on the terminal
   std::optional<SecondSolution> second;      ///< estimate the error, from this
 };
+
+/// What /provenance/scene_file says: where the scene lies, seen from the run's folder, so that both can be
+/// moved together.
+std::string scene_file_entry(const std::filesystem::path& scene_file, const std::filesystem::path& run_file);
 
 /// Loads bed and stroke, simulates, writes the run file, and then, where asked, estimates its error: none
 /// where it was interrupted, or where the second solution is unstable, which it warns of. Error: input, io or

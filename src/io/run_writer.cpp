@@ -47,7 +47,7 @@ void put(const Eigen::Vector3d& v, double* out) { std::copy(v.begin(), v.end(), 
 }  // namespace
 
 RunWriter::RunWriter(const std::filesystem::path& path, const Simulation& simulation,
-                     const std::string& stroke_hash)
+                     const std::string& stroke_hash, const std::string& scene_file)
     : path_(path), file_(path), keeps_trace_(simulation.scene().output.trace && simulation.scene().stroke) {
   const HeightField& bed = simulation.bed();
   const std::string scene = scene_text(simulation.scene());
@@ -61,6 +61,7 @@ RunWriter::RunWriter(const std::filesystem::path& path, const Simulation& simula
   file_.write("/provenance/instruction_set", instruction_set());
   file_.write("/provenance/scene_hash", content_hash(scene));
   file_.write("/provenance/stroke_hash", stroke_hash);
+  if (!scene_file.empty()) file_.write("/provenance/scene_file", scene_file);
   write_bed(file_, "/surface/initial", bed);
   file_.attribute("/surface", "cell_size", bed.cell_size());
   file_.attribute("/surface", "unit", "m");

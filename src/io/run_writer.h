@@ -15,8 +15,9 @@ namespace sandstroke {
 /// run can be read up to there, renamed when complete. Error: io.
 class RunWriter : public SimulationObserver {
  public:
-  /// stroke_hash: of the stroke file, for provenance.
-  RunWriter(const std::filesystem::path& path, const Simulation& simulation, const std::string& stroke_hash);
+  /// For /provenance: stroke_hash, of the stroke file, and scene_file, of which it is the run; empty: none.
+  RunWriter(const std::filesystem::path& path, const Simulation& simulation, const std::string& stroke_hash,
+            const std::string& scene_file = "");
 
   void on_tick(const TickRecord& tick) override;
   void on_relaxation(const RelaxationRecord& relaxation) override;

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/error.h"
+#include "io/input_kind.h"
 #include "io/scene_keys.h"
 #include "io/toml_reader.h"
 
@@ -24,11 +26,12 @@ class SceneReader : public SceneVisitor {
     section(name, help);
     return toml_.has(name);
   }
-  void number(const char* key, double& value, Range range, const char*, const char*) override {
-    value = toml_.number(prefix_ + key, value, range);
+  void number(const char* key, double& value, Range range, const char* unit, const char*) override {
+    value = toml_.number(prefix_ + key, value, range, unit);
   }
-  void numbers(const char* key, double* values, int count, Range range, const char*, const char*) override {
-    const auto read = toml_.numbers(prefix_ + key, std::vector<double>(values, values + count), range);
+  void numbers(const char* key, double* values, int count, Range range, const char* unit,
+               const char*) override {
+    const auto read = toml_.numbers(prefix_ + key, std::vector<double>(values, values + count), range, unit);
     std::copy(read.begin(), read.end(), values);
   }
   void integers(const char* key, int* values, int count, int lowest, int highest, const char*) override {
@@ -60,19 +63,32 @@ class SceneReader : public SceneVisitor {
   std::string prefix_;
 };
 
+/// What is wrong is said of the --set that gave it, where one did, and else of the file.
+void check(const Scene& scene, const TomlReader& toml) {
+  try {
+    check_scene(scene, toml.name());
+  } catch (const Error& failure) {
+    const std::string overrides = toml.overrides_in(failure.what());
+    if (overrides.empty()) throw;
+    check_scene(scene, overrides);
+    throw;  // not reached, unless memory was given free meanwhile
+  }
+}
+
 Scene read_scene(TomlReader toml, const std::vector<std::string>& overrides) {
   for (const std::string& assignment : overrides) toml.override_with(assignment);
   Scene scene;
   SceneReader reader(toml);
   describe_scene(reader, scene);
   toml.reject_unread();
-  check_scene(scene, toml.name());
+  check(scene, toml);
   return scene;
 }
 
 }  // namespace
 
 Scene load_scene(const std::filesystem::path& path, const std::vector<std::string>& overrides) {
+  expect_kind(path, {InputKind::scene});
   return read_scene(TomlReader::from_file(path), overrides);
 }
 

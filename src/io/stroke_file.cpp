@@ -1,13 +1,10 @@
 #include "io/stroke_file.h"
 
-#include <cstring>
-#include <fstream>
-
 #include "core/error.h"
 #include "core/hash.h"
 #include "core/output_file.h"
-#include "haptics/recording.h"
 #include "haptics/stroke_script.h"
+#include "io/input_kind.h"
 #include "io/stroke_format.h"
 #include "io/stroke_script_toml.h"
 
@@ -66,11 +63,7 @@ Stroke read_stroke_file(const std::filesystem::path& path) {
 
 bool is_recorded(const std::filesystem::path& path) {
   check_readable(path);
-  std::ifstream file(path, std::ios::binary);
-  constexpr char hdf5_signature[] = "\x89HDF\r\n\x1a\n";
-  char begin[sizeof hdf5_signature - 1] = {};
-  file.read(begin, sizeof begin);
-  return path.extension() == ".h5" || std::memcmp(begin, hdf5_signature, sizeof begin) == 0;
+  return path.extension() == ".h5" || begins_with(path, hdf5_signature);
 }
 
 bool stroke_depends_on_force(const std::filesystem::path& path) {
@@ -87,13 +80,9 @@ std::string content_hash(const Stroke& stroke) {
 }
 
 Stroke load_stroke(const std::filesystem::path& path, const ForceSettings& force) {
+  expect_kind(path, {InputKind::stroke, InputKind::script});
   if (is_recorded(path)) return read_stroke_file(path);
   if (path.extension() == ".toml") return trace_script(read_stroke_script(path), force);
-  if (path.extension() == journal_extension)
-    throw_input_error(
-        "{}: is the journal of a recording that was cut off, not a stroke yet; make one of it first: "
-        "sandstroke stroke repair {}",
-        path.string(), path.string());
   throw_input_error(
       "{}: is neither a recorded stroke (.h5) nor a scripted one (.toml); convert a table of "
       "samples first: sandstroke stroke convert {} STROKE.h5 (--help says how)",

@@ -19,7 +19,7 @@ HeightField load_surface(const BedSettings& bed, const std::filesystem::path& fo
       throw_input_error("{}: has {} x {} cells (x, y) and bed.cells = [{}, {}]; make them equal",
                         path.string(), cols, rows, bed.cols, bed.rows);
   };
-  if (path.extension() == ".png" || path.extension() == ".PNG") {
+  if (has_picture_name(path)) {
     if (surface.low == surface.high)
       throw_input_error(
           "{}: bed.surface.low and high are both {} m; say what heights black and white stand for",

@@ -64,6 +64,12 @@ std::string type_name(const toml::node& node) {
   }
 }
 
+/// "35deg", "[5mm, 6mm]".
+bool begins_as_number(std::string_view text) {
+  const auto begin = text.find_first_not_of("[ +-.");
+  return begin != std::string_view::npos && text[begin] >= '0' && text[begin] <= '9';
+}
+
 std::vector<std::string> parts_of(std::string_view key) {
   std::vector<std::string> parts;
   while (true) {
@@ -107,6 +113,13 @@ TomlReader TomlReader::from_text(std::string_view text, const std::string& name)
 }
 
 const std::string& TomlReader::name() const { return document_->name; }
+
+std::string TomlReader::overrides_in(std::string_view sentence) const {
+  std::vector<std::string> named;
+  for (const auto& [key, assignment] : document_->overrides)
+    if (sentence.find(key) != std::string_view::npos) named.push_back("--set " + assignment);
+  return fmt::format("{}", fmt::join(named, ", "));
+}
 
 void TomlReader::override_with(const std::string& assignment) {
   const auto equals = assignment.find('=');
@@ -166,7 +179,11 @@ void TomlReader::fail(std::string_view key, const std::string& sentence) const {
   throw_input_error("{}: {} {}", document_->name, full, sentence);
 }
 
-double TomlReader::checked(std::string_view key, const toml::node& node, Range range) const {
+double TomlReader::checked(std::string_view key, const toml::node& node, Range range,
+                           std::string_view unit) const {
+  if (const auto* text = node.as_string(); text && begins_as_number(text->get()))
+    fail(key, fmt::format("is '{}'; give it without a unit{}", text->get(),
+                          unit.empty() ? "" : fmt::format(", in {}", unit)));
   if (!node.is_number()) fail(key, fmt::format("is {}; give a number", type_name(node)));
   const double number = *node.value<double>();
   if (!std::isfinite(number)) fail(key, fmt::format("is {}; give a finite number", number));
@@ -176,9 +193,9 @@ double TomlReader::checked(std::string_view key, const toml::node& node, Range r
   return number;
 }
 
-double TomlReader::number(std::string_view key, double fallback, Range range) const {
+double TomlReader::number(std::string_view key, double fallback, Range range, std::string_view unit) const {
   const toml::node* node = find(key);
-  return node ? checked(key, *node, range) : fallback;
+  return node ? checked(key, *node, range, unit) : fallback;
 }
 
 int TomlReader::integer(std::string_view key, int fallback, int lowest, int highest) const {
@@ -206,23 +223,23 @@ std::string TomlReader::text(std::string_view key, const std::string& fallback) 
 }
 
 std::vector<double> TomlReader::numbers(std::string_view key, const std::vector<double>& fallback,
-                                        Range range) const {
+                                        Range range, std::string_view unit) const {
   if (!has(key)) return fallback;
-  const std::vector<double> found = profile(key, fallback, range);
+  const std::vector<double> found = profile(key, fallback, range, unit);
   if (found.size() != fallback.size())
     fail(key, fmt::format("has {} numbers; give {}", found.size(), fallback.size()));
   return found;
 }
 
 std::vector<double> TomlReader::profile(std::string_view key, const std::vector<double>& fallback,
-                                        Range range) const {
+                                        Range range, std::string_view unit) const {
   const toml::node* node = find(key);
   if (!node) return fallback;
   const toml::array* array = node->as_array();
-  if (!array) return {checked(key, *node, range)};
+  if (!array) return {checked(key, *node, range, unit)};
   if (array->empty()) fail(key, "is empty; give at least one number");
   std::vector<double> found;
-  for (const toml::node& element : *array) found.push_back(checked(key, element, range));
+  for (const toml::node& element : *array) found.push_back(checked(key, element, range, unit));
   return found;
 }
 

@@ -29,20 +29,24 @@ class TomlReader {
   /// Sets one key from "key=value" (--set): the value is TOML, or else taken as a string.
   void override_with(const std::string& assignment);
   const std::string& name() const;  ///< of the file
+  /// The assignments of keys that a sentence names, as "--set key=value, --set ..."; empty: none.
+  std::string overrides_in(std::string_view sentence) const;
 
   bool has(std::string_view key) const;
 
   // Each returns the fallback where the key is absent.
-  double number(std::string_view key, double fallback, Range range = any_number) const;
+  // `unit`: in which numbers are given, for whoever writes it behind one; empty: none.
+  double number(std::string_view key, double fallback, Range range = any_number,
+                std::string_view unit = "") const;
   int integer(std::string_view key, int fallback, int lowest, int highest) const;
   bool boolean(std::string_view key, bool fallback) const;
   std::string text(std::string_view key, const std::string& fallback) const;
   /// Exactly `fallback.size()` numbers.
   std::vector<double> numbers(std::string_view key, const std::vector<double>& fallback,
-                              Range range = any_number) const;
+                              Range range = any_number, std::string_view unit = "") const;
   /// One number or an array of at least one.
   std::vector<double> profile(std::string_view key, const std::vector<double>& fallback,
-                              Range range = any_number) const;
+                              Range range = any_number, std::string_view unit = "") const;
   /// An array of points with two coordinates each ([[x, y], ...]); empty where absent.
   std::vector<std::vector<double>> points(std::string_view key) const;
   /// One of the names; returns its index.
@@ -70,7 +74,7 @@ class TomlReader {
   struct Document;
   TomlReader(std::shared_ptr<Document> document, toml::table* table, std::string prefix);
   const toml::node* find(std::string_view key) const;
-  double checked(std::string_view key, const toml::node& node, Range range) const;
+  double checked(std::string_view key, const toml::node& node, Range range, std::string_view unit = "") const;
 
   std::shared_ptr<Document> document_;
   toml::table* table_;

@@ -21,6 +21,7 @@
 #include "io/png_file.h"
 #include "io/run_file.h"
 #include "io/scene_toml.h"
+#include "sim/stroke_depth.h"
 #include "sweep/point_runner.h"
 
 namespace sandstroke {
@@ -148,6 +149,13 @@ bool Sweep::run_group(const SweepFolder& folder, const std::vector<std::size_t>&
   const std::optional<SharedRunResult> result = run_shared(scenes, *bed, stroke ? &stroke->stroke : nullptr,
                                                            folder.metrics(), golden_ ? &*golden_ : nullptr);
   if (!result) return false;
+  if (stroke) {
+    const Scene& scene = scenes.front();
+    const std::string warning = depth_warning(scene, *bed, stroke->stroke, scene.stroke->file);
+    const std::scoped_lock lock(too_deep_mutex_);
+    for (const std::size_t point : points)
+      if (!warning.empty()) too_deep_[point] = warning;
+  }
 
   std::optional<Image> picture;
   std::string pictured_view;

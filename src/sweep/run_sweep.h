@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <map>
+#include <mutex>
 
 #include "render/change_picture.h"
 #include "sweep/sweep_folder.h"
@@ -52,6 +53,8 @@ class Sweep {
   SweepManifest manifest() const;
   /// Points whose settings do not go together, and why.
   const std::map<std::size_t, std::string>& refused() const { return refused_; }
+  /// Points that were run by this call, or by estimate(), whose stroke goes suspiciously deep: depth_warning().
+  const std::map<std::size_t, std::string>& too_deep() const { return too_deep_; }
   /// That the points take, as far as is known before they run.
   std::size_t simulations() const { return groups_.size() - refused_.size(); }
 
@@ -81,6 +84,8 @@ class Sweep {
   std::optional<HeightField> golden_;  // surface that each is compared with
   std::vector<PointGroup> groups_;
   std::map<std::size_t, std::string> refused_;
+  std::mutex too_deep_mutex_;
+  std::map<std::size_t, std::string> too_deep_;
   // That scenes name, and their hashes; in order of use, which does not depend on where they are.
   std::vector<std::pair<std::string, std::string>> files_;
 };

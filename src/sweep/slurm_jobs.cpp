@@ -42,14 +42,17 @@ Number leading_number(const std::string& text, Number otherwise) {
   return otherwise;
 }
 
+[[noreturn]] void fail_without_slurm() {
+  throw_io_error("sbatch is not installed here; submit the sweep where Slurm is, or leave out --slurm");
+}
+
 /// The job's id.
 long submit(const std::vector<std::string>& options, const fs::path& script) {
   std::vector<std::string> words = {"sbatch", "--parsable"};
   words.insert(words.end(), options.begin(), options.end());
   words.push_back(fs::absolute(script).string());
   const std::optional<ChildResult> result = run_child(words);
-  if (!result)
-    throw_io_error("sbatch is not installed here; submit the sweep where Slurm is, or leave out --slurm");
+  if (!result) fail_without_slurm();
   const long id = leading_number(result->out, 0L);  // "id", or "id;cluster"
   if (result->exit_code != 0 || id <= 0)
     throw_input_error("Slurm did not take {}: {}", script.string(),
@@ -126,6 +129,14 @@ SlurmQueue ask_slurm_queue(const SlurmJobs& jobs) {
   if (!result) return {std::nullopt, "squeue is not installed here"};
   if (result->exit_code != 0) return {std::nullopt, result->err};
   return {parse_queue(result->out), ""};
+}
+
+void check_slurm() {
+  if (!run_child({"sbatch", "--version"})) fail_without_slurm();
+  const std::optional<ChildResult> queue = run_child({"squeue", "--noheader", "--me"});
+  if (queue && queue->exit_code != 0)
+    throw_io_error("no cluster answers here ({}); submit the sweep where Slurm is, or leave out --slurm",
+                   queue->err.substr(queue->err.rfind('\n') + 1));
 }
 
 SlurmJobs submit_to_slurm(const SlurmOptions& options, const SlurmWork& work, std::vector<SlurmTask> tasks,

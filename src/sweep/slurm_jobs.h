@@ -50,6 +50,9 @@ struct SlurmQueue {
 };
 SlurmQueue ask_slurm_queue(const SlurmJobs& jobs);
 
+/// Error: io, where sbatch is not installed or no cluster answers: for before anything is written.
+void check_slurm();
+
 /// Writes DIR/slurm/job.sh and collect.sh, submits them, the second after the first, and writes jobs.json.
 /// tasks: those to submit, of so many. Error: input, where the sweep's last jobs are still queued, or sbatch
 /// refuses (its sentence); io, where Slurm is not there or does not answer.

@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "core/output_file.h"
+#include "io/input_kind.h"
 #include "io/scene_keys.h"
 #include "io/scene_toml.h"
 #include "io/toml_reader.h"
@@ -111,7 +112,7 @@ std::string plan_help() {
   seed = 1                             #   by this seed
   metrics = ["work", "furrow_depth"]   # to collect; default: all
   keep = ["surface", "picture"]        # of each point; default: neither
-  golden = "golden.h5"                 # run whose final surface each point's is compared with
+  golden = "before.h5"                 # run whose final surface each point's is compared with
   max_points = 10000                   # more are refused
   [set]                                # settings of every point (sandstroke info --scene-keys lists them)
   bed.cells = [500, 500]
@@ -125,12 +126,14 @@ Metrics:
 }
 
 SweepPlan load_plan(const fs::path& path) {
+  expect_kind(path, {InputKind::plan});
   const TomlReader toml = TomlReader::from_file(path);
   SweepPlan plan;
   plan.file = path;
   toml.require("sweep.scene");
   plan.scene = path.parent_path() / toml.text("sweep.scene", "");
   check_readable(plan.scene);
+  expect_kind(plan.scene, {InputKind::scene});
   plan.scene_text = read_text_file(plan.scene);
   for (const std::string& key : toml.keys_in("set"))
     plan.settings.push_back(key + "=" + toml.literal("set." + key));

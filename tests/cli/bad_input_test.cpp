@@ -93,6 +93,38 @@ const std::vector<Case> cases = {
      2,
      {"--set device.servo_rate=0"},
      {}},
+    {"SetOfALastPart",
+     {"run", "scene.toml", "-o", "out.h5", "--set", "talus_angle=35"},
+     2,
+     {"--set talus_angle=35: unknown key talus_angle; did you mean relaxation.talus_angle?"},
+     {}},
+    {"SetWithAUnit",
+     {"run", "scene.toml", "-o", "out.h5", "--set", "relaxation.talus_angle=35deg"},
+     2,
+     {"--set relaxation.talus_angle=35deg: relaxation.talus_angle is '35deg'; give it without a unit, in "
+      "deg"},
+     {}},
+    {"SetOfNumbersWithUnits",
+     {"run", "scene.toml", "-o", "out.h5", "--set", "bed.size=[200mm, 300mm]"},
+     2,
+     {"bed.size is '[200mm, 300mm]'; give it without a unit, in m"},
+     {}},
+    {"SetThatDoesNotGoWithTheScene",
+     {"run", "scene.toml", "-o", "out.h5", "--set", "bed.cells=[150, 150]"},
+     2,
+     {"sandstroke: --set bed.cells=[150, 150]: bed.size and bed.cells give cells of"},
+     {}},
+    {"SetBeyondMemory",
+     {"run", "scene.toml", "-o", "out.h5", "--set", "bed.size=[0.3, 0.3]", "--set",
+      "bed.cells=[65536, 65536]", "--set", "bed.surface={kind='noise', amplitude=1.0}"},
+     2,
+     {"sandstroke: --set bed.cells=[65536, 65536]: ", "memory"},
+     {}},
+    {"SetOfASettingInTheWay",
+     {"run", "scene.toml", "-o", "out.h5", "--set", "tool.radius=1", "--set", "force.k_s=1"},
+     2,
+     {"sandstroke: --set tool.radius=1: tool.radius = 1 m: the tool"},
+     {}},
     {"MissingStroke", {"run", "scene.toml", "-o", "out.h5", "--stroke", "none.h5"}, 4, {"none.h5"}, {}},
     {"StrokeIsNoHdf5",
      {"run", "scene.toml", "-o", "out.h5", "--stroke", "fake.h5"},
@@ -142,14 +174,59 @@ const std::vector<Case> cases = {
      {"furlong"},
      {{"a.csv", "x,y,z\n1,2,3\n"}}},
     {"RenderOfNothing", {"render", "none.h5"}, 4, {"none.h5"}, {}},
-    {"RenderOfText", {"render", "scene.toml"}, 2, {"scene.toml", "HDF5"}, {}},
+    {"RenderOfScene", {"render", "scene.toml"}, 2, {"scene.toml: is a scene, not a run file"}, {}},
+    {"RenderOfText", {"render", "a.txt"}, 2, {"a.txt", "HDF5"}, {{"a.txt", "sand"}}},
     {"CompareWithNothing", {"compare", "none.h5", "none.h5"}, 4, {"none.h5"}, {}},
-    {"InfoOfText", {"info", "line.toml"}, 2, {"line.toml", "HDF5"}, {}},
+    {"InfoOfScript",
+     {"info", "line.toml"},
+     2,
+     {"is a stroke script", "sandstroke stroke info line.toml"},
+     {}},
     {"GoldenOfUnknownScene",
      {"golden", "check", "nosuch", "--strokes", SANDSTROKE_SOURCE "/strokes"},
      2,
      {"nosuch"},
      {}},
+    {"PictureThatIsNoPng",
+     {"run", "scene.toml", "-o", "out.h5", "--png", "out.jpg"},
+     2,
+     {"out.jpg: pictures are written as PNG; give it a name that ends with .png"},
+     {}},
+    {"StrokeAsScene",
+     {"run", "line.toml", "-o", "out.h5"},
+     2,
+     {"line.toml: is a stroke script, not a scene; "},
+     {}},
+    {"PlanAsScene",
+     {"run", "plan.toml", "-o", "out.h5"},
+     2,
+     {"plan.toml: is a sweep plan, not a scene; run it: sandstroke sweep plan.toml"},
+     {{"plan.toml", "[sweep]\nscene = 'scene.toml'\n"}}},
+    {"SceneAsPlan",
+     {"sweep", "scene.toml"},
+     2,
+     {"scene.toml: is a scene, not a sweep plan; run it: sandstroke run scene.toml"},
+     {}},
+    {"PlanOfAPlan",
+     {"sweep", "plan.toml"},
+     2,
+     {"plan.toml: is a sweep plan, not a scene"},
+     {{"plan.toml", "[sweep]\nscene = 'plan.toml'\n"}}},
+    {"SceneAsStroke",
+     {"run", "scene.toml", "-o", "out.h5", "--stroke", "scene.toml"},
+     2,
+     {"scene.toml: is a scene, not a stroke"},
+     {}},
+    {"SceneToSample",
+     {"stroke", "script", "scene.toml", "out.h5"},
+     2,
+     {"scene.toml: is a scene, not a stroke"},
+     {}},
+    {"PlanAsStroke",
+     {"stroke", "info", "plan.toml"},
+     2,
+     {"plan.toml: is a sweep plan, not a stroke"},
+     {{"plan.toml", "[axes]\nforce.k_s = [1, 2]\n"}}},
     {"UnwritableFolder",
      {"run", "scene.toml", "-o", "nowhere/out.h5"},
      4,
@@ -190,6 +267,27 @@ TEST(CliBadInput, TruncatedFilesAreRefused) {
   EXPECT_NE(run.err.find("line.h5"), std::string::npos);
   EXPECT_FALSE(fs::exists(folder / "out.h5"));
   EXPECT_FALSE(fs::exists(folder / "out.png"));
+}
+
+TEST(CliBadInput, Hdf5FilesOfOtherKindsAreNamed) {
+  const fs::path folder = test_folder();
+  ASSERT_EQ(run_program({"run", "scene.toml", "-o", "run.h5"}, folder).exit_code, 0);
+  ASSERT_EQ(run_program({"stroke", "script", "line.toml", "line.h5"}, folder).exit_code, 0);
+  fs::copy_file(SANDSTROKE_SOURCE "/golden/hole/golden.h5", folder / "golden.h5");
+  const auto refused = [&](const std::vector<std::string>& words, const std::string& sentence) {
+    const ProgramResult result = run_program(words, folder);
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_NE(result.err.find(sentence), std::string::npos) << result.err;
+  };
+  refused({"info", "line.h5"}, "line.h5: is a stroke, not a run file; ");
+  refused({"render", "line.h5"}, "line.h5: is a stroke, not a run file; ");
+  refused({"run", "line.h5"}, "line.h5: is a stroke, not a scene; ");
+  refused({"run", "run.h5"}, "run.h5: is a run file, not a scene; ");
+  refused({"sweep", "run.h5"}, "run.h5: is a run file, not a sweep plan; ");
+  refused({"run", "scene.toml", "--stroke", "run.h5"}, "run.h5: is a run file, not a stroke; ");
+  refused({"stroke", "info", "run.h5"}, "run.h5: is a run file, not a stroke; ");
+  refused({"info", "golden.h5"}, "golden.h5: is a golden entry's content, not a run file; ");
+  refused({"compare", "golden.h5", "run.h5"}, "golden.h5: is a golden entry's content, not a run file; ");
 }
 
 TEST(CliBadInput, ARecordedStrokeMustBeFiniteAndRunForward) {

@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
+#include <map>
 #include <regex>
 #include <set>
 
@@ -70,6 +72,35 @@ TEST(CliHelp, OptionsSayTheirDefaults) {
   EXPECT_NE(help_of("record", "--stop-switch").find("counted from 0"), std::string::npos);
 }
 
+TEST(CliHelp, ValuesAreInAReadersWords) {
+  for (const std::string command :
+       {"run", "render", "compare", "sweep", "record", "bench", "stroke convert"}) {
+    std::vector<std::string> words = {"help"};
+    for (std::istringstream parts(command); parts >> words.emplace_back();) {
+    }
+    words.pop_back();
+    const std::string help = printed(words);
+    for (const char* type : {"FLOAT", "INT:", "TEXT:", "Needs:", "Excludes:", "POSITIVE", " in ["})
+      EXPECT_EQ(help.find(type), std::string::npos) << command << ": " << type;
+  }
+  const std::string run = printed({"help", "run"}), compare = printed({"compare", "--help"});
+  EXPECT_NE(run.find("--frames NUMBER >= 0 "), std::string::npos) << run;
+  EXPECT_NE(run.find("--threads 0 to 1024 "), std::string::npos) << run;
+  EXPECT_NE(run.find("--estimate-error[={coarser,finer}]"), std::string::npos) << run;
+  EXPECT_NE(compare.find("--pixel-tolerance 0 to 255 (default 2)"), std::string::npos) << compare;
+  EXPECT_NE(printed({"help", "sweep"}).find("--shard I/N (not with --dry-run, --slurm)"), std::string::npos);
+}
+
+TEST(CliHelp, OfFilesIsInTopics) {
+  for (const auto& [command, topic] :
+       std::map<std::string, std::string>{{"sweep", "plan"}, {"script", "script"}}) {
+    const std::string help =
+        command == "sweep" ? printed({"sweep", "--help"}) : printed({"stroke", "script", "--help"});
+    EXPECT_LT(std::count(help.begin(), help.end(), '\n'), 50) << help;
+    EXPECT_NE(help.find("sandstroke help " + topic), std::string::npos) << help;
+  }
+}
+
 TEST(CliHelp, ScenesAreExplainedKeyByKey) {
   const std::string manual = page({"help", "--man", "scene"}), table = printed({"help", "scene"});
   EXPECT_EQ(table, printed({"info", "--scene-keys"}));
@@ -125,6 +156,10 @@ TEST(CliCompletion, BashOffersWhatCanStandThere) {
   EXPECT_EQ(offered("render --view ''"), (Offered{"custom", "overview", "stroke", "top"}));
   EXPECT_EQ(offered("render --view = st"), Offered{"stroke"});
   EXPECT_EQ(offered("stroke convert --equal-times s"), Offered{"spread"});
+  EXPECT_EQ(offered("render --frame ''"), (Offered{"all", "final", "initial"}));
+  EXPECT_EQ(offered("record --device s"), Offered{"scripted:"});
+  EXPECT_EQ(offered("run --estimate-error = c"), Offered{"coarser"});
+  EXPECT_EQ(offered("run --estimate-error s"), (Offered{"scene.toml", "strokes"}));
   EXPECT_EQ(offered("help sc"), (Offered{"scene", "script"}));
   EXPECT_EQ(offered("completion ''"), (Offered{"bash", "zsh"}));
 

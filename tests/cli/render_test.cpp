@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <map>
+
 #include "cli/program.h"
 
 namespace sandstroke {
@@ -21,6 +23,29 @@ TEST(CliRender, DrawsEveryViewStyleAndFrame) {
   EXPECT_TRUE(fs::exists(folder / "film/frame_0000.png"));
   EXPECT_EQ(run_program({"compare", "a.png", "film/frame_0000.png"}, folder).exit_code, 1);
   EXPECT_EQ(run_program({"compare", "a.png", "a.png"}, folder).exit_code, 0);
+}
+
+TEST(CliRender, APictureWithoutANameIsNamedAfterWhatItShows) {
+  const fs::path folder = test_folder();
+  ASSERT_EQ(run_program({"run", "scene.toml", "-o", "a.h5", "--frames", "4"}, folder).exit_code, 0);
+  for (const auto& [frame, name] : std::map<std::string, std::string>{
+           {"final", "a.png"}, {"initial", "a_initial.png"}, {"2", "a_frame_0002.png"}}) {
+    const ProgramResult render = run_program({"render", "a.h5", "--frame", frame}, folder);
+    EXPECT_EQ(render.out, name + "\n") << render.err;
+    EXPECT_TRUE(fs::exists(folder / name));
+  }
+}
+
+TEST(CliRender, APictureIsAPng) {
+  const fs::path folder = test_folder();
+  ASSERT_EQ(run_program({"run", "scene.toml", "-o", "a.h5"}, folder).exit_code, 0);
+  for (const std::string name : {"a.jpg", "a.txt", "a"}) {
+    const ProgramResult render = run_program({"render", "a.h5", "-o", name}, folder);
+    EXPECT_EQ(render.exit_code, 2);
+    EXPECT_EQ(render.err,
+              "sandstroke: " + name + ": pictures are written as PNG; give it a name that ends with .png\n");
+    EXPECT_FALSE(fs::exists(folder / name));
+  }
 }
 
 }  // namespace

@@ -20,6 +20,8 @@ TEST(CliRun, WritesARunFileXdmfAndPicture) {
   EXPECT_TRUE(fs::exists(folder / "a.xdmf"));
   EXPECT_GT(fs::file_size(folder / "a.png"), 1000u);
   EXPECT_NE(run.out.find("volume drift"), std::string::npos);
+  EXPECT_NE(run.out.find("for ParaView       a.xdmf\n"), std::string::npos) << run.out;
+  EXPECT_NE(run.out.find("picture            a.png\n"), std::string::npos) << run.out;
 }
 
 TEST(CliRun, JsonIsOneObjectWithTheDesignsNames) {
@@ -35,6 +37,41 @@ TEST(CliRun, JsonIsOneObjectWithTheDesignsNames) {
   EXPECT_EQ(json["threads"], std::min(2u, std::thread::hardware_concurrency()));
   EXPECT_LE(json["volume_drift"], 1e-12);
   EXPECT_TRUE(fs::exists(folder / "scene.h5"));  // the default name
+}
+
+TEST(CliRun, TheDefaultNameNeverCostsAnotherScenesRun) {
+  const fs::path folder = test_folder();
+  fs::create_directory(folder / "other");
+  fs::copy_file(folder / "line.toml", folder / "other/line.toml");
+  write_file(folder / "other/scene.toml", read_file(folder / "scene.toml") + "[force]\nk_s = 500\n");
+  ASSERT_EQ(run_program({"run", "scene.toml"}, folder).exit_code, 0);
+  const std::string first = read_file(folder / "scene.h5");
+
+  const ProgramResult other = run_program({"run", "other/scene.toml"}, folder);
+  EXPECT_EQ(other.exit_code, 2);
+  EXPECT_EQ(
+      other.err,
+      "sandstroke: scene.h5: is the run of another scene, scene.toml; name another file with -o, or this "
+      "one to replace it\n");
+  EXPECT_EQ(read_file(folder / "scene.h5"), first);
+
+  // Again, with other settings, and from elsewhere: the same scene.
+  EXPECT_EQ(run_program({"run", "scene.toml", "--set", "force.k_s=600"}, folder).exit_code, 0);
+  EXPECT_EQ(run_program({"run", fs::absolute(folder / "scene.toml").string()}, folder).exit_code, 0);
+  fs::create_directory(folder / "moved");
+  for (const char* name : {"scene.toml", "line.toml", "scene.h5"})
+    fs::rename(folder / name, folder / "moved" / name);
+  EXPECT_EQ(run_program({"run", "scene.toml", "--set", "force.k_s=700"}, folder / "moved").exit_code, 0);
+  // Asked for by name.
+  EXPECT_EQ(run_program({"run", "../other/scene.toml", "-o", "scene.h5"}, folder / "moved").exit_code, 0);
+}
+
+TEST(CliRun, TheDefaultNameNeverCostsAFileThatIsNoRun) {
+  const fs::path folder = test_folder();
+  ASSERT_EQ(run_program({"stroke", "script", "line.toml", "scene.h5"}, folder).exit_code, 0);
+  const std::string stroke = read_file(folder / "scene.h5");
+  EXPECT_EQ(run_program({"run", "scene.toml"}, folder).exit_code, 2);
+  EXPECT_EQ(read_file(folder / "scene.h5"), stroke);
 }
 
 TEST(CliRun, SetOverridesSceneKeys) {
@@ -273,6 +310,19 @@ TEST(CliRun, AToolThatNeverTouchesTheSandIsPointedOut) {
   EXPECT_NE(run.err.find("never touched"), std::string::npos) << run.err;
 }
 
+TEST(CliRun, AStrokeInMillimetresIsPointedOut) {
+  const fs::path folder = test_folder();
+  const auto said = [&](const char* depth) {
+    return run_program({"run", "scene.toml", "-o", "a.h5", "--quiet", "--set", depth}, folder).err;
+  };
+  const std::string warning = said("stroke.depth=5");  // 5 mm and the script's 4 mm were meant
+  EXPECT_NE(warning.find("line.toml: goes 5.004 m deep into the sand"), std::string::npos) << warning;
+  EXPECT_NE(warning.find("500 times tool.radius = 0.01 m"), std::string::npos) << warning;
+  EXPECT_NE(warning.find("stroke.depth"), std::string::npos) << warning;
+  EXPECT_EQ(said("stroke.depth=0.19"), "");
+  EXPECT_NE(said("stroke.depth=0.2"), "");
+}
+
 TEST(CliRun, EstimatesItsErrorOnRequest) {
   const fs::path folder = test_folder();
   const ProgramResult plain = run_program({"run", "scene.toml", "--json"}, folder);
@@ -304,6 +354,11 @@ TEST(CliInfo, ShowsARunAndTheSceneKeys) {
   EXPECT_EQ(json["cells"][0], 150);
   EXPECT_TRUE(json["complete"]);
   EXPECT_TRUE(json["provenance"].contains("version"));
+  const std::string table = run_program({"info", "a.h5"}, folder).out;
+  for (const char* line : {"cell_size                   0.002 m\n", "initial/lowest              0.0 m\n"})
+    EXPECT_NE(table.find(line), std::string::npos) << table;
+  for (const char* unit : {" s\ntrace/max_force", " N\ntrace/max_depth"})
+    EXPECT_NE(table.find(unit), std::string::npos) << table;
   EXPECT_NE(run_program({"info", "--scene-keys"}, folder).out.find("relaxation.talus_angle"),
             std::string::npos);
   const ProgramResult scene = run_program({"info", "a.h5", "--scene"}, folder);

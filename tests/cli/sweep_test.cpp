@@ -53,6 +53,25 @@ TEST_F(CliSweep, RunsCollectsAndSaysWhatItSaved) {
   EXPECT_EQ(fresh["content_hash"], again["content_hash"]);
 }
 
+TEST_F(CliSweep, WithoutAClusterNothingIsLeft) {
+  Conditions conditions;
+  conditions.path = folder.string();  // where no sbatch is
+  const ProgramResult result = sweep({"plan.toml", "-o", "out", "--slurm"}, conditions);
+  EXPECT_EQ(result.exit_code, 4);
+  EXPECT_NE(result.err.find("sbatch is not installed here"), std::string::npos) << result.err;
+  EXPECT_FALSE(fs::exists(folder / "out"));
+}
+
+TEST_F(CliSweep, StrokesInMillimetresArePointedOut) {
+  plan("stroke.depth = [0.001, 4, 5]\n");
+  for (const std::vector<std::string>& how : {{"--dry-run"}, std::vector<std::string>{"-o", "out"}}) {
+    std::vector<std::string> words = {"plan.toml"};
+    words.insert(words.end(), how.begin(), how.end());
+    const std::string said = sweep(words).err;
+    EXPECT_NE(said.find("the first, point 1: line.toml: goes 4.004 m deep"), std::string::npos) << said;
+  }
+}
+
 TEST_F(CliSweep, APointsCommandGivesThePointsFigures) {
   plan("relaxation.talus_angle = [25, 35]\nmodel.preset = [\"paper\", \"accurate\"]\n",
        "metrics = [\"work\", \"max_force\"]\n");
@@ -145,7 +164,7 @@ TEST_F(CliSweep, RefusesInASentenceAndTouchesNothing) {
   const std::vector<std::tuple<std::vector<std::string>, int, std::string>> cases = {
       {{}, 2, "name a plan"},
       {{"none.toml"}, 4, "none.toml: cannot be opened"},
-      {{"scene.toml"}, 2, "sweep.scene is missing"},
+      {{"scene.toml"}, 2, "scene.toml: is a scene, not a sweep plan"},
       {{"plan.toml", "--shard", "3/2"}, 2, "--shard 3/2: write I/N"},
       {{"plan.toml", "--shard", "0/2"}, 2, "--shard 0/2"},
       {{"plan.toml", "--shard", "1"}, 2, "--shard 1"},

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "core/error.h"
 #include "synthetic_run.h"
 
@@ -79,12 +81,20 @@ TEST_F(CompareRuns, DifferentShapesFail) {
   run.final = run.initial;
   const Comparison comparison = compare();
   EXPECT_EQ(comparison.failures(), 2);
-  EXPECT_NE(comparison.checks[4].sentence.find("30 x 40 cells, the run 30 x 41"), std::string::npos);
+  EXPECT_NE(comparison.checks[4].sentence.find("40 x 30 cells (x, y) of 0.01 m, the run 41 x 30 of 0.01 m"),
+            std::string::npos);
 }
 
 TEST_F(CompareRuns, DifferentCellSizesFail) {
   run.cell_size = 0.0100001;
-  expect_only_failure("cell size", "0.0100001 m");
+  const Comparison comparison = compare();
+  EXPECT_EQ(comparison.failures(), 3);  // cells at other places are not compared
+  for (const char* name : {"cell size", "initial height", "final height"}) {
+    const auto same_name = [&](const Check& check) { return check.name == name; };
+    const auto found = std::find_if(comparison.checks.begin(), comparison.checks.end(), same_name);
+    EXPECT_FALSE(found->passed) << name;
+    EXPECT_NE(found->sentence.find("0.0100001 m"), std::string::npos) << found->sentence;
+  }
 }
 
 TEST_F(CompareRuns, ATraceInOnlyOneFails) {

@@ -140,7 +140,8 @@ TEST_F(Golden, AnotherShapeFails) {
   write_golden(folder / "golden/dune", finished());
   run.initial = run.final = HeightGrid::Zero(30, 41);
   const Comparison comparison = compare();
-  EXPECT_NE(check_table(comparison).find("30 x 40 cells, the run 30 x 41"), std::string::npos);
+  EXPECT_NE(check_table(comparison).find("40 x 30 cells (x, y) of 0.01 m, the run 41 x 30 of 0.01 m"),
+            std::string::npos);
 }
 
 TEST_F(Golden, OneForceFails) {

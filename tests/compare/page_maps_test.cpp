@@ -170,7 +170,7 @@ TEST(SurfacesPart, OfDifferentShapesHasBothAndNoDifference) {
   s.run = s.run_initial = level(50, 40);
   const Json part = surfaces_part(s);
   EXPECT_EQ(part["maps"].size(), 2u);
-  EXPECT_NE(part["text"].get<std::string>().find("60 x 40 cells, the run 50 x 40"), std::string::npos);
+  EXPECT_NE(part["text"].get<std::string>().find("40 x 60 cells, the run 40 x 50"), std::string::npos);
   EXPECT_FALSE(part.contains("spots"));
 }
 

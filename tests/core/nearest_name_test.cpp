@@ -16,5 +16,15 @@ TEST(NearestName, IsOneThatGoesOnOrTheOneWithTheFewestEdits) {
   EXPECT_EQ(nearest_name("run", {}), "");
 }
 
+TEST(NearestName, IsAKeyOfWhichOnlyTheLastPartIsRight) {
+  const std::set<std::string> known = {"bed", "device.scale", "rate", "relaxation.talus_angle",
+                                       "stroke.scale"};
+  EXPECT_EQ(nearest_name("talus_angle", known), "relaxation.talus_angle");
+  EXPECT_EQ(nearest_name("sand.talus_angle", known), "relaxation.talus_angle");
+  EXPECT_EQ(nearest_name("scale", known), "device.scale or stroke.scale");
+  EXPECT_EQ(nearest_name("segment.rate", known), "rate");
+  EXPECT_EQ(nearest_name("angle", known), "");  // not a whole part
+}
+
 }  // namespace
 }  // namespace sandstroke

@@ -13,7 +13,10 @@ _sandstroke() {
   _sandstroke_find "${line[@]}"
   COMPREPLY=()
   case $kind in
-    words*) mapfile -t COMPREPLY < <(compgen -W "${kind#words}" -- "$current") ;;
+    words*)
+      mapfile -t COMPREPLY < <(compgen -W "${kind#words}" -- "$current")
+      [[ $kind == *: ]] && compopt -o nospace
+      ;;
     settings)
       _sandstroke_settings
       mapfile -t COMPREPLY < <(compgen -W "$REPLY" -S = -- "$current")

@@ -29,6 +29,7 @@ _sandstroke_find() {
   fi
   if [[ -n $option ]]; then
     _sandstroke_value "$command" "$option"
+    [[ -z $REPLY ]] && _sandstroke_value "$command" "$option="  # a flag's
   elif [[ $current == -* ]]; then
     _sandstroke_options "$command"
     REPLY="words $REPLY"

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+
+namespace sandstroke {
+
+/// Help in a reader's words: "NUMBER >= 0", "0 to 90", "(default 1)", where CLI11 has the types' names of
+/// C++.
+class HelpFormatter : public CLI::Formatter {
+ public:
+  std::string make_option_name(const CLI::Option* option, bool is_positional) const override;
+  std::string make_option_opts(const CLI::Option* option) const override;
+};
+
+}  // namespace sandstroke
