@@ -9,5 +9,11 @@ constexpr bool sanitized = true;
 #else
 constexpr bool sanitized = false;
 #endif
+/// Whether it is the one for threads: its own memory is a file, which small limits of files' sizes make fail.
+#ifdef SANDSTROKE_SANITIZE_THREADS
+constexpr bool threads_sanitized = true;
+#else
+constexpr bool threads_sanitized = false;
+#endif
 
 }  // namespace sandstroke

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "sanitized.h"
 #include "study/study.h"
 
 namespace sandstroke {
@@ -23,6 +24,7 @@ INSTANTIATE_TEST_SUITE_P(OfA, Collapse, testing::Values(cylinder_problem, cone_p
                          [](const auto& problem) { return problem.param({}).name; });
 
 TEST_P(Collapse, OfTheIsotropicLawIsOfFirstOrderAndItsFlanksAreRightAllAround) {
+  if (sanitized) GTEST_SKIP() << "long; what it runs through, shorter tests do";
   std::vector<std::pair<double, double>> errors;
   for (const auto& [contender, score] : run_series(GetParam()({}), "isotropic rkl", 1024)) {
     EXPECT_TRUE(score.converged);

@@ -6,6 +6,7 @@
 
 #include "sand/initial_surface.h"
 #include "sand/relaxation.h"
+#include "sanitized.h"
 #include "study/exact_shapes.h"
 
 namespace sandstroke {
@@ -46,6 +47,7 @@ RelaxationOutcome relax(HeightField& bed, RelaxationMethod method, double share 
 }
 
 TEST(SuperSteps, ReachThePeersConeInAFortiethOfThePasses) {
+  if (sanitized) GTEST_SKIP() << "long; what it runs through, shorter tests do";
   const PeersCone cone{512};
   HeightField super = cone.start(), plain = cone.start(), small_steps = cone.start();
   const RelaxationOutcome few = relax(super, RelaxationMethod::rkl),
@@ -73,6 +75,7 @@ TEST(SuperSteps, PassesGrowLikeTheSideNotLikeItsSquare) {
 }
 
 TEST(SuperSteps, StayNearTheSmallStepLimitOnTenRoughBeds) {
+  if (sanitized) GTEST_SKIP() << "long; what it runs through, shorter tests do";
   for (unsigned seed = 1; seed <= 10; ++seed) {
     SurfaceSettings noise;
     noise.kind = SurfaceKind::noise;

@@ -1,11 +1,14 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 
+#include <cstdint>
 #include <nlohmann/json.hpp>
 #include <thread>
+#include <utility>
 
 #include "cli/program.h"
 #include "io/run_file.h"
+#include "sanitized.h"
 
 namespace sandstroke {
 namespace {
@@ -117,11 +120,14 @@ fs::path folder_with_slow_stroke() {
   return folder;
 }
 
-/// Sends the signal once ticks have been written.
+/// Sends the signal once ticks have been written: between two flushes, for within one HDF5 writes over its
+/// own bookkeeping, and what a kill leaves then may be unreadable.
 Conditions stopped_on_its_way(int signal, const fs::path& folder) {
   Conditions stopped{signal};
-  stopped.when = [part = folder / "a.h5.part"] {
-    return fs::exists(part) && fs::file_size(part) > 1'000'000;
+  stopped.when = [part = folder / "a.h5.part", bytes = std::uintmax_t{0}, unchanged = 0]() mutable {
+    const std::uintmax_t now = fs::exists(part) ? fs::file_size(part) : 0;
+    unchanged = std::exchange(bytes, now) == now ? unchanged + 1 : 0;
+    return bytes > 1'000'000 && unchanged > 20;
   };
   return stopped;
 }
@@ -174,6 +180,7 @@ TEST(CliRun, ASecondRunCannotWriteTheSameFile) {
 }
 
 TEST(CliRun, AFullDiskIsAnErrorAndLeavesNothingThatLooksComplete) {
+  if (threads_sanitized) GTEST_SKIP() << "the sanitizer's own memory is a file";
   const fs::path folder = test_folder();
   for (const std::size_t kilobytes : {1, 30, 100, 200, 250}) {
     const ProgramResult run =

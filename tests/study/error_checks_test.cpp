@@ -1,5 +1,6 @@
 // The errors that runs state of themselves, beside their true ones (bench, quick).
 #include "study/error_checks.h"
+#include "sanitized.h"
 
 #include <gtest/gtest.h>
 
@@ -14,6 +15,7 @@ std::vector<ErrorCheck> checks_of(const ProblemMaker& maker) {
 }
 
 TEST(ErrorChecks, AFinerSolutionTellsEveryErrorWithinAFactorOfThree) {
+  if (sanitized) GTEST_SKIP() << "long; what it runs through, shorter tests do";
   int checks = 0;
   for (const ProblemMaker& maker : problem_makers())
     for (const ErrorCheck& check : checks_of(maker)) {
