@@ -14,7 +14,13 @@
 
 namespace sandstroke {
 
-std::string toml_string(const std::string& text) { return nlohmann::json(text).dump(); }
+std::string toml_string(const std::string& text) {
+  try {
+    return nlohmann::json(text).dump();
+  } catch (const nlohmann::json::type_error&) {
+    throw_input_error("{}: is not UTF-8, and TOML can hold no other text; rename it", text);
+  }
+}
 
 std::string range_text(Range range) {
   const bool from_below = range.lowest > any_number.lowest, to_above = range.highest < any_number.highest;

@@ -67,7 +67,7 @@ std::string script_safe(const nlohmann::ordered_json& data) {
 
 std::string html_page(std::string_view title, PageScript script, const nlohmann::ordered_json& data) {
   const PageAssets own = assets_of(script);
-  const std::string name = xml_escaped(std::string(title));
+  const std::string name = xml_escaped(title);
   std::string page = fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
       "<meta name=\"viewport\" content=\"width=device-width, "

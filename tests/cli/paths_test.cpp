@@ -71,6 +71,29 @@ TEST(CliPaths, ARunWithHeightsInAnotherFileIsNotDrawn) {
   EXPECT_NE(result.err.find("b.h5: /surface/final is missing"), std::string::npos) << result.err;
 }
 
+TEST(CliPaths, NamesMayBeAnyBytesWhereNoTextHoldsThem) {
+  const fs::path folder = test_folder();
+  fs::copy(folder / "scene.toml", folder / "s\xff.toml");
+  fs::copy(folder / "line.toml", folder / "l\xff.toml");
+  const ProgramResult run = run_program({"run", "s\xff.toml", "--png", "p\xff.png", "--json"}, folder);
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  for (const std::vector<std::string>& command :
+       {std::vector<std::string>{"info", "s\xff.h5", "--json"},
+        {"render", "s\xff.h5", "-o", "again\xff.png"},
+        {"compare", "s\xff.h5", "s\xff.h5", "--report", "report\xff", "--junit", "j\xff.xml"},
+        {"stroke", "script", "l\xff.toml", "l\xff.h5"},
+        {"stroke", "info", "l\xff.h5", "--json"}}) {
+    const ProgramResult result = run_program(command, folder);
+    EXPECT_EQ(result.exit_code, 0) << command.front() << ": " << result.err;
+  }
+  EXPECT_TRUE(std::string_view(read_file(folder / "j\xff.xml")).find('\xff') == std::string_view::npos);
+  const ProgramResult refused =
+      run_program({"run", "scene.toml", "--stroke", "l\xff.toml", "-o", "b.h5"}, folder);
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_NE(refused.err.find("is not UTF-8"), std::string::npos) << refused.err;
+  EXPECT_FALSE(fs::exists(folder / "b.h5"));
+}
+
 TEST(CliPaths, AGoldenNameIsNoPath) {
   const fs::path folder = test_folder();
   for (const char* name : {"strokes/dune", "other"}) {
