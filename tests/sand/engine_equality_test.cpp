@@ -163,7 +163,7 @@ TEST(Engine, EqualsTheReferenceOn200RandomScenes) {
 
 TEST(Engine, EqualsTheReferenceWithEveryInstructionSetAndThreadCount) {
   for (const std::int64_t target : hwy::SupportedAndGeneratedTargets())
-    for (const int threads : thread_counts)
+    for (const int threads : sanitized ? std::vector{3} : std::vector{1, 2, 3, 8})
       for (const unsigned seed : sanitized ? std::vector{1001u} : std::vector{1001u, 1002u, 1003u}) {
         SCOPED_TRACE(std::string(hwy::TargetName(target)) + ", threads " + std::to_string(threads));
         const InstructionSet set(target);

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "haptics/passivity.h"
+#include "sanitized.h"
 #include "stress/device_boundaries.h"
 #include "stress/loop_theory.h"
 #include "stress/stress.h"
@@ -43,6 +44,7 @@ TEST(DeviceLoop, APassiveLoopReturnsNoMoreThanItsDampersTake) {
 }
 
 TEST(StressDeviceLoop, FillsBoundariesMapsAndTraces) {
+  if (sanitized) GTEST_SKIP() << "long; what it runs through, shorter tests do";
   StressReport report;
   StressOptions options;
   options.quick = true;
