@@ -8,10 +8,19 @@
 #include "record/bed_replica.h"
 #include "record/spsc_ring.h"
 #include "sand/relaxation.h"
+#include "sand/tool_footprint.h"
+#include "sim/slip_schedule.h"
 
 namespace sandstroke {
 
+/// Where the tool was in a tick of the servo loop.
+struct ToolPlace {
+  Eigen::Vector3d tip = Eigen::Vector3d::Zero();  ///< m, in the bed
+  bool contact = false;
+};
+
 using SandRing = SpscRing<SandChange>;
+using PlaceRing = SpscRing<ToolPlace>;
 
 /// How the erosion of a live bed went.
 struct ErosionReport {
@@ -21,16 +30,18 @@ struct ErosionReport {
 };
 
 /// Lets a bed that is felt live slip, outside the servo loop as in the paper (section 4): takes what the tool
-/// dug from `dug`, relaxes its own replica, and gives what slipped to `slipped`.
+/// dug from `dug` and where it is from `places`, relaxes its own replica, under a solid tool as it was last
+/// told of, and gives what slipped to `slipped`.
 class Eroder {
  public:
   /// relaxer: none = as the settings say.
-  Eroder(const HeightField& bed, const RelaxationSettings& settings, SandRing& dug, SandRing& slipped,
-         std::unique_ptr<Relaxer> relaxer = nullptr);
+  Eroder(const HeightField& bed, const ToolSettings& tool, const RelaxationSettings& settings, SandRing& dug,
+         PlaceRing& places, SandRing& slipped, std::unique_ptr<Relaxer> relaxer = nullptr);
   ~Eroder() { stop(); }
 
-  /// In a thread of its own, settings.rate times a second, or, where that takes longer, one after the other.
-  /// Sand that has far to go does so in several turns. What was dug is taken 60 times a second at least.
+  /// In a thread of its own, settings.rate times a second and by the tool's way, or, where that takes longer,
+  /// one after the other. Sand that has far to go does so in several turns. What was dug is taken 60 times a
+  /// second at least.
   void start();
   /// Ends that thread, after the relaxation that is going on.
   void stop();
@@ -50,11 +61,20 @@ class Eroder {
  private:
   void run();
   void give(const SandChange& change);
+  void hold();
+  /// The tool asks for it, or sand that it asked for is still on its way.
+  bool slip_is_due() const;
 
   BedReplica replica_;
-  double rate_;
+  double rate_, travel_;  // Hz, m
+  bool solid_;
+  ToolFootprint footprint_;
+  SlipSchedule slips_;
+  ToolPlace place_;
   std::unique_ptr<Relaxer> relaxer_;
-  SandRing &dug_, &slipped_;
+  SandRing& dug_;
+  PlaceRing& places_;
+  SandRing& slipped_;
   std::vector<SandChange> held_;  // could not be given before the stop
   std::atomic<bool> stopping_ = true;
   ErosionReport report_;

@@ -11,6 +11,7 @@ namespace sandstroke {
 namespace {
 
 constexpr std::size_t ring_size = std::size_t{1} << 20;   // changes: 16 MB each way
+constexpr std::size_t most_places = 1024;                 // of the tool, not looked at yet: a second of ticks
 constexpr int most_taken = 4096;                          // changes per tick: some 50 us
 const double gap_threshold = Stroke{}.gap_threshold;  // s: what `run` does not join is not joined here
 
@@ -44,9 +45,10 @@ LiveSand::LiveSand(const Scene& scene, const HeightField& bed, const std::string
       highest_(bed.highest()),
       dug_(ring_size),
       slipped_(ring_size),
+      places_(most_places),
       replica_(checked(scene, bed)),
-      eroder_(bed, scene.relaxation, dug_, slipped_),
-      sand_(scene.tool, scene.displacement) {
+      eroder_(bed, scene.tool, scene.relaxation, dug_, places_, slipped_),
+      sand_(scene.tool, scene.displacement, 0.0) {
   sand_.look(replica_.bed(), Eigen::Vector3d::Zero());  // takes the footprint's memory
 }
 
@@ -89,7 +91,7 @@ FeltForce LiveSand::feel(double time, const DeviceReading& reading) noexcept {
   FeltForce felt;
   Touch touch;
   if (dug_.room() >= changes_of_move(tip)) {
-    touch = sand_.move(replica_.bed(), tip, tip, highest_);
+    touch = sand_.move(replica_.bed(), tip, tip, {}, highest_);
     replica_.tell_disturbed([this](const SandChange& change) {
       dug_.push(change);
       highest_ = std::max(highest_, replica_.bed()(change.row, change.col));
@@ -100,6 +102,7 @@ FeltForce LiveSand::feel(double time, const DeviceReading& reading) noexcept {
     felt.flags |= held_sand;
     ++report_.held_ticks;
   }
+  places_.push({tip, touch.contact});  // where the ring is full the eroder knows an older one
   if (touch.contact) {
     ++report_.contact_ticks;
     felt.force = placement_.force_back(sand_force(touch.depth, speed, device_.max_force, force_).total);

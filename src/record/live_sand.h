@@ -72,6 +72,7 @@ class LiveSand : public FeltWorld {
   PointPlacement placement_;
   double highest_;  // m: no sand is higher
   SandRing dug_, slipped_;
+  PlaceRing places_;
   BedReplica replica_;
   Eroder eroder_;
   SandSide sand_;

@@ -109,6 +109,7 @@ Carved Carve(ToolFootprint& f, double tip_height, const RingFront& front) {
       const auto cut = hn::Gt(excess, zero);
       if (!hn::AllFalse(d, cut)) {
         hn::Store(hn::Sub(height, excess), d, f.heights(row) + col);
+        hn::Store(excess, d, f.excess(row) + col);
         pushed.add(col, excess);
         set_flags(flags, col, cut);
       }

@@ -38,7 +38,8 @@ HeightField::HeightField(const HeightField& other)
     : BedGeometry(other),
       untouched_(other.untouched_),
       slots_(zeros(tile_count())),
-      disturbed_(other.disturbed_) {
+      disturbed_(other.disturbed_),
+      held_(other.held_) {
   tiles_.reserve(other.tiles_.size());
   for (const auto& tile : other.tiles_) {
     slots_.get()[tile->index] = static_cast<std::uint32_t>(tiles_.size()) + 1;
@@ -64,6 +65,20 @@ void HeightField::settle() {
     tiles_[slot]->listed = false;
   }
   disturbed_.clear();
+}
+
+void HeightField::hold(const std::vector<RowCells>& cells) {
+  // Those of `rows` that the bed does not hold: of the new ones before, and of the old ones after the change.
+  const auto disturb_unheld = [this](const std::vector<RowCells>& rows) {
+    for (const RowCells& row : rows)
+      if (const std::uint64_t unheld = row.cells & ~tiles_[row.slot]->held[row.row_in_tile])
+        mark_disturbed(row.slot, row.row_in_tile, unheld);
+  };
+  disturb_unheld(cells);
+  for (const RowCells& row : held_) tiles_[row.slot]->held[row.row_in_tile] = 0;
+  for (const RowCells& row : cells) tiles_[row.slot]->held[row.row_in_tile] |= row.cells;
+  disturb_unheld(held_);
+  held_ = cells;
 }
 
 void HeightField::read_tile(int tile, double* out, std::ptrdiff_t stride) const {

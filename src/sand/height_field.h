@@ -16,6 +16,12 @@ namespace sandstroke {
 /// A bed seen as one block, height(row, col) in m; row-major, as files and pictures take it.
 using HeightGrid = Eigen::Array<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
+/// Some cells of a row of a tile: bit c is column c.
+struct RowCells {
+  int slot, row_in_tile;
+  std::uint64_t cells;
+};
+
 /// Mean cell heights [m] of a bed. A tile of cells comes into being when something touches it; until then it
 /// is the initial surface by rule. So memory follows what is touched, not the bed. Tiles that exist are
 /// numbered by `slot`, in the order in which they came, and each has a revision that changes when one of its
@@ -75,6 +81,15 @@ class HeightField : public BedGeometry {
   const CellFlags& disturbed_cells(int slot) const { return tiles_[slot]->disturbed; }
   void settle();
 
+  /// The next relaxations take these cells for walls, and no others: a solid tool stands on them. The next one
+  /// looks at those that are held now and were not, or the other way round.
+  void hold(const std::vector<RowCells>& cells);
+  const CellFlags& held_cells(int slot) const { return tiles_[slot]->held; }
+  bool is_held(int row, int col) const {
+    const int slot = slot_of(tile_index(row / tile_side, col / tile_side));
+    return slot >= 0 && (held_cells(slot)[row % tile_side] >> (col % tile_side) & 1) != 0;
+  }
+
   /// Changes whenever a cell of the tile may have changed; 0 while it does not exist. By tile index.
   /// new_tile_revision: it came into being by rule and is still as the rule says.
   static constexpr std::uint64_t new_tile_revision = 1;
@@ -99,6 +114,7 @@ class HeightField : public BedGeometry {
   struct alignas(64) Tile {
     std::array<double, tile_area> heights;
     CellFlags disturbed;  // set since settle()
+    CellFlags held;
     std::uint64_t revision;
     int index;
     bool listed;  // in disturbed_
@@ -118,6 +134,7 @@ class HeightField : public BedGeometry {
   std::unique_ptr<std::uint32_t, Free> slots_;
   std::vector<std::unique_ptr<Tile>> tiles_;
   std::vector<int> disturbed_;
+  std::vector<RowCells> held_;
 };
 
 /// Where neither bed (of one shape) has a tile, both are known to have the same heights.

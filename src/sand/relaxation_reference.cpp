@@ -31,6 +31,9 @@ class ReferenceRelaxer : public Relaxer {
     RelaxationOutcome outcome;
     outcome.tiles_active_max = bed.tile_count();
     heights_ = bed.grid();
+    held_.resize(bed.rows(), bed.cols());
+    for (int row = 0; row < rows(); ++row)
+      for (int col = 0; col < cols(); ++col) held_(row, col) = bed.is_held(row, col);
     CompensatedSum moved;
     while (true) {
       outcome.cells_visited += heights_.size();
@@ -62,10 +65,15 @@ class ReferenceRelaxer : public Relaxer {
   int rows() const { return static_cast<int>(heights_.rows()); }
   int cols() const { return static_cast<int>(heights_.cols()); }
 
-  /// By how much (row, col) stands above its neighbour; -infinity at the wall, where nothing flows.
+  /// Outside the bed, or held by a solid tool.
+  bool is_wall(int row, int col) const {
+    return row < 0 || row >= rows() || col < 0 || col >= cols() || held_(row, col);
+  }
+
+  /// By how much (row, col) stands above its neighbour; -infinity where either is a wall: nothing flows.
   double drop(int row, int col, Offset to) const {
     const int r = row + to.row, c = col + to.col;
-    if (r < 0 || r >= rows() || c < 0 || c >= cols()) return -std::numeric_limits<double>::infinity();
+    if (is_wall(row, col) || is_wall(r, c)) return -std::numeric_limits<double>::infinity();
     return heights_(row, col) - heights_(r, c);
   }
 
@@ -125,6 +133,7 @@ class ReferenceRelaxer : public Relaxer {
   TalusLaw law_;
   std::int64_t max_passes_;
   HeightGrid heights_, factors_;
+  Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> held_;
 };
 
 }  // namespace

@@ -44,6 +44,12 @@ void TilePatch::load(const HeightField& bed, int slot, const CellFlags& cells) {
         const int until = in_source < inside.rows() ? std::clamp(inside.cols(), first, last) : first;
         for (int col = first; col < until; ++col) out[col] = source[in_source * side + col];
         for (int col = until; col < last; ++col) out[col] = wall;
+        if (first == until) continue;
+        for (std::uint64_t held = bed.held_cells(other)[in_source] >> first; held; held &= held - 1) {
+          const int col = first + std::countr_zero(held);
+          if (col >= until) break;
+          out[col] = wall;
+        }
       }
     }
   }

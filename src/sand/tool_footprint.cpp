@@ -53,7 +53,7 @@ void ToolFootprint::make_room() {
   // As the tool moves, the window gains a row or a column, and so perhaps a group of the stride: not in a
   // servo loop.
   room_ = static_cast<std::size_t>(cells_.rows() + 1) * (stride_ + cells_per_group);
-  for (auto* memory : {&heights_, &underside_, &rampart_, &weights_}) {
+  for (auto* memory : {&heights_, &underside_, &rampart_, &weights_, &excess_}) {
     *memory = hwy::AllocateAligned<double>(room_);
     std::fill_n(memory->get(), room_, 0.0);
   }
@@ -71,6 +71,18 @@ void for_tile_columns(const CellRange& cells, const Body& body) {
     body(first / side, first, end);
     first = end;
   }
+}
+
+/// `flags`, a group to a byte from column `first` of the bed on, as those of the tile column that they lie in.
+std::uint64_t flags_in_tile(const unsigned char* flags, const CellRange& cells, int tile_col, int first, int end) {
+  std::uint64_t in_tile = 0;  // no flag lies beyond the window's last column
+  for (int group = (first - cells.col_begin) / cells_per_group;
+       group <= (end - 1 - cells.col_begin) / cells_per_group; ++group) {
+    const int at = cells.col_begin + cells_per_group * group - tile_col * BedGeometry::tile_side;
+    const std::uint64_t bits = flags[group];
+    in_tile |= at < 0 ? bits >> -at : bits << at;
+  }
+  return in_tile;
 }
 
 }  // namespace
@@ -95,20 +107,33 @@ void ToolFootprint::write_flagged(HeightField& bed) {
   for_tile_columns(cells_, [&](int tile_col, int first, int end) {
     for (int row = cells_.row_begin; row < cells_.row_end; ++row) {
       const double* in = heights(row - cells_.row_begin) + (first - cells_.col_begin);
-      const unsigned char* flagged = flags(row - cells_.row_begin);
-      std::uint64_t changed = 0;  // no flag lies beyond the window's last column
-      for (int group = (first - cells_.col_begin) / cells_per_group;
-           group <= (end - 1 - cells_.col_begin) / cells_per_group; ++group) {
-        const int at = cells_.col_begin + cells_per_group * group - tile_col * side;
-        const std::uint64_t bits = flagged[group];
-        changed |= at < 0 ? bits >> -at : bits << at;
-      }
+      const std::uint64_t changed =
+          flags_in_tile(flags(row - cells_.row_begin), cells_, tile_col, first, end);
       if (!changed) continue;
       const int slot = bed.touch(bed.tile_index(row / side, tile_col));
       std::copy_n(in, end - first, bed.tile_heights(slot) + (row % side) * side + first % side);
       bed.mark_disturbed(slot, row % side, changed);
     }
   });
+}
+
+void ToolFootprint::hold_bowl(HeightField& bed) {
+  constexpr int side = BedGeometry::tile_side;
+  bowl_.clear();
+  for (int row = 0; row < cells_.rows(); ++row) {
+    std::fill_n(flags(row), stride_ / cells_per_group, static_cast<unsigned char>(0));
+    for (int col = 0; col < cells_.cols(); ++col)
+      if (std::isfinite(underside(row)[col]))
+        flags(row)[col / cells_per_group] |= static_cast<unsigned char>(1u << col % cells_per_group);
+  }
+  for_tile_columns(cells_, [&](int tile_col, int first, int end) {
+    for (int row = cells_.row_begin; row < cells_.row_end; ++row) {
+      const std::uint64_t held =
+          flags_in_tile(flags(row - cells_.row_begin), cells_, tile_col, first, end);
+      if (held) bowl_.push_back({bed.touch(bed.tile_index(row / side, tile_col)), row % side, held});
+    }
+  });
+  bed.hold(bowl_);
 }
 
 }  // namespace sandstroke

@@ -2,6 +2,8 @@
 
 #include <hwy/aligned_allocator.h>
 
+#include <vector>
+
 #include "sand/height_field.h"
 
 namespace sandstroke {
@@ -12,6 +14,7 @@ enum class ToolProfile { paper, sphere };
 struct ToolSettings {
   double radius = 0.01;  ///< m, of the sphere (paper 4.1)
   ToolProfile profile = ToolProfile::paper;
+  bool solid = false;  ///< while it touches the sand, relaxation takes the cells under its bowl for walls
 };
 
 /// The paper's filter g(u) = sin(u) - 0.53, u = (rho/s)^2 (figure 2): negative up to u0 = asin(0.53),
@@ -73,6 +76,10 @@ class ToolFootprint {
   double* weights(int row) { return weights_.get() + at(row); }
   unsigned char* flags(int row) { return flags_.get() + at(row) / cells_per_group; }
   void write_flagged(HeightField& bed);
+  double* excess(int row) { return excess_.get() + at(row); }
+
+  /// The bed holds the cells of the bowl, and no others (HeightField::hold).
+  void hold_bowl(HeightField& bed);
 
   double radius() const { return shape_.radius; }  ///< m, of the sphere
   /// rho1 = s sqrt(u1) [m]: how far the footprint reaches.
@@ -88,7 +95,8 @@ class ToolFootprint {
   int stride_ = 0;
   double axis_x_ = 0.0, axis_y_ = 0.0, first_x_ = 0.0, first_y_ = 0.0, cell_size_ = 0.0, level_;
   std::size_t room_ = 0;
-  hwy::AlignedFreeUniquePtr<double[]> heights_, underside_, rampart_, weights_;
+  hwy::AlignedFreeUniquePtr<double[]> heights_, underside_, rampart_, weights_, excess_;
+  std::vector<RowCells> bowl_;  // while it is handed over
   hwy::AlignedFreeUniquePtr<unsigned char[]> flags_;
 };
 

@@ -1,20 +1,28 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <optional>
 
-#include "sand/displacement.h"
+#include "sand/bed_geometry.h"
 
 namespace sandstroke {
 
-/// Displaces along the straight way of a tip from one tick's place to the next one's [m], both left out, as
-/// ticks in between would: at equal steps of half a radius at most along the bed, so that a fast drag leaves
-/// a furrow and not a row of pits. (Steps straight down make no difference, and a tick of at most half a
-/// radius does nothing here.) Only the part of the way over the bed and below its highest sand costs
-/// anything. highest [m]: no sand is higher; none: it is looked up, which visits every tile. Returns the
-/// volume moved [m^3]. The footprint is used up.
-double displace_between(HeightField& bed, ToolFootprint& footprint, const Eigen::Vector3d& from,
-                        const Eigen::Vector3d& to, const DisplacementSettings& settings,
-                        std::optional<double> highest = {});
+/// Places along a straight way of a tip [m], at equal steps: at(0) to at(count), both ends left out by whoever
+/// has been, or will be, there.
+struct TipSteps {
+  Eigen::Vector3d begin = Eigen::Vector3d::Zero(), way = Eigen::Vector3d::Zero();
+  std::int64_t count = 0;
+  Eigen::Vector3d at(std::int64_t i) const {
+    return begin + static_cast<double>(i) / static_cast<double>(count) * way;
+  }
+};
+
+/// The way from one tick's place to the next one's [m], at steps of `longest` [m] at most along the bed, so
+/// that a fast drag leaves a furrow and not a row of pits: ticks in between would go the same. No steps where
+/// the tick is no longer than one. Only the part of the way that a footprint of `reach` [m] sees the bed from,
+/// and below `highest` [m], counts: a way from beyond all measure costs only what crosses the sand.
+TipSteps steps_between(const BedGeometry& bed, double reach, const Eigen::Vector3d& from,
+                       const Eigen::Vector3d& to, double longest, double highest);
 
 }  // namespace sandstroke

@@ -5,6 +5,16 @@
 #include "sand/tool_path.h"
 
 namespace sandstroke {
+namespace {
+
+/// Of the radius. A drag at 2 radii a tick then leaves the mean furrow depth of 20 times as many ticks within
+/// 2.5 %, with steps of a whole radius within 9 %, without any 49 % short (4 and 10 mm deep).
+constexpr double longest_step = 0.5;
+
+}  // namespace
+
+SandSide::SandSide(const ToolSettings& tool, const DisplacementSettings& displacement, double travel)
+    : footprint_(tool), displacement_(displacement), solid_(tool.solid), slips_(travel) {}
 
 Touch SandSide::look(const HeightField& bed, const Eigen::Vector3d& read_tip) {
   footprint_.place(bed, read_tip.x(), read_tip.y());
@@ -16,16 +26,48 @@ Touch SandSide::look(const HeightField& bed, const Eigen::Vector3d& read_tip) {
   return touch;
 }
 
+Touch SandSide::dig(HeightField& bed, const Eigen::Vector3d& tip, const Eigen::Vector3d& motion) {
+  Touch touch = look(bed, tip);
+  if (touch.contact) touch.displaced_volume = displace(bed, footprint_, tip.z(), motion, displacement_);
+  tip_ = tip;
+  contact_ = touch.contact;
+  return touch;
+}
+
 Touch SandSide::move(HeightField& bed, const Eigen::Vector3d& read_tip, const Eigen::Vector3d& true_tip,
-                     std::optional<double> highest) {
+                     const std::function<void()>& slip, std::optional<double> highest) {
   const Eigen::Vector3d motion = last_tip_ ? Eigen::Vector3d(true_tip - *last_tip_) : Eigen::Vector3d::Zero();
-  const double on_the_way =
-      displace_between(bed, footprint_, read_tip - motion, read_tip, displacement_, highest);
-  Touch touch = look(bed, read_tip);
-  touch.displaced_volume = on_the_way;
-  if (touch.contact) touch.displaced_volume += displace(bed, footprint_, read_tip.z(), motion, displacement_);
+  TipSteps steps{read_tip - motion, motion, 1};
+  const double longest = longest_step * footprint_.radius();
+  if (motion.head<2>().stableNorm() > longest)
+    steps = steps_between(bed, footprint_.reach(), steps.begin, read_tip, longest,
+                          highest ? *highest : bed.highest());
+  double on_the_way = 0.0;
+  for (std::int64_t i = 1; i <= steps.count; ++i) {
+    Eigen::Vector3d from = steps.at(i - 1);
+    while (const std::optional<double> share = slips_.way_to_next(from, steps.at(i) - from)) {
+      from += *share * (steps.at(i) - from);
+      on_the_way += dig(bed, from, steps.way).displaced_volume;
+      slip();
+    }
+    if (i == steps.count) break;
+    on_the_way += dig(bed, steps.at(i), steps.way).displaced_volume;
+    if (slip_is_due()) slip();
+  }
+  Touch touch = dig(bed, read_tip, motion);
+  if (slip_is_due()) slip();
+  touch.displaced_volume += on_the_way;
   last_tip_ = true_tip;
   return touch;
+}
+
+void SandSide::hold(HeightField& bed) {
+  slips_.slipped(tip_, contact_);
+  if (!solid_) return;
+  if (contact_)
+    footprint_.hold_bowl(bed);
+  else
+    bed.hold({});
 }
 
 }  // namespace sandstroke

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <functional>
 #include <limits>
 #include <optional>
 
 #include "sand/displacement.h"
+#include "sim/slip_schedule.h"
 
 namespace sandstroke {
 
@@ -19,27 +21,40 @@ struct Touch {
 /// The sand's side of a tick: a tool that goes through a bed, from place to place.
 class SandSide {
  public:
-  SandSide(const ToolSettings& tool, const DisplacementSettings& displacement)
-      : footprint_(tool), displacement_(displacement) {}
+  /// travel [m]: its way between two slips (SlipSchedule).
+  SandSide(const ToolSettings& tool, const DisplacementSettings& displacement, double travel);
 
   /// Displaces along the way from the last tick's place and at this one [m]. read_tip: as the device's
-  /// encoders read it; true_tip: where it is, for encoder steps are no motion. highest [m]: no sand is
-  /// higher; none: it is looked up where it matters (displace_between).
+  /// encoders read it; true_tip: where it is, for encoder steps are no motion. slip(): called with the tool at
+  /// the places where sand is to slip by its way; it calls hold(). highest [m]: no sand is higher; none: it is
+  /// looked up where it matters, which visits every tile.
   Touch move(HeightField& bed, const Eigen::Vector3d& read_tip, const Eigen::Vector3d& true_tip,
-             std::optional<double> highest = {});
+             const std::function<void()>& slip, std::optional<double> highest = {});
   /// The same place, without displacing anything.
   Touch look(const HeightField& bed, const Eigen::Vector3d& read_tip);
-  /// The next move() begins anew: nothing is displaced on the way to it.
-  void lift() { last_tip_.reset(); }
+  /// The tool touches nothing until the next move(), which begins anew: nothing is displaced on the way to it.
+  void lift() {
+    last_tip_.reset();
+    contact_ = false;
+  }
+  bool slip_is_due() const { return slips_.is_due(tip_, contact_); }
+  /// Sand is about to slip: a solid tool in contact, and none else, holds the cells under its bowl.
+  void hold(HeightField& bed);
 
   const ToolFootprint& footprint() const { return footprint_; }
   /// Where it was in the last tick [m]; none where it was lifted since.
   const std::optional<Eigen::Vector3d>& last_tip() const { return last_tip_; }
 
  private:
+  Touch dig(HeightField& bed, const Eigen::Vector3d& tip, const Eigen::Vector3d& motion);
+
   ToolFootprint footprint_;
   DisplacementSettings displacement_;
-  std::optional<Eigen::Vector3d> last_tip_;  // the true one
+  bool solid_;
+  SlipSchedule slips_;
+  std::optional<Eigen::Vector3d> last_tip_;        // the true one
+  Eigen::Vector3d tip_ = Eigen::Vector3d::Zero();  // as read, where it dug last
+  bool contact_ = false;                           // there
 };
 
 }  // namespace sandstroke

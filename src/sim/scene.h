@@ -16,8 +16,8 @@
 
 namespace sandstroke {
 
-/// As published (paper), or with each choice for accuracy: sphere, ahead, isotropic, rkl, relaxed 240
-/// times a second.
+/// As published (paper), or with each choice for accuracy: solid sphere, outward, isotropic, rkl, relaxed by
+/// way.
 enum class ModelPreset { paper, accurate };
 
 struct BedSettings {

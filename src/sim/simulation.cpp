@@ -26,7 +26,7 @@ Simulation::Simulation(const Scene& scene, HeightField bed, std::optional<Stroke
                        std::unique_ptr<Relaxer> relaxer)
     : scene_(scene),
       bed_(std::move(bed)),
-      sand_(scene.tool, scene.displacement),
+      sand_(scene.tool, scene.displacement, scene.relaxation.travel * bed_.cell_size()),
       relaxer_(relaxer ? std::move(relaxer) : make_relaxer(scene.relaxation, bed_.cell_size())) {
   if (!stroke) return;
   if (!(stroke->duration() * scene.device.servo_rate < 1e15))
@@ -52,7 +52,8 @@ void Simulation::check_inside(const Stroke& stroke) const {
   }
 }
 
-TickRecord Simulation::tick(double time, const Hand& hand, const Hand& next, DeviceSide& side) {
+TickRecord Simulation::tick(double time, const Hand& hand, const Hand& next, DeviceSide& side,
+                            const std::function<void()>& slip) {
   TickRecord record;
   const SimulatedDevice::State reading = side.device().read();
   const Eigen::Vector3d tip = tip_of(scene_.device, reading.position);
@@ -62,17 +63,21 @@ TickRecord Simulation::tick(double time, const Hand& hand, const Hand& next, Dev
   record.next = next;
   record.device_position = reading.position;
   if (hand.down) {
-    const Touch touch = sand_.move(bed_, tip, true_tip);
+    const Touch touch = sand_.move(bed_, tip, true_tip, slip);
     record.level = touch.level;
     record.depth = touch.depth;
     record.displaced_volume = touch.displaced_volume;
     record.contact = touch.contact;
+  } else {
+    sand_.lift();
+    if (sand_.slip_is_due()) slip();
   }
   side.feel(record);
   return record;
 }
 
 void Simulation::relax(double time, SimulationObserver& observer) {
+  sand_.hold(bed_);
   const RelaxationOutcome outcome =
       relaxer_->relax(bed_, [&observer](std::int64_t passes) { observer.on_pass(passes); });
   result_.passes += outcome.passes;
@@ -110,12 +115,14 @@ void Simulation::run_stroke(SimulationObserver& observer) {
   Hand hand = stroke_->at(begin);
   DeviceSide device(scene_.force, scene_.device, hand);
 
+  double time = 0.0;
+  const std::function<void()> slip = [&] { relax(time, observer); };
   for (std::int64_t k = 0; k < ticks && !interrupted(); ++k) {
-    const double time = static_cast<double>(k) / servo_rate;
+    time = static_cast<double>(k) / servo_rate;
     if (k == 0 && scene_.output.frames > 0.0) observer.on_frame(0.0, bed_);
     const double next_time = std::min(begin + static_cast<double>(k + 1) / servo_rate, stroke_->end_time());
     const Hand next = stroke_->at(next_time);
-    const TickRecord record = tick(time, hand, next, device);
+    const TickRecord record = tick(time, hand, next, device, slip);
 
     device.advance(record);
     check_near(record, device.device());
@@ -142,6 +149,7 @@ RunResult Simulation::run(SimulationObserver& observer) {
   result_.volume_initial = bed_.volume();
   if (stroke_) run_stroke(observer);
   if (!interrupted()) {
+    sand_.lift();
     relax(result_.simulated_seconds, observer);
     result_.interrupted = interrupted() != 0 && !result_.converged;
   } else {

@@ -44,7 +44,8 @@ class Simulation {
   void check_inside(const Stroke& stroke) const;
   void run_stroke(SimulationObserver& observer);
   /// What sand and device do in the tick in which the hand goes from one place to the next.
-  TickRecord tick(double time, const Hand& hand, const Hand& next, DeviceSide& device);
+  TickRecord tick(double time, const Hand& hand, const Hand& next, DeviceSide& device,
+                  const std::function<void()>& slip);
   void relax(double time, SimulationObserver& observer);
   /// Error: unstable, where the device, at the end of a tick, has left all bounds.
   void check_near(const TickRecord& record, const SimulatedDevice& device) const;

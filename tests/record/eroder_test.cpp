@@ -12,7 +12,8 @@ TEST(Eroder, ThatErodesOnceInAnAgeTakesWhatIsDugMeanwhileAndEndsWhenItIsAsked) {
     RelaxationSettings settings;
     settings.rate = rate;
     SandRing dug(8), slipped(8);
-    Eroder eroder(HeightField(10, 10, 0.01), settings, dug, slipped);
+    PlaceRing places(8);
+    Eroder eroder(HeightField(10, 10, 0.01), {}, settings, dug, places, slipped);
     eroder.start();
     for (int i = 0; i < 3; ++i) {
       dug.push({5, i, -1e-6});
@@ -22,6 +23,43 @@ TEST(Eroder, ThatErodesOnceInAnAgeTakesWhatIsDugMeanwhileAndEndsWhenItIsAsked) {
     for (int i = 0; i < 3; ++i) EXPECT_EQ(eroder.bed()(5, i), -1e-6);
     EXPECT_EQ(eroder.report().relaxations, rate > 0.0 ? 1 : 0);
   }
+}
+
+/// A bed with a heap where a solid tool stands, and slips as often as the tool goes its way.
+TEST(Eroder, UnderASolidToolNothingSlipsUntilItHasGone) {
+  const ToolSettings tool{0.03, ToolProfile::sphere, true};
+  RelaxationSettings settings;
+  settings.rate = 0.0, settings.travel = 1.0;
+  SandRing dug(64), slipped(64);
+  PlaceRing places(8);
+  Eroder eroder(HeightField(41, 41, 0.01), tool, settings, dug, places, slipped);
+  dug.push({20, 20, 0.05});
+  places.push({{0.0, 0.0, -0.01}, true});
+  eroder.turn();
+  EXPECT_EQ(eroder.bed()(20, 20), 0.05);
+  EXPECT_EQ(slipped.size(), 0u);
+  places.push({{0.0, 0.0, 0.1}, false});
+  eroder.turn();
+  EXPECT_LT(eroder.bed()(20, 20), 0.05);
+  EXPECT_GT(slipped.size(), 0u);
+}
+
+TEST(Eroder, SlipsInItsThreadAsOftenAsTheToolHasGoneItsWay) {
+  RelaxationSettings settings;
+  settings.rate = 0.0, settings.travel = 1.0;
+  SandRing dug(64), slipped(1 << 12);
+  PlaceRing places(8);
+  Eroder eroder(HeightField(41, 41, 0.01), {0.03, ToolProfile::sphere, true}, settings, dug, places, slipped);
+  eroder.start();
+  for (int i = 0; i <= 20; ++i) {  // touches down, and goes two cells in steps of a tenth
+    places.push({{0.001 * i, 0.0, -0.01}, true});
+    while (places.size() > 0) std::this_thread::yield();
+  }
+  places.push({{0.0, 0.0, 0.1}, false});
+  while (places.size() > 0) std::this_thread::yield();
+  eroder.stop();
+  EXPECT_GE(eroder.report().relaxations, 3);
+  EXPECT_LE(eroder.report().relaxations, 5);  // at the start, three by its way, as it leaves
 }
 
 /// Of a machine without memory left.
@@ -34,7 +72,8 @@ class FailingRelaxer : public Relaxer {
 
 TEST(Eroder, ThatFailsEndsItsThreadAndNotTheProgram) {
   SandRing dug(8), slipped(8);
-  Eroder eroder(HeightField(10, 10, 0.01), {}, dug, slipped, std::make_unique<FailingRelaxer>());
+  PlaceRing places(8);
+  Eroder eroder(HeightField(10, 10, 0.01), {}, {}, dug, places, slipped, std::make_unique<FailingRelaxer>());
   dug.push({5, 5, -1e-6});
   eroder.start();
   while (dug.size() > 0) std::this_thread::yield();  // in the first turn, which fails right after

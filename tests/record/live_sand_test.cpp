@@ -168,7 +168,8 @@ TEST(LiveSand, ErodingInItsOwnThreadLosesNoSand) {
 TEST(LiveSand, TakesNoMemoryInTheLoop) {
   if (!allocations_are_counted()) GTEST_SKIP() << "allocations are not counted under sanitizers";
   Scene scene = small_scene();
-  scene.displacement.deposit = Deposit::ahead;
+  scene.preset = ModelPreset::accurate;
+  apply_model_preset(scene);
   LiveSand sand(scene, bed_of(scene), "bed");
   sand.start();
   const std::vector<double> times = even_times(3.0);

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <random>
 
@@ -51,7 +52,7 @@ TEST(Displacement, KeepsTheSandLevelUnderAToolAtRest) {
 
 TEST(Displacement, APlungeAtACellCentreIsSymmetricToTheBit) {
   for (const ToolProfile profile : {ToolProfile::paper, ToolProfile::sphere})
-    for (const Deposit deposit : {Deposit::ring, Deposit::ahead})
+    for (const Deposit deposit : {Deposit::ring, Deposit::ahead, Deposit::outward})
       for (const RelaxationLaw law : {RelaxationLaw::paper, RelaxationLaw::isotropic}) {
         HeightField bed(129, 129, dx);  // the tile border runs through the patch
         ToolFootprint footprint({R, profile});
@@ -99,8 +100,52 @@ TEST(Displacement, ConservesVolumeAnywhereAtWallsAndCorners) {
     ToolFootprint footprint({R, ToolProfile::paper});
     footprint.place(bed, place(random), place(random));
     const double moved = displace(bed, footprint, -0.005, {motion(random), motion(random), motion(random)},
-                                  {i % 2 ? Deposit::ring : Deposit::ahead});
+                                  {std::array{Deposit::ring, Deposit::ahead, Deposit::outward}[i % 3]});
     EXPECT_NEAR(bed.volume(), before, 1e-15 * 3600 * 0.002 * dx * dx + 1e-12 * moved);
+  }
+}
+
+TEST(Displacement, OutwardCarriesEachCellsSandAlongItsOwnNormal) {
+  // One grain, at an angle from the axis, lands at that angle, `distance` radii away; its place between cells
+  // is kept (their mean place is its), and nothing depends on the motion.
+  for (const double angle : {0.0, 0.3, 1.2, 2.5, 4.0})
+    for (const double axis : {0.0, 0.0007}) {
+      HeightField bed(61, 61, dx);
+      const double x = axis + 3.0 * dx * std::cos(angle), y = 3.0 * dx * std::sin(angle);
+      const int row = static_cast<int>(std::lround(bed.row_at(y))), col = static_cast<int>(std::lround(bed.col_at(x)));
+      bed.set(row, col, 0.005);
+      ToolFootprint footprint({R, ToolProfile::sphere});
+      footprint.place(bed, axis, 0.0);
+      const double tip = 0.005 - 1e-4 - footprint.underside(row - footprint.cells().row_begin)[col - footprint.cells().col_begin];
+      HeightField other = bed;
+      const double volume = displace(bed, footprint, tip, down, {Deposit::outward, 1.3});
+      EXPECT_NEAR(volume, 1e-4 * dx * dx, 1e-18);
+      Eigen::Vector2d centre = Eigen::Vector2d::Zero();
+      for (int r = 0; r < 61; ++r)
+        for (int c = 0; c < 61; ++c)
+          if (r != row || c != col) centre += bed(r, c) * dx * dx / volume * Eigen::Vector2d(bed.x_of(c) - axis, bed.y_of(r));
+      const Eigen::Vector2d normal = Eigen::Vector2d(bed.x_of(col) - axis, bed.y_of(row)).normalized();
+      EXPECT_LT((centre - 1.3 * R * normal).norm(), 1e-9) << angle;
+      footprint.place(other, axis, 0.0);
+      displace(other, footprint, tip, {1e-3, -2e-3, 0.0}, {Deposit::outward, 1.3});
+      EXPECT_TRUE((other.grid() == bed.grid()).all());
+    }
+}
+
+TEST(Displacement, OutwardGivesNothingToTheBowlAndTakesItOutOnce) {
+  // A projection: what was taken out is out, so that a second time, at the same place, takes out nothing.
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> place(-0.01, 0.01), height(-0.002, 0.002);
+  for (int i = 0; i < 50; ++i) {
+    HeightField bed(60, 60, dx);
+    for (int row = 0; row < 60; ++row)
+      for (int col = 0; col < 60; ++col) bed.set(row, col, height(random));
+    const double x = place(random), y = place(random);
+    ToolFootprint footprint({R, ToolProfile::sphere});
+    footprint.place(bed, x, y);
+    ASSERT_GT(displace(bed, footprint, -0.006, down, {Deposit::outward}), 0.0);
+    footprint.place(bed, x, y);
+    EXPECT_LT(displace(bed, footprint, -0.006, down, {Deposit::outward}), 1e-15 * R * R * R);
   }
 }
 

@@ -55,21 +55,25 @@ class RandomScene {
     relaxation.max_passes = whole(0, 5) ? 60 : whole(0, 3);  // the reference is slow
     tool.radius = real(0.6, 7.0) * dx;
     tool.profile = whole(0, 1) ? ToolProfile::paper : ToolProfile::sphere;
-    deposit.deposit = whole(0, 1) ? Deposit::ring : Deposit::ahead;
+    const Deposit deposits[] = {Deposit::ring, Deposit::ahead, Deposit::outward};
+    deposit.deposit = deposits[whole(0, 2)];
   }
 
-  /// Pushes the tool into each bed, at the same place: anywhere, along a tile border, or along a wall.
+  /// Pushes the tool into each bed, at the same place: anywhere, along a tile border, or along a wall. There it
+  /// stays, or not, as a solid one.
   void push(std::initializer_list<HeightField*> beds) {
     const int at = whole(0, 2);
     const double row = at == 0 ? real(0, bed.rows()) : at == 1 ? real(61, 67) : real(0, 3);
     const double col = at == 0 ? real(0, bed.cols()) : at == 1 ? real(60, 68) : real(0, bed.cols());
     const double depth = real(0.0, 4.0) * dx;
     const Eigen::Vector3d motion(real(-dx, dx), real(-dx, dx), real(-dx, dx));
+    const bool stays = whole(0, 1) == 1;
     for (HeightField* one : beds) {
       ToolFootprint footprint(tool);
       footprint.place(*one, one->x_of(0) + col * dx, one->y_of(0) + row * dx);
       if (!footprint.cells().empty())
         displace(*one, footprint, footprint.sand_level() - depth, motion, deposit);
+      stays ? footprint.hold_bowl(*one) : one->hold({});
     }
   }
 

@@ -2,61 +2,37 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 
 namespace sandstroke {
 namespace {
 
-constexpr ToolSettings tool{0.01, ToolProfile::sphere};
+const BedGeometry hall(100, 100, 0.002);  // 0.2 m
+constexpr double tool_reach = 0.015, longest = 0.005, no_limit = 1e300;
 
-TEST(ToolPath, HalfARadiusIsNoPath) {
-  HeightField bed(100, 100, 0.002);
-  ToolFootprint footprint(tool);
-  EXPECT_EQ(displace_between(bed, footprint, {0.0, 0.0, -0.005}, {0.0049, 0.0, -0.02}, {}), 0.0);
-  EXPECT_EQ(bed.touched_tiles(), 0);
-}
-
-TEST(ToolPath, IsWhatTicksInBetweenWouldDisplace) {
+TEST(ToolPath, GoesInEqualStepsOfTheLongestAtMost) {
   const Eigen::Vector3d from(-0.02, 0.003, -0.002), to(0.03, -0.01, -0.007);
-  const DisplacementSettings settings{Deposit::ahead};
-  HeightField path(100, 100, 0.002), ticks(100, 100, 0.002);
-  ToolFootprint footprint(tool);
-  const double volume = displace_between(path, footprint, from, to, settings);
-
-  const int steps = 11;  // 51.7 mm along the bed in steps of at most 5 mm
-  double expected = 0.0;
-  for (int i = 1; i < steps; ++i) {
-    const Eigen::Vector3d tip = from + i / double{steps} * (to - from);
-    footprint.place(ticks, tip.x(), tip.y());
-    expected += displace(ticks, footprint, tip.z(), to - from, settings);
-  }
-  EXPECT_GT(expected, 0.0);
-  EXPECT_EQ(volume, expected);
-  EXPECT_TRUE((path.grid() == ticks.grid()).all());
-  EXPECT_NEAR(path.volume(), 0.0, 1e-12 * volume);
+  const TipSteps steps = steps_between(hall, tool_reach, from, to, longest, no_limit);
+  EXPECT_EQ(steps.count, 11);  // 51.7 mm along the bed
+  EXPECT_EQ(steps.at(0), from);
+  for (int i = 0; i <= 11; ++i) EXPECT_LT((steps.at(i) - (from + i / 11.0 * (to - from))).norm(), 1e-17);
 }
 
-TEST(ToolPath, InTheAirDisplacesNothing) {
-  HeightField bed(100, 100, 0.002);
-  ToolFootprint footprint(tool);
-  EXPECT_EQ(displace_between(bed, footprint, {-0.05, 0.0, 0.001}, {0.05, 0.0, 0.001}, {}), 0.0);
-  EXPECT_EQ(displace_between(bed, footprint, {-5.0, 3.0, -0.01}, {5.0, 3.0, -0.01}, {}),
-            0.0);  // beside the bed
+TEST(ToolPath, InTheAirOrBesideTheBedThereAreNoSteps) {
+  EXPECT_EQ(steps_between(hall, tool_reach, {-0.05, 0.0, 0.001}, {0.05, 0.0, 0.001}, longest, 0.0).count, 0);
+  EXPECT_EQ(steps_between(hall, tool_reach, {-5.0, 3.0, -0.01}, {5.0, 3.0, -0.01}, longest, 0.0).count, 0);
+  // The part of a dive below the highest sand: a tenth of it.
+  const TipSteps dive = steps_between(hall, tool_reach, {0.0, 0.0, 0.09}, {0.1, 0.0, -0.01}, longest, 0.0);
+  EXPECT_NEAR(dive.begin.z(), 0.0, 1e-15);
+  EXPECT_EQ(dive.count, 2);
 }
 
-TEST(ToolPath, FromBeyondAllMeasureCostsOnlyWhatCrossesTheSand) {
+TEST(ToolPath, FromBeyondAllMeasureCountsOnlyWhatCrossesTheSand) {
   for (const double far : {1.0, 1e6, 1e20, 1e300}) {
-    HeightField bed(100, 100, 0.002);
-    ToolFootprint footprint(tool);
-    const double volume =
-        displace_between(bed, footprint, {-far, 0.0, -0.005}, {far, 0.0, -0.005}, {Deposit::ahead});
-    EXPECT_TRUE(std::isfinite(volume));
-    EXPECT_TRUE(bed.grid().isFinite().all());
-    EXPECT_NEAR(bed.volume(), 0.0, 1e-12 * std::max(volume, 1e-9));
-    if (far < 1e10) {
-      EXPECT_LT(bed(49, 50), -0.003);
-    }
+    const TipSteps steps =
+        steps_between(hall, tool_reach, {-far, 0.0, -0.005}, {far, 0.0, -0.005}, longest, no_limit);
+    EXPECT_LE(steps.count, 47) << far;
+    EXPECT_LE(std::abs(steps.begin.x()), 0.116) << far;
   }
 }
 

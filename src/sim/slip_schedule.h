@@ -1,0 +1,31 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+
+namespace sandstroke {
+
+/// When sand is to slip by the way that a tool has gone through it: as it touches down, each time it is
+/// `travel` [m] from where sand slipped last, and as it leaves. So a stroke's outcome depends neither on its
+/// speed nor on how often it is sampled. A tool that trembles within `travel` asks for nothing.
+class SlipSchedule {
+ public:
+  /// travel: 0 = never.
+  explicit SlipSchedule(double travel) : travel_(travel) {}
+
+  /// With the tip here [m], in contact or not.
+  bool is_due(const Eigen::Vector3d& tip, bool contact) const;
+  /// Which share of a straight step of the tip, below 1, leads to where the next slip is due, by its way along
+  /// the bed; none where none is. (Straight down there is nothing to wait for on the way.)
+  std::optional<double> way_to_next(const Eigen::Vector3d& from, const Eigen::Vector3d& step) const;
+  /// Sand has slipped.
+  void slipped(const Eigen::Vector3d& tip, bool contact) {
+    slipped_at_ = contact ? std::optional(tip) : std::nullopt;
+  }
+
+ private:
+  double travel_;                              // m
+  std::optional<Eigen::Vector3d> slipped_at_;  // none: the tool was not in contact
+};
+
+}  // namespace sandstroke

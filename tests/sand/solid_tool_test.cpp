@@ -1,0 +1,127 @@
+// A tool that sand does not slip into: cells that a bed holds are walls to whatever relaxes it.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "sand/displacement.h"
+#include "sand/relaxation.h"
+#include "sand/symmetry.h"
+
+namespace sandstroke {
+namespace {
+
+constexpr double tool_radius = 0.01, cell = 0.002;
+const Eigen::Vector3d plunge(0.0, 0.0, -1e-4);
+
+std::vector<RelaxationSettings> relaxers() {
+  RelaxationSettings paper, isotropic, reference, rkl;
+  isotropic.law = rkl.law = RelaxationLaw::isotropic;
+  reference.engine = RelaxationEngine::reference;
+  rkl.method = RelaxationMethod::rkl;
+  return {paper, isotropic, reference, rkl};
+}
+
+/// A tool that has dug itself a pit, and stands in it.
+struct Standing {
+  HeightField bed{129, 129, cell};
+  ToolFootprint footprint{{tool_radius, ToolProfile::sphere, true}};
+  Standing() {
+    footprint.place(bed, 0.0, 0.0);
+    displace(bed, footprint, -0.007, plunge, {Deposit::outward});
+    footprint.hold_bowl(bed);
+  }
+};
+
+TEST(SolidTool, HoldsTheCellsOfItsBowlAndNoOthers) {
+  const Standing standing;
+  for (int row = 0; row < 129; ++row)
+    for (int col = 0; col < 129; ++col) {
+      const double from_axis = std::hypot(standing.bed.x_of(col), standing.bed.y_of(row));
+      if (std::abs(from_axis - tool_radius) < 1e-9) continue;  // on the rim: as rounding has it
+      EXPECT_EQ(standing.bed.is_held(row, col), from_axis < tool_radius) << row << ", " << col;
+    }
+}
+
+TEST(SolidTool, NoSandSlipsUnderItAndWhereItWasItDoes) {
+  for (const RelaxationSettings& settings : relaxers()) {
+    Standing standing;
+    HeightField& bed = standing.bed;
+    const HeightGrid before = bed.grid();
+    const auto relaxer = make_relaxer(settings, cell);
+    const RelaxationOutcome around = relaxer->relax(bed);
+    EXPECT_TRUE(around.converged);
+    EXPECT_GT(around.passes, 0);
+    double heap = 0.0;
+    for (int row = 0; row < 129; ++row)
+      for (int col = 0; col < 129; ++col) {
+        if (bed.is_held(row, col)) {
+          EXPECT_EQ(bed(row, col), before(row, col));
+        }
+        heap = std::max(heap, bed(row, col));
+      }
+    EXPECT_EQ(bed(64, 64), -0.007);
+    EXPECT_NEAR(bed.volume(), 0.0, 1e-18);
+
+    // Nothing else has changed: the cells that are free again are looked at, and the pit falls in.
+    bed.hold({});
+    const RelaxationOutcome after = relaxer->relax(bed);
+    EXPECT_TRUE(after.converged);
+    EXPECT_GT(after.passes, 0);
+    EXPECT_GT(bed(64, 64), -0.0069);
+    EXPECT_LE(after.residual, settings.tolerance);
+    EXPECT_LE(bed.grid().maxCoeff(), heap);  // no spike
+    EXPECT_NEAR(bed.volume(), 0.0, 1e-18);
+  }
+}
+
+TEST(SolidTool, AtRestChangesNothingEver) {
+  for (const RelaxationSettings& settings : relaxers()) {
+    Standing standing;
+    const auto relaxer = make_relaxer(settings, cell);
+    relaxer->relax(standing.bed);
+    // The rim's own cells are the bowl's: what stands there is taken out once.
+    standing.footprint.place(standing.bed, 0.0, 0.0);
+    displace(standing.bed, standing.footprint, -0.007, plunge, {Deposit::outward});
+    standing.footprint.hold_bowl(standing.bed);
+    relaxer->relax(standing.bed);
+    const HeightGrid rest = standing.bed.grid();
+    const int times = settings.engine == RelaxationEngine::reference ? 10 : 1000;
+    for (int i = 0; i < times; ++i) {
+      standing.footprint.place(standing.bed, 0.0, 0.0);
+      EXPECT_EQ(displace(standing.bed, standing.footprint, -0.007, plunge, {Deposit::outward}), 0.0);
+      standing.footprint.hold_bowl(standing.bed);
+      EXPECT_EQ(relaxer->relax(standing.bed).passes, 0);
+    }
+    EXPECT_TRUE((standing.bed.grid() == rest).all());
+  }
+}
+
+TEST(SolidTool, APlungeAtACellCentreIsSymmetricToTheBit) {
+  for (const RelaxationSettings& settings : relaxers()) {
+    if (settings.engine == RelaxationEngine::reference) continue;
+    HeightField bed(129, 129, cell);
+    ToolFootprint footprint({tool_radius, ToolProfile::sphere, true});
+    const auto relaxer = make_relaxer(settings, cell);
+    for (int i = 1; i <= 30; ++i) {
+      footprint.place(bed, 0.0, 0.0);
+      displace(bed, footprint, -3e-4 * i, plunge, {Deposit::outward});
+      footprint.hold_bowl(bed);
+      relaxer->relax(bed);
+    }
+    EXPECT_TRUE(has_square_symmetry(bed.grid()));
+    EXPECT_EQ(bed(64, 64), -3e-4 * 30);
+  }
+}
+
+TEST(SolidTool, ACopyHoldsWhatTheBedHolds) {
+  Standing standing;
+  HeightField copy = standing.bed;
+  EXPECT_TRUE(copy.is_held(64, 64));
+  copy.hold({});
+  EXPECT_FALSE(copy.is_held(64, 64));
+  EXPECT_TRUE(standing.bed.is_held(64, 64));
+}
+
+}  // namespace
+}  // namespace sandstroke

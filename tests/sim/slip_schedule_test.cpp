@@ -1,0 +1,42 @@
+#include "sim/slip_schedule.h"
+
+#include <gtest/gtest.h>
+
+namespace sandstroke {
+namespace {
+
+TEST(SlipSchedule, AsksAsTheToolTouchesDownHasGoneItsWayAndLeaves) {
+  SlipSchedule slips(0.01);
+  const Eigen::Vector3d here(0.1, 0.2, -0.003);
+  EXPECT_FALSE(slips.is_due(here, false));
+  EXPECT_TRUE(slips.is_due(here, true));
+  slips.slipped(here, true);
+  EXPECT_FALSE(slips.is_due(here, true));
+  EXPECT_FALSE(slips.is_due(here + Eigen::Vector3d(0.0, 0.0099, 0.0), true));
+  EXPECT_TRUE(slips.is_due(here + Eigen::Vector3d(0.006, -0.006, 0.006), true));  // 10.4 mm
+  EXPECT_TRUE(slips.is_due(here, false));
+  slips.slipped(here, false);
+  EXPECT_FALSE(slips.is_due(here, false));
+}
+
+TEST(SlipSchedule, WithoutTravelNeverAsks) {
+  const SlipSchedule slips(0.0);
+  EXPECT_FALSE(slips.is_due({1.0, 2.0, 3.0}, true));
+  EXPECT_FALSE(slips.way_to_next({0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}));
+}
+
+TEST(SlipSchedule, FindsWhereOnAStepTheNextSlipIsDue) {
+  SlipSchedule slips(0.01);
+  EXPECT_FALSE(slips.way_to_next({0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}));  // nothing has slipped
+  slips.slipped({0.0, 0.0, 0.0}, true);
+  EXPECT_NEAR(slips.way_to_next({0.004, 0.0, 0.0}, {0.008, 0.0, -0.5}).value(), 0.75, 1e-12);
+  EXPECT_FALSE(slips.way_to_next({0.004, 0.0, 0.0}, {0.0059, 0.0, 0.0}));
+  EXPECT_FALSE(slips.way_to_next({0.004, 0.0, 0.0}, {0.0, 0.0, -1.0}));  // straight down
+  // Back through where it slipped, and out on the other side.
+  EXPECT_NEAR(slips.way_to_next({0.005, 0.0, 0.0}, {-0.02, 0.0, 0.0}).value(), 0.75, 1e-12);
+  // From a place that is 10 mm behind the one where sand slipped, to 10 mm ahead of it.
+  EXPECT_NEAR(slips.way_to_next({-0.0099999, 0.0, 0.0}, {0.04, 0.0, 0.0}).value(), 0.5, 1e-4);
+}
+
+}  // namespace
+}  // namespace sandstroke
