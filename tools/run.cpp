@@ -1,6 +1,7 @@
 #include <spdlog/spdlog.h>
 
 #include <filesystem>
+#include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -33,9 +34,11 @@ struct RunArguments {
   bool json = false;
 };
 
-nlohmann::ordered_json as_json(const RunResult& r, const std::string& output) {
+nlohmann::ordered_json as_json(const RunResult& r, const Scene& scene, const std::string& output) {
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();  // null
   nlohmann::ordered_json json = {
       {"output", output},
+      {"preset", preset_names[static_cast<std::size_t>(scene.preset)]},
       {"wall_seconds", r.wall_seconds},
       {"ticks", r.ticks},
       {"simulated_seconds", r.simulated_seconds},
@@ -60,6 +63,8 @@ nlohmann::ordered_json as_json(const RunResult& r, const std::string& output) {
       {"max_force", r.max_force},
       {"mean_force", r.mean_force},
       {"max_depth", r.max_depth},
+      {"asked_depth", r.furrow ? r.furrow->asked_depth : none},
+      {"furrow_depth", r.furrow ? r.furrow->depth : none},
       {"absorbed_energy", r.absorbed_energy},
       {"least_absorbed_energy", r.least_absorbed_energy},
       {"least_passivity_margin", r.least_passivity_margin},
@@ -82,14 +87,18 @@ nlohmann::ordered_json as_json(const RunResult& r, const std::string& output) {
 
 void row(const char* name, const std::string& value) { fmt::print("{:<18} {}\n", name, value); }
 
-void print_summary(const RunResult& r, const std::string& output) {
+void print_summary(const RunResult& r, const Scene& scene, const std::string& output) {
   row("run", output);
+  row("model", "preset " + preset_names[static_cast<std::size_t>(scene.preset)]);
   if (!r.interrupted) row("for ParaView", beside(output, ".xdmf").string());
   if (r.ticks > 0) {
     row("stroke",
         fmt::format("{:.3f} s, {} ticks, {} in contact", r.simulated_seconds, r.ticks, r.contact_ticks));
     row("speed", fmt::format("{:.1f} times real time", r.simulated_seconds / r.wall_seconds));
     row("deepest", fmt::format("{:.3f} mm", 1e3 * r.max_depth));
+    if (r.furrow)
+      row("furrow", fmt::format("{:.2f} mm deep, of {:.2f} mm that the tip was asked to be (medians)",
+                                1e3 * r.furrow->depth, 1e3 * r.furrow->asked_depth));
     row("largest force",
         fmt::format("{:.3f} N{}", r.max_force,
                     r.saturated_ticks > 0 ? fmt::format(", limited in {} ticks", r.saturated_ticks) : ""));
@@ -166,9 +175,9 @@ int run(const RunArguments& arguments) {
 
   const std::string written = result.interrupted ? part_path(output).string() : output;
   if (arguments.json) {
-    print_json(as_json(result, written));
+    print_json(as_json(result, scene, written));
   } else {
-    print_summary(result, written);
+    print_summary(result, scene, written);
   }
   if (result.interrupted) return 128 + interrupted();
   if (!arguments.picture.empty()) {
@@ -177,6 +186,7 @@ int run(const RunArguments& arguments) {
   }
   if (result.ticks > 0 && result.contact_ticks == 0)
     spdlog::warn("the tool never touched the sand; check stroke.plane, stroke.depth and stroke.offset");
+  if (!result.furrow_warning.empty()) spdlog::warn("{}", result.furrow_warning);
   if (scene.device.model == DeviceModel::dynamic && loop_returned_energy(result, scene.device))
     spdlog::warn(
         "the sand returned up to {:.3g} J more than it took: the loop was not passive; lower force.k_s, "

@@ -15,6 +15,7 @@
 #include "io/run_writer.h"
 #include "io/stroke_file.h"
 #include "io/surface_file.h"
+#include "sim/furrow.h"
 #include "sim/recorded_force.h"
 #include "sim/stroke_depth.h"
 
@@ -28,7 +29,7 @@ class WriterWithProgress : public RunWriter {
   WriterWithProgress(const std::filesystem::path& path, const Simulation& simulation,
                      const std::string& stroke_hash, const std::string& scene_file,
                      const std::optional<Stroke>& stroke, bool progress, bool keep_force)
-      : RunWriter(path, simulation, stroke_hash, scene_file), keep_force_(keep_force) {
+      : RunWriter(path, simulation, stroke_hash, scene_file), keep_force_(keep_force), path_(simulation.scene()) {
     if (stroke && !stroke->force.empty()) recorded_force_.emplace(*stroke);
     if (progress) bar_.emplace("run");
   }
@@ -36,6 +37,7 @@ class WriterWithProgress : public RunWriter {
     RunWriter::on_tick(tick);
     if (keep_force_) force_.push_back(tick.device_force);
     if (recorded_force_) recorded_force_->compare(tick);
+    path_.add(tick);
   }
   void on_progress(double fraction) override {
     fraction_ = fraction;
@@ -47,6 +49,7 @@ class WriterWithProgress : public RunWriter {
   }
   void clear_bar() { bar_.reset(); }
   const std::vector<Eigen::Vector3d>& force() const { return force_; }
+  const TipPath& tip_path() const { return path_.path(); }
   const std::optional<RecordedForce>& recorded_force() const { return recorded_force_; }
 
  private:
@@ -55,6 +58,7 @@ class WriterWithProgress : public RunWriter {
   bool keep_force_;
   std::vector<Eigen::Vector3d> force_;  // N, per tick
   std::optional<RecordedForce> recorded_force_;
+  TipPathGatherer path_;
 };
 
 }  // namespace
@@ -86,7 +90,7 @@ RunResult run_scene(const Scene& scene, const std::filesystem::path& output, con
   if (options.second) second_scene(scene, *options.second);  // refused before any work, if at all
   HeightField bed = load_surface(scene.bed, options.scene_folder);
   std::optional<HeightField> start;
-  if (options.second) start = bed;
+  if (stroke || options.second) start = bed;
   Simulation simulation(scene, std::move(bed), stroke);
   if (stroke) {
     const std::string warning = depth_warning(scene, simulation.bed(), *stroke, stroke_path.string());
@@ -99,6 +103,10 @@ RunResult run_scene(const Scene& scene, const std::filesystem::path& output, con
   RunResult result = simulation.run(writer);
   result.threads = threads;
   if (writer.recorded_force()) result.recorded_force = writer.recorded_force()->difference();
+  if (result.contact_ticks > 0) {
+    result.furrow = measure_furrow(*start, simulation.bed(), writer.tip_path(), scene.tool.radius);
+    result.furrow_warning = furrow_warning(scene, writer.tip_path(), *result.furrow);
+  }
   writer.clear_bar();
   writer.finish(result, simulation.bed());
   if (options.second && !result.interrupted) {

@@ -179,6 +179,10 @@ void RunWriter::finish(const RunResult& result, const HeightField& surface) {
     return;
   }
   write_bed(file_, "/surface/final", surface);
+  if (result.furrow) {
+    file_.attribute("/surface/final", "furrow_depth", result.furrow->depth);
+    file_.attribute("/surface/final", "asked_depth", result.furrow->asked_depth);
+  }
   file_.attribute("/", "complete", 1.0);
   const std::filesystem::path xdmf = beside(path_, ".xdmf");
   std::filesystem::remove(

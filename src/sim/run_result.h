@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <string>
 
 #include "haptics/stroke_sampler.h"
 
@@ -51,6 +52,21 @@ struct ErrorEstimate {
   double wall_seconds = 0.0;  ///< what the estimate took
 };
 
+/// What a stroke left of itself, in cross-sections of the change of height (final - initial), so that the
+/// shape the bed had before does not count (sim/furrow.h). Not-a-number: nothing to measure.
+struct FurrowMeasures {
+  /// m, how far below the surface as it was the lowest point lies, of those within a tool radius of the path;
+  /// 0 where there is no furrow.
+  double depth = std::numeric_limits<double>::quiet_NaN();
+  /// m, between the points left and right of the lowest one where the change comes back to zero.
+  double width = std::numeric_limits<double>::quiet_NaN();
+  /// m, highest point, of either side, of the first sand outwards from there that was raised (and what joins
+  /// it).
+  double rampart = std::numeric_limits<double>::quiet_NaN();
+  /// m, how far below the surface as it was the hand wanted the tip.
+  double asked_depth = std::numeric_limits<double>::quiet_NaN();
+};
+
 /// What a whole run amounts to (`run --json`).
 struct RunResult {
   double wall_seconds = 0.0;  ///< the simulation, without start-up and file writing
@@ -82,6 +98,8 @@ struct RunResult {
   double least_passivity_margin = 0.0;  ///< N s/m, over contact ticks
   int threads = 1;
   bool interrupted = false;
+  std::optional<FurrowMeasures> furrow;           ///< where the stroke touched sand
+  std::string furrow_warning;                     ///< sim/furrow.h
   std::optional<ErrorEstimate> error;             ///< where it was asked for
   std::optional<ForceDifference> recorded_force;  ///< where the stroke was recorded with forces
 };

@@ -150,7 +150,7 @@ double memory_of_bed(const Scene& scene) {
 
 void describe_scene(SceneVisitor& v, Scene& scene) {
   v.section("model", "which set of choices the others start from");
-  choose(v, "preset", scene.preset, {"paper", "accurate"},
+  choose(v, "preset", scene.preset, preset_names,
          "as published; or solid sphere, outward, isotropic, rkl, relaxed by way");
   if (v.reads()) apply_model_preset(scene);
 

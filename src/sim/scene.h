@@ -19,6 +19,7 @@ namespace sandstroke {
 /// As published (paper), or with each choice for accuracy: solid sphere, outward, isotropic, rkl, relaxed by
 /// way.
 enum class ModelPreset { paper, accurate };
+inline const std::vector<std::string> preset_names = {"paper", "accurate"};
 
 struct BedSettings {
   double width = 2.0, depth = 2.0;  ///< m, along x and y

@@ -14,6 +14,8 @@ const std::vector<ProblemMaker>& problem_makers() {
       {"drag", drag_problem},
       {"dynamic", dynamic_problem},
       {"stroke-accurate", accurate_stroke_problem},
+      {"stroke-deep", deep_stroke_problem},
+      {"hands", hands_problem},
       {"stroke-paper", paper_stroke_problem},
   };
   return makers;

@@ -39,6 +39,8 @@ struct Score {
   double force_error = not_applicable;     ///< rms over the largest force
   double position_error = not_applicable;  ///< m, rms
   double volume_drift = not_applicable;    ///< of the moved volume
+  double displaced_volume = not_applicable;  ///< m^3, pushed by the tool, the same sand again and again
+  double furrow_depth = not_applicable;      ///< m, the median (sim/furrow.h)
   bool converged = true;
   std::vector<double> slope_errors = {};  ///< deg, by flank_directions(); may be empty
 };
@@ -112,6 +114,8 @@ Problem drag_problem(const ProblemOptions& options);
 // (strokes.cpp).
 Problem dynamic_problem(const ProblemOptions& options);
 Problem accurate_stroke_problem(const ProblemOptions& options);
+Problem deep_stroke_problem(const ProblemOptions& options);
+Problem hands_problem(const ProblemOptions& options);
 Problem paper_stroke_problem(const ProblemOptions& options);
 
 RunSettings settings_of(const RelaxationSettings& relaxation, const BedGeometry& bed, int threads);

@@ -1,122 +1,10 @@
 // Strokes whose truth has to be computed: the same run, finer.
 #include <spdlog/fmt/fmt.h>
 
-#include <algorithm>
-#include <cmath>
-#include <memory>
-
-#include "haptics/stroke_script.h"
-#include "sim/simulation.h"
-#include "study/error_checks.h"
-#include "study/problem.h"
-#include "study/surface_error.h"
+#include "study/hand_strokes.h"
+#include "study/stroke_replay.h"
 
 namespace sandstroke {
-namespace {
-
-constexpr double sample_rate = 100.0;  // Hz, of what is compared; every servo rate is a multiple
-
-/// What one run leaves behind.
-struct Replay {
-  RunResult result;
-  HeightGrid heights;
-  std::vector<Eigen::Vector3d> force, position;  // of the device, at sample_rate
-};
-
-class Sampling : public SimulationObserver {
- public:
-  Sampling(Replay& replay, double servo_rate)
-      : replay_(replay), every_(std::llround(servo_rate / sample_rate)) {}
-  void on_tick(const TickRecord& tick) override {
-    if (ticks_++ % every_ != 0) return;
-    replay_.force.push_back(tick.device_force);
-    replay_.position.push_back(tick.device_position);
-  }
-
- private:
-  Replay& replay_;
-  std::int64_t every_, ticks_ = 0;
-};
-
-Replay replay(const Scene& scene, const Stroke& stroke) {
-  Simulation simulation(
-      scene, make_surface(scene.bed.surface, scene.bed.rows, scene.bed.cols, scene.bed.cell_size()), stroke);
-  Replay run;
-  Sampling sampling(run, scene.device.servo_rate);
-  run.result = simulation.run(sampling);
-  run.heights = simulation.bed().grid();
-  return run;
-}
-
-double rms_distance(const std::vector<Eigen::Vector3d>& a, const std::vector<Eigen::Vector3d>& b) {
-  const std::size_t n = std::min(a.size(), b.size());
-  double sum = 0.0;
-  for (std::size_t i = 0; i < n; ++i) sum += (a[i] - b[i]).squaredNorm();
-  return std::sqrt(sum / static_cast<double>(n));
-}
-
-double largest(const std::vector<Eigen::Vector3d>& values) {
-  double norm = 0.0;
-  for (const Eigen::Vector3d& value : values) norm = std::max(norm, value.norm());
-  return norm;
-}
-
-/// Misplaced sand against a run on as fine a grid or a finer one, that began flat.
-SurfaceError surface_distance(const HeightGrid& heights, const Replay& truth) {
-  const HeightGrid exact = coarsened(truth.heights, static_cast<int>(truth.heights.rows() / heights.rows()));
-  return surface_error(heights, HeightGrid::Zero(exact.rows(), exact.cols()), exact);
-}
-
-/// Against a run on as fine a grid or a finer one, that began flat.
-Score judge(const Replay& run, const Replay& truth) {
-  Score score;
-  const SurfaceError error = surface_distance(run.heights, truth);
-  const double height = truth.heights.maxCoeff() - truth.heights.minCoeff();
-  score.passes = static_cast<double>(run.result.passes);
-  score.cells_visited = static_cast<double>(run.result.cells_visited);
-  score.l1 = error.l1;
-  score.rms_height = error.rms, score.rms_relative = error.rms / height;
-  score.largest_height = error.largest, score.largest_relative = error.largest / height;
-  score.force_error = rms_distance(run.force, truth.force) / largest(truth.force);
-  score.position_error = rms_distance(run.position, truth.position);
-  score.volume_drift = run.result.volume_drift;
-  score.converged = run.result.converged;
-  return score;
-}
-
-/// What a run of the scene says of its error, beside its distance to the truth.
-std::vector<ErrorCheck> check_errors(const std::string& label, const Scene& scene, const Stroke& stroke,
-                                     const Replay& truth) {
-  const auto every = static_cast<std::size_t>(std::llround(scene.device.servo_rate / sample_rate));
-  const auto judge = [&](const Solution& run) {
-    TrueError error;
-    error.height_share = surface_distance(run.surface.grid(), truth).l1;
-    double squares = 0.0, forces = 0.0;
-    for (std::size_t i = 0; i < truth.force.size() && i * every < run.force.size(); ++i) {
-      squares += (run.force[i * every] - truth.force[i]).squaredNorm();
-      forces += run.force[i * every].squaredNorm() > 0.0;
-    }
-    error.force_rms = std::sqrt(squares / forces);
-    return error;
-  };
-  return check_errors(label, scene, HeightField(scene.bed.rows, scene.bed.cols, scene.bed.cell_size()),
-                      stroke, judge);
-}
-
-Contender stroke_contender(const std::string& series, const std::string& label, const Scene& scene,
-                           int threads, double step, const Stroke& stroke,
-                           const std::shared_ptr<const Replay>& truth) {
-  RunSettings settings = settings_of(
-      scene.relaxation, BedGeometry(scene.bed.rows, scene.bed.cols, scene.bed.cell_size()), threads);
-  settings.servo_rate = scene.device.servo_rate;
-  settings.relaxation_rate = scene.relaxation.rate;
-  return {series, label, settings, step, [=] {
-            const Replay run = replay(scene, stroke);
-            return Trial{run.result.wall_seconds, judge(run, *truth)};
-          }};
-}
-
-}  // namespace
 
 Problem dynamic_problem(const ProblemOptions& options) {
   Problem problem{"dynamic",
@@ -159,91 +47,139 @@ Problem dynamic_problem(const ProblemOptions& options) {
 
 namespace {
 
-/// A curved stroke with the paper's tool, 4 mm deep at 0.25 m/s.
-Stroke s_curve(bool quick) {
-  StrokeScript script;
-  script.start = {-0.08, -0.02};
-  script.clearance = 0.005;
-  script.segments.push_back(
-      {ScriptSpline{{{-0.08, -0.02}, {-0.03, 0.06}, {0.0, 0.0}, {0.03, -0.06}, {0.08, 0.02}}},
-       {PressProfile::Kind::depth, {0.004}},
-       0.25});
-  if (quick) script.segments[0].shape = ScriptSpline{{{-0.08, -0.02}, {-0.03, 0.03}, {0.02, -0.02}}};
-  return trace_script(script, {});
-}
-
-/// The default cell size, tolerance and relaxation rate, each divided as told (the rate multiplied), with
-/// ticks enough for the finest rate.
+/// The default cell size, tolerance and relaxations, each divided as told, with ticks enough for the finest.
+/// (By way, relaxations are divided with the cells.)
 Scene refined(ModelPreset preset, int cells_by, int tolerance_by, int period_by) {
-  Scene scene;
-  scene.preset = preset;
-  apply_model_preset(scene);
-  scene.bed.width = scene.bed.depth = 0.24;
-  scene.bed.cols = scene.bed.rows = 120 * cells_by;
+  Scene scene = hand_scene(preset);
+  scene.bed.cols *= cells_by, scene.bed.rows *= cells_by;
   scene.relaxation.tolerance /= tolerance_by;
   scene.relaxation.rate *= period_by;
   scene.device.servo_rate = 2000.0;
   return scene;
 }
 
-Problem stroke_problem(ModelPreset preset, const ProblemOptions& options) {
-  const bool paper = preset == ModelPreset::paper;
-  const int finest = options.quick ? 4 : 8;
-  Problem problem{
-      paper ? "stroke-paper" : "stroke-accurate",
-      paper ? "A stroke, paper preset" : "A stroke, accurate preset",
-      fmt::format("A curved stroke of 4 mm depth at 2 kHz; in place of the truth stands the same "
-                  "stroke with cell size, tolerance and relaxation period divided by {}. How far that "
-                  "is from their division by {} is the dotted line, so no order is fitted.",
-                  finest, finest / 2),
-      "l1",
-      "misplaced sand, of the sand that moves",
-      "",
-      {}};
-  const Stroke stroke = s_curve(options.quick);
+/// The accurate preset before tools were solid: sand slips into the tool and is pushed ahead again.
+Scene pumping(int cells_by) {
+  Scene scene = refined(ModelPreset::accurate, cells_by, cells_by, cells_by);
+  scene.tool.solid = false;
+  scene.displacement.deposit = Deposit::ahead;
+  scene.relaxation.travel = 0.0;
+  scene.relaxation.rate = 240.0 * cells_by;
+  return scene;
+}
+
+Problem stroke_problem(ModelPreset preset, double depth, const ProblemOptions& options) {
+  const bool paper = preset == ModelPreset::paper, deep = depth > 0.005;
+  const int finest = options.quick || deep ? 4 : 8;
+  const std::string all_finer = "all finer";
+  Problem problem{paper  ? "stroke-paper"
+                  : deep ? "stroke-deep"
+                         : "stroke-accurate",
+                  fmt::format("A stroke {:.0f} mm deep, {} preset", 1e3 * depth, paper ? "paper" : "accurate"),
+                  fmt::format("A curved stroke at 2 kHz; in place of the truth stands the same stroke with cell "
+                              "size, tolerance and relaxation period divided by {}. How far that is from their "
+                              "division by {} is the dotted line.",
+                              finest, finest / 2),
+                  "l1",
+                  "misplaced sand, of the sand that moves",
+                  "",
+                  {}};
+  const Stroke stroke = s_curve(depth, 0.25, options.quick);
   const auto all = [&](int by) { return refined(preset, by, by, by); };
   const auto truth = std::make_shared<const Replay>(replay(all(finest), stroke));
   problem.converged_to = judge(replay(all(finest / 2), stroke), *truth).l1;
   const auto add = [&](const std::string& series, const std::string& label, const Scene& scene) {
+    // Where the model has no limit no order is fitted.
+    const double step = !paper && series == all_finer ? scene.bed.cell_size() : not_applicable;
     problem.contenders.push_back(
-        stroke_contender(series, label, scene, options.threads, not_applicable, stroke, truth));
+        stroke_contender(series, label, scene, options.threads, step, stroke, truth));
   };
-  for (int by = 1; by < finest; by *= 2) add("all three finer", fmt::format("1/{} of all", by), all(by));
+  for (int by = 1; by < finest; by *= 2) add(all_finer, fmt::format("1/{} of all", by), all(by));
+  if (!paper)
+    for (int by = 1; by < finest; by *= 2)
+      add("sand slips into the tool, 240 a second", fmt::format("1/{} of all", by), pumping(by));
+  for (const double rate : {15.0, 30.0, 60.0, 120.0, 240.0, 480.0, 960.0, 1920.0}) {
+    Scene scene = all(1);
+    scene.relaxation.rate = rate;
+    add("relaxation rate alone", fmt::format("{} relaxations a second", rate), scene);
+  }
+  if (deep) return problem;
   for (int by = 1; by <= finest; by *= 2) {
     const Scene scene = refined(preset, by, 1, 1);
     add("cell size alone", fmt::format("{:.3g} cells per radius", scene.tool.radius / scene.bed.cell_size()),
         scene);
-  }
-  for (const double rate : {15.0, 30.0, 60.0, 120.0, 240.0, 480.0}) {
-    Scene scene = all(1);
-    scene.relaxation.rate = rate;
-    add("relaxation rate alone", fmt::format("{} relaxations a second", rate), scene);
   }
   for (const double tolerance : {1e-2, 1e-3, 1e-4}) {
     Scene scene = all(1);
     scene.relaxation.tolerance = tolerance;
     add("tolerance alone", fmt::format("tolerance {}", tolerance), scene);
   }
+  problem.check_errors = [=] {
+    return check_errors("5 cells per radius", refined(preset, 1, 1, 1), stroke, *truth);
+  };
+  if (paper) return problem;
   for (const double step_tolerance : {1.0, 0.1, 0.01}) {
-    if (paper) break;  // plain passes
     Scene scene = all(1);
     scene.relaxation.step_tolerance = step_tolerance;
     add("step tolerance alone", fmt::format("step tolerance {}", step_tolerance), scene);
   }
-  problem.check_errors = [=] {
-    return check_errors("5 cells per radius", refined(preset, 1, 1, 1), stroke, *truth);
-  };
+  for (const double travel : {0.25, 0.5, 1.0, 2.0, 4.0}) {
+    Scene scene = all(1);
+    scene.relaxation.travel = travel;
+    add("way between relaxations alone", fmt::format("{} cells", travel), scene);
+  }
+  for (const double distance : {1.05, 1.1, 1.15, 1.2, 1.25}) {
+    Scene scene = all(1);
+    scene.displacement.distance = distance;
+    add("place of pushed sand alone", fmt::format("{} radii from the axis", distance), scene);
+  }
   return problem;
 }
 
 }  // namespace
 
 Problem accurate_stroke_problem(const ProblemOptions& options) {
-  return stroke_problem(ModelPreset::accurate, options);
+  return stroke_problem(ModelPreset::accurate, 0.004, options);
+}
+
+Problem deep_stroke_problem(const ProblemOptions& options) {
+  return stroke_problem(ModelPreset::accurate, 0.01, options);
 }
 
 Problem paper_stroke_problem(const ProblemOptions& options) {
-  return stroke_problem(ModelPreset::paper, options);
+  return stroke_problem(ModelPreset::paper, 0.004, options);
+}
+
+Problem hands_problem(const ProblemOptions& options) {
+  Problem problem{"hands",
+                  "What hands change",
+                  "A curved stroke 4 mm deep with five cells per radius at 1 kHz, at the speeds, with the noise "
+                  "in z and the slopes of hands, against the same preset's stroke at 0.25 m/s without any. A "
+                  "stroke's outcome should depend on none of them.",
+                  "l1",
+                  "sand that lies elsewhere, of the sand that moves",
+                  "",
+                  {}};
+  for (const ModelPreset preset : {ModelPreset::paper, ModelPreset::accurate}) {
+    const Scene scene = hand_scene(preset);
+    const Stroke clean = s_curve(0.004, 0.25, options.quick);
+    const auto truth = std::make_shared<const Replay>(replay(scene, clean));
+    const auto add = [&](const std::string& what, const std::string& label, const Stroke& stroke,
+                         double rate = 0.0) {
+      Scene one = scene;
+      if (rate > 0.0) one.relaxation.rate = rate;
+      problem.contenders.push_back(stroke_contender(
+          preset_names[static_cast<std::size_t>(preset)] + ", " + what, label, one, options.threads,
+          not_applicable, stroke, truth));
+    };
+    for (const double speed : {0.02, 0.05, 0.1, 0.5, 1.0})
+      add("speed", fmt::format("{} m/s", speed), s_curve(0.004, speed, options.quick));
+    for (const double noise : {0.0, 2e-6, 10e-6, 55e-6})
+      add("noise", fmt::format("{:.0f} um rms", 1e6 * noise), with_noise(clean, noise));
+    for (const double rate : {60.0, 960.0})
+      add("slopes of 5 %", fmt::format("{:.0f} relaxations a second", rate), with_slopes(clean, 0.05), rate);
+  }
+  return problem;
 }
 
 }  // namespace sandstroke

@@ -50,6 +50,8 @@ const std::vector<Column> columns = {
     {"force_error", "Force error, rms of the largest", "", NUMBER(run.score.force_error)},
     {"position_error", "Position error, rms", "m", NUMBER(run.score.position_error)},
     {"volume_drift", "Volume drift, of the moved", "", NUMBER(run.score.volume_drift)},
+    {"displaced_volume", "Sand pushed", "m^3", NUMBER(run.score.displaced_volume)},
+    {"furrow_depth", "Furrow", "m", NUMBER(run.score.furrow_depth)},
     {"converged", "At rest", "", NUMBER(run.score.converged)},
     {"pareto", "On the Pareto front", "", NUMBER(run.pareto)},
 };

@@ -6,7 +6,7 @@
 #include "compare/field_difference.h"
 #include "core/error.h"
 #include "sim/simulation.h"
-#include "sweep/furrow.h"
+#include "sim/furrow.h"
 #include "sweep/slopes.h"
 
 namespace sandstroke {
@@ -34,25 +34,17 @@ struct Feeler {
 class Followers : public SimulationObserver {
  public:
   Followers(const Scene& scene, std::vector<Feeler>& feelers)
-      : device_(scene.device), spacing_(0.25 * scene.tool.radius), feelers_(feelers) {}
+      : path_(scene), feelers_(feelers) {}
 
   void on_tick(const TickRecord& record) override {
     for (Feeler& feeler : feelers_) feeler.on_tick(record);
-    if (record.contact) {
-      const Eigen::Vector2d tip = (device_.scale * record.device_position + device_.offset).head<2>();
-      if (!in_contact_) path_.pieces.push_back(path_.points.size());
-      if (!in_contact_ || (tip - path_.points.back()).norm() >= spacing_) path_.points.push_back(tip);
-    }
-    in_contact_ = record.contact;
+    path_.add(record);
   }
-  const TipPath& path() const { return path_; }
+  const TipPath& path() const { return path_.path(); }
 
  private:
-  DeviceSettings device_;
-  double spacing_;  // m
+  TipPathGatherer path_;
   std::vector<Feeler>& feelers_;
-  TipPath path_;
-  bool in_contact_ = false;
 };
 
 PointVerdict verdict_of(const RunResult& result, const Scene& scene) {

@@ -1,10 +1,11 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <limits>
+#include <string>
 #include <vector>
 
-#include "sand/height_field.h"
+#include "sim/run_result.h"
+#include "sim/scene.h"
 
 namespace sandstroke {
 
@@ -13,22 +14,25 @@ namespace sandstroke {
 struct TipPath {
   std::vector<Eigen::Vector2d> points;
   std::vector<std::size_t> pieces;
+  std::vector<double> asked = {};  ///< m, the height at which the hand wanted the tip; of each point, or empty
 };
 
-/// What a stroke left of itself, in cross-sections of the change of height (final - initial), so that the
-/// shape the bed had before does not count. Not-a-number: nothing to measure.
-struct FurrowMeasures {
-  /// m, how far below the surface as it was the lowest point lies, of those within a tool radius of the path;
-  /// 0 where there is no furrow.
-  double depth = std::numeric_limits<double>::quiet_NaN();
-  /// m, between the points left and right of the lowest one where the change comes back to zero.
-  double width = std::numeric_limits<double>::quiet_NaN();
-  /// m, highest point, of either side, of the first sand outwards from there that was raised (and what joins
-  /// it).
-  double rampart = std::numeric_limits<double>::quiet_NaN();
+/// Gathers the path of a run, in points a quarter of a tool radius apart.
+class TipPathGatherer {
+ public:
+  explicit TipPathGatherer(const Scene& scene)
+      : device_(scene.device), spacing_(0.25 * scene.tool.radius) {}
+  void add(const TickRecord& tick);
+  const TipPath& path() const { return path_; }
+
+ private:
+  DeviceSettings device_;
+  double spacing_;  // m
+  TipPath path_;
+  bool in_contact_ = false;
 };
 
-/// The median over sections across the direction of travel, a tool radius [m] apart (further, where that
+/// Measures the cross-sections of a furrow: the median over sections across the direction of travel, a tool radius [m] apart (further, where that
 /// would be more than 1000), so that ends, crossings and neighbouring strokes do not count as long as they
 /// are the smaller part. A contact that stays within half a radius is one section across x. Sections reach 6
 /// radii to either side and are taken at every half cell, linear between centres of cells. A width whose ends
@@ -36,5 +40,9 @@ struct FurrowMeasures {
 /// looked at. The error is of the order of slope x cell size.
 FurrowMeasures measure_furrow(const HeightField& initial, const HeightField& final, const TipPath& path,
                               double tool_radius);
+
+/// A sentence for whoever asked for a furrow, a drag of 4 tool radii at least, and is left with less than half
+/// of its depth: why, and what to do. Empty: there is nothing to say.
+std::string furrow_warning(const Scene& scene, const TipPath& path, const FurrowMeasures& furrow);
 
 }  // namespace sandstroke

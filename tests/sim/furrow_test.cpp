@@ -1,4 +1,4 @@
-#include "sweep/furrow.h"
+#include "sim/furrow.h"
 
 #include <gtest/gtest.h>
 

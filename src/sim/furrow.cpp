@@ -1,4 +1,6 @@
-#include "sweep/furrow.h"
+#include "sim/furrow.h"
+
+#include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
 #include <cmath>
@@ -53,9 +55,9 @@ std::vector<Piece> thinned(const TipPath& path, double spacing) {
 }
 
 /// Change of height of a cell [m].
-class Change {
+class HeightChange {
  public:
-  Change(const HeightField& initial, const HeightField& final)
+  HeightChange(const HeightField& initial, const HeightField& final)
       : initial_(initial), final_(final), same_where_untouched_(same_where_untouched(initial, final)) {}
 
   const BedGeometry& bed() const { return initial_; }
@@ -74,7 +76,7 @@ class Change {
 /// Change of height [m] along a line across the path, sample k at k half cells to the left of it.
 class Section {
  public:
-  Section(const Change& change, const Eigen::Vector2d& centre, const Eigen::Vector2d& travel)
+  Section(const HeightChange& change, const Eigen::Vector2d& centre, const Eigen::Vector2d& travel)
       : change_(change), centre_(centre), left_(-travel.y(), travel.x()) {}
 
   double step() const { return 0.5 * change_.bed().cell_size(); }
@@ -93,7 +95,7 @@ class Section {
   }
 
  private:
-  const Change& change_;
+  const HeightChange& change_;
   Eigen::Vector2d centre_, left_;
 };
 
@@ -131,7 +133,7 @@ FurrowMeasures measure(const Section& section, double tool_radius) {
     if (section(k) < section(lowest)) lowest = k;
   const Side left = walk(section, lowest, 1, far), right = walk(section, lowest, -1, far);
   return {std::max(0.0, -section(lowest)), (left.edge - right.edge) * section.step(),
-          std::fmax(left.crest, right.crest)};
+          std::fmax(left.crest, right.crest), nothing};
 }
 
 /// Of those that are numbers; not-a-number where none is.
@@ -145,10 +147,38 @@ double median(std::vector<double> values) {
 
 }  // namespace
 
+void TipPathGatherer::add(const TickRecord& tick) {
+  if (tick.contact) {
+    const Eigen::Vector2d tip = tip_of(device_, tick.device_position).head<2>();
+    if (!in_contact_) path_.pieces.push_back(path_.points.size());
+    if (!in_contact_ || (tip - path_.points.back()).norm() >= spacing_) {
+      path_.points.push_back(tip);
+      path_.asked.push_back(tip_of(device_, tick.hand.position).z());
+    }
+  }
+  in_contact_ = tick.contact;
+}
+
+namespace {
+
+/// Not-a-number where nobody asked, or outside the bed.
+double asked_depth(const HeightField& initial, const TipPath& path) {
+  std::vector<double> depths;
+  for (std::size_t i = 0; i < path.asked.size(); ++i) {
+    const double row = std::round(initial.row_at(path.points[i].y())),
+                 col = std::round(initial.col_at(path.points[i].x()));
+    if (row >= 0.0 && row < initial.rows() && col >= 0.0 && col < initial.cols())
+      depths.push_back(initial(static_cast<int>(row), static_cast<int>(col)) - path.asked[i]);
+  }
+  return median(std::move(depths));
+}
+
+}  // namespace
+
 FurrowMeasures measure_furrow(const HeightField& initial, const HeightField& final, const TipPath& path,
                               double tool_radius) {
   if (path.points.empty()) return {};
-  const Change change(initial, final);
+  const HeightChange change(initial, final);
   const std::vector<Piece> pieces = thinned(path, 0.5 * tool_radius);
   // Stations are spread over pieces by their length; a contact at a point counts as one radius.
   const auto weight = [&](const Piece& piece) { return std::max(piece.length(), tool_radius); };
@@ -178,7 +208,21 @@ FurrowMeasures measure_furrow(const HeightField& initial, const HeightField& fin
     }
     passed += weight(piece);
   }
-  return {median(std::move(depths)), median(std::move(widths)), median(std::move(ramparts))};
+  return {median(std::move(depths)), median(std::move(widths)), median(std::move(ramparts)),
+          asked_depth(initial, path)};
+}
+
+std::string furrow_warning(const Scene& scene, const TipPath& path, const FurrowMeasures& furrow) {
+  double length = 0.0;  // m
+  for (const Piece& piece : thinned(path, 0.5 * scene.tool.radius)) length += piece.length();
+  if (length < 4.0 * scene.tool.radius || !(furrow.depth < 0.5 * furrow.asked_depth)) return "";
+  const std::string left = fmt::format("the furrow is {:.3g} mm deep where {:.3g} mm were asked for", 1e3 * furrow.depth,
+                                       1e3 * furrow.asked_depth);
+  if (!scene.tool.solid || scene.displacement.deposit != Deposit::outward)
+    return left + ": as published, sand slips into the tool, and pushed sand into the furrow behind it; set "
+                  "model.preset = \"accurate\" for a solid tool";
+  return left + ": sand falls back into so deep a furrow behind the tool; a larger tool.radius or a steeper "
+                "relaxation.talus_angle leaves more of it";
 }
 
 }  // namespace sandstroke
