@@ -29,7 +29,9 @@ class WriterWithProgress : public RunWriter {
   WriterWithProgress(const std::filesystem::path& path, const Simulation& simulation,
                      const std::string& stroke_hash, const std::string& scene_file,
                      const std::optional<Stroke>& stroke, bool progress, bool keep_force)
-      : RunWriter(path, simulation, stroke_hash, scene_file), keep_force_(keep_force), path_(simulation.scene()) {
+      : RunWriter(path, simulation, stroke_hash, scene_file),
+        keep_force_(keep_force),
+        path_(simulation.scene()) {
     if (stroke && !stroke->force.empty()) recorded_force_.emplace(*stroke);
     if (progress) bar_.emplace("run");
   }

@@ -10,10 +10,10 @@
 namespace sandstroke {
 namespace {
 
-constexpr std::size_t ring_size = std::size_t{1} << 20;   // changes: 16 MB each way
-constexpr std::size_t most_places = 1024;                 // of the tool, not looked at yet: a second of ticks
-constexpr int most_taken = 4096;                          // changes per tick: some 50 us
-const double gap_threshold = Stroke{}.gap_threshold;  // s: what `run` does not join is not joined here
+constexpr std::size_t ring_size = std::size_t{1} << 20;  // changes: 16 MB each way
+constexpr std::size_t most_places = 1024;                // of the tool, not looked at yet: a second of ticks
+constexpr int most_taken = 4096;                         // changes per tick: some 50 us
+const double gap_threshold = Stroke{}.gap_threshold;     // s: what `run` does not join is not joined here
 
 const HeightField& checked(const Scene& scene, const HeightField& bed) {
   const auto refuse_unless = [](bool felt, const char* key, const char* why) {

@@ -44,9 +44,10 @@ void for_cut_cells(ToolFootprint& f, const Visit& visit) {
         visit(row, group * cells_per_group + std::countr_zero(flags));
 }
 
-/// Fills weights() with the cut sand where it goes: each cell's along the tool's outward normal, to `distance`
-/// [m] from the axis, shared among the four cells around there (linearly) that are not the bowl's. Sand right
-/// on the axis, or with no such cell inside the bed, joins what the others give. Returns the sum [m].
+/// Fills weights() with the cut sand where it goes: each cell's along the tool's outward normal, to
+/// `distance` [m] from the axis, shared among the four cells around there (linearly) that are not the bowl's.
+/// Sand right on the axis, or with no such cell inside the bed, joins what the others give. Returns the sum
+/// [m].
 double spread_outward(ToolFootprint& f, double pushed, double distance) {
   const ExactSums exact(pushed);
   const CellRange& window = f.cells();
@@ -63,8 +64,8 @@ double spread_outward(ToolFootprint& f, double pushed, double distance) {
       const int r = first_row + i / 2, c = first_col + i % 2;
       if (r < 0 || r >= window.rows() || c < 0 || c >= window.cols() || std::isfinite(f.underside(r)[c]))
         continue;
-      shares[i] = std::max(0.0, 1.0 - std::abs(c - axis_x - to_x)) *
-                  std::max(0.0, 1.0 - std::abs(r - axis_y - to_y));
+      shares[i] =
+          std::max(0.0, 1.0 - std::abs(c - axis_x - to_x)) * std::max(0.0, 1.0 - std::abs(r - axis_y - to_y));
     }
     const double all = (shares[0] + shares[3]) + (shares[1] + shares[2]);  // symmetric
     if (!(all > 0.0)) return;

@@ -73,8 +73,10 @@ void for_tile_columns(const CellRange& cells, const Body& body) {
   }
 }
 
-/// `flags`, a group to a byte from column `first` of the bed on, as those of the tile column that they lie in.
-std::uint64_t flags_in_tile(const unsigned char* flags, const CellRange& cells, int tile_col, int first, int end) {
+/// `flags`, a group to a byte from column `first` of the bed on, as those of the tile column that they lie
+/// in.
+std::uint64_t flags_in_tile(const unsigned char* flags, const CellRange& cells, int tile_col, int first,
+                            int end) {
   std::uint64_t in_tile = 0;  // no flag lies beyond the window's last column
   for (int group = (first - cells.col_begin) / cells_per_group;
        group <= (end - 1 - cells.col_begin) / cells_per_group; ++group) {
@@ -128,8 +130,7 @@ void ToolFootprint::hold_bowl(HeightField& bed) {
   }
   for_tile_columns(cells_, [&](int tile_col, int first, int end) {
     for (int row = cells_.row_begin; row < cells_.row_end; ++row) {
-      const std::uint64_t held =
-          flags_in_tile(flags(row - cells_.row_begin), cells_, tile_col, first, end);
+      const std::uint64_t held = flags_in_tile(flags(row - cells_.row_begin), cells_, tile_col, first, end);
       if (held) bowl_.push_back({bed.touch(bed.tile_index(row / side, tile_col)), row % side, held});
     }
   });

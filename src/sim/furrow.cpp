@@ -216,13 +216,16 @@ std::string furrow_warning(const Scene& scene, const TipPath& path, const Furrow
   double length = 0.0;  // m
   for (const Piece& piece : thinned(path, 0.5 * scene.tool.radius)) length += piece.length();
   if (length < 4.0 * scene.tool.radius || !(furrow.depth < 0.5 * furrow.asked_depth)) return "";
-  const std::string left = fmt::format("the furrow is {:.3g} mm deep where {:.3g} mm were asked for", 1e3 * furrow.depth,
-                                       1e3 * furrow.asked_depth);
-  if (!scene.tool.solid || scene.displacement.deposit != Deposit::outward)
-    return left + ": as published, sand slips into the tool, and pushed sand into the furrow behind it; set "
-                  "model.preset = \"accurate\" for a solid tool";
-  return left + ": sand falls back into so deep a furrow behind the tool; a larger tool.radius or a steeper "
-                "relaxation.talus_angle leaves more of it";
+  const std::string left = fmt::format("the furrow is {:.3g} mm deep where {:.3g} mm were asked for",
+                                       1e3 * furrow.depth, 1e3 * furrow.asked_depth);
+  const bool solid = scene.tool.solid && scene.displacement.deposit == Deposit::outward;
+  if (!solid && furrow.asked_depth < 2.0 * scene.tool.radius)
+    return left +
+           ": as published, sand slips into the tool, and pushed sand into the furrow behind it; set "
+           "model.preset = \"accurate\" for a solid tool";
+  return left +
+         ": sand falls back into so deep a furrow behind the tool; a larger tool.radius or a steeper "
+         "relaxation.talus_angle leaves more of it";
 }
 
 }  // namespace sandstroke

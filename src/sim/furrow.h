@@ -14,14 +14,14 @@ namespace sandstroke {
 struct TipPath {
   std::vector<Eigen::Vector2d> points;
   std::vector<std::size_t> pieces;
-  std::vector<double> asked = {};  ///< m, the height at which the hand wanted the tip; of each point, or empty
+  std::vector<double> asked =
+      {};  ///< m, the height at which the hand wanted the tip; of each point, or empty
 };
 
 /// Gathers the path of a run, in points a quarter of a tool radius apart.
 class TipPathGatherer {
  public:
-  explicit TipPathGatherer(const Scene& scene)
-      : device_(scene.device), spacing_(0.25 * scene.tool.radius) {}
+  explicit TipPathGatherer(const Scene& scene) : device_(scene.device), spacing_(0.25 * scene.tool.radius) {}
   void add(const TickRecord& tick);
   const TipPath& path() const { return path_; }
 
@@ -32,17 +32,17 @@ class TipPathGatherer {
   bool in_contact_ = false;
 };
 
-/// Measures the cross-sections of a furrow: the median over sections across the direction of travel, a tool radius [m] apart (further, where that
-/// would be more than 1000), so that ends, crossings and neighbouring strokes do not count as long as they
-/// are the smaller part. A contact that stays within half a radius is one section across x. Sections reach 6
-/// radii to either side and are taken at every half cell, linear between centres of cells. A width whose ends
-/// are not both inside that and the bed is left out. Both fields of one shape; only what the sections pass is
-/// looked at. The error is of the order of slope x cell size.
+/// Measures the cross-sections of a furrow: the median over sections across the direction of travel, a tool
+/// radius [m] apart (further, where that would be more than 1000), so that ends, crossings and neighbouring
+/// strokes do not count as long as they are the smaller part. A contact that stays within half a radius is
+/// one section across x. Sections reach 6 radii to either side and are taken at every half cell, linear
+/// between centres of cells. A width whose ends are not both inside that and the bed is left out. Both fields
+/// of one shape; only what the sections pass is looked at. The error is of the order of slope x cell size.
 FurrowMeasures measure_furrow(const HeightField& initial, const HeightField& final, const TipPath& path,
                               double tool_radius);
 
-/// A sentence for whoever asked for a furrow, a drag of 4 tool radii at least, and is left with less than half
-/// of its depth: why, and what to do. Empty: there is nothing to say.
+/// A sentence for whoever asked for a furrow, a drag of 4 tool radii at least, and is left with less than
+/// half of its depth: why, and what to do. Empty: there is nothing to say.
 std::string furrow_warning(const Scene& scene, const TipPath& path, const FurrowMeasures& furrow);
 
 }  // namespace sandstroke

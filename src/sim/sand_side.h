@@ -25,14 +25,15 @@ class SandSide {
   SandSide(const ToolSettings& tool, const DisplacementSettings& displacement, double travel);
 
   /// Displaces along the way from the last tick's place and at this one [m]. read_tip: as the device's
-  /// encoders read it; true_tip: where it is, for encoder steps are no motion. slip(): called with the tool at
-  /// the places where sand is to slip by its way; it calls hold(). highest [m]: no sand is higher; none: it is
-  /// looked up where it matters, which visits every tile.
+  /// encoders read it; true_tip: where it is, for encoder steps are no motion. slip(): called with the tool
+  /// at the places where sand is to slip by its way; it calls hold(). highest [m]: no sand is higher; none:
+  /// it is looked up where it matters, which visits every tile.
   Touch move(HeightField& bed, const Eigen::Vector3d& read_tip, const Eigen::Vector3d& true_tip,
              const std::function<void()>& slip, std::optional<double> highest = {});
   /// The same place, without displacing anything.
   Touch look(const HeightField& bed, const Eigen::Vector3d& read_tip);
-  /// The tool touches nothing until the next move(), which begins anew: nothing is displaced on the way to it.
+  /// The tool touches nothing until the next move(), which begins anew: nothing is displaced on the way to
+  /// it.
   void lift() {
     last_tip_.reset();
     contact_ = false;

@@ -15,8 +15,8 @@ class SlipSchedule {
 
   /// With the tip here [m], in contact or not.
   bool is_due(const Eigen::Vector3d& tip, bool contact) const;
-  /// Which share of a straight step of the tip, below 1, leads to where the next slip is due, by its way along
-  /// the bed; none where none is. (Straight down there is nothing to wait for on the way.)
+  /// Which share of a straight step of the tip, below 1, leads to where the next slip is due, by its way
+  /// along the bed; none where none is. (Straight down there is nothing to wait for on the way.)
   std::optional<double> way_to_next(const Eigen::Vector3d& from, const Eigen::Vector3d& step) const;
   /// Sand has slipped.
   void slipped(const Eigen::Vector3d& tip, bool contact) {

@@ -5,11 +5,12 @@
 
 namespace sandstroke {
 
-/// A curved stroke over a bed of 0.24 m, `depth` [m] deep at `speed` [m/s]: 0.29 m long; with `cut` half of it.
+/// A curved stroke over a bed of 0.24 m, `depth` [m] deep at `speed` [m/s]: 0.29 m long; with `cut` half of
+/// it.
 Stroke s_curve(double depth, double speed, bool cut = false);
 
-/// The same stroke as a device records it: sampled at 1 kHz, with white noise of `rms` [m] in z. The same each
-/// time.
+/// The same stroke as a device records it: sampled at 1 kHz, with white noise of `rms` [m] in z. The same
+/// each time.
 Stroke with_noise(const Stroke& stroke, double rms);
 
 /// The same stroke whose tip, where it is in sand, goes up and down by 0.5 mm at this slope along its way.

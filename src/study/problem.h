@@ -34,11 +34,11 @@ struct Score {
   double largest_height = not_applicable;  ///< m
   double rms_relative = not_applicable;    ///< of the exact shape's height
   double largest_relative = not_applicable;
-  double slope_error = not_applicable;     ///< deg, the largest of all directions
-  double work_error = not_applicable;      ///< relative
-  double force_error = not_applicable;     ///< rms over the largest force
-  double position_error = not_applicable;  ///< m, rms
-  double volume_drift = not_applicable;    ///< of the moved volume
+  double slope_error = not_applicable;       ///< deg, the largest of all directions
+  double work_error = not_applicable;        ///< relative
+  double force_error = not_applicable;       ///< rms over the largest force
+  double position_error = not_applicable;    ///< m, rms
+  double volume_drift = not_applicable;      ///< of the moved volume
   double displaced_volume = not_applicable;  ///< m^3, pushed by the tool, the same sand again and again
   double furrow_depth = not_applicable;      ///< m, the median (sim/furrow.h)
   bool converged = true;

@@ -72,18 +72,19 @@ Problem stroke_problem(ModelPreset preset, double depth, const ProblemOptions& o
   const bool paper = preset == ModelPreset::paper, deep = depth > 0.005;
   const int finest = options.quick || deep ? 4 : 8;
   const std::string all_finer = "all finer";
-  Problem problem{paper  ? "stroke-paper"
-                  : deep ? "stroke-deep"
-                         : "stroke-accurate",
-                  fmt::format("A stroke {:.0f} mm deep, {} preset", 1e3 * depth, paper ? "paper" : "accurate"),
-                  fmt::format("A curved stroke at 2 kHz; in place of the truth stands the same stroke with cell "
-                              "size, tolerance and relaxation period divided by {}. How far that is from their "
-                              "division by {} is the dotted line.",
-                              finest, finest / 2),
-                  "l1",
-                  "misplaced sand, of the sand that moves",
-                  "",
-                  {}};
+  Problem problem{
+      paper  ? "stroke-paper"
+      : deep ? "stroke-deep"
+             : "stroke-accurate",
+      fmt::format("A stroke {:.0f} mm deep, {} preset", 1e3 * depth, paper ? "paper" : "accurate"),
+      fmt::format("A curved stroke at 2 kHz; in place of the truth stands the same stroke with cell "
+                  "size, tolerance and relaxation period divided by {}. How far that is from their "
+                  "division by {} is the dotted line.",
+                  finest, finest / 2),
+      "l1",
+      "misplaced sand, of the sand that moves",
+      "",
+      {}};
   const Stroke stroke = s_curve(depth, 0.25, options.quick);
   const auto all = [&](int by) { return refined(preset, by, by, by); };
   const auto truth = std::make_shared<const Replay>(replay(all(finest), stroke));
@@ -151,15 +152,16 @@ Problem paper_stroke_problem(const ProblemOptions& options) {
 }
 
 Problem hands_problem(const ProblemOptions& options) {
-  Problem problem{"hands",
-                  "What hands change",
-                  "A curved stroke 4 mm deep with five cells per radius at 1 kHz, at the speeds, with the noise "
-                  "in z and the slopes of hands, against the same preset's stroke at 0.25 m/s without any. A "
-                  "stroke's outcome should depend on none of them.",
-                  "l1",
-                  "sand that lies elsewhere, of the sand that moves",
-                  "",
-                  {}};
+  Problem problem{
+      "hands",
+      "What hands change",
+      "A curved stroke 4 mm deep with five cells per radius at 1 kHz, at the speeds, with the noise "
+      "in z and the slopes of hands, against the same preset's stroke at 0.25 m/s without any. A "
+      "stroke's outcome should depend on none of them.",
+      "l1",
+      "sand that lies elsewhere, of the sand that moves",
+      "",
+      {}};
   for (const ModelPreset preset : {ModelPreset::paper, ModelPreset::accurate}) {
     const Scene scene = hand_scene(preset);
     const Stroke clean = s_curve(0.004, 0.25, options.quick);
@@ -168,9 +170,9 @@ Problem hands_problem(const ProblemOptions& options) {
                          double rate = 0.0) {
       Scene one = scene;
       if (rate > 0.0) one.relaxation.rate = rate;
-      problem.contenders.push_back(stroke_contender(
-          preset_names[static_cast<std::size_t>(preset)] + ", " + what, label, one, options.threads,
-          not_applicable, stroke, truth));
+      problem.contenders.push_back(
+          stroke_contender(preset_names[static_cast<std::size_t>(preset)] + ", " + what, label, one,
+                           options.threads, not_applicable, stroke, truth));
     };
     for (const double speed : {0.02, 0.05, 0.1, 0.5, 1.0})
       add("speed", fmt::format("{} m/s", speed), s_curve(0.004, speed, options.quick));

@@ -5,8 +5,8 @@
 
 #include "compare/field_difference.h"
 #include "core/error.h"
-#include "sim/simulation.h"
 #include "sim/furrow.h"
+#include "sim/simulation.h"
 #include "sweep/slopes.h"
 
 namespace sandstroke {
@@ -33,8 +33,7 @@ struct Feeler {
 /// Follows the tip, and lets each feeler feel.
 class Followers : public SimulationObserver {
  public:
-  Followers(const Scene& scene, std::vector<Feeler>& feelers)
-      : path_(scene), feelers_(feelers) {}
+  Followers(const Scene& scene, std::vector<Feeler>& feelers) : path_(scene), feelers_(feelers) {}
 
   void on_tick(const TickRecord& record) override {
     for (Feeler& feeler : feelers_) feeler.on_tick(record);

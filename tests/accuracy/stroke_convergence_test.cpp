@@ -106,8 +106,10 @@ TEST(StrokeConvergence, NorDoSlopes) {
 
 TEST(StrokeConvergence, AFastPenLeavesItsFurrowToo) {
   // 6 m/s: three cells a tick, and sand slips within the tick.
-  const Replay slow = replay(accurate(), s_curve(0.004, 0.25)), fast = replay(accurate(), s_curve(0.004, 6.0));
-  EXPECT_NEAR(fast.result.relaxations, slow.result.relaxations, 2);  // it touches down, and lifts, later
+  const Replay slow = replay(accurate(), s_curve(0.004, 0.25)),
+               fast = replay(accurate(), s_curve(0.004, 6.0));
+  EXPECT_LE(std::abs(fast.result.relaxations - slow.result.relaxations),
+            2);  // it touches down, and lifts, later
   EXPECT_LT(apart(fast, slow), 0.05);
 }
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "cli/program.h"
+#include "io/hdf5_reader.h"
 #include "io/run_file.h"
 #include "sanitized.h"
 
@@ -40,6 +41,29 @@ TEST(CliRun, JsonIsOneObjectWithTheDesignsNames) {
   EXPECT_EQ(json["threads"], std::min(2u, std::thread::hardware_concurrency()));
   EXPECT_LE(json["volume_drift"], 1e-12);
   EXPECT_TRUE(fs::exists(folder / "scene.h5"));  // the default name
+}
+
+TEST(CliRun, SaysHowDeepAFurrowWasAskedForAndIsLeft) {
+  const fs::path folder = test_folder();
+  const auto run = [&](const std::string& preset, const std::string& name) {
+    return run_program(
+        {"run", "scene.toml", "-o", name, "--set", "model.preset=" + preset, "--set", "stroke.depth=0.004"},
+        folder);
+  };
+  const ProgramResult paper = run("paper", "paper.h5"), accurate = run("accurate", "accurate.h5");
+  ASSERT_EQ(paper.exit_code, 0) << paper.err;
+  ASSERT_EQ(accurate.exit_code, 0) << accurate.err;
+  EXPECT_NE(paper.out.find("model              preset paper\n"), std::string::npos) << paper.out;
+  EXPECT_NE(paper.err.find("set model.preset = \"accurate\""), std::string::npos) << paper.err;
+  EXPECT_NE(accurate.out.find("model              preset accurate\n"), std::string::npos) << accurate.out;
+  EXPECT_NE(accurate.out.find("furrow  "), std::string::npos) << accurate.out;
+  EXPECT_EQ(accurate.err.find("were asked for"), std::string::npos) << accurate.err;
+  const Hdf5Reader file(folder / "accurate.h5");
+  const double asked = file.number_attribute("/surface/final", "asked_depth"),
+               left = file.number_attribute("/surface/final", "furrow_depth");
+  EXPECT_NEAR(asked, 0.008, 1e-6);
+  EXPECT_GT(left, 0.5 * asked);
+  EXPECT_LT(left, asked);
 }
 
 TEST(CliRun, TheDefaultNameNeverCostsAnotherScenesRun) {
@@ -326,8 +350,8 @@ TEST(CliRun, AStrokeInMillimetresIsPointedOut) {
   EXPECT_NE(warning.find("line.toml: goes 5.004 m deep into the sand"), std::string::npos) << warning;
   EXPECT_NE(warning.find("500 times tool.radius = 0.01 m"), std::string::npos) << warning;
   EXPECT_NE(warning.find("stroke.depth"), std::string::npos) << warning;
-  EXPECT_EQ(said("stroke.depth=0.19"), "");
-  EXPECT_NE(said("stroke.depth=0.2"), "");
+  EXPECT_EQ(said("stroke.depth=0.19").find("times tool.radius"), std::string::npos);
+  EXPECT_NE(said("stroke.depth=0.2").find("20 times tool.radius"), std::string::npos);
 }
 
 TEST(CliRun, EstimatesItsErrorOnRequest) {

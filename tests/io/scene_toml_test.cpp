@@ -1,5 +1,5 @@
-#include "io/scene_keys.h"
 #include "io/scene_toml.h"
+#include "io/scene_keys.h"
 
 #include <gtest/gtest.h>
 
@@ -83,6 +83,7 @@ TEST(SceneToml, EveryKeyOfTheTableIsAKeyOfScenesAndItsValueTheDefault) {
     std::vector<std::string> overrides = {key + "=" + value};
     for (const char* of_dynamic : {"device.delay", "device.dropped_ticks", "device.drag"})
       if (key == of_dynamic) overrides.push_back("device.model=dynamic");
+    if (key == "displacement.distance") overrides.push_back("displacement.deposit=outward");
     if (key == "relaxation.step_tolerance") overrides.push_back("relaxation.method=rkl");
     if (key.starts_with("stroke.")) overrides.push_back("stroke.file=\"x.h5\"");
     if (key.starts_with("bed.surface.") && key != "bed.surface.kind") {

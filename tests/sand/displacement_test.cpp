@@ -112,18 +112,22 @@ TEST(Displacement, OutwardCarriesEachCellsSandAlongItsOwnNormal) {
     for (const double axis : {0.0, 0.0007}) {
       HeightField bed(61, 61, dx);
       const double x = axis + 3.0 * dx * std::cos(angle), y = 3.0 * dx * std::sin(angle);
-      const int row = static_cast<int>(std::lround(bed.row_at(y))), col = static_cast<int>(std::lround(bed.col_at(x)));
+      const int row = static_cast<int>(std::lround(bed.row_at(y))),
+                col = static_cast<int>(std::lround(bed.col_at(x)));
       bed.set(row, col, 0.005);
       ToolFootprint footprint({R, ToolProfile::sphere});
       footprint.place(bed, axis, 0.0);
-      const double tip = 0.005 - 1e-4 - footprint.underside(row - footprint.cells().row_begin)[col - footprint.cells().col_begin];
+      const double tip =
+          0.005 - 1e-4 -
+          footprint.underside(row - footprint.cells().row_begin)[col - footprint.cells().col_begin];
       HeightField other = bed;
       const double volume = displace(bed, footprint, tip, down, {Deposit::outward, 1.3});
       EXPECT_NEAR(volume, 1e-4 * dx * dx, 1e-18);
       Eigen::Vector2d centre = Eigen::Vector2d::Zero();
       for (int r = 0; r < 61; ++r)
         for (int c = 0; c < 61; ++c)
-          if (r != row || c != col) centre += bed(r, c) * dx * dx / volume * Eigen::Vector2d(bed.x_of(c) - axis, bed.y_of(r));
+          if (r != row || c != col)
+            centre += bed(r, c) * dx * dx / volume * Eigen::Vector2d(bed.x_of(c) - axis, bed.y_of(r));
       const Eigen::Vector2d normal = Eigen::Vector2d(bed.x_of(col) - axis, bed.y_of(row)).normalized();
       EXPECT_LT((centre - 1.3 * R * normal).norm(), 1e-9) << angle;
       footprint.place(other, axis, 0.0);

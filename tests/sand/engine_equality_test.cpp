@@ -59,8 +59,8 @@ class RandomScene {
     deposit.deposit = deposits[whole(0, 2)];
   }
 
-  /// Pushes the tool into each bed, at the same place: anywhere, along a tile border, or along a wall. There it
-  /// stays, or not, as a solid one.
+  /// Pushes the tool into each bed, at the same place: anywhere, along a tile border, or along a wall. There
+  /// it stays, or not, as a solid one.
   void push(std::initializer_list<HeightField*> beds) {
     const int at = whole(0, 2);
     const double row = at == 0 ? real(0, bed.rows()) : at == 1 ? real(61, 67) : real(0, 3);

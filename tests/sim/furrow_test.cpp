@@ -84,16 +84,12 @@ void expect_profile(const FurrowMeasures& measures, const Profile& profile, doub
 /// Where the tip is in contact.
 class ContactPath : public SimulationObserver {
  public:
-  void on_tick(const TickRecord& tick) override {
-    const bool touches = tick.depth > 0.0;
-    if (touches && !touched_) path.pieces.push_back(path.points.size());
-    if (touches) path.points.push_back(tick.device_position.head<2>());
-    touched_ = touches;
-  }
-  TipPath path;
+  explicit ContactPath(const Scene& scene) : gatherer_(scene) {}
+  void on_tick(const TickRecord& tick) override { gatherer_.add(tick); }
+  const TipPath& path() const { return gatherer_.path(); }
 
  private:
-  bool touched_ = false;
+  TipPathGatherer gatherer_;
 };
 
 TEST(Furrow, OnCentresOfCellsIsExact) {
@@ -267,15 +263,49 @@ TEST(Furrow, OfAShallowDragIsAsDeepAsItsTipWhicheverWayItGoes) {
     stroke.position = {{-x, -y, 0.01}, {-x, -y, -0.002}, {x, y, -0.002}};
     const HeightField before(150, 150, 0.002);
     Simulation simulation(scene, before, std::move(stroke));
-    ContactPath contact;
+    ContactPath contact(scene);
     simulation.run(contact);
-    const FurrowMeasures measures = measure_furrow(before, simulation.bed(), contact.path, scene.tool.radius);
+    const FurrowMeasures measures =
+        measure_furrow(before, simulation.bed(), contact.path(), scene.tool.radius);
     EXPECT_NEAR(measures.depth, 0.002, 0.1 * 0.002) << angle;
     EXPECT_GT(measures.rampart, 0.0);
     // Between the width of the tool's cap at that depth and that of the sphere.
     EXPECT_GT(measures.width, 2.0 * std::sqrt(2.0 * 0.01 * 0.002 - 0.002 * 0.002) - 0.002) << angle;
     EXPECT_LT(measures.width, 0.02) << angle;
   }
+}
+
+TEST(Furrow, TellsHowDeepTheTipWasAskedToBeBelowTheSandAsItWas) {
+  // Along a line on a slope, 3 mm below the sand but for its ends.
+  const HeightField bed = bed_of(240, 300, 1e-3, [](double x, double) { return 0.1 * x; });
+  TipPath path;
+  path.pieces = {0};
+  for (int i = 0; i <= 20; ++i) {
+    const double x = -0.05 + 0.005 * i;
+    path.points.emplace_back(x, 0.0);
+    path.asked.push_back(0.1 * x - (i < 3 ? 0.0 : 0.003));
+  }
+  EXPECT_NEAR(measure_furrow(bed, bed, path, 0.01).asked_depth, 0.003, 0.1 * 0.5e-3 + 1e-12);
+  path.asked.clear();
+  EXPECT_TRUE(std::isnan(measure_furrow(bed, bed, path, 0.01).asked_depth));
+}
+
+TEST(Furrow, WarnsOfADragThatLeavesLessThanHalfAndSaysWhatHelps) {
+  TipPath drag, plunge;
+  drag.points = {{0.0, 0.0}, {0.02, 0.0}, {0.041, 0.0}};
+  plunge.points = {{0.0, 0.0}, {0.02, 0.0}};
+  drag.pieces = plunge.pieces = {0};
+  Scene paper, accurate;
+  accurate.preset = ModelPreset::accurate;
+  apply_model_preset(accurate);
+  const FurrowMeasures less{.depth = 0.0019, .asked_depth = 0.004},
+      half{.depth = 0.002, .asked_depth = 0.004};
+  EXPECT_NE(furrow_warning(paper, drag, less).find("model.preset = \"accurate\""), std::string::npos);
+  EXPECT_NE(furrow_warning(paper, drag, less).find("1.9 mm deep where 4 mm"), std::string::npos);
+  EXPECT_NE(furrow_warning(accurate, drag, less).find("tool.radius"), std::string::npos);
+  EXPECT_EQ(furrow_warning(paper, drag, half), "");
+  EXPECT_EQ(furrow_warning(paper, plunge, less), "");  // a hole is no furrow
+  EXPECT_EQ(furrow_warning(paper, drag, FurrowMeasures{}), "");
 }
 
 }  // namespace

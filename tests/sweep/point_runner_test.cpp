@@ -6,6 +6,7 @@
 #include <set>
 
 #include "sand/initial_surface.h"
+#include "sim/simulation.h"
 #include "sweep/sweep_inputs.h"
 
 namespace sandstroke {
