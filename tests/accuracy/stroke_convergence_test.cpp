@@ -10,6 +10,7 @@
 #include "haptics/stroke_placement.h"
 #include "io/stroke_csv.h"
 #include "sanitized.h"
+#include "sim/error_estimate.h"
 #include "study/hand_strokes.h"
 #include "study/stroke_replay.h"
 #include "study/study.h"
@@ -111,6 +112,22 @@ TEST(StrokeConvergence, AFastPenLeavesItsFurrowToo) {
   EXPECT_LE(std::abs(fast.result.relaxations - slow.result.relaxations),
             2);  // it touches down, and lifts, later
   EXPECT_LT(apart(fast, slow), 0.05);
+}
+
+TEST(StrokeConvergence, TheEstimatedErrorIsNearTheTrueOneForHandsToo) {
+  if (sanitized) GTEST_SKIP() << "takes long under sanitizers";
+  const Stroke clean = s_curve(0.004, 0.25);
+  const HeightField start(accurate().bed.rows, accurate().bed.cols, accurate().bed.cell_size());
+  for (const auto& [name, stroke] :
+       {std::pair("a slow hand", s_curve(0.004, 0.1)), std::pair("noise", with_noise(clean, 55e-6)),
+        std::pair("slopes", with_slopes(clean, 0.05)), std::pair("deep", s_curve(0.01, 0.25))}) {
+    const Solution run = solve(accurate(), start, stroke);
+    const double estimate =
+        estimate_error(accurate(), start, stroke, run, SecondSolution::finer).height_share;
+    const double truth = apart(replay(accurate(), stroke), replay(finer(accurate(), 4), stroke));
+    EXPECT_GT(estimate, 0.5 * truth) << name;
+    EXPECT_LT(estimate, 2.0 * truth) << name;
+  }
 }
 
 /// Symbol 17 of the Panda data, as a user replays it: laid level, 5 mm deep, R = 6 mm.
