@@ -18,10 +18,10 @@ struct DisplacementSettings {
 };
 
 /// The paper's two passes (3.1): takes the sand that stands above the tool's underside out of the bowl, and
-/// heaps it on the ring in proportion to the positive filter. The footprint must have been placed on the bed
-/// as it is now; it is used up. motion [m]: the tool's displacement during the tick (Deposit::ahead). Returns
-/// the volume moved [m^3]; it is conserved to rounding. Where no ring cell lies inside the bed nothing is
-/// displaced.
+/// heaps it on the ring in proportion to the positive filter, or puts it outward. A second time there is
+/// nothing to take out. The footprint must have been placed on the bed as it is now; it is used up. motion
+/// [m]: the tool's displacement during the tick (Deposit::ahead). Returns the volume moved [m^3]; it is
+/// conserved to rounding. Where no ring cell lies inside the bed nothing is displaced.
 double displace(HeightField& bed, ToolFootprint& footprint, double tip_height, const Eigen::Vector3d& motion,
                 const DisplacementSettings& settings);
 

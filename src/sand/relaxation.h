@@ -59,8 +59,8 @@ struct RelaxationOutcome {
 ///              proportion to m - m_i (paper 3.2)
 ///   isotropic: upwind slope |g| = sqrt(gx^2 + gy^2), gx = max(0, m - west, m - east)/dx; each lower axis
 ///              neighbour gets c (1 - tan(talus)/|g|) (m - m_i); monotone for c <= 1/4
-/// Nothing crosses the border. Sums run over opposite pairs, so that a symmetric bed stays symmetric to the
-/// bit.
+/// Nothing crosses the border, nor gets into or out of cells that the bed holds (HeightField::hold). Sums run
+/// over opposite pairs, so that a symmetric bed stays symmetric to the bit.
 class Relaxer {
  public:
   virtual ~Relaxer() = default;

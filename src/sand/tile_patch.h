@@ -21,9 +21,9 @@ class TilePatch {
   static TilePatch& of_this_thread();
 
   /// Loads the rows and columns that the flagged cells' next heights depend on, whole groups of 8 with all
-  /// that their cells compare with; the tiles that they lie in must exist. Outside the bed, and where no tile
-  /// exists, cells are NaN: every comparison with them is false. The rest keeps what an earlier tile left
-  /// there, but for the margins beyond the rim: those are NaN for ever.
+  /// that their cells compare with; the tiles that they lie in must exist. Outside the bed, where no tile
+  /// exists, and where the bed holds them, cells are NaN: every comparison with them is false. The rest keeps
+  /// what an earlier tile left there, but for the margins beyond the rim: those are NaN for ever.
   void load(const HeightField& bed, int slot, const CellFlags& cells);
 
   double* heights(int row) { return heights_.data() + start(row); }

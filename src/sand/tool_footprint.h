@@ -76,6 +76,7 @@ class ToolFootprint {
   double* weights(int row) { return weights_.get() + at(row); }
   unsigned char* flags(int row) { return flags_.get() + at(row) / cells_per_group; }
   void write_flagged(HeightField& bed);
+  /// m, the sand that carve() took out of the flagged cells.
   double* excess(int row) { return excess_.get() + at(row); }
 
   /// The bed holds the cells of the bowl, and no others (HeightField::hold).
