@@ -1,5 +1,6 @@
 #include <spdlog/spdlog.h>
 
+#include <cmath>
 #include <filesystem>
 #include <limits>
 #include <memory>
@@ -96,7 +97,7 @@ void print_summary(const RunResult& r, const Scene& scene, const std::string& ou
         fmt::format("{:.3f} s, {} ticks, {} in contact", r.simulated_seconds, r.ticks, r.contact_ticks));
     row("speed", fmt::format("{:.1f} times real time", r.simulated_seconds / r.wall_seconds));
     row("deepest", fmt::format("{:.3f} mm", 1e3 * r.max_depth));
-    if (r.furrow)
+    if (r.furrow && !std::isnan(r.furrow->depth) && !std::isnan(r.furrow->asked_depth))
       row("furrow", fmt::format("{:.2f} mm deep, of {:.2f} mm that the tip was asked to be (medians)",
                                 1e3 * r.furrow->depth, 1e3 * r.furrow->asked_depth));
     row("largest force",

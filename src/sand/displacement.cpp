@@ -85,7 +85,7 @@ double displace(HeightField& bed, ToolFootprint& footprint, double tip_height, c
                 const DisplacementSettings& settings) {
   if (footprint.cells().empty()) return 0.0;
   Carved carved = carve(footprint, tip_height, front_of(motion, settings.deposit));
-  if (settings.deposit == Deposit::outward && carved.pushed > 0.0)
+  if (settings.deposit == Deposit::outward && carved.pushed > 0.0 && std::isfinite(carved.pushed))
     carved.front_weight = spread_outward(footprint, carved.pushed, settings.distance * footprint.radius());
   // A wall right ahead may cut off the whole front: what is left of the ring takes the sand.
   const bool whole_ring = !(carved.front_weight > 0.0);

@@ -24,7 +24,7 @@ struct RelaxationSettings {
   double talus_angle = 30.0;    ///< deg (angle of repose), above 0, below 90
   double tolerance = 1e-3;      ///< a cell whose slope exceeds tan(talus) by no more than this share rests
   double step_tolerance = 0.1;  ///< rkl: error of a super-step, as a share of how far sand has moved
-  double rate = 60.0;   ///< Hz, relaxations during a stroke; 0 = only after it (paper: the visual loop)
+  double rate = 60.0;   ///< Hz, relaxations during a stroke; 0 = none by time (paper: the visual loop)
   double travel = 0.0;  ///< cells, way of the tool through sand between relaxations; 0 = none by way
   double share = 0.0;   ///< c: 0 = the law's own (paper 1/2, isotropic 1/4, which is also its limit)
   std::int64_t max_passes = 1'000'000;  ///< per relaxation

@@ -150,8 +150,9 @@ double median(std::vector<double> values) {
 void TipPathGatherer::add(const TickRecord& tick) {
   if (tick.contact) {
     const Eigen::Vector2d tip = tip_of(device_, tick.device_position).head<2>();
-    if (!in_contact_) path_.pieces.push_back(path_.points.size());
-    if (!in_contact_ || (tip - path_.points.back()).norm() >= spacing_) {
+    const bool far = path_.points.empty() || (tip - path_.points.back()).norm() >= spacing_;
+    if (!in_contact_ && far) path_.pieces.push_back(path_.points.size());
+    if (far) {
       path_.points.push_back(tip);
       path_.asked.push_back(tip_of(device_, tick.hand.position).z());
     }
@@ -213,7 +214,8 @@ FurrowMeasures measure_furrow(const HeightField& initial, const HeightField& fin
 }
 
 std::string furrow_warning(const Scene& scene, const TipPath& path, const FurrowMeasures& furrow) {
-  double length = 0.0;  // m
+  if (scene.device.model == DeviceModel::dynamic) return "";  // perhaps the hand gave way
+  double length = 0.0;                                        // m
   for (const Piece& piece : thinned(path, 0.5 * scene.tool.radius)) length += piece.length();
   if (length < 4.0 * scene.tool.radius || !(furrow.depth < 0.5 * furrow.asked_depth)) return "";
   const std::string left = fmt::format("the furrow is {:.3g} mm deep where {:.3g} mm were asked for",
@@ -221,8 +223,8 @@ std::string furrow_warning(const Scene& scene, const TipPath& path, const Furrow
   const bool solid = scene.tool.solid && scene.displacement.deposit == Deposit::outward;
   if (!solid && furrow.asked_depth < 2.0 * scene.tool.radius)
     return left +
-           ": as published, sand slips into the tool, and pushed sand into the furrow behind it; set "
-           "model.preset = \"accurate\" for a solid tool";
+           ": sand slips into the tool, or is pushed into the furrow behind it, as published; set "
+           "tool.solid = true and displacement.deposit = \"outward\", as model.preset = \"accurate\" does";
   return left +
          ": sand falls back into so deep a furrow behind the tool; a larger tool.radius or a steeper "
          "relaxation.talus_angle leaves more of it";

@@ -18,7 +18,8 @@ struct TipPath {
       {};  ///< m, the height at which the hand wanted the tip; of each point, or empty
 };
 
-/// Gathers the path of a run, in points a quarter of a tool radius apart.
+/// Gathers the path of a run, in points a quarter of a tool radius apart. A tip that trembles at the surface
+/// goes on with the piece that it left there.
 class TipPathGatherer {
  public:
   explicit TipPathGatherer(const Scene& scene) : device_(scene.device), spacing_(0.25 * scene.tool.radius) {}

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "core/interrupt.h"
 #include "sand/tool_path.h"
 
 namespace sandstroke {
@@ -46,6 +47,7 @@ Touch SandSide::move(HeightField& bed, const Eigen::Vector3d& read_tip, const Ei
   for (std::int64_t i = 1; i <= steps.count; ++i) {
     Eigen::Vector3d from = steps.at(i - 1);
     while (const std::optional<double> share = slips_.way_to_next(from, steps.at(i) - from)) {
+      if (interrupted()) break;
       from += *share * (steps.at(i) - from);
       on_the_way += dig(bed, from, steps.way).displaced_volume;
       slip();

@@ -143,7 +143,11 @@ double memory_of_bed(const Scene& scene) {
       bed.surface.kind == SurfaceKind::file
           ? BedGeometry(bed.rows, bed.cols, bed.cell_size()).tile_count()
           : tiles_to_relax(make_surface(bed.surface, bed.rows, bed.cols, bed.cell_size()), scene.relaxation);
-  return static_cast<double>(bytes_per_relaxed_tile(scene.relaxation)) * static_cast<double>(tiles);
+  double per_tile = static_cast<double>(bytes_per_relaxed_tile(scene.relaxation));
+  // A run keeps the start of it, to measure what a stroke left.
+  if (bed.surface.kind == SurfaceKind::file && scene.stroke)
+    per_tile += static_cast<double>(HeightField::bytes_per_tile());
+  return per_tile * static_cast<double>(tiles);
 }
 
 }  // namespace
@@ -236,6 +240,10 @@ void check_scene(const Scene& scene, const std::string& name) {
     throw_input_error(
         "{}: relaxation.share = {} is not stable with relaxation.law = isotropic; take 0.25 or less", name,
         r.share);
+  constexpr double least_travel = 0.01;  // cells: below it sand slips for ever and goes nowhere
+  if (r.travel > 0.0 && r.travel < least_travel)
+    throw_input_error("{}: relaxation.travel = {} cells is too little; take {} or more, or 0 for none by way",
+                      name, r.travel, least_travel);
   if (r.method == RelaxationMethod::rkl && r.engine == RelaxationEngine::reference)
     throw_input_error(
         "{}: relaxation.engine = reference has no method rkl; set relaxation.method = passes, or engine = "

@@ -6,7 +6,9 @@ namespace sandstroke {
 
 bool SlipSchedule::is_due(const Eigen::Vector3d& tip, bool contact) const {
   if (travel_ == 0.0 || contact != slipped_at_.has_value()) return travel_ > 0.0;
-  return contact && (tip - *slipped_at_).stableNorm() >= travel_;
+  if (!contact) return false;
+  const Eigen::Vector3d away = tip - *slipped_at_;
+  return away.head<2>().stableNorm() >= travel_ || std::abs(away.z()) >= travel_;
 }
 
 std::optional<double> SlipSchedule::way_to_next(const Eigen::Vector3d& from,

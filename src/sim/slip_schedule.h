@@ -6,8 +6,9 @@
 namespace sandstroke {
 
 /// When sand is to slip by the way that a tool has gone through it: as it touches down, each time it is
-/// `travel` [m] from where sand slipped last, and as it leaves. So a stroke's outcome depends neither on its
-/// speed nor on how often it is sampled. A tool that trembles within `travel` asks for nothing.
+/// `travel` [m] along the bed, or up or down, from where sand slipped last, and as it leaves. So a stroke's
+/// outcome depends neither on its speed nor on how often it is sampled. A tool that trembles within `travel`
+/// below the surface asks for nothing.
 class SlipSchedule {
  public:
   /// travel: 0 = never.

@@ -275,6 +275,29 @@ TEST(Furrow, OfAShallowDragIsAsDeepAsItsTipWhicheverWayItGoes) {
   }
 }
 
+TEST(Furrow, ATipThatTremblesAtTheSurfaceIsOnePlaceOfItsPath) {
+  const Scene scene;
+  TipPathGatherer gatherer(scene);
+  TickRecord tick;
+  for (int i = 0; i < 100; ++i) {  // it hovers, then goes 0.1 m, and comes down once more elsewhere
+    tick.contact = i % 2 == 0;
+    gatherer.add(tick);
+  }
+  tick.contact = true;
+  for (int i = 0; i <= 100; ++i) {
+    tick.device_position.x() = 0.001 * i;
+    gatherer.add(tick);
+  }
+  tick.contact = false;
+  gatherer.add(tick);
+  tick.contact = true;
+  tick.device_position.x() = 0.2;
+  gatherer.add(tick);
+  const TipPath& path = gatherer.path();
+  EXPECT_EQ(path.pieces, (std::vector<std::size_t>{0, path.points.size() - 1}));
+  EXPECT_EQ(path.points.size(), 1u + 33u + 1u);  // every 3 mm: the first millimetre beyond a quarter radius
+}
+
 TEST(Furrow, TellsHowDeepTheTipWasAskedToBeBelowTheSandAsItWas) {
   // Along a line on a slope, 3 mm below the sand but for its ends.
   const HeightField bed = bed_of(240, 300, 1e-3, [](double x, double) { return 0.1 * x; });
@@ -301,6 +324,9 @@ TEST(Furrow, WarnsOfADragThatLeavesLessThanHalfAndSaysWhatHelps) {
   const FurrowMeasures less{.depth = 0.0019, .asked_depth = 0.004},
       half{.depth = 0.002, .asked_depth = 0.004};
   EXPECT_NE(furrow_warning(paper, drag, less).find("model.preset = \"accurate\""), std::string::npos);
+  Scene dynamic = paper;
+  dynamic.device.model = DeviceModel::dynamic;
+  EXPECT_EQ(furrow_warning(dynamic, drag, less), "");
   EXPECT_NE(furrow_warning(paper, drag, less).find("1.9 mm deep where 4 mm"), std::string::npos);
   EXPECT_NE(furrow_warning(accurate, drag, less).find("tool.radius"), std::string::npos);
   EXPECT_EQ(furrow_warning(paper, drag, half), "");

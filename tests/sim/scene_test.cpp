@@ -29,6 +29,23 @@ TEST(CheckScene, SandThatRestsByRuleNeedsNoMemory) {
   EXPECT_NO_THROW(check_scene(bumps, "huge.toml"));
 }
 
+TEST(CheckScene, AWayThatIsNoneIsRefused) {
+  Scene scene;
+  for (const double travel : {0.0, 0.01, 2.0, 1e9}) {
+    scene.relaxation.travel = travel;
+    EXPECT_NO_THROW(check_scene(scene, "scene.toml")) << travel;
+  }
+  for (const double travel : {1e-300, 1e-16, 0.0099}) {  // sand would slip for ever
+    scene.relaxation.travel = travel;
+    try {
+      check_scene(scene, "scene.toml");
+      ADD_FAILURE() << travel;
+    } catch (const Error& failure) {
+      EXPECT_NE(std::string(failure.what()).find("relaxation.travel"), std::string::npos) << failure.what();
+    }
+  }
+}
+
 TEST(CheckScene, SandThatWillMoveMustFitTheMemory) {
   if (physical_memory() > 100e9) GTEST_SKIP() << "this machine has memory for it";
   const auto refused = [](const Scene& scene) {

@@ -13,7 +13,9 @@ TEST(SlipSchedule, AsksAsTheToolTouchesDownHasGoneItsWayAndLeaves) {
   slips.slipped(here, true);
   EXPECT_FALSE(slips.is_due(here, true));
   EXPECT_FALSE(slips.is_due(here + Eigen::Vector3d(0.0, 0.0099, 0.0), true));
-  EXPECT_TRUE(slips.is_due(here + Eigen::Vector3d(0.006, -0.006, 0.006), true));  // 10.4 mm
+  EXPECT_FALSE(slips.is_due(here + Eigen::Vector3d(0.006, -0.006, 0.009), true));  // 8.5 mm along the bed
+  EXPECT_TRUE(slips.is_due(here + Eigen::Vector3d(0.008, -0.008, 0.0), true));
+  EXPECT_TRUE(slips.is_due(here + Eigen::Vector3d(0.0, 0.0, -0.01), true));
   EXPECT_TRUE(slips.is_due(here, false));
   slips.slipped(here, false);
   EXPECT_FALSE(slips.is_due(here, false));
