@@ -26,9 +26,7 @@ Eroder::Eroder(const HeightField& bed, const ToolSettings& tool, const Relaxatio
     : replica_(bed),
       rate_(settings.rate),
       travel_(settings.travel * bed.cell_size()),
-      solid_(tool.solid),
-      footprint_(tool),
-      slips_(travel_),
+      tool_(tool, {}, travel_),
       relaxer_(relaxer ? std::move(relaxer) : make_relaxer(in_short_turns(settings), bed.cell_size())),
       dug_(dug),
       places_(places),
@@ -48,30 +46,25 @@ void Eroder::exchange() {
   std::vector<SandChange> before;
   before.swap(held_);
   for (const SandChange& change : before) give(change);
-  while (places_.pop(place_)) continue;  // before what it dug there, which is told first
+  // Places first: a place is told after what was dug there, so that the sand is never older than the tool.
+  ToolPlace place;
+  bool told = false;
+  while (places_.pop(place)) told = true;
+  if (told) tool_.put(replica_.bed(), place.tip, place.contact);
   SandChange change;
   while (dug_.pop(change)) replica_.take(change, true);
 }
 
-void Eroder::hold() {
-  slips_.slipped(place_.tip, place_.contact);
-  if (!solid_) return;
-  if (place_.contact) {
-    footprint_.place(replica_.bed(), place_.tip.x(), place_.tip.y());
-    footprint_.hold_bowl(replica_.bed());
-  } else {
-    replica_.bed().hold({});
-  }
-}
-
-bool Eroder::slip_is_due() const {
-  return travel_ > 0.0 && (!report_.converged || slips_.is_due(place_.tip, place_.contact));
-}
+bool Eroder::slip_is_due() const { return travel_ > 0.0 && (!report_.converged || tool_.slip_is_due()); }
 
 void Eroder::turn() {
   exchange();
+  relax();
+}
+
+void Eroder::relax() {
   if (rate_ <= 0.0 && travel_ <= 0.0) return;
-  hold();
+  tool_.hold(replica_.bed());
   const RelaxationOutcome outcome = relaxer_->relax(replica_.bed());
   report_.relaxations += 1;
   report_.passes += outcome.passes;
@@ -98,10 +91,10 @@ void Eroder::run() {
   for (Seconds due = now(); !stopping_;) {
     exchange();
     if (now() >= due) {
-      turn();
+      relax();
       due = std::max(due + period, now());
     } else if (slip_is_due()) {
-      turn();
+      relax();
     }
     std::this_thread::sleep_for(std::min(due - now(), travel_ > 0.0 ? longest_look : longest_wait));
   }

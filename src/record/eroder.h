@@ -8,8 +8,7 @@
 #include "record/bed_replica.h"
 #include "record/spsc_ring.h"
 #include "sand/relaxation.h"
-#include "sand/tool_footprint.h"
-#include "sim/slip_schedule.h"
+#include "sim/sand_side.h"
 
 namespace sandstroke {
 
@@ -61,16 +60,13 @@ class Eroder {
  private:
   void run();
   void give(const SandChange& change);
-  void hold();
+  void relax();
   /// The tool asks for it, or sand that it asked for is still on its way.
   bool slip_is_due() const;
 
   BedReplica replica_;
   double rate_, travel_;  // Hz, m
-  bool solid_;
-  ToolFootprint footprint_;
-  SlipSchedule slips_;
-  ToolPlace place_;
+  SandSide tool_;         // as last told of; it displaces nothing
   std::unique_ptr<Relaxer> relaxer_;
   SandRing& dug_;
   PlaceRing& places_;

@@ -35,6 +35,12 @@ Touch SandSide::dig(HeightField& bed, const Eigen::Vector3d& tip, const Eigen::V
   return touch;
 }
 
+void SandSide::put(const HeightField& bed, const Eigen::Vector3d& read_tip, bool contact) {
+  footprint_.place(bed, read_tip.x(), read_tip.y());
+  tip_ = read_tip;
+  contact_ = contact;
+}
+
 Touch SandSide::move(HeightField& bed, const Eigen::Vector3d& read_tip, const Eigen::Vector3d& true_tip,
                      const std::function<void()>& slip, std::optional<double> highest) {
   const Eigen::Vector3d motion = last_tip_ ? Eigen::Vector3d(true_tip - *last_tip_) : Eigen::Vector3d::Zero();

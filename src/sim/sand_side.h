@@ -32,6 +32,8 @@ class SandSide {
              const std::function<void()>& slip, std::optional<double> highest = {});
   /// The same place, without displacing anything.
   Touch look(const HeightField& bed, const Eigen::Vector3d& read_tip);
+  /// The tool is here [m], in contact or not, by somebody else's account: nothing is displaced.
+  void put(const HeightField& bed, const Eigen::Vector3d& read_tip, bool contact);
   /// The tool touches nothing until the next move(), which begins anew: nothing is displaced on the way to
   /// it.
   void lift() {

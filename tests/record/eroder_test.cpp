@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <new>
 
 namespace sandstroke {
@@ -44,22 +45,46 @@ TEST(Eroder, UnderASolidToolNothingSlipsUntilItHasGone) {
   EXPECT_GT(slipped.size(), 0u);
 }
 
+/// Only counts.
+class CountingRelaxer : public Relaxer {
+ public:
+  explicit CountingRelaxer(std::atomic<int>& count) : count_(count) {}
+  RelaxationOutcome relax(HeightField&, const std::function<void(std::int64_t)>&) override {
+    ++count_;
+    RelaxationOutcome outcome;
+    outcome.converged = true;
+    return outcome;
+  }
+
+ private:
+  std::atomic<int>& count_;
+};
+
 TEST(Eroder, SlipsInItsThreadAsOftenAsTheToolHasGoneItsWay) {
   RelaxationSettings settings;
   settings.rate = 0.0, settings.travel = 1.0;
-  SandRing dug(64), slipped(1 << 12);
+  SandRing dug(64), slipped(64);
   PlaceRing places(8);
-  Eroder eroder(HeightField(41, 41, 0.01), {0.03, ToolProfile::sphere, true}, settings, dug, places, slipped);
-  eroder.start();
-  for (int i = 0; i <= 20; ++i) {  // touches down, and goes two cells in steps of a tenth
-    places.push({{0.001 * i, 0.0, -0.01}, true});
+  std::atomic<int> slips = 0;
+  Eroder eroder(HeightField(41, 41, 0.01), {0.03, ToolProfile::sphere, true}, settings, dug, places, slipped,
+                std::make_unique<CountingRelaxer>(slips));
+  const auto go_to = [&](double x, bool contact) {
+    places.push({{x, 0.0, contact ? -0.01 : 0.1}, contact});
     while (places.size() > 0) std::this_thread::yield();
+  };
+  places.push({{0.0, 0.0, -0.01}, true});  // it touches down
+  eroder.start();
+  while (slips < 1) std::this_thread::yield();
+  for (int cells = 1; cells <= 3; ++cells) {
+    for (int i = 1; i < 10; ++i) go_to(0.01 * (cells - 1) + 0.001 * i, true);  // less than a cell: nothing
+    EXPECT_EQ(slips, cells);
+    go_to((0.01 + 1e-12) * cells, true);
+    while (slips < cells + 1) std::this_thread::yield();
   }
-  places.push({{0.0, 0.0, 0.1}, false});
-  while (places.size() > 0) std::this_thread::yield();
+  go_to(0.03, false);  // it leaves
+  while (slips < 5) std::this_thread::yield();
   eroder.stop();
-  EXPECT_GE(eroder.report().relaxations, 3);
-  EXPECT_LE(eroder.report().relaxations, 5);  // at the start, three by its way, as it leaves
+  EXPECT_EQ(slips, 5);
 }
 
 /// Of a machine without memory left.

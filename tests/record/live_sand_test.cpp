@@ -84,7 +84,11 @@ INSTANTIATE_TEST_SUITE_P(Solid, LiveTool, testing::Bool());
 TEST_P(LiveTool, OfEvenTicksHasTheSandAndTheRepulseForceThatARunOfThemHas) {
   Scene scene = small_scene();
   scene.tool.solid = GetParam();
-  if (scene.tool.solid) scene.displacement.deposit = Deposit::outward;
+  if (scene.tool.solid) {
+    scene.displacement.deposit = Deposit::outward;
+    // Sand that falls in where the tool was has far to go, and does so in turns of so many passes.
+    scene.relaxation.max_passes = 50;
+  }
   const std::vector<double> times = even_times(2.5);
   const Feeling felt = feel_all(scene, times);
   EXPECT_GT(felt.report.contact_ticks, 500);
@@ -105,17 +109,24 @@ TEST_P(LiveTool, OfEvenTicksHasTheSandAndTheRepulseForceThatARunOfThemHas) {
   double most = 0.0;
   for (std::size_t k = 0; k < times.size(); ++k) {
     const TickRecord& tick = run.ticks[k];
-    EXPECT_NEAR(felt.forces[k].z(), tick.repulse_force.z(), (GetParam() ? 3.0 : 1.0) * stiffness * tip)
-        << times[k];
+    EXPECT_NEAR(felt.forces[k].z(), tick.repulse_force.z(), stiffness * tip) << times[k];
     const double drag = scene.force.k_f * tick.repulse_force.z() * SmoothHand::acceleration() * lag;
-    EXPECT_LE((felt.forces[k] - tick.device_force).norm(), drag + 4.0 * stiffness * tip) << times[k];
+    EXPECT_LE((felt.forces[k] - tick.device_force).norm(), drag + 2.0 * stiffness * tip) << times[k];
     most = std::max(most, felt.forces[k].norm());
   }
   EXPECT_GT(most, 2.0);
   EXPECT_LT((felt.bed - felt.eroding).abs().maxCoeff(), 1e-12);
-  if (!GetParam()) {  // at the end of a run a solid tool is gone, and sand falls in where it stood
-    EXPECT_LT((felt.bed - simulation.bed().grid()).abs().maxCoeff(), 10.0 * tip);
-  }
+  // At the end of a run a solid tool is gone, and sand falls in where it stood.
+  const Eigen::Vector3d last = SmoothHand::at(times.back());
+  double apart = 0.0;
+  for (int row = 0; row < felt.bed.rows(); ++row)
+    for (int col = 0; col < felt.bed.cols(); ++col) {
+      const HeightField& bed = simulation.bed();
+      const bool stood =
+          std::hypot(bed.x_of(col) - last.x(), bed.y_of(row) - last.y()) < 4.0 * scene.tool.radius;
+      if (!GetParam() || !stood) apart = std::max(apart, std::abs(felt.bed(row, col) - bed(row, col)));
+    }
+  EXPECT_LT(apart, 10.0 * tip);
   EXPECT_GT(result.moved_volume, 0.0);
 }
 
@@ -174,11 +185,14 @@ TEST(LiveSand, ErodingInItsOwnThreadLosesNoSand) {
   EXPECT_LT(std::abs(sand.bed().volume() - start.volume()), 1e-15);
 }
 
-TEST(LiveSand, TakesNoMemoryInTheLoop) {
+TEST_P(LiveTool, TakesNoMemoryInTheLoop) {
   if (!allocations_are_counted()) GTEST_SKIP() << "allocations are not counted under sanitizers";
   Scene scene = small_scene();
-  scene.preset = ModelPreset::accurate;
-  apply_model_preset(scene);
+  scene.displacement.deposit = Deposit::ahead;
+  if (GetParam()) {
+    scene.preset = ModelPreset::accurate;
+    apply_model_preset(scene);
+  }
   LiveSand sand(scene, bed_of(scene), "bed");
   sand.start();
   const std::vector<double> times = even_times(3.0);
