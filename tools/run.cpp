@@ -19,6 +19,7 @@
 #include "print_json.h"
 #include "run_picture.h"
 #include "sand/instruction_set.h"
+#include "sim/furrow.h"
 #include "sim/simulation.h"
 
 namespace sandstroke {
@@ -39,7 +40,7 @@ nlohmann::ordered_json as_json(const RunResult& r, const Scene& scene, const std
   constexpr double none = std::numeric_limits<double>::quiet_NaN();  // null
   nlohmann::ordered_json json = {
       {"output", output},
-      {"preset", preset_names[static_cast<std::size_t>(scene.preset)]},
+      {"preset", preset_name(scene.preset)},
       {"wall_seconds", r.wall_seconds},
       {"ticks", r.ticks},
       {"simulated_seconds", r.simulated_seconds},
@@ -90,7 +91,7 @@ void row(const char* name, const std::string& value) { fmt::print("{:<18} {}\n",
 
 void print_summary(const RunResult& r, const Scene& scene, const std::string& output) {
   row("run", output);
-  row("model", "preset " + preset_names[static_cast<std::size_t>(scene.preset)]);
+  row("model", "preset " + preset_name(scene.preset));
   if (!r.interrupted) row("for ParaView", beside(output, ".xdmf").string());
   if (r.ticks > 0) {
     row("stroke",
@@ -187,7 +188,10 @@ int run(const RunArguments& arguments) {
   }
   if (result.ticks > 0 && result.contact_ticks == 0)
     spdlog::warn("the tool never touched the sand; check stroke.plane, stroke.depth and stroke.offset");
-  if (!result.furrow_warning.empty()) spdlog::warn("{}", result.furrow_warning);
+  if (result.furrow) {
+    const std::string warning = furrow_warning(scene, *result.furrow);
+    if (!warning.empty()) spdlog::warn("{}", warning);
+  }
   if (scene.device.model == DeviceModel::dynamic && loop_returned_energy(result, scene.device))
     spdlog::warn(
         "the sand returned up to {:.3g} J more than it took: the loop was not passive; lower force.k_s, "

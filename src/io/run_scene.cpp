@@ -105,10 +105,8 @@ RunResult run_scene(const Scene& scene, const std::filesystem::path& output, con
   RunResult result = simulation.run(writer);
   result.threads = threads;
   if (writer.recorded_force()) result.recorded_force = writer.recorded_force()->difference();
-  if (result.contact_ticks > 0) {
+  if (result.contact_ticks > 0)
     result.furrow = measure_furrow(*start, simulation.bed(), writer.tip_path(), scene.tool.radius);
-    result.furrow_warning = furrow_warning(scene, writer.tip_path(), *result.furrow);
-  }
   writer.clear_bar();
   writer.finish(result, simulation.bed());
   if (options.second && !result.interrupted) {

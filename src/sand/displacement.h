@@ -12,8 +12,8 @@ enum class Deposit { ring, ahead, outward };
 
 struct DisplacementSettings {
   Deposit deposit = Deposit::ring;
-  /// outward: from the axis, in tool radii. Up to 1.15 it changes nothing but for the error of the cells; at
-  /// 1.25 the limit of small cells is 3 % of the moved sand away, and that of five cells a radius is nearest.
+  /// outward: how far from the axis, in tool radii. The place hardly matters: with small cells 1.05 and 1.15
+  /// come within 0.7 % of the moved sand of each other, 1.25 within 3 % (bench: stroke-accurate).
   double distance = 1.2;
 };
 

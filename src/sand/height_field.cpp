@@ -1,5 +1,6 @@
 #include "sand/height_field.h"
 
+#include <cmath>
 #include <limits>
 #include <new>
 
@@ -57,6 +58,13 @@ int HeightField::make_tile(int tile) {
   tiles_.push_back(std::move(made));
   slots_.get()[tile] = static_cast<std::uint32_t>(tiles_.size());
   return touched_tiles() - 1;
+}
+
+double HeightField::height_at(double x, double y) const {
+  const double row = std::round(row_at(y)), col = std::round(col_at(x));
+  const bool inside = row >= 0.0 && row < rows() && col >= 0.0 && col < cols();
+  return inside ? (*this)(static_cast<int>(row), static_cast<int>(col))
+                : std::numeric_limits<double>::quiet_NaN();
 }
 
 void HeightField::settle() {

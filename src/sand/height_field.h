@@ -43,6 +43,8 @@ class HeightField : public BedGeometry {
     const int slot = slot_of(tile_index(row / tile_side, col / tile_side));
     return slot < 0 ? untouched_->height(*this, row, col) : tiles_[slot]->heights[in_tile(row, col)];
   }
+  /// Of the cell at a place [m]; not-a-number outside the bed.
+  double height_at(double x, double y) const;
   /// Sets one cell. The next relaxation looks at it.
   void set(int row, int col, double height) {
     const int slot = touch(tile_index(row / tile_side, col / tile_side));

@@ -8,8 +8,8 @@
 
 namespace sandstroke {
 
-/// Places along a straight way of a tip [m], at equal steps: at(0) to at(count), both ends left out by
-/// whoever has been, or will be, there.
+/// Places along a straight way of a tip [m], in equal steps: at(0) is where it begins, at(count) where it
+/// ends.
 struct TipSteps {
   Eigen::Vector3d begin = Eigen::Vector3d::Zero(), way = Eigen::Vector3d::Zero();
   std::int64_t count = 0;
@@ -19,9 +19,9 @@ struct TipSteps {
 };
 
 /// The way from one tick's place to the next one's [m], at steps of `longest` [m] at most along the bed, so
-/// that a fast drag leaves a furrow and not a row of pits: ticks in between would go the same. No steps where
-/// the tick is no longer than one. Only the part of the way that a footprint of `reach` [m] sees the bed
-/// from, and below `highest` [m], counts: a way from beyond all measure costs only what crosses the sand.
+/// that a fast drag leaves a furrow and not a row of pits. Only the part of the way that a footprint of
+/// `reach` [m] sees the bed from, and below `highest` [m], counts: a way from beyond all measure costs only
+/// what crosses the sand.
 TipSteps steps_between(const BedGeometry& bed, double reach, const Eigen::Vector3d& from,
                        const Eigen::Vector3d& to, double longest, double highest);
 

@@ -132,8 +132,9 @@ FurrowMeasures measure(const Section& section, double tool_radius) {
   for (int k = -near; k <= near; ++k)
     if (section(k) < section(lowest)) lowest = k;
   const Side left = walk(section, lowest, 1, far), right = walk(section, lowest, -1, far);
-  return {std::max(0.0, -section(lowest)), (left.edge - right.edge) * section.step(),
-          std::fmax(left.crest, right.crest), nothing};
+  return {.depth = std::max(0.0, -section(lowest)),
+          .width = (left.edge - right.edge) * section.step(),
+          .rampart = std::fmax(left.crest, right.crest)};
 }
 
 /// Of those that are numbers; not-a-number where none is.
@@ -165,12 +166,8 @@ namespace {
 /// Not-a-number where nobody asked, or outside the bed.
 double asked_depth(const HeightField& initial, const TipPath& path) {
   std::vector<double> depths;
-  for (std::size_t i = 0; i < path.asked.size(); ++i) {
-    const double row = std::round(initial.row_at(path.points[i].y())),
-                 col = std::round(initial.col_at(path.points[i].x()));
-    if (row >= 0.0 && row < initial.rows() && col >= 0.0 && col < initial.cols())
-      depths.push_back(initial(static_cast<int>(row), static_cast<int>(col)) - path.asked[i]);
-  }
+  for (std::size_t i = 0; i < path.asked.size(); ++i)
+    depths.push_back(initial.height_at(path.points[i].x(), path.points[i].y()) - path.asked[i]);
   return median(std::move(depths));
 }
 
@@ -209,15 +206,15 @@ FurrowMeasures measure_furrow(const HeightField& initial, const HeightField& fin
     }
     passed += weight(piece);
   }
+  double length = 0.0;
+  for (const Piece& piece : pieces) length += piece.length();
   return {median(std::move(depths)), median(std::move(widths)), median(std::move(ramparts)),
-          asked_depth(initial, path)};
+          asked_depth(initial, path), length};
 }
 
-std::string furrow_warning(const Scene& scene, const TipPath& path, const FurrowMeasures& furrow) {
+std::string furrow_warning(const Scene& scene, const FurrowMeasures& furrow) {
   if (scene.device.model == DeviceModel::dynamic) return "";  // perhaps the hand gave way
-  double length = 0.0;                                        // m
-  for (const Piece& piece : thinned(path, 0.5 * scene.tool.radius)) length += piece.length();
-  if (length < 4.0 * scene.tool.radius || !(furrow.depth < 0.5 * furrow.asked_depth)) return "";
+  if (furrow.length < 4.0 * scene.tool.radius || !(furrow.depth < 0.5 * furrow.asked_depth)) return "";
   const std::string left = fmt::format("the furrow is {:.3g} mm deep where {:.3g} mm were asked for",
                                        1e3 * furrow.depth, 1e3 * furrow.asked_depth);
   const bool solid = scene.tool.solid && scene.displacement.deposit == Deposit::outward;

@@ -14,8 +14,8 @@ namespace sandstroke {
 struct TipPath {
   std::vector<Eigen::Vector2d> points;
   std::vector<std::size_t> pieces;
-  std::vector<double> asked =
-      {};  ///< m, the height at which the hand wanted the tip; of each point, or empty
+  /// m, the height at which the hand wanted the tip: of each point, or empty.
+  std::vector<double> asked = {};
 };
 
 /// Gathers the path of a run, in points a quarter of a tool radius apart. A tip that trembles at the surface
@@ -44,6 +44,6 @@ FurrowMeasures measure_furrow(const HeightField& initial, const HeightField& fin
 
 /// A sentence for whoever asked for a furrow, a drag of 4 tool radii at least, and is left with less than
 /// half of its depth: why, and what to do. Empty: there is nothing to say.
-std::string furrow_warning(const Scene& scene, const TipPath& path, const FurrowMeasures& furrow);
+std::string furrow_warning(const Scene& scene, const FurrowMeasures& furrow);
 
 }  // namespace sandstroke

@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
-#include <string>
 
 #include "haptics/stroke_sampler.h"
 
@@ -65,6 +64,7 @@ struct FurrowMeasures {
   double rampart = std::numeric_limits<double>::quiet_NaN();
   /// m, how far below the surface as it was the hand wanted the tip.
   double asked_depth = std::numeric_limits<double>::quiet_NaN();
+  double length = 0.0;  ///< m, of the way in contact
 };
 
 /// What a whole run amounts to (`run --json`).
@@ -99,7 +99,6 @@ struct RunResult {
   int threads = 1;
   bool interrupted = false;
   std::optional<FurrowMeasures> furrow;           ///< where the stroke touched sand
-  std::string furrow_warning;                     ///< sim/furrow.h
   std::optional<ErrorEstimate> error;             ///< where it was asked for
   std::optional<ForceDifference> recorded_force;  ///< where the stroke was recorded with forces
 };

@@ -240,10 +240,11 @@ void check_scene(const Scene& scene, const std::string& name) {
     throw_input_error(
         "{}: relaxation.share = {} is not stable with relaxation.law = isotropic; take 0.25 or less", name,
         r.share);
-  constexpr double least_travel = 0.01;  // cells: below it sand slips for ever and goes nowhere
+  constexpr double least_travel = 0.01;  // cells: with a way below rounding a tick would never end
   if (r.travel > 0.0 && r.travel < least_travel)
-    throw_input_error("{}: relaxation.travel = {} cells is too little; take {} or more, or 0 for none by way",
-                      name, r.travel, least_travel);
+    throw_input_error(
+        "{}: relaxation.travel = {} cells is too little; take {} or more, or 0 to relax by time only", name,
+        r.travel, least_travel);
   if (r.method == RelaxationMethod::rkl && r.engine == RelaxationEngine::reference)
     throw_input_error(
         "{}: relaxation.engine = reference has no method rkl; set relaxation.method = passes, or engine = "

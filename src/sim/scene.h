@@ -20,6 +20,9 @@ namespace sandstroke {
 /// way.
 enum class ModelPreset { paper, accurate };
 inline const std::vector<std::string> preset_names = {"paper", "accurate"};
+inline const std::string& preset_name(ModelPreset preset) {
+  return preset_names[static_cast<std::size_t>(preset)];
+}
 
 struct BedSettings {
   double width = 2.0, depth = 2.0;  ///< m, along x and y

@@ -2,8 +2,6 @@
 
 #include <spdlog/fmt/fmt.h>
 
-#include <cmath>
-
 namespace sandstroke {
 
 DeepestPlace deepest_place(const Scene& scene, const HeightField& bed, const Stroke& stroke) {
@@ -11,9 +9,7 @@ DeepestPlace deepest_place(const Scene& scene, const HeightField& bed, const Str
   for (std::size_t i = 0; i < stroke.size(); ++i) {
     if (!stroke.touches(i)) continue;
     const Eigen::Vector3d tip = tip_of(scene.device, stroke.position[i]);
-    const double row = std::round(bed.row_at(tip.y())), col = std::round(bed.col_at(tip.x()));
-    if (!(row >= 0.0 && row < bed.rows() && col >= 0.0 && col < bed.cols())) continue;
-    const double depth = bed(static_cast<int>(row), static_cast<int>(col)) - tip.z();
+    const double depth = bed.height_at(tip.x(), tip.y()) - tip.z();
     if (depth > deepest.depth) deepest = {depth, stroke.time[i]};
   }
   return deepest;

@@ -171,8 +171,8 @@ Problem hands_problem(const ProblemOptions& options) {
                          double rate = 0.0) {
       Scene one = scene;
       if (rate > 0.0) one.relaxation.rate = rate;
-      Contender contender = stroke_contender(preset_names[static_cast<std::size_t>(preset)] + ", " + what,
-                                             label, one, options.threads, not_applicable, stroke, truth);
+      Contender contender = stroke_contender(preset_name(preset) + ", " + what, label, one, options.threads,
+                                             not_applicable, stroke, truth);
       if (what == "speed")  // forces and places are those of other times
         contender.run = [run = contender.run] {
           Trial trial = run();

@@ -20,11 +20,12 @@ struct AllocationsBetween : SimulationObserver {
 
 TEST(TickLoop, AllocatesNothingOnceItsTilesExist) {
   if (!allocations_are_counted()) GTEST_SKIP() << "sanitizers bring their own allocator";
-  Scene paper, isotropic, accurate;
-  isotropic.relaxation.law = RelaxationLaw::isotropic;
+  Scene paper, isotropic, rkl, accurate;
+  isotropic.relaxation.law = rkl.relaxation.law = RelaxationLaw::isotropic;
+  rkl.relaxation.method = RelaxationMethod::rkl;
   accurate.preset = ModelPreset::accurate;
   apply_model_preset(accurate);
-  for (Scene scene : {paper, isotropic, accurate}) {
+  for (Scene scene : {paper, isotropic, rkl, accurate}) {
     scene.bed.width = scene.bed.depth = 0.4;
     scene.bed.cols = scene.bed.rows = 200;
     scene.stroke.emplace();

@@ -314,24 +314,28 @@ TEST(Furrow, TellsHowDeepTheTipWasAskedToBeBelowTheSandAsItWas) {
 }
 
 TEST(Furrow, WarnsOfADragThatLeavesLessThanHalfAndSaysWhatHelps) {
-  TipPath drag, plunge;
-  drag.points = {{0.0, 0.0}, {0.02, 0.0}, {0.041, 0.0}};
-  plunge.points = {{0.0, 0.0}, {0.02, 0.0}};
-  drag.pieces = plunge.pieces = {0};
   Scene paper, accurate;
   accurate.preset = ModelPreset::accurate;
   apply_model_preset(accurate);
-  const FurrowMeasures less{.depth = 0.0019, .asked_depth = 0.004},
-      half{.depth = 0.002, .asked_depth = 0.004};
-  EXPECT_NE(furrow_warning(paper, drag, less).find("model.preset = \"accurate\""), std::string::npos);
+  const FurrowMeasures less{.depth = 0.0019, .asked_depth = 0.004, .length = 0.04},
+      half{.depth = 0.002, .asked_depth = 0.004, .length = 0.04},
+      hole{.depth = 0.0019, .asked_depth = 0.004, .length = 0.039};
+  EXPECT_NE(furrow_warning(paper, less).find("model.preset = \"accurate\""), std::string::npos);
+  EXPECT_NE(furrow_warning(paper, less).find("1.9 mm deep where 4 mm"), std::string::npos);
+  EXPECT_NE(furrow_warning(accurate, less).find("tool.radius"), std::string::npos);
   Scene dynamic = paper;
   dynamic.device.model = DeviceModel::dynamic;
-  EXPECT_EQ(furrow_warning(dynamic, drag, less), "");
-  EXPECT_NE(furrow_warning(paper, drag, less).find("1.9 mm deep where 4 mm"), std::string::npos);
-  EXPECT_NE(furrow_warning(accurate, drag, less).find("tool.radius"), std::string::npos);
-  EXPECT_EQ(furrow_warning(paper, drag, half), "");
-  EXPECT_EQ(furrow_warning(paper, plunge, less), "");  // a hole is no furrow
-  EXPECT_EQ(furrow_warning(paper, drag, FurrowMeasures{}), "");
+  EXPECT_EQ(furrow_warning(dynamic, less), "");
+  EXPECT_EQ(furrow_warning(paper, half), "");
+  EXPECT_EQ(furrow_warning(paper, hole), "");
+  EXPECT_EQ(furrow_warning(paper, FurrowMeasures{}), "");
+}
+
+TEST(Furrow, TellsTheWayInContact) {
+  TipPath path;
+  path.points = {{0.0, 0.0}, {0.02, 0.0}, {0.041, 0.0}, {0.1, 0.0}, {0.1, 0.03}};
+  path.pieces = {0, 3};  // lifted in between
+  EXPECT_NEAR(measured(flat, flat, path).length, 0.071, 1e-12);
 }
 
 }  // namespace

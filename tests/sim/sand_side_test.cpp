@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -12,7 +13,9 @@ namespace {
 const std::function<void()> no_slip = [] {};
 
 TEST(SandSide, AFastTickDisplacesAsTicksInBetweenWould) {
-  const Eigen::Vector3d from(-0.02, 0.003, -0.002), to(0.03, -0.01, -0.007);
+  // Sums and differences of these are exact, so that all bits are the same.
+  const Eigen::Vector3d from(-0.0205078125, 0.0029296875, -0.001953125),
+      to(0.0302734375, -0.009765625, -0.0068359375);
   const ToolSettings tool{0.01, ToolProfile::sphere};
   const DisplacementSettings ahead{Deposit::ahead};
   HeightField one(100, 100, 0.002), many = one;
@@ -20,7 +23,7 @@ TEST(SandSide, AFastTickDisplacesAsTicksInBetweenWould) {
   fast.move(one, from, from, no_slip);
   const double volume = fast.move(one, to, to, no_slip).displaced_volume;
 
-  const int steps = 11;  // 51.7 mm along the bed in steps of half a radius at most
+  const int steps = 11;  // 52.3 mm along the bed in steps of half a radius at most
   ToolFootprint footprint(tool);
   double expected = 0.0;
   for (int i = 0; i <= steps; ++i) {
@@ -31,8 +34,46 @@ TEST(SandSide, AFastTickDisplacesAsTicksInBetweenWould) {
     if (i > 0) expected += moved;
   }
   EXPECT_GT(expected, 0.0);
-  EXPECT_NEAR(volume, expected, 1e-12 * expected);
-  EXPECT_LT((one.grid() - many.grid()).abs().maxCoeff(), 1e-15);  // places by one rounding apart
+  EXPECT_EQ(volume, expected);
+  EXPECT_TRUE((one.grid() == many.grid()).all());
+  EXPECT_NEAR(one.volume(), 0.0, 1e-12 * volume);
+}
+
+/// What a second tick there displaces, after a first one here that displaces nothing (in the air).
+double displaced_between(HeightField& bed, const Eigen::Vector3d& here, const Eigen::Vector3d& there) {
+  SandSide sand({0.01, ToolProfile::sphere}, {Deposit::ahead}, 0.0);
+  EXPECT_EQ(sand.move(bed, here, here, no_slip).displaced_volume, 0.0);
+  return sand.move(bed, there, there, no_slip).displaced_volume;
+}
+
+TEST(SandSide, ATickOfHalfARadiusDisplacesOnlyWhereItEnds) {
+  HeightField path(100, 100, 0.002), place = path;
+  const Eigen::Vector3d to(0.0049, 0.0, -0.02);
+  const double volume = displaced_between(path, {0.0, 0.0, 0.001}, to);
+  ToolFootprint footprint({0.01, ToolProfile::sphere});
+  footprint.place(place, to.x(), to.y());
+  EXPECT_EQ(volume, displace(place, footprint, to.z(), {0.0049, 0.0, -0.021}, {Deposit::ahead}));
+  EXPECT_TRUE((path.grid() == place.grid()).all());
+}
+
+TEST(SandSide, InTheAirOrBesideTheBedNothingIsDisplaced) {
+  HeightField bed(100, 100, 0.002);
+  EXPECT_EQ(displaced_between(bed, {-0.05, 0.0, 0.001}, {0.05, 0.0, 0.001}), 0.0);
+  EXPECT_EQ(displaced_between(bed, {-5.0, 3.0, -0.01}, {5.0, 3.0, -0.01}), 0.0);
+  EXPECT_EQ(bed.touched_tiles(), 0);
+}
+
+TEST(SandSide, FromBeyondAllMeasureItDisplacesOnlyWhatCrossesTheSand) {
+  for (const double far : {1.0, 1e6, 1e20, 1e300}) {
+    HeightField bed(100, 100, 0.002);
+    const double volume = displaced_between(bed, {-far, 0.0, -0.005}, {far, 0.0, -0.005});
+    EXPECT_TRUE(std::isfinite(volume));
+    EXPECT_TRUE(bed.grid().isFinite().all());
+    EXPECT_NEAR(bed.volume(), 0.0, 1e-12 * std::max(volume, 1e-9));
+    if (far < 1e10) {
+      EXPECT_LT(bed(49, 50), -0.003);
+    }
+  }
 }
 
 /// Where sand slips along a drag of 40 mm in ticks of this length [m].
