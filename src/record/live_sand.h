@@ -25,8 +25,8 @@ struct LiveSandReport {
 /// - velocity: of that curve, while here only the past is known (velocity_window);
 /// - erosion: there at the tick it is due, here when its thread has come to it.
 /// With a tip of speed v and acceleration a [m/s, m/s^2, in the bed], samples at most h and relaxations r
-/// apart [s], W = velocity_window and K the sand's stiffness (felt_sand), where the recorder did not alter
-/// the force:
+/// apart [s] (by way: travel / v), W = velocity_window and K the sand's stiffness (felt_sand), where the
+/// recorder did not alter the force:
 ///   |difference| <= K v (2 h + r) (1 + k_f v) + k_f |F_r| a (W / 2 + 2) h
 /// for in h the hand goes v h, and digs and feels that much elsewhere; in r sand slips no further than its
 /// disturbance reached, v r. Where a script's speed jumps, a is as large as the jump over h.
