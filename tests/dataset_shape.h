@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "io/hdf5_handle.h"
+#include "hdf5/hdf5_handle.h"
 
 namespace sandstroke {
 

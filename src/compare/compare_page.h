@@ -7,8 +7,8 @@
 #include "compare/check.h"
 #include "compare/golden.h"
 #include "compare/run_checks.h"
-#include "core/image.h"
 #include "io/run_file.h"
+#include "picture/image.h"
 
 namespace sandstroke {
 

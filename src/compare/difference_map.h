@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "core/image.h"
+#include "picture/image.h"
 #include "sand/height_field.h"
 
 namespace sandstroke {

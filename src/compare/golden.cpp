@@ -12,7 +12,7 @@
 #include "core/machine.h"
 #include "core/output_file.h"
 #include "core/version.h"
-#include "io/hdf5_file.h"
+#include "hdf5/hdf5_file.h"
 #include "io/png_file.h"
 #include "io/toml_reader.h"
 #include "render/changed_cells.h"

@@ -8,8 +8,8 @@
 
 #include "compare/check.h"
 #include "compare/run_checks.h"
-#include "core/image.h"
 #include "io/run_file.h"
+#include "picture/image.h"
 #include "sim/run_result.h"
 
 namespace sandstroke {

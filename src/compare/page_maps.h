@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "core/image.h"
+#include "picture/image.h"
 #include "sand/height_field.h"
 
 namespace sandstroke {

@@ -4,7 +4,7 @@
 #include <functional>
 #include <string>
 
-#include "core/image.h"
+#include "picture/image.h"
 #include "sand/height_field.h"
 
 namespace sandstroke {

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "compare/check.h"
-#include "core/image.h"
 #include "io/run_file.h"
+#include "picture/image.h"
 
 namespace sandstroke {
 

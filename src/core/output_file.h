@@ -8,8 +8,8 @@
 #include "core/file_lock.h"
 
 // Where files lie. Read is what the command line names, and what such a file names, relative to where that
-// lies; that must be a regular file, and of an HDF5 file nothing is read that lies in another. Written is only
-// what the command line names, and beside it PATH.part, never through a link in its place.
+// lies; that must be a regular file, and of an HDF5 file nothing is read that lies in another. Written is
+// only what the command line names, and beside it PATH.part, never through a link in its place.
 namespace sandstroke {
 
 /// The name under which PATH is written until it is complete: PATH.part.
@@ -43,8 +43,8 @@ void finish_part(const std::filesystem::path& path);
 /// untouched. Error: io, also where another process is writing it.
 void write_text_file(const std::filesystem::path& path, std::string_view text);
 
-/// Error: io, unless it is a regular file that can be read: what a file names as its input is no device and no
-/// pipe, which might never end.
+/// Error: io, unless it is a regular file that can be read: what a file names as its input is no device and
+/// no pipe, which might never end.
 void check_readable(const std::filesystem::path& path);
 
 /// False also where it cannot be read.

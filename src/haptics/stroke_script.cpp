@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "core/error.h"
-#include "core/hershey_text.h"
+#include "picture/hershey_text.h"
 
 namespace sandstroke {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "io/hdf5_writer.h"
+#include "hdf5/hdf5_writer.h"
 
 namespace sandstroke {
 

@@ -6,7 +6,7 @@
 
 #include "core/child_process.h"
 #include "core/file_lock.h"
-#include "core/image.h"
+#include "picture/image.h"
 
 namespace sandstroke {
 

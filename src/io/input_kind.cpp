@@ -6,7 +6,7 @@
 #include "core/error.h"
 #include "core/output_file.h"
 #include "haptics/recording.h"
-#include "io/hdf5_file.h"
+#include "hdf5/hdf5_file.h"
 #include "io/png_file.h"
 #include "io/scene_keys.h"
 #include "io/stroke_format.h"

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "core/image.h"
+#include "picture/image.h"
 #include "sand/height_field.h"
 
 namespace sandstroke {

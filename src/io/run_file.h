@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "io/hdf5_file.h"
+#include "hdf5/hdf5_file.h"
 
 namespace sandstroke {
 

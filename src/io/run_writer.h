@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "io/hdf5_writer.h"
+#include "hdf5/hdf5_writer.h"
 #include "sim/simulation.h"
 
 namespace sandstroke {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "haptics/stroke.h"
-#include "io/hdf5_file.h"
+#include "hdf5/hdf5_file.h"
 
 namespace sandstroke {
 

@@ -5,7 +5,7 @@
 #include <variant>
 #include <vector>
 
-#include "io/hdf5_writer.h"
+#include "hdf5/hdf5_writer.h"
 
 namespace sandstroke {
 

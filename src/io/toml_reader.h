@@ -12,8 +12,8 @@
 
 namespace sandstroke {
 
-/// Text, a file's name perhaps, as a TOML string; its basic strings escape as JSON's do. Error: input, where it
-/// is no UTF-8.
+/// Text, a file's name perhaps, as a TOML string; its basic strings escape as JSON's do. Error: input, where
+/// it is no UTF-8.
 std::string toml_string(const std::string& text);
 
 /// "above 0 and below 90"; empty for any number.

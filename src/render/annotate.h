@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-#include "core/image.h"
+#include "picture/image.h"
 
 namespace sandstroke {
 

@@ -2,7 +2,7 @@
 
 #include <Eigen/Geometry>
 
-#include "core/view.h"
+#include "picture/view.h"
 
 namespace sandstroke {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/image.h"
+#include "picture/image.h"
 #include "render/gl_objects.h"
 
 namespace sandstroke {

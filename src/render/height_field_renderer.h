@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <memory>
 
-#include "core/image.h"
+#include "picture/image.h"
 #include "render/render_subject.h"
 
 namespace sandstroke {

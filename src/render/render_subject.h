@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/view.h"
+#include "picture/view.h"
 #include "sand/height_field.h"
 
 namespace sandstroke {

@@ -5,10 +5,10 @@
 #include <vector>
 
 #include "core/range.h"
-#include "core/view.h"
 #include "haptics/device.h"
 #include "haptics/force_model.h"
 #include "haptics/stroke_placement.h"
+#include "picture/view.h"
 #include "sand/displacement.h"
 #include "sand/initial_surface.h"
 #include "sand/relaxation.h"

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "core/hash.h"
-#include "io/hdf5_file.h"
+#include "hdf5/hdf5_file.h"
 
 namespace sandstroke {
 namespace {

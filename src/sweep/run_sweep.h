@@ -53,7 +53,8 @@ class Sweep {
   SweepManifest manifest() const;
   /// Points whose settings do not go together, and why.
   const std::map<std::size_t, std::string>& refused() const { return refused_; }
-  /// Points that were run by this call, or by estimate(), whose stroke goes suspiciously deep: depth_warning().
+  /// Points that were run by this call, or by estimate(), whose stroke goes suspiciously deep:
+  /// depth_warning().
   const std::map<std::size_t, std::string>& too_deep() const { return too_deep_; }
   /// That the points take, as far as is known before they run.
   std::size_t simulations() const { return groups_.size() - refused_.size(); }

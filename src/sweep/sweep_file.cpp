@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "io/hdf5_grid_writer.h"
+#include "hdf5/hdf5_grid_writer.h"
 
 namespace sandstroke {
 namespace {

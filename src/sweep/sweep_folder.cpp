@@ -8,8 +8,8 @@
 #include "core/error.h"
 #include "core/output_file.h"
 #include "core/shell_text.h"
+#include "hdf5/hdf5_file.h"
 #include "io/bed_writer.h"
-#include "io/hdf5_file.h"
 #include "io/scene_toml.h"
 
 namespace sandstroke {

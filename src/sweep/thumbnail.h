@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "core/image.h"
+#include "picture/image.h"
 
 namespace sandstroke {
 

@@ -5,7 +5,7 @@
 #include <cstdio>
 
 #include "sanitized.h"
-#include "study/study.h"
+#include "validation/study/study.h"
 
 namespace sandstroke {
 namespace {

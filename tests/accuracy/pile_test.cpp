@@ -7,7 +7,7 @@
 #include "sand/initial_surface.h"
 #include "sand/relaxation.h"
 #include "sanitized.h"
-#include "study/surface_error.h"
+#include "validation/study/surface_error.h"
 
 namespace sandstroke {
 namespace {

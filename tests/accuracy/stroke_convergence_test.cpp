@@ -11,9 +11,9 @@
 #include "io/stroke_csv.h"
 #include "sanitized.h"
 #include "sim/error_estimate.h"
-#include "study/hand_strokes.h"
-#include "study/stroke_replay.h"
-#include "study/study.h"
+#include "validation/study/hand_strokes.h"
+#include "validation/study/stroke_replay.h"
+#include "validation/study/study.h"
 
 namespace sandstroke {
 namespace {

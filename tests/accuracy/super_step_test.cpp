@@ -7,7 +7,7 @@
 #include "sand/initial_surface.h"
 #include "sand/relaxation.h"
 #include "sanitized.h"
-#include "study/exact_shapes.h"
+#include "validation/study/exact_shapes.h"
 
 namespace sandstroke {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "study/problem.h"
+#include "validation/study/problem.h"
 
 namespace sandstroke {
 

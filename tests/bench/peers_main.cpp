@@ -4,8 +4,8 @@
 #include <exception>
 
 #include "bench/peers.h"
-#include "study/study_files.h"
-#include "study/study_table.h"
+#include "validation/study/study_files.h"
+#include "validation/study/study_table.h"
 
 int main(int argc, char** argv) {
   using namespace sandstroke;

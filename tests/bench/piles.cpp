@@ -5,7 +5,7 @@
 #include "core/stopwatch.h"
 #include "sand/initial_surface.h"
 #include "sand/relaxation.h"
-#include "study/exact_shapes.h"
+#include "validation/study/exact_shapes.h"
 
 namespace sandstroke {
 namespace {

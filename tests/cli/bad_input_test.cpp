@@ -7,7 +7,7 @@
 #include <map>
 
 #include "cli/program.h"
-#include "io/hdf5_file.h"
+#include "hdf5/hdf5_file.h"
 
 namespace sandstroke {
 namespace {

@@ -4,7 +4,7 @@
 #include <set>
 
 #include "cli/program.h"
-#include "io/hdf5_file.h"
+#include "hdf5/hdf5_file.h"
 
 namespace sandstroke {
 namespace {

@@ -3,7 +3,7 @@
 
 #include "cli/program.h"
 #include "core/machine.h"
-#include "io/hdf5_file.h"
+#include "hdf5/hdf5_file.h"
 
 namespace sandstroke {
 namespace {

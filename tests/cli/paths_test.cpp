@@ -5,7 +5,7 @@
 
 #include "chromium.h"
 #include "cli/program.h"
-#include "io/hdf5_file.h"
+#include "hdf5/hdf5_file.h"
 
 namespace sandstroke {
 namespace {

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "cli/program.h"
-#include "io/hdf5_reader.h"
+#include "hdf5/hdf5_reader.h"
 #include "io/run_file.h"
 #include "sanitized.h"
 

@@ -7,7 +7,7 @@
 
 #include "cli/program.h"
 #include "core/hash.h"
-#include "io/hdf5_file.h"
+#include "hdf5/hdf5_file.h"
 #include "io/png_file.h"
 
 namespace sandstroke {

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "io/hdf5_handle.h"
+#include "hdf5/hdf5_handle.h"
 
 namespace sandstroke {
 namespace {
@@ -213,8 +213,8 @@ bool has_filter(const Hdf5Handle& properties, H5Z_filter_t filter) {
   return H5Pget_filter_by_id2(properties, filter, &flags, &parameters, nullptr, 0, nullptr, &config) >= 0;
 }
 
-/// Not into other files, nor, through them, into itself; nor through filters that HDF5 1.10.8 itself falls over
-/// when they pack (which only writing does, and what is fuzzed is reading).
+/// Not into other files, nor, through them, into itself; nor through filters that HDF5 1.10.8 itself falls
+/// over when they pack (which only writing does, and what is fuzzed is reading).
 void write_dataset(const Hdf5Handle& dataset, Bytes& bytes) {
   const Hdf5Handle properties(H5Dget_create_plist(dataset), H5Pclose);
   if (H5Pget_layout(properties) == H5D_VIRTUAL || H5Pget_external_count(properties) > 0 ||

@@ -7,9 +7,9 @@
 #include "core/temporary_folder.h"
 #include "fuzz.h"
 #include "hdf5_edits.h"
-#include "io/run_scene.h"
 #include "io/scene_toml.h"
 #include "io/surface_file.h"
+#include "run/run_scene.h"
 
 using namespace sandstroke;
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "core/output_file.h"
-#include "io/hdf5_file.h"
+#include "hdf5/hdf5_file.h"
 #include "sand/initial_surface.h"
 #include "test_folder.h"
 

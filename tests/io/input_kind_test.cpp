@@ -6,7 +6,7 @@
 #include "core/error.h"
 #include "core/output_file.h"
 #include "core/temporary_folder.h"
-#include "io/hdf5_file.h"
+#include "hdf5/hdf5_file.h"
 #include "io/png_file.h"
 #include "io/stroke_file.h"
 

@@ -14,7 +14,7 @@
 #include "core/error.h"
 #include "core/output_file.h"
 #include "haptics/recording_fields.h"
-#include "io/hdf5_file.h"
+#include "hdf5/hdf5_file.h"
 #include "io/stroke_file.h"
 #include "record/made_recording.h"
 #include "sanitized.h"

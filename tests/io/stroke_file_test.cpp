@@ -9,7 +9,7 @@
 
 #include "core/error.h"
 #include "core/output_file.h"
-#include "io/hdf5_file.h"
+#include "hdf5/hdf5_file.h"
 #include "test_folder.h"
 
 namespace sandstroke {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "io/hdf5_reader.h"
+#include "hdf5/hdf5_reader.h"
 #include "test_folder.h"
 
 namespace sandstroke {

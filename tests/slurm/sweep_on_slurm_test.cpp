@@ -13,7 +13,7 @@
 
 #include "cli/program.h"
 #include "core/child_process.h"
-#include "io/hdf5_reader.h"
+#include "hdf5/hdf5_reader.h"
 #include "sweep/slurm_jobs.h"
 #include "sweep/sweep_folder.h"
 #include "test_folder.h"

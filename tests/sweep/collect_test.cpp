@@ -10,7 +10,7 @@
 
 #include "core/output_file.h"
 #include "dataset_shape.h"
-#include "io/hdf5_file.h"
+#include "hdf5/hdf5_file.h"
 #include "sand/initial_surface.h"
 #include "sweep/sweep_file.h"
 #include "test_folder.h"

@@ -7,9 +7,9 @@
 #include "core/error.h"
 #include "core/file_lock.h"
 #include "core/output_file.h"
-#include "io/hdf5_reader.h"
+#include "hdf5/hdf5_reader.h"
 #include "io/png_file.h"
-#include "io/run_scene.h"
+#include "run/run_scene.h"
 #include "test_folder.h"
 
 namespace sandstroke {

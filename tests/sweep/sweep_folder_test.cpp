@@ -6,7 +6,7 @@
 
 #include "core/error.h"
 #include "core/output_file.h"
-#include "io/hdf5_reader.h"
+#include "hdf5/hdf5_reader.h"
 #include "sand/initial_surface.h"
 #include "test_folder.h"
 

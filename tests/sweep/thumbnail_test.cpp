@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "hdf5/hdf5_file.h"
 #include "io/bed_writer.h"
-#include "io/hdf5_file.h"
 #include "render/colour_map.h"
 #include "sweep/kept_surface.h"
 #include "test_folder.h"

@@ -1,0 +1,72 @@
+#include <spdlog/fmt/fmt.h>
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+#include "cli/commands.h"
+#include "cli/print_json.h"
+#include "core/interrupt.h"
+#include "core/progress.h"
+#include "validation/study/study_files.h"
+#include "validation/study/study_table.h"
+
+namespace sandstroke {
+namespace {
+
+struct BenchArguments {
+  StudyOptions study;
+  std::filesystem::path folder = "bench";
+  bool json = false;
+};
+
+int bench(const BenchArguments& arguments) {
+  const StudyFiles files(arguments.folder);
+  std::optional<Progress> bar(std::in_place, "bench");
+  StudyOptions study_options = arguments.study;
+  study_options.progress = [&](double done) { bar->update(done); };
+  const Study study = run_study(study_options);
+  bar.reset();
+  if (interrupted()) return 128 + interrupted();
+  files.write(study);
+  if (arguments.json)
+    print_json(study_json(study));
+  else
+    fmt::print("{}\npage  {}\n", study_summary(study), files.page().string());
+  return 0;
+}
+
+}  // namespace
+
+void add_bench_command(CLI::App& app, Command& chosen) {
+  auto arguments = std::make_shared<BenchArguments>();
+  std::vector<std::string> names;
+  for (const ProblemMaker& maker : problem_makers()) names.emplace_back(maker.name);
+  CLI::App* command = app.add_subcommand(
+      "bench", "Run time against error: problems with known answers, solved with many settings");
+  command
+      ->add_option("--scene", arguments->study.problems,
+                   "Only this one of the built-in problems (repeatable)")
+      ->allow_extra_args(false)
+      ->check(CLI::IsMember(names));
+  command
+      ->add_option("-o,--output", arguments->folder,
+                   "Folder for bench.html, bench.csv and bench.h5, made where it is not there")
+      ->type_name("FOLDER")
+      ->capture_default_str();
+  command->add_flag("--quick", arguments->study.quick,
+                    "15 seconds rather than 5 minutes: coarser grids, shorter strokes");
+  command
+      ->add_option("--repeats", arguments->study.repeats,
+                   "How often each run is timed; the median counts. Default: 5, quick 3")
+      ->check(CLI::Range(1, 1000));
+  command->add_option("--threads", arguments->study.threads, "Of all runs but those that vary it")
+      ->check(CLI::Range(1, 1024))
+      ->capture_default_str();
+  command->add_flag("--json", arguments->json,
+                    "Print the page's data as one JSON object instead of the tables");
+  command->footer("Example:  sandstroke bench --quick -o bench");
+  command->callback([arguments, &chosen] { chosen = [arguments] { return bench(*arguments); }; });
+}
+
+}  // namespace sandstroke

@@ -1,0 +1,121 @@
+#include <spdlog/fmt/fmt.h>
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "cli/commands.h"
+#include "cli/print_json.h"
+#include "compare/compare_page.h"
+#include "compare/compare_runs.h"
+#include "compare/junit.h"
+#include "compare/report_picture.h"
+#include "core/error.h"
+#include "core/output_file.h"
+#include "io/png_file.h"
+
+namespace sandstroke {
+namespace {
+namespace fs = std::filesystem;
+
+struct CompareArguments {
+  fs::path golden, run;
+  Tolerances tolerances;
+  fs::path report, junit;
+  bool json = false;
+};
+
+void write_page(const CompareArguments& arguments, const std::function<ComparePage()>& make) {
+  if (arguments.report.empty()) return;
+  make_folder(arguments.report);
+  write_text_file(arguments.report / "compare.html", make().html());
+}
+
+Comparison compare_run_files(const CompareArguments& arguments) {
+  const RunFile golden(arguments.golden), run(arguments.run);
+  if (!arguments.report.empty()) {
+    write_report(arguments.report / "height.png", [&] {
+      return surface_report(arguments.run.string() + ": final height", golden.final(), run.final(),
+                            golden.cell_size(), arguments.tolerances.height);
+    });
+  }
+  Comparison comparison = compare_runs(golden, run, arguments.tolerances);
+  write_page(arguments, [&] { return run_page(golden, run, comparison, arguments.tolerances); });
+  return comparison;
+}
+
+Comparison compare_pictures(const CompareArguments& arguments) {
+  const Image golden = read_png(arguments.golden), run = read_png(arguments.run);
+  if (!arguments.report.empty()) {
+    write_report(arguments.report / "picture.png", [&] {
+      return picture_report(arguments.run.string(), golden, run, arguments.tolerances.pixel);
+    });
+  }
+  Comparison comparison{arguments.run.string(), {}};
+  add_checks(comparison.checks, "picture", [&] { return picture_checks(golden, run, arguments.tolerances); });
+  write_page(arguments, [&] {
+    return picture_page(arguments.golden, golden, arguments.run, run, comparison, arguments.tolerances);
+  });
+  return comparison;
+}
+
+int compare(const CompareArguments& arguments) {
+  if (has_picture_name(arguments.golden) != has_picture_name(arguments.run)) {
+    throw_input_error(
+        "{} and {}: one is a picture and the other is not; compare two run files or two PNG pictures",
+        arguments.golden.string(), arguments.run.string());
+  }
+  if (!arguments.junit.empty()) check_output(arguments.junit, {arguments.golden, arguments.run});
+  const Comparison comparison =
+      has_picture_name(arguments.golden) ? compare_pictures(arguments) : compare_run_files(arguments);
+  if (!arguments.junit.empty()) write_text_file(arguments.junit, junit_report({comparison}));
+  if (arguments.json)
+    print_json(to_json(comparison));
+  else
+    fmt::print("{}", check_table(comparison));
+  return comparison.passed() ? 0 : 1;
+}
+
+}  // namespace
+
+void add_compare_command(CLI::App& app, Command& chosen) {
+  auto arguments = std::make_shared<CompareArguments>();
+  CLI::App* command = app.add_subcommand("compare", "Compare two run files, or two PNG pictures");
+  command->add_option("GOLDEN", arguments->golden, "What it should be: a run file or a PNG picture")
+      ->type_name("FILE.h5|.png")
+      ->required();
+  command->add_option("RUN", arguments->run, "What came out: likewise")
+      ->type_name("FILE.h5|.png")
+      ->required();
+  command->add_option("--height-tolerance", arguments->tolerances.height, "Height of any cell [m]")
+      ->check(not_negative_number())
+      ->capture_default_str();
+  command->add_option("--force-tolerance", arguments->tolerances.force, "Force on the device in any tick [N]")
+      ->check(not_negative_number())
+      ->capture_default_str();
+  command
+      ->add_option("--depth-tolerance", arguments->tolerances.depth, "Depth and sand level in any tick [m]")
+      ->check(not_negative_number())
+      ->capture_default_str();
+  command->add_option("--pixel-tolerance", arguments->tolerances.pixel, "Any channel of any pixel [of 255]")
+      ->check(CLI::Range(0, 255))
+      ->capture_default_str();
+  command
+      ->add_option("--pixel-share", arguments->tolerances.pixel_share,
+                   "Pixels that may differ at all [0 to 1]")
+      ->check(CLI::Range(0.0, 1.0))
+      ->capture_default_str();
+  command
+      ->add_option("--report", arguments->report,
+                   "Folder for a page (compare.html: checks, maps, forces) and a picture of the difference")
+      ->type_name("FOLDER");
+  command->add_option("--junit", arguments->junit, "File for the checks as JUnit XML")->type_name("FILE.xml");
+  command->add_flag("--json", arguments->json, "Print one JSON object instead of the table");
+  command->footer(
+      "Example:  sandstroke compare before.h5 after.h5 --report difference\n"
+      "Exit code 1: they differ. Entries of golden/ are for sandstroke golden check.");
+  command->callback([arguments, &chosen] { chosen = [arguments] { return compare(*arguments); }; });
+}
+
+}  // namespace sandstroke

@@ -1,0 +1,67 @@
+#include "cli/find_device.h"
+
+#include <charconv>
+
+#include "core/error.h"
+#include "io/stroke_file.h"
+#include "record/stroke_device.h"
+#ifdef SANDSTROKE_CHAI3D
+#include "chai3d/chai3d_device.h"
+#endif
+
+namespace sandstroke {
+namespace {
+
+#ifndef SANDSTROKE_CHAI3D
+std::vector<DeviceSpecification> list_chai3d_devices() { return {}; }
+std::unique_ptr<HapticDevice> make_chai3d_device(int) {
+  throw_input_error(
+      "--device chai3d: this program was built without CHAI3D; {}, or play a stroke: scripted:FILE.toml or "
+      "replay:FILE.h5",
+      how_to_build_with_chai3d);
+}
+#endif
+
+[[noreturn]] void throw_no_such_device(const std::string& name) {
+  std::string there_is = "scripted:FILE.toml and replay:FILE.h5, which play a stroke";
+  for (const ConnectedDevice& device : connected_devices())
+    there_is += fmt::format(", {} ({})", device.name, device.specification.model);
+  throw_input_error("--device {}: there is no such device; there is {}{}", name, there_is,
+                    knows_chai3d ? "" : ", and chai3d where this program is built with it");
+}
+
+/// N of "chai3d:N".
+int device_number(const std::string& name) {
+  const char *begin = name.data() + name.find(':') + 1, *end = name.data() + name.size();
+  int number = 0;
+  const auto [stopped, failure] = std::from_chars(begin, end, number);
+  if (failure != std::errc() || stopped != end || number < 0) throw_no_such_device(name);
+  return number;
+}
+
+}  // namespace
+
+std::filesystem::path file_played(const std::string& name) {
+  for (const std::string kind : {"scripted:", "replay:"})
+    if (name.starts_with(kind)) return name.substr(kind.size());
+  return {};
+}
+
+std::unique_ptr<HapticDevice> find_device(const std::string& name, const ForceSettings& force) {
+  if (name == "chai3d") return make_chai3d_device(0);
+  if (name.starts_with("chai3d:")) return make_chai3d_device(device_number(name));
+  const std::filesystem::path file = file_played(name);
+  if (name == "scripted:" || name == "replay:")
+    throw_input_error("--device {}: names no stroke; say which: scripted:FILE.toml or replay:FILE.h5", name);
+  if (file.empty()) throw_no_such_device(name);
+  return std::make_unique<StrokeDevice>(load_stroke(file, force), name);
+}
+
+std::vector<ConnectedDevice> connected_devices() {
+  std::vector<ConnectedDevice> devices;
+  for (DeviceSpecification& specification : list_chai3d_devices())
+    devices.push_back({fmt::format("chai3d:{}", devices.size()), std::move(specification)});
+  return devices;
+}
+
+}  // namespace sandstroke

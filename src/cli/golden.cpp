@@ -1,0 +1,115 @@
+#include <spdlog/fmt/fmt.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "cli/commands.h"
+#include "cli/print_json.h"
+#include "cli/run_picture.h"
+#include "compare/golden_scenes.h"
+#include "compare/junit.h"
+#include "core/interrupt.h"
+#include "core/output_file.h"
+#include "io/scene_toml.h"
+#include "run/run_scene.h"
+
+namespace sandstroke {
+namespace {
+namespace fs = std::filesystem;
+
+struct GoldenArguments {
+  std::vector<std::string> names;
+  GoldenFolders folders;
+  fs::path report, junit;
+  bool json = false;
+};
+
+GoldenRun run_golden_scene(const fs::path& scene_file, const fs::path& run_file) {
+  Scene scene = load_scene(scene_file);
+  RunOptions arguments;
+  arguments.scene_folder = scene_file.parent_path();
+  arguments.progress = true;
+  GoldenRun run{run_file, {}, run_scene(scene, run_file, arguments)};
+  if (run.result.interrupted) return run;
+  scene.view.width = 720;  // small enough to keep
+  scene.view.height = 405;
+  run.picture = run_picture(RunFile(run_file), scene.view);
+  return run;
+}
+
+std::string summary(const Comparison& comparison) {
+  if (comparison.passed()) return fmt::format("ok      {}\n", comparison.name);
+  std::string lines = fmt::format("FAILED  {}\n", comparison.name);
+  for (const Check& check : comparison.checks)
+    if (!check.passed) lines += fmt::format("        {}: {}\n", check.name, check.sentence);
+  return lines;
+}
+
+int check(const GoldenArguments& arguments) {
+  if (!arguments.junit.empty()) check_output(arguments.junit, {});
+  std::vector<Comparison> comparisons;
+  nlohmann::json scenes = nlohmann::json::array();
+  bool passed = true;
+  for (const std::string& name : golden_names(arguments.folders, arguments.names)) {
+    comparisons.push_back(
+        check_golden(name, arguments.folders, run_golden_scene, Tolerances{}, arguments.report));
+    if (interrupted()) return 128 + interrupted();
+    passed = passed && comparisons.back().passed();
+    scenes.push_back(to_json(comparisons.back()));
+    if (!arguments.json) fmt::print("{}", summary(comparisons.back()));
+    std::fflush(stdout);
+  }
+  if (!arguments.junit.empty()) write_text_file(arguments.junit, junit_report(comparisons));
+  if (arguments.json) print_json(nlohmann::json{{"passed", passed}, {"scenes", scenes}});
+  return passed ? 0 : 1;
+}
+
+int update(const GoldenArguments& arguments) {
+  for (const std::string& name : arguments.names) {
+    if (!update_golden(name, arguments.folders, run_golden_scene)) return 128 + interrupted();
+    fmt::print("updated {}\n", arguments.folders.entry(name).string());
+  }
+  return 0;
+}
+
+void add_folder_options(CLI::App* command, GoldenArguments& arguments) {
+  command->add_option("--strokes", arguments.folders.strokes, "Folder with NAME/scene.toml")
+      ->type_name("FOLDER")
+      ->capture_default_str();
+  command->add_option("--golden", arguments.folders.golden, "Folder with what they must give")
+      ->type_name("FOLDER")
+      ->capture_default_str();
+}
+
+}  // namespace
+
+void add_golden_command(CLI::App& app, Command& chosen) {
+  auto arguments = std::make_shared<GoldenArguments>();
+  CLI::App* golden = app.add_subcommand("golden", "Run scenes and compare them with what they must give");
+  golden->require_subcommand(1);
+  golden->footer("Example:  sandstroke golden check --report differences --junit golden.xml");
+
+  CLI::App* check_command =
+      golden->add_subcommand("check", "Run all scenes, or those named; exit code 1 if one differs");
+  check_command->add_option("NAME", arguments->names, "Scenes (default: all)")->type_name("SCENE");
+  add_folder_options(check_command, *arguments);
+  check_command
+      ->add_option("--report", arguments->report,
+                   "Folder for a page and pictures of the differences of each scene")
+      ->type_name("FOLDER");
+  check_command->add_option("--junit", arguments->junit, "File for the checks as JUnit XML")
+      ->type_name("FILE.xml");
+  check_command->add_flag("--json", arguments->json, "Print one JSON object instead of lines");
+  check_command->callback([arguments, &chosen] { chosen = [arguments] { return check(*arguments); }; });
+
+  CLI::App* update_command =
+      golden->add_subcommand("update", "Make what scenes give now their golden entries");
+  update_command->add_option("NAME", arguments->names, "Scenes")->type_name("SCENE")->required();
+  add_folder_options(update_command, *arguments);
+  update_command->callback([arguments, &chosen] { chosen = [arguments] { return update(*arguments); }; });
+}
+
+}  // namespace sandstroke

@@ -1,0 +1,113 @@
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "cli/commands.h"
+#include "cli/print_json.h"
+#include "compare/field_difference.h"
+#include "core/error.h"
+#include "io/run_file.h"
+#include "io/scene_keys.h"
+#include "io/scene_toml.h"
+
+namespace sandstroke {
+namespace {
+
+struct InfoArguments {
+  std::string file;
+  bool json = false, scene = false, scene_keys = false;
+};
+
+/// Of a bed as a run file gives it: level where no tile exists.
+nlohmann::ordered_json range_of(const HeightField& bed) {
+  double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
+  const auto take = [&](double height) {
+    lowest = std::min(lowest, height), highest = std::max(highest, height);
+  };
+  if (bed.touched_tiles() < bed.tile_count()) take(bed.untouched().height(bed, 0, 0));
+  for (int slot = 0; slot < bed.touched_tiles(); ++slot) {
+    const CellRange cells = bed.tile_cells(bed.tile_of(slot));
+    for (int row = 0; row < cells.rows(); ++row)
+      std::for_each_n(bed.tile_heights(slot) + row * HeightField::tile_side, cells.cols(), take);
+  }
+  return {{"lowest", lowest}, {"highest", highest}};
+}
+
+nlohmann::ordered_json describe(const RunFile& run) {
+  nlohmann::ordered_json facts;
+  facts["file"] = run.name();
+  facts["complete"] = run.complete();
+  const HeightField initial = run.initial_bed();
+  facts["cells"] = {initial.cols(), initial.rows()};
+  facts["cell_size"] = run.cell_size();
+  facts["initial"] = range_of(initial);
+  if (run.has_final()) {
+    const HeightField final = run.final_bed();
+    facts["final"] = range_of(final);
+    facts["changed_cells"] = field_difference(initial, final).cells;
+  }
+  facts["frames"] = run.frame_times().size();
+  if (run.has_trace()) {
+    const RunTrace trace = run.trace();
+    double force = 0.0, depth = 0.0;
+    for (const auto& f : trace.device_force) force = std::max(force, f.norm());
+    for (const double d : trace.depth) depth = std::max(depth, d);
+    facts["trace"] = {{"ticks", trace.size()},
+                      {"seconds", trace.size() > 1 ? trace.time.back() - trace.time.front() : 0.0},
+                      {"max_force", force},
+                      {"max_depth", depth}};
+  }
+  for (const auto& [name, value] : run.provenance()) facts["provenance"][name] = value;
+  return facts;
+}
+
+void print_table(const nlohmann::ordered_json& facts) {
+  static const std::map<std::string, std::string> units = {{"cell_size", "m"}, {"lowest", "m"},
+                                                           {"highest", "m"},   {"seconds", "s"},
+                                                           {"max_force", "N"}, {"max_depth", "m"}};
+  const nlohmann::ordered_json flat = facts.flatten();
+  for (const auto& [path, value] : flat.items()) {
+    const auto unit = units.find(path.substr(path.rfind('/') + 1));
+    fmt::print("{:<27} {}{}\n", path.substr(1), value.is_string() ? value.get<std::string>() : value.dump(),
+               unit == units.end() ? "" : " " + unit->second);
+  }
+}
+
+int info(const InfoArguments& arguments) {
+  if (arguments.scene_keys) {
+    fmt::print("{}", scene_key_table());
+    return 0;
+  }
+  if (arguments.file.empty())
+    throw_input_error("info: no file given; name a run file, or ask for --scene-keys");
+  const RunFile run(arguments.file);
+  if (arguments.scene) {
+    fmt::print("{}", run.scene_text());
+  } else if (arguments.json) {
+    print_json(describe(run));
+  } else {
+    print_table(describe(run));
+  }
+  return 0;
+}
+
+}  // namespace
+
+void add_info_command(CLI::App& app, Command& chosen) {
+  CLI::App* command =
+      app.add_subcommand("info", "Show what a run file holds, or which keys a scene can have");
+  auto arguments = std::make_shared<InfoArguments>();
+  command->add_option("FILE", arguments->file, "Run file (HDF5)")->type_name("FILE.h5")->option_text("(.h5)");
+  command->add_flag("--json", arguments->json, "Print one JSON object");
+  command->add_flag("--scene", arguments->scene, "Print the scene the run was made from (TOML)");
+  command->add_flag("--scene-keys", arguments->scene_keys,
+                    "List every scene key with its default, unit and meaning");
+  command->footer("Example:  sandstroke info wscg.h5");
+  command->callback([arguments, &chosen] { chosen = [arguments] { return info(*arguments); }; });
+}
+
+}  // namespace sandstroke

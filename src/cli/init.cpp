@@ -1,0 +1,73 @@
+#include <spdlog/fmt/fmt.h>
+
+#include <array>
+#include <filesystem>
+#include <memory>
+
+#include "cli/commands.h"
+#include "core/asset.h"
+#include "core/error.h"
+#include "core/output_file.h"
+#include "core/shell_text.h"
+
+// Embedded by assets.S.
+SANDSTROKE_DECLARE_ASSET(init_scene);
+SANDSTROKE_DECLARE_ASSET(init_stroke);
+SANDSTROKE_DECLARE_ASSET(init_sweep);
+
+namespace sandstroke {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct ExampleFile {
+  const char* name;
+  const char* what;
+  std::string_view text;
+};
+
+int init(const fs::path& folder) {
+  const std::array<ExampleFile, 3> files = {{
+      {"scene.toml", "what is simulated: sand, tool, forces, view", SANDSTROKE_ASSET(init_scene)},
+      {"stroke.toml", "what the hand draws", SANDSTROKE_ASSET(init_stroke)},
+      {"sweep.toml", "the scene again and again, with other settings", SANDSTROKE_ASSET(init_sweep)},
+  }};
+  for (const ExampleFile& file : files)
+    if (fs::exists(fs::symlink_status(folder / file.name)))
+      throw_input_error("{}: is there already, and init writes over nothing; name another folder",
+                        (folder / file.name).string());
+  make_folder(folder);
+  try {
+    for (const ExampleFile& file : files) write_text_file(folder / file.name, file.text);
+  } catch (...) {  // all or none, so that the next try need not write over anything
+    std::error_code ignored;
+    for (const ExampleFile& file : files) fs::remove(folder / file.name, ignored);
+    throw;
+  }
+  for (const ExampleFile& file : files) fmt::print("{:<30} {}\n", (folder / file.name).string(), file.what);
+  const auto in_folder = [&](const char* name) { return shell_quoted((folder / name).string()); };
+  fmt::print(
+      "\nEach says in its comments what can be changed. Next:\n"
+      "  sandstroke run {0} -o {1} --png {2}\n"
+      "  sandstroke render {1} --view top --style height -o {5}\n"
+      "  sandstroke sweep {3} -o {4}\n",
+      in_folder("scene.toml"), in_folder("run.h5"), in_folder("run.png"), in_folder("sweep.toml"),
+      in_folder("sweep"), in_folder("heights.png"));
+  return 0;
+}
+
+}  // namespace
+
+void add_init_command(CLI::App& app, Command& chosen) {
+  CLI::App* command =
+      app.add_subcommand("init", "Leave an example to start from: a scene, a stroke, a sweep");
+  auto folder = std::make_shared<fs::path>();
+  command->add_option("FOLDER", *folder, "Where to; made where it is not there")
+      ->type_name("FOLDER")
+      ->option_text("REQUIRED")
+      ->required();
+  command->footer("Example:  sandstroke init garden");
+  command->callback([folder, &chosen] { chosen = [folder] { return init(*folder); }; });
+}
+
+}  // namespace sandstroke

@@ -1,0 +1,109 @@
+#include <spdlog/spdlog.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <new>
+#include <string_view>
+#include <system_error>
+
+#include "cli/commands.h"
+#include "cli/help_formatter.h"
+#include "cli/usage_sentence.h"
+#include "core/error.h"
+#include "core/interrupt.h"
+#include "core/log.h"
+#include "core/machine.h"
+#include "core/version.h"
+#include "sand/instruction_set.h"
+
+namespace {
+
+using namespace sandstroke;
+
+constexpr int io_error = 4;
+
+/// A standard error that takes nothing changes no exit code (fmt::print would throw).
+void complain(const std::string& sentence) { std::fputs(("sandstroke: " + sentence + "\n").c_str(), stderr); }
+
+int complain_of_threads(const std::exception& failure) {
+  complain(fmt::format(
+      "the system gives no more threads ({}); close other programs, or raise the limit of threads or memory "
+      "(ulimit -u, ulimit -v)",
+      failure.what()));
+  return io_error;
+}
+
+int run_program(int argc, char** argv) {
+  CLI::App app(
+      "Simulates sand that is sculpted with a haptic device: a stroke goes in; a height field, a trace, a "
+      "picture "
+      "and a verdict come out.");
+  app.name("sandstroke");
+  app.formatter(std::make_shared<HelpFormatter>());  // of all commands
+  app.set_version_flag("--version", fmt::format("{}, {}", build, instruction_set()));
+  app.require_subcommand(1);
+  app.fallthrough();
+  app.footer(
+      "Exit codes: 0 fine, 1 a comparison failed or a machine is not fit to record, 2 bad input or usage,\n"
+      "3 not at rest, unstable, a failed point of sweep or a surprise of stress, 4 input/output error,\n"
+      "130/143 stopped by a signal.\n"
+      "To begin: sandstroke init FOLDER. Each command explains itself: sandstroke run --help");
+  bool quiet = false;
+  app.add_flag("-q,--quiet", quiet, "Say nothing but results, warnings and errors");
+
+  Command chosen;
+  add_init_command(app, chosen);
+  add_run_command(app, chosen);
+  add_render_command(app, chosen);
+  add_compare_command(app, chosen);
+  add_golden_command(app, chosen);
+  add_sweep_command(app, chosen);
+  add_stroke_command(app, chosen);
+  add_record_command(app, chosen);
+  add_bench_command(app, chosen);
+  add_stress_command(app, chosen);
+  add_info_command(app, chosen);
+  add_completion_command(app, chosen);
+  add_help_command(app, chosen);  // last: it knows the others
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& failure) {
+    const std::string sentence = usage_sentence(app, failure);
+    if (sentence.empty()) return app.exit(failure);  // help or the version was asked for
+    throw_input_error("{}", sentence);
+  }
+  start_log(quiet);
+  catch_interrupts();
+  const int exit_code = chosen();
+  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
+    throw_io_error("the standard output cannot be written; free disk space or send it elsewhere");
+  return exit_code;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    share_heap_if_limited();
+    return run_program(argc, argv);
+  } catch (const Error& failure) {
+    complain(failure.what());
+    return failure.exit_code();
+  } catch (const std::bad_alloc&) {
+    complain("out of memory; take a smaller bed or picture, or close other programs");
+    return io_error;
+  } catch (const std::filesystem::filesystem_error& failure) {
+    complain(fmt::format("{}: {}; check the path, and who may use it", failure.path1().string(),
+                         failure.code().message()));
+    return io_error;
+  } catch (const std::system_error& failure) {
+    return complain_of_threads(failure);
+  } catch (const std::exception& failure) {
+    if (std::string_view(failure.what()).starts_with("pthread_create"))  // TBB's
+      return complain_of_threads(failure);
+    complain(fmt::format("unexpected failure: {}", failure.what()));
+    return io_error;
+  }
+}

@@ -1,0 +1,137 @@
+#include "cli/manual.h"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <sstream>
+
+#include "cli/command_tree.h"
+#include "cli/help_formatter.h"
+#include "core/version.h"
+#include "io/scene_keys.h"
+#include "io/stroke_script_toml.h"
+#include "sweep/sweep_plan.h"
+
+namespace sandstroke {
+namespace {
+
+/// Text that roff takes as it is: no dash becomes another, no line a command.
+std::string roff(std::string_view text) {
+  std::string out;
+  for (const char c : text) {
+    const bool line_begins = out.empty() || out.back() == '\n';
+    if (line_begins && (c == '.' || c == '\'')) out += "\\&";
+    if (c == '\\')
+      out += "\\e";
+    else if (c == '-')
+      out += "\\-";
+    else
+      out += c;
+  }
+  return out;
+}
+
+std::string bold(std::string_view text) { return fmt::format("\\fB{}\\fR", roff(text)); }
+
+/// Lines as they are.
+std::string preformatted(std::string text) {
+  while (text.ends_with('\n')) text.pop_back();
+  return fmt::format(".nf\n{}\n.fi\n", roff(text));
+}
+
+/// A paragraph in short lines, each as its words allow.
+std::string filled(const std::string& text) {
+  std::istringstream words(text);
+  std::string lines, line;
+  for (std::string word; words >> word; line += (line.empty() ? "" : " ") + word) {
+    if (line.size() + word.size() < 70) continue;
+    lines += line + '\n';
+    line.clear();
+  }
+  return roff(lines + line) + '\n';
+}
+
+/// One thing and what is to be said of it.
+std::string entry(const std::string& head, const std::string& text) {
+  return fmt::format(".TP\n{}\n{}", head, filled(text));
+}
+
+std::string capitals(std::string text) {
+  for (char& c : text) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  return text;
+}
+
+std::string head(const std::string& name, int section, const std::string& title) {
+  return fmt::format(".TH {} {} \"{}\" \"sandstroke {}\"\n.SH NAME\n{} \\- {}\n", capitals(roff(name)),
+                     section, commit_date, version, roff(name), roff(title));
+}
+
+std::string page_of(const HelpTopic& topic) { return fmt::format("sandstroke-{}", topic.name); }
+
+/// What --help says of each option.
+std::string options_text(const CLI::App& app) {
+  const HelpFormatter words;
+  std::string text;
+  for (const CLI::Option* option : positional_options(app))
+    text += entry("\\fI" + roff(option->get_name(true)) + "\\fR" + roff(words.make_option_opts(option)),
+                  option->get_description());
+  for (const CLI::Option* option : named_options(app))
+    text += entry(bold(words.make_option_name(option, false)) + roff(words.make_option_opts(option)),
+                  option->get_description());
+  return text;
+}
+
+std::string command_text(const NamedCommand& command) {
+  const CLI::App& app = *command.app;
+  const std::string name = "sandstroke " + command.name;
+  std::string usage = HelpFormatter().make_usage(&app, name);
+  usage = usage.substr(usage.find(name) + name.size());
+  usage.erase(usage.find_last_not_of('\n') + 1);
+  std::string text = fmt::format(".SS {}{}\n{}", bold(name), roff(usage), filled(app.get_description()));
+  text += options_text(app);
+  if (!app.get_footer().empty()) text += ".PP\n" + preformatted(app.get_footer());
+  return text;
+}
+
+/// Every key with all that is known of it.
+std::string scene_keys_text() {
+  std::string text = "Every key of a scene with its default. Any of them can be set by \\fB\\-\\-set\\fR.\n";
+  for (const SceneSection& section : all_scene_keys()) {
+    text += fmt::format(".SH [{}]\n{}.\n", roff(section.name), roff(section.help));
+    for (const SceneKey& key : section.keys)
+      text += entry(bold(key.name) + roff(" = " + key.value + (key.unit.empty() ? "" : " " + key.unit)),
+                    key.explanation());
+  }
+  return text;
+}
+
+}  // namespace
+
+const std::vector<HelpTopic>& help_topics() {
+  static const std::vector<HelpTopic> topics = {
+      {"scene", "what sandstroke run simulates (TOML)", scene_key_table},
+      {"script", "strokes as text, for scenes and run --stroke (TOML)", script_help},
+      {"plan", "what sandstroke sweep varies (TOML)", plan_help},
+  };
+  return topics;
+}
+
+std::string command_manual(const CLI::App& app) {
+  std::string text = head("sandstroke", 1, "sand that is sculpted with a haptic device, simulated");
+  text += fmt::format(".SH SYNOPSIS\n.B sandstroke\n.I COMMAND\n[\\fIOPTIONS\\fR]\n.SH DESCRIPTION\n{}",
+                      filled(app.get_description()));
+  text += ".SH OPTIONS\n" + options_text(app) + ".SH COMMANDS\n";
+  for (const NamedCommand& command : command_tree(app))
+    if (command.app != &app) text += command_text(command);
+  text += ".SH EXIT STATUS\n" + preformatted(app.get_footer()) + ".SH SEE ALSO\n";
+  for (const HelpTopic& topic : help_topics())
+    text += fmt::format(".BR {} (5){}\n", roff(page_of(topic)), &topic == &help_topics().back() ? "" : ",");
+  return text;
+}
+
+std::string topic_manual(const HelpTopic& topic) {
+  const bool scene = topic.text == scene_key_table;
+  return head(page_of(topic), 5, topic.title) + ".SH DESCRIPTION\n" +
+         (scene ? scene_keys_text() : preformatted(topic.text())) + ".SH SEE ALSO\n.BR sandstroke (1)\n";
+}
+
+}  // namespace sandstroke

@@ -1,0 +1,66 @@
+#include <spdlog/spdlog.h>
+
+#include "cli/print_json.h"
+#include "cli/record_parts.h"
+#include "core/interrupt.h"
+#include "core/progress.h"
+#include "record/loop_check.h"
+#include "record/recording_json.h"
+
+namespace sandstroke {
+namespace {
+
+constexpr int not_fit = 1;
+
+/// What may help, where the scheduling was all that was asked for.
+constexpr const char* other_remedies =
+    "close other programs, switch power saving off (cpupower frequency-set -g performance), or take a lower "
+    "--rate";
+
+void print_table(const LoopCheck& check, const ServoSettings& servo) {
+  const auto row = [](const char* name, const std::string& value) { fmt::print("{:<12} {}\n", name, value); };
+  row("loop", fmt::format("{:.3f} s at {:.6g} Hz", static_cast<double>(check.loop.ticks.elapsed) / servo.rate,
+                          servo.rate));
+  row("scheduling", scheduling_text(check.scheduling));
+  row("ticks", ticks_text(check.loop.ticks));
+  row("lateness", lateness_text(check.loop));
+  row("needed",
+      fmt::format("no tick skipped, and less than {:.0f} us in 99 of 100", 1e6 * fit_lateness / servo.rate));
+  const std::string& advice = check.scheduling.advice;
+  if (check.fit) {
+    row("verdict",
+        "fit to record at this rate" + (advice.empty() ? "" : ", while nothing else runs: " + advice));
+  } else {
+    row("verdict", "NOT FIT to record at this rate: " + (advice.empty() ? other_remedies : advice));
+  }
+}
+
+}  // namespace
+
+int check_machine(const RecorderSettings& settings, bool json) {
+  const double seconds = settings.servo.duration.value_or(10.0);
+  LoopCheck check;
+  {
+    Progress bar("check");
+    check = check_loop(seconds, settings, [&](const ServoProgress& progress) {
+      bar.update(progress.time / seconds);
+      return std::nullopt;
+    });
+  }
+  if (json) {
+    nlohmann::ordered_json object = {{"fit", check.fit},
+                                     {"nominal_rate", settings.servo.rate},
+                                     {"scheduling", check.scheduling.policy},
+                                     {"scheduling_priority", check.scheduling.priority},
+                                     {"memory_locked", check.scheduling.memory_locked},
+                                     {"scheduling_advice", check.scheduling.advice}};
+    object.update(as_json(check.loop));
+    print_json(object);
+  } else {
+    print_table(check, settings.servo);
+  }
+  if (interrupted()) return 128 + interrupted();
+  return check.fit ? 0 : not_fit;
+}
+
+}  // namespace sandstroke

@@ -1,0 +1,18 @@
+#include "cli/record_display.h"
+
+#include <spdlog/fmt/fmt.h>
+
+namespace sandstroke {
+
+void RecordDisplay::show(const ServoProgress& now) {
+  if (!line_.visible()) return;
+  last_second_.push_back(now);
+  while (last_second_.size() > 2 && now.time - last_second_[1].time >= 1.0) last_second_.pop_front();
+  const ServoProgress& before = last_second_.front();
+  const double seconds = now.time - before.time;
+  const double rate = seconds > 0.0 ? static_cast<double>(now.recorded - before.recorded) / seconds : 0.0;
+  line_.draw(fmt::format("record {:.1f} s, {:.0f} Hz, {:.2f} N, {:.0f} us late ({:.0f} at most){}", now.time,
+                         rate, now.force, 1e6 * now.lateness, 1e6 * now.max_lateness, keys_));
+}
+
+}  // namespace sandstroke

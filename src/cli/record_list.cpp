@@ -1,0 +1,74 @@
+#include <spdlog/fmt/fmt.h>
+
+#include <limits>
+
+#include "cli/find_device.h"
+#include "cli/print_json.h"
+#include "cli/record_parts.h"
+#include "io/table.h"
+
+namespace sandstroke {
+namespace {
+
+struct StandIn {
+  const char *name, *help;
+};
+constexpr StandIn stand_ins[] = {
+    {"scripted:FILE.toml", "plays a scripted stroke in real time; takes any force, feels none"},
+    {"replay:FILE.h5", "plays a recorded stroke in real time; takes any force, feels none"},
+};
+
+/// What a device says with a zero that it does not know.
+double known(double value) { return value > 0.0 ? value : std::numeric_limits<double>::quiet_NaN(); }
+
+Table device_table(const std::vector<ConnectedDevice>& devices) {
+  std::vector<std::string> names, models, manufacturers;
+  std::vector<double> forces, stiffnesses, radii, switches;
+  for (const auto& [name, device] : devices) {
+    names.push_back(name);
+    models.push_back(device.model);
+    manufacturers.push_back(device.manufacturer);
+    forces.push_back(device.max_force);
+    stiffnesses.push_back(known(device.max_stiffness));
+    radii.push_back(known(device.workspace_radius));
+    switches.push_back(known(device.switches));
+  }
+  return {{{"name", "device", "", names},
+           {"model", "model", "", models},
+           {"manufacturer", "manufacturer", "", manufacturers},
+           {"max_force", "force", "N", forces},
+           {"max_stiffness", "stiffness", "N/m", stiffnesses},
+           {"workspace_radius", "workspace radius", "m", radii},
+           {"switches", "switches", "", switches}}};
+}
+
+void print_json_list(const Table& devices) {
+  nlohmann::ordered_json object = {{"chai3d", knows_chai3d},
+                                   {"devices", nlohmann::ordered_json::array()},
+                                   {"stand_ins", nlohmann::ordered_json::array()}};
+  for (std::size_t row = 0; row < devices.rows(); ++row) object["devices"].push_back(row_json(devices, row));
+  for (const auto& [name, help] : stand_ins) object["stand_ins"].push_back({{"name", name}, {"help", help}});
+  print_json(object);
+}
+
+}  // namespace
+
+int list_devices(bool json) {
+  const Table devices = device_table(connected_devices());
+  if (json) {
+    print_json_list(devices);
+    return 0;
+  }
+  if (!knows_chai3d) {
+    fmt::print("no devices: this program was built without CHAI3D; {}\n", how_to_build_with_chai3d);
+  } else if (devices.rows() == 0) {
+    fmt::print("no devices: CHAI3D finds none; check cable, power and driver, and who may use it\n");
+  } else {
+    fmt::print("{}", aligned_text(devices));
+  }
+  fmt::print("\nstand-ins, for people without one:\n");
+  for (const auto& [name, help] : stand_ins) fmt::print("{:<20}{}\n", name, help);
+  return 0;
+}
+
+}  // namespace sandstroke

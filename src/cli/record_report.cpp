@@ -1,0 +1,87 @@
+#include <spdlog/fmt/fmt.h>
+
+#include "cli/print_json.h"
+#include "cli/record_parts.h"
+#include "record/recording_json.h"
+
+namespace sandstroke {
+namespace {
+
+std::string force_text(double limit, const TickCounts& ticks) {
+  if (limit == 0.0) return "none";
+  std::string text = limit < any_force ? fmt::format("up to {:.3g} N", limit) : "all that the sand gives";
+  if (ticks.ramped > 0) text += fmt::format("; still fading in during {} ticks", ticks.ramped);
+  if (ticks.clamped > 0) text += fmt::format(", cut to the limit in {}", ticks.clamped);
+  if (ticks.rate_limited > 0) text += fmt::format(", kept from jumping in {}", ticks.rate_limited);
+  if (ticks.refused > 0) text += fmt::format(", no number in {}", ticks.refused);
+  return text;
+}
+
+std::string sand_text(const LiveSandReport& felt) {
+  return fmt::format(
+      "touched in {} ticks, relaxed {} times, {}{}", felt.contact_ticks, felt.erosion.relaxations,
+      felt.erosion.converged ? "at rest" : "still slipping at the end",
+      felt.held_ticks > 0 ? fmt::format("; not dug in {} ticks, for its erosion was behind", felt.held_ticks)
+                          : "");
+}
+
+double seconds(const RecordingReport& report) {
+  return static_cast<double>(report.footer.ticks.elapsed) / report.header.nominal_rate;
+}
+
+}  // namespace
+
+std::string scheduling_text(const Scheduling& scheduling) {
+  return fmt::format("{}{}, memory {}locked", scheduling.policy,
+                     scheduling.priority > 0 ? fmt::format(" {}", scheduling.priority) : "",
+                     scheduling.memory_locked ? "" : "not ");
+}
+
+std::string ticks_text(const TickCounts& ticks) {
+  if (ticks.recorded == ticks.elapsed) return fmt::format("{}, all recorded", ticks.elapsed);
+  std::string text = fmt::format("{}: {} recorded", ticks.elapsed, ticks.recorded);
+  if (ticks.skipped > 0) text += fmt::format(", {} skipped (the loop was late)", ticks.skipped);
+  if (ticks.unread > 0) text += fmt::format(", {} unread (the device gave nothing)", ticks.unread);
+  if (ticks.dropped > 0) text += fmt::format(", {} dropped (the disk was behind)", ticks.dropped);
+  return text;
+}
+
+std::string lateness_text(const RecordingFooter& footer) {
+  return fmt::format(
+      "{:.0f} us on average, {:.0f} us or less in 99 of 100, {:.0f} us at most; recorded over half a tick "
+      "late: {}",
+      1e6 * footer.lateness.mean, 1e6 * footer.lateness.p99, 1e6 * footer.lateness.max, footer.ticks.late);
+}
+
+void print_recording(const RecordingReport& report, const std::optional<LiveSandReport>& felt,
+                     const std::filesystem::path& file, bool json) {
+  const RecordingHeader& header = report.header;
+  const RecordingFooter& footer = report.footer;
+  if (json) {
+    nlohmann::ordered_json object = {
+        {"output", file.string()}, {"complete", is_complete(footer.reason)}, {"seconds", seconds(report)}};
+    object.update(as_json(footer));
+    object.update(as_json(header));
+    object.erase("felt_scene");  // a page of text, which is in the file
+    if (felt)
+      object["felt"] = {{"contact_ticks", felt->contact_ticks},
+                        {"held_ticks", felt->held_ticks},
+                        {"relaxations", felt->erosion.relaxations},
+                        {"passes", felt->erosion.passes},
+                        {"converged", felt->erosion.converged}};
+    print_json(object);
+    return;
+  }
+  const auto row = [](const char* name, const std::string& value) { fmt::print("{:<12} {}\n", name, value); };
+  row("stroke", file.string());
+  row("device", header.source);
+  row("time", fmt::format("{:.3f} s at {:.6g} Hz; {}", seconds(report), header.nominal_rate,
+                          stop_reason_text(footer.reason)));
+  row("ticks", ticks_text(footer.ticks));
+  row("lateness", lateness_text(footer));
+  row("scheduling", scheduling_text(header.scheduling));
+  row("force", force_text(header.force_limit, footer.ticks));
+  if (felt) row("sand", sand_text(*felt));
+}
+
+}  // namespace sandstroke

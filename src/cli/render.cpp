@@ -1,0 +1,268 @@
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <charconv>
+#include <filesystem>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "cli/commands.h"
+#include "cli/run_picture.h"
+#include "core/error.h"
+#include "core/interrupt.h"
+#include "core/output_file.h"
+#include "core/progress.h"
+#include "io/film_file.h"
+#include "io/png_file.h"
+#include "io/scene_toml.h"
+
+namespace sandstroke {
+namespace {
+namespace fs = std::filesystem;
+
+struct RenderArguments {
+  fs::path run, output, video;
+  std::string frame = "final", size;
+  std::string view, style;
+  std::optional<double> azimuth, elevation, distance, light_azimuth, light_elevation;
+  std::vector<double> target;
+  std::optional<double> contour_interval;
+  std::optional<double> fps;
+  std::optional<bool> tool;  // unset: in frames, not in initial and final
+};
+
+template <class Number>
+bool parse_whole(std::string_view text, Number& number) {
+  const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), number);
+  return failure == std::errc() && end == text.data() + text.size();
+}
+
+/// The value with this name, which is known to be one of them.
+template <class Value>
+Value named(const std::vector<std::string>& names, const std::string& name) {
+  return static_cast<Value>(std::find(names.begin(), names.end(), name) - names.begin());
+}
+
+/// Refuses what would change nothing in this view.
+void reject_ignored(const RenderArguments& arguments, const ViewSettings& view) {
+  if (!arguments.target.empty() && view.name != ViewName::custom)
+    throw_input_error("--target needs --view custom; the view is {}",
+                      view_names[static_cast<std::size_t>(view.name)]);
+  if (view.name == ViewName::top)
+    for (const auto& [name, given] : {std::pair("--azimuth", arguments.azimuth),
+                                      {"--elevation", arguments.elevation},
+                                      {"--distance", arguments.distance}})
+      if (given)
+        throw_input_error("{} needs --view overview, stroke or custom; the view is top, straight from above",
+                          name);
+  if (arguments.contour_interval && view.style == RenderStyle::sand)
+    throw_input_error("--contour needs --style height or difference; the style sand draws no contour lines");
+}
+
+/// The scene's view, changed by what the command line says.
+ViewSettings view_of(const Scene& scene, const RenderArguments& arguments) {
+  ViewSettings view = scene.view;
+  if (!arguments.view.empty()) view.name = named<ViewName>(view_names, arguments.view);
+  if (!arguments.style.empty()) view.style = named<RenderStyle>(style_names, arguments.style);
+  view.azimuth = arguments.azimuth.value_or(view.azimuth);
+  view.elevation = arguments.elevation.value_or(view.elevation);
+  view.distance = arguments.distance.value_or(view.distance);
+  view.light_azimuth = arguments.light_azimuth.value_or(view.light_azimuth);
+  view.light_elevation = arguments.light_elevation.value_or(view.light_elevation);
+  if (!arguments.target.empty()) view.target = Eigen::Vector3d(arguments.target.data());
+  if (!arguments.size.empty()) {
+    const std::string_view size = arguments.size;
+    const std::size_t x = size.find('x');
+    if (x == std::string::npos || !parse_whole(size.substr(0, x), view.width) ||
+        !parse_whole(size.substr(x + 1), view.height))
+      throw_input_error("--size {} is no size in pixels; write it like 1280x720", size);
+  }
+  reject_ignored(arguments, view);
+  return view;
+}
+
+std::string frame_name(std::size_t k) { return fmt::format("frame_{:04}", k); }
+
+fs::path default_output(const RenderArguments& arguments, const std::string& ending) {
+  if (!arguments.output.empty()) return arguments.output;
+  return beside(arguments.run, ending);
+}
+
+/// Draws the frames, one after the other, and gives them to take(k, image) until that returns false. The exit
+/// code.
+template <class Take>
+int draw_frames(const RunFile& run, const std::vector<double>& times, const ViewSettings& view,
+                const RenderArguments& arguments, const Take& take) {
+  const bool tool = arguments.tool.value_or(run.has_trace());
+  RunPainter painter(run, view, arguments.contour_interval.value_or(0.0));
+  RunFrames frames(run);
+  Progress progress("render");
+  for (std::size_t k = 0; k < times.size(); ++k) {
+    const Image image =
+        painter.draw(frames.surface(static_cast<int>(k)), tool ? std::optional(times[k]) : std::nullopt);
+    if (!take(k, image) || interrupted()) return 128 + interrupted();
+    progress.update(static_cast<double>(k + 1) / static_cast<double>(times.size()));
+  }
+  return 0;
+}
+
+int draw_pictures(const RunFile& run, const std::vector<double>& times, const ViewSettings& view,
+                  const RenderArguments& arguments) {
+  const fs::path folder = default_output(arguments, "_frames");
+  make_folder(folder);
+  const auto picture = [&](std::size_t k) { return folder / (frame_name(k) + ".png"); };
+  const int exit_code = draw_frames(run, times, view, arguments, [&](std::size_t k, const Image& image) {
+    write_png(picture(k), image);
+    return true;
+  });
+  if (exit_code != 0) return exit_code;
+  for (std::size_t k = 0; k < times.size(); ++k)
+    if (!fs::exists(picture(k)))
+      throw_io_error("{}: somebody removed it while others were drawn; render again", picture(k).string());
+  fmt::print("{}\n", folder.string());
+  return 0;
+}
+
+int draw_film(const RunFile& run, const std::vector<double>& times, const Scene& scene,
+              const ViewSettings& view, const RenderArguments& arguments) {
+  check_output(arguments.video, {arguments.run});
+  const double own_rate = std::min(scene.output.frames, scene.device.servo_rate);
+  const double rate = arguments.fps.value_or(own_rate);
+  FilmWriter film(arguments.video, view.width, view.height, rate);
+  spdlog::info("{} frames, {:g} a second: {}", times.size(), rate,
+               rate == own_rate ? "film time is stroke time"
+                                : fmt::format("{:g} times as fast as the stroke", rate / own_rate));
+  const int exit_code = draw_frames(run, times, view, arguments,
+                                    [&](std::size_t, const Image& image) { return film.add(image); });
+  if (exit_code != 0) return exit_code;
+  if (!film.finish()) return 128 + interrupted();
+  fmt::print("{}\n", arguments.video.string());
+  return 0;
+}
+
+/// Of a run that holds frames.
+std::vector<double> frame_times(const RunFile& run) {
+  std::vector<double> times = run.frame_times();
+  if (times.empty())
+    throw_input_error("{}: holds no frames; run the scene again with --frames HZ", run.name());
+  return times;
+}
+
+int render(const RenderArguments& arguments) {
+  if (!arguments.video.empty()) check_film_name(arguments.video);
+  const RunFile run(arguments.run);
+  const Scene scene = scene_from_text(run.scene_text(), run.name() + ": /scene");
+  const ViewSettings view = view_of(scene, arguments);
+  if (arguments.frame == "all") {
+    const std::vector<double> times = frame_times(run);
+    return arguments.video.empty() ? draw_pictures(run, times, view, arguments)
+                                   : draw_film(run, times, scene, view, arguments);
+  }
+  RunPainter painter(run, view, arguments.contour_interval.value_or(0.0));
+  HeightGrid surface;
+  std::string ending = ".png";
+  double time = 0.0;
+  bool tool = arguments.tool.value_or(false);
+  if (arguments.frame == "initial") {
+    surface = run.initial();
+    ending = "_initial.png";
+  } else if (arguments.frame == "final") {
+    surface = run.final();
+    time = std::numeric_limits<double>::infinity();
+  } else {
+    int k = 0;
+    if (!parse_whole(arguments.frame, k))
+      throw_input_error("--frame {} is no frame; take final, initial, all or a number", arguments.frame);
+    const std::vector<double> times = frame_times(run);
+    if (k < 0 || k >= static_cast<int>(times.size()))
+      throw_input_error("{}: holds no frame {}; take 0 to {}", run.name(), k, times.size() - 1);
+    surface = RunFrames(run).surface(k);
+    ending = "_" + frame_name(static_cast<std::size_t>(k)) + ".png";
+    time = times[static_cast<std::size_t>(k)];
+    tool = arguments.tool.value_or(run.has_trace());
+  }
+  const fs::path output = default_output(arguments, ending);
+  check_picture_name(output);
+  check_output(output, {arguments.run});
+  write_png(output, painter.draw(surface, tool ? std::optional(time) : std::nullopt));
+  fmt::print("{}\n", output.string());
+  return 0;
+}
+
+}  // namespace
+
+void add_render_command(CLI::App& app, Command& chosen) {
+  auto arguments = std::make_shared<RenderArguments>();
+  const std::string scenes = "; default: the scene's [view]";
+  CLI::App* command =
+      app.add_subcommand("render", "Draw the surfaces of a run (the scene's [view], unless told otherwise)");
+  command->add_option("RUN", arguments->run, "Run file (HDF5)")->type_name("FILE.h5")->required();
+  command
+      ->add_option(
+          "-o,--output", arguments->output,
+          "Picture (PNG), or the folder for --frame all; default, beside RUN: RUN.png, RUN_initial.png, "
+          "RUN_frame_0000.png, ..., RUN_frames/")
+      ->type_name("FILE.png");
+  CLI::Option* frame =
+      command->add_option("--frame", arguments->frame, "final, initial, all, or a frame's number from 0")
+          ->type_name("{final,initial,all}|K")
+          ->capture_default_str();
+  CLI::Option* video = command
+                           ->add_option("--video", arguments->video,
+                                        fmt::format("Film of all frames ({}), by the program ffmpeg",
+                                                    fmt::join(film_endings(), ", ")))
+                           ->type_name(fmt::format("FILE{}", fmt::join(film_endings(), "|")))
+                           ->excludes("--output");
+  command
+      ->add_option("--fps", arguments->fps,
+                   "Film's frames a second; default: the run's, so that film time is stroke time")
+      ->needs(video)
+      ->check(positive_number());
+  command->add_option("--size", arguments->size, "Picture size in pixels, like 1280x720" + scenes)
+      ->type_name("WxH");
+  command->add_option("--view", arguments->view, "All of it; what changes; a map; as aimed" + scenes)
+      ->check(CLI::IsMember(view_names));
+  command
+      ->add_option("--style", arguments->style,
+                   "As one sees it; heights; change since the initial surface" + scenes)
+      ->check(CLI::IsMember(style_names));
+  command->add_option("--azimuth", arguments->azimuth,
+                      "Towards the camera, from +x towards +y [deg]" + scenes);
+  command->add_option("--elevation", arguments->elevation, "Of the camera above the horizon [deg]" + scenes)
+      ->check(CLI::Range(0.0, 90.0));
+  command
+      ->add_option("--distance", arguments->distance,
+                   "From target to camera [m]; 0: what frames the subject" + scenes)
+      ->check(not_negative_number());
+  command->add_option("--target", arguments->target, "What a custom view looks at [m]" + scenes)
+      ->type_name("X,Y,Z")
+      ->delimiter(',')
+      ->expected(3);
+  command->add_option("--light-azimuth", arguments->light_azimuth, "Towards the sun [deg]" + scenes);
+  command->add_option("--light-elevation", arguments->light_elevation,
+                      "Of the sun above the horizon [deg]" + scenes);
+  command
+      ->add_option("--contour", arguments->contour_interval,
+                   "Between contour lines [m]; 0, the default: a round interval")
+      ->check(not_negative_number());
+  command->add_flag_callback(
+      "--tool", [arguments] { arguments->tool = true; },
+      "Draw the tool; default: in frames, not in initial and final");
+  command->add_flag_callback(
+      "--no-tool", [arguments] { arguments->tool = false; }, "Do not draw the tool");
+  command->footer(
+      "Examples:  sandstroke render wscg.h5 --view stroke --style height --size 1920x1080\n"
+      "           sandstroke render wscg.h5 --frame all --video wscg.mp4");
+  command->callback([arguments, frame, video, &chosen] {
+    if (video->count() > 0 && frame->count() == 0) arguments->frame = "all";
+    if (video->count() > 0 && arguments->frame != "all")
+      throw CLI::ValidationError("--video", "is a film of all frames: leave out --frame " + arguments->frame);
+    chosen = [arguments] { return render(*arguments); };
+  });
+}
+
+}  // namespace sandstroke

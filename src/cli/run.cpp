@@ -1,0 +1,253 @@
+#include <spdlog/spdlog.h>
+
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "cli/commands.h"
+#include "cli/print_json.h"
+#include "cli/run_picture.h"
+#include "core/error.h"
+#include "core/interrupt.h"
+#include "core/output_file.h"
+#include "io/input_kind.h"
+#include "io/png_file.h"
+#include "io/run_file.h"
+#include "io/scene_toml.h"
+#include "io/toml_reader.h"
+#include "run/run_scene.h"
+#include "sand/instruction_set.h"
+#include "sim/furrow.h"
+#include "sim/simulation.h"
+
+namespace sandstroke {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct RunArguments {
+  std::string scene, output, stroke, picture;
+  std::vector<std::string> overrides;
+  double frames = -1.0;
+  int threads = 0;
+  std::string estimate_error;  // coarser, finer or empty
+  bool json = false;
+};
+
+nlohmann::ordered_json as_json(const RunResult& r, const Scene& scene, const std::string& output) {
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();  // null
+  nlohmann::ordered_json json = {
+      {"output", output},
+      {"preset", preset_name(scene.preset)},
+      {"wall_seconds", r.wall_seconds},
+      {"ticks", r.ticks},
+      {"simulated_seconds", r.simulated_seconds},
+      {"real_time_factor", r.simulated_seconds / r.wall_seconds},
+      {"contact_ticks", r.contact_ticks},
+      {"saturated_ticks", r.saturated_ticks},
+      {"gaps", r.gaps},
+      {"passes", r.passes},
+      {"relaxations", r.relaxations},
+      {"super_steps", r.super_steps},
+      {"rejected_stages", r.rejected_stages},
+      {"cells_visited", r.cells_visited},
+      {"tiles_active_max", r.tiles_active_max},
+      {"wake_ups", r.wake_ups},
+      {"residual", r.residual},
+      {"converged", r.converged},
+      {"volume_initial", r.volume_initial},
+      {"volume_final", r.volume_final},
+      {"volume_drift", r.volume_drift},
+      {"displaced_volume", r.displaced_volume},
+      {"moved_volume", r.moved_volume},
+      {"max_force", r.max_force},
+      {"mean_force", r.mean_force},
+      {"max_depth", r.max_depth},
+      {"asked_depth", r.furrow ? r.furrow->asked_depth : none},
+      {"furrow_depth", r.furrow ? r.furrow->depth : none},
+      {"absorbed_energy", r.absorbed_energy},
+      {"least_absorbed_energy", r.least_absorbed_energy},
+      {"least_passivity_margin", r.least_passivity_margin},
+      {"threads", r.threads},
+      {"instruction_set", instruction_set()},
+      {"interrupted", r.interrupted},
+  };
+  if (r.recorded_force)
+    json["recorded_force"] = {
+        {"ticks", r.recorded_force->ticks}, {"rms", r.recorded_force->rms}, {"max", r.recorded_force->max}};
+  if (r.error) {
+    const ErrorEstimate& e = *r.error;
+    json["error_estimate"] = {{"height_share", e.height_share}, {"height_rms", e.height_rms},
+                              {"height_max", e.height_max},     {"force_rms", e.force_rms},
+                              {"force_max", e.force_max},       {"at_rest", e.at_rest},
+                              {"wall_seconds", e.wall_seconds}};
+  }
+  return json;
+}
+
+void row(const char* name, const std::string& value) { fmt::print("{:<18} {}\n", name, value); }
+
+void print_summary(const RunResult& r, const Scene& scene, const std::string& output) {
+  row("run", output);
+  row("model", "preset " + preset_name(scene.preset));
+  if (!r.interrupted) row("for ParaView", beside(output, ".xdmf").string());
+  if (r.ticks > 0) {
+    row("stroke",
+        fmt::format("{:.3f} s, {} ticks, {} in contact", r.simulated_seconds, r.ticks, r.contact_ticks));
+    row("speed", fmt::format("{:.1f} times real time", r.simulated_seconds / r.wall_seconds));
+    row("deepest", fmt::format("{:.3f} mm", 1e3 * r.max_depth));
+    if (r.furrow && !std::isnan(r.furrow->depth) && !std::isnan(r.furrow->asked_depth))
+      row("furrow", fmt::format("{:.2f} mm deep, of {:.2f} mm that the tip was asked to be (medians)",
+                                1e3 * r.furrow->depth, 1e3 * r.furrow->asked_depth));
+    row("largest force",
+        fmt::format("{:.3f} N{}", r.max_force,
+                    r.saturated_ticks > 0 ? fmt::format(", limited in {} ticks", r.saturated_ticks) : ""));
+    if (r.recorded_force)
+      row("recorded force",
+          fmt::format("{:.3g} N rms, {:.3g} N at most from this run's, over {} ticks", r.recorded_force->rms,
+                      r.recorded_force->max, r.recorded_force->ticks));
+    row("energy into sand",
+        fmt::format("{:.4g} J{}", r.absorbed_energy,
+                    returned_energy(r) ? fmt::format(", at worst {:.3g} J more returned than taken",
+                                                     -r.least_absorbed_energy)
+                                       : ""));
+    if (r.gaps > 0) row("gaps", fmt::format("{}: the tool was lifted there", r.gaps));
+  }
+  row("sand moved", fmt::format("{:.6g} m^3, volume drift {:.1e} of it", r.moved_volume, r.volume_drift));
+  const std::string steps = r.super_steps > 0 ? fmt::format(" in {} super steps", r.super_steps) : "";
+  row("relaxation", fmt::format("{} passes{}, residual {:.2e}, {}", r.passes, steps, r.residual,
+                                r.converged ? "at rest" : "NOT AT REST"));
+  if (!r.error) return;
+  row("error of heights",
+      fmt::format("+-{:.3g} mm rms, {:.3g} mm at most; {:.2g} % of the changed sand lies elsewhere",
+                  1e3 * r.error->height_rms, 1e3 * r.error->height_max, 100.0 * r.error->height_share));
+  if (r.ticks > 0)
+    row("error of force",
+        fmt::format("+-{:.3g} N rms, {:.3g} N at most", r.error->force_rms, r.error->force_max));
+}
+
+/// A name that nobody chose must not cost another scene's finished run, or any other file.
+void check_default_output(const fs::path& output, const fs::path& scene_path, const Scene& scene) {
+  if (!fs::exists(output)) return;
+  const std::string remedy = "name another file with -o, or this one to replace it";
+  if (kind_of(output) != InputKind::run)
+    throw_input_error("{}: is there and is no run; {}", output.string(), remedy);
+  const RunFile run(output);
+  if (run.scene_text() == scene_text(scene)) return;
+  for (const auto& [name, value] : run.provenance())
+    if (name == "scene_file" && value != scene_file_entry(scene_path, output))
+      throw_input_error("{}: is the run of another scene, {}; {}", output.string(), value, remedy);
+}
+
+int run(const RunArguments& arguments) {
+  const fs::path scene_path = arguments.scene;
+  std::vector<std::string> overrides = arguments.overrides;
+  if (!arguments.stroke.empty())
+    overrides.push_back("stroke.file=" + toml_string(fs::absolute(arguments.stroke).string()));
+  if (arguments.frames >= 0.0) overrides.push_back(fmt::format("output.frames={}", arguments.frames));
+  const Scene scene = load_scene(scene_path, overrides);
+  const std::string output = arguments.output.empty() ? scene_path.stem().string() + ".h5" : arguments.output;
+  if (arguments.output.empty()) check_default_output(output, scene_path, scene);
+
+  std::vector<fs::path> files = {scene_path};
+  const fs::path folder = scene_path.parent_path();
+  if (scene.stroke) files.push_back(folder / scene.stroke->file);
+  if (scene.bed.surface.kind == SurfaceKind::file) files.push_back(folder / scene.bed.surface.file);
+  for (const fs::path& written : {fs::path(output), beside(output, ".xdmf"), fs::path(arguments.picture)}) {
+    if (written.empty()) continue;
+    check_output(written, files);
+    files.push_back(written);
+  }
+
+  if (!arguments.picture.empty()) {
+    check_picture_name(arguments.picture);
+    check_drawable(scene.bed.rows, scene.bed.cols);
+  }
+
+  RunOptions options;
+  options.scene_folder = folder;
+  options.scene_file = scene_path;
+  options.threads = arguments.threads;
+  options.progress = true;
+  if (!arguments.estimate_error.empty())
+    options.second = arguments.estimate_error == "finer" ? SecondSolution::finer : SecondSolution::coarser;
+  const RunResult result = run_scene(scene, output, options);
+
+  const std::string written = result.interrupted ? part_path(output).string() : output;
+  if (arguments.json) {
+    print_json(as_json(result, scene, written));
+  } else {
+    print_summary(result, scene, written);
+  }
+  if (result.interrupted) return 128 + interrupted();
+  if (!arguments.picture.empty()) {
+    write_png(arguments.picture, run_picture(RunFile(output), scene.view));
+    if (!arguments.json) row("picture", arguments.picture);
+  }
+  if (result.ticks > 0 && result.contact_ticks == 0)
+    spdlog::warn("the tool never touched the sand; check stroke.plane, stroke.depth and stroke.offset");
+  if (result.furrow) {
+    const std::string warning = furrow_warning(scene, *result.furrow);
+    if (!warning.empty()) spdlog::warn("{}", warning);
+  }
+  if (scene.device.model == DeviceModel::dynamic && loop_returned_energy(result, scene.device))
+    spdlog::warn(
+        "the sand returned up to {:.3g} J more than it took: the loop was not passive; lower force.k_s, "
+        "force.k_f, device.delay or device.dropped_ticks, or raise device.servo_rate or device.damping",
+        -result.least_absorbed_energy);
+  if (!result.converged) {
+    spdlog::warn(
+        "the sand is not at rest (residual {:.2e}, tolerance {:.2e}); raise relaxation.max_passes or "
+        "relaxation.tolerance",
+        result.residual, scene.relaxation.tolerance);
+    return static_cast<int>(ErrorKind::unstable);
+  }
+  if (options.second && !result.error)  // the run is complete, the estimate is not
+    return interrupted() ? 128 + interrupted() : static_cast<int>(ErrorKind::unstable);
+  return 0;
+}
+
+}  // namespace
+
+void add_run_command(CLI::App& app, Command& chosen) {
+  CLI::App* command =
+      app.add_subcommand("run", "Simulate a scene: play its stroke through the sand and let it come to rest");
+  auto arguments = std::make_shared<RunArguments>();
+  command->add_option("SCENE", arguments->scene, "Scene file (TOML)")->type_name("FILE.toml")->required();
+  command
+      ->add_option(
+          "-o,--output", arguments->output,
+          "Run file to write (HDF5); default: SCENE's name with .h5, here, unless that is the run of "
+          "another scene")
+      ->type_name("FILE.h5");
+  command->add_option("--stroke", arguments->stroke, "Play this stroke instead of the scene's (.toml or .h5)")
+      ->type_name("FILE.toml|.h5");
+  add_set_option(*command, arguments->overrides);
+  command->add_option("--frames", arguments->frames, "Keep surfaces during the run, this many a second [Hz]")
+      ->check(not_negative_number());
+  command
+      ->add_option("--png", arguments->picture,
+                   "Draw the final surface into this picture, as the scene's [view] says")
+      ->type_name("FILE.png");
+  command
+      ->add_option("--threads", arguments->threads,
+                   "Threads to use; 0, the default: all cores. The result is the same for any number")
+      ->check(CLI::Range(0, 1024));
+  command
+      ->add_flag(
+          "--estimate-error{finer}", arguments->estimate_error,
+          "Tell how far heights and forces may be from those of ever smaller steps, by a second run with "
+          "steps half as large (10 to 20 times the run). --estimate-error=coarser, with the =: twice as "
+          "large "
+          "(a tenth of the run, but blind to what a tool of few cells gets wrong)")
+      ->check(CLI::IsMember({"coarser", "finer"}));
+  command->add_flag("--json", arguments->json, "Print the summary as one JSON object");
+  command->footer(
+      "Example:  sandstroke run strokes/wscg/scene.toml -o wscg.h5 --png wscg.png\n"
+      "All scene keys with units and defaults:  sandstroke info --scene-keys");
+  command->callback([arguments, &chosen] { chosen = [arguments] { return run(*arguments); }; });
+}
+
+}  // namespace sandstroke

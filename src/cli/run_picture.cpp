@@ -1,0 +1,54 @@
+#include "cli/run_picture.h"
+
+#include <algorithm>
+
+#include "core/error.h"
+#include "io/scene_toml.h"
+#include "render/change_picture.h"
+
+namespace sandstroke {
+namespace {
+
+/// The latest surface that a run holds: one that was cut off has no final one.
+HeightGrid last_surface(const RunFile& run, const HeightGrid& initial) {
+  if (run.has_final()) return run.final();
+  const auto frames = static_cast<int>(run.frame_times().size());
+  return frames > 0 ? RunFrames(run).surface(frames - 1) : initial;
+}
+
+}  // namespace
+
+RunPainter::RunPainter(const RunFile& run, const ViewSettings& view, double contour_interval)
+    : run_(run),
+      scene_(scene_from_text(run.scene_text(), run.name() + ": /scene")),
+      renderer_(run.rows(), run.cols(), run.cell_size()),
+      initial_(run.initial()) {
+  subject_ = subject_of_change(initial_, last_surface(run, initial_), view, contour_interval);
+}
+
+Image RunPainter::draw(const HeightGrid& surface, std::optional<double> tool_time) {
+  subject_.tool = tool_time ? std::optional(tool_at(*tool_time)) : std::nullopt;
+  const HeightGrid difference = surface - initial_;
+  subject_.difference = &difference;
+  return renderer_.render(HeightField(surface, run_.cell_size()), subject_);
+}
+
+ToolSphere RunPainter::tool_at(double time) {
+  if (!trace_) {
+    if (!run_.has_trace())
+      throw_input_error("{}: holds no trace, so the tool's place is not known; draw it with --no-tool",
+                        run_.name());
+    trace_ = run_.trace();
+  }
+  if (trace_->time.empty())
+    throw_input_error("{}: has no stroke, so there is no tool to draw; draw it with --no-tool", run_.name());
+  const auto after = std::upper_bound(trace_->time.begin(), trace_->time.end(), time);
+  const auto tick = static_cast<std::size_t>(std::max<std::ptrdiff_t>(0, after - trace_->time.begin() - 1));
+  return {scene_.device.scale * trace_->device_position[tick] + scene_.device.offset, scene_.tool.radius};
+}
+
+Image run_picture(const RunFile& run, const ViewSettings& view) {
+  return RunPainter(run, view).draw(run.final());
+}
+
+}  // namespace sandstroke

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <optional>
+
+#include "io/run_file.h"
+#include "picture/image.h"
+#include "picture/view.h"
+#include "render/height_field_renderer.h"
+#include "sim/scene.h"
+
+namespace sandstroke {
+
+/// Draws the surfaces of one run, all in the same view and on the same colour scale: that of the initial and
+/// the last surface together. Style difference shows what changed since the initial surface; view stroke
+/// frames the cells that change.
+class RunPainter {
+ public:
+  /// contour_interval [m]: 0 = a round one. Error: input or io, as RunFile and HeightFieldRenderer.
+  RunPainter(const RunFile& run, const ViewSettings& view, double contour_interval = 0.0);
+
+  /// The tool is drawn where it is at `tool_time` [s] (the last tick before it), if that is given. Error:
+  /// input, where the run holds no trace.
+  Image draw(const HeightGrid& surface, std::optional<double> tool_time = std::nullopt);
+
+ private:
+  ToolSphere tool_at(double time);
+
+  const RunFile& run_;
+  Scene scene_;
+  HeightFieldRenderer renderer_;  // before the surfaces: it refuses beds that cannot be drawn
+  HeightGrid initial_;
+  RenderSubject subject_;
+  std::optional<RunTrace> trace_;
+};
+
+/// The final surface of a run.
+Image run_picture(const RunFile& run, const ViewSettings& view);
+
+}  // namespace sandstroke

@@ -1,0 +1,117 @@
+#include "validation/stress/stress.h"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "cli/commands.h"
+#include "cli/print_json.h"
+#include "core/error.h"
+#include "core/interrupt.h"
+#include "core/output_file.h"
+#include "core/progress.h"
+#include "core/stopwatch.h"
+#include "io/table.h"
+#include "report/page.h"
+
+namespace sandstroke {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct StressArguments {
+  fs::path output = "stress";
+  bool quick = false, json = false;
+};
+
+/// How many cases of each group, and cells of each map, ended how, and how many surprised.
+Table counts(const StressReport& report) {
+  constexpr Verdict verdicts[] = {Verdict::stable,  Verdict::limit_cycle,   Verdict::diverged,
+                                  Verdict::refused, Verdict::not_converged, Verdict::broken};
+  std::vector<std::string> names;
+  std::map<Verdict, std::vector<double>> seen;
+  std::vector<double> surprises;
+  const auto add = [&](const std::string& name, Verdict verdict, bool surprise) {
+    const auto row = static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
+    if (row == names.size()) {
+      names.push_back(name);
+      for (const Verdict any : verdicts) seen[any].push_back(0.0);
+      surprises.push_back(0.0);
+    }
+    seen[verdict][row] += 1.0;
+    surprises[row] += surprise;
+  };
+  for (const StressCase& one : report.cases) add(one.group, one.verdict, one.surprise());
+  for (const StabilityMap& map : report.maps)
+    for (std::size_t row = 0; row < map.verdict.size(); ++row)
+      for (std::size_t col = 0; col < map.verdict[row].size(); ++col)
+        add("map: " + map.title, map.verdict[row][col], map.surprise[row][col]);
+  Table table{{{"name", "", "", names}}};
+  for (const Verdict verdict : verdicts)
+    table.columns.push_back({name_of(verdict), name_of(verdict), "", seen[verdict]});
+  table.columns.push_back({"surprises", "surprises", "", surprises});
+  return table;
+}
+
+void print_summary(const StressReport& report) {
+  fmt::print("{}", aligned_text(counts(report), 9));
+  for (const StressCase& one : report.cases)
+    if (one.surprise())
+      spdlog::error("surprise: {}, {}: {} where {} was expected ({})", one.group, one.name,
+                    name_of(one.verdict), one.expected.empty() ? "nothing" : name_of(one.expected.front()),
+                    one.detail);
+}
+
+int stress(const StressArguments& arguments) {
+  const fs::path page = arguments.output / "stress.html";
+  make_folder(arguments.output);
+  check_output(page, {});
+  Progress bar("stress");
+  StressOptions options;
+  options.quick = arguments.quick;
+  options.progress = [&bar](double fraction) { bar.update(fraction); };
+  const Stopwatch watch;
+  const StressReport report = stress_all(options);
+  if (interrupted()) return 128 + interrupted();
+
+  nlohmann::ordered_json data = as_json(report);
+  data["machine"] = describe_machine();
+  data["quick"] = arguments.quick;
+  data["seconds"] = watch.seconds();
+  write_text_file(page, html_page("sandstroke stress: numerical stability", PageScript::stress, data));
+  if (arguments.json) {
+    print_json(data);
+  } else {
+    print_summary(report);
+    fmt::print("\nThe maps: {}\n", page.string());
+  }
+  return report.surprises() == 0 ? 0 : static_cast<int>(ErrorKind::unstable);
+}
+
+}  // namespace
+
+void add_stress_command(CLI::App& app, Command& chosen) {
+  CLI::App* command = app.add_subcommand(
+      "stress", "Test numerical stability to the breaking point: device loop, relaxation, strokes");
+  auto arguments = std::make_shared<StressArguments>();
+  command
+      ->add_option("-o,--output", arguments->output,
+                   "Folder for the page, stress.html, made where it is not there")
+      ->type_name("FOLDER")
+      ->capture_default_str();
+  command->add_flag("--quick", arguments->quick,
+                    "10 seconds rather than 7 minutes: coarser maps, fewer and shorter cases");
+  command->add_flag("--json", arguments->json,
+                    "Print the page's data as one JSON object instead of the table");
+  command->footer(
+      "Each case has an expected verdict; one that ends otherwise is a surprise, and the exit code is then "
+      "3.\n"
+      "Example:  sandstroke stress --quick -o out/stress");
+  command->callback([arguments, &chosen] { chosen = [arguments] { return stress(*arguments); }; });
+}
+
+}  // namespace sandstroke

@@ -1,0 +1,180 @@
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "cli/print_json.h"
+#include "cli/record_parts.h"
+#include "cli/stroke_parts.h"
+#include "io/recording_file.h"
+#include "io/stroke_file.h"
+#include "record/recording_json.h"
+
+namespace sandstroke {
+
+using Eigen::Vector3d;
+
+StrokeSummary summarize(const Stroke& stroke) {
+  StrokeSummary summary;
+  summary.samples = stroke.size();
+  summary.duration = stroke.duration();
+  summary.low = summary.high = stroke.position.front();
+  std::vector<double> spacings;
+  for (std::size_t i = 0; i < stroke.size(); ++i) {
+    summary.drawn_samples += stroke.touches(i);
+    summary.low = summary.low.cwiseMin(stroke.position[i]);
+    summary.high = summary.high.cwiseMax(stroke.position[i]);
+    if (i == 0) continue;
+    spacings.push_back(stroke.time[i] - stroke.time[i - 1]);
+    if (stroke.joined(i - 1)) {
+      ++summary.joined_samples;
+      const double step = (stroke.position[i] - stroke.position[i - 1]).norm();
+      summary.top_speed = std::max(summary.top_speed, step / spacings.back());
+    }
+  }
+  if (!spacings.empty()) {
+    const auto middle = spacings.begin() + static_cast<std::ptrdiff_t>(spacings.size() / 2);
+    std::nth_element(spacings.begin(), middle, spacings.end());
+    summary.median_spacing = *middle;
+  }
+  summary.gaps = StrokeSampler(stroke).gaps();
+  if (!stroke.force.empty()) {
+    const auto shorter = [](const Vector3d& a, const Vector3d& b) { return a.norm() < b.norm(); };
+    const auto [least, greatest] = std::minmax_element(stroke.force.begin(), stroke.force.end(), shorter);
+    summary.least_force = least->norm();
+    summary.greatest_force = greatest->norm();
+  }
+  return summary;
+}
+
+std::string recorded_ticks_text(const RecordingFooter& footer) {
+  const TickCounts& ticks = footer.ticks;
+  if (footer.reason != StopReason::cut_off) return ticks_text(ticks);
+  return fmt::format("{} up to the last sample: {} recorded, {} missing", ticks.elapsed, ticks.recorded,
+                     ticks.elapsed - ticks.recorded);
+}
+
+namespace {
+
+std::string table_row(std::string_view title, const std::string& value) {
+  return fmt::format("{:<11}{}\n", title, value);
+}
+
+/// Hz, of the samples that there are.
+double reached_rate(const StrokeSummary& summary) {
+  return summary.samples > 1 ? static_cast<double>(summary.samples - 1) / summary.duration : 0.0;
+}
+
+std::string recording_rows(const RecordingInfo& recording, const StrokeSummary& summary) {
+  const auto& [header, footer] = recording;
+  std::string device = header.device.model;
+  if (!header.device.manufacturer.empty()) device += fmt::format(" ({})", header.device.manufacturer);
+  if (header.device.max_force > 0.0 && header.device.max_force < any_force)
+    device += fmt::format(", gives up to {:.4g} N", header.device.max_force);
+  return table_row("device", device) + table_row("recorded", header.started) +
+         table_row("loop", fmt::format("{:.6g} Hz asked, {:.6g} samples a second; {}", header.nominal_rate,
+                                       reached_rate(summary), scheduling_text(header.scheduling))) +
+         table_row("ticks", recorded_ticks_text(footer)) +
+         table_row("lateness",
+                   std::isnan(footer.lateness.mean)
+                       ? fmt::format("not known; recorded over half a tick late: {}", footer.ticks.late)
+                       : lateness_text(footer)) +
+         table_row("ended", stop_reason_text(footer.reason));
+}
+
+nlohmann::ordered_json describe(const std::string& file, const Stroke& stroke, const StrokeSummary& summary,
+                                const std::optional<RecordingInfo>& recording) {
+  nlohmann::ordered_json json;
+  json["file"] = file;
+  json["source"] = stroke.source;
+  json["frame"] = stroke.frame;
+  json["complete"] = stroke.complete;
+  json["samples"] = summary.samples;
+  json["drawn_samples"] = summary.drawn_samples;
+  json["duration"] = summary.duration;
+  json["nominal_rate"] = stroke.nominal_rate;
+  json["median_spacing"] = summary.median_spacing;
+  for (int axis = 0; axis < 3; ++axis)
+    json[std::string("extent_") + "xyz"[axis]] = {summary.low[axis], summary.high[axis]};
+  json["top_speed"] = summary.top_speed;
+  json["gap_threshold"] = stroke.gap_threshold;
+  json["gaps"] = nlohmann::json::array();
+  for (const StrokeGap& gap : summary.gaps) json["gaps"].push_back({gap.begin, gap.end});
+  if (!stroke.force.empty()) json["force"] = {summary.least_force, summary.greatest_force};
+  if (recording) {
+    nlohmann::ordered_json& recorded = json["recording"] = as_json(recording->header);
+    recorded.update(as_json(recording->footer));
+    recorded["rate"] = reached_rate(summary);
+  }
+  return json;
+}
+
+std::string as_table(const std::string& file, const Stroke& stroke, const StrokeSummary& summary,
+                     const std::optional<RecordingInfo>& recording) {
+  std::string table;
+  const auto row = [&table](std::string_view title, const std::string& value) {
+    table += table_row(title, value);
+  };
+  row("file", file);
+  row("source", stroke.source.empty() ? "not said" : stroke.source);
+  row("frame", stroke.frame);
+  row("complete", stroke.complete ? "yes"
+                  : recording     ? fmt::format("no: {}", stop_reason_text(recording->footer.reason))
+                                  : "no: cut off while being recorded");
+  row("samples",
+      std::to_string(summary.samples) +
+          (stroke.contact.empty() ? "" : fmt::format(", {} with the pen down", summary.drawn_samples)));
+  row("duration", fmt::format("{:.6g} s", summary.duration));
+  row("rate",
+      fmt::format("{}, median spacing {:.6g} ms",
+                  stroke.nominal_rate > 0.0 ? fmt::format("{:.6g} Hz", stroke.nominal_rate) : "not said",
+                  1e3 * summary.median_spacing));
+  for (int axis = 0; axis < 3; ++axis) {
+    row({&"xyz"[axis], 1},
+        fmt::format("{:>10.3f} to {:>10.3f} mm, {:>10.3f} mm wide", 1e3 * summary.low[axis],
+                    1e3 * summary.high[axis], 1e3 * (summary.high[axis] - summary.low[axis])));
+  }
+  row("top speed", fmt::format("{:.4g} m/s, gaps aside", summary.top_speed));
+  double lifted = 0.0;
+  for (const StrokeGap& gap : summary.gaps) lifted += gap.end - gap.begin;
+  row("gaps", summary.gaps.empty()
+                  ? "none"
+                  : fmt::format("{}, {:.6g} s in all (pen lifted, or over {:.6g} s without a sample)",
+                                summary.gaps.size(), lifted, stroke.gap_threshold));
+  row("force", stroke.force.empty()
+                   ? "not recorded"
+                   : fmt::format("{:.4g} to {:.4g} N", summary.least_force, summary.greatest_force));
+  if (recording) table += recording_rows(*recording, summary);
+  return table;
+}
+
+}  // namespace
+
+void add_stroke_info_command(CLI::App& stroke_app, Command& chosen) {
+  struct Options {
+    std::string file;
+    bool json = false;
+  };
+  auto options = std::make_shared<Options>();
+  CLI::App* app = stroke_app.add_subcommand("info", "Says what is in a stroke file");
+  app->add_option("FILE", options->file, "Recorded (.h5) or scripted (.toml) stroke")
+      ->type_name("FILE.h5|.toml")
+      ->option_text("REQUIRED")
+      ->required();
+  app->add_flag("--json", options->json, "One JSON object in SI units instead of a table");
+  app->callback([&chosen, options] {
+    chosen = [options] {
+      const Stroke stroke = load_stroke(options->file, ForceSettings{});
+      const StrokeSummary summary = summarize(stroke);
+      const std::optional<RecordingInfo> recording =
+          is_recorded(options->file) ? read_recording_info(options->file) : std::nullopt;
+      if (options->json) {
+        print_json(describe(options->file, stroke, summary, recording));
+      } else {
+        fmt::print("{}", as_table(options->file, stroke, summary, recording));
+      }
+      return 0;
+    };
+  });
+}
+
+}  // namespace sandstroke

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "cli/commands.h"
+#include "haptics/recording.h"
+#include "haptics/stroke_sampler.h"
+
+namespace sandstroke {
+
+// What `stroke` does besides making strokes.
+
+void add_stroke_info_command(CLI::App& stroke, Command& chosen);
+void add_stroke_repair_command(CLI::App& stroke, Command& chosen);
+
+struct StrokeSummary {
+  std::size_t samples = 0, drawn_samples = 0, joined_samples = 0;
+  double duration = 0.0, median_spacing = 0.0;  // s
+  Eigen::Vector3d low, high;                    // m
+  double top_speed = 0.0;                       // m/s, between samples that are joined
+  std::vector<StrokeGap> gaps;
+  double least_force = 0.0, greatest_force = 0.0;  // N, magnitude
+};
+StrokeSummary summarize(const Stroke& stroke);
+
+/// Where a recording's ticks went, also of one that was cut off.
+std::string recorded_ticks_text(const RecordingFooter& footer);
+
+}  // namespace sandstroke

@@ -1,0 +1,130 @@
+#include <filesystem>
+#include <memory>
+
+#include "cli/print_json.h"
+#include "cli/stroke_parts.h"
+#include "core/error.h"
+#include "core/output_file.h"
+#include "io/recording_file.h"
+#include "io/stroke_file.h"
+#include "record/journal.h"
+#include "record/recording_json.h"
+
+namespace sandstroke {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct RepairArguments {
+  std::string file, output;
+  bool remove = false, json = false;
+};
+
+/// What is to be repaired, and into what.
+struct Task {
+  fs::path journal, output;
+};
+
+/// file: STROKE.h5.recording, or the STROKE.h5 that it is to become.
+Task task_of(const RepairArguments& arguments) {
+  const fs::path file = arguments.file;
+  Task task;
+  task.journal = file.extension() == journal_extension ? file : journal_path(file);
+  task.output = arguments.output;
+  if (task.output.empty()) task.output = fs::path(task.journal).replace_extension();
+  if (!fs::exists(task.journal))
+    throw_io_error("{}: is not there, so there is nothing to repair; name a recording that was cut off, {}",
+                   task.journal.string(), journal_path("STROKE.h5").string());
+  check_output(task.output, {task.journal});
+  if (fs::exists(task.output))
+    throw_input_error("{}: is there already; name another file: sandstroke stroke repair {} OTHER.h5",
+                      task.output.string(), task.journal.string());
+  return task;
+}
+
+struct Repair {
+  RecordingInfo recording;
+  double duration = 0.0;         // s, from the first sample to the last
+  std::uint64_t lost_bytes = 0;  // of the journal
+};
+
+Repair repair(const Task& task) {
+  Repair done;
+  JournalReader journal(task.journal);
+  done.recording = write_recording_file(task.output, journal);
+  done.lost_bytes = journal.lost_bytes();
+  done.duration = read_stroke_file(task.output).duration();  // so it can be played
+  return done;
+}
+
+nlohmann::ordered_json describe(const Task& task, const Repair& done, bool removed) {
+  nlohmann::ordered_json json = {{"journal", task.journal.string()}, {"journal_removed", removed},
+                                 {"output", task.output.string()},   {"complete", done.recording.complete()},
+                                 {"duration", done.duration},        {"lost_bytes", done.lost_bytes}};
+  json.update(as_json(done.recording.footer));
+  return json;
+}
+
+std::string lost_text(const Repair& done) {
+  std::string text;
+  if (done.lost_bytes > 0)
+    text = fmt::format("{} bytes after the last sound sample, cut off or damaged (a sample has {}); ",
+                       done.lost_bytes, journal_sample_bytes);
+  if (done.recording.footer.reason == StopReason::cut_off)
+    text +=
+        "what the recorder had not yet handed on: about 0.1 s where the program was killed, 1 s where the "
+        "machine stopped, more where its disk was slow";
+  return text.empty() ? "nothing: the recording was finished" : text;
+}
+
+void print_table(const Task& task, const Repair& done, bool removed) {
+  const auto row = [](const char* name, const std::string& value) { fmt::print("{:<9}{}\n", name, value); };
+  const RecordingFooter& footer = done.recording.footer;
+  row("stroke", task.output.string());
+  row("samples", fmt::format("{}, the last {:.3f} s after the first", footer.ticks.recorded, done.duration));
+  row("ticks", recorded_ticks_text(footer));
+  row("ended", stop_reason_text(footer.reason));
+  row("lost", lost_text(done));
+  row("journal", fmt::format("{}: {}", task.journal.string(),
+                             removed ? "removed" : "kept; remove it when the stroke is as it should be"));
+}
+
+int repair_command(const RepairArguments& arguments) {
+  const Task task = task_of(arguments);
+  const Repair done = repair(task);
+  std::error_code failure;
+  const bool removed = arguments.remove && fs::remove(task.journal, failure);
+  if (arguments.json)
+    print_json(describe(task, done, removed));
+  else
+    print_table(task, done, removed);
+  if (failure)
+    throw_io_error("{}: cannot be removed ({}); the stroke is written, so remove it yourself",
+                   task.journal.string(), failure.message());
+  return 0;
+}
+
+}  // namespace
+
+void add_stroke_repair_command(CLI::App& stroke, Command& chosen) {
+  CLI::App* command = stroke.add_subcommand(
+      "repair", "Makes a stroke of a recording that was cut off, and says what was lost");
+  auto arguments = std::make_shared<RepairArguments>();
+  command
+      ->add_option("FILE", arguments->file,
+                   "The recording's journal, STROKE.h5.recording; or STROKE.h5, which it was to become")
+      ->type_name("FILE.recording|.h5")
+      ->option_text("REQUIRED")
+      ->required();
+  command->add_option("OUT", arguments->output, "Stroke to write (.h5); default: STROKE.h5")
+      ->type_name("FILE.h5");
+  command->add_flag("--remove", arguments->remove, "Remove the journal once the stroke is written");
+  command->add_flag("--json", arguments->json, "Print what was done as one JSON object");
+  command->footer(
+      "While a stroke is recorded its samples are in STROKE.h5.recording. Where the program is killed, the\n"
+      "machine stops or the disk is full, that file stays, and this makes a stroke of what is in it.\n"
+      "Example:  sandstroke stroke repair hand.h5");
+  command->callback([&chosen, arguments] { chosen = [arguments] { return repair_command(*arguments); }; });
+}
+
+}  // namespace sandstroke

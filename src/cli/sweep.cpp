@@ -1,0 +1,240 @@
+#include <spdlog/spdlog.h>
+
+#include <charconv>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "cli/commands.h"
+#include "cli/print_json.h"
+#include "cli/sweep_parts.h"
+#include "core/counted.h"
+#include "core/error.h"
+#include "core/interrupt.h"
+#include "core/progress.h"
+#include "io/table.h"
+#include "sweep/run_sweep.h"
+#include "sweep/slurm_jobs.h"
+
+namespace sandstroke {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct SweepArguments {
+  fs::path plan, output;
+  int jobs = 0;
+  std::string shard;
+  bool dry_run = false, json = false;
+  SlurmArguments slurm;
+};
+
+Shard parse_shard(const std::string& text) {
+  Shard shard;
+  if (text.empty()) return shard;
+  const char* end = text.data() + text.size();
+  const auto [slash, bad_index] = std::from_chars(text.data(), end, shard.index);
+  const bool divided = bad_index == std::errc() && slash != end && *slash == '/';
+  const auto [rest, bad_of] = std::from_chars(divided ? slash + 1 : end, end, shard.of);
+  if (!divided || bad_of != std::errc() || rest != end || shard.index < 1 || shard.index > shard.of)
+    throw_input_error("--shard {}: write I/N with 1 <= I <= N, such as --shard 1/4", text);
+  return shard;
+}
+
+/// The first points of a sweep, as a table.
+Table first_points(const SweepDesign& design, std::size_t most) {
+  const std::size_t shown = std::min(most, design.points());
+  std::vector<double> indices;
+  for (std::size_t point = 0; point < shown; ++point) indices.push_back(static_cast<double>(point));
+  Table table{{{"point", "point", "", indices}}};
+  for (std::size_t i = 0; i < design.axes.size(); ++i) {
+    std::vector<std::string> labels;
+    for (std::size_t point = 0; point < shown; ++point)
+      labels.push_back(design.axes[i].label(design.value_at(point, i)));
+    table.columns.push_back({design.axes[i].key, design.axes[i].key, design.axes[i].unit, labels});
+  }
+  return table;
+}
+
+std::string duration(double seconds) {
+  if (seconds < 120.0) return fmt::format("{:.2g} s", seconds);
+  if (seconds < 7200.0) return fmt::format("{:.0f} min", seconds / 60.0);
+  return fmt::format("{:.1f} h", seconds / 3600.0);
+}
+
+void warn_of_depth(const Sweep& sweep) {
+  if (sweep.too_deep().empty()) return;
+  const auto& [point, sentence] = *sweep.too_deep().begin();
+  spdlog::warn("points whose stroke goes deep: {}, the first, point {}: {}", sweep.too_deep().size(), point,
+               sentence);
+}
+
+int dry_run(Sweep& sweep, const SweepArguments& arguments) {
+  const Sweep::Estimate estimate = sweep.estimate();
+  if (interrupted()) return 128 + interrupted();
+  const SweepDesign& design = sweep.plan().design;
+  warn_of_depth(sweep);
+  if (!sweep.refused().empty())
+    spdlog::warn("the settings of {} points do not go together, the first, point {}: {}",
+                 sweep.refused().size(), sweep.refused().begin()->first, sweep.refused().begin()->second);
+  if (arguments.json) {
+    print_json(nlohmann::ordered_json{{"points", design.points()},
+                                      {"simulations", sweep.simulations()},
+                                      {"refused", sweep.refused().size()},
+                                      {"seconds_on_one_core", estimate.seconds},
+                                      {"bytes", estimate.bytes}});
+    return 0;
+  }
+  fmt::print("{}", aligned_text(first_points(design, 5), 9));
+  if (design.points() > 5) fmt::print("...\n");
+  fmt::print("\n{} points by {} simulations; about {} on one core and {:.3g} MB, by one point measured\n",
+             design.points(), sweep.simulations(), duration(estimate.seconds), estimate.bytes * 1e-6);
+  return 0;
+}
+
+void print_summary(const SweepCounters& counters, const SweepFolder& folder) {
+  const auto row = [](const char* name, const std::string& value) { fmt::print("{:<12} {}\n", name, value); };
+  std::string verdicts;
+  for (std::size_t i = 0; i < counters.verdicts.size(); ++i)
+    if (counters.verdicts[i] > 0) verdicts += fmt::format(", {} {}", counters.verdicts[i], verdict_names[i]);
+  row("points", fmt::format("{}: {} run now, {} before{}", counters.points, counters.run,
+                            counters.done_before, verdicts));
+  row("simulations",
+      fmt::format(
+          "{}{}", counters.simulations,
+          counters.simulations < counters.run ? "; points that differ in forces only share their sand" : ""));
+  row("loaded", fmt::format("beds: {}, strokes: {}", counters.beds_loaded, counters.strokes_loaded));
+  row("folder", folder.path().string());
+}
+
+nlohmann::ordered_json as_json(const SweepCounters& c, const SweepFolder& folder) {
+  return {{"folder", folder.path().string()},
+          {"points", c.points},
+          {"run", c.run},
+          {"done_before", c.done_before},
+          {"failed", c.failed()},
+          {"not_at_rest", c.of(PointVerdict::not_at_rest)},
+          {"active", c.of(PointVerdict::active)},
+          {"simulations", c.simulations},
+          {"beds_loaded", c.beds_loaded},
+          {"strokes_loaded", c.strokes_loaded},
+          {"interrupted", c.interrupted}};
+}
+
+int sweep(const SweepArguments& arguments) {
+  if (arguments.plan.empty())
+    throw_input_error("sweep: name a plan, or say status or collect (sandstroke sweep --help)");
+  SweepOptions options;
+  options.jobs = arguments.jobs;
+  options.shard = parse_shard(arguments.shard);
+  Sweep sweep(load_plan(arguments.plan));
+  if (interrupted()) return 128 + interrupted();
+  if (arguments.dry_run) return dry_run(sweep, arguments);
+
+  if (arguments.slurm.submit) check_slurm();
+  const SweepFolder folder = SweepFolder::make(
+      arguments.output.empty() ? arguments.plan.stem() : arguments.output, sweep.manifest());
+  if (arguments.slurm.submit)
+    return submit_sweep(arguments.slurm, arguments.plan, folder, sweep.groups(), arguments.json);
+  SweepCounters counters;
+  {
+    Progress bar("sweep");
+    options.progress = [&bar](double fraction) { bar.update(fraction); };
+    counters = sweep.run(folder, options);
+  }
+  if (!arguments.json) print_summary(counters, folder);
+  nlohmann::ordered_json json = as_json(counters, folder);
+  const bool all = !counters.interrupted && options.shard.of == 1;
+  bool lost = false;
+  if (all) {
+    const CollectReport collected = collect_sweep(folder, arguments.json);
+    json["content_hash"] = collected.content_hash;
+    lost = collected.missing + collected.unreadable > 0;  // somebody removed or damaged points
+  }
+  if (arguments.json) print_json(json);
+  warn_of_depth(sweep);
+  if (counters.interrupted) {
+    spdlog::warn("stopped with {} of {} points done; the same command goes on from there",
+                 counters.done_before + counters.run, counters.points);
+    return 128 + interrupted();
+  }
+  if (const std::size_t active = counters.of(PointVerdict::active))
+    spdlog::warn("{} active: the sand returned energy there, the loop was not passive",
+                 counted(active, "point"));
+  const std::size_t restless = counters.of(PointVerdict::not_at_rest);
+  if (restless > 0)
+    spdlog::warn("{} not at rest; raise relaxation.max_passes or relaxation.tolerance",
+                 counted(restless, "point"));
+  if (counters.failed() > 0 && !all)  // collecting said so
+    spdlog::warn("{} without result; sandstroke sweep status {} says why",
+                 counted(counters.failed(), "point"), folder.path().string());
+  if (lost) return static_cast<int>(ErrorKind::io);
+  return counters.failed() + restless > 0 ? static_cast<int>(ErrorKind::unstable) : 0;
+}
+
+}  // namespace
+
+void add_sweep_folder_command(CLI::App& sweep, const char* name, const char* help, const char* footer,
+                              int (*run)(const SweepFolder& folder, bool json), Command& chosen) {
+  struct FolderArguments {
+    fs::path folder;
+    bool json = false;
+  };
+  CLI::App* command = sweep.add_subcommand(name, help);
+  auto arguments = std::make_shared<FolderArguments>();
+  command->add_option("FOLDER", arguments->folder, "Of the sweep: what -o named")
+      ->type_name("FOLDER")
+      ->option_text("REQUIRED")
+      ->required();
+  command->add_flag("--json", arguments->json, "Print it as one JSON object");
+  command->footer(footer);
+  command->callback([arguments, run, &chosen] {
+    chosen = [arguments, run] { return run(SweepFolder::open(arguments->folder), arguments->json); };
+  });
+}
+
+void add_sweep_command(CLI::App& app, Command& chosen) {
+  CLI::App* command = app.add_subcommand("sweep", "Run a scene again and again with other settings");
+  auto arguments = std::make_shared<SweepArguments>();
+  command->add_option("PLAN", arguments->plan, "What to vary (TOML)")->type_name("FILE.toml");
+  command
+      ->add_option("-o,--output", arguments->output,
+                   "Folder for the results; default: PLAN's name without .toml, here. One that holds a "
+                   "part of this sweep is gone on with")
+      ->type_name("FOLDER");
+  CLI::Option* jobs =
+      command
+          ->add_option("--jobs", arguments->jobs,
+                       "Cores to use, each for a simulation; 0: all. The results are the same for any number")
+          ->check(CLI::Range(0, 1024));
+  CLI::Option* shard =
+      command->add_option("--shard", arguments->shard, "Only this part: the I-th of N, such as 1/4")
+          ->type_name("I/N");
+  command
+      ->add_flag("--dry-run", arguments->dry_run,
+                 "Only say how many points there are, the first of them, and what they may take")
+      ->excludes(shard);
+  command->add_flag("--json", arguments->json, "Print the summary as one JSON object");
+  add_slurm_options(*command, arguments->slurm);
+  command->get_option("--slurm")->excludes(shard)->excludes(jobs);
+  add_sweep_status_command(*command, chosen);
+  add_sweep_collect_command(*command, chosen);
+  command->footer(
+      "A plan (all that it can say: sandstroke help plan):\n"
+      "  [sweep]\n"
+      "  scene = \"scene.toml\"\n"
+      "  [axes]\n"
+      "  relaxation.talus_angle = { from = 20, to = 45, step = 2.5 }\n"
+      "  force.k_s = [500, 1000]\n"
+      "Example:  sandstroke sweep plan.toml -o results\n"
+      "A point is at rest, as it should be; not at rest (relaxation.max_passes were not enough); active "
+      "(sand\n"
+      "returned energy to the device: the loop was not passive); unstable, or refused: no result, and why.\n"
+      "Exit code 3: some are not at rest or have no result. Stopped (Ctrl-C, or by force), the same command "
+      "goes on.");
+  command->callback([arguments, command, &chosen] {
+    if (command->get_subcommands().empty()) chosen = [arguments] { return sweep(*arguments); };
+  });
+}
+
+}  // namespace sandstroke

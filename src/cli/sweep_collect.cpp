@@ -1,0 +1,48 @@
+#include <spdlog/spdlog.h>
+
+#include <nlohmann/json.hpp>
+
+#include "cli/print_json.h"
+#include "cli/sweep_parts.h"
+
+namespace sandstroke {
+namespace {
+
+int collect_command(const SweepFolder& folder, bool json) {
+  const CollectReport report = collect_sweep(folder, json);
+  if (json)
+    print_json(nlohmann::ordered_json{{"folder", folder.path().string()},
+                                      {"points", folder.points()},
+                                      {"done", report.done},
+                                      {"failed", report.failed},
+                                      {"missing", report.missing},
+                                      {"unreadable", report.unreadable},
+                                      {"surfaces_missing", report.surfaces_missing},
+                                      {"content_hash", report.content_hash}});
+  return 0;
+}
+
+}  // namespace
+
+CollectReport collect_sweep(const SweepFolder& folder, bool json) {
+  CollectReport report = collect(folder);
+  for (const std::string& sentence : report.sentences) spdlog::warn("{}", sentence);
+  if (!json) {
+    fmt::print("{:<12} {} points done, {} failed, {} missing; content {}\n", "collected", report.done,
+               report.failed, report.missing + report.unreadable, report.content_hash);
+    for (const char* name : {"sweep.html", "sweep.h5", "sweep.csv"})
+      fmt::print("{:<12} {}\n", "", (folder.path() / name).string());
+  }
+  return report;
+}
+
+void add_sweep_collect_command(CLI::App& sweep, Command& chosen) {
+  add_sweep_folder_command(
+      sweep, "collect", "Put a sweep's points together: sweep.html, sweep.h5 and sweep.csv in its folder",
+      "Takes what is there, whether the sweep is complete or not; a sweep that ends in one call does it "
+      "itself.\n"
+      "Example:  sandstroke sweep collect results",
+      collect_command, chosen);
+}
+
+}  // namespace sandstroke

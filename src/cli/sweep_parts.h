@@ -1,0 +1,33 @@
+#pragma once
+
+#include "cli/commands.h"
+#include "sweep/collect.h"
+#include "sweep/run_sweep.h"
+#include "sweep/slurm_script.h"
+#include "sweep/sweep_folder.h"
+
+namespace sandstroke {
+
+// What `sweep` does besides sweeping; first `sweep status` and `sweep collect`.
+
+/// A subcommand of `sweep` that takes the folder of one, and --json.
+void add_sweep_folder_command(CLI::App& sweep, const char* name, const char* help, const char* footer,
+                              int (*run)(const SweepFolder& folder, bool json), Command& chosen);
+void add_sweep_status_command(CLI::App& sweep, Command& chosen);
+void add_sweep_collect_command(CLI::App& sweep, Command& chosen);
+
+/// Collects a sweep and says what came of it (json: not on the standard output).
+CollectReport collect_sweep(const SweepFolder& folder, bool json);
+
+/// `sweep --slurm`, and the options that say what to ask of the cluster.
+struct SlurmArguments {
+  bool submit = false;
+  SlurmOptions options;
+};
+void add_slurm_options(CLI::App& sweep, SlurmArguments& arguments);
+
+/// Submits a task for each part of the sweep that has points missing, and says so. Error: as submit_to_slurm.
+int submit_sweep(const SlurmArguments& arguments, const std::filesystem::path& plan,
+                 const SweepFolder& folder, const std::vector<PointGroup>& groups, bool json);
+
+}  // namespace sandstroke

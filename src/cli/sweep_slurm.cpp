@@ -1,0 +1,81 @@
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "cli/print_json.h"
+#include "cli/sweep_parts.h"
+#include "sweep/slurm_jobs.h"
+
+namespace sandstroke {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The parts that have points missing.
+std::vector<SlurmTask> tasks_to_do(const SweepFolder& folder, const std::vector<PointGroup>& groups, int of) {
+  std::vector<SlurmTask> tasks;
+  for (int number = 1; number <= of; ++number) {
+    SlurmTask task{number, {}};
+    bool open = false;
+    for (const PointGroup& group : Shard{number, of}.among(groups))
+      for (const std::size_t point : group) {
+        task.points.push_back(point);
+        open = open || !folder.read(point);
+      }
+    if (open) tasks.push_back(std::move(task));
+  }
+  return tasks;
+}
+
+}  // namespace
+
+void add_slurm_options(CLI::App& sweep, SlurmArguments& arguments) {
+  SlurmOptions& options = arguments.options;
+  CLI::Option* slurm = sweep.add_flag("--slurm", arguments.submit,
+                                      "Submit what is missing to a Slurm cluster, as a job array; sandstroke "
+                                      "sweep status says how far it is");
+  const auto add = [&](const char* name, auto& value, const char* text) {
+    return sweep.add_option(name, value, text)->needs(slurm)->group("With --slurm");
+  };
+  add("--tasks", options.tasks,
+      "Of the job array, each for a part of the points; default: 4 simulations per core")
+      ->check(CLI::Range(1, 1000000));
+  add("--cpus-per-task", options.cpus_per_task, "Cores of a task: simulations that it runs at a time")
+      ->check(CLI::Range(1, 1024))
+      ->capture_default_str();
+  add("--mem", options.memory, "Memory of a task, as sbatch takes it: 4G");
+  add("--time", options.time, "Time limit of a task: 2:00:00");
+  add("--partition", options.partition, "Where to run");
+  add("--account", options.account, "Who is charged");
+  add("--sbatch-option", options.lines, "Any other, as after #SBATCH in a script: \"--qos=long\"; repeatable")
+      ->allow_extra_args(false);
+}
+
+int submit_sweep(const SlurmArguments& arguments, const fs::path& plan, const SweepFolder& folder,
+                 const std::vector<PointGroup>& groups, bool json) {
+  const SlurmOptions& options = arguments.options;
+  const int of = options.tasks > 0 ? std::min(options.tasks, static_cast<int>(groups.size()))
+                                   : default_tasks(groups.size(), options.cpus_per_task);
+  std::vector<SlurmTask> tasks = tasks_to_do(folder, groups, of);
+  if (tasks.empty()) {
+    if (json)
+      print_json(nlohmann::ordered_json{{"folder", folder.path().string()}, {"tasks", 0}});
+    else
+      fmt::print("all points are done: sandstroke sweep collect {}\n", folder.path().string());
+    return 0;
+  }
+  const SlurmWork work{fs::read_symlink("/proc/self/exe"), fs::current_path(), plan, folder.path()};
+  const SlurmJobs jobs = submit_to_slurm(options, work, std::move(tasks), of);
+  if (json)
+    print_json(nlohmann::ordered_json{{"folder", folder.path().string()},
+                                      {"tasks", jobs.tasks.size()},
+                                      {"array", jobs.array},
+                                      {"collect", jobs.collect}});
+  else
+    fmt::print("submitted job array {} of {} tasks, and job {} that collects\nsandstroke sweep status {}\n",
+               jobs.array, jobs.tasks.size(), jobs.collect, folder.path().string());
+  return 0;
+}
+
+}  // namespace sandstroke

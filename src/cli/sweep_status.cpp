@@ -1,0 +1,64 @@
+#include "sweep/sweep_status.h"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "cli/print_json.h"
+#include "cli/sweep_parts.h"
+
+namespace sandstroke {
+namespace {
+
+namespace fs = std::filesystem;
+
+void print(const SweepStatus& status, const fs::path& folder) {
+  const auto row = [](const char* name, const std::string& value) { fmt::print("{:<8} {}\n", name, value); };
+  std::string verdicts;
+  for (std::size_t i = 0; i < status.verdicts.size(); ++i)
+    if (status.verdicts[i] > 0)
+      verdicts +=
+          fmt::format("{}{} {}", verdicts.empty() ? ": " : ", ", status.verdicts[i], verdict_names[i]);
+  row("points", std::to_string(status.points));
+  row("done", std::to_string(status.points - status.missing) + verdicts);
+  row("missing", std::to_string(status.missing));
+  constexpr std::size_t shown = 5;
+  for (std::size_t i = 0; i < std::min(shown, status.failures.size()); ++i)
+    row("failed", fmt::format("point {}: {}", status.failures[i].first, status.failures[i].second));
+  if (status.failures.size() > shown)
+    row("failed", fmt::format("and {} more", status.failures.size() - shown));
+
+  if (status.array) {
+    const Table open = open_tasks(status);
+    row("tasks", fmt::format("{}, of which {} done; job array {}", status.tasks.size(),
+                             status.tasks.size() - open.rows(), *status.array));
+    row("logs", (folder / "slurm").string());
+    if (open.rows() > 0) fmt::print("\n{}\n", aligned_text(open));
+  }
+  row("next", status.advice());
+}
+
+int status_command(const SweepFolder& folder, bool json) {
+  const std::optional<SlurmJobs> jobs = read_slurm_jobs(folder.path());
+  const SweepStatus status = sweep_status(folder, jobs, jobs ? ask_slurm_queue(*jobs) : SlurmQueue{});
+  if (json)
+    print_json(as_json(status));
+  else
+    print(status, folder.path());
+  return 0;
+}
+
+}  // namespace
+
+void add_sweep_status_command(CLI::App& sweep, Command& chosen) {
+  add_sweep_folder_command(
+      sweep, "status", "Say how far a sweep is, and what to do next",
+      "Counts the points in the folder, whoever ran them; where the sweep was submitted to Slurm, says what "
+      "became of\n"
+      "its tasks.\n"
+      "Example:  sandstroke sweep status results",
+      status_command, chosen);
+}
+
+}  // namespace sandstroke

@@ -1,0 +1,123 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/file_lock.h"
+#include "hdf5/hdf5_handle.h"
+#include "sand/height_field.h"
+
+namespace sandstroke {
+
+/// How much work a dataset's compression may be: none, fast (shuffle + deflate 1), small (shuffle + deflate
+/// 9).
+enum class Compression { none, fast, small };
+
+// The types of numbers in columns.
+inline hid_t hdf5_type(double) { return H5T_NATIVE_DOUBLE; }
+inline hid_t hdf5_type(std::uint8_t) { return H5T_NATIVE_UINT8; }
+inline hid_t hdf5_type(std::uint32_t) { return H5T_NATIVE_UINT32; }
+inline hid_t hdf5_type(std::int64_t) { return H5T_NATIVE_INT64; }
+inline hid_t hdf5_type(std::uint64_t) { return H5T_NATIVE_UINT64; }
+
+/// A dataset of numbers that grows row by row: rank 1, or (n, width). Made by Hdf5Writer::column.
+class Hdf5Column {
+ public:
+  Hdf5Column() = default;
+  /// count rows of `width` numbers each. Error: io.
+  template <class Number>
+  void append(const Number* rows, std::size_t count) {
+    extend(rows, count, hdf5_type(Number{}));
+  }
+
+ private:
+  friend class Hdf5Writer;
+  void extend(const void* rows, std::size_t count, hid_t memory_type);
+
+  std::string where_;  // file and dataset, for messages
+  Hdf5Handle dataset_;
+  hsize_t width_ = 1, count_ = 0;
+};
+
+/// A dataset of doubles of rank 2, written chunk by chunk. Chunks that are never written take no room in the
+/// file and read as the fill value. Made by Hdf5Writer::chunks.
+class Hdf5Chunks {
+ public:
+  std::size_t cols() const { return cols_; }          ///< of a chunk
+  std::size_t size() const { return rows_ * cols_; }  ///< numbers in a chunk
+  /// A whole chunk, row after row, by its first row and column in the dataset (multiples of the chunk's);
+  /// what lies outside the dataset does not matter. Error: io.
+  void write(int row, int col, const double* numbers);
+
+ private:
+  friend class Hdf5Writer;
+  std::string where_;  // file and dataset, for messages
+  Hdf5Handle dataset_;
+  std::size_t rows_ = 1, cols_ = 1;
+};
+
+/// An HDF5 file being written as PATH.part and renamed to PATH by finish(). Groups on the way to a dataset
+/// are made as needed. Error: io, for whatever the system refuses, and where another process is writing the
+/// same file.
+class Hdf5Writer {
+ public:
+  explicit Hdf5Writer(const std::filesystem::path& path);
+  Hdf5Writer(const Hdf5Writer&) = delete;
+  /// Without finish() the .part file stays, if anything was flushed into it.
+  ~Hdf5Writer();
+
+  void write(const std::string& dataset, const std::vector<double>& values);
+  void write(const std::string& dataset, const std::vector<Eigen::Vector3d>& values);  ///< (n, 3)
+  void write(const std::string& dataset, const std::vector<std::uint32_t>& values);
+  void write(const std::string& dataset, const std::vector<std::uint8_t>& values);
+  void write(const std::string& dataset, const HeightGrid& heights,
+             Compression compression = Compression::none);
+  void write(const std::string& dataset, const std::string& text);
+  void write(const std::string& dataset, const std::vector<std::string>& texts);  ///< of the longest's length
+
+  void attribute(const std::string& object, const std::string& attribute, double value);
+  void attribute(const std::string& object, const std::string& attribute, const std::string& value);
+
+  template <class Number = double>
+  Hdf5Column column(const std::string& dataset, int width = 1) {
+    return growing(dataset, hdf5_type(Number{}), width);
+  }
+  /// chunk: rows and columns, cut where the dataset has fewer.
+  Hdf5Chunks chunks(const std::string& dataset, std::array<int, 2> shape, std::array<int, 2> chunk,
+                    double fill);
+  void make_group(const std::string& group);
+
+  /// What has been written so far can be read from the .part file from now on.
+  void flush();
+  /// Flushes, closes and renames.
+  void finish();
+
+ protected:
+  Hdf5Handle create(const std::string& dataset, hid_t type, const Hdf5Handle& space,
+                    const Hdf5Handle& properties, hid_t access = H5P_DEFAULT);
+  void put(const std::string& dataset, hid_t type, const std::vector<hsize_t>& shape, const void* values,
+           Compression compression = Compression::none);
+  /// shape: empty for a scalar.
+  void put_attribute(const std::string& object, const std::string& attribute, hid_t type,
+                     const std::vector<hsize_t>& shape, const void* values);
+  void check(bool done, const std::string& object) const;
+  hid_t file() const { return file_; }
+
+ private:
+  void reserve();
+  Hdf5Column growing(const std::string& dataset, hid_t type, int width);
+
+  /// Away with a .part file that holds nothing.
+  void drop();
+
+  std::filesystem::path path_;
+  FileLock lock_;  // of the .part file
+  Hdf5Handle file_;
+  bool flushed_ = false;
+};
+
+}  // namespace sandstroke

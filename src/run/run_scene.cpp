@@ -1,0 +1,131 @@
+#include "run/run_scene.h"
+
+#include <spdlog/spdlog.h>
+#include <tbb/global_control.h>
+#include <tbb/info.h>
+
+#include <algorithm>
+#include <optional>
+
+#include "core/error.h"
+#include "core/hash.h"
+#include "core/interrupt.h"
+#include "core/output_file.h"
+#include "core/progress.h"
+#include "io/run_writer.h"
+#include "io/stroke_file.h"
+#include "io/surface_file.h"
+#include "sim/furrow.h"
+#include "sim/recorded_force.h"
+#include "sim/stroke_depth.h"
+
+namespace sandstroke {
+namespace {
+
+/// A run writer that also draws the progress bar, keeps the forces where they are asked for, and compares
+/// them with those recorded with the stroke.
+class WriterWithProgress : public RunWriter {
+ public:
+  WriterWithProgress(const std::filesystem::path& path, const Simulation& simulation,
+                     const std::string& stroke_hash, const std::string& scene_file,
+                     const std::optional<Stroke>& stroke, bool progress, bool keep_force)
+      : RunWriter(path, simulation, stroke_hash, scene_file),
+        keep_force_(keep_force),
+        path_(simulation.scene()) {
+    if (stroke && !stroke->force.empty()) recorded_force_.emplace(*stroke);
+    if (progress) bar_.emplace("run");
+  }
+  void on_tick(const TickRecord& tick) override {
+    RunWriter::on_tick(tick);
+    if (keep_force_) force_.push_back(tick.device_force);
+    if (recorded_force_) recorded_force_->compare(tick);
+    path_.add(tick);
+  }
+  void on_progress(double fraction) override {
+    fraction_ = fraction;
+    if (bar_) bar_->update(fraction);
+  }
+  void on_pass(std::int64_t passes) override {
+    const bool after_the_stroke = fraction_ == 0.0 || fraction_ == 1.0;
+    if (bar_ && after_the_stroke) bar_->count(passes, "passes towards rest");
+  }
+  void clear_bar() { bar_.reset(); }
+  const std::vector<Eigen::Vector3d>& force() const { return force_; }
+  const TipPath& tip_path() const { return path_.path(); }
+  const std::optional<RecordedForce>& recorded_force() const { return recorded_force_; }
+
+ private:
+  std::optional<Progress> bar_;
+  double fraction_ = 0.0;  // of the stroke
+  bool keep_force_;
+  std::vector<Eigen::Vector3d> force_;  // N, per tick
+  std::optional<RecordedForce> recorded_force_;
+  TipPathGatherer path_;
+};
+
+}  // namespace
+
+std::string scene_file_entry(const std::filesystem::path& scene_file, const std::filesystem::path& run_file) {
+  const std::filesystem::path folder = std::filesystem::absolute(run_file).parent_path();
+  return std::filesystem::proximate(scene_file, folder).generic_string();
+}
+
+RunResult run_scene(const Scene& scene, const std::filesystem::path& output, const RunOptions& options) {
+  const int cores = tbb::info::default_concurrency();
+  const int threads = options.threads > 0 ? std::min(options.threads, cores) : cores;
+  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
+                                  static_cast<std::size_t>(threads));
+
+  std::optional<Stroke> stroke;
+  std::string stroke_hash;
+  std::filesystem::path stroke_path;
+  if (scene.stroke) {
+    stroke_path = options.scene_folder / scene.stroke->file;
+    const Stroke loaded = load_stroke(stroke_path, scene.force);
+    if (!loaded.complete)
+      spdlog::warn("{}: was cut off while it was recorded; the run ends where the stroke does",
+                   stroke_path.string());
+    stroke = place_stroke(loaded, scene.stroke->placement, stroke_path.string());
+    // Not of a recorded stroke's bytes: they tell which build wrote it, too.
+    stroke_hash = is_recorded(stroke_path) ? content_hash(loaded) : content_hash(read_text_file(stroke_path));
+  }
+  if (options.second) second_scene(scene, *options.second);  // refused before any work, if at all
+  HeightField bed = load_surface(scene.bed, options.scene_folder);
+  std::optional<HeightField> start;
+  if (stroke || options.second) start = bed;
+  Simulation simulation(scene, std::move(bed), stroke);
+  if (stroke) {
+    const std::string warning = depth_warning(scene, simulation.bed(), *stroke, stroke_path.string());
+    if (!warning.empty()) spdlog::warn("{}", warning);
+  }
+  const std::string scene_file =
+      options.scene_file.empty() ? "" : scene_file_entry(options.scene_file, output);
+  WriterWithProgress writer(output, simulation, stroke_hash, scene_file, stroke, options.progress,
+                            options.second.has_value());
+  RunResult result = simulation.run(writer);
+  result.threads = threads;
+  if (writer.recorded_force()) result.recorded_force = writer.recorded_force()->difference();
+  if (result.contact_ticks > 0)
+    result.furrow = measure_furrow(*start, simulation.bed(), writer.tip_path(), scene.tool.radius);
+  writer.clear_bar();
+  writer.finish(result, simulation.bed());
+  if (options.second && !result.interrupted) {
+    if (options.progress) spdlog::info("estimating the error");
+    const Solution run{simulation.bed(), writer.force(), result.converged};
+    try {
+      const ErrorEstimate error = estimate_error(scene, *start, stroke, run, *options.second);
+      if (!interrupted()) result.error = error;
+      if (!interrupted() && !error.at_rest)
+        spdlog::warn(
+            "the estimated error says little, for the sand is not at rest in both solutions; raise "
+            "relaxation.max_passes");
+    } catch (const Error& failure) {  // the run itself stands
+      if (failure.kind() != ErrorKind::unstable) throw;
+      spdlog::warn("the error cannot be estimated, for the {} solution is unstable: {}",
+                   *options.second == SecondSolution::finer ? "finer" : "coarser", failure.what());
+    }
+  }
+  return result;
+}
+
+}  // namespace sandstroke

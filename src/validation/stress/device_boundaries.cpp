@@ -1,0 +1,95 @@
+#include "validation/stress/device_boundaries.h"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <cmath>
+#include <random>
+
+#include "validation/stress/bisection.h"
+#include "validation/stress/loop_theory.h"
+
+namespace sandstroke {
+namespace {
+
+std::string in_words(const LoopSettings& settings) {
+  const DeviceSettings& d = settings.device;
+  std::string words =
+      fmt::format("{:.0f} Hz, {:.3g} kg, b {:.3g} N s/m, hand {:.3g} N/m and {:.3g} N s/m, delay {}",
+                  d.servo_rate, d.mass, d.damping, d.hand_stiffness, d.hand_damping, d.delay);
+  const FeltAlong felt = felt_about_rest(settings);
+  if (const auto* sand = std::get_if<PressedSand>(&settings.against))
+    words += fmt::format(", sand: scale {:.3g}, k_c {:.3g} 1/m, {:.3g} mm deep", d.scale, sand->force.k_c,
+                         1e3 * sand->depth);
+  else
+    words += ", wall";
+  if (felt.z.damping > 0.0) words += fmt::format(", drag {:.3g} s of K", felt.z.damping / felt.z.stiffness);
+  return words;
+}
+
+}  // namespace
+
+std::vector<LoopSettings> varied_loops(int count) {
+  std::mt19937 random(2006);
+  const auto between = [&random](double low, double high) {  // as many in every decade
+    return low * std::pow(high / low, 0x1p-32 * static_cast<double>(random()));
+  };
+  std::vector<LoopSettings> loops;
+  for (int i = 0; i < count; ++i) {
+    LoopSettings& loop = loops.emplace_back();
+    DeviceSettings& d = loop.device;
+    d = ideal_device();
+    d.servo_rate = between(50.0, 20e3);
+    d.mass = between(0.02, 2.0);
+    d.damping = between(0.1, 10.0);
+    d.hand_stiffness = between(10.0, 3000.0);
+    d.hand_damping = between(0.5, 30.0);
+    d.scale = between(0.2, 5.0);
+    d.delay = i % 2 ? static_cast<int>(random() % 21) : 0;
+    const double drag = i % 3 ? 0.0 : between(1e-4, 0.3) / d.servo_rate;  // s, B / K
+    if (i % 4 < 2) {
+      loop.against = Wall{1.0, drag};
+      loop.far = 1e3 * loop.disturbance;
+    } else {
+      PressedSand sand;
+      sand.force.k_c = between(0.5, 500.0);
+      sand.depth = between(0.1, 3.0) / sand.force.k_c;
+      sand.force.k_s = 1.0;
+      sand.force.drag = DragDirection::full;
+      // B / K = k_f |F_r| / (k_s k_c exp(k_c d))
+      sand.force.k_f = drag * sand.force.k_c / -std::expm1(-sand.force.k_c * sand.depth);
+      loop.disturbance = 1e-7 * sand.depth / d.scale;  // so little that the law is straight about the rest
+      loop.far = 1e4 * loop.disturbance;
+      loop.against = sand;
+    }
+  }
+  return loops;
+}
+
+double passive_gain(const LoopSettings& settings) {
+  const double damping = settings.device.damping + settings.device.hand_damping;
+  return damping / (damping - passivity_margin(settings));
+}
+
+namespace {
+
+/// The gain at which a little disturbance stops dying out and starts to grow, by bisection on the simulated
+/// loop to 0.1 %.
+double measured_boundary_gain(const LoopSettings& settings) {
+  constexpr std::int64_t ticks = 20'000;
+  const auto settles = [&](double gain) { return run_loop(with_gain(settings, gain), ticks).growth < 1.0; };
+  double low = passive_gain(settings);
+  while (!settles(low)) low *= 0.5;
+  double high = 2.0 * low;
+  while (settles(high)) low = high, high *= 2.0;
+  return boundary_between(low, high, 1e-3, settles);
+}
+
+}  // namespace
+
+Boundary boundary_of(const LoopSettings& settings) {
+  const double stiffness = felt_about_rest(settings).z.stiffness;  // at a gain of 1
+  return {in_words(settings), stiffness * measured_boundary_gain(settings),
+          stiffness * exact_boundary_gain(settings), stiffness * passive_gain(settings)};
+}
+
+}  // namespace sandstroke

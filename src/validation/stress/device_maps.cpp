@@ -1,0 +1,232 @@
+#include "validation/stress/device_maps.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "validation/stress/loop_theory.h"
+
+namespace sandstroke {
+namespace {
+
+constexpr double pressing = 3.0;      // N, what the paper feels
+constexpr double force_limit = 12.0;  // N, of its omega3
+constexpr const char* eigenvalue = "eigenvalue of the exact tick leaves the unit circle";
+constexpr const char* passive = "Colgate & Schenkel: b = K (T/2 + delay) + |B|";
+
+DeviceSettings limited_device() {
+  DeviceSettings device = ideal_device();
+  device.max_force = force_limit;
+  return device;
+}
+
+/// Pressed to a depth, disturbed so little that the law is straight about it.
+LoopSettings pressed_to(double depth, const DeviceSettings& device, const ForceSettings& force) {
+  LoopSettings loop;
+  loop.device = device;
+  loop.against = PressedSand{force, depth, 0.0};
+  loop.disturbance = 0.01 * std::min(depth, 1.0 / force.k_c) / device.scale;
+  return loop;
+}
+
+LoopSettings pressed_with(double newton, const DeviceSettings& device, const ForceSettings& force) {
+  return pressed_to(depth_of_repulse_force(newton, force), device, force);
+}
+
+/// Sand without drag whose stiffness, as the device feels it under the pressing force, is K.
+LoopSettings sand_of_stiffness(double K, const DeviceSettings& device) {
+  ForceSettings force;
+  force.k_f = 0.0;
+  force.k_s = K / (device.scale * force.k_c) - pressing;  // K = scale k_c (k_s + F_r)
+  return pressed_with(pressing, device, force);
+}
+
+bool differs_from_eigenvalue(const LoopSettings& loop, const LoopRun& run, std::int64_t ticks) {
+  return !is_among(run.verdict, expected_verdicts(loop, ticks));
+}
+
+double beyond_unit_circle(const LoopSettings& loop) { return spectral_radius(loop) - 1.0; }
+
+LoopMapPlan plan(std::string name, std::string title, std::string text, MapAxis x, MapAxis y,
+                 std::function<LoopSettings(double, double)> loop) {
+  return {std::move(name),
+          std::move(title),
+          std::move(text),
+          std::move(x),
+          std::move(y),
+          std::move(loop),
+          ticks_to_decide,
+          differs_from_eigenvalue,
+          {{eigenvalue, beyond_unit_circle},
+           {passive, [](const LoopSettings& at) { return passivity_margin(at); }}}};
+}
+
+/// With dropped ticks: the random products of exact tick maps decide as an eigenvalue does; and where the
+/// dampers take what the oldest force can return, the loop must be stable.
+LoopMapPlan dropped_ticks(const MapAxis& x, const MapAxis& stiffness) {
+  LoopMapPlan map =
+      plan("dropped-stiffness", "Dropped ticks and stiffness",
+           "A two-sided wall at 1 kHz and a loop that is late in a share of its ticks: the last force stays, "
+           "which "
+           "works like a delay. Expected is what random products of the two exact tick maps do.",
+           x, stiffness, [](double share, double K) {
+             LoopSettings loop;
+             loop.device = ideal_device();
+             loop.device.dropped_ticks = share;
+             loop.against = Wall{K, 0.0};
+             return loop;
+           });
+  constexpr std::int64_t all_ticks = 20'000;
+  map.ticks = [](const LoopSettings&) { return all_ticks; };
+  map.surprising = [](const LoopSettings& loop, const LoopRun& run, std::int64_t ticks) {
+    return (margin_by_age(loop, ticks) > 0.0 && run.verdict != Verdict::stable) ||
+           differs_from_eigenvalue(loop, run, ticks);
+  };
+  map.curves = {{"random products of exact ticks neither grow nor shrink",
+                 [](const LoopSettings& at) { return mean_growth_with_drops(at) - 1.0; }},
+                {"b = K x age of the oldest force",
+                 [](const LoopSettings& at) { return margin_by_age(at, all_ticks); }}};
+  return map;
+}
+
+/// With encoders: a loop that settles dithers at most by what their rounding can cause.
+LoopMapPlan encoder_steps(const MapAxis& x, const MapAxis& stiffness) {
+  LoopMapPlan map = plan("encoder-stiffness", "Encoder resolution and stiffness",
+                         "Sand under 3 N at 1 kHz, 12 N at most. Rounded positions make a loop dither that "
+                         "would settle: within one "
+                         "encoder step it counts as stable, else as a limit cycle, which is expected only "
+                         "where rounding, at most "
+                         "half a step either way, can cause as much. The dither grows with the step, so the "
+                         "boundary stays.",
+                         x, stiffness, [](double resolution, double K) {
+                           DeviceSettings device = limited_device();
+                           device.resolution = resolution;
+                           LoopSettings loop = sand_of_stiffness(K, device);
+                           loop.disturbance = std::max(loop.disturbance, 3.0 * resolution);
+                           return loop;
+                         });
+  const auto dither = [](const LoopSettings& loop) {
+    return swing_of_encoders(loop) - loop.device.resolution;
+  };
+  map.surprising = [](const LoopSettings& loop, const LoopRun& run, std::int64_t ticks) {
+    const bool settles = expected_verdicts(loop, ticks) == std::vector{Verdict::stable};
+    if (!settles) return run.verdict == Verdict::diverged;
+    const double most = swing_of_encoders(loop);
+    const double depth = std::get<PressedSand>(loop.against).depth;
+    if (2.0 * most > depth) return run.verdict == Verdict::diverged;  // it may leave the sand
+    return run.swing > std::max(most, 0.02 * loop.disturbance);
+  };
+  map.curves.insert(map.curves.begin() + 1, {"rounding can cause a swing of one step", dither});
+  return map;
+}
+
+/// Drawn along at 0.1 m/s through the paper's sand.
+LoopMapPlan drag(DragVelocity velocity, const MapAxis& k_f, const MapAxis& force) {
+  const bool implicit = velocity == DragVelocity::implicit;
+  return plan(implicit ? "drag-implicit" : "drag-sampled",
+              implicit ? "Drag by the velocity in the tick" : "Drag by the velocity read before the tick",
+              implicit
+                  ? "The same with device.drag = \"implicit\": drag can only take energy, and nothing "
+                    "is unstable."
+                  : "Drawn along at 0.1 m/s at 1 kHz, no force limit. Drag is velocity times force, and a "
+                    "velocity that is a tick old throws the device back faster than it came where B = k_f "
+                    "|F_r| is above about 2 m / T.",
+              k_f, force, [velocity](double drag_constant, double newton) {
+                DeviceSettings device = ideal_device();
+                device.drag = velocity;
+                ForceSettings sand;
+                sand.k_f = drag_constant;
+                LoopSettings loop = pressed_with(newton, device, sand);
+                std::get<PressedSand>(loop.against).speed = 0.1;
+                return loop;
+              });
+}
+
+}  // namespace
+
+std::vector<LoopMapPlan> device_map_plans(bool quick) {
+  const int cols = quick ? 8 : 24, rows = quick ? 7 : 20;
+  const auto x = [&](const char* name, const char* unit, double low, double high) {
+    return map_axis(name, unit, true, low, high, cols);
+  };
+  const auto y = [&](const char* name, const char* unit, double low, double high) {
+    return map_axis(name, unit, true, low, high, rows);
+  };
+  const MapAxis servo_rate = x("servo rate", "Hz", 50.0, 20e3), stiffness = y("stiffness", "N/m", 100.0, 1e6);
+  return {
+      plan("wall-rate-stiffness", "A two-sided wall: servo rate and stiffness",
+           "The default device (0.25 kg, 9 N s/m with the hand's) against a spring that pulls as well: what "
+           "is "
+           "not stable diverges.",
+           servo_rate, stiffness,
+           [](double rate, double K) {
+             LoopSettings loop;
+             loop.device = ideal_device();
+             loop.device.servo_rate = rate;
+             loop.against = Wall{K, 0.0};
+             return loop;
+           }),
+      plan(
+          "sand-rate-stiffness", "Sand: servo rate and stiffness (k_s)",
+          "The same device pressed with 3 N into sand, which only pushes, without a force limit: beyond the "
+          "boundary it bounces, and far beyond it bounces ever higher. Theory does not say which of the two.",
+          servo_rate, stiffness,
+          [](double rate, double K) {
+            DeviceSettings device = ideal_device();
+            device.servo_rate = rate;
+            return sand_of_stiffness(K, device);
+          }),
+      plan(
+          "mass-damping", "Mass and damping of the device",
+          "Sand of 20 kN/m under 3 N at 1 kHz, 12 N at most, the hand without damping. Stable from b = K T/2 "
+          "on, whatever the mass; a light device gets by with a little less.",
+          x("mass", "kg", 0.01, 10.0), y("damping", "N s/m", 0.1, 100.0),
+          [](double mass, double damping) {
+            DeviceSettings device = limited_device();
+            device.mass = mass, device.damping = damping, device.hand_damping = 0.0;
+            return sand_of_stiffness(20e3, device);
+          }),
+      plan("hand", "The hand's stiffness and damping",
+           "Sand of 2 kN/m under 3 N at 100 Hz, 12 N at most, the device's own damping 1 N s/m: the damping "
+           "decides, and stiffness helps only where the hand is stiffer than the sand.",
+           x("hand stiffness", "N/m", 10.0, 1e4), y("hand damping", "N s/m", 0.1, 100.0),
+           [](double stiffness_of_hand, double damping_of_hand) {
+             DeviceSettings device = limited_device();
+             device.servo_rate = 100.0;
+             device.hand_stiffness = stiffness_of_hand, device.hand_damping = damping_of_hand;
+             return sand_of_stiffness(2e3, device);
+           }),
+      plan("rate-scale", "Servo rate and workspace scale",
+           "The paper's constants (k_s 1000 N, k_c 0.5 1/m, k_f 10 s/m) under 3 N, 12 N at most: what a "
+           "device metre is in the bed multiplies both stiffness and drag.",
+           servo_rate, y("scale", "", 0.1, 1000.0),
+           [](double rate, double scale) {
+             DeviceSettings device = limited_device();
+             device.servo_rate = rate, device.scale = scale;
+             return pressed_with(pressing, device, ForceSettings{});
+           }),
+      plan("delay-stiffness", "Delay and stiffness",
+           "Sand under 3 N at 1 kHz, 12 N at most, whose force acts some ticks late.",
+           map_axis("delay", "ticks", false, 0.0, 20.0, quick ? 6 : 21), stiffness,
+           [](double delay, double K) {
+             DeviceSettings device = limited_device();
+             device.delay = static_cast<int>(std::lround(delay));
+             return sand_of_stiffness(K, device);
+           }),
+      dropped_ticks(map_axis("dropped ticks", "", false, 0.0, 0.9, quick ? 7 : 19), stiffness),
+      encoder_steps(x("encoder resolution", "m", 1e-7, 1e-3), stiffness),
+      plan("depth", "Growth of the force (k_c) and depth",
+           "k_s = 10 N at 1 kHz, no force limit: an exponential law is soft above and stiff below, stable "
+           "down to "
+           "a depth.",
+           x("k_c", "1/m", 10.0, 400.0), y("depth", "m", 5e-4, 0.05),
+           [](double k_c, double depth) {
+             ForceSettings force;
+             force.k_s = 10.0, force.k_c = k_c, force.k_f = 0.0;
+             return pressed_to(depth, ideal_device(), force);
+           }),
+      drag(DragVelocity::sampled, x("k_f", "s/m", 1.0, 1e5), y("pressing force", "N", 0.1, 20.0)),
+      drag(DragVelocity::implicit, x("k_f", "s/m", 1.0, 1e5), y("pressing force", "N", 0.1, 20.0)),
+  };
+}
+
+}  // namespace sandstroke

@@ -1,0 +1,100 @@
+#include "validation/stress/judged_run.h"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.h"
+
+namespace sandstroke {
+namespace {
+
+bool monotone(const RelaxationSettings& settings) {
+  return settings.law == RelaxationLaw::isotropic || settings.method == RelaxationMethod::rkl;
+}
+
+/// What is wrong with a run that ended; empty: nothing.
+std::string fault_of(const HeightGrid& start, const HeightGrid& end, double cell_area, bool keeps_range,
+                     JudgedRun& run) {
+  if (!end.isFinite().all()) return "a height is not a number";
+  const RunResult& r = run.result;
+  if (!std::isfinite(r.max_force) || !std::isfinite(r.absorbed_energy)) return "a figure is not a number";
+
+  const double low = start.minCoeff(), high = start.maxCoeff(),
+               size = std::max(std::abs(low), std::abs(high));
+  const double lost = std::abs(r.volume_final - r.volume_initial);
+  const double tallest = std::max(size, end.abs().maxCoeff());
+  const double rounding = 1e-14 * tallest * cell_area * static_cast<double>(end.size());
+  if (!(lost <= 1e-12 * r.moved_volume + rounding))
+    return fmt::format("{:.3g} m^3 are lost of {:.3g} that moved", lost, r.moved_volume);
+
+  const double outside = std::max({0.0, low - end.minCoeff(), end.maxCoeff() - high});
+  run.overshoot = size > 0.0 ? outside / size : 0.0;
+  if (keeps_range && run.overshoot > 1e-12)
+    return fmt::format("a height left the range of the starting ones by {:.3g} of the highest",
+                       run.overshoot);
+  return "";
+}
+
+}  // namespace
+
+JudgedRun judged_run(const Scene& scene, const HeightField& bed, const std::optional<Stroke>& stroke) {
+  JudgedRun run;
+  try {
+    check_scene(scene, "scene");
+    Simulation simulation(scene, bed, stroke);
+    SimulationObserver nobody;
+    run.result = simulation.run(nobody);
+    run.reason = fault_of(bed.grid(), simulation.bed().grid(), bed.cell_area(),
+                          !stroke && monotone(scene.relaxation), run);
+    if (!run.reason.empty()) return run;
+    run.verdict = run.result.converged ? Verdict::stable : Verdict::not_converged;
+    if (!run.result.converged) run.reason = fmt::format("residual {:.3g}", run.result.residual);
+  } catch (const Error& error) {
+    run.verdict = Verdict::refused;
+    run.reason = error.what();
+  }
+  return run;
+}
+
+Variations::Variations(std::string group, std::string name, std::string settings,
+                       std::vector<Verdict> expected)
+    : case_{std::move(group),    std::move(name), std::move(settings),
+            std::move(expected), Verdict::broken, ""} {}
+
+void Variations::add(const JudgedRun& run, const std::string& variation) {
+  StressCase one = case_;
+  one.verdict = run.verdict;
+  ++met_[static_cast<std::size_t>(run.verdict)];
+  if (one.surprise() && surprises_++ == 0) {
+    case_.verdict = run.verdict;
+    case_.detail = fmt::format("{}: {} {}", variation, name_of(run.verdict), run.reason);
+  }
+  if (run.verdict == Verdict::refused) refusal_ = run.reason;
+  overshoot_ = std::max(overshoot_, run.overshoot);
+  drift_ = std::max(drift_, run.result.volume_drift);
+  passes_ = std::max(passes_, run.result.passes);
+}
+
+StressCase Variations::done() const {
+  StressCase all = case_;
+  const auto most = std::max_element(met_.begin(), met_.end());
+  if (surprises_ == 0) all.verdict = static_cast<Verdict>(most - met_.begin());
+  std::string counts;
+  for (std::size_t i = 0; i < met_.size(); ++i)
+    if (met_[i] > 0)
+      counts += fmt::format("{}{} {}", counts.empty() ? "" : ", ", met_[i], name_of(static_cast<Verdict>(i)));
+  if (surprises_ > 0) {
+    all.detail = fmt::format("{} ({})", all.detail, counts);
+  } else {
+    all.detail = counts;
+    if (passes_ > 0) all.detail += fmt::format("; at most {} passes", passes_);
+    if (overshoot_ > 1e-12) all.detail += fmt::format(", out of the starting range by {:.2g}", overshoot_);
+    if (drift_ > 0.0) all.detail += fmt::format(", volume drift {:.1e}", drift_);
+    if (!refusal_.empty()) all.detail += "; " + refusal_;
+  }
+  return all;
+}
+
+}  // namespace sandstroke

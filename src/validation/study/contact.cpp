@@ -1,0 +1,126 @@
+// The work of a kinematic device in sand, against closed forms.
+#include <spdlog/fmt/fmt.h>
+
+#include <cmath>
+
+#include "sim/simulation.h"
+#include "validation/study/error_checks.h"
+#include "validation/study/exact_shapes.h"
+#include "validation/study/problem.h"
+
+namespace sandstroke {
+namespace {
+
+/// A bed that does not relax while the tool moves, so that the sand's level is what the closed form says.
+Scene contact_scene(double width, int cells, double servo_rate) {
+  Scene scene;
+  scene.bed.width = scene.bed.depth = width;
+  scene.bed.cols = scene.bed.rows = cells;
+  scene.device.servo_rate = servo_rate;
+  scene.device.max_force = 0.0;
+  scene.relaxation.rate = 0.0;
+  scene.output.trace = false;
+  return scene;
+}
+
+Stroke straight(const Eigen::Vector3d& from, const Eigen::Vector3d& to, double seconds) {
+  Stroke stroke;
+  stroke.gap_threshold = 2.0 * seconds;
+  stroke.time = {0.0, seconds};
+  stroke.position = {from, to};
+  return stroke;
+}
+
+Trial work_trial(const Scene& scene, const HeightField& bed, const Stroke& stroke, double exact_work) {
+  Simulation simulation(scene, bed, stroke);
+  SimulationObserver nobody;
+  const RunResult result = simulation.run(nobody);
+  Trial trial{result.wall_seconds, {}};
+  trial.score.work_error = std::abs(result.absorbed_energy / exact_work - 1.0);
+  trial.score.passes = static_cast<double>(result.passes);
+  trial.score.cells_visited = static_cast<double>(result.cells_visited);
+  trial.score.volume_drift = result.volume_drift;
+  trial.score.converged = result.converged;
+  return trial;
+}
+
+Contender work_contender(const std::string& series, const std::string& label, const Scene& scene, int threads,
+                         double step, std::function<Trial()> run) {
+  RunSettings settings = settings_of(
+      scene.relaxation, BedGeometry(scene.bed.rows, scene.bed.cols, scene.bed.cell_size()), threads);
+  settings.servo_rate = scene.device.servo_rate;
+  settings.relaxation_rate = scene.relaxation.rate;
+  return {series, label, settings, step, std::move(run)};
+}
+
+Problem work_problem(const char* name, const char* title, const std::string& text) {
+  return {name, title, text, "work_error", "work, relative error", "", {}};
+}
+
+}  // namespace
+
+Problem plunge_problem(const ProblemOptions& options) {
+  Problem problem = work_problem("plunge", "Work of a plunge",
+                                 "The tip is pushed 10 mm into flat sand at 20 mm/s, with drag in all "
+                                 "directions; the work is known in closed form.");
+  constexpr double depth = 0.01, speed = 0.02, above = 0.001;  // m, m/s, m
+  for (const double rate : {62.5, 125.0, 250.0, 500.0, 1000.0, 2000.0, 4000.0, 8000.0, 16000.0}) {
+    Scene scene = contact_scene(0.2, 100, rate);
+    scene.force.drag = DragDirection::full;
+    const double exact = plunge_work(depth, scene.force) * (1.0 + scene.force.k_f * speed);
+    const Stroke stroke = straight({0.0, 0.0, above}, {0.0, 0.0, -depth}, (above + depth) / speed);
+    const HeightField bed(scene.bed.rows, scene.bed.cols, scene.bed.cell_size());
+    problem.contenders.push_back(
+        work_contender("force held for a tick", fmt::format("servo rate {} Hz", rate), scene, options.threads,
+                       1.0 / rate, [=] { return work_trial(scene, bed, stroke, exact); }));
+  }
+  return problem;
+}
+
+Problem drag_problem(const ProblemOptions& options) {
+  // In a slot that the tip fits into without touching it nothing is pushed aside, so that depth and force
+  // stay: the level is that of a disk across the slot.
+  Problem problem =
+      work_problem("drag", "Work of a drag",
+                   "The tip is drawn along a slot that it fits into without touching the sand, so "
+                   "that depth and drag stay what the closed form says.");
+  constexpr double length = 0.1, speed = 0.1;  // m, m/s
+  for (const double cells_per_radius : {1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 8.0, 12.0, 16.0, 24.0, 32.0}) {
+    if (options.quick && cells_per_radius > 16.0) continue;
+    const double radius = ToolSettings{}.radius, half_width = 0.6 * radius, slot_depth = 0.16 * radius;
+    const auto cells = static_cast<int>(std::lround(20.0 * cells_per_radius));
+    Scene scene = contact_scene(20.0 * radius, cells, 1000.0);
+    scene.relaxation.talus_angle = 89.9;  // the walls stand
+    HeightField bed(cells, cells, scene.bed.cell_size());
+    const double dx = bed.cell_size(), centre = 0.13 * dx;  // m, of the slot: no grid line is special
+    for (int row = 0; row < cells; ++row) {
+      const double from_wall = half_width - std::abs(bed.y_of(row) - centre);
+      const double share = std::clamp(from_wall / dx + 0.5, 0.0, 1.0);  // of the cell that is slot
+      for (int col = 0; col < cells && share > 0.0; ++col) bed.set(row, col, -slot_depth * share);
+    }
+    bed.settle();
+    const double level = -slot_depth * strip_share_of_disk(ToolFootprint(scene.tool).reach(), half_width);
+    const double tip = -0.97 * slot_depth;
+    const double exact = drag_work(level - tip, speed, length, scene.force);
+    const Stroke stroke = straight({-0.5 * length, centre, tip}, {0.5 * length, centre, tip}, length / speed);
+    if (cells_per_radius == 8.0) {
+      Scene cell_by_cell = scene;
+      cell_by_cell.bed.surface.kind = SurfaceKind::file;
+      cell_by_cell.bed.surface.file = "in memory";
+      const SandForce exact_force = sand_force(level - tip, {speed, 0.0, 0.0}, 0.0, scene.force);
+      problem.check_errors = [=] {
+        return check_errors("8 cells per radius", cell_by_cell, bed, stroke, [&](const Solution& run) {
+          double squares = 0.0;
+          for (const Eigen::Vector3d& force : run.force) squares += (force - exact_force.total).squaredNorm();
+          return TrueError{.force_rms = std::sqrt(squares / static_cast<double>(run.force.size()))};
+        });
+      };
+    }
+    problem.contenders.push_back(
+        work_contender("cell size", fmt::format("{} cells per radius", cells_per_radius), scene,
+                       options.threads, dx, [=] { return work_trial(scene, bed, stroke, exact); }));
+  }
+  return problem;
+}
+
+}  // namespace sandstroke

@@ -1,0 +1,67 @@
+#include "validation/study/exact_shapes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace sandstroke {
+
+double ExactCone::operator()(double x, double y) const {
+  return std::max(0.0, slope * (foot - std::max(plateau, std::hypot(x, y))));
+}
+
+ExactCone collapsed_cylinder(double radius, double height, double talus_angle) {
+  const double t = talus_slope(talus_angle), width = height / t;  // of the flank
+  if (height >= std::sqrt(3.0) * radius * t) return {t, 0.0, std::cbrt(3.0 * radius * radius * width)};
+  const double plateau = (-3.0 * width + std::sqrt(36.0 * radius * radius - 3.0 * width * width)) / 6.0;
+  return {t, plateau, plateau + width};
+}
+
+ExactCone collapsed_cone(double radius, double height, double talus_angle) {
+  const double t = talus_slope(talus_angle);
+  return {t, 0.0, std::cbrt(radius * radius * height / t)};
+}
+
+double ExactRamp::operator()(double x, double) const {
+  return std::clamp(0.5 * height - slope * x, 0.0, height);
+}
+
+ExactRamp collapsed_cliff(double height, double talus_angle) { return {talus_slope(talus_angle), height}; }
+
+double ExactTrench::operator()(double x, double) const {
+  return std::min(0.0, -slope * (half_width - std::abs(x)));
+}
+
+ExactTrench filled_slot(double half_width, double depth, double talus_angle) {
+  const double t = talus_slope(talus_angle);
+  return {t, std::sqrt(2.0 * half_width * depth / t)};  // the V has the slot's area
+}
+
+double ExactCrater::operator()(double x, double y) const {
+  const double distance = law == RelaxationLaw::paper ? octile_distance(x, y) : std::hypot(x, y);
+  return std::min(0.0, slope * distance - depth);
+}
+
+ExactCrater drained_crater(double depth, double talus_angle, RelaxationLaw law) {
+  return {law, talus_slope(talus_angle), depth};
+}
+
+double octile_distance(double x, double y) {
+  const double far = std::max(std::abs(x), std::abs(y)), near = std::min(std::abs(x), std::abs(y));
+  return far + (std::numbers::sqrt2 - 1.0) * near;
+}
+
+double plunge_work(double depth, const ForceSettings& force) {
+  return force.k_s * (std::expm1(force.k_c * depth) / force.k_c - depth);
+}
+
+double drag_work(double depth, double speed, double length, const ForceSettings& force) {
+  return force.k_f * speed * repulse_force(depth, force) * length;
+}
+
+double strip_share_of_disk(double radius, double half_width) {
+  const double w = std::min(half_width / radius, 1.0);
+  return 2.0 / std::numbers::pi * (w * std::sqrt(1.0 - w * w) + std::asin(w));
+}
+
+}  // namespace sandstroke

@@ -1,0 +1,74 @@
+#include "validation/study/hand_strokes.h"
+
+#include <cmath>
+#include <random>
+
+#include "haptics/stroke_sampler.h"
+#include "haptics/stroke_script.h"
+
+namespace sandstroke {
+namespace {
+
+/// `stroke` at 1 kHz, each sample moved up by raise(sample, way along the bed [m]).
+template <class Raise>
+Stroke recorded(const Stroke& stroke, const Raise& raise) {
+  StrokeSampler hand(stroke);
+  const double begin = hand.start_time();
+  const auto samples = static_cast<std::int64_t>(std::floor((hand.end_time() - begin) * 1000.0));
+  Stroke recording;
+  recording.gap_threshold = stroke.gap_threshold;
+  double way = 0.0;
+  for (std::int64_t k = 0; k <= samples; ++k) {
+    const double time = begin + static_cast<double>(k) / 1000.0;
+    Eigen::Vector3d position = hand.at(time).position;
+    if (k > 0) way += (position - recording.position.back()).head<2>().norm();
+    position.z() += raise(position, way);
+    recording.time.push_back(time);
+    recording.position.push_back(position);
+  }
+  return recording;
+}
+
+}  // namespace
+
+Stroke s_curve(double depth, double speed, bool cut) {
+  StrokeScript script;
+  script.start = {-0.08, -0.02};
+  script.clearance = 0.005;
+  script.segments.push_back(
+      {ScriptSpline{{{-0.08, -0.02}, {-0.03, 0.06}, {0.0, 0.0}, {0.03, -0.06}, {0.08, 0.02}}},
+       {PressProfile::Kind::depth, {depth}},
+       speed});
+  if (cut) script.segments[0].shape = ScriptSpline{{{-0.08, -0.02}, {-0.03, 0.03}, {0.02, -0.02}}};
+  return trace_script(script, {});
+}
+
+Stroke with_noise(const Stroke& stroke, double rms) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> share(-0.5, 0.5);  // a normal one's numbers depend on the library
+  return recorded(stroke, [&](const Eigen::Vector3d&, double) {
+    double sum = 0.0;  // of twelve: variance 1
+    for (int i = 0; i < 12; ++i) sum += share(random);
+    return rms * sum;
+  });
+}
+
+Stroke with_slopes(const Stroke& stroke, double slope) {
+  constexpr double amplitude = 0.5e-3;  // m
+  return recorded(stroke, [&](const Eigen::Vector3d& position, double way) {
+    if (position.z() >= 0.0) return 0.0;
+    const double phase = way * slope / amplitude;  // a triangle's side is 2 long
+    return amplitude * (1.0 - std::abs(std::fmod(phase, 4.0) - 2.0));
+  });
+}
+
+Scene hand_scene(ModelPreset preset) {
+  Scene scene;
+  scene.preset = preset;
+  apply_model_preset(scene);
+  scene.bed.width = scene.bed.depth = 0.24;
+  scene.bed.cols = scene.bed.rows = 120;
+  return scene;
+}
+
+}  // namespace sandstroke

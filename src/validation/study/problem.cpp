@@ -1,0 +1,37 @@
+#include "validation/study/problem.h"
+
+namespace sandstroke {
+
+const std::vector<ProblemMaker>& problem_makers() {
+  static const std::vector<ProblemMaker> makers = {
+      {"cylinder", cylinder_problem},
+      {"truncated", truncated_problem},
+      {"cone", cone_problem},
+      {"cliff", cliff_problem},
+      {"trench", trench_problem},
+      {"octagon", crater_problem},
+      {"plunge", plunge_problem},
+      {"drag", drag_problem},
+      {"dynamic", dynamic_problem},
+      {"stroke-accurate", accurate_stroke_problem},
+      {"stroke-deep", deep_stroke_problem},
+      {"hands", hands_problem},
+      {"stroke-paper", paper_stroke_problem},
+  };
+  return makers;
+}
+
+RunSettings settings_of(const RelaxationSettings& relaxation, const BedGeometry& bed, int threads) {
+  RunSettings settings;
+  settings.law = relaxation.law == RelaxationLaw::paper ? "paper" : "isotropic";
+  settings.method = relaxation.method == RelaxationMethod::rkl ? "rkl" : "passes";
+  settings.cells = bed.cols();
+  settings.cell_size = bed.cell_size();
+  settings.tolerance = relaxation.tolerance;
+  if (relaxation.method == RelaxationMethod::rkl) settings.step_tolerance = relaxation.step_tolerance;
+  settings.share = flow_share(relaxation);
+  settings.threads = threads;
+  return settings;
+}
+
+}  // namespace sandstroke

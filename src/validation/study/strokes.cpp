@@ -1,0 +1,194 @@
+// Strokes whose truth has to be computed: the same run, finer.
+#include <spdlog/fmt/fmt.h>
+
+#include "validation/study/hand_strokes.h"
+#include "validation/study/stroke_replay.h"
+
+namespace sandstroke {
+
+Problem dynamic_problem(const ProblemOptions& options) {
+  Problem problem{"dynamic",
+                  "Dynamic device against a continuous loop",
+                  "A hand plunges 8 mm and moves on at 0.1 m/s through a device of 0.25 kg; the truth is the "
+                  "same loop at a servo rate that is all but continuous.",
+                  "force_error",
+                  "force, rms error of the largest",
+                  "",
+                  {}};
+  Scene scene;
+  scene.bed.width = scene.bed.depth = 0.2;
+  scene.bed.cols = scene.bed.rows = 100;
+  scene.device = ideal_device();
+  scene.relaxation.rate = 0.0;  // sand that slips between ticks is another matter
+  Stroke stroke;
+  stroke.gap_threshold = 1.0;
+  stroke.time = {0.0, 0.2, 0.6};
+  stroke.position = {{-0.02, 0.0, 0.002}, {-0.02, 0.0, -0.008}, {0.02, 0.0, -0.008}};
+
+  const double finest = options.quick ? 200e3 : 1e6;  // Hz
+  const auto at_rate = [&](double rate) {
+    Scene one = scene;
+    one.device.servo_rate = rate;
+    return one;
+  };
+  const auto truth = std::make_shared<const Replay>(replay(at_rate(finest), stroke));
+  problem.converged_to = judge(replay(at_rate(0.5 * finest), stroke), *truth).force_error;
+  for (const double rate : {100.0, 200.0, 500.0, 1000.0, 2000.0, 5000.0, 10e3, 20e3, 50e3})
+    problem.contenders.push_back(stroke_contender("force held for a tick",
+                                                  fmt::format("servo rate {} Hz", rate), at_rate(rate),
+                                                  options.threads, 1.0 / rate, stroke, truth));
+  problem.check_errors = [=] {  // cells count here, too: the level under the tool is a mean of theirs
+    Scene eighth = scene;
+    for (int halvings = 0; halvings < 3; ++halvings) eighth = second_scene(eighth, SecondSolution::finer);
+    return check_errors("1000 Hz, 5 cells per radius", scene, stroke, replay(eighth, stroke));
+  };
+  return problem;
+}
+
+namespace {
+
+/// The default cell size, tolerance and relaxations, each divided as told, with ticks enough for the finest.
+/// (By way, relaxations are divided with the cells.)
+Scene refined(ModelPreset preset, int cells_by, int tolerance_by, int period_by) {
+  Scene scene = hand_scene(preset);
+  scene.bed.cols *= cells_by, scene.bed.rows *= cells_by;
+  scene.relaxation.tolerance /= tolerance_by;
+  scene.relaxation.rate *= period_by;
+  scene.device.servo_rate = 2000.0;
+  return scene;
+}
+
+/// The accurate preset before tools were solid: sand slips into the tool and is pushed ahead again.
+Scene pumping(int cells_by) {
+  Scene scene = refined(ModelPreset::accurate, cells_by, cells_by, cells_by);
+  scene.tool.solid = false;
+  scene.displacement.deposit = Deposit::ahead;
+  scene.relaxation.travel = 0.0;
+  scene.relaxation.rate = 240.0 * cells_by;
+  return scene;
+}
+
+Problem stroke_problem(ModelPreset preset, double depth, const ProblemOptions& options) {
+  const bool paper = preset == ModelPreset::paper, deep = depth > 0.005;
+  const int finest = options.quick || deep ? 4 : 8;
+  const std::string all_finer = "all finer";
+  Problem problem{
+      paper  ? "stroke-paper"
+      : deep ? "stroke-deep"
+             : "stroke-accurate",
+      fmt::format("A stroke {:.0f} mm deep, {} preset", 1e3 * depth, paper ? "paper" : "accurate"),
+      fmt::format("A curved stroke at 2 kHz; in place of the truth stands the same stroke with cell "
+                  "size, tolerance and relaxation period divided by {}. How far that is from their "
+                  "division by {} is the dotted line.",
+                  finest, finest / 2),
+      "l1",
+      "misplaced sand, of the sand that moves",
+      "",
+      {}};
+  const Stroke stroke = s_curve(depth, 0.25, options.quick);
+  const auto all = [&](int by) { return refined(preset, by, by, by); };
+  const auto truth = std::make_shared<const Replay>(replay(all(finest), stroke));
+  problem.converged_to = judge(replay(all(finest / 2), stroke), *truth).l1;
+  const auto add = [&](const std::string& series, const std::string& label, const Scene& scene) {
+    // Where the model has no limit no order is fitted.
+    const double step = !paper && series == all_finer ? scene.bed.cell_size() : not_applicable;
+    problem.contenders.push_back(
+        stroke_contender(series, label, scene, options.threads, step, stroke, truth));
+  };
+  for (int by = 1; by < finest; by *= 2) add(all_finer, fmt::format("1/{} of all", by), all(by));
+  if (!paper)
+    for (int by = 1; by < finest; by *= 2)
+      add("sand slips into the tool, 240 a second", fmt::format("1/{} of all", by), pumping(by));
+  for (const double rate : {15.0, 30.0, 60.0, 120.0, 240.0, 480.0, 960.0, 1920.0}) {
+    Scene scene = all(1);
+    scene.relaxation.rate = rate;
+    add("relaxation rate alone",
+        fmt::format("{} relaxations a second{}", rate, paper ? "" : " besides those by way"), scene);
+  }
+  if (deep) return problem;
+  for (int by = 1; by <= finest; by *= 2) {
+    const Scene scene = refined(preset, by, 1, 1);
+    add("cell size alone", fmt::format("{:.3g} cells per radius", scene.tool.radius / scene.bed.cell_size()),
+        scene);
+  }
+  for (const double tolerance : {1e-2, 1e-3, 1e-4}) {
+    Scene scene = all(1);
+    scene.relaxation.tolerance = tolerance;
+    add("tolerance alone", fmt::format("tolerance {}", tolerance), scene);
+  }
+  problem.check_errors = [=] {
+    return check_errors("5 cells per radius", refined(preset, 1, 1, 1), stroke, *truth);
+  };
+  if (paper) return problem;
+  for (const double step_tolerance : {1.0, 0.1, 0.01}) {
+    Scene scene = all(1);
+    scene.relaxation.step_tolerance = step_tolerance;
+    add("step tolerance alone", fmt::format("step tolerance {}", step_tolerance), scene);
+  }
+  for (const double travel : {0.25, 0.5, 1.0, 2.0, 4.0}) {
+    Scene scene = all(1);
+    scene.relaxation.travel = travel;
+    add("way between relaxations alone", fmt::format("{} cells", travel), scene);
+  }
+  for (const double distance : {1.05, 1.1, 1.15, 1.2, 1.25}) {
+    Scene scene = all(1);
+    scene.displacement.distance = distance;
+    add("place of pushed sand alone", fmt::format("{} radii from the axis", distance), scene);
+  }
+  return problem;
+}
+
+}  // namespace
+
+Problem accurate_stroke_problem(const ProblemOptions& options) {
+  return stroke_problem(ModelPreset::accurate, 0.004, options);
+}
+
+Problem deep_stroke_problem(const ProblemOptions& options) {
+  return stroke_problem(ModelPreset::accurate, 0.01, options);
+}
+
+Problem paper_stroke_problem(const ProblemOptions& options) {
+  return stroke_problem(ModelPreset::paper, 0.004, options);
+}
+
+Problem hands_problem(const ProblemOptions& options) {
+  Problem problem{
+      "hands",
+      "What hands change",
+      "A curved stroke 4 mm deep with five cells per radius at 1 kHz, at the speeds, with the noise "
+      "in z and the slopes of hands, against the same preset's stroke at 0.25 m/s without any. A "
+      "stroke's outcome should depend on none of them.",
+      "l1",
+      "sand that lies elsewhere, of the sand that moves",
+      "",
+      {}};
+  for (const ModelPreset preset : {ModelPreset::paper, ModelPreset::accurate}) {
+    const Scene scene = hand_scene(preset);
+    const Stroke clean = s_curve(0.004, 0.25, options.quick);
+    const auto truth = std::make_shared<const Replay>(replay(scene, clean));
+    const auto add = [&](const std::string& what, const std::string& label, const Stroke& stroke,
+                         double rate = 0.0) {
+      Scene one = scene;
+      if (rate > 0.0) one.relaxation.rate = rate;
+      Contender contender = stroke_contender(preset_name(preset) + ", " + what, label, one, options.threads,
+                                             not_applicable, stroke, truth);
+      if (what == "speed")  // forces and places are those of other times
+        contender.run = [run = contender.run] {
+          Trial trial = run();
+          trial.score.force_error = trial.score.position_error = not_applicable;
+          return trial;
+        };
+      problem.contenders.push_back(std::move(contender));
+    };
+    for (const double speed : {0.02, 0.05, 0.1, 0.5, 1.0})
+      add("speed", fmt::format("{} m/s", speed), s_curve(0.004, speed, options.quick));
+    for (const double noise : {0.0, 2e-6, 10e-6, 55e-6})
+      add("noise", fmt::format("{:.0f} um rms", 1e6 * noise), with_noise(clean, noise));
+    for (const double rate : {60.0, 960.0})
+      add("slopes of 5 %", fmt::format("{:.0f} relaxations a second", rate), with_slopes(clean, 0.05), rate);
+  }
+  return problem;
+}
+
+}  // namespace sandstroke

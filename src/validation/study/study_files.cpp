@@ -1,0 +1,40 @@
+#include "validation/study/study_files.h"
+
+#include "core/output_file.h"
+#include "report/page.h"
+#include "validation/study/study_table.h"
+#include "validation/study/surface_error.h"
+
+namespace sandstroke {
+namespace fs = std::filesystem;
+
+StudyFiles::StudyFiles(const fs::path& folder) : folder_(folder) {
+  make_folder(folder);
+  for (const fs::path& file : {page(), table(), data()}) check_output(file, {});
+}
+
+void StudyFiles::write(const Study& study) const {
+  const Table runs = runs_table(study.runs);
+  write_text_file(table(), csv_text(runs));
+  Hdf5Writer file(data());
+  write_table(file, "/runs", runs);
+  write_table(file, "/orders", orders_table(study.orders));
+  const std::vector<double> directions = flank_directions();
+  HeightGrid slopes = HeightGrid::Constant(static_cast<Eigen::Index>(study.runs.size()),
+                                           static_cast<Eigen::Index>(directions.size()), not_applicable);
+  for (std::size_t run = 0; run < study.runs.size(); ++run)
+    for (std::size_t i = 0; i < study.runs[run].score.slope_errors.size(); ++i)
+      slopes(static_cast<Eigen::Index>(run), static_cast<Eigen::Index>(i)) =
+          study.runs[run].score.slope_errors[i];
+  file.write("/slope_error", slopes);
+  file.attribute("/slope_error", "unit", "deg");
+  file.write("/directions", directions);
+  file.attribute("/directions", "unit", "deg");
+  file.write("/machine", describe_machine().dump());
+  file.attribute("/", "format", "sandstroke.bench");
+  file.attribute("/", "format_version", 1.0);
+  file.finish();
+  write_text_file(page(), html_page("sandstroke bench", PageScript::bench, study_json(study)));
+}
+
+}  // namespace sandstroke

@@ -1,0 +1,182 @@
+#include "validation/study/study_table.h"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <cmath>
+
+#include "core/error.h"
+#include "report/page.h"
+#include "validation/study/surface_error.h"
+
+namespace sandstroke {
+namespace {
+
+struct Column {
+  const char *name, *title, *unit;
+  std::variant<double (*)(const StudyRun&), std::string (*)(const StudyRun&)> value;
+};
+
+#define TEXT(expression) +[](const StudyRun& run) -> std::string { return expression; }
+#define NUMBER(expression) +[](const StudyRun& run) -> double { return expression; }
+
+const std::vector<Column> columns = {
+    {"problem", "Problem", "", TEXT(run.problem)},
+    {"series", "Series", "", TEXT(run.series)},
+    {"label", "Settings", "", TEXT(run.label)},
+    {"law", "Law", "", TEXT(run.settings.law)},
+    {"method", "Method", "", TEXT(run.settings.method)},
+    {"cells", "Cells along x", "", NUMBER(run.settings.cells)},
+    {"cell_size", "Cell size", "m", NUMBER(run.settings.cell_size)},
+    {"tolerance", "Tolerance", "", NUMBER(run.settings.tolerance)},
+    {"step_tolerance", "Step tolerance", "", NUMBER(run.settings.step_tolerance)},
+    {"share", "Share of a pass", "", NUMBER(run.settings.share)},
+    {"servo_rate", "Servo rate", "Hz", NUMBER(run.settings.servo_rate)},
+    {"relaxation_rate", "Relaxation rate", "Hz", NUMBER(run.settings.relaxation_rate)},
+    {"threads", "Threads", "", NUMBER(run.settings.threads)},
+    {"wall_seconds", "Time", "s", NUMBER(run.wall_seconds)},
+    {"wall_least", "Least time", "s", NUMBER(run.least_seconds)},
+    {"wall_largest", "Largest time", "s", NUMBER(run.largest_seconds)},
+    {"repeats", "Repeats", "", NUMBER(run.repeats)},
+    {"passes", "Passes", "", NUMBER(run.score.passes)},
+    {"cells_visited", "Cells visited", "", NUMBER(run.score.cells_visited)},
+    {"l1", "Misplaced sand, of the moved", "", NUMBER(run.score.l1)},
+    {"rms_height", "Height error, rms", "m", NUMBER(run.score.rms_height)},
+    {"largest_height", "Height error, largest", "m", NUMBER(run.score.largest_height)},
+    {"rms_relative", "Height error, rms of the shape's height", "", NUMBER(run.score.rms_relative)},
+    {"largest_relative", "Height error, largest of the shape's height", "",
+     NUMBER(run.score.largest_relative)},
+    {"slope_error_largest", "Slope error, largest of all directions", "deg", NUMBER(run.score.slope_error)},
+    {"work_error", "Work error, relative", "", NUMBER(run.score.work_error)},
+    {"force_error", "Force error, rms of the largest", "", NUMBER(run.score.force_error)},
+    {"position_error", "Position error, rms", "m", NUMBER(run.score.position_error)},
+    {"volume_drift", "Volume drift, of the moved", "", NUMBER(run.score.volume_drift)},
+    {"displaced_volume", "Sand pushed", "m^3", NUMBER(run.score.displaced_volume)},
+    {"furrow_depth", "Furrow", "m", NUMBER(run.score.furrow_depth)},
+    {"converged", "At rest", "", NUMBER(run.score.converged)},
+    {"pareto", "On the Pareto front", "", NUMBER(run.pareto)},
+};
+#undef TEXT
+#undef NUMBER
+
+/// The run of a problem with the least error, and before it the fastest with no more than twice that.
+std::vector<const StudyRun*> best_of(const std::vector<StudyRun>& runs, const std::string& problem) {
+  const StudyRun *nearest = nullptr, *fastest = nullptr;
+  const auto in_race = [&](const StudyRun& run) { return run.pareto && run.problem == problem; };
+  for (const StudyRun& run : runs)
+    if (in_race(run) && (!nearest || run.error < nearest->error)) nearest = &run;
+  for (const StudyRun& run : runs)
+    if (in_race(run) && run.error <= 2.0 * nearest->error &&
+        (!fastest || run.wall_seconds < fastest->wall_seconds))
+      fastest = &run;
+  if (fastest == nearest) return nearest ? std::vector{nearest} : std::vector<const StudyRun*>{};
+  return {fastest, nearest};
+}
+
+std::string title_of(const Study& study, const std::string& problem) {
+  for (const Problem& one : study.problems)
+    if (one.name == problem) return one.title;
+  return problem;
+}
+
+}  // namespace
+
+double number_in(const std::string& column, const StudyRun& run) {
+  for (const Column& one : columns)
+    if (one.name == column) return std::get<double (*)(const StudyRun&)>(one.value)(run);
+  throw_input_error("a run of the study has no column '{}'", column);
+}
+
+Table runs_table(const std::vector<StudyRun>& runs) {
+  Table table;
+  for (const Column& column : columns)
+    std::visit(
+        [&](auto value) {
+          std::vector<decltype(value(runs.front()))> values;
+          for (const StudyRun& run : runs) values.push_back(value(run));
+          table.columns.push_back({column.name, column.title, column.unit, std::move(values)});
+        },
+        column.value);
+  return table;
+}
+
+Table orders_table(const std::vector<ConvergenceOrder>& orders) {
+  std::vector<std::string> problems, series, errors;
+  std::vector<double> order, low, high, points;
+  for (const ConvergenceOrder& one : orders) {
+    problems.push_back(one.problem), series.push_back(one.series), errors.push_back(one.error);
+    order.push_back(one.order), low.push_back(one.low), high.push_back(one.high);
+    points.push_back(one.points);
+  }
+  return {{{"problem", "Problem", "", problems},
+           {"series", "Series", "", series},
+           {"error", "Error", "", errors},
+           {"order", "Order", "", order},
+           {"low", "95 % from", "", low},
+           {"high", "to", "", high},
+           {"points", "Points", "", points}}};
+}
+
+nlohmann::ordered_json study_json(const Study& study) {
+  using Json = nlohmann::ordered_json;
+  const Table runs = runs_table(study.runs), orders = orders_table(study.orders);
+  Json json{{"machine", describe_machine()}, {"quick", study.quick},  {"problems", Json::array()},
+            {"columns", columns_json(runs)}, {"runs", Json::array()}, {"orders", Json::array()},
+            {"estimates", Json::array()},    {"notes", study.notes}};
+  for (const Problem& problem : study.problems)
+    json["problems"].push_back({{"name", problem.name},
+                                {"title", problem.title},
+                                {"text", problem.text},
+                                {"error", problem.error},
+                                {"error_title", problem.error_title},
+                                {"error_unit", problem.error_unit},
+                                {"converged_to", number_or_null(problem.converged_to)}});
+  for (std::size_t i = 0; i < study.runs.size(); ++i) {
+    const std::vector<double>& slopes = study.runs[i].score.slope_errors;
+    Json run = row_json(runs, i);
+    run["pareto"] = study.runs[i].pareto;
+    run["directions"] = slopes.empty() ? Json() : Json(flank_directions());
+    run["slope_error"] = slopes.empty() ? Json() : Json(slopes);
+    json["runs"].push_back(std::move(run));
+  }
+  for (std::size_t i = 0; i < study.orders.size(); ++i) json["orders"].push_back(row_json(orders, i));
+  for (const ErrorCheck& one : study.estimates)
+    json["estimates"].push_back({{"problem", one.problem},
+                                 {"label", one.label},
+                                 {"quantity", one.quantity},
+                                 {"estimate", number_or_null(one.estimate)},
+                                 {"truth", number_or_null(one.truth)},
+                                 {"ratio", number_or_null(one.estimate / one.truth)}});
+  return json;
+}
+
+std::string study_summary(const Study& study) {
+  std::vector<StudyRun> best;
+  for (const Problem& problem : study.problems) {
+    const std::vector<const StudyRun*> ends = best_of(study.runs, problem.name);
+    for (const StudyRun* run : ends) best.push_back(*run);
+  }
+  std::vector<double> errors;
+  Table table;
+  const Table all = runs_table(best);
+  for (const char* name : {"problem", "series", "label", "wall_seconds", "passes"})
+    for (const TableColumn& column : all.columns)
+      if (column.name == name) table.columns.push_back(column);
+  for (const StudyRun& run : best) errors.push_back(run.error);
+  table.columns.push_back({"error", "Error", "", errors});
+  for (TableColumn& column : table.columns)
+    if (column.name == "problem")
+      for (std::string& name : std::get<std::vector<std::string>>(column.values))
+        name = title_of(study, name);
+  std::string text =
+      "Nearest to the truth, and the fastest with no more than twice that error\n" + aligned_text(table, 3);
+  if (!study.orders.empty())
+    text += "\nOrders of convergence\n" + aligned_text(orders_table(study.orders), 3);
+  for (const Problem& problem : study.problems)
+    if (!std::isnan(problem.converged_to))
+      text += fmt::format("\n{}: the reference itself is converged to {:.2g}\n", problem.title,
+                          problem.converged_to);
+  for (const std::string& note : study.notes) text += "\n" + note + "\n";
+  return text;
+}
+
+}  // namespace sandstroke

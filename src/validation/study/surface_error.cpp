@@ -1,0 +1,82 @@
+#include "validation/study/surface_error.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/angle.h"
+#include "core/compensated_sum.h"
+
+namespace sandstroke {
+
+SurfaceError surface_error(const HeightGrid& heights, const HeightGrid& start, const HeightGrid& exact) {
+  CompensatedSum difference, square, moved;
+  double largest = 0.0;
+  for (Eigen::Index i = 0; i < heights.size(); ++i) {
+    const double error = std::abs(heights.data()[i] - exact.data()[i]);
+    difference.add(error);
+    square.add(error * error);
+    moved.add(std::abs(exact.data()[i] - start.data()[i]));
+    largest = std::max(largest, error);
+  }
+  return {difference.value() / moved.value(), std::sqrt(square.value() / static_cast<double>(heights.size())),
+          largest};
+}
+
+SurfaceError surface_error(const HeightField& bed, const HeightField& start, const ExactSurface& exact) {
+  HeightGrid expected(bed.rows(), bed.cols());
+  for (int row = 0; row < bed.rows(); ++row)
+    for (int col = 0; col < bed.cols(); ++col) expected(row, col) = exact(bed.x_of(col), bed.y_of(row));
+  return surface_error(bed.grid(), start.grid(), expected);
+}
+
+namespace {
+
+constexpr int directions = 36;
+
+/// The slope of the least-squares line through points, as they come.
+class LineFit {
+ public:
+  void add(double x, double y) {
+    ++count_;
+    x_ += x, y_ += y, xx_ += x * x, xy_ += x * y;
+  }
+  double slope() const { return (count_ * xy_ - x_ * y_) / (count_ * xx_ - x_ * x_); }
+
+ private:
+  double count_ = 0.0, x_ = 0.0, y_ = 0.0, xx_ = 0.0, xy_ = 0.0;
+};
+
+}  // namespace
+
+std::vector<double> flank_directions() {
+  std::vector<double> angles(directions);
+  for (int i = 0; i < directions; ++i) angles[i] = 360.0 / directions * i;
+  return angles;
+}
+
+std::vector<double> flank_slope_errors(const HeightField& bed, const Flank& flank) {
+  const double near = std::lerp(flank.inner, flank.outer, 0.2),
+               far = std::lerp(flank.inner, flank.outer, 0.8);
+  std::vector<LineFit> sectors(directions);
+  for (int row = 0; row < bed.rows(); ++row)
+    for (int col = 0; col < bed.cols(); ++col) {
+      const double x = bed.x_of(col), y = bed.y_of(row), distance = std::hypot(x, y);
+      if (distance < near || distance > far) continue;
+      const double turn = std::atan2(y, x) / (360.0 / directions * degree);
+      sectors[(static_cast<int>(std::lround(turn)) + directions) % directions].add(distance, bed(row, col));
+    }
+  std::vector<double> errors;
+  for (const LineFit& sector : sectors)
+    errors.push_back((std::atan(std::abs(sector.slope())) - std::atan(flank.slope)) / degree);
+  return errors;
+}
+
+HeightGrid coarsened(const HeightGrid& fine, int factor) {
+  HeightGrid coarse(fine.rows() / factor, fine.cols() / factor);
+  for (int row = 0; row < coarse.rows(); ++row)
+    for (int col = 0; col < coarse.cols(); ++col)
+      coarse(row, col) = fine.block(row * factor, col * factor, factor, factor).mean();
+  return coarse;
+}
+
+}  // namespace sandstroke

@@ -1,0 +1,149 @@
+#include "io/run_file.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+
+#include "core/error.h"
+#include "core/output_file.h"
+#include "io/scene_toml.h"
+#include "io/stroke_file.h"
+#include "io/surface_file.h"
+#include "run/run_scene.h"
+#include "sim/simulation.h"
+#include "test_folder.h"
+
+namespace sandstroke {
+namespace {
+
+namespace fs = std::filesystem;
+
+class RunFileTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    std::ofstream(folder_ / "line.toml") << "start = [-0.05, 0.0]\nspeed = 0.2\n[[segment]]\nkind = 'line'\n"
+                                            "to = [0.05, 0.0]\ndepth = 0.004\n";
+  }
+
+  Scene scene(const std::vector<std::string>& overrides = {}) {
+    return scene_from_text("[bed]\nsize = [0.3, 0.2]\ncells = [150, 100]\n[stroke]\nfile = 'line.toml'\n",
+                           "scene.toml", overrides);
+  }
+  RunResult run(const Scene& scene, const std::string& name, int threads = 1) {
+    RunOptions options;
+    options.scene_folder = folder_.path();
+    options.threads = threads;
+    return run_scene(scene, folder_ / name, options);
+  }
+  TestFolder folder_;
+};
+
+TEST_F(RunFileTest, HoldsWhatTheDesignPromises) {
+  const RunResult result = run(scene({"output.frames=5"}), "a.h5");
+  const RunFile file(folder_ / "a.h5");
+  EXPECT_TRUE(file.complete());
+  EXPECT_EQ(file.cell_size(), 0.002);
+  EXPECT_EQ(file.initial().rows(), 100);
+  EXPECT_EQ(file.initial().cols(), 150);
+  EXPECT_TRUE((file.initial() == 0.0).all());
+  EXPECT_LT(file.final().minCoeff(), -0.001);
+  const RunTrace trace = file.trace();
+  ASSERT_EQ(static_cast<std::int64_t>(trace.size()), result.ticks);
+  double max_force = 0.0;
+  for (const auto& force : trace.device_force) max_force = std::max(max_force, force.norm());
+  EXPECT_EQ(max_force, result.max_force);
+  EXPECT_EQ(std::count(trace.contact.begin(), trace.contact.end(), 1u), result.contact_ticks);
+  EXPECT_EQ(scene_text(scene_from_text(file.scene_text(), "stored")), scene_text(scene({"output.frames=5"})));
+
+  const std::vector<double> times = file.frame_times();
+  ASSERT_GT(times.size(), 3u);
+  EXPECT_EQ(times[0], 0.0);
+  EXPECT_DOUBLE_EQ(times[2], 0.4);
+  RunFrames frames(file);
+  EXPECT_TRUE((frames.surface(0) == file.initial()).all());
+  EXPECT_FALSE((frames.surface(static_cast<int>(times.size()) - 1) == file.initial()).all());
+  EXPECT_NEAR(frames.surface(2).sum(), 0.0, 1e-12);
+
+  const Hdf5Reader plain(folder_ / "a.h5");
+  for (const std::string& column : plain.members("/trace"))
+    EXPECT_TRUE(column == "contact" || column == "saturated" ||
+                plain.has_attribute("/trace/" + column, "unit"))
+        << column;
+  EXPECT_EQ(plain.text_attribute("/trace/device_force", "unit"), "N");
+
+  EXPECT_FALSE(fs::exists(part_path(folder_ / "a.h5")));
+  EXPECT_NE(read_text_file(folder_ / "a.xdmf").find("a.h5:/surface/final"), std::string::npos);
+}
+
+TEST_F(RunFileTest, SameInputSameBitsForAnyNumberOfThreadsAndBothEngines) {
+  run(scene(), "one.h5", 1);
+  run(scene(), "two.h5", 2);
+  run(scene(), "eight.h5", 8);
+  run(scene({"relaxation.engine=reference"}), "reference.h5", 1);
+  const RunFile one(folder_ / "one.h5");
+  for (const char* name : {"two.h5", "eight.h5", "reference.h5"}) {
+    const RunFile other(folder_ / name);
+    EXPECT_TRUE((one.final() == other.final()).all()) << name;
+    EXPECT_EQ(one.trace().device_force, other.trace().device_force) << name;
+    EXPECT_EQ(one.trace().displaced_volume, other.trace().displaced_volume) << name;
+  }
+}
+
+TEST_F(RunFileTest, FramesHoldTilesThatCameIntoBeingBetweenThem) {
+  struct Frames : SimulationObserver {
+    std::vector<HeightGrid> grids;
+    std::vector<int> tiles;
+    void on_frame(double, const HeightField& surface) override {
+      grids.push_back(surface.grid());
+      tiles.push_back(surface.touched_tiles());
+    }
+  } frames;
+  // Ripples that rest by rule: a tile may come into being and stay as it was.
+  const Scene rippled = scene({"output.frames=20", "bed.surface={ kind = 'ripples', amplitude = 0.001 }"});
+  run(rippled, "a.h5");
+  Simulation(
+      rippled, load_surface(rippled.bed, folder_.path()),
+      place_stroke(load_stroke(folder_ / "line.toml", rippled.force), rippled.stroke->placement, "line.toml"))
+      .run(frames);
+  EXPECT_EQ(frames.tiles.front(), 0);
+  EXPECT_LT(frames.tiles[1], frames.tiles.back());
+  const RunFile file(folder_ / "a.h5");
+  ASSERT_EQ(file.frame_times().size(), frames.grids.size());
+  const int count = static_cast<int>(frames.grids.size());
+  RunFrames in_sequence(file), backwards(file);
+  for (int k = 0; k < count; ++k) {
+    EXPECT_TRUE((in_sequence.surface(k) == frames.grids[k]).all()) << k;
+    EXPECT_TRUE((in_sequence.surface(k) == frames.grids[k]).all()) << k << " again";
+    EXPECT_TRUE((backwards.surface(count - 1 - k) == frames.grids[count - 1 - k]).all()) << k;
+  }
+  std::int64_t tiles_held = 0;
+  const Hdf5Reader plain(folder_ / "a.h5");
+  for (const std::string& name : plain.members("/surface/frame")) {
+    const std::vector<std::uint32_t> tiles = plain.integers("/surface/frame/" + name + "/tiles");
+    EXPECT_TRUE(std::is_sorted(tiles.begin(), tiles.end()));
+    tiles_held += static_cast<std::int64_t>(tiles.size());
+  }
+  EXPECT_EQ(in_sequence.tiles_read(), tiles_held) << "each change is read once";
+}
+
+TEST_F(RunFileTest, ASurfaceCanComeFromARunFile) {
+  run(scene(), "first.h5");
+  Scene second = scene({"bed.surface={ kind = 'file', file = 'first.h5' }"});
+  run(second, "second.h5");
+  EXPECT_TRUE((RunFile(folder_ / "second.h5").initial() == RunFile(folder_ / "first.h5").final()).all());
+  EXPECT_THROW(
+      run(scene({"bed.surface={ kind = 'file', file = 'first.h5' }", "bed.cells=[300, 200]"}), "third.h5"),
+      Error);
+}
+
+TEST_F(RunFileTest, RefusesOtherFiles) {
+  Hdf5Writer writer(folder_ / "other.h5");
+  writer.write("/data", std::vector<double>{1.0});
+  writer.finish();
+  EXPECT_THROW(RunFile(folder_ / "other.h5"), Error);
+  EXPECT_THROW(RunFile(folder_ / "line.toml"), Error);
+}
+
+}  // namespace
+}  // namespace sandstroke

@@ -1,0 +1,76 @@
+#include "validation/study/exact_shapes.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace sandstroke {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+const double t = std::tan(pi / 6.0);
+
+/// By the midpoint rule over a square of this half side.
+double volume(const ExactSurface& surface, double half_side) {
+  constexpr int n = 1000;
+  const double dx = 2.0 * half_side / n;
+  double sum = 0.0;
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j) sum += surface((j + 0.5) * dx - half_side, (i + 0.5) * dx - half_side);
+  return sum * dx * dx;
+}
+
+TEST(ExactShapes, ACollapseKeepsItsVolume) {
+  for (const double height : {0.05, 0.2, 0.5, 1.0}) {
+    const double cylinder = pi * 0.3 * 0.3 * height;
+    EXPECT_NEAR(volume(collapsed_cylinder(0.3, height, 30.0), 1.0) / cylinder, 1.0, 1e-4) << height;
+  }
+  EXPECT_NEAR(volume(collapsed_cone(0.3, 0.4, 30.0), 1.0) / (pi * 0.3 * 0.3 * 0.4 / 3.0), 1.0, 1e-4);
+  EXPECT_NEAR(volume(collapsed_cliff(0.4, 30.0), 1.0) / (2.0 * 0.4), 1.0, 1e-4);
+  EXPECT_NEAR(volume(filled_slot(0.125, 0.3, 30.0), 1.0) / -(2.0 * 2.0 * 0.125 * 0.3), 1.0, 1e-4);
+}
+
+TEST(ExactShapes, APlateauIsAsHighAsTheCylinderAndVanishesWhereTheConeIsFull) {
+  const ExactCone low = collapsed_cylinder(0.5, 0.2, 30.0);
+  EXPECT_NEAR(low.top(), 0.2, 1e-15);
+  EXPECT_EQ(low(0.0, 0.5 * low.plateau), low.top());
+  const double full = std::sqrt(3.0) * 0.5 * t;
+  EXPECT_NEAR(collapsed_cylinder(0.5, full * (1.0 - 1e-9), 30.0).plateau, 0.0, 1e-8);
+  EXPECT_NEAR(collapsed_cylinder(0.5, full * (1.0 - 1e-9), 30.0).foot,
+              collapsed_cylinder(0.5, full, 30.0).foot, 1e-8);
+}
+
+TEST(ExactShapes, TheOctagonIsAsSteepAsTheLawAllowsOnItsAxesAndTwoDegreesSteeperBetween) {
+  const ExactCrater octagon = drained_crater(0.25, 30.0, RelaxationLaw::paper);
+  const auto slope_at = [&](double angle) {
+    const double x = std::cos(angle * pi / 180.0), y = std::sin(angle * pi / 180.0);
+    return std::atan((octagon(0.3 * x, 0.3 * y) - octagon(0.1 * x, 0.1 * y)) / 0.2) * 180.0 / pi;
+  };
+  for (int i = 0; i < 8; ++i) {
+    EXPECT_NEAR(slope_at(45.0 * i), 30.0, 1e-12) << i;
+    EXPECT_NEAR(slope_at(45.0 * i + 22.5), std::atan(t * 1.0823922002923940) * 180.0 / pi, 1e-10) << i;
+  }
+  const ExactCrater cone = drained_crater(0.25, 30.0, RelaxationLaw::isotropic);
+  EXPECT_NEAR(cone(0.06, 0.08), 0.1 * t - 0.25, 1e-15);
+  EXPECT_EQ(cone(0.5, 0.5), 0.0);
+}
+
+TEST(ExactShapes, WorkIsTheForceAlongTheWay) {
+  const ForceSettings force;
+  constexpr int n = 100'000;
+  double sum = 0.0;
+  for (int i = 0; i < n; ++i) sum += repulse_force((i + 0.5) * 0.01 / n, force) * 0.01 / n;
+  EXPECT_NEAR(plunge_work(0.01, force) / sum, 1.0, 1e-8);
+  EXPECT_NEAR(drag_work(0.006, 0.1, 2.0, force), 10.0 * 0.1 * repulse_force(0.006, force) * 2.0, 1e-12);
+}
+
+TEST(ExactShapes, AStripCoversItsShareOfADisk) {
+  EXPECT_NEAR(strip_share_of_disk(2.0, 2.0), 1.0, 1e-15);
+  EXPECT_NEAR(strip_share_of_disk(2.0, 5.0), 1.0, 1e-15);
+  EXPECT_NEAR(strip_share_of_disk(1.0, 1e-6) / (4e-6 / pi), 1.0, 1e-9);
+  EXPECT_NEAR(strip_share_of_disk(1.0, 0.5), (pi / 3.0 + std::sqrt(3.0) / 2.0) / pi, 1e-15);
+}
+
+}  // namespace
+}  // namespace sandstroke

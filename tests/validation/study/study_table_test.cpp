@@ -1,0 +1,58 @@
+#include "validation/study/study_table.h"
+
+#include <gtest/gtest.h>
+
+#include "validation/study/surface_error.h"
+
+namespace sandstroke {
+namespace {
+
+Study small_study() {
+  Study study;
+  study.problems.push_back({"heap", "A heap", "What it is.", "l1", "misplaced sand", "", {}});
+  for (const double error : {0.5, 0.25, 0.24}) {
+    StudyRun run;
+    run.problem = "heap", run.series = "s", run.label = "l";
+    run.wall_seconds = 1.0 / error;
+    run.score.l1 = run.error = error;
+    run.pareto = true;
+    study.runs.push_back(run);
+  }
+  study.runs[1].score.slope_errors.assign(flank_directions().size(), 2.0);
+  study.orders.push_back({"heap", "s", "l1", 1.0, 0.9, 1.1, 3});
+  study.estimates.push_back({"heap", "a", "force", 2.0, 1.0});
+  study.notes = {"left out"};
+  return study;
+}
+
+TEST(StudyJson, HoldsEveryColumnOfEveryRunAndWhatIsNoNumberAsNull) {
+  const nlohmann::ordered_json json = study_json(small_study());
+  ASSERT_EQ(json["runs"].size(), 3u);
+  for (const auto& column : json["columns"])
+    EXPECT_TRUE(json["runs"][0].contains(column["name"].get<std::string>())) << column["name"];
+  EXPECT_EQ(json["runs"][0]["l1"], 0.5);
+  EXPECT_TRUE(json["runs"][0]["work_error"].is_null());
+  EXPECT_TRUE(json["runs"][0]["slope_error"].is_null());
+  EXPECT_EQ(json["runs"][1]["slope_error"].size(), json["runs"][1]["directions"].size());
+  EXPECT_EQ(json["runs"][0]["pareto"], true);
+  EXPECT_TRUE(json["problems"][0]["converged_to"].is_null());
+  EXPECT_EQ(json["orders"][0]["low"], 0.9);
+  EXPECT_EQ(json["estimates"][0]["ratio"], 2.0);
+  EXPECT_EQ(json["notes"][0], "left out");
+}
+
+TEST(StudySummary, NamesTheNearestAndTheFastestThatIsNearlyAsNear) {
+  const std::string text = study_summary(small_study());
+  EXPECT_NE(text.find("0.24\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("0.25\n"), std::string::npos) << text;  // 0.5 is more than twice 0.24
+  EXPECT_EQ(text.find("0.5\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("left out"), std::string::npos) << text;
+}
+
+TEST(StudyColumns, AreFoundByName) {
+  EXPECT_EQ(number_in("l1", small_study().runs[0]), 0.5);
+  EXPECT_ANY_THROW(number_in("weather", small_study().runs[0]));
+}
+
+}  // namespace
+}  // namespace sandstroke
