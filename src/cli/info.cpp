@@ -52,12 +52,14 @@ nlohmann::ordered_json describe(const RunFile& run) {
   }
   facts["frames"] = run.frame_times().size();
   if (run.has_trace()) {
-    const RunTrace trace = run.trace();
+    const std::vector<TickRecord> trace = run.trace();
     double force = 0.0, depth = 0.0;
-    for (const auto& f : trace.device_force) force = std::max(force, f.norm());
-    for (const double d : trace.depth) depth = std::max(depth, d);
+    for (const TickRecord& tick : trace) {
+      force = std::max(force, tick.device_force.norm());
+      depth = std::max(depth, tick.depth);
+    }
     facts["trace"] = {{"ticks", trace.size()},
-                      {"seconds", trace.size() > 1 ? trace.time.back() - trace.time.front() : 0.0},
+                      {"seconds", trace.size() > 1 ? trace.back().time - trace.front().time : 0.0},
                       {"max_force", force},
                       {"max_depth", depth}};
   }

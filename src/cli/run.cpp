@@ -46,30 +46,30 @@ nlohmann::ordered_json as_json(const RunResult& r, const Scene& scene, const std
       {"simulated_seconds", r.simulated_seconds},
       {"real_time_factor", r.simulated_seconds / r.wall_seconds},
       {"contact_ticks", r.contact_ticks},
-      {"saturated_ticks", r.saturated_ticks},
+      {"saturated_ticks", r.device.saturated_ticks},
       {"gaps", r.gaps},
-      {"passes", r.passes},
+      {"passes", r.relaxation.passes},
       {"relaxations", r.relaxations},
-      {"super_steps", r.super_steps},
-      {"rejected_stages", r.rejected_stages},
-      {"cells_visited", r.cells_visited},
-      {"tiles_active_max", r.tiles_active_max},
-      {"wake_ups", r.wake_ups},
-      {"residual", r.residual},
-      {"converged", r.converged},
+      {"super_steps", r.relaxation.super_steps},
+      {"rejected_stages", r.relaxation.rejected_stages},
+      {"cells_visited", r.relaxation.cells_visited},
+      {"tiles_active_max", r.relaxation.tiles_active_max},
+      {"wake_ups", r.relaxation.wake_ups},
+      {"residual", r.relaxation.residual},
+      {"converged", r.relaxation.converged},
       {"volume_initial", r.volume_initial},
       {"volume_final", r.volume_final},
       {"volume_drift", r.volume_drift},
       {"displaced_volume", r.displaced_volume},
       {"moved_volume", r.moved_volume},
-      {"max_force", r.max_force},
-      {"mean_force", r.mean_force},
+      {"max_force", r.device.max_force},
+      {"mean_force", r.device.mean_force},
       {"max_depth", r.max_depth},
       {"asked_depth", r.furrow ? r.furrow->asked_depth : none},
       {"furrow_depth", r.furrow ? r.furrow->depth : none},
-      {"absorbed_energy", r.absorbed_energy},
-      {"least_absorbed_energy", r.least_absorbed_energy},
-      {"least_passivity_margin", r.least_passivity_margin},
+      {"absorbed_energy", r.device.absorbed_energy},
+      {"least_absorbed_energy", r.device.least_absorbed_energy},
+      {"least_passivity_margin", r.device.least_passivity_margin},
       {"threads", r.threads},
       {"instruction_set", instruction_set()},
       {"interrupted", r.interrupted},
@@ -101,24 +101,26 @@ void print_summary(const RunResult& r, const Scene& scene, const std::string& ou
     if (r.furrow && !std::isnan(r.furrow->depth) && !std::isnan(r.furrow->asked_depth))
       row("furrow", fmt::format("{:.2f} mm deep, of {:.2f} mm that the tip was asked to be (medians)",
                                 1e3 * r.furrow->depth, 1e3 * r.furrow->asked_depth));
-    row("largest force",
-        fmt::format("{:.3f} N{}", r.max_force,
-                    r.saturated_ticks > 0 ? fmt::format(", limited in {} ticks", r.saturated_ticks) : ""));
+    row("largest force", fmt::format("{:.3f} N{}", r.device.max_force,
+                                     r.device.saturated_ticks > 0
+                                         ? fmt::format(", limited in {} ticks", r.device.saturated_ticks)
+                                         : ""));
     if (r.recorded_force)
       row("recorded force",
           fmt::format("{:.3g} N rms, {:.3g} N at most from this run's, over {} ticks", r.recorded_force->rms,
                       r.recorded_force->max, r.recorded_force->ticks));
     row("energy into sand",
-        fmt::format("{:.4g} J{}", r.absorbed_energy,
-                    returned_energy(r) ? fmt::format(", at worst {:.3g} J more returned than taken",
-                                                     -r.least_absorbed_energy)
-                                       : ""));
+        fmt::format("{:.4g} J{}", r.device.absorbed_energy,
+                    returned_energy(r.device) ? fmt::format(", at worst {:.3g} J more returned than taken",
+                                                            -r.device.least_absorbed_energy)
+                                              : ""));
     if (r.gaps > 0) row("gaps", fmt::format("{}: the tool was lifted there", r.gaps));
   }
   row("sand moved", fmt::format("{:.6g} m^3, volume drift {:.1e} of it", r.moved_volume, r.volume_drift));
-  const std::string steps = r.super_steps > 0 ? fmt::format(" in {} super steps", r.super_steps) : "";
-  row("relaxation", fmt::format("{} passes{}, residual {:.2e}, {}", r.passes, steps, r.residual,
-                                r.converged ? "at rest" : "NOT AT REST"));
+  const std::string steps =
+      r.relaxation.super_steps > 0 ? fmt::format(" in {} super steps", r.relaxation.super_steps) : "";
+  row("relaxation", fmt::format("{} passes{}, residual {:.2e}, {}", r.relaxation.passes, steps,
+                                r.relaxation.residual, r.relaxation.converged ? "at rest" : "NOT AT REST"));
   if (!r.error) return;
   row("error of heights",
       fmt::format("+-{:.3g} mm rms, {:.3g} mm at most; {:.2g} % of the changed sand lies elsewhere",
@@ -192,16 +194,16 @@ int run(const RunArguments& arguments) {
     const std::string warning = furrow_warning(scene, *result.furrow);
     if (!warning.empty()) spdlog::warn("{}", warning);
   }
-  if (scene.device.model == DeviceModel::dynamic && loop_returned_energy(result, scene.device))
+  if (scene.device.model == DeviceModel::dynamic && loop_returned_energy(result.device, scene.device))
     spdlog::warn(
         "the sand returned up to {:.3g} J more than it took: the loop was not passive; lower force.k_s, "
         "force.k_f, device.delay or device.dropped_ticks, or raise device.servo_rate or device.damping",
-        -result.least_absorbed_energy);
-  if (!result.converged) {
+        -result.device.least_absorbed_energy);
+  if (!result.relaxation.converged) {
     spdlog::warn(
         "the sand is not at rest (residual {:.2e}, tolerance {:.2e}); raise relaxation.max_passes or "
         "relaxation.tolerance",
-        result.residual, scene.relaxation.tolerance);
+        result.relaxation.residual, scene.relaxation.tolerance);
     return static_cast<int>(ErrorKind::unstable);
   }
   if (options.second && !result.error)  // the run is complete, the estimate is not

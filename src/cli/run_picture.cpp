@@ -40,11 +40,11 @@ ToolSphere RunPainter::tool_at(double time) {
                         run_.name());
     trace_ = run_.trace();
   }
-  if (trace_->time.empty())
+  if (trace_->empty())
     throw_input_error("{}: has no stroke, so there is no tool to draw; draw it with --no-tool", run_.name());
-  const auto after = std::upper_bound(trace_->time.begin(), trace_->time.end(), time);
-  const auto tick = static_cast<std::size_t>(std::max<std::ptrdiff_t>(0, after - trace_->time.begin() - 1));
-  return {scene_.device.scale * trace_->device_position[tick] + scene_.device.offset, scene_.tool.radius};
+  const auto after = std::upper_bound(trace_->begin() + 1, trace_->end(), time,
+                                      [](double at, const TickRecord& tick) { return at < tick.time; });
+  return {tip_of(scene_.device, std::prev(after)->device_position), scene_.tool.radius};
 }
 
 Image run_picture(const RunFile& run, const ViewSettings& view) {

@@ -30,7 +30,7 @@ class RunPainter {
   HeightFieldRenderer renderer_;  // before the surfaces: it refuses beds that cannot be drawn
   HeightGrid initial_;
   RenderSubject subject_;
-  std::optional<RunTrace> trace_;
+  std::optional<std::vector<TickRecord>> trace_;
 };
 
 /// The final surface of a run.

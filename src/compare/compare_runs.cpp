@@ -6,7 +6,7 @@ namespace sandstroke {
 
 std::optional<CountedTrace> whole_trace(const RunFile& run) {
   if (!run.has_trace()) return std::nullopt;
-  RunTrace trace = run.trace();
+  std::vector<TickRecord> trace = run.trace();
   return CountedTrace{trace.size(), std::move(trace)};
 }
 

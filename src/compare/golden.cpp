@@ -49,35 +49,30 @@ std::string initial_hash(const HeightGrid& heights) {
 /// Keeps NaN.
 HeightGrid rounded(const HeightGrid& values, double quantum) { return (values / quantum).round() * quantum; }
 
-template <class Column>
-Column thinned(const Column& column) {
-  Column kept;
-  for (std::size_t tick = 0; tick < column.size(); tick += trace_stride) kept.push_back(column[tick]);
-  return kept;
-}
-
 // Rows of /trace/rows: time, three of the force, depth, level, contact. One table compresses as a whole.
 constexpr Eigen::Index table_rows = 7;
 
-HeightGrid as_table(const RunTrace& trace) {
+HeightGrid as_table(const std::vector<TickRecord>& trace) {
   HeightGrid table(table_rows, static_cast<Eigen::Index>(trace.size()));
   for (Eigen::Index k = 0; k < table.cols(); ++k) {
-    table.col(k) << trace.time[k], trace.device_force[k].array(), trace.depth[k], trace.level[k],
-        trace.contact[k];
+    const TickRecord& tick = trace[static_cast<std::size_t>(k)];
+    table.col(k) << tick.time, tick.device_force.array(), tick.depth, tick.level, tick.contact;
   }
   table.middleRows(1, 3) = rounded(table.middleRows(1, 3), force_quantum);
   table.middleRows(4, 2) = rounded(table.middleRows(4, 2), height_quantum);
   return table;
 }
 
-RunTrace from_table(const HeightGrid& table) {
-  RunTrace trace;
-  for (Eigen::Index k = 0; k < table.cols(); ++k) {
-    trace.time.push_back(table(0, k));
-    trace.device_force.emplace_back(table(1, k), table(2, k), table(3, k));
-    trace.depth.push_back(table(4, k));
-    trace.level.push_back(table(5, k));
-    trace.contact.push_back(table(6, k) != 0.0);
+std::vector<TickRecord> from_table(const HeightGrid& table) {
+  std::vector<TickRecord> trace(static_cast<std::size_t>(table.cols()));
+  Eigen::Index k = 0;
+  for (TickRecord& tick : trace) {
+    const Eigen::VectorXd column = table.col(k++);
+    tick.time = column[0];
+    tick.device_force = column.segment<3>(1);
+    tick.depth = column[4];
+    tick.level = column[5];
+    tick.contact = column[6] != 0.0;
   }
   return trace;
 }
@@ -125,7 +120,7 @@ std::string provenance_text(const RunFile& run, const RunResult& result) {
       "scene_hash = \"{}\"    # of the resolved scene\nstroke_hash = \"{}\"   # of the stroke file\n\n"
       "[result]\nticks = {}\npasses = {}\nresidual = {:.3e}\nvolume_drift = {:.3e}\n",
       version, commit, compiler, provenance_of(run, "scene_hash"), provenance_of(run, "stroke_hash"),
-      result.ticks, result.passes, result.residual, result.volume_drift);
+      result.ticks, result.relaxation.passes, result.relaxation.residual, result.volume_drift);
 }
 
 Check same_check(const std::string& what, const std::string& entry_name, bool same) {
@@ -138,14 +133,9 @@ Check same_check(const std::string& what, const std::string& entry_name, bool sa
 
 std::optional<CountedTrace> golden_trace(const RunFile& run) {
   if (!run.has_trace()) return std::nullopt;
-  const RunTrace trace = run.trace();
-  CountedTrace kept;
-  kept.ticks = trace.size();
-  kept.rows.time = thinned(trace.time);
-  kept.rows.device_force = thinned(trace.device_force);
-  kept.rows.depth = thinned(trace.depth);
-  kept.rows.level = thinned(trace.level);
-  kept.rows.contact = thinned(trace.contact);
+  const std::vector<TickRecord> trace = run.trace();
+  CountedTrace kept{trace.size(), {}};
+  for (std::size_t tick = 0; tick < trace.size(); tick += trace_stride) kept.rows.push_back(trace[tick]);
   return kept;
 }
 

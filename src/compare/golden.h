@@ -46,7 +46,7 @@ struct GoldenContent {
   double cell_size = 0.0;  ///< m
   std::string initial_hash;
   HeightGrid change;                  ///< m, of the whole bed
-  std::optional<CountedTrace> trace;  ///< every 10th tick; the other columns are empty
+  std::optional<CountedTrace> trace;  ///< every 10th tick; its other fields say nothing
 };
 
 // Error: input where the file is missing or damaged.

@@ -18,43 +18,42 @@ constexpr std::size_t most_points = 2000;  // of a curve
 struct Quantity {
   std::string group, name, unit;
   double limit;
-  std::function<double(const RunTrace&, std::size_t)> value;
-  std::function<double(const RunTrace&, const RunTrace&, std::size_t)> difference;
+  std::function<double(const TickRecord&)> value;
+  std::function<double(const TickRecord& golden, const TickRecord& run)> difference;
 };
 
 std::vector<Quantity> quantities(const Tolerances& tolerances) {
   const auto number = [](const std::string& group, const std::string& name, const std::string& unit,
-                         double limit, const std::function<double(const RunTrace&, std::size_t)>& value) {
+                         double limit, const std::function<double(const TickRecord&)>& value) {
     return Quantity{group,
                     name,
                     unit,
                     limit,
                     value,
-                    [value](const RunTrace& golden, const RunTrace& run, std::size_t tick) {
-                      return value(run, tick) - value(golden, tick);
-                    }};
+                    [value](const TickRecord& golden, const TickRecord& run) {
+                      return value(run) - value(golden); }};
   };
   std::vector<Quantity> all{{"Force on the device", "magnitude", "N", tolerances.force,
-                             [](const RunTrace& t, std::size_t tick) { return t.device_force[tick].norm(); },
-                             [](const RunTrace& golden, const RunTrace& run, std::size_t tick) {
-                               return (run.device_force[tick] - golden.device_force[tick]).norm();
+                             [](const TickRecord& tick) { return tick.device_force.norm(); },
+                             [](const TickRecord& golden, const TickRecord& run) {
+                               return (run.device_force - golden.device_force).norm();
                              }}};
   for (const int axis : {0, 1, 2}) {
     all.push_back(number("Force on the device", fmt::format("along {}", "xyz"[axis]), "N", tolerances.force,
-                         [axis](const RunTrace& t, std::size_t tick) { return t.device_force[tick][axis]; }));
+                         [axis](const TickRecord& tick) { return tick.device_force[axis]; }));
   }
   all.push_back(number("Tool in the sand", "depth", "m", tolerances.depth,
-                       [](const RunTrace& t, std::size_t tick) { return t.depth[tick]; }));
+                       [](const TickRecord& tick) { return tick.depth; }));
   all.push_back(number("Tool in the sand", "sand level", "m", tolerances.depth,
-                       [](const RunTrace& t, std::size_t tick) { return t.level[tick]; }));
+                       [](const TickRecord& tick) { return tick.level; }));
   return all;
 }
 
 template <class Value>
-Json curve_json(const RunTrace& trace, std::size_t ticks, const Value& value) {
+Json curve_json(const std::vector<TickRecord>& trace, std::size_t ticks, const Value& value) {
   Curve curve;
   for (std::size_t tick = 0; tick < ticks; ++tick) {
-    curve.time.push_back(trace.time[tick]);
+    curve.time.push_back(trace[tick].time);
     curve.value.push_back(value(tick));
   }
   curve = thinned_curve(curve, most_points);
@@ -122,14 +121,14 @@ Json traces_part(const std::optional<CountedTrace>& golden, const std::optional<
     const auto add = [&](const char* name, const std::optional<CountedTrace>& trace) {
       if (!trace) return;
       json[name] = curve_json(trace->rows, trace->rows.size(),
-                              [&](std::size_t tick) { return quantity.value(trace->rows, tick); });
+                              [&](std::size_t tick) { return quantity.value(trace->rows[tick]); });
     };
     add("golden", golden);
     add("run", run);
     if (golden && run) {
-      json["difference"] =
-          curve_json(golden->rows, std::min(golden->rows.size(), run->rows.size()),
-                     [&](std::size_t tick) { return quantity.difference(golden->rows, run->rows, tick); });
+      json["difference"] = curve_json(
+          golden->rows, std::min(golden->rows.size(), run->rows.size()),
+          [&](std::size_t tick) { return quantity.difference(golden->rows[tick], run->rows[tick]); });
     }
     part["quantities"].push_back(std::move(json));
   }

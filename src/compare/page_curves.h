@@ -21,8 +21,8 @@ Curve thinned_curve(const Curve& curve, std::size_t most);
 
 /// The traces of golden and run as a part of a page: force on the device (its magnitude and components),
 /// depth and sand level, each with the difference run - golden over the ticks that both have (of the
-/// magnitude: the length of the difference). A trace that is missing has no curves. Only the columns that
-/// trace_difference looks at are used.
+/// magnitude: the length of the difference). A trace that is missing has no curves. Only what
+/// trace_difference looks at is used.
 nlohmann::ordered_json traces_part(const std::optional<CountedTrace>& golden,
                                    const std::optional<CountedTrace>& run, const Tolerances& tolerances);
 

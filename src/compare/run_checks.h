@@ -37,7 +37,7 @@ Check cell_size_check(double golden, double run);
 /// to compare.
 struct CountedTrace {
   std::size_t ticks = 0;  ///< of the whole run
-  RunTrace rows;
+  std::vector<TickRecord> rows;
 };
 std::vector<Check> trace_checks(const std::optional<CountedTrace>& golden,
                                 const std::optional<CountedTrace>& run, const Tolerances& tolerances);

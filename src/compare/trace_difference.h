@@ -20,7 +20,7 @@ struct TraceDifference {
 };
 
 /// The level may be NaN where it is in both and neither tool is in contact: the tool is lifted.
-/// Only the columns named above and `contact` are looked at; each has one value per tick (Error: input).
-TraceDifference trace_difference(const RunTrace& golden, const RunTrace& run);
+/// Only the fields named above and `contact` are looked at.
+TraceDifference trace_difference(const std::vector<TickRecord>& golden, const std::vector<TickRecord>& run);
 
 }  // namespace sandstroke

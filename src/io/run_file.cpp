@@ -70,30 +70,25 @@ HeightField RunFile::final_bed() const {
 
 bool RunFile::has_trace() const { return file_.has("/trace/time"); }
 
-RunTrace RunFile::trace() const {
-  RunTrace trace;
-  trace.time = file_.doubles("/trace/time");
-  const auto checked = [&](const std::string& name, auto column) {
-    if (column.size() != trace.size())
-      throw_input_error("{}: {} has {} rows and /trace/time {}; the file is damaged", file_.name(), name,
-                        column.size(), trace.size());
-    return column;
-  };
-  const auto vectors = [&](const std::string& name) { return checked(name, file_.vectors(name)); };
-  const auto doubles = [&](const std::string& name) { return checked(name, file_.doubles(name)); };
-  const auto integers = [&](const std::string& name) { return checked(name, file_.integers(name)); };
-  trace.hand_position = vectors("/trace/hand_position");
-  trace.device_position = vectors("/trace/device_position");
-  trace.device_force = vectors("/trace/device_force");
-  trace.repulse_force = vectors("/trace/repulse_force");
-  trace.drag_force = vectors("/trace/drag_force");
-  trace.level = doubles("/trace/level");
-  trace.depth = doubles("/trace/depth");
-  trace.displaced_volume = doubles("/trace/displaced_volume");
-  trace.passivity_margin = doubles("/trace/passivity_margin");
-  trace.contact = integers("/trace/contact");
-  trace.saturated = integers("/trace/saturated");
-  return trace;
+std::vector<TickRecord> RunFile::trace() const {
+  std::vector<TickRecord> ticks(file_.doubles("/trace/time").size());
+  visit_tick_fields([&](const std::string& field, const char*, const auto& of) {
+    const std::string name = "/trace/" + field;
+    const auto fill = [&](const auto& column) {
+      if (column.size() != ticks.size())
+        throw_input_error("{}: {} has {} rows and /trace/time {}; the file is damaged", file_.name(), name,
+                          column.size(), ticks.size());
+      for (std::size_t i = 0; i < ticks.size(); ++i) of(ticks[i]) = column[i];
+    };
+    using Value = std::decay_t<decltype(of(ticks.front()))>;
+    if constexpr (std::is_same_v<Value, Eigen::Vector3d>)
+      fill(file_.vectors(name));
+    else if constexpr (std::is_same_v<Value, bool>)
+      fill(file_.integers(name));
+    else
+      fill(file_.doubles(name));
+  });
+  return ticks;
 }
 
 std::vector<double> RunFile::frame_times() const {

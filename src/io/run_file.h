@@ -7,17 +7,9 @@
 #include <vector>
 
 #include "hdf5/hdf5_file.h"
+#include "sim/run_result.h"
 
 namespace sandstroke {
-
-/// /trace of a run file, column by column; entry i of each belongs to tick i.
-struct RunTrace {
-  std::vector<double> time;
-  std::vector<Eigen::Vector3d> hand_position, device_position, device_force, repulse_force, drag_force;
-  std::vector<double> level, depth, displaced_volume, passivity_margin;
-  std::vector<std::uint32_t> contact, saturated;
-  std::size_t size() const { return time.size(); }
-};
 
 /// A run file (HDF5) read back. Error: io where it cannot be opened; input where it is no run file or lacks
 /// what is asked for.
@@ -37,7 +29,7 @@ class RunFile {
   HeightField final_bed() const;
   bool has_final() const;
   bool has_trace() const;
-  RunTrace trace() const;
+  std::vector<TickRecord> trace() const;  ///< what visit_tick_fields() names
   /// Times of the frames kept during the run [s]; RunFrames has their surfaces.
   std::vector<double> frame_times() const;
   /// Makes the k-th frame of the one before (of the initial surface): how many tiles changed.

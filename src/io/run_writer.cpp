@@ -3,6 +3,7 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <type_traits>
 
 #include "core/hash.h"
 #include "core/output_file.h"
@@ -42,7 +43,36 @@ std::string xdmf_text(const std::string& run_name, int rows, int cols, double ce
          "  </Domain>\n</Xdmf>\n";
 }
 
-void put(const Eigen::Vector3d& v, double* out) { std::copy(v.begin(), v.end(), out); }
+/// What a field of(record) of records is.
+template <class Record, class Of>
+using FieldOf = std::decay_t<std::invoke_result_t<Of, Record&>>;
+
+/// Makes a growing dataset for a field of records.
+template <class Record, class Of>
+Hdf5Column column_of(Hdf5Writer& file, const std::string& name, const std::string& unit, const Of&) {
+  using Field = FieldOf<Record, Of>;
+  Hdf5Column column;
+  if constexpr (std::is_same_v<Field, bool>)
+    column = file.column<std::uint8_t>(name);
+  else
+    column = file.column(name, std::is_same_v<Field, Eigen::Vector3d> ? 3 : 1);
+  if (!unit.empty()) file.attribute(name, "unit", unit);
+  return column;
+}
+
+/// Appends of(record) of all records.
+template <class Record, class Of>
+void append(Hdf5Column& column, const std::vector<Record>& records, const Of& of) {
+  using Field = FieldOf<Record, Of>;
+  using Number = std::conditional_t<std::is_same_v<Field, bool>, std::uint8_t, double>;
+  std::vector<Number> rows;
+  for (const Record& record : records)
+    if constexpr (std::is_same_v<Field, Eigen::Vector3d>)
+      rows.insert(rows.end(), of(record).begin(), of(record).end());
+    else
+      rows.push_back(static_cast<Number>(of(record)));
+  column.append(rows.data(), records.size());
+}
 
 }  // namespace
 
@@ -67,39 +97,14 @@ RunWriter::RunWriter(const std::filesystem::path& path, const Simulation& simula
   file_.attribute("/surface", "unit", "m");
   for (int slot = 0; slot < bed.touched_tiles(); ++slot)
     frame_revisions_.push_back(bed.tile_revision(bed.tile_of(slot)));
-  if (keeps_trace_) make_trace_columns();
-  make_relaxation_columns();
+  if (keeps_trace_)
+    visit_tick_fields([&](const std::string& name, const char* unit, const auto& of) {
+      tick_columns_.push_back(column_of<TickRecord>(file_, "/trace/" + name, unit, of));
+    });
+  visit_relaxation_fields([&](const std::string& name, const char* unit, const auto& of) {
+    relaxation_columns_.push_back(column_of<RelaxationRecord>(file_, "/relaxation/" + name, unit, of));
+  });
   file_.flush();
-}
-
-void RunWriter::make_trace_columns() {
-  const auto add = [&](const std::string& name, int width, const char* unit, auto take) {
-    tick_fields_.push_back({file_.column("/trace/" + name, width), width, take});
-    file_.attribute("/trace/" + name, "unit", unit);
-  };
-  add("time", 1, "s", [](const TickRecord& t, double* out) { *out = t.time; });
-  add("hand_position", 3, "m", [](const TickRecord& t, double* out) { put(t.hand.position, out); });
-  add("device_position", 3, "m", [](const TickRecord& t, double* out) { put(t.device_position, out); });
-  add("device_force", 3, "N", [](const TickRecord& t, double* out) { put(t.device_force, out); });
-  add("repulse_force", 3, "N", [](const TickRecord& t, double* out) { put(t.repulse_force, out); });
-  add("drag_force", 3, "N", [](const TickRecord& t, double* out) { put(t.drag_force, out); });
-  add("level", 1, "m", [](const TickRecord& t, double* out) { *out = t.level; });
-  add("depth", 1, "m", [](const TickRecord& t, double* out) { *out = t.depth; });
-  add("displaced_volume", 1, "m^3", [](const TickRecord& t, double* out) { *out = t.displaced_volume; });
-  add("passivity_margin", 1, "N s/m", [](const TickRecord& t, double* out) { *out = t.passivity_margin; });
-  tick_flags_.emplace_back(file_.column<std::uint8_t>("/trace/contact"), &TickRecord::contact);
-  tick_flags_.emplace_back(file_.column<std::uint8_t>("/trace/saturated"), &TickRecord::saturated);
-}
-
-void RunWriter::make_relaxation_columns() {
-  const auto add = [&](const std::string& name, const char* unit, auto take) {
-    relaxation_fields_.push_back({file_.column("/relaxation/" + name), 1, take});
-    file_.attribute("/relaxation/" + name, "unit", unit);
-  };
-  add("time", "s", [](const RelaxationRecord& r, double* out) { *out = r.time; });
-  add("passes", "1", [](const RelaxationRecord& r, double* out) { *out = static_cast<double>(r.passes); });
-  add("residual", "1", [](const RelaxationRecord& r, double* out) { *out = r.residual; });
-  add("moved_volume", "m^3", [](const RelaxationRecord& r, double* out) { *out = r.moved_volume; });
 }
 
 void RunWriter::on_tick(const TickRecord& tick) {
@@ -118,24 +123,11 @@ void RunWriter::write_rows_in_time() {
   if (full || std::chrono::steady_clock::now() - written_ >= time_per_write) write_rows();
 }
 
-template <class Record>
-void RunWriter::append(std::vector<Field<Record>>& fields, const std::vector<Record>& records) {
-  std::vector<double> rows;
-  for (auto& field : fields) {
-    rows.resize(records.size() * field.width);
-    for (std::size_t i = 0; i < records.size(); ++i) field.take(records[i], rows.data() + i * field.width);
-    field.column.append(rows.data(), records.size());
-  }
-}
-
 void RunWriter::write_rows() {
-  append(tick_fields_, ticks_);
-  std::vector<std::uint8_t> flags(ticks_.size());
-  for (auto& [column, flag] : tick_flags_) {
-    for (std::size_t i = 0; i < ticks_.size(); ++i) flags[i] = ticks_[i].*flag;
-    column.append(flags.data(), flags.size());
-  }
-  append(relaxation_fields_, relaxations_);
+  auto column = tick_columns_.begin();
+  if (keeps_trace_) visit_tick_fields([&](auto, auto, const auto& of) { append(*column++, ticks_, of); });
+  column = relaxation_columns_.begin();
+  visit_relaxation_fields([&](auto, auto, const auto& of) { append(*column++, relaxations_, of); });
   ticks_.clear();
   relaxations_.clear();
   file_.flush();
@@ -169,9 +161,8 @@ void RunWriter::on_frame(double time, const HeightField& surface) {
 
 void RunWriter::finish(const RunResult& result, const HeightField& surface) {
   write_rows();
-  tick_fields_.clear();
-  tick_flags_.clear();
-  relaxation_fields_.clear();
+  tick_columns_.clear();
+  relaxation_columns_.clear();
   file_.write("/provenance/threads", std::to_string(result.threads));
   if (result.interrupted) {
     file_.flush();

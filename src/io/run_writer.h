@@ -28,27 +28,13 @@ class RunWriter : public SimulationObserver {
   void finish(const RunResult& result, const HeightField& surface);
 
  private:
-  // One growing dataset per field of a record, and how to take it from one.
-  template <class Record>
-  struct Field {
-    Hdf5Column column;
-    int width;
-    void (*take)(const Record&, double*);
-  };
-
-  void make_trace_columns();
-  void make_relaxation_columns();
-  template <class Record>
-  static void append(std::vector<Field<Record>>& fields, const std::vector<Record>& records);
   void write_rows_in_time();
   void write_rows();
 
   std::filesystem::path path_;
   Hdf5Writer file_;
   bool keeps_trace_;
-  std::vector<Field<TickRecord>> tick_fields_;
-  std::vector<std::pair<Hdf5Column, bool TickRecord::*>> tick_flags_;
-  std::vector<Field<RelaxationRecord>> relaxation_fields_;
+  std::vector<Hdf5Column> tick_columns_, relaxation_columns_;  // in the order of their fields
 
   std::chrono::steady_clock::time_point written_ = std::chrono::steady_clock::now();
   std::vector<TickRecord> ticks_;  // not written yet

@@ -22,45 +22,21 @@
 namespace sandstroke {
 namespace {
 
-/// A run writer that also draws the progress bar, keeps the forces where they are asked for, and compares
-/// them with those recorded with the stroke.
-class WriterWithProgress : public RunWriter {
+/// The bar on the terminal.
+class ProgressBar : public SimulationObserver {
  public:
-  WriterWithProgress(const std::filesystem::path& path, const Simulation& simulation,
-                     const std::string& stroke_hash, const std::string& scene_file,
-                     const std::optional<Stroke>& stroke, bool progress, bool keep_force)
-      : RunWriter(path, simulation, stroke_hash, scene_file),
-        keep_force_(keep_force),
-        path_(simulation.scene()) {
-    if (stroke && !stroke->force.empty()) recorded_force_.emplace(*stroke);
-    if (progress) bar_.emplace("run");
-  }
-  void on_tick(const TickRecord& tick) override {
-    RunWriter::on_tick(tick);
-    if (keep_force_) force_.push_back(tick.device_force);
-    if (recorded_force_) recorded_force_->compare(tick);
-    path_.add(tick);
-  }
   void on_progress(double fraction) override {
     fraction_ = fraction;
-    if (bar_) bar_->update(fraction);
+    bar_.update(fraction);
   }
   void on_pass(std::int64_t passes) override {
     const bool after_the_stroke = fraction_ == 0.0 || fraction_ == 1.0;
-    if (bar_ && after_the_stroke) bar_->count(passes, "passes towards rest");
+    if (after_the_stroke) bar_.count(passes, "passes towards rest");
   }
-  void clear_bar() { bar_.reset(); }
-  const std::vector<Eigen::Vector3d>& force() const { return force_; }
-  const TipPath& tip_path() const { return path_.path(); }
-  const std::optional<RecordedForce>& recorded_force() const { return recorded_force_; }
 
  private:
-  std::optional<Progress> bar_;
+  Progress bar_{"run"};
   double fraction_ = 0.0;  // of the stroke
-  bool keep_force_;
-  std::vector<Eigen::Vector3d> force_;  // N, per tick
-  std::optional<RecordedForce> recorded_force_;
-  TipPathGatherer path_;
 };
 
 }  // namespace
@@ -100,20 +76,27 @@ RunResult run_scene(const Scene& scene, const std::filesystem::path& output, con
   }
   const std::string scene_file =
       options.scene_file.empty() ? "" : scene_file_entry(options.scene_file, output);
-  WriterWithProgress writer(output, simulation, stroke_hash, scene_file, stroke, options.progress,
-                            options.second.has_value());
-  RunResult result = simulation.run(writer);
+  RunWriter writer(output, simulation, stroke_hash, scene_file);
+  TipPathGatherer path(scene);
+  std::optional<ProgressBar> bar;
+  std::optional<RecordedForce> recorded_force;
+  Kept force(force_of);
+  Observers observers = {&writer, &path};
+  if (options.progress) observers.push_back(&bar.emplace());
+  if (stroke && !stroke->force.empty()) observers.push_back(&recorded_force.emplace(*stroke));
+  if (options.second) observers.push_back(&force);
+  RunResult result = simulation.run(observers);
   result.threads = threads;
-  if (writer.recorded_force()) result.recorded_force = writer.recorded_force()->difference();
+  if (recorded_force) result.recorded_force = recorded_force->difference();
   if (result.contact_ticks > 0)
-    result.furrow = measure_furrow(*start, simulation.bed(), writer.tip_path(), scene.tool.radius);
-  writer.clear_bar();
+    result.furrow = measure_furrow(*start, simulation.bed(), path.path(), scene.tool.radius);
+  bar.reset();
   writer.finish(result, simulation.bed());
   if (options.second && !result.interrupted) {
     if (options.progress) spdlog::info("estimating the error");
-    const Solution run{simulation.bed(), writer.force(), result.converged};
     try {
-      const ErrorEstimate error = estimate_error(scene, *start, stroke, run, *options.second);
+      const ErrorEstimate error =
+          estimate_error(scene, *start, stroke, {simulation.bed(), result}, force.values, *options.second);
       if (!interrupted()) result.error = error;
       if (!interrupted() && !error.at_rest)
         spdlog::warn(

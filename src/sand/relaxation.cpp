@@ -9,6 +9,18 @@
 
 namespace sandstroke {
 
+void RelaxationOutcome::add(const RelaxationOutcome& next) {
+  passes += next.passes;
+  super_steps += next.super_steps;
+  rejected_stages += next.rejected_stages;
+  residual = next.residual;
+  moved_volume += next.moved_volume;
+  cells_visited += next.cells_visited;
+  tiles_active_max = std::max(tiles_active_max, next.tiles_active_max);
+  wake_ups += next.wake_ups;
+  converged = next.converged;
+}
+
 double talus_slope(double talus_angle) { return std::tan(talus_angle * std::numbers::pi / 180.0); }
 
 double flow_share(const RelaxationSettings& settings) {

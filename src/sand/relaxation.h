@@ -48,6 +48,9 @@ struct RelaxationOutcome {
   int tiles_active_max = 0;
   std::int64_t wake_ups = 0;  ///< of tiles at rest
   bool converged = false;     ///< every cell rests, or what still flows is below rounding
+
+  /// Goes on with what came next: counts and volumes add up, residual and converged are the next one's.
+  void add(const RelaxationOutcome& next);
 };
 
 /// Relaxes a bed to equilibrium, again and again as it is disturbed. Passes are Jacobi: all cells at once,

@@ -13,11 +13,13 @@ SimulatedDevice::State as_state(const Hand& hand) { return {hand.position, hand.
 
 }  // namespace
 
-DeviceSide::DeviceSide(const ForceSettings& force, const DeviceSettings& device, const Hand& hand)
+DeviceSide::DeviceSide(const ForceSettings& force, const DeviceSettings& device)
     : force_(force),
-      device_(device, as_state(hand)),
+      device_(device, as_state(Hand{})),
       late_force_(device),
       least_margin_(std::numeric_limits<double>::infinity()) {}
+
+void DeviceSide::start(const Hand& hand) { device_ = SimulatedDevice(device_.settings(), as_state(hand)); }
 
 void DeviceSide::feel(TickRecord& record) {
   Eigen::Vector3d computed = Eigen::Vector3d::Zero();
@@ -53,14 +55,14 @@ void DeviceSide::advance(const TickRecord& record) {
   least_margin_ = std::min(least_margin_, record.passivity_margin);
 }
 
-void DeviceSide::report(RunResult& result) const {
-  result.saturated_ticks = saturated_ticks_;
-  result.max_force = max_force_;
-  result.mean_force = contact_ticks_ > 0 ? contact_force_.value() / static_cast<double>(contact_ticks_) : 0.0;
-  result.absorbed_energy = energy_.absorbed();
-  result.least_absorbed_energy = energy_.least();
-  result.least_passivity_margin =
-      contact_ticks_ > 0 ? least_margin_ : passivity_margin(0.0, 0.0, force_, device_.settings());
+DeviceResult DeviceSide::result() const {
+  const bool contact = contact_ticks_ > 0;
+  return {saturated_ticks_,
+          max_force_,
+          contact ? contact_force_.value() / static_cast<double>(contact_ticks_) : 0.0,
+          energy_.absorbed(),
+          energy_.least(),
+          contact ? least_margin_ : passivity_margin(0.0, 0.0, force_, device_.settings())};
 }
 
 }  // namespace sandstroke

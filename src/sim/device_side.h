@@ -13,8 +13,10 @@ namespace sandstroke {
 /// side needs to know where it is, no more: the sand of a kinematic device is the same whatever its forces.
 class DeviceSide {
  public:
-  /// Starts with the hand.
-  DeviceSide(const ForceSettings& force, const DeviceSettings& device, const Hand& hand);
+  DeviceSide(const ForceSettings& force, const DeviceSettings& device);
+
+  /// Before the first tick: the device is where the hand is, and moves as it does.
+  void start(const Hand& hand);
 
   const SimulatedDevice& device() const { return device_; }
 
@@ -23,8 +25,8 @@ class DeviceSide {
   /// Moves on to the end of that tick. Error: unstable, where the force is beyond any number.
   void advance(const TickRecord& record);
 
-  /// Writes forces, energy and passivity of all ticks into the result.
-  void report(RunResult& result) const;
+  /// Forces, energy and passivity of all ticks so far.
+  DeviceResult result() const;
 
  private:
   ForceSettings force_;

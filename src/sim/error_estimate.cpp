@@ -11,12 +11,6 @@
 namespace sandstroke {
 namespace {
 
-/// Keeps the force of every tick.
-struct ForceTrace : SimulationObserver {
-  std::vector<Eigen::Vector3d> force;
-  void on_tick(const TickRecord& tick) override { force.push_back(tick.device_force); }
-};
-
 /// Which of `there` intervals that divide a length one of `here` others covers, and what share of it each
 /// does.
 struct Cover {
@@ -111,7 +105,7 @@ HeightField start_of(const Scene& second, const HeightField& start) {
   const bool cell_by_cell =
       surface.kind == SurfaceKind::file || (surface.kind == SurfaceKind::noise && surface.wavelength == 0.0);
   const int rows = second.bed.rows, cols = second.bed.cols;
-  if (!cell_by_cell) return make_surface(surface, rows, cols, second.bed.cell_size());
+  if (!cell_by_cell) return starting_bed(second.bed);
   const Averages averages(start, rows, cols);
   return HeightField(HeightGrid::NullaryExpr(rows, cols, averages), second.bed.cell_size());
 }
@@ -135,13 +129,6 @@ Change change_of(const HeightField& start, const HeightField& end) {
 }
 
 }  // namespace
-
-Solution solve(const Scene& scene, const HeightField& start, const std::optional<Stroke>& stroke) {
-  ForceTrace trace;
-  Simulation simulation(scene, start, stroke);
-  const RunResult result = simulation.run(trace);
-  return {simulation.bed(), std::move(trace.force), result.converged};
-}
 
 Scene second_scene(const Scene& scene, SecondSolution which) {
   const bool coarser = which == SecondSolution::coarser;
@@ -180,31 +167,36 @@ Scene second_scene(const Scene& scene, SecondSolution which) {
 }
 
 ErrorEstimate estimate_error(const Scene& scene, const HeightField& start,
-                             const std::optional<Stroke>& stroke, const Solution& run, SecondSolution which) {
+                             const std::optional<Stroke>& stroke, const Solution& run,
+                             const std::vector<Eigen::Vector3d>& force, SecondSolution which) {
   const Stopwatch watch;
   const Scene second_settings = second_scene(scene, which);
-  const Solution second = solve(second_settings, start_of(second_settings, start), stroke);
+  Kept second_force(force_of);
+  const Solution second = solve(second_settings, start_of(second_settings, start), stroke, {&second_force});
   const bool coarser = which == SecondSolution::coarser;
   const Solution &coarse = coarser ? second : run, &fine = coarser ? run : second;
+  const auto &coarse_force = coarser ? second_force.values : force,
+             &fine_force = coarser ? force : second_force.values;
 
   // Errors e(run) = C and e(coarser) = r C, or e(run) = r C and e(finer) = C; the distance is (r - 1) C.
   const auto error_over_distance = [&](double r) { return (coarser ? 1.0 : r) / (r - 1.0); };
-  const double of_heights = error_over_distance(coarse.surface.cell_size() / fine.surface.cell_size()),
-               of_forces = error_over_distance(2.0);
-  const Distance height = height_distance(fine.surface, coarse.surface),
-                 force = force_distance(fine.force, coarse.force);
+  const double height_factor = error_over_distance(coarse.surface.cell_size() / fine.surface.cell_size()),
+               force_factor = error_over_distance(2.0);
+  const Distance of_height = height_distance(fine.surface, coarse.surface),
+                 of_force = force_distance(fine_force, coarse_force);
   const Change change = change_of(start, run.surface);
-  const auto forces = std::count_if(coarse.force.begin(), coarse.force.end(),
+  const auto forces = std::count_if(coarse_force.begin(), coarse_force.end(),
                                     [](const Eigen::Vector3d& f) { return f.squaredNorm() > 0.0; });
   ErrorEstimate estimate;
   if (change.volume > 0.0) {
-    estimate.height_share = of_heights * height.sum / change.volume;
-    estimate.height_rms = of_heights * std::sqrt(height.squares / change.area);
+    estimate.height_share = height_factor * of_height.sum / change.volume;
+    estimate.height_rms = height_factor * std::sqrt(of_height.squares / change.area);
   }
-  estimate.height_max = of_heights * height.max;
-  if (forces > 0) estimate.force_rms = of_forces * std::sqrt(force.squares / static_cast<double>(forces));
-  estimate.force_max = of_forces * force.max;
-  estimate.at_rest = run.at_rest && second.at_rest;
+  estimate.height_max = height_factor * of_height.max;
+  if (forces > 0)
+    estimate.force_rms = force_factor * std::sqrt(of_force.squares / static_cast<double>(forces));
+  estimate.force_max = force_factor * of_force.max;
+  estimate.at_rest = run.result.relaxation.converged && second.result.relaxation.converged;
   estimate.wall_seconds = watch.seconds();
   return estimate;
 }

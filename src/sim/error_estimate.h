@@ -4,19 +4,9 @@
 #include <optional>
 #include <vector>
 
-#include "sim/simulation.h"
+#include "sim/solution.h"
 
 namespace sandstroke {
-
-/// What a scene comes to.
-struct Solution {
-  HeightField surface;
-  std::vector<Eigen::Vector3d> force;  ///< N, on the device, per tick
-  bool at_rest = true;                 ///< the sand came to rest in the end
-};
-
-/// Runs a scene from this surface. Error: unstable.
-Solution solve(const Scene& scene, const HeightField& start, const std::optional<Stroke>& stroke);
 
 /// The second solution that a run is held against: every step half as large (10 to 20 times the run), or
 /// twice as large (a tenth of the run, but fooled by a tool of few cells, or by cells that happen to lie
@@ -30,8 +20,10 @@ Scene second_scene(const Scene& scene, SecondSolution which);
 
 /// Richardson's estimate: all parts of the method are of first order, so that with steps r times as large the
 /// error is r times as large, and the distance between two solutions tells it. start: the run's initial
-/// surface; stroke: as the run had it. Error: unstable, where the second solution is.
+/// surface; stroke: as the run had it; force [N]: on the device, of every tick of the run. Error: unstable,
+/// where the second solution is.
 ErrorEstimate estimate_error(const Scene& scene, const HeightField& start,
-                             const std::optional<Stroke>& stroke, const Solution& run, SecondSolution which);
+                             const std::optional<Stroke>& stroke, const Solution& run,
+                             const std::vector<Eigen::Vector3d>& force, SecondSolution which);
 
 }  // namespace sandstroke

@@ -148,7 +148,7 @@ double median(std::vector<double> values) {
 
 }  // namespace
 
-void TipPathGatherer::add(const TickRecord& tick) {
+void TipPathGatherer::on_tick(const TickRecord& tick) {
   if (tick.contact) {
     const Eigen::Vector2d tip = tip_of(device_, tick.device_position).head<2>();
     const bool far = path_.points.empty() || (tip - path_.points.back()).norm() >= spacing_;

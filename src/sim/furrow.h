@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "sim/run_result.h"
 #include "sim/scene.h"
+#include "sim/simulation_observer.h"
 
 namespace sandstroke {
 
@@ -20,10 +20,10 @@ struct TipPath {
 
 /// Gathers the path of a run, in points a quarter of a tool radius apart. A tip that trembles at the surface
 /// goes on with the piece that it left there.
-class TipPathGatherer {
+class TipPathGatherer : public SimulationObserver {
  public:
   explicit TipPathGatherer(const Scene& scene) : device_(scene.device), spacing_(0.25 * scene.tool.radius) {}
-  void add(const TickRecord& tick);
+  void on_tick(const TickRecord& tick) override;
   const TipPath& path() const { return path_; }
 
  private:

@@ -13,7 +13,7 @@ bool RecordedForce::unaltered(std::size_t sample) const {
   return stroke_.flags.empty() || (stroke_.flags[sample] & altered) == 0;
 }
 
-void RecordedForce::compare(const TickRecord& tick) {
+void RecordedForce::on_tick(const TickRecord& tick) {
   const double time = stroke_.time.front() + tick.time;
   while (cursor_ + 1 < stroke_.size() && stroke_.time[cursor_ + 1] <= time) ++cursor_;
   Eigen::Vector3d recorded = stroke_.force[cursor_];

@@ -2,18 +2,18 @@
 
 #include "core/compensated_sum.h"
 #include "haptics/stroke.h"
-#include "sim/run_result.h"
+#include "sim/simulation_observer.h"
 
 namespace sandstroke {
 
 /// Holds the forces of a run against those that the hand felt when its stroke was recorded (record --feel),
 /// by linear interpolation between samples. Left out are samples whose force the recorder altered
 /// (SampleFlag), and where samples are not joined.
-class RecordedForce {
+class RecordedForce : public SimulationObserver {
  public:
   /// placed: as it is played, with forces.
   explicit RecordedForce(const Stroke& placed) : stroke_(placed) {}
-  void compare(const TickRecord& tick);
+  void on_tick(const TickRecord& tick) override;
   ForceDifference difference() const;
 
  private:

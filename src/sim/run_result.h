@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "haptics/stroke_sampler.h"
+#include "sand/relaxation.h"
 
 namespace sandstroke {
 
@@ -25,13 +26,54 @@ struct TickRecord {
   bool saturated = false;         ///< the device's maximum force cut the force
 };
 
+/// The columns of /trace: visit(name, unit, of), where of(tick) is the field. Who writes and who reads a run
+/// file goes through this list.
+template <class Visit>
+void visit_tick_fields(const Visit& visit) {
+  visit(
+      "time", "s", [](auto& tick) -> auto& { return tick.time; });
+  visit(
+      "hand_position", "m", [](auto& tick) -> auto& { return tick.hand.position; });
+  visit(
+      "device_position", "m", [](auto& tick) -> auto& { return tick.device_position; });
+  visit(
+      "device_force", "N", [](auto& tick) -> auto& { return tick.device_force; });
+  visit(
+      "repulse_force", "N", [](auto& tick) -> auto& { return tick.repulse_force; });
+  visit(
+      "drag_force", "N", [](auto& tick) -> auto& { return tick.drag_force; });
+  visit(
+      "level", "m", [](auto& tick) -> auto& { return tick.level; });
+  visit(
+      "depth", "m", [](auto& tick) -> auto& { return tick.depth; });
+  visit(
+      "displaced_volume", "m^3", [](auto& tick) -> auto& { return tick.displaced_volume; });
+  visit(
+      "passivity_margin", "N s/m", [](auto& tick) -> auto& { return tick.passivity_margin; });
+  visit(
+      "contact", "", [](auto& tick) -> auto& { return tick.contact; });
+  visit(
+      "saturated", "", [](auto& tick) -> auto& { return tick.saturated; });
+}
+
 /// One call of the relaxation (a row of /relaxation).
 struct RelaxationRecord {
   double time = 0.0;  ///< s
-  std::int64_t passes = 0;
-  double residual = 0.0;      ///< largest slope / tan(talus) - 1 left over
-  double moved_volume = 0.0;  ///< m^3, summed over passes
+  RelaxationOutcome outcome;
 };
+
+/// The columns of /relaxation, as visit_tick_fields().
+template <class Visit>
+void visit_relaxation_fields(const Visit& visit) {
+  visit(
+      "time", "s", [](auto& record) -> auto& { return record.time; });
+  visit(
+      "passes", "1", [](auto& record) -> auto& { return record.outcome.passes; });
+  visit(
+      "residual", "1", [](auto& record) -> auto& { return record.outcome.residual; });
+  visit(
+      "moved_volume", "m^3", [](auto& record) -> auto& { return record.outcome.moved_volume; });
+}
 
 /// How far the forces of a run are from others, over the ticks in which they can be compared.
 struct ForceDifference {
@@ -67,35 +109,34 @@ struct FurrowMeasures {
   double length = 0.0;  ///< m, of the way in contact
 };
 
+/// What the device felt in a run.
+struct DeviceResult {
+  std::int64_t saturated_ticks = 0;
+  double max_force = 0.0;        ///< N
+  double mean_force = 0.0;       ///< N, its magnitude over contact ticks
+  double absorbed_energy = 0.0;  ///< J, net energy that the device gave to the sand
+  double least_absorbed_energy =
+      0.0;  ///< J, its minimum over time; negative = sand returned more than it took
+  double least_passivity_margin = 0.0;  ///< N s/m, over contact ticks
+};
+
 /// What a whole run amounts to (`run --json`).
 struct RunResult {
   double wall_seconds = 0.0;  ///< the simulation, without start-up and file writing
   std::int64_t ticks = 0;
   double simulated_seconds = 0.0;
   std::int64_t contact_ticks = 0;
-  std::int64_t saturated_ticks = 0;
   int gaps = 0;  ///< stroke gaps at which the tool was lifted
-  std::int64_t passes = 0;
   std::int64_t relaxations = 0;
-  std::int64_t super_steps = 0;      ///< method rkl; the passes are their stages
-  std::int64_t rejected_stages = 0;  ///< method rkl: stages taken back
-  std::int64_t cells_visited = 0;    ///< by relaxation passes
-  std::int64_t wake_ups = 0;         ///< of tiles at rest
-  int tiles_active_max = 0;
-  double residual = 0.0;
-  bool converged = true;          ///< the last relaxation reached its tolerance
+  /// Of all relaxations; residual and converged are the last one's.
+  RelaxationOutcome relaxation{.converged = true};
+  DeviceResult device;
   double volume_initial = 0.0;    ///< m^3
   double volume_final = 0.0;      ///< m^3
   double displaced_volume = 0.0;  ///< m^3, by the tool
   double moved_volume = 0.0;      ///< m^3, by tool and relaxation
   double volume_drift = 0.0;      ///< |final - initial| / moved volume; 0 where nothing moved
-  double max_force = 0.0;         ///< N
-  double mean_force = 0.0;        ///< N, its magnitude over contact ticks
   double max_depth = 0.0;         ///< m
-  double absorbed_energy = 0.0;   ///< J, net energy that the device gave to the sand
-  double least_absorbed_energy =
-      0.0;  ///< J, its minimum over time; negative = sand returned more than it took
-  double least_passivity_margin = 0.0;  ///< N s/m, over contact ticks
   int threads = 1;
   bool interrupted = false;
   std::optional<FurrowMeasures> furrow;           ///< where the stroke touched sand

@@ -27,6 +27,7 @@ Simulation::Simulation(const Scene& scene, HeightField bed, std::optional<Stroke
     : scene_(scene),
       bed_(std::move(bed)),
       sand_(scene.tool, scene.displacement, scene.relaxation.travel * bed_.cell_size()),
+      device_(scene.force, scene.device),
       relaxer_(relaxer ? std::move(relaxer) : make_relaxer(scene.relaxation, bed_.cell_size())) {
   if (!stroke) return;
   if (!(stroke->duration() * scene.device.servo_rate < 1e15))
@@ -52,12 +53,12 @@ void Simulation::check_inside(const Stroke& stroke) const {
   }
 }
 
-TickRecord Simulation::tick(double time, const Hand& hand, const Hand& next, DeviceSide& side,
+TickRecord Simulation::tick(double time, const Hand& hand, const Hand& next,
                             const std::function<void()>& slip) {
   TickRecord record;
-  const SimulatedDevice::State reading = side.device().read();
+  const SimulatedDevice::State reading = device_.device().read();
   const Eigen::Vector3d tip = tip_of(scene_.device, reading.position);
-  const Eigen::Vector3d true_tip = tip_of(scene_.device, side.device().state().position);
+  const Eigen::Vector3d true_tip = tip_of(scene_.device, device_.device().state().position);
   record.time = time;
   record.hand = hand;
   record.next = next;
@@ -72,32 +73,24 @@ TickRecord Simulation::tick(double time, const Hand& hand, const Hand& next, Dev
     sand_.lift();
     if (sand_.slip_is_due()) slip();
   }
-  side.feel(record);
+  device_.feel(record);
   return record;
 }
 
-void Simulation::relax(double time, SimulationObserver& observer) {
+void Simulation::relax(double time) {
   sand_.hold(bed_);
-  const RelaxationOutcome outcome =
-      relaxer_->relax(bed_, [&observer](std::int64_t passes) { observer.on_pass(passes); });
-  result_.passes += outcome.passes;
+  const RelaxationOutcome outcome = relaxer_->relax(
+      bed_, [this](std::int64_t passes) { tell([&](auto& observer) { observer.on_pass(passes); }); });
   result_.relaxations += 1;
-  result_.super_steps += outcome.super_steps;
-  result_.rejected_stages += outcome.rejected_stages;
-  result_.cells_visited += outcome.cells_visited;
-  result_.wake_ups += outcome.wake_ups;
-  result_.tiles_active_max = std::max(result_.tiles_active_max, outcome.tiles_active_max);
-  result_.residual = outcome.residual;
-  result_.converged = outcome.converged;
-  result_.moved_volume += outcome.moved_volume;
-  observer.on_relaxation({time, outcome.passes, outcome.residual, outcome.moved_volume});
+  result_.relaxation.add(outcome);
+  tell([&](auto& observer) { observer.on_relaxation({time, outcome}); });
 }
 
-void Simulation::check_near(const TickRecord& record, const SimulatedDevice& device) const {
+void Simulation::check_near(const TickRecord& record) const {
   const double hand = std::max(tip_of(scene_.device, record.hand.position).norm(),
                                tip_of(scene_.device, record.next.position).norm());
   const double far = 100.0 * (scene_.bed.width + scene_.bed.depth) + 2.0 * hand;
-  const double distance = tip_of(scene_.device, device.state().position).norm();
+  const double distance = tip_of(scene_.device, device_.device().state().position).norm();
   if (!(distance < far))
     throw Error(
         ErrorKind::unstable,
@@ -107,25 +100,26 @@ void Simulation::check_near(const TickRecord& record, const SimulatedDevice& dev
             record.time, distance));
 }
 
-void Simulation::run_stroke(SimulationObserver& observer) {
+void Simulation::run_stroke() {
   const double servo_rate = scene_.device.servo_rate;
   const double begin = stroke_->start_time();
   const auto ticks =
       static_cast<std::int64_t>(std::floor((stroke_->end_time() - begin) * servo_rate + 1e-9)) + 1;
   Hand hand = stroke_->at(begin);
-  DeviceSide device(scene_.force, scene_.device, hand);
+  device_.start(hand);
 
   double time = 0.0;
-  const std::function<void()> slip = [&] { relax(time, observer); };
+  const std::function<void()> slip = [&] { relax(time); };
+  const auto keep_frame = [&](double at) { tell([&](auto& observer) { observer.on_frame(at, bed_); }); };
   for (std::int64_t k = 0; k < ticks && !interrupted(); ++k) {
     time = static_cast<double>(k) / servo_rate;
-    if (k == 0 && scene_.output.frames > 0.0) observer.on_frame(0.0, bed_);
+    if (k == 0 && scene_.output.frames > 0.0) keep_frame(0.0);
     const double next_time = std::min(begin + static_cast<double>(k + 1) / servo_rate, stroke_->end_time());
     const Hand next = stroke_->at(next_time);
-    const TickRecord record = tick(time, hand, next, device, slip);
+    const TickRecord record = tick(time, hand, next, slip);
 
-    device.advance(record);
-    check_near(record, device.device());
+    device_.advance(record);
+    check_near(record);
     hand = next;
     if (stroke_->lifts_between(begin + time, next_time)) sand_.lift();
 
@@ -133,45 +127,45 @@ void Simulation::run_stroke(SimulationObserver& observer) {
     result_.contact_ticks += record.contact;
     result_.displaced_volume += record.displaced_volume;
     if (record.contact) result_.max_depth = std::max(result_.max_depth, record.depth);
-    observer.on_tick(record);
-    if (comes_due(k, servo_rate, scene_.relaxation.rate)) relax(time, observer);
-    if (comes_due(k, servo_rate, scene_.output.frames))
-      observer.on_frame(static_cast<double>(k + 1) / servo_rate, bed_);
-    observer.on_progress(static_cast<double>(k + 1) / static_cast<double>(ticks));
+    tell([&](auto& observer) { observer.on_tick(record); });
+    if (comes_due(k, servo_rate, scene_.relaxation.rate)) relax(time);
+    if (comes_due(k, servo_rate, scene_.output.frames)) keep_frame(static_cast<double>(k + 1) / servo_rate);
+    const double done = static_cast<double>(k + 1) / static_cast<double>(ticks);
+    tell([&](auto& observer) { observer.on_progress(done); });
   }
-  device.report(result_);
   result_.simulated_seconds = static_cast<double>(result_.ticks) / servo_rate;
   result_.gaps = static_cast<int>(stroke_->gaps().size());
 }
 
-RunResult Simulation::run(SimulationObserver& observer) {
+RunResult Simulation::run(const Observers& observers) {
+  observers_ = observers;
   const Stopwatch watch;
   result_.volume_initial = bed_.volume();
-  if (stroke_) run_stroke(observer);
+  if (stroke_) run_stroke();
   if (!interrupted()) {
     sand_.lift();
-    relax(result_.simulated_seconds, observer);
-    result_.interrupted = interrupted() != 0 && !result_.converged;
+    relax(result_.simulated_seconds);
+    result_.interrupted = interrupted() != 0 && !result_.relaxation.converged;
   } else {
     result_.interrupted = true;
   }
   result_.volume_final = bed_.volume();
-  result_.moved_volume += result_.displaced_volume;
+  result_.moved_volume = result_.relaxation.moved_volume + result_.displaced_volume;
   if (!std::isfinite(result_.volume_final) || !std::isfinite(result_.moved_volume))
     throw Error(ErrorKind::unstable,
                 "the sand's volume is beyond any number; lower the heights of bed.surface");
   if (result_.moved_volume > 0.0)
     result_.volume_drift = std::abs(result_.volume_final - result_.volume_initial) / result_.moved_volume;
-  if (!stroke_) DeviceSide(scene_.force, scene_.device, Hand{}).report(result_);
+  result_.device = device_.result();
   result_.wall_seconds = watch.seconds();
   return result_;
 }
 
-bool returned_energy(const RunResult& result) {
+bool returned_energy(const DeviceResult& result) {
   return result.least_absorbed_energy < -1e-3 * std::abs(result.absorbed_energy);
 }
 
-bool loop_returned_energy(const RunResult& result, const DeviceSettings& device) {
+bool loop_returned_energy(const DeviceResult& result, const DeviceSettings& device) {
   const bool passive = result.least_passivity_margin > 0.0 && device.dropped_ticks == 0.0;
   return !passive && returned_energy(result);
 }

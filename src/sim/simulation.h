@@ -7,22 +7,9 @@
 #include "sim/run_result.h"
 #include "sim/sand_side.h"
 #include "sim/scene.h"
+#include "sim/simulation_observer.h"
 
 namespace sandstroke {
-
-/// Told what happens while a simulation runs.
-class SimulationObserver {
- public:
-  virtual ~SimulationObserver() = default;
-  virtual void on_tick(const TickRecord&) {}
-  virtual void on_relaxation(const RelaxationRecord&) {}
-  /// output.frames times a second, the first at time 0.
-  virtual void on_frame(double /*time*/, const HeightField&) {}
-  /// Share of the stroke that is done, 0 to 1.
-  virtual void on_progress(double /*fraction*/) {}
-  /// Passes of the relaxation that is going on.
-  virtual void on_pass(std::int64_t /*passes*/) {}
-};
 
 /// The tick loop: hand, device, level, depth and force, displacement, and
 /// relaxation at its own rate; after the last tick the bed is relaxed to equilibrium.
@@ -38,32 +25,37 @@ class Simulation {
   const HeightField& bed() const { return bed_; }
 
   /// Runs once, to the end or until interrupted(). Error: unstable, where force or device leave all bounds.
-  RunResult run(SimulationObserver& observer);
+  RunResult run(const Observers& observers = {});
 
  private:
   void check_inside(const Stroke& stroke) const;
-  void run_stroke(SimulationObserver& observer);
+  void run_stroke();
   /// What sand and device do in the tick in which the hand goes from one place to the next.
-  TickRecord tick(double time, const Hand& hand, const Hand& next, DeviceSide& device,
-                  const std::function<void()>& slip);
-  void relax(double time, SimulationObserver& observer);
+  TickRecord tick(double time, const Hand& hand, const Hand& next, const std::function<void()>& slip);
+  void relax(double time);
   /// Error: unstable, where the device, at the end of a tick, has left all bounds.
-  void check_near(const TickRecord& record, const SimulatedDevice& device) const;
+  void check_near(const TickRecord& record) const;
+  template <class Event>
+  void tell(const Event& event) {
+    for (SimulationObserver* observer : observers_) event(*observer);
+  }
 
   Scene scene_;
   HeightField bed_;
   std::optional<StrokeSampler> stroke_;
   SandSide sand_;
+  DeviceSide device_;
   std::unique_ptr<Relaxer> relaxer_;
+  Observers observers_;
   RunResult result_;
 };
 
 /// The sand returned more energy than it took, by more than rounding and a force held for a tick do: a share
 /// of 1e-3.
-bool returned_energy(const RunResult& result);
+bool returned_energy(const DeviceResult& result);
 
 /// returned_energy(), and the loop may be to blame: it was not passive throughout. A passive loop, too, may
 /// return a little, which its dampers take, or lift the tool on sand that rises under it.
-bool loop_returned_energy(const RunResult& result, const DeviceSettings& device);
+bool loop_returned_energy(const DeviceResult& result, const DeviceSettings& device);
 
 }  // namespace sandstroke

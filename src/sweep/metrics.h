@@ -2,8 +2,13 @@
 
 #include <array>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
+
+#include "compare/field_difference.h"
+#include "sim/run_result.h"
+#include "sweep/slopes.h"
 
 namespace sandstroke {
 
@@ -21,13 +26,23 @@ inline bool failed(PointVerdict verdict) {
   return verdict == PointVerdict::unstable || verdict == PointVerdict::refused;
 }
 
+/// What metrics are taken from.
+struct PointOutcome {
+  const RunResult& run;
+  const SlopeMeasures& slopes;                   ///< where a metric needs them
+  const std::optional<FieldDifference>& golden;  ///< the same; none where there is nothing to compare with
+};
+
 /// One number that is collected of each point.
 struct Metric {
+  enum Needs { run, slopes, golden };
+
   std::string name;   ///< max_force
   std::string title;  ///< "peak force"
   std::string unit;
-  bool timing = false;        ///< differs from run to run
-  bool needs_golden = false;  ///< a surface to compare with
+  double (*of)(const PointOutcome& outcome);  ///< not-a-number where it means nothing
+  Needs needs = run;
+  bool timing = false;  ///< differs from run to run
 };
 
 /// All there are, in the order in which they are shown.

@@ -22,7 +22,7 @@ std::vector<std::string> read_metrics(const TomlReader& toml) {
   std::vector<std::string> known;  // but for those that lack what they need
   const bool golden = toml.has("sweep.golden");
   for (const Metric& metric : all_metrics())
-    if (golden || !metric.needs_golden) known.push_back(metric.name);
+    if (golden || metric.needs != Metric::golden) known.push_back(metric.name);
   const std::vector<std::string> metrics = toml.texts("sweep.metrics", known);
   if (metrics.empty()) toml.fail("sweep.metrics", "is empty; name one or remove it");
   for (const std::string& metric : metrics) {

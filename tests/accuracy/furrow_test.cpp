@@ -23,8 +23,7 @@ double furrow_depth(double tip_depth, Scene scene) {
   Simulation simulation(
       scene, make_surface(scene.bed.surface, scene.bed.rows, scene.bed.cols, scene.bed.cell_size()),
       std::move(stroke));
-  SimulationObserver nobody;
-  simulation.run(nobody);
+  simulation.run();
   double sum = 0.0;
   for (int col = 95; col < 105; ++col) {
     double lowest = 0.0;

@@ -121,9 +121,10 @@ TEST(StrokeConvergence, TheEstimatedErrorIsNearTheTrueOneForHandsToo) {
   for (const auto& [name, stroke] :
        {std::pair("a slow hand", s_curve(0.004, 0.1)), std::pair("noise", with_noise(clean, 55e-6)),
         std::pair("slopes", with_slopes(clean, 0.05)), std::pair("deep", s_curve(0.01, 0.25))}) {
-    const Solution run = solve(accurate(), start, stroke);
+    Kept force(force_of);
+    const Solution run = solve(accurate(), start, stroke, {&force});
     const double estimate =
-        estimate_error(accurate(), start, stroke, run, SecondSolution::finer).height_share;
+        estimate_error(accurate(), start, stroke, run, force.values, SecondSolution::finer).height_share;
     const double truth = apart(replay(accurate(), stroke), replay(finer(accurate(), 4), stroke));
     EXPECT_GT(estimate, 0.5 * truth) << name;
     EXPECT_LT(estimate, 2.0 * truth) << name;

@@ -79,7 +79,7 @@ void simulation_tick(benchmark::State& state, DeviceModel device, Tool tool) {
   for (auto _ : state) {
     Simulation simulation(scene, HeightField(1000, 1000, dx), stroke);
     TickClock clock;
-    const RunResult result = simulation.run(clock);
+    const RunResult result = simulation.run({&clock});
     if ((result.contact_ticks > 0) != (tool == Tool::in_sand))
       state.SkipWithError("contact is not as it should be");
     state.SetIterationTime(clock.seconds_per_tick());

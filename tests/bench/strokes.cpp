@@ -67,7 +67,7 @@ Replay replay(const Scene& scene, const Stroke& stroke) {
   Simulation simulation(scene, HeightField(scene.bed.rows, scene.bed.cols, scene.bed.cell_size()), stroke);
   RelaxationClock clock;
   const double cpu_begin = cpu_seconds();
-  const RunResult result = simulation.run(clock);
+  const RunResult result = simulation.run({&clock});
   return {result, cpu_seconds() - cpu_begin, clock.seconds(), simulation.bed()};
 }
 
@@ -92,15 +92,17 @@ nlohmann::json against_reference(Scene scene, const Stroke& stroke, const Replay
 
   const HeightGrid a = tiles->bed.grid(), b = reference.bed.grid();
   const bool same = std::memcmp(a.data(), b.data(), static_cast<std::size_t>(a.size()) * sizeof(double)) == 0;
-  const auto sweeps = [](const RunResult& r) { return static_cast<double>(r.passes + r.relaxations); };
+  const auto sweeps = [](const RunResult& r) {
+    return static_cast<double>(r.relaxation.passes + r.relaxations);
+  };
   const double reference_seconds =
       reference.relaxation_seconds / sweeps(reference.result) * sweeps(whole.result);
   return {
       {"contact_seconds", contact_seconds},
       {"relaxations", reference.result.relaxations},
-      {"passes", reference.result.passes},
+      {"passes", reference.result.relaxation.passes},
       {"same_bits", same},
-      {"same_passes", reference.result.passes == tiles->result.passes},
+      {"same_passes", reference.result.relaxation.passes == tiles->result.relaxation.passes},
       {"tiles_seconds_per_relaxation",
        median(tiles_seconds) / static_cast<double>(reference.result.relaxations)},
       {"reference_seconds_per_relaxation",
@@ -138,10 +140,12 @@ nlohmann::json measure_paper_scene(const BenchOptions& options) {
           {"real_time_factor", r.simulated_seconds / median(seconds)},
           {"ns_per_tick", 1e9 * median(cpu) / static_cast<double>(r.ticks)},
           {"relaxations", r.relaxations},
-          {"passes", r.passes},
-          {"cells_per_pass", static_cast<double>(r.cells_visited) / static_cast<double>(r.passes)},
-          {"ns_per_cell_and_pass", 1e9 * median(relaxation_seconds) / static_cast<double>(r.cells_visited)},
-          {"converged", r.converged},
+          {"passes", r.relaxation.passes},
+          {"cells_per_pass",
+           static_cast<double>(r.relaxation.cells_visited) / static_cast<double>(r.relaxation.passes)},
+          {"ns_per_cell_and_pass",
+           1e9 * median(relaxation_seconds) / static_cast<double>(r.relaxation.cells_visited)},
+          {"converged", r.relaxation.converged},
           {"volume_drift", r.volume_drift},
           {"against_reference", against_reference(scene, stroke, *run, options.quick ? 0.05 : 0.25)}};
 }
@@ -160,7 +164,7 @@ nlohmann::json measure_bed_sizes(const BenchOptions& options) {
         return nlohmann::json{{"ns_per_tick", 1e9 * run.cpu_seconds / static_cast<double>(run.result.ticks)},
                               {"bed_bytes", run.bed.bytes()},
                               {"tiles", run.bed.touched_tiles()},
-                              {"passes", run.result.passes}};
+                              {"passes", run.result.relaxation.passes}};
       }));
   nlohmann::json rows = nlohmann::json::array();
   for (std::size_t i = 0; i < sides.size(); ++i) {
@@ -229,7 +233,7 @@ nlohmann::json measure_long_stroke(const BenchOptions& options) {
     Scene scene;
     Simulation simulation(scene, HeightField(scene.bed.rows, scene.bed.cols, scene.bed.cell_size()), stroke);
     Minutes minutes(minute);
-    const RunResult result = simulation.run(minutes);
+    const RunResult result = simulation.run({&minutes});
     const HeightGrid heights = simulation.bed().grid();
     ContentHash hash;
     hash.add(heights.data(), static_cast<std::size_t>(heights.size()) * sizeof(double));
@@ -242,7 +246,7 @@ nlohmann::json measure_long_stroke(const BenchOptions& options) {
                     {"content_hash", hash.text()},
                     {"moved_volume", result.moved_volume},
                     {"volume_drift", result.volume_drift},
-                    {"passes", result.passes},
+                    {"passes", result.relaxation.passes},
                     {"minutes", cpu.size()},
                     {"first_minute_cpu_seconds", cpu.front()},
                     {"last_minute_cpu_seconds", cpu.back()},

@@ -11,12 +11,11 @@ namespace {
 
 double back_to_back(const SweepPlan& plan) {
   SweepInputs inputs(plan.scene_folder());
-  SimulationObserver nobody;
   const Stopwatch watch;
   for (std::size_t point = 0; point < plan.design.points(); ++point) {
     const Scene scene = plan.scene_of(point);
     Simulation simulation(scene, *inputs.bed(scene.bed), inputs.stroke(scene)->stroke);
-    simulation.run(nobody);
+    simulation.run();
   }
   return watch.seconds();
 }

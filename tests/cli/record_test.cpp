@@ -82,10 +82,10 @@ TEST(CliRecord, TheRecordingDrawsWhatTheScriptDraws) {
   const double apart = top_speed * largest_spacing(stroke) * (1.0 + 1e-6);
   ASSERT_EQ(run_program({"run", "scene.toml", "-o", "script.h5"}, folder).exit_code, 0);
   ASSERT_EQ(run_program({"run", "scene.toml", "-o", "recorded.h5", "--stroke", "a.h5"}, folder).exit_code, 0);
-  const RunTrace script = RunFile(folder / "script.h5").trace(),
-                 recorded = RunFile(folder / "recorded.h5").trace();
+  const std::vector<TickRecord> script = RunFile(folder / "script.h5").trace(),
+                                recorded = RunFile(folder / "recorded.h5").trace();
   for (std::size_t i = 0; i < std::min(script.size(), recorded.size()); ++i)
-    ASSERT_LE((script.hand_position[i] - recorded.hand_position[i]).norm(), apart) << i;
+    ASSERT_LE((script[i].hand.position - recorded[i].hand.position).norm(), apart) << i;
 
   // At rest sand slopes by tan(talus) at most, so a surface moved by so much changes by no more than this.
   const double height = apart * std::tan(30.0 * std::acos(-1.0) / 180.0);

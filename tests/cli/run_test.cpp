@@ -119,8 +119,8 @@ TEST(CliRun, AnotherStrokeCanBePlayed) {
   write_file(folder / "other.toml",
              "start = [0.0, -0.05]\n[[segment]]\nkind = \"line\"\nto = [0.0, 0.05]\ndepth = 0.002\n");
   ASSERT_EQ(run_program({"run", "scene.toml", "-o", "a.h5", "--stroke", "other.toml"}, folder).exit_code, 0);
-  const RunTrace trace = RunFile(folder / "a.h5").trace();
-  for (const auto& position : trace.hand_position) EXPECT_NEAR(position.x(), 0.0, 1e-12);
+  for (const TickRecord& tick : RunFile(folder / "a.h5").trace())
+    EXPECT_NEAR(tick.hand.position.x(), 0.0, 1e-12);
 }
 
 TEST(CliRun, ARunThatIsNotAtRestSaysSoAndExitsWith3) {
@@ -272,8 +272,7 @@ TEST(CliRun, ALimitedForceHoldsWhereTheSandsIsBeyondNumbers) {
   const nlohmann::json json = nlohmann::json::parse(run.out);
   EXPECT_NEAR(json["max_force"], 12.0, 1e-12);
   EXPECT_TRUE(json["least_passivity_margin"].is_null());  // JSON has no infinity
-  const RunTrace trace = RunFile(folder / "a.h5").trace();
-  for (const auto& force : trace.device_force) EXPECT_TRUE(force.allFinite());
+  for (const TickRecord& tick : RunFile(folder / "a.h5").trace()) EXPECT_TRUE(tick.device_force.allFinite());
   EXPECT_EQ(run_program({"compare", "a.h5", "a.h5"}, folder).exit_code, 0);
   EXPECT_EQ(run_program({"info", "a.h5"}, folder).exit_code, 0);
 }

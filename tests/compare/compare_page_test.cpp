@@ -30,7 +30,7 @@ struct Pair {
 struct DifferentPair : Pair {
   DifferentPair() {
     run.final.block(12, 24, 2, 2) += 0.002;
-    run.trace.device_force[90].y() += 0.5;
+    run.trace[90].device_force.y() += 0.5;
   }
 };
 
@@ -69,7 +69,7 @@ TEST(ComparePage, OfACutOffRunShowsWhatThereIsAndSaysWhatIsNot) {
 
 TEST(ComparePage, OfADamagedTraceShowsTheSurfaces) {
   Pair pair;
-  pair.run.trace.depth.clear();
+  pair.run.missing_column = "depth";
   const ComparePage page = pair.page();
   EXPECT_EQ(names_in(page.data["parts"], "title"), Names{"Final height"});
   EXPECT_EQ(names_in(page.data["missing"], "name"), Names{"Traces"});

@@ -57,22 +57,22 @@ TEST_F(CompareRuns, ToleranceOfHeightHoldsAtItsLimit) {
 
 TEST_F(CompareRuns, ToleranceOfForceHoldsAtItsLimit) {
   tolerances.force = 0x1p-13;
-  golden.trace.device_force[40].x() = 1.0;
-  run.trace.device_force[40].x() = 1.0 + 0x1p-13;
+  golden.trace[40].device_force.x() = 1.0;
+  run.trace[40].device_force.x() = 1.0 + 0x1p-13;
   EXPECT_TRUE(compare().passed());
-  run.trace.device_force[40].x() = 1.0 + 0x1.01p-13;
+  run.trace[40].device_force.x() = 1.0 + 0x1.01p-13;
   expect_only_failure("force", "at time 0.04 s");
 }
 
 TEST_F(CompareRuns, ToleranceOfDepthAndLevelHoldsAtItsLimit) {
   tolerances.depth = 0x1p-20;
-  golden.trace.depth[33] = golden.trace.level[34] = 0.5;
-  run.trace.depth[33] = run.trace.level[34] = 0.5 - 0x1p-20;
+  golden.trace[33].depth = golden.trace[34].level = 0.5;
+  run.trace[33].depth = run.trace[34].level = 0.5 - 0x1p-20;
   EXPECT_TRUE(compare().passed());
-  run.trace.depth[33] = 0.5 - 0x1.01p-20;
+  run.trace[33].depth = 0.5 - 0x1.01p-20;
   expect_only_failure("depth", "at time 0.033 s");
-  run.trace.depth[33] = 0.5;
-  run.trace.level[34] = 0.5 - 0x1.01p-20;
+  run.trace[33].depth = 0.5;
+  run.trace[34].level = 0.5 - 0x1.01p-20;
   expect_only_failure("level", "at time 0.034 s");
 }
 
@@ -108,21 +108,17 @@ TEST_F(CompareRuns, ATraceInOnlyOneFails) {
 }
 
 TEST_F(CompareRuns, AMissingColumnFails) {
-  run.trace.depth.clear();
+  run.missing_column = "depth";
   expect_only_failure("trace", "/trace/depth");
 }
 
 TEST_F(CompareRuns, AMissingTickFails) {
-  run.trace.time.pop_back();
-  run.trace.device_force.pop_back();
-  run.trace.depth.pop_back();
-  run.trace.level.pop_back();
-  run.trace.contact.pop_back();
+  run.trace.pop_back();
   expect_only_failure("ticks", "golden has 105 ticks, the run 104");
 }
 
 TEST_F(CompareRuns, AnotherServoRateFails) {
-  for (double& time : run.trace.time) time *= 2.0;
+  for (TickRecord& tick : run.trace) tick.time *= 2.0;
   expect_only_failure("time", "at time 0.104 s");
 }
 
@@ -143,7 +139,7 @@ TEST_F(CompareRuns, OneNanFails) {
 }
 
 TEST_F(CompareRuns, OneNanInTheForceFails) {
-  run.trace.device_force[100].z() = std::numeric_limits<double>::quiet_NaN();
+  run.trace[100].device_force.z() = std::numeric_limits<double>::quiet_NaN();
   expect_only_failure("force", "not a number at time 0.1 s");
 }
 

@@ -100,14 +100,15 @@ TEST_F(Golden, KeepsHeightsAndTraceToWithinHalfAQuantum) {
   EXPECT_EQ(file.shape("/surface/change"), (std::vector<hsize_t>{6, 10})) << "only the cells that changed";
   ASSERT_TRUE(content.trace);
   EXPECT_EQ(content.trace->ticks, SyntheticRun::ticks);
-  const RunTrace& rows = content.trace->rows;
+  const std::vector<TickRecord>& rows = content.trace->rows;
   ASSERT_EQ(rows.size(), 11u) << "ticks 0, 10, ..., 100";
-  EXPECT_TRUE(std::isnan(rows.level[1])) << "lifted";
+  EXPECT_TRUE(std::isnan(rows[1].level)) << "lifted";
   for (std::size_t k = 0; k < rows.size(); ++k) {
-    EXPECT_EQ(rows.time[k], run.trace.time[10 * k]);
-    EXPECT_EQ(rows.contact[k], run.trace.contact[10 * k]);
-    EXPECT_NEAR(rows.device_force[k].z(), run.trace.device_force[10 * k].z(), 0x1p-21);
-    EXPECT_NEAR(rows.depth[k], run.trace.depth[10 * k], 0x1p-31);
+    const TickRecord& tick = run.trace[10 * k];
+    EXPECT_EQ(rows[k].time, tick.time);
+    EXPECT_EQ(rows[k].contact, tick.contact);
+    EXPECT_NEAR(rows[k].device_force.z(), tick.device_force.z(), 0x1p-21);
+    EXPECT_NEAR(rows[k].depth, tick.depth, 0x1p-31);
   }
 }
 
@@ -146,15 +147,13 @@ TEST_F(Golden, AnotherShapeFails) {
 
 TEST_F(Golden, OneForceFails) {
   write_golden(folder / "golden/dune", finished());
-  run.trace.device_force[90].y() += 2e-4;
+  run.trace[90].device_force.y() += 2e-4;
   expect_only_failure("force", "at time 0.09 s");
 }
 
 TEST_F(Golden, AMissingTickOrTraceFails) {
   write_golden(folder / "golden/dune", finished());
-  for (auto* column : {&run.trace.time, &run.trace.depth, &run.trace.level}) column->pop_back();
-  run.trace.device_force.pop_back();
-  run.trace.contact.pop_back();
+  run.trace.pop_back();
   expect_only_failure("ticks", "golden has 105 ticks, the run 104");
   run.has_trace = false;
   expect_only_failure("trace", "the run has no trace");

@@ -79,11 +79,10 @@ TEST(ThinnedCurve, OfGapsAloneIsGaps) {
 CountedTrace trace_of(std::size_t ticks, const Eigen::Vector3d& force, double depth) {
   CountedTrace trace{ticks, {}};
   for (std::size_t tick = 0; tick < ticks; ++tick) {
-    trace.rows.time.push_back(0.5 * static_cast<double>(tick));
-    trace.rows.device_force.push_back(force);
-    trace.rows.depth.push_back(depth);
-    trace.rows.level.push_back(nan);
-    trace.rows.contact.push_back(0);
+    TickRecord& record = trace.rows.emplace_back();
+    record.time = 0.5 * static_cast<double>(tick);
+    record.device_force = force;
+    record.depth = depth;
   }
   return trace;
 }

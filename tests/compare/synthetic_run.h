@@ -20,7 +20,8 @@ struct SyntheticRun {
   bool complete = true, has_final = true, has_trace = true;
   std::string scene_hash = "0123456789abcdef", stroke_hash = "fedcba9876543210";
   HeightGrid initial = HeightGrid::Zero(30, 40), final;
-  RunTrace trace;
+  std::vector<TickRecord> trace;
+  std::string missing_column;  // of the trace
 
   static constexpr std::size_t ticks = 105, lifted_ticks = 20;
 
@@ -31,11 +32,12 @@ struct SyntheticRun {
     for (std::size_t tick = 0; tick < ticks; ++tick) {
       const bool lifted = tick < lifted_ticks;
       const double depth = lifted ? 0.0 : 1e-4 * static_cast<double>(tick);
-      trace.time.push_back(0.001 * static_cast<double>(tick));
-      trace.depth.push_back(depth);
-      trace.level.push_back(lifted ? std::numeric_limits<double>::quiet_NaN() : 0.001);
-      trace.device_force.emplace_back(0.0, 0.0, 1000.0 * std::expm1(0.5 * depth));
-      trace.contact.push_back(lifted ? 0 : 1);
+      TickRecord& record = trace.emplace_back();
+      record.time = 0.001 * static_cast<double>(tick);
+      record.depth = depth;
+      record.level = lifted ? std::numeric_limits<double>::quiet_NaN() : 0.001;
+      record.device_force.z() = 1000.0 * std::expm1(0.5 * depth);
+      record.contact = !lifted;
     }
   }
 
@@ -50,20 +52,13 @@ struct SyntheticRun {
     if (has_final) file.write("/surface/final", final);
     file.write("/provenance/scene_hash", scene_hash);
     file.write("/provenance/stroke_hash", stroke_hash);
-    if (has_trace) {
-      const std::vector<Eigen::Vector3d> vectors(trace.size(), Eigen::Vector3d::Zero());
-      const std::vector<double> numbers(trace.size(), 0.0);
-      for (const char* name : {"hand_position", "device_position", "repulse_force", "drag_force"})
-        file.write(std::string("/trace/") + name, vectors);
-      for (const char* name : {"displaced_volume", "passivity_margin"})
-        file.write(std::string("/trace/") + name, numbers);
-      file.write("/trace/saturated", std::vector<std::uint32_t>(trace.size(), 0));
-      file.write("/trace/time", trace.time);
-      file.write("/trace/device_force", trace.device_force);
-      file.write("/trace/level", trace.level);
-      if (!trace.depth.empty()) file.write("/trace/depth", trace.depth);
-      file.write("/trace/contact", trace.contact);
-    }
+    if (has_trace)
+      visit_tick_fields([&](const std::string& name, const char*, const auto& of) {
+        using Field = std::decay_t<decltype(of(trace.front()))>;
+        std::vector<std::conditional_t<std::is_same_v<Field, bool>, std::uint32_t, Field>> column;
+        for (const TickRecord& tick : trace) column.push_back(of(tick));
+        if (name != missing_column) file.write("/trace/" + name, column);
+      });
     file.finish();
   }
 };

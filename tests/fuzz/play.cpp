@@ -17,9 +17,8 @@ constexpr int few_cells = 64, few_ticks = 8;
 void run_briefly(Scene scene, const std::optional<Stroke>& stroke) {
   scene.relaxation.max_passes = std::min<std::int64_t>(scene.relaxation.max_passes, 2);
   scene.output.frames = 0.0;
-  SimulationObserver nobody;
   const BedSettings& bed = scene.bed;
-  Simulation(scene, make_surface(bed.surface, bed.rows, bed.cols, bed.cell_size()), stroke).run(nobody);
+  Simulation(scene, make_surface(bed.surface, bed.rows, bed.cols, bed.cell_size()), stroke).run();
 }
 
 }  // namespace

@@ -27,12 +27,13 @@ int main() {
   Stroke stroke;
   stroke.time = {0.0, 0.05, 0.1};
   stroke.position = {{0.0, 0.0, 0.01}, {0.0, 0.0, -depth}, {0.0, 0.0, 0.01}};
-  SimulationObserver nobody;
-  const RunResult run = Simulation(scene, HeightField(100, 150, cell_size), stroke).run(nobody);
+  const RunResult run = Simulation(scene, HeightField(100, 150, cell_size), stroke).run();
   const double force = scene.force.k_s * std::expm1(scene.force.k_c * run.max_depth);
-  std::cout << "a hand that goes " << run.max_depth << " m deep feels " << run.max_force << " N (" << force
-            << " N without drag)\n";
+  std::cout << "a hand that goes " << run.max_depth << " m deep feels " << run.device.max_force << " N ("
+            << force << " N without drag)\n";
 
   const bool kept = std::abs(bed.volume()) < 1e-12 * pushed && run.volume_drift < 1e-12;
-  return rest.converged && run.converged && kept && pushed > 0.0 && run.max_force >= force ? 0 : 1;
+  return rest.converged && run.relaxation.converged && kept && pushed > 0.0 && run.device.max_force >= force
+             ? 0
+             : 1;
 }

@@ -98,7 +98,7 @@ TEST_P(LiveTool, OfEvenTicksHasTheSandAndTheRepulseForceThatARunOfThemHas) {
   scene.stroke.emplace();
   Simulation simulation(scene, bed_of(scene), sampled(times));
   Ticks run;
-  const RunResult result = simulation.run(run);
+  const RunResult result = simulation.run({&run});
   ASSERT_EQ(run.ticks.size(), times.size());
   // Two beds that differ by rounding may differ about whether a cell rests: by the tolerance of its slope.
   const double tip =
@@ -144,7 +144,7 @@ TEST(LiveSand, OfUnevenTicksIsWithinTheBoundOfSampling) {
   scene.stroke.emplace();
   Simulation simulation(scene, bed_of(scene), sampled(times));
   Ticks run;
-  simulation.run(run);
+  simulation.run({&run});
   // The run's tick before or after a sample is as near as a tick; the hand has gone that far, its force
   // changed by as much, and the level under it by the tool's own furrow, which is no deeper than the hand
   // goes in that time, plus what it had not yet dug on its way there: twice the way in all.

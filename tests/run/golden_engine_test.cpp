@@ -219,9 +219,8 @@ TEST_P(GoldenScene, EngineEqualsTheReferenceInEveryRelaxation) {
   auto relaxer = std::make_unique<CheckedRelaxer>(scene.relaxation, scene.bed.cell_size());
   const CheckedRelaxer& checked = *relaxer;
   Simulation simulation(scene, load_surface(scene.bed, folder), std::move(stroke), std::move(relaxer));
-  SimulationObserver nobody;
   try {
-    const RunResult result = simulation.run(nobody);
+    const RunResult result = simulation.run();
     EXPECT_EQ(result.relaxations, checked.relaxations);
     EXPECT_GT(result.moved_volume, 0.0);
   } catch (CheckedRelaxer::Enough) {

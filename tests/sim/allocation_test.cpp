@@ -39,7 +39,7 @@ TEST(TickLoop, AllocatesNothingOnceItsTilesExist) {
     const BedSettings& bed = scene.bed;
     Simulation simulation(scene, make_surface(bed.surface, bed.rows, bed.cols, bed.cell_size()), stroke);
     AllocationsBetween observer(4000, 6000);
-    const RunResult result = simulation.run(observer);
+    const RunResult result = simulation.run({&observer});
     EXPECT_GT(result.contact_ticks, 5000);
     EXPECT_EQ(observer.between, 0);
     EXPECT_GT(allocations(), 0);

@@ -87,11 +87,23 @@ TEST(SecondScene, RefusesCellsThatTheToolDoesNotCover) {
   EXPECT_THROW(second_scene(scene, SecondSolution::coarser), Error);
 }
 
+/// A run and its forces.
+struct FeltRun {
+  Kept<Eigen::Vector3d> force{force_of};
+  Solution solution;
+  explicit FeltRun(const Scene& scene, const std::optional<Stroke>& stroke = {})
+      : solution(solve(scene, start_of(scene), stroke, {&force})) {}
+};
+
+ErrorEstimate estimated(const Scene& scene, const FeltRun& run, const std::optional<Stroke>& stroke,
+                        SecondSolution which) {
+  return estimate_error(scene, start_of(scene), stroke, run.solution, run.force.values, which);
+}
+
 TEST(ErrorEstimate, IsNothingWhereNothingMoves) {
   Scene scene = cylinder_scene(32);
   scene.bed.surface.height = 0.0;
-  const ErrorEstimate e =
-      estimate_error(scene, start_of(scene), {}, solve(scene, start_of(scene), {}), SecondSolution::coarser);
+  const ErrorEstimate e = estimated(scene, FeltRun(scene), {}, SecondSolution::coarser);
   EXPECT_EQ(e.height_share, 0.0);
   EXPECT_EQ(e.height_rms, 0.0);
   EXPECT_EQ(e.height_max, 0.0);
@@ -102,23 +114,22 @@ TEST(ErrorEstimate, OfAPlungesForceIsNothingSinceTheForceDependsOnDepthAlone) {
   Scene scene = stroke_scene(50);
   scene.relaxation.rate = 0.0;
   const Stroke plunge = stroke_of(0.0);
-  const ErrorEstimate e = estimate_error(scene, start_of(scene), plunge,
-                                         solve(scene, start_of(scene), plunge), SecondSolution::coarser);
+  const ErrorEstimate e = estimated(scene, FeltRun(scene, plunge), plunge, SecondSolution::coarser);
   EXPECT_GT(e.height_rms, 0.0);
   EXPECT_LT(e.force_max, 1e-9);
 }
 
 /// |h - h(truth)| over the changed sand, with cells averaged, and the forces' largest difference.
-std::pair<double, double> distance(const Solution& run, const Solution& truth) {
-  const HeightGrid coarse = run.surface.grid(), fine = truth.surface.grid();
+std::pair<double, double> distance(const FeltRun& run, const FeltRun& truth) {
+  const HeightGrid coarse = run.solution.surface.grid(), fine = truth.solution.surface.grid();
   const int n = static_cast<int>(coarse.rows()), f = static_cast<int>(fine.rows()) / n;
   double sum = 0.0, force = 0.0;
   for (int row = 0; row < n; ++row)
     for (int col = 0; col < n; ++col)
       sum += std::abs(coarse(row, col) - fine.block(row * f, col * f, f, f).mean());
-  for (std::size_t k = 0; k < run.force.size(); ++k)
-    force += (run.force[k] - truth.force[f * k]).squaredNorm();
-  return {sum / coarse.abs().sum(), std::sqrt(force / static_cast<double>(run.force.size()))};
+  const std::vector<Eigen::Vector3d>&of_run = run.force.values, &of_truth = truth.force.values;
+  for (std::size_t k = 0; k < of_run.size(); ++k) force += (of_run[k] - of_truth[f * k]).squaredNorm();
+  return {sum / coarse.abs().sum(), std::sqrt(force / static_cast<double>(of_run.size()))};
 }
 
 TEST(ErrorEstimate, OfADragIsWithinAFactorOfThreeOfItsDistanceToAQuarterOfTheSteps) {
@@ -128,10 +139,10 @@ TEST(ErrorEstimate, OfADragIsWithinAFactorOfThreeOfItsDistanceToAQuarterOfTheSte
     scene.device.model = fine.device.model = model;
     scene.device.resolution = fine.device.resolution = 0.0;
     for (int halvings = 0; halvings < 2; ++halvings) fine = second_scene(fine, SecondSolution::finer);
-    const Solution run = solve(scene, start_of(scene), drag);
-    const auto [heights, force] = distance(run, solve(fine, start_of(fine), drag));
+    const FeltRun run(scene, drag);
+    const auto [heights, force] = distance(run, FeltRun(fine, drag));
     for (const SecondSolution which : {SecondSolution::coarser, SecondSolution::finer}) {
-      const ErrorEstimate e = estimate_error(scene, start_of(scene), drag, run, which);
+      const ErrorEstimate e = estimated(scene, run, drag, which);
       EXPECT_GT(e.height_share, heights / 3.0);
       EXPECT_LT(e.height_share, heights * 3.0);
       EXPECT_GT(e.force_rms, force / 3.0);

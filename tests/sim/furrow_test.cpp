@@ -85,7 +85,7 @@ void expect_profile(const FurrowMeasures& measures, const Profile& profile, doub
 class ContactPath : public SimulationObserver {
  public:
   explicit ContactPath(const Scene& scene) : gatherer_(scene) {}
-  void on_tick(const TickRecord& tick) override { gatherer_.add(tick); }
+  void on_tick(const TickRecord& tick) override { gatherer_.on_tick(tick); }
   const TipPath& path() const { return gatherer_.path(); }
 
  private:
@@ -264,7 +264,7 @@ TEST(Furrow, OfAShallowDragIsAsDeepAsItsTipWhicheverWayItGoes) {
     const HeightField before(150, 150, 0.002);
     Simulation simulation(scene, before, std::move(stroke));
     ContactPath contact(scene);
-    simulation.run(contact);
+    simulation.run({&contact});
     const FurrowMeasures measures =
         measure_furrow(before, simulation.bed(), contact.path(), scene.tool.radius);
     EXPECT_NEAR(measures.depth, 0.002, 0.1 * 0.002) << angle;
@@ -281,18 +281,18 @@ TEST(Furrow, ATipThatTremblesAtTheSurfaceIsOnePlaceOfItsPath) {
   TickRecord tick;
   for (int i = 0; i < 100; ++i) {  // it hovers, then goes 0.1 m, and comes down once more elsewhere
     tick.contact = i % 2 == 0;
-    gatherer.add(tick);
+    gatherer.on_tick(tick);
   }
   tick.contact = true;
   for (int i = 0; i <= 100; ++i) {
     tick.device_position.x() = 0.001 * i;
-    gatherer.add(tick);
+    gatherer.on_tick(tick);
   }
   tick.contact = false;
-  gatherer.add(tick);
+  gatherer.on_tick(tick);
   tick.contact = true;
   tick.device_position.x() = 0.2;
-  gatherer.add(tick);
+  gatherer.on_tick(tick);
   const TipPath& path = gatherer.path();
   EXPECT_EQ(path.pieces, (std::vector<std::size_t>{0, path.points.size() - 1}));
   EXPECT_EQ(path.points.size(), 1u + 33u + 1u);  // every 3 mm: the first millimetre beyond a quarter radius

@@ -29,11 +29,11 @@ TickRecord tick(double time, const Eigen::Vector3d& force) {
 TEST(RecordedForce, IsHeldAgainstTheRunBetweenSamples) {
   const Stroke stroke = rising();
   RecordedForce recorded(stroke);
-  recorded.compare(tick(0.0, {0.0, 0.0, 0.0}));
-  recorded.compare(tick(1.25, {0.0, 0.0, 2.5}));
+  recorded.on_tick(tick(0.0, {0.0, 0.0, 0.0}));
+  recorded.on_tick(tick(1.25, {0.0, 0.0, 2.5}));
   EXPECT_EQ(recorded.difference().max, 0.0);
-  recorded.compare(tick(2.5, {3.0, 0.0, 1.0}));  // 5 N felt
-  recorded.compare(tick(3.0, {0.0, 0.0, 6.0}));
+  recorded.on_tick(tick(2.5, {3.0, 0.0, 1.0}));  // 5 N felt
+  recorded.on_tick(tick(3.0, {0.0, 0.0, 6.0}));
   EXPECT_EQ(recorded.difference().ticks, 4);
   EXPECT_DOUBLE_EQ(recorded.difference().max, 5.0);
   EXPECT_DOUBLE_EQ(recorded.difference().rms, 2.5);
@@ -44,15 +44,15 @@ TEST(RecordedForce, IsNotComparedWhereTheRecorderAlteredItOrNothingWasRecorded) 
   stroke.flags = {late_sample, 0, 0, ramped_force};
   stroke.gap_threshold = 0.5;
   RecordedForce across_gaps(stroke);
-  across_gaps.compare(tick(0.5, {9.0, 0.0, 0.0}));
+  across_gaps.on_tick(tick(0.5, {9.0, 0.0, 0.0}));
   EXPECT_EQ(across_gaps.difference().ticks, 0);
-  across_gaps.compare(tick(1.0, {0.0, 0.0, 2.0}));
+  across_gaps.on_tick(tick(1.0, {0.0, 0.0, 2.0}));
   EXPECT_EQ(across_gaps.difference().ticks, 1);
   stroke.gap_threshold = 10.0;
   RecordedForce altered(stroke);
-  altered.compare(tick(0.0, {0.0, 0.0, 0.0}));
-  altered.compare(tick(2.5, {9.0, 0.0, 0.0}));
-  altered.compare(tick(3.0, {9.0, 0.0, 0.0}));
+  altered.on_tick(tick(0.0, {0.0, 0.0, 0.0}));
+  altered.on_tick(tick(2.5, {9.0, 0.0, 0.0}));
+  altered.on_tick(tick(3.0, {9.0, 0.0, 0.0}));
   EXPECT_EQ(altered.difference().ticks, 1);
   EXPECT_EQ(altered.difference().max, 0.0);
 }

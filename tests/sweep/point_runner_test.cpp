@@ -51,20 +51,19 @@ TEST(SharedRun, IsToTheBitWhatEachSceneGivesAlone) {
   scenes[2].force.k_f = 100.0, scenes[2].force.drag = DragDirection::full;
   scenes[3].force.k_c = 40.0, scenes[3].device.max_force = 0.5, scenes[3].device.damping = 5.0;
   const SharedRunResult shared = run(scenes);
-  SimulationObserver nobody;
   for (std::size_t i = 0; i < scenes.size(); ++i) {
     Simulation alone(scenes[i], bed_of(scenes[i]), a_drag());
-    const RunResult result = alone.run(nobody);
+    const RunResult result = alone.run();
     const PointResult& point = shared.points[i];
-    EXPECT_EQ(metric(point, "max_force"), result.max_force);
-    EXPECT_EQ(metric(point, "mean_force"), result.mean_force);
-    EXPECT_EQ(metric(point, "work"), result.absorbed_energy);
-    EXPECT_EQ(metric(point, "returned_energy"), std::max(0.0, -result.least_absorbed_energy));
-    EXPECT_EQ(metric(point, "passivity_margin"), result.least_passivity_margin);
+    EXPECT_EQ(metric(point, "max_force"), result.device.max_force);
+    EXPECT_EQ(metric(point, "mean_force"), result.device.mean_force);
+    EXPECT_EQ(metric(point, "work"), result.device.absorbed_energy);
+    EXPECT_EQ(metric(point, "returned_energy"), std::max(0.0, -result.device.least_absorbed_energy));
+    EXPECT_EQ(metric(point, "passivity_margin"), result.device.least_passivity_margin);
     EXPECT_EQ(metric(point, "saturated_share"),
-              static_cast<double>(result.saturated_ticks) / static_cast<double>(result.contact_ticks));
+              static_cast<double>(result.device.saturated_ticks) / static_cast<double>(result.contact_ticks));
     EXPECT_EQ(metric(point, "moved_volume"), result.moved_volume);
-    EXPECT_EQ(metric(point, "passes"), static_cast<double>(result.passes));
+    EXPECT_EQ(metric(point, "passes"), static_cast<double>(result.relaxation.passes));
     EXPECT_EQ(metric(point, "max_depth"), result.max_depth);
     EXPECT_TRUE((shared.surface.grid() == alone.bed().grid()).all());
   }
@@ -116,10 +115,9 @@ TEST(SharedRun, WithoutAStrokeEachSceneHasTheMarginOfItsOwnDevice) {
   for (Scene& scene : scenes) scene.stroke.reset();
   scenes[1].device.damping += 4.0;
   const SharedRunResult shared = *run_shared(scenes, bed_of(scenes[0]), nullptr, all_metrics(), nullptr);
-  SimulationObserver nobody;
   for (std::size_t i = 0; i < scenes.size(); ++i)
     EXPECT_EQ(metric(shared.points[i], "passivity_margin"),
-              Simulation(scenes[i], bed_of(scenes[i]), std::nullopt).run(nobody).least_passivity_margin);
+              Simulation(scenes[i], bed_of(scenes[i]), std::nullopt).run().device.least_passivity_margin);
 }
 
 TEST(SharedRun, AFurrowIsAsWideAsItsToolAndTheGoldenSurfaceIsSubtracted) {

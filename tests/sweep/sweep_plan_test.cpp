@@ -113,7 +113,7 @@ TEST_F(APlan, StrokesMayBeAnAxisLikeAnyOther) {
 }
 
 TEST_F(APlan, CollectsAllMetricsOrThoseNamed) {
-  const auto needs = [](const Metric& metric) { return metric.needs_golden; };
+  const auto needs = [](const Metric& metric) { return metric.needs == Metric::golden; };
   EXPECT_EQ(load(std::string(begin_plan) + "[axes]\nforce.k_s = [1]\n").metrics.size(),
             all_metrics().size() -
                 static_cast<std::size_t>(std::count_if(all_metrics().begin(), all_metrics().end(), needs)));

@@ -4,15 +4,19 @@
 
 namespace sandstroke {
 
-/// Where a condition stops to hold, between low > 0, where it holds, and high, where it does not; by
-/// bisection of their ratio to 1 + precision.
-template <class Condition>
-double boundary_between(double low, double high, double precision, const Condition& holds) {
-  while (high / low > 1.0 + precision) {
-    const double middle = std::sqrt(low * high);
-    (holds(middle) ? low : high) = middle;
+inline double mean(double a, double b) { return 0.5 * (a + b); }
+/// Of positive numbers.
+inline double geometric_mean(double a, double b) { return std::sqrt(a * b); }
+
+/// Where a condition stops to hold, between low, where it holds, and high, where it does not: halves what is
+/// between them so many times, at middle(low, high).
+template <class Middle, class Condition>
+double boundary_between(double low, double high, int halvings, const Middle& middle, const Condition& holds) {
+  for (; halvings > 0; --halvings) {
+    const double between = middle(low, high);
+    (holds(between) ? low : high) = between;
   }
-  return std::sqrt(low * high);
+  return middle(low, high);
 }
 
 }  // namespace sandstroke

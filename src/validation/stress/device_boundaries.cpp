@@ -81,7 +81,7 @@ double measured_boundary_gain(const LoopSettings& settings) {
   while (!settles(low)) low *= 0.5;
   double high = 2.0 * low;
   while (settles(high)) low = high, high *= 2.0;
-  return boundary_between(low, high, 1e-3, settles);
+  return boundary_between(low, high, 10, geometric_mean, settles);
 }
 
 }  // namespace

@@ -6,7 +6,8 @@
 #include <functional>
 
 #include "core/error.h"
-#include "sim/simulation.h"
+#include "sim/solution.h"
+#include "validation/stress/bisection.h"
 #include "validation/stress/loop_theory.h"
 
 namespace sandstroke {
@@ -37,11 +38,6 @@ Stroke plunge_draw_and_hold(double scale) {
   return stroke;
 }
 
-struct Trace : SimulationObserver {
-  std::vector<TickRecord> ticks;
-  void on_tick(const TickRecord& tick) override { ticks.push_back(tick); }
-};
-
 struct Outcome {
   Verdict verdict = Verdict::diverged;
   std::string detail;
@@ -57,47 +53,43 @@ double swing_between(const std::vector<TickRecord>& ticks, double from, double t
 }
 
 Outcome simulate(const Scene& scene) {
-  const BedSettings& bed = scene.bed;
-  Simulation simulation(scene, make_surface(bed.surface, bed.rows, bed.cols, bed.cell_size()),
-                        plunge_draw_and_hold(scene.device.scale));
-  Trace trace;
+  Kept ticks(+[](const TickRecord& tick) { return tick; });
   Outcome outcome;
   try {
-    const RunResult result = simulation.run(trace);
+    const RunResult result =
+        solve(scene, starting_bed(scene.bed), plunge_draw_and_hold(scene.device.scale), {&ticks}).result;
+    const DeviceResult& device = result.device;
     // At the end the tool is held: there it rests, or still creeps to rest, or swings.
-    const double swing = swing_between(trace.ticks, held - 0.25, held);
-    const bool creeps = swing < 0.7 * swing_between(trace.ticks, held - 0.5, held - 0.25);
+    const double swing = swing_between(ticks.values, held - 0.25, held);
+    const bool creeps = swing < 0.7 * swing_between(ticks.values, held - 0.5, held - 0.25);
     outcome.verdict = swing < rests_within || creeps ? Verdict::stable : Verdict::limit_cycle;
     outcome.detail = fmt::format(
         "the force swings by {:.3g} N while held, up to {:.3g} mm deep and {:.3g} N; {:.3g} J into the sand, "
         "{}; "
-        "least "
-        "passivity margin {:.3g} N s/m",
-        swing, 1e3 * result.max_depth, result.max_force, result.absorbed_energy,
-        loop_returned_energy(result, scene.device)
-            ? fmt::format("which returned up to {:.3g} J more than it took", -result.least_absorbed_energy)
+        "least passivity margin {:.3g} N s/m",
+        swing, 1e3 * result.max_depth, device.max_force, device.absorbed_energy,
+        loop_returned_energy(device, scene.device)
+            ? fmt::format("which returned up to {:.3g} J more than it took", -device.least_absorbed_energy)
             : "no more returned than taken",
-        result.least_passivity_margin);
+        device.least_passivity_margin);
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::unstable) outcome.verdict = Verdict::refused;
     outcome.detail = error.what();
   }
-  outcome.ticks = std::move(trace.ticks);
+  outcome.ticks = std::move(ticks.values);
   return outcome;
 }
 
 /// The loop about the depth at which the hand's spring and the sand are in balance.
 LoopSettings about_balance(const Scene& scene) {
   const double scale = scene.device.scale;
-  double low = 0.0, high = hand_depth;
-  for (int halved = 0; halved < 60; ++halved) {
-    const double depth = 0.5 * (low + high);
+  const double rest = boundary_between(0.0, hand_depth, 60, mean, [&](double depth) {
     const double pull = scene.device.hand_stiffness * (hand_depth - depth) / scale;
-    (repulse_force(depth, scene.force) < pull ? low : high) = depth;
-  }
+    return repulse_force(depth, scene.force) < pull;
+  });
   LoopSettings loop;
   loop.device = scene.device;
-  loop.against = PressedSand{scene.force, low, 0.0};
+  loop.against = PressedSand{scene.force, rest, 0.0};
   return loop;
 }
 

@@ -66,7 +66,7 @@ void add_drag_gain(StressReport& report) {
     const Verdict at_most = run_loop(at(most), 20'000).verdict;
     const auto settles = [&](double k_f) { return run_loop(at(k_f), 20'000).growth < 1.0; };
     const double largest =
-        at_most == Verdict::stable ? most : boundary_between(paper.k_f, most, 1e-3, settles);
+        at_most == Verdict::stable ? most : boundary_between(paper.k_f, most, 15, geometric_mean, settles);
     const bool implicit = velocity == DragVelocity::implicit;
     report.cases.push_back({"device loop, drag",
                             implicit ? "implicit" : "sampled",

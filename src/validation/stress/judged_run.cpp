@@ -19,7 +19,8 @@ std::string fault_of(const HeightGrid& start, const HeightGrid& end, double cell
                      JudgedRun& run) {
   if (!end.isFinite().all()) return "a height is not a number";
   const RunResult& r = run.result;
-  if (!std::isfinite(r.max_force) || !std::isfinite(r.absorbed_energy)) return "a figure is not a number";
+  if (!std::isfinite(r.device.max_force) || !std::isfinite(r.device.absorbed_energy))
+    return "a figure is not a number";
 
   const double low = start.minCoeff(), high = start.maxCoeff(),
                size = std::max(std::abs(low), std::abs(high));
@@ -43,14 +44,14 @@ JudgedRun judged_run(const Scene& scene, const HeightField& bed, const std::opti
   JudgedRun run;
   try {
     check_scene(scene, "scene");
-    Simulation simulation(scene, bed, stroke);
-    SimulationObserver nobody;
-    run.result = simulation.run(nobody);
-    run.reason = fault_of(bed.grid(), simulation.bed().grid(), bed.cell_area(),
-                          !stroke && monotone(scene.relaxation), run);
+    const Solution end = solve(scene, bed, stroke);
+    run.result = end.result;
+    run.reason =
+        fault_of(bed.grid(), end.surface.grid(), bed.cell_area(), !stroke && monotone(scene.relaxation), run);
     if (!run.reason.empty()) return run;
-    run.verdict = run.result.converged ? Verdict::stable : Verdict::not_converged;
-    if (!run.result.converged) run.reason = fmt::format("residual {:.3g}", run.result.residual);
+    const RelaxationOutcome& last = run.result.relaxation;
+    run.verdict = last.converged ? Verdict::stable : Verdict::not_converged;
+    if (!last.converged) run.reason = fmt::format("residual {:.3g}", last.residual);
   } catch (const Error& error) {
     run.verdict = Verdict::refused;
     run.reason = error.what();
@@ -74,7 +75,7 @@ void Variations::add(const JudgedRun& run, const std::string& variation) {
   if (run.verdict == Verdict::refused) refusal_ = run.reason;
   overshoot_ = std::max(overshoot_, run.overshoot);
   drift_ = std::max(drift_, run.result.volume_drift);
-  passes_ = std::max(passes_, run.result.passes);
+  passes_ = std::max(passes_, run.result.relaxation.passes);
 }
 
 StressCase Variations::done() const {

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "sim/simulation.h"
+#include "sim/solution.h"
 #include "validation/stress/stress_report.h"
 
 namespace sandstroke {

@@ -4,26 +4,20 @@
 #include <optional>
 
 #include "core/parallel.h"
+#include "validation/stress/bisection.h"
 
 namespace sandstroke {
 namespace {
-
-double between(const MapAxis& axis, double low, double high) {
-  return axis.logarithmic ? std::sqrt(low * high) : 0.5 * (low + high);
-}
 
 /// Where value(y) changes its sign from one of the axis's values to the next, first from below.
 template <class Value>
 std::optional<double> sign_change(const MapAxis& axis, const Value& value) {
   for (std::size_t i = 0; i + 1 < axis.values.size(); ++i) {
-    double low = axis.values[i], high = axis.values[i + 1];
+    const double low = axis.values[i], high = axis.values[i + 1];
     const bool positive = value(low) > 0.0;
     if ((value(high) > 0.0) == positive) continue;
-    for (int halved = 0; halved < 12; ++halved) {
-      const double middle = between(axis, low, high);
-      ((value(middle) > 0.0) == positive ? low : high) = middle;
-    }
-    return between(axis, low, high);
+    return boundary_between(low, high, 12, axis.logarithmic ? geometric_mean : mean,
+                            [&](double y) { return (value(y) > 0.0) == positive; });
   }
   return std::nullopt;
 }

@@ -71,7 +71,7 @@ double exact_boundary_gain(const LoopSettings& settings) {
   while (!stable(low)) low *= 0.5;
   while (stable(high))
     if ((high *= 2.0) > 1e12) return std::numeric_limits<double>::infinity();
-  return boundary_between(low, high, 1e-6, stable);
+  return boundary_between(low, high, 24, geometric_mean, stable);
 }
 
 double passivity_margin(const LoopSettings& settings) {

@@ -77,12 +77,11 @@ Scene scene_of(bool accurate, DeviceModel device) {
 /// What a stroke comes to on a flat bed.
 StressCase play(const Scene& scene, const Stroke& stroke, std::string name, std::string settings,
                 std::vector<Verdict> expected) {
-  const HeightField bed = make_surface(scene.bed.surface, cells, cells, scene.bed.cell_size());
-  const JudgedRun run = judged_run(scene, bed, stroke);
+  const JudgedRun run = judged_run(scene, starting_bed(scene.bed), stroke);
   const RunResult& r = run.result;
   const std::string figures =
       fmt::format("{} ticks, {:.3g} N, {:.3g} m deep, volume drift {:.1e} of {:.3g} m^3 moved", r.ticks,
-                  r.max_force, r.max_depth, r.volume_drift, r.moved_volume);
+                  r.device.max_force, r.max_depth, r.volume_drift, r.moved_volume);
   return {"strokes",           std::move(name), std::move(settings),
           std::move(expected), run.verdict,     run.reason.empty() ? figures : run.reason};
 }

@@ -32,25 +32,15 @@ Stroke straight(const Eigen::Vector3d& from, const Eigen::Vector3d& to, double s
 }
 
 Trial work_trial(const Scene& scene, const HeightField& bed, const Stroke& stroke, double exact_work) {
-  Simulation simulation(scene, bed, stroke);
-  SimulationObserver nobody;
-  const RunResult result = simulation.run(nobody);
-  Trial trial{result.wall_seconds, {}};
-  trial.score.work_error = std::abs(result.absorbed_energy / exact_work - 1.0);
-  trial.score.passes = static_cast<double>(result.passes);
-  trial.score.cells_visited = static_cast<double>(result.cells_visited);
-  trial.score.volume_drift = result.volume_drift;
-  trial.score.converged = result.converged;
+  const RunResult result = solve(scene, bed, stroke).result;
+  Trial trial{result.wall_seconds, score_of(result)};
+  trial.score.work_error = std::abs(result.device.absorbed_energy / exact_work - 1.0);
   return trial;
 }
 
 Contender work_contender(const std::string& series, const std::string& label, const Scene& scene, int threads,
                          double step, std::function<Trial()> run) {
-  RunSettings settings = settings_of(
-      scene.relaxation, BedGeometry(scene.bed.rows, scene.bed.cols, scene.bed.cell_size()), threads);
-  settings.servo_rate = scene.device.servo_rate;
-  settings.relaxation_rate = scene.relaxation.rate;
-  return {series, label, settings, step, std::move(run)};
+  return {series, label, settings_of(scene, threads), step, std::move(run)};
 }
 
 Problem work_problem(const char* name, const char* title, const std::string& text) {
@@ -109,11 +99,14 @@ Problem drag_problem(const ProblemOptions& options) {
       cell_by_cell.bed.surface.file = "in memory";
       const SandForce exact_force = sand_force(level - tip, {speed, 0.0, 0.0}, 0.0, scene.force);
       problem.check_errors = [=] {
-        return check_errors("8 cells per radius", cell_by_cell, bed, stroke, [&](const Solution& run) {
-          double squares = 0.0;
-          for (const Eigen::Vector3d& force : run.force) squares += (force - exact_force.total).squaredNorm();
-          return TrueError{.force_rms = std::sqrt(squares / static_cast<double>(run.force.size()))};
-        });
+        return check_errors(
+            "8 cells per radius", cell_by_cell, bed, stroke,
+            [&](const HeightField&, const std::vector<Eigen::Vector3d>& forces) {
+              double squares = 0.0;
+              for (const Eigen::Vector3d& force : forces)
+                squares += (force - exact_force.total).squaredNorm();
+              return TrueError{.force_rms = std::sqrt(squares / static_cast<double>(forces.size()))};
+            });
       };
     }
     problem.contenders.push_back(

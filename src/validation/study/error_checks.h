@@ -13,8 +13,10 @@ struct TrueError {
 
 /// Solves a scene, lets it state its error from a coarser second solution and from a finer one, and puts both
 /// beside the truth.
-std::vector<ErrorCheck> check_errors(const std::string& label, const Scene& scene, const HeightField& start,
-                                     const std::optional<Stroke>& stroke,
-                                     const std::function<TrueError(const Solution&)>& judge);
+std::vector<ErrorCheck> check_errors(
+    const std::string& label, const Scene& scene, const HeightField& start,
+    const std::optional<Stroke>& stroke,
+    const std::function<TrueError(const HeightField& surface, const std::vector<Eigen::Vector3d>& force)>&
+        judge);
 
 }  // namespace sandstroke

@@ -100,8 +100,9 @@ class PileField {
     scene.bed.surface = pile_->surface;
     problem_.check_errors = [=, pile = pile_] {
       return check_errors(
-          fmt::format("{} cells", scene.bed.cols), scene, start, {}, [&](const Solution& run) {
-            return TrueError{.height_share = surface_error(run.surface, start, pile->shape.exact).l1};
+          fmt::format("{} cells", scene.bed.cols), scene, start, {},
+          [&](const HeightField& surface, const auto&) {
+            return TrueError{.height_share = surface_error(surface, start, pile->shape.exact).l1};
           });
     };
   }

@@ -34,4 +34,21 @@ RunSettings settings_of(const RelaxationSettings& relaxation, const BedGeometry&
   return settings;
 }
 
+RunSettings settings_of(const Scene& scene, int threads) {
+  RunSettings settings = settings_of(
+      scene.relaxation, BedGeometry(scene.bed.rows, scene.bed.cols, scene.bed.cell_size()), threads);
+  settings.servo_rate = scene.device.servo_rate;
+  settings.relaxation_rate = scene.relaxation.rate;
+  return settings;
+}
+
+Score score_of(const RunResult& result) {
+  Score score;
+  score.passes = static_cast<double>(result.relaxation.passes);
+  score.cells_visited = static_cast<double>(result.relaxation.cells_visited);
+  score.volume_drift = result.volume_drift;
+  score.converged = result.relaxation.converged;
+  return score;
+}
+
 }  // namespace sandstroke

@@ -5,7 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "sand/relaxation.h"
+#include "sim/run_result.h"
+#include "sim/scene.h"
 
 namespace sandstroke {
 
@@ -119,5 +120,10 @@ Problem hands_problem(const ProblemOptions& options);
 Problem paper_stroke_problem(const ProblemOptions& options);
 
 RunSettings settings_of(const RelaxationSettings& relaxation, const BedGeometry& bed, int threads);
+/// The same with the rates of a stroke.
+RunSettings settings_of(const Scene& scene, int threads);
+
+/// What a run of a stroke took; of its errors nothing yet.
+Score score_of(const RunResult& result);
 
 }  // namespace sandstroke

@@ -4,8 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "sim/furrow.h"
-#include "sim/simulation.h"
+#include "sim/solution.h"
 #include "validation/study/problem.h"
 
 namespace sandstroke {

@@ -1,6 +1,7 @@
 // Strokes whose truth has to be computed: the same run, finer.
 #include <spdlog/fmt/fmt.h>
 
+#include "sim/error_estimate.h"
 #include "validation/study/hand_strokes.h"
 #include "validation/study/stroke_replay.h"
 
