@@ -75,11 +75,20 @@ void check(const Scene& scene, const TomlReader& toml) {
   }
 }
 
+/// Run files, and scenes of that time, name the engine; there is only one now.
+void skip_engine(const TomlReader& toml) {
+  const std::string engine = toml.text("relaxation.engine", "tiles");
+  if (engine != "tiles")
+    toml.fail("relaxation.engine",
+              fmt::format("is '{}'; leave it out: there is one engine, with the same results", engine));
+}
+
 Scene read_scene(TomlReader toml, const std::vector<std::string>& overrides) {
   for (const std::string& assignment : overrides) toml.override_with(assignment);
   Scene scene;
   SceneReader reader(toml);
   describe_scene(reader, scene);
+  skip_engine(toml);
   toml.reject_unread();
   check(scene, toml);
   return scene;

@@ -22,7 +22,7 @@ HWY_INLINE V lower(V a, V b) {
 #if HWY_ARCH_X86
   return hn::Min(a, b);  // min*pd: the second operand where one is NaN
 #else
-  return hn::IfThenElse(hn::Lt(a, b), a, b);
+  return hn::IfThenElse(a < b, a, b);
 #endif
 }
 
@@ -31,11 +31,11 @@ HWY_INLINE V higher(V a, V b) {
 #if HWY_ARCH_X86
   return hn::Max(a, b);
 #else
-  return hn::IfThenElse(hn::Gt(a, b), a, b);
+  return hn::IfThenElse(a > b, a, b);
 #endif
 }
 
-HWY_INLINE V above(V x, V threshold) { return hn::IfThenElseZero(hn::Gt(x, threshold), x); }
+HWY_INLINE V above(V x, V threshold) { return where(x > threshold, x); }
 
 /// A cell and its neighbours, `lanes` of them from column `c`.
 struct Around {
@@ -58,15 +58,13 @@ struct Corners {
 
 // The steepest drops of a cell, at least 0: subtraction is monotone, so the drop to the lowest neighbour is
 // the largest of the drops.
-HWY_INLINE V axis_drop(const Around& a) {
-  return hn::Sub(a.m, lower(a.w, lower(a.e, lower(a.n, lower(a.s, a.m)))));
-}
+HWY_INLINE V axis_drop(const Around& a) { return a.m - lower(a.w, lower(a.e, lower(a.n, lower(a.s, a.m)))); }
 HWY_INLINE V diagonal_drop(V m, const Corners& k) {
-  return hn::Sub(m, lower(k.nw, lower(k.se, lower(k.ne, lower(k.sw, m)))));
+  return m - lower(k.nw, lower(k.se, lower(k.ne, lower(k.sw, m))));
 }
 HWY_INLINE V squared_slope(const Around& a) {
-  const V gx = hn::Sub(a.m, lower(a.w, lower(a.e, a.m))), gy = hn::Sub(a.m, lower(a.n, lower(a.s, a.m)));
-  return hn::Add(hn::Mul(gx, gx), hn::Mul(gy, gy));
+  const V gx = a.m - lower(a.w, lower(a.e, a.m)), gy = a.m - lower(a.n, lower(a.s, a.m));
+  return gx * gx + gy * gy;
 }
 
 /// The largest drops met, lane by lane; isotropic: axis holds their squares' sum.
@@ -109,16 +107,19 @@ class HeldSand {
   Drops steepest_;
 };
 
-// Factors of the cells in a vector. Bits: those that are not 0.
+// Factors of the cells in a vector: what a cell gives a lower neighbour is its factor x (m - m_i). Bits:
+// those that are not 0.
 
+/// dm = c max_i(m - m_i - T_i), shared in proportion to m - m_i: the factor is dm / sum(m - m_i), over
+/// neighbours with m - m_i > T_i (paper 3.2).
 struct PaperFactors {
   V T, D, axis_limit, diagonal_limit, share;
   explicit PaperFactors(const TalusLaw& law)
-      : T(hn::Set(d, law.axis_drop)),
-        D(hn::Set(d, law.diagonal_drop)),
-        axis_limit(hn::Set(d, law.axis_limit)),
-        diagonal_limit(hn::Set(d, law.diagonal_limit)),
-        share(hn::Set(d, law.share)) {}
+      : T(all(law.axis_drop)),
+        D(all(law.diagonal_drop)),
+        axis_limit(all(law.axis_limit)),
+        diagonal_limit(all(law.diagonal_limit)),
+        share(all(law.share)) {}
 
   template <class Sand>
   HWY_INLINE unsigned operator()(const double* row, int c, double* factors, Sand& sand) const {
@@ -126,42 +127,42 @@ struct PaperFactors {
     const Corners k(row, c);
     const V axis = axis_drop(a), diagonal = diagonal_drop(a.m, k);
     sand.meet(axis, diagonal);
-    const Mask moves = sand.may_give(c, hn::Or(hn::Gt(axis, axis_limit), hn::Gt(diagonal, diagonal_limit)));
+    const Mask moves = sand.may_give(c, hn::Or(axis > axis_limit, diagonal > diagonal_limit));
     if (hn::AllFalse(d, moves)) {
       hn::Store(hn::Zero(d), d, factors + c);
       return 0;
     }
-    const V given = hn::Mul(share, hn::Max(hn::Sub(axis, T), hn::Sub(diagonal, D)));
-    const V axis_sum = hn::Add(hn::Add(above(hn::Sub(a.m, a.w), T), above(hn::Sub(a.m, a.e), T)),
-                               hn::Add(above(hn::Sub(a.m, a.n), T), above(hn::Sub(a.m, a.s), T)));
-    const V diagonal_sum = hn::Add(hn::Add(above(hn::Sub(a.m, k.nw), D), above(hn::Sub(a.m, k.se), D)),
-                                   hn::Add(above(hn::Sub(a.m, k.ne), D), above(hn::Sub(a.m, k.sw), D)));
-    hn::Store(hn::IfThenElseZero(moves, hn::Div(given, hn::Add(axis_sum, diagonal_sum))), d, factors + c);
+    const V dm = share * Max(axis - T, diagonal - D);
+    const V axis_sum =
+        (above(a.m - a.w, T) + above(a.m - a.e, T)) + (above(a.m - a.n, T) + above(a.m - a.s, T));
+    const V diagonal_sum =
+        (above(a.m - k.nw, D) + above(a.m - k.se, D)) + (above(a.m - k.ne, D) + above(a.m - k.sw, D));
+    hn::Store(where(moves, dm / (axis_sum + diagonal_sum)), d, factors + c);
     return bits(moves);
   }
 };
 
+/// c (1 - T / |g|), |g| as a drop.
 struct IsotropicFactors {
   V T, limit, surely_at_rest, share, one;
   explicit IsotropicFactors(const TalusLaw& law)
-      : T(hn::Set(d, law.axis_drop)),
-        limit(hn::Set(d, law.axis_limit)),
-        surely_at_rest(hn::Set(d, law.axis_limit * law.axis_limit * (1.0 - 1e-14))),
-        share(hn::Set(d, law.share)),
-        one(hn::Set(d, 1.0)) {}
+      : T(all(law.axis_drop)),
+        limit(all(law.axis_limit)),
+        surely_at_rest(all(law.axis_limit * law.axis_limit * (1.0 - 1e-14))),
+        share(all(law.share)),
+        one(all(1.0)) {}
 
   template <class Sand>
   HWY_INLINE unsigned operator()(const double* row, int c, double* factors, Sand& sand) const {
     const V square = squared_slope(Around(row, c));
     sand.meet(square, hn::Zero(d));
-    if (hn::AllFalse(d, hn::Gt(square, surely_at_rest))) {
+    if (hn::AllFalse(d, square > surely_at_rest)) {
       hn::Store(hn::Zero(d), d, factors + c);
       return 0;
     }
-    const V slope = hn::Sqrt(square);
-    const Mask moves = sand.may_give(c, hn::Gt(slope, limit));
-    const V factor = hn::Mul(share, hn::Sub(one, hn::Div(T, slope)));
-    hn::Store(hn::IfThenElseZero(moves, factor), d, factors + c);
+    const V g = Sqrt(square);
+    const Mask moves = sand.may_give(c, g > limit);
+    hn::Store(where(moves, share * (one - T / g)), d, factors + c);
     return bits(moves);
   }
 };
@@ -200,38 +201,33 @@ struct Exchange {
   V out, in;
 };
 HWY_INLINE Exchange exchange(V m, V factor, V neighbour, V neighbour_factor, V threshold, V negative) {
-  const V drop = hn::Sub(m, neighbour);
-  return {hn::IfThenElseZero(hn::Gt(drop, threshold), hn::Mul(factor, drop)),
-          hn::IfThenElseZero(hn::Lt(drop, negative), hn::Mul(neighbour_factor, drop))};
+  const V drop = m - neighbour;
+  return {where(drop > threshold, factor * drop), where(drop < negative, neighbour_factor * drop)};
 }
-HWY_INLINE Exchange sum(const Exchange& a, const Exchange& b) {
-  return {hn::Add(a.out, b.out), hn::Add(a.in, b.in)};
-}
+HWY_INLINE Exchange operator+(const Exchange& a, const Exchange& b) { return {a.out + b.out, a.in + b.in}; }
 
 template <bool diagonals>
 struct GainOf {
   V T, minus_T, D, minus_D;
   explicit GainOf(const TalusLaw& law)
-      : T(hn::Set(d, diagonals ? law.axis_drop : 0.0)),
+      : T(all(diagonals ? law.axis_drop : 0.0)),
         minus_T(hn::Neg(T)),
-        D(hn::Set(d, law.diagonal_drop)),
+        D(all(law.diagonal_drop)),
         minus_D(hn::Neg(D)) {}
 
   /// Inflow less outflow of the flagged cells; adds the outflow to `given`.
   HWY_INLINE V operator()(const double* row, const double* factors, int c, Mask cells, LaneSum& given) const {
     const Around m(row, c), f(factors, c);
-    Exchange all =
-        sum(sum(exchange(m.m, f.m, m.w, f.w, T, minus_T), exchange(m.m, f.m, m.e, f.e, T, minus_T)),
-            sum(exchange(m.m, f.m, m.n, f.n, T, minus_T), exchange(m.m, f.m, m.s, f.s, T, minus_T)));
+    const auto axis = [&](V m_i, V f_i) { return exchange(m.m, f.m, m_i, f_i, T, minus_T); };
+    Exchange flow = (axis(m.w, f.w) + axis(m.e, f.e)) + (axis(m.n, f.n) + axis(m.s, f.s));
     if constexpr (diagonals) {
       const Corners k(row, c), fk(factors, c);
-      all = sum(
-          all,
-          sum(sum(exchange(m.m, f.m, k.nw, fk.nw, D, minus_D), exchange(m.m, f.m, k.se, fk.se, D, minus_D)),
-              sum(exchange(m.m, f.m, k.ne, fk.ne, D, minus_D), exchange(m.m, f.m, k.sw, fk.sw, D, minus_D))));
+      const auto diagonal = [&](V m_i, V f_i) { return exchange(m.m, f.m, m_i, f_i, D, minus_D); };
+      flow = flow + ((diagonal(k.nw, fk.nw) + diagonal(k.se, fk.se)) +
+                     (diagonal(k.ne, fk.ne) + diagonal(k.sw, fk.sw)));
     }
-    given.add(c, hn::IfThenElseZero(cells, all.out));
-    return hn::IfThenElseZero(cells, hn::Neg(hn::Add(all.in, all.out)));
+    given.add(c, where(cells, flow.out));
+    return where(cells, hn::Neg(flow.in + flow.out));
   }
 };
 
@@ -294,9 +290,9 @@ bool ApplyFlow(const TileFlow& flow, double* heights, CellFlags& changed) {
       for (int c = 0; c < group; c += lanes) {
         double* cell = heights + row * side + begin + c;
         const V old = hn::Load(d, cell);
-        const V next = hn::Add(old, hn::Load(d, flow.gain.data() + row * side + begin + c));
+        const V next = old + hn::Load(d, flow.gain.data() + row * side + begin + c);
         hn::Store(next, d, cell);
-        flags |= static_cast<std::uint64_t>(bits(hn::Ne(next, old))) << (begin + c);
+        flags |= static_cast<std::uint64_t>(bits(next != old)) << (begin + c);
       }
     }
     changed[row] = flags;

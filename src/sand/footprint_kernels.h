@@ -13,7 +13,8 @@ namespace sandstroke {
 /// weight.
 double shape_footprint(const FootprintShape& shape, ToolFootprint& footprint);
 
-/// How much of the ring a motion fills: all of it where drag_share is 0, its front half where it is 1.
+/// How much of the ring a motion fills: all of it where drag_share is 0, its front half where it is 1. A cell
+/// that lies p [m] ahead of the axis keeps 1 - drag_share (1 - clamp(p / dx + 1/2, 0, 1)) of its rampart.
 struct RingFront {
   double drag_share;
   Eigen::Vector2d direction;  ///< of the drag, a unit vector

@@ -22,6 +22,14 @@ using V = hn::Vec<decltype(d)>;
 using Mask = hn::Mask<decltype(d)>;
 constexpr int lanes = static_cast<int>(hn::MaxLanes(d));
 
+// Formulas are written with the vectors' own operators, and these:
+using hn::Max;
+using hn::Min;
+using hn::Sqrt;
+HWY_INLINE V all(double x) { return hn::Set(d, x); }
+/// x in the lanes of the mask, elsewhere 0.
+HWY_INLINE V where(Mask mask, V x) { return hn::IfThenElseZero(mask, x); }
+
 /// Flags of a vector's lanes, as the low bits.
 HWY_INLINE unsigned bits(Mask mask) {
   uint8_t bytes[8] = {};
@@ -44,10 +52,7 @@ class LaneSum {
     for (V& sum : sums_) sum = hn::Zero(d);
   }
   /// `place`: column of the vector's first lane.
-  HWY_INLINE void add(int place, V terms) {
-    V& sum = sums_[place % group / lanes];
-    sum = hn::Add(sum, terms);
-  }
+  HWY_INLINE void add(int place, V terms) { sums_[place % group / lanes] += terms; }
   HWY_INLINE double total() const {
     alignas(64) double s[group];
     for (int i = 0; i < group; i += lanes) hn::Store(sums_[i / lanes], d, s + i);

@@ -41,7 +41,6 @@ double stable_slope(const TalusLaw& law, double cell_size) {
 }
 
 std::int64_t tiles_to_relax(const HeightField& bed, const RelaxationSettings& settings) {
-  if (settings.engine == RelaxationEngine::reference) return bed.tile_count();
   std::int64_t tiles = bed.touched_tiles();
   visit_steep_tiles(bed, stable_slope(TalusLaw(settings, bed.cell_size()), bed.cell_size()),
                     [&](int tile) { tiles += bed.slot_of(tile) < 0; });
@@ -49,14 +48,11 @@ std::int64_t tiles_to_relax(const HeightField& bed, const RelaxationSettings& se
 }
 
 std::size_t bytes_per_relaxed_tile(const RelaxationSettings& settings) {
-  if (settings.engine == RelaxationEngine::reference)  // heights, factors and the next heights
-    return HeightField::bytes_per_tile() + 3 * sizeof(double) * HeightField::tile_area;
   return HeightField::bytes_per_tile() + ActiveSand::bytes_per_tile() +
          (settings.method == RelaxationMethod::rkl ? rkl_bytes_per_tile() : 0);
 }
 
 std::unique_ptr<Relaxer> make_relaxer(const RelaxationSettings& settings, double cell_size) {
-  if (settings.engine == RelaxationEngine::reference) return make_reference_relaxer(settings, cell_size);
   return settings.method == RelaxationMethod::rkl ? make_rkl_relaxer(settings, cell_size)
                                                   : make_tile_relaxer(settings, cell_size);
 }

@@ -13,14 +13,10 @@ enum class RelaxationLaw { paper, isotropic };
 /// passes: explicit Jacobi passes of the law. rkl: super time steps, which reach the rest that small steps of
 /// the law reach in far fewer passes (relaxation_rkl.cpp).
 enum class RelaxationMethod { passes, rkl };
-/// tiles: only sand that can move. reference: the plain whole-field one, to check the other against (method
-/// passes only). Both give the same bits.
-enum class RelaxationEngine { tiles, reference };
 
 struct RelaxationSettings {
   RelaxationLaw law = RelaxationLaw::paper;
   RelaxationMethod method = RelaxationMethod::passes;
-  RelaxationEngine engine = RelaxationEngine::tiles;
   double talus_angle = 30.0;    ///< deg (angle of repose), above 0, below 90
   double tolerance = 1e-3;      ///< a cell whose slope exceeds tan(talus) by no more than this share rests
   double step_tolerance = 0.1;  ///< rkl: error of a super-step, as a share of how far sand has moved

@@ -32,8 +32,8 @@ FlowSize KeepFirstFlow(const TileFlow& flow, SuperStepTile& tile) {
              [&](int row, int g) {
                for (int c = g * group; c < (g + 1) * group; c += lanes) {
                  const V gain = hn::Load(d, flow.gain.data() + row * side + c);
-                 peak = hn::Max(peak, hn::Abs(gain));
-                 square.add(c, hn::Mul(gain, gain));
+                 peak = Max(peak, hn::Abs(gain));
+                 square.add(c, gain * gain);
                  hn::Store(gain, d, tile.first_gain.data() + row * side + c);
                }
              });
@@ -50,8 +50,8 @@ FlowChange CompareFlows(const TileFlow& flow, const SuperStepTile& tile) {
                  const int at = row * side + c;
                  const V gain = now ? hn::Load(d, flow.gain.data() + at) : hn::Zero(d);
                  const V before = first ? hn::Load(d, tile.first_gain.data() + at) : hn::Zero(d);
-                 difference = hn::Max(difference, hn::Abs(hn::Sub(gain, before)));
-                 product.add(c, hn::Mul(gain, before));
+                 difference = Max(difference, hn::Abs(gain - before));
+                 product.add(c, gain * before);
                }
              });
   return {largest(difference), product.total()};
@@ -60,12 +60,12 @@ FlowChange CompareFlows(const TileFlow& flow, const SuperStepTile& tile) {
 /// Lowest and highest, lane by lane.
 struct Range {
   V low, high;
-  HWY_INLINE Range() : low(hn::Set(d, std::numeric_limits<double>::infinity())), high(hn::Neg(low)) {}
+  HWY_INLINE Range() : low(all(std::numeric_limits<double>::infinity())), high(hn::Neg(low)) {}
   HWY_INLINE void add(V heights, Mask counts) {
-    low = hn::IfThenElse(counts, hn::Min(low, heights), low);
-    high = hn::IfThenElse(counts, hn::Max(high, heights), high);
+    low = hn::IfThenElse(counts, Min(low, heights), low);
+    high = hn::IfThenElse(counts, Max(high, heights), high);
   }
-  HWY_INLINE HeightRange all() const { return {least(low), largest(high)}; }
+  HWY_INLINE HeightRange over_lanes() const { return {least(low), largest(high)}; }
 };
 
 HeightRange RangeOf(const double* heights, int rows, int cols) {
@@ -73,12 +73,11 @@ HeightRange RangeOf(const double* heights, int rows, int cols) {
   for (int row = 0; row < rows; ++row)
     for (int c = 0; c < cols; c += lanes)
       range.add(hn::Load(d, heights + row * side + c), hn::FirstN(d, static_cast<std::size_t>(cols - c)));
-  return range.all();
+  return range.over_lanes();
 }
 
 HeightRange SuperStage(const TileFlow& flow, const CellFlags& active, double momentum, double step,
                        double* heights, SuperStepTile& tile, CellFlags& changed) {
-  const V momentum_of_one = hn::Set(d, momentum), step_of_one = hn::Set(d, step);
   Range range;
   changed = {};
   for_groups([&](int row) { return groups_of(active[row]); },
@@ -90,17 +89,17 @@ HeightRange SuperStage(const TileFlow& flow, const CellFlags& active, double mom
                  V next = now;
                  if (stepped) {
                    const V before = hn::Load(d, tile.before.data() + at);
-                   next = hn::Add(next, hn::Mul(momentum_of_one, hn::Sub(now, before)));
+                   next += all(momentum) * (now - before);
                  }
-                 if (moved) next = hn::Add(next, hn::Mul(step_of_one, hn::Load(d, flow.gain.data() + at)));
+                 if (moved) next += all(step) * hn::Load(d, flow.gain.data() + at);
                  hn::Store(now, d, tile.before.data() + at);
                  hn::Store(next, d, heights + at);
                  range.add(next, lanes_of(active[row] >> c));
-                 changed[row] |= static_cast<std::uint64_t>(bits(hn::Ne(next, now))) << c;
+                 changed[row] |= static_cast<std::uint64_t>(bits(next != now)) << c;
                }
              });
   for (int row = 0; row < side; ++row) tile.stepped[row] |= static_cast<std::uint8_t>(groups_of(active[row]));
-  return range.all();
+  return range.over_lanes();
 }
 
 void TakeBackStage(const SuperStepTile& tile, double* heights) {

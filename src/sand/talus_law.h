@@ -20,7 +20,6 @@ struct TalusLaw {
 /// rows, columns and diagonals; the isotropic one adds up two of them.
 double stable_slope(const TalusLaw& law, double cell_size);
 
-std::unique_ptr<Relaxer> make_reference_relaxer(const RelaxationSettings& settings, double cell_size);
 std::unique_ptr<Relaxer> make_tile_relaxer(const RelaxationSettings& settings, double cell_size);
 /// What make_rkl_relaxer takes besides ActiveSand.
 std::size_t rkl_bytes_per_tile();

@@ -65,8 +65,6 @@ void describe_relaxation(SceneVisitor& v, RelaxationSettings& r) {
   if (r.method == RelaxationMethod::rkl)
     v.number("step_tolerance", r.step_tolerance, {1e-6, 10.0, false}, "",
              "method rkl: error of a super step, as a share of how far sand has moved");
-  choose(v, "engine", r.engine, {"tiles", "reference"},
-         "only sand that can move, or the plain whole field (same bits; method passes)");
   v.number("talus_angle", r.talus_angle, sharp_angle, "deg", "angle of repose");
   v.number("tolerance", r.tolerance, {1e-12, 1.0, false}, "",
            "slope above tan(talus_angle) that rests, as a share of it");
@@ -245,11 +243,6 @@ void check_scene(const Scene& scene, const std::string& name) {
     throw_input_error(
         "{}: relaxation.travel = {} cells is too little; take {} or more, or 0 to relax by time only", name,
         r.travel, least_travel);
-  if (r.method == RelaxationMethod::rkl && r.engine == RelaxationEngine::reference)
-    throw_input_error(
-        "{}: relaxation.engine = reference has no method rkl; set relaxation.method = passes, or engine = "
-        "tiles",
-        name);
   const DeviceSettings& device = scene.device;
   if (device.drag == DragVelocity::implicit && (device.delay > 0 || device.dropped_ticks > 0.0))
     throw_input_error(

@@ -5,6 +5,7 @@
 #include <hwy/targets.h>
 
 #include "bench/moving_sand.h"
+#include "reference/relaxation_reference.h"
 
 namespace sandstroke {
 namespace {

@@ -1,4 +1,4 @@
-// Strokes replayed: against the clock, against the reference engine, and on beds of all sizes.
+// Strokes replayed: against the clock, against the plain reference, and on beds of all sizes.
 #include <unistd.h>
 
 #include <chrono>
@@ -10,6 +10,7 @@
 #include "bench/end_to_end.h"
 #include "core/hash.h"
 #include "haptics/stroke_script.h"
+#include "reference/relaxation_reference.h"
 #include "sim/simulation.h"
 
 namespace sandstroke {
@@ -63,16 +64,18 @@ struct Replay {
   HeightField bed;
 };
 
-Replay replay(const Scene& scene, const Stroke& stroke) {
-  Simulation simulation(scene, HeightField(scene.bed.rows, scene.bed.cols, scene.bed.cell_size()), stroke);
+Replay replay(const Scene& scene, const Stroke& stroke, std::unique_ptr<Relaxer> relaxer = nullptr) {
+  Simulation simulation(scene, HeightField(scene.bed.rows, scene.bed.cols, scene.bed.cell_size()), stroke,
+                        std::move(relaxer));
   RelaxationClock clock;
   const double cpu_begin = cpu_seconds();
   const RunResult result = simulation.run({&clock});
   return {result, cpu_seconds() - cpu_begin, clock.seconds(), simulation.bed()};
 }
 
-/// The first moments of contact with both engines, and what the whole stroke would take the reference.
-nlohmann::json against_reference(Scene scene, const Stroke& stroke, const Replay& whole,
+/// The first moments of contact with the engine and the reference, and what the whole stroke would take the
+/// reference.
+nlohmann::json against_reference(const Scene& scene, const Stroke& stroke, const Replay& whole,
                                  double contact_seconds) {
   std::size_t first = 0;
   while (stroke.position[first].z() >= 0.0) ++first;
@@ -81,14 +84,13 @@ nlohmann::json against_reference(Scene scene, const Stroke& stroke, const Replay
   cut.stop = cut.start + contact_seconds;
   const Stroke beginning = place_stroke(stroke, cut);
   std::vector<double> tiles_seconds;
-  scene.relaxation.engine = RelaxationEngine::tiles;
   std::optional<Replay> tiles;
   for (int i = 0; i < 5; ++i) {
     tiles = replay(scene, beginning);
     tiles_seconds.push_back(tiles->relaxation_seconds);
   }
-  scene.relaxation.engine = RelaxationEngine::reference;
-  const Replay reference = replay(scene, beginning);
+  const Replay reference =
+      replay(scene, beginning, make_reference_relaxer(scene.relaxation, scene.bed.cell_size()));
 
   const HeightGrid a = tiles->bed.grid(), b = reference.bed.grid();
   const bool same = std::memcmp(a.data(), b.data(), static_cast<std::size_t>(a.size()) * sizeof(double)) == 0;

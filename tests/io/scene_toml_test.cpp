@@ -108,6 +108,12 @@ TEST(SceneToml, EveryKeyOfTheTableIsAKeyOfScenesAndItsValueTheDefault) {
   EXPECT_GT(keys, 50);
 }
 
+TEST(SceneToml, TheEngineThatOldRunFilesNameIsReadAndNotWritten) {
+  const std::string text = scene_text(read("[relaxation]\nengine = 'tiles'\nrate = 30.0\n"));
+  EXPECT_EQ(text, scene_text(read("[relaxation]\nrate = 30.0\n")));
+  EXPECT_EQ(text.find("engine"), std::string::npos);
+}
+
 TEST(SceneToml, RefusesWhatCannotBeMeant) {
   const auto refuses = [](const std::string& text, const std::string& part) {
     try {
@@ -130,6 +136,8 @@ TEST(SceneToml, RefusesWhatCannotBeMeant) {
   refuses("[relaxation]\ntalus_angle = 90.0\n", "above 0 and below 90");
   refuses("[relaxation]\nlaw = 'magic'\n", "paper, isotropic");
   refuses("[relaxation]\nlaw = 'isotropic'\nshare = 0.3\n", "0.25");
+  refuses("[relaxation]\nengine = 'reference'\n",
+          "scene.toml:2: relaxation.engine is 'reference'; leave it out");
   refuses("[tool]\nradius = 3.0\n[stroke]\nfile = \"x.toml\"\n", "fit");
   refuses("[tool]\nradius = 1e-4\n[stroke]\nfile = 'x.h5'\n", "half a cell");
   refuses("[stroke]\nscale = 2\n", "stroke.file");

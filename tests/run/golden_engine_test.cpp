@@ -19,6 +19,7 @@
 #include "io/scene_toml.h"
 #include "io/stroke_file.h"
 #include "io/surface_file.h"
+#include "reference/relaxation_reference.h"
 #include "sanitized.h"
 #include "sim/simulation.h"
 
@@ -84,9 +85,7 @@ class Variant {
 class CheckedRelaxer : public Relaxer {
  public:
   CheckedRelaxer(const RelaxationSettings& settings, double cell_size)
-      : settings_(settings), engine_(make_relaxer(settings, cell_size)) {
-    settings_.engine = RelaxationEngine::reference;
-  }
+      : settings_(settings), engine_(make_relaxer(settings, cell_size)) {}
 
   RelaxationOutcome relax(HeightField& bed, const std::function<void(std::int64_t)>& after_pass) override {
     if (sanitized && relaxations == 3) throw Enough{};
@@ -112,7 +111,7 @@ class CheckedRelaxer : public Relaxer {
       EXPECT_TRUE(variant.equals(bed, changed)) << variant.name() << ", relaxation " << relaxations;
     ++relaxations;
     HeightField after = before;
-    const RelaxationOutcome plain = make_relaxer(settings_, bed.cell_size())->relax(after);
+    const RelaxationOutcome plain = make_reference_relaxer(settings_, bed.cell_size())->relax(after);
     EXPECT_EQ(outcome.passes, plain.passes);
     const HeightGrid expected = after.grid(), start = before.grid();
     EXPECT_TRUE((window_of(bed, window).grid() == expected).all()) << "relaxation " << relaxations;
@@ -182,11 +181,9 @@ class CheckedRelaxer : public Relaxer {
 
   std::deque<Variant>& variants(const HeightField& bed) {
     if (variants_.empty()) {
-      RelaxationSettings settings = settings_;
-      settings.engine = RelaxationEngine::tiles;
       const std::vector<std::int64_t> targets = hwy::SupportedAndGeneratedTargets();
-      for (const int threads : {1, 2, 3, 8}) variants_.emplace_back(settings, bed, targets.front(), threads);
-      for (std::size_t i = 1; i < targets.size(); ++i) variants_.emplace_back(settings, bed, targets[i], 2);
+      for (const int threads : {1, 2, 3, 8}) variants_.emplace_back(settings_, bed, targets.front(), threads);
+      for (std::size_t i = 1; i < targets.size(); ++i) variants_.emplace_back(settings_, bed, targets[i], 2);
     }
     return variants_;
   }

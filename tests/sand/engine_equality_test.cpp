@@ -1,15 +1,18 @@
-// The engine against the plain whole-field reference, bit for bit: random beds, tools and angles, on any
-// number of threads and every instruction set of the machine.
+// The engine against the plain references, bit for bit: random beds, tools and angles, on any number of
+// threads and every instruction set of the machine.
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 #include <tbb/task_arena.h>
 
 #include <hwy/targets.h>
 
+#include <cmath>
 #include <cstring>
 #include <random>
 #include <vector>
 
+#include "reference/displacement_reference.h"
+#include "reference/relaxation_reference.h"
 #include "sand/displacement.h"
 #include "sand/initial_surface.h"
 #include "sand/relaxation.h"
@@ -56,23 +59,34 @@ class RandomScene {
     tool.radius = real(0.6, 7.0) * dx;
     tool.profile = whole(0, 1) ? ToolProfile::paper : ToolProfile::sphere;
     const Deposit deposits[] = {Deposit::ring, Deposit::ahead, Deposit::outward};
-    deposit.deposit = deposits[whole(0, 2)];
+    deposit = {deposits[whole(0, 2)], real(1.0, 1.4)};
   }
 
-  /// Pushes the tool into each bed, at the same place: anywhere, along a tile border, or along a wall. There
-  /// it stays, or not, as a solid one.
-  void push(std::initializer_list<HeightField*> beds) {
+  struct Push {
+    double x, y, depth;
+    Eigen::Vector3d motion;
+  };
+  /// Anywhere, along a tile border, or along a wall; along one axis, or none, now and then.
+  Push draw_push() {
     const int at = whole(0, 2);
-    const double row = at == 0 ? real(0, bed.rows()) : at == 1 ? real(61, 67) : real(0, 3);
+    const double row = at == 0 ? real(0, bed.rows()) : at == 1 ? real(61, 67) : real(-2, 3);
     const double col = at == 0 ? real(0, bed.cols()) : at == 1 ? real(60, 68) : real(0, bed.cols());
-    const double depth = real(0.0, 4.0) * dx;
-    const Eigen::Vector3d motion(real(-dx, dx), real(-dx, dx), real(-dx, dx));
+    const auto along_axis = [&] { return whole(0, 3) ? real(-dx, dx) : 0.0; };
+    return {bed.x_of(0) + col * dx,
+            bed.y_of(0) + row * dx,
+            real(0.0, 4.0) * dx,
+            {along_axis(), along_axis(), along_axis()}};
+  }
+
+  /// Pushes the tool into each bed, at the same place. There it stays, or not, as a solid one.
+  void push(std::initializer_list<HeightField*> beds) {
+    const Push at = draw_push();
     const bool stays = whole(0, 1) == 1;
     for (HeightField* one : beds) {
       ToolFootprint footprint(tool);
-      footprint.place(*one, one->x_of(0) + col * dx, one->y_of(0) + row * dx);
+      footprint.place(*one, at.x, at.y);
       if (!footprint.cells().empty())
-        displace(*one, footprint, footprint.sand_level() - depth, motion, deposit);
+        displace(*one, footprint, footprint.sand_level() - at.depth, at.motion, deposit);
       stays ? footprint.hold_bowl(*one) : one->hold({});
     }
   }
@@ -94,13 +108,11 @@ bool same_bits(const HeightGrid& a, const HeightGrid& b) {
   return std::memcmp(a.data(), b.data(), static_cast<std::size_t>(a.size()) * sizeof(double)) == 0;
 }
 
-/// Lets both engines work on a scene and compares every bit after each relaxation.
-void expect_equal_engines(RandomScene& scene) {
+/// Lets the engine and the reference relax a scene and compares every bit after each time.
+void expect_equal_relaxations(RandomScene& scene) {
   HeightField by_engine = scene.bed, by_reference = scene.bed;
-  RelaxationSettings settings = scene.relaxation;
-  const auto engine = make_relaxer(settings, scene.dx);
-  settings.engine = RelaxationEngine::reference;
-  const auto reference = make_relaxer(settings, scene.dx);
+  const auto engine = make_relaxer(scene.relaxation, scene.dx),
+             reference = make_reference_relaxer(scene.relaxation, scene.dx);
   for (int round = 0; round < 4; ++round) {
     const RelaxationOutcome a = engine->relax(by_engine), b = reference->relax(by_reference);
     ASSERT_TRUE(same_bits(by_engine.grid(), by_reference.grid())) << "round " << round;
@@ -124,8 +136,7 @@ TEST(Engine, EqualsTheReferenceInASteadyFlow) {
         for (int col = 0; col < 400; ++col) by_engine.set(row, col, col);
       HeightField by_reference = by_engine;
       const RelaxationOutcome a = make_relaxer(settings, 1.0)->relax(by_engine);
-      settings.engine = RelaxationEngine::reference;
-      const RelaxationOutcome b = make_relaxer(settings, 1.0)->relax(by_reference);
+      const RelaxationOutcome b = make_reference_relaxer(settings, 1.0)->relax(by_reference);
       EXPECT_TRUE(same_bits(by_engine.grid(), by_reference.grid()));
       EXPECT_EQ(a.passes, b.passes);
       EXPECT_EQ(a.residual, b.residual);
@@ -159,7 +170,7 @@ TEST(Engine, EqualsTheReferenceOn200RandomScenes) {
     const InstructionSet set(targets[seed % targets.size()]);
     on_threads(thread_counts[seed / targets.size() % 4], [&] {
       RandomScene scene(seed, 1, 140);
-      expect_equal_engines(scene);
+      expect_equal_relaxations(scene);
     });
     ASSERT_FALSE(testing::Test::HasFailure());
   }
@@ -180,10 +191,56 @@ TEST(Engine, EqualsTheReferenceWithEveryInstructionSetAndThreadCount) {
           rough.seed = seed;
           scene.bed = make_surface(rough, scene.bed.rows(), scene.bed.cols(), scene.dx);
           scene.relaxation.max_passes = sanitized ? 1 : 6;
-          expect_equal_engines(scene);
+          expect_equal_relaxations(scene);
         });
         ASSERT_FALSE(testing::Test::HasFailure());
       }
+}
+
+/// Cells that the next relaxation will look at.
+bool same_disturbed(const HeightField& a, const HeightField& b) {
+  for (int tile = 0; tile < a.tile_count(); ++tile) {
+    const auto disturbed = [tile](const HeightField& bed) {
+      return bed.slot_of(tile) < 0 ? CellFlags{} : bed.disturbed_cells(bed.slot_of(tile));
+    };
+    if (disturbed(a) != disturbed(b)) return false;
+  }
+  return true;
+}
+
+TEST(Tool, EqualsThePlainReferenceOn400RandomScenes) {
+  const std::vector<std::int64_t> targets = hwy::SupportedAndGeneratedTargets();
+  int pushed = 0;
+  for (unsigned seed = 1; seed <= (sanitized ? 40 : 400); ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    const InstructionSet set(targets[seed % targets.size()]);
+    RandomScene scene(seed, 1, 140);
+    HeightField expected = scene.bed;
+    for (int i = 0; i < 6; ++i) {
+      const RandomScene::Push at = scene.draw_push();
+      ToolFootprint footprint(scene.tool);
+      footprint.place(scene.bed, at.x, at.y);
+      const DisplacementReference reference(scene.tool, expected, at.x, at.y);
+      const double level = reference.sand_level(expected);
+      ASSERT_TRUE(footprint.sand_level() == level ||
+                  (std::isnan(level) && std::isnan(footprint.sand_level())));
+      if (std::isnan(level)) continue;
+
+      const double volume = displace(scene.bed, footprint, level - at.depth, at.motion, scene.deposit);
+      ASSERT_EQ(volume, reference.displace(expected, level - at.depth, at.motion, scene.deposit));
+      ASSERT_TRUE(same_bits(scene.bed.grid(), expected.grid()));
+      ASSERT_TRUE(same_disturbed(scene.bed, expected));
+      pushed += volume > 0.0;
+
+      footprint.hold_bowl(scene.bed);
+      for (int row = 0; row < scene.bed.rows(); ++row)
+        for (int col = 0; col < scene.bed.cols(); ++col)
+          ASSERT_EQ(scene.bed.is_held(row, col), reference.in_bowl(row, col)) << row << ", " << col;
+      scene.bed.hold({});
+      scene.bed.settle(), expected.settle();
+    }
+  }
+  EXPECT_GT(pushed, sanitized ? 100 : 1000);
 }
 
 TEST(Tool, IsTheSameBitsWithEveryInstructionSet) {

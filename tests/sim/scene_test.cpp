@@ -66,9 +66,6 @@ TEST(CheckScene, SandThatWillMoveMustFitTheMemory) {
   read.bed.surface.kind = SurfaceKind::file;
   read.bed.surface.file = "run.h5";
   refused(read);
-  Scene whole_field = huge_scene();
-  whole_field.relaxation.engine = RelaxationEngine::reference;
-  refused(whole_field);
 }
 
 TEST(CheckScene, ImplicitDragIsForAForceThatActsAtOnce) {

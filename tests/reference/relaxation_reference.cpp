@@ -1,5 +1,6 @@
-// The plain reference: both laws as they are written down, whole field, cell by cell. The oracle for faster
-// engines, so it is kept simple and shares no loop with them.
+// Kept simple: it shares no loop with the engine.
+#include "reference/relaxation_reference.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
