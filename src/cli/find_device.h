@@ -32,8 +32,7 @@ inline constexpr bool knows_chai3d = true;
 inline constexpr bool knows_chai3d = false;
 #endif
 inline constexpr const char* how_to_build_with_chai3d =
-    "build it with cmake -DSANDSTROKE_CHAI3D=ON -Dchai3d_DIR=CHAI3D's build folder (README: Where CHAI3D "
-    "comes "
-    "in)";
+    "build it with cmake -DSANDSTROKE_CHAI3D=ON -Dchai3d_DIR=CHAI3D's build folder "
+    "(src/record/README.md says how)";
 
 }  // namespace sandstroke
