@@ -3,9 +3,11 @@
 //   kill:N       kills the program right before the N-th of these calls, counted from 1
 //   full:N       from the N-th on the disk is full
 //   clock        the wall clock jumps by days, to and fro, each time it is asked
+//   locks:E      locks of files fail with errno E
 #include <dlfcn.h>
 #include <fcntl.h>
 #include <signal.h>
+#include <sys/file.h>
 #include <sys/time.h>
 #include <sys/uio.h>
 #include <time.h>
@@ -56,6 +58,13 @@ __attribute__((destructor)) void say_count() {
     std::fprintf(file, "%ld", calls.load());
     std::fclose(file);
   }
+}
+
+/// False: there are no locks.
+bool locks() {
+  static const char* const error = fault("locks:");
+  if (error) errno = std::atoi(error);
+  return !error;
 }
 
 timespec jumped(timespec time) {
@@ -137,6 +146,16 @@ char* mkdtemp(char* path) noexcept { return goes_on() ? real<char*(char*)>("mkdt
   }
 SANDSTROKE_OPEN(open)
 SANDSTROKE_OPEN(open64)
+
+int fcntl(int file, int command, ...) {
+  va_list rest;
+  va_start(rest, command);
+  void* const argument = va_arg(rest, void*);
+  va_end(rest);
+  const bool locking = command == F_OFD_SETLK || command == F_OFD_SETLKW;
+  return !locking || locks() ? real<int(int, int, ...)>("fcntl")(file, command, argument) : -1;
+}
+int flock(int file, int how) noexcept { return locks() ? real<int(int, int)>("flock")(file, how) : -1; }
 
 int clock_gettime(clockid_t clock, timespec* time) noexcept {
   const int failure = real<int(clockid_t, timespec*)>("clock_gettime")(clock, time);

@@ -10,7 +10,6 @@
 #include "compare/compare_page.h"
 #include "compare/compare_runs.h"
 #include "compare/junit.h"
-#include "compare/report_picture.h"
 #include "core/error.h"
 #include "core/output_file.h"
 #include "io/png_file.h"
@@ -26,20 +25,16 @@ struct CompareArguments {
   bool json = false;
 };
 
+fs::path page_of(const CompareArguments& arguments) { return arguments.report / "compare.html"; }
+
 void write_page(const CompareArguments& arguments, const std::function<ComparePage()>& make) {
   if (arguments.report.empty()) return;
   make_folder(arguments.report);
-  write_text_file(arguments.report / "compare.html", make().html());
+  write_text_file(page_of(arguments), make().html());
 }
 
 Comparison compare_run_files(const CompareArguments& arguments) {
   const RunFile golden(arguments.golden), run(arguments.run);
-  if (!arguments.report.empty()) {
-    write_report(arguments.report / "height.png", [&] {
-      return surface_report(arguments.run.string() + ": final height", golden.final(), run.final(),
-                            golden.cell_size(), arguments.tolerances.height);
-    });
-  }
   Comparison comparison = compare_runs(golden, run, arguments.tolerances);
   write_page(arguments, [&] { return run_page(golden, run, comparison, arguments.tolerances); });
   return comparison;
@@ -47,11 +42,6 @@ Comparison compare_run_files(const CompareArguments& arguments) {
 
 Comparison compare_pictures(const CompareArguments& arguments) {
   const Image golden = read_png(arguments.golden), run = read_png(arguments.run);
-  if (!arguments.report.empty()) {
-    write_report(arguments.report / "picture.png", [&] {
-      return picture_report(arguments.run.string(), golden, run, arguments.tolerances.pixel);
-    });
-  }
   Comparison comparison{arguments.run.string(), {}};
   add_checks(comparison.checks, "picture", [&] { return picture_checks(golden, run, arguments.tolerances); });
   write_page(arguments, [&] {
@@ -70,10 +60,12 @@ int compare(const CompareArguments& arguments) {
   const Comparison comparison =
       has_picture_name(arguments.golden) ? compare_pictures(arguments) : compare_run_files(arguments);
   if (!arguments.junit.empty()) write_text_file(arguments.junit, junit_report({comparison}));
-  if (arguments.json)
+  if (arguments.json) {
     print_json(to_json(comparison));
-  else
+  } else {
     fmt::print("{}", check_table(comparison));
+    if (!arguments.report.empty()) fmt::print("page  {}\n", page_of(arguments).string());
+  }
   return comparison.passed() ? 0 : 1;
 }
 
@@ -108,7 +100,7 @@ void add_compare_command(CLI::App& app, Command& chosen) {
       ->capture_default_str();
   command
       ->add_option("--report", arguments->report,
-                   "Folder for a page (compare.html: checks, maps, forces) and a picture of the difference")
+                   "Folder for a page, compare.html: checks, maps of the difference, forces")
       ->type_name("FOLDER");
   command->add_option("--junit", arguments->junit, "File for the checks as JUnit XML")->type_name("FILE.xml");
   command->add_flag("--json", arguments->json, "Print one JSON object instead of the table");

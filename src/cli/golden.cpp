@@ -63,7 +63,10 @@ int check(const GoldenArguments& arguments) {
     std::fflush(stdout);
   }
   if (!arguments.junit.empty()) write_text_file(arguments.junit, junit_report(comparisons));
-  if (arguments.json) print_json(nlohmann::json{{"passed", passed}, {"scenes", scenes}});
+  if (arguments.json)
+    print_json(nlohmann::json{{"passed", passed}, {"scenes", scenes}});
+  else if (fs::is_directory(arguments.report))
+    fmt::print("pages   {}\n", arguments.report.string());
   return passed ? 0 : 1;
 }
 
@@ -98,7 +101,7 @@ void add_golden_command(CLI::App& app, Command& chosen) {
   add_folder_options(check_command, *arguments);
   check_command
       ->add_option("--report", arguments->report,
-                   "Folder for a page and pictures of the differences of each scene")
+                   "Folder for a page on each scene, SCENE.html: checks, maps of the difference, forces")
       ->type_name("FOLDER");
   check_command->add_option("--junit", arguments->junit, "File for the checks as JUnit XML")
       ->type_name("FILE.xml");

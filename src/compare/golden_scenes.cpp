@@ -5,7 +5,6 @@
 #include <set>
 
 #include "compare/compare_page.h"
-#include "compare/report_picture.h"
 #include "core/error.h"
 #include "core/output_file.h"
 #include "core/temporary_folder.h"
@@ -74,14 +73,6 @@ Comparison check_golden(const std::string& name, const GoldenFolders& folders, c
   if (run.result.interrupted) return failed("run", "was interrupted");
   Comparison comparison = compare_golden(name, folders.entry(name), run, tolerances);
   if (!report.empty()) {
-    write_report(report / (name + "-height.png"), [&] {
-      const GoldenContent golden = read_golden(folders.entry(name));
-      return surface_report(name + ": change of height", golden.change, height_change(RunFile(run.run_file)),
-                            golden.cell_size, tolerances.height);
-    });
-    write_report(report / (name + "-picture.png"), [&] {
-      return picture_report(name, read_golden_picture(folders.entry(name)), run.picture, tolerances.pixel);
-    });
     make_folder(report);
     write_text_file(report / (name + ".html"),
                     golden_page(name, folders.entry(name), run, comparison, tolerances).html());

@@ -27,8 +27,8 @@ std::vector<std::string> golden_names(const GoldenFolders& folders,
                                       const std::vector<std::string>& asked_for);
 
 /// Runs one scene and judges it by its golden entry. A scene without entry, an entry without scene, and a run
-/// that stops with bad input or is interrupted, are failed checks. report: a folder for NAME-height.png,
-/// NAME-picture.png and the page NAME.html, or empty.
+/// that stops with bad input or is interrupted, are failed checks. report: a folder for the page
+/// NAME.html, or empty.
 Comparison check_golden(const std::string& name, const GoldenFolders& folders, const SceneRunner& runner,
                         const Tolerances& tolerances, const std::filesystem::path& report);
 

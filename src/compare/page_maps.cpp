@@ -13,7 +13,7 @@
 #include "io/png_file.h"
 #include "render/changed_cells.h"
 #include "render/colour_map.h"
-#include "render/map_picture.h"
+#include "render/plain_map.h"
 #include "render/render_subject.h"
 #include "render/round_scale.h"
 #include "report/data_uri.h"

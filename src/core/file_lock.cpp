@@ -1,11 +1,13 @@
 #include "core/file_lock.h"
 
 #include <fcntl.h>
+#include <spdlog/spdlog.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <cstring>
+#include <mutex>
 
 #include "core/error.h"
 
@@ -23,9 +25,7 @@ std::optional<FileLock> FileLock::try_take(const std::filesystem::path& path) {
 }
 
 FileLock FileLock::wait_and_take(const std::filesystem::path& path) {
-  std::optional<FileLock> taken = take(path, F_OFD_SETLKW);
-  if (!taken) throw_io_error("{}: cannot be locked ({})", path.string(), std::strerror(errno));
-  return std::move(*taken);
+  return std::move(*take(path, F_OFD_SETLKW));
 }
 
 std::optional<FileLock> FileLock::take(const std::filesystem::path& path, int how) {
@@ -40,7 +40,7 @@ std::optional<FileLock> FileLock::take(const std::filesystem::path& path, int ho
     struct stat opened {};
     if (fstat(taken.descriptor_, &opened) != 0 || !S_ISREG(opened.st_mode))
       throw_io_error("{}: is not a regular file; remove it or choose another place", path.string());
-    if (!taken.lock(F_WRLCK, how)) return std::nullopt;
+    if (!taken.lock(path, F_WRLCK, how)) return std::nullopt;
     if (still_named(taken.descriptor_, path)) return taken;
   }
 }
@@ -49,11 +49,11 @@ std::optional<FileLock> FileLock::try_share(const std::filesystem::path& path) {
   FileLock shared(open(path.c_str(), O_RDONLY | O_CLOEXEC));
   if (shared.descriptor_ < 0)
     throw_io_error("{}: cannot be opened ({}); check the path", path.string(), std::strerror(errno));
-  if (!shared.lock(F_RDLCK, F_OFD_SETLK)) return std::nullopt;
+  if (!shared.lock(path, F_RDLCK, F_OFD_SETLK)) return std::nullopt;
   return shared;
 }
 
-bool FileLock::lock(short type, int how) {
+bool FileLock::lock(const std::filesystem::path& path, short type, int how) {
   struct flock whole_file {};
   whole_file.l_type = type;
   whole_file.l_whence = SEEK_SET;
@@ -61,7 +61,20 @@ bool FileLock::lock(short type, int how) {
   int result;
   do result = fcntl(descriptor_, how, &whole_file);
   while (result != 0 && errno == EINTR);
-  return result == 0;
+  if (result == 0) return true;
+  const int error = errno;
+  if (error == EAGAIN || error == EACCES) return false;
+  // What NFS, Lustre and others say where they are mounted without locks. People must work there, too.
+  if (error != ENOLCK && error != EOPNOTSUPP && error != EINVAL && error != ENOSYS)
+    throw_io_error("{}: cannot be locked ({}); choose another place", path.string(), std::strerror(error));
+  static std::once_flag told;
+  std::call_once(told, [&] {
+    spdlog::warn(
+        "{}: this file system has no locks ({}), so nothing keeps two commands from writing the same file: "
+        "give each an output of its own",
+        path.string(), std::strerror(error));
+  });
+  return true;
 }
 
 FileLock::FileLock(FileLock&& other) noexcept : descriptor_(std::exchange(other.descriptor_, -1)) {}

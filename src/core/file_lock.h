@@ -10,7 +10,7 @@ namespace sandstroke {
 bool still_named(int descriptor, const std::filesystem::path& path);
 
 /// Keeps other processes, and other holders in this one, from what a file stands for; gone with its holder,
-/// however that ends.
+/// however that ends. On a file system without locks it keeps nobody from anything, and warns once.
 class FileLock {
  public:
   /// Makes the file where it is not there. None: somebody holds it. Error: io; also where something else than
@@ -30,7 +30,8 @@ class FileLock {
  private:
   explicit FileLock(int descriptor) : descriptor_(descriptor) {}
   static std::optional<FileLock> take(const std::filesystem::path& path, int how);
-  bool lock(short type, int how);
+  /// False: somebody holds it.
+  bool lock(const std::filesystem::path& path, short type, int how);
 
   int descriptor_;
 };

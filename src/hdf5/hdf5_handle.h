@@ -44,4 +44,11 @@ inline void prepare_hdf5() {
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
 }
 
+/// How files are opened: HDF5's own lock is refused where there are none, and on NFS beside a FileLock.
+inline Hdf5Handle without_locks() {
+  Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+  H5Pset_file_locking(access, false, true);
+  return access;
+}
+
 }  // namespace sandstroke

@@ -1,7 +1,12 @@
 #include "hdf5/hdf5_reader.h"
 
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <cmath>
 #include <cstring>
 
@@ -49,6 +54,14 @@ bool read_string(hid_t file_type, std::string& text, const Read& read) {
   return true;
 }
 
+/// Whether a program of HDF5 has it open for writing, which locks it where there are locks.
+bool is_being_written(const std::filesystem::path& path) {
+  const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  const bool locked = flock(file, LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+  if (file >= 0) close(file);
+  return locked;
+}
+
 }  // namespace
 
 Hdf5Reader::Hdf5Reader(const std::filesystem::path& path) : name_(path.string()) {
@@ -56,7 +69,8 @@ Hdf5Reader::Hdf5Reader(const std::filesystem::path& path) : name_(path.string())
   check_readable(path);
   if (H5Fis_hdf5(name_.c_str()) <= 0)
     throw_input_error("{}: is not an HDF5 file; check which file was meant", name_);
-  file_ = Hdf5Handle(H5Fopen(name_.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
+  if (!is_being_written(path))
+    file_ = Hdf5Handle(H5Fopen(name_.c_str(), H5F_ACC_RDONLY, without_locks()), H5Fclose);
   if (!file_.valid()) {
     throw_input_error("{}: is a damaged or truncated HDF5 file, or still being written; make it again",
                       name_);

@@ -70,7 +70,8 @@ void Hdf5Chunks::write(int row, int col, const double* numbers) {
 
 Hdf5Writer::Hdf5Writer(const std::filesystem::path& path) : path_(path), lock_(take_part(path)) {
   prepare_hdf5();
-  file_ = Hdf5Handle(H5Fcreate(part_path(path).c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose);
+  file_ =
+      Hdf5Handle(H5Fcreate(part_path(path).c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, without_locks()), H5Fclose);
   try {
     check(file_.valid(), "");
     attribute("/", "written_by", std::string(build));

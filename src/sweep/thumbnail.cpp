@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "render/map_picture.h"
+#include "render/plain_map.h"
 #include "sweep/kept_surface.h"
 
 namespace sandstroke {

@@ -11,7 +11,10 @@
 #include <unistd.h>
 
 #include <fstream>
+#include <memory>
 #include <sstream>
+
+#include "test_folder.h"
 
 namespace sandstroke {
 namespace fs = std::filesystem;
@@ -95,10 +98,14 @@ ProgramResult run_program(const std::vector<std::string>& arguments, const fs::p
 }
 
 fs::path test_folder() {
+  // Of this process alone, for several may run the same tests; stays where one fails.
+  static const std::shared_ptr<TestFolder> all(new TestFolder, [](const TestFolder* folder) {
+    if (!testing::UnitTest::GetInstance()->Failed()) delete folder;
+  });
   const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-  std::string name = std::string("cli_") + test->test_suite_name() + "_" + test->name();
+  std::string name = std::string(test->test_suite_name()) + "_" + test->name();
   for (char& c : name) c = c == '/' ? '_' : c;
-  const fs::path folder = fs::path(testing::TempDir()) / name;
+  const fs::path folder = *all / name;
   fs::remove_all(folder);
   fs::create_directories(folder);
   write_file(folder / "scene.toml",

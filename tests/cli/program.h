@@ -30,7 +30,8 @@ struct Conditions {
 ProgramResult run_program(const std::vector<std::string>& arguments, const std::filesystem::path& folder,
                           const Conditions& conditions = {});
 
-/// A fresh folder for one test, with a small scene and stroke in it: scene.toml, line.toml.
+/// A fresh folder for one test, with a small scene and stroke in it: scene.toml, line.toml. Gone when all
+/// tests have passed.
 std::filesystem::path test_folder();
 
 void write_file(const std::filesystem::path& path, const std::string& text);

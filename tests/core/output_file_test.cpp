@@ -14,12 +14,12 @@ namespace {
 namespace fs = std::filesystem;
 
 TEST(OutputFile, IsPutInPlaceWhole) {
-  const fs::path path = fs::path(testing::TempDir()) / "output_file_test.txt";
+  const TestFolder folder;
+  const fs::path path = folder / "file";
   write_text_file(path, "first");
   write_text_file(path, "second");
   EXPECT_EQ(read_text_file(path), "second");
   EXPECT_FALSE(fs::exists(part_path(path)));
-  fs::remove(path);
 }
 
 TEST(OutputFile, IsNotWrittenByTwoAtATime) {

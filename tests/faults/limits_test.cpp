@@ -1,4 +1,4 @@
-// Little memory, few file descriptors, a clock that jumps, another process at the same output.
+// Little memory, few file descriptors, a clock that jumps, no locks, another process at the same output.
 #include <gtest/gtest.h>
 #include <sched.h>
 #include <signal.h>
@@ -7,6 +7,8 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <cerrno>
+#include <cstring>
 #include <fstream>
 #include <random>
 #include <thread>
@@ -86,6 +88,32 @@ TEST_P(Limits, ClockThatJumps) {
   EXPECT_EQ(disturbed.state(), "all of the result");
   tell("wall clock jumps by days", GetParam().name, {{outcome(result, disturbed), 1}});
   disturbed.expect_nothing_half("clock");
+}
+
+TEST_P(Limits, AFileSystemWithoutLocks) {
+  if (sanitized) GTEST_SKIP() << "a sanitizer must be loaded first, and so must be what fails";
+  Disturbed disturbed(GetParam());
+  std::map<std::string, int> outcomes;
+  const auto run_with = [&](int error) {
+    const ProgramResult result = disturbed.run({.in_child = faulty_system(fmt::format("locks:{}", error))});
+    EXPECT_EQ(result.err.find("another process"), std::string::npos) << result.err;
+    EXPECT_NE(result.err.find(std::strerror(error)), std::string::npos) << result.err;
+    outcomes[outcome(result, disturbed)]++;
+    return result;
+  };
+  for (const int error : {ENOLCK, EOPNOTSUPP, EINVAL, ENOSYS}) {
+    const ProgramResult result = run_with(error);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_EQ(disturbed.state(), "all of the result");
+    const std::size_t warning = result.err.find("has no locks");
+    EXPECT_NE(warning, std::string::npos) << result.err;
+    EXPECT_EQ(result.err.find("has no locks", warning + 1), std::string::npos) << result.err;
+  }
+  const ProgramResult result = run_with(EIO);
+  EXPECT_EQ(result.exit_code, io_error) << result.err;
+  EXPECT_NE(result.err.find("cannot be locked"), std::string::npos) << result.err;
+  disturbed.expect_nothing_half("locks that fail");
+  tell("no locks", GetParam().name, outcomes);
 }
 
 TEST_P(Limits, ASecondProcessAtTheSameOutput) {

@@ -1,6 +1,9 @@
 #include "hdf5/hdf5_file.h"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/file.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <fstream>
@@ -98,6 +101,15 @@ TEST_F(Hdf5File, ColumnsGrowAndCanBeReadAfterAFlushWithoutFinish) {
   EXPECT_EQ(reader.doubles("/trace/time")[9'999], 4999.5);
   EXPECT_EQ(reader.vectors("/trace/force")[9'999], Eigen::Vector3d(4, 5, 6.0 * 9'998));
   EXPECT_EQ(reader.integers("/trace/contact")[3], 1u);
+}
+
+TEST_F(Hdf5File, AFileThatHdf5LocksForWritingIsRefused) {
+  Hdf5Writer(path_).finish();
+  const int other = open(path_.c_str(), O_RDONLY | O_CLOEXEC);
+  ASSERT_EQ(flock(other, LOCK_EX), 0);
+  EXPECT_THROW(Hdf5Reader{path_}, Error);
+  close(other);
+  EXPECT_NO_THROW(Hdf5Reader{path_});
 }
 
 TEST_F(Hdf5File, ErrorsNameFileAndDataset) {

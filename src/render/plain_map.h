@@ -1,7 +1,5 @@
 #pragma once
 
-#include <string_view>
-
 #include "picture/image.h"
 #include "sand/height_field.h"
 
@@ -11,9 +9,5 @@ namespace sandstroke {
 /// over width x height pixels. Each shows the mean of the cells it covers, or the cell it lies in. Cells that
 /// are not finite are grey. Needs no graphics context.
 Image plain_map(const HeightGrid& values, double low, double high, bool diverging, int width, int height);
-
-/// The same in its own aspect ratio within a picture of width x height, with a legend named `quantity`.
-Image map_picture(const HeightGrid& values, double low, double high, bool diverging, int width, int height,
-                  std::string_view quantity = "height");
 
 }  // namespace sandstroke
