@@ -95,9 +95,9 @@ std::string command_text(const NamedCommand& command) {
 /// Every key with all that is known of it.
 std::string scene_keys_text() {
   std::string text = "Every key of a scene with its default. Any of them can be set by \\fB\\-\\-set\\fR.\n";
-  for (const SceneSection& section : all_scene_keys()) {
+  for (const KeySection& section : all_scene_keys()) {
     text += fmt::format(".SH [{}]\n{}.\n", roff(section.name), roff(section.help));
-    for (const SceneKey& key : section.keys)
+    for (const KeyRow& key : section.keys)
       text += entry(bold(key.name) + roff(" = " + key.value + (key.unit.empty() ? "" : " " + key.unit)),
                     key.explanation());
   }

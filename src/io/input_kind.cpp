@@ -63,9 +63,9 @@ InputKind kind_of_toml(const fs::path& path) {
   const TomlReader file = TomlReader::from_file(path);
   Scene every_section;
   every_section.stroke.emplace();
-  const std::vector<SceneSection> sections = scene_settings(every_section);
+  const std::vector<KeySection> sections = scene_settings(every_section);
   const bool scene = std::any_of(sections.begin(), sections.end(),
-                                 [&](const SceneSection& section) { return file.is_table(section.name); });
+                                 [&](const KeySection& section) { return file.is_table(section.name); });
   const bool plan = file.is_table("sweep") || file.is_table("axes"), script = file.has("segment");
   if (scene + plan + script != 1) return InputKind::unknown;
   return scene ? InputKind::scene : plan ? InputKind::plan : InputKind::script;
