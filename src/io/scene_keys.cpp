@@ -15,8 +15,6 @@ std::vector<KeySection> all_scene_keys() {
   });
 }
 
-std::string scene_key_table() { return key_table(all_scene_keys()); }
-
 std::string setting_unit(const Scene& scene, const std::string& name) {
   for (const KeySection& section : scene_settings(scene))
     for (const KeyRow& key : section.keys)

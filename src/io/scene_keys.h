@@ -13,7 +13,6 @@ std::vector<KeySection> scene_settings(const Scene& scene);
 
 /// Every key that some scene can have.
 std::vector<KeySection> all_scene_keys();
-std::string scene_key_table();
 
 /// Unit of a setting that this scene has, by its dotted name; empty: none, or no such setting.
 std::string setting_unit(const Scene& scene, const std::string& name);

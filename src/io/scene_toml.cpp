@@ -26,8 +26,7 @@ void check(const Scene& scene, const TomlReader& toml) {
 Scene read_scene(TomlReader toml, const std::vector<std::string>& overrides) {
   for (const std::string& assignment : overrides) toml.override_with(assignment);
   Scene scene;
-  KeyReader reader(toml);
-  describe_scene(reader, scene);
+  read_keys(toml, [&](KeyVisitor& visitor) { describe_scene(visitor, scene); });
   toml.reject_unread([] { return conditions(all_scene_keys()); });
   check(scene, toml);
   return scene;
