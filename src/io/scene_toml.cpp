@@ -35,8 +35,8 @@ Scene read_scene(TomlReader toml, const std::vector<std::string>& overrides) {
 }  // namespace
 
 Scene load_scene(const std::filesystem::path& path, const std::vector<std::string>& overrides) {
-  expect_kind(path, {InputKind::scene});
-  return read_scene(TomlReader::from_file(path), overrides);
+  return read_as({InputKind::scene}, path,
+                 [&] { return read_scene(TomlReader::from_file(path), overrides); });
 }
 
 Scene scene_from_text(const std::string& text, const std::string& name,

@@ -84,6 +84,25 @@ void check_values(const TomlReader& toml, SweepPlan& plan) {
   }
 }
 
+/// All that its scene and its keys make of it.
+void fill_plan(const TomlReader& toml, const PlanKeys& keys, SweepPlan& plan) {
+  for (const std::string& key : toml.keys_in("set"))
+    plan.settings.push_back(key + "=" + toml.literal("set." + key));
+  plan.design = read_design(toml, keys, plan);
+  plan.metrics = read_metrics(toml, keys);
+  for (const std::string& kept : keys.keep) {
+    if (kept != "surface" && kept != "picture")
+      toml.fail("sweep.keep", fmt::format("names '{}'; take from: surface, picture", kept));
+    (kept == "surface" ? plan.keep_surface : plan.keep_picture) = true;
+  }
+  if (toml.has("sweep.golden")) {
+    plan.golden = plan.file.parent_path() / keys.golden;
+    check_readable(plan.golden);
+  }
+  toml.reject_unread([] { return conditions(all_plan_keys()); });
+  check_values(toml, plan);
+}
+
 }  // namespace
 
 Scene SweepPlan::scene_with(const std::vector<std::string>& all_settings) const {
@@ -97,32 +116,18 @@ Scene SweepPlan::scene_of(std::size_t point) const {
 }
 
 SweepPlan load_plan(const fs::path& path) {
-  expect_kind(path, {InputKind::plan});
-  const TomlReader toml = TomlReader::from_file(path);
-  SweepPlan plan;
-  plan.file = path;
-  PlanKeys keys;
-  read_keys(toml, [&](KeyVisitor& visitor) { show_plan(visitor, keys); });
-  plan.scene = path.parent_path() / keys.scene;
-  check_readable(plan.scene);
-  expect_kind(plan.scene, {InputKind::scene});
-  plan.scene_text = read_text_file(plan.scene);
-  for (const std::string& key : toml.keys_in("set"))
-    plan.settings.push_back(key + "=" + toml.literal("set." + key));
-  plan.design = read_design(toml, keys, plan);
-  plan.metrics = read_metrics(toml, keys);
-  for (const std::string& kept : keys.keep) {
-    if (kept != "surface" && kept != "picture")
-      toml.fail("sweep.keep", fmt::format("names '{}'; take from: surface, picture", kept));
-    (kept == "surface" ? plan.keep_surface : plan.keep_picture) = true;
-  }
-  if (toml.has("sweep.golden")) {
-    plan.golden = path.parent_path() / keys.golden;
-    check_readable(plan.golden);
-  }
-  toml.reject_unread([] { return conditions(all_plan_keys()); });
-  check_values(toml, plan);
-  return plan;
+  return read_as({InputKind::plan}, path, [&] {
+    const TomlReader toml = TomlReader::from_file(path);
+    SweepPlan plan;
+    plan.file = path;
+    PlanKeys keys;
+    read_keys(toml, [&](KeyVisitor& visitor) { show_plan(visitor, keys); });
+    plan.scene = path.parent_path() / keys.scene;
+    check_readable(plan.scene);
+    plan.scene_text = read_text_file(plan.scene);
+    read_as({InputKind::scene}, plan.scene, [&] { fill_plan(toml, keys, plan); });
+    return plan;
+  });
 }
 
 }  // namespace sandstroke
