@@ -73,8 +73,8 @@ std::string tables(const CLI::App& app) {
     }
   }
   std::string settings, choices;
-  for (const SceneSection& section : all_scene_keys()) {
-    for (const SceneKey& key : section.keys) {
+  for (const KeySection& section : all_scene_keys()) {
+    for (const KeyRow& key : section.keys) {
       settings += (settings.empty() ? "" : " ") + key.name;
       if (!key.choices.empty())
         choices += one_case("'" + key.name + "'", fmt::format("{}", fmt::join(key.choices, " ")));

@@ -25,7 +25,7 @@ const HelpTopic* topic_named(const std::string& name) {
 std::string help(const CLI::App& app, const HelpArguments& arguments) {
   const std::string asked = fmt::format("{}", fmt::join(arguments.words, " "));
   if (const HelpTopic* topic = topic_named(asked))
-    return arguments.man ? topic_manual(*topic) : topic->text();
+    return arguments.man ? topic_manual(*topic) : key_table(topic->keys());
   if (arguments.man && asked.empty()) return command_manual(app);
   if (!arguments.man)
     for (const NamedCommand& command : command_tree(app))

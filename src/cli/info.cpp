@@ -81,7 +81,7 @@ void print_table(const nlohmann::ordered_json& facts) {
 
 int info(const InfoArguments& arguments) {
   if (arguments.scene_keys) {
-    fmt::print("{}", scene_key_table());
+    fmt::print("{}", key_table(all_scene_keys()));
     return 0;
   }
   if (arguments.file.empty())

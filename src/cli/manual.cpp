@@ -9,7 +9,7 @@
 #include "core/version.h"
 #include "io/scene_keys.h"
 #include "io/stroke_script_toml.h"
-#include "sweep/sweep_plan.h"
+#include "sweep/plan_keys.h"
 
 namespace sandstroke {
 namespace {
@@ -93,13 +93,16 @@ std::string command_text(const NamedCommand& command) {
 }
 
 /// Every key with all that is known of it.
-std::string scene_keys_text() {
-  std::string text = "Every key of a scene with its default. Any of them can be set by \\fB\\-\\-set\\fR.\n";
-  for (const SceneSection& section : all_scene_keys()) {
-    text += fmt::format(".SH [{}]\n{}.\n", roff(section.name), roff(section.help));
-    for (const SceneKey& key : section.keys)
-      text += entry(bold(key.name) + roff(" = " + key.value + (key.unit.empty() ? "" : " " + key.unit)),
-                    key.explanation());
+std::string keys_text(const std::vector<KeySection>& sections) {
+  std::string text = "Every key with its default.\n";
+  for (const KeySection& section : sections) {
+    text += section.name.empty() ? ".PP\n" : fmt::format(".SH [{}]\n", roff(section.name));
+    text += filled(section.help + ".");
+    for (const KeyRow& key : section.keys) {
+      const std::string value = key.value.empty() ? "" : " = " + key.value;
+      text +=
+          entry(bold(key.name) + roff(value + (key.unit.empty() ? "" : " " + key.unit)), key.explanation());
+    }
   }
   return text;
 }
@@ -108,9 +111,9 @@ std::string scene_keys_text() {
 
 const std::vector<HelpTopic>& help_topics() {
   static const std::vector<HelpTopic> topics = {
-      {"scene", "what sandstroke run simulates (TOML)", scene_key_table},
-      {"script", "strokes as text, for scenes and run --stroke (TOML)", script_help},
-      {"plan", "what sandstroke sweep varies (TOML)", plan_help},
+      {"scene", "what sandstroke run simulates (TOML); --set takes each of its keys", all_scene_keys},
+      {"script", "strokes as text, for scenes and run --stroke (TOML)", script_keys},
+      {"plan", "what sandstroke sweep varies (TOML)", all_plan_keys},
   };
   return topics;
 }
@@ -129,9 +132,8 @@ std::string command_manual(const CLI::App& app) {
 }
 
 std::string topic_manual(const HelpTopic& topic) {
-  const bool scene = topic.text == scene_key_table;
-  return head(page_of(topic), 5, topic.title) + ".SH DESCRIPTION\n" +
-         (scene ? scene_keys_text() : preformatted(topic.text())) + ".SH SEE ALSO\n.BR sandstroke (1)\n";
+  return head(page_of(topic), 5, topic.title) + ".SH DESCRIPTION\n" + keys_text(topic.keys()) +
+         ".SH SEE ALSO\n.BR sandstroke (1)\n";
 }
 
 }  // namespace sandstroke

@@ -4,16 +4,18 @@
 #include <string>
 #include <vector>
 
+#include "io/key_table.h"
+
 namespace sandstroke {
 
-/// Something that a page explains, though it is no command.
+/// A file that people write, which a page explains.
 struct HelpTopic {
   const char* name;
-  const char* title;      ///< one line
-  std::string (*text)();  ///< all of it, in lines as they are to be read
+  const char* title;  ///< one line
+  std::vector<KeySection> (*keys)();
 };
 
-/// scene, script and plan: the files that people write.
+/// scene, script and plan.
 const std::vector<HelpTopic>& help_topics();
 
 // Manual pages for man(1), in its language (roff).

@@ -12,7 +12,7 @@
 #include "core/machine.h"
 #include "core/output_file.h"
 #include "core/version.h"
-#include "hdf5/hdf5_file.h"
+#include "io/input_kind.h"
 #include "io/png_file.h"
 #include "io/toml_reader.h"
 #include "render/changed_cells.h"
@@ -88,8 +88,7 @@ void write_content(const fs::path& path, const RunFile& run) {
   if (block.empty()) block = {0, 1, 0, 1};
 
   Hdf5Writer file(path);
-  file.attribute("/", "format", "sandstroke.golden");
-  file.attribute("/", "format_version", 1.0);
+  write_format(file, InputKind::golden);
   file.make_group("/surface");
   file.attribute("/surface", "rows", static_cast<double>(change.rows()));
   file.attribute("/surface", "cols", static_cast<double>(change.cols()));
@@ -169,8 +168,7 @@ void write_golden(const fs::path& entry, const GoldenRun& run) {
 
 GoldenContent read_golden(const fs::path& entry) {
   const Hdf5Reader file(existing(entry / content_name));
-  if (!file.has_attribute("/", "format") || file.text_attribute("/", "format") != "sandstroke.golden" ||
-      file.number_attribute("/", "format_version") != 1.0) {
+  if (!has_format(file, InputKind::golden) || file.number_attribute("/", "format_version") != 1.0) {
     throw_input_error("{}: is not a golden file of format 1; make it with 'sandstroke golden update'",
                       file.name());
   }

@@ -3,10 +3,8 @@
 #include <algorithm>
 #include <array>
 
-#include "core/error.h"
 #include "core/output_file.h"
 #include "haptics/recording.h"
-#include "hdf5/hdf5_file.h"
 #include "io/png_file.h"
 #include "io/scene_keys.h"
 #include "io/stroke_format.h"
@@ -17,31 +15,43 @@ namespace {
 
 namespace fs = std::filesystem;
 
+bool is_scene(const TomlReader& file) {
+  const std::vector<KeySection> sections = all_scene_keys();
+  return std::any_of(sections.begin(), sections.end(),
+                     [&](const KeySection& section) { return file.is_table(section.name); });
+}
+bool is_plan(const TomlReader& file) { return file.is_table("sweep") || file.is_table("axes"); }
+bool is_script(const TomlReader& file) { return file.has("segment"); }
+
+/// A kind of file: its name, how it is known, and what to do with it.
 struct KindText {
   InputKind kind;
   const char* name;
-  const char* format;  // attribute of an HDF5 file's root
-  const char* use;     // what to do with it; {} is the file
+  const char* format;                  // attribute of an HDF5 file's root
+  bool (*in_toml)(const TomlReader&);  // by the tables that only this kind has
+  const char* use;                     // {} is the file
 };
 
 constexpr const char* use_of_stroke =
     "a scene plays it: sandstroke run SCENE.toml --stroke {0}; sandstroke stroke info {0} says what is in it";
 constexpr std::array<KindText, 11> kinds{{
-    {InputKind::scene, "a scene", "", "run it: sandstroke run {0}"},
-    {InputKind::plan, "a sweep plan", "", "run it: sandstroke sweep {0}"},
-    {InputKind::script, "a stroke script", "", use_of_stroke},
-    {InputKind::stroke, "a stroke", "", use_of_stroke},
-    {InputKind::recording, "the journal of a recording that was cut off", "",
+    {InputKind::scene, "a scene", "", is_scene, "run it: sandstroke run {0}"},
+    {InputKind::plan, "a sweep plan", "", is_plan, "run it: sandstroke sweep {0}"},
+    {InputKind::script, "a stroke script", "", is_script, use_of_stroke},
+    {InputKind::stroke, "a stroke", "", nullptr, use_of_stroke},
+    {InputKind::recording, "the journal of a recording that was cut off", "", nullptr,
      "make a stroke of it first: sandstroke stroke repair {0}"},
-    {InputKind::run, "a run file", "sandstroke.run",
+    {InputKind::run, "a run file", "sandstroke.run", nullptr,
      "sandstroke info {0} says what is in it, sandstroke render {0} draws it"},
-    {InputKind::golden, "a golden entry's content", "sandstroke.golden",
+    {InputKind::golden, "a golden entry's content", "sandstroke.golden", nullptr,
      "sandstroke golden check runs a scene and compares it with that"},
-    {InputKind::sweep, "a sweep's table of results", "sandstroke.sweep", "sweep.html beside it shows them"},
-    {InputKind::point, "a sweep's point", "sandstroke.point",
+    {InputKind::sweep, "a sweep's table of results", "sandstroke.sweep", nullptr,
+     "sweep.html beside it shows them"},
+    {InputKind::point, "a sweep's point", "sandstroke.point", nullptr,
      "sandstroke sweep collect makes a table of all"},
-    {InputKind::bench, "a table of bench's results", "sandstroke.bench", "bench.html beside it shows them"},
-    {InputKind::picture, "a PNG picture", "", "check which file was meant"},
+    {InputKind::bench, "a table of bench's results", "sandstroke.bench", nullptr,
+     "bench.html beside it shows them"},
+    {InputKind::picture, "a PNG picture", "", nullptr, "check which file was meant"},
 }};
 
 const KindText& text_of(InputKind kind) {
@@ -50,28 +60,32 @@ const KindText& text_of(InputKind kind) {
 
 InputKind kind_of_hdf5(const fs::path& path) {
   const Hdf5Reader file(path);
-  if (file.has_attribute("/", "format")) {
-    const std::string format = file.text_attribute("/", "format");
-    for (const KindText& text : kinds)
-      if (format == text.format) return text.kind;
-  }
+  for (const KindText& text : kinds)
+    if (*text.format && has_format(file, text.kind)) return text.kind;
   return file.has(stroke_group) ? InputKind::stroke : InputKind::unknown;
 }
 
-/// By its tables, where those of just one kind are there.
 InputKind kind_of_toml(const fs::path& path) {
   const TomlReader file = TomlReader::from_file(path);
-  Scene every_section;
-  every_section.stroke.emplace();
-  const std::vector<SceneSection> sections = scene_settings(every_section);
-  const bool scene = std::any_of(sections.begin(), sections.end(),
-                                 [&](const SceneSection& section) { return file.is_table(section.name); });
-  const bool plan = file.is_table("sweep") || file.is_table("axes"), script = file.has("segment");
-  if (scene + plan + script != 1) return InputKind::unknown;
-  return scene ? InputKind::scene : plan ? InputKind::plan : InputKind::script;
+  InputKind found = InputKind::unknown;
+  for (const KindText& text : kinds) {
+    if (!text.in_toml || !text.in_toml(file)) continue;
+    if (found != InputKind::unknown) return InputKind::unknown;
+    found = text.kind;
+  }
+  return found;
 }
 
 }  // namespace
+
+void write_format(Hdf5Writer& file, InputKind kind) {
+  file.attribute("/", "format", text_of(kind).format);
+  file.attribute("/", "format_version", 1.0);
+}
+
+bool has_format(const Hdf5Reader& file, InputKind kind) {
+  return file.has_attribute("/", "format") && file.text_attribute("/", "format") == text_of(kind).format;
+}
 
 InputKind kind_of(const fs::path& path) {
   std::error_code not_there;

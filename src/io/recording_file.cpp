@@ -68,15 +68,13 @@ constexpr ColumnText column_texts[] = {
     {"sequence", "", "number of the tick, from 0: of ticks whose number is missing there is no sample"},
     {"monotonic_time", "ns", "time, as the system's clock gave it (attribute clock of /stroke)"},
     {"flags", "",
-     "sum of: 1 read over half a tick late, 2 ticks before it are missing, 4 force cut to the limit, 8 force "
-     "still fading in, 16 force kept from jumping, 32 force was no number and not given, 64 tool did not "
-     "dig, "
-     "for the sand's erosion was behind"},
+     "sum of: 1 read over half a tick late, 2 ticks before it are missing, 4 force cut to the limit, "
+     "8 force still fading in, 16 force kept from jumping, 32 force was no number and not given, "
+     "64 tool did not dig, for the sand's erosion was behind"},
 };
 constexpr const char* attribute_units =
-    "s, Hz, m, N, N/m; clock_start: ns; yes and no: 1 and 0; of the device 0 means none or unknown, a force "
-    "of "
-    "1.8e308 N any. A sample's wall time: started + monotonic_time / 1e9 - started_monotonic";
+    "s, Hz, m, N, N/m; clock_start: ns; yes and no: 1 and 0; of the device 0 means none or unknown, "
+    "a force of 1.8e308 N any. A sample's wall time: started + monotonic_time / 1e9 - started_monotonic";
 
 void describe(Hdf5Writer& file, const RecordingHeader& header) {
   for (const auto& [name, units, description] : column_texts) {

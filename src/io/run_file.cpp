@@ -10,18 +10,15 @@ namespace {
 
 std::string frame_name(int k) { return fmt::format("/surface/frame/{:06}", k); }
 
-const std::filesystem::path& run_path(const std::filesystem::path& path) {
-  expect_kind(path, {InputKind::run});
-  return path;
-}
-
 }  // namespace
 
-RunFile::RunFile(const std::filesystem::path& path) : file_(run_path(path)) {
-  if (!file_.has_attribute("/", "format") || file_.text_attribute("/", "format") != "sandstroke.run")
+RunFile::RunFile(const std::filesystem::path& path) try : file_(path) {
+  if (!has_format(file_, InputKind::run))
     throw_input_error("{}: is not a sandstroke run file; make one with 'sandstroke run'", file_.name());
   if (const double version = file_.number_attribute("/", "format_version"); version != 1)
     throw_input_error("{}: has run format {}; this program reads format 1", file_.name(), version);
+} catch (const Error&) {
+  expect_kind(path, {InputKind::run});
 }
 
 bool RunFile::complete() const { return file_.number_attribute("/", "complete") != 0.0; }

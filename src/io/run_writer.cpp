@@ -10,6 +10,7 @@
 #include "core/version.h"
 #include "core/xml_text.h"
 #include "io/bed_writer.h"
+#include "io/input_kind.h"
 #include "io/scene_toml.h"
 #include "sand/instruction_set.h"
 
@@ -81,8 +82,7 @@ RunWriter::RunWriter(const std::filesystem::path& path, const Simulation& simula
     : path_(path), file_(path), keeps_trace_(simulation.scene().output.trace && simulation.scene().stroke) {
   const HeightField& bed = simulation.bed();
   const std::string scene = scene_text(simulation.scene());
-  file_.attribute("/", "format", "sandstroke.run");
-  file_.attribute("/", "format_version", 1.0);
+  write_format(file_, InputKind::run);
   file_.attribute("/", "complete", 0.0);
   file_.write("/scene", scene);
   file_.write("/provenance/version", version);

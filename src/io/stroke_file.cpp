@@ -80,13 +80,14 @@ std::string content_hash(const Stroke& stroke) {
 }
 
 Stroke load_stroke(const std::filesystem::path& path, const ForceSettings& force) {
-  expect_kind(path, {InputKind::stroke, InputKind::script});
-  if (is_recorded(path)) return read_stroke_file(path);
-  if (path.extension() == ".toml") return trace_script(read_stroke_script(path), force);
-  throw_input_error(
-      "{}: is neither a recorded stroke (.h5) nor a scripted one (.toml); convert a table of "
-      "samples first: sandstroke stroke convert {} STROKE.h5 (--help says how)",
-      path.string(), path.string());
+  return read_as({InputKind::stroke, InputKind::script}, path, [&] {
+    if (is_recorded(path)) return read_stroke_file(path);
+    if (path.extension() == ".toml") return trace_script(read_stroke_script(path), force);
+    throw_input_error(
+        "{}: is neither a recorded stroke (.h5) nor a scripted one (.toml); convert a table of samples "
+        "first: sandstroke stroke convert {} STROKE.h5 (--help says how)",
+        path.string(), path.string());
+  });
 }
 
 }  // namespace sandstroke

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "io/toml_reader.h"
+#include "io/key_reader.h"
 
 namespace sandstroke {
 namespace {
@@ -13,138 +13,142 @@ constexpr Range speed_range{0.0, 100.0, true};
 constexpr Range depth_range{-1.0, 1.0};
 constexpr Range force_range{0.0, 1000.0};
 
-Vector2d point(const TomlReader& toml, std::string_view key, const Vector2d& fallback) {
-  const std::vector<double> xy = toml.numbers(key, {fallback.x(), fallback.y()});
-  return {xy[0], xy[1]};
+/// depth and force as they are given; no numbers: not.
+struct PressKeys {
+  std::vector<double> depth, force;
+};
+
+void show_press(KeyVisitor& v, PressKeys& press) {
+  v.profile("depth", press.depth, depth_range, "m", "below z = 0; a list is spread along the segment");
+  v.profile("force", press.force, force_range, "N", "repulse force, instead of depth; likewise");
 }
 
-Vector2d required_point(const TomlReader& toml, std::string_view key) {
-  toml.require(key);
-  return point(toml, key, Vector2d::Zero());
+void show_script(KeyVisitor& v, StrokeScript& script, double& speed, PressKeys& press) {
+  v.numbers("start", script.start.data(), 2, any_number, "m", "where the tool begins, in the air");
+  v.number("clearance", script.clearance, {0.0, 1.0}, "m", "height above z = 0 at which it travels");
+  v.number("travel_speed", script.travel_speed, speed_range, "m/s", "across, in the air");
+  v.number("plunge_speed", script.plunge_speed, speed_range, "m/s", "up and down");
+  v.number("rate", script.rate, {20.0, 1e6}, "Hz", "samples");  // slower ones would count as gaps
+  v.integers("repeat", &script.repeat, 1, 1, 1000, "times that the segments are run");
+  v.number("speed", speed, speed_range, "m/s", "of the tip while it draws, where a segment has none");
+  show_press(v, press);
 }
 
-double required_number(const TomlReader& toml, std::string_view key, Range range = any_number) {
-  toml.require(key);
-  return toml.number(key, 0.0, range);
+void show_point(KeyVisitor& v, const char* key, Vector2d& point, const char* help) {
+  v.require(key);
+  v.numbers(key, point.data(), 2, any_number, "m", help);
 }
 
-std::string letters(const TomlReader& toml, std::string_view key) {
-  toml.require(key);
-  std::string text = toml.text(key, "");
-  if (text.empty()) toml.fail(key, "is empty; give it at least one letter");
-  const auto foreign = [](char letter) { return static_cast<unsigned char>(letter) >= 0x80; };
-  if (std::any_of(text.begin(), text.end(), foreign))
-    toml.fail(key,
-              "has a letter outside ASCII, which the single-stroke fonts lack; write it with ASCII letters");
-  return text;
+void show_number(KeyVisitor& v, const char* key, double& value, Range range, const char* unit,
+                 const char* help) {
+  v.require(key);
+  v.number(key, value, range, unit, help);
+}
+
+void show_shape(KeyVisitor& v, ScriptMove& move) { show_point(v, "to", move.to, "its end"); }
+
+void show_shape(KeyVisitor& v, ScriptLine& line) {
+  if (v.given("from"))
+    v.numbers("from", line.from.emplace(0.0, 0.0).data(), 2, any_number, "m",
+              "its begin; without it, where the tool is");
+  show_point(v, "to", line.to, "its end");
+}
+
+void show_shape(KeyVisitor& v, ScriptArc& arc) {
+  show_point(v, "centre", arc.centre, "of the circle");
+  show_number(v, "radius", arc.radius, positive, "m", "of the circle");
+  show_number(v, "start_angle", arc.start_angle, any_number, "deg", "from +x towards +y");
+  show_number(v, "end_angle", arc.end_angle, any_number, "deg", "clockwise where it is less");
+}
+
+void show_shape(KeyVisitor& v, ScriptSpline& spline) {
+  v.require("points");
+  v.points("points", spline.points, "m", "[[x, y], ...]: 2 or more, through which it runs");
+}
+
+void show_shape(KeyVisitor& v, ScriptText& text) {
+  v.require("text");
+  v.text("text", text.text, "ASCII letters");
+  v.text("font", text.font, "a single-stroke (Hershey) font");
+  show_point(v, "at", text.at, "left end of the base line");
+  show_number(v, "height", text.height, positive, "m", "of capitals");
+  v.number("angle", text.angle, any_number, "deg", "of the base line");
+  v.number("spacing", text.spacing, any_number, "m", "added between letters");
+}
+
+void show_segment(KeyVisitor& v, ScriptSegment& segment, PressKeys& press) {
+  int kind = 0;
+  v.require("kind");
+  v.choice("kind", kind, {"move", "line", "arc", "spline", "text"},
+           "what it draws; move: nothing, in the air");
+  const decltype(segment.shape) shapes[] = {ScriptMove{}, ScriptLine{}, ScriptArc{}, ScriptSpline{},
+                                            ScriptText{}};
+  segment.shape = shapes[kind];
+  v.number("wait", segment.wait, not_negative, "s", "rest at its end");
+  if (kind > 0) {
+    v.number("speed", segment.speed, speed_range, "m/s", "of the tip; default: the script's");
+    show_press(v, press);
+  }
+  std::visit([&](auto& shape) { show_shape(v, shape); }, segment.shape);
 }
 
 /// depth or force of a table, or else the fallback.
-PressProfile press(const TomlReader& toml, const PressProfile& fallback) {
-  const bool has_depth = toml.has("depth"), has_force = toml.has("force");
-  if (has_depth && has_force) toml.fail("force", "is given beside depth; give only one of them");
-  if (has_depth) return {PressProfile::Kind::depth, toml.profile("depth", {}, depth_range)};
-  if (has_force) return {PressProfile::Kind::force, toml.profile("force", {}, force_range)};
+PressProfile press_of(const TomlReader& toml, const PressKeys& given, const PressProfile& fallback) {
+  if (!given.depth.empty() && !given.force.empty())
+    toml.fail("force", "is given beside depth; give only one of them");
+  if (!given.depth.empty()) return {PressProfile::Kind::depth, given.depth};
+  if (!given.force.empty()) return {PressProfile::Kind::force, given.force};
   return fallback;
 }
 
-ScriptLine line(const TomlReader& toml) {
-  ScriptLine line;
-  if (toml.has("from")) line.from = required_point(toml, "from");
-  line.to = required_point(toml, "to");
-  return line;
+void check_letters(const TomlReader& toml, const std::string& text) {
+  if (text.empty()) toml.fail("text", "is empty; give it at least one letter");
+  const auto foreign = [](char letter) { return static_cast<unsigned char>(letter) >= 0x80; };
+  if (std::any_of(text.begin(), text.end(), foreign))
+    toml.fail("text",
+              "has a letter outside ASCII, which the single-stroke fonts lack; write it with ASCII letters");
 }
 
-ScriptArc arc(const TomlReader& toml) {
-  return {required_point(toml, "centre"), required_number(toml, "radius", positive),
-          required_number(toml, "start_angle"), required_number(toml, "end_angle")};
-}
-
-ScriptSpline spline(const TomlReader& toml) {
-  ScriptSpline spline;
-  toml.require("points");
-  for (const std::vector<double>& xy : toml.points("points")) spline.points.emplace_back(xy[0], xy[1]);
-  if (spline.points.size() < 2) toml.fail("points", "needs at least 2 points; add more");
-  return spline;
-}
-
-ScriptText text(const TomlReader& toml) {
-  return {letters(toml, "text"),      toml.text("font", "futural"),
-          required_point(toml, "at"), required_number(toml, "height", positive),
-          toml.number("angle", 0.0),  toml.number("spacing", 0.0)};
-}
-
-ScriptSegment segment(const TomlReader& toml, const PressProfile& default_press, double default_speed) {
+ScriptSegment read_segment(const TomlReader& toml, const PressProfile& default_press, double default_speed) {
   ScriptSegment segment;
-  segment.wait = toml.number("wait", 0.0, not_negative);
-  toml.require("kind");
-  const int kind = toml.choice("kind", 0, {"move", "line", "arc", "spline", "text"});
-  if (kind == 0) {
-    segment.shape = ScriptMove{required_point(toml, "to")};
-    return segment;
-  }
-  segment.speed = toml.number("speed", default_speed, speed_range);
-  segment.press = press(toml, default_press);
-  if (segment.press.values.empty())
+  segment.speed = default_speed;
+  PressKeys press;
+  read_keys(toml, [&](KeyVisitor& visitor) { show_segment(visitor, segment, press); });
+  segment.press = press_of(toml, press, default_press);
+  if (segment.press.values.empty() && !std::holds_alternative<ScriptMove>(segment.shape))
     toml.fail("kind", "has neither depth nor force; give one, here or for all");
-  switch (kind) {
-    case 1:
-      segment.shape = line(toml);
-      break;
-    case 2:
-      segment.shape = arc(toml);
-      break;
-    case 3:
-      segment.shape = spline(toml);
-      break;
-    default:
-      segment.shape = text(toml);
-  }
+  if (const auto* spline = std::get_if<ScriptSpline>(&segment.shape); spline && spline->points.size() < 2)
+    toml.fail("points", "needs at least 2 points; add more");
+  if (const auto* text = std::get_if<ScriptText>(&segment.shape)) check_letters(toml, text->text);
   return segment;
 }
 
 StrokeScript read(const TomlReader& toml) {
   StrokeScript script;
   script.name = toml.name();
-  script.start = point(toml, "start", script.start);
-  script.clearance = toml.number("clearance", script.clearance, {0.0, 1.0});
-  script.travel_speed = toml.number("travel_speed", script.travel_speed, speed_range);
-  script.plunge_speed = toml.number("plunge_speed", script.plunge_speed, speed_range);
-  script.rate = toml.number("rate", script.rate, {20.0, 1e6});  // slower samples would count as gaps
-  script.repeat = toml.integer("repeat", script.repeat, 1, 1000);
-  const double speed = toml.number("speed", ScriptSegment{}.speed, speed_range);
-  const PressProfile default_press = press(toml, {});
+  double speed = ScriptSegment{}.speed;
+  PressKeys press;
+  read_keys(toml, [&](KeyVisitor& visitor) { show_script(visitor, script, speed, press); });
+  const PressProfile default_press = press_of(toml, press, {});
   toml.require("segment");
   for (const TomlReader& table : toml.tables("segment"))
-    script.segments.push_back(segment(table, default_press, speed));
-  toml.reject_unread();
+    script.segments.push_back(read_segment(table, default_press, speed));
+  toml.reject_unread([] { return conditions(script_keys()); });
   return script;
 }
 
 }  // namespace
 
-std::string script_help() {
-  return R"(A script (TOML; m, m/s, degrees, N, s):
-  start = [-0.2, 0.0]           # where the tool begins, in the air
-  depth = 0.006                 # below z = 0; or force. Here for all segments, or in each
-  speed = 0.1                   # of the tip while it draws; likewise
-  clearance = 0.02              # height above z = 0 at which it travels ...
-  travel_speed = 0.2            #   at this speed
-  plunge_speed = 0.05           # up and down
-  repeat = 1                    # times that the segments are run
-  rate = 1000                   # samples a second
-  [[segment]]
-  kind = "line"                 # also: move, arc, spline, text
-  to = [0.2, 0.0]
-  depth = [0.008, 0.001]        # a list is spread along the segment: it ends weaker than it begins
-  wait = 0.5                    # rest at its end
-Keys of a segment: kind, speed, depth or force, wait; and for
-  move    to
-  line    to; from (default: where the tool is)
-  arc     centre, radius, start_angle, end_angle (clockwise where that is less)
-  spline  points = [[x, y], ...]
-  text    text, at, height; font ("futural"), angle, spacing
-)";
+std::vector<KeySection> script_keys() {
+  return all_keys([](KeyVisitor& visitor) {
+    StrokeScript script;
+    ScriptSegment segment;
+    PressKeys press;
+    visitor.section("", "Of the whole script; depth, force and speed are for segments that have none");
+    show_script(visitor, script, segment.speed, press);
+    visitor.section("segment", "what is drawn, one after the other: each begins with [[segment]]");
+    show_segment(visitor, segment, press);
+  });
 }
 
 StrokeScript read_stroke_script(const std::filesystem::path& path) {

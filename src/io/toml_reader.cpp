@@ -344,23 +344,29 @@ std::vector<TomlReader> TomlReader::tables(std::string_view key) const {
   return found;
 }
 
-void TomlReader::reject_unread() const {
-  const auto visit = [this](const auto& self, const toml::table& table, const std::string& prefix) -> void {
+std::string TomlReader::place_of(const std::string& key, const toml::node& node) const {
+  for (const auto& [set, assignment] : document_->overrides)
+    if (set == key || set.starts_with(key + ".")) return "--set " + assignment;
+  return fmt::format("{}:{}", document_->name, node.source().begin.line);
+}
+
+void TomlReader::reject_unread(const Conditions& conditions) const {
+  const auto reject = [&](const std::string& key, const toml::node& node) {
+    const std::string place = place_of(key, node);
+    const auto known = conditions ? conditions() : std::map<std::string, std::string>{};
+    if (const auto found = known.find(key); found != known.end())
+      throw_input_error("{}: {} applies only where {}; remove it, or change that", place, key, found->second);
+    for (const auto& [other, condition] : known) document_->asked_for.insert(other);
+    const std::string suggestion = nearest_name(key, document_->asked_for);
+    throw_input_error("{}: unknown key {}{}", place, key,
+                      suggestion.empty()
+                          ? "; remove it (sandstroke help scene, script or plan says which there are)"
+                          : fmt::format("; did you mean {}?", suggestion));
+  };
+  const auto visit = [&](const auto& self, const toml::table& table, const std::string& prefix) -> void {
     for (const auto& [key, node] : table) {
       const std::string full = prefix + std::string(key.str());
-      if (!document_->read.contains(&node)) {
-        const std::string suggestion = nearest_name(full, document_->asked_for);
-        const auto set = std::find_if(
-            document_->overrides.begin(), document_->overrides.end(),
-            [&](const auto& one) { return one.first == full || one.first.starts_with(full + "."); });
-        const std::string place = set != document_->overrides.end()
-                                      ? "--set " + set->second
-                                      : fmt::format("{}:{}", document_->name, node.source().begin.line);
-        throw_input_error("{}: unknown key {}{}", place, full,
-                          suggestion.empty()
-                              ? "; remove it (sandstroke help scene, script or plan says which there are)"
-                              : fmt::format("; did you mean {}?", suggestion));
-      }
+      if (!document_->read.contains(&node)) reject(full, node);
       if (const toml::table* inner = node.as_table()) self(self, *inner, full + ".");
       if (const toml::array* array = node.as_array()) {
         for (const toml::node& element : *array)

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
+#include <map>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -66,7 +68,9 @@ class TomlReader {
 
   void require(std::string_view key) const;
   /// Throws for the first key that no call above has read. In the root reader: for the whole document.
-  void reject_unread() const;
+  /// conditions: where keys apply that are not always read ("bed.surface.kind is noise"), by their names.
+  using Conditions = std::function<std::map<std::string, std::string>()>;
+  void reject_unread(const Conditions& conditions = {}) const;
 
   /// Throws: file, line of the key, key, then the sentence.
   [[noreturn]] void fail(std::string_view key, const std::string& sentence) const;
@@ -75,6 +79,8 @@ class TomlReader {
   struct Document;
   TomlReader(std::shared_ptr<Document> document, toml::table* table, std::string prefix);
   const toml::node* find(std::string_view key) const;
+  /// The --set that gave it, or file and line.
+  std::string place_of(const std::string& key, const toml::node& node) const;
   double checked(std::string_view key, const toml::node& node, Range range, std::string_view unit = "") const;
 
   std::shared_ptr<Document> document_;

@@ -11,7 +11,7 @@ namespace sandstroke {
 namespace {
 
 template <class Enum>
-void choose(SceneVisitor& v, const char* key, Enum& value, const std::vector<std::string>& names,
+void choose(KeyVisitor& v, const char* key, Enum& value, const std::vector<std::string>& names,
             const char* help) {
   int index = static_cast<int>(value);
   v.choice(key, index, names, help);
@@ -21,7 +21,7 @@ void choose(SceneVisitor& v, const char* key, Enum& value, const std::vector<std
 constexpr Range degrees{-360.0, 360.0, false};
 constexpr Range sharp_angle{0.0, 90.0, true};
 
-void describe_bed(SceneVisitor& v, BedSettings& bed) {
+void describe_bed(KeyVisitor& v, BedSettings& bed) {
   v.section("bed", "the sand box, centred on the origin, z up");
   double size[2] = {bed.width, bed.depth};
   v.numbers("size", size, 2, positive, "m", "extent along x and y");
@@ -35,28 +35,27 @@ void describe_bed(SceneVisitor& v, BedSettings& bed) {
   choose(v, "kind", s.kind, {"flat", "cylinder", "cone", "cliff", "noise", "ripples", "file"}, "its shape");
   const auto is = [&](auto... kinds) { return ((s.kind == kinds) || ...); };
   using enum SurfaceKind;
-  if (is(cylinder, cone)) v.number("radius", s.radius, positive, "m", "cylinder, cone: of its foot");
-  if (is(cylinder, cone, cliff))
-    v.number("height", s.height, any_number, "m", "cylinder, cone, cliff: above z = 0");
+  if (is(cylinder, cone)) v.number("radius", s.radius, positive, "m", "of its foot");
+  if (is(cylinder, cone, cliff)) v.number("height", s.height, any_number, "m", "above z = 0");
   if (is(noise, ripples))
-    v.number("amplitude", s.amplitude, not_negative, "m", "noise, ripples: greatest height above z = 0");
+    v.number("amplitude", s.amplitude, not_negative, "m", "greatest height above z = 0");
   if (is(noise))
     v.number("wavelength", s.wavelength, not_negative, "m",
              "noise: size of the bumps (0: every cell on its own); ripples: crest to crest");
   if (is(ripples)) v.number("wavelength", s.wavelength, positive, "m", "ripples: crest to crest");
   if (is(noise)) {
     int seed = static_cast<int>(s.seed);
-    v.integers("seed", &seed, 1, 0, std::numeric_limits<int>::max(), "noise: of the random heights");
+    v.integers("seed", &seed, 1, 0, std::numeric_limits<int>::max(), "of the random heights");
     s.seed = static_cast<std::uint32_t>(seed);
   }
   if (is(file)) {
-    v.text("file", s.file, "file: a run file (its final surface) or a 16-bit grayscale PNG");
-    v.number("low", s.low, any_number, "m", "file: height of a PNG's black");
-    v.number("high", s.high, any_number, "m", "file: height of a PNG's white");
+    v.text("file", s.file, "a run file (its final surface) or a 16-bit grayscale PNG");
+    v.number("low", s.low, any_number, "m", "height of a PNG's black");
+    v.number("high", s.high, any_number, "m", "height of a PNG's white");
   }
 }
 
-void describe_relaxation(SceneVisitor& v, RelaxationSettings& r) {
+void describe_relaxation(KeyVisitor& v, RelaxationSettings& r) {
   v.section("relaxation", "how sand that lies too steep flows");
   choose(v, "law", r.law, {"paper", "isotropic"},
          "8 neighbours as published, or the same slope in every direction");
@@ -64,7 +63,7 @@ void describe_relaxation(SceneVisitor& v, RelaxationSettings& r) {
          "plain passes, or super time steps: the same rest in far fewer");
   if (r.method == RelaxationMethod::rkl)
     v.number("step_tolerance", r.step_tolerance, {1e-6, 10.0, false}, "",
-             "method rkl: error of a super step, as a share of how far sand has moved");
+             "error of a super step, as a share of how far sand has moved");
   v.number("talus_angle", r.talus_angle, sharp_angle, "deg", "angle of repose");
   v.number("tolerance", r.tolerance, {1e-12, 1.0, false}, "",
            "slope above tan(talus_angle) that rests, as a share of it");
@@ -78,7 +77,7 @@ void describe_relaxation(SceneVisitor& v, RelaxationSettings& r) {
   r.max_passes = static_cast<std::int64_t>(passes);
 }
 
-void describe_device(SceneVisitor& v, DeviceSettings& d) {
+void describe_device(KeyVisitor& v, DeviceSettings& d) {
   v.section("device", "the simulated haptic device");
   choose(v, "model", d.model, {"kinematic", "dynamic"},
          "moved by the stroke, or a mass that the hand's spring pulls");
@@ -95,14 +94,14 @@ void describe_device(SceneVisitor& v, DeviceSettings& d) {
   v.number("hand_stiffness", d.hand_stiffness, not_negative, "N/m", "of the hand that follows the stroke");
   v.number("hand_damping", d.hand_damping, not_negative, "N s/m", "of the hand");
   if (d.model != DeviceModel::dynamic) return;
-  v.integers("delay", &d.delay, 1, 0, 1000, "dynamic model: ticks until the sand's force acts");
+  v.integers("delay", &d.delay, 1, 0, 1000, "ticks until the sand's force acts");
   v.number("dropped_ticks", d.dropped_ticks, {0.0, 0.99, false}, "",
-           "dynamic model: share of ticks in which the loop is late and its last force stays");
+           "share of ticks in which the loop is late and its last force stays");
   choose(v, "drag", d.drag, {"sampled", "implicit"},
-         "dynamic model: drag by the velocity read before a tick, or by that in the tick");
+         "drag by the velocity read before a tick, or by that in the tick");
 }
 
-void describe_stroke(SceneVisitor& v, StrokeSettings& stroke) {
+void describe_stroke(KeyVisitor& v, StrokeSettings& stroke) {
   StrokePlacement& p = stroke.placement;
   v.text("file", stroke.file, "scripted (.toml) or recorded (.h5), relative to the scene");
   choose(v, "plane", p.plane, {"keep", "fit"},
@@ -117,7 +116,7 @@ void describe_stroke(SceneVisitor& v, StrokeSettings& stroke) {
   p.stop = stop > 0.0 ? stop : std::numeric_limits<double>::infinity();
 }
 
-void describe_view(SceneVisitor& v, ViewSettings& view) {
+void describe_view(KeyVisitor& v, ViewSettings& view) {
   v.section("view", "how pictures show it");
   choose(v, "name", view.name, view_names, "the whole bed, what changed, from above");
   choose(v, "style", view.style, style_names, "as one sees it, or colour maps with contour lines");
@@ -150,7 +149,7 @@ double memory_of_bed(const Scene& scene) {
 
 }  // namespace
 
-void describe_scene(SceneVisitor& v, Scene& scene) {
+void describe_scene(KeyVisitor& v, Scene& scene) {
   v.section("model", "which set of choices the others start from");
   choose(v, "preset", scene.preset, preset_names,
          "as published; or solid sphere, outward, isotropic, rkl, relaxed by way");
@@ -169,7 +168,7 @@ void describe_scene(SceneVisitor& v, Scene& scene) {
          "all around as published, ahead of the motion, or along the tool's outward normal");
   if (scene.displacement.deposit == Deposit::outward)
     v.number("distance", scene.displacement.distance, {1.0, 1.4, false}, "tool radii",
-             "deposit outward: from the tool's axis");
+             "from the tool's axis");
 
   v.section("force", "of the sand on the device");
   v.number("k_s", scene.force.k_s, not_negative, "N", "repulse force k_s (exp(k_c depth) - 1)");

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/range.h"
+#include "core/key_visitor.h"
 #include "haptics/device.h"
 #include "haptics/force_model.h"
 #include "haptics/stroke_placement.h"
@@ -58,31 +58,8 @@ struct Scene {
 /// Sets what scene.preset stands for.
 void apply_model_preset(Scene& scene);
 
-/// What describe_scene() shows each setting to: a reader sets the value, a writer prints it, a help page
-/// explains it.
-class SceneVisitor {
- public:
-  virtual ~SceneVisitor() = default;
-  virtual void section(const char* name, const char* help) = 0;
-  /// A section that may be absent: true if it is there.
-  virtual bool optional_section(const char* name, bool present, const char* help) = 0;
-  virtual void number(const char* key, double& value, Range range, const char* unit, const char* help) = 0;
-  virtual void numbers(const char* key, double* values, int count, Range range, const char* unit,
-                       const char* help) = 0;
-  virtual void integers(const char* key, int* values, int count, int lowest, int highest,
-                        const char* help) = 0;
-  virtual void flag(const char* key, bool& value, const char* help) = 0;
-  virtual void text(const char* key, std::string& value, const char* help) = 0;
-  /// value: index into names.
-  virtual void choice(const char* key, int& value, const std::vector<std::string>& names,
-                      const char* help) = 0;
-  /// True for a reader: a preset just read then sets the values it stands for, and later keys override them.
-  virtual bool reads() const = 0;
-};
-
-/// Shows every setting to the visitor, in the order of a scene file. Keys that mean nothing for the choices
-/// made (the radius of a flat surface) are not shown, so that a reader rejects them.
-void describe_scene(SceneVisitor& visitor, Scene& scene);
+/// Shows every setting to the visitor, in the order of a scene file.
+void describe_scene(KeyVisitor& visitor, Scene& scene);
 
 /// What no single key can say: square cells, a tool that fits bed and cells, memory. Error: input, naming the
 /// keys; `name` is the scene's file.

@@ -4,12 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <set>
 #include <utility>
 
 #include "core/output_file.h"
+#include "io/key_reader.h"
 
 namespace sandstroke {
 namespace {
@@ -38,22 +38,16 @@ struct AxisRange {
 };
 
 AxisRange read_range(const TomlReader& toml, const std::string& key, int most) {
-  AxisRange range;
-  for (const char* end : {".from", ".to"}) toml.require(key + end);
-  range.from = toml.number(key + ".from", 0.0);
-  range.to = toml.number(key + ".to", 0.0);
-  range.logarithmic = toml.choice(key + ".scale", 0, {"linear", "log"}) == 1;
+  RangeKeys keys;
+  read_keys(toml, [&](KeyVisitor& visitor) { show_range(visitor, key, keys, most); });
+  AxisRange range{keys.from, keys.to, static_cast<std::size_t>(keys.count.value_or(0)), keys.logarithmic};
   if (range.logarithmic && !(range.from > 0.0 && range.to > 0.0))
     toml.fail(key + ".scale", "is \"log\"; give from and to above 0");
-  if (toml.has(key + ".count") && toml.has(key + ".step"))
-    toml.fail(key, "has both count and step; give one of them");
-  if (toml.has(key + ".count")) {
-    range.count = static_cast<std::size_t>(toml.integer(key + ".count", 1, 1, most));
-    if (range.count == 1 && range.from != range.to)
-      toml.fail(key + ".count", "is 1; give 2 or more, or a list with one value");
-  }
-  if (!toml.has(key + ".step")) return range;
-  const double step = toml.number(key + ".step", 1.0);
+  if (keys.count && keys.step) toml.fail(key, "has both count and step; give one of them");
+  if (range.count == 1 && range.from != range.to)
+    toml.fail(key + ".count", "is 1; give 2 or more, or a list with one value");
+  if (!keys.step) return range;
+  const double step = *keys.step;
   if (range.logarithmic) toml.fail(key + ".step", "does not go with scale = \"log\"; give count");
   if (step == 0.0) toml.fail(key + ".step", "is 0; give one that leads from `from` to `to`");
   const double steps = std::floor((range.to - range.from) / step + 1e-9);
@@ -73,11 +67,11 @@ void check_distinct(const TomlReader& toml, const std::string& key, const std::v
 }
 
 /// The axis of sweep.strokes; none where they are not given.
-std::optional<SweepAxis> read_strokes(const TomlReader& toml, const SweepPlan& plan) {
+std::optional<SweepAxis> read_strokes(const TomlReader& toml, const PlanKeys& keys, const SweepPlan& plan) {
   const char* key = "sweep.strokes";
   if (!toml.has(key)) return std::nullopt;
   SweepAxis axis{stroke_key, "", false, {}};
-  for (const std::string& stroke : toml.texts(key, {})) {
+  for (const std::string& stroke : keys.strokes) {
     const fs::path path = plan.file.parent_path() / stroke;
     check_readable(path);
     axis.values.push_back(
@@ -137,29 +131,21 @@ void sample(SweepDesign& latin, const std::vector<AxisRange>& ranges, std::size_
 
 }  // namespace
 
-SweepDesign read_design(const TomlReader& toml, const SweepPlan& plan) {
+SweepDesign read_design(const TomlReader& toml, const PlanKeys& keys, const SweepPlan& plan) {
   SweepDesign design;
-  design.grid = toml.choice("sweep.design", 0, {"grid", "latin"}) == 0;
-  const int most = toml.integer("sweep.max_points", 10'000, 1, 10'000'000);
-  if (!design.grid) toml.require("sweep.samples");
-  const auto samples = static_cast<std::size_t>(toml.integer("sweep.samples", 1, 1, most));
-  const auto seed =
-      static_cast<std::uint32_t>(toml.integer("sweep.seed", 1, 0, std::numeric_limits<int>::max()));
-  for (const char* key : {"sweep.samples", "sweep.seed"})
-    if (design.grid && toml.has(key)) toml.fail(key, "is for design = \"latin\"; remove it or set that");
-
+  design.grid = keys.grid;
   std::size_t all_values = 0;
   const auto count_values = [&](std::size_t more) {
     if ((all_values += more) > most_values)
       toml.fail("axes", fmt::format("give over {} values, each to be tried; take fewer", most_values));
   };
   std::vector<AxisRange> ranges;  // of each axis
-  if (std::optional<SweepAxis> strokes = read_strokes(toml, plan)) {
+  if (std::optional<SweepAxis> strokes = read_strokes(toml, keys, plan)) {
     design.axes.push_back(std::move(*strokes));
     ranges.emplace_back();
   }
   for (const std::string& name : toml.keys_in("axes", {"from", "to", "step", "count"})) {
-    auto [axis, range] = read_axis(toml, name, design.grid, most);
+    auto [axis, range] = read_axis(toml, name, design.grid, keys.max_points);
     count_values(axis.values.size());
     check_distinct(toml, "axes." + name, axis.values);
     design.axes.push_back(std::move(axis));
@@ -169,11 +155,12 @@ SweepDesign read_design(const TomlReader& toml, const SweepPlan& plan) {
     toml.fail("axes", "is missing or empty; say what varies, such as [axes] force.k_s = [500, 1000]");
 
   if (design.grid) {
-    check_points(toml, design, most);
+    check_points(toml, design, keys.max_points);
     return design;
   }
+  const auto samples = static_cast<std::size_t>(keys.samples);
   count_values(design.axes.size() * samples);
-  sample(design, ranges, samples, seed);
+  sample(design, ranges, samples, static_cast<std::uint32_t>(keys.seed));
   return design;
 }
 

@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "hdf5/hdf5_grid_writer.h"
+#include "io/input_kind.h"
 
 namespace sandstroke {
 namespace {
@@ -19,8 +20,7 @@ class SweepFile {
 
   void write(const std::string& content_hash) {
     const SweepManifest& manifest = sweep_.folder.manifest();
-    file_.attribute("/", "format", "sandstroke.sweep");
-    file_.attribute("/", "format_version", 1);
+    write_format(file_, InputKind::sweep);
     file_.attribute("/", "content_hash", content_hash);
     file_.attribute("/", "version", manifest.version);
     file_.attribute("/", "commit", manifest.commit);

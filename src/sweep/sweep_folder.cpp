@@ -10,6 +10,7 @@
 #include "core/shell_text.h"
 #include "hdf5/hdf5_file.h"
 #include "io/bed_writer.h"
+#include "io/input_kind.h"
 #include "io/scene_toml.h"
 
 namespace sandstroke {
@@ -198,8 +199,7 @@ std::optional<PointResult> SweepFolder::read(std::size_t point) const {
 void SweepFolder::write(std::size_t point, const PointResult& result, const std::string& scene_text,
                         const HeightField* surface) const {
   Hdf5Writer file(point_file(point));
-  file.attribute("/", "format", "sandstroke.point");
-  file.attribute("/", "format_version", 1);
+  write_format(file, InputKind::point);
   file.attribute("/", "point", static_cast<double>(point));
   file.attribute("/", "verdict", verdict_names[static_cast<std::size_t>(result.verdict)]);
   file.attribute("/", "reason", result.reason);

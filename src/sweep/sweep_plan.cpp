@@ -7,23 +7,25 @@
 #include "core/error.h"
 #include "core/output_file.h"
 #include "io/input_kind.h"
+#include "io/key_reader.h"
 #include "io/scene_keys.h"
 #include "io/scene_toml.h"
-#include "io/toml_reader.h"
 #include "sweep/metrics.h"
 #include "sweep/plan_axes.h"
+#include "sweep/plan_keys.h"
 
 namespace sandstroke {
 namespace {
 
 namespace fs = std::filesystem;
 
-std::vector<std::string> read_metrics(const TomlReader& toml) {
+std::vector<std::string> read_metrics(const TomlReader& toml, const PlanKeys& keys) {
   std::vector<std::string> known;  // but for those that lack what they need
   const bool golden = toml.has("sweep.golden");
   for (const Metric& metric : all_metrics())
     if (golden || metric.needs != Metric::golden) known.push_back(metric.name);
-  const std::vector<std::string> metrics = toml.texts("sweep.metrics", known);
+  if (!toml.has("sweep.metrics")) return known;
+  const std::vector<std::string>& metrics = keys.metrics;
   if (metrics.empty()) toml.fail("sweep.metrics", "is empty; name one or remove it");
   for (const std::string& metric : metrics) {
     if (std::find(known.begin(), known.end(), metric) == known.end())
@@ -82,6 +84,25 @@ void check_values(const TomlReader& toml, SweepPlan& plan) {
   }
 }
 
+/// All that its scene and its keys make of it.
+void fill_plan(const TomlReader& toml, const PlanKeys& keys, SweepPlan& plan) {
+  for (const std::string& key : toml.keys_in("set"))
+    plan.settings.push_back(key + "=" + toml.literal("set." + key));
+  plan.design = read_design(toml, keys, plan);
+  plan.metrics = read_metrics(toml, keys);
+  for (const std::string& kept : keys.keep) {
+    if (kept != "surface" && kept != "picture")
+      toml.fail("sweep.keep", fmt::format("names '{}'; take from: surface, picture", kept));
+    (kept == "surface" ? plan.keep_surface : plan.keep_picture) = true;
+  }
+  if (toml.has("sweep.golden")) {
+    plan.golden = plan.file.parent_path() / keys.golden;
+    check_readable(plan.golden);
+  }
+  toml.reject_unread([] { return conditions(all_plan_keys()); });
+  check_values(toml, plan);
+}
+
 }  // namespace
 
 Scene SweepPlan::scene_with(const std::vector<std::string>& all_settings) const {
@@ -94,63 +115,19 @@ Scene SweepPlan::scene_of(std::size_t point) const {
   return scene_with(all);
 }
 
-std::string plan_help() {
-  std::vector<std::string> metrics;
-  for (const Metric& metric : all_metrics()) metrics.push_back(metric.name);
-  std::string lines;
-  for (std::size_t i = 0; i < metrics.size(); i += 6)
-    lines += fmt::format(
-        "  {}\n",
-        fmt::join(metrics.begin() + static_cast<std::ptrdiff_t>(i),
-                  metrics.begin() + static_cast<std::ptrdiff_t>(std::min(i + 6, metrics.size())), " "));
-  return R"(A plan (TOML; only scene and one axis are needed; files are relative to the plan):
-  [sweep]
-  scene = "scene.toml"                 # what every point starts from
-  strokes = ["a.toml", "b.h5"]         # instead of the scene's; the first axis
-  design = "grid"                      # every combination; or "latin": a Latin hypercube of
-  samples = 200                        #   so many points
-  seed = 1                             #   by this seed
-  metrics = ["work", "furrow_depth"]   # to collect; default: all
-  keep = ["surface", "picture"]        # of each point; default: neither
-  golden = "before.h5"                 # run whose final surface each point's is compared with
-  max_points = 10000                   # more are refused
-  [set]                                # settings of every point (sandstroke info --scene-keys lists them)
-  bed.cells = [500, 500]
-  [axes]                               # what varies; the last one fastest
-  relaxation.talus_angle = { from = 20, to = 45, step = 2.5 }
-  force.k_s = { from = 100, to = 10000, count = 5, scale = "log" }
-  force.k_f = { from = 1, to = 20 }    # latin: anything between
-  model.preset = ["paper", "accurate"]
-Metrics:
-)" + lines;
-}
-
 SweepPlan load_plan(const fs::path& path) {
-  expect_kind(path, {InputKind::plan});
-  const TomlReader toml = TomlReader::from_file(path);
-  SweepPlan plan;
-  plan.file = path;
-  toml.require("sweep.scene");
-  plan.scene = path.parent_path() / toml.text("sweep.scene", "");
-  check_readable(plan.scene);
-  expect_kind(plan.scene, {InputKind::scene});
-  plan.scene_text = read_text_file(plan.scene);
-  for (const std::string& key : toml.keys_in("set"))
-    plan.settings.push_back(key + "=" + toml.literal("set." + key));
-  plan.design = read_design(toml, plan);
-  plan.metrics = read_metrics(toml);
-  for (const std::string& kept : toml.texts("sweep.keep", {})) {
-    if (kept != "surface" && kept != "picture")
-      toml.fail("sweep.keep", fmt::format("names '{}'; take from: surface, picture", kept));
-    (kept == "surface" ? plan.keep_surface : plan.keep_picture) = true;
-  }
-  if (toml.has("sweep.golden")) {
-    plan.golden = path.parent_path() / toml.text("sweep.golden", "");
-    check_readable(plan.golden);
-  }
-  toml.reject_unread();
-  check_values(toml, plan);
-  return plan;
+  return read_as({InputKind::plan}, path, [&] {
+    const TomlReader toml = TomlReader::from_file(path);
+    SweepPlan plan;
+    plan.file = path;
+    PlanKeys keys;
+    read_keys(toml, [&](KeyVisitor& visitor) { show_plan(visitor, keys); });
+    plan.scene = path.parent_path() / keys.scene;
+    check_readable(plan.scene);
+    plan.scene_text = read_text_file(plan.scene);
+    read_as({InputKind::scene}, plan.scene, [&] { fill_plan(toml, keys, plan); });
+    return plan;
+  });
 }
 
 }  // namespace sandstroke

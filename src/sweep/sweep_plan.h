@@ -9,7 +9,7 @@
 
 namespace sandstroke {
 
-/// What is to be swept, as a plan (TOML) says: plan_help().
+/// What is to be swept, as a plan (TOML) says: all_plan_keys().
 struct SweepPlan {
   std::filesystem::path file, scene;
   std::string scene_text;
@@ -25,9 +25,6 @@ struct SweepPlan {
   /// What file names in scenes are relative to.
   std::filesystem::path scene_folder() const { return scene.parent_path(); }
 };
-
-/// All that a plan can say, for people.
-std::string plan_help();
 
 /// Reads a plan and checks each value of each axis, beside the first values of the others, and all files'
 /// being there. Error: input, naming file, line, key and remedy; io.

@@ -104,8 +104,8 @@ TEST(CliHelp, OfFilesIsInTopics) {
 TEST(CliHelp, ScenesAreExplainedKeyByKey) {
   const std::string manual = page({"help", "--man", "scene"}), table = printed({"help", "scene"});
   EXPECT_EQ(table, printed({"info", "--scene-keys"}));
-  for (const SceneSection& section : all_scene_keys())
-    for (const SceneKey& key : section.keys) {
+  for (const KeySection& section : all_scene_keys())
+    for (const KeyRow& key : section.keys) {
       EXPECT_NE(manual.find(key.name + " = " + key.value), std::string::npos) << key.name;
       EXPECT_NE(manual.find(key.explanation()), std::string::npos) << key.name;
       EXPECT_NE(table.find(key.explanation()), std::string::npos) << key.name;

@@ -1,11 +1,11 @@
 #include "io/scene_toml.h"
-#include "io/scene_keys.h"
 
 #include <gtest/gtest.h>
 
-#include <sstream>
+#include <regex>
 
 #include "core/error.h"
+#include "io/scene_keys.h"
 
 namespace sandstroke {
 namespace {
@@ -68,44 +68,70 @@ TEST(SceneToml, TheResolvedTextReadsBackAsTheSameScene) {
   EXPECT_EQ(read(text).stroke->file, "a \"b\".h5");
 }
 
-TEST(SceneToml, EveryKeyOfTheTableIsAKeyOfScenesAndItsValueTheDefault) {
-  std::istringstream lines(scene_key_table());
-  int keys = 0;
-  for (std::string line; std::getline(lines, line);) {
-    if (!line.starts_with("  ")) continue;
-    std::istringstream words(line);
-    std::string key;
-    words >> key;
-    std::string value = line.substr(line.find(key) + key.size());
-    value = value.substr(value.find_first_not_of(' '));
-    value = value.starts_with("[") ? value.substr(0, value.find(']') + 1) : value.substr(0, value.find(' '));
-    if (key == "stroke.file" || key == "bed.surface.file") value = "\"x.h5\"";  // these must be given
-    std::vector<std::string> overrides = {key + "=" + value};
-    for (const char* of_dynamic : {"device.delay", "device.dropped_ticks", "device.drag"})
-      if (key == of_dynamic) overrides.push_back("device.model=dynamic");
-    if (key == "displacement.distance") overrides.push_back("displacement.deposit=outward");
-    if (key == "relaxation.step_tolerance") overrides.push_back("relaxation.method=rkl");
-    if (key.starts_with("stroke.")) overrides.push_back("stroke.file=\"x.h5\"");
-    if (key.starts_with("bed.surface.") && key != "bed.surface.kind") {
-      bool accepted = false;  // by the kinds of surface that have it
-      for (const char* kind : {"cylinder", "noise", "ripples", "file"}) {
+/// What brings a key: "bed.surface.kind=noise" of "bed.surface.kind is noise or ripples"; empty: nothing.
+std::vector<std::string> settings_that_bring(const KeyRow& row) {
+  std::smatch found;
+  if (!std::regex_match(row.condition, found, std::regex("([\\w.]+) is (.*)"))) return {};
+  std::vector<std::string> settings;
+  const std::string values = found[2];
+  const std::regex either(" or ");
+  for (std::sregex_token_iterator value(values.begin(), values.end(), either, -1), end; value != end; ++value)
+    settings.push_back(found[1].str() + "=" + value->str());
+  return settings;
+}
+
+TEST(SceneToml, EveryKeyOfTheTableIsReadWithItsDefaultJustWhereItSaysThatItApplies) {
+  int keys = 0, conditional = 0;
+  for (const KeySection& section : all_scene_keys()) {
+    for (const KeyRow& row : section.keys) {
+      const std::string value = row.key() == "file" ? "\"x.h5\"" : row.value;  // files must be given
+      const auto reads = [&](const std::string& with) {
+        std::vector<std::string> settings = {row.name + "=" + value};
+        if (row.name.starts_with("stroke.")) settings.push_back("stroke.file=x.h5");
+        if (!with.empty()) settings.push_back(with);
+        if (with == "bed.surface.kind=file") settings.push_back("bed.surface.file=x.h5");
         try {
-          read("", {"bed.surface.kind=" + std::string(kind),
-                    key == "bed.surface.file" ? overrides[0] : "bed.surface.kind=" + std::string(kind),
-                    overrides[0],
-                    kind == std::string("file") ? "bed.surface.file=\"x.h5\""
-                                                : "bed.surface.kind=" + std::string(kind)});
-          accepted = true;
-        } catch (const Error&) {
+          read("", settings);
+          return true;
+        } catch (const Error& failure) {
+          EXPECT_NE(std::string(failure.what()).find(row.name + " applies only where "), std::string::npos)
+              << failure.what();
+          return false;
         }
-      }
-      EXPECT_TRUE(accepted) << key;
-    } else {
-      EXPECT_NO_THROW(read("", overrides)) << key << " = " << value;
+      };
+      const std::vector<std::string> brought_by = settings_that_bring(row);
+      EXPECT_EQ(reads(""), brought_by.empty()) << row.name;
+      for (const std::string& setting : brought_by) EXPECT_TRUE(reads(setting)) << row.name << " " << setting;
+      conditional += !brought_by.empty();
+      ++keys;
     }
-    ++keys;
   }
   EXPECT_GT(keys, 50);
+  EXPECT_EQ(conditional, 13);
+}
+
+TEST(SceneToml, AKeyThatDoesNotApplyIsToldWhereItWould) {
+  const auto complaint = [](const std::string& text, const std::vector<std::string>& settings = {}) {
+    try {
+      read(text, settings);
+      return std::string();
+    } catch (const Error& failure) {
+      return std::string(failure.what());
+    }
+  };
+  EXPECT_EQ(complaint("[bed.surface]\nkind = 'file'\nfile = 'a.png'\namplitude = 0.01\n"),
+            "scene.toml:4: bed.surface.amplitude applies only where bed.surface.kind is noise or ripples; "
+            "remove it, or change that");
+  EXPECT_EQ(complaint("[device]\n", {"device.delay=2"}),
+            "--set device.delay=2: device.delay applies only where device.model is dynamic; remove it, or "
+            "change that");
+  EXPECT_EQ(complaint("[relaxation]\nstep_tolerence = 0.1\n"),
+            "scene.toml:2: unknown key relaxation.step_tolerence; did you mean relaxation.step_tolerance?");
+  // What a preset chooses can be chosen without it.
+  EXPECT_EQ(complaint("[displacement]\ndistance = 1.1\n"),
+            "scene.toml:2: displacement.distance applies only where displacement.deposit is outward; remove "
+            "it, or change that");
+  EXPECT_EQ(complaint("[model]\npreset = 'accurate'\n[displacement]\ndistance = 1.1\n"), "");
 }
 
 TEST(SceneToml, TheEngineThatOldRunFilesNameIsReadAndNotWritten) {
@@ -130,7 +156,8 @@ TEST(SceneToml, RefusesWhatCannotBeMeant) {
   refuses("[bed]\ncells = [1.5, 10]\n", "integers");
   refuses("[bed]\ncells = [1000, 999]\n", "square");
   refuses("[bed]\ncells = [65536, 65536]\nsurface = { kind = 'noise', amplitude = 1.0 }\n", "memory");
-  refuses("[bed.surface]\nradius = 1.0\n", "unknown key bed.surface.radius");  // flat has none
+  refuses("[bed.surface]\nradius = 1.0\n",
+          "bed.surface.radius applies only where bed.surface.kind is cylinder or cone");
   refuses("[bed]\nsurface = { kind = 'file' }\n", "bed.surface.file");
   refuses("[relaxation]\ntalus_angle = 0\n", "above 0 and below 90");
   refuses("[relaxation]\ntalus_angle = 90.0\n", "above 0 and below 90");

@@ -3,6 +3,8 @@
 #include <gmock/gmock-matchers.h>
 #include <gtest/gtest.h>
 
+#include <map>
+
 #include "core/error.h"
 
 namespace sandstroke {
@@ -121,16 +123,38 @@ TEST(StrokeScriptToml, HasSensibleDefaults) {
   EXPECT_EQ(script.repeat, 1);
 }
 
-TEST(StrokeScriptToml, TheExampleOfTheHelpIsAScriptWithTheDefaults) {
-  const std::string help = script_help();
-  const std::size_t begin = help.find('\n');
-  const StrokeScript script = parse(help.substr(begin, help.find("Keys of a segment") - begin)), defaults;
-  EXPECT_EQ(script.clearance, defaults.clearance);
-  EXPECT_EQ(script.travel_speed, defaults.travel_speed);
-  EXPECT_EQ(script.plunge_speed, defaults.plunge_speed);
-  EXPECT_EQ(script.rate, defaults.rate);
-  EXPECT_EQ(script.repeat, defaults.repeat);
-  EXPECT_EQ(script.segments.at(0).speed, ScriptSegment{}.speed);
+TEST(StrokeScriptToml, TheKeysOfTheHelpAreReadWithTheirDefaults) {
+  const std::vector<KeySection> sections = script_keys();
+  ASSERT_EQ(sections.size(), 2u);
+  for (const KeyRow& row : sections[0].keys) {
+    const std::string value = row.value.empty() ? "0.01" : row.value;
+    EXPECT_THAT(script_complaint(row.name + " = " + value + "\n[[segment]]\nkind = \"move\"\nto = [0, 0]\n"),
+                "");
+  }
+  const std::map<std::string, std::string> shapes = {
+      {"move", "to = [1, 0]\n"},
+      {"line", "to = [1, 0]\n"},
+      {"arc", "centre = [0, 0]\nradius = 1\nstart_angle = 0\nend_angle = 90\n"},
+      {"spline", "points = [[0, 0], [1, 1]]\n"},
+      {"text", "text = \"a\"\nat = [0, 0]\nheight = 0.1\n"}};
+  for (const auto& [kind, shape] : shapes) {
+    for (const KeyRow& row : sections[1].keys) {
+      if (("\n" + shape).find("\n" + row.key() + " ") != std::string::npos || row.key() == "kind") continue;
+      const bool applies = row.condition.empty() || row.condition.find(" " + kind) != std::string::npos;
+      const std::string value = row.key() == "from" ? "[0, 0]" : row.value.empty() ? "0.01" : row.value;
+      const std::string complaint = script_complaint((row.key() == "force" ? "" : "depth = 0.01\n") +
+                                                     ("[[segment]]\nkind = \"" + kind + "\"\n") + shape +
+                                                     row.key() + " = " + value + "\n");
+      if (applies)
+        EXPECT_EQ(complaint, "") << kind << " " << row.name;
+      else
+        EXPECT_THAT(complaint, HasSubstr(row.name + " applies only where " + row.condition)) << kind;
+    }
+  }
+  EXPECT_THAT(
+      script_complaint(segment("kind = \"line\"\nto = [0, 0]\nradius = 1\n")),
+      HasSubstr("s.toml:5: segment.radius applies only where segment.kind is arc; remove it, or change "
+                "that"));
 }
 
 TEST(StrokeScriptToml, ErrorsNameFileLineAndKey) {
@@ -162,9 +186,9 @@ TEST(StrokeScriptToml, ErrorsNameFileLineAndKey) {
               AllOf(HasSubstr("s.toml:4:"), HasSubstr("2 points")));
   EXPECT_THAT(script_complaint(segment("kind = \"arc\"\ncentre = [0, 0]\nradius = -1\n")),
               AllOf(HasSubstr("s.toml:5:"), HasSubstr("radius")));
-  EXPECT_THAT(script_complaint(segment("kind = \"text\"\ntext = \"\"\n")),
+  EXPECT_THAT(script_complaint(segment("kind = \"text\"\ntext = \"\"\nat = [0, 0]\nheight = 1\n")),
               AllOf(HasSubstr("s.toml:4:"), HasSubstr("text")));
-  EXPECT_THAT(script_complaint(segment("kind = \"text\"\ntext = \"S\u00e4nd\"\n")),
+  EXPECT_THAT(script_complaint(segment("kind = \"text\"\ntext = \"S\u00e4nd\"\nat = [0, 0]\nheight = 1\n")),
               AllOf(HasSubstr("s.toml:4:"), HasSubstr("ASCII")));
   EXPECT_THAT(script_complaint(segment("kind = \"line\"\nto = [1, 2]\nwait = -1\n")),
               AllOf(HasSubstr("s.toml:5:"), HasSubstr("wait")));

@@ -138,7 +138,7 @@ TEST(SharedRun, AFurrowIsAsWideAsItsToolAndTheGoldenSurfaceIsSubtracted) {
 }
 
 /// Changes one setting after the other.
-class Changer : public SceneVisitor {
+class Changer : public KeyVisitor {
  public:
   explicit Changer(int which) : left_(which) {}
   void section(const char* name, const char*) override { section_ = name; }
@@ -164,6 +164,11 @@ class Changer : public SceneVisitor {
   void choice(const char* key, int& value, const std::vector<std::string>& names, const char*) override {
     if (mine(key)) value = (value + 1) % static_cast<int>(names.size());
   }
+  bool given(const char*) override { return true; }
+  void require(const char*) override {}
+  void profile(const char*, std::vector<double>&, Range, const char*, const char*) override {}
+  void points(const char*, std::vector<Eigen::Vector2d>&, const char*, const char*) override {}
+  void texts(const char*, std::vector<std::string>&, const char*) override {}
   bool reads() const override { return false; }
   const std::string& changed() const { return changed_; }
 

@@ -174,7 +174,11 @@ TEST_F(APlan, IsRefusedInOneSentenceThatSaysWhere) {
       {start + "max_points = 3\n[axes]\nforce.k_s = [1, 2, 3, 4]\n",
        "give 4 points and sweep.max_points is 3"},
       {start + "design = \"latin\"\n[axes]\nforce.k_s = [1]\n", "sweep.samples is missing"},
-      {start + "samples = 5\n[axes]\nforce.k_s = [1]\n", "sweep.samples is for design = \"latin\""},
+      {start + "samples = 5\n[axes]\nforce.k_s = [1]\n",
+       "plan.toml:3: sweep.samples applies only where sweep.design is latin; remove it, or change that"},
+      {axes + "bed.surface.amplitude = [0.001]\n",
+       "plan.toml:4: axes.bed.surface.amplitude cannot be 0.001: bed.surface.amplitude applies only where "
+       "bed.surface.kind is noise or ripples"},
       {start + "[set]\nforce.k_s = 5\n[axes]\nforce.k_s = [1]\n", "is also in [set]"},
       {start + "[set]\nforce.k_s = -5\n[axes]\nforce.k_f = [1]\n", "plan.toml:4: set.force.k_s cannot be -5"},
       {start + "strokes = []\n[axes]\nforce.k_s = [1]\n", "sweep.strokes is empty"},

@@ -1,6 +1,7 @@
 #include "validation/study/study_files.h"
 
 #include "core/output_file.h"
+#include "io/input_kind.h"
 #include "report/page.h"
 #include "validation/study/study_table.h"
 #include "validation/study/surface_error.h"
@@ -31,8 +32,7 @@ void StudyFiles::write(const Study& study) const {
   file.write("/directions", directions);
   file.attribute("/directions", "unit", "deg");
   file.write("/machine", describe_machine().dump());
-  file.attribute("/", "format", "sandstroke.bench");
-  file.attribute("/", "format_version", 1.0);
+  write_format(file, InputKind::bench);
   file.finish();
   write_text_file(page(), html_page("sandstroke bench", PageScript::bench, study_json(study)));
 }

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "core/range.h"
+
+namespace sandstroke {
+
+/// What a file's keys are shown to, one after the other: a reader sets the value, a writer prints it, a help
+/// page explains it. A function that shows them is the one list of these keys; a key that means nothing for
+/// the choices made (the radius of a flat surface) it does not show, so that a reader refuses it.
+class KeyVisitor {
+ public:
+  virtual ~KeyVisitor() = default;
+  virtual void section(const char* name, const char* help) = 0;
+  /// A section that may be absent: true if it is there.
+  virtual bool optional_section(const char* name, bool present, const char* help) = 0;
+  /// Whether the next key is given, where that is more than its value says; listed without a default.
+  virtual bool given(const char* key) = 0;
+  /// The next key must be given.
+  virtual void require(const char* key) = 0;
+  virtual void number(const char* key, double& value, Range range, const char* unit, const char* help) = 0;
+  virtual void numbers(const char* key, double* values, int count, Range range, const char* unit,
+                       const char* help) = 0;
+  /// One number or more.
+  virtual void profile(const char* key, std::vector<double>& values, Range range, const char* unit,
+                       const char* help) = 0;
+  virtual void points(const char* key, std::vector<Eigen::Vector2d>& values, const char* unit,
+                      const char* help) = 0;
+  virtual void integers(const char* key, int* values, int count, int lowest, int highest,
+                        const char* help) = 0;
+  virtual void flag(const char* key, bool& value, const char* help) = 0;
+  virtual void text(const char* key, std::string& value, const char* help) = 0;
+  virtual void texts(const char* key, std::vector<std::string>& values, const char* help) = 0;
+  /// value: index into names.
+  virtual void choice(const char* key, int& value, const std::vector<std::string>& names,
+                      const char* help) = 0;
+  /// True for a reader: a preset just read then sets the values it stands for, and later keys override them.
+  virtual bool reads() const = 0;
+};
+
+}  // namespace sandstroke
