@@ -29,7 +29,7 @@ fs::path folder_with_beds() {
 /// side x side heights from (row, col) on: what a reader sees who does not load the whole surface.
 HeightGrid part_of(const fs::path& run, const std::string& dataset, int row, int col, int side) {
   prepare_hdf5();
-  const Hdf5Handle file(H5Fopen(run.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
+  const Hdf5Handle file(H5Fopen(run.c_str(), H5F_ACC_RDONLY, without_locks()), H5Fclose);
   const Hdf5Handle opened(H5Dopen2(file, dataset.c_str(), H5P_DEFAULT), H5Dclose);
   const Hdf5Handle space(H5Dget_space(opened), H5Sclose);
   const hsize_t first[2] = {static_cast<hsize_t>(row), static_cast<hsize_t>(col)};

@@ -170,7 +170,7 @@ class Hdf5OfOthers : public Hdf5File {
       writer.write("/own", std::vector<double>(4, 1.0));
       writer.finish();
     }
-    file_ = Hdf5Handle(H5Fopen(path_.c_str(), H5F_ACC_RDWR, H5P_DEFAULT), H5Fclose);
+    file_ = Hdf5Handle(H5Fopen(path_.c_str(), H5F_ACC_RDWR, without_locks()), H5Fclose);
     space_ = Hdf5Handle(H5Screate_simple(1, &count_, nullptr), H5Sclose);
     properties_ = Hdf5Handle(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
   }
