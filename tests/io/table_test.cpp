@@ -20,7 +20,7 @@ Table small_table() {
 }
 
 std::vector<std::string> fixed_length_texts(const std::filesystem::path& path, const char* name) {
-  const Hdf5Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
+  const Hdf5Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, without_locks()), H5Fclose);
   const Hdf5Handle dataset(H5Dopen2(file, name, H5P_DEFAULT), H5Dclose);
   const Hdf5Handle type(H5Dget_type(dataset), H5Tclose);
   const std::size_t length = H5Tget_size(type);
