@@ -25,7 +25,7 @@ std::optional<FileLock> FileLock::try_take(const std::filesystem::path& path) {
 }
 
 FileLock FileLock::wait_and_take(const std::filesystem::path& path) {
-  return std::move(*take(path, F_OFD_SETLKW));
+  return take(path, F_OFD_SETLKW).value();
 }
 
 std::optional<FileLock> FileLock::take(const std::filesystem::path& path, int how) {
