@@ -31,8 +31,8 @@ bool is_number(hid_t type) {
   return kind == H5T_INTEGER || kind == H5T_FLOAT || kind == H5T_ENUM;
 }
 
-/// Reads a scalar string, of fixed or variable length, if it is one; `read` is given the memory type and the
-/// buffer.
+/// Reads a scalar string, of fixed or variable length, if it is one.
+/// `read` is given the memory type and the buffer.
 template <class Read>
 bool read_string(hid_t file_type, std::string& text, const Read& read) {
   if (H5Tget_class(file_type) != H5T_STRING) return false;

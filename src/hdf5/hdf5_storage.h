@@ -19,8 +19,7 @@ double most_unpacked(double file_bytes);
 std::string layout_fault(const Hdf5Handle& dataset, double file_bytes);
 
 /// Of every chunk that was written, where the layout is without fault: that it does not unpack to what a
-/// chunk holds. visit: called with the first indices of each, one per dimension. Nothing where there are no
-/// chunks.
+/// chunk holds. visit: called with the first indices of each, one per dimension. No chunks: no fault.
 std::string storage_fault(
     const Hdf5Handle& dataset, double file_bytes,
     const std::function<void(const hsize_t* start)>& visit = [](const hsize_t*) {});

@@ -13,8 +13,8 @@
 
 namespace sandstroke {
 
-/// How much work a dataset's compression may be: none, fast (shuffle + deflate 1), small (shuffle + deflate
-/// 9).
+/// How much work a dataset's compression may be.
+/// none; fast: shuffle + deflate 1; small: shuffle + deflate 9.
 enum class Compression { none, fast, small };
 
 // The types of numbers in columns.
@@ -61,8 +61,7 @@ class Hdf5Chunks {
 };
 
 /// An HDF5 file being written as PATH.part and renamed to PATH by finish(). Groups on the way to a dataset
-/// are made as needed. Error: io, for whatever the system refuses, and where another process is writing the
-/// same file.
+/// are made as needed. Error: io, for whatever the system refuses, and while another process writes it.
 class Hdf5Writer {
  public:
   explicit Hdf5Writer(const std::filesystem::path& path);

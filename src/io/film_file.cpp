@@ -16,8 +16,7 @@ struct FilmFormat {
   std::string options;
 };
 
-// Colours are said to be BT.709's, and are: left alone, ffmpeg makes BT.601's and players take them for
-// others.
+// Colours are BT.709's and marked so. By itself ffmpeg makes BT.601's, and players take them for others.
 const std::string bt709 =
     " -vf scale=out_color_matrix=bt709:out_range=tv,format=yuv420p -colorspace bt709 -color_range tv"
     " -color_primaries bt709 -color_trc bt709";

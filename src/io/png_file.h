@@ -27,13 +27,11 @@ void check_picture_name(const std::filesystem::path& path);
 void write_png(const std::filesystem::path& path, const Image& image);
 
 /// Reads any PNG as 8-bit RGB: gray and palette are expanded, 16 bits rounded to 8, transparency is dropped.
-/// Error: io where it cannot be opened; input where it is no PNG, cut off, damaged or larger than
-/// largest_png_side.
+/// Error: io where it cannot be opened; input where it is no PNG, damaged or larger than largest_png_side.
 Image read_png(const std::filesystem::path& path);
 
 /// Reads a 16-bit grayscale PNG as values from 0 (black) to 1 (white), value / 65535 exactly; the picture's
-/// lowest row is row 0 (its upper border is the highest y). Error: as read_png, and input for every other
-/// kind of PNG.
+/// lowest row is row 0 (its upper border is the highest y). Error: as read_png; input for other kinds of PNG.
 HeightGrid read_height_png(const std::filesystem::path& path);
 
 }  // namespace sandstroke

@@ -45,8 +45,8 @@ class RunFile {
   Hdf5Reader file_;
 };
 
-/// The surfaces of a run's frames, put together from what changed: asked for in sequence, each change is read
-/// once.
+/// The surfaces of a run's frames, put together from what changed.
+/// Asked for in sequence, each change is read once.
 class RunFrames {
  public:
   explicit RunFrames(const RunFile& run) : run_(run) {}

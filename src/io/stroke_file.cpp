@@ -11,8 +11,7 @@
 namespace sandstroke {
 namespace {
 
-/// The pen states; other nonzero flags of foreign files would lose their meaning in 8 bits, so they are
-/// rejected.
+/// The pen states. Other flags of foreign files would lose their meaning in 8 bits: they are refused.
 std::vector<std::uint8_t> contact_states(const std::vector<std::uint32_t>& values, const std::string& name) {
   std::vector<std::uint8_t> states;
   for (const std::uint32_t value : values) {

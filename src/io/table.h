@@ -23,8 +23,8 @@ struct Table {
   std::size_t rows() const;
 };
 
-/// Names in the first line; an empty field where there is no number. Fields with commas or quotes are quoted
-/// (RFC 4180).
+/// CSV (RFC 4180): names in the first line, an empty field where there is no number, fields with commas or
+/// quotes in quotes.
 std::string csv_text(const Table& table);
 
 /// One dataset of rank 1 per column in the group, with its title and unit as attributes.
