@@ -28,8 +28,8 @@ nlohmann::ordered_json range_of(const HeightField& bed) {
   const auto take = [&](double height) {
     lowest = std::min(lowest, height), highest = std::max(highest, height);
   };
-  if (bed.touched_tiles() < bed.tile_count()) take(bed.untouched().height(bed, 0, 0));
-  for (int slot = 0; slot < bed.touched_tiles(); ++slot) {
+  if (bed.allocated_tiles() < bed.tile_count()) take(bed.untouched().height(bed, 0, 0));
+  for (int slot = 0; slot < bed.allocated_tiles(); ++slot) {
     const CellRange cells = bed.tile_cells(bed.tile_of(slot));
     for (int row = 0; row < cells.rows(); ++row)
       std::for_each_n(bed.tile_heights(slot) + row * HeightField::tile_side, cells.cols(), take);

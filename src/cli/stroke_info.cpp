@@ -20,7 +20,7 @@ StrokeSummary summarize(const Stroke& stroke) {
   summary.low = summary.high = stroke.position.front();
   std::vector<double> spacings;
   for (std::size_t i = 0; i < stroke.size(); ++i) {
-    summary.drawn_samples += stroke.touches(i);
+    summary.drawn_samples += stroke.pen_down(i);
     summary.low = summary.low.cwiseMin(stroke.position[i]);
     summary.high = summary.high.cwiseMax(stroke.position[i]);
     if (i == 0) continue;

@@ -4,6 +4,7 @@
 
 namespace sandstroke {
 
-constexpr double degree = std::numbers::pi / 180.0;  ///< rad
+constexpr double to_radians(double degrees) { return degrees * std::numbers::pi / 180.0; }
+constexpr double to_degrees(double radians) { return radians * 180.0 / std::numbers::pi; }
 
 }  // namespace sandstroke

@@ -31,14 +31,14 @@ struct Stroke {
   double duration() const { return time.empty() ? 0.0 : time.back() - time.front(); }
 
   /// The pen is down at sample i.
-  bool touches(std::size_t i) const { return contact.empty() || contact[i] != pen_up; }
+  bool pen_down(std::size_t i) const { return contact.empty() || contact[i] != pen_up; }
   /// It is known where the hand is between samples i and i + 1.
   bool sampled_between(std::size_t i) const {
     return i + 1 < size() && time[i + 1] - time[i] <= gap_threshold &&
            (contact.empty() || contact[i] != pen_lifts);
   }
   /// Samples i and i + 1 are drawn as one line; otherwise the tool is lifted between them.
-  bool joined(std::size_t i) const { return sampled_between(i) && touches(i) && touches(i + 1); }
+  bool joined(std::size_t i) const { return sampled_between(i) && pen_down(i) && pen_down(i + 1); }
 };
 
 /// What every reader and maker of a stroke guarantees: at least one sample, columns of equal length, finite

@@ -4,8 +4,8 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "core/angle.h"
 #include "core/error.h"
 
 namespace sandstroke {
@@ -74,7 +74,7 @@ Vector3d plane_normal(const std::vector<Vector3d>& points, const Vector3d& centr
   }
   Vector3d normal = axes.eigenvectors().col(0);
   if (normal.z() < 0.0) normal = -normal;
-  const double tilt = std::atan2(normal.head<2>().norm(), normal.z()) * 180.0 / std::numbers::pi;
+  const double tilt = to_degrees(std::atan2(normal.head<2>().norm(), normal.z()));
   if (tilt > steepest_table) {
     throw_input_error(
         "{}: its samples with the pen down fit a plane tilted {:.3g} deg, so they are no tracing on a table; "
@@ -87,7 +87,7 @@ Vector3d plane_normal(const std::vector<Vector3d>& points, const Vector3d& centr
 void lay_level(Stroke& stroke, const std::string& name) {
   std::vector<Vector3d> tracing;
   for (std::size_t i = 0; i < stroke.size(); ++i) {
-    if (stroke.touches(i)) tracing.push_back(stroke.position[i]);
+    if (stroke.pen_down(i)) tracing.push_back(stroke.position[i]);
   }
   Vector3d centroid = Vector3d::Zero();
   for (const Vector3d& p : tracing) centroid += p;
@@ -101,7 +101,7 @@ void lay_level(Stroke& stroke, const std::string& name) {
   rotate(stroke, level);
   Eigen::AlignedBox3d extent;
   for (std::size_t i = 0; i < stroke.size(); ++i)
-    if (stroke.touches(i)) extent.extend(stroke.position[i]);
+    if (stroke.pen_down(i)) extent.extend(stroke.position[i]);
   const Vector3d centre(extent.center().x(), extent.center().y(), 0.0);
   for (Vector3d& p : stroke.position) p -= centre;
 }
@@ -112,7 +112,7 @@ PointPlacement point_placement(const StrokePlacement& placement, const std::stri
   PointPlacement place;
   if (frame == "device") place.axes << 0, 1, 0, -1, 0, 0, 0, 0, 1;
   place.scale = placement.scale;
-  const double angle = placement.rotate_z * std::numbers::pi / 180.0;
+  const double angle = to_radians(placement.rotate_z);
   if (angle != 0.0) place.turn = Eigen::AngleAxisd(angle, Vector3d::UnitZ()).toRotationMatrix();
   place.shift = placement.offset - placement.depth * Vector3d::UnitZ();
   return place;

@@ -35,7 +35,7 @@ Vector3d between(const Vector3d& position, const Vector3d& a, const Vector3d& b)
 StrokeSampler::StrokeSampler(Stroke stroke) : stroke_(std::move(stroke)) {
   for (std::size_t i = 0; i + 1 < stroke_.size(); ++i) {
     if (stroke_.joined(i)) continue;
-    if (!gaps_.empty() && gaps_.back().end == stroke_.time[i] && !stroke_.touches(i)) {
+    if (!gaps_.empty() && gaps_.back().end == stroke_.time[i] && !stroke_.pen_down(i)) {
       gaps_.back().end = stroke_.time[i + 1];
     } else {
       gaps_.push_back({stroke_.time[i], stroke_.time[i + 1]});
@@ -69,8 +69,8 @@ Hand StrokeSampler::at(double t) {
   seek(t);
   if (stroke_.joined(cursor_)) return on_curve(t);
   const bool last = cursor_ + 1 == stroke_.size();
-  if (last || (t == stroke_.time[cursor_] && stroke_.touches(cursor_)))
-    return {stroke_.position[cursor_], begin_slope_, stroke_.touches(cursor_)};
+  if (last || (t == stroke_.time[cursor_] && stroke_.pen_down(cursor_)))
+    return {stroke_.position[cursor_], begin_slope_, stroke_.pen_down(cursor_)};
   return lifted(t);
 }
 

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
+#include "core/angle.h"
 #include "core/error.h"
 #include "picture/hershey_text.h"
 
@@ -16,8 +16,6 @@ using Eigen::Vector2d;
 constexpr double most_samples = 2e7;   // over five hours at 1000 Hz, 640 MB
 constexpr int most_legs = 20'000'000;  // straight or round: seconds of work, however few samples they give
 constexpr double same_point = 1e-9;    // m
-
-double radians(double degrees) { return degrees * std::numbers::pi / 180.0; }
 
 /// A straight line, or an arc about `centre`.
 struct Curve {
@@ -204,7 +202,7 @@ Path spline_path(const std::vector<Vector2d>& points) {
 
 /// One path per pen stroke.
 std::vector<Path> text_paths(const ScriptText& text) {
-  const double angle = radians(text.angle);
+  const double angle = to_radians(text.angle);
   const Vector2d along(std::cos(angle), std::sin(angle)), up(-along.y(), along.x());
   const HersheyFont font(text.font);
   std::vector<Path> paths;
@@ -233,7 +231,7 @@ struct ToPaths {
     return {{Curve::line(line.from.value_or(point), line.to)}};
   }
   std::vector<Path> operator()(const ScriptArc& arc) const {
-    return {{Curve::arc(arc.centre, arc.radius, radians(arc.start_angle), radians(arc.end_angle))}};
+    return {{Curve::arc(arc.centre, arc.radius, to_radians(arc.start_angle), to_radians(arc.end_angle))}};
   }
   std::vector<Path> operator()(const ScriptSpline& spline) const {
     for (std::size_t i = 1; i < spline.points.size(); ++i) {

@@ -45,7 +45,7 @@ std::vector<bool> chunks_to_write(const HeightField& bed, int chunk_rows, int ch
         for (int col = chunks.col_begin; col < chunks.col_end; ++col) want(row, col);
     return !level;
   });
-  for (int slot = 0; slot < bed.touched_tiles(); ++slot)
+  for (int slot = 0; slot < bed.allocated_tiles(); ++slot)
     want(bed.tile_of(slot) / bed.tile_cols() / chunk_tiles,
          bed.tile_of(slot) % bed.tile_cols() / chunk_tiles);
   return wanted;

@@ -107,7 +107,7 @@ int RunFile::apply_frame(int k, HeightField& surface) const {
       throw_input_error("{}: {} names tile {}, which the bed does not have; the file is damaged",
                         file_.name(), frame_name(k), tiles[t]);
     std::copy_n(blocks.row(static_cast<Eigen::Index>(t)).data(), HeightField::tile_area,
-                surface.tile_heights(surface.touch(static_cast<int>(tiles[t]))));
+                surface.tile_heights(surface.allocate(static_cast<int>(tiles[t]))));
   }
   return static_cast<int>(tiles.size());
 }

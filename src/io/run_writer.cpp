@@ -95,7 +95,7 @@ RunWriter::RunWriter(const std::filesystem::path& path, const Simulation& simula
   write_bed(file_, "/surface/initial", bed);
   file_.attribute("/surface", "cell_size", bed.cell_size());
   file_.attribute("/surface", "unit", "m");
-  for (int slot = 0; slot < bed.touched_tiles(); ++slot)
+  for (int slot = 0; slot < bed.allocated_tiles(); ++slot)
     frame_revisions_.push_back(bed.tile_revision(bed.tile_of(slot)));
   if (keeps_trace_)
     visit_tick_fields([&](const std::string& name, const char* unit, const auto& of) {
@@ -135,9 +135,9 @@ void RunWriter::write_rows() {
 }
 
 void RunWriter::on_frame(double time, const HeightField& surface) {
-  frame_revisions_.resize(surface.touched_tiles(), HeightField::new_tile_revision);
+  frame_revisions_.resize(surface.allocated_tiles(), HeightField::new_tile_revision);
   std::vector<std::uint32_t> changed;
-  for (int slot = 0; slot < surface.touched_tiles(); ++slot) {
+  for (int slot = 0; slot < surface.allocated_tiles(); ++slot) {
     const int tile = surface.tile_of(slot);
     if (surface.tile_revision(tile) == frame_revisions_[slot]) continue;
     frame_revisions_[slot] = surface.tile_revision(tile);

@@ -4,7 +4,7 @@ namespace sandstroke {
 namespace {
 
 HeightField with_all_tiles(HeightField bed) {
-  for (int tile = 0; tile < bed.tile_count(); ++tile) bed.touch(tile);
+  for (int tile = 0; tile < bed.tile_count(); ++tile) bed.allocate(tile);
   return bed;
 }
 
@@ -12,9 +12,9 @@ HeightField with_all_tiles(HeightField bed) {
 
 BedReplica::BedReplica(const HeightField& bed) : bed_(with_all_tiles(bed)), known_(bed_) {
   // So that the list of disturbed tiles has its memory.
-  for (int slot = 0; slot < bed_.touched_tiles(); ++slot) bed_.mark_disturbed(slot, 0, 0);
-  bed_.settle();
-  for (int slot = 0; slot < bed_.touched_tiles(); ++slot)
+  for (int slot = 0; slot < bed_.allocated_tiles(); ++slot) bed_.mark_disturbed(slot, 0, 0);
+  bed_.clear_disturbed();
+  for (int slot = 0; slot < bed_.allocated_tiles(); ++slot)
     told_revisions_.push_back(bed_.tile_revision(bed_.tile_of(slot)));
 }
 

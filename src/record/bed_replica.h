@@ -61,12 +61,12 @@ void BedReplica::tell_disturbed(const Tell& tell) {
         tell_cell(slot, row, std::countr_zero(left), tell);
     told_revisions_[slot] = bed_.tile_revision(bed_.tile_of(slot));
   }
-  bed_.settle();
+  bed_.clear_disturbed();
 }
 
 template <class Tell>
 void BedReplica::tell_changed(const Tell& tell) {
-  for (int slot = 0; slot < bed_.touched_tiles(); ++slot) {
+  for (int slot = 0; slot < bed_.allocated_tiles(); ++slot) {
     const std::uint64_t revision = bed_.tile_revision(bed_.tile_of(slot));
     if (revision == told_revisions_[slot]) continue;
     const CellRange cells = bed_.tile_cells(bed_.tile_of(slot));

@@ -89,23 +89,23 @@ FeltForce LiveSand::feel(double time, const DeviceReading& reading) noexcept {
   const Eigen::Vector3d speed = velocity(time, tip);
 
   FeltForce felt;
-  Touch touch;
+  Interaction interaction;
   if (dug_.room() >= changes_of_move(tip)) {
-    touch = sand_.move(replica_.bed(), tip, tip, {}, highest_);
+    interaction = sand_.move(replica_.bed(), tip, tip, {}, highest_);
     replica_.tell_disturbed([this](const SandChange& change) {
       dug_.push(change);
       highest_ = std::max(highest_, replica_.bed()(change.row, change.col));
     });
   } else {
-    touch = sand_.look(replica_.bed(), tip);
+    interaction = sand_.look(replica_.bed(), tip);
     sand_.lift();
     felt.flags |= held_sand;
     ++report_.held_ticks;
   }
-  places_.push({tip, touch.contact});  // where the ring is full the eroder knows an older one
-  if (touch.contact) {
+  places_.push({tip, interaction.contact});  // where the ring is full the eroder knows an older one
+  if (interaction.contact) {
     ++report_.contact_ticks;
-    felt.force = placement_.force_back(sand_force(touch.depth, speed, device_.max_force, force_).total);
+    felt.force = placement_.force_back(sand_force(interaction.depth, speed, device_.max_force, force_).total);
   }
   return felt;
 }

@@ -20,8 +20,8 @@ std::array<Eigen::Vector3d, 8> corners(const Eigen::AlignedBox3d& box) {
 
 /// Rows: right, up, backward of a camera at this azimuth and elevation (seen from the target).
 Eigen::Matrix3d camera_axes(double azimuth, double elevation) {
-  const double ca = std::cos(azimuth * degree), sa = std::sin(azimuth * degree);
-  const double ce = std::cos(elevation * degree), se = std::sin(elevation * degree);
+  const double ca = std::cos(to_radians(azimuth)), sa = std::sin(to_radians(azimuth));
+  const double ce = std::cos(to_radians(elevation)), se = std::sin(to_radians(elevation));
   Eigen::Matrix3d axes;
   axes << -sa, ca, 0.0, -se * ca, -se * sa, ce, ce * ca, ce * sa, se;
   return axes;
@@ -81,7 +81,7 @@ Camera make_camera(const ViewSettings& view, const Eigen::AlignedBox3d& subject,
   const bool top = view.name == ViewName::top;
   const Eigen::Matrix3d axes = top ? camera_axes(-90.0, 90.0) : camera_axes(view.azimuth, view.elevation);
   const double aspect = static_cast<double>(view.width) / view.height;
-  const double tan_y = std::tan(0.5 * view.field_of_view * degree), tan_x = aspect * tan_y;
+  const double tan_y = std::tan(to_radians(0.5 * view.field_of_view)), tan_x = aspect * tan_y;
   const double inside = 1.0 - 2.0 * picture_border;  // of half the picture's sides
   const double inside_right = 1.0 - 2.0 * (picture_border + right_margin);
 

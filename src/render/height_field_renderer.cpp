@@ -182,7 +182,7 @@ Legend HeightFieldRenderer::Drawing::prepare_values(const RenderSubject& subject
 }
 
 void HeightFieldRenderer::Drawing::check(const HeightField& surface, const ViewSettings& view) const {
-  if (!bed_.is_like(surface))
+  if (!bed_.same_grid(surface))
     throw_input_error("a renderer for beds of {} x {} cells was given one of {} x {}", bed_.cols(),
                       bed_.rows(), surface.cols(), surface.rows());
   if (!(view.light_elevation > 0.0 && view.light_elevation <= 90.0))

@@ -65,13 +65,16 @@ class Horizon {
 };
 
 /// Slope of a ray to the lowest point of the sun: what stays below it throws no shadow.
-double lowest_ray(const Sun& sun) { return std::tan(std::max(0.3, sun.elevation - sun.softness) * degree); }
+double lowest_ray(const Sun& sun) {
+  return std::tan(to_radians(std::max(0.3, sun.elevation - sun.softness)));
+}
 
 }  // namespace
 
 Eigen::Vector3d Sun::direction() const {
-  const double flat = std::cos(elevation * degree);
-  return {flat * std::cos(azimuth * degree), flat * std::sin(azimuth * degree), std::sin(elevation * degree)};
+  const double flat = std::cos(to_radians(elevation));
+  return {flat * std::cos(to_radians(azimuth)), flat * std::sin(to_radians(azimuth)),
+          std::sin(to_radians(elevation))};
 }
 
 int shadow_reach(const Sun& sun, double relief, double cell_size) {
@@ -82,14 +85,15 @@ void sun_visibility(const DrawnHeights& heights, double cell_size, const Sun& su
                     const CellRange& cells, DrawnHeights& visible) {
   const auto here = heights.block(cells.row_begin, cells.col_begin, cells.rows(), cells.cols());
   auto seen = visible.block(cells.row_begin, cells.col_begin, cells.rows(), cells.cols());
-  Horizon horizon(heights, cell_size, cells, std::cos(sun.azimuth * degree), std::sin(sun.azimuth * degree));
+  Horizon horizon(heights, cell_size, cells, std::cos(to_radians(sun.azimuth)),
+                  std::sin(to_radians(sun.azimuth)));
   const int reach =
       std::min(shadow_reach(sun, highest - static_cast<double>(here.minCoeff()), horizon.step_length()),
                static_cast<int>(std::max(heights.rows(), heights.cols())));
   for (int k = 1; k <= reach; ++k) horizon.look(k);
 
   // A penumbra centred, in slope, on the sun's own elevation.
-  const double sun_slope = std::tan(std::min(sun.elevation, 89.0) * degree);
+  const double sun_slope = std::tan(to_radians(std::min(sun.elevation, 89.0)));
   const double half_width = sun_slope - std::min(lowest_ray(sun), 0.999 * sun_slope);
   const auto first = static_cast<float>(sun_slope - half_width), width = static_cast<float>(2.0 * half_width);
   seen = ((horizon.slopes() - first) / width).max(0.0f).min(1.0f);

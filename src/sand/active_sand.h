@@ -20,8 +20,7 @@ class ActiveSand {
   // with any active ones costs as much as 400 more (measured: tests/bench/active_sand_bench.cpp).
   static constexpr std::int64_t work_worth_threads = 8'000, work_per_tile = 400;
 
-  /// holds_still: only cells within one of a change may give; all other sand is held still, whatever its
-  /// slope.
+  /// holds_still: only cells within one of a change may give; all others are held still, however steep.
   ActiveSand(const TalusLaw& law, double cell_size, bool holds_still = false,
              std::int64_t worth_threads = work_worth_threads);
 
@@ -84,8 +83,9 @@ class ActiveSand {
 
   struct Look {
     CellFlags cells{};  // active at some time in this relaxation
-    std::array<double, HeightField::tile_area / cells_per_group> steepest{};  // residual of each group
-    bool listed = false;                                                      // in looked_at_
+    // Residual of each group.
+    std::array<double, HeightField::tile_area / cells_per_group> steepest{};
+    bool listed = false;  // in looked_at_
   };
   std::vector<Look> looks_;        // per slot
   std::vector<double> residuals_;  // per slot, after the relaxation before
@@ -94,5 +94,11 @@ class ActiveSand {
   std::int64_t work_ = 0, cells_visited_ = 0, wake_ups_before_ = 0;
   int tiles_active_max_ = 0;
 };
+
+// Those steppers.
+std::unique_ptr<Relaxer> make_tile_relaxer(const RelaxationSettings& settings, double cell_size);
+std::unique_ptr<Relaxer> make_rkl_relaxer(const RelaxationSettings& settings, double cell_size);
+/// Heap memory that the latter takes besides ActiveSand for each tile that has been active [bytes].
+std::size_t rkl_bytes_per_tile();
 
 }  // namespace sandstroke

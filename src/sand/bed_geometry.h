@@ -37,8 +37,8 @@ class BedGeometry {
   double cell_size() const { return cell_size_; }
   double cell_area() const { return cell_size_ * cell_size_; }
   CellRange cells() const { return {0, rows_, 0, cols_}; }
-  /// Another bed has as many cells, of the same size.
-  bool is_like(const BedGeometry& other) const {
+  /// As many cells, of the same size.
+  bool same_grid(const BedGeometry& other) const {
     return rows_ == other.rows_ && cols_ == other.cols_ && cell_size_ == other.cell_size_;
   }
 
@@ -52,8 +52,8 @@ class BedGeometry {
   double cols_from_centre(int col) const { return col - col_origin_; }
   double rows_from_centre(int row) const { return row - row_origin_; }
 
-  // Tile (i, j) holds rows [i * tile_side, ...) and cols [j * tile_side, ...); its index is i * tile_cols() +
-  // j.
+  // Tile (i, j) holds rows [i * tile_side, ...) and cols [j * tile_side, ...).
+  // Its index is i * tile_cols() + j.
   int tile_rows() const { return tile_rows_; }
   int tile_cols() const { return tile_cols_; }
   int tile_count() const { return tile_rows_ * tile_cols_; }

@@ -29,12 +29,6 @@ class ExactSums {
   double shift_;
 };
 
-/// Of a place in or around a window; std::floor is a call where the compiler may not assume the instruction.
-int floor_of(double place) {
-  const int towards_zero = static_cast<int>(place);
-  return towards_zero - (place < towards_zero);
-}
-
 /// Calls visit(row, col) for the cells that the last carve() cut.
 template <class Visit>
 void for_cut_cells(ToolFootprint& f, const Visit& visit) {
@@ -46,8 +40,7 @@ void for_cut_cells(ToolFootprint& f, const Visit& visit) {
 
 /// Fills weights() with the cut sand where it goes: each cell's along the tool's outward normal, to
 /// `distance` [m] from the axis, shared among the four cells around there (linearly) that are not the bowl's.
-/// Sand right on the axis, or with no such cell inside the bed, joins what the others give. Returns the sum
-/// [m].
+/// Sand right on the axis, or with no such cell inside the bed, joins what the others give. Returns the sum.
 double spread_outward(ToolFootprint& f, double pushed, double distance) {
   const ExactSums exact(pushed);
   const CellRange& window = f.cells();
@@ -58,7 +51,8 @@ double spread_outward(ToolFootprint& f, double pushed, double distance) {
     const double x = col - axis_x, y = row - axis_y, from_axis = std::sqrt(x * x + y * y);
     if (from_axis == 0.0) return;
     const double ratio = distance / f.cell_size() / from_axis, to_x = ratio * x, to_y = ratio * y;
-    const int first_row = floor_of(axis_y + to_y), first_col = floor_of(axis_x + to_x);
+    // Rounded towards 0; below 0 that is not down, but no cell of the window lies there.
+    const int first_row = static_cast<int>(axis_y + to_y), first_col = static_cast<int>(axis_x + to_x);
     std::array<double, 4> shares{};
     for (int i = 0; i < 4; ++i) {
       const int r = first_row + i / 2, c = first_col + i % 2;

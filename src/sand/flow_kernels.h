@@ -9,9 +9,9 @@ namespace sandstroke {
 /// What the sand of a tile does in one pass.
 struct TileFlow {
   CellFlags moved{};  ///< cells whose gain was computed; that of others is 0
-  alignas(64)
-      std::array<double, BedGeometry::tile_area> gain{};  ///< m: inflow less outflow; in groups that moved
-  double given = 0.0;                                     ///< m: sum of outflows
+  /// m: inflow less outflow; in groups that moved.
+  alignas(64) std::array<double, BedGeometry::tile_area> gain{};
+  double given = 0.0;  ///< m: sum of outflows
   // Where sand is held still (givers):
   double axis_drop = 0.0;      ///< m: the largest drop between neighbours that was met (isotropic: dx |g|)
   double diagonal_drop = 0.0;  ///< m: the same between diagonal ones (paper law)
@@ -26,9 +26,8 @@ struct GiverFlags {
   std::array<Row, BedGeometry::tile_side + 2> rows;  ///< from row -1
 };
 
-// Vector code (Highway) for the best instruction set of the machine. Each cell's expression is evaluated in
-// the reference's order, without contraction, and sums run over 8 lanes whatever the vectors' width: the same
-// bits everywhere.
+// Vector code (Highway) for the best instruction set of the machine, with the same bits in all of them: each
+// cell's expression is evaluated in one order, without contraction, and sums run over 8 lanes.
 
 /// The law's flow of the active cells, from a loaded patch. Cells at rest cost a comparison with their
 /// neighbours. givers: none = all cells may give.

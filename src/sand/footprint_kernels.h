@@ -6,11 +6,9 @@
 
 namespace sandstroke {
 
-// Vector code (Highway), the same bits for every instruction set: sums run over 8 lanes whatever the vectors'
-// width.
+// Vector code (Highway), the same bits for every instruction set: sums run over 8 lanes in all of them.
 
-/// Fills a placed footprint's underside and rampart. Returns the sand level [m]; NaN where no cell has
-/// weight.
+/// Fills a placed footprint's underside and rampart. Returns the sand level [m]; NaN where no cell counts.
 double shape_footprint(const FootprintShape& shape, ToolFootprint& footprint);
 
 /// How much of the ring a motion fills: all of it where drag_share is 0, its front half where it is 1. A cell

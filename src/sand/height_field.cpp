@@ -57,7 +57,7 @@ int HeightField::make_tile(int tile) {
   untouched_->fill(*this, tile_cells(tile), made->heights.data(), tile_side);
   tiles_.push_back(std::move(made));
   slots_.get()[tile] = static_cast<std::uint32_t>(tiles_.size());
-  return touched_tiles() - 1;
+  return allocated_tiles() - 1;
 }
 
 double HeightField::height_at(double x, double y) const {
@@ -67,7 +67,7 @@ double HeightField::height_at(double x, double y) const {
                 : std::numeric_limits<double>::quiet_NaN();
 }
 
-void HeightField::settle() {
+void HeightField::clear_disturbed() {
   for (const int slot : disturbed_) {
     tiles_[slot]->disturbed = {};
     tiles_[slot]->listed = false;
@@ -127,7 +127,7 @@ double HeightField::volume() const {
     return true;
   });
   // ... and what the tiles that exist have more or less.
-  for (int slot = 0; slot < touched_tiles(); ++slot) {
+  for (int slot = 0; slot < allocated_tiles(); ++slot) {
     const CellRange cells = tile_cells(tile_of(slot));
     untouched_->fill(*this, cells, block.data(), tile_side);
     add_block(cells, -1.0);
@@ -139,8 +139,8 @@ double HeightField::volume() const {
 
 double HeightField::highest() const {
   double highest =
-      touched_tiles() < tile_count() ? untouched_->highest() : -std::numeric_limits<double>::infinity();
-  for (int slot = 0; slot < touched_tiles(); ++slot) {
+      allocated_tiles() < tile_count() ? untouched_->highest() : -std::numeric_limits<double>::infinity();
+  for (int slot = 0; slot < allocated_tiles(); ++slot) {
     const CellRange cells = tile_cells(tile_of(slot));
     for (int row = 0; row < cells.rows(); ++row)
       for (int col = 0; col < cells.cols(); ++col)

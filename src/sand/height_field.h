@@ -22,17 +22,16 @@ struct RowCells {
   std::uint64_t cells;
 };
 
-/// Mean cell heights [m] of a bed. A tile of cells comes into being when something touches it; until then it
-/// is the initial surface by rule. So memory follows what is touched, not the bed. Tiles that exist are
-/// numbered by `slot`, in the order in which they came, and each has a revision that changes when one of its
-/// cells does.
+/// Mean cell heights [m] of a bed. A tile of cells is allocated when something touches it; until then it is
+/// the initial surface by rule. So memory follows what is touched, not the bed. Allocated tiles are numbered
+/// by `slot`, in order of allocation, and each has a revision that changes when one of its cells does.
 class HeightField : public BedGeometry {
  public:
   /// A flat bed at z = 0. cell_size [m] > 0.
   HeightField(int rows, int cols, double cell_size);
   /// A bed that follows a rule.
   HeightField(int rows, int cols, double cell_size, std::shared_ptr<const SurfaceRule> untouched);
-  /// All tiles exist.
+  /// All tiles are allocated.
   HeightField(const HeightGrid& heights, double cell_size);
   HeightField(const HeightField& other);
   HeightField& operator=(const HeightField& other);
@@ -47,20 +46,20 @@ class HeightField : public BedGeometry {
   double height_at(double x, double y) const;
   /// Sets one cell. The next relaxation looks at it.
   void set(int row, int col, double height) {
-    const int slot = touch(tile_index(row / tile_side, col / tile_side));
+    const int slot = allocate(tile_index(row / tile_side, col / tile_side));
     tiles_[slot]->heights[in_tile(row, col)] = height;
     mark_disturbed(slot, row % tile_side, std::uint64_t{1} << (col % tile_side));
   }
 
   const SurfaceRule& untouched() const { return *untouched_; }
 
-  // --- tiles that exist ---
-  int touched_tiles() const { return static_cast<int>(tiles_.size()); }
-  /// The slot of a tile (by its index); -1 while it does not exist.
+  // --- allocated tiles ---
+  int allocated_tiles() const { return static_cast<int>(tiles_.size()); }
+  /// The slot of a tile (by its index); -1 while it is not allocated.
   int slot_of(int tile) const { return static_cast<int>(slots_.get()[tile]) - 1; }
   int tile_of(int slot) const { return tiles_[slot]->index; }
-  /// Brings a tile into being, as its rule says, if it does not exist; its slot.
-  int touch(int tile) {
+  /// Allocates a tile, as its rule says, if that has not been done; its slot.
+  int allocate(int tile) {
     const int slot = slot_of(tile);
     return slot >= 0 ? slot : make_tile(tile);
   }
@@ -78,10 +77,10 @@ class HeightField : public BedGeometry {
     disturbed_.push_back(slot);
   }
 
-  /// Slots of the tiles, and in each the cells, that were set since settle().
+  /// Slots of the tiles, and in each the cells, that were set since clear_disturbed().
   const std::vector<int>& disturbed_tiles() const { return disturbed_; }
   const CellFlags& disturbed_cells(int slot) const { return tiles_[slot]->disturbed; }
-  void settle();
+  void clear_disturbed();
 
   /// The next relaxations take these cells for walls, and no others: a solid tool stands on them. The next
   /// one looks at those that are held now and were not, or the other way round.
@@ -93,30 +92,30 @@ class HeightField : public BedGeometry {
     return slot >= 0 && (held_cells(slot)[row % tile_side] >> (col % tile_side) & 1) != 0;
   }
 
-  /// Changes whenever a cell of the tile may have changed; 0 while it does not exist. By tile index.
-  /// new_tile_revision: it came into being by rule and is still as the rule says.
+  /// Changes whenever a cell of the tile may have changed; 0 while it is not allocated. By tile index.
+  /// new_tile_revision: it is still as the rule says.
   static constexpr std::uint64_t new_tile_revision = 1;
   std::uint64_t tile_revision(int tile) const {
     const int slot = slot_of(tile);
     return slot < 0 ? 0 : tiles_[slot]->revision;
   }
-  /// Copies a tile, touched or not, by its index, rows `stride` apart; cells outside the bed are left alone.
+  /// Copies a tile, allocated or not, by its index, rows `stride` apart; not the cells outside the bed.
   void read_tile(int tile, double* out, std::ptrdiff_t stride = tile_side) const;
 
   HeightGrid grid() const;
-  /// sum(h) dx^2 [m^3], compensated. Untouched tiles cost nothing where they are level.
+  /// sum(h) dx^2 [m^3], compensated. Tiles that are not allocated cost nothing where they are level.
   double volume() const;
-  /// No cell is higher [m]: exact for cells in tiles that exist, the rule's bound for others.
+  /// No cell is higher [m]: exact for cells in allocated tiles, the rule's bound for others.
   double highest() const;
 
-  /// Heap memory of the tiles that exist [bytes].
+  /// Heap memory of the allocated tiles [bytes].
   std::size_t bytes() const { return tiles_.size() * sizeof(Tile); }
   static constexpr std::size_t bytes_per_tile() { return sizeof(Tile); }
 
  private:
   struct alignas(64) Tile {
     std::array<double, tile_area> heights;
-    CellFlags disturbed;  // set since settle()
+    CellFlags disturbed;
     CellFlags held;
     std::uint64_t revision;
     int index;
@@ -140,7 +139,7 @@ class HeightField : public BedGeometry {
   std::vector<RowCells> held_;
 };
 
-/// Where neither bed (of one shape) has a tile, both are known to have the same heights.
+/// Where neither bed (of one shape) has an allocated tile, both are known to have the same heights.
 bool same_where_untouched(const HeightField& one, const HeightField& other);
 
 /// visit(row, col, height in one, height in other) [m] for every cell of every tile in which two beds of one

@@ -32,8 +32,7 @@ double lattice_noise(std::int64_t row, std::int64_t col, std::uint32_t seed) {
          1.0;
 }
 
-/// The steepest rise of smooth_noise between lattice points that differ by 1: of t^3 (6 t^2 - 15 t + 10), at
-/// 1/2.
+/// The steepest rise of smooth_noise between lattice points that differ by 1: t^3 (6 t^2 - 15 t + 10) at 1/2.
 constexpr double steepest_fade = 1.875;
 
 /// Lattice noise joined smoothly between points one unit apart.

@@ -1,11 +1,10 @@
 #include "sand/relaxation.h"
 
 #include <cmath>
-#include <numbers>
 
+#include "core/angle.h"
 #include "sand/active_sand.h"
 #include "sand/steep_tiles.h"
-#include "sand/talus_law.h"
 
 namespace sandstroke {
 
@@ -21,27 +20,15 @@ void RelaxationOutcome::add(const RelaxationOutcome& next) {
   converged = next.converged;
 }
 
-double talus_slope(double talus_angle) { return std::tan(talus_angle * std::numbers::pi / 180.0); }
+double talus_slope(double talus_angle) { return std::tan(to_radians(talus_angle)); }
 
 double flow_share(const RelaxationSettings& settings) {
   if (settings.share > 0.0) return settings.share;
   return settings.law == RelaxationLaw::paper ? 0.5 : 0.25;
 }
 
-TalusLaw::TalusLaw(const RelaxationSettings& settings, double cell_size)
-    : law(settings.law),
-      share(flow_share(settings)),
-      axis_drop(talus_slope(settings.talus_angle) * cell_size),
-      diagonal_drop(axis_drop * std::numbers::sqrt2),
-      axis_limit(axis_drop * (1.0 + settings.tolerance)),
-      diagonal_limit(diagonal_drop * (1.0 + settings.tolerance)) {}
-
-double stable_slope(const TalusLaw& law, double cell_size) {
-  return law.axis_drop / cell_size / std::sqrt(2.0) * (1.0 - 1e-9);
-}
-
 std::int64_t tiles_to_relax(const HeightField& bed, const RelaxationSettings& settings) {
-  std::int64_t tiles = bed.touched_tiles();
+  std::int64_t tiles = bed.allocated_tiles();
   visit_steep_tiles(bed, stable_slope(TalusLaw(settings, bed.cell_size()), bed.cell_size()),
                     [&](int tile) { tiles += bed.slot_of(tile) < 0; });
   return tiles;

@@ -36,9 +36,9 @@ struct RelaxationOutcome {
   std::int64_t passes = 0;
   std::int64_t super_steps = 0;      ///< rkl; the passes are their stages
   std::int64_t rejected_stages = 0;  ///< rkl: taken back, since heights left the range of the starting ones
-  double residual = 0.0;  ///< of the field left behind: max over cells of slope/tan(talus) - 1, at least 0
-  /// m^3, what flowed from cell to cell. The engine leaves out cells that pass on exactly as much as they
-  /// take.
+  /// Of the field left behind: max over cells of slope/tan(talus) - 1, at least 0.
+  double residual = 0.0;
+  /// m^3, what flowed from cell to cell; not through cells that pass on exactly as much as they take.
   double moved_volume = 0.0;
   std::int64_t cells_visited = 0;  ///< that might have moved, summed over passes, the last look included
   int tiles_active_max = 0;
@@ -64,20 +64,19 @@ class Relaxer {
  public:
   virtual ~Relaxer() = default;
   /// Stops at equilibrium, after max_passes (those that changed something, rejected ones included), or when
-  /// interrupted().
-  /// after_pass, if given, is told the number of passes so far after each.
+  /// interrupted(). after_pass, if given, is told the number of passes so far after each.
   virtual RelaxationOutcome relax(HeightField& bed,
                                   const std::function<void(std::int64_t)>& after_pass = {}) = 0;
 };
 
-/// How many tiles a bed has, or its rule makes steep enough to move: the first relaxation wakes them, and
-/// brings those beside them into being.
+/// How many tiles are allocated, or steep enough to move by their rule: the first relaxation wakes them, and
+/// allocates those beside them.
 std::int64_t tiles_to_relax(const HeightField& bed, const RelaxationSettings& settings);
 /// Memory that relaxing takes for each of them [bytes], the bed's own included.
 std::size_t bytes_per_relaxed_tile(const RelaxationSettings& settings);
 
-/// The relaxer of one bed. It takes up what was set in it since the last call (HeightField::settle), so a bed
-/// can have only one at a time.
+/// The relaxer of one bed. It takes up which cells are disturbed, and clears that
+/// (HeightField::clear_disturbed), so a bed can have only one at a time.
 std::unique_ptr<Relaxer> make_relaxer(const RelaxationSettings& settings, double cell_size);
 
 }  // namespace sandstroke

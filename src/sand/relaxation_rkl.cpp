@@ -23,7 +23,6 @@
 #include "core/interrupt.h"
 #include "sand/active_sand.h"
 #include "sand/super_step_kernels.h"
-#include "sand/talus_law.h"
 
 namespace sandstroke {
 namespace {
@@ -37,11 +36,12 @@ TalusLaw ungated(const RelaxationSettings& settings, double cell_size) {
 }
 
 // Found on cones, rough beds and furrows (tests/accuracy and tests/bench hold them):
-constexpr double largest_share =
-    0.25;  // c: the isotropic law's limit; what kept the paper's near its small steps
-constexpr double first_share =
-    1.0 / 8.0;                    // of it, doubled from step to step: small steps through a violent start
-constexpr double decayed = 0.02;  // of sum F0^2: with 0.05 a tenth more passes, with 0 momentum overspreads
+// c: the isotropic law's limit; what kept the paper's near its small steps.
+constexpr double largest_share = 0.25;
+// Of it, doubled from step to step: small steps through a violent start.
+constexpr double first_share = 1.0 / 8.0;
+// Of sum F0^2: with 0.05 a tenth more passes, with 0 momentum overspreads.
+constexpr double decayed = 0.02;
 
 class RklRelaxer : public Relaxer {
  public:

@@ -2,7 +2,6 @@
 #include "core/compensated_sum.h"
 #include "core/interrupt.h"
 #include "sand/active_sand.h"
-#include "sand/talus_law.h"
 
 namespace sandstroke {
 namespace {

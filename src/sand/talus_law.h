@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cmath>
+#include <numbers>
+
 #include "sand/relaxation.h"
 
 namespace sandstroke {
@@ -13,16 +16,19 @@ struct TalusLaw {
   double axis_limit;     ///< above these a cell moves: T (1 + tolerance)
   double diagonal_limit;
 
-  TalusLaw(const RelaxationSettings& settings, double cell_size);
+  TalusLaw(const RelaxationSettings& settings, double cell_size)
+      : law(settings.law),
+        share(flow_share(settings)),
+        axis_drop(talus_slope(settings.talus_angle) * cell_size),
+        diagonal_drop(axis_drop * std::numbers::sqrt2),
+        axis_limit(axis_drop * (1.0 + settings.tolerance)),
+        diagonal_limit(diagonal_drop * (1.0 + settings.tolerance)) {}
 };
 
 /// Where no slope (rise over run) is above this, both laws leave all sand at rest: they compare slopes along
 /// rows, columns and diagonals; the isotropic one adds up two of them.
-double stable_slope(const TalusLaw& law, double cell_size);
-
-std::unique_ptr<Relaxer> make_tile_relaxer(const RelaxationSettings& settings, double cell_size);
-/// What make_rkl_relaxer takes besides ActiveSand.
-std::size_t rkl_bytes_per_tile();
-std::unique_ptr<Relaxer> make_rkl_relaxer(const RelaxationSettings& settings, double cell_size);
+inline double stable_slope(const TalusLaw& law, double cell_size) {
+  return law.axis_drop / cell_size / std::numbers::sqrt2 * (1.0 - 1e-9);
+}
 
 }  // namespace sandstroke

@@ -23,13 +23,13 @@ void TileActivity::wake_disturbed(HeightField& bed, double stable_slope) {
     first_time_ = false;
     CellFlags all;
     all.fill(~std::uint64_t{0});
-    const int existing = bed.touched_tiles();
+    const int existing = bed.allocated_tiles();
     for (int slot = 0; slot < existing; ++slot) wake_around(bed, slot, all);
-    visit_steep_tiles(bed, stable_slope, [&](int tile) { wake_around(bed, bed.touch(tile), all); });
+    visit_steep_tiles(bed, stable_slope, [&](int tile) { wake_around(bed, bed.allocate(tile), all); });
   } else {
     for (const int slot : bed.disturbed_tiles()) wake_around(bed, slot, bed.disturbed_cells(slot));
   }
-  bed.settle();
+  bed.clear_disturbed();
   make_seen_tiles(bed);
 }
 
@@ -60,7 +60,7 @@ void TileActivity::wake(HeightField& bed, int tile, int row_begin, const std::ui
   std::uint64_t some = 0;
   for (int r = 0; r < count; ++r) some |= active[r] & inside;
   if (!some) return;
-  const int slot = bed.touch(tile);
+  const int slot = bed.allocate(tile);
   if (marks_.size() <= static_cast<std::size_t>(slot)) marks_.resize(slot + 1);
   Marks& marks = marks_[slot];
   for (int r = 0; r < count; ++r) marks.active[row_begin + r] |= active[r] & inside;
@@ -133,7 +133,7 @@ void TileActivity::make_seen_tiles(HeightField& bed) {
     for (int row_step = -sees_north; row_step <= sees_south; ++row_step)
       for (int col_step = -sees_west; col_step <= sees_east; ++col_step)
         if (const int tile = bed.tile_beside(bed.tile_of(slot), row_step, col_step); tile >= 0)
-          bed.touch(tile);
+          bed.allocate(tile);
   }
 }
 

@@ -17,12 +17,12 @@ class TileActivity {
   /// other sand still.
   explicit TileActivity(bool tells_givers) : tells_givers_(tells_givers) {}
 
-  /// Takes up what was set since the last call and forgets it (HeightField::settle). The first time: every
-  /// tile that exists, and those whose rule allows a slope above stable_slope (rise over run), which come
-  /// into being.
+  /// Takes up which cells are disturbed, and clears that (HeightField::clear_disturbed). The first time it
+  /// wakes every allocated tile, and allocates those whose rule allows a slope above stable_slope (rise over
+  /// run) and wakes them.
   void wake_disturbed(HeightField& bed, double stable_slope);
 
-  /// Slots of the tiles with active cells. All tiles that an active cell can see exist.
+  /// Slots of the tiles with active cells. All tiles that an active cell can see are allocated.
   const std::vector<int>& tiles() const { return tiles_; }
   const CellFlags& cells(int slot) const { return marks_[slot].active; }
 

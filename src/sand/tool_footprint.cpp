@@ -73,8 +73,7 @@ void for_tile_columns(const CellRange& cells, const Body& body) {
   }
 }
 
-/// `flags`, a group to a byte from column `first` of the bed on, as those of the tile column that they lie
-/// in.
+/// `flags`, a group to a byte from column `first` of the bed on, as those of their tile column.
 std::uint64_t flags_in_tile(const unsigned char* flags, const CellRange& cells, int tile_col, int first,
                             int end) {
   std::uint64_t in_tile = 0;  // no flag lies beyond the window's last column
@@ -112,7 +111,7 @@ void ToolFootprint::write_flagged(HeightField& bed) {
       const std::uint64_t changed =
           flags_in_tile(flags(row - cells_.row_begin), cells_, tile_col, first, end);
       if (!changed) continue;
-      const int slot = bed.touch(bed.tile_index(row / side, tile_col));
+      const int slot = bed.allocate(bed.tile_index(row / side, tile_col));
       std::copy_n(in, end - first, bed.tile_heights(slot) + (row % side) * side + first % side);
       bed.mark_disturbed(slot, row % side, changed);
     }
@@ -131,7 +130,7 @@ void ToolFootprint::hold_bowl(HeightField& bed) {
   for_tile_columns(cells_, [&](int tile_col, int first, int end) {
     for (int row = cells_.row_begin; row < cells_.row_end; ++row) {
       const std::uint64_t held = flags_in_tile(flags(row - cells_.row_begin), cells_, tile_col, first, end);
-      if (held) bowl_.push_back({bed.touch(bed.tile_index(row / side, tile_col)), row % side, held});
+      if (held) bowl_.push_back({bed.allocate(bed.tile_index(row / side, tile_col)), row % side, held});
     }
   });
   bed.hold(bowl_);

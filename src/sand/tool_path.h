@@ -8,8 +8,7 @@
 
 namespace sandstroke {
 
-/// Places along a straight way of a tip [m], in equal steps: at(0) is where it begins, at(count) where it
-/// ends.
+/// Places along a straight way of a tip [m], in equal steps: at(0) is its beginning, at(count) its end.
 struct TipSteps {
   Eigen::Vector3d begin = Eigen::Vector3d::Zero(), way = Eigen::Vector3d::Zero();
   std::int64_t count = 0;

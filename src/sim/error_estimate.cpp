@@ -52,12 +52,12 @@ class Averages {
 /// Tiles of `coarse` in which it, or the finer bed, is no longer as its rule says.
 std::set<int> touched_tiles(const HeightField& fine, const HeightField& coarse) {
   std::set<int> tiles;
-  for (int slot = 0; slot < coarse.touched_tiles(); ++slot) tiles.insert(coarse.tile_of(slot));
+  for (int slot = 0; slot < coarse.allocated_tiles(); ++slot) tiles.insert(coarse.tile_of(slot));
   const auto tile_of = [&](int fine_cell, int fine_cells, int cells) {
     return static_cast<int>(static_cast<std::int64_t>(fine_cell) * cells / fine_cells) /
            BedGeometry::tile_side;
   };
-  for (int slot = 0; slot < fine.touched_tiles(); ++slot) {
+  for (int slot = 0; slot < fine.allocated_tiles(); ++slot) {
     const CellRange cells = fine.tile_cells(fine.tile_of(slot));
     for (int i = tile_of(cells.row_begin, fine.rows(), coarse.rows());
          i <= tile_of(cells.row_end - 1, fine.rows(), coarse.rows()); ++i)
@@ -116,7 +116,7 @@ struct Change {
 };
 Change change_of(const HeightField& start, const HeightField& end) {
   Change change;
-  for (int slot = 0; slot < end.touched_tiles(); ++slot) {
+  for (int slot = 0; slot < end.allocated_tiles(); ++slot) {
     const CellRange cells = end.tile_cells(end.tile_of(slot));
     for (int row = cells.row_begin; row < cells.row_end; ++row)
       for (int col = cells.col_begin; col < cells.col_end; ++col) {

@@ -17,22 +17,23 @@ constexpr double longest_step = 0.5;
 SandSide::SandSide(const ToolSettings& tool, const DisplacementSettings& displacement, double travel)
     : footprint_(tool), displacement_(displacement), solid_(tool.solid), slips_(travel) {}
 
-Touch SandSide::look(const HeightField& bed, const Eigen::Vector3d& read_tip) {
+Interaction SandSide::look(const HeightField& bed, const Eigen::Vector3d& read_tip) {
   footprint_.place(bed, read_tip.x(), read_tip.y());
-  Touch touch;
-  touch.level = footprint_.sand_level();
-  const double depth = touch.level - read_tip.z();
-  touch.contact = depth > 0.0;
-  if (!std::isnan(depth)) touch.depth = depth;
-  return touch;
+  Interaction interaction;
+  interaction.level = footprint_.sand_level();
+  const double depth = interaction.level - read_tip.z();
+  interaction.contact = depth > 0.0;
+  if (!std::isnan(depth)) interaction.depth = depth;
+  return interaction;
 }
 
-Touch SandSide::dig(HeightField& bed, const Eigen::Vector3d& tip, const Eigen::Vector3d& motion) {
-  Touch touch = look(bed, tip);
-  if (touch.contact) touch.displaced_volume = displace(bed, footprint_, tip.z(), motion, displacement_);
+Interaction SandSide::dig(HeightField& bed, const Eigen::Vector3d& tip, const Eigen::Vector3d& motion) {
+  Interaction interaction = look(bed, tip);
+  if (interaction.contact)
+    interaction.displaced_volume = displace(bed, footprint_, tip.z(), motion, displacement_);
   tip_ = tip;
-  contact_ = touch.contact;
-  return touch;
+  contact_ = interaction.contact;
+  return interaction;
 }
 
 void SandSide::put(const HeightField& bed, const Eigen::Vector3d& read_tip, bool contact) {
@@ -41,8 +42,8 @@ void SandSide::put(const HeightField& bed, const Eigen::Vector3d& read_tip, bool
   contact_ = contact;
 }
 
-Touch SandSide::move(HeightField& bed, const Eigen::Vector3d& read_tip, const Eigen::Vector3d& true_tip,
-                     const std::function<void()>& slip, std::optional<double> highest) {
+Interaction SandSide::move(HeightField& bed, const Eigen::Vector3d& read_tip, const Eigen::Vector3d& true_tip,
+                           const std::function<void()>& slip, std::optional<double> highest) {
   const Eigen::Vector3d motion = last_tip_ ? Eigen::Vector3d(true_tip - *last_tip_) : Eigen::Vector3d::Zero();
   TipSteps steps{read_tip - motion, motion, 1};
   const double longest = longest_step * footprint_.radius();
@@ -62,11 +63,11 @@ Touch SandSide::move(HeightField& bed, const Eigen::Vector3d& read_tip, const Ei
     on_the_way += dig(bed, steps.at(i), steps.way).displaced_volume;
     if (slip_is_due()) slip();
   }
-  Touch touch = dig(bed, read_tip, motion);
+  Interaction interaction = dig(bed, read_tip, motion);
   if (slip_is_due()) slip();
-  touch.displaced_volume += on_the_way;
+  interaction.displaced_volume += on_the_way;
   last_tip_ = true_tip;
-  return touch;
+  return interaction;
 }
 
 void SandSide::hold(HeightField& bed) {

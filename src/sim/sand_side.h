@@ -10,7 +10,7 @@
 namespace sandstroke {
 
 /// What sand and tool have to do with each other in one tick.
-struct Touch {
+struct Interaction {
   double level =
       std::numeric_limits<double>::quiet_NaN();  ///< m, of the sand under the tool; NaN: none there
   double depth = 0.0;                            ///< m, of the tip below the level; negative = above
@@ -28,10 +28,10 @@ class SandSide {
   /// encoders read it; true_tip: where it is, for encoder steps are no motion. slip(): called with the tool
   /// at the places where sand is to slip by its way; it calls hold(). highest [m]: no sand is higher; none:
   /// it is looked up where it matters, which visits every tile.
-  Touch move(HeightField& bed, const Eigen::Vector3d& read_tip, const Eigen::Vector3d& true_tip,
-             const std::function<void()>& slip, std::optional<double> highest = {});
+  Interaction move(HeightField& bed, const Eigen::Vector3d& read_tip, const Eigen::Vector3d& true_tip,
+                   const std::function<void()>& slip, std::optional<double> highest = {});
   /// The same place, without displacing anything.
-  Touch look(const HeightField& bed, const Eigen::Vector3d& read_tip);
+  Interaction look(const HeightField& bed, const Eigen::Vector3d& read_tip);
   /// The tool is here [m], in contact or not, by somebody else's account: nothing is displaced.
   void put(const HeightField& bed, const Eigen::Vector3d& read_tip, bool contact);
   /// The tool touches nothing until the next move(), which begins anew: nothing is displaced on the way to
@@ -49,7 +49,7 @@ class SandSide {
   const std::optional<Eigen::Vector3d>& last_tip() const { return last_tip_; }
 
  private:
-  Touch dig(HeightField& bed, const Eigen::Vector3d& tip, const Eigen::Vector3d& motion);
+  Interaction dig(HeightField& bed, const Eigen::Vector3d& tip, const Eigen::Vector3d& motion);
 
   ToolFootprint footprint_;
   DisplacementSettings displacement_;

@@ -44,7 +44,7 @@ void Simulation::check_inside(const Stroke& stroke) const {
   for (std::size_t i = 0; i < stroke.size(); ++i) {
     const Eigen::Vector3d tip = tip_of(scene_.device, stroke.position[i]);
     const bool outside = std::abs(tip.x()) > half_x || std::abs(tip.y()) > half_y;
-    if (outside && stroke.touches(i) && tip.z() < highest)
+    if (outside && stroke.pen_down(i) && tip.z() < highest)
       throw_input_error(
           "the stroke enters the sand outside the bed: at {:.3f} s it is at x = {:.4g} m, y = {:.4g} m, and "
           "the "
@@ -64,11 +64,11 @@ TickRecord Simulation::tick(double time, const Hand& hand, const Hand& next,
   record.next = next;
   record.device_position = reading.position;
   if (hand.down) {
-    const Touch touch = sand_.move(bed_, tip, true_tip, slip);
-    record.level = touch.level;
-    record.depth = touch.depth;
-    record.displaced_volume = touch.displaced_volume;
-    record.contact = touch.contact;
+    const Interaction interaction = sand_.move(bed_, tip, true_tip, slip);
+    record.level = interaction.level;
+    record.depth = interaction.depth;
+    record.displaced_volume = interaction.displaced_volume;
+    record.contact = interaction.contact;
   } else {
     sand_.lift();
     if (sand_.slip_is_due()) slip();

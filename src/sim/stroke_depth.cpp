@@ -7,7 +7,7 @@ namespace sandstroke {
 DeepestPlace deepest_place(const Scene& scene, const HeightField& bed, const Stroke& stroke) {
   DeepestPlace deepest;
   for (std::size_t i = 0; i < stroke.size(); ++i) {
-    if (!stroke.touches(i)) continue;
+    if (!stroke.pen_down(i)) continue;
     const Eigen::Vector3d tip = tip_of(scene.device, stroke.position[i]);
     const double depth = bed.height_at(tip.x(), tip.y()) - tip.z();
     if (depth > deepest.depth) deepest = {depth, stroke.time[i]};

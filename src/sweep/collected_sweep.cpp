@@ -9,10 +9,6 @@
 namespace sandstroke {
 namespace {
 
-bool same_bed(const BedGeometry& a, const BedGeometry& b) {
-  return a.rows() == b.rows() && a.cols() == b.cols() && a.cell_size() == b.cell_size();
-}
-
 /// Of those points that have results.
 void read_surfaces(CollectedSweep& sweep, CollectReport& report) {
   std::string first_missing;
@@ -27,7 +23,7 @@ void read_surfaces(CollectedSweep& sweep, CollectReport& report) {
       continue;
     }
     if (!first) first = &*sweep.surfaces[point];
-    alike = alike && same_bed(first->bed, sweep.surfaces[point]->bed);
+    alike = alike && first->bed.same_grid(sweep.surfaces[point]->bed);
   }
   if (report.surfaces_missing > 0)
     report.sentences.push_back(

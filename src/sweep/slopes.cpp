@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "core/angle.h"
 #include "core/compensated_sum.h"
 
 namespace sandstroke {
@@ -37,7 +37,7 @@ SlopeMeasures measure_slopes(const HeightField& initial, const HeightField& fina
   double steepest = 0.0, changed = 0.0, at_talus = 0.0;
   visit_cells_of_both(initial, final, [&](int row, int col, double before, double after) {
     if (before == after) return;
-    const double angle = std::atan(descent_slope(final, row, col)) * 180.0 / std::numbers::pi;
+    const double angle = to_degrees(std::atan(descent_slope(final, row, col)));
     sum.add(angle);
     steepest = std::max(steepest, angle);
     changed += 1.0;

@@ -165,7 +165,7 @@ nlohmann::json measure_bed_sizes(const BenchOptions& options) {
         const Replay run = replay(scene, stroke);
         return nlohmann::json{{"ns_per_tick", 1e9 * run.cpu_seconds / static_cast<double>(run.result.ticks)},
                               {"bed_bytes", run.bed.bytes()},
-                              {"tiles", run.bed.touched_tiles()},
+                              {"tiles", run.bed.allocated_tiles()},
                               {"passes", run.result.relaxation.passes}};
       }));
   nlohmann::json rows = nlohmann::json::array();
@@ -188,7 +188,7 @@ nlohmann::json measure_tile_sizes() {
   const Replay run = replay({}, wscg(0.44, -0.9, {-0.18}));
   const HeightGrid heights = run.bed.grid();
   nlohmann::json result = {{"changed_cells", (heights != 0.0).count()},
-                           {"tiles_of_the_run", run.bed.touched_tiles()},
+                           {"tiles_of_the_run", run.bed.allocated_tiles()},
                            {"bytes_of_the_run", run.bed.bytes()}};
   for (const int side : {32, 64, 128}) {
     std::set<std::pair<int, int>> blocks;

@@ -68,7 +68,7 @@ TEST(StrokeSampler, ReproducesItsSamplesToTheBit) {
   for (std::size_t i = 0; i < stroke.size(); ++i) {
     const Hand hand = sampler.at(stroke.time[i]);
     EXPECT_EQ(hand.position, stroke.position[i]) << i;
-    EXPECT_EQ(hand.down, stroke.touches(i)) << i;
+    EXPECT_EQ(hand.down, stroke.pen_down(i)) << i;
   }
 }
 

@@ -93,7 +93,7 @@ TEST(PenState, SamplesAreJoinedWhereThePenStaysDown) {
   const std::vector<bool> touches = {true, true, true, false, true, true};
   for (std::size_t i = 0; i < stroke.size(); ++i) {
     EXPECT_EQ(stroke.joined(i), joined[i]) << i;
-    EXPECT_EQ(stroke.touches(i), touches[i]) << i;
+    EXPECT_EQ(stroke.pen_down(i), touches[i]) << i;
   }
   stroke.contact.clear();
   EXPECT_TRUE(stroke.joined(1));

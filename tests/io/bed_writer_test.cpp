@@ -38,10 +38,10 @@ TEST_F(BedWriter, EverySurfaceReadsAsItsGridWhateverTheBedsSize) {
   for (const auto kind : {flat, cylinder, cone, cliff, noise, ripples})
     for (const auto& [rows, cols] : sizes) {
       HeightField bed = make_surface(surface_of(kind), rows, cols, 0.002);
-      ASSERT_EQ(bed.touched_tiles(), 0);
+      ASSERT_EQ(bed.allocated_tiles(), 0);
       EXPECT_TRUE((written(bed) == bed.grid()).all())
           << static_cast<int>(kind) << ": " << rows << " x " << cols;
-      EXPECT_EQ(bed.touched_tiles(), 0);
+      EXPECT_EQ(bed.allocated_tiles(), 0);
       bed.set(rows - 1, cols - 1, -0.25);
       bed.set(rows / 2, cols / 3, 0.125);
       EXPECT_TRUE((written(bed) == bed.grid()).all())

@@ -120,7 +120,7 @@ TEST(StrokeCsv, PenStrokesAreKeptApart) {
   const std::vector<bool> joined = {true, false, false, true, false};
   for (std::size_t i = 0; i < stroke.size(); ++i) {
     EXPECT_EQ(stroke.joined(i), joined[i]) << i;
-    EXPECT_TRUE(stroke.touches(i));  // a single sample is a point that was drawn
+    EXPECT_TRUE(stroke.pen_down(i));  // a single sample is a point that was drawn
   }
 }
 

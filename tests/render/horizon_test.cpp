@@ -38,7 +38,7 @@ TEST(SunVisibility, CliffShadowHasTheLengthOfTheGeometry) {
   const int edge = 40;
   for (const double elevation : {8.0, 15.0, 28.0, 45.0, 60.0}) {
     const DrawnHeights seen = visibility(cliff(9, 400, edge, height), Sun{180.0, elevation});
-    const double length = height / std::tan(elevation * degree) / cell_size;
+    const double length = height / std::tan(to_radians(elevation)) / cell_size;
     EXPECT_NEAR(crossing(seen, 4, edge), edge - 1 + length, 1.5) << elevation;
   }
 }
@@ -47,7 +47,7 @@ TEST(SunVisibility, ObliqueSunShortensTheShadowByTheCosine) {
   const double height = 0.06, elevation = 20.0;
   for (const double turn : {-55.0, -30.0, 10.0, 45.0}) {
     const DrawnHeights seen = visibility(cliff(801, 300, 40, height), Sun{180.0 + turn, elevation});
-    const double length = height / std::tan(elevation * degree) * std::cos(turn * degree) / cell_size;
+    const double length = height / std::tan(to_radians(elevation)) * std::cos(to_radians(turn)) / cell_size;
     EXPECT_NEAR(crossing(seen, 400, 40), 39 + length, 1.5) << turn;
   }
 }
@@ -84,7 +84,7 @@ TEST(SunVisibility, ReachIsHowFarAShadowFalls) {
   const Sun sun{180.0, 30.0, 0.0};
   EXPECT_EQ(shadow_reach(sun, 0.0, cell_size), 0);
   EXPECT_EQ(shadow_reach(sun, 0.06, cell_size),
-            static_cast<int>(std::ceil(0.06 / std::tan(30.0 * degree) / cell_size)));
+            static_cast<int>(std::ceil(0.06 / std::tan(to_radians(30.0)) / cell_size)));
 }
 
 TEST(SkyVisibility, PlaneSeesAllOfTheSky) {

@@ -54,7 +54,7 @@ class Variant {
         }
     }
     std::vector<RowCells> held = bed.held();
-    for (RowCells& row : held) row.slot = bed_.touch(bed.tile_of(row.slot));
+    for (RowCells& row : held) row.slot = bed_.allocate(bed.tile_of(row.slot));
     bed_.hold(held);
     std::int64_t passes = 0;
     hwy::SetSupportedTargetsForTest(target_);
@@ -101,8 +101,8 @@ class CheckedRelaxer : public Relaxer {
     const RelaxationOutcome outcome = engine_->relax(bed, after_pass);
     EXPECT_EQ(variant_passes, outcome.passes);
     std::vector<int> changed;  // tiles
-    revisions_.resize(bed.touched_tiles(), 0);
-    for (int slot = 0; slot < bed.touched_tiles(); ++slot)
+    revisions_.resize(bed.allocated_tiles(), 0);
+    for (int slot = 0; slot < bed.allocated_tiles(); ++slot)
       if (std::exchange(revisions_[slot], bed.tile_revision(bed.tile_of(slot))) !=
           bed.tile_revision(bed.tile_of(slot)))
         changed.push_back(slot);

@@ -100,7 +100,7 @@ TEST_F(RunFileTest, FramesHoldTilesThatCameIntoBeingBetweenThem) {
     std::vector<int> tiles;
     void on_frame(double, const HeightField& surface) override {
       grids.push_back(surface.grid());
-      tiles.push_back(surface.touched_tiles());
+      tiles.push_back(surface.allocated_tiles());
     }
   } frames;
   // Ripples that rest by rule: a tile may come into being and stay as it was.

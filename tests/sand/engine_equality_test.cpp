@@ -237,7 +237,7 @@ TEST(Tool, EqualsThePlainReferenceOn400RandomScenes) {
         for (int col = 0; col < scene.bed.cols(); ++col)
           ASSERT_EQ(scene.bed.is_held(row, col), reference.in_bowl(row, col)) << row << ", " << col;
       scene.bed.hold({});
-      scene.bed.settle(), expected.settle();
+      scene.bed.clear_disturbed(), expected.clear_disturbed();
     }
   }
   EXPECT_GT(pushed, sanitized ? 100 : 1000);

@@ -55,18 +55,18 @@ class Bend : public SurfaceRule {
 
 TEST(HeightField, UntouchedTilesFollowTheirRuleAndDoNotExist) {
   HeightField bed(150, 300, 0.01, std::make_shared<Bend>());
-  EXPECT_EQ(bed.touched_tiles(), 0);
+  EXPECT_EQ(bed.allocated_tiles(), 0);
   EXPECT_EQ(bed.tile_revision(3), 0u);
   const HeightGrid before = bed.grid();
   for (const int col : {0, 63, 64, 150, 299}) {
     EXPECT_EQ(bed(149, col), Bend::at(bed.x_of(col)));
     EXPECT_EQ(before(17, col), Bend::at(bed.x_of(col)));
   }
-  EXPECT_EQ(bed.touched_tiles(), 0);  // reading touches nothing
+  EXPECT_EQ(bed.allocated_tiles(), 0);  // reading touches nothing
   EXPECT_EQ(bed.bytes(), 0u);
 
   bed.set(70, 200, 5.0);
-  EXPECT_EQ(bed.touched_tiles(), 1);
+  EXPECT_EQ(bed.allocated_tiles(), 1);
   EXPECT_EQ(bed.tile_of(0), bed.tile_index(1, 3));
   EXPECT_EQ(bed.bytes(), HeightField::bytes_per_tile());
   HeightGrid expected = before;
@@ -90,7 +90,7 @@ TEST(HeightField, ACopyIsItsOwn) {
   bed.set(80, 80, 1.0);
   EXPECT_EQ(copy(1, 2), 3.0);
   EXPECT_EQ(copy(80, 80), 0.0);
-  EXPECT_EQ(copy.touched_tiles(), 1);
+  EXPECT_EQ(copy.allocated_tiles(), 1);
   copy = bed;
   EXPECT_TRUE((copy.grid() == bed.grid()).all());
 }
@@ -101,7 +101,7 @@ TEST(HeightField, KnowsWhatWasSetUntilItIsSettled) {
   bed.set(64, 3, 1.0);
   ASSERT_EQ(bed.disturbed_tiles(), (std::vector<int>{0}));
   EXPECT_EQ(bed.disturbed_cells(0)[0], std::uint64_t{1} << 63 | std::uint64_t{1} << 3);
-  bed.settle();
+  bed.clear_disturbed();
   EXPECT_TRUE(bed.disturbed_tiles().empty());
   EXPECT_EQ(bed.disturbed_cells(0)[0], 0u);
 }

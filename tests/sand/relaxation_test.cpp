@@ -208,7 +208,7 @@ TEST(TileRelaxer, LooksOnlyAtWhatCanMove) {
   HeightField bed(1024, 1024, 1.0);
   const auto relaxer = make_relaxer(settings(RelaxationLaw::paper), 1.0);
   EXPECT_EQ(relaxer->relax(bed).cells_visited, 0);  // level by rule
-  EXPECT_EQ(bed.touched_tiles(), 0);
+  EXPECT_EQ(bed.allocated_tiles(), 0);
   bed.set(63, 64, 0.5);  // below the talus slope: nothing moves
   const auto look = relaxer->relax(bed);
   EXPECT_EQ(look.cells_visited, 5 * 5);  // what can see it, in four tiles
@@ -226,7 +226,7 @@ TEST(TileRelaxer, CountsHowOftenTilesWake) {
   EXPECT_EQ(relaxer->relax(bed).wake_ups, 1);
   bed.set(32, 61, 1.0);  // flows within 2 cells of the next tile, which looks and rests
   EXPECT_EQ(relaxer->relax(bed).wake_ups, 2);
-  EXPECT_EQ(bed.touched_tiles(), 2);
+  EXPECT_EQ(bed.allocated_tiles(), 2);
 }
 
 }  // namespace

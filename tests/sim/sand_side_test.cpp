@@ -60,7 +60,7 @@ TEST(SandSide, InTheAirOrBesideTheBedNothingIsDisplaced) {
   HeightField bed(100, 100, 0.002);
   EXPECT_EQ(displaced_between(bed, {-0.05, 0.0, 0.001}, {0.05, 0.0, 0.001}), 0.0);
   EXPECT_EQ(displaced_between(bed, {-5.0, 3.0, -0.01}, {5.0, 3.0, -0.01}), 0.0);
-  EXPECT_EQ(bed.touched_tiles(), 0);
+  EXPECT_EQ(bed.allocated_tiles(), 0);
 }
 
 TEST(SandSide, FromBeyondAllMeasureItDisplacesOnlyWhatCrossesTheSand) {

@@ -307,7 +307,7 @@ TEST(ContentHashOfASweep, CountsSurfacesByTheirHeights) {
     const SweepFolder folder = SweepFolder::make(parent / name, manifest);
     folder.write(0, result_of(0), "", &surface);
     hashes.push_back(collect(folder).content_hash);
-    surface.touch(surface.tile_count() - 1);
+    surface.allocate(surface.tile_count() - 1);
   }
   EXPECT_EQ(hashes[0], hashes[1]);
 }

@@ -62,12 +62,12 @@ std::vector<double> flank_slope_errors(const HeightField& bed, const Flank& flan
     for (int col = 0; col < bed.cols(); ++col) {
       const double x = bed.x_of(col), y = bed.y_of(row), distance = std::hypot(x, y);
       if (distance < near || distance > far) continue;
-      const double turn = std::atan2(y, x) / (360.0 / directions * degree);
+      const double turn = std::atan2(y, x) / to_radians(360.0 / directions);
       sectors[(static_cast<int>(std::lround(turn)) + directions) % directions].add(distance, bed(row, col));
     }
   std::vector<double> errors;
   for (const LineFit& sector : sectors)
-    errors.push_back((std::atan(std::abs(sector.slope())) - std::atan(flank.slope)) / degree);
+    errors.push_back(to_degrees(std::atan(std::abs(sector.slope())) - std::atan(flank.slope)));
   return errors;
 }
 
