@@ -171,13 +171,24 @@ const toml::node* TomlReader::find(std::string_view key) const {
 bool TomlReader::has(std::string_view key) const { return find(key) != nullptr; }
 
 void TomlReader::require(std::string_view key) const {
-  if (!has(key)) fail(key, "is missing; add it");
+  if (has(key)) return;
+  const toml::table* table = table_;  // the innermost that is there
+  std::vector<std::string> parts = parts_of(key);
+  for (; table->contains(parts.front()); parts.erase(parts.begin()))
+    table = table->get_as<toml::table>(parts.front());
+  std::set<std::string> others;
+  for (const auto& [name, node] : *table)
+    if (!document_->read.contains(&node)) others.emplace(name.str());
+  const std::string misspelt = nearest_name(parts.front(), others);
+  fail(key, misspelt.empty()
+                ? "is missing; add it"
+                : fmt::format("is missing; add it, or is {} meant to be {}?", misspelt, parts.front()));
 }
 
 void TomlReader::fail(std::string_view key, const std::string& sentence) const {
   const std::string full = prefix_ + std::string(key);
-  if (const auto set = document_->overrides.find(full); set != document_->overrides.end())
-    throw_input_error("--set {}: {} {}", set->second, full, sentence);
+  if (const std::string set = override_of(full); !set.empty())
+    throw_input_error("{}: {} {}", set, full, sentence);
   const toml::node* node = table_->at_path(key).node();
   const toml::node* place = node ? node : table_;
   if (const auto line = place->source().begin.line; line > 0 && (node || !prefix_.empty()))
@@ -344,15 +355,17 @@ std::vector<TomlReader> TomlReader::tables(std::string_view key) const {
   return found;
 }
 
-std::string TomlReader::place_of(const std::string& key, const toml::node& node) const {
+std::string TomlReader::override_of(const std::string& key) const {
   for (const auto& [set, assignment] : document_->overrides)
-    if (set == key || set.starts_with(key + ".")) return "--set " + assignment;
-  return fmt::format("{}:{}", document_->name, node.source().begin.line);
+    if (set == key || set.starts_with(key + ".") || key.starts_with(set + ".")) return "--set " + assignment;
+  return {};
 }
 
 void TomlReader::reject_unread(const Conditions& conditions) const {
   const auto reject = [&](const std::string& key, const toml::node& node) {
-    const std::string place = place_of(key, node);
+    const std::string set = override_of(key);
+    const std::string place =
+        set.empty() ? fmt::format("{}:{}", document_->name, node.source().begin.line) : set;
     const auto known = conditions ? conditions() : std::map<std::string, std::string>{};
     if (const auto found = known.find(key); found != known.end())
       throw_input_error("{}: {} applies only where {}; remove it, or change that", place, key, found->second);

@@ -79,8 +79,8 @@ class TomlReader {
   struct Document;
   TomlReader(std::shared_ptr<Document> document, toml::table* table, std::string prefix);
   const toml::node* find(std::string_view key) const;
-  /// The --set that gave it, or file and line.
-  std::string place_of(const std::string& key, const toml::node& node) const;
+  /// "--set ..." that gave a key, its table or what is in it; empty: none.
+  std::string override_of(const std::string& key) const;
   double checked(std::string_view key, const toml::node& node, Range range, std::string_view unit = "") const;
 
   std::shared_ptr<Document> document_;

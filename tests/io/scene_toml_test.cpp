@@ -127,6 +127,10 @@ TEST(SceneToml, AKeyThatDoesNotApplyIsToldWhereItWould) {
             "change that");
   EXPECT_EQ(complaint("[relaxation]\nstep_tolerence = 0.1\n"),
             "scene.toml:2: unknown key relaxation.step_tolerence; did you mean relaxation.step_tolerance?");
+  EXPECT_EQ(complaint("", {"bed.surface=4"}),
+            "--set bed.surface=4: bed.surface.kind 'surface' is an integer, not a table");
+  EXPECT_EQ(complaint("", {"relaxation.rate.x=4"}),
+            "--set relaxation.rate.x=4: relaxation.rate is a table; give a number");
   // What a preset chooses can be chosen without it.
   EXPECT_EQ(complaint("[displacement]\ndistance = 1.1\n"),
             "scene.toml:2: displacement.distance applies only where displacement.deposit is outward; remove "

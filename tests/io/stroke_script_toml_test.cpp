@@ -160,6 +160,10 @@ TEST(StrokeScriptToml, TheKeysOfTheHelpAreReadWithTheirDefaults) {
 TEST(StrokeScriptToml, ErrorsNameFileLineAndKey) {
   EXPECT_THAT(script_complaint("start = [0, 0]\n"),
               AllOf(HasSubstr("s.toml"), HasSubstr("segment"), HasSubstr("missing")));
+  EXPECT_EQ(script_complaint("[[segmnt]]\nkind = \"line\"\n"),
+            "s.toml: segment is missing; add it, or is segmnt meant to be segment?");
+  EXPECT_EQ(script_complaint(segment("knid = \"line\"\n")),
+            "s.toml:2: segment.kind is missing; add it, or is knid meant to be kind?");
   EXPECT_THAT(script_complaint(segment("to = [0, 0]\n")), AllOf(HasSubstr("s.toml:2:"), HasSubstr("kind")));
   EXPECT_THAT(script_complaint(segment("kind = \"circle\"\n")),
               AllOf(HasSubstr("s.toml:3:"), HasSubstr("circle"), HasSubstr("arc")));

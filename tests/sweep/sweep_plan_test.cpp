@@ -134,7 +134,11 @@ TEST_F(APlan, IsRefusedInOneSentenceThatSaysWhere) {
   const std::string axes = start + "[axes]\n";
   // The plan, and what the sentence must hold.
   const std::vector<std::pair<std::string, std::string>> cases = {
-      {"", "sweep.scene is missing"},
+      {"", "sweep.scene is missing; add it"},
+      {"[swep]\nscene = \"scenes/scene.toml\"\n",
+       "plan.toml: sweep.scene is missing; add it, or is swep meant to be sweep?"},
+      {"[sweep]\nscen = \"scenes/scene.toml\"\n",
+       "plan.toml: sweep.scene is missing; add it, or is scen meant to be scene?"},
       {"[sweep]\nscene = 5\n", "plan.toml:2: sweep.scene is an integer"},
       {start, "axes is missing or empty"},
       {start + "[axes]\n", "axes is missing or empty"},
@@ -154,7 +158,8 @@ TEST_F(APlan, IsRefusedInOneSentenceThatSaysWhere) {
       {axes + "force.k_s = { from = 1 }\n", "axes.force.k_s.to is missing"},
       {axes + "force.k_s = { to = 2, step = 1 }\n", "axes.force.k_s.from is missing"},
       {axes + "force.k_s = { step = 1 }\n", "axes.force.k_s.from is missing"},
-      {axes + "force.k_s = { start = 1, stop = 2 }\n", "plan.toml:3: axes leads to a scene that cannot be: "},
+      {axes + "force.k_s = { start = 1, stop = 2 }\n",
+       "plan.toml:4: axes.force.k_s.start cannot be 1: force.k_s is a table; give a number"},
       {axes + "force.k_s = { from = 1, to = 1, count = 3 }\n",
        "plan.toml:4: axes.force.k_s has a value twice"},
       {start + "strokes = [\"other.toml\", \"scenes/../other.toml\"]\n", "sweep.strokes has a value twice"},
