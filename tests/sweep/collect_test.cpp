@@ -59,7 +59,7 @@ PointResult result_of(std::size_t point) {
 
 /// Any dataset of numbers.
 Numbers read_all(const fs::path& path, const std::string& dataset) {
-  const Hdf5Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
+  const Hdf5Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, without_locks()), H5Fclose);
   const Hdf5Handle opened(H5Dopen2(file, dataset.c_str(), H5P_DEFAULT), H5Dclose);
   const Hdf5Handle space(H5Dget_space(opened), H5Sclose);
   Numbers values(static_cast<std::size_t>(std::max<hssize_t>(0, H5Sget_simple_extent_npoints(space))));
@@ -69,7 +69,7 @@ Numbers read_all(const fs::path& path, const std::string& dataset) {
 
 /// Names of the scales of each of its dimensions; "" where there is none.
 std::vector<std::string> scales_of(const fs::path& path, const std::string& dataset) {
-  const Hdf5Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
+  const Hdf5Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, without_locks()), H5Fclose);
   const Hdf5Handle opened(H5Dopen2(file, dataset.c_str(), H5P_DEFAULT), H5Dclose);
   const Hdf5Handle space(H5Dget_space(opened), H5Sclose);
   std::vector<std::string> names;
