@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "haptics/device.h"
+#include "haptics/simulated_device.h"
 
 namespace sandstroke {
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "haptics/device.h"
 #include "haptics/force_model.h"
+#include "haptics/simulated_device.h"
 
 namespace sandstroke {
 

@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "core/error.h"
-#include "haptics/device_force.h"
+#include "haptics/sand_force.h"
 
 namespace sandstroke {
 namespace {

@@ -1,10 +1,10 @@
 #pragma once
 
 #include "core/compensated_sum.h"
-#include "haptics/device.h"
 #include "haptics/force_model.h"
 #include "haptics/late_force.h"
 #include "haptics/passivity.h"
+#include "haptics/simulated_device.h"
 #include "sim/run_result.h"
 
 namespace sandstroke {

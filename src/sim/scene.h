@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "core/key_visitor.h"
-#include "haptics/device.h"
 #include "haptics/force_model.h"
+#include "haptics/simulated_device.h"
 #include "haptics/stroke_placement.h"
 #include "picture/view.h"
 #include "sand/displacement.h"

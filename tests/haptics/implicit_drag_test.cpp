@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "haptics/device.h"
+#include "haptics/simulated_device.h"
 
 namespace sandstroke {
 namespace {

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <utility>
 
-#include "haptics/device.h"
+#include "haptics/simulated_device.h"
 #include "haptics/stroke_placement.h"
 #include "haptics/stroke_sampler.h"
 #include "io/scene_toml.h"

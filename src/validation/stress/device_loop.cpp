@@ -5,7 +5,7 @@
 #include <array>
 #include <limits>
 
-#include "haptics/device_force.h"
+#include "haptics/sand_force.h"
 
 namespace sandstroke {
 namespace {

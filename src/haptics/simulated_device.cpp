@@ -1,4 +1,4 @@
-#include "haptics/device.h"
+#include "haptics/simulated_device.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "haptics/device_force.h"
+#include "haptics/sand_force.h"
 
 #include <algorithm>
 
