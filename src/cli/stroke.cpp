@@ -72,7 +72,7 @@ struct ConvertOptions {
 
 Stroke convert(const ConvertOptions& options) {
   StrokeCsvFormat format;
-  format.position = {options.position, length_unit(options.position_unit, options.pixel_size)};
+  format.position = {options.position, position_unit(options.position_unit, options.pixel_size)};
   if (!options.velocity.empty()) format.velocity = {options.velocity, speed_unit(options.velocity_unit)};
   if (!options.force.empty()) format.force = {options.force, force_unit(options.force_unit)};
   if (options.time.empty() == (options.rate == 0.0))

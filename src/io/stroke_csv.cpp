@@ -206,7 +206,7 @@ void spread_equal_times(Stroke& stroke, const std::string& name) {
 
 }  // namespace
 
-Unit length_unit(const std::string& name, double pixel_size) {
+Unit position_unit(const std::string& name, double pixel_size) {
   if (name == "px") {
     if (!(pixel_size > 0.0)) throw_input_error("unit px needs the size of a pixel; give --pixel-size in m");
     return {pixel_size, 1.0};

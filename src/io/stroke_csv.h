@@ -18,10 +18,10 @@ struct Unit {
 };
 
 // Error: input, listing the units there are. pixel_size [m]: what "px" stands for, 0 = not given.
-Unit length_unit(const std::string& name, double pixel_size);  ///< m cm mm um in px
-Unit time_unit(const std::string& name);                       ///< s ms us ns
-Unit speed_unit(const std::string& name);                      ///< m/s cm/s mm/s
-Unit force_unit(const std::string& name);                      ///< N mN
+Unit position_unit(const std::string& name, double pixel_size);  ///< m cm mm um in px
+Unit time_unit(const std::string& name);                         ///< s ms us ns
+Unit speed_unit(const std::string& name);                        ///< m/s cm/s mm/s
+Unit force_unit(const std::string& name);                        ///< N mN
 
 /// What to do where a time stamp equals the one before it: report it; keep only the first sample with that
 /// stamp; or space the samples evenly up to the next stamp.

@@ -10,7 +10,7 @@ namespace sandstroke {
 
 HeightField load_surface(const BedSettings& bed, const std::filesystem::path& folder) {
   const SurfaceSettings& surface = bed.surface;
-  if (surface.kind != SurfaceKind::file) return make_surface(surface, bed.rows, bed.cols, bed.cell_size());
+  if (surface.kind != SurfaceKind::file) return starting_bed(bed);
 
   const std::filesystem::path path = folder / surface.file;
   HeightGrid heights;

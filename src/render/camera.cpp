@@ -75,6 +75,34 @@ bool Camera::misses(const Eigen::AlignedBox3d& box) const {
   return false;
 }
 
+namespace {
+
+/// The depth range holds the whole scene, but starts a little before the eye at the nearest.
+void set_depth_range(Eigen::Matrix4d& projection, const Camera& camera, const Eigen::AlignedBox3d& scene) {
+  double nearest = 1e300, farthest = -1e300;
+  for (const Eigen::Vector3d& p : corners(scene)) {
+    const double distance = camera.forward.dot(p - camera.eye);
+    nearest = std::min(nearest, distance);
+    farthest = std::max(farthest, distance);
+  }
+  const double margin = 0.01 * scene.diagonal().norm();
+  nearest -= margin;
+  farthest += margin;
+  if (camera.orthographic) {
+    projection(2, 2) = -2.0 / (farthest - nearest);
+    projection(2, 3) = -(farthest + nearest) / (farthest - nearest);
+    projection(3, 3) = 1.0;
+  } else {
+    farthest = std::max(farthest, margin);
+    nearest = std::max(nearest, 1e-3 * farthest);
+    projection(2, 2) = -(farthest + nearest) / (farthest - nearest);
+    projection(2, 3) = -2.0 * farthest * nearest / (farthest - nearest);
+    projection(3, 2) = -1.0;
+  }
+}
+
+}  // namespace
+
 Camera make_camera(const ViewSettings& view, const Eigen::AlignedBox3d& subject,
                    const Eigen::AlignedBox3d& scene, double right_margin) {
   check(view);
@@ -120,27 +148,7 @@ Camera make_camera(const ViewSettings& view, const Eigen::AlignedBox3d& subject,
     projection(1, 1) = 1.0 / tan_y;
   }
 
-  // The depth range holds the whole scene, but starts a little before the eye at the nearest.
-  double nearest = 1e300, farthest = -1e300;
-  for (const Eigen::Vector3d& p : corners(scene)) {
-    const double distance = camera.forward.dot(p - camera.eye);
-    nearest = std::min(nearest, distance);
-    farthest = std::max(farthest, distance);
-  }
-  const double margin = 0.01 * scene.diagonal().norm();
-  nearest -= margin;
-  farthest += margin;
-  if (top) {
-    projection(2, 2) = -2.0 / (farthest - nearest);
-    projection(2, 3) = -(farthest + nearest) / (farthest - nearest);
-    projection(3, 3) = 1.0;
-  } else {
-    farthest = std::max(farthest, margin);
-    nearest = std::max(nearest, 1e-3 * farthest);
-    projection(2, 2) = -(farthest + nearest) / (farthest - nearest);
-    projection(2, 3) = -2.0 * farthest * nearest / (farthest - nearest);
-    projection(3, 2) = -1.0;
-  }
+  set_depth_range(projection, camera, scene);
   Eigen::Matrix4d to_camera = Eigen::Matrix4d::Identity();
   to_camera.topLeftCorner<3, 3>() = axes;
   to_camera.topRightCorner<3, 1>() = -axes * camera.eye;

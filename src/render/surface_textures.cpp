@@ -89,7 +89,7 @@ CellRange SurfaceTextures::patch(int tile) const {
   return cells;
 }
 
-int SurfaceTextures::update(const HeightField& surface) {
+std::vector<int> SurfaceTextures::take_heights(const HeightField& surface) {
   std::vector<int> changed;
   bool finite = true;
   std::vector<double> block(BedGeometry::tile_area);
@@ -114,6 +114,11 @@ int SurfaceTextures::update(const HeightField& surface) {
     throw_input_error(
         "a surface with heights that are not finite cannot be drawn; check the run it comes from");
   }
+  return changed;
+}
+
+int SurfaceTextures::update(const HeightField& surface) {
+  const std::vector<int> changed = take_heights(surface);
   if (changed.empty()) return 0;
 
   std::vector<char> detail_outdated(details_.size(), 0);

@@ -43,6 +43,8 @@ class SurfaceTextures {
   void bind_shading(int unit) const;
 
  private:
+  /// Which tiles differ from what is drawn; their heights are kept. Error: input, where one is not finite.
+  std::vector<int> take_heights(const HeightField& surface);
   void mark_shading(int tile, double relief);
 
   BedGeometry bed_;

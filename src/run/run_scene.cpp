@@ -39,6 +39,37 @@ class ProgressBar : public SimulationObserver {
   double fraction_ = 0.0;  // of the stroke
 };
 
+/// The scene's stroke as it is played, and the hash of its content.
+Stroke placed_stroke(const Scene& scene, const std::filesystem::path& path, std::string& hash) {
+  const Stroke loaded = load_stroke(path, scene.force);
+  if (!loaded.complete)
+    spdlog::warn("{}: was cut off while it was recorded; the run ends where the stroke does", path.string());
+  // Not of a recorded stroke's bytes: they tell which build wrote it, too.
+  hash = is_recorded(path) ? content_hash(loaded) : content_hash(read_text_file(path));
+  return place_stroke(loaded, scene.stroke->placement, path.string());
+}
+
+/// None where it was interrupted, or where the second solution is unstable: the run itself stands.
+std::optional<ErrorEstimate> estimated_error(const Scene& scene, const HeightField& start,
+                                             const std::optional<Stroke>& stroke, const Solution& run,
+                                             const std::vector<Eigen::Vector3d>& force,
+                                             SecondSolution which) {
+  try {
+    const ErrorEstimate error = estimate_error(scene, start, stroke, run, force, which);
+    if (interrupted()) return std::nullopt;
+    if (!error.at_rest)
+      spdlog::warn(
+          "the estimated error says little, for the sand is not at rest in both solutions; raise "
+          "relaxation.max_passes");
+    return error;
+  } catch (const Error& failure) {
+    if (failure.kind() != ErrorKind::unstable) throw;
+    spdlog::warn("the error cannot be estimated, for the {} solution is unstable: {}",
+                 which == SecondSolution::finer ? "finer" : "coarser", failure.what());
+    return std::nullopt;
+  }
+}
+
 }  // namespace
 
 std::string scene_file_entry(const std::filesystem::path& scene_file, const std::filesystem::path& run_file) {
@@ -52,18 +83,12 @@ RunResult run_scene(const Scene& scene, const std::filesystem::path& output, con
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                   static_cast<std::size_t>(threads));
 
-  std::optional<Stroke> stroke;
-  std::string stroke_hash;
   std::filesystem::path stroke_path;
+  std::string stroke_hash;
+  std::optional<Stroke> stroke;
   if (scene.stroke) {
     stroke_path = options.scene_folder / scene.stroke->file;
-    const Stroke loaded = load_stroke(stroke_path, scene.force);
-    if (!loaded.complete)
-      spdlog::warn("{}: was cut off while it was recorded; the run ends where the stroke does",
-                   stroke_path.string());
-    stroke = place_stroke(loaded, scene.stroke->placement, stroke_path.string());
-    // Not of a recorded stroke's bytes: they tell which build wrote it, too.
-    stroke_hash = is_recorded(stroke_path) ? content_hash(loaded) : content_hash(read_text_file(stroke_path));
+    stroke = placed_stroke(scene, stroke_path, stroke_hash);
   }
   if (options.second) second_scene(scene, *options.second);  // refused before any work, if at all
   HeightField bed = load_surface(scene.bed, options.scene_folder);
@@ -94,19 +119,8 @@ RunResult run_scene(const Scene& scene, const std::filesystem::path& output, con
   writer.finish(result, simulation.bed());
   if (options.second && !result.interrupted) {
     if (options.progress) spdlog::info("estimating the error");
-    try {
-      const ErrorEstimate error =
-          estimate_error(scene, *start, stroke, {simulation.bed(), result}, force.values, *options.second);
-      if (!interrupted()) result.error = error;
-      if (!interrupted() && !error.at_rest)
-        spdlog::warn(
-            "the estimated error says little, for the sand is not at rest in both solutions; raise "
-            "relaxation.max_passes");
-    } catch (const Error& failure) {  // the run itself stands
-      if (failure.kind() != ErrorKind::unstable) throw;
-      spdlog::warn("the error cannot be estimated, for the {} solution is unstable: {}",
-                   *options.second == SecondSolution::finer ? "finer" : "coarser", failure.what());
-    }
+    result.error =
+        estimated_error(scene, *start, stroke, {simulation.bed(), result}, force.values, *options.second);
   }
   return result;
 }

@@ -94,6 +94,20 @@ class FormulaRule : public SurfaceRule {
   double highest_;
 };
 
+/// The steepest slope of a rule: the same everywhere.
+auto everywhere(double slope) {
+  return [slope](const BedGeometry&, const CellRange&) { return slope; };
+}
+
+/// By the distance of a range's cells from the z axis, to the next cell.
+auto slope_by_distance(double inside, double at_the_rim, double radius) {
+  return [=](const BedGeometry& b, const CellRange& cells) {
+    const auto [nearest, farthest] = distances(b, cells);
+    if (nearest >= radius + b.cell_size()) return 0.0;
+    return farthest <= radius - b.cell_size() ? inside : at_the_rim;
+  };
+}
+
 }  // namespace
 
 double disk_cell_area(double radius, double x, double y, double cell_size) {
@@ -117,17 +131,6 @@ HeightField make_surface(const SurfaceSettings& settings, int rows, int cols, do
         rows, cols, cell_size,
         std::make_shared<FormulaRule<decltype(height), decltype(steepest)>>(height, steepest, highest));
   };
-  const auto everywhere = [](double slope) {
-    return [slope](const BedGeometry&, const CellRange&) { return slope; };
-  };
-  // By the distance of a range's cells from the z axis, to the next cell.
-  const auto round = [](double inside, double at_the_rim, double radius) {
-    return [=](const BedGeometry& b, const CellRange& cells) {
-      const auto [nearest, farthest] = distances(b, cells);
-      if (nearest >= radius + b.cell_size()) return 0.0;
-      return farthest <= radius - b.cell_size() ? inside : at_the_rim;
-    };
-  };
   const SurfaceSettings s = settings;  // into the rules, by value
   switch (s.kind) {
     case SurfaceKind::flat:
@@ -138,11 +141,12 @@ HeightField make_surface(const SurfaceSettings& settings, int rows, int cols, do
           [=](double x, double y) {
             return s.height * (disk_cell_area(s.radius, x, y, cell_size) / (cell_size * cell_size));
           },
-          round(1e-9, any_slope, s.radius), std::max(0.0, s.height));  // inside, equal but for rounding
+          slope_by_distance(1e-9, any_slope, s.radius),
+          std::max(0.0, s.height));  // inside, equal but for rounding
     case SurfaceKind::cone: {
       const double slope = std::abs(s.height) / s.radius;
       return with([=](double x, double y) { return cone_average(x, y, cell_size, s); },
-                  round(slope, slope, s.radius), std::max(0.0, s.height));
+                  slope_by_distance(slope, slope, s.radius), std::max(0.0, s.height));
     }
     case SurfaceKind::cliff:
       return with([=](double x, double) { return s.height * std::clamp(0.5 - x / cell_size, 0.0, 1.0); },

@@ -136,10 +136,9 @@ void describe_view(KeyVisitor& v, ViewSettings& view) {
 /// takes nothing.
 double memory_of_bed(const Scene& scene) {
   const BedSettings& bed = scene.bed;
-  const std::int64_t tiles =
-      bed.surface.kind == SurfaceKind::file
-          ? BedGeometry(bed.rows, bed.cols, bed.cell_size()).tile_count()
-          : tiles_to_relax(make_surface(bed.surface, bed.rows, bed.cols, bed.cell_size()), scene.relaxation);
+  const std::int64_t tiles = bed.surface.kind == SurfaceKind::file
+                                 ? BedGeometry(bed.rows, bed.cols, bed.cell_size()).tile_count()
+                                 : tiles_to_relax(starting_bed(bed), scene.relaxation);
   double per_tile = static_cast<double>(bytes_per_relaxed_tile(scene.relaxation));
   // A run keeps the start of it, to measure what a stroke left.
   if (bed.surface.kind == SurfaceKind::file && scene.stroke)
@@ -253,6 +252,10 @@ void check_scene(const Scene& scene, const std::string& name) {
   const SurfaceSettings& s = bed.surface;
   if (s.kind == SurfaceKind::file && s.file.empty())
     throw_input_error("{}: bed.surface.file is missing; name a run file or a 16-bit PNG", name);
+}
+
+HeightField starting_bed(const BedSettings& bed) {
+  return make_surface(bed.surface, bed.rows, bed.cols, bed.cell_size());
 }
 
 }  // namespace sandstroke

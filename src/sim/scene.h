@@ -30,6 +30,8 @@ struct BedSettings {
   SurfaceSettings surface;
   double cell_size() const { return width / cols; }
 };
+/// The surface that a scene starts from, where no file has to be read for it.
+HeightField starting_bed(const BedSettings& bed);
 
 struct StrokeSettings {
   std::string file;  ///< .toml (scripted) or .h5 (recorded)

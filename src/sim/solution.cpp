@@ -4,10 +4,6 @@
 
 namespace sandstroke {
 
-HeightField starting_bed(const BedSettings& bed) {
-  return make_surface(bed.surface, bed.rows, bed.cols, bed.cell_size());
-}
-
 Solution solve(const Scene& scene, const HeightField& start, const std::optional<Stroke>& stroke,
                Observers observers) {
   TipPathGatherer path(scene);

@@ -10,9 +10,6 @@ struct Solution {
   RunResult result;
 };
 
-/// The surface that a scene starts from, where no file has to be read for it.
-HeightField starting_bed(const BedSettings& bed);
-
 /// Runs a scene from this surface, and measures the furrow that is left. Error: as Simulation.
 Solution solve(const Scene& scene, const HeightField& start, const std::optional<Stroke>& stroke = {},
                Observers observers = {});

@@ -20,9 +20,7 @@ double furrow_depth(double tip_depth, Scene scene) {
   stroke.gap_threshold = 10.0;
   stroke.time = {0.0, 0.5, 3.5};
   stroke.position = {{-0.15, 0.0, 0.01}, {-0.15, 0.0, -tip_depth}, {0.15, 0.0, -tip_depth}};
-  Simulation simulation(
-      scene, make_surface(scene.bed.surface, scene.bed.rows, scene.bed.cols, scene.bed.cell_size()),
-      std::move(stroke));
+  Simulation simulation(scene, starting_bed(scene.bed), std::move(stroke));
   simulation.run();
   double sum = 0.0;
   for (int col = 95; col < 105; ++col) {

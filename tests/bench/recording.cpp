@@ -91,8 +91,7 @@ nlohmann::json recorded(double seconds, bool load, bool sand) {
   std::optional<LiveSand> live;
   if (sand) {
     const Scene scene = collapsing_scene();
-    live.emplace(
-        scene, make_surface(scene.bed.surface, scene.bed.rows, scene.bed.cols, scene.bed.cell_size()), "bed");
+    live.emplace(scene, starting_bed(scene.bed), "bed");
   }
   const Load busy(load);
   if (live) live->start();

@@ -18,7 +18,7 @@ void run_briefly(Scene scene, const std::optional<Stroke>& stroke) {
   scene.relaxation.max_passes = std::min<std::int64_t>(scene.relaxation.max_passes, 2);
   scene.output.frames = 0.0;
   const BedSettings& bed = scene.bed;
-  Simulation(scene, make_surface(bed.surface, bed.rows, bed.cols, bed.cell_size()), stroke).run();
+  Simulation(scene, starting_bed(bed), stroke).run();
 }
 
 }  // namespace

@@ -40,7 +40,7 @@ StrokeCsvFormat format_of(std::string_view line) {
   };
   StrokeCsvFormat format;
   format.position = {columns("position"),
-                     length_unit(options["position-unit"], positive(options["pixel-size"]))};
+                     position_unit(options["position-unit"], positive(options["pixel-size"]))};
   if (options.contains("velocity"))
     format.velocity = {columns("velocity"), speed_unit(options["velocity-unit"])};
   if (options.contains("force")) format.force = {columns("force"), force_unit(options["force-unit"])};

@@ -67,12 +67,12 @@ TEST(StrokeCsv, ReadsNamedColumnsInAnyOrder) {
 }
 
 TEST(StrokeCsv, WholeNumbersBecomeTheNearestDouble) {
-  EXPECT_EQ(length_unit("mm", 0).to_si(123), 0.123);
-  EXPECT_EQ(length_unit("cm", 0).to_si(123), 1.23);
-  EXPECT_EQ(length_unit("um", 0).to_si(55), 0.000055);
-  EXPECT_EQ(length_unit("in", 0).to_si(2), 0.0508);
-  EXPECT_EQ(length_unit("m", 0).to_si(0.1), 0.1);
-  EXPECT_EQ(length_unit("px", 0.25).to_si(3), 0.75);
+  EXPECT_EQ(position_unit("mm", 0).to_si(123), 0.123);
+  EXPECT_EQ(position_unit("cm", 0).to_si(123), 1.23);
+  EXPECT_EQ(position_unit("um", 0).to_si(55), 0.000055);
+  EXPECT_EQ(position_unit("in", 0).to_si(2), 0.0508);
+  EXPECT_EQ(position_unit("m", 0).to_si(0.1), 0.1);
+  EXPECT_EQ(position_unit("px", 0.25).to_si(3), 0.75);
   EXPECT_EQ(time_unit("ms").to_si(66), 0.066);
   EXPECT_EQ(time_unit("us").to_si(66), 0.000066);
   EXPECT_EQ(time_unit("ns").to_si(7), 7e-9);
@@ -89,8 +89,8 @@ TEST(StrokeCsv, UnknownUnitsListTheKnown) {
     }
     return "";
   };
-  EXPECT_THAT(complaint_of([] { length_unit("ft", 0); }), AllOf(HasSubstr("'ft'"), HasSubstr("mm")));
-  EXPECT_THAT(complaint_of([] { length_unit("px", 0); }), HasSubstr("--pixel-size"));
+  EXPECT_THAT(complaint_of([] { position_unit("ft", 0); }), AllOf(HasSubstr("'ft'"), HasSubstr("mm")));
+  EXPECT_THAT(complaint_of([] { position_unit("px", 0); }), HasSubstr("--pixel-size"));
   EXPECT_THAT(complaint_of([] { time_unit("min"); }), AllOf(HasSubstr("'min'"), HasSubstr("ms")));
   EXPECT_THAT(complaint_of([] { speed_unit("km/h"); }), HasSubstr("mm/s"));
   EXPECT_THAT(complaint_of([] { force_unit("lb"); }), HasSubstr("mN"));
@@ -230,7 +230,7 @@ TEST(StrokeCsv, ReadsLettersDrawnOnAScreen) {
   const fs::path folder = fs::path(SANDSTROKE_SHARED_DATA) / "omniglot_timed_strokes" / "Greek";
   if (!fs::exists(folder)) GTEST_SKIP() << folder << " is not there";
   StrokeCsvFormat format = drawing();
-  format.position.unit = length_unit("px", 0.002);
+  format.position.unit = position_unit("px", 0.002);
   int drawings = 0, pen_strokes = 0;
   std::size_t points = 0, left = 0;
   for (const auto& entry : fs::recursive_directory_iterator(folder)) {

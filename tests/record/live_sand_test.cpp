@@ -22,9 +22,7 @@ Scene small_scene() {
   return scene;
 }
 
-HeightField bed_of(const Scene& scene) {
-  return make_surface(scene.bed.surface, scene.bed.rows, scene.bed.cols, scene.bed.cell_size());
-}
+HeightField bed_of(const Scene& scene) { return starting_bed(scene.bed); }
 
 /// A hand that dips in and out of the sand on a winding way: smooth, so that its acceleration is known.
 struct SmoothHand {

@@ -37,7 +37,7 @@ TEST(TickLoop, AllocatesNothingOnceItsTilesExist) {
       stroke.position.emplace_back(i % 2 ? 0.05 : -0.05, 0.01, -0.001 - 2e-4 * i);
     }
     const BedSettings& bed = scene.bed;
-    Simulation simulation(scene, make_surface(bed.surface, bed.rows, bed.cols, bed.cell_size()), stroke);
+    Simulation simulation(scene, starting_bed(bed), stroke);
     AllocationsBetween observer(4000, 6000);
     const RunResult result = simulation.run({&observer});
     EXPECT_GT(result.contact_ticks, 5000);

@@ -20,9 +20,7 @@ Scene cylinder_scene(int n) {
   return scene;
 }
 
-HeightField start_of(const Scene& scene) {
-  return make_surface(scene.bed.surface, scene.bed.rows, scene.bed.cols, scene.bed.cell_size());
-}
+HeightField start_of(const Scene& scene) { return starting_bed(scene.bed); }
 
 /// A hand that sinks 6 mm and drags on at 0.1 m/s, if it drags.
 Scene stroke_scene(int n) {

@@ -29,9 +29,7 @@ Scene small_scene() {
   return scene;
 }
 
-HeightField flat_bed(const Scene& scene) {
-  return make_surface(scene.bed.surface, scene.bed.rows, scene.bed.cols, scene.bed.cell_size());
-}
+HeightField flat_bed(const Scene& scene) { return starting_bed(scene.bed); }
 
 /// A stroke through these points, one every `interval` seconds.
 Stroke through(const std::vector<Eigen::Vector3d>& points, double interval) {

@@ -16,9 +16,7 @@ struct Played {
     stroke.position = points;
     for (std::size_t i = 0; i < points.size(); ++i) stroke.time.push_back(static_cast<double>(i));
   }
-  HeightField bed() const {
-    return make_surface(scene.bed.surface, scene.bed.rows, scene.bed.cols, scene.bed.cell_size());
-  }
+  HeightField bed() const { return starting_bed(scene.bed); }
   DeepestPlace deepest() const { return deepest_place(scene, bed(), stroke); }
   std::string warning() const { return depth_warning(scene, bed(), stroke, "stroke.h5"); }
 };

@@ -20,9 +20,7 @@ Scene small_scene() {
   return scene;
 }
 
-HeightField bed_of(const Scene& scene) {
-  return make_surface(scene.bed.surface, scene.bed.rows, scene.bed.cols, scene.bed.cell_size());
-}
+HeightField bed_of(const Scene& scene) { return starting_bed(scene.bed); }
 
 /// Down into the sand, along, and up.
 Stroke a_drag() {

@@ -141,6 +141,43 @@ LoopMapPlan drag(DragVelocity velocity, const MapAxis& k_f, const MapAxis& force
               });
 }
 
+LoopMapPlan wall_plan(const MapAxis& rate, const MapAxis& stiffness) {
+  return plan("wall-rate-stiffness", "A two-sided wall: servo rate and stiffness",
+              "The default device (0.25 kg, 9 N s/m with the hand's) against a spring that pulls as well: "
+              "what is not stable diverges.",
+              rate, stiffness, [](double servo_rate, double K) {
+                LoopSettings loop;
+                loop.device = ideal_device();
+                loop.device.servo_rate = servo_rate;
+                loop.against = Wall{K, 0.0};
+                return loop;
+              });
+}
+
+LoopMapPlan hand_plan(const MapAxis& stiffness, const MapAxis& damping) {
+  return plan(
+      "hand", "The hand's stiffness and damping",
+      "Sand of 2 kN/m under 3 N at 100 Hz, 12 N at most, the device's own damping 1 N s/m: the damping "
+      "decides, and stiffness helps only where the hand is stiffer than the sand.",
+      stiffness, damping, [](double stiffness_of_hand, double damping_of_hand) {
+        DeviceSettings device = limited_device();
+        device.servo_rate = 100.0;
+        device.hand_stiffness = stiffness_of_hand, device.hand_damping = damping_of_hand;
+        return sand_of_stiffness(2e3, device);
+      });
+}
+
+LoopMapPlan depth_plan(const MapAxis& k_c, const MapAxis& depths) {
+  return plan("depth", "Growth of the force (k_c) and depth",
+              "k_s = 10 N at 1 kHz, no force limit: an exponential law is soft above and stiff below, stable "
+              "down to a depth.",
+              k_c, depths, [](double growth, double depth_of_tip) {
+                ForceSettings force;
+                force.k_s = 10.0, force.k_c = growth, force.k_f = 0.0;
+                return pressed_to(depth_of_tip, ideal_device(), force);
+              });
+}
+
 }  // namespace
 
 std::vector<LoopMapPlan> device_map_plans(bool quick) {
@@ -153,18 +190,7 @@ std::vector<LoopMapPlan> device_map_plans(bool quick) {
   };
   const MapAxis servo_rate = x("servo rate", "Hz", 50.0, 20e3), stiffness = y("stiffness", "N/m", 100.0, 1e6);
   return {
-      plan("wall-rate-stiffness", "A two-sided wall: servo rate and stiffness",
-           "The default device (0.25 kg, 9 N s/m with the hand's) against a spring that pulls as well: what "
-           "is "
-           "not stable diverges.",
-           servo_rate, stiffness,
-           [](double rate, double K) {
-             LoopSettings loop;
-             loop.device = ideal_device();
-             loop.device.servo_rate = rate;
-             loop.against = Wall{K, 0.0};
-             return loop;
-           }),
+      wall_plan(servo_rate, stiffness),
       plan(
           "sand-rate-stiffness", "Sand: servo rate and stiffness (k_s)",
           "The same device pressed with 3 N into sand, which only pushes, without a force limit: beyond the "
@@ -185,16 +211,7 @@ std::vector<LoopMapPlan> device_map_plans(bool quick) {
             device.mass = mass, device.damping = damping, device.hand_damping = 0.0;
             return sand_of_stiffness(20e3, device);
           }),
-      plan("hand", "The hand's stiffness and damping",
-           "Sand of 2 kN/m under 3 N at 100 Hz, 12 N at most, the device's own damping 1 N s/m: the damping "
-           "decides, and stiffness helps only where the hand is stiffer than the sand.",
-           x("hand stiffness", "N/m", 10.0, 1e4), y("hand damping", "N s/m", 0.1, 100.0),
-           [](double stiffness_of_hand, double damping_of_hand) {
-             DeviceSettings device = limited_device();
-             device.servo_rate = 100.0;
-             device.hand_stiffness = stiffness_of_hand, device.hand_damping = damping_of_hand;
-             return sand_of_stiffness(2e3, device);
-           }),
+      hand_plan(x("hand stiffness", "N/m", 10.0, 1e4), y("hand damping", "N s/m", 0.1, 100.0)),
       plan("rate-scale", "Servo rate and workspace scale",
            "The paper's constants (k_s 1000 N, k_c 0.5 1/m, k_f 10 s/m) under 3 N, 12 N at most: what a "
            "device metre is in the bed multiplies both stiffness and drag.",
@@ -214,16 +231,7 @@ std::vector<LoopMapPlan> device_map_plans(bool quick) {
            }),
       dropped_ticks(map_axis("dropped ticks", "", false, 0.0, 0.9, quick ? 7 : 19), stiffness),
       encoder_steps(x("encoder resolution", "m", 1e-7, 1e-3), stiffness),
-      plan("depth", "Growth of the force (k_c) and depth",
-           "k_s = 10 N at 1 kHz, no force limit: an exponential law is soft above and stiff below, stable "
-           "down to "
-           "a depth.",
-           x("k_c", "1/m", 10.0, 400.0), y("depth", "m", 5e-4, 0.05),
-           [](double k_c, double depth) {
-             ForceSettings force;
-             force.k_s = 10.0, force.k_c = k_c, force.k_f = 0.0;
-             return pressed_to(depth, ideal_device(), force);
-           }),
+      depth_plan(x("k_c", "1/m", 10.0, 400.0), y("depth", "m", 5e-4, 0.05)),
       drag(DragVelocity::sampled, x("k_f", "s/m", 1.0, 1e5), y("pressing force", "N", 0.1, 20.0)),
       drag(DragVelocity::implicit, x("k_f", "s/m", 1.0, 1e5), y("pressing force", "N", 0.1, 20.0)),
   };

@@ -100,42 +100,40 @@ Problem stroke_problem(ModelPreset preset, double depth, const ProblemOptions& o
   if (!paper)
     for (int by = 1; by < finest; by *= 2)
       add("sand slips into the tool, 240 a second", fmt::format("1/{} of all", by), pumping(by));
-  for (const double rate : {15.0, 30.0, 60.0, 120.0, 240.0, 480.0, 960.0, 1920.0}) {
-    Scene scene = all(1);
-    scene.relaxation.rate = rate;
-    add("relaxation rate alone",
-        fmt::format("{} relaxations a second{}", rate, paper ? "" : " besides those by way"), scene);
-  }
+  const auto vary = [&](const std::string& series, std::initializer_list<double> values,
+                        double& (*knob)(Scene&), const std::string& label) {
+    for (const double value : values) {
+      Scene scene = all(1);
+      knob(scene) = value;
+      add(series, fmt::format(fmt::runtime(label), value), scene);
+    }
+  };
+  vary(
+      "relaxation rate alone", {15.0, 30.0, 60.0, 120.0, 240.0, 480.0, 960.0, 1920.0},
+      [](Scene& s) -> double& { return s.relaxation.rate; },
+      paper ? "{} relaxations a second" : "{} relaxations a second besides those by way");
   if (deep) return problem;
   for (int by = 1; by <= finest; by *= 2) {
     const Scene scene = refined(preset, by, 1, 1);
     add("cell size alone", fmt::format("{:.3g} cells per radius", scene.tool.radius / scene.bed.cell_size()),
         scene);
   }
-  for (const double tolerance : {1e-2, 1e-3, 1e-4}) {
-    Scene scene = all(1);
-    scene.relaxation.tolerance = tolerance;
-    add("tolerance alone", fmt::format("tolerance {}", tolerance), scene);
-  }
+  vary(
+      "tolerance alone", {1e-2, 1e-3, 1e-4}, [](Scene& s) -> double& { return s.relaxation.tolerance; },
+      "tolerance {}");
   problem.check_errors = [=] {
     return check_errors("5 cells per radius", refined(preset, 1, 1, 1), stroke, *truth);
   };
   if (paper) return problem;
-  for (const double step_tolerance : {1.0, 0.1, 0.01}) {
-    Scene scene = all(1);
-    scene.relaxation.step_tolerance = step_tolerance;
-    add("step tolerance alone", fmt::format("step tolerance {}", step_tolerance), scene);
-  }
-  for (const double travel : {0.25, 0.5, 1.0, 2.0, 4.0}) {
-    Scene scene = all(1);
-    scene.relaxation.travel = travel;
-    add("way between relaxations alone", fmt::format("{} cells", travel), scene);
-  }
-  for (const double distance : {1.05, 1.1, 1.15, 1.2, 1.25}) {
-    Scene scene = all(1);
-    scene.displacement.distance = distance;
-    add("place of pushed sand alone", fmt::format("{} radii from the axis", distance), scene);
-  }
+  vary(
+      "step tolerance alone", {1.0, 0.1, 0.01},
+      [](Scene& s) -> double& { return s.relaxation.step_tolerance; }, "step tolerance {}");
+  vary(
+      "way between relaxations alone", {0.25, 0.5, 1.0, 2.0, 4.0},
+      [](Scene& s) -> double& { return s.relaxation.travel; }, "{} cells");
+  vary(
+      "place of pushed sand alone", {1.05, 1.1, 1.15, 1.2, 1.25},
+      [](Scene& s) -> double& { return s.displacement.distance; }, "{} radii from the axis");
   return problem;
 }
 
