@@ -17,7 +17,7 @@ namespace {
 
 /// What a value can be, as the scripts take it: "words A B", "files .EXT .EXT", "folder", "settings",
 /// "scenes" or, where there is nothing to offer, "none". By the option's type name, which --help shows.
-std::string kind_of(const CLI::Option& option) {
+std::string value_kind(const CLI::Option& option) {
   const std::string type = option.get_type_name();
   if (const auto open = type.find('{'); open != std::string::npos) {
     std::string names = type.substr(open + 1, type.find('}') - open - 1);
@@ -60,16 +60,17 @@ std::string tables(const CLI::App& app) {
     for (const CLI::Option* option : named_options(*command.app)) {
       names += " " + dashed(*option, "", " ");
       if (option->get_items_expected_max() > 0)
-        values += one_case("'" + dashed(*option, command.name + " ", "'|'") + "'", kind_of(*option));
-      else if (kind_of(*option) != "none")  // a flag that takes a value behind =
-        values += one_case("'" + dashed(*option, command.name + " ", "='|'") + "='", kind_of(*option));
+        values += one_case("'" + dashed(*option, command.name + " ", "'|'") + "'", value_kind(*option));
+      else if (value_kind(*option) != "none")  // a flag that takes a value behind =
+        values += one_case("'" + dashed(*option, command.name + " ", "='|'") + "='", value_kind(*option));
     }
     options += one_case("'" + command.name + "'", names.substr(1));
     int place = 0;
     for (const CLI::Option* option : positional_options(*command.app)) {
       const bool repeated = option->get_items_expected_max() >= CLI::detail::expected_max_vector_size;
       const std::string places = repeated ? "'[0-9]*" : std::to_string(++place) + "'";
-      if (kind_of(*option) != "none") values += one_case("'" + command.name + " " + places, kind_of(*option));
+      if (value_kind(*option) != "none")
+        values += one_case("'" + command.name + " " + places, value_kind(*option));
     }
   }
   std::string settings, choices;

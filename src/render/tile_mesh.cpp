@@ -6,14 +6,14 @@
 namespace sandstroke {
 namespace {
 
-using Vertex = std::array<std::int16_t, 3>;
+using TileVertex = std::array<std::int16_t, 3>;
 
 }  // namespace
 
 TileMesh::TileMesh() {
   for (int level = 0; level <= coarsest_level; ++level) {
     const int side = HeightField::tile_side >> level;  // squares
-    std::vector<Vertex> vertices;
+    std::vector<TileVertex> vertices;
     std::vector<std::uint16_t> triangles;
     const auto vertex = [&](int col, int row, int skirt) {
       vertices.push_back({static_cast<std::int16_t>(col << level), static_cast<std::int16_t>(row << level),
@@ -50,10 +50,10 @@ TileMesh::TileMesh() {
     glBindVertexArray(made.layout);
     made.vertices = make_buffer();
     glBindBuffer(GL_ARRAY_BUFFER, made.vertices);
-    glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(vertices.size() * sizeof(Vertex)), vertices.data(),
-                 GL_STATIC_DRAW);
+    glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(vertices.size() * sizeof(TileVertex)),
+                 vertices.data(), GL_STATIC_DRAW);
     glEnableVertexAttribArray(0);
-    glVertexAttribIPointer(0, 3, GL_SHORT, sizeof(Vertex), nullptr);
+    glVertexAttribIPointer(0, 3, GL_SHORT, sizeof(TileVertex), nullptr);
     made.triangles = make_buffer();
     glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, made.triangles);
     glBufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(triangles.size() * sizeof(std::uint16_t)),

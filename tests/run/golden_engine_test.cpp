@@ -1,6 +1,6 @@
 // Every relaxation of every scene in strokes/ by the engine, with every instruction set of the machine, and
-// on 1, 2, 3 and 8 threads, against the plain reference, bit for bit (every pair of the two on random beds is
-// in sand/engine_equality_test). The reference works on a window around what was disturbed: what sand does
+// on 1, 2, 3 and 8 threads; every third of them against the plain reference, bit for bit (every pair of the
+// two on random beds is in sand/engine_equality_test). The reference works on a window around what was disturbed: what sand does
 // depends on its neighbourhood only, so this says as much as the whole field as long as nothing near the
 // window's border moves, which is checked.
 #include <gtest/gtest.h>
@@ -109,7 +109,7 @@ class CheckedRelaxer : public Relaxer {
     for (const int slot : changed) EXPECT_TRUE(same_outside(window, bed, whole_before, slot));
     for (const Variant& variant : variants_)
       EXPECT_TRUE(variant.equals(bed, changed)) << variant.name() << ", relaxation " << relaxations;
-    ++relaxations;
+    if (relaxations++ % 3 != 0) return outcome;
     HeightField after = before;
     const RelaxationOutcome plain = make_reference_relaxer(settings_, bed.cell_size())->relax(after);
     EXPECT_EQ(outcome.passes, plain.passes);
@@ -203,7 +203,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, GoldenScene, testing::ValuesIn(scene_names()), 
   return name;
 });
 
-TEST_P(GoldenScene, EngineEqualsTheReferenceInEveryRelaxation) {
+TEST_P(GoldenScene, EngineEqualsItsVariantsAndTheReference) {
   const fs::path folder = strokes / GetParam();
   Scene scene = load_scene(folder / "scene.toml", {});
   if (scene.bed.surface.kind == SurfaceKind::file) GTEST_SKIP() << "continues from another scene's run file";
