@@ -42,25 +42,23 @@ void add_bench_command(CLI::App& app, Command& chosen) {
   auto arguments = std::make_shared<BenchArguments>();
   std::vector<std::string> names;
   for (const ProblemMaker& maker : problem_makers()) names.emplace_back(maker.name);
-  CLI::App* command = app.add_subcommand(
-      "bench", "Run time against error: problems with known answers, solved with many settings");
-  command
-      ->add_option("--scene", arguments->study.problems,
-                   "Only this one of the built-in problems (repeatable)")
+  CLI::App* command =
+      app.add_subcommand("bench", "Measure run time and error on problems with known answers");
+  command->add_option("--scene", arguments->study.problems, "Run only this problem (repeatable)")
       ->allow_extra_args(false)
       ->check(CLI::IsMember(names));
   command
       ->add_option("-o,--output", arguments->folder,
-                   "Folder for bench.html, bench.csv and bench.h5, made where it is not there")
+                   "Folder for bench.html, bench.csv and bench.h5; it is made if it does not exist")
       ->type_name("FOLDER")
       ->capture_default_str();
   command->add_flag("--quick", arguments->study.quick,
-                    "15 seconds rather than 5 minutes: coarser grids, shorter strokes");
+                    "Take 15 seconds instead of 5 minutes, with coarser grids and shorter strokes");
   command
       ->add_option("--repeats", arguments->study.repeats,
-                   "How often each run is timed; the median counts. Default: 5, quick 3")
+                   "Number of times that each run is timed; the median counts. Default: 5, with --quick 3")
       ->check(CLI::Range(1, 1000));
-  command->add_option("--threads", arguments->study.threads, "Of all runs but those that vary it")
+  command->add_option("--threads", arguments->study.threads, "Threads per run, unless the run varies them")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
   command->add_flag("--json", arguments->json,

@@ -74,28 +74,29 @@ int compare(const CompareArguments& arguments) {
 void add_compare_command(CLI::App& app, Command& chosen) {
   auto arguments = std::make_shared<CompareArguments>();
   CLI::App* command = app.add_subcommand("compare", "Compare two run files, or two PNG pictures");
-  command->add_option("GOLDEN", arguments->golden, "What it should be: a run file or a PNG picture")
+  command->add_option("GOLDEN", arguments->golden, "Expected result: a run file or a PNG picture")
       ->type_name("FILE.h5|.png")
       ->required();
-  command->add_option("RUN", arguments->run, "What came out: likewise")
+  command->add_option("RUN", arguments->run, "Result to check: a file of the same kind")
       ->type_name("FILE.h5|.png")
       ->required();
-  command->add_option("--height-tolerance", arguments->tolerances.height, "Height of any cell [m]")
+  command->add_option("--height-tolerance", arguments->tolerances.height, "Largest difference of height [m]")
       ->check(not_negative_number())
       ->capture_default_str();
-  command->add_option("--force-tolerance", arguments->tolerances.force, "Force on the device in any tick [N]")
+  command->add_option("--force-tolerance", arguments->tolerances.force, "Largest difference of force [N]")
       ->check(not_negative_number())
       ->capture_default_str();
   command
-      ->add_option("--depth-tolerance", arguments->tolerances.depth, "Depth and sand level in any tick [m]")
+      ->add_option("--depth-tolerance", arguments->tolerances.depth,
+                   "Largest difference of depth and sand level [m]")
       ->check(not_negative_number())
       ->capture_default_str();
-  command->add_option("--pixel-tolerance", arguments->tolerances.pixel, "Any channel of any pixel [of 255]")
+  command->add_option("--pixel-tolerance", arguments->tolerances.pixel, "Largest channel difference [of 255]")
       ->check(CLI::Range(0, 255))
       ->capture_default_str();
   command
       ->add_option("--pixel-share", arguments->tolerances.pixel_share,
-                   "Pixels that may differ at all [0 to 1]")
+                   "Share of pixels that may differ [0 to 1]")
       ->check(CLI::Range(0.0, 1.0))
       ->capture_default_str();
   command
@@ -106,7 +107,7 @@ void add_compare_command(CLI::App& app, Command& chosen) {
   command->add_flag("--json", arguments->json, "Print one JSON object instead of the table");
   command->footer(
       "Example:  sandstroke compare before.h5 after.h5 --report difference\n"
-      "Exit code 1: they differ. Entries of golden/ are for sandstroke golden check.");
+      "Exit code 1 says that they differ. To check entries of golden/, use sandstroke golden check.");
   command->callback([arguments, &chosen] { chosen = [arguments] { return compare(*arguments); }; });
 }
 

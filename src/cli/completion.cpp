@@ -91,12 +91,13 @@ std::string tables(const CLI::App& app) {
 }  // namespace
 
 void add_completion_command(CLI::App& app, Command& chosen) {
-  CLI::App* command =
-      app.add_subcommand("completion", "Print a script with which a shell completes commands");
+  CLI::App* command = app.add_subcommand("completion", "Print a script that makes a shell complete commands");
   auto shell = std::make_shared<std::string>();
-  command->add_option("SHELL", *shell, "Which one")->required()->check(CLI::IsMember({"bash", "zsh"}));
+  command->add_option("SHELL", *shell, "Name of the shell")
+      ->required()
+      ->check(CLI::IsMember({"bash", "zsh"}));
   command->footer(
-      "A package puts it where shells look. By hand:\n"
+      "Packages install it. To install it by hand:\n"
       "  source <(sandstroke completion bash)    # in ~/.bashrc\n"
       "  source <(sandstroke completion zsh)     # in ~/.zshrc, after compinit");
   command->callback([&app, shell, &chosen] {

@@ -23,11 +23,11 @@ std::unique_ptr<HapticDevice> make_chai3d_device(int) {
 #endif
 
 [[noreturn]] void throw_no_such_device(const std::string& name) {
-  std::string there_is = "scripted:FILE.toml and replay:FILE.h5, which play a stroke";
+  std::string known = "scripted:FILE.toml, replay:FILE.h5";
   for (const ConnectedDevice& device : connected_devices())
-    there_is += fmt::format(", {} ({})", device.name, device.specification.model);
-  throw_input_error("--device {}: there is no such device; there is {}{}", name, there_is,
-                    knows_chai3d ? "" : ", and chai3d where this program is built with it");
+    known += fmt::format(", {} ({})", device.name, device.specification.model);
+  throw_input_error("--device {}: unknown device; take one of: {}{}", name, known,
+                    knows_chai3d ? "" : " (chai3d needs a build with CHAI3D)");
 }
 
 /// N of "chai3d:N".
@@ -52,7 +52,7 @@ std::unique_ptr<HapticDevice> find_device(const std::string& name, const ForceSe
   if (name.starts_with("chai3d:")) return make_chai3d_device(device_number(name));
   const std::filesystem::path file = file_played(name);
   if (name == "scripted:" || name == "replay:")
-    throw_input_error("--device {}: names no stroke; say which: scripted:FILE.toml or replay:FILE.h5", name);
+    throw_input_error("--device {}: the stroke is missing; write scripted:FILE.toml or replay:FILE.h5", name);
   if (file.empty()) throw_no_such_device(name);
   return std::make_unique<StrokeDevice>(load_stroke(file, force), name);
 }

@@ -82,7 +82,7 @@ void add_folder_options(CLI::App* command, GoldenArguments& arguments) {
   command->add_option("--strokes", arguments.folders.strokes, "Folder with NAME/scene.toml")
       ->type_name("FOLDER")
       ->capture_default_str();
-  command->add_option("--golden", arguments.folders.golden, "Folder with what they must give")
+  command->add_option("--golden", arguments.folders.golden, "Folder of golden entries")
       ->type_name("FOLDER")
       ->capture_default_str();
 }
@@ -91,17 +91,17 @@ void add_folder_options(CLI::App* command, GoldenArguments& arguments) {
 
 void add_golden_command(CLI::App& app, Command& chosen) {
   auto arguments = std::make_shared<GoldenArguments>();
-  CLI::App* golden = app.add_subcommand("golden", "Run scenes and compare them with what they must give");
+  CLI::App* golden = app.add_subcommand("golden", "Run scenes and compare them with their golden entries");
   golden->require_subcommand(1);
   golden->footer("Example:  sandstroke golden check --report differences --junit golden.xml");
 
   CLI::App* check_command =
-      golden->add_subcommand("check", "Run all scenes, or those named; exit code 1 if one differs");
+      golden->add_subcommand("check", "Run all or some scenes and compare. Exit code 1: one differs");
   check_command->add_option("NAME", arguments->names, "Scenes (default: all)")->type_name("SCENE");
   add_folder_options(check_command, *arguments);
   check_command
       ->add_option("--report", arguments->report,
-                   "Folder for a page on each scene, SCENE.html: checks, maps of the difference, forces")
+                   "Folder for one page per scene, SCENE.html: checks, maps of the difference, forces")
       ->type_name("FOLDER");
   check_command->add_option("--junit", arguments->junit, "File for the checks as JUnit XML")
       ->type_name("FILE.xml");
@@ -109,7 +109,7 @@ void add_golden_command(CLI::App& app, Command& chosen) {
   check_command->callback([arguments, &chosen] { chosen = [arguments] { return check(*arguments); }; });
 
   CLI::App* update_command =
-      golden->add_subcommand("update", "Make what scenes give now their golden entries");
+      golden->add_subcommand("update", "Replace the golden entries of scenes by what the scenes give now");
   update_command->add_option("NAME", arguments->names, "Scenes")->type_name("SCENE")->required();
   add_folder_options(update_command, *arguments);
   update_command->callback([arguments, &chosen] { chosen = [arguments] { return update(*arguments); }; });

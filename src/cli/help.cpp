@@ -33,7 +33,7 @@ std::string help(const CLI::App& app, const HelpArguments& arguments) {
         return HelpFormatter().make_help(command.app, "sandstroke" + (asked.empty() ? "" : " " + asked),
                                          CLI::AppFormatMode::Normal) +
                "\n";
-  throw_input_error("help {}: there is no page of that; take scene, script, plan{}", asked,
+  throw_input_error("help {}: unknown topic; take scene, script, plan{}", asked,
                     arguments.man ? ", or nothing for the commands" : " or a command (sandstroke --help)");
 }
 
@@ -41,7 +41,7 @@ std::string help(const CLI::App& app, const HelpArguments& arguments) {
 
 void add_help_command(CLI::App& app, Command& chosen) {
   CLI::App* command =
-      app.add_subcommand("help", "Explain a command, or the keys of a file: scene, script, plan");
+      app.add_subcommand("help", "Explain a command, or list the keys of a scene, script or plan");
   auto arguments = std::make_shared<HelpArguments>();
   std::vector<std::string> names;
   for (const HelpTopic& topic : help_topics()) names.push_back(topic.name);
@@ -50,10 +50,10 @@ void add_help_command(CLI::App& app, Command& chosen) {
   std::string footer;
   for (const HelpTopic& topic : help_topics())
     footer += fmt::format("  sandstroke help {:<10} {}\n", topic.name, topic.title);
-  command->add_option("TOPIC", arguments->words, "A command, or scene, script or plan; nothing: all commands")
+  command->add_option("TOPIC", arguments->words, "A command, or scene, script or plan. Default: all commands")
       ->type_name("{" + fmt::format("{}", fmt::join(names, ",")) + "}")
       ->option_text("...");
-  command->add_flag("--man", arguments->man, "As a manual page, for man(1): of the program, or of a file");
+  command->add_flag("--man", arguments->man, "Print a manual page (for man)");
   command->footer(footer);
   command->callback([&app, arguments, &chosen] {
     chosen = [&app, arguments] {

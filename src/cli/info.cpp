@@ -84,8 +84,7 @@ int info(const InfoArguments& arguments) {
     fmt::print("{}", key_table(all_scene_keys()));
     return 0;
   }
-  if (arguments.file.empty())
-    throw_input_error("info: no file given; name a run file, or ask for --scene-keys");
+  if (arguments.file.empty()) throw_input_error("info: no file given; name a run file, or add --scene-keys");
   const RunFile run(arguments.file);
   if (arguments.scene) {
     fmt::print("{}", run.scene_text());
@@ -100,12 +99,11 @@ int info(const InfoArguments& arguments) {
 }  // namespace
 
 void add_info_command(CLI::App& app, Command& chosen) {
-  CLI::App* command =
-      app.add_subcommand("info", "Show what a run file holds, or which keys a scene can have");
+  CLI::App* command = app.add_subcommand("info", "Show the content of a run file, or all keys of a scene");
   auto arguments = std::make_shared<InfoArguments>();
   command->add_option("FILE", arguments->file, "Run file (HDF5)")->type_name("FILE.h5")->option_text("(.h5)");
   command->add_flag("--json", arguments->json, "Print one JSON object");
-  command->add_flag("--scene", arguments->scene, "Print the scene the run was made from (TOML)");
+  command->add_flag("--scene", arguments->scene, "Print the scene of the run (TOML)");
   command->add_flag("--scene-keys", arguments->scene_keys,
                     "List every scene key with its default, unit and meaning");
   command->footer("Example:  sandstroke info wscg.h5");

@@ -30,11 +30,11 @@ int init(const fs::path& folder) {
   const std::array<ExampleFile, 3> files = {{
       {"scene.toml", "what is simulated: sand, tool, forces, view", SANDSTROKE_ASSET(init_scene)},
       {"stroke.toml", "what the hand draws", SANDSTROKE_ASSET(init_stroke)},
-      {"sweep.toml", "the scene again and again, with other settings", SANDSTROKE_ASSET(init_sweep)},
+      {"sweep.toml", "a sweep: the same scene with other settings", SANDSTROKE_ASSET(init_sweep)},
   }};
   for (const ExampleFile& file : files)
     if (fs::exists(fs::symlink_status(folder / file.name)))
-      throw_input_error("{}: is there already, and init writes over nothing; name another folder",
+      throw_input_error("{}: already exists, and init replaces no file; name another folder",
                         (folder / file.name).string());
   make_folder(folder);
   try {
@@ -47,7 +47,7 @@ int init(const fs::path& folder) {
   for (const ExampleFile& file : files) fmt::print("{:<30} {}\n", (folder / file.name).string(), file.what);
   const auto in_folder = [&](const char* name) { return shell_quoted((folder / name).string()); };
   fmt::print(
-      "\nEach says in its comments what can be changed. Next:\n"
+      "\nComments in each file say what you can change. Next:\n"
       "  sandstroke run {0} -o {1} --png {2}\n"
       "  sandstroke render {1} --view top --style height -o {5}\n"
       "  sandstroke sweep {3} -o {4}\n",
@@ -59,10 +59,9 @@ int init(const fs::path& folder) {
 }  // namespace
 
 void add_init_command(CLI::App& app, Command& chosen) {
-  CLI::App* command =
-      app.add_subcommand("init", "Leave an example to start from: a scene, a stroke, a sweep");
+  CLI::App* command = app.add_subcommand("init", "Write an example scene, stroke and sweep plan");
   auto folder = std::make_shared<fs::path>();
-  command->add_option("FOLDER", *folder, "Where to; made where it is not there")
+  command->add_option("FOLDER", *folder, "Folder for the example; it is made if it does not exist")
       ->type_name("FOLDER")
       ->option_text("REQUIRED")
       ->required();

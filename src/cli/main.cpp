@@ -27,30 +27,33 @@ constexpr int io_error = 4;
 void complain(const std::string& sentence) { std::fputs(("sandstroke: " + sentence + "\n").c_str(), stderr); }
 
 int complain_of_threads(const std::exception& failure) {
-  complain(fmt::format(
-      "the system gives no more threads ({}); close other programs, or raise the limit of threads or memory "
-      "(ulimit -u, ulimit -v)",
-      failure.what()));
+  complain(
+      fmt::format("no more threads can be started ({}); close other programs, or raise the limits of threads "
+                  "or memory (ulimit -u, ulimit -v)",
+                  failure.what()));
   return io_error;
 }
 
 int run_program(int argc, char** argv) {
   CLI::App app(
-      "Simulates sand that is sculpted with a haptic device: a stroke goes in; a height field, a trace, a "
-      "picture "
-      "and a verdict come out.");
+      "Simulates sand that is sculpted with a haptic device. A stroke goes in. A height field, a trace of "
+      "forces and a picture come out.");
   app.name("sandstroke");
   app.formatter(std::make_shared<HelpFormatter>());  // of all commands
   app.set_version_flag("--version", fmt::format("{}, {}", build, instruction_set()));
   app.require_subcommand(1);
   app.fallthrough();
   app.footer(
-      "Exit codes: 0 fine, 1 a comparison failed or a machine is not fit to record, 2 bad input or usage,\n"
-      "3 not at rest, unstable, a failed point of sweep or a surprise of stress, 4 input/output error,\n"
-      "130/143 stopped by a signal.\n"
-      "To begin: sandstroke init FOLDER. Each command explains itself: sandstroke run --help");
+      "Exit codes:\n"
+      "  0        fine\n"
+      "  1        a comparison failed, or a machine is not fit to record\n"
+      "  2        bad input or usage\n"
+      "  3        a run is not at rest or unstable, a sweep's point failed, or stress found a surprise\n"
+      "  4        a file or a device cannot be read or written\n"
+      "  130/143  stopped by a signal\n"
+      "Begin with: sandstroke init FOLDER. Help on a command: sandstroke run --help");
   bool quiet = false;
-  app.add_flag("-q,--quiet", quiet, "Say nothing but results, warnings and errors");
+  app.add_flag("-q,--quiet", quiet, "Print only results, warnings and errors");
 
   Command chosen;
   add_init_command(app, chosen);
@@ -78,7 +81,7 @@ int run_program(int argc, char** argv) {
   catch_interrupts();
   const int exit_code = chosen();
   if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
-    throw_io_error("the standard output cannot be written; free disk space or send it elsewhere");
+    throw_io_error("the standard output cannot be written; free disk space, or redirect it");
   return exit_code;
 }
 
@@ -95,7 +98,7 @@ int main(int argc, char** argv) {
     complain("out of memory; take a smaller bed or picture, or close other programs");
     return io_error;
   } catch (const std::filesystem::filesystem_error& failure) {
-    complain(fmt::format("{}: {}; check the path, and who may use it", failure.path1().string(),
+    complain(fmt::format("{}: {}; check the path and its permissions", failure.path1().string(),
                          failure.code().message()));
     return io_error;
   } catch (const std::system_error& failure) {

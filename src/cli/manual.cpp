@@ -112,7 +112,7 @@ std::string keys_text(const std::vector<KeySection>& sections) {
 const std::vector<HelpTopic>& help_topics() {
   static const std::vector<HelpTopic> topics = {
       {"scene", "what sandstroke run simulates (TOML); --set takes each of its keys", all_scene_keys},
-      {"script", "strokes as text, for scenes and run --stroke (TOML)", script_keys},
+      {"script", "strokes written as text (TOML)", script_keys},
       {"plan", "what sandstroke sweep varies (TOML)", all_plan_keys},
   };
   return topics;

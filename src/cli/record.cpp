@@ -41,8 +41,9 @@ double servo_rate(const RecordArguments& arguments, const std::optional<Scene>& 
   if (!felt) return ServoSettings{}.rate;
   const double rate = felt->device.servo_rate;
   if (!(rate >= slowest && rate <= fastest))
-    throw_input_error("device.servo_rate: {} Hz is no rate of a recording, {} to {}; name one: --rate 1000",
-                      rate, slowest, fastest);
+    throw_input_error(
+        "device.servo_rate: {} Hz is not a rate that can be recorded ({} to {} Hz); set another with --rate",
+        rate, slowest, fastest);
   return rate;
 }
 
@@ -59,7 +60,7 @@ RecorderSettings recorder_settings(const RecordArguments& arguments, const std::
 /// A recording cannot be made again: nothing that may be one is written over unasked.
 void check_free(const fs::path& output, bool overwrite) {
   if (fs::exists(output) && !overwrite)
-    throw_input_error("{}: is there already; name another file, or say --overwrite", output.string());
+    throw_input_error("{}: already exists; name another file, or add --overwrite", output.string());
   check_no_journal(journal_path(output));
 }
 
@@ -91,23 +92,23 @@ void write_stroke(const fs::path& output, const RecordingFooter& recorded, bool 
   const fs::path journal = journal_path(output);
   if (recorded.ticks.recorded == 0) {
     fs::remove(journal);
-    throw_io_error("{}: was not written, for nothing was recorded: {}", output.string(),
+    throw_io_error("{}: was not written, because nothing was recorded: {}", output.string(),
                    stop_reason_text(recorded.reason));
   }
   std::optional<JournalReader> reader;
   try {
     reader.emplace(journal);
   } catch (const Error& failure) {
-    throw_io_error(
-        "{}; while it was recorded, somebody removed or replaced that file, and with it what was recorded",
-        failure.what());
+    throw_io_error("{}; the file was removed or replaced during the recording, so the recording is lost",
+                   failure.what());
   }
   try {
     if (fs::exists(output) && !overwrite)
-      throw_io_error("{}: came into being while it was recorded, and is not written over", output.string());
+      throw_io_error("{}: was made by somebody else during the recording, and is not replaced",
+                     output.string());
     write_recording_file(output, *reader);
   } catch (const Error& failure) {
-    throw_io_error("{}. What was recorded is in {}: sandstroke stroke repair {} makes the stroke of it",
+    throw_io_error("{}. The recording is in {}; make a stroke of it with: sandstroke stroke repair {}",
                    failure.what(), journal.string(), journal.string());
   }
   fs::remove(journal);
@@ -116,7 +117,7 @@ void write_stroke(const fs::path& output, const RecordingFooter& recorded, bool 
 void warn(const RecordingReport& report, const std::string& output) {
   const RecordingFooter& footer = report.footer;
   if (!is_complete(footer.reason))
-    spdlog::warn("{} is incomplete, for {}; it holds what was recorded until then", output,
+    spdlog::warn("{} is incomplete, because {}; it holds what was recorded until then", output,
                  stop_reason_text(footer.reason));
   if (!report.disk_error.empty()) spdlog::warn("{}", report.disk_error);
   if (!report.header.scheduling.advice.empty()) spdlog::warn("{}", report.header.scheduling.advice);
@@ -136,8 +137,7 @@ int record(const RecordArguments& arguments) {
   if (arguments.check) return check_machine(recorder_settings(arguments, {}), arguments.json);
   if (arguments.output.empty() || arguments.device.empty())
     throw_input_error(
-        "record needs a file to write and a device: sandstroke record -o STROKE.h5 --device NAME; sandstroke "
-        "record --list shows which there are");
+        "record needs -o STROKE.h5 and --device NAME; sandstroke record --list names the devices");
 
   std::optional<Scene> felt;
   if (!arguments.felt_scene.empty()) felt = load_scene(arguments.felt_scene, arguments.overrides);
@@ -164,8 +164,7 @@ int record(const RecordArguments& arguments) {
   warn(report, arguments.output);
   if (felt_sand && felt_sand->contact_ticks == 0)
     spdlog::warn(
-        "the tool never touched the sand; place the device's positions on it: --set stroke.offset and "
-        "stroke.scale");
+        "the tool never touched the sand; move its positions with --set stroke.offset and stroke.scale");
   return exit_code(report.footer.reason);
 }
 
@@ -184,7 +183,7 @@ CLI::Validator recording_rate() {
 
 void add_record_command(CLI::App& app, Command& chosen) {
   CLI::App* command = app.add_subcommand(
-      "record", "Records a stroke from a haptic device, or from a stand-in that plays one, tick by tick");
+      "record", "Record a stroke from a haptic device, or from a stand-in that plays a stroke");
   auto arguments = std::make_shared<RecordArguments>();
   RecorderSettings& settings = arguments->settings;
   settings.servo.force.max_force = any_force;
@@ -196,69 +195,66 @@ void add_record_command(CLI::App& app, Command& chosen) {
                    "chai3d, chai3d:N, scripted:FILE.toml or replay:FILE.h5 (see --list)")
       ->type_name("{chai3d,replay:,scripted:}")
       ->option_text("NAME");
-  auto* list = command->add_flag("--list", arguments->list, "Say which devices and stand-ins there are");
+  auto* list = command->add_flag("--list", arguments->list, "List devices and stand-ins");
   auto* check = command->add_flag(
       "--check", arguments->check,
-      "Measure whether this machine keeps the loop's times, without a device (10 s, or --duration)");
+      "Measure how well this machine keeps the loop's rate. Needs no device. Takes 10 s, or --duration");
   list->excludes(check);
   command
-      ->add_option(
-          "--duration", arguments->duration,
-          "End after so long [s]; without: at the end of the stroke that is played, or by q or --stop-switch")
+      ->add_option("--duration", arguments->duration,
+                   "Length of the recording [s]. Default: until its stroke, q or --stop-switch ends it")
       ->check(positive_number())
       ->option_text("S");
   command
       ->add_option("--rate", arguments->rate,
-                   "Ticks a second [Hz]; without: 1000, or with --feel the scene's device.servo_rate")
+                   "Rate of the loop [Hz]. Default: 1000, or with --feel the scene's device.servo_rate")
       ->check(recording_rate())
       ->option_text("HZ");
   command
       ->add_option("--stop-switch", arguments->stop_switch,
-                   "End when this switch of the device is pressed, counted from 0")
+                   "Switch of the device that ends the recording, counted from 0")
       ->check(CLI::Range(0, 31))
       ->option_text("K");
-  auto* feel =
-      command
-          ->add_option("--feel", arguments->felt_scene,
-                       "The hand feels this scene's sand while it is recorded; a run of the stroke in it "
-                       "has the same sand and forces. Without: no force at all")
-          ->type_name("FILE.toml")
-          ->option_text("SCENE.toml");
+  auto* feel = command
+                   ->add_option("--feel", arguments->felt_scene,
+                                "Scene whose sand the hand feels. A run of the recorded stroke in it has the "
+                                "same sand and forces. Without this option no force is given")
+                   ->type_name("FILE.toml")
+                   ->option_text("SCENE.toml");
   add_set_option(*command, arguments->overrides)->needs(feel);
   command
       ->add_option("--max-force", settings.servo.force.max_force,
-                   "Most force on the hand [N]; without: what the device and the scene allow")
+                   "Largest force on the hand [N]. Default: the limit of the device or the scene")
       ->check(not_negative_number())
       ->option_text("N")
       ->needs(feel);
-  command->add_option("--force-ramp", settings.servo.force.ramp, "Force fades in over so long [s]")
+  command
+      ->add_option("--force-ramp", settings.servo.force.ramp, "Time over which the force grows to full [s]")
       ->check(not_negative_number())
       ->capture_default_str()
       ->needs(feel);
   command
       ->add_option("--force-rate", settings.servo.force.rate,
-                   "Force changes by no more than this [N/s], also after a late tick")
+                   "Largest change of the force [N/s], also after a late tick")
       ->check(positive_number())
       ->capture_default_str()
       ->needs(feel);
   command->add_flag("--calibrate", settings.calibrate,
-                    "Calibrate the device first, which MAY MOVE ITS ARM: keep clear of it");
+                    "Calibrate the device first. THIS MAY MOVE ITS ARM: keep clear");
   command
       ->add_option("--priority", settings.priority,
-                   fmt::format("Real-time priority (SCHED_FIFO) of the loop, 1 to {}; 0: not asked for",
+                   fmt::format("Real-time priority (SCHED_FIFO) of the loop, 1 to {}. 0 asks for none",
                                highest_loop_priority))
       ->check(CLI::Range(0, highest_loop_priority))
       ->capture_default_str();
-  command->add_flag("--no-memory-lock", arguments->no_memory_lock,
-                    "Do not ask for memory that is never paged out");
-  command->add_flag("--overwrite", arguments->overwrite, "STROKE.h5 may be there: replace it");
+  command->add_flag("--no-memory-lock", arguments->no_memory_lock, "Do not lock the memory of the program");
+  command->add_flag("--overwrite", arguments->overwrite, "Replace STROKE.h5 if it exists");
   command->add_flag("--json", arguments->json, "One JSON object in SI units instead of a table");
   command->footer(
-      "Ended by a time, its stroke, a switch or a key (q, Esc, Enter, space), a recording is complete. "
-      "Whatever\n"
-      "else ends it, Ctrl-C too: what was recorded is kept, marked incomplete. Where even that was "
-      "prevented\n"
-      "(kill -9, power), it is in STROKE.h5.recording: sandstroke stroke repair STROKE.h5 saves it.\n"
+      "A recording is complete if a time, its stroke, a switch or a key (q, Esc, Enter, space) ends it.\n"
+      "If anything else ends it, such as Ctrl-C, it is kept and marked incomplete.\n"
+      "After kill -9 or a power failure it is in STROKE.h5.recording.\n"
+      "Save it with: sandstroke stroke repair STROKE.h5\n"
       "Example:  sandstroke record --device scripted:strokes/wscg/stroke.toml -o wscg.h5");
   command->callback([arguments, &chosen] { chosen = [arguments] { return record(*arguments); }; });
 }

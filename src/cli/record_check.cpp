@@ -28,8 +28,8 @@ void print_table(const LoopCheck& check, const ServoSettings& servo) {
       fmt::format("no tick skipped, and less than {:.0f} us in 99 of 100", 1e6 * fit_lateness / servo.rate));
   const std::string& advice = check.scheduling.advice;
   if (check.fit) {
-    row("verdict",
-        "fit to record at this rate" + (advice.empty() ? "" : ", while nothing else runs: " + advice));
+    row("verdict", "fit to record at this rate" +
+                       (advice.empty() ? "" : " while nothing else runs; to do better: " + advice));
   } else {
     row("verdict", "NOT FIT to record at this rate: " + (advice.empty() ? other_remedies : advice));
   }

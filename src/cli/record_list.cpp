@@ -14,8 +14,8 @@ struct StandIn {
   const char *name, *help;
 };
 constexpr StandIn stand_ins[] = {
-    {"scripted:FILE.toml", "plays a scripted stroke in real time; takes any force, feels none"},
-    {"replay:FILE.h5", "plays a recorded stroke in real time; takes any force, feels none"},
+    {"scripted:FILE.toml", "plays a scripted stroke in real time; forces do not move it"},
+    {"replay:FILE.h5", "plays a recorded stroke in real time; forces do not move it"},
 };
 
 /// What a device says with a zero that it does not know.
@@ -62,11 +62,12 @@ int list_devices(bool json) {
   if (!knows_chai3d) {
     fmt::print("no devices: this program was built without CHAI3D; {}\n", how_to_build_with_chai3d);
   } else if (devices.rows() == 0) {
-    fmt::print("no devices: CHAI3D finds none; check cable, power and driver, and who may use it\n");
+    fmt::print(
+        "no devices: CHAI3D finds none; check the cable, the power, the driver and your permissions\n");
   } else {
     fmt::print("{}", aligned_text(devices));
   }
-  fmt::print("\nstand-ins, for people without one:\n");
+  fmt::print("\nstand-ins, where there is no device:\n");
   for (const auto& [name, help] : stand_ins) fmt::print("{:<20}{}\n", name, help);
   return 0;
 }

@@ -9,11 +9,11 @@ namespace {
 
 std::string force_text(double limit, const TickCounts& ticks) {
   if (limit == 0.0) return "none";
-  std::string text = limit < any_force ? fmt::format("up to {:.3g} N", limit) : "all that the sand gives";
+  std::string text = limit < any_force ? fmt::format("up to {:.3g} N", limit) : "no limit";
   if (ticks.ramped > 0) text += fmt::format("; still fading in during {} ticks", ticks.ramped);
   if (ticks.clamped > 0) text += fmt::format(", cut to the limit in {}", ticks.clamped);
-  if (ticks.rate_limited > 0) text += fmt::format(", kept from jumping in {}", ticks.rate_limited);
-  if (ticks.refused > 0) text += fmt::format(", no number in {}", ticks.refused);
+  if (ticks.rate_limited > 0) text += fmt::format(", its change limited in {}", ticks.rate_limited);
+  if (ticks.refused > 0) text += fmt::format(", not a number in {}", ticks.refused);
   return text;
 }
 
@@ -21,8 +21,9 @@ std::string sand_text(const LiveSandReport& felt) {
   return fmt::format(
       "touched in {} ticks, relaxed {} times, {}{}", felt.contact_ticks, felt.erosion.relaxations,
       felt.erosion.converged ? "at rest" : "still slipping at the end",
-      felt.held_ticks > 0 ? fmt::format("; not dug in {} ticks, for its erosion was behind", felt.held_ticks)
-                          : "");
+      felt.held_ticks > 0
+          ? fmt::format("; in {} ticks the tool did not dig, because relaxation was late", felt.held_ticks)
+          : "");
 }
 
 double seconds(const RecordingReport& report) {
@@ -48,8 +49,7 @@ std::string ticks_text(const TickCounts& ticks) {
 
 std::string lateness_text(const RecordingFooter& footer) {
   return fmt::format(
-      "{:.0f} us on average, {:.0f} us or less in 99 of 100, {:.0f} us at most; recorded over half a tick "
-      "late: {}",
+      "{:.0f} us on average, 99 % within {:.0f} us, {:.0f} us at most; {} samples were over half a tick late",
       1e6 * footer.lateness.mean, 1e6 * footer.lateness.p99, 1e6 * footer.lateness.max, footer.ticks.late);
 }
 

@@ -56,9 +56,7 @@ void reject_ignored(const RenderArguments& arguments, const ViewSettings& view) 
     for (const auto& [name, given] : {std::pair("--azimuth", arguments.azimuth),
                                       {"--elevation", arguments.elevation},
                                       {"--distance", arguments.distance}})
-      if (given)
-        throw_input_error("{} needs --view overview, stroke or custom; the view is top, straight from above",
-                          name);
+      if (given) throw_input_error("{} needs --view overview, stroke or custom; the view is top", name);
   if (arguments.contour_interval && view.style == RenderStyle::sand)
     throw_input_error("--contour needs --style height or difference; the style sand draws no contour lines");
 }
@@ -79,7 +77,7 @@ ViewSettings view_of(const Scene& scene, const RenderArguments& arguments) {
     const std::size_t x = size.find('x');
     if (x == std::string::npos || !parse_whole(size.substr(0, x), view.width) ||
         !parse_whole(size.substr(x + 1), view.height))
-      throw_input_error("--size {} is no size in pixels; write it like 1280x720", size);
+      throw_input_error("--size {} is not a size in pixels; write it like 1280x720", size);
   }
   reject_ignored(arguments, view);
   return view;
@@ -122,7 +120,7 @@ int draw_pictures(const RunFile& run, const std::vector<double>& times, const Vi
   if (exit_code != 0) return exit_code;
   for (std::size_t k = 0; k < times.size(); ++k)
     if (!fs::exists(picture(k)))
-      throw_io_error("{}: somebody removed it while others were drawn; render again", picture(k).string());
+      throw_io_error("{}: was removed while other frames were drawn; render again", picture(k).string());
   fmt::print("{}\n", folder.string());
   return 0;
 }
@@ -133,8 +131,8 @@ int draw_film(const RunFile& run, const std::vector<double>& times, const Scene&
   const double own_rate = std::min(scene.output.frames, scene.device.servo_rate);
   const double rate = arguments.fps.value_or(own_rate);
   FilmWriter film(arguments.video, view.width, view.height, rate);
-  spdlog::info("{} frames, {:g} a second: {}", times.size(), rate,
-               rate == own_rate ? "film time is stroke time"
+  spdlog::info("{} frames, {:g} per second: {}", times.size(), rate,
+               rate == own_rate ? "as fast as the stroke"
                                 : fmt::format("{:g} times as fast as the stroke", rate / own_rate));
   const int exit_code = draw_frames(run, times, view, arguments,
                                     [&](std::size_t, const Image& image) { return film.add(image); });
@@ -147,8 +145,7 @@ int draw_film(const RunFile& run, const std::vector<double>& times, const Scene&
 /// Of a run that holds frames.
 std::vector<double> frame_times(const RunFile& run) {
   std::vector<double> times = run.frame_times();
-  if (times.empty())
-    throw_input_error("{}: holds no frames; run the scene again with --frames HZ", run.name());
+  if (times.empty()) throw_input_error("{}: has no frames; run the scene again with --frames HZ", run.name());
   return times;
 }
 
@@ -176,10 +173,10 @@ int render(const RenderArguments& arguments) {
   } else {
     int k = 0;
     if (!parse_whole(arguments.frame, k))
-      throw_input_error("--frame {} is no frame; take final, initial, all or a number", arguments.frame);
+      throw_input_error("--frame {} is not a frame; take final, initial, all or a number", arguments.frame);
     const std::vector<double> times = frame_times(run);
     if (k < 0 || k >= static_cast<int>(times.size()))
-      throw_input_error("{}: holds no frame {}; take 0 to {}", run.name(), k, times.size() - 1);
+      throw_input_error("{}: has no frame {}; take 0 to {}", run.name(), k, times.size() - 1);
     surface = RunFrames(run).surface(k);
     ending = "_" + frame_name(static_cast<std::size_t>(k)) + ".png";
     time = times[static_cast<std::size_t>(k)];
@@ -197,15 +194,14 @@ int render(const RenderArguments& arguments) {
 
 void add_render_command(CLI::App& app, Command& chosen) {
   auto arguments = std::make_shared<RenderArguments>();
-  const std::string scenes = "; default: the scene's [view]";
+  const std::string scenes = ". Default: the scene's [view]";
   CLI::App* command =
-      app.add_subcommand("render", "Draw the surfaces of a run (the scene's [view], unless told otherwise)");
+      app.add_subcommand("render", "Draw the surfaces of a run, by default in the scene's [view]");
   command->add_option("RUN", arguments->run, "Run file (HDF5)")->type_name("FILE.h5")->required();
   command
-      ->add_option(
-          "-o,--output", arguments->output,
-          "Picture (PNG), or the folder for --frame all; default, beside RUN: RUN.png, RUN_initial.png, "
-          "RUN_frame_0000.png, ..., RUN_frames/")
+      ->add_option("-o,--output", arguments->output,
+                   "Picture (PNG), or a folder for --frame all. Default: beside RUN, named RUN.png, "
+                   "RUN_initial.png, RUN_frame_0000.png, ... or RUN_frames/")
       ->type_name("FILE.png");
   CLI::Option* frame =
       command->add_option("--frame", arguments->frame, "final, initial, all, or a frame's number from 0")
@@ -213,45 +209,52 @@ void add_render_command(CLI::App& app, Command& chosen) {
           ->capture_default_str();
   CLI::Option* video = command
                            ->add_option("--video", arguments->video,
-                                        fmt::format("Film of all frames ({}), by the program ffmpeg",
+                                        fmt::format("Film of all frames ({}). Needs the program ffmpeg",
                                                     fmt::join(film_endings(), ", ")))
                            ->type_name(fmt::format("FILE{}", fmt::join(film_endings(), "|")))
                            ->excludes("--output");
   command
-      ->add_option("--fps", arguments->fps,
-                   "Film's frames a second; default: the run's, so that film time is stroke time")
+      ->add_option(
+          "--fps", arguments->fps,
+          "Frames per second of the film. Default: that of the run, so the film is as fast as the stroke")
       ->needs(video)
       ->check(positive_number());
   command->add_option("--size", arguments->size, "Picture size in pixels, like 1280x720" + scenes)
       ->type_name("WxH");
-  command->add_option("--view", arguments->view, "All of it; what changes; a map; as aimed" + scenes)
+  command
+      ->add_option(
+          "--view", arguments->view,
+          "What is shown: the whole bed, the part that changes, a map from above, or a custom aim" + scenes)
       ->check(CLI::IsMember(view_names));
   command
       ->add_option("--style", arguments->style,
-                   "As one sees it; heights; change since the initial surface" + scenes)
+                   "Sand in the sun, a map of heights, or a map of the change since the start" + scenes)
       ->check(CLI::IsMember(style_names));
   command->add_option("--azimuth", arguments->azimuth,
-                      "Towards the camera, from +x towards +y [deg]" + scenes);
-  command->add_option("--elevation", arguments->elevation, "Of the camera above the horizon [deg]" + scenes)
+                      "Direction of the camera, from +x towards +y [deg]" + scenes);
+  command
+      ->add_option("--elevation", arguments->elevation,
+                   "Height of the camera above the horizon [deg]" + scenes)
       ->check(CLI::Range(0.0, 90.0));
   command
       ->add_option("--distance", arguments->distance,
-                   "From target to camera [m]; 0: what frames the subject" + scenes)
+                   "Distance from target to camera [m]. 0 fits the subject into the picture" + scenes)
       ->check(not_negative_number());
-  command->add_option("--target", arguments->target, "What a custom view looks at [m]" + scenes)
+  command->add_option("--target", arguments->target, "Point that a custom view looks at [m]" + scenes)
       ->type_name("X,Y,Z")
       ->delimiter(',')
       ->expected(3);
-  command->add_option("--light-azimuth", arguments->light_azimuth, "Towards the sun [deg]" + scenes);
+  command->add_option("--light-azimuth", arguments->light_azimuth,
+                      "Direction of the sun, from +x towards +y [deg]" + scenes);
   command->add_option("--light-elevation", arguments->light_elevation,
-                      "Of the sun above the horizon [deg]" + scenes);
+                      "Height of the sun above the horizon [deg]" + scenes);
   command
       ->add_option("--contour", arguments->contour_interval,
-                   "Between contour lines [m]; 0, the default: a round interval")
+                   "Height between contour lines [m]. Default: 0, a round number is chosen")
       ->check(not_negative_number());
   command->add_flag_callback(
       "--tool", [arguments] { arguments->tool = true; },
-      "Draw the tool; default: in frames, not in initial and final");
+      "Draw the tool. Default: drawn in frames, not in the initial and final surface");
   command->add_flag_callback(
       "--no-tool", [arguments] { arguments->tool = false; }, "Do not draw the tool");
   command->footer(
@@ -260,7 +263,7 @@ void add_render_command(CLI::App& app, Command& chosen) {
   command->callback([arguments, frame, video, &chosen] {
     if (video->count() > 0 && frame->count() == 0) arguments->frame = "all";
     if (video->count() > 0 && arguments->frame != "all")
-      throw CLI::ValidationError("--video", "is a film of all frames: leave out --frame " + arguments->frame);
+      throw CLI::ValidationError("--video", "films all frames; leave out --frame " + arguments->frame);
     chosen = [arguments] { return render(*arguments); };
   });
 }

@@ -99,7 +99,7 @@ void print_summary(const RunResult& r, const Scene& scene, const std::string& ou
     row("speed", fmt::format("{:.1f} times real time", r.simulated_seconds / r.wall_seconds));
     row("deepest", fmt::format("{:.3f} mm", 1e3 * r.max_depth));
     if (r.furrow && !std::isnan(r.furrow->depth) && !std::isnan(r.furrow->asked_depth))
-      row("furrow", fmt::format("{:.2f} mm deep, of {:.2f} mm that the tip was asked to be (medians)",
+      row("furrow", fmt::format("{:.2f} mm deep; the stroke asked for {:.2f} mm (medians)",
                                 1e3 * r.furrow->depth, 1e3 * r.furrow->asked_depth));
     row("largest force", fmt::format("{:.3f} N{}", r.device.max_force,
                                      r.device.saturated_ticks > 0
@@ -107,8 +107,8 @@ void print_summary(const RunResult& r, const Scene& scene, const std::string& ou
                                          : ""));
     if (r.recorded_force)
       row("recorded force",
-          fmt::format("{:.3g} N rms, {:.3g} N at most from this run's, over {} ticks", r.recorded_force->rms,
-                      r.recorded_force->max, r.recorded_force->ticks));
+          fmt::format("differs from this run's by {:.3g} N rms, {:.3g} N at most, over {} ticks",
+                      r.recorded_force->rms, r.recorded_force->max, r.recorded_force->ticks));
     row("energy into sand",
         fmt::format("{:.4g} J{}", r.device.absorbed_energy,
                     returned_energy(r.device) ? fmt::format(", at worst {:.3g} J more returned than taken",
@@ -116,7 +116,8 @@ void print_summary(const RunResult& r, const Scene& scene, const std::string& ou
                                               : ""));
     if (r.gaps > 0) row("gaps", fmt::format("{}: the tool was lifted there", r.gaps));
   }
-  row("sand moved", fmt::format("{:.6g} m^3, volume drift {:.1e} of it", r.moved_volume, r.volume_drift));
+  row("sand moved",
+      fmt::format("{:.6g} m^3; the volume changed by {:.1e} of that", r.moved_volume, r.volume_drift));
   const std::string steps =
       r.relaxation.super_steps > 0 ? fmt::format(" in {} super steps", r.relaxation.super_steps) : "";
   row("relaxation", fmt::format("{} passes{}, residual {:.2e}, {}", r.relaxation.passes, steps,
@@ -135,12 +136,12 @@ void check_default_output(const fs::path& output, const fs::path& scene_path, co
   if (!fs::exists(output)) return;
   const std::string remedy = "name another file with -o, or this one to replace it";
   if (kind_of(output) != InputKind::run)
-    throw_input_error("{}: is there and is no run; {}", output.string(), remedy);
+    throw_input_error("{}: exists and is not a run file; {}", output.string(), remedy);
   const RunFile run(output);
   if (run.scene_text() == scene_text(scene)) return;
   for (const auto& [name, value] : run.provenance())
     if (name == "scene_file" && value != scene_file_entry(scene_path, output))
-      throw_input_error("{}: is the run of another scene, {}; {}", output.string(), value, remedy);
+      throw_input_error("{}: is the run of another scene ({}); {}", output.string(), value, remedy);
 }
 
 int run(const RunArguments& arguments) {
@@ -215,40 +216,36 @@ int run(const RunArguments& arguments) {
 
 void add_run_command(CLI::App& app, Command& chosen) {
   CLI::App* command =
-      app.add_subcommand("run", "Simulate a scene: play its stroke through the sand and let it come to rest");
+      app.add_subcommand("run", "Simulate a scene: play its stroke, then let the sand come to rest");
   auto arguments = std::make_shared<RunArguments>();
   command->add_option("SCENE", arguments->scene, "Scene file (TOML)")->type_name("FILE.toml")->required();
   command
-      ->add_option(
-          "-o,--output", arguments->output,
-          "Run file to write (HDF5); default: SCENE's name with .h5, here, unless that is the run of "
-          "another scene")
+      ->add_option("-o,--output", arguments->output,
+                   "Run file to write (HDF5). Default: the name of SCENE with .h5, in this folder. The "
+                   "default never replaces a run of another scene")
       ->type_name("FILE.h5");
   command->add_option("--stroke", arguments->stroke, "Play this stroke instead of the scene's (.toml or .h5)")
       ->type_name("FILE.toml|.h5");
   add_set_option(*command, arguments->overrides);
-  command->add_option("--frames", arguments->frames, "Keep surfaces during the run, this many a second [Hz]")
+  command->add_option("--frames", arguments->frames, "Surfaces to keep per second of stroke [Hz]")
       ->check(not_negative_number());
   command
-      ->add_option("--png", arguments->picture,
-                   "Draw the final surface into this picture, as the scene's [view] says")
+      ->add_option("--png", arguments->picture, "Picture (PNG) of the final surface, in the scene's [view]")
       ->type_name("FILE.png");
   command
       ->add_option("--threads", arguments->threads,
-                   "Threads to use; 0, the default: all cores. The result is the same for any number")
+                   "Number of threads. Default: 0, all cores. The result does not depend on it")
       ->check(CLI::Range(0, 1024));
   command
-      ->add_flag(
-          "--estimate-error{finer}", arguments->estimate_error,
-          "Tell how far heights and forces may be from those of ever smaller steps, by a second run with "
-          "steps half as large (10 to 20 times the run). --estimate-error=coarser, with the =: twice as "
-          "large "
-          "(a tenth of the run, but blind to what a tool of few cells gets wrong)")
+      ->add_flag("--estimate-error{finer}", arguments->estimate_error,
+                 "Estimate the error of heights and forces by a second run with steps half as large. It "
+                 "takes 10 to 20 times as long. --estimate-error=coarser makes the steps twice as large "
+                 "instead. It takes a tenth of the run, but misses errors of a tool that few cells resolve")
       ->check(CLI::IsMember({"coarser", "finer"}));
   command->add_flag("--json", arguments->json, "Print the summary as one JSON object");
   command->footer(
       "Example:  sandstroke run strokes/wscg/scene.toml -o wscg.h5 --png wscg.png\n"
-      "All scene keys with units and defaults:  sandstroke info --scene-keys");
+      "All scene keys with units and defaults:  sandstroke help scene");
   command->callback([arguments, &chosen] { chosen = [arguments] { return run(*arguments); }; });
 }
 

@@ -36,12 +36,12 @@ Image RunPainter::draw(const HeightGrid& surface, std::optional<double> tool_tim
 ToolSphere RunPainter::tool_at(double time) {
   if (!trace_) {
     if (!run_.has_trace())
-      throw_input_error("{}: holds no trace, so the tool's place is not known; draw it with --no-tool",
+      throw_input_error("{}: has no trace, so the position of the tool is unknown; add --no-tool",
                         run_.name());
     trace_ = run_.trace();
   }
   if (trace_->empty())
-    throw_input_error("{}: has no stroke, so there is no tool to draw; draw it with --no-tool", run_.name());
+    throw_input_error("{}: has no stroke, so there is no tool to draw; add --no-tool", run_.name());
   const auto after = std::upper_bound(trace_->begin() + 1, trace_->end(), time,
                                       [](double at, const TickRecord& tick) { return at < tick.time; });
   return {tip_of(scene_.device, std::prev(after)->device_position), scene_.tool.radius};

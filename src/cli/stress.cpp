@@ -96,19 +96,20 @@ int stress(const StressArguments& arguments) {
 
 void add_stress_command(CLI::App& app, Command& chosen) {
   CLI::App* command = app.add_subcommand(
-      "stress", "Test numerical stability to the breaking point: device loop, relaxation, strokes");
+      "stress",
+      "Test the numerical stability of the device loop, relaxation and strokes, up to their limits");
   auto arguments = std::make_shared<StressArguments>();
   command
       ->add_option("-o,--output", arguments->output,
-                   "Folder for the page, stress.html, made where it is not there")
+                   "Folder for the page, stress.html; it is made if it does not exist")
       ->type_name("FOLDER")
       ->capture_default_str();
   command->add_flag("--quick", arguments->quick,
-                    "10 seconds rather than 7 minutes: coarser maps, fewer and shorter cases");
+                    "Take 10 seconds instead of 7 minutes, with coarser maps, fewer and shorter cases");
   command->add_flag("--json", arguments->json,
                     "Print the page's data as one JSON object instead of the table");
   command->footer(
-      "Each case has an expected verdict; one that ends otherwise is a surprise, and the exit code is then "
+      "Each case has an expected verdict. A case that ends otherwise is a surprise. The exit code is then "
       "3.\n"
       "Example:  sandstroke stress --quick -o out/stress");
   command->callback([arguments, &chosen] { chosen = [arguments] { return stress(*arguments); }; });

@@ -24,10 +24,8 @@ void write_and_tell(const std::string& file, const Stroke& stroke) {
                1e3 * (summary.high.y() - summary.low.y()), 1e3 * (summary.high.z() - summary.low.z()),
                summary.gaps.size());
   if (summary.joined_samples == 0) {
-    spdlog::warn(
-        "no two samples are joined, so the tool never draws: they lie further apart than the gap threshold "
-        "of {} s",
-        stroke.gap_threshold);
+    spdlog::warn("the tool never draws: all samples are further apart in time than the gap threshold of {} s",
+                 stroke.gap_threshold);
   }
 }
 
@@ -38,14 +36,14 @@ void add_script(CLI::App& stroke_app, Command& chosen) {
     std::string in, out;
   };
   auto options = std::make_shared<Options>();
-  CLI::App* app =
-      stroke_app.add_subcommand("script", "Samples a scripted stroke (TOML) into a recorded one (HDF5)");
+  CLI::App* app = stroke_app.add_subcommand(
+      "script", "Sample a scripted stroke (TOML) and write it as a recorded one (HDF5)");
   app->add_option("IN", options->in, "Script (.toml)")->type_name("FILE.toml")->required();
   app->add_option("OUT", options->out, "Stroke to write (.h5)")->type_name("FILE.h5")->required();
   app->footer(
-      "A scene takes a script as it is; this is for looking at its samples. A force in it\n"
-      "becomes a depth: here by the default constants of [force], in a scene by its own.\n"
-      "All that a script can say: sandstroke help script\n"
+      "A scene can use a script directly. This command is for looking at its samples. It turns\n"
+      "forces into depths with the default [force]; a scene uses its own [force].\n"
+      "All keys of a script: sandstroke help script\n"
       "Example:  sandstroke stroke script stroke.toml stroke.h5");
   app->callback([&chosen, options] {
     chosen = [options] {
@@ -98,9 +96,9 @@ Stroke convert(const ConvertOptions& options) {
 
 void add_convert(CLI::App& stroke_app, Command& chosen) {
   auto options = std::make_shared<ConvertOptions>();
-  CLI::App* app = stroke_app.add_subcommand("convert", "Makes a stroke from a table of samples (CSV)");
+  CLI::App* app = stroke_app.add_subcommand("convert", "Make a stroke from a table of samples (CSV)");
   app->add_option("IN", options->in,
-                  "Comma-separated numbers, one sample per line, column names in the first line")
+                  "Table of comma-separated numbers: one sample per line, column names in the first line")
       ->type_name("FILE.csv|.txt")
       ->required();
   app->add_option("OUT", options->out, "Stroke to write (.h5)")->type_name("FILE.h5")->required();
@@ -110,7 +108,7 @@ void add_convert(CLI::App& stroke_app, Command& chosen) {
     return app->add_option(name, columns, help)->delimiter(',')->allow_extra_args(false);
   };
   add_list("--position", options->position,
-           "Columns with the tip's x,y,z, z up; or with x,y alone (then z = 0)")
+           "Columns of the tip's position: x,y,z with z up, or x,y (then z = 0)")
       ->expected(2, 3)
       ->required()
       ->option_text("X,Y[,Z] REQUIRED");
@@ -122,18 +120,18 @@ void add_convert(CLI::App& stroke_app, Command& chosen) {
       ->option_text("M");
 
   auto* time =
-      app->add_option("--time", options->time, "Column with the time (or else --rate)")->option_text("T");
+      app->add_option("--time", options->time, "Column of the time (or give --rate)")->option_text("T");
   auto* time_unit =
       app->add_option("--time-unit", options->time_unit, "s, ms, us or ns")->option_text("UNIT");
   time->needs(time_unit);
   time_unit->needs(time);
-  app->add_option("--rate", options->rate, "Instead of --time: the samples follow each other evenly")
+  app->add_option("--rate", options->rate, "Samples per second, instead of --time")
       ->check(positive_number())
       ->excludes(time)
       ->option_text("HZ");
   app->add_option("--equal-times", options->equal_times,
-                  "Where a time equals the one before it: error (default), drop (keep the first)\n"
-                  "or spread (space them evenly up to the next time)")
+                  "What to do with equal times: error (default), drop (keep the first sample) or spread "
+                  "(space them evenly)")
       ->check(CLI::IsMember({"error", "drop", "spread"}))
       ->option_text("RULE");
 
@@ -144,32 +142,32 @@ void add_convert(CLI::App& stroke_app, Command& chosen) {
     vector->needs(vector_unit);
     vector_unit->needs(vector);
   };
-  add_vector("--velocity", options->velocity, options->velocity_unit, "Columns with the tip's velocity",
+  add_vector("--velocity", options->velocity, options->velocity_unit, "Columns of the tip's velocity",
              "m/s, cm/s or mm/s");
-  add_vector("--force", options->force, options->force_unit, "Columns with the recorded force", "N or mN");
+  add_vector("--force", options->force, options->force_unit, "Columns of the recorded force", "N or mN");
 
   add_list("--columns", options->columns, "Names of all columns, for a file without a header line")
       ->option_text("A,B,...");
   app->add_option("--pen-up", options->pen_up,
-                  "A line with this word lifts the pen: what follows is not joined on")
+                  "Lines with this word lift the pen. The next sample starts a new pen stroke")
       ->option_text("WORD");
-  app->add_option("--skip", options->skip, "Lines with this word are passed over")->option_text("WORD");
+  app->add_option("--skip", options->skip, "Lines with this word are skipped")->option_text("WORD");
   app->add_option("--gap-threshold", options->gap_threshold,
                   "Samples further apart are not joined: the tool lifts (default 0.1 s)")
       ->check(positive_number())
       ->option_text("S");
-  app->add_option("--frame", options->frame, "Whose axes these are: bed (default) or device, the haptic one")
+  app->add_option("--frame", options->frame, "Axes of the positions: bed (default) or device")
       ->check(CLI::IsMember({"bed", "device"}))
       ->option_text("FRAME");
   app->add_option("--source", options->source,
-                  "Where the samples come from, for people (default: the file's name)")
+                  "A note on the origin of the samples. Default: the file's name")
       ->option_text("TEXT");
   app->footer(
       "Examples\n"
       "  a recording at 1000 Hz, with force:\n"
       "    sandstroke stroke convert trace.csv trace.h5 --rate 1000 \\\n"
       "        --position x_m,y_m,z_m --position-unit m --force fx_N,fy_N,fz_N --force-unit N\n"
-      "  a letter drawn on a screen, without header line, pen strokes parted by BREAK:\n"
+      "  a letter drawn on a screen, without header line, pen strokes separated by lines with BREAK:\n"
       "    sandstroke stroke convert letter.txt letter.h5 --columns x,y,t \\\n"
       "        --position x,y --position-unit px --pixel-size 0.002 --time t --time-unit ms \\\n"
       "        --equal-times spread --skip START --pen-up BREAK --gap-threshold 0.4");
@@ -186,7 +184,7 @@ void add_convert(CLI::App& stroke_app, Command& chosen) {
 
 void add_stroke_command(CLI::App& app, Command& chosen) {
   CLI::App* stroke_app =
-      app.add_subcommand("stroke", "Makes, converts, repairs and describes strokes (hand motions)");
+      app.add_subcommand("stroke", "Make, convert, repair and describe strokes (hand motions)");
   stroke_app->require_subcommand(1);
   add_convert(*stroke_app, chosen);
   add_script(*stroke_app, chosen);

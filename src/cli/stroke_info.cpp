@@ -76,7 +76,7 @@ std::string recording_rows(const RecordingInfo& recording, const StrokeSummary& 
          table_row("ticks", recorded_ticks_text(footer)) +
          table_row("lateness",
                    std::isnan(footer.lateness.mean)
-                       ? fmt::format("not known; recorded over half a tick late: {}", footer.ticks.late)
+                       ? fmt::format("unknown; {} samples were over half a tick late", footer.ticks.late)
                        : lateness_text(footer)) +
          table_row("ended", stop_reason_text(footer.reason));
 }
@@ -115,7 +115,7 @@ std::string as_table(const std::string& file, const Stroke& stroke, const Stroke
     table += table_row(title, value);
   };
   row("file", file);
-  row("source", stroke.source.empty() ? "not said" : stroke.source);
+  row("source", stroke.source.empty() ? "unknown" : stroke.source);
   row("frame", stroke.frame);
   row("complete", stroke.complete ? "yes"
                   : recording     ? fmt::format("no: {}", stop_reason_text(recording->footer.reason))
@@ -126,7 +126,7 @@ std::string as_table(const std::string& file, const Stroke& stroke, const Stroke
   row("duration", fmt::format("{:.6g} s", summary.duration));
   row("rate",
       fmt::format("{}, median spacing {:.6g} ms",
-                  stroke.nominal_rate > 0.0 ? fmt::format("{:.6g} Hz", stroke.nominal_rate) : "not said",
+                  stroke.nominal_rate > 0.0 ? fmt::format("{:.6g} Hz", stroke.nominal_rate) : "unknown",
                   1e3 * summary.median_spacing));
   for (int axis = 0; axis < 3; ++axis) {
     row({&"xyz"[axis], 1},
@@ -155,7 +155,7 @@ void add_stroke_info_command(CLI::App& stroke_app, Command& chosen) {
     bool json = false;
   };
   auto options = std::make_shared<Options>();
-  CLI::App* app = stroke_app.add_subcommand("info", "Says what is in a stroke file");
+  CLI::App* app = stroke_app.add_subcommand("info", "Show the content of a stroke file");
   app->add_option("FILE", options->file, "Recorded (.h5) or scripted (.toml) stroke")
       ->type_name("FILE.h5|.toml")
       ->option_text("REQUIRED")

@@ -33,11 +33,11 @@ Task task_of(const RepairArguments& arguments) {
   task.output = arguments.output;
   if (task.output.empty()) task.output = fs::path(task.journal).replace_extension();
   if (!fs::exists(task.journal))
-    throw_io_error("{}: is not there, so there is nothing to repair; name a recording that was cut off, {}",
-                   task.journal.string(), journal_path("STROKE.h5").string());
+    throw_io_error("{}: does not exist; name a recording that was cut off, {}", task.journal.string(),
+                   journal_path("STROKE.h5").string());
   check_output(task.output, {task.journal});
   if (fs::exists(task.output))
-    throw_input_error("{}: is there already; name another file: sandstroke stroke repair {} OTHER.h5",
+    throw_input_error("{}: already exists; name another file: sandstroke stroke repair {} OTHER.h5",
                       task.output.string(), task.journal.string());
   return task;
 }
@@ -72,8 +72,8 @@ std::string lost_text(const Repair& done) {
                        done.lost_bytes, journal_sample_bytes);
   if (done.recording.footer.reason == StopReason::cut_off)
     text +=
-        "what the recorder had not yet handed on: about 0.1 s where the program was killed, 1 s where the "
-        "machine stopped, more where its disk was slow";
+        "what was not yet written: about 0.1 s if the program was killed, 1 s if the machine stopped, more "
+        "if the disk was slow";
   return text.empty() ? "nothing: the recording was finished" : text;
 }
 
@@ -108,21 +108,21 @@ int repair_command(const RepairArguments& arguments) {
 
 void add_stroke_repair_command(CLI::App& stroke, Command& chosen) {
   CLI::App* command = stroke.add_subcommand(
-      "repair", "Makes a stroke of a recording that was cut off, and says what was lost");
+      "repair", "Turn a recording that was cut off into a stroke. Report what was lost");
   auto arguments = std::make_shared<RepairArguments>();
   command
       ->add_option("FILE", arguments->file,
-                   "The recording's journal, STROKE.h5.recording; or STROKE.h5, which it was to become")
+                   "Journal of the recording, STROKE.h5.recording; or the stroke's name, STROKE.h5")
       ->type_name("FILE.recording|.h5")
       ->option_text("REQUIRED")
       ->required();
-  command->add_option("OUT", arguments->output, "Stroke to write (.h5); default: STROKE.h5")
+  command->add_option("OUT", arguments->output, "Stroke to write (.h5). Default: STROKE.h5")
       ->type_name("FILE.h5");
   command->add_flag("--remove", arguments->remove, "Remove the journal once the stroke is written");
   command->add_flag("--json", arguments->json, "Print what was done as one JSON object");
   command->footer(
-      "While a stroke is recorded its samples are in STROKE.h5.recording. Where the program is killed, the\n"
-      "machine stops or the disk is full, that file stays, and this makes a stroke of what is in it.\n"
+      "A recording in progress is in STROKE.h5.recording. If the program is killed, the machine stops\n"
+      "or the disk is full, that file stays. This command turns it into a stroke.\n"
       "Example:  sandstroke stroke repair hand.h5");
   command->callback([&chosen, arguments] { chosen = [arguments] { return repair_command(*arguments); }; });
 }

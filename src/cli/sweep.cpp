@@ -37,7 +37,7 @@ Shard parse_shard(const std::string& text) {
   const bool divided = bad_index == std::errc() && slash != end && *slash == '/';
   const auto [rest, bad_of] = std::from_chars(divided ? slash + 1 : end, end, shard.of);
   if (!divided || bad_of != std::errc() || rest != end || shard.index < 1 || shard.index > shard.of)
-    throw_input_error("--shard {}: write I/N with 1 <= I <= N, such as --shard 1/4", text);
+    throw_input_error("--shard {} is not a part of a sweep; write I/N with 1 <= I <= N, such as 1/4", text);
   return shard;
 }
 
@@ -65,7 +65,7 @@ std::string duration(double seconds) {
 void warn_of_depth(const Sweep& sweep) {
   if (sweep.too_deep().empty()) return;
   const auto& [point, sentence] = *sweep.too_deep().begin();
-  spdlog::warn("points whose stroke goes deep: {}, the first, point {}: {}", sweep.too_deep().size(), point,
+  spdlog::warn("the stroke goes deep in {} points; the first is point {}: {}", sweep.too_deep().size(), point,
                sentence);
 }
 
@@ -75,7 +75,7 @@ int dry_run(Sweep& sweep, const SweepArguments& arguments) {
   const SweepDesign& design = sweep.plan().design;
   warn_of_depth(sweep);
   if (!sweep.refused().empty())
-    spdlog::warn("the settings of {} points do not go together, the first, point {}: {}",
+    spdlog::warn("the settings of {} points contradict each other; the first is point {}: {}",
                  sweep.refused().size(), sweep.refused().begin()->first, sweep.refused().begin()->second);
   if (arguments.json) {
     print_json(nlohmann::ordered_json{{"points", design.points()},
@@ -87,7 +87,7 @@ int dry_run(Sweep& sweep, const SweepArguments& arguments) {
   }
   fmt::print("{}", aligned_text(first_points(design, 5), 9));
   if (design.points() > 5) fmt::print("...\n");
-  fmt::print("\n{} points by {} simulations; about {} on one core and {:.3g} MB, by one point measured\n",
+  fmt::print("\n{} points need {} simulations: about {} on one core and {:.3g} MB, measured on one point\n",
              design.points(), sweep.simulations(), duration(estimate.seconds), estimate.bytes * 1e-6);
   return 0;
 }
@@ -99,10 +99,10 @@ void print_summary(const SweepCounters& counters, const SweepFolder& folder) {
     if (counters.verdicts[i] > 0) verdicts += fmt::format(", {} {}", counters.verdicts[i], verdict_names[i]);
   row("points", fmt::format("{}: {} run now, {} before{}", counters.points, counters.run,
                             counters.done_before, verdicts));
-  row("simulations",
-      fmt::format(
-          "{}{}", counters.simulations,
-          counters.simulations < counters.run ? "; points that differ in forces only share their sand" : ""));
+  row("simulations", fmt::format("{}{}", counters.simulations,
+                                 counters.simulations < counters.run
+                                     ? "; points that differ only in force constants share a simulation"
+                                     : ""));
   row("loaded", fmt::format("beds: {}, strokes: {}", counters.beds_loaded, counters.strokes_loaded));
   row("folder", folder.path().string());
 }
@@ -123,7 +123,7 @@ nlohmann::ordered_json as_json(const SweepCounters& c, const SweepFolder& folder
 
 int sweep(const SweepArguments& arguments) {
   if (arguments.plan.empty())
-    throw_input_error("sweep: name a plan, or say status or collect (sandstroke sweep --help)");
+    throw_input_error("sweep: name a plan, or use status or collect (sandstroke sweep --help)");
   SweepOptions options;
   options.jobs = arguments.jobs;
   options.shard = parse_shard(arguments.shard);
@@ -154,20 +154,20 @@ int sweep(const SweepArguments& arguments) {
   if (arguments.json) print_json(json);
   warn_of_depth(sweep);
   if (counters.interrupted) {
-    spdlog::warn("stopped with {} of {} points done; the same command goes on from there",
+    spdlog::warn("stopped with {} of {} points done; the same command continues",
                  counters.done_before + counters.run, counters.points);
     return 128 + interrupted();
   }
   if (const std::size_t active = counters.of(PointVerdict::active))
-    spdlog::warn("{} active: the sand returned energy there, the loop was not passive",
+    spdlog::warn("{} active: the sand returned energy there, so the loop was not passive",
                  counted(active, "point"));
   const std::size_t restless = counters.of(PointVerdict::not_at_rest);
   if (restless > 0)
     spdlog::warn("{} not at rest; raise relaxation.max_passes or relaxation.tolerance",
                  counted(restless, "point"));
   if (counters.failed() > 0 && !all)  // collecting said so
-    spdlog::warn("{} without result; sandstroke sweep status {} says why",
-                 counted(counters.failed(), "point"), folder.path().string());
+    spdlog::warn("{} without result; see: sandstroke sweep status {}", counted(counters.failed(), "point"),
+                 folder.path().string());
   if (lost) return static_cast<int>(ErrorKind::io);
   return counters.failed() + restless > 0 ? static_cast<int>(ErrorKind::unstable) : 0;
 }
@@ -182,7 +182,7 @@ void add_sweep_folder_command(CLI::App& sweep, const char* name, const char* hel
   };
   CLI::App* command = sweep.add_subcommand(name, help);
   auto arguments = std::make_shared<FolderArguments>();
-  command->add_option("FOLDER", arguments->folder, "Of the sweep: what -o named")
+  command->add_option("FOLDER", arguments->folder, "Folder of the sweep, as named with -o")
       ->type_name("FOLDER")
       ->option_text("REQUIRED")
       ->required();
@@ -194,25 +194,26 @@ void add_sweep_folder_command(CLI::App& sweep, const char* name, const char* hel
 }
 
 void add_sweep_command(CLI::App& app, Command& chosen) {
-  CLI::App* command = app.add_subcommand("sweep", "Run a scene again and again with other settings");
+  CLI::App* command = app.add_subcommand("sweep", "Run a scene many times with different settings");
   auto arguments = std::make_shared<SweepArguments>();
   command->add_option("PLAN", arguments->plan, "What to vary (TOML)")->type_name("FILE.toml");
   command
       ->add_option("-o,--output", arguments->output,
-                   "Folder for the results; default: PLAN's name without .toml, here. One that holds a "
-                   "part of this sweep is gone on with")
+                   "Folder for the results. Default: the name of PLAN without .toml, in this folder. A sweep "
+                   "that was begun there continues")
       ->type_name("FOLDER");
   CLI::Option* jobs =
       command
           ->add_option("--jobs", arguments->jobs,
-                       "Cores to use, each for a simulation; 0: all. The results are the same for any number")
+                       "Number of cores, one simulation each. 0: all. The results do not depend on it")
           ->check(CLI::Range(0, 1024));
   CLI::Option* shard =
-      command->add_option("--shard", arguments->shard, "Only this part: the I-th of N, such as 1/4")
+      command->add_option("--shard", arguments->shard, "Run only part I of N, for example 1/4")
           ->type_name("I/N");
   command
-      ->add_flag("--dry-run", arguments->dry_run,
-                 "Only say how many points there are, the first of them, and what they may take")
+      ->add_flag(
+          "--dry-run", arguments->dry_run,
+          "Run nothing. Print the number of points, the first points, and the time and memory expected")
       ->excludes(shard);
   command->add_flag("--json", arguments->json, "Print the summary as one JSON object");
   add_slurm_options(*command, arguments->slurm);
@@ -220,18 +221,16 @@ void add_sweep_command(CLI::App& app, Command& chosen) {
   add_sweep_status_command(*command, chosen);
   add_sweep_collect_command(*command, chosen);
   command->footer(
-      "A plan (all that it can say: sandstroke help plan):\n"
+      "A plan (all its keys: sandstroke help plan):\n"
       "  [sweep]\n"
       "  scene = \"scene.toml\"\n"
       "  [axes]\n"
       "  relaxation.talus_angle = { from = 20, to = 45, step = 2.5 }\n"
       "  force.k_s = [500, 1000]\n"
       "Example:  sandstroke sweep plan.toml -o results\n"
-      "A point is at rest, as it should be; not at rest (relaxation.max_passes were not enough); active "
-      "(sand\n"
-      "returned energy to the device: the loop was not passive); unstable, or refused: no result, and why.\n"
-      "Exit code 3: some are not at rest or have no result. Stopped (Ctrl-C, or by force), the same command "
-      "goes on.");
+      "A point that is not at rest needs more relaxation.max_passes. In an active point the sand returned\n"
+      "energy to the device, so the loop was not passive. Unstable and refused points have no result.\n"
+      "Exit code 3: points are not at rest or have no result. The same command continues a stopped sweep.");
   command->callback([arguments, command, &chosen] {
     if (command->get_subcommands().empty()) chosen = [arguments] { return sweep(*arguments); };
   });

@@ -37,12 +37,12 @@ CollectReport collect_sweep(const SweepFolder& folder, bool json) {
 }
 
 void add_sweep_collect_command(CLI::App& sweep, Command& chosen) {
-  add_sweep_folder_command(
-      sweep, "collect", "Put a sweep's points together: sweep.html, sweep.h5 and sweep.csv in its folder",
-      "Takes what is there, whether the sweep is complete or not; a sweep that ends in one call does it "
-      "itself.\n"
-      "Example:  sandstroke sweep collect results",
-      collect_command, chosen);
+  add_sweep_folder_command(sweep, "collect",
+                           "Collect the points of a sweep into sweep.html, sweep.h5 and sweep.csv",
+                           "Collects the points that exist, also of an unfinished sweep.\n"
+                           "A sweep that ends in one call collects by itself.\n"
+                           "Example:  sandstroke sweep collect results",
+                           collect_command, chosen);
 }
 
 }  // namespace sandstroke

@@ -32,23 +32,22 @@ std::vector<SlurmTask> tasks_to_do(const SweepFolder& folder, const std::vector<
 
 void add_slurm_options(CLI::App& sweep, SlurmArguments& arguments) {
   SlurmOptions& options = arguments.options;
-  CLI::Option* slurm = sweep.add_flag("--slurm", arguments.submit,
-                                      "Submit what is missing to a Slurm cluster, as a job array; sandstroke "
-                                      "sweep status says how far it is");
+  CLI::Option* slurm = sweep.add_flag(
+      "--slurm", arguments.submit,
+      "Submit the missing points to a Slurm cluster as a job array. See sandstroke sweep status");
   const auto add = [&](const char* name, auto& value, const char* text) {
     return sweep.add_option(name, value, text)->needs(slurm)->group("With --slurm");
   };
-  add("--tasks", options.tasks,
-      "Of the job array, each for a part of the points; default: 4 simulations per core")
+  add("--tasks", options.tasks, "Number of tasks of the job array. Default: 4 simulations per core")
       ->check(CLI::Range(1, 1000000));
-  add("--cpus-per-task", options.cpus_per_task, "Cores of a task: simulations that it runs at a time")
+  add("--cpus-per-task", options.cpus_per_task, "Cores per task. A task runs that many simulations at once")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
-  add("--mem", options.memory, "Memory of a task, as sbatch takes it: 4G");
-  add("--time", options.time, "Time limit of a task: 2:00:00");
-  add("--partition", options.partition, "Where to run");
-  add("--account", options.account, "Who is charged");
-  add("--sbatch-option", options.lines, "Any other, as after #SBATCH in a script: \"--qos=long\"; repeatable")
+  add("--mem", options.memory, "Memory per task, as sbatch takes it: 4G");
+  add("--time", options.time, "Time limit per task: 2:00:00");
+  add("--partition", options.partition, "Slurm partition");
+  add("--account", options.account, "Slurm account");
+  add("--sbatch-option", options.lines, "Another option of sbatch, for example \"--qos=long\" (repeatable)")
       ->allow_extra_args(false);
 }
 

@@ -53,10 +53,8 @@ int status_command(const SweepFolder& folder, bool json) {
 
 void add_sweep_status_command(CLI::App& sweep, Command& chosen) {
   add_sweep_folder_command(
-      sweep, "status", "Say how far a sweep is, and what to do next",
-      "Counts the points in the folder, whoever ran them; where the sweep was submitted to Slurm, says what "
-      "became of\n"
-      "its tasks.\n"
+      sweep, "status", "Show the progress of a sweep and the next step",
+      "Counts the points in the folder. For a sweep on Slurm it also shows the state of each task.\n"
       "Example:  sandstroke sweep status results",
       status_command, chosen);
 }

@@ -49,13 +49,13 @@ std::string usage_sentence(const CLI::App& app, const CLI::ParseError& failure) 
   const NamedCommand called = called_command(app);
   const std::string caller = called.name.empty() ? "sandstroke" : "sandstroke " + called.name;
   const std::string& taker = called.name.empty() ? caller : called.name;
-  const std::string more = fmt::format("; '{} --help' says more", caller);
+  const std::string more = fmt::format("; see: {} --help", caller);
   const bool awaits_command = called.app->get_require_subcommand_min() > 0;
   const std::string word = left_over(app);
 
   if (awaits_command && !word.empty() && !word.starts_with("-")) {
     const std::string meant = nearest_name(word, names_of_commands(*called.app));
-    return fmt::format("{}: no such command{}{}", word, called.name.empty() ? "" : " of " + called.name,
+    return fmt::format("{} is not a command{}{}", word, called.name.empty() ? "" : " of " + called.name,
                        meant.empty() ? more : fmt::format("; did you mean {}?", meant));
   }
   if (failure.get_exit_code() == 0) return "";
@@ -63,10 +63,10 @@ std::string usage_sentence(const CLI::App& app, const CLI::ParseError& failure) 
     const std::string option = word.substr(0, word.find('='));
     const std::string meant =
         option.starts_with("--") ? nearest_name(option.substr(2), names_of_options(app, *called.app)) : "";
-    return fmt::format("{}: no such option of {}{}", option, taker,
+    return fmt::format("{} is not an option of {}{}", option, taker,
                        meant.empty() ? more : fmt::format("; did you mean --{}?", meant));
   }
-  if (!word.empty()) return fmt::format("{}: more than {} takes{}", word, taker, more);
+  if (!word.empty()) return fmt::format("{}: {} takes no more arguments{}", word, taker, more);
   return (awaits_command ? "a command is missing" : failure.what()) + more;
 }
 

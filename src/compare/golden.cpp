@@ -185,17 +185,16 @@ GoldenContent read_golden(const fs::path& entry) {
                     row + static_cast<double>(block.rows()) <= rows &&
                     col + static_cast<double>(block.cols()) <= cols;
   if (!fits) throw_input_error("{}: /surface/change does not lie in the bed; make it again", file.name());
-  check_memory(
-      4.0 * sizeof(double) * rows * cols,
-      fmt::format("{}: its bed has {} x {} cells: working with all of them", file.name(), rows, cols),
-      "check that it is the file that was meant");
+  check_memory(4.0 * sizeof(double) * rows * cols,
+               fmt::format("{}: working with a bed of {} x {} cells", file.name(), rows, cols),
+               "name another file");
   content.change = HeightGrid::Zero(static_cast<Eigen::Index>(rows), static_cast<Eigen::Index>(cols));
   content.change.block(static_cast<Eigen::Index>(row), static_cast<Eigen::Index>(col), block.rows(),
                        block.cols()) = block;
   if (file.has("/trace")) {
     const HeightGrid table = file.grid("/trace/rows");
     if (table.rows() != table_rows)
-      throw_input_error("{}: /trace/rows has not {} rows; make it again", file.name(), table_rows);
+      throw_input_error("{}: /trace/rows does not have {} rows; make it again", file.name(), table_rows);
     const double ticks = file.number_attribute("/trace", "ticks");
     if (!(ticks >= 0.0 && ticks <= 0x1p53 && ticks == std::floor(ticks)))
       throw_input_error("{}: /trace has {} ticks; make it again", file.name(), ticks);

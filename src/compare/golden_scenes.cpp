@@ -29,21 +29,20 @@ std::set<std::string> folders_in(const fs::path& parent) {
 std::vector<std::string> golden_names(const GoldenFolders& folders,
                                       const std::vector<std::string>& asked_for) {
   if (!fs::is_directory(folders.strokes)) {
-    throw_io_error("{}: is no folder of scenes; start in the repository, or name it with --strokes",
+    throw_io_error("{}: is not a folder of scenes; start in the repository, or name it with --strokes",
                    folders.strokes.string());
   }
   std::set<std::string> known = folders_in(folders.golden);
   for (const std::string& name : folders_in(folders.strokes))
     if (fs::exists(folders.scene(name))) known.insert(name);
   if (known.empty()) {
-    throw_input_error(
-        "{}: holds no NAME/scene.toml, and {} no golden entry: nothing to do; check both folders",
-        folders.strokes.string(), folders.golden.string());
+    throw_input_error("{}: has no NAME/scene.toml, and {} has no golden entry; check both folders",
+                      folders.strokes.string(), folders.golden.string());
   }
   if (asked_for.empty()) return {known.begin(), known.end()};
   for (const std::string& name : asked_for) {
     if (!known.contains(name)) {
-      throw_input_error("{}: there is neither {} nor {}; known are: {}", name, folders.scene(name).string(),
+      throw_input_error("{}: neither {} nor {} exists; known are: {}", name, folders.scene(name).string(),
                         folders.entry(name).string(), fmt::join(known, ", "));
     }
   }
@@ -56,11 +55,11 @@ Comparison check_golden(const std::string& name, const GoldenFolders& folders, c
     return Comparison{name, {fact_check(check, false, sentence)}};
   };
   if (!fs::exists(folders.scene(name)))
-    return failed("scene", fmt::format("there is no {}; restore it or delete the golden entry",
+    return failed("scene", fmt::format("{} does not exist; restore it or delete the golden entry",
                                        folders.scene(name).string()));
   if (!fs::is_directory(folders.entry(name)))
     return failed("golden entry",
-                  fmt::format("there is none; look at the run, then: golden update {}", name));
+                  fmt::format("does not exist; look at the run, then: golden update {}", name));
 
   const TemporaryFolder folder;
   GoldenRun run;
@@ -82,11 +81,11 @@ Comparison check_golden(const std::string& name, const GoldenFolders& folders, c
 
 bool update_golden(const std::string& name, const GoldenFolders& folders, const SceneRunner& runner) {
   if (fs::path(name).filename() != name || name == "." || name == "..")
-    throw_input_error("{}: is no name of a scene but a path; name a folder in {}", name,
+    throw_input_error("{}: is a path, not the name of a scene; name a folder in {}", name,
                       folders.strokes.string());
   const fs::path scene = folders.scene(name);
   if (!fs::exists(scene))
-    throw_input_error("{}: there is no {}; check the name and --strokes", name, scene.string());
+    throw_input_error("{}: {} does not exist; check the name and --strokes", name, scene.string());
   make_folder(folders.golden);  // or refused before the run
   const TemporaryFolder folder;
   const GoldenRun run = runner(scene, folder / "run.h5");

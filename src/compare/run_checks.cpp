@@ -38,12 +38,11 @@ Check complete_check(const std::string& which, const RunFile& run) {
 Check height_check(const std::string& name, const HeightField& golden, const HeightField& run, double limit) {
   const bool same_size = cell_size_check(golden.cell_size(), run.cell_size()).passed;
   if (golden.rows() != run.rows() || golden.cols() != run.cols() || !same_size) {
-    return fact_check(
-        name, false,
-        fmt::format("golden has {} x {} cells (x, y) of {} m, the run {} x {} of {} m, so no cell has its "
-                    "like; compare runs of the same bed",
-                    golden.cols(), golden.rows(), golden.cell_size(), run.cols(), run.rows(),
-                    run.cell_size()));
+    return fact_check(name, false,
+                      fmt::format("golden has {} x {} cells (x, y) of {} m, the run {} x {} of {} m, so the "
+                                  "cells do not match; compare runs of the same bed",
+                                  golden.cols(), golden.rows(), golden.cell_size(), run.cols(), run.rows(),
+                                  run.cell_size()));
   }
   const FieldDifference difference = field_difference(golden, run);
   const std::string where = fmt::format("at row {}, col {} (x = {:.6g} m, y = {:.6g} m)", difference.row,

@@ -33,7 +33,7 @@ std::optional<FileLock> FileLock::take(const std::filesystem::path& path, int ho
   while (true) {
     FileLock taken(open(path.c_str(), O_CREAT | O_RDWR | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK, 0666));
     if (taken.descriptor_ < 0 && errno == ELOOP)
-      throw_io_error("{}: is a link, and nothing is written through one; remove it", path.string());
+      throw_io_error("{}: is a link, and sandstroke does not write through links; remove it", path.string());
     if (taken.descriptor_ < 0)
       throw_io_error("{}: cannot be written ({}); choose another place or free disk space", path.string(),
                      std::strerror(errno));
@@ -70,8 +70,8 @@ bool FileLock::lock(const std::filesystem::path& path, short type, int how) {
   static std::once_flag told;
   std::call_once(told, [&] {
     spdlog::warn(
-        "{}: this file system has no locks ({}), so nothing keeps two commands from writing the same file: "
-        "give each an output of its own",
+        "{}: this file system has no locks ({}), so two commands could write the same file; give each "
+        "command another output",
         path.string(), std::strerror(error));
   });
   return true;

@@ -22,7 +22,8 @@ fs::path part_path(const fs::path& path) {
 FileLock take_part(const fs::path& path) {
   std::optional<FileLock> lock = FileLock::try_take(part_path(path));
   if (!lock)
-    throw_io_error("{}: another process is writing it; wait for it or choose another name", path.string());
+    throw_io_error("{}: another process is writing this file; wait for it, or choose another name",
+                   path.string());
   return std::move(*lock);
 }
 
@@ -50,17 +51,15 @@ void check_output(const fs::path& output, const std::vector<fs::path>& others) {
   for (const fs::path& other : others) {
     std::error_code not_there;
     if (place(output) == place(other) || fs::equivalent(output, other, not_there))
-      throw_input_error(
-          "{}: is also named as another file of this command; give the output a name of its own",
-          output.string());
+      throw_input_error("{}: is named twice in this command; give the output another name", output.string());
   }
   if (fs::is_directory(output)) throw_io_error("{}: is a folder; name a file", output.string());
   if (fs::exists(output) && !fs::is_regular_file(output))
     throw_io_error("{}: is not a regular file; name one", output.string());
   const fs::path folder = folder_of(output);
   if (!fs::is_directory(folder))
-    throw_io_error("{}: cannot be written, for there is no folder {}; make it first", output.string(),
-                   folder.string());
+    throw_io_error("{}: cannot be written, because the folder {} does not exist; make it first",
+                   output.string(), folder.string());
   check_takes_files(folder);
 }
 

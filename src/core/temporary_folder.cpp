@@ -13,8 +13,7 @@ namespace fs = std::filesystem;
 TemporaryFolder::TemporaryFolder() {
   std::error_code failure;
   const fs::path place = fs::temp_directory_path(failure);
-  if (failure)
-    throw_io_error("TMPDIR names no folder for temporary files ({}); set it to one", failure.message());
+  if (failure) throw_io_error("TMPDIR is not a folder ({}); set it to a writable folder", failure.message());
   std::string name = (place / "sandstroke-XXXXXX").string();
   if (!mkdtemp(name.data()))
     throw_io_error("{}: no folder can be made there ({}); set TMPDIR to another place", name,

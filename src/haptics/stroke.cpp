@@ -23,7 +23,7 @@ void check_vectors(const std::vector<Eigen::Vector3d>& rows, const char* column,
   for (std::size_t i = 0; i < rows.size(); ++i) {
     if (rows[i].allFinite()) continue;
     throw_input_error(
-        "{}: {} of sample {} is ({}, {}, {}), which is not finite; repair or remove that sample", name,
+        "{}: {} of sample {} is ({}, {}, {}), which is not finite; correct or remove that sample", name,
         column, i, rows[i].x(), rows[i].y(), rows[i].z());
   }
 }
@@ -36,12 +36,12 @@ void check_stroke(const Stroke& stroke, const std::string& name) {
     const double t = stroke.time[i];
     if (!(std::abs(t) <= most))
       throw_input_error(
-          "{}: time of sample {} is {} s, which is not finite, or beyond {}; repair or remove that sample",
+          "{}: time of sample {} is {} s, which is not finite, or beyond {}; correct or remove that sample",
           name, i, t, most);
     if (i > 0 && !(t - stroke.time[i - 1] >= least_step)) {
       throw_input_error(
-          "{}: time of sample {} is {} s, not later than the {} s before it; times must increase (by {} s or "
-          "more), so repair or remove that sample",
+          "{}: time of sample {} is {} s, not later than the {} s before it; times must increase by {} s or "
+          "more; correct or remove that sample",
           name, i, t, stroke.time[i - 1], least_step);
     }
   }
@@ -49,7 +49,7 @@ void check_stroke(const Stroke& stroke, const std::string& name) {
   for (std::size_t i = 0; i < stroke.size(); ++i) {
     if ((stroke.position[i].array().abs() <= most).all()) continue;
     throw_input_error(
-        "{}: position of sample {} is ({}, {}, {}) m, beyond {} m; repair or remove that sample", name, i,
+        "{}: position of sample {} is ({}, {}, {}) m, beyond {} m; correct or remove that sample", name, i,
         stroke.position[i].x(), stroke.position[i].y(), stroke.position[i].z(), most);
   }
   if (!stroke.velocity.empty()) check_vectors(stroke.velocity, "velocity", stroke, name);

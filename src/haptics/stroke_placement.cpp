@@ -61,15 +61,14 @@ Vector3d plane_normal(const std::vector<Vector3d>& points, const Vector3d& centr
   // Squared widths: below this ratio the tracing is a line to within a millionth of its length.
   if (points.size() < 3 || !(axes.eigenvalues()[1] > 1e-12 * axes.eigenvalues()[2])) {
     throw_input_error(
-        "{}: plane = \"fit\" finds no plane, because its {} samples with the pen down lie on one line; "
-        "use plane = \"keep\" with offset",
+        "{}: plane = \"fit\" finds no plane, because its {} samples with the pen down lie on one line; set "
+        "stroke.plane = \"keep\"",
         name, points.size());
   }
   if (axes.eigenvalues()[1] < 4.0 * axes.eigenvalues()[0]) {
     throw_input_error(
         "{}: plane = \"fit\" finds no plane, because its samples with the pen down are less than twice as "
-        "wide "
-        "as they are thick, so they are no tracing on a table; set stroke.plane = \"keep\"",
+        "wide as they are thick, so they are not a tracing on a table; set stroke.plane = \"keep\"",
         name);
   }
   Vector3d normal = axes.eigenvectors().col(0);
@@ -77,8 +76,8 @@ Vector3d plane_normal(const std::vector<Vector3d>& points, const Vector3d& centr
   const double tilt = to_degrees(std::atan2(normal.head<2>().norm(), normal.z()));
   if (tilt > steepest_table) {
     throw_input_error(
-        "{}: its samples with the pen down fit a plane tilted {:.3g} deg, so they are no tracing on a table; "
-        "set stroke.plane = \"keep\"",
+        "{}: its samples with the pen down fit a plane tilted {:.3g} deg, so they are not a tracing on a "
+        "table; set stroke.plane = \"keep\"",
         name, tilt);
   }
   return normal;

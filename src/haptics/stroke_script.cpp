@@ -139,11 +139,12 @@ class Pen {
   }
   void add(const Curve& curve, double begin, double end, double end_z, double seconds) {
     if (++legs_ > most_legs)
-      throw_input_error("it is over {} short lines; lower repeat, or draw less", most_legs);
+      throw_input_error("it has more than {} short lines; lower repeat, or draw less", most_legs);
     const double end_time = time_ + seconds;
     if (!(end_time * script_.rate < most_samples)) {
-      throw_input_error("it ends after {} s, over {} samples at rate = {} Hz; raise the speeds or lower rate",
-                        end_time, most_samples, script_.rate);
+      throw_input_error(
+          "it ends after {} s, which is more than {} samples at rate = {} Hz; raise the speeds or lower rate",
+          end_time, most_samples, script_.rate);
     }
     while (next_time() < end_time) {
       const double u = std::clamp((next_time() - time_) / seconds, 0.0, 1.0);

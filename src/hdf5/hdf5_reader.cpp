@@ -67,8 +67,7 @@ bool is_being_written(const std::filesystem::path& path) {
 Hdf5Reader::Hdf5Reader(const std::filesystem::path& path) : name_(path.string()) {
   prepare_hdf5();
   check_readable(path);
-  if (H5Fis_hdf5(name_.c_str()) <= 0)
-    throw_input_error("{}: is not an HDF5 file; check which file was meant", name_);
+  if (H5Fis_hdf5(name_.c_str()) <= 0) throw_input_error("{}: is not an HDF5 file; name another file", name_);
   if (!is_being_written(path))
     file_ = Hdf5Handle(H5Fopen(name_.c_str(), H5F_ACC_RDONLY, without_locks()), H5Fclose);
   if (!file_.valid()) {
@@ -100,10 +99,9 @@ bool Hdf5Reader::has(const std::string& object) const {
 }
 
 Hdf5Handle Hdf5Reader::open_dataset(const std::string& dataset) const {
-  if (!has(dataset)) fail(dataset, "is missing; check that the file is of the kind that is wanted here");
+  if (!has(dataset)) fail(dataset, "is missing; name a file of the right kind");
   Hdf5Handle opened(H5Dopen2(file_, dataset.c_str(), access_), H5Dclose);
-  if (!opened.valid())
-    fail(dataset, "is not a dataset; check that the file is of the kind that is wanted here");
+  if (!opened.valid()) fail(dataset, "is not a dataset; name a file of the right kind");
   if (const std::string fault = layout_fault(opened, file_bytes_); !fault.empty()) fail(dataset, fault);
   return opened;
 }
@@ -178,10 +176,9 @@ HeightGrid Hdf5Reader::grid(const std::string& dataset) const {
   const Hdf5Handle opened = open_numbers(dataset, 2, shape);
   // A file says nothing about how large that is: parts that were never written take no room in it. Whoever
   // works with a grid holds a few of its size.
-  check_memory(
-      4.0 * sizeof(double) * static_cast<double>(shape[0]) * static_cast<double>(shape[1]),
-      fmt::format("{}: {} has {} x {} numbers: working with all of them", name_, dataset, shape[0], shape[1]),
-      "read a part of it, for example with h5py");
+  check_memory(4.0 * sizeof(double) * static_cast<double>(shape[0]) * static_cast<double>(shape[1]),
+               fmt::format("{}: {}: working with {} x {} numbers", name_, dataset, shape[0], shape[1]),
+               "read a part of it, for example with h5py");
   HeightGrid values(static_cast<Eigen::Index>(shape[0]), static_cast<Eigen::Index>(shape[1]));
   read(dataset, opened, H5T_NATIVE_DOUBLE, values.data());
   return values;
@@ -256,7 +253,7 @@ std::string Hdf5Reader::text(const std::string& dataset) const {
       extent_of(opened).empty() && read_string(type, text, [&](hid_t memory_type, void* buffer) {
         read(dataset, opened, memory_type, buffer);
       });
-  if (!is_text) fail(dataset, "is not a string; check that the file is of the kind that is wanted here");
+  if (!is_text) fail(dataset, "is not a string; name a file of the right kind");
   return text;
 }
 
@@ -266,8 +263,7 @@ bool Hdf5Reader::has_attribute(const std::string& object, const std::string& att
 
 Hdf5Handle Hdf5Reader::open_attribute(const std::string& object, const std::string& attribute) const {
   if (!has_attribute(object, attribute))
-    fail(object, fmt::format("has no attribute '{}'; check that the file is of the kind that is wanted here",
-                             attribute));
+    fail(object, fmt::format("has no attribute '{}'; name a file of the right kind", attribute));
   return {H5Aopen_by_name(file_, object.c_str(), attribute.c_str(), H5P_DEFAULT, access_), H5Aclose};
 }
 
@@ -305,14 +301,14 @@ double Hdf5Reader::cell_size(const std::string& object) const {
 }
 
 std::vector<std::string> Hdf5Reader::members(const std::string& group) const {
-  if (!has(group)) fail(group, "is missing; check that the file is of the kind that is wanted here");
+  if (!has(group)) fail(group, "is missing; name a file of the right kind");
   std::vector<std::string> names;
   const auto add = [](hid_t, const char* name, const H5L_info_t*, void* list) -> herr_t {
     static_cast<std::vector<std::string>*>(list)->emplace_back(name);
     return 0;
   };
   if (H5Literate_by_name(file_, group.c_str(), H5_INDEX_NAME, H5_ITER_INC, nullptr, add, &names, access_) < 0)
-    fail(group, "is not a group; check that the file is of the kind that is wanted here");
+    fail(group, "is not a group; name a file of the right kind");
   return names;
 }
 

@@ -91,11 +91,10 @@ std::string layout_fault(const Hdf5Handle& dataset, double file_bytes) {
   const Hdf5Handle properties = properties_of(dataset);
   const H5D_layout_t layout = H5Pget_layout(properties);
   if (layout == H5D_VIRTUAL || H5Pget_external_count(properties) > 0)
-    return "is kept in other files, which are not read; put it into this one";
+    return "is stored in other files; copy it into this one";
   if (layout != H5D_CHUNKED) return H5Pget_nfilters(properties) == 0 ? "" : damaged;
   const Chunks chunks(properties, dataset);
-  if (!are_known(chunks.filters))
-    return "is packed in a way that is not read here; pack it anew: h5repack -f GZIP=1 OLD NEW";
+  if (!are_known(chunks.filters)) return "has an unknown compression; repack it: h5repack -f GZIP=1 OLD NEW";
   if (!(chunks.bytes > 0.0 && chunks.bytes <= most_unpacked(file_bytes)))
     return fmt::format("is in chunks of {:.0f} bytes, more than its file can hold; it is damaged",
                        chunks.bytes);

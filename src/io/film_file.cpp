@@ -31,7 +31,8 @@ const std::vector<FilmFormat> film_formats = {
 const FilmFormat& format_of(const fs::path& path) {
   for (const FilmFormat& format : film_formats)
     if (path.extension() == format.ending) return format;
-  throw_input_error("{}: a film's name ends with {}", path.string(), fmt::join(film_endings(), ", "));
+  throw_input_error("{}: is not the name of a film; end it with {}", path.string(),
+                    fmt::join(film_endings(), ", "));
 }
 
 std::vector<std::string> words_of(const std::string& line) {
@@ -42,7 +43,7 @@ std::vector<std::string> words_of(const std::string& line) {
 FedChild start_ffmpeg(const fs::path& path, int width, int height, double rate) {
   const FilmFormat& format = format_of(path);
   if (format.ending != ".gif" && (width % 2 || height % 2))
-    throw_input_error("a film of {} x {} pixels cannot be written: its sides are even; add --size {}x{}",
+    throw_input_error("a film needs an even number of pixels along each side, not {} x {}; add --size {}x{}",
                       width, height, width + width % 2, height + height % 2);
   // -xerror: without it a full disk is no failure.
   std::vector<std::string> words =
@@ -55,8 +56,8 @@ FedChild start_ffmpeg(const fs::path& path, int width, int height, double rate) 
   std::optional<FedChild> ffmpeg = FedChild::start(words);
   if (!ffmpeg)
     throw_io_error(
-        "{}: films are written by the program ffmpeg, which is not installed here; install it (Debian: "
-        "apt-get install ffmpeg), or leave out --video for single pictures",
+        "{}: films need the program ffmpeg, which is not installed; install it (Debian: apt-get install "
+        "ffmpeg), or leave out --video to get single pictures",
         path.string());
   return std::move(*ffmpeg);
 }
@@ -81,9 +82,8 @@ FilmWriter::FilmWriter(const fs::path& path, int width, int height, double rate)
 void FilmWriter::fail(const ChildResult& result) const {
   const std::size_t line = result.err.find_last_of('\n');  // none: from the first on
   throw_io_error("{}: ffmpeg cannot write it: {}", part_.path.string(),
-                 result.err.empty()
-                     ? fmt::format("it ended with exit code {} before its time", result.exit_code)
-                     : result.err.substr(line + 1));
+                 result.err.empty() ? fmt::format("it stopped early with exit code {}", result.exit_code)
+                                    : result.err.substr(line + 1));
 }
 
 bool FilmWriter::add(const Image& image) {

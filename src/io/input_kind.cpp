@@ -33,7 +33,7 @@ struct KindText {
 };
 
 constexpr const char* use_of_stroke =
-    "a scene plays it: sandstroke run SCENE.toml --stroke {0}; sandstroke stroke info {0} says what is in it";
+    "play it in a scene: sandstroke run SCENE.toml --stroke {0}; show it: sandstroke stroke info {0}";
 constexpr std::array<KindText, 11> kinds{{
     {InputKind::scene, "a scene", "", is_scene, "run it: sandstroke run {0}"},
     {InputKind::plan, "a sweep plan", "", is_plan, "run it: sandstroke sweep {0}"},
@@ -42,16 +42,16 @@ constexpr std::array<KindText, 11> kinds{{
     {InputKind::recording, "the journal of a recording that was cut off", "", nullptr,
      "make a stroke of it first: sandstroke stroke repair {0}"},
     {InputKind::run, "a run file", "sandstroke.run", nullptr,
-     "sandstroke info {0} says what is in it, sandstroke render {0} draws it"},
-    {InputKind::golden, "a golden entry's content", "sandstroke.golden", nullptr,
-     "sandstroke golden check runs a scene and compares it with that"},
+     "show it: sandstroke info {0}; draw it: sandstroke render {0}"},
+    {InputKind::golden, "a golden entry", "sandstroke.golden", nullptr,
+     "compare a scene with it: sandstroke golden check"},
     {InputKind::sweep, "a sweep's table of results", "sandstroke.sweep", nullptr,
-     "sweep.html beside it shows them"},
+     "open sweep.html in the same folder"},
     {InputKind::point, "a sweep's point", "sandstroke.point", nullptr,
-     "sandstroke sweep collect makes a table of all"},
+     "collect all points: sandstroke sweep collect FOLDER"},
     {InputKind::bench, "a table of bench's results", "sandstroke.bench", nullptr,
-     "bench.html beside it shows them"},
-    {InputKind::picture, "a PNG picture", "", nullptr, "check which file was meant"},
+     "open bench.html in the same folder"},
+    {InputKind::picture, "a PNG picture", "", nullptr, "name another file"},
 }};
 
 const KindText& text_of(InputKind kind) {

@@ -49,8 +49,8 @@ class PngReader {
   /// Must be asked before memory is taken for the pixels.
   void check_size() const {
     if (width() > largest_png_side || height() > largest_png_side)
-      throw_input_error("{}: has {} x {} pixels, too large to be read; make it at most {} a side", name_,
-                        width(), height(), largest_png_side);
+      throw_input_error("{}: has {} x {} pixels, which is too large; at most {} per side", name_, width(),
+                        height(), largest_png_side);
   }
 
   /// Pixels of `pixel_bytes` each, rows from the top: 3 = 8-bit RGB, 2 = 16-bit gray as stored (big-endian).
@@ -145,7 +145,7 @@ bool has_picture_name(const std::filesystem::path& path) {
 
 void check_picture_name(const std::filesystem::path& path) {
   if (!has_picture_name(path))
-    throw_input_error("{}: pictures are written as PNG; give it a name that ends with .png", path.string());
+    throw_input_error("{}: is not the name of a PNG file; end it with .png", path.string());
 }
 
 void write_png(const fs::path& path, const Image& image) { write_text_file(path, encode_png(image)); }
@@ -164,8 +164,8 @@ HeightGrid read_height_png(const fs::path& path) {
   PngReader png(path);
   png.check_size();
   if (!png.gray() || png.bit_depth() != 16)
-    throw_input_error("{}: is a {}-bit {} PNG; heights are read from a 16-bit grayscale one", png.name(),
-                      png.bit_depth(), png.gray() ? "grayscale" : "colour");
+    throw_input_error("{}: is {}-bit {}; heights need a 16-bit grayscale PNG", png.name(), png.bit_depth(),
+                      png.gray() ? "grayscale" : "colour");
   const std::vector<png_byte> bytes = png.pixels(2);
   HeightGrid values(png.height(), png.width());
   const png_byte* byte = bytes.data();

@@ -65,12 +65,12 @@ constexpr ColumnText column_texts[] = {
     {"force", "N",
      "on the hand, commanded after this reading and held until the next, in the device's frame"},
     {"switches", "", "that were pressed: switch k is bit k"},
-    {"sequence", "", "number of the tick, from 0: of ticks whose number is missing there is no sample"},
+    {"sequence", "", "number of the tick, from 0; ticks without a sample are missing"},
     {"monotonic_time", "ns", "time, as the system's clock gave it (attribute clock of /stroke)"},
     {"flags", "",
-     "sum of: 1 read over half a tick late, 2 ticks before it are missing, 4 force cut to the limit, "
-     "8 force still fading in, 16 force kept from jumping, 32 force was no number and not given, "
-     "64 tool did not dig, for the sand's erosion was behind"},
+     "sum of: 1 read over half a tick late, 2 ticks before it are missing, 4 force cut to the limit, 8 force "
+     "fading in, 16 change of force limited, 32 force was not a number and not given, 64 tool did not dig "
+     "because relaxation was late"},
 };
 constexpr const char* attribute_units =
     "s, Hz, m, N, N/m; clock_start: ns; yes and no: 1 and 0; of the device 0 means none or unknown, "
@@ -134,7 +134,7 @@ struct TakeAttribute {
     const std::string text = file.text_attribute(stroke_group, name);
     const std::optional<StopReason> known = stop_reason_of(text);
     if (!known)
-      throw_input_error("{}: {} has {} '{}', which this program does not know; read it with a later one",
+      throw_input_error("{}: {} has {} '{}', which is unknown; use a newer version of sandstroke",
                         file.name(), stroke_group, name, text);
     reason = *known;
   }
@@ -147,8 +147,8 @@ struct TakeAttribute {
     const double number = file.number_attribute(stroke_group, name);
     constexpr double most = most_ticks;
     if (!(std::abs(number) < std::min(most, static_cast<double>(std::numeric_limits<Count>::max()) + 1.0)))
-      throw_input_error("{}: {} has {} {}, which is no count; the file is damaged", file.name(), stroke_group,
-                        name, number);
+      throw_input_error("{}: {} has {} {}, which is not a count; the file is damaged", file.name(),
+                        stroke_group, name, number);
     count = static_cast<Count>(number);
   }
 };
@@ -161,7 +161,7 @@ RecordingInfo write_recording_file(const std::filesystem::path& path, Recording&
   std::vector<RecordedSample> samples = recording.next(block_samples);
   if (samples.empty())
     throw_input_error(
-        "{}: cannot be made, for there is no sample in the recording; remove its journal and record again",
+        "{}: was not made, because the recording has no sample; remove its journal and record again",
         path.string());
   Hdf5Writer file(path);
   SampleColumns columns(file, info.header);

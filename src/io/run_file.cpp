@@ -16,7 +16,9 @@ RunFile::RunFile(const std::filesystem::path& path) try : file_(path) {
   if (!has_format(file_, InputKind::run))
     throw_input_error("{}: is not a sandstroke run file; make one with 'sandstroke run'", file_.name());
   if (const double version = file_.number_attribute("/", "format_version"); version != 1)
-    throw_input_error("{}: has run format {}; this program reads format 1", file_.name(), version);
+    throw_input_error(
+        "{}: has run format {}, and this program reads format 1; use a newer version of sandstroke",
+        file_.name(), version);
 } catch (const Error&) {
   expect_kind(path, {InputKind::run});
 }
@@ -29,7 +31,7 @@ std::vector<hsize_t> RunFile::shape() const {
   const std::vector<hsize_t> shape = file_.shape("/surface/initial");
   constexpr hsize_t most = std::numeric_limits<int>::max();
   if (shape.size() != 2 || shape[0] > most || shape[1] > most || shape[0] * shape[1] == 0)
-    throw_input_error("{}: /surface/initial is no grid of cells; the file is damaged", file_.name());
+    throw_input_error("{}: /surface/initial is not a grid of cells; the file is damaged", file_.name());
   return shape;
 }
 int RunFile::rows() const { return static_cast<int>(shape()[0]); }

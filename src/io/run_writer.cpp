@@ -166,7 +166,7 @@ void RunWriter::finish(const RunResult& result, const HeightField& surface) {
   file_.write("/provenance/threads", std::to_string(result.threads));
   if (result.interrupted) {
     file_.flush();
-    spdlog::warn("stopped: what is complete is in {}", part_path(path_).string());
+    spdlog::warn("stopped; the part that was run is in {}", part_path(path_).string());
     return;
   }
   write_bed(file_, "/surface/final", surface);

@@ -54,7 +54,7 @@ class TableReader {
     }
     if (columns_.empty())
       throw_input_error("{}: is empty; give a table with a header row and one row per sample", name_);
-    if (lines_.empty()) throw_input_error("{}: has no data rows; give at least one sample", name_);
+    if (lines_.empty()) throw_input_error("{}: has no samples; add at least one row", name_);
   }
 
   Stroke& stroke() { return stroke_; }
@@ -91,7 +91,7 @@ class TableReader {
       const auto count = std::count(columns_.begin(), columns_.end(), wanted);
       const std::string place = format_.columns.empty() ? fmt::format("{}:{}", name_, line_) : "--columns";
       if (count == 0) {
-        throw_input_error("{}: there is no column '{}'; the columns are: {}", place, wanted,
+        throw_input_error("{}: column '{}' is missing; the columns are: {}", place, wanted,
                           fmt::join(columns_, ", "));
       }
       if (count > 1)
@@ -104,8 +104,8 @@ class TableReader {
 
   void take_row(const std::vector<std::string_view>& fields) {
     if (fields.size() != columns_.size()) {
-      throw_input_error("{}:{}: has {} fields, but there are {} columns ({}); repair or remove that line",
-                        name_, line_, fields.size(), columns_.size(), fmt::join(columns_, ", "));
+      throw_input_error("{}:{}: {} fields instead of {} ({}); correct or remove the line", name_, line_,
+                        fields.size(), columns_.size(), fmt::join(columns_, ", "));
     }
     const std::size_t i = lines_.size();
     lines_.push_back(line_);
@@ -131,8 +131,8 @@ class TableReader {
     double value = 0.0;
     const auto [end, failure] = std::from_chars(field.data(), field.data() + field.size(), value);
     if (failure == std::errc() && end == field.data() + field.size() && std::isfinite(value)) return value;
-    throw_input_error("{}:{}: column '{}' is '{}', which is not a finite number; repair or remove that line",
-                      name_, line_, columns_[column], fields[column]);
+    throw_input_error("{}:{}: column '{}': '{}' is not a finite number; correct or remove the line", name_,
+                      line_, columns_[column], fields[column]);
   }
 
   const std::string& name_;
@@ -149,13 +149,13 @@ void check_times(const Stroke& stroke, const std::vector<std::size_t>& lines, co
                  bool equal_allowed) {
   for (std::size_t i = 1; i < stroke.size(); ++i) {
     if (stroke.time[i] < stroke.time[i - 1]) {
-      throw_input_error("{}:{}: time {} s is before the {} s of line {}; sort or repair the lines", name,
+      throw_input_error("{}:{}: time {} s is earlier than {} s in line {}; sort or correct the lines", name,
                         lines[i], stroke.time[i], stroke.time[i - 1], lines[i - 1]);
     }
     if (stroke.time[i] == stroke.time[i - 1] && !equal_allowed) {
       throw_input_error(
-          "{}:{}: time {} s is also that of line {}; choose --equal-times drop (keep the first) "
-          "or spread (space them evenly)",
+          "{}:{}: time {} s also stands in line {}; add --equal-times drop (keep the first) or spread (space "
+          "them evenly)",
           name, lines[i], stroke.time[i], lines[i - 1]);
     }
   }

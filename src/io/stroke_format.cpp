@@ -13,16 +13,15 @@ constexpr double format_version = 1.0;
 void check_stroke_format(const Hdf5Reader& file) {
   if (!file.has(stroke_group) || !file.has_attribute(stroke_group, "format") ||
       file.text_attribute(stroke_group, "format") != format) {
-    throw_input_error(
-        "{}: {} has no attribute format = \"{}\", so it is no stroke file; check which file was meant",
-        file.name(), stroke_group, format);
+    throw_input_error("{}: is not a stroke file ({} has no attribute format = \"{}\"); name another file",
+                      file.name(), stroke_group, format);
   }
   const double version = file.has_attribute(stroke_group, "format_version")
                              ? file.number_attribute(stroke_group, "format_version")
                              : 0.0;
   if (version != format_version) {
     throw_input_error(
-        "{}: {} has format_version {} (0 = none), but this program reads {}; convert the stroke again",
+        "{}: {} has format_version {} (0 = none), and this program reads {}; convert the stroke again",
         file.name(), stroke_group, version, format_version);
   }
 }

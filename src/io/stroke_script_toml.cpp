@@ -19,18 +19,18 @@ struct PressKeys {
 };
 
 void show_press(KeyVisitor& v, PressKeys& press) {
-  v.profile("depth", press.depth, depth_range, "m", "below z = 0; a list is spread along the segment");
-  v.profile("force", press.force, force_range, "N", "repulse force, instead of depth; likewise");
+  v.profile("depth", press.depth, depth_range, "m", "depth below z = 0; a list is spread along the segment");
+  v.profile("force", press.force, force_range, "N", "repulse force instead of depth; a list is spread too");
 }
 
 void show_script(KeyVisitor& v, StrokeScript& script, double& speed, PressKeys& press) {
   v.numbers("start", script.start.data(), 2, any_number, "m", "where the tool begins, in the air");
   v.number("clearance", script.clearance, {0.0, 1.0}, "m", "height above z = 0 at which it travels");
-  v.number("travel_speed", script.travel_speed, speed_range, "m/s", "across, in the air");
-  v.number("plunge_speed", script.plunge_speed, speed_range, "m/s", "up and down");
-  v.number("rate", script.rate, {20.0, 1e6}, "Hz", "samples");  // slower ones would count as gaps
-  v.integers("repeat", &script.repeat, 1, 1, 1000, "times that the segments are run");
-  v.number("speed", speed, speed_range, "m/s", "of the tip while it draws, where a segment has none");
+  v.number("travel_speed", script.travel_speed, speed_range, "m/s", "speed between segments, in the air");
+  v.number("plunge_speed", script.plunge_speed, speed_range, "m/s", "speed down into the sand and up again");
+  v.number("rate", script.rate, {20.0, 1e6}, "Hz", "samples per second");  // slower ones would count as gaps
+  v.integers("repeat", &script.repeat, 1, 1, 1000, "number of times that the segments are drawn");
+  v.number("speed", speed, speed_range, "m/s", "speed of the tip while it draws");
   show_press(v, press);
 }
 
@@ -45,48 +45,48 @@ void show_number(KeyVisitor& v, const char* key, double& value, Range range, con
   v.number(key, value, range, unit, help);
 }
 
-void show_shape(KeyVisitor& v, ScriptMove& move) { show_point(v, "to", move.to, "its end"); }
+void show_shape(KeyVisitor& v, ScriptMove& move) { show_point(v, "to", move.to, "end point"); }
 
 void show_shape(KeyVisitor& v, ScriptLine& line) {
   if (v.given("from"))
     v.numbers("from", line.from.emplace(0.0, 0.0).data(), 2, any_number, "m",
-              "its begin; without it, where the tool is");
-  show_point(v, "to", line.to, "its end");
+              "start point; default: where the tool is");
+  show_point(v, "to", line.to, "end point");
 }
 
 void show_shape(KeyVisitor& v, ScriptArc& arc) {
-  show_point(v, "centre", arc.centre, "of the circle");
-  show_number(v, "radius", arc.radius, positive, "m", "of the circle");
-  show_number(v, "start_angle", arc.start_angle, any_number, "deg", "from +x towards +y");
-  show_number(v, "end_angle", arc.end_angle, any_number, "deg", "clockwise where it is less");
+  show_point(v, "centre", arc.centre, "centre of the circle");
+  show_number(v, "radius", arc.radius, positive, "m", "radius of the circle");
+  show_number(v, "start_angle", arc.start_angle, any_number, "deg", "start of the arc, from +x towards +y");
+  show_number(v, "end_angle", arc.end_angle, any_number, "deg", "end of the arc; clockwise if below start");
 }
 
 void show_shape(KeyVisitor& v, ScriptSpline& spline) {
   v.require("points");
-  v.points("points", spline.points, "m", "[[x, y], ...]: 2 or more, through which it runs");
+  v.points("points", spline.points, "m", "2 or more points that the spline runs through: [[x, y], ...]");
 }
 
 void show_shape(KeyVisitor& v, ScriptText& text) {
   v.require("text");
-  v.text("text", text.text, "ASCII letters");
+  v.text("text", text.text, "text to draw, in ASCII letters");
   v.text("font", text.font, "a single-stroke (Hershey) font");
-  show_point(v, "at", text.at, "left end of the base line");
-  show_number(v, "height", text.height, positive, "m", "of capitals");
-  v.number("angle", text.angle, any_number, "deg", "of the base line");
-  v.number("spacing", text.spacing, any_number, "m", "added between letters");
+  show_point(v, "at", text.at, "left end of the baseline");
+  show_number(v, "height", text.height, positive, "m", "height of capital letters");
+  v.number("angle", text.angle, any_number, "deg", "direction of the baseline, from +x towards +y");
+  v.number("spacing", text.spacing, any_number, "m", "space added between letters");
 }
 
 void show_segment(KeyVisitor& v, ScriptSegment& segment, PressKeys& press) {
   int kind = 0;
   v.require("kind");
   v.choice("kind", kind, {"move", "line", "arc", "spline", "text"},
-           "what it draws; move: nothing, in the air");
+           "what it draws; move draws nothing, in the air");
   const decltype(segment.shape) shapes[] = {ScriptMove{}, ScriptLine{}, ScriptArc{}, ScriptSpline{},
                                             ScriptText{}};
   segment.shape = shapes[kind];
-  v.number("wait", segment.wait, not_negative, "s", "rest at its end");
+  v.number("wait", segment.wait, not_negative, "s", "rest at the end");
   if (kind > 0) {
-    v.number("speed", segment.speed, speed_range, "m/s", "of the tip; default: the script's");
+    v.number("speed", segment.speed, speed_range, "m/s", "speed of the tip; default: that of the script");
     show_press(v, press);
   }
   std::visit([&](auto& shape) { show_shape(v, shape); }, segment.shape);
@@ -95,7 +95,7 @@ void show_segment(KeyVisitor& v, ScriptSegment& segment, PressKeys& press) {
 /// depth or force of a table, or else the fallback.
 PressProfile press_of(const TomlReader& toml, const PressKeys& given, const PressProfile& fallback) {
   if (!given.depth.empty() && !given.force.empty())
-    toml.fail("force", "is given beside depth; give only one of them");
+    toml.fail("force", "cannot stand beside depth; give only one of them");
   if (!given.depth.empty()) return {PressProfile::Kind::depth, given.depth};
   if (!given.force.empty()) return {PressProfile::Kind::force, given.force};
   return fallback;
@@ -105,8 +105,7 @@ void check_letters(const TomlReader& toml, const std::string& text) {
   if (text.empty()) toml.fail("text", "is empty; give it at least one letter");
   const auto foreign = [](char letter) { return static_cast<unsigned char>(letter) >= 0x80; };
   if (std::any_of(text.begin(), text.end(), foreign))
-    toml.fail("text",
-              "has a letter outside ASCII, which the single-stroke fonts lack; write it with ASCII letters");
+    toml.fail("text", "has a letter that the fonts lack; use ASCII letters only");
 }
 
 ScriptSegment read_segment(const TomlReader& toml, const PressProfile& default_press, double default_speed) {
@@ -144,9 +143,9 @@ std::vector<KeySection> script_keys() {
     StrokeScript script;
     ScriptSegment segment;
     PressKeys press;
-    visitor.section("", "Of the whole script; depth, force and speed are for segments that have none");
+    visitor.section("", "Keys of the whole script; depth, force and speed are defaults of the segments");
     show_script(visitor, script, segment.speed, press);
-    visitor.section("segment", "what is drawn, one after the other: each begins with [[segment]]");
+    visitor.section("segment", "the parts that are drawn in turn; each begins with [[segment]]");
     show_segment(visitor, segment, press);
   });
 }

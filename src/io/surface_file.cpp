@@ -16,13 +16,13 @@ HeightField load_surface(const BedSettings& bed, const std::filesystem::path& fo
   HeightGrid heights;
   const auto check_cells = [&](Eigen::Index rows, Eigen::Index cols) {
     if (rows != bed.rows || cols != bed.cols)
-      throw_input_error("{}: has {} x {} cells (x, y) and bed.cells = [{}, {}]; make them equal",
+      throw_input_error("{}: has {} x {} cells (x, y), but bed.cells = [{}, {}]; make them equal",
                         path.string(), cols, rows, bed.cols, bed.rows);
   };
   if (has_picture_name(path)) {
     if (surface.low == surface.high)
       throw_input_error(
-          "{}: bed.surface.low and high are both {} m; say what heights black and white stand for",
+          "{}: bed.surface.low and high are both {} m; set them to the heights of black and white",
           path.string(), surface.low);
     heights = surface.low + (surface.high - surface.low) * read_height_png(path);
   } else {
@@ -30,12 +30,12 @@ HeightField load_surface(const BedSettings& bed, const std::filesystem::path& fo
     check_cells(run.rows(), run.cols());  // before memory is taken for them
     heights = run.final();
     if (std::abs(run.cell_size() - bed.cell_size()) > 1e-9 * bed.cell_size())
-      throw_input_error("{}: has cells of {} m and the bed cells of {} m; change bed.size or bed.cells",
+      throw_input_error("{}: has cells of {} m, but the bed has cells of {} m; change bed.size or bed.cells",
                         path.string(), run.cell_size(), bed.cell_size());
   }
   check_cells(heights.rows(), heights.cols());
   if (!heights.isFinite().all())
-    throw_input_error("{}: holds heights that are not finite numbers; repair it", path.string());
+    throw_input_error("{}: holds heights that are not finite numbers; correct it", path.string());
   return HeightField(heights, bed.cell_size());
 }
 

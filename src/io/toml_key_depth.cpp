@@ -48,7 +48,7 @@ int line_of_too_deep_key(std::string_view text) {
 
 void check_key_depth(std::string_view text, const std::string& name) {
   if (const int line = line_of_too_deep_key(text))
-    throw_input_error("{}:{}: a key has over {} parts; no setting lies so deep", name, line, most_parts);
+    throw_input_error("{}:{}: a key has more than {} parts; no setting has so many", name, line, most_parts);
 }
 
 }  // namespace sandstroke

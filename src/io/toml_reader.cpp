@@ -18,7 +18,7 @@ std::string toml_string(const std::string& text) {
   try {
     return nlohmann::json(text).dump();
   } catch (const nlohmann::json::type_error&) {
-    throw_input_error("{}: is not UTF-8, and TOML can hold no other text; rename it", text);
+    throw_input_error("{}: is not UTF-8, which TOML requires; rename it", text);
   }
 }
 
@@ -141,7 +141,8 @@ void TomlReader::override_with(const std::string& assignment) {
   } catch (const toml::parse_error&) {
     parsed.insert("value", value);  // a bare word: --set relaxation.law=isotropic
   }
-  if (parsed.size() != 1) throw_input_error("--set {}: the value is not one TOML value", assignment);
+  if (parsed.size() != 1)
+    throw_input_error("--set {}: the value is not a TOML value; put text in quotes", assignment);
 
   const std::vector<std::string> parts = parts_of(key);
   toml::table* table = &document_->root;
@@ -373,7 +374,7 @@ void TomlReader::reject_unread(const Conditions& conditions) const {
     const std::string suggestion = nearest_name(key, document_->asked_for);
     throw_input_error("{}: unknown key {}{}", place, key,
                       suggestion.empty()
-                          ? "; remove it (sandstroke help scene, script or plan says which there are)"
+                          ? "; remove it (sandstroke help scene, script or plan lists the keys)"
                           : fmt::format("; did you mean {}?", suggestion));
   };
   const auto visit = [&](const auto& self, const toml::table& table, const std::string& prefix) -> void {

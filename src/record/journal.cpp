@@ -73,7 +73,7 @@ void check_no_journal(const fs::path& path) {
   if (!fs::exists(path)) return;
   if (fs::is_regular_file(path)) share_finished(path);
   throw_io_error(
-      "{}: is there already, a recording that was cut off; make a stroke of it (sandstroke stroke repair "
+      "{}: already exists and is a recording that was cut off; make a stroke of it (sandstroke stroke repair "
       "{}), then remove it, or choose another name",
       path.string(), path.string());
 }
@@ -144,7 +144,7 @@ void JournalWriter::append(std::span<const RecordedSample> samples) {
 void JournalWriter::sync() {
   if (fdatasync(file_) < 0) fail(errno);
   if (!still_named(file_, path_))
-    throw_io_error("{}: somebody removed or replaced this file while it was recorded", path_.string());
+    throw_io_error("{}: this file was removed or replaced during the recording", path_.string());
 }
 
 void JournalWriter::finish(const RecordingFooter& footer) {
@@ -172,12 +172,13 @@ JournalReader::JournalReader(const fs::path& path) : name_(path.string()) {
 
   char begin[signature.size()] = {};
   if (!read(begin, sizeof begin) || std::string_view(begin, sizeof begin) != signature)
-    throw_input_error("{}: is not the journal of a recording; check which file was meant", name_);
+    throw_input_error("{}: is not the journal of a recording; name another file", name_);
   std::uint32_t version = format_version;
   const bool has_version = read(&version, sizeof version);
   if (version != format_version)
-    throw_input_error("{}: has journal format {}; this program reads format {}", name_, version,
-                      format_version);
+    throw_input_error(
+        "{}: has journal format {}, and this program reads format {}; use a newer version of sandstroke",
+        name_, version, format_version);
   sound_ = sizeof begin + sizeof version;
   try {
     const std::optional<Block> block = has_version ? read_block() : std::nullopt;
@@ -187,8 +188,7 @@ JournalReader::JournalReader(const fs::path& path) : name_(path.string()) {
     }
   } catch (const nlohmann::json::exception&) {  // as if cut off
   }
-  throw_input_error("{}: was cut off, or is damaged, within its header: there is no sample in it; remove it",
-                    name_);
+  throw_input_error("{}: is cut off or damaged within its header, and has no sample; remove it", name_);
 }
 
 bool JournalReader::read(void* bytes, std::size_t count) {

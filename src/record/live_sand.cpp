@@ -18,8 +18,7 @@ const double gap_threshold = Stroke{}.gap_threshold;     // s: what `run` does n
 const HeightField& checked(const Scene& scene, const HeightField& bed) {
   const auto refuse_unless = [](bool felt, const char* key, const char* why) {
     if (!felt)
-      throw_input_error("{}: {}; leave it out, or --set it otherwise, where sand is felt live (--feel)", key,
-                        why);
+      throw_input_error("{}: {}; to feel sand live (--feel), leave it out or change it with --set", key, why);
   };
   refuse_unless(scene.device.model == DeviceModel::kinematic, "device.model",
                 "\"dynamic\" simulates a device, and the hand holds a real one");
@@ -28,7 +27,7 @@ const HeightField& checked(const Scene& scene, const HeightField& bed) {
     refuse_unless(placement.plane == StrokePlane::keep, "stroke.plane",
                   "\"fit\" needs the whole stroke before it begins");
     refuse_unless(placement.start == 0.0 && std::isinf(placement.stop), "stroke.start and stroke.stop",
-                  "they cut a stroke that is not there yet");
+                  "they cut a stroke that does not exist yet");
   }
   // Here and in the eroding thread, each with what the other knows.
   check_memory(4.0 * bed.tile_count() * static_cast<double>(HeightField::bytes_per_tile()),

@@ -40,11 +40,10 @@ void DeviceSide::advance(const TickRecord& record) {
   const Eigen::Vector3d before = device_.state().position;
   device_.advance(as_state(record.hand), as_state(record.next), record.device_force);
   if (!record.device_force.allFinite())
-    throw Error(
-        ErrorKind::unstable,
-        fmt::format("at {:.4f} s, {:.4g} m deep, the force is beyond any number; lower force.k_s, force.k_c, "
-                    "force.k_f or the stroke's depth",
-                    record.time, record.depth));
+    throw Error(ErrorKind::unstable,
+                fmt::format("at {:.4f} s, {:.4g} m deep, the force is too large for a number; lower "
+                            "force.k_s, force.k_c, force.k_f or the stroke's depth",
+                            record.time, record.depth));
   energy_.add(record.device_force, device_.state().position - before);
   const double force = record.device_force.stableNorm();
   max_force_ = std::max(max_force_, force);

@@ -137,15 +137,14 @@ Scene second_scene(const Scene& scene, SecondSolution which) {
             units_then = coarser ? (units + 1) / 2 : 2 * units;
   if (units_then == units)
     throw_input_error(
-        "the error cannot be estimated: bed.cells = [{}, {}] cannot be made coarser, since larger square "
-        "cells do "
-        "not fill the bed; take even numbers, or the finer solution",
+        "the error cannot be estimated: bed.cells = [{}, {}] cannot be made coarser, because larger square "
+        "cells do not fill the bed; take even numbers, or the finer solution",
         scene.bed.cols, scene.bed.rows);
   const DeviceSettings& device = scene.device;
   if (device.dropped_ticks > 0.0)
     throw_input_error(
-        "the error cannot be estimated: device.dropped_ticks = {} is a share of ticks, so that with other "
-        "ticks the loop is late by another time; set it to 0",
+        "the error cannot be estimated: device.dropped_ticks = {} is a share of ticks, so with other ticks "
+        "the loop is late by another time; set it to 0",
         device.dropped_ticks);
   if (coarser && device.delay % 2 != 0)
     throw_input_error(

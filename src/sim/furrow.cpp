@@ -215,7 +215,7 @@ FurrowMeasures measure_furrow(const HeightField& initial, const HeightField& fin
 std::string furrow_warning(const Scene& scene, const FurrowMeasures& furrow) {
   if (scene.device.model == DeviceModel::dynamic) return "";  // perhaps the hand gave way
   if (furrow.length < 4.0 * scene.tool.radius || !(furrow.depth < 0.5 * furrow.asked_depth)) return "";
-  const std::string left = fmt::format("the furrow is {:.3g} mm deep where {:.3g} mm were asked for",
+  const std::string left = fmt::format("the furrow is {:.3g} mm deep; the stroke asked for {:.3g} mm",
                                        1e3 * furrow.depth, 1e3 * furrow.asked_depth);
   const bool solid = scene.tool.solid && scene.displacement.deposit == Deposit::outward;
   if (!solid && furrow.asked_depth < 2.0 * scene.tool.radius)

@@ -35,17 +35,17 @@ void describe_bed(KeyVisitor& v, BedSettings& bed) {
   choose(v, "kind", s.kind, {"flat", "cylinder", "cone", "cliff", "noise", "ripples", "file"}, "its shape");
   const auto is = [&](auto... kinds) { return ((s.kind == kinds) || ...); };
   using enum SurfaceKind;
-  if (is(cylinder, cone)) v.number("radius", s.radius, positive, "m", "of its foot");
-  if (is(cylinder, cone, cliff)) v.number("height", s.height, any_number, "m", "above z = 0");
+  if (is(cylinder, cone)) v.number("radius", s.radius, positive, "m", "radius of the base");
+  if (is(cylinder, cone, cliff)) v.number("height", s.height, any_number, "m", "height above z = 0");
   if (is(noise, ripples))
     v.number("amplitude", s.amplitude, not_negative, "m", "greatest height above z = 0");
   if (is(noise))
     v.number("wavelength", s.wavelength, not_negative, "m",
-             "noise: size of the bumps (0: every cell on its own); ripples: crest to crest");
-  if (is(ripples)) v.number("wavelength", s.wavelength, positive, "m", "ripples: crest to crest");
+             "noise: size of the bumps (0: each cell is random); ripples: distance between crests");
+  if (is(ripples)) v.number("wavelength", s.wavelength, positive, "m", "ripples: distance between crests");
   if (is(noise)) {
     int seed = static_cast<int>(s.seed);
-    v.integers("seed", &seed, 1, 0, std::numeric_limits<int>::max(), "of the random heights");
+    v.integers("seed", &seed, 1, 0, std::numeric_limits<int>::max(), "seed of the random heights");
     s.seed = static_cast<std::uint32_t>(seed);
   }
   if (is(file)) {
@@ -59,21 +59,20 @@ void describe_relaxation(KeyVisitor& v, RelaxationSettings& r) {
   v.section("relaxation", "how sand that lies too steep flows");
   choose(v, "law", r.law, {"paper", "isotropic"},
          "8 neighbours as published, or the same slope in every direction");
-  choose(v, "method", r.method, {"passes", "rkl"},
-         "plain passes, or super time steps: the same rest in far fewer");
+  choose(v, "method", r.method, {"passes", "rkl"}, "plain passes, or super time steps, which are far fewer");
   if (r.method == RelaxationMethod::rkl)
     v.number("step_tolerance", r.step_tolerance, {1e-6, 10.0, false}, "",
              "error of a super step, as a share of how far sand has moved");
   v.number("talus_angle", r.talus_angle, sharp_angle, "deg", "angle of repose");
   v.number("tolerance", r.tolerance, {1e-12, 1.0, false}, "",
-           "slope above tan(talus_angle) that rests, as a share of it");
-  v.number("rate", r.rate, not_negative, "Hz", "relaxations during the stroke; 0: none by time");
+           "how much steeper than tan(talus_angle) a slope may stay, as a share of it");
+  v.number("rate", r.rate, not_negative, "Hz", "relaxations per second of stroke; 0: none");
   v.number("travel", r.travel, not_negative, "cells",
-           "relaxations each time the tool has gone so far through sand; 0: none by way");
+           "distance that the tool moves through sand between relaxations; 0: none");
   v.number("share", r.share, {0.0, 1.0, false}, "",
-           "part of the excess moved in a pass; 0: the law's own (1/2, 1/4)");
+           "part of the excess that a pass moves; 0: 1/2 (paper) or 1/4 (isotropic)");
   double passes = static_cast<double>(r.max_passes);
-  v.number("max_passes", passes, {0.0, 1e15, false}, "", "in one relaxation");
+  v.number("max_passes", passes, {0.0, 1e15, false}, "", "largest number of passes in one relaxation");
   r.max_passes = static_cast<std::int64_t>(passes);
 }
 
@@ -87,46 +86,47 @@ void describe_device(KeyVisitor& v, DeviceSettings& d) {
   v.number("servo_rate", d.servo_rate, {1.0, 1e6, false}, "Hz", "ticks of the haptic loop");
   v.number("scale", d.scale, positive, "", "bed metres per device metre");
   v.numbers("offset", d.offset.data(), 3, any_number, "m", "bed position of the device's origin");
-  v.number("max_force", d.max_force, not_negative, "N", "saturation; 0: none");
-  v.number("resolution", d.resolution, not_negative, "m", "of the encoders (dynamic model); 0: exact");
-  v.number("mass", d.mass, positive, "kg", "moved by hand and sand (dynamic model)");
-  v.number("damping", d.damping, not_negative, "N s/m", "of the device");
-  v.number("hand_stiffness", d.hand_stiffness, not_negative, "N/m", "of the hand that follows the stroke");
-  v.number("hand_damping", d.hand_damping, not_negative, "N s/m", "of the hand");
+  v.number("max_force", d.max_force, not_negative, "N", "largest force of the device; 0: no limit");
+  v.number("resolution", d.resolution, not_negative, "m", "encoders' resolution (dynamic model); 0: exact");
+  v.number("mass", d.mass, positive, "kg", "mass that hand and sand move (dynamic model)");
+  v.number("damping", d.damping, not_negative, "N s/m", "damping of the device");
+  v.number("hand_stiffness", d.hand_stiffness, not_negative, "N/m", "stiffness of the hand's spring");
+  v.number("hand_damping", d.hand_damping, not_negative, "N s/m", "damping of the hand");
   if (d.model != DeviceModel::dynamic) return;
   v.integers("delay", &d.delay, 1, 0, 1000, "ticks until the sand's force acts");
   v.number("dropped_ticks", d.dropped_ticks, {0.0, 0.99, false}, "",
-           "share of ticks in which the loop is late and its last force stays");
+           "share of late ticks; the force of the tick before stays");
   choose(v, "drag", d.drag, {"sampled", "implicit"},
-         "drag by the velocity read before a tick, or by that in the tick");
+         "velocity that causes drag: read before the tick (sampled) or in the tick (implicit)");
 }
 
 void describe_stroke(KeyVisitor& v, StrokeSettings& stroke) {
   StrokePlacement& p = stroke.placement;
   v.text("file", stroke.file, "scripted (.toml) or recorded (.h5), relative to the scene");
   choose(v, "plane", p.plane, {"keep", "fit"},
-         "keep heights as recorded, or lay the plane through the tracing level");
-  v.number("scale", p.scale, positive, "", "of its positions");
-  v.number("rotate_z", p.rotate_z, degrees, "deg", "from +x towards +y");
+         "keep recorded heights, or turn and shift the stroke so that its plane is level");
+  v.number("scale", p.scale, positive, "", "scale of the positions");
+  v.number("rotate_z", p.rotate_z, degrees, "deg", "turn about z, from +x towards +y");
   v.number("depth", p.depth, any_number, "m", "how far below z = 0 it runs");
-  v.numbers("offset", p.offset.data(), 3, any_number, "m", "where it goes on the bed");
-  v.number("start", p.start, not_negative, "s", "leaves out what comes before");
+  v.numbers("offset", p.offset.data(), 3, any_number, "m", "shift on the bed");
+  v.number("start", p.start, not_negative, "s", "time at which it begins");
   double stop = std::isinf(p.stop) ? 0.0 : p.stop;
-  v.number("stop", stop, not_negative, "s", "leaves out what comes after; 0: nothing");
+  v.number("stop", stop, not_negative, "s", "time at which it ends; 0: its own end");
   p.stop = stop > 0.0 ? stop : std::numeric_limits<double>::infinity();
 }
 
 void describe_view(KeyVisitor& v, ViewSettings& view) {
-  v.section("view", "how pictures show it");
-  choose(v, "name", view.name, view_names, "the whole bed, what changed, from above");
-  choose(v, "style", view.style, style_names, "as one sees it, or colour maps with contour lines");
-  v.number("azimuth", view.azimuth, degrees, "deg", "of the camera, from +x towards +y");
-  v.number("elevation", view.elevation, {0.0, 90.0, false}, "deg", "of the camera above the horizon");
-  v.number("distance", view.distance, not_negative, "m", "camera to target; 0: what frames the subject");
+  v.section("view", "how pictures show the sand");
+  choose(v, "name", view.name, view_names,
+         "the whole bed, the part that changes, a map from above, or a custom aim");
+  choose(v, "style", view.style, style_names, "sand in the sun, or colour maps with contour lines");
+  v.number("azimuth", view.azimuth, degrees, "deg", "direction of the camera, from +x towards +y");
+  v.number("elevation", view.elevation, {0.0, 90.0, false}, "deg", "height of the camera above the horizon");
+  v.number("distance", view.distance, not_negative, "m", "distance to target; 0 fits the subject");
   v.numbers("target", view.target.data(), 3, any_number, "m", "the point looked at (name = custom)");
-  v.number("field_of_view", view.field_of_view, {1.0, 120.0, false}, "deg", "vertical");
-  v.number("light_azimuth", view.light_azimuth, degrees, "deg", "towards the sun");
-  v.number("light_elevation", view.light_elevation, sharp_angle, "deg", "of the sun");
+  v.number("field_of_view", view.field_of_view, {1.0, 120.0, false}, "deg", "vertical angle of view");
+  v.number("light_azimuth", view.light_azimuth, degrees, "deg", "direction of the sun, from +x towards +y");
+  v.number("light_elevation", view.light_elevation, sharp_angle, "deg", "height of the sun");
   int size[2] = {view.width, view.height};
   v.integers("size", size, 2, 16, 8192, "width and height in pixels");
   view.width = size[0], view.height = size[1];
@@ -149,31 +149,30 @@ double memory_of_bed(const Scene& scene) {
 }  // namespace
 
 void describe_scene(KeyVisitor& v, Scene& scene) {
-  v.section("model", "which set of choices the others start from");
-  choose(v, "preset", scene.preset, preset_names,
-         "as published; or solid sphere, outward, isotropic, rkl, relaxed by way");
+  v.section("model", "the set of defaults that the other settings start from");
+  choose(v, "preset", scene.preset, preset_names, "as published, or the choices for accuracy");
   if (v.reads()) apply_model_preset(scene);
 
   describe_bed(v, scene.bed);
 
   v.section("tool", "the sphere that is dragged through the sand");
-  v.number("radius", scene.tool.radius, positive, "m", "of the sphere");
+  v.number("radius", scene.tool.radius, positive, "m", "radius of the sphere");
   choose(v, "profile", scene.tool.profile, {"paper", "sphere"},
          "underside: the paper's filter, or the sphere");
-  v.flag("solid", scene.tool.solid, "while it touches the sand, none slips under it");
+  v.flag("solid", scene.tool.solid, "no sand slips under the tool while it touches the sand");
 
   v.section("displacement", "where pushed sand goes");
   choose(v, "deposit", scene.displacement.deposit, {"ring", "ahead", "outward"},
          "all around as published, ahead of the motion, or along the tool's outward normal");
   if (scene.displacement.deposit == Deposit::outward)
     v.number("distance", scene.displacement.distance, {1.0, 1.4, false}, "tool radii",
-             "from the tool's axis");
+             "distance from the tool's axis");
 
-  v.section("force", "of the sand on the device");
+  v.section("force", "the force of the sand on the device");
   v.number("k_s", scene.force.k_s, not_negative, "N", "repulse force k_s (exp(k_c depth) - 1)");
-  v.number("k_c", scene.force.k_c, positive, "1/m", "its growth with depth");
+  v.number("k_c", scene.force.k_c, positive, "1/m", "growth of the repulse force with depth");
   v.number("k_f", scene.force.k_f, not_negative, "s/m", "drag k_f velocity x repulse force");
-  choose(v, "drag", scene.force.drag, {"horizontal", "full"}, "velocity that is dragged");
+  choose(v, "drag", scene.force.drag, {"horizontal", "full"}, "part of the velocity that causes drag");
 
   describe_relaxation(v, scene.relaxation);
   describe_device(v, scene.device);
@@ -186,8 +185,8 @@ void describe_scene(KeyVisitor& v, Scene& scene) {
 
   v.section("output", "what the run file keeps");
   v.number("frames", scene.output.frames, not_negative, "Hz",
-           "surfaces during the run; 0: only first and last");
-  v.flag("trace", scene.output.trace, "every tick's position, force and depth");
+           "surfaces kept per second of stroke; 0: only first and last");
+  v.flag("trace", scene.output.trace, "keep position, force and depth of every tick");
 
   describe_view(v, scene.view);
 }
@@ -218,13 +217,13 @@ void check_scene(const Scene& scene, const std::string& name) {
                       dx);
 
   check_memory(memory_of_bed(scene), fmt::format("{}: bed.cells = [{}, {}]", name, bed.cols, bed.rows),
-               "take fewer");
+               "take fewer cells");
 
   const double reach = ToolFootprint(scene.tool).reach();
   if (scene.stroke && 2.0 * reach > std::min(bed.width, bed.depth))
     throw_input_error(
-        "{}: tool.radius = {} m: the tool and its rampart ({:.3g} m) do not fit the bed ({} m by {} m); "
-        "take a smaller radius",
+        "{}: tool.radius = {} m: the tool and its rampart ({:.3g} m) do not fit the bed ({} m by {} m); take "
+        "a smaller radius",
         name, scene.tool.radius, 2.0 * reach, bed.width, bed.depth);
   if (scene.stroke && scene.tool.radius < 0.5 * dx)
     throw_input_error(

@@ -32,7 +32,8 @@ Simulation::Simulation(const Scene& scene, HeightField bed, std::optional<Stroke
   if (!stroke) return;
   if (!(stroke->duration() * scene.device.servo_rate < 1e15))
     throw_input_error(
-        "the stroke lasts {} s, more ticks at {} Hz than can be played; repair its times, or set stroke.stop",
+        "the stroke lasts {} s, more ticks at {} Hz than can be played; correct its times, or set "
+        "stroke.stop",
         stroke->duration(), scene.device.servo_rate);
   check_inside(*stroke);
   stroke_.emplace(std::move(*stroke));
@@ -47,8 +48,7 @@ void Simulation::check_inside(const Stroke& stroke) const {
     if (outside && stroke.pen_down(i) && tip.z() < highest)
       throw_input_error(
           "the stroke enters the sand outside the bed: at {:.3f} s it is at x = {:.4g} m, y = {:.4g} m, and "
-          "the "
-          "bed ends at {:.4g} and {:.4g} m; change stroke.scale, stroke.offset or bed.size",
+          "the bed ends at {:.4g} and {:.4g} m; change stroke.scale, stroke.offset or bed.size",
           stroke.time[i], tip.x(), tip.y(), half_x, half_y);
   }
 }
@@ -153,7 +153,7 @@ RunResult Simulation::run(const Observers& observers) {
   result_.moved_volume = result_.relaxation.moved_volume + result_.displaced_volume;
   if (!std::isfinite(result_.volume_final) || !std::isfinite(result_.moved_volume))
     throw Error(ErrorKind::unstable,
-                "the sand's volume is beyond any number; lower the heights of bed.surface");
+                "the sand's volume is too large for a number; lower the heights of bed.surface");
   if (result_.moved_volume > 0.0)
     result_.volume_drift = std::abs(result_.volume_final - result_.volume_initial) / result_.moved_volume;
   result_.device = device_.result();

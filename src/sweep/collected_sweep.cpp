@@ -55,13 +55,13 @@ CollectedSweep::CollectedSweep(const SweepFolder& of, CollectReport& report)
   }
   if (report.missing > 0)
     report.sentences.push_back(
-        fmt::format("{} missing; sweep again to run what is", counted(report.missing, "point")));
+        fmt::format("{} missing; sweep again to run the rest", counted(report.missing, "point")));
   if (report.unreadable > 0)
     report.sentences.push_back(
-        fmt::format("{} cut off or damaged, the first in {}; sweep again to run what is",
+        fmt::format("{} cut off or damaged, the first in {}; sweep again to run the rest",
                     counted(report.unreadable, "point"), first_unreadable));
   if (report.failed > 0)
-    report.sentences.push_back(fmt::format("{} point{} failed, the first, {}", report.failed,
+    report.sentences.push_back(fmt::format("{} point{} failed; the first is {}", report.failed,
                                            report.failed == 1 ? "" : "s", first_failed));
   if (folder.manifest().keep_surface) read_surfaces(*this, report);
   report.content_hash = content_hash(*this);

@@ -101,7 +101,7 @@ std::pair<SweepAxis, AxisRange> read_axis(const TomlReader& toml, const std::str
   if (range.count > 0)
     axis.values = as_literals(spread(range.from, range.to, range.count, range.logarithmic));
   else if (grid)
-    toml.fail(key, "says not how many values; add count or step");
+    toml.fail(key, "does not say how many values; add count or step");
   return {axis, range};
 }
 
@@ -152,7 +152,7 @@ SweepDesign read_design(const TomlReader& toml, const PlanKeys& keys, const Swee
     ranges.push_back(range);
   }
   if (design.axes.empty())
-    toml.fail("axes", "is missing or empty; say what varies, such as [axes] force.k_s = [500, 1000]");
+    toml.fail("axes", "is missing or empty; name what varies, such as [axes] force.k_s = [500, 1000]");
 
   if (design.grid) {
     check_points(toml, design, keys.max_points);

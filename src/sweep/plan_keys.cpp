@@ -9,41 +9,42 @@
 namespace sandstroke {
 
 void show_plan(KeyVisitor& v, PlanKeys& keys) {
-  v.section("sweep", "what every point starts from, and what is kept; files are relative to the plan");
+  v.section("sweep", "the scene of every point, and what is kept; files are relative to the plan");
   v.require("scene");
-  v.text("scene", keys.scene, "what every point starts from");
-  v.texts("strokes", keys.strokes, "files; instead of the scene's, as the first axis");
-  v.integers("max_points", &keys.max_points, 1, 1, 10'000'000, "more are refused");
+  v.text("scene", keys.scene, "scene that every point starts from");
+  v.texts("strokes", keys.strokes, "strokes (files) instead of the scene's; they are the first axis");
+  v.integers("max_points", &keys.max_points, 1, 1, 10'000'000, "largest number of points");
   int design = keys.grid ? 0 : 1;
   v.choice("design", design, {"grid", "latin"}, "every combination, or a Latin hypercube");
   keys.grid = design == 0;
   if (!keys.grid) {
     v.require("samples");
     v.integers("samples", &keys.samples, 1, 1, keys.max_points, "points of the hypercube");
-    v.integers("seed", &keys.seed, 1, 0, std::numeric_limits<int>::max(), "of the hypercube");
+    v.integers("seed", &keys.seed, 1, 0, std::numeric_limits<int>::max(), "seed of the hypercube");
   }
   std::vector<std::string> metrics;
   for (const Metric& metric : all_metrics()) metrics.push_back(metric.name);
   v.texts("metrics", keys.metrics,
-          fmt::format("to collect; default: all of {}", fmt::join(metrics, ", ")).c_str());
-  v.texts("keep", keys.keep, "of each point: surface, picture; default: neither");
+          fmt::format("metrics to collect; default: all of {}", fmt::join(metrics, ", ")).c_str());
+  v.texts("keep", keys.keep, "what to keep of each point: surface, picture; default: neither");
   v.given("golden");
   v.text("golden", keys.golden, "run file whose final surface each point's is compared with");
 }
 
 void show_range(KeyVisitor& v, const std::string& name, RangeKeys& keys, int most_values) {
-  v.section(name.c_str(), "a range of values, as { from = 20, to = 45, step = 2.5 }");
+  v.section(name.c_str(), "a range of values, such as { from = 20, to = 45, step = 2.5 }");
   for (auto [end, value] : {std::pair{"from", &keys.from}, std::pair{"to", &keys.to}}) {
     v.require(end);
-    v.number(end, *value, any_number, "", end == std::string("from") ? "its first" : "its last");
+    v.number(end, *value, any_number, "", end == std::string("from") ? "first value" : "last value");
   }
   int scale = keys.logarithmic ? 1 : 0;
-  v.choice("scale", scale, {"linear", "log"}, "how they are spread");
+  v.choice("scale", scale, {"linear", "log"}, "how the values are spread");
   keys.logarithmic = scale == 1;
-  if (v.given("count")) v.integers("count", &keys.count.emplace(1), 1, 1, most_values, "how many; or step");
+  if (v.given("count")) v.integers("count", &keys.count.emplace(1), 1, 1, most_values, "number of values");
   if (v.given("step"))
-    v.number("step", keys.step.emplace(1.0), any_number, "",
-             "from one to the next; a Latin hypercube takes any between where neither is given");
+    v.number(
+        "step", keys.step.emplace(1.0), any_number, "",
+        "distance between values, instead of count; without both a Latin hypercube takes any value between");
 }
 
 std::vector<KeySection> all_plan_keys() {
@@ -51,9 +52,9 @@ std::vector<KeySection> all_plan_keys() {
     PlanKeys plan;
     RangeKeys range;
     show_plan(visitor, plan);
-    visitor.section("set", "settings of every point: keys of scenes, as bed.cells = [500, 500]");
+    visitor.section("set", "settings of every point: keys of scenes, such as bed.cells = [500, 500]");
     visitor.section("axes",
-                    "what varies, the last one fastest: keys of scenes, each with a list of values, as "
+                    "what varies, the last one fastest: keys of scenes, each with a list of values, such as "
                     "model.preset = [\"paper\", \"accurate\"], or a range");
     show_range(visitor, "axes.KEY", range, plan.max_points);
   });

@@ -95,7 +95,7 @@ Sweep::Sweep(SweepPlan plan) : plan_(std::move(plan)), inputs_(plan_.scene_folde
   }
   if (golden_ && !golden_fits && !interrupted())
     throw_input_error(
-        "{}: sweep.golden has {} x {} cells (x, y), and no point's bed has; name a run of this scene",
+        "{}: sweep.golden has {} x {} cells (x, y), and no point's bed has as many; name a run of this scene",
         plan_.file.string(), golden_->cols(), golden_->rows());
 }
 
@@ -202,7 +202,7 @@ SweepCounters Sweep::run(const SweepFolder& folder, const SweepOptions& options)
   const std::optional<FileLock> lock = FileLock::try_take(lock_path);
   if (!lock)
     throw_io_error(
-        "{}: another process is at this part of the sweep; wait for it, or share the work by --shard",
+        "{}: another process runs this part of the sweep; wait for it, or share the work with --shard",
         folder.path().string());
   for (const PointGroup& group : options.shard.among(groups_)) {
     PointGroup missing;

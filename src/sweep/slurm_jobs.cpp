@@ -67,15 +67,15 @@ void refuse_if_alive(const fs::path& sweep_folder) {
   const SlurmQueue queue = ask_slurm_queue(*last);
   if (!queue.tasks)
     throw_io_error(
-        "whether the sweep's last jobs are still queued is not known: {}; try again later, or run it here: "
-        "leave out --slurm",
+        "it is unknown whether the sweep's last jobs are still queued: {}; try again later, or leave out "
+        "--slurm to run it here",
         queue.trouble);
   const auto alive = std::count_if(queue.tasks->begin(), queue.tasks->end(),
                                    [](const QueuedTask& task) { return task.alive(); });
   if (alive > 0)
     throw_input_error(
-        "{}: was submitted already, and {} of its jobs {} still queued; let them end, or end them: "
-        "scancel {} {}",
+        "{}: was already submitted, and {} of its jobs {} still queued; let them end, or end them: scancel "
+        "{} {}",
         sweep_folder.string(), alive, alive == 1 ? "is" : "are", last->array,
         last->collect ? std::to_string(last->collect) : "");
 }
@@ -157,7 +157,7 @@ SlurmJobs submit_to_slurm(const SlurmOptions& options, const SlurmWork& work, st
     write_slurm_jobs(jobs_path(sweep_folder), jobs);
   } catch (const Error& refused) {
     spdlog::warn(
-        "the sweep's tasks are queued, but nothing will collect them: {}; do it when they have ended: "
+        "the sweep's tasks are queued, but nothing will collect them: {}; when they have ended, run: "
         "sandstroke sweep collect {}",
         refused.what(), work.folder.string());
   }

@@ -41,7 +41,7 @@ std::string resource_lines(const SlurmOptions& options) {
                      option_line("--account", options.account);
   for (const std::string& line : options.lines) {
     if (line.empty() || line.front() != '-' || has_control_character(line))
-      throw_input_error("--sbatch-option: '{}' is no line of options; give one like --qos=long", line);
+      throw_input_error("--sbatch-option: '{}' is not an option of sbatch; give one like --qos=long", line);
     text += fmt::format("#SBATCH {}\n", line);
   }
   return text;

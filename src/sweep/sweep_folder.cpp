@@ -87,8 +87,9 @@ const Metric* find_metric(const std::string& name) {
 
 void refuse_link(const fs::path& folder) {
   if (fs::is_symlink(folder))
-    throw_input_error("{}: is a link, and nothing is written through one; remove it or choose another -o",
-                      folder.string());
+    throw_input_error(
+        "{}: is a link, and sandstroke does not write through links; remove it or choose another -o",
+        folder.string());
 }
 
 SweepFolder::SweepFolder(fs::path path, SweepManifest manifest)
@@ -96,7 +97,7 @@ SweepFolder::SweepFolder(fs::path path, SweepManifest manifest)
   for (const std::string& name : manifest_.metrics) {
     const Metric* metric = find_metric(name);
     if (!metric)
-      throw_input_error("{}: this program has no metric '{}'; use the one that began the sweep ({}, {})",
+      throw_input_error("{}: this version has no metric '{}'; use the version that began the sweep ({}, {})",
                         manifest_path(path_).string(), name, manifest_.version, manifest_.commit);
     metrics_.push_back(*metric);
   }
@@ -113,8 +114,7 @@ SweepFolder SweepFolder::make(const fs::path& path, const SweepManifest& manifes
       if (key == "version" || key == "commit")
         throw_input_error(
             "{}: was begun by another version of sandstroke ({}, {}), whose results may differ; choose "
-            "another "
-            "-o, or remove the folder",
+            "another -o, or remove the folder",
             path.string(), there.manifest_.version, there.manifest_.commit);
       throw_input_error(
           "{}: holds another sweep: its {} differ{} from this one's; choose another -o, or remove the folder",
@@ -133,11 +133,11 @@ SweepFolder SweepFolder::make(const fs::path& path, const SweepManifest& manifes
       if (name == "points") {
         if (fs::is_empty(entry.path()) || fs::exists(manifest_path(path))) continue;
         throw_input_error(
-            "{}: holds points, but not the manifest.json that says of which sweep; choose another -o, or "
-            "remove the folder",
+            "{}: holds points but no manifest.json, so their sweep is unknown; choose another -o, or remove "
+            "the folder",
             path.string());
       }
-      throw_input_error("{}: holds other files and no sweep; choose another -o, or an empty folder",
+      throw_input_error("{}: holds other files and not a sweep; choose another -o, or an empty folder",
                         path.string());
     }
   make_folder(path / "points");
@@ -155,12 +155,13 @@ SweepFolder SweepFolder::make(const fs::path& path, const SweepManifest& manifes
 SweepFolder SweepFolder::open(const fs::path& path) {
   const fs::path file = manifest_path(path);
   if (!fs::exists(file))
-    throw_io_error("{}: is no folder of a sweep, for it has no manifest.json; name what -o named",
-                   path.string());
+    throw_io_error(
+        "{}: is not the folder of a sweep, because it has no manifest.json; name the folder that -o named",
+        path.string());
   try {
     const Json json = Json::parse(read_text_file(file));
     if (json.at("format") != "sandstroke.sweep" || json.at("format_version") != 1)
-      throw_input_error("{}: has a format that this program does not read; use the one that began the sweep",
+      throw_input_error("{}: has an unknown format; use the version of sandstroke that began the sweep",
                         file.string());
     SweepManifest manifest = from_json(json);
     if (is_whole(manifest.design)) return {path, std::move(manifest)};

@@ -54,7 +54,7 @@ Scene try_scene(const TomlReader& toml, const SweepPlan& plan, const std::vector
           fmt::format("cannot be {}: {}", setting.substr(key.size() + 1), sentence.substr(start.size())));
     }
     if (tried_key.empty()) throw;
-    toml.fail(tried_key, "leads to a scene that cannot be: " + sentence);
+    toml.fail(tried_key, "gives a scene that is not valid: " + sentence);
   }
 }
 

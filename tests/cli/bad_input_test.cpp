@@ -190,7 +190,7 @@ const std::vector<Case> cases = {
     {"PictureThatIsNoPng",
      {"run", "scene.toml", "-o", "out.h5", "--png", "out.jpg"},
      2,
-     {"out.jpg: pictures are written as PNG; give it a name that ends with .png"},
+     {"out.jpg: is not the name of a PNG file; end it with .png"},
      {}},
     {"StrokeAsScene",
      {"run", "line.toml", "-o", "out.h5"},
@@ -286,8 +286,8 @@ TEST(CliBadInput, Hdf5FilesOfOtherKindsAreNamed) {
   refused({"sweep", "run.h5"}, "run.h5: is a run file, not a sweep plan; ");
   refused({"run", "scene.toml", "--stroke", "run.h5"}, "run.h5: is a run file, not a stroke; ");
   refused({"stroke", "info", "run.h5"}, "run.h5: is a run file, not a stroke; ");
-  refused({"info", "golden.h5"}, "golden.h5: is a golden entry's content, not a run file; ");
-  refused({"compare", "golden.h5", "run.h5"}, "golden.h5: is a golden entry's content, not a run file; ");
+  refused({"info", "golden.h5"}, "golden.h5: is a golden entry, not a run file; ");
+  refused({"compare", "golden.h5", "run.h5"}, "golden.h5: is a golden entry, not a run file; ");
 }
 
 TEST(CliBadInput, ARecordedStrokeMustBeFiniteAndRunForward) {

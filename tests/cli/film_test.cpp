@@ -62,7 +62,7 @@ TEST_F(CliFilm, FfmpegIsFedThePicturesOfAllFrames) {
   const ProgramResult result = film();
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_EQ(result.out, "a.mp4\n");
-  EXPECT_NE(result.err.find("4 a second: film time is stroke time"), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find("4 per second: as fast as the stroke"), std::string::npos) << result.err;
   EXPECT_NE(read_file(folder_ / "words").find("-video_size 320x180 -framerate 4 "), std::string::npos);
   ASSERT_EQ(run_program({"render", "a.h5", "--frame", "all", "-o", "pictures"}, folder_).exit_code, 0);
   std::string pixels;
@@ -89,9 +89,9 @@ TEST_F(CliFilm, FfmpegsLastWordIsTheReason) {
   fake_ffmpeg("echo other >&2; echo No such encoder >&2; exit 1");
   expect_failure(film(), "a.mp4: ffmpeg cannot write it: No such encoder\n");
   fake_ffmpeg("head -c 1000 > \"$output\"; exit 7");
-  expect_failure(film(), "it ended with exit code 7");
+  expect_failure(film(), "it stopped early with exit code 7");
   fake_ffmpeg("head -c 1000 > \"$output\"");  // all well, it says
-  expect_failure(film(), "before its time");
+  expect_failure(film(), "it stopped early");
   fake_ffmpeg("cat > \"$output\"; echo No space left on device >&2; exit 1");
   write_file(folder_ / "a.mp4", "an older film");
   EXPECT_EQ(film().exit_code, 4);
@@ -126,11 +126,11 @@ TEST_F(CliFilm, WhatCannotBeIsRefused) {
     EXPECT_NE(result.err.find(sentence), std::string::npos) << result.err;
   };
   refused({"render", "a.h5", "--video", "a.mp4", "--size", "321x180"}, "add --size 322x180");
-  refused({"render", "a.h5", "--video", "a.avi"}, "ends with .mp4, .webm, .gif");
+  refused({"render", "a.h5", "--video", "a.avi"}, "end it with .mp4, .webm, .gif");
   refused({"render", "a.h5", "--video", "a.mp4", "--frame", "2"}, "leave out --frame 2");
   refused({"render", "a.h5", "--video", "a.mp4", "-o", "pictures"}, "--output");
   refused({"render", "a.h5", "--fps", "3"}, "--video");
-  refused({"render", "a.h5", "--video", "a.h5"}, "a film's name ends with");
+  refused({"render", "a.h5", "--video", "a.h5"}, "is not the name of a film; end it with");
   EXPECT_TRUE(files("a.mp4").empty());
   EXPECT_TRUE(files("a.avi").empty());
 }

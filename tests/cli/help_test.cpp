@@ -66,9 +66,9 @@ TEST(CliHelp, OptionsSayTheirDefaults) {
   };
   for (const char* option : {"--size", "--view", "--style", "--azimuth", "--elevation", "--distance",
                              "--target", "--light-azimuth", "--light-elevation"})
-    EXPECT_NE(help_of("render", option).find("default: the scene's [view]"), std::string::npos) << option;
-  EXPECT_NE(help_of("render", "--contour").find("0, the default"), std::string::npos);
-  EXPECT_NE(help_of("run", "--threads").find("0, the default"), std::string::npos);
+    EXPECT_NE(help_of("render", option).find("Default: the scene's [view]"), std::string::npos) << option;
+  EXPECT_NE(help_of("render", "--contour").find("Default: 0"), std::string::npos);
+  EXPECT_NE(help_of("run", "--threads").find("Default: 0"), std::string::npos);
   EXPECT_NE(help_of("record", "--stop-switch").find("counted from 0"), std::string::npos);
 }
 

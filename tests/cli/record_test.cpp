@@ -241,7 +241,7 @@ TEST(CliRecord, AJournalThatSomebodyRemovesIsToldAsLost) {
   };
   const ProgramResult result = run_program(record_line, folder, meanwhile);
   EXPECT_EQ(result.exit_code, 4) << result.err;
-  EXPECT_NE(result.err.find("somebody removed"), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find("the file was removed or replaced"), std::string::npos) << result.err;
   EXPECT_EQ(result.err.find("stroke repair"), std::string::npos) << result.err;
 }
 
@@ -299,9 +299,9 @@ TEST(CliRecord, WhatIsWrongIsSaidBeforeAnythingIsRecorded) {
       {{"record"}, 2, "--list"},
       {{"record", "-o", "a.h5"}, 2, "--device"},
       {with(to_a, {"mouse"}), 2, "scripted:FILE.toml"},
-      {with(to_a, {"scripted:"}), 2, "names no stroke"},
-      {with(to_a, {"chai3d:one"}), 2, "there is no such device"},
-      {with(to_a, {"chai3d:-1"}), 2, "there is no such device"},
+      {with(to_a, {"scripted:"}), 2, "the stroke is missing"},
+      {with(to_a, {"chai3d:one"}), 2, "unknown device"},
+      {with(to_a, {"chai3d:-1"}), 2, "unknown device"},
       {with(to_a, {"scripted:none.toml"}), 4, "none.toml"},
       {with(to_a, {"replay:scene.toml"}), 2, "scene.toml"},
       {with(record_line, {"--duration", "-1"}), 2, "--duration"},

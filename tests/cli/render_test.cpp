@@ -42,8 +42,7 @@ TEST(CliRender, APictureIsAPng) {
   for (const std::string name : {"a.jpg", "a.txt", "a"}) {
     const ProgramResult render = run_program({"render", "a.h5", "-o", name}, folder);
     EXPECT_EQ(render.exit_code, 2);
-    EXPECT_EQ(render.err,
-              "sandstroke: " + name + ": pictures are written as PNG; give it a name that ends with .png\n");
+    EXPECT_EQ(render.err, "sandstroke: " + name + ": is not the name of a PNG file; end it with .png\n");
     EXPECT_FALSE(fs::exists(folder / name));
   }
 }

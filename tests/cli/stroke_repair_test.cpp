@@ -93,7 +93,7 @@ TEST(CliStrokeRepair, AKilledRecordingCanBePlayed) {
   EXPECT_EQ(repair.exit_code, 0) << repair.err;
   EXPECT_THAT(repair.out,
               AllOf(HasSubstr("299, the last 0.299 s after"), HasSubstr("299 recorded, 1 missing"),
-                    HasSubstr("cut off"), HasSubstr("had not yet handed on"), HasSubstr("kept")));
+                    HasSubstr("cut off"), HasSubstr("was not yet written"), HasSubstr("kept")));
   EXPECT_TRUE(fs::exists(folder / "hand.h5.recording")) << "nothing of the user's is removed unasked";
 
   const ProgramResult run =
@@ -165,12 +165,12 @@ TEST(CliStrokeRepair, RefusesWhatItCannotDo) {
     EXPECT_THAT(result.err, sentence);
     EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
   };
-  refused({"absent.h5"}, 4, AllOf(HasSubstr("absent.h5.recording"), HasSubstr("nothing to repair")));
+  refused({"absent.h5"}, 4, AllOf(HasSubstr("absent.h5.recording"), HasSubstr("does not exist")));
   write_journal(folder / "hand.h5.recording");
   write_file(folder / "hand.h5", "an earlier one");
-  refused({"hand.h5"}, 2, AllOf(HasSubstr("hand.h5: is there already"), HasSubstr("another file")));
+  refused({"hand.h5"}, 2, AllOf(HasSubstr("hand.h5: already exists"), HasSubstr("another file")));
   EXPECT_EQ(read_file(folder / "hand.h5"), "an earlier one");
-  refused({"hand.h5", "hand.h5.recording"}, 2, HasSubstr("also named"));
+  refused({"hand.h5", "hand.h5.recording"}, 2, HasSubstr("named twice"));
   refused({"hand.h5", "no/folder/a.h5"}, 4, HasSubstr("make it first"));
   write_file(folder / "text.recording", "no journal at all, but some text");
   refused({"text.recording"}, 2, HasSubstr("not the journal of a recording"));

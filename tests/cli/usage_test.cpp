@@ -24,41 +24,41 @@ TEST(CliUsage, AnOptionThatRepeatsTakesOneValueEachTime) {
       folder);
   EXPECT_EQ(run.exit_code, 0) << run.err;
   expect_refused({"run", "scene.toml", "--set", "tool.radius=0.011", "b.toml"}, folder,
-                 "b.toml: more than run takes; 'sandstroke run --help' says more");
+                 "b.toml: run takes no more arguments; see: sandstroke run --help");
   expect_refused({"bench", "--scene", "cone", "x"}, folder,
-                 "x: more than bench takes; 'sandstroke bench --help' says more");
+                 "x: bench takes no more arguments; see: sandstroke bench --help");
 }
 
 TEST(CliUsage, AWordThatIsNoCommandIsNamed) {
   const fs::path folder = test_folder();
-  const std::string run = "rum: no such command; did you mean run?";
+  const std::string run = "rum is not a command; did you mean run?";
   expect_refused({"rum", "scene.toml"}, folder, run);
   expect_refused({"-q", "rum"}, folder, run);
   expect_refused({"rum", "--help"}, folder, run);
   expect_refused({"stroke", "conver", "a", "b"}, folder,
-                 "conver: no such command of stroke; did you mean convert?");
-  expect_refused({"golden", "chekc"}, folder, "chekc: no such command of golden; did you mean check?");
+                 "conver is not a command of stroke; did you mean convert?");
+  expect_refused({"golden", "chekc"}, folder, "chekc is not a command of golden; did you mean check?");
   expect_refused({"golden", "chekc", "--help"}, folder,
-                 "chekc: no such command of golden; did you mean check?");
-  expect_refused({"strawberries"}, folder, "strawberries: no such command; 'sandstroke --help' says more");
-  expect_refused({}, folder, "a command is missing; 'sandstroke --help' says more");
-  expect_refused({"stroke"}, folder, "a command is missing; 'sandstroke stroke --help' says more");
+                 "chekc is not a command of golden; did you mean check?");
+  expect_refused({"strawberries"}, folder, "strawberries is not a command; see: sandstroke --help");
+  expect_refused({}, folder, "a command is missing; see: sandstroke --help");
+  expect_refused({"stroke"}, folder, "a command is missing; see: sandstroke stroke --help");
 }
 
 TEST(CliUsage, AnOptionThatIsNoneIsNamed) {
   const fs::path folder = test_folder();
-  const std::string output = "--outptu: no such option of run; did you mean --output?";
+  const std::string output = "--outptu is not an option of run; did you mean --output?";
   expect_refused({"run", "scene.toml", "--outptu", "x.h5"}, folder, output);
   expect_refused({"run", "--outptu=x.h5"}, folder, output);
   expect_refused({"stroke", "convert", "--possition", "x,y"}, folder,
-                 "--possition: no such option of stroke convert; did you mean --position?");
+                 "--possition is not an option of stroke convert; did you mean --position?");
   expect_refused({"--quite", "run", "scene.toml"}, folder,
-                 "--quite: no such option of run; did you mean --quiet?");
-  expect_refused({"--quite"}, folder, "--quite: no such option of sandstroke; did you mean --quiet?");
+                 "--quite is not an option of run; did you mean --quiet?");
+  expect_refused({"--quite"}, folder, "--quite is not an option of sandstroke; did you mean --quiet?");
   expect_refused({"run", "scene.toml", "--strawberries"}, folder,
-                 "--strawberries: no such option of run; 'sandstroke run --help' says more");
+                 "--strawberries is not an option of run; see: sandstroke run --help");
   expect_refused({"run", "scene.toml", "-x"}, folder,
-                 "-x: no such option of run; 'sandstroke run --help' says more");
+                 "-x is not an option of run; see: sandstroke run --help");
 }
 
 TEST(CliUsage, EverySentenceNamesTheHelpOfItsCommand) {
@@ -70,7 +70,7 @@ TEST(CliUsage, EverySentenceNamesTheHelpOfItsCommand) {
     const ProgramResult result = run_program(words, folder);
     EXPECT_EQ(result.exit_code, 2);
     EXPECT_TRUE(result.err.starts_with("sandstroke: ")) << result.err;
-    EXPECT_TRUE(result.err.ends_with("; 'sandstroke " + command + " --help' says more\n")) << result.err;
+    EXPECT_TRUE(result.err.ends_with("; see: sandstroke " + command + " --help\n")) << result.err;
   }
 }
 
@@ -86,7 +86,7 @@ TEST(CliUsage, OptionsThatWouldChangeNothingInAPictureAreRefused) {
   refused({"--target", "0,0,0", "--view", "stroke"}, "--target needs --view custom; the view is stroke");
   for (const std::string option : {"--azimuth", "--elevation", "--distance"})
     refused({option, "1", "--view", "top"},
-            option + " needs --view overview, stroke or custom; the view is top, straight from above");
+            option + " needs --view overview, stroke or custom; the view is top");
   refused({"--contour", "0.01"},
           "--contour needs --style height or difference; the style sand draws no contour lines");
 
@@ -103,12 +103,12 @@ TEST(CliUsage, FramesThatAreNotThereAreSaidToBeNone) {
   ASSERT_EQ(run_program({"run", "scene.toml", "-o", "six.h5", "--frames", "4"}, folder).exit_code, 0);
   for (const std::string frame : {"3", "all"})
     expect_refused({"render", "none.h5", "--frame", frame}, folder,
-                   "none.h5: holds no frames; run the scene again with --frames HZ");
+                   "none.h5: has no frames; run the scene again with --frames HZ");
   for (const std::string frame : {"6", "-1"})
     expect_refused({"render", "six.h5", "--frame", frame}, folder,
-                   "six.h5: holds no frame " + frame + "; take 0 to 5");
+                   "six.h5: has no frame " + frame + "; take 0 to 5");
   expect_refused({"render", "none.h5", "--video", "v.avi"}, folder,
-                 "v.avi: a film's name ends with .mp4, .webm, .gif");
+                 "v.avi: is not the name of a film; end it with .mp4, .webm, .gif");
 }
 
 }  // namespace

@@ -79,7 +79,7 @@ void save_recording(const fs::path& folder) {
   if (!fs::exists(folder / "hand.h5.recording")) return;
   const ProgramResult repair = run_program({"stroke", "repair", "hand.h5", "saved.h5", "--remove"}, folder);
   if (repair.exit_code != 0) {
-    EXPECT_NE(repair.err.find("there is no sample in"), std::string::npos) << repair.err;
+    EXPECT_NE(repair.err.find("has no sample"), std::string::npos) << repair.err;
     fs::remove(folder / "hand.h5.recording");
   } else {
     EXPECT_EQ(run_program({"stroke", "info", "saved.h5"}, folder).exit_code, 0);

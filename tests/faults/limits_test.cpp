@@ -137,9 +137,9 @@ TEST_P(Limits, ASecondProcessAtTheSameOutput) {
       EXPECT_TRUE(result->exit_code == io_error || result->exit_code == input_error)
           << where << ": " << result->exit_code << " " << result->err;
       const bool says_why = result->err.find("another process") != std::string::npos ||
-                            result->err.find("there already") != std::string::npos ||
+                            result->err.find("already exists") != std::string::npos ||
                             result->err.find("still being recorded") != std::string::npos ||
-                            result->err.find("came into being") != std::string::npos;
+                            result->err.find("was made by somebody else") != std::string::npos;
       EXPECT_TRUE(says_why) << where << ": " << result->err;
     }
     outcomes[fmt::format("{} of 2 refused", (first.exit_code != 0) + (second.exit_code != 0))]++;

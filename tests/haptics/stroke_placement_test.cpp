@@ -182,7 +182,7 @@ TEST(StrokePlacement, RefusesAPlaneThatIsNoTable) {
   };
   for (const double degrees : {-44.9, 0.0, 44.9, 180.0}) EXPECT_EQ(complaint(tilted(degrees), fit), "");
   for (const double degrees : {-45.1, 45.1, 134.9})
-    EXPECT_THAT(complaint(tilted(degrees), fit), HasSubstr("no tracing on a table"));
+    EXPECT_THAT(complaint(tilted(degrees), fit), HasSubstr("not a tracing on a table"));
   // Along x, as thick as it is wide: any plane through the line would do.
   std::vector<Vector3d> rod;
   for (int i = 0; i < 400; ++i) rod.emplace_back(0.001 * i, 0.001 * std::cos(i), 0.001 * std::sin(i));

@@ -266,7 +266,7 @@ TEST_F(RecordingFile, RefusesCountsThatAreNone) {
       read_recording_info(path_);
       ADD_FAILURE() << count;
     } catch (const Error& refused) {
-      EXPECT_THAT(refused.what(), AllOf(HasSubstr("ticks_skipped"), HasSubstr("no count")));
+      EXPECT_THAT(refused.what(), AllOf(HasSubstr("ticks_skipped"), HasSubstr("not a count")));
     }
   }
 }

@@ -131,7 +131,7 @@ TEST_F(StrokeFile, SaysWhatIsWrongInAFile) {
   EXPECT_THAT(complaint(file_with([](Hdf5Writer& file) { write_good_columns(file); })),
               AllOf(HasSubstr("spoilt.h5"), HasSubstr("/stroke"), HasSubstr("sandstroke.stroke")));
   EXPECT_THAT(complaint(file_with([](Hdf5Writer& file) { file.write("/other", std::vector<double>{1}); })),
-              HasSubstr("no stroke file"));
+              HasSubstr("is not a stroke file"));
   EXPECT_THAT(complaint(file_with([](Hdf5Writer& file) {
                 write_good_columns(file);
                 file.attribute("/stroke", "format", std::string("sandstroke.stroke"));

@@ -321,7 +321,7 @@ TEST(Furrow, WarnsOfADragThatLeavesLessThanHalfAndSaysWhatHelps) {
       half{.depth = 0.002, .asked_depth = 0.004, .length = 0.04},
       hole{.depth = 0.0019, .asked_depth = 0.004, .length = 0.039};
   EXPECT_NE(furrow_warning(paper, less).find("model.preset = \"accurate\""), std::string::npos);
-  EXPECT_NE(furrow_warning(paper, less).find("1.9 mm deep where 4 mm"), std::string::npos);
+  EXPECT_NE(furrow_warning(paper, less).find("1.9 mm deep; the stroke asked for 4 mm"), std::string::npos);
   EXPECT_NE(furrow_warning(accurate, less).find("tool.radius"), std::string::npos);
   Scene dynamic = paper;
   dynamic.device.model = DeviceModel::dynamic;

@@ -142,10 +142,10 @@ TEST(Simulation, ALimitedDeviceIsHeldByItsLimitAtAnyDepth) {
   Simulation unlimited(scene, flat_bed(scene), plunge);
   try {
     unlimited.run({&recording});
-    FAIL() << "a force beyond any number went unnoticed";
+    FAIL() << "a force too large for a number went unnoticed";
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::unstable);
-    EXPECT_NE(std::string(error.what()).find("force is beyond any number"), std::string::npos);
+    EXPECT_NE(std::string(error.what()).find("force is too large for a number"), std::string::npos);
   }
 }
 

@@ -150,7 +150,7 @@ TEST_F(SweepOnSlurm, AnArrayGivesWhatALocalSweepGives) {
   ASSERT_EQ(jobs.tasks.size(), 3u);
   const ProgramResult again = sweep({"plan.toml", "-o", output, "--slurm"});
   EXPECT_EQ(again.exit_code, 2);
-  EXPECT_NE(again.err.find("was submitted already"), std::string::npos) << again.err;
+  EXPECT_NE(again.err.find("was already submitted"), std::string::npos) << again.err;
   EXPECT_TRUE(comes_true([&] { return ended(jobs); }));
   expect_as_local(output);
   EXPECT_EQ(status(output)["missing"], 0);

@@ -110,11 +110,9 @@ TEST_F(SlurmJobsTest, CollectingWaitsForTheEndOfTheArray) {
 TEST_F(SlurmJobsTest, AreNotSubmittedTwiceWhileTheyAreQueued) {
   submit();
   slurm_.queue("41|1|COMPLETED|0|None|\n41|3|RUNNING|0|None|\n42|N/A|PENDING|0|Dependency|\n");
-  EXPECT_EQ(
-      sentence_of([&] { submit(); }),
-      (folder_ / "out").string() +
-          ": was submitted already, and 2 of its jobs are still queued; let them end, or end them: scancel "
-          "41 42");
+  EXPECT_EQ(sentence_of([&] { submit(); }), (folder_ / "out").string() +
+                                                ": was already submitted, and 2 of its jobs are still "
+                                                "queued; let them end, or end them: scancel 41 42");
   slurm_.queue("41|1|COMPLETED|0|None|\n41|3|TIMEOUT|0|None|\n");
   EXPECT_EQ(submit().array, 43);
 }

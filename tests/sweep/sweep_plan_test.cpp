@@ -163,7 +163,7 @@ TEST_F(APlan, IsRefusedInOneSentenceThatSaysWhere) {
       {axes + "force.k_s = { from = 1, to = 1, count = 3 }\n",
        "plan.toml:4: axes.force.k_s has a value twice"},
       {start + "strokes = [\"other.toml\", \"scenes/../other.toml\"]\n", "sweep.strokes has a value twice"},
-      {axes + "force.k_s = { from = 1, to = 2 }\n", "says not how many values; add count or step"},
+      {axes + "force.k_s = { from = 1, to = 2 }\n", "does not say how many values; add count or step"},
       {axes + "force.k_s = { from = 1, to = 2, step = 0 }\n", "axes.force.k_s.step"},
       {axes + "force.k_s = { from = 1, to = 2, step = -1 }\n", "does not lead from 1 to 2"},
       {axes + "force.k_s = { from = 1, to = 2, count = 0 }\n", "axes.force.k_s.count is 0"},

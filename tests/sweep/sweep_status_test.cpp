@@ -84,10 +84,9 @@ TEST_F(SweepStatusTest, TasksAreWhatFolderAndQueueSay) {
   EXPECT_EQ(status.tasks[1].missing, 1u);
   EXPECT_EQ(status.tasks[1].reason, "BeginTime");
   EXPECT_EQ(status.tasks[2].state, "gone");
-  EXPECT_EQ(
-      status.advice(),
-      "1 task is queued or running; 1 task is gone and left 2 points: wait for the others, then run the same "
-      "command again");
+  EXPECT_EQ(status.advice(),
+            "1 task is queued or running; 1 task is gone and left 2 points: wait for the others, then run "
+            "the same command again");
   EXPECT_EQ(open_tasks(status).rows(), 2u);
 }
 
@@ -126,9 +125,8 @@ TEST_F(SweepStatusTest, WithoutAQueueTheFolderIsWhatIsKnown) {
   EXPECT_EQ(status.tasks[0].state, "done");
   EXPECT_EQ(status.tasks[1].state, "unknown");
   EXPECT_EQ(status.advice(),
-            "1 point is missing, and what is queued cannot be known: squeue is not installed here; when "
-            "nothing is, "
-            "run the same command again");
+            "1 point is missing, and it is unknown what is queued: squeue is not installed here; when "
+            "nothing is queued, run the same command again");
 }
 
 TEST_F(SweepStatusTest, ThePointsOfALargerSweepThatWasHereDoNotHarm) {

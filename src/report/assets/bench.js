@@ -177,10 +177,10 @@ drawPage((data, main) => {
     main.append(el("p", {}, "Nothing was measured: this study holds no runs."));
   } else {
     main.append(el("p", {},
-      "Each point is a run. Run time is the median of repeats, taken in turn so that a change of the machine's " +
-      "speed meets all alike. The error is the distance to the known answer, or to a converged solution; below " +
-      "the dotted line errors mean nothing, since that answer is not known any better. Point at a symbol for " +
-      "its figures, click on a name to hide its line."));
+      "Each point is a run. Run time is the median of repeats. The repeats take turns, so a change of the " +
+      "machine's speed affects all runs alike. The error is the distance to the known answer, or to a converged " +
+      "solution. Errors below the dotted line mean nothing, because that answer is no more exact. Point at a " +
+      "symbol for its figures. Click on a name to hide its line."));
   }
   const titleOf = new Map(problems.map((problem) => [problem.name, problem.title]));
   const sections = problems.map((problem, i) => [`problem-${i + 1}`, problem.title]);

@@ -184,9 +184,9 @@ drawPage((data, main) => {
          isNumber(data.seconds) ? fact("Run time", `${tickText(Number(data.seconds.toPrecision(3)))} s`) : null),
       el("p", {}, surprises
         ? el("span", { class: "bad" }, `${count(surprises, "verdict was", "verdicts were")} not as expected.`)
-        : "Every case ended as it was expected to."),
-      el("p", {}, "Each case and each cell of a map has a verdict, and one or several that theory or common sense " +
-        "expect; another one is a surprise, and outlined. The signs are:"),
+        : "Every case ended as expected."),
+      el("p", {}, "Each case and each cell of a map has a verdict. Theory or common sense expects one or several. Any " +
+        "other verdict is a surprise and is outlined. The signs are:"),
       el("ul", { class: "legend" },
          ...[...verdicts].map(([name, look]) => el("li", {}, verdictMark(look, name)))));
   }

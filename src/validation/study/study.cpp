@@ -30,7 +30,7 @@ std::vector<ProblemMaker> chosen_makers(const std::vector<std::string>& names) {
   }
   for (const std::string& name : names)
     if (std::none_of(chosen.begin(), chosen.end(), [&](const ProblemMaker& one) { return name == one.name; }))
-      throw_input_error("there is no problem '{}'; take one of: {}", name, known);
+      throw_input_error("unknown problem '{}'; take one of: {}", name, known);
   return chosen;
 }
 
