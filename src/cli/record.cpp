@@ -179,6 +179,30 @@ CLI::Validator recording_rate() {
       fmt::format("{} to {}", slowest, fastest));
 }
 
+/// What the hand feels while it is recorded.
+void add_force_options(CLI::App& app, RecordArguments& arguments) {
+  ForceLimits& force = arguments.settings.servo.force;
+  auto* feel = app.add_option("--feel", arguments.felt_scene,
+                              "Scene whose sand the hand feels. A run of the recorded stroke in it has the "
+                              "same sand and forces. Without this option no force is given")
+                   ->type_name("FILE.toml")
+                   ->option_text("SCENE.toml");
+  add_set_option(app, arguments.overrides)->needs(feel);
+  app.add_option("--max-force", force.max_force,
+                 "Largest force on the hand [N]. Default: the limit of the device or the scene")
+      ->check(not_negative_number())
+      ->option_text("N")
+      ->needs(feel);
+  app.add_option("--force-ramp", force.ramp, "Time over which the force grows to full [s]")
+      ->check(not_negative_number())
+      ->capture_default_str()
+      ->needs(feel);
+  app.add_option("--force-rate", force.rate, "Largest change of the force [N/s], also after a late tick")
+      ->check(positive_number())
+      ->capture_default_str()
+      ->needs(feel);
+}
+
 }  // namespace
 
 void add_record_command(CLI::App& app, Command& chosen) {
@@ -215,30 +239,7 @@ void add_record_command(CLI::App& app, Command& chosen) {
                    "Switch of the device that ends the recording, counted from 0")
       ->check(CLI::Range(0, 31))
       ->option_text("K");
-  auto* feel = command
-                   ->add_option("--feel", arguments->felt_scene,
-                                "Scene whose sand the hand feels. A run of the recorded stroke in it has the "
-                                "same sand and forces. Without this option no force is given")
-                   ->type_name("FILE.toml")
-                   ->option_text("SCENE.toml");
-  add_set_option(*command, arguments->overrides)->needs(feel);
-  command
-      ->add_option("--max-force", settings.servo.force.max_force,
-                   "Largest force on the hand [N]. Default: the limit of the device or the scene")
-      ->check(not_negative_number())
-      ->option_text("N")
-      ->needs(feel);
-  command
-      ->add_option("--force-ramp", settings.servo.force.ramp, "Time over which the force grows to full [s]")
-      ->check(not_negative_number())
-      ->capture_default_str()
-      ->needs(feel);
-  command
-      ->add_option("--force-rate", settings.servo.force.rate,
-                   "Largest change of the force [N/s], also after a late tick")
-      ->check(positive_number())
-      ->capture_default_str()
-      ->needs(feel);
+  add_force_options(*command, *arguments);
   command->add_flag("--calibrate", settings.calibrate,
                     "Calibrate the device first. THIS MAY MOVE ITS ARM: keep clear");
   command

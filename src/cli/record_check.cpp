@@ -1,6 +1,7 @@
 #include <spdlog/spdlog.h>
 
 #include "cli/print_json.h"
+#include "cli/print_row.h"
 #include "cli/record_parts.h"
 #include "core/interrupt.h"
 #include "core/progress.h"
@@ -18,20 +19,19 @@ constexpr const char* other_remedies =
     "--rate";
 
 void print_table(const LoopCheck& check, const ServoSettings& servo) {
-  const auto row = [](const char* name, const std::string& value) { fmt::print("{:<12} {}\n", name, value); };
-  row("loop", fmt::format("{:.3f} s at {:.6g} Hz", static_cast<double>(check.loop.ticks.elapsed) / servo.rate,
-                          servo.rate));
-  row("scheduling", scheduling_text(check.scheduling));
-  row("ticks", ticks_text(check.loop.ticks));
-  row("lateness", lateness_text(check.loop));
-  row("needed",
-      fmt::format("no tick skipped, and less than {:.0f} us in 99 of 100", 1e6 * fit_lateness / servo.rate));
+  print_row("loop", fmt::format("{:.3f} s at {:.6g} Hz",
+                                static_cast<double>(check.loop.ticks.elapsed) / servo.rate, servo.rate));
+  print_row("scheduling", scheduling_text(check.scheduling));
+  print_row("ticks", ticks_text(check.loop.ticks));
+  print_row("lateness", lateness_text(check.loop));
+  print_row("needed", fmt::format("no tick skipped, and less than {:.0f} us in 99 of 100",
+                                  1e6 * fit_lateness / servo.rate));
   const std::string& advice = check.scheduling.advice;
   if (check.fit) {
-    row("verdict", "fit to record at this rate" +
-                       (advice.empty() ? "" : " while nothing else runs; to do better: " + advice));
+    print_row("verdict", "fit to record at this rate" +
+                             (advice.empty() ? "" : " while nothing else runs; to do better: " + advice));
   } else {
-    row("verdict", "NOT FIT to record at this rate: " + (advice.empty() ? other_remedies : advice));
+    print_row("verdict", "NOT FIT to record at this rate: " + (advice.empty() ? other_remedies : advice));
   }
 }
 

@@ -1,6 +1,7 @@
 #include <spdlog/fmt/fmt.h>
 
 #include "cli/print_json.h"
+#include "cli/print_row.h"
 #include "cli/record_parts.h"
 #include "record/recording_json.h"
 
@@ -72,16 +73,15 @@ void print_recording(const RecordingReport& report, const std::optional<LiveSand
     print_json(object);
     return;
   }
-  const auto row = [](const char* name, const std::string& value) { fmt::print("{:<12} {}\n", name, value); };
-  row("stroke", file.string());
-  row("device", header.source);
-  row("time", fmt::format("{:.3f} s at {:.6g} Hz; {}", seconds(report), header.nominal_rate,
-                          stop_reason_text(footer.reason)));
-  row("ticks", ticks_text(footer.ticks));
-  row("lateness", lateness_text(footer));
-  row("scheduling", scheduling_text(header.scheduling));
-  row("force", force_text(header.force_limit, footer.ticks));
-  if (felt) row("sand", sand_text(*felt));
+  print_row("stroke", file.string());
+  print_row("device", header.source);
+  print_row("time", fmt::format("{:.3f} s at {:.6g} Hz; {}", seconds(report), header.nominal_rate,
+                                stop_reason_text(footer.reason)));
+  print_row("ticks", ticks_text(footer.ticks));
+  print_row("lateness", lateness_text(footer));
+  print_row("scheduling", scheduling_text(header.scheduling));
+  print_row("force", force_text(header.force_limit, footer.ticks));
+  if (felt) print_row("sand", sand_text(*felt));
 }
 
 }  // namespace sandstroke

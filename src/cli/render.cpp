@@ -190,11 +190,42 @@ int render(const RenderArguments& arguments) {
   return 0;
 }
 
+/// What of the scene's [view] is to be otherwise.
+void add_view_options(CLI::App& app, RenderArguments& arguments) {
+  const std::string scenes = ". Default: the scene's [view]";
+  app.add_option("--size", arguments.size, "Picture size in pixels, like 1280x720" + scenes)
+      ->type_name("WxH");
+  app.add_option(
+         "--view", arguments.view,
+         "What is shown: the whole bed, the part that changes, a map from above, or a custom aim" + scenes)
+      ->check(CLI::IsMember(view_names));
+  app.add_option("--style", arguments.style,
+                 "Sand in the sun, a map of heights, or a map of the change since the start" + scenes)
+      ->check(CLI::IsMember(style_names));
+  app.add_option("--azimuth", arguments.azimuth,
+                 "Direction of the camera, from +x towards +y [deg]" + scenes);
+  app.add_option("--elevation", arguments.elevation, "Height of the camera above the horizon [deg]" + scenes)
+      ->check(CLI::Range(0.0, 90.0));
+  app.add_option("--distance", arguments.distance,
+                 "Distance from target to camera [m]. 0 fits the subject into the picture" + scenes)
+      ->check(not_negative_number());
+  app.add_option("--target", arguments.target, "Point that a custom view looks at [m]" + scenes)
+      ->type_name("X,Y,Z")
+      ->delimiter(',')
+      ->expected(3);
+  app.add_option("--light-azimuth", arguments.light_azimuth,
+                 "Direction of the sun, from +x towards +y [deg]" + scenes);
+  app.add_option("--light-elevation", arguments.light_elevation,
+                 "Height of the sun above the horizon [deg]" + scenes);
+  app.add_option("--contour", arguments.contour_interval,
+                 "Height between contour lines [m]. Default: 0, a round number is chosen")
+      ->check(not_negative_number());
+}
+
 }  // namespace
 
 void add_render_command(CLI::App& app, Command& chosen) {
   auto arguments = std::make_shared<RenderArguments>();
-  const std::string scenes = ". Default: the scene's [view]";
   CLI::App* command =
       app.add_subcommand("render", "Draw the surfaces of a run, by default in the scene's [view]");
   command->add_option("RUN", arguments->run, "Run file (HDF5)")->type_name("FILE.h5")->required();
@@ -219,39 +250,7 @@ void add_render_command(CLI::App& app, Command& chosen) {
           "Frames per second of the film. Default: that of the run, so the film is as fast as the stroke")
       ->needs(video)
       ->check(positive_number());
-  command->add_option("--size", arguments->size, "Picture size in pixels, like 1280x720" + scenes)
-      ->type_name("WxH");
-  command
-      ->add_option(
-          "--view", arguments->view,
-          "What is shown: the whole bed, the part that changes, a map from above, or a custom aim" + scenes)
-      ->check(CLI::IsMember(view_names));
-  command
-      ->add_option("--style", arguments->style,
-                   "Sand in the sun, a map of heights, or a map of the change since the start" + scenes)
-      ->check(CLI::IsMember(style_names));
-  command->add_option("--azimuth", arguments->azimuth,
-                      "Direction of the camera, from +x towards +y [deg]" + scenes);
-  command
-      ->add_option("--elevation", arguments->elevation,
-                   "Height of the camera above the horizon [deg]" + scenes)
-      ->check(CLI::Range(0.0, 90.0));
-  command
-      ->add_option("--distance", arguments->distance,
-                   "Distance from target to camera [m]. 0 fits the subject into the picture" + scenes)
-      ->check(not_negative_number());
-  command->add_option("--target", arguments->target, "Point that a custom view looks at [m]" + scenes)
-      ->type_name("X,Y,Z")
-      ->delimiter(',')
-      ->expected(3);
-  command->add_option("--light-azimuth", arguments->light_azimuth,
-                      "Direction of the sun, from +x towards +y [deg]" + scenes);
-  command->add_option("--light-elevation", arguments->light_elevation,
-                      "Height of the sun above the horizon [deg]" + scenes);
-  command
-      ->add_option("--contour", arguments->contour_interval,
-                   "Height between contour lines [m]. Default: 0, a round number is chosen")
-      ->check(not_negative_number());
+  add_view_options(*command, *arguments);
   command->add_flag_callback(
       "--tool", [arguments] { arguments->tool = true; },
       "Draw the tool. Default: drawn in frames, not in the initial and final surface");

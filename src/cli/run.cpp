@@ -8,6 +8,7 @@
 
 #include "cli/commands.h"
 #include "cli/print_json.h"
+#include "cli/print_row.h"
 #include "cli/run_picture.h"
 #include "core/error.h"
 #include "core/interrupt.h"
@@ -87,48 +88,50 @@ nlohmann::ordered_json as_json(const RunResult& r, const Scene& scene, const std
   return json;
 }
 
-void row(const char* name, const std::string& value) { fmt::print("{:<18} {}\n", name, value); }
-
 void print_summary(const RunResult& r, const Scene& scene, const std::string& output) {
-  row("run", output);
-  row("model", "preset " + preset_name(scene.preset));
-  if (!r.interrupted) row("for ParaView", beside(output, ".xdmf").string());
+  print_row("run", output);
+  print_row("model", "preset " + preset_name(scene.preset));
+  if (!r.interrupted) print_row("for ParaView", beside(output, ".xdmf").string());
   if (r.ticks > 0) {
-    row("stroke",
-        fmt::format("{:.3f} s, {} ticks, {} in contact", r.simulated_seconds, r.ticks, r.contact_ticks));
-    row("speed", fmt::format("{:.1f} times real time", r.simulated_seconds / r.wall_seconds));
-    row("deepest", fmt::format("{:.3f} mm", 1e3 * r.max_depth));
-    if (r.furrow && !std::isnan(r.furrow->depth) && !std::isnan(r.furrow->asked_depth))
-      row("furrow", fmt::format("{:.2f} mm deep; the stroke asked for {:.2f} mm (medians)",
-                                1e3 * r.furrow->depth, 1e3 * r.furrow->asked_depth));
-    row("largest force", fmt::format("{:.3f} N{}", r.device.max_force,
-                                     r.device.saturated_ticks > 0
-                                         ? fmt::format(", limited in {} ticks", r.device.saturated_ticks)
-                                         : ""));
+    print_row("stroke", fmt::format("{:.3f} s, {} ticks, {} in contact", r.simulated_seconds, r.ticks,
+                                    r.contact_ticks));
+    print_row("speed", fmt::format("{:.1f} times real time", r.simulated_seconds / r.wall_seconds));
+    print_row("deepest", fmt::format("{:.3f} mm", 1e3 * r.max_depth));
+    const bool drag = r.furrow && r.furrow->length >= scene.tool.radius;  // a plunge asks for no furrow
+    if (drag && !std::isnan(r.furrow->depth) && !std::isnan(r.furrow->asked_depth))
+      print_row("furrow", fmt::format("{:.2f} mm deep; the stroke asked for {:.2f} mm (medians)",
+                                      1e3 * r.furrow->depth, 1e3 * r.furrow->asked_depth));
+    print_row("largest force",
+              fmt::format("{:.3f} N{}", r.device.max_force,
+                          r.device.saturated_ticks > 0
+                              ? fmt::format(", limited in {} ticks", r.device.saturated_ticks)
+                              : ""));
     if (r.recorded_force)
-      row("recorded force",
-          fmt::format("differs from this run's by {:.3g} N rms, {:.3g} N at most, over {} ticks",
-                      r.recorded_force->rms, r.recorded_force->max, r.recorded_force->ticks));
-    row("energy into sand",
+      print_row("recorded force",
+                fmt::format("differs from this run's by {:.3g} N rms, {:.3g} N at most, over {} ticks",
+                            r.recorded_force->rms, r.recorded_force->max, r.recorded_force->ticks));
+    print_row(
+        "energy into sand",
         fmt::format("{:.4g} J{}", r.device.absorbed_energy,
                     returned_energy(r.device) ? fmt::format(", at worst {:.3g} J more returned than taken",
                                                             -r.device.least_absorbed_energy)
                                               : ""));
-    if (r.gaps > 0) row("gaps", fmt::format("{}: the tool was lifted there", r.gaps));
+    if (r.gaps > 0) print_row("gaps", fmt::format("{}: the tool was lifted there", r.gaps));
   }
-  row("sand moved",
-      fmt::format("{:.6g} m^3; the volume changed by {:.1e} of that", r.moved_volume, r.volume_drift));
+  print_row("sand moved",
+            fmt::format("{:.6g} m^3; the volume changed by {:.1e} of that", r.moved_volume, r.volume_drift));
   const std::string steps =
       r.relaxation.super_steps > 0 ? fmt::format(" in {} super steps", r.relaxation.super_steps) : "";
-  row("relaxation", fmt::format("{} passes{}, residual {:.2e}, {}", r.relaxation.passes, steps,
-                                r.relaxation.residual, r.relaxation.converged ? "at rest" : "NOT AT REST"));
+  print_row("relaxation",
+            fmt::format("{} passes{}, residual {:.2e}, {}", r.relaxation.passes, steps, r.relaxation.residual,
+                        r.relaxation.converged ? "at rest" : "NOT AT REST"));
   if (!r.error) return;
-  row("error of heights",
-      fmt::format("+-{:.3g} mm rms, {:.3g} mm at most; {:.2g} % of the changed sand lies elsewhere",
-                  1e3 * r.error->height_rms, 1e3 * r.error->height_max, 100.0 * r.error->height_share));
+  print_row("error of heights",
+            fmt::format("+-{:.3g} mm rms, {:.3g} mm at most; {:.2g} % of the changed sand lies elsewhere",
+                        1e3 * r.error->height_rms, 1e3 * r.error->height_max, 100.0 * r.error->height_share));
   if (r.ticks > 0)
-    row("error of force",
-        fmt::format("+-{:.3g} N rms, {:.3g} N at most", r.error->force_rms, r.error->force_max));
+    print_row("error of force",
+              fmt::format("+-{:.3g} N rms, {:.3g} N at most", r.error->force_rms, r.error->force_max));
 }
 
 /// A name that nobody chose must not cost another scene's finished run, or any other file.
@@ -142,6 +145,25 @@ void check_default_output(const fs::path& output, const fs::path& scene_path, co
   for (const auto& [name, value] : run.provenance())
     if (name == "scene_file" && value != scene_file_entry(scene_path, output))
       throw_input_error("{}: is the run of another scene ({}); {}", output.string(), value, remedy);
+}
+
+void warn_of(const RunResult& result, const Scene& scene) {
+  if (result.ticks > 0 && result.contact_ticks == 0)
+    spdlog::warn("the tool never touched the sand; check stroke.plane, stroke.depth and stroke.offset");
+  if (result.furrow) {
+    const std::string warning = furrow_warning(scene, *result.furrow);
+    if (!warning.empty()) spdlog::warn("{}", warning);
+  }
+  if (scene.device.model == DeviceModel::dynamic && loop_returned_energy(result.device, scene.device))
+    spdlog::warn(
+        "the sand returned up to {:.3g} J more than it took: the loop was not passive; lower force.k_s, "
+        "force.k_f, device.delay or device.dropped_ticks, or raise device.servo_rate or device.damping",
+        -result.device.least_absorbed_energy);
+  if (!result.relaxation.converged)
+    spdlog::warn(
+        "the sand is not at rest (residual {:.2e}, tolerance {:.2e}); raise relaxation.max_passes or "
+        "relaxation.tolerance",
+        result.relaxation.residual, scene.relaxation.tolerance);
 }
 
 int run(const RunArguments& arguments) {
@@ -187,26 +209,10 @@ int run(const RunArguments& arguments) {
   if (result.interrupted) return 128 + interrupted();
   if (!arguments.picture.empty()) {
     write_png(arguments.picture, run_picture(RunFile(output), scene.view));
-    if (!arguments.json) row("picture", arguments.picture);
+    if (!arguments.json) print_row("picture", arguments.picture);
   }
-  if (result.ticks > 0 && result.contact_ticks == 0)
-    spdlog::warn("the tool never touched the sand; check stroke.plane, stroke.depth and stroke.offset");
-  if (result.furrow) {
-    const std::string warning = furrow_warning(scene, *result.furrow);
-    if (!warning.empty()) spdlog::warn("{}", warning);
-  }
-  if (scene.device.model == DeviceModel::dynamic && loop_returned_energy(result.device, scene.device))
-    spdlog::warn(
-        "the sand returned up to {:.3g} J more than it took: the loop was not passive; lower force.k_s, "
-        "force.k_f, device.delay or device.dropped_ticks, or raise device.servo_rate or device.damping",
-        -result.device.least_absorbed_energy);
-  if (!result.relaxation.converged) {
-    spdlog::warn(
-        "the sand is not at rest (residual {:.2e}, tolerance {:.2e}); raise relaxation.max_passes or "
-        "relaxation.tolerance",
-        result.relaxation.residual, scene.relaxation.tolerance);
-    return static_cast<int>(ErrorKind::unstable);
-  }
+  warn_of(result, scene);
+  if (!result.relaxation.converged) return static_cast<int>(ErrorKind::unstable);
   if (options.second && !result.error)  // the run is complete, the estimate is not
     return interrupted() ? 128 + interrupted() : static_cast<int>(ErrorKind::unstable);
   return 0;

@@ -94,6 +94,34 @@ Stroke convert(const ConvertOptions& options) {
   return stroke;
 }
 
+constexpr const char* convert_examples =
+    "Examples\n"
+    "  a recording at 1000 Hz, with force:\n"
+    "    sandstroke stroke convert trace.csv trace.h5 --rate 1000 \\\n"
+    "        --position x_m,y_m,z_m --position-unit m --force fx_N,fy_N,fz_N --force-unit N\n"
+    "  a letter drawn on a screen, without header line, pen strokes separated by lines with BREAK:\n"
+    "    sandstroke stroke convert letter.txt letter.h5 --columns x,y,t \\\n"
+    "        --position x,y --position-unit px --pixel-size 0.002 --time t --time-unit ms \\\n"
+    "        --equal-times spread --skip START --pen-up BREAK --gap-threshold 0.4";
+
+/// Of the samples.
+void add_time_options(CLI::App& app, ConvertOptions& options) {
+  auto* time =
+      app.add_option("--time", options.time, "Column of the time (or give --rate)")->option_text("T");
+  auto* time_unit = app.add_option("--time-unit", options.time_unit, "s, ms, us or ns")->option_text("UNIT");
+  time->needs(time_unit);
+  time_unit->needs(time);
+  app.add_option("--rate", options.rate, "Samples per second, instead of --time")
+      ->check(positive_number())
+      ->excludes(time)
+      ->option_text("HZ");
+  app.add_option("--equal-times", options.equal_times,
+                 "What to do with equal times: error (default), drop (keep the first sample) or spread "
+                 "(space them evenly)")
+      ->check(CLI::IsMember({"error", "drop", "spread"}))
+      ->option_text("RULE");
+}
+
 void add_convert(CLI::App& stroke_app, Command& chosen) {
   auto options = std::make_shared<ConvertOptions>();
   CLI::App* app = stroke_app.add_subcommand("convert", "Make a stroke from a table of samples (CSV)");
@@ -119,21 +147,7 @@ void add_convert(CLI::App& stroke_app, Command& chosen) {
       ->check(positive_number())
       ->option_text("M");
 
-  auto* time =
-      app->add_option("--time", options->time, "Column of the time (or give --rate)")->option_text("T");
-  auto* time_unit =
-      app->add_option("--time-unit", options->time_unit, "s, ms, us or ns")->option_text("UNIT");
-  time->needs(time_unit);
-  time_unit->needs(time);
-  app->add_option("--rate", options->rate, "Samples per second, instead of --time")
-      ->check(positive_number())
-      ->excludes(time)
-      ->option_text("HZ");
-  app->add_option("--equal-times", options->equal_times,
-                  "What to do with equal times: error (default), drop (keep the first sample) or spread "
-                  "(space them evenly)")
-      ->check(CLI::IsMember({"error", "drop", "spread"}))
-      ->option_text("RULE");
+  add_time_options(*app, *options);
 
   const auto add_vector = [&](const std::string& name, std::vector<std::string>& columns, std::string& unit,
                               const char* help, const char* units) {
@@ -162,15 +176,7 @@ void add_convert(CLI::App& stroke_app, Command& chosen) {
   app->add_option("--source", options->source,
                   "A note on the origin of the samples. Default: the file's name")
       ->option_text("TEXT");
-  app->footer(
-      "Examples\n"
-      "  a recording at 1000 Hz, with force:\n"
-      "    sandstroke stroke convert trace.csv trace.h5 --rate 1000 \\\n"
-      "        --position x_m,y_m,z_m --position-unit m --force fx_N,fy_N,fz_N --force-unit N\n"
-      "  a letter drawn on a screen, without header line, pen strokes separated by lines with BREAK:\n"
-      "    sandstroke stroke convert letter.txt letter.h5 --columns x,y,t \\\n"
-      "        --position x,y --position-unit px --pixel-size 0.002 --time t --time-unit ms \\\n"
-      "        --equal-times spread --skip START --pen-up BREAK --gap-threshold 0.4");
+  app->footer(convert_examples);
   app->callback([&chosen, options] {
     chosen = [options] {
       check_output(options->out, {options->in});

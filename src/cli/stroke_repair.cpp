@@ -2,6 +2,7 @@
 #include <memory>
 
 #include "cli/print_json.h"
+#include "cli/print_row.h"
 #include "cli/stroke_parts.h"
 #include "core/error.h"
 #include "core/output_file.h"
@@ -78,15 +79,16 @@ std::string lost_text(const Repair& done) {
 }
 
 void print_table(const Task& task, const Repair& done, bool removed) {
-  const auto row = [](const char* name, const std::string& value) { fmt::print("{:<9}{}\n", name, value); };
   const RecordingFooter& footer = done.recording.footer;
-  row("stroke", task.output.string());
-  row("samples", fmt::format("{}, the last {:.3f} s after the first", footer.ticks.recorded, done.duration));
-  row("ticks", recorded_ticks_text(footer));
-  row("ended", stop_reason_text(footer.reason));
-  row("lost", lost_text(done));
-  row("journal", fmt::format("{}: {}", task.journal.string(),
-                             removed ? "removed" : "kept; remove it when the stroke is as it should be"));
+  print_row("stroke", task.output.string());
+  print_row("samples",
+            fmt::format("{}, the last {:.3f} s after the first", footer.ticks.recorded, done.duration));
+  print_row("ticks", recorded_ticks_text(footer));
+  print_row("ended", stop_reason_text(footer.reason));
+  print_row("lost", lost_text(done));
+  print_row("journal",
+            fmt::format("{}: {}", task.journal.string(),
+                        removed ? "removed" : "kept; remove it when the stroke is as it should be"));
 }
 
 int repair_command(const RepairArguments& arguments) {

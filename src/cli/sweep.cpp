@@ -7,6 +7,7 @@
 
 #include "cli/commands.h"
 #include "cli/print_json.h"
+#include "cli/print_row.h"
 #include "cli/sweep_parts.h"
 #include "core/counted.h"
 #include "core/error.h"
@@ -93,18 +94,17 @@ int dry_run(Sweep& sweep, const SweepArguments& arguments) {
 }
 
 void print_summary(const SweepCounters& counters, const SweepFolder& folder) {
-  const auto row = [](const char* name, const std::string& value) { fmt::print("{:<12} {}\n", name, value); };
   std::string verdicts;
   for (std::size_t i = 0; i < counters.verdicts.size(); ++i)
     if (counters.verdicts[i] > 0) verdicts += fmt::format(", {} {}", counters.verdicts[i], verdict_names[i]);
-  row("points", fmt::format("{}: {} run now, {} before{}", counters.points, counters.run,
-                            counters.done_before, verdicts));
-  row("simulations", fmt::format("{}{}", counters.simulations,
-                                 counters.simulations < counters.run
-                                     ? "; points that differ only in force constants share a simulation"
-                                     : ""));
-  row("loaded", fmt::format("beds: {}, strokes: {}", counters.beds_loaded, counters.strokes_loaded));
-  row("folder", folder.path().string());
+  print_row("points", fmt::format("{}: {} run now, {} before{}", counters.points, counters.run,
+                                  counters.done_before, verdicts));
+  print_row("simulations", fmt::format("{}{}", counters.simulations,
+                                       counters.simulations < counters.run
+                                           ? "; points that differ only in force constants share a simulation"
+                                           : ""));
+  print_row("loaded", fmt::format("beds: {}, strokes: {}", counters.beds_loaded, counters.strokes_loaded));
+  print_row("folder", folder.path().string());
 }
 
 nlohmann::ordered_json as_json(const SweepCounters& c, const SweepFolder& folder) {

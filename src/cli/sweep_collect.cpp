@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/print_json.h"
+#include "cli/print_row.h"
 #include "cli/sweep_parts.h"
 
 namespace sandstroke {
@@ -28,10 +29,11 @@ CollectReport collect_sweep(const SweepFolder& folder, bool json) {
   CollectReport report = collect(folder);
   for (const std::string& sentence : report.sentences) spdlog::warn("{}", sentence);
   if (!json) {
-    fmt::print("{:<12} {} points done, {} failed, {} missing; content {}\n", "collected", report.done,
-               report.failed, report.missing + report.unreadable, report.content_hash);
+    print_row("collected",
+              fmt::format("{} points done, {} failed, {} missing; content {}", report.done, report.failed,
+                          report.missing + report.unreadable, report.content_hash));
     for (const char* name : {"sweep.html", "sweep.h5", "sweep.csv"})
-      fmt::print("{:<12} {}\n", "", (folder.path() / name).string());
+      print_row("", (folder.path() / name).string());
   }
   return report;
 }

@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "cli/print_json.h"
+#include "cli/print_row.h"
 #include "cli/sweep_parts.h"
 
 namespace sandstroke {
@@ -14,29 +15,28 @@ namespace {
 namespace fs = std::filesystem;
 
 void print(const SweepStatus& status, const fs::path& folder) {
-  const auto row = [](const char* name, const std::string& value) { fmt::print("{:<8} {}\n", name, value); };
   std::string verdicts;
   for (std::size_t i = 0; i < status.verdicts.size(); ++i)
     if (status.verdicts[i] > 0)
       verdicts +=
           fmt::format("{}{} {}", verdicts.empty() ? ": " : ", ", status.verdicts[i], verdict_names[i]);
-  row("points", std::to_string(status.points));
-  row("done", std::to_string(status.points - status.missing) + verdicts);
-  row("missing", std::to_string(status.missing));
+  print_row("points", std::to_string(status.points));
+  print_row("done", std::to_string(status.points - status.missing) + verdicts);
+  print_row("missing", std::to_string(status.missing));
   constexpr std::size_t shown = 5;
   for (std::size_t i = 0; i < std::min(shown, status.failures.size()); ++i)
-    row("failed", fmt::format("point {}: {}", status.failures[i].first, status.failures[i].second));
+    print_row("failed", fmt::format("point {}: {}", status.failures[i].first, status.failures[i].second));
   if (status.failures.size() > shown)
-    row("failed", fmt::format("and {} more", status.failures.size() - shown));
+    print_row("failed", fmt::format("and {} more", status.failures.size() - shown));
 
   if (status.array) {
     const Table open = open_tasks(status);
-    row("tasks", fmt::format("{}, of which {} done; job array {}", status.tasks.size(),
-                             status.tasks.size() - open.rows(), *status.array));
-    row("logs", (folder / "slurm").string());
+    print_row("tasks", fmt::format("{}, of which {} done; job array {}", status.tasks.size(),
+                                   status.tasks.size() - open.rows(), *status.array));
+    print_row("logs", (folder / "slurm").string());
     if (open.rows() > 0) fmt::print("\n{}\n", aligned_text(open));
   }
-  row("next", status.advice());
+  print_row("next", status.advice());
 }
 
 int status_command(const SweepFolder& folder, bool json) {

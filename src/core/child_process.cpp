@@ -39,6 +39,7 @@ ChildOutputs outputs_of(const std::string& program) {
 /// The process started, 0 where there is no such program; without an input it has nothing to read.
 pid_t spawn(const std::vector<std::string>& words, int input, const ChildOutputs& outputs) {
   std::vector<char*> arguments;
+  arguments.reserve(words.size() + 1);
   for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
   arguments.push_back(nullptr);
   posix_spawn_file_actions_t actions;
@@ -119,8 +120,7 @@ bool FedChild::feed(const void* bytes, std::size_t count) {
 std::optional<ChildResult> FedChild::wait() {
   end_input();
   int status = 0;
-  pid_t ended = 0;
-  while ((ended = waitpid(process_, &status, WNOHANG)) == 0) {
+  while (waitpid(process_, &status, WNOHANG) == 0) {
     if (interrupted()) return std::nullopt;
     poll(nullptr, 0, look_ms);
   }

@@ -179,7 +179,7 @@ Path spline_path(const std::vector<Vector2d>& points) {
   const double fine = std::max(1e-4, 1e-6 * length);  // m
   Path path;
   for (std::size_t i = 0; i + 1 < count; ++i) {
-    const Vector2d p1 = points[i], p2 = points[i + 1];
+    const Vector2d &p1 = points[i], &p2 = points[i + 1];
     const Vector2d p0 = i > 0 ? points[i - 1] : Vector2d(2.0 * p1 - p2);
     const Vector2d p3 = i + 2 < count ? points[i + 2] : Vector2d(2.0 * p2 - p1);
     const double t1 = std::sqrt((p1 - p0).norm()), t2 = t1 + std::sqrt((p2 - p1).norm());

@@ -12,7 +12,7 @@ Solution solve(const Scene& scene, const HeightField& start, const std::optional
   RunResult result = simulation.run(observers);
   if (result.contact_ticks > 0)
     result.furrow = measure_furrow(start, simulation.bed(), path.path(), scene.tool.radius);
-  return {simulation.bed(), std::move(result)};
+  return {simulation.bed(), result};
 }
 
 }  // namespace sandstroke

@@ -1,8 +1,8 @@
 // Every relaxation of every scene in strokes/ by the engine, with every instruction set of the machine, and
 // on 1, 2, 3 and 8 threads; every third of them against the plain reference, bit for bit (every pair of the
-// two on random beds is in sand/engine_equality_test). The reference works on a window around what was disturbed: what sand does
-// depends on its neighbourhood only, so this says as much as the whole field as long as nothing near the
-// window's border moves, which is checked.
+// two on random beds is in sand/engine_equality_test). The reference works on a window around what was
+// disturbed: what sand does depends on its neighbourhood only, so this says as much as the whole field as
+// long as nothing near the window's border moves, which is checked.
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 #include <tbb/task_arena.h>
