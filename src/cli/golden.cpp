@@ -65,7 +65,9 @@ int check(const GoldenArguments& arguments) {
   if (!arguments.junit.empty()) write_text_file(arguments.junit, junit_report(comparisons));
   if (arguments.json)
     print_json(nlohmann::json{{"passed", passed}, {"scenes", scenes}});
-  else if (fs::is_directory(arguments.report))
+  else if (!arguments.report.empty() &&
+           std::any_of(comparisons.begin(), comparisons.end(),
+                       [&](const auto& one) { return fs::exists(arguments.report / (one.name + ".html")); }))
     fmt::print("pages   {}\n", arguments.report.string());
   return passed ? 0 : 1;
 }

@@ -25,7 +25,9 @@ std::optional<FileLock> FileLock::try_take(const std::filesystem::path& path) {
 }
 
 FileLock FileLock::wait_and_take(const std::filesystem::path& path) {
-  return take(path, F_OFD_SETLKW).value();
+  std::optional<FileLock> taken = take(path, F_OFD_SETLKW);
+  if (!taken) throw_io_error("{}: cannot be locked; choose another place", path.string());
+  return std::move(*taken);
 }
 
 std::optional<FileLock> FileLock::take(const std::filesystem::path& path, int how) {
@@ -67,6 +69,7 @@ bool FileLock::lock(const std::filesystem::path& path, short type, int how) {
   // What NFS, Lustre and others say where they are mounted without locks. People must work there, too.
   if (error != ENOLCK && error != EOPNOTSUPP && error != EINVAL && error != ENOSYS)
     throw_io_error("{}: cannot be locked ({}); choose another place", path.string(), std::strerror(error));
+  if (type == F_RDLCK) return true;  // it only reads
   static std::once_flag told;
   std::call_once(told, [&] {
     spdlog::warn(

@@ -35,7 +35,7 @@ SandForce sand_force(double depth, const Eigen::Vector3d& velocity, double max_f
   const double drag = product(settings.k_f, force.repulse);
   force.drag = -slip.unaryExpr([drag](double speed) { return product(drag, speed); });
   force.total = force.drag + Eigen::Vector3d(0.0, 0.0, force.repulse);
-  const bool within = force.total.allFinite() && force.total.stableNorm() <= max_force;  // squares overflow
+  const bool within = force.total.allFinite() && length_of(force.total) <= max_force;
   if (max_force > 0.0 && !within) {
     // At a depth beyond any sense the forces overflow, too; their direction does not depend on it.
     const Eigen::Vector3d direction = Eigen::Vector3d::UnitZ() - settings.k_f * slip;

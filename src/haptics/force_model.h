@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 
 namespace sandstroke {
 
@@ -21,6 +22,10 @@ struct FeltSand {
   double drag = 0.0;       ///< B = scale k_f |F_r| [N s/m], along the directions that are dragged
 };
 FeltSand felt_sand(double depth, double repulse, double scale, const ForceSettings& settings);
+
+/// Without overflow, and the same bits wherever the vector lies in memory: Eigen's stableNorm() goes by its
+/// alignment.
+inline double length_of(const Eigen::Vector3d& v) { return std::hypot(v.x(), v.y(), v.z()); }
 
 struct SandForce {
   double repulse = 0.0;                             ///< N, upward

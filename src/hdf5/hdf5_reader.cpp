@@ -11,6 +11,7 @@
 #include <cstring>
 
 #include "core/error.h"
+#include "core/file_lock.h"
 #include "core/machine.h"
 #include "core/output_file.h"
 #include "hdf5/hdf5_storage.h"
@@ -54,8 +55,10 @@ bool read_string(hid_t file_type, std::string& text, const Read& read) {
   return true;
 }
 
-/// Whether a program of HDF5 has it open for writing, which locks it where there are locks.
+/// Whether this program is writing it, or another one has it open for writing by HDF5, which locks it where
+/// there are locks.
 bool is_being_written(const std::filesystem::path& path) {
+  if (path.extension() == ".part" && !FileLock::try_share(path)) return true;
   const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC);
   const bool locked = flock(file, LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;
   if (file >= 0) close(file);

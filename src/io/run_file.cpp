@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "core/error.h"
+#include "core/machine.h"
 #include "io/input_kind.h"
 
 namespace sandstroke {
@@ -70,13 +71,20 @@ HeightField RunFile::final_bed() const {
 bool RunFile::has_trace() const { return file_.has("/trace/time"); }
 
 std::vector<TickRecord> RunFile::trace() const {
-  std::vector<TickRecord> ticks(file_.doubles("/trace/time").size());
+  const std::size_t count = file_.doubles("/trace/time").size();
+  visit_tick_fields([&](const std::string& field, const char*, const auto&) {
+    const std::vector<hsize_t> shape = file_.shape("/trace/" + field);
+    if (shape.empty() || shape[0] != count)
+      throw_input_error("{}: /trace/{} has {} rows and /trace/time {}; the file is damaged", file_.name(),
+                        field, shape.empty() ? 0 : shape[0], count);
+  });
+  check_memory(static_cast<double>(count) * sizeof(TickRecord),
+               fmt::format("{}: /trace: working with {} ticks", file_.name(), count),
+               "read a part of it, for example with h5py");
+  std::vector<TickRecord> ticks(count);
   visit_tick_fields([&](const std::string& field, const char*, const auto& of) {
     const std::string name = "/trace/" + field;
     const auto fill = [&](const auto& column) {
-      if (column.size() != ticks.size())
-        throw_input_error("{}: {} has {} rows and /trace/time {}; the file is damaged", file_.name(), name,
-                          column.size(), ticks.size());
       for (std::size_t i = 0; i < ticks.size(); ++i) of(ticks[i]) = column[i];
     };
     using Value = std::decay_t<decltype(of(ticks.front()))>;

@@ -23,19 +23,11 @@ void check(const Scene& scene, const TomlReader& toml) {
   }
 }
 
-/// Run files, and scenes of that time, name the engine; there is only one now.
-void skip_engine(const TomlReader& toml) {
-  const std::string engine = toml.text("relaxation.engine", "tiles");
-  if (engine != "tiles")
-    toml.fail("relaxation.engine",
-              fmt::format("is '{}'; leave it out: there is one engine, with the same results", engine));
-}
-
 Scene read_scene(TomlReader toml, const std::vector<std::string>& overrides) {
   for (const std::string& assignment : overrides) toml.override_with(assignment);
   Scene scene;
   read_keys(toml, [&](KeyVisitor& visitor) { describe_scene(visitor, scene); });
-  skip_engine(toml);
+  toml.skip("relaxation.engine");  // of older scenes and run files: all gave the same bits
   toml.reject_unread([] { return conditions(all_scene_keys()); });
   check(scene, toml);
   return scene;

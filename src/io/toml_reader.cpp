@@ -171,6 +171,11 @@ const toml::node* TomlReader::find(std::string_view key) const {
 
 bool TomlReader::has(std::string_view key) const { return find(key) != nullptr; }
 
+void TomlReader::skip(std::string_view key) const {
+  find(key);
+  document_->asked_for.erase(prefix_ + std::string(key));  // nobody is told to write it
+}
+
 void TomlReader::require(std::string_view key) const {
   if (has(key)) return;
   const toml::table* table = table_;  // the innermost that is there

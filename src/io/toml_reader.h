@@ -36,6 +36,8 @@ class TomlReader {
   std::string overrides_in(std::string_view sentence) const;
 
   bool has(std::string_view key) const;
+  /// Passes over a key that has no meaning any more, whatever it says.
+  void skip(std::string_view key) const;
 
   // Each returns the fallback where the key is absent.
   // `unit`: in which numbers are given, for whoever writes it behind one; empty: none.

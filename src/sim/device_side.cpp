@@ -45,7 +45,7 @@ void DeviceSide::advance(const TickRecord& record) {
                             "force.k_s, force.k_c, force.k_f or the stroke's depth",
                             record.time, record.depth));
   energy_.add(record.device_force, device_.state().position - before);
-  const double force = record.device_force.stableNorm();
+  const double force = length_of(record.device_force);
   max_force_ = std::max(max_force_, force);
   saturated_ticks_ += record.saturated;
   if (!record.contact) return;

@@ -8,7 +8,7 @@ bool SlipSchedule::is_due(const Eigen::Vector3d& tip, bool contact) const {
   if (travel_ == 0.0 || contact != slipped_at_.has_value()) return travel_ > 0.0;
   if (!contact) return false;
   const Eigen::Vector3d away = tip - *slipped_at_;
-  return away.head<2>().stableNorm() >= travel_ || std::abs(away.z()) >= travel_;
+  return std::hypot(away.x(), away.y()) >= travel_ || std::abs(away.z()) >= travel_;
 }
 
 std::optional<double> SlipSchedule::way_to_next(const Eigen::Vector3d& from,

@@ -19,13 +19,16 @@ void show_plan(KeyVisitor& v, PlanKeys& keys) {
   keys.grid = design == 0;
   if (!keys.grid) {
     v.require("samples");
-    v.integers("samples", &keys.samples, 1, 1, keys.max_points, "points of the hypercube");
+    v.integers("samples", &keys.samples, 1, 1, keys.max_points,
+               "points of the hypercube, at most max_points");
     v.integers("seed", &keys.seed, 1, 0, std::numeric_limits<int>::max(), "seed of the hypercube");
   }
   std::vector<std::string> metrics;
   for (const Metric& metric : all_metrics()) metrics.push_back(metric.name);
   v.texts("metrics", keys.metrics,
-          fmt::format("metrics to collect; default: all of {}", fmt::join(metrics, ", ")).c_str());
+          fmt::format("metrics to collect; default: all of {} (golden_*: where golden is given)",
+                      fmt::join(metrics, ", "))
+              .c_str());
   v.texts("keep", keys.keep, "what to keep of each point: surface, picture; default: neither");
   v.given("golden");
   v.text("golden", keys.golden, "run file whose final surface each point's is compared with");
@@ -40,7 +43,9 @@ void show_range(KeyVisitor& v, const std::string& name, RangeKeys& keys, int mos
   int scale = keys.logarithmic ? 1 : 0;
   v.choice("scale", scale, {"linear", "log"}, "how the values are spread");
   keys.logarithmic = scale == 1;
-  if (v.given("count")) v.integers("count", &keys.count.emplace(1), 1, 1, most_values, "number of values");
+  if (v.given("count"))
+    v.integers("count", &keys.count.emplace(1), 1, 1, most_values,
+               "number of values, at most sweep.max_points");
   if (v.given("step"))
     v.number(
         "step", keys.step.emplace(1.0), any_number, "",

@@ -4,6 +4,8 @@
 
 #include <cmath>
 #include <limits>
+#include <new>
+#include <random>
 
 namespace sandstroke {
 namespace {
@@ -33,6 +35,20 @@ TEST(RepulseForce, GrowsWithDepthAndInverts) {
     EXPECT_NEAR(depth_of_repulse_force(force, paper), depth, 1e-14 + 1e-13 * depth);
     last = force;
   }
+}
+
+TEST(LengthOf, IsTheSameBitsWhereverTheVectorLiesAndDoesNotOverflow) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> any(-12.0, 12.0);
+  alignas(16) double memory[4];
+  for (int i = 0; i < 1000; ++i) {
+    const double x = any(random), y = any(random), z = any(random);
+    const double aligned = length_of(*new (memory) Eigen::Vector3d(x, y, z));
+    const double beside = length_of(*new (memory + 1) Eigen::Vector3d(x, y, z));
+    EXPECT_EQ(aligned, beside);
+    EXPECT_NEAR(aligned, std::sqrt(x * x + y * y + z * z), 1e-14 * aligned);
+  }
+  EXPECT_DOUBLE_EQ(length_of({3e200, 0.0, -4e200}), 5e200);
 }
 
 TEST(SandForce, DragOpposesHorizontalMotion) {

@@ -9,6 +9,7 @@
 #include <fstream>
 
 #include "core/error.h"
+#include "core/file_lock.h"
 #include "core/output_file.h"
 #include "core/version.h"
 #include "test_folder.h"
@@ -96,6 +97,10 @@ TEST_F(Hdf5File, ColumnsGrowAndCanBeReadAfterAFlushWithoutFinish) {
     writer.flush();
   }
   EXPECT_FALSE(fs::exists(path_));  // never finished
+  {
+    const auto writing = FileLock::try_take(part_path(path_));
+    EXPECT_THROW(Hdf5Reader(part_path(path_)), Error) << "somebody writes it";
+  }
   const Hdf5Reader reader(part_path(path_));
   EXPECT_EQ(reader.doubles("/trace/time").size(), 10'000u);
   EXPECT_EQ(reader.doubles("/trace/time")[9'999], 4999.5);

@@ -58,7 +58,7 @@ Score judge(const Replay& run, const Replay& truth) {
   score.force_error = rms_distance(run.force, truth.force) / largest(truth.force);
   score.position_error = rms_distance(run.position, truth.position);
   score.displaced_volume = run.result.displaced_volume;
-  score.furrow_depth = run.result.furrow->depth;
+  if (run.result.furrow) score.furrow_depth = run.result.furrow->depth;
   return score;
 }
 
