@@ -112,6 +112,7 @@ void add_golden_command(CLI::App& app, Command& chosen) {
 
   CLI::App* update_command =
       golden->add_subcommand("update", "Replace the golden entries of scenes by what the scenes give now");
+  update_command->footer("Example:  sandstroke golden update wscg");
   update_command->add_option("NAME", arguments->names, "Scenes")->type_name("SCENE")->required();
   add_folder_options(update_command, *arguments);
   update_command->callback([arguments, &chosen] { chosen = [arguments] { return update(*arguments); }; });

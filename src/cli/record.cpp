@@ -256,7 +256,7 @@ void add_record_command(CLI::App& app, Command& chosen) {
       "If anything else ends it, such as Ctrl-C, it is kept and marked incomplete.\n"
       "After kill -9 or a power failure it is in STROKE.h5.recording.\n"
       "Save it with: sandstroke stroke repair STROKE.h5\n"
-      "Example:  sandstroke record --device scripted:strokes/wscg/stroke.toml -o wscg.h5");
+      "Example:  sandstroke record --device scripted:strokes/wscg/stroke.toml -o hand.h5");
   command->callback([arguments, &chosen] { chosen = [arguments] { return record(*arguments); }; });
 }
 

@@ -107,7 +107,8 @@ void describe_stroke(KeyVisitor& v, StrokeSettings& stroke) {
          "keep recorded heights, or turn and shift the stroke so that its plane is level");
   v.number("scale", p.scale, positive, "", "scale of the positions");
   v.number("rotate_z", p.rotate_z, degrees, "deg", "turn about z, from +x towards +y");
-  v.number("depth", p.depth, any_number, "m", "how far below z = 0 it runs");
+  v.number("depth", p.depth, any_number, "m",
+           "how far it is lowered; with plane = fit: how far below z = 0 it runs");
   v.numbers("offset", p.offset.data(), 3, any_number, "m", "shift on the bed");
   v.number("start", p.start, not_negative, "s", "time at which it begins");
   double stop = std::isinf(p.stop) ? 0.0 : p.stop;
@@ -165,7 +166,7 @@ void describe_scene(KeyVisitor& v, Scene& scene) {
   choose(v, "deposit", scene.displacement.deposit, {"ring", "ahead", "outward"},
          "all around as published, ahead of the motion, or along the tool's outward normal");
   if (scene.displacement.deposit == Deposit::outward)
-    v.number("distance", scene.displacement.distance, {1.0, 1.4, false}, "tool radii",
+    v.number("distance", scene.displacement.distance, {1.0, 1.4, false}, "R",
              "distance from the tool's axis");
 
   v.section("force", "the force of the sand on the device");
