@@ -122,6 +122,23 @@ void add_time_options(CLI::App& app, ConvertOptions& options) {
       ->option_text("RULE");
 }
 
+/// How lines are read, and what is said of them.
+void add_reading_options(CLI::App& app, ConvertOptions& options) {
+  app.add_option("--pen-up", options.pen_up,
+                 "Lines with this word lift the pen. The next sample starts a new pen stroke")
+      ->option_text("WORD");
+  app.add_option("--skip", options.skip, "Lines with this word are skipped")->option_text("WORD");
+  app.add_option("--gap-threshold", options.gap_threshold,
+                 "Samples further apart are not joined: the tool lifts (default 0.1 s)")
+      ->check(positive_number())
+      ->option_text("S");
+  app.add_option("--frame", options.frame, "Axes of the positions: bed (default) or device")
+      ->check(CLI::IsMember({"bed", "device"}))
+      ->option_text("FRAME");
+  app.add_option("--source", options.source, "A note on the origin of the samples. Default: the file's name")
+      ->option_text("TEXT");
+}
+
 void add_convert(CLI::App& stroke_app, Command& chosen) {
   auto options = std::make_shared<ConvertOptions>();
   CLI::App* app = stroke_app.add_subcommand("convert", "Make a stroke from a table of samples (CSV)");
@@ -162,20 +179,7 @@ void add_convert(CLI::App& stroke_app, Command& chosen) {
 
   add_list("--columns", options->columns, "Names of all columns, for a file without a header line")
       ->option_text("A,B,...");
-  app->add_option("--pen-up", options->pen_up,
-                  "Lines with this word lift the pen. The next sample starts a new pen stroke")
-      ->option_text("WORD");
-  app->add_option("--skip", options->skip, "Lines with this word are skipped")->option_text("WORD");
-  app->add_option("--gap-threshold", options->gap_threshold,
-                  "Samples further apart are not joined: the tool lifts (default 0.1 s)")
-      ->check(positive_number())
-      ->option_text("S");
-  app->add_option("--frame", options->frame, "Axes of the positions: bed (default) or device")
-      ->check(CLI::IsMember({"bed", "device"}))
-      ->option_text("FRAME");
-  app->add_option("--source", options->source,
-                  "A note on the origin of the samples. Default: the file's name")
-      ->option_text("TEXT");
+  add_reading_options(*app, *options);
   app->footer(convert_examples);
   app->callback([&chosen, options] {
     chosen = [options] {

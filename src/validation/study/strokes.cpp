@@ -69,23 +69,28 @@ Scene pumping(int cells_by) {
   return scene;
 }
 
+/// Of a stroke against itself with 1/finest of all steps.
+Problem unsolved(ModelPreset preset, double depth, int finest) {
+  const bool paper = preset == ModelPreset::paper, deep = depth > 0.005;
+  return {paper  ? "stroke-paper"
+          : deep ? "stroke-deep"
+                 : "stroke-accurate",
+          fmt::format("A stroke {:.0f} mm deep, {} preset", 1e3 * depth, paper ? "paper" : "accurate"),
+          fmt::format("A curved stroke at 2 kHz; in place of the truth stands the same stroke with cell "
+                      "size, tolerance and relaxation period divided by {}. How far that is from their "
+                      "division by {} is the dotted line.",
+                      finest, finest / 2),
+          "l1",
+          "misplaced sand, of the sand that moves",
+          "",
+          {}};
+}
+
 Problem stroke_problem(ModelPreset preset, double depth, const ProblemOptions& options) {
   const bool paper = preset == ModelPreset::paper, deep = depth > 0.005;
   const int finest = options.quick || deep ? 4 : 8;
   const std::string all_finer = "all finer";
-  Problem problem{
-      paper  ? "stroke-paper"
-      : deep ? "stroke-deep"
-             : "stroke-accurate",
-      fmt::format("A stroke {:.0f} mm deep, {} preset", 1e3 * depth, paper ? "paper" : "accurate"),
-      fmt::format("A curved stroke at 2 kHz; in place of the truth stands the same stroke with cell "
-                  "size, tolerance and relaxation period divided by {}. How far that is from their "
-                  "division by {} is the dotted line.",
-                  finest, finest / 2),
-      "l1",
-      "misplaced sand, of the sand that moves",
-      "",
-      {}};
+  Problem problem = unsolved(preset, depth, finest);
   const Stroke stroke = s_curve(depth, 0.25, options.quick);
   const auto all = [&](int by) { return refined(preset, by, by, by); };
   const auto truth = std::make_shared<const Replay>(replay(all(finest), stroke));
