@@ -1,5 +1,6 @@
 #include <spdlog/fmt/fmt.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -66,8 +67,9 @@ int check(const GoldenArguments& arguments) {
   if (arguments.json)
     print_json(nlohmann::json{{"passed", passed}, {"scenes", scenes}});
   else if (!arguments.report.empty() &&
-           std::any_of(comparisons.begin(), comparisons.end(),
-                       [&](const auto& one) { return fs::exists(arguments.report / (one.name + ".html")); }))
+           std::any_of(comparisons.begin(), comparisons.end(), [&](const auto& one) {
+             return fs::exists(golden_page_path(arguments.report, one.name));
+           }))
     fmt::print("pages   {}\n", arguments.report.string());
   return passed ? 0 : 1;
 }

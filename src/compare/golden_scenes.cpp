@@ -73,7 +73,7 @@ Comparison check_golden(const std::string& name, const GoldenFolders& folders, c
   Comparison comparison = compare_golden(name, folders.entry(name), run, tolerances);
   if (!report.empty()) {
     make_folder(report);
-    write_text_file(report / (name + ".html"),
+    write_text_file(golden_page_path(report, name),
                     golden_page(name, folders.entry(name), run, comparison, tolerances).html());
   }
   return comparison;

@@ -26,9 +26,14 @@ struct GoldenFolders {
 std::vector<std::string> golden_names(const GoldenFolders& folders,
                                       const std::vector<std::string>& asked_for);
 
+/// Where check_golden leaves a scene's page in a folder for them.
+inline std::filesystem::path golden_page_path(const std::filesystem::path& report, const std::string& name) {
+  return report / (name + ".html");
+}
+
 /// Runs one scene and judges it by its golden entry. A scene without entry, an entry without scene, and a run
-/// that stops with bad input or is interrupted, are failed checks. report: a folder for the page
-/// NAME.html, or empty.
+/// that stops with bad input or is interrupted, are failed checks. report: a folder for the page, or
+/// empty.
 Comparison check_golden(const std::string& name, const GoldenFolders& folders, const SceneRunner& runner,
                         const Tolerances& tolerances, const std::filesystem::path& report);
 

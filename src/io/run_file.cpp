@@ -71,7 +71,8 @@ HeightField RunFile::final_bed() const {
 bool RunFile::has_trace() const { return file_.has("/trace/time"); }
 
 std::vector<TickRecord> RunFile::trace() const {
-  const std::size_t count = file_.doubles("/trace/time").size();
+  const std::vector<double> time = file_.doubles("/trace/time");
+  const std::size_t count = time.size();
   visit_tick_fields([&](const std::string& field, const char*, const auto&) {
     const std::vector<hsize_t> shape = file_.shape("/trace/" + field);
     if (shape.empty() || shape[0] != count)
@@ -93,7 +94,7 @@ std::vector<TickRecord> RunFile::trace() const {
     else if constexpr (std::is_same_v<Value, bool>)
       fill(file_.integers(name));
     else
-      fill(file_.doubles(name));
+      field == "time" ? fill(time) : fill(file_.doubles(name));
   });
   return ticks;
 }

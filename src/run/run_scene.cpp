@@ -113,8 +113,7 @@ RunResult run_scene(const Scene& scene, const std::filesystem::path& output, con
   RunResult result = simulation.run(observers);
   result.threads = threads;
   if (recorded_force) result.recorded_force = recorded_force->difference();
-  if (result.contact_ticks > 0)
-    result.furrow = measure_furrow(*start, simulation.bed(), path.path(), scene.tool.radius);
+  if (stroke) result.furrow = path.furrow(*start, simulation.bed());
   bar.reset();
   writer.finish(result, simulation.bed());
   if (options.second && !result.interrupted) {

@@ -151,7 +151,7 @@ double median(std::vector<double> values) {
 void TipPathGatherer::on_tick(const TickRecord& tick) {
   if (tick.contact) {
     const Eigen::Vector2d tip = tip_of(device_, tick.device_position).head<2>();
-    const bool far = path_.points.empty() || (tip - path_.points.back()).norm() >= spacing_;
+    const bool far = path_.points.empty() || (tip - path_.points.back()).norm() >= 0.25 * radius_;
     if (!in_contact_ && far) path_.pieces.push_back(path_.points.size());
     if (far) {
       path_.points.push_back(tip);
@@ -172,6 +172,12 @@ double asked_depth(const HeightField& initial, const TipPath& path) {
 }
 
 }  // namespace
+
+std::optional<FurrowMeasures> TipPathGatherer::furrow(const HeightField& initial,
+                                                      const HeightField& final) const {
+  if (path_.points.empty()) return std::nullopt;
+  return measure_furrow(initial, final, path_, radius_);
+}
 
 FurrowMeasures measure_furrow(const HeightField& initial, const HeightField& final, const TipPath& path,
                               double tool_radius) {

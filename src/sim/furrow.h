@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,13 +23,15 @@ struct TipPath {
 /// goes on with the piece that it left there.
 class TipPathGatherer : public SimulationObserver {
  public:
-  explicit TipPathGatherer(const Scene& scene) : device_(scene.device), spacing_(0.25 * scene.tool.radius) {}
+  explicit TipPathGatherer(const Scene& scene) : device_(scene.device), radius_(scene.tool.radius) {}
   void on_tick(const TickRecord& tick) override;
   const TipPath& path() const { return path_; }
+  /// Of the run, between its initial and its final surface (measure_furrow); none where nothing was touched.
+  std::optional<FurrowMeasures> furrow(const HeightField& initial, const HeightField& final) const;
 
  private:
   DeviceSettings device_;
-  double spacing_;  // m
+  double radius_;  // m, of the tool
   TipPath path_;
   bool in_contact_ = false;
 };

@@ -10,8 +10,7 @@ Solution solve(const Scene& scene, const HeightField& start, const std::optional
   observers.push_back(&path);
   Simulation simulation(scene, start, stroke);
   RunResult result = simulation.run(observers);
-  if (result.contact_ticks > 0)
-    result.furrow = measure_furrow(start, simulation.bed(), path.path(), scene.tool.radius);
+  result.furrow = path.furrow(start, simulation.bed());
   return {simulation.bed(), result};
 }
 

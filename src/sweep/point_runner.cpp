@@ -65,7 +65,7 @@ std::optional<SharedRunResult> run_shared(const std::vector<Scene>& scenes, cons
   Observers observers;
   for (Feeler& feeler : feelers) observers.push_back(&feeler);
   try {
-    const auto [surface, sand] = solve(scene, bed, stroke ? std::optional(*stroke) : std::nullopt, observers);
+    auto [surface, sand] = solve(scene, bed, stroke ? std::optional(*stroke) : std::nullopt, observers);
     if (sand.interrupted) return std::nullopt;
     SlopeMeasures slopes;
     if (wants(metrics, Metric::slopes)) slopes = measure_slopes(bed, surface, scene.relaxation.talus_angle);
@@ -74,7 +74,7 @@ std::optional<SharedRunResult> run_shared(const std::vector<Scene>& scenes, cons
         wants(metrics, Metric::golden))
       difference = field_difference(*golden, surface);
 
-    SharedRunResult result{{}, surface};
+    SharedRunResult result{{}, std::move(surface)};
     for (std::size_t i = 0; i < scenes.size(); ++i) {
       RunResult run = sand;
       if (i < feelers.size()) {

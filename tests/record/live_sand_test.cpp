@@ -22,8 +22,6 @@ Scene small_scene() {
   return scene;
 }
 
-HeightField bed_of(const Scene& scene) { return starting_bed(scene.bed); }
-
 /// A hand that dips in and out of the sand on a winding way: smooth, so that its acceleration is known.
 struct SmoothHand {
   static constexpr double radius = 0.06, turn = 2.0 * std::numbers::pi / 2.0, dip = 0.006,
@@ -55,7 +53,7 @@ struct Feeling {
 
 /// Feels at these times; the sand slips as often as the scene says, by the loop's own time.
 Feeling feel_all(const Scene& scene, const std::vector<double>& times) {
-  LiveSand sand(scene, bed_of(scene), "bed");
+  LiveSand sand(scene, starting_bed(scene.bed), "bed");
   Feeling feeling;
   for (const double t : times) {
     feeling.forces.push_back(sand.feel(t, {SmoothHand::at(t)}).force);
@@ -94,7 +92,7 @@ TEST_P(LiveTool, OfEvenTicksHasTheSandAndTheRepulseForceThatARunOfThemHas) {
   EXPECT_EQ(felt.report.held_ticks, 0);
 
   scene.stroke.emplace();
-  Simulation simulation(scene, bed_of(scene), sampled(times));
+  Simulation simulation(scene, starting_bed(scene.bed), sampled(times));
   Ticks run;
   const RunResult result = simulation.run({&run});
   ASSERT_EQ(run.ticks.size(), times.size());
@@ -140,7 +138,7 @@ TEST(LiveSand, OfUnevenTicksIsWithinTheBoundOfSampling) {
   const Feeling felt = feel_all(scene, times);
 
   scene.stroke.emplace();
-  Simulation simulation(scene, bed_of(scene), sampled(times));
+  Simulation simulation(scene, starting_bed(scene.bed), sampled(times));
   Ticks run;
   simulation.run({&run});
   // The run's tick before or after a sample is as near as a tick; the hand has gone that far, its force
@@ -169,7 +167,7 @@ TEST(LiveSand, OfUnevenTicksIsWithinTheBoundOfSampling) {
 TEST(LiveSand, ErodingInItsOwnThreadLosesNoSand) {
   Scene scene = small_scene();
   scene.relaxation.rate = 1000.0;
-  const HeightField start = bed_of(scene);
+  const HeightField start = starting_bed(scene.bed);
   LiveSand sand(scene, start, "bed");
   sand.start();
   int ticks = 0;
@@ -191,7 +189,7 @@ TEST_P(LiveTool, TakesNoMemoryInTheLoop) {
     scene.preset = ModelPreset::accurate;
     apply_model_preset(scene);
   }
-  LiveSand sand(scene, bed_of(scene), "bed");
+  LiveSand sand(scene, starting_bed(scene.bed), "bed");
   sand.start();
   const std::vector<double> times = even_times(3.0);
   const std::int64_t before = allocations_of_this_thread();
@@ -206,7 +204,7 @@ TEST(LiveSand, ThatErodesTooSlowlyIsFeltButNotDug) {
   // Nobody takes what is dug: when the way to the eroding bed is full, the tool stops digging, and says so;
   // no sand is lost.
   Scene scene = small_scene();
-  const HeightField start = bed_of(scene);
+  const HeightField start = starting_bed(scene.bed);
   LiveSand sand(scene, start, "bed");
   std::uint32_t flags = 0;
   FeltForce felt;
@@ -229,7 +227,7 @@ TEST(LiveSand, FeelsInTheDevicesAxesAndScale) {
   Scene scene = small_scene();
   scene.relaxation.rate = 0.0;
   scene.device.scale = 5.0;
-  LiveSand sand(scene, bed_of(scene), "device");
+  LiveSand sand(scene, starting_bed(scene.bed), "device");
   FeltForce felt;
   for (int k = 0; k < 100; ++k) felt = sand.feel(k * 1e-3, {Eigen::Vector3d(0.005 - 1e-4 * k, 0.0, -0.001)});
   EXPECT_GT(felt.force.z(), 0.0);
@@ -243,7 +241,7 @@ TEST(LiveSand, AFarJumpDoesNotDigAcrossTheBed) {
   // Two readings more than the gap threshold apart are not joined.
   Scene scene = small_scene();
   scene.relaxation.rate = 0.0;
-  LiveSand sand(scene, bed_of(scene), "bed");
+  LiveSand sand(scene, starting_bed(scene.bed), "bed");
   sand.feel(0.0, {Eigen::Vector3d(-0.1, 0.0, -0.004)});
   sand.feel(0.2, {Eigen::Vector3d(0.1, 0.0, -0.004)});
   EXPECT_EQ(sand.bed()(75, 75), 0.0);
@@ -254,7 +252,7 @@ TEST(LiveSand, AFarJumpDoesNotDigAcrossTheBed) {
 TEST(LiveSand, RefusesScenesThatCannotBeFelt) {
   const auto sentence = [](const Scene& scene) -> std::string {
     try {
-      LiveSand sand(scene, bed_of(scene), "device");
+      LiveSand sand(scene, starting_bed(scene.bed), "device");
     } catch (const Error& failure) {
       return failure.what();
     }

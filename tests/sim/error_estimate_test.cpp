@@ -20,8 +20,6 @@ Scene cylinder_scene(int n) {
   return scene;
 }
 
-HeightField start_of(const Scene& scene) { return starting_bed(scene.bed); }
-
 /// A hand that sinks 6 mm and drags on at 0.1 m/s, if it drags.
 Scene stroke_scene(int n) {
   Scene scene;
@@ -90,12 +88,12 @@ struct FeltRun {
   Kept<Eigen::Vector3d> force{force_of};
   Solution solution;
   explicit FeltRun(const Scene& scene, const std::optional<Stroke>& stroke = {})
-      : solution(solve(scene, start_of(scene), stroke, {&force})) {}
+      : solution(solve(scene, starting_bed(scene.bed), stroke, {&force})) {}
 };
 
 ErrorEstimate estimated(const Scene& scene, const FeltRun& run, const std::optional<Stroke>& stroke,
                         SecondSolution which) {
-  return estimate_error(scene, start_of(scene), stroke, run.solution, run.force.values, which);
+  return estimate_error(scene, starting_bed(scene.bed), stroke, run.solution, run.force.values, which);
 }
 
 TEST(ErrorEstimate, IsNothingWhereNothingMoves) {

@@ -29,8 +29,6 @@ Scene small_scene() {
   return scene;
 }
 
-HeightField flat_bed(const Scene& scene) { return starting_bed(scene.bed); }
-
 /// A stroke through these points, one every `interval` seconds.
 Stroke through(const std::vector<Eigen::Vector3d>& points, double interval) {
   Stroke stroke;
@@ -45,7 +43,7 @@ TEST(Simulation, WorkOfAConstantSpeedPlungeIsTheClosedForm) {
   scene.relaxation.rate = 0.0;  // sand that falls back would change the level
   scene.device.max_force = 0.0;
   const double depth = 0.006, k_s = 1000.0, k_c = 0.5;
-  Simulation simulation(scene, flat_bed(scene), through({{0, 0, 0}, {0, 0, -depth}}, 3.0));
+  Simulation simulation(scene, starting_bed(scene.bed), through({{0, 0, 0}, {0, 0, -depth}}, 3.0));
   Recording recording;
   const RunResult result = simulation.run({&recording});
   EXPECT_GT(result.displaced_volume, 0.0);
@@ -63,7 +61,8 @@ TEST(Simulation, EncoderStepsDoNotTurnTheDepositOfASlowDrag) {
     scene.device.max_force = 0.0;
     scene.device.resolution = resolution;
     scene.device.hand_stiffness = 1e4, scene.device.hand_damping = 60.0;
-    Simulation simulation(scene, flat_bed(scene), through({{-0.02, 0, -0.006}, {0.02, 0, -0.006}}, 4.0));
+    Simulation simulation(scene, starting_bed(scene.bed),
+                          through({{-0.02, 0, -0.006}, {0.02, 0, -0.006}}, 4.0));
     simulation.run();
     return -simulation.bed().grid().col(75).minCoeff();
   };
@@ -81,7 +80,8 @@ TEST(Simulation, AFastDragLeavesTheFurrowOfAFinerServoRate) {
       scene.tool.profile = ToolProfile::sphere;
       scene.displacement.deposit = Deposit::ahead;
     }
-    Simulation simulation(scene, flat_bed(scene), through({{-0.1, 0, -0.006}, {0.1, 0, -0.006}}, 0.01));
+    Simulation simulation(scene, starting_bed(scene.bed),
+                          through({{-0.1, 0, -0.006}, {0.1, 0, -0.006}}, 0.01));
     result = simulation.run();
     return -simulation.bed().grid().middleCols(50, 50).colwise().minCoeff().mean();
   };
@@ -100,7 +100,7 @@ TEST(Simulation, RelaxesOnceATickAtMost) {
   for (const double rate : {1000.0, 1e6, 1e308}) {
     Scene scene = small_scene();
     scene.relaxation.rate = rate;
-    Simulation simulation(scene, flat_bed(scene), through({{0, 0, -0.002}, {0.01, 0, -0.002}}, 0.1));
+    Simulation simulation(scene, starting_bed(scene.bed), through({{0, 0, -0.002}, {0.01, 0, -0.002}}, 0.1));
     EXPECT_EQ(simulation.run().relaxations, 101 + 1) << rate;
   }
 }
@@ -108,7 +108,7 @@ TEST(Simulation, RelaxesOnceATickAtMost) {
 TEST(Simulation, RefusesAStrokeOfMoreTicksThanCanBePlayed) {
   const Scene scene = small_scene();
   try {
-    Simulation(scene, flat_bed(scene), through({{0, 0, -0.002}, {0.01, 0, -0.002}}, 1e300));
+    Simulation(scene, starting_bed(scene.bed), through({{0, 0, -0.002}, {0.01, 0, -0.002}}, 1e300));
     FAIL() << "not refused";
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::input);
@@ -120,7 +120,7 @@ TEST(Simulation, WhatIsReachedLiftedIsNoPath) {
   const Scene scene = small_scene();
   Stroke stroke = through({{-0.08, 0, -0.006}, {0.08, 0, -0.006}}, 1e-3);
   stroke.contact = {pen_lifts, pen_down};
-  Simulation simulation(scene, flat_bed(scene), stroke);
+  Simulation simulation(scene, starting_bed(scene.bed), stroke);
   const RunResult result = simulation.run();
   EXPECT_EQ(result.contact_ticks, 2);
   EXPECT_EQ(simulation.bed().grid().middleCols(60, 30).abs().maxCoeff(), 0.0);
@@ -130,7 +130,7 @@ TEST(Simulation, ALimitedDeviceIsHeldByItsLimitAtAnyDepth) {
   Scene scene = small_scene();
   const Stroke plunge = through({{0, 0, 0}, {0, 0, -1e4}}, 0.01);  // exp(k_c d) overflows
   Recording recording;
-  Simulation simulation(scene, flat_bed(scene), plunge);
+  Simulation simulation(scene, starting_bed(scene.bed), plunge);
   const RunResult result = simulation.run({&recording});
   EXPECT_NEAR(result.device.max_force, scene.device.max_force, 1e-12);
   EXPECT_TRUE(std::isfinite(result.device.absorbed_energy));
@@ -139,7 +139,7 @@ TEST(Simulation, ALimitedDeviceIsHeldByItsLimitAtAnyDepth) {
   for (const TickRecord& tick : recording.ticks) EXPECT_TRUE(tick.device_force.allFinite());
 
   scene.device.max_force = 0.0;
-  Simulation unlimited(scene, flat_bed(scene), plunge);
+  Simulation unlimited(scene, starting_bed(scene.bed), plunge);
   try {
     unlimited.run({&recording});
     FAIL() << "a force too large for a number went unnoticed";
@@ -152,7 +152,7 @@ TEST(Simulation, ALimitedDeviceIsHeldByItsLimitAtAnyDepth) {
 TEST(Simulation, TicksAtTheServoRateAndRelaxesAtItsOwn) {
   Scene scene = small_scene();
   scene.output.frames = 10.0;
-  Simulation simulation(scene, flat_bed(scene), through({{0, 0, -0.002}, {0.05, 0, -0.002}}, 1.0));
+  Simulation simulation(scene, starting_bed(scene.bed), through({{0, 0, -0.002}, {0.05, 0, -0.002}}, 1.0));
   Recording recording;
   const RunResult result = simulation.run({&recording});
   EXPECT_EQ(result.ticks, 1001);
@@ -173,7 +173,7 @@ TEST(Simulation, VolumeIsConservedThroughAStrokeIntoAWall) {
       scene.displacement.deposit = Deposit::ahead;
       scene.relaxation.law = RelaxationLaw::isotropic;
     }
-    Simulation simulation(scene, flat_bed(scene),
+    Simulation simulation(scene, starting_bed(scene.bed),
                           through({{-0.1, 0, 0.01}, {0, 0.02, -0.01}, {0.15, 0.15, -0.01}}, 1.0));
     Recording recording;
     const RunResult result = simulation.run({&recording});
@@ -186,7 +186,7 @@ TEST(Simulation, NothingHappensInTheAirNorWhileTheToolIsLifted) {
   Scene scene = small_scene();
   Stroke stroke = through({{0, 0, 0.01}, {0.05, 0, 0.01}, {0.05, 0, -0.01}, {0, 0, -0.01}}, 0.5);
   stroke.gap_threshold = 0.4;  // every step is a gap
-  Simulation lifted(scene, flat_bed(scene), stroke);
+  Simulation lifted(scene, starting_bed(scene.bed), stroke);
   Recording recording;
   const RunResult result = lifted.run({&recording});
   EXPECT_EQ(result.gaps, 3);
@@ -198,7 +198,7 @@ TEST(Simulation, NothingHappensInTheAirNorWhileTheToolIsLifted) {
     }
   }
 
-  Simulation above(scene, flat_bed(scene), through({{0, 0, 0.01}, {0.05, 0, 0.001}}, 0.5));
+  Simulation above(scene, starting_bed(scene.bed), through({{0, 0, 0.01}, {0.05, 0, 0.001}}, 0.5));
   Recording in_air;
   EXPECT_EQ(above.run({&in_air}).contact_ticks, 0);
   EXPECT_TRUE((above.bed().grid() == 0.0).all());
@@ -207,7 +207,8 @@ TEST(Simulation, NothingHappensInTheAirNorWhileTheToolIsLifted) {
 
 TEST(Simulation, DragOpposesTheMotionWithTheModelsForce) {
   Scene scene = small_scene();
-  Simulation simulation(scene, flat_bed(scene), through({{-0.05, 0, -0.002}, {0.05, 0, -0.002}}, 1.0));
+  Simulation simulation(scene, starting_bed(scene.bed),
+                        through({{-0.05, 0, -0.002}, {0.05, 0, -0.002}}, 1.0));
   Recording recording;
   simulation.run({&recording});
   for (const TickRecord& tick : recording.ticks) {
@@ -222,8 +223,8 @@ TEST(Simulation, ScaleMapsDeviceMetresToBedMetres) {
   Scene plain = small_scene(), scaled = small_scene();
   scaled.device.scale = 4.0;
   scaled.device.offset = {0.02, 0.0, 0.004};
-  Simulation a(plain, flat_bed(plain), through({{-0.05, 0, -0.002}, {0.05, 0, -0.002}}, 1.0));
-  Simulation b(scaled, flat_bed(scaled), through({{-0.0175, 0, -0.0015}, {0.0075, 0, -0.0015}}, 1.0));
+  Simulation a(plain, starting_bed(plain.bed), through({{-0.05, 0, -0.002}, {0.05, 0, -0.002}}, 1.0));
+  Simulation b(scaled, starting_bed(scaled.bed), through({{-0.0175, 0, -0.0015}, {0.0075, 0, -0.0015}}, 1.0));
   Recording ra, rb;
   a.run({&ra});
   b.run({&rb});
@@ -234,7 +235,7 @@ TEST(Simulation, ScaleMapsDeviceMetresToBedMetres) {
 TEST(Simulation, DynamicDeviceLagsBehindAndIsPushedBack) {
   Scene scene = small_scene();
   scene.device.model = DeviceModel::dynamic;
-  Simulation simulation(scene, flat_bed(scene),
+  Simulation simulation(scene, starting_bed(scene.bed),
                         through({{-0.05, 0, 0.005}, {-0.05, 0, -0.008}, {0.05, 0, -0.008}}, 1.0));
   Recording recording;
   const RunResult result = simulation.run({&recording});
@@ -250,7 +251,8 @@ TEST(Simulation, TheForceThatActsIsTheOneComputedTicksBefore) {
   scene.device.model = DeviceModel::dynamic;
   scene.device.delay = 7;
   scene.device.dropped_ticks = 0.3;
-  Simulation simulation(scene, flat_bed(scene), through({{-0.02, 0, 0.002}, {-0.02, 0, -0.008}}, 0.5));
+  Simulation simulation(scene, starting_bed(scene.bed),
+                        through({{-0.02, 0, 0.002}, {-0.02, 0, -0.008}}, 0.5));
   Recording recording;
   const RunResult result = simulation.run({&recording});
   ASSERT_GT(result.contact_ticks, 100);
@@ -281,7 +283,7 @@ TEST(Simulation, ImplicitDragHoldsWhereSampledDragThrowsTheDevice) {
   scene.force.k_s = 20'000.0;
   const auto run = [&](DragVelocity drag) {
     scene.device.drag = drag;
-    Simulation simulation(scene, flat_bed(scene),
+    Simulation simulation(scene, starting_bed(scene.bed),
                           through({{-0.05, 0, 0.0}, {-0.05, 0, -0.16}, {0.05, 0, -0.16}}, 0.5));
     Recording recording;
     return simulation.run({&recording});
@@ -297,7 +299,7 @@ TEST(Simulation, ASceneWithoutAStrokeIsACollapse) {
   scene.stroke.reset();
   scene.bed.surface.kind = SurfaceKind::cylinder;
   scene.bed.surface.radius = 0.05, scene.bed.surface.height = 0.05;
-  Simulation simulation(scene, flat_bed(scene), std::nullopt);
+  Simulation simulation(scene, starting_bed(scene.bed), std::nullopt);
   Recording recording;
   const RunResult result = simulation.run({&recording});
   EXPECT_EQ(result.ticks, 0);
@@ -307,10 +309,10 @@ TEST(Simulation, ASceneWithoutAStrokeIsACollapse) {
 
 TEST(Simulation, RefusesAStrokeThatEntersTheSandOutsideTheBed) {
   Scene scene = small_scene();
-  EXPECT_NO_THROW(
-      Simulation(scene, flat_bed(scene), through({{-1, 0, 0.1}, {0, 0, -0.01}}, 1.0)));  // outside in the air
+  EXPECT_NO_THROW(Simulation(scene, starting_bed(scene.bed),
+                             through({{-1, 0, 0.1}, {0, 0, -0.01}}, 1.0)));  // outside in the air
   try {
-    Simulation(scene, flat_bed(scene), through({{0, 0, 0.01}, {0.2, 0, -0.01}}, 1.0));
+    Simulation(scene, starting_bed(scene.bed), through({{0, 0, 0.01}, {0.2, 0, -0.01}}, 1.0));
     FAIL();
   } catch (const Error& failure) {
     EXPECT_NE(std::string(failure.what()).find("outside the bed"), std::string::npos);

@@ -20,8 +20,6 @@ Scene small_scene() {
   return scene;
 }
 
-HeightField bed_of(const Scene& scene) { return starting_bed(scene.bed); }
-
 /// Down into the sand, along, and up.
 Stroke a_drag() {
   Stroke stroke;
@@ -40,7 +38,7 @@ double metric(const PointResult& point, const std::string& name) {
 
 SharedRunResult run(const std::vector<Scene>& scenes) {
   const Stroke stroke = a_drag();
-  return *run_shared(scenes, bed_of(scenes.front()), &stroke, all_metrics(), nullptr);
+  return *run_shared(scenes, starting_bed(scenes.front().bed), &stroke, all_metrics(), nullptr);
 }
 
 TEST(SharedRun, IsToTheBitWhatEachSceneGivesAlone) {
@@ -50,7 +48,7 @@ TEST(SharedRun, IsToTheBitWhatEachSceneGivesAlone) {
   scenes[3].force.k_c = 40.0, scenes[3].device.max_force = 0.5, scenes[3].device.damping = 5.0;
   const SharedRunResult shared = run(scenes);
   for (std::size_t i = 0; i < scenes.size(); ++i) {
-    Simulation alone(scenes[i], bed_of(scenes[i]), a_drag());
+    Simulation alone(scenes[i], starting_bed(scenes[i].bed), a_drag());
     const RunResult result = alone.run();
     const PointResult& point = shared.points[i];
     EXPECT_EQ(metric(point, "max_force"), result.device.max_force);
@@ -100,7 +98,8 @@ TEST(SharedRun, WithoutAStrokeMeasuresTheSandAlone) {
   scene.stroke.reset();
   scene.bed.surface.kind = SurfaceKind::cylinder;
   scene.bed.surface.radius = 0.05, scene.bed.surface.height = 0.03;
-  const PointResult point = run_shared({scene}, bed_of(scene), nullptr, all_metrics(), nullptr)->points[0];
+  const PointResult point =
+      run_shared({scene}, starting_bed(scene.bed), nullptr, all_metrics(), nullptr)->points[0];
   EXPECT_EQ(point.verdict, PointVerdict::at_rest);
   EXPECT_GT(metric(point, "moved_volume"), 0.0);
   EXPECT_TRUE(std::isnan(metric(point, "mean_force")));
@@ -112,10 +111,12 @@ TEST(SharedRun, WithoutAStrokeEachSceneHasTheMarginOfItsOwnDevice) {
   std::vector<Scene> scenes(2, small_scene());
   for (Scene& scene : scenes) scene.stroke.reset();
   scenes[1].device.damping += 4.0;
-  const SharedRunResult shared = *run_shared(scenes, bed_of(scenes[0]), nullptr, all_metrics(), nullptr);
+  const SharedRunResult shared =
+      *run_shared(scenes, starting_bed(scenes[0].bed), nullptr, all_metrics(), nullptr);
   for (std::size_t i = 0; i < scenes.size(); ++i)
-    EXPECT_EQ(metric(shared.points[i], "passivity_margin"),
-              Simulation(scenes[i], bed_of(scenes[i]), std::nullopt).run().device.least_passivity_margin);
+    EXPECT_EQ(
+        metric(shared.points[i], "passivity_margin"),
+        Simulation(scenes[i], starting_bed(scenes[i].bed), std::nullopt).run().device.least_passivity_margin);
 }
 
 TEST(SharedRun, AFurrowIsAsWideAsItsToolAndTheGoldenSurfaceIsSubtracted) {
@@ -125,12 +126,12 @@ TEST(SharedRun, AFurrowIsAsWideAsItsToolAndTheGoldenSurfaceIsSubtracted) {
   EXPECT_GT(metric(first.points[0], "furrow_depth"), 0.001);
   EXPECT_GT(metric(first.points[0], "rampart_height"), 0.0);
   EXPECT_NEAR(metric(first.points[0], "furrow_width"), 2.0 * scene.tool.radius, scene.tool.radius);
-  const HeightField flat = bed_of(scene);
+  const HeightField flat = starting_bed(scene.bed);
   const PointResult against_itself =
-      run_shared({scene}, bed_of(scene), &stroke, all_metrics(), &first.surface)->points[0];
+      run_shared({scene}, starting_bed(scene.bed), &stroke, all_metrics(), &first.surface)->points[0];
   EXPECT_EQ(metric(against_itself, "golden_max"), 0.0);
   const PointResult against_flat =
-      run_shared({scene}, bed_of(scene), &stroke, all_metrics(), &flat)->points[0];
+      run_shared({scene}, starting_bed(scene.bed), &stroke, all_metrics(), &flat)->points[0];
   EXPECT_EQ(metric(against_flat, "golden_max"), first.surface.grid().abs().maxCoeff());
   EXPECT_NEAR(metric(against_flat, "golden_volume"), 0.0, 1e-12);
 }
