@@ -229,9 +229,10 @@ Comparison compare_golden(const std::string& name, const fs::path& entry, const 
     return std::vector{same_hash("scene"), same_hash("stroke")};
   });
   constexpr double most_drift = 1e-12;  // of the volume moved; rounding alone is far below
-  checks.push_back(
-      limit_check("volume drift", run_of_scene.result.volume_drift, most_drift, "",
-                  fmt::format("{}: the sand's volume changed; no step may lose or make sand", name)));
+  checks.push_back(limit_check(
+      "volume drift", run_of_scene.result.volume_drift, most_drift, "",
+      fmt::format("{}: the volume changed by {:.3g} of the sand moved; no step may lose or make sand", name,
+                  run_of_scene.result.volume_drift)));
   add_checks(checks, "run complete", [&] { return std::vector{complete_check("run", run)}; });
 
   add_checks(checks, "golden content", [&] {
