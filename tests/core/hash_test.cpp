@@ -9,6 +9,7 @@ TEST(ContentHash, IsFnv1a64) {  // test vectors published with the algorithm (Fo
   EXPECT_EQ(content_hash(""), "cbf29ce484222325");
   EXPECT_EQ(content_hash("a"), "af63dc4c8601ec8c");
   EXPECT_EQ(content_hash("foobar"), "85944171f73967e8");
+  EXPECT_EQ(content_hash("aa"), "089c4307b54596b7");  // by the algorithm's definition: 16 digits, always
 }
 
 TEST(UnitHash, IsSplitMix64) {  // the first three numbers of the generator for the seed 0, as published

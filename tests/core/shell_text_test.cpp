@@ -18,8 +18,8 @@ std::string echoed(const std::string& word) {
 }
 
 TEST(ShellText, AShellReadsBackEveryText) {
-  for (const std::string text :
-       {"plain", "two words", "it's", "$(rm x) `y` \"z\" \\ ; & | > *", "a\nb", "\xc3\xa9"})
+  for (const std::string text : {"plain", "two words", "it's", "$(rm x) `y` \"z\" \\ ; & | > *", "a\nb",
+                                 "\xc3\xa9", "/*", "/?*", "~", "/[a-z]*"})
     EXPECT_EQ(echoed(text), text);
 }
 

@@ -25,7 +25,10 @@ TEST(XmlText, WhatXmlCannotCarryIsReplacedByteByByte) {
            {"a\xC3z", "a?z"},
            {"\xE2\x82<", "??&lt;"},
            {"\xC0\xBC", "??"},  // '<', overlong
+           {"\xC1\xBF", "??"},  // U+007F, the largest that is overlong in two bytes
            {"\xE0\x80\xBC", "???"},
+           {"\xE0\x9F\xBF", "???"},       // U+07FF
+           {"\xF0\x8F\xBF\xBD", "????"},  // U+FFFD
            {"\xED\xA0\x80", "???"},       // surrogate
            {"\xEF\xBF\xBF", "???"},       // no character
            {"\xF4\x90\x80\x80", "????"},  // beyond all

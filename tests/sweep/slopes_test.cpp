@@ -54,7 +54,7 @@ TEST(DescentSlope, OfAConeIsItsOwnUpToTheBendOfItsContours) {
     for (int col = 1; col < 100; ++col) {
       const double distance = std::hypot(cone.x_of(col), cone.y_of(row)) - std::numbers::sqrt2 * cell_size;
       if (distance < cell_size) continue;
-      EXPECT_NEAR(descent_slope(cone, row, col), 0.6, 0.6 * 2.0 * cell / distance) << row << ' ' << col;
+      EXPECT_NEAR(descent_slope(cone, row, col), 0.6, 0.6 * 2.0 * cell_size / distance) << row << ' ' << col;
     }
   // At the tip: that of the octagonal pyramid through the cells around it.
   EXPECT_NEAR(descent_slope(cone, 50, 50), 0.6 * std::hypot(1.0, std::numbers::sqrt2 - 1.0), 1e-13);
