@@ -241,6 +241,7 @@ TEST_F(Collect, BedsThatDifferAreNotJoined) {
   const HeightField one = surface_of(0), smaller(50, 90, cell);
   folder.write(0, result_of(0), "", &one);
   folder.write(1, result_of(1), "", &smaller);
+  folder.write(2, result_of(2), "", &one);  // as the first one again
   const CollectReport report = collect(folder);
   EXPECT_FALSE(Hdf5Reader(file()).has("surface"));
   EXPECT_NE(report.sentences.back().find("differ"), std::string::npos);

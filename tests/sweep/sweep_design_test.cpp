@@ -67,6 +67,19 @@ TEST(LatinHypercube, EachAxisHasOneNumberInEachNth) {
   EXPECT_NE(samples[0], samples[1]);
 }
 
+TEST(LatinHypercube, NoAxisGoesWithAnotherOrWithTheOrderOfPoints) {
+  constexpr std::size_t n = 400;
+  auto axes = latin_hypercube(3, n, 5);
+  axes.emplace_back(n);
+  for (std::size_t i = 0; i < n; ++i) axes.back()[i] = static_cast<double>(i) / n;
+  for (std::size_t a = 0; a < axes.size(); ++a)
+    for (std::size_t b = 0; b < a; ++b) {
+      double sum = 0.0;
+      for (std::size_t i = 0; i < n; ++i) sum += (axes[a][i] - 0.5) * (axes[b][i] - 0.5);
+      EXPECT_LT(std::abs(12.0 * sum / n), 4.0 / std::sqrt(n)) << a << ' ' << b;  // 4 standard deviations
+    }
+}
+
 TEST(LatinHypercube, FollowsFromItsSeed) {
   EXPECT_EQ(latin_hypercube(2, 10, 1), latin_hypercube(2, 10, 1));
   EXPECT_NE(latin_hypercube(2, 10, 1), latin_hypercube(2, 10, 2));

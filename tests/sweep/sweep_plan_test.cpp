@@ -204,6 +204,12 @@ TEST_F(APlan, IsRefusedInOneSentenceThatSaysWhere) {
 }
 
 /// A plan of a few kilobytes could ask for 1e10 numbers.
+TEST_F(APlan, MayHaveAsManyPointsAsMaxPointsSays) {
+  EXPECT_EQ(
+      load(std::string(begin_plan) + "max_points = 4\n[axes]\nforce.k_s = [1, 2, 3, 4]\n").design.points(),
+      4u);
+}
+
 TEST_F(APlan, ValuesWithoutEndAreRefusedBeforeTheyAreMade) {
   std::string ranges, open_ranges;
   for (int i = 0; i < 200; ++i) {
