@@ -78,6 +78,33 @@ TEST(SandForce, IsLimitedInMagnitudeAndKeepsItsDirection) {
   EXPECT_EQ(limited.repulse, free.repulse);
 }
 
+TEST(SandForce, IsCutFromItsLimitOn) {
+  for (const Eigen::Vector3d& velocity : {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(0.03, -0.04, 0.7)}) {
+    // k_f v is 0 or 1/2 along the sand, so that the whole is sqrt(1 + 1/4) of repulse.
+    const double whole = std::hypot(1.0, 10.0 * velocity.head<2>().norm());
+    for (const double share : {0.95, 1.05}) {
+      const double depth = depth_of_repulse_force(share * 12.0 / whole, paper);
+      const SandForce force = sand_force(depth, velocity, 12.0, paper);
+      EXPECT_EQ(force.saturated, share > 1.0);
+      EXPECT_NEAR(force.total.norm(), 12.0 * std::min(share, 1.0), 1e-12);
+    }
+  }
+}
+
+TEST(FeltSand, IsTheSlopeOfItsForces) {
+  const double depth = 0.02, scale = 3.0, step = 1e-5;
+  const FeltSand felt = felt_sand(depth, repulse_force(depth, paper), scale, paper);
+  // A metre of the device is `scale` of the bed.
+  const double rise = repulse_force(depth + scale * step, paper) - repulse_force(depth - scale * step, paper);
+  EXPECT_NEAR(felt.stiffness, rise / (2.0 * step), 1e-6 * felt.stiffness);
+  const double speed = 0.1;  // m/s of the device
+  EXPECT_NEAR(felt.drag * speed, -sand_force(depth, {scale * speed, 0.0, 0.0}, 0.0, paper).drag.x(), 1e-12);
+  const FeltSand air = felt_sand(-1e-9, 0.0, scale, paper);
+  EXPECT_EQ(air.stiffness, 0.0);
+  EXPECT_EQ(air.drag, 0.0);
+  EXPECT_EQ(felt_sand(0.0, 0.0, scale, paper).stiffness, 0.0);  // at the surface: above the sand
+}
+
 TEST(SandForce, OfALimitedDeviceIsDefinedAtAnyDepth) {
   // exp(k_c d) overflows; the limit leaves max_force along e_z - k_f slip.
   const Eigen::Vector3d velocity(0.2, 0.0, -0.1);

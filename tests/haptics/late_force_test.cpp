@@ -39,6 +39,19 @@ TEST(LateForce, BeginsWithTheForceThatActsBefore) {
   EXPECT_EQ(force.act(of_tick(2)), of_tick(0));
 }
 
+TEST(LateForce, ALateFirstTickGivesOutWhatActedBefore) {
+  const Eigen::Vector3d before(1.0, 2.0, 3.0);
+  for (const int delay : {0, 2}) {
+    LateForce force(late(delay, 0.999), before);
+    for (int k = 0; k < 5 + delay; ++k) {
+      if (k < 5) {
+        ASSERT_TRUE(drops_tick(k, 0.999));
+      }
+      EXPECT_EQ(force.act(of_tick(k)), before) << k;
+    }
+  }
+}
+
 TEST(LateForce, ALateLoopGivesOutItsLastForceAgain) {
   for (const int delay : {0, 3}) {
     LateForce force(late(delay, 0.4));
@@ -65,6 +78,16 @@ TEST(DropsTick, DropsTheShareAskedForWithoutAPattern) {
     }
     EXPECT_NEAR(dropped / double{ticks}, share, 4.0 * deviation);
     EXPECT_NEAR(twice / double{ticks}, share * share, 8.0 * deviation);  // neighbours are independent
+  }
+}
+
+TEST(DropsTick, AreSplitMix64sNumbers) {
+  // The first five of seed 0, as published with the generator; the upper half is enough here.
+  const double published[] = {0xe220a8397b1dcdafp-64, 0x6e789e6aa1b965f4p-64, 0x06c45d188009454fp-64,
+                              0xf88bb8a8724c81ecp-64, 0x1b39896a51a8749bp-64};
+  for (int k = 0; k < 5; ++k) {
+    EXPECT_FALSE(drops_tick(k, published[k] * (1.0 - 1e-9))) << k;
+    EXPECT_TRUE(drops_tick(k, published[k] * (1.0 + 1e-9))) << k;
   }
 }
 

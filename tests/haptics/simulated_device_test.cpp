@@ -27,6 +27,27 @@ TEST(DevicePresets, HaveThePapersFigures) {
   EXPECT_EQ(settings.resolution, 0.03e-3);
 }
 
+TEST(DevicePresets, HaveTheMakersFiguresOrNone) {
+  DeviceSettings settings;
+  settings.preset = DevicePreset::touch;  // 3D Systems: 3.3 N, 0.055 mm
+  apply_device_preset(settings);
+  EXPECT_EQ(settings.max_force, 3.3);
+  EXPECT_EQ(settings.resolution, 0.055e-3);
+  settings.preset = DevicePreset::ideal;
+  apply_device_preset(settings);
+  EXPECT_EQ(settings.max_force, 0.0);
+  EXPECT_EQ(settings.resolution, 0.0);
+  EXPECT_EQ(ideal_device().max_force, 0.0);
+  EXPECT_EQ(ideal_device().model, DeviceModel::dynamic);
+}
+
+TEST(TipOf, ScalesAndThenMoves) {
+  DeviceSettings settings;
+  settings.scale = 4.0;
+  settings.offset = {1.0, 2.0, 3.0};
+  EXPECT_EQ(tip_of(settings, {0.25, 0.5, -1.0}), Eigen::Vector3d(2.0, 4.0, -1.0));
+}
+
 TEST(KinematicDevice, IsWhereTheHandIs) {
   SimulatedDevice device(DeviceSettings{}, resting_at(0.0));
   const SimulatedDevice::State next{{1.0, 2.0, 3.0}, {4.0, 5.0, 6.0}};
@@ -70,6 +91,32 @@ TEST(DynamicDevice, ReadsItsEncoders) {
   EXPECT_NEAR(z / 3e-5, std::round(z / 3e-5), 1e-9);
   EXPECT_NEAR(z, 1.234567e-3, 1.5e-5);
   EXPECT_EQ(device.state().position.z(), 1.234567e-3);
+}
+
+TEST(DynamicDevice, ReadsTheNearestStepOfItsEncoders) {
+  DeviceSettings settings = ideal_device();
+  settings.resolution = 0.25;
+  for (const double z : {0.0, 0.1, 0.12, 0.13, 0.24, -0.12, -0.13, -0.2}) {
+    const double read = SimulatedDevice(settings, resting_at(z)).read().position.z();
+    EXPECT_EQ(read, std::abs(z) < 0.125 ? 0.0 : std::copysign(0.25, z)) << z;
+  }
+  settings.model = DeviceModel::kinematic;  // has none
+  EXPECT_EQ(SimulatedDevice(settings, resting_at(0.1)).read().position.z(), 0.1);
+}
+
+TEST(DynamicDevice, TheHandGoesUniformlyFromPlaceToPlaceInATick) {
+  // Whatever its velocities at either end: they are not asked for.
+  const DeviceSettings settings = ideal_device();
+  const SimulatedDevice::State from{{0, 0, 0}, {9, 9, 9}}, to{{1e-4, -2e-4, 0}, {-7, 0, 7}};
+  SimulatedDevice device(settings, resting_at(0.0));
+  device.advance(from, to, Eigen::Vector3d::Zero());
+  SimulatedDevice even(settings, resting_at(0.0));
+  const Eigen::Vector3d mean(0.1, -0.2, 0.0);
+  even.advance({from.position, mean}, {to.position, mean}, Eigen::Vector3d::Zero());
+  EXPECT_EQ(device.state().position, even.state().position);
+  EXPECT_EQ(device.state().velocity, even.state().velocity);
+  EXPECT_EQ(device.drag_velocity(from, to, mean, 1.0),
+            device.drag_velocity({from.position, mean}, {to.position, mean}, mean, 1.0));
 }
 
 TEST(DynamicDevice, APlungeEqualsAMegahertzIntegration) {
@@ -163,6 +210,10 @@ TEST(EnergyAccount, CountsWhatTheDeviceGives) {
   account.add({0, 0, 2.0}, {0, 0, 0.75});  // pushed back up: 1.5 J returned
   EXPECT_DOUBLE_EQ(account.absorbed(), -0.5);
   EXPECT_DOUBLE_EQ(account.least(), -0.5);
+  account.add({3.0, 0, 2.0}, {-1.0, 0, 0.0});  // dragged against the drag
+  EXPECT_DOUBLE_EQ(account.absorbed(), 2.5);
+  EXPECT_DOUBLE_EQ(account.least(), -0.5);  // is not forgotten
+  EXPECT_EQ(EnergyAccount{}.least(), 0.0);
 }
 
 }  // namespace

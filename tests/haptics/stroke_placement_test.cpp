@@ -189,6 +189,89 @@ TEST(StrokePlacement, RefusesAPlaneThatIsNoTable) {
   EXPECT_THAT(complaint(stroke_through(rod), fit), HasSubstr("twice as wide"));
 }
 
+/// Points of an ellipse, so wide and so thick along the axes of a turned frame.
+Stroke ellipsoid(double length, double width, double thickness) {
+  std::vector<Vector3d> points;
+  for (int i = 0; i < 60; ++i) {  // the three factors are orthogonal: their squares' means are 1/2
+    const double angle = 2.0 * std::numbers::pi * i / 60;
+    points.emplace_back(length * std::cos(angle), width * std::sin(angle), thickness * std::cos(2.0 * angle));
+  }
+  return stroke_through(points);
+}
+
+TEST(StrokePlacement, FitsAPlaneToWhatIsWideEnoughAndThinEnough) {
+  StrokePlacement fit;
+  fit.plane = StrokePlane::fit;
+  struct Case {
+    double width, thickness;
+    const char* complaint;
+  };
+  for (const Case& one : {Case{0.1, 0.95 * 0.05, ""},
+                          {0.1, 1.05 * 0.05, "twice as wide"},  // half as thick as wide
+                          {0.3, 0.95 * 0.15, ""},
+                          {0.3, 1.05 * 0.15, "twice as wide"},
+                          {1.05e-6, 0.0, ""},
+                          {0.95e-6, 0.0, "one line"}})  // a millionth as wide as long
+    EXPECT_THAT(complaint(ellipsoid(1.0, one.width, one.thickness), fit),
+                *one.complaint ? testing::Matcher<std::string>(HasSubstr(one.complaint)) : testing::Eq(""))
+        << one.width << ", " << one.thickness;
+}
+
+TEST(StrokePlacement, TheFitBeginsWithThreeSamples) {
+  StrokePlacement fit;
+  fit.plane = StrokePlane::fit;
+  EXPECT_EQ(complaint(stroke_through({{0, 0, 1}, {1, 0, 1}, {0, 1, 1}}), fit), "");
+  EXPECT_THAT(complaint(stroke_through({{0, 0, 1}, {1, 0, 1}}), fit), HasSubstr("2 samples"));
+}
+
+TEST(StrokePlacement, ASampleAtTheCutIsKept) {
+  Stroke stroke = stroke_through(std::vector<Vector3d>(9, Vector3d::Zero()));
+  for (std::size_t i = 0; i < 9; ++i) {
+    stroke.time[i] = 4.0 + 0.25 * static_cast<double>(i);  // exact
+    stroke.flags.push_back(static_cast<std::uint32_t>(i));
+    stroke.velocity.emplace_back(static_cast<double>(i), 0, 0);
+    stroke.force.emplace_back(0, static_cast<double>(i), 0);
+  }
+  struct Case {
+    double start, stop;
+    std::uint32_t first, last;
+  };
+  for (const Case& one : {Case{0.5, 1.5, 2, 6},
+                          {0.95 * 0.5, 0.95 * 1.5, 2, 5},
+                          {1.05 * 0.5, 1.05 * 1.5, 3, 6},
+                          {0.0, 0.0, 0, 0},
+                          {2.0, 3.0, 8, 8}}) {
+    StrokePlacement placement;
+    placement.start = one.start, placement.stop = one.stop;
+    const Stroke placed = place_stroke(stroke, placement);
+    ASSERT_EQ(placed.size(), one.last - one.first + 1u) << one.start;
+    EXPECT_EQ(placed.time.front(), 0.0);
+    EXPECT_EQ(placed.time.back(), 0.25 * (one.last - one.first));
+    EXPECT_EQ(placed.flags.front(), one.first);
+    EXPECT_EQ(placed.flags.back(), one.last);
+    EXPECT_EQ(placed.velocity.front().x(), one.first);
+    EXPECT_EQ(placed.force.back().y(), one.last);
+  }
+  StrokePlacement nothing;
+  nothing.start = 1.05 * 0.5, nothing.stop = 0.95 * 0.75;
+  EXPECT_THAT(complaint(stroke, nothing), HasSubstr("no sample lies between"));
+}
+
+TEST(StrokePlacement, OfAPointGoesWhereTheStrokesPointGoes) {
+  Stroke stroke = stroke_through({{0.1, -0.2, 0.3}});
+  stroke.frame = "device";
+  StrokePlacement placement;
+  placement.scale = 3.0, placement.rotate_z = 25.0, placement.depth = 0.07;
+  placement.offset = {1.0, 2.0, 4.0};
+  const PointPlacement point = point_placement(placement, "device");
+  EXPECT_LT((point.position(stroke.position[0]) - place_stroke(stroke, placement).position[0]).norm(), 1e-15);
+  // A force does no other work along the hand's way than along the tip's, but for the scale.
+  const Vector3d force(0.5, 0.25, -2.0), way(0.01, 0.03, -0.02);
+  const Vector3d tips_way = point.position(stroke.position[0] + way) - point.position(stroke.position[0]);
+  EXPECT_NEAR(3.0 * point.force_back(force).dot(way), force.dot(tips_way), 1e-15);
+  EXPECT_NEAR(point.force_back(force).norm(), force.norm(), 1e-15);
+}
+
 TEST(PlaceStroke, TurnsDeviceAxesToTheBeds) {
   Stroke stroke;  // +x towards the operator, who sits at the bed's -y; +y to the operator's right
   stroke.frame = "device";

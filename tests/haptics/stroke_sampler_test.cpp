@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <random>
+#include <utility>
 
 namespace sandstroke {
 namespace {
@@ -101,6 +102,69 @@ TEST(StrokeSampler, SlopesAreThoseOfPchip) {
   EXPECT_LT((sampler.at(0.02).velocity - Vector3d(250, -200, 700)).norm(), 1e-11);
   // Halfway, a cubic Hermite is the mean of its ends plus h/8 of the difference of its slopes.
   EXPECT_NEAR(sampler.at(0.005).position.x(), 0.5 + (0.5 - 4.0 / 3) / 8, 1e-14);
+}
+
+TEST(StrokeSampler, SlopesBetweenUnevenTimesAreThoseOfPchip) {
+  // At t = 0, 1, 3 (x 0.01 s), so h = 1, 2. Inner slope of secants a, b: 9 / (5/a + 4/b), the weights being
+  // 2 h1 + h0 and h1 + 2 h0. Ends: (4 a - b) / 3 and (5 b - 2 a) / 3.
+  // x: secants 1, 1/2: inner 9/13, ends 7/6 and 1/6. y: 1, 4: inner 9/6; 4 - 4 = 0 at the first end, 6 at the
+  // last. z: 2, 1/2, so 9/10.5, 2.5 and 5/2 - 4 < 0, which would turn: 0.
+  Stroke stroke;
+  stroke.time = {0.0, 0.01, 0.03};
+  stroke.position = {{0, 0, 0}, {1, 1, 2}, {2, 9, 3}};
+  StrokeSampler sampler(stroke);
+  EXPECT_LT((sampler.at(0.0).velocity - 100.0 * Vector3d(7.0 / 6, 0, 2.5)).norm(), 1e-10);
+  EXPECT_LT((sampler.at(0.01).velocity - 100.0 * Vector3d(9.0 / 13, 1.5, 9.0 / 10.5)).norm(), 1e-10);
+  EXPECT_LT((sampler.at(0.03).velocity - 100.0 * Vector3d(1.0 / 6, 6, 0)).norm(), 1e-10);
+  // Halfway through the second spacing: the mean plus h/8 of the difference of the slopes.
+  EXPECT_NEAR(sampler.at(0.02).position.x(), 1.5 + 2.0 / 8 * (9.0 / 13 - 1.0 / 6), 1e-14);
+}
+
+TEST(StrokeSampler, AnEndBeforeATurnIsNoSteeperThanThreeSecants) {
+  // h = 1, 2 as above, secants 1 and -k: the end's slope is (4 + k) / 3, and 3 from k = 5 on. Where the
+  // secants have one sign there is no such limit. The other end mirrors the first.
+  for (const double k : {4.75, 5.25, 40.0, -0.5, -3.8}) {
+    const double slope = std::min((4.0 + k) / 3.0, 3.0);
+    for (const double sign : {1.0, -1.0}) {
+      Stroke stroke;
+      stroke.time = {0.0, 0.01, 0.03};
+      stroke.position = {{0, 0, 0}, {sign, 0, 0}, {sign * (1.0 - 2.0 * k), 0, 0}};
+      EXPECT_NEAR(StrokeSampler(stroke).at(0.0).velocity.x(), 100.0 * sign * slope, 1e-9) << k;
+      std::swap(stroke.position.front(), stroke.position.back());
+      stroke.time = {0.0, 0.02, 0.03};
+      EXPECT_NEAR(StrokeSampler(stroke).at(0.03).velocity.x(), -100.0 * sign * slope, 1e-9) << k;
+    }
+  }
+}
+
+TEST(StrokeSampler, IsThePchipThatOthersPublish) {
+  // NAG's example for e01bec (after Fritsch & Carlson's data RPN 14), to its four decimals.
+  Stroke stroke;
+  stroke.time = {7.99, 8.09, 8.19, 8.70, 9.20, 10.00, 12.00, 15.00, 20.00};
+  for (const double f : {0.0, 0.27643e-4, 0.43750e-1, 0.16918, 0.46943, 0.94374, 0.99864, 0.99992, 0.99999})
+    stroke.position.emplace_back(f, -f, 2.0 - f);
+  stroke.gap_threshold = 10.0;
+  StrokeSampler sampler(stroke);
+  const double published[] = {0.0000, 0.4640, 0.9645, 0.9965, 0.9992, 0.9998,
+                              0.9999, 1.0000, 1.0000, 1.0000, 1.0000};
+  for (int i = 0; i <= 10; ++i) {
+    const Vector3d at = sampler.at(std::min(7.99 + 1.201 * i, 20.0)).position;
+    EXPECT_LT((at - Vector3d(published[i], -published[i], 2.0 - published[i])).cwiseAbs().maxCoeff(), 5e-5)
+        << i;
+  }
+}
+
+TEST(StrokeSampler, SamplesAreJoinedUpToTheGapThreshold) {
+  for (const double gap : {0.095, 0.105, 0.19, 0.21}) {
+    Stroke stroke;
+    stroke.time = {0.0, 0.01, 0.01 + gap, 0.02 + gap};
+    stroke.position.assign(4, Vector3d::Zero());
+    if (gap > 0.15) stroke.gap_threshold = 0.2;
+    StrokeSampler sampler(stroke);
+    const bool joined = gap < stroke.gap_threshold;
+    EXPECT_EQ(sampler.gaps().empty(), joined) << gap;
+    EXPECT_EQ(sampler.at(0.01 + 0.5 * gap).down, joined) << gap;
+  }
 }
 
 TEST(StrokeSampler, VelocityIsTheDerivativeOfPosition) {

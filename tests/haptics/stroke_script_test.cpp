@@ -186,6 +186,65 @@ TEST(StrokeScript, ASplineThroughPointsOnALineIsThatLine) {
   }
 }
 
+TEST(StrokeScript, ASplineIsTheCentripetalCatmullRom) {
+  // As cubic Hermite pieces, another way to write it: at each inner point the slope is
+  // (P1 - P0) / a - (P2 - P0) / (a + b) + (P2 - P1) / b, with a = |P1 - P0|^(1/2) and b = |P2 - P1|^(1/2);
+  // beyond the ends the points go on straight.
+  const std::vector<Vector2d> points = {{0, 0}, {0.05, 0.03}, {0.06, 0.08}, {0.2, 0.0}};
+  std::vector<Vector2d> all = points;
+  all.insert(all.begin(), 2.0 * points[0] - points[1]);
+  all.push_back(2.0 * points[3] - points[2]);
+  const auto knot = [&](std::size_t i) { return std::sqrt((all[i + 1] - all[i]).norm()); };
+  const auto slope = [&](std::size_t i) -> Vector2d {
+    const double a = knot(i - 1), b = knot(i);
+    return (all[i] - all[i - 1]) / a - (all[i + 1] - all[i - 1]) / (a + b) + (all[i + 1] - all[i]) / b;
+  };
+  std::vector<Vector2d> curve;
+  for (std::size_t i = 1; i <= 3; ++i)
+    for (int k = 0; k <= 4000; ++k) {
+      const double u = k / 4000.0, h = knot(i);
+      curve.push_back((1 + 2 * u) * (1 - u) * (1 - u) * all[i] + u * u * (3 - 2 * u) * all[i + 1] +
+                      h * u * (1 - u) * ((1 - u) * slope(i) - u * slope(i + 1)));
+    }
+  const Stroke stroke = trace_script(script_of({{ScriptSpline{points}, depth({0.01}), 0.1}}), {});
+  double farthest = 0.0;
+  for (std::size_t i = 0; i < stroke.size(); i += 20) {
+    double nearest = 1.0;
+    for (const Vector2d& p : curve) nearest = std::min(nearest, (stroke.position[i].head<2>() - p).norm());
+    farthest = std::max(farthest, nearest);
+  }
+  EXPECT_LT(farthest, 3e-5);  // half the way between two points of `curve`, at most 0.15 m / 4000
+}
+
+TEST(StrokeScript, TextGrowsWithItsHeight) {
+  const auto width = [](double height) {
+    const Stroke stroke = trace_script(
+        script_of({{ScriptText{"WI", "futural", {0, 0}, height, 0.0, 0.3 * height}, depth({0.01}), 0.1}}),
+        {});
+    double right = 0.0;
+    for (const Vector3d& p : stroke.position) right = std::max(right, p.x());
+    return right;
+  };
+  EXPECT_NEAR(width(0.2), 2.0 * width(0.1), 1e-4);  // to a sample
+}
+
+TEST(StrokeScript, PressesUpToItsClearance) {
+  for (const double share : {0.95, 1.05}) {
+    const std::string sentence =
+        complaint(script_of({{ScriptLine{{}, {0.1, 0}}, depth({0.01, -share * 0.02}), 0.1}}));
+    EXPECT_EQ(sentence.empty(), share < 1.0) << sentence;
+  }
+}
+
+TEST(StrokeScript, PressesByForceWhereAnySegmentDoes) {
+  const ScriptSegment by_depth{ScriptLine{{}, {0.1, 0}}, depth({0.01})},
+      by_force{ScriptLine{{}, {0.2, 0}}, force({1.0})};
+  EXPECT_FALSE(presses_by_force(script_of({by_depth, by_depth})));
+  EXPECT_TRUE(presses_by_force(script_of({by_depth, by_force})));
+  EXPECT_TRUE(presses_by_force(script_of({by_force})));
+  EXPECT_FALSE(presses_by_force(script_of({})));
+}
+
 TEST(StrokeScript, TheLetterIIsOneVerticalPenStroke) {
   ScriptText text{"I", "futural", {0.1, 0.2}, 0.07};
   const Stroke stroke = trace_script(script_of({{text, depth({0.01}), 0.1}}), {});

@@ -84,6 +84,61 @@ TEST(CheckStroke, NamesWhatIsWrongAndWhere) {
   EXPECT_THAT(complaint(stroke), AllOf(HasSubstr("frame"), HasSubstr("robot")));
 }
 
+TEST(CheckStroke, EveryColumnHasARowPerSample) {
+  for (const std::size_t rows : {std::size_t{2}, std::size_t{4}}) {
+    const auto complaint_about = [&](const auto& resize) {
+      Stroke stroke = three_samples();
+      resize(stroke);
+      return complaint(stroke);
+    };
+    const std::string wrong = " has " + std::to_string(rows) + " rows";
+    EXPECT_THAT(complaint_about([=](Stroke& s) {
+                  s.position.resize(rows, {0, 0, 0});
+                }),
+                HasSubstr("position" + wrong));
+    EXPECT_THAT(complaint_about([=](Stroke& s) {
+                  s.velocity.resize(rows, {0, 0, 0});
+                }),
+                HasSubstr("velocity" + wrong));
+    EXPECT_THAT(complaint_about([=](Stroke& s) {
+                  s.force.resize(rows, {0, 0, 0});
+                }),
+                HasSubstr("force" + wrong));
+    EXPECT_THAT(complaint_about([=](Stroke& s) { s.switches.resize(rows); }), HasSubstr("switches" + wrong));
+    EXPECT_THAT(complaint_about([=](Stroke& s) { s.flags.resize(rows); }), HasSubstr("flags" + wrong));
+    EXPECT_THAT(complaint_about([=](Stroke& s) { s.contact.resize(rows); }), HasSubstr("contact" + wrong));
+  }
+}
+
+TEST(CheckStroke, ItsLimitsAreWhereItSays) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  const auto accepts = [](const auto& set) {
+    Stroke stroke = three_samples();
+    set(stroke);
+    return complaint(stroke).empty();
+  };
+  for (const double share : {0.95, 1.05}) {
+    const bool more = share > 1.0;
+    EXPECT_EQ(accepts([=](Stroke& s) { s.time[2] = share * 1e50; }), !more);
+    EXPECT_EQ(accepts([=](Stroke& s) { s.time[0] = -share * 1e50; }), !more);
+    EXPECT_EQ(accepts([=](Stroke& s) { s.position[1].z() = -share * 1e50; }), !more);
+    EXPECT_EQ(accepts([=](Stroke& s) { s.time = {0.0, share * 1e-50, 1.0}; }), more);
+  }
+  for (const PenState contact : {pen_up, pen_down, pen_lifts}) {
+    EXPECT_TRUE(accepts([=](Stroke& s) { s.contact = {1, contact, 1}; }));
+  }
+  EXPECT_FALSE(accepts([](Stroke& s) { s.contact = {1, 1, 3}; }));
+  for (const double bad : {infinity, std::numeric_limits<double>::quiet_NaN()}) {
+    EXPECT_FALSE(accepts([=](Stroke& s) { s.velocity.assign(3, {0, bad, 0}); }));
+    EXPECT_FALSE(accepts([=](Stroke& s) { s.force.assign(3, {0, 0, bad}); }));
+    EXPECT_FALSE(accepts([=](Stroke& s) { s.gap_threshold = bad; }));
+    EXPECT_FALSE(accepts([=](Stroke& s) { s.nominal_rate = bad; }));
+  }
+  EXPECT_TRUE(accepts([](Stroke& s) { s.nominal_rate = 0.0; }));
+  EXPECT_FALSE(accepts([](Stroke& s) { s.nominal_rate = -1e-9; }));
+  EXPECT_TRUE(accepts([](Stroke& s) { s.frame = "device"; }));
+}
+
 TEST(PenState, SamplesAreJoinedWhereThePenStaysDown) {
   Stroke stroke;
   stroke.time = {0.0, 0.01, 0.02, 0.03, 0.04, 1.0};

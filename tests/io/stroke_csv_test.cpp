@@ -169,6 +169,46 @@ TEST(StrokeCsv, DroppedSamplesLeaveTheLift) {
   EXPECT_THAT(stroke.contact, ElementsAre(pen_down, pen_lifts, pen_down, pen_down));
 }
 
+TEST(StrokeCsv, OfEqualTimesTheFirstSampleStaysWhole) {
+  // Of each run its first sample: with its own velocity and force, not the next one's.
+  StrokeCsvFormat format = txyz();
+  format.velocity = VectorColumns{{"vx", "vy"}, {}};
+  format.force = VectorColumns{{"fx", "fy"}, {}};
+  format.equal_times = EqualTimes::drop;
+  const std::string header = "t,x,y,z,vx,vy,fx,fy\n";
+  const auto rows = [&](const std::vector<double>& times) {
+    std::string text = header;
+    for (std::size_t i = 0; i < times.size(); ++i) {
+      const auto n = [i](int column) { return std::to_string(10 * i + static_cast<std::size_t>(column)); };
+      text += std::to_string(times[i]) + "," + n(1) + "," + n(2) + "," + n(3) + "," + n(4) + "," + n(5) +
+              "," + n(6) + "," + n(7) + "\n";
+    }
+    return text;
+  };
+  struct Case {
+    std::vector<double> times;
+    std::vector<int> kept;
+  };
+  for (const Case& one : {Case{{0, 1, 2}, {0, 1, 2}},
+                          {{0, 0, 1, 2}, {0, 2, 3}},
+                          {{0, 1, 1, 1, 2}, {0, 1, 4}},
+                          {{0, 1, 2, 2, 2}, {0, 1, 2}},
+                          {{0, 0, 1, 1, 2, 2}, {0, 2, 4}},
+                          {{3, 3, 3}, {0}}}) {
+    const Stroke stroke = parse(rows(one.times), format);
+    ASSERT_EQ(stroke.size(), one.kept.size());
+    ASSERT_EQ(stroke.velocity.size(), one.kept.size());
+    ASSERT_EQ(stroke.force.size(), one.kept.size());
+    for (std::size_t k = 0; k < one.kept.size(); ++k) {
+      const int i = 10 * one.kept[k];
+      EXPECT_EQ(stroke.time[k], one.times[static_cast<std::size_t>(one.kept[k])]);
+      EXPECT_EQ(stroke.position[k], Vector3d(i + 1, i + 2, i + 3));
+      EXPECT_EQ(stroke.velocity[k], Vector3d(i + 4, i + 5, 0));
+      EXPECT_EQ(stroke.force[k], Vector3d(i + 6, i + 7, 0));
+    }
+  }
+}
+
 TEST(StrokeCsv, DecreasingTimeIsAlwaysAnError) {
   for (const EqualTimes equal : {EqualTimes::error, EqualTimes::drop, EqualTimes::spread}) {
     StrokeCsvFormat format = drawing();

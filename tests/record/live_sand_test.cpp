@@ -249,6 +249,32 @@ TEST(LiveSand, AFarJumpDoesNotDigAcrossTheBed) {
   EXPECT_LT(sand.bed()(75, 125), 0.0);
 }
 
+TEST(LiveSand, AfterAGapTheHandBeginsAtRest) {
+  // At 0.1 m/s through the sand, a gap, and on at the same speed elsewhere. Drag / repulse is k_f v, with v
+  // the mean over the readings since the gap: nobody knows how fast the hand was in it.
+  for (const double gap : {0.095, 0.105}) {  // s; the threshold is 0.1 s
+    Scene scene = small_scene();
+    scene.relaxation.rate = 0.0;
+    LiveSand sand(scene, starting_bed(scene.bed), "bed");
+    const auto speed_felt = [&](double t, double x) {
+      const Eigen::Vector3d force = sand.feel(t, {Eigen::Vector3d(x, 0.0, -0.005)}).force;
+      EXPECT_GT(force.z(), 0.0);
+      return -force.x() / (scene.force.k_f * force.z());
+    };
+    for (int k = 0; k < 20; ++k) EXPECT_NEAR(speed_felt(k * 1e-3, -0.1 + 1e-4 * k), k ? 0.1 : 0.0, 1e-9) << k;
+    const double before = 19e-3, x_before = -0.1 + 19e-4, after = before + gap;
+    const int window = LiveSand::velocity_window;
+    for (int k = 0; k < 10; ++k) {
+      const double t = after + k * 1e-3, x = 0.05 + 1e-4 * k;
+      const int past = k - window;  // of the readings after the gap; before it where that is negative
+      const double t_past = past >= 0 ? t - window * 1e-3 : before + (past + 1) * 1e-3;
+      const double x_past = past >= 0 ? x - window * 1e-4 : x_before + (past + 1) * 1e-4;
+      const double expected = gap > 0.1 ? (k ? 0.1 : 0.0) : (x - x_past) / (t - t_past);
+      EXPECT_NEAR(speed_felt(t, x), expected, 1e-6 * std::abs(expected) + 1e-9) << gap << " s, " << k;
+    }
+  }
+}
+
 TEST(LiveSand, RefusesScenesThatCannotBeFelt) {
   const auto sentence = [](const Scene& scene) -> std::string {
     try {

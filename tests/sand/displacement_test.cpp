@@ -153,6 +153,50 @@ TEST(Displacement, OutwardGivesNothingToTheBowlAndTakesItOutOnce) {
   }
 }
 
+/// A sphere pressed in where its axis stands so many cells beyond the last column, dragged on towards the
+/// wall.
+HeightGrid dragged_against_the_wall(Deposit deposit, double cells_beyond) {
+  HeightField bed(41, 41, dx);
+  ToolFootprint footprint({R, ToolProfile::sphere});
+  footprint.place(bed, (20.0 + cells_beyond) * dx, 0.0);
+  EXPECT_GT(displace(bed, footprint, -0.004, {1e-3, 0.0, 0.0}, {deposit}), 0.0);
+  EXPECT_NEAR(bed.volume(), 0.0, 1e-20);
+  return bed.grid();
+}
+
+TEST(Displacement, AtAWallWithNothingAheadTheWholeRingTakesTheSand) {
+  // A cell lies ahead where it is less than half a cell behind the axis.
+  const HeightGrid beyond = dragged_against_the_wall(Deposit::ahead, 0.525);
+  EXPECT_TRUE((beyond == dragged_against_the_wall(Deposit::ring, 0.525)).all());
+  EXPECT_TRUE((beyond == beyond.colwise().reverse()).all());
+  EXPECT_GT(beyond.leftCols(39).maxCoeff(), 0.0);
+  const HeightGrid before = dragged_against_the_wall(Deposit::ahead, 0.475);
+  EXPECT_GT(before.col(40).maxCoeff(), 0.0);
+  EXPECT_LE(before.leftCols(40).maxCoeff(), 0.0);
+  EXPECT_TRUE((before == before.colwise().reverse()).all());
+}
+
+TEST(Displacement, AllWallsAndCornersAreAlike) {
+  // Mirrored tools leave mirrored sand, also where walls cut the ring and the bowl.
+  for (const Deposit deposit : {Deposit::ring, Deposit::ahead, Deposit::outward})
+    for (const double across : {0.0, 0.0371}) {
+      const auto at = [&](double x, double y, double drag_x, double drag_y) {
+        HeightField bed(41, 41, dx);
+        ToolFootprint footprint({R, ToolProfile::paper});
+        footprint.place(bed, x, y);
+        EXPECT_GT(displace(bed, footprint, -0.004, {drag_x, drag_y, -2e-4}, {deposit}), 0.0);
+        EXPECT_NEAR(bed.volume(), 0.0, 1e-20);
+        return bed.grid();
+      };
+      const HeightGrid east = at(0.0387, across, 1e-3, 0.0);
+      const HeightGrid west = at(-0.0387, across, -1e-3, 0.0), north = at(across, 0.0387, 0.0, 1e-3),
+                       below = at(0.0387, -across, 1e-3, 0.0);
+      EXPECT_LT((west - east.rowwise().reverse()).abs().maxCoeff(), 1e-15);
+      EXPECT_LT((north - east.transpose()).abs().maxCoeff(), 1e-15);
+      EXPECT_LT((below - east.colwise().reverse()).abs().maxCoeff(), 1e-15);
+    }
+}
+
 TEST(Displacement, WhereNoRingIsInsideTheBedNothingMoves) {
   HeightField bed(4, 4, 0.002);  // the bowl covers all of it
   ToolFootprint footprint({R, ToolProfile::paper});

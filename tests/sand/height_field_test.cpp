@@ -126,6 +126,59 @@ TEST(HeightField, OnlyTheTileOfAChangedCellChangesRevision) {
     EXPECT_EQ(bed.tile_revision(tile) != before[tile], tile == bed.tile_index(1, 0)) << tile;
 }
 
+TEST(HeightField, HighestIsThatOfCellsAndOfWhatIsUntouched) {
+  HeightField bed(100, 200, 0.01, std::make_shared<LevelRule>(0.5));
+  EXPECT_EQ(bed.highest(), 0.5);
+  bed.set(3, 3, -2.0);
+  EXPECT_EQ(bed.highest(), 0.5);
+  bed.set(99, 199, 0.75);
+  EXPECT_EQ(bed.highest(), 0.75);
+  EXPECT_EQ(HeightField(HeightGrid::Constant(5, 5, -3.0), 0.01).highest(), -3.0);  // nothing else is
+}
+
+TEST(HeightField, HeightAtAPlaceIsThatOfItsCell) {
+  HeightField bed(4, 3, 0.5);
+  for (int row = 0; row < 4; ++row)
+    for (int col = 0; col < 3; ++col) bed.set(row, col, 10.0 * row + col);
+  for (int row = 0; row < 4; ++row)
+    for (int col = 0; col < 3; ++col)
+      for (const double dx : {-0.24, 0.0, 0.24})
+        for (const double dy : {-0.24, 0.24})
+          EXPECT_EQ(bed.height_at(bed.x_of(col) + dx, bed.y_of(row) + dy), 10.0 * row + col);
+  for (const double beyond : {0.26, 0.49, 3.0}) {
+    EXPECT_TRUE(std::isnan(bed.height_at(0.5 + beyond, 0.0)));
+    EXPECT_TRUE(std::isnan(bed.height_at(-0.5 - beyond, 0.0)));
+    EXPECT_TRUE(std::isnan(bed.height_at(0.0, 0.75 + beyond)));
+    EXPECT_TRUE(std::isnan(bed.height_at(0.0, -0.75 - beyond)));
+  }
+}
+
+TEST(HeightField, OfTwoBedsEveryCellThatMayDifferIsVisited) {
+  const auto level = [](double height) {
+    return HeightField(100, 200, 0.01, std::make_shared<LevelRule>(height));
+  };
+  const auto differing = [](const HeightField& one, const HeightField& other) {
+    int cells = 0;
+    visit_cells_of_both(one, other, [&](int row, int col, double a, double b) {
+      EXPECT_EQ(a, one(row, col));
+      EXPECT_EQ(b, other(row, col));
+      cells += a != b;
+    });
+    return cells;
+  };
+  HeightField bed = level(0.5);
+  EXPECT_TRUE(same_where_untouched(bed, level(0.5)));
+  EXPECT_FALSE(same_where_untouched(bed, level(0.6)));
+  EXPECT_EQ(differing(bed, level(0.6)), 100 * 200);
+  const HeightField bent(150, 300, 0.01, std::make_shared<Bend>());
+  EXPECT_FALSE(same_where_untouched(bent, HeightField(150, 300, 0.01, std::make_shared<Bend>())));
+  EXPECT_TRUE(same_where_untouched(bent, HeightField(bent)));
+  EXPECT_EQ(differing(bed, level(0.5)), 0);
+  bed.set(70, 130, 1.0);
+  EXPECT_EQ(differing(bed, level(0.5)), 1);
+  EXPECT_EQ(differing(level(0.5), bed), 1);
+}
+
 TEST(HeightField, VolumeIsHeightTimesArea) {
   const HeightField bed(HeightGrid::Constant(300, 200, 0.25), 0.01);
   EXPECT_NEAR(bed.volume(), 300 * 200 * 0.25 * 1e-4, 1e-15);

@@ -80,6 +80,46 @@ TEST(IsotropicLaw, OnePassOfOneHighCellIsAsWritten) {
   EXPECT_NEAR(bed(1, 1), 2.0 - 4.0 * share, 1e-15);
 }
 
+TEST_P(BothLaws, TheShareAskedForIsWhatFlows) {
+  // One pass is c times a flow that does not depend on c.
+  for (const double share : {0.05, 0.2}) {
+    RelaxationSettings own = settings(GetParam()), asked = own;
+    own.max_passes = asked.max_passes = 1;
+    asked.share = share;
+    HeightField start = random_bed(10, 10, 1.0, 5.0, 8), by_own = start, by_asked = start;
+    make_relaxer(own, 1.0)->relax(by_own);
+    make_relaxer(asked, 1.0)->relax(by_asked);
+    const double ratio = share / (GetParam() == RelaxationLaw::paper ? 0.5 : 0.25);
+    EXPECT_LT((by_asked.grid() - start.grid() - ratio * (by_own.grid() - start.grid())).abs().maxCoeff(),
+              1e-14);
+    EXPECT_EQ(flow_share(asked), share);
+  }
+}
+
+TEST_P(BothLaws, ATileThatChangesTellsAndNoOther) {
+  for (const RelaxationMethod method : {RelaxationMethod::passes, RelaxationMethod::rkl}) {
+    RelaxationSettings s = settings(GetParam());
+    s.method = method;
+    HeightField bed(200, 200, 1.0);
+    const auto relaxer = make_relaxer(s, 1.0);
+    for (const int row : {30, 60, 100}) {
+      bed.set(row, 62, 20.0);
+      const HeightField before = bed;
+      EXPECT_GT(relaxer->relax(bed).passes, 0);
+      const auto changed = (bed.grid() != before.grid()).eval();
+      for (int tile = 0; tile < bed.tile_count(); ++tile) {
+        const CellRange cells = bed.tile_cells(tile);
+        const bool any = changed.block(cells.row_begin, cells.col_begin, cells.rows(), cells.cols()).any();
+        if (before.slot_of(tile) >= 0) {
+          EXPECT_EQ(bed.tile_revision(tile) != before.tile_revision(tile), any) << row << ", tile " << tile;
+        } else if (any) {
+          EXPECT_GT(bed.tile_revision(tile), HeightField::new_tile_revision) << row << ", tile " << tile;
+        }
+      }
+    }
+  }
+}
+
 TEST_P(BothLaws, TilesGiveTheBitsOfTheReference) {
   struct Case {
     int rows, cols;
@@ -216,6 +256,17 @@ TEST(TileRelaxer, LooksOnlyAtWhatCanMove) {
   EXPECT_EQ(look.tiles_active_max, 4);
   EXPECT_EQ(look.passes, 0);
   EXPECT_EQ(relaxer->relax(bed).cells_visited, 0);
+}
+
+TEST(TileRelaxer, CountsTheMostTilesAtOnce) {
+  HeightField bed(64, 64 * 5, 1.0);
+  const auto relaxer = make_relaxer(settings(RelaxationLaw::paper), 1.0);
+  relaxer->relax(bed);  // the first time all tiles that exist are looked at, and what is beside them
+  bed.set(32, 32, 1.0), bed.set(32, 4 * 64 + 32, 1.0);  // one pass moves them, and then they rest
+  bed.set(32, 2 * 64 + 32, 9.0);                        // goes on
+  EXPECT_EQ(relaxer->relax(bed).tiles_active_max, 3);
+  bed.set(32, 32, 1.0);
+  EXPECT_LE(relaxer->relax(bed).tiles_active_max, 1);
 }
 
 TEST(TileRelaxer, CountsHowOftenTilesWake) {

@@ -118,6 +118,36 @@ TEST(SolidTool, APlungeAtACellCentreIsSymmetricToTheBit) {
   }
 }
 
+TEST(SolidTool, HoldsOnlyWhereItIsNow) {
+  HeightField bed(129, 129, cell);
+  ToolFootprint footprint({tool_radius, ToolProfile::sphere, true});
+  for (const double x : {0.03, 0.0, -0.05}) {
+    footprint.place(bed, x, 0.01);
+    footprint.hold_bowl(bed);
+    for (int row = 0; row < 129; ++row)
+      for (int col = 0; col < 129; ++col)
+        ASSERT_EQ(bed.is_held(row, col),
+                  std::hypot(bed.x_of(col) - x, bed.y_of(row) - 0.01) <= tool_radius * (1.0 + 1e-12))
+            << row << ", " << col;
+  }
+}
+
+TEST(SolidTool, TheResidualLeavesOutWhatItStandsOn) {
+  for (const RelaxationMethod method : {RelaxationMethod::passes, RelaxationMethod::rkl}) {
+    RelaxationSettings none;
+    none.method = method;
+    none.max_passes = 0;
+    const auto relaxer = make_relaxer(none, cell);
+    HeightField bed(30, 30, cell);
+    bed.set(15, 15, 10 * cell);
+    EXPECT_NEAR(relaxer->relax(bed).residual, 10.0 / talus_slope(30.0) - 1.0, 1e-9);
+    bed.hold({{0, 15, std::uint64_t{1} << 15}});
+    EXPECT_EQ(relaxer->relax(bed).residual, 0.0);
+    bed.hold({});
+    EXPECT_NEAR(relaxer->relax(bed).residual, 10.0 / talus_slope(30.0) - 1.0, 1e-9);
+  }
+}
+
 TEST(SolidTool, ACopyHoldsWhatTheBedHolds) {
   Standing standing;
   HeightField copy = standing.bed;

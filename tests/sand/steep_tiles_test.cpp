@@ -25,6 +25,17 @@ TEST(SteepTiles, TheFirstRelaxationLooksAtThemAndWhatIsBesideThem) {
   }
 }
 
+TEST(SteepTiles, CountOnceWhereTheyExist) {
+  SurfaceSettings cliff;
+  cliff.kind = SurfaceKind::cliff;
+  HeightField bed = make_surface(cliff, 60, 1000, 0.002);
+  const std::int64_t counted = tiles_to_relax(bed, {});
+  EXPECT_GT(counted, 0);
+  for (int col = 400; col < 600; ++col) bed.set(30, col, bed(30, col));
+  EXPECT_EQ(tiles_to_relax(bed, {}), bed.allocated_tiles());
+  EXPECT_GT(bed.allocated_tiles(), counted);
+}
+
 TEST(SteepTiles, TilesThatExistCount) {
   HeightField bed(1000, 1000, 0.002);
   EXPECT_EQ(tiles_to_relax(bed, {}), 0);

@@ -1,0 +1,91 @@
+// What RelaxationOutcome::moved_volume means: each volume of sand counts as often as it goes from cell to
+// cell.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "sand/relaxation.h"
+
+namespace sandstroke {
+namespace {
+
+constexpr double dx = 0.01;
+
+/// In a line of cells, where sand went through each face in one direction only: what is beyond the face more
+/// than before went through it. m^3.
+double through_faces(const HeightGrid& before, const HeightGrid& after) {
+  double beyond = 0.0, volume = 0.0;
+  for (Eigen::Index i = 0; i < before.size(); ++i) {
+    beyond += after(i) - before(i);
+    volume += std::abs(beyond);
+  }
+  return volume * dx * dx;
+}
+
+/// Twice `half_width` cells of this height [cells] amid 100, along a row or down a column.
+HeightGrid block(bool along_row, int half_width, double height) {
+  HeightGrid heights = HeightGrid::Zero(along_row ? 1 : 100, along_row ? 100 : 1);
+  for (int i = 50 - half_width; i < 50 + half_width; ++i) heights(i) = height * dx;
+  return heights;
+}
+
+RelaxationSettings settings(RelaxationLaw law, RelaxationMethod method) {
+  RelaxationSettings settings;
+  settings.law = law;
+  settings.method = method;
+  return settings;
+}
+
+constexpr RelaxationLaw laws[] = {RelaxationLaw::paper, RelaxationLaw::isotropic};
+constexpr RelaxationMethod methods[] = {RelaxationMethod::passes, RelaxationMethod::rkl};
+
+TEST(MovedVolume, IsWhatWentThroughTheFacesWhateverLawAndMethod) {
+  for (const RelaxationLaw law : laws)
+    for (const RelaxationMethod method : methods)
+      for (const bool along_row : {true, false})
+        for (const std::int64_t most : {std::int64_t{1}, std::int64_t{7}, std::int64_t{100'000}}) {
+          const HeightGrid before = block(along_row, 10, 20.0);
+          HeightField bed(before, dx);
+          RelaxationSettings relaxation = settings(law, method);
+          relaxation.max_passes = most;
+          const RelaxationOutcome outcome = make_relaxer(relaxation, dx)->relax(bed);
+          EXPECT_EQ(outcome.converged, most > 7);
+          const double volume = through_faces(before, bed.grid());
+          EXPECT_GT(volume, 0.0);
+          EXPECT_NEAR(outcome.moved_volume, volume, 1e-9 * volume) << most;
+        }
+}
+
+TEST(MovedVolume, OfACollapsedBlockIsThatOfItsTriangle) {
+  // The centre of each half goes from w / 2 to L / 3, with L^2 tan(talus) = 2 w h.
+  constexpr double w = 10.0, h = 20.0, volume = 2.0 * w * h;  // cells
+  const double L = std::sqrt(volume / talus_slope(30.0));
+  const double moved = volume * (L / 3.0 - w / 2.0) * dx * dx * dx;
+  for (const RelaxationLaw law : laws)
+    for (const RelaxationMethod method : methods) {
+      HeightField bed(block(true, 10, h), dx);
+      EXPECT_NEAR(make_relaxer(settings(law, method), dx)->relax(bed).moved_volume, moved, 0.01 * moved);
+    }
+}
+
+TEST(RelaxationOutcome, OfOneAfterAnotherCountsBothAndRestsAsTheLast) {
+  RelaxationOutcome first, next;
+  first.passes = 1, first.super_steps = 2, first.rejected_stages = 3, first.cells_visited = 4;
+  first.wake_ups = 5, first.tiles_active_max = 6, first.moved_volume = 7.0, first.residual = 8.0;
+  first.converged = true;
+  next.passes = 10, next.super_steps = 20, next.rejected_stages = 30, next.cells_visited = 40;
+  next.wake_ups = 50, next.tiles_active_max = 5, next.moved_volume = 70.0, next.residual = 0.5;
+  first.add(next);
+  EXPECT_EQ(first.passes, 11);
+  EXPECT_EQ(first.super_steps, 22);
+  EXPECT_EQ(first.rejected_stages, 33);
+  EXPECT_EQ(first.cells_visited, 44);
+  EXPECT_EQ(first.wake_ups, 55);
+  EXPECT_EQ(first.tiles_active_max, 6);
+  EXPECT_EQ(first.moved_volume, 77.0);
+  EXPECT_EQ(first.residual, 0.5);
+  EXPECT_FALSE(first.converged);
+}
+
+}  // namespace
+}  // namespace sandstroke
