@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <functional>
+#include <tuple>
 
 #include "core/error.h"
 #include "synthetic_run.h"
@@ -169,6 +171,89 @@ TEST(CheckJson, HasNullForWhatIsNotANumber) {
   EXPECT_EQ(json["passed"], false);
   EXPECT_TRUE(json["checks"][0]["measured"].is_null());
   EXPECT_EQ(json["checks"][0]["sentence"], "none");
+}
+
+/// A change of a run, and the check that judges it.
+struct ToleranceCase {
+  std::string check;
+  double limit;
+  std::function<void(SyntheticRun&, double)> change;
+};
+
+TEST_F(CompareRuns, EachToleranceHoldsJustBelowItAndNotJustAbove) {
+  const std::vector<ToleranceCase> cases = {
+      {"initial height", 1e-6, [](SyntheticRun& r, double by) { r.initial(3, 38) += by; }},
+      {"final height", 1e-6, [](SyntheticRun& r, double by) { r.final(29, 0) += by; }},
+      {"force", 1e-4, [](SyntheticRun& r, double by) { r.trace[5].device_force.x() += by; }},
+      {"force", 1e-4, [](SyntheticRun& r, double by) { r.trace[50].device_force.y() += by; }},
+      {"force", 1e-4, [](SyntheticRun& r, double by) { r.trace[104].device_force.z() += by; }},
+      {"force", 1e-4,
+       [](SyntheticRun& r, double by) {
+         r.trace[50].device_force += by * Eigen::Vector3d(0.48, 0.64, -0.6);
+       }},
+      {"depth", 1e-6, [](SyntheticRun& r, double by) { r.trace[70].depth += by; }},
+      {"level", 1e-6, [](SyntheticRun& r, double by) { r.trace[70].level += by; }},
+      {"time", 1e-9, [](SyntheticRun& r, double by) { r.trace[70].time += by; }}};
+  double sign = 1.0;
+  for (const ToleranceCase& one : cases) {
+    sign = -sign;
+    run = SyntheticRun();
+    one.change(run, 0.95 * sign * one.limit);
+    EXPECT_TRUE(compare().passed()) << one.check;
+    run = SyntheticRun();
+    one.change(run, -1.05 * sign * one.limit);
+    expect_only_failure(one.check, "differs by ");
+  }
+}
+
+TEST_F(CompareRuns, CellSizesAreTheSameUpToRounding) {
+  for (const double sign : {1.0, -1.0}) {
+    run.cell_size = golden.cell_size * (1.0 + 0.95e-12 * sign);
+    EXPECT_TRUE(compare().passed());
+    run.cell_size = golden.cell_size * (1.0 + 1.05e-12 * sign);
+    EXPECT_EQ(compare().failures(), 3);  // with both surfaces, whose cells lie elsewhere
+  }
+}
+
+TEST_F(CompareRuns, SaysHowFarApartTheyAreInEachQuantity) {
+  tolerances = {1.0, 2.0, 3.0};
+  run.final(5, 7) += 0.25;
+  run.initial(5, 8) += 0.125;
+  run.trace[40].device_force.y() += 0.5;
+  run.trace[41].depth += 0.0625;
+  run.trace[42].level -= 0.03125;
+  run.trace.pop_back();
+  const Comparison comparison = compare();
+  const auto found = [&](const std::string& name) {
+    for (const Check& check : comparison.checks)
+      if (check.name == name) return check;
+    return Check{};
+  };
+  for (const auto& [name, measured, limit, unit] : {std::tuple{"initial height", 0.125, 1.0, "m"},
+                                                    {"final height", 0.25, 1.0, "m"},
+                                                    {"force", 0.5, 2.0, "N"},
+                                                    {"depth", 0.0625, 3.0, "m"},
+                                                    {"level", 0.03125, 3.0, "m"},
+                                                    {"time", 0.0, 1e-9, "s"},
+                                                    {"ticks", 104.0, 105.0, ""}}) {
+    EXPECT_DOUBLE_EQ(found(name).measured, measured) << name;
+    EXPECT_EQ(found(name).limit, limit) << name;
+    EXPECT_EQ(found(name).unit, unit) << name;
+  }
+  const nlohmann::json json = to_json(comparison);
+  EXPECT_EQ(json["name"], comparison.name);
+  for (std::size_t i = 0; i < comparison.checks.size(); ++i) {
+    const Check& check = comparison.checks[i];
+    EXPECT_EQ(json["checks"][i]["name"], check.name);
+    EXPECT_EQ(json["checks"][i]["passed"], check.passed);
+    EXPECT_EQ(json["checks"][i]["unit"], check.unit);
+    EXPECT_EQ(json["checks"][i]["sentence"], check.sentence);
+    if (std::isnan(check.limit)) continue;
+    EXPECT_EQ(json["checks"][i]["measured"], check.measured);
+    EXPECT_EQ(json["checks"][i]["limit"], check.limit);
+  }
+  EXPECT_NE(found("final height").sentence.find("RMS 0.00721688 m, volume +2.5e-05 m^3"), std::string::npos)
+      << found("final height").sentence;  // 0.25 m / sqrt(1200); 0.25 m x (10 mm)^2
 }
 
 }  // namespace

@@ -4,6 +4,9 @@
 
 #include <cmath>
 #include <fstream>
+#include <functional>
+#include <map>
+#include <tuple>
 
 #include "compare/golden_scenes.h"
 #include "core/error.h"
@@ -109,6 +112,73 @@ TEST_F(Golden, KeepsHeightsAndTraceToWithinHalfAQuantum) {
     EXPECT_NEAR(rows[k].device_force.z(), tick.device_force.z(), 0x1p-21);
     EXPECT_NEAR(rows[k].depth, tick.depth, 0x1p-31);
   }
+}
+
+TEST_F(Golden, KeepsEachFieldOfATickInItsPlace) {
+  for (std::size_t k = 0; k < run.trace.size(); ++k) {
+    const double number = 8.0 * static_cast<double>(k);
+    TickRecord& tick = run.trace[k];
+    tick.device_force = {number + 1.0, number + 2.0, number + 3.0};
+    tick.depth = number + 4.0;
+    tick.level = number + 5.0;
+    tick.contact = k % 20 == 0;
+  }
+  write_golden(folder / "golden/dune", finished());
+  const std::vector<TickRecord> rows = read_golden(folder / "golden/dune").trace->rows;
+  ASSERT_EQ(rows.size(), 11u);
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    const TickRecord& tick = run.trace[10 * k];
+    EXPECT_EQ(rows[k].time, tick.time);
+    EXPECT_EQ(rows[k].device_force, tick.device_force);
+    EXPECT_EQ(rows[k].depth, tick.depth);
+    EXPECT_EQ(rows[k].level, tick.level);
+    EXPECT_EQ(rows[k].contact, tick.contact);
+  }
+}
+
+TEST_F(Golden, EachToleranceHoldsJustBelowItAndNotJustAbove) {
+  write_golden(folder / "golden/dune", finished());
+  using Change = std::function<void(double)>;
+  const std::vector<std::tuple<std::string, double, Change>> cases = {
+      {"height change", 1e-6, [&](double by) { run.final(12, 25) += by; }},
+      {"height change", 1e-6, [&](double by) { run.final(0, 39) += by; }},  // not in the block that is kept
+      {"force", 1e-4, [&](double by) { run.trace[90].device_force.x() += by; }},
+      {"depth", 1e-6, [&](double by) { run.trace[90].depth += by; }},
+      {"level", 1e-6, [&](double by) { run.trace[90].level += by; }}};
+  double sign = 1.0;
+  for (const auto& [check, limit, change] : cases) {
+    sign = -sign;
+    run = SyntheticRun();
+    change(0.95 * sign * limit);
+    EXPECT_TRUE(compare().passed()) << check;
+    run = SyntheticRun();
+    change(-1.05 * sign * limit);
+    expect_only_failure(check, "differs by ");
+  }
+  run = SyntheticRun();
+  for (const auto& [drift, passed] : {std::pair{0.95e-12, true}, {1.05e-12, false}}) {
+    GoldenRun leaking = finished();
+    leaking.result.volume_drift = drift;
+    EXPECT_EQ(compare_golden("dune", folder / "golden/dune", leaking, Tolerances{}).passed(), passed);
+  }
+}
+
+TEST_F(Golden, SaysWhatItRanAndWhatCameOut) {
+  GoldenRun ran = finished();
+  ran.result.ticks = 105;
+  ran.result.relaxation.passes = 77;
+  ran.result.relaxation.residual = 5e-4;
+  ran.result.volume_drift = 3e-14;
+  write_golden(folder / "golden/dune", ran);
+  std::map<std::string, std::string> said;
+  for (const auto& [name, value] : golden_provenance(folder / "golden/dune")) said[name] = value;
+  EXPECT_EQ(said["scene_hash"], run.scene_hash);
+  EXPECT_EQ(said["stroke_hash"], run.stroke_hash);
+  EXPECT_EQ(said.size(), 5u);  // with version, commit and compiler
+  const std::string text = read_text_file(folder / "golden/dune/provenance.toml");
+  for (const char* line :
+       {"ticks = 105\n", "passes = 77\n", "residual = 5.000e-04\n", "volume_drift = 3.000e-14\n"})
+    EXPECT_NE(text.find(line), std::string::npos) << text;
 }
 
 TEST_F(Golden, AnyOneCellFailsWithin2Micrometres) {

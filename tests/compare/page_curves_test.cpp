@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <tuple>
 
 namespace sandstroke {
 namespace {
@@ -128,6 +129,33 @@ TEST(TracesPart, SaysHowManyTicksThereAreAndThatCurvesAreThinned) {
   EXPECT_NE(text.find("3000 of 29991 ticks"), std::string::npos) << text;
   EXPECT_NE(text.find("least and the greatest"), std::string::npos) << text;
   for (const Json& quantity : part["quantities"]) EXPECT_LE(quantity["golden"]["value"].size(), 2000u);
+}
+
+TEST(TracesPart, EachQuantityHasItsOwnValuesUnitAndLimit) {
+  CountedTrace golden = trace_of(2, {1.0, 2.0, 3.0}, 4.0), run = trace_of(2, {11.0, 22.0, 33.0}, 44.0);
+  for (TickRecord& tick : golden.rows) tick.level = 5.0;
+  for (TickRecord& tick : run.rows) tick.level = 55.0;
+  Tolerances tolerances;
+  tolerances.height = 0.1, tolerances.force = 0.2, tolerances.depth = 0.3;
+  const Json part = traces_part(golden, run, tolerances);
+  const std::vector<std::tuple<double, double, const char*, double>> expected = {{1.0, 11.0, "N", 0.2},
+                                                                                 {2.0, 22.0, "N", 0.2},
+                                                                                 {3.0, 33.0, "N", 0.2},
+                                                                                 {4.0, 44.0, "m", 0.3},
+                                                                                 {5.0, 55.0, "m", 0.3}};
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    const Json& quantity = part["quantities"][i + 1];  // after the force's magnitude
+    const auto& [in_golden, in_run, unit, limit] = expected[i];
+    EXPECT_EQ(quantity["golden"]["value"], Json({in_golden, in_golden}));
+    EXPECT_EQ(quantity["run"]["value"], Json({in_run, in_run}));
+    EXPECT_EQ(quantity["difference"]["value"], Json({in_run - in_golden, in_run - in_golden}));
+    EXPECT_EQ(quantity["run"]["time"], Json({0.0, 0.5}));
+    EXPECT_EQ(quantity["unit"], unit);
+    EXPECT_EQ(quantity["limit"], limit);
+    EXPECT_EQ(quantity["group"], i < 3 ? "Force on the device" : "Tool in the sand");
+  }
+  EXPECT_EQ(part["quantities"][0]["unit"], "N");
+  EXPECT_EQ(part["quantities"][0]["limit"], 0.2);
 }
 
 }  // namespace

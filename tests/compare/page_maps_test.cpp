@@ -227,5 +227,53 @@ TEST(PicturesPart, HoldsThePicturesAsTheyAreAndTheirDifference) {
   EXPECT_EQ(pictures_part("Picture", golden, Image(30, 21), 2)["maps"].size(), 2u);
 }
 
+TEST(SurfacesPart, OfABedThatIsNotSquareHasItsExtentAndNumbersRowsFirst) {
+  ComparedSurfaces s = furrow(120, 300, 70, 140);
+  const Json part = surfaces_part(s);
+  const CellRange shown = shown_cells(s);
+  ASSERT_NE(shown.rows(), shown.cols());
+  const Json& extent = part["extent"];
+  EXPECT_DOUBLE_EQ(extent["x"][0], (shown.col_begin - 150) * cell_size);
+  EXPECT_DOUBLE_EQ(extent["x"][1], (shown.col_end - 150) * cell_size);
+  EXPECT_DOUBLE_EQ(extent["y"][0], (shown.row_begin - 60) * cell_size);
+  EXPECT_DOUBLE_EQ(extent["y"][1], (shown.row_end - 60) * cell_size);
+  EXPECT_EQ(part["spots"]["cells"], Json({shown.rows(), shown.cols()}));
+  EXPECT_EQ(part["spots"]["side"], 1);
+  EXPECT_EQ(part["spots"]["cols"], shown.cols());
+  const std::vector<float> heights = floats_of(part["spots"]["golden"]),
+                           differences = floats_of(part["spots"]["difference"]);
+  ASSERT_EQ(heights.size(), static_cast<std::size_t>(shown.rows() * shown.cols()));
+  for (int row = shown.row_begin; row < shown.row_end; ++row)
+    for (int col = shown.col_begin; col < shown.col_end; ++col) {
+      const auto at =
+          static_cast<std::size_t>((row - shown.row_begin) * shown.cols() + col - shown.col_begin);
+      ASSERT_EQ(heights[at], static_cast<float>(s.golden(row, col))) << row << ", " << col;
+      ASSERT_EQ(differences[at], static_cast<float>(s.run(row, col) - s.golden(row, col)));
+    }
+  const std::string text = part["maps"][2]["text"];
+  EXPECT_NE(text.find("Largest 0.004 m at x = -0.095 m, y = 0.105 m (row 70, col 140), limit 1e-06 m; RMS "
+                      "2.108e-05 m; volume +4e-07 m³."),
+            std::string::npos)
+      << text;  // 4 mm / sqrt(36000); 4 mm x (10 mm)^2
+}
+
+TEST(PicturesPart, SaysWhereAndHowManyPixelsDiffer) {
+  const Image golden(40, 20);
+  Image run = golden;
+  run.pixel(31, 5)[2] = 9;
+  run.pixel(30, 5)[0] = 4;
+  const Json part = pictures_part("Picture", golden, run, 2);
+  EXPECT_EQ(part["extent"], Json({{"x", {0, 40}}, {"y", {20, 0}}}));
+  EXPECT_EQ(part["text"], "40 x 20 pixels.");
+  const std::string text = part["maps"][2]["text"];
+  EXPECT_NE(text.find("Largest 9 of 255 at pixel x = 31, y = 5, limit 2; 0.25 % of the pixels differ"),
+            std::string::npos)
+      << text;
+  EXPECT_EQ(part["maps"][2]["scale"]["low"], -9.0);
+  const Json same = pictures_part("Picture", golden, golden, 7);
+  EXPECT_FALSE(same.contains("largest"));
+  EXPECT_EQ(same["maps"][2]["scale"]["high"], 7.0) << "the limit, where that is more";
+}
+
 }  // namespace
 }  // namespace sandstroke

@@ -93,11 +93,19 @@ TEST_F(StrokeFile, ComesBackToTheBit) {
 
 TEST_F(StrokeFile, ItsContentHashIsOfWhatARunTakesFromIt) {
   const Stroke stroke = full_stroke();
-  Stroke other = stroke;
-  other.source = "elsewhere";
-  EXPECT_EQ(content_hash(other), content_hash(stroke));
-  other.position.back().x() += 1e-12;
-  EXPECT_NE(content_hash(other), content_hash(stroke));
+  const auto changes_it = [&](const std::function<void(Stroke&)>& change) {
+    Stroke other = stroke;
+    change(other);
+    return content_hash(other) != content_hash(stroke);
+  };
+  EXPECT_FALSE(changes_it([](Stroke& s) { s.source = "elsewhere"; }));
+  EXPECT_FALSE(changes_it([](Stroke& s) { s.velocity.clear(); }));
+  EXPECT_TRUE(changes_it([](Stroke& s) { s.time[1] += 1e-12; }));
+  for (int axis = 0; axis < 3; ++axis)
+    EXPECT_TRUE(changes_it([axis](Stroke& s) { s.position.back()[axis] += 1e-12; })) << axis;
+  EXPECT_TRUE(changes_it([](Stroke& s) { s.contact[0] = pen_down; }));
+  EXPECT_TRUE(changes_it([](Stroke& s) { s.contact.clear(); }));
+  EXPECT_TRUE(changes_it([](Stroke& s) { s.gap_threshold += 1e-12; }));
 }
 
 TEST_F(StrokeFile, OptionalColumnsMayBeAbsent) {

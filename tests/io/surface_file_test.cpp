@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "core/error.h"
+#include "hdf5/hdf5_writer.h"
 #include "test_folder.h"
 
 namespace sandstroke {
@@ -56,6 +57,71 @@ TEST(SurfaceFile, APngGivesHeightsBetweenLowAndHighWithItsTopAtLargeY) {
   bed.surface.high = 0.03;
   bed.cols = 4;  // and the cells must be those of the bed
   EXPECT_THROW(load_surface(bed, folder.path()), Error);
+}
+
+BedSettings bed_from(const std::string& file) {
+  BedSettings bed;
+  bed.width = 0.3, bed.cols = 3;
+  bed.depth = 0.2, bed.rows = 2;
+  bed.surface.kind = SurfaceKind::file;
+  bed.surface.file = file;
+  return bed;
+}
+
+TEST(SurfaceFile, APngThatIsNotSquareHasItsColumnsAlongX) {
+  const TestFolder folder;
+  write_gray16(folder / "heights.png", 3, 2, {0, 13107, 26214, 39321, 52428, 65535});
+  BedSettings bed = bed_from("heights.png");
+  bed.surface.low = 1.0, bed.surface.high = 2.0;
+  const HeightField surface = load_surface(bed, folder.path());
+  ASSERT_EQ(surface.rows(), 2);
+  ASSERT_EQ(surface.cols(), 3);
+  EXPECT_NEAR(surface.cell_size(), 0.1, 1e-16);
+  for (int col = 0; col < 3; ++col) {
+    EXPECT_NEAR(surface(1, col), 1.0 + 0.2 * col, 1e-15);
+    EXPECT_NEAR(surface(0, col), 1.6 + 0.2 * col, 1e-15);
+  }
+}
+
+TEST(SurfaceFile, ARunsFinalSurfaceNeedsCellsOfTheBedsSize) {
+  const TestFolder folder;
+  for (const auto& [share, taken] :
+       {std::pair{0.0, true}, {0.95e-9, true}, {-0.95e-9, true}, {1.05e-9, false}, {-1.05e-9, false}}) {
+    Hdf5Writer file(folder / "run.h5");
+    file.attribute("/", "format", "sandstroke.run");
+    file.attribute("/", "format_version", 1.0);
+    file.attribute("/", "complete", 1.0);
+    file.make_group("/surface");
+    file.attribute("/surface", "cell_size", 0.1 * (1.0 + share));
+    file.write("/surface/initial", HeightGrid::Zero(2, 3));
+    HeightGrid final(2, 3);
+    final << 1, 2, 3, 4, 5, 6;
+    file.write("/surface/final", final);
+    file.finish();
+    if (taken)
+      EXPECT_TRUE((load_surface(bed_from("run.h5"), folder.path()).grid() == final).all()) << share;
+    else
+      EXPECT_THROW(load_surface(bed_from("run.h5"), folder.path()), Error) << share;
+  }
+  BedSettings turned = bed_from("run.h5");
+  std::swap(turned.rows, turned.cols), std::swap(turned.width, turned.depth);
+  EXPECT_THROW(load_surface(turned, folder.path()), Error);
+}
+
+TEST(SurfaceFile, HeightsMustBeFinite) {
+  const TestFolder folder;
+  Hdf5Writer file(folder / "run.h5");
+  file.attribute("/", "format", "sandstroke.run");
+  file.attribute("/", "format_version", 1.0);
+  file.attribute("/", "complete", 1.0);
+  file.make_group("/surface");
+  file.attribute("/surface", "cell_size", 0.1);
+  HeightGrid heights = HeightGrid::Zero(2, 3);
+  file.write("/surface/initial", heights);
+  heights(1, 2) = std::numeric_limits<double>::quiet_NaN();
+  file.write("/surface/final", heights);
+  file.finish();
+  EXPECT_THROW(load_surface(bed_from("run.h5"), folder.path()), Error);
 }
 
 }  // namespace

@@ -116,5 +116,41 @@ TEST(ForceGuard, KeepsItsPromiseForAnyForces) {
   }
 }
 
+TEST(ForceGuard, EachLimitBeginsWhereItSays) {
+  const ForceGuard guard(limits(5.0, 2.0, 1500.0), 500.0);  // 3 N per tick
+  const Vector3d along(0.48, -0.64, 0.6);
+  for (const double share : {0.95, 1.05}) {
+    const bool over = share > 1.0;
+    const FeltForce large = guard.admit(3.0, {5.0 * share * along}, 4.0 * along);
+    EXPECT_EQ(large.flags, over ? clamped_force : 0u);
+    EXPECT_NEAR(large.force.norm(), over ? 5.0 : 4.75, 1e-14);
+    const FeltForce jumping = guard.admit(3.0, {3.0 * share * along}, Vector3d::Zero());
+    EXPECT_EQ(jumping.flags, over ? rate_limited_force : 0u);
+    EXPECT_NEAR(jumping.force.norm(), over ? 3.0 : 2.85, 1e-14);
+    const FeltForce early = guard.admit(2.0 * share, {along}, Vector3d::Zero());
+    EXPECT_EQ(early.flags, over ? 0u : ramped_force);
+    EXPECT_NEAR(early.force.norm(), over ? 1.0 : 0.95, 1e-14);
+  }
+}
+
+TEST(ForceGuard, FadesInThenCutsThenHoldsBack) {
+  const ForceGuard guard(limits(5.0, 2.0, 1000.0), 1000.0);
+  // 8 N at half of the ramp are 4 N: not cut; 16 N are 8 N: cut to 5 N; both 1 N at most from what is held.
+  const FeltForce faded = guard.admit(1.0, {{8.0, 0.0, 0.0}}, {3.5, 0.0, 0.0});
+  EXPECT_EQ(faded.flags, ramped_force);
+  EXPECT_NEAR(faded.force.x(), 4.0, 1e-14);
+  const FeltForce cut = guard.admit(1.0, {{16.0, 0.0, 0.0}}, {4.5, 0.0, 0.0});
+  EXPECT_EQ(cut.flags, ramped_force | clamped_force);
+  EXPECT_NEAR(cut.force.x(), 5.0, 1e-14);
+  const FeltForce held_back = guard.admit(1.0, {{16.0, 0.0, 0.0}}, {-1.0, 0.0, 0.0});
+  EXPECT_EQ(held_back.flags, ramped_force | clamped_force | rate_limited_force);
+  EXPECT_NEAR(held_back.force.x(), 0.0, 1e-14);
+}
+
+TEST(ForceGuard, ALimitBelowZeroIsNone) {
+  const ForceGuard guard(limits(-3.0, 0.0, infinity), 1000.0);
+  EXPECT_EQ(guard.admit(1.0, {{0.0, 2.0, 0.0}}, Vector3d::Zero()).force, Vector3d::Zero());
+}
+
 }  // namespace
 }  // namespace sandstroke

@@ -294,5 +294,50 @@ TEST(LiveSand, RefusesScenesThatCannotBeFelt) {
   EXPECT_EQ(sentence(small_scene()), "");
 }
 
+TEST(LiveSand, ReadingsFurtherApartThanATenthOfASecondAreNotJoined) {
+  for (const auto& [pause, joined] : {std::pair{0.095, true}, {0.105, false}}) {
+    Scene scene = small_scene();
+    scene.relaxation.rate = 0.0;
+    LiveSand sand(scene, starting_bed(scene.bed), "bed");
+    sand.feel(0.0, {Eigen::Vector3d(-0.05, 0.0, -0.004)});
+    const FeltForce after = sand.feel(pause, {Eigen::Vector3d(0.05, 0.0, -0.004)});
+    EXPECT_EQ(sand.bed()(75, 75) < 0.0, joined) << pause;
+    EXPECT_EQ(after.force.x() < 0.0, joined) << "a drag of the way across, where there is one";
+  }
+}
+
+TEST(LiveSand, TheVelocityOfDragIsTheMeanOverTheLastFourReadings) {
+  Scene scene = small_scene();
+  scene.relaxation.rate = 0.0;
+  scene.device.max_force = 0.0;
+  LiveSand sand(scene, starting_bed(scene.bed), "bed");
+  const std::vector<double> times = {0.0, 0.001, 0.003, 0.004, 0.007, 0.0075, 0.009, 0.0101};
+  const auto place = [](double t) -> Eigen::Vector3d { return {20.0 * t * t, -0.3 * t, -0.004}; };
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    const FeltForce felt = sand.feel(times[i], {place(times[i])});
+    ASSERT_GT(felt.force.z(), 0.0);
+    Eigen::Vector3d velocity = Eigen::Vector3d::Zero();
+    if (i > 0) {
+      const double before = times[i < 4 ? 0 : i - 4];
+      velocity = (place(times[i]) - place(before)) / (times[i] - before);
+    }
+    const Eigen::Vector2d drag = -scene.force.k_f * felt.force.z() * velocity.head<2>();
+    EXPECT_NEAR((felt.force.head<2>() - drag).norm(), 0.0, 1e-12) << i;
+  }
+}
+
+TEST(LiveSand, CountsTheTicksInContact) {
+  Scene scene = small_scene();
+  scene.relaxation.rate = 0.0;
+  LiveSand sand(scene, starting_bed(scene.bed), "bed");
+  int contact = 0;
+  for (int k = 0; k < 300; ++k)
+    contact += sand.feel(1e-3 * k, {Eigen::Vector3d(0.0, 0.0, k < 100 ? 0.001 : -0.001)}).force.z() > 0.0;
+  EXPECT_EQ(contact, 200);
+  const LiveSandReport report = sand.finish();
+  EXPECT_EQ(report.contact_ticks, 200);
+  EXPECT_EQ(report.held_ticks, 0);
+}
+
 }  // namespace
 }  // namespace sandstroke

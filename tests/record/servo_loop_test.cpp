@@ -456,6 +456,19 @@ TEST_F(ServoLoopTest, TellsHowFarItIs) {
   run(&world);
 }
 
+TEST_F(ServoLoopTest, TellsHowLateItWas) {
+  device.reads = [&](double time, DeviceReading&) {
+    const auto tick = std::llround(time * 1000);
+    const ServoProgress progress = made->progress();
+    if (tick == 20) clock.add(5 * ms / 4);  // so that tick 21 is a quarter late
+    if (tick == 40) clock.add(7 * ms / 5);  // and tick 41 two fifths
+    EXPECT_NEAR(progress.lateness, tick == 22 ? 0.25e-3 : tick == 42 ? 0.4e-3 : 0.0, 1e-9) << tick;
+    EXPECT_NEAR(progress.max_lateness, tick < 22 ? 0.0 : tick < 42 ? 0.25e-3 : 0.4e-3, 1e-9) << tick;
+    return true;
+  };
+  run();
+}
+
 TEST_F(ServoLoopTest, AllocatesNothing) {
   if (!allocations_are_counted()) GTEST_SKIP() << "sanitizers bring their own allocator";
   settings.duration = 10.0;

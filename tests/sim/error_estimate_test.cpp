@@ -147,5 +147,117 @@ TEST(ErrorEstimate, OfADragIsWithinAFactorOfThreeOfItsDistanceToAQuarterOfTheSte
   }
 }
 
+/// Mean heights in the cells of another bed over the same rectangle, summed over pieces that divide the cells
+/// of both.
+HeightGrid averaged(const HeightGrid& heights, Eigen::Index rows, Eigen::Index cols) {
+  const Eigen::Index down = heights.rows(), across = heights.cols();  // pieces of a cell of the other bed
+  HeightGrid means = HeightGrid::Zero(rows, cols);
+  for (Eigen::Index i = 0; i < rows * down; ++i)
+    for (Eigen::Index j = 0; j < cols * across; ++j)
+      means(i / down, j / across) += heights(i / rows, j / cols);
+  return means / static_cast<double>(down * across);
+}
+
+/// Root mean square and largest, over what is not zero in `where`.
+std::pair<double, double> rms_and_max(const std::vector<double>& values, const std::vector<double>& where) {
+  double squares = 0.0, most = 0.0, count = 0.0;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    squares += values[i] * values[i];
+    most = std::max(most, values[i]);
+    count += where[i] != 0.0;
+  }
+  return {std::sqrt(squares / count), most};
+}
+
+/// By the definition, cell by cell: of a run and its second solution, times Richardson's factor.
+void expect_richardson(const Scene& scene, const std::optional<Stroke>& stroke, SecondSolution which,
+                       const HeightField& start, const HeightField& second_start) {
+  Kept force(force_of), second_force(force_of);
+  const Solution run = solve(scene, start, stroke, {&force});
+  const Scene second_settings = second_scene(scene, which);
+  const Solution second = solve(second_settings, second_start, stroke, {&second_force});
+  const ErrorEstimate e = estimate_error(scene, start, stroke, run, force.values, which);
+
+  const bool coarser = which == SecondSolution::coarser;
+  const HeightGrid ran = run.surface.grid(), other = second.surface.grid();
+  const HeightGrid coarse = coarser ? other : ran, fine = coarser ? ran : other;
+  const HeightGrid apart = (averaged(fine, coarse.rows(), coarse.cols()) - coarse).abs();
+  const HeightGrid changed = (ran - start.grid()).abs();
+  const double ratio = static_cast<double>(fine.rows()) / static_cast<double>(coarse.rows());
+  const double factor = (coarser ? 1.0 : ratio) / (ratio - 1.0);
+  const double area = run.surface.cell_area(), coarse_area = (coarser ? second : run).surface.cell_area();
+  const auto changed_cells = static_cast<double>((changed > 0.0).count());
+  ASSERT_GT(apart.maxCoeff(), 0.0);
+  EXPECT_NEAR(e.height_max / (factor * apart.maxCoeff()), 1.0, 1e-9);
+  EXPECT_NEAR(e.height_share / (factor * apart.sum() * coarse_area / (changed.sum() * area)), 1.0, 1e-9);
+  const double rms = std::sqrt(apart.square().sum() * coarse_area / (changed_cells * area));
+  EXPECT_NEAR(e.height_rms / (factor * rms), 1.0, 1e-9);
+  EXPECT_EQ(e.at_rest, run.result.relaxation.converged && second.result.relaxation.converged);
+  EXPECT_GT(e.wall_seconds, 0.0);
+  if (!stroke) return;
+  const auto &coarse_force = coarser ? second_force.values : force.values,
+             &fine_force = coarser ? force.values : second_force.values;
+  std::vector<double> differences, felt;
+  for (std::size_t k = 0; k < coarse_force.size(); ++k) {
+    differences.push_back((coarse_force[k] - fine_force[2 * k]).norm());
+    felt.push_back(coarse_force[k].norm());
+  }
+  const auto [force_rms, force_max] = rms_and_max(differences, felt);
+  ASSERT_GT(force_max, 0.0);
+  EXPECT_NEAR(e.force_rms / ((coarser ? 1.0 : 2.0) * force_rms), 1.0, 1e-9);
+  EXPECT_NEAR(e.force_max / ((coarser ? 1.0 : 2.0) * force_max), 1.0, 1e-9);
+}
+
+TEST(ErrorEstimate, IsTheDistanceToTheSecondSolutionTimesRichardsonsFactor) {
+  Scene drag = stroke_scene(50);
+  drag.bed.rows = 30, drag.bed.depth = 0.06;
+  // In the air for the first 20 of 250 ms: ticks without a force.
+  Stroke stroke = stroke_of(0.1);
+  for (Eigen::Vector3d& place : stroke.position) place.z() += 1.2e-3;
+  for (const SecondSolution which : {SecondSolution::coarser, SecondSolution::finer}) {
+    const Scene second = second_scene(drag, which);
+    expect_richardson(drag, stroke, which, starting_bed(drag.bed), starting_bed(second.bed));
+  }
+}
+
+TEST(ErrorEstimate, OfABedThatNoSquareCellsHalveIsTakenOverTheirCommonParts) {
+  // 9 x 27 cells, and 5 x 15: each of these covers 1.8 of those along each side.
+  Scene heap = cylinder_scene(9);
+  heap.bed.cols = 27, heap.bed.width = 6.0;
+  heap.relaxation.tolerance = 1e-2;
+  ASSERT_EQ(second_scene(heap, SecondSolution::coarser).bed.cols, 15);
+  expect_richardson(heap, {}, SecondSolution::coarser, starting_bed(heap.bed),
+                    starting_bed(second_scene(heap, SecondSolution::coarser).bed));
+}
+
+TEST(ErrorEstimate, CellsThatNoRuleMakesAnewAreAveragedOrSplit) {
+  Scene rough = stroke_scene(20);
+  rough.stroke.reset();
+  rough.bed.rows = 30, rough.bed.depth = 0.15;
+  rough.bed.surface.kind = SurfaceKind::noise;
+  rough.bed.surface.wavelength = 0.0, rough.bed.surface.amplitude = 0.02;
+  // Heights of which sums and halves are exact: of beds that differ by rounding other cells may come to rest.
+  const HeightGrid steps = (starting_bed(rough.bed).grid() * 0x1p20).round() * 0x1p-20;
+  const HeightField start(steps, rough.bed.cell_size());
+  for (const SecondSolution which : {SecondSolution::coarser, SecondSolution::finer}) {
+    const BedSettings second = second_scene(rough, which).bed;
+    const HeightField second_start(averaged(start.grid(), second.rows, second.cols), second.cell_size());
+    expect_richardson(rough, {}, which, start, second_start);
+  }
+}
+
+TEST(ErrorEstimate, SaysWhereOneOfBothIsNotAtRest) {
+  for (const auto& [passes, at_rest] : {std::pair<std::int64_t, bool>{0, false}, {1'000'000, true}}) {
+    Scene scene = cylinder_scene(16);
+    const FeltRun run(scene);
+    scene.relaxation.max_passes = passes;  // of the second solution alone
+    EXPECT_EQ(estimated(scene, run, {}, SecondSolution::coarser).at_rest, at_rest);
+    Solution restless = run.solution;
+    restless.result.relaxation.converged = false;
+    EXPECT_FALSE(
+        estimate_error(scene, starting_bed(scene.bed), {}, restless, {}, SecondSolution::coarser).at_rest);
+  }
+}
+
 }  // namespace
 }  // namespace sandstroke

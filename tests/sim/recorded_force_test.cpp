@@ -57,5 +57,32 @@ TEST(RecordedForce, IsNotComparedWhereTheRecorderAlteredItOrNothingWasRecorded) 
   EXPECT_EQ(altered.difference().max, 0.0);
 }
 
+TEST(RecordedForce, IsLinearBetweenSamplesThatAreUnevenAndBeginLate) {
+  Stroke stroke = rising();
+  stroke.time = {5.0, 5.25, 7.25, 7.5};  // ticks begin at 0
+  RecordedForce recorded(stroke);
+  for (const auto& [time, force] :
+       {std::pair{0.0, 0.0}, {0.125, 1.0}, {0.25, 2.0}, {0.75, 2.5}, {1.75, 3.5}, {2.25, 4.0}, {2.375, 5.0}})
+    recorded.on_tick(tick(time, {0.0, 0.0, force}));
+  EXPECT_EQ(recorded.difference().ticks, 7);
+  EXPECT_LT(recorded.difference().max, 1e-14);
+}
+
+TEST(RecordedForce, OnlyFlagsThatSayTheForceWasAlteredLeaveASampleOut) {
+  for (const auto& [flag, compared] : {std::pair{late_sample, true},
+                                       {after_skipped_ticks, true},
+                                       {clamped_force, false},
+                                       {ramped_force, false},
+                                       {rate_limited_force, false},
+                                       {refused_force, false},
+                                       {held_sand, false}}) {
+    Stroke stroke = rising();
+    stroke.flags = {0, flag, 0, 0};
+    RecordedForce recorded(stroke);
+    recorded.on_tick(tick(1.0, {0.0, 0.0, 2.0}));
+    EXPECT_EQ(recorded.difference().ticks, compared ? 1 : 0) << flag;
+  }
+}
+
 }  // namespace
 }  // namespace sandstroke

@@ -128,5 +128,30 @@ TEST(SandSide, ALiftedToolHoldsNothing) {
   EXPECT_TRUE(bed.held().empty());
 }
 
+TEST(SandSide, BesideTheBedThereIsNoLevelAndNoContact) {
+  HeightField bed(100, 100, 0.002);
+  SandSide sand({0.01, ToolProfile::sphere}, {Deposit::ahead}, 0.0);
+  for (const double height : {-1.0, 0.0, 1.0}) {
+    const Eigen::Vector3d tip(0.5, 0.0, height);
+    for (const Interaction& beside : {sand.look(bed, tip), sand.move(bed, tip, tip, no_slip)}) {
+      EXPECT_TRUE(std::isnan(beside.level));
+      EXPECT_FALSE(beside.contact);
+      EXPECT_EQ(beside.depth, 0.0);
+      EXPECT_EQ(beside.displaced_volume, 0.0);
+    }
+  }
+}
+
+TEST(SandSide, IsInContactBelowTheLevelAndNotAtIt) {
+  const HeightField bed(100, 100, 0.002, std::make_shared<LevelRule>(0.25));
+  SandSide sand({0.01, ToolProfile::sphere}, {Deposit::ahead}, 0.0);
+  for (const double above : {-0.02, -1e-12, 0.0, 1e-12, 0.02}) {
+    const Interaction seen = sand.look(bed, {0.01, -0.02, 0.25 + above});
+    EXPECT_DOUBLE_EQ(seen.level, 0.25);
+    EXPECT_NEAR(seen.depth, -above, 1e-16);
+    EXPECT_EQ(seen.contact, above < 0.0) << above;
+  }
+}
+
 }  // namespace
 }  // namespace sandstroke

@@ -106,5 +106,107 @@ TEST(CheckScene, CellsMustHaveVolumesThatAreNumbers) {
   }
 }
 
+/// Whether a scene with a stroke is taken.
+bool is_taken(const Scene& scene) {
+  try {
+    check_scene(scene, "scene");
+    return true;
+  } catch (const Error& failure) {
+    EXPECT_EQ(failure.kind(), ErrorKind::input);
+    return false;
+  }
+}
+
+Scene stroked_scene(double width, int cols, double depth, int rows) {
+  Scene scene;
+  scene.bed.width = width, scene.bed.cols = cols;
+  scene.bed.depth = depth, scene.bed.rows = rows;
+  scene.stroke.emplace();
+  scene.stroke->file = "in memory";
+  return scene;
+}
+
+TEST(CheckScene, AToolMustCoverHalfACell) {
+  Scene scene = stroked_scene(0.3, 30, 0.2, 20);  // cells of 10 mm
+  for (const auto& [radius, taken] : {std::pair{0.00475, false}, {0.00525, true}}) {
+    scene.tool.radius = radius;
+    EXPECT_EQ(is_taken(scene), taken) << radius;
+  }
+}
+
+TEST(CheckScene, ToolAndRampartMustFitTheShorterSide) {
+  for (const bool wide : {true, false}) {
+    Scene scene = wide ? stroked_scene(0.3, 150, 0.2, 100) : stroked_scene(0.2, 100, 0.3, 150);
+    scene.tool.radius = 0.01;
+    const double radii = ToolFootprint(scene.tool).reach() / 0.01;  // of rampart and tool
+    for (const auto& [share, taken] : {std::pair{0.95, true}, {1.05, false}}) {
+      scene.tool.radius = share * 0.1 / radii;
+      EXPECT_EQ(is_taken(scene), taken) << share;
+    }
+  }
+}
+
+TEST(CheckScene, CellsMustBeSquareToABillionth) {
+  for (const auto& [share, taken] :
+       {std::pair{0.95e-9, true}, {1.05e-9, false}, {-0.95e-9, true}, {-1.05e-9, false}})
+    EXPECT_EQ(is_taken(stroked_scene(0.3, 150, 0.2 * (1.0 + share), 100)), taken) << share;
+}
+
+TEST(CheckScene, IsotropicFlowIsStableUpToAShareOfAQuarter) {
+  Scene scene = stroked_scene(0.3, 150, 0.2, 100);
+  for (const RelaxationLaw law : {RelaxationLaw::isotropic, RelaxationLaw::paper})
+    for (const double share : {0.2375, 0.25, 0.2625}) {
+      scene.relaxation.law = law, scene.relaxation.share = share;
+      EXPECT_EQ(is_taken(scene), law == RelaxationLaw::paper || share <= 0.25) << share;
+    }
+}
+
+TEST(CheckScene, AWayOfAHundredthOfACellIsTheLeast) {
+  Scene scene = stroked_scene(0.3, 150, 0.2, 100);
+  for (const auto& [travel, taken] : {std::pair{0.0095, false}, {0.0105, true}}) {
+    scene.relaxation.travel = travel;
+    EXPECT_EQ(is_taken(scene), taken) << travel;
+  }
+}
+
+TEST(CheckScene, CellsAreBetweenTheLimitsOfTheirVolumes) {
+  for (const auto& [dx, taken] :
+       {std::pair{0.95e-100, false}, {1.05e-100, true}, {0.95e100, true}, {1.05e100, false}}) {
+    Scene scene;
+    scene.bed.cols = scene.bed.rows = 10;
+    scene.bed.width = scene.bed.depth = 10 * dx;
+    EXPECT_EQ(is_taken(scene), taken) << dx;
+  }
+}
+
+TEST(CheckScene, FilesThatAreNeededMustBeNamed) {
+  Scene scene = stroked_scene(0.3, 150, 0.2, 100);
+  EXPECT_TRUE(is_taken(scene));
+  scene.stroke->file.clear();
+  EXPECT_FALSE(is_taken(scene));
+  scene.stroke.reset();
+  EXPECT_TRUE(is_taken(scene));
+  scene.bed.surface.kind = SurfaceKind::file;
+  EXPECT_FALSE(is_taken(scene));
+  scene.bed.surface.file = "run.h5";
+  EXPECT_TRUE(is_taken(scene));
+}
+
+TEST(ModelPreset, SetsEachOfItsChoicesAndBackAgain) {
+  Scene scene;
+  for (const ModelPreset preset : {ModelPreset::accurate, ModelPreset::paper}) {
+    const bool paper = preset == ModelPreset::paper;
+    scene.preset = preset;
+    apply_model_preset(scene);
+    EXPECT_EQ(scene.tool.profile, paper ? ToolProfile::paper : ToolProfile::sphere);
+    EXPECT_EQ(scene.tool.solid, !paper);
+    EXPECT_EQ(scene.displacement.deposit, paper ? Deposit::ring : Deposit::outward);
+    EXPECT_EQ(scene.relaxation.law, paper ? RelaxationLaw::paper : RelaxationLaw::isotropic);
+    EXPECT_EQ(scene.relaxation.method, paper ? RelaxationMethod::passes : RelaxationMethod::rkl);
+    EXPECT_EQ(scene.relaxation.rate, paper ? 60.0 : 0.0);
+    EXPECT_EQ(scene.relaxation.travel, paper ? 0.0 : 2.0);
+  }
+}
+
 }  // namespace
 }  // namespace sandstroke

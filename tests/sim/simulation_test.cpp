@@ -320,5 +320,63 @@ TEST(Simulation, RefusesAStrokeThatEntersTheSandOutsideTheBed) {
   }
 }
 
+TEST(Simulation, TheBedEndsAtItsBordersForAStrokeInTheSand) {
+  Scene scene = small_scene();
+  scene.bed.width = 0.4, scene.bed.cols = 200;  // 0.4 m x 0.3 m
+  scene.device.offset = {0.0, 0.0, 0.005};
+  const auto is_taken = [&](const Eigen::Vector3d& tip, PenState pen = pen_down) {
+    Stroke stroke = through({{0, 0, 0.01}, tip - scene.device.offset}, 1.0);
+    stroke.contact = {pen_down, pen};
+    try {
+      Simulation(scene, starting_bed(scene.bed), stroke);
+      return true;
+    } catch (const Error& failure) {
+      EXPECT_EQ(failure.kind(), ErrorKind::input);
+      return false;
+    }
+  };
+  for (const double sign : {1.0, -1.0}) {
+    EXPECT_TRUE(is_taken({0.19 * sign, 0.0, -0.001}));
+    EXPECT_FALSE(is_taken({0.21 * sign, 0.0, -0.001}));
+    EXPECT_TRUE(is_taken({0.0, 0.1425 * sign, -0.001}));
+    EXPECT_FALSE(is_taken({0.0, 0.1575 * sign, -0.001}));
+    EXPECT_TRUE(is_taken({0.0, 0.1575 * sign, 0.001})) << "above all sand";
+    EXPECT_TRUE(is_taken({0.0, 0.1575 * sign, -0.001}, pen_up));
+  }
+}
+
+TEST(Simulation, PlaysUpTo1e15Ticks) {
+  Scene scene = small_scene();
+  scene.device.servo_rate = 2000.0;
+  const auto make = [&](double seconds) {
+    Simulation(scene, starting_bed(scene.bed), through({{0, 0, 0.1}, {0.01, 0, 0.1}}, seconds));
+  };
+  EXPECT_NO_THROW(make(0.475e12));
+  EXPECT_THROW(make(0.525e12), Error);
+}
+
+TEST(Simulation, ADeviceIsLostFurtherAwayThanAHundredBeds) {
+  // Nothing holds it: it goes on as fast as the hand threw it. The hand rests 2 m above the bed.
+  Scene scene = small_scene();
+  scene.bed.width = 0.4, scene.bed.cols = 200;
+  scene.device.model = DeviceModel::dynamic;
+  scene.device.hand_stiffness = scene.device.hand_damping = scene.device.damping = 0.0;
+  Stroke thrown = through({{0, 0, 1}, {0, 0, 2}, {0, 0, 2}}, 0.0);
+  thrown.time = {0.0, 0.01, 2.0};
+  Recording recording;
+  Simulation simulation(scene, starting_bed(scene.bed), thrown);
+  try {
+    simulation.run({&recording});
+    FAIL() << "never lost";
+  } catch (const Error& failure) {
+    EXPECT_EQ(failure.kind(), ErrorKind::unstable);
+    EXPECT_NE(std::string(failure.what()).find("diverged"), std::string::npos) << failure.what();
+  }
+  const double speed = recording.ticks.front().hand.velocity.z(), far = 100.0 * (0.4 + 0.3) + 2.0 * 2.0;
+  ASSERT_GT(speed, 50.0);
+  const double lost_at = (far - 1.0) / speed;  // s
+  EXPECT_NEAR(recording.ticks.back().time, lost_at - 1.5e-3, 0.5e-3) << "the tick before that, at its start";
+}
+
 }  // namespace
 }  // namespace sandstroke

@@ -54,5 +54,14 @@ TEST(StrokeDepth, OverTwentyRadiiAreWarnedOf) {
       << warning;
 }
 
+TEST(StrokeDepth, TwentyRadiiAreWhatIsWarnedOf) {
+  for (const double radius : {0.004, 0.01}) {
+    Played below({{0, 0, -19.0 * radius}}), above({{0, 0, -21.0 * radius}});
+    below.scene.tool.radius = above.scene.tool.radius = radius;
+    EXPECT_EQ(below.warning(), "");
+    EXPECT_NE(above.warning(), "");
+  }
+}
+
 }  // namespace
 }  // namespace sandstroke

@@ -1,0 +1,171 @@
+#include "io/scene_keys.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "core/hash.h"
+#include "io/scene_toml.h"
+
+namespace sandstroke {
+namespace {
+
+using S = const Scene&;
+
+/// A setting, what else it takes, and what it must make of the scene.
+struct KeyCase {
+  const char* setting;
+  bool (*is_set)(S);
+  std::vector<std::string> with = {};
+};
+
+const std::vector<std::string> stroke = {"stroke.file=x.h5"}, dynamic = {"device.model=dynamic"},
+                               cylinder = {"bed.surface.kind=cylinder"}, cone = {"bed.surface.kind=cone"},
+                               cliff = {"bed.surface.kind=cliff"}, noise = {"bed.surface.kind=noise"},
+                               ripples = {"bed.surface.kind=ripples"},
+                               read_from = {"bed.surface.kind=file", "bed.surface.file=y.h5"},
+                               rkl = {"relaxation.method=rkl"}, outward = {"displacement.deposit=outward"};
+
+bool is(const Eigen::Vector3d& v, double x, double y, double z) { return v == Eigen::Vector3d(x, y, z); }
+
+/// All values differ from the defaults, and those of neighbours from each other.
+const std::vector<KeyCase> cases = {
+    {"model.preset=accurate", [](S s) { return s.preset == ModelPreset::accurate && s.tool.solid; }},
+    {"bed.size=[3.0, 1.5]",
+     [](S s) { return s.bed.width == 3.0 && s.bed.depth == 1.5; },
+     {"bed.cells=[100, 50]"}},
+    {"bed.cells=[50, 100]",
+     [](S s) { return s.bed.cols == 50 && s.bed.rows == 100; },
+     {"bed.size=[1.5, 3.0]"}},
+    {"bed.surface.kind=cliff", [](S s) { return s.bed.surface.kind == SurfaceKind::cliff; }},
+    {"bed.surface.radius=0.31", [](S s) { return s.bed.surface.radius == 0.31; }, cylinder},
+    {"bed.surface.radius=0.32", [](S s) { return s.bed.surface.radius == 0.32; }, cone},
+    {"bed.surface.height=-0.33", [](S s) { return s.bed.surface.height == -0.33; }, cylinder},
+    {"bed.surface.height=0.34", [](S s) { return s.bed.surface.height == 0.34; }, cone},
+    {"bed.surface.height=0.35", [](S s) { return s.bed.surface.height == 0.35; }, cliff},
+    {"bed.surface.amplitude=0.0036", [](S s) { return s.bed.surface.amplitude == 0.0036; }, noise},
+    {"bed.surface.amplitude=0.0037", [](S s) { return s.bed.surface.amplitude == 0.0037; }, ripples},
+    {"bed.surface.wavelength=0.38", [](S s) { return s.bed.surface.wavelength == 0.38; }, noise},
+    {"bed.surface.wavelength=0.39", [](S s) { return s.bed.surface.wavelength == 0.39; }, ripples},
+    {"bed.surface.seed=40", [](S s) { return s.bed.surface.seed == 40u; }, noise},
+    {"bed.surface.file=z.png", [](S s) { return s.bed.surface.file == "z.png"; }, read_from},
+    {"bed.surface.low=-0.41", [](S s) { return s.bed.surface.low == -0.41; }, read_from},
+    {"bed.surface.high=0.42", [](S s) { return s.bed.surface.high == 0.42; }, read_from},
+    {"tool.radius=0.043", [](S s) { return s.tool.radius == 0.043; }},
+    {"tool.profile=sphere", [](S s) { return s.tool.profile == ToolProfile::sphere; }},
+    {"tool.solid=true", [](S s) { return s.tool.solid; }},
+    {"displacement.deposit=ahead", [](S s) { return s.displacement.deposit == Deposit::ahead; }},
+    {"displacement.distance=1.31", [](S s) { return s.displacement.distance == 1.31; }, outward},
+    {"force.k_s=44", [](S s) { return s.force.k_s == 44.0; }},
+    {"force.k_c=45", [](S s) { return s.force.k_c == 45.0; }},
+    {"force.k_f=46", [](S s) { return s.force.k_f == 46.0; }},
+    {"force.drag=full", [](S s) { return s.force.drag == DragDirection::full; }},
+    {"relaxation.law=isotropic", [](S s) { return s.relaxation.law == RelaxationLaw::isotropic; }},
+    {"relaxation.method=rkl", [](S s) { return s.relaxation.method == RelaxationMethod::rkl; }},
+    {"relaxation.step_tolerance=0.47", [](S s) { return s.relaxation.step_tolerance == 0.47; }, rkl},
+    {"relaxation.talus_angle=48", [](S s) { return s.relaxation.talus_angle == 48.0; }},
+    {"relaxation.tolerance=0.049", [](S s) { return s.relaxation.tolerance == 0.049; }},
+    {"relaxation.rate=50", [](S s) { return s.relaxation.rate == 50.0; }},
+    {"relaxation.travel=51", [](S s) { return s.relaxation.travel == 51.0; }},
+    {"relaxation.share=0.15", [](S s) { return s.relaxation.share == 0.15; }},
+    {"relaxation.max_passes=52", [](S s) { return s.relaxation.max_passes == 52; }},
+    {"device.model=dynamic", [](S s) { return s.device.model == DeviceModel::dynamic; }},
+    {"device.preset=touch",
+     [](S s) { return s.device.preset == DevicePreset::touch && s.device.max_force == 3.3; }},
+    {"device.servo_rate=53", [](S s) { return s.device.servo_rate == 53.0; }},
+    {"device.scale=54", [](S s) { return s.device.scale == 54.0; }},
+    {"device.offset=[55, 56, 57]", [](S s) { return is(s.device.offset, 55, 56, 57); }},
+    {"device.max_force=58", [](S s) { return s.device.max_force == 58.0; }},
+    {"device.resolution=59", [](S s) { return s.device.resolution == 59.0; }},
+    {"device.mass=60", [](S s) { return s.device.mass == 60.0; }},
+    {"device.damping=61", [](S s) { return s.device.damping == 61.0; }},
+    {"device.hand_stiffness=62", [](S s) { return s.device.hand_stiffness == 62.0; }},
+    {"device.hand_damping=63", [](S s) { return s.device.hand_damping == 63.0; }},
+    {"device.delay=64", [](S s) { return s.device.delay == 64; }, dynamic},
+    {"device.dropped_ticks=0.65", [](S s) { return s.device.dropped_ticks == 0.65; }, dynamic},
+    {"device.drag=implicit", [](S s) { return s.device.drag == DragVelocity::implicit; }, dynamic},
+    {"stroke.file=w.toml", [](S s) { return s.stroke->file == "w.toml"; }, stroke},
+    {"stroke.plane=fit", [](S s) { return s.stroke->placement.plane == StrokePlane::fit; }, stroke},
+    {"stroke.scale=66", [](S s) { return s.stroke->placement.scale == 66.0; }, stroke},
+    {"stroke.rotate_z=67", [](S s) { return s.stroke->placement.rotate_z == 67.0; }, stroke},
+    {"stroke.depth=68", [](S s) { return s.stroke->placement.depth == 68.0; }, stroke},
+    {"stroke.offset=[69, 70, 71]", [](S s) { return is(s.stroke->placement.offset, 69, 70, 71); }, stroke},
+    {"stroke.start=72", [](S s) { return s.stroke->placement.start == 72.0; }, stroke},
+    {"stroke.stop=73", [](S s) { return s.stroke->placement.stop == 73.0; }, stroke},
+    {"output.frames=74", [](S s) { return s.output.frames == 74.0; }},
+    {"output.trace=false", [](S s) { return !s.output.trace; }},
+    {"view.name=top", [](S s) { return s.view.name == ViewName::top; }},
+    {"view.style=height", [](S s) { return s.view.style == RenderStyle::height; }},
+    {"view.azimuth=75", [](S s) { return s.view.azimuth == 75.0; }},
+    {"view.elevation=76", [](S s) { return s.view.elevation == 76.0; }},
+    {"view.distance=77", [](S s) { return s.view.distance == 77.0; }},
+    {"view.target=[78, 79, 80]", [](S s) { return is(s.view.target, 78, 79, 80); }},
+    {"view.field_of_view=81", [](S s) { return s.view.field_of_view == 81.0; }},
+    {"view.light_azimuth=82", [](S s) { return s.view.light_azimuth == 82.0; }},
+    {"view.light_elevation=83", [](S s) { return s.view.light_elevation == 83.0; }},
+    {"view.size=[84, 85]", [](S s) { return s.view.width == 84 && s.view.height == 85; }}};
+
+std::string key_of(const KeyCase& one) {
+  return std::string(one.setting).substr(0, std::string(one.setting).find('='));
+}
+
+TEST(SceneKeys, EachSetsTheFieldOfItsNameAndIsInTheResolvedText) {
+  for (const KeyCase& one : cases) {
+    std::vector<std::string> settings = one.with;
+    if (key_of(one) == "stroke.file") settings.clear();
+    settings.push_back(one.setting);
+    const Scene scene = scene_from_text("", "scene.toml", settings);
+    EXPECT_TRUE(one.is_set(scene)) << one.setting;
+    const std::string text = scene_text(scene);
+    const Scene read_back = scene_from_text(text, "again.toml");
+    EXPECT_TRUE(one.is_set(read_back)) << one.setting;
+    EXPECT_EQ(scene_text(read_back), text) << one.setting;
+  }
+}
+
+TEST(SceneKeys, AllAreInThisTable) {
+  std::set<std::string> listed, tried;
+  for (const KeySection& section : all_scene_keys())
+    for (const KeyRow& key : section.keys) listed.insert(key.name);
+  for (const KeyCase& one : cases) tried.insert(key_of(one));
+  EXPECT_EQ(tried, listed);
+}
+
+TEST(SceneKeys, EachChangesTheHashOfTheScene) {
+  for (const KeyCase& one : cases) {
+    const std::string key = key_of(one);
+    // A bed of other cells must have another size: both are set, to what keeps the cells square.
+    const bool of_bed = key == "bed.size" || key == "bed.cells";
+    const std::vector<std::string> before = of_bed ? std::vector<std::string>{} : one.with;
+    std::vector<std::string> after = one.with;
+    if (key == "stroke.file" || key == "bed.surface.file") after.pop_back();
+    after.push_back(one.setting);
+    const auto hash = [](const std::vector<std::string>& settings) {
+      return content_hash(scene_text(scene_from_text("", "scene.toml", settings)));
+    };
+    EXPECT_NE(hash(before), hash(after)) << one.setting;
+  }
+}
+
+TEST(SceneKeys, UnitsAreThoseOfTheTable) {
+  const Scene scene = scene_from_text("", "scene.toml", {"stroke.file=x.h5", "device.model=dynamic"});
+  for (const auto& [name, unit] : {std::pair{"bed.size", "m"},
+                                   {"tool.radius", "m"},
+                                   {"force.k_s", "N"},
+                                   {"force.k_c", "1/m"},
+                                   {"force.k_f", "s/m"},
+                                   {"relaxation.talus_angle", "deg"},
+                                   {"relaxation.rate", "Hz"},
+                                   {"relaxation.travel", "cells"},
+                                   {"device.mass", "kg"},
+                                   {"device.damping", "N s/m"},
+                                   {"device.hand_stiffness", "N/m"},
+                                   {"device.max_force", "N"},
+                                   {"device.dropped_ticks", ""},
+                                   {"stroke.stop", "s"},
+                                   {"no.such_key", ""}})
+    EXPECT_EQ(setting_unit(scene, name), unit) << name;
+}
+
+}  // namespace
+}  // namespace sandstroke
