@@ -105,18 +105,16 @@ struct Side {
 };
 
 Side walk(const Section& section, int from, int direction, int far) {
-  Side side;
   int k = from;
-  double here = section(k);
+  double here = section(k), before = here;
   while (here < 0.0) {
-    const double before = here;
-    if (std::abs(k + direction) > far) return side;
+    if (std::abs(k + direction) > far) return {};
+    before = here;
     here = section(k += direction);
-    side.edge = k - direction * here / (here - before);  // where it is zero, linear in between
   }
   if (std::isnan(here)) return {};  // outside the bed
-  side.crest = 0.0;
-  if (from == k) side.edge = k;
+  // Where it is zero, linear in between.
+  Side side{.edge = from == k ? k : k - direction * here / (here - before), .crest = 0.0};
   // Sand that nobody touched may lie between; what comes after the first that was raised is another stroke's.
   for (; std::abs(k) <= far && here >= 0.0 && !(here == 0.0 && side.crest > 0.0);
        here = section(k += direction))

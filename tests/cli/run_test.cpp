@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 
+#include <cmath>
 #include <cstdint>
 #include <nlohmann/json.hpp>
 #include <thread>
@@ -41,6 +42,64 @@ TEST(CliRun, JsonIsOneObjectWithTheDesignsNames) {
   EXPECT_EQ(json["threads"], std::min(2u, std::thread::hardware_concurrency()));
   EXPECT_LE(json["volume_drift"], 1e-12);
   EXPECT_TRUE(fs::exists(folder / "scene.h5"));  // the default name
+}
+
+TEST(CliRun, JsonSaysWhatTheRunFileHolds) {
+  const fs::path folder = test_folder();
+  const ProgramResult run =
+      run_program({"run", "scene.toml", "-o", "a.h5", "--json", "--set", "device.model=dynamic", "--set",
+                   "device.delay=3", "--set", "device.max_force=2", "--set", "stroke.depth=0.004"},
+                  folder);
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const nlohmann::json json = nlohmann::json::parse(run.out);
+  const RunFile file(folder / "a.h5");
+  double max_force = 0.0, contact_force = 0.0, max_depth = 0.0, displaced = 0.0, least_margin = HUGE_VAL;
+  std::int64_t contact = 0, saturated = 0;
+  const std::vector<TickRecord> trace = file.trace();
+  for (const TickRecord& tick : trace) {
+    max_force = std::max(max_force, tick.device_force.norm());
+    displaced += tick.displaced_volume;
+    saturated += tick.saturated;
+    if (!tick.contact) continue;
+    ++contact;
+    contact_force += tick.device_force.norm();
+    max_depth = std::max(max_depth, tick.depth);
+    least_margin = std::min(least_margin, tick.passivity_margin);
+  }
+  ASSERT_GT(saturated, 0);
+  EXPECT_EQ(json["output"], "a.h5");
+  EXPECT_EQ(json["preset"], "paper");
+  EXPECT_EQ(json["ticks"], trace.size());
+  EXPECT_NEAR(json["simulated_seconds"], trace.back().time + 1e-3, 1e-9);
+  EXPECT_NEAR(json["real_time_factor"].get<double>() * json["wall_seconds"].get<double>(),
+              json["simulated_seconds"].get<double>(), 1e-9);
+  EXPECT_EQ(json["contact_ticks"], contact);
+  EXPECT_EQ(json["saturated_ticks"], saturated);
+  EXPECT_EQ(json["gaps"], 0);
+  EXPECT_NEAR(json["max_force"], max_force, 1e-12);
+  EXPECT_NEAR(json["mean_force"], contact_force / static_cast<double>(contact), 1e-12);
+  EXPECT_EQ(json["max_depth"], max_depth);
+  EXPECT_EQ(json["least_passivity_margin"], least_margin);
+  EXPECT_NEAR(json["displaced_volume"], displaced, 1e-12 * displaced);
+
+  const Hdf5Reader plain(folder / "a.h5");
+  double passes = 0.0, slipped = 0.0;
+  for (const double one : plain.doubles("/relaxation/passes")) passes += one;
+  for (const double one : plain.doubles("/relaxation/moved_volume")) slipped += one;
+  EXPECT_EQ(json["passes"], passes);
+  EXPECT_EQ(json["relaxations"], plain.doubles("/relaxation/time").size());
+  EXPECT_EQ(json["residual"], plain.doubles("/relaxation/residual").back());
+  EXPECT_NEAR(json["moved_volume"], slipped + displaced, 1e-12 * slipped);
+  const double area = file.cell_size() * file.cell_size();
+  EXPECT_NEAR(json["volume_initial"], file.initial().sum() * area, 1e-12);
+  EXPECT_NEAR(json["volume_final"], file.final().sum() * area, 1e-12);
+  EXPECT_EQ(json["furrow_depth"], plain.number_attribute("/surface/final", "furrow_depth"));
+  EXPECT_EQ(json["asked_depth"], plain.number_attribute("/surface/final", "asked_depth"));
+  EXPECT_EQ(json["instruction_set"], plain.text("/provenance/instruction_set"));
+  EXPECT_EQ(std::to_string(json["threads"].get<int>()), plain.text("/provenance/threads"));
+  EXPECT_FALSE(json["interrupted"]);
+  EXPECT_FALSE(json.contains("recorded_force"));
+  EXPECT_FALSE(json.contains("error_estimate"));
 }
 
 TEST(CliRun, SaysHowDeepAFurrowWasAskedForAndIsLeft) {

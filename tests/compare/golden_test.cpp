@@ -163,6 +163,19 @@ TEST_F(Golden, EachToleranceHoldsJustBelowItAndNotJustAbove) {
   }
 }
 
+TEST_F(Golden, KeepsTheSmallestChange) {
+  run.final(2, 3) = 2e-9;
+  write_golden(folder / "golden/dune", finished());
+  EXPECT_NEAR(read_golden(folder / "golden/dune").change(2, 3), 2e-9, 0x1p-31);
+}
+
+TEST_F(Golden, TheLastBitsOfTheInitialSurfaceDoNotMatter) {
+  write_golden(folder / "golden/dune", finished());
+  run.initial += 1e-12;
+  run.final += 1e-12;
+  EXPECT_TRUE(compare().passed()) << check_table(compare());
+}
+
 TEST_F(Golden, SaysWhatItRanAndWhatCameOut) {
   GoldenRun ran = finished();
   ran.result.ticks = 105;

@@ -275,5 +275,15 @@ TEST(PicturesPart, SaysWhereAndHowManyPixelsDiffer) {
   EXPECT_EQ(same["maps"][2]["scale"]["high"], 7.0) << "the limit, where that is more";
 }
 
+TEST(SurfacesPart, TheDifferencesColoursSpanTheLimitAtLeast) {
+  ComparedSurfaces s = furrow(60, 60, 30, 30);  // 4 mm apart in one cell
+  for (const auto& [limit_of_it, span] : {std::pair{0.003, 4.0}, {0.005, 5.0}}) {
+    s.limit = limit_of_it;
+    const Json scale = surfaces_part(s)["maps"][2]["scale"];
+    EXPECT_DOUBLE_EQ(scale["low"], -span);
+    EXPECT_DOUBLE_EQ(scale["high"], span);
+  }
+}
+
 }  // namespace
 }  // namespace sandstroke

@@ -67,5 +67,27 @@ TEST(TraceDifference, ComparesTheTicksThatBothHave) {
   EXPECT_EQ(trace_difference(golden, run).force.max, 0.0);
 }
 
+TEST(TraceDifference, ALevelMayOnlyBeMissingWhereBothAreLifted) {
+  const std::vector<TickRecord> golden = SyntheticRun().trace;
+  for (const auto& [golden_touches, run_touches] : {std::pair{true, false}, {false, true}, {true, true}}) {
+    std::vector<TickRecord> a = golden, b = golden;  // lifted in tick 7
+    a[7].contact = golden_touches, b[7].contact = run_touches;
+    EXPECT_TRUE(std::isnan(trace_difference(a, b).level.max));
+    EXPECT_EQ(trace_difference(a, b).level.tick, 7u);
+  }
+}
+
+TEST(TraceDifference, TheTimeIsGoldensOfTheTickThatDiffersMost) {
+  const std::vector<TickRecord> golden = SyntheticRun().trace;
+  std::vector<TickRecord> run = golden;
+  run[30].time += 0.25;
+  run[40].depth -= 0.5;
+  run[40].time -= 0.5;
+  const TraceDifference difference = trace_difference(golden, run);
+  EXPECT_DOUBLE_EQ(difference.time.max, 0.5);
+  EXPECT_EQ(difference.time.tick, 40u);
+  EXPECT_EQ(difference.depth.time, golden[40].time);
+}
+
 }  // namespace
 }  // namespace sandstroke

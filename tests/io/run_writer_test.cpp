@@ -200,6 +200,7 @@ TEST_F(RunWriterTest, AFrameHoldsTheTilesThatChangedSinceTheOneBefore) {
   keep(0.25);
   bed.set(98, 1, 1.0);  // tile 3
   keep(0.375);
+  bed.allocate(5);  // as its rule says
   keep(1.5);
   const Hdf5Reader file = finished();
 

@@ -290,5 +290,36 @@ TEST(StrokeCsv, ReadsLettersDrawnOnAScreen) {
   EXPECT_NEAR(static_cast<double>(points - left) / static_cast<double>(points - 184), 0.022, 0.0005);
 }
 
+TEST(StrokeCsv, ADroppedSampleIsDroppedFromEveryColumn) {
+  StrokeCsvFormat format = txyz();
+  format.velocity = VectorColumns{{"vx", "vy", "vz"}, speed_unit("m/s")};
+  format.force = VectorColumns{{"fx", "fy", "fz"}, force_unit("N")};
+  format.pen_up = "BREAK";
+  format.equal_times = EqualTimes::drop;
+  const Stroke stroke = parse(
+      "t,x,y,z,vx,vy,vz,fx,fy,fz\n"
+      "0,1,2,3,4,5,6,7,8,9\n0,11,12,13,14,15,16,17,18,19\n"
+      "1,21,22,23,24,25,26,27,28,29\nBREAK\n1,31,32,33,34,35,36,37,38,39\n3,41,42,43,44,45,46,47,48,49\n",
+      format);
+  EXPECT_THAT(stroke.time, ElementsAre(0.0, 1.0, 3.0));
+  EXPECT_THAT(stroke.position, ElementsAre(Vector3d(1, 2, 3), Vector3d(21, 22, 23), Vector3d(41, 42, 43)));
+  EXPECT_THAT(stroke.velocity, ElementsAre(Vector3d(4, 5, 6), Vector3d(24, 25, 26), Vector3d(44, 45, 46)));
+  EXPECT_THAT(stroke.force, ElementsAre(Vector3d(7, 8, 9), Vector3d(27, 28, 29), Vector3d(47, 48, 49)));
+  EXPECT_THAT(stroke.contact, ElementsAre(pen_down, pen_lifts, pen_down));
+}
+
+TEST(StrokeCsv, EachQuantityHasItsOwnUnit) {
+  StrokeCsvFormat format = txyz();
+  format.time_unit = time_unit("ms");
+  format.position.unit = position_unit("mm", 0.0);
+  format.velocity = VectorColumns{{"vx", "vy", "vz"}, speed_unit("cm/s")};
+  format.force = VectorColumns{{"fx", "fy", "fz"}, force_unit("mN")};
+  const Stroke stroke = parse("t,x,y,z,vx,vy,vz,fx,fy,fz\n50,1,2,3,100,200,300,7,8,9\n", format);
+  EXPECT_EQ(stroke.time[0], 0.05);
+  EXPECT_EQ(stroke.position[0], Vector3d(0.001, 0.002, 0.003));
+  EXPECT_EQ(stroke.velocity[0], Vector3d(1, 2, 3));
+  EXPECT_EQ(stroke.force[0], Vector3d(0.007, 0.008, 0.009));
+}
+
 }  // namespace
 }  // namespace sandstroke

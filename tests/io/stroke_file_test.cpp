@@ -60,6 +60,7 @@ Stroke full_stroke() {
   stroke.velocity = {{0.1, 0.2, 0.3}, {1, 2, 3}, {4, 5, 6}};
   stroke.force = {{-0.1, -0.2, -0.3}, {1, 2, 3}, {4, 5, 6}};
   stroke.switches = {0, 3, 0xffffffffu};
+  stroke.flags = {1, 0, 64};
   stroke.contact = {pen_up, pen_down, pen_lifts};
   stroke.nominal_rate = 999.9;
   stroke.gap_threshold = 0.07;
@@ -75,6 +76,7 @@ void expect_same(const Stroke& a, const Stroke& b) {
   EXPECT_EQ(a.velocity, b.velocity);
   EXPECT_EQ(a.force, b.force);
   EXPECT_EQ(a.switches, b.switches);
+  EXPECT_EQ(a.flags, b.flags);
   EXPECT_EQ(a.contact, b.contact);
   EXPECT_EQ(a.nominal_rate, b.nominal_rate);
   EXPECT_EQ(a.gap_threshold, b.gap_threshold);

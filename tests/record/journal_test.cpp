@@ -8,6 +8,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <cmath>
 #include <csignal>
 #include <cstring>
 #include <limits>
@@ -113,6 +114,22 @@ TEST_F(Journal, NumbersBeyondAllCountsAreDamage) {
     header["device_switches"] = count;
     EXPECT_THROW(header_from_json(header), nlohmann::json::exception);
   }
+}
+
+TEST(RecordingJson, ANumberThatIsNoneIsNullAndReadsAsNone) {
+  RecordingFooter footer = full_footer();
+  footer.lateness.p99 = std::numeric_limits<double>::quiet_NaN();
+  const auto text = as_json(footer).dump();
+  const RecordingFooter back = footer_from_json(nlohmann::ordered_json::parse(text));
+  EXPECT_NE(text.find("\"lateness_p99\":null"), std::string::npos) << text;
+  EXPECT_TRUE(std::isnan(back.lateness.p99));
+  EXPECT_EQ(back.lateness.max, footer.lateness.max);
+}
+
+TEST(RecordingJson, AReasonOfALaterVersionIsNotTakenForOneOfThis) {
+  nlohmann::ordered_json json = as_json(full_footer());
+  json["stop_reason"] = "the moon was full";
+  EXPECT_EQ(footer_from_json(json).reason, StopReason::cut_off);
 }
 
 TEST_F(Journal, ComesBackToTheBit) {

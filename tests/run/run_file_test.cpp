@@ -4,8 +4,11 @@
 
 #include <cmath>
 #include <fstream>
+#include <map>
+#include <numbers>
 
 #include "core/error.h"
+#include "core/hash.h"
 #include "core/output_file.h"
 #include "io/scene_toml.h"
 #include "io/stroke_file.h"
@@ -147,6 +150,71 @@ TEST_F(RunFileTest, RefusesOtherFiles) {
   writer.finish();
   EXPECT_THROW(RunFile(folder_ / "other.h5"), Error);
   EXPECT_THROW(RunFile(folder_ / "line.toml"), Error);
+}
+
+TEST_F(RunFileTest, SaysOfWhatItIsAndWithHowManyThreads) {
+  RunOptions options;
+  options.scene_folder = folder_.path();
+  options.scene_file = folder_ / "scenes" / "dune.toml";
+  options.threads = 1;
+  fs::create_directory(folder_ / "runs");
+  const auto provenance = [&](const Scene& scene) {
+    run_scene(scene, folder_ / "runs" / "a.h5", options);
+    std::map<std::string, std::string> entries;
+    for (const auto& [name, value] : RunFile(folder_ / "runs" / "a.h5").provenance()) entries[name] = value;
+    return entries;
+  };
+  std::map<std::string, std::string> entries = provenance(scene());
+  EXPECT_EQ(entries["threads"], "1");
+  EXPECT_EQ(entries["scene_file"], "../scenes/dune.toml") << "as seen from the run's folder";
+  EXPECT_EQ(entries["scene_hash"], content_hash(scene_text(scene())));
+  EXPECT_EQ(entries["stroke_hash"], content_hash(read_text_file(folder_ / "line.toml")));
+
+  // A recorded stroke's is of its content, not of the file, which tells more.
+  const Stroke stroke = load_stroke(folder_ / "line.toml", {});
+  write_stroke_file(folder_ / "line.h5", stroke);
+  EXPECT_EQ(provenance(scene({"stroke.file=line.h5"}))["stroke_hash"], content_hash(stroke));
+  EXPECT_EQ(provenance(scene({"stroke.file=line.h5", "stroke.offset=[0.01, 0, 0]"}))["stroke_hash"],
+            content_hash(stroke));
+}
+
+TEST_F(RunFileTest, ForcesThatWereRecordedAreHeldAgainstThoseOfTheRun) {
+  const Scene at_hand = scene({"relaxation.rate=0"});
+  ASSERT_FALSE(run(at_hand, "a.h5").recorded_force);
+  const std::vector<TickRecord> trace = RunFile(folder_ / "a.h5").trace();
+  Stroke felt;  // in every tick what the run felt in it, in one of them 0.25 N more
+  for (const TickRecord& tick : trace) {
+    felt.time.push_back(tick.time);
+    felt.position.push_back(tick.hand.position);
+    felt.force.push_back(tick.device_force);
+  }
+  write_stroke_file(folder_ / "felt.h5", felt);
+  const std::optional<ForceDifference> same =
+      run(scene({"relaxation.rate=0", "stroke.file=felt.h5"}), "b.h5").recorded_force;
+  ASSERT_TRUE(same);
+  EXPECT_EQ(same->ticks, static_cast<std::int64_t>(trace.size()));
+  EXPECT_LT(same->rms, 0.02);  // drag is of a curve through the samples
+  felt.force[trace.size() / 2].z() += 10.0;
+  write_stroke_file(folder_ / "felt.h5", felt);
+  const std::optional<ForceDifference> more =
+      run(scene({"relaxation.rate=0", "stroke.file=felt.h5"}), "b.h5").recorded_force;
+  EXPECT_NEAR(more->max, 10.0, 0.1);
+  EXPECT_NEAR(more->rms, 10.0 / std::sqrt(static_cast<double>(trace.size())), 0.02);
+}
+
+TEST_F(RunFileTest, TheFurrowIsBetweenTheFirstSurfaceAndTheLast) {
+  const RunResult result = run(scene({"model.preset=accurate"}), "a.h5");
+  ASSERT_TRUE(result.furrow);
+  EXPECT_NEAR(result.furrow->asked_depth, 0.004, 1e-5);
+  EXPECT_GT(result.furrow->depth, 0.002);
+  EXPECT_LT(result.furrow->depth, 0.004);
+  const RunFile file(folder_ / "a.h5");
+  // Across the middle of the line the lowest cell is that deep, to the change of a slope within a cell.
+  const double lowest = -file.final().col(75).minCoeff();
+  EXPECT_NEAR(result.furrow->depth, lowest, 0.5 * 0.002 * std::tan(std::numbers::pi / 6));
+  const Hdf5Reader plain(folder_ / "a.h5");
+  EXPECT_EQ(plain.number_attribute("/surface/final", "furrow_depth"), result.furrow->depth);
+  EXPECT_EQ(plain.number_attribute("/surface/final", "asked_depth"), result.furrow->asked_depth);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numeric>
 
 #include "core/error.h"
 
@@ -150,11 +151,12 @@ TEST(ErrorEstimate, OfADragIsWithinAFactorOfThreeOfItsDistanceToAQuarterOfTheSte
 /// Mean heights in the cells of another bed over the same rectangle, summed over pieces that divide the cells
 /// of both.
 HeightGrid averaged(const HeightGrid& heights, Eigen::Index rows, Eigen::Index cols) {
-  const Eigen::Index down = heights.rows(), across = heights.cols();  // pieces of a cell of the other bed
+  const Eigen::Index all_down = std::lcm(heights.rows(), rows), all_across = std::lcm(heights.cols(), cols);
+  const Eigen::Index down = all_down / rows, across = all_across / cols;  // pieces of a cell of the other bed
   HeightGrid means = HeightGrid::Zero(rows, cols);
-  for (Eigen::Index i = 0; i < rows * down; ++i)
-    for (Eigen::Index j = 0; j < cols * across; ++j)
-      means(i / down, j / across) += heights(i / rows, j / cols);
+  for (Eigen::Index i = 0; i < all_down; ++i)
+    for (Eigen::Index j = 0; j < all_across; ++j)
+      means(i / down, j / across) += heights(i * heights.rows() / all_down, j * heights.cols() / all_across);
   return means / static_cast<double>(down * across);
 }
 
@@ -209,11 +211,13 @@ void expect_richardson(const Scene& scene, const std::optional<Stroke>& stroke, 
 }
 
 TEST(ErrorEstimate, IsTheDistanceToTheSecondSolutionTimesRichardsonsFactor) {
-  Scene drag = stroke_scene(50);
-  drag.bed.rows = 30, drag.bed.depth = 0.06;
+  // Over tiles of a bed that is not square, near its end along x: the coarser one has 1 x 3 of them, the
+  // finer one 3 x 10.
+  Scene drag = stroke_scene(300);
+  drag.bed.width = 0.6, drag.bed.rows = 90, drag.bed.depth = 0.18;
   // In the air for the first 20 of 250 ms: ticks without a force.
   Stroke stroke = stroke_of(0.1);
-  for (Eigen::Vector3d& place : stroke.position) place.z() += 1.2e-3;
+  for (Eigen::Vector3d& place : stroke.position) place += Eigen::Vector3d(0.26, 0.0, 1.2e-3);
   for (const SecondSolution which : {SecondSolution::coarser, SecondSolution::finer}) {
     const Scene second = second_scene(drag, which);
     expect_richardson(drag, stroke, which, starting_bed(drag.bed), starting_bed(second.bed));

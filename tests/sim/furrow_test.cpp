@@ -338,5 +338,52 @@ TEST(Furrow, TellsTheWayInContact) {
   EXPECT_NEAR(measured(flat, flat, path).length, 0.071, 1e-12);
 }
 
+TEST(Furrow, TheMedianOfAnEvenNumberIsTheMeanOfBothInTheMiddle) {
+  const HeightField bed(240, 300, 1e-3);
+  TipPath path;
+  path.pieces = {0};
+  for (const double asked : {-0.001, -0.008, -0.002, -0.004}) {
+    path.points.emplace_back(0.01 * static_cast<double>(path.points.size()), 0.0);
+    path.asked.push_back(asked);
+  }
+  EXPECT_NEAR(measure_furrow(bed, bed, path, 0.01).asked_depth, 0.003, 1e-15);
+}
+
+TEST(Furrow, SectionsReachSixRadiiToEitherSide) {
+  // A furrow as wide as 11 radii is measured, one of 13 has no width.
+  for (const auto& [radii, measured_width] : {std::pair{5.5, true}, {6.5, false}}) {
+    const Profile profile{0.005, radii * radius, 0.02};
+    const Line line{{-0.1, 0.0}, {1.0, 0.0}, 0.2};
+    const Shape change = [&, &p = profile](double x, double y) { return p(line.distance(x, y)); };
+    EXPECT_EQ(std::isnan(measured(flat, change, line.path()).width), !measured_width) << radii;
+  }
+}
+
+TEST(Furrow, AWarningBeginsWhereItSays) {
+  const Scene scene;  // a radius of 10 mm
+  const auto warning = [&](double share_left, double asked, double radii) {
+    return furrow_warning(scene, {.depth = share_left * asked, .asked_depth = asked, .length = 0.01 * radii});
+  };
+  EXPECT_NE(warning(0.475, 0.004, 4.2), "");
+  EXPECT_EQ(warning(0.525, 0.004, 4.2), "");
+  EXPECT_EQ(warning(0.475, 0.004, 3.8), "");
+  EXPECT_NE(warning(0.1, 0.019, 10.0).find("model.preset"), std::string::npos);
+  EXPECT_NE(warning(0.1, 0.021, 10.0).find("tool.radius"), std::string::npos);
+}
+
+TEST(Furrow, SectionsEndAtTheBordersOfABedThatIsNotSquare) {
+  // Along x at the far end of a long bed, and along y at that of a deep one.
+  const Profile profile{0.004, 0.008, 0.012};
+  for (const bool along_x : {true, false}) {
+    const int rows = along_x ? 100 : 400, cols = along_x ? 400 : 100;
+    const Line line{along_x ? Vector2d(0.1, 0.0) : Vector2d(0.0, 0.1),
+                    along_x ? Vector2d(1.0, 0.0) : Vector2d(0.0, 1.0), 0.08};
+    const Shape change = [&](double x, double y) { return profile(line.distance(x, y)); };
+    expect_profile(
+        measure_furrow(bed_of(rows, cols, 1e-3, flat), bed_of(rows, cols, 1e-3, change), line.path(), radius),
+        profile);
+  }
+}
+
 }  // namespace
 }  // namespace sandstroke

@@ -243,6 +243,20 @@ TEST(RunResult, ARelaxationIsToldWithItsTime) {
   EXPECT_DOUBLE_EQ(result.simulated_seconds, 0.101);
 }
 
+TEST(RunResult, AWholeNumberOfTicksIsThePeriodOfARelaxationInDoublesToo) {
+  for (const int period : {19, 20, 38}) {  // 19 x (1000 / 19) is below 1000
+    Scene scene = narrow_scene();
+    scene.relaxation.rate = 1000.0 / period;
+    Simulation simulation(scene, starting_bed(scene.bed), timed({0.0, 1.0}, {{0, 0, 0.01}, {0.1, 0, 0.01}}),
+                          std::make_unique<TellingRelaxer>(std::vector<bool>(100, true)));
+    ToldRun told;
+    simulation.run({&told});
+    ASSERT_EQ(told.relaxations.size(), static_cast<std::size_t>(1000 / period + 1));
+    for (std::size_t i = 0; i + 1 < told.relaxations.size(); ++i)
+      EXPECT_EQ(told.relaxations[i].time, (static_cast<double>((i + 1) * period) - 1.0) / 1000.0) << period;
+  }
+}
+
 TEST(RunResult, AStrokesLastTickIsAtItsEndWhereThatIsAWholeNumberOfTicks) {
   // In doubles 1.001 x 1000 is below 1001, and 0.29 x 1000 below 290.
   for (const double begin : {0.0, 0.003, 12.7})
