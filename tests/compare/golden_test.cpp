@@ -241,6 +241,17 @@ TEST_F(Golden, AMissingTickOrTraceFails) {
   expect_only_failure("trace", "the run has no trace");
 }
 
+TEST_F(Golden, TicksAreThoseOfTheWholeRun) {
+  write_golden(folder / "golden/dune", finished());
+  for (const Check& check : compare().checks)
+    if (check.name == "ticks") {
+      EXPECT_EQ(check.measured, 105.0);
+      EXPECT_EQ(check.limit, 105.0);
+    }
+  run.trace.push_back(run.trace.back());
+  expect_only_failure("ticks", "golden has 105 ticks, the run 106");
+}
+
 TEST_F(Golden, AChangedPictureFails) {
   write_golden(folder / "golden/dune", finished());
   for (int y = 8; y < 16; ++y)

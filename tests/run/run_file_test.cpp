@@ -6,6 +6,7 @@
 #include <fstream>
 #include <map>
 #include <numbers>
+#include <thread>
 
 #include "core/error.h"
 #include "core/hash.h"
@@ -156,7 +157,7 @@ TEST_F(RunFileTest, SaysOfWhatItIsAndWithHowManyThreads) {
   RunOptions options;
   options.scene_folder = folder_.path();
   options.scene_file = folder_ / "scenes" / "dune.toml";
-  options.threads = 1;
+  options.threads = 2;
   fs::create_directory(folder_ / "runs");
   const auto provenance = [&](const Scene& scene) {
     run_scene(scene, folder_ / "runs" / "a.h5", options);
@@ -165,7 +166,7 @@ TEST_F(RunFileTest, SaysOfWhatItIsAndWithHowManyThreads) {
     return entries;
   };
   std::map<std::string, std::string> entries = provenance(scene());
-  EXPECT_EQ(entries["threads"], "1");
+  EXPECT_EQ(entries["threads"], std::to_string(std::min(2u, std::thread::hardware_concurrency())));
   EXPECT_EQ(entries["scene_file"], "../scenes/dune.toml") << "as seen from the run's folder";
   EXPECT_EQ(entries["scene_hash"], content_hash(scene_text(scene())));
   EXPECT_EQ(entries["stroke_hash"], content_hash(read_text_file(folder_ / "line.toml")));

@@ -250,6 +250,29 @@ TEST(ErrorEstimate, CellsThatNoRuleMakesAnewAreAveragedOrSplit) {
   }
 }
 
+TEST(ErrorEstimate, OfSandThatOnlyOneSolutionMovedIsAllOfItWhereverItIs) {
+  // A flat bed, on which nothing moves: four cells that the run is said to have raised, one of the coarser
+  // bed's, and eight of them that it lowered, two of the coarser bed's.
+  Scene scene;
+  scene.bed.width = 6.0, scene.bed.cols = 600;
+  scene.bed.depth = 2.0, scene.bed.rows = 200;
+  const HeightField start = starting_bed(scene.bed);
+  for (const auto& [row, col] : {std::pair{0, 0}, {6, 500}, {150, 40}, {198, 596}}) {
+    HeightField raised = start;
+    for (int i = 0; i < 2; ++i)
+      for (int j = 0; j < 4; ++j) raised.set(row + i, col + j, j < 2 ? 0.5 : -0.25);
+    RunResult at_rest;
+    const Solution run{raised, at_rest};
+    const ErrorEstimate coarser = estimate_error(scene, start, {}, run, {}, SecondSolution::coarser);
+    EXPECT_DOUBLE_EQ(coarser.height_max, 0.5);
+    EXPECT_DOUBLE_EQ(coarser.height_share, 1.0);
+    EXPECT_DOUBLE_EQ(coarser.height_rms, std::sqrt(0.5 * (0.25 + 0.0625)));
+    const ErrorEstimate finer = estimate_error(scene, start, {}, run, {}, SecondSolution::finer);
+    EXPECT_DOUBLE_EQ(finer.height_max, 1.0);
+    EXPECT_DOUBLE_EQ(finer.height_share, 2.0);
+  }
+}
+
 TEST(ErrorEstimate, SaysWhereOneOfBothIsNotAtRest) {
   for (const auto& [passes, at_rest] : {std::pair<std::int64_t, bool>{0, false}, {1'000'000, true}}) {
     Scene scene = cylinder_scene(16);

@@ -378,5 +378,19 @@ TEST(Simulation, ADeviceIsLostFurtherAwayThanAHundredBeds) {
   EXPECT_NEAR(recording.ticks.back().time, lost_at - 1.5e-3, 0.5e-3) << "the tick before that, at its start";
 }
 
+TEST(Simulation, AtItsEndTheToolIsGoneAndTheSandRestsWithoutIt) {
+  Scene scene = small_scene();
+  scene.preset = ModelPreset::accurate;
+  apply_model_preset(scene);
+  Simulation simulation(scene, starting_bed(scene.bed),
+                        through({{-0.02, 0, -0.008}, {0.02, 0, -0.008}}, 0.2));
+  const RunResult result = simulation.run();
+  EXPECT_GT(result.contact_ticks, 0);
+  EXPECT_TRUE(simulation.bed().held().empty());
+  HeightField alone(simulation.bed().grid(), simulation.bed().cell_size());
+  const RelaxationOutcome more = make_relaxer(scene.relaxation, alone.cell_size())->relax(alone);
+  EXPECT_LE(more.moved_volume, 1e-3 * result.moved_volume);
+}
+
 }  // namespace
 }  // namespace sandstroke
