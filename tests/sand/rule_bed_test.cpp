@@ -172,6 +172,38 @@ TEST_P(RuleBed, SandFlowsAcrossABorderOfTilesThatDoNotExistYet) {
   }
 }
 
+/// A step right between two tiles, and level on either side: what it says of a range's slopes is exact.
+class StepRule : public SurfaceRule {
+ public:
+  explicit StepRule(bool along_rows) : along_rows_(along_rows) {}
+  void fill(const BedGeometry&, const CellRange& cells, double* out, std::ptrdiff_t stride) const override {
+    for (int row = 0; row < cells.rows(); ++row)
+      for (int col = 0; col < cells.cols(); ++col) {
+        const int at = along_rows_ ? cells.row_begin + row : cells.col_begin + col;
+        out[row * stride + col] = at < BedGeometry::tile_side ? height : 0.0;
+      }
+  }
+  double steepest(const BedGeometry&, const CellRange& cells) const override {
+    const int begin = along_rows_ ? cells.row_begin : cells.col_begin,
+              end = along_rows_ ? cells.row_end : cells.col_end;
+    return begin < BedGeometry::tile_side && BedGeometry::tile_side < end ? height / rule_cell : 0.0;
+  }
+  double highest() const override { return height; }
+  static constexpr double height = 3.0 * rule_cell;
+
+ private:
+  bool along_rows_;
+};
+
+TEST_P(RuleBed, AStepBetweenTwoLevelTilesFalls) {
+  for (const RelaxationMethod method : methods)
+    for (const bool along_rows : {false, true}) {
+      HeightField bed(along_rows ? 128 : 5, along_rows ? 5 : 128, rule_cell,
+                      std::make_shared<StepRule>(along_rows));
+      EXPECT_GT(relaxed_alike(bed, settings(method)).passes, 0);
+    }
+}
+
 TEST_P(RuleBed, RipplesAndNoiseMoveWhereTheyAreTooSteep) {
   for (const RelaxationMethod method : methods)
     for (const double ratio : {0.95, 1.05}) {
