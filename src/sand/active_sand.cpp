@@ -85,7 +85,6 @@ void ActiveSand::load_givers(const HeightField& bed, int slot, GiverFlags& giver
 }
 
 void ActiveSand::end(const HeightField& bed, RelaxationOutcome& outcome) {
-  look_at_active_cells();  // where the relaxation was cut off
   const std::int64_t work = work_per_tile * static_cast<std::int64_t>(looked_at_.size());
   parallel_for(looked_at_.size(), work >= worth_threads_, [&](std::size_t i) {
     const int slot = looked_at_[i];

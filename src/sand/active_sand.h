@@ -60,7 +60,8 @@ class ActiveSand {
     return sizeof(TileFlow) + sizeof(CellFlags) + sizeof(Look) + TileActivity::bytes_per_tile();
   }
 
-  /// Ends a relaxation: residual of the whole bed, and the counters since begin().
+  /// Ends a relaxation: residual of the whole bed, and the counters since begin(). The flow of what is still
+  /// active must have been computed: that is where it is looked at.
   void end(const HeightField& bed, RelaxationOutcome& outcome);
 
  private:

@@ -165,7 +165,8 @@ class RklRelaxer : public Relaxer {
     return {peak, square.value()};
   }
 
-  /// How the flow as computed last differs from F0.
+  /// How the flow as computed last differs from F0. A tile that flowed then is active until the step ends,
+  /// even where its flow is over: it goes on by its momentum.
   FlowChange change_from_start() {
     double difference = 0.0;
     CompensatedSum product;
@@ -173,8 +174,6 @@ class RklRelaxer : public Relaxer {
       difference = std::max(difference, tile(slot).change.difference);
       product.add(tile(slot).change.product);
     }
-    for (const int slot : in_step_)  // no flow any more
-      if (tile(slot).pass != outcome_.passes) difference = std::max(difference, tile(slot).first.peak);
     return {difference, product.value()};
   }
 

@@ -60,6 +60,22 @@ TEST(ForceGuard, CutsTheMagnitudeAndKeepsTheDirection) {
   EXPECT_NEAR(given.force.norm(), 5.0, 1e-14) << "though its norm is beyond all numbers";
 }
 
+TEST(ForceGuard, ItsLimitsAreWhereTheyAreSet) {
+  const Vector3d direction = Vector3d(2.0, -3.0, 6.0) / 7.0;
+  for (const double share : {0.95, 1.05}) {
+    const auto flags_of = [&](const ForceLimits& set, double time, double size, double held) {
+      return ForceGuard(set, 1000.0).admit(time, {size * direction}, held * direction).flags;
+    };
+    EXPECT_EQ(flags_of(limits(5.0, 0.0, infinity), 1.0, share * 5.0, 0.0), share > 1.0 ? clamped_force : 0u);
+    // 2 N per tick, up or down
+    EXPECT_EQ(flags_of(limits(9.0, 0.0, 2000.0), 1.0, 1.0 + share * 2.0, 1.0),
+              share > 1.0 ? rate_limited_force : 0u);
+    EXPECT_EQ(flags_of(limits(9.0, 0.0, 2000.0), 1.0, 4.0 - share * 2.0, 4.0),
+              share > 1.0 ? rate_limited_force : 0u);
+    EXPECT_EQ(flags_of(limits(9.0, 0.5, infinity), share * 0.5, 1.0, 0.0), share < 1.0 ? ramped_force : 0u);
+  }
+}
+
 TEST(ForceGuard, GivesNoneAtAllWhereTheLimitIsZero) {
   const ForceGuard guard(limits(0.0, 0.0, infinity), 1000.0);
   for (const double size : {1e-300, 1.0, largest}) {

@@ -133,7 +133,10 @@ TEST(HeightField, HighestIsThatOfCellsAndOfWhatIsUntouched) {
   EXPECT_EQ(bed.highest(), 0.5);
   bed.set(99, 199, 0.75);
   EXPECT_EQ(bed.highest(), 0.75);
-  EXPECT_EQ(HeightField(HeightGrid::Constant(5, 5, -3.0), 0.01).highest(), -3.0);  // nothing else is
+  HeightField bent(100, 200, 0.01, std::make_shared<Bend>());
+  bent.set(3, 3, -2.0);
+  EXPECT_EQ(bent.highest(), 1e9);  // as its rule says of what is untouched
+  EXPECT_EQ(HeightField(HeightGrid::Constant(5, 5, -3.0), 0.01).highest(), -3.0);  // no cell is untouched
 }
 
 TEST(HeightField, HeightAtAPlaceIsThatOfItsCell) {

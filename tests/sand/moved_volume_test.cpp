@@ -9,7 +9,7 @@
 namespace sandstroke {
 namespace {
 
-constexpr double dx = 0.01;
+constexpr double line_cell = 0.01;
 
 /// In a line of cells, where sand went through each face in one direction only: what is beyond the face more
 /// than before went through it. m^3.
@@ -19,13 +19,13 @@ double through_faces(const HeightGrid& before, const HeightGrid& after) {
     beyond += after(i) - before(i);
     volume += std::abs(beyond);
   }
-  return volume * dx * dx;
+  return volume * line_cell * line_cell;
 }
 
 /// Twice `half_width` cells of this height [cells] amid 100, along a row or down a column.
-HeightGrid block(bool along_row, int half_width, double height) {
+HeightGrid block_of_sand(bool along_row, int half_width, double height) {
   HeightGrid heights = HeightGrid::Zero(along_row ? 1 : 100, along_row ? 100 : 1);
-  for (int i = 50 - half_width; i < 50 + half_width; ++i) heights(i) = height * dx;
+  for (int i = 50 - half_width; i < 50 + half_width; ++i) heights(i) = height * line_cell;
   return heights;
 }
 
@@ -44,11 +44,11 @@ TEST(MovedVolume, IsWhatWentThroughTheFacesWhateverLawAndMethod) {
     for (const RelaxationMethod method : methods)
       for (const bool along_row : {true, false})
         for (const std::int64_t most : {std::int64_t{1}, std::int64_t{7}, std::int64_t{100'000}}) {
-          const HeightGrid before = block(along_row, 10, 20.0);
-          HeightField bed(before, dx);
+          const HeightGrid before = block_of_sand(along_row, 10, 20.0);
+          HeightField bed(before, line_cell);
           RelaxationSettings relaxation = settings(law, method);
           relaxation.max_passes = most;
-          const RelaxationOutcome outcome = make_relaxer(relaxation, dx)->relax(bed);
+          const RelaxationOutcome outcome = make_relaxer(relaxation, line_cell)->relax(bed);
           EXPECT_EQ(outcome.converged, most > 7);
           const double volume = through_faces(before, bed.grid());
           EXPECT_GT(volume, 0.0);
@@ -60,11 +60,26 @@ TEST(MovedVolume, OfACollapsedBlockIsThatOfItsTriangle) {
   // The centre of each half goes from w / 2 to L / 3, with L^2 tan(talus) = 2 w h.
   constexpr double w = 10.0, h = 20.0, volume = 2.0 * w * h;  // cells
   const double L = std::sqrt(volume / talus_slope(30.0));
-  const double moved = volume * (L / 3.0 - w / 2.0) * dx * dx * dx;
+  const double moved = volume * (L / 3.0 - w / 2.0) * line_cell * line_cell * line_cell;
   for (const RelaxationLaw law : laws)
     for (const RelaxationMethod method : methods) {
-      HeightField bed(block(true, 10, h), dx);
-      EXPECT_NEAR(make_relaxer(settings(law, method), dx)->relax(bed).moved_volume, moved, 0.01 * moved);
+      HeightField bed(block_of_sand(true, 10, h), line_cell);
+      EXPECT_NEAR(make_relaxer(settings(law, method), line_cell)->relax(bed).moved_volume, moved,
+                  0.01 * moved);
+    }
+}
+
+TEST(MovedVolume, OfASteadyFlowIsThatOfItsMirrorImage) {
+  // A ramp whose inner cells pass on what they take: which of them count does not go by columns.
+  for (const RelaxationLaw law : laws)
+    for (const std::int64_t passes : {1, 5, 30}) {
+      HeightGrid ramp(3, 203);
+      for (int col = 0; col < 203; ++col) ramp.col(col) = col;
+      HeightField east(ramp, 1.0), west(HeightGrid(ramp.rowwise().reverse()), 1.0);
+      RelaxationSettings relaxation = settings(law, RelaxationMethod::passes);
+      relaxation.max_passes = passes;
+      const double moved = make_relaxer(relaxation, 1.0)->relax(east).moved_volume;
+      EXPECT_NEAR(make_relaxer(relaxation, 1.0)->relax(west).moved_volume, moved, 1e-12 * moved) << passes;
     }
 }
 

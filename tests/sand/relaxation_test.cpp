@@ -96,6 +96,22 @@ TEST_P(BothLaws, TheShareAskedForIsWhatFlows) {
   }
 }
 
+TEST_P(BothLaws, IsTheSameAtAnyLevelOnBedsOfAnyWidth) {
+  for (const int cols : {1, 7, 9, 15, 17}) {
+    HeightField ground = random_bed(13, cols, 1.0, 5.0, 9);
+    const HeightGrid start = ground.grid();
+    const RelaxationOutcome expected = make_relaxer(settings(GetParam()), 1.0)->relax(ground);
+    for (const double level : {50.0, -50.0}) {
+      HeightField bed(HeightGrid(start + level), 1.0);
+      const RelaxationOutcome outcome = make_relaxer(settings(GetParam()), 1.0)->relax(bed);
+      EXPECT_EQ(outcome.passes, expected.passes);
+      EXPECT_NEAR(outcome.residual, expected.residual, 1e-9);
+      EXPECT_NEAR(outcome.moved_volume, expected.moved_volume, 1e-9 * expected.moved_volume);
+      EXPECT_LT((bed.grid() - level - ground.grid()).abs().maxCoeff(), 1e-9);
+    }
+  }
+}
+
 TEST_P(BothLaws, ATileThatChangesTellsAndNoOther) {
   for (const RelaxationMethod method : {RelaxationMethod::passes, RelaxationMethod::rkl}) {
     RelaxationSettings s = settings(GetParam());
@@ -132,6 +148,8 @@ TEST_P(BothLaws, TilesGiveTheBitsOfTheReference) {
                         {64, 64, 2.0, 45},
                         {65, 130, 1.5, 30},
                         {63, 129, 0.4, 10},
+                        {70, 128, 3.0, 30},  // whole tiles along one side, so that walls are at their borders
+                        {128, 66, 3.0, 30},
                         {128, 70, 20.0, 60}}) {
     RelaxationSettings s = settings(GetParam());
     s.talus_angle = c.talus;

@@ -13,7 +13,7 @@
 namespace sandstroke {
 namespace {
 
-constexpr double dx = 0.003;
+constexpr double plane_cell = 0.003;
 
 /// Rises by `slope` (rise over run) towards `direction` [deg, from +x towards +y].
 class PlaneRule : public SurfaceRule {
@@ -62,8 +62,8 @@ class TiltedPlane : public testing::TestWithParam<Rules> {
 
   /// Four tiles; no whole groups of cells either way.
   static HeightField plane(double slope, double direction, bool by_rule) {
-    HeightField bed(70, 75, dx, std::make_shared<PlaneRule>(slope, direction));
-    return by_rule ? std::move(bed) : HeightField(bed.grid(), dx);
+    HeightField bed(70, 75, plane_cell, std::make_shared<PlaneRule>(slope, direction));
+    return by_rule ? std::move(bed) : HeightField(bed.grid(), plane_cell);
   }
 };
 INSTANTIATE_TEST_SUITE_P(Rules, TiltedPlane,
@@ -90,7 +90,8 @@ TEST_P(TiltedPlane, RestsUpToTheToleranceAndNoFurther) {
             HeightField bed =
                 plane((1.0 + excess) * talus_slope(talus) / compared(direction), direction, by_rule);
             const HeightGrid before = bed.grid();
-            const RelaxationOutcome outcome = make_relaxer(settings(talus, tolerance), dx)->relax(bed);
+            const RelaxationOutcome outcome =
+                make_relaxer(settings(talus, tolerance), plane_cell)->relax(bed);
             if (excess < tolerance) {
               EXPECT_EQ(outcome.passes, 0);
               EXPECT_EQ(outcome.super_steps, 0);
@@ -113,7 +114,7 @@ TEST_P(TiltedPlane, SaysHowSteepItIsWhereNothingMayMove) {
     RelaxationSettings none = settings(30.0, 1e-3);
     none.max_passes = 0;
     HeightField bed = plane(talus_slope(37.0), direction, false);
-    const RelaxationOutcome outcome = make_relaxer(none, dx)->relax(bed);
+    const RelaxationOutcome outcome = make_relaxer(none, plane_cell)->relax(bed);
     EXPECT_NEAR(outcome.residual, talus_slope(37.0) * compared(direction) / talus_slope(30.0) - 1.0, 1e-10);
     EXPECT_FALSE(outcome.converged);
   }
@@ -123,14 +124,14 @@ TEST_P(TiltedPlane, ComesToRestWithinTheTolerance) {
   for (const double direction : {0.0, 45.0, 110.0}) {
     RelaxationSettings to_the_end = settings(30.0, 1e-3);
     to_the_end.max_passes = 100'000;
-    HeightField bed(20, 27, dx,
+    HeightField bed(20, 27, plane_cell,
                     std::make_shared<PlaneRule>(talus_slope(31.0) / compared(direction), direction));
     const HeightGrid before = bed.grid();
-    const RelaxationOutcome outcome = make_relaxer(to_the_end, dx)->relax(bed);
+    const RelaxationOutcome outcome = make_relaxer(to_the_end, plane_cell)->relax(bed);
     EXPECT_GT(outcome.passes, 0);
     EXPECT_TRUE(outcome.converged);
     EXPECT_LE(outcome.residual, 1e-3 * (1.0 + 1e-9));
-    EXPECT_NEAR(bed.volume(), before.sum() * dx * dx, 1e-12 * outcome.moved_volume + 1e-20);
+    EXPECT_NEAR(bed.volume(), before.sum() * plane_cell * plane_cell, 1e-12 * outcome.moved_volume + 1e-20);
     EXPECT_LT(bed.grid().square().sum(), before.square().sum());
   }
 }
@@ -142,7 +143,7 @@ TEST_P(TiltedPlane, ByRuleIsLookedAtWhereItMayMove) {
     const RelaxationSettings relaxation = settings(30.0, 1e-3);
     const std::int64_t tiles = ratio > 1.0 ? 4 : 0;
     EXPECT_EQ(tiles_to_relax(bed, relaxation), tiles);
-    const RelaxationOutcome outcome = make_relaxer(relaxation, dx)->relax(bed);
+    const RelaxationOutcome outcome = make_relaxer(relaxation, plane_cell)->relax(bed);
     EXPECT_EQ(outcome.tiles_active_max, tiles);
     EXPECT_EQ(outcome.wake_ups, tiles);
     EXPECT_EQ(outcome.cells_visited, tiles ? 70 * 75 : 0);
