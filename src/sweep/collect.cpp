@@ -9,6 +9,9 @@
 namespace sandstroke {
 namespace {
 
+/// By its columns.
+constexpr OutputKind table_output{"a sweep's table", "point,", ",verdict,"};
+
 /// A row per point: point, axes, verdict, metrics, reason.
 Table sweep_table(const CollectedSweep& sweep) {
   Table table;
@@ -46,10 +49,10 @@ CollectReport collect(const SweepFolder& folder) {
   CollectReport report;
   const CollectedSweep sweep(folder, report);
   write_sweep_file(folder.path() / "sweep.h5", sweep, report.content_hash);
-  write_text_file(folder.path() / "sweep.csv", csv_text(sweep_table(sweep)));
+  write_text_file(folder.path() / "sweep.csv", csv_text(sweep_table(sweep)), table_output);
   const nlohmann::ordered_json data = sweep_page_data(sweep, report);
   const std::string title = "Sweep " + data["title"].get<std::string>();
-  write_text_file(folder.path() / "sweep.html", html_page(title, PageScript::sweep, data));
+  write_text_file(folder.path() / "sweep.html", html_page(title, PageScript::sweep, data), page_output);
   return report;
 }
 
