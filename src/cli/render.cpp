@@ -160,6 +160,7 @@ int render(const RenderArguments& arguments) {
     return arguments.video.empty() ? draw_pictures(run, times, view, arguments)
                                    : draw_film(run, times, scene, view, arguments);
   }
+  RunPainter painter(run, view, arguments.contour_interval.value_or(0.0));
   HeightGrid surface;
   std::string ending = ".png";
   double time = 0.0;
@@ -185,7 +186,6 @@ int render(const RenderArguments& arguments) {
   const fs::path output = default_output(arguments, ending);
   check_picture_name(output);
   check_output(output, {arguments.run}, picture_output);
-  RunPainter painter(run, view, arguments.contour_interval.value_or(0.0));
   write_png(output, painter.draw(surface, tool ? std::optional(time) : std::nullopt));
   fmt::print("{}\n", output.string());
   return 0;

@@ -21,13 +21,14 @@ bool overwrite = false;
 bool is_own(const fs::path& path, const OutputKind& kind) {
   constexpr std::size_t head = 64 * 1024;  // bytes
   std::ifstream file(path, std::ios::binary);
-  if (!file) return false;
+  if (!file) return !fs::exists(fs::symlink_status(path));  // somebody may have taken it away
   std::string text(head, '\0');
   file.read(text.data(), head);
   text.resize(static_cast<std::size_t>(file.gcount()));
   if (text.empty()) return true;
   return !kind.begin.empty() && text.starts_with(kind.begin) &&
-         (text.size() <= kind.nothing || text.find(kind.mark) != std::string::npos);
+         (text.find_first_not_of('\0', kind.header) == std::string::npos ||
+          text.find(kind.mark) != std::string::npos);
 }
 
 void refuse(const fs::path& path, const OutputKind& kind) {

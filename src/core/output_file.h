@@ -19,8 +19,8 @@ namespace sandstroke {
 struct OutputKind {
   std::string_view name = {};  ///< "a run file"
   std::string_view begin = {}, mark = {};
-  std::size_t nothing = 0;  ///< bytes: what begins so and is no larger holds nothing yet
-  bool kept = false;        ///< it cannot be made again, so not even one of its own kind replaces it
+  std::size_t header = 0;  ///< bytes: what begins so and has only zeros after these holds nothing yet
+  bool kept = false;       ///< it cannot be made again, so not even one of its own kind replaces it
 };
 
 /// What --overwrite says, of all outputs: they replace any file.

@@ -61,9 +61,9 @@ class Hdf5Chunks {
   std::size_t rows_ = 1, cols_ = 1;
 };
 
-/// Outputs that are HDF5 files. One without any object takes 800 bytes.
+/// Outputs that are HDF5 files. Until the first flush there is but their superblock.
 constexpr OutputKind hdf5_output(std::string_view name, std::string_view mark, bool kept = false) {
-  return {name, hdf5_signature, mark, 800, kept};
+  return {name, hdf5_signature, mark, 96, kept};
 }
 
 /// An HDF5 file being written as PATH.part and renamed to PATH by finish(). Groups on the way to a dataset

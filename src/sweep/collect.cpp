@@ -1,6 +1,7 @@
 #include "sweep/collect.h"
 
 #include "core/output_file.h"
+#include "io/input_kind.h"
 #include "io/table.h"
 #include "report/page.h"
 #include "sweep/sweep_file.h"
@@ -45,7 +46,14 @@ Table sweep_table(const CollectedSweep& sweep) {
 
 }  // namespace
 
+void check_collectable(const SweepFolder& folder) {
+  check_output(folder.path() / "sweep.h5", {}, output_kind(InputKind::sweep));
+  check_output(folder.path() / "sweep.csv", {}, table_output);
+  check_output(folder.path() / "sweep.html", {}, page_output);
+}
+
 CollectReport collect(const SweepFolder& folder) {
+  check_collectable(folder);
   CollectReport report;
   const CollectedSweep sweep(folder, report);
   write_sweep_file(folder.path() / "sweep.h5", sweep, report.content_hash);

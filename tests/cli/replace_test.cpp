@@ -24,9 +24,8 @@ struct Writer {
 const std::vector<Writer> writers = {
     {{"run", "scene.toml", "-o", "b.h5", "--png", "b.png"}, {"b.h5", "b.xdmf", "b.png"}},
     {{"run", "scene.toml"}, {"scene.h5", "scene.xdmf"}},
-    {{"render", "a.h5", "-o", "c.png"}, {"c.png"}},
     {{"render", "a.h5"}, {"a.png"}},
-    {{"render", "a.h5", "--frame", "all"}, {"a_frames/frame_0000.png", "a_frames/frame_0001.png"}},
+    {{"render", "a.h5", "--frame", "all"}, {"a_frames/frame_0000.png"}},
     {{"compare", "a.h5", "a.h5", "--report", "page", "--junit", "j.xml"}, {"page/compare.html", "j.xml"}},
     {{"golden", "check", "--report", "pages", "--junit", "g.xml"}, {"pages/tiny.html", "g.xml"}},
     {{"golden", "update", "tiny"},
@@ -38,16 +37,23 @@ const std::vector<Writer> writers = {
     {{"sweep", "collect", "sweep"}, {"sweep/sweep.h5", "sweep/sweep.csv", "sweep/sweep.html"}},
 };
 
-/// A folder with what all of them read.
-fs::path folder_for_writers() {
+/// With a scene and its golden entry.
+fs::path folder_with_golden_scene() {
   const fs::path folder = test_folder(), scenes = folder / "strokes/tiny";
   fs::create_directories(scenes);
   for (const char* file : {"scene.toml", "line.toml"}) fs::copy(folder / file, scenes);
+  const ProgramResult made = run_program({"golden", "update", "tiny"}, folder);
+  EXPECT_EQ(made.exit_code, 0) << made.err;
+  return folder;
+}
+
+/// With what all of them read.
+fs::path folder_for_writers() {
+  const fs::path folder = folder_with_golden_scene();
   write_file(folder / "table.csv", "x,y,z\n0,0,0\n0.01,0,0\n");
   write_file(folder / "sweep.toml", "[sweep]\nscene = \"scene.toml\"\n[axes]\nforce.k_s = [500.0, 1000.0]\n");
-  for (const Words& words : {Words{"run", "scene.toml", "-o", "a.h5", "--frames", "5"},
-                             {"golden", "update", "tiny"},
-                             {"sweep", "sweep.toml", "-o", "sweep"}}) {
+  for (const Words& words :
+       {Words{"run", "scene.toml", "-o", "a.h5", "--frames", "1"}, {"sweep", "sweep.toml", "-o", "sweep"}}) {
     const ProgramResult made = run_program(words, folder);
     EXPECT_EQ(made.exit_code, 0) << words[0] << made.err;
   }
@@ -192,7 +198,7 @@ TEST(CliReplace, APageIsNoInput) {
 }
 
 TEST(CliReplace, AGoldenEntryKeepsTheFilesOfOthers) {
-  const fs::path folder = folder_for_writers(), entry = folder / "golden/tiny";
+  const fs::path folder = folder_with_golden_scene(), entry = folder / "golden/tiny";
   write_file(entry / "notes.txt", "precious");
   fs::permissions(entry / "notes.txt", fs::perms(0400));
   fs::create_directory(entry / "more");
@@ -212,7 +218,6 @@ TEST(CliReplace, AGoldenEntryKeepsTheFilesOfOthers) {
   EXPECT_EQ(fs::status(entry).permissions(), fs::perms(0700));
   EXPECT_EQ(std::distance(fs::directory_iterator(entry), fs::directory_iterator()), 6);
   EXPECT_EQ(std::distance(fs::directory_iterator(folder / "golden"), fs::directory_iterator()), 1);
-  EXPECT_EQ(run_program({"golden", "check"}, folder).exit_code, 0);
 }
 
 TEST(CliReplace, ANameWithoutRoomForItsEndingIsRefusedBeforeTheWork) {

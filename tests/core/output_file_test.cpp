@@ -100,6 +100,8 @@ TEST(OutputFile, TakesNoPlaceOfWhatIsNotOfItsKind) {
            {"list\n" + far + "by us", marked, false},
            {"list\n", {"a list", "list\n", "by us", 5}, true},
            {"list\n.", {"a list", "list\n", "by us", 5}, false},
+           {std::string("list\n\0\0", 7), {"a list", "list\n", "by us", 5}, true},
+           {std::string("list\n\0.", 7), {"a list", "list\n", "by us", 5}, false},
            {"lis", {"a list", "list\n", "by us", 5}, false},
            {"list\nby us", one, false},
        }) {

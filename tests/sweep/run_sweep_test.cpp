@@ -120,7 +120,7 @@ TEST_F(ASweep, ARerunDoesOnlyWhatIsMissingOrWasCutOff) {
   s.run(whole, {});
   s.run(broken, {});
   fs::remove(broken.point_file(1));
-  fs::resize_file(broken.point_file(5), 100);
+  fs::resize_file(broken.point_file(5), 2000);
   put_text(broken.path() / "points/000004.h5.part", hdf5_signature);  // of a run that was killed
   const SweepCounters counters = s.run(broken, {});
   EXPECT_EQ(counters.done_before, 4u);
