@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "cli/commands.h"
 #include "cli/print_json.h"
@@ -13,6 +14,7 @@
 #include "core/error.h"
 #include "core/output_file.h"
 #include "io/png_file.h"
+#include "report/page.h"
 
 namespace sandstroke {
 namespace {
@@ -28,9 +30,7 @@ struct CompareArguments {
 fs::path page_of(const CompareArguments& arguments) { return arguments.report / "compare.html"; }
 
 void write_page(const CompareArguments& arguments, const std::function<ComparePage()>& make) {
-  if (arguments.report.empty()) return;
-  make_folder(arguments.report);
-  write_text_file(page_of(arguments), make().html());
+  if (!arguments.report.empty()) write_text_file(page_of(arguments), make().html(), page_output);
 }
 
 Comparison compare_run_files(const CompareArguments& arguments) {
@@ -56,10 +56,16 @@ int compare(const CompareArguments& arguments) {
         "{} and {}: one is a picture and the other is not; compare two run files or two PNG pictures",
         arguments.golden.string(), arguments.run.string());
   }
-  if (!arguments.junit.empty()) check_output(arguments.junit, {arguments.golden, arguments.run});
+  std::vector<fs::path> files = {arguments.golden, arguments.run};
+  if (!arguments.report.empty()) {
+    make_folder(arguments.report);
+    check_output(page_of(arguments), files, page_output);
+    files.push_back(page_of(arguments));
+  }
+  if (!arguments.junit.empty()) check_output(arguments.junit, files, junit_output);
   const Comparison comparison =
       has_picture_name(arguments.golden) ? compare_pictures(arguments) : compare_run_files(arguments);
-  if (!arguments.junit.empty()) write_text_file(arguments.junit, junit_report({comparison}));
+  if (!arguments.junit.empty()) write_text_file(arguments.junit, junit_report({comparison}), junit_output);
   if (arguments.json) {
     print_json(to_json(comparison));
   } else {

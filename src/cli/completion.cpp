@@ -51,7 +51,8 @@ std::string dashed(const CLI::Option& option, const std::string& before, const c
 
 std::string tables(const CLI::App& app) {
   std::string commands, options, values;
-  const std::string everywhere = dashed(*app.get_option("--quiet"), "", " ");
+  const std::string everywhere =
+      dashed(*app.get_option("--quiet"), "", " ") + " " + dashed(*app.get_option("--overwrite"), "", " ");
   for (const NamedCommand& command : command_tree(app)) {
     std::string below, names = command.app == &app ? "" : " " + everywhere;
     for (const CLI::App* child : command.app->get_subcommands([](const CLI::App*) { return true; }))

@@ -15,6 +15,7 @@
 #include "core/interrupt.h"
 #include "core/output_file.h"
 #include "io/scene_toml.h"
+#include "report/page.h"
 #include "run/run_scene.h"
 
 namespace sandstroke {
@@ -50,11 +51,21 @@ std::string summary(const Comparison& comparison) {
 }
 
 int check(const GoldenArguments& arguments) {
-  if (!arguments.junit.empty()) check_output(arguments.junit, {});
+  const std::vector<std::string> names = golden_names(arguments.folders, arguments.names);
+  std::vector<fs::path> files;
+  if (!arguments.junit.empty()) {
+    check_output(arguments.junit, {}, junit_output);
+    files.push_back(arguments.junit);
+  }
+  if (!arguments.report.empty()) {
+    make_folder(arguments.report);
+    for (const std::string& name : names)
+      check_output(golden_page_path(arguments.report, name), files, page_output);
+  }
   std::vector<Comparison> comparisons;
   nlohmann::json scenes = nlohmann::json::array();
   bool passed = true;
-  for (const std::string& name : golden_names(arguments.folders, arguments.names)) {
+  for (const std::string& name : names) {
     comparisons.push_back(
         check_golden(name, arguments.folders, run_golden_scene, Tolerances{}, arguments.report));
     if (interrupted()) return 128 + interrupted();
@@ -63,7 +74,7 @@ int check(const GoldenArguments& arguments) {
     if (!arguments.json) fmt::print("{}", summary(comparisons.back()));
     std::fflush(stdout);
   }
-  if (!arguments.junit.empty()) write_text_file(arguments.junit, junit_report(comparisons));
+  if (!arguments.junit.empty()) write_text_file(arguments.junit, junit_report(comparisons), junit_output);
   if (arguments.json)
     print_json(nlohmann::json{{"passed", passed}, {"scenes", scenes}});
   else if (!arguments.report.empty() &&

@@ -1,6 +1,8 @@
 #include <spdlog/spdlog.h>
 
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <filesystem>
 #include <memory>
 #include <new>
@@ -14,6 +16,7 @@
 #include "core/interrupt.h"
 #include "core/log.h"
 #include "core/machine.h"
+#include "core/output_file.h"
 #include "core/version.h"
 #include "sand/instruction_set.h"
 
@@ -54,6 +57,11 @@ int run_program(int argc, char** argv) {
       "Begin with: sandstroke init FOLDER. Help on a command: sandstroke run --help");
   bool quiet = false;
   app.add_flag("-q,--quiet", quiet, "Print only results, warnings and errors");
+  bool overwrite = false;
+  app.add_flag(
+      "--overwrite", overwrite,
+      "Let outputs replace any file. Without it they replace only what sandstroke wrote there, and no "
+      "recording and no film");
 
   Command chosen;
   add_init_command(app, chosen);
@@ -78,19 +86,30 @@ int run_program(int argc, char** argv) {
     throw_input_error("{}", sentence);
   }
   start_log(quiet);
+  if (overwrite) overwrite_outputs();
   catch_interrupts();
-  const int exit_code = chosen();
-  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
-    throw_io_error("the standard output cannot be written; free disk space, or redirect it");
-  return exit_code;
+  return chosen();
+}
+
+int complain_of_output(int error) {
+  complain(fmt::format("standard output: cannot be written ({}); free disk space, or redirect it",
+                       std::strerror(error)));
+  return io_error;
+}
+
+/// What was printed, also by --help and --version, must have arrived.
+int check_output_taken(int exit_code) {
+  const bool taken = std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
+  return taken ? exit_code : complain_of_output(errno);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
   try {
+    check_stack();
     share_heap_if_limited();
-    return run_program(argc, argv);
+    return check_output_taken(run_program(argc, argv));
   } catch (const Error& failure) {
     complain(failure.what());
     return failure.exit_code();
@@ -102,6 +121,7 @@ int main(int argc, char** argv) {
                          failure.code().message()));
     return io_error;
   } catch (const std::system_error& failure) {
+    if (std::ferror(stdout) != 0) return complain_of_output(failure.code().value());  // of fmt::print
     return complain_of_threads(failure);
   } catch (const std::exception& failure) {
     if (std::string_view(failure.what()).starts_with("pthread_create"))  // TBB's

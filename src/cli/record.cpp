@@ -13,6 +13,7 @@
 #include "core/output_file.h"
 #include "io/recording_file.h"
 #include "io/scene_toml.h"
+#include "io/stroke_format.h"
 #include "io/surface_file.h"
 #include "record/journal.h"
 #include "record/real_time.h"
@@ -29,7 +30,7 @@ struct RecordArguments {
   double duration = 0.0;  // s; 0: not given
   double rate = 0.0;      // Hz; 0: not given
   int stop_switch = -1;   // not given
-  bool list = false, check = false, overwrite = false, no_memory_lock = false, json = false;
+  bool list = false, check = false, no_memory_lock = false, json = false;
 };
 
 // Hz. Slower, the watchdog would take every tick for a stall; faster, no device is.
@@ -57,13 +58,6 @@ RecorderSettings recorder_settings(const RecordArguments& arguments, const std::
   return settings;
 }
 
-/// A recording cannot be made again: nothing that may be one is written over unasked.
-void check_free(const fs::path& output, bool overwrite) {
-  if (fs::exists(output) && !overwrite)
-    throw_input_error("{}: already exists; name another file, or add --overwrite", output.string());
-  check_no_journal(journal_path(output));
-}
-
 /// The files that may not be written over, for they are read.
 std::vector<fs::path> inputs(const RecordArguments& arguments, const std::optional<Scene>& felt) {
   std::vector<fs::path> files;
@@ -88,7 +82,7 @@ RecordingReport record_stroke(HapticDevice& device, FeltWorld* world, const Reco
 }
 
 /// The journal goes once the stroke is whole, or where there is nothing in it.
-void write_stroke(const fs::path& output, const RecordingFooter& recorded, bool overwrite) {
+void write_stroke(const fs::path& output, const RecordingFooter& recorded) {
   const fs::path journal = journal_path(output);
   if (recorded.ticks.recorded == 0) {
     fs::remove(journal);
@@ -103,9 +97,6 @@ void write_stroke(const fs::path& output, const RecordingFooter& recorded, bool 
                    failure.what());
   }
   try {
-    if (fs::exists(output) && !overwrite)
-      throw_io_error("{}: was made by somebody else during the recording, and is not replaced",
-                     output.string());
     write_recording_file(output, *reader);
   } catch (const Error& failure) {
     throw_io_error("{}. The recording is in {}; make a stroke of it with: sandstroke stroke repair {}",
@@ -142,8 +133,8 @@ int record(const RecordArguments& arguments) {
   std::optional<Scene> felt;
   if (!arguments.felt_scene.empty()) felt = load_scene(arguments.felt_scene, arguments.overrides);
   const RecorderSettings settings = recorder_settings(arguments, felt);
-  check_output(arguments.output, inputs(arguments, felt));
-  check_free(arguments.output, arguments.overwrite);
+  check_output(arguments.output, inputs(arguments, felt), recording_output);
+  check_no_journal(journal_path(arguments.output));
   const std::unique_ptr<HapticDevice> device =
       find_device(arguments.device, felt ? felt->force : ForceSettings{});
   RecordingHeader header;
@@ -157,7 +148,7 @@ int record(const RecordArguments& arguments) {
   }
   const RecordingReport report =
       record_stroke(*device, sand ? &*sand : nullptr, settings, std::move(header), arguments.output);
-  write_stroke(arguments.output, report.footer, arguments.overwrite);
+  write_stroke(arguments.output, report.footer);
   std::optional<LiveSandReport> felt_sand;
   if (sand) felt_sand = sand->finish();
   print_recording(report, felt_sand, arguments.output, arguments.json);
@@ -249,7 +240,6 @@ void add_record_command(CLI::App& app, Command& chosen) {
       ->check(CLI::Range(0, highest_loop_priority))
       ->capture_default_str();
   command->add_flag("--no-memory-lock", arguments->no_memory_lock, "Do not lock the memory of the program");
-  command->add_flag("--overwrite", arguments->overwrite, "Replace STROKE.h5 if it exists");
   command->add_flag("--json", arguments->json, "One JSON object in SI units instead of a table");
   command->footer(
       "A recording is complete if a time, its stroke, a switch or a key (q, Esc, Enter, space) ends it.\n"

@@ -113,6 +113,7 @@ int draw_pictures(const RunFile& run, const std::vector<double>& times, const Vi
   const fs::path folder = default_output(arguments, "_frames");
   make_folder(folder);
   const auto picture = [&](std::size_t k) { return folder / (frame_name(k) + ".png"); };
+  for (std::size_t k = 0; k < times.size(); ++k) check_output(picture(k), {arguments.run}, picture_output);
   const int exit_code = draw_frames(run, times, view, arguments, [&](std::size_t k, const Image& image) {
     write_png(picture(k), image);
     return true;
@@ -127,7 +128,7 @@ int draw_pictures(const RunFile& run, const std::vector<double>& times, const Vi
 
 int draw_film(const RunFile& run, const std::vector<double>& times, const Scene& scene,
               const ViewSettings& view, const RenderArguments& arguments) {
-  check_output(arguments.video, {arguments.run});
+  check_output(arguments.video, {arguments.run}, film_output);
   const double own_rate = std::min(scene.output.frames, scene.device.servo_rate);
   const double rate = arguments.fps.value_or(own_rate);
   FilmWriter film(arguments.video, view.width, view.height, rate);
@@ -184,7 +185,7 @@ int render(const RenderArguments& arguments) {
   }
   const fs::path output = default_output(arguments, ending);
   check_picture_name(output);
-  check_output(output, {arguments.run});
+  check_output(output, {arguments.run}, picture_output);
   write_png(output, painter.draw(surface, tool ? std::optional(time) : std::nullopt));
   fmt::print("{}\n", output.string());
   return 0;

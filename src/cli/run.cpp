@@ -16,6 +16,7 @@
 #include "io/input_kind.h"
 #include "io/png_file.h"
 #include "io/run_file.h"
+#include "io/run_writer.h"
 #include "io/scene_toml.h"
 #include "io/toml_reader.h"
 #include "run/run_scene.h"
@@ -134,17 +135,16 @@ void print_summary(const RunResult& r, const Scene& scene, const std::string& ou
               fmt::format("+-{:.3g} N rms, {:.3g} N at most", r.error->force_rms, r.error->force_max));
 }
 
-/// A name that nobody chose must not cost another scene's finished run, or any other file.
+/// A name that nobody chose must not cost another scene's finished run.
 void check_default_output(const fs::path& output, const fs::path& scene_path, const Scene& scene) {
-  if (!fs::exists(output)) return;
-  const std::string remedy = "name another file with -o, or this one to replace it";
-  if (kind_of(output) != InputKind::run)
-    throw_input_error("{}: exists and is not a run file; {}", output.string(), remedy);
+  if (kind_of(output) != InputKind::run) return;
   const RunFile run(output);
   if (run.scene_text() == scene_text(scene)) return;
   for (const auto& [name, value] : run.provenance())
     if (name == "scene_file" && value != scene_file_entry(scene_path, output))
-      throw_input_error("{}: is the run of another scene ({}); {}", output.string(), value, remedy);
+      throw_input_error(
+          "{}: is the run of another scene ({}); name another file with -o, or this one to replace it",
+          output.string(), value);
 }
 
 void warn_of(const RunResult& result, const Scene& scene) {
@@ -174,20 +174,21 @@ int run(const RunArguments& arguments) {
   if (arguments.frames >= 0.0) overrides.push_back(fmt::format("output.frames={}", arguments.frames));
   const Scene scene = load_scene(scene_path, overrides);
   const std::string output = arguments.output.empty() ? scene_path.stem().string() + ".h5" : arguments.output;
-  if (arguments.output.empty()) check_default_output(output, scene_path, scene);
 
   std::vector<fs::path> files = {scene_path};
   const fs::path folder = scene_path.parent_path();
   if (scene.stroke) files.push_back(folder / scene.stroke->file);
   if (scene.bed.surface.kind == SurfaceKind::file) files.push_back(folder / scene.bed.surface.file);
-  for (const fs::path& written : {fs::path(output), beside(output, ".xdmf"), fs::path(arguments.picture)}) {
-    if (written.empty()) continue;
-    check_output(written, files);
+  const auto check = [&files](const fs::path& written, const OutputKind& kind) {
+    check_output(written, files, kind);
     files.push_back(written);
-  }
-
+  };
+  check(output, output_kind(InputKind::run));
+  check(beside(output, ".xdmf"), xdmf_output);
+  if (arguments.output.empty()) check_default_output(output, scene_path, scene);
   if (!arguments.picture.empty()) {
     check_picture_name(arguments.picture);
+    check(arguments.picture, picture_output);
     check_drawable(scene.bed.rows, scene.bed.cols);
   }
 

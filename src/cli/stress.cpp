@@ -69,7 +69,7 @@ void print_summary(const StressReport& report) {
 int stress(const StressArguments& arguments) {
   const fs::path page = arguments.output / "stress.html";
   make_folder(arguments.output);
-  check_output(page, {});
+  check_output(page, {}, page_output);
   Progress bar("stress");
   StressOptions options;
   options.quick = arguments.quick;
@@ -82,7 +82,8 @@ int stress(const StressArguments& arguments) {
   data["machine"] = describe_machine();
   data["quick"] = arguments.quick;
   data["seconds"] = watch.seconds();
-  write_text_file(page, html_page("sandstroke stress: numerical stability", PageScript::stress, data));
+  write_text_file(page, html_page("sandstroke stress: numerical stability", PageScript::stress, data),
+                  page_output);
   if (arguments.json) {
     print_json(data);
   } else {

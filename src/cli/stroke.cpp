@@ -9,6 +9,7 @@
 #include "core/output_file.h"
 #include "io/stroke_csv.h"
 #include "io/stroke_file.h"
+#include "io/stroke_format.h"
 
 namespace sandstroke {
 namespace {
@@ -47,7 +48,7 @@ void add_script(CLI::App& stroke_app, Command& chosen) {
       "Example:  sandstroke stroke script stroke.toml stroke.h5");
   app->callback([&chosen, options] {
     chosen = [options] {
-      check_output(options->out, {options->in});
+      check_output(options->out, {options->in}, stroke_output);
       if (fs::path(options->in).extension() != ".toml")
         throw_input_error("{}: is not a script; name a .toml file", options->in);
       write_and_tell(options->out, load_stroke(options->in, ForceSettings{}));
@@ -183,7 +184,7 @@ void add_convert(CLI::App& stroke_app, Command& chosen) {
   app->footer(convert_examples);
   app->callback([&chosen, options] {
     chosen = [options] {
-      check_output(options->out, {options->in});
+      check_output(options->out, {options->in}, stroke_output);
       write_and_tell(options->out, convert(*options));
       return 0;
     };

@@ -8,6 +8,7 @@
 #include "core/output_file.h"
 #include "io/recording_file.h"
 #include "io/stroke_file.h"
+#include "io/stroke_format.h"
 #include "record/journal.h"
 #include "record/recording_json.h"
 
@@ -36,10 +37,7 @@ Task task_of(const RepairArguments& arguments) {
   if (!fs::exists(task.journal))
     throw_io_error("{}: does not exist; name a recording that was cut off, {}", task.journal.string(),
                    journal_path("STROKE.h5").string());
-  check_output(task.output, {task.journal});
-  if (fs::exists(task.output))
-    throw_input_error("{}: already exists; name another file: sandstroke stroke repair {} OTHER.h5",
-                      task.output.string(), task.journal.string());
+  check_output(task.output, {task.journal}, recording_output);
   return task;
 }
 

@@ -134,6 +134,7 @@ int sweep(const SweepArguments& arguments) {
   if (arguments.slurm.submit) check_slurm();
   const SweepFolder folder = SweepFolder::make(
       arguments.output.empty() ? arguments.plan.stem() : arguments.output, sweep.manifest());
+  check_collectable(folder);
   if (arguments.slurm.submit)
     return submit_sweep(arguments.slurm, arguments.plan, folder, sweep.groups(), arguments.json);
   SweepCounters counters;

@@ -25,6 +25,7 @@ Comparison compare_runs(const RunFile& golden, const RunFile& run, const Toleran
   add_checks(checks, "final height", [&] {
     return std::vector{height_check("final height", golden.final_bed(), run.final_bed(), tolerances.height)};
   });
+  add_checks(checks, "frames", [&] { return std::vector{frames_check(golden, run)}; });
   add_checks(checks, "trace",
              [&] { return trace_checks(whole_trace(golden), whole_trace(run), tolerances); });
   return comparison;

@@ -24,6 +24,7 @@ namespace fs = std::filesystem;
 constexpr const char* content_name = "golden.h5";
 constexpr const char* picture_name = "picture.png";
 constexpr const char* provenance_name = "provenance.toml";
+constexpr OutputKind provenance_output{"a golden entry's provenance", "version = \"", "\nscene_hash = \""};
 
 constexpr double height_quantum = 0x1p-30;   // m
 constexpr double initial_quantum = 0x1p-20;  // m
@@ -87,8 +88,7 @@ void write_content(const fs::path& path, const RunFile& run) {
       changed_cells(HeightGrid::Zero(change.rows(), change.cols()), change, 0.5 * height_quantum);
   if (block.empty()) block = {0, 1, 0, 1};
 
-  Hdf5Writer file(path);
-  write_format(file, InputKind::golden);
+  Hdf5Writer file(path, output_kind(InputKind::golden));
   file.make_group("/surface");
   file.attribute("/surface", "rows", static_cast<double>(change.rows()));
   file.attribute("/surface", "cols", static_cast<double>(change.cols()));
@@ -122,6 +122,33 @@ std::string provenance_text(const RunFile& run, const RunResult& result) {
       result.ticks, result.relaxation.passes, result.relaxation.residual, result.volume_drift);
 }
 
+/// Where the new entry is made, which then changes places with the old one.
+fs::path new_entry(const fs::path& entry) { return part_path(fs::path(entry) += ".new"); }
+
+/// What writing an entry leaves: the old one, or half a new one.
+struct Leftovers {
+  const fs::path& entry;
+  ~Leftovers() {
+    std::error_code ignored;
+    fs::remove_all(new_entry(entry), ignored);
+    drop_part(entry);
+  }
+};
+
+/// Others may keep files in an entry: they come along, and files that are replaced leave their modes.
+void copy_entry(const fs::path& entry, const fs::path& made) {
+  fs::remove_all(made);
+  if (!fs::exists(entry)) {
+    fs::create_directory(made);
+    return;
+  }
+  constexpr fs::copy_options all = fs::copy_options::recursive | fs::copy_options::copy_symlinks;
+  std::error_code no_links;
+  fs::copy(entry, made, all | fs::copy_options::create_hard_links, no_links);
+  if (no_links) fs::copy(entry, made, all | fs::copy_options::overwrite_existing);
+  fs::permissions(made, fs::status(entry).permissions());
+}
+
 Check same_check(const std::string& what, const std::string& entry_name, bool same) {
   return fact_check(
       what, same,
@@ -145,21 +172,28 @@ HeightGrid height_change(const RunFile& run) {
   return final_heights - initial;
 }
 
+void check_golden_replaceable(const fs::path& entry) {
+  if (fs::exists(entry) && !fs::is_directory(entry))
+    throw_io_error("{}: is not a folder; move it away", entry.string());
+  check_replaceable(new_entry(entry), {});
+  check_replaceable(entry / content_name, output_kind(InputKind::golden));
+  check_replaceable(entry / picture_name, picture_output);
+  check_replaceable(entry / provenance_name, provenance_output);
+}
+
 void write_golden(const fs::path& entry, const GoldenRun& run) {
   try {
     if (entry.has_parent_path()) fs::create_directories(entry.parent_path());
-    const FileLock lock = take_part(entry);
-    const fs::path part = part_path(fs::path(entry) += ".new");
-    fs::remove_all(part);
-    fs::create_directory(part);
+    const FileLock lock = take_part(entry, {});
+    const Leftovers at_the_end{entry};
+    const fs::path made = new_entry(entry);
+    copy_entry(entry, made);
     const RunFile file(run.run_file);
-    write_content(part / content_name, file);
-    write_png(part / picture_name, run.picture);
-    write_text_file(part / provenance_name, provenance_text(file, run.result));
-    sync_folder_of(part / content_name);
-    replace_folder(part, entry);
-    fs::remove_all(part);
-    drop_part(entry);
+    write_content(made / content_name, file);
+    write_png(made / picture_name, run.picture);
+    write_text_file(made / provenance_name, provenance_text(file, run.result), provenance_output);
+    sync_folder_of(made / content_name);
+    replace_folder(made, entry);
   } catch (const fs::filesystem_error& failure) {
     throw_io_error("{}: cannot be written ({}); check the folder's rights", entry.string(),
                    failure.code().message());

@@ -37,8 +37,11 @@ struct GoldenRun {
   RunResult result;
 };
 
-/// Puts a golden entry in place of what is there, if anything, as a whole or not at all. Error: input where
-/// the run is not complete and finite; io.
+/// To be asked before the run: that the files of an entry may be replaced. Error: input, io.
+void check_golden_replaceable(const std::filesystem::path& entry);
+
+/// Puts a golden entry in place of what is there, if anything, as a whole or not at all. Other files in its
+/// folder stay. Error: input where the run is not complete and finite, or files must not be replaced; io.
 void write_golden(const std::filesystem::path& entry, const GoldenRun& run);
 
 /// golden.h5, read back.

@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "core/output_file.h"
 #include "core/temporary_folder.h"
+#include "report/page.h"
 
 namespace sandstroke {
 namespace {
@@ -74,7 +75,7 @@ Comparison check_golden(const std::string& name, const GoldenFolders& folders, c
   if (!report.empty()) {
     make_folder(report);
     write_text_file(golden_page_path(report, name),
-                    golden_page(name, folders.entry(name), run, comparison, tolerances).html());
+                    golden_page(name, folders.entry(name), run, comparison, tolerances).html(), page_output);
   }
   return comparison;
 }
@@ -87,6 +88,7 @@ bool update_golden(const std::string& name, const GoldenFolders& folders, const 
   if (!fs::exists(scene))
     throw_input_error("{}: {} does not exist; check the name and --strokes", name, scene.string());
   make_folder(folders.golden);  // or refused before the run
+  check_golden_replaceable(folders.entry(name));
   const TemporaryFolder folder;
   const GoldenRun run = runner(scene, folder / "run.h5");
   if (run.result.interrupted) return false;

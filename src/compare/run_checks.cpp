@@ -3,6 +3,7 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <cmath>
+#include <utility>
 
 #include "compare/field_difference.h"
 #include "compare/image_difference.h"
@@ -26,6 +27,16 @@ Check column_check(const std::string& name, const ColumnDifference& difference, 
                          : fmt::format("differs by {:.6g} {} {}", difference.max, unit, where));
 }
 
+/// That all positions are numbers. They are not compared: the forces that follow from them are.
+Check positions_check(const std::vector<TickRecord>& golden, const std::vector<TickRecord>& run) {
+  for (const auto& [which, trace] : {std::pair("golden", &golden), {"the run", &run}})
+    for (const TickRecord& tick : *trace)
+      if (!tick.hand.position.allFinite() || !tick.device_position.allFinite())
+        return fact_check("positions", false,
+                          fmt::format("{}: not a number at time {:.6g} s", which, tick.time));
+  return fact_check("positions", true, "all are numbers");
+}
+
 }  // namespace
 
 Check complete_check(const std::string& which, const RunFile& run) {
@@ -33,6 +44,15 @@ Check complete_check(const std::string& which, const RunFile& run) {
   return fact_check(which + " complete", complete,
                     fmt::format("{}: {}", run.name(),
                                 complete ? "ran to its end" : "was cut off before its end; run it again"));
+}
+
+Check frames_check(const RunFile& golden, const RunFile& run) {
+  for (const RunFile* file : {&golden, &run}) {
+    HeightField surface = file->initial_bed();
+    const auto frames = static_cast<int>(file->frame_times().size());
+    for (int k = 0; k < frames; ++k) file->apply_frame(k, surface);
+  }
+  return fact_check("frames", true, "all can be read");
 }
 
 Check height_check(const std::string& name, const HeightField& golden, const HeightField& run, double limit) {
@@ -73,10 +93,12 @@ std::vector<Check> trace_checks(const std::optional<CountedTrace>& golden,
   ticks.limit = static_cast<double>(golden->ticks);
 
   const TraceDifference difference = trace_difference(golden->rows, run->rows);
-  return {ticks, column_check("time", difference.time, time_limit, "s"),
+  return {ticks,
+          column_check("time", difference.time, time_limit, "s"),
           column_check("force", difference.force, tolerances.force, "N"),
           column_check("depth", difference.depth, tolerances.depth, "m"),
-          column_check("level", difference.level, tolerances.depth, "m")};
+          column_check("level", difference.level, tolerances.depth, "m"),
+          positions_check(golden->rows, run->rows)};
 }
 
 std::vector<Check> picture_checks(const Image& golden, const Image& run, const Tolerances& tolerances) {

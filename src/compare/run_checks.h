@@ -26,6 +26,10 @@ struct Tolerances {
 /// True for a complete run.
 Check complete_check(const std::string& which, const RunFile& run);
 
+/// That the surfaces of all frames of both can be read; they are not compared, the final ones are. Error:
+/// input, where one cannot, or holds what is not a number.
+Check frames_check(const RunFile& golden, const RunFile& run);
+
 /// Two surfaces of one bed, cell by cell; beds of other cells fail.
 Check height_check(const std::string& name, const HeightField& golden, const HeightField& run, double limit);
 

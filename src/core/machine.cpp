@@ -96,6 +96,14 @@ void share_heap_if_limited() {
   if (limit_of(RLIMIT_AS) < unlimited) mallopt(M_ARENA_MAX, 1);
 }
 
+void check_stack() {
+  // Drawing by several threads takes 160 kB.
+  constexpr double least = 512 * 1024.0;
+  if (const double stack = limit_of(RLIMIT_STACK); stack < least)
+    throw_io_error("the stack is limited to {:.0f} kB, which is too small; allow {:.0f} kB (ulimit -s)",
+                   stack / 1024.0, least / 1024.0);
+}
+
 double control_group_room(const std::string& groups, const fs::path& mount) {
   double least = unlimited;
   std::istringstream lines(groups);

@@ -24,6 +24,9 @@ void check_memory(double bytes, const std::string& what, const std::string& reme
 /// a heap of its own. To be called before there are threads.
 void share_heap_if_limited();
 
+/// Error: io, where the stack of this process and its threads (ulimit -s) is too small for the libraries.
+void check_stack();
+
 /// What control groups leave [bytes], infinity where they set no limit. groups: the text of
 /// /proc/self/cgroup (cgroups(7)); mount: where their files are.
 double control_group_room(const std::string& groups, const std::filesystem::path& mount);

@@ -13,17 +13,74 @@
 namespace sandstroke {
 namespace fs = std::filesystem;
 
+namespace {
+
+bool overwrite = false;
+
+/// Whether this program wrote it, as an output of this kind; or it holds nothing.
+bool is_own(const fs::path& path, const OutputKind& kind) {
+  constexpr std::size_t head = 64 * 1024;  // bytes
+  std::ifstream file(path, std::ios::binary);
+  if (!file) return !fs::exists(fs::symlink_status(path));  // somebody may have taken it away
+  std::string text(head, '\0');
+  file.read(text.data(), head);
+  text.resize(static_cast<std::size_t>(file.gcount()));
+  if (text.empty()) return true;
+  return !kind.begin.empty() && text.starts_with(kind.begin) &&
+         (text.find_first_not_of('\0', kind.header) == std::string::npos ||
+          text.find(kind.mark) != std::string::npos);
+}
+
+void refuse(const fs::path& path, const OutputKind& kind) {
+  throw_input_error(
+      "{}: already exists{}; name another file, or add --overwrite", path.string(),
+      kind.begin.empty() || kind.kept ? "" : fmt::format(" and is not {} that sandstroke wrote", kind.name));
+}
+
+/// Refuses what no output replaces. False: nothing is in the way that may be somebody's.
+bool check_place(const fs::path& path) {
+  const fs::file_status there = fs::symlink_status(path);
+  if (!fs::exists(there) || fs::is_directory(there)) return false;
+  if (fs::is_symlink(there))
+    throw_io_error("{}: is a link, and sandstroke does not write through links; remove it", path.string());
+  if (!fs::is_regular_file(there))
+    throw_io_error("{}: is not a regular file; remove it or choose another place", path.string());
+  // Not access(): root may write everything, and a folder's owner may replace what is in it.
+  if ((there.permissions() & fs::perms::owner_write) == fs::perms::none)
+    throw_io_error("{}: is write-protected; allow writing (chmod u+w), or name another file", path.string());
+  return !overwrite;
+}
+
+void check_part_replaceable(const fs::path& path, const OutputKind& kind) {
+  const fs::path part = part_path(path);
+  if (check_place(part) && !is_own(part, kind)) refuse(part, kind);
+}
+
+}  // namespace
+
+void overwrite_outputs() { overwrite = true; }
+
+void check_replaceable(const fs::path& path, const OutputKind& kind) {
+  if (check_place(path) && (kind.kept || !is_own(path, kind))) refuse(path, kind);
+}
+
 fs::path part_path(const fs::path& path) {
   fs::path part = path;
   part += ".part";
   return part;
 }
 
-FileLock take_part(const fs::path& path) {
-  std::optional<FileLock> lock = FileLock::try_take(part_path(path));
+FileLock take_part(const fs::path& path, const OutputKind& kind) {
+  check_replaceable(path, kind);
+  const fs::path part = part_path(path);
+  std::optional<FileLock> lock = FileLock::try_take(part);
   if (!lock)
     throw_io_error("{}: another process is writing this file; wait for it, or choose another name",
                    path.string());
+  check_part_replaceable(path, kind);
+  std::error_code not_there, ignored;  // some file systems have no modes
+  const fs::file_status replaced = fs::symlink_status(path, not_there);
+  if (fs::is_regular_file(replaced)) fs::permissions(part, replaced.permissions(), ignored);
   return std::move(*lock);
 }
 
@@ -46,13 +103,15 @@ void check_takes_files(const fs::path& folder) {
 
 }  // namespace
 
-void check_output(const fs::path& output, const std::vector<fs::path>& others) {
+void check_output(const fs::path& output, const std::vector<fs::path>& others, const OutputKind& kind) {
   const auto place = [](const fs::path& path) { return fs::weakly_canonical(fs::absolute(path)); };
-  for (const fs::path& other : others) {
-    std::error_code not_there;
-    if (place(output) == place(other) || fs::equivalent(output, other, not_there))
-      throw_input_error("{}: is named twice in this command; give the output another name", output.string());
-  }
+  for (const fs::path& other : others)
+    for (const fs::path& written : {output, part_path(output)}) {
+      std::error_code not_there;
+      if (place(written) == place(other) || fs::equivalent(written, other, not_there))
+        throw_input_error("{}: is named twice in this command; give the output another name",
+                          written.string());
+    }
   if (fs::is_directory(output)) throw_io_error("{}: is a folder; name a file", output.string());
   if (fs::exists(output) && !fs::is_regular_file(output))
     throw_io_error("{}: is not a regular file; name one", output.string());
@@ -61,6 +120,8 @@ void check_output(const fs::path& output, const std::vector<fs::path>& others) {
     throw_io_error("{}: cannot be written, because the folder {} does not exist; make it first",
                    output.string(), folder.string());
   check_takes_files(folder);
+  check_replaceable(output, kind);
+  check_part_replaceable(output, kind);
 }
 
 void make_folder(const fs::path& folder) {
@@ -84,7 +145,7 @@ void sync_folder_of(const fs::path& path) {
   close(descriptor);
 }
 
-void finish_part(const fs::path& path) {
+void finish_part(const fs::path& path, const OutputKind& kind) {
   const fs::path part = part_path(path);
   // On the disk before it has its name: after a power failure, too, a file of that name is complete.
   const int file = open(part.c_str(), O_RDONLY | O_CLOEXEC);
@@ -94,6 +155,7 @@ void finish_part(const fs::path& path) {
   if (!safe)
     throw_io_error("{}: cannot be written ({}); free disk space or choose another place", path.string(),
                    reason);
+  check_replaceable(path, kind);  // again: work takes time
   std::error_code failure;
   fs::rename(part, path, failure);
   if (failure) {
@@ -103,8 +165,8 @@ void finish_part(const fs::path& path) {
   sync_folder_of(path);
 }
 
-void write_text_file(const fs::path& path, std::string_view text) {
-  const FileLock lock = take_part(path);
+void write_text_file(const fs::path& path, std::string_view text, const OutputKind& kind) {
+  const FileLock lock = take_part(path, kind);
   std::ofstream file(part_path(path), std::ios::binary);
   file << text;
   file.close();
@@ -114,7 +176,7 @@ void write_text_file(const fs::path& path, std::string_view text) {
     throw_io_error("{}: cannot be written ({}); choose another place or free disk space", path.string(),
                    reason);
   }
-  finish_part(path);
+  finish_part(path, kind);
 }
 
 namespace {

@@ -9,22 +9,42 @@
 
 // Where files lie. Read is what the command line names, and what such a file names, relative to where that
 // lies; that must be a regular file, and of an HDF5 file nothing is read that lies in another. Written is
-// only what the command line names, and beside it PATH.part, never through a link in its place.
+// only what the command line names, and beside it PATH.part, never through a link in its place. An output
+// takes the place of a file only where that is empty, where this program wrote it as an output of the same
+// kind, or where --overwrite says so. It keeps that file's mode.
 namespace sandstroke {
+
+/// A kind of output, and how a file is known to be one, also one that is cut off: by its first bytes, and by
+/// a text in its first 64 KiB. Of a kind that has no first bytes none is known.
+struct OutputKind {
+  std::string_view name = {};  ///< "a run file"
+  std::string_view begin = {}, mark = {};
+  std::size_t header = 0;  ///< bytes: what begins so and has only zeros after these holds nothing yet
+  bool kept = false;       ///< it cannot be made again, so not even one of its own kind replaces it
+};
+
+/// What --overwrite says, of all outputs: they replace any file.
+void overwrite_outputs();
+
+/// Refuses what an output of this kind must not replace. Error: input; io, also of a link or a file that is
+/// write-protected. A folder is not refused here.
+void check_replaceable(const std::filesystem::path& path, const OutputKind& kind);
 
 /// The name under which PATH is written until it is complete: PATH.part.
 std::filesystem::path part_path(const std::filesystem::path& path);
 
-/// The right to write PATH, by way of PATH.part, which is there from now on. Error: io, also where another
-/// process has it.
-FileLock take_part(const std::filesystem::path& path);
+/// The right to write PATH, by way of PATH.part, which is there from now on and has PATH's mode. Error: input
+/// or io, where either must not be replaced, also where another process has it.
+FileLock take_part(const std::filesystem::path& path, const OutputKind& kind);
 
 /// Removes PATH.part, which holds nothing that is to be kept. Where it cannot, it stays: never an error.
 void drop_part(const std::filesystem::path& path);
 
 /// Refuses, before any work is done, an output that would destroy something or cannot be: one of the inputs
-/// or other outputs, a folder, a device, or in a folder that is not there or read-only. Error: input or io.
-void check_output(const std::filesystem::path& output, const std::vector<std::filesystem::path>& others);
+/// or other outputs, what must not be replaced, a folder, a device, in a folder that is not there or
+/// read-only, or a name too long for PATH.part. Error: input or io.
+void check_output(const std::filesystem::path& output, const std::vector<std::filesystem::path>& others,
+                  const OutputKind& kind);
 
 /// Makes a folder, and those above it, unless it is there. Error: io, if that fails or nothing can be written
 /// in it.
@@ -36,12 +56,13 @@ std::filesystem::path beside(const std::filesystem::path& path, const std::strin
 /// So that a file's new name, too, survives a power failure, where the file system can do that.
 void sync_folder_of(const std::filesystem::path& path);
 
-/// Writes a complete PATH.part through to the disk and gives it its final name, for good. Error: io.
-void finish_part(const std::filesystem::path& path);
+/// Writes a complete PATH.part through to the disk and gives it its final name, for good. Error: io; input,
+/// where somebody has put there what must not be replaced.
+void finish_part(const std::filesystem::path& path, const OutputKind& kind);
 
 /// Writes a whole file, of text or any bytes, by way of PATH.part, so that PATH is either complete or
-/// untouched. Error: io, also where another process is writing it.
-void write_text_file(const std::filesystem::path& path, std::string_view text);
+/// untouched; without a kind it replaces nothing. Error: input or io, as of take_part() and finish_part().
+void write_text_file(const std::filesystem::path& path, std::string_view text, const OutputKind& kind = {});
 
 /// Error: io, unless it is a regular file that can be read: what a file names as its input is no device and
 /// no pipe, which might never end.

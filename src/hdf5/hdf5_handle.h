@@ -2,9 +2,13 @@
 
 #include <hdf5.h>
 
+#include <string_view>
 #include <utility>
 
 namespace sandstroke {
+
+/// How every HDF5 file of this program begins.
+inline constexpr std::string_view hdf5_signature = "\x89HDF\r\n\x1a\n";
 
 /// Owns one HDF5 identifier.
 class Hdf5Handle {

@@ -8,7 +8,9 @@
 #include <array>
 #include <cerrno>
 #include <cmath>
+#include <cstdint>
 #include <cstring>
+#include <limits>
 
 #include "core/error.h"
 #include "core/file_lock.h"
@@ -159,10 +161,14 @@ std::vector<double> Hdf5Reader::doubles(const std::string& dataset) const {
 
 std::vector<std::uint32_t> Hdf5Reader::integers(const std::string& dataset) const {
   std::vector<hsize_t> shape;
-  const Hdf5Handle opened = open_column(dataset, 1, sizeof(std::uint32_t), shape);
-  std::vector<std::uint32_t> values(shape[0]);
-  read(dataset, opened, H5T_NATIVE_UINT32, values.data());
-  return values;
+  const Hdf5Handle opened = open_column(dataset, 1, sizeof(std::int64_t) + sizeof(std::uint32_t), shape);
+  std::vector<std::int64_t> stored(shape[0]);  // HDF5 would make 0 of -1
+  read(dataset, opened, H5T_NATIVE_INT64, stored.data());
+  constexpr std::int64_t most = std::numeric_limits<std::uint32_t>::max();
+  for (const std::int64_t value : stored)
+    if (value < 0 || value > most)
+      fail(dataset, fmt::format("holds {}; write whole numbers from 0 to {}", value, most));
+  return {stored.begin(), stored.end()};
 }
 
 std::vector<Eigen::Vector3d> Hdf5Reader::vectors(const std::string& dataset) const {

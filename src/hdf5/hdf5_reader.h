@@ -13,9 +13,6 @@
 
 namespace sandstroke {
 
-/// How every HDF5 file of this program begins.
-inline constexpr std::string_view hdf5_signature = "\x89HDF\r\n\x1a\n";
-
 /// An HDF5 file opened for reading. Datasets are named by their path ("/trace/time"). Every error names file
 /// and dataset. Error: io where the file cannot be opened, input where its content is not what is asked for.
 /// No other file is opened for it, and no more memory taken for columns and text than most_unpacked() of its

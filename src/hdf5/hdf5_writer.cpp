@@ -68,13 +68,19 @@ void Hdf5Chunks::write(int row, int col, const double* numbers) {
     throw_write_error(where_);
 }
 
-Hdf5Writer::Hdf5Writer(const std::filesystem::path& path) : path_(path), lock_(take_part(path)) {
+Hdf5Writer::Hdf5Writer(const std::filesystem::path& path, const OutputKind& kind)
+    : path_(path), kind_(kind), lock_(take_part(path, kind)) {
   prepare_hdf5();
   file_ =
       Hdf5Handle(H5Fcreate(part_path(path).c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, without_locks()), H5Fclose);
   try {
     check(file_.valid(), "");
     attribute("/", "written_by", std::string(build));
+    if (!kind.mark.empty()) {
+      attribute("/", "format", std::string(kind.mark));
+      attribute("/", "format_version", 1.0);
+      check(H5Fflush(file_, H5F_SCOPE_GLOBAL) >= 0, "");  // from now on known to be ours
+    }
   } catch (const Error&) {
     drop();
     throw;
@@ -229,7 +235,7 @@ void Hdf5Writer::finish() {
   check(file_.close(), "");
   const std::filesystem::path part = part_path(path_);
   std::filesystem::resize_file(part, std::filesystem::file_size(part));  // gives back what was reserved
-  finish_part(path_);
+  finish_part(path_, kind_);
 }
 
 }  // namespace sandstroke

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/file_lock.h"
+#include "core/output_file.h"
 #include "hdf5/hdf5_handle.h"
 #include "sand/height_field.h"
 
@@ -60,11 +61,19 @@ class Hdf5Chunks {
   std::size_t rows_ = 1, cols_ = 1;
 };
 
+/// Outputs that are HDF5 files. Until the first flush there is but their superblock.
+constexpr OutputKind hdf5_output(std::string_view name, std::string_view mark, bool kept = false) {
+  return {name, hdf5_signature, mark, 96, kept};
+}
+
 /// An HDF5 file being written as PATH.part and renamed to PATH by finish(). Groups on the way to a dataset
-/// are made as needed. Error: io, for whatever the system refuses, and while another process writes it.
+/// are made as needed. Attributes of the root say what it is: written_by, and of a kind that has a mark
+/// format = that mark, and format_version = 1. Error: io, for whatever the system refuses, and while another
+/// process writes it; input, where it must not replace what is there.
 class Hdf5Writer {
  public:
-  explicit Hdf5Writer(const std::filesystem::path& path);
+  /// Without a kind it replaces nothing.
+  explicit Hdf5Writer(const std::filesystem::path& path, const OutputKind& kind = {});
   Hdf5Writer(const Hdf5Writer&) = delete;
   /// Without finish() the .part file stays, if anything was flushed into it.
   ~Hdf5Writer();
@@ -114,6 +123,7 @@ class Hdf5Writer {
   void drop();
 
   std::filesystem::path path_;
+  OutputKind kind_;
   FileLock lock_;  // of the .part file
   Hdf5Handle file_;
   bool flushed_ = false;

@@ -77,7 +77,7 @@ FilmWriter::Part::~Part() {
 }
 
 FilmWriter::FilmWriter(const fs::path& path, int width, int height, double rate)
-    : part_{path, take_part(path)}, ffmpeg_(start_ffmpeg(path, width, height, rate)) {}
+    : part_{path, take_part(path, film_output)}, ffmpeg_(start_ffmpeg(path, width, height, rate)) {}
 
 void FilmWriter::fail(const ChildResult& result) const {
   const std::size_t line = result.err.find_last_of('\n');  // none: from the first on
@@ -98,7 +98,7 @@ bool FilmWriter::finish() {
   if (!result || (result->exit_code != 0 && interrupted())) return false;
   if (result->exit_code != 0) fail(*result);
   part_.keep = true;
-  finish_part(part_.path);
+  finish_part(part_.path, film_output);
   return true;
 }
 

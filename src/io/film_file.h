@@ -6,9 +6,13 @@
 
 #include "core/child_process.h"
 #include "core/file_lock.h"
+#include "core/output_file.h"
 #include "picture/image.h"
 
 namespace sandstroke {
+
+/// ffmpeg leaves no sure sign of whose a film is.
+inline constexpr OutputKind film_output{"a film"};
 
 /// The endings of films, each with its dot.
 std::vector<std::string> film_endings();

@@ -78,9 +78,9 @@ InputKind kind_of_toml(const fs::path& path) {
 
 }  // namespace
 
-void write_format(Hdf5Writer& file, InputKind kind) {
-  file.attribute("/", "format", text_of(kind).format);
-  file.attribute("/", "format_version", 1.0);
+OutputKind output_kind(InputKind kind) {
+  const KindText& text = text_of(kind);
+  return hdf5_output(text.name, text.format);
 }
 
 bool has_format(const Hdf5Reader& file, InputKind kind) {

@@ -4,6 +4,7 @@
 #include <initializer_list>
 
 #include "core/error.h"
+#include "core/output_file.h"
 #include "hdf5/hdf5_file.h"
 
 namespace sandstroke {
@@ -24,9 +25,9 @@ enum class InputKind {
   unknown  ///< none of these, damaged, or not there
 };
 
-/// Marks an HDF5 file as one of that kind, in format 1.
-void write_format(Hdf5Writer& file, InputKind kind);
-/// Whether it is marked so, in whatever version.
+/// Of a kind that is an HDF5 file with a format: what is known by that.
+OutputKind output_kind(InputKind kind);
+/// Whether a file has that kind's format, in whatever version.
 bool has_format(const Hdf5Reader& file, InputKind kind);
 
 /// By content, but for a journal's ending; what is no regular file (a pipe) is left alone. No Error: whoever

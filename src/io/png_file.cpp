@@ -148,7 +148,9 @@ void check_picture_name(const std::filesystem::path& path) {
     throw_input_error("{}: is not the name of a PNG file; end it with .png", path.string());
 }
 
-void write_png(const fs::path& path, const Image& image) { write_text_file(path, encode_png(image)); }
+void write_png(const fs::path& path, const Image& image) {
+  write_text_file(path, encode_png(image), picture_output);
+}
 
 Image read_png(const fs::path& path) {
   PngReader png(path);

@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 
+#include "core/output_file.h"
 #include "picture/image.h"
 #include "sand/height_field.h"
 
@@ -11,6 +12,9 @@ namespace sandstroke {
 
 /// How every PNG begins.
 inline constexpr std::string_view png_signature = "\x89PNG\r\n\x1a\n";
+
+/// Known by its Software chunk.
+inline constexpr OutputKind picture_output{"a picture", png_signature, {"tEXtSoftware\0sandstroke ", 24}};
 
 /// Largest side of a PNG that is read, in pixels.
 inline constexpr int largest_png_side = 16384;

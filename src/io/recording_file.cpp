@@ -163,7 +163,7 @@ RecordingInfo write_recording_file(const std::filesystem::path& path, Recording&
     throw_input_error(
         "{}: was not made, because the recording has no sample; remove its journal and record again",
         path.string());
-  Hdf5Writer file(path);
+  Hdf5Writer file(path, recording_output);
   SampleColumns columns(file, info.header);
   const std::int64_t start = samples.front().time;
   TickCounts counted;

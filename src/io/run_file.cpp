@@ -113,6 +113,9 @@ int RunFile::apply_frame(int k, HeightField& surface) const {
     throw_input_error("{}: {} has heights of the wrong shape; the file is damaged", file_.name(),
                       frame_name(k));
   const HeightGrid blocks = file_.grid(frame_name(k) + "/heights");
+  if (!blocks.isFinite().all())
+    throw_input_error("{}: {} has heights that are not numbers; the file is damaged", file_.name(),
+                      frame_name(k));
   for (std::size_t t = 0; t < tiles.size(); ++t) {
     if (tiles[t] >= static_cast<std::uint32_t>(surface.tile_count()))
       throw_input_error("{}: {} names tile {}, which the bed does not have; the file is damaged",

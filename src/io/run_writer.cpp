@@ -40,8 +40,7 @@ std::string xdmf_text(const std::string& run_name, int rows, int cols, double ce
         name, rows, cols, -0.5 * (rows - 1) * cell_size, -0.5 * (cols - 1) * cell_size, cell_size, cell_size,
         rows, cols, run_name, name);
   };
-  return "<?xml version=\"1.0\"?>\n<Xdmf Version=\"2.0\">\n  <Domain>\n" + grid("initial") + grid("final") +
-         "  </Domain>\n</Xdmf>\n";
+  return std::string(xdmf_output.begin) + grid("initial") + grid("final") + "  </Domain>\n</Xdmf>\n";
 }
 
 /// What a field of(record) of records is.
@@ -79,10 +78,11 @@ void append(Hdf5Column& column, const std::vector<Record>& records, const Of& of
 
 RunWriter::RunWriter(const std::filesystem::path& path, const Simulation& simulation,
                      const std::string& stroke_hash, const std::string& scene_file)
-    : path_(path), file_(path), keeps_trace_(simulation.scene().output.trace && simulation.scene().stroke) {
+    : path_(path),
+      file_(path, output_kind(InputKind::run)),
+      keeps_trace_(simulation.scene().output.trace && simulation.scene().stroke) {
   const HeightField& bed = simulation.bed();
   const std::string scene = scene_text(simulation.scene());
-  write_format(file_, InputKind::run);
   file_.attribute("/", "complete", 0.0);
   file_.write("/scene", scene);
   file_.write("/provenance/version", version);
@@ -176,11 +176,17 @@ void RunWriter::finish(const RunResult& result, const HeightField& surface) {
   }
   file_.attribute("/", "complete", 1.0);
   const std::filesystem::path xdmf = beside(path_, ".xdmf");
+  check_replaceable(xdmf, xdmf_output);
+  const std::filesystem::file_status earlier = std::filesystem::status(xdmf);
   std::filesystem::remove(
       xdmf);  // of an earlier run: it would describe this one's surface by that one's cells
   file_.finish();
-  write_text_file(xdmf, xdmf_text(xml_escaped(path_.filename().string()), surface.rows(), surface.cols(),
-                                  surface.cell_size()));
+  write_text_file(
+      xdmf,
+      xdmf_text(xml_escaped(path_.filename().string()), surface.rows(), surface.cols(), surface.cell_size()),
+      xdmf_output);
+  std::error_code ignored;  // some file systems have no modes
+  if (std::filesystem::exists(earlier)) std::filesystem::permissions(xdmf, earlier.permissions(), ignored);
 }
 
 }  // namespace sandstroke

@@ -6,10 +6,16 @@
 #include <utility>
 #include <vector>
 
+#include "core/output_file.h"
 #include "hdf5/hdf5_writer.h"
 #include "sim/simulation.h"
 
 namespace sandstroke {
+
+/// RUN.xdmf, known by what it describes.
+inline constexpr OutputKind xdmf_output{"an XDMF file of a run",
+                                        "<?xml version=\"1.0\"?>\n<Xdmf Version=\"2.0\">\n  <Domain>\n",
+                                        ":/surface/initial</DataItem>"};
 
 /// Writes a run file while the simulation runs: PATH.part, flushed about twice a second so that a killed
 /// run can be read up to there, renamed when complete. Error: io.

@@ -31,7 +31,7 @@ void add(ContentHash& hash, const std::vector<T>& column) {
 
 void write_stroke_file(const std::filesystem::path& path, const Stroke& stroke) {
   check_stroke(stroke, path.string());
-  Hdf5Writer file(path);
+  Hdf5Writer file(path, stroke_output);
   file.write("/stroke/time", stroke.time);
   file.write("/stroke/position", stroke.position);
   if (!stroke.velocity.empty()) file.write("/stroke/velocity", stroke.velocity);

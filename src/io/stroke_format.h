@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/output_file.h"
 #include "haptics/stroke.h"
 #include "hdf5/hdf5_file.h"
 
@@ -8,6 +9,11 @@ namespace sandstroke {
 // What makes an HDF5 file a stroke: the group /stroke and its attributes.
 
 inline constexpr const char* stroke_group = "/stroke";
+
+// What this program writes of them. The mark is the root's: others' strokes have none there.
+inline constexpr OutputKind stroke_output =
+    hdf5_output("a stroke of a script or table", "sandstroke.converted_stroke");
+inline constexpr OutputKind recording_output = hdf5_output("a recording", "sandstroke.recorded_stroke", true);
 
 /// Error: input, unless the file is a stroke in the format of this program.
 void check_stroke_format(const Hdf5Reader& file);

@@ -4,10 +4,16 @@
 #include <string>
 #include <string_view>
 
+#include "core/output_file.h"
+
 namespace sandstroke {
 
 /// What draws a page: page.js and plot.js, which all pages share, and scripts of the page's own.
 enum class PageScript { bench, stress, sweep, compare };
+
+/// Known by its generator.
+inline constexpr OutputKind page_output{"a page", "<!DOCTYPE html>\n",
+                                        "<meta name=\"generator\" content=\"sandstroke "};
 
 /// One self-contained HTML page: style, chart library (with its licence), scripts and data are embedded, so
 /// that it needs no network. Text in `data` may come from anywhere: nothing in it ends the page's script

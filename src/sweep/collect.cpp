@@ -1,6 +1,7 @@
 #include "sweep/collect.h"
 
 #include "core/output_file.h"
+#include "io/input_kind.h"
 #include "io/table.h"
 #include "report/page.h"
 #include "sweep/sweep_file.h"
@@ -8,6 +9,9 @@
 
 namespace sandstroke {
 namespace {
+
+/// By its columns.
+constexpr OutputKind table_output{"a sweep's table", "point,", ",verdict,"};
 
 /// A row per point: point, axes, verdict, metrics, reason.
 Table sweep_table(const CollectedSweep& sweep) {
@@ -42,14 +46,21 @@ Table sweep_table(const CollectedSweep& sweep) {
 
 }  // namespace
 
+void check_collectable(const SweepFolder& folder) {
+  check_output(folder.path() / "sweep.h5", {}, output_kind(InputKind::sweep));
+  check_output(folder.path() / "sweep.csv", {}, table_output);
+  check_output(folder.path() / "sweep.html", {}, page_output);
+}
+
 CollectReport collect(const SweepFolder& folder) {
+  check_collectable(folder);
   CollectReport report;
   const CollectedSweep sweep(folder, report);
   write_sweep_file(folder.path() / "sweep.h5", sweep, report.content_hash);
-  write_text_file(folder.path() / "sweep.csv", csv_text(sweep_table(sweep)));
+  write_text_file(folder.path() / "sweep.csv", csv_text(sweep_table(sweep)), table_output);
   const nlohmann::ordered_json data = sweep_page_data(sweep, report);
   const std::string title = "Sweep " + data["title"].get<std::string>();
-  write_text_file(folder.path() / "sweep.html", html_page(title, PageScript::sweep, data));
+  write_text_file(folder.path() / "sweep.html", html_page(title, PageScript::sweep, data), page_output);
   return report;
 }
 

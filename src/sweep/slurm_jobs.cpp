@@ -18,6 +18,9 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
+constexpr OutputKind jobs_output{"a list of a sweep's jobs", "{\"format\":\"sandstroke.slurm\""};
+constexpr OutputKind script_output{"a script of a sweep", "#!/bin/sh\n", "\n#SBATCH --job-name=sandstroke"};
+
 constexpr const char* queue_format = "--Format=ArrayJobID:|,ArrayTaskID:|,State:|,RestartCnt:|,Reason:|";
 
 fs::path jobs_path(const fs::path& sweep_folder) { return sweep_folder / "slurm" / "jobs.json"; }
@@ -26,13 +29,15 @@ void write_slurm_jobs(const fs::path& path, const SlurmJobs& jobs) {
   Json tasks = Json::array();
   for (const SlurmTask& task : jobs.tasks)
     tasks.push_back({{"number", task.number}, {"points", task.points}});
-  write_text_file(path, Json{{"format", "sandstroke.slurm"},
-                             {"array", jobs.array},
-                             {"collect", jobs.collect},
-                             {"of", jobs.of},
-                             {"tasks", tasks}}
-                                .dump() +
-                            "\n");
+  write_text_file(path,
+                  Json{{"format", "sandstroke.slurm"},
+                       {"array", jobs.array},
+                       {"collect", jobs.collect},
+                       {"of", jobs.of},
+                       {"tasks", tasks}}
+                          .dump() +
+                      "\n",
+                  jobs_output);
 }
 
 /// The whole number that a text begins with, or `otherwise`.
@@ -147,8 +152,8 @@ SlurmJobs submit_to_slurm(const SlurmOptions& options, const SlurmWork& work, st
   for (const SlurmTask& task : tasks) numbers.push_back(task.number);
   refuse_link(folder);
   make_folder(folder);
-  write_text_file(folder / "job.sh", array_script(options, work, numbers, of));
-  write_text_file(folder / "collect.sh", collect_script(options, work));
+  write_text_file(folder / "job.sh", array_script(options, work, numbers, of), script_output);
+  write_text_file(folder / "collect.sh", collect_script(options, work), script_output);
 
   SlurmJobs jobs{submit({}, folder / "job.sh"), 0, of, std::move(tasks)};
   write_slurm_jobs(jobs_path(sweep_folder), jobs);

@@ -12,7 +12,10 @@ namespace {
 class SweepFile {
  public:
   SweepFile(const std::filesystem::path& path, const CollectedSweep& sweep)
-      : file_(path), sweep_(sweep), design_(sweep.folder.design()), shape_(design_.shape()) {
+      : file_(path, output_kind(InputKind::sweep)),
+        sweep_(sweep),
+        design_(sweep.folder.design()),
+        shape_(design_.shape()) {
     if (!design_.grid) scales_ = {"point"};
     for (const SweepAxis& axis : design_.axes)
       if (design_.grid) scales_.push_back(axis.key);
@@ -20,7 +23,6 @@ class SweepFile {
 
   void write(const std::string& content_hash) {
     const SweepManifest& manifest = sweep_.folder.manifest();
-    write_format(file_, InputKind::sweep);
     file_.attribute("/", "content_hash", content_hash);
     file_.attribute("/", "version", manifest.version);
     file_.attribute("/", "commit", manifest.commit);

@@ -74,6 +74,8 @@ bool is_whole(const SweepDesign& design) {
          });
 }
 
+constexpr OutputKind manifest_output{"a sweep's manifest", "{\n  \"format\": \"sandstroke.sweep\""};
+
 fs::path manifest_path(const fs::path& folder) { return folder / "manifest.json"; }
 
 /// None where the program has no metric of this name.
@@ -144,7 +146,8 @@ SweepFolder SweepFolder::make(const fs::path& path, const SweepManifest& manifes
   SweepFolder made(path, manifest);
   const fs::path own = path / fmt::format("manifest-{}.json", getpid());
   // A folder's name may be no UTF-8.
-  write_text_file(own, to_json(manifest).dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+  write_text_file(own, to_json(manifest).dump(2, ' ', false, Json::error_handler_t::replace) + "\n",
+                  manifest_output);
   std::error_code failure;
   fs::rename(own, manifest_path(path), failure);
   if (failure)
@@ -199,8 +202,7 @@ std::optional<PointResult> SweepFolder::read(std::size_t point) const {
 
 void SweepFolder::write(std::size_t point, const PointResult& result, const std::string& scene_text,
                         const HeightField* surface) const {
-  Hdf5Writer file(point_file(point));
-  write_format(file, InputKind::point);
+  Hdf5Writer file(point_file(point), output_kind(InputKind::point));
   file.attribute("/", "point", static_cast<double>(point));
   file.attribute("/", "verdict", verdict_names[static_cast<std::size_t>(result.verdict)]);
   file.attribute("/", "reason", result.reason);

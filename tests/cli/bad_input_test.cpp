@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <map>
 
+#include "any_hdf5.h"
 #include "cli/program.h"
 #include "hdf5/hdf5_file.h"
 
@@ -293,7 +294,7 @@ TEST(CliBadInput, Hdf5FilesOfOtherKindsAreNamed) {
 TEST(CliBadInput, ARecordedStrokeMustBeFiniteAndRunForward) {
   const fs::path folder = test_folder();
   const auto write = [&](const std::vector<double>& time, double x) {
-    Hdf5Writer file(folder / "bad.h5");
+    Hdf5Writer file(folder / "bad.h5", any_hdf5);
     file.write("/stroke/time", time);
     file.write("/stroke/position", std::vector<Eigen::Vector3d>{{0, 0, 0}, {x, 0, 0}, {0.01, 0, 0}});
     file.attribute("/stroke", "format", "sandstroke.stroke");

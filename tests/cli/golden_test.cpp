@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -102,6 +103,21 @@ TEST(CliCompare, PassesForItselfAndFailsForOneCellOrOneForceSample) {
   EXPECT_TRUE(fs::exists(folder / "j.xml"));
   EXPECT_NE(force.out.find("report/compare.html"), std::string::npos);
   EXPECT_TRUE(fs::exists(folder / "report/compare.html"));
+}
+
+TEST(CliCompare, WhatIsNoNumberFailsWhereverItIs) {
+  const fs::path folder = test_folder();
+  ASSERT_EQ(run_program({"run", "scene.toml", "-o", "run.h5", "--frames", "5"}, folder).exit_code, 0);
+  for (const auto& [dataset, sentence] :
+       {std::pair("/surface/frame/000003/heights", "/surface/frame/000003 has heights that are not numbers"),
+        {"/trace/device_position", "positions: the run: not a number at time 0.03 s"},
+        {"/trace/hand_position", "positions: the run: not a number at time 0.03 s"}}) {
+    write_changed_copy(folder, dataset, 3 * 30 + 1, std::nan(""));
+    const ProgramResult compared = run_program({"compare", "run.h5", "changed.h5"}, folder);
+    EXPECT_EQ(compared.exit_code, 1) << dataset;
+    EXPECT_NE(compared.out.find(sentence), std::string::npos) << compared.out;
+  }
+  EXPECT_EQ(run_program({"compare", "run.h5", "run.h5"}, folder).exit_code, 0);
 }
 
 TEST(CliCompare, ADifferentShapeIsAFailure) {

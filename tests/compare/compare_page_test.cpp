@@ -132,7 +132,7 @@ TEST_F(ComparePageInBrowser, SaysTheOutcomeAndTheFailedChecksFirst) {
   open(DifferentPair().page());
   EXPECT_EQ(
       browser().evaluate("[...document.querySelectorAll('.facts dd')].slice(0, 2).map((d) => d.textContent)"),
-      Json({"different", "2 of 10"}));
+      Json({"different", "2 of 12"}));
   EXPECT_EQ(browser().evaluate("[...document.querySelectorAll('#checks tbody tr')].slice(0, 3)"
                                ".map((line) => [line.children[0].textContent, line.className])"),
             Json::array({{"final height", "surprise"}, {"force", "surprise"}, {"golden complete", ""}}));

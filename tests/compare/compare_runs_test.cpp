@@ -35,7 +35,8 @@ TEST_F(CompareRuns, AFileEqualsItself) {
   std::vector<std::string> names;
   for (const Check& check : comparison.checks) names.push_back(check.name);
   EXPECT_EQ(names, (std::vector<std::string>{"golden complete", "run complete", "cell size", "initial height",
-                                             "final height", "ticks", "time", "force", "depth", "level"}));
+                                             "final height", "frames", "ticks", "time", "force", "depth",
+                                             "level", "positions"}));
 }
 
 TEST_F(CompareRuns, OneChangedCellFailsAndIsNamed) {
@@ -143,6 +144,16 @@ TEST_F(CompareRuns, OneNanFails) {
 TEST_F(CompareRuns, OneNanInTheForceFails) {
   run.trace[100].device_force.z() = std::numeric_limits<double>::quiet_NaN();
   expect_only_failure("force", "not a number at time 0.1 s");
+}
+
+TEST_F(CompareRuns, OneNanInAPositionFails) {
+  run.trace[50].device_position.y() = std::numeric_limits<double>::quiet_NaN();
+  expect_only_failure("positions", "the run: not a number at time 0.05 s");
+  run.trace[50].device_position.y() = 0.0;
+  run.trace[100].hand.position.x() = std::numeric_limits<double>::infinity();
+  expect_only_failure("positions", "the run: not a number at time 0.1 s");
+  std::swap(run.trace, golden.trace);
+  expect_only_failure("positions", "golden: not a number at time 0.1 s");
 }
 
 TEST_F(CompareRuns, WhatIsNoRunFileIsBadInput) {

@@ -12,6 +12,7 @@
 #include "core/error.h"
 #include "core/machine.h"
 #include "core/output_file.h"
+#include "io/input_kind.h"
 #include "synthetic_run.h"
 
 namespace sandstroke {
@@ -36,9 +37,7 @@ class Golden : public testing::Test {
   }
   /// A golden.h5 that says what it wants of a bed whose changed block is given.
   void claim(double rows, double cols, double cell_size, double ticks, const HeightGrid& block) {
-    Hdf5Writer file(folder / "golden/dune/golden.h5");
-    file.attribute("/", "format", "sandstroke.golden");
-    file.attribute("/", "format_version", 1.0);
+    Hdf5Writer file(folder / "golden/dune/golden.h5", output_kind(InputKind::golden));
     file.make_group("/surface");
     file.attribute("/surface", "rows", rows);
     file.attribute("/surface", "cols", cols);
@@ -64,16 +63,17 @@ TEST_F(Golden, RoundTripPasses) {
   EXPECT_TRUE(comparison.passed()) << check_table(comparison);
   std::vector<std::string> names;
   for (const Check& check : comparison.checks) names.push_back(check.name);
-  EXPECT_EQ(names, (std::vector<std::string>{"scene", "stroke", "volume drift", "run complete",
-                                             "initial surface", "cell size", "height change", "ticks", "time",
-                                             "force", "depth", "level", "picture", "picture share"}));
+  EXPECT_EQ(names,
+            (std::vector<std::string>{"scene", "stroke", "volume drift", "run complete", "initial surface",
+                                      "cell size", "height change", "ticks", "time", "force", "depth",
+                                      "level", "positions", "picture", "picture share"}));
 }
 
 TEST_F(Golden, WhatAKilledUpdateLeftIsNoEntryAndInNobodysWay) {
   fs::create_directories(folder / "golden/dune.new.part");
-  write_text_file(folder / "golden/dune.new.part/golden.h5", "half");
-  write_text_file(folder / "golden/dune.part", "");  // its lock
-  for (int update = 0; update < 2; ++update) {       // where there is no entry, and where there is one
+  put_text(folder / "golden/dune.new.part/golden.h5", "half");
+  put_text(folder / "golden/dune.part", "");    // its lock
+  for (int update = 0; update < 2; ++update) {  // where there is no entry, and where there is one
     write_golden(folder / "golden/dune", finished());
     EXPECT_TRUE(compare().passed());
     EXPECT_EQ(std::distance(fs::directory_iterator(folder / "golden"), fs::directory_iterator()), 1);
@@ -82,7 +82,7 @@ TEST_F(Golden, WhatAKilledUpdateLeftIsNoEntryAndInNobodysWay) {
 
 TEST_F(Golden, IsNotWrittenByTwoAtATime) {
   write_golden(folder / "golden/dune", finished());
-  const FileLock writing = take_part(folder / "golden/dune");
+  const FileLock writing = take_part(folder / "golden/dune", {});
   EXPECT_THROW(write_golden(folder / "golden/dune", finished()), Error);
   EXPECT_TRUE(compare().passed());
 }
@@ -330,7 +330,7 @@ TEST_F(Golden, OnlyACompleteFiniteRunBecomesGolden) {
   EXPECT_TRUE(compare().passed()) << "what was there has stayed";
 }
 
-TEST_F(Golden, UpdateReplacesTheWholeEntryAndLeavesNothingBeside) {
+TEST_F(Golden, UpdateReplacesItsFilesAndLeavesNothingBeside) {
   write_golden(folder / "golden/dune", finished());
   std::ofstream(folder / "golden/dune/stray.txt") << "old";
   fs::create_directories(folder /
@@ -338,7 +338,8 @@ TEST_F(Golden, UpdateReplacesTheWholeEntryAndLeavesNothingBeside) {
   run.final(0, 0) = 0.001;
   write_golden(folder / "golden/dune", finished());
   EXPECT_TRUE(compare().passed());
-  EXPECT_FALSE(fs::exists(folder / "golden/dune/stray.txt"));
+  EXPECT_EQ(read_text_file(folder / "golden/dune/stray.txt"), "old");
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder / "golden/dune"), fs::directory_iterator()), 4);
   EXPECT_EQ(std::distance(fs::directory_iterator(folder / "golden"), fs::directory_iterator()), 1);
 }
 

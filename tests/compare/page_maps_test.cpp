@@ -36,7 +36,7 @@ Image picture_of(const Json& map) {
   const std::string uri = map["picture"], begin = "data:image/png;base64,";
   EXPECT_EQ(uri.substr(0, begin.size()), begin);
   const TestFolder folder;
-  write_text_file(folder / "map.png", decoded(uri.substr(begin.size())));
+  put_text(folder / "map.png", decoded(uri.substr(begin.size())));
   Image image = read_png(folder / "map.png");
   EXPECT_EQ(map["width"], image.width);
   EXPECT_EQ(map["height"], image.height);

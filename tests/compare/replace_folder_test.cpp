@@ -53,7 +53,7 @@ class ReplacedFolder : public testing::TestWithParam<bool> {
 
   void make(const fs::path& path, const std::string& content) {
     fs::create_directories(path);
-    write_text_file(path / "content", content);
+    put_text(path / "content", content);
   }
   void replace(const std::string& content) {
     make(made, content);

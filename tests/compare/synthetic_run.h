@@ -7,6 +7,7 @@
 #include <limits>
 #include <string>
 
+#include "any_hdf5.h"
 #include "compare/check.h"
 #include "io/run_file.h"
 #include "test_folder.h"
@@ -42,7 +43,7 @@ struct SyntheticRun {
   }
 
   void write(const std::filesystem::path& path) const {
-    Hdf5Writer file(path);
+    Hdf5Writer file(path, any_hdf5);
     file.attribute("/", "format", "sandstroke.run");
     file.attribute("/", "format_version", 1.0);
     file.attribute("/", "complete", complete ? 1.0 : 0.0);

@@ -17,7 +17,7 @@ class ControlGroups : public testing::Test {
  protected:
   void say(const fs::path& group, const std::string& file, const std::string& text) {
     fs::create_directories(mount / group);
-    write_text_file(mount / group / file, text);
+    put_text(mount / group / file, text);
   }
   double room(const std::string& groups) { return control_group_room(groups, mount.path()); }
 

@@ -13,12 +13,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr OutputKind text_kind{"a text", "first"};
+
 TEST(OutputFile, IsPutInPlaceWhole) {
   const TestFolder folder;
   const fs::path path = folder / "file";
-  write_text_file(path, "first");
-  write_text_file(path, "second");
-  EXPECT_EQ(read_text_file(path), "second");
+  write_text_file(path, "first", text_kind);
+  write_text_file(path, "first but one", text_kind);
+  EXPECT_EQ(read_text_file(path), "first but one");
   EXPECT_FALSE(fs::exists(part_path(path)));
 }
 
@@ -26,9 +28,9 @@ TEST(OutputFile, IsNotWrittenByTwoAtATime) {
   const TestFolder folder;
   const fs::path path = folder / "file";
   {
-    const FileLock writing = take_part(path);
+    const FileLock writing = take_part(path, {});
     EXPECT_THROW(write_text_file(path, "another's"), Error);
-    EXPECT_THROW(take_part(path), Error);
+    EXPECT_THROW(take_part(path, {}), Error);
     EXPECT_FALSE(fs::exists(path));
     EXPECT_TRUE(fs::exists(part_path(path)));  // of the one that has it
   }
@@ -63,7 +65,7 @@ TEST(OutputFile, NothingIsWrittenThroughALinkOrPipe) {
   for (const char* target : {"precious", "nothing"}) {
     fs::create_symlink(target, part_path(path));
     EXPECT_THROW(write_text_file(path, "bad"), Error);
-    EXPECT_THROW(take_part(path), Error);
+    EXPECT_THROW(take_part(path, {}), Error);
     fs::remove(part_path(path));
   }
   EXPECT_EQ(read_text_file(folder / "precious"), "text");
@@ -72,11 +74,102 @@ TEST(OutputFile, NothingIsWrittenThroughALinkOrPipe) {
   ASSERT_EQ(mkfifo(part_path(path).c_str(), 0600), 0);
   EXPECT_THROW(write_text_file(path, "bad"), Error);
   fs::remove(part_path(path));
-  // A link to where the file is to be: the file takes its place, what it led to stays.
   fs::create_symlink("precious", path);
-  write_text_file(path, "new");
+  EXPECT_THROW(write_text_file(path, "bad"), Error);
   EXPECT_EQ(read_text_file(folder / "precious"), "text");
-  EXPECT_FALSE(fs::is_symlink(path));
+  EXPECT_TRUE(fs::is_symlink(path));
+}
+
+TEST(OutputFile, TakesNoPlaceOfWhatIsNotOfItsKind) {
+  const TestFolder folder;
+  const fs::path path = folder / "file";
+  struct Case {
+    std::string there;
+    OutputKind kind;
+    bool replaced;
+  };
+  const OutputKind marked{"a list", "list\n", "by us"}, one{"one", "list\n", "by us", 0, true};
+  const std::string far(64 * 1024, ' ');
+  for (const auto& [there, kind, replaced] : std::vector<Case>{
+           {"", {}, true},
+           {"x", {}, false},
+           {"list\nby us", {}, false},
+           {"list\nby us", marked, true},
+           {"list\nby them", marked, false},
+           {"a list\nby us", marked, false},
+           {"list\n" + far + "by us", marked, false},
+           {"list\n", {"a list", "list\n", "by us", 5}, true},
+           {"list\n.", {"a list", "list\n", "by us", 5}, false},
+           {std::string("list\n\0\0", 7), {"a list", "list\n", "by us", 5}, true},
+           {std::string("list\n\0.", 7), {"a list", "list\n", "by us", 5}, false},
+           {"lis", {"a list", "list\n", "by us", 5}, false},
+           {"list\nby us", one, false},
+       }) {
+    put_text(path, there);
+    if (replaced) {
+      EXPECT_NO_THROW(check_output(path, {}, kind)) << there;
+    } else {
+      EXPECT_THROW(check_output(path, {}, kind), Error) << there;
+      EXPECT_THROW(write_text_file(path, "new", kind), Error) << there;
+      EXPECT_EQ(read_text_file(path), there);
+    }
+    fs::remove(path);
+    // The same of PATH.part; one that is kept was not yet.
+    put_text(part_path(path), there);
+    if (replaced || kind.kept) {
+      EXPECT_NO_THROW(write_text_file(path, "new", kind)) << there;
+      EXPECT_EQ(read_text_file(path), "new");
+    } else {
+      EXPECT_THROW(check_output(path, {}, kind), Error) << there;
+      EXPECT_THROW(write_text_file(path, "new", kind), Error) << there;
+      EXPECT_EQ(read_text_file(part_path(path)), there);
+    }
+    fs::remove(path);
+    fs::remove(part_path(path));
+  }
+}
+
+TEST(OutputFile, ThatComesWhileAnotherIsWrittenStays) {
+  const TestFolder folder;
+  const fs::path path = folder / "file";
+  const FileLock writing = take_part(path, text_kind);
+  put_text(part_path(path), "first");
+  put_text(path, "somebody's");
+  EXPECT_THROW(finish_part(path, text_kind), Error);
+  EXPECT_EQ(read_text_file(path), "somebody's");
+  EXPECT_EQ(read_text_file(part_path(path)), "first");
+}
+
+TEST(OutputFile, KeepsTheModeOfWhatItReplaces) {
+  const TestFolder folder;
+  const fs::path path = folder / "file";
+  using fs::perms;
+  for (const perms mode : {perms(0600), perms(0640), perms(0777)}) {
+    put_text(path, "first");
+    fs::permissions(path, mode);
+    {
+      const FileLock writing = take_part(path, text_kind);  // nobody may read more of it meanwhile
+      EXPECT_EQ(fs::status(part_path(path)).permissions(), mode);
+    }
+    write_text_file(path, "first but one", text_kind);
+    EXPECT_EQ(fs::status(path).permissions(), mode);
+  }
+  fs::permissions(path, perms(0444));  // by whom it is writable or not: also by root
+  EXPECT_THROW(check_output(path, {}, text_kind), Error);
+  EXPECT_THROW(write_text_file(path, "first of all", text_kind), Error);
+  EXPECT_EQ(read_text_file(path), "first but one");
+}
+
+TEST(OutputFile, ItsNameHasRoomForItsEnding) {
+  const TestFolder folder;
+  EXPECT_NO_THROW(check_output(folder / std::string(250, 'x'), {}, {}));  // and .part: 255
+  EXPECT_ANY_THROW(check_output(folder / std::string(251, 'x'), {}, {}));
+}
+
+TEST(OutputFile, ItsPartIsNoInputEither) {
+  const TestFolder folder;
+  EXPECT_THROW(check_output(folder / "file", {folder / "file.part"}, {}), Error);
+  EXPECT_NO_THROW(check_output(folder / "file", {folder / "file.h5"}, {}));
 }
 
 TEST(OutputFile, WhatMightNeverEndIsNoInput) {
@@ -91,7 +184,7 @@ TEST(OutputFile, WhatIsNotToBeKeptLeavesNothing) {
   const TestFolder folder;
   write_text_file(folder / "file", "text");
   {
-    const FileLock writing = take_part(folder / "file");
+    const FileLock writing = take_part(folder / "file", {"a text", "text"});
     drop_part(folder / "file");
   }
   EXPECT_FALSE(fs::exists(part_path(folder / "file")));
@@ -108,6 +201,7 @@ TEST(OpenFile, IsStillNamedUntilAnotherHasItsName) {
   EXPECT_TRUE(still_named(file, folder / "file"));
   fs::create_hard_link(folder / "file", folder / "again");
   EXPECT_TRUE(still_named(file, folder / "again"));
+  fs::remove(folder / "file");
   write_text_file(folder / "file", "text");  // alike, but another
   EXPECT_FALSE(still_named(file, folder / "file"));
   EXPECT_FALSE(still_named(file, folder / "nothing"));

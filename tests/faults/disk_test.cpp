@@ -3,6 +3,8 @@
 #include <signal.h>
 #include <spdlog/fmt/fmt.h>
 
+#include <set>
+
 #include "faults/commands_test.h"
 #include "faults/small_disk.h"
 #include "sanitized.h"
@@ -111,6 +113,26 @@ TEST_P(Disk, OutputRemovedWhileItIsWritten) {
     disturbed.expect_rerun(where);
   }
   tell("output removed", GetParam().name, outcomes);
+}
+
+std::set<std::string> names_in(const fs::path& folder) {
+  std::set<std::string> names;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder))
+    names.insert(entry.path().filename().string());
+  return names;
+}
+
+TEST(GoldenOnDisk, AnUpdateThatFailsLeavesNothing) {
+  if (sanitized) GTEST_SKIP() << "a sanitizer must be loaded first, and so must be what fails";
+  Disturbed disturbed(golden_command);
+  const long calls = disturbed.calls();
+  for (const long call : some_calls(calls)) {
+    disturbed.run({.in_child = faulty_system(fmt::format("full:{}", call))});
+    EXPECT_EQ(names_in(disturbed.folder() / "golden"), std::set<std::string>{"tiny"}) << call;
+    EXPECT_EQ(names_in(disturbed.folder() / "golden/tiny"),
+              (std::set<std::string>{"golden.h5", "picture.png", "provenance.toml"}))
+        << call;
+  }
 }
 
 TEST(SweepOnDisk, APointThatIsRemovedBehindTheSweepIsNotToldAsDone) {

@@ -2,12 +2,15 @@
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
+#include <spdlog/fmt/fmt.h>
 #include <sys/file.h>
 #include <unistd.h>
 
 #include <cmath>
 #include <fstream>
+#include <limits>
 
+#include "any_hdf5.h"
 #include "core/error.h"
 #include "core/file_lock.h"
 #include "core/output_file.h"
@@ -37,7 +40,7 @@ class Hdf5File : public testing::Test {
 TEST_F(Hdf5File, GivesBackWhatWasWritten) {
   HeightGrid grid(300, 200);
   for (int i = 0; i < grid.size(); ++i) grid.data()[i] = 0.1 * i;
-  Hdf5Writer writer(path_);
+  Hdf5Writer writer(path_, any_hdf5);
   writer.write("/a/b/doubles", std::vector<double>{1.0, 0.1, -1e300});
   writer.write("/a/vectors", std::vector<Eigen::Vector3d>{{1, 2, 3}, {4, 5, 6}});
   writer.write("/flags", std::vector<std::uint8_t>{0, 1, 255});
@@ -67,7 +70,7 @@ TEST_F(Hdf5File, GivesBackWhatWasWritten) {
 
 TEST_F(Hdf5File, ACellSizeIsFiniteAndAboveZero) {
   const auto write = [&](double cell_size) {
-    Hdf5Writer writer(path_);
+    Hdf5Writer writer(path_, any_hdf5);
     writer.make_group("/surface");
     writer.attribute("/surface", "cell_size", cell_size);
     writer.finish();
@@ -84,7 +87,7 @@ TEST_F(Hdf5File, ACellSizeIsFiniteAndAboveZero) {
 
 TEST_F(Hdf5File, ColumnsGrowAndCanBeReadAfterAFlushWithoutFinish) {
   {
-    Hdf5Writer writer(path_);
+    Hdf5Writer writer(path_, any_hdf5);
     Hdf5Column times = writer.column("/trace/time"), forces = writer.column("/trace/force", 3);
     Hdf5Column flags = writer.column<std::uint8_t>("/trace/contact");
     for (int i = 0; i < 10'000; i += 2) {
@@ -108,6 +111,28 @@ TEST_F(Hdf5File, ColumnsGrowAndCanBeReadAfterAFlushWithoutFinish) {
   EXPECT_EQ(reader.integers("/trace/contact")[3], 1u);
 }
 
+TEST_F(Hdf5File, IntegersThatDoNotFitAreRefused) {
+  for (const auto& [value, fits] : {std::pair<std::int64_t, bool>{-1, false},
+                                    {0, true},
+                                    {0xffffffff, true},
+                                    {0x100000000, false},
+                                    {std::numeric_limits<std::int64_t>::min(), false}}) {
+    {
+      Hdf5Writer writer(path_, any_hdf5);
+      writer.column<std::int64_t>("/tiles").append(&value, 1);
+      writer.finish();
+    }
+    if (fits)
+      EXPECT_EQ(Hdf5Reader(path_).integers("/tiles").front(), value);
+    else
+      EXPECT_NE(error_of_reading([](const Hdf5Reader& file) {
+                  file.integers("/tiles");
+                }).find(fmt::format("/tiles holds {}", value)),
+                std::string::npos)
+          << value;
+  }
+}
+
 TEST_F(Hdf5File, AFileThatHdf5LocksForWritingIsRefused) {
   Hdf5Writer(path_).finish();
   const int other = open(path_.c_str(), O_RDONLY | O_CLOEXEC);
@@ -118,7 +143,7 @@ TEST_F(Hdf5File, AFileThatHdf5LocksForWritingIsRefused) {
 }
 
 TEST_F(Hdf5File, ErrorsNameFileAndDataset) {
-  Hdf5Writer writer(path_);
+  Hdf5Writer writer(path_, any_hdf5);
   writer.write("/line", std::vector<double>{1.0, 2.0});
   writer.write("/text", std::string("word"));
   writer.make_group("/group");
@@ -143,8 +168,9 @@ TEST_F(Hdf5File, RefusesWhatIsNoWholeHdf5File) {
   EXPECT_NE(error_of_reading([](const Hdf5Reader&) {}).find("cannot be opened"), std::string::npos);
   std::ofstream(path_) << "just text";
   EXPECT_NE(error_of_reading([](const Hdf5Reader&) {}).find("not an HDF5 file"), std::string::npos);
+  fs::remove(path_);
   {
-    Hdf5Writer writer(path_);
+    Hdf5Writer writer(path_, any_hdf5);
     writer.write("/grid", HeightGrid(HeightGrid::Ones(200, 200)));
     writer.finish();
   }
@@ -164,14 +190,14 @@ class Hdf5OfOthers : public Hdf5File {
   void SetUp() override {
     const fs::path secret = folder_ / "secret.h5";
     {
-      Hdf5Writer writer(secret);
+      Hdf5Writer writer(secret, any_hdf5);
       writer.write("/group/numbers", std::vector<double>(4, 42.0));
       writer.attribute("/group", "word", "secret");
       writer.finish();
     }
     std::ofstream(folder_ / "secret.bin") << std::string(32, 'x');
     {
-      Hdf5Writer writer(path_);
+      Hdf5Writer writer(path_, any_hdf5);
       writer.write("/own", std::vector<double>(4, 1.0));
       writer.finish();
     }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "any_hdf5.h"
 #include "core/output_file.h"
 #include "hdf5/hdf5_file.h"
 #include "sand/initial_surface.h"
@@ -17,7 +18,7 @@ namespace fs = std::filesystem;
 class BedWriter : public testing::Test {
  protected:
   HeightGrid written(const HeightField& bed) {
-    Hdf5Writer file(path_);
+    Hdf5Writer file(path_, any_hdf5);
     write_bed(file, "/bed", bed);
     file.finish();
     return Hdf5Reader(path_).grid("/bed");
@@ -75,7 +76,7 @@ TEST_F(BedWriter, WhatWasWrittenIsVisitedRowByRowAndTheRestReadsAsTheFillValue) 
 
 TEST_F(BedWriter, TheFileFollowsWhatIsNotLevel) {
   const auto bytes = [&](const HeightField& bed) {
-    Hdf5Writer file(path_);
+    Hdf5Writer file(path_, any_hdf5);
     write_bed(file, "/bed", bed);
     file.finish();
     return fs::file_size(path_);

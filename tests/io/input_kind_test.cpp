@@ -3,12 +3,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "any_hdf5.h"
 #include "core/error.h"
 #include "core/output_file.h"
 #include "core/temporary_folder.h"
 #include "hdf5/hdf5_file.h"
 #include "io/png_file.h"
 #include "io/stroke_file.h"
+#include "test_folder.h"
 
 namespace sandstroke {
 namespace {
@@ -21,12 +23,12 @@ using testing::StartsWith;
 class InputKinds : public testing::Test {
  protected:
   std::filesystem::path text(const std::string& content, const std::string& name = "file.toml") const {
-    write_text_file(folder_ / name, content);
+    put_text(folder_ / name, content);
     return folder_ / name;
   }
   InputKind kind_of_text(const std::string& content) const { return kind_of(text(content)); }
   InputKind kind_of_format(const std::string& format) const {
-    Hdf5Writer file(folder_ / "file.h5");
+    Hdf5Writer file(folder_ / "file.h5", any_hdf5);
     file.attribute("/", "format", format);
     file.finish();
     return kind_of(folder_ / "file.h5");

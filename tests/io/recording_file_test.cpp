@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <map>
 
+#include "any_hdf5.h"
 #include "core/error.h"
 #include "core/output_file.h"
 #include "haptics/recording_fields.h"
@@ -87,6 +88,7 @@ class RecordingFile : public testing::Test {
   RecordingInfo write(std::vector<RecordedSample> samples, const std::optional<RecordingFooter>& footer,
                       const RecordingHeader& header = full_header()) {
     KeptRecording recording(std::move(samples), footer, header);
+    std::filesystem::remove(path_);  // none is replaced
     return write_recording_file(path_, recording);
   }
 
@@ -246,7 +248,7 @@ TEST_F(RecordingFile, OtherStrokesWereNotRecorded) {
 
 TEST_F(RecordingFile, RefusesCountsThatAreNone) {
   for (const double count : {std::nan(""), 1e300, -1e300}) {
-    Hdf5Writer file(path_);
+    Hdf5Writer file(path_, any_hdf5);
     file.write("/stroke/time", std::vector<double>{0.0});
     file.attribute("/stroke", "format", std::string("sandstroke.stroke"));
     file.attribute("/stroke", "format_version", 1.0);
@@ -296,6 +298,7 @@ TEST_F(RecordingFile, ALongOneTakesNoMoreMemory) {
   const pid_t child = fork();
   if (child == 0) {
     const auto peak = [this](std::uint64_t samples) {
+      std::filesystem::remove(path_);
       LongRecording recording(samples);
       write_recording_file(path_, recording);
       rusage usage{};

@@ -7,6 +7,7 @@
 #include <functional>
 #include <limits>
 
+#include "any_hdf5.h"
 #include "core/error.h"
 #include "core/output_file.h"
 #include "hdf5/hdf5_file.h"
@@ -24,7 +25,7 @@ class StrokeFile : public testing::Test {
   /// A stroke file with something spoilt or left out by `write`, after which its attributes are those given.
   fs::path file_with(const std::function<void(Hdf5Writer&)>& write) {
     const fs::path path = folder_ / "spoilt.h5";
-    Hdf5Writer file(path);
+    Hdf5Writer file(path, any_hdf5);
     write(file);
     file.finish();
     return path;
@@ -186,20 +187,20 @@ TEST_F(StrokeFile, LoadsByContentOrExtension) {
   expect_same(load_stroke(unnamed, {}), full_stroke());
 
   const fs::path script = folder_ / "script.toml";
-  write_text_file(script, "force = 2.0\nplunge_speed = 50\n[[segment]]\nkind = \"line\"\nto = [0.1, 0]\n");
+  put_text(script, "force = 2.0\nplunge_speed = 50\n[[segment]]\nkind = \"line\"\nto = [0.1, 0]\n");
   ForceSettings settings;
   settings.k_s = 300.0;
   const Stroke stroke = load_stroke(script, settings);
   EXPECT_NEAR(repulse_force(-stroke.position[stroke.size() / 2].z(), settings), 2.0, 1e-12);
 
   const fs::path table = folder_ / "table.csv";
-  write_text_file(table, "x,y,z\n");
+  put_text(table, "x,y,z\n");
   EXPECT_THAT(complaint(table), AllOf(HasSubstr("table.csv"), HasSubstr("sandstroke stroke convert")));
   const fs::path journal = folder_ / "cut.h5.recording";
-  write_text_file(journal, "sandstroke.recording");
+  put_text(journal, "sandstroke.recording");
   EXPECT_THAT(complaint(journal), HasSubstr("sandstroke stroke repair " + journal.string()));
   const fs::path text = folder_ / "text.h5";
-  write_text_file(text, "no HDF5");
+  put_text(text, "no HDF5");
   EXPECT_THAT(complaint(text), AllOf(HasSubstr("text.h5"), HasSubstr("HDF5")));
   EXPECT_THAT(complaint(folder_ / "absent.h5", ErrorKind::io), HasSubstr("absent.h5"));
   EXPECT_THAT(complaint(folder_.path(), ErrorKind::io), HasSubstr("folder"));

@@ -393,7 +393,7 @@ TEST_F(Journal, OneThatSomebodyRemovedOrReplacedIsNotWrittenOnInVain) {
     writer.append(made_samples(10));
     writer.sync();
     fs::remove(path);
-    if (replaced) write_text_file(path, "another's");
+    if (replaced) put_text(path, "another's");
     EXPECT_THROW(writer.sync(), Error);
     EXPECT_THROW(writer.finish(full_footer()), Error);
   }

@@ -20,19 +20,18 @@ namespace fs = std::filesystem;
 class ASweep : public testing::Test {
  protected:
   ASweep() {
-    write_text_file(temporary / "scene.toml",
-                    "[bed]\nsize = [0.2, 0.2]\ncells = [80, 80]\n[stroke]\nfile = \"line.toml\"\n"
-                    "[view]\nsize = [64, 48]\n");
-    write_text_file(temporary / "line.toml",
-                    "start = [-0.05, 0]\nspeed = 0.2\n[[segment]]\nkind = \"line\"\nto = [0.05, 0]\n"
-                    "depth = 0.005\n");
+    put_text(temporary / "scene.toml",
+             "[bed]\nsize = [0.2, 0.2]\ncells = [80, 80]\n[stroke]\nfile = \"line.toml\"\n"
+             "[view]\nsize = [64, 48]\n");
+    put_text(temporary / "line.toml",
+             "start = [-0.05, 0]\nspeed = 0.2\n[[segment]]\nkind = \"line\"\nto = [0.05, 0]\n"
+             "depth = 0.005\n");
   }
 
   Sweep sweep(
       const std::string& sweep_keys = "",
       const std::string& axes = "relaxation.talus_angle = [25, 35]\nforce.k_s = [500, 1000, 2000]\n") {
-    write_text_file(temporary / "plan.toml",
-                    "[sweep]\nscene = \"scene.toml\"\n" + sweep_keys + "[axes]\n" + axes);
+    put_text(temporary / "plan.toml", "[sweep]\nscene = \"scene.toml\"\n" + sweep_keys + "[axes]\n" + axes);
     return Sweep(load_plan(temporary / "plan.toml"));
   }
   SweepFolder folder(const Sweep& sweep, const std::string& name) {
@@ -91,8 +90,8 @@ TEST_F(ASweep, OfADynamicDeviceSharesNothingButInputs) {
 }
 
 TEST_F(ASweep, AScriptThatPressesByForceIsAnotherStrokeForOtherConstants) {
-  write_text_file(temporary / "line.toml",
-                  "start = [-0.05, 0]\n[[segment]]\nkind = \"line\"\nto = [0.05, 0]\nforce = 2.0\n");
+  put_text(temporary / "line.toml",
+           "start = [-0.05, 0]\n[[segment]]\nkind = \"line\"\nto = [0.05, 0]\nforce = 2.0\n");
   Sweep s = sweep();
   const SweepCounters counters = s.run(folder(s, "out"), {});
   EXPECT_EQ(counters.simulations, 6u);
@@ -121,8 +120,8 @@ TEST_F(ASweep, ARerunDoesOnlyWhatIsMissingOrWasCutOff) {
   s.run(whole, {});
   s.run(broken, {});
   fs::remove(broken.point_file(1));
-  fs::resize_file(broken.point_file(5), 100);
-  write_text_file(broken.path() / "points/000004.h5.part", "of a run that was killed");
+  fs::resize_file(broken.point_file(5), 2000);
+  put_text(broken.path() / "points/000004.h5.part", hdf5_signature);  // of a run that was killed
   const SweepCounters counters = s.run(broken, {});
   EXPECT_EQ(counters.done_before, 4u);
   EXPECT_EQ(counters.run, 2u);
@@ -156,7 +155,7 @@ TEST_F(ASweep, SettingsThatDoNotGoTogetherAreRefusedPoints) {
 }
 
 TEST_F(ASweep, ABedThatCannotBeReadRefusesItsOwnPointsOnly) {
-  write_text_file(temporary / "bed.png", "no picture");
+  put_text(temporary / "bed.png", "no picture");
   Sweep s = sweep("",
                   "bed.surface.file = [\"bed.png\"]\nforce.k_s = [500, 1000]\n"
                   "bed.surface.kind = [\"file\"]\n");
@@ -231,7 +230,7 @@ TEST_F(ASweep, AnEstimateLeavesNothingAndCountsAllPoints) {
 TEST_F(ASweep, ItsManifestTellsItsInputsApart) {
   const SweepManifest before = sweep().manifest();
   EXPECT_EQ(sweep().manifest().inputs, before.inputs);
-  write_text_file(temporary / "line.toml", read_text_file(temporary / "line.toml") + "wait = 0.1\n");
+  put_text(temporary / "line.toml", read_text_file(temporary / "line.toml") + "wait = 0.1\n");
   EXPECT_NE(sweep().manifest().inputs, before.inputs);
 }
 
@@ -240,10 +239,9 @@ TEST_F(ASweep, ItsManifestIsTheSameHoweverItsFilesAreNamed) {
   fs::create_directory_symlink(temporary / "m", temporary / "z");
   for (const char* name : {"scene.toml", "line.toml"}) fs::copy(temporary / name, temporary / "m" / name);
   const std::string elsewhere = (temporary / "n.toml").string();
-  write_text_file(elsewhere, read_text_file(temporary / "line.toml") + "wait = 0.1\n");
-  write_text_file(
-      temporary / "m/plan.toml",
-      "[sweep]\nscene = \"scene.toml\"\n[axes]\nstroke.file = [\"line.toml\", \"" + elsewhere + "\"]\n");
+  put_text(elsewhere, read_text_file(temporary / "line.toml") + "wait = 0.1\n");
+  put_text(temporary / "m/plan.toml",
+           "[sweep]\nscene = \"scene.toml\"\n[axes]\nstroke.file = [\"line.toml\", \"" + elsewhere + "\"]\n");
   const SweepManifest one = Sweep(load_plan(temporary / "m/plan.toml")).manifest();
   SweepFolder::make(temporary / "out", one);
   EXPECT_NO_THROW(
@@ -254,7 +252,7 @@ TEST_F(ASweep, MayLieInAFolderWhoseNameIsNoUtf8) {
   const fs::path odd = temporary.path() / "\xff";
   fs::create_directories(odd);
   for (const char* name : {"scene.toml", "line.toml"}) fs::copy(temporary / name, odd / name);
-  write_text_file(odd / "plan.toml", "[sweep]\nscene = \"scene.toml\"\n[axes]\nforce.k_s = [500]\n");
+  put_text(odd / "plan.toml", "[sweep]\nscene = \"scene.toml\"\n[axes]\nforce.k_s = [500]\n");
   Sweep s(load_plan(odd / "plan.toml"));
   const SweepFolder out = SweepFolder::make(odd / "out", s.manifest());
   EXPECT_EQ(s.run(out, {}).run, 1u);

@@ -21,16 +21,16 @@ class PretendedSlurm {
   PretendedSlurm() : path_(getenv("PATH")) {
     program("sbatch", "n=$(($(cat n) + 1)); echo $n | tee n; printf '%s|' \"$@\" >> calls; echo >> calls");
     program("squeue", "cat queue");
-    write_text_file(folder_ / "n", "40");
+    put_text(folder_ / "n", "40");
     queue("");
     setenv("PATH", (folder_.path().string() + ":" + path_).c_str(), 1);
   }
   ~PretendedSlurm() { setenv("PATH", path_.c_str(), 1); }
   void program(const std::string& name, const std::string& text) const {
-    write_text_file(folder_ / name, "#!/bin/sh\ncd '" + folder_.path().string() + "'\n" + text + "\n");
+    put_text(folder_ / name, "#!/bin/sh\ncd '" + folder_.path().string() + "'\n" + text + "\n");
     fs::permissions(folder_ / name, fs::perms::owner_all);
   }
-  void queue(const std::string& text) const { write_text_file(folder_ / "queue", text); }
+  void queue(const std::string& text) const { put_text(folder_ / "queue", text); }
   std::string calls() const {
     return fs::exists(folder_ / "calls") ? read_text_file(folder_ / "calls") : std::string();
   }
@@ -145,7 +145,7 @@ TEST_F(SlurmJobsTest, WithoutSlurmThereIsASentence) {
 
 TEST_F(SlurmJobsTest, ADamagedNoteSaysSo) {
   make_folder(folder_ / "out/slurm");
-  write_text_file(folder_ / "out/slurm/jobs.json", "{\"array\": ");
+  put_text(folder_ / "out/slurm/jobs.json", "{\"array\": ");
   EXPECT_NE(sentence_of([&] { submit(); }).find("jobs.json: is damaged"), std::string::npos);
 }
 

@@ -72,18 +72,18 @@ TEST_F(AFolder, OfAnotherSweepIsRefusedAndSaysWhatDiffers) {
 
 TEST_F(AFolder, WithFilesOfOthersOrADamagedManifestIsRefused) {
   fs::create_directories(path);
-  write_text_file(path / "thesis.txt", "precious");
+  put_text(path / "thesis.txt", "precious");
   EXPECT_NE(refusal(path, manifest()).find("other files"), std::string::npos);
   EXPECT_THROW(SweepFolder::open(path), Error);
   for (const char* text : {"", "{", "{}", "[]", R"({"format": 5})"}) {
-    write_text_file(path / "manifest.json", text);
+    put_text(path / "manifest.json", text);
     EXPECT_THROW(SweepFolder::open(path), Error) << text;
   }
 }
 
 TEST_F(AFolder, ThatAnotherProcessIsMakingIsTakenUp) {
   fs::create_directories(path / "points");
-  write_text_file(path / "manifest-1.json.part", "{");
+  put_text(path / "manifest-1.json.part", "{");
   EXPECT_EQ(SweepFolder::make(path, manifest()).points(), 4u);
 }
 

@@ -22,16 +22,16 @@ class APlan : public testing::Test {
  protected:
   APlan() {
     fs::create_directories(folder / "scenes");
-    write_text_file(folder / "scenes/scene.toml",
-                    "[bed]\nsize = [0.3, 0.3]\ncells = [60, 60]\n[tool]\nradius = 0.01\n"
-                    "[stroke]\nfile = \"line.toml\"\n");
+    put_text(folder / "scenes/scene.toml",
+             "[bed]\nsize = [0.3, 0.3]\ncells = [60, 60]\n[tool]\nradius = 0.01\n"
+             "[stroke]\nfile = \"line.toml\"\n");
     for (const char* name : {"scenes/line.toml", "other.toml"})
-      write_text_file(folder / name,
-                      "depth = 0.005\n[[segment]]\nkind = \"line\"\nfrom = [-0.1, 0]\nto = [0.1, 0]\n");
+      put_text(folder / name,
+               "depth = 0.005\n[[segment]]\nkind = \"line\"\nfrom = [-0.1, 0]\nto = [0.1, 0]\n");
   }
 
   SweepPlan load(const std::string& text) {
-    write_text_file(folder / "plan.toml", text);
+    put_text(folder / "plan.toml", text);
     return load_plan(folder / "plan.toml");
   }
   /// What it is refused with.
@@ -117,7 +117,7 @@ TEST_F(APlan, CollectsAllMetricsOrThoseNamed) {
   EXPECT_EQ(load(std::string(begin_plan) + "[axes]\nforce.k_s = [1]\n").metrics.size(),
             all_metrics().size() -
                 static_cast<std::size_t>(std::count_if(all_metrics().begin(), all_metrics().end(), needs)));
-  write_text_file(folder / "golden.h5", "checked when it is read");
+  put_text(folder / "golden.h5", "checked when it is read");
   EXPECT_EQ(
       load(std::string(begin_plan) + "golden = \"golden.h5\"\n[axes]\nforce.k_s = [1]\n").metrics.size(),
       all_metrics().size());

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "any_hdf5.h"
 #include "core/error.h"
 #include "hdf5/hdf5_file.h"
 #include "io/bed_writer.h"
@@ -42,7 +43,7 @@ TEST(Shrunk, EverySizeKeepsOneColourAndItsShape) {
 class ASurface : public testing::Test {
  protected:
   void write(const HeightField& bed) {
-    Hdf5Writer file(path);
+    Hdf5Writer file(path, any_hdf5);
     write_bed(file, "/surface", bed);
     file.attribute("/surface", "cell_size", bed.cell_size());
     file.finish();
@@ -110,14 +111,14 @@ TEST_F(ASurface, OfTheLargestBedIsAThumbnailLikeAnyOther) {
 TEST_F(ASurface, ThatIsNoneIsRefused) {
   EXPECT_THROW(inspect_surface(folder / "nothing.h5"), Error);
   {
-    Hdf5Writer file(path);
+    Hdf5Writer file(path, any_hdf5);
     file.write("/surface", std::vector<double>{1.0, 2.0});
     file.attribute("/surface", "cell_size", 0.5);
     file.finish();
   }
   EXPECT_THROW(inspect_surface(path), Error);
   for (const double cell_size : {0.0, -1.0, std::nan("")}) {
-    Hdf5Writer file(path);
+    Hdf5Writer file(path, any_hdf5);
     write_bed(file, "/surface", HeightField(5, 5, 1.0));
     file.attribute("/surface", "cell_size", cell_size);
     file.finish();

@@ -9,15 +9,24 @@
 namespace sandstroke {
 namespace fs = std::filesystem;
 
+namespace {
+
+/// By its columns.
+constexpr OutputKind table_output{"a table of bench", "problem,series,", ",pareto\n"};
+
+}  // namespace
+
 StudyFiles::StudyFiles(const fs::path& folder) : folder_(folder) {
   make_folder(folder);
-  for (const fs::path& file : {page(), table(), data()}) check_output(file, {});
+  check_output(page(), {}, page_output);
+  check_output(table(), {}, table_output);
+  check_output(data(), {}, output_kind(InputKind::bench));
 }
 
 void StudyFiles::write(const Study& study) const {
   const Table runs = runs_table(study.runs);
-  write_text_file(table(), csv_text(runs));
-  Hdf5Writer file(data());
+  write_text_file(table(), csv_text(runs), table_output);
+  Hdf5Writer file(data(), output_kind(InputKind::bench));
   write_table(file, "/runs", runs);
   write_table(file, "/orders", orders_table(study.orders));
   const std::vector<double> directions = flank_directions();
@@ -32,9 +41,8 @@ void StudyFiles::write(const Study& study) const {
   file.write("/directions", directions);
   file.attribute("/directions", "unit", "deg");
   file.write("/machine", describe_machine().dump());
-  write_format(file, InputKind::bench);
   file.finish();
-  write_text_file(page(), html_page("sandstroke bench", PageScript::bench, study_json(study)));
+  write_text_file(page(), html_page("sandstroke bench", PageScript::bench, study_json(study)), page_output);
 }
 
 }  // namespace sandstroke
