@@ -43,14 +43,4 @@ void finish_part(const std::filesystem::path& path);
 /// untouched. Error: io, also where another process is writing it.
 void write_text_file(const std::filesystem::path& path, std::string_view text);
 
-/// Error: io, unless it is a regular file that can be read: what a file names as its input is no device and
-/// no pipe, which might never end.
-void check_readable(const std::filesystem::path& path);
-
-/// False also where it cannot be read.
-bool begins_with(const std::filesystem::path& path, std::string_view signature);
-
-/// Reads a whole text file, or pipe. Error: io, with what to do.
-std::string read_text_file(const std::filesystem::path& path);
-
 }  // namespace sandstroke
