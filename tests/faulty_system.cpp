@@ -1,11 +1,16 @@
 // Loaded into the program by LD_PRELOAD: a system that fails on request, by SANDSTROKE_FAULT =
-//   count:FILE   does not fail, and says in FILE at the end how many calls changed a file
+//   count:FILE   does not fail, and says in FILE at the end how many calls changed a file, and how many read
+//   one
+//                of the user's: one in the current folder, or below
 //   kill:N       kills the program right before the N-th of these calls, counted from 1
 //   full:N       from the N-th on the disk is full
+//   read:N       from the N-th read of a file of the user's on, the disk is damaged
+//   short        such a read gives a few bytes at a time, and each other one is interrupted
 //   clock        the wall clock jumps by days, to and fro, each time it is asked
 //   locks:E      locks of files fail with errno E
 #include <dlfcn.h>
 #include <fcntl.h>
+#include <limits.h>
 #include <signal.h>
 #include <sys/file.h>
 #include <sys/time.h>
@@ -13,6 +18,7 @@
 #include <time.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <cstdarg>
@@ -35,7 +41,7 @@ const char* fault(const char* kind) {
   return text && std::strncmp(text, kind, length) == 0 ? text + length : nullptr;
 }
 
-std::atomic<long> calls = 0;
+std::atomic<long> calls = 0, reads = 0;
 
 /// To be asked before every call that changes a file. False: the disk is full.
 bool goes_on() {
@@ -51,11 +57,32 @@ bool goes_on() {
 /// 0, 1 and 2 are what the program says, not its files.
 bool takes(int file) { return file <= 2 || goes_on(); }
 
+/// Of the user, and not of the system and its libraries.
+bool is_users(int file) {
+  char link[32], folder[PATH_MAX] = "", path[PATH_MAX] = "";
+  std::snprintf(link, sizeof link, "/proc/self/fd/%d", file);
+  if (!getcwd(folder, sizeof folder) || readlink(link, path, sizeof path - 1) < 0) return false;
+  const std::size_t length = std::strlen(folder);
+  return std::strncmp(path, folder, length) == 0 && path[length] == '/';
+}
+
+/// To be asked before every read: how many bytes it may give; -1: none, for it fails.
+ssize_t given(int file, std::size_t count) {
+  static const char* const fail_from = fault("read:");
+  static const bool few = fault("short");
+  constexpr std::size_t most = 5;
+  if (!is_users(file)) return static_cast<ssize_t>(count);
+  const long read = ++reads;
+  if (fail_from && read >= std::atol(fail_from)) return errno = EIO, -1;
+  if (few && read % 2 == 0) return errno = EINTR, -1;
+  return static_cast<ssize_t>(few ? std::min(count, most) : count);
+}
+
 __attribute__((destructor)) void say_count() {
   const char* path = fault("count:");
   if (!path) return;
   if (std::FILE* file = std::fopen(path, "w")) {
-    std::fprintf(file, "%ld", calls.load());
+    std::fprintf(file, "%ld %ld", calls.load(), reads.load());
     std::fclose(file);
   }
 }
@@ -91,6 +118,21 @@ ssize_t pwrite(int file, const void* bytes, size_t count, off_t place) {
 ssize_t pwrite64(int file, const void* bytes, size_t count, off_t place) {
   return takes(file) ? real<decltype(pwrite)>("pwrite64")(file, bytes, count, place) : -1;
 }
+
+ssize_t read(int file, void* bytes, size_t count) {
+  const ssize_t most = given(file, count);
+  return most < 0 ? -1 : real<decltype(read)>("read")(file, bytes, most);
+}
+ssize_t readv(int file, const iovec* parts, int count) {
+  if (count < 1) return 0;
+  return read(file, parts->iov_base, parts->iov_len);  // of the first part, which it may
+}
+ssize_t pread(int file, void* bytes, size_t count, off_t place) {
+  const ssize_t most = given(file, count);
+  return most < 0 ? -1 : real<decltype(pread)>("pread")(file, bytes, most, place);
+}
+ssize_t pread64(int file, void* bytes, size_t count, off_t place) { return pread(file, bytes, count, place); }
+
 int fsync(int file) { return takes(file) ? real<decltype(fsync)>("fsync")(file) : -1; }
 int fdatasync(int file) { return takes(file) ? real<decltype(fdatasync)>("fdatasync")(file) : -1; }
 

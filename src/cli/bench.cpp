@@ -6,6 +6,7 @@
 
 #include "cli/commands.h"
 #include "cli/print_json.h"
+#include "cli/print_text.h"
 #include "core/interrupt.h"
 #include "core/progress.h"
 #include "validation/study/study_files.h"
@@ -32,7 +33,7 @@ int bench(const BenchArguments& arguments) {
   if (arguments.json)
     print_json(study_json(study));
   else
-    fmt::print("{}\npage  {}\n", study_summary(study), files.page().string());
+    print_text("{}\npage  {}\n", study_summary(study), files.page().string());
   return 0;
 }
 

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "core/range.h"
+
 namespace sandstroke {
 
 /// What the command line asked for: runs it and returns the exit code.
@@ -13,6 +15,8 @@ using Command = std::function<int()>;
 /// What an option accepts, said in a user's words; not-a-number is refused too.
 CLI::Validator positive_number();
 CLI::Validator not_negative_number();
+CLI::Validator finite_number();
+CLI::Validator number_within(Range range);
 
 /// --set, which overrides keys of a scene: for load_scene.
 CLI::Option* add_set_option(CLI::App& command, std::vector<std::string>& overrides);

@@ -8,6 +8,7 @@
 
 #include "cli/commands.h"
 #include "cli/print_json.h"
+#include "cli/print_text.h"
 #include "compare/compare_page.h"
 #include "compare/compare_runs.h"
 #include "compare/junit.h"
@@ -69,8 +70,8 @@ int compare(const CompareArguments& arguments) {
   if (arguments.json) {
     print_json(to_json(comparison));
   } else {
-    fmt::print("{}", check_table(comparison));
-    if (!arguments.report.empty()) fmt::print("page  {}\n", page_of(arguments).string());
+    print_text("{}", check_table(comparison));
+    if (!arguments.report.empty()) print_text("page  {}\n", page_of(arguments).string());
   }
   return comparison.passed() ? 0 : 1;
 }

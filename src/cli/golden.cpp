@@ -9,6 +9,7 @@
 
 #include "cli/commands.h"
 #include "cli/print_json.h"
+#include "cli/print_text.h"
 #include "cli/run_picture.h"
 #include "compare/golden_scenes.h"
 #include "compare/junit.h"
@@ -71,7 +72,7 @@ int check(const GoldenArguments& arguments) {
     if (interrupted()) return 128 + interrupted();
     passed = passed && comparisons.back().passed();
     scenes.push_back(to_json(comparisons.back()));
-    if (!arguments.json) fmt::print("{}", summary(comparisons.back()));
+    if (!arguments.json) print_text("{}", summary(comparisons.back()));
     std::fflush(stdout);
   }
   if (!arguments.junit.empty()) write_text_file(arguments.junit, junit_report(comparisons), junit_output);
@@ -81,14 +82,14 @@ int check(const GoldenArguments& arguments) {
            std::any_of(comparisons.begin(), comparisons.end(), [&](const auto& one) {
              return fs::exists(golden_page_path(arguments.report, one.name));
            }))
-    fmt::print("pages   {}\n", arguments.report.string());
+    print_text("pages   {}\n", arguments.report.string());
   return passed ? 0 : 1;
 }
 
 int update(const GoldenArguments& arguments) {
   for (const std::string& name : arguments.names) {
     if (!update_golden(name, arguments.folders, run_golden_scene)) return 128 + interrupted();
-    fmt::print("updated {}\n", arguments.folders.entry(name).string());
+    print_text("updated {}\n", arguments.folders.entry(name).string());
   }
   return 0;
 }

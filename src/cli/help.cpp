@@ -6,6 +6,7 @@
 #include "cli/commands.h"
 #include "cli/help_formatter.h"
 #include "cli/manual.h"
+#include "cli/print_text.h"
 #include "core/error.h"
 
 namespace sandstroke {
@@ -57,7 +58,7 @@ void add_help_command(CLI::App& app, Command& chosen) {
   command->footer(footer);
   command->callback([&app, arguments, &chosen] {
     chosen = [&app, arguments] {
-      fmt::print("{}", help(app, *arguments));
+      print_text("{}", help(app, *arguments));
       return 0;
     };
   });

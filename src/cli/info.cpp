@@ -1,4 +1,5 @@
 #include <spdlog/fmt/fmt.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <limits>
@@ -8,8 +9,10 @@
 
 #include "cli/commands.h"
 #include "cli/print_json.h"
+#include "cli/print_text.h"
 #include "compare/field_difference.h"
 #include "core/error.h"
+#include "core/terminal_text.h"
 #include "io/run_file.h"
 #include "io/scene_keys.h"
 #include "io/scene_toml.h"
@@ -74,20 +77,25 @@ void print_table(const nlohmann::ordered_json& facts) {
   const nlohmann::ordered_json flat = facts.flatten();
   for (const auto& [path, value] : flat.items()) {
     const auto unit = units.find(path.substr(path.rfind('/') + 1));
-    fmt::print("{:<27} {}{}\n", path.substr(1), value.is_string() ? value.get<std::string>() : value.dump(),
+    const std::string text = value.is_string() ? value.get<std::string>() : value.dump();
+    print_text("{:<27} {}{}\n", terminal_line(path.substr(1)), terminal_line(text),
                unit == units.end() ? "" : " " + unit->second);
   }
 }
 
 int info(const InfoArguments& arguments) {
   if (arguments.scene_keys) {
-    fmt::print("{}", key_table(all_scene_keys()));
+    print_text("{}", key_table(all_scene_keys()));
     return 0;
   }
   if (arguments.file.empty()) throw_input_error("info: no file given; name a run file, or add --scene-keys");
   const RunFile run(arguments.file);
   if (arguments.scene) {
-    fmt::print("{}", run.scene_text());
+    const std::string text = run.scene_text();
+    if (isatty(STDOUT_FILENO))
+      print_text("{}", text);
+    else
+      fmt::print("{}", text);  // into a file, or another program
   } else if (arguments.json) {
     print_json(describe(run));
   } else {

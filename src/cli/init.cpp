@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "cli/commands.h"
+#include "cli/print_text.h"
 #include "core/asset.h"
 #include "core/error.h"
 #include "core/output_file.h"
@@ -44,9 +45,9 @@ int init(const fs::path& folder) {
     for (const ExampleFile& file : files) fs::remove(folder / file.name, ignored);
     throw;
   }
-  for (const ExampleFile& file : files) fmt::print("{:<30} {}\n", (folder / file.name).string(), file.what);
+  for (const ExampleFile& file : files) print_text("{:<30} {}\n", (folder / file.name).string(), file.what);
   const auto in_folder = [&](const char* name) { return shell_quoted((folder / name).string()); };
-  fmt::print(
+  print_text(
       "\nComments in each file say what you can change. Next:\n"
       "  sandstroke run {0} -o {1} --png {2}\n"
       "  sandstroke render {1} --view top --style height -o {5}\n"

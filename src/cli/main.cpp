@@ -17,6 +17,7 @@
 #include "core/log.h"
 #include "core/machine.h"
 #include "core/output_file.h"
+#include "core/terminal_text.h"
 #include "core/version.h"
 #include "sand/instruction_set.h"
 
@@ -27,7 +28,9 @@ using namespace sandstroke;
 constexpr int io_error = 4;
 
 /// A standard error that takes nothing changes no exit code (fmt::print would throw).
-void complain(const std::string& sentence) { std::fputs(("sandstroke: " + sentence + "\n").c_str(), stderr); }
+void complain(const std::string& sentence) {
+  std::fputs(("sandstroke: " + terminal_line(sentence) + "\n").c_str(), stderr);
+}
 
 int complain_of_threads(const std::exception& failure) {
   complain(

@@ -1,12 +1,14 @@
 #pragma once
 
-#include <spdlog/fmt/fmt.h>
-
 #include <string>
+
+#include "cli/print_text.h"
 
 namespace sandstroke {
 
 /// A line of a summary: its names and values line up.
-inline void print_row(const char* name, const std::string& value) { fmt::print("{:<18} {}\n", name, value); }
+inline void print_row(const char* name, const std::string& value) {
+  print_text("{:<18} {}\n", name, terminal_line(value));
+}
 
 }  // namespace sandstroke

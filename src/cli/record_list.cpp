@@ -4,6 +4,7 @@
 
 #include "cli/find_device.h"
 #include "cli/print_json.h"
+#include "cli/print_text.h"
 #include "cli/record_parts.h"
 #include "io/table.h"
 
@@ -60,15 +61,15 @@ int list_devices(bool json) {
     return 0;
   }
   if (!knows_chai3d) {
-    fmt::print("no devices: this program was built without CHAI3D; {}\n", how_to_build_with_chai3d);
+    print_text("no devices: this program was built without CHAI3D; {}\n", how_to_build_with_chai3d);
   } else if (devices.rows() == 0) {
-    fmt::print(
+    print_text(
         "no devices: CHAI3D finds none; check the cable, the power, the driver and your permissions\n");
   } else {
-    fmt::print("{}", aligned_text(devices));
+    print_text("{}", aligned_text(devices));
   }
-  fmt::print("\nstand-ins, where there is no device:\n");
-  for (const auto& [name, help] : stand_ins) fmt::print("{:<20}{}\n", name, help);
+  print_text("\nstand-ins, where there is no device:\n");
+  for (const auto& [name, help] : stand_ins) print_text("{:<20}{}\n", name, help);
   return 0;
 }
 

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "cli/commands.h"
+#include "cli/print_text.h"
 #include "cli/run_picture.h"
 #include "core/error.h"
 #include "core/interrupt.h"
@@ -122,7 +123,7 @@ int draw_pictures(const RunFile& run, const std::vector<double>& times, const Vi
   for (std::size_t k = 0; k < times.size(); ++k)
     if (!fs::exists(picture(k)))
       throw_io_error("{}: was removed while other frames were drawn; render again", picture(k).string());
-  fmt::print("{}\n", folder.string());
+  print_text("{}\n", folder.string());
   return 0;
 }
 
@@ -139,7 +140,7 @@ int draw_film(const RunFile& run, const std::vector<double>& times, const Scene&
                                     [&](std::size_t, const Image& image) { return film.add(image); });
   if (exit_code != 0) return exit_code;
   if (!film.finish()) return 128 + interrupted();
-  fmt::print("{}\n", arguments.video.string());
+  print_text("{}\n", arguments.video.string());
   return 0;
 }
 
@@ -187,7 +188,7 @@ int render(const RenderArguments& arguments) {
   check_picture_name(output);
   check_output(output, {arguments.run}, picture_output);
   write_png(output, painter.draw(surface, tool ? std::optional(time) : std::nullopt));
-  fmt::print("{}\n", output.string());
+  print_text("{}\n", output.string());
   return 0;
 }
 
@@ -203,21 +204,24 @@ void add_view_options(CLI::App& app, RenderArguments& arguments) {
   app.add_option("--style", arguments.style,
                  "Sand in the sun, a map of heights, or a map of the change since the start" + scenes)
       ->check(CLI::IsMember(style_names));
-  app.add_option("--azimuth", arguments.azimuth,
-                 "Direction of the camera, from +x towards +y [deg]" + scenes);
+  app.add_option("--azimuth", arguments.azimuth, "Direction of the camera, from +x towards +y [deg]" + scenes)
+      ->check(number_within(degrees));
   app.add_option("--elevation", arguments.elevation, "Height of the camera above the horizon [deg]" + scenes)
-      ->check(CLI::Range(0.0, 90.0));
+      ->check(number_within({0.0, 90.0, false}));
   app.add_option("--distance", arguments.distance,
                  "Distance from target to camera [m]. 0 fits the subject into the picture" + scenes)
       ->check(not_negative_number());
   app.add_option("--target", arguments.target, "Point that a custom view looks at [m]" + scenes)
       ->type_name("X,Y,Z")
       ->delimiter(',')
-      ->expected(3);
+      ->expected(3)
+      ->check(finite_number());
   app.add_option("--light-azimuth", arguments.light_azimuth,
-                 "Direction of the sun, from +x towards +y [deg]" + scenes);
+                 "Direction of the sun, from +x towards +y [deg]" + scenes)
+      ->check(number_within(degrees));
   app.add_option("--light-elevation", arguments.light_elevation,
-                 "Height of the sun above the horizon [deg]" + scenes);
+                 "Height of the sun above the horizon [deg]" + scenes)
+      ->check(number_within(sharp_angle));
   app.add_option("--contour", arguments.contour_interval,
                  "Height between contour lines [m]. Default: 0, a round number is chosen")
       ->check(not_negative_number());

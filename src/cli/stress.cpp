@@ -10,6 +10,7 @@
 
 #include "cli/commands.h"
 #include "cli/print_json.h"
+#include "cli/print_text.h"
 #include "core/error.h"
 #include "core/interrupt.h"
 #include "core/output_file.h"
@@ -58,7 +59,7 @@ Table counts(const StressReport& report) {
 }
 
 void print_summary(const StressReport& report) {
-  fmt::print("{}", aligned_text(counts(report), 9));
+  print_text("{}", aligned_text(counts(report), 9));
   for (const StressCase& one : report.cases)
     if (one.surprise())
       spdlog::error("surprise: {}, {}: {} where {} was expected ({})", one.group, one.name,
@@ -88,7 +89,7 @@ int stress(const StressArguments& arguments) {
     print_json(data);
   } else {
     print_summary(report);
-    fmt::print("\nThe maps: {}\n", page.string());
+    print_text("\nThe maps: {}\n", page.string());
   }
   return report.surprises() == 0 ? 0 : static_cast<int>(ErrorKind::unstable);
 }

@@ -3,8 +3,10 @@
 #include <memory>
 
 #include "cli/print_json.h"
+#include "cli/print_text.h"
 #include "cli/record_parts.h"
 #include "cli/stroke_parts.h"
+#include "core/terminal_text.h"
 #include "io/recording_file.h"
 #include "io/stroke_file.h"
 #include "record/recording_json.h"
@@ -56,7 +58,7 @@ std::string recorded_ticks_text(const RecordingFooter& footer) {
 namespace {
 
 std::string table_row(std::string_view title, const std::string& value) {
-  return fmt::format("{:<11}{}\n", title, value);
+  return fmt::format("{:<11}{}\n", title, terminal_line(value));
 }
 
 /// Hz, of the samples that there are.
@@ -170,7 +172,7 @@ void add_stroke_info_command(CLI::App& stroke_app, Command& chosen) {
       if (options->json) {
         print_json(describe(options->file, stroke, summary, recording));
       } else {
-        fmt::print("{}", as_table(options->file, stroke, summary, recording));
+        print_text("{}", as_table(options->file, stroke, summary, recording));
       }
       return 0;
     };

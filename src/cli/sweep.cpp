@@ -8,6 +8,7 @@
 #include "cli/commands.h"
 #include "cli/print_json.h"
 #include "cli/print_row.h"
+#include "cli/print_text.h"
 #include "cli/sweep_parts.h"
 #include "core/counted.h"
 #include "core/error.h"
@@ -86,9 +87,9 @@ int dry_run(Sweep& sweep, const SweepArguments& arguments) {
                                       {"bytes", estimate.bytes}});
     return 0;
   }
-  fmt::print("{}", aligned_text(first_points(design, 5), 9));
-  if (design.points() > 5) fmt::print("...\n");
-  fmt::print("\n{} points need {} simulations: about {} on one core and {:.3g} MB, measured on one point\n",
+  print_text("{}", aligned_text(first_points(design, 5), 9));
+  if (design.points() > 5) print_text("...\n");
+  print_text("\n{} points need {} simulations: about {} on one core and {:.3g} MB, measured on one point\n",
              design.points(), sweep.simulations(), duration(estimate.seconds), estimate.bytes * 1e-6);
   return 0;
 }

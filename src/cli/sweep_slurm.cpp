@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/print_json.h"
+#include "cli/print_text.h"
 #include "cli/sweep_parts.h"
 #include "sweep/slurm_jobs.h"
 
@@ -61,7 +62,7 @@ int submit_sweep(const SlurmArguments& arguments, const fs::path& plan, const Sw
     if (json)
       print_json(nlohmann::ordered_json{{"folder", folder.path().string()}, {"tasks", 0}});
     else
-      fmt::print("all points are done: sandstroke sweep collect {}\n", folder.path().string());
+      print_text("all points are done: sandstroke sweep collect {}\n", folder.path().string());
     return 0;
   }
   const SlurmWork work{fs::read_symlink("/proc/self/exe"), fs::current_path(), plan, folder.path()};
@@ -72,7 +73,7 @@ int submit_sweep(const SlurmArguments& arguments, const fs::path& plan, const Sw
                                       {"array", jobs.array},
                                       {"collect", jobs.collect}});
   else
-    fmt::print("submitted job array {} of {} tasks, and job {} that collects\nsandstroke sweep status {}\n",
+    print_text("submitted job array {} of {} tasks, and job {} that collects\nsandstroke sweep status {}\n",
                jobs.array, jobs.tasks.size(), jobs.collect, folder.path().string());
   return 0;
 }

@@ -7,6 +7,7 @@
 
 #include "cli/print_json.h"
 #include "cli/print_row.h"
+#include "cli/print_text.h"
 #include "cli/sweep_parts.h"
 
 namespace sandstroke {
@@ -34,7 +35,7 @@ void print(const SweepStatus& status, const fs::path& folder) {
     print_row("tasks", fmt::format("{}, of which {} done; job array {}", status.tasks.size(),
                                    status.tasks.size() - open.rows(), *status.array));
     print_row("logs", (folder / "slurm").string());
-    if (open.rows() > 0) fmt::print("\n{}\n", aligned_text(open));
+    if (open.rows() > 0) print_text("\n{}\n", aligned_text(open));
   }
   print_row("next", status.advice());
 }

@@ -2,11 +2,13 @@
 #include <cmath>
 
 #include "cli/commands.h"
+#include "io/toml_reader.h"
 
 namespace sandstroke {
 namespace {
 
-CLI::Validator finite_number(const char* name, const char* wanted, bool (*accepts)(double)) {
+CLI::Validator accepted_number(const std::string& name, const std::string& wanted,
+                               const std::function<bool(double)>& accepts) {
   return CLI::Validator(
       [=](std::string& text) -> std::string {
         double value = 0.0;
@@ -20,11 +22,23 @@ CLI::Validator finite_number(const char* name, const char* wanted, bool (*accept
 }  // namespace
 
 CLI::Validator positive_number() {
-  return finite_number("NUMBER > 0", "a number above 0", [](double value) { return value > 0.0; });
+  return accepted_number("NUMBER > 0", "a number above 0", [](double value) { return value > 0.0; });
 }
 
 CLI::Validator not_negative_number() {
-  return finite_number("NUMBER >= 0", "a number of 0 or more", [](double value) { return value >= 0.0; });
+  return accepted_number("NUMBER >= 0", "a number of 0 or more", [](double value) { return value >= 0.0; });
+}
+
+CLI::Validator finite_number() {
+  return accepted_number("NUMBER", "a finite number", [](double) { return true; });
+}
+
+CLI::Validator number_within(Range range) {
+  const std::string words = range_text(range);
+  return accepted_number("NUMBER " + words, "a number " + words, [range](double value) {
+    return range.open ? value > range.lowest && value < range.highest
+                      : value >= range.lowest && value <= range.highest;
+  });
 }
 
 CLI::Option* add_set_option(CLI::App& command, std::vector<std::string>& overrides) {

@@ -6,7 +6,6 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
-#include <sstream>
 
 #include "core/error.h"
 
@@ -177,36 +176,6 @@ void write_text_file(const fs::path& path, std::string_view text, const OutputKi
                    reason);
   }
   finish_part(path, kind);
-}
-
-namespace {
-
-void check_opens(const fs::path& path, bool may_be_pipe) {
-  const fs::file_status status = fs::status(path);
-  if (fs::is_directory(status)) throw_io_error("{}: is a folder; name a file", path.string());
-  if (may_be_pipe && fs::is_fifo(status)) return;
-  if (fs::exists(status) && !fs::is_regular_file(status))  // a device has no end, a pipe may have none
-    throw_io_error("{}: is not a regular file; name one", path.string());
-  if (!std::ifstream(path))
-    throw_io_error("{}: cannot be opened ({}); check the path", path.string(), std::strerror(errno));
-}
-
-}  // namespace
-
-void check_readable(const fs::path& path) { check_opens(path, false); }
-
-bool begins_with(const fs::path& path, std::string_view signature) {
-  std::string begin(signature.size(), '\0');
-  std::ifstream file(path, std::ios::binary);
-  return file.read(begin.data(), static_cast<std::streamsize>(begin.size())) && begin == signature;
-}
-
-std::string read_text_file(const fs::path& path) {
-  check_opens(path, true);
-  const std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  text << file.rdbuf();
-  return text.str();
 }
 
 }  // namespace sandstroke

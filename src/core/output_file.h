@@ -64,14 +64,4 @@ void finish_part(const std::filesystem::path& path, const OutputKind& kind);
 /// untouched; without a kind it replaces nothing. Error: input or io, as of take_part() and finish_part().
 void write_text_file(const std::filesystem::path& path, std::string_view text, const OutputKind& kind = {});
 
-/// Error: io, unless it is a regular file that can be read: what a file names as its input is no device and
-/// no pipe, which might never end.
-void check_readable(const std::filesystem::path& path);
-
-/// False also where it cannot be read.
-bool begins_with(const std::filesystem::path& path, std::string_view signature);
-
-/// Reads a whole text file, or pipe. Error: io, with what to do.
-std::string read_text_file(const std::filesystem::path& path);
-
 }  // namespace sandstroke

@@ -13,5 +13,7 @@ struct Range {
 inline constexpr Range any_number{};
 inline constexpr Range positive{0.0, std::numeric_limits<double>::max(), true};
 inline constexpr Range not_negative{0.0, std::numeric_limits<double>::max(), false};
+inline constexpr Range degrees{-360.0, 360.0, false};
+inline constexpr Range sharp_angle{0.0, 90.0, true};  ///< deg
 
 }  // namespace sandstroke

@@ -2,26 +2,15 @@
 
 #include <string_view>
 
+#include "core/utf8.h"
+
 namespace sandstroke {
 namespace {
 
 /// Bytes of the character of UTF-8 that the text begins with; 0: it does not, or XML has no such character.
 std::size_t character_bytes(std::string_view text) {
-  const auto byte = [&](std::size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u; };
-  const unsigned lead = byte(0);
-  if (lead < 0x20) return 0;
-  if (lead < 0x80) return 1;
-  if (lead < 0xC0 || lead > 0xF7) return 0;
-  const std::size_t bytes = lead < 0xE0 ? 2 : lead < 0xF0 ? 3 : 4;
-  unsigned code = lead & (0x7Fu >> bytes);
-  for (std::size_t i = 1; i < bytes; ++i) {
-    if ((byte(i) & 0xC0u) != 0x80u) return 0;
-    code = code << 6 | (byte(i) & 0x3Fu);
-  }
-  constexpr unsigned least[] = {0x80, 0x800, 0x10000};  // of two, three and four bytes: else it is overlong
-  const bool surrogate = code >= 0xD800 && code < 0xE000;
-  const bool allowed = code >= least[bytes - 2] && code <= 0x10FFFF && !surrogate && (code & ~1u) != 0xFFFE;
-  return allowed ? bytes : 0;
+  const auto [bytes, code] = first_character(text);
+  return code < 0x20 || (code & ~1u) == 0xFFFE ? 0 : bytes;
 }
 
 }  // namespace

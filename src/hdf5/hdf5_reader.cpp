@@ -14,8 +14,8 @@
 
 #include "core/error.h"
 #include "core/file_lock.h"
+#include "core/input_file.h"
 #include "core/machine.h"
-#include "core/output_file.h"
 #include "hdf5/hdf5_storage.h"
 
 namespace sandstroke {
@@ -71,11 +71,14 @@ bool is_being_written(const std::filesystem::path& path) {
 
 Hdf5Reader::Hdf5Reader(const std::filesystem::path& path) : name_(path.string()) {
   prepare_hdf5();
-  check_readable(path);
-  if (H5Fis_hdf5(name_.c_str()) <= 0) throw_input_error("{}: is not an HDF5 file; name another file", name_);
+  if (!begins_with(path, hdf5_signature) && H5Fis_hdf5(name_.c_str()) <= 0) {
+    check_can_be_read_whole(path);
+    throw_input_error("{}: is not an HDF5 file; name another file", name_);
+  }
   if (!is_being_written(path))
     file_ = Hdf5Handle(H5Fopen(name_.c_str(), H5F_ACC_RDONLY, without_locks()), H5Fclose);
   if (!file_.valid()) {
+    check_can_be_read_whole(path);
     throw_input_error("{}: is a damaged or truncated HDF5 file, or still being written; make it again",
                       name_);
   }
@@ -92,21 +95,31 @@ void Hdf5Reader::fail(const std::string& object, const std::string& sentence) co
   throw_input_error("{}: {} {}", name_, object, sentence);
 }
 
+void Hdf5Reader::fail_to_read(const std::string& object, const std::string& sentence) const {
+  check_can_be_read_whole(name_);
+  fail(object, sentence);
+}
+
+bool Hdf5Reader::yes(htri_t answer) const {
+  if (answer < 0) check_can_be_read_whole(name_);  // a link into another file is no fault of the disk
+  return answer > 0;
+}
+
 bool Hdf5Reader::has(const std::string& object) const {
   if (object == "/") return true;
   // H5Lexists wants every group on the way to exist.
   for (std::size_t slash = object.find('/', 1); slash != std::string::npos;
        slash = object.find('/', slash + 1)) {
-    if (H5Lexists(file_, object.substr(0, slash).c_str(), access_) <= 0) return false;
+    if (!yes(H5Lexists(file_, object.substr(0, slash).c_str(), access_))) return false;
   }
-  return H5Lexists(file_, object.c_str(), access_) > 0 &&
-         H5Oexists_by_name(file_, object.c_str(), access_) > 0;
+  return yes(H5Lexists(file_, object.c_str(), access_)) &&
+         yes(H5Oexists_by_name(file_, object.c_str(), access_));
 }
 
 Hdf5Handle Hdf5Reader::open_dataset(const std::string& dataset) const {
   if (!has(dataset)) fail(dataset, "is missing; name a file of the right kind");
   Hdf5Handle opened(H5Dopen2(file_, dataset.c_str(), access_), H5Dclose);
-  if (!opened.valid()) fail(dataset, "is not a dataset; name a file of the right kind");
+  if (!opened.valid()) fail_to_read(dataset, "is not a dataset; name a file of the right kind");
   if (const std::string fault = layout_fault(opened, file_bytes_); !fault.empty()) fail(dataset, fault);
   return opened;
 }
@@ -138,13 +151,14 @@ Hdf5Handle Hdf5Reader::open_column(const std::string& dataset, int rank, std::si
 
 void Hdf5Reader::read(const std::string& dataset, const Hdf5Handle& opened, hid_t memory_type,
                       void* values) const {
-  if (const std::string fault = storage_fault(opened, file_bytes_); !fault.empty()) fail(dataset, fault);
+  if (const std::string fault = storage_fault(opened, file_bytes_); !fault.empty())
+    fail_to_read(dataset, fault);
   constexpr double most_chunks = 2e5;  // for each of which HDF5 takes memory
   if (const double chunks = chunk_count(opened); chunks > most_chunks)
     fail(dataset,
          fmt::format("is cut into {:.0f} chunks; make them larger: h5repack -l CHUNK=... OLD NEW", chunks));
   if (H5Dread(opened, memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) < 0)
-    fail(dataset, "cannot be read; the file is damaged");
+    fail_to_read(dataset, "cannot be read; the file is damaged");
 }
 
 std::vector<hsize_t> Hdf5Reader::shape(const std::string& dataset) const {
@@ -207,7 +221,7 @@ double Hdf5Reader::fill_value(const std::string& dataset) const {
   const Hdf5Handle properties(H5Dget_create_plist(opened), H5Pclose);
   double fill = 0.0;
   if (H5Pget_fill_value(properties, H5T_NATIVE_DOUBLE, &fill) < 0)
-    fail(dataset, "cannot be read; the file is damaged");
+    fail_to_read(dataset, "cannot be read; the file is damaged");
   return fill;
 }
 
@@ -222,7 +236,7 @@ void Hdf5Reader::visit_written(
   const std::string fault = storage_fault(opened, file_bytes_, [&](const hsize_t* start) {
     starts.push_back({start[0], start[1]});
   });
-  if (!fault.empty()) fail(dataset, fault);
+  if (!fault.empty()) fail_to_read(dataset, fault);
   hsize_t chunk[2] = {1, 1};
   H5Pget_chunk(properties, 2, chunk);
   const Hdf5Handle space(H5Dget_space(opened), H5Sclose);
@@ -235,7 +249,7 @@ void Hdf5Reader::visit_written(
     const Hdf5Handle memory_space(H5Screate_simple(2, block, nullptr), H5Sclose);
     H5Sselect_hyperslab(space, H5S_SELECT_SET, start.data(), nullptr, block, nullptr);
     if (H5Dread(opened, H5T_NATIVE_DOUBLE, memory_space, space, H5P_DEFAULT, heights.data()) < 0)
-      fail(dataset, "cannot be read; the file is damaged");
+      fail_to_read(dataset, "cannot be read; the file is damaged");
     visit(static_cast<Eigen::Index>(start[0]), static_cast<Eigen::Index>(start[1]), heights);
   }
 }
@@ -267,13 +281,17 @@ std::string Hdf5Reader::text(const std::string& dataset) const {
 }
 
 bool Hdf5Reader::has_attribute(const std::string& object, const std::string& attribute) const {
-  return has(object) && H5Aexists_by_name(file_, object.c_str(), attribute.c_str(), access_) > 0;
+  return has(object) && yes(H5Aexists_by_name(file_, object.c_str(), attribute.c_str(), access_));
 }
 
 Hdf5Handle Hdf5Reader::open_attribute(const std::string& object, const std::string& attribute) const {
   if (!has_attribute(object, attribute))
     fail(object, fmt::format("has no attribute '{}'; name a file of the right kind", attribute));
-  return {H5Aopen_by_name(file_, object.c_str(), attribute.c_str(), H5P_DEFAULT, access_), H5Aclose};
+  Hdf5Handle opened(H5Aopen_by_name(file_, object.c_str(), attribute.c_str(), H5P_DEFAULT, access_),
+                    H5Aclose);
+  if (!opened.valid())
+    fail_to_read(object, fmt::format("attribute '{}' cannot be read; the file is damaged", attribute));
+  return opened;
 }
 
 double Hdf5Reader::number_attribute(const std::string& object, const std::string& attribute) const {
@@ -283,7 +301,7 @@ double Hdf5Reader::number_attribute(const std::string& object, const std::string
   double value = 0.0;
   if (!is_number(type) || H5Sget_simple_extent_npoints(space) != 1 ||
       H5Aread(opened, H5T_NATIVE_DOUBLE, &value) < 0)
-    fail(object, fmt::format("attribute '{}' is not one number", attribute));
+    fail_to_read(object, fmt::format("attribute '{}' is not one number", attribute));
   return value;
 }
 
@@ -296,7 +314,7 @@ std::string Hdf5Reader::text_attribute(const std::string& object, const std::str
       H5Sget_simple_extent_npoints(space) == 1 &&
       read_string(type, text, [&](hid_t memory_type, void* buffer) {
         if (H5Aread(opened, memory_type, buffer) < 0)
-          fail(object, fmt::format("attribute '{}' cannot be read; the file is damaged", attribute));
+          fail_to_read(object, fmt::format("attribute '{}' cannot be read; the file is damaged", attribute));
       });
   if (!is_text) fail(object, fmt::format("attribute '{}' is not one string", attribute));
   return text;
@@ -317,7 +335,7 @@ std::vector<std::string> Hdf5Reader::members(const std::string& group) const {
     return 0;
   };
   if (H5Literate_by_name(file_, group.c_str(), H5_INDEX_NAME, H5_ITER_INC, nullptr, add, &names, access_) < 0)
-    fail(group, "is not a group; name a file of the right kind");
+    fail_to_read(group, "is not a group; name a file of the right kind");
   return names;
 }
 

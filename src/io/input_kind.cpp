@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "core/output_file.h"
+#include "core/input_file.h"
 #include "haptics/recording.h"
 #include "io/png_file.h"
 #include "io/scene_keys.h"
@@ -91,11 +91,10 @@ InputKind kind_of(const fs::path& path) {
   std::error_code not_there;
   if (!fs::is_regular_file(path, not_there)) return InputKind::unknown;
   if (path.extension() == journal_extension) return InputKind::recording;
-  if (begins_with(path, png_signature)) return InputKind::picture;
   try {
+    if (begins_with(path, png_signature)) return InputKind::picture;
     if (begins_with(path, hdf5_signature)) return kind_of_hdf5(path);
-    constexpr std::uintmax_t most_bytes = 10'000'000;  // of a text that somebody wrote
-    return fs::file_size(path) <= most_bytes ? kind_of_toml(path) : InputKind::unknown;
+    return kind_of_toml(path);
   } catch (const Error&) {
     return InputKind::unknown;
   }

@@ -3,14 +3,14 @@
 #include <png.h>
 #include <zlib.h>
 
-#include <cerrno>
 #include <cstdio>
 #include <cstring>
-#include <memory>
+#include <exception>
 #include <string>
 #include <vector>
 
 #include "core/error.h"
+#include "core/input_file.h"
 #include "core/output_file.h"
 #include "core/version.h"
 
@@ -22,12 +22,9 @@ namespace fs = std::filesystem;
 /// method below that calls it sets its own return point and holds only plain data.
 class PngReader {
  public:
-  explicit PngReader(const fs::path& path) : name_(path.string()), file_(nullptr, std::fclose) {
-    check_readable(path);
-    file_.reset(std::fopen(name_.c_str(), "rb"));
-    if (!file_) throw_io_error("{}: cannot be opened ({}); check the path", name_, std::strerror(errno));
+  explicit PngReader(const fs::path& path) : name_(path.string()), file_(path) {
     png_byte signature[8] = {};
-    if (std::fread(signature, 1, 8, file_.get()) != 8 || png_sig_cmp(signature, 0, 8) != 0)
+    if (file_.read(signature, 8) != 8 || png_sig_cmp(signature, 0, 8) != 0)
       throw_input_error("{}: is not a PNG file; save the picture as PNG", name_);
     png_ = png_create_read_struct(PNG_LIBPNG_VER_STRING, this, fail, ignore_warning);
     info_ = png_ ? png_create_info_struct(png_) : nullptr;
@@ -64,6 +61,20 @@ class PngReader {
   }
 
  private:
+  static void read(png_structp png, png_bytep bytes, png_size_t count) {
+    auto* reader = static_cast<PngReader*>(png_get_io_ptr(png));
+    if (!reader->take(bytes, count)) png_error(png, "Read Error");
+  }
+  /// No exception passes through libpng.
+  bool take(png_bytep bytes, png_size_t count) {
+    try {
+      return file_.read(bytes, count) == count;
+    } catch (const Error&) {
+      failure_ = std::current_exception();
+      return false;
+    }
+  }
+
   static void fail(png_structp png, png_const_charp message) {
     static_cast<PngReader*>(png_get_error_ptr(png))->keep(message);
     png_longjmp(png, 1);
@@ -74,7 +85,7 @@ class PngReader {
   bool read_header() {
     if (setjmp(png_jmpbuf(png_))) return false;
     png_set_user_limits(png_, PNG_UINT_31_MAX, PNG_UINT_31_MAX);  // so that check_size() gives the reason
-    png_init_io(png_, file_.get());
+    png_set_read_fn(png_, this, read);
     png_set_sig_bytes(png_, 8);
     png_read_info(png_, info_);
     return true;
@@ -96,11 +107,13 @@ class PngReader {
   }
 
   [[noreturn]] void throw_damaged() const {
+    if (failure_) std::rethrow_exception(failure_);
     throw_input_error("{}: is cut off or damaged ({}); save the PNG again", name_, message_);
   }
 
   std::string name_;
-  std::unique_ptr<std::FILE, int (*)(std::FILE*)> file_;
+  InputFile file_;
+  std::exception_ptr failure_;  // of the disk
   png_structp png_ = nullptr;
   png_infop info_ = nullptr;
   char message_[160] = "out of memory";

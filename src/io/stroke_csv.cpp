@@ -6,7 +6,7 @@
 #include <map>
 
 #include "core/error.h"
-#include "core/output_file.h"
+#include "core/input_file.h"
 
 namespace sandstroke {
 namespace {
@@ -44,14 +44,17 @@ class TableReader {
     if (!format.columns.empty()) take_header(format.columns);
   }
 
-  void read(std::string_view text) {
-    if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);  // byte-order mark
-    while (!text.empty()) {
-      const std::size_t end = text.find('\n');
-      ++line_;
-      take_line(trimmed(text.substr(0, end)));
-      text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+  /// The next part of the text, cut anywhere.
+  void read(std::string_view part) {
+    for (std::size_t end; (end = part.find('\n')) != std::string_view::npos; part.remove_prefix(end + 1)) {
+      extend_line(part.substr(0, end));
+      end_line();
     }
+    extend_line(part);
+  }
+
+  void end() {
+    if (!rest_.empty()) end_line();
     if (columns_.empty())
       throw_input_error("{}: is empty; give a table with a header row and one row per sample", name_);
     if (lines_.empty()) throw_input_error("{}: has no samples; add at least one row", name_);
@@ -62,6 +65,21 @@ class TableReader {
 
  private:
   using Indices = std::vector<std::size_t>;
+
+  void extend_line(std::string_view part) {
+    constexpr std::size_t most = 1'000'000;  // bytes
+    if (rest_.size() + part.size() > most)
+      throw_input_error("{}:{}: the line is longer than {} MB; write one sample per line", name_, line_ + 1,
+                        most / 1'000'000);
+    rest_ += part;
+  }
+
+  void end_line() {
+    std::string_view line = rest_;
+    if (++line_ == 1 && line.starts_with("\xEF\xBB\xBF")) line.remove_prefix(3);  // byte-order mark
+    take_line(trimmed(line));
+    rest_.clear();
+  }
 
   void take_line(std::string_view line) {
     if (line.empty() || line == format_.skip) return;
@@ -140,7 +158,8 @@ class TableReader {
   std::vector<std::string> columns_;
   Indices position_, velocity_, force_;
   std::size_t time_ = 0;
-  std::size_t line_ = 0;
+  std::size_t line_ = 0;  // the last whole one
+  std::string rest_;      // of the text: a line that has not ended
   Stroke stroke_;
   std::vector<std::size_t> lines_;
 };
@@ -204,6 +223,17 @@ void spread_equal_times(Stroke& stroke, const std::string& name) {
   }
 }
 
+Stroke finished(TableReader& table, const std::string& name, const StrokeCsvFormat& format) {
+  table.end();
+  Stroke& stroke = table.stroke();
+  check_times(stroke, table.lines(), name, format.equal_times != EqualTimes::error);
+  if (format.equal_times == EqualTimes::drop) drop_equal_times(stroke);
+  if (format.equal_times == EqualTimes::spread) spread_equal_times(stroke, name);
+  stroke.nominal_rate = format.time ? 0.0 : format.rate;
+  check_stroke(stroke, name);
+  return std::move(stroke);
+}
+
 }  // namespace
 
 Unit position_unit(const std::string& name, double pixel_size) {
@@ -230,17 +260,15 @@ Unit force_unit(const std::string& name) { return unit(name, {{"N", {1, 1}}, {"m
 Stroke parse_stroke_csv(std::string_view text, const std::string& name, const StrokeCsvFormat& format) {
   TableReader table(name, format);
   table.read(text);
-  Stroke& stroke = table.stroke();
-  check_times(stroke, table.lines(), name, format.equal_times != EqualTimes::error);
-  if (format.equal_times == EqualTimes::drop) drop_equal_times(stroke);
-  if (format.equal_times == EqualTimes::spread) spread_equal_times(stroke, name);
-  stroke.nominal_rate = format.time ? 0.0 : format.rate;
-  check_stroke(stroke, name);
-  return std::move(stroke);
+  return finished(table, name, format);
 }
 
 Stroke read_stroke_csv(const std::filesystem::path& path, const StrokeCsvFormat& format) {
-  return parse_stroke_csv(read_text_file(path), path.string(), format);
+  const std::string name = path.string();
+  InputFile file(path, InputFile::Pipe::taken);
+  TableReader table(name, format);
+  for (std::string_view part = file.next_block(); !part.empty(); part = file.next_block()) table.read(part);
+  return finished(table, name, format);
 }
 
 }  // namespace sandstroke

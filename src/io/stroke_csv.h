@@ -46,8 +46,9 @@ struct StrokeCsvFormat {
 };
 
 /// Reads a table of comma-separated numbers as a stroke: one sample per line, a header row first unless
-/// format.columns names the columns. Blank lines, CRLF and a byte-order mark are fine. After a pen_up line
-/// the pen strokes are kept apart (PenState), also where equal stamps are dropped.
+/// format.columns names the columns. Of any length: the text is not kept. Blank lines, CRLF and a byte-order
+/// mark are fine. After a pen_up line the pen strokes are kept apart (PenState), also where equal stamps are
+/// dropped.
 ///
 /// spread: the samples of a run of k equal stamps are placed evenly up to the next stamp, 1/k of the way
 /// apart. A run that ends a pen stroke (or the file) is placed with the spacing before it instead, where that

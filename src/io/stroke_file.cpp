@@ -2,7 +2,7 @@
 
 #include "core/error.h"
 #include "core/hash.h"
-#include "core/output_file.h"
+#include "core/input_file.h"
 #include "haptics/stroke_script.h"
 #include "io/input_kind.h"
 #include "io/stroke_format.h"

@@ -8,8 +8,8 @@
 #include <sstream>
 
 #include "core/error.h"
+#include "core/input_file.h"
 #include "core/nearest_name.h"
-#include "core/output_file.h"
 #include "io/toml_key_depth.h"
 
 namespace sandstroke {
@@ -208,7 +208,12 @@ double TomlReader::checked(std::string_view key, const toml::node& node, Range r
     fail(key, fmt::format("is '{}'; give it without a unit{}", text->get(),
                           unit.empty() ? "" : fmt::format(", in {}", unit)));
   if (!node.is_number()) fail(key, fmt::format("is {}; give a number", type_name(node)));
-  const double number = *node.value<double>();
+  const std::optional<double> held = node.value<double>();  // none of most integers beyond 2^53
+  if (!held)
+    fail(key, fmt::format("is {}, a whole number beyond 2^53 = 9007199254740992, up to which all are exact; "
+                          "give a smaller one, or write it with a decimal point",
+                          node.value<std::int64_t>().value_or(0)));
+  const double number = *held;
   if (!std::isfinite(number)) fail(key, fmt::format("is {}; give a finite number", number));
   const bool inside = range.open ? number > range.lowest && number < range.highest
                                  : number >= range.lowest && number <= range.highest;

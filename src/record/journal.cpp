@@ -162,13 +162,9 @@ struct JournalReader::Block {
   std::string content;
 };
 
-JournalReader::JournalReader(const fs::path& path) : name_(path.string()) {
-  if (fs::exists(path) && !fs::is_directory(path) && !fs::is_regular_file(path))
-    throw_input_error("{}: is not a regular file; name one", name_);
-  check_readable(path);
+JournalReader::JournalReader(const fs::path& path) : name_(path.string()), file_(path) {
   lock_ = share_finished(path);
   size_ = fs::file_size(path);
-  file_.open(path, std::ios::binary);
 
   char begin[signature.size()] = {};
   if (!read(begin, sizeof begin) || std::string_view(begin, sizeof begin) != signature)
@@ -191,11 +187,7 @@ JournalReader::JournalReader(const fs::path& path) : name_(path.string()) {
   throw_input_error("{}: is cut off or damaged within its header, and has no sample; remove it", name_);
 }
 
-bool JournalReader::read(void* bytes, std::size_t count) {
-  file_.read(static_cast<char*>(bytes), static_cast<std::streamsize>(count));
-  if (file_.bad()) throw_io_error("{}: cannot be read; check the disk", name_);
-  return file_.good();
-}
+bool JournalReader::read(void* bytes, std::size_t count) { return file_.read(bytes, count) == count; }
 
 std::optional<JournalReader::Block> JournalReader::read_block() {
   BlockFrame frame;

@@ -2,13 +2,13 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <fstream>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "core/file_lock.h"
+#include "core/input_file.h"
 #include "haptics/recording.h"
 
 namespace sandstroke {
@@ -83,7 +83,7 @@ class JournalReader : public Recording {
 
   std::string name_;
   std::optional<FileLock> lock_;
-  std::ifstream file_;
+  InputFile file_;
   std::uint64_t size_ = 0, sound_ = 0;  // bytes: of the file, and up to the end of its last sound block
   RecordingHeader header_;
   std::optional<RecordingFooter> footer_;

@@ -1,9 +1,9 @@
 #include "record/recording_json.h"
 
-#include <algorithm>
 #include <concepts>
 #include <limits>
 
+#include "core/json_count.h"
 #include "haptics/recording_fields.h"
 
 namespace sandstroke {
@@ -28,13 +28,9 @@ struct TakeField {
   void operator()(const char* name, Field& field) const {
     json.at(name).get_to(field);
   }
-  /// nlohmann would cast any number to any other.
   template <std::signed_integral Count>
   void operator()(const char* name, Count& count) const {
-    const std::int64_t number = json.at(name).get_ref<const Json::number_integer_t&>();
-    if (number < 0 || number > std::min<std::int64_t>(most_ticks, std::numeric_limits<Count>::max()))
-      throw Json::out_of_range::create(406, "no count", &json);
-    count = static_cast<Count>(number);
+    count = json_count<Count>(json.at(name), most_ticks);
   }
   void operator()(const char* name, double& number) const {
     const Json& value = json.at(name);

@@ -9,8 +9,8 @@
 
 #include "core/error.h"
 #include "core/hash.h"
+#include "core/input_file.h"
 #include "core/interrupt.h"
-#include "core/output_file.h"
 #include "core/progress.h"
 #include "io/run_writer.h"
 #include "io/stroke_file.h"
@@ -45,7 +45,7 @@ Stroke placed_stroke(const Scene& scene, const std::filesystem::path& path, std:
   if (!loaded.complete)
     spdlog::warn("{}: was cut off while it was recorded; the run ends where the stroke does", path.string());
   // Not of a recorded stroke's bytes: they tell which build wrote it, too.
-  hash = is_recorded(path) ? content_hash(loaded) : content_hash(read_text_file(path));
+  hash = is_recorded(path) ? content_hash(loaded) : file_hash(path);
   return place_stroke(loaded, scene.stroke->placement, path.string());
 }
 

@@ -18,9 +18,6 @@ void choose(KeyVisitor& v, const char* key, Enum& value, const std::vector<std::
   value = static_cast<Enum>(index);
 }
 
-constexpr Range degrees{-360.0, 360.0, false};
-constexpr Range sharp_angle{0.0, 90.0, true};
-
 void describe_bed(KeyVisitor& v, BedSettings& bed) {
   v.section("bed", "the sand box, centred on the origin, z up");
   double size[2] = {bed.width, bed.depth};
@@ -217,6 +214,14 @@ void check_scene(const Scene& scene, const std::string& name) {
     throw_input_error("{}: bed.size and bed.cells give cells of {} m; take cells of 1e-100 to 1e100 m", name,
                       dx);
 
+  const SurfaceSettings& s = bed.surface;
+  const bool waves = s.kind == SurfaceKind::ripples || (s.kind == SurfaceKind::noise && s.wavelength > 0.0);
+  if (waves &&
+      !(std::max(bed.width, bed.depth) / s.wavelength < 0x1p53))  // beyond it no place in a wave is left
+    throw_input_error(
+        "{}: bed.surface.wavelength = {} m is too small for a bed of {} m by {} m; take a larger one", name,
+        s.wavelength, bed.width, bed.depth);
+
   check_memory(memory_of_bed(scene), fmt::format("{}: bed.cells = [{}, {}]", name, bed.cols, bed.rows),
                "take fewer cells");
 
@@ -249,7 +254,6 @@ void check_scene(const Scene& scene, const std::string& name) {
         name);
   if (scene.stroke && scene.stroke->file.empty())
     throw_input_error("{}: stroke.file is missing; name a stroke (.toml or .h5) or remove [stroke]", name);
-  const SurfaceSettings& s = bed.surface;
   if (s.kind == SurfaceKind::file && s.file.empty())
     throw_input_error("{}: bed.surface.file is missing; name a run file or a 16-bit PNG", name);
 }

@@ -6,6 +6,7 @@
 #include "core/error.h"
 #include "core/interrupt.h"
 #include "core/stopwatch.h"
+#include "haptics/recording.h"
 
 namespace sandstroke {
 namespace {
@@ -103,8 +104,11 @@ void Simulation::check_near(const TickRecord& record) const {
 void Simulation::run_stroke() {
   const double servo_rate = scene_.device.servo_rate;
   const double begin = stroke_->start_time();
-  const auto ticks =
-      static_cast<std::int64_t>(std::floor((stroke_->end_time() - begin) * servo_rate + 1e-9)) + 1;
+  const double all_ticks = std::floor((stroke_->end_time() - begin) * servo_rate + 1e-9) + 1.0;
+  if (!(all_ticks < static_cast<double>(most_ticks)))
+    throw_input_error("{}: lasts {:.3g} s, {:.3g} ticks of device.servo_rate; cut it with stroke.stop",
+                      scene_.stroke->file, stroke_->end_time() - begin, all_ticks);
+  const auto ticks = static_cast<std::int64_t>(all_ticks);
   Hand hand = stroke_->at(begin);
   device_.start(hand);
 

@@ -19,6 +19,7 @@ void read_surfaces(CollectedSweep& sweep, CollectReport& report) {
     try {
       sweep.surfaces[point] = inspect_surface(sweep.folder.point_file(point));
     } catch (const Error& failure) {
+      if (is_of_the_machine(failure)) throw;
       if (report.surfaces_missing++ == 0) first_missing = failure.what();
       continue;
     }

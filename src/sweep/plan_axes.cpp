@@ -8,7 +8,7 @@
 #include <set>
 #include <utility>
 
-#include "core/output_file.h"
+#include "core/input_file.h"
 #include "io/key_reader.h"
 
 namespace sandstroke {

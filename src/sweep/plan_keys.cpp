@@ -13,7 +13,7 @@ void show_plan(KeyVisitor& v, PlanKeys& keys) {
   v.require("scene");
   v.text("scene", keys.scene, "scene that every point starts from");
   v.texts("strokes", keys.strokes, "strokes (files) instead of the scene's; they are the first axis");
-  v.integers("max_points", &keys.max_points, 1, 1, 10'000'000, "largest number of points");
+  v.integers("max_points", &keys.max_points, 1, 1, most_points, "largest number of points");
   int design = keys.grid ? 0 : 1;
   v.choice("design", design, {"grid", "latin"}, "every combination, or a Latin hypercube");
   keys.grid = design == 0;

@@ -8,6 +8,8 @@
 
 namespace sandstroke {
 
+inline constexpr int most_points = 10'000'000;
+
 /// [sweep] of a plan.
 struct PlanKeys {
   std::string scene, golden;  ///< golden: empty: none

@@ -13,8 +13,8 @@
 #include "core/error.h"
 #include "core/file_lock.h"
 #include "core/hash.h"
+#include "core/input_file.h"
 #include "core/interrupt.h"
-#include "core/output_file.h"
 #include "core/stopwatch.h"
 #include "core/temporary_folder.h"
 #include "core/version.h"
@@ -69,7 +69,7 @@ Sweep::Sweep(SweepPlan plan) : plan_(std::move(plan)), inputs_(plan_.scene_folde
   const auto add_file = [&](const fs::path& path) {
     if (!known_files.insert(path).second) return;
     check_readable(path);
-    files_.emplace_back(path.string(), content_hash(read_text_file(path)));
+    files_.emplace_back(path.string(), file_hash(path));
   };
   if (!plan_.golden.empty()) golden_ = RunFile(plan_.golden).final_bed();
   bool golden_fits = false;
@@ -110,7 +110,7 @@ SweepManifest Sweep::manifest() const {
   for (const auto& [file, hash] : files_) m.inputs.emplace_back(file, hash);
   if (!plan_.golden.empty()) {
     m.golden = fs::absolute(plan_.golden).lexically_normal().string();
-    m.inputs.emplace_back(m.golden, content_hash(read_text_file(plan_.golden)));
+    m.inputs.emplace_back(m.golden, file_hash(plan_.golden));
   }
   m.version = version, m.commit = commit;
   return m;

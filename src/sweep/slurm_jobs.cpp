@@ -9,6 +9,8 @@
 
 #include "core/child_process.h"
 #include "core/error.h"
+#include "core/input_file.h"
+#include "core/json_count.h"
 #include "core/output_file.h"
 #include "sweep/sweep_folder.h"
 
@@ -92,8 +94,15 @@ std::optional<SlurmJobs> read_slurm_jobs(const fs::path& sweep_folder) {
   if (!fs::exists(path)) return std::nullopt;
   try {
     const Json json = Json::parse(read_text_file(path));
-    SlurmJobs jobs{json.at("array"), json.at("collect"), json.at("of"), {}};
-    for (const Json& task : json.at("tasks")) jobs.tasks.push_back({task.at("number"), task.at("points")});
+    SlurmJobs jobs{json_count<long>(json.at("array")),
+                   json_count<long>(json.at("collect")),
+                   json_count<int>(json.at("of")),
+                   {}};
+    for (const Json& task : json.at("tasks")) {
+      SlurmTask& submitted = jobs.tasks.emplace_back();
+      submitted.number = json_count<int>(task.at("number"));
+      for (const Json& point : task.at("points")) submitted.points.push_back(json_count<std::size_t>(point));
+    }
     return jobs;
   } catch (const Json::exception&) {
     throw_input_error("{}: is damaged; see with squeue what is queued, and remove the file", path.string());

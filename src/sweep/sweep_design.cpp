@@ -65,7 +65,9 @@ std::vector<std::string> SweepDesign::settings(std::size_t point) const {
 }
 
 double rounded(double value, double size) {
-  return std::abs(value) < 1e-12 * std::abs(size) ? 0.0 : std::stod(fmt::format("{:.12g}", value));
+  if (std::abs(value) < 1e-12 * std::abs(size)) return 0.0;
+  as_number(fmt::format("{:.12g}", value), value);  // not std::stod, to which 1e-310 is out of range
+  return value;
 }
 
 std::vector<double> spread(double from, double to, std::size_t count, bool logarithmic) {

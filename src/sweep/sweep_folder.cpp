@@ -6,12 +6,14 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
+#include "core/input_file.h"
 #include "core/output_file.h"
 #include "core/shell_text.h"
 #include "hdf5/hdf5_file.h"
 #include "io/bed_writer.h"
 #include "io/input_kind.h"
 #include "io/scene_toml.h"
+#include "sweep/plan_keys.h"
 
 namespace sandstroke {
 namespace {
@@ -65,9 +67,11 @@ Json without_places(Json manifest) {
   return manifest;
 }
 
-/// It has points, and a value of each axis for each.
+/// It has points, no more than a plan may have, and a value of each axis for each.
 bool is_whole(const SweepDesign& design) {
-  return !design.axes.empty() &&
+  double points = 1.0;
+  for (const SweepAxis& axis : design.axes) points *= static_cast<double>(axis.values.size());
+  return !design.axes.empty() && (!design.grid || points <= most_points) &&
          std::all_of(design.axes.begin(), design.axes.end(), [&](const SweepAxis& axis) {
            return !axis.values.empty() &&
                   (design.grid || axis.values.size() == design.axes.front().values.size());
@@ -75,6 +79,7 @@ bool is_whole(const SweepDesign& design) {
 }
 
 constexpr OutputKind manifest_output{"a sweep's manifest", "{\n  \"format\": \"sandstroke.sweep\""};
+constexpr std::size_t most_manifest_bytes = 1'000'000'000;  // of a million values, with long names
 
 fs::path manifest_path(const fs::path& folder) { return folder / "manifest.json"; }
 
@@ -162,7 +167,7 @@ SweepFolder SweepFolder::open(const fs::path& path) {
         "{}: is not the folder of a sweep, because it has no manifest.json; name the folder that -o named",
         path.string());
   try {
-    const Json json = Json::parse(read_text_file(file));
+    const Json json = Json::parse(read_text_file(file, most_manifest_bytes));
     if (json.at("format") != "sandstroke.sweep" || json.at("format_version") != 1)
       throw_input_error("{}: has an unknown format; use the version of sandstroke that began the sweep",
                         file.string());
@@ -195,7 +200,8 @@ std::optional<PointResult> SweepFolder::read(std::size_t point) const {
     for (const Metric& metric : metrics_)
       result.metrics.push_back(file.number_attribute("/metrics", metric.name));
     return result;
-  } catch (const Error&) {
+  } catch (const Error& error) {
+    if (is_of_the_machine(error)) throw;
     return std::nullopt;
   }
 }

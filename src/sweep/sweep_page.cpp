@@ -68,6 +68,7 @@ class Thumbnails {
       if (folder.manifest().keep_picture)
         return uri(shrunk(read_png(folder.picture_file(point)), thumbnail_width));
     } catch (const Error& failure) {
+      if (is_of_the_machine(failure) && std::filesystem::exists(folder.picture_file(point))) throw;
       if (pictures_missing_++ == 0) first_missing_ = failure.what();
     }
     if (!sweep_.surfaces[point]) return nullptr;

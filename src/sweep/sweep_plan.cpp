@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "core/error.h"
-#include "core/output_file.h"
+#include "core/input_file.h"
 #include "io/input_kind.h"
 #include "io/key_reader.h"
 #include "io/scene_keys.h"

@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <string>
 
+#include "core/input_file.h"
 #include "core/output_file.h"
 #include "test_folder.h"
 

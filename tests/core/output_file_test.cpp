@@ -1,4 +1,5 @@
 #include "core/output_file.h"
+#include "core/input_file.h"
 
 #include <fcntl.h>
 #include <gtest/gtest.h>

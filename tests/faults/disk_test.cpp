@@ -46,7 +46,7 @@ TEST_P(Disk, FullFromAnyCallOn) {
   if (sanitized) GTEST_SKIP() << "a sanitizer must be loaded first, and so must be what fails";
   Disturbed disturbed(GetParam());
   std::map<std::string, int> outcomes;
-  const long calls = disturbed.calls();
+  const long calls = disturbed.calls().changes;
   for (const long call : some_calls(calls)) {
     const std::string where = fmt::format("full from call {} of {} on", call, calls);
     const ProgramResult result = disturbed.run({.in_child = faulty_system(fmt::format("full:{}", call))});

@@ -6,14 +6,21 @@
 
 #include <chrono>
 #include <fstream>
+#include <sstream>
 
 #include "faults/content.h"
 #include "sanitized.h"
 
 namespace sandstroke {
-namespace {
 
 namespace fs = std::filesystem;
+
+void make(const std::vector<std::string>& arguments, const fs::path& folder) {
+  const ProgramResult made = run_program(arguments, folder);
+  ASSERT_EQ(made.exit_code, 0) << made.err;
+}
+
+namespace {
 
 void write_scene(const fs::path& folder, const std::string& settings = "") {
   write_file(folder / "scene.toml",
@@ -24,11 +31,6 @@ void write_scene(const fs::path& folder, const std::string& settings = "") {
              "start = [-0.05, 0.0]\nspeed = 0.2\n"
              "[[segment]]\nkind = \"line\"\nto = [0.05, 0.0]\ndepth = 0.004\n"
              "[[segment]]\nkind = \"line\"\nto = [0.0, 0.05]\ndepth = 0.006\n");
-}
-
-void make(const std::vector<std::string>& arguments, const fs::path& folder) {
-  const ProgramResult made = run_program(arguments, folder);
-  ASSERT_EQ(made.exit_code, 0) << made.err;
 }
 
 void prepare_run(const fs::path& folder) { write_scene(folder); }
@@ -126,6 +128,7 @@ Disturbed::Disturbed(const FaultedCommand& command) : command_(command) {
   const ProgramResult undisturbed = run({});
   seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   EXPECT_EQ(undisturbed.exit_code, 0) << undisturbed.err;
+  printed_ = undisturbed.out;
   after_ = products();
   EXPECT_EQ(after_.size(), command.products.size());
   kilobytes_before_ = kilobytes_of(inputs_);
@@ -171,10 +174,12 @@ Disturbed::Products Disturbed::products() const {
   return contents;
 }
 
-long Disturbed::calls() {
+Disturbed::Counts Disturbed::calls() {
   const fs::path count = folder_.parent_path() / "count";
   EXPECT_EQ(run({.in_child = faulty_system("count:" + count.string())}).exit_code, 0);
-  return std::stol("0" + read_file(count));
+  Counts counts;
+  std::istringstream(read_file(count)) >> counts.changes >> counts.reads;
+  return counts;
 }
 
 void Disturbed::expect_nothing_half(const std::string& where) const {

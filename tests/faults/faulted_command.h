@@ -16,6 +16,8 @@ struct FaultedCommand {
   bool records = false;   ///< no two recordings are the same, and none is written over
 };
 extern const FaultedCommand run_command, sweep_command, golden_command, record_command, render_command;
+/// Runs the program in the folder, where it must succeed.
+void make(const std::vector<std::string>& arguments, const std::filesystem::path& folder);
 void PrintTo(const FaultedCommand& command, std::ostream* out);
 
 /// The same command in the same state, again and again.
@@ -26,13 +28,18 @@ class Disturbed {
   Disturbed(const Disturbed&) = delete;
   ~Disturbed();
 
-  double seconds() const { return seconds_; }  ///< that it takes undisturbed
+  double seconds() const { return seconds_; }              ///< that it takes undisturbed
+  const std::string& printed() const { return printed_; }  ///< undisturbed, to standard output
   /// In a fresh folder: prepare() and start().
   ProgramResult run(const Conditions& conditions);
   void prepare();
   ProgramResult start(Conditions conditions = {}) const;
-  /// How many calls change a file when it is undisturbed.
-  long calls();
+  /// Of calls when it is undisturbed.
+  struct Counts {
+    long changes = 0;  ///< of files
+    long reads = 0;    ///< of the user's files
+  };
+  Counts calls();
   const std::filesystem::path& folder() const { return folder_; }
   long kilobytes_before() const { return kilobytes_before_; }
   long kilobytes_after() const { return kilobytes_after_; }
@@ -53,6 +60,7 @@ class Disturbed {
   std::filesystem::path inputs_, folder_;
   Products before_, after_;  // contents
   double seconds_ = 0.0;
+  std::string printed_;
   long kilobytes_before_ = 0, kilobytes_after_ = 0;  // of all files
 };
 

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "core/input_file.h"
 #include "core/output_file.h"
 #include "core/version.h"
 #include "test_folder.h"
@@ -141,6 +142,9 @@ TEST_F(PngFile, RefusesWhatIsNoPng) {
   EXPECT_NE(refusal([&] { read_png(file("absent.png")); }, ErrorKind::io).find("absent.png"),
             std::string::npos);
   EXPECT_NE(refusal([&] { read_png(folder_.path()); }, ErrorKind::io).find("folder"), std::string::npos);
+  // At address 0 of this process there is nothing: reading it is an error of the disk.
+  EXPECT_NE(refusal([&] { read_png("/proc/self/mem"); }, ErrorKind::io).find("Input/output error"),
+            std::string::npos);
 }
 
 TEST_F(PngFile, RefusesEveryTruncation) {

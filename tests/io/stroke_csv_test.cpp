@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "core/output_file.h"
 #include "haptics/stroke_placement.h"
+#include "test_folder.h"
 
 namespace sandstroke {
 namespace {
@@ -319,6 +320,34 @@ TEST(StrokeCsv, EachQuantityHasItsOwnUnit) {
   EXPECT_EQ(stroke.position[0], Vector3d(0.001, 0.002, 0.003));
   EXPECT_EQ(stroke.velocity[0], Vector3d(1, 2, 3));
   EXPECT_EQ(stroke.force[0], Vector3d(0.007, 0.008, 0.009));
+}
+
+TEST(StrokeCsv, AFileIsReadInPartsWhereverTheyAreCut) {
+  const TestFolder folder;
+  std::string text = "\xEF\xBB\xBFt,x,y,z\r\n";
+  for (int i = 0; text.size() < 200'000; ++i) text += fmt::format("{},{},0.25,-1\r\n", i, i % 977);
+  text += "1e6,0,0,0";  // without an end of its line
+  write_text_file(folder / "table.csv", text);
+  const Stroke read = read_stroke_csv(folder / "table.csv", txyz()), parsed = parse(text, txyz());
+  EXPECT_EQ(read.time, parsed.time);
+  EXPECT_EQ(read.position, parsed.position);
+  EXPECT_EQ(read.time.back(), 1e6);
+}
+
+TEST(StrokeCsv, ALineThatDoesNotEndIsRefused) {
+  const std::string text = "t,x,y,z\n0,0,0,0\n1" + std::string(1'000'000, ' ');
+  EXPECT_EQ(complaint(text, txyz()), "in.csv:3: the line is longer than 1 MB; write one sample per line");
+  EXPECT_EQ(parse(text.substr(0, text.size() - 7) + ",1,1,1", txyz()).size(), 2u);
+}
+
+TEST(StrokeCsv, WhatTheDiskDoesNotGiveIsAnError) {
+  try {
+    read_stroke_csv("/proc/self/mem", txyz());  // at address 0 there is nothing: reading it is an EIO
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::io);
+    EXPECT_THAT(error.what(), HasSubstr("cannot be read (Input/output error)"));
+  }
 }
 
 }  // namespace

@@ -16,6 +16,7 @@
 
 #include "core/error.h"
 #include "core/hash.h"
+#include "core/input_file.h"
 #include "core/output_file.h"
 #include "record/made_recording.h"
 #include "record/recording_json.h"
@@ -446,7 +447,10 @@ TEST_F(Journal, AKillLosesNothingThatWasAppended) {
 TEST_F(Journal, SaysWhatCannotBeRead) {
   EXPECT_THAT(complaint(ErrorKind::io, [&] { JournalReader{folder_ / "absent"}; }), HasSubstr("absent"));
   EXPECT_THAT(complaint(ErrorKind::io, [&] { JournalReader{folder_.path()}; }), HasSubstr("folder"));
-  EXPECT_THAT(complaint(ErrorKind::input, [&] { JournalReader{"/dev/zero"}; }), HasSubstr("regular file"));
+  EXPECT_THAT(complaint(ErrorKind::io, [&] { JournalReader{"/dev/zero"}; }), HasSubstr("regular file"));
+  // At address 0 of this process there is nothing: reading it is an error of the disk.
+  EXPECT_THAT(complaint(ErrorKind::io, [&] { JournalReader{"/proc/self/mem"}; }),
+              HasSubstr("cannot be read (Input/output error)"));
   EXPECT_THAT(complaint(ErrorKind::input, [&] { JournalReader{file_of("no journal")}; }),
               HasSubstr("not the journal"));
   std::string later = bytes_of({});

@@ -10,6 +10,7 @@
 
 #include "core/error.h"
 #include "core/hash.h"
+#include "core/input_file.h"
 #include "core/output_file.h"
 #include "io/scene_toml.h"
 #include "io/stroke_file.h"

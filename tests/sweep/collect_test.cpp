@@ -8,6 +8,7 @@
 #include <fstream>
 #include <functional>
 
+#include "core/input_file.h"
 #include "core/output_file.h"
 #include "dataset_shape.h"
 #include "hdf5/hdf5_file.h"

@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "core/file_lock.h"
+#include "core/input_file.h"
 #include "core/output_file.h"
 #include "hdf5/hdf5_reader.h"
 #include "io/png_file.h"

@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "core/error.h"
+#include "core/input_file.h"
 #include "core/output_file.h"
 #include "test_folder.h"
 
@@ -145,8 +146,15 @@ TEST_F(SlurmJobsTest, WithoutSlurmThereIsASentence) {
 
 TEST_F(SlurmJobsTest, ADamagedNoteSaysSo) {
   make_folder(folder_ / "out/slurm");
-  put_text(folder_ / "out/slurm/jobs.json", "{\"array\": ");
-  EXPECT_NE(sentence_of([&] { submit(); }).find("jobs.json: is damaged"), std::string::npos);
+  for (
+      const char* note :
+      {"{\"array\": ", R"({"array": 1e300, "collect": 0, "of": 1, "tasks": []})",
+       R"({"array": 1, "collect": -1, "of": 1, "tasks": []})",
+       R"({"array": 1, "collect": 0, "of": 4294967297, "tasks": []})",
+       R"({"array": 1, "collect": 0, "of": 1, "tasks": [{"number": 1, "points": [18446744073709551615]}]})"}) {
+    put_text(folder_ / "out/slurm/jobs.json", note);
+    EXPECT_NE(sentence_of([&] { submit(); }).find("jobs.json: is damaged"), std::string::npos) << note;
+  }
 }
 
 }  // namespace

@@ -49,6 +49,7 @@ TEST(Spread, EndsAreExactAndStepsAreTheDecimalsOneMeans) {
   EXPECT_EQ(spread(1.0, 10000.0, 5, true), (std::vector<double>{1.0, 10.0, 100.0, 1000.0, 10000.0}));
   EXPECT_EQ(spread(1.0 / 3.0, 1e-17, 2, true), (std::vector<double>{1.0 / 3.0, 1e-17}));
   EXPECT_EQ(spread(7.0, 9.0, 1, false), std::vector<double>{7.0});
+  EXPECT_EQ(spread(1e-310, 4e-310, 3, false)[1], 2.5e-310);  // below what std::stod takes
 }
 
 TEST(LatinHypercube, EachAxisHasOneNumberInEachNth) {

@@ -111,6 +111,14 @@ TEST_F(AFolder, WhoseManifestHasNotAValueOfEachAxisForEachPointIsRefused) {
   }
 }
 
+TEST_F(AFolder, WhoseManifestHasMorePointsThanAPlanMayIsRefused) {
+  SweepManifest huge = manifest();
+  for (const char* key : {"force.k_s", "force.k_f", "tool.radius", "device.mass"})
+    huge.design.axes.push_back({key, "", false, std::vector<std::string>(1 << 16, "1")});  // 2^64 of them
+  SweepFolder::make(path, huge);
+  EXPECT_THROW(SweepFolder::open(path), Error);
+}
+
 TEST_F(AFolder, GivesPointsBackToTheBit) {
   const SweepFolder folder = SweepFolder::make(path, manifest());
   EXPECT_FALSE(folder.read(3));

@@ -4,6 +4,7 @@
 
 #include <fstream>
 
+#include "core/input_file.h"
 #include "core/output_file.h"
 #include "io/png_file.h"
 #include "report/data_uri.h"
