@@ -2,8 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <regex>
 #include <set>
 
+#include "core/error.h"
 #include "core/hash.h"
 #include "io/scene_toml.h"
 
@@ -165,6 +168,65 @@ TEST(SceneKeys, UnitsAreThoseOfTheTable) {
                                    {"stroke.stop", "s"},
                                    {"no.such_key", ""}})
     EXPECT_EQ(setting_unit(scene, name), unit) << name;
+}
+
+bool takes_integers(const KeyRow& key) { return key.value.find_first_of(".e") == std::string::npos; }
+
+/// A setting of a key, all its numbers alike.
+std::string setting_of(const KeyRow& key, double number) {
+  const std::string text = takes_integers(key) ? fmt::format("{:.0f}", number) : fmt::format("{}", number);
+  std::string list = text;
+  for (const char c : key.value)
+    if (c == ',') list += ", " + text;
+  return key.name + "=" + (key.value.front() == '[' ? "[" + list + "]" : text);
+}
+
+TEST(SceneKeys, TakeWhatTheHelpSaysAndNothingBeyond) {
+  int checked = 0;
+  for (const KeySection& section : all_scene_keys())
+    for (const KeyRow& key : section.keys) {
+      const auto one =
+          std::find_if(cases.begin(), cases.end(), [&](const KeyCase& c) { return key_of(c) == key.name; });
+      ASSERT_NE(one, cases.end()) << key.name;
+      const auto takes = [&](double number) {
+        std::vector<std::string> settings = one->with;
+        if (key.name == "bed.cells") settings.clear();  // as square as the bed
+        settings.push_back(setting_of(key, number));
+        try {
+          scene_from_text("", "scene.toml", settings);
+          return true;
+        } catch (const Error& failure) {
+          EXPECT_NE(std::string(failure.what()).find(key.name), std::string::npos) << failure.what();
+          return false;
+        }
+      };
+      std::smatch ends;
+      const std::string number = "([-+.0-9e]+)";
+      if (std::regex_match(key.range, ends, std::regex("from " + number + " to " + number))) {
+        const double low = std::stod(ends[1]), high = std::stod(ends[2]);
+        const double beyond = takes_integers(key) ? 1.0 : 0.05 * (high - low);
+        EXPECT_TRUE(takes(low)) << key.name;
+        EXPECT_TRUE(takes(high)) << key.name;
+        EXPECT_FALSE(takes(low - beyond)) << key.name;
+        EXPECT_FALSE(takes(high + beyond)) << key.name;
+      } else if (std::regex_match(key.range, ends, std::regex("above " + number + " and below " + number))) {
+        const double low = std::stod(ends[1]), high = std::stod(ends[2]);
+        EXPECT_FALSE(takes(low)) << key.name;
+        EXPECT_FALSE(takes(high)) << key.name;
+        EXPECT_TRUE(takes(low + 1e-3 * (high - low))) << key.name;
+        EXPECT_TRUE(takes(high - 1e-3 * (high - low))) << key.name;
+      } else if (std::regex_match(key.range, ends, std::regex(number + " or more"))) {
+        EXPECT_TRUE(takes(std::stod(ends[1]))) << key.name;
+        EXPECT_FALSE(takes(std::stod(ends[1]) - (takes_integers(key) ? 1.0 : 0.05))) << key.name;
+      } else if (std::regex_match(key.range, ends, std::regex("above " + number))) {
+        EXPECT_FALSE(takes(std::stod(ends[1]))) << key.name;
+      } else {
+        EXPECT_EQ(key.range, "") << key.name;
+        continue;
+      }
+      ++checked;
+    }
+  EXPECT_GT(checked, 35);
 }
 
 }  // namespace

@@ -44,6 +44,11 @@ TEST(Table, AsJsonHasNullWhereThereIsNoNumber) {
   EXPECT_EQ(columns[1].dump(), R"({"name":"time","title":"Time","unit":"s"})");
 }
 
+TEST(Table, NoughtIsANumber) {
+  EXPECT_EQ(number_or_null(0.0), nlohmann::ordered_json(0.0));
+  for (const double value : {none, HUGE_VAL, -HUGE_VAL}) EXPECT_TRUE(number_or_null(value).is_null());
+}
+
 TEST(Table, AsHdf5HasADatasetPerColumnWithItsUnit) {
   const TestFolder folder;
   {
