@@ -224,7 +224,7 @@ TEST(CliReplace, ANameWithoutRoomForItsEndingIsRefusedBeforeTheWork) {
   const fs::path folder = test_folder();
   const std::string longest(252, 'x');  // with .part 257: more than a file system's 255
   for (const Words& words : {Words{"run", "scene.toml", "-o", longest},
-                             {"run", "scene.toml", "-o", std::string(248, 'x') + ".h5"},  // its .xdmf
+                             {"run", "scene.toml", "-o", std::string(247, 'x') + ".h5"},  // its .xdmf.part
                              {"stroke", "script", "line.toml", longest}}) {
     const ProgramResult result = run_program(words, folder);
     EXPECT_EQ(result.exit_code, 4) << result.err;
