@@ -5,6 +5,7 @@
 //   kill:N       kills the program right before the N-th of these calls, counted from 1
 //   full:N       from the N-th on the disk is full
 //   read:N       from the N-th read of a file of the user's on, the disk is damaged
+//   once:N       the N-th such read fails, and no other
 //   short        such a read gives a few bytes at a time, and each other one is interrupted
 //   clock        the wall clock jumps by days, to and fro, each time it is asked
 //   locks:E      locks of files fail with errno E
@@ -68,12 +69,14 @@ bool is_users(int file) {
 
 /// To be asked before every read: how many bytes it may give; -1: none, for it fails.
 ssize_t given(int file, std::size_t count) {
-  static const char* const fail_from = fault("read:");
+  static const char *const fail_from = fault("read:"), *const fail_once = fault("once:");
   static const bool few = fault("short");
   constexpr std::size_t most = 5;
   if (!is_users(file)) return static_cast<ssize_t>(count);
   const long read = ++reads;
-  if (fail_from && read >= std::atol(fail_from)) return errno = EIO, -1;
+  const bool fails =
+      (fail_from && read >= std::atol(fail_from)) || (fail_once && read == std::atol(fail_once));
+  if (fails) return errno = EIO, -1;
   if (few && read % 2 == 0) return errno = EINTR, -1;
   return static_cast<ssize_t>(few ? std::min(count, most) : count);
 }

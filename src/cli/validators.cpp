@@ -30,7 +30,7 @@ CLI::Validator not_negative_number() {
 }
 
 CLI::Validator finite_number() {
-  return accepted_number("NUMBER", "a finite number", [](double) { return true; });
+  return accepted_number("", "a finite number", [](double) { return true; });
 }
 
 CLI::Validator number_within(Range range) {

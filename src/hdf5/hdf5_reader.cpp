@@ -100,8 +100,12 @@ void Hdf5Reader::fail_to_read(const std::string& object, const std::string& sent
   fail(object, sentence);
 }
 
-bool Hdf5Reader::yes(htri_t answer) const {
-  if (answer < 0) check_can_be_read_whole(name_);  // a link into another file is no fault of the disk
+bool Hdf5Reader::yes(const std::function<htri_t()>& ask) const {
+  htri_t answer = ask();
+  if (answer < 0) {
+    check_can_be_read_whole(name_);
+    answer = ask();  // the disk may have failed once; a link into another file always does
+  }
   return answer > 0;
 }
 
@@ -110,10 +114,10 @@ bool Hdf5Reader::has(const std::string& object) const {
   // H5Lexists wants every group on the way to exist.
   for (std::size_t slash = object.find('/', 1); slash != std::string::npos;
        slash = object.find('/', slash + 1)) {
-    if (!yes(H5Lexists(file_, object.substr(0, slash).c_str(), access_))) return false;
+    if (!yes([&] { return H5Lexists(file_, object.substr(0, slash).c_str(), access_); })) return false;
   }
-  return yes(H5Lexists(file_, object.c_str(), access_)) &&
-         yes(H5Oexists_by_name(file_, object.c_str(), access_));
+  return yes([&] { return H5Lexists(file_, object.c_str(), access_); }) &&
+         yes([&] { return H5Oexists_by_name(file_, object.c_str(), access_); });
 }
 
 Hdf5Handle Hdf5Reader::open_dataset(const std::string& dataset) const {
@@ -281,7 +285,8 @@ std::string Hdf5Reader::text(const std::string& dataset) const {
 }
 
 bool Hdf5Reader::has_attribute(const std::string& object, const std::string& attribute) const {
-  return has(object) && yes(H5Aexists_by_name(file_, object.c_str(), attribute.c_str(), access_));
+  return has(object) &&
+         yes([&] { return H5Aexists_by_name(file_, object.c_str(), attribute.c_str(), access_); });
 }
 
 Hdf5Handle Hdf5Reader::open_attribute(const std::string& object, const std::string& attribute) const {

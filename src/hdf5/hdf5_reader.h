@@ -61,8 +61,8 @@ class Hdf5Reader {
   /// Opens a dataset of numbers with `rank` dimensions and returns its shape too.
   Hdf5Handle open_numbers(const std::string& dataset, int rank, std::vector<hsize_t>& shape) const;
   Hdf5Handle open_attribute(const std::string& object, const std::string& attribute) const;
-  /// An answer of HDF5 to whether something is there. Error: io, where it could not tell.
-  bool yes(htri_t answer) const;
+  /// HDF5's answer to whether something is there. Error: io, where the disk is why it cannot tell.
+  bool yes(const std::function<htri_t()>& ask) const;
   [[noreturn]] void fail(const std::string& object, const std::string& sentence) const;
   /// Where HDF5 could not read it. Error: io, if that is the disk's fault.
   [[noreturn]] void fail_to_read(const std::string& object, const std::string& sentence) const;
