@@ -1,7 +1,6 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -10,6 +9,7 @@
 #include "cli/commands.h"
 #include "cli/print_json.h"
 #include "cli/run_picture.h"
+#include "cli/standard_output.h"
 #include "compare/golden_scenes.h"
 #include "compare/junit.h"
 #include "core/interrupt.h"
@@ -51,6 +51,7 @@ std::string summary(const Comparison& comparison) {
 
 int check(const GoldenArguments& arguments) {
   if (!arguments.junit.empty()) check_output(arguments.junit, {});
+  catch_interrupts();
   std::vector<Comparison> comparisons;
   nlohmann::json scenes = nlohmann::json::array();
   bool passed = true;
@@ -61,7 +62,7 @@ int check(const GoldenArguments& arguments) {
     passed = passed && comparisons.back().passed();
     scenes.push_back(to_json(comparisons.back()));
     if (!arguments.json) fmt::print("{}", summary(comparisons.back()));
-    std::fflush(stdout);
+    flush_output();
   }
   if (!arguments.junit.empty()) write_text_file(arguments.junit, junit_report(comparisons));
   if (arguments.json)
@@ -75,6 +76,7 @@ int check(const GoldenArguments& arguments) {
 }
 
 int update(const GoldenArguments& arguments) {
+  catch_interrupts();
   for (const std::string& name : arguments.names) {
     if (!update_golden(name, arguments.folders, run_golden_scene)) return 128 + interrupted();
     fmt::print("updated {}\n", arguments.folders.entry(name).string());

@@ -9,6 +9,7 @@
 
 #include "cli/commands.h"
 #include "cli/help_formatter.h"
+#include "cli/standard_output.h"
 #include "cli/usage_sentence.h"
 #include "core/error.h"
 #include "core/interrupt.h"
@@ -34,6 +35,17 @@ int complain_of_threads(const std::exception& failure) {
   return io_error;
 }
 
+int run(const Command& command) {
+  try {
+    const int exit_code = command();
+    flush_output();
+    return exit_code;
+  } catch (const std::system_error&) {
+    if (std::ferror(stdout)) throw_output_error();  // of fmt::print
+    throw;
+  }
+}
+
 int run_program(int argc, char** argv) {
   CLI::App app(
       "Simulates sand that is sculpted with a haptic device. A stroke goes in. A height field, a trace of "
@@ -50,7 +62,7 @@ int run_program(int argc, char** argv) {
       "  2        bad input or usage\n"
       "  3        a run is not at rest or unstable, a sweep's point failed, or stress found a surprise\n"
       "  4        a file or a device cannot be read or written\n"
-      "  130/143  stopped by a signal\n"
+      "  128 + n  stopped by signal n: 130 by Ctrl-C, 143 by kill\n"
       "Begin with: sandstroke init FOLDER. Help on a command: sandstroke run --help");
   bool quiet = false;
   app.add_flag("-q,--quiet", quiet, "Print only results, warnings and errors");
@@ -74,21 +86,18 @@ int run_program(int argc, char** argv) {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& failure) {
     const std::string sentence = usage_sentence(app, failure);
-    if (sentence.empty()) return app.exit(failure);  // help or the version was asked for
-    throw_input_error("{}", sentence);
+    if (!sentence.empty()) throw_input_error("{}", sentence);
+    return run([&] { return app.exit(failure); });  // help or the version was asked for
   }
   start_log(quiet);
-  catch_interrupts();
-  const int exit_code = chosen();
-  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
-    throw_io_error("the standard output cannot be written; free disk space, or redirect it");
-  return exit_code;
+  return run(chosen);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
   try {
+    ignore_write_signals();
     share_heap_if_limited();
     return run_program(argc, argv);
   } catch (const Error& failure) {

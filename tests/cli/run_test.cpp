@@ -1,5 +1,8 @@
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <cstdint>
 #include <nlohmann/json.hpp>
@@ -173,6 +176,50 @@ TEST(CliRun, StoppedBySignalItKeepsWhatIsCompleteAndMarksItSo) {
   }
 }
 
+TEST(CliRun, ASceneThatNobodyWritesIsNotWaitedForAfterASignal) {
+  const fs::path folder = test_folder();
+  ASSERT_EQ(mkfifo((folder / "fifo").c_str(), 0600), 0);
+  int writer = -1;
+  Conditions stopped{SIGTERM};
+  stopped.when = [&] {  // there is somebody to read it
+    writer = open((folder / "fifo").c_str(), O_WRONLY | O_NONBLOCK | O_CLOEXEC);
+    return writer >= 0;
+  };
+  stopped.in_child = [] { alarm(10); };  // one that would wait for ever
+  EXPECT_EQ(run_program({"run", "fifo", "-o", "a.h5"}, folder, stopped).exit_code, 128 + SIGTERM);
+  close(writer);
+}
+
+/// The standard output or error is a pipe that nobody reads.
+std::function<void()> nobody_reads(int descriptor) {
+  return [descriptor] {
+    int ends[2];
+    if (pipe(ends) == 0) dup2(ends[1], descriptor), close(ends[0]), close(ends[1]);
+  };
+}
+
+TEST(CliRun, WhoseWarningsNobodyReadsItIsDoneAllTheSame) {
+  const fs::path folder = test_folder();
+  const std::vector<std::string> too_deep = {"run",  "scene.toml", "-o",
+                                             "a.h5", "--set",      "stroke.offset=[0, 0, -0.1]"};
+  ASSERT_NE(run_program(too_deep, folder).err, "");
+  fs::remove(folder / "a.h5");
+  const ProgramResult run = run_program(too_deep, folder, {.in_child = nobody_reads(STDERR_FILENO)});
+  EXPECT_EQ(run.exit_code, 0);
+  EXPECT_TRUE(RunFile(folder / "a.h5").complete());
+}
+
+TEST(CliRun, WhoseOutputNobodyReadsItEndsQuietlyAsOthersDo) {
+  const fs::path folder = test_folder();
+  for (const std::vector<std::string>& command :
+       {std::vector<std::string>{"help", "scene"}, {"run", "--help"}, {"run", "scene.toml", "-o", "a.h5"}}) {
+    const ProgramResult result = run_program(command, folder, {.in_child = nobody_reads(STDOUT_FILENO)});
+    EXPECT_EQ(result.exit_code, 128 + SIGPIPE) << command.back();
+    EXPECT_EQ(result.err, "");
+  }
+  EXPECT_TRUE(RunFile(folder / "a.h5").complete());
+}
+
 TEST(CliRun, KilledItLeavesWhatWasFlushedAndNothingThatLooksComplete) {
   const fs::path folder = folder_with_slow_stroke();
   run_program({"run", "scene.toml", "-o", "a.h5", "--stroke", "long.toml"}, folder,
@@ -220,7 +267,12 @@ TEST(CliRun, ResultsThatCannotBePrintedAreAnError) {
   EXPECT_EQ(
       run_program({"run", "scene.toml", "-o", "a.h5", "--json"}, folder, {0, 0, 0, "/dev/full"}).exit_code,
       4);
-  EXPECT_EQ(run_program({"info", "a.h5"}, folder, {0, 0, 0, "/dev/full"}).exit_code, 4);
+  for (const std::vector<std::string>& command :
+       {std::vector<std::string>{"info", "a.h5"}, {"help", "scene"}, {"run", "--help"}}) {
+    const ProgramResult result = run_program(command, folder, {.out = "/dev/full"});
+    EXPECT_EQ(result.exit_code, 4) << command.back();
+    EXPECT_NE(result.err.find("standard output"), std::string::npos) << result.err;
+  }
 }
 
 TEST(CliRun, NoOutputMayBeAnInputOrAnotherOutput) {
