@@ -11,6 +11,9 @@
 
 namespace sandstroke {
 
+/// What a run file takes on the disk at least [bytes]: its trace, and frames in which nothing moves.
+double least_bytes(const Simulation& simulation);
+
 /// Writes a run file while the simulation runs: PATH.part, flushed about twice a second so that a killed
 /// run can be read up to there, renamed when complete. Error: io.
 class RunWriter : public SimulationObserver {

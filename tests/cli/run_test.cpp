@@ -12,6 +12,7 @@
 #include "cli/program.h"
 #include "hdf5/hdf5_reader.h"
 #include "io/run_file.h"
+#include "io/stroke_file.h"
 #include "sanitized.h"
 
 namespace sandstroke {
@@ -273,6 +274,32 @@ TEST(CliRun, ResultsThatCannotBePrintedAreAnError) {
     EXPECT_EQ(result.exit_code, 4) << command.back();
     EXPECT_NE(result.err.find("standard output"), std::string::npos) << result.err;
   }
+}
+
+TEST(CliRun, AGapOfYearsIsToldAndTakesNeitherTimeNorRoom) {
+  const fs::path folder = test_folder();
+  Stroke stroke;
+  for (const double begin : {0.0, 1e9})
+    for (int i = 0; i < 4; ++i) {
+      stroke.time.push_back(begin + 0.05 * i);
+      stroke.position.emplace_back(0.01 * i, 0.0, -0.004);
+    }
+  write_stroke_file(folder / "years.h5", stroke);
+  const std::vector<std::string> years = {"run", "scene.toml", "--stroke", "years.h5", "-o", "a.h5"};
+  const ProgramResult run = run_program(years, folder);
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_NE(run.err.find("samples cover"), std::string::npos) << run.err;
+  EXPECT_LT(fs::file_size(folder / "a.h5"), 3'000'000u);
+  EXPECT_NE(run_program({"stroke", "info", "years.h5"}, folder).err.find("samples cover"), std::string::npos);
+
+  // A device that still swings has no ticks to leave out: they have no room.
+  std::vector<std::string> swinging = years;
+  swinging.insert(swinging.end(), {"--set", "device.model=dynamic"});
+  fs::remove(folder / "a.h5");
+  const ProgramResult refused = run_program(swinging, folder);
+  EXPECT_EQ(refused.exit_code, 4) << refused.err;
+  EXPECT_NE(refused.err.find("a.h5: takes about"), std::string::npos) << refused.err;
+  EXPECT_FALSE(fs::exists(folder / "a.h5.part"));
 }
 
 TEST(CliRun, NoOutputMayBeAnInputOrAnotherOutput) {
