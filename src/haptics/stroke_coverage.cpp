@@ -14,9 +14,8 @@ std::string coverage_warning(const Stroke& stroke, const std::string& name) {
   if (!(missing > 60.0 && missing > 0.99 * stroke.duration())) return "";
   return fmt::format(
       "{}: samples cover {:.4g} s of {:.10g} s, and the tool is lifted in the rest; the largest gap is "
-      "{:.10g} "
-      "s, from {:.10g} s to {:.10g} s; check the unit of the times (stroke convert --time-unit), and the "
-      "times there",
+      "{:.10g} s, from {:.10g} s to {:.10g} s; check the unit of the times (stroke convert --time-unit), and "
+      "the times there",
       name, stroke.duration() - missing, stroke.duration(), end - begin, begin, end);
 }
 

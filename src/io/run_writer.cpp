@@ -82,8 +82,7 @@ double least_bytes(const Simulation& simulation) {
   const Scene& scene = simulation.scene();
   double per_tick = 0.0;
   visit_tick_fields([&](auto, auto, const auto& of) {
-    per_tick +=
-        static_cast<double>(sizeof(FieldOf<TickRecord, decltype(of)>));  // a flag is a byte in the file, too
+    per_tick += static_cast<double>(sizeof(FieldOf<TickRecord, decltype(of)>));  // flags are bytes
   });
   const double trace = scene.output.trace ? per_tick * static_cast<double>(simulation.told_ticks()) : 0.0;
   const double frames = std::min(scene.output.frames, scene.device.servo_rate) * simulation.stroke_seconds();
