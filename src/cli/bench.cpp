@@ -23,6 +23,7 @@ struct BenchArguments {
 
 int bench(const BenchArguments& arguments) {
   const StudyFiles files(arguments.folder);
+  catch_interrupts();
   std::optional<Progress> bar(std::in_place, "bench");
   StudyOptions study_options = arguments.study;
   study_options.progress = [&](double done) { bar->update(done); };

@@ -1,7 +1,6 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -11,6 +10,7 @@
 #include "cli/print_json.h"
 #include "cli/print_text.h"
 #include "cli/run_picture.h"
+#include "cli/standard_output.h"
 #include "compare/golden_scenes.h"
 #include "compare/junit.h"
 #include "core/interrupt.h"
@@ -63,6 +63,7 @@ int check(const GoldenArguments& arguments) {
     for (const std::string& name : names)
       check_output(golden_page_path(arguments.report, name), files, page_output);
   }
+  catch_interrupts();
   std::vector<Comparison> comparisons;
   nlohmann::json scenes = nlohmann::json::array();
   bool passed = true;
@@ -73,7 +74,7 @@ int check(const GoldenArguments& arguments) {
     passed = passed && comparisons.back().passed();
     scenes.push_back(to_json(comparisons.back()));
     if (!arguments.json) print_text("{}", summary(comparisons.back()));
-    std::fflush(stdout);
+    flush_output();
   }
   if (!arguments.junit.empty()) write_text_file(arguments.junit, junit_report(comparisons), junit_output);
   if (arguments.json)
@@ -87,6 +88,7 @@ int check(const GoldenArguments& arguments) {
 }
 
 int update(const GoldenArguments& arguments) {
+  catch_interrupts();
   for (const std::string& name : arguments.names) {
     if (!update_golden(name, arguments.folders, run_golden_scene)) return 128 + interrupted();
     print_text("updated {}\n", arguments.folders.entry(name).string());

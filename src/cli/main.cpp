@@ -11,6 +11,7 @@
 
 #include "cli/commands.h"
 #include "cli/help_formatter.h"
+#include "cli/standard_output.h"
 #include "cli/usage_sentence.h"
 #include "core/error.h"
 #include "core/interrupt.h"
@@ -40,6 +41,17 @@ int complain_of_threads(const std::exception& failure) {
   return io_error;
 }
 
+int run(const Command& command) {
+  try {
+    const int exit_code = command();
+    flush_output();
+    return exit_code;
+  } catch (const std::system_error& failure) {
+    if (std::ferror(stdout)) throw_output_error(failure.code().value());  // of fmt::print
+    throw;
+  }
+}
+
 int run_program(int argc, char** argv) {
   CLI::App app(
       "Simulates sand that is sculpted with a haptic device. A stroke goes in. A height field, a trace of "
@@ -56,7 +68,7 @@ int run_program(int argc, char** argv) {
       "  2        bad input or usage\n"
       "  3        a run is not at rest or unstable, a sweep's point failed, or stress found a surprise\n"
       "  4        a file or a device cannot be read or written\n"
-      "  130/143  stopped by a signal\n"
+      "  128 + n  stopped by signal n: 130 by Ctrl-C, 143 by kill\n"
       "Begin with: sandstroke init FOLDER. Help on a command: sandstroke run --help");
   bool quiet = false;
   app.add_flag("-q,--quiet", quiet, "Print only results, warnings and errors");
@@ -85,25 +97,12 @@ int run_program(int argc, char** argv) {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& failure) {
     const std::string sentence = usage_sentence(app, failure);
-    if (sentence.empty()) return app.exit(failure);  // help or the version was asked for
-    throw_input_error("{}", sentence);
+    if (!sentence.empty()) throw_input_error("{}", sentence);
+    return run([&] { return app.exit(failure); });  // help or the version was asked for
   }
   start_log(quiet);
   if (overwrite) overwrite_outputs();
-  catch_interrupts();
-  return chosen();
-}
-
-int complain_of_output(int error) {
-  complain(fmt::format("standard output: cannot be written ({}); free disk space, or redirect it",
-                       std::strerror(error)));
-  return io_error;
-}
-
-/// What was printed, also by --help and --version, must have arrived.
-int check_output_taken(int exit_code) {
-  const bool taken = std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
-  return taken ? exit_code : complain_of_output(errno);
+  return run(chosen);
 }
 
 }  // namespace
@@ -111,8 +110,9 @@ int check_output_taken(int exit_code) {
 int main(int argc, char** argv) {
   try {
     check_stack();
+    ignore_write_signals();
     share_heap_if_limited();
-    return check_output_taken(run_program(argc, argv));
+    return run_program(argc, argv);
   } catch (const Error& failure) {
     complain(failure.what());
     return failure.exit_code();
@@ -124,7 +124,6 @@ int main(int argc, char** argv) {
                          failure.code().message()));
     return io_error;
   } catch (const std::system_error& failure) {
-    if (std::ferror(stdout) != 0) return complain_of_output(failure.code().value());  // of fmt::print
     return complain_of_threads(failure);
   } catch (const std::exception& failure) {
     if (std::string_view(failure.what()).starts_with("pthread_create"))  // TBB's

@@ -40,6 +40,7 @@ void print_table(const LoopCheck& check, const ServoSettings& servo) {
 int check_machine(const RecorderSettings& settings, bool json) {
   const double seconds = settings.servo.duration.value_or(10.0);
   LoopCheck check;
+  catch_interrupts();
   {
     Progress bar("check");
     check = check_loop(seconds, settings, [&](const ServoProgress& progress) {

@@ -157,6 +157,7 @@ int render(const RenderArguments& arguments) {
   const Scene scene = scene_from_text(run.scene_text(), run.name() + ": /scene");
   const ViewSettings view = view_of(scene, arguments);
   if (arguments.frame == "all") {
+    catch_interrupts();
     const std::vector<double> times = frame_times(run);
     return arguments.video.empty() ? draw_pictures(run, times, view, arguments)
                                    : draw_film(run, times, scene, view, arguments);

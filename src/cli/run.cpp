@@ -192,6 +192,7 @@ int run(const RunArguments& arguments) {
     check_drawable(scene.bed.rows, scene.bed.cols);
   }
 
+  catch_interrupts();
   RunOptions options;
   options.scene_folder = folder;
   options.scene_file = scene_path;

@@ -71,6 +71,7 @@ int stress(const StressArguments& arguments) {
   const fs::path page = arguments.output / "stress.html";
   make_folder(arguments.output);
   check_output(page, {}, page_output);
+  catch_interrupts();
   Progress bar("stress");
   StressOptions options;
   options.quick = arguments.quick;

@@ -28,6 +28,7 @@ void write_and_tell(const std::string& file, const Stroke& stroke) {
     spdlog::warn("the tool never draws: all samples are further apart in time than the gap threshold of {} s",
                  stroke.gap_threshold);
   }
+  warn_of_coverage(stroke, file);
 }
 
 // --- script ---

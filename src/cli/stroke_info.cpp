@@ -1,3 +1,5 @@
+#include <spdlog/spdlog.h>
+
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -7,6 +9,7 @@
 #include "cli/record_parts.h"
 #include "cli/stroke_parts.h"
 #include "core/terminal_text.h"
+#include "haptics/stroke_coverage.h"
 #include "io/recording_file.h"
 #include "io/stroke_file.h"
 #include "record/recording_json.h"
@@ -46,6 +49,11 @@ StrokeSummary summarize(const Stroke& stroke) {
     summary.greatest_force = greatest->norm();
   }
   return summary;
+}
+
+void warn_of_coverage(const Stroke& stroke, const std::string& file) {
+  const std::string warning = coverage_warning(stroke, file);
+  if (!warning.empty()) spdlog::warn("{}", warning);
 }
 
 std::string recorded_ticks_text(const RecordingFooter& footer) {
@@ -174,6 +182,7 @@ void add_stroke_info_command(CLI::App& stroke_app, Command& chosen) {
       } else {
         print_text("{}", as_table(options->file, stroke, summary, recording));
       }
+      warn_of_coverage(stroke, options->file);
       return 0;
     };
   });

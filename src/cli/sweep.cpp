@@ -128,7 +128,9 @@ int sweep(const SweepArguments& arguments) {
   SweepOptions options;
   options.jobs = arguments.jobs;
   options.shard = parse_shard(arguments.shard);
-  Sweep sweep(load_plan(arguments.plan));
+  SweepPlan plan = load_plan(arguments.plan);
+  catch_interrupts();
+  Sweep sweep(std::move(plan));
   if (interrupted()) return 128 + interrupted();
   if (arguments.dry_run) return dry_run(sweep, arguments);
 

@@ -50,8 +50,16 @@ pid_t spawn(const std::vector<std::string>& words, int input, const ChildOutputs
     posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
   posix_spawn_file_actions_adddup2(&actions, fileno(outputs.out.get()), STDOUT_FILENO);
   posix_spawn_file_actions_adddup2(&actions, fileno(outputs.err.get()), STDERR_FILENO);
+  posix_spawnattr_t attributes;
+  posix_spawnattr_init(&attributes);
+  sigset_t ignored_here;  // ignore_write_signals(), which a child would inherit
+  sigemptyset(&ignored_here), sigaddset(&ignored_here, SIGPIPE), sigaddset(&ignored_here, SIGXFSZ);
+  posix_spawnattr_setsigdefault(&attributes, &ignored_here);
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF);
   pid_t process = 0;
-  const int failure = posix_spawnp(&process, words[0].c_str(), &actions, nullptr, arguments.data(), environ);
+  const int failure =
+      posix_spawnp(&process, words[0].c_str(), &actions, &attributes, arguments.data(), environ);
+  posix_spawnattr_destroy(&attributes);
   posix_spawn_file_actions_destroy(&actions);
   if (failure == ENOENT) return 0;
   if (failure) throw_io_error("{} cannot be started: {}", words[0], std::generic_category().message(failure));

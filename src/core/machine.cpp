@@ -2,6 +2,7 @@
 
 #include <malloc.h>
 #include <sys/resource.h>
+#include <sys/statvfs.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -10,6 +11,7 @@
 #include <sstream>
 
 #include "core/error.h"
+#include "core/output_file.h"
 
 namespace sandstroke {
 namespace {
@@ -90,6 +92,23 @@ void check_memory(double bytes, const std::string& what, const std::string& reme
         fmt::format("{} takes about {:.3g} GB of memory{}, and {}; {}", what, 1e-9 * bytes,
                     share < 1.0 ? fmt::format(", which may be {:.3g} of what there is", share) : "",
                     room.reason, remedy));
+}
+
+void check_disk(const fs::path& path, double bytes, const std::string& remedy) {
+  const auto refuse_beyond = [&](double room, const char* reason) {
+    if (bytes > room)
+      throw_io_error("{}: takes about {:.3g} GB, and {} {:.3g} GB; {}", path.string(), 1e-9 * bytes, reason,
+                     1e-9 * room, remedy);
+  };
+  refuse_beyond(limit_of(RLIMIT_FSIZE), "the limit of a file's size (ulimit -f) is");
+  const fs::path folder = fs::absolute(path).parent_path();
+  struct statvfs disk = {};
+  if (statvfs(folder.c_str(), &disk) != 0 || disk.f_blocks == 0) return;  // it does not say
+  std::error_code none;
+  const std::uintmax_t before = fs::file_size(part_path(path), none);
+  refuse_beyond(static_cast<double>(disk.f_bavail) * static_cast<double>(disk.f_frsize) +
+                    (none ? 0.0 : static_cast<double>(before)),
+                "there is room for");
 }
 
 void share_heap_if_limited() {

@@ -20,6 +20,11 @@ MemoryRoom memory_room();
 /// than this share of memory_room(). To be asked before it is taken.
 void check_memory(double bytes, const std::string& what, const std::string& remedy, double share = 1.0);
 
+/// Error: io, "PATH: takes about 3 GB, and there is room for 2 GB; REMEDY", where a file of so many bytes has
+/// no room there, or is more than the system lets it be (ulimit -f). What a PATH.part of before takes is
+/// free. To be asked before any work is done.
+void check_disk(const std::filesystem::path& path, double bytes, const std::string& remedy);
+
 /// Where the address space is limited (ulimit -v), threads share one heap: else each reserves 64 MB of it for
 /// a heap of its own. To be called before there are threads.
 void share_heap_if_limited();

@@ -20,6 +20,7 @@ namespace {
 // What a killed run can lose. Not after fewer rows or sooner: a run that is killed while it flushes leaves a
 // file that cannot be read, and ticks may take microseconds.
 constexpr std::chrono::milliseconds time_per_write{500};
+constexpr double bytes_per_frame = 1000.0;  // at least: of its groups and attributes
 constexpr std::size_t least_rows_per_write = 1000, most_rows_per_write = 50'000;
 
 /// Describes /surface to programs such as ParaView that read XDMF.
@@ -75,6 +76,17 @@ void append(Hdf5Column& column, const std::vector<Record>& records, const Of& of
 }
 
 }  // namespace
+
+double least_bytes(const Simulation& simulation) {
+  const Scene& scene = simulation.scene();
+  double per_tick = 0.0;
+  visit_tick_fields([&](auto, auto, const auto& of) {
+    per_tick += static_cast<double>(sizeof(FieldOf<TickRecord, decltype(of)>));  // flags are bytes
+  });
+  const double trace = scene.output.trace ? per_tick * static_cast<double>(simulation.told_ticks()) : 0.0;
+  const double frames = std::min(scene.output.frames, scene.device.servo_rate) * simulation.stroke_seconds();
+  return trace + bytes_per_frame * frames;
+}
 
 RunWriter::RunWriter(const std::filesystem::path& path, const Simulation& simulation,
                      const std::string& stroke_hash, const std::string& scene_file)

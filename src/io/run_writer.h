@@ -17,6 +17,9 @@ inline constexpr OutputKind xdmf_output{"an XDMF file of a run",
                                         "<?xml version=\"1.0\"?>\n<Xdmf Version=\"2.0\">\n  <Domain>\n",
                                         ":/surface/initial</DataItem>"};
 
+/// What a run file takes on the disk at least [bytes]: its trace, and frames in which nothing moves.
+double least_bytes(const Simulation& simulation);
+
 /// Writes a run file while the simulation runs: PATH.part, flushed about twice a second so that a killed
 /// run can be read up to there, renamed when complete. Error: io.
 class RunWriter : public SimulationObserver {

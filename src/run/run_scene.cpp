@@ -11,7 +11,10 @@
 #include "core/hash.h"
 #include "core/input_file.h"
 #include "core/interrupt.h"
+#include "core/machine.h"
+#include "core/output_file.h"
 #include "core/progress.h"
+#include "haptics/stroke_coverage.h"
 #include "io/run_writer.h"
 #include "io/stroke_file.h"
 #include "io/surface_file.h"
@@ -46,14 +49,16 @@ Stroke placed_stroke(const Scene& scene, const std::filesystem::path& path, std:
     spdlog::warn("{}: was cut off while it was recorded; the run ends where the stroke does", path.string());
   // Not of a recorded stroke's bytes: they tell which build wrote it, too.
   hash = is_recorded(path) ? content_hash(loaded) : file_hash(path);
-  return place_stroke(loaded, scene.stroke->placement, path.string());
+  Stroke placed = place_stroke(loaded, scene.stroke->placement, path.string());
+  const std::string warning = coverage_warning(placed, path.string());
+  if (!warning.empty()) spdlog::warn("{}", warning);
+  return placed;
 }
 
 /// None where it was interrupted, or where the second solution is unstable: the run itself stands.
 std::optional<ErrorEstimate> estimated_error(const Scene& scene, const HeightField& start,
                                              const std::optional<Stroke>& stroke, const Solution& run,
-                                             const std::vector<Eigen::Vector3d>& force,
-                                             SecondSolution which) {
+                                             const Kept<Eigen::Vector3d>& force, SecondSolution which) {
   try {
     const ErrorEstimate error = estimate_error(scene, start, stroke, run, force, which);
     if (interrupted()) return std::nullopt;
@@ -98,6 +103,9 @@ RunResult run_scene(const Scene& scene, const std::filesystem::path& output, con
   if (stroke) {
     const std::string warning = depth_warning(scene, simulation.bed(), *stroke, stroke_path.string());
     if (!warning.empty()) spdlog::warn("{}", warning);
+    check_disk(output, least_bytes(simulation),
+               "choose another place or free disk space; output.trace = false, fewer output.frames or a "
+               "stroke.stop keep less");
   }
   const std::string scene_file =
       options.scene_file.empty() ? "" : scene_file_entry(options.scene_file, output);
@@ -118,8 +126,7 @@ RunResult run_scene(const Scene& scene, const std::filesystem::path& output, con
   writer.finish(result, simulation.bed());
   if (options.second && !result.interrupted) {
     if (options.progress) spdlog::info("estimating the error");
-    result.error =
-        estimated_error(scene, *start, stroke, {simulation.bed(), result}, force.values, *options.second);
+    result.error = estimated_error(scene, *start, stroke, {simulation.bed(), result}, force, *options.second);
   }
   return result;
 }

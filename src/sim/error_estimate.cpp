@@ -90,12 +90,15 @@ Distance height_distance(const HeightField& fine, const HeightField& coarse) {
   return distance;
 }
 
-/// Every second tick of `fine` is one of `coarse`.
-Distance force_distance(const std::vector<Eigen::Vector3d>& fine,
-                        const std::vector<Eigen::Vector3d>& coarse) {
+/// Over the ticks that both have: every second one of `fine` is one of `coarse`, to the bit of its time.
+Distance force_distance(const Kept<Eigen::Vector3d>& fine, const Kept<Eigen::Vector3d>& coarse) {
   Distance distance;
-  for (std::size_t k = 0; k < coarse.size() && 2 * k < fine.size(); ++k)
-    distance.add((coarse[k] - fine[2 * k]).norm(), 1.0);
+  std::size_t i = 0;
+  for (std::size_t k = 0; k < coarse.values.size(); ++k) {
+    while (i < fine.times.size() && fine.times[i] < coarse.times[k]) ++i;
+    if (i < fine.times.size() && fine.times[i] == coarse.times[k])
+      distance.add((coarse.values[k] - fine.values[i]).norm(), 1.0);
+  }
   return distance;
 }
 
@@ -167,15 +170,15 @@ Scene second_scene(const Scene& scene, SecondSolution which) {
 
 ErrorEstimate estimate_error(const Scene& scene, const HeightField& start,
                              const std::optional<Stroke>& stroke, const Solution& run,
-                             const std::vector<Eigen::Vector3d>& force, SecondSolution which) {
+                             const Kept<Eigen::Vector3d>& force, SecondSolution which) {
   const Stopwatch watch;
   const Scene second_settings = second_scene(scene, which);
   Kept second_force(force_of);
   const Solution second = solve(second_settings, start_of(second_settings, start), stroke, {&second_force});
   const bool coarser = which == SecondSolution::coarser;
   const Solution &coarse = coarser ? second : run, &fine = coarser ? run : second;
-  const auto &coarse_force = coarser ? second_force.values : force,
-             &fine_force = coarser ? force : second_force.values;
+  const Kept<Eigen::Vector3d>&coarse_force = coarser ? second_force : force,
+        &fine_force = coarser ? force : second_force;
 
   // Errors e(run) = C and e(coarser) = r C, or e(run) = r C and e(finer) = C; the distance is (r - 1) C.
   const auto error_over_distance = [&](double r) { return (coarser ? 1.0 : r) / (r - 1.0); };
@@ -184,7 +187,7 @@ ErrorEstimate estimate_error(const Scene& scene, const HeightField& start,
   const Distance of_height = height_distance(fine.surface, coarse.surface),
                  of_force = force_distance(fine_force, coarse_force);
   const Change change = change_of(start, run.surface);
-  const auto forces = std::count_if(coarse_force.begin(), coarse_force.end(),
+  const auto forces = std::count_if(coarse_force.values.begin(), coarse_force.values.end(),
                                     [](const Eigen::Vector3d& f) { return f.squaredNorm() > 0.0; });
   ErrorEstimate estimate;
   if (change.volume > 0.0) {

@@ -20,10 +20,10 @@ Scene second_scene(const Scene& scene, SecondSolution which);
 
 /// Richardson's estimate: all parts of the method are of first order, so that with steps r times as large the
 /// error is r times as large, and the distance between two solutions tells it. start: the run's initial
-/// surface; stroke: as the run had it; force [N]: on the device, of every tick of the run. Error: unstable,
-/// where the second solution is.
+/// surface; stroke: as the run had it; force [N]: on the device, of every tick that the run told. Error:
+/// unstable, where the second solution is.
 ErrorEstimate estimate_error(const Scene& scene, const HeightField& start,
                              const std::optional<Stroke>& stroke, const Solution& run,
-                             const std::vector<Eigen::Vector3d>& force, SecondSolution which);
+                             const Kept<Eigen::Vector3d>& force, SecondSolution which);
 
 }  // namespace sandstroke

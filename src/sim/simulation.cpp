@@ -6,19 +6,33 @@
 #include "core/error.h"
 #include "core/interrupt.h"
 #include "core/stopwatch.h"
-#include "haptics/recording.h"
 
 namespace sandstroke {
 namespace {
 
-/// True once per period: at the last tick before each multiple of it; at most once a tick.
+/// In how many of the ticks before this one it came due: once per period, at the last tick before each
+/// multiple of it; at most once a tick.
+double times_due(std::int64_t tick, double servo_rate, double rate) {
+  if (rate <= 0.0) return 0.0;
+  if (rate >= servo_rate) return static_cast<double>(tick);  // also where rate x tick overflows
+  return std::floor(static_cast<double>(tick) * rate / servo_rate + 1e-9);
+}
+
 bool comes_due(std::int64_t tick, double servo_rate, double rate) {
-  if (rate <= 0.0) return false;
-  if (rate >= servo_rate) return true;  // also where rate x tick overflows
-  const auto count = [&](std::int64_t t) {
-    return std::floor(static_cast<double>(t) * rate / servo_rate + 1e-9);
-  };
-  return count(tick + 1) > count(tick);
+  return times_due(tick + 1, servo_rate, rate) > times_due(tick, servo_rate, rate);
+}
+
+/// The first tick of a range in which it comes due; its end where there is none.
+std::int64_t next_due(const TickRange& ticks, double servo_rate, double rate) {
+  const double due = times_due(ticks.begin, servo_rate, rate);
+  if (times_due(ticks.end, servo_rate, rate) == due) return ticks.end;
+  // Bisection: due(low) == due < due(high).
+  std::int64_t low = ticks.begin, high = ticks.end;
+  while (high - low > 1) {
+    const std::int64_t middle = low + (high - low) / 2;
+    (times_due(middle, servo_rate, rate) == due ? low : high) = middle;
+  }
+  return low;
 }
 
 }  // namespace
@@ -37,6 +51,8 @@ Simulation::Simulation(const Scene& scene, HeightField bed, std::optional<Stroke
         "stroke.stop",
         stroke->duration(), scene.device.servo_rate);
   check_inside(*stroke);
+  ticks_ = static_cast<std::int64_t>(std::floor(stroke->duration() * scene.device.servo_rate + 1e-9)) + 1;
+  idle_ = idle_ticks(*stroke, scene.device);
   stroke_.emplace(std::move(*stroke));
 }
 
@@ -78,13 +94,46 @@ TickRecord Simulation::tick(double time, const Hand& hand, const Hand& next,
   return record;
 }
 
-void Simulation::relax(double time) {
+std::int64_t Simulation::told_ticks() const {
+  std::int64_t told = ticks_;
+  for (const TickRange& idle : idle_) told -= idle.end - idle.begin;
+  return told;
+}
+
+std::int64_t Simulation::idle(const TickRange& ticks) {
+  const double servo_rate = scene_.device.servo_rate, rate = scene_.relaxation.rate;
+  std::int64_t tick = ticks.begin, at_rest_from = ticks.end;
+  for (; tick < ticks.end && !interrupted(); ++tick) {
+    const std::int64_t slip = at_rest_from < ticks.end ? ticks.end
+                                                       : next_due({tick, ticks.end}, servo_rate, rate),
+                       frame = next_due({tick, ticks.end}, servo_rate, scene_.output.frames);
+    tick = std::min(slip, frame);
+    if (tick == ticks.end) break;
+    if (tick == slip) {
+      const RelaxationOutcome outcome = relax(static_cast<double>(tick) / servo_rate);
+      if (outcome.converged && outcome.cells_visited == 0) at_rest_from = tick + 1;  // and all that come
+    }
+    if (tick == frame) keep_frame(static_cast<double>(tick + 1) / servo_rate);
+  }
+  if (at_rest_from < tick)
+    result_.relaxations += static_cast<std::int64_t>(times_due(tick, servo_rate, rate) -
+                                                     times_due(at_rest_from, servo_rate, rate));
+  result_.ticks += tick - ticks.begin;
+  return tick;
+}
+
+RelaxationOutcome Simulation::relax(double time) {
   sand_.hold(bed_);
   const RelaxationOutcome outcome = relaxer_->relax(
       bed_, [this](std::int64_t passes) { tell([&](auto& observer) { observer.on_pass(passes); }); });
   result_.relaxations += 1;
   result_.relaxation.add(outcome);
   tell([&](auto& observer) { observer.on_relaxation({time, outcome}); });
+  return outcome;
+}
+
+void Simulation::keep_frame(double time) {
+  tell([&](auto& observer) { observer.on_frame(time, bed_); });
 }
 
 void Simulation::check_near(const TickRecord& record) const {
@@ -104,21 +153,25 @@ void Simulation::check_near(const TickRecord& record) const {
 void Simulation::run_stroke() {
   const double servo_rate = scene_.device.servo_rate;
   const double begin = stroke_->start_time();
-  const double all_ticks = std::floor((stroke_->end_time() - begin) * servo_rate + 1e-9) + 1.0;
-  if (!(all_ticks < static_cast<double>(most_ticks)))
-    throw_input_error("{}: lasts {:.3g} s, {:.3g} ticks of device.servo_rate; cut it with stroke.stop",
-                      scene_.stroke->file, stroke_->end_time() - begin, all_ticks);
-  const auto ticks = static_cast<std::int64_t>(all_ticks);
+  const auto time_of = [&](std::int64_t tick) {
+    return std::min(begin + static_cast<double>(tick) / servo_rate, stroke_->end_time());
+  };
   Hand hand = stroke_->at(begin);
   device_.start(hand);
 
   double time = 0.0;
   const std::function<void()> slip = [&] { relax(time); };
-  const auto keep_frame = [&](double at) { tell([&](auto& observer) { observer.on_frame(at, bed_); }); };
-  for (std::int64_t k = 0; k < ticks && !interrupted(); ++k) {
+  auto idle_next = idle_.begin();
+  if (scene_.output.frames > 0.0) keep_frame(0.0);
+  for (std::int64_t k = 0; k < ticks_ && !interrupted(); ++k) {
+    if (idle_next != idle_.end() && k == idle_next->begin) {
+      k = idle(*idle_next++);
+      if (interrupted()) break;
+      hand = stroke_->at(time_of(k));
+      device_.start(hand);
+    }
     time = static_cast<double>(k) / servo_rate;
-    if (k == 0 && scene_.output.frames > 0.0) keep_frame(0.0);
-    const double next_time = std::min(begin + static_cast<double>(k + 1) / servo_rate, stroke_->end_time());
+    const double next_time = time_of(k + 1);
     const Hand next = stroke_->at(next_time);
     const TickRecord record = tick(time, hand, next, slip);
 
@@ -134,7 +187,7 @@ void Simulation::run_stroke() {
     tell([&](auto& observer) { observer.on_tick(record); });
     if (comes_due(k, servo_rate, scene_.relaxation.rate)) relax(time);
     if (comes_due(k, servo_rate, scene_.output.frames)) keep_frame(static_cast<double>(k + 1) / servo_rate);
-    const double done = static_cast<double>(k + 1) / static_cast<double>(ticks);
+    const double done = static_cast<double>(k + 1) / static_cast<double>(ticks_);
     tell([&](auto& observer) { observer.on_progress(done); });
   }
   result_.simulated_seconds = static_cast<double>(result_.ticks) / servo_rate;

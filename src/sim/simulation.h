@@ -4,6 +4,7 @@
 
 #include "haptics/stroke_sampler.h"
 #include "sim/device_side.h"
+#include "sim/idle_ticks.h"
 #include "sim/run_result.h"
 #include "sim/sand_side.h"
 #include "sim/scene.h"
@@ -12,7 +13,8 @@
 namespace sandstroke {
 
 /// The tick loop: hand, device, level, depth and force, displacement, and
-/// relaxation at its own rate; after the last tick the bed is relaxed to equilibrium.
+/// relaxation at its own rate; after the last tick the bed is relaxed to equilibrium. Idle ticks take no time
+/// and are not told; in all else it is as if they were played.
 class Simulation {
  public:
   /// stroke: as place_stroke() leaves it; none where the bed is only relaxed. relaxer: none = as the scene
@@ -23,6 +25,9 @@ class Simulation {
 
   const Scene& scene() const { return scene_; }
   const HeightField& bed() const { return bed_; }
+  /// Of how many ticks run() tells: all of the stroke but idle ones.
+  std::int64_t told_ticks() const;
+  double stroke_seconds() const { return stroke_ ? stroke_->stroke().duration() : 0.0; }
 
   /// Runs once, to the end or until interrupted(). Error: unstable, where force or device leave all bounds.
   RunResult run(const Observers& observers = {});
@@ -32,7 +37,10 @@ class Simulation {
   void run_stroke();
   /// What sand and device do in the tick in which the hand goes from one place to the next.
   TickRecord tick(double time, const Hand& hand, const Hand& next, const std::function<void()>& slip);
-  void relax(double time);
+  /// Idle ticks: sand that is not at rest slips when it is due, and frames come. The tick after the last one.
+  std::int64_t idle(const TickRange& ticks);
+  RelaxationOutcome relax(double time);
+  void keep_frame(double time);
   /// Error: unstable, where the device, at the end of a tick, has left all bounds.
   void check_near(const TickRecord& record) const;
   template <class Event>
@@ -43,6 +51,8 @@ class Simulation {
   Scene scene_;
   HeightField bed_;
   std::optional<StrokeSampler> stroke_;
+  std::int64_t ticks_ = 0;  // of the stroke
+  std::vector<TickRange> idle_;
   SandSide sand_;
   DeviceSide device_;
   std::unique_ptr<Relaxer> relaxer_;

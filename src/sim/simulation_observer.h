@@ -12,7 +12,7 @@ namespace sandstroke {
 class SimulationObserver {
  public:
   virtual ~SimulationObserver() = default;
-  virtual void on_tick(const TickRecord&) {}
+  virtual void on_tick(const TickRecord&) {}  ///< but for idle ones (idle_ticks.h)
   virtual void on_relaxation(const RelaxationRecord&) {}
   /// output.frames times a second, the first at time 0.
   virtual void on_frame(double /*time*/, const HeightField&) {}
@@ -25,14 +25,17 @@ class SimulationObserver {
 /// Told in this order; they outlive the run.
 using Observers = std::vector<SimulationObserver*>;
 
-/// Keeps of every n-th tick, from the first on, what value(tick) makes of it.
+/// Keeps of every n-th tick that it is told of, from the first on, what value(tick) makes of it.
 template <class Value>
 class Kept : public SimulationObserver {
  public:
   explicit Kept(Value (*value)(const TickRecord&), std::int64_t every = 1) : value_(value), every_(every) {}
   void on_tick(const TickRecord& tick) override {
-    if (ticks_++ % every_ == 0) values.push_back(value_(tick));
+    if (ticks_++ % every_ != 0) return;
+    times.push_back(tick.time);
+    values.push_back(value_(tick));
   }
+  std::vector<double> times;  // s
   std::vector<Value> values;
 
  private:

@@ -124,7 +124,7 @@ TEST(StrokeConvergence, TheEstimatedErrorIsNearTheTrueOneForHandsToo) {
     Kept force(force_of);
     const Solution run = solve(accurate(), start, stroke, {&force});
     const double estimate =
-        estimate_error(accurate(), start, stroke, run, force.values, SecondSolution::finer).height_share;
+        estimate_error(accurate(), start, stroke, run, force, SecondSolution::finer).height_share;
     const double truth = apart(replay(accurate(), stroke), replay(finer(accurate(), 4), stroke));
     EXPECT_GT(estimate, 0.5 * truth) << name;
     EXPECT_LT(estimate, 2.0 * truth) << name;

@@ -64,7 +64,6 @@ ProgramResult run_program(const std::vector<std::string>& arguments, const fs::p
     if (conditions.most_file_bytes > 0) {
       const rlimit limit{conditions.most_file_bytes, conditions.most_file_bytes};
       setrlimit(RLIMIT_FSIZE, &limit);
-      signal(SIGXFSZ, SIG_IGN);  // writing fails instead, as on a full disk
     }
     if (!conditions.path.empty()) setenv("PATH", conditions.path.c_str(), 1);
     if (conditions.real_time_refused) refuse_real_time();

@@ -18,7 +18,7 @@ struct ProgramResult {
 struct Conditions {
   int signal = 0;                       ///< sent to it ...
   double after_ms = 0.0;                ///< ... so long after its start ...
-  std::size_t most_file_bytes = 0;      ///< a disk that is full from there on; 0: no limit
+  std::size_t most_file_bytes = 0;      ///< ulimit -f: no file grows beyond; 0: no limit
   const char* out = nullptr;            ///< where its standard output goes instead
   std::function<bool()> when = {};      ///< ... or, where there is one, as soon as this holds
   std::string path = {};                ///< where it finds other programs, instead of PATH

@@ -156,7 +156,7 @@ TEST(CliRecord, AStrokeWithAGapIsPlayedToItsEnd) {
 }
 
 TEST(CliRecord, StoppedBySignalItKeepsWhatThereIsAndMarksIt) {
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGUSR1}) {
     const fs::path folder = folder_with_long_stroke();
     Conditions stopped{signal};
     stopped.when = recording(folder);

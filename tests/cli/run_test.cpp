@@ -1,5 +1,8 @@
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <cstdint>
@@ -10,6 +13,7 @@
 #include "cli/program.h"
 #include "hdf5/hdf5_reader.h"
 #include "io/run_file.h"
+#include "io/stroke_file.h"
 #include "sanitized.h"
 
 namespace sandstroke {
@@ -232,6 +236,50 @@ TEST(CliRun, StoppedBySignalItKeepsWhatIsCompleteAndMarksItSo) {
   }
 }
 
+TEST(CliRun, ASceneThatNobodyWritesIsNotWaitedForAfterASignal) {
+  const fs::path folder = test_folder();
+  ASSERT_EQ(mkfifo((folder / "fifo").c_str(), 0600), 0);
+  int writer = -1;
+  Conditions stopped{SIGTERM};
+  stopped.when = [&] {  // there is somebody to read it
+    writer = open((folder / "fifo").c_str(), O_WRONLY | O_NONBLOCK | O_CLOEXEC);
+    return writer >= 0;
+  };
+  stopped.in_child = [] { alarm(10); };  // one that would wait for ever
+  EXPECT_EQ(run_program({"run", "fifo", "-o", "a.h5"}, folder, stopped).exit_code, 128 + SIGTERM);
+  close(writer);
+}
+
+/// The standard output or error is a pipe that nobody reads.
+std::function<void()> nobody_reads(int descriptor) {
+  return [descriptor] {
+    int ends[2];
+    if (pipe(ends) == 0) dup2(ends[1], descriptor), close(ends[0]), close(ends[1]);
+  };
+}
+
+TEST(CliRun, WhoseWarningsNobodyReadsItIsDoneAllTheSame) {
+  const fs::path folder = test_folder();
+  const std::vector<std::string> too_deep = {"run",  "scene.toml", "-o",
+                                             "a.h5", "--set",      "stroke.offset=[0, 0, -0.1]"};
+  ASSERT_NE(run_program(too_deep, folder).err, "");
+  fs::remove(folder / "a.h5");
+  const ProgramResult run = run_program(too_deep, folder, {.in_child = nobody_reads(STDERR_FILENO)});
+  EXPECT_EQ(run.exit_code, 0);
+  EXPECT_TRUE(RunFile(folder / "a.h5").complete());
+}
+
+TEST(CliRun, WhoseOutputNobodyReadsItEndsQuietlyAsOthersDo) {
+  const fs::path folder = test_folder();
+  for (const std::vector<std::string>& command :
+       {std::vector<std::string>{"help", "scene"}, {"run", "--help"}, {"run", "scene.toml", "-o", "a.h5"}}) {
+    const ProgramResult result = run_program(command, folder, {.in_child = nobody_reads(STDOUT_FILENO)});
+    EXPECT_EQ(result.exit_code, 128 + SIGPIPE) << command.back();
+    EXPECT_EQ(result.err, "");
+  }
+  EXPECT_TRUE(RunFile(folder / "a.h5").complete());
+}
+
 TEST(CliRun, KilledItLeavesWhatWasFlushedAndNothingThatLooksComplete) {
   const fs::path folder = folder_with_slow_stroke();
   run_program({"run", "scene.toml", "-o", "a.h5", "--stroke", "long.toml"}, folder,
@@ -279,7 +327,38 @@ TEST(CliRun, ResultsThatCannotBePrintedAreAnError) {
   EXPECT_EQ(
       run_program({"run", "scene.toml", "-o", "a.h5", "--json"}, folder, {0, 0, 0, "/dev/full"}).exit_code,
       4);
-  EXPECT_EQ(run_program({"info", "a.h5"}, folder, {0, 0, 0, "/dev/full"}).exit_code, 4);
+  for (const std::vector<std::string>& command :
+       {std::vector<std::string>{"info", "a.h5"}, {"help", "scene"}, {"run", "--help"}}) {
+    const ProgramResult result = run_program(command, folder, {.out = "/dev/full"});
+    EXPECT_EQ(result.exit_code, 4) << command.back();
+    EXPECT_NE(result.err.find("standard output"), std::string::npos) << result.err;
+  }
+}
+
+TEST(CliRun, AGapOfYearsIsToldAndTakesNeitherTimeNorRoom) {
+  const fs::path folder = test_folder();
+  Stroke stroke;
+  for (const double begin : {0.0, 1e9})
+    for (int i = 0; i < 4; ++i) {
+      stroke.time.push_back(begin + 0.05 * i);
+      stroke.position.emplace_back(0.01 * i, 0.0, -0.004);
+    }
+  write_stroke_file(folder / "years.h5", stroke);
+  const std::vector<std::string> years = {"run", "scene.toml", "--stroke", "years.h5", "-o", "a.h5"};
+  const ProgramResult run = run_program(years, folder);
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_NE(run.err.find("samples cover"), std::string::npos) << run.err;
+  EXPECT_LT(fs::file_size(folder / "a.h5"), 3'000'000u);
+  EXPECT_NE(run_program({"stroke", "info", "years.h5"}, folder).err.find("samples cover"), std::string::npos);
+
+  // A device that still swings has no ticks to leave out: they have no room.
+  std::vector<std::string> swinging = years;
+  swinging.insert(swinging.end(), {"--set", "device.model=dynamic"});
+  fs::remove(folder / "a.h5");
+  const ProgramResult refused = run_program(swinging, folder);
+  EXPECT_EQ(refused.exit_code, 4) << refused.err;
+  EXPECT_NE(refused.err.find("a.h5: takes about"), std::string::npos) << refused.err;
+  EXPECT_FALSE(fs::exists(folder / "a.h5.part"));
 }
 
 TEST(CliRun, NoOutputMayBeAnInputOrAnotherOutput) {

@@ -4,9 +4,11 @@
 #include <signal.h>
 #include <unistd.h>
 
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 
+#include "core/interrupt.h"
 #include "test_folder.h"
 
 namespace sandstroke {
@@ -40,6 +42,15 @@ TEST(ChildProcess, SaysWhatSignalEndedIt) {
   const auto result = run_child({"sh", "-c", "kill -TERM $$"});
   ASSERT_TRUE(result);
   EXPECT_EQ(result->exit_code, 143);
+}
+
+TEST(ChildProcess, ItIgnoresNoSignalThatThisProgramIgnores) {
+  ignore_write_signals();
+  const auto result = run_child({"sed", "-n", "s/^SigIgn:[[:space:]]*//p", "/proc/self/status"});
+  for (const int number : {SIGPIPE, SIGXFSZ}) signal(number, SIG_DFL);
+  ASSERT_TRUE(result);
+  const std::uint64_t ignored = std::stoull(result->out, nullptr, 16);
+  for (const int number : {SIGPIPE, SIGXFSZ}) EXPECT_EQ(ignored >> (number - 1) & 1, 0u) << number;
 }
 
 TEST(ChildProcess, ThereIsNoSuchProgram) {

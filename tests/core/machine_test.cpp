@@ -1,6 +1,9 @@
 #include "core/machine.h"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/statvfs.h>
+#include <unistd.h>
 
 #include <cmath>
 
@@ -69,6 +72,42 @@ TEST(Memory, MoreThanThereIsIsRefusedWithWhoAllowsHowMuch) {
     for (const char* part : {"a desert takes about 1e+09 GB of memory", "GB", "take a smaller one"})
       EXPECT_NE(sentence.find(part), std::string::npos) << sentence;
   }
+}
+
+TEST(DiskDeathTest, MoreThanThereIsRoomForIsRefusedWithWhatToDo) {
+  const TestFolder folder;
+  EXPECT_NO_THROW(check_disk(folder / "a.h5", 1.0, ""));
+  EXPECT_NO_THROW(check_disk("a.h5", 1.0, "")) << "in this folder";
+  const auto refusal = [&](double bytes) -> std::string {
+    try {
+      check_disk(folder / "a.h5", bytes, "keep less");
+    } catch (const Error& refused) {
+      return refused.kind() == ErrorKind::io ? refused.what() : "of another kind";
+    }
+    return "";
+  };
+  for (const char* part : {"a.h5: takes about 1e+12 GB, and there is room for", "GB; keep less"})
+    EXPECT_NE(refusal(1e21).find(part), std::string::npos) << refusal(1e21);
+  EXPECT_EXIT(
+      {
+        rlimit limit{};
+        limit.rlim_cur = limit.rlim_max = 2'000'000;
+        setrlimit(RLIMIT_FSIZE, &limit);
+        if (!refusal(2'000'000).empty()) _exit(1);
+        _exit(refusal(2'000'001).find("(ulimit -f) is 0.002 GB; keep less") == std::string::npos);
+      },
+      testing::ExitedWithCode(0), "");
+}
+
+TEST(Disk, WhatAnEarlierTryTookIsFree) {
+  const TestFolder folder;
+  struct statvfs disk = {};
+  ASSERT_EQ(statvfs(folder.path().c_str(), &disk), 0);
+  const double free = static_cast<double>(disk.f_bavail) * static_cast<double>(disk.f_frsize);
+  write_text_file(folder / "a.h5.part", "");
+  fs::resize_file(folder / "a.h5.part", 100'000'000'000);  // with a hole: it takes nothing
+  EXPECT_NO_THROW(check_disk(folder / "a.h5", free + 0.9e11, ""));
+  EXPECT_THROW(check_disk(folder / "b.h5", free + 0.9e11, ""), Error);
 }
 
 }  // namespace

@@ -94,7 +94,7 @@ struct FeltRun {
 
 ErrorEstimate estimated(const Scene& scene, const FeltRun& run, const std::optional<Stroke>& stroke,
                         SecondSolution which) {
-  return estimate_error(scene, starting_bed(scene.bed), stroke, run.solution, run.force.values, which);
+  return estimate_error(scene, starting_bed(scene.bed), stroke, run.solution, run.force, which);
 }
 
 TEST(ErrorEstimate, IsNothingWhereNothingMoves) {

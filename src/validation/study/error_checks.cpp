@@ -15,7 +15,7 @@ std::vector<ErrorCheck> check_errors(
   std::vector<ErrorCheck> checks;
   for (const auto& [which, name] :
        {std::pair(SecondSolution::coarser, "coarser"), std::pair(SecondSolution::finer, "finer")}) {
-    const ErrorEstimate estimate = estimate_error(scene, start, stroke, run, force.values, which);
+    const ErrorEstimate estimate = estimate_error(scene, start, stroke, run, force, which);
     const std::string second = label + ", from a " + name + " one";
     if (!std::isnan(truth.height_share))
       checks.push_back({{}, second, "height", estimate.height_share, truth.height_share});

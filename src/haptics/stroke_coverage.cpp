@@ -1,0 +1,22 @@
+#include "haptics/stroke_coverage.h"
+
+#include <spdlog/fmt/fmt.h>
+
+namespace sandstroke {
+
+std::string coverage_warning(const Stroke& stroke, const std::string& name) {
+  double missing = 0.0, begin = 0.0, end = 0.0;  // s, of all gaps; of the largest one
+  for (std::size_t i = 0; i + 1 < stroke.size(); ++i) {
+    if (stroke.sampled_between(i)) continue;
+    missing += stroke.time[i + 1] - stroke.time[i];
+    if (stroke.time[i + 1] - stroke.time[i] > end - begin) begin = stroke.time[i], end = stroke.time[i + 1];
+  }
+  if (!(missing > 60.0 && missing > 0.99 * stroke.duration())) return "";
+  return fmt::format(
+      "{}: samples cover {:.4g} s of {:.10g} s, and the tool is lifted in the rest; the largest gap is "
+      "{:.10g} s, from {:.10g} s to {:.10g} s; check the unit of the times (stroke convert --time-unit), and "
+      "the times there",
+      name, stroke.duration() - missing, stroke.duration(), end - begin, begin, end);
+}
+
+}  // namespace sandstroke

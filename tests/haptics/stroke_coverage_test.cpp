@@ -1,0 +1,43 @@
+#include "haptics/stroke_coverage.h"
+
+#include <gtest/gtest.h>
+
+namespace sandstroke {
+namespace {
+
+/// 101 samples, 10 ms apart, and then one at each of these times [s].
+Stroke a_second_and_then(const std::vector<double>& times) {
+  Stroke stroke;
+  for (int i = 0; i <= 100; ++i) stroke.time.push_back(0.01 * i);
+  for (const double time : times) stroke.time.push_back(time);
+  stroke.position.assign(stroke.size(), Eigen::Vector3d::Zero());
+  return stroke;
+}
+
+TEST(StrokeCoverage, ATimeThatIsWrongIsToldWithItsPlace) {
+  const std::string said = coverage_warning(a_second_and_then({1.5, 1e9}), "hand.h5");
+  for (const char* part :
+       {"hand.h5", "cover 1 s of 1000000000 s", "999999998.5 s, from 1.5 s to 1000000000 s"})
+    EXPECT_NE(said.find(part), std::string::npos) << said;
+}
+
+TEST(StrokeCoverage, MillisecondsTakenForSecondsAreTold) {
+  Stroke stroke;
+  for (int i = 0; i < 1000; ++i) stroke.time.push_back(5.0 * i);
+  stroke.position.assign(stroke.size(), Eigen::Vector3d::Zero());
+  EXPECT_NE(coverage_warning(stroke, "").find("cover 0 s of 4995 s"), std::string::npos)
+      << coverage_warning(stroke, "");
+}
+
+TEST(StrokeCoverage, AHandThatRestsIsNothingToTell) {
+  EXPECT_EQ(coverage_warning(a_second_and_then({}), ""), "");
+  EXPECT_EQ(coverage_warning(a_second_and_then({60.9}), ""), "") << "less than a minute";
+  EXPECT_EQ(coverage_warning(a_second_and_then({95.0}), ""), "") << "more than a hundredth is sampled";
+  EXPECT_NE(coverage_warning(a_second_and_then({105.0}), ""), "");
+  Stroke dots = a_second_and_then({2.0, 3.0, 4.0});
+  dots.contact.assign(dots.size(), pen_lifts);
+  EXPECT_EQ(coverage_warning(dots, ""), "");
+}
+
+}  // namespace
+}  // namespace sandstroke

@@ -1,0 +1,180 @@
+#include "sim/idle_ticks.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/error_estimate.h"
+
+namespace sandstroke {
+namespace {
+
+/// Two drags of about 0.3 s through the sand, and so long [s] between them. watched: the lifted hand is
+/// sampled there, on its straight way; so the same is known, and no tick is idle.
+Stroke two_drags(double apart, bool watched) {
+  Stroke stroke;
+  const auto add = [&](double time, const Eigen::Vector3d& position, PenState pen) {
+    stroke.time.push_back(time);
+    stroke.position.push_back(position);
+    stroke.contact.push_back(pen);
+  };
+  const Eigen::Vector3d left(-0.04, 0.0, -0.006), right(0.03, 0.01, -0.004);
+  const double lifts = 7.3005, lands = lifts + apart;
+  for (int i = 0; i <= 6; ++i)
+    add(7.0 + i * (lifts - 7.0) / 6, left + 0.01 * i * Eigen::Vector3d::UnitX(), pen_down);
+  if (watched)
+    for (int i = 1; i < 64; ++i)
+      add(lifts + i * apart / 64, stroke.position[6] + i / 64.0 * (right - stroke.position[6]), pen_up);
+  for (int i = 0; i <= 6; ++i) add(lands + 0.05 * i, right - 0.01 * i * Eigen::Vector3d::UnitX(), pen_down);
+  return stroke;
+}
+
+Scene small_bed() {
+  Scene scene;
+  scene.bed.width = scene.bed.depth = 0.2;
+  scene.bed.cols = scene.bed.rows = 64;
+  scene.stroke.emplace();
+  scene.stroke->file = "in memory";
+  return scene;
+}
+
+struct ToldRun : SimulationObserver {
+  std::vector<TickRecord> ticks;
+  std::vector<RelaxationRecord> relaxations;
+  std::vector<std::pair<double, double>> frames;  // time, highest sand
+  RunResult result;
+  HeightGrid surface;
+  std::int64_t told;
+
+  ToldRun(const Scene& scene, const Stroke& stroke) {
+    Simulation simulation(scene, starting_bed(scene.bed), stroke);
+    told = simulation.told_ticks();
+    result = simulation.run({this});
+    surface = simulation.bed().grid();
+  }
+  void on_tick(const TickRecord& tick) override { ticks.push_back(tick); }
+  void on_relaxation(const RelaxationRecord& one) override { relaxations.push_back(one); }
+  void on_frame(double time, const HeightField& bed) override { frames.emplace_back(time, bed.highest()); }
+};
+
+void expect_equal(const TickRecord& a, const TickRecord& b) {
+  const auto same = [](const auto& of_a, const auto& of_b) {
+    if constexpr (std::is_same_v<std::decay_t<decltype(of_a)>, double>)
+      return of_a == of_b || (std::isnan(of_a) && std::isnan(of_b));
+    else
+      return of_a == of_b;
+  };
+  visit_tick_fields([&](const std::string& name, auto, const auto& of) {
+    const bool of_a_lifted_hand = !a.contact && name.find("position") != std::string::npos;
+    EXPECT_TRUE(of_a_lifted_hand || same(of(a), of(b))) << name << " at " << a.time;
+  });
+  EXPECT_LT((a.hand.position - b.hand.position).norm(), 1e-15) << a.time;
+  EXPECT_LT((a.device_position - b.device_position).norm(), 1e-15) << a.time;
+}
+
+/// But for idle ticks, what `idle` tells is what `all` tells.
+void expect_equal(const ToldRun& idle, const ToldRun& all) {
+  const RunResult &a = idle.result, &b = all.result;
+  EXPECT_EQ(a.ticks, b.ticks);
+  EXPECT_EQ(a.simulated_seconds, b.simulated_seconds);
+  EXPECT_EQ(a.contact_ticks, b.contact_ticks);
+  EXPECT_EQ(a.gaps, b.gaps);
+  EXPECT_EQ(a.relaxations, b.relaxations);
+  EXPECT_EQ(a.relaxation.passes, b.relaxation.passes);
+  EXPECT_EQ(a.relaxation.cells_visited, b.relaxation.cells_visited);
+  EXPECT_EQ(a.relaxation.converged, b.relaxation.converged);
+  EXPECT_EQ(a.moved_volume, b.moved_volume);
+  EXPECT_EQ(a.volume_final, b.volume_final);
+  EXPECT_EQ(a.max_depth, b.max_depth);
+  EXPECT_EQ(a.device.max_force, b.device.max_force);
+  EXPECT_EQ(a.device.mean_force, b.device.mean_force);
+  EXPECT_EQ(a.device.absorbed_energy, b.device.absorbed_energy);
+  EXPECT_EQ(a.device.least_passivity_margin, b.device.least_passivity_margin);
+  EXPECT_TRUE((idle.surface == all.surface).all());
+  EXPECT_EQ(idle.frames, all.frames);
+
+  auto there = all.relaxations.begin();
+  for (const RelaxationRecord& here : idle.relaxations) {
+    for (; there != all.relaxations.end() && there->time < here.time; ++there)
+      EXPECT_EQ(there->outcome.passes, 0);
+    ASSERT_NE(there, all.relaxations.end());
+    EXPECT_EQ(there->time, here.time);
+    EXPECT_EQ(there++->outcome.passes, here.outcome.passes);
+  }
+  EXPECT_EQ(there, all.relaxations.end());
+
+  auto tick = all.ticks.begin();
+  for (const TickRecord& here : idle.ticks) {
+    tick = std::find_if(tick, all.ticks.end(), [&](const TickRecord& one) { return one.time >= here.time; });
+    ASSERT_NE(tick, all.ticks.end());
+    ASSERT_EQ(tick->time, here.time);
+    expect_equal(here, *tick++);
+  }
+}
+
+TEST(IdleTicks, AreLeftOutOfARunThatIsTheSame) {
+  std::vector<Scene> scenes(7, small_bed());
+  scenes[1].preset = ModelPreset::accurate, apply_model_preset(scenes[1]);
+  scenes[2].output.frames = 7.0;
+  scenes[3].relaxation.max_passes = 1, scenes[3].relaxation.rate = 10.0;  // sand slips all the time
+  scenes[3].output.frames = 2000.0;
+  scenes[4].relaxation.rate = 0.7;
+  scenes[5].relaxation.rate = 1e6;
+  scenes[6].device.servo_rate = 333.3;
+  for (const Scene& scene : scenes) {
+    SCOPED_TRACE(&scene - scenes.data());
+    const ToldRun idle(scene, two_drags(3.0, false)), all(scene, two_drags(3.0, true));
+    EXPECT_EQ(static_cast<std::int64_t>(idle.ticks.size()), idle.told);
+    EXPECT_EQ(static_cast<std::int64_t>(all.ticks.size()), all.told);
+    EXPECT_NEAR(static_cast<double>(all.told - idle.told), 2.0 * scene.device.servo_rate, 2.0);
+    expect_equal(idle, all);
+  }
+}
+
+TEST(IdleTicks, AreAwayFromAllSamples) {
+  const Stroke stroke = two_drags(1.7, false);
+  const std::vector<TickRange> idle = idle_ticks(stroke, DeviceSettings{});
+  ASSERT_EQ(idle.size(), 1u);
+  EXPECT_EQ(idle[0].begin, 801);  // 0.3005 s + 0.5 s
+  EXPECT_EQ(idle[0].end, 1500);   // 2.0005 s - 0.5 s: tick 1500 is less than that before the sample
+  EXPECT_TRUE(idle_ticks(two_drags(1.0, false), DeviceSettings{}).empty());
+  EXPECT_TRUE(idle_ticks(two_drags(3.0, true), DeviceSettings{}).empty());
+}
+
+TEST(IdleTicks, AreNoneOfADeviceThatStillSwingsOrFeels) {
+  DeviceSettings dynamic, late, dropping;
+  dynamic.model = DeviceModel::dynamic;
+  late.delay = 1;
+  dropping.dropped_ticks = 0.1;
+  for (const DeviceSettings& device : {dynamic, late, dropping})
+    EXPECT_TRUE(idle_ticks(two_drags(3.0, false), device).empty());
+}
+
+TEST(IdleTicks, OfYearsTakeNoTime) {
+  Scene scene = small_bed();
+  const ToldRun seconds(scene, two_drags(3.0, false)), years(scene, two_drags(1e9, false));
+  EXPECT_EQ(years.told, seconds.told);
+  EXPECT_NEAR(years.result.simulated_seconds, 1e9, 1.0);
+  EXPECT_NEAR(static_cast<double>(years.result.relaxations), 60e9, 60.0);
+  EXPECT_NEAR(static_cast<double>(years.result.contact_ticks),
+              static_cast<double>(seconds.result.contact_ticks), 2.0);
+}
+
+TEST(IdleTicks, ChangeNoEstimateOfAnError) {
+  const Scene scene = small_bed();
+  const auto estimated = [&](bool watched) {
+    const Stroke stroke = two_drags(1.5, watched);
+    Kept force(force_of);
+    const Solution run = solve(scene, starting_bed(scene.bed), stroke, {&force});
+    return estimate_error(scene, starting_bed(scene.bed), stroke, run, force, SecondSolution::coarser);
+  };
+  const ErrorEstimate idle = estimated(false), all = estimated(true);
+  EXPECT_GT(all.force_rms, 0.0);
+  EXPECT_EQ(idle.force_rms, all.force_rms);
+  EXPECT_EQ(idle.force_max, all.force_max);
+  EXPECT_EQ(idle.height_rms, all.height_rms);
+}
+
+}  // namespace
+}  // namespace sandstroke
