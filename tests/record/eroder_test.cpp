@@ -107,5 +107,63 @@ TEST(Eroder, ThatFailsEndsItsThreadAndNotTheProgram) {
   EXPECT_THROW(std::rethrow_exception(eroder.failure()), std::bad_alloc);
 }
 
+TEST(Eroder, TurnsAreAsShortAsTheSettingsSayAndTheirPassesAddUp) {
+  for (const auto& [most, in_a_turn] : {std::pair<std::int64_t, std::int64_t>{7, 7}, {1'000'000, 50}}) {
+    RelaxationSettings settings;
+    settings.max_passes = most;
+    SandRing dug(8), slipped(std::size_t{1} << 16);
+    PlaceRing places(8);
+    HeightField heap(61, 61, 0.01);
+    for (int row = 25; row < 36; ++row)
+      for (int col = 25; col < 36; ++col) heap.set(row, col, 0.3);
+    Eroder eroder(heap, {}, settings, dug, places, slipped);
+    for (int turn = 1; turn <= 3; ++turn) {
+      eroder.turn();
+      EXPECT_EQ(eroder.report().relaxations, turn);
+      EXPECT_EQ(eroder.report().passes, turn * in_a_turn);
+      EXPECT_FALSE(eroder.report().converged);
+    }
+  }
+}
+
+TEST(Eroder, WhatWasDugSlips) {
+  RelaxationSettings settings;
+  SandRing dug(8), slipped(1024);
+  PlaceRing places(8);
+  Eroder eroder(HeightField(41, 41, 0.01), {}, settings, dug, places, slipped);
+  eroder.turn();
+  EXPECT_EQ(slipped.size(), 0u);
+  dug.push({20, 20, 0.05});
+  eroder.turn();
+  EXPECT_LT(eroder.bed()(20, 20), 0.05);
+  EXPECT_GT(eroder.bed()(20, 21), 0.0);
+}
+
+TEST(Eroder, SandThatAsksByWayAndHasFarToGoGoesOnWithoutTheToolsMoving) {
+  RelaxationSettings settings;
+  settings.rate = 0.0, settings.travel = 1.0;
+  SandRing dug(8), slipped(std::size_t{1} << 18);
+  PlaceRing places(8);
+  HeightField heap(61, 61, 0.01);
+  for (int row = 25; row < 36; ++row)
+    for (int col = 25; col < 36; ++col) heap.set(row, col, 0.3);
+  places.push({{0.2, 0.2, -0.01}, true});  // it touches down beside the heap, and rests
+  Eroder eroder(heap, {0.01, ToolProfile::sphere, false}, settings, dug, places, slipped);
+  eroder.start();
+  RelaxationSettings looser = settings;  // changes add up to the eroder's own heights but for rounding
+  looser.tolerance *= 2.0;
+  const auto rests = [&] {
+    HeightField copy = heap;
+    return make_relaxer(looser, 0.01)->relax(copy).passes == 0;
+  };
+  for (SandChange change; !rests();) {
+    while (slipped.pop(change))
+      heap.set(change.row, change.col, heap(change.row, change.col) + change.change);
+    std::this_thread::yield();
+  }
+  eroder.stop();
+  EXPECT_GT(eroder.report().relaxations, 2);
+}
+
 }  // namespace
 }  // namespace sandstroke

@@ -284,13 +284,15 @@ TEST(LiveSand, RefusesScenesThatCannotBeFelt) {
     }
     return "";
   };
-  Scene dynamic = small_scene(), fitted = small_scene(), cut = small_scene();
+  Scene dynamic = small_scene(), fitted = small_scene(), cut = small_scene(), ended = small_scene();
   dynamic.device.model = DeviceModel::dynamic;
   fitted.stroke.emplace().placement.plane = StrokePlane::fit;
   cut.stroke.emplace().placement.start = 1.0;
   EXPECT_NE(sentence(dynamic).find("device.model"), std::string::npos);
   EXPECT_NE(sentence(fitted).find("stroke.plane"), std::string::npos);
   EXPECT_NE(sentence(cut).find("stroke.start"), std::string::npos);
+  ended.stroke.emplace().placement.stop = 1.0;
+  EXPECT_NE(sentence(ended).find("stroke.stop"), std::string::npos);
   EXPECT_EQ(sentence(small_scene()), "");
 }
 

@@ -154,6 +154,12 @@ TEST_F(RecorderTest, GivesNoForceWithoutAWorld) {
   expect_device_left_safe();
 }
 
+TEST_F(RecorderTest, SaysHowMuchForceTheDeviceCouldGive) {
+  settings.servo.force.max_force = 20.0;
+  FakeWorld world([](double) { return FeltForce{}; });
+  EXPECT_EQ(run(&world).header.force_limit, 12.0);
+}
+
 TEST_F(RecorderTest, CalibratesWhereItIsAsked) {
   settings.calibrate = true;
   run();

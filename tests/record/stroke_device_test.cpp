@@ -128,5 +128,13 @@ TEST(StrokeDevice, TakesAnyForceAndLetsGoOfIt) {
   EXPECT_EQ(device.force(), Vector3d::Zero());
 }
 
+TEST(StrokeDevice, HasSwitchesUpToTheHighestThatIsPressed) {
+  for (const auto& [pressed, switches] : {std::pair{0u, 0}, {1u, 1}, {4u, 3}, {0x80000000u, 32}}) {
+    Stroke stroke = parabola(3, 0.1, 0.0);
+    stroke.switches = {0, pressed, 0};
+    EXPECT_EQ(StrokeDevice(stroke, "switches").specification().switches, switches) << pressed;
+  }
+}
+
 }  // namespace
 }  // namespace sandstroke
