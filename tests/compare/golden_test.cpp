@@ -7,8 +7,8 @@
 
 #include "compare/golden_scenes.h"
 #include "core/error.h"
-#include "core/machine.h"
 #include "core/input_file.h"
+#include "core/machine.h"
 #include "core/output_file.h"
 #include "synthetic_run.h"
 
