@@ -10,8 +10,8 @@
 
 #include "compare/golden_scenes.h"
 #include "core/error.h"
-#include "core/machine.h"
 #include "core/input_file.h"
+#include "core/machine.h"
 #include "core/output_file.h"
 #include "io/input_kind.h"
 #include "synthetic_run.h"
