@@ -178,7 +178,7 @@ void expect_richardson(const Scene& scene, const std::optional<Stroke>& stroke, 
   const Solution run = solve(scene, start, stroke, {&force});
   const Scene second_settings = second_scene(scene, which);
   const Solution second = solve(second_settings, second_start, stroke, {&second_force});
-  const ErrorEstimate e = estimate_error(scene, start, stroke, run, force.values, which);
+  const ErrorEstimate e = estimate_error(scene, start, stroke, run, force, which);
 
   const bool coarser = which == SecondSolution::coarser;
   const HeightGrid ran = run.surface.grid(), other = second.surface.grid();
@@ -263,11 +263,12 @@ TEST(ErrorEstimate, OfSandThatOnlyOneSolutionMovedIsAllOfItWhereverItIs) {
       for (int j = 0; j < 4; ++j) raised.set(row + i, col + j, j < 2 ? 0.5 : -0.25);
     RunResult at_rest;
     const Solution run{raised, at_rest};
-    const ErrorEstimate coarser = estimate_error(scene, start, {}, run, {}, SecondSolution::coarser);
+    const ErrorEstimate coarser =
+        estimate_error(scene, start, {}, run, Kept(force_of), SecondSolution::coarser);
     EXPECT_DOUBLE_EQ(coarser.height_max, 0.5);
     EXPECT_DOUBLE_EQ(coarser.height_share, 1.0);
     EXPECT_DOUBLE_EQ(coarser.height_rms, std::sqrt(0.5 * (0.25 + 0.0625)));
-    const ErrorEstimate finer = estimate_error(scene, start, {}, run, {}, SecondSolution::finer);
+    const ErrorEstimate finer = estimate_error(scene, start, {}, run, Kept(force_of), SecondSolution::finer);
     EXPECT_DOUBLE_EQ(finer.height_max, 1.0);
     EXPECT_DOUBLE_EQ(finer.height_share, 2.0);
   }
@@ -282,7 +283,8 @@ TEST(ErrorEstimate, SaysWhereOneOfBothIsNotAtRest) {
     Solution restless = run.solution;
     restless.result.relaxation.converged = false;
     EXPECT_FALSE(
-        estimate_error(scene, starting_bed(scene.bed), {}, restless, {}, SecondSolution::coarser).at_rest);
+        estimate_error(scene, starting_bed(scene.bed), {}, restless, Kept(force_of), SecondSolution::coarser)
+            .at_rest);
   }
 }
 

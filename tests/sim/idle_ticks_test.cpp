@@ -39,7 +39,7 @@ Scene small_bed() {
   return scene;
 }
 
-struct ToldRun : SimulationObserver {
+struct GapRun : SimulationObserver {
   std::vector<TickRecord> ticks;
   std::vector<RelaxationRecord> relaxations;
   std::vector<std::pair<double, double>> frames;  // time, highest sand
@@ -47,7 +47,7 @@ struct ToldRun : SimulationObserver {
   HeightGrid surface;
   std::int64_t told;
 
-  ToldRun(const Scene& scene, const Stroke& stroke) {
+  GapRun(const Scene& scene, const Stroke& stroke) {
     Simulation simulation(scene, starting_bed(scene.bed), stroke);
     told = simulation.told_ticks();
     result = simulation.run({this});
@@ -74,7 +74,7 @@ void expect_equal(const TickRecord& a, const TickRecord& b) {
 }
 
 /// But for idle ticks, what `idle` tells is what `all` tells.
-void expect_equal(const ToldRun& idle, const ToldRun& all) {
+void expect_equal(const GapRun& idle, const GapRun& all) {
   const RunResult &a = idle.result, &b = all.result;
   EXPECT_EQ(a.ticks, b.ticks);
   EXPECT_EQ(a.simulated_seconds, b.simulated_seconds);
@@ -124,7 +124,7 @@ TEST(IdleTicks, AreLeftOutOfARunThatIsTheSame) {
   scenes[6].device.servo_rate = 333.3;
   for (const Scene& scene : scenes) {
     SCOPED_TRACE(&scene - scenes.data());
-    const ToldRun idle(scene, two_drags(3.0, false)), all(scene, two_drags(3.0, true));
+    const GapRun idle(scene, two_drags(3.0, false)), all(scene, two_drags(3.0, true));
     EXPECT_EQ(static_cast<std::int64_t>(idle.ticks.size()), idle.told);
     EXPECT_EQ(static_cast<std::int64_t>(all.ticks.size()), all.told);
     EXPECT_NEAR(static_cast<double>(all.told - idle.told), 2.0 * scene.device.servo_rate, 2.0);
@@ -153,7 +153,7 @@ TEST(IdleTicks, AreNoneOfADeviceThatStillSwingsOrFeels) {
 
 TEST(IdleTicks, OfYearsTakeNoTime) {
   Scene scene = small_bed();
-  const ToldRun seconds(scene, two_drags(3.0, false)), years(scene, two_drags(1e9, false));
+  const GapRun seconds(scene, two_drags(3.0, false)), years(scene, two_drags(1e9, false));
   EXPECT_EQ(years.told, seconds.told);
   EXPECT_NEAR(years.result.simulated_seconds, 1e9, 1.0);
   EXPECT_NEAR(static_cast<double>(years.result.relaxations), 60e9, 60.0);
