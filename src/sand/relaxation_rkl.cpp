@@ -75,7 +75,7 @@ class RklRelaxer : public Relaxer {
 
   struct StepTile {
     SuperStepTile kept;
-    FlowSize first{};              // of F0
+    FlowSize first{};              // of F0, where it is active at the step's start
     FlowChange change{};           // from F0, in the last pass
     HeightRange range{};           // of the active cells, after the last stage
     std::int64_t relaxation = -1;  // whose range knows this tile
@@ -146,7 +146,6 @@ class RklRelaxer : public Relaxer {
     if (joining.step == step_) return;
     joining.step = step_;
     joining.kept.stepped = joining.kept.first_moved = {};
-    joining.first = {};
     in_step_.push_back(slot);
   }
 
