@@ -125,7 +125,7 @@ std::set<std::string> names_in(const fs::path& folder) {
 TEST(GoldenOnDisk, AnUpdateThatFailsLeavesNothing) {
   if (sanitized) GTEST_SKIP() << "a sanitizer must be loaded first, and so must be what fails";
   Disturbed disturbed(golden_command);
-  const long calls = disturbed.calls();
+  const long calls = disturbed.calls().changes;
   for (const long call : some_calls(calls)) {
     disturbed.run({.in_child = faulty_system(fmt::format("full:{}", call))});
     EXPECT_EQ(names_in(disturbed.folder() / "golden"), std::set<std::string>{"tiny"}) << call;
