@@ -4,11 +4,13 @@
 
 namespace sandstroke {
 
-/// Numbers a setting accepts: finite, from lowest to highest; open: the ends themselves are not accepted.
+/// Numbers a setting accepts: finite, from lowest to highest; open: the ends themselves are not accepted;
+/// whole: nor what has a fraction.
 struct Range {
   double lowest = -std::numeric_limits<double>::max();
   double highest = std::numeric_limits<double>::max();
   bool open = false;
+  bool whole = false;
 };
 inline constexpr Range any_number{};
 inline constexpr Range positive{0.0, std::numeric_limits<double>::max(), true};

@@ -1,9 +1,6 @@
 #include "io/key_reader.h"
 
-#include <spdlog/fmt/fmt.h>
-
 #include <algorithm>
-#include <cmath>
 
 #include "core/key_visitor.h"
 
@@ -45,13 +42,9 @@ class KeyReader : public KeyVisitor {
       values[0] = toml_.integer(prefix_ + key, values[0], lowest, highest);
       return;
     }
-    const Range range{static_cast<double>(lowest), static_cast<double>(highest), false};
+    const Range range{static_cast<double>(lowest), static_cast<double>(highest), false, true};
     const auto read = toml_.numbers(prefix_ + key, std::vector<double>(values, values + count), range);
-    for (int i = 0; i < count; ++i) {
-      if (read[i] != std::floor(read[i]))
-        toml_.fail(prefix_ + key, fmt::format("is {}; give integers", read[i]));
-      values[i] = static_cast<int>(read[i]);
-    }
+    for (int i = 0; i < count; ++i) values[i] = static_cast<int>(read[i]);
   }
   void flag(const char* key, bool& value, const char*) override {
     value = toml_.boolean(prefix_ + key, value);

@@ -218,6 +218,8 @@ double TomlReader::checked(std::string_view key, const toml::node& node, Range r
   const bool inside = range.open ? number > range.lowest && number < range.highest
                                  : number >= range.lowest && number <= range.highest;
   if (!inside) fail(key, fmt::format("is {}; give a number {}", number, range_text(range)));
+  if (range.whole && number != std::floor(number))
+    fail(key, fmt::format("is {}; give a whole number", number));
   return number;
 }
 

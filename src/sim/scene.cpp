@@ -69,7 +69,7 @@ void describe_relaxation(KeyVisitor& v, RelaxationSettings& r) {
   v.number("share", r.share, {0.0, 1.0, false}, "",
            "part of the excess that a pass moves; 0: 1/2 (paper) or 1/4 (isotropic)");
   double passes = static_cast<double>(r.max_passes);
-  v.number("max_passes", passes, {0.0, 1e15, false}, "", "largest number of passes in one relaxation");
+  v.number("max_passes", passes, {0.0, 1e15, false, true}, "", "largest number of passes in one relaxation");
   r.max_passes = static_cast<std::int64_t>(passes);
 }
 

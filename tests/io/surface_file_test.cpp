@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "hdf5/hdf5_writer.h"
+#include "io/input_kind.h"
 #include "test_folder.h"
 
 namespace sandstroke {
@@ -87,9 +88,7 @@ TEST(SurfaceFile, ARunsFinalSurfaceNeedsCellsOfTheBedsSize) {
   const TestFolder folder;
   for (const auto& [share, taken] :
        {std::pair{0.0, true}, {0.95e-9, true}, {-0.95e-9, true}, {1.05e-9, false}, {-1.05e-9, false}}) {
-    Hdf5Writer file(folder / "run.h5");
-    file.attribute("/", "format", "sandstroke.run");
-    file.attribute("/", "format_version", 1.0);
+    Hdf5Writer file(folder / "run.h5", output_kind(InputKind::run));
     file.attribute("/", "complete", 1.0);
     file.make_group("/surface");
     file.attribute("/surface", "cell_size", 0.1 * (1.0 + share));
