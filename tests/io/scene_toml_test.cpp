@@ -157,7 +157,7 @@ TEST(SceneToml, RefusesWhatCannotBeMeant) {
   };
   refuses("[tool]\nradus = 1\n", "did you mean tool.radius");
   refuses("[bed]\ncells = [0, 10]\n", "from 1 to 65536");
-  refuses("[bed]\ncells = [1.5, 10]\n", "integers");
+  refuses("[bed]\ncells = [1.5, 10]\n", "1.5; give a whole number");
   refuses("[bed]\ncells = [1000, 999]\n", "square");
   refuses("[bed]\ncells = [65536, 65536]\nsurface = { kind = 'noise', amplitude = 1.0 }\n", "memory");
   refuses("[bed.surface]\nradius = 1.0\n",
