@@ -93,7 +93,7 @@ std::optional<SlurmJobs> read_slurm_jobs(const fs::path& sweep_folder) {
   const fs::path path = jobs_path(sweep_folder);
   if (!fs::exists(path)) return std::nullopt;
   try {
-    const Json json = Json::parse(read_text_file(path));
+    const Json json = Json::parse(read_text_file(path, most_note_bytes));
     SlurmJobs jobs{json_count<long>(json.at("array")),
                    json_count<long>(json.at("collect")),
                    json_count<int>(json.at("of")),

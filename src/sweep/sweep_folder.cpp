@@ -79,7 +79,6 @@ bool is_whole(const SweepDesign& design) {
 }
 
 constexpr OutputKind manifest_output{"a sweep's manifest", "{\n  \"format\": \"sandstroke.sweep\""};
-constexpr std::size_t most_manifest_bytes = 1'000'000'000;  // of a million values, with long names
 
 fs::path manifest_path(const fs::path& folder) { return folder / "manifest.json"; }
 
@@ -167,7 +166,7 @@ SweepFolder SweepFolder::open(const fs::path& path) {
         "{}: is not the folder of a sweep, because it has no manifest.json; name the folder that -o named",
         path.string());
   try {
-    const Json json = Json::parse(read_text_file(file, most_manifest_bytes));
+    const Json json = Json::parse(read_text_file(file, most_note_bytes));
     if (json.at("format") != "sandstroke.sweep" || json.at("format_version") != 1)
       throw_input_error("{}: has an unknown format; use the version of sandstroke that began the sweep",
                         file.string());

@@ -24,6 +24,9 @@ struct SweepManifest {
   std::string version, commit;  ///< of the program
 };
 
+/// Of what a sweep notes for itself: a million values with long names, tasks of ten million points.
+inline constexpr std::size_t most_note_bytes = 1'000'000'000;
+
 /// Refuses a folder within a sweep's that is a link: what is written there would lie where nobody named.
 /// Error: input.
 void refuse_link(const std::filesystem::path& folder);

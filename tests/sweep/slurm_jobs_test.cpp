@@ -144,6 +144,13 @@ TEST_F(SlurmJobsTest, WithoutSlurmThereIsASentence) {
   setenv("PATH", path.c_str(), 1);
 }
 
+TEST_F(SlurmJobsTest, TheNoteOfALargeSweepMayBeLargerThanTextsThatPeopleWrite) {
+  make_folder(folder_ / "out/slurm");
+  put_text(folder_ / "out/slurm/jobs.json",
+           std::string(most_text_bytes, ' ') + R"({"array": 7, "collect": 0, "of": 1, "tasks": []})");
+  EXPECT_EQ(read_slurm_jobs(folder_ / "out")->array, 7);
+}
+
 TEST_F(SlurmJobsTest, ADamagedNoteSaysSo) {
   make_folder(folder_ / "out/slurm");
   for (
