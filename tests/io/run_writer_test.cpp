@@ -7,6 +7,7 @@
 #include <regex>
 
 #include "core/hash.h"
+#include "core/input_file.h"
 #include "core/output_file.h"
 #include "io/run_file.h"
 #include "io/scene_toml.h"
