@@ -101,6 +101,19 @@ TEST(ComparePage, OfAGoldenEntryHasChangePictureAndTraces) {
   EXPECT_EQ(names_in(page()["missing"], "name"), (Names{"Change of height", "Traces"}));
 }
 
+TEST(ComparePage, OfAGoldenEntryTellsItFromTheRun) {
+  Pair pair;
+  pair.run.initial = HeightGrid(pair.run.initial.topRows(20));
+  pair.run.final = HeightGrid(pair.run.final.topRows(20));
+  pair.golden.write(pair.folder / "golden.h5");
+  pair.run.write(pair.folder / "run.h5");
+  const std::filesystem::path entry = pair.folder / "entry";
+  write_golden(entry, {pair.folder / "golden.h5", Image(72, 40), {}});
+  const GoldenRun run{pair.folder / "run.h5", Image(72, 40), {}};
+  const Json data = golden_page("dune", entry, run, {}, Tolerances{}).data;
+  EXPECT_EQ(data["parts"][0]["text"], "They differ in shape: golden has 40 x 30 cells, the run 40 x 20.");
+}
+
 class ComparePageInBrowser : public BrowserTest {
  protected:
   void open(const ComparePage& page) {
