@@ -8,6 +8,7 @@
 #include <fstream>
 
 #include "core/error.h"
+#include "core/input_file.h"
 
 namespace sandstroke {
 namespace fs = std::filesystem;
@@ -18,12 +19,9 @@ bool overwrite = false;
 
 /// Whether this program wrote it, as an output of this kind; or it holds nothing.
 bool is_own(const fs::path& path, const OutputKind& kind) {
-  constexpr std::size_t head = 64 * 1024;  // bytes
-  std::ifstream file(path, std::ios::binary);
-  if (!file) return !fs::exists(fs::symlink_status(path));  // somebody may have taken it away
-  std::string text(head, '\0');
-  file.read(text.data(), head);
-  text.resize(static_cast<std::size_t>(file.gcount()));
+  if (!fs::exists(fs::symlink_status(path))) return true;  // somebody may have taken it away
+  std::string text(64 * 1024, '\0');
+  text.resize(InputFile(path).read(text.data(), text.size()));
   if (text.empty()) return true;
   return !kind.begin.empty() && text.starts_with(kind.begin) &&
          (text.find_first_not_of('\0', kind.header) == std::string::npos ||

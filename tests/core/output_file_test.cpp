@@ -130,6 +130,17 @@ TEST(OutputFile, TakesNoPlaceOfWhatIsNotOfItsKind) {
   }
 }
 
+TEST(OutputFile, WhatTheDiskDoesNotGiveBackIsNotTakenForAnEmptyFile) {
+  try {
+    check_replaceable("/proc/self/mem", text_kind);  // at address 0 there is nothing: reading it is an EIO
+    FAIL() << "it would be replaced";
+  } catch (const Error& failure) {
+    EXPECT_EQ(failure.kind(), ErrorKind::io);
+    EXPECT_NE(std::string(failure.what()).find("cannot be read (Input/output error)"), std::string::npos)
+        << failure.what();
+  }
+}
+
 TEST(OutputFile, ThatComesWhileAnotherIsWrittenStays) {
   const TestFolder folder;
   const fs::path path = folder / "file";
