@@ -12,6 +12,7 @@
 #include "cli/run_picture.h"
 #include "core/error.h"
 #include "core/interrupt.h"
+#include "core/log.h"
 #include "core/output_file.h"
 #include "io/input_kind.h"
 #include "io/png_file.h"
@@ -150,10 +151,7 @@ void check_default_output(const fs::path& output, const fs::path& scene_path, co
 void warn_of(const RunResult& result, const Scene& scene) {
   if (result.ticks > 0 && result.contact_ticks == 0)
     spdlog::warn("the tool never touched the sand; check stroke.plane, stroke.depth and stroke.offset");
-  if (result.furrow) {
-    const std::string warning = furrow_warning(scene, *result.furrow);
-    if (!warning.empty()) spdlog::warn("{}", warning);
-  }
+  if (result.furrow) warn_if_any(furrow_warning(scene, *result.furrow));
   if (scene.device.model == DeviceModel::dynamic && loop_returned_energy(result.device, scene.device))
     spdlog::warn(
         "the sand returned up to {:.3g} J more than it took: the loop was not passive; lower force.k_s, "

@@ -6,7 +6,9 @@
 #include "cli/commands.h"
 #include "cli/stroke_parts.h"
 #include "core/error.h"
+#include "core/log.h"
 #include "core/output_file.h"
+#include "haptics/stroke_coverage.h"
 #include "io/stroke_csv.h"
 #include "io/stroke_file.h"
 #include "io/stroke_format.h"
@@ -28,7 +30,7 @@ void write_and_tell(const std::string& file, const Stroke& stroke) {
     spdlog::warn("the tool never draws: all samples are further apart in time than the gap threshold of {} s",
                  stroke.gap_threshold);
   }
-  warn_of_coverage(stroke, file);
+  warn_if_any(coverage_warning(stroke, file));
 }
 
 // --- script ---

@@ -1,5 +1,3 @@
-#include <spdlog/spdlog.h>
-
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -8,6 +6,7 @@
 #include "cli/print_text.h"
 #include "cli/record_parts.h"
 #include "cli/stroke_parts.h"
+#include "core/log.h"
 #include "core/terminal_text.h"
 #include "haptics/stroke_coverage.h"
 #include "io/recording_file.h"
@@ -49,11 +48,6 @@ StrokeSummary summarize(const Stroke& stroke) {
     summary.greatest_force = greatest->norm();
   }
   return summary;
-}
-
-void warn_of_coverage(const Stroke& stroke, const std::string& file) {
-  const std::string warning = coverage_warning(stroke, file);
-  if (!warning.empty()) spdlog::warn("{}", warning);
 }
 
 std::string recorded_ticks_text(const RecordingFooter& footer) {
@@ -182,7 +176,7 @@ void add_stroke_info_command(CLI::App& stroke_app, Command& chosen) {
       } else {
         print_text("{}", as_table(options->file, stroke, summary, recording));
       }
-      warn_of_coverage(stroke, options->file);
+      warn_if_any(coverage_warning(stroke, options->file));
       return 0;
     };
   });

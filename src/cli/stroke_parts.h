@@ -25,9 +25,6 @@ struct StrokeSummary {
 };
 StrokeSummary summarize(const Stroke& stroke);
 
-/// Where coverage_warning() has something to say.
-void warn_of_coverage(const Stroke& stroke, const std::string& file);
-
 /// Where a recording's ticks went, also of one that was cut off.
 std::string recorded_ticks_text(const RecordingFooter& footer);
 

@@ -7,38 +7,30 @@
 namespace sandstroke {
 namespace {
 
-CLI::Validator accepted_number(const std::string& name, const std::string& wanted,
-                               const std::function<bool(double)>& accepts) {
+CLI::Validator accepted_number(const std::string& name, const std::string& wanted, Range range) {
   return CLI::Validator(
       [=](std::string& text) -> std::string {
         double value = 0.0;
         const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), value);
         const bool whole = failure == std::errc() && end == text.data() + text.size();
-        return whole && std::isfinite(value) && accepts(value) ? "" : text + " is not " + wanted;
+        return whole && std::isfinite(value) && range.contains(value) ? "" : text + " is not " + wanted;
       },
       name);
 }
 
 }  // namespace
 
-CLI::Validator positive_number() {
-  return accepted_number("NUMBER > 0", "a number above 0", [](double value) { return value > 0.0; });
-}
+CLI::Validator positive_number() { return accepted_number("NUMBER > 0", "a number above 0", positive); }
 
 CLI::Validator not_negative_number() {
-  return accepted_number("NUMBER >= 0", "a number of 0 or more", [](double value) { return value >= 0.0; });
+  return accepted_number("NUMBER >= 0", "a number of 0 or more", not_negative);
 }
 
-CLI::Validator finite_number() {
-  return accepted_number("", "a finite number", [](double) { return true; });
-}
+CLI::Validator finite_number() { return accepted_number("", "a finite number", any_number); }
 
 CLI::Validator number_within(Range range) {
   const std::string words = range_text(range);
-  return accepted_number("NUMBER " + words, "a number " + words, [range](double value) {
-    return range.open ? value > range.lowest && value < range.highest
-                      : value >= range.lowest && value <= range.highest;
-  });
+  return accepted_number("NUMBER " + words, "a number " + words, range);
 }
 
 CLI::Option* add_set_option(CLI::App& command, std::vector<std::string>& overrides) {

@@ -11,6 +11,11 @@ struct Range {
   double highest = std::numeric_limits<double>::max();
   bool open = false;
   bool whole = false;
+
+  /// Of its ends only: a fraction deserves a sentence of its own.
+  constexpr bool contains(double number) const {
+    return open ? number > lowest && number < highest : number >= lowest && number <= highest;
+  }
 };
 inline constexpr Range any_number{};
 inline constexpr Range positive{0.0, std::numeric_limits<double>::max(), true};

@@ -215,9 +215,7 @@ double TomlReader::checked(std::string_view key, const toml::node& node, Range r
                           node.value<std::int64_t>().value_or(0)));
   const double number = *held;
   if (!std::isfinite(number)) fail(key, fmt::format("is {}; give a finite number", number));
-  const bool inside = range.open ? number > range.lowest && number < range.highest
-                                 : number >= range.lowest && number <= range.highest;
-  if (!inside) fail(key, fmt::format("is {}; give a number {}", number, range_text(range)));
+  if (!range.contains(number)) fail(key, fmt::format("is {}; give a number {}", number, range_text(range)));
   if (range.whole && number != std::floor(number))
     fail(key, fmt::format("is {}; give a whole number", number));
   return number;

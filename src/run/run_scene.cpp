@@ -11,6 +11,7 @@
 #include "core/hash.h"
 #include "core/input_file.h"
 #include "core/interrupt.h"
+#include "core/log.h"
 #include "core/machine.h"
 #include "core/output_file.h"
 #include "core/progress.h"
@@ -50,8 +51,7 @@ Stroke placed_stroke(const Scene& scene, const std::filesystem::path& path, std:
   // Not of a recorded stroke's bytes: they tell which build wrote it, too.
   hash = is_recorded(path) ? content_hash(loaded) : file_hash(path);
   Stroke placed = place_stroke(loaded, scene.stroke->placement, path.string());
-  const std::string warning = coverage_warning(placed, path.string());
-  if (!warning.empty()) spdlog::warn("{}", warning);
+  warn_if_any(coverage_warning(placed, path.string()));
   return placed;
 }
 
@@ -101,8 +101,7 @@ RunResult run_scene(const Scene& scene, const std::filesystem::path& output, con
   if (stroke || options.second) start = bed;
   Simulation simulation(scene, std::move(bed), stroke);
   if (stroke) {
-    const std::string warning = depth_warning(scene, simulation.bed(), *stroke, stroke_path.string());
-    if (!warning.empty()) spdlog::warn("{}", warning);
+    warn_if_any(depth_warning(scene, simulation.bed(), *stroke, stroke_path.string()));
     check_disk(output, least_bytes(simulation),
                "choose another place or free disk space; output.trace = false, fewer output.frames or a "
                "stroke.stop keep less");

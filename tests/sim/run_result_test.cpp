@@ -8,19 +8,13 @@
 #include <limits>
 
 #include "sim/simulation.h"
+#include "sim/told.h"
 
 namespace sandstroke {
 namespace {
 
-/// All that a run tells, tick by tick.
-struct ToldRun : SimulationObserver {
-  std::vector<TickRecord> ticks;
-  std::vector<RelaxationRecord> relaxations;
-  std::vector<double> frames;
-  void on_tick(const TickRecord& tick) override { ticks.push_back(tick); }
-  void on_relaxation(const RelaxationRecord& relaxation) override { relaxations.push_back(relaxation); }
-  void on_frame(double time, const HeightField&) override { frames.push_back(time); }
-
+/// All that a run tells, and what follows from it.
+struct ToldRun : Told {
   std::int64_t count(const std::function<bool(const TickRecord&)>& holds) const {
     return std::count_if(ticks.begin(), ticks.end(), holds);
   }

@@ -6,19 +6,10 @@
 #include <limits>
 
 #include "core/error.h"
+#include "sim/told.h"
 
 namespace sandstroke {
 namespace {
-
-/// Keeps all that a simulation tells.
-struct Recording : SimulationObserver {
-  std::vector<TickRecord> ticks;
-  std::vector<RelaxationRecord> relaxations;
-  std::vector<double> frames;
-  void on_tick(const TickRecord& tick) override { ticks.push_back(tick); }
-  void on_relaxation(const RelaxationRecord& relaxation) override { relaxations.push_back(relaxation); }
-  void on_frame(double time, const HeightField&) override { frames.push_back(time); }
-};
 
 Scene small_scene() {
   Scene scene;
@@ -44,7 +35,7 @@ TEST(Simulation, WorkOfAConstantSpeedPlungeIsTheClosedForm) {
   scene.device.max_force = 0.0;
   const double depth = 0.006, k_s = 1000.0, k_c = 0.5;
   Simulation simulation(scene, starting_bed(scene.bed), through({{0, 0, 0}, {0, 0, -depth}}, 3.0));
-  Recording recording;
+  Told recording;
   const RunResult result = simulation.run({&recording});
   EXPECT_GT(result.displaced_volume, 0.0);
   EXPECT_NEAR(recording.ticks.back().depth, depth, 1e-14);  // displacement leaves the level where it is
@@ -129,7 +120,7 @@ TEST(Simulation, WhatIsReachedLiftedIsNoPath) {
 TEST(Simulation, ALimitedDeviceIsHeldByItsLimitAtAnyDepth) {
   Scene scene = small_scene();
   const Stroke plunge = through({{0, 0, 0}, {0, 0, -1e4}}, 0.01);  // exp(k_c d) overflows
-  Recording recording;
+  Told recording;
   Simulation simulation(scene, starting_bed(scene.bed), plunge);
   const RunResult result = simulation.run({&recording});
   EXPECT_NEAR(result.device.max_force, scene.device.max_force, 1e-12);
@@ -153,7 +144,7 @@ TEST(Simulation, TicksAtTheServoRateAndRelaxesAtItsOwn) {
   Scene scene = small_scene();
   scene.output.frames = 10.0;
   Simulation simulation(scene, starting_bed(scene.bed), through({{0, 0, -0.002}, {0.05, 0, -0.002}}, 1.0));
-  Recording recording;
+  Told recording;
   const RunResult result = simulation.run({&recording});
   EXPECT_EQ(result.ticks, 1001);
   EXPECT_EQ(recording.ticks.size(), 1001u);
@@ -175,7 +166,7 @@ TEST(Simulation, VolumeIsConservedThroughAStrokeIntoAWall) {
     }
     Simulation simulation(scene, starting_bed(scene.bed),
                           through({{-0.1, 0, 0.01}, {0, 0.02, -0.01}, {0.15, 0.15, -0.01}}, 1.0));
-    Recording recording;
+    Told recording;
     const RunResult result = simulation.run({&recording});
     EXPECT_GT(result.displaced_volume, 0.0);
     EXPECT_LE(result.volume_drift, 1e-12);
@@ -187,7 +178,7 @@ TEST(Simulation, NothingHappensInTheAirNorWhileTheToolIsLifted) {
   Stroke stroke = through({{0, 0, 0.01}, {0.05, 0, 0.01}, {0.05, 0, -0.01}, {0, 0, -0.01}}, 0.5);
   stroke.gap_threshold = 0.4;  // every step is a gap
   Simulation lifted(scene, starting_bed(scene.bed), stroke);
-  Recording recording;
+  Told recording;
   const RunResult result = lifted.run({&recording});
   EXPECT_EQ(result.gaps, 3);
   // The sample at which a piece begins and ends is a touch; in between the tool is lifted.
@@ -199,7 +190,7 @@ TEST(Simulation, NothingHappensInTheAirNorWhileTheToolIsLifted) {
   }
 
   Simulation above(scene, starting_bed(scene.bed), through({{0, 0, 0.01}, {0.05, 0, 0.001}}, 0.5));
-  Recording in_air;
+  Told in_air;
   EXPECT_EQ(above.run({&in_air}).contact_ticks, 0);
   EXPECT_TRUE((above.bed().grid() == 0.0).all());
   for (const TickRecord& tick : in_air.ticks) EXPECT_EQ(tick.device_force.norm(), 0.0);
@@ -209,7 +200,7 @@ TEST(Simulation, DragOpposesTheMotionWithTheModelsForce) {
   Scene scene = small_scene();
   Simulation simulation(scene, starting_bed(scene.bed),
                         through({{-0.05, 0, -0.002}, {0.05, 0, -0.002}}, 1.0));
-  Recording recording;
+  Told recording;
   simulation.run({&recording});
   for (const TickRecord& tick : recording.ticks) {
     ASSERT_TRUE(tick.contact);
@@ -225,7 +216,7 @@ TEST(Simulation, ScaleMapsDeviceMetresToBedMetres) {
   scaled.device.offset = {0.02, 0.0, 0.004};
   Simulation a(plain, starting_bed(plain.bed), through({{-0.05, 0, -0.002}, {0.05, 0, -0.002}}, 1.0));
   Simulation b(scaled, starting_bed(scaled.bed), through({{-0.0175, 0, -0.0015}, {0.0075, 0, -0.0015}}, 1.0));
-  Recording ra, rb;
+  Told ra, rb;
   a.run({&ra});
   b.run({&rb});
   EXPECT_LT((a.bed().grid() - b.bed().grid()).abs().maxCoeff(), 1e-9);
@@ -237,7 +228,7 @@ TEST(Simulation, DynamicDeviceLagsBehindAndIsPushedBack) {
   scene.device.model = DeviceModel::dynamic;
   Simulation simulation(scene, starting_bed(scene.bed),
                         through({{-0.05, 0, 0.005}, {-0.05, 0, -0.008}, {0.05, 0, -0.008}}, 1.0));
-  Recording recording;
+  Told recording;
   const RunResult result = simulation.run({&recording});
   const TickRecord& last = recording.ticks.back();
   EXPECT_LT(last.device_position.x(), last.hand.position.x() - 1e-4);
@@ -253,7 +244,7 @@ TEST(Simulation, TheForceThatActsIsTheOneComputedTicksBefore) {
   scene.device.dropped_ticks = 0.3;
   Simulation simulation(scene, starting_bed(scene.bed),
                         through({{-0.02, 0, 0.002}, {-0.02, 0, -0.008}}, 0.5));
-  Recording recording;
+  Told recording;
   const RunResult result = simulation.run({&recording});
   ASSERT_GT(result.contact_ticks, 100);
   // What acts moves the device: along z the exact map of each tick gives the next position.
@@ -285,7 +276,7 @@ TEST(Simulation, ImplicitDragHoldsWhereSampledDragThrowsTheDevice) {
     scene.device.drag = drag;
     Simulation simulation(scene, starting_bed(scene.bed),
                           through({{-0.05, 0, 0.0}, {-0.05, 0, -0.16}, {0.05, 0, -0.16}}, 0.5));
-    Recording recording;
+    Told recording;
     return simulation.run({&recording});
   };
   EXPECT_THROW(run(DragVelocity::sampled), Error);
@@ -300,7 +291,7 @@ TEST(Simulation, ASceneWithoutAStrokeIsACollapse) {
   scene.bed.surface.kind = SurfaceKind::cylinder;
   scene.bed.surface.radius = 0.05, scene.bed.surface.height = 0.05;
   Simulation simulation(scene, starting_bed(scene.bed), std::nullopt);
-  Recording recording;
+  Told recording;
   const RunResult result = simulation.run({&recording});
   EXPECT_EQ(result.ticks, 0);
   EXPECT_GT(result.relaxation.passes, 0);
@@ -363,7 +354,7 @@ TEST(Simulation, ADeviceIsLostFurtherAwayThanAHundredBeds) {
   scene.device.hand_stiffness = scene.device.hand_damping = scene.device.damping = 0.0;
   Stroke thrown = through({{0, 0, 1}, {0, 0, 2}, {0, 0, 2}}, 0.0);
   thrown.time = {0.0, 0.01, 2.0};
-  Recording recording;
+  Told recording;
   Simulation simulation(scene, starting_bed(scene.bed), thrown);
   try {
     simulation.run({&recording});
