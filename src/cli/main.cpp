@@ -71,10 +71,9 @@ int run_program(int argc, char** argv) {
   bool quiet = false;
   app.add_flag("-q,--quiet", quiet, "Print only results, warnings and errors");
   bool overwrite = false;
-  app.add_flag(
-      "--overwrite", overwrite,
-      "Let outputs replace any file. Without it they replace only what sandstroke wrote there, and no "
-      "recording and no film");
+  app.add_flag("--overwrite", overwrite,
+               "Let outputs replace any file. Without it they replace only what sandstroke wrote there, but "
+               "never a recording or a film");
 
   Command chosen;
   add_init_command(app, chosen);

@@ -74,7 +74,7 @@ std::string read_text_file(const fs::path& path, std::size_t most_bytes) {
         "{}: has {} MB, and a text has at most {:g} MB; shorten it (a long stroke can be a table of samples: "
         "sandstroke stroke convert --help)",
         path.string(),
-        has_size ? fmt::format("{:.1f}", 1e-6 * static_cast<double>(fs::file_size(path))) : "more",
+        has_size ? fmt::format("{:.1f}", 1e-6 * static_cast<double>(fs::file_size(path))) : "too many",
         1e-6 * static_cast<double>(most_bytes));
   }
   return text;

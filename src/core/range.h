@@ -12,7 +12,7 @@ struct Range {
   bool open = false;
   bool whole = false;
 
-  /// Of its ends only: a fraction deserves a sentence of its own.
+  /// Between the ends. Whether the number is whole is not asked here.
   constexpr bool contains(double number) const {
     return open ? number > lowest && number < highest : number >= lowest && number <= highest;
   }
