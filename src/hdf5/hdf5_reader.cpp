@@ -17,6 +17,7 @@
 #include "core/input_file.h"
 #include "core/machine.h"
 #include "hdf5/hdf5_storage.h"
+#include "hdf5/part_driver.h"
 
 namespace sandstroke {
 namespace {
@@ -75,8 +76,10 @@ Hdf5Reader::Hdf5Reader(const std::filesystem::path& path) : name_(path.string())
     check_can_be_read_whole(path);
     throw_input_error("{}: is not an HDF5 file; name another file", name_);
   }
+  const bool is_part = path.extension() == ".part";
   if (!is_being_written(path))
-    file_ = Hdf5Handle(H5Fopen(name_.c_str(), H5F_ACC_RDONLY, without_locks()), H5Fclose);
+    file_ = Hdf5Handle(H5Fopen(name_.c_str(), H5F_ACC_RDONLY, is_part ? part_access() : without_locks()),
+                       H5Fclose);
   if (!file_.valid()) {
     check_can_be_read_whole(path);
     throw_input_error("{}: is a damaged or truncated HDF5 file, or still being written; make it again",

@@ -1,13 +1,12 @@
 #include "hdf5/hdf5_writer.h"
 
-#include <fcntl.h>
-
 #include <algorithm>
-#include <cerrno>
+#include <cstring>
 
 #include "core/error.h"
 #include "core/output_file.h"
 #include "core/version.h"
+#include "hdf5/part_driver.h"
 
 namespace sandstroke {
 namespace {
@@ -16,7 +15,8 @@ constexpr hsize_t rows_per_chunk = 4096;  // of a growing column
 constexpr hsize_t chunk_side = 128;       // of a height field: a whole number of tiles
 
 [[noreturn]] void throw_write_error(const std::string& where) {
-  throw_io_error("{}: cannot be written; free disk space or choose another place", where);
+  const std::string reason = part_failure() ? fmt::format(" ({})", std::strerror(part_failure())) : "";
+  throw_io_error("{}: cannot be written{}; free disk space or choose another place", where, reason);
 }
 
 Hdf5Handle string_type(std::size_t length) {
@@ -71,15 +71,14 @@ void Hdf5Chunks::write(int row, int col, const double* numbers) {
 Hdf5Writer::Hdf5Writer(const std::filesystem::path& path, const OutputKind& kind)
     : path_(path), kind_(kind), lock_(take_part(path, kind)) {
   prepare_hdf5();
-  file_ =
-      Hdf5Handle(H5Fcreate(part_path(path).c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, without_locks()), H5Fclose);
+  file_ = Hdf5Handle(H5Fcreate(part_path(path).c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, part_access()), H5Fclose);
   try {
     check(file_.valid(), "");
     attribute("/", "written_by", std::string(build));
     if (!kind.mark.empty()) {
       attribute("/", "format", std::string(kind.mark));
       attribute("/", "format_version", 1.0);
-      check(H5Fflush(file_, H5F_SCOPE_GLOBAL) >= 0, "");  // from now on known to be ours
+      commit();  // from now on known to be ours
     }
   } catch (const Error&) {
     drop();
@@ -213,28 +212,16 @@ void Hdf5Writer::make_group(const std::string& group) {
   check(made.valid(), group);
 }
 
-/// Takes room on the disk for all that a flush writes, before it writes over any of what is there.
-void Hdf5Writer::reserve() {
-  constexpr hsize_t most_made_by_flushing = 64 * 1024;  // bytes
-  hsize_t size = 0;
-  void* descriptor = nullptr;
-  check(H5Fget_filesize(file_, &size) >= 0 && H5Fget_vfd_handle(file_, H5P_DEFAULT, &descriptor) >= 0, "");
-  const bool reserved = fallocate(*static_cast<int*>(descriptor), FALLOC_FL_KEEP_SIZE, 0,
-                                  static_cast<off_t>(size + most_made_by_flushing)) == 0;
-  check(reserved || (errno != ENOSPC && errno != EDQUOT), "");  // not every file system can
-}
+void Hdf5Writer::commit() { check(H5Fflush(file_, H5F_SCOPE_GLOBAL) >= 0 && commit_part(file_), ""); }
 
 void Hdf5Writer::flush() {
-  reserve();
-  check(H5Fflush(file_, H5F_SCOPE_GLOBAL) >= 0, "");
+  commit();
   flushed_ = true;
 }
 
 void Hdf5Writer::finish() {
   flush();
   check(file_.close(), "");
-  const std::filesystem::path part = part_path(path_);
-  std::filesystem::resize_file(part, std::filesystem::file_size(part));  // gives back what was reserved
   finish_part(path_, kind_);
 }
 

@@ -99,7 +99,8 @@ class Hdf5Writer {
                     double fill);
   void make_group(const std::string& group);
 
-  /// What has been written so far can be read from the .part file from now on.
+  /// What has been written so far can be read from the .part file from now on, also where a kill hits a later
+  /// flush (part_driver.h).
   void flush();
   /// Flushes, closes and renames.
   void finish();
@@ -116,7 +117,7 @@ class Hdf5Writer {
   hid_t file() const { return file_; }
 
  private:
-  void reserve();
+  void commit();
   Hdf5Column growing(const std::string& dataset, hid_t type, int width);
 
   /// Away with a .part file that holds nothing.

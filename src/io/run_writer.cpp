@@ -17,8 +17,7 @@
 namespace sandstroke {
 namespace {
 
-// What a killed run can lose. Not after fewer rows or sooner: a run that is killed while it flushes leaves a
-// file that cannot be read, and ticks may take microseconds.
+// What a killed run can lose. Not after fewer rows: ticks may take microseconds.
 constexpr std::chrono::milliseconds time_per_write{500};
 constexpr double bytes_per_frame = 1000.0;  // at least: of its groups and attributes
 constexpr std::size_t least_rows_per_write = 1000, most_rows_per_write = 50'000;

@@ -8,6 +8,7 @@
 #include "cli/program.h"
 #include "core/hash.h"
 #include "hdf5/hdf5_file.h"
+#include "hdf5/part_driver.h"
 #include "io/png_file.h"
 
 namespace sandstroke {
@@ -72,7 +73,9 @@ herr_t add_object(hid_t file, const char* name, const H5O_info_t* info, void* to
 
 std::string hdf5_content(const fs::path& path) {
   prepare_hdf5();
-  const Hdf5Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, without_locks()), H5Fclose);
+  const bool is_part = path.extension() == ".part";
+  const Hdf5Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, is_part ? part_access() : without_locks()),
+                        H5Fclose);
   if (!file.valid()) fail(path.string());
   ContentHash hash;
   if (H5Ovisit(file, H5_INDEX_NAME, H5_ITER_INC, add_object, &hash) < 0)

@@ -42,6 +42,7 @@ TEST_P(Kill, BetweenAnyTwoChangesOfFiles) {
     const std::string where = fmt::format("killed before call {} of {}", call, calls);
     disturbed.run({.in_child = faulty_system(fmt::format("kill:{}", call))});
     outcomes[disturbed.state()]++;
+    EXPECT_EQ(disturbed.state().find("cannot be read"), std::string::npos) << where;
     disturbed.expect_nothing_half(where);
     disturbed.expect_rerun(where);
   }

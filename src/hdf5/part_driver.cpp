@@ -1,0 +1,259 @@
+#include "hdf5/part_driver.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+#include <zlib.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstdint>
+#include <cstring>
+#include <map>
+#include <memory>
+
+namespace sandstroke {
+namespace {
+
+constexpr haddr_t page_bytes = 4096;
+constexpr haddr_t first_bytes = 64 * 1024;  // that the first commit is to write, all of them held until then
+
+/// A page as a commit appends it.
+struct Page {
+  std::uint64_t place = 0;  // bytes from the file's begin
+  std::array<char, page_bytes> bytes{};
+};
+
+/// The last bytes of a file with appended pages.
+struct Seal {
+  std::array<char, 16> mark = {'s', 'a', 'n', 'd', 's', 't', 'r', 'o',
+                               'k', 'e', ' ', 'p', 'a', 'g', 'e', 's'};
+  std::uint64_t pages = 0;
+  std::uint64_t checksum = 0;  // of the pages, one by one
+};
+
+int failure = 0;  // errno
+
+haddr_t up_to_page(haddr_t bytes) { return (bytes + page_bytes - 1) / page_bytes * page_bytes; }
+
+/// All the bytes, by as many calls as it takes. call(bytes done): what the system's did.
+template <class Call>
+bool transfer(std::size_t count, std::size_t& done, const Call& call) {
+  for (done = 0; done < count;) {
+    const ssize_t some = call(done);
+    if (some < 0 && errno == EINTR) continue;
+    if (some < 0) return failure = errno, false;
+    if (some == 0) break;  // the file ends here
+    done += static_cast<std::size_t>(some);
+  }
+  return true;
+}
+
+bool write_at(int file, haddr_t place, const void* bytes, std::size_t count) {
+  std::size_t done = 0;
+  return transfer(count, done,
+                  [&](std::size_t from) {
+                    return pwrite(file, static_cast<const char*>(bytes) + from, count - from,
+                                  static_cast<off_t>(place + from));
+                  }) &&
+         done == count;
+}
+
+/// Zeros behind the file's end.
+bool read_at(int file, haddr_t place, void* bytes, std::size_t count) {
+  auto* const to = static_cast<char*>(bytes);
+  std::size_t done = 0;
+  const bool read = transfer(count, done, [&](std::size_t from) {
+    return pread(file, to + from, count - from, static_cast<off_t>(place + from));
+  });
+  std::fill(to + done, to + count, '\0');
+  return read;
+}
+
+std::uint64_t checksum_of(std::uint64_t so_far, const Page& page) {
+  return crc32(so_far, reinterpret_cast<const Bytef*>(&page), sizeof page);
+}
+
+/// The file as HDF5 knows it, and the rest.
+struct PartFile : H5FD_t {
+  int file = -1;
+  bool writes = false;
+  haddr_t allocated = 0;  // by HDF5 (its "end of allocation")
+  haddr_t end = 0;        // of what was written
+  haddr_t committed = first_bytes;
+  std::map<haddr_t, Page> held;  // by place
+
+  PartFile() : H5FD_t{} {}
+  ~PartFile() {
+    if (file >= 0) close(file);
+  }
+  bool take_appended();
+  bool reserve(haddr_t bytes) const;
+  bool commit();
+  Page* page_at(haddr_t place);
+};
+
+PartFile& part_of(H5FD_t* file) { return static_cast<PartFile&>(*file); }
+const PartFile& part_of(const H5FD_t* file) { return static_cast<const PartFile&>(*file); }
+
+/// Holds the pages of a commit that was not carried out. False: the file cannot be read.
+bool PartFile::take_appended() {
+  struct stat status {};
+  if (fstat(file, &status) != 0) return false;
+  end = static_cast<haddr_t>(status.st_size);
+  Seal seal;
+  if (end < sizeof seal) return true;
+  if (!read_at(file, end - sizeof seal, &seal, sizeof seal)) return false;
+  const haddr_t room = end - sizeof seal;
+  if (seal.mark != Seal{}.mark || seal.pages > room / sizeof(Page)) return true;
+  const haddr_t start = room - seal.pages * sizeof(Page);
+  std::uint64_t checksum = 0;
+  std::map<haddr_t, Page> appended;
+  for (std::uint64_t i = 0; i < seal.pages; ++i) {
+    Page page;
+    if (!read_at(file, start + i * sizeof page, &page, sizeof page)) return false;
+    checksum = checksum_of(checksum, page);
+    appended.emplace(page.place, page);
+  }
+  if (checksum != seal.checksum) return true;
+  held = std::move(appended);
+  end = start;
+  return true;
+}
+
+Page* PartFile::page_at(haddr_t place) {
+  const auto [entry, is_new] = held.try_emplace(place);
+  Page& page = entry->second;
+  page.place = place;
+  if (is_new && !read_at(file, place, page.bytes.data(), page_bytes)) return nullptr;
+  return &page;
+}
+
+/// Takes room on the disk for all that was allocated, before anything is written over what is there.
+bool PartFile::reserve(haddr_t bytes) const {
+  if (fallocate(file, FALLOC_FL_KEEP_SIZE, 0, static_cast<off_t>(bytes)) == 0) return true;
+  if (errno != ENOSPC && errno != EDQUOT) return true;  // not every file system can
+  return failure = errno, false;
+}
+
+bool PartFile::commit() {
+  const haddr_t start =
+      up_to_page(std::max({end, allocated, held.empty() ? 0 : held.rbegin()->first + page_bytes}));
+  Seal seal;
+  haddr_t place = start;
+  bool appended = reserve(start);
+  for (const auto& [at, page] : held) {
+    seal.checksum = checksum_of(seal.checksum, page);
+    appended = appended && write_at(file, place, &page, sizeof page);
+    place += sizeof page;
+  }
+  seal.pages = held.size();
+  if (!appended || (!held.empty() && !write_at(file, place, &seal, sizeof seal))) {
+    (void)!ftruncate(file, static_cast<off_t>(end));
+    return false;
+  }
+  for (const auto& [at, page] : held)
+    if (!write_at(file, at, page.bytes.data(), page_bytes)) return false;
+  held.clear();
+  end = std::max(end, allocated);
+  if (ftruncate(file, static_cast<off_t>(end)) != 0) return false;
+  committed = std::max(first_bytes, end);
+  return true;
+}
+
+H5FD_t* open_part(const char* name, unsigned flags, hid_t, haddr_t) {
+  auto part = std::make_unique<PartFile>();
+  part->writes = (flags & H5F_ACC_RDWR) != 0;
+  part->file = open(name, (part->writes ? O_RDWR : O_RDONLY) | O_CLOEXEC);
+  if (part->file < 0) return nullptr;
+  if ((flags & H5F_ACC_TRUNC) != 0 && ftruncate(part->file, 0) != 0) return nullptr;
+  if (!part->take_appended()) return nullptr;
+  return part.release();
+}
+
+herr_t close_part(H5FD_t* file) {
+  const std::unique_ptr<PartFile> part(&part_of(file));
+  if (!part->writes) return 0;
+  return part->commit() && ftruncate(part->file, static_cast<off_t>(part->allocated)) == 0 ? 0 : -1;
+}
+
+herr_t query(const H5FD_t*, unsigned long* features) {
+  *features = H5FD_FEAT_AGGREGATE_METADATA | H5FD_FEAT_ACCUMULATE_METADATA | H5FD_FEAT_DATA_SIEVE |
+              H5FD_FEAT_AGGREGATE_SMALLDATA | H5FD_FEAT_DEFAULT_VFD_COMPATIBLE;
+  return 0;
+}
+
+haddr_t get_allocated(const H5FD_t* file, H5FD_mem_t) { return part_of(file).allocated; }
+herr_t set_allocated(H5FD_t* file, H5FD_mem_t, haddr_t end) { return part_of(file).allocated = end, 0; }
+haddr_t get_end(const H5FD_t* file, H5FD_mem_t) { return part_of(file).end; }
+herr_t get_handle(H5FD_t* file, hid_t, void** handle) { return *handle = file, 0; }
+
+herr_t read_part(H5FD_t* file, H5FD_mem_t, hid_t, haddr_t place, std::size_t count, void* bytes) {
+  const PartFile& part = part_of(file);
+  if (!read_at(part.file, place, bytes, count)) return -1;
+  const haddr_t stop = place + count;
+  for (auto entry = part.held.lower_bound(place / page_bytes * page_bytes);
+       entry != part.held.end() && entry->first < stop; ++entry) {
+    const haddr_t from = std::max(place, entry->first), to = std::min(stop, entry->first + page_bytes);
+    std::memcpy(static_cast<char*>(bytes) + (from - place),
+                entry->second.bytes.data() + (from - entry->first), to - from);
+  }
+  return 0;
+}
+
+herr_t write_part(H5FD_t* file, H5FD_mem_t, hid_t, haddr_t place, std::size_t count, const void* bytes) {
+  PartFile& part = part_of(file);
+  const haddr_t stop = place + count;
+  const auto* from = static_cast<const char*>(bytes);
+  while (place < std::min(stop, up_to_page(part.committed))) {
+    Page* const page = part.page_at(place / page_bytes * page_bytes);
+    if (!page) return -1;
+    const haddr_t some = std::min(stop, page->place + page_bytes) - place;
+    std::memcpy(page->bytes.data() + (place - page->place), from, some);
+    from += some, place += some;
+  }
+  if (place < stop && !write_at(part.file, place, from, stop - place)) return -1;
+  part.end = std::max(part.end, stop);
+  return 0;
+}
+
+const H5FD_class_t& part_class() {
+  static const H5FD_class_t made = [] {
+    H5FD_class_t methods{};
+    methods.name = "sandstroke_part";
+    methods.maxaddr = (haddr_t{1} << 62) - 1;
+    methods.fc_degree = H5F_CLOSE_STRONG;  // whoever still has a dataset of it: closed is closed
+    methods.open = open_part;
+    methods.close = close_part;
+    methods.query = query;
+    methods.get_eoa = get_allocated;
+    methods.set_eoa = set_allocated;
+    methods.get_eof = get_end;
+    methods.get_handle = get_handle;
+    methods.read = read_part;
+    methods.write = write_part;
+    constexpr H5FD_mem_t kinds[H5FD_MEM_NTYPES] = H5FD_FLMAP_DICHOTOMY;
+    std::copy(std::begin(kinds), std::end(kinds), methods.fl_map);
+    return methods;
+  }();
+  return made;
+}
+
+}  // namespace
+
+Hdf5Handle part_access() {
+  static const hid_t driver = H5FDregister(&part_class());
+  Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+  H5Pset_driver(access, driver, nullptr);
+  return access;
+}
+
+bool commit_part(const Hdf5Handle& file) {
+  void* part = nullptr;
+  return H5Fget_vfd_handle(file, H5P_DEFAULT, &part) >= 0 && static_cast<PartFile*>(part)->commit();
+}
+
+int part_failure() { return failure; }
+
+}  // namespace sandstroke
