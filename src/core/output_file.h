@@ -21,6 +21,7 @@ struct OutputKind {
   std::string_view begin = {}, mark = {};
   std::size_t header = 0;  ///< bytes: what begins so and has only zeros after these holds nothing yet
   bool kept = false;       ///< it cannot be made again, so not even one of its own kind replaces it
+  int version = 1;         ///< of the kind's format
 };
 
 /// What --overwrite says, of all outputs: they replace any file.

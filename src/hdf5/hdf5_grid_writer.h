@@ -29,15 +29,29 @@ class Hdf5GridWriter : public Hdf5Writer {
   /// The axes of a dataset by their scales, one per dimension.
   void attach_scales(const std::string& dataset, const std::vector<std::string>& scales);
 
+  /// A coordinate: a dataset of rank 1 that is the scale of the axis of its name.
+  void write_scale(const std::string& dataset, const std::vector<double>& values, const std::string& units,
+                   const std::string& meaning);
+  void write_scale(const std::string& dataset, const std::vector<std::string>& names);
+
   /// A dataset of doubles of shape (outer..., rows, cols) that has no numbers of its own: block `index`
-  /// (row-major over `outer`) is the dataset `source` of another file, named from this file's folder. Blocks
-  /// without a file are not-a-number.
+  /// (row-major over `outer`) is a dataset of another file, named from this file's folder; "." is this file.
+  /// Blocks without a file are not-a-number.
   struct Block {
     std::size_t index;
-    std::string file;
+    std::string file, dataset;
   };
   void write_virtual(const std::string& dataset, const Shape& outer, std::size_t rows, std::size_t cols,
-                     const std::vector<Block>& blocks, const std::string& source);
+                     const std::vector<Block>& blocks);
+
+  /// A dataset of doubles of shape (rows, cols) that has no numbers of its own: it is the dataset `under` of
+  /// this file, but in these cells, which no two patches share, other ones. All are of its shape.
+  struct Patch {
+    std::string dataset;
+    std::vector<CellRange> cells;
+  };
+  void write_patched(const std::string& dataset, std::size_t rows, std::size_t cols, const std::string& under,
+                     const std::vector<Patch>& patches);
 };
 
 }  // namespace sandstroke

@@ -265,9 +265,7 @@ HeightField Hdf5Reader::bed(const std::string& dataset, double cell_size) const 
   const BedGeometry shape = bed_geometry(dataset, cell_size);
   HeightField bed(shape.rows(), shape.cols(), cell_size, std::make_shared<LevelRule>(fill_value(dataset)));
   visit_written(dataset, [&](Eigen::Index first_row, Eigen::Index first_col, const HeightGrid& heights) {
-    for (Eigen::Index row = 0; row < heights.rows(); ++row)
-      for (Eigen::Index col = 0; col < heights.cols(); ++col)
-        bed.set(static_cast<int>(first_row + row), static_cast<int>(first_col + col), heights(row, col));
+    bed.set_block(static_cast<int>(first_row), static_cast<int>(first_col), heights);
   });
   return bed;
 }
@@ -344,6 +342,19 @@ std::vector<std::string> Hdf5Reader::members(const std::string& group) const {
   };
   if (H5Literate_by_name(file_, group.c_str(), H5_INDEX_NAME, H5_ITER_INC, nullptr, add, &names, access_) < 0)
     fail_to_read(group, "is not a group; name a file of the right kind");
+  return names;
+}
+
+std::vector<std::string> Hdf5Reader::attributes(const std::string& object) const {
+  if (!has(object)) fail(object, "is missing; name a file of the right kind");
+  std::vector<std::string> names;
+  const auto add = [](hid_t, const char* name, const H5A_info_t*, void* list) -> herr_t {
+    static_cast<std::vector<std::string>*>(list)->emplace_back(name);
+    return 0;
+  };
+  if (H5Aiterate_by_name(file_, object.c_str(), H5_INDEX_NAME, H5_ITER_INC, nullptr, add, &names, access_) <
+      0)
+    fail_to_read(object, "has attributes that cannot be read; the file is damaged");
   return names;
 }
 

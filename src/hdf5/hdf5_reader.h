@@ -49,8 +49,9 @@ class Hdf5Reader {
   std::string text_attribute(const std::string& object, const std::string& attribute) const;
   double cell_size(const std::string& object) const;  ///< m, its attribute: finite and above 0
 
-  /// Names of a group's members, in alphabetical order.
+  /// Names of a group's members, or of an object's attributes, in alphabetical order.
   std::vector<std::string> members(const std::string& group) const;
+  std::vector<std::string> attributes(const std::string& object) const;
 
  private:
   Hdf5Handle open_dataset(const std::string& dataset) const;

@@ -13,6 +13,7 @@ namespace {
 
 constexpr hsize_t rows_per_chunk = 4096;  // of a growing column
 constexpr hsize_t chunk_side = 128;       // of a height field: a whole number of tiles
+constexpr hsize_t row_chunk = 65536;      // of numbers in a row
 
 [[noreturn]] void throw_write_error(const std::string& where) {
   const std::string reason = part_failure() ? fmt::format(" ({})", std::strerror(part_failure())) : "";
@@ -77,7 +78,7 @@ Hdf5Writer::Hdf5Writer(const std::filesystem::path& path, const OutputKind& kind
     attribute("/", "written_by", std::string(build));
     if (!kind.mark.empty()) {
       attribute("/", "format", std::string(kind.mark));
-      attribute("/", "format_version", 1.0);
+      attribute("/", "format_version", kind.version);
       commit();  // from now on known to be ours
     }
   } catch (const Error&) {
@@ -116,7 +117,8 @@ void Hdf5Writer::put(const std::string& dataset, hid_t type, const std::vector<h
   const bool empty = std::find(shape.begin(), shape.end(), hsize_t{0}) != shape.end();
   std::vector<hsize_t> chunk;
   if (compression != Compression::none && !empty)
-    for (const hsize_t side : shape) chunk.push_back(std::min(side, chunk_side));
+    for (const hsize_t side : shape)
+      chunk.push_back(std::min(side, shape.size() == 1 ? row_chunk : chunk_side));
   const Hdf5Handle space = space_of(shape);
   const Hdf5Handle properties = dataset_properties(chunk, chunk.empty() ? Compression::none : compression);
   const Hdf5Handle created = create(dataset, type, space, properties);
@@ -162,12 +164,14 @@ void Hdf5Writer::put_attribute(const std::string& object, const std::string& att
   check(created.valid() && H5Awrite(created, type, values) >= 0, object);
 }
 
-void Hdf5Writer::attribute(const std::string& object, const std::string& attribute, double value) {
-  put_attribute(object, attribute, H5T_NATIVE_DOUBLE, {}, &value);
-}
 void Hdf5Writer::attribute(const std::string& object, const std::string& attribute,
                            const std::string& value) {
   put_attribute(object, attribute, string_type(value.size()), {}, value.c_str());
+}
+
+void Hdf5Writer::describe(const std::string& dataset, const std::string& units, const std::string& meaning) {
+  attribute(dataset, "long_name", meaning);
+  if (!units.empty()) attribute(dataset, "units", units);
 }
 
 Hdf5Column Hdf5Writer::growing(const std::string& dataset, hid_t type, int width) {

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "core/file_lock.h"
@@ -18,10 +19,12 @@ namespace sandstroke {
 /// none; fast: shuffle + deflate 1; small: shuffle + deflate 9.
 enum class Compression { none, fast, small };
 
-// The types of numbers in columns.
+// The types of numbers in columns and attributes. Yes and no are 1 and 0 in a byte.
+inline hid_t hdf5_type(bool) { return H5T_NATIVE_UINT8; }
 inline hid_t hdf5_type(double) { return H5T_NATIVE_DOUBLE; }
 inline hid_t hdf5_type(std::uint8_t) { return H5T_NATIVE_UINT8; }
 inline hid_t hdf5_type(std::uint32_t) { return H5T_NATIVE_UINT32; }
+inline hid_t hdf5_type(std::int32_t) { return H5T_NATIVE_INT32; }
 inline hid_t hdf5_type(std::int64_t) { return H5T_NATIVE_INT64; }
 inline hid_t hdf5_type(std::uint64_t) { return H5T_NATIVE_UINT64; }
 
@@ -62,13 +65,14 @@ class Hdf5Chunks {
 };
 
 /// Outputs that are HDF5 files. Until the first flush there is but their superblock.
-constexpr OutputKind hdf5_output(std::string_view name, std::string_view mark, bool kept = false) {
-  return {name, hdf5_signature, mark, 96, kept};
+constexpr OutputKind hdf5_output(std::string_view name, std::string_view mark, bool kept = false,
+                                 int version = 1) {
+  return {name, hdf5_signature, mark, 96, kept, version};
 }
 
 /// An HDF5 file being written as PATH.part and renamed to PATH by finish(). Groups on the way to a dataset
 /// are made as needed. Attributes of the root say what it is: written_by, and of a kind that has a mark
-/// format = that mark, and format_version = 1. Error: io, for whatever the system refuses, and while another
+/// format = that mark, and format_version. Error: io, for whatever the system refuses, and while another
 /// process writes it; input, where it must not replace what is there.
 class Hdf5Writer {
  public:
@@ -87,8 +91,14 @@ class Hdf5Writer {
   void write(const std::string& dataset, const std::string& text);
   void write(const std::string& dataset, const std::vector<std::string>& texts);  ///< of the longest's length
 
-  void attribute(const std::string& object, const std::string& attribute, double value);
+  template <class Number>
+  requires std::is_arithmetic_v<Number>
+  void attribute(const std::string& object, const std::string& attribute, Number value) {
+    put_attribute(object, attribute, hdf5_type(value), {}, &value);
+  }
   void attribute(const std::string& object, const std::string& attribute, const std::string& value);
+  /// What a dataset is, as netCDF has it (CF conventions): long_name, and units where it has any.
+  void describe(const std::string& dataset, const std::string& units, const std::string& meaning);
 
   template <class Number = double>
   Hdf5Column column(const std::string& dataset, int width = 1) {

@@ -74,4 +74,13 @@ void write_bed(Hdf5Writer& file, const std::string& dataset, const HeightField& 
   }
 }
 
+void write_bed_axes(Hdf5GridWriter& file, const std::string& group, const BedGeometry& bed) {
+  std::vector<double> places;
+  for (int row = 0; row < bed.rows(); ++row) places.push_back(bed.y_of(row));
+  file.write_scale(group + "/y", places, "m", "centre of a row of cells");
+  places.clear();
+  for (int col = 0; col < bed.cols(); ++col) places.push_back(bed.x_of(col));
+  file.write_scale(group + "/x", places, "m", "centre of a column of cells");
+}
+
 }  // namespace sandstroke

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "hdf5/hdf5_writer.h"
+#include "hdf5/hdf5_grid_writer.h"
 
 namespace sandstroke {
 
@@ -10,5 +10,8 @@ namespace sandstroke {
 /// takes follow the sand that is not at the level that most of the bed has by its rule. That level is the
 /// dataset's fill value: any HDF5 reader sees the whole bed. Error: io.
 void write_bed(Hdf5Writer& file, const std::string& dataset, const HeightField& bed);
+
+/// GROUP/y and GROUP/x: the centres of a bed's rows and columns [m], as scales.
+void write_bed_axes(Hdf5GridWriter& file, const std::string& group, const BedGeometry& bed);
 
 }  // namespace sandstroke

@@ -30,6 +30,7 @@ struct KindText {
   const char* format;                  // attribute of an HDF5 file's root
   bool (*in_toml)(const TomlReader&);  // by the tables that only this kind has
   const char* use;                     // {} is the file
+  int version = 1;                     // of the format
 };
 
 constexpr const char* use_of_stroke =
@@ -42,7 +43,7 @@ constexpr std::array<KindText, 11> kinds{{
     {InputKind::recording, "the journal of a recording that was cut off", "", nullptr,
      "make a stroke of it first: sandstroke stroke repair {0}"},
     {InputKind::run, "a run file", "sandstroke.run", nullptr,
-     "show it: sandstroke info {0}; draw it: sandstroke render {0}"},
+     "show it: sandstroke info {0}; draw it: sandstroke render {0}", 2},
     {InputKind::golden, "a golden entry", "sandstroke.golden", nullptr,
      "compare a scene with it: sandstroke golden check"},
     {InputKind::sweep, "a sweep's table of results", "sandstroke.sweep", nullptr,
@@ -80,7 +81,7 @@ InputKind kind_of_toml(const fs::path& path) {
 
 OutputKind output_kind(InputKind kind) {
   const KindText& text = text_of(kind);
-  return hdf5_output(text.name, text.format);
+  return hdf5_output(text.name, text.format, false, text.version);
 }
 
 bool has_format(const Hdf5Reader& file, InputKind kind) {

@@ -15,7 +15,7 @@ constexpr std::size_t block_samples = 4096;
 /// The samples' columns, written block by block.
 class SampleColumns {
  public:
-  SampleColumns(Hdf5Writer& file, const RecordingHeader& header)
+  SampleColumns(Hdf5GridWriter& file, const RecordingHeader& header)
       : time_(file.column("/stroke/time")),
         position_(file.column("/stroke/position", 3)),
         switches_(file.column<std::uint32_t>("/stroke/switches")),
@@ -24,6 +24,10 @@ class SampleColumns {
         flags_(file.column<std::uint32_t>("/stroke/flags")) {
     if (header.device.measures_velocity) velocity_ = file.column("/stroke/velocity", 3);
     if (header.force_limit > 0.0) force_ = file.column("/stroke/force", 3);
+    std::vector<std::string> names = {"time", "position", "switches", "sequence", "monotonic_time", "flags"};
+    if (velocity_) names.emplace_back("velocity");
+    if (force_) names.emplace_back("force");
+    describe_stroke_columns(file, names);
   }
 
   /// start [ns]: the time of the first sample.
@@ -54,38 +58,9 @@ class SampleColumns {
   std::optional<Hdf5Column> velocity_, force_;
 };
 
-/// In the file, for who reads it without this program.
-struct ColumnText {
-  const char *name, *units, *description;  // units: empty of what has none
-};
-constexpr ColumnText column_texts[] = {
-    {"time", "s", "since the first sample: right before the device was read"},
-    {"position", "m", "as the device gave it, in its frame (attribute frame of /stroke)"},
-    {"velocity", "m/s", "as the device gave it, in its frame"},
-    {"force", "N",
-     "on the hand, commanded after this reading and held until the next, in the device's frame"},
-    {"switches", "", "that were pressed: switch k is bit k"},
-    {"sequence", "", "number of the tick, from 0; ticks without a sample are missing"},
-    {"monotonic_time", "ns", "time, as the system's clock gave it (attribute clock of /stroke)"},
-    {"flags", "",
-     "sum of: 1 read over half a tick late, 2 ticks before it are missing, 4 force cut to the limit, 8 force "
-     "fading in, 16 change of force limited, 32 force was not a number and not given, 64 tool did not dig "
-     "because relaxation was late"},
-};
 constexpr const char* attribute_units =
     "s, Hz, m, N, N/m; clock_start: ns; yes and no: 1 and 0; of the device 0 means none or unknown, "
     "a force of 1.8e308 N any. A sample's wall time: started + monotonic_time / 1e9 - started_monotonic";
-
-void describe(Hdf5Writer& file, const RecordingHeader& header) {
-  for (const auto& [name, units, description] : column_texts) {
-    if (name == std::string_view("velocity") && !header.device.measures_velocity) continue;
-    if (name == std::string_view("force") && header.force_limit == 0.0) continue;
-    const std::string column = std::string(stroke_group) + "/" + name;
-    if (*units != 0) file.attribute(column, "units", std::string(units));
-    file.attribute(column, "description", std::string(description));
-  }
-  file.attribute(stroke_group, "units", std::string(attribute_units));
-}
 
 /// recorded: the counts of the samples there are, with elapsed as far as these reach.
 RecordingFooter settled_footer(const std::optional<RecordingFooter>& footer, const TickCounts& recorded) {
@@ -110,7 +85,7 @@ RecordingFooter settled_footer(const std::optional<RecordingFooter>& footer, con
 }
 
 struct PutAttribute {
-  Hdf5Writer& file;
+  Hdf5GridWriter& file;
 
   void operator()(const char* name, const std::string& text) const {
     file.attribute(stroke_group, name, text);
@@ -120,7 +95,7 @@ struct PutAttribute {
   }
   template <class Number>
   void operator()(const char* name, const Number& number) const {
-    file.attribute(stroke_group, name, static_cast<double>(number));
+    file.attribute(stroke_group, name, number);
   }
 };
 
@@ -163,7 +138,7 @@ RecordingInfo write_recording_file(const std::filesystem::path& path, Recording&
     throw_input_error(
         "{}: was not made, because the recording has no sample; remove its journal and record again",
         path.string());
-  Hdf5Writer file(path, recording_output);
+  Hdf5GridWriter file(path, recording_output);
   SampleColumns columns(file, info.header);
   const std::int64_t start = samples.front().time;
   TickCounts counted;
@@ -184,8 +159,8 @@ RecordingInfo write_recording_file(const std::filesystem::path& path, Recording&
   visit_header(info.header, PutAttribute{file});
   visit_footer(info.footer, PutAttribute{file});
   file.attribute(stroke_group, "clock", std::string("CLOCK_MONOTONIC"));
-  file.attribute(stroke_group, "clock_start", static_cast<double>(start));
-  describe(file, info.header);
+  file.attribute(stroke_group, "clock_start", start);
+  file.attribute(stroke_group, "units", std::string(attribute_units));
   file.finish();
   return info;
 }

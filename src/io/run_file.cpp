@@ -4,22 +4,24 @@
 
 #include "core/error.h"
 #include "core/machine.h"
+#include "io/frame_writer.h"
 #include "io/input_kind.h"
 
 namespace sandstroke {
 namespace {
 
-std::string frame_name(int k) { return fmt::format("/surface/frame/{:06}", k); }
+constexpr double first_version = 1.0, own_version = 2.0;  // without and with what others need to open it
 
 }  // namespace
 
 RunFile::RunFile(const std::filesystem::path& path) try : file_(path) {
   if (!has_format(file_, InputKind::run))
     throw_input_error("{}: is not a sandstroke run file; make one with 'sandstroke run'", file_.name());
-  if (const double version = file_.number_attribute("/", "format_version"); version != 1)
+  version_ = file_.number_attribute("/", "format_version");
+  if (version_ != first_version && version_ != own_version)
     throw_input_error(
-        "{}: has run format {}, and this program reads format 1; use a newer version of sandstroke",
-        file_.name(), version);
+        "{}: has run format {}, and this program reads formats {} and {}; use a newer version of sandstroke",
+        file_.name(), version_, first_version, own_version);
 } catch (const Error&) {
   expect_kind(path, {InputKind::run});
 }
@@ -73,18 +75,18 @@ bool RunFile::has_trace() const { return file_.has("/trace/time"); }
 std::vector<TickRecord> RunFile::trace() const {
   const std::vector<double> time = file_.doubles("/trace/time");
   const std::size_t count = time.size();
-  visit_tick_fields([&](const std::string& field, const char*, const auto&) {
-    const std::vector<hsize_t> shape = file_.shape("/trace/" + field);
+  visit_tick_fields([&](const FieldText& field, const auto&) {
+    const std::vector<hsize_t> shape = file_.shape(std::string("/trace/") + field.name);
     if (shape.empty() || shape[0] != count)
       throw_input_error("{}: /trace/{} has {} rows and /trace/time {}; the file is damaged", file_.name(),
-                        field, shape.empty() ? 0 : shape[0], count);
+                        field.name, shape.empty() ? 0 : shape[0], count);
   });
   check_memory(static_cast<double>(count) * sizeof(TickRecord),
                fmt::format("{}: /trace: working with {} ticks", file_.name(), count),
                "read a part of it, for example with h5py");
   std::vector<TickRecord> ticks(count);
-  visit_tick_fields([&](const std::string& field, const char*, const auto& of) {
-    const std::string name = "/trace/" + field;
+  visit_tick_fields([&](const FieldText& field, const auto& of) {
+    const std::string name = std::string("/trace/") + field.name;
     const auto fill = [&](const auto& column) {
       for (std::size_t i = 0; i < ticks.size(); ++i) of(ticks[i]) = column[i];
     };
@@ -94,44 +96,48 @@ std::vector<TickRecord> RunFile::trace() const {
     else if constexpr (std::is_same_v<Value, bool>)
       fill(file_.integers(name));
     else
-      field == "time" ? fill(time) : fill(file_.doubles(name));
+      name == "/trace/time" ? fill(time) : fill(file_.doubles(name));
   });
   return ticks;
 }
 
 std::vector<double> RunFile::frame_times() const {
-  std::vector<double> times;
-  if (!file_.has("/surface/frame")) return times;
-  for (const std::string& name : file_.members("/surface/frame"))
-    times.push_back(file_.number_attribute("/surface/frame/" + name, "time"));
-  return times;
+  if (!file_.has("/surface/frame")) return {};
+  if (version_ == first_version)
+    throw_input_error("{}: was written by {}, whose frames this version cannot read; run its scene again",
+                      file_.name(), file_.text_attribute("/", "written_by"));
+  return file_.doubles("/surface/time");
 }
 
 int RunFile::apply_frame(int k, HeightField& surface) const {
-  const std::vector<std::uint32_t> tiles = file_.integers(frame_name(k) + "/tiles");
-  if (file_.shape(frame_name(k) + "/heights") != std::vector<hsize_t>{tiles.size(), HeightField::tile_area})
-    throw_input_error("{}: {} has heights of the wrong shape; the file is damaged", file_.name(),
-                      frame_name(k));
-  const HeightGrid blocks = file_.grid(frame_name(k) + "/heights");
-  if (!blocks.isFinite().all())
-    throw_input_error("{}: {} has heights that are not numbers; the file is damaged", file_.name(),
-                      frame_name(k));
-  for (std::size_t t = 0; t < tiles.size(); ++t) {
-    if (tiles[t] >= static_cast<std::uint32_t>(surface.tile_count()))
-      throw_input_error("{}: {} names tile {}, which the bed does not have; the file is damaged",
-                        file_.name(), frame_name(k), tiles[t]);
-    std::copy_n(blocks.row(static_cast<Eigen::Index>(t)).data(), HeightField::tile_area,
-                surface.tile_heights(surface.allocate(static_cast<int>(tiles[t]))));
-  }
-  return static_cast<int>(tiles.size());
+  const std::string changed = FrameWriter::changed(k);
+  if (file_.shape(changed) != shape())
+    throw_input_error("{}: {} differs from /surface/initial in shape; the file is damaged", file_.name(),
+                      changed);
+  int parts = 0;
+  file_.visit_written(changed,
+                      [&](Eigen::Index first_row, Eigen::Index first_col, const HeightGrid& heights) {
+                        if (!heights.isFinite().all())
+                          throw_input_error("{}: {} has heights that are not numbers; the file is damaged",
+                                            file_.name(), changed);
+                        surface.set_block(static_cast<int>(first_row), static_cast<int>(first_col), heights);
+                        ++parts;
+                      });
+  return parts;
 }
 
 std::string RunFile::scene_text() const { return file_.text("/scene"); }
 
 std::vector<std::pair<std::string, std::string>> RunFile::provenance() const {
+  constexpr const char* group = "/provenance";
   std::vector<std::pair<std::string, std::string>> entries;
-  for (const std::string& name : file_.members("/provenance"))
-    entries.emplace_back(name, file_.text("/provenance/" + name));
+  if (version_ == first_version)
+    for (const std::string& name : file_.members(group))
+      entries.emplace_back(name, file_.text(std::string(group) + "/" + name));
+  else
+    for (const std::string& name : file_.attributes(group))
+      entries.emplace_back(name, name == "threads" ? fmt::format("{}", file_.number_attribute(group, name))
+                                                   : file_.text_attribute(group, name));
   return entries;
 }
 

@@ -30,12 +30,12 @@ class RunFile {
   bool has_final() const;
   bool has_trace() const;
   std::vector<TickRecord> trace() const;  ///< what visit_tick_fields() names
-  /// Times of the frames kept during the run [s]; RunFrames has their surfaces.
+  /// Times of the frames kept during the run [s]; RunFrames has their surfaces. Not of run format 1.
   std::vector<double> frame_times() const;
-  /// Makes the k-th frame of the one before (of the initial surface): how many tiles changed.
+  /// Makes the k-th frame of the one before (of the initial surface): how many parts changed.
   int apply_frame(int k, HeightField& surface) const;
   std::string scene_text() const;  ///< the resolved scene (TOML)
-  /// Name and value of each entry of /provenance.
+  /// Name and value of each attribute of /provenance.
   std::vector<std::pair<std::string, std::string>> provenance() const;
 
  private:
@@ -43,6 +43,7 @@ class RunFile {
   void check_final() const;            // that it is there, in the same shape
 
   Hdf5Reader file_;
+  double version_ = 0.0;  // of the format
 };
 
 /// The surfaces of a run's frames, put together from what changed.

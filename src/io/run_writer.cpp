@@ -8,7 +8,6 @@
 #include "core/hash.h"
 #include "core/output_file.h"
 #include "core/version.h"
-#include "core/xml_text.h"
 #include "io/bed_writer.h"
 #include "io/input_kind.h"
 #include "io/scene_toml.h"
@@ -19,44 +18,34 @@ namespace {
 
 // What a killed run can lose. Not after fewer rows: ticks may take microseconds.
 constexpr std::chrono::milliseconds time_per_write{500};
+constexpr const char* provenance = "/provenance";
 constexpr double bytes_per_frame = 1000.0;  // at least: of its groups and attributes
 constexpr std::size_t least_rows_per_write = 1000, most_rows_per_write = 50'000;
-
-/// Describes /surface to programs such as ParaView that read XDMF.
-std::string xdmf_text(const std::string& run_name, int rows, int cols, double cell_size) {
-  const auto grid = [&](const std::string& name) {
-    return fmt::format(
-        "    <Grid Name=\"{}\" GridType=\"Uniform\">\n"
-        "      <Topology TopologyType=\"2DCoRectMesh\" Dimensions=\"{} {}\"/>\n"
-        "      <Geometry GeometryType=\"Origin_DxDy\">\n"
-        "        <DataItem Dimensions=\"2\" Format=\"XML\">{} {}</DataItem>\n"
-        "        <DataItem Dimensions=\"2\" Format=\"XML\">{} {}</DataItem>\n"
-        "      </Geometry>\n"
-        "      <Attribute Name=\"height\" AttributeType=\"Scalar\" Center=\"Node\">\n"
-        "        <DataItem Dimensions=\"{} {}\" NumberType=\"Float\" Precision=\"8\" "
-        "Format=\"HDF\">{}:/surface/{}</DataItem>\n"
-        "      </Attribute>\n"
-        "    </Grid>\n",
-        name, rows, cols, -0.5 * (rows - 1) * cell_size, -0.5 * (cols - 1) * cell_size, cell_size, cell_size,
-        rows, cols, run_name, name);
-  };
-  return std::string(xdmf_output.begin) + grid("initial") + grid("final") + "  </Domain>\n</Xdmf>\n";
-}
 
 /// What a field of(record) of records is.
 template <class Record, class Of>
 using FieldOf = std::decay_t<std::invoke_result_t<Of, Record&>>;
 
-/// Makes a growing dataset for a field of records.
+/// The numbers that a field is kept as.
+template <class Field>
+using StoredAs = std::conditional_t<std::is_same_v<Field, bool>, std::uint8_t, Field>;
+
+/// Makes a growing dataset for a field of records, over their times.
 template <class Record, class Of>
-Hdf5Column column_of(Hdf5Writer& file, const std::string& name, const std::string& unit, const Of&) {
+Hdf5Column column_of(Hdf5GridWriter& file, const std::string& group, const FieldText& field, const Of&) {
   using Field = FieldOf<Record, Of>;
+  constexpr bool is_vector = std::is_same_v<Field, Eigen::Vector3d>;
+  const std::string name = group + "/" + field.name, time = group + "/time", axis = group + "/axis";
   Hdf5Column column;
-  if constexpr (std::is_same_v<Field, bool>)
-    column = file.column<std::uint8_t>(name);
+  if constexpr (is_vector)
+    column = file.column(name, 3);
   else
-    column = file.column(name, std::is_same_v<Field, Eigen::Vector3d> ? 3 : 1);
-  if (!unit.empty()) file.attribute(name, "unit", unit);
+    column = file.column<StoredAs<Field>>(name);
+  file.describe(name, field.units, field.meaning);
+  if (name == time)
+    file.make_scale(time);
+  else
+    file.attach_scales(name, is_vector ? std::vector{time, axis} : std::vector{time});
   return column;
 }
 
@@ -64,14 +53,15 @@ Hdf5Column column_of(Hdf5Writer& file, const std::string& name, const std::strin
 template <class Record, class Of>
 void append(Hdf5Column& column, const std::vector<Record>& records, const Of& of) {
   using Field = FieldOf<Record, Of>;
-  using Number = std::conditional_t<std::is_same_v<Field, bool>, std::uint8_t, double>;
-  std::vector<Number> rows;
-  for (const Record& record : records)
-    if constexpr (std::is_same_v<Field, Eigen::Vector3d>)
-      rows.insert(rows.end(), of(record).begin(), of(record).end());
-    else
-      rows.push_back(static_cast<Number>(of(record)));
-  column.append(rows.data(), records.size());
+  if constexpr (std::is_same_v<Field, Eigen::Vector3d>) {
+    std::vector<double> rows;
+    for (const Record& record : records) rows.insert(rows.end(), of(record).begin(), of(record).end());
+    column.append(rows.data(), records.size());
+  } else {
+    std::vector<StoredAs<Field>> rows;
+    for (const Record& record : records) rows.push_back(of(record));
+    column.append(rows.data(), records.size());
+  }
 }
 
 }  // namespace
@@ -79,7 +69,7 @@ void append(Hdf5Column& column, const std::vector<Record>& records, const Of& of
 double least_bytes(const Simulation& simulation) {
   const Scene& scene = simulation.scene();
   double per_tick = 0.0;
-  visit_tick_fields([&](auto, auto, const auto& of) {
+  visit_tick_fields([&](auto, const auto& of) {
     per_tick += static_cast<double>(sizeof(FieldOf<TickRecord, decltype(of)>));  // flags are bytes
   });
   const double trace = scene.output.trace ? per_tick * static_cast<double>(simulation.told_ticks()) : 0.0;
@@ -91,31 +81,40 @@ RunWriter::RunWriter(const std::filesystem::path& path, const Simulation& simula
                      const std::string& stroke_hash, const std::string& scene_file)
     : path_(path),
       file_(path, output_kind(InputKind::run)),
-      keeps_trace_(simulation.scene().output.trace && simulation.scene().stroke) {
+      keeps_trace_(simulation.scene().output.trace && simulation.scene().stroke),
+      frames_(file_, simulation.bed()) {
   const HeightField& bed = simulation.bed();
   const std::string scene = scene_text(simulation.scene());
-  file_.attribute("/", "complete", 0.0);
+  file_.attribute("/", "complete", false);
   file_.write("/scene", scene);
-  file_.write("/provenance/version", version);
-  file_.write("/provenance/commit", commit);
-  file_.write("/provenance/compiler", compiler);
-  file_.write("/provenance/instruction_set", instruction_set());
-  file_.write("/provenance/scene_hash", content_hash(scene));
-  file_.write("/provenance/stroke_hash", stroke_hash);
-  if (!scene_file.empty()) file_.write("/provenance/scene_file", scene_file);
-  write_bed(file_, "/surface/initial", bed);
+  file_.make_group(provenance);
+  file_.attribute(provenance, "version", version);
+  file_.attribute(provenance, "commit", commit);
+  file_.attribute(provenance, "compiler", compiler);
+  file_.attribute(provenance, "instruction_set", instruction_set());
+  file_.attribute(provenance, "scene_hash", content_hash(scene));
+  file_.attribute(provenance, "stroke_hash", stroke_hash);
+  if (!scene_file.empty()) file_.attribute(provenance, "scene_file", scene_file);
+  write_bed_axes(file_, "/surface", bed);
   file_.attribute("/surface", "cell_size", bed.cell_size());
-  file_.attribute("/surface", "unit", "m");
-  for (int slot = 0; slot < bed.allocated_tiles(); ++slot)
-    frame_revisions_.push_back(bed.tile_revision(bed.tile_of(slot)));
-  if (keeps_trace_)
-    visit_tick_fields([&](const std::string& name, const char* unit, const auto& of) {
-      tick_columns_.push_back(column_of<TickRecord>(file_, "/trace/" + name, unit, of));
+  write_surface("/surface/initial", bed, "height of the sand at the start");
+  if (keeps_trace_) {
+    file_.write_scale("/trace/axis", {"x", "y", "z"});
+    visit_tick_fields([&](const FieldText& field, const auto& of) {
+      tick_columns_.push_back(column_of<TickRecord>(file_, "/trace", field, of));
     });
-  visit_relaxation_fields([&](const std::string& name, const char* unit, const auto& of) {
-    relaxation_columns_.push_back(column_of<RelaxationRecord>(file_, "/relaxation/" + name, unit, of));
+  }
+  visit_relaxation_fields([&](const FieldText& field, const auto& of) {
+    relaxation_columns_.push_back(column_of<RelaxationRecord>(file_, "/relaxation", field, of));
   });
   file_.flush();
+}
+
+void RunWriter::write_surface(const std::string& dataset, const HeightField& surface,
+                              const std::string& meaning) {
+  write_bed(file_, dataset, surface);
+  file_.attach_scales(dataset, {"/surface/y", "/surface/x"});
+  file_.describe(dataset, "m", meaning);
 }
 
 void RunWriter::on_tick(const TickRecord& tick) {
@@ -136,9 +135,9 @@ void RunWriter::write_rows_in_time() {
 
 void RunWriter::write_rows() {
   auto column = tick_columns_.begin();
-  if (keeps_trace_) visit_tick_fields([&](auto, auto, const auto& of) { append(*column++, ticks_, of); });
+  if (keeps_trace_) visit_tick_fields([&](auto, const auto& of) { append(*column++, ticks_, of); });
   column = relaxation_columns_.begin();
-  visit_relaxation_fields([&](auto, auto, const auto& of) { append(*column++, relaxations_, of); });
+  visit_relaxation_fields([&](auto, const auto& of) { append(*column++, relaxations_, of); });
   ticks_.clear();
   relaxations_.clear();
   file_.flush();
@@ -146,56 +145,33 @@ void RunWriter::write_rows() {
 }
 
 void RunWriter::on_frame(double time, const HeightField& surface) {
-  frame_revisions_.resize(surface.allocated_tiles(), HeightField::new_tile_revision);
-  std::vector<std::uint32_t> changed;
-  for (int slot = 0; slot < surface.allocated_tiles(); ++slot) {
-    const int tile = surface.tile_of(slot);
-    if (surface.tile_revision(tile) == frame_revisions_[slot]) continue;
-    frame_revisions_[slot] = surface.tile_revision(tile);
-    changed.push_back(static_cast<std::uint32_t>(tile));
-  }
-  std::sort(changed.begin(), changed.end());
-  const std::string name = fmt::format("/surface/frame/{:06}", frames_++);
-  file_.write(name + "/tiles", changed);
-  Hdf5Chunks heights =
-      file_.chunks(name + "/heights", {static_cast<int>(changed.size()), HeightField::tile_area},
-                   {1, HeightField::tile_area}, 0.0);
-  std::vector<double> block(HeightField::tile_area);
-  for (std::size_t i = 0; i < changed.size(); ++i) {
-    std::fill(block.begin(), block.end(), 0.0);  // outside the bed
-    surface.read_tile(static_cast<int>(changed[i]), block.data());
-    heights.write(static_cast<int>(i), 0, block.data());
-  }
-  file_.attribute(name, "time", time);
+  frames_.add(time, surface);
   write_rows_in_time();
 }
 
 void RunWriter::finish(const RunResult& result, const HeightField& surface) {
   write_rows();
-  tick_columns_.clear();
-  relaxation_columns_.clear();
-  file_.write("/provenance/threads", std::to_string(result.threads));
+  file_.attribute(provenance, "threads", result.threads);
   if (result.interrupted) {
     file_.flush();
     spdlog::warn("stopped; the part that was run is in {}", part_path(path_).string());
     return;
   }
-  write_bed(file_, "/surface/final", surface);
+  frames_.finish();
+  const std::vector<XdmfStep> steps = frames_.steps(result.simulated_seconds);
+  write_surface("/surface/final", surface, "height of the sand at the end");
   if (result.furrow) {
     file_.attribute("/surface/final", "furrow_depth", result.furrow->depth);
     file_.attribute("/surface/final", "asked_depth", result.furrow->asked_depth);
   }
-  file_.attribute("/", "complete", 1.0);
+  file_.attribute("/", "complete", true);
   const std::filesystem::path xdmf = beside(path_, ".xdmf");
   check_replaceable(xdmf, xdmf_output);
   const std::filesystem::file_status earlier = std::filesystem::status(xdmf);
   std::filesystem::remove(
       xdmf);  // of an earlier run: it would describe this one's surface by that one's cells
   file_.finish();
-  write_text_file(
-      xdmf,
-      xdmf_text(xml_escaped(path_.filename().string()), surface.rows(), surface.cols(), surface.cell_size()),
-      xdmf_output);
+  write_text_file(xdmf, xdmf_text(path_.filename().string(), surface, steps), xdmf_output);
   std::error_code ignored;  // some file systems have no modes
   if (std::filesystem::exists(earlier)) std::filesystem::permissions(xdmf, earlier.permissions(), ignored);
 }

@@ -7,15 +7,12 @@
 #include <vector>
 
 #include "core/output_file.h"
-#include "hdf5/hdf5_writer.h"
+#include "hdf5/hdf5_grid_writer.h"
+#include "io/frame_writer.h"
+#include "io/xdmf.h"
 #include "sim/simulation.h"
 
 namespace sandstroke {
-
-/// RUN.xdmf, known by what it describes.
-inline constexpr OutputKind xdmf_output{"an XDMF file of a run",
-                                        "<?xml version=\"1.0\"?>\n<Xdmf Version=\"2.0\">\n  <Domain>\n",
-                                        ":/surface/initial</DataItem>"};
 
 /// What a run file takes on the disk at least [bytes]: its trace, and frames in which nothing moves.
 double least_bytes(const Simulation& simulation);
@@ -37,19 +34,19 @@ class RunWriter : public SimulationObserver {
   void finish(const RunResult& result, const HeightField& surface);
 
  private:
+  void write_surface(const std::string& dataset, const HeightField& surface, const std::string& meaning);
   void write_rows_in_time();
   void write_rows();
 
   std::filesystem::path path_;
-  Hdf5Writer file_;
+  Hdf5GridWriter file_;
   bool keeps_trace_;
   std::vector<Hdf5Column> tick_columns_, relaxation_columns_;  // in the order of their fields
 
   std::chrono::steady_clock::time_point written_ = std::chrono::steady_clock::now();
   std::vector<TickRecord> ticks_;  // not written yet
   std::vector<RelaxationRecord> relaxations_;
-  std::vector<std::uint64_t> frame_revisions_;  // per slot, as of the last frame
-  int frames_ = 0;
+  FrameWriter frames_;
 };
 
 }  // namespace sandstroke

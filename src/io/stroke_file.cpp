@@ -31,14 +31,21 @@ void add(ContentHash& hash, const std::vector<T>& column) {
 
 void write_stroke_file(const std::filesystem::path& path, const Stroke& stroke) {
   check_stroke(stroke, path.string());
-  Hdf5Writer file(path, stroke_output);
-  file.write("/stroke/time", stroke.time);
-  file.write("/stroke/position", stroke.position);
-  if (!stroke.velocity.empty()) file.write("/stroke/velocity", stroke.velocity);
-  if (!stroke.force.empty()) file.write("/stroke/force", stroke.force);
-  if (!stroke.switches.empty()) file.write("/stroke/switches", stroke.switches);
-  if (!stroke.flags.empty()) file.write("/stroke/flags", stroke.flags);
-  if (!stroke.contact.empty()) file.write("/stroke/contact", stroke.contact);
+  Hdf5GridWriter file(path, stroke_output);
+  std::vector<std::string> names;
+  const auto write = [&](const std::string& name, const auto& column) {
+    if (column.empty()) return;
+    file.write("/stroke/" + name, column);
+    names.push_back(name);
+  };
+  write("time", stroke.time);
+  write("position", stroke.position);
+  write("velocity", stroke.velocity);
+  write("force", stroke.force);
+  write("switches", stroke.switches);
+  write("flags", stroke.flags);
+  write("contact", stroke.contact);
+  describe_stroke_columns(file, names);
   write_stroke_attributes(file, stroke);
   file.finish();
 }

@@ -1,12 +1,35 @@
 #include "io/stroke_format.h"
 
+#include <algorithm>
+
 #include "core/error.h"
 
 namespace sandstroke {
 namespace {
 
 constexpr const char* format = "sandstroke.stroke";
-constexpr double format_version = 1.0;
+constexpr int format_version = 1;
+
+/// In the file, for who reads it without this program.
+struct ColumnText {
+  const char *name, *units, *meaning;  // units: empty of what has none
+  bool is_vector = false;
+};
+constexpr ColumnText column_texts[] = {
+    {"time", "s", "since the first sample: right before the device was read"},
+    {"position", "m", "as the device gave it, in its frame (attribute frame of /stroke)", true},
+    {"velocity", "m/s", "as the device gave it, in its frame", true},
+    {"force", "N", "on the hand, commanded after this reading and held until the next, in the device's frame",
+     true},
+    {"switches", "", "that were pressed: switch k is bit k"},
+    {"sequence", "", "number of the tick, from 0; ticks without a sample are missing"},
+    {"monotonic_time", "ns", "time, as the system's clock gave it (attribute clock of /stroke)"},
+    {"flags", "",
+     "sum of: 1 read over half a tick late, 2 ticks before it are missing, 4 force cut to the limit, 8 force "
+     "fading in, 16 change of force limited, 32 force was not a number and not given, 64 tool did not dig "
+     "because relaxation was late"},
+    {"contact", "", "pen: 0 is up, 1 is down, 2 lifts right after this sample"},
+};
 
 }  // namespace
 
@@ -26,14 +49,14 @@ void check_stroke_format(const Hdf5Reader& file) {
   }
 }
 
-void write_stroke_attributes(Hdf5Writer& file, const Stroke& stroke) {
+void write_stroke_attributes(Hdf5GridWriter& file, const Stroke& stroke) {
   file.attribute(stroke_group, "format", std::string(format));
   file.attribute(stroke_group, "format_version", format_version);
   file.attribute(stroke_group, "nominal_rate", stroke.nominal_rate);
   file.attribute(stroke_group, "gap_threshold", stroke.gap_threshold);
   file.attribute(stroke_group, "source", stroke.source);
   file.attribute(stroke_group, "frame", stroke.frame);
-  file.attribute(stroke_group, "complete", stroke.complete ? 1.0 : 0.0);
+  file.attribute(stroke_group, "complete", stroke.complete);
 }
 
 void read_stroke_attributes(const Hdf5Reader& file, Stroke& stroke) {
@@ -43,6 +66,18 @@ void read_stroke_attributes(const Hdf5Reader& file, Stroke& stroke) {
   if (has("source")) stroke.source = file.text_attribute(stroke_group, "source");
   if (has("frame")) stroke.frame = file.text_attribute(stroke_group, "frame");
   if (has("complete")) stroke.complete = file.number_attribute(stroke_group, "complete") != 0.0;
+}
+
+void describe_stroke_columns(Hdf5GridWriter& file, const std::vector<std::string>& names) {
+  const std::string group = std::string(stroke_group) + "/", time = group + "time", axis = group + "axis";
+  file.make_scale(time);
+  file.write_scale(axis, {"x", "y", "z"});
+  for (const ColumnText& text : column_texts) {
+    if (std::find(names.begin(), names.end(), text.name) == names.end()) continue;
+    file.describe(group + text.name, text.units, text.meaning);
+    if (group + text.name != time)
+      file.attach_scales(group + text.name, text.is_vector ? std::vector{time, axis} : std::vector{time});
+  }
 }
 
 }  // namespace sandstroke

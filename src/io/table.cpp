@@ -50,7 +50,7 @@ void write_table(Hdf5Writer& file, const std::string& group, const Table& table)
     const std::string dataset = group + "/" + column.name;
     std::visit([&](const auto& values) { file.write(dataset, values); }, column.values);
     file.attribute(dataset, "title", column.title);
-    if (!column.unit.empty()) file.attribute(dataset, "unit", column.unit);
+    if (!column.unit.empty()) file.attribute(dataset, "units", column.unit);
   }
 }
 

@@ -51,6 +51,12 @@ class HeightField : public BedGeometry {
     mark_disturbed(slot, row % tile_side, std::uint64_t{1} << (col % tile_side));
   }
 
+  /// A rectangle of cells by its first row and column.
+  void set_block(int first_row, int first_col, const HeightGrid& heights) {
+    for (int row = 0; row < heights.rows(); ++row)
+      for (int col = 0; col < heights.cols(); ++col) set(first_row + row, first_col + col, heights(row, col));
+  }
+
   const SurfaceRule& untouched() const { return *untouched_; }
 
   // --- allocated tiles ---

@@ -26,34 +26,50 @@ struct TickRecord {
   bool saturated = false;         ///< the device's maximum force cut the force
 };
 
-/// The columns of /trace: visit(name, unit, of), where of(tick) is the field. Who writes and who reads a run
+/// A field of a record, for who reads it in a file.
+struct FieldText {
+  const char *name, *units, *meaning;  // units: empty of what has none, "1" of a count or ratio
+};
+
+/// The columns of /trace: visit(FieldText, of), where of(tick) is the field. Who writes and who reads a run
 /// file goes through this list.
 template <class Visit>
 void visit_tick_fields(const Visit& visit) {
+  using Text = FieldText;
   visit(
-      "time", "s", [](auto& tick) -> auto& { return tick.time; });
+      Text{"time", "s", "start of the tick"}, [](auto& tick) -> auto& { return tick.time; });
   visit(
-      "hand_position", "m", [](auto& tick) -> auto& { return tick.hand.position; });
+      Text{"hand_position", "m", "where the hand wants the tip, in the device's frame"},
+      [](auto& tick) -> auto& { return tick.hand.position; });
   visit(
-      "device_position", "m", [](auto& tick) -> auto& { return tick.device_position; });
+      Text{"device_position", "m", "tip as the device read it, in its frame"},
+      [](auto& tick) -> auto& { return tick.device_position; });
   visit(
-      "device_force", "N", [](auto& tick) -> auto& { return tick.device_force; });
+      Text{"device_force", "N", "force on the device, cut to its largest"},
+      [](auto& tick) -> auto& { return tick.device_force; });
   visit(
-      "repulse_force", "N", [](auto& tick) -> auto& { return tick.repulse_force; });
+      Text{"repulse_force", "N", "force by which the sand repulses the tool"},
+      [](auto& tick) -> auto& { return tick.repulse_force; });
   visit(
-      "drag_force", "N", [](auto& tick) -> auto& { return tick.drag_force; });
+      Text{"drag_force", "N", "force by which the sand drags at the tool"},
+      [](auto& tick) -> auto& { return tick.drag_force; });
   visit(
-      "level", "m", [](auto& tick) -> auto& { return tick.level; });
+      Text{"level", "m", "height of the sand under the tool; not a number where it is lifted"},
+      [](auto& tick) -> auto& { return tick.level; });
   visit(
-      "depth", "m", [](auto& tick) -> auto& { return tick.depth; });
+      Text{"depth", "m", "depth of the tip below that level; negative above it"},
+      [](auto& tick) -> auto& { return tick.depth; });
   visit(
-      "displaced_volume", "m^3", [](auto& tick) -> auto& { return tick.displaced_volume; });
+      Text{"displaced_volume", "m^3", "sand pushed aside in the tick"},
+      [](auto& tick) -> auto& { return tick.displaced_volume; });
   visit(
-      "passivity_margin", "N s/m", [](auto& tick) -> auto& { return tick.passivity_margin; });
+      Text{"passivity_margin", "N s/m", "passivity margin (Colgate and Schenkel); negative: may be active"},
+      [](auto& tick) -> auto& { return tick.passivity_margin; });
   visit(
-      "contact", "", [](auto& tick) -> auto& { return tick.contact; });
+      Text{"contact", "", "whether the tool touches sand"}, [](auto& tick) -> auto& { return tick.contact; });
   visit(
-      "saturated", "", [](auto& tick) -> auto& { return tick.saturated; });
+      Text{"saturated", "", "whether the device's largest force cut the force"},
+      [](auto& tick) -> auto& { return tick.saturated; });
 }
 
 /// One call of the relaxation (a row of /relaxation).
@@ -65,14 +81,18 @@ struct RelaxationRecord {
 /// The columns of /relaxation, as visit_tick_fields().
 template <class Visit>
 void visit_relaxation_fields(const Visit& visit) {
+  using Text = FieldText;
   visit(
-      "time", "s", [](auto& record) -> auto& { return record.time; });
+      Text{"time", "s", "when the sand relaxed"}, [](auto& record) -> auto& { return record.time; });
   visit(
-      "passes", "1", [](auto& record) -> auto& { return record.outcome.passes; });
+      Text{"passes", "1", "passes over the active sand"},
+      [](auto& record) -> auto& { return record.outcome.passes; });
   visit(
-      "residual", "1", [](auto& record) -> auto& { return record.outcome.residual; });
+      Text{"residual", "1", "largest excess of a slope over the talus slope that is left"},
+      [](auto& record) -> auto& { return record.outcome.residual; });
   visit(
-      "moved_volume", "m^3", [](auto& record) -> auto& { return record.outcome.moved_volume; });
+      Text{"moved_volume", "m^3", "sand that slipped"},
+      [](auto& record) -> auto& { return record.outcome.moved_volume; });
 }
 
 /// How far the forces of a run are from others, over the ticks in which they can be compared.
@@ -92,6 +112,30 @@ struct ErrorEstimate {
   bool at_rest = true;        ///< both solutions came to rest; otherwise the estimate says little
   double wall_seconds = 0.0;  ///< what the estimate took
 };
+
+/// The numbers of an error estimate, as visit_tick_fields(): those of the outcome, not of the clock.
+template <class Visit>
+void visit_error_fields(const Visit& visit) {
+  using Text = FieldText;
+  visit(
+      Text{"height_share", "1", "sand that lies elsewhere, of the sand that is not where it was"},
+      [](auto& error) -> auto& { return error.height_share; });
+  visit(
+      Text{"height_rms", "m", "error of heights, rms over the cells that changed"},
+      [](auto& error) -> auto& { return error.height_rms; });
+  visit(
+      Text{"height_max", "m", "error of heights, largest"},
+      [](auto& error) -> auto& { return error.height_max; });
+  visit(
+      Text{"force_rms", "N", "error of the force, rms over the ticks with a force"},
+      [](auto& error) -> auto& { return error.force_rms; });
+  visit(
+      Text{"force_max", "N", "error of the force, largest"},
+      [](auto& error) -> auto& { return error.force_max; });
+  visit(
+      Text{"at_rest", "", "whether both solutions came to rest"},
+      [](auto& error) -> auto& { return error.at_rest; });
+}
 
 /// What a stroke left of itself, in cross-sections of the change of height (final - initial), so that the
 /// shape the bed had before does not count (sim/furrow.h). Not-a-number: nothing to measure.

@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "hdf5/hdf5_grid_writer.h"
+#include "io/bed_writer.h"
 #include "io/input_kind.h"
 
 namespace sandstroke {
@@ -110,23 +111,15 @@ class SweepFile {
   }
 
   void write_surfaces(const BedGeometry& bed) {
-    const auto write_scale = [&](const std::string& name, int count, const auto& at) {
-      std::vector<double> places;
-      for (int i = 0; i < count; ++i) places.push_back(at(i));
-      file_.write(name, {places.size()}, places);
-      file_.attribute(name, "units", "m");
-      file_.make_scale(name);
-    };
-    write_scale("y", bed.rows(), [&](int row) { return bed.y_of(row); });
-    write_scale("x", bed.cols(), [&](int col) { return bed.x_of(col); });
+    write_bed_axes(file_, "", bed);
     std::vector<Hdf5GridWriter::Block> parts;
     for (std::size_t point = 0; point < sweep_.surfaces.size(); ++point) {
       if (!sweep_.surfaces[point]) continue;
       const auto file = sweep_.folder.point_file(point).lexically_relative(sweep_.folder.path());
-      parts.push_back({point, file.string()});
+      parts.push_back({point, file.string(), "/surface"});
     }
     file_.write_virtual("surface", shape_, static_cast<std::size_t>(bed.rows()),
-                        static_cast<std::size_t>(bed.cols()), parts, "/surface");
+                        static_cast<std::size_t>(bed.cols()), parts);
     std::vector<std::string> scales = scales_;
     scales.insert(scales.end(), {"y", "x"});
     file_.attach_scales("surface", scales);

@@ -109,7 +109,8 @@ TEST(CliCompare, WhatIsNoNumberFailsWhereverItIs) {
   const fs::path folder = test_folder();
   ASSERT_EQ(run_program({"run", "scene.toml", "-o", "run.h5", "--frames", "5"}, folder).exit_code, 0);
   for (const auto& [dataset, sentence] :
-       {std::pair("/surface/frame/000003/heights", "/surface/frame/000003 has heights that are not numbers"),
+       {std::pair("/surface/frame/000003/changed",
+                  "/surface/frame/000003/changed has heights that are not numbers"),
         {"/trace/device_position", "positions: the run: not a number at time 0.03 s"},
         {"/trace/hand_position", "positions: the run: not a number at time 0.03 s"}}) {
     write_changed_copy(folder, dataset, 3 * 30 + 1, std::nan(""));

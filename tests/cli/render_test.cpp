@@ -37,23 +37,26 @@ TEST(CliRender, APictureWithoutANameIsNamedAfterWhatItShows) {
   }
 }
 
-TEST(CliRender, ATileThatTheBedDoesNotHaveIsRefused) {
+TEST(CliRender, AFrameOfAnotherShapeThanTheBedIsRefused) {
   const fs::path folder = test_folder();
   ASSERT_EQ(run_program({"run", "scene.toml", "-o", "a.h5", "--frames", "5"}, folder).exit_code, 0);
   {
     const Hdf5Handle file(H5Fopen((folder / "a.h5").c_str(), H5F_ACC_RDWR, without_locks()), H5Fclose);
-    const char* tiles = "/surface/frame/000003/tiles";
-    const Hdf5Handle old(H5Dopen2(file, tiles, H5P_DEFAULT), H5Dclose), space(H5Dget_space(old), H5Sclose);
-    const std::vector<int> hostile(static_cast<std::size_t>(H5Sget_simple_extent_npoints(space)), -1);
-    ASSERT_FALSE(hostile.empty());
-    ASSERT_GE(H5Ldelete(file, tiles, H5P_DEFAULT), 0);
+    const char *frame = "/surface/frame/000003", *changed = "/surface/frame/000003/changed";
+    ASSERT_GE(H5Ldelete(file, changed, H5P_DEFAULT), 0);
+    const hsize_t shape[2] = {640, 640};
+    const Hdf5Handle space(H5Screate_simple(2, shape, nullptr), H5Sclose);
+    const Hdf5Handle group(H5Gopen2(file, frame, H5P_DEFAULT), H5Gclose);
     const Hdf5Handle made(
-        H5Dcreate2(file, tiles, H5T_NATIVE_INT, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Dclose);
-    ASSERT_GE(H5Dwrite(made, H5T_NATIVE_INT, H5S_ALL, H5S_ALL, H5P_DEFAULT, hostile.data()), 0);
+        H5Dcreate2(group, "changed", H5T_NATIVE_DOUBLE, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+        H5Dclose);
+    ASSERT_TRUE(made.valid());
   }
   const ProgramResult render = run_program({"render", "a.h5", "--frame", "3", "-o", "a.png"}, folder);
   EXPECT_EQ(render.exit_code, 2);
-  EXPECT_NE(render.err.find("a.h5: /surface/frame/000003/tiles holds -1"), std::string::npos) << render.err;
+  EXPECT_NE(render.err.find("a.h5: /surface/frame/000003/changed differs from /surface/initial in shape"),
+            std::string::npos)
+      << render.err;
   EXPECT_FALSE(fs::exists(folder / "a.png"));
 }
 

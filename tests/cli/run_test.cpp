@@ -99,8 +99,8 @@ TEST(CliRun, JsonSaysWhatTheRunFileHolds) {
   EXPECT_NEAR(json["volume_final"], file.final().sum() * area, 1e-12);
   EXPECT_EQ(json["furrow_depth"], plain.number_attribute("/surface/final", "furrow_depth"));
   EXPECT_EQ(json["asked_depth"], plain.number_attribute("/surface/final", "asked_depth"));
-  EXPECT_EQ(json["instruction_set"], plain.text("/provenance/instruction_set"));
-  EXPECT_EQ(std::to_string(json["threads"].get<int>()), plain.text("/provenance/threads"));
+  EXPECT_EQ(json["instruction_set"], plain.text_attribute("/provenance", "instruction_set"));
+  EXPECT_EQ(json["threads"], plain.number_attribute("/provenance", "threads"));
   EXPECT_FALSE(json["interrupted"]);
   EXPECT_FALSE(json.contains("recorded_force"));
   EXPECT_FALSE(json.contains("error_estimate"));

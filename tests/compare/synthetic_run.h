@@ -54,7 +54,8 @@ struct SyntheticRun {
     file.write("/provenance/scene_hash", scene_hash);
     file.write("/provenance/stroke_hash", stroke_hash);
     if (has_trace)
-      visit_tick_fields([&](const std::string& name, const char*, const auto& of) {
+      visit_tick_fields([&](const FieldText& text, const auto& of) {
+        const std::string name = text.name;
         using Field = std::decay_t<decltype(of(trace.front()))>;
         std::vector<std::conditional_t<std::is_same_v<Field, bool>, std::uint32_t, Field>> column;
         for (const TickRecord& tick : trace) column.push_back(of(tick));

@@ -78,7 +78,8 @@ TEST_F(AGrid, OfOtherFilesReadsTheirNumbersAndNothingWhereThereAreNone) {
   }
   {
     Hdf5GridWriter file(path);
-    file.write_virtual("all", {2, 2}, 2, 3, {{3, "part1.h5"}, {0, "part2.h5"}, {2, "lost.h5"}}, "/deep/h");
+    file.write_virtual("all", {2, 2}, 2, 3,
+                       {{3, "part1.h5", "/deep/h"}, {0, "part2.h5", "/deep/h"}, {2, "lost.h5", "/deep/h"}});
     file.finish();
   }
   EXPECT_EQ(dataset_shape(path, "all"), (std::vector<hsize_t>{2, 2, 2, 3}));

@@ -110,11 +110,11 @@ TEST_F(RecordingFile, SaysOfEachColumnWhatItIsAndInWhichUnit) {
       const std::string column = "/stroke/" + name;
       ASSERT_EQ(file.has(column), force_limit > 0.0 || (name != "velocity" && name != "force")) << name;
       if (!file.has(column)) continue;
-      EXPECT_FALSE(file.text_attribute(column, "description").empty()) << name;
+      EXPECT_FALSE(file.text_attribute(column, "long_name").empty()) << name;
       EXPECT_EQ(file.has_attribute(column, "units") ? file.text_attribute(column, "units") : "", unit);
     }
     for (std::uint32_t flag = late_sample; flag <= held_sand; flag *= 2)
-      EXPECT_THAT(file.text_attribute("/stroke/flags", "description"), HasSubstr(fmt::format(" {} ", flag)));
+      EXPECT_THAT(file.text_attribute("/stroke/flags", "long_name"), HasSubstr(fmt::format(" {} ", flag)));
   }
 }
 

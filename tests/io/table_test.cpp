@@ -62,9 +62,9 @@ TEST(Table, AsHdf5HasADatasetPerColumnWithItsUnit) {
             (std::vector<std::string>{"a", "b, \"c\""}));
   EXPECT_EQ(file.doubles("/runs/time")[0], 0.1);
   EXPECT_TRUE(std::isnan(file.doubles("/runs/time")[1]));
-  EXPECT_EQ(file.text_attribute("/runs/time", "unit"), "s");
+  EXPECT_EQ(file.text_attribute("/runs/time", "units"), "s");
   EXPECT_EQ(file.text_attribute("/runs/count", "title"), "Count");
-  EXPECT_FALSE(file.has_attribute("/runs/count", "unit"));
+  EXPECT_FALSE(file.has_attribute("/runs/count", "units"));
 }
 
 TEST(Table, AsTextIsAlignedNumbersToTheRight) {

@@ -12,6 +12,7 @@
 #include "core/hash.h"
 #include "core/input_file.h"
 #include "core/output_file.h"
+#include "io/input_kind.h"
 #include "io/scene_toml.h"
 #include "io/stroke_file.h"
 #include "io/surface_file.h"
@@ -73,10 +74,10 @@ TEST_F(RunFileTest, HoldsWhatTheDesignPromises) {
 
   const Hdf5Reader plain(folder_ / "a.h5");
   for (const std::string& column : plain.members("/trace"))
-    EXPECT_TRUE(column == "contact" || column == "saturated" ||
-                plain.has_attribute("/trace/" + column, "unit"))
+    EXPECT_TRUE(column == "contact" || column == "saturated" || column == "axis" ||
+                plain.has_attribute("/trace/" + column, "units"))
         << column;
-  EXPECT_EQ(plain.text_attribute("/trace/device_force", "unit"), "N");
+  EXPECT_EQ(plain.text_attribute("/trace/device_force", "units"), "N");
 
   EXPECT_FALSE(fs::exists(part_path(folder_ / "a.h5")));
   EXPECT_NE(read_text_file(folder_ / "a.xdmf").find("a.h5:/surface/final"), std::string::npos);
@@ -128,12 +129,37 @@ TEST_F(RunFileTest, FramesHoldTilesThatCameIntoBeingBetweenThem) {
   }
   std::int64_t tiles_held = 0;
   const Hdf5Reader plain(folder_ / "a.h5");
-  for (const std::string& name : plain.members("/surface/frame")) {
-    const std::vector<std::uint32_t> tiles = plain.integers("/surface/frame/" + name + "/tiles");
-    EXPECT_TRUE(std::is_sorted(tiles.begin(), tiles.end()));
-    tiles_held += static_cast<std::int64_t>(tiles.size());
-  }
+  for (const std::string& name : plain.members("/surface/frame"))
+    plain.visit_written("/surface/frame/" + name + "/changed",
+                        [&](auto, auto, const auto&) { ++tiles_held; });
   EXPECT_EQ(in_sequence.tiles_read(), tiles_held) << "each change is read once";
+}
+
+TEST_F(RunFileTest, OfTheFirstFormatIsReadButForItsFrames) {
+  const fs::path path = folder_ / "old.h5";
+  {
+    Hdf5Writer file(path, output_kind(InputKind::run));
+    file.attribute("/", "format_version", 1.0);
+    file.attribute("/", "written_by", "sandstroke 0.0.9");
+    file.attribute("/", "complete", 1.0);
+    file.write("/provenance/threads", std::string("2"));
+    file.write("/surface/initial", HeightGrid::Zero(2, 3));
+    file.attribute("/surface", "cell_size", 0.002);
+    file.write("/surface/frame/000000/tiles", std::vector<std::uint32_t>{0});
+    file.finish();
+  }
+  const RunFile run(path);
+  EXPECT_TRUE(run.complete());
+  EXPECT_EQ(run.initial().cols(), 3);
+  EXPECT_EQ(run.provenance(), (std::vector<std::pair<std::string, std::string>>{{"threads", "2"}}));
+  try {
+    run.frame_times();
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::input);
+    EXPECT_NE(std::string(error.what()).find("was written by sandstroke 0.0.9, whose frames"),
+              std::string::npos);
+  }
 }
 
 TEST_F(RunFileTest, ASurfaceCanComeFromARunFile) {

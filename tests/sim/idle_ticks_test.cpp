@@ -65,8 +65,9 @@ void expect_equal(const TickRecord& a, const TickRecord& b) {
     else
       return of_a == of_b;
   };
-  visit_tick_fields([&](const std::string& name, auto, const auto& of) {
-    const bool of_a_lifted_hand = !a.contact && name.find("position") != std::string::npos;
+  visit_tick_fields([&](const FieldText& field, const auto& of) {
+    const std::string_view name = field.name;
+    const bool of_a_lifted_hand = !a.contact && name.ends_with("position");
     EXPECT_TRUE(of_a_lifted_hand || same(of(a), of(b))) << name << " at " << a.time;
   });
   EXPECT_LT((a.hand.position - b.hand.position).norm(), 1e-15) << a.time;

@@ -37,9 +37,9 @@ void StudyFiles::write(const Study& study) const {
       slopes(static_cast<Eigen::Index>(run), static_cast<Eigen::Index>(i)) =
           study.runs[run].score.slope_errors[i];
   file.write("/slope_error", slopes);
-  file.attribute("/slope_error", "unit", "deg");
+  file.attribute("/slope_error", "units", "deg");
   file.write("/directions", directions);
-  file.attribute("/directions", "unit", "deg");
+  file.attribute("/directions", "units", "deg");
   file.write("/machine", describe_machine().dump());
   file.finish();
   write_text_file(page(), html_page("sandstroke bench", PageScript::bench, study_json(study)), page_output);

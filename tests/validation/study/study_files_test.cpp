@@ -33,7 +33,7 @@ TEST(StudyFilesTest, PageTableAndDataSayTheSame) {
   const Hdf5Reader data(folder / "new/folder/bench.h5");
   const std::vector<double> errors = data.doubles("/runs/work_error");
   for (std::size_t i = 0; i < study.runs.size(); ++i) EXPECT_EQ(errors[i], study.runs[i].error);
-  EXPECT_EQ(data.text_attribute("/runs/wall_seconds", "unit"), "s");
+  EXPECT_EQ(data.text_attribute("/runs/wall_seconds", "units"), "s");
   EXPECT_TRUE(std::isnan(data.grid("/slope_error")(0, 0)));
   EXPECT_EQ(data.grid("/slope_error")(1, 35), 2.0);
   EXPECT_NE(read_text_file(files.page()).find("Work of a heap"), std::string::npos);

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "hdf5/hdf5_grid_writer.h"
+#include "io/xdmf.h"
+#include "sand/height_field.h"
+
+namespace sandstroke {
+
+/// The surfaces of a run over time, in the time that what changed takes. Of frame k a file holds
+///
+///   /surface/frame/K/changed  (ny, nx) heights [m] of the tiles that changed since the frame before; all
+///                             other chunks are missing and read as not-a-number
+///   /surface/frame/K/height   (ny, nx) the whole surface, without numbers of its own: it is
+///   /surface/initial,
+///                             patched by `changed` of this frame and those before it
+///
+/// and in the end /surface/frames (time, y, x), which is all of these `height`, over /surface/time [s].
+class FrameWriter {
+ public:
+  /// bed: /surface/initial, as it was written.
+  FrameWriter(Hdf5GridWriter& file, const HeightField& bed);
+  void add(double time, const HeightField& surface);
+  /// Of the surfaces as one array over time; nothing where there are none.
+  void finish();
+
+  /// All surfaces of the file, also the initial and the final one, which is at `end` [s].
+  std::vector<XdmfStep> steps(double end) const;
+
+  static std::string changed(int k);
+  static std::string height(int k);
+
+ private:
+  /// Tiles that are other than in the frame before, in order.
+  std::vector<int> take_changed(const HeightField& surface);
+  std::vector<Hdf5GridWriter::Patch> patches() const;
+
+  Hdf5GridWriter& file_;
+  BedGeometry bed_;
+  std::vector<std::uint64_t> revisions_;  // per slot, as of the last frame
+  std::map<int, int> last_change_;        // frame, per tile that ever changed
+  Hdf5Column time_;
+  std::vector<double> times_;
+};
+
+}  // namespace sandstroke

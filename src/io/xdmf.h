@@ -1,0 +1,28 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/output_file.h"
+#include "sand/bed_geometry.h"
+
+namespace sandstroke {
+
+/// RUN.xdmf, known by what it describes.
+inline constexpr OutputKind xdmf_output{"an XDMF file of a run",
+                                        "<?xml version=\"1.0\"?>\n<Xdmf Version=\"2.0\">\n  <Domain>\n",
+                                        ":/surface/initial</DataItem>"};
+
+/// A surface of a run file, and when it was so [s].
+struct XdmfStep {
+  double time;
+  std::string dataset;
+};
+
+/// Describes a run file to programs that read XDMF, such as ParaView with each of its readers: a grid in the
+/// plane of x and y, with the points of the cells' centres, whose `height` changes over time. run_name: as
+/// seen from the XDMF file; the steps in order.
+std::string xdmf_text(const std::string& run_name, const BedGeometry& bed,
+                      const std::vector<XdmfStep>& steps);
+
+}  // namespace sandstroke
