@@ -54,6 +54,7 @@ nlohmann::ordered_json describe(const RunFile& run) {
     facts["changed_cells"] = field_difference(initial, final).cells;
   }
   facts["frames"] = run.frame_times().size();
+  if (const std::optional<ErrorEstimate> error = run.error_estimate()) facts["error_estimate"] = error_json(*error);
   if (run.has_trace()) {
     const std::vector<TickRecord> trace = run.trace();
     double force = 0.0, depth = 0.0;
@@ -71,9 +72,11 @@ nlohmann::ordered_json describe(const RunFile& run) {
 }
 
 void print_table(const nlohmann::ordered_json& facts) {
-  static const std::map<std::string, std::string> units = {{"cell_size", "m"}, {"lowest", "m"},
-                                                           {"highest", "m"},   {"seconds", "s"},
-                                                           {"max_force", "N"}, {"max_depth", "m"}};
+  std::map<std::string, std::string> units = {{"cell_size", "m"}, {"lowest", "m"},    {"highest", "m"},
+                                              {"seconds", "s"},   {"max_force", "N"}, {"max_depth", "m"}};
+  visit_error_fields([&](const FieldText& field, auto) {
+    if (std::string(field.units) != "1") units[field.name] = field.units;
+  });
   const nlohmann::ordered_json flat = facts.flatten();
   for (const auto& [path, value] : flat.items()) {
     const auto unit = units.find(path.substr(path.rfind('/') + 1));

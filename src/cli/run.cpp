@@ -36,6 +36,7 @@ struct RunArguments {
   double frames = -1.0;
   int threads = 0;
   std::string estimate_error;  // coarser, finer or empty
+  bool error_map = false;
   bool json = false;
 };
 
@@ -81,11 +82,8 @@ nlohmann::ordered_json as_json(const RunResult& r, const Scene& scene, const std
     json["recorded_force"] = {
         {"ticks", r.recorded_force->ticks}, {"rms", r.recorded_force->rms}, {"max", r.recorded_force->max}};
   if (r.error) {
-    const ErrorEstimate& e = *r.error;
-    json["error_estimate"] = {{"height_share", e.height_share}, {"height_rms", e.height_rms},
-                              {"height_max", e.height_max},     {"force_rms", e.force_rms},
-                              {"force_max", e.force_max},       {"at_rest", e.at_rest},
-                              {"wall_seconds", e.wall_seconds}};
+    json["error_estimate"] = error_json(*r.error);
+    json["error_estimate"]["wall_seconds"] = r.error->wall_seconds;
   }
   return json;
 }
@@ -196,6 +194,7 @@ int run(const RunArguments& arguments) {
   options.scene_file = scene_path;
   options.threads = arguments.threads;
   options.progress = true;
+  options.error_map = arguments.error_map;
   if (!arguments.estimate_error.empty())
     options.second = arguments.estimate_error == "finer" ? SecondSolution::finer : SecondSolution::coarser;
   const RunResult result = run_scene(scene, output, options);
@@ -242,12 +241,16 @@ void add_run_command(CLI::App& app, Command& chosen) {
       ->add_option("--threads", arguments->threads,
                    "Number of threads. Default: 0, all cores. The result does not depend on it")
       ->check(CLI::Range(0, 1024));
-  command
-      ->add_flag("--estimate-error{finer}", arguments->estimate_error,
-                 "Estimate the error of heights and forces by a second run with steps half as large. It "
-                 "takes 10 to 20 times as long. --estimate-error=coarser makes the steps twice as large "
-                 "instead. It takes a tenth of the run, but misses errors of a tool that few cells resolve")
-      ->check(CLI::IsMember({"coarser", "finer"}));
+  CLI::Option* estimate =
+      command
+          ->add_flag(
+              "--estimate-error{finer}", arguments->estimate_error,
+              "Estimate the error of heights and forces by a second run with steps half as large. It "
+              "takes 10 to 20 times as long. --estimate-error=coarser makes the steps twice as large "
+              "instead. It takes a tenth of the run, but misses errors of a tool that few cells resolve")
+          ->check(CLI::IsMember({"coarser", "finer"}));
+  command->add_flag("--error-map", arguments->error_map, "Keep the estimated error of each cell's height too")
+      ->needs(estimate);
   command->add_flag("--json", arguments->json, "Print the summary as one JSON object");
   command->footer(
       "Example:  sandstroke run strokes/wscg/scene.toml -o wscg.h5 --png wscg.png\n"

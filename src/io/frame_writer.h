@@ -31,6 +31,8 @@ class FrameWriter {
   /// All surfaces of the file, also the initial and the final one, which is at `end` [s].
   std::vector<XdmfStep> steps(double end) const;
 
+  const BedGeometry& bed() const { return bed_; }
+
   static std::string changed(int k);
   static std::string height(int k);
 

@@ -126,6 +126,24 @@ int RunFile::apply_frame(int k, HeightField& surface) const {
   return parts;
 }
 
+std::optional<ErrorEstimate> RunFile::error_estimate() const {
+  if (!file_.has(error_group)) return std::nullopt;
+  ErrorEstimate error;
+  visit_error_fields([&](const FieldText& field, const auto& of) {
+    of(error) =
+        static_cast<std::decay_t<decltype(of(error))>>(file_.number_attribute(error_group, field.name));
+  });
+  return error;
+}
+
+std::optional<HeightField> RunFile::error_map() const {
+  constexpr const char* map = "/surface/error";
+  if (!file_.has(map)) return std::nullopt;
+  if (file_.shape(map) != shape())
+    throw_input_error("{}: {} and /surface/initial differ in shape; the file is damaged", file_.name(), map);
+  return file_.bed(map, cell_size());
+}
+
 std::string RunFile::scene_text() const { return file_.text("/scene"); }
 
 std::vector<std::pair<std::string, std::string>> RunFile::provenance() const {

@@ -11,6 +11,9 @@
 
 namespace sandstroke {
 
+/// Its attributes are what visit_error_fields() names.
+inline constexpr const char* error_group = "/error_estimate";
+
 /// A run file (HDF5) read back. Error: io where it cannot be opened; input where it is no run file or lacks
 /// what is asked for.
 class RunFile {
@@ -34,6 +37,10 @@ class RunFile {
   std::vector<double> frame_times() const;
   /// Makes the k-th frame of the one before (of the initial surface): how many parts changed.
   int apply_frame(int k, HeightField& surface) const;
+  /// Where the run was asked to estimate its error, and the error of each cell's height [m], where asked for.
+  /// What the estimate took is not known.
+  std::optional<ErrorEstimate> error_estimate() const;
+  std::optional<HeightField> error_map() const;
   std::string scene_text() const;  ///< the resolved scene (TOML)
   /// Name and value of each attribute of /provenance.
   std::vector<std::pair<std::string, std::string>> provenance() const;

@@ -10,6 +10,7 @@
 #include "core/version.h"
 #include "io/bed_writer.h"
 #include "io/input_kind.h"
+#include "io/run_file.h"
 #include "io/scene_toml.h"
 #include "sand/instruction_set.h"
 
@@ -149,7 +150,7 @@ void RunWriter::on_frame(double time, const HeightField& surface) {
   write_rows_in_time();
 }
 
-void RunWriter::finish(const RunResult& result, const HeightField& surface) {
+void RunWriter::end(const RunResult& result, const HeightField& surface) {
   write_rows();
   file_.attribute(provenance, "threads", result.threads);
   if (result.interrupted) {
@@ -158,12 +159,23 @@ void RunWriter::finish(const RunResult& result, const HeightField& surface) {
     return;
   }
   frames_.finish();
-  const std::vector<XdmfStep> steps = frames_.steps(result.simulated_seconds);
+  seconds_ = result.simulated_seconds;
   write_surface("/surface/final", surface, "height of the sand at the end");
   if (result.furrow) {
     file_.attribute("/surface/final", "furrow_depth", result.furrow->depth);
     file_.attribute("/surface/final", "asked_depth", result.furrow->asked_depth);
   }
+  file_.flush();
+}
+
+void RunWriter::write_error(const ErrorEstimate& error, const HeightField* map) {
+  file_.make_group(error_group);
+  visit_error_fields(
+      [&](const FieldText& field, const auto& of) { file_.attribute(error_group, field.name, of(error)); });
+  if (map) write_surface("/surface/error", *map, "estimated error of the height at the end");
+}
+
+void RunWriter::finish() {
   file_.attribute("/", "complete", true);
   const std::filesystem::path xdmf = beside(path_, ".xdmf");
   check_replaceable(xdmf, xdmf_output);
@@ -171,7 +183,8 @@ void RunWriter::finish(const RunResult& result, const HeightField& surface) {
   std::filesystem::remove(
       xdmf);  // of an earlier run: it would describe this one's surface by that one's cells
   file_.finish();
-  write_text_file(xdmf, xdmf_text(path_.filename().string(), surface, steps), xdmf_output);
+  write_text_file(xdmf, xdmf_text(path_.filename().string(), frames_.bed(), frames_.steps(seconds_)),
+                  xdmf_output);
   std::error_code ignored;  // some file systems have no modes
   if (std::filesystem::exists(earlier)) std::filesystem::permissions(xdmf, earlier.permissions(), ignored);
 }

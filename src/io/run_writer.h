@@ -29,9 +29,13 @@ class RunWriter : public SimulationObserver {
   void on_relaxation(const RelaxationRecord& relaxation) override;
   void on_frame(double time, const HeightField& surface) override;
 
-  /// Writes the final surface, puts the file in place, and an XDMF file beside it. An interrupted run has no
-  /// final surface and stays a .part file.
-  void finish(const RunResult& result, const HeightField& surface);
+  /// Writes what the run came to: the final surface, but of one that was interrupted, which stays a .part
+  /// file.
+  void end(const RunResult& result, const HeightField& surface);
+  /// After that. map [m]: of each cell, where there is one.
+  void write_error(const ErrorEstimate& error, const HeightField* map);
+  /// Puts the file of a run that was not interrupted in place, and an XDMF file beside it.
+  void finish();
 
  private:
   void write_surface(const std::string& dataset, const HeightField& surface, const std::string& meaning);
@@ -47,6 +51,7 @@ class RunWriter : public SimulationObserver {
   std::vector<TickRecord> ticks_;  // not written yet
   std::vector<RelaxationRecord> relaxations_;
   FrameWriter frames_;
+  double seconds_ = 0.0;  // of the whole run
 };
 
 }  // namespace sandstroke

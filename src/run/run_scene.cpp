@@ -58,9 +58,10 @@ Stroke placed_stroke(const Scene& scene, const std::filesystem::path& path, std:
 /// None where it was interrupted, or where the second solution is unstable: the run itself stands.
 std::optional<ErrorEstimate> estimated_error(const Scene& scene, const HeightField& start,
                                              const std::optional<Stroke>& stroke, const Solution& run,
-                                             const Kept<Eigen::Vector3d>& force, SecondSolution which) {
+                                             const Kept<Eigen::Vector3d>& force, SecondSolution which,
+                                             HeightField* map) {
   try {
-    const ErrorEstimate error = estimate_error(scene, start, stroke, run, force, which);
+    const ErrorEstimate error = estimate_error(scene, start, stroke, run, force, which, map);
     if (interrupted()) return std::nullopt;
     if (!error.at_rest)
       spdlog::warn(
@@ -122,11 +123,18 @@ RunResult run_scene(const Scene& scene, const std::filesystem::path& output, con
   if (recorded_force) result.recorded_force = recorded_force->difference();
   if (stroke) result.furrow = path.furrow(*start, simulation.bed());
   bar.reset();
-  writer.finish(result, simulation.bed());
-  if (options.second && !result.interrupted) {
+  writer.end(result, simulation.bed());
+  if (result.interrupted) return result;
+  if (options.second) {
     if (options.progress) spdlog::info("estimating the error");
-    result.error = estimated_error(scene, *start, stroke, {simulation.bed(), result}, force, *options.second);
+    const HeightField& end = simulation.bed();
+    std::optional<HeightField> map;
+    if (options.error_map) map.emplace(end.rows(), end.cols(), end.cell_size());
+    result.error =
+        estimated_error(scene, *start, stroke, {end, result}, force, *options.second, map ? &*map : nullptr);
+    if (result.error) writer.write_error(*result.error, map ? &*map : nullptr);
   }
+  writer.finish();
   return result;
 }
 

@@ -15,6 +15,7 @@ struct RunOptions {
   int threads = 0;                           ///< 0: all cores
   bool progress = false;                     ///< a bar on the terminal
   std::optional<SecondSolution> second;      ///< estimate the error, from this
+  bool error_map = false;                    ///< and keep the error of each cell's height
 };
 
 /// What /provenance/scene_file says: where the scene lies, seen from the run's folder, so that both can be

@@ -78,14 +78,19 @@ struct Distance {
   }
 };
 
-Distance height_distance(const HeightField& fine, const HeightField& coarse) {
+/// visit(row, col, distance): also of each cell of `coarse` that is not as its rule says in both.
+template <class Visit>
+Distance height_distance(const HeightField& fine, const HeightField& coarse, const Visit& visit) {
   Distance distance;
   const Averages averages(fine, coarse.rows(), coarse.cols());
   for (const int tile : touched_tiles(fine, coarse)) {
     const CellRange cells = coarse.tile_cells(tile);
     for (int row = cells.row_begin; row < cells.row_end; ++row)
-      for (int col = cells.col_begin; col < cells.col_end; ++col)
-        distance.add(std::abs(averages(row, col) - coarse(row, col)), coarse.cell_area());
+      for (int col = cells.col_begin; col < cells.col_end; ++col) {
+        const double apart = std::abs(averages(row, col) - coarse(row, col));
+        distance.add(apart, coarse.cell_area());
+        visit(row, col, apart);
+      }
   }
   return distance;
 }
@@ -170,7 +175,7 @@ Scene second_scene(const Scene& scene, SecondSolution which) {
 
 ErrorEstimate estimate_error(const Scene& scene, const HeightField& start,
                              const std::optional<Stroke>& stroke, const Solution& run,
-                             const Kept<Eigen::Vector3d>& force, SecondSolution which) {
+                             const Kept<Eigen::Vector3d>& force, SecondSolution which, HeightField* map) {
   const Stopwatch watch;
   const Scene second_settings = second_scene(scene, which);
   Kept second_force(force_of);
@@ -184,7 +189,15 @@ ErrorEstimate estimate_error(const Scene& scene, const HeightField& start,
   const auto error_over_distance = [&](double r) { return (coarser ? 1.0 : r) / (r - 1.0); };
   const double height_factor = error_over_distance(coarse.surface.cell_size() / fine.surface.cell_size()),
                force_factor = error_over_distance(2.0);
-  const Distance of_height = height_distance(fine.surface, coarse.surface),
+  const auto put_on_map = [&](int row, int col, double apart) {  // one cell of the coarser bed
+    if (!map || apart == 0.0) return;
+    const auto first = [](int cell, int cells, int of) { return (cell * of + cells - 1) / cells; };
+    const int rows = coarse.surface.rows(), cols = coarse.surface.cols();
+    for (int i = first(row, rows, map->rows()); i < first(row + 1, rows, map->rows()); ++i)
+      for (int j = first(col, cols, map->cols()); j < first(col + 1, cols, map->cols()); ++j)
+        map->set(i, j, height_factor * apart);
+  };
+  const Distance of_height = height_distance(fine.surface, coarse.surface, put_on_map),
                  of_force = force_distance(fine_force, coarse_force);
   const Change change = change_of(start, run.surface);
   const auto forces = std::count_if(coarse_force.values.begin(), coarse_force.values.end(),

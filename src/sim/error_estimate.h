@@ -21,9 +21,11 @@ Scene second_scene(const Scene& scene, SecondSolution which);
 /// Richardson's estimate: all parts of the method are of first order, so that with steps r times as large the
 /// error is r times as large, and the distance between two solutions tells it. start: the run's initial
 /// surface; stroke: as the run had it; force [N]: on the device, of every tick that the run told. Error:
-/// unstable, where the second solution is.
+/// unstable, where the second solution is. map: where given, of the run's cells, gets the error of each
+/// height [m].
 ErrorEstimate estimate_error(const Scene& scene, const HeightField& start,
                              const std::optional<Stroke>& stroke, const Solution& run,
-                             const Kept<Eigen::Vector3d>& force, SecondSolution which);
+                             const Kept<Eigen::Vector3d>& force, SecondSolution which,
+                             HeightField* map = nullptr);
 
 }  // namespace sandstroke

@@ -72,7 +72,8 @@ class RunWriterTest : public testing::Test {
     writer_.emplace(path_, *simulation_, stroke_hash, scene_file);
   }
   Hdf5Reader finished(const RunResult& result = {}) {
-    writer_->finish(result, simulation_->bed());
+    writer_->end(result, simulation_->bed());
+    writer_->finish();
     writer_.reset();
     return Hdf5Reader(path_);
   }
@@ -296,7 +297,7 @@ TEST_F(RunWriterTest, AnInterruptedRunStaysAPartWithoutAFinalSurface) {
   for (int k = 0; k < 5; ++k) writer_->on_tick(made_tick(k));
   RunResult result;
   result.interrupted = true;
-  writer_->finish(result, simulation_->bed());
+  writer_->end(result, simulation_->bed());
   writer_.reset();
   EXPECT_FALSE(fs::exists(path_));
   EXPECT_FALSE(fs::exists(folder_ / "run.xdmf"));

@@ -162,6 +162,30 @@ TEST_F(RunFileTest, OfTheFirstFormatIsReadButForItsFrames) {
   }
 }
 
+TEST_F(RunFileTest, HoldsTheEstimatedErrorAndItsMap) {
+  for (const SecondSolution second : {SecondSolution::coarser, SecondSolution::finer}) {
+    RunOptions options;
+    options.scene_folder = folder_.path();
+    options.second = second;
+    options.error_map = true;
+    const RunResult result = run_scene(scene(), folder_ / "e.h5", options);
+    ASSERT_TRUE(result.error);
+    const RunFile file(folder_ / "e.h5");
+    const std::optional<ErrorEstimate> read = file.error_estimate();
+    ASSERT_TRUE(read);
+    visit_error_fields([&](const FieldText& field, const auto& of) {
+      EXPECT_EQ(of(*read), of(*result.error)) << field.name;
+    });
+    const HeightGrid map = file.error_map()->grid();
+    EXPECT_EQ(map.maxCoeff(), read->height_max);
+    const auto changed = static_cast<double>((file.final() != file.initial()).count());
+    EXPECT_NEAR(std::sqrt(map.square().sum() / changed), read->height_rms, 1e-12);
+  }
+  run(scene(), "plain.h5");
+  EXPECT_FALSE(RunFile(folder_ / "plain.h5").error_estimate());
+  EXPECT_FALSE(RunFile(folder_ / "plain.h5").error_map());
+}
+
 TEST_F(RunFileTest, ASurfaceCanComeFromARunFile) {
   run(scene(), "first.h5");
   Scene second = scene({"bed.surface={ kind = 'file', file = 'first.h5' }"});
