@@ -200,7 +200,8 @@ void add_view_options(CLI::App& app, RenderArguments& arguments) {
       ->type_name("WxH");
   app.add_option(
          "--view", arguments.view,
-         "What is shown: the whole bed, the part that changes, a map from above, or a custom aim" + scenes)
+         "What is shown: the whole bed, the part under the stroke, a map from above, or a custom aim" +
+             scenes)
       ->check(CLI::IsMember(view_names));
   app.add_option("--style", arguments.style,
                  "Sand in the sun, a map of heights, or a map of the change since the start" + scenes)
