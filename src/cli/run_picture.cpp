@@ -4,28 +4,18 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "io/last_surface.h"
 #include "io/scene_toml.h"
 #include "render/change_picture.h"
 
 namespace sandstroke {
-namespace {
-
-/// The latest surface that a run holds: one that was cut off has no final one.
-HeightGrid last_surface(const RunFile& run, const HeightGrid& initial) {
-  if (run.has_final()) return run.final();
-  const auto frames = static_cast<int>(run.frame_times().size());
-  return frames > 0 ? RunFrames(run).surface(frames - 1) : initial;
-}
-
-}  // namespace
-
 RunPainter::RunPainter(const RunFile& run, const ViewSettings& view, double contour_interval)
     : run_(run),
       scene_(scene_from_text(run.scene_text(), run.name() + ": /scene")),
       renderer_(run.rows(), run.cols(), run.cell_size()),
       initial_(run.initial()) {
   const CellRange stroke = view.name == ViewName::stroke ? stroke_cells() : CellRange{};
-  subject_ = subject_of_change(initial_, last_surface(run, initial_), stroke, view, contour_interval);
+  subject_ = subject_of_change(initial_, last_surface(run).surface.grid(), stroke, view, contour_interval);
 }
 
 /// Where the hand led the tool below the sand as it was at the start; empty without a trace.
