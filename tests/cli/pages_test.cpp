@@ -93,21 +93,17 @@ TEST_F(CliPages, ReportDrawsARunAndWhatItSaysAgreesWithTheRun) {
   EXPECT_EQ(page.answer[2], 320);
 }
 
-TEST_F(CliPages, ReportShowsWhatARunHas) {
+TEST(CliReport, SaysWhyARunHasNoStrokeToShow) {
   const fs::path folder = test_folder();
-  write_file(folder / "hole.toml",
-             "[bed]\nsize = [0.2, 0.2]\ncells = [40, 40]\n[view]\nsize = [160, 90]\n"
-             "[bed.surface]\nkind = \"cone\"\nradius = 0.05\n");
-  ASSERT_EQ(run_program({"run", "hole.toml", "-o", "still.h5"}, folder).exit_code, 0);
-  ASSERT_EQ(run_program({"run", "scene.toml", "-o", "a.h5", "--set", "output.trace=false"}, folder).exit_code,
-            0);
-  for (const auto& [name, reason] :
-       {std::pair{"still", "the bed only came to rest"}, {"a", "run the scene with output.trace = true"}}) {
+  write_file(folder / "still.toml", "[bed]\nsize = [0.2, 0.2]\ncells = [40, 40]\n[view]\nsize = [160, 90]\n");
+  ASSERT_EQ(run_program({"run", "still.toml"}, folder).exit_code, 0);
+  ASSERT_EQ(run_program({"run", "scene.toml", "--set", "output.trace=false"}, folder).exit_code, 0);
+  for (const auto& [name, reason] : {std::pair{"still", "the bed only came to rest"},
+                                     {"scene", "run the scene with output.trace = true"}}) {
     const std::string file = name;
-    EXPECT_EQ(run_program({"report", file + ".h5", "-o", "page.html"}, folder).exit_code, 0);
-    EXPECT_EQ(drawn_page(folder / "page.html"),
-              nlohmann::json({0, {"Picture", "Error estimate", "Settings", "File"}}));
-    EXPECT_NE(read_file(folder / "page.html").find(reason), std::string::npos) << reason;
+    const ProgramResult report = run_program({"report", file + ".h5"}, folder);
+    EXPECT_EQ(report.exit_code, 0) << report.err;
+    EXPECT_NE(read_file(folder / (file + ".html")).find(reason), std::string::npos) << reason;
   }
 }
 

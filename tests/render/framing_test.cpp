@@ -13,8 +13,15 @@ constexpr std::array<double, 3> magenta = {1.0, 0.0, 1.0};
 
 bool is_magenta(const std::uint8_t* pixel) { return pixel[0] == 255 && pixel[1] == 0 && pixel[2] == 255; }
 
+/// With the same renderer as the picture before, where that is of the same bed.
 Image picture_of(const HeightField& surface, const RenderSubject& subject) {
-  return HeightFieldRenderer(surface.rows(), surface.cols(), surface.cell_size()).render(surface, subject);
+  static std::unique_ptr<HeightFieldRenderer> renderer;
+  static BedGeometry bed(2, 2, 1.0);
+  if (!renderer || !bed.same_grid(surface)) {
+    bed = surface;
+    renderer = std::make_unique<HeightFieldRenderer>(bed.rows(), bed.cols(), bed.cell_size());
+  }
+  return renderer->render(surface, subject);
 }
 
 RenderSubject small_subject() {
