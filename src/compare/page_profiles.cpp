@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/error.h"
 #include "report/curve.h"
 
 namespace sandstroke {
@@ -14,6 +15,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr double side_reach = 6.0;  // radii, as furrows are measured
+constexpr double most_stations = 1e5;
 
 /// A place on the way of the tip.
 struct Station {
@@ -22,26 +24,37 @@ struct Station {
   bool begins;  // the tip came down here
 };
 
-/// No further apart than `step` [m] within a piece.
-std::vector<Station> stations_along(const TipPath& path, double step) {
+/// The path's own points. Error: input, where they are no numbers.
+std::vector<Station> path_stations(const TipPath& path) {
   std::vector<Station> stations;
   double length = 0.0;
   auto piece = path.pieces.begin();
   for (std::size_t i = 0; i < path.points.size(); ++i) {
     const bool begins = piece != path.pieces.end() && *piece == i;
-    if (begins) {
+    if (begins)
       ++piece;
-    } else {
-      const Eigen::Vector2d from = path.points[i - 1], way = path.points[i] - from;
-      const int parts = std::max(1, static_cast<int>(std::ceil(way.norm() / step)));
-      for (int part = 1; part < parts; ++part)
-        stations.push_back(
-            {length + way.norm() * part / parts, from + way * static_cast<double>(part) / parts, false});
-      length += way.norm();
-    }
+    else
+      length += (path.points[i] - path.points[i - 1]).norm();
     stations.push_back({length, path.points[i], begins});
   }
+  if (!std::isfinite(length)) throw_input_error("the trace holds positions that are not finite");
   return stations;
+}
+
+/// With others in between, no further apart than `step` [m] while the tip was down.
+std::vector<Station> subdivided(const std::vector<Station>& coarse, double step) {
+  std::vector<Station> fine;
+  for (const Station& next : coarse) {
+    if (!next.begins) {
+      const Station before = fine.back();
+      const double parts = std::ceil((next.length - before.length) / step);
+      for (double part = 1.0; part < parts; ++part)
+        fine.push_back({std::lerp(before.length, next.length, part / parts),
+                        before.place + part / parts * (next.place - before.place), false});
+    }
+    fine.push_back(next);
+  }
+  return fine;
 }
 
 /// The two surfaces along places that are added in order.
@@ -80,9 +93,10 @@ Eigen::Vector2d direction_at(const std::vector<Station>& stations, std::size_t m
 
 Json profiles_part(const TipPath& path, double tool_radius, const HeightField& initial,
                    const LastSurface& last) {
-  const double step = initial.cell_size();
-  const std::vector<Station> stations = stations_along(path, step);
-  const double length = stations.back().length;
+  const double cell = initial.cell_size();
+  const std::vector<Station> coarse = path_stations(path);
+  const double length = coarse.back().length;
+  const std::vector<Station> stations = subdivided(coarse, std::max(cell, length / most_stations));
   Json part{{"kind", "profiles"},
             {"title", "Profiles of the sand"},
             {"text", fmt::format("The tip went {:.4g} m while it touched the sand. Heights are those of the "
@@ -105,9 +119,10 @@ Json profiles_part(const TipPath& path, double tool_radius, const HeightField& i
       stations.begin());
   const Eigen::Vector2d centre = stations[middle].place, way = direction_at(stations, middle, tool_radius);
   const Eigen::Vector2d left(-way.y(), way.x());
-  const int reach = static_cast<int>(std::ceil(side_reach * tool_radius / step));
+  const auto reach = static_cast<int>(
+      std::min(std::ceil(side_reach * tool_radius / cell), 1.0 * initial.rows() + initial.cols()));
   Profile across;
-  for (int k = -reach; k <= reach; ++k) across.add(k * step, centre + k * step * left, initial, last.surface);
+  for (int k = -reach; k <= reach; ++k) across.add(k * cell, centre + k * cell * left, initial, last.surface);
   part["profiles"].push_back(across.json(
       "Across the stroke",
       fmt::format("At the middle of the way, x = {:.4g} m, y = {:.4g} m. What lies to its left is positive.",

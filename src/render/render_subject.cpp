@@ -25,7 +25,7 @@ CellRange cells_under(const std::vector<Eigen::Vector3d>& tips, double radius, c
                       double highest) {
   Eigen::AlignedBox2d under;
   for (const Eigen::Vector3d& tip : tips)
-    if (tip.z() < highest) under.extend(tip.head<2>());
+    if (tip.allFinite() && tip.z() < highest) under.extend(tip.head<2>());
   if (under.isEmpty()) return {};
   const auto cell = [](double at, int count) {
     return static_cast<int>(std::clamp(at, -1.0, static_cast<double>(count)));

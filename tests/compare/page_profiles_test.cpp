@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "core/error.h"
+
 namespace sandstroke {
 namespace {
 
@@ -109,6 +111,17 @@ TEST(ProfilesPart, APlungeIsOnlyCrossed) {
   const std::vector<double> initial = numbers(part["profiles"][0]["curves"]["initial"]["value"]);
   for (int k = -12; k <= 12; ++k)
     EXPECT_NEAR(initial[static_cast<std::size_t>(k + 12)], s.height(40, 30 + k), 1e-12);
+}
+
+TEST(ProfilesPart, APathFarBeyondTheBedTakesNoMoreThanItMay) {
+  const Surfaces s;
+  TipPath path = path_through({{30, 20}, {50, 20}});
+  path.points[1].x() = 1e12;
+  const Json part = profiles_part(path, 1e9, s.initial, s.last);
+  ASSERT_EQ(part["profiles"].size(), 2u);
+  EXPECT_LE(part["profiles"][1]["curves"]["last"]["at"].size(), 281u);  // 60 + 80 cells to either side
+  path.points[1].x() = HUGE_VAL;
+  EXPECT_THROW(profiles_part(path, 0.02, s.initial, s.last), Error);
 }
 
 TEST(ProfilesPart, OutsideTheBedThereIsNothing) {

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace sandstroke {
 namespace {
 
@@ -46,6 +48,9 @@ TEST(RenderSubject, AStrokeCoversTheCellsUnderTheToolWhereItIsBelowTheSand) {
   EXPECT_EQ(cells_under({tip(-1, 199, -0.01)}, 0.025, bed, 0.0), (CellRange{0, 2, 197, 200}));
   EXPECT_TRUE(cells_under({tip(20, 50, 0.0)}, 0.025, bed, 0.0).empty());
   EXPECT_TRUE(cells_under({tip(20, 500, -0.01), tip(20, -500, 1.0)}, 0.025, bed, 0.0).empty());
+  EXPECT_EQ(
+      cells_under({tip(20, 50, -0.01), {std::nan(""), 0.0, -1.0}, {0.0, -HUGE_VAL, -1.0}}, 0.025, bed, 0.0),
+      (CellRange{18, 23, 48, 53}));
   EXPECT_EQ(cells_under({{-1e30, -1e30, -1.0}, {1e30, 1e30, -1.0}}, 0.025, bed, 0.0), bed.cells());
 }
 
