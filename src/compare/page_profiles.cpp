@@ -37,7 +37,8 @@ std::vector<Station> path_stations(const TipPath& path) {
       length += (path.points[i] - path.points[i - 1]).norm();
     stations.push_back({length, path.points[i], begins});
   }
-  if (!std::isfinite(length)) throw_input_error("the trace holds positions that are not finite");
+  if (!std::isfinite(length))
+    throw_input_error("the trace holds positions that are not finite; run the scene again");
   return stations;
 }
 
