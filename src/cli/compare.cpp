@@ -30,7 +30,7 @@ struct CompareArguments {
 
 fs::path page_of(const CompareArguments& arguments) { return arguments.report / "compare.html"; }
 
-void write_page(const CompareArguments& arguments, const std::function<ComparePage()>& make) {
+void write_page(const CompareArguments& arguments, const std::function<PageOfParts()>& make) {
   if (!arguments.report.empty()) write_text_file(page_of(arguments), make().html(), page_output);
 }
 

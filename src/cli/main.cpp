@@ -79,6 +79,7 @@ int run_program(int argc, char** argv) {
   add_init_command(app, chosen);
   add_run_command(app, chosen);
   add_render_command(app, chosen);
+  add_report_command(app, chosen);
   add_compare_command(app, chosen);
   add_golden_command(app, chosen);
   add_sweep_command(app, chosen);

@@ -198,9 +198,10 @@ void add_view_options(CLI::App& app, RenderArguments& arguments) {
   const std::string scenes = ". Default: the scene's [view]";
   app.add_option("--size", arguments.size, "Picture size in pixels, like 1280x720" + scenes)
       ->type_name("WxH");
-  app.add_option(
-         "--view", arguments.view,
-         "What is shown: the whole bed, the part that changes, a map from above, or a custom aim" + scenes)
+  app.add_option("--view", arguments.view,
+                 "What is shown: the whole bed, the part under the stroke (if the run has a trace), a map "
+                 "from above, or a custom aim" +
+                     scenes)
       ->check(CLI::IsMember(view_names));
   app.add_option("--style", arguments.style,
                  "Sand in the sun, a map of heights, or a map of the change since the start" + scenes)

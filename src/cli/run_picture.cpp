@@ -1,29 +1,32 @@
 #include "cli/run_picture.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/error.h"
+#include "io/last_surface.h"
 #include "io/scene_toml.h"
 #include "render/change_picture.h"
 
 namespace sandstroke {
-namespace {
-
-/// The latest surface that a run holds: one that was cut off has no final one.
-HeightGrid last_surface(const RunFile& run, const HeightGrid& initial) {
-  if (run.has_final()) return run.final();
-  const auto frames = static_cast<int>(run.frame_times().size());
-  return frames > 0 ? RunFrames(run).surface(frames - 1) : initial;
-}
-
-}  // namespace
-
 RunPainter::RunPainter(const RunFile& run, const ViewSettings& view, double contour_interval)
     : run_(run),
       scene_(scene_from_text(run.scene_text(), run.name() + ": /scene")),
       renderer_(run.rows(), run.cols(), run.cell_size()),
       initial_(run.initial()) {
-  subject_ = subject_of_change(initial_, last_surface(run, initial_), view, contour_interval);
+  const CellRange stroke = view.name == ViewName::stroke ? stroke_cells() : CellRange{};
+  subject_ = subject_of_change(initial_, last_surface(run).surface.grid(), stroke, view, contour_interval);
+}
+
+/// Where the hand led the tool below the sand as it was at the start; empty without a trace.
+CellRange RunPainter::stroke_cells() {
+  if (!run_.has_trace()) return {};
+  trace_ = run_.trace();
+  std::vector<Eigen::Vector3d> tips;
+  for (const TickRecord& tick : *trace_)
+    if (!std::isnan(tick.level)) tips.push_back(tip_of(scene_.device, tick.hand.position));
+  return cells_under(tips, scene_.tool.radius, BedGeometry(run_.rows(), run_.cols(), run_.cell_size()),
+                     initial_.maxCoeff());
 }
 
 Image RunPainter::draw(const HeightGrid& surface, std::optional<double> tool_time) {

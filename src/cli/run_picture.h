@@ -11,8 +11,10 @@
 namespace sandstroke {
 
 /// Draws the surfaces of one run, all in the same view and on the same colour scale: that of the initial and
-/// the last surface together. Style difference shows what changed since the initial surface; view stroke
-/// frames the cells that change.
+/// the last surface together. Camera and box follow from the scene alone: the bed, its initial surface and,
+/// in view stroke, the way of the hand through it (of a run without a trace: the whole bed). So pictures of
+/// runs that differ only in what the sand did can be laid over one another. Style difference shows what
+/// changed since the initial surface.
 class RunPainter {
  public:
   /// contour_interval [m]: 0 = a round one. Error: input or io, as RunFile and HeightFieldRenderer.
@@ -23,6 +25,7 @@ class RunPainter {
   Image draw(const HeightGrid& surface, std::optional<double> tool_time = std::nullopt);
 
  private:
+  CellRange stroke_cells();
   ToolSphere tool_at(double time);
 
   const RunFile& run_;

@@ -19,17 +19,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
-/// What `make` returns; empty where the file does not say it.
-template <class Make>
-auto as_far_as_known(const Make& make) -> decltype(make()) {
-  try {
-    return make();
-  } catch (const Error& error) {
-    if (error.kind() != ErrorKind::input) throw;
-    return {};
-  }
-}
-
 /// One of the two that are compared: its file, name and value of its provenance, its resolved scene.
 Json side(const std::string& name, const std::vector<std::pair<std::string, std::string>>& provenance = {},
           const std::string& scene = "") {
@@ -43,8 +32,9 @@ Json side(const RunFile& run) {
               as_far_as_known([&] { return run.scene_text(); }));
 }
 
-ComparePage start_page(const std::string& title, const Comparison& comparison, Json golden, Json run) {
-  return {title,
+PageOfParts start_page(const std::string& title, const Comparison& comparison, Json golden, Json run) {
+  return {PageScript::compare,
+          title,
           {{"machine", describe_machine()},
            {"passed", comparison.passed()},
            {"checks", to_json(comparison)["checks"]},
@@ -52,17 +42,6 @@ ComparePage start_page(const std::string& title, const Comparison& comparison, J
            {"run", std::move(run)},
            {"parts", Json::array()},
            {"missing", Json::array()}}};
-}
-
-/// Appends what `make` returns, unless that is null; where it finds its data missing or damaged (Error:
-/// input), the sentence why `name` is not shown.
-void add_part(ComparePage& page, const std::string& name, const std::function<Json()>& make) {
-  try {
-    if (Json part = make(); !part.is_null()) page.data["parts"].push_back(std::move(part));
-  } catch (const Error& error) {
-    if (error.kind() != ErrorKind::input) throw;
-    page.data["missing"].push_back({{"name", name}, {"sentence", error.what()}});
-  }
 }
 
 bool failed(const Comparison& comparison, const std::string& name) {
@@ -76,54 +55,52 @@ std::string title_of(const fs::path& golden, const fs::path& run) {
 
 }  // namespace
 
-std::string ComparePage::html() const { return html_page(title, PageScript::compare, data); }
-
-ComparePage run_page(const RunFile& golden, const RunFile& run, const Comparison& comparison,
+PageOfParts run_page(const RunFile& golden, const RunFile& run, const Comparison& comparison,
                      const Tolerances& tolerances) {
-  ComparePage page = start_page(title_of(golden.name(), run.name()), comparison, side(golden), side(run));
+  PageOfParts page = start_page(title_of(golden.name(), run.name()), comparison, side(golden), side(run));
   if (failed(comparison, "initial height")) {
-    add_part(page, "Initial height", [&]() -> Json {
+    page.add_part("Initial height", [&]() -> Json {
       const HeightField a = golden.initial_bed(), b = run.initial_bed();
       if (a.rows() != b.rows() || a.cols() != b.cols()) return nullptr;  // the final ones show that
       return surfaces_part({"Initial height", a, a, b, b, tolerances.height});
     });
   }
-  add_part(page, "Final height", [&] {
+  page.add_part("Final height", [&] {
     return surfaces_part({"Final height", golden.final_bed(), golden.initial_bed(), run.final_bed(),
                           run.initial_bed(), tolerances.height});
   });
-  add_part(page, "Traces", [&] { return traces_part(whole_trace(golden), whole_trace(run), tolerances); });
+  page.add_part("Traces", [&] { return traces_part(whole_trace(golden), whole_trace(run), tolerances); });
   return page;
 }
 
-ComparePage picture_page(const fs::path& golden_file, const Image& golden, const fs::path& run_file,
+PageOfParts picture_page(const fs::path& golden_file, const Image& golden, const fs::path& run_file,
                          const Image& run, const Comparison& comparison, const Tolerances& tolerances) {
-  ComparePage page = start_page(title_of(golden_file, run_file), comparison, side(golden_file.string()),
+  PageOfParts page = start_page(title_of(golden_file, run_file), comparison, side(golden_file.string()),
                                 side(run_file.string()));
-  add_part(page, "Picture", [&] { return pictures_part("Picture", golden, run, tolerances.pixel); });
+  page.add_part("Picture", [&] { return pictures_part("Picture", golden, run, tolerances.pixel); });
   return page;
 }
 
-ComparePage golden_page(const std::string& name, const fs::path& entry, const GoldenRun& run_of_scene,
+PageOfParts golden_page(const std::string& name, const fs::path& entry, const GoldenRun& run_of_scene,
                         const Comparison& comparison, const Tolerances& tolerances) {
   const RunFile run(run_of_scene.run_file);
   Json run_side = side(run);
   run_side["name"] = fmt::format("the run of scene {}", name);
-  ComparePage page =
+  PageOfParts page =
       start_page(fmt::format("{} against its golden entry", name), comparison,
                  side(entry.string(), as_far_as_known([&] { return golden_provenance(entry); })), run_side);
-  add_part(page, "Change of height", [&] {
+  page.add_part("Change of height", [&] {
     const GoldenContent golden = read_golden(entry);
     const HeightField expected(golden.change, golden.cell_size), change(height_change(run), golden.cell_size);
     const HeightField none(expected.rows(), expected.cols(), expected.cell_size());
     const HeightField none_of_run(change.rows(), change.cols(), change.cell_size());
     return surfaces_part({"Change of height", expected, none, change, none_of_run, tolerances.height, true});
   });
-  add_part(page, "Picture", [&] {
+  page.add_part("Picture", [&] {
     return pictures_part("Picture", read_golden_picture(entry), run_of_scene.picture, tolerances.pixel);
   });
-  add_part(page, "Traces",
-           [&] { return traces_part(read_golden(entry).trace, golden_trace(run), tolerances); });
+  page.add_part("Traces",
+                [&] { return traces_part(read_golden(entry).trace, golden_trace(run), tolerances); });
   return page;
 }
 

@@ -1,36 +1,31 @@
 #pragma once
 
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <string>
 
 #include "compare/check.h"
 #include "compare/golden.h"
+#include "compare/page_of_parts.h"
 #include "compare/run_checks.h"
 #include "io/run_file.h"
 #include "picture/image.h"
 
 namespace sandstroke {
 
-/// A page on a comparison: the checks, maps of golden, run and difference, traces, and what is known about
-/// the files. Where the data of a part is missing or damaged, the page says so instead of showing it.
-struct ComparePage {
-  std::string title;
-  nlohmann::ordered_json data;
-  std::string html() const;
-};
+// Pages on a comparison: the checks, maps of golden, run and difference, traces, and what is known about the
+// files. Where the data of a part is missing or damaged, the page says so instead of showing it.
 
 /// Two run files: final surfaces, initial ones where they differ, traces.
-ComparePage run_page(const RunFile& golden, const RunFile& run, const Comparison& comparison,
+PageOfParts run_page(const RunFile& golden, const RunFile& run, const Comparison& comparison,
                      const Tolerances& tolerances);
 
 /// Two pictures and the names of their files.
-ComparePage picture_page(const std::filesystem::path& golden_file, const Image& golden,
+PageOfParts picture_page(const std::filesystem::path& golden_file, const Image& golden,
                          const std::filesystem::path& run_file, const Image& run,
                          const Comparison& comparison, const Tolerances& tolerances);
 
 /// A run and its golden entry: change of height, picture, every 10th tick of the traces.
-ComparePage golden_page(const std::string& name, const std::filesystem::path& entry, const GoldenRun& run,
+PageOfParts golden_page(const std::string& name, const std::filesystem::path& entry, const GoldenRun& run,
                         const Comparison& comparison, const Tolerances& tolerances);
 
 }  // namespace sandstroke

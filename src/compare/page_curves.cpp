@@ -3,16 +3,16 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
-#include <cmath>
 #include <functional>
 #include <string>
+
+#include "haptics/passivity.h"
+#include "report/curve.h"
 
 namespace sandstroke {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-constexpr std::size_t most_points = 2000;  // of a curve
 
 /// A number per tick of a trace, and how far two of them are apart.
 struct Quantity {
@@ -50,14 +50,10 @@ std::vector<Quantity> quantities(const Tolerances& tolerances) {
 }
 
 template <class Value>
-Json curve_json(const std::vector<TickRecord>& trace, std::size_t ticks, const Value& value) {
+Json curve_over_time(const std::vector<TickRecord>& trace, std::size_t ticks, const Value& value) {
   Curve curve;
-  for (std::size_t tick = 0; tick < ticks; ++tick) {
-    curve.time.push_back(trace[tick].time);
-    curve.value.push_back(value(tick));
-  }
-  curve = thinned_curve(curve, most_points);
-  return {{"time", std::move(curve.time)}, {"value", std::move(curve.value)}};
+  for (std::size_t tick = 0; tick < ticks; ++tick) curve.add(trace[tick].time, value(tick));
+  return curve_json(curve);
 }
 
 std::string text(const std::optional<CountedTrace>& golden, const std::optional<CountedTrace>& run) {
@@ -67,43 +63,21 @@ std::string text(const std::optional<CountedTrace>& golden, const std::optional<
     return kept == trace->ticks ? fmt::format("{} ticks", kept)
                                 : fmt::format("{} of {} ticks kept", kept, trace->ticks);
   };
-  return fmt::format(
-      "Golden: {}; run: {}. A curve with more than {} points shows of each stretch of time the least and the "
-      "greatest value, so that no extreme is lost.",
-      ticks(golden), ticks(run), most_points);
+  return fmt::format("Golden: {}; run: {}. {}", ticks(golden), ticks(run), curves_are_thinned);
 }
 
 }  // namespace
 
-Curve thinned_curve(const Curve& curve, std::size_t most) {
-  const std::size_t points = curve.value.size();
-  if (points <= most) return curve;
-  Curve kept;
-  const auto keep = [&](std::size_t i) {
-    kept.time.push_back(curve.time[i]);
-    kept.value.push_back(curve.value[i]);
-  };
-  const std::size_t stretches = std::max<std::size_t>(1, most / 2);
-  for (std::size_t k = 0; k < stretches; ++k) {
-    const std::size_t begin = k * points / stretches, end = (k + 1) * points / stretches;
-    std::optional<std::size_t> least, greatest, gap;
-    for (std::size_t i = begin; i < end; ++i) {
-      const double value = curve.value[i];
-      if (!std::isfinite(value)) {
-        if (!gap) gap = i;
-        continue;
-      }
-      if (!least || value < curve.value[*least]) least = i;
-      if (!greatest || value > curve.value[*greatest]) greatest = i;
-    }
-    std::vector<std::size_t> chosen;
-    for (const std::optional<std::size_t>& one : {least, greatest, gap})
-      if (one) chosen.push_back(*one);
-    std::sort(chosen.begin(), chosen.end());
-    chosen.erase(std::unique(chosen.begin(), chosen.end()), chosen.end());
-    for (const std::size_t i : chosen) keep(i);
+std::vector<double> absorbed_energy(const std::vector<TickRecord>& trace) {
+  EnergyAccount account;
+  std::vector<double> energy;
+  for (std::size_t tick = 0; tick < trace.size(); ++tick) {
+    if (tick > 0)
+      account.add(trace[tick - 1].device_force,
+                  trace[tick].device_position - trace[tick - 1].device_position);
+    energy.push_back(account.absorbed());
   }
-  return kept;
+  return energy;
 }
 
 Json traces_part(const std::optional<CountedTrace>& golden, const std::optional<CountedTrace>& run,
@@ -120,18 +94,38 @@ Json traces_part(const std::optional<CountedTrace>& golden, const std::optional<
               {"limit", quantity.limit}};
     const auto add = [&](const char* name, const std::optional<CountedTrace>& trace) {
       if (!trace) return;
-      json[name] = curve_json(trace->rows, trace->rows.size(),
-                              [&](std::size_t tick) { return quantity.value(trace->rows[tick]); });
+      json[name] = curve_over_time(trace->rows, trace->rows.size(),
+                                   [&](std::size_t tick) { return quantity.value(trace->rows[tick]); });
     };
     add("golden", golden);
     add("run", run);
     if (golden && run) {
-      json["difference"] = curve_json(
+      json["difference"] = curve_over_time(
           golden->rows, std::min(golden->rows.size(), run->rows.size()),
           [&](std::size_t tick) { return quantity.difference(golden->rows[tick], run->rows[tick]); });
     }
     part["quantities"].push_back(std::move(json));
   }
+  return part;
+}
+
+Json traces_part(const std::vector<TickRecord>& trace) {
+  Json part{{"kind", "traces"},
+            {"title", "Force, depth and energy over time"},
+            {"text", fmt::format("{} ticks. {}", trace.size(), curves_are_thinned)},
+            {"quantities", Json::array()}};
+  const auto add = [&](const std::string& group, const std::string& name, const std::string& unit,
+                       const std::function<double(std::size_t)>& value) {
+    part["quantities"].push_back({{"group", group},
+                                  {"name", name},
+                                  {"unit", unit},
+                                  {"run", curve_over_time(trace, trace.size(), value)}});
+  };
+  for (const Quantity& quantity : quantities({}))
+    add(quantity.group, quantity.name, quantity.unit,
+        [&](std::size_t tick) { return quantity.value(trace[tick]); });
+  const std::vector<double> energy = absorbed_energy(trace);
+  add("Energy given to the sand", "energy", "J", [&](std::size_t tick) { return energy[tick]; });
   return part;
 }
 

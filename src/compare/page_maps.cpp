@@ -189,6 +189,13 @@ Json surfaces_part(const ComparedSurfaces& s) {
   return part;
 }
 
+Json picture_part(const Image& picture, const std::string& name) {
+  return {{"kind", "maps"},
+          {"title", "Picture"},
+          {"text", "In the view of the scene."},
+          {"maps", {map_json(name, picture, nullptr)}}};
+}
+
 Json pictures_part(const std::string& title, const Image& golden, const Image& run, int limit) {
   Json part{{"kind", "maps"}, {"title", title}, {"maps", Json::array()}};
   Json& maps = part["maps"];

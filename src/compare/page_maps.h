@@ -28,6 +28,9 @@ CellRange shown_cells(const ComparedSurfaces& surfaces);
 /// as a number too.
 nlohmann::ordered_json surfaces_part(const ComparedSurfaces& surfaces);
 
+/// One picture, and what it shows: "final surface".
+nlohmann::ordered_json picture_part(const Image& picture, const std::string& name);
+
 /// Two pictures; limit: of 255, in any channel of any pixel.
 nlohmann::ordered_json pictures_part(const std::string& title, const Image& golden, const Image& run,
                                      int limit);

@@ -47,7 +47,7 @@ double distance_to_segment(const Eigen::Vector2d& p, const Eigen::Vector2d& a, c
 
 /// Sizes of the legend's parts, all from the capital height.
 struct LegendLayout {
-  double cap, margin, bar_width, tick_length, label_width, title_width;
+  double cap, margin, bar_width, tick_length, label_width, usual_width;
   std::string title;
   std::vector<ScaleTick> ticks;
 
@@ -58,12 +58,12 @@ struct LegendLayout {
     const LengthUnit unit = length_unit(std::max(std::abs(legend.low), std::abs(legend.high)));
     ticks = scale_ticks(legend.low, legend.high, unit, 7);
     title = fmt::format("{} [{}]", legend.quantity, unit.name);
-    title_width = text_width(cap, title);
+    usual_width = 2.0 * margin + text_width(cap, legend.quantity + " [mm]");
     label_width = 0.0;
     for (const ScaleTick& tick : ticks) label_width = std::max(label_width, text_width(cap, tick.label));
   }
   double width() const {
-    return 2.0 * margin + std::max(title_width, bar_width + 1.8 * tick_length + label_width);
+    return std::max(usual_width, 2.0 * margin + bar_width + 1.8 * tick_length + label_width);
   }
 };
 
@@ -110,7 +110,7 @@ void draw_text(Image& image, double x, double y, double cap_height, std::string_
 }
 
 int legend_width(const Legend& legend, int image_height) {
-  return static_cast<int>(std::ceil(LegendLayout(legend, image_height).width()));
+  return static_cast<int>(std::ceil(LegendLayout(legend, image_height).usual_width));
 }
 
 void draw_legend(Image& image, const Legend& legend) {

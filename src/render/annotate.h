@@ -26,7 +26,8 @@ struct Legend {
       0.0;  ///< m; > 0: the bar shows the picture's contour lines, unless they would touch
 };
 
-/// Width [pixels] of the strip at the right border that draw_legend uses in a picture of this height.
+/// Width [pixels] of the strip at the right border that draw_legend uses in a picture of this height, unless
+/// the scale has numbers of many digits: it depends on the quantity, never on the range.
 int legend_width(const Legend& legend, int image_height);
 
 /// Draws the colour bar with round numbers, title and unit on a light strip along the right border.

@@ -12,27 +12,26 @@ struct Vertex {
   Eigen::Vector3f place, normal;
 };
 
-/// A place on the bed's border: the sand there, and which way is out (a diagonal at a corner).
-struct Station {
-  Eigen::Vector2d place, out;
-  double height;
+/// A line around the bed: on each side `out` [m] away from the outermost cells, at one height [m].
+struct Frame {
+  double out, height;
 };
 
-/// Once around the bed, from the corner of row 0, column 0.
-std::vector<Station> stations_along_border(const BedGeometry& bed, const DrawnHeights& heights) {
-  const int rows = bed.rows(), cols = bed.cols();
-  std::vector<Station> stations;
-  const auto add = [&](int row, int col) {
-    const auto side = [](int i, int count) { return i == 0 ? -1.0 : i == count - 1 ? 1.0 : 0.0; };
-    stations.push_back({{bed.x_of(col), bed.y_of(row)},
-                        {side(col, cols), side(row, rows)},
-                        static_cast<double>(heights(row, col))});
+/// The band between two such lines, as triangles.
+void add_band(std::vector<Vertex>& vertices, const Eigen::Vector2d& half_bed, const Frame& from,
+              const Frame& to) {
+  constexpr std::array<std::array<double, 2>, 4> corners = {{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}};
+  const auto corner = [&](const Frame& frame, int i) {
+    return Eigen::Vector3d(corners[i][0] * (half_bed.x() + frame.out),
+                           corners[i][1] * (half_bed.y() + frame.out), frame.height);
   };
-  for (int col = 0; col < cols - 1; ++col) add(0, col);
-  for (int row = 0; row < rows - 1; ++row) add(row, cols - 1);
-  for (int col = cols - 1; col > 0; --col) add(rows - 1, col);
-  for (int row = rows - 1; row > 0; --row) add(row, 0);
-  return stations;
+  for (int i = 0; i < 4; ++i) {
+    const int next = (i + 1) % 4;
+    const Eigen::Vector3d a = corner(from, i), b = corner(from, next), c = corner(to, next),
+                          d = corner(to, i);
+    const Eigen::Vector3f normal = (b - a).cross(d - a).normalized().cast<float>();
+    for (const Eigen::Vector3d& place : {a, b, c, a, c, d}) vertices.push_back({place.cast<float>(), normal});
+  }
 }
 
 }  // namespace
@@ -47,57 +46,44 @@ BedBox::BedBox() : layout_(make_vertex_array()), vertices_(make_buffer()) {
                         reinterpret_cast<const void*>(offsetof(Vertex, normal)));
 }
 
-void BedBox::update(const BedGeometry& bed, const DrawnHeights& heights, double lowest) {
-  const double cell_size = bed.cell_size();
-  const double thickness = 0.012 * std::max((bed.cols() - 1) * cell_size, (bed.rows() - 1) * cell_size);
-  const double ground = lowest - 3.0 * thickness;
-  const std::vector<Station> stations = stations_along_border(bed, heights);
-  const auto count = static_cast<int>(stations.size());
+void BedBox::update(const BedGeometry& bed, const StartHeights& start) {
+  const Eigen::Vector2d half_bed(bed.x_of(bed.cols() - 1), bed.y_of(bed.rows() - 1));
+  const double side = 2.0 * half_bed.maxCoeff(), thickness = 0.012 * side;
+  const double rim = start.border + 0.15 * thickness, ground = start.lowest - 3.0 * thickness;
+  // Inside, the wall lines pits below the ground as well.
+  const Frame bottom{0.0, ground - side}, inner{0.0, rim}, outer{thickness, rim}, foot{thickness, ground};
+  const Frame horizon{20.0 * side, ground};
 
-  // The rim: the highest sand within a wall's thickness along the border, and a little more.
-  const int reach = std::max(1, static_cast<int>(thickness / cell_size));
-  std::vector<double> rim(stations.size());
-  for (int i = 0; i < count; ++i) {
-    rim[i] = stations[i].height;
-    for (int k = -reach; k <= reach; ++k)
-      rim[i] = std::max(rim[i], stations[(i + k + count * reach) % count].height);
-    rim[i] += 0.15 * thickness;
-  }
-
-  // Inner face, rim and outer face, as triangles; ends where it began.
   std::vector<Vertex> vertices;
-  bounds_.setEmpty();
-  const auto corners = [&](int i) {
-    const Station& s = stations[i];
-    const Eigen::Vector2d outer = s.place + thickness * s.out;
-    std::array<Eigen::Vector3d, 4> points = {
-        Eigen::Vector3d(s.place.x(), s.place.y(), ground), Eigen::Vector3d(s.place.x(), s.place.y(), rim[i]),
-        Eigen::Vector3d(outer.x(), outer.y(), rim[i]), Eigen::Vector3d(outer.x(), outer.y(), ground)};
-    return points;
-  };
-  for (int i = 0; i < count; ++i) {
-    const auto here = corners(i), next = corners((i + 1) % count);
-    for (int face = 0; face < 3; ++face) {
-      const Eigen::Vector3f normal =
-          (next[face] - here[face]).cross(here[face + 1] - here[face]).normalized().cast<float>();
-      for (const Eigen::Vector3d& p :
-           {here[face], next[face], next[face + 1], here[face], next[face + 1], here[face + 1]}) {
-        vertices.push_back({p.cast<float>(), normal});
-        bounds_.extend(p);
-      }
-    }
-  }
+  add_band(vertices, half_bed, bottom, inner);
+  add_band(vertices, half_bed, inner, outer);
+  add_band(vertices, half_bed, outer, foot);
+  wall_vertices_ = static_cast<int>(vertices.size());
+  add_band(vertices, half_bed, foot, horizon);
+  ground_vertices_ = static_cast<int>(vertices.size()) - wall_vertices_;
+
+  const Eigen::Vector2d outside = half_bed.array() + thickness;
+  bounds_ = {Eigen::Vector3d(-outside.x(), -outside.y(), ground),
+             Eigen::Vector3d(outside.x(), outside.y(), rim)};
   wall_thickness_ = thickness;
-  vertex_count_ = static_cast<int>(vertices.size());
   glBindBuffer(GL_ARRAY_BUFFER, vertices_);
   glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(vertices.size() * sizeof(Vertex)), vertices.data(),
                GL_STREAM_DRAW);
   check_gl("making the box");
 }
 
-void BedBox::draw() const {
+void BedBox::draw_wall() const {
   glBindVertexArray(layout_);
-  glDrawArrays(GL_TRIANGLES, 0, vertex_count_);
+  glDrawArrays(GL_TRIANGLES, 0, wall_vertices_);
+}
+
+void BedBox::draw_ground_depth() const {
+  glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+  glEnable(GL_DEPTH_CLAMP);  // it is nearer than the range of depths where it comes up to the camera
+  glBindVertexArray(layout_);
+  glDrawArrays(GL_TRIANGLES, wall_vertices_, ground_vertices_);
+  glDisable(GL_DEPTH_CLAMP);
+  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
 }
 
 }  // namespace sandstroke

@@ -3,25 +3,27 @@
 #include <Eigen/Geometry>
 
 #include "render/gl_objects.h"
-#include "render/horizon.h"
+#include "render/render_subject.h"
 
 namespace sandstroke {
 
-/// The box that holds the sand: a wall around the bed whose rim follows the crest of the sand along the
-/// border.
+/// The box that holds the sand: a wall around the bed, with a level rim, on level ground. Sand may come to
+/// lie above the rim and below the ground: the box does not follow it.
 class BedBox {
  public:
   BedBox();
-  /// Rebuilds the wall around a surface.
-  void update(const BedGeometry& bed, const DrawnHeights& heights, double lowest);
-  void draw() const;
-  /// All of the wall and the ground it stands on, [m].
+  /// Rebuilds the wall around a bed that started so.
+  void update(const BedGeometry& bed, const StartHeights& start);
+  void draw_wall() const;
+  /// Only where it is, no colours: the ground hides a pit that is deeper than the box.
+  void draw_ground_depth() const;
+  /// All of the wall above the ground it stands on, [m].
   const Eigen::AlignedBox3d& bounds() const { return bounds_; }
   double wall_thickness() const { return wall_thickness_; }  ///< m
 
  private:
   GlObject layout_, vertices_;
-  int vertex_count_ = 0;
+  int wall_vertices_ = 0, ground_vertices_ = 0;
   Eigen::AlignedBox3d bounds_;
   double wall_thickness_ = 0.0;
 };

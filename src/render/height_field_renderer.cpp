@@ -66,15 +66,16 @@ class HeightFieldRenderer::Drawing {
   /// Colour scale of the picture; also puts the values where the map shader finds them.
   Legend prepare_values(const RenderSubject& subject);
   Eigen::AlignedBox3d box_over(const CellRange& cells, double lowest, double highest) const;
-  /// Of heights: `extent`. legend_part: of the picture's width.
-  Camera camera_for(const RenderSubject& subject, const ValueRange& extent, double legend_part) const;
+  /// legend_part: of the picture's width.
+  Camera camera_for(const RenderSubject& subject, const StartHeights& start, double legend_part) const;
   void set_light(const ShaderProgram& program, const Camera& camera, const Sun& sun) const;
   void set_tool(const ShaderProgram& program, const ToolSphere& tool) const;
   void draw_surroundings(const RenderSubject& subject, const Camera& camera, const Sun& sun) const;
   void draw_sand(const RenderSubject& subject, const Camera& camera, const Sun& sun);
   void draw_map(const RenderSubject& subject, const Legend& legend, const Camera& camera, const Sun& sun);
   void draw_tiles(const ShaderProgram& program, const Camera& camera, const std::vector<int>& levels);
-  void draw_box(RenderStyle style, const Camera& camera, const Sun& sun) const;
+  void draw_ground_depth(const Camera& camera) const;
+  void draw_wall(RenderStyle style, const Camera& camera, const Sun& sun) const;
   void draw_tool(const ToolSphere& tool, const Camera& camera, const Sun& sun) const;
 
   BedGeometry bed_;
@@ -191,14 +192,19 @@ void HeightFieldRenderer::Drawing::check(const HeightField& surface, const ViewS
         view.light_elevation);
 }
 
-Camera HeightFieldRenderer::Drawing::camera_for(const RenderSubject& subject, const ValueRange& extent,
+Camera HeightFieldRenderer::Drawing::camera_for(const RenderSubject& subject, const StartHeights& start,
                                                 double legend_part) const {
-  Eigen::AlignedBox3d scene = box_.bounds();
-  scene.extend(box_over(bed_.cells(), extent.low, extent.high));
-  Eigen::AlignedBox3d framed = scene;
+  Eigen::AlignedBox3d framed = box_.bounds();
+  framed.extend(box_over(bed_.cells(), start.lowest, start.highest));
+  // The range of depths, too, decides on bits: so it has room for most of what sand can do.
+  const double side = framed.sizes().maxCoeff();
+  Eigen::AlignedBox3d scene = framed;
+  scene.extend(framed.min() - side * Eigen::Vector3d::UnitZ());
+  scene.extend(framed.max() + 0.25 * side * Eigen::Vector3d::UnitZ());
+  scene.extend(box_over(bed_.cells(), surface_.lowest(), surface_.highest()));
   if (subject.view.name == ViewName::stroke) {
     const CellRange cells = framed_cells(subject.focus, bed_.rows(), bed_.cols(), bed_.cell_size(), 0.03);
-    framed = box_over(cells, extent.low, extent.high);
+    framed = box_over(cells, start.lowest, start.highest);
   }
   if (subject.tool) {
     scene.extend(subject.tool->centre() + Eigen::Vector3d::Constant(subject.tool->radius));
@@ -228,14 +234,20 @@ void HeightFieldRenderer::Drawing::draw_map(const RenderSubject& subject, const 
   draw_tiles(map_, camera, subject.tile_levels);
 }
 
-void HeightFieldRenderer::Drawing::draw_box(RenderStyle style, const Camera& camera, const Sun& sun) const {
-  set_light(wall_, camera, sun);
+void HeightFieldRenderer::Drawing::draw_ground_depth(const Camera& camera) const {
+  wall_.use();
+  wall_.set("to_clip", camera.to_clip);
   wall_.set("scale", 1.0);
   wall_.set("offset", Eigen::Vector3d(0.0, 0.0, 0.0));
+  box_.draw_ground_depth();
+}
+
+void HeightFieldRenderer::Drawing::draw_wall(RenderStyle style, const Camera& camera, const Sun& sun) const {
+  set_light(wall_, camera, sun);
   wall_.set("plain", style == RenderStyle::sand ? 0.0 : 1.0);
   wall_.set("half_bed", Eigen::Vector2d(bed_.x_of(bed_.cols() - 1), bed_.y_of(bed_.rows() - 1)));
   wall_.set("wall", box_.wall_thickness());
-  box_.draw();
+  box_.draw_wall();
 }
 
 void HeightFieldRenderer::Drawing::draw_tool(const ToolSphere& tool, const Camera& camera,
@@ -261,21 +273,20 @@ Image HeightFieldRenderer::Drawing::render(const HeightField& surface, const Ren
   if (view.style != RenderStyle::sand) legend = prepare_values(subject);
   const double legend_part =
       legend ? static_cast<double>(legend_width(*legend, view.height)) / view.width : 0.0;
-  ValueRange extent{surface_.lowest(), surface_.highest()};
-  if (subject.extent)
-    extent = {std::min(extent.low, subject.extent->low), std::max(extent.high, subject.extent->high)};
-  box_.update(bed_, surface_.heights(), extent.low);
-  const Camera camera = camera_for(subject, extent, legend_part);
+  const StartHeights start = subject.start ? *subject.start : start_heights(surface.grid());
+  box_.update(bed_, start);
+  const Camera camera = camera_for(subject, start, legend_part);
 
   framebuffer_->bind();
   glEnable(GL_MULTISAMPLE);
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
   draw_surroundings(subject, camera, sun);
+  if (subject.box) draw_ground_depth(camera);
   if (legend)
     draw_map(subject, *legend, camera, sun);
   else
     draw_sand(subject, camera, sun);
-  if (subject.box) draw_box(view.style, camera, sun);
+  if (subject.box) draw_wall(view.style, camera, sun);
   if (subject.tool) draw_tool(*subject.tool, camera, sun);
   Image image = framebuffer_->read();
   if (legend) draw_legend(image, *legend);

@@ -1,5 +1,6 @@
 #include "render/render_subject.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
@@ -11,6 +12,30 @@ CellRange framed_cells(const CellRange& focus, int rows, int cols, double cell_s
   const int grow = static_cast<int>(std::ceil(std::max(0.1 * larger, margin / cell_size)));
   return {std::max(0, focus.row_begin - grow), std::min(rows, focus.row_end + grow),
           std::max(0, focus.col_begin - grow), std::min(cols, focus.col_end + grow)};
+}
+
+StartHeights start_heights(const HeightGrid& surface) {
+  const Eigen::Index last_row = surface.rows() - 1, last_col = surface.cols() - 1;
+  return {surface.minCoeff(), surface.maxCoeff(),
+          std::max({surface.row(0).maxCoeff(), surface.row(last_row).maxCoeff(), surface.col(0).maxCoeff(),
+                    surface.col(last_col).maxCoeff()})};
+}
+
+CellRange cells_under(const std::vector<Eigen::Vector3d>& tips, double radius, const BedGeometry& bed,
+                      double highest) {
+  Eigen::AlignedBox2d under;
+  for (const Eigen::Vector3d& tip : tips)
+    if (tip.allFinite() && tip.z() < highest) under.extend(tip.head<2>());
+  if (under.isEmpty()) return {};
+  const auto cell = [](double at, int count) {
+    return static_cast<int>(std::clamp(at, -1.0, static_cast<double>(count)));
+  };
+  const Eigen::Vector2d low = under.min().array() - radius, high = under.max().array() + radius;
+  const CellRange range{std::max(0, cell(std::ceil(bed.row_at(low.y())), bed.rows())),
+                        std::min(bed.rows(), cell(std::floor(bed.row_at(high.y())), bed.rows()) + 1),
+                        std::max(0, cell(std::ceil(bed.col_at(low.x())), bed.cols())),
+                        std::min(bed.cols(), cell(std::floor(bed.col_at(high.x())), bed.cols()) + 1)};
+  return range.empty() ? CellRange{} : range;
 }
 
 ValueRange value_range(double least, double greatest, bool diverging) {

@@ -22,6 +22,14 @@ struct ValueRange {
   double low = 0.0, high = 1.0;
 };
 
+/// Heights of the surface that a bed started from [m]: box and camera follow from these, and not from what
+/// the sand did since, so that pictures of one scene can be laid over one another.
+struct StartHeights {
+  double lowest = 0.0, highest = 0.0;
+  double border = 0.0;  ///< the highest along the bed's border
+};
+StartHeights start_heights(const HeightGrid& surface);
+
 /// What a picture shows besides the surface.
 struct RenderSubject {
   ViewSettings view;
@@ -29,9 +37,9 @@ struct RenderSubject {
   std::optional<ToolSphere> tool;
   const HeightGrid* difference = nullptr;  ///< m, the colours of style difference; of the bed's shape
   std::optional<ValueRange> range;         ///< of the colours; else that of the values shown
-  std::optional<ValueRange> extent;  ///< heights that box and camera allow for, besides the surface's own
-  double contour_interval = 0.0;     ///< m; 0 = a round one that gives about a dozen lines
-  bool box = true;                   ///< the wall around the bed
+  std::optional<StartHeights> start;       ///< else those of the surface itself
+  double contour_interval = 0.0;           ///< m; 0 = a round one that gives about a dozen lines
+  bool box = true;                         ///< the wall around the bed
   std::optional<std::array<double, 3>> background;  ///< sRGB in [0, 1], instead of the sky
   std::vector<int> tile_levels;  ///< level of detail of each tile; empty = by its size in the picture
 };
@@ -39,6 +47,11 @@ struct RenderSubject {
 /// The cells of `focus` (of the whole bed where it is empty) grown by a tenth and at least by `margin` [m],
 /// cut to the bed: what a close-up of a stroke frames.
 CellRange framed_cells(const CellRange& focus, int rows, int cols, double cell_size, double margin);
+
+/// The cells under a tool [radius, m] wherever its tip is below `highest` [m], of these places; empty where
+/// it never is. What a stroke covers, whatever the sand then does.
+CellRange cells_under(const std::vector<Eigen::Vector3d>& tips, double radius, const BedGeometry& bed,
+                      double highest);
 
 /// The colour scale of values that are shown without a given range: from the least to the greatest; around
 /// zero where `diverging`; one millimetre wide where all are equal.

@@ -276,6 +276,7 @@ std::string surroundings_fragment() {
   return std::string(version) + R"(
 uniform vec3 lower, upper;       // sRGB, at the borders of the picture
 uniform mat4 from_clip;
+uniform vec3 eye;
 uniform vec3 box_low, box_high;  // m, what stands on the ground
 uniform vec3 sun_direction;
 uniform float shadow;            // 0 none, 1 fully
@@ -285,20 +286,25 @@ float outside_box(vec2 p) {
   vec2 away = max(box_low.xy - p, p - box_high.xy);
   return length(max(away, 0.0)) + min(max(away.x, away.y), 0.0);
 }
+// The box's shadow is the box swept along `way`: how far a point lies outside of its farthest side, [m].
+float outside_shadow(vec2 p, vec2 way) {
+  vec2 away = max(box_low.xy + min(way, 0.0) - p, p - box_high.xy - max(way, 0.0));
+  vec2 across = vec2(-way.y, way.x) / max(length(way), 1e-6 * (box_high.x - box_low.x));
+  float beside = abs(dot(p - 0.5 * (box_low + box_high).xy, across)) -
+                 dot(0.5 * (box_high - box_low).xy, abs(across));
+  return max(max(away.x, away.y), beside);
+}
 void main() {
   vec3 tint = mix(lower, upper, smoothstep(-1.0, 1.0, place.y));
   vec4 near = from_clip * vec4(place, -1.0, 1.0), far = from_clip * vec4(place, 1.0, 1.0);
   vec3 from = near.xyz / near.w, ray = far.xyz / far.w - from;
-  float along = (box_low.z - from.z) / ray.z;
-  if (along > 0.0) {
+  if ((box_low.z - eye.z) / ray.z > 0.0) {   // the ground lies ahead, be it nearer than all else
     // The ground darkens where the box takes its sky, and in its shadow, which the wall's height sets.
-    vec2 ground = from.xy + along * ray.xy;
+    vec2 ground = from.xy + (box_low.z - from.z) / ray.z * ray.xy;
     float size = max(box_high.x - box_low.x, box_high.y - box_low.y), height = box_high.z - box_low.z;
     float sky = 1.0 - 0.30 * exp(-max(outside_box(ground), 0.0) / (0.035 * size));
-    vec2 reach = sun_direction.xy / sun_direction.z * height;
-    float nearest = 1e9;
-    for (int i = 0; i <= 20; ++i) nearest = min(nearest, outside_box(ground + reach * float(i) / 20.0));
-    float sun = mix(0.72, 1.0, smoothstep(-0.1 * height, 0.35 * height, nearest));
+    float outside = outside_shadow(ground, -sun_direction.xy / sun_direction.z * height);
+    float sun = mix(0.72, 1.0, smoothstep(-0.1 * height, 0.35 * height, outside));
     tint *= mix(1.0, sky * sun, shadow);
   }
   colour = vec4(tint, 1.0);

@@ -24,10 +24,12 @@ SANDSTROKE_DECLARE_ASSET(sweep_charts);
 SANDSTROKE_DECLARE_ASSET(sweep_points);
 SANDSTROKE_DECLARE_ASSET(sweep);
 SANDSTROKE_DECLARE_ASSET(sweep_style);
-SANDSTROKE_DECLARE_ASSET(compare_maps);
-SANDSTROKE_DECLARE_ASSET(compare_traces);
+SANDSTROKE_DECLARE_ASSET(maps);
+SANDSTROKE_DECLARE_ASSET(curves);
+SANDSTROKE_DECLARE_ASSET(parts);
+SANDSTROKE_DECLARE_ASSET(parts_style);
 SANDSTROKE_DECLARE_ASSET(compare);
-SANDSTROKE_DECLARE_ASSET(compare_style);
+SANDSTROKE_DECLARE_ASSET(run);
 
 namespace sandstroke {
 namespace {
@@ -39,6 +41,10 @@ struct PageAssets {
 };
 
 PageAssets assets_of(PageScript script) {
+  const auto of_parts = [](std::string_view own) {
+    return PageAssets{{SANDSTROKE_ASSET(maps), SANDSTROKE_ASSET(curves), SANDSTROKE_ASSET(parts), own},
+                      SANDSTROKE_ASSET(parts_style)};
+  };
   switch (script) {
     case PageScript::bench:
       return {{SANDSTROKE_ASSET(bench)}, {}};
@@ -48,8 +54,9 @@ PageAssets assets_of(PageScript script) {
       return {{SANDSTROKE_ASSET(sweep_charts), SANDSTROKE_ASSET(sweep_points), SANDSTROKE_ASSET(sweep)},
               SANDSTROKE_ASSET(sweep_style)};
     case PageScript::compare:
-      return {{SANDSTROKE_ASSET(compare_maps), SANDSTROKE_ASSET(compare_traces), SANDSTROKE_ASSET(compare)},
-              SANDSTROKE_ASSET(compare_style)};
+      return of_parts(SANDSTROKE_ASSET(compare));
+    case PageScript::run:
+      return of_parts(SANDSTROKE_ASSET(run));
   }
   return {};
 }

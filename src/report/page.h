@@ -9,7 +9,7 @@
 namespace sandstroke {
 
 /// What draws a page: page.js and plot.js, which all pages share, and scripts of the page's own.
-enum class PageScript { bench, stress, sweep, compare };
+enum class PageScript { bench, stress, sweep, compare, run };
 
 /// Known by its generator.
 inline constexpr OutputKind page_output{"a page", "<!DOCTYPE html>\n",

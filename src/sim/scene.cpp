@@ -116,7 +116,7 @@ void describe_stroke(KeyVisitor& v, StrokeSettings& stroke) {
 void describe_view(KeyVisitor& v, ViewSettings& view) {
   v.section("view", "how pictures show the sand");
   choose(v, "name", view.name, view_names,
-         "the whole bed, the part that changes, a map from above, or a custom aim");
+         "the whole bed, the part under the stroke, a map from above, or a custom aim");
   choose(v, "style", view.style, style_names, "sand in the sun, or colour maps with contour lines");
   v.number("azimuth", view.azimuth, degrees, "deg", "direction of the camera, from +x towards +y");
   v.number("elevation", view.elevation, {0.0, 90.0, false}, "deg", "height of the camera above the horizon");

@@ -35,6 +35,15 @@ std::string view_text(const Scene& scene) {
   return scene_text(named);
 }
 
+/// What view stroke frames: where the hand leads the tool below the sand as it is at the start.
+CellRange stroke_cells(const Scene& scene, const HeightField& bed, const SweepStroke* stroke) {
+  if (!stroke || scene.view.name != ViewName::stroke) return {};
+  std::vector<Eigen::Vector3d> tips;
+  for (std::size_t i = 0; i < stroke->stroke.size(); ++i)
+    if (stroke->stroke.pen_down(i)) tips.push_back(tip_of(scene.device, stroke->stroke.position[i]));
+  return cells_under(tips, scene.tool.radius, bed, bed.highest());
+}
+
 }  // namespace
 
 std::vector<PointGroup> Shard::among(const std::vector<PointGroup>& groups) const {
@@ -163,7 +172,8 @@ bool Sweep::run_group(const SweepFolder& folder, const std::vector<std::size_t>&
     const bool surface = !failed(result->points[i].verdict);
     if (surface && plan_.keep_picture) {
       if (const std::string view = view_text(scenes[i]); !picture || view != pictured_view) {
-        picture = painter.draw(*bed, result->surface, scenes[i].view);
+        picture =
+            painter.draw(*bed, result->surface, stroke_cells(scenes[i], *bed, stroke.get()), scenes[i].view);
         pictured_view = view;
       }
       write_png(folder.picture_file(points[i]), *picture);

@@ -32,6 +32,7 @@ TEST(CliHelp, ThePageOfTheProgramHasEveryOptionOfEveryCommand) {
   const std::string manual = page({"help", "--man"});
   for (const std::vector<std::string>& command : std::vector<std::vector<std::string>>{{"run"},
                                                                                        {"render"},
+                                                                                       {"report"},
                                                                                        {"compare"},
                                                                                        {"golden", "check"},
                                                                                        {"sweep"},

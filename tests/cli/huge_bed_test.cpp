@@ -87,6 +87,7 @@ TEST(CliHugeBed, WhatWouldTakeAllOfItIsRefusedAtOnce) {
           "GB of memory");
   for (const std::vector<std::string>& arguments :
        {std::vector<std::string>{"info", "huge.h5"},
+        {"report", "huge.h5"},
         {"compare", "huge.h5", "huge.h5", "--report", "report"}}) {
     const ProgramResult result = run_program(arguments, folder);
     EXPECT_EQ(result.exit_code, 0) << result.err;

@@ -74,6 +74,39 @@ TEST_F(CliPages, CompareDrawsTwoRunsAndTwoPictures) {
             nlohmann::json({0, {"Checks", "Picture", "Files"}}));
 }
 
+TEST_F(CliPages, ReportDrawsARunAndWhatItSaysAgreesWithTheRun) {
+  const fs::path folder = test_folder();
+  const ProgramResult run = run_program({"run", "scene.toml", "-o", "a.h5", "--json"}, folder);
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const ProgramResult report = run_program({"report", "a.h5"}, folder);
+  EXPECT_EQ(report.exit_code, 0) << report.err;
+  EXPECT_EQ(report.out, "a.html\n");
+  const OpenedPage page = open_in_chromium(read_file(folder / "a.html"),
+                                           "[" + page_state +
+                                               ", charts[2].drawn.getOption().series[0].data.at(-1)[1],"
+                                               " document.images[0].naturalWidth]");
+  EXPECT_TRUE(page.console.empty()) << page.console.front();
+  EXPECT_EQ(page.answer[0], nlohmann::json({"true", 5, 0}));
+  const double energy = nlohmann::json::parse(run.out)["absorbed_energy"];
+  EXPECT_GT(energy, 0.0);
+  EXPECT_NEAR(page.answer[1], energy, 1e-9 * energy);
+  EXPECT_EQ(page.answer[2], 320);
+}
+
+TEST(CliReport, SaysWhyARunHasNoStrokeToShow) {
+  const fs::path folder = test_folder();
+  write_file(folder / "still.toml", "[bed]\nsize = [0.2, 0.2]\ncells = [40, 40]\n[view]\nsize = [160, 90]\n");
+  ASSERT_EQ(run_program({"run", "still.toml"}, folder).exit_code, 0);
+  ASSERT_EQ(run_program({"run", "scene.toml", "--set", "output.trace=false"}, folder).exit_code, 0);
+  for (const auto& [name, reason] : {std::pair{"still", "the bed only came to rest"},
+                                     {"scene", "run the scene with output.trace = true"}}) {
+    const std::string file = name;
+    const ProgramResult report = run_program({"report", file + ".h5"}, folder);
+    EXPECT_EQ(report.exit_code, 0) << report.err;
+    EXPECT_NE(read_file(folder / (file + ".html")).find(reason), std::string::npos) << reason;
+  }
+}
+
 TEST_F(CliPages, GoldenCheckDrawsAPageForEachScene) {
   const fs::path folder = test_folder();
   fs::create_directories(folder / "strokes/tiny");

@@ -144,13 +144,14 @@ TEST_F(CliOddNames, PagesShowNamesAndRunNothing) {
   write_file(folder / "sweep.toml", "[sweep]\nscene = \"scene.toml\"\n[axes]\nforce.k_s = [500.0, 1000.0]\n");
   for (const std::vector<std::string>& words :
        {std::vector<std::string>{"run", odd + "/scene.toml", "-o", odd + "/a.h5", "--png", odd + "/a.png"},
+        {"report", odd + "/a.h5", "-o", "run.html"},
         {"compare", odd + "/a.h5", odd + "/a.h5", "--report", "runs"},
         {"compare", odd + "/a.png", odd + "/a.png", "--report", "pictures"},
         {"sweep", odd + "/sweep.toml", "-o", "sweep"}}) {
     const ProgramResult result = run_program(words, above);
     ASSERT_EQ(result.exit_code, 0) << words[0] << ": " << result.err;
   }
-  for (const char* page : {"runs/compare.html", "pictures/compare.html", "sweep/sweep.html"}) {
+  for (const char* page : {"run.html", "runs/compare.html", "pictures/compare.html", "sweep/sweep.html"}) {
     const OpenedPage opened = open_in_chromium(read_file(above / page), page_state);
     EXPECT_TRUE(opened.console.empty()) << opened.console.front();
     EXPECT_EQ(opened.answer[0], "true") << page;

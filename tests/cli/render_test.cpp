@@ -4,6 +4,7 @@
 
 #include "cli/program.h"
 #include "hdf5/hdf5_file.h"
+#include "io/png_file.h"
 
 namespace sandstroke {
 namespace {
@@ -24,6 +25,22 @@ TEST(CliRender, DrawsEveryViewStyleAndFrame) {
   EXPECT_TRUE(fs::exists(folder / "film/frame_0000.png"));
   EXPECT_EQ(run_program({"compare", "a.png", "film/frame_0000.png"}, folder).exit_code, 1);
   EXPECT_EQ(run_program({"compare", "a.png", "a.png"}, folder).exit_code, 0);
+}
+
+TEST(CliRender, PicturesOfASceneHaveOneCameraWhateverTheSandDid) {
+  const fs::path folder = test_folder();
+  ASSERT_EQ(run_program({"run", "scene.toml", "-o", "a.h5"}, folder).exit_code, 0);
+  ASSERT_EQ(run_program({"run", "scene.toml", "-o", "b.h5", "--set", "relaxation.talus_angle=15"}, folder)
+                .exit_code,
+            0);
+  for (const char* view : {"overview", "stroke", "top"}) {
+    for (const std::string run : {"a", "b"}) {
+      const ProgramResult render = run_program(
+          {"render", run + ".h5", "--frame", "initial", "-o", run + ".png", "--view", view}, folder);
+      ASSERT_EQ(render.exit_code, 0) << render.err;
+    }
+    EXPECT_TRUE(read_png(folder / "a.png").rgb == read_png(folder / "b.png").rgb) << view;
+  }
 }
 
 TEST(CliRender, APictureWithoutANameIsNamedAfterWhatItShows) {

@@ -26,6 +26,7 @@ const std::vector<Writer> writers = {
     {{"run", "scene.toml"}, {"scene.h5", "scene.xdmf"}},
     {{"render", "a.h5"}, {"a.png"}},
     {{"render", "a.h5", "--frame", "all"}, {"a_frames/frame_0000.png"}},
+    {{"report", "a.h5"}, {"a.html"}},
     {{"compare", "a.h5", "a.h5", "--report", "page", "--junit", "j.xml"}, {"page/compare.html", "j.xml"}},
     {{"golden", "check", "--report", "pages", "--junit", "g.xml"}, {"pages/tiny.html", "g.xml"}},
     {{"golden", "update", "tiny"},

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/program.h"
+#include "io/png_file.h"
 #include "sanitized.h"
 
 namespace sandstroke {
@@ -53,6 +54,21 @@ TEST_F(CliSweep, RunsCollectsAndSaysWhatItSaved) {
   EXPECT_EQ(fresh["simulations"], 3);  // of nine points
   EXPECT_EQ(fresh["strokes_loaded"], 1);
   EXPECT_EQ(fresh["content_hash"], again["content_hash"]);
+}
+
+TEST_F(CliSweep, PicturesOfPointsAreThoseOfTheirRuns) {
+  for (const std::string view : {"overview", "stroke"}) {
+    write_file(folder / "sweep.toml",
+               "[sweep]\nscene = \"scene.toml\"\nkeep = [\"picture\"]\n[set]\nview.name = \"" + view +
+                   "\"\n[axes]\nrelaxation.talus_angle = [15.0, 35.0]\n");
+    const ProgramResult sweep = run_program({"sweep", "sweep.toml", "-o", view}, folder);
+    ASSERT_EQ(sweep.exit_code, 0) << sweep.err;
+    const ProgramResult run = run_program({"run", "scene.toml", "-o", "a.h5", "--png", "a.png", "--set",
+                                           "relaxation.talus_angle=35", "--set", "view.name=" + view},
+                                          folder);
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_TRUE(read_png(folder / view / "points/000001.png").rgb == read_png(folder / "a.png").rgb) << view;
+  }
 }
 
 TEST_F(CliSweep, WithoutAClusterNothingIsLeft) {

@@ -16,7 +16,7 @@ using Json = nlohmann::ordered_json;
 struct Pair {
   SyntheticRun golden, run;
 
-  ComparePage page(const std::string& name = "run.h5") {
+  PageOfParts page(const std::string& name = "run.h5") {
     golden.write(folder / "golden.h5");
     run.write(folder / name);
     const RunFile a(folder / "golden.h5"), b(folder / name);
@@ -42,7 +42,7 @@ std::vector<std::string> names_in(const Json& list, const char* key) {
 using Names = std::vector<std::string>;
 
 TEST(ComparePage, OfTwoRunsHasSurfacesAndTraces) {
-  const ComparePage page = Pair().page();
+  const PageOfParts page = Pair().page();
   EXPECT_EQ(page.title, "run.h5 against golden.h5");
   EXPECT_EQ(page.data["passed"], true);
   EXPECT_EQ(names_in(page.data["parts"], "title"), (Names{"Final height", "Force and depth over time"}));
@@ -61,7 +61,7 @@ TEST(ComparePage, ShowsInitialSurfacesThatDiffer) {
 TEST(ComparePage, OfACutOffRunShowsWhatThereIsAndSaysWhatIsNot) {
   Pair pair;
   pair.run.complete = pair.run.has_final = false;
-  const ComparePage page = pair.page();
+  const PageOfParts page = pair.page();
   EXPECT_EQ(names_in(page.data["parts"], "title"), Names{"Force and depth over time"});
   ASSERT_EQ(names_in(page.data["missing"], "name"), Names{"Final height"});
   EXPECT_NE(page.data["missing"][0]["sentence"].get<std::string>().find("cut off"), std::string::npos);
@@ -70,7 +70,7 @@ TEST(ComparePage, OfACutOffRunShowsWhatThereIsAndSaysWhatIsNot) {
 TEST(ComparePage, OfADamagedTraceShowsTheSurfaces) {
   Pair pair;
   pair.run.missing_column = "depth";
-  const ComparePage page = pair.page();
+  const PageOfParts page = pair.page();
   EXPECT_EQ(names_in(page.data["parts"], "title"), Names{"Final height"});
   EXPECT_EQ(names_in(page.data["missing"], "name"), Names{"Traces"});
 }
@@ -93,8 +93,8 @@ TEST(ComparePage, OfAGoldenEntryHasChangePictureAndTraces) {
   EXPECT_EQ(whole["golden"]["provenance"][0][0], "version");
   // Ticks 0, 10, ..., 100 of 105: of both the same.
   const Json& force = whole["parts"][2]["quantities"][0];
-  EXPECT_EQ(force["golden"]["time"], force["run"]["time"]);
-  EXPECT_EQ(force["run"]["time"].size(), 11u);
+  EXPECT_EQ(force["golden"]["at"], force["run"]["at"]);
+  EXPECT_EQ(force["run"]["at"].size(), 11u);
 
   std::filesystem::remove(entry / "golden.h5");
   std::filesystem::remove(entry / "provenance.toml");
@@ -116,7 +116,7 @@ TEST(ComparePage, OfAGoldenEntryTellsItFromTheRun) {
 
 class ComparePageInBrowser : public BrowserTest {
  protected:
-  void open(const ComparePage& page) {
+  void open(const PageOfParts& page) {
     browser().open_text(page.html());
     expect_no_errors();
   }
@@ -321,7 +321,7 @@ TEST_F(ComparePageInBrowser, PicturesOfTwoFiles) {
 
 TEST_F(ComparePageInBrowser, TextOfTheFilesStaysText) {
   // What comes from files: their names, provenance and scenes, and sentences that tell of them.
-  ComparePage page = DifferentPair().page();
+  PageOfParts page = DifferentPair().page();
   page.data["golden"]["scene"] = "[tool]\nradius = 0.01\n";
   page.data["run"]["scene"] = "[tool]\nradius = \"" + hostile + "\"\n";
   page.data["missing"] = {{{"name", "Traces"}, {"sentence", "damaged"}}};

@@ -12,71 +12,6 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-Curve curve_of(std::size_t points, const std::function<double(std::size_t)>& value) {
-  Curve curve;
-  for (std::size_t i = 0; i < points; ++i) {
-    curve.time.push_back(0.001 * static_cast<double>(i));
-    curve.value.push_back(value(i));
-  }
-  return curve;
-}
-
-TEST(ThinnedCurve, LeavesAShortOneAlone) {
-  const Curve curve = curve_of(100, [](std::size_t i) { return std::sin(static_cast<double>(i)); });
-  const Curve kept = thinned_curve(curve, 100);
-  EXPECT_EQ(kept.time, curve.time);
-  EXPECT_EQ(kept.value, curve.value);
-}
-
-TEST(ThinnedCurve, OfARampKeepsTheEndsOfEachStretch) {
-  // 1000 points in 10 stretches: the least of stretch k is point 100 k, the greatest point 100 k + 99.
-  const Curve kept = thinned_curve(curve_of(1000, [](std::size_t i) { return static_cast<double>(i); }), 20);
-  ASSERT_EQ(kept.value.size(), 20u);
-  for (std::size_t k = 0; k < 10; ++k) {
-    EXPECT_EQ(kept.value[2 * k], 100.0 * static_cast<double>(k));
-    EXPECT_EQ(kept.value[2 * k + 1], 100.0 * static_cast<double>(k) + 99.0);
-    EXPECT_EQ(kept.time[2 * k], 0.001 * static_cast<double>(100 * k));
-  }
-}
-
-TEST(ThinnedCurve, KeepsASpikeOfOneTickWhereverItIs) {
-  for (const double height : {1.0, -1.0}) {
-    for (std::size_t spike = 0; spike < 997; ++spike) {
-      const Curve kept =
-          thinned_curve(curve_of(997,
-                                 [&](std::size_t i) {
-                                   return i == spike ? height : 1e-3 * std::sin(0.1 * static_cast<double>(i));
-                                 }),
-                        50);
-      EXPECT_LE(kept.value.size(), 50u);
-      const auto found = std::find(kept.value.begin(), kept.value.end(), height);
-      ASSERT_NE(found, kept.value.end()) << spike;
-      EXPECT_EQ(kept.time[static_cast<std::size_t>(found - kept.value.begin())],
-                0.001 * static_cast<double>(spike));
-      EXPECT_TRUE(std::is_sorted(kept.time.begin(), kept.time.end()));
-    }
-  }
-}
-
-TEST(ThinnedCurve, KeepsGapsAndTheExtremesBesideThem) {
-  const Curve kept = thinned_curve(curve_of(1000,
-                                            [](std::size_t i) {
-                                              if (i == 500) return nan;
-                                              if (i == 503) return HUGE_VAL;
-                                              return i == 501 ? 7.0 : i == 502 ? -7.0 : 0.0;
-                                            }),
-                                   20);
-  EXPECT_EQ(std::count_if(kept.value.begin(), kept.value.end(), [](double v) { return !std::isfinite(v); }),
-            1);
-  EXPECT_EQ(std::count(kept.value.begin(), kept.value.end(), 7.0), 1);
-  EXPECT_EQ(std::count(kept.value.begin(), kept.value.end(), -7.0), 1);
-}
-
-TEST(ThinnedCurve, OfGapsAloneIsGaps) {
-  const Curve kept = thinned_curve(curve_of(100, [](std::size_t) { return nan; }), 10);
-  EXPECT_EQ(kept.value.size(), 5u);
-}
-
 CountedTrace trace_of(std::size_t ticks, const Eigen::Vector3d& force, double depth) {
   CountedTrace trace{ticks, {}};
   for (std::size_t tick = 0; tick < ticks; ++tick) {
@@ -90,6 +25,31 @@ CountedTrace trace_of(std::size_t ticks, const Eigen::Vector3d& force, double de
 
 using Json = nlohmann::ordered_json;
 
+TEST(AbsorbedEnergy, IsTheForceTimesTheWayOfTheTickBefore) {
+  std::vector<TickRecord> trace(4);
+  const std::vector<double> height = {0.0, -0.25, -0.75, -0.5}, force = {2.0, 4.0, 8.0, 100.0};
+  for (std::size_t tick = 0; tick < 4; ++tick) {
+    trace[tick].device_position = {3.0, 0.0, height[tick]};
+    trace[tick].device_force.z() = force[tick];
+  }
+  EXPECT_EQ(absorbed_energy(trace), (std::vector{0.0, 0.5, 2.5, 0.5}));  // the last gives 2 J back
+  EXPECT_TRUE(absorbed_energy({}).empty());
+}
+
+TEST(TracesPart, OfOneRunHasItsQuantitiesAndItsEnergy) {
+  CountedTrace trace = trace_of(3, {0.0, 3.0, 4.0}, 0.5);
+  for (std::size_t tick = 0; tick < 3; ++tick)
+    trace.rows[tick].device_position.y() = -0.5 * static_cast<double>(tick);
+  const Json part = traces_part(trace.rows);
+  ASSERT_EQ(part["quantities"].size(), 7u);
+  for (const Json& quantity : part["quantities"]) EXPECT_EQ(quantity["run"]["at"], Json({0.0, 0.5, 1.0}));
+  EXPECT_EQ(part["quantities"][0]["run"]["value"], Json({5.0, 5.0, 5.0}));
+  EXPECT_EQ(part["quantities"][4]["run"]["value"], Json({0.5, 0.5, 0.5}));
+  EXPECT_EQ(part["quantities"][6]["name"], "energy");
+  EXPECT_EQ(part["quantities"][6]["unit"], "J");
+  EXPECT_EQ(part["quantities"][6]["run"]["value"], Json({0.0, 1.5, 3.0}));
+}
+
 TEST(TracesPart, HasEachQuantityOfBothAndTheirDifferenceWhereBothHaveTicks) {
   const Json part = traces_part(trace_of(3, {0.0, 3.0, 4.0}, 0.5), trace_of(2, {0.0, 4.0, 3.0}, 0.75), {});
   std::vector<std::string> names;
@@ -101,7 +61,7 @@ TEST(TracesPart, HasEachQuantityOfBothAndTheirDifferenceWhereBothHaveTicks) {
     EXPECT_EQ(quantity["golden"]["value"], Json(std::vector(3, golden)));
     EXPECT_EQ(quantity["run"]["value"], Json(std::vector(2, run)));
     EXPECT_EQ(quantity["difference"]["value"], Json(std::vector(2, difference)));
-    EXPECT_EQ(quantity["difference"]["time"], Json({0.0, 0.5}));
+    EXPECT_EQ(quantity["difference"]["at"], Json({0.0, 0.5}));
   };
   expect(0, 5.0, 5.0, std::sqrt(2.0));  // of the magnitude, the length of the difference
   expect(2, 3.0, 4.0, 1.0);
@@ -149,7 +109,7 @@ TEST(TracesPart, EachQuantityHasItsOwnValuesUnitAndLimit) {
     EXPECT_EQ(quantity["golden"]["value"], Json({in_golden, in_golden}));
     EXPECT_EQ(quantity["run"]["value"], Json({in_run, in_run}));
     EXPECT_EQ(quantity["difference"]["value"], Json({in_run - in_golden, in_run - in_golden}));
-    EXPECT_EQ(quantity["run"]["time"], Json({0.0, 0.5}));
+    EXPECT_EQ(quantity["run"]["at"], Json({0.0, 0.5}));
     EXPECT_EQ(quantity["unit"], unit);
     EXPECT_EQ(quantity["limit"], limit);
     EXPECT_EQ(quantity["group"], i < 3 ? "Force on the device" : "Tool in the sand");

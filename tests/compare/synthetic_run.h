@@ -23,6 +23,7 @@ struct SyntheticRun {
   HeightGrid initial = HeightGrid::Zero(30, 40), final;
   std::vector<TickRecord> trace;
   std::string missing_column;  // of the trace
+  std::string scene;           // /scene, if it is to have one
 
   static constexpr std::size_t ticks = 105, lifted_ticks = 20;
 
@@ -51,6 +52,7 @@ struct SyntheticRun {
     file.attribute("/surface", "cell_size", cell_size);
     file.write("/surface/initial", initial);
     if (has_final) file.write("/surface/final", final);
+    if (!scene.empty()) file.write("/scene", scene);
     file.write("/provenance/scene_hash", scene_hash);
     file.write("/provenance/stroke_hash", stroke_hash);
     if (has_trace)

@@ -79,6 +79,12 @@ TEST(Annotate, LegendStaysInsideItsStrip) {
   }
 }
 
+TEST(Annotate, WhatALegendLeavesOfThePictureDoesNotDependOnItsNumbers) {
+  const int width = legend_width({"height", -1e-3, 1e-3}, 720);
+  for (const auto& [low, high] : {std::pair{0.0, 1e-7}, {0.0, 1e6}, {-1.00001, -1.0}})
+    EXPECT_EQ(legend_width({"height", low, high}, 720), width) << high;
+}
+
 TEST(Annotate, LegendShowsNoContourLinesThatWouldTouchHoweverManyThereAre) {
   const auto drawn = [](double contour_interval) {
     Image image = white(400, 300);

@@ -1,22 +1,7 @@
 "use strict";
-// A comparison: the outcome and its checks, maps (compare_maps.js), traces (compare_traces.js), and what is known
-// about the files.
-
-const valueWithUnit = (value, unit) => format(value) + (unit === "" || unit.startsWith("/") ? "" : "\u00a0") + unit;
+// A comparison: the outcome and its checks, maps and traces (parts.js), and what is known about the files.
 
 // ---- The files.
-
-/** The settings of a resolved scene, as "section.key" and value. */
-function settingsOf(scene) {
-  let section = "";
-  const settings = new Map();
-  for (const line of scene.split("\n")) {
-    const head = /^\[(.*)\]$/.exec(line), entry = /^(\S+) = (.*)$/.exec(line);
-    if (head) section = `${head[1]}.`;
-    else if (entry) settings.set(section + entry[1], entry[2]);
-  }
-  return settings;
-}
 
 /** Rows of what golden and run say, from two maps. */
 const rowsOf = (golden, run) => [...new Set([...golden.keys(), ...run.keys()])].map((name) =>
@@ -65,17 +50,9 @@ drawPage((data, main) => {
        fact("Failed checks", `${failed.length} of ${checks.length}`, failed.length ? "bad" : "good"),
        ...measured.map((check) => fact(`Largest difference: ${check.name}`, valueWithUnit(check.measured, check.unit),
                                        check.passed ? null : "bad"))),
-    ...missing.map(({ name, sentence }) => el("p", { class: "warning" }, el("strong", {}, `${name} is not shown`),
-                                              `: ${sentence}`)),
+    ...missingLines(missing),
     data.passed ? el("p", {}, "All differences are within their limits.") : "");
-  const kinds = { maps: drawMaps, traces: drawTraces };
-  const sections = [
-    ["checks", "Checks", () => [checkTable(checks)]],
-    ...parts.map((part, i) => [`part-${i + 1}`, part.title, () => kinds[part.kind](part)]),
-    ["files", "Files", () => drawFiles(data)],
-  ];
-  main.append(contents(sections));
-  for (const [id, title, draw] of sections)
-    main.append(el("section", { id }, el("h2", {}, title), ...draw().filter(Boolean)));
+  drawSections(main, [["checks", "Checks", () => [checkTable(checks)]], ...sectionsOf(parts),
+                      ["files", "Files", () => drawFiles(data)]]);
 });
 afterDrawing();

@@ -1,33 +1,37 @@
 "use strict";
-// Traces of a comparison over time: golden and run, and how far they are apart, in charts that zoom alike.
+// Curves: traces over time, of golden and run, and how far they are apart, in charts that zoom alike; and profiles of
+// the sand along a way.
 
 const lookOfSide = { golden: { colour: colours[0] }, run: { colour: colours[1], dash: "dashed" } };
 const lookOfDifference = { colour: colours[2] };
+const lookOfSurface = { initial: { colour: colours[6], dash: "dashed" }, last: { colour: colours[0] } };
+
+const overTime = { title: "time", unit: "s" };
 
 /**
- * A chart of curves over time: {name, look, curve}. `limit`: a band around zero that it holds, if any. Its
- * show(from, to) zooms to a stretch of time [s], with round ticks, and heights that fit what is in sight.
+ * A chart of curves {name, look, curve: {at, value}} over time or a way (`over`). `limit`: a band around zero that
+ * it holds, if any. Its show(from, to) zooms to a stretch, with round ticks, and heights that fit what is in sight.
  */
-function timeChart({ title, note, legend, whole }) {
+function curveChart({ title, note, legend, whole, over }) {
   let shown = { curves: [], quantity: "", unit: "", limit: null };
   const axes = (from, to) => {
-    const inSight = shown.curves.flatMap(({ curve: { time, value } }) => {
-      const after = time.findIndex((t) => t >= from), before = time.findLastIndex((t) => t <= to);
+    const inSight = shown.curves.flatMap(({ curve: { at, value } }) => {
+      const after = at.findIndex((t) => t >= from), before = at.findLastIndex((t) => t <= to);
       return value.slice(Math.max(0, after - 1), before + 2);
     });
-    const x = scaleOf([from, to], { margin: 0, title: "time", unit: "s" });
+    const x = scaleOf([from, to], { margin: 0, ...over });
     const y = scaleOf(shown.limit === null ? inSight : [...inSight, -shown.limit, shown.limit],
                       { title: shown.quantity, unit: shown.unit });
     return { xAxis: { ...x.axis, min: whole[0], max: whole[1] }, yAxis: { ...y.axis, nameGap: 62 } };
   };
   const series = () => shown.curves.map(({ name, look: own, curve }, i) => ({
-    type: "line", name, symbol: "none", data: curve.time.map((t, k) => [t, curve.value[k]]),
+    type: "line", name, symbol: "none", data: curve.at.map((t, k) => [t, curve.value[k]]),
     lineStyle: { color: own.colour, type: own.dash ?? "solid", width: 1.5 }, itemStyle: { color: own.colour },
     markArea: i > 0 || shown.limit === null ? undefined
       : { silent: true, itemStyle: { color: "#009e73", opacity: 0.14 },
           data: [[{ yAxis: -shown.limit }, { yAxis: shown.limit }]] },
   }));
-  const tip = (items) => tipOf(`${format(items[0].value[0])} s`,
+  const tip = (items) => tipOf(`${format(items[0].value[0])} ${over.unit}`,
                                items.map(({ seriesName, value }) => [withUnit(seriesName, shown.unit), value[1]]));
   const option = {
     ...chartBase(() => null),
@@ -54,10 +58,11 @@ function timeChart({ title, note, legend, whole }) {
 /** Two charts of the quantities of a group, one of which is chosen: golden and run, and how far they are apart. */
 function groupCharts(group, quantities, whole) {
   const sides = ["golden", "run"].filter((name) => quantities[0][name]);
-  const values = timeChart({
-    title: group, whole, legend: sides.map((name) => ({ name, series: true, ...lookOfSide[name] })) });
-  const apart = quantities[0].difference && timeChart({
-    title: `${group}: difference`, whole,
+  const lookOf = (name) => (sides.length > 1 ? lookOfSide[name] : { colour: lookOfSide[name].colour });
+  const values = curveChart({
+    title: group, whole, over: overTime, legend: sides.map((name) => ({ name, series: true, ...lookOf(name) })) });
+  const apart = quantities[0].difference && curveChart({
+    title: `${group}: difference`, whole, over: overTime,
     note: "run − golden, tick by tick" +
       (quantities.some(({ name }) => name === "magnitude") ? "; of the magnitude, the length of the difference." : "."),
     legend: [{ name: "difference", ...lookOfDifference, dash: "solid" },
@@ -66,7 +71,7 @@ function groupCharts(group, quantities, whole) {
   const choose = (quantity) => {
     const { name, unit, limit } = quantity;
     values.draw({ quantity: name, unit, limit: null,
-                  curves: sides.map((side) => ({ name: side, look: lookOfSide[side], curve: quantity[side] })) });
+                  curves: sides.map((side) => ({ name: side, look: lookOf(side), curve: quantity[side] })) });
     apart?.draw({ quantity: name, unit, limit,
                   curves: [{ name: "difference", look: lookOfDifference, curve: quantity.difference }] });
   };
@@ -76,13 +81,13 @@ function groupCharts(group, quantities, whole) {
 }
 
 /** Charts that zoom alike: by buttons, and whichever of them the pointer zooms. */
-function zoomTogether(timeCharts, whole) {
+function zoomTogether(curveCharts, whole) {
   let [from, to] = whole;
   const show = (start, end) => {
     const width = Math.min(end - start, whole[1] - whole[0]);
     from = Math.max(whole[0], Math.min(start, whole[1] - width));
     to = from + width;
-    timeCharts.forEach((one) => one.show(from, to));
+    curveCharts.forEach((one) => one.show(from, to));
   };
   const about = (factor) => () =>
     show((from + to) / 2 - (factor * (to - from)) / 2, (from + to) / 2 + (factor * (to - from)) / 2);
@@ -95,7 +100,7 @@ function zoomTogether(timeCharts, whole) {
                 button("←", "earlier", by(-0.5)), button("→", "later", by(0.5)),
                 button("whole", "all of the time", () => show(...whole))),
     again: () => show(from, to),
-    listen: () => timeCharts.forEach(({ one }) => one.drawn.on("datazoom", (event) => {
+    listen: () => curveCharts.forEach(({ one }) => one.drawn.on("datazoom", (event) => {
       const { start, end } = event.batch?.[0] ?? event;
       const at = (share) => whole[0] + (share / 100) * (whole[1] - whole[0]);
       show(at(start), at(end));
@@ -107,7 +112,7 @@ let afterDrawing = () => {};
 
 function drawTraces(part) {
   const ends = part.quantities.flatMap(({ golden, run }) => [golden, run].filter(Boolean))
-    .flatMap(({ time }) => [time[0], time.at(-1)]).filter(isNumber);
+    .flatMap(({ at }) => [at[0], at.at(-1)]).filter(isNumber);
   if (ends.length === 0) return [el("p", {}, part.text)];
   const first = Math.min(...ends), whole = [first, Math.max(...ends, first + 1e-9)];
   const groups = [...new Set(part.quantities.map(({ group }) => group))].map((name) =>
@@ -121,7 +126,21 @@ function drawTraces(part) {
       zoom.again();
     } }, ...names.map((one, i) => el("option", { value: i }, one))));
   return [el("p", {}, part.text),
-          el("div", { class: "controls" }, ...groups.map(choiceOf), el("span", {}, "Zoom ", zoom.buttons)),
+          el("div", { class: "controls" }, ...groups.filter(({ names }) => names.length > 1).map(choiceOf), el("span", {}, "Zoom ", zoom.buttons)),
           el("p", { class: "quiet" }, "The wheel of the mouse with Ctrl zooms as well, and dragging moves."),
           el("div", { class: "charts single" }, ...all.map(({ element }) => element))];
+}
+
+/** Heights of the initial and the last surface along a way through the bed. */
+function drawProfiles(part) {
+  const drawn = part.profiles.map(({ title, note, over, last, curves }) => {
+    const sides = Object.keys(curves), ends = curves.initial.at;
+    const one = curveChart({ title, note, over: { title: over, unit: "m" }, whole: [ends[0], ends.at(-1)],
+                             legend: sides.map((name) => ({ name, text: name === "last" ? last : name, series: true,
+                                                            ...lookOfSurface[name] })) });
+    one.draw({ quantity: "height", unit: "m", limit: null,
+               curves: sides.map((name) => ({ name, look: lookOfSurface[name], curve: curves[name] })) });
+    return one.element;
+  });
+  return [el("p", {}, part.text), el("div", { class: "charts single" }, ...drawn)];
 }

@@ -1,6 +1,6 @@
 "use strict";
-// Maps of a comparison: golden, run and their difference side by side, and two of them over one another with a
-// slider that wipes between them.
+// Maps and pictures: one, or golden, run and their difference side by side, and two of them over one another with
+// a slider that wipes between them.
 
 /** What the colours of a map mean. */
 const barOf = ({ title, unit, low, high, colours: stops }) =>

@@ -1,0 +1,47 @@
+#include <filesystem>
+#include <memory>
+
+#include "cli/commands.h"
+#include "cli/print_text.h"
+#include "cli/run_picture.h"
+#include "compare/run_report.h"
+#include "core/output_file.h"
+#include "io/scene_toml.h"
+#include "report/page.h"
+
+namespace sandstroke {
+namespace {
+namespace fs = std::filesystem;
+
+struct ReportArguments {
+  fs::path run, output;
+};
+
+int report(const ReportArguments& arguments) {
+  const RunFile run(arguments.run);
+  const fs::path output = arguments.output.empty() ? beside(arguments.run, ".html") : arguments.output;
+  check_output(output, {arguments.run}, page_output);
+  const auto draw = [&](const LastSurface& last) {
+    const Scene scene = scene_from_text(run.scene_text(), run.name() + ": /scene");
+    return RunPainter(run, scene.view).draw(last.surface.grid());
+  };
+  const std::optional<ErrorEstimate> error;  // a run file does not hold one yet
+  write_text_file(output, run_report(run, draw, error).html(), page_output);
+  print_text("{}\n", output.string());
+  return 0;
+}
+
+}  // namespace
+
+void add_report_command(CLI::App& app, Command& chosen) {
+  auto arguments = std::make_shared<ReportArguments>();
+  CLI::App* command = app.add_subcommand(
+      "report", "Show a run on a page: picture, forces, energy, profiles of the sand, settings");
+  command->add_option("RUN", arguments->run, "Run file (HDF5)")->type_name("FILE.h5")->required();
+  command->add_option("-o,--output", arguments->output, "Page. Default: RUN.html, beside RUN")
+      ->type_name("FILE.html");
+  command->footer("Example:  sandstroke report wscg.h5");
+  command->callback([arguments, &chosen] { chosen = [arguments] { return report(*arguments); }; });
+}
+
+}  // namespace sandstroke

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "core/error.h"
+#include "report/page.h"
+
+namespace sandstroke {
+
+/// A page on one run or two: what is said first, and parts. Its data has at least the lists `parts` and
+/// `missing`.
+struct PageOfParts {
+  PageScript script;
+  std::string title;
+  nlohmann::ordered_json data;
+
+  /// Appends what `make` returns, unless that is null; where it finds its data missing or damaged (Error:
+  /// input), the sentence why `name` is not shown.
+  void add_part(const std::string& name, const std::function<nlohmann::ordered_json()>& make);
+  std::string html() const { return html_page(title, script, data); }
+};
+
+/// What `make` returns; empty where the file does not say it.
+template <class Make>
+auto as_far_as_known(const Make& make) -> decltype(make()) {
+  try {
+    return make();
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::input) throw;
+    return {};
+  }
+}
+
+}  // namespace sandstroke

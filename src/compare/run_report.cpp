@@ -1,0 +1,106 @@
+#include "compare/run_report.h"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "compare/page_curves.h"
+#include "compare/page_maps.h"
+#include "compare/page_profiles.h"
+#include "io/scene_toml.h"
+
+namespace sandstroke {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Not-a-number is no figure.
+void add_figure(Json& figures, const std::string& name, double value, const std::string& unit) {
+  if (!std::isnan(value)) figures.push_back({{"name", name}, {"value", value}, {"unit", unit}});
+}
+
+Json figures_of(const std::vector<TickRecord>& trace, const std::optional<FurrowMeasures>& furrow) {
+  double force = 0.0, depth = 0.0;
+  for (const TickRecord& tick : trace) {
+    force = std::max(force, tick.device_force.norm());
+    depth = std::max(depth, tick.depth);
+  }
+  Json figures = Json::array();
+  add_figure(figures, "Stroke", trace.back().time - trace.front().time, "s");
+  add_figure(figures, "Largest force", force, "N");
+  add_figure(figures, "Deepest", 1e3 * depth, "mm");
+  add_figure(figures, "Energy into the sand", absorbed_energy(trace).back(), "J");
+  if (furrow) {
+    add_figure(figures, "Furrow", 1e3 * furrow->depth, "mm");
+    add_figure(figures, "Depth that was asked for", 1e3 * furrow->asked_depth, "mm");
+  }
+  return figures;
+}
+
+Json error_part(const std::optional<ErrorEstimate>& error) {
+  Json figures = Json::array();
+  std::string text =
+      "None was made. With --estimate-error, a run says how far it is from one with ever smaller steps.";
+  if (error) {
+    text = error->at_rest ? "How far this run is from one with ever smaller steps."
+                          : "The sand was not at rest, so this says little.";
+    add_figure(figures, "Sand that lies elsewhere, of what changed", 100.0 * error->height_share, "%");
+    add_figure(figures, "Height, root mean square over the cells that changed", error->height_rms, "m");
+    add_figure(figures, "Height, at most", error->height_max, "m");
+    add_figure(figures, "Force, root mean square", error->force_rms, "N");
+    add_figure(figures, "Force, at most", error->force_max, "N");
+  }
+  return {{"kind", "figures"}, {"title", "Error estimate"}, {"text", text}, {"figures", figures}};
+}
+
+/// What hangs on the trace: curves, figures, profiles.
+void add_stroke(PageOfParts& page, const RunFile& run, const LastSurface& last) {
+  Scene scene;
+  std::vector<TickRecord> trace;
+  page.add_part("The stroke", [&] {
+    scene = scene_from_text(run.scene_text(), run.name() + ": /scene");
+    if (!scene.stroke) throw_input_error("{}: the scene has none; the bed only came to rest", run.name());
+    if (!run.has_trace())
+      throw_input_error("{}: holds no trace of it; run the scene with output.trace = true", run.name());
+    trace = run.trace();
+    if (trace.empty()) throw_input_error("{}: was cut off before its first tick", run.name());
+    return traces_part(trace);
+  });
+  if (trace.empty()) return;
+  const HeightField initial = run.initial_bed();
+  TipPathGatherer gatherer(scene);
+  for (const TickRecord& tick : trace) gatherer.on_tick(tick);
+  page.data["figures"] = figures_of(trace, gatherer.furrow(initial, last.surface));
+  page.add_part("A profile of the sand", [&] {
+    if (gatherer.path().points.empty()) throw_input_error("{}: the tool never touched it", run.name());
+    return profiles_part(gatherer.path(), scene.tool.radius, initial, last);
+  });
+}
+
+}  // namespace
+
+PageOfParts run_report(const RunFile& run, const std::function<Image(const LastSurface&)>& draw,
+                       const std::optional<ErrorEstimate>& error) {
+  const std::filesystem::path file = run.name();
+  PageOfParts page{PageScript::run, file.filename().string(), {}};
+  page.data = {{"figures", Json::array()},
+               {"parts", Json::array()},
+               {"missing", Json::array()},
+               {"scene", as_far_as_known([&] { return run.scene_text(); })},
+               {"provenance", Json::array()}};
+  for (const auto& [entry, value] : as_far_as_known([&] { return run.provenance(); }))
+    page.data["provenance"].push_back({entry, value});
+  const LastSurface last = last_surface(run);
+  if (!run.complete())
+    page.data["missing"].push_back(
+        {{"name", "The end of the run"},
+         {"sentence", fmt::format("{}: was cut off; the page shows its {}", run.name(), last.name)}});
+  page.add_part("The picture", [&] { return picture_part(draw(last), last.name); });
+  add_stroke(page, run, last);
+  page.data["parts"].push_back(error_part(error));
+  return page;
+}
+
+}  // namespace sandstroke
