@@ -73,7 +73,7 @@ int run_program(int argc, char** argv) {
   bool overwrite = false;
   app.add_flag("--overwrite", overwrite,
                "Let outputs replace any file. Without it they replace only what sandstroke wrote there, but "
-               "never a recording or a film");
+               "never a stroke, a recording or a film");
 
   Command chosen;
   add_init_command(app, chosen);

@@ -20,14 +20,19 @@ struct OutputKind {
   std::string_view name = {};  ///< "a run file"
   std::string_view begin = {}, mark = {};
   std::size_t header = 0;  ///< bytes: what begins so and has only zeros after these holds nothing yet
-  bool kept = false;       ///< it cannot be made again, so not even one of its own kind replaces it
+  bool kept = false;       ///< not even one of its own kind replaces it
+  bool hdf5 = false;       ///< so no name of another format is its
 };
+
+/// PATH ends in .h5 or .hdf5, also in capitals.
+bool has_hdf5_name(const std::filesystem::path& path);
 
 /// What --overwrite says, of all outputs: they replace any file.
 void overwrite_outputs();
 
-/// Refuses what an output of this kind must not replace. Error: input; io, also of a link or a file that is
-/// write-protected. A folder is not refused here.
+/// Refuses what an output of this kind must not replace, and a name of another format: an HDF5 file has a
+/// name without an ending, too, and ".5" of "run-27.5" is none. Error: input; io, also of a link or a file
+/// that is write-protected. A folder is not refused here.
 void check_replaceable(const std::filesystem::path& path, const OutputKind& kind);
 
 /// The name under which PATH is written until it is complete: PATH.part.
@@ -41,7 +46,7 @@ FileLock take_part(const std::filesystem::path& path, const OutputKind& kind);
 void drop_part(const std::filesystem::path& path);
 
 /// Refuses, before any work is done, an output that would destroy something or cannot be: one of the inputs
-/// or other outputs, what must not be replaced, a folder, a device, in a folder that is not there or
+/// or other outputs, what check_replaceable() refuses, a folder, a device, in a folder that is not there or
 /// read-only, or a name too long for PATH.part. Error: input or io.
 void check_output(const std::filesystem::path& output, const std::vector<std::filesystem::path>& others,
                   const OutputKind& kind);
