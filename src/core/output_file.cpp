@@ -65,9 +65,14 @@ void check_part_replaceable(const fs::path& path, const OutputKind& kind) {
 
 void overwrite_outputs() { overwrite = true; }
 
-bool has_hdf5_name(const fs::path& path) {
+std::string small_ending(const fs::path& path) {
   std::string ending = path.extension().string();
   for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return ending;
+}
+
+bool has_hdf5_name(const fs::path& path) {
+  const std::string ending = small_ending(path);
   return ending == ".h5" || ending == ".hdf5";
 }
 
@@ -177,10 +182,19 @@ void finish_part(const fs::path& path, const OutputKind& kind) {
   sync_folder_of(path);
 }
 
-void write_text_file(const fs::path& path, std::string_view text, const OutputKind& kind) {
+bool write_file(const fs::path& path, const OutputKind& kind,
+                const std::function<bool(std::ostream&)>& write) {
   const FileLock lock = take_part(path, kind);
   std::ofstream file(part_path(path), std::ios::binary);
-  file << text;
+  try {
+    if (!write(file)) {
+      drop_part(path);
+      return false;
+    }
+  } catch (...) {
+    drop_part(path);
+    throw;
+  }
   file.close();
   if (!file) {
     const std::string reason = std::strerror(errno);
@@ -189,6 +203,14 @@ void write_text_file(const fs::path& path, std::string_view text, const OutputKi
                    reason);
   }
   finish_part(path, kind);
+  return true;
+}
+
+void write_text_file(const fs::path& path, std::string_view text, const OutputKind& kind) {
+  write_file(path, kind, [&](std::ostream& file) {
+    file << text;
+    return true;
+  });
 }
 
 }  // namespace sandstroke

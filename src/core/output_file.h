@@ -1,6 +1,8 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
+#include <ostream>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -24,6 +26,8 @@ struct OutputKind {
   bool hdf5 = false;       ///< so no name of another format is its
 };
 
+/// The ending of a name in small letters: ".h5" of "A.H5".
+std::string small_ending(const std::filesystem::path& path);
 /// PATH ends in .h5 or .hdf5, also in capitals.
 bool has_hdf5_name(const std::filesystem::path& path);
 
@@ -65,8 +69,13 @@ void sync_folder_of(const std::filesystem::path& path);
 /// where somebody has put there what must not be replaced.
 void finish_part(const std::filesystem::path& path, const OutputKind& kind);
 
-/// Writes a whole file, of text or any bytes, by way of PATH.part, so that PATH is either complete or
-/// untouched; without a kind it replaces nothing. Error: input or io, as of take_part() and finish_part().
+/// Writes a whole file by way of PATH.part, so that PATH is either complete or untouched; without a kind it
+/// replaces nothing. `write` writes all of it, or returns false: then nothing stays, and this is false, too.
+/// Error: what `write` throws; input or io, as of take_part() and finish_part().
+bool write_file(const std::filesystem::path& path, const OutputKind& kind,
+                const std::function<bool(std::ostream&)>& write);
+
+/// The same with text or any bytes that are there already.
 void write_text_file(const std::filesystem::path& path, std::string_view text, const OutputKind& kind = {});
 
 }  // namespace sandstroke

@@ -113,7 +113,8 @@ std::vector<KeySection> metric_keys() {
   KeySection section{
       "", "what a sweep measures of each point (sweep.metrics of a plan): name, unit, definition", {}};
   for (const Metric& metric : all_metrics())
-    section.keys.push_back({metric.name, "", metric.unit.empty() ? "1" : metric.unit, "", metric.title + ": " + metric.definition});
+    section.keys.push_back({metric.name, "", metric.unit.empty() ? "1" : metric.unit, "",
+                            metric.title + ": " + metric.definition});
   return {section};
 }
 

@@ -74,7 +74,7 @@ TEST(CliHelp, OptionsSayTheirDefaults) {
 
 TEST(CliHelp, ValuesAreInAReadersWords) {
   for (const std::string command :
-       {"run", "render", "compare", "sweep", "record", "bench", "stroke convert"}) {
+       {"run", "render", "export", "compare", "sweep", "record", "bench", "stroke convert"}) {
     std::vector<std::string> words = {"help"};
     for (std::istringstream parts(command); parts >> words.emplace_back();) {
     }

@@ -79,6 +79,7 @@ const FaultedCommand reading_commands[] = {
     {"golden check", {"golden", "check", "tiny"}, prepare_check, {}},
     record_command,
     {"render", {"render", "a.h5", "-o", "b.png"}, prepare_made_run, {"b.png"}},
+    {"export", {"export", "a.h5", "-o", "a.obj"}, prepare_made_run, {"a.obj"}},
     {"compare runs", {"compare", "a.h5", "b.h5"}, prepare_two_runs, {}},
     {"compare pictures", {"compare", "a.png", "b.png"}, prepare_two_runs, {}},
     {"info", {"info", "a.h5"}, prepare_made_run, {}},
