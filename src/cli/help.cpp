@@ -23,6 +23,12 @@ const HelpTopic* topic_named(const std::string& name) {
   return nullptr;
 }
 
+std::vector<std::string> topic_names() {
+  std::vector<std::string> names;
+  for (const HelpTopic& topic : help_topics()) names.push_back(topic.name);
+  return names;
+}
+
 std::string help(const CLI::App& app, const HelpArguments& arguments) {
   const std::string asked = fmt::format("{}", fmt::join(arguments.words, " "));
   if (const HelpTopic* topic = topic_named(asked))
@@ -34,24 +40,26 @@ std::string help(const CLI::App& app, const HelpArguments& arguments) {
         return HelpFormatter().make_help(command.app, "sandstroke" + (asked.empty() ? "" : " " + asked),
                                          CLI::AppFormatMode::Normal) +
                "\n";
-  throw_input_error("help {}: unknown topic; take scene, script, plan{}", asked,
+  throw_input_error("help {}: unknown topic; take {}{}", asked, fmt::join(topic_names(), ", "),
                     arguments.man ? ", or nothing for the commands" : " or a command (sandstroke --help)");
 }
 
 }  // namespace
 
 void add_help_command(CLI::App& app, Command& chosen) {
-  CLI::App* command =
-      app.add_subcommand("help", "Explain a command, or list the keys of a scene, script or plan");
+  CLI::App* command = app.add_subcommand(
+      "help", "Explain a command, the keys of a scene, script or plan, or a sweep's metrics");
   auto arguments = std::make_shared<HelpArguments>();
-  std::vector<std::string> names;
-  for (const HelpTopic& topic : help_topics()) names.push_back(topic.name);
+  std::vector<std::string> names = topic_names();
+  const std::string topics = fmt::format("{}", fmt::join(names, ", "));
   for (const NamedCommand& other : command_tree(app))
     if (other.app->get_parent() == &app && other.app != command) names.push_back(other.name);
   std::string footer;
   for (const HelpTopic& topic : help_topics())
     footer += fmt::format("  sandstroke help {:<10} {}\n", topic.name, topic.title);
-  command->add_option("TOPIC", arguments->words, "A command, or scene, script or plan. Default: all commands")
+  command
+      ->add_option("TOPIC", arguments->words,
+                   fmt::format("A command, or one of {}. Default: all commands", topics))
       ->type_name("{" + fmt::format("{}", fmt::join(names, ",")) + "}")
       ->option_text("...");
   command->add_flag("--man", arguments->man, "Print a manual page (for man)");

@@ -73,13 +73,14 @@ int run_program(int argc, char** argv) {
   bool overwrite = false;
   app.add_flag("--overwrite", overwrite,
                "Let outputs replace any file. Without it they replace only what sandstroke wrote there, but "
-               "never a recording or a film");
+               "never a stroke, a recording, a film, or an exported .npy or .asc");
 
   Command chosen;
   add_init_command(app, chosen);
   add_run_command(app, chosen);
   add_render_command(app, chosen);
   add_report_command(app, chosen);
+  add_export_command(app, chosen);
   add_compare_command(app, chosen);
   add_golden_command(app, chosen);
   add_sweep_command(app, chosen);

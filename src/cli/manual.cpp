@@ -9,6 +9,7 @@
 #include "core/version.h"
 #include "io/scene_keys.h"
 #include "io/stroke_script_toml.h"
+#include "sweep/metrics.h"
 #include "sweep/plan_keys.h"
 
 namespace sandstroke {
@@ -94,7 +95,7 @@ std::string command_text(const NamedCommand& command) {
 
 /// Every key with all that is known of it.
 std::string keys_text(const std::vector<KeySection>& sections) {
-  std::string text = "Every key with its default.\n";
+  std::string text;
   for (const KeySection& section : sections) {
     text += section.name.empty() ? ".PP\n" : fmt::format(".SH [{}]\n", roff(section.name));
     text += filled(section.help + ".");
@@ -110,10 +111,14 @@ std::string keys_text(const std::vector<KeySection>& sections) {
 }  // namespace
 
 const std::vector<HelpTopic>& help_topics() {
+  static constexpr const char* keys_with_defaults = "Every key with its default.";
   static const std::vector<HelpTopic> topics = {
-      {"scene", "what sandstroke run simulates (TOML); --set takes each of its keys", all_scene_keys},
-      {"script", "strokes written as text (TOML)", script_keys},
-      {"plan", "what sandstroke sweep varies (TOML)", all_plan_keys},
+      {"scene", "what sandstroke run simulates (TOML); --set takes each of its keys", keys_with_defaults,
+       all_scene_keys},
+      {"script", "strokes written as text (TOML)", keys_with_defaults, script_keys},
+      {"plan", "what sandstroke sweep varies (TOML)", keys_with_defaults, all_plan_keys},
+      {"metrics", "what sandstroke sweep measures", "Every metric with its unit and definition.",
+       metric_keys},
   };
   return topics;
 }
@@ -132,8 +137,8 @@ std::string command_manual(const CLI::App& app) {
 }
 
 std::string topic_manual(const HelpTopic& topic) {
-  return head(page_of(topic), 5, topic.title) + ".SH DESCRIPTION\n" + keys_text(topic.keys()) +
-         ".SH SEE ALSO\n.BR sandstroke (1)\n";
+  return head(page_of(topic), 5, topic.title) + ".SH DESCRIPTION\n" + filled(topic.intro) +
+         keys_text(topic.keys()) + ".SH SEE ALSO\n.BR sandstroke (1)\n";
 }
 
 }  // namespace sandstroke

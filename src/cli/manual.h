@@ -8,14 +8,15 @@
 
 namespace sandstroke {
 
-/// A file that people write, which a page explains.
+/// What a page explains: a file that people write, or what files say.
 struct HelpTopic {
   const char* name;
   const char* title;  ///< one line
+  const char* intro;  ///< a sentence on what is listed
   std::vector<KeySection> (*keys)();
 };
 
-/// scene, script and plan.
+/// scene, script, plan and metrics.
 const std::vector<HelpTopic>& help_topics();
 
 // Manual pages for man(1), in its language (roff).

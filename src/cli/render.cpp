@@ -1,9 +1,7 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
-#include <charconv>
 #include <filesystem>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -11,8 +9,10 @@
 #include <vector>
 
 #include "cli/commands.h"
+#include "cli/parse_number.h"
 #include "cli/print_text.h"
 #include "cli/run_picture.h"
+#include "cli/run_surface.h"
 #include "core/error.h"
 #include "core/interrupt.h"
 #include "core/output_file.h"
@@ -35,12 +35,6 @@ struct RenderArguments {
   std::optional<double> fps;
   std::optional<bool> tool;  // unset: in frames, not in initial and final
 };
-
-template <class Number>
-bool parse_whole(std::string_view text, Number& number) {
-  const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), number);
-  return failure == std::errc() && end == text.data() + text.size();
-}
 
 /// The value with this name, which is known to be one of them.
 template <class Value>
@@ -76,15 +70,13 @@ ViewSettings view_of(const Scene& scene, const RenderArguments& arguments) {
   if (!arguments.size.empty()) {
     const std::string_view size = arguments.size;
     const std::size_t x = size.find('x');
-    if (x == std::string::npos || !parse_whole(size.substr(0, x), view.width) ||
-        !parse_whole(size.substr(x + 1), view.height))
+    if (x == std::string::npos || !parse_number(size.substr(0, x), view.width) ||
+        !parse_number(size.substr(x + 1), view.height))
       throw_input_error("--size {} is not a size in pixels; write it like 1280x720", size);
   }
   reject_ignored(arguments, view);
   return view;
 }
-
-std::string frame_name(std::size_t k) { return fmt::format("frame_{:04}", k); }
 
 fs::path default_output(const RenderArguments& arguments, const std::string& ending) {
   if (!arguments.output.empty()) return arguments.output;
@@ -144,13 +136,6 @@ int draw_film(const RunFile& run, const std::vector<double>& times, const Scene&
   return 0;
 }
 
-/// Of a run that holds frames.
-std::vector<double> frame_times(const RunFile& run) {
-  std::vector<double> times = run.frame_times();
-  if (times.empty()) throw_input_error("{}: has no frames; run the scene again with --frames HZ", run.name());
-  return times;
-}
-
 int render(const RenderArguments& arguments) {
   if (!arguments.video.empty()) check_film_name(arguments.video);
   const RunFile run(arguments.run);
@@ -163,32 +148,12 @@ int render(const RenderArguments& arguments) {
                                    : draw_film(run, times, scene, view, arguments);
   }
   RunPainter painter(run, view, arguments.contour_interval.value_or(0.0));
-  HeightGrid surface;
-  std::string ending = ".png";
-  double time = 0.0;
-  bool tool = arguments.tool.value_or(false);
-  if (arguments.frame == "initial") {
-    surface = run.initial();
-    ending = "_initial.png";
-  } else if (arguments.frame == "final") {
-    surface = run.final();
-    time = std::numeric_limits<double>::infinity();
-  } else {
-    int k = 0;
-    if (!parse_whole(arguments.frame, k))
-      throw_input_error("--frame {} is not a frame; take final, initial, all or a number", arguments.frame);
-    const std::vector<double> times = frame_times(run);
-    if (k < 0 || k >= static_cast<int>(times.size()))
-      throw_input_error("{}: has no frame {}; take 0 to {}", run.name(), k, times.size() - 1);
-    surface = RunFrames(run).surface(k);
-    ending = "_" + frame_name(static_cast<std::size_t>(k)) + ".png";
-    time = times[static_cast<std::size_t>(k)];
-    tool = arguments.tool.value_or(run.has_trace());
-  }
-  const fs::path output = default_output(arguments, ending);
+  const RunSurface surface = surface_named(run, arguments.frame, "final, initial, all or a number");
+  const bool tool = arguments.tool.value_or(surface.is_frame && run.has_trace());
+  const fs::path output = default_output(arguments, surface.ending + ".png");
   check_picture_name(output);
   check_output(output, {arguments.run}, picture_output);
-  write_png(output, painter.draw(surface, tool ? std::optional(time) : std::nullopt));
+  write_png(output, painter.draw(surface.heights, tool ? std::optional(surface.time) : std::nullopt));
   print_text("{}\n", output.string());
   return 0;
 }

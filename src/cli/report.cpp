@@ -25,8 +25,7 @@ int report(const ReportArguments& arguments) {
     const Scene scene = scene_from_text(run.scene_text(), run.name() + ": /scene");
     return RunPainter(run, scene.view).draw(last.surface.grid());
   };
-  const std::optional<ErrorEstimate> error;  // a run file does not hold one yet
-  write_text_file(output, run_report(run, draw, error).html(), page_output);
+  write_text_file(output, run_report(run, draw, run.error_estimate()).html(), page_output);
   print_text("{}\n", output.string());
   return 0;
 }

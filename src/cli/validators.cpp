@@ -1,7 +1,7 @@
-#include <charconv>
 #include <cmath>
 
 #include "cli/commands.h"
+#include "cli/parse_number.h"
 #include "io/toml_reader.h"
 
 namespace sandstroke {
@@ -11,9 +11,9 @@ CLI::Validator accepted_number(const std::string& name, const std::string& wante
   return CLI::Validator(
       [=](std::string& text) -> std::string {
         double value = 0.0;
-        const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), value);
-        const bool whole = failure == std::errc() && end == text.data() + text.size();
-        return whole && std::isfinite(value) && range.contains(value) ? "" : text + " is not " + wanted;
+        return parse_number(text, value) && std::isfinite(value) && range.contains(value)
+                   ? ""
+                   : text + " is not " + wanted;
       },
       name);
 }

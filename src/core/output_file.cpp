@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <cctype>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
@@ -26,6 +27,13 @@ bool is_own(const fs::path& path, const OutputKind& kind) {
   return !kind.begin.empty() && text.starts_with(kind.begin) &&
          (text.find_first_not_of('\0', kind.header) == std::string::npos ||
           text.find(kind.mark) != std::string::npos);
+}
+
+/// Others would take it for a file of that format.
+void check_name(const fs::path& path, const OutputKind& kind) {
+  const std::string ending = path.extension().string();
+  if (kind.hdf5 && !has_hdf5_name(path) && ending.find_first_not_of(".0123456789") != std::string::npos)
+    throw_input_error("{}: is not a name for {}, which is HDF5; end it with .h5", path.string(), kind.name);
 }
 
 void refuse(const fs::path& path, const OutputKind& kind) {
@@ -57,7 +65,19 @@ void check_part_replaceable(const fs::path& path, const OutputKind& kind) {
 
 void overwrite_outputs() { overwrite = true; }
 
+std::string small_ending(const fs::path& path) {
+  std::string ending = path.extension().string();
+  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return ending;
+}
+
+bool has_hdf5_name(const fs::path& path) {
+  const std::string ending = small_ending(path);
+  return ending == ".h5" || ending == ".hdf5";
+}
+
 void check_replaceable(const fs::path& path, const OutputKind& kind) {
+  check_name(path, kind);
   if (check_place(path) && (kind.kept || !is_own(path, kind))) refuse(path, kind);
 }
 
@@ -131,7 +151,7 @@ void make_folder(const fs::path& folder) {
 
 fs::path beside(const fs::path& path, const std::string& ending) {
   fs::path result = path;
-  if (path.extension() == ".h5" || path.extension() == ".hdf5") result.replace_extension();
+  if (has_hdf5_name(path)) result.replace_extension();
   return result += ending;
 }
 
@@ -162,10 +182,19 @@ void finish_part(const fs::path& path, const OutputKind& kind) {
   sync_folder_of(path);
 }
 
-void write_text_file(const fs::path& path, std::string_view text, const OutputKind& kind) {
+bool write_file(const fs::path& path, const OutputKind& kind,
+                const std::function<bool(std::ostream&)>& write) {
   const FileLock lock = take_part(path, kind);
   std::ofstream file(part_path(path), std::ios::binary);
-  file << text;
+  try {
+    if (!write(file)) {
+      drop_part(path);
+      return false;
+    }
+  } catch (...) {
+    drop_part(path);
+    throw;
+  }
   file.close();
   if (!file) {
     const std::string reason = std::strerror(errno);
@@ -174,6 +203,14 @@ void write_text_file(const fs::path& path, std::string_view text, const OutputKi
                    reason);
   }
   finish_part(path, kind);
+  return true;
+}
+
+void write_text_file(const fs::path& path, std::string_view text, const OutputKind& kind) {
+  write_file(path, kind, [&](std::ostream& file) {
+    file << text;
+    return true;
+  });
 }
 
 }  // namespace sandstroke

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
+#include <ostream>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,15 +22,22 @@ struct OutputKind {
   std::string_view name = {};  ///< "a run file"
   std::string_view begin = {}, mark = {};
   std::size_t header = 0;  ///< bytes: what begins so and has only zeros after these holds nothing yet
-  bool kept = false;       ///< it cannot be made again, so not even one of its own kind replaces it
+  bool kept = false;       ///< not even one of its own kind replaces it
+  bool hdf5 = false;       ///< so no name of another format is its
   int version = 1;         ///< of the kind's format
 };
+
+/// The ending of a name in small letters: ".h5" of "A.H5".
+std::string small_ending(const std::filesystem::path& path);
+/// PATH ends in .h5 or .hdf5, also in capitals.
+bool has_hdf5_name(const std::filesystem::path& path);
 
 /// What --overwrite says, of all outputs: they replace any file.
 void overwrite_outputs();
 
-/// Refuses what an output of this kind must not replace. Error: input; io, also of a link or a file that is
-/// write-protected. A folder is not refused here.
+/// Refuses what an output of this kind must not replace, and a name of another format: an HDF5 file has a
+/// name without an ending, too, and ".5" of "run-27.5" is none. Error: input; io, also of a link or a file
+/// that is write-protected. A folder is not refused here.
 void check_replaceable(const std::filesystem::path& path, const OutputKind& kind);
 
 /// The name under which PATH is written until it is complete: PATH.part.
@@ -42,7 +51,7 @@ FileLock take_part(const std::filesystem::path& path, const OutputKind& kind);
 void drop_part(const std::filesystem::path& path);
 
 /// Refuses, before any work is done, an output that would destroy something or cannot be: one of the inputs
-/// or other outputs, what must not be replaced, a folder, a device, in a folder that is not there or
+/// or other outputs, what check_replaceable() refuses, a folder, a device, in a folder that is not there or
 /// read-only, or a name too long for PATH.part. Error: input or io.
 void check_output(const std::filesystem::path& output, const std::vector<std::filesystem::path>& others,
                   const OutputKind& kind);
@@ -61,8 +70,13 @@ void sync_folder_of(const std::filesystem::path& path);
 /// where somebody has put there what must not be replaced.
 void finish_part(const std::filesystem::path& path, const OutputKind& kind);
 
-/// Writes a whole file, of text or any bytes, by way of PATH.part, so that PATH is either complete or
-/// untouched; without a kind it replaces nothing. Error: input or io, as of take_part() and finish_part().
+/// Writes a whole file by way of PATH.part, so that PATH is either complete or untouched; without a kind it
+/// replaces nothing. `write` writes all of it, or returns false: then nothing stays, and this is false, too.
+/// Error: what `write` throws; input or io, as of take_part() and finish_part().
+bool write_file(const std::filesystem::path& path, const OutputKind& kind,
+                const std::function<bool(std::ostream&)>& write);
+
+/// The same with text or any bytes that are there already.
 void write_text_file(const std::filesystem::path& path, std::string_view text, const OutputKind& kind = {});
 
 }  // namespace sandstroke

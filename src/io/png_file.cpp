@@ -3,6 +3,9 @@
 #include <png.h>
 #include <zlib.h>
 
+#include <algorithm>
+#include <charconv>
+#include <cmath>
 #include <cstdio>
 #include <cstring>
 #include <exception>
@@ -42,6 +45,15 @@ class PngReader {
   int height() const { return static_cast<int>(png_get_image_height(png_, info_)); }
   int bit_depth() const { return png_get_bit_depth(png_, info_); }
   bool gray() const { return png_get_color_type(png_, info_) == PNG_COLOR_TYPE_GRAY; }
+
+  /// The text of a keyword before the pixels; empty where there is none.
+  std::string text(const std::string& keyword) const {
+    png_textp texts = nullptr;
+    const int count = png_get_text(png_, info_, &texts, nullptr);
+    for (int i = 0; i < count; ++i)
+      if (texts[i].key == keyword && texts[i].text) return texts[i].text;
+    return "";
+  }
 
   /// Must be asked before memory is taken for the pixels.
   void check_size() const {
@@ -119,6 +131,8 @@ class PngReader {
   char message_[160] = "out of memory";
 };
 
+const std::string range_keyword = "Heights";
+
 /// Four bytes, the highest first.
 std::string big_endian(std::size_t number) {
   std::string bytes;
@@ -133,28 +147,67 @@ std::string text_chunk(const std::string& keyword, const std::string& text) {
   return big_endian(data.size() - 4) + data + big_endian(sum);
 }
 
-}  // namespace
-
-std::string encode_png(const Image& image) {
+/// chunks: come first, behind the header.
+std::string encode(int width, int height, png_uint_32 format, const void* pixels, const std::string& chunks) {
   png_image header{};
   header.version = PNG_IMAGE_VERSION;
-  header.width = static_cast<png_uint_32>(image.width);
-  header.height = static_cast<png_uint_32>(image.height);
-  header.format = PNG_FORMAT_RGB;
+  header.width = static_cast<png_uint_32>(width);
+  header.height = static_cast<png_uint_32>(height);
+  header.format = format;
+  if (format == PNG_FORMAT_LINEAR_Y) header.flags = PNG_IMAGE_FLAG_COLORSPACE_NOT_sRGB;
   png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(header);
   std::string bytes(size, '\0');
-  if (!png_image_write_to_memory(&header, bytes.data(), &size, 0, image.rgb.data(), 0, nullptr))
-    throw_io_error("a picture of {} x {} pixels cannot be encoded as PNG ({})", image.width, image.height,
+  if (!png_image_write_to_memory(&header, bytes.data(), &size, 0, pixels, 0, nullptr))
+    throw_io_error("a picture of {} x {} pixels cannot be encoded as PNG ({})", width, height,
                    header.message);
   bytes.resize(size);
   constexpr std::size_t header_end = 8 + 25;  // signature and IHDR, which comes first
-  bytes.insert(header_end, text_chunk("Software", build));
+  constexpr std::string_view gamma("\0\0\0\4gAMA", 8);
+  // Of 16-bit values libpng says that they are light. Heights are none: no viewer is to brighten them.
+  if (bytes.compare(header_end, gamma.size(), gamma) == 0) bytes.erase(header_end, 16);
+  bytes.insert(header_end, chunks);
   return bytes;
 }
 
-bool has_picture_name(const std::filesystem::path& path) {
-  return path.extension() == ".png" || path.extension() == ".PNG";
+}  // namespace
+
+std::string encode_png(const Image& image) {
+  return encode(image.width, image.height, PNG_FORMAT_RGB, image.rgb.data(), text_chunk("Software", build));
 }
+
+std::string encode_height_png(const HeightGrid& heights, const GrayRange& range) {
+  if (heights.rows() > largest_png_side || heights.cols() > largest_png_side)
+    throw_input_error("{} x {} cells are too many for a PNG; at most {} per side", heights.cols(),
+                      heights.rows(), largest_png_side);
+  std::vector<png_uint_16> pixels;
+  pixels.reserve(static_cast<std::size_t>(heights.size()));
+  for (Eigen::Index row = heights.rows() - 1; row >= 0; --row)
+    for (Eigen::Index col = 0; col < heights.cols(); ++col) {
+      const double share = (heights(row, col) - range.black) / (range.white - range.black);
+      pixels.push_back(static_cast<png_uint_16>(std::lround(65535.0 * std::clamp(share, 0.0, 1.0))));
+    }
+  return encode(static_cast<int>(heights.cols()), static_cast<int>(heights.rows()), PNG_FORMAT_LINEAR_Y,
+                pixels.data(),
+                text_chunk("Software", fmt::format("height map of {}", build)) +
+                    text_chunk(range_keyword, fmt::format("{} to {} m", range.black, range.white)));
+}
+
+std::optional<GrayRange> read_gray_range(const fs::path& path) {
+  const std::string text = PngReader(path).text(range_keyword);
+  const char *next = text.data(), *const end = next + text.size();
+  const auto number = [&](double& value, std::string_view after) {
+    const auto [behind, failure] = std::from_chars(next, end, value);
+    const bool sound =
+        failure == std::errc() && std::isfinite(value) && std::string_view(behind, end).starts_with(after);
+    next = behind + (sound ? after.size() : 0);
+    return sound;
+  };
+  GrayRange range;
+  if (!number(range.black, " to ") || !number(range.white, " m") || next != end) return std::nullopt;
+  return range;
+}
+
+bool has_picture_name(const std::filesystem::path& path) { return small_ending(path) == ".png"; }
 
 void check_picture_name(const std::filesystem::path& path) {
   if (!has_picture_name(path))

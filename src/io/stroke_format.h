@@ -13,7 +13,7 @@ inline constexpr const char* stroke_group = "/stroke";
 
 // What this program writes of them. The mark is the root's: others' strokes have none there.
 inline constexpr OutputKind stroke_output =
-    hdf5_output("a stroke of a script or table", "sandstroke.converted_stroke");
+    hdf5_output("a stroke of a script or table", "sandstroke.converted_stroke", true);
 inline constexpr OutputKind recording_output = hdf5_output("a recording", "sandstroke.recorded_stroke", true);
 
 /// Error: input, unless the file is a stroke in the format of this program.

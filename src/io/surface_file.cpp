@@ -8,7 +8,17 @@
 
 namespace sandstroke {
 
-HeightField load_surface(const BedSettings& bed, const std::filesystem::path& folder) {
+BedSettings with_own_range(BedSettings bed, const std::filesystem::path& folder) {
+  SurfaceSettings& surface = bed.surface;
+  if (surface.kind != SurfaceKind::file || !has_picture_name(surface.file) || surface.low != surface.high)
+    return bed;
+  if (const std::optional<GrayRange> own = read_gray_range(folder / surface.file))
+    surface.low = own->black, surface.high = own->white;
+  return bed;
+}
+
+HeightField load_surface(const BedSettings& settings, const std::filesystem::path& folder) {
+  const BedSettings bed = with_own_range(settings, folder);
   const SurfaceSettings& surface = bed.surface;
   if (surface.kind != SurfaceKind::file) return starting_bed(bed);
 
@@ -22,9 +32,11 @@ HeightField load_surface(const BedSettings& bed, const std::filesystem::path& fo
   if (has_picture_name(path)) {
     if (surface.low == surface.high)
       throw_input_error(
-          "{}: bed.surface.low and high are both {} m; set them to the heights of black and white",
+          "{}: names no heights, and bed.surface.low and high are both {} m; set them to those of black and "
+          "white",
           path.string(), surface.low);
-    heights = surface.low + (surface.high - surface.low) * read_height_png(path);
+    const HeightGrid gray = read_height_png(path);
+    heights = (gray == 1.0).select(surface.high, surface.low + (surface.high - surface.low) * gray);
   } else {
     const RunFile run(path);
     check_cells(run.rows(), run.cols());  // before memory is taken for them

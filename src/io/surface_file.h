@@ -7,8 +7,12 @@
 namespace sandstroke {
 
 /// The bed a scene starts from: procedural, or from a file (relative to `folder`): a run file's final
-/// surface, or a 16-bit grayscale PNG whose black and white stand for surface.low and surface.high. Its cells
-/// must be the scene's. Error: input or io, naming the file.
+/// surface, or a 16-bit grayscale PNG whose black and white stand for surface.low and surface.high
+/// (with_own_range). Its cells must be the scene's. Error: input or io, naming the file.
 HeightField load_surface(const BedSettings& bed, const std::filesystem::path& folder);
+
+/// The same bed with the surface.low and high that its PNG names (read_gray_range), where it names none
+/// itself: where both are equal. Error: as of load_surface.
+BedSettings with_own_range(BedSettings bed, const std::filesystem::path& folder);
 
 }  // namespace sandstroke

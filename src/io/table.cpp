@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <sstream>
 
 namespace sandstroke {
 namespace {
@@ -29,20 +31,26 @@ std::size_t Table::rows() const {
   return std::visit([](const auto& values) { return values.size(); }, columns.front().values);
 }
 
-std::string csv_text(const Table& table) {
-  std::string text;
-  const auto end_field = [&](std::size_t column) { text += column + 1 < table.columns.size() ? ',' : '\n'; };
-  for (std::size_t i = 0; i < table.columns.size(); ++i) text += quoted(table.columns[i].name), end_field(i);
+void write_csv(std::ostream& file, const Table& table) {
+  const auto end_field = [&](std::size_t column) {
+    file.put(column + 1 < table.columns.size() ? ',' : '\n');
+  };
+  for (std::size_t i = 0; i < table.columns.size(); ++i) file << quoted(table.columns[i].name), end_field(i);
   for (std::size_t row = 0; row < table.rows(); ++row)
     for (std::size_t i = 0; i < table.columns.size(); ++i) {
       const std::vector<double>* numbers = numbers_of(table.columns[i]);
       if (!numbers)
-        text += quoted(text_at(table.columns[i], row));
+        file << quoted(text_at(table.columns[i], row));
       else if (!std::isnan((*numbers)[row]))
-        text += fmt::format("{}", (*numbers)[row]);
+        fmt::format_to(std::ostreambuf_iterator<char>(file), "{}", (*numbers)[row]);
       end_field(i);
     }
-  return text;
+}
+
+std::string csv_text(const Table& table) {
+  std::ostringstream text;
+  write_csv(text, table);
+  return text.str();
 }
 
 void write_table(Hdf5Writer& file, const std::string& group, const Table& table) {

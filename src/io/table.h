@@ -1,6 +1,7 @@
 #pragma once
 
 #include <nlohmann/json.hpp>
+#include <ostream>
 #include <string>
 #include <variant>
 #include <vector>
@@ -26,6 +27,8 @@ struct Table {
 /// CSV (RFC 4180): names in the first line, an empty field where there is no number, fields with commas or
 /// quotes in quotes.
 std::string csv_text(const Table& table);
+/// The same, of any length.
+void write_csv(std::ostream& file, const Table& table);
 
 /// One dataset of rank 1 per column in the group, with its title and unit as attributes.
 void write_table(Hdf5Writer& file, const std::string& group, const Table& table);

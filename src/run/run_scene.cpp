@@ -83,7 +83,9 @@ std::string scene_file_entry(const std::filesystem::path& scene_file, const std:
   return std::filesystem::proximate(scene_file, folder).generic_string();
 }
 
-RunResult run_scene(const Scene& scene, const std::filesystem::path& output, const RunOptions& options) {
+RunResult run_scene(const Scene& asked, const std::filesystem::path& output, const RunOptions& options) {
+  Scene scene = asked;
+  scene.bed = with_own_range(scene.bed, options.scene_folder);  // so that the run file says it
   const int cores = tbb::info::default_concurrency();
   const int threads = options.threads > 0 ? std::min(options.threads, cores) : cores;
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,

@@ -47,8 +47,8 @@ void describe_bed(KeyVisitor& v, BedSettings& bed) {
   }
   if (is(file)) {
     v.text("file", s.file, "a run file (its final surface) or a 16-bit grayscale PNG");
-    v.number("low", s.low, any_number, "m", "height of a PNG's black");
-    v.number("high", s.high, any_number, "m", "height of a PNG's white");
+    v.number("low", s.low, any_number, "m", "height of a PNG's black; low = high: as the PNG says");
+    v.number("high", s.high, any_number, "m", "height of a PNG's white; low = high: as the PNG says");
   }
 }
 

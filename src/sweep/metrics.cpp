@@ -16,51 +16,105 @@ double of_golden(const PointOutcome& o, double FieldDifference::*value) {
   return o.golden ? (*o.golden).*value : PointResult::none;
 }
 
+using O = const PointOutcome&;
+const std::vector<Metric> metric_list = {
+    {"max_force", "peak force", "N",
+     "largest |F| of all ticks; F is the force on the device as it acts: late, and cut at the maximum",
+     [](O o) { return o.run.device.max_force; }},
+    {"mean_force", "mean force in contact", "N", "mean of |F| over the ticks in contact (depth > 0)",
+     [](O o) { return in_contact(o, o.run.device.mean_force); }},
+    {"work", "work done on the sand", "J",
+     "-sum of F . dx over all ticks; dx is the way of the device in a tick",
+     [](O o) { return o.run.device.absorbed_energy; }},
+    {"returned_energy", "most energy that the sand returned", "J",
+     "max(0, -w); w is the least value that the work had at any time",
+     [](O o) { return std::max(0.0, -o.run.device.least_absorbed_energy); }},
+    {"passivity_margin", "least passivity margin", "N s/m",
+     "least b + b_h - (K (T/2 + delay) + |B|) of the ticks in contact; b and b_h damp device and hand, K "
+     "and B are stiffness and drag of the sand, T is the tick. Where it is above 0, the loop cannot create "
+     "energy",
+     [](O o) { return o.run.device.least_passivity_margin; }},
+    {"saturated_share", "share of contact at the device's limit", "",
+     "ticks in which the device's maximum cut the force / ticks in contact",
+     [](O o) {
+       return in_contact(
+           o, static_cast<double>(o.run.device.saturated_ticks) / static_cast<double>(o.run.contact_ticks));
+     }},
+    {"max_depth", "largest depth of the tip", "m",
+     "largest depth of the tip below the mean height of the sand around it, of the ticks in contact",
+     [](O o) { return in_contact(o, o.run.max_depth); }},
+    {"displaced_volume", "sand displaced by the tool", "m^3",
+     "sum over all ticks of the sand that the tool took from where it is",
+     [](O o) { return o.run.displaced_volume; }},
+    {"moved_volume", "sand moved, with what slipped", "m^3",
+     "displaced_volume + sand that flowed from cell to cell in relaxation",
+     [](O o) { return o.run.moved_volume; }},
+    {"volume_drift", "volume drift per sand moved", "",
+     "|volume at the end - volume at the start| / moved_volume; 0 where nothing moved",
+     [](O o) { return o.run.volume_drift; }},
+    {"furrow_depth", "furrow depth", "m",
+     "how far the lowest point within a tool radius of the path lies below the surface as it was; median "
+     "over cross-sections",
+     [](O o) { return of_furrow(o, &FurrowMeasures::depth); }},
+    {"furrow_width", "furrow width", "m",
+     "distance between the points left and right of the lowest one where the change of height is 0; median "
+     "over cross-sections",
+     [](O o) { return of_furrow(o, &FurrowMeasures::width); }},
+    {"rampart_height", "rampart height", "m",
+     "how far the first raised sand beside the furrow, on its higher side, rises above the surface as it "
+     "was; median over cross-sections",
+     [](O o) { return of_furrow(o, &FurrowMeasures::rampart); }},
+    {"slope_mean", "mean slope of changed sand, by geometry", "deg",
+     "mean of the geometric slope over the cells that changed. It is the angle of the steepest way down "
+     "over the 8 triangles that a cell makes with its neighbours (Tarboton 1997)",
+     [](O o) { return o.slopes.mean; }, Metric::slopes},
+    {"slope_max_geometric", "steepest slope of changed sand, by geometry", "deg",
+     "largest geometric slope (slope_mean) of the cells that changed. The law 'paper' looks in 8 "
+     "directions only, so sand that rests by it may be as steep as atan(1.0824 tan(talus angle))",
+     [](O o) { return o.slopes.steepest; }, Metric::slopes},
+    {"slope_max_law", "steepest slope of changed sand, as the law measures it", "deg",
+     "largest slope of the cells that changed as relaxation.law measures it. paper: drop to one of 8 "
+     "neighbours / its distance. isotropic: sqrt(gx^2 + gy^2), gx = max(0, h - west, h - east)/dx. "
+     "tan(slope_max_law) <= tan(talus angle) (1 + residual)",
+     [](O o) { return o.slopes.law_steepest; }, Metric::slopes},
+    {"slope_at_talus", "share of changed sand within 1 deg of the talus angle", "",
+     "cells that changed and whose geometric slope (slope_mean) is within 1 deg of relaxation.talus_angle "
+     "/ cells that changed",
+     [](O o) { return o.slopes.share_at_talus; }, Metric::slopes},
+    {"passes", "relaxation passes", "",
+     "passes of all relaxations; with relaxation.method rkl, stages of super time steps",
+     [](O o) { return static_cast<double>(o.run.relaxation.passes); }},
+    {"residual", "residual slope above the talus angle", "",
+     "max(0, s / tan(talus angle) - 1) after the last relaxation; s is the largest slope of all cells as "
+     "relaxation.law measures it (slope_max_law)",
+     [](O o) { return o.run.relaxation.residual; }},
+    {"golden_max", "largest difference from the golden surface", "m", "largest |h - h_golden| of all cells",
+     [](O o) { return of_golden(o, &FieldDifference::max); }, Metric::golden},
+    {"golden_rms", "RMS difference from the golden surface", "m",
+     "sqrt(mean of (h - h_golden)^2) over all cells", [](O o) { return of_golden(o, &FieldDifference::rms); },
+     Metric::golden},
+    {"golden_volume", "sand more than in the golden surface", "m^3",
+     "sum (h - h_golden) dx^2 over all cells; dx is the cell size",
+     [](O o) { return of_golden(o, &FieldDifference::volume); }, Metric::golden},
+    {"wall_seconds", "run time of the simulation", "s",
+     "time that the run took, without starting and writing files. Points that share a run have the same",
+     [](O o) { return o.run.wall_seconds; }, Metric::run, true},
+    {"real_time_factor", "simulated time per run time", "", "simulated time / wall_seconds",
+     [](O o) { return o.run.ticks > 0 ? o.run.simulated_seconds / o.run.wall_seconds : PointResult::none; },
+     Metric::run, true},
+};
+
 }  // namespace
 
-const std::vector<Metric>& all_metrics() {
-  using O = const PointOutcome&;
-  static const std::vector<Metric> metrics = {
-      {"max_force", "peak force", "N", [](O o) { return o.run.device.max_force; }},
-      {"mean_force", "mean force in contact", "N",
-       [](O o) { return in_contact(o, o.run.device.mean_force); }},
-      {"work", "work done on the sand", "J", [](O o) { return o.run.device.absorbed_energy; }},
-      {"returned_energy", "most energy that the sand returned", "J",
-       [](O o) { return std::max(0.0, -o.run.device.least_absorbed_energy); }},
-      {"passivity_margin", "least passivity margin", "N s/m",
-       [](O o) { return o.run.device.least_passivity_margin; }},
-      {"saturated_share", "share of contact at the device's limit", "",
-       [](O o) {
-         return in_contact(
-             o, static_cast<double>(o.run.device.saturated_ticks) / static_cast<double>(o.run.contact_ticks));
-       }},
-      {"max_depth", "largest depth of the tip", "m", [](O o) { return in_contact(o, o.run.max_depth); }},
-      {"displaced_volume", "sand displaced by the tool", "m^3", [](O o) { return o.run.displaced_volume; }},
-      {"moved_volume", "sand moved, with what slipped", "m^3", [](O o) { return o.run.moved_volume; }},
-      {"volume_drift", "volume drift per sand moved", "", [](O o) { return o.run.volume_drift; }},
-      {"furrow_depth", "furrow depth", "m", [](O o) { return of_furrow(o, &FurrowMeasures::depth); }},
-      {"furrow_width", "furrow width", "m", [](O o) { return of_furrow(o, &FurrowMeasures::width); }},
-      {"rampart_height", "rampart height", "m", [](O o) { return of_furrow(o, &FurrowMeasures::rampart); }},
-      {"slope_mean", "mean slope of changed sand", "deg", [](O o) { return o.slopes.mean; }, Metric::slopes},
-      {"slope_max", "steepest slope of changed sand", "deg", [](O o) { return o.slopes.steepest; },
-       Metric::slopes},
-      {"slope_at_talus", "share of changed sand within 1 deg of the talus angle", "",
-       [](O o) { return o.slopes.share_at_talus; }, Metric::slopes},
-      {"passes", "relaxation passes", "", [](O o) { return static_cast<double>(o.run.relaxation.passes); }},
-      {"residual", "residual slope above the talus angle", "", [](O o) { return o.run.relaxation.residual; }},
-      {"golden_max", "largest difference from the golden surface", "m",
-       [](O o) { return of_golden(o, &FieldDifference::max); }, Metric::golden},
-      {"golden_rms", "RMS difference from the golden surface", "m",
-       [](O o) { return of_golden(o, &FieldDifference::rms); }, Metric::golden},
-      {"golden_volume", "sand more than in the golden surface", "m^3",
-       [](O o) { return of_golden(o, &FieldDifference::volume); }, Metric::golden},
-      {"wall_seconds", "run time of the simulation", "s", [](O o) { return o.run.wall_seconds; }, Metric::run,
-       true},
-      {"real_time_factor", "simulated time per run time", "",
-       [](O o) { return o.run.ticks > 0 ? o.run.simulated_seconds / o.run.wall_seconds : PointResult::none; },
-       Metric::run, true},
-  };
-  return metrics;
+const std::vector<Metric>& all_metrics() { return metric_list; }
+
+std::vector<KeySection> metric_keys() {
+  KeySection section{
+      "", "what a sweep measures of each point (sweep.metrics of a plan): name, unit, definition", {}};
+  for (const Metric& metric : all_metrics())
+    section.keys.push_back({metric.name, "", metric.unit.empty() ? "1" : metric.unit, "",
+                            metric.title + ": " + metric.definition});
+  return {section};
 }
 
 }  // namespace sandstroke

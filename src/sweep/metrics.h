@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "compare/field_difference.h"
+#include "io/key_table.h"
 #include "sim/run_result.h"
 #include "sweep/slopes.h"
 
@@ -40,6 +41,7 @@ struct Metric {
   std::string name;   ///< max_force
   std::string title;  ///< "peak force"
   std::string unit;
+  std::string definition;                     ///< its formula, in words
   double (*of)(const PointOutcome& outcome);  ///< not-a-number where it means nothing
   Needs needs = run;
   bool timing = false;  ///< differs from run to run
@@ -47,6 +49,9 @@ struct Metric {
 
 /// All there are, in the order in which they are shown.
 const std::vector<Metric>& all_metrics();
+
+/// The same, as `help metrics` lists them.
+std::vector<KeySection> metric_keys();
 
 /// Of one point.
 struct PointResult {

@@ -26,7 +26,8 @@ void show_plan(KeyVisitor& v, PlanKeys& keys) {
   std::vector<std::string> metrics;
   for (const Metric& metric : all_metrics()) metrics.push_back(metric.name);
   v.texts("metrics", keys.metrics,
-          fmt::format("metrics to collect; default: all of {} (golden_*: where golden is given)",
+          fmt::format("metrics to collect; default: all of {} (golden_*: where golden is given); sandstroke "
+                      "help metrics defines them",
                       fmt::join(metrics, ", "))
               .c_str());
   v.texts("keep", keys.keep, "what to keep of each point: surface, picture; default: neither");

@@ -68,7 +68,7 @@ std::optional<SharedRunResult> run_shared(const std::vector<Scene>& scenes, cons
     auto [surface, sand] = solve(scene, bed, stroke ? std::optional(*stroke) : std::nullopt, observers);
     if (sand.interrupted) return std::nullopt;
     SlopeMeasures slopes;
-    if (wants(metrics, Metric::slopes)) slopes = measure_slopes(bed, surface, scene.relaxation.talus_angle);
+    if (wants(metrics, Metric::slopes)) slopes = measure_slopes(bed, surface, scene.relaxation);
     std::optional<FieldDifference> difference;
     if (golden && golden->rows() == surface.rows() && golden->cols() == surface.cols() &&
         wants(metrics, Metric::golden))

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "core/angle.h"
 #include "core/compensated_sum.h"
@@ -32,19 +33,33 @@ double descent_slope(const HeightField& bed, int row, int col) {
   return std::sqrt(steepest) / bed.cell_size();
 }
 
-SlopeMeasures measure_slopes(const HeightField& initial, const HeightField& final, double talus_angle) {
+double law_slope(const HeightField& bed, int row, int col, RelaxationLaw law) {
+  const auto drop = [&](int row_step, int col_step) {
+    const int r = row + row_step, c = col + col_step;
+    const bool inside = r >= 0 && r < bed.rows() && c >= 0 && c < bed.cols();
+    return inside ? std::max(0.0, bed(row, col) - bed(r, c)) : 0.0;
+  };
+  const double x = std::max(drop(0, -1), drop(0, 1)), y = std::max(drop(-1, 0), drop(1, 0));
+  if (law == RelaxationLaw::isotropic) return std::hypot(x, y) / bed.cell_size();
+  const double diagonal = std::max({drop(-1, -1), drop(-1, 1), drop(1, -1), drop(1, 1)});
+  return std::max({x, y, diagonal / std::numbers::sqrt2}) / bed.cell_size();
+}
+
+SlopeMeasures measure_slopes(const HeightField& initial, const HeightField& final,
+                             const RelaxationSettings& settings) {
   CompensatedSum sum;
-  double steepest = 0.0, changed = 0.0, at_talus = 0.0;
+  double steepest = 0.0, law_steepest = 0.0, changed = 0.0, at_talus = 0.0;
   visit_cells_of_both(initial, final, [&](int row, int col, double before, double after) {
     if (before == after) return;
     const double angle = to_degrees(std::atan(descent_slope(final, row, col)));
     sum.add(angle);
     steepest = std::max(steepest, angle);
     changed += 1.0;
-    at_talus += std::abs(angle - talus_angle) <= 1.0;
+    at_talus += std::abs(angle - settings.talus_angle) <= 1.0;
+    law_steepest = std::max(law_steepest, law_slope(final, row, col, settings.law));
   });
   if (changed == 0.0) return {};
-  return {sum.value() / changed, steepest, at_talus / changed};
+  return {sum.value() / changed, steepest, to_degrees(std::atan(law_steepest)), at_talus / changed};
 }
 
 }  // namespace sandstroke

@@ -3,13 +3,15 @@
 #include <limits>
 
 #include "sand/height_field.h"
+#include "sand/relaxation.h"
 
 namespace sandstroke {
 
 /// Slopes of sand that moved. Not-a-number: none did.
 struct SlopeMeasures {
-  double mean = std::numeric_limits<double>::quiet_NaN();      ///< deg, over cells that changed
-  double steepest = std::numeric_limits<double>::quiet_NaN();  ///< deg, of them
+  double mean = std::numeric_limits<double>::quiet_NaN();  ///< deg, descent_slope() over cells that changed
+  double steepest = std::numeric_limits<double>::quiet_NaN();      ///< deg, of them
+  double law_steepest = std::numeric_limits<double>::quiet_NaN();  ///< deg, of them by law_slope()
   double share_at_talus =
       std::numeric_limits<double>::quiet_NaN();  ///< of them, within 1 degree of the talus angle
 };
@@ -24,8 +26,13 @@ struct SlopeMeasures {
 /// adds both axes on every peak).
 double descent_slope(const HeightField& bed, int row, int col);
 
-/// Over the cells whose height is not what it was. talus_angle [deg]. Fields of one shape; tiles that exist
-/// in neither cost nothing where both are the same there.
-SlopeMeasures measure_slopes(const HeightField& initial, const HeightField& final, double talus_angle);
+/// Steepest slope of a cell, rise over run, as a law of relaxation (sand/relaxation.h) compares it with
+/// tan(talus): paper: the largest drop to one of 8 neighbours over its distance; isotropic: the upwind slope.
+double law_slope(const HeightField& bed, int row, int col, RelaxationLaw law);
+
+/// Over the cells whose height is not what it was; `settings` made them rest. Fields of one shape; tiles that
+/// exist in neither cost nothing where both are the same there.
+SlopeMeasures measure_slopes(const HeightField& initial, const HeightField& final,
+                             const RelaxationSettings& settings);
 
 }  // namespace sandstroke

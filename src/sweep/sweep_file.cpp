@@ -98,6 +98,7 @@ class SweepFile {
     const std::string name = metric.timing ? "timing/" + metric.name : metric.name;
     put(name, over_points<double>([&](std::size_t point) { return sweep_.metric(point, index); }));
     file_.attribute(name, "long_name", metric.title);
+    file_.attribute(name, "comment", metric.definition);
     if (!metric.unit.empty()) file_.attribute(name, "units", metric.unit);
     if (!metric.timing) file_.attribute(name, "coordinates", coordinates());
   }

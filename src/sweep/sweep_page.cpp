@@ -124,7 +124,10 @@ Json points_json(const CollectedSweep& sweep, const std::vector<PageAxis>& axes,
 Json sweep_page_data(const CollectedSweep& sweep, CollectReport& report) {
   Json metrics = Json::array();
   for (const Metric& metric : sweep.folder.metrics())
-    metrics.push_back({{"name", metric.name}, {"title", metric.title}, {"unit", metric.unit}});
+    metrics.push_back({{"name", metric.name},
+                       {"title", metric.title},
+                       {"unit", metric.unit},
+                       {"definition", metric.definition}});
   const std::vector<PageAxis> axes = page_axes(sweep.folder.design());
   Json axes_json = Json::array();
   for (const PageAxis& axis : axes) axes_json.push_back(axis.json);

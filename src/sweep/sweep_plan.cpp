@@ -29,8 +29,11 @@ std::vector<std::string> read_metrics(const TomlReader& toml, const PlanKeys& ke
   if (metrics.empty()) toml.fail("sweep.metrics", "is empty; name one or remove it");
   for (const std::string& metric : metrics) {
     if (std::find(known.begin(), known.end(), metric) == known.end())
-      toml.fail("sweep.metrics", fmt::format("names '{}'; take from: {}{}", metric, fmt::join(known, ", "),
-                                             golden ? "" : " (and with sweep.golden what differs from it)"));
+      toml.fail(
+          "sweep.metrics",
+          fmt::format("names '{}'; take from: {}{}", metric, fmt::join(known, ", "),
+                      golden ? "" : " (and with sweep.golden what differs from it)") +
+              (metric == "slope_max" ? "; slope_max is now slope_max_geometric, beside slope_max_law" : ""));
     if (std::count(metrics.begin(), metrics.end(), metric) > 1)
       toml.fail("sweep.metrics", fmt::format("names '{}' twice; name it once", metric));
   }

@@ -75,7 +75,7 @@ TEST(CliHelp, OptionsSayTheirDefaults) {
 
 TEST(CliHelp, ValuesAreInAReadersWords) {
   for (const std::string command :
-       {"run", "render", "compare", "sweep", "record", "bench", "stroke convert"}) {
+       {"run", "render", "export", "compare", "sweep", "record", "bench", "stroke convert"}) {
     std::vector<std::string> words = {"help"};
     for (std::istringstream parts(command); parts >> words.emplace_back();) {
     }
@@ -113,12 +113,35 @@ TEST(CliHelp, ScenesAreExplainedKeyByKey) {
     }
 }
 
+TEST(CliHelp, MetricsAreDefinedWithTheirUnits) {
+  const std::string manual = page({"help", "--man", "metrics"}), table = printed({"help", "metrics"});
+  const ProgramResult refused = run_program({"sweep", "plan.toml", "-o", "out"}, [] {
+    const fs::path folder = test_folder();
+    write_file(folder / "plan.toml",
+               "[sweep]\nscene = \"scene.toml\"\nmetrics = [\"slope_max\"]\n[axes]\nforce.k_s = [1.0]\n");
+    return folder;
+  }());
+  EXPECT_EQ(refused.exit_code, 2);
+  // All that a plan may name are explained, with formula and unit.
+  std::istringstream names(refused.err.substr(refused.err.find("take from: ") + 11));
+  int count = 0;
+  for (std::string name; std::getline(names, name, ',') && name.find('(') == std::string::npos; ++count) {
+    name = name.substr(name.find_first_not_of(' '));
+    EXPECT_NE(table.find("\n  " + name + " "), std::string::npos) << name << table;
+    EXPECT_NE(manual.find(name + " "), std::string::npos) << name;
+  }
+  EXPECT_GT(count, 15);
+  EXPECT_NE(refused.err.find("slope_max is now slope_max_geometric"), std::string::npos) << refused.err;
+  for (const char* text : {"N s/m", "sum (h - h_golden) dx^2", "relaxation.talus_angle"})
+    EXPECT_NE(table.find(text), std::string::npos) << text;
+}
+
 TEST(CliHelp, HasNoPageOfWhatIsNotThere) {
   for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
            {"help", "sand"}, {"help", "--man", "run"}, {"help", "run", "x"}}) {
     const ProgramResult result = run_program(words, testing::TempDir());
     EXPECT_EQ(result.exit_code, 2);
-    EXPECT_NE(result.err.find("scene, script, plan"), std::string::npos) << result.err;
+    EXPECT_NE(result.err.find("scene, script, plan, metrics"), std::string::npos) << result.err;
   }
 }
 

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <map>
 
 #include "any_hdf5.h"
@@ -15,10 +16,11 @@ namespace {
 namespace fs = std::filesystem;
 using Words = std::vector<std::string>;
 
-/// A command and what it writes. Each can be run again and again.
+/// A command and what it writes. Each can be run again and again, where it replaces its own.
 struct Writer {
   Words words;
   std::vector<std::string> outputs;
+  bool replaces_own = true;
 };
 
 const std::vector<Writer> writers = {
@@ -27,14 +29,22 @@ const std::vector<Writer> writers = {
     {{"render", "a.h5"}, {"a.png"}},
     {{"render", "a.h5", "--frame", "all"}, {"a_frames/frame_0000.png"}},
     {{"report", "a.h5"}, {"a.html"}},
+    {{"export", "a.h5", "-o", "e.png"}, {"e.png"}},
+    {{"export", "a.h5", "-o", "e.stl"}, {"e.stl"}},
+    {{"export", "a.h5", "-o", "e.ply"}, {"e.ply"}},
+    {{"export", "a.h5", "-o", "e.obj"}, {"e.obj"}},
+    {{"export", "a.h5", "-o", "e.csv"}, {"e.csv"}},
+    {{"export", "a.h5", "-o", "e.npy"}, {"e.npy"}, false},
+    {{"export", "a.h5", "-o", "e.asc"}, {"e.asc"}, false},
     {{"compare", "a.h5", "a.h5", "--report", "page", "--junit", "j.xml"}, {"page/compare.html", "j.xml"}},
     {{"golden", "check", "--report", "pages", "--junit", "g.xml"}, {"pages/tiny.html", "g.xml"}},
     {{"golden", "update", "tiny"},
      {"golden/tiny/golden.h5", "golden/tiny/picture.png", "golden/tiny/provenance.toml"}},
-    {{"stroke", "script", "line.toml", "s.h5"}, {"s.h5"}},
+    {{"stroke", "script", "line.toml", "s.h5"}, {"s.h5"}, false},
     {{"stroke", "convert", "table.csv", "t.h5", "--rate", "100", "--position", "x,y,z", "--position-unit",
       "m"},
-     {"t.h5"}},
+     {"t.h5"},
+     false},
     {{"sweep", "collect", "sweep"}, {"sweep/sweep.h5", "sweep/sweep.csv", "sweep/sweep.html"}},
 };
 
@@ -78,7 +88,12 @@ std::map<std::string, std::string> foreign_contents(const fs::path& folder) {
           {".xml", "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"pytest\"></testsuites>\n"},
           {".xdmf", "<?xml version=\"1.0\"?>\n<Xdmf Version=\"2.0\">\n  <Domain>\n  </Domain>\n</Xdmf>\n"},
           {".csv", "point,x\n0,1\n"},
-          {".toml", "version = \"1\"\n"}};
+          {".toml", "version = \"1\"\n"},
+          {".stl", "solid sandstroke\nendsolid\n"},
+          {".ply", "ply\nformat binary_little_endian 1.0\ncomment by hand\nend_header\n"},
+          {".obj", "# by hand\nv 0 0 0\n"},
+          {".npy", "\x93NUMPY"},
+          {".asc", "ncols 1\n"}};
 }
 
 void expect_refusal(const Words& words, const fs::path& folder, const fs::path& place, int exit_code,
@@ -99,7 +114,8 @@ TEST(CliReplace, FilesOfOthersStay) {
       fs::create_directories((folder / output).parent_path());
       const std::string before = read_file(folder / output), alike = foreign.at(output.extension());
       write_file(folder / output, alike);
-      expect_refusal(writer.words, folder, output, 2, "already exists and is not ");
+      expect_refusal(writer.words, folder, output, 2,
+                     writer.replaces_own ? "already exists and is not " : "already exists; ");
       write_file(folder / output, before);  // nothing, or what another one reads
     }
 }
@@ -111,7 +127,8 @@ TEST(CliReplace, UnfinishedFilesOfOthersStay) {
     const fs::path part = writer.outputs.front() + ".part";
     fs::create_directories((folder / part).parent_path());
     write_file(folder / part, "precious");
-    expect_refusal(writer.words, folder, part, 2, "already exists and is not ");
+    expect_refusal(writer.words, folder, part, 2,
+                   writer.replaces_own ? "already exists and is not " : "already exists; ");
     fs::remove(folder / part);
   }
 }
@@ -130,6 +147,7 @@ TEST(CliReplace, OnlyRunsAreReplacedByARun) {
     expect_refusal(run, folder, "b.h5", 2, "already exists and is not a run file that sandstroke wrote");
     fs::remove(folder / "b.h5");
   }
+  fs::remove(folder / "s.h5");
   fs::copy_file(folder / "hand.h5", folder / "s.h5.part");
   expect_refusal({"stroke", "script", "line.toml", "s.h5"}, folder, "s.h5.part", 2, "already exists");
   fs::rename(folder / "s.h5.part", folder / "s.h5");  // a recording cannot be made again
@@ -140,6 +158,7 @@ TEST(CliReplace, OwnFilesAreReplacedAndKeepTheirModes) {
   const fs::path folder = folder_for_writers();
   for (int again = 0; again < 2; ++again)
     for (const Writer& writer : writers) {
+      if (!writer.replaces_own) continue;
       const ProgramResult result = run_program(writer.words, folder);
       EXPECT_EQ(result.exit_code, 0) << writer.words[0] << result.err;
       for (const std::string& output : writer.outputs) {
@@ -151,9 +170,58 @@ TEST(CliReplace, OwnFilesAreReplacedAndKeepTheirModes) {
     }
 }
 
+TEST(CliReplace, WhatCannotBeKnownOrMadeAgainStaysUnlessItIsToBeOverwritten) {
+  const fs::path folder = folder_for_writers();
+  for (const Writer& writer : writers) {
+    if (writer.replaces_own) continue;
+    const std::string output = writer.outputs.front();
+    ASSERT_EQ(run_program(writer.words, folder).exit_code, 0);
+    expect_refusal(writer.words, folder, output, 2, "already exists; name another file, or add --overwrite");
+    const std::string made = read_file(folder / output);
+    write_file(folder / output, "");
+    if (writer.words[0] == "stroke")
+      expect_refusal(writer.words, folder, output, 2,
+                     "already exists; name another file, or add --overwrite");
+    Words overwrite = writer.words;
+    overwrite.push_back("--overwrite");
+    EXPECT_EQ(run_program(overwrite, folder).exit_code, 0);
+    EXPECT_EQ(read_file(folder / output).size(), made.size());
+  }
+}
+
+TEST(CliReplace, NoHdf5FileHasTheNameOfAnotherFormat) {
+  const fs::path folder = folder_for_writers();
+  write_file(folder / "hand.h5.recording", "a journal");
+  const std::vector<Words> commands = {
+      {"run", "scene.toml", "-o", "OUT"},
+      {"stroke", "script", "line.toml", "OUT"},
+      {"stroke", "convert", "table.csv", "OUT", "--rate", "100", "--position", "x,y,z", "--position-unit",
+       "m"},
+      {"stroke", "repair", "hand.h5", "OUT"},
+      {"record", "--device", "scripted:line.toml", "--duration", "0.1", "-o", "OUT"}};
+  const auto with = [](Words words, const std::string& name) {
+    std::replace(words.begin(), words.end(), std::string("OUT"), name);
+    return words;
+  };
+  for (const Words& command : commands)
+    for (const char* name : {"new.csv", "new.png", "new.h5.part"}) {
+      const ProgramResult refused = run_program(with(command, name), folder);
+      EXPECT_EQ(refused.exit_code, 2) << name << refused.err;
+      EXPECT_NE(refused.err.find(std::string(name) + ": is not a name for "), std::string::npos)
+          << refused.err;
+      EXPECT_NE(refused.err.find("HDF5; end it with .h5\n"), std::string::npos) << refused.err;
+      EXPECT_FALSE(fs::exists(folder / name)) << name;
+      EXPECT_FALSE(fs::exists(folder / (std::string(name) + ".part"))) << name;
+    }
+  for (const char* name : {"a.hdf5", "no-ending", "run-27.5"})
+    EXPECT_EQ(run_program(with(commands[0], name), folder).exit_code, 0) << name;
+  const Words overwrite = {"run", "scene.toml", "-o", "new.csv", "--overwrite"};
+  EXPECT_EQ(run_program(overwrite, folder).exit_code, 2);  // it lets files be replaced, no names be wrong
+}
+
 TEST(CliReplace, WhatIsProtectedAndLinksAreRefused) {
   const fs::path folder = test_folder();
-  const Words words = {"stroke", "script", "line.toml", "s.h5"};
+  const Words words = {"run", "scene.toml", "-o", "s.h5"};
   ASSERT_EQ(run_program(words, folder).exit_code, 0);
   fs::permissions(folder / "s.h5", fs::perms(0444));
   expect_refusal(words, folder, "s.h5", 4, "is write-protected");

@@ -63,7 +63,7 @@ TEST(CliStroke, ConvertsOmniglotWithAnExplicitRuleForEqualTimes) {
   for (const char* letter : {"character03/0396_01", "character10/0403_05", "character21/0414_02"}) {
     arguments[2] = (data.parent_path().parent_path() / (std::string(letter) + ".txt")).string();
     std::vector<std::string> explicit_rule = arguments;
-    explicit_rule.insert(explicit_rule.end(), {"--equal-times", "spread"});
+    explicit_rule.insert(explicit_rule.end(), {"--equal-times", "spread", "--overwrite"});
     const ProgramResult convert = run_program(explicit_rule, folder);
     ASSERT_EQ(convert.exit_code, 0) << convert.err;
     EXPECT_EQ(info(folder, "letter.h5")["gaps"].size(),

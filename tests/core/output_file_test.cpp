@@ -25,6 +25,32 @@ TEST(OutputFile, IsPutInPlaceWhole) {
   EXPECT_FALSE(fs::exists(part_path(path)));
 }
 
+TEST(OutputFile, ThatIsNotWrittenToItsEndLeavesWhatWasThere) {
+  const TestFolder folder;
+  const fs::path path = folder / "file";
+  EXPECT_TRUE(write_file(path, text_kind, [](std::ostream& file) { return bool(file << "first"); }));
+  EXPECT_FALSE(write_file(path, text_kind, [](std::ostream& file) { return file << "fi", false; }));
+  EXPECT_THROW(write_file(path, text_kind,
+                          [](std::ostream& file) -> bool {
+                            file << "fi" << std::flush;
+                            throw_input_error("{}: no", "file");
+                          }),
+               Error);
+  EXPECT_EQ(read_text_file(path), "first");
+  EXPECT_FALSE(fs::exists(part_path(path)));
+}
+
+TEST(OutputFile, AnHdf5FileHasNoNameOfAnotherFormat) {
+  const TestFolder folder;
+  constexpr OutputKind hdf5{.name = "a run file", .hdf5 = true};
+  for (const char* name : {"a.h5", "a.hdf5", "A.H5", "a", "run-27.5", "b.csv/a", ".hidden"})
+    EXPECT_NO_THROW(check_replaceable(folder / name, hdf5)) << name;
+  for (const char* name : {"a.csv", "a.png", "a.h5.part", "a.h5x", "a.mp4", "a.3mf", "run-27.5s"})
+    EXPECT_THROW(take_part(folder / name, hdf5), Error) << name;
+  EXPECT_TRUE(fs::is_empty(folder.path()));
+  EXPECT_NO_THROW(check_replaceable(folder / "a.csv", text_kind));
+}
+
 TEST(OutputFile, IsNotWrittenByTwoAtATime) {
   const TestFolder folder;
   const fs::path path = folder / "file";

@@ -80,6 +80,7 @@ const FaultedCommand reading_commands[] = {
     record_command,
     {"render", {"render", "a.h5", "-o", "b.png"}, prepare_made_run, {"b.png"}},
     {"report", {"report", "a.h5"}, prepare_made_run, {"a.html"}},
+    {"export", {"export", "a.h5", "-o", "a.obj"}, prepare_made_run, {"a.obj"}},
     {"compare runs", {"compare", "a.h5", "b.h5"}, prepare_two_runs, {}},
     {"compare pictures", {"compare", "a.png", "b.png"}, prepare_two_runs, {}},
     {"info", {"info", "a.h5"}, prepare_made_run, {}},

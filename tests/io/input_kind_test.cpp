@@ -51,7 +51,8 @@ TEST_F(InputKinds, AreKnownByContent) {
   Stroke stroke;
   stroke.time = {0.0};
   stroke.position = {{0, 0, 0}};
-  write_stroke_file(folder_ / "named.toml", stroke);
+  write_stroke_file(folder_ / "a.h5", stroke);
+  fs::rename(folder_ / "a.h5", folder_ / "named.toml");
   EXPECT_EQ(kind_of(folder_ / "named.toml"), InputKind::stroke);
   write_png(folder_ / "named.h5", Image(2, 2));
   EXPECT_EQ(kind_of(folder_ / "named.h5"), InputKind::picture);

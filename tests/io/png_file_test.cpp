@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <png.h>
 #include <unistd.h>
+#include <zlib.h>
 
 #include <cstdint>
 #include <filesystem>
@@ -123,6 +124,51 @@ TEST_F(PngFile, HeightsAreExactWithTheLowestRowFirst) {
   EXPECT_EQ(values(1, 1), 1.0);
   EXPECT_EQ(values(0, 0), 0x1234 / 65535.0);
   EXPECT_EQ(values(0, 1), 1 / 65535.0);
+}
+
+TEST_F(PngFile, HeightsAreWrittenAndReadToTheNearestGray) {
+  HeightGrid heights(2, 3);
+  heights << -0.25, 0.75, 0.25, -0.25 + 12345.4 / 65535.0, 0.8, -1.0;
+  put_text(file("h.png"), encode_height_png(heights, {-0.25, 0.75}));
+  HeightGrid gray(2, 3);  // what is beyond is cut
+  gray << 0.0, 65535.0, 32768.0, 12345.0, 65535.0, 0.0;
+  EXPECT_TRUE((65535.0 * read_height_png(file("h.png")) - gray).abs().maxCoeff() < 1e-9);
+  put_text(file("turned.png"), encode_height_png(heights, {0.75, -0.25}));
+  EXPECT_NEAR(read_height_png(file("turned.png"))(0, 0), 1.0, 0.0);
+  const std::string bytes = read_text_file(file("h.png"));
+  EXPECT_EQ(bytes.find("gAMA"), std::string::npos);  // heights are no light
+  EXPECT_EQ(bytes.find("sRGB"), std::string::npos);
+  EXPECT_NE(bytes.find(height_png_output.mark), std::string::npos);
+  EXPECT_EQ(bytes.find(picture_output.mark), std::string::npos);
+}
+
+TEST_F(PngFile, HeightsSayTheirRangeToTheBit) {
+  const HeightGrid heights = HeightGrid::Zero(2, 2);
+  for (const GrayRange range : {GrayRange{-1.0 / 3.0, 0.1}, {0.0, 1e-300}, {5.0, -1e10}}) {
+    put_text(file("h.png"), encode_height_png(heights, range));
+    const std::optional<GrayRange> read = read_gray_range(file("h.png"));
+    ASSERT_TRUE(read);
+    EXPECT_EQ(read->black, range.black);
+    EXPECT_EQ(read->white, range.white);
+  }
+  write_png(file("picture.png"), test_image(2, 2));
+  EXPECT_FALSE(read_gray_range(file("picture.png")));
+  // What others say so is not taken for a range.
+  for (const std::string text :
+       {"1 to", "a to b m", "1 to 2 km", "0 to inf m", "1e999 to 2 m", " 1 to 2 m"}) {
+    std::string bytes = encode_height_png(heights, {0.0, 1.0});
+    const std::size_t chunk = bytes.find("tEXtHeights") - 4;
+    std::string other = "tEXtHeights" + std::string(1, '\0') + text;
+    const auto sum = static_cast<std::uint32_t>(
+        crc32(0, reinterpret_cast<const Bytef*>(other.data()), static_cast<uInt>(other.size())));
+    const auto number = [](std::uint32_t value) {
+      return std::string{char(value >> 24), char(value >> 16), char(value >> 8), char(value)};
+    };
+    bytes.replace(chunk, bytes.find("IDAT") - 4 - chunk,
+                  number(static_cast<std::uint32_t>(other.size() - 4)) + other + number(sum));
+    put_text(file("other.png"), bytes);
+    EXPECT_FALSE(read_gray_range(file("other.png"))) << text;
+  }
 }
 
 TEST_F(PngFile, HeightsRefuseOtherKindsOfPng) {

@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "hdf5/hdf5_writer.h"
 #include "io/input_kind.h"
+#include "io/png_file.h"
 #include "test_folder.h"
 
 namespace sandstroke {
@@ -82,6 +83,22 @@ TEST(SurfaceFile, APngThatIsNotSquareHasItsColumnsAlongX) {
     EXPECT_NEAR(surface(1, col), 1.0 + 0.2 * col, 1e-15);
     EXPECT_NEAR(surface(0, col), 1.6 + 0.2 * col, 1e-15);
   }
+}
+
+TEST(SurfaceFile, APngMaySayItsHeightsWhereTheSceneSaysNone) {
+  const TestFolder folder;
+  HeightGrid heights(2, 3);
+  heights << -0.1, 0.2, 0.3, 0.0, -0.1, 0.1;
+  put_text(folder / "heights.png", encode_height_png(heights, {-0.1, 0.3}));
+  BedSettings bed = bed_from("heights.png");
+  const HeightGrid own = load_surface(bed, folder.path()).grid();
+  EXPECT_LE((own - heights).abs().maxCoeff(), 0.50000001 * 0.4 / 65535.0);
+  EXPECT_EQ(own(0, 0), -0.1);  // black and white to the bit: -0.1 + 0.4 is not 0.3
+  EXPECT_EQ(own(0, 2), 0.3);
+  EXPECT_EQ(with_own_range(bed, folder.path()).surface.low, -0.1);
+  EXPECT_EQ(with_own_range(bed, folder.path()).surface.high, 0.3);
+  bed.surface.low = 1.0, bed.surface.high = 2.0;
+  EXPECT_EQ(load_surface(bed, folder.path())(0, 2), 2.0);
 }
 
 TEST(SurfaceFile, ARunsFinalSurfaceNeedsCellsOfTheBedsSize) {

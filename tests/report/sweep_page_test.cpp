@@ -66,16 +66,17 @@ Json sweep_data(const Json& axes, const std::string& design = "grid") {
     };
     walk(0);
   }
-  return {{"title", "talus"},
-          {"machine", {{"cpu", "Test CPU"}, {"cores", 2}}},
-          {"scene", "strokes/wscg/scene.toml"},
-          {"design", design},
-          {"axes", axes},
-          {"metrics",
-           {{{"name", "max_force"}, {"title", "peak force"}, {"unit", "N"}},
-            {{"name", "passes"}, {"title", "passes"}, {"unit", ""}}}},
-          {"points", points},
-          {"counts", {{"points", points.size()}, {"done", points.size()}, {"failed", 0}, {"missing", 0}}}};
+  return {
+      {"title", "talus"},
+      {"machine", {{"cpu", "Test CPU"}, {"cores", 2}}},
+      {"scene", "strokes/wscg/scene.toml"},
+      {"design", design},
+      {"axes", axes},
+      {"metrics",
+       {{{"name", "max_force"}, {"title", "peak force"}, {"unit", "N"}, {"definition", "largest |F| <b>"}},
+        {{"name", "passes"}, {"title", "passes"}, {"unit", ""}, {"definition", "of all"}}}},
+      {"points", points},
+      {"counts", {{"points", points.size()}, {"done", points.size()}, {"failed", 0}, {"missing", 0}}}};
 }
 
 void fail(Json& data, std::size_t point, const std::string& verdict, const std::string& reason) {
@@ -195,6 +196,20 @@ TEST_F(SweepPage, AMapHasACellForEachPointInItsPlaceAndColour) {
   EXPECT_EQ(drawn[1], Json({2, 1, 1})) << "unstable, refused, missing";
   EXPECT_EQ(text(".colours > span"), "peak force (N)");
   EXPECT_EQ(texts("figure .legend li"), Json({"unstable: 2 points", "refused: 1 point", "missing: 1 point"}));
+}
+
+TEST_F(SweepPage, TooltipsDefineTheMetrics) {
+  open(grid_data(), as_map);
+  const Json both = {"largest |F| <b>", "of all"};
+  EXPECT_EQ(ask("document.querySelector('select[name=metric]').title"), both[0]);
+  const auto titles = [&](const std::string& of) {
+    return ask("[...document.querySelectorAll('" + of + "')].map((one) => one.title).filter(Boolean)");
+  };
+  EXPECT_EQ(titles(".detail dt"), both);
+  EXPECT_EQ(titles("#points th"), both);
+  ask("(() => { const one = document.querySelector('select[name=metric]'); one.value = 1; "
+      "one.dispatchEvent(new Event('change')); })()");
+  EXPECT_EQ(ask("document.querySelector('select[name=metric]').title"), both[1]);
 }
 
 TEST_F(SweepPage, AClickOnACellSelectsItsPoint) {

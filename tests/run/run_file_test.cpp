@@ -247,9 +247,9 @@ TEST_F(RunFileTest, ForcesThatWereRecordedAreHeldAgainstThoseOfTheRun) {
   EXPECT_EQ(same->ticks, static_cast<std::int64_t>(trace.size()));
   EXPECT_LT(same->rms, 0.02);  // drag is of a curve through the samples
   felt.force[trace.size() / 2].z() += 10.0;
-  write_stroke_file(folder_ / "felt.h5", felt);
+  write_stroke_file(folder_ / "more.h5", felt);
   const std::optional<ForceDifference> more =
-      run(scene({"relaxation.rate=0", "stroke.file=felt.h5"}), "b.h5").recorded_force;
+      run(scene({"relaxation.rate=0", "stroke.file=more.h5"}), "b.h5").recorded_force;
   EXPECT_NEAR(more->max, 10.0, 0.1);
   EXPECT_NEAR(more->rms, 10.0 / std::sqrt(static_cast<double>(trace.size())), 0.02);
 }

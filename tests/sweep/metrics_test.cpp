@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <map>
+#include <set>
 
 namespace sandstroke {
 namespace {
@@ -24,7 +25,7 @@ RunResult a_run() {
   return run;
 }
 
-const SlopeMeasures slopes{.mean = 12.0, .steepest = 29.0, .share_at_talus = 0.4};
+const SlopeMeasures slopes{.mean = 12.0, .steepest = 29.0, .law_steepest = 28.0, .share_at_talus = 0.4};
 const std::optional<FieldDifference> golden = FieldDifference{.max = 0.005, .rms = 0.0007, .volume = -2e-6};
 
 std::map<std::string, double> values(const RunResult& run, const std::optional<FieldDifference>& against) {
@@ -39,12 +40,22 @@ TEST(Metrics, EachIsItsOwnNumberOfTheRun) {
       {"returned_energy", 0.0625}, {"passivity_margin", -2.5}, {"saturated_share", 0.05},
       {"max_depth", 0.004},        {"displaced_volume", 1e-6}, {"moved_volume", 3e-6},
       {"volume_drift", 1e-13},     {"furrow_depth", 0.003},    {"furrow_width", 0.02},
-      {"rampart_height", 0.001},   {"slope_mean", 12.0},       {"slope_max", 29.0},
-      {"slope_at_talus", 0.4},     {"passes", 77.0},           {"residual", 0.011},
-      {"golden_max", 0.005},       {"golden_rms", 0.0007},     {"golden_volume", -2e-6},
-      {"wall_seconds", 0.25},      {"real_time_factor", 16.0},
+      {"rampart_height", 0.001},   {"slope_mean", 12.0},       {"slope_max_geometric", 29.0},
+      {"slope_max_law", 28.0},     {"slope_at_talus", 0.4},    {"passes", 77.0},
+      {"residual", 0.011},         {"golden_max", 0.005},      {"golden_rms", 0.0007},
+      {"golden_volume", -2e-6},    {"wall_seconds", 0.25},     {"real_time_factor", 16.0},
   };
   EXPECT_EQ(values(a_run(), golden), expected);
+}
+
+TEST(Metrics, AreDefined) {
+  std::set<std::string> definitions;
+  for (const Metric& metric : all_metrics()) {
+    EXPECT_GT(metric.definition.size(), 20u) << metric.name;
+    EXPECT_FALSE(metric.definition.ends_with('.')) << metric.name;
+    definitions.insert(metric.definition);
+  }
+  EXPECT_EQ(definitions.size(), all_metrics().size());
 }
 
 TEST(Metrics, SayNothingOfWhatWasNotThere) {

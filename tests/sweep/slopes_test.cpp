@@ -14,6 +14,8 @@ namespace {
 constexpr double cell_size = 0.01;
 double degrees(double slope) { return std::atan(slope) * 180.0 / std::numbers::pi; }
 
+RelaxationSettings talus(double angle) { return {.talus_angle = angle}; }
+
 HeightField bed_of(int side, const std::function<double(double x, double y)>& height) {
   HeightField bed(side, side, cell_size);
   for (int row = 0; row < side; ++row)
@@ -60,35 +62,85 @@ TEST(DescentSlope, OfAConeIsItsOwnUpToTheBendOfItsContours) {
   EXPECT_NEAR(descent_slope(cone, 50, 50), 0.6 * std::hypot(1.0, std::numbers::sqrt2 - 1.0), 1e-13);
 }
 
+TEST(LawSlope, OnAPlaneIsTheLawsOwn) {
+  // The paper's law looks in eight directions; the isotropic one sees the plane's slope.
+  for (int turn = 0; turn < 64; ++turn) {
+    const double angle = turn * std::numbers::pi / 32;
+    const HeightField bed =
+        bed_of(5, [&](double x, double y) { return 0.7 * (x * std::cos(angle) + y * std::sin(angle)); });
+    const double off = std::remainder(angle, std::numbers::pi / 4);  // from the nearest of the eight
+    EXPECT_NEAR(law_slope(bed, 2, 2, RelaxationLaw::paper), 0.7 * std::cos(off), 1e-13) << angle;
+    EXPECT_NEAR(law_slope(bed, 2, 2, RelaxationLaw::isotropic), 0.7, 1e-13) << angle;
+  }
+}
+
+TEST(LawSlope, OnAPeakIsOfTheSteeperSidesAndInAPitAndOnAWallZero) {
+  HeightField bed(3, 3, cell_size);
+  bed.set(1, 1, 3.0 * cell_size);
+  bed.set(1, 0, 2.0 * cell_size), bed.set(0, 1, cell_size), bed.set(2, 1, -cell_size);
+  EXPECT_NEAR(law_slope(bed, 1, 1, RelaxationLaw::paper), 4.0, 1e-13);
+  EXPECT_NEAR(law_slope(bed, 1, 1, RelaxationLaw::isotropic), std::hypot(3.0, 4.0), 1e-13);
+  EXPECT_EQ(law_slope(bed, 2, 1, RelaxationLaw::paper), 0.0);
+  EXPECT_EQ(law_slope(bed, 2, 1, RelaxationLaw::isotropic), 0.0);
+  const HeightField alone(HeightGrid::Constant(1, 1, 3.0), cell_size);
+  EXPECT_EQ(law_slope(alone, 0, 0, RelaxationLaw::paper), 0.0);
+  EXPECT_EQ(law_slope(alone, 0, 0, RelaxationLaw::isotropic), 0.0);
+}
+
+TEST(Slopes, OfSandAtRestAreByItsLawNoMoreThanTalusAngleAndResidual) {
+  for (const RelaxationLaw law : {RelaxationLaw::paper, RelaxationLaw::isotropic})
+    for (const RelaxationMethod method : {RelaxationMethod::passes, RelaxationMethod::rkl})
+      for (const double angle : {10.0, 20.0, 35.0, 45.0}) {
+        const HeightField before = bed_of(64, [&](double x, double y) {
+          return std::hypot(x, y) < 0.12 ? 0.2 * std::tan(angle * std::numbers::pi / 180.0) : 0.0;
+        });
+        HeightField after = before;
+        const RelaxationSettings settings{.law = law, .method = method, .talus_angle = angle};
+        const RelaxationOutcome outcome = make_relaxer(settings, cell_size)->relax(after);
+        ASSERT_TRUE(outcome.converged);
+        const double limit = std::tan(angle * std::numbers::pi / 180.0) * (1.0 + outcome.residual);
+        const SlopeMeasures measures = measure_slopes(before, after, settings);
+        EXPECT_LE(measures.law_steepest, degrees(limit) + 1e-9) << angle;
+        EXPECT_GT(measures.law_steepest, angle - 0.5);  // there is a flank
+        if (outcome.residual > 0.0) {
+          EXPECT_NEAR(measures.law_steepest, degrees(limit), 1e-9) << angle;
+        }
+        if (law == RelaxationLaw::paper) {
+          EXPECT_GE(measures.steepest, measures.law_steepest);  // which looks in fewer directions
+        }
+      }
+}
+
 TEST(Slopes, AreOfCellsThatChanged) {
   const HeightField before = bed_of(100, [](double, double y) { return 0.1 * y; });
   HeightField after = before;
   // Rows 20 to 79 are tilted the other way, about the middle.
   for (int row = 20; row < 80; ++row)
     for (int col = 0; col < 100; ++col) after.set(row, col, -0.5 * after.y_of(row));
-  const SlopeMeasures measures = measure_slopes(before, after, degrees(0.5) + 0.9);
+  const SlopeMeasures measures = measure_slopes(before, after, talus(degrees(0.5) + 0.9));
   // The first tilted row looks down its slope; the last one too, on the old bed's side, as a cliff.
   const double cliff = degrees((after(79, 0) - after(80, 0)) / cell_size), flank = degrees(0.5);
   const double first = degrees(std::max(0.5, (after(20, 0) - after(19, 0)) / cell_size));
   EXPECT_LT(cliff, 0.0);  // the lowest row is a gutter
   EXPECT_NEAR(measures.mean, (58.0 * flank + first) / 60.0, 1e-10);
   EXPECT_NEAR(measures.steepest, std::max(first, flank), 1e-10);
+  EXPECT_NEAR(measures.law_steepest, std::max(first, flank), 1e-10);  // along an axis
   EXPECT_NEAR(measures.share_at_talus, 58.0 / 60.0, 1e-15);
-  EXPECT_EQ(measure_slopes(before, after, flank + 1.1).share_at_talus, 0.0);
+  EXPECT_EQ(measure_slopes(before, after, talus(flank + 1.1)).share_at_talus, 0.0);
 }
 
 TEST(Slopes, NothingChangedMeansNone) {
   const HeightField bed = bed_of(20, [](double x, double) { return 0.4 * x; });
-  const SlopeMeasures measures = measure_slopes(bed, bed, 30.0);
+  const SlopeMeasures measures = measure_slopes(bed, bed, talus(30.0));
   EXPECT_TRUE(std::isnan(measures.mean) && std::isnan(measures.steepest) &&
-              std::isnan(measures.share_at_talus));
+              std::isnan(measures.law_steepest) && std::isnan(measures.share_at_talus));
 }
 
 TEST(Slopes, OnTheLargestBedOnlyItsTilesAreLookedAt) {
   const HeightField before(65536, 65536, cell_size);
   HeightField after = before;
   after.set(40000, 63, cell_size);  // beside a tile that does not exist
-  const SlopeMeasures measures = measure_slopes(before, after, 45.0);
+  const SlopeMeasures measures = measure_slopes(before, after, talus(45.0));
   EXPECT_NEAR(measures.mean, 45.0, 1e-12);
   EXPECT_NEAR(measures.share_at_talus, 1.0, 0.0);
 }
@@ -105,7 +157,7 @@ TEST(Slopes, OfSandAtRestByThePapersLawAreAtMostItsOctagons) {
   settings.talus_angle = 30.0;
   ASSERT_TRUE(make_relaxer(settings, cell_size)->relax(after).converged);
   const double octagon = std::hypot(1.0, std::numbers::sqrt2 - 1.0) * std::tan(std::numbers::pi / 6);
-  const SlopeMeasures measures = measure_slopes(before, after, 30.0);
+  const SlopeMeasures measures = measure_slopes(before, after, settings);
   EXPECT_LE(measures.steepest, degrees(octagon * (1.0 + settings.tolerance)) + 1e-9);
   EXPECT_GT(measures.steepest, 30.0);
   EXPECT_LT(measures.mean, measures.steepest);
@@ -116,7 +168,7 @@ TEST(Slopes, OfAConeAreItsAngle) {
   const HeightField before(201, 201, cell_size);
   const HeightField cone =
       bed_of(201, [&](double x, double y) { return std::max(0.0, slope * (0.8 - std::hypot(x, y))); });
-  const SlopeMeasures measures = measure_slopes(before, cone, 30.0);
+  const SlopeMeasures measures = measure_slopes(before, cone, talus(30.0));
   // Cells within r of the middle are off by 1 / r (cells) at most, the last ring at the foot by any amount.
   EXPECT_NEAR(measures.mean, 30.0, 0.5);
   EXPECT_GT(measures.share_at_talus, 0.9);

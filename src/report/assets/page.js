@@ -157,6 +157,7 @@ function table(columns, rows, { label, rowClass = () => null, perPage = Infinity
   const heads = columns.map((column, i) => {
     const title = column.title ?? column.name;
     const head = el("th", { scope: "col", class: kinds[i].numeric ? "number" : null,
+                            title: column.definition ?? null,
                             style: `min-width: ${Math.min(title.length + 4, 20)}ch` });
     head.append(el("button", { type: "button", click: () => sort(column, head) }, title,
                    column.unit ? el("small", {}, ` ${column.unit}`) : null));

@@ -73,6 +73,7 @@ function viewControls({ axes, metrics, points, latin }, view, changed, move) {
       log.disabled = values.length === 0 || values.some((value) => value <= 0);
       view.log = view.log && !log.disabled;
       metric.value = view.metric;
+      metric.title = metrics[view.metric]?.definition ?? "";
       x.value = view.x;
       for (const option of second.options) option.disabled = option.value === String(view.x);
       second.value = view.second ?? "";

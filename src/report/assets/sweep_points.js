@@ -47,8 +47,8 @@ function commandLine(text) {
 /** The selected point. */
 function detailPanel({ axes, metrics }) {
   const body = el("div"), said = el("p", { class: "unseen", "aria-live": "polite" });
-  const rows = (pairs) => el("dl", {}, ...pairs.flatMap(([name, value, unit]) =>
-    [el("dt", {}, name), el("dd", {}, value, unit ? el("small", {}, ` ${unit}`) : null)]));
+  const rows = (pairs) => el("dl", {}, ...pairs.flatMap(([name, value, unit, definition]) =>
+    [el("dt", { title: definition ?? null }, name), el("dd", {}, value, unit ? el("small", {}, ` ${unit}`) : null)]));
   return {
     element: el("aside", { class: "detail", role: "region", "aria-label": "Selected point" }, said, body),
     show: (point) => {
@@ -66,8 +66,8 @@ function detailPanel({ axes, metrics }) {
         point.reason ? el("p", { class: isDone(point) ? "quiet" : "bad" }, point.reason) : null,
         picture && el("img", { src: picture, alt: `The sand of point ${point.point}` }),
         el("h3", {}, "Axes"), rows(values), el("h3", {}, "Command"), commandLine(point.command),
-        metrics.length > 0 && el("h3", {}, "Metrics"), rows(metrics.map(({ title, unit }, i) =>
-          [title, format(point.metrics[i] ?? null), isNumber(point.metrics[i]) && unit])),
+        metrics.length > 0 && el("h3", {}, "Metrics"), rows(metrics.map(({ title, unit, definition }, i) =>
+          [title, format(point.metrics[i] ?? null), isNumber(point.metrics[i]) && unit, definition])),
       ].filter(Boolean));
     },
   };
@@ -154,7 +154,7 @@ function pointTable({ axes, metrics, points }, select) {
     ...axes.map(({ name, unit, values, text }, i) => ({
       name, unit, value: ({ at }) => values[at[i]], cell: ({ at }) => el("span", {}, text(at[i])) })),
     { name: "verdict", title: "Verdict", cell: ({ verdict }) => verdictMark(lookOfVerdict(verdict), verdict) },
-    ...metrics.map(({ name, title, unit }, i) => ({ name, title, unit, value: (row) => row.metrics[i] ?? null })),
+    ...metrics.map((metric, i) => ({ ...metric, value: (row) => row.metrics[i] ?? null })),
     { name: "reason", title: "Reason", cell: ({ reason }) => el("span", { class: "long" }, reason ?? "") },
   ], points, { label: "All points", perPage: 100, choose: select,
                rowClass: (row) => (isDone(row) ? null : "surprise") });

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <charconv>
+#include <string_view>
+#include <system_error>
+
+namespace sandstroke {
+
+/// Whether the whole text is this kind of number.
+template <class Number>
+bool parse_number(std::string_view text, Number& number) {
+  const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), number);
+  return failure == std::errc() && end == text.data() + text.size();
+}
+
+}  // namespace sandstroke

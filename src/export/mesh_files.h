@@ -1,0 +1,22 @@
+#pragma once
+
+#include <ostream>
+
+#include "core/output_file.h"
+#include "export/bed_mesh.h"
+
+namespace sandstroke {
+
+/// A format of triangles, in mm: none of them names a unit, and what prints them takes mm.
+struct MeshFormat {
+  OutputKind kind;
+  double most_vertices, most_triangles;          ///< that it can count
+  double (*bytes)(const MeshSize& size);         ///< about how large a file becomes
+  bool (*write)(std::ostream&, const BedMesh&);  ///< a whole file; false: interrupted()
+};
+
+extern const MeshFormat stl_format;  ///< binary, with normals
+extern const MeshFormat ply_format;  ///< binary
+extern const MeshFormat obj_format;
+
+}  // namespace sandstroke
