@@ -91,7 +91,7 @@ int update(const GoldenArguments& arguments) {
   catch_interrupts();
   for (const std::string& name : arguments.names) {
     if (!update_golden(name, arguments.folders, run_golden_scene)) return 128 + interrupted();
-    print_text("updated {}\n", arguments.folders.entry(name).string());
+    print_text("updated {}\n", arguments.folders.entry(name).folder.string());
   }
   return 0;
 }

@@ -104,14 +104,14 @@ ComparePage picture_page(const fs::path& golden_file, const Image& golden, const
   return page;
 }
 
-ComparePage golden_page(const std::string& name, const fs::path& entry, const GoldenRun& run_of_scene,
-                        const Comparison& comparison, const Tolerances& tolerances) {
+ComparePage golden_page(const GoldenEntry& entry, const GoldenRun& run_of_scene, const Comparison& comparison,
+                        const Tolerances& tolerances) {
   const RunFile run(run_of_scene.run_file);
   Json run_side = side(run);
-  run_side["name"] = fmt::format("the run of scene {}", name);
-  ComparePage page =
-      start_page(fmt::format("{} against its golden entry", name), comparison,
-                 side(entry.string(), as_far_as_known([&] { return golden_provenance(entry); })), run_side);
+  run_side["name"] = fmt::format("the run of scene {}", entry.name);
+  ComparePage page = start_page(
+      fmt::format("{} against its golden entry", entry.name), comparison,
+      side(entry.folder.string(), as_far_as_known([&] { return golden_provenance(entry); })), run_side);
   add_part(page, "Change of height", [&] {
     const GoldenContent golden = read_golden(entry);
     const HeightField expected(golden.change, golden.cell_size), change(height_change(run), golden.cell_size);
@@ -123,7 +123,7 @@ ComparePage golden_page(const std::string& name, const fs::path& entry, const Go
     return pictures_part("Picture", read_golden_picture(entry), run_of_scene.picture, tolerances.pixel);
   });
   add_part(page, "Traces",
-           [&] { return traces_part(read_golden(entry).trace, golden_trace(run), tolerances); });
+           [&] { return traces_part(read_golden(entry).trace, whole_trace(run), tolerances); });
   return page;
 }
 

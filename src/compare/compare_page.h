@@ -29,8 +29,8 @@ ComparePage picture_page(const std::filesystem::path& golden_file, const Image& 
                          const std::filesystem::path& run_file, const Image& run,
                          const Comparison& comparison, const Tolerances& tolerances);
 
-/// A run and its golden entry: change of height, picture, every 10th tick of the traces.
-ComparePage golden_page(const std::string& name, const std::filesystem::path& entry, const GoldenRun& run,
-                        const Comparison& comparison, const Tolerances& tolerances);
+/// A run and its golden entry: change of height, picture, traces.
+ComparePage golden_page(const GoldenEntry& entry, const GoldenRun& run, const Comparison& comparison,
+                        const Tolerances& tolerances);
 
 }  // namespace sandstroke

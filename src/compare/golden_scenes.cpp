@@ -7,6 +7,7 @@
 #include "compare/compare_page.h"
 #include "core/error.h"
 #include "core/output_file.h"
+#include "core/shell_text.h"
 #include "core/temporary_folder.h"
 #include "report/page.h"
 
@@ -27,6 +28,14 @@ std::set<std::string> folders_in(const fs::path& parent) {
 
 }  // namespace
 
+GoldenEntry GoldenFolders::entry(const std::string& name) const {
+  std::string update = "sandstroke golden update " + shell_quoted(name);
+  const GoldenFolders usual;
+  if (strokes != usual.strokes) update += " --strokes " + shell_quoted(strokes);
+  if (golden != usual.golden) update += " --golden " + shell_quoted(golden);
+  return {name, golden / name, update};
+}
+
 std::vector<std::string> golden_names(const GoldenFolders& folders,
                                       const std::vector<std::string>& asked_for) {
   if (!fs::is_directory(folders.strokes)) {
@@ -44,7 +53,7 @@ std::vector<std::string> golden_names(const GoldenFolders& folders,
   for (const std::string& name : asked_for) {
     if (!known.contains(name)) {
       throw_input_error("{}: neither {} nor {} exists; known are: {}", name, folders.scene(name).string(),
-                        folders.entry(name).string(), fmt::join(known, ", "));
+                        folders.entry(name).folder.string(), fmt::join(known, ", "));
     }
   }
   return asked_for;
@@ -58,9 +67,9 @@ Comparison check_golden(const std::string& name, const GoldenFolders& folders, c
   if (!fs::exists(folders.scene(name)))
     return failed("scene", fmt::format("{} does not exist; restore it or delete the golden entry",
                                        folders.scene(name).string()));
-  if (!fs::is_directory(folders.entry(name)))
-    return failed("golden entry",
-                  fmt::format("does not exist; look at the run, then: golden update {}", name));
+  const GoldenEntry entry = folders.entry(name);
+  if (!fs::is_directory(entry.folder))
+    return failed("golden entry", "does not exist; look at the run, then: " + entry.update);
 
   const TemporaryFolder folder;
   GoldenRun run;
@@ -71,11 +80,11 @@ Comparison check_golden(const std::string& name, const GoldenFolders& folders, c
     return failed("run", error.what());
   }
   if (run.result.interrupted) return failed("run", "was interrupted");
-  Comparison comparison = compare_golden(name, folders.entry(name), run, tolerances);
+  Comparison comparison = compare_golden(entry, run, tolerances);
   if (!report.empty()) {
     make_folder(report);
-    write_text_file(golden_page_path(report, name),
-                    golden_page(name, folders.entry(name), run, comparison, tolerances).html(), page_output);
+    write_text_file(golden_page_path(report, name), golden_page(entry, run, comparison, tolerances).html(),
+                    page_output);
   }
   return comparison;
 }
@@ -88,11 +97,12 @@ bool update_golden(const std::string& name, const GoldenFolders& folders, const 
   if (!fs::exists(scene))
     throw_input_error("{}: {} does not exist; check the name and --strokes", name, scene.string());
   make_folder(folders.golden);  // or refused before the run
-  check_golden_replaceable(folders.entry(name));
+  const fs::path entry = folders.entry(name).folder;
+  check_golden_replaceable(entry);
   const TemporaryFolder folder;
   const GoldenRun run = runner(scene, folder / "run.h5");
   if (run.result.interrupted) return false;
-  write_golden(folders.entry(name), run);
+  write_golden(entry, run);
   return true;
 }
 

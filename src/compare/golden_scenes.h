@@ -18,7 +18,7 @@ struct GoldenFolders {
   std::filesystem::path strokes = "strokes", golden = "golden";
 
   std::filesystem::path scene(const std::string& name) const { return strokes / name / "scene.toml"; }
-  std::filesystem::path entry(const std::string& name) const { return golden / name; }
+  GoldenEntry entry(const std::string& name) const;
 };
 
 /// Every name with a scene or a golden entry, in alphabetical order; or those asked for, if any. Error: input

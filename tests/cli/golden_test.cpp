@@ -1,7 +1,9 @@
 #include <gtest/gtest.h>
+#include <spdlog/fmt/fmt.h>
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <regex>
 #include <set>
 
 #include "cli/program.h"
@@ -59,6 +61,43 @@ TEST(CliGolden, HeightsAndForcesAreJudgedNotOnlyNames) {
     if (!one["passed"]) failed.insert(one["name"]);
   EXPECT_TRUE(failed.contains("height change")) << check.out;
   EXPECT_TRUE(failed.contains("force")) << check.out;
+}
+
+/// A straight stroke at 1 kHz, of which one sample may be moved.
+void write_stroke(const fs::path& folder, double spike) {
+  std::string table = "x,y,z\n";
+  for (int k = 0; k <= 400; ++k)
+    table += fmt::format("{},{},{}\n", -0.04 + 2e-4 * k, 0.0, -0.004 - (k == 203 ? spike : 0.0));
+  write_file(folder / "hand.csv", table);
+  const ProgramResult made = run_program({"stroke", "convert", "hand.csv", "strokes/tiny/hand.h5", "--rate",
+                                          "1000", "--position", "x,y,z", "--position-unit", "m"},
+                                         folder);
+  ASSERT_EQ(made.exit_code, 0) << made.err;
+}
+
+/// How far two runs (--json) are apart in the force.
+double force_difference(const nlohmann::json& comparison) {
+  for (const auto& check : comparison["checks"])
+    if (check["name"] == "force") return check["measured"];
+  return -1.0;
+}
+
+TEST(CliGolden, OneSampleOfAStrokeThatIsMovedIsSeenWithItsWholeForce) {
+  const fs::path folder = folder_with_golden_entry();
+  const std::string scene = read_file(folder / "strokes/tiny/scene.toml");
+  write_file(folder / "strokes/tiny/scene.toml",
+             std::regex_replace(scene, std::regex("line.toml"), "hand.h5"));
+  write_stroke(folder, 0.0);
+  ASSERT_EQ(run_program({"golden", "update", "tiny"}, folder).exit_code, 0);
+  ASSERT_EQ(run_program({"run", "strokes/tiny/scene.toml", "-o", "before.h5"}, folder).exit_code, 0);
+  write_stroke(folder, 0.02);
+  ASSERT_EQ(run_program({"run", "strokes/tiny/scene.toml", "-o", "after.h5"}, folder).exit_code, 0);
+  const ProgramResult check = run_program({"golden", "check", "--json"}, folder);
+  EXPECT_EQ(check.exit_code, 1);
+  const double spike = force_difference(
+      nlohmann::json::parse(run_program({"compare", "before.h5", "after.h5", "--json"}, folder).out));
+  EXPECT_GT(spike, 5.0);
+  EXPECT_NEAR(force_difference(nlohmann::json::parse(check.out)["scenes"][0]), spike, 2e-5) << check.out;
 }
 
 TEST(CliGolden, AMissingEntryAndAMissingSceneFail) {

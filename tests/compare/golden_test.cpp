@@ -31,14 +31,18 @@ class Golden : public testing::Test {
     run.write(folder / "run.h5");
     return {folder / "run.h5", picture, {}};
   }
-  Comparison compare() { return compare_golden("dune", folder / "golden/dune", finished(), Tolerances{}); }
+  Comparison compare() { return compare_golden(entry(), finished(), Tolerances{}); }
+
+  GoldenEntry entry() const { return {"dune", folder / "golden/dune", "sandstroke golden update dune"}; }
 
   void expect_only_failure(const std::string& name, const std::string& words) {
     sandstroke::expect_only_failure(compare(), name, words);
   }
   /// A golden.h5 that says what it wants of a bed whose changed block is given.
-  void claim(double rows, double cols, double cell_size, double ticks, const HeightGrid& block) {
+  void claim(double rows, double cols, double cell_size, double servo_rate, const HeightGrid& block) {
     Hdf5Writer file(folder / "golden/dune/golden.h5", output_kind(InputKind::golden));
+    file.attribute("/", "format_version", 2.0);
+    file.write("/scene", run.scene);
     file.make_group("/surface");
     file.attribute("/surface", "rows", rows);
     file.attribute("/surface", "cols", cols);
@@ -48,8 +52,8 @@ class Golden : public testing::Test {
     file.attribute("/surface/change", "row", 0.0);
     file.attribute("/surface/change", "col", 0.0);
     file.make_group("/trace");
-    file.attribute("/trace", "ticks", ticks);
-    file.write("/trace/rows", HeightGrid::Zero(7, 1));
+    file.attribute("/trace", "servo_rate", servo_rate);
+    file.write("/trace/ticks", HeightGrid::Zero(7, 1));
     file.finish();
   }
 
@@ -92,26 +96,25 @@ TEST_F(Golden, SandThatIsLostOrMadeFails) {
   write_golden(folder / "golden/dune", finished());
   GoldenRun leaking = finished();
   leaking.result.volume_drift = 2e-12;
-  EXPECT_FALSE(compare_golden("dune", folder / "golden/dune", leaking, Tolerances{}).passed());
+  EXPECT_FALSE(compare_golden(entry(), leaking, Tolerances{}).passed());
 }
 
 TEST_F(Golden, KeepsHeightsAndTraceToWithinHalfAQuantum) {
   write_golden(folder / "golden/dune", finished());
-  const GoldenContent content = read_golden(folder / "golden/dune");
+  const GoldenContent content = read_golden(entry());
   EXPECT_LE((content.change - (run.final - run.initial)).abs().maxCoeff(), 0x1p-31);
   const Hdf5Reader file(folder / "golden/dune/golden.h5");
   EXPECT_EQ(file.shape("/surface/change"), (std::vector<hsize_t>{6, 10})) << "only the cells that changed";
   ASSERT_TRUE(content.trace);
-  EXPECT_EQ(content.trace->ticks, SyntheticRun::ticks);
   const std::vector<TickRecord>& rows = content.trace->rows;
-  ASSERT_EQ(rows.size(), 11u) << "ticks 0, 10, ..., 100";
+  ASSERT_EQ(rows.size(), SyntheticRun::ticks) << "every tick";
   EXPECT_TRUE(std::isnan(rows[1].level)) << "lifted";
   for (std::size_t k = 0; k < rows.size(); ++k) {
-    const TickRecord& tick = run.trace[10 * k];
+    const TickRecord& tick = run.trace[k];
     EXPECT_EQ(rows[k].time, tick.time);
     EXPECT_EQ(rows[k].contact, tick.contact);
-    EXPECT_NEAR(rows[k].device_force.z(), tick.device_force.z(), 0x1p-21);
-    EXPECT_NEAR(rows[k].depth, tick.depth, 0x1p-31);
+    EXPECT_NEAR(rows[k].device_force.z(), tick.device_force.z(), 0x1p-18);
+    EXPECT_NEAR(rows[k].depth, tick.depth, 0x1p-28);
   }
 }
 
@@ -125,15 +128,87 @@ TEST_F(Golden, KeepsEachFieldOfATickInItsPlace) {
     tick.contact = k % 20 == 0;
   }
   write_golden(folder / "golden/dune", finished());
-  const std::vector<TickRecord> rows = read_golden(folder / "golden/dune").trace->rows;
-  ASSERT_EQ(rows.size(), 11u);
+  const std::vector<TickRecord> rows = read_golden(entry()).trace->rows;
+  ASSERT_EQ(rows.size(), run.trace.size());
   for (std::size_t k = 0; k < rows.size(); ++k) {
-    const TickRecord& tick = run.trace[10 * k];
+    const TickRecord& tick = run.trace[k];
     EXPECT_EQ(rows[k].time, tick.time);
     EXPECT_EQ(rows[k].device_force, tick.device_force);
     EXPECT_EQ(rows[k].depth, tick.depth);
     EXPECT_EQ(rows[k].level, tick.level);
     EXPECT_EQ(rows[k].contact, tick.contact);
+  }
+}
+
+TEST_F(Golden, AChangeOfOneTickFailsAtItsTime) {
+  write_golden(folder / "golden/dune", finished());
+  const std::vector<TickRecord> trace = run.trace;
+  using Change = std::function<void(TickRecord&)>;
+  const std::vector<std::pair<std::string, Change>> changes = {
+      {"force", [](TickRecord& tick) { tick.device_force.x() += 0.001; }},
+      {"force", [](TickRecord& tick) { tick.device_force.y() -= 0.001; }},
+      {"force", [](TickRecord& tick) { tick.device_force.z() += 0.001; }},
+      {"depth", [](TickRecord& tick) { tick.depth -= 2e-6; }}};
+  for (const std::size_t tick : {0, 1, 9, 11, 19, 20, 47, 103, 104}) {
+    for (const auto& [check, change] : changes) {
+      run.trace = trace;
+      change(run.trace[tick]);
+      expect_only_failure(check, fmt::format("at time {} s", trace[tick].time));
+    }
+  }
+}
+
+TEST_F(Golden, ASpikeOfOneTickIsReportedAsLargeAsItIs) {
+  write_golden(folder / "golden/dune", finished());
+  run.trace[47].device_force.y() += 10.57;
+  for (const Check& check : compare().checks)
+    if (check.name == "force") {
+      EXPECT_NEAR(check.measured, 10.57, 0x1p-17) << check.sentence;
+    }
+  expect_only_failure("force", "at time 0.047 s");
+}
+
+TEST_F(Golden, TimesOfTicksWithGapsAreKeptToTheBit) {
+  run.scene = "[device]\nservo_rate = 3333.3\n";
+  std::int64_t number = 0;
+  for (std::size_t k = 0; k < run.trace.size(); ++k, number += k % 30 == 0 ? 1'000'000'007 : 1)
+    run.trace[k].time = static_cast<double>(number) / 3333.3;
+  write_golden(folder / "golden/dune", finished());
+  const std::vector<TickRecord> rows = read_golden(entry()).trace->rows;
+  ASSERT_EQ(rows.size(), run.trace.size());
+  for (std::size_t k = 0; k < rows.size(); ++k) EXPECT_EQ(rows[k].time, run.trace[k].time);
+}
+
+TEST_F(Golden, ATraceThatItCannotKeepIsRefused) {
+  using Change = std::function<void(TickRecord&)>;
+  for (const auto& [words, change] : std::vector<std::pair<std::string, Change>>{
+           {"at time 0.05 s is not finite", [](TickRecord& tick) { tick.device_force.y() = std::nan(""); }},
+           {"at time 0.05 s is not finite", [](TickRecord& tick) { tick.depth = -HUGE_VAL; }},
+           {"at time 0.05 s is not finite", [](TickRecord& tick) { tick.level = std::nan(""); }},
+           {"at time 0.05 s is not finite or too large", [](TickRecord& tick) { tick.level = 1e9; }},
+           {"time 0.0504 s is no whole multiple", [](TickRecord& tick) { tick.time = 0.0504; }}}) {
+    run = SyntheticRun();
+    change(run.trace[50]);
+    try {
+      write_golden(folder / "golden/dune", finished());
+      ADD_FAILURE() << words;
+    } catch (const Error& error) {
+      EXPECT_NE(std::string(error.what()).find(words), std::string::npos) << error.what();
+    }
+  }
+}
+
+TEST_F(Golden, AnEntryOfAnotherFormatSaysWhatToDo) {
+  write_golden(folder / "golden/dune", finished());
+  for (const auto& [version, words] :
+       {std::pair{
+            1.0,
+            "has format 1, and this program reads format 2; make it anew: sandstroke golden update dune"},
+        {3.0, "has format 3, and this program reads format 2; use a newer version"}}) {
+    Hdf5Writer file(folder / "golden/dune/golden.h5", output_kind(InputKind::golden));
+    file.attribute("/", "format_version", version);
+    file.finish();
+    EXPECT_NE(check_table(compare()).find(words), std::string::npos) << check_table(compare());
   }
 }
 
@@ -160,14 +235,14 @@ TEST_F(Golden, EachToleranceHoldsJustBelowItAndNotJustAbove) {
   for (const auto& [drift, passed] : {std::pair{0.95e-12, true}, {1.05e-12, false}}) {
     GoldenRun leaking = finished();
     leaking.result.volume_drift = drift;
-    EXPECT_EQ(compare_golden("dune", folder / "golden/dune", leaking, Tolerances{}).passed(), passed);
+    EXPECT_EQ(compare_golden(entry(), leaking, Tolerances{}).passed(), passed);
   }
 }
 
 TEST_F(Golden, KeepsTheSmallestChange) {
   run.final(2, 3) = 2e-9;
   write_golden(folder / "golden/dune", finished());
-  EXPECT_NEAR(read_golden(folder / "golden/dune").change(2, 3), 2e-9, 0x1p-31);
+  EXPECT_NEAR(read_golden(entry()).change(2, 3), 2e-9, 0x1p-31);
 }
 
 TEST_F(Golden, TheLastBitsOfTheInitialSurfaceDoNotMatter) {
@@ -185,7 +260,7 @@ TEST_F(Golden, SaysWhatItRanAndWhatCameOut) {
   ran.result.volume_drift = 3e-14;
   write_golden(folder / "golden/dune", ran);
   std::map<std::string, std::string> said;
-  for (const auto& [name, value] : golden_provenance(folder / "golden/dune")) said[name] = value;
+  for (const auto& [name, value] : golden_provenance(entry())) said[name] = value;
   EXPECT_EQ(said["scene_hash"], run.scene_hash);
   EXPECT_EQ(said["stroke_hash"], run.stroke_hash);
   EXPECT_EQ(said.size(), 5u);  // with version, commit and compiler
@@ -265,10 +340,10 @@ TEST_F(Golden, AChangedPictureFails) {
 TEST_F(Golden, AChangedSceneOrStrokeFailsAndSaysWhatToDo) {
   write_golden(folder / "golden/dune", finished());
   run.scene_hash = "0123456789abcdee";
-  expect_only_failure("scene", "scene changed: golden update dune");
+  expect_only_failure("scene", "scene changed: sandstroke golden update dune");
   run = SyntheticRun();
   run.stroke_hash = "";
-  expect_only_failure("stroke", "stroke changed: golden update dune");
+  expect_only_failure("stroke", "stroke changed: sandstroke golden update dune");
 }
 
 TEST_F(Golden, AnEntryWithoutOneOfItsFilesFails) {
@@ -285,7 +360,7 @@ TEST_F(Golden, ADamagedEntryIsNotBelieved) {
   const HeightGrid one = HeightGrid::Zero(1, 1), none = HeightGrid::Zero(0, 0);
   constexpr double nan = std::numeric_limits<double>::quiet_NaN(), infinite = HUGE_VAL;
   claim(30, 40, 0.01, 1, one);
-  EXPECT_NO_THROW(read_golden(folder / "golden/dune"));
+  EXPECT_NO_THROW(read_golden(entry()));
   for (const double side : {0.0, -1.0, 65537.0, nan}) {
     claim(side, 40, 0.01, 1, none);
     expect_only_failure("golden content", "does not lie in the bed");
@@ -296,9 +371,9 @@ TEST_F(Golden, ADamagedEntryIsNotBelieved) {
     claim(30, 40, cell_size, 1, one);
     expect_only_failure("golden content", "cell_size");
   }
-  for (const double ticks : {-1.0, 0.5, nan, infinite}) {
-    claim(30, 40, 0.01, ticks, one);
-    expect_only_failure("golden content", "ticks");
+  for (const double servo_rate : {-1.0, 0.0, nan, infinite}) {
+    claim(30, 40, 0.01, servo_rate, one);
+    expect_only_failure("golden content", "servo_rate");
   }
 }
 
@@ -307,7 +382,7 @@ TEST_F(Golden, ASmallEntryOfAHugeBedIsRefusedBeforeItTakesMemory) {
   if (memory_room().bytes > 4.0 * sizeof(double) * side * side) GTEST_SKIP() << "there is room for it";
   write_golden(folder / "golden/dune", finished());
   claim(side, side, 0.01, 1, HeightGrid::Zero(1, 1));
-  EXPECT_THROW(read_golden(folder / "golden/dune"), NotEnoughMemory);
+  EXPECT_THROW(read_golden(entry()), NotEnoughMemory);
   EXPECT_THROW(compare(), NotEnoughMemory) << "that says nothing about the run";
 }
 
@@ -385,8 +460,8 @@ TEST_F(GoldenScenes, UpdatedSceneChecksAndReports) {
 }
 
 TEST_F(GoldenScenes, NamesAreTheUnionOfScenesAndEntries) {
-  fs::create_directories(folders.entry("old"));
-  fs::create_directories(folders.entry("dune.part"));  // an update that was killed
+  fs::create_directories(folders.entry("old").folder);
+  fs::create_directories(folders.entry("dune.part").folder);  // an update that was killed
   fs::create_directories(folders.strokes / "no-scene");
   EXPECT_EQ(golden_names(folders, {}), (std::vector<std::string>{"dune", "letters", "old"}));
   EXPECT_EQ(golden_names(folders, {"letters"}), (std::vector<std::string>{"letters"}));
@@ -408,7 +483,7 @@ TEST_F(GoldenScenes, NothingAtAllIsNoSuccess) {
 TEST_F(GoldenScenes, MissingEntryAndMissingSceneFailWithoutARun) {
   EXPECT_EQ(check("letters").failures(), 1);
   EXPECT_EQ(check("letters").checks[0].name, "golden entry");
-  fs::create_directories(folders.entry("old"));
+  fs::create_directories(folders.entry("old").folder);
   EXPECT_EQ(check("old").checks[0].name, "scene");
   EXPECT_FALSE(check("old").passed());
   EXPECT_TRUE(ran.empty());
@@ -440,7 +515,7 @@ TEST_F(GoldenScenes, AnInterruptedRunIsNoSuccessAndChangesNothing) {
 
 TEST_F(GoldenScenes, ADamagedEntryFailsEvenWithAReport) {
   update_golden("dune", folders, runner());
-  std::ofstream(folders.entry("dune") / "golden.h5") << "rubbish";
+  std::ofstream(folders.entry("dune").folder / "golden.h5") << "rubbish";
   EXPECT_EQ(check("dune").failures(), 1);
 }
 

@@ -20,6 +20,7 @@ struct SyntheticRun {
   double cell_size = 0.01;
   bool complete = true, has_final = true, has_trace = true;
   std::string scene_hash = "0123456789abcdef", stroke_hash = "fedcba9876543210";
+  std::string scene = "[device]\nservo_rate = 1000.0\n";
   HeightGrid initial = HeightGrid::Zero(30, 40), final;
   std::vector<TickRecord> trace;
   std::string missing_column;  // of the trace
@@ -34,7 +35,7 @@ struct SyntheticRun {
       const bool lifted = tick < lifted_ticks;
       const double depth = lifted ? 0.0 : 1e-4 * static_cast<double>(tick);
       TickRecord& record = trace.emplace_back();
-      record.time = 0.001 * static_cast<double>(tick);
+      record.time = static_cast<double>(tick) / 1000.0;
       record.depth = depth;
       record.level = lifted ? std::numeric_limits<double>::quiet_NaN() : 0.001;
       record.device_force.z() = 1000.0 * std::expm1(0.5 * depth);
@@ -51,6 +52,7 @@ struct SyntheticRun {
     file.attribute("/surface", "cell_size", cell_size);
     file.write("/surface/initial", initial);
     if (has_final) file.write("/surface/final", final);
+    file.write("/scene", scene);
     file.write("/provenance/scene_hash", scene_hash);
     file.write("/provenance/stroke_hash", stroke_hash);
     if (has_trace)
