@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 
 namespace sandstroke {
 namespace {
@@ -29,6 +30,11 @@ bool Comparison::passed() const { return !checks.empty() && failures() == 0; }
 int Comparison::failures() const {
   return static_cast<int>(
       std::count_if(checks.begin(), checks.end(), [](const Check& c) { return !c.passed; }));
+}
+
+double Comparison::seconds() const {
+  return std::accumulate(checks.begin(), checks.end(), 0.0,
+                         [](double sum, const Check& check) { return sum + check.seconds; });
 }
 
 std::string check_table(const Comparison& comparison) {

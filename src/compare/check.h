@@ -17,6 +17,7 @@ struct Check {
   double limit = no_number;     ///< in `unit`; NaN where there is no number to stay below
   std::string unit;
   std::string sentence;  ///< what was found and where
+  double seconds = 0.0;  ///< that it took, with what it is the first to need
 };
 
 /// A check that holds where measured <= limit; not where measured is NaN.
@@ -33,6 +34,7 @@ struct Comparison {
   /// All of them hold, and there is at least one: comparing nothing is not a success.
   bool passed() const;
   int failures() const;
+  double seconds() const;  ///< of all checks
 };
 
 /// One aligned line per check (name, measured, limit, ok or FAILED), then the sentences of those that failed.

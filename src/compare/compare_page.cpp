@@ -30,7 +30,8 @@ auto as_far_as_known(const Make& make) -> decltype(make()) {
   }
 }
 
-/// One of the two that are compared: its file, name and value of its provenance, its resolved scene.
+/// One of the two that are compared, called "golden" and "run" unless it has a label: its file, name and
+/// value of its provenance, its resolved scene.
 Json side(const std::string& name, const std::vector<std::pair<std::string, std::string>>& provenance = {},
           const std::string& scene = "") {
   Json entries = Json::array();
@@ -70,8 +71,14 @@ bool failed(const Comparison& comparison, const std::string& name) {
                      [&](const Check& check) { return check.name == name && !check.passed; });
 }
 
-std::string title_of(const fs::path& golden, const fs::path& run) {
-  return fmt::format("{} against {}", run.filename().string(), golden.filename().string());
+/// A page on two files, which are called by their names; by their whole paths where the names are the same.
+ComparePage start_page_of_files(const fs::path& golden_file, const fs::path& run_file,
+                                const Comparison& comparison, Json golden, Json run) {
+  const bool same = golden_file.filename() == run_file.filename();
+  const std::string a = (same ? golden_file : golden_file.filename()).string(),
+                    b = (same ? run_file : run_file.filename()).string();
+  if (a != b) golden["label"] = a, run["label"] = b;
+  return start_page(fmt::format("{} against {}", b, a), comparison, std::move(golden), std::move(run));
 }
 
 }  // namespace
@@ -80,7 +87,7 @@ std::string ComparePage::html() const { return html_page(title, PageScript::comp
 
 ComparePage run_page(const RunFile& golden, const RunFile& run, const Comparison& comparison,
                      const Tolerances& tolerances) {
-  ComparePage page = start_page(title_of(golden.name(), run.name()), comparison, side(golden), side(run));
+  ComparePage page = start_page_of_files(golden.name(), run.name(), comparison, side(golden), side(run));
   if (failed(comparison, "initial height")) {
     add_part(page, "Initial height", [&]() -> Json {
       const HeightField a = golden.initial_bed(), b = run.initial_bed();
@@ -98,8 +105,8 @@ ComparePage run_page(const RunFile& golden, const RunFile& run, const Comparison
 
 ComparePage picture_page(const fs::path& golden_file, const Image& golden, const fs::path& run_file,
                          const Image& run, const Comparison& comparison, const Tolerances& tolerances) {
-  ComparePage page = start_page(title_of(golden_file, run_file), comparison, side(golden_file.string()),
-                                side(run_file.string()));
+  ComparePage page = start_page_of_files(golden_file, run_file, comparison, side(golden_file.string()),
+                                         side(run_file.string()));
   add_part(page, "Picture", [&] { return pictures_part("Picture", golden, run, tolerances.pixel); });
   return page;
 }
@@ -109,9 +116,11 @@ ComparePage golden_page(const GoldenEntry& entry, const GoldenRun& run_of_scene,
   const RunFile run(run_of_scene.run_file);
   Json run_side = side(run);
   run_side["name"] = fmt::format("the run of scene {}", entry.name);
-  ComparePage page = start_page(
-      fmt::format("{} against its golden entry", entry.name), comparison,
-      side(entry.folder.string(), as_far_as_known([&] { return golden_provenance(entry); })), run_side);
+  ComparePage page =
+      start_page(fmt::format("{} against its golden entry", entry.name), comparison,
+                 side(entry.folder.string(), as_far_as_known([&] { return golden_provenance(entry); }),
+                      as_far_as_known([&] { return read_golden(entry).scene; })),
+                 run_side);
   add_part(page, "Change of height", [&] {
     const GoldenContent golden = read_golden(entry);
     const HeightField expected(golden.change, golden.cell_size), change(height_change(run), golden.cell_size);

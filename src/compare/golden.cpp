@@ -4,6 +4,7 @@
 
 #include "compare/compare_runs.h"
 #include "compare/replace_folder.h"
+#include "compare/scene_difference.h"
 #include "core/error.h"
 #include "core/output_file.h"
 #include "core/version.h"
@@ -71,9 +72,54 @@ void copy_entry(const fs::path& entry, const fs::path& made) {
   fs::permissions(made, fs::status(entry).permissions());
 }
 
-Check same_check(const std::string& what, const GoldenEntry& entry, bool same) {
-  return fact_check(what, same,
-                    same ? what + " as recorded" : fmt::format("{} changed: {}", what, entry.update));
+/// change: what has changed; empty: nothing.
+Check same_check(const std::string& what, const GoldenEntry& entry, const std::string& change) {
+  if (change.empty()) return fact_check(what, true, what + " as recorded");
+  return fact_check(what, false, fmt::format("{}; if that is wanted: {}", change, entry.update));
+}
+
+Check scene_check(const GoldenEntry& entry, const GoldenContent& golden, const RunFile& run) {
+  const std::string change = scene_difference(golden.scene, run.scene_text());
+  return same_check("scene", entry, change.empty() ? "" : "scene changed: " + change);
+}
+
+Check stroke_check(const GoldenEntry& entry, const RunFile& run) {
+  constexpr const char* key = "stroke_hash";
+  const TomlReader provenance = TomlReader::from_file(existing(entry, provenance_name));
+  provenance.require(key);
+  if (provenance.text(key, "") == provenance_of(run, key)) return same_check("stroke", entry, "");
+  const TomlReader scene = TomlReader::from_text(run.scene_text(), run.name() + ": /scene");
+  return same_check("stroke", entry,
+                    fmt::format("stroke changed: {} holds another stroke",
+                                scene.has("stroke") ? scene.text("stroke.file", "") : "the scene"));
+}
+
+Check drift_check(double drift) {
+  constexpr double most = 1e-12;  // of the volume moved; rounding alone is far below
+  Check check = limit_check("volume drift", drift, most, "",
+                            fmt::format("{:.3g} of the sand that moved was lost or made", drift));
+  if (!check.passed) check.sentence += "; no step may do that: please report it";
+  return check;
+}
+
+/// The checks by what golden.h5 holds.
+std::vector<Check> content_checks(const GoldenEntry& entry, const RunFile& run,
+                                  const Tolerances& tolerances) {
+  const GoldenContent golden = read_golden(entry);
+  std::vector<Check> checks;
+  add_checks(checks, "scene", [&] { return std::vector{scene_check(entry, golden, run)}; });
+  add_checks(checks, "initial surface", [&] {
+    const bool same = golden.initial_hash == initial_hash(run.initial());
+    return std::vector{same_check("initial surface", entry, same ? "" : "initial surface changed")};
+  });
+  add_checks(checks, "cell size",
+             [&] { return std::vector{cell_size_check(golden.cell_size, run.cell_size())}; });
+  add_checks(checks, "height change", [&] {
+    return std::vector{height_check("height change", HeightField(golden.change, golden.cell_size),
+                                    HeightField(height_change(run), golden.cell_size), tolerances.height)};
+  });
+  add_checks(checks, "trace", [&] { return trace_checks(golden.trace, whole_trace(run), tolerances); });
+  return checks;
 }
 
 }  // namespace
@@ -126,38 +172,14 @@ Comparison compare_golden(const GoldenEntry& entry, const GoldenRun& run_of_scen
   std::vector<Check>& checks = comparison.checks;
   const RunFile run(run_of_scene.run_file);
 
-  add_checks(checks, "provenance", [&] {
-    const TomlReader provenance = TomlReader::from_file(existing(entry, provenance_name));
-    const auto same_hash = [&](const std::string& what) {
-      const std::string key = what + "_hash";
-      provenance.require(key);
-      return same_check(what, entry, provenance.text(key, "") == provenance_of(run, key));
-    };
-    return std::vector{same_hash("scene"), same_hash("stroke")};
+  add_checks(checks, "run complete", [&] {
+    Check complete = complete_check("run", run);
+    complete.seconds = run_of_scene.seconds;
+    return std::vector{complete};
   });
-  constexpr double most_drift = 1e-12;  // of the volume moved; rounding alone is far below
-  checks.push_back(limit_check(
-      "volume drift", run_of_scene.result.volume_drift, most_drift, "",
-      fmt::format("{}: the volume changed by {:.3g} of the sand moved; no step may lose or make sand",
-                  entry.name, run_of_scene.result.volume_drift)));
-  add_checks(checks, "run complete", [&] { return std::vector{complete_check("run", run)}; });
-
-  add_checks(checks, "golden content", [&] {
-    const GoldenContent golden = read_golden(entry);
-    std::vector<Check> found;
-    add_checks(found, "initial surface", [&] {
-      return std::vector{
-          same_check("initial surface", entry, golden.initial_hash == initial_hash(run.initial()))};
-    });
-    add_checks(found, "cell size",
-               [&] { return std::vector{cell_size_check(golden.cell_size, run.cell_size())}; });
-    add_checks(found, "height change", [&] {
-      return std::vector{height_check("height change", HeightField(golden.change, golden.cell_size),
-                                      HeightField(height_change(run), golden.cell_size), tolerances.height)};
-    });
-    add_checks(found, "trace", [&] { return trace_checks(golden.trace, whole_trace(run), tolerances); });
-    return found;
-  });
+  checks.push_back(drift_check(run_of_scene.result.volume_drift));
+  add_checks(checks, "provenance", [&] { return std::vector{stroke_check(entry, run)}; });
+  add_checks(checks, "golden content", [&] { return content_checks(entry, run, tolerances); });
   add_checks(checks, "picture",
              [&] { return picture_checks(read_golden_picture(entry), run_of_scene.picture, tolerances); });
   return comparison;

@@ -33,6 +33,7 @@ struct GoldenRun {
   std::filesystem::path run_file;
   Image picture;
   RunResult result;
+  double seconds = 0.0;  ///< that running and drawing took
 };
 
 /// To be asked before the run: that the files of an entry may be replaced. Error: input, io.

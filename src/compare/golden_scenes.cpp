@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "core/output_file.h"
 #include "core/shell_text.h"
+#include "core/stopwatch.h"
 #include "core/temporary_folder.h"
 #include "report/page.h"
 
@@ -61,8 +62,11 @@ std::vector<std::string> golden_names(const GoldenFolders& folders,
 
 Comparison check_golden(const std::string& name, const GoldenFolders& folders, const SceneRunner& runner,
                         const Tolerances& tolerances, const fs::path& report) {
-  const auto failed = [&](const std::string& check, const std::string& sentence) {
-    return Comparison{name, {fact_check(check, false, sentence)}};
+  const Stopwatch watch;
+  const auto failed = [&](const std::string& name_of_check, const std::string& sentence) {
+    Check check = fact_check(name_of_check, false, sentence);
+    check.seconds = watch.seconds();
+    return Comparison{name, {check}};
   };
   if (!fs::exists(folders.scene(name)))
     return failed("scene", fmt::format("{} does not exist; restore it or delete the golden entry",
@@ -80,6 +84,7 @@ Comparison check_golden(const std::string& name, const GoldenFolders& folders, c
     return failed("run", error.what());
   }
   if (run.result.interrupted) return failed("run", "was interrupted");
+  run.seconds = watch.seconds();
   Comparison comparison = compare_golden(entry, run, tolerances);
   if (!report.empty()) {
     make_folder(report);

@@ -49,9 +49,9 @@ std::vector<Check> trace_checks(const std::optional<CountedTrace>& golden,
 /// Largest difference and share of differing pixels.
 std::vector<Check> picture_checks(const Image& golden, const Image& run, const Tolerances& tolerances);
 
-/// Appends what `make` returns, or, where the data it asks for is missing or damaged (Error: input), the
-/// failed check `name` with the error's sentence. What is_of_the_machine() says nothing about the data:
-/// Error.
+/// Appends what `make` returns, with the time that it took, or, where the data it asks for is missing or
+/// damaged (Error: input), the failed check `name` with the error's sentence. What is_of_the_machine() says
+/// nothing about the data: Error.
 void add_checks(std::vector<Check>& checks, const std::string& name,
                 const std::function<std::vector<Check>()>& make);
 

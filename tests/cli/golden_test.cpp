@@ -2,6 +2,7 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <regex>
 #include <set>
@@ -98,6 +99,28 @@ TEST(CliGolden, OneSampleOfAStrokeThatIsMovedIsSeenWithItsWholeForce) {
       nlohmann::json::parse(run_program({"compare", "before.h5", "after.h5", "--json"}, folder).out));
   EXPECT_GT(spike, 5.0);
   EXPECT_NEAR(force_difference(nlohmann::json::parse(check.out)["scenes"][0]), spike, 2e-5) << check.out;
+}
+
+TEST(CliGolden, APythonReaderOfJUnitReadsTheReportWithItsTimes) {
+  if (std::system("/usr/bin/python3 -c 'import junitparser' 2> /dev/null") != 0)
+    GTEST_SKIP() << "there is no junitparser for Python (Debian: python3-junitparser)";
+  const fs::path folder = folder_with_golden_entry();
+  write_file(folder / "strokes/tiny/scene.toml",
+             read_file(folder / "strokes/tiny/scene.toml") + "[relaxation]\ntalus_angle = 31.0\n");
+  ASSERT_EQ(run_program({"golden", "check", "--junit", "golden.xml"}, folder).exit_code, 1);
+  write_file(folder / "read.py",
+             "import junitparser, sys\n"
+             "suite, = junitparser.JUnitXml.fromfile(sys.argv[1])\n"
+             "run, = [case for case in suite if case.name == 'run complete']\n"
+             "scene, = [case for case in suite if case.name == 'scene']\n"
+             "assert suite.name == 'tiny' and suite.tests == len(list(suite)) and suite.failures > 0\n"
+             "assert 0 < run.time <= suite.time\n"
+             "assert abs(sum(case.time for case in suite) - suite.time) < 0.02\n"
+             "assert run.is_passed and 'talus_angle was 30.0, is 31.0' in scene.result[0].message\n");
+  EXPECT_EQ(std::system(
+                ("/usr/bin/python3 " + (folder / "read.py").string() + " " + (folder / "golden.xml").string())
+                    .c_str()),
+            0);
 }
 
 TEST(CliGolden, AMissingEntryAndAMissingSceneFail) {

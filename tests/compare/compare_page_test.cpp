@@ -220,9 +220,9 @@ TEST_F(ComparePageInBrowser, TheKeyboardReachesTheSliderAndMovesTheEdge) {
 
 TEST_F(ComparePageInBrowser, WipesToTheDifferenceToo) {
   open(DifferentPair().page());
-  browser().choose("#part-1 select", "golden and difference");
+  browser().choose("#part-1 select", "golden.h5 and difference");
   EXPECT_EQ(browser().evaluate("[...document.querySelectorAll('.wipe .tag')].map((one) => one.textContent)"),
-            Json({"golden", "difference"}));
+            Json({"golden.h5", "difference"}));
   EXPECT_EQ(browser().evaluate("document.querySelectorAll('.wipe img')[1].src === "
                                "document.querySelectorAll('#part-1 .charts:last-child img')[2].src"),
             true);
@@ -247,8 +247,8 @@ TEST_F(ComparePageInBrowser, PointingAtAPlaceReadsOffItsHeights) {
   };
   EXPECT_NEAR(number_after("x"), x, 5e-4) << text;
   EXPECT_NEAR(number_after("y"), y, 5e-4) << text;
-  EXPECT_NEAR(number_after("golden"), 1e3 * pair.golden.final(12, 25), 1e-3) << text;
-  EXPECT_NEAR(number_after("run"), 1e3 * pair.run.final(12, 25), 1e-3) << text;
+  EXPECT_NEAR(number_after("golden.h5"), 1e3 * pair.golden.final(12, 25), 1e-3) << text;
+  EXPECT_NEAR(number_after("run.h5"), 1e3 * pair.run.final(12, 25), 1e-3) << text;
   EXPECT_NEAR(number_after("difference"), 2.0, 1e-3) << text;
 }
 
@@ -284,7 +284,7 @@ TEST_F(ComparePageInBrowser, PointingAtAChartReadsOffBothTraces) {
   browser().wait_for("document.querySelector('#part-2 .tip')");
   EXPECT_EQ(
       browser().evaluate("[...document.querySelectorAll('#part-2 .tip dt')].map((one) => one.textContent)"),
-      Json({"golden (N)", "run (N)"}));
+      Json({"golden.h5 (N)", "run.h5 (N)"}));
   expect_no_errors();
 }
 
@@ -302,6 +302,35 @@ TEST_F(ComparePageInBrowser, WhatIsMissingIsSaidAndTheRestIsDrawn) {
   open(shapes.page());
   EXPECT_EQ(browser().evaluate("document.images.length"), 2);
   EXPECT_EQ(browser().evaluate("document.querySelectorAll('input').length"), 0);
+}
+
+TEST(ComparePage, CallsFilesByTheirNames) {
+  const Pair pair;
+  const auto labels = [&](const std::string& golden, const std::string& run) {
+    const ComparePage page = picture_page(golden, Image(2, 2), run, Image(2, 2), {}, Tolerances{});
+    return std::vector<std::string>{page.title, page.data["golden"].value("label", ""),
+                                    page.data["run"].value("label", "")};
+  };
+  EXPECT_EQ(labels("a/before.png", "b/after.png"),
+            (Names{"after.png against before.png", "before.png", "after.png"}));
+  EXPECT_EQ(labels("a/sand.png", "b/sand.png"),
+            (Names{"b/sand.png against a/sand.png", "a/sand.png", "b/sand.png"}));
+  EXPECT_EQ(labels("sand.png", "sand.png"), (Names{"sand.png against sand.png", "", ""})) << "golden and run";
+}
+
+TEST_F(ComparePageInBrowser, CallsFilesByTheirNamesInMapsTablesAndCharts) {
+  open(DifferentPair().page("after.h5"));
+  const auto texts = [&](const std::string& selector) {
+    return browser().evaluate("[...document.querySelectorAll('" + selector +
+                              "')].map((one) => one.firstChild.data)");
+  };
+  EXPECT_EQ(texts("#part-1 .charts figcaption"),
+            Json({"Golden: golden.h5", "Run: after.h5", "Difference: after.h5 − golden.h5"}));
+  EXPECT_EQ(browser().evaluate(
+                "[...document.querySelectorAll('#files th')].slice(0, 3).map((one) => one.textContent)"),
+            Json({"Entry", "Golden: golden.h5", "Run: after.h5"}));
+  EXPECT_EQ(browser().evaluate("charts[0].drawn.getOption().series.map(({ name }) => name)"),
+            Json({"golden.h5", "after.h5"}));
 }
 
 TEST_F(ComparePageInBrowser, PicturesOfTwoFiles) {

@@ -13,6 +13,7 @@
 #include "core/input_file.h"
 #include "core/machine.h"
 #include "core/output_file.h"
+#include "core/stopwatch.h"
 #include "io/input_kind.h"
 #include "synthetic_run.h"
 
@@ -69,7 +70,7 @@ TEST_F(Golden, RoundTripPasses) {
   std::vector<std::string> names;
   for (const Check& check : comparison.checks) names.push_back(check.name);
   EXPECT_EQ(names,
-            (std::vector<std::string>{"scene", "stroke", "volume drift", "run complete", "initial surface",
+            (std::vector<std::string>{"run complete", "volume drift", "stroke", "scene", "initial surface",
                                       "cell size", "height change", "ticks", "time", "force", "depth",
                                       "level", "positions", "picture", "picture share"}));
 }
@@ -337,13 +338,62 @@ TEST_F(Golden, AChangedPictureFails) {
   expect_only_failure("picture", "720 x 404");
 }
 
-TEST_F(Golden, AChangedSceneOrStrokeFailsAndSaysWhatToDo) {
+TEST_F(Golden, AChangedSceneNamesItsSettingsWithBothValues) {
+  run.scene =
+      "[device]\nservo_rate = 1000.0\n[tool]\nradius = 0.01\nprofile = \"paper\"\n[view]\nsize = [80, 45]\n";
   write_golden(folder / "golden/dune", finished());
-  run.scene_hash = "0123456789abcdee";
-  expect_only_failure("scene", "scene changed: sandstroke golden update dune");
-  run = SyntheticRun();
+  run.scene = "[device]\nservo_rate = 1000.0\n[tool]\nradius = 0.02\nsolid = true\n[view]\nsize = [80, 46]\n";
+  expect_only_failure("scene",
+                      "scene changed: tool.radius was 0.01, is 0.02; tool.profile was \"paper\", is gone; "
+                      "view.size was [80, 45], is [80, 46]; tool.solid is new, true; "
+                      "if that is wanted: sandstroke golden update dune");
+}
+
+TEST_F(Golden, AChangedStrokeNamesItsFile) {
+  run.scene += "[stroke]\nfile = \"hand.h5\"\n";
+  write_golden(folder / "golden/dune", finished());
   run.stroke_hash = "";
-  expect_only_failure("stroke", "stroke changed: sandstroke golden update dune");
+  expect_only_failure(
+      "stroke",
+      "stroke changed: hand.h5 holds another stroke; if that is wanted: sandstroke golden update dune");
+}
+
+TEST_F(Golden, WhatPassesDoesNotSayThatItFailed) {
+  write_golden(folder / "golden/dune", finished());
+  run.final(12, 25) += 5e-7;
+  GoldenRun ran = finished();
+  ran.result.volume_drift = 3e-17;
+  const Comparison comparison = compare_golden(entry(), ran, Tolerances{});
+  for (const Check& check : comparison.checks)
+    for (const char* word : {"changed", "no step", "must", "golden update"})
+      EXPECT_EQ(check.sentence.find(word), std::string::npos) << check.name << ": " << check.sentence;
+  for (const Check& check : comparison.checks)
+    if (check.measured == 0.0 && check.name != "cell size") {
+      EXPECT_EQ(check.sentence.find("differs"), std::string::npos) << check.name << ": " << check.sentence;
+    }
+  ran.result.volume_drift = 3e-9;
+  sandstroke::expect_only_failure(compare_golden(entry(), ran, Tolerances{}), "volume drift",
+                                  "no step may do that");
+}
+
+TEST_F(Golden, TheRunsTimeIsThatOfItsCheckAndNothingIsCountedTwice) {
+  write_golden(folder / "golden/dune", finished());
+  GoldenRun ran = finished();
+  ran.seconds = 1000.0;
+  const Stopwatch watch;
+  const Comparison comparison = compare_golden(entry(), ran, Tolerances{});
+  const double took = watch.seconds();
+  double sum = 0.0;
+  for (const Check& check : comparison.checks) {
+    EXPECT_GE(check.seconds, 0.0) << check.name;
+    if (check.name == "run complete") {
+      EXPECT_EQ(check.seconds, 1000.0);
+    }
+    sum += check.seconds;
+  }
+  EXPECT_EQ(comparison.seconds(), sum);
+  EXPECT_GT(sum, 1000.0) << "comparing takes time, too";
+  EXPECT_LE(sum, 1000.0 + took);
 }
 
 TEST_F(Golden, AnEntryWithoutOneOfItsFilesFails) {
@@ -457,6 +507,21 @@ TEST_F(GoldenScenes, UpdatedSceneChecksAndReports) {
   EXPECT_EQ(ran, (std::vector<std::string>{"dune", "dune"}));
   EXPECT_NE(read_text_file(folder / "report/dune.html").find("dune against its golden entry"),
             std::string::npos);
+}
+
+TEST_F(GoldenScenes, CommandsThatAreSuggestedNameTheFolders) {
+  EXPECT_EQ(GoldenFolders().entry("dune").update, "sandstroke golden update dune");
+  EXPECT_EQ((GoldenFolders{"strokes", "my golden"}.entry("dune").update),
+            "sandstroke golden update dune --golden 'my golden'");
+  EXPECT_EQ((GoldenFolders{"in/scenes", "golden"}.entry("a b").update),
+            "sandstroke golden update 'a b' --strokes in/scenes");
+  const std::string update = folders.entry("dune").update;
+  EXPECT_NE(check("dune").checks[0].sentence.find(update), std::string::npos) << "no entry";
+  update_golden("dune", folders, runner());
+  run.initial(3, 3) = run.final(3, 3) = 0.01;
+  EXPECT_NE(check_table(check("dune")).find(update), std::string::npos) << "another surface";
+  fs::remove(folders.entry("dune").folder / "golden.h5");
+  EXPECT_NE(check_table(check("dune")).find(update), std::string::npos) << "no golden.h5";
 }
 
 TEST_F(GoldenScenes, NamesAreTheUnionOfScenesAndEntries) {

@@ -4,6 +4,12 @@
 
 const valueWithUnit = (value, unit) => format(value) + (unit === "" || unit.startsWith("/") ? "" : "\u00a0") + unit;
 
+const sideLabels = new Map();
+/** What the page calls golden and run: two files by their names. */
+const labelOf = (side) => sideLabels.get(side) ?? side;
+const titleOf = (side) =>
+  `${side[0].toUpperCase()}${side.slice(1)}${sideLabels.has(side) ? `: ${labelOf(side)}` : ""}`;
+
 // ---- The files.
 
 /** The settings of a resolved scene, as "section.key" and value. */
@@ -23,7 +29,8 @@ const rowsOf = (golden, run) => [...new Set([...golden.keys(), ...run.keys()])].
   ({ name, golden: golden.get(name) ?? null, run: run.get(name) ?? null }));
 
 function sideTable(rows, title, label) {
-  return table([{ name: "name", title }, { name: "golden", title: "Golden" }, { name: "run", title: "Run" }],
+  return table([{ name: "name", title }, { name: "golden", title: titleOf("golden") },
+                { name: "run", title: titleOf("run") }],
                rows, { label, rowClass: (row) => (row.name !== "file" && row.golden !== row.run ? "surprise" : null) })
     .element;
 }
@@ -55,6 +62,7 @@ function checkTable(checks) {
 
 drawPage((data, main) => {
   const { checks, parts, missing } = data;
+  for (const side of ["golden", "run"]) if (data[side].label) sideLabels.set(side, data[side].label);
   const failed = checks.filter((check) => !check.passed);
   const measured = ["final height", "height change", "force", "picture"]
     .map((name) => checks.find((check) => check.name === name)).filter((check) => check && isNumber(check.measured));

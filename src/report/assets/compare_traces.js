@@ -55,10 +55,10 @@ function timeChart({ title, note, legend, whole }) {
 function groupCharts(group, quantities, whole) {
   const sides = ["golden", "run"].filter((name) => quantities[0][name]);
   const values = timeChart({
-    title: group, whole, legend: sides.map((name) => ({ name, series: true, ...lookOfSide[name] })) });
+    title: group, whole, legend: sides.map((side) => ({ name: labelOf(side), series: true, ...lookOfSide[side] })) });
   const apart = quantities[0].difference && timeChart({
     title: `${group}: difference`, whole,
-    note: "run − golden, tick by tick" +
+    note: `${labelOf("run")} − ${labelOf("golden")}, tick by tick` +
       (quantities.some(({ name }) => name === "magnitude") ? "; of the magnitude, the length of the difference." : "."),
     legend: [{ name: "difference", ...lookOfDifference, dash: "solid" },
              { name: "limit", text: "within the limit", fill: "#dff2ec" }],
@@ -66,7 +66,7 @@ function groupCharts(group, quantities, whole) {
   const choose = (quantity) => {
     const { name, unit, limit } = quantity;
     values.draw({ quantity: name, unit, limit: null,
-                  curves: sides.map((side) => ({ name: side, look: lookOfSide[side], curve: quantity[side] })) });
+                  curves: sides.map((side) => ({ name: labelOf(side), look: lookOfSide[side], curve: quantity[side] })) });
     apart?.draw({ quantity: name, unit, limit,
                   curves: [{ name: "difference", look: lookOfDifference, curve: quantity.difference }] });
   };
