@@ -13,7 +13,8 @@ CLI::Validator accepted_number(const std::string& name, const std::string& wante
         double value = 0.0;
         const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), value);
         const bool whole = failure == std::errc() && end == text.data() + text.size();
-        return whole && std::isfinite(value) && range.contains(value) ? "" : text + " is not " + wanted;
+        const bool fits = range.contains(value) && (!range.whole || value == std::floor(value));
+        return whole && std::isfinite(value) && fits ? "" : text + " is not " + wanted;
       },
       name);
 }
@@ -30,7 +31,7 @@ CLI::Validator finite_number() { return accepted_number("", "a finite number", a
 
 CLI::Validator number_within(Range range) {
   const std::string words = range_text(range);
-  return accepted_number("NUMBER " + words, "a number " + words, range);
+  return accepted_number("NUMBER " + words, (range.whole ? "a whole number " : "a number ") + words, range);
 }
 
 CLI::Option* add_set_option(CLI::App& command, std::vector<std::string>& overrides) {

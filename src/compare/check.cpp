@@ -69,7 +69,13 @@ nlohmann::json to_json(const Comparison& comparison) {
                       {"unit", check.unit},
                       {"sentence", check.sentence}});
   }
-  return {{"name", comparison.name}, {"passed", comparison.passed()}, {"checks", std::move(checks)}};
+  nlohmann::json tolerances = nlohmann::json::array();
+  for (const auto& [key, value, source] : comparison.tolerances)
+    tolerances.push_back({{"name", key.name}, {"value", value}, {"unit", key.unit}, {"source", source}});
+  return {{"name", comparison.name},
+          {"passed", comparison.passed()},
+          {"checks", std::move(checks)},
+          {"tolerances", std::move(tolerances)}};
 }
 
 }  // namespace sandstroke

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "compare/tolerances.h"
+
 namespace sandstroke {
 
 /// One thing that was compared, and what came out.
@@ -30,6 +32,7 @@ Check fact_check(std::string name, bool passed, std::string sentence);
 struct Comparison {
   std::string name;
   std::vector<Check> checks;
+  std::vector<UsedTolerance> tolerances = {};  ///< that it was made with
 
   /// All of them hold, and there is at least one: comparing nothing is not a success.
   bool passed() const;
@@ -40,8 +43,8 @@ struct Comparison {
 /// One aligned line per check (name, measured, limit, ok or FAILED), then the sentences of those that failed.
 std::string check_table(const Comparison& comparison);
 
-/// {"name", "passed", "checks": [{"name", "passed", "measured", "limit", "unit", "sentence"}]}; NaN becomes
-/// null.
+/// {"name", "passed", "checks": [{"name", "passed", "measured", "limit", "unit", "sentence"}],
+/// "tolerances": [{"name", "value", "unit", "source"}]}; NaN becomes null.
 nlohmann::json to_json(const Comparison& comparison);
 
 }  // namespace sandstroke

@@ -45,10 +45,12 @@ Json side(const RunFile& run) {
 }
 
 ComparePage start_page(const std::string& title, const Comparison& comparison, Json golden, Json run) {
+  const nlohmann::json compared = to_json(comparison);
   return {title,
           {{"machine", describe_machine()},
            {"passed", comparison.passed()},
-           {"checks", to_json(comparison)["checks"]},
+           {"checks", compared["checks"]},
+           {"tolerances", compared["tolerances"]},
            {"golden", std::move(golden)},
            {"run", std::move(run)},
            {"parts", Json::array()},
@@ -107,7 +109,8 @@ ComparePage picture_page(const fs::path& golden_file, const Image& golden, const
                          const Image& run, const Comparison& comparison, const Tolerances& tolerances) {
   ComparePage page = start_page_of_files(golden_file, run_file, comparison, side(golden_file.string()),
                                          side(run_file.string()));
-  add_part(page, "Picture", [&] { return pictures_part("Picture", golden, run, tolerances.pixel); });
+  add_part(page, "Picture",
+           [&] { return pictures_part("Picture", golden, run, static_cast<int>(tolerances.pixel)); });
   return page;
 }
 
@@ -129,7 +132,8 @@ ComparePage golden_page(const GoldenEntry& entry, const GoldenRun& run_of_scene,
     return surfaces_part({"Change of height", expected, none, change, none_of_run, tolerances.height, true});
   });
   add_part(page, "Picture", [&] {
-    return pictures_part("Picture", read_golden_picture(entry), run_of_scene.picture, tolerances.pixel);
+    return pictures_part("Picture", read_golden_picture(entry), run_of_scene.picture,
+                         static_cast<int>(tolerances.pixel));
   });
   add_part(page, "Traces",
            [&] { return traces_part(read_golden(entry).trace, whole_trace(run), tolerances); });

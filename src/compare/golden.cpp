@@ -74,13 +74,13 @@ void copy_entry(const fs::path& entry, const fs::path& made) {
 
 /// change: what has changed; empty: nothing.
 Check same_check(const std::string& what, const GoldenEntry& entry, const std::string& change) {
-  if (change.empty()) return fact_check(what, true, what + " as recorded");
+  if (change.empty()) return fact_check(what, true, "as recorded");
   return fact_check(what, false, fmt::format("{}; if that is wanted: {}", change, entry.update));
 }
 
 Check scene_check(const GoldenEntry& entry, const GoldenContent& golden, const RunFile& run) {
   const std::string change = scene_difference(golden.scene, run.scene_text());
-  return same_check("scene", entry, change.empty() ? "" : "scene changed: " + change);
+  return same_check("scene", entry, change.empty() ? "" : "changed: " + change);
 }
 
 Check stroke_check(const GoldenEntry& entry, const RunFile& run) {
@@ -90,7 +90,7 @@ Check stroke_check(const GoldenEntry& entry, const RunFile& run) {
   if (provenance.text(key, "") == provenance_of(run, key)) return same_check("stroke", entry, "");
   const TomlReader scene = TomlReader::from_text(run.scene_text(), run.name() + ": /scene");
   return same_check("stroke", entry,
-                    fmt::format("stroke changed: {} holds another stroke",
+                    fmt::format("changed: {} holds another stroke",
                                 scene.has("stroke") ? scene.text("stroke.file", "") : "the scene"));
 }
 
@@ -110,7 +110,7 @@ std::vector<Check> content_checks(const GoldenEntry& entry, const RunFile& run,
   add_checks(checks, "scene", [&] { return std::vector{scene_check(entry, golden, run)}; });
   add_checks(checks, "initial surface", [&] {
     const bool same = golden.initial_hash == initial_hash(run.initial());
-    return std::vector{same_check("initial surface", entry, same ? "" : "initial surface changed")};
+    return std::vector{same_check("initial surface", entry, same ? "" : "changed")};
   });
   add_checks(checks, "cell size",
              [&] { return std::vector{cell_size_check(golden.cell_size, run.cell_size())}; });

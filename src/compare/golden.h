@@ -20,6 +20,7 @@ namespace sandstroke {
 //   picture.png      the final surface in the scene's own view
 //   provenance.toml  the build that wrote it, what it ran (hashes), what came out; no date, so that the same
 //                    run gives the same text
+//   tolerances.toml  what people wrote who want other tolerances (tolerances.h); may be missing
 
 /// Where one is, and what to type to make it anew.
 struct GoldenEntry {

@@ -16,6 +16,8 @@ namespace sandstroke {
 namespace {
 namespace fs = std::filesystem;
 
+constexpr const char* tolerances_name = "tolerances.toml";
+
 std::set<std::string> folders_in(const fs::path& parent) {
   std::set<std::string> names;
   if (!fs::is_directory(parent)) return names;
@@ -61,7 +63,7 @@ std::vector<std::string> golden_names(const GoldenFolders& folders,
 }
 
 Comparison check_golden(const std::string& name, const GoldenFolders& folders, const SceneRunner& runner,
-                        const Tolerances& tolerances, const fs::path& report) {
+                        const GivenTolerances& options, const fs::path& report) {
   const Stopwatch watch;
   const auto failed = [&](const std::string& name_of_check, const std::string& sentence) {
     Check check = fact_check(name_of_check, false, sentence);
@@ -77,15 +79,22 @@ Comparison check_golden(const std::string& name, const GoldenFolders& folders, c
 
   const TemporaryFolder folder;
   GoldenRun run;
+  std::vector<UsedTolerance> used;
+  std::string step = "tolerances";
   try {
+    const fs::path own = entry.folder / tolerances_name;
+    used = used_tolerances(options, read_tolerances(own), own);
+    step = "run";
     run = runner(folders.scene(name), folder / "run.h5");
   } catch (const Error& error) {
     if (is_of_the_machine(error)) throw;
-    return failed("run", error.what());
+    return failed(step, error.what());
   }
   if (run.result.interrupted) return failed("run", "was interrupted");
   run.seconds = watch.seconds();
+  const Tolerances tolerances = values_of(used);
   Comparison comparison = compare_golden(entry, run, tolerances);
+  comparison.tolerances = used;
   if (!report.empty()) {
     make_folder(report);
     write_text_file(golden_page_path(report, name), golden_page(entry, run, comparison, tolerances).html(),

@@ -6,19 +6,11 @@
 #include <vector>
 
 #include "compare/check.h"
+#include "compare/tolerances.h"
 #include "io/run_file.h"
 #include "picture/image.h"
 
 namespace sandstroke {
-
-/// How far apart two runs may be and still count as equal.
-struct Tolerances {
-  double height = 1e-6;       ///< m, any cell
-  double force = 1e-4;        ///< N, on the device, any tick
-  double depth = 1e-6;        ///< m, depth and level, any tick
-  int pixel = 2;              ///< of 255, any channel of any pixel
-  double pixel_share = 1e-3;  ///< 0 to 1, pixels that differ at all
-};
 
 // What both a pair of run files and a golden entry are judged by. Whatever is missing or of another shape is
 // a check that failed, with a sentence.

@@ -116,11 +116,39 @@ TEST(CliGolden, APythonReaderOfJUnitReadsTheReportWithItsTimes) {
              "assert suite.name == 'tiny' and suite.tests == len(list(suite)) and suite.failures > 0\n"
              "assert 0 < run.time <= suite.time\n"
              "assert abs(sum(case.time for case in suite) - suite.time) < 0.02\n"
-             "assert run.is_passed and 'talus_angle was 30.0, is 31.0' in scene.result[0].message\n");
+             "assert run.is_passed and 'talus_angle was 30, is 31' in scene.result[0].message\n");
   EXPECT_EQ(std::system(
                 ("/usr/bin/python3 " + (folder / "read.py").string() + " " + (folder / "golden.xml").string())
                     .c_str()),
             0);
+}
+
+TEST(CliGolden, TolerancesOfTheEntryAndOfTheCommandLineAreUsedAndSaid) {
+  const fs::path folder = folder_with_golden_entry();
+  const std::string scene = read_file(folder / "strokes/tiny/scene.toml");
+  write_file(folder / "strokes/tiny/scene.toml", scene + "[force]\nk_f = 10.001\n");  // 1e-4 of the drag
+  const auto failed = [&](const std::vector<std::string>& options) {
+    std::vector<std::string> words = {"golden", "check", "--json"};
+    words.insert(words.end(), options.begin(), options.end());
+    std::set<std::string> names;
+    const nlohmann::json report = nlohmann::json::parse(run_program(words, folder).out);
+    for (const auto& one : report["scenes"][0]["checks"])
+      if (!one["passed"]) names.insert(one["name"]);
+    return names;
+  };
+  const std::set<std::string> only_scene{"scene"}, force_too{"force", "scene"};
+  EXPECT_EQ(failed({"--force-tolerance", "1e-5"}), force_too);
+  EXPECT_EQ(failed({"--force-tolerance", "1"}), only_scene);
+  write_file(folder / "golden/tiny/tolerances.toml", "force = 1e-5\n");
+  EXPECT_EQ(failed({}), force_too);
+  EXPECT_EQ(failed({"--force-tolerance", "1"}), only_scene);
+  const ProgramResult said = run_program({"golden", "check", "--report", "pages"}, folder);
+  EXPECT_NE(said.out.find("tolerances: force 1e-05 N (golden/tiny/tolerances.toml)\n"), std::string::npos)
+      << said.out;
+  EXPECT_NE(read_file(folder / "pages/tiny.html").find("golden/tiny/tolerances.toml"), std::string::npos);
+  const ProgramResult refused = run_program({"golden", "check", "--force-tolerance", "1e-7"}, folder);
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_NE(refused.err.find("1e-7 is not a number 1e-05 or more"), std::string::npos) << refused.err;
 }
 
 TEST(CliGolden, AMissingEntryAndAMissingSceneFail) {

@@ -344,7 +344,7 @@ TEST_F(Golden, AChangedSceneNamesItsSettingsWithBothValues) {
   write_golden(folder / "golden/dune", finished());
   run.scene = "[device]\nservo_rate = 1000.0\n[tool]\nradius = 0.02\nsolid = true\n[view]\nsize = [80, 46]\n";
   expect_only_failure("scene",
-                      "scene changed: tool.radius was 0.01, is 0.02; tool.profile was \"paper\", is gone; "
+                      "changed: tool.radius was 0.01, is 0.02; tool.profile was \"paper\", is gone; "
                       "view.size was [80, 45], is [80, 46]; tool.solid is new, true; "
                       "if that is wanted: sandstroke golden update dune");
 }
@@ -354,8 +354,7 @@ TEST_F(Golden, AChangedStrokeNamesItsFile) {
   write_golden(folder / "golden/dune", finished());
   run.stroke_hash = "";
   expect_only_failure(
-      "stroke",
-      "stroke changed: hand.h5 holds another stroke; if that is wanted: sandstroke golden update dune");
+      "stroke", "changed: hand.h5 holds another stroke; if that is wanted: sandstroke golden update dune");
 }
 
 TEST_F(Golden, WhatPassesDoesNotSayThatItFailed) {
@@ -493,8 +492,8 @@ class GoldenScenes : public Golden {
       return GoldenRun{run_file, picture, {}};
     };
   }
-  Comparison check(const std::string& name) {
-    return check_golden(name, folders, runner(), Tolerances{}, folder / "report");
+  Comparison check(const std::string& name, const GivenTolerances& options = {}) {
+    return check_golden(name, folders, runner(), options, folder / "report");
   }
 
   GoldenFolders folders;
@@ -507,6 +506,42 @@ TEST_F(GoldenScenes, UpdatedSceneChecksAndReports) {
   EXPECT_EQ(ran, (std::vector<std::string>{"dune", "dune"}));
   EXPECT_NE(read_text_file(folder / "report/dune.html").find("dune against its golden entry"),
             std::string::npos);
+}
+
+TEST_F(GoldenScenes, TheEntrysOwnTolerancesCountAndOptionsBeforeThem) {
+  update_golden("dune", folders, runner());
+  update_golden("letters", folders, runner());
+  run.trace[47].device_force.x() += 0.005;
+  EXPECT_FALSE(check("dune").passed());
+  const fs::path file = folders.entry("dune").folder / "tolerances.toml";
+  put_text(file, "force = 0.006   # N\npixel = 3\n");
+  const Comparison own = check("dune");
+  EXPECT_TRUE(own.passed()) << check_table(own);
+  EXPECT_EQ(changed_tolerances(own.tolerances),
+            fmt::format("force 0.006 N ({0}), pixel 3 of 255 ({0})", file.string()));
+  EXPECT_FALSE(check("letters").passed()) << "which has no such file";
+  const Comparison stricter = check("dune", {{"force", 0.004}});
+  EXPECT_EQ(stricter.failures(), 1);
+  EXPECT_EQ(changed_tolerances(stricter.tolerances),
+            fmt::format("force 0.004 N (--force-tolerance), pixel 3 of 255 ({})", file.string()));
+  EXPECT_TRUE(check("letters", {{"force", 0.006}}).passed());
+  run = SyntheticRun();
+  update_golden("dune", folders, runner());
+  EXPECT_EQ(read_text_file(file), "force = 0.006   # N\npixel = 3\n") << "an update leaves it";
+}
+
+TEST_F(GoldenScenes, ToleranceFilesWithWrongNumbersFailWithoutARun) {
+  update_golden("dune", folders, runner());
+  ran.clear();
+  for (const auto& [text, words] :
+       {std::pair("force = 1e-6\n", "tolerances.toml:1: force is 1e-06; give a number 1e-05 or more"),
+        {"\nforse = 1\n", "tolerances.toml:2: unknown key forse"},
+        {"pixel = 1.5\n", "tolerances.toml:1: pixel is 1.5; give a whole number"},
+        {"pixel_share = 2\n", "tolerances.toml:1: pixel_share is 2; give a number from 0 to 1"}}) {
+    put_text(folders.entry("dune").folder / "tolerances.toml", text);
+    sandstroke::expect_only_failure(check("dune"), "tolerances", words);
+  }
+  EXPECT_TRUE(ran.empty());
 }
 
 TEST_F(GoldenScenes, CommandsThatAreSuggestedNameTheFolders) {
@@ -559,7 +594,7 @@ TEST_F(GoldenScenes, ARunThatStopsIsAFailedCheck) {
   const SceneRunner stops = [](const fs::path&, const fs::path&) -> GoldenRun {
     throw_input_error("scene.toml:3: no");
   };
-  const Comparison comparison = check_golden("dune", folders, stops, Tolerances{}, "");
+  const Comparison comparison = check_golden("dune", folders, stops, {}, "");
   EXPECT_EQ(comparison.checks.at(0).sentence, "scene.toml:3: no");
   EXPECT_FALSE(comparison.passed());
   EXPECT_THROW(update_golden("dune", folders, stops), Error);
@@ -573,7 +608,7 @@ TEST_F(GoldenScenes, AnInterruptedRunIsNoSuccessAndChangesNothing) {
     unfinished.result.interrupted = true;
     return unfinished;
   };
-  EXPECT_FALSE(check_golden("dune", folders, interrupted, Tolerances{}, "").passed());
+  EXPECT_FALSE(check_golden("dune", folders, interrupted, {}, "").passed());
   EXPECT_FALSE(update_golden("dune", folders, interrupted));
   EXPECT_TRUE(check("dune").passed());
 }

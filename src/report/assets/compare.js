@@ -60,8 +60,13 @@ function checkTable(checks) {
   ], failedFirst, { label: "Checks", rowClass: (check) => (check.passed ? null : "surprise") }).element;
 }
 
+const toleranceTable = (tolerances) => table([
+  { name: "name", title: "Tolerance" }, { name: "value", title: "Value", cell: ({ value }) => format(value) },
+  { name: "unit", title: "Unit" }, { name: "source", title: "Set by" },
+], tolerances, { label: "Tolerances", rowClass: ({ source }) => (source === "default" ? null : "surprise") }).element;
+
 drawPage((data, main) => {
-  const { checks, parts, missing } = data;
+  const { checks, parts, missing, tolerances } = data;
   for (const side of ["golden", "run"]) if (data[side].label) sideLabels.set(side, data[side].label);
   const failed = checks.filter((check) => !check.passed);
   const measured = ["final height", "height change", "force", "picture"]
@@ -78,7 +83,7 @@ drawPage((data, main) => {
     data.passed ? el("p", {}, "All differences are within their limits.") : "");
   const kinds = { maps: drawMaps, traces: drawTraces };
   const sections = [
-    ["checks", "Checks", () => [checkTable(checks)]],
+    ["checks", "Checks", () => [checkTable(checks), tolerances.length ? toleranceTable(tolerances) : null]],
     ...parts.map((part, i) => [`part-${i + 1}`, part.title, () => kinds[part.kind](part)]),
     ["files", "Files", () => drawFiles(data)],
   ];
