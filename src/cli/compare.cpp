@@ -26,7 +26,7 @@ struct CompareArguments {
   fs::path golden, run;
   GivenTolerances given;
   fs::path report, junit;
-  bool json = false;
+  bool coarsen = false, json = false;
 };
 
 fs::path page_of(const CompareArguments& arguments) { return arguments.report / "compare.html"; }
@@ -39,9 +39,9 @@ Comparison compare_run_files(const CompareArguments& arguments) {
   const RunFile golden(arguments.golden), run(arguments.run);
   const std::vector<UsedTolerance> used = used_tolerances(arguments.given);
   const Tolerances tolerances = values_of(used);
-  Comparison comparison = compare_runs(golden, run, tolerances);
+  Comparison comparison = compare_runs(golden, run, tolerances, arguments.coarsen);
   comparison.tolerances = used;
-  write_page(arguments, [&] { return run_page(golden, run, comparison, tolerances); });
+  write_page(arguments, [&] { return run_page(golden, run, comparison, tolerances, arguments.coarsen); });
   return comparison;
 }
 
@@ -62,6 +62,9 @@ int compare(const CompareArguments& arguments) {
         "{} and {}: one is a picture and the other is not; compare two run files or two PNG pictures",
         arguments.golden.string(), arguments.run.string());
   }
+  if (arguments.coarsen && has_picture_name(arguments.golden))
+    throw_input_error("--coarsen: {} is a picture; leave it away, or compare two run files",
+                      arguments.golden.string());
   std::vector<fs::path> files = {arguments.golden, arguments.run};
   if (!arguments.report.empty()) {
     make_folder(arguments.report);
@@ -76,7 +79,11 @@ int compare(const CompareArguments& arguments) {
     print_json(to_json(comparison));
   } else {
     print_text("{}", check_table(comparison));
+    for (const Check& check : comparison.checks)
+      if (arguments.coarsen && check.name == "cell size" && check.passed)
+        print_text("cell size: {}\n", check.sentence);
     if (!arguments.report.empty()) print_text("page  {}\n", page_of(arguments).string());
+    print_text("{}\n", verdict(comparison));
   }
   return comparison.passed() ? 0 : 1;
 }
@@ -93,6 +100,8 @@ void add_compare_command(CLI::App& app, Command& chosen) {
       ->type_name("FILE.h5|.png")
       ->required();
   add_tolerance_options(*command, arguments->given, false);
+  command->add_flag("--coarsen", arguments->coarsen,
+                    "Of beds over the same ground, see the finer one in means over the other's cells");
   command
       ->add_option("--report", arguments->report,
                    "Folder for a page, compare.html: checks, maps of the difference, forces")

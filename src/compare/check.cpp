@@ -59,6 +59,14 @@ std::string check_table(const Comparison& comparison) {
   return table;
 }
 
+std::string verdict(const Comparison& comparison) {
+  if (comparison.passed()) return "same within the tolerances";
+  std::vector<std::string> names;
+  for (const Check& check : comparison.checks)
+    if (!check.passed) names.push_back(check.name);
+  return fmt::format("differs: {}", fmt::join(names, ", "));
+}
+
 nlohmann::json to_json(const Comparison& comparison) {
   nlohmann::json checks = nlohmann::json::array();
   for (const Check& check : comparison.checks) {

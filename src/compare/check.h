@@ -43,6 +43,9 @@ struct Comparison {
 /// One aligned line per check (name, measured, limit, ok or FAILED), then the sentences of those that failed.
 std::string check_table(const Comparison& comparison);
 
+/// "same within the tolerances", or "differs: " and the names of the checks that failed.
+std::string verdict(const Comparison& comparison);
+
 /// {"name", "passed", "checks": [{"name", "passed", "measured", "limit", "unit", "sentence"}],
 /// "tolerances": [{"name", "value", "unit", "source"}]}; NaN becomes null.
 nlohmann::json to_json(const Comparison& comparison);

@@ -88,18 +88,20 @@ ComparePage start_page_of_files(const fs::path& golden_file, const fs::path& run
 std::string ComparePage::html() const { return html_page(title, PageScript::compare, data); }
 
 ComparePage run_page(const RunFile& golden, const RunFile& run, const Comparison& comparison,
-                     const Tolerances& tolerances) {
+                     const Tolerances& tolerances, bool coarsen) {
   ComparePage page = start_page_of_files(golden.name(), run.name(), comparison, side(golden), side(run));
   if (failed(comparison, "initial height")) {
     add_part(page, "Initial height", [&]() -> Json {
-      const HeightField a = golden.initial_bed(), b = run.initial_bed();
+      const RunPair pair = run_pair(golden, run, coarsen);
+      const HeightField a = pair.golden.initial(), b = pair.run.initial();
       if (a.rows() != b.rows() || a.cols() != b.cols()) return nullptr;  // the final ones show that
       return surfaces_part({"Initial height", a, a, b, b, tolerances.height});
     });
   }
   add_part(page, "Final height", [&] {
-    return surfaces_part({"Final height", golden.final_bed(), golden.initial_bed(), run.final_bed(),
-                          run.initial_bed(), tolerances.height});
+    const RunPair pair = run_pair(golden, run, coarsen);
+    return surfaces_part({"Final height", pair.golden.final(), pair.golden.initial(), pair.run.final(),
+                          pair.run.initial(), tolerances.height});
   });
   add_part(page, "Traces", [&] { return traces_part(whole_trace(golden), whole_trace(run), tolerances); });
   return page;

@@ -20,9 +20,9 @@ struct ComparePage {
   std::string html() const;
 };
 
-/// Two run files: final surfaces, initial ones where they differ, traces.
+/// Two run files: final surfaces, initial ones where they differ, traces. coarsen: as compare_runs().
 ComparePage run_page(const RunFile& golden, const RunFile& run, const Comparison& comparison,
-                     const Tolerances& tolerances);
+                     const Tolerances& tolerances, bool coarsen = false);
 
 /// Two pictures and the names of their files.
 ComparePage picture_page(const std::filesystem::path& golden_file, const Image& golden,

@@ -9,6 +9,7 @@
 
 #include "cli/program.h"
 #include "hdf5/hdf5_file.h"
+#include "io/run_file.h"
 
 namespace sandstroke {
 namespace {
@@ -193,6 +194,54 @@ TEST(CliCompare, PassesForItselfAndFailsForOneCellOrOneForceSample) {
   EXPECT_TRUE(fs::exists(folder / "j.xml"));
   EXPECT_NE(force.out.find("report/compare.html"), std::string::npos);
   EXPECT_TRUE(fs::exists(folder / "report/compare.html"));
+}
+
+TEST(CliCompare, RunsOnOtherCellsAreComparedInMeans) {
+  const fs::path folder = test_folder();
+  ASSERT_EQ(run_program({"run", "scene.toml", "-o", "coarse.h5"}, folder).exit_code, 0);
+  ASSERT_EQ(
+      run_program({"run", "scene.toml", "-o", "fine.h5", "--set", "bed.cells=[300, 200]"}, folder).exit_code,
+      0);
+  const ProgramResult refused = run_program({"compare", "coarse.h5", "fine.h5"}, folder);
+  EXPECT_EQ(refused.exit_code, 1);
+  EXPECT_NE(refused.out.find("--coarsen compares means of 2 x 2 cells of the run"), std::string::npos)
+      << refused.out;
+  const HeightGrid coarse = RunFile(folder / "coarse.h5").final(), fine = RunFile(folder / "fine.h5").final();
+  double largest = 0.0;
+  for (Eigen::Index row = 0; row < coarse.rows(); ++row)
+    for (Eigen::Index col = 0; col < coarse.cols(); ++col)
+      largest = std::max(largest, std::abs(fine.block(2 * row, 2 * col, 2, 2).mean() - coarse(row, col)));
+  ASSERT_GT(largest, 1e-5);
+  const ProgramResult compared =
+      run_program({"compare", "coarse.h5", "fine.h5", "--coarsen", "--json", "--report", "page"}, folder);
+  const nlohmann::json report = nlohmann::json::parse(compared.out);
+  for (const auto& check : report["checks"])
+    if (check["name"] == "final height") {
+      EXPECT_NEAR(check["measured"].get<double>(), largest, 1e-15);
+    }
+  const std::vector<std::string> loose = {
+      "compare", "coarse.h5",         "fine.h5", "--coarsen",         "--height-tolerance",
+      "1",       "--force-tolerance", "100",     "--depth-tolerance", "1"};
+  const ProgramResult same = run_program(loose, folder);
+  EXPECT_EQ(same.exit_code, 0) << same.out;
+  EXPECT_TRUE(
+      same.out.ends_with("\ncell size: coarsened to cells of 0.002 m: means of 2 x 2 cells of the run are "
+                         "compared\nsame within the tolerances\n"))
+      << same.out;
+}
+
+TEST(CliCompare, EndsWithItsVerdict) {
+  const fs::path folder = test_folder();
+  ASSERT_EQ(run_program({"run", "scene.toml", "-o", "run.h5"}, folder).exit_code, 0);
+  write_changed_copy(folder, "/trace/device_force", 3 * 400 + 2, 0.01);
+  EXPECT_TRUE(
+      run_program({"compare", "run.h5", "run.h5"}, folder).out.ends_with("\nsame within the tolerances\n"));
+  EXPECT_TRUE(run_program({"compare", "run.h5", "changed.h5", "--report", "page"}, folder)
+                  .out.ends_with("\ndiffers: force\n"));
+  write_file(folder / "picture.png", "");
+  EXPECT_NE(run_program({"compare", "picture.png", "picture.png", "--coarsen"}, folder)
+                .err.find("--coarsen: picture.png is a picture"),
+            std::string::npos);
 }
 
 TEST(CliCompare, WhatIsNoNumberFailsWhereverItIs) {

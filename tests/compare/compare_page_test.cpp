@@ -58,6 +58,21 @@ TEST(ComparePage, ShowsInitialSurfacesThatDiffer) {
   EXPECT_EQ(names_in(pair.page().data["parts"], "title").front(), "Final height");
 }
 
+TEST(ComparePage, ShowsAFinerBedInTheMeansThatAreCompared) {
+  Pair pair;
+  pair.run.cell_size /= 2.0;
+  pair.run.initial = HeightGrid::Zero(60, 80);
+  pair.run.final = HeightGrid::NullaryExpr(
+      60, 80, [&](Eigen::Index row, Eigen::Index col) { return pair.golden.final(row / 2, col / 2); });
+  pair.page();
+  const RunFile a(pair.folder / "golden.h5"), b(pair.folder / "run.h5");
+  const auto maps = [&](bool coarsen) {
+    return run_page(a, b, {}, Tolerances{}, coarsen).data["parts"][0]["maps"].size();
+  };
+  EXPECT_EQ(maps(false), 2u) << "no difference";
+  EXPECT_EQ(maps(true), 3u);
+}
+
 TEST(ComparePage, OfACutOffRunShowsWhatThereIsAndSaysWhatIsNot) {
   Pair pair;
   pair.run.complete = pair.run.has_final = false;
