@@ -20,10 +20,10 @@ struct SyntheticRun {
   double cell_size = 0.01;
   bool complete = true, has_final = true, has_trace = true;
   std::string scene_hash = "0123456789abcdef", stroke_hash = "fedcba9876543210";
-  std::string scene = "[device]\nservo_rate = 1000.0\n";
   HeightGrid initial = HeightGrid::Zero(30, 40), final;
   std::vector<TickRecord> trace;
   std::string missing_column;  // of the trace
+  std::string scene = "[device]\nservo_rate = 1000.0\n";  // /scene, if it is to have one
 
   static constexpr std::size_t ticks = 105, lifted_ticks = 20;
 
@@ -52,7 +52,7 @@ struct SyntheticRun {
     file.attribute("/surface", "cell_size", cell_size);
     file.write("/surface/initial", initial);
     if (has_final) file.write("/surface/final", final);
-    file.write("/scene", scene);
+    if (!scene.empty()) file.write("/scene", scene);
     file.write("/provenance/scene_hash", scene_hash);
     file.write("/provenance/stroke_hash", stroke_hash);
     if (has_trace)

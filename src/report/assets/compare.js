@@ -4,12 +4,6 @@
 
 const valueWithUnit = (value, unit) => format(value) + (unit === "" || unit.startsWith("/") ? "" : "\u00a0") + unit;
 
-const sideLabels = new Map();
-/** What the page calls golden and run: two files by their names. */
-const labelOf = (side) => sideLabels.get(side) ?? side;
-const titleOf = (side) =>
-  `${side[0].toUpperCase()}${side.slice(1)}${sideLabels.has(side) ? `: ${labelOf(side)}` : ""}`;
-
 // ---- The files.
 
 /** The settings of a resolved scene, as "section.key" and value. */

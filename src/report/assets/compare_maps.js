@@ -2,6 +2,12 @@
 // Maps of a comparison: golden, run and their difference side by side, and two of them over one another with a
 // slider that wipes between them.
 
+const sideLabels = new Map();
+/** What the page calls golden and run: two files by their names. */
+const labelOf = (side) => sideLabels.get(side) ?? side;
+const titleOf = (side) =>
+  `${side[0].toUpperCase()}${side.slice(1)}${sideLabels.has(side) ? `: ${labelOf(side)}` : ""}`;
+
 /** What the colours of a map mean. */
 const barOf = ({ title, unit, low, high, colours: stops }) =>
   colourBar({ name: withUnit(title, unitText(unit)), low, high, stops,
