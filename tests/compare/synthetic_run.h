@@ -22,7 +22,7 @@ struct SyntheticRun {
   std::string scene_hash = "0123456789abcdef", stroke_hash = "fedcba9876543210";
   HeightGrid initial = HeightGrid::Zero(30, 40), final;
   std::vector<TickRecord> trace;
-  std::string missing_column;  // of the trace
+  std::string missing_column;                             // of the trace
   std::string scene = "[device]\nservo_rate = 1000.0\n";  // /scene, if it is to have one
 
   static constexpr std::size_t ticks = 105, lifted_ticks = 20;
