@@ -9,6 +9,7 @@
 #include "cli/commands.h"
 #include "cli/print_json.h"
 #include "cli/print_text.h"
+#include "cli/tolerance_options.h"
 #include "compare/compare_page.h"
 #include "compare/compare_runs.h"
 #include "compare/junit.h"
@@ -23,9 +24,9 @@ namespace fs = std::filesystem;
 
 struct CompareArguments {
   fs::path golden, run;
-  Tolerances tolerances;
+  GivenTolerances given;
   fs::path report, junit;
-  bool json = false;
+  bool coarsen = false, json = false;
 };
 
 fs::path page_of(const CompareArguments& arguments) { return arguments.report / "compare.html"; }
@@ -36,17 +37,21 @@ void write_page(const CompareArguments& arguments, const std::function<PageOfPar
 
 Comparison compare_run_files(const CompareArguments& arguments) {
   const RunFile golden(arguments.golden), run(arguments.run);
-  Comparison comparison = compare_runs(golden, run, arguments.tolerances);
-  write_page(arguments, [&] { return run_page(golden, run, comparison, arguments.tolerances); });
+  const std::vector<UsedTolerance> used = used_tolerances(arguments.given);
+  const Tolerances tolerances = values_of(used);
+  Comparison comparison = compare_runs(golden, run, tolerances, arguments.coarsen);
+  comparison.tolerances = used;
+  write_page(arguments, [&] { return run_page(golden, run, comparison, tolerances, arguments.coarsen); });
   return comparison;
 }
 
 Comparison compare_pictures(const CompareArguments& arguments) {
   const Image golden = read_png(arguments.golden), run = read_png(arguments.run);
-  Comparison comparison{arguments.run.string(), {}};
-  add_checks(comparison.checks, "picture", [&] { return picture_checks(golden, run, arguments.tolerances); });
+  Comparison comparison{arguments.run.string(), {}, used_tolerances(arguments.given)};
+  const Tolerances tolerances = values_of(comparison.tolerances);
+  add_checks(comparison.checks, "picture", [&] { return picture_checks(golden, run, tolerances); });
   write_page(arguments, [&] {
-    return picture_page(arguments.golden, golden, arguments.run, run, comparison, arguments.tolerances);
+    return picture_page(arguments.golden, golden, arguments.run, run, comparison, tolerances);
   });
   return comparison;
 }
@@ -57,6 +62,9 @@ int compare(const CompareArguments& arguments) {
         "{} and {}: one is a picture and the other is not; compare two run files or two PNG pictures",
         arguments.golden.string(), arguments.run.string());
   }
+  if (arguments.coarsen && has_picture_name(arguments.golden))
+    throw_input_error("--coarsen: {} is a picture; leave it away, or compare two run files",
+                      arguments.golden.string());
   std::vector<fs::path> files = {arguments.golden, arguments.run};
   if (!arguments.report.empty()) {
     make_folder(arguments.report);
@@ -71,7 +79,11 @@ int compare(const CompareArguments& arguments) {
     print_json(to_json(comparison));
   } else {
     print_text("{}", check_table(comparison));
+    for (const Check& check : comparison.checks)
+      if (arguments.coarsen && check.name == "cell size" && check.passed)
+        print_text("cell size: {}\n", check.sentence);
     if (!arguments.report.empty()) print_text("page  {}\n", page_of(arguments).string());
+    print_text("{}\n", verdict(comparison));
   }
   return comparison.passed() ? 0 : 1;
 }
@@ -87,25 +99,9 @@ void add_compare_command(CLI::App& app, Command& chosen) {
   command->add_option("RUN", arguments->run, "Result to check: a file of the same kind")
       ->type_name("FILE.h5|.png")
       ->required();
-  command->add_option("--height-tolerance", arguments->tolerances.height, "Largest difference of height [m]")
-      ->check(not_negative_number())
-      ->capture_default_str();
-  command->add_option("--force-tolerance", arguments->tolerances.force, "Largest difference of force [N]")
-      ->check(not_negative_number())
-      ->capture_default_str();
-  command
-      ->add_option("--depth-tolerance", arguments->tolerances.depth,
-                   "Largest difference of depth and sand level [m]")
-      ->check(not_negative_number())
-      ->capture_default_str();
-  command->add_option("--pixel-tolerance", arguments->tolerances.pixel, "Largest channel difference [of 255]")
-      ->check(CLI::Range(0, 255))
-      ->capture_default_str();
-  command
-      ->add_option("--pixel-share", arguments->tolerances.pixel_share,
-                   "Share of pixels that may differ [0 to 1]")
-      ->check(CLI::Range(0.0, 1.0))
-      ->capture_default_str();
+  add_tolerance_options(*command, arguments->given, false);
+  command->add_flag("--coarsen", arguments->coarsen,
+                    "Of beds over the same ground, see the finer one in means over the other's cells");
   command
       ->add_option("--report", arguments->report,
                    "Folder for a page, compare.html: checks, maps of the difference, forces")

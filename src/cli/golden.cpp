@@ -11,6 +11,7 @@
 #include "cli/print_text.h"
 #include "cli/run_picture.h"
 #include "cli/standard_output.h"
+#include "cli/tolerance_options.h"
 #include "compare/golden_scenes.h"
 #include "compare/junit.h"
 #include "core/interrupt.h"
@@ -26,6 +27,7 @@ namespace fs = std::filesystem;
 struct GoldenArguments {
   std::vector<std::string> names;
   GoldenFolders folders;
+  GivenTolerances tolerances;
   fs::path report, junit;
   bool json = false;
 };
@@ -44,8 +46,9 @@ GoldenRun run_golden_scene(const fs::path& scene_file, const fs::path& run_file)
 }
 
 std::string summary(const Comparison& comparison) {
-  if (comparison.passed()) return fmt::format("ok      {}\n", comparison.name);
-  std::string lines = fmt::format("FAILED  {}\n", comparison.name);
+  std::string lines = fmt::format("{}  {}\n", comparison.passed() ? "ok    " : "FAILED", comparison.name);
+  if (const std::string changed = changed_tolerances(comparison.tolerances); !changed.empty())
+    lines += fmt::format("        tolerances: {}\n", changed);
   for (const Check& check : comparison.checks)
     if (!check.passed) lines += fmt::format("        {}: {}\n", check.name, check.sentence);
   return lines;
@@ -69,7 +72,7 @@ int check(const GoldenArguments& arguments) {
   bool passed = true;
   for (const std::string& name : names) {
     comparisons.push_back(
-        check_golden(name, arguments.folders, run_golden_scene, Tolerances{}, arguments.report));
+        check_golden(name, arguments.folders, run_golden_scene, arguments.tolerances, arguments.report));
     if (interrupted()) return 128 + interrupted();
     passed = passed && comparisons.back().passed();
     scenes.push_back(to_json(comparisons.back()));
@@ -91,7 +94,7 @@ int update(const GoldenArguments& arguments) {
   catch_interrupts();
   for (const std::string& name : arguments.names) {
     if (!update_golden(name, arguments.folders, run_golden_scene)) return 128 + interrupted();
-    print_text("updated {}\n", arguments.folders.entry(name).string());
+    print_text("updated {}\n", arguments.folders.entry(name).folder.string());
   }
   return 0;
 }
@@ -117,6 +120,7 @@ void add_golden_command(CLI::App& app, Command& chosen) {
       golden->add_subcommand("check", "Run all or some scenes and compare. Exit code 1: one differs");
   check_command->add_option("NAME", arguments->names, "Scenes (default: all)")->type_name("SCENE");
   add_folder_options(check_command, *arguments);
+  add_tolerance_options(*check_command, arguments->tolerances, true);
   check_command
       ->add_option("--report", arguments->report,
                    "Folder for one page per scene, SCENE.html: checks, maps of the difference, forces")
@@ -124,6 +128,11 @@ void add_golden_command(CLI::App& app, Command& chosen) {
   check_command->add_option("--junit", arguments->junit, "File for the checks as JUnit XML")
       ->type_name("FILE.xml");
   check_command->add_flag("--json", arguments->json, "Print one JSON object instead of lines");
+  check_command->footer(
+      "Example:  sandstroke golden check wscg --force-tolerance 0.001\n"
+      "A file tolerances.toml in the folder of a golden entry sets tolerances for that scene alone, with "
+      "lines\n"
+      "such as 'force = 0.001': height, force, depth, pixel, pixel_share. Options go before it.");
   check_command->callback([arguments, &chosen] { chosen = [arguments] { return check(*arguments); }; });
 
   CLI::App* update_command =

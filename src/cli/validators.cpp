@@ -11,9 +11,9 @@ CLI::Validator accepted_number(const std::string& name, const std::string& wante
   return CLI::Validator(
       [=](std::string& text) -> std::string {
         double value = 0.0;
-        return parse_number(text, value) && std::isfinite(value) && range.contains(value)
-                   ? ""
-                   : text + " is not " + wanted;
+        const bool is_number = parse_number(text, value) && std::isfinite(value);
+        const bool fits = range.contains(value) && (!range.whole || value == std::floor(value));
+        return is_number && fits ? "" : text + " is not " + wanted;
       },
       name);
 }
@@ -30,7 +30,7 @@ CLI::Validator finite_number() { return accepted_number("", "a finite number", a
 
 CLI::Validator number_within(Range range) {
   const std::string words = range_text(range);
-  return accepted_number("NUMBER " + words, "a number " + words, range);
+  return accepted_number("NUMBER " + words, (range.whole ? "a whole number " : "a number ") + words, range);
 }
 
 CLI::Option* add_set_option(CLI::App& command, std::vector<std::string>& overrides) {

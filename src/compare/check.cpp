@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 
 namespace sandstroke {
 namespace {
@@ -31,6 +32,11 @@ int Comparison::failures() const {
       std::count_if(checks.begin(), checks.end(), [](const Check& c) { return !c.passed; }));
 }
 
+double Comparison::seconds() const {
+  return std::accumulate(checks.begin(), checks.end(), 0.0,
+                         [](double sum, const Check& check) { return sum + check.seconds; });
+}
+
 std::string check_table(const Comparison& comparison) {
   std::vector<std::array<std::string, 4>> lines{{"check", "measured", "limit", ""}};
   for (const Check& check : comparison.checks) {
@@ -53,6 +59,14 @@ std::string check_table(const Comparison& comparison) {
   return table;
 }
 
+std::string verdict(const Comparison& comparison) {
+  if (comparison.passed()) return "same within the tolerances";
+  std::vector<std::string> names;
+  for (const Check& check : comparison.checks)
+    if (!check.passed) names.push_back(check.name);
+  return fmt::format("differs: {}", fmt::join(names, ", "));
+}
+
 nlohmann::json to_json(const Comparison& comparison) {
   nlohmann::json checks = nlohmann::json::array();
   for (const Check& check : comparison.checks) {
@@ -63,7 +77,13 @@ nlohmann::json to_json(const Comparison& comparison) {
                       {"unit", check.unit},
                       {"sentence", check.sentence}});
   }
-  return {{"name", comparison.name}, {"passed", comparison.passed()}, {"checks", std::move(checks)}};
+  nlohmann::json tolerances = nlohmann::json::array();
+  for (const auto& [key, value, source] : comparison.tolerances)
+    tolerances.push_back({{"name", key.name}, {"value", value}, {"unit", key.unit}, {"source", source}});
+  return {{"name", comparison.name},
+          {"passed", comparison.passed()},
+          {"checks", std::move(checks)},
+          {"tolerances", std::move(tolerances)}};
 }
 
 }  // namespace sandstroke

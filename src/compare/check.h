@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "compare/tolerances.h"
+
 namespace sandstroke {
 
 /// One thing that was compared, and what came out.
@@ -17,6 +19,7 @@ struct Check {
   double limit = no_number;     ///< in `unit`; NaN where there is no number to stay below
   std::string unit;
   std::string sentence;  ///< what was found and where
+  double seconds = 0.0;  ///< that it took, with what it is the first to need
 };
 
 /// A check that holds where measured <= limit; not where measured is NaN.
@@ -29,17 +32,22 @@ Check fact_check(std::string name, bool passed, std::string sentence);
 struct Comparison {
   std::string name;
   std::vector<Check> checks;
+  std::vector<UsedTolerance> tolerances = {};  ///< that it was made with
 
   /// All of them hold, and there is at least one: comparing nothing is not a success.
   bool passed() const;
   int failures() const;
+  double seconds() const;  ///< of all checks
 };
 
 /// One aligned line per check (name, measured, limit, ok or FAILED), then the sentences of those that failed.
 std::string check_table(const Comparison& comparison);
 
-/// {"name", "passed", "checks": [{"name", "passed", "measured", "limit", "unit", "sentence"}]}; NaN becomes
-/// null.
+/// "same within the tolerances", or "differs: " and the names of the checks that failed.
+std::string verdict(const Comparison& comparison);
+
+/// {"name", "passed", "checks": [{"name", "passed", "measured", "limit", "unit", "sentence"}],
+/// "tolerances": [{"name", "value", "unit", "source"}]}; NaN becomes null.
 nlohmann::json to_json(const Comparison& comparison);
 
 }  // namespace sandstroke

@@ -19,7 +19,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
-/// One of the two that are compared: its file, name and value of its provenance, its resolved scene.
+/// One of the two that are compared, called "golden" and "run" unless it has a label: its file, name and
+/// value of its provenance, its resolved scene.
 Json side(const std::string& name, const std::vector<std::pair<std::string, std::string>>& provenance = {},
           const std::string& scene = "") {
   Json entries = Json::array();
@@ -33,11 +34,13 @@ Json side(const RunFile& run) {
 }
 
 PageOfParts start_page(const std::string& title, const Comparison& comparison, Json golden, Json run) {
+  const nlohmann::json compared = to_json(comparison);
   return {PageScript::compare,
           title,
           {{"machine", describe_machine()},
            {"passed", comparison.passed()},
-           {"checks", to_json(comparison)["checks"]},
+           {"checks", compared["checks"]},
+           {"tolerances", compared["tolerances"]},
            {"golden", std::move(golden)},
            {"run", std::move(run)},
            {"parts", Json::array()},
@@ -49,25 +52,33 @@ bool failed(const Comparison& comparison, const std::string& name) {
                      [&](const Check& check) { return check.name == name && !check.passed; });
 }
 
-std::string title_of(const fs::path& golden, const fs::path& run) {
-  return fmt::format("{} against {}", run.filename().string(), golden.filename().string());
+/// A page on two files, which are called by their names; by their whole paths where the names are the same.
+PageOfParts start_page_of_files(const fs::path& golden_file, const fs::path& run_file,
+                                const Comparison& comparison, Json golden, Json run) {
+  const bool same = golden_file.filename() == run_file.filename();
+  const std::string a = (same ? golden_file : golden_file.filename()).string(),
+                    b = (same ? run_file : run_file.filename()).string();
+  if (a != b) golden["label"] = a, run["label"] = b;
+  return start_page(fmt::format("{} against {}", b, a), comparison, std::move(golden), std::move(run));
 }
 
 }  // namespace
 
 PageOfParts run_page(const RunFile& golden, const RunFile& run, const Comparison& comparison,
-                     const Tolerances& tolerances) {
-  PageOfParts page = start_page(title_of(golden.name(), run.name()), comparison, side(golden), side(run));
+                     const Tolerances& tolerances, bool coarsen) {
+  PageOfParts page = start_page_of_files(golden.name(), run.name(), comparison, side(golden), side(run));
   if (failed(comparison, "initial height")) {
     page.add_part("Initial height", [&]() -> Json {
-      const HeightField a = golden.initial_bed(), b = run.initial_bed();
+      const RunPair pair = run_pair(golden, run, coarsen);
+      const HeightField a = pair.golden.initial(), b = pair.run.initial();
       if (a.rows() != b.rows() || a.cols() != b.cols()) return nullptr;  // the final ones show that
       return surfaces_part({"Initial height", a, a, b, b, tolerances.height});
     });
   }
   page.add_part("Final height", [&] {
-    return surfaces_part({"Final height", golden.final_bed(), golden.initial_bed(), run.final_bed(),
-                          run.initial_bed(), tolerances.height});
+    const RunPair pair = run_pair(golden, run, coarsen);
+    return surfaces_part({"Final height", pair.golden.final(), pair.golden.initial(), pair.run.final(),
+                          pair.run.initial(), tolerances.height});
   });
   page.add_part("Traces", [&] { return traces_part(whole_trace(golden), whole_trace(run), tolerances); });
   return page;
@@ -75,20 +86,23 @@ PageOfParts run_page(const RunFile& golden, const RunFile& run, const Comparison
 
 PageOfParts picture_page(const fs::path& golden_file, const Image& golden, const fs::path& run_file,
                          const Image& run, const Comparison& comparison, const Tolerances& tolerances) {
-  PageOfParts page = start_page(title_of(golden_file, run_file), comparison, side(golden_file.string()),
-                                side(run_file.string()));
-  page.add_part("Picture", [&] { return pictures_part("Picture", golden, run, tolerances.pixel); });
+  PageOfParts page = start_page_of_files(golden_file, run_file, comparison, side(golden_file.string()),
+                                         side(run_file.string()));
+  page.add_part("Picture",
+                [&] { return pictures_part("Picture", golden, run, static_cast<int>(tolerances.pixel)); });
   return page;
 }
 
-PageOfParts golden_page(const std::string& name, const fs::path& entry, const GoldenRun& run_of_scene,
-                        const Comparison& comparison, const Tolerances& tolerances) {
+PageOfParts golden_page(const GoldenEntry& entry, const GoldenRun& run_of_scene, const Comparison& comparison,
+                        const Tolerances& tolerances) {
   const RunFile run(run_of_scene.run_file);
   Json run_side = side(run);
-  run_side["name"] = fmt::format("the run of scene {}", name);
+  run_side["name"] = fmt::format("the run of scene {}", entry.name);
   PageOfParts page =
-      start_page(fmt::format("{} against its golden entry", name), comparison,
-                 side(entry.string(), as_far_as_known([&] { return golden_provenance(entry); })), run_side);
+      start_page(fmt::format("{} against its golden entry", entry.name), comparison,
+                 side(entry.folder.string(), as_far_as_known([&] { return golden_provenance(entry); }),
+                      as_far_as_known([&] { return read_golden(entry).scene; })),
+                 run_side);
   page.add_part("Change of height", [&] {
     const GoldenContent golden = read_golden(entry);
     const HeightField expected(golden.change, golden.cell_size), change(height_change(run), golden.cell_size);
@@ -97,10 +111,11 @@ PageOfParts golden_page(const std::string& name, const fs::path& entry, const Go
     return surfaces_part({"Change of height", expected, none, change, none_of_run, tolerances.height, true});
   });
   page.add_part("Picture", [&] {
-    return pictures_part("Picture", read_golden_picture(entry), run_of_scene.picture, tolerances.pixel);
+    return pictures_part("Picture", read_golden_picture(entry), run_of_scene.picture,
+                         static_cast<int>(tolerances.pixel));
   });
   page.add_part("Traces",
-                [&] { return traces_part(read_golden(entry).trace, golden_trace(run), tolerances); });
+                [&] { return traces_part(read_golden(entry).trace, whole_trace(run), tolerances); });
   return page;
 }
 

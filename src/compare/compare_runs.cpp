@@ -1,8 +1,43 @@
 #include "compare/compare_runs.h"
 
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
 #include <utility>
 
 namespace sandstroke {
+namespace {
+
+/// How many cells of the fine bed lie along a cell of the coarse one, over the same ground; 1 where they do
+/// not fit, or are as large.
+int cells_along(const RunFile& fine, const RunFile& coarse) {
+  const int factor = fine.rows() / coarse.rows();
+  const bool fits = factor > 1 && fine.rows() == factor * coarse.rows() &&
+                    fine.cols() == factor * coarse.cols() &&
+                    cell_size_check(coarse.cell_size(), factor * fine.cell_size()).passed;
+  return fits ? factor : 1;
+}
+
+Check cells_check(const RunFile& golden, const RunFile& run, bool coarsen) {
+  Check check = cell_size_check(golden.cell_size(), run.cell_size());
+  if (check.passed) return check;
+  const RunPair pair = run_pair(golden, run, true);
+  const int factor = std::max(pair.golden.factor, pair.run.factor);
+  const std::string means =
+      fmt::format("means of {0} x {0} cells of {1}", factor, pair.run.factor > 1 ? "the run" : "golden");
+  if (coarsen && factor > 1) {
+    check = cell_size_check(pair.golden.cell_size(), pair.run.cell_size());
+    check.sentence =
+        fmt::format("coarsened to cells of {} m: {} are compared", pair.golden.cell_size(), means);
+  } else if (factor > 1) {
+    check.sentence += fmt::format("; --coarsen compares {}", means);
+  } else if (coarsen) {
+    check.sentence += "; no whole number of one fills the other over the same ground: nothing is coarsened";
+  }
+  return check;
+}
+
+}  // namespace
 
 std::optional<CountedTrace> whole_trace(const RunFile& run) {
   if (!run.has_trace()) return std::nullopt;
@@ -10,20 +45,28 @@ std::optional<CountedTrace> whole_trace(const RunFile& run) {
   return CountedTrace{trace.size(), std::move(trace)};
 }
 
-Comparison compare_runs(const RunFile& golden, const RunFile& run, const Tolerances& tolerances) {
+RunPair run_pair(const RunFile& golden, const RunFile& run, bool coarsen) {
+  if (!coarsen) return {{golden}, {run}};
+  return {{golden, cells_along(golden, run)}, {run, cells_along(run, golden)}};
+}
+
+Comparison compare_runs(const RunFile& golden, const RunFile& run, const Tolerances& tolerances,
+                        bool coarsen) {
   Comparison comparison{run.name(), {}};
   std::vector<Check>& checks = comparison.checks;
 
   add_checks(checks, "golden complete", [&] { return std::vector{complete_check("golden", golden)}; });
   add_checks(checks, "run complete", [&] { return std::vector{complete_check("run", run)}; });
-  add_checks(checks, "cell size",
-             [&] { return std::vector{cell_size_check(golden.cell_size(), run.cell_size())}; });
+  add_checks(checks, "cell size", [&] { return std::vector{cells_check(golden, run, coarsen)}; });
   add_checks(checks, "initial height", [&] {
+    const RunPair pair = run_pair(golden, run, coarsen);
     return std::vector{
-        height_check("initial height", golden.initial_bed(), run.initial_bed(), tolerances.height)};
+        height_check("initial height", pair.golden.initial(), pair.run.initial(), tolerances.height)};
   });
   add_checks(checks, "final height", [&] {
-    return std::vector{height_check("final height", golden.final_bed(), run.final_bed(), tolerances.height)};
+    const RunPair pair = run_pair(golden, run, coarsen);
+    return std::vector{
+        height_check("final height", pair.golden.final(), pair.run.final(), tolerances.height)};
   });
   add_checks(checks, "frames", [&] { return std::vector{frames_check(golden, run)}; });
   add_checks(checks, "trace",

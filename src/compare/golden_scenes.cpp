@@ -7,12 +7,16 @@
 #include "compare/compare_page.h"
 #include "core/error.h"
 #include "core/output_file.h"
+#include "core/shell_text.h"
+#include "core/stopwatch.h"
 #include "core/temporary_folder.h"
 #include "report/page.h"
 
 namespace sandstroke {
 namespace {
 namespace fs = std::filesystem;
+
+constexpr const char* tolerances_name = "tolerances.toml";
 
 std::set<std::string> folders_in(const fs::path& parent) {
   std::set<std::string> names;
@@ -26,6 +30,14 @@ std::set<std::string> folders_in(const fs::path& parent) {
 }
 
 }  // namespace
+
+GoldenEntry GoldenFolders::entry(const std::string& name) const {
+  std::string update = "sandstroke golden update " + shell_quoted(name);
+  const GoldenFolders usual;
+  if (strokes != usual.strokes) update += " --strokes " + shell_quoted(strokes);
+  if (golden != usual.golden) update += " --golden " + shell_quoted(golden);
+  return {name, golden / name, update};
+}
 
 std::vector<std::string> golden_names(const GoldenFolders& folders,
                                       const std::vector<std::string>& asked_for) {
@@ -44,38 +56,49 @@ std::vector<std::string> golden_names(const GoldenFolders& folders,
   for (const std::string& name : asked_for) {
     if (!known.contains(name)) {
       throw_input_error("{}: neither {} nor {} exists; known are: {}", name, folders.scene(name).string(),
-                        folders.entry(name).string(), fmt::join(known, ", "));
+                        folders.entry(name).folder.string(), fmt::join(known, ", "));
     }
   }
   return asked_for;
 }
 
 Comparison check_golden(const std::string& name, const GoldenFolders& folders, const SceneRunner& runner,
-                        const Tolerances& tolerances, const fs::path& report) {
-  const auto failed = [&](const std::string& check, const std::string& sentence) {
-    return Comparison{name, {fact_check(check, false, sentence)}};
+                        const GivenTolerances& options, const fs::path& report) {
+  const Stopwatch watch;
+  const auto failed = [&](const std::string& name_of_check, const std::string& sentence) {
+    Check check = fact_check(name_of_check, false, sentence);
+    check.seconds = watch.seconds();
+    return Comparison{name, {check}};
   };
   if (!fs::exists(folders.scene(name)))
     return failed("scene", fmt::format("{} does not exist; restore it or delete the golden entry",
                                        folders.scene(name).string()));
-  if (!fs::is_directory(folders.entry(name)))
-    return failed("golden entry",
-                  fmt::format("does not exist; look at the run, then: golden update {}", name));
+  const GoldenEntry entry = folders.entry(name);
+  if (!fs::is_directory(entry.folder))
+    return failed("golden entry", "does not exist; look at the run, then: " + entry.update);
 
   const TemporaryFolder folder;
   GoldenRun run;
+  std::vector<UsedTolerance> used;
+  std::string step = "tolerances";
   try {
+    const fs::path own = entry.folder / tolerances_name;
+    used = used_tolerances(options, read_tolerances(own), own);
+    step = "run";
     run = runner(folders.scene(name), folder / "run.h5");
   } catch (const Error& error) {
     if (is_of_the_machine(error)) throw;
-    return failed("run", error.what());
+    return failed(step, error.what());
   }
   if (run.result.interrupted) return failed("run", "was interrupted");
-  Comparison comparison = compare_golden(name, folders.entry(name), run, tolerances);
+  run.seconds = watch.seconds();
+  const Tolerances tolerances = values_of(used);
+  Comparison comparison = compare_golden(entry, run, tolerances);
+  comparison.tolerances = used;
   if (!report.empty()) {
     make_folder(report);
-    write_text_file(golden_page_path(report, name),
-                    golden_page(name, folders.entry(name), run, comparison, tolerances).html(), page_output);
+    write_text_file(golden_page_path(report, name), golden_page(entry, run, comparison, tolerances).html(),
+                    page_output);
   }
   return comparison;
 }
@@ -88,11 +111,12 @@ bool update_golden(const std::string& name, const GoldenFolders& folders, const 
   if (!fs::exists(scene))
     throw_input_error("{}: {} does not exist; check the name and --strokes", name, scene.string());
   make_folder(folders.golden);  // or refused before the run
-  check_golden_replaceable(folders.entry(name));
+  const fs::path entry = folders.entry(name).folder;
+  check_golden_replaceable(entry);
   const TemporaryFolder folder;
   const GoldenRun run = runner(scene, folder / "run.h5");
   if (run.result.interrupted) return false;
-  write_golden(folders.entry(name), run);
+  write_golden(entry, run);
   return true;
 }
 

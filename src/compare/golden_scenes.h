@@ -18,7 +18,7 @@ struct GoldenFolders {
   std::filesystem::path strokes = "strokes", golden = "golden";
 
   std::filesystem::path scene(const std::string& name) const { return strokes / name / "scene.toml"; }
-  std::filesystem::path entry(const std::string& name) const { return golden / name; }
+  GoldenEntry entry(const std::string& name) const;
 };
 
 /// Every name with a scene or a golden entry, in alphabetical order; or those asked for, if any. Error: input
@@ -31,11 +31,12 @@ inline std::filesystem::path golden_page_path(const std::filesystem::path& repor
   return report / (name + ".html");
 }
 
-/// Runs one scene and judges it by its golden entry. A scene without entry, an entry without scene, and a run
-/// that stops with bad input or is interrupted, are failed checks. report: a folder for the page, or
-/// empty.
+/// Runs one scene and judges it by its golden entry, with the tolerances of the entry's own tolerances.toml,
+/// over which those of `options` go. A scene without entry, an entry without scene, a file of tolerances with
+/// bad input, and a run that stops with bad input or is interrupted, are failed checks. report: a folder for
+/// the page, or empty.
 Comparison check_golden(const std::string& name, const GoldenFolders& folders, const SceneRunner& runner,
-                        const Tolerances& tolerances, const std::filesystem::path& report);
+                        const GivenTolerances& options, const std::filesystem::path& report);
 
 /// Runs one scene and makes the result its golden entry; false where the run was interrupted and nothing has
 /// changed. Error: input where there is no such scene.

@@ -176,7 +176,7 @@ Json surfaces_part(const ComparedSurfaces& s) {
     text +=
         fmt::format(" Each spot of {0} x {0} cells has the colour of its largest difference.", spots.side);
   maps.push_back(map_json("difference", height_map(spread(difference, spots), difference_range, true),
-                          height_scale("run − golden", difference_range, true), text));
+                          height_scale("difference", difference_range, true), text));
 
   const BedGeometry& bed = s.golden;
   const double half = 0.5 * bed.cell_size();
@@ -212,7 +212,7 @@ Json pictures_part(const std::string& title, const Image& golden, const Image& r
   const ValueRange range{-static_cast<double>(span), static_cast<double>(span)};
   maps.push_back(
       map_json("difference", picture_difference_map(golden, run, span),
-               scale_json("run − golden", range, "of 255", 1.0, true),
+               scale_json("difference", range, "of 255", 1.0, true),
                fmt::format("Largest {} of 255 at pixel x = {}, y = {}, limit {}; {:.4g} % of the pixels "
                            "differ. Each pixel has the colour of its channel that differs most.",
                            whole.max, whole.x, whole.y, limit, 100.0 * whole.share)));

@@ -2,13 +2,16 @@
 
 #include <spdlog/fmt/fmt.h>
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include "compare/field_difference.h"
 #include "compare/image_difference.h"
 #include "compare/trace_difference.h"
 #include "core/error.h"
+#include "core/stopwatch.h"
 
 namespace sandstroke {
 namespace {
@@ -20,9 +23,10 @@ constexpr double cell_size_tolerance = 1e-12;  // relative
 
 Check column_check(const std::string& name, const ColumnDifference& difference, double limit,
                    const std::string& unit) {
-  const std::string where = fmt::format("at time {:.6g} s", difference.time);
+  const std::string where = fmt::format("at time {:.9g} s", difference.time);
   return limit_check(name, difference.max, limit, unit,
-                     std::isnan(difference.max)
+                     difference.max == 0.0 ? "the same in every tick"
+                     : std::isnan(difference.max)
                          ? fmt::format("not a number {}", where)
                          : fmt::format("differs by {:.6g} {} {}", difference.max, unit, where));
 }
@@ -33,7 +37,7 @@ Check positions_check(const std::vector<TickRecord>& golden, const std::vector<T
     for (const TickRecord& tick : *trace)
       if (!tick.hand.position.allFinite() || !tick.device_position.allFinite())
         return fact_check("positions", false,
-                          fmt::format("{}: not a number at time {:.6g} s", which, tick.time));
+                          fmt::format("{}: not a number at time {:.9g} s", which, tick.time));
   return fact_check("positions", true, "all are numbers");
 }
 
@@ -65,6 +69,7 @@ Check height_check(const std::string& name, const HeightField& golden, const Hei
                                   run.cell_size()));
   }
   const FieldDifference difference = field_difference(golden, run);
+  if (difference.max == 0.0) return limit_check(name, 0.0, limit, "m", "the same in every cell");
   const std::string where = fmt::format("at row {}, col {} (x = {:.6g} m, y = {:.6g} m)", difference.row,
                                         difference.col, difference.x, difference.y);
   if (std::isnan(difference.max))
@@ -104,20 +109,25 @@ std::vector<Check> trace_checks(const std::optional<CountedTrace>& golden,
 std::vector<Check> picture_checks(const Image& golden, const Image& run, const Tolerances& tolerances) {
   const ImageDifference difference = image_difference(golden, run);
   return {limit_check("picture", difference.max, tolerances.pixel, "/255",
-                      fmt::format("differs by {}/255 at pixel x = {}, y = {}", difference.max, difference.x,
-                                  difference.y)),
+                      difference.max == 0 ? "the same in every pixel"
+                                          : fmt::format("differs by {}/255 at pixel x = {}, y = {}",
+                                                        difference.max, difference.x, difference.y)),
           limit_check("picture share", 100.0 * difference.share, 100.0 * tolerances.pixel_share, "%",
                       fmt::format("{:.4g} % of the pixels differ", 100.0 * difference.share))};
 }
 
 void add_checks(std::vector<Check>& checks, const std::string& name,
                 const std::function<std::vector<Check>()>& make) {
+  const Stopwatch watch;
+  Comparison made;
   try {
-    for (Check& check : make()) checks.push_back(std::move(check));
+    made.checks = make();
   } catch (const Error& error) {
     if (is_of_the_machine(error)) throw;
-    checks.push_back(fact_check(name, false, error.what()));
+    made.checks = {fact_check(name, false, error.what())};
   }
+  if (!made.checks.empty()) made.checks.front().seconds += std::max(0.0, watch.seconds() - made.seconds());
+  std::move(made.checks.begin(), made.checks.end(), std::back_inserter(checks));
 }
 
 }  // namespace sandstroke

@@ -6,19 +6,11 @@
 #include <vector>
 
 #include "compare/check.h"
+#include "compare/tolerances.h"
 #include "io/run_file.h"
 #include "picture/image.h"
 
 namespace sandstroke {
-
-/// How far apart two runs may be and still count as equal.
-struct Tolerances {
-  double height = 1e-6;       ///< m, any cell
-  double force = 1e-4;        ///< N, on the device, any tick
-  double depth = 1e-6;        ///< m, depth and level, any tick
-  int pixel = 2;              ///< of 255, any channel of any pixel
-  double pixel_share = 1e-3;  ///< 0 to 1, pixels that differ at all
-};
 
 // What both a pair of run files and a golden entry are judged by. Whatever is missing or of another shape is
 // a check that failed, with a sentence.
@@ -49,9 +41,9 @@ std::vector<Check> trace_checks(const std::optional<CountedTrace>& golden,
 /// Largest difference and share of differing pixels.
 std::vector<Check> picture_checks(const Image& golden, const Image& run, const Tolerances& tolerances);
 
-/// Appends what `make` returns, or, where the data it asks for is missing or damaged (Error: input), the
-/// failed check `name` with the error's sentence. What is_of_the_machine() says nothing about the data:
-/// Error.
+/// Appends what `make` returns, with the time that it took, or, where the data it asks for is missing or
+/// damaged (Error: input), the failed check `name` with the error's sentence. What is_of_the_machine() says
+/// nothing about the data: Error.
 void add_checks(std::vector<Check>& checks, const std::string& name,
                 const std::function<std::vector<Check>()>& make);
 

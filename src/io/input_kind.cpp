@@ -45,7 +45,7 @@ constexpr std::array<KindText, 11> kinds{{
     {InputKind::run, "a run file", "sandstroke.run", nullptr,
      "show it: sandstroke info {0}; draw it: sandstroke render {0}", 2},
     {InputKind::golden, "a golden entry", "sandstroke.golden", nullptr,
-     "compare a scene with it: sandstroke golden check"},
+     "compare a scene with it: sandstroke golden check", 2},
     {InputKind::sweep, "a sweep's table of results", "sandstroke.sweep", nullptr,
      "open sweep.html in the same folder"},
     {InputKind::point, "a sweep's point", "sandstroke.point", nullptr,

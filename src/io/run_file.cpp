@@ -10,7 +10,7 @@
 namespace sandstroke {
 namespace {
 
-constexpr double first_version = 1.0, own_version = 2.0;  // without and with what others need to open it
+constexpr int first_version = 1;  // of the format
 
 }  // namespace
 
@@ -18,6 +18,7 @@ RunFile::RunFile(const std::filesystem::path& path) try : file_(path) {
   if (!has_format(file_, InputKind::run))
     throw_input_error("{}: is not a sandstroke run file; make one with 'sandstroke run'", file_.name());
   version_ = file_.number_attribute("/", "format_version");
+  const int own_version = output_kind(InputKind::run).version;
   if (version_ != first_version && version_ != own_version)
     throw_input_error(
         "{}: has run format {}, and this program reads formats {} and {}; use a newer version of sandstroke",

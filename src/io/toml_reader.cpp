@@ -308,7 +308,7 @@ std::vector<std::string> TomlReader::texts(std::string_view key,
 
 std::vector<std::string> TomlReader::keys_in(std::string_view key,
                                              const std::vector<std::string>& leaves) const {
-  const toml::node* top = find(key);
+  const toml::node* top = key.empty() ? table_ : find(key);
   if (!top) return {};
   if (!top->is_table()) fail(key, fmt::format("is {}; write a [{}] table", type_name(*top), key));
   std::vector<std::pair<toml::source_position, std::string>> found;

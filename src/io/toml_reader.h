@@ -58,8 +58,9 @@ class TomlReader {
   int choice(std::string_view key, int fallback, const std::vector<std::string>& names) const;
   /// An array of strings.
   std::vector<std::string> texts(std::string_view key, const std::vector<std::string>& fallback) const;
-  /// What a file says about settings it does not know: dotted keys of all values in table `key`, relative to
-  /// it, in the order of the file. A table that holds one of the keys `leaves` counts as a value.
+  /// What a file says about settings it does not know: dotted keys of all values in table `key` (empty: in
+  /// the file), relative to it, in the order of the file. A table that holds one of the keys `leaves` counts
+  /// as a value.
   std::vector<std::string> keys_in(std::string_view key, const std::vector<std::string>& leaves = {}) const;
   /// A value as TOML text, on one line; of an array, each element.
   std::string literal(std::string_view key) const;

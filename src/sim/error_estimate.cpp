@@ -3,70 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <set>
 
 #include "core/error.h"
 #include "core/stopwatch.h"
+#include "sand/cell_means.h"
 
 namespace sandstroke {
 namespace {
-
-/// Which of `there` intervals that divide a length one of `here` others covers, and what share of it each
-/// does.
-struct Cover {
-  int begin = 0;
-  std::vector<double> share;
-};
-std::vector<Cover> covers(int here, int there) {
-  std::vector<Cover> covers(here);
-  const double ratio = static_cast<double>(there) / here;
-  for (int i = 0; i < here; ++i) {
-    const double from = i * ratio, to = (i + 1) * ratio;
-    covers[i].begin = std::min(static_cast<int>(from + 1e-9), there - 1);
-    for (int k = covers[i].begin; k < there && (k == covers[i].begin || k < to - 1e-9); ++k)
-      covers[i].share.push_back((std::min(to, k + 1.0) - std::max<double>(from, k)) / ratio);
-  }
-  return covers;
-}
-
-/// A bed's mean heights in the cells of another over the same rectangle.
-class Averages {
- public:
-  Averages(const HeightField& bed, int rows, int cols)
-      : bed_(bed), rows_(covers(rows, bed.rows())), cols_(covers(cols, bed.cols())) {}
-  double operator()(int row, int col) const {
-    const Cover &rows = rows_[row], &cols = cols_[col];
-    double sum = 0.0;
-    for (std::size_t i = 0; i < rows.share.size(); ++i)
-      for (std::size_t j = 0; j < cols.share.size(); ++j)
-        sum += rows.share[i] * cols.share[j] *
-               bed_(rows.begin + static_cast<int>(i), cols.begin + static_cast<int>(j));
-    return sum;
-  }
-
- private:
-  const HeightField& bed_;
-  std::vector<Cover> rows_, cols_;
-};
-
-/// Tiles of `coarse` in which it, or the finer bed, is no longer as its rule says.
-std::set<int> touched_tiles(const HeightField& fine, const HeightField& coarse) {
-  std::set<int> tiles;
-  for (int slot = 0; slot < coarse.allocated_tiles(); ++slot) tiles.insert(coarse.tile_of(slot));
-  const auto tile_of = [&](int fine_cell, int fine_cells, int cells) {
-    return static_cast<int>(static_cast<std::int64_t>(fine_cell) * cells / fine_cells) /
-           BedGeometry::tile_side;
-  };
-  for (int slot = 0; slot < fine.allocated_tiles(); ++slot) {
-    const CellRange cells = fine.tile_cells(fine.tile_of(slot));
-    for (int i = tile_of(cells.row_begin, fine.rows(), coarse.rows());
-         i <= tile_of(cells.row_end - 1, fine.rows(), coarse.rows()); ++i)
-      for (int j = tile_of(cells.col_begin, fine.cols(), coarse.cols());
-           j <= tile_of(cells.col_end - 1, fine.cols(), coarse.cols()); ++j)
-        tiles.insert(coarse.tile_index(i, j));
-  }
-  return tiles;
-}
 
 /// Sums over differences of heights (times area) or forces (per tick).
 struct Distance {
@@ -82,12 +25,12 @@ struct Distance {
 template <class Visit>
 Distance height_distance(const HeightField& fine, const HeightField& coarse, const Visit& visit) {
   Distance distance;
-  const Averages averages(fine, coarse.rows(), coarse.cols());
+  const CellMeans means(fine, coarse.rows(), coarse.cols());
   for (const int tile : touched_tiles(fine, coarse)) {
     const CellRange cells = coarse.tile_cells(tile);
     for (int row = cells.row_begin; row < cells.row_end; ++row)
       for (int col = cells.col_begin; col < cells.col_end; ++col) {
-        const double apart = std::abs(averages(row, col) - coarse(row, col));
+        const double apart = std::abs(means(row, col) - coarse(row, col));
         distance.add(apart, coarse.cell_area());
         visit(row, col, apart);
       }
@@ -114,8 +57,8 @@ HeightField start_of(const Scene& second, const HeightField& start) {
       surface.kind == SurfaceKind::file || (surface.kind == SurfaceKind::noise && surface.wavelength == 0.0);
   const int rows = second.bed.rows, cols = second.bed.cols;
   if (!cell_by_cell) return starting_bed(second.bed);
-  const Averages averages(start, rows, cols);
-  return HeightField(HeightGrid::NullaryExpr(rows, cols, averages), second.bed.cell_size());
+  const CellMeans means(start, rows, cols);
+  return HeightField(HeightGrid::NullaryExpr(rows, cols, means), second.bed.cell_size());
 }
 
 /// The sand that is not where it was.

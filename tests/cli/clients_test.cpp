@@ -8,22 +8,15 @@
 #include <sstream>
 
 #include "cli/program.h"
-#include "core/child_process.h"
 #include "io/png_file.h"
 #include "io/run_file.h"
+#include "python.h"
 
 namespace sandstroke {
 namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
-
-constexpr const char* python = "/usr/bin/python3";  // which has Debian's modules
-
-bool has_module(const std::string& module) {
-  const auto found = run_child({python, "-c", "import " + module});
-  return found && found->exit_code == 0;
-}
 
 /// What a script of tests/clients says, a line of JSON each.
 std::vector<Json> said_by(std::vector<std::string> words) {
@@ -39,7 +32,7 @@ std::vector<Json> said_by(std::vector<std::string> words) {
 }
 
 /// A run with frames, of a bed whose sand is not level.
-fs::path folder_with_run() {
+fs::path folder_with_rippled_run() {
   const fs::path folder = test_folder();
   const ProgramResult run = run_program({"run", "scene.toml", "-o", "a.h5", "--frames", "20", "--set",
                                          "bed.surface={ kind = 'ripples', amplitude = 0.002 }"},
@@ -58,9 +51,9 @@ void expect_described(const Json& group, const std::string& name, const Json& di
 }
 
 TEST(CliClients, XarrayAndH5pyOpenARunWithItsAxes) {
-  if (!has_module("xarray, h5netcdf"))
+  if (!python_has("xarray, h5netcdf"))
     GTEST_SKIP() << "there is no xarray with h5netcdf (Debian: python3-xarray python3-h5netcdf)";
-  const fs::path folder = folder_with_run();
+  const fs::path folder = folder_with_rippled_run();
   const std::vector<Json> groups = said_by({python, "xarray_opens.py", (folder / "a.h5").string(), "surface",
                                             "trace", "relaxation", "provenance"});
   ASSERT_EQ(groups.size(), 4u);
@@ -89,7 +82,7 @@ TEST(CliClients, XarrayAndH5pyOpenARunWithItsAxes) {
 }
 
 TEST(CliClients, XarrayOpensStrokes) {
-  if (!has_module("xarray, h5netcdf"))
+  if (!python_has("xarray, h5netcdf"))
     GTEST_SKIP() << "there is no xarray with h5netcdf (Debian: python3-xarray python3-h5netcdf)";
   const fs::path folder = test_folder();
   ASSERT_EQ(run_program({"stroke", "script", "line.toml", "made.h5"}, folder).exit_code, 0);
@@ -104,9 +97,9 @@ TEST(CliClients, XarrayOpensStrokes) {
 }
 
 TEST(CliClients, ParaViewOpensARunWithEachOfItsReadersAndWarpsIt) {
-  if (!has_module("paraview.simple")) GTEST_SKIP() << "there is no ParaView (Debian: python3-paraview)";
+  if (!python_has("paraview.simple")) GTEST_SKIP() << "there is no ParaView (Debian: python3-paraview)";
   if (!run_child({"xvfb-run", "--help"})) GTEST_SKIP() << "there is no xvfb-run (Debian: xvfb xauth)";
-  const fs::path folder = folder_with_run();
+  const fs::path folder = folder_with_rippled_run();
   const RunFile run(folder / "a.h5");
   const BedGeometry bed(run.rows(), run.cols(), run.cell_size());
   const std::string xdmf = fs::absolute(folder / "a.xdmf").string(),

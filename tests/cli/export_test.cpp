@@ -8,10 +8,10 @@
 #include <regex>
 
 #include "cli/program.h"
-#include "core/child_process.h"
 #include "io/png_file.h"
 #include "io/run_file.h"
 #include "io/stroke_file.h"
+#include "python.h"
 
 namespace sandstroke {
 namespace {
@@ -46,14 +46,6 @@ void expect_refused(const ProgramResult& result, const std::string& sentence, in
   EXPECT_NE(result.err.find(sentence), std::string::npos) << result.err;
 }
 
-/// A Python with this module; empty: there is none.
-std::string python_with(const std::string& module) {
-  for (const std::string python : {"python3", "/usr/bin/python3"})
-    if (const auto found = run_child({python, "-c", "import " + module}); found && found->exit_code == 0)
-      return python;
-  return "";
-}
-
 std::string bytes_of(const HeightGrid& heights) {
   std::string bytes(static_cast<std::size_t>(heights.size()) * sizeof(double), '\0');
   std::memcpy(bytes.data(), heights.data(), bytes.size());
@@ -61,8 +53,7 @@ std::string bytes_of(const HeightGrid& heights) {
 }
 
 TEST(CliExport, NumPyLoadsTheHeightsToTheBit) {
-  const std::string python = python_with("numpy");
-  if (python.empty()) GTEST_SKIP() << "NumPy is not installed (Debian: python3-numpy)";
+  if (!python_has("numpy")) GTEST_SKIP() << "NumPy is not installed (Debian: python3-numpy)";
   const fs::path folder = folder_with_run();
   expect_export(folder, "a.npy");
   expect_export(folder, "a.asc");

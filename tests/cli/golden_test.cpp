@@ -1,11 +1,15 @@
 #include <gtest/gtest.h>
+#include <spdlog/fmt/fmt.h>
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <regex>
 #include <set>
 
 #include "cli/program.h"
 #include "hdf5/hdf5_file.h"
+#include "io/run_file.h"
+#include "python.h"
 
 namespace sandstroke {
 namespace {
@@ -61,6 +65,91 @@ TEST(CliGolden, HeightsAndForcesAreJudgedNotOnlyNames) {
   EXPECT_TRUE(failed.contains("force")) << check.out;
 }
 
+/// A straight stroke at 1 kHz, of which one sample may be moved.
+void write_stroke(const fs::path& folder, double spike) {
+  std::string table = "x,y,z\n";
+  for (int k = 0; k <= 400; ++k)
+    table += fmt::format("{},{},{}\n", -0.04 + 2e-4 * k, 0.0, -0.004 - (k == 203 ? spike : 0.0));
+  write_file(folder / "hand.csv", table);
+  const ProgramResult made = run_program({"stroke", "convert", "hand.csv", "strokes/tiny/hand.h5", "--rate",
+                                          "1000", "--position", "x,y,z", "--position-unit", "m"},
+                                         folder);
+  ASSERT_EQ(made.exit_code, 0) << made.err;
+}
+
+/// How far two runs (--json) are apart in the force.
+double force_difference(const nlohmann::json& comparison) {
+  for (const auto& check : comparison["checks"])
+    if (check["name"] == "force") return check["measured"];
+  return -1.0;
+}
+
+TEST(CliGolden, OneSampleOfAStrokeThatIsMovedIsSeenWithItsWholeForce) {
+  const fs::path folder = folder_with_golden_entry();
+  const std::string scene = read_file(folder / "strokes/tiny/scene.toml");
+  write_file(folder / "strokes/tiny/scene.toml",
+             std::regex_replace(scene, std::regex("line.toml"), "hand.h5"));
+  write_stroke(folder, 0.0);
+  ASSERT_EQ(run_program({"golden", "update", "tiny"}, folder).exit_code, 0);
+  ASSERT_EQ(run_program({"run", "strokes/tiny/scene.toml", "-o", "before.h5"}, folder).exit_code, 0);
+  write_stroke(folder, 0.02);
+  ASSERT_EQ(run_program({"run", "strokes/tiny/scene.toml", "-o", "after.h5"}, folder).exit_code, 0);
+  const ProgramResult check = run_program({"golden", "check", "--json"}, folder);
+  EXPECT_EQ(check.exit_code, 1);
+  const double spike = force_difference(
+      nlohmann::json::parse(run_program({"compare", "before.h5", "after.h5", "--json"}, folder).out));
+  EXPECT_GT(spike, 5.0);
+  EXPECT_NEAR(force_difference(nlohmann::json::parse(check.out)["scenes"][0]), spike, 2e-5) << check.out;
+}
+
+TEST(CliGolden, APythonReaderOfJUnitReadsTheReportWithItsTimes) {
+  if (!python_has("junitparser"))
+    GTEST_SKIP() << "there is no junitparser for Python (Debian: python3-junitparser)";
+  const fs::path folder = folder_with_golden_entry();
+  write_file(folder / "strokes/tiny/scene.toml",
+             read_file(folder / "strokes/tiny/scene.toml") + "[relaxation]\ntalus_angle = 31.0\n");
+  ASSERT_EQ(run_program({"golden", "check", "--junit", "golden.xml"}, folder).exit_code, 1);
+  write_file(folder / "read.py",
+             "import junitparser, sys\n"
+             "suite, = junitparser.JUnitXml.fromfile(sys.argv[1])\n"
+             "run, = [case for case in suite if case.name == 'run complete']\n"
+             "scene, = [case for case in suite if case.name == 'scene']\n"
+             "assert suite.name == 'tiny' and suite.tests == len(list(suite)) and suite.failures > 0\n"
+             "assert 0 < run.time <= suite.time\n"
+             "assert abs(sum(case.time for case in suite) - suite.time) < 0.02\n"
+             "assert run.is_passed and 'talus_angle was 30, is 31' in scene.result[0].message\n");
+  const auto read = run_child({python, (folder / "read.py").string(), (folder / "golden.xml").string()});
+  EXPECT_TRUE(read && read->exit_code == 0) << (read ? read->err : "");
+}
+
+TEST(CliGolden, TolerancesOfTheEntryAndOfTheCommandLineAreUsedAndSaid) {
+  const fs::path folder = folder_with_golden_entry();
+  const std::string scene = read_file(folder / "strokes/tiny/scene.toml");
+  write_file(folder / "strokes/tiny/scene.toml", scene + "[force]\nk_f = 10.001\n");  // 1e-4 of the drag
+  const auto failed = [&](const std::vector<std::string>& options) {
+    std::vector<std::string> words = {"golden", "check", "--json"};
+    words.insert(words.end(), options.begin(), options.end());
+    std::set<std::string> names;
+    const nlohmann::json report = nlohmann::json::parse(run_program(words, folder).out);
+    for (const auto& one : report["scenes"][0]["checks"])
+      if (!one["passed"]) names.insert(one["name"]);
+    return names;
+  };
+  const std::set<std::string> only_scene{"scene"}, force_too{"force", "scene"};
+  EXPECT_EQ(failed({"--force-tolerance", "1e-5"}), force_too);
+  EXPECT_EQ(failed({"--force-tolerance", "1"}), only_scene);
+  write_file(folder / "golden/tiny/tolerances.toml", "force = 1e-5\n");
+  EXPECT_EQ(failed({}), force_too);
+  EXPECT_EQ(failed({"--force-tolerance", "1"}), only_scene);
+  const ProgramResult said = run_program({"golden", "check", "--report", "pages"}, folder);
+  EXPECT_NE(said.out.find("tolerances: force 1e-05 N (golden/tiny/tolerances.toml)\n"), std::string::npos)
+      << said.out;
+  EXPECT_NE(read_file(folder / "pages/tiny.html").find("golden/tiny/tolerances.toml"), std::string::npos);
+  const ProgramResult refused = run_program({"golden", "check", "--force-tolerance", "1e-7"}, folder);
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_NE(refused.err.find("1e-7 is not a number 1e-05 or more"), std::string::npos) << refused.err;
+}
+
 TEST(CliGolden, AMissingEntryAndAMissingSceneFail) {
   const fs::path folder = folder_with_golden_entry();
   fs::rename(folder / "golden/tiny", folder / "golden/other");
@@ -103,6 +192,54 @@ TEST(CliCompare, PassesForItselfAndFailsForOneCellOrOneForceSample) {
   EXPECT_TRUE(fs::exists(folder / "j.xml"));
   EXPECT_NE(force.out.find("report/compare.html"), std::string::npos);
   EXPECT_TRUE(fs::exists(folder / "report/compare.html"));
+}
+
+TEST(CliCompare, RunsOnOtherCellsAreComparedInMeans) {
+  const fs::path folder = test_folder();
+  ASSERT_EQ(run_program({"run", "scene.toml", "-o", "coarse.h5"}, folder).exit_code, 0);
+  ASSERT_EQ(
+      run_program({"run", "scene.toml", "-o", "fine.h5", "--set", "bed.cells=[300, 200]"}, folder).exit_code,
+      0);
+  const ProgramResult refused = run_program({"compare", "coarse.h5", "fine.h5"}, folder);
+  EXPECT_EQ(refused.exit_code, 1);
+  EXPECT_NE(refused.out.find("--coarsen compares means of 2 x 2 cells of the run"), std::string::npos)
+      << refused.out;
+  const HeightGrid coarse = RunFile(folder / "coarse.h5").final(), fine = RunFile(folder / "fine.h5").final();
+  double largest = 0.0;
+  for (Eigen::Index row = 0; row < coarse.rows(); ++row)
+    for (Eigen::Index col = 0; col < coarse.cols(); ++col)
+      largest = std::max(largest, std::abs(fine.block(2 * row, 2 * col, 2, 2).mean() - coarse(row, col)));
+  ASSERT_GT(largest, 1e-5);
+  const ProgramResult compared =
+      run_program({"compare", "coarse.h5", "fine.h5", "--coarsen", "--json", "--report", "page"}, folder);
+  const nlohmann::json report = nlohmann::json::parse(compared.out);
+  for (const auto& check : report["checks"])
+    if (check["name"] == "final height") {
+      EXPECT_NEAR(check["measured"].get<double>(), largest, 1e-15);
+    }
+  const std::vector<std::string> loose = {
+      "compare", "coarse.h5",         "fine.h5", "--coarsen",         "--height-tolerance",
+      "1",       "--force-tolerance", "100",     "--depth-tolerance", "1"};
+  const ProgramResult same = run_program(loose, folder);
+  EXPECT_EQ(same.exit_code, 0) << same.out;
+  EXPECT_TRUE(
+      same.out.ends_with("\ncell size: coarsened to cells of 0.002 m: means of 2 x 2 cells of the run are "
+                         "compared\nsame within the tolerances\n"))
+      << same.out;
+}
+
+TEST(CliCompare, EndsWithItsVerdict) {
+  const fs::path folder = test_folder();
+  ASSERT_EQ(run_program({"run", "scene.toml", "-o", "run.h5"}, folder).exit_code, 0);
+  write_changed_copy(folder, "/trace/device_force", 3 * 400 + 2, 0.01);
+  EXPECT_TRUE(
+      run_program({"compare", "run.h5", "run.h5"}, folder).out.ends_with("\nsame within the tolerances\n"));
+  EXPECT_TRUE(run_program({"compare", "run.h5", "changed.h5", "--report", "page"}, folder)
+                  .out.ends_with("\ndiffers: force\n"));
+  write_file(folder / "picture.png", "");
+  EXPECT_NE(run_program({"compare", "picture.png", "picture.png", "--coarsen"}, folder)
+                .err.find("--coarsen: picture.png is a picture"),
+            std::string::npos);
 }
 
 TEST(CliCompare, WhatIsNoNumberFailsWhereverItIs) {

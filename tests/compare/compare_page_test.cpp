@@ -58,6 +58,21 @@ TEST(ComparePage, ShowsInitialSurfacesThatDiffer) {
   EXPECT_EQ(names_in(pair.page().data["parts"], "title").front(), "Final height");
 }
 
+TEST(ComparePage, ShowsAFinerBedInTheMeansThatAreCompared) {
+  Pair pair;
+  pair.run.cell_size /= 2.0;
+  pair.run.initial = HeightGrid::Zero(60, 80);
+  pair.run.final = HeightGrid::NullaryExpr(
+      60, 80, [&](Eigen::Index row, Eigen::Index col) { return pair.golden.final(row / 2, col / 2); });
+  pair.page();
+  const RunFile a(pair.folder / "golden.h5"), b(pair.folder / "run.h5");
+  const auto maps = [&](bool coarsen) {
+    return run_page(a, b, {}, Tolerances{}, coarsen).data["parts"][0]["maps"].size();
+  };
+  EXPECT_EQ(maps(false), 2u) << "no difference";
+  EXPECT_EQ(maps(true), 3u);
+}
+
 TEST(ComparePage, OfACutOffRunShowsWhatThereIsAndSaysWhatIsNot) {
   Pair pair;
   pair.run.complete = pair.run.has_final = false;
@@ -79,11 +94,10 @@ TEST(ComparePage, OfAGoldenEntryHasChangePictureAndTraces) {
   Pair pair;
   pair.page();
   const GoldenRun run{pair.folder / "golden.h5", Image(72, 40), {}};
-  const std::filesystem::path entry = pair.folder / "entry";
-  write_golden(entry, run);
+  const GoldenEntry entry{"dune", pair.folder / "entry", "sandstroke golden update dune"};
+  write_golden(entry.folder, run);
   const auto page = [&] {
-    return golden_page("dune", entry, run, compare_golden("dune", entry, run, Tolerances{}), Tolerances{})
-        .data;
+    return golden_page(entry, run, compare_golden(entry, run, Tolerances{}), Tolerances{}).data;
   };
   const Json whole = page();
   EXPECT_EQ(whole["passed"], true);
@@ -91,13 +105,12 @@ TEST(ComparePage, OfAGoldenEntryHasChangePictureAndTraces) {
             (Names{"Change of height", "Picture", "Force and depth over time"}));
   EXPECT_TRUE(whole["missing"].empty());
   EXPECT_EQ(whole["golden"]["provenance"][0][0], "version");
-  // Ticks 0, 10, ..., 100 of 105: of both the same.
   const Json& force = whole["parts"][2]["quantities"][0];
   EXPECT_EQ(force["golden"]["at"], force["run"]["at"]);
-  EXPECT_EQ(force["run"]["at"].size(), 11u);
+  EXPECT_EQ(force["run"]["at"].size(), SyntheticRun::ticks);
 
-  std::filesystem::remove(entry / "golden.h5");
-  std::filesystem::remove(entry / "provenance.toml");
+  std::filesystem::remove(entry.folder / "golden.h5");
+  std::filesystem::remove(entry.folder / "provenance.toml");
   EXPECT_EQ(names_in(page()["missing"], "name"), (Names{"Change of height", "Traces"}));
 }
 
@@ -107,10 +120,10 @@ TEST(ComparePage, OfAGoldenEntryTellsItFromTheRun) {
   pair.run.final = HeightGrid(pair.run.final.topRows(20));
   pair.golden.write(pair.folder / "golden.h5");
   pair.run.write(pair.folder / "run.h5");
-  const std::filesystem::path entry = pair.folder / "entry";
-  write_golden(entry, {pair.folder / "golden.h5", Image(72, 40), {}});
+  const GoldenEntry entry{"dune", pair.folder / "entry", "sandstroke golden update dune"};
+  write_golden(entry.folder, {pair.folder / "golden.h5", Image(72, 40), {}});
   const GoldenRun run{pair.folder / "run.h5", Image(72, 40), {}};
-  const Json data = golden_page("dune", entry, run, {}, Tolerances{}).data;
+  const Json data = golden_page(entry, run, {}, Tolerances{}).data;
   EXPECT_EQ(data["parts"][0]["text"], "They differ in shape: golden has 40 x 30 cells, the run 40 x 20.");
 }
 
@@ -222,9 +235,9 @@ TEST_F(ComparePageInBrowser, TheKeyboardReachesTheSliderAndMovesTheEdge) {
 
 TEST_F(ComparePageInBrowser, WipesToTheDifferenceToo) {
   open(DifferentPair().page());
-  browser().choose("#part-1 select", "golden and difference");
+  browser().choose("#part-1 select", "golden.h5 and difference");
   EXPECT_EQ(browser().evaluate("[...document.querySelectorAll('.wipe .tag')].map((one) => one.textContent)"),
-            Json({"golden", "difference"}));
+            Json({"golden.h5", "difference"}));
   EXPECT_EQ(browser().evaluate("document.querySelectorAll('.wipe img')[1].src === "
                                "document.querySelectorAll('#part-1 .charts:last-child img')[2].src"),
             true);
@@ -249,8 +262,8 @@ TEST_F(ComparePageInBrowser, PointingAtAPlaceReadsOffItsHeights) {
   };
   EXPECT_NEAR(number_after("x"), x, 5e-4) << text;
   EXPECT_NEAR(number_after("y"), y, 5e-4) << text;
-  EXPECT_NEAR(number_after("golden"), 1e3 * pair.golden.final(12, 25), 1e-3) << text;
-  EXPECT_NEAR(number_after("run"), 1e3 * pair.run.final(12, 25), 1e-3) << text;
+  EXPECT_NEAR(number_after("golden.h5"), 1e3 * pair.golden.final(12, 25), 1e-3) << text;
+  EXPECT_NEAR(number_after("run.h5"), 1e3 * pair.run.final(12, 25), 1e-3) << text;
   EXPECT_NEAR(number_after("difference"), 2.0, 1e-3) << text;
 }
 
@@ -286,7 +299,7 @@ TEST_F(ComparePageInBrowser, PointingAtAChartReadsOffBothTraces) {
   browser().wait_for("document.querySelector('#part-2 .tip')");
   EXPECT_EQ(
       browser().evaluate("[...document.querySelectorAll('#part-2 .tip dt')].map((one) => one.textContent)"),
-      Json({"golden (N)", "run (N)"}));
+      Json({"golden.h5 (N)", "run.h5 (N)"}));
   expect_no_errors();
 }
 
@@ -304,6 +317,35 @@ TEST_F(ComparePageInBrowser, WhatIsMissingIsSaidAndTheRestIsDrawn) {
   open(shapes.page());
   EXPECT_EQ(browser().evaluate("document.images.length"), 2);
   EXPECT_EQ(browser().evaluate("document.querySelectorAll('input').length"), 0);
+}
+
+TEST(ComparePage, CallsFilesByTheirNames) {
+  const Pair pair;
+  const auto labels = [&](const std::string& golden, const std::string& run) {
+    const PageOfParts page = picture_page(golden, Image(2, 2), run, Image(2, 2), {}, Tolerances{});
+    return std::vector<std::string>{page.title, page.data["golden"].value("label", ""),
+                                    page.data["run"].value("label", "")};
+  };
+  EXPECT_EQ(labels("a/before.png", "b/after.png"),
+            (Names{"after.png against before.png", "before.png", "after.png"}));
+  EXPECT_EQ(labels("a/sand.png", "b/sand.png"),
+            (Names{"b/sand.png against a/sand.png", "a/sand.png", "b/sand.png"}));
+  EXPECT_EQ(labels("sand.png", "sand.png"), (Names{"sand.png against sand.png", "", ""})) << "golden and run";
+}
+
+TEST_F(ComparePageInBrowser, CallsFilesByTheirNamesInMapsTablesAndCharts) {
+  open(DifferentPair().page("after.h5"));
+  const auto texts = [&](const std::string& selector) {
+    return browser().evaluate("[...document.querySelectorAll('" + selector +
+                              "')].map((one) => one.firstChild.data)");
+  };
+  EXPECT_EQ(texts("#part-1 .charts figcaption"),
+            Json({"Golden: golden.h5", "Run: after.h5", "Difference: after.h5 − golden.h5"}));
+  EXPECT_EQ(browser().evaluate(
+                "[...document.querySelectorAll('#files th')].slice(0, 3).map((one) => one.textContent)"),
+            Json({"Entry", "Golden: golden.h5", "Run: after.h5"}));
+  EXPECT_EQ(browser().evaluate("charts[0].drawn.getOption().series.map(({ name }) => name)"),
+            Json({"golden.h5", "after.h5"}));
 }
 
 TEST_F(ComparePageInBrowser, PicturesOfTwoFiles) {

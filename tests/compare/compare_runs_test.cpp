@@ -17,7 +17,7 @@ class CompareRuns : public testing::Test {
   Comparison compare() {
     golden.write(folder / "golden.h5");
     run.write(folder / "run.h5");
-    return compare_runs(RunFile(folder / "golden.h5"), RunFile(folder / "run.h5"), tolerances);
+    return compare_runs(RunFile(folder / "golden.h5"), RunFile(folder / "run.h5"), tolerances, coarsen);
   }
 
   void expect_only_failure(const std::string& name, const std::string& words) {
@@ -27,7 +27,79 @@ class CompareRuns : public testing::Test {
   TestFolder folder;
   SyntheticRun golden, run;
   Tolerances tolerances;
+  bool coarsen = false;
 };
+
+/// A surface on cells half as wide, whose means over 2 x 2 of them are the same.
+HeightGrid refined(const HeightGrid& coarse) {
+  return HeightGrid::NullaryExpr(
+      2 * coarse.rows(), 2 * coarse.cols(), [&](Eigen::Index row, Eigen::Index col) {
+        return coarse(row / 2, col / 2) + (row % 2 ? 0.01 : -0.01) + (col % 2 ? 0.003 : -0.003);
+      });
+}
+void refine(SyntheticRun& run) {
+  run.cell_size /= 2.0;
+  run.initial = refined(run.initial);
+  run.final = refined(run.final);
+}
+
+TEST_F(CompareRuns, AFinerBedIsComparedInMeansWhereThatIsAskedFor) {
+  refine(run);
+  for (int turn = 0; turn < 2; ++turn, std::swap(golden, run)) {
+    const std::string finer = turn == 0 ? "the run" : "golden";
+    coarsen = false;
+    const Comparison refused = compare();
+    EXPECT_EQ(refused.failures(), 3);
+    EXPECT_NE(check_table(refused).find("; --coarsen compares means of 2 x 2 cells of " + finer + "\n"),
+              std::string::npos)
+        << check_table(refused);
+    coarsen = true;
+    const Comparison comparison = compare();
+    EXPECT_TRUE(comparison.passed()) << check_table(comparison);
+    EXPECT_EQ(comparison.checks[2].sentence,
+              "coarsened to cells of 0.01 m: means of 2 x 2 cells of " + finer + " are compared");
+  }
+}
+
+TEST_F(CompareRuns, AFinerCellCountsByItsShareOfTheMean) {
+  refine(run);
+  coarsen = true;
+  run.final(11, 15) += 4.0 * 0.95e-6;
+  EXPECT_TRUE(compare().passed());
+  run.final(11, 15) += 4.0 * 0.1e-6;
+  expect_only_failure("final height", "row 5, col 7 (x = -0.125 m, y = -0.095 m)");
+  run.initial(59, 79) -= 4.0 * 1.05e-6;
+  EXPECT_EQ(compare().failures(), 2);
+}
+
+TEST_F(CompareRuns, BedsThatDoNotFitAreNotCoarsened) {
+  const auto bed = [&](Eigen::Index rows, Eigen::Index cols, double cell_size) {
+    run.initial = run.final = HeightGrid::Zero(rows, cols);
+    run.cell_size = cell_size;
+  };
+  for (const auto& [rows, cols, cell_size] : {std::tuple{45, 60, 0.01 / 1.5},
+                                              {60, 80, 0.004},
+                                              {60, 81, 0.005},
+                                              {61, 80, 0.005},
+                                              {60, 120, 0.005}}) {
+    bed(rows, cols, cell_size);
+    coarsen = false;
+    EXPECT_EQ(check_table(compare()).find("--coarsen"), std::string::npos) << "not suggested";
+    coarsen = true;
+    const Comparison comparison = compare();
+    EXPECT_EQ(comparison.failures(), 3) << rows << " x " << cols;
+    EXPECT_NE(check_table(comparison).find("no whole number of one fills the other over the same ground"),
+              std::string::npos)
+        << check_table(comparison);
+  }
+}
+
+TEST(Verdict, IsOneLine) {
+  const Check good = fact_check("cell size", true, ""), bad = fact_check("force", false, "");
+  EXPECT_EQ(verdict({"run", {good}}), "same within the tolerances");
+  EXPECT_EQ(verdict({"run", {bad, good, fact_check("final height", false, "")}}),
+            "differs: force, final height");
+}
 
 TEST_F(CompareRuns, AFileEqualsItself) {
   const Comparison comparison = compare();

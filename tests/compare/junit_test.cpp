@@ -128,6 +128,18 @@ TEST(Junit, CountsAndNamesWhatFailed) {
   }
 }
 
+TEST(Junit, SaysHowLongEachTookAndHowLongAll) {
+  Check run = fact_check("run complete", true, ""), force = fact_check("force", false, "no");
+  run.seconds = 12.25;
+  force.seconds = 0.5;
+  const Element root = StrictXml(junit_report({{"letters", {run, force}}, {"collapse", {force}}})).document();
+  EXPECT_EQ(root.attributes.at("time"), "13.250");
+  EXPECT_EQ(root.children[0].attributes.at("time"), "12.750");
+  EXPECT_EQ(root.children[0].children[0].attributes.at("time"), "12.250");
+  EXPECT_EQ(root.children[0].children[1].attributes.at("time"), "0.500");
+  EXPECT_EQ(root.children[1].attributes.at("time"), "0.500");
+}
+
 TEST(Junit, EscapesWhatXmlReserves) {
   const std::string nasty = "a < b && \"c\" > 'd' &amp; ]]>\n\tM\xc3\xbcnchen";
   const Element root = StrictXml(junit_report({{nasty, {fact_check(nasty, false, nasty)}}})).document();

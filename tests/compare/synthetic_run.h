@@ -22,8 +22,8 @@ struct SyntheticRun {
   std::string scene_hash = "0123456789abcdef", stroke_hash = "fedcba9876543210";
   HeightGrid initial = HeightGrid::Zero(30, 40), final;
   std::vector<TickRecord> trace;
-  std::string missing_column;  // of the trace
-  std::string scene;           // /scene, if it is to have one
+  std::string missing_column;                             // of the trace
+  std::string scene = "[device]\nservo_rate = 1000.0\n";  // /scene, if it is to have one
 
   static constexpr std::size_t ticks = 105, lifted_ticks = 20;
 
@@ -35,7 +35,7 @@ struct SyntheticRun {
       const bool lifted = tick < lifted_ticks;
       const double depth = lifted ? 0.0 : 1e-4 * static_cast<double>(tick);
       TickRecord& record = trace.emplace_back();
-      record.time = 0.001 * static_cast<double>(tick);
+      record.time = static_cast<double>(tick) / 1000.0;
       record.depth = depth;
       record.level = lifted ? std::numeric_limits<double>::quiet_NaN() : 0.001;
       record.device_force.z() = 1000.0 * std::expm1(0.5 * depth);

@@ -29,7 +29,8 @@ LastSurface left_by(int frames, bool interrupted) {
   bed.set(10, 20, height += 0.01);
   RunResult result;
   result.interrupted = interrupted;
-  writer->finish(result, bed);
+  writer->end(result, bed);
+  if (!result.interrupted) writer->finish();
   writer.reset();
   return last_surface(RunFile(interrupted ? file.string() + ".part" : file.string()));
 }

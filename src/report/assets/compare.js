@@ -8,7 +8,8 @@ const rowsOf = (golden, run) => [...new Set([...golden.keys(), ...run.keys()])].
   ({ name, golden: golden.get(name) ?? null, run: run.get(name) ?? null }));
 
 function sideTable(rows, title, label) {
-  return table([{ name: "name", title }, { name: "golden", title: "Golden" }, { name: "run", title: "Run" }],
+  return table([{ name: "name", title }, { name: "golden", title: titleOf("golden") },
+                { name: "run", title: titleOf("run") }],
                rows, { label, rowClass: (row) => (row.name !== "file" && row.golden !== row.run ? "surprise" : null) })
     .element;
 }
@@ -38,8 +39,14 @@ function checkTable(checks) {
   ], failedFirst, { label: "Checks", rowClass: (check) => (check.passed ? null : "surprise") }).element;
 }
 
+const toleranceTable = (tolerances) => table([
+  { name: "name", title: "Tolerance" }, { name: "value", title: "Value", cell: ({ value }) => format(value) },
+  { name: "unit", title: "Unit" }, { name: "source", title: "Set by" },
+], tolerances, { label: "Tolerances", rowClass: ({ source }) => (source === "default" ? null : "surprise") }).element;
+
 drawPage((data, main) => {
-  const { checks, parts, missing } = data;
+  const { checks, parts, missing, tolerances } = data;
+  for (const side of ["golden", "run"]) if (data[side].label) sideLabels.set(side, data[side].label);
   const failed = checks.filter((check) => !check.passed);
   const measured = ["final height", "height change", "force", "picture"]
     .map((name) => checks.find((check) => check.name === name)).filter((check) => check && isNumber(check.measured));
@@ -52,7 +59,7 @@ drawPage((data, main) => {
                                        check.passed ? null : "bad"))),
     ...missingLines(missing),
     data.passed ? el("p", {}, "All differences are within their limits.") : "");
-  drawSections(main, [["checks", "Checks", () => [checkTable(checks)]], ...sectionsOf(parts),
-                      ["files", "Files", () => drawFiles(data)]]);
+  drawSections(main, [["checks", "Checks", () => [checkTable(checks), tolerances.length ? toleranceTable(tolerances) : null]],
+                      ...sectionsOf(parts), ["files", "Files", () => drawFiles(data)]]);
 });
 afterDrawing();

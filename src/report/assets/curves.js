@@ -60,10 +60,10 @@ function groupCharts(group, quantities, whole) {
   const sides = ["golden", "run"].filter((name) => quantities[0][name]);
   const lookOf = (name) => (sides.length > 1 ? lookOfSide[name] : { colour: lookOfSide[name].colour });
   const values = curveChart({
-    title: group, whole, over: overTime, legend: sides.map((name) => ({ name, series: true, ...lookOf(name) })) });
+    title: group, whole, over: overTime, legend: sides.map((side) => ({ name: labelOf(side), series: true, ...lookOf(side) })) });
   const apart = quantities[0].difference && curveChart({
     title: `${group}: difference`, whole, over: overTime,
-    note: "run − golden, tick by tick" +
+    note: `${labelOf("run")} − ${labelOf("golden")}, tick by tick` +
       (quantities.some(({ name }) => name === "magnitude") ? "; of the magnitude, the length of the difference." : "."),
     legend: [{ name: "difference", ...lookOfDifference, dash: "solid" },
              { name: "limit", text: "within the limit", fill: "#dff2ec" }],
@@ -71,7 +71,7 @@ function groupCharts(group, quantities, whole) {
   const choose = (quantity) => {
     const { name, unit, limit } = quantity;
     values.draw({ quantity: name, unit, limit: null,
-                  curves: sides.map((side) => ({ name: side, look: lookOf(side), curve: quantity[side] })) });
+                  curves: sides.map((side) => ({ name: labelOf(side), look: lookOf(side), curve: quantity[side] })) });
     apart?.draw({ quantity: name, unit, limit,
                   curves: [{ name: "difference", look: lookOfDifference, curve: quantity.difference }] });
   };

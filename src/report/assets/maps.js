@@ -2,6 +2,12 @@
 // Maps and pictures: one, or golden, run and their difference side by side, and two of them over one another with
 // a slider that wipes between them.
 
+const sideLabels = new Map();
+/** What the page calls golden and run: two files by their names. */
+const labelOf = (side) => sideLabels.get(side) ?? side;
+const titleOf = (side) =>
+  `${side[0].toUpperCase()}${side.slice(1)}${sideLabels.has(side) ? `: ${labelOf(side)}` : ""}`;
+
 /** What the colours of a map mean. */
 const barOf = ({ title, unit, low, high, colours: stops }) =>
   colourBar({ name: withUnit(title, unitText(unit)), low, high, stops,
@@ -10,7 +16,7 @@ const barOf = ({ title, unit, low, high, colours: stops }) =>
 /** A map, which fills its place, with a ring around the largest difference where it shows that. */
 function layer(part, map) {
   const picture = el("img", { src: map.picture, width: map.width, height: map.height, draggable: "false",
-                              alt: `${part.title}: ${map.name}` });
+                              alt: `${part.title}: ${labelOf(map.name)}` });
   // Cells stay squares where they are larger than a pixel; the browser's mean shows them where smaller.
   new ResizeObserver(() => {
     picture.style.imageRendering = picture.clientWidth > map.width ? "pixelated" : "auto";
@@ -42,7 +48,8 @@ function reader(part) {
     const spot = row * cols + col;
     if (!(spot >= 0 && spot < golden.length)) return "";
     return `x ${metres(part.extent.x, right)}, y ${metres(part.extent.y, 1 - down)}: ` +
-      `golden ${inUnit(golden[spot], scale)}, run ${inUnit(golden[spot] + difference[spot], scale)}, ` +
+      `${labelOf("golden")} ${inUnit(golden[spot], scale)}, ` +
+      `${labelOf("run")} ${inUnit(golden[spot] + difference[spot], scale)}, ` +
       `difference ${inUnit(difference[spot], finer)}`;
   };
 }
@@ -64,7 +71,8 @@ function stage(part, map, ...layers) {
 
 const mapFigure = (part, map) => {
   const { element, readout } = stage(part, map, layer(part, map));
-  return el("figure", {}, el("figcaption", {}, map.name[0].toUpperCase() + map.name.slice(1),
+  const difference = `Difference: ${labelOf("run")} − ${labelOf("golden")}`;
+  return el("figure", {}, el("figcaption", {}, map.name === "difference" ? difference : titleOf(map.name),
                              map.text ? el("small", {}, map.text) : null),
             element, map.scale ? barOf(map.scale) : null, readout);
 };
@@ -86,16 +94,17 @@ function wipe(part) {
     const share = Number(slider.value);
     edge.style.left = `${share}%`;
     places.lastChild.style.clipPath = `inset(0 0 0 ${share}%)`;
-    slider.setAttribute("aria-valuetext", `${pair[0]} on the left ${Math.round(share)} %, ${pair[1]} on the right`);
+    slider.setAttribute("aria-valuetext",
+                        `${labelOf(pair[0])} on the left ${Math.round(share)} %, ${labelOf(pair[1])} on the right`);
   };
   const choose = (chosen) => {
     pair = chosen;
     places.replaceChildren(...pair.map((name) => layer(part, named.get(name))));
-    tags.forEach((tag, i) => { tag.textContent = pair[i]; });
+    tags.forEach((tag, i) => { tag.textContent = labelOf(pair[i]); });
     const seen = [...new Map(pair.map((name) => named.get(name).scale).filter(Boolean).map((one) => [one.title, one]))
       .values()];
     scales.replaceChildren(...seen.map(barOf));
-    slider.setAttribute("aria-label", `Wipe between ${pair.join(" and ")}`);
+    slider.setAttribute("aria-label", `Wipe between ${pair.map(labelOf).join(" and ")}`);
     move();
   };
   const follow = (event) => {
@@ -115,7 +124,7 @@ function wipe(part) {
   });
   choose(pair);
   const choice = el("select", { change: (event) => choose(pairs[Number(event.target.value)]) },
-                    ...pairs.map((names, i) => el("option", { value: i }, names.join(" and "))));
+                    ...pairs.map((names, i) => el("option", { value: i }, names.map(labelOf).join(" and "))));
   const most = size.scale ? `calc(44rem * ${size.width / size.height})` : `${size.width}px`;
   return el("figure", {},
             el("div", { class: "controls" }, el("label", {}, "Wipe between ", choice),

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sand/cell_means.h"
 #include "validation/study/error_checks.h"
 #include "validation/study/surface_error.h"
 
@@ -42,7 +43,8 @@ double largest(const std::vector<Eigen::Vector3d>& values) {
 
 /// Misplaced sand against a run on as fine a grid or a finer one, that began flat.
 SurfaceError surface_distance(const HeightGrid& heights, const Replay& truth) {
-  const HeightGrid exact = coarsened(truth.heights, static_cast<int>(truth.heights.rows() / heights.rows()));
+  const int factor = static_cast<int>(truth.heights.rows() / heights.rows());
+  const HeightGrid exact = coarsened(HeightField(truth.heights, 1.0), factor).grid();
   return surface_error(heights, HeightGrid::Zero(exact.rows(), exact.cols()), exact);
 }
 

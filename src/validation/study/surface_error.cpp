@@ -71,12 +71,4 @@ std::vector<double> flank_slope_errors(const HeightField& bed, const Flank& flan
   return errors;
 }
 
-HeightGrid coarsened(const HeightGrid& fine, int factor) {
-  HeightGrid coarse(fine.rows() / factor, fine.cols() / factor);
-  for (int row = 0; row < coarse.rows(); ++row)
-    for (int col = 0; col < coarse.cols(); ++col)
-      coarse(row, col) = fine.block(row * factor, col * factor, factor, factor).mean();
-  return coarse;
-}
-
 }  // namespace sandstroke

@@ -29,7 +29,4 @@ struct Flank {
 /// 5 degrees of it, between 0.2 and 0.8 of the flank.
 std::vector<double> flank_slope_errors(const HeightField& bed, const Flank& flank);
 
-/// Heights of a coarser grid over the same bed: means of factor x factor cells.
-HeightGrid coarsened(const HeightGrid& fine, int factor);
-
 }  // namespace sandstroke

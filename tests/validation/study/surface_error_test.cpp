@@ -58,15 +58,5 @@ TEST(FlankSlopes, SeeTheDirectionThatIsSteeper) {
   }
 }
 
-TEST(Coarsened, HoldsTheMeansOfItsCells) {
-  HeightGrid fine(4, 6);
-  for (int i = 0; i < fine.size(); ++i) fine.data()[i] = i;
-  const HeightGrid coarse = coarsened(fine, 2);
-  ASSERT_EQ(coarse.rows(), 2);
-  ASSERT_EQ(coarse.cols(), 3);
-  EXPECT_EQ(coarse(0, 0), (0 + 1 + 6 + 7) / 4.0);
-  EXPECT_EQ(coarse(1, 2), (16 + 17 + 22 + 23) / 4.0);
-}
-
 }  // namespace
 }  // namespace sandstroke

@@ -1,0 +1,81 @@
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "core/range.h"
+
+namespace sandstroke {
+
+/// How far apart two runs may be and still count as equal.
+struct Tolerances {
+  double height = 1e-6;       ///< m, any cell
+  double force = 1e-4;        ///< N, on the device, any tick
+  double depth = 1e-6;        ///< m, depth and level, any tick
+  double pixel = 2.0;         ///< of 255, any channel of any pixel
+  double pixel_share = 1e-3;  ///< 0 to 1, pixels that differ at all
+};
+
+/// One of them, as files and options give it.
+struct ToleranceKey {
+  const char* name;  ///< in tolerances.toml
+  const char* option;
+  double Tolerances::*value;
+  Range range;
+  double golden_least;  ///< the rounding of a golden entry would fail below
+  const char* unit;     ///< empty: none
+  const char* help;
+
+  /// What it may be where a run is held against a golden entry.
+  constexpr Range golden_range() const { return {golden_least, range.highest, false, range.whole}; }
+};
+inline constexpr std::array<ToleranceKey, 5> tolerance_keys{{
+    {"height", "--height-tolerance", &Tolerances::height, not_negative, 1e-9, "m",
+     "Largest difference of height"},
+    {"force", "--force-tolerance", &Tolerances::force, not_negative, 1e-5, "N",
+     "Largest difference of force"},
+    {"depth", "--depth-tolerance", &Tolerances::depth, not_negative, 1e-8, "m",
+     "Largest difference of depth and sand level"},
+    {"pixel",
+     "--pixel-tolerance",
+     &Tolerances::pixel,
+     {0.0, 255.0, false, true},
+     0.0,
+     "of 255",
+     "Largest channel difference"},
+    {"pixel_share",
+     "--pixel-share",
+     &Tolerances::pixel_share,
+     {0.0, 1.0},
+     0.0,
+     "",
+     "Share of pixels that may differ"},
+}};
+
+/// Those that somebody set, by name.
+using GivenTolerances = std::map<std::string, double>;
+
+/// One that was used, and where it comes from: "default", an option, or a file.
+struct UsedTolerance {
+  ToleranceKey key;
+  double value;
+  std::string source;
+};
+
+/// All of them. An option counts before the file, and that before the default.
+std::vector<UsedTolerance> used_tolerances(const GivenTolerances& options,
+                                           const GivenTolerances& in_file = {},
+                                           const std::filesystem::path& file = {});
+Tolerances values_of(const std::vector<UsedTolerance>& used);
+
+/// Those that are not the default: "force 0.01 N (--force-tolerance), ..."; empty where all are.
+std::string changed_tolerances(const std::vector<UsedTolerance>& used);
+
+/// What a golden entry's own file (TOML, keys as above) says; nothing where there is none. Error: input, as
+/// TomlReader; io.
+GivenTolerances read_tolerances(const std::filesystem::path& file);
+
+}  // namespace sandstroke
