@@ -54,7 +54,8 @@ nlohmann::ordered_json describe(const RunFile& run) {
     facts["changed_cells"] = field_difference(initial, final).cells;
   }
   facts["frames"] = run.frame_times().size();
-  if (const std::optional<ErrorEstimate> error = run.error_estimate()) facts["error_estimate"] = error_json(*error);
+  if (const std::optional<ErrorEstimate> error = run.error_estimate())
+    facts["error_estimate"] = error_json(*error);
   if (run.has_trace()) {
     const std::vector<TickRecord> trace = run.trace();
     double force = 0.0, depth = 0.0;

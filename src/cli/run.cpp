@@ -196,7 +196,8 @@ int run(const RunArguments& arguments) {
   options.progress = true;
   options.error_map = arguments.error_map;
   if (!arguments.estimate_error.empty())
-    options.second = arguments.estimate_error == "finer" ? SecondSolution::finer : SecondSolution::coarser;
+    options.second = arguments.estimate_error == second_solution_names.back() ? SecondSolution::finer
+                                                                              : SecondSolution::coarser;
   const RunResult result = run_scene(scene, output, options);
 
   const std::string written = result.interrupted ? part_path(output).string() : output;
@@ -248,7 +249,7 @@ void add_run_command(CLI::App& app, Command& chosen) {
               "Estimate the error of heights and forces by a second run with steps half as large. It "
               "takes 10 to 20 times as long. --estimate-error=coarser makes the steps twice as large "
               "instead. It takes a tenth of the run, but misses errors of a tool that few cells resolve")
-          ->check(CLI::IsMember({"coarser", "finer"}));
+          ->check(CLI::IsMember(second_solution_names));
   command->add_flag("--error-map", arguments->error_map, "Keep the estimated error of each cell's height too")
       ->needs(estimate);
   command->add_flag("--json", arguments->json, "Print the summary as one JSON object");

@@ -12,6 +12,7 @@ namespace sandstroke {
 /// twice as large (a tenth of the run, but fooled by a tool of few cells, or by cells that happen to lie
 /// well).
 enum class SecondSolution { coarser, finer };
+inline const std::vector<std::string> second_solution_names = {"coarser", "finer"};
 
 /// The scene with all steps twice or half as large; cells as nearly as square ones divide the bed; the
 /// device's loop as late. Error: input, where there are no such cells, or check_scene() refuses them, or no

@@ -15,6 +15,9 @@ double of_furrow(const PointOutcome& o, double FurrowMeasures::*value) {
 double of_golden(const PointOutcome& o, double FieldDifference::*value) {
   return o.golden ? (*o.golden).*value : PointResult::none;
 }
+double of_error(const PointOutcome& o, double ErrorEstimate::*value) {
+  return o.run.error ? (*o.run.error).*value : PointResult::none;
+}
 
 using O = const PointOutcome&;
 const std::vector<Metric> metric_list = {
@@ -96,6 +99,22 @@ const std::vector<Metric> metric_list = {
     {"golden_volume", "sand more than in the golden surface", "m^3",
      "sum (h - h_golden) dx^2 over all cells; dx is the cell size",
      [](O o) { return of_golden(o, &FieldDifference::volume); }, Metric::golden},
+    {"error_share", "estimated error: sand that lies elsewhere", "",
+     "sum |e| / sum |h - h_start| over all cells; e is Richardson's estimate of a height's error: the "
+     "distance from a second solution with steps twice or half as large, times 1 or 2",
+     [](O o) { return of_error(o, &ErrorEstimate::height_share); }, Metric::error},
+    {"error_height_rms", "estimated error of heights, RMS", "m",
+     "sqrt(sum of e^2 / number of cells that changed); e as in error_share",
+     [](O o) { return of_error(o, &ErrorEstimate::height_rms); }, Metric::error},
+    {"error_height_max", "estimated error of heights, largest", "m",
+     "largest |e| of all cells; e as in error_share",
+     [](O o) { return of_error(o, &ErrorEstimate::height_max); }, Metric::error},
+    {"error_force_rms", "estimated error of the force, RMS", "N",
+     "as error_height_rms, of the force on the device, over the ticks with a force",
+     [](O o) { return of_error(o, &ErrorEstimate::force_rms); }, Metric::error},
+    {"error_force_max", "estimated error of the force, largest", "N",
+     "as error_height_max, of the force on the device, over all ticks",
+     [](O o) { return of_error(o, &ErrorEstimate::force_max); }, Metric::error},
     {"wall_seconds", "run time of the simulation", "s",
      "time that the run took, without starting and writing files. Points that share a run have the same",
      [](O o) { return o.run.wall_seconds; }, Metric::run, true},

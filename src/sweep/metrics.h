@@ -36,7 +36,7 @@ struct PointOutcome {
 
 /// One number that is collected of each point.
 struct Metric {
-  enum Needs { run, slopes, golden };
+  enum Needs { run, slopes, golden, error };
 
   std::string name;   ///< max_force
   std::string title;  ///< "peak force"

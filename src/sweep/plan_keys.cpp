@@ -25,12 +25,15 @@ void show_plan(KeyVisitor& v, PlanKeys& keys) {
   }
   std::vector<std::string> metrics;
   for (const Metric& metric : all_metrics()) metrics.push_back(metric.name);
-  v.texts("metrics", keys.metrics,
-          fmt::format("metrics to collect; default: all of {} (golden_*: where golden is given); sandstroke "
-                      "help metrics defines them",
-                      fmt::join(metrics, ", "))
-              .c_str());
+  v.texts(
+      "metrics", keys.metrics,
+      fmt::format("metrics to collect; default: all of {} (golden_*: where golden is given, error_*: with "
+                  "estimate_error); sandstroke help metrics defines them",
+                  fmt::join(metrics, ", "))
+          .c_str());
   v.texts("keep", keys.keep, "what to keep of each point: surface, picture; default: neither");
+  v.choice("estimate_error", keys.second, {"none", "coarser", "finer"},
+           "estimate each point's error by a second run, as run --estimate-error does");
   v.given("golden");
   v.text("golden", keys.golden, "run file whose final surface each point's is compared with");
 }

@@ -15,6 +15,7 @@ struct PlanKeys {
   std::string scene, golden;  ///< golden: empty: none
   std::vector<std::string> strokes, metrics, keep;
   int max_points = 10'000;
+  int second = 0;    ///< none, coarser, finer
   bool grid = true;  ///< otherwise a Latin hypercube
   int samples = 1, seed = 1;
 };

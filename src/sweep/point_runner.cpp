@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "core/interrupt.h"
 #include "sim/solution.h"
 
 namespace sandstroke {
@@ -12,7 +13,8 @@ namespace {
 /// One scene's device on sand that a simulation moves.
 class Feeler : public SimulationObserver {
  public:
-  explicit Feeler(const Scene& scene) : device_(scene.force, scene.device) {}
+  Feeler(const Scene& scene, bool keeps_force)
+      : device_(scene.force, scene.device), keeps_force_(keeps_force) {}
 
   void on_tick(const TickRecord& sand) override {
     if (!failure_.empty()) return;
@@ -20,6 +22,7 @@ class Feeler : public SimulationObserver {
     TickRecord felt = sand;
     try {
       device_.feel(felt);
+      if (keeps_force_) force_.on_tick(felt);
       device_.advance(felt);
     } catch (const Error& unstable) {
       failure_ = unstable.what();
@@ -28,9 +31,12 @@ class Feeler : public SimulationObserver {
   /// Why it went no further; empty: it went to the end.
   const std::string& failure() const { return failure_; }
   DeviceResult result() const { return device_.result(); }
+  const Kept<Eigen::Vector3d>& force() const { return force_; }
 
  private:
   DeviceSide device_;
+  bool keeps_force_;
+  Kept<Eigen::Vector3d> force_{force_of};
   bool started_ = false;
   std::string failure_;
 };
@@ -40,6 +46,18 @@ PointVerdict verdict_of(const RunResult& result, const Scene& scene) {
   const bool active =
       scene.device.model == DeviceModel::dynamic && loop_returned_energy(result.device, scene.device);
   return active ? PointVerdict::active : PointVerdict::at_rest;
+}
+
+/// None where the second solution is unstable: the run itself stands.
+std::optional<ErrorEstimate> error_of(const Scene& scene, const HeightField& bed,
+                                      const std::optional<Stroke>& stroke, const Solution& run,
+                                      const Kept<Eigen::Vector3d>& force, SecondSolution second) {
+  try {
+    return estimate_error(scene, bed, stroke, run, force, second);
+  } catch (const Error& failure) {
+    if (failure.kind() != ErrorKind::unstable) throw;
+    return std::nullopt;
+  }
 }
 
 bool wants(const std::vector<Metric>& metrics, Metric::Needs what) {
@@ -55,17 +73,20 @@ PointResult failed_point(PointVerdict verdict, const std::string& reason, std::s
 
 std::optional<SharedRunResult> run_shared(const std::vector<Scene>& scenes, const HeightField& bed,
                                           const Stroke* stroke, const std::vector<Metric>& metrics,
-                                          const HeightField* golden) {
+                                          const HeightField* golden, std::optional<SecondSolution> second) {
   Scene scene = scenes.front();
   std::vector<Feeler> feelers;
   if (scene.device.model == DeviceModel::kinematic) {
-    for (const Scene& felt : scenes) feelers.emplace_back(felt);
+    for (const Scene& felt : scenes) feelers.emplace_back(felt, second.has_value());
     scene.force.k_s = 0.0;  // the sand's own run feels nothing, and so cannot fail for a force
   }
   Observers observers;
   for (Feeler& feeler : feelers) observers.push_back(&feeler);
+  Kept own_force(force_of);
+  if (second && feelers.empty()) observers.push_back(&own_force);
+  const std::optional<Stroke> played = stroke ? std::optional(*stroke) : std::nullopt;
   try {
-    auto [surface, sand] = solve(scene, bed, stroke ? std::optional(*stroke) : std::nullopt, observers);
+    auto [surface, sand] = solve(scene, bed, played, observers);
     if (sand.interrupted) return std::nullopt;
     SlopeMeasures slopes;
     if (wants(metrics, Metric::slopes)) slopes = measure_slopes(bed, surface, scene.relaxation);
@@ -83,6 +104,11 @@ std::optional<SharedRunResult> run_shared(const std::vector<Scene>& scenes, cons
           continue;
         }
         run.device = feelers[i].result();
+      }
+      if (second) {
+        const Kept<Eigen::Vector3d>& force = feelers.empty() ? own_force : feelers[i].force();
+        run.error = error_of(scenes[i], bed, played, {result.surface, run}, force, *second);
+        if (interrupted()) return std::nullopt;
       }
       PointResult& point = result.points.emplace_back(PointResult{verdict_of(run, scenes[i]), "", {}});
       for (const Metric& metric : metrics) point.metrics.push_back(metric.of({run, slopes, difference}));

@@ -115,6 +115,7 @@ SweepManifest Sweep::manifest() const {
   m.design = plan_.design;
   m.metrics = plan_.metrics;
   m.keep_surface = plan_.keep_surface, m.keep_picture = plan_.keep_picture;
+  if (plan_.second) m.estimate_error = second_solution_names[static_cast<std::size_t>(*plan_.second)];
   m.inputs.emplace_back(m.scene, content_hash(plan_.scene_text));
   for (const auto& [file, hash] : files_) m.inputs.emplace_back(file, hash);
   if (!plan_.golden.empty()) {
@@ -155,8 +156,9 @@ bool Sweep::run_group(const SweepFolder& folder, const std::vector<std::size_t>&
     if (is_of_the_machine(error)) throw;
     return refuse(error.what());
   }
-  const std::optional<SharedRunResult> result = run_shared(scenes, *bed, stroke ? &stroke->stroke : nullptr,
-                                                           folder.metrics(), golden_ ? &*golden_ : nullptr);
+  const std::optional<SharedRunResult> result =
+      run_shared(scenes, *bed, stroke ? &stroke->stroke : nullptr, folder.metrics(),
+                 golden_ ? &*golden_ : nullptr, plan_.second);
   if (!result) return false;
   if (stroke) {
     const Scene& scene = scenes.front();
@@ -259,7 +261,9 @@ Sweep::Estimate Sweep::estimate() {
   const Stopwatch watch;
   run_group(folder, {groups_[measured].front()}, painter, [](const PointResult&) {});
   Estimate estimate;
-  estimate.seconds = watch.seconds() * static_cast<double>(simulations());
+  // A second solution is of one point alone.
+  estimate.seconds =
+      watch.seconds() * static_cast<double>(plan_.second ? plan_.design.points() : simulations());
   for (const auto& file : fs::directory_iterator(folder.path() / "points"))
     estimate.bytes += static_cast<double>(file.file_size() * plan_.design.points());
   return estimate;

@@ -38,6 +38,7 @@ Json to_json(const SweepManifest& m) {
           {"metrics", m.metrics},
           {"keep_surface", m.keep_surface},
           {"keep_picture", m.keep_picture},
+          {"estimate_error", m.estimate_error},
           {"golden", m.golden},
           {"inputs", inputs}};
 }
@@ -54,6 +55,7 @@ SweepManifest from_json(const Json& json) {
   m.metrics = json.at("metrics");
   m.keep_surface = json.at("keep_surface");
   m.keep_picture = json.at("keep_picture");
+  m.estimate_error = json.value("estimate_error", "");  // was not there in the beginning
   m.golden = json.at("golden");
   for (const Json& input : json.at("inputs")) m.inputs.emplace_back(input.at("file"), input.at("hash"));
   return m;

@@ -18,7 +18,8 @@ struct SweepManifest {
   SweepDesign design;
   std::vector<std::string> metrics;  ///< names
   bool keep_surface = false, keep_picture = false;
-  std::string golden;  ///< run file whose final surface each is compared with; empty: none
+  std::string estimate_error;  ///< coarser, finer; empty: it is not estimated
+  std::string golden;          ///< run file whose final surface each is compared with; empty: none
   /// File and hash of what it reads, the scene first.
   std::vector<std::pair<std::string, std::string>> inputs;
   std::string version, commit;  ///< of the program

@@ -21,9 +21,10 @@ namespace fs = std::filesystem;
 
 std::vector<std::string> read_metrics(const TomlReader& toml, const PlanKeys& keys) {
   std::vector<std::string> known;  // but for those that lack what they need
-  const bool golden = toml.has("sweep.golden");
+  const bool golden = toml.has("sweep.golden"), error = keys.second != 0;
   for (const Metric& metric : all_metrics())
-    if (golden || metric.needs != Metric::golden) known.push_back(metric.name);
+    if ((golden || metric.needs != Metric::golden) && (error || metric.needs != Metric::error))
+      known.push_back(metric.name);
   if (!toml.has("sweep.metrics")) return known;
   const std::vector<std::string>& metrics = keys.metrics;
   if (metrics.empty()) toml.fail("sweep.metrics", "is empty; name one or remove it");
@@ -31,8 +32,9 @@ std::vector<std::string> read_metrics(const TomlReader& toml, const PlanKeys& ke
     if (std::find(known.begin(), known.end(), metric) == known.end())
       toml.fail(
           "sweep.metrics",
-          fmt::format("names '{}'; take from: {}{}", metric, fmt::join(known, ", "),
-                      golden ? "" : " (and with sweep.golden what differs from it)") +
+          fmt::format("names '{}'; take from: {}{}{}", metric, fmt::join(known, ", "),
+                      golden ? "" : " (and with sweep.golden what differs from it)",
+                      error ? "" : " (and with sweep.estimate_error the errors)") +
               (metric == "slope_max" ? "; slope_max is now slope_max_geometric, beside slope_max_law" : ""));
     if (std::count(metrics.begin(), metrics.end(), metric) > 1)
       toml.fail("sweep.metrics", fmt::format("names '{}' twice; name it once", metric));
@@ -93,6 +95,7 @@ void fill_plan(const TomlReader& toml, const PlanKeys& keys, SweepPlan& plan) {
     plan.settings.push_back(key + "=" + toml.literal("set." + key));
   plan.design = read_design(toml, keys, plan);
   plan.metrics = read_metrics(toml, keys);
+  if (keys.second != 0) plan.second = static_cast<SecondSolution>(keys.second - 1);
   for (const std::string& kept : keys.keep) {
     if (kept != "surface" && kept != "picture")
       toml.fail("sweep.keep", fmt::format("names '{}'; take from: surface, picture", kept));
@@ -109,7 +112,9 @@ void fill_plan(const TomlReader& toml, const PlanKeys& keys, SweepPlan& plan) {
 }  // namespace
 
 Scene SweepPlan::scene_with(const std::vector<std::string>& all_settings) const {
-  return scene_from_text(scene_text, scene.string(), all_settings);
+  Scene made = scene_from_text(scene_text, scene.string(), all_settings);
+  if (second) second_scene(made, *second);  // refused here, if at all
+  return made;
 }
 
 Scene SweepPlan::scene_of(std::size_t point) const {

@@ -1,10 +1,11 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "sim/scene.h"
+#include "sim/error_estimate.h"
 #include "sweep/sweep_design.h"
 
 namespace sandstroke {
@@ -17,7 +18,8 @@ struct SweepPlan {
   SweepDesign design;
   std::vector<std::string> metrics;  ///< names
   bool keep_surface = false, keep_picture = false;
-  std::filesystem::path golden;  ///< empty: none
+  std::filesystem::path golden;          ///< empty: none
+  std::optional<SecondSolution> second;  ///< estimate each point's error, from this
 
   /// The scene with these settings. Error: input, where they do not go together.
   Scene scene_with(const std::vector<std::string>& all_settings) const;

@@ -71,9 +71,10 @@ void write_stroke(const fs::path& folder, double spike) {
   for (int k = 0; k <= 400; ++k)
     table += fmt::format("{},{},{}\n", -0.04 + 2e-4 * k, 0.0, -0.004 - (k == 203 ? spike : 0.0));
   write_file(folder / "hand.csv", table);
-  const ProgramResult made = run_program({"stroke", "convert", "hand.csv", "strokes/tiny/hand.h5", "--rate",
-                                          "1000", "--position", "x,y,z", "--position-unit", "m"},
-                                         folder);
+  const ProgramResult made =
+      run_program({"stroke", "convert", "hand.csv", "strokes/tiny/hand.h5", "--rate", "1000", "--position",
+                   "x,y,z", "--position-unit", "m", "--overwrite"},
+                  folder);
   ASSERT_EQ(made.exit_code, 0) << made.err;
 }
 

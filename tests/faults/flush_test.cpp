@@ -42,6 +42,7 @@ TEST(Flushes, DISABLED_Writer) {
 std::function<void()> writer(const std::string& fault) {
   return [fault] {
     faulty_system(fault)();
+    for (const char* name : {"GTEST_TOTAL_SHARDS", "GTEST_SHARD_INDEX"}) unsetenv(name);
     execl("/proc/self/exe", "writer", "--gtest_also_run_disabled_tests",
           "--gtest_filter=Flushes.DISABLED_Writer", "--gtest_brief=1", nullptr);
   };

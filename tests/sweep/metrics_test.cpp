@@ -22,6 +22,8 @@ RunResult a_run() {
                 .least_passivity_margin = -2.5};
   run.displaced_volume = 1e-6, run.moved_volume = 3e-6, run.volume_drift = 1e-13, run.max_depth = 0.004;
   run.furrow = FurrowMeasures{.depth = 0.003, .width = 0.02, .rampart = 0.001};
+  run.error = ErrorEstimate{
+      .height_share = 0.07, .height_rms = 8e-5, .height_max = 9e-5, .force_rms = 0.11, .force_max = 0.13};
   return run;
 }
 
@@ -44,6 +46,8 @@ TEST(Metrics, EachIsItsOwnNumberOfTheRun) {
       {"slope_max_law", 28.0},     {"slope_at_talus", 0.4},    {"passes", 77.0},
       {"residual", 0.011},         {"golden_max", 0.005},      {"golden_rms", 0.0007},
       {"golden_volume", -2e-6},    {"wall_seconds", 0.25},     {"real_time_factor", 16.0},
+      {"error_share", 0.07},       {"error_height_rms", 8e-5}, {"error_height_max", 9e-5},
+      {"error_force_rms", 0.11},   {"error_force_max", 0.13},
   };
   EXPECT_EQ(values(a_run(), golden), expected);
 }
@@ -62,11 +66,13 @@ TEST(Metrics, SayNothingOfWhatWasNotThere) {
   RunResult run = a_run();
   run.contact_ticks = run.ticks = 0;
   run.furrow.reset();
+  run.error.reset();
   run.device.least_absorbed_energy = 0.0;
   for (const auto& [name, value] : values(run, std::nullopt)) {
     const bool needs_it = name == "mean_force" || name == "saturated_share" || name == "max_depth" ||
                           name == "real_time_factor" || name == "rampart_height" ||
-                          name.starts_with("furrow_") || name.starts_with("golden_");
+                          name.starts_with("furrow_") || name.starts_with("golden_") ||
+                          name.starts_with("error_");
     EXPECT_EQ(std::isnan(value), needs_it) << name;
   }
   EXPECT_EQ(values(run, std::nullopt)["returned_energy"], 0.0);

@@ -67,6 +67,36 @@ TEST(SharedRun, IsToTheBitWhatEachSceneGivesAlone) {
   EXPECT_NE(metric(shared.points[2], "work"), metric(shared.points[0], "work"));
 }
 
+TEST(SharedRun, EstimatesTheErrorOfEachSceneAsIfItHadBeenRunAlone) {
+  for (const DeviceModel model : {DeviceModel::kinematic, DeviceModel::dynamic}) {
+    std::vector<Scene> scenes(2, small_scene());
+    scenes[1].force.k_s = 700.0;
+    for (Scene& scene : scenes) scene.device.model = model;
+    if (model == DeviceModel::dynamic) scenes.pop_back();
+    const Stroke stroke = a_drag();
+    const HeightField bed = starting_bed(scenes[0].bed);
+    const SharedRunResult shared =
+        *run_shared(scenes, bed, &stroke, all_metrics(), nullptr, SecondSolution::coarser);
+    std::set<double> forces;
+    for (std::size_t i = 0; i < scenes.size(); ++i) {
+      Kept force(force_of);
+      const Solution alone = solve(scenes[i], bed, stroke, {&force});
+      const ErrorEstimate error =
+          estimate_error(scenes[i], bed, stroke, alone, force, SecondSolution::coarser);
+      const PointResult& point = shared.points[i];
+      EXPECT_EQ(metric(point, "error_share"), error.height_share);
+      EXPECT_EQ(metric(point, "error_height_rms"), error.height_rms);
+      EXPECT_EQ(metric(point, "error_height_max"), error.height_max);
+      EXPECT_EQ(metric(point, "error_force_rms"), error.force_rms);
+      EXPECT_EQ(metric(point, "error_force_max"), error.force_max);
+      EXPECT_GT(error.height_rms, 0.0);
+      forces.insert(error.force_rms);
+    }
+    EXPECT_EQ(forces.size(), scenes.size()) << "each point's own";
+  }
+  EXPECT_TRUE(std::isnan(metric(run({small_scene()}).points[0], "error_share"))) << "not asked for";
+}
+
 TEST(SharedRun, AForceBeyondAnyNumberFailsItsOwnPointOnly) {
   std::vector<Scene> scenes(3, small_scene());
   scenes[0].force.k_s = 1e308, scenes[0].force.k_f = 1e308, scenes[0].device.max_force = 0.0;

@@ -113,14 +113,19 @@ TEST_F(APlan, StrokesMayBeAnAxisLikeAnyOther) {
 }
 
 TEST_F(APlan, CollectsAllMetricsOrThoseNamed) {
-  const auto needs = [](const Metric& metric) { return metric.needs == Metric::golden; };
-  EXPECT_EQ(load(std::string(begin_plan) + "[axes]\nforce.k_s = [1]\n").metrics.size(),
-            all_metrics().size() -
-                static_cast<std::size_t>(std::count_if(all_metrics().begin(), all_metrics().end(), needs)));
+  const auto metrics_with = [&](const std::string& keys) {
+    return load(std::string(begin_plan) + keys + "[axes]\nforce.k_s = [1]\n").metrics.size();
+  };
+  const auto needing = [](Metric::Needs what) {
+    return static_cast<std::size_t>(
+        std::count_if(all_metrics().begin(), all_metrics().end(),
+                      [&](const Metric& metric) { return metric.needs == what; }));
+  };
   put_text(folder / "golden.h5", "checked when it is read");
-  EXPECT_EQ(
-      load(std::string(begin_plan) + "golden = \"golden.h5\"\n[axes]\nforce.k_s = [1]\n").metrics.size(),
-      all_metrics().size());
+  const std::string golden = "golden = \"golden.h5\"\n", error = "estimate_error = \"coarser\"\n";
+  EXPECT_EQ(metrics_with(""), all_metrics().size() - needing(Metric::golden) - needing(Metric::error));
+  EXPECT_EQ(metrics_with(golden), all_metrics().size() - needing(Metric::error));
+  EXPECT_EQ(metrics_with(golden + error), all_metrics().size());
   const SweepPlan plan =
       load(std::string(begin_plan) +
            "metrics = [\"work\", \"passes\"]\nkeep = [\"picture\"]\n[axes]\nforce.k_s = [1]\n");
