@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "real_client.h"
 #include "sanitized.h"
 #include "test_folder.h"
 
@@ -78,9 +79,7 @@ class ChromiumTest : public testing::Test {
  protected:
   void SetUp() override {
     if (sanitized) GTEST_SKIP() << "no sanitizer sees what pages do";
-    if (std::system("command -v chromium > /dev/null") == 0) return;
-    if (std::getenv("CI")) FAIL() << "Chromium is not installed: run tools/setup";
-    GTEST_SKIP() << "Chromium is not installed, so pages cannot be looked at: run tools/setup";
+    SANDSTROKE_NEEDS(std::system("command -v chromium > /dev/null") == 0, "chromium");
   }
 };
 

@@ -10,7 +10,7 @@
 #include "cli/program.h"
 #include "io/png_file.h"
 #include "io/run_file.h"
-#include "python.h"
+#include "real_client.h"
 
 namespace sandstroke {
 namespace {
@@ -51,8 +51,7 @@ void expect_described(const Json& group, const std::string& name, const Json& di
 }
 
 TEST(CliClients, XarrayAndH5pyOpenARunWithItsAxes) {
-  if (!python_has("xarray, h5netcdf"))
-    GTEST_SKIP() << "there is no xarray with h5netcdf (Debian: python3-xarray python3-h5netcdf)";
+  SANDSTROKE_NEEDS(python_has("xarray, h5netcdf"), "python3-xarray or python3-h5netcdf");
   const fs::path folder = folder_with_rippled_run();
   const std::vector<Json> groups = said_by({python, "xarray_opens.py", (folder / "a.h5").string(), "surface",
                                             "trace", "relaxation", "provenance"});
@@ -82,8 +81,7 @@ TEST(CliClients, XarrayAndH5pyOpenARunWithItsAxes) {
 }
 
 TEST(CliClients, XarrayOpensStrokes) {
-  if (!python_has("xarray, h5netcdf"))
-    GTEST_SKIP() << "there is no xarray with h5netcdf (Debian: python3-xarray python3-h5netcdf)";
+  SANDSTROKE_NEEDS(python_has("xarray, h5netcdf"), "python3-xarray or python3-h5netcdf");
   const fs::path folder = test_folder();
   ASSERT_EQ(run_program({"stroke", "script", "line.toml", "made.h5"}, folder).exit_code, 0);
   ASSERT_EQ(run_program({"record", "-o", "hand.h5", "--device", "scripted:line.toml"}, folder).exit_code, 0);
@@ -97,8 +95,8 @@ TEST(CliClients, XarrayOpensStrokes) {
 }
 
 TEST(CliClients, ParaViewOpensARunWithEachOfItsReadersAndWarpsIt) {
-  if (!python_has("paraview.simple")) GTEST_SKIP() << "there is no ParaView (Debian: python3-paraview)";
-  if (!run_child({"xvfb-run", "--help"})) GTEST_SKIP() << "there is no xvfb-run (Debian: xvfb xauth)";
+  SANDSTROKE_NEEDS(python_has("paraview.simple"), "python3-paraview");
+  SANDSTROKE_NEEDS(run_child({"xvfb-run", "--help"}), "xvfb");
   const fs::path folder = folder_with_rippled_run();
   const RunFile run(folder / "a.h5");
   const BedGeometry bed(run.rows(), run.cols(), run.cell_size());

@@ -11,7 +11,7 @@
 #include "io/png_file.h"
 #include "io/run_file.h"
 #include "io/stroke_file.h"
-#include "python.h"
+#include "real_client.h"
 
 namespace sandstroke {
 namespace {
@@ -53,7 +53,7 @@ std::string bytes_of(const HeightGrid& heights) {
 }
 
 TEST(CliExport, NumPyLoadsTheHeightsToTheBit) {
-  if (!python_has("numpy")) GTEST_SKIP() << "NumPy is not installed (Debian: python3-numpy)";
+  SANDSTROKE_NEEDS(python_has("numpy"), "python3-numpy");
   const fs::path folder = folder_with_run();
   expect_export(folder, "a.npy");
   expect_export(folder, "a.asc");
@@ -84,7 +84,7 @@ TEST(CliExport, NumPyLoadsTheHeightsToTheBit) {
 }
 
 TEST(CliExport, AdMeshFindsNothingToRepairInAnStl) {
-  if (!run_child({"admesh", "--version"})) GTEST_SKIP() << "ADMesh is not installed (Debian: admesh)";
+  SANDSTROKE_NEEDS(run_child({"admesh", "--version"}), "admesh");
   const fs::path folder = folder_with_run();
   expect_export(folder, "a.stl", {"--base", "5"});
   const std::string found = run_child({"admesh", (folder / "a.stl").string()})->out;
@@ -108,7 +108,7 @@ TEST(CliExport, AdMeshFindsNothingToRepairInAnStl) {
 }
 
 TEST(CliExport, AssimpReadsThePlyAndTheObj) {
-  if (!run_child({"assimp", "version"})) GTEST_SKIP() << "Assimp is not installed (Debian: assimp-utils)";
+  SANDSTROKE_NEEDS(run_child({"assimp", "version"}), "assimp-utils");
   const fs::path folder = folder_with_run();
   for (const char* file : {"a.ply", "a.obj"}) {
     expect_export(folder, file, {"--surface-only"});

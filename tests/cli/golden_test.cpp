@@ -9,7 +9,7 @@
 #include "cli/program.h"
 #include "hdf5/hdf5_file.h"
 #include "io/run_file.h"
-#include "python.h"
+#include "real_client.h"
 
 namespace sandstroke {
 namespace {
@@ -104,8 +104,7 @@ TEST(CliGolden, OneSampleOfAStrokeThatIsMovedIsSeenWithItsWholeForce) {
 }
 
 TEST(CliGolden, APythonReaderOfJUnitReadsTheReportWithItsTimes) {
-  if (!python_has("junitparser"))
-    GTEST_SKIP() << "there is no junitparser for Python (Debian: python3-junitparser)";
+  SANDSTROKE_NEEDS(python_has("junitparser"), "python3-junitparser");
   const fs::path folder = folder_with_golden_entry();
   write_file(folder / "strokes/tiny/scene.toml",
              read_file(folder / "strokes/tiny/scene.toml") + "[relaxation]\ntalus_angle = 31.0\n");
