@@ -5,6 +5,7 @@
 #include "cli/print_text.h"
 #include "cli/run_picture.h"
 #include "compare/run_report.h"
+#include "core/error.h"
 #include "core/output_file.h"
 #include "io/scene_toml.h"
 #include "report/page.h"
@@ -20,6 +21,8 @@ struct ReportArguments {
 int report(const ReportArguments& arguments) {
   const RunFile run(arguments.run);
   const fs::path output = arguments.output.empty() ? beside(arguments.run, ".html") : arguments.output;
+  if (const std::string ending = small_ending(output); ending != ".html" && ending != ".htm")
+    throw_input_error("{}: is not a name for a page; end it with .html", output.string());
   check_output(output, {arguments.run}, page_output);
   const auto draw = [&](const LastSurface& last) {
     const Scene scene = scene_from_text(run.scene_text(), run.name() + ": /scene");

@@ -10,6 +10,7 @@
 #include "core/shell_text.h"
 #include "core/stopwatch.h"
 #include "core/temporary_folder.h"
+#include "io/scene_toml.h"
 #include "report/page.h"
 
 namespace sandstroke {
@@ -29,6 +30,19 @@ std::set<std::string> folders_in(const fs::path& parent) {
   return names;
 }
 
+/// That a file which a scene names is not there: a finding of this scene, and not the machine's failure.
+/// Empty: all are. Error: of a scene that cannot be read.
+std::string missing_input(const fs::path& scene_file) {
+  const Scene scene = load_scene(scene_file);
+  std::vector<fs::path> inputs;
+  if (scene.stroke) inputs.emplace_back(scene.stroke->file);
+  if (scene.bed.surface.kind == SurfaceKind::file) inputs.emplace_back(scene.bed.surface.file);
+  for (const fs::path& input : inputs)
+    if (const fs::path file = scene_file.parent_path() / input; !fs::exists(file))
+      return fmt::format("{} does not exist; restore it, or commit it too", file.string());
+  return "";
+}
+
 }  // namespace
 
 GoldenEntry GoldenFolders::entry(const std::string& name) const {
@@ -42,8 +56,9 @@ GoldenEntry GoldenFolders::entry(const std::string& name) const {
 std::vector<std::string> golden_names(const GoldenFolders& folders,
                                       const std::vector<std::string>& asked_for) {
   if (!fs::is_directory(folders.strokes)) {
-    throw_io_error("{}: is not a folder of scenes; start in the repository, or name it with --strokes",
-                   folders.strokes.string());
+    throw_io_error(
+        "{}: is not a folder of scenes; start in the folder that has it, or name it with --strokes",
+        folders.strokes.string());
   }
   std::set<std::string> known = folders_in(folders.golden);
   for (const std::string& name : folders_in(folders.strokes))
@@ -84,6 +99,9 @@ Comparison check_golden(const std::string& name, const GoldenFolders& folders, c
   try {
     const fs::path own = entry.folder / tolerances_name;
     used = used_tolerances(options, read_tolerances(own), own);
+    step = "scene";
+    if (const std::string missing = missing_input(folders.scene(name)); !missing.empty())
+      return failed(step, missing);
     step = "run";
     run = runner(folders.scene(name), folder / "run.h5");
   } catch (const Error& error) {

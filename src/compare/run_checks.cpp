@@ -36,18 +36,18 @@ Check positions_check(const std::vector<TickRecord>& golden, const std::vector<T
   for (const auto& [which, trace] : {std::pair("golden", &golden), {"the run", &run}})
     for (const TickRecord& tick : *trace)
       if (!tick.hand.position.allFinite() || !tick.device_position.allFinite())
-        return fact_check("positions", false,
+        return fact_check("finite positions", false,
                           fmt::format("{}: not a number at time {:.9g} s", which, tick.time));
-  return fact_check("positions", true, "all are numbers");
+  return fact_check("finite positions", true, "all are numbers");
 }
 
 }  // namespace
 
 Check complete_check(const std::string& which, const RunFile& run) {
   const bool complete = run.complete();
-  return fact_check(which + " complete", complete,
-                    fmt::format("{}: {}", run.name(),
-                                complete ? "ran to its end" : "was cut off before its end; run it again"));
+  return fact_check(
+      which + " complete", complete,
+      complete ? "ran to its end" : fmt::format("{}: was cut off before its end; run it again", run.name()));
 }
 
 Check frames_check(const RunFile& golden, const RunFile& run) {

@@ -12,12 +12,15 @@
 #include <cstring>
 #include <map>
 #include <memory>
+#include <new>
+#include <vector>
 
 namespace sandstroke {
 namespace {
 
 constexpr haddr_t page_bytes = 4096;
-constexpr haddr_t first_bytes = 64 * 1024;  // that the first commit is to write, all of them held until then
+constexpr haddr_t first_bytes = 64 * 1024;   // that the first commit is to write, all of them held until then
+constexpr std::size_t most_pages = 1 << 18;  // of a commit: 1 GiB
 
 /// A page as a commit appends it.
 struct Page {
@@ -79,6 +82,7 @@ std::uint64_t checksum_of(std::uint64_t so_far, const Page& page) {
 struct PartFile : H5FD_t {
   int file = -1;
   bool writes = false;
+  bool bare = true;       // nothing was committed yet
   haddr_t allocated = 0;  // by HDF5 (its "end of allocation")
   haddr_t end = 0;        // of what was written
   haddr_t committed = first_bytes;
@@ -90,6 +94,9 @@ struct PartFile : H5FD_t {
   }
   bool take_appended();
   bool reserve(haddr_t bytes) const;
+  bool append(haddr_t start) const;
+  bool put_in_place() const;
+  bool cut_off(haddr_t bytes) const;
   bool commit();
   Page* page_at(haddr_t place);
 };
@@ -106,7 +113,8 @@ bool PartFile::take_appended() {
   if (end < sizeof seal) return true;
   if (!read_at(file, end - sizeof seal, &seal, sizeof seal)) return false;
   const haddr_t room = end - sizeof seal;
-  if (seal.mark != Seal{}.mark || seal.pages > room / sizeof(Page)) return true;
+  if (seal.mark != Seal{}.mark || seal.pages > std::min<haddr_t>(most_pages, room / sizeof(Page)))
+    return true;
   const haddr_t start = room - seal.pages * sizeof(Page);
   std::uint64_t checksum = 0;
   std::map<haddr_t, Page> appended;
@@ -114,15 +122,19 @@ bool PartFile::take_appended() {
     Page page;
     if (!read_at(file, start + i * sizeof page, &page, sizeof page)) return false;
     checksum = checksum_of(checksum, page);
-    appended.emplace(page.place, page);
+    const bool in_order = appended.empty() || page.place > appended.rbegin()->first;
+    if (!in_order || page.place % page_bytes != 0 || page.place >= start) return true;
+    appended.emplace_hint(appended.end(), page.place, page);
   }
   if (checksum != seal.checksum) return true;
   held = std::move(appended);
   end = start;
+  committed = std::max(first_bytes, end);
   return true;
 }
 
 Page* PartFile::page_at(haddr_t place) {
+  if (held.size() >= most_pages && !held.contains(place)) return failure = EFBIG, nullptr;
   const auto [entry, is_new] = held.try_emplace(place);
   Page& page = entry->second;
   page.place = place;
@@ -137,45 +149,80 @@ bool PartFile::reserve(haddr_t bytes) const {
   return failure = errno, false;
 }
 
-bool PartFile::commit() {
-  const haddr_t start =
-      up_to_page(std::max({end, allocated, held.empty() ? 0 : held.rbegin()->first + page_bytes}));
+bool PartFile::cut_off(haddr_t bytes) const {
+  return ftruncate(file, static_cast<off_t>(bytes)) == 0 || (failure = errno, false);
+}
+
+/// The pages that wait, and the seal.
+bool PartFile::append(haddr_t start) const {
   Seal seal;
   haddr_t place = start;
-  bool appended = reserve(start);
   for (const auto& [at, page] : held) {
     seal.checksum = checksum_of(seal.checksum, page);
-    appended = appended && write_at(file, place, &page, sizeof page);
+    if (!write_at(file, place, &page, sizeof page)) return false;
     place += sizeof page;
   }
   seal.pages = held.size();
-  if (!appended || (!held.empty() && !write_at(file, place, &seal, sizeof seal))) {
-    (void)!ftruncate(file, static_cast<off_t>(end));
+  return write_at(file, place, &seal, sizeof seal);
+}
+
+/// What there is from the first commit on is there at once: who is killed before leaves an empty file.
+bool PartFile::put_in_place() const {
+  if (bare && !held.empty()) {
+    std::vector<char> begin(held.rbegin()->first + page_bytes);
+    for (const auto& [at, page] : held)
+      std::copy(page.bytes.begin(), page.bytes.end(), begin.begin() + static_cast<std::ptrdiff_t>(at));
+    return write_at(file, 0, begin.data(), begin.size());
+  }
+  return std::all_of(held.begin(), held.end(), [&](const auto& entry) {
+    return write_at(file, entry.first, entry.second.bytes.data(), page_bytes);
+  });
+}
+
+bool PartFile::commit() {
+  failure = 0;
+  const haddr_t start =
+      up_to_page(std::max({end, allocated, held.empty() ? 0 : held.rbegin()->first + page_bytes}));
+  if (!reserve(start) || (!bare && !held.empty() && !append(start))) {
+    cut_off(end);
     return false;
   }
-  for (const auto& [at, page] : held)
-    if (!write_at(file, at, page.bytes.data(), page_bytes)) return false;
+  if (!put_in_place()) return false;
+  bare = false;
   held.clear();
   end = std::max(end, allocated);
-  if (ftruncate(file, static_cast<off_t>(end)) != 0) return false;
+  if (!cut_off(end)) return false;
   committed = std::max(first_bytes, end);
   return true;
 }
 
+/// HDF5 is C: nothing is thrown through it.
+template <class Result, class Work>
+Result guarded(Result failed, const Work& work) noexcept {
+  try {
+    return work();
+  } catch (const std::bad_alloc&) {
+    failure = ENOMEM;
+    return failed;
+  }
+}
+
 H5FD_t* open_part(const char* name, unsigned flags, hid_t, haddr_t) {
-  auto part = std::make_unique<PartFile>();
-  part->writes = (flags & H5F_ACC_RDWR) != 0;
-  part->file = open(name, (part->writes ? O_RDWR : O_RDONLY) | O_CLOEXEC);
-  if (part->file < 0) return nullptr;
-  if ((flags & H5F_ACC_TRUNC) != 0 && ftruncate(part->file, 0) != 0) return nullptr;
-  if (!part->take_appended()) return nullptr;
-  return part.release();
+  return guarded<H5FD_t*>(nullptr, [&]() -> H5FD_t* {
+    auto part = std::make_unique<PartFile>();
+    part->writes = (flags & H5F_ACC_RDWR) != 0;
+    part->bare = (flags & H5F_ACC_TRUNC) != 0;
+    part->file = open(name, (part->writes ? O_RDWR : O_RDONLY) | O_CLOEXEC);
+    if (part->file < 0) return failure = errno, nullptr;
+    if (part->bare && !part->cut_off(0)) return nullptr;
+    return part->take_appended() ? part.release() : nullptr;
+  });
 }
 
 herr_t close_part(H5FD_t* file) {
   const std::unique_ptr<PartFile> part(&part_of(file));
   if (!part->writes) return 0;
-  return part->commit() && ftruncate(part->file, static_cast<off_t>(part->allocated)) == 0 ? 0 : -1;
+  return guarded<herr_t>(-1, [&] { return part->commit() && part->cut_off(part->allocated) ? 0 : -1; });
 }
 
 herr_t query(const H5FD_t*, unsigned long* features) {
@@ -207,7 +254,7 @@ herr_t write_part(H5FD_t* file, H5FD_mem_t, hid_t, haddr_t place, std::size_t co
   const haddr_t stop = place + count;
   const auto* from = static_cast<const char*>(bytes);
   while (place < std::min(stop, up_to_page(part.committed))) {
-    Page* const page = part.page_at(place / page_bytes * page_bytes);
+    Page* const page = guarded<Page*>(nullptr, [&] { return part.page_at(place / page_bytes * page_bytes); });
     if (!page) return -1;
     const haddr_t some = std::min(stop, page->place + page_bytes) - place;
     std::memcpy(page->bytes.data() + (place - page->place), from, some);

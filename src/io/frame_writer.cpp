@@ -9,7 +9,7 @@ namespace sandstroke {
 namespace {
 
 constexpr int tile_side = BedGeometry::tile_side;
-constexpr const char* time_name = "/surface/time";
+constexpr const char *time_name = "/surface/time", *initial = "/surface/initial";
 
 /// Tiles, in order, as rectangles of cells: runs along a row, and such runs below each other.
 std::vector<CellRange> rectangles(const BedGeometry& bed, const std::vector<int>& tiles) {
@@ -77,14 +77,17 @@ void FrameWriter::add(double time, const HeightField& surface) {
   Hdf5Chunks chunks = file_.chunks(changed(k), {bed_.rows(), bed_.cols()}, {tile_side, tile_side},
                                    std::numeric_limits<double>::quiet_NaN());
   std::vector<double> chunk(chunks.size());
-  for (const int tile : take_changed(surface)) {
+  const std::vector<int> tiles = take_changed(surface);
+  for (const int tile : tiles) {
     surface.read_tile(tile, chunk.data(), static_cast<std::ptrdiff_t>(chunks.cols()));
     const CellRange cells = bed_.tile_cells(tile);
     chunks.write(cells.row_begin, cells.col_begin, chunk.data());
     last_change_[tile] = k;
   }
   file_.write_patched(height(k), static_cast<std::size_t>(bed_.rows()), static_cast<std::size_t>(bed_.cols()),
-                      "/surface/initial", patches());
+                      tiles.empty() ? shown_ : initial,
+                      tiles.empty() ? std::vector<Hdf5GridWriter::Patch>{} : patches());
+  if (!tiles.empty()) shown_ = height(k);
   time_.append(&time, 1);
   times_.push_back(time);
 }
@@ -101,7 +104,7 @@ void FrameWriter::finish() {
 }
 
 std::vector<XdmfStep> FrameWriter::steps(double end) const {
-  std::vector<XdmfStep> steps = {{0.0, "/surface/initial"}};
+  std::vector<XdmfStep> steps = {{0.0, initial}};
   for (std::size_t k = 0; k < times_.size(); ++k)  // that at time 0 is the initial one
     if (times_[k] > 0.0) steps.push_back({times_[k], height(static_cast<int>(k))});
   constexpr double after =

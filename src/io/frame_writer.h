@@ -46,6 +46,7 @@ class FrameWriter {
   std::vector<std::uint64_t> revisions_;  // per slot, as of the last frame
   std::map<int, int> last_change_;        // frame, per tile that ever changed
   Hdf5Column time_;
+  std::string shown_ = "/surface/initial";  // what the last frame is the same as
   std::vector<double> times_;
 };
 

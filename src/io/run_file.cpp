@@ -55,7 +55,9 @@ bool RunFile::has_final() const { return file_.has("/surface/final"); }
 
 void RunFile::check_final() const {
   if (!has_final() && !complete())
-    throw_input_error("{}: the run was cut off and has no final surface; run it again", file_.name());
+    throw_input_error(
+        "{}: the run was cut off and has no final surface; run it again{}", file_.name(),
+        frame_times().empty() ? "" : fmt::format(", or take a frame: 0 to {}", frame_times().size() - 1));
   if (file_.shape("/surface/final") != shape())
     throw_input_error("{}: /surface/final and /surface/initial differ in shape; the file is damaged",
                       file_.name());

@@ -20,7 +20,7 @@ namespace {
 // What a killed run can lose. Not after fewer rows: ticks may take microseconds.
 constexpr std::chrono::milliseconds time_per_write{500};
 constexpr const char* provenance = "/provenance";
-constexpr double bytes_per_frame = 1000.0;  // at least: of its groups and attributes
+constexpr double bytes_per_frame = 1800.0;  // at least: where nothing changes
 constexpr std::size_t least_rows_per_write = 1000, most_rows_per_write = 50'000;
 
 /// What a field of(record) of records is.

@@ -30,20 +30,22 @@ double CellMeans::operator()(Eigen::Index row, Eigen::Index col) const {
   return sum;
 }
 
-std::set<int> touched_tiles(const HeightField& fine, const HeightField& coarse) {
+std::set<int> touched_tiles(const HeightField& other, const HeightField& bed) {
   std::set<int> tiles;
-  for (int slot = 0; slot < coarse.allocated_tiles(); ++slot) tiles.insert(coarse.tile_of(slot));
-  const auto tile_of = [&](int fine_cell, int fine_cells, int cells) {
-    return static_cast<int>(static_cast<std::int64_t>(fine_cell) * cells / fine_cells) /
-           BedGeometry::tile_side;
+  for (int slot = 0; slot < bed.allocated_tiles(); ++slot) tiles.insert(bed.tile_of(slot));
+  // The cell at the border before row or column `at` of the other bed, and the one after it.
+  const auto last_before = [](std::int64_t at, int there, int here) {
+    return (at * here + there - 1) / there - 1;
   };
-  for (int slot = 0; slot < fine.allocated_tiles(); ++slot) {
-    const CellRange cells = fine.tile_cells(fine.tile_of(slot));
-    for (int i = tile_of(cells.row_begin, fine.rows(), coarse.rows());
-         i <= tile_of(cells.row_end - 1, fine.rows(), coarse.rows()); ++i)
-      for (int j = tile_of(cells.col_begin, fine.cols(), coarse.cols());
-           j <= tile_of(cells.col_end - 1, fine.cols(), coarse.cols()); ++j)
-        tiles.insert(coarse.tile_index(i, j));
+  const auto first_after = [](std::int64_t at, int there, int here) { return at * here / there; };
+  constexpr int side = BedGeometry::tile_side;
+  for (int slot = 0; slot < other.allocated_tiles(); ++slot) {
+    const CellRange cells = other.tile_cells(other.tile_of(slot));
+    for (std::int64_t i = first_after(cells.row_begin, other.rows(), bed.rows()) / side;
+         i <= last_before(cells.row_end, other.rows(), bed.rows()) / side; ++i)
+      for (std::int64_t j = first_after(cells.col_begin, other.cols(), bed.cols()) / side;
+           j <= last_before(cells.col_end, other.cols(), bed.cols()) / side; ++j)
+        tiles.insert(bed.tile_index(static_cast<int>(i), static_cast<int>(j)));
   }
   return tiles;
 }

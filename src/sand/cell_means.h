@@ -25,8 +25,8 @@ class CellMeans {
   std::vector<Cover> rows_, cols_;
 };
 
-/// Tiles of `coarse` in which it, or a finer bed over the same rectangle, is no longer as its rule says.
-std::set<int> touched_tiles(const HeightField& fine, const HeightField& coarse);
+/// Tiles of a bed in which it, or another one over the same rectangle, is no longer as its rule says.
+std::set<int> touched_tiles(const HeightField& other, const HeightField& bed);
 
 /// The means of factor x factor cells, where that divides rows and cols. Where a level bed has no tile, this
 /// one has none either.

@@ -21,9 +21,8 @@ struct Distance {
   }
 };
 
-/// visit(row, col, distance): also of each cell of `coarse` that is not as its rule says in both.
-template <class Visit>
-Distance height_distance(const HeightField& fine, const HeightField& coarse, const Visit& visit) {
+/// each: where given, of the coarser bed's cells, gets the distance in each.
+Distance height_distance(const HeightField& fine, const HeightField& coarse, HeightField* each) {
   Distance distance;
   const CellMeans means(fine, coarse.rows(), coarse.cols());
   for (const int tile : touched_tiles(fine, coarse)) {
@@ -32,7 +31,7 @@ Distance height_distance(const HeightField& fine, const HeightField& coarse, con
       for (int col = cells.col_begin; col < cells.col_end; ++col) {
         const double apart = std::abs(means(row, col) - coarse(row, col));
         distance.add(apart, coarse.cell_area());
-        visit(row, col, apart);
+        if (each) each->set(row, col, apart);
       }
   }
   return distance;
@@ -132,16 +131,19 @@ ErrorEstimate estimate_error(const Scene& scene, const HeightField& start,
   const auto error_over_distance = [&](double r) { return (coarser ? 1.0 : r) / (r - 1.0); };
   const double height_factor = error_over_distance(coarse.surface.cell_size() / fine.surface.cell_size()),
                force_factor = error_over_distance(2.0);
-  const auto put_on_map = [&](int row, int col, double apart) {  // one cell of the coarser bed
-    if (!map || apart == 0.0) return;
-    const auto first = [](int cell, int cells, int of) { return (cell * of + cells - 1) / cells; };
-    const int rows = coarse.surface.rows(), cols = coarse.surface.cols();
-    for (int i = first(row, rows, map->rows()); i < first(row + 1, rows, map->rows()); ++i)
-      for (int j = first(col, cols, map->cols()); j < first(col + 1, cols, map->cols()); ++j)
-        map->set(i, j, height_factor * apart);
-  };
-  const Distance of_height = height_distance(fine.surface, coarse.surface, put_on_map),
+  std::optional<HeightField> distances;  // of heights, in the cells of the coarser bed
+  if (map) distances.emplace(coarse.surface.rows(), coarse.surface.cols(), coarse.surface.cell_size());
+  const Distance of_height = height_distance(fine.surface, coarse.surface, distances ? &*distances : nullptr),
                  of_force = force_distance(fine_force, coarse_force);
+  if (map) {
+    const CellMeans means(*distances, map->rows(), map->cols());
+    for (const int tile : touched_tiles(*distances, *map)) {
+      const CellRange cells = map->tile_cells(tile);
+      for (int row = cells.row_begin; row < cells.row_end; ++row)
+        for (int col = cells.col_begin; col < cells.col_end; ++col)
+          map->set(row, col, height_factor * means(row, col));
+    }
+  }
   const Change change = change_of(start, run.surface);
   const auto forces = std::count_if(coarse_force.values.begin(), coarse_force.values.end(),
                                     [](const Eigen::Vector3d& f) { return f.squaredNorm() > 0.0; });

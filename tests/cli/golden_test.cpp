@@ -242,14 +242,29 @@ TEST(CliCompare, EndsWithItsVerdict) {
             std::string::npos);
 }
 
+TEST(CliGolden, AMissingStrokeIsAFindingOfItsSceneAndTheOthersGoOn) {
+  const fs::path folder = folder_with_golden_entry();
+  fs::copy(folder / "strokes/tiny", folder / "strokes/another");
+  ASSERT_EQ(run_program({"golden", "update", "another"}, folder).exit_code, 0);
+  fs::remove(folder / "strokes/another/line.toml");
+  const ProgramResult check =
+      run_program({"golden", "check", "--report", "pages", "--junit", "pages/golden.xml"}, folder);
+  EXPECT_EQ(check.exit_code, 1) << check.err;
+  EXPECT_NE(check.out.find("FAILED  another\n        scene: strokes/another/line.toml does not exist"),
+            std::string::npos)
+      << check.out;
+  EXPECT_NE(check.out.find("ok      tiny"), std::string::npos) << check.out;
+  EXPECT_TRUE(fs::exists(folder / "pages/golden.xml"));
+}
+
 TEST(CliCompare, WhatIsNoNumberFailsWhereverItIs) {
   const fs::path folder = test_folder();
   ASSERT_EQ(run_program({"run", "scene.toml", "-o", "run.h5", "--frames", "5"}, folder).exit_code, 0);
   for (const auto& [dataset, sentence] :
        {std::pair("/surface/frame/000003/changed",
                   "/surface/frame/000003/changed has heights that are not numbers"),
-        {"/trace/device_position", "positions: the run: not a number at time 0.03 s"},
-        {"/trace/hand_position", "positions: the run: not a number at time 0.03 s"}}) {
+        {"/trace/device_position", "finite positions: the run: not a number at time 0.03 s"},
+        {"/trace/hand_position", "finite positions: the run: not a number at time 0.03 s"}}) {
     write_changed_copy(folder, dataset, 3 * 30 + 1, std::nan(""));
     const ProgramResult compared = run_program({"compare", "run.h5", "changed.h5"}, folder);
     EXPECT_EQ(compared.exit_code, 1) << dataset;

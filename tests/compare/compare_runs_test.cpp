@@ -108,7 +108,7 @@ TEST_F(CompareRuns, AFileEqualsItself) {
   for (const Check& check : comparison.checks) names.push_back(check.name);
   EXPECT_EQ(names, (std::vector<std::string>{"golden complete", "run complete", "cell size", "initial height",
                                              "final height", "frames", "ticks", "time", "force", "depth",
-                                             "level", "positions"}));
+                                             "level", "finite positions"}));
 }
 
 TEST_F(CompareRuns, OneChangedCellFailsAndIsNamed) {
@@ -220,12 +220,12 @@ TEST_F(CompareRuns, OneNanInTheForceFails) {
 
 TEST_F(CompareRuns, OneNanInAPositionFails) {
   run.trace[50].device_position.y() = std::numeric_limits<double>::quiet_NaN();
-  expect_only_failure("positions", "the run: not a number at time 0.05 s");
+  expect_only_failure("finite positions", "the run: not a number at time 0.05 s");
   run.trace[50].device_position.y() = 0.0;
   run.trace[100].hand.position.x() = std::numeric_limits<double>::infinity();
-  expect_only_failure("positions", "the run: not a number at time 0.1 s");
+  expect_only_failure("finite positions", "the run: not a number at time 0.1 s");
   std::swap(run.trace, golden.trace);
-  expect_only_failure("positions", "golden: not a number at time 0.1 s");
+  expect_only_failure("finite positions", "golden: not a number at time 0.1 s");
 }
 
 TEST_F(CompareRuns, WhatIsNoRunFileIsBadInput) {

@@ -25,7 +25,7 @@ TEST_F(Golden, RoundTripPasses) {
   EXPECT_EQ(names,
             (std::vector<std::string>{"run complete", "volume drift", "stroke", "scene", "initial surface",
                                       "cell size", "height change", "ticks", "time", "force", "depth",
-                                      "level", "positions", "picture", "picture share"}));
+                                      "level", "finite positions", "picture", "picture share"}));
 }
 
 TEST_F(Golden, WhatAKilledUpdateLeftIsNoEntryAndInNobodysWay) {

@@ -1,6 +1,7 @@
 #include "hdf5/part_driver.h"
 
 #include <gtest/gtest.h>
+#include <zlib.h>
 
 #include <fstream>
 
@@ -48,6 +49,29 @@ TEST_F(PartDriver, WhateverLiesBehindTheEndIsNotBelieved) {
     std::copy_n(reinterpret_cast<const char*>(&count), 8, seal.begin() + 16);
     std::ofstream(part_, std::ios::binary) << bytes << pages << seal;
     EXPECT_EQ(Hdf5Reader(part_).doubles("/number").size(), 5000u) << count;
+  }
+}
+
+TEST_F(PartDriver, PagesThatNoCommitWritesAreNotBelieved) {
+  const std::string bytes = flushed_and_written_to() + std::string(4096, '\0');
+  const std::string begin = bytes.substr(0, bytes.size() / 4096 * 4096);
+  const auto number = [](std::uint64_t value) {
+    return std::string(reinterpret_cast<const char*>(&value), 8);
+  };
+  for (const std::vector<std::uint64_t>& places : {std::vector<std::uint64_t>{0, 0},  // as in a hole
+                                                   {4096, 0},
+                                                   {100},
+                                                   {1ULL << 40}}) {
+    std::string pages;
+    uLong checksum = 0;
+    for (const std::uint64_t place : places) {
+      const std::string page = number(place) + std::string(4096, '\xff');
+      checksum = crc32(checksum, reinterpret_cast<const Bytef*>(page.data()), static_cast<uInt>(page.size()));
+      pages += page;
+    }
+    std::ofstream(part_, std::ios::binary)
+        << begin << pages << "sandstroke pages" << number(places.size()) << number(checksum);
+    EXPECT_EQ(Hdf5Reader(part_).doubles("/number").size(), 5000u) << places.front();
   }
 }
 

@@ -234,6 +234,23 @@ TEST(ErrorEstimate, OfABedThatNoSquareCellsHalveIsTakenOverTheirCommonParts) {
                     starting_bed(second_scene(heap, SecondSolution::coarser).bed));
 }
 
+TEST(ErrorEstimate, ItsMapIsAsSymmetricAsTheBedWhateverTheRatioOfCells) {
+  for (const int n : {15, 16}) {  // cells 1.875 and 2 times as large
+    const Scene scene = cylinder_scene(n);
+    const HeightField start = starting_bed(scene.bed);
+    const Solution run = solve(scene, start);
+    for (const SecondSolution second : {SecondSolution::coarser, SecondSolution::finer}) {
+      HeightField map(n, n, scene.bed.cell_size());
+      const ErrorEstimate error = estimate_error(scene, start, {}, run, Kept(force_of), second, &map);
+      const HeightGrid heights = map.grid();
+      EXPECT_GT(heights.maxCoeff(), 0.1 * error.height_max);
+      EXPECT_LE(heights.maxCoeff(), error.height_max * (1.0 + 1e-12));
+      EXPECT_LT((heights - heights.rowwise().reverse()).abs().maxCoeff(), 1e-6 * error.height_max) << n;
+      EXPECT_LT((heights - heights.colwise().reverse()).abs().maxCoeff(), 1e-6 * error.height_max) << n;
+    }
+  }
+}
+
 TEST(ErrorEstimate, CellsThatNoRuleMakesAnewAreAveragedOrSplit) {
   Scene rough = stroke_scene(20);
   rough.stroke.reset();
