@@ -107,8 +107,7 @@ std::vector<XdmfStep> FrameWriter::steps(double end) const {
   std::vector<XdmfStep> steps = {{0.0, initial}};
   for (std::size_t k = 0; k < times_.size(); ++k)  // that at time 0 is the initial one
     if (times_[k] > 0.0) steps.push_back({times_[k], height(static_cast<int>(k))});
-  constexpr double after =
-      1.0;  // s: sand without a stroke comes to rest in no time, but not in the same step
+  constexpr double after = 1.0;  // s; sand without a stroke rests in no time, but not in the same step
   steps.push_back({end > steps.back().time ? end : steps.back().time + after, "/surface/final"});
   return steps;
 }

@@ -11,21 +11,20 @@
 
 namespace sandstroke {
 
-/// The surfaces of a run over time, in the time that what changed takes. Of frame k a file holds
+/// Writes the surfaces of a run over time, at the cost of what changes. Of frame K a file holds
 ///
-///   /surface/frame/K/changed  (ny, nx) heights [m] of the tiles that changed since the frame before; all
-///                             other chunks are missing and read as not-a-number
-///   /surface/frame/K/height   (ny, nx) the whole surface, without numbers of its own: it is
-///   /surface/initial,
-///                             patched by `changed` of this frame and those before it
+///   /surface/frame/K/changed  (ny, nx) heights [m] of the tiles that changed since the frame before;
+///                             others are not stored and read as not-a-number
+///   /surface/frame/K/height   (ny, nx) the whole surface. It is virtual: /surface/initial, and over that
+///                             the newest `changed` of each tile
 ///
-/// and in the end /surface/frames (time, y, x), which is all of these `height`, over /surface/time [s].
+/// finish() adds /surface/frames (time, y, x), which is all of these `height`, over /surface/time [s].
 class FrameWriter {
  public:
   /// bed: /surface/initial, as it was written.
   FrameWriter(Hdf5GridWriter& file, const HeightField& bed);
   void add(double time, const HeightField& surface);
-  /// Of the surfaces as one array over time; nothing where there are none.
+  /// Makes them one array over time, if there are any.
   void finish();
 
   /// All surfaces of the file, also the initial and the final one, which is at `end` [s].

@@ -93,6 +93,17 @@ TEST_F(CliPages, ReportDrawsARunAndWhatItSaysAgreesWithTheRun) {
   EXPECT_EQ(page.answer[2], 320);
 }
 
+TEST(CliReport, IsAPageAndNothingElse) {
+  const fs::path folder = test_folder();
+  ASSERT_EQ(run_program({"run", "scene.toml", "-o", "a.h5"}, folder).exit_code, 0);
+  for (const std::string name : {"a.png", "a.pdf", "page"}) {
+    const ProgramResult report = run_program({"report", "a.h5", "-o", name}, folder);
+    EXPECT_EQ(report.exit_code, 2) << name;
+    EXPECT_NE(report.err.find(name + ": is not a name for a page; end it with .html"), std::string::npos);
+    EXPECT_FALSE(fs::exists(folder / name));
+  }
+}
+
 TEST(CliReport, SaysWhyARunHasNoStrokeToShow) {
   const fs::path folder = test_folder();
   write_file(folder / "still.toml", "[bed]\nsize = [0.2, 0.2]\ncells = [40, 40]\n[view]\nsize = [160, 90]\n");

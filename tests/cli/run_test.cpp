@@ -233,6 +233,7 @@ TEST(CliRun, StoppedBySignalItKeepsWhatIsCompleteAndMarksItSo) {
     const ProgramResult render = run_program({"render", "a.h5.part", "-o", "a.png"}, folder);
     EXPECT_EQ(render.exit_code, 2);
     EXPECT_NE(render.err.find("cut off"), std::string::npos) << render.err;
+    EXPECT_EQ(render.err.find("take a frame"), std::string::npos) << "there is none: " << render.err;
     const ProgramResult report = run_program({"report", "a.h5.part", "-o", "a.html"}, folder);
     EXPECT_EQ(report.exit_code, 0) << report.err;
     EXPECT_NE(read_file(folder / "a.html").find("was cut off; the page shows its initial surface"),
