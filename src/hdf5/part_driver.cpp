@@ -83,6 +83,7 @@ struct PartFile : H5FD_t {
   int file = -1;
   bool writes = false;
   bool bare = true;       // nothing was committed yet
+  bool failed = false;    // to write something: no commit may make half of it stand
   haddr_t allocated = 0;  // by HDF5 (its "end of allocation")
   haddr_t end = 0;        // of what was written
   haddr_t committed = first_bytes;
@@ -180,7 +181,8 @@ bool PartFile::put_in_place() const {
 }
 
 bool PartFile::commit() {
-  failure = 0;
+  if (failed) return false;
+  failed = true;  // until all is done
   const haddr_t start =
       up_to_page(std::max({end, allocated, held.empty() ? 0 : held.rbegin()->first + page_bytes}));
   if (!reserve(start) || (!bare && !held.empty() && !append(start))) {
@@ -193,6 +195,7 @@ bool PartFile::commit() {
   end = std::max(end, allocated);
   if (!cut_off(end)) return false;
   committed = std::max(first_bytes, end);
+  failed = false;
   return true;
 }
 
@@ -209,6 +212,7 @@ Result guarded(Result failed, const Work& work) noexcept {
 
 H5FD_t* open_part(const char* name, unsigned flags, hid_t, haddr_t) {
   return guarded<H5FD_t*>(nullptr, [&]() -> H5FD_t* {
+    failure = 0;
     auto part = std::make_unique<PartFile>();
     part->writes = (flags & H5F_ACC_RDWR) != 0;
     part->bare = (flags & H5F_ACC_TRUNC) != 0;
@@ -255,12 +259,12 @@ herr_t write_part(H5FD_t* file, H5FD_mem_t, hid_t, haddr_t place, std::size_t co
   const auto* from = static_cast<const char*>(bytes);
   while (place < std::min(stop, up_to_page(part.committed))) {
     Page* const page = guarded<Page*>(nullptr, [&] { return part.page_at(place / page_bytes * page_bytes); });
-    if (!page) return -1;
+    if (!page) return part.failed = true, -1;
     const haddr_t some = std::min(stop, page->place + page_bytes) - place;
     std::memcpy(page->bytes.data() + (place - page->place), from, some);
     from += some, place += some;
   }
-  if (place < stop && !write_at(part.file, place, from, stop - place)) return -1;
+  if (place < stop && !write_at(part.file, place, from, stop - place)) return part.failed = true, -1;
   part.end = std::max(part.end, stop);
   return 0;
 }
