@@ -11,6 +11,7 @@
 #include "io/png_file.h"
 #include "io/run_file.h"
 #include "real_client.h"
+#include "sanitized.h"
 
 namespace sandstroke {
 namespace {
@@ -31,6 +32,12 @@ std::vector<Json> said_by(std::vector<std::string> words) {
   return lines;
 }
 
+class CliClients : public testing::Test {
+  void SetUp() override {
+    if (sanitized) GTEST_SKIP() << "no sanitizer sees what other programs do";
+  }
+};
+
 /// A run with frames, of a bed whose sand is not level.
 fs::path folder_with_rippled_run() {
   const fs::path folder = test_folder();
@@ -50,7 +57,7 @@ void expect_described(const Json& group, const std::string& name, const Json& di
   EXPECT_EQ(variable["attrs"].value("units", ""), units) << name;
 }
 
-TEST(CliClients, XarrayAndH5pyOpenARunWithItsAxes) {
+TEST_F(CliClients, XarrayAndH5pyOpenARunWithItsAxes) {
   SANDSTROKE_NEEDS(python_has("xarray, h5netcdf"), "python3-xarray or python3-h5netcdf");
   const fs::path folder = folder_with_rippled_run();
   const std::vector<Json> groups = said_by({python, "xarray_opens.py", (folder / "a.h5").string(), "surface",
@@ -80,7 +87,7 @@ TEST(CliClients, XarrayAndH5pyOpenARunWithItsAxes) {
   for (const auto& [name, value] : run.provenance()) EXPECT_EQ(groups[3]["attrs"][name], value) << name;
 }
 
-TEST(CliClients, XarrayOpensStrokes) {
+TEST_F(CliClients, XarrayOpensStrokes) {
   SANDSTROKE_NEEDS(python_has("xarray, h5netcdf"), "python3-xarray or python3-h5netcdf");
   const fs::path folder = test_folder();
   ASSERT_EQ(run_program({"stroke", "script", "line.toml", "made.h5"}, folder).exit_code, 0);
@@ -94,7 +101,7 @@ TEST(CliClients, XarrayOpensStrokes) {
   }
 }
 
-TEST(CliClients, ParaViewOpensARunWithEachOfItsReadersAndWarpsIt) {
+TEST_F(CliClients, ParaViewOpensARunWithEachOfItsReadersAndWarpsIt) {
   SANDSTROKE_NEEDS(python_has("paraview.simple"), "python3-paraview");
   SANDSTROKE_NEEDS(run_child({"xvfb-run", "--help"}), "xvfb");
   const fs::path folder = folder_with_rippled_run();
