@@ -171,10 +171,9 @@ int run(const RunArguments& arguments) {
   const Scene scene = load_scene(scene_path, overrides);
   const std::string output = arguments.output.empty() ? scene_path.stem().string() + ".h5" : arguments.output;
 
-  std::vector<fs::path> files = {scene_path};
   const fs::path folder = scene_path.parent_path();
-  if (scene.stroke) files.push_back(folder / scene.stroke->file);
-  if (scene.bed.surface.kind == SurfaceKind::file) files.push_back(folder / scene.bed.surface.file);
+  std::vector<fs::path> files = input_files(scene, folder);
+  files.push_back(scene_path);
   const auto check = [&files](const fs::path& written, const OutputKind& kind) {
     check_output(written, files, kind);
     files.push_back(written);

@@ -33,12 +33,8 @@ std::set<std::string> folders_in(const fs::path& parent) {
 /// That a file which a scene names is not there: a finding of this scene, and not the machine's failure.
 /// Empty: all are. Error: of a scene that cannot be read.
 std::string missing_input(const fs::path& scene_file) {
-  const Scene scene = load_scene(scene_file);
-  std::vector<fs::path> inputs;
-  if (scene.stroke) inputs.emplace_back(scene.stroke->file);
-  if (scene.bed.surface.kind == SurfaceKind::file) inputs.emplace_back(scene.bed.surface.file);
-  for (const fs::path& input : inputs)
-    if (const fs::path file = scene_file.parent_path() / input; !fs::exists(file))
+  for (const fs::path& file : input_files(load_scene(scene_file), scene_file.parent_path()))
+    if (!fs::exists(file))
       return fmt::format("{} does not exist; restore it, or commit it too", file.string());
   return "";
 }

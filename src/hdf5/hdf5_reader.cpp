@@ -58,6 +58,13 @@ bool read_string(hid_t file_type, std::string& text, const Read& read) {
   return true;
 }
 
+/// For HDF5 to call of each link or attribute; adds its name to a list.
+template <class Info>
+herr_t add_name(hid_t, const char* name, const Info*, void* list) {
+  static_cast<std::vector<std::string>*>(list)->emplace_back(name);
+  return 0;
+}
+
 /// Whether this program is writing it, or another one has it open for writing by HDF5, which locks it where
 /// there are locks.
 bool is_being_written(const std::filesystem::path& path) {
@@ -76,10 +83,8 @@ Hdf5Reader::Hdf5Reader(const std::filesystem::path& path) : name_(path.string())
     check_can_be_read_whole(path);
     throw_input_error("{}: is not an HDF5 file; name another file", name_);
   }
-  const bool is_part = path.extension() == ".part";
   if (!is_being_written(path))
-    file_ = Hdf5Handle(H5Fopen(name_.c_str(), H5F_ACC_RDONLY, is_part ? part_access() : without_locks()),
-                       H5Fclose);
+    file_ = Hdf5Handle(H5Fopen(name_.c_str(), H5F_ACC_RDONLY, reading_access(path)), H5Fclose);
   if (!file_.valid()) {
     check_can_be_read_whole(path);
     throw_input_error("{}: is a damaged or truncated HDF5 file, or still being written; make it again",
@@ -336,11 +341,8 @@ double Hdf5Reader::cell_size(const std::string& object) const {
 std::vector<std::string> Hdf5Reader::members(const std::string& group) const {
   if (!has(group)) fail(group, "is missing; name a file of the right kind");
   std::vector<std::string> names;
-  const auto add = [](hid_t, const char* name, const H5L_info_t*, void* list) -> herr_t {
-    static_cast<std::vector<std::string>*>(list)->emplace_back(name);
-    return 0;
-  };
-  if (H5Literate_by_name(file_, group.c_str(), H5_INDEX_NAME, H5_ITER_INC, nullptr, add, &names, access_) < 0)
+  if (H5Literate_by_name(file_, group.c_str(), H5_INDEX_NAME, H5_ITER_INC, nullptr, add_name<H5L_info_t>,
+                         &names, access_) < 0)
     fail_to_read(group, "is not a group; name a file of the right kind");
   return names;
 }
@@ -348,12 +350,8 @@ std::vector<std::string> Hdf5Reader::members(const std::string& group) const {
 std::vector<std::string> Hdf5Reader::attributes(const std::string& object) const {
   if (!has(object)) fail(object, "is missing; name a file of the right kind");
   std::vector<std::string> names;
-  const auto add = [](hid_t, const char* name, const H5A_info_t*, void* list) -> herr_t {
-    static_cast<std::vector<std::string>*>(list)->emplace_back(name);
-    return 0;
-  };
-  if (H5Aiterate_by_name(file_, object.c_str(), H5_INDEX_NAME, H5_ITER_INC, nullptr, add, &names, access_) <
-      0)
+  if (H5Aiterate_by_name(file_, object.c_str(), H5_INDEX_NAME, H5_ITER_INC, nullptr, add_name<H5A_info_t>,
+                         &names, access_) < 0)
     fail_to_read(object, "has attributes that cannot be read; the file is damaged");
   return names;
 }

@@ -300,6 +300,10 @@ Hdf5Handle part_access() {
   return access;
 }
 
+Hdf5Handle reading_access(const std::filesystem::path& path) {
+  return path.extension() == ".part" ? part_access() : without_locks();
+}
+
 bool commit_part(const Hdf5Handle& file) {
   void* part = nullptr;
   return H5Fget_vfd_handle(file, H5P_DEFAULT, &part) >= 0 && static_cast<PartFile*>(part)->commit();

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <filesystem>
+
 #include "hdf5/hdf5_handle.h"
 
 namespace sandstroke {
@@ -14,8 +16,10 @@ namespace sandstroke {
 // A kill before the seal leaves the old state. After a later kill this driver reads the pages behind the end.
 // This is about kills: nothing is forced to the disk in between, as a power failure would need.
 
-/// How PATH.part is opened, for reading too.
+/// How PATH.part is opened.
 Hdf5Handle part_access();
+/// How any file is opened to be read: PATH.part so, and others as HDF5 does.
+Hdf5Handle reading_access(const std::filesystem::path& path);
 
 /// Makes what H5Fflush() wrote into such a file the state that a kill leaves. False: it could not be written,
 /// and the state before stays.

@@ -45,6 +45,13 @@ Scene scene_from_text(const std::string& text, const std::string& name,
   return read_scene(TomlReader::from_text(text, name), overrides);
 }
 
+std::vector<std::filesystem::path> input_files(const Scene& scene, const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> files;
+  if (scene.stroke) files.push_back(folder / scene.stroke->file);
+  if (scene.bed.surface.kind == SurfaceKind::file) files.push_back(folder / scene.bed.surface.file);
+  return files;
+}
+
 std::string scene_text(const Scene& scene) {
   std::string text;
   for (const KeySection& section : scene_settings(scene)) {

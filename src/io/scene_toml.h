@@ -16,6 +16,9 @@ Scene load_scene(const std::filesystem::path& path, const std::vector<std::strin
 Scene scene_from_text(const std::string& text, const std::string& name,
                       const std::vector<std::string>& overrides = {});
 
+/// The files that a scene names, seen from its folder: stroke and surface.
+std::vector<std::filesystem::path> input_files(const Scene& scene, const std::filesystem::path& folder);
+
 /// Every setting of a scene as TOML, such that reading it back gives the same scene.
 std::string scene_text(const Scene& scene);
 

@@ -132,9 +132,9 @@ RunResult run_scene(const Scene& asked, const std::filesystem::path& output, con
     const HeightField& end = simulation.bed();
     std::optional<HeightField> map;
     if (options.error_map) map.emplace(end.rows(), end.cols(), end.cell_size());
-    result.error =
-        estimated_error(scene, *start, stroke, {end, result}, force, *options.second, map ? &*map : nullptr);
-    if (result.error) writer.write_error(*result.error, map ? &*map : nullptr);
+    HeightField* const kept = map ? &*map : nullptr;
+    result.error = estimated_error(scene, *start, stroke, {end, result}, force, *options.second, kept);
+    if (result.error) writer.write_error(*result.error, kept);
   }
   writer.finish();
   return result;

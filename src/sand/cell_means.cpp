@@ -50,18 +50,23 @@ std::set<int> touched_tiles(const HeightField& other, const HeightField& bed) {
   return tiles;
 }
 
-HeightField coarsened(const HeightField& fine, int factor) {
+void take_means(const HeightField& other, HeightField& bed, double times) {
+  const CellMeans means(other, bed.rows(), bed.cols());
+  for (const int tile : touched_tiles(other, bed)) {
+    const CellRange cells = bed.tile_cells(tile);
+    for (int row = cells.row_begin; row < cells.row_end; ++row)
+      for (int col = cells.col_begin; col < cells.col_end; ++col) bed.set(row, col, times * means(row, col));
+  }
+}
+
+HeightField coarsened(HeightField fine, int factor) {
+  if (factor == 1) return fine;
   const int rows = fine.rows() / factor, cols = fine.cols() / factor;
   const double cell_size = factor * fine.cell_size();
-  const CellMeans means(fine, rows, cols);
   const std::optional<double> level = fine.untouched().level(fine, fine.cells());
-  if (!level) return {HeightGrid::NullaryExpr(rows, cols, means), cell_size};
+  if (!level) return {HeightGrid::NullaryExpr(rows, cols, CellMeans(fine, rows, cols)), cell_size};
   HeightField coarse(rows, cols, cell_size, std::make_shared<LevelRule>(*level));
-  for (const int tile : touched_tiles(fine, coarse)) {
-    const CellRange cells = coarse.tile_cells(tile);
-    for (int row = cells.row_begin; row < cells.row_end; ++row)
-      for (int col = cells.col_begin; col < cells.col_end; ++col) coarse.set(row, col, means(row, col));
-  }
+  take_means(fine, coarse);
   return coarse;
 }
 

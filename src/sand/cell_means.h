@@ -28,8 +28,11 @@ class CellMeans {
 /// Tiles of a bed in which it, or another one over the same rectangle, is no longer as its rule says.
 std::set<int> touched_tiles(const HeightField& other, const HeightField& bed);
 
-/// The means of factor x factor cells, where that divides rows and cols. Where a level bed has no tile, this
-/// one has none either.
-HeightField coarsened(const HeightField& fine, int factor);
+/// Sets the cells of those tiles to the means of the other one over them, times a factor.
+void take_means(const HeightField& other, HeightField& bed, double times = 1.0);
+
+/// The means of factor x factor cells, where that divides rows and cols; with 1 the bed itself. Where a level
+/// bed has no tile, this one has none either.
+HeightField coarsened(HeightField fine, int factor);
 
 }  // namespace sandstroke

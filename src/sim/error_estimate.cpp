@@ -135,15 +135,7 @@ ErrorEstimate estimate_error(const Scene& scene, const HeightField& start,
   if (map) distances.emplace(coarse.surface.rows(), coarse.surface.cols(), coarse.surface.cell_size());
   const Distance of_height = height_distance(fine.surface, coarse.surface, distances ? &*distances : nullptr),
                  of_force = force_distance(fine_force, coarse_force);
-  if (map) {
-    const CellMeans means(*distances, map->rows(), map->cols());
-    for (const int tile : touched_tiles(*distances, *map)) {
-      const CellRange cells = map->tile_cells(tile);
-      for (int row = cells.row_begin; row < cells.row_end; ++row)
-        for (int col = cells.col_begin; col < cells.col_end; ++col)
-          map->set(row, col, height_factor * means(row, col));
-    }
-  }
+  if (map) take_means(*distances, *map, height_factor);
   const Change change = change_of(start, run.surface);
   const auto forces = std::count_if(coarse_force.values.begin(), coarse_force.values.end(),
                                     [](const Eigen::Vector3d& f) { return f.squaredNorm() > 0.0; });

@@ -89,9 +89,7 @@ Sweep::Sweep(SweepPlan plan) : plan_(std::move(plan)), inputs_(plan_.scene_folde
       if (plan_.keep_picture) check_drawable(scene.bed.rows, scene.bed.cols);
       golden_fits =
           golden_fits || (golden_ && golden_->rows() == scene.bed.rows && golden_->cols() == scene.bed.cols);
-      if (scene.stroke) add_file(plan_.scene_folder() / scene.stroke->file);
-      if (scene.bed.surface.kind == SurfaceKind::file)
-        add_file(plan_.scene_folder() / scene.bed.surface.file);
+      for (const fs::path& file : input_files(scene, plan_.scene_folder())) add_file(file);
       const auto [found, is_new] =
           group_of.try_emplace(sand_key(scene, inputs_.stroke(scene).get()), groups_.size());
       if (is_new) groups_.emplace_back();

@@ -4,7 +4,6 @@
 #include "cli/program.h"
 #include "core/machine.h"
 #include "hdf5/hdf5_file.h"
-#include "sanitized.h"
 
 namespace sandstroke {
 namespace {
@@ -92,8 +91,7 @@ TEST(CliHugeBed, WhatWouldTakeAllOfItIsRefusedAtOnce) {
         {"compare", "huge.h5", "huge.h5", "--report", "report"}}) {
     const ProgramResult result = run_program(arguments, folder);
     EXPECT_EQ(result.exit_code, 0) << result.err;
-    // A sanitizer keeps for a while what was freed.
-    EXPECT_LT(result.peak_memory, (sanitized ? 3.0 : 1.5) * peak) << arguments.front();
+    EXPECT_LT(result.peak_memory, 1.5 * peak) << arguments.front();
   }
 }
 

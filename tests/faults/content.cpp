@@ -73,9 +73,7 @@ herr_t add_object(hid_t file, const char* name, const H5O_info_t* info, void* to
 
 std::string hdf5_content(const fs::path& path) {
   prepare_hdf5();
-  const bool is_part = path.extension() == ".part";
-  const Hdf5Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, is_part ? part_access() : without_locks()),
-                        H5Fclose);
+  const Hdf5Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, reading_access(path)), H5Fclose);
   if (!file.valid()) fail(path.string());
   ContentHash hash;
   if (H5Ovisit(file, H5_INDEX_NAME, H5_ITER_INC, add_object, &hash) < 0)

@@ -53,16 +53,18 @@ TEST(Coarsened, AHugeLevelBedStaysOneAndKeepsWhatWasTouched) {
   EXPECT_EQ(coarse(19999, 0), 0.25);
 }
 
+/// As high as it is far along x.
+class Ramp : public SurfaceRule {
+  void fill(const BedGeometry& bed, const CellRange& cells, double* out,
+            std::ptrdiff_t stride) const override {
+    for (int row = 0; row < cells.rows(); ++row, out += stride)
+      for (int col = 0; col < cells.cols(); ++col) out[col] = bed.x_of(cells.col_begin + col);
+  }
+  double steepest(const BedGeometry&, const CellRange&) const override { return 1.0; }
+  double highest() const override { return 1.0; }
+};
+
 TEST(Coarsened, ABedThatIsNotLevelIsTakenAsAWhole) {
-  class Ramp : public SurfaceRule {
-    void fill(const BedGeometry& bed, const CellRange& cells, double* out,
-              std::ptrdiff_t stride) const override {
-      for (int row = 0; row < cells.rows(); ++row, out += stride)
-        for (int col = 0; col < cells.cols(); ++col) out[col] = bed.x_of(cells.col_begin + col);
-    }
-    double steepest(const BedGeometry&, const CellRange&) const override { return 1.0; }
-    double highest() const override { return 1.0; }
-  };
   const HeightField coarse = coarsened(HeightField(100, 200, 0.01, std::make_shared<Ramp>()), 2);
   for (int col = 0; col < coarse.cols(); ++col) EXPECT_NEAR(coarse(7, col), coarse.x_of(col), 1e-15);
 }
@@ -72,6 +74,14 @@ TEST(CellMeans, CellsThatAreCutCountByTheirShare) {
   const CellMeans means(bed, 1, 2);
   EXPECT_NEAR(means(0, 0), (1.0 + 0.5 * 2.0) / 1.5, 1e-15);
   EXPECT_NEAR(means(0, 1), (0.5 * 2.0 + 4.0) / 1.5, 1e-15);
+}
+
+TEST(Coarsened, ByOneIsTheBedItselfAtNoCost) {
+  HeightField bed(100, 200, 0.01, std::make_shared<Ramp>());
+  EXPECT_EQ(coarsened(bed, 1).allocated_tiles(), 0);
+  bed.set(70, 3, 0.5);
+  EXPECT_EQ(coarsened(bed, 1).allocated_tiles(), 1);
+  EXPECT_TRUE((coarsened(bed, 1).grid() == bed.grid()).all());
 }
 
 }  // namespace
