@@ -11,6 +11,7 @@
 #include "cli/print_json.h"
 #include "cli/print_text.h"
 #include "compare/field_difference.h"
+#include "compare/trace_difference.h"
 #include "core/error.h"
 #include "core/terminal_text.h"
 #include "io/run_file.h"
@@ -58,11 +59,7 @@ nlohmann::ordered_json describe(const RunFile& run) {
     facts["error_estimate"] = error_json(*error);
   if (run.has_trace()) {
     const std::vector<TickRecord> trace = run.trace();
-    double force = 0.0, depth = 0.0;
-    for (const TickRecord& tick : trace) {
-      force = std::max(force, tick.device_force.norm());
-      depth = std::max(depth, tick.depth);
-    }
+    const auto [force, depth] = trace_peaks(trace);
     facts["trace"] = {{"ticks", trace.size()},
                       {"seconds", trace.size() > 1 ? trace.back().time - trace.front().time : 0.0},
                       {"max_force", force},

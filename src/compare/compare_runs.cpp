@@ -39,10 +39,9 @@ Check cells_check(const RunFile& golden, const RunFile& run, bool coarsen) {
 
 }  // namespace
 
-std::optional<CountedTrace> whole_trace(const RunFile& run) {
+std::optional<std::vector<TickRecord>> whole_trace(const RunFile& run) {
   if (!run.has_trace()) return std::nullopt;
-  std::vector<TickRecord> trace = run.trace();
-  return CountedTrace{trace.size(), std::move(trace)};
+  return run.trace();
 }
 
 RunPair run_pair(const RunFile& golden, const RunFile& run, bool coarsen) {

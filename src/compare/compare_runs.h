@@ -10,7 +10,7 @@
 namespace sandstroke {
 
 /// Every tick of a run; none where it has no trace.
-std::optional<CountedTrace> whole_trace(const RunFile& run);
+std::optional<std::vector<TickRecord>> whole_trace(const RunFile& run);
 
 /// A run file as it is compared: over means of factor x factor cells.
 struct ComparedRun {

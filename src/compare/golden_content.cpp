@@ -21,27 +21,6 @@ namespace {
 constexpr double height_quantum = 0x1p-30;   // m
 constexpr double initial_quantum = 0x1p-20;  // m
 
-/// Can also pack tables of few rows and many columns.
-class GoldenWriter : public Hdf5Writer {
- public:
-  using Hdf5Writer::Hdf5Writer;
-
-  /// Whole numbers from 0 to 2^53.
-  void write_whole_numbers(const std::string& dataset, const HeightGrid& numbers) {
-    constexpr hsize_t cols_per_chunk = 16384;
-    const hsize_t shape[2] = {static_cast<hsize_t>(numbers.rows()), static_cast<hsize_t>(numbers.cols())};
-    const hsize_t chunk[2] = {shape[0], std::min(shape[1], cols_per_chunk)};
-    const Hdf5Handle space(H5Screate_simple(2, shape, nullptr), H5Sclose);
-    const Hdf5Handle properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
-    H5Pset_obj_track_times(properties, false);
-    H5Pset_chunk(properties, 2, chunk);
-    H5Pset_shuffle(properties);
-    H5Pset_deflate(properties, 9);
-    const Hdf5Handle created = create(dataset, H5T_STD_U64LE, space, properties);
-    check(H5Dwrite(created, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, numbers.data()) >= 0, dataset);
-  }
-};
-
 /// Of the whole bed, of the block that golden.h5 holds of it.
 HeightGrid read_change(const Hdf5Reader& file, const std::string& update) {
   const double rows = file.number_attribute("/surface", "rows"),
@@ -64,7 +43,7 @@ HeightGrid read_change(const Hdf5Reader& file, const std::string& update) {
   return change;
 }
 
-CountedTrace read_trace(const Hdf5Reader& file, const std::string& update) {
+std::vector<TickRecord> read_trace(const Hdf5Reader& file, const std::string& update) {
   const HeightGrid table = file.grid("/trace/ticks");
   if (table.rows() != packed_trace_rows)
     throw_input_error("{}: /trace/ticks does not have {} rows; make it again: {}", file.name(),
@@ -73,8 +52,7 @@ CountedTrace read_trace(const Hdf5Reader& file, const std::string& update) {
   if (!(servo_rate > 0.0 && std::isfinite(servo_rate)))
     throw_input_error("{}: /trace has a servo_rate of {} Hz; make it again: {}", file.name(), servo_rate,
                       update);
-  std::vector<TickRecord> ticks = unpacked_trace(table, servo_rate);
-  return {ticks.size(), std::move(ticks)};
+  return unpacked_trace(table, servo_rate);
 }
 
 }  // namespace
@@ -106,7 +84,7 @@ void write_golden_content(const std::filesystem::path& path, const RunFile& run)
   if (block.empty()) block = {0, 1, 0, 1};
   const std::string scene = run.scene_text();
 
-  GoldenWriter file(path, output_kind(InputKind::golden));
+  Hdf5Writer file(path, output_kind(InputKind::golden));
   file.write("/scene", scene);
   file.make_group("/surface");
   file.attribute("/surface", "rows", static_cast<double>(change.rows()));
@@ -117,11 +95,11 @@ void write_golden_content(const std::filesystem::path& path, const RunFile& run)
   file.write("/surface/change", (kept / height_quantum).round() * height_quantum, Compression::small);
   file.attribute("/surface/change", "row", block.row_begin);
   file.attribute("/surface/change", "col", block.col_begin);
-  if (const std::optional<CountedTrace> trace = whole_trace(run)) {
+  if (const std::optional<std::vector<TickRecord>> trace = whole_trace(run)) {
     const double servo_rate = scene_from_text(scene, run.name() + ": /scene").device.servo_rate;
     file.make_group("/trace");
     file.attribute("/trace", "servo_rate", servo_rate);
-    file.write_whole_numbers("/trace/ticks", packed_trace(trace->rows, servo_rate, run.name()));
+    file.write_whole_numbers("/trace/ticks", packed_trace(*trace, servo_rate, run.name()));
   }
   file.finish();
 }

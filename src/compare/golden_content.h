@@ -28,7 +28,7 @@ struct GoldenContent {
   double cell_size = 0.0;  ///< m
   std::string initial_hash;
   HeightGrid change;  ///< m, of the whole bed
-  std::optional<CountedTrace> trace;
+  std::optional<std::vector<TickRecord>> trace;
 };
 
 /// Of the initial heights [m].

@@ -56,12 +56,11 @@ Json curve_over_time(const std::vector<TickRecord>& trace, std::size_t ticks, co
   return curve_json(curve);
 }
 
-std::string text(const std::optional<CountedTrace>& golden, const std::optional<CountedTrace>& run) {
-  const auto ticks = [](const std::optional<CountedTrace>& trace) {
+std::string text(const std::optional<std::vector<TickRecord>>& golden,
+                 const std::optional<std::vector<TickRecord>>& run) {
+  const auto ticks = [](const std::optional<std::vector<TickRecord>>& trace) {
     if (!trace) return std::string("no trace");
-    const std::size_t kept = trace->rows.size();
-    return kept == trace->ticks ? fmt::format("{} ticks", kept)
-                                : fmt::format("{} of {} ticks kept", kept, trace->ticks);
+    return fmt::format("{} ticks", trace->size());
   };
   return fmt::format("Golden: {}; run: {}. {}", ticks(golden), ticks(run), curves_are_thinned);
 }
@@ -80,8 +79,8 @@ std::vector<double> absorbed_energy(const std::vector<TickRecord>& trace) {
   return energy;
 }
 
-Json traces_part(const std::optional<CountedTrace>& golden, const std::optional<CountedTrace>& run,
-                 const Tolerances& tolerances) {
+Json traces_part(const std::optional<std::vector<TickRecord>>& golden,
+                 const std::optional<std::vector<TickRecord>>& run, const Tolerances& tolerances) {
   if (!golden && !run) return nullptr;
   Json part{{"kind", "traces"},
             {"title", "Force and depth over time"},
@@ -92,17 +91,17 @@ Json traces_part(const std::optional<CountedTrace>& golden, const std::optional<
               {"name", quantity.name},
               {"unit", quantity.unit},
               {"limit", quantity.limit}};
-    const auto add = [&](const char* name, const std::optional<CountedTrace>& trace) {
+    const auto add = [&](const char* name, const std::optional<std::vector<TickRecord>>& trace) {
       if (!trace) return;
-      json[name] = curve_over_time(trace->rows, trace->rows.size(),
-                                   [&](std::size_t tick) { return quantity.value(trace->rows[tick]); });
+      json[name] = curve_over_time(*trace, trace->size(),
+                                   [&](std::size_t tick) { return quantity.value((*trace)[tick]); });
     };
     add("golden", golden);
     add("run", run);
     if (golden && run) {
       json["difference"] = curve_over_time(
-          golden->rows, std::min(golden->rows.size(), run->rows.size()),
-          [&](std::size_t tick) { return quantity.difference(golden->rows[tick], run->rows[tick]); });
+          *golden, std::min(golden->size(), run->size()),
+          [&](std::size_t tick) { return quantity.difference((*golden)[tick], (*run)[tick]); });
     }
     part["quantities"].push_back(std::move(json));
   }

@@ -12,8 +12,9 @@ namespace sandstroke {
 /// depth and sand level, each with the difference run - golden over the ticks that both have (of the
 /// magnitude: the length of the difference). A trace that is missing has no curves. Only what
 /// trace_difference looks at is used.
-nlohmann::ordered_json traces_part(const std::optional<CountedTrace>& golden,
-                                   const std::optional<CountedTrace>& run, const Tolerances& tolerances);
+nlohmann::ordered_json traces_part(const std::optional<std::vector<TickRecord>>& golden,
+                                   const std::optional<std::vector<TickRecord>>& run,
+                                   const Tolerances& tolerances);
 
 /// The same of one run, and the energy that its device gave to the sand.
 nlohmann::ordered_json traces_part(const std::vector<TickRecord>& trace);

@@ -84,26 +84,27 @@ Check cell_size_check(double golden, double run) {
                      fmt::format("golden has cells of {} m, the run of {} m", golden, run));
 }
 
-std::vector<Check> trace_checks(const std::optional<CountedTrace>& golden,
-                                const std::optional<CountedTrace>& run, const Tolerances& tolerances) {
+std::vector<Check> trace_checks(const std::optional<std::vector<TickRecord>>& golden,
+                                const std::optional<std::vector<TickRecord>>& run,
+                                const Tolerances& tolerances) {
   if (!golden && !run) return {fact_check("trace", true, "neither has a trace")};
   if (!golden || !run) {
     return {fact_check("trace", false,
                        fmt::format("{} has no trace, the other one has; set output.trace alike",
                                    golden ? "the run" : "golden"))};
   }
-  Check ticks = fact_check("ticks", golden->ticks == run->ticks,
-                           fmt::format("golden has {} ticks, the run {}", golden->ticks, run->ticks));
-  ticks.measured = static_cast<double>(run->ticks);
-  ticks.limit = static_cast<double>(golden->ticks);
+  Check ticks = fact_check("ticks", golden->size() == run->size(),
+                           fmt::format("golden has {} ticks, the run {}", golden->size(), run->size()));
+  ticks.measured = static_cast<double>(run->size());
+  ticks.limit = static_cast<double>(golden->size());
 
-  const TraceDifference difference = trace_difference(golden->rows, run->rows);
+  const TraceDifference difference = trace_difference(*golden, *run);
   return {ticks,
           column_check("time", difference.time, time_limit, "s"),
           column_check("force", difference.force, tolerances.force, "N"),
           column_check("depth", difference.depth, tolerances.depth, "m"),
           column_check("level", difference.level, tolerances.depth, "m"),
-          positions_check(golden->rows, run->rows)};
+          positions_check(*golden, *run)};
 }
 
 std::vector<Check> picture_checks(const Image& golden, const Image& run, const Tolerances& tolerances) {

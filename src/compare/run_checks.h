@@ -28,15 +28,11 @@ Check height_check(const std::string& name, const HeightField& golden, const Hei
 /// Cell sizes [m]: the same up to rounding.
 Check cell_size_check(double golden, double run);
 
-/// Numbers of ticks (the same), and time, force, depth and level over the rows that both traces have. The
-/// traces may hold every n-th tick only. A trace that is missing on one side fails; on both, there is nothing
-/// to compare.
-struct CountedTrace {
-  std::size_t ticks = 0;  ///< of the whole run
-  std::vector<TickRecord> rows;
-};
-std::vector<Check> trace_checks(const std::optional<CountedTrace>& golden,
-                                const std::optional<CountedTrace>& run, const Tolerances& tolerances);
+/// Numbers of ticks (the same), and time, force, depth and level over the ticks that both traces have. A
+/// trace that is missing on one side fails; on both, there is nothing to compare.
+std::vector<Check> trace_checks(const std::optional<std::vector<TickRecord>>& golden,
+                                const std::optional<std::vector<TickRecord>>& run,
+                                const Tolerances& tolerances);
 
 /// Largest difference and share of differing pixels.
 std::vector<Check> picture_checks(const Image& golden, const Image& run, const Tolerances& tolerances);

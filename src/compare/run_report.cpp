@@ -9,6 +9,7 @@
 #include "compare/page_curves.h"
 #include "compare/page_maps.h"
 #include "compare/page_profiles.h"
+#include "compare/trace_difference.h"
 #include "io/scene_toml.h"
 
 namespace sandstroke {
@@ -22,11 +23,7 @@ void add_figure(Json& figures, const std::string& name, double value, const std:
 }
 
 Json figures_of(const std::vector<TickRecord>& trace, const std::optional<FurrowMeasures>& furrow) {
-  double force = 0.0, depth = 0.0;
-  for (const TickRecord& tick : trace) {
-    force = std::max(force, tick.device_force.norm());
-    depth = std::max(depth, tick.depth);
-  }
+  const auto [force, depth] = trace_peaks(trace);
   Json figures = Json::array();
   add_figure(figures, "Stroke", trace.back().time - trace.front().time, "s");
   add_figure(figures, "Largest force", force, "N");

@@ -4,6 +4,16 @@
 #include <cmath>
 
 namespace sandstroke {
+
+TracePeaks trace_peaks(const std::vector<TickRecord>& trace) {
+  TracePeaks peaks;
+  for (const TickRecord& tick : trace) {
+    peaks.force = std::max(peaks.force, tick.device_force.norm());
+    peaks.depth = std::max(peaks.depth, tick.depth);
+  }
+  return peaks;
+}
+
 TraceDifference trace_difference(const std::vector<TickRecord>& golden, const std::vector<TickRecord>& run) {
   const auto largest = [&](const auto& distance) {
     ColumnDifference result;

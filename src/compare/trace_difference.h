@@ -11,6 +11,13 @@ struct ColumnDifference {
   double time = 0.0;     ///< s, of that tick in the golden trace
 };
 
+/// The largest of a trace.
+struct TracePeaks {
+  double force = 0.0;  ///< N, on the device
+  double depth = 0.0;  ///< m; 0 where the tip was never below the sand
+};
+TracePeaks trace_peaks(const std::vector<TickRecord>& trace);
+
 /// Two traces, over the ticks that both have.
 struct TraceDifference {
   ColumnDifference time;   ///< s

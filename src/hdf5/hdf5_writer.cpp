@@ -142,6 +142,15 @@ void Hdf5Writer::write(const std::string& dataset, const HeightGrid& heights, Co
       {static_cast<hsize_t>(heights.rows()), static_cast<hsize_t>(heights.cols())}, heights.data(),
       compression);
 }
+void Hdf5Writer::write_whole_numbers(const std::string& dataset, const HeightGrid& numbers) {
+  constexpr hsize_t cols_per_chunk = 16384;
+  const std::vector<hsize_t> shape = {static_cast<hsize_t>(numbers.rows()),
+                                      static_cast<hsize_t>(numbers.cols())};
+  const Hdf5Handle properties =
+      dataset_properties({shape[0], std::min(shape[1], cols_per_chunk)}, Compression::small);
+  const Hdf5Handle created = create(dataset, H5T_STD_U64LE, space_of(shape), properties);
+  check(H5Dwrite(created, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, numbers.data()) >= 0, dataset);
+}
 void Hdf5Writer::write(const std::string& dataset, const std::string& text) {
   put(dataset, string_type(text.size()), {}, text.c_str());
 }

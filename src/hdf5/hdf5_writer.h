@@ -88,6 +88,8 @@ class Hdf5Writer {
   void write(const std::string& dataset, const std::vector<std::uint8_t>& values);
   void write(const std::string& dataset, const HeightGrid& heights,
              Compression compression = Compression::none);
+  /// Of few rows and many columns, small: numbers from 0 to 2^53, kept as 64-bit ones.
+  void write_whole_numbers(const std::string& dataset, const HeightGrid& numbers);
   void write(const std::string& dataset, const std::string& text);
   void write(const std::string& dataset, const std::vector<std::string>& texts);  ///< of the longest's length
 

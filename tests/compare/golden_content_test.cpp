@@ -40,7 +40,7 @@ TEST_F(GoldenContentTest, KeepsHeightsAndTraceToWithinHalfAQuantum) {
   const Hdf5Reader file(folder / "golden/dune/golden.h5");
   EXPECT_EQ(file.shape("/surface/change"), (std::vector<hsize_t>{6, 10})) << "only the cells that changed";
   ASSERT_TRUE(content.trace);
-  const std::vector<TickRecord>& rows = content.trace->rows;
+  const std::vector<TickRecord>& rows = *content.trace;
   ASSERT_EQ(rows.size(), SyntheticRun::ticks) << "every tick";
   EXPECT_TRUE(std::isnan(rows[1].level)) << "lifted";
   for (std::size_t k = 0; k < rows.size(); ++k) {
@@ -62,7 +62,7 @@ TEST_F(GoldenContentTest, KeepsEachFieldOfATickInItsPlace) {
     tick.contact = k % 20 == 0;
   }
   write_golden(folder / "golden/dune", finished());
-  const std::vector<TickRecord> rows = read_golden(entry()).trace->rows;
+  const std::vector<TickRecord> rows = *read_golden(entry()).trace;
   ASSERT_EQ(rows.size(), run.trace.size());
   for (std::size_t k = 0; k < rows.size(); ++k) {
     const TickRecord& tick = run.trace[k];
@@ -80,7 +80,7 @@ TEST_F(GoldenContentTest, TimesOfTicksWithGapsAreKeptToTheBit) {
   for (std::size_t k = 0; k < run.trace.size(); ++k, number += k % 30 == 0 ? 1'000'000'007 : 1)
     run.trace[k].time = static_cast<double>(number) / 3333.3;
   write_golden(folder / "golden/dune", finished());
-  const std::vector<TickRecord> rows = read_golden(entry()).trace->rows;
+  const std::vector<TickRecord> rows = *read_golden(entry()).trace;
   ASSERT_EQ(rows.size(), run.trace.size());
   for (std::size_t k = 0; k < rows.size(); ++k) EXPECT_EQ(rows[k].time, run.trace[k].time);
 }
