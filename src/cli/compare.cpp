@@ -100,8 +100,10 @@ void add_compare_command(CLI::App& app, Command& chosen) {
       ->type_name("FILE.h5|.png")
       ->required();
   add_tolerance_options(*command, arguments->given, false);
-  command->add_flag("--coarsen", arguments->coarsen,
-                    "Of beds over the same ground, see the finer one in means over the other's cells");
+  command->add_flag(
+      "--coarsen", arguments->coarsen,
+      "Compare beds with different cells over the same ground: average the finer one over the other's "
+      "cells");
   command
       ->add_option("--report", arguments->report,
                    "Folder for a page, compare.html: checks, maps of the difference, forces")
