@@ -10,6 +10,7 @@
 #include "compare/compare_runs.h"
 #include "compare/page_curves.h"
 #include "compare/page_maps.h"
+#include "compare/page_sand.h"
 #include "core/error.h"
 #include "report/page.h"
 
@@ -79,6 +80,16 @@ PageOfParts run_page(const RunFile& golden, const RunFile& run, const Comparison
     const RunPair pair = run_pair(golden, run, coarsen);
     return surfaces_part({"Final height", pair.golden.final(), pair.golden.initial(), pair.run.final(),
                           pair.run.initial(), tolerances.height});
+  });
+  page.add_part("Both in 3-D", [&]() -> Json {
+    const RunPair pair = run_pair(golden, run, coarsen);
+    const HeightField a = pair.golden.final(), b = pair.run.final();
+    if (a.rows() != b.rows() || a.cols() != b.cols()) return nullptr;
+    SandPart part("Both in 3-D", "The final surfaces, and how far they are apart.", a);
+    part.add(page.data["golden"].value("label", "golden"), a);
+    part.add(page.data["run"].value("label", "run"), b);
+    part.offer_difference("by the difference");
+    return part.json();
   });
   page.add_part("Traces", [&] { return traces_part(whole_trace(golden), whole_trace(run), tolerances); });
   return page;

@@ -9,6 +9,7 @@
 #include "compare/page_curves.h"
 #include "compare/page_maps.h"
 #include "compare/page_profiles.h"
+#include "compare/page_sand.h"
 #include "compare/trace_difference.h"
 #include "io/scene_toml.h"
 
@@ -50,6 +51,26 @@ Json error_part(const std::optional<ErrorEstimate>& error) {
     add_figure(figures, "Force, at most", error->force_max, "N");
   }
   return {{"kind", "figures"}, {"title", "Error estimate"}, {"text", text}, {"figures", figures}};
+}
+
+/// The initial surface, frames evenly spread over time, and the last one.
+Json sand_part(const RunFile& run, const LastSurface& last) {
+  constexpr std::size_t most_frames = 60;
+  const HeightField initial = run.initial_bed();
+  SandPart part("The sand in 3-D",
+                "The bed as it was at the start, while the tool went through it, and at the end.", initial);
+  part.add("initial surface", initial);
+  const std::vector<double> times = run.frame_times();
+  const std::size_t shown = std::min(times.size(), most_frames);
+  RunFrames frames(run);
+  for (std::size_t i = 0; i < shown; ++i) {
+    const std::size_t k = i * times.size() / shown;
+    if (times[k] > 0.0)
+      part.add(fmt::format("{:.3g} s", times[k]),
+               HeightField(frames.surface(static_cast<int>(k)), initial.cell_size()));
+  }
+  part.add(last.name, last.surface);
+  return part.json();
 }
 
 /// What hangs on the trace: curves, figures, profiles.
@@ -95,6 +116,7 @@ PageOfParts run_report(const RunFile& run, const std::function<Image(const LastS
         {{"name", "The end of the run"},
          {"sentence", fmt::format("{}: was cut off; the page shows its {}", run.name(), last.name)}});
   page.add_part("The picture", [&] { return picture_part(draw(last), last.name); });
+  page.add_part("The sand in 3-D", [&] { return sand_part(run, last); });
   add_stroke(page, run, last);
   page.data["parts"].push_back(error_part(error));
   return page;

@@ -1,35 +1,20 @@
 #include "render/shaders.h"
 
+#include "core/asset.h"
+
+SANDSTROKE_DECLARE_ASSET(sand_look);
+
 namespace sandstroke::shaders {
 namespace {
 
 constexpr const char* version = "#version 330 core\n";
 
-/// Light: all colours linear, until tone() turns them into sRGB.
-constexpr const char* light = R"(
-uniform vec3 sun_direction;
+/// Where light comes from and goes to.
+const std::string light = std::string(SANDSTROKE_ASSET(sand_look)) + R"(
 uniform vec3 eye;
 uniform vec3 forward;        // used where the camera is orthographic
 uniform bool orthographic;
-const vec3 sun_colour = vec3(1.0, 0.83, 0.60) * 3.5;
-const vec3 sky_colour = vec3(0.49, 0.55, 0.70) * 0.50;
-const vec3 bounce_colour = vec3(0.55, 0.39, 0.23) * 0.55;
-
-vec3 ambient(vec3 normal) { return mix(bounce_colour, sky_colour, 0.5 + 0.5 * normal.z); }
 vec3 to_eye(vec3 place) { return orthographic ? -forward : normalize(eye - place); }
-
-vec3 linear_from_srgb(vec3 c) { return mix(c / 12.92, pow((c + 0.055) / 1.055, vec3(2.4)), step(0.04045, c)); }
-vec3 srgb_from_linear(vec3 c) {
-  c = clamp(c, 0.0, 1.0);
-  return mix(12.92 * c, 1.055 * pow(c, vec3(1.0 / 2.4)) - 0.055, step(0.0031308, c));
-}
-// A filmic curve: straight in the middle, soft towards white, so that sunlit crests keep their colour. Exposed for
-// level ground, like a camera: as bright under a high sun as under one at 28 degrees.
-vec3 tone(vec3 c) {
-  c *= clamp(1.9 / (2.95 * sun_direction.z + 0.5), 0.5, 1.8);
-  c = c * (1.0 + c * 0.12) / (1.0 + c * 0.55);
-  return srgb_from_linear(c);
-}
 )";
 
 /// Smooth random values over the bed, anchored in metres. The same integers on every machine.
@@ -125,9 +110,6 @@ std::string sand_fragment() {
 uniform vec4 tool;           // centre and radius; radius 0 = none
 out vec4 colour;
 
-const vec3 dry_sand = vec3(0.64, 0.455, 0.265);
-const vec3 moist_sand = vec3(0.41, 0.275, 0.155);
-
 // Grains and patches: octaves of noise, each gone before a pixel covers half a wave, so that nothing shimmers.
 // x: relative change of the albedo; yz: slope of the grains.
 vec3 grain(vec2 place, float pixel) {
@@ -174,10 +156,7 @@ void main() {
   vec3 normal = normalize(vec3(-here.xy - grains.yz, 1.0));
   vec2 part = here.zw * past_tool(world, ground);
 
-  // Dug sand is moist and dark, heaped sand dry and light; both keep growing slowly with the height.
-  float heap = world.z / (abs(world.z) + 0.006);
-  vec3 albedo = mix(dry_sand, heap < 0.0 ? moist_sand : dry_sand * 1.13, abs(heap) * (heap < 0.0 ? 0.55 : 0.75));
-  albedo *= max(1.0 + grains.x, 0.1);
+  vec3 albedo = sand_albedo(world.z) * max(1.0 + grains.x, 0.1);
 
   // Light that furrow walls throw at each other makes corners less dark, and warmer.
   vec3 sky = part.y / (1.0 - albedo * (1.0 - part.y));

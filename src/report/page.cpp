@@ -30,20 +30,31 @@ SANDSTROKE_DECLARE_ASSET(parts);
 SANDSTROKE_DECLARE_ASSET(parts_style);
 SANDSTROKE_DECLARE_ASSET(compare);
 SANDSTROKE_DECLARE_ASSET(run);
+SANDSTROKE_DECLARE_ASSET(gl);
+SANDSTROKE_DECLARE_ASSET(sand);
+SANDSTROKE_DECLARE_ASSET(sand_view);
+SANDSTROKE_DECLARE_ASSET(sand_part);
+SANDSTROKE_DECLARE_ASSET(sand_style);
+SANDSTROKE_DECLARE_ASSET(sand_look);  // of picture
+SANDSTROKE_DECLARE_ASSET(live);
+SANDSTROKE_DECLARE_ASSET(live_style);
 
 namespace sandstroke {
 namespace {
 
 /// What a page has of its own.
 struct PageAssets {
-  std::vector<std::string_view> scripts;
-  std::string_view style;
+  std::vector<std::string_view> scripts, styles;
+  bool charts = true, sand = false;
 };
 
 PageAssets assets_of(PageScript script) {
   const auto of_parts = [](std::string_view own) {
-    return PageAssets{{SANDSTROKE_ASSET(maps), SANDSTROKE_ASSET(curves), SANDSTROKE_ASSET(parts), own},
-                      SANDSTROKE_ASSET(parts_style)};
+    return PageAssets{{SANDSTROKE_ASSET(maps), SANDSTROKE_ASSET(curves), SANDSTROKE_ASSET(sand_part),
+                       SANDSTROKE_ASSET(parts), own},
+                      {SANDSTROKE_ASSET(parts_style)},
+                      true,
+                      true};
   };
   switch (script) {
     case PageScript::bench:
@@ -52,13 +63,32 @@ PageAssets assets_of(PageScript script) {
       return {{SANDSTROKE_ASSET(stress)}, {}};
     case PageScript::sweep:
       return {{SANDSTROKE_ASSET(sweep_charts), SANDSTROKE_ASSET(sweep_points), SANDSTROKE_ASSET(sweep)},
-              SANDSTROKE_ASSET(sweep_style)};
+              {SANDSTROKE_ASSET(sweep_style)}};
     case PageScript::compare:
       return of_parts(SANDSTROKE_ASSET(compare));
     case PageScript::run:
       return of_parts(SANDSTROKE_ASSET(run));
+    case PageScript::live:
+      return {{SANDSTROKE_ASSET(live)}, {SANDSTROKE_ASSET(live_style)}, false, true};
   }
   return {};
+}
+
+/// The scripts of a page, in order.
+std::vector<std::string> scripts_of(const PageAssets& own) {
+  std::vector<std::string> scripts;
+  const auto add = [&scripts](std::string_view text) { scripts.emplace_back(text); };
+  if (own.charts) add(SANDSTROKE_ASSET(charts));
+  add(SANDSTROKE_ASSET(page));
+  if (own.charts) add(SANDSTROKE_ASSET(plot));
+  if (own.sand) {
+    add(fmt::format("const sandLook = {};", nlohmann::json(SANDSTROKE_ASSET(sand_look)).dump()));
+    add(SANDSTROKE_ASSET(gl));
+    add(SANDSTROKE_ASSET(sand));
+    add(SANDSTROKE_ASSET(sand_view));
+  }
+  for (const std::string_view text : own.scripts) add(text);
+  return scripts;
 }
 
 /// JSON that can stand inside a script element: "<" only occurs within strings, where an escape says the
@@ -81,17 +111,19 @@ std::string html_page(std::string_view title, PageScript script, const nlohmann:
       "initial-scale=1\">\n<meta name=\"generator\" content=\"{}\">\n<title>{}</title>\n<style>\n",
       xml_escaped(build), name);
   page += SANDSTROKE_ASSET(style);
-  page += own.style;
+  if (own.sand) page += SANDSTROKE_ASSET(sand_style);
+  for (const std::string_view style : own.styles) page += style;
   page +=
       "</style>\n</head>\n<body>\n<main id=\"page\"></main>\n<script type=\"application/json\" id=\"data\">";
   page += script_safe(data);
-  page += "</script>\n<!-- The chart library's notice and licence:\n";
-  page += SANDSTROKE_ASSET(charts_notice);
-  page += SANDSTROKE_ASSET(charts_license);
-  page += "-->\n";
-  std::vector<std::string_view> texts = own.scripts;
-  texts.insert(texts.begin(), {SANDSTROKE_ASSET(charts), SANDSTROKE_ASSET(page), SANDSTROKE_ASSET(plot)});
-  for (const std::string_view text : texts) {
+  page += "</script>\n";
+  if (own.charts) {
+    page += "<!-- The chart library's notice and licence:\n";
+    page += SANDSTROKE_ASSET(charts_notice);
+    page += SANDSTROKE_ASSET(charts_license);
+    page += "-->\n";
+  }
+  for (const std::string& text : scripts_of(own)) {
     page += "<script>\n";
     page += text;
     page += "\n</script>\n";

@@ -8,8 +8,9 @@
 
 namespace sandstroke {
 
-/// What draws a page: page.js and plot.js, which all pages share, and scripts of the page's own.
-enum class PageScript { bench, stress, sweep, compare, run };
+/// What draws a page: page.js, which all pages share, and scripts of the page's own. live: sand as it is shaped,
+/// from the server that the page came from; it has no charts.
+enum class PageScript { bench, stress, sweep, compare, run, live };
 
 /// Known by its generator.
 inline constexpr OutputKind page_output{"a page", "<!DOCTYPE html>\n",

@@ -190,6 +190,8 @@ function table(columns, rows, { label, rowClass = () => null, perPage = Infinity
 
 // ---- The page.
 
+const charts = [];  // of plot.js
+
 /** The machine and the build that measured, in a line. */
 function machineLine(machine = {}) {
   const { cpu, cores, instruction_set, compiler, version, commit } = machine;
@@ -217,7 +219,7 @@ function drawPage(draw) {
   };
   try {
     draw(JSON.parse(document.getElementById("data").textContent), main);
-    charts.filter(({ drawn }) => !drawn).forEach(drawChart);
+    charts.filter(({ drawn }) => !drawn).forEach((one) => drawChart(one));
     addEventListener("beforeprint", printing(true));
     addEventListener("afterprint", printing(false));
   } catch (error) {

@@ -1,5 +1,6 @@
 "use strict";
-// Pages that are made of parts, about one run or two: maps (maps.js), curves (curves.js), figures.
+// Pages that are made of parts, about one run or two: maps (maps.js), sand in 3-D (sand_part.js), curves (curves.js),
+// figures.
 
 const valueWithUnit = (value, unit) => format(value) + (unit === "" || unit.startsWith("/") ? "" : "\u00a0") + unit;
 
@@ -28,7 +29,7 @@ const drawFigures = ({ text, figures }) => [
 
 /** The sections of parts, each drawn by its kind: [id, title, draw]. */
 function sectionsOf(parts) {
-  const kinds = { maps: drawMaps, traces: drawTraces, profiles: drawProfiles, figures: drawFigures };
+  const kinds = { maps: drawMaps, sand: drawSand, traces: drawTraces, profiles: drawProfiles, figures: drawFigures };
   return parts.map((part, i) => [`part-${i + 1}`, part.title, () => kinds[part.kind](part)]);
 }
 

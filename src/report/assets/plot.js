@@ -130,7 +130,6 @@ function rampBar({ low, high, axis: { name, axisLabel } }, from = 0) {
 }
 
 // ---- Charts.
-const charts = [];
 
 /** The small picture beside a name: a line with its symbol, or a filled square with a sign in it. */
 function swatch({ colour, symbol, hollow, dash, fill, sign, ink }) {

@@ -1,0 +1,27 @@
+// How sand looks in the sun: for GLSL 3.30 (pictures) and GLSL ES 3.00 (pages). Colours are linear until tone().
+uniform vec3 sun_direction;
+const vec3 sun_colour = vec3(1.0, 0.83, 0.60) * 3.5;
+const vec3 sky_colour = vec3(0.49, 0.55, 0.70) * 0.50;
+const vec3 bounce_colour = vec3(0.55, 0.39, 0.23) * 0.55;
+const vec3 dry_sand = vec3(0.64, 0.455, 0.265);
+const vec3 moist_sand = vec3(0.41, 0.275, 0.155);
+
+vec3 ambient(vec3 normal) { return mix(bounce_colour, sky_colour, 0.5 + 0.5 * normal.z); }
+
+// Dug sand is moist and dark, heaped sand dry and light; both keep growing slowly with the height [m].
+vec3 sand_albedo(float height) {
+  float heap = height / (abs(height) + 0.006);
+  return mix(dry_sand, heap < 0.0 ? moist_sand : dry_sand * 1.13, abs(heap) * (heap < 0.0 ? 0.55 : 0.75));
+}
+
+vec3 srgb_from_linear(vec3 c) {
+  c = clamp(c, 0.0, 1.0);
+  return mix(12.92 * c, 1.055 * pow(c, vec3(1.0 / 2.4)) - 0.055, step(0.0031308, c));
+}
+// A filmic curve: straight in the middle, soft towards white, so that sunlit crests keep their colour. Exposed for
+// level ground, like a camera: as bright under a high sun as under one at 28 degrees.
+vec3 tone(vec3 c) {
+  c *= clamp(1.9 / (2.95 * sun_direction.z + 0.5), 0.5, 1.8);
+  c = c * (1.0 + c * 0.12) / (1.0 + c * 0.55);
+  return srgb_from_linear(c);
+}

@@ -1,0 +1,172 @@
+"use strict";
+// The live view: sand as it is shaped, from the server that the page came from, with the tool, the force on the hand
+// and how the loop keeps its times. Where the page may be the hand (a pointer), what it draws goes back.
+
+const recordBytes = { head: 64, tile: 4 + 4 * tileSide * tileSide, sample: 24 };
+const flagged = { contact: 1, placed: 2, withheld: 4 };
+
+/** What a message of the server says of the tool and the loop; numbers are as on the wire. */
+function readHead(bytes) {
+  const at = new DataView(bytes);
+  const three = (from) => [0, 4, 8].map((i) => at.getFloat32(from + i, true));
+  return { tiles: at.getUint32(4, true), time: at.getFloat64(8, true), tip: three(16), force: three(28),
+           depth: at.getFloat32(40, true), rate: at.getFloat32(44, true), lateness: at.getFloat32(48, true),
+           latest: at.getFloat32(52, true), flags: at.getUint32(56, true) };
+}
+
+/** Samples of a pointer, as they are sent. */
+function pointerBytes(samples) {
+  const bytes = new ArrayBuffer(samples.length * recordBytes.sample), at = new DataView(bytes);
+  samples.forEach(({ time, x, y, pressure, switches }, i) => {
+    const from = i * recordBytes.sample;
+    at.setFloat64(from, time, true);
+    [x, y, pressure].forEach((value, k) => at.setFloat32(from + 8 + 4 * k, value, true));
+    at.setUint32(from + 20, switches, true);
+  });
+  return bytes;
+}
+
+/** Names with numbers that change: set(values). */
+function numberTable(names) {
+  const cells = names.map(() => el("dd", {}, "–"));
+  return { element: el("dl", {}, ...names.flatMap((name, i) => [el("dt", {}, name), cells[i]])),
+           set: (values) => values.forEach((value, i) => { cells[i].textContent = value; }) };
+}
+
+const live = { view: null, hello: null, head: null, messages: 0, draws: false, depth: 0.5, ended: false };
+
+/** A button that is pressed or not; act() gives what it is then. */
+function switchButton(text, pressed, act) {
+  const button = el("button", { type: "button", "aria-pressed": String(pressed),
+                                click: () => { act(); live.view?.changed(); } }, text);
+  return button;
+}
+
+/**
+ * The pointer as a hand: while it draws, events with the main button press the tool into the sand. A pen presses as
+ * hard as it is pressed; mouse and finger by the depth chosen.
+ */
+function pointerHand(view, send, depthChanged) {
+  const sampleOf = (event, pressed) => {
+    const place = view.place(event);
+    if (!place) return null;
+    const pressure = pressed ? live.depth * (event.pointerType === "pen" ? 2 * event.pressure : 1) : 0;
+    return { time: event.timeStamp, x: place[0], y: place[1], pressure: Math.min(pressure, 1), switches: event.buttons };
+  };
+  let pressed = false, last = null;
+  return (event) => {
+    if (!live.draws || live.ended) return false;
+    if (event.type === "wheel") {
+      if (!pressed) return false;
+      live.depth = Math.min(Math.max(live.depth * Math.exp(-Math.sign(event.deltaY) * 0.1), 0.05), 1);
+      depthChanged();
+      return true;
+    }
+    if (event.type === "pointerdown") pressed = true;
+    const ends = ["pointerup", "pointercancel"].includes(event.type);
+    if (ends || (event.type === "pointerleave" && !pressed)) pressed = false;
+    const events = event.type === "pointermove" ? event.getCoalescedEvents?.() ?? [] : [];
+    const samples = (events.length ? events : [event]).map((one) => sampleOf(one, pressed)).filter(Boolean);
+    last = samples.at(-1) ?? last;
+    // Off the sand's edge it is lifted where it was last.
+    if (samples.length === 0 && last) samples.push({ ...last, time: event.timeStamp, pressure: 0 });
+    if (samples.length) send(pointerBytes(samples));
+    return true;
+  };
+}
+
+function drawLive(main) {
+  const said = el("p", { class: "said", role: "status" }), title = el("h1", {}, document.title);
+  const numbers = numberTable(["time", "depth", "force", "rate", "late", "at most"]);
+  const tools = el("div", { class: "corner tools" });
+  const place = el("div", { class: "sand" });
+  const help = el("p", { class: "corner help" }, viewHelp);
+  main.append(place);
+  place.append(el("div", { class: "corner top" }, title, said), tools,
+               el("div", { class: "corner numbers" }, numbers.element), help);
+  const socket = new WebSocket(`${location.origin.replace(/^http/, "ws")}/live${location.search}`);
+  socket.binaryType = "arraybuffer";
+  const say = (text, now = false) => {
+    said.textContent = text;
+    said.classList.toggle("now", now);
+  };
+
+  const begin = (hello) => {
+    live.hello = hello;
+    title.textContent = hello.title;
+    document.title = `${hello.title} – sand, live`;
+    const { rows, cols, cell_size: cellSize, x0, y0, low, high, pointer } = hello;
+    const span = Math.max(high - low, 0.01);
+    const view = sandView({ rows, cols, cellSize, x0, y0, low: low - span / 2, high: high + span / 2 }, "Live sand");
+    if (!view) {
+      place.prepend(el("p", { class: "warning" }, "This browser has no WebGL 2, so it shows numbers and no sand."));
+      return;
+    }
+    live.view = view;
+    place.prepend(view.canvas);
+    const colour = switchButton("Colours by height", false, view.act.colour);
+    const follow = switchButton("Follow the tool", false, view.act.follow);
+    const all = el("button", { type: "button", click: () => { view.act.all(); view.changed(); } }, "Look at all");
+    tools.append(colour, follow, all);
+    view.said = () => {   // keys change them too
+      colour.setAttribute("aria-pressed", String(view.coloured));
+      follow.setAttribute("aria-pressed", String(view.follows));
+    };
+    if (!pointer) return;
+    live.draws = true;
+    const depth = el("input", { type: "range", min: 0.05, max: 1, step: 0.01, value: live.depth,
+                                "aria-label": "depth of the tool",
+                                input: (event) => { live.depth = Number(event.target.value); } });
+    const draw = switchButton("Draw", true, () => {
+      live.draws = !live.draws;
+      draw.setAttribute("aria-pressed", String(live.draws));
+      view.canvas.classList.toggle("draws", live.draws);
+    });
+    view.canvas.classList.add("draws");
+    tools.append(el("br"), draw, el("label", {}, "Depth", depth));
+    help.prepend("Press and draw in the sand. The right button turns the view; the wheel, while you press, sets the depth. ");
+    view.drawing = pointerHand(view, (bytes) => socket.readyState === 1 && socket.send(bytes),
+                               () => { depth.value = live.depth; });
+    view.canvas.addEventListener("keydown", (event) => {
+      if (event.key.toLowerCase() === "d") draw.click();
+    });
+  };
+
+  const takePicture = (bytes) => {
+    const head = readHead(bytes), { view } = live;
+    live.head = head;
+    live.messages += 1;
+    const { flags, force, depth } = head, newtons = lengthOf(force);
+    numbers.set([`${head.time.toFixed(2)} s`, Number.isFinite(depth) ? `${withMinus((1e3 * depth).toFixed(2))} mm` : "–",
+                 `${newtons.toFixed(2)} N`, `${head.rate.toFixed(0)} Hz`, `${(1e6 * head.lateness).toFixed(0)} µs`,
+                 `${(1e6 * head.latest).toFixed(0)} µs`]);
+    if (!view) return;
+    for (let i = 0, at = recordBytes.head; i < head.tiles; i += 1, at += recordBytes.tile)
+      view.picture.setTile(new DataView(bytes).getUint32(at, true),
+                           new Float32Array(bytes, at + 4, tileSide * tileSide));
+    const { tool, max_force: most } = live.hello;
+    const long = (0.25 * view.picture.size) / (most > 0 && most < 1e3 ? most : 10);
+    view.tool = flags & flagged.placed
+      ? { tip: head.tip, radius: tool.radius, force: force.map((x) => x * long) } : null;
+    view.changed();
+  };
+
+  socket.onmessage = ({ data }) => {
+    if (typeof data !== "string") return takePicture(data);
+    const { hello, status, end, drawing } = JSON.parse(data);
+    if (hello) begin(hello);
+    if (status !== undefined) say(status, status !== "");
+    if (drawing === false && live.hello?.pointer) say("another page is the hand; this one watches");
+    if (drawing === true) say("");
+    if (end !== undefined) {
+      live.ended = true;
+      say(`It has ended: ${end}.`);
+    }
+  };
+  socket.onclose = () => {
+    if (!live.ended) say("The connection is closed: the command has ended, or cannot be reached.", true);
+    live.ended = true;
+  };
+}
+
+drawPage((data, main) => drawLive(main));
