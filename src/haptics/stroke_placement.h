@@ -36,6 +36,7 @@ struct PointPlacement {
   Eigen::Vector3d position_back(const Eigen::Vector3d& placed) const {
     return axes.transpose() * (turn.transpose() * (placed - shift)) / scale;
   }
+  Eigen::Vector3d force(const Eigen::Vector3d& force) const { return turn * (axes * force); }
   /// A force on the bed's axes, on those of the stroke's frame.
   Eigen::Vector3d force_back(const Eigen::Vector3d& force) const {
     return axes.transpose() * (turn.transpose() * force);
