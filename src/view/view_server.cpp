@@ -293,7 +293,7 @@ class ViewServer::Implementation {
       for (const std::shared_ptr<Page>& page : shared_->pages) page->send_texts();
     });
     thread_.join();
-    shared_->pages.clear();
+    for (const std::shared_ptr<Page>& page : std::vector(shared_->pages)) page->gone();
   }
 
   int port() const { return port_; }
