@@ -23,7 +23,7 @@ std::unique_ptr<HapticDevice> make_chai3d_device(int) {
 #endif
 
 [[noreturn]] void throw_no_such_device(const std::string& name) {
-  std::string known = "scripted:FILE.toml, replay:FILE.h5";
+  std::string known = "pointer, scripted:FILE.toml, replay:FILE.h5";
   for (const ConnectedDevice& device : connected_devices())
     known += fmt::format(", {} ({})", device.name, device.specification.model);
   throw_input_error("--device {}: unknown device; take one of: {}{}", name, known,

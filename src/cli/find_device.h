@@ -15,6 +15,9 @@ namespace sandstroke {
 /// is not open yet. Error: input, listing what there is; io where a file cannot be read.
 std::unique_ptr<HapticDevice> find_device(const std::string& name, const ForceSettings& force);
 
+/// The device that a page of `record --view` is; it is made with the view, not by find_device().
+inline constexpr const char* pointer_name = "pointer";
+
 /// The file that the device of a name plays; empty: none.
 std::filesystem::path file_played(const std::string& name);
 

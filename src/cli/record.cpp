@@ -1,12 +1,16 @@
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
+#include <cmath>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "cli/commands.h"
 #include "cli/find_device.h"
 #include "cli/record_display.h"
 #include "cli/record_parts.h"
+#include "cli/record_view.h"
 #include "cli/stop_keys.h"
 #include "core/error.h"
 #include "core/interrupt.h"
@@ -31,6 +35,7 @@ struct RecordArguments {
   double rate = 0.0;      // Hz; 0: not given
   int stop_switch = -1;   // not given
   bool list = false, check = false, no_memory_lock = false, json = false;
+  bool view = false, no_open = false;
 };
 
 // Hz. Slower, the watchdog would take every tick for a stall; faster, no device is.
@@ -53,6 +58,7 @@ RecorderSettings recorder_settings(const RecordArguments& arguments, const std::
   settings.servo.rate = servo_rate(arguments, felt);
   if (arguments.duration > 0.0) settings.servo.duration = arguments.duration;
   if (arguments.stop_switch >= 0) settings.servo.stop_switch = arguments.stop_switch;
+  if (arguments.view) settings.watch = 1.0 / 60.0;
   settings.lock_memory = !arguments.no_memory_lock;
   if (!felt) settings.servo.force.max_force = 0.0;  // nothing is felt
   return settings;
@@ -70,15 +76,19 @@ std::vector<fs::path> inputs(const RecordArguments& arguments, const std::option
 }
 
 RecordingReport record_stroke(HapticDevice& device, FeltWorld* world, const RecorderSettings& settings,
-                              RecordingHeader header, const fs::path& output) {
+                              RecordingHeader header, const fs::path& output, RecordView* view) {
   catch_all_interrupts();
   StopKeys keys;
   RecordDisplay display(keys.listening() ? "; q ends it" : "");
-  return record(device, world, settings, std::move(header), journal_path(output),
-                [&](const ServoProgress& progress) -> std::optional<StopReason> {
-                  display.show(progress);
-                  return keys.pressed() ? std::optional(StopReason::key) : std::nullopt;
-                });
+  double shown = -1.0;  // s
+  return record(
+      device, world, settings, std::move(header), journal_path(output),
+      [&](const ServoProgress& progress) -> std::optional<StopReason> {
+        if (view) view->show(progress);
+        if (std::exchange(shown, std::floor(10.0 * progress.time)) != std::floor(10.0 * progress.time))
+          display.show(progress);
+        return keys.pressed() ? std::optional(StopReason::key) : std::nullopt;
+      });
 }
 
 /// The journal goes once the stroke is whole, or where there is nothing in it.
@@ -120,6 +130,19 @@ int exit_code(StopReason reason) {
   return static_cast<int>(reason == StopReason::no_number ? ErrorKind::unstable : ErrorKind::io);
 }
 
+/// The device named. start: the felt scene's bed, which a pointer needs; none: nothing is felt.
+std::unique_ptr<HapticDevice> named_device(const RecordArguments& arguments, const std::optional<Scene>& felt,
+                                           const std::optional<HeightField>& start, LoopClock& clock) {
+  if (arguments.device != pointer_name)
+    return find_device(arguments.device, felt ? felt->force : ForceSettings{});
+  return std::make_unique<PointerDevice>(*felt, *start, clock);
+}
+
+/// N: on the hand, at most.
+double largest_force(const RecorderSettings& settings, const HapticDevice& device, const Scene& felt) {
+  return std::min({settings.servo.force.max_force, device.specification().max_force, felt.device.max_force});
+}
+
 int record(const RecordArguments& arguments) {
   if ((arguments.list || arguments.check) &&
       !(arguments.output.empty() && arguments.device.empty() && arguments.felt_scene.empty()))
@@ -130,27 +153,41 @@ int record(const RecordArguments& arguments) {
     throw_input_error(
         "record needs -o STROKE.h5 and --device NAME; sandstroke record --list names the devices");
 
+  if (arguments.view && arguments.felt_scene.empty())
+    throw_input_error(
+        "record --view and --device pointer show and shape the sand of a scene; name it with --feel "
+        "SCENE.toml");
+
   std::optional<Scene> felt;
   if (!arguments.felt_scene.empty()) felt = load_scene(arguments.felt_scene, arguments.overrides);
   const RecorderSettings settings = recorder_settings(arguments, felt);
   check_output(arguments.output, inputs(arguments, felt), recording_output);
   check_no_journal(journal_path(arguments.output));
-  const std::unique_ptr<HapticDevice> device =
-      find_device(arguments.device, felt ? felt->force : ForceSettings{});
+  MonotonicClock clock;
+  std::optional<HeightField> bed;
+  if (felt) bed = load_surface(felt->bed, fs::path(arguments.felt_scene).parent_path());
+  const std::unique_ptr<HapticDevice> device = named_device(arguments, felt, bed, clock);
   RecordingHeader header;
   header.source = arguments.device;
+  std::optional<RecordView> view;
   std::optional<LiveSand> sand;
   if (felt) {
-    const fs::path folder = fs::path(arguments.felt_scene).parent_path();
-    sand.emplace(*felt, load_surface(felt->bed, folder), device->specification().frame);
+    sand.emplace(*felt, *bed, device->specification().frame);
     header.felt_scene = scene_text(*felt);
+    if (arguments.view) {
+      view.emplace(fs::path(arguments.output).filename().string(), *felt, *bed,
+                   largest_force(settings, *device, *felt), dynamic_cast<PointerDevice*>(device.get()),
+                   !arguments.no_open);
+      view->follow(*sand);
+    }
     sand->start();
   }
-  const RecordingReport report =
-      record_stroke(*device, sand ? &*sand : nullptr, settings, std::move(header), arguments.output);
+  const RecordingReport report = record_stroke(*device, sand ? &*sand : nullptr, settings, std::move(header),
+                                               arguments.output, view ? &*view : nullptr);
   write_stroke(arguments.output, report.footer);
   std::optional<LiveSandReport> felt_sand;
   if (sand) felt_sand = sand->finish();
+  if (view) view->end(stop_reason_text(report.footer.reason));
   print_recording(report, felt_sand, arguments.output, arguments.json);
   warn(report, arguments.output);
   if (felt_sand && felt_sand->contact_ticks == 0)
@@ -207,8 +244,9 @@ void add_record_command(CLI::App& app, Command& chosen) {
       ->option_text("STROKE.h5");
   command
       ->add_option("--device", arguments->device,
-                   "chai3d, chai3d:N, scripted:FILE.toml or replay:FILE.h5 (see --list)")
-      ->type_name("{chai3d,replay:,scripted:}")
+                   "chai3d, chai3d:N, pointer, scripted:FILE.toml or replay:FILE.h5 (see --list). pointer is "
+                   "the mouse, pen or finger in the page of --view; it needs --feel")
+      ->type_name("{chai3d,pointer,replay:,scripted:}")
       ->option_text("NAME");
   auto* list = command->add_flag("--list", arguments->list, "List devices and stand-ins");
   auto* check = command->add_flag(
@@ -231,6 +269,10 @@ void add_record_command(CLI::App& app, Command& chosen) {
       ->check(CLI::Range(0, 31))
       ->option_text("K");
   add_force_options(*command, *arguments);
+  command->add_flag("--view", arguments->view,
+                    "Show the sand of --feel live in a browser. The address is printed, and opened where "
+                    "there is a desktop");
+  command->add_flag("--no-open", arguments->no_open, "Print the address of --view, but do not open it");
   command->add_flag("--calibrate", settings.calibrate,
                     "Calibrate the device first. THIS MAY MOVE ITS ARM: keep clear");
   command
@@ -246,8 +288,12 @@ void add_record_command(CLI::App& app, Command& chosen) {
       "If anything else ends it, such as Ctrl-C, it is kept and marked incomplete.\n"
       "After kill -9 or a power failure it is in STROKE.h5.recording.\n"
       "Save it with: sandstroke stroke repair STROKE.h5\n"
-      "Example:  sandstroke record --device scripted:strokes/wscg/stroke.toml -o hand.h5");
-  command->callback([arguments, &chosen] { chosen = [arguments] { return record(*arguments); }; });
+      "Examples:  sandstroke record --device scripted:strokes/wscg/stroke.toml -o hand.h5\n"
+      "           sandstroke record --device pointer --feel strokes/wscg/scene.toml -o hand.h5");
+  command->callback([arguments, &chosen] {
+    if (arguments->device == pointer_name) arguments->view = true;
+    chosen = [arguments] { return record(*arguments); };
+  });
 }
 
 }  // namespace sandstroke

@@ -6,11 +6,7 @@ namespace sandstroke {
 
 void RecordDisplay::show(const ServoProgress& now) {
   if (!line_.visible()) return;
-  last_second_.push_back(now);
-  while (last_second_.size() > 2 && now.time - last_second_[1].time >= 1.0) last_second_.pop_front();
-  const ServoProgress& before = last_second_.front();
-  const double seconds = now.time - before.time;
-  const double rate = seconds > 0.0 ? static_cast<double>(now.recorded - before.recorded) / seconds : 0.0;
+  const double rate = rate_.at(now.time, static_cast<double>(now.recorded));
   line_.draw(fmt::format("record {:.1f} s, {:.0f} Hz, {:.2f} N, {:.0f} us late ({:.0f} at most){}", now.time,
                          rate, now.force, 1e6 * now.lateness, 1e6 * now.max_lateness, keys_));
 }

@@ -1,7 +1,8 @@
 #pragma once
 
-#include <deque>
+#include <string>
 
+#include "cli/recent_rate.h"
 #include "core/status_line.h"
 #include "record/servo_loop.h"
 
@@ -17,7 +18,7 @@ class RecordDisplay {
  private:
   StatusLine line_;
   std::string keys_;
-  std::deque<ServoProgress> last_second_;
+  RecentRate rate_;
 };
 
 }  // namespace sandstroke

@@ -10,6 +10,7 @@
 #include "cli/print_json.h"
 #include "cli/print_row.h"
 #include "cli/run_picture.h"
+#include "cli/run_view.h"
 #include "core/error.h"
 #include "core/interrupt.h"
 #include "core/log.h"
@@ -37,6 +38,7 @@ struct RunArguments {
   int threads = 0;
   std::string estimate_error;  // coarser, finer or empty
   bool error_map = false;
+  bool view = false, no_open = false;
   bool json = false;
 };
 
@@ -197,7 +199,13 @@ int run(const RunArguments& arguments) {
   if (!arguments.estimate_error.empty())
     options.second = arguments.estimate_error == second_solution_names.back() ? SecondSolution::finer
                                                                               : SecondSolution::coarser;
+  std::optional<RunView> view;
+  if (arguments.view)
+    options.onlooker = [&](const Simulation& simulation) -> SimulationObserver& {
+      return view.emplace(simulation, fs::path(output).filename().string(), !arguments.no_open);
+    };
   const RunResult result = run_scene(scene, output, options);
+  if (view) view->end(result.interrupted ? "the run was interrupted" : "the run is complete");
 
   const std::string written = result.interrupted ? part_path(output).string() : output;
   if (arguments.json) {
@@ -211,6 +219,10 @@ int run(const RunArguments& arguments) {
     if (!arguments.json) print_row("picture", arguments.picture);
   }
   warn_of(result, scene);
+  if (view && view->lag())
+    spdlog::warn(
+        "the run was up to {:.2f} s behind real time; its result is the same. Fewer bed.cells are faster",
+        *view->lag());
   if (!result.relaxation.converged) return static_cast<int>(ErrorKind::unstable);
   if (options.second && !result.error)  // the run is complete, the estimate is not
     return interrupted() ? 128 + interrupted() : static_cast<int>(ErrorKind::unstable);
@@ -251,6 +263,12 @@ void add_run_command(CLI::App& app, Command& chosen) {
           ->check(CLI::IsMember(second_solution_names));
   command->add_flag("--error-map", arguments->error_map, "Keep the estimated error of each cell's height too")
       ->needs(estimate);
+  auto* shown =
+      command->add_flag("--view", arguments->view,
+                        "Play the stroke in real time and show the sand live in a browser. The address is "
+                        "printed, and opened where there is a desktop. The result is the same");
+  command->add_flag("--no-open", arguments->no_open, "Print the address of --view, but do not open it")
+      ->needs(shown);
   command->add_flag("--json", arguments->json, "Print the summary as one JSON object");
   command->footer(
       "Example:  sandstroke run strokes/wscg/scene.toml -o wscg.h5 --png wscg.png\n"

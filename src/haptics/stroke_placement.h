@@ -32,6 +32,11 @@ struct PointPlacement {
   Eigen::Vector3d shift = Eigen::Vector3d::Zero();     ///< m
 
   Eigen::Vector3d position(const Eigen::Vector3d& p) const { return turn * (scale * (axes * p)) + shift; }
+  /// The point that is placed there.
+  Eigen::Vector3d position_back(const Eigen::Vector3d& placed) const {
+    return axes.transpose() * (turn.transpose() * (placed - shift)) / scale;
+  }
+  Eigen::Vector3d force(const Eigen::Vector3d& force) const { return turn * (axes * force); }
   /// A force on the bed's axes, on those of the stroke's frame.
   Eigen::Vector3d force_back(const Eigen::Vector3d& force) const {
     return axes.transpose() * (turn.transpose() * force);

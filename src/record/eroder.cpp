@@ -96,6 +96,7 @@ void Eroder::run() {
     } else if (slip_is_due()) {
       relax();
     }
+    if (onlooker_) onlooker_(replica_.bed());
     std::this_thread::sleep_for(std::min(due - now(), travel_ > 0.0 ? longest_look : longest_wait));
   }
 }

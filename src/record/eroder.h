@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <exception>
+#include <functional>
 #include <memory>
 #include <thread>
 
@@ -38,6 +39,8 @@ class Eroder {
          PlaceRing& places, SandRing& slipped, std::unique_ptr<Relaxer> relaxer = nullptr);
   ~Eroder() { stop(); }
 
+  /// Is shown the bed in that thread after every turn. Before start().
+  void show_to(std::function<void(const HeightField&)> onlooker) { onlooker_ = std::move(onlooker); }
   /// In a thread of its own, settings.rate times a second and by the tool's way, or, where that takes longer,
   /// one after the other. Sand that has far to go does so in several turns. What was dug is taken 60 times a
   /// second at least.
@@ -73,6 +76,7 @@ class Eroder {
   SandRing& slipped_;
   std::vector<SandChange> held_;  // could not be given before the stop
   std::atomic<bool> stopping_ = true;
+  std::function<void(const HeightField&)> onlooker_;
   ErosionReport report_;
   std::exception_ptr failure_;  // the thread's while it runs
   std::thread thread_;

@@ -80,7 +80,7 @@ std::size_t LiveSand::changes_of_move(const Eigen::Vector3d& tip) const {
 
 FeltForce LiveSand::feel(double time, const DeviceReading& reading) noexcept {
   take_slipped(most_taken);
-  const Eigen::Vector3d tip = tip_of(device_, placement_.position(reading.position));
+  const Eigen::Vector3d tip = this->tip(reading.position);
   if (readings_ > 0 && time - past(readings_ - 1).time > gap_threshold) {
     sand_.lift();
     readings_ = 0;
@@ -102,6 +102,8 @@ FeltForce LiveSand::feel(double time, const DeviceReading& reading) noexcept {
     ++report_.held_ticks;
   }
   places_.push({tip, interaction.contact});  // where the ring is full the eroder knows an older one
+  depth_.store(interaction.contact ? interaction.depth : std::numeric_limits<double>::quiet_NaN(),
+               std::memory_order_relaxed);
   if (interaction.contact) {
     ++report_.contact_ticks;
     felt.force = placement_.force_back(sand_force(interaction.depth, speed, device_.max_force, force_).total);

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <array>
+#include <atomic>
+#include <limits>
 #include <string>
 
 #include "haptics/stroke_placement.h"
@@ -41,6 +43,8 @@ class LiveSand : public FeltWorld {
   /// for memory.
   LiveSand(const Scene& scene, const HeightField& bed, const std::string& frame);
 
+  /// Is shown the eroding bed, in the thread that erodes. Before start().
+  void show_to(std::function<void(const HeightField&)> onlooker) { eroder_.show_to(std::move(onlooker)); }
   /// Starts eroding; the recording is about to begin.
   void start() { eroder_.start(); }
   FeltForce feel(double time, const DeviceReading& reading) noexcept override;
@@ -50,6 +54,14 @@ class LiveSand : public FeltWorld {
 
   /// Lets sand slip once, where it was not started: for a loop whose time is not the wall's.
   void erode() { eroder_.turn(); }
+  /// Where the tip is in the bed [m], of a device's position.
+  Eigen::Vector3d tip(const Eigen::Vector3d& position) const {
+    return tip_of(device_, placement_.position(position));
+  }
+  /// On the bed's axes [N], of a force in the device's frame.
+  Eigen::Vector3d force_on_bed(const Eigen::Vector3d& force) const { return placement_.force(force); }
+  /// Of the tip in the sand [m] when it was last felt, NaN: it was above. From any thread.
+  double depth() const { return depth_.load(std::memory_order_relaxed); }
   /// As the hand feels it.
   const HeightField& bed() const { return replica_.bed(); }
   /// As it erodes.
@@ -77,7 +89,8 @@ class LiveSand : public FeltWorld {
   Eroder eroder_;
   SandSide sand_;
   std::array<Past, velocity_window> past_;
-  std::int64_t readings_ = 0;  // since the tool was lifted
+  std::int64_t readings_ = 0;                                             // since the tool was lifted
+  std::atomic<double> depth_ = std::numeric_limits<double>::quiet_NaN();  // m
   LiveSandReport report_;
 };
 

@@ -34,8 +34,8 @@ void LoopThread::start() {
   go_.set_value();
 }
 
-void LoopThread::watch(const RecordingWatcher& watcher) {
-  while (footer_.wait_for(std::chrono::milliseconds(100)) != std::future_status::ready) {
+void LoopThread::watch(const RecordingWatcher& watcher, double interval) {
+  while (footer_.wait_for(std::chrono::duration<double>(interval)) != std::future_status::ready) {
     if (interrupted()) loop_.stop(StopReason::signal);
     if (!watcher) continue;
     if (const std::optional<StopReason> reason = watcher(loop_.progress())) loop_.stop(*reason);

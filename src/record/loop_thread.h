@@ -9,7 +9,7 @@
 
 namespace sandstroke {
 
-/// Called about ten times a second in the thread that records, which is not the loop's: to show where it is,
+/// Called over and over in the thread that records, which is not the loop's: to show where it is,
 /// and to ask whether to stop.
 using RecordingWatcher = std::function<std::optional<StopReason>(const ServoProgress&)>;
 
@@ -24,8 +24,9 @@ class LoopThread {
   const Scheduling& scheduling() const { return scheduling_; }
   /// After an interrupt the loop ends before its first tick.
   void start();
-  /// Until the loop is over, or the watcher throws. Interrupts (core/interrupt.h) stop the loop.
-  void watch(const RecordingWatcher& watcher);
+  /// Until the loop is over, or the watcher throws, which is called every `interval` [s]. Interrupts
+  /// (core/interrupt.h) stop the loop.
+  void watch(const RecordingWatcher& watcher, double interval = 0.1);
   /// Waits for the loop's end. Once.
   RecordingFooter footer() { return footer_.get(); }
 

@@ -73,7 +73,7 @@ RecordingReport record(HapticDevice& device, FeltWorld* world, const RecorderSet
   thread.start();
   std::exception_ptr failure;
   try {
-    thread.watch(watcher);
+    thread.watch(watcher, settings.watch);
   } catch (...) {
     failure = std::current_exception();
     loop.stop(StopReason::error);

@@ -12,6 +12,7 @@ struct RecorderSettings {
   bool lock_memory = true;
   double watchdog = 0.1;   ///< s, where a force may be given; else a loop that stood still just goes on
   double ring = 10.0;      ///< s of samples that the disk may be behind
+  double watch = 0.1;      ///< s between two calls of the watcher
   bool calibrate = false;  ///< may move the arm
 };
 

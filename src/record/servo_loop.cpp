@@ -78,9 +78,18 @@ void ServoLoop::stop(StopReason reason) noexcept {
 }
 
 ServoProgress ServoLoop::progress() const noexcept {
-  return {to_seconds(time_.load(relaxed)), elapsed_.load(relaxed),
-          recorded_.load(relaxed),         force_.load(relaxed),
-          to_seconds(late_.load(relaxed)), to_seconds(max_late_.load(relaxed))};
+  const auto vector = [](const std::array<std::atomic<double>, 3>& axes) {
+    return Vector3d(axes[0].load(relaxed), axes[1].load(relaxed), axes[2].load(relaxed));
+  };
+  return {.time = to_seconds(time_.load(relaxed)),
+          .elapsed = elapsed_.load(relaxed),
+          .recorded = recorded_.load(relaxed),
+          .force = force_.load(relaxed),
+          .lateness = to_seconds(late_.load(relaxed)),
+          .max_lateness = to_seconds(max_late_.load(relaxed)),
+          .position = vector(seen_position_),
+          .held = vector(seen_force_),
+          .read = seen_read_.load(relaxed)};
 }
 
 /// From the tick's number, not from the tick before: nothing adds up where a tick is no whole number of
@@ -98,7 +107,9 @@ std::int64_t ServoLoop::wait_for_tick() noexcept {
 void ServoLoop::serve_tick(std::int64_t now) noexcept {
   DeviceReading reading;
   bool answers = false;
-  if (read(to_seconds(now - start_), reading)) {
+  read_ = read(to_seconds(now - start_), reading);
+  if (read_) {
+    position_ = reading.position;
     FeltForce given = feel(now, reading);
     if (stopped()) given.force.setZero();  // perhaps for a call that hung: its force is of another time
     answers = command(given.force);
@@ -166,6 +177,11 @@ void ServoLoop::publish(std::int64_t now) noexcept {
   elapsed_.store(ticks_.elapsed, relaxed);
   recorded_.store(ticks_.recorded, relaxed);
   force_.store(held_.norm(), relaxed);
+  for (int axis = 0; axis < 3; ++axis) {
+    seen_position_[axis].store(position_[axis], relaxed);
+    seen_force_[axis].store(held_[axis], relaxed);
+  }
+  seen_read_.store(read_, relaxed);
 }
 
 }  // namespace sandstroke

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <optional>
 
@@ -31,6 +32,10 @@ struct ServoProgress {
   double force = 0.0;     ///< N, magnitude commanded last
   double lateness = 0.0;  ///< s, of the last tick
   double max_lateness = 0.0;
+  // Not of one tick, each axis by itself: for who shows them.
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< m, as read last, in the device's frame
+  Eigen::Vector3d held = Eigen::Vector3d::Zero();      ///< N, commanded last, in the device's frame
+  bool read = false;                                   ///< the device gave a position in the last tick
 };
 
 /// The 1 kHz loop: at absolute times, reads the device, feels, commands, and puts a sample into the ring.
@@ -86,10 +91,12 @@ class ServoLoop {
   std::optional<StopSwitch> stop_switch_;
 
   // The loop's own while it runs:
-  std::int64_t start_ = 0;                          // ns
-  Fault silent_, wrong_;                            // the device, the world
-  std::uint64_t expected_ = 0;                      // sequence number, where nothing is missing
-  Eigen::Vector3d held_ = Eigen::Vector3d::Zero();  // N, by the device
+  std::int64_t start_ = 0;                              // ns
+  Fault silent_, wrong_;                                // the device, the world
+  std::uint64_t expected_ = 0;                          // sequence number, where nothing is missing
+  Eigen::Vector3d held_ = Eigen::Vector3d::Zero();      // N, by the device
+  Eigen::Vector3d position_ = Eigen::Vector3d::Zero();  // m, as read last
+  bool read_ = false;                                   // in this tick
   TickCounts ticks_;
   LatenessHistogram lateness_;
 
@@ -99,6 +106,8 @@ class ServoLoop {
   std::atomic<std::int64_t> heartbeat_{0};
   std::atomic<std::int64_t> elapsed_{0}, recorded_{0}, time_{0}, late_{0}, max_late_{0};  // ns from time_ on
   std::atomic<double> force_{0.0};
+  std::array<std::atomic<double>, 3> seen_position_{}, seen_force_{};  // m, N
+  std::atomic<bool> seen_read_{false};
 };
 
 }  // namespace sandstroke

@@ -120,6 +120,7 @@ RunResult run_scene(const Scene& asked, const std::filesystem::path& output, con
   if (options.progress) observers.push_back(&bar.emplace());
   if (stroke && !stroke->force.empty()) observers.push_back(&recorded_force.emplace(*stroke));
   if (options.second) observers.push_back(&force);
+  if (options.onlooker) observers.push_back(&options.onlooker(simulation));
   RunResult result = simulation.run(observers);
   result.threads = threads;
   if (recorded_force) result.recorded_force = recorded_force->difference();

@@ -1,11 +1,13 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 
 #include "sim/error_estimate.h"
 #include "sim/run_result.h"
 #include "sim/scene.h"
+#include "sim/simulation.h"
 
 namespace sandstroke {
 
@@ -15,7 +17,9 @@ struct RunOptions {
   int threads = 0;                           ///< 0: all cores
   bool progress = false;                     ///< a bar on the terminal
   std::optional<SecondSolution> second;      ///< estimate the error, from this
-  bool error_map = false;                    ///< and keep the error of each cell's height
+  /// Who else is told of the simulation that is about to run; none: nobody. It outlives the run.
+  std::function<SimulationObserver&(const Simulation&)> onlooker;
+  bool error_map = false;  ///< and keep the error of each cell's height
 };
 
 /// What /provenance/scene_file says: where the scene lies, seen from the run's folder, so that both can be

@@ -58,6 +58,8 @@ class HeightField : public BedGeometry {
   }
 
   const SurfaceRule& untouched() const { return *untouched_; }
+  /// The same bed with no tile allocated: as its rule says throughout.
+  HeightField untouched_bed() const { return {rows(), cols(), cell_size(), untouched_}; }
 
   // --- allocated tiles ---
   int allocated_tiles() const { return static_cast<int>(tiles_.size()); }

@@ -1,0 +1,37 @@
+#include "cli/announce_view.h"
+
+#include <spdlog/fmt/fmt.h>
+#include <spdlog/spdlog.h>
+
+#include <cstdio>
+#include <cstdlib>
+
+#include "core/error.h"
+
+namespace sandstroke {
+namespace {
+
+bool is_set(const char* variable) {
+  const char* value = std::getenv(variable);
+  return value && *value != '\0';
+}
+
+bool has_desktop() { return (is_set("DISPLAY") || is_set("WAYLAND_DISPLAY")) && !is_set("CI"); }
+
+}  // namespace
+
+std::optional<FedChild> announce_view(const ViewServer& server, bool opens) {
+  fmt::print(stderr, "view: {}\n", server.address());
+  fmt::print(stderr, "from another machine: ssh -L {0}:127.0.0.1:{0} HOST, then open that address there\n",
+             server.port());
+  std::fflush(stderr);
+  if (!opens || !has_desktop()) return std::nullopt;
+  try {
+    return FedChild::start({"xdg-open", server.address()});
+  } catch (const Error& failure) {
+    spdlog::warn("the view was not opened: {}", failure.what());
+    return std::nullopt;
+  }
+}
+
+}  // namespace sandstroke

@@ -1,0 +1,48 @@
+#include "cli/record_view.h"
+
+#include <cmath>
+
+#include "cli/view_page.h"
+
+namespace sandstroke {
+namespace {
+
+ViewHello hello_of(const std::string& title, const Scene& scene, const HeightField& start, double max_force,
+                   const PointerDevice* pointer) {
+  return {title,      start,     height_range(start),
+          scene.tool, max_force, pointer ? std::optional(pointer->scale()) : std::nullopt};
+}
+
+}  // namespace
+
+RecordView::RecordView(const std::string& title, const Scene& scene, const HeightField& start,
+                       double max_force, PointerDevice* pointer, bool opens)
+    : bed_(start),
+      server_({bed_, state_, hello_of(title, scene, start, max_force, pointer), view_page(title), pointer}),
+      browser_(announce_view(server_, opens)) {}
+
+void RecordView::follow(LiveSand& sand) {
+  sand_ = &sand;
+  sand.show_to([this](const HeightField& bed) { bed_.publish(bed); });
+}
+
+void RecordView::show(const ServoProgress& progress) {
+  ViewState state;
+  state.time = progress.time;
+  state.tip = sand_->tip(progress.position);
+  state.force = sand_->force_on_bed(progress.held);
+  state.depth = sand_->depth();
+  state.rate = rate_.at(progress.time, static_cast<double>(progress.recorded));
+  state.lateness = progress.lateness;
+  state.max_lateness = progress.max_lateness;
+  state.tip_known = progress.read;
+  state.contact = !std::isnan(state.depth);
+  state_.publish(state);
+}
+
+void RecordView::end(const std::string& reason) {
+  bed_.publish(sand_->eroding_bed());
+  server_.end(reason);
+}
+
+}  // namespace sandstroke

@@ -1,0 +1,81 @@
+#include "cli/run_view.h"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <thread>
+
+#include "cli/view_page.h"
+#include "core/interrupt.h"
+
+namespace sandstroke {
+namespace {
+
+constexpr double picture_interval = 1.0 / 60.0, late = 0.25, nearly_in_time = 0.05;  // s
+
+void sleep(double seconds) { std::this_thread::sleep_for(std::chrono::duration<double>(seconds)); }
+
+}  // namespace
+
+RunView::RunView(const Simulation& simulation, const std::string& title, bool opens)
+    : simulation_(simulation),
+      bed_(simulation.bed()),
+      server_({bed_, shown_,
+               ViewHello{title, simulation.bed(), height_range(simulation.bed()), simulation.scene().tool,
+                         simulation.scene().device.max_force, std::nullopt},
+               view_page(title)}),
+      browser_(announce_view(server_, opens)) {
+  fmt::print(stderr, "the run begins when the page is open\n");
+  while (server_.pages() == 0 && !interrupted()) sleep(picture_interval);
+}
+
+void RunView::on_tick(const TickRecord& tick) {
+  if (!clock_) clock_.emplace();
+  const bool due = tick.time - published_ >= picture_interval;
+  const double wait = tick.time - clock_->seconds();
+  if (wait > 0.0) wait_until(tick.time);
+  state_.lateness = std::max(-wait, 0.0);
+  state_.max_lateness = std::max(state_.max_lateness, state_.lateness);
+  ++ticks_;
+  if (due || clock_->seconds() - published_at_ >= picture_interval) publish(tick);
+}
+
+/// Idle ticks are not told, so it may be long.
+void RunView::wait_until(double time) {
+  for (double left; !interrupted() && (left = time - clock_->seconds()) > 0.0;) {
+    sleep(std::min(left, picture_interval));
+    if (left <= picture_interval) continue;
+    state_.time = clock_->seconds();
+    shown_.publish(state_);
+  }
+}
+
+void RunView::publish(const TickRecord& tick) {
+  const DeviceSettings& device = simulation_.scene().device;
+  published_ = tick.time;
+  published_at_ = clock_->seconds();
+  state_.time = tick.time;
+  state_.tip = tip_of(device, tick.device_position);
+  state_.force = tick.device_force;
+  state_.depth = tick.contact ? tick.depth : std::numeric_limits<double>::quiet_NaN();
+  state_.rate = rate_.at(published_at_, static_cast<double>(ticks_));
+  state_.contact = tick.contact;
+  state_.tip_known = tick.hand.down;
+  shown_.publish(state_);
+  if (state_.lateness > late) shown_.say("the run is slower than real time");
+  if (state_.lateness < nearly_in_time) shown_.say("");
+  bed_.publish(simulation_.bed());
+}
+
+std::optional<double> RunView::lag() const {
+  return state_.max_lateness > late ? std::optional(state_.max_lateness) : std::nullopt;
+}
+
+void RunView::publish_bed() {
+  if (playing_) return;
+  bed_.publish(simulation_.bed());
+}
+
+}  // namespace sandstroke

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <optional>
+
+#include "cli/announce_view.h"
+#include "cli/recent_rate.h"
+#include "core/stopwatch.h"
+#include "sim/simulation.h"
+#include "view/view_server.h"
+
+namespace sandstroke {
+
+/// A run whose stroke is played in real time before pages (`run --view`): it begins when the first page is
+/// open, and its ticks wait for the wall clock, which changes none of its bits. Until the run is over it
+/// looks at the simulation.
+class RunView : public SimulationObserver {
+ public:
+  /// Waits for a page, or an interrupt. Error: input, for a bed that is too large; io.
+  RunView(const Simulation& simulation, const std::string& title, bool opens);
+
+  void on_tick(const TickRecord& tick) override;
+  void on_relaxation(const RelaxationRecord&) override { publish_bed(); }
+  void on_pass(std::int64_t) override { publish_bed(); }
+  void on_progress(double fraction) override { playing_ = fraction < 1.0; }
+
+  /// How far it was behind real time at worst, if by more than a quarter of a second [s].
+  std::optional<double> lag() const;
+  void end(const std::string& reason) { server_.end(reason); }
+
+ private:
+  void wait_until(double time);
+  void publish(const TickRecord& tick);
+  /// After the stroke, when nothing waits for the clock.
+  void publish_bed();
+
+  const Simulation& simulation_;
+  LiveBed bed_;
+  LiveState shown_;
+  ViewServer server_;
+  std::optional<FedChild> browser_;
+  ViewState state_;
+  RecentRate rate_;
+  std::optional<Stopwatch> clock_;                 // from the first tick on
+  double published_ = -1.0, published_at_ = -1.0;  // s, of the stroke and on the clock
+  std::int64_t ticks_ = 0;
+  bool playing_ = true;
+};
+
+}  // namespace sandstroke

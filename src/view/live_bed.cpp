@@ -1,0 +1,98 @@
+#include "view/live_bed.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+#include "core/error.h"
+
+namespace sandstroke {
+namespace {
+
+constexpr double most_cells_seen = 4096.0 * 4096.0;
+
+void copy_inside(const double* from, const CellRange& cells, float* to) {
+  for (int row = 0; row < cells.rows(); ++row)
+    for (int col = 0; col < cells.cols(); ++col) {
+      const int at = row * BedGeometry::tile_side + col;
+      to[at] = static_cast<float>(from[at]);
+    }
+}
+
+}  // namespace
+
+LiveBed::LiveBed(const HeightField& bed) : BedGeometry(bed), untouched_(bed.untouched_bed()) {
+  if (static_cast<double>(bed.rows()) * bed.cols() > most_cells_seen)
+    throw_input_error(
+        "bed.cells = [{}, {}]: --view shows up to 4096 x 4096 cells; take fewer, or leave it out", bed.cols(),
+        bed.rows());
+  const auto tiles = static_cast<std::size_t>(tile_count());
+  published_.resize(tiles, HeightField::new_tile_revision);
+  versions_.resize(tiles, 1);
+  heights_.resize(tiles);
+  publish(bed);
+}
+
+void LiveBed::publish(const HeightField& bed) {
+  for (int slot = 0; slot < bed.allocated_tiles(); ++slot) {
+    const int tile = bed.tile_of(slot);
+    const std::uint64_t revision = bed.tile_revision(tile);
+    if (revision == published_[tile]) continue;
+    published_[tile] = revision;
+    const std::lock_guard lock(mutex_);
+    if (!heights_[tile]) heights_[tile] = std::make_unique<float[]>(tile_area);
+    copy_inside(bed.tile_heights(slot), tile_cells(tile), heights_[tile].get());
+    ++versions_[tile];
+  }
+}
+
+void LiveBed::copy_tile(int tile, float* out) {
+  std::array<double, tile_area> rule;
+  untouched_.read_tile(tile, rule.data());
+  copy_inside(rule.data(), tile_cells(tile), out);
+}
+
+void LiveBed::take_newer(Reader& reader, Tiles& tiles) {
+  tiles.index.clear();
+  tiles.heights.clear();
+  reader.versions.resize(static_cast<std::size_t>(tile_count()), 0);
+  const int first = reader.next;
+  for (int step = 0; step < tile_count() && tiles.index.size() < most_tiles; ++step) {
+    const int tile = (first + step) % tile_count();
+    std::unique_lock lock(mutex_);
+    if (reader.versions[tile] == versions_[tile]) continue;
+    reader.versions[tile] = versions_[tile];
+    const std::size_t begin = tiles.heights.size();
+    tiles.index.push_back(tile);
+    tiles.heights.resize(begin + tile_area);
+    if (heights_[tile]) {
+      std::copy_n(heights_[tile].get(), tile_area, &tiles.heights[begin]);
+    } else {
+      lock.unlock();
+      copy_tile(tile, &tiles.heights[begin]);
+    }
+    reader.next = (tile + 1) % tile_count();
+  }
+}
+
+bool LiveBed::has_newer(const Reader& reader) {
+  const std::lock_guard lock(mutex_);
+  return reader.versions != versions_;
+}
+
+HeightRange height_range(const HeightField& bed) {
+  HeightRange range{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+  std::array<double, BedGeometry::tile_area> heights;
+  for (int tile = 0; tile < bed.tile_count(); ++tile) {
+    bed.read_tile(tile, heights.data());
+    const CellRange cells = bed.tile_cells(tile);
+    for (int row = 0; row < cells.rows(); ++row) {
+      const double* begin = heights.data() + row * BedGeometry::tile_side;
+      const auto [low, high] = std::minmax_element(begin, begin + cells.cols());
+      range = {std::min(range.low, *low), std::max(range.high, *high)};
+    }
+  }
+  return range;
+}
+
+}  // namespace sandstroke

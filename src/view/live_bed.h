@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include "sand/height_field.h"
+
+namespace sandstroke {
+
+/// The newest heights of a bed [m] as 32-bit floats, tile by tile, each with a version: published by one
+/// thread while others read. Neither waits longer for the other than a tile's copy takes. Tiles that nothing
+/// has touched take no memory.
+class LiveBed : public BedGeometry {
+ public:
+  /// Tiles that a reader gets at once, at most.
+  static constexpr std::size_t most_tiles = 64;
+
+  /// What a reader has: versions by tile, and where it looks next, so that no tile has to wait for ever.
+  struct Reader {
+    std::vector<std::uint64_t> versions;
+    int next = 0;
+  };
+  /// Some tiles: tile_area heights of each, row-major; those outside the bed are 0.
+  struct Tiles {
+    std::vector<int> index;
+    std::vector<float> heights;
+  };
+
+  /// As `bed` is now. Error: input, where it is too large for a page: more than 4096 x 4096 cells.
+  explicit LiveBed(const HeightField& bed);
+
+  /// Takes the tiles of this bed, or of a copy of it, that changed since the last time. By one thread.
+  void publish(const HeightField& bed);
+  /// The tiles that this reader has not in their newest version.
+  void take_newer(Reader& reader, Tiles& tiles);
+  /// Whether there are any.
+  bool has_newer(const Reader& reader);
+
+ private:
+  void copy_tile(int tile, float* out);
+
+  HeightField untouched_;                          // what tiles are that nothing has touched
+  std::vector<std::uint64_t> published_;           // revisions, by tile; the publisher's own
+  std::mutex mutex_;                               // of what follows
+  std::vector<std::uint64_t> versions_;            // by tile, from 1
+  std::vector<std::unique_ptr<float[]>> heights_;  // by tile; none: untouched
+};
+
+/// The lowest and the highest of a bed [m].
+struct HeightRange {
+  double low = 0.0, high = 0.0;
+};
+HeightRange height_range(const HeightField& bed);
+
+}  // namespace sandstroke

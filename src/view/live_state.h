@@ -1,0 +1,57 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <limits>
+#include <mutex>
+#include <string>
+
+namespace sandstroke {
+
+/// What a page shows beside the sand.
+struct ViewState {
+  double time = 0.0;                                        ///< s
+  Eigen::Vector3d tip = Eigen::Vector3d::Zero();            ///< m, in the bed
+  Eigen::Vector3d force = Eigen::Vector3d::Zero();          ///< N, on the bed's axes
+  double depth = std::numeric_limits<double>::quiet_NaN();  ///< m, of the tip in the sand; NaN: none
+  double rate = 0.0;                                        ///< Hz, reached
+  double lateness = 0.0, max_lateness = 0.0;                ///< s
+  bool contact = false;
+  bool tip_known = false;
+  bool force_held_back = false;  ///< until the tool has been above the sand
+};
+
+/// The newest of it, from who knows to who shows; not for the servo loop, for it locks.
+class LiveState {
+ public:
+  void publish(const ViewState& state) {
+    const std::lock_guard lock(mutex_);
+    state_ = state;
+    ++version_;
+  }
+  /// A sentence for people; empty: nothing to say.
+  void say(std::string status) {
+    const std::lock_guard lock(mutex_);
+    status_ = std::move(status);
+  }
+  /// The state, where it is newer than `version`, which becomes its own. False: it is not.
+  bool take_newer(std::uint64_t& version, ViewState& state) const {
+    const std::lock_guard lock(mutex_);
+    const bool newer = version != version_;
+    version = version_;
+    state = state_;
+    return newer;
+  }
+  std::string status() const {
+    const std::lock_guard lock(mutex_);
+    return status_;
+  }
+
+ private:
+  mutable std::mutex mutex_;
+  ViewState state_;
+  std::uint64_t version_ = 1;
+  std::string status_;
+};
+
+}  // namespace sandstroke

@@ -1,0 +1,110 @@
+#include "view/messages.h"
+
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <nlohmann/json.hpp>
+
+namespace sandstroke {
+namespace {
+
+using nlohmann::ordered_json;
+
+static_assert(std::endian::native == std::endian::little, "numbers go into messages as they are");
+
+constexpr std::uint32_t picture_signature = 0x444e4153;  // "SAND"
+
+template <class Number>
+void put(std::string& message, Number number) {
+  message.append(reinterpret_cast<const char*>(&number), sizeof number);
+}
+
+void put_vector(std::string& message, const Eigen::Vector3d& vector) {
+  for (int axis = 0; axis < 3; ++axis) put(message, static_cast<float>(vector[axis]));
+}
+
+template <class Number>
+Number get(const char*& at) {
+  Number number;
+  std::memcpy(&number, at, sizeof number);
+  at += sizeof number;
+  return number;
+}
+
+/// Names of files may be no UTF-8: what is not is replaced.
+std::string text_of(const ordered_json& json) {
+  return json.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
+}
+
+}  // namespace
+
+std::string hello_message(const ViewHello& hello) {
+  ordered_json pointer;
+  if (hello.pointer)
+    pointer = {{"depth", hello.pointer->depth},
+               {"radius", hello.pointer->radius},
+               {"clearance", hello.pointer->clearance}};
+  const ordered_json tool = {{"shape", "sphere"},
+                             {"radius", hello.tool.radius},
+                             {"profile", hello.tool.profile == ToolProfile::paper ? "paper" : "sphere"},
+                             {"solid", hello.tool.solid}};
+  const ordered_json said = {{"title", hello.title},
+                             {"rows", hello.bed.rows()},
+                             {"cols", hello.bed.cols()},
+                             {"cell_size", hello.bed.cell_size()},
+                             {"tile_side", BedGeometry::tile_side},
+                             {"x0", hello.bed.x_of(0)},
+                             {"y0", hello.bed.y_of(0)},
+                             {"low", hello.heights.low},
+                             {"high", hello.heights.high},
+                             {"tool", tool},
+                             {"max_force", hello.max_force},
+                             {"pointer", pointer}};
+  return text_of({{"hello", said}});
+}
+
+std::string status_message(std::string_view text) { return text_of({{"status", text}}); }
+
+std::string drawing_message(bool drawing) { return text_of({{"drawing", drawing}}); }
+
+std::string end_message(std::string_view reason) { return text_of({{"end", reason}}); }
+
+void put_picture(const ViewState& state, const LiveBed::Tiles& tiles, std::string& message) {
+  message.clear();
+  put(message, picture_signature);
+  put(message, static_cast<std::uint32_t>(tiles.index.size()));
+  put(message, state.time);
+  put_vector(message, state.tip);
+  put_vector(message, state.force);
+  for (const double number : {state.depth, state.rate, state.lateness, state.max_lateness})
+    put(message, static_cast<float>(number));
+  const unsigned flags =
+      (state.contact ? 1u : 0u) | (state.tip_known ? 2u : 0u) | (state.force_held_back ? 4u : 0u);
+  put(message, std::uint32_t{flags});
+  put(message, std::uint32_t{0});
+  for (std::size_t i = 0; i < tiles.index.size(); ++i) {
+    put(message, static_cast<std::uint32_t>(tiles.index[i]));
+    message.append(reinterpret_cast<const char*>(&tiles.heights[i * BedGeometry::tile_area]),
+                   sizeof(float) * BedGeometry::tile_area);
+  }
+}
+
+std::optional<std::vector<PointerSample>> pointer_samples(std::string_view message) {
+  if (message.empty() || message.size() > most_message_bytes || message.size() % pointer_sample_bytes != 0)
+    return std::nullopt;
+  std::vector<PointerSample> samples(message.size() / pointer_sample_bytes);
+  const char* at = message.data();
+  for (PointerSample& sample : samples) {
+    sample.time = get<double>(at);
+    sample.x = get<float>(at);
+    sample.y = get<float>(at);
+    sample.pressure = get<float>(at);
+    sample.switches = get<std::uint32_t>(at);
+    if (!std::isfinite(sample.time) || !std::isfinite(sample.x) || !std::isfinite(sample.y) ||
+        !std::isfinite(sample.pressure))
+      return std::nullopt;
+  }
+  return samples;
+}
+
+}  // namespace sandstroke

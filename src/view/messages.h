@@ -1,0 +1,60 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "sand/tool_footprint.h"
+#include "view/live_bed.h"
+#include "view/live_state.h"
+
+namespace sandstroke {
+
+// What server and page tell each other through a WebSocket. Numbers are little-endian.
+
+/// How a pointer in a page is the hand.
+struct PointerScale {
+  double depth = 0.0;      ///< m below the surface at the start, at full pressure
+  double radius = 0.0;     ///< m, of the tool
+  double clearance = 0.0;  ///< m above the highest sand at the start, where it is lifted
+};
+
+/// What a page has to know before the first picture.
+struct ViewHello {
+  std::string title;
+  BedGeometry bed;
+  HeightRange heights;  ///< at the start
+  ToolSettings tool;
+  double max_force = 0.0;               ///< N
+  std::optional<PointerScale> pointer;  ///< none: pages only watch
+};
+
+/// One place of a pointer.
+struct PointerSample {
+  double time = 0.0;   ///< ms, on the page's own clock
+  float x = 0, y = 0;  ///< m, in the bed
+  float pressure = 0;  ///< 0 = lifted, up to 1
+  std::uint32_t switches = 0;
+};
+
+// To the page, as JSON:
+std::string hello_message(const ViewHello& hello);
+std::string status_message(std::string_view text);
+/// drawing: this page's pointer is the hand.
+std::string drawing_message(bool drawing);
+std::string end_message(std::string_view reason);
+
+// To the page, in binary:
+inline constexpr std::size_t picture_header_bytes = 64;
+/// Into `message`, whose memory is used again.
+void put_picture(const ViewState& state, const LiveBed::Tiles& tiles, std::string& message);
+
+// From the page, in binary:
+inline constexpr std::size_t pointer_sample_bytes = 24;
+inline constexpr std::size_t most_message_bytes = 8192;  ///< from a page
+/// None where it is no message of whole samples, all of finite numbers.
+std::optional<std::vector<PointerSample>> pointer_samples(std::string_view message);
+
+}  // namespace sandstroke

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <span>
+
+#include "view/messages.h"
+
+namespace sandstroke {
+
+/// Whom a pointer in a page moves. Called by the server's thread.
+class PointerSink {
+ public:
+  virtual ~PointerSink() = default;
+  /// Samples that came just now from the page whose pointer is the hand.
+  virtual void take(std::span<const PointerSample> samples) = 0;
+  /// That page is gone.
+  virtual void leave() = 0;
+};
+
+}  // namespace sandstroke
