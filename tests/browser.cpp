@@ -10,6 +10,8 @@
 #include <array>
 #include <cctype>
 #include <chrono>
+#include <cstdint>
+#include <cstring>
 #include <fstream>
 #include <map>
 #include <sstream>
@@ -177,6 +179,10 @@ Json Browser::call(const std::string& method, const Json& parameters) {
 }
 
 void Browser::open(const std::filesystem::path& file) {
+  open_address("file://" + std::filesystem::absolute(file).lexically_normal().string());
+}
+
+void Browser::open_address(const std::string& address) {
   session_.clear();
   if (!target_.empty()) {
     call("Target.closeTarget", {{"targetId", target_}});
@@ -189,9 +195,8 @@ void Browser::open(const std::filesystem::path& file) {
   session_ = call("Target.attachToTarget", {{"targetId", target_}, {"flatten", true}})["sessionId"];
   for (const char* domain : {"Page", "Runtime", "Log"}) call(domain + std::string(".enable"));
   call("Emulation.setFocusEmulationEnabled", {{"enabled", true}});
-  const Json opened = call(
-      "Page.navigate", {{"url", "file://" + std::filesystem::absolute(file).lexically_normal().string()}});
-  require(!opened.contains("errorText"), file.string() + ": " + opened.value("errorText", ""));
+  const Json opened = call("Page.navigate", {{"url", address}});
+  require(!opened.contains("errorText"), address + ": " + opened.value("errorText", ""));
   while (!loaded_) note_event(next_message());
   wait_for("document.documentElement.dataset.ready === 'true'");
 }
@@ -199,6 +204,21 @@ void Browser::open(const std::filesystem::path& file) {
 void Browser::open_text(const std::string& page) {
   std::ofstream(folder_ / "page.html") << page;
   open(folder_ / "page.html");
+}
+
+std::string Browser::screenshot() {
+  const std::string text = call("Page.captureScreenshot", {{"format", "png"}})["data"];
+  std::string bytes;
+  std::uint32_t bits = 0;
+  int known = 0;
+  for (const char c : text) {  // base64, RFC 4648
+    const char* const alphabet = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    const char* const at = std::strchr(alphabet, c);
+    if (c == '=' || !at) break;
+    bits = bits << 6 | static_cast<std::uint32_t>(at - alphabet);
+    if ((known += 6) >= 8) bytes += static_cast<char>(bits >> (known -= 8) & 255u);
+  }
+  return bytes;
 }
 
 Json Browser::evaluate(const std::string& expression) {
@@ -248,11 +268,18 @@ void Browser::hover(Point at) { mouse("mouseMoved", at, 0); }
 
 void Browser::click(Point at) { drag(at, at); }
 
-void Browser::drag(Point from, Point to) {
+void Browser::drag(Point from, Point to, int steps, double rate) {
+  const auto pause = [rate] {
+    if (rate > 0.0) std::this_thread::sleep_for(std::chrono::duration<double>(1.0 / rate));
+  };
   mouse("mouseMoved", from, 0);
+  pause();
   mouse("mousePressed", from, 1);
-  for (int step = 1; step <= 8 && (to.x != from.x || to.y != from.y); ++step)
-    mouse("mouseMoved", {from.x + (to.x - from.x) * step / 8, from.y + (to.y - from.y) * step / 8}, 1);
+  for (int step = 1; step <= steps && (to.x != from.x || to.y != from.y); ++step) {
+    pause();
+    mouse("mouseMoved", {from.x + (to.x - from.x) * step / steps, from.y + (to.y - from.y) * step / steps}, 1);
+  }
+  pause();
   mouse("mouseReleased", to, 0);
 }
 

@@ -31,6 +31,11 @@ class Browser {
   /// before, and waits until it says that it is drawn: <html data-ready="true">.
   void open(const std::filesystem::path& file);
   void open_text(const std::string& page);
+  /// The same for a page that a server has.
+  void open_address(const std::string& address);
+
+  /// What the window shows, as a PNG file's bytes.
+  std::string screenshot();
 
   /// The value of a JavaScript expression, as JSON; a promise is awaited. What scripts declared is in sight.
   nlohmann::ordered_json evaluate(const std::string& expression);
@@ -45,7 +50,8 @@ class Browser {
   void click(Point at);
   void hover(const std::string& selector) { hover(centre(selector)); }
   void hover(Point at);
-  void drag(Point from, Point to);
+  /// In so many steps; rate [1/s] of them: as a hand does; 0: at once.
+  void drag(Point from, Point to, int steps = 8, double rate = 0.0);
 
   // With the keyboard, at what has the focus.
   /// One key: a character, or by name as in KeyboardEvent.key (Tab, Enter, ArrowDown, Space, ...); after

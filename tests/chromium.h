@@ -16,9 +16,11 @@
 namespace sandstroke {
 
 /// Starts headless Chromium. The pages are ours and read nothing else: no sandbox, which root (as in CI)
-/// could not have. To it come --user-data-dir, --window-size and what is to be done.
+/// could not have; WebGL is drawn by the processor. To it come --user-data-dir, --window-size and what is to
+/// be done.
 inline const std::string chromium_command =
-    "chromium --headless --no-sandbox --disable-gpu --disable-dev-shm-usage --disable-quic --no-first-run "
+    "chromium --headless --no-sandbox --disable-gpu --enable-unsafe-swiftshader --disable-dev-shm-usage "
+    "--disable-quic --no-first-run "
     "--disable-background-networking --disable-component-update --disable-sync";
 
 /// What headless Chromium made of a page.

@@ -57,6 +57,7 @@ RecorderSettings recorder_settings(const RecordArguments& arguments, const std::
   RecorderSettings settings = arguments.settings;
   settings.servo.rate = servo_rate(arguments, felt);
   if (arguments.duration > 0.0) settings.servo.duration = arguments.duration;
+  if (arguments.device == pointer_name) settings.servo.stop_switch = PointerDevice::finish_switch;
   if (arguments.stop_switch >= 0) settings.servo.stop_switch = arguments.stop_switch;
   if (arguments.view) settings.watch = 1.0 / 60.0;
   settings.lock_memory = !arguments.no_memory_lock;

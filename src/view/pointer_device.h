@@ -46,6 +46,8 @@ class PointerDevice : public HapticDevice, public PointerSink {
   /// 2.4 samples at 60 Hz: a slope needs the sample after the next.
   static constexpr std::int64_t latency = 40'000'000;          // ns
   static constexpr std::int64_t sample_interval = 16'666'667;  // ns
+  /// What the page's button "Finish" presses.
+  static constexpr int finish_switch = 31;
 
   /// start: the bed before anything touches it. clock: of the servo loop.
   PointerDevice(const Scene& scene, const HeightField& start, LoopClock& clock);

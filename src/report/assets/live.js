@@ -35,10 +35,12 @@ function numberTable(names) {
 
 const live = { view: null, hello: null, head: null, messages: 0, draws: false, depth: 0.5, ended: false };
 
-/** A button that is pressed or not; act() gives what it is then. */
+/** A button that is pressed or not, as act() says. */
 function switchButton(text, pressed, act) {
-  const button = el("button", { type: "button", "aria-pressed": String(pressed),
-                                click: () => { act(); live.view?.changed(); } }, text);
+  const button = el("button", { type: "button", "aria-pressed": String(pressed), click: () => {
+    button.setAttribute("aria-pressed", String(act()));
+    live.view.changed();
+  } }, text);
   return button;
 }
 
@@ -54,7 +56,7 @@ function pointerHand(view, send, depthChanged) {
     return { time: event.timeStamp, x: place[0], y: place[1], pressure: Math.min(pressure, 1), switches: event.buttons };
   };
   let pressed = false, last = null;
-  return (event) => {
+  const hand = (event) => {
     if (!live.draws || live.ended) return false;
     if (event.type === "wheel") {
       if (!pressed) return false;
@@ -73,6 +75,12 @@ function pointerHand(view, send, depthChanged) {
     if (samples.length) send(pointerBytes(samples));
     return true;
   };
+  /** Lifts the tool and presses the switch that ends the recording. */
+  const finish = () => {
+    const { x, y } = last ?? { x: 0, y: 0 };
+    send(pointerBytes([{ time: performance.now(), x, y, pressure: 0, switches: 2 ** 31 }]));
+  };
+  return { hand, finish };
 }
 
 function drawLive(main) {
@@ -108,7 +116,7 @@ function drawLive(main) {
     const follow = switchButton("Follow the tool", false, view.act.follow);
     const all = el("button", { type: "button", click: () => { view.act.all(); view.changed(); } }, "Look at all");
     tools.append(colour, follow, all);
-    view.said = () => {   // keys change them too
+    view.acted = () => {   // by a key, too
       colour.setAttribute("aria-pressed", String(view.coloured));
       follow.setAttribute("aria-pressed", String(view.follows));
     };
@@ -119,14 +127,15 @@ function drawLive(main) {
                                 input: (event) => { live.depth = Number(event.target.value); } });
     const draw = switchButton("Draw", true, () => {
       live.draws = !live.draws;
-      draw.setAttribute("aria-pressed", String(live.draws));
-      view.canvas.classList.toggle("draws", live.draws);
+      return view.canvas.classList.toggle("draws", live.draws);
     });
     view.canvas.classList.add("draws");
-    tools.append(el("br"), draw, el("label", {}, "Depth", depth));
+    const { hand, finish } = pointerHand(view, (bytes) => socket.readyState === 1 && socket.send(bytes),
+                                         () => { depth.value = live.depth; });
+    tools.append(el("br"), draw, el("label", {}, "Depth", depth),
+                 el("button", { type: "button", class: "finish", click: finish }, "Finish"));
     help.prepend("Press and draw in the sand. The right button turns the view; the wheel, while you press, sets the depth. ");
-    view.drawing = pointerHand(view, (bytes) => socket.readyState === 1 && socket.send(bytes),
-                               () => { depth.value = live.depth; });
+    view.drawing = hand;
     view.canvas.addEventListener("keydown", (event) => {
       if (event.key.toLowerCase() === "d") draw.click();
     });

@@ -95,9 +95,13 @@ function sandView(bed, label) {
   };
   view.drawNow = drawNow;
   view.act = {
-    colour: () => { view.coloured = !view.coloured; },
-    follow: () => { view.follows = !view.follows; },
-    all: () => { view.follows = false; camera.reset(); },
+    colour: () => (view.coloured = !view.coloured),
+    follow: () => (view.follows = !view.follows),
+    all: () => {
+      view.follows = false;
+      camera.reset();
+      view.acted?.();
+    },
   };
 
   // ---- The pointer. The place is where a ray through it meets the sand.
@@ -127,7 +131,7 @@ function sandView(bed, label) {
   canvas.addEventListener("pointerdown", (event) => {
     canvas.focus({ preventScroll: true });
     event.preventDefault();
-    canvas.setPointerCapture(event.pointerId);
+    canvas.setPointerCapture(event.pointerId);  // until it is up, wherever it goes
     if (event.button === 0 && !event.shiftKey && held.size === 0 && view.drawing?.(event)) return;
     held.set(event.pointerId, { x: event.clientX, y: event.clientY, shifts: event.button === 1 });
   });
@@ -153,14 +157,15 @@ function sandView(bed, label) {
   canvas.addEventListener("keydown", (event) => {
     if (event.ctrlKey || event.metaKey || event.altKey) return;
     const turn = turns[event.key];
-    const actions = { c: view.act.colour, f: view.act.follow, Home: view.act.all, "+": () => camera.zoom(0.85),
-                      "=": () => camera.zoom(0.85), "-": () => camera.zoom(1 / 0.85) };
+    const { colour, follow, all } = view.act, closer = () => camera.zoom(0.85), away = () => camera.zoom(1 / 0.85);
+    const act = { c: colour, f: follow, Home: all, "+": closer, "=": closer, "-": away }[
+      event.key.length === 1 ? event.key.toLowerCase() : event.key];
     if (turn && event.shiftKey) camera.shift(-0.05 * turn[0], -0.05 * turn[1]);
     else if (turn) camera.turn(0.1 * turn[0], 0.1 * turn[1]);
-    else if (actions[event.key.length === 1 ? event.key.toLowerCase() : event.key])
-      actions[event.key.length === 1 ? event.key.toLowerCase() : event.key]();
+    else if (act) act();
     else return;
     event.preventDefault();
+    view.acted?.();
     view.changed();
   });
   new ResizeObserver(view.changed).observe(canvas);

@@ -1,0 +1,144 @@
+// The live view in a real browser, used by mouse and keyboard.
+#include <gtest/gtest.h>
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "browser.h"
+#include "cli/viewed_program.h"
+#include "io/last_surface.h"
+#include "io/png_file.h"
+#include "io/stroke_file.h"
+
+namespace sandstroke {
+namespace {
+
+namespace fs = std::filesystem;
+
+class CliLivePage : public BrowserTest {
+ protected:
+  /// Opens the view of a program and waits for the first sand.
+  void open(const Viewed& program) {
+    browser().open_address(program.address());
+    browser().wait_for("live.view !== null && live.messages > 0");
+  }
+  /// Where a place of the bed [m] is in the window.
+  Point seen(double x, double y, double z = 0.0) {
+    const nlohmann::json at = browser().evaluate(fmt::format(
+        "(() => {{ const box = live.view.canvas.getBoundingClientRect(), {{ width, height }} = box, "
+        "aspect = width / height, camera = live.view.camera.of(aspect), "
+        "from = plus([{}, {}, {}], camera.eye, -1), deep = dot(from, camera.forward); "
+        "return [box.left + width / 2 * (1 + dot(from, camera.right) / (deep * camera.tan * aspect)), "
+        "box.top + height / 2 * (1 - dot(from, camera.up) / (deep * camera.tan))]; }})()",
+        x, y, z));
+    return {at[0], at[1]};
+  }
+  Image picture() {
+    const fs::path file = test_folder_ / "window.png";
+    std::ofstream(file, std::ios::binary) << browser().screenshot();
+    return read_png(file);
+  }
+  static int brightness(const Image& image, Point at) {
+    const std::uint8_t* pixel = image.pixel(static_cast<int>(at.x), static_cast<int>(at.y));
+    return pixel[0] + pixel[1] + pixel[2];
+  }
+  /// The newest picture is on the screen, in full.
+  void settle() {
+    browser().evaluate(
+        "new Promise((done) => { live.view.drawNow(); requestAnimationFrame(() => "
+        "requestAnimationFrame(() => done(1))); })");
+  }
+  const fs::path test_folder_ = test_folder();
+};
+
+TEST_F(CliLivePage, ShowsTheFurrowWhereTheStrokeWentAndTurnsByMouseAndKeys) {
+  Viewed program({"record", "--device", "scripted:line.toml", "--feel", "scene.toml", "--view", "--no-open",
+                  "-o", "a.h5"},
+                 test_folder_);
+  open(program);
+  browser().wait_for("live.ended");
+  EXPECT_EQ(program.end().exit_code, 0);
+  // From above, without the tool: the furrow along x is darker where it faces away from the sun.
+  browser().evaluate("(() => { const view = live.view; view.tool = null; view.camera.turn(0, 2); })()");
+  settle();
+  const Image window = picture();
+  const auto contrast = [&](double x) {  // across the stroke
+    int dark = 1000, light = 0;
+    for (double y = -0.012; y <= 0.012; y += 0.001) {
+      const int here = brightness(window, seen(x, y));
+      dark = std::min(dark, here), light = std::max(light, here);
+    }
+    return light - dark;
+  };
+  EXPECT_GT(contrast(0.0), 120);  // in the stroke
+  EXPECT_LT(contrast(0.09), 60);  // beyond its end
+  // What the page knows is what was recorded: deeper than 2 mm in the middle, level far away.
+  EXPECT_LT(browser().evaluate("(() => { const { heights } = live.view.picture, { rows, cols } = live.hello; "
+                               "return heights[Math.floor(rows / 2) * cols + Math.floor(cols / 2)]; })()"),
+            -0.002);
+
+  const auto azimuth = [&] { return browser().evaluate("live.view.camera.state.azimuth").get<double>(); };
+  const double before = azimuth();
+  const Point middle = browser().centre("canvas");
+  browser().drag(middle, {middle.x + 100, middle.y});
+  const double dragged = azimuth();
+  EXPECT_LT(dragged, before);  // the sand follows the hand
+  browser().press("ArrowLeft");
+  EXPECT_GT(azimuth(), dragged);
+  const double distance = browser().evaluate("live.view.camera.state.distance");
+  browser().press("+");
+  EXPECT_LT(browser().evaluate("live.view.camera.state.distance"), distance);
+  browser().press("Home");
+  EXPECT_DOUBLE_EQ(azimuth(), browser().evaluate("(-70 * Math.PI) / 180").get<double>());
+  // Colours by height: by key, and the button says so.
+  const Image sand = picture();
+  browser().press("c");
+  settle();
+  EXPECT_EQ(browser().evaluate("document.querySelector('.tools button').getAttribute('aria-pressed')"),
+            "true");
+  EXPECT_NE(picture().rgb, sand.rgb);
+  EXPECT_TRUE(browser().errors().empty()) << browser().errors().front();
+}
+
+TEST_F(CliLivePage, AMouseDrawsAStrokeWhoseRunIsWhatWasSeen) {
+  const std::vector<std::string> firm = {"--set", "relaxation.talus_angle=85", "--set", "relaxation.rate=0"};
+  std::vector<std::string> arguments = {"record", "--device", "pointer",   "--feel", "scene.toml",
+                                        "-o",     "hand.h5",  "--no-open", "--json"};
+  arguments.insert(arguments.end(), firm.begin(), firm.end());
+  Viewed program(arguments, test_folder_);
+  open(program);
+  const Point from = seen(-0.04, 0.0), to = seen(0.04, 0.0);
+  browser().drag(from, to, 40, 60.0);
+  browser().click(".finish");
+  browser().wait_for("live.ended");
+  const ProgramResult recorded = program.end();
+  ASSERT_EQ(recorded.exit_code, 0) << recorded.err;
+  const nlohmann::json seen_heights =
+      browser().evaluate("Array.from(live.view.picture.heights, (height) => Math.round(1e7 * height))");
+  std::vector<std::string> again = {"run", "scene.toml", "--stroke", "hand.h5", "-o", "hand-run.h5"};
+  again.insert(again.end(), firm.begin(), firm.end());
+  ASSERT_EQ(run_program(again, test_folder_).exit_code, 0);
+  const HeightField run = last_surface(RunFile(test_folder_ / "hand-run.h5")).surface;
+  double deepest = 0.0, apart = 0.0;
+  for (int row = 0; row < run.rows(); ++row)
+    for (int col = 0; col < run.cols(); ++col) {
+      deepest = std::min(deepest, run(row, col));
+      const double there =
+          1e-7 * seen_heights[static_cast<std::size_t>(row * run.cols() + col)].get<double>();
+      apart = std::max(apart, std::abs(run(row, col) - there));
+    }
+  EXPECT_LT(deepest, -0.002);
+  // Between two samples neither knows more than both: the longest way from one to the next.
+  const Stroke stroke = read_stroke_file(test_folder_ / "hand.h5");
+  double way = 0.0;  // m
+  for (std::size_t i = 1; i < stroke.size(); ++i)
+    way = std::max(way, (stroke.position[i] - stroke.position[i - 1]).norm());
+  EXPECT_LE(apart, way);
+  EXPECT_TRUE(browser().errors().empty()) << browser().errors().front();
+}
+
+}  // namespace
+}  // namespace sandstroke
