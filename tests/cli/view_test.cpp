@@ -1,0 +1,218 @@
+// The view of the real program: a page at an address that it prints, and a pointer there as the hand.
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <regex>
+#include <thread>
+
+#include "cli/program.h"
+#include "io/last_surface.h"
+#include "io/stroke_file.h"
+#include "view/view_client.h"
+
+namespace sandstroke {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The program in a thread, with its standard error in a file that a page can read its address from.
+class Viewed {
+ public:
+  Viewed(std::vector<std::string> arguments, const fs::path& folder, Conditions conditions = {})
+      : err_(folder / "err.txt") {
+    fs::remove(err_);
+    const std::string err = err_.string();
+    conditions.in_child = [err, before = conditions.in_child] {
+      if (before) before();
+      dup2(open(err.c_str(), O_CREAT | O_TRUNC | O_WRONLY, 0644), STDERR_FILENO);
+    };
+    thread_ = std::thread([this, arguments = std::move(arguments), folder, conditions] {
+      result_ = run_program(arguments, folder, conditions);
+      ended_ = true;
+    });
+  }
+  ~Viewed() {
+    if (thread_.joinable()) thread_.join();
+  }
+  /// "": it ended without one.
+  std::string address() const {
+    std::smatch found;
+    for (std::string said; !ended_; std::this_thread::sleep_for(std::chrono::milliseconds(2))) {
+      said = fs::exists(err_) ? read_file(err_) : "";
+      if (std::regex_search(said, found, std::regex("view: (http://127.0.0.1:\\d+/\\?token=[0-9a-f]{32})\n")))
+        return found[1];
+    }
+    return {};
+  }
+  ProgramResult end() {
+    thread_.join();
+    result_.err = read_file(err_);
+    return result_;
+  }
+
+ private:
+  fs::path err_;
+  ProgramResult result_;
+  std::atomic<bool> ended_ = false;
+  std::thread thread_;
+};
+
+// Sand that does not slip, so that nothing but sampling differs between what was seen and what a run plays.
+const std::vector<std::string> firm = {"--set", "relaxation.talus_angle=85", "--set", "relaxation.rate=0"};
+
+std::vector<std::string> plus(std::vector<std::string> arguments, const std::vector<std::string>& more) {
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return arguments;
+}
+
+TEST(CliView, APointerInAPageBecomesARecordingWhoseRunIsWhatWasSeen) {
+  const fs::path folder = test_folder();
+  Viewed recording(plus({"record", "--device", "pointer", "--feel", "scene.toml", "-o", "hand.h5",
+                         "--stop-switch", "3", "--no-open", "--json"},
+                        firm),
+                   folder);
+  const std::string address = recording.address();
+  ASSERT_NE(address, "");
+  ViewClient page(address);
+  ASSERT_TRUE(page.hear());
+  EXPECT_EQ(page.said.at("hello").at("title"), "hand.h5");
+  EXPECT_EQ(page.said.at("hello").at("pointer").at("radius"), 0.01);
+  // Down, along a line at 0.1 m/s, up, at 60 Hz of the page's clock; the last sample ends the recording.
+  constexpr double speed = 0.1;
+  std::thread hand([&page] {
+    for (int k = 0; k <= 50; ++k) {
+      const double t = k / 60.0;
+      page.point(1e3 * t, static_cast<float>(speed * (t - 0.4)), 0.0f, k < 5 || k > 44 ? 0.0f : 0.3f,
+                 k == 50 ? 8u : 0u);
+      std::this_thread::sleep_for(std::chrono::duration<double>(1.0 / 60.0));
+    }
+  });
+  page.hear_to_end();
+  hand.join();
+  const ProgramResult recorded = recording.end();
+  ASSERT_EQ(recorded.exit_code, 0) << recorded.err;
+  EXPECT_EQ(page.said.at("end"), "the stop switch was pressed");
+  EXPECT_EQ(nlohmann::json::parse(recorded.out)["source"], "pointer");
+
+  ASSERT_EQ(run_program(plus({"run", "scene.toml", "--stroke", "hand.h5", "-o", "hand-run.h5"}, firm), folder)
+                .exit_code,
+            0);
+  const HeightField run = last_surface(RunFile(folder / "hand-run.h5")).surface;
+  const Stroke stroke = read_stroke_file(folder / "hand.h5");
+  double longest = 0.0;  // s, between samples
+  for (std::size_t i = 1; i < stroke.size(); ++i)
+    longest = std::max(longest, stroke.time[i] - stroke.time[i - 1]);
+  double deepest = 0.0, apart = 0.0;
+  for (int row = 0; row < run.rows(); ++row)
+    for (int col = 0; col < run.cols(); ++col) {
+      deepest = std::min(deepest, run(row, col));
+      apart = std::max(apart, std::abs(run(row, col) - static_cast<double>(page.height(row, col))));
+    }
+  EXPECT_LT(deepest, -0.002);
+  // Both hands are between the same two samples, and rest at their depth: so by the way along the line.
+  EXPECT_LE(apart, 2.0 * speed * longest);
+  RecordProperty("apart", std::to_string(apart));
+}
+
+TEST(CliView, ClosingAPageChangesNothingInARecording) {
+  const fs::path folder = test_folder();
+  Viewed recording({"record", "--device", "scripted:line.toml", "--feel", "scene.toml", "--view", "--no-open",
+                    "-o", "a.h5", "--json"},
+                   folder);
+  const std::string address = recording.address();
+  {
+    ViewClient page(address);
+    EXPECT_TRUE(page.hear_until([&] { return page.picture.has_value(); }));
+    EXPECT_TRUE(page.said.at("hello").at("pointer").is_null());
+    page.vanish();
+  }
+  ViewClient again(address);
+  again.hear_to_end();
+  EXPECT_EQ(again.said.at("end"), "the stroke played was over");
+  EXPECT_EQ(again.picture->flags & 2u, 2u);
+  EXPECT_NEAR(again.picture->tip[0], 0.05, 1e-3);  // where the stroke ends
+  const ProgramResult result = recording.end();
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const nlohmann::json said = nlohmann::json::parse(result.out);
+  EXPECT_TRUE(said["complete"]);
+  EXPECT_EQ(said["ticks_elapsed"],
+            std::llround(1000.0 * load_stroke(folder / "line.toml", {}).duration()) + 1);
+}
+
+TEST(CliView, ARunBeforePagesTakesItsTimeAndIsTheSame) {
+  const fs::path folder = test_folder();
+  ASSERT_EQ(run_program({"run", "scene.toml", "-o", "a.h5"}, folder).exit_code, 0);
+  Viewed running({"run", "scene.toml", "-o", "b.h5", "--view", "--no-open", "--json"}, folder);
+  ViewClient page(running.address());
+  page.hear_to_end();
+  EXPECT_EQ(page.said.at("end"), "the run is complete");
+  const ProgramResult result = running.end();
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_LE(nlohmann::json::parse(result.out)["real_time_factor"], 1.01);
+  const HeightField without = last_surface(RunFile(folder / "a.h5")).surface,
+                    with = last_surface(RunFile(folder / "b.h5")).surface;
+  EXPECT_TRUE((without.grid() == with.grid()).all());
+  for (int row = 0; row < with.rows(); ++row)
+    for (int col = 0; col < with.cols(); ++col)
+      ASSERT_EQ(page.height(row, col), static_cast<float>(with(row, col)));
+}
+
+TEST(CliView, TheAddressIsOpenedWhereThereIsADesktop) {
+  const fs::path folder = test_folder();
+  fs::create_directory(folder / "bin");
+  write_file(folder / "bin/xdg-open", "#!/bin/sh\necho \"$1\" > opened.txt\n");
+  fs::permissions(folder / "bin/xdg-open", fs::perms::owner_all);
+  const auto opened = [&](bool desktop, bool ci, bool no_open) {
+    fs::remove(folder / "opened.txt");
+    Conditions conditions;
+    conditions.path = (folder / "bin").string() + ":/usr/bin:/bin";
+    conditions.in_child = [=] {
+      unsetenv("WAYLAND_DISPLAY");
+      desktop ? setenv("DISPLAY", ":99", 1) : unsetenv("DISPLAY");
+      ci ? setenv("CI", "true", 1) : unsetenv("CI");
+    };
+    std::vector<std::string> arguments = {"record",     "--device", "pointer", "--feel",
+                                          "scene.toml", "-o",       "a.h5",    "--overwrite"};
+    if (no_open) arguments.push_back("--no-open");
+    if (desktop && !ci && !no_open) {  // until it is open
+      conditions.signal = SIGTERM;
+      conditions.when = [&] { return read_file(folder / "opened.txt").ends_with('\n'); };
+    } else {
+      arguments.insert(arguments.end(), {"--duration", "0.05"});
+    }
+    const ProgramResult result = run_program(arguments, folder, conditions);
+    EXPECT_NE(result.err.find("ssh -L "), std::string::npos) << result.err;
+    if (!fs::exists(folder / "opened.txt")) return false;
+    EXPECT_NE(result.err.find("view: " + read_file(folder / "opened.txt")), std::string::npos);
+    return true;
+  };
+  EXPECT_TRUE(opened(true, false, false));
+  EXPECT_FALSE(opened(false, false, false));
+  EXPECT_FALSE(opened(true, true, false));
+  EXPECT_FALSE(opened(true, false, true));
+}
+
+TEST(CliView, WhatCannotBeViewedIsSaid) {
+  const fs::path folder = test_folder();
+  const std::vector<std::pair<std::vector<std::string>, std::string>> attempts = {
+      {{"record", "-o", "a.h5", "--device", "pointer"}, "--feel"},
+      {{"record", "-o", "a.h5", "--device", "scripted:line.toml", "--view"}, "--feel"},
+      {{"record", "-o", "a.h5", "--device", "pointer", "--feel", "scene.toml", "--set",
+        "bed.cells=[8192, 4096]", "--set", "bed.size=[8.192, 4.096]"},
+       "bed.cells"},
+      {{"run", "scene.toml", "--no-open"}, "--view"}};
+  for (const auto& [arguments, part] : attempts) {
+    const ProgramResult result = run_program(arguments, folder);
+    EXPECT_EQ(result.exit_code, 2) << result.err;
+    EXPECT_NE(result.err.find(part), std::string::npos) << result.err;
+    EXPECT_FALSE(fs::exists(folder / "a.h5"));
+  }
+}
+
+}  // namespace
+}  // namespace sandstroke
