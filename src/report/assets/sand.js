@@ -142,7 +142,7 @@ uniform mat4 to_picture;
 uniform vec3 place, scale, axis;   // the mesh's z goes along the axis
 out vec3 mesh, world;
 void main() {
-  vec3 x = normalize(abs(axis.z) < 0.9 ? cross(axis, vec3(0.0, 0.0, 1.0)) : cross(axis, vec3(1.0, 0.0, 0.0)));
+  vec3 x = normalize(abs(axis.z) < 0.9 ? cross(vec3(0.0, 0.0, 1.0), axis) : cross(vec3(0.0, 1.0, 0.0), axis));
   mesh = vertex;
   world = place + mat3(x, cross(axis, x), axis) * (vertex * scale);
   gl_Position = to_picture * vec4(world, 1.0);
