@@ -45,7 +45,7 @@ TEST(ComparePage, OfTwoRunsHasSurfacesAndTraces) {
   const PageOfParts page = Pair().page();
   EXPECT_EQ(page.title, "run.h5 against golden.h5");
   EXPECT_EQ(page.data["passed"], true);
-  EXPECT_EQ(names_in(page.data["parts"], "title"), (Names{"Final height", "Force and depth over time"}));
+  EXPECT_EQ(names_in(page.data["parts"], "title"), (Names{"Final height", "Both in 3-D", "Force and depth over time"}));
   EXPECT_TRUE(page.data["missing"].empty()) << page.data["missing"];
   EXPECT_EQ(page.data["golden"]["provenance"][0], Json({"scene_hash", "0123456789abcdef"}));
 }
@@ -78,7 +78,7 @@ TEST(ComparePage, OfACutOffRunShowsWhatThereIsAndSaysWhatIsNot) {
   pair.run.complete = pair.run.has_final = false;
   const PageOfParts page = pair.page();
   EXPECT_EQ(names_in(page.data["parts"], "title"), Names{"Force and depth over time"});
-  ASSERT_EQ(names_in(page.data["missing"], "name"), Names{"Final height"});
+  ASSERT_EQ(names_in(page.data["missing"], "name"), (Names{"Final height", "Both in 3-D"}));
   EXPECT_NE(page.data["missing"][0]["sentence"].get<std::string>().find("cut off"), std::string::npos);
 }
 
@@ -86,7 +86,7 @@ TEST(ComparePage, OfADamagedTraceShowsTheSurfaces) {
   Pair pair;
   pair.run.missing_column = "depth";
   const PageOfParts page = pair.page();
-  EXPECT_EQ(names_in(page.data["parts"], "title"), Names{"Final height"});
+  EXPECT_EQ(names_in(page.data["parts"], "title"), (Names{"Final height", "Both in 3-D"}));
   EXPECT_EQ(names_in(page.data["missing"], "name"), Names{"Traces"});
 }
 
@@ -278,14 +278,14 @@ TEST_F(ComparePageInBrowser, AComponentOfTheForceIsChosenAndAllChartsZoomAlike) 
             true);
   const auto highest = "Math.max(...charts[1].drawn.getOption().series[0].data.map(([, value]) => value))";
   EXPECT_NEAR(browser().evaluate(highest), 0.5, 1e-12);
-  browser().choose("#part-2 select", "along x");
+  browser().choose("#part-3 select", "along x");
   EXPECT_EQ(browser().evaluate(highest), 0.0);
-  browser().choose("#part-2 select", "along y");
+  browser().choose("#part-3 select", "along y");
   EXPECT_NEAR(browser().evaluate(highest), 0.5, 1e-12);
   EXPECT_EQ(browser().evaluate(range + "[0][0] > 24"), true) << "what was zoomed into stays";
   EXPECT_EQ(browser().evaluate("charts[0].drawn.getOption().yAxis[0].name"), "along y (N)");
   // A drag over a chart moves all of them.
-  const Point chart = browser().centre("#part-2 .canvas");
+  const Point chart = browser().centre("#part-3 .canvas");
   browser().drag(chart, {chart.x + 150, chart.y});
   EXPECT_EQ(browser().evaluate(range + ".every(([start]) => start < 24)"), true) << browser().evaluate(range);
   browser().click(".buttons button:last-child");
@@ -295,10 +295,10 @@ TEST_F(ComparePageInBrowser, AComponentOfTheForceIsChosenAndAllChartsZoomAlike) 
 
 TEST_F(ComparePageInBrowser, PointingAtAChartReadsOffBothTraces) {
   open(DifferentPair().page());
-  browser().hover("#part-2 .canvas");
-  browser().wait_for("document.querySelector('#part-2 .tip')");
+  browser().hover("#part-3 .canvas");
+  browser().wait_for("document.querySelector('#part-3 .tip')");
   EXPECT_EQ(
-      browser().evaluate("[...document.querySelectorAll('#part-2 .tip dt')].map((one) => one.textContent)"),
+      browser().evaluate("[...document.querySelectorAll('#part-3 .tip dt')].map((one) => one.textContent)"),
       Json({"golden.h5 (N)", "run.h5 (N)"}));
   expect_no_errors();
 }

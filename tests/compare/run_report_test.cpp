@@ -38,7 +38,7 @@ struct Reported {
   TestFolder folder;
 };
 
-const Names all_parts = {"Picture", "Force, depth and energy over time", "Profiles of the sand",
+const Names all_parts = {"Picture", "The sand in 3-D", "Force, depth and energy over time", "Profiles of the sand",
                          "Error estimate"};
 
 TEST(RunReport, HasEveryPartOfAWholeRun) {
@@ -87,7 +87,7 @@ TEST(RunReport, WithoutAStrokeOrATraceThereIsThePictureAndASentence) {
     Reported reported;
     change(reported.run);
     const PageOfParts page = reported.page();
-    EXPECT_EQ(names_of(page.data["parts"], "title"), (Names{"Picture", "Error estimate"}));
+    EXPECT_EQ(names_of(page.data["parts"], "title"), (Names{"Picture", "The sand in 3-D", "Error estimate"}));
     ASSERT_EQ(names_of(page.data["missing"], "name"), Names{"The stroke"});
     EXPECT_NE(page.data["missing"][0]["sentence"].get<std::string>().find(sentence), std::string::npos)
         << page.data["missing"];
@@ -98,7 +98,7 @@ TEST(RunReport, WithoutAContactThereAreCurvesAndNoProfile) {
   Reported reported;
   for (TickRecord& tick : reported.run.trace) tick.contact = false;
   const PageOfParts page = reported.page();
-  EXPECT_EQ(names_of(page.data["parts"], "title"), (Names{all_parts[0], all_parts[1], all_parts[3]}));
+  EXPECT_EQ(names_of(page.data["parts"], "title"), (Names{all_parts[0], all_parts[1], all_parts[2], all_parts[4]}));
   EXPECT_EQ(names_of(page.data["missing"], "name"), Names{"A profile of the sand"});
 }
 
@@ -109,22 +109,22 @@ TEST(RunReport, APictureThatCannotBeDrawnIsSaid) {
       RunFile(reported.folder / "run.h5"),
       [](const LastSurface&) -> Image { throw_input_error("a bed of 9 x 9 cells cannot be drawn"); }, {});
   EXPECT_EQ(names_of(page.data["missing"], "name"), Names{"The picture"});
-  EXPECT_EQ(page.data["parts"].size(), 3u);
+  EXPECT_EQ(page.data["parts"].size(), 4u);
 }
 
 TEST(RunReport, SaysTheErrorThatWasEstimated) {
   ErrorEstimate error;
   error.height_share = 0.25, error.height_rms = 1e-4, error.height_max = 2e-3, error.force_rms = 0.1,
   error.force_max = 0.5;
-  const Json part = Reported().page(error).data["parts"][3];
+  const Json part = Reported().page(error).data["parts"][4];
   std::vector<double> values;
   for (const Json& figure : part["figures"]) values.push_back(figure["value"]);
   EXPECT_EQ(values, (std::vector{25.0, 1e-4, 2e-3, 0.1, 0.5}));
   EXPECT_EQ(names_of(part["figures"], "unit"), (Names{"%", "m", "m", "N", "N"}));
   error.at_rest = false;
-  EXPECT_NE(Reported().page(error).data["parts"][3]["text"].get<std::string>().find("not at rest"),
+  EXPECT_NE(Reported().page(error).data["parts"][4]["text"].get<std::string>().find("not at rest"),
             std::string::npos);
-  EXPECT_NE(Reported().page().data["parts"][3]["text"].get<std::string>().find("--estimate-error"),
+  EXPECT_NE(Reported().page().data["parts"][4]["text"].get<std::string>().find("--estimate-error"),
             std::string::npos);
 }
 
@@ -142,7 +142,7 @@ class RunReportInBrowser : public BrowserTest {
 
 TEST_F(RunReportInBrowser, DrawsPictureCurvesProfilesAndTables) {
   open(Reported().page(ErrorEstimate{}));
-  EXPECT_EQ(texts("h2"), Json({"Picture", "Force, depth and energy over time", "Profiles of the sand",
+  EXPECT_EQ(texts("h2"), Json({"Picture", "The sand in 3-D", "Force, depth and energy over time", "Profiles of the sand",
                                "Error estimate", "Settings", "File"}));
   EXPECT_EQ(texts(".facts dt")[3], "Energy into the sand");
   EXPECT_EQ(texts(".facts dd")[3], "0.2080\u00a0J");
@@ -157,7 +157,7 @@ TEST_F(RunReportInBrowser, DrawsPictureCurvesProfilesAndTables) {
   EXPECT_EQ(browser().evaluate("charts.slice(3).map(({ drawn }) => drawn.getOption().series.length)"),
             Json({2, 2}));
   EXPECT_EQ(texts("#settings tbody td"), Json({"stroke.file", "\"line.toml\""}));
-  EXPECT_EQ(browser().evaluate("document.querySelectorAll('#part-4 tbody tr').length"), 5);
+  EXPECT_EQ(browser().evaluate("document.querySelectorAll('#part-5 tbody tr').length"), 5);
 }
 
 TEST_F(RunReportInBrowser, ARunWithoutAStrokeIsDrawnAndSaysSo) {
