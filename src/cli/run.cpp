@@ -263,10 +263,10 @@ void add_run_command(CLI::App& app, Command& chosen) {
           ->check(CLI::IsMember(second_solution_names));
   command->add_flag("--error-map", arguments->error_map, "Keep the estimated error of each cell's height too")
       ->needs(estimate);
-  auto* shown =
-      command->add_flag("--view", arguments->view,
-                        "Play the stroke in real time and show the sand live in a browser. The address is "
-                        "printed, and opened where there is a desktop. The result is the same");
+  auto* shown = command->add_flag("--view", arguments->view,
+                                  "Play the stroke in real time, once a page is open, and show the sand live "
+                                  "in a browser. The address is "
+                                  "printed, and opened where there is a desktop. The result is the same");
   command->add_flag("--no-open", arguments->no_open, "Print the address of --view, but do not open it")
       ->needs(shown);
   command->add_flag("--json", arguments->json, "Print the summary as one JSON object");

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <limits>
 #include <thread>
 
 #include "cli/view_page.h"
@@ -26,7 +27,8 @@ RunView::RunView(const Simulation& simulation, const std::string& title, bool op
                ViewHello{title, simulation.bed(), height_range(simulation.bed()), simulation.scene().tool,
                          simulation.scene().device.max_force, std::nullopt},
                view_page(title)}),
-      browser_(announce_view(server_, opens)) {
+      browser_(announce_view(server_, opens)),
+      playing_(simulation.stroke_seconds() > 0.0) {
   fmt::print(stderr, "the run begins when the page is open\n");
   while (server_.pages() == 0 && !interrupted()) sleep(picture_interval);
 }
@@ -73,8 +75,14 @@ std::optional<double> RunView::lag() const {
   return state_.max_lateness > late ? std::optional(state_.max_lateness) : std::nullopt;
 }
 
-void RunView::publish_bed() {
-  if (playing_) return;
+/// After the stroke, when nothing waits for the clock.
+void RunView::on_relaxation(const RelaxationRecord&) {
+  if (!playing_) bed_.publish(simulation_.bed());
+}
+
+void RunView::on_pass(std::int64_t) {
+  if (playing_ || since_pass_.seconds() < picture_interval) return;
+  since_pass_ = {};
   bed_.publish(simulation_.bed());
 }
 

@@ -19,8 +19,8 @@ class RunView : public SimulationObserver {
   RunView(const Simulation& simulation, const std::string& title, bool opens);
 
   void on_tick(const TickRecord& tick) override;
-  void on_relaxation(const RelaxationRecord&) override { publish_bed(); }
-  void on_pass(std::int64_t) override { publish_bed(); }
+  void on_relaxation(const RelaxationRecord&) override;
+  void on_pass(std::int64_t) override;
   void on_progress(double fraction) override { playing_ = fraction < 1.0; }
 
   /// How far it was behind real time at worst, if by more than a quarter of a second [s].
@@ -30,8 +30,6 @@ class RunView : public SimulationObserver {
  private:
   void wait_until(double time);
   void publish(const TickRecord& tick);
-  /// After the stroke, when nothing waits for the clock.
-  void publish_bed();
 
   const Simulation& simulation_;
   LiveBed bed_;
@@ -43,7 +41,8 @@ class RunView : public SimulationObserver {
   std::optional<Stopwatch> clock_;                 // from the first tick on
   double published_ = -1.0, published_at_ = -1.0;  // s, of the stroke and on the clock
   std::int64_t ticks_ = 0;
-  bool playing_ = true;
+  bool playing_;  // the stroke
+  Stopwatch since_pass_;
 };
 
 }  // namespace sandstroke

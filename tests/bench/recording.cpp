@@ -1,5 +1,8 @@
 // A minute in the servo loop: where every tick went, how late they were, and what was allocated; without and
-// with a load on all cores, and with sand under the hand while a bed of 1000 x 1000 cells collapses.
+// with a load on all cores, and with sand under the hand while a bed of 1000 x 1000 cells collapses; and that
+// with pages that show it.
+#include <sys/resource.h>
+
 #include <cmath>
 #include <numbers>
 #include <thread>
@@ -11,6 +14,8 @@
 #include "record/live_sand.h"
 #include "record/recorder.h"
 #include "record/stroke_device.h"
+#include "view/view_client.h"
+#include "view/view_server.h"
 
 namespace sandstroke {
 namespace {
@@ -81,22 +86,72 @@ Scene collapsing_scene() {
   return scene;
 }
 
-nlohmann::json recorded(double seconds, bool load, bool sand) {
+/// Pages that take what they are sent, and one that takes nothing, while sand is recorded.
+class Watched {
+ public:
+  Watched(const Scene& scene, const HeightField& bed, LiveSand& sand)
+      : bed_(bed),
+        server_({bed_, state_, {"bench", bed, height_range(bed), scene.tool, 12.0, {}}, "", nullptr}) {
+    sand.show_to([this](const HeightField& now) { bed_.publish(now); });
+    stalled_.emplace(server_.address());
+    reader_ = std::thread([this] {
+      ViewClient page(server_.address());
+      page.hear_to_end();
+      pictures_ = page.pictures, tiles_ = page.tiles_taken;
+    });
+  }
+  void show(const ServoProgress& progress) {
+    ViewState state;
+    state.time = progress.time;
+    state_.publish(state);
+  }
+  nlohmann::json end(double seconds) {
+    server_.end("");
+    reader_.join();
+    return {{"pictures_per_second", pictures_ / seconds},
+            {"tiles_per_second", static_cast<double>(tiles_) / seconds},
+            {"peak_rss_bytes", peak_memory()}};
+  }
+
+ private:
+  static double peak_memory() {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return 1024.0 * static_cast<double>(usage.ru_maxrss);
+  }
+
+  LiveBed bed_;
+  LiveState state_;
+  ViewServer server_;
+  std::optional<ViewClient> stalled_;
+  int pictures_ = 0;
+  std::int64_t tiles_ = 0;
+  std::thread reader_;
+};
+
+nlohmann::json recorded(double seconds, bool load, bool sand, bool view = false) {
   const TemporaryFolder folder;
   WatchedDevice device(winding(seconds), "winding");
   RecorderSettings settings;
   settings.servo.duration = seconds;
   settings.servo.force.max_force = 12.0;
   settings.servo.force.ramp = 0.0;
+  std::optional<Watched> watched;
   std::optional<LiveSand> live;
   if (sand) {
     const Scene scene = collapsing_scene();
-    live.emplace(scene, starting_bed(scene.bed), "bed");
+    const HeightField bed = starting_bed(scene.bed);
+    live.emplace(scene, bed, "bed");
+    if (view) watched.emplace(scene, bed, *live);
+    if (view) settings.watch = 1.0 / 60.0;
   }
   const Load busy(load);
   if (live) live->start();
   const RecordingReport report = record(device, live ? &*live : nullptr, settings, {}, folder / "journal",
-                                        [](const ServoProgress&) { return std::nullopt; });
+                                        [&](const ServoProgress& progress) {
+                                          if (watched) watched->show(progress);
+                                          return std::nullopt;
+                                        });
   const TickCounts& ticks = report.footer.ticks;
   nlohmann::json result = {{"ticks_elapsed", ticks.elapsed},
                            {"recorded", ticks.recorded},
@@ -118,6 +173,7 @@ nlohmann::json recorded(double seconds, bool load, bool sand) {
     result["relaxations"] = felt.erosion.relaxations;
     result["passes"] = felt.erosion.passes;
     result["most_changes_waiting"] = felt.erosion.most_waiting;
+    if (watched) result["view"] = watched->end(seconds);
   }
   return result;
 }
@@ -130,7 +186,9 @@ nlohmann::json measure_recording(const BenchOptions& options) {
           {"alone", recorded(seconds, false, false)},
           {"under_load", recorded(seconds, true, false)},
           {"sand_alone", recorded(seconds, false, true)},
-          {"sand_under_load", recorded(seconds, true, true)}};
+          {"sand_under_load", recorded(seconds, true, true)},
+          {"sand_and_view", recorded(seconds, false, true, true)},
+          {"sand_and_view_under_load", recorded(seconds, true, true, true)}};
 }
 
 }  // namespace sandstroke

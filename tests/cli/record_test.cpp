@@ -419,7 +419,7 @@ TEST(CliRecord, ListSaysWhatThereIs) {
   EXPECT_EQ(table.exit_code, 0);
   EXPECT_NE(table.out.find("scripted:FILE.toml"), std::string::npos) << table.out;
   const json list = json::parse(run_program({"record", "--list", "--json"}, folder).out);
-  EXPECT_EQ(list["stand_ins"].size(), 2u);
+  EXPECT_EQ(list["stand_ins"].size(), 3u);
   EXPECT_TRUE(list["devices"].is_array());
 }
 

@@ -117,6 +117,7 @@ bool ViewClient::hear() {
   }
   picture = decoded(message);
   ++pictures;
+  tiles_taken += static_cast<std::int64_t>(picture->tiles.size());
   for (const auto& [index, heights] : picture->tiles) tiles[index] = heights;
   return true;
 }

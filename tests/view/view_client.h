@@ -65,6 +65,7 @@ class ViewClient {
   std::map<std::string, nlohmann::json> said;  ///< by key: hello, status, drawing, end
   std::optional<SeenPicture> picture;          ///< the newest
   int pictures = 0;
+  std::int64_t tiles_taken = 0;                       ///< in all of them
   std::map<std::uint32_t, std::vector<float>> tiles;  ///< the newest of all pictures
   int close_code = 0;
   /// The newest height of a cell [m].
