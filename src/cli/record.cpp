@@ -27,9 +27,9 @@ struct RecordArguments {
   std::string output, device, felt_scene;
   std::vector<std::string> overrides;  // of the felt scene
   RecorderSettings settings;
-  double duration = 0.0;  // s; 0: not given
-  double rate = 0.0;      // Hz; 0: not given
-  int stop_switch = -1;   // not given
+  double duration = 0.0;                    // s; 0: not given
+  double rate = 0.0;                        // Hz; 0: not given
+  int start_switch = -1, stop_switch = -1;  // not given
   bool list = false, check = false, no_memory_lock = false, json = false;
 };
 
@@ -52,6 +52,7 @@ RecorderSettings recorder_settings(const RecordArguments& arguments, const std::
   RecorderSettings settings = arguments.settings;
   settings.servo.rate = servo_rate(arguments, felt);
   if (arguments.duration > 0.0) settings.servo.duration = arguments.duration;
+  if (arguments.start_switch >= 0) settings.servo.start.start_switch = arguments.start_switch;
   if (arguments.stop_switch >= 0) settings.servo.stop_switch = arguments.stop_switch;
   settings.lock_memory = !arguments.no_memory_lock;
   if (!felt) settings.servo.force.max_force = 0.0;  // nothing is felt
@@ -170,6 +171,30 @@ CLI::Validator recording_rate() {
       fmt::format("{} to {}", slowest, fastest));
 }
 
+/// When the recording begins and ends.
+void add_time_options(CLI::App& app, RecordArguments& arguments) {
+  StartSettings& start = arguments.settings.servo.start;
+  app.add_option("--duration", arguments.duration,
+                 "Length of the recording [s]. Default: until its stroke, q or --stop-switch ends it")
+      ->check(positive_number())
+      ->option_text("S");
+  app.add_option("--countdown", start.countdown,
+                 "Seconds until the recording begins. What is before its beginning is not in the stroke")
+      ->check(not_negative_number())
+      ->option_text("S");
+  app.add_option("--start-switch", arguments.start_switch,
+                 "Switch of the device that begins the recording, counted from 0")
+      ->check(CLI::Range(0, 31))
+      ->option_text("K");
+  app.add_flag("--start-at-contact", start.at_contact,
+               "Begin a tick before the tool touches the sand from above")
+      ->needs("--feel");
+  app.add_option("--stop-switch", arguments.stop_switch,
+                 "Switch of the device that ends the recording, counted from 0")
+      ->check(CLI::Range(0, 31))
+      ->option_text("K");
+}
+
 /// What the hand feels while it is recorded.
 void add_force_options(CLI::App& app, RecordArguments& arguments) {
   ForceLimits& force = arguments.settings.servo.force;
@@ -184,7 +209,8 @@ void add_force_options(CLI::App& app, RecordArguments& arguments) {
       ->check(not_negative_number())
       ->option_text("N")
       ->needs(feel);
-  app.add_option("--force-ramp", force.ramp, "Time over which the force grows to full [s]")
+  app.add_option("--force-ramp", force.ramp,
+                 "Time over which the force grows to full, once the tool was out of the sand [s]")
       ->check(not_negative_number())
       ->capture_default_str()
       ->needs(feel);
@@ -216,21 +242,12 @@ void add_record_command(CLI::App& app, Command& chosen) {
       "Measure how well this machine keeps the loop's rate. Needs no device. Takes 10 s, or --duration");
   list->excludes(check);
   command
-      ->add_option("--duration", arguments->duration,
-                   "Length of the recording [s]. Default: until its stroke, q or --stop-switch ends it")
-      ->check(positive_number())
-      ->option_text("S");
-  command
       ->add_option("--rate", arguments->rate,
                    "Rate of the loop [Hz]. Default: 1000, or with --feel the scene's device.servo_rate")
       ->check(recording_rate())
       ->option_text("HZ");
-  command
-      ->add_option("--stop-switch", arguments->stop_switch,
-                   "Switch of the device that ends the recording, counted from 0")
-      ->check(CLI::Range(0, 31))
-      ->option_text("K");
   add_force_options(*command, *arguments);
+  add_time_options(*command, *arguments);
   command->add_flag("--calibrate", settings.calibrate,
                     "Calibrate the device first. THIS MAY MOVE ITS ARM: keep clear");
   command

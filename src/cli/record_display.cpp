@@ -8,6 +8,10 @@ void RecordDisplay::show(const ServoProgress& now) {
   if (!line_.visible()) return;
   last_second_.push_back(now);
   while (last_second_.size() > 2 && now.time - last_second_[1].time >= 1.0) last_second_.pop_front();
+  if (const std::string hint = hint_of(now); !hint.empty()) {
+    line_.draw(fmt::format("record: {}{}", hint, keys_));
+    return;
+  }
   const ServoProgress& before = last_second_.front();
   const double seconds = now.time - before.time;
   const double rate = seconds > 0.0 ? static_cast<double>(now.recorded - before.recorded) / seconds : 0.0;

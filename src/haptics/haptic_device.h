@@ -17,6 +17,7 @@ struct DeviceSpecification {
   std::string frame = "device";   ///< of its positions and forces, as Stroke::frame
   double max_force = 0.0;         ///< N; 0 = it gives none
   double max_stiffness = 0.0;     ///< N/m, of a closed loop; 0 = unknown
+  double max_damping = 0.0;       ///< N s/m, of a closed loop; 0 = unknown
   double workspace_radius = 0.0;  ///< m; 0 = unknown
   int switches = 0;               ///< how many it has; 0 = none, or unknown
   bool measures_velocity = false;

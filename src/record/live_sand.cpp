@@ -78,9 +78,13 @@ std::size_t LiveSand::changes_of_move(const Eigen::Vector3d& tip) const {
   return most < static_cast<double>(ring_size) ? static_cast<std::size_t>(most) : ring_size + 1;
 }
 
+bool LiveSand::touches(const DeviceReading& reading) noexcept {
+  return sand_.look(replica_.bed(), tip(reading)).contact;
+}
+
 FeltForce LiveSand::feel(double time, const DeviceReading& reading) noexcept {
   take_slipped(most_taken);
-  const Eigen::Vector3d tip = tip_of(device_, placement_.position(reading.position));
+  const Eigen::Vector3d tip = this->tip(reading);
   if (readings_ > 0 && time - past(readings_ - 1).time > gap_threshold) {
     sand_.lift();
     readings_ = 0;

@@ -30,10 +30,11 @@ class OpenDevice {
   HapticDevice& device_;
 };
 
-void check_stop_switch(std::optional<int> number, const DeviceSpecification& device) {
+/// use: "start" or "stop".
+void check_switch(const char* use, std::optional<int> number, const DeviceSpecification& device) {
   const int most = device.switches > 0 ? std::min(device.switches, 32) : 32;  // 0: it does not say
   if (number && (*number < 0 || *number >= most)) {
-    throw_input_error("stop switch {}: {} has the switches 0 to {}; choose one of them", *number,
+    throw_input_error("{} switch {}: {} has the switches 0 to {}; choose one of them", use, *number,
                       device.model, most - 1);
   }
 }
@@ -51,7 +52,8 @@ RecordingReport record(HapticDevice& device, FeltWorld* world, const RecorderSet
                        RecordingHeader header, const std::filesystem::path& journal,
                        const RecordingWatcher& watcher) {
   const OpenDevice open(device);
-  check_stop_switch(settings.servo.stop_switch, device.specification());
+  check_switch("start", settings.servo.start.start_switch, device.specification());
+  check_switch("stop", settings.servo.stop_switch, device.specification());
   if (settings.calibrate) device.calibrate();
 
   MonotonicClock clock;

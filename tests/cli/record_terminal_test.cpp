@@ -141,6 +141,17 @@ TEST(CliRecordTerminal, AKeyEndsARecordingAndTheTerminalIsAsBefore) {
   }
 }
 
+TEST(CliRecordTerminal, TheLineSaysWhatIsWaitedFor) {
+  const fs::path folder = test_folder();
+  std::vector<std::string> arguments = record_to_json;
+  arguments.insert(arguments.end(), {"--feel", "scene.toml", "--countdown", "0.6", "--start-at-contact"});
+  AtTerminal program(arguments, folder);
+  EXPECT_TRUE(program.shows("record: begins in 0.")) << program.shown();
+  EXPECT_TRUE(program.shows("record: touch the sand to begin")) << program.shown();
+  EXPECT_TRUE(program.shows(" Hz")) << program.shown();
+  EXPECT_EQ(program.wait(), 0) << program.shown();
+}
+
 TEST(CliRecordTerminal, OtherKeysDoNothing) {
   const fs::path folder = folder_with_resting_hand();
   AtTerminal program(record_to_json, folder);

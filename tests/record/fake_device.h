@@ -58,6 +58,7 @@ class FakeWorld : public FeltWorld {
  public:
   explicit FakeWorld(std::function<FeltForce(double)> force) : force_(std::move(force)) {}
   FeltForce feel(double time, const DeviceReading&) noexcept override { return force_(time); }
+  bool touches(const DeviceReading& reading) noexcept override { return reading.position.z() < 0.0; }
 
  private:
   std::function<FeltForce(double)> force_;
