@@ -111,7 +111,7 @@ std::int64_t ServoLoop::wait_for_tick() noexcept {
 void ServoLoop::await_start() noexcept {
   awake_ = clock_.now();
   const StartSettings& asked = settings_.start;
-  const std::int64_t countdown_end = awake_ + to_nanoseconds(asked.countdown);
+  const std::int64_t countdown_end = awake_ + ticks_in(asked.countdown, 1e9);
   StartGate gate(asked, countdown_end, to_nanoseconds(settings_.debounce));
   DeviceReading before;
   std::optional<std::int64_t> read_before;
@@ -139,7 +139,7 @@ void ServoLoop::await_start() noexcept {
       read_before.reset();
     }
     if (const std::optional<double> stroke = device_.duration();
-        stroke && now - played_from_ > to_nanoseconds(*stroke))
+        stroke && now - played_from_ > ticks_in(*stroke, 1e9))
       stop(StopReason::stroke_end);
     clock_.sleep_until(now + to_nanoseconds(1.0 / rate_));
   }
