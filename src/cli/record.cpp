@@ -1,5 +1,6 @@
 #include <spdlog/spdlog.h>
 
+#include <limits>
 #include <memory>
 #include <optional>
 
@@ -121,12 +122,26 @@ int exit_code(StopReason reason) {
   return static_cast<int>(reason == StopReason::no_number ? ErrorKind::unstable : ErrorKind::io);
 }
 
+int check(const RecordArguments& arguments) {
+  if (!arguments.output.empty()) throw_input_error("record --check records nothing; leave out -o");
+  if (!arguments.device.empty() && arguments.felt_scene.empty())
+    throw_input_error(
+        "record --check needs no device; leave out --device, or name the sand that it is to hold with "
+        "--feel");
+  std::optional<Scene> felt;
+  if (!arguments.felt_scene.empty()) felt = load_scene(arguments.felt_scene, arguments.overrides);
+  DeviceSpecification device;
+  device.max_force = std::numeric_limits<double>::infinity();  // unless it is named, the scene's limit holds
+  if (!arguments.device.empty()) device = find_device(arguments.device, felt->force)->specification();
+  return check_machine(recorder_settings(arguments, felt), felt, device, arguments.json);
+}
+
 int record(const RecordArguments& arguments) {
-  if ((arguments.list || arguments.check) &&
+  if (arguments.list &&
       !(arguments.output.empty() && arguments.device.empty() && arguments.felt_scene.empty()))
-    throw_input_error("record --list and --check record nothing; leave out -o, --device and --feel");
+    throw_input_error("record --list records nothing; leave out -o, --device and --feel");
   if (arguments.list) return list_devices(arguments.json);
-  if (arguments.check) return check_machine(recorder_settings(arguments, {}), arguments.json);
+  if (arguments.check) return check(arguments);
   if (arguments.output.empty() || arguments.device.empty())
     throw_input_error(
         "record needs -o STROKE.h5 and --device NAME; sandstroke record --list names the devices");
@@ -138,6 +153,10 @@ int record(const RecordArguments& arguments) {
   check_no_journal(journal_path(arguments.output));
   const std::unique_ptr<HapticDevice> device =
       find_device(arguments.device, felt ? felt->force : ForceSettings{});
+  if (felt)
+    if (const std::optional<FeltLoop> loop =
+            felt_loop(*felt, device->specification(), settings.servo.force.max_force, settings.servo.rate))
+      check_felt_loop(*loop, felt->force, arguments.felt_scene);
   RecordingHeader header;
   header.source = arguments.device;
   std::optional<LiveSand> sand;
@@ -237,9 +256,11 @@ void add_record_command(CLI::App& app, Command& chosen) {
       ->type_name("{chai3d,replay:,scripted:}")
       ->option_text("NAME");
   auto* list = command->add_flag("--list", arguments->list, "List devices and stand-ins");
-  auto* check = command->add_flag(
-      "--check", arguments->check,
-      "Measure how well this machine keeps the loop's rate. Needs no device. Takes 10 s, or --duration");
+  auto* check =
+      command->add_flag("--check", arguments->check,
+                        "Measure how well this machine keeps the loop's rate. Takes 10 s, or --duration. "
+                        "With --feel, also hold "
+                        "the sand against what --device names and what theory allows. Moves nothing");
   list->excludes(check);
   command
       ->add_option("--rate", arguments->rate,
@@ -250,6 +271,8 @@ void add_record_command(CLI::App& app, Command& chosen) {
   add_time_options(*command, *arguments);
   command->add_flag("--calibrate", settings.calibrate,
                     "Calibrate the device first. THIS MAY MOVE ITS ARM: keep clear");
+  command->add_flag("--allow-uncalibrated", settings.allow_uncalibrated,
+                    "Give forces on a device that says it is not calibrated. They may push where nothing is");
   command
       ->add_option("--priority", settings.priority,
                    fmt::format("Real-time priority (SCHED_FIFO) of the loop, 1 to {}. 0 asks for none",

@@ -42,6 +42,8 @@ class HapticDevice {
   virtual void calibrate() = 0;
   /// Known before it is opened, but for what only an open device tells of itself (not its frame).
   virtual const DeviceSpecification& specification() const = 0;
+  /// Of an open device: whether its positions are right; none: it does not say.
+  virtual std::optional<bool> is_calibrated() const { return true; }
   /// For how long there is something to record [s]; none: as long as a hand holds it.
   virtual std::optional<double> duration() const { return std::nullopt; }
   /// For how long it may give nothing and is still there [s]: a recorded stroke that is played has gaps.

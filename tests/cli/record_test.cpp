@@ -327,7 +327,8 @@ TEST(CliRecord, WhatIsWrongIsSaidBeforeAnythingIsRecorded) {
       {{"record", "-o", ".", "--device", "scripted:line.toml", "--overwrite"}, 4, "folder"},
       {{"record", "--list", "--check"}, 2, "--list"},
       {with(record_line, {"--check"}), 2, "leave out"},
-      {{"record", "--check", "--feel", "scene.toml"}, 2, "leave out"},
+      {{"record", "--check", "--device", "scripted:line.toml"}, 2, "leave out"},
+      {{"record", "--check", "--feel", "none.toml"}, 4, "none.toml"},
       {{"record", "--list", "--feel", "scene.toml"}, 2, "leave out"},
   };
   for (const auto& [arguments, exit_code, part] : attempts) {
@@ -524,6 +525,25 @@ TEST(CliRecord, CheckMeasuresThisMachine) {
   const ProgramResult table = run_program({"record", "--check", "--duration", "0.2"}, folder);
   EXPECT_NE(table.out.find("verdict"), std::string::npos) << table.out;
   EXPECT_NE(table.out.find("less than 100 us in 99 of 100"), std::string::npos) << table.out;
+}
+
+TEST(CliRecord, CheckHoldsSandAgainstTheory) {
+  const fs::path folder = test_folder();
+  const auto check = [&](const std::vector<std::string>& more) {
+    return run_program(with({"record", "--check", "--duration", "0.05", "--feel", "scene.toml"}, more),
+                       folder);
+  };
+  const json felt = json::parse(check({"--max-force", "3", "--json"}).out)["felt"];
+  EXPECT_EQ(felt["force"], 3.0);
+  EXPECT_NEAR(felt["sand"]["stiffness"].get<double>(), 0.5 * 1003.0, 1e-9);
+  EXPECT_NEAR(felt["sand"]["damping"].get<double>(), 30.0, 1e-12);
+  EXPECT_EQ(felt["device"]["damping"], 0.0) << "no device is named";
+  const ProgramResult hard = check({"--set", "force.k_f=1000"});
+  EXPECT_EQ(hard.exit_code, 1) << hard.out;
+  EXPECT_NE(hard.out.find("REFUSED: the hand would shake; set force.k_f = "), std::string::npos) << hard.out;
+  const ProgramResult stand_in = check({"--device", "scripted:line.toml", "--set", "force.k_f=1000"});
+  EXPECT_NE(stand_in.out.find("held against no limit"), std::string::npos) << stand_in.out;
+  EXPECT_FALSE(fs::exists(folder / "a.h5"));
 }
 
 TEST(CliRecord, WithoutPermissionForRealTimeItRecordsAndSaysWhatThatCosts) {
