@@ -10,7 +10,6 @@
 #ifndef LINUX
 #error "CHAI3D was compiled with LINUX; without it its classes have other sizes here than in its library"
 #endif
-#include "devices/CDeltaDevices.h"
 #include "devices/CGenericHapticDevice.h"
 #include "devices/CHapticDeviceHandler.h"
 #include "drdc.h"
@@ -76,9 +75,9 @@ std::unique_ptr<HapticDevice> make_chai3d_device(int index) {
   if (!handler.getDevice(device, static_cast<unsigned>(index)))
     throw_io_error("CHAI3D does not give out haptic device {}: unplug it, plug it in again, and try again",
                    index);
-  const bool force_dimension = dynamic_cast<const chai3d::cDeltaDevice*>(device.get()) != nullptr;
-  return force_dimension ? std::make_unique<Chai3dDevice>(device, drd_is_calibrated)
-                         : std::make_unique<Chai3dDevice>(device);
+  return device->m_specifications.m_manufacturerName == "Force Dimension"
+             ? std::make_unique<Chai3dDevice>(device, drd_is_calibrated)
+             : std::make_unique<Chai3dDevice>(device);
 }
 
 Chai3dDevice::Chai3dDevice(std::shared_ptr<chai3d::cGenericHapticDevice> device,

@@ -40,6 +40,14 @@ std::string remedy_text(const FeltLoop& loop, const ForceSettings& force) {
   return text;
 }
 
+std::string verdict_text(const FeltLoop& loop, const ForceSettings& force) {
+  if (!loop.is_stable()) return "REFUSED: the hand would shake; set " + remedy_text(loop, force);
+  if (!loop.is_within_named()) return "settles in theory, but is beyond what the device names";
+  if (loop.named.stiffness <= 0.0 || loop.named.drag <= 0.0)
+    return "settles in theory; what the device can hold is not known";
+  return "settles in theory, and is within what the device names";
+}
+
 }  // namespace
 
 void print_felt_loop(const FeltLoop& loop, const ForceSettings& force) {
@@ -47,9 +55,7 @@ void print_felt_loop(const FeltLoop& loop, const ForceSettings& force) {
   print_row("device names", named_text(loop.named));
   print_row("theory allows", sand_text(loop.stable));
   print_row("assumed", assumed_text(loop.device));
-  print_row("verdict", !loop.is_stable() ? "REFUSED: the hand would shake; set " + remedy_text(loop, force)
-                       : loop.is_within_named() ? "the device can hold this sand"
-                                                : "within theory, but beyond what the device names");
+  print_row("verdict", verdict_text(loop, force));
 }
 
 nlohmann::ordered_json felt_loop_json(const FeltLoop& loop) {

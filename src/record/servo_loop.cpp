@@ -55,8 +55,7 @@ ServoLoop::ServoLoop(HapticDevice& device, FeltWorld* world, LoopClock& clock, S
       force_limit_(world ? std::min(settings.force.max_force, device.specification().max_force) : 0.0),
       guard_(limited(settings.force, force_limit_), settings.rate),
       silent_{to_nanoseconds(settings.silence + device.longest_silence()), StopReason::device_lost, {}},
-      wrong_{to_nanoseconds(settings.silence), StopReason::no_number, {}},
-      last_tick_(std::numeric_limits<std::int64_t>::max()) {
+      wrong_{to_nanoseconds(settings.silence), StopReason::no_number, {}} {
   if (settings.stop_switch) stop_switch_.emplace(*settings.stop_switch, to_nanoseconds(settings.debounce));
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <limits>
 #include <optional>
 #include <string>
 
@@ -103,7 +104,7 @@ class ServoLoop {
   std::int64_t awake_ = 0;        // ns: it runs since then,
   std::int64_t played_from_ = 0;  // the device's time is 0 then,
   std::int64_t start_ = 0;        // and the recording's
-  std::int64_t last_tick_;
+  std::int64_t last_tick_ = std::numeric_limits<std::int64_t>::max();
   StopReason end_reason_ = StopReason::duration;    // after the last tick
   Fault silent_, wrong_;                            // the device, the world
   std::uint64_t expected_ = 0;                      // sequence number, where nothing is missing

@@ -345,9 +345,10 @@ TEST_F(ServoLoopTest, GivesNoForceOnceTheDeviceWasNotReadUntilTheToolIsLifted) {
   EXPECT_EQ(samples[49].force[2], 5.0);
   EXPECT_EQ(samples[50].sequence, 53u);
   for (const RecordedSample& s : samples)
-    if (s.sequence > 50)
+    if (s.sequence > 50) {
       EXPECT_NEAR(s.force[2], s.sequence < 73 ? 0.0 : std::min(static_cast<double>(s.sequence) - 72.0, 5.0),
                   1e-12);
+    }
 }
 
 TEST_F(ServoLoopTest, GivesNoForceAfterAStallUntilTheToolIsLifted) {
@@ -360,10 +361,11 @@ TEST_F(ServoLoopTest, GivesNoForceAfterAStallUntilTheToolIsLifted) {
     delay_read(10, ticks);
     run(&world);
     for (const RecordedSample& s : samples)
-      if (s.sequence > 10)
+      if (s.sequence > 10) {
         EXPECT_EQ(s.force[2],
                   (closes && s.sequence < 70) || (s.sequence >= 70 && s.sequence <= 72) ? 0.0 : 5.0)
             << s.sequence << " after " << ticks;
+      }
   }
 }
 
@@ -377,7 +379,9 @@ TEST_F(ServoLoopTest, GivesNoForceToAHandThatRestsInTheSand) {
   device.reads = [&](double time, DeviceReading&) {
     const double seen = time - 1e-3;  // what is told is of the tick before
     const bool waits = seen < 1.05 - 1e-6;
-    if (seen > 0.0) EXPECT_EQ(made->progress().awaited == Awaited::lift, waits) << time;
+    if (seen > 0.0) {
+      EXPECT_EQ(made->progress().awaited == Awaited::lift, waits) << time;
+    }
     return true;
   };
   const RecordingFooter footer = run(&world);
@@ -459,10 +463,9 @@ TEST_F(ServoLoopTest, RecordsTheForceThatTheDeviceHoldsWhereItTakesNoOther) {
 
 TEST_F(ServoLoopTest, RecordsTheForceOfADeviceThatTakesNotEvenZero) {
   FakeWorld world = world_of({0.0, 0.0, 5.0});
-  int commands = 0;
   device.takes_force = [&](const Vector3d&) {
-    ++commands;
-    return commands <= 10 || commands > 20;
+    const std::int64_t tick = (clock.now() - start) / ms;
+    return tick < 10 || tick >= 20;
   };
   EXPECT_EQ(run(&world).reason, StopReason::duration);
   for (const RecordedSample& s : samples)
@@ -618,7 +621,9 @@ TEST_F(ServoLoopTest, BeginsOneTickBeforeFirstContact) {
     const Awaited expected = in_tick(time, 1, 10)    ? Awaited::lift
                              : in_tick(time, 11, 70) ? Awaited::contact
                                                      : Awaited::nothing;
-    if (time > last && made->progress().elapsed == 0) EXPECT_EQ(made->progress().awaited, expected) << time;
+    if (time > last && made->progress().elapsed == 0) {
+      EXPECT_EQ(made->progress().awaited, expected) << time;
+    }
     last = time;
     return true;
   };
