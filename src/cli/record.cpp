@@ -286,6 +286,10 @@ void add_record_command(CLI::App& app, Command& chosen) {
       "If anything else ends it, such as Ctrl-C, it is kept and marked incomplete.\n"
       "After kill -9 or a power failure it is in STROKE.h5.recording.\n"
       "Save it with: sandstroke stroke repair STROKE.h5\n"
+      "With --feel no force is given until the tool was out of the sand. Sand in which a hand on the device "
+      "would\n"
+      "shake is refused. That is judged by the largest force, the rate, and the scene's device.mass,\n"
+      "device.damping, device.hand_stiffness and device.hand_damping: set them if yours are others.\n"
       "Example:  sandstroke record --device scripted:strokes/wscg/stroke.toml -o hand.h5");
   command->callback([arguments, &chosen] { chosen = [arguments] { return record(*arguments); }; });
 }

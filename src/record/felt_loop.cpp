@@ -29,7 +29,7 @@ std::optional<FeltLoop> felt_loop(const Scene& scene, const DeviceSpecification&
   loop.scale = scene.device.scale * (scene.stroke ? scene.stroke->placement.scale : 1.0);
   loop.device = scene.device;
   loop.device.servo_rate = servo_rate;
-  constexpr double longest = 1000.0;  // ticks: no loop that is later is stable, and its map is large
+  constexpr double longest = 100.0;  // ticks, of a map of moderate size: who is later is not fit to record
   loop.device.delay =
       static_cast<int>(std::clamp(std::ceil(lateness.value_or(0.0) * servo_rate), 1.0, longest));
   loop.felt = felt_sand(depth_of_repulse_force(loop.force, scene.force), loop.force, loop.scale, scene.force);

@@ -51,6 +51,12 @@ TEST(FeltLoop, IsHeldAgainstTheDeviceAndTheory) {
   EXPECT_TRUE(felt_loop(scene, silent, any_force, 1000.0)->is_within_named());
 }
 
+TEST(FeltLoop, TheoryAllowsAtDefaultsWhatTheReadmeSays) {
+  const FeltSand stable = felt_loop(Scene{}, touch(), any_force, 1000.0)->stable;
+  EXPECT_NEAR(stable.drag, 138.0, 0.5);
+  EXPECT_NEAR(stable.stiffness, 6060.0, 5.0);
+}
+
 TEST(FeltLoop, IsTakenAsAtLeastATickLate) {
   const auto delay = [](std::optional<double> lateness, double rate) {
     return felt_loop(Scene{}, touch(), 3.0, rate, lateness)->device.delay;
