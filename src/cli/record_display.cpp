@@ -9,7 +9,8 @@ void RecordDisplay::show(const ServoProgress& now) {
   last_second_.push_back(now);
   while (last_second_.size() > 2 && now.time - last_second_[1].time >= 1.0) last_second_.pop_front();
   if (const std::string hint = hint_of(now); !hint.empty()) {
-    line_.draw(fmt::format("record: {}{}", hint, keys_));
+    const std::string so_far = now.elapsed > 0 ? fmt::format(" {:.1f} s", now.time) : "";
+    line_.draw(fmt::format("record{}: {}{}", so_far, hint, keys_));
     return;
   }
   const ServoProgress& before = last_second_.front();

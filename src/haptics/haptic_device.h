@@ -49,8 +49,9 @@ class HapticDevice {
   /// For how long it may give nothing and is still there [s]: a recorded stroke that is played has gaps.
   virtual double longest_silence() const { return 0.0; }
 
-  /// In the servo loop, and so without waiting, throwing or taking memory. time [s]: since the recording
-  /// began; a real device does not need it, what stands in for a hand moves by it. False: it gave nothing.
+  /// In the servo loop, and so without waiting, throwing or taking memory. time [s]: since the loop began, or
+  /// its countdown ended; a real device does not need it, what stands in for a hand moves by it. False: it
+  /// gave nothing.
   virtual bool read(double time, DeviceReading& reading) noexcept = 0;
   /// force [N] on the hand, in the device's frame, held until the next one. False: it took nothing.
   virtual bool command(const Eigen::Vector3d& force) noexcept = 0;

@@ -164,7 +164,7 @@ TEST(CliRecordTerminal, TheLineSaysThatTheToolMustBeLifted) {
   write_stroke_file(folder / "resting.h5", hand);
   AtTerminal program({"record", "-o", "a.h5", "--device", "replay:resting.h5", "--feel", "scene.toml"},
                      folder);
-  EXPECT_TRUE(program.shows("record: lift the tool out of the sand to begin; q ends it")) << program.shown();
+  EXPECT_TRUE(program.shows(" s: lift the tool out of the sand to begin; q ends it")) << program.shown();
   program.type("q");
   EXPECT_EQ(program.wait(), 0) << program.shown();
 }
