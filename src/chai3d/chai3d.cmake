@@ -14,7 +14,7 @@ find_library(CHAI3D_USB_LIBRARY usb-1.0 REQUIRED)
 
 add_library(chai3d_system INTERFACE)
 # Of its headers only its own: it would bring an Eigen beside ours.
-target_include_directories(chai3d_system SYSTEM INTERFACE ${CHAI3D_SOURCE_DIR}/src)
+target_include_directories(chai3d_system SYSTEM INTERFACE ${CHAI3D_SOURCE_DIR}/src ${CHAI3D_SOURCE_DIR}/externals/DHD/include)
 # Its package does not say so, but it was compiled with it; without it classes have other sizes.
 target_compile_definitions(chai3d_system INTERFACE LINUX)
 # Not all of CHAI3D_LIBRARIES: OpenGL and sound are of parts that devices do not need.

@@ -12,6 +12,7 @@
 #endif
 #include "devices/CGenericHapticDevice.h"
 #include "devices/CHapticDeviceHandler.h"
+#include "drdc.h"
 
 namespace sandstroke {
 namespace {
@@ -27,6 +28,7 @@ DeviceSpecification specification_of(const cHapticDeviceInfo& info) {
   if (info.m_actuatedPosition)
     specification.max_force = info.m_maxLinearForce;  // trackers have motors in none
   specification.max_stiffness = info.m_maxLinearStiffness;
+  specification.max_damping = info.m_maxLinearDamping;
   specification.workspace_radius = info.m_workspaceRadius;
   specification.switches = 0;  // CHAI3D does not say
   specification.measures_velocity = true;
@@ -35,6 +37,13 @@ DeviceSpecification specification_of(const cHapticDeviceInfo& info) {
 
 bool is_phantom(chai3d::cHapticDeviceModel model) {
   return model >= chai3d::C_HAPTIC_DEVICE_PHANTOM_TOUCH && model <= chai3d::C_HAPTIC_DEVICE_PHANTOM_OTHER;
+}
+
+/// CHAI3D does not say whether a device is calibrated, nor by which number Force Dimension's driver knows it:
+/// the driver takes the one that was opened last in this thread.
+std::optional<bool> drd_is_calibrated() {
+  if (!drdIsSupported()) return std::nullopt;
+  return drdIsInitialized();
 }
 
 Eigen::Vector3d from_chai3d(const cVector3d& vector) { return {vector.x(), vector.y(), vector.z()}; }
@@ -66,11 +75,14 @@ std::unique_ptr<HapticDevice> make_chai3d_device(int index) {
   if (!handler.getDevice(device, static_cast<unsigned>(index)))
     throw_io_error("CHAI3D does not give out haptic device {}: unplug it, plug it in again, and try again",
                    index);
-  return std::make_unique<Chai3dDevice>(device);
+  return device->m_specifications.m_manufacturerName == "Force Dimension"
+             ? std::make_unique<Chai3dDevice>(device, drd_is_calibrated)
+             : std::make_unique<Chai3dDevice>(device);
 }
 
-Chai3dDevice::Chai3dDevice(std::shared_ptr<chai3d::cGenericHapticDevice> device)
-    : device_(std::move(device)) {
+Chai3dDevice::Chai3dDevice(std::shared_ptr<chai3d::cGenericHapticDevice> device,
+                           std::function<std::optional<bool>()> asks_calibrated)
+    : device_(std::move(device)), asks_calibrated_(std::move(asks_calibrated)) {
   // The dummy that getDevice gives out where there is no device is not available, and its model is never set:
   // it must not be read, nor copied.
   const cHapticDeviceInfo& info = device_->m_specifications;
@@ -89,6 +101,7 @@ void Chai3dDevice::open() {
         "and try again",
         specification_.model);
   specification_ = specification_of(device_->m_specifications);  // now it has been asked itself
+  if (asks_calibrated_) calibrated_ = asks_calibrated_();
   released_ = false;
   motors_on_ = false;
   open_ = true;
@@ -105,6 +118,7 @@ void Chai3dDevice::calibrate() {
         "the haptic device {} did not calibrate: clear its way, or calibrate it by hand as its manual "
         "says, and try again",
         specification_.model);
+  if (asks_calibrated_) calibrated_ = asks_calibrated_();
 }
 
 bool Chai3dDevice::read(double, DeviceReading& reading) noexcept {

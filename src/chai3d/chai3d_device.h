@@ -1,8 +1,10 @@
 #pragma once
 
 #include <atomic>
+#include <functional>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <vector>
 
 #include "haptics/haptic_device.h"
@@ -23,7 +25,9 @@ std::unique_ptr<HapticDevice> make_chai3d_device(int index);
 class Chai3dDevice : public HapticDevice {
  public:
   /// Error: io, where it is no real one.
-  explicit Chai3dDevice(std::shared_ptr<chai3d::cGenericHapticDevice> device);
+  /// asks_calibrated: asks the driver about the device that was opened last; empty, or none: it does not say.
+  explicit Chai3dDevice(std::shared_ptr<chai3d::cGenericHapticDevice> device,
+                        std::function<std::optional<bool>()> asks_calibrated = {});
   ~Chai3dDevice() override { close(); }
 
   void open() override;
@@ -31,6 +35,7 @@ class Chai3dDevice : public HapticDevice {
   /// that nobody holds sinks.
   void calibrate() override;
   const DeviceSpecification& specification() const override { return specification_; }
+  std::optional<bool> is_calibrated() const override { return calibrated_; }
   /// A reading is whole or none: false where position, velocity or switches were not to be had.
   bool read(double time, DeviceReading& reading) noexcept override;
   /// The force as it is: CHAI3D cuts none, the recorder's guard has. One that is no number becomes none.
@@ -44,6 +49,8 @@ class Chai3dDevice : public HapticDevice {
   void motors_off() noexcept;
 
   std::shared_ptr<chai3d::cGenericHapticDevice> device_;
+  std::function<std::optional<bool>()> asks_calibrated_;
+  std::optional<bool> calibrated_;
   DeviceSpecification specification_;
   bool phantom_;
   // Sequentially consistent, for of a release and a command at the same time one must see the other.

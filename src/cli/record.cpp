@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -31,9 +32,9 @@ struct RecordArguments {
   std::string output, device, felt_scene;
   std::vector<std::string> overrides;  // of the felt scene
   RecorderSettings settings;
-  double duration = 0.0;  // s; 0: not given
-  double rate = 0.0;      // Hz; 0: not given
-  int stop_switch = -1;   // not given
+  double duration = 0.0;                    // s; 0: not given
+  double rate = 0.0;                        // Hz; 0: not given
+  int start_switch = -1, stop_switch = -1;  // not given
   bool list = false, check = false, no_memory_lock = false, json = false;
   bool view = false, no_open = false;
 };
@@ -58,6 +59,7 @@ RecorderSettings recorder_settings(const RecordArguments& arguments, const std::
   settings.servo.rate = servo_rate(arguments, felt);
   if (arguments.duration > 0.0) settings.servo.duration = arguments.duration;
   if (arguments.device == pointer_name) settings.servo.stop_switch = PointerDevice::finish_switch;
+  if (arguments.start_switch >= 0) settings.servo.start.start_switch = arguments.start_switch;
   if (arguments.stop_switch >= 0) settings.servo.stop_switch = arguments.stop_switch;
   if (arguments.view) settings.watch = 1.0 / 60.0;
   settings.lock_memory = !arguments.no_memory_lock;
@@ -144,12 +146,27 @@ double largest_force(const RecorderSettings& settings, const HapticDevice& devic
   return std::min({settings.servo.force.max_force, device.specification().max_force, felt.device.max_force});
 }
 
+int check(const RecordArguments& arguments) {
+  if (!arguments.output.empty()) throw_input_error("record --check records nothing; leave out -o");
+  if (!arguments.device.empty() && arguments.felt_scene.empty())
+    throw_input_error(
+        "record --check needs no device; leave out --device, or name the sand that it is to hold with "
+        "--feel");
+  std::optional<Scene> felt;
+  if (!arguments.felt_scene.empty()) felt = load_scene(arguments.felt_scene, arguments.overrides);
+  DeviceSpecification device;
+  device.max_force = std::numeric_limits<double>::infinity();  // unless it is named, the scene's limit holds
+  if (!arguments.device.empty() && arguments.device != pointer_name)
+    device = find_device(arguments.device, felt->force)->specification();
+  return check_machine(recorder_settings(arguments, felt), felt, device, arguments.json);
+}
+
 int record(const RecordArguments& arguments) {
-  if ((arguments.list || arguments.check) &&
+  if (arguments.list &&
       !(arguments.output.empty() && arguments.device.empty() && arguments.felt_scene.empty()))
-    throw_input_error("record --list and --check record nothing; leave out -o, --device and --feel");
+    throw_input_error("record --list records nothing; leave out -o, --device and --feel");
   if (arguments.list) return list_devices(arguments.json);
-  if (arguments.check) return check_machine(recorder_settings(arguments, {}), arguments.json);
+  if (arguments.check) return check(arguments);
   if (arguments.output.empty() || arguments.device.empty())
     throw_input_error(
         "record needs -o STROKE.h5 and --device NAME; sandstroke record --list names the devices");
@@ -168,6 +185,10 @@ int record(const RecordArguments& arguments) {
   std::optional<HeightField> bed;
   if (felt) bed = load_surface(felt->bed, fs::path(arguments.felt_scene).parent_path());
   const std::unique_ptr<HapticDevice> device = named_device(arguments, felt, bed, clock);
+  if (felt)
+    if (const std::optional<FeltLoop> loop =
+            felt_loop(*felt, device->specification(), settings.servo.force.max_force, settings.servo.rate))
+      check_felt_loop(*loop, felt->force, arguments.felt_scene);
   RecordingHeader header;
   header.source = arguments.device;
   std::optional<RecordView> view;
@@ -208,6 +229,30 @@ CLI::Validator recording_rate() {
       fmt::format("{} to {}", slowest, fastest));
 }
 
+/// When the recording begins and ends.
+void add_time_options(CLI::App& app, RecordArguments& arguments) {
+  StartSettings& start = arguments.settings.servo.start;
+  app.add_option("--duration", arguments.duration,
+                 "Length of the recording [s]. Default: until its stroke, q or --stop-switch ends it")
+      ->check(positive_number())
+      ->option_text("S");
+  app.add_option("--countdown", start.countdown,
+                 "Seconds until the recording begins. What is before its beginning is not in the stroke")
+      ->check(not_negative_number())
+      ->option_text("S");
+  app.add_option("--start-switch", arguments.start_switch,
+                 "Switch of the device that begins the recording, counted from 0")
+      ->check(CLI::Range(0, 31))
+      ->option_text("K");
+  app.add_flag("--start-at-contact", start.at_contact,
+               "Begin a tick before the tool touches the sand from above")
+      ->needs("--feel");
+  app.add_option("--stop-switch", arguments.stop_switch,
+                 "Switch of the device that ends the recording, counted from 0")
+      ->check(CLI::Range(0, 31))
+      ->option_text("K");
+}
+
 /// What the hand feels while it is recorded.
 void add_force_options(CLI::App& app, RecordArguments& arguments) {
   ForceLimits& force = arguments.settings.servo.force;
@@ -222,7 +267,8 @@ void add_force_options(CLI::App& app, RecordArguments& arguments) {
       ->check(not_negative_number())
       ->option_text("N")
       ->needs(feel);
-  app.add_option("--force-ramp", force.ramp, "Time over which the force grows to full [s]")
+  app.add_option("--force-ramp", force.ramp,
+                 "Time over which the force grows to full, once the tool was out of the sand [s]")
       ->check(not_negative_number())
       ->capture_default_str()
       ->needs(feel);
@@ -250,32 +296,27 @@ void add_record_command(CLI::App& app, Command& chosen) {
       ->type_name("{chai3d,pointer,replay:,scripted:}")
       ->option_text("NAME");
   auto* list = command->add_flag("--list", arguments->list, "List devices and stand-ins");
-  auto* check = command->add_flag(
-      "--check", arguments->check,
-      "Measure how well this machine keeps the loop's rate. Needs no device. Takes 10 s, or --duration");
+  auto* check =
+      command->add_flag("--check", arguments->check,
+                        "Measure how well this machine keeps the loop's rate. Takes 10 s, or --duration. "
+                        "With --feel, also hold "
+                        "the sand against what --device names and what theory allows. Moves nothing");
   list->excludes(check);
-  command
-      ->add_option("--duration", arguments->duration,
-                   "Length of the recording [s]. Default: until its stroke, q or --stop-switch ends it")
-      ->check(positive_number())
-      ->option_text("S");
   command
       ->add_option("--rate", arguments->rate,
                    "Rate of the loop [Hz]. Default: 1000, or with --feel the scene's device.servo_rate")
       ->check(recording_rate())
       ->option_text("HZ");
-  command
-      ->add_option("--stop-switch", arguments->stop_switch,
-                   "Switch of the device that ends the recording, counted from 0")
-      ->check(CLI::Range(0, 31))
-      ->option_text("K");
   add_force_options(*command, *arguments);
   command->add_flag("--view", arguments->view,
                     "Show the sand of --feel live in a browser. The address is printed, and opened where "
                     "there is a desktop");
   command->add_flag("--no-open", arguments->no_open, "Print the address of --view, but do not open it");
+  add_time_options(*command, *arguments);
   command->add_flag("--calibrate", settings.calibrate,
                     "Calibrate the device first. THIS MAY MOVE ITS ARM: keep clear");
+  command->add_flag("--allow-uncalibrated", settings.allow_uncalibrated,
+                    "Give forces on a device that says it is not calibrated. They may push where nothing is");
   command
       ->add_option("--priority", settings.priority,
                    fmt::format("Real-time priority (SCHED_FIFO) of the loop, 1 to {}. 0 asks for none",
@@ -289,6 +330,10 @@ void add_record_command(CLI::App& app, Command& chosen) {
       "If anything else ends it, such as Ctrl-C, it is kept and marked incomplete.\n"
       "After kill -9 or a power failure it is in STROKE.h5.recording.\n"
       "Save it with: sandstroke stroke repair STROKE.h5\n"
+      "With --feel no force is given until the tool was out of the sand. Sand in which a hand on the device "
+      "would\n"
+      "shake is refused. That is judged by the largest force, the rate, and the scene's device.mass,\n"
+      "device.damping, device.hand_stiffness and device.hand_damping: set them if yours are others.\n"
       "Examples:  sandstroke record --device scripted:strokes/wscg/stroke.toml -o hand.h5\n"
       "           sandstroke record --device pointer --feel strokes/wscg/scene.toml -o hand.h5");
   command->callback([arguments, &chosen] {

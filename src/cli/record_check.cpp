@@ -37,7 +37,8 @@ void print_table(const LoopCheck& check, const ServoSettings& servo) {
 
 }  // namespace
 
-int check_machine(const RecorderSettings& settings, bool json) {
+int check_machine(const RecorderSettings& settings, const std::optional<Scene>& felt,
+                  const DeviceSpecification& device, bool json) {
   const double seconds = settings.servo.duration.value_or(10.0);
   LoopCheck check;
   catch_interrupts();
@@ -48,6 +49,10 @@ int check_machine(const RecorderSettings& settings, bool json) {
       return std::nullopt;
     });
   }
+  std::optional<FeltLoop> sand;
+  if (felt)
+    sand = felt_loop(*felt, device, settings.servo.force.max_force, settings.servo.rate,
+                     check.loop.lateness.p99);
   if (json) {
     nlohmann::ordered_json object = {{"fit", check.fit},
                                      {"nominal_rate", settings.servo.rate},
@@ -56,12 +61,16 @@ int check_machine(const RecorderSettings& settings, bool json) {
                                      {"memory_locked", check.scheduling.memory_locked},
                                      {"scheduling_advice", check.scheduling.advice}};
     object.update(as_json(check.loop));
+    if (felt) object["felt"] = sand ? felt_loop_json(*sand) : nlohmann::ordered_json();
     print_json(object);
   } else {
     print_table(check, settings.servo);
+    if (sand) print_felt_loop(*sand, felt->force);
+    if (felt && !sand)
+      print_row("sand", "held against no limit: no force is given, or none that a device names");
   }
   if (interrupted()) return 128 + interrupted();
-  return check.fit ? 0 : not_fit;
+  return check.fit && (!sand || sand->is_stable()) ? 0 : not_fit;
 }
 
 }  // namespace sandstroke

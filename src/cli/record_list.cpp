@@ -25,13 +25,14 @@ double known(double value) { return value > 0.0 ? value : std::numeric_limits<do
 
 Table device_table(const std::vector<ConnectedDevice>& devices) {
   std::vector<std::string> names, models, manufacturers;
-  std::vector<double> forces, stiffnesses, radii, switches;
+  std::vector<double> forces, stiffnesses, dampings, radii, switches;
   for (const auto& [name, device] : devices) {
     names.push_back(name);
     models.push_back(device.model);
     manufacturers.push_back(device.manufacturer);
     forces.push_back(device.max_force);
     stiffnesses.push_back(known(device.max_stiffness));
+    dampings.push_back(known(device.max_damping));
     radii.push_back(known(device.workspace_radius));
     switches.push_back(known(device.switches));
   }
@@ -40,6 +41,7 @@ Table device_table(const std::vector<ConnectedDevice>& devices) {
            {"manufacturer", "manufacturer", "", manufacturers},
            {"max_force", "force", "N", forces},
            {"max_stiffness", "stiffness", "N/m", stiffnesses},
+           {"max_damping", "damping", "N s/m", dampings},
            {"workspace_radius", "workspace radius", "m", radii},
            {"switches", "switches", "", switches}}};
 }

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <optional>
 
+#include "record/felt_loop.h"
 #include "record/live_sand.h"
 #include "record/recorder.h"
 
@@ -14,8 +16,18 @@ namespace sandstroke {
 int list_devices(bool json);
 
 /// `record --check`: what this machine does to a loop with these settings but without a device, in 10 s where
-/// they say no duration.
-int check_machine(const RecorderSettings& settings, bool json);
+/// they say no duration. felt: a scene whose sand is then held against the limits of this device; may be
+/// none.
+int check_machine(const RecorderSettings& settings, const std::optional<Scene>& felt,
+                  const DeviceSpecification& device, bool json);
+
+// Sand that is felt, against what a device and its loop can hold:
+/// Error: input, with settings that would do, where no hand on the device settles. Warns beyond what it
+/// names.
+void check_felt_loop(const FeltLoop& loop, const ForceSettings& force, const std::string& scene);
+/// As rows of a table.
+void print_felt_loop(const FeltLoop& loop, const ForceSettings& force);
+nlohmann::ordered_json felt_loop_json(const FeltLoop& loop);
 
 /// On the standard output, as a table or as one JSON object. felt: none, where no sand was.
 void print_recording(const RecordingReport& report, const std::optional<LiveSandReport>& felt,

@@ -11,6 +11,8 @@ namespace {
 std::string force_text(double limit, const TickCounts& ticks) {
   if (limit == 0.0) return "none";
   std::string text = limit < any_force ? fmt::format("up to {:.3g} N", limit) : "no limit";
+  if (ticks.interlocked > 0)
+    text += fmt::format("; none in {} ticks, until the tool was lifted out of the sand", ticks.interlocked);
   if (ticks.ramped > 0) text += fmt::format("; still fading in during {} ticks", ticks.ramped);
   if (ticks.clamped > 0) text += fmt::format(", cut to the limit in {}", ticks.clamped);
   if (ticks.rate_limited > 0) text += fmt::format(", its change limited in {}", ticks.rate_limited);

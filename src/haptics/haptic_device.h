@@ -17,6 +17,7 @@ struct DeviceSpecification {
   std::string frame = "device";   ///< of its positions and forces, as Stroke::frame
   double max_force = 0.0;         ///< N; 0 = it gives none
   double max_stiffness = 0.0;     ///< N/m, of a closed loop; 0 = unknown
+  double max_damping = 0.0;       ///< N s/m, of a closed loop; 0 = unknown
   double workspace_radius = 0.0;  ///< m; 0 = unknown
   int switches = 0;               ///< how many it has; 0 = none, or unknown
   bool measures_velocity = false;
@@ -41,13 +42,16 @@ class HapticDevice {
   virtual void calibrate() = 0;
   /// Known before it is opened, but for what only an open device tells of itself (not its frame).
   virtual const DeviceSpecification& specification() const = 0;
+  /// Of an open device: whether its positions are right; none: it does not say.
+  virtual std::optional<bool> is_calibrated() const { return true; }
   /// For how long there is something to record [s]; none: as long as a hand holds it.
   virtual std::optional<double> duration() const { return std::nullopt; }
   /// For how long it may give nothing and is still there [s]: a recorded stroke that is played has gaps.
   virtual double longest_silence() const { return 0.0; }
 
-  /// In the servo loop, and so without waiting, throwing or taking memory. time [s]: since the recording
-  /// began; a real device does not need it, what stands in for a hand moves by it. False: it gave nothing.
+  /// In the servo loop, and so without waiting, throwing or taking memory. time [s]: since the loop began, or
+  /// its countdown ended; a real device does not need it, what stands in for a hand moves by it. False: it
+  /// gave nothing.
   virtual bool read(double time, DeviceReading& reading) noexcept = 0;
   /// force [N] on the hand, in the device's frame, held until the next one. False: it took nothing.
   virtual bool command(const Eigen::Vector3d& force) noexcept = 0;

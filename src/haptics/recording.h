@@ -23,6 +23,7 @@ enum SampleFlag : std::uint32_t {
   rate_limited_force = 16,  ///< the force was held back from jumping
   refused_force = 32,       ///< the force was no number: none was given
   held_sand = 64,           ///< the tool did not dig, for the eroding bed was too far behind
+  interlocked_force = 128,  ///< none was given, for the tool had not been out of the sand since a beginning
 };
 
 /// What is added to the name of STROKE.h5 while it is being recorded: the name of its journal.
@@ -69,7 +70,7 @@ struct TickCounts {
   std::int64_t unread = 0;    ///< the device gave nothing, or no number
   std::int64_t dropped = 0;   ///< the ring was full: the disk did not keep up
   // Of the recorded ones, by flag:
-  std::int64_t late = 0, clamped = 0, ramped = 0, rate_limited = 0, refused = 0, held = 0;
+  std::int64_t late = 0, clamped = 0, ramped = 0, rate_limited = 0, refused = 0, held = 0, interlocked = 0;
 };
 
 /// Counts a recorded sample's flags.

@@ -20,6 +20,7 @@ void visit_header(Header& header, const Visit& visit) {
   visit("device_manufacturer", header.device.manufacturer);
   visit("device_max_force", header.device.max_force);
   visit("device_max_stiffness", header.device.max_stiffness);
+  visit("device_max_damping", header.device.max_damping);
   visit("device_workspace_radius", header.device.workspace_radius);
   visit("device_switches", header.device.switches);
   visit("device_measures_velocity", header.device.measures_velocity);
@@ -46,6 +47,7 @@ void visit_footer(Footer& footer, const Visit& visit) {
   visit("ticks_rate_limited", footer.ticks.rate_limited);
   visit("ticks_refused", footer.ticks.refused);
   visit("ticks_held", footer.ticks.held);
+  visit("ticks_interlocked", footer.ticks.interlocked);
   visit("lateness_mean", footer.lateness.mean);
   visit("lateness_p99", footer.lateness.p99);
   visit("lateness_max", footer.lateness.max);

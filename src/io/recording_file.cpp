@@ -59,7 +59,7 @@ class SampleColumns {
 };
 
 constexpr const char* attribute_units =
-    "s, Hz, m, N, N/m; clock_start: ns; yes and no: 1 and 0; of the device 0 means none or unknown, "
+    "s, Hz, m, N, N/m, N s/m; clock_start: ns; yes and no: 1 and 0; of the device 0 means none or unknown, "
     "a force of 1.8e308 N any. A sample's wall time: started + monotonic_time / 1e9 - started_monotonic";
 
 /// recorded: the counts of the samples there are, with elapsed as far as these reach.
@@ -99,6 +99,7 @@ struct PutAttribute {
   }
 };
 
+/// A number that is missing, of a file from before it was recorded, stays as it is by default.
 struct TakeAttribute {
   const Hdf5Reader& file;
 
@@ -114,11 +115,12 @@ struct TakeAttribute {
     reason = *known;
   }
   void operator()(const char* name, double& number) const {
-    number = file.number_attribute(stroke_group, name);
+    if (file.has_attribute(stroke_group, name)) number = file.number_attribute(stroke_group, name);
   }
   /// A count, or yes or no.
   template <class Count>
   void operator()(const char* name, Count& count) const {
+    if (!file.has_attribute(stroke_group, name)) return;
     const double number = file.number_attribute(stroke_group, name);
     constexpr double most = most_ticks;
     if (!(std::abs(number) < std::min(most, static_cast<double>(std::numeric_limits<Count>::max()) + 1.0)))

@@ -51,6 +51,7 @@ void Eroder::exchange() {
   bool told = false;
   while (places_.pop(place)) told = true;
   if (told) tool_.put(replica_.bed(), place.tip, place.contact);
+  begun_ = begun_ || told;
   SandChange change;
   while (dug_.pop(change)) replica_.take(change, true);
 }
@@ -90,6 +91,11 @@ void Eroder::run() {
   const Seconds period(rate_ > 0.0 ? 1.0 / rate_ : std::numeric_limits<double>::infinity());
   for (Seconds due = now(); !stopping_;) {
     exchange();
+    if (!begun_) {
+      std::this_thread::sleep_for(longest_look);
+      due = now();
+      continue;
+    }
     if (now() >= due) {
       relax();
       due = std::max(due + period, now());

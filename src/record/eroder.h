@@ -41,9 +41,9 @@ class Eroder {
 
   /// Is shown the bed in that thread after every turn. Before start().
   void show_to(std::function<void(const HeightField&)> onlooker) { onlooker_ = std::move(onlooker); }
-  /// In a thread of its own, settings.rate times a second and by the tool's way, or, where that takes longer,
-  /// one after the other. Sand that has far to go does so in several turns. What was dug is taken 60 times a
-  /// second at least.
+  /// In a thread of its own, from the first place of the tool on settings.rate times a second and by the
+  /// tool's way, or, where that takes longer, one after the other. Sand that has far to go does so in several
+  /// turns. What was dug is taken 60 times a second at least.
   void start();
   /// Ends that thread, after the relaxation that is going on.
   void stop();
@@ -70,6 +70,7 @@ class Eroder {
   BedReplica replica_;
   double rate_, travel_;  // Hz, m
   SandSide tool_;         // as last told of; it displaces nothing
+  bool begun_ = false;    // it was told of: until then sand stays as a run of the stroke finds it
   std::unique_ptr<Relaxer> relaxer_;
   SandRing& dug_;
   PlaceRing& places_;

@@ -19,6 +19,8 @@ class FeltWorld {
   virtual ~FeltWorld() = default;
   /// For a device read at `time` [s] since the recording began; times increase.
   virtual FeltForce feel(double time, const DeviceReading& reading) noexcept = 0;
+  /// Before the recording begins: whether the tool would touch anything. Changes nothing that is felt later.
+  virtual bool touches(const DeviceReading& reading) noexcept = 0;
 };
 
 }  // namespace sandstroke

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "haptics/force_model.h"
 #include "haptics/recording.h"
 
 namespace sandstroke {
@@ -20,20 +21,27 @@ bool cut(Eigen::Vector3d& vector, double length) {
 }  // namespace
 
 ForceGuard::ForceGuard(const ForceLimits& limits, double servo_rate)
-    : limits_(limits), largest_change_(limits.rate / servo_rate) {
+    : limits_(limits), largest_change_(limits.rate / servo_rate), interlock_(limits.clear_time) {
   limits_.max_force = std::max(0.0, limits.max_force);
 }
 
-FeltForce ForceGuard::admit(double time, const FeltForce& wanted,
-                            const Eigen::Vector3d& held) const noexcept {
+FeltForce ForceGuard::admit(double time, const FeltForce& wanted, const Eigen::Vector3d& held) noexcept {
   FeltForce given = wanted;
   if (!wanted.force.allFinite()) {
+    interlock_.close();
     given.force.setZero();
     given.flags |= refused_force;
     return given;
   }
-  if (time < limits_.ramp && !given.force.isZero(0.0)) {
-    given.force *= time / limits_.ramp;
+  interlock_.see(time, length_of(wanted.force));
+  const bool is_wanted = !wanted.force.isZero(0.0);
+  if (!interlock_.is_open()) {
+    given.force.setZero();
+    if (is_wanted) given.flags |= interlocked_force;
+    return given;
+  }
+  if (interlock_.open_for() < limits_.ramp && is_wanted) {
+    given.force *= interlock_.open_for() / limits_.ramp;
     given.flags |= ramped_force;
   }
   if (cut(given.force, limits_.max_force)) given.flags |= clamped_force;

@@ -78,6 +78,10 @@ std::size_t LiveSand::changes_of_move(const Eigen::Vector3d& tip) const {
   return most < static_cast<double>(ring_size) ? static_cast<std::size_t>(most) : ring_size + 1;
 }
 
+bool LiveSand::touches(const DeviceReading& reading) noexcept {
+  return sand_.look(replica_.bed(), tip(reading.position)).contact;
+}
+
 FeltForce LiveSand::feel(double time, const DeviceReading& reading) noexcept {
   take_slipped(most_taken);
   const Eigen::Vector3d tip = this->tip(reading.position);

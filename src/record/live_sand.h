@@ -48,6 +48,7 @@ class LiveSand : public FeltWorld {
   /// Starts eroding; the recording is about to begin.
   void start() { eroder_.start(); }
   FeltForce feel(double time, const DeviceReading& reading) noexcept override;
+  bool touches(const DeviceReading& reading) noexcept override;
   /// The recording is over: stops eroding, and brings both beds together. Throws what eroding may have failed
   /// of.
   LiveSandReport finish();
@@ -73,6 +74,7 @@ class LiveSand : public FeltWorld {
     Eigen::Vector3d tip;
   };
 
+  /// m, in the bed.
   Eigen::Vector3d velocity(double time, const Eigen::Vector3d& tip);
   /// Of the last velocity_window readings, by their number.
   Past& past(std::int64_t reading) { return past_[static_cast<std::size_t>(reading % velocity_window)]; }

@@ -1,6 +1,7 @@
 #include "record/recorder.h"
 
 #include <spdlog/fmt/chrono.h>
+#include <spdlog/spdlog.h>
 
 #include <chrono>
 #include <cmath>
@@ -30,12 +31,36 @@ class OpenDevice {
   HapticDevice& device_;
 };
 
-void check_stop_switch(std::optional<int> number, const DeviceSpecification& device) {
+/// use: "start" or "stop".
+void check_switch(const char* use, std::optional<int> number, const DeviceSpecification& device) {
   const int most = device.switches > 0 ? std::min(device.switches, 32) : 32;  // 0: it does not say
   if (number && (*number < 0 || *number >= most)) {
-    throw_input_error("stop switch {}: {} has the switches 0 to {}; choose one of them", *number,
+    throw_input_error("{} switch {}: {} has the switches 0 to {}; choose one of them", use, *number,
                       device.model, most - 1);
   }
+}
+
+/// The wrong positions of a device that is not calibrated would be the wrong forces.
+void check_calibrated(const HapticDevice& device, const FeltWorld* world, const RecorderSettings& settings) {
+  const std::optional<bool> calibrated = device.is_calibrated();
+  const std::string& model = device.specification().model;
+  const bool gives_force =
+      world && settings.servo.force.max_force > 0.0 && device.specification().max_force > 0.0;
+  if (calibrated == false && gives_force && !settings.allow_uncalibrated)
+    throw_input_error(
+        "the haptic device {} is not calibrated, so its positions and forces may be wrong: calibrate it with "
+        "--calibrate (which may move its arm), or record without --feel; --allow-uncalibrated gives forces "
+        "all the same",
+        model);
+  if (calibrated == false)
+    spdlog::warn(
+        "the haptic device {} is not calibrated: its positions may be wrong; --calibrate calibrates it",
+        model);
+  if (!calibrated && gives_force)
+    spdlog::warn(
+        "the driver does not say whether the haptic device {} is calibrated: calibrate it as its manual says "
+        "(a Touch by its inkwell)",
+        model);
 }
 
 std::string utc_now() {
@@ -51,8 +76,10 @@ RecordingReport record(HapticDevice& device, FeltWorld* world, const RecorderSet
                        RecordingHeader header, const std::filesystem::path& journal,
                        const RecordingWatcher& watcher) {
   const OpenDevice open(device);
-  check_stop_switch(settings.servo.stop_switch, device.specification());
+  check_switch("start", settings.servo.start.start_switch, device.specification());
+  check_switch("stop", settings.servo.stop_switch, device.specification());
   if (settings.calibrate) device.calibrate();
+  check_calibrated(device, world, settings);
 
   MonotonicClock clock;
   SpscRing<RecordedSample> ring(static_cast<std::size_t>(std::ceil(settings.ring * settings.servo.rate)));

@@ -14,6 +14,7 @@ struct RecorderSettings {
   double ring = 10.0;      ///< s of samples that the disk may be behind
   double watch = 0.1;      ///< s between two calls of the watcher
   bool calibrate = false;  ///< may move the arm
+  bool allow_uncalibrated = false;  ///< to give forces
 };
 
 struct RecordingReport {
@@ -26,7 +27,8 @@ struct RecordingReport {
 /// joined; writer and watchdog; whatever ends it, device released and closed, journal finished. header: what
 /// the caller knows (source, felt scene); the rest is filled in. A disk that takes no more ends it for the
 /// reason `disk`, and what is in the journal is kept. Error: io, before the first sample; input, for a switch
-/// that the device has not; what the watcher throws, after the journal was finished.
+/// that the device has not, or forces on one that is not calibrated; what the watcher throws, after the
+/// journal was finished.
 RecordingReport record(HapticDevice& device, FeltWorld* world, const RecorderSettings& settings,
                        RecordingHeader header, const std::filesystem::path& journal,
                        const RecordingWatcher& watcher);

@@ -21,6 +21,7 @@ struct PutField {
   void operator()(const char* name, const StopReason& reason) const { json[name] = stop_reason_text(reason); }
 };
 
+/// A number that is missing, of a file from before it was recorded, stays as it is by default.
 struct TakeField {
   const Json& json;
 
@@ -30,9 +31,10 @@ struct TakeField {
   }
   template <std::signed_integral Count>
   void operator()(const char* name, Count& count) const {
-    count = json_count<Count>(json.at(name), most_ticks);
+    if (json.contains(name)) count = json_count<Count>(json.at(name), most_ticks);
   }
   void operator()(const char* name, double& number) const {
+    if (!json.contains(name)) return;
     const Json& value = json.at(name);
     number = value.is_null() ? std::numeric_limits<double>::quiet_NaN() : value.get<double>();
   }

@@ -1,5 +1,7 @@
 #include "record/servo_loop.h"
 
+#include <spdlog/fmt/fmt.h>
+
 #include <algorithm>
 #include <limits>
 
@@ -25,31 +27,40 @@ ForceLimits limited(ForceLimits limits, double max_force) {
 
 }  // namespace
 
+std::string hint_of(const ServoProgress& progress) {
+  switch (progress.awaited) {
+    case Awaited::nothing:
+      return "";
+    case Awaited::countdown:
+      return fmt::format("begins in {:.1f} s", -progress.time);
+    case Awaited::start_switch:
+      return "press the start switch to begin";
+    case Awaited::lift:
+      return "lift the tool out of the sand to begin";
+    case Awaited::contact:
+      return "touch the sand to begin";
+  }
+  return "";
+}
+
 ServoLoop::ServoLoop(HapticDevice& device, FeltWorld* world, LoopClock& clock, SpscRing<RecordedSample>& ring,
                      const ServoSettings& settings)
     : device_(device),
       world_(world),
       clock_(clock),
       ring_(ring),
+      settings_(settings),
       rate_(settings.rate),
-      last_tick_(std::numeric_limits<std::int64_t>::max()),
-      end_reason_(StopReason::duration),
       gives_force_(device.specification().max_force > 0.0),
       force_limit_(world ? std::min(settings.force.max_force, device.specification().max_force) : 0.0),
       guard_(limited(settings.force, force_limit_), settings.rate),
       silent_{to_nanoseconds(settings.silence + device.longest_silence()), StopReason::device_lost, {}},
       wrong_{to_nanoseconds(settings.silence), StopReason::no_number, {}} {
-  if (settings.duration) last_tick_ = ticks_in(*settings.duration, rate_) - 1;
-  if (const std::optional<double> stroke = device.duration();
-      stroke && ticks_in(*stroke, rate_) < last_tick_) {
-    last_tick_ = ticks_in(*stroke, rate_);
-    end_reason_ = StopReason::stroke_end;
-  }
   if (settings.stop_switch) stop_switch_.emplace(*settings.stop_switch, to_nanoseconds(settings.debounce));
 }
 
 RecordingFooter ServoLoop::run() noexcept {
-  start_ = clock_.now();
+  await_start();
   while (true) {
     if (ticks_.elapsed > last_tick_) stop(end_reason_);
     // Right after the last tick's command: where the watchdog has released the device since the tick looked,
@@ -89,7 +100,8 @@ ServoProgress ServoLoop::progress() const noexcept {
           .max_lateness = to_seconds(max_late_.load(relaxed)),
           .position = vector(seen_position_),
           .held = vector(seen_force_),
-          .read = seen_read_.load(relaxed)};
+          .read = seen_read_.load(relaxed),
+          .awaited = awaited_.load(relaxed)};
 }
 
 /// From the tick's number, not from the tick before: nothing adds up where a tick is no whole number of
@@ -104,19 +116,73 @@ std::int64_t ServoLoop::wait_for_tick() noexcept {
   return clock_.now();
 }
 
+void ServoLoop::await_start() noexcept {
+  awake_ = clock_.now();
+  const StartSettings& asked = settings_.start;
+  const std::int64_t countdown_end = awake_ + ticks_in(asked.countdown, 1e9);
+  StartGate gate(asked, countdown_end, to_nanoseconds(settings_.debounce));
+  DeviceReading before;
+  std::optional<std::int64_t> read_before;
+  played_from_ = awake_;
+  if (asked.at_once()) return begin(awake_, nullptr);
+  for (std::int64_t now = awake_; !stopped(); now = clock_.now()) {
+    heartbeat_.store(now, std::memory_order_release);
+    played_from_ = std::min(now, countdown_end);
+    DeviceReading reading;
+    const bool reads = read(now, reading);
+    stop_where_it_lasts(!reads, silent_, now);
+    if (reads) {
+      const bool touches = world_ && world_->touches(reading);
+      // How large a force is due is not known without digging.
+      guard_.interlock().see(to_seconds(now - awake_),
+                             touches ? std::numeric_limits<double>::infinity() : 0.0);
+      const Awaited awaited = gate.see(now, reading.switches, touches);
+      publish_waiting(now - countdown_end, awaited);
+      if (awaited == Awaited::nothing)
+        return asked.at_contact && read_before ? begin(*read_before, &before) : begin(now, nullptr);
+      before = reading;
+      read_before = now;
+    } else {
+      guard_.interlock().close();
+      read_before.reset();
+    }
+    if (const std::optional<double> stroke = device_.duration();
+        stroke && now - played_from_ > ticks_in(*stroke, 1e9))
+      stop(StopReason::stroke_end);
+    clock_.sleep_until(now + to_nanoseconds(1.0 / rate_));
+  }
+}
+
+void ServoLoop::begin(std::int64_t now, const DeviceReading* before) noexcept {
+  start_ = now;
+  if (settings_.duration) last_tick_ = ticks_in(*settings_.duration, rate_) - 1;
+  if (const std::optional<double> stroke = device_.duration()) {
+    const std::int64_t end = ticks_in(*stroke - to_seconds(start_ - played_from_), rate_);
+    if (end < last_tick_) {
+      last_tick_ = end;
+      end_reason_ = StopReason::stroke_end;
+    }
+  }
+  if (!before) return;
+  world_->feel(0.0, *before);  // no force, for there was no contact
+  keep(*before, now, 0);
+  lateness_.add(0);
+  ++ticks_.elapsed;
+}
+
 void ServoLoop::serve_tick(std::int64_t now) noexcept {
   DeviceReading reading;
   bool answers = false;
-  read_ = read(to_seconds(now - start_), reading);
-  if (read_) {
-    position_ = reading.position;
+  if (read(now, reading)) {
     FeltForce given = feel(now, reading);
     if (stopped()) given.force.setZero();  // perhaps for a call that hung: its force is of another time
     answers = command(given.force);
+    if (!answers) guard_.interlock().close();
     keep(reading, now, given.flags);
     if (stop_switch_ && stop_switch_->pressed(reading.switches, now)) stop(StopReason::stop_switch);
   } else {
     ++ticks_.unread;
+    guard_.interlock().close();
     command(Vector3d::Zero());
   }
   stop_where_it_lasts(!answers, silent_, now);
@@ -131,22 +197,31 @@ void ServoLoop::stop_where_it_lasts(bool fails, Fault& fault, std::int64_t now) 
   if (now - *fault.since >= fault.limit) stop(fault.reason);
 }
 
-bool ServoLoop::read(double time, DeviceReading& reading) noexcept {
-  return device_.read(time, reading) && reading.position.allFinite() && reading.velocity.allFinite();
+bool ServoLoop::read(std::int64_t now, DeviceReading& reading) noexcept {
+  read_ = device_.read(to_seconds(now - played_from_), reading) && reading.position.allFinite() &&
+          reading.velocity.allFinite();
+  if (read_) position_ = reading.position;
+  return read_;
 }
 
 FeltForce ServoLoop::feel(std::int64_t now, const DeviceReading& reading) noexcept {
   if (!world_) return {};
-  const double time = to_seconds(now - start_);
-  const FeltForce given = guard_.admit(time, world_->feel(time, reading), held_);
+  const FeltForce wanted = world_->feel(to_seconds(now - start_), reading);
+  const FeltForce given = guard_.admit(to_seconds(now - awake_), wanted, held_);
   stop_where_it_lasts((given.flags & refused_force) != 0, wrong_, now);
   return given;
 }
 
-/// True: the device holds it.
+/// False: since it refused a command the device has taken none. That it refuses zero where it holds none does
+/// not matter.
 bool ServoLoop::command(const Vector3d& force) noexcept {
-  if (gives_force_ && device_.command(force)) held_ = force;
-  return held_ == force;
+  if (gives_force_ && device_.command(force)) {
+    held_ = force;
+    refuses_ = false;
+  } else if (!force.isZero(0.0) || !held_.isZero(0.0)) {
+    refuses_ = true;
+  }
+  return !refuses_;
 }
 
 void ServoLoop::keep(const DeviceReading& reading, std::int64_t now, std::uint32_t flags) noexcept {
@@ -177,11 +252,24 @@ void ServoLoop::publish(std::int64_t now) noexcept {
   elapsed_.store(ticks_.elapsed, relaxed);
   recorded_.store(ticks_.recorded, relaxed);
   force_.store(held_.norm(), relaxed);
+  publish_hand();
+  const bool withheld = force_limit_ > 0.0 && !guard_.interlock().is_open();
+  awaited_.store(withheld ? Awaited::lift : Awaited::nothing, relaxed);
+}
+
+void ServoLoop::publish_hand() noexcept {
   for (int axis = 0; axis < 3; ++axis) {
     seen_position_[axis].store(position_[axis], relaxed);
     seen_force_[axis].store(held_[axis], relaxed);
   }
   seen_read_.store(read_, relaxed);
+}
+
+/// time [ns]: since the countdown's end.
+void ServoLoop::publish_waiting(std::int64_t time, Awaited awaited) noexcept {
+  time_.store(time, relaxed);
+  publish_hand();
+  awaited_.store(awaited, relaxed);
 }
 
 }  // namespace sandstroke

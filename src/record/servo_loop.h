@@ -2,14 +2,16 @@
 
 #include <array>
 #include <atomic>
+#include <limits>
 #include <optional>
+#include <string>
 
 #include "haptics/recording.h"
 #include "record/force_guard.h"
 #include "record/lateness_histogram.h"
 #include "record/loop_clock.h"
 #include "record/spsc_ring.h"
-#include "record/stop_switch.h"
+#include "record/start_gate.h"
 
 namespace sandstroke {
 
@@ -17,8 +19,9 @@ struct ServoSettings {
   double rate = 1000.0;            ///< Hz
   std::optional<double> duration;  ///< s: round(duration x rate) ticks elapse
   ForceLimits force;
+  StartSettings start;
   std::optional<int> stop_switch;  ///< the switch (from 0, to 31) that ends the recording when it is pressed
-  double debounce = 0.02;          ///< s that it must be down for; and up once before, to count at all
+  double debounce = 0.02;          ///< s that a switch must be down for; and up once before, to count at all
   /// s for which the device may go on giving no reading (or taking no force), or the world no number, before
   /// the loop stops (device_lost, no_number). Until then no force is given: what fails once costs a tick, not
   /// the recording; what goes on failing is not hidden.
@@ -27,7 +30,7 @@ struct ServoSettings {
 
 /// How far a loop is; any thread may look.
 struct ServoProgress {
-  double time = 0.0;  ///< s, since the first tick
+  double time = 0.0;  ///< s, since the first tick; while it waits for the first, since the countdown's end
   std::int64_t elapsed = 0, recorded = 0;
   double force = 0.0;     ///< N, magnitude commanded last
   double lateness = 0.0;  ///< s, of the last tick
@@ -36,7 +39,13 @@ struct ServoProgress {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< m, as read last, in the device's frame
   Eigen::Vector3d held = Eigen::Vector3d::Zero();      ///< N, commanded last, in the device's frame
   bool read = false;                                   ///< the device gave a position in the last tick
+  /// Before the first tick: what it waits for. After it: `lift`, where no force is given until the tool is
+  /// lifted out of the sand.
+  Awaited awaited = Awaited::nothing;
 };
+
+/// What the user must do or wait for, for people: "lift the tool out of the sand to begin"; empty: nothing.
+std::string hint_of(const ServoProgress& progress);
 
 /// The 1 kHz loop: at absolute times, reads the device, feels, commands, and puts a sample into the ring.
 /// Ticks to which it comes a whole tick late or more are counted and skipped, never made up in a burst. In it
@@ -49,8 +58,11 @@ class ServoLoop {
 
   /// N: what the hand may get, at most: the smaller of the limit set and the device's; 0 without a world.
   double force_limit() const { return force_limit_; }
-  /// Until one of its own reasons, or stop(). Once. The first tick is now; one that lies at the end of the
-  /// device's duration() is the last (round(duration x rate) + 1 ticks).
+  /// Until one of its own reasons, or stop(). Once. The first tick is now, or when all is there that
+  /// settings.start asks for: until then the device is read, and nothing is felt, dug or recorded. Where the
+  /// start is at contact, tick 0 is the one before it: the way into the sand is in the stroke. What stands in
+  /// for a hand moves from the countdown's end on; a tick that lies at the end of its duration() is the last
+  /// (round(duration x rate) + 1 ticks of all of it).
   RecordingFooter run() noexcept;
 
   // From any thread:
@@ -69,32 +81,41 @@ class ServoLoop {
   bool stopped() const noexcept { return reason_.load() != going_on; }
   std::int64_t tick_time(std::int64_t tick) const noexcept;
   std::int64_t wait_for_tick() noexcept;
+  void await_start() noexcept;
+  /// now [ns]: in tick 0; before: what was read in it, if the tick is over.
+  void begin(std::int64_t now, const DeviceReading* before) noexcept;
   void serve_tick(std::int64_t now) noexcept;
   /// What fails, from tick to tick, stops the loop in the end.
   void stop_where_it_lasts(bool fails, Fault& fault, std::int64_t now) noexcept;
-  bool read(double time, DeviceReading& reading) noexcept;
+  bool read(std::int64_t now, DeviceReading& reading) noexcept;
   FeltForce feel(std::int64_t now, const DeviceReading& reading) noexcept;
   bool command(const Eigen::Vector3d& force) noexcept;
   void keep(const DeviceReading& reading, std::int64_t now, std::uint32_t flags) noexcept;
   void publish(std::int64_t now) noexcept;
+  void publish_hand() noexcept;
+  void publish_waiting(std::int64_t time, Awaited awaited) noexcept;
 
   HapticDevice& device_;
   FeltWorld* world_;
   LoopClock& clock_;
   SpscRing<RecordedSample>& ring_;
+  ServoSettings settings_;
   double rate_;
-  std::int64_t last_tick_;
-  StopReason end_reason_;  // after the last tick
   bool gives_force_;
   double force_limit_;
   ForceGuard guard_;
-  std::optional<StopSwitch> stop_switch_;
+  std::optional<SwitchPress> stop_switch_;
 
   // The loop's own while it runs:
-  std::int64_t start_ = 0;                              // ns
-  Fault silent_, wrong_;                                // the device, the world
-  std::uint64_t expected_ = 0;                          // sequence number, where nothing is missing
-  Eigen::Vector3d held_ = Eigen::Vector3d::Zero();      // N, by the device
+  std::int64_t awake_ = 0;        // ns: it runs since then,
+  std::int64_t played_from_ = 0;  // the device's time is 0 then,
+  std::int64_t start_ = 0;        // and the recording's
+  std::int64_t last_tick_ = std::numeric_limits<std::int64_t>::max();
+  StopReason end_reason_ = StopReason::duration;    // after the last tick
+  Fault silent_, wrong_;                            // the device, the world
+  std::uint64_t expected_ = 0;                      // sequence number, where nothing is missing
+  Eigen::Vector3d held_ = Eigen::Vector3d::Zero();  // N, by the device
+  bool refuses_ = false;                            // the device has taken no command since one it refused
   Eigen::Vector3d position_ = Eigen::Vector3d::Zero();  // m, as read last
   bool read_ = false;                                   // in this tick
   TickCounts ticks_;
@@ -108,6 +129,7 @@ class ServoLoop {
   std::atomic<double> force_{0.0};
   std::array<std::atomic<double>, 3> seen_position_{}, seen_force_{};  // m, N
   std::atomic<bool> seen_read_{false};
+  std::atomic<Awaited> awaited_{Awaited::nothing};
 };
 
 }  // namespace sandstroke

@@ -82,6 +82,7 @@ TEST(Chai3dDevice, SaysOfItselfWhatCHAI3DSays) {
   EXPECT_EQ(specification.frame, "device");
   EXPECT_EQ(specification.max_force, 12.0);
   EXPECT_EQ(specification.max_stiffness, 5000.0);
+  EXPECT_EQ(specification.max_damping, 30.0);
   EXPECT_EQ(specification.workspace_radius, 0.075);
   EXPECT_TRUE(specification.measures_velocity);
 }
@@ -118,6 +119,18 @@ TEST(Chai3dDevice, CalibratesWhatNeedsItAndLeavesMotorsOff) {
   opened.fake->calibrates = false;
   EXPECT_NE(refusal([&] { opened.device.calibrate(); }), "");
   EXPECT_FALSE(opened.fake->motors());
+}
+
+TEST(Chai3dDevice, SaysWhetherItIsCalibratedWhereItsDriverDoes) {
+  Opened opened;
+  EXPECT_EQ(opened.device.is_calibrated(), std::nullopt) << "only Force Dimension's driver says";
+  bool is_right = false;
+  Chai3dDevice device(std::make_shared<FakeChai3d>(), [&] { return is_right; });
+  device.open();
+  EXPECT_EQ(device.is_calibrated(), false);
+  is_right = true;
+  device.calibrate();
+  EXPECT_EQ(device.is_calibrated(), true);
 }
 
 TEST(Chai3dDevice, GivesOutWhatCHAI3DRead) {

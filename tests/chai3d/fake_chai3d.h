@@ -27,6 +27,7 @@ class FakeChai3d : public chai3d::cGenericHapticDevice {
     m_specifications.m_manufacturerName = "nobody";
     m_specifications.m_maxLinearForce = 12.0;
     m_specifications.m_maxLinearStiffness = 5000.0;
+    m_specifications.m_maxLinearDamping = 30.0;
     m_specifications.m_workspaceRadius = 0.075;
     m_specifications.m_sensedPosition = m_specifications.m_actuatedPosition = true;
     m_deviceAvailable = true;

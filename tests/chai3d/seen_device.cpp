@@ -25,6 +25,7 @@ class PlayedDevice : public chai3d::cGenericHapticDevice {
     m_specifications.m_manufacturerName = specification.manufacturer;
     m_specifications.m_maxLinearForce = specification.max_force;
     m_specifications.m_maxLinearStiffness = specification.max_stiffness;
+    m_specifications.m_maxLinearDamping = specification.max_damping;
     m_specifications.m_workspaceRadius = specification.workspace_radius;
     m_specifications.m_sensedPosition = true;
     m_specifications.m_actuatedPosition = specification.max_force > 0.0;
@@ -86,6 +87,7 @@ class SeenDevice : public HapticDevice {
   }
   void calibrate() override { seen_.calibrate(); }
   const DeviceSpecification& specification() const override { return specification_; }
+  std::optional<bool> is_calibrated() const override { return played_.is_calibrated(); }
   std::optional<double> duration() const override { return played_.duration(); }
   bool read(double time, DeviceReading& reading) noexcept override {
     device_->time = time;

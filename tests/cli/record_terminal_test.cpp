@@ -14,6 +14,7 @@
 #include <sstream>
 
 #include "cli/program.h"
+#include "io/stroke_file.h"
 
 namespace sandstroke {
 namespace {
@@ -139,6 +140,33 @@ TEST(CliRecordTerminal, AKeyEndsARecordingAndTheTerminalIsAsBefore) {
     EXPECT_TRUE(program.is_as_before());
     EXPECT_EQ(nlohmann::json::parse(program.out())["stop_reason"], "a key was pressed");
   }
+}
+
+TEST(CliRecordTerminal, TheLineSaysWhatIsWaitedFor) {
+  const fs::path folder = test_folder();
+  std::vector<std::string> arguments = record_to_json;
+  arguments.insert(arguments.end(),
+                   {"--feel", "scene.toml", "--countdown", "0.3", "--start-at-contact", "--duration", "0.3"});
+  AtTerminal program(arguments, folder);
+  EXPECT_TRUE(program.shows("record: begins in 0.")) << program.shown();
+  EXPECT_TRUE(program.shows("record: touch the sand to begin")) << program.shown();
+  EXPECT_TRUE(program.shows(" Hz")) << program.shown();
+  EXPECT_EQ(program.wait(), 0) << program.shown();
+}
+
+TEST(CliRecordTerminal, TheLineSaysThatTheToolMustBeLifted) {
+  const fs::path folder = test_folder();
+  Stroke hand;
+  for (int i = 0; i <= 300; ++i) {
+    hand.time.push_back(0.05 * i);
+    hand.position.emplace_back(0.0, 0.0, -0.065);
+  }
+  write_stroke_file(folder / "resting.h5", hand);
+  AtTerminal program({"record", "-o", "a.h5", "--device", "replay:resting.h5", "--feel", "scene.toml"},
+                     folder);
+  EXPECT_TRUE(program.shows(" s: lift the tool out of the sand to begin; q ends it")) << program.shown();
+  program.type("q");
+  EXPECT_EQ(program.wait(), 0) << program.shown();
 }
 
 TEST(CliRecordTerminal, OtherKeysDoNothing) {

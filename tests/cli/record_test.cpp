@@ -311,6 +311,9 @@ TEST(CliRecord, WhatIsWrongIsSaidBeforeAnythingIsRecorded) {
       {with(record_line, {"--rate", "1e9"}), 2, "--rate"},
       {with(record_line, {"--priority", "99"}), 2, "--priority"},
       {with(record_line, {"--stop-switch", "32"}), 2, "--stop-switch"},
+      {with(record_line, {"--start-switch", "-1"}), 2, "--start-switch"},
+      {with(record_line, {"--countdown", "-1"}), 2, "--countdown"},
+      {with(record_line, {"--start-at-contact"}), 2, "--feel"},
       {with(record_line, {"--max-force", "3"}), 2, "--feel"},
       {with(record_line, {"--set", "force.k_s=1"}), 2, "--feel"},
       {with(record_line, {"--feel", "none.toml"}), 4, "none.toml"},
@@ -324,7 +327,8 @@ TEST(CliRecord, WhatIsWrongIsSaidBeforeAnythingIsRecorded) {
       {{"record", "-o", ".", "--device", "scripted:line.toml", "--overwrite"}, 4, "folder"},
       {{"record", "--list", "--check"}, 2, "--list"},
       {with(record_line, {"--check"}), 2, "leave out"},
-      {{"record", "--check", "--feel", "scene.toml"}, 2, "leave out"},
+      {{"record", "--check", "--device", "scripted:line.toml"}, 2, "leave out"},
+      {{"record", "--check", "--feel", "none.toml"}, 4, "none.toml"},
       {{"record", "--list", "--feel", "scene.toml"}, 2, "leave out"},
   };
   for (const auto& [arguments, exit_code, part] : attempts) {
@@ -366,6 +370,93 @@ TEST(CliRecord, SandCanBeFelt) {
   for (const Eigen::Vector3d& force : stroke.force) most = std::max(most, force.norm());
   EXPECT_GT(most, 0.1);
   EXPECT_LE(most, 3.0 * (1.0 + 1e-12));
+}
+
+/// resting.h5: a hand that rests 65 mm below the surface, as in an inkwell, until `lifts` [s], is then 20 mm
+/// above it for 0.2 s, and comes down again.
+fs::path folder_with_resting_stylus(double lifts) {
+  const fs::path folder = test_folder();
+  Stroke hand;
+  for (int i = 0; i <= 600; ++i) {
+    const double t = 1e-3 * i, out = std::clamp(std::min(t - lifts, lifts + 0.4 - t) / 0.1, 0.0, 1.0);
+    hand.time.push_back(t);
+    hand.position.emplace_back(0.0, 0.0, -0.065 + 0.085 * out);
+  }
+  write_stroke_file(folder / "resting.h5", hand);
+  return folder;
+}
+
+double largest_force(const fs::path& stroke_file, double until = 1e9) {
+  const Stroke stroke = read_stroke_file(stroke_file);
+  double largest = 0.0;
+  for (std::size_t i = 0; i < stroke.size(); ++i)
+    if (stroke.time[i] < until) largest = std::max(largest, stroke.force.at(i).norm());
+  return largest;
+}
+
+TEST(CliRecord, AHandThatRestsInTheSandIsNotPushed) {
+  const fs::path folder = folder_with_resting_stylus(100.0);
+  const std::string wscg = std::string(SANDSTROKE_SOURCE) + "/strokes/wscg/scene.toml";
+  const ProgramResult result = run_program({"record", "-o", "a.h5", "--device", "replay:resting.h5", "--feel",
+                                            wscg, "--duration", "0.4", "--json"},
+                                           folder);
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const json said = json::parse(result.out);
+  EXPECT_EQ(said["ticks_interlocked"], said["ticks_recorded"]);
+  EXPECT_EQ(largest_force(folder / "a.h5"), 0.0);
+}
+
+TEST(CliRecord, AHandThatWasLiftedFeelsTheSand) {
+  const fs::path folder = folder_with_resting_stylus(0.1);
+  const ProgramResult result = run_program({"record", "-o", "a.h5", "--device", "replay:resting.h5", "--feel",
+                                            "scene.toml", "--force-ramp", "0.1"},
+                                           folder);
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(result.out.find("until the tool was lifted out of the sand"), std::string::npos) << result.out;
+  EXPECT_EQ(largest_force(folder / "a.h5", 0.2), 0.0);
+  EXPECT_GT(largest_force(folder / "a.h5"), 3.0);
+}
+
+TEST(CliRecord, WhatCameBeforeTheBeginningIsNotInTheStroke) {
+  const fs::path folder = folder_with_resting_stylus(0.15);
+  const auto record_with = [&](const std::vector<std::string>& more) {
+    return run_program(
+        with({"record", "-o", "a.h5", "--overwrite", "--device", "replay:resting.h5", "--json"}, more),
+        folder);
+  };
+  const ProgramResult counted = record_with({"--countdown", "0.1", "--duration", "0.2"});
+  ASSERT_EQ(counted.exit_code, 0) << counted.err;
+  EXPECT_EQ(json::parse(counted.out)["ticks_elapsed"], 200);
+  EXPECT_EQ(read_stroke_file(folder / "a.h5").time.front(), 0.0);
+
+  const ProgramResult touching = record_with({"--start-at-contact", "--feel", "scene.toml"});
+  ASSERT_EQ(touching.exit_code, 0) << touching.err;
+  const Stroke stroke = read_stroke_file(folder / "a.h5");
+  EXPECT_EQ(stroke.time.front(), 0.0);
+  ASSERT_GT(stroke.size(), 50u);
+  EXPECT_GT(stroke.position[0].z(), 0.0) << "the way into the sand is in it";
+  EXPECT_LT(stroke.position[5].z(), 0.0);
+  EXPECT_LT(stroke.duration(), 0.3);
+  const ProgramResult played = run_program({"run", "scene.toml", "--stroke", "a.h5", "--json"}, folder);
+  ASSERT_EQ(played.exit_code, 0) << played.err;
+  EXPECT_NEAR(json::parse(played.out)["contact_ticks"].get<double>(),
+              json::parse(touching.out)["felt"]["contact_ticks"].get<double>(), 30.0);
+
+  const ProgramResult never = record_with({"--start-switch", "0"});
+  EXPECT_EQ(never.exit_code, 4);
+  EXPECT_NE(never.err.find("nothing was recorded"), std::string::npos) << never.err;
+}
+
+TEST(CliRecord, CtrlCWhileItWaitsLeavesNothing) {
+  const fs::path folder = folder_with_resting_stylus(100.0);
+  Conditions stopped{SIGINT};
+  stopped.when = [&] { return fs::exists(folder / "a.h5.recording"); };
+  const ProgramResult result = run_program(
+      {"record", "-o", "a.h5", "--device", "replay:resting.h5", "--countdown", "300"}, folder, stopped);
+  EXPECT_EQ(result.exit_code, 4) << result.err;
+  EXPECT_NE(result.err.find("nothing was recorded: a signal came"), std::string::npos) << result.err;
+  EXPECT_FALSE(fs::exists(folder / "a.h5"));
+  EXPECT_FALSE(fs::exists(folder / "a.h5.recording"));
 }
 
 TEST(CliRecord, SandThatWasNeverTouchedIsTold) {
@@ -436,6 +527,25 @@ TEST(CliRecord, CheckMeasuresThisMachine) {
   const ProgramResult table = run_program({"record", "--check", "--duration", "0.2"}, folder);
   EXPECT_NE(table.out.find("verdict"), std::string::npos) << table.out;
   EXPECT_NE(table.out.find("less than 100 us in 99 of 100"), std::string::npos) << table.out;
+}
+
+TEST(CliRecord, CheckHoldsSandAgainstTheory) {
+  const fs::path folder = test_folder();
+  const auto check = [&](const std::vector<std::string>& more) {
+    return run_program(with({"record", "--check", "--duration", "0.05", "--feel", "scene.toml"}, more),
+                       folder);
+  };
+  const json felt = json::parse(check({"--max-force", "3", "--json"}).out)["felt"];
+  EXPECT_EQ(felt["force"], 3.0);
+  EXPECT_NEAR(felt["sand"]["stiffness"].get<double>(), 0.5 * 1003.0, 1e-9);
+  EXPECT_NEAR(felt["sand"]["damping"].get<double>(), 30.0, 1e-12);
+  EXPECT_EQ(felt["device"]["damping"], 0.0) << "no device is named";
+  const ProgramResult hard = check({"--set", "force.k_f=1000"});
+  EXPECT_EQ(hard.exit_code, 1) << hard.out;
+  EXPECT_NE(hard.out.find("REFUSED: the hand would shake; set force.k_f = "), std::string::npos) << hard.out;
+  const ProgramResult stand_in = check({"--device", "scripted:line.toml", "--set", "force.k_f=1000"});
+  EXPECT_NE(stand_in.out.find("held against no limit"), std::string::npos) << stand_in.out;
+  EXPECT_FALSE(fs::exists(folder / "a.h5"));
 }
 
 TEST(CliRecord, WithoutPermissionForRealTimeItRecordsAndSaysWhatThatCosts) {

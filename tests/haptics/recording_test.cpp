@@ -16,18 +16,19 @@ TEST(TickCounts, EachFlagCountsItsOwn) {
     t.elapsed = 10, t.recorded = 20, t.skipped = 30, t.unread = 40, t.dropped = 50;
     count_flags(flags, t);
     EXPECT_EQ(t.elapsed + t.recorded + t.skipped + t.unread + t.dropped, 150);
-    return std::vector{t.late, t.clamped, t.ramped, t.rate_limited, t.refused, t.held};
+    return std::vector{t.late, t.clamped, t.ramped, t.rate_limited, t.refused, t.held, t.interlocked};
   };
   using Counts = std::vector<std::int64_t>;
-  EXPECT_EQ(count(0), (Counts{0, 0, 0, 0, 0, 0}));
-  EXPECT_EQ(count(late_sample), (Counts{1, 0, 0, 0, 0, 0}));
-  EXPECT_EQ(count(after_skipped_ticks), (Counts{0, 0, 0, 0, 0, 0}));
-  EXPECT_EQ(count(clamped_force), (Counts{0, 1, 0, 0, 0, 0}));
-  EXPECT_EQ(count(ramped_force), (Counts{0, 0, 1, 0, 0, 0}));
-  EXPECT_EQ(count(rate_limited_force), (Counts{0, 0, 0, 1, 0, 0}));
-  EXPECT_EQ(count(refused_force), (Counts{0, 0, 0, 0, 1, 0}));
-  EXPECT_EQ(count(held_sand), (Counts{0, 0, 0, 0, 0, 1}));
-  EXPECT_EQ(count(late_sample | refused_force | held_sand), (Counts{1, 0, 0, 0, 1, 1}));
+  EXPECT_EQ(count(0), (Counts{0, 0, 0, 0, 0, 0, 0}));
+  EXPECT_EQ(count(late_sample), (Counts{1, 0, 0, 0, 0, 0, 0}));
+  EXPECT_EQ(count(after_skipped_ticks), (Counts{0, 0, 0, 0, 0, 0, 0}));
+  EXPECT_EQ(count(clamped_force), (Counts{0, 1, 0, 0, 0, 0, 0}));
+  EXPECT_EQ(count(ramped_force), (Counts{0, 0, 1, 0, 0, 0, 0}));
+  EXPECT_EQ(count(rate_limited_force), (Counts{0, 0, 0, 1, 0, 0, 0}));
+  EXPECT_EQ(count(refused_force), (Counts{0, 0, 0, 0, 1, 0, 0}));
+  EXPECT_EQ(count(held_sand), (Counts{0, 0, 0, 0, 0, 1, 0}));
+  EXPECT_EQ(count(interlocked_force), (Counts{0, 0, 0, 0, 0, 0, 1}));
+  EXPECT_EQ(count(late_sample | refused_force | held_sand), (Counts{1, 0, 0, 0, 1, 1, 0}));
 }
 
 TEST(StopReason, HasATextOfItsOwnAndIsFoundByIt) {
@@ -65,9 +66,9 @@ TEST(RecordingFields, AreUnderTheirNames) {
   RecordingHeader header;
   header.nominal_rate = 1, header.device.max_force = 2, header.device.max_stiffness = 3;
   header.device.workspace_radius = 4, header.device.switches = 5, header.force_limit = 6;
-  header.scheduling.priority = 7;
+  header.scheduling.priority = 7, header.device.max_damping = 8;
   RecordingFooter footer;
-  footer.ticks = {11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 21};
+  footer.ticks = {11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 21, 22};
   footer.lateness = {31, 32, 33};
   std::map<std::string, double> values;
   const auto visit = [&](const char* name, const auto& field) {
@@ -85,6 +86,7 @@ TEST(RecordingFields, AreUnderTheirNames) {
                                                   {"ticks_late", 16},          {"ticks_clamped", 17},
                                                   {"ticks_ramped", 18},        {"ticks_rate_limited", 19},
                                                   {"ticks_refused", 20},       {"ticks_held", 21},
+                                                  {"ticks_interlocked", 22},   {"device_max_damping", 8},
                                                   {"lateness_mean", 31},       {"lateness_p99", 32},
                                                   {"lateness_max", 33}};
   for (const auto& [name, value] : expected) EXPECT_EQ(values[name], value) << name;

@@ -113,7 +113,7 @@ TEST_F(RecordingFile, SaysOfEachColumnWhatItIsAndInWhichUnit) {
       EXPECT_FALSE(file.text_attribute(column, "long_name").empty()) << name;
       EXPECT_EQ(file.has_attribute(column, "units") ? file.text_attribute(column, "units") : "", unit);
     }
-    for (std::uint32_t flag = late_sample; flag <= held_sand; flag *= 2)
+    for (std::uint32_t flag = late_sample; flag <= interlocked_force; flag *= 2)
       EXPECT_THAT(file.text_attribute("/stroke/flags", "long_name"), HasSubstr(fmt::format(" {} ", flag)));
   }
 }
@@ -183,7 +183,7 @@ TEST_F(RecordingFile, SaysHowItWasRecorded) {
     // made_samples(20) has the flags 0, 1, ..., 19.
     TickCounts& ticks = expected.footer.ticks;
     ticks.late = 10, ticks.clamped = 8, ticks.ramped = 8, ticks.rate_limited = 4;
-    ticks.refused = ticks.held = 0;
+    ticks.refused = ticks.held = ticks.interlocked = 0;
     const RecordingInfo written = write(made_samples(20), expected.footer);
     EXPECT_EQ(fields(written), fields(expected));
     const std::optional<RecordingInfo> back = read_recording_info(path_);

@@ -15,6 +15,7 @@ TEST(Eroder, ThatErodesOnceInAnAgeTakesWhatIsDugMeanwhileAndEndsWhenItIsAsked) {
     SandRing dug(8), slipped(8);
     PlaceRing places(8);
     Eroder eroder(HeightField(10, 10, 0.01), {}, settings, dug, places, slipped);
+    places.push({});  // from the first place on
     eroder.start();
     for (int i = 0; i < 3; ++i) {
       dug.push({5, i, -1e-6});
@@ -100,6 +101,7 @@ TEST(Eroder, ThatFailsEndsItsThreadAndNotTheProgram) {
   PlaceRing places(8);
   Eroder eroder(HeightField(10, 10, 0.01), {}, {}, dug, places, slipped, std::make_unique<FailingRelaxer>());
   dug.push({5, 5, -1e-6});
+  places.push({});
   eroder.start();
   while (dug.size() > 0) std::this_thread::yield();  // in the first turn, which fails right after
   eroder.stop();

@@ -30,11 +30,13 @@ class FakeDevice : public HapticDevice {
   std::function<bool(const Eigen::Vector3d&)> takes_force;  ///< false = it took nothing
 
   Eigen::Vector3d held = Eigen::Vector3d::Zero();  ///< N, what its motors give
+  std::optional<bool> is_right = true;             ///< is_calibrated(), unless it was calibrated here
   int opened = 0, calibrated = 0, commands = 0, released = 0, closed = 0;
 
   void open() override { ++opened; }
   void calibrate() override { ++calibrated; }
   const DeviceSpecification& specification() const override { return description; }
+  std::optional<bool> is_calibrated() const override { return calibrated > 0 ? true : is_right; }
   std::optional<double> duration() const override { return length; }
   bool read(double time, DeviceReading& reading) noexcept override {
     reading.position = {time, 0.0, 0.0};
@@ -58,6 +60,7 @@ class FakeWorld : public FeltWorld {
  public:
   explicit FakeWorld(std::function<FeltForce(double)> force) : force_(std::move(force)) {}
   FeltForce feel(double time, const DeviceReading&) noexcept override { return force_(time); }
+  bool touches(const DeviceReading& reading) noexcept override { return reading.position.z() < 0.0; }
 
  private:
   std::function<FeltForce(double)> force_;

@@ -328,6 +328,22 @@ TEST(LiveSand, TheVelocityOfDragIsTheMeanOverTheLastFourReadings) {
   }
 }
 
+TEST(LiveSand, NothingIsDugOrSlipsBeforeTheRecordingBegins) {
+  // A run of the recorded stroke begins with the bed as it was, too.
+  const Scene scene = small_scene();
+  HeightField start = starting_bed(scene.bed);
+  start.set(30, 30, 0.05);  // too steep to rest
+  LiveSand sand(scene, start, "bed");
+  sand.start();
+  for (int i = 0; i < 20; ++i) {
+    EXPECT_TRUE(sand.touches({Eigen::Vector3d(0.0, 0.0, -0.01)}));
+    EXPECT_FALSE(sand.touches({Eigen::Vector3d(0.0, 0.0, 0.01)}));
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
+  EXPECT_EQ(sand.finish().erosion.relaxations, 0);
+  EXPECT_EQ((sand.bed().grid() - start.grid()).abs().maxCoeff(), 0.0);
+}
+
 TEST(LiveSand, CountsTheTicksInContact) {
   Scene scene = small_scene();
   scene.relaxation.rate = 0.0;

@@ -11,7 +11,7 @@ namespace sandstroke {
 /// A header in which every field says something.
 inline RecordingHeader full_header() {
   RecordingHeader header;
-  header.device = {"Möbius 3", "A \"maker\"", "device", 12.5, 1e3 / 3.0, 0.08, 4, true};
+  header.device = {"Möbius 3", "A \"maker\"", "device", 12.5, 1e3 / 3.0, 7.5, 0.08, 4, true};
   header.source = "scripted:wscg.toml";
   header.started = "2026-11-21T18:00:00.250Z";
   header.started_monotonic = 1e6 / 3.0;
@@ -24,7 +24,7 @@ inline RecordingHeader full_header() {
 
 inline RecordingFooter full_footer() {
   RecordingFooter footer;
-  footer.ticks = {40, 20, 10, 7, 3, 6, 5, 4, 3, 2, 1};
+  footer.ticks = {40, 20, 10, 7, 3, 6, 5, 4, 3, 2, 1, 8};
   footer.lateness = {1e-6 / 3.0, 2e-5, 3e-4};
   footer.reason = StopReason::stop_switch;
   return footer;
@@ -43,7 +43,7 @@ inline std::vector<RecordedSample> made_samples(int count) {
       sample.force[axis] = -1e300 / (1 + i + axis);
     }
     sample.switches = i == 0 ? 0xffffffffu : static_cast<std::uint32_t>(i);
-    sample.flags = static_cast<std::uint32_t>(i % 128);
+    sample.flags = static_cast<std::uint32_t>(i % 256);
     samples.push_back(sample);
   }
   return samples;

@@ -166,6 +166,41 @@ TEST_F(RecorderTest, CalibratesWhereItIsAsked) {
   EXPECT_EQ(device.calibrated, 1);
 }
 
+TEST_F(RecorderTest, GivesNoForceOnADeviceThatIsNotCalibratedUnlessToldSo) {
+  settings.servo.duration = 0.001;
+  FakeWorld world([](double) { return FeltForce{}; });
+  const auto refused = [&](std::optional<bool> is_right, FeltWorld* felt) {
+    std::filesystem::remove(journal);
+    device.is_right = is_right;
+    try {
+      run(felt);
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::input);
+      for (const char* way : {"--calibrate", "--allow-uncalibrated"})
+        EXPECT_NE(std::string(error.what()).find(way), std::string::npos) << error.what();
+      EXPECT_FALSE(std::filesystem::exists(journal));
+      return true;
+    }
+    return false;
+  };
+  EXPECT_TRUE(refused(false, &world));
+  EXPECT_FALSE(refused(true, &world));
+  EXPECT_FALSE(refused(std::nullopt, &world)) << "where nobody knows";
+  EXPECT_FALSE(refused(false, nullptr)) << "where no force is given";
+  settings.allow_uncalibrated = true;
+  EXPECT_FALSE(refused(false, &world));
+  settings.allow_uncalibrated = false;
+  settings.calibrate = true;
+  EXPECT_FALSE(refused(false, &world));
+  EXPECT_EQ(device.opened, device.closed);
+}
+
+TEST_F(RecorderTest, RefusesAStartSwitchThatTheDeviceHasNot) {
+  settings.servo.start.start_switch = 2;
+  EXPECT_THROW(run(), Error);
+  EXPECT_EQ(device.opened, device.closed);
+}
+
 TEST_F(RecorderTest, StopsWhenTheWatcherSaysSo) {
   settings.servo.duration.reset();
   const RecordingReport report = run(nullptr, [](const ServoProgress&) { return StopReason::key; });

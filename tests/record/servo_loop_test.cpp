@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <random>
 
 #include "allocations.h"
 #include "record/seen_device.h"
@@ -21,7 +22,7 @@ class ServoLoopTest : public testing::Test {
   ServoLoopTest() {
     device.description.max_force = 12.0;
     settings.duration = 0.1;
-    settings.force = {8.0, 0.0, 1e9};  // neither ramp nor rate
+    settings.force = {8.0, 0.0, 1e9, 0.0};  // neither ramp nor rate; one reading opens the interlock
   }
 
   std::shared_ptr<HapticDevice> open_device() {
@@ -51,6 +52,7 @@ class ServoLoopTest : public testing::Test {
     EXPECT_EQ(ticks.rate_limited, with(rate_limited_force));
     EXPECT_EQ(ticks.refused, with(refused_force));
     EXPECT_EQ(ticks.held, with(held_sand));
+    EXPECT_EQ(ticks.interlocked, with(interlocked_force));
     EXPECT_EQ(device.held, Vector3d::Zero());
     std::uint64_t expected = 0;
     for (const RecordedSample& s : samples) {
@@ -79,6 +81,11 @@ class ServoLoopTest : public testing::Test {
       if (std::abs(time * 1000.0 - tick) < 0.01) clock.add(std::llround(ticks * ms));
       return true;
     };
+  }
+  /// A world for a hand that is out of the sand in tick 0, and then gets this force.
+  static FakeWorld world_of(const Vector3d& force) {
+    return FakeWorld(
+        [force](double time) { return FeltForce{in_tick(time, 0, 0) ? Vector3d::Zero() : force}; });
   }
   static bool in_tick(double time, double first, double last) {
     return time > first * 1e-3 - 1e-6 && time < last * 1e-3 + 1e-6;
@@ -299,13 +306,14 @@ TEST_F(ServoLoopTest, GivesWhatTheWorldMakesFelt) {
 }
 
 TEST_F(ServoLoopTest, KeepsToTheSmallerLimitOfUserAndDevice) {
-  FakeWorld world([](double) { return FeltForce{{0.0, 100.0, 0.0}, 0}; });
+  FakeWorld world = world_of({0.0, 100.0, 0.0});
   for (const auto& [user, motor] : {std::pair{8.0, 12.0}, {12.0, 8.0}, {0.0, 8.0}, {8.0, 0.0}}) {
     samples.clear();
     settings.force.max_force = user;
     device.description.max_force = motor;
-    EXPECT_EQ(run(&world).ticks.clamped, 100);
-    for (const RecordedSample& s : samples) EXPECT_NEAR(s.force[1], std::min(user, motor), 1e-12);
+    EXPECT_EQ(run(&world).ticks.clamped, 99);
+    for (const RecordedSample& s : samples)
+      EXPECT_NEAR(s.force[1], s.sequence == 0 ? 0.0 : std::min(user, motor), 1e-12);
   }
 }
 
@@ -321,31 +329,94 @@ TEST_F(ServoLoopTest, HoldsAForceBackFromJumpingOverALateTick) {
   }
 }
 
-TEST_F(ServoLoopTest, GivesNoForceWhileTheDeviceIsNotReadAndRisesFromZeroAgain) {
+TEST_F(ServoLoopTest, GivesNoForceOnceTheDeviceWasNotReadUntilTheToolIsLifted) {
   settings.force.rate = 1000.0;
-  FakeWorld world([](double) { return FeltForce{{0.0, 0.0, 5.0}, 0}; });
+  FakeWorld world([](double time) {
+    const bool out = in_tick(time, 0, 0) || in_tick(time, 70, 72);
+    return FeltForce{{0.0, 0.0, out ? 0.0 : 5.0}, 0};
+  });
   device.reads = [&](double time, DeviceReading&) {
     if (in_tick(time, 51, 53)) {
       EXPECT_EQ(device.held, Vector3d::Zero());
     }
     return !in_tick(time, 50, 52);
   };
-  run(&world);
+  EXPECT_EQ(run(&world).ticks.interlocked, 17);
   EXPECT_EQ(samples[49].force[2], 5.0);
   EXPECT_EQ(samples[50].sequence, 53u);
-  EXPECT_EQ(samples[50].force[2], 1.0);
+  for (const RecordedSample& s : samples)
+    if (s.sequence > 50) {
+      EXPECT_NEAR(s.force[2], s.sequence < 73 ? 0.0 : std::min(static_cast<double>(s.sequence) - 72.0, 5.0),
+                  1e-12);
+    }
+}
+
+TEST_F(ServoLoopTest, GivesNoForceAfterAStallUntilTheToolIsLifted) {
+  for (const auto& [ticks, closes] : {std::pair{24.0, false}, {27.0, true}}) {
+    samples.clear();
+    FakeWorld world([](double time) {
+      const bool out = in_tick(time, 0, 0) || in_tick(time, 70, 72);
+      return FeltForce{{0.0, 0.0, out ? 0.0 : 5.0}, 0};
+    });
+    delay_read(10, ticks);
+    run(&world);
+    for (const RecordedSample& s : samples)
+      if (s.sequence > 10) {
+        EXPECT_EQ(s.force[2],
+                  (closes && s.sequence < 70) || (s.sequence >= 70 && s.sequence <= 72) ? 0.0 : 5.0)
+            << s.sequence << " after " << ticks;
+      }
+  }
+}
+
+TEST_F(ServoLoopTest, GivesNoForceToAHandThatRestsInTheSand) {
+  settings.duration = 3.0;
+  settings.force = ForceLimits{};
+  settings.force.max_force = 12.0;
+  FakeWorld world([](double time) {
+    return FeltForce{{0.0, 0.0, time < 1.0 || time > 1.1 ? 30.0 : 0.0}, 0};
+  });
+  device.reads = [&](double time, DeviceReading&) {
+    const double seen = time - 1e-3;  // what is told is of the tick before
+    const bool waits = seen < 1.05 - 1e-6;
+    if (seen > 0.0) {
+      EXPECT_EQ(made->progress().awaited == Awaited::lift, waits) << time;
+    }
+    return true;
+  };
+  const RecordingFooter footer = run(&world);
+  EXPECT_EQ(footer.ticks.interlocked, 1000);
+  for (const RecordedSample& s : samples) {
+    const double open = static_cast<double>(s.sequence) * 1e-3 - 1.05;
+    if (open <= 0.0) {
+      ASSERT_EQ(s.force[2], 0.0);
+    } else if (open > 0.06) {  // from the opening on it fades in for a second
+      ASSERT_NEAR(s.force[2], std::min(12.0, 30.0 * std::min(open, 1.0)), 1e-6) << s.sequence;
+    }
+  }
+}
+
+TEST_F(ServoLoopTest, WithoutForceWaitsForNoLifting) {
+  settings.force.max_force = 0.0;
+  FakeWorld world([](double) { return FeltForce{{0.0, 0.0, 5.0}, 0}; });
+  device.reads = [&](double, DeviceReading&) {
+    EXPECT_EQ(made->progress().awaited, Awaited::nothing);
+    return true;
+  };
+  run(&world);
 }
 
 TEST_F(ServoLoopTest, GivesNoForceForOneThatIsNoNumberAndGoesOn) {
   FakeWorld world([&](double time) {
-    return FeltForce{{0.0, 0.0, in_tick(time, 50, 59) ? no_number : 5.0}, 0};
+    const bool out = in_tick(time, 0, 0) || in_tick(time, 70, 70);
+    return FeltForce{{0.0, 0.0, in_tick(time, 50, 59) ? no_number : out ? 0.0 : 5.0}, 0};
   });
   const RecordingFooter footer = run(&world);
   EXPECT_EQ(footer.reason, StopReason::duration);
   EXPECT_EQ(footer.ticks.recorded, 100);
   EXPECT_EQ(footer.ticks.refused, 10);
   for (const RecordedSample& s : samples) {
-    EXPECT_EQ(s.force[2], s.sequence >= 50 && s.sequence < 60 ? 0.0 : 5.0);
+    EXPECT_EQ(s.force[2], s.sequence == 0 || (s.sequence >= 50 && s.sequence <= 70) ? 0.0 : 5.0);
   }
 }
 
@@ -385,18 +456,29 @@ TEST_F(ServoLoopTest, RecordsTheForceThatTheDeviceHoldsWhereItTakesNoOther) {
   };
   const RecordingFooter footer = run(&world);
   EXPECT_EQ(footer.ticks.recorded, 100);
-  for (std::size_t tick = 3; tick < 13; ++tick) EXPECT_NEAR(samples[tick].force[2], 2.0, 1e-12);
-  EXPECT_NEAR(samples[13].force[2], 3.0, 1e-12) << "no jump from what it really held";
-  EXPECT_NEAR(samples[15].force[2], 5.0, 1e-12);
+  EXPECT_NEAR(samples[3].force[2], 2.0, 1e-12);
+  for (std::size_t tick = 4; tick < 100; ++tick)
+    EXPECT_EQ(samples[tick].force[2], 0.0) << "until the tool is lifted";
+}
+
+TEST_F(ServoLoopTest, RecordsTheForceOfADeviceThatTakesNotEvenZero) {
+  FakeWorld world = world_of({0.0, 0.0, 5.0});
+  device.takes_force = [&](const Vector3d&) {
+    const std::int64_t tick = (clock.now() - start) / ms;
+    return tick < 10 || tick >= 20;
+  };
+  EXPECT_EQ(run(&world).reason, StopReason::duration);
+  for (const RecordedSample& s : samples)
+    EXPECT_EQ(s.force[2], s.sequence == 0 || s.sequence >= 20 ? 0.0 : 5.0) << s.sequence;
 }
 
 TEST_F(ServoLoopTest, TakesADeviceThatTakesNoForceForLost) {
   settings.duration.reset();
-  FakeWorld world([](double) { return FeltForce{{0.0, 0.0, 5.0}, 0}; });
+  FakeWorld world = world_of({0.0, 0.0, 5.0});
   device.takes_force = [](const Vector3d&) { return false; };
   const RecordingFooter footer = run(&world);
   EXPECT_EQ(footer.reason, StopReason::device_lost);
-  EXPECT_EQ(footer.ticks.recorded, 101);
+  EXPECT_EQ(footer.ticks.recorded, 102) << "refused from tick 1 on";
   EXPECT_EQ(device.released, 1);
 }
 
@@ -432,7 +514,7 @@ TEST_F(ServoLoopTest, GivesNoForceAfterAStopInTheMiddleOfATick) {
   settings.duration.reset();
   FakeWorld world([&](double time) {
     if (in_tick(time, 30, 30)) made->stop(StopReason::signal);
-    return FeltForce{{0.0, 0.0, 5.0}, 0};
+    return FeltForce{{0.0, 0.0, in_tick(time, 0, 0) ? 0.0 : 5.0}, 0};
   });
   const RecordingFooter footer = run(&world);
   EXPECT_EQ(footer.ticks.elapsed, 31);
@@ -442,14 +524,14 @@ TEST_F(ServoLoopTest, GivesNoForceAfterAStopInTheMiddleOfATick) {
 
 TEST_F(ServoLoopTest, TellsHowFarItIs) {
   settings.force.rate = 1000.0;
-  FakeWorld world([](double) { return FeltForce{{0.0, 0.0, 5.0}, 0}; });
+  FakeWorld world = world_of({0.0, 0.0, 5.0});
   device.reads = [&](double time, DeviceReading&) {
     const auto tick = std::llround(time * 1000);
     const ServoProgress progress = made->progress();
     EXPECT_EQ(progress.elapsed, tick);
     EXPECT_EQ(progress.recorded, tick);
     EXPECT_NEAR(progress.time, 1e-3 * static_cast<double>(std::max(tick - 1, 0LL)), 1e-9);
-    EXPECT_NEAR(progress.force, static_cast<double>(std::min(tick, 5LL)), 1e-12);
+    EXPECT_NEAR(progress.force, static_cast<double>(std::clamp(tick - 1, 0LL, 5LL)), 1e-12);
     EXPECT_EQ(made->heartbeat(), clock.now());
     return true;
   };
@@ -469,11 +551,207 @@ TEST_F(ServoLoopTest, TellsHowLateItWas) {
   run();
 }
 
+// --- Before the recording begins ---
+
+/// Which world times a FakeWorld was asked for.
+class TimedWorld : public FakeWorld {
+ public:
+  std::vector<double> times;
+  TimedWorld()
+      : FakeWorld([this](double time) {
+          times.push_back(time);
+          return FeltForce{};
+        }) {}
+};
+
+TEST_F(ServoLoopTest, RecordsFromTheCountdownsEndOn) {
+  settings.start.countdown = 0.0305;
+  TimedWorld world;
+  std::vector<double> played;
+  device.reads = [&](double time, DeviceReading&) {
+    if (played.size() > 1 && played.size() <= 30) {
+      EXPECT_EQ(made->progress().awaited, Awaited::countdown);
+      EXPECT_NEAR(made->progress().time, 1e-3 * static_cast<double>(played.size() - 1) - 0.0305, 1e-9);
+      EXPECT_EQ(made->progress().elapsed, 0);
+      EXPECT_EQ(made->heartbeat(), clock.now());
+    }
+    played.push_back(time);
+    return true;
+  };
+  const RecordingFooter footer = run(&world);
+  EXPECT_EQ(footer.ticks.elapsed, 100) << "the duration counts from there";
+  EXPECT_EQ(footer.lateness.max, 0.0);
+  EXPECT_EQ(samples.front().time, start + 31 * ms);
+  EXPECT_EQ(world.times.size(), 100u) << "nothing is felt before";
+  EXPECT_EQ(world.times.front(), 0.0);
+  for (int i = 0; i < 31; ++i) EXPECT_EQ(played[static_cast<std::size_t>(i)], 0.0) << "the stand-in waits";
+  EXPECT_NEAR(samples.front().position[0], 0.5e-3, 1e-9);
+}
+
+TEST_F(ServoLoopTest, AStandInPlaysItsWholeStrokeAfterACountdown) {
+  settings.duration.reset();
+  settings.start.countdown = 0.2;
+  device.length = 0.05;
+  const RecordingFooter footer = run();
+  EXPECT_EQ(footer.reason, StopReason::stroke_end);
+  EXPECT_EQ(footer.ticks.elapsed, 51);
+}
+
+TEST_F(ServoLoopTest, ASwitchBeginsAndEndsARecording) {
+  settings.duration.reset();
+  settings.start.start_switch = settings.stop_switch = 1;
+  device.reads = [&](double time, DeviceReading& reading) {
+    reading.switches = in_tick(time, 0, 9) || in_tick(time, 50, 99) || in_tick(time, 150, 199) ? 2 : 0;
+    return true;
+  };
+  const RecordingFooter footer = run();
+  EXPECT_EQ(footer.reason, StopReason::stop_switch);
+  EXPECT_EQ(samples.front().time, start + 70 * ms) << "0.02 s after it is pressed";
+  EXPECT_EQ(samples.back().time, start + 170 * ms);
+  EXPECT_EQ(footer.ticks.elapsed, 101);
+}
+
+TEST_F(ServoLoopTest, BeginsOneTickBeforeFirstContact) {
+  settings.start.at_contact = true;
+  settings.duration = 0.05;
+  TimedWorld world;
+  double last = 0.0;
+  device.reads = [&](double time, DeviceReading& reading) {
+    reading.position.z() = in_tick(time, 0, 9) || in_tick(time, 70, 1000) ? -1.0 : 1.0;
+    const Awaited expected = in_tick(time, 1, 10)    ? Awaited::lift
+                             : in_tick(time, 11, 70) ? Awaited::contact
+                                                     : Awaited::nothing;
+    if (time > last && made->progress().elapsed == 0) {
+      EXPECT_EQ(made->progress().awaited, expected) << time;
+    }
+    last = time;
+    return true;
+  };
+  const RecordingFooter footer = run(&world);
+  EXPECT_EQ(footer.ticks.elapsed, 50);
+  EXPECT_EQ(footer.ticks.recorded, 50);
+  EXPECT_EQ(samples[0].time, start + 69 * ms);
+  EXPECT_EQ(samples[0].position[2], 1.0);
+  EXPECT_EQ(samples[1].time, start + 70 * ms);
+  EXPECT_EQ(samples[1].position[2], -1.0);
+  ASSERT_EQ(world.times.size(), 50u);
+  EXPECT_EQ(world.times[0], 0.0);
+  EXPECT_NEAR(world.times[1], 1e-3, 1e-12);
+}
+
+TEST_F(ServoLoopTest, TheWayThroughTheAirBeforeContactOpensTheInterlock) {
+  settings.start.at_contact = true;
+  settings.force.clear_time = 0.05;
+  FakeWorld world([](double time) { return FeltForce{{0.0, 0.0, time > 0.0 ? 5.0 : 0.0}, 0}; });
+  for (const auto& [out, force] : {std::pair{60, 5.0}, {40, 0.0}}) {
+    samples.clear();
+    device.reads = [&, out = out](double time, DeviceReading& reading) {
+      reading.position.z() = in_tick(time, 10, 10 + out) ? 1.0 : -1.0;
+      return true;
+    };
+    run(&world);
+    EXPECT_EQ(samples[1].force[2], force) << out;
+  }
+}
+
+TEST_F(ServoLoopTest, WhatEndsItWhileItWaitsLeavesNothing) {
+  settings.start.start_switch = 0;
+  settings.duration.reset();
+  const auto reason = [&] {
+    const RecordingFooter footer = run();
+    EXPECT_EQ(footer.ticks.elapsed, 0);
+    return footer.reason;
+  };
+  device.reads = [&](double time, DeviceReading&) {
+    if (in_tick(time, 30, 30)) made->stop(StopReason::key);
+    return true;
+  };
+  EXPECT_EQ(reason(), StopReason::key);
+  device.reads = [](double, DeviceReading&) { return false; };
+  EXPECT_EQ(reason(), StopReason::device_lost);
+  device.reads = nullptr;
+  device.length = 0.5;
+  EXPECT_EQ(reason(), StopReason::stroke_end);
+}
+
+// --- All of it ---
+
+/// Whatever happens in a loop: readings, gaps, stalls, no numbers, refused commands, depths, waiting.
+TEST_F(ServoLoopTest, GivesNoForceThatItMustNotWhateverHappens) {
+  int some_force = 0;
+  for (unsigned seed = 0; seed < 60; ++seed) {
+    samples.clear();
+    std::mt19937 random(seed);
+    const auto chance = [&random](double share) { return 0x1p-32 * static_cast<double>(random()) < share; };
+    const auto up_to = [&random](double most) { return most * 0x1p-32 * static_cast<double>(random()); };
+    settings.duration = 4.0;
+    settings.silence = 1e3;
+    settings.force = {up_to(10.0), up_to(0.5), 100.0 + up_to(2000.0), 0.05};
+    settings.start = {chance(0.3) ? 0.1 : 0.0, chance(0.3) ? std::optional(0) : std::nullopt, chance(0.3)};
+    device.takes_force = [&](const Vector3d&) { return !chance(seed % 3 == 0 ? 0.002 : 0.0); };
+    const double unread = seed % 2 ? 0.002 : 0.0, stalls = seed % 4 < 2 ? 0.002 : 0.0;
+    double z = chance(0.5) ? -0.05 : 0.05;  // m: it may rest in the sand
+    bool in_air = false;
+
+    // What the interlock must allow, told by the readings alone.
+    std::optional<std::int64_t> last, clear_since;
+    bool may_open = false;
+    std::vector<char> allowed(10'000, 0);  // by ms since the start
+    bool read_fails = false;
+    device.reads = [&](double, DeviceReading& reading) {
+      if (chance(0.005)) in_air = !in_air;
+      z += in_air ? up_to(2e-3) * (z < 0.03) : -up_to(2e-3) * (z > -0.05);
+      reading.position.z() = z;
+      reading.switches = chance(0.5) ? 1 : 0;
+      if (clock.now() - start > 500 * ms) reading.switches = clock.now() - start > 520 * ms;
+      read_fails = chance(unread);
+      const std::int64_t now = clock.now();
+      if (read_fails || (last && now - *last > 25 * ms)) may_open = false, clear_since.reset();
+      last = now;
+      if (read_fails || z < 0.0) {
+        clear_since.reset();
+      } else {
+        if (!clear_since) clear_since = now;
+        may_open = may_open || now - *clear_since >= 50 * ms;
+      }
+      allowed[static_cast<std::size_t>((now - start) / ms)] = may_open;
+      if (chance(stalls)) clock.add(std::llround(up_to(60.0) * ms));
+      return !read_fails;
+    };
+    FakeWorld world([&](double) {
+      Vector3d force(0.0, 0.0, z < 0.0 ? 1.0 - 500.0 * z : 0.0);
+      const bool none = z < 0.0 && chance(0.002);
+      if (none) force.y() = no_number;
+      if (none) may_open = false, allowed[static_cast<std::size_t>((*last - start) / ms)] = 0;
+      return FeltForce{force, 0};
+    });
+    run(&world);
+
+    const double step = settings.force.rate / 1000.0, most = settings.force.max_force;
+    Vector3d held = Vector3d::Zero();
+    double given = 0.0;
+    for (const RecordedSample& s : samples) {
+      const Vector3d force(s.force[0], s.force[1], s.force[2]);
+      const auto at = static_cast<std::size_t>((s.time - start) / ms);
+      ASSERT_LE(force.norm(), most * (1.0 + 1e-12)) << seed;
+      if (!force.isZero(0.0) && force != held) {  // a device that refuses goes on with what it holds
+        ASSERT_TRUE(allowed[at]) << seed << ", tick " << s.sequence;
+        ASSERT_EQ(s.flags & (interlocked_force | refused_force), 0u) << seed;
+        ASSERT_LE((force - held).norm(), step * (1.0 + 1e-9)) << seed << ", tick " << s.sequence;
+      }
+      given = std::max(given, force.norm());
+      held = force;
+    }
+    some_force += given > 0.1;
+  }
+  EXPECT_GT(some_force, 30) << "else nothing was tested";
+}
+
 TEST_F(ServoLoopTest, AllocatesNothing) {
   if (!allocations_are_counted()) GTEST_SKIP() << "sanitizers bring their own allocator";
   settings.duration = 10.0;
   settings.stop_switch = 0;
-  settings.force = {8.0, 1.0, 1000.0};
+  settings.force = {8.0, 0.02, 1000.0, 0.0};
   FakeWorld world([](double time) {
     return FeltForce{Vector3d::Constant(10.0 * std::sin(time)), held_sand};
   });

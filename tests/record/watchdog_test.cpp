@@ -24,7 +24,7 @@ class StalledLoopTest : public testing::Test {
  protected:
   StalledLoopTest() {
     device.description.max_force = 12.0;
-    settings.force = {8.0, 0.0, 1e9};
+    settings.force = {8.0, 0.0, 1e9, 0.0};
     settings.duration = 0.1;
   }
   void make_loop() {
@@ -39,7 +39,7 @@ class StalledLoopTest : public testing::Test {
 
   FakeClock clock;
   FakeDevice device;
-  FakeWorld world{[](double) { return FeltForce{{0.0, 0.0, 5.0}, 0}; }};
+  FakeWorld world{[](double time) { return FeltForce{{0.0, 0.0, time > 0.0 ? 5.0 : 0.0}, 0}; }};
   SpscRing<RecordedSample> ring{1024};
   ServoSettings settings;
   std::shared_ptr<HapticDevice> opened;

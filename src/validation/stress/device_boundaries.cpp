@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-#include "validation/stress/bisection.h"
+#include "core/bisection.h"
 #include "validation/stress/loop_theory.h"
 
 namespace sandstroke {

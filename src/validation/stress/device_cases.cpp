@@ -5,9 +5,9 @@
 #include <Eigen/Geometry>
 #include <functional>
 
+#include "core/bisection.h"
 #include "core/error.h"
 #include "sim/solution.h"
-#include "validation/stress/bisection.h"
 #include "validation/stress/loop_theory.h"
 
 namespace sandstroke {

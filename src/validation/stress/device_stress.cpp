@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/bisection.h"
 #include "core/interrupt.h"
 #include "core/parallel.h"
-#include "validation/stress/bisection.h"
 #include "validation/stress/device_boundaries.h"
 #include "validation/stress/device_cases.h"
 #include "validation/stress/device_maps.h"

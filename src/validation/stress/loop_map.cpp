@@ -3,8 +3,8 @@
 #include <cmath>
 #include <optional>
 
+#include "core/bisection.h"
 #include "core/parallel.h"
-#include "validation/stress/bisection.h"
 
 namespace sandstroke {
 namespace {

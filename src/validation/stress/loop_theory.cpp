@@ -1,13 +1,13 @@
 #include "validation/stress/loop_theory.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>
 
+#include "core/bisection.h"
+#include "haptics/loop_stability.h"
 #include "haptics/passivity.h"
-#include "validation/stress/bisection.h"
 
 namespace sandstroke {
 namespace {
@@ -25,28 +25,16 @@ Eigen::RowVector2d feedback(const DeviceSettings& device, const Eigen::Matrix<do
   return {felt.stiffness + share * (map(0, 0) - 1.0 - map(0, 4) * felt.stiffness), share * map(0, 1)};
 }
 
-/// The loop's one-tick map along an axis, of (x, v, the force that acts in this tick, ..., delay - 1 later).
+/// The loop's one-tick map along an axis (haptics/loop_stability.h).
 Eigen::MatrixXd loop_map(const LoopSettings& settings, const Wall& felt) {
   const DeviceSettings& device = settings.device;
-  const Eigen::Matrix<double, 2, 5> map = device_tick_map(device);
   const bool implicit =
       device.drag == DragVelocity::implicit && std::holds_alternative<PressedSand>(settings.against);
-  const Eigen::RowVector2d back = feedback(device, map, felt, implicit);
-  const int delay = device.delay;
-  Eigen::MatrixXd loop = Eigen::MatrixXd::Zero(2 + delay, 2 + delay);
-  loop.topLeftCorner<2, 2>() = map.leftCols<2>();
-  if (delay == 0) {
-    loop.topLeftCorner<2, 2>() -= map.col(4) * back;
-  } else {
-    loop.block<2, 1>(0, 2) = map.col(4);
-    loop.block(2, 3, delay - 1, delay - 1).setIdentity();
-    loop.block<1, 2>(1 + delay, 0) = -back;
-  }
-  return loop;
+  return loop_map(device, feedback(device, device_tick_map(device), felt, implicit));
 }
 
 double spectral_radius(const LoopSettings& settings, const Wall& felt) {
-  return loop_map(settings, felt).eigenvalues().cwiseAbs().maxCoeff();
+  return sandstroke::spectral_radius(loop_map(settings, felt));
 }
 
 /// Logarithm of the growth per tick, with the gain changed.
@@ -66,12 +54,7 @@ double spectral_radius(const LoopSettings& settings) {
 }
 
 double exact_boundary_gain(const LoopSettings& settings) {
-  const auto stable = [&](double gain) { return spectral_radius(with_gain(settings, gain)) < 1.0; };
-  double low = 1.0, high = 1.0;
-  while (!stable(low)) low *= 0.5;
-  while (stable(high))
-    if ((high *= 2.0) > 1e12) return std::numeric_limits<double>::infinity();
-  return boundary_between(low, high, 24, geometric_mean, stable);
+  return boundary_of_positive([&](double gain) { return spectral_radius(with_gain(settings, gain)) < 1.0; });
 }
 
 double passivity_margin(const LoopSettings& settings) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <limits>
 
 namespace sandstroke {
 
@@ -17,6 +18,18 @@ double boundary_between(double low, double high, int halvings, const Middle& mid
     (holds(between) ? low : high) = between;
   }
   return middle(low, high);
+}
+
+/// The positive number up to which a condition holds, to 1 in 10^7; infinity where it holds up to 1e12, 0
+/// where it does not hold at 1e-12.
+template <class Condition>
+double boundary_of_positive(const Condition& holds) {
+  double low = 1.0, high = 1.0;
+  while (!holds(low))
+    if ((low *= 0.5) < 1e-12) return 0.0;
+  while (holds(high))
+    if ((high *= 2.0) > 1e12) return std::numeric_limits<double>::infinity();
+  return boundary_between(low, high, 24, geometric_mean, holds);
 }
 
 }  // namespace sandstroke

@@ -1,8 +1,8 @@
-#include "record/stop_switch.h"
+#include "record/switch_press.h"
 
 namespace sandstroke {
 
-bool StopSwitch::pressed(std::uint32_t switches, std::int64_t time) noexcept {
+bool SwitchPress::pressed(std::uint32_t switches, std::int64_t time) noexcept {
   if ((switches >> number_ & 1U) == 0) {
     seen_up_ = true;
     down_since_.reset();

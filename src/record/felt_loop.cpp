@@ -1,0 +1,59 @@
+#include "record/felt_loop.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "haptics/loop_stability.h"
+#include "record/live_sand.h"
+
+namespace sandstroke {
+namespace {
+
+/// Down, to two digits.
+double rounded_down(double value) {
+  if (!(value > 0.0) || std::isinf(value)) return std::max(value, 0.0);
+  const double unit = std::pow(10.0, std::floor(std::log10(value)) - 1.0);
+  return std::floor(value / unit) * unit;
+}
+
+}  // namespace
+
+std::optional<FeltLoop> felt_loop(const Scene& scene, const DeviceSpecification& device, double max_force,
+                                  double servo_rate, std::optional<double> lateness) {
+  if (device.max_force == any_force) return std::nullopt;  // feels none
+  FeltLoop loop;
+  loop.force = std::min(max_force, device.max_force);
+  if (scene.device.max_force > 0.0) loop.force = std::min(loop.force, scene.device.max_force);
+  if (loop.force <= 0.0 || loop.force >= any_force || scene.force.k_s <= 0.0 || scene.force.k_c <= 0.0)
+    return std::nullopt;
+  loop.scale = scene.device.scale * (scene.stroke ? scene.stroke->placement.scale : 1.0);
+  loop.device = scene.device;
+  loop.device.servo_rate = servo_rate;
+  constexpr double longest = 100.0;  // ticks, of a map of moderate size: who is later is not fit to record
+  loop.device.delay =
+      static_cast<int>(std::clamp(std::ceil(lateness.value_or(0.0) * servo_rate), 1.0, longest));
+  loop.felt = felt_sand(depth_of_repulse_force(loop.force, scene.force), loop.force, loop.scale, scene.force);
+  loop.named = {device.max_stiffness, device.max_damping};
+  loop.stable = stable_sand(loop.device, scene.force.drag, loop.felt.drag, LiveSand::velocity_window);
+  return loop;
+}
+
+ForceSettings settling_force(const FeltLoop& loop, const ForceSettings& force) {
+  ForceSettings settling = force;
+  if (loop.felt.drag >= loop.stable.drag)
+    settling.k_f = rounded_down(loop.stable.drag / (loop.scale * loop.force));
+  double stiffness = loop.stable.stiffness;
+  if (force.drag == DragDirection::full)
+    stiffness = stable_sand(loop.device, force.drag, settling.k_f * loop.scale * loop.force,
+                            LiveSand::velocity_window)
+                    .stiffness;
+  if (loop.felt.stiffness < stiffness) return settling;
+  // K = scale k_c (k_s + F)
+  settling.k_s = rounded_down(stiffness / (loop.scale * force.k_c) - loop.force);
+  if (settling.k_s > 0.0) return settling;
+  settling.k_s = force.k_s;
+  settling.k_c = rounded_down(stiffness / (loop.scale * (force.k_s + loop.force)));
+  return settling;
+}
+
+}  // namespace sandstroke

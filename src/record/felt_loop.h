@@ -1,0 +1,37 @@
+#pragma once
+
+#include <optional>
+
+#include "haptics/haptic_device.h"
+#include "sim/scene.h"
+
+namespace sandstroke {
+
+/// The sand of a scene as a device's loop has to hold it, and how hard it may be.
+struct FeltLoop {
+  double force = 0.0;     ///< N, the largest: the sand is stiffest and drags most there
+  double scale = 1.0;     ///< bed metres per device metre
+  DeviceSettings device;  ///< servo rate and delay of the loop; mass, damping and hand as the scene has them
+  FeltSand felt;          ///< at that force
+  FeltSand named;         ///< by the device, as its most; 0: it names none
+  FeltSand stable;        ///< up to here the hand on the device settles in theory (stable_sand)
+
+  bool is_stable() const { return felt.stiffness < stable.stiffness && felt.drag < stable.drag; }
+  /// What the device does not name does not count.
+  bool is_within_named() const {
+    return (named.stiffness <= 0.0 || felt.stiffness <= named.stiffness) &&
+           (named.drag <= 0.0 || felt.drag <= named.drag);
+  }
+};
+
+/// None: no force, one without any limit, or a stand-in that takes any and feels none. max_force [N],
+/// servo_rate [Hz]: of the recording. lateness [s]: of 99 of 100 ticks, where it was measured. A force acts a
+/// whole number of ticks late, at least one: a device takes its time to take it.
+std::optional<FeltLoop> felt_loop(const Scene& scene, const DeviceSpecification& device, double max_force,
+                                  double servo_rate, std::optional<double> lateness = {});
+
+/// The same force with the largest k_f and k_s, of two digits, at which such sand settles; with the largest
+/// k_c, where k_s could only be 0. What settles stays.
+ForceSettings settling_force(const FeltLoop& loop, const ForceSettings& force);
+
+}  // namespace sandstroke

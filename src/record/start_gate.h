@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "record/switch_press.h"
+
+namespace sandstroke {
+
+/// When a recording begins: once all that is asked for has come to pass, in this order.
+struct StartSettings {
+  double countdown = 0.0;           ///< s
+  std::optional<int> start_switch;  ///< (from 0, to 31) is pressed
+  bool at_contact = false;          ///< the tool has been out of the sand, and touches it
+  bool at_once() const { return countdown <= 0.0 && !start_switch && !at_contact; }
+};
+
+/// What a recorder waits for.
+enum class Awaited {
+  nothing,
+  countdown,
+  start_switch,
+  lift,    ///< the tool must be out of the sand, before the recording begins or a force is given
+  contact  ///< the tool must touch the sand
+};
+
+/// Says when a recording begins, reading by reading.
+class StartGate {
+ public:
+  /// countdown_end, debounce [ns]: the latter as SwitchPress has it.
+  StartGate(const StartSettings& settings, std::int64_t countdown_end, std::int64_t debounce);
+
+  /// What is still waited for after a reading at `now` [ns], which increases. touches: the tool the sand.
+  Awaited see(std::int64_t now, std::uint32_t switches, bool touches) noexcept;
+
+ private:
+  std::int64_t countdown_end_;
+  std::optional<SwitchPress> press_;  // none: it was pressed, or none is asked for
+  bool at_contact_, lifted_ = false;
+};
+
+}  // namespace sandstroke
