@@ -37,7 +37,9 @@ void RecordView::show(const ServoProgress& progress) {
   state.max_lateness = progress.max_lateness;
   state.tip_known = progress.read;
   state.contact = !std::isnan(state.depth);
+  state.force_held_back = progress.awaited == Awaited::lift;
   state_.publish(state);
+  state_.say(hint_of(progress));
 }
 
 void RecordView::end(const std::string& reason) {

@@ -33,6 +33,10 @@ FeltForce ForceGuard::admit(double time, const FeltForce& wanted, const Eigen::V
     given.flags |= refused_force;
     return given;
   }
+  if (limits_.max_force == 0.0) {  // of a hand that gets none, nothing is cut
+    given.force.setZero();
+    return given;
+  }
   interlock_.see(time, length_of(wanted.force));
   const bool is_wanted = !wanted.force.isZero(0.0);
   if (!interlock_.is_open()) {
