@@ -60,15 +60,15 @@ function sandView(bed, label) {
   let waiting = false, rested = 0;
 
   // Where pictures take long, they are coarser while something moves, and one in full follows.
-  const pace = { coarseness: picture.fast ? 1 : 2, last: 0, mean: 20 };  // ms between pictures
+  const pace = { coarseness: picture.fast ? 1 : 2, asked: 0, last: -Infinity, mean: 20 };  // ms
   view.pace = pace;
   const takePace = (now) => {
-    const between = now - pace.last;
+    if (pace.asked - pace.last < 50) {  // else it rested
+      pace.mean += 0.25 * (now - pace.last - pace.mean);
+      if (pace.mean > 30 && pace.coarseness < 6) [pace.coarseness, pace.mean] = [pace.coarseness * 1.25, 20];
+      if (pace.mean < 17.5 && pace.coarseness > 1) [pace.coarseness, pace.mean] = [Math.max(1, pace.coarseness / 1.1), 20];
+    }
     pace.last = now;
-    if (between > 500) return;  // it rested
-    pace.mean += 0.2 * (between - pace.mean);
-    if (pace.mean > 30 && pace.coarseness < 4) [pace.coarseness, pace.mean] = [pace.coarseness * 1.25, 20];
-    if (pace.mean < 17.5 && pace.coarseness > 1) [pace.coarseness, pace.mean] = [pace.coarseness / 1.1, 20];
   };
   const drawMoving = (now) => {
     takePace(now);
@@ -91,6 +91,7 @@ function sandView(bed, label) {
   view.changed = () => {
     if (waiting) return;
     waiting = true;
+    pace.asked = performance.now();
     requestAnimationFrame(drawMoving);
   };
   view.drawNow = drawNow;
