@@ -20,6 +20,7 @@
 #include "io/scene_toml.h"
 #include "io/stroke_format.h"
 #include "io/surface_file.h"
+#include "record/felt_loop_text.h"
 #include "record/journal.h"
 #include "record/real_time.h"
 

@@ -5,6 +5,7 @@
 #include "cli/record_parts.h"
 #include "core/interrupt.h"
 #include "core/progress.h"
+#include "record/felt_loop_text.h"
 #include "record/loop_check.h"
 #include "record/recording_json.h"
 
@@ -33,6 +34,27 @@ void print_table(const LoopCheck& check, const ServoSettings& servo) {
   } else {
     print_row("verdict", "NOT FIT to record at this rate: " + (advice.empty() ? other_remedies : advice));
   }
+}
+
+void print_felt_loop(const FeltLoop& loop, const ForceSettings& force) {
+  print_row("sand", fmt::format("{} at {:.3g} N", felt_sand_text(loop.felt), loop.force));
+  print_row("device names", named_text(loop.named));
+  print_row("theory allows", felt_sand_text(loop.stable));
+  print_row("assumed", assumed_text(loop.device));
+  print_row("verdict", verdict_text(loop, force));
+}
+
+nlohmann::ordered_json felt_loop_json(const FeltLoop& loop) {
+  const auto sand = [](const FeltSand& felt) {
+    return nlohmann::ordered_json{{"stiffness", felt.stiffness}, {"damping", felt.drag}};
+  };
+  return {{"force", loop.force},
+          {"sand", sand(loop.felt)},
+          {"device", sand(loop.named)},
+          {"theory", sand(loop.stable)},
+          {"delay", loop.device.delay},
+          {"stable", loop.is_stable()},
+          {"within_device", loop.is_within_named()}};
 }
 
 }  // namespace

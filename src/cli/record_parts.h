@@ -1,10 +1,8 @@
 #pragma once
 
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <optional>
 
-#include "record/felt_loop.h"
 #include "record/live_sand.h"
 #include "record/recorder.h"
 
@@ -20,14 +18,6 @@ int list_devices(bool json);
 /// none.
 int check_machine(const RecorderSettings& settings, const std::optional<Scene>& felt,
                   const DeviceSpecification& device, bool json);
-
-// Sand that is felt, against what a device and its loop can hold:
-/// Error: input, with settings that would do, where no hand on the device settles. Warns beyond what it
-/// names.
-void check_felt_loop(const FeltLoop& loop, const ForceSettings& force, const std::string& scene);
-/// As rows of a table.
-void print_felt_loop(const FeltLoop& loop, const ForceSettings& force);
-nlohmann::ordered_json felt_loop_json(const FeltLoop& loop);
 
 /// On the standard output, as a table or as one JSON object. felt: none, where no sand was.
 void print_recording(const RecordingReport& report, const std::optional<LiveSandReport>& felt,

@@ -1,8 +1,10 @@
-#include "record/felt_loop.h"
+#include "record/felt_loop_text.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
+
+#include "core/error.h"
 
 namespace sandstroke {
 namespace {
@@ -86,6 +88,36 @@ TEST(FeltLoop, ItsRemedySettlesAndNothingMuchHarderDoes) {
       scene.force.k_f *= k_f > 100.0 ? 1.12 : 1.0;
       EXPECT_FALSE(felt_loop(scene, touch(), any_force, 1000.0)->is_stable()) << k_s << " " << k_f;
     }
+}
+
+TEST(FeltLoop, ThatIsRefusedNamesTheNumbersAndTheSettings) {
+  const auto sentence = [](const Scene& scene) -> std::string {
+    const FeltLoop loop = felt_loop(scene, touch(), any_force, 1000.0).value();
+    try {
+      check_felt_loop(loop, scene.force, "scene.toml");
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::input);
+      EXPECT_NE(verdict_text(loop, scene.force).find("REFUSED"), std::string::npos);
+      return error.what();
+    }
+    return "";
+  };
+  Scene scene;
+  EXPECT_EQ(sentence(scene), "") << "only warned of";
+  EXPECT_NE(verdict_text(*felt_loop(scene, touch(), any_force, 1000.0), scene.force)
+                .find("beyond what the device names"),
+            std::string::npos);
+  scene.force.k_f = 200.0;
+  const std::string drag = sentence(scene);
+  for (const char* part :
+       {"scene.toml", "660 N s/m", "138 N s/m", "3.3 N", "Set force.k_f = 41 ", "--max-force"})
+    EXPECT_NE(drag.find(part), std::string::npos) << drag;
+  scene.force.k_s = 1e5;
+  EXPECT_NE(sentence(scene).find("Set force.k_f = 41 and force.k_s = 1.2e+04 "), std::string::npos)
+      << sentence(scene);
+  scene.force = {};
+  scene.force.k_c = 1e4;  // K = 1e4 (k_s + F) whatever k_s: only k_c can help
+  EXPECT_NE(sentence(scene).find("Set force.k_c = 6"), std::string::npos) << sentence(scene);
 }
 
 }  // namespace

@@ -127,6 +127,16 @@ TEST(RecordingJson, ANumberThatIsNoneIsNullAndReadsAsNone) {
   EXPECT_EQ(back.lateness.max, footer.lateness.max);
 }
 
+TEST(RecordingJson, WhatAnEarlierVersionDidNotSayIsAsByDefault) {
+  nlohmann::ordered_json header = as_json(full_header()), footer = as_json(full_footer());
+  header.erase("device_max_damping");
+  footer.erase("ticks_interlocked");
+  EXPECT_EQ(header_from_json(header).device.max_damping, 0.0);
+  EXPECT_EQ(header_from_json(header).device.max_stiffness, full_header().device.max_stiffness);
+  EXPECT_EQ(footer_from_json(footer).ticks.interlocked, 0);
+  EXPECT_EQ(footer_from_json(footer).ticks.held, full_footer().ticks.held);
+}
+
 TEST(RecordingJson, AReasonOfALaterVersionIsNotTakenForOneOfThis) {
   nlohmann::ordered_json json = as_json(full_footer());
   json["stop_reason"] = "the moon was full";

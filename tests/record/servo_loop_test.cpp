@@ -611,6 +611,19 @@ TEST_F(ServoLoopTest, ASwitchBeginsAndEndsARecording) {
   EXPECT_EQ(footer.ticks.elapsed, 101);
 }
 
+TEST_F(ServoLoopTest, AStandInThatMovedWhileItWasWaitedForEndsWithItsStroke) {
+  settings.duration.reset();
+  settings.start.start_switch = 1;
+  device.length = 0.3;
+  device.reads = [](double time, DeviceReading& reading) {
+    reading.switches = in_tick(time, 50, 99) ? 2 : 0;
+    return true;
+  };
+  const RecordingFooter footer = run();
+  EXPECT_EQ(footer.reason, StopReason::stroke_end);
+  EXPECT_EQ(samples.back().time, start + 300 * ms);
+}
+
 TEST_F(ServoLoopTest, BeginsOneTickBeforeFirstContact) {
   settings.start.at_contact = true;
   settings.duration = 0.05;

@@ -1,15 +1,28 @@
+#include "record/felt_loop_text.h"
+
 #include <spdlog/spdlog.h>
 
-#include <cmath>
-
-#include "cli/print_row.h"
-#include "cli/record_parts.h"
 #include "core/error.h"
 
 namespace sandstroke {
 namespace {
 
-std::string sand_text(const FeltSand& sand) {
+/// "force.k_f = 9.4"
+std::string remedy_text(const FeltLoop& loop, const ForceSettings& force) {
+  const ForceSettings settling = settling_force(loop, force);
+  std::string text;
+  const auto say = [&text](const char* key, double value, double before) {
+    if (value != before) text += fmt::format("{}{} = {:.2g}", text.empty() ? "" : " and ", key, value);
+  };
+  say("force.k_f", settling.k_f, force.k_f);
+  say("force.k_s", settling.k_s, force.k_s);
+  say("force.k_c", settling.k_c, force.k_c);
+  return text;
+}
+
+}  // namespace
+
+std::string felt_sand_text(const FeltSand& sand) {
   return fmt::format("{:.3g} N/m, {:.3g} N s/m", sand.stiffness, sand.drag);
 }
 
@@ -27,19 +40,6 @@ std::string assumed_text(const DeviceSettings& device) {
       device.hand_stiffness, device.hand_damping);
 }
 
-/// "force.k_f = 9.4"
-std::string remedy_text(const FeltLoop& loop, const ForceSettings& force) {
-  const ForceSettings settling = settling_force(loop, force);
-  std::string text;
-  const auto say = [&text](const char* key, double value, double before) {
-    if (value != before) text += fmt::format("{}{} = {:.2g}", text.empty() ? "" : " and ", key, value);
-  };
-  say("force.k_f", settling.k_f, force.k_f);
-  say("force.k_s", settling.k_s, force.k_s);
-  say("force.k_c", settling.k_c, force.k_c);
-  return text;
-}
-
 std::string verdict_text(const FeltLoop& loop, const ForceSettings& force) {
   if (!loop.is_stable()) return "REFUSED: the hand would shake; set " + remedy_text(loop, force);
   if (!loop.is_within_named()) return "settles in theory, but is beyond what the device names";
@@ -48,42 +48,19 @@ std::string verdict_text(const FeltLoop& loop, const ForceSettings& force) {
   return "settles in theory, and is within what the device names";
 }
 
-}  // namespace
-
-void print_felt_loop(const FeltLoop& loop, const ForceSettings& force) {
-  print_row("sand", fmt::format("{} at {:.3g} N", sand_text(loop.felt), loop.force));
-  print_row("device names", named_text(loop.named));
-  print_row("theory allows", sand_text(loop.stable));
-  print_row("assumed", assumed_text(loop.device));
-  print_row("verdict", verdict_text(loop, force));
-}
-
-nlohmann::ordered_json felt_loop_json(const FeltLoop& loop) {
-  const auto sand = [](const FeltSand& felt) {
-    return nlohmann::ordered_json{{"stiffness", felt.stiffness}, {"damping", felt.drag}};
-  };
-  return {{"force", loop.force},
-          {"sand", sand(loop.felt)},
-          {"device", sand(loop.named)},
-          {"theory", sand(loop.stable)},
-          {"delay", loop.device.delay},
-          {"stable", loop.is_stable()},
-          {"within_device", loop.is_within_named()}};
-}
-
 void check_felt_loop(const FeltLoop& loop, const ForceSettings& force, const std::string& scene) {
   if (!loop.is_stable())
     throw_input_error(
         "{}: on this device the sand has {} at {:.3g} N, and a loop settles up to {} ({}); the hand would "
         "shake. Set {} (--set), or a smaller --max-force; if the device or the hand is another, set "
         "device.mass, device.damping, device.hand_stiffness and device.hand_damping",
-        scene, sand_text(loop.felt), loop.force, sand_text(loop.stable), assumed_text(loop.device),
+        scene, felt_sand_text(loop.felt), loop.force, felt_sand_text(loop.stable), assumed_text(loop.device),
         remedy_text(loop, force));
   if (!loop.is_within_named())
     spdlog::warn(
         "{}: the sand has {} at {:.3g} N, and the device names {} as its most. In theory the hand settles; "
         "lower --max-force or force.k_f if it buzzes",
-        scene, sand_text(loop.felt), loop.force, named_text(loop.named));
+        scene, felt_sand_text(loop.felt), loop.force, named_text(loop.named));
 }
 
 }  // namespace sandstroke
