@@ -34,8 +34,8 @@ struct ServoProgress {
 };
 
 /// The 1 kHz loop: at absolute times, reads the device, feels, commands, and puts a sample into the ring.
-/// Ticks to which it comes a whole tick late or more are counted and skipped, never made up in a burst. In it
-/// nothing is allocated, locked, written or thrown. Whatever ends it, the last command is zero force.
+/// Ticks to which it comes a whole tick late or more are counted and skipped, never made up in a burst; it goes
+/// on at once with the tick in which it woke, whose sample says the true time. In it nothing is allocated, locked, written or thrown. Whatever ends it, the last command is zero force.
 class ServoLoop {
  public:
   /// The device is open. world: none, where no force is to be given.
@@ -64,6 +64,8 @@ class ServoLoop {
   bool stopped() const noexcept { return reason_.load() != going_on; }
   std::int64_t tick_time(std::int64_t tick) const noexcept;
   std::int64_t wait_for_tick() noexcept;
+  /// Those whose time has passed, up to the last one.
+  void skip_ticks_before(std::int64_t now) noexcept;
   void serve_tick(std::int64_t now) noexcept;
   /// What fails, from tick to tick, stops the loop in the end.
   void stop_where_it_lasts(bool fails, Fault& fault, std::int64_t now) noexcept;
