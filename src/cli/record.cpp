@@ -27,9 +27,10 @@ struct RecordArguments {
   std::string output, device, felt_scene;
   std::vector<std::string> overrides;  // of the felt scene
   RecorderSettings settings;
-  double duration = 0.0;  // s; 0: not given
-  double rate = 0.0;      // Hz; 0: not given
-  int stop_switch = -1;   // not given
+  double duration = 0.0;     // s; 0: not given
+  double rate = 0.0;         // Hz; 0: not given
+  int stop_switch = -1;      // not given
+  double max_skipped = 1.0;  // percent of the ticks
   bool list = false, check = false, no_memory_lock = false, json = false;
 };
 
@@ -105,17 +106,25 @@ void write_stroke(const fs::path& output, const RecordingFooter& recorded) {
   fs::remove(journal);
 }
 
-void warn(const RecordingReport& report, const std::string& output) {
+void warn(const RecordingReport& report, const std::string& output, double max_skipped) {
   const RecordingFooter& footer = report.footer;
   if (!is_complete(footer.reason))
     spdlog::warn("{} is incomplete, because {}; it holds what was recorded until then", output,
                  stop_reason_text(footer.reason));
+  const TickCounts& ticks = footer.ticks;
+  if (skipped_share(ticks) > 0.01 * max_skipped)
+    spdlog::warn(
+        "{}: {} of {} ticks were skipped ({:.2g} %, more than --max-skipped {:g}): other programs held the "
+        "loop up; end them, lower --rate, or see sandstroke record --check",
+        output, ticks.skipped, ticks.elapsed, 100.0 * skipped_share(ticks), max_skipped);
   if (!report.disk_error.empty()) spdlog::warn("{}", report.disk_error);
   if (!report.header.scheduling.advice.empty()) spdlog::warn("{}", report.header.scheduling.advice);
 }
 
-int exit_code(StopReason reason) {
-  if (is_complete(reason)) return 0;
+int exit_code(const RecordingFooter& footer, double max_skipped) {
+  const StopReason reason = footer.reason;
+  if (is_complete(reason))
+    return is_starved(footer.ticks) && skipped_share(footer.ticks) > 0.01 * max_skipped ? 1 : 0;
   if (reason == StopReason::signal) return 128 + interrupted();
   return static_cast<int>(reason == StopReason::no_number ? ErrorKind::unstable : ErrorKind::io);
 }
@@ -152,11 +161,11 @@ int record(const RecordArguments& arguments) {
   std::optional<LiveSandReport> felt_sand;
   if (sand) felt_sand = sand->finish();
   print_recording(report, felt_sand, arguments.output, arguments.json);
-  warn(report, arguments.output);
+  warn(report, arguments.output, arguments.max_skipped);
   if (felt_sand && felt_sand->contact_ticks == 0)
     spdlog::warn(
         "the tool never touched the sand; move its positions with --set stroke.offset and stroke.scale");
-  return exit_code(report.footer.reason);
+  return exit_code(report.footer, arguments.max_skipped);
 }
 
 CLI::Validator recording_rate() {
@@ -230,6 +239,13 @@ void add_record_command(CLI::App& app, Command& chosen) {
                    "Switch of the device that ends the recording, counted from 0")
       ->check(CLI::Range(0, 31))
       ->option_text("K");
+  command
+      ->add_option("--max-skipped", arguments->max_skipped,
+                   "Share of skipped ticks [%] above which there is a warning. Above 10 % too, the stroke is "
+                   "marked starved and the exit code is 1")
+      ->check(CLI::Range(0.0, 100.0))
+      ->capture_default_str()
+      ->option_text("PERCENT");
   add_force_options(*command, *arguments);
   command->add_flag("--calibrate", settings.calibrate,
                     "Calibrate the device first. THIS MAY MOVE ITS ARM: keep clear");

@@ -51,7 +51,9 @@ nlohmann::ordered_json as_json(const RunResult& r, const Scene& scene, const std
       {"real_time_factor", r.simulated_seconds / r.wall_seconds},
       {"contact_ticks", r.contact_ticks},
       {"saturated_ticks", r.device.saturated_ticks},
-      {"gaps", r.gaps},
+      {"stroke_seconds", r.stroke.whole},
+      {"played_seconds", r.stroke.played},
+      {"gaps", r.stroke.gaps},
       {"passes", r.relaxation.passes},
       {"relaxations", r.relaxations},
       {"super_steps", r.relaxation.super_steps},
@@ -116,7 +118,7 @@ void print_summary(const RunResult& r, const Scene& scene, const std::string& ou
                     returned_energy(r.device) ? fmt::format(", at worst {:.3g} J more returned than taken",
                                                             -r.device.least_absorbed_energy)
                                               : ""));
-    if (r.gaps > 0) print_row("gaps", fmt::format("{}: the tool was lifted there", r.gaps));
+    if (r.stroke.gaps > 0) print_row("gaps", played_text(r.stroke));
   }
   print_row("sand moved",
             fmt::format("{:.6g} m^3; the volume changed by {:.1e} of that", r.moved_volume, r.volume_drift));

@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 
+#include "haptics/stroke_coverage.h"
 #include "haptics/stroke_sampler.h"
 #include "sand/relaxation.h"
 
@@ -170,7 +171,7 @@ struct RunResult {
   std::int64_t ticks = 0;
   double simulated_seconds = 0.0;
   std::int64_t contact_ticks = 0;
-  int gaps = 0;  ///< stroke gaps at which the tool was lifted
+  PlayedPart stroke;  ///< how much of it is played, with the tool down, and how many gaps are not
   std::int64_t relaxations = 0;
   /// Of all relaxations; residual and converged are the last one's.
   RelaxationOutcome relaxation{.converged = true};

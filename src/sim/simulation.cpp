@@ -191,7 +191,7 @@ void Simulation::run_stroke() {
     tell([&](auto& observer) { observer.on_progress(done); });
   }
   result_.simulated_seconds = static_cast<double>(result_.ticks) / servo_rate;
-  result_.gaps = static_cast<int>(stroke_->gaps().size());
+  result_.stroke = played_part(*stroke_);
 }
 
 RunResult Simulation::run(const Observers& observers) {

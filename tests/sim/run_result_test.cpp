@@ -99,7 +99,7 @@ TEST(RunResult, IsWhatItsTicksAddUpTo) {
   EXPECT_EQ(result.ticks, ticks);
   EXPECT_DOUBLE_EQ(result.simulated_seconds, 0.701);
   EXPECT_EQ(result.contact_ticks, contact);
-  EXPECT_EQ(result.gaps, 0);
+  EXPECT_EQ(result.stroke.gaps, 0);
   EXPECT_EQ(result.device.saturated_ticks, saturated);
   EXPECT_EQ(result.max_depth, told.largest([](const TickRecord& tick) { return tick.depth; }));
 
@@ -286,7 +286,7 @@ TEST(RunResult, GapsAreCountedAndTheToolIsLiftedInThem) {
   stroke.gap_threshold = 0.1;
   ToldRun told;
   const RunResult result = Simulation(scene, starting_bed(scene.bed), stroke).run({&told});
-  EXPECT_EQ(result.gaps, 2);
+  EXPECT_EQ(result.stroke.gaps, 2);
   EXPECT_EQ(result.contact_ticks, 51 + 101 + 51);
   for (const TickRecord& tick : told.ticks) {
     const bool lifted = (tick.time > 0.05 && tick.time < 0.2) || (tick.time > 0.3 && tick.time < 0.45);

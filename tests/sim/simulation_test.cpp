@@ -180,7 +180,7 @@ TEST(Simulation, NothingHappensInTheAirNorWhileTheToolIsLifted) {
   Simulation lifted(scene, starting_bed(scene.bed), stroke);
   Told recording;
   const RunResult result = lifted.run({&recording});
-  EXPECT_EQ(result.gaps, 3);
+  EXPECT_EQ(result.stroke.gaps, 3);
   // The sample at which a piece begins and ends is a touch; in between the tool is lifted.
   for (const TickRecord& tick : recording.ticks) {
     const double phase = std::fmod(tick.time, 0.5);
