@@ -59,6 +59,8 @@ class SimulatedDevice {
   /// Starts with the hand, as fast as the hand.
   SimulatedDevice(const DeviceSettings& settings, const State& hand);
 
+  /// Somebody else has put it there: it is at the hand, as fast as the hand.
+  void put(const State& hand) { state_ = hand; }
   /// As the controller reads it: the position rounded to the encoders' resolution (dynamic model).
   State read() const;
   /// As it is.

@@ -25,6 +25,7 @@ struct TickRecord {
   double passivity_margin = 0.0;  ///< N s/m, Colgate & Schenkel
   bool contact = false;           ///< the tool touches sand (depth > 0)
   bool saturated = false;         ///< the device's maximum force cut the force
+  bool lifts = false;             ///< the hand is lifted before the tick ends
 };
 
 /// A field of a record, for who reads it in a file.

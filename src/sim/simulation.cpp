@@ -173,12 +173,13 @@ void Simulation::run_stroke() {
     time = static_cast<double>(k) / servo_rate;
     const double next_time = time_of(k + 1);
     const Hand next = stroke_->at(next_time);
-    const TickRecord record = tick(time, hand, next, slip);
+    TickRecord record = tick(time, hand, next, slip);
+    record.lifts = stroke_->lifts_between(begin + time, next_time);
 
     device_.advance(record);
     check_near(record);
     hand = next;
-    if (stroke_->lifts_between(begin + time, next_time)) sand_.lift();
+    if (record.lifts) sand_.lift();
 
     result_.ticks += 1;
     result_.contact_ticks += record.contact;
