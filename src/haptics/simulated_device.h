@@ -81,6 +81,9 @@ class SimulatedDevice {
   Eigen::Vector3d drag_velocity(const State& hand, const State& hand_after, const Eigen::Vector3d& force,
                                 double drag) const;
 
+  /// T / g [N s/m], 2 m / T of a free mass: drag_velocity() holds larger drag to what stops it.
+  double strongest_drag() const { return time_step_ / map_(0, 4); }
+
   /// Moves on by one tick, during which the hand goes from one place to the next and `force` [N] is held.
   void advance(const State& hand, const State& hand_after, const Eigen::Vector3d& force);
 

@@ -1,12 +1,14 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "core/compensated_sum.h"
 #include "haptics/force_model.h"
 #include "haptics/late_force.h"
 #include "haptics/passivity.h"
 #include "haptics/simulated_device.h"
+#include "haptics/swing_watch.h"
 #include "sim/run_result.h"
 
 namespace sandstroke {
@@ -40,6 +42,7 @@ class DeviceSide {
 
  private:
   void move(const TickRecord& record);
+  void watch(const TickRecord& record, const Eigen::Vector3d& motion);
   double faded_in(const TickRecord& record);
 
   ForceSettings force_;
@@ -50,8 +53,14 @@ class DeviceSide {
   std::optional<double> fading_since_;  // s
   double share_ = 1.0;                  // of the force, in the last tick
   CompensatedSum contact_force_;        // N, over contact ticks
-  std::int64_t contact_ticks_ = 0, saturated_ticks_ = 0;
-  double max_force_ = 0.0, least_margin_;
+  std::int64_t contact_ticks_ = 0;
+  SwingWatch swing_;
+  double most_stored_ = 0.0;  // J
+  DeviceResult result_;       // all but what the others hold
 };
+
+/// What to change where a loop is unstable or returns energy: the keys of a scene that have a part in it.
+/// "lower force.k_s or device.delay, or raise ...". max_drag_force [N]: 0 where drag did nothing.
+std::string loop_remedies(const DeviceSettings& device, double max_drag_force);
 
 }  // namespace sandstroke

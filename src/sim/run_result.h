@@ -164,6 +164,12 @@ struct DeviceResult {
   double least_absorbed_energy =
       0.0;  ///< J, its minimum over time; negative = sand returned more than it took
   double least_passivity_margin = 0.0;  ///< N s/m, over contact ticks
+  double max_drag_force = 0.0;          ///< N, before delay and limit
+  /// Ticks in which implicit drag was held to what stops the device, and the sand's largest drag in them [N
+  /// s/m].
+  std::int64_t held_drag_ticks = 0;
+  double held_drag = 0.0;
+  std::optional<double> swings_from;  ///< s, where a dynamic device was found to swing by itself (SwingWatch)
 };
 
 /// What a whole run amounts to (`run --json`).

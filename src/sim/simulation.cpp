@@ -144,10 +144,8 @@ void Simulation::check_near(const TickRecord& record) const {
   if (!(distance < far))
     throw Error(
         ErrorKind::unstable,
-        fmt::format(
-            "at {:.4f} s the device has diverged ({:.3g} m from the bed's centre); lower force.k_s or "
-            "force.k_f, or raise device.servo_rate or device.damping",
-            record.time, distance));
+        fmt::format("at {:.4f} s the device has diverged ({:.3g} m from the bed's centre); {}", record.time,
+                    distance, loop_remedies(scene_.device, device_.result().max_drag_force)));
 }
 
 void Simulation::run_stroke() {

@@ -331,7 +331,7 @@ TEST(RunResult, BelowTheSandAfterAGapTheForceFadesInAndNoEnergyIsOwed) {
     // It went down once and came out once; in the gap it was taken out of the sand and put back.
     EXPECT_GE(result.device.least_absorbed_energy, -1e-9);
     const double work = plunge_work(0.004, max_force, scene.force);
-    EXPECT_NEAR(result.device.absorbed_energy, work, 0.03 * work);  // a tick's force lags: v T / d
+    EXPECT_NEAR(result.device.absorbed_energy, work, 0.036 * work);  // v T / d down at 60 mm/s, up at 82 mm/s
   }
 }
 
@@ -354,7 +354,7 @@ TEST(RunResult, AfterAGapADynamicDeviceIsWhereTheHandIsAndNoLateForceIsLeft) {
       }
       before = &tick;
     }
-    if (delay == 0) EXPECT_FALSE(returned_energy(result.device));
+    EXPECT_TRUE(delay > 0 || !returned_energy(result.device));
   }
 }
 
