@@ -41,25 +41,34 @@ void visit_tick_fields(const Visit& visit) {
   visit(
       Text{"time", "s", "start of the tick"}, [](auto& tick) -> auto& { return tick.time; });
   visit(
-      Text{"hand_position", "m", "where the hand wants the tip, in the device's frame"},
+      Text{"hand_position", "m",
+           "where the hand wants the tip at the start of the tick, in the device's frame; until the next one "
+           "it goes "
+           "straight and uniformly"},
       [](auto& tick) -> auto& { return tick.hand.position; });
   visit(
-      Text{"device_position", "m", "tip as the device read it, in its frame"},
+      Text{"device_position", "m",
+           "tip as the device read it, rounded to its encoders, in its frame (on the bed: device.scale x "
+           "this + "
+           "device.offset)"},
       [](auto& tick) -> auto& { return tick.device_position; });
   visit(
-      Text{"device_force", "N", "force on the device, cut to its largest"},
+      Text{"device_force", "N",
+           "force that acts on the device in the tick: cut to its largest, late by device.delay and dropped "
+           "ticks, "
+           "faded in after a gap"},
       [](auto& tick) -> auto& { return tick.device_force; });
   visit(
-      Text{"repulse_force", "N", "force by which the sand repulses the tool"},
+      Text{"repulse_force", "N", "force by which the sand repulses the tool there, neither late nor cut"},
       [](auto& tick) -> auto& { return tick.repulse_force; });
   visit(
-      Text{"drag_force", "N", "force by which the sand drags at the tool"},
+      Text{"drag_force", "N", "force by which the sand drags at the tool there, neither late nor cut"},
       [](auto& tick) -> auto& { return tick.drag_force; });
   visit(
       Text{"level", "m", "height of the sand under the tool; not a number where it is lifted"},
       [](auto& tick) -> auto& { return tick.level; });
   visit(
-      Text{"depth", "m", "depth of the tip below that level; negative above it"},
+      Text{"depth", "m", "depth of the tip, as read, below that level; negative above it"},
       [](auto& tick) -> auto& { return tick.depth; });
   visit(
       Text{"displaced_volume", "m^3", "sand pushed aside in the tick"},
