@@ -34,8 +34,9 @@ struct ServoProgress {
 };
 
 /// The 1 kHz loop: at absolute times, reads the device, feels, commands, and puts a sample into the ring.
-/// Ticks to which it comes a whole tick late or more are counted and skipped, never made up in a burst; it goes
-/// on at once with the tick in which it woke, whose sample says the true time. In it nothing is allocated, locked, written or thrown. Whatever ends it, the last command is zero force.
+/// Ticks to which it comes a whole tick late or more are counted and skipped, never made up in a burst; it
+/// goes on at once with the tick in which it woke, whose sample says the true time. In it nothing is
+/// allocated, locked, written or thrown. Whatever ends it, the last command is zero force.
 class ServoLoop {
  public:
   /// The device is open. world: none, where no force is to be given.
