@@ -36,6 +36,7 @@ struct RecordArguments {
   double duration = 0.0;                    // s; 0: not given
   double rate = 0.0;                        // Hz; 0: not given
   int start_switch = -1, stop_switch = -1;  // not given
+  double max_skipped = 1.0;                 // percent of the ticks
   bool list = false, check = false, no_memory_lock = false, json = false;
   bool view = false, no_open = false;
 };
@@ -119,17 +120,25 @@ void write_stroke(const fs::path& output, const RecordingFooter& recorded) {
   fs::remove(journal);
 }
 
-void warn(const RecordingReport& report, const std::string& output) {
+void warn(const RecordingReport& report, const std::string& output, double max_skipped) {
   const RecordingFooter& footer = report.footer;
   if (!is_complete(footer.reason))
     spdlog::warn("{} is incomplete, because {}; it holds what was recorded until then", output,
                  stop_reason_text(footer.reason));
+  const TickCounts& ticks = footer.ticks;
+  if (skipped_share(ticks) > 0.01 * max_skipped)
+    spdlog::warn(
+        "{}: {} of {} ticks were skipped ({:.2g} %, more than --max-skipped {:g}): other programs held the "
+        "loop up; end them, lower --rate, or see sandstroke record --check",
+        output, ticks.skipped, ticks.elapsed, 100.0 * skipped_share(ticks), max_skipped);
   if (!report.disk_error.empty()) spdlog::warn("{}", report.disk_error);
   if (!report.header.scheduling.advice.empty()) spdlog::warn("{}", report.header.scheduling.advice);
 }
 
-int exit_code(StopReason reason) {
-  if (is_complete(reason)) return 0;
+int exit_code(const RecordingFooter& footer, double max_skipped) {
+  const StopReason reason = footer.reason;
+  if (is_complete(reason))
+    return is_starved(footer.ticks) && skipped_share(footer.ticks) > 0.01 * max_skipped ? 1 : 0;
   if (reason == StopReason::signal) return 128 + interrupted();
   return static_cast<int>(reason == StopReason::no_number ? ErrorKind::unstable : ErrorKind::io);
 }
@@ -212,11 +221,11 @@ int record(const RecordArguments& arguments) {
   if (sand) felt_sand = sand->finish();
   if (view) view->end(stop_reason_text(report.footer.reason));
   print_recording(report, felt_sand, arguments.output, arguments.json);
-  warn(report, arguments.output);
+  warn(report, arguments.output, arguments.max_skipped);
   if (felt_sand && felt_sand->contact_ticks == 0)
     spdlog::warn(
         "the tool never touched the sand; move its positions with --set stroke.offset and stroke.scale");
-  return exit_code(report.footer.reason);
+  return exit_code(report.footer, arguments.max_skipped);
 }
 
 CLI::Validator recording_rate() {
@@ -252,6 +261,12 @@ void add_time_options(CLI::App& app, RecordArguments& arguments) {
                  "Switch of the device that ends the recording, counted from 0")
       ->check(CLI::Range(0, 31))
       ->option_text("K");
+  app.add_option("--max-skipped", arguments.max_skipped,
+                 "Share of skipped ticks [%] above which there is a warning. Above 10 % too, the stroke is "
+                 "marked starved and the exit code is 1")
+      ->check(CLI::Range(0.0, 100.0))
+      ->capture_default_str()
+      ->option_text("PERCENT");
 }
 
 /// What the hand feels while it is recorded.

@@ -53,7 +53,9 @@ nlohmann::ordered_json as_json(const RunResult& r, const Scene& scene, const std
       {"real_time_factor", r.simulated_seconds / r.wall_seconds},
       {"contact_ticks", r.contact_ticks},
       {"saturated_ticks", r.device.saturated_ticks},
-      {"gaps", r.gaps},
+      {"stroke_seconds", r.stroke.whole},
+      {"played_seconds", r.stroke.played},
+      {"gaps", r.stroke.gaps},
       {"passes", r.relaxation.passes},
       {"relaxations", r.relaxations},
       {"super_steps", r.relaxation.super_steps},
@@ -73,6 +75,8 @@ nlohmann::ordered_json as_json(const RunResult& r, const Scene& scene, const std
       {"max_depth", r.max_depth},
       {"asked_depth", r.furrow ? r.furrow->asked_depth : none},
       {"furrow_depth", r.furrow ? r.furrow->depth : none},
+      {"held_drag_ticks", r.device.held_drag_ticks},
+      {"swings_from", r.device.swings_from.value_or(none)},
       {"absorbed_energy", r.device.absorbed_energy},
       {"least_absorbed_energy", r.device.least_absorbed_energy},
       {"least_passivity_margin", r.device.least_passivity_margin},
@@ -118,7 +122,7 @@ void print_summary(const RunResult& r, const Scene& scene, const std::string& ou
                     returned_energy(r.device) ? fmt::format(", at worst {:.3g} J more returned than taken",
                                                             -r.device.least_absorbed_energy)
                                               : ""));
-    if (r.gaps > 0) print_row("gaps", fmt::format("{}: the tool was lifted there", r.gaps));
+    if (r.stroke.gaps > 0) print_row("gaps", played_text(r.stroke));
   }
   print_row("sand moved",
             fmt::format("{:.6g} m^3; the volume changed by {:.1e} of that", r.moved_volume, r.volume_drift));
@@ -148,15 +152,32 @@ void check_default_output(const fs::path& output, const fs::path& scene_path, co
           output.string(), value);
 }
 
+void warn_of_held_drag(const DeviceResult& result, const Scene& scene) {
+  const double most = SimulatedDevice(scene.device, {}).strongest_drag();
+  spdlog::warn(
+      "in {} ticks drag was too strong for device.drag = implicit: up to {:.4g} N s/m, where {:.4g} N s/m (2 "
+      "m / "
+      "T) stop the device in a tick, and no more acted; raise device.servo_rate, or lower force.k_f to "
+      "{:.3g} "
+      "s/m",
+      result.held_drag_ticks, result.held_drag, most, scene.force.k_f * most / result.held_drag);
+}
+
 void warn_of(const RunResult& result, const Scene& scene) {
   if (result.ticks > 0 && result.contact_ticks == 0)
     spdlog::warn("the tool never touched the sand; check stroke.plane, stroke.depth and stroke.offset");
   if (result.furrow) warn_if_any(furrow_warning(scene, *result.furrow));
   if (scene.device.model == DeviceModel::dynamic && loop_returned_energy(result.device, scene.device))
-    spdlog::warn(
-        "the sand returned up to {:.3g} J more than it took: the loop was not passive; lower force.k_s, "
-        "force.k_f, device.delay or device.dropped_ticks, or raise device.servo_rate or device.damping",
-        -result.device.least_absorbed_energy);
+    spdlog::warn("the sand returned up to {:.3g} J more than it took: the loop was not passive; {}",
+                 -result.device.least_absorbed_energy,
+                 loop_remedies(scene.device, result.device.max_drag_force));
+  if (result.device.held_drag_ticks > 0) warn_of_held_drag(result.device, scene);
+  if (result.device.swings_from)
+    spdlog::error(
+        "the device swings by itself from {:.3f} s on, by energy that the sand returns swing after swing: "
+        "the "
+        "loop is unstable; {}",
+        *result.device.swings_from, loop_remedies(scene.device, result.device.max_drag_force));
   if (!result.relaxation.converged)
     spdlog::warn(
         "the sand is not at rest (residual {:.2e}, tolerance {:.2e}); raise relaxation.max_passes or "
@@ -223,7 +244,7 @@ int run(const RunArguments& arguments) {
     spdlog::warn(
         "the run was up to {:.2f} s behind real time; its result is the same. Fewer bed.cells are faster",
         *view->lag());
-  if (!result.relaxation.converged) return static_cast<int>(ErrorKind::unstable);
+  if (!result.relaxation.converged || result.device.swings_from) return static_cast<int>(ErrorKind::unstable);
   if (options.second && !result.error)  // the run is complete, the estimate is not
     return interrupted() ? 128 + interrupted() : static_cast<int>(ErrorKind::unstable);
   return 0;

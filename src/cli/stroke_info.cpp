@@ -92,6 +92,7 @@ nlohmann::ordered_json describe(const std::string& file, const Stroke& stroke, c
   json["source"] = stroke.source;
   json["frame"] = stroke.frame;
   json["complete"] = stroke.complete;
+  json["starved"] = stroke.starved;
   json["samples"] = summary.samples;
   json["drawn_samples"] = summary.drawn_samples;
   json["duration"] = summary.duration;
@@ -101,6 +102,7 @@ nlohmann::ordered_json describe(const std::string& file, const Stroke& stroke, c
     json[std::string("extent_") + "xyz"[axis]] = {summary.low[axis], summary.high[axis]};
   json["top_speed"] = summary.top_speed;
   json["gap_threshold"] = stroke.gap_threshold;
+  json["played_seconds"] = played_part(StrokeSampler(stroke)).played;
   json["gaps"] = nlohmann::json::array();
   for (const StrokeGap& gap : summary.gaps) json["gaps"].push_back({gap.begin, gap.end});
   if (!stroke.force.empty()) json["force"] = {summary.least_force, summary.greatest_force};
@@ -140,10 +142,12 @@ std::string as_table(const std::string& file, const Stroke& stroke, const Stroke
   row("top speed", fmt::format("{:.4g} m/s, gaps aside", summary.top_speed));
   double lifted = 0.0;
   for (const StrokeGap& gap : summary.gaps) lifted += gap.end - gap.begin;
-  row("gaps", summary.gaps.empty()
-                  ? "none"
-                  : fmt::format("{}, {:.6g} s in all (pen lifted, or over {:.6g} s without a sample)",
-                                summary.gaps.size(), lifted, stroke.gap_threshold));
+  row("gaps",
+      summary.gaps.empty()
+          ? "none"
+          : fmt::format("{}, {:.6g} s in all (pen lifted, or over {:.6g} s without a sample); a run {}",
+                        summary.gaps.size(), lifted, stroke.gap_threshold,
+                        played_text(played_part(StrokeSampler(stroke)))));
   row("force", stroke.force.empty()
                    ? "not recorded"
                    : fmt::format("{:.4g} to {:.4g} N", summary.least_force, summary.greatest_force));

@@ -1,6 +1,8 @@
 #include "haptics/force_model.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace sandstroke {
 
@@ -17,6 +19,15 @@ double repulse_force(double depth, const ForceSettings& settings) {
 
 double depth_of_repulse_force(double force, const ForceSettings& settings) {
   return std::log1p(force / settings.k_s) / settings.k_c;
+}
+
+double plunge_work(double depth, double max_force, const ForceSettings& settings) {
+  if (depth <= 0.0 || settings.k_s == 0.0) return 0.0;
+  const double limited_from =
+      max_force > 0.0 ? depth_of_repulse_force(max_force, settings) : std::numeric_limits<double>::infinity();
+  const double d = std::min(depth, limited_from);
+  const double work = settings.k_s * (std::expm1(settings.k_c * d) / settings.k_c - d);
+  return depth > limited_from ? work + max_force * (depth - limited_from) : work;
 }
 
 FeltSand felt_sand(double depth, double repulse, double scale, const ForceSettings& settings) {

@@ -32,6 +32,7 @@ struct SandForce {
   Eigen::Vector3d drag = Eigen::Vector3d::Zero();   ///< N
   Eigen::Vector3d total = Eigen::Vector3d::Zero();  ///< N, on the device, limited to its maximum
   bool saturated = false;                           ///< the limit cut it
+  bool held_drag = false;                           ///< implicit drag was held to what stops the device
 };
 
 /// |F_r| = k_s (exp(k_c d) - 1) for depth d > 0 [m], else 0 (paper eq. 1 with the sign and bracket mended).
@@ -40,6 +41,10 @@ double repulse_force(double depth, const ForceSettings& settings);
 
 /// The depth [m] at which the repulse force is `force` [N] >= 0: the inverse of repulse_force.
 double depth_of_repulse_force(double force, const ForceSettings& settings);
+
+/// Work [J] of the repulse force, limited to max_force [N] (0: no limit), over a plunge to depth [m]:
+/// k_s ((exp(k_c d) - 1) / k_c - d) as far as the force is below the limit.
+double plunge_work(double depth, double max_force, const ForceSettings& settings);
 
 /// Repulse and drag, F_f = -k_f v |F_r| (paper eq. 3), limited in magnitude to max_force [N] (0: no limit).
 /// velocity [m/s]: of the tool in the bed. With a limit the total is a number at any depth.

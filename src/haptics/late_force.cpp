@@ -1,5 +1,6 @@
 #include "haptics/late_force.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "core/hash.h"
@@ -20,6 +21,11 @@ Eigen::Vector3d LateForce::act(const Eigen::Vector3d& computed) {
   if (!drops_tick(tick, dropped_share_)) given_out_ = computed;
   if (under_way_.empty()) return given_out_;
   return std::exchange(under_way_[static_cast<std::size_t>(tick) % under_way_.size()], given_out_);
+}
+
+void LateForce::clear() {
+  given_out_.setZero();
+  std::fill(under_way_.begin(), under_way_.end(), given_out_);
 }
 
 }  // namespace sandstroke

@@ -21,6 +21,8 @@ class LateForce {
 
   /// Takes the force [N] that was computed in this tick (the first call is tick 0); gives the one that acts.
   Eigen::Vector3d act(const Eigen::Vector3d& computed);
+  /// No force is held or under way any more; which ticks are dropped stays as it was.
+  void clear();
 
  private:
   double dropped_share_;

@@ -26,6 +26,8 @@ class EnergyAccount {
     absorbed_ -= force.dot(motion);
     least_ = absorbed_ < least_ ? absorbed_ : least_;
   }
+  /// energy [J] that the sand was given otherwise, and may return.
+  void give(double energy) { absorbed_ += energy; }
   double absorbed() const { return absorbed_; }  ///< J
   double least() const {
     return least_;

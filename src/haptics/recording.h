@@ -66,12 +66,17 @@ struct RecordingHeader {
 struct TickCounts {
   std::int64_t elapsed = 0;   ///< ticks since the first, which is counted
   std::int64_t recorded = 0;  ///< are in the file
-  std::int64_t skipped = 0;   ///< their time had passed when the loop came to them; never made up
+  std::int64_t skipped = 0;   ///< their time had passed when the loop woke, in a later one; never made up
   std::int64_t unread = 0;    ///< the device gave nothing, or no number
   std::int64_t dropped = 0;   ///< the ring was full: the disk did not keep up
   // Of the recorded ones, by flag:
   std::int64_t late = 0, clamped = 0, ramped = 0, rate_limited = 0, refused = 0, held = 0, interlocked = 0;
 };
+
+/// Of the elapsed ticks, those that were skipped.
+double skipped_share(const TickCounts& ticks);
+/// So many ticks were skipped, more than a tenth, that the samples may not tell what the hand did.
+bool is_starved(const TickCounts& ticks);
 
 /// Counts a recorded sample's flags.
 void count_flags(std::uint32_t flags, TickCounts& ticks);

@@ -1,20 +1,57 @@
 #include "haptics/sand_force.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace sandstroke {
+namespace {
 
-SandForce force_on_device(double depth, const SimulatedDevice& device, const SimulatedDevice::State& hand,
-                          const SimulatedDevice::State& hand_after, const ForceSettings& settings) {
+using State = SimulatedDevice::State;
+
+struct ImplicitDrag {
+  Eigen::Vector3d velocity;  // m/s, of the device
+  bool held;
+};
+
+ImplicitDrag implicit_drag(double depth, const SimulatedDevice& device, const State& hand,
+                           const State& hand_after, const ForceSettings& settings) {
   const DeviceSettings& d = device.settings();
-  Eigen::Vector3d velocity = device.state().velocity;
-  if (d.model == DeviceModel::dynamic && d.drag == DragVelocity::implicit) {
-    // So large that the velocity depends on it no more; beyond, it would be infinity / infinity.
-    const double repulse = std::min(repulse_force(depth, settings), 1e100);
-    velocity = device.drag_velocity(hand, hand_after, {0.0, 0.0, repulse},
-                                    felt_sand(depth, repulse, d.scale, settings).drag);
+  // So large that the velocity depends on it no more; beyond, it would be infinity / infinity.
+  const double repulse = std::min(repulse_force(depth, settings), 1e100);
+  const double drag = felt_sand(depth, repulse, d.scale, settings).drag;
+  const auto velocity = [&](double share) {
+    return device.drag_velocity(hand, hand_after, {0.0, 0.0, share * repulse}, share * drag);
+  };
+  const auto too_much = [&](double share) {
+    Eigen::Vector3d slip = velocity(share);
+    if (settings.drag == DragDirection::horizontal) slip.z() = 0.0;
+    const Eigen::Vector3d repulsed(0.0, 0.0, share * repulse);
+    return d.max_force > 0.0 && length_of(repulsed - share * drag * slip) > d.max_force;
+  };
+  double share = 1.0;
+  if (too_much(1.0)) {
+    const double held_from = device.strongest_drag() / drag;
+    double low = 1e-120, high = held_from < 1.0 && too_much(held_from) ? held_from : 1.0;
+    for (int i = 0; i < 64; ++i) {
+      const double middle = std::sqrt(low * high);
+      (too_much(middle) ? high : low) = middle;
+    }
+    share = low;
   }
-  return sand_force(depth, d.scale * velocity, d.max_force, settings);
+  return {velocity(share), share * drag > device.strongest_drag()};
+}
+
+}  // namespace
+
+SandForce force_on_device(double depth, const SimulatedDevice& device, const State& hand,
+                          const State& hand_after, const ForceSettings& settings) {
+  const DeviceSettings& d = device.settings();
+  if (d.model == DeviceModel::kinematic || d.drag == DragVelocity::sampled)
+    return sand_force(depth, d.scale * device.read().velocity, d.max_force, settings);
+  const ImplicitDrag drag = implicit_drag(depth, device, hand, hand_after, settings);
+  SandForce force = sand_force(depth, d.scale * drag.velocity, d.max_force, settings);
+  force.held_drag = drag.held;
+  return force;
 }
 
 }  // namespace sandstroke

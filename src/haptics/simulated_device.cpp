@@ -55,6 +55,10 @@ SimulatedDevice::State SimulatedDevice::read() const {
   if (settings_.model == DeviceModel::dynamic && settings_.resolution > 0.0) {
     for (double& x : reading.position) x = std::round(x / settings_.resolution) * settings_.resolution;
   }
+  if (!past_.empty())
+    reading.velocity = (reading.position - past_.front()) / (time_step_ * static_cast<double>(past_.size()));
+  else if (differentiates())
+    reading.velocity.setZero();
   return reading;
 }
 
@@ -81,6 +85,10 @@ void SimulatedDevice::advance(const State& hand, const State& hand_after, const 
   if (settings_.model == DeviceModel::kinematic) {
     state_ = hand_after;
     return;
+  }
+  if (differentiates()) {
+    past_.push_back(read().position);
+    if (past_.size() > static_cast<std::size_t>(settings_.velocity_window)) past_.pop_front();
   }
   for (int axis = 0; axis < 3; ++axis) {
     const Eigen::Vector2d after = after_tick(axis, hand, hand_after, force[axis]);

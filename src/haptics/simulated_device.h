@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <deque>
 
 namespace sandstroke {
 
@@ -11,6 +12,9 @@ enum class DeviceModel { kinematic, dynamic };
 /// implicit: one of the tick itself (SimulatedDevice::drag_velocity), so that drag can only take
 /// energy.
 enum class DragVelocity { sampled, implicit };
+/// Which velocity is read. exact: the device's own. encoders: a difference of read positions, over
+/// velocity_window ticks, as of devices that measure none; it lags by half of them.
+enum class ReadVelocity { exact, encoders };
 enum class DevicePreset { omega3, phantom_desktop, touch, ideal };
 
 /// The simulated haptic device. Force limit and resolution come with the preset (omega3 and phantom_desktop:
@@ -31,6 +35,8 @@ struct DeviceSettings {
   int delay = 0;               ///< ticks from reading the position to the force that follows from it
   double dropped_ticks = 0.0;  ///< share of ticks, below 1, in which the loop is late: its last force stays
   DragVelocity drag = DragVelocity::sampled;
+  ReadVelocity velocity = ReadVelocity::exact;
+  int velocity_window = 4;  ///< ticks, as record --feel takes
 };
 
 /// Sets max_force and resolution to those of settings.preset.
@@ -59,7 +65,13 @@ class SimulatedDevice {
   /// Starts with the hand, as fast as the hand.
   SimulatedDevice(const DeviceSettings& settings, const State& hand);
 
-  /// As the controller reads it: the position rounded to the encoders' resolution (dynamic model).
+  /// Somebody else has put it there: it is at the hand, as fast as the hand.
+  void put(const State& hand) {
+    state_ = hand;
+    past_.clear();
+  }
+  /// As the controller reads it (dynamic model): the position rounded to the encoders' resolution, and the
+  /// velocity; by encoders 0 at first, then over as many ticks as there are.
   State read() const;
   /// As it is.
   const State& state() const { return state_; }
@@ -79,10 +91,16 @@ class SimulatedDevice {
   Eigen::Vector3d drag_velocity(const State& hand, const State& hand_after, const Eigen::Vector3d& force,
                                 double drag) const;
 
+  /// T / g [N s/m], 2 m / T of a free mass: drag_velocity() holds larger drag to what stops it.
+  double strongest_drag() const { return time_step_ / map_(0, 4); }
+
   /// Moves on by one tick, during which the hand goes from one place to the next and `force` [N] is held.
   void advance(const State& hand, const State& hand_after, const Eigen::Vector3d& force);
 
  private:
+  bool differentiates() const {
+    return settings_.model == DeviceModel::dynamic && settings_.velocity == ReadVelocity::encoders;
+  }
   /// Position and velocity along one axis after a tick.
   Eigen::Vector2d after_tick(int axis, const State& hand, const State& hand_after, double force) const;
 
@@ -90,6 +108,7 @@ class SimulatedDevice {
   double time_step_;
   Eigen::Matrix<double, 2, 5> map_;
   State state_;
+  std::deque<Eigen::Vector3d> past_;  // m, read in the last ticks; of ReadVelocity::encoders
 };
 
 }  // namespace sandstroke

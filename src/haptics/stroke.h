@@ -26,6 +26,7 @@ struct Stroke {
   std::string source;                     ///< where it came from, for people
   std::string frame = "bed";              ///< "bed" or "device"
   bool complete = true;                   ///< false: cut off while being recorded
+  bool starved = false;                   ///< its recorder skipped many ticks (is_starved)
 
   std::size_t size() const { return time.size(); }
   double duration() const { return time.empty() ? 0.0 : time.back() - time.front(); }

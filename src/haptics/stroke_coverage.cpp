@@ -4,6 +4,18 @@
 
 namespace sandstroke {
 
+PlayedPart played_part(const StrokeSampler& stroke) {
+  const double whole = stroke.stroke().duration();
+  double lifted = 0.0;
+  for (const StrokeGap& gap : stroke.gaps()) lifted += gap.end - gap.begin;
+  return {whole - lifted, whole, static_cast<int>(stroke.gaps().size())};
+}
+
+std::string played_text(const PlayedPart& part) {
+  return fmt::format("plays {:.4g} s of {:.4g} s: the tool is lifted in {} gap{}", part.played, part.whole,
+                     part.gaps, part.gaps == 1 ? "" : "s");
+}
+
 std::string coverage_warning(const Stroke& stroke, const std::string& name) {
   double missing = 0.0, begin = 0.0, end = 0.0;  // s, of all gaps; of the largest one
   for (std::size_t i = 0; i + 1 < stroke.size(); ++i) {
@@ -11,6 +23,11 @@ std::string coverage_warning(const Stroke& stroke, const std::string& name) {
     missing += stroke.time[i + 1] - stroke.time[i];
     if (stroke.time[i + 1] - stroke.time[i] > end - begin) begin = stroke.time[i], end = stroke.time[i + 1];
   }
+  if (stroke.starved)
+    return fmt::format(
+        "{}: over a tenth of its ticks were skipped while it was recorded; a run {}; record it again on a "
+        "machine that sandstroke record --check finds fit",
+        name, played_text(played_part(StrokeSampler(stroke))));
   if (!(missing > 60.0 && missing > 0.99 * stroke.duration())) return "";
   return fmt::format(
       "{}: samples cover {:.4g} s of {:.10g} s, and the tool is lifted in the rest; the largest gap is "

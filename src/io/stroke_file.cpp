@@ -47,6 +47,7 @@ void write_stroke_file(const std::filesystem::path& path, const Stroke& stroke) 
   write("contact", stroke.contact);
   describe_stroke_columns(file, names);
   write_stroke_attributes(file, stroke);
+  file.attribute(stroke_group, "duration", stroke.duration());
   file.finish();
 }
 

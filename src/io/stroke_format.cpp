@@ -66,6 +66,7 @@ void read_stroke_attributes(const Hdf5Reader& file, Stroke& stroke) {
   if (has("source")) stroke.source = file.text_attribute(stroke_group, "source");
   if (has("frame")) stroke.frame = file.text_attribute(stroke_group, "frame");
   if (has("complete")) stroke.complete = file.number_attribute(stroke_group, "complete") != 0.0;
+  if (has("starved")) stroke.starved = file.number_attribute(stroke_group, "starved") != 0.0;
 }
 
 void describe_stroke_columns(Hdf5GridWriter& file, const std::vector<std::string>& names) {

@@ -68,13 +68,12 @@ RecordingFooter ServoLoop::run() noexcept {
     if (stopped()) break;
     const std::int64_t now = wait_for_tick();
     heartbeat_.store(now, std::memory_order_release);
-    lateness_.add(now - tick_time(ticks_.elapsed));
-    if (now >= tick_time(ticks_.elapsed + 1)) {
-      ++ticks_.skipped;
-    } else {
+    skip_ticks_before(now);
+    if (ticks_.elapsed <= last_tick_) {
+      lateness_.add(now - tick_time(ticks_.elapsed));
       serve_tick(now);
+      ++ticks_.elapsed;
     }
-    ++ticks_.elapsed;
     publish(now);
   }
   if (!device_.command(Vector3d::Zero())) device_.release();
@@ -112,7 +111,10 @@ std::int64_t ServoLoop::tick_time(std::int64_t tick) const noexcept {
 
 std::int64_t ServoLoop::wait_for_tick() noexcept {
   if (ticks_.elapsed == 0) return start_;
-  clock_.sleep_until(tick_time(ticks_.elapsed));
+  const std::int64_t due = tick_time(ticks_.elapsed), now = clock_.now();
+  // To sleep until a time that has passed is to give the core away: on a busy machine, for many ticks.
+  if (now >= due) return now;
+  clock_.sleep_until(due);
   return clock_.now();
 }
 
@@ -168,6 +170,14 @@ void ServoLoop::begin(std::int64_t now, const DeviceReading* before) noexcept {
   keep(*before, now, 0);
   lateness_.add(0);
   ++ticks_.elapsed;
+}
+
+void ServoLoop::skip_ticks_before(std::int64_t now) noexcept {
+  while (ticks_.elapsed <= last_tick_ && now >= tick_time(ticks_.elapsed + 1)) {
+    lateness_.add(now - tick_time(ticks_.elapsed));
+    ++ticks_.skipped;
+    ++ticks_.elapsed;
+  }
 }
 
 void ServoLoop::serve_tick(std::int64_t now) noexcept {

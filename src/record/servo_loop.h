@@ -48,8 +48,9 @@ struct ServoProgress {
 std::string hint_of(const ServoProgress& progress);
 
 /// The 1 kHz loop: at absolute times, reads the device, feels, commands, and puts a sample into the ring.
-/// Ticks to which it comes a whole tick late or more are counted and skipped, never made up in a burst. In it
-/// nothing is allocated, locked, written or thrown. Whatever ends it, the last command is zero force.
+/// Ticks to which it comes a whole tick late or more are counted and skipped, never made up in a burst; it
+/// goes on at once with the tick in which it woke, whose sample says the true time. In it nothing is
+/// allocated, locked, written or thrown. Whatever ends it, the last command is zero force.
 class ServoLoop {
  public:
   /// The device is open. world: none, where no force is to be given.
@@ -84,6 +85,8 @@ class ServoLoop {
   void await_start() noexcept;
   /// now [ns]: in tick 0; before: what was read in it, if the tick is over.
   void begin(std::int64_t now, const DeviceReading* before) noexcept;
+  /// Those whose time has passed, up to the last one.
+  void skip_ticks_before(std::int64_t now) noexcept;
   void serve_tick(std::int64_t now) noexcept;
   /// What fails, from tick to tick, stops the loop in the end.
   void stop_where_it_lasts(bool fails, Fault& fault, std::int64_t now) noexcept;

@@ -1,13 +1,23 @@
 #pragma once
 
+#include <optional>
+#include <string>
+
 #include "core/compensated_sum.h"
 #include "haptics/force_model.h"
 #include "haptics/late_force.h"
 #include "haptics/passivity.h"
 #include "haptics/simulated_device.h"
+#include "haptics/swing_watch.h"
 #include "sim/run_result.h"
 
 namespace sandstroke {
+
+/// s: a tool that is below the sand after a gap of the stroke did not come down through it. Its force is
+/// multiplied by t / fade_in until t = fade_in after the first tick in the sand, or until it leaves the sand.
+/// The energy that it stores meanwhile is not the hand's: plunge_work(), by the growth of that factor, counts
+/// as given.
+inline constexpr double fade_in = 0.1;
 
 /// The device's side of a run: where it is, what it feels of the sand, and what that amounts to. The sand's
 /// side needs to know where it is, no more: the sand of a kinematic device is the same whatever its forces.
@@ -22,20 +32,35 @@ class DeviceSide {
 
   /// Fills in forces and passivity margin of a tick of which hand, depth and contact are known.
   void feel(TickRecord& record);
-  /// Moves on to the end of that tick. Error: unstable, where the force is beyond any number.
+  /// Moves on to the end of that tick. Where the hand is lifted before it, the device goes with the hand, as
+  /// fast as it, without force or energy, and late forces are forgotten. Error: unstable, where the force is
+  /// beyond any number.
   void advance(const TickRecord& record);
 
   /// Forces, energy and passivity of all ticks so far.
   DeviceResult result() const;
 
  private:
+  void move(const TickRecord& record);
+  void watch(const TickRecord& record, const Eigen::Vector3d& motion);
+  double faded_in(const TickRecord& record);
+
   ForceSettings force_;
   SimulatedDevice device_;
   LateForce late_force_;
   EnergyAccount energy_;
-  CompensatedSum contact_force_;  // N, over contact ticks
-  std::int64_t contact_ticks_ = 0, saturated_ticks_ = 0;
-  double max_force_ = 0.0, least_margin_;
+  bool lifted_ = false;
+  std::optional<double> fading_since_;  // s
+  double share_ = 1.0;                  // of the force, in the last tick
+  CompensatedSum contact_force_;        // N, over contact ticks
+  std::int64_t contact_ticks_ = 0;
+  SwingWatch swing_;
+  double most_stored_ = 0.0;  // J
+  DeviceResult result_;       // all but what the others hold
 };
+
+/// What to change where a loop is unstable or returns energy: the keys of a scene that have a part in it.
+/// "lower force.k_s or device.delay, or raise ...". max_drag_force [N]: 0 where drag did nothing.
+std::string loop_remedies(const DeviceSettings& device, double max_drag_force);
 
 }  // namespace sandstroke

@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 
+#include "haptics/stroke_coverage.h"
 #include "haptics/stroke_sampler.h"
 #include "sand/relaxation.h"
 
@@ -24,6 +25,7 @@ struct TickRecord {
   double passivity_margin = 0.0;  ///< N s/m, Colgate & Schenkel
   bool contact = false;           ///< the tool touches sand (depth > 0)
   bool saturated = false;         ///< the device's maximum force cut the force
+  bool lifts = false;             ///< the hand is lifted before the tick ends
 };
 
 /// A field of a record, for who reads it in a file.
@@ -39,25 +41,34 @@ void visit_tick_fields(const Visit& visit) {
   visit(
       Text{"time", "s", "start of the tick"}, [](auto& tick) -> auto& { return tick.time; });
   visit(
-      Text{"hand_position", "m", "where the hand wants the tip, in the device's frame"},
+      Text{"hand_position", "m",
+           "where the hand wants the tip at the start of the tick, in the device's frame; until the next one "
+           "it goes "
+           "straight and uniformly"},
       [](auto& tick) -> auto& { return tick.hand.position; });
   visit(
-      Text{"device_position", "m", "tip as the device read it, in its frame"},
+      Text{"device_position", "m",
+           "tip as the device read it, rounded to its encoders, in its frame (on the bed: device.scale x "
+           "this + "
+           "device.offset)"},
       [](auto& tick) -> auto& { return tick.device_position; });
   visit(
-      Text{"device_force", "N", "force on the device, cut to its largest"},
+      Text{"device_force", "N",
+           "force that acts on the device in the tick: cut to its largest, late by device.delay and dropped "
+           "ticks, "
+           "faded in after a gap"},
       [](auto& tick) -> auto& { return tick.device_force; });
   visit(
-      Text{"repulse_force", "N", "force by which the sand repulses the tool"},
+      Text{"repulse_force", "N", "force by which the sand repulses the tool there, neither late nor cut"},
       [](auto& tick) -> auto& { return tick.repulse_force; });
   visit(
-      Text{"drag_force", "N", "force by which the sand drags at the tool"},
+      Text{"drag_force", "N", "force by which the sand drags at the tool there, neither late nor cut"},
       [](auto& tick) -> auto& { return tick.drag_force; });
   visit(
       Text{"level", "m", "height of the sand under the tool; not a number where it is lifted"},
       [](auto& tick) -> auto& { return tick.level; });
   visit(
-      Text{"depth", "m", "depth of the tip below that level; negative above it"},
+      Text{"depth", "m", "depth of the tip, as read, below that level; negative above it"},
       [](auto& tick) -> auto& { return tick.depth; });
   visit(
       Text{"displaced_volume", "m^3", "sand pushed aside in the tick"},
@@ -162,6 +173,12 @@ struct DeviceResult {
   double least_absorbed_energy =
       0.0;  ///< J, its minimum over time; negative = sand returned more than it took
   double least_passivity_margin = 0.0;  ///< N s/m, over contact ticks
+  double max_drag_force = 0.0;          ///< N, before delay and limit
+  /// Ticks in which implicit drag was held to what stops the device, and the sand's largest drag in them [N
+  /// s/m].
+  std::int64_t held_drag_ticks = 0;
+  double held_drag = 0.0;
+  std::optional<double> swings_from;  ///< s, where a dynamic device was found to swing by itself (SwingWatch)
 };
 
 /// What a whole run amounts to (`run --json`).
@@ -170,7 +187,7 @@ struct RunResult {
   std::int64_t ticks = 0;
   double simulated_seconds = 0.0;
   std::int64_t contact_ticks = 0;
-  int gaps = 0;  ///< stroke gaps at which the tool was lifted
+  PlayedPart stroke;  ///< how much of it is played, with the tool down, and how many gaps are not
   std::int64_t relaxations = 0;
   /// Of all relaxations; residual and converged are the last one's.
   RelaxationOutcome relaxation{.converged = true};

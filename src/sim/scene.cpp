@@ -92,9 +92,13 @@ void describe_device(KeyVisitor& v, DeviceSettings& d) {
   if (d.model != DeviceModel::dynamic) return;
   v.integers("delay", &d.delay, 1, 0, 1000, "ticks until the sand's force acts");
   v.number("dropped_ticks", d.dropped_ticks, {0.0, 0.99, false}, "",
-           "share of late ticks; the force of the tick before stays");
+           "share of late ticks (the same in every run); the force of the tick before stays");
   choose(v, "drag", d.drag, {"sampled", "implicit"},
-         "velocity that causes drag: read before the tick (sampled) or in the tick (implicit)");
+         "velocity that causes drag: read before the tick, or in it (implicit: no controller can, for it "
+         "knows the "
+         "hand's way)");
+  choose(v, "velocity", d.velocity, {"exact", "encoders"},
+         "velocity read: the device's own, or differences of positions read 4 ticks apart");
 }
 
 void describe_stroke(KeyVisitor& v, StrokeSettings& stroke) {
@@ -251,6 +255,11 @@ void check_scene(const Scene& scene, const std::string& name) {
     throw_input_error(
         "{}: device.drag = implicit is for a force that acts in the tick it is computed in; set device.delay "
         "= 0 and device.dropped_ticks = 0, or device.drag = sampled",
+        name);
+  if (device.drag == DragVelocity::implicit && device.velocity == ReadVelocity::encoders)
+    throw_input_error(
+        "{}: device.drag = implicit goes by no velocity that is read; set device.velocity = exact, or "
+        "device.drag = sampled",
         name);
   if (scene.stroke && scene.stroke->file.empty())
     throw_input_error("{}: stroke.file is missing; name a stroke (.toml or .h5) or remove [stroke]", name);

@@ -144,10 +144,8 @@ void Simulation::check_near(const TickRecord& record) const {
   if (!(distance < far))
     throw Error(
         ErrorKind::unstable,
-        fmt::format(
-            "at {:.4f} s the device has diverged ({:.3g} m from the bed's centre); lower force.k_s or "
-            "force.k_f, or raise device.servo_rate or device.damping",
-            record.time, distance));
+        fmt::format("at {:.4f} s the device has diverged ({:.3g} m from the bed's centre); {}", record.time,
+                    distance, loop_remedies(scene_.device, device_.result().max_drag_force)));
 }
 
 void Simulation::run_stroke() {
@@ -173,12 +171,13 @@ void Simulation::run_stroke() {
     time = static_cast<double>(k) / servo_rate;
     const double next_time = time_of(k + 1);
     const Hand next = stroke_->at(next_time);
-    const TickRecord record = tick(time, hand, next, slip);
+    TickRecord record = tick(time, hand, next, slip);
+    record.lifts = stroke_->lifts_between(begin + time, next_time);
 
     device_.advance(record);
     check_near(record);
     hand = next;
-    if (stroke_->lifts_between(begin + time, next_time)) sand_.lift();
+    if (record.lifts) sand_.lift();
 
     result_.ticks += 1;
     result_.contact_ticks += record.contact;
@@ -191,7 +190,7 @@ void Simulation::run_stroke() {
     tell([&](auto& observer) { observer.on_progress(done); });
   }
   result_.simulated_seconds = static_cast<double>(result_.ticks) / servo_rate;
-  result_.gaps = static_cast<int>(stroke_->gaps().size());
+  result_.stroke = played_part(*stroke_);
 }
 
 RunResult Simulation::run(const Observers& observers) {

@@ -27,7 +27,8 @@ const std::vector<Metric> metric_list = {
     {"mean_force", "mean force in contact", "N", "mean of |F| over the ticks in contact (depth > 0)",
      [](O o) { return in_contact(o, o.run.device.mean_force); }},
     {"work", "work done on the sand", "J",
-     "-sum of F . dx over all ticks; dx is the way of the device in a tick",
+     "-sum of F . dx over all ticks but those in gaps of the stroke; dx is the way of the device in a tick. "
+     "Where the tool is below the sand after a gap, the work of a plunge to there counts too",
      [](O o) { return o.run.device.absorbed_energy; }},
     {"returned_energy", "most energy that the sand returned", "J",
      "max(0, -w); w is the least value that the work had at any time",

@@ -126,8 +126,8 @@ fs::path folder_with_resting_hand() {
   return folder;
 }
 
-const std::vector<std::string> record_to_json = {"record", "-o", "a.h5", "--device", "scripted:line.toml",
-                                                 "--json"};
+const std::vector<std::string> record_to_json = {"record",   "--max-skipped",      "100",   "-o", "a.h5",
+                                                 "--device", "scripted:line.toml", "--json"};
 
 TEST(CliRecordTerminal, AKeyEndsARecordingAndTheTerminalIsAsBefore) {
   for (const char* key : {"q", "\033", "\n", " "}) {

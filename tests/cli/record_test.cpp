@@ -19,7 +19,8 @@ using nlohmann::json;
 
 // line.toml, as test_folder() makes it: down at 0.05 m/s, 0.1 m at 0.2 m/s, up again; 1.46 s in all.
 constexpr double top_speed = 0.2;  // m/s
-const std::vector<std::string> record_line = {"record", "-o", "a.h5", "--device", "scripted:line.toml"};
+const std::vector<std::string> record_line = {"record",   "--max-skipped",     "100", "-o", "a.h5",
+                                              "--device", "scripted:line.toml"};
 
 std::vector<std::string> with(std::vector<std::string> arguments, const std::vector<std::string>& more) {
   arguments.insert(arguments.end(), more.begin(), more.end());
@@ -94,6 +95,21 @@ TEST(CliRecord, TheRecordingDrawsWhatTheScriptDraws) {
   EXPECT_LE(difference.abs().maxCoeff(), height);
 }
 
+TEST(CliRecord, SaysWhereTooManyTicksWereSkipped) {
+  // Of any machine some ticks are skipped at 0 % allowed, or none are: both are told truly.
+  const fs::path folder = test_folder();
+  const ProgramResult result =
+      run_program({"record", "-o", "a.h5", "--device", "scripted:line.toml", "--duration", "0.2", "--rate",
+                   "10000", "--priority", "0", "--max-skipped", "0", "--json"},
+                  folder);
+  const json said = json::parse(result.out);
+  const double share = said["ticks_skipped"].get<double>() / said["ticks_elapsed"].get<double>();
+  EXPECT_EQ(result.err.find("ticks were skipped") != std::string::npos, share > 0.0) << result.err;
+  EXPECT_EQ(result.exit_code, share > 0.1 ? 1 : 0);
+  EXPECT_EQ(read_stroke_file(folder / "a.h5").starved, share > 0.1);
+  EXPECT_GT(said["ticks_recorded"], 0);
+}
+
 TEST(CliRecord, EndsWhenTheTimeIsUp) {
   const fs::path folder = test_folder();
   const ProgramResult result = run_program(with(record_line, {"--duration", "0.3", "--json"}), folder);
@@ -131,8 +147,8 @@ TEST(CliRecord, SandIsFeltAtTheRateOfItsSceneUnlessAnotherIsGiven) {
 TEST(CliRecord, ARecordingCanBePlayedAndRecordedAgain) {
   const fs::path folder = test_folder();
   ASSERT_EQ(run_program(with(record_line, {"--duration", "0.6"}), folder).exit_code, 0);
-  const ProgramResult again =
-      run_program({"record", "-o", "b.h5", "--device", "replay:a.h5", "--json"}, folder);
+  const ProgramResult again = run_program(
+      {"record", "--max-skipped", "100", "-o", "b.h5", "--device", "replay:a.h5", "--json"}, folder);
   ASSERT_EQ(again.exit_code, 0) << again.err;
   EXPECT_EQ(json::parse(again.out)["stop_reason"], "the stroke played was over");
   const Stroke first = read_stroke_file(folder / "a.h5"), second = read_stroke_file(folder / "b.h5");
@@ -146,8 +162,8 @@ TEST(CliRecord, AStrokeWithAGapIsPlayedToItsEnd) {
   stroke.time = {0.0, 0.05, 0.35, 0.4};
   stroke.position.assign(4, {0.0, 0.0, -0.001});
   write_stroke_file(folder / "gap.h5", stroke);
-  const ProgramResult result =
-      run_program({"record", "-o", "a.h5", "--device", "replay:gap.h5", "--json"}, folder);
+  const ProgramResult result = run_program(
+      {"record", "--max-skipped", "100", "-o", "a.h5", "--device", "replay:gap.h5", "--json"}, folder);
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const json said = json::parse(result.out);
   EXPECT_EQ(said["ticks_elapsed"], 401);
@@ -462,8 +478,8 @@ TEST(CliRecord, CtrlCWhileItWaitsLeavesNothing) {
 TEST(CliRecord, SandThatWasNeverTouchedIsTold) {
   const fs::path folder = test_folder();
   const auto record_at = [&](const char* offset) {
-    return run_program({"record", "-o", "a.h5", "--overwrite", "--device", "scripted:line.toml", "--feel",
-                        "scene.toml", "--set", offset},
+    return run_program({"record", "--max-skipped", "100", "-o", "a.h5", "--overwrite", "--device",
+                        "scripted:line.toml", "--feel", "scene.toml", "--set", offset},
                        folder);
   };
   const ProgramResult above = record_at("stroke.offset=[0, 0, 1]"),
@@ -486,8 +502,8 @@ TEST(CliRecord, ARunOfAFeltStrokeHasTheForcesThatWereFelt) {
                                0.001 + dip * std::cos(dive * t));
   }
   write_stroke_file(folder / "hand.h5", hand);
-  ASSERT_EQ(run_program({"record", "-o", "felt.h5", "--device", "replay:hand.h5", "--feel", "scene.toml",
-                         "--set", "relaxation.rate=0", "--force-ramp", "0"},
+  ASSERT_EQ(run_program({"record", "--max-skipped", "100", "-o", "felt.h5", "--device", "replay:hand.h5",
+                         "--feel", "scene.toml", "--set", "relaxation.rate=0", "--force-ramp", "0"},
                         folder)
                 .exit_code,
             0);
@@ -570,8 +586,8 @@ TEST(CliRecord, WithoutPermissionForRealTimeItRecordsAndSaysWhatThatCosts) {
   EXPECT_NE(table.out.find("limits.conf"), std::string::npos) << table.out;
 
   const ProgramResult unasked =
-      run_program({"record", "-o", "b.h5", "--device", "scripted:line.toml", "--duration", "0.2",
-                   "--priority", "0", "--no-memory-lock", "--json"},
+      run_program({"record", "--max-skipped", "100", "-o", "b.h5", "--device", "scripted:line.toml",
+                   "--duration", "0.2", "--priority", "0", "--no-memory-lock", "--json"},
                   folder, refused);
   ASSERT_EQ(unasked.exit_code, 0) << unasked.err;
   EXPECT_EQ(json::parse(unasked.out)["scheduling_advice"], "");

@@ -107,7 +107,7 @@ const FaultedCommand golden_command{
     {"golden/tiny/golden.h5", "golden/tiny/picture.png", "golden/tiny/provenance.toml"},
     true};
 const FaultedCommand record_command{
-    "record",       {"record", "-o", "hand.h5", "--device", "scripted:short.toml"},
+    "record",       {"record", "--max-skipped", "100", "-o", "hand.h5", "--device", "scripted:short.toml"},
     prepare_record, {"hand.h5"},
     false,          true};
 const FaultedCommand render_command{

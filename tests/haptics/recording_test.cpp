@@ -92,5 +92,17 @@ TEST(RecordingFields, AreUnderTheirNames) {
   for (const auto& [name, value] : expected) EXPECT_EQ(values[name], value) << name;
 }
 
+TEST(TickCounts, AreStarvedWhereMoreThanATenthWasSkipped) {
+  const auto of = [](std::int64_t skipped) {
+    TickCounts ticks;
+    ticks.elapsed = 1000, ticks.skipped = skipped;
+    return ticks;
+  };
+  EXPECT_EQ(skipped_share(of(5)), 0.005);
+  EXPECT_EQ(skipped_share(TickCounts{}), 0.0);
+  EXPECT_FALSE(is_starved(of(100)));
+  EXPECT_TRUE(is_starved(of(101)));
+}
+
 }  // namespace
 }  // namespace sandstroke

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -214,6 +215,31 @@ TEST(EnergyAccount, CountsWhatTheDeviceGives) {
   EXPECT_DOUBLE_EQ(account.absorbed(), 2.5);
   EXPECT_DOUBLE_EQ(account.least(), -0.5);  // is not forgotten
   EXPECT_EQ(EnergyAccount{}.least(), 0.0);
+}
+
+TEST(SimulatedDevice, ByEncodersTheVelocityIsADifferenceOfReadPositions) {
+  DeviceSettings settings = ideal_device();
+  settings.velocity = ReadVelocity::encoders;
+  settings.velocity_window = 4;
+  for (const double resolution : {0.0, 55e-6}) {
+    settings.resolution = resolution;
+    SimulatedDevice::State hand{Eigen::Vector3d::Zero(), {0.1, 0.0, -0.2}};
+    SimulatedDevice device(settings, hand);
+    std::vector<Eigen::Vector3d> read;
+    for (int k = 0; k < 50; ++k) {
+      read.push_back(device.read().position);
+      const int known = std::min(k, 4);
+      Eigen::Vector3d expected = Eigen::Vector3d::Zero();
+      if (known > 0) expected = (read.back() - read[read.size() - 1 - known]) * 1000.0 / known;
+      EXPECT_NEAR((device.read().velocity - expected).norm(), 0.0, 1e-12) << k;
+      SimulatedDevice::State next = hand;
+      next.position += 1e-3 * hand.velocity;
+      device.advance(hand, next, Eigen::Vector3d::Zero());
+      hand = next;
+    }
+    device.put(hand);
+    EXPECT_EQ(device.read().velocity, Eigen::Vector3d::Zero()) << "nothing is known of the way there";
+  }
 }
 
 }  // namespace

@@ -39,5 +39,21 @@ TEST(StrokeCoverage, AHandThatRestsIsNothingToTell) {
   EXPECT_EQ(coverage_warning(dots, ""), "");
 }
 
+TEST(StrokeCoverage, WhatIsPlayedIsWhatLiesOutsideOfGaps) {
+  const PlayedPart part = played_part(StrokeSampler(a_second_and_then({1.5, 1.55, 4.0})));
+  EXPECT_DOUBLE_EQ(part.played, 1.05);
+  EXPECT_EQ(part.whole, 4.0);
+  EXPECT_EQ(part.gaps, 2);
+  EXPECT_EQ(played_text(part), "plays 1.05 s of 4 s: the tool is lifted in 2 gaps");
+}
+
+TEST(StrokeCoverage, WhatAStarvedRecorderLeftIsTold) {
+  Stroke stroke = a_second_and_then({1.5});
+  stroke.starved = true;
+  const std::string said = coverage_warning(stroke, "hand.h5");
+  for (const char* part : {"hand.h5", "plays 1 s of 1.5 s: the tool is lifted in 1 gap;", "--check"})
+    EXPECT_NE(said.find(part), std::string::npos) << said;
+}
+
 }  // namespace
 }  // namespace sandstroke

@@ -118,6 +118,20 @@ TEST_F(RecordingFile, SaysOfEachColumnWhatItIsAndInWhichUnit) {
   }
 }
 
+TEST_F(RecordingFile, SaysHowLongItLastedAndWhetherTheLoopWasStarved) {
+  RecordingFooter footer = full_footer();
+  footer.ticks.elapsed = 1001;
+  for (const std::int64_t skipped : {100, 101}) {
+    footer.ticks.skipped = skipped;
+    write(made_samples(3), footer);
+    const Stroke stroke = read_stroke_file(path_);
+    EXPECT_EQ(stroke.starved, skipped == 101);
+    EXPECT_EQ(stroke.nominal_rate, full_header().nominal_rate);
+    EXPECT_DOUBLE_EQ(Hdf5Reader(path_).number_attribute("/stroke", "duration"),
+                     1000.0 / full_header().nominal_rate);
+  }
+}
+
 TEST_F(RecordingFile, HoldsTheSamplesToTheBit) {
   for (const int count : {1, 4095, 4096, 4097, 10000}) {  // about the blocks it is written in
     const std::vector<RecordedSample> samples = made_samples(count);

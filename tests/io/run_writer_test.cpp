@@ -10,6 +10,7 @@
 #include "core/hash.h"
 #include "core/input_file.h"
 #include "core/output_file.h"
+#include "hdf5/hdf5_handle.h"
 #include "io/run_file.h"
 #include "io/scene_toml.h"
 #include "test_folder.h"
@@ -282,6 +283,30 @@ TEST_F(RunWriterTest, SaysWhatItIsOfAndInWhichUnit) {
   for (const char* name : {"version", "commit", "compiler", "instruction_set"})
     EXPECT_FALSE(provenance[name].empty()) << name;
   EXPECT_EQ(provenance.size(), 8u);
+}
+
+TEST_F(RunWriterTest, SaysOfEveryDatasetWhatItIs) {
+  Scene scene = narrow_scene();
+  begin(scene);
+  writer_->on_frame(0.0, starting_bed(scene.bed));
+  finished();
+  const Hdf5Handle file(H5Fopen(path_.c_str(), H5F_ACC_RDONLY, without_locks()), H5Fclose);
+  std::vector<std::string> names;
+  const auto keep = [](hid_t, const char* name, const auto* info, void* all) -> herr_t {
+    if (info->type == H5O_TYPE_DATASET) static_cast<std::vector<std::string>*>(all)->emplace_back(name);
+    return 0;
+  };
+  ASSERT_GE(H5Ovisit2(file, H5_INDEX_NAME, H5_ITER_NATIVE, keep, &names, H5O_INFO_BASIC), 0);
+  ASSERT_GT(names.size(), 18U);
+  const Hdf5Reader reader(path_);
+  for (const std::string& name : names) {
+    if (name == "scene" || name.ends_with("axis")) continue;  // text
+    if (name.starts_with("surface/frame/")) continue;         // parts of /surface/frames, which says it
+    ASSERT_TRUE(reader.has_attribute("/" + name, "long_name")) << name;
+    EXPECT_FALSE(reader.text_attribute("/" + name, "long_name").empty()) << name;
+    const bool is_flag = name.ends_with("contact") || name.ends_with("saturated");
+    EXPECT_EQ(reader.has_attribute("/" + name, "units"), !is_flag) << name;
+  }
 }
 
 TEST_F(RunWriterTest, WithoutAFurrowAndASceneFileNothingIsSaidOfThem) {

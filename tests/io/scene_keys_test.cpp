@@ -87,6 +87,7 @@ const std::vector<KeyCase> cases = {
     {"device.delay=64", [](S s) { return s.device.delay == 64; }, dynamic},
     {"device.dropped_ticks=0.65", [](S s) { return s.device.dropped_ticks == 0.65; }, dynamic},
     {"device.drag=implicit", [](S s) { return s.device.drag == DragVelocity::implicit; }, dynamic},
+    {"device.velocity=encoders", [](S s) { return s.device.velocity == ReadVelocity::encoders; }, dynamic},
     {"stroke.file=w.toml", [](S s) { return s.stroke->file == "w.toml"; }, stroke},
     {"stroke.plane=fit", [](S s) { return s.stroke->placement.plane == StrokePlane::fit; }, stroke},
     {"stroke.scale=66", [](S s) { return s.stroke->placement.scale == 66.0; }, stroke},

@@ -107,7 +107,7 @@ TEST(SceneToml, EveryKeyOfTheTableIsReadWithItsDefaultJustWhereItSaysThatItAppli
     }
   }
   EXPECT_GT(keys, 50);
-  EXPECT_EQ(conditional, 13);
+  EXPECT_EQ(conditional, 14);
 }
 
 TEST(SceneToml, AKeyThatDoesNotApplyIsToldWhereItWould) {

@@ -14,8 +14,9 @@ namespace sandstroke {
 class FakeClock : public LoopClock {
  public:
   std::int64_t now() noexcept override { return time_; }
-  void sleep_until(std::int64_t time) noexcept override { time_ = std::max(time_, time); }
+  void sleep_until(std::int64_t time) noexcept override { time_ = time > time_ ? time : time_ + past_sleep; }
   void add(std::int64_t time) { time_ += time; }
+  std::int64_t past_sleep = 0;  ///< ns: who sleeps until a time that has passed gives the core to others
 
  private:
   std::int64_t time_ = 1'234'567'890'123;  // ns

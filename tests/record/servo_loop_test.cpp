@@ -195,6 +195,21 @@ TEST_F(ServoLoopTest, SkipsTicksWhoseTimeHasPassedAndMakesUpNone) {
   EXPECT_DOUBLE_EQ(footer.lateness.max, 4e-3) << "tick 11's";
 }
 
+TEST_F(ServoLoopTest, ReadsWhereItWakesHoweverLateAndHoweverBusyTheMachine) {
+  // Other programs take the core for 20 ticks whenever the loop sleeps in vain. One late tick costs what was
+  // late, no more.
+  clock.past_sleep = 20 * ms;
+  delay_read(10, 5.3);
+  const RecordingFooter footer = run();
+  EXPECT_EQ(footer.ticks.skipped, 4);
+  EXPECT_EQ(footer.ticks.recorded, 96);
+  EXPECT_EQ(samples[11].sequence, 15U) << "of the tick in which it woke";
+  EXPECT_EQ(samples[11].time, start + 15 * ms + 300'000) << "and stamped with the true time";
+  EXPECT_EQ(samples[12].time, start + 16 * ms) << "no burst";
+  EXPECT_DOUBLE_EQ(footer.lateness.max, 4.3e-3);
+  EXPECT_DOUBLE_EQ(footer.lateness.mean, 1e-5 * (4.3 + 3.3 + 2.3 + 1.3 + 0.3));
+}
+
 TEST_F(ServoLoopTest, EndsOnTimeThoughTheEndIsSkipped) {
   delay_read(97, 1000.0);
   const RecordingFooter footer = run();

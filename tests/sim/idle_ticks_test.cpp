@@ -80,7 +80,7 @@ void expect_equal(const GapRun& idle, const GapRun& all) {
   EXPECT_EQ(a.ticks, b.ticks);
   EXPECT_EQ(a.simulated_seconds, b.simulated_seconds);
   EXPECT_EQ(a.contact_ticks, b.contact_ticks);
-  EXPECT_EQ(a.gaps, b.gaps);
+  EXPECT_EQ(a.stroke.gaps, b.stroke.gaps);
   EXPECT_EQ(a.relaxations, b.relaxations);
   EXPECT_EQ(a.relaxation.passes, b.relaxation.passes);
   EXPECT_EQ(a.relaxation.cells_visited, b.relaxation.cells_visited);

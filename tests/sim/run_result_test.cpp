@@ -99,7 +99,7 @@ TEST(RunResult, IsWhatItsTicksAddUpTo) {
   EXPECT_EQ(result.ticks, ticks);
   EXPECT_DOUBLE_EQ(result.simulated_seconds, 0.701);
   EXPECT_EQ(result.contact_ticks, contact);
-  EXPECT_EQ(result.gaps, 0);
+  EXPECT_EQ(result.stroke.gaps, 0);
   EXPECT_EQ(result.device.saturated_ticks, saturated);
   EXPECT_EQ(result.max_depth, told.largest([](const TickRecord& tick) { return tick.depth; }));
 
@@ -286,13 +286,75 @@ TEST(RunResult, GapsAreCountedAndTheToolIsLiftedInThem) {
   stroke.gap_threshold = 0.1;
   ToldRun told;
   const RunResult result = Simulation(scene, starting_bed(scene.bed), stroke).run({&told});
-  EXPECT_EQ(result.gaps, 2);
+  EXPECT_EQ(result.stroke.gaps, 2);
   EXPECT_EQ(result.contact_ticks, 51 + 101 + 51);
   for (const TickRecord& tick : told.ticks) {
     const bool lifted = (tick.time > 0.05 && tick.time < 0.2) || (tick.time > 0.3 && tick.time < 0.45);
     EXPECT_EQ(tick.contact, !lifted) << tick.time;
     EXPECT_EQ(std::isnan(tick.level), lifted) << tick.time;
     EXPECT_EQ(tick.hand.down, !lifted) << tick.time;
+  }
+}
+
+/// Down into the sand until 0.2 s, a gap of 0.2 s, below the sand again until 0.78 s, and out of it.
+Stroke with_gap_below(double down) {
+  Stroke stroke = timed({0.0, 0.1, 0.2, 0.4, 0.59, 0.78, 0.95}, {{-0.05, 0, 0.002},
+                                                                 {-0.05, 0, down},
+                                                                 {-0.04, 0, down},
+                                                                 {0.0, 0, down},
+                                                                 {0.0, 0, down},
+                                                                 {0.0, 0, down},
+                                                                 {0.0, 0, 0.01}});
+  stroke.gap_threshold = 0.195;
+  return stroke;
+}
+
+TEST(RunResult, BelowTheSandAfterAGapTheForceFadesInAndNoEnergyIsOwed) {
+  Scene scene = narrow_scene();
+  scene.relaxation.rate = 0.0;
+  scene.force.k_f = 0.0;
+  scene.device.scale = 1.0;
+  for (const double max_force : {0.0, 1.0}) {  // of 2 N
+    scene.device.max_force = max_force;
+    ToldRun told;
+    const RunResult result = Simulation(scene, starting_bed(scene.bed), with_gap_below(-0.004)).run({&told});
+    for (const TickRecord& tick : told.ticks) {
+      const double after = tick.time - 0.4;
+      if (tick.time > 0.2 && after < 0.0) {
+        EXPECT_EQ(force_length(tick), 0.0) << tick.time;
+      } else if (after >= 0.0 && after < 0.37) {
+        const double due =
+            max_force > 0.0 ? std::min(max_force, tick.repulse_force.z()) : tick.repulse_force.z();
+        EXPECT_NEAR(force_length(tick), std::min(after / 0.1, 1.0) * due, 1e-9) << tick.time;
+      }
+    }
+    // It went down once and came out once; in the gap it was taken out of the sand and put back.
+    EXPECT_GE(result.device.least_absorbed_energy, -1e-9);
+    const double work = plunge_work(0.004, max_force, scene.force);
+    EXPECT_NEAR(result.device.absorbed_energy, work, 0.036 * work);  // v T / d down at 60 mm/s, up at 82 mm/s
+  }
+}
+
+TEST(RunResult, AfterAGapADynamicDeviceIsWhereTheHandIsAndNoLateForceIsLeft) {
+  Scene scene = narrow_scene();
+  scene.device.model = DeviceModel::dynamic;
+  scene.device.resolution = 0.0;
+  for (const int delay : {0, 30}) {
+    scene.device.delay = delay;
+    ToldRun told;
+    const RunResult result = Simulation(scene, starting_bed(scene.bed), with_gap_below(-0.004)).run({&told});
+    const TickRecord* before = nullptr;
+    for (const TickRecord& tick : told.ticks) {
+      if (tick.time > 0.2 && tick.time <= 0.4) {
+        EXPECT_EQ(force_length(tick), 0.0) << tick.time;
+        EXPECT_EQ(tick.device_position, tick.hand.position) << tick.time;
+      }
+      if (before && tick.time > 0.21 && delay == 0) {
+        EXPECT_LT((tick.device_force - before->device_force).norm(), 0.2) << tick.time;
+      }
+      before = &tick;
+    }
+    EXPECT_TRUE(delay > 0 || !returned_energy(result.device));
   }
 }
 

@@ -129,7 +129,7 @@ LoopMapPlan drag(DragVelocity velocity, const MapAxis& k_f, const MapAxis& force
                     "is unstable."
                   : "Drawn along at 0.1 m/s at 1 kHz, no force limit. Drag is velocity times force, and a "
                     "velocity that is a tick old throws the device back faster than it came where B = k_f "
-                    "|F_r| is above about 2 m / T.",
+                    "|F_r| s (s: device.scale) is above about 2 m / T.",
               k_f, force, [velocity](double drag_constant, double newton) {
                 DeviceSettings device = ideal_device();
                 device.drag = velocity;
