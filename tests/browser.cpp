@@ -277,7 +277,8 @@ void Browser::drag(Point from, Point to, int steps, double rate) {
   mouse("mousePressed", from, 1);
   for (int step = 1; step <= steps && (to.x != from.x || to.y != from.y); ++step) {
     pause();
-    mouse("mouseMoved", {from.x + (to.x - from.x) * step / steps, from.y + (to.y - from.y) * step / steps}, 1);
+    mouse("mouseMoved", {from.x + (to.x - from.x) * step / steps, from.y + (to.y - from.y) * step / steps},
+          1);
   }
   pause();
   mouse("mouseReleased", to, 0);

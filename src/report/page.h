@@ -8,8 +8,8 @@
 
 namespace sandstroke {
 
-/// What draws a page: page.js, which all pages share, and scripts of the page's own. live: sand as it is shaped,
-/// from the server that the page came from; it has no charts.
+/// What draws a page: page.js, which all pages share, and scripts of the page's own. live: sand as it is
+/// shaped, from the server that the page came from; it has no charts.
 enum class PageScript { bench, stress, sweep, compare, run, live };
 
 /// Known by its generator.

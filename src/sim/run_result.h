@@ -178,7 +178,8 @@ struct DeviceResult {
   /// s/m].
   std::int64_t held_drag_ticks = 0;
   double held_drag = 0.0;
-  std::optional<double> swings_from;  ///< s, where a dynamic device was found to swing by itself (SwingWatch)
+  std::optional<double> swings_from =
+      {};  ///< s, where a dynamic device was found to swing by itself (SwingWatch)
 };
 
 /// What a whole run amounts to (`run --json`).

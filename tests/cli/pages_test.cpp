@@ -65,8 +65,9 @@ TEST_F(CliPages, CompareDrawsTwoRunsAndTwoPictures) {
       0);
   const ProgramResult runs = run_program({"compare", "a.h5", "b.h5", "--report", "runs"}, folder);
   EXPECT_EQ(runs.exit_code, 1) << runs.err;
-  EXPECT_EQ(drawn_page(folder / "runs/compare.html"),
-            nlohmann::json({4, {"Checks", "Final height", "Both in 3-D", "Force and depth over time", "Files"}}));
+  EXPECT_EQ(
+      drawn_page(folder / "runs/compare.html"),
+      nlohmann::json({4, {"Checks", "Final height", "Both in 3-D", "Force and depth over time", "Files"}}));
   EXPECT_NE(read_file(folder / "runs/compare.html").find("talus_angle"), std::string::npos);
   const ProgramResult pictures = run_program({"compare", "a.png", "b.png", "--report", "pictures"}, folder);
   EXPECT_EQ(pictures.exit_code, 1) << pictures.err;

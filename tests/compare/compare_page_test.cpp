@@ -45,7 +45,8 @@ TEST(ComparePage, OfTwoRunsHasSurfacesAndTraces) {
   const PageOfParts page = Pair().page();
   EXPECT_EQ(page.title, "run.h5 against golden.h5");
   EXPECT_EQ(page.data["passed"], true);
-  EXPECT_EQ(names_in(page.data["parts"], "title"), (Names{"Final height", "Both in 3-D", "Force and depth over time"}));
+  EXPECT_EQ(names_in(page.data["parts"], "title"),
+            (Names{"Final height", "Both in 3-D", "Force and depth over time"}));
   EXPECT_TRUE(page.data["missing"].empty()) << page.data["missing"];
   EXPECT_EQ(page.data["golden"]["provenance"][0], Json({"scene_hash", "0123456789abcdef"}));
 }

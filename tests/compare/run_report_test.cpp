@@ -38,8 +38,8 @@ struct Reported {
   TestFolder folder;
 };
 
-const Names all_parts = {"Picture", "The sand in 3-D", "Force, depth and energy over time", "Profiles of the sand",
-                         "Error estimate"};
+const Names all_parts = {"Picture", "The sand in 3-D", "Force, depth and energy over time",
+                         "Profiles of the sand", "Error estimate"};
 
 TEST(RunReport, HasEveryPartOfAWholeRun) {
   const PageOfParts page = Reported().page();
@@ -98,7 +98,8 @@ TEST(RunReport, WithoutAContactThereAreCurvesAndNoProfile) {
   Reported reported;
   for (TickRecord& tick : reported.run.trace) tick.contact = false;
   const PageOfParts page = reported.page();
-  EXPECT_EQ(names_of(page.data["parts"], "title"), (Names{all_parts[0], all_parts[1], all_parts[2], all_parts[4]}));
+  EXPECT_EQ(names_of(page.data["parts"], "title"),
+            (Names{all_parts[0], all_parts[1], all_parts[2], all_parts[4]}));
   EXPECT_EQ(names_of(page.data["missing"], "name"), Names{"A profile of the sand"});
 }
 
@@ -142,8 +143,8 @@ class RunReportInBrowser : public BrowserTest {
 
 TEST_F(RunReportInBrowser, DrawsPictureCurvesProfilesAndTables) {
   open(Reported().page(ErrorEstimate{}));
-  EXPECT_EQ(texts("h2"), Json({"Picture", "The sand in 3-D", "Force, depth and energy over time", "Profiles of the sand",
-                               "Error estimate", "Settings", "File"}));
+  EXPECT_EQ(texts("h2"), Json({"Picture", "The sand in 3-D", "Force, depth and energy over time",
+                               "Profiles of the sand", "Error estimate", "Settings", "File"}));
   EXPECT_EQ(texts(".facts dt")[3], "Energy into the sand");
   EXPECT_EQ(texts(".facts dd")[3], "0.2080\u00a0J");
   EXPECT_EQ(browser().evaluate("charts.length"), 5);
