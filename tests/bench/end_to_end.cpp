@@ -92,7 +92,8 @@ int main(int argc, char** argv) {
   BenchOptions options;
   std::string output, only;
   app.add_flag("--quick", options.quick, "Seconds rather than minutes: smaller beds, shorter strokes");
-  app.add_option("--only", only, "One part of the report, such as sweeps");
+  app.add_option("--only", only,
+                 "One part of the report, such as sweeps; soak (10 min) is only measured where it is named");
   app.add_option("-o,--output", output, "Write the report to this file");
   CLI11_PARSE(app, argc, argv);
 
@@ -113,6 +114,7 @@ int main(int argc, char** argv) {
     add("paper_law", [&] { return in_child([&] { return measure_paper_law(options); }); });
     add("sweeps", [&] { return in_child([&] { return measure_sweeps(options); }); });
     add("recording", [&] { return in_child([&] { return measure_recording(options); }); });
+    if (only == "soak") add(only, [&] { return in_child([&] { return measure_soak(options); }); });
     const std::string text = report.dump(2) + "\n";
     if (output.empty()) {
       std::cout << text;

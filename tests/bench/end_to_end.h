@@ -22,6 +22,8 @@ nlohmann::json measure_rough_beds(const BenchOptions& options);
 nlohmann::json measure_paper_law(const BenchOptions& options);
 nlohmann::json measure_sweeps(const BenchOptions& options);
 nlohmann::json measure_recording(const BenchOptions& options);
+/// Ten minutes with pages that look on: memory must not grow.
+nlohmann::json measure_soak(const BenchOptions& options);
 
 /// Runs `measure` in a child process and adds "peak_rss_bytes": by how much it raised its resident memory.
 nlohmann::json in_child(const std::function<nlohmann::json()>& measure);

@@ -89,8 +89,9 @@ Scene collapsing_scene() {
 /// Pages that take what they are sent, and one that takes nothing, while sand is recorded.
 class Watched {
  public:
-  Watched(const Scene& scene, const HeightField& bed, LiveSand& sand)
-      : bed_(bed),
+  Watched(const Scene& scene, const HeightField& bed, LiveSand& sand, double seconds)
+      : seconds_(seconds),
+        bed_(bed),
         server_({bed_, state_, {"bench", bed, height_range(bed), scene.tool, 12.0, {}}, "", nullptr}) {
     sand.show_to([this](const HeightField& now) { bed_.publish(now); });
     stalled_.emplace(server_.address());
@@ -104,12 +105,14 @@ class Watched {
     ViewState state;
     state.time = progress.time;
     state_.publish(state);
+    if (progress.time <= 0.1 * seconds_) settled_memory_ = peak_memory();
   }
-  nlohmann::json end(double seconds) {
+  nlohmann::json end() {
     server_.end("");
     reader_.join();
-    return {{"pictures_per_second", pictures_ / seconds},
-            {"tiles_per_second", static_cast<double>(tiles_) / seconds},
+    return {{"pictures_per_second", pictures_ / seconds_},
+            {"tiles_per_second", static_cast<double>(tiles_) / seconds_},
+            {"peak_rss_bytes_after_a_tenth", settled_memory_},
             {"peak_rss_bytes", peak_memory()}};
   }
 
@@ -120,6 +123,7 @@ class Watched {
     return 1024.0 * static_cast<double>(usage.ru_maxrss);
   }
 
+  double seconds_, settled_memory_ = 0.0;  // s, bytes
   LiveBed bed_;
   LiveState state_;
   ViewServer server_;
@@ -142,7 +146,7 @@ nlohmann::json recorded(double seconds, bool load, bool sand, bool view = false)
     const Scene scene = collapsing_scene();
     const HeightField bed = starting_bed(scene.bed);
     live.emplace(scene, bed, "bed");
-    if (view) watched.emplace(scene, bed, *live);
+    if (view) watched.emplace(scene, bed, *live, seconds);
     if (view) settings.watch = 1.0 / 60.0;
   }
   const Load busy(load);
@@ -173,7 +177,7 @@ nlohmann::json recorded(double seconds, bool load, bool sand, bool view = false)
     result["relaxations"] = felt.erosion.relaxations;
     result["passes"] = felt.erosion.passes;
     result["most_changes_waiting"] = felt.erosion.most_waiting;
-    if (watched) result["view"] = watched->end(seconds);
+    if (watched) result["view"] = watched->end();
   }
   return result;
 }
@@ -189,6 +193,10 @@ nlohmann::json measure_recording(const BenchOptions& options) {
           {"sand_under_load", recorded(seconds, true, true)},
           {"sand_and_view", recorded(seconds, false, true, true)},
           {"sand_and_view_under_load", recorded(seconds, true, true, true)}};
+}
+
+nlohmann::json measure_soak(const BenchOptions& options) {
+  return recorded(options.quick ? 5.0 : 600.0, false, true, true);
 }
 
 }  // namespace sandstroke

@@ -427,7 +427,7 @@ TEST(CliRun, ALateLoopThatReturnsEnergySaysSoAndAPassiveOneDoesNot) {
                        folder);
   };
   const ProgramResult late = run("device.delay=60"), on_time = run("device.delay=0");
-  EXPECT_EQ(late.exit_code, 0) << late.err;
+  EXPECT_EQ(late.exit_code, 3) << late.err;
   EXPECT_NE(late.err.find("returned up to"), std::string::npos) << late.err;
   EXPECT_NE(late.err.find("device.delay"), std::string::npos) << late.err;
   EXPECT_EQ(on_time.exit_code, 0);

@@ -214,6 +214,8 @@ function sandPicture(canvas, bed) {
   const box = glMesh(gl, ...boxMesh({ low: [bed.x0 - half, bed.y0 - half], high: end, wall,
                                       floor: Math.min(bed.low, -0.02) - 0.03 * size, rim: Math.max(bed.high, 0) + 0.6 * wall }));
 
+  const waiting = new Map();  // heights by tile, not taken yet
+  let unfinished = null;      // the last picture, while it is drawn
   let stale = [[0, 0, cols, rows]];  // rectangles of cells whose light is to be worked out
   let tool = null, line = null, colouring = null, [lowest, highest] = [bed.low, bed.high];
 
@@ -232,6 +234,34 @@ function sandPicture(canvas, bed) {
   const part = (tile) => {
     const col = (tile % tileCols) * tileSide, row = Math.floor(tile / tileCols) * tileSide;
     return [col, row, Math.min(tileSide, cols - col), Math.min(tileSide, rows - row)];
+  };
+
+  const takeTile = (values, tile) => {
+    const [col, row, width, height] = part(tile);
+    const changed = [cols, rows, 0, 0];
+    for (let r = 0; r < height; r += 1)
+      for (let c = 0; c < width; c += 1) {
+        const at = (row + r) * cols + col + c, value = values[r * tileSide + c];
+        if (value === heights[at]) continue;
+        heights[at] = value;
+        lowest = Math.min(lowest, value);
+        highest = Math.max(highest, value);
+        changed[0] = Math.min(changed[0], col + c);
+        changed[1] = Math.min(changed[1], row + r);
+        changed[2] = Math.max(changed[2], col + c + 1);
+        changed[3] = Math.max(changed[3], row + r + 1);
+      }
+    if (changed[0] >= changed[2]) return;
+    gl.texSubImage2D(gl.TEXTURE_2D, 0, col, row, width, height, gl.RED, gl.FLOAT, values);
+    shade(changed);
+  };
+
+  /** Takes the tiles that came since the last picture, each in its newest state. */
+  const takeTiles = () => {
+    gl.activeTexture(gl.TEXTURE0 + toHeights);
+    gl.pixelStorei(gl.UNPACK_ROW_LENGTH, tileSide);
+    waiting.forEach(takeTile);
+    waiting.clear();
   };
 
   const lightUp = () => {
@@ -270,32 +300,52 @@ function sandPicture(canvas, bed) {
     mesh();
   };
 
+  const drawAll = (orbit, coarseness) => {
+    const camera = orbit.of(canvas.width / canvas.height);
+    const matrix = cameraMatrix(camera, camera.tan, camera.aspect, 0.02 * camera.distance, camera.distance + 4 * size);
+    const world = { to_picture: matrix, sun_direction: sunDirection, eye: camera.eye };
+    gl.viewport(0, 0, canvas.width, canvas.height);
+    gl.clearColor(0, 0, 0, 0);
+    gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
+    gl.enable(gl.DEPTH_TEST);
+    const centre = tool ? plus(tool.tip, [0, 0, tool.radius]) : [0, 0, 0];
+    sand({ ...world, heights: toHeights, light: toLight, values: colouring?.values ? toValues : toHeights, cells,
+           cell_size: cellSize, origin, tool: centre, radius: tool ? tool.radius : 0,
+           range: colouring ? [colouring.low, colouring.high, 1] : [0, 1, 0], diverging: colouring?.diverging ?? false });
+    drawTiles(camera, canvas.height / (2 * camera.tan * coarseness));
+    const upright = { ...world, axis: [0, 0, 1], gloss: 0 };
+    drawSolid(box, { ...upright, place: [0, 0, 0], scale: [1, 1, 1], paint: [0.27, 0.16, 0.09, 1] });
+    if (line) {
+      const along = plus(line[1], line[0], -1), thin = 0.002 * size;
+      gl.disable(gl.DEPTH_TEST);
+      drawSolid(rod, { ...upright, axis: unitOf(along), place: line[0], scale: [thin, thin, lengthOf(along)],
+                       paint: [0.0, 0.2, 0.6, 1] });
+      gl.enable(gl.DEPTH_TEST);
+    }
+    if (!tool) return;
+    const ball = { ...upright, place: centre, scale: [tool.radius, tool.radius, tool.radius], gloss: 2.5 };
+    drawSolid(sphere, { ...ball, paint: [0.12, 0.16, 0.21, 1] });
+    gl.enable(gl.BLEND);
+    gl.blendFunc(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA);
+    gl.depthFunc(gl.GREATER);   // and what of it lies in the sand
+    gl.depthMask(false);
+    drawSolid(sphere, { ...ball, paint: [0.12, 0.16, 0.21, 0.25] });
+    gl.depthMask(true);
+    gl.depthFunc(gl.LESS);
+    gl.disable(gl.BLEND);
+    const push = lengthOf(tool.force);
+    if (push > 0.2 * tool.radius)
+      drawSolid(arrow, { ...upright, axis: unitOf(tool.force), place: centre, paint: [0.75, 0.13, 0.02, 1],
+                         scale: [0.3 * tool.radius, 0.3 * tool.radius, tool.radius + push] });
+  };
+
   return {
     canvas, heights,
     /** A tile by its index: 64 x 64 heights. */
-    setTile: (tile, values) => {
-      const [col, row, width, height] = part(tile);
-      const changed = [cols, rows, 0, 0];
-      for (let r = 0; r < height; r += 1)
-        for (let c = 0; c < width; c += 1) {
-          const at = (row + r) * cols + col + c, value = values[r * tileSide + c];
-          if (value === heights[at]) continue;
-          heights[at] = value;
-          lowest = Math.min(lowest, value);
-          highest = Math.max(highest, value);
-          changed[0] = Math.min(changed[0], col + c);
-          changed[1] = Math.min(changed[1], row + r);
-          changed[2] = Math.max(changed[2], col + c + 1);
-          changed[3] = Math.max(changed[3], row + r + 1);
-        }
-      if (changed[0] >= changed[2]) return;
-      gl.activeTexture(gl.TEXTURE0 + toHeights);
-      gl.pixelStorei(gl.UNPACK_ROW_LENGTH, tileSide);
-      gl.texSubImage2D(gl.TEXTURE_2D, 0, col, row, width, height, gl.RED, gl.FLOAT, values);
-      shade(changed);
-    },
+    setTile: (tile, values) => { waiting.set(tile, values); },
     /** All heights, row by row. */
     setHeights: (values) => {
+      waiting.clear();
       heights.set(values);
       gl.activeTexture(gl.TEXTURE0 + toHeights);
       gl.pixelStorei(gl.UNPACK_ROW_LENGTH, 0);
@@ -315,46 +365,21 @@ function sandPicture(canvas, bed) {
       gl.pixelStorei(gl.UNPACK_ROW_LENGTH, 0);
       gl.texSubImage2D(gl.TEXTURE_2D, 0, 0, 0, cols, rows, gl.RED, gl.FLOAT, one.values);
     },
+    /** Whether the last picture is still being drawn: who asks for more meanwhile only waits longer. */
+    isBusy: () => {
+      if (unfinished && !gl.isContextLost() && gl.getSyncParameter(unfinished, gl.SYNC_STATUS) !== gl.SIGNALED) return true;
+      gl.deleteSync(unfinished);
+      unfinished = null;
+      return false;
+    },
     /** Draws it as a camera (orbitCamera) sees it; triangles may be `coarseness` times larger than they need be. */
     draw: (orbit, coarseness = 1) => {
       if (gl.isContextLost()) return;
+      takeTiles();
       lightUp();
-      const camera = orbit.of(canvas.width / canvas.height);
-      const matrix = cameraMatrix(camera, camera.tan, camera.aspect, 0.02 * camera.distance, camera.distance + 4 * size);
-      const world = { to_picture: matrix, sun_direction: sunDirection, eye: camera.eye };
-      gl.viewport(0, 0, canvas.width, canvas.height);
-      gl.clearColor(0, 0, 0, 0);
-      gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
-      gl.enable(gl.DEPTH_TEST);
-      const centre = tool ? plus(tool.tip, [0, 0, tool.radius]) : [0, 0, 0];
-      sand({ ...world, heights: toHeights, light: toLight, values: colouring?.values ? toValues : toHeights, cells,
-             cell_size: cellSize, origin, tool: centre, radius: tool ? tool.radius : 0,
-             range: colouring ? [colouring.low, colouring.high, 1] : [0, 1, 0], diverging: colouring?.diverging ?? false });
-      drawTiles(camera, canvas.height / (2 * camera.tan * coarseness));
-      const upright = { ...world, axis: [0, 0, 1], gloss: 0 };
-      drawSolid(box, { ...upright, place: [0, 0, 0], scale: [1, 1, 1], paint: [0.27, 0.16, 0.09, 1] });
-      if (line) {
-        const along = plus(line[1], line[0], -1), thin = 0.002 * size;
-        gl.disable(gl.DEPTH_TEST);
-        drawSolid(rod, { ...upright, axis: unitOf(along), place: line[0], scale: [thin, thin, lengthOf(along)],
-                         paint: [0.0, 0.2, 0.6, 1] });
-        gl.enable(gl.DEPTH_TEST);
-      }
-      if (!tool) return;
-      const ball = { ...upright, place: centre, scale: [tool.radius, tool.radius, tool.radius], gloss: 2.5 };
-      drawSolid(sphere, { ...ball, paint: [0.12, 0.16, 0.21, 1] });
-      gl.enable(gl.BLEND);
-      gl.blendFunc(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA);
-      gl.depthFunc(gl.GREATER);   // and what of it lies in the sand
-      gl.depthMask(false);
-      drawSolid(sphere, { ...ball, paint: [0.12, 0.16, 0.21, 0.25] });
-      gl.depthMask(true);
-      gl.depthFunc(gl.LESS);
-      gl.disable(gl.BLEND);
-      const push = lengthOf(tool.force);
-      if (push > 0.2 * tool.radius)
-        drawSolid(arrow, { ...upright, axis: unitOf(tool.force), place: centre, paint: [0.75, 0.13, 0.02, 1],
-                           scale: [0.3 * tool.radius, 0.3 * tool.radius, tool.radius + push] });
+      drawAll(orbit, coarseness);
+      unfinished = gl.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
+      gl.flush();
     },
     /** Where a ray meets the sand [m]; null: nowhere. */
     meet: ([from, way]) => {

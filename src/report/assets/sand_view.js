@@ -59,26 +59,36 @@ function sandView(bed, label) {
                  tool: null, colours: null };
   let waiting = false, rested = 0;
 
-  // Where pictures take long, they are coarser while something moves, and one in full follows.
-  const pace = { coarseness: picture.fast ? 1 : 2, asked: 0, last: -Infinity, mean: 20 };  // ms
+  // Where pictures take long, they are coarser while something moves, and one in full follows. None is begun before
+  // the last one is done: they would only queue.
+  const pace = { coarseness: picture.fast ? 1 : 2, begun: 0, mean: 28 };  // ms, that a picture takes
   view.pace = pace;
-  const takePace = (now) => {
-    if (pace.asked - pace.last < 50) {  // else it rested
-      pace.mean += 0.25 * (now - pace.last - pace.mean);
-      if (pace.mean > 30 && pace.coarseness < 6) [pace.coarseness, pace.mean] = [pace.coarseness * 1.25, 20];
-      if (pace.mean < 17.5 && pace.coarseness > 1) [pace.coarseness, pace.mean] = [Math.max(1, pace.coarseness / 1.1), 20];
-    }
-    pace.last = now;
+  const takePace = (took) => {
+    pace.mean += 0.2 * (Math.min(took, 80) - pace.mean);  // one that took very long says little
+    if (pace.mean > 32 && pace.coarseness < 4) [pace.coarseness, pace.mean] = [pace.coarseness * 1.15, 28];
+    if (pace.mean < 23 && pace.coarseness > 1) [pace.coarseness, pace.mean] = [Math.max(1, pace.coarseness / 1.1), 28];
   };
   const drawMoving = (now) => {
-    takePace(now);
-    drawNow(pace.coarseness);
+    if (picture.isBusy()) return requestAnimationFrame(drawMoving);
+    waiting = false;
+    if (pace.moved) takePace(now - pace.begun);
+    return drawThen(pace.coarseness, now);
+  };
+  /** Draws, and waits for the end of that. */
+  const drawThen = (coarseness, now) => {
+    Object.assign(pace, { begun: now, moved: true });
+    drawNow(coarseness);
     clearTimeout(rested);
-    if (pace.coarseness > 1) rested = setTimeout(() => drawNow(1), 250);
+    const done = () => {
+      if (waiting) return;  // drawMoving looks after it
+      if (picture.isBusy()) return requestAnimationFrame(done);
+      pace.moved = false;
+      if (coarseness > 1) rested = setTimeout(() => drawThen(1, performance.now()), 300);
+    };
+    requestAnimationFrame(done);
   };
 
   const drawNow = (coarseness = 1) => {
-    waiting = false;
     const scale = Math.min(devicePixelRatio, 2) / coarseness, { clientWidth, clientHeight } = canvas;
     const [width, height] = [clientWidth, clientHeight].map((length) => Math.max(1, Math.round(length * scale)));
     if (canvas.width !== width || canvas.height !== height) Object.assign(canvas, { width, height });
@@ -91,7 +101,6 @@ function sandView(bed, label) {
   view.changed = () => {
     if (waiting) return;
     waiting = true;
-    pace.asked = performance.now();
     requestAnimationFrame(drawMoving);
   };
   view.drawNow = drawNow;
