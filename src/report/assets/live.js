@@ -155,8 +155,9 @@ function drawLive(main) {
                            new Float32Array(bytes, at + 4, tileSide * tileSide));
     const { tool, max_force: most } = live.hello;
     const long = (0.25 * view.picture.size) / (most > 0 && most < 1e3 ? most : 10);
-    view.tool = flags & flagged.placed
-      ? { tip: head.tip, radius: tool.radius, force: force.map((x) => x * long) } : null;
+    const shown = flags & flagged.placed ? { tip: head.tip, radius: tool.radius, force: force.map((x) => x * long) } : null;
+    if (head.tiles === 0 && JSON.stringify(shown) === JSON.stringify(view.tool)) return;
+    view.tool = shown;
     view.changed();
   };
 

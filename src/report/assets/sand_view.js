@@ -61,31 +61,27 @@ function sandView(bed, label) {
 
   // Where pictures take long, they are coarser while something moves, and one in full follows. None is begun before
   // the last one is done: they would only queue.
-  const pace = { coarseness: picture.fast ? 1 : 2, begun: 0, mean: 28 };  // ms, that a picture takes
+  const pace = { coarseness: picture.fast ? 1 : 2, mean: 20, busy: false };  // mean [ms]: what a picture takes
   view.pace = pace;
   const takePace = (took) => {
     pace.mean += 0.2 * (Math.min(took, 80) - pace.mean);  // one that took very long says little
-    if (pace.mean > 32 && pace.coarseness < 4) [pace.coarseness, pace.mean] = [pace.coarseness * 1.15, 28];
-    if (pace.mean < 23 && pace.coarseness > 1) [pace.coarseness, pace.mean] = [Math.max(1, pace.coarseness / 1.1), 28];
+    if (pace.mean > 31 && pace.coarseness < 4) [pace.coarseness, pace.mean] = [pace.coarseness * 1.15, 28];
+    if (pace.mean < 25 && pace.coarseness > 1) [pace.coarseness, pace.mean] = [Math.max(1, pace.coarseness / 1.1), 28];
   };
-  const drawMoving = (now) => {
-    if (picture.isBusy()) return requestAnimationFrame(drawMoving);
+  const drawAtPace = (coarseness) => {
+    const begun = performance.now();
     waiting = false;
-    if (pace.moved) takePace(now - pace.begun);
-    return drawThen(pace.coarseness, now);
-  };
-  /** Draws, and waits for the end of that. */
-  const drawThen = (coarseness, now) => {
-    Object.assign(pace, { begun: now, moved: true });
-    drawNow(coarseness);
+    pace.busy = true;
     clearTimeout(rested);
-    const done = () => {
-      if (waiting) return;  // drawMoving looks after it
-      if (picture.isBusy()) return requestAnimationFrame(done);
-      pace.moved = false;
-      if (coarseness > 1) rested = setTimeout(() => drawThen(1, performance.now()), 300);
+    drawNow(coarseness);
+    const look = () => {
+      if (picture.isBusy()) return setTimeout(look, 2);
+      pace.busy = false;
+      if (coarseness === pace.coarseness) takePace(performance.now() - begun);
+      if (waiting) requestAnimationFrame(() => drawAtPace(pace.coarseness));
+      else if (coarseness > 1) rested = setTimeout(drawAtPace, 300, 1);
     };
-    requestAnimationFrame(done);
+    setTimeout(look, 2);
   };
 
   const drawNow = (coarseness = 1) => {
@@ -101,7 +97,7 @@ function sandView(bed, label) {
   view.changed = () => {
     if (waiting) return;
     waiting = true;
-    requestAnimationFrame(drawMoving);
+    if (!pace.busy) requestAnimationFrame(() => drawAtPace(pace.coarseness));
   };
   view.drawNow = drawNow;
   view.act = {
