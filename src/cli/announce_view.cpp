@@ -5,6 +5,7 @@
 
 #include <cstdio>
 #include <cstdlib>
+#include <fstream>
 
 #include "core/error.h"
 
@@ -18,19 +19,29 @@ bool is_set(const char* variable) {
 
 bool has_desktop() { return (is_set("DISPLAY") || is_set("WAYLAND_DISPLAY")) && !is_set("CI"); }
 
+std::filesystem::path page_to(const std::string& address, const TemporaryFolder& folder) {
+  const std::filesystem::path page = folder / "view.html";
+  std::ofstream(page) << fmt::format("<!DOCTYPE html><meta http-equiv=\"refresh\" content=\"0; url={}\">\n",
+                                     address);
+  return page;
+}
+
 }  // namespace
 
-std::optional<FedChild> announce_view(const ViewServer& server, bool opens) {
+ViewOpener::ViewOpener(const std::string& address)
+    : child_(FedChild::start({"xdg-open", page_to(address, folder_).string()})) {}
+
+std::unique_ptr<ViewOpener> announce_view(const ViewServer& server, bool opens) {
   fmt::print(stderr, "view: {}\n", server.address());
   fmt::print(stderr, "from another machine: ssh -L {0}:127.0.0.1:{0} HOST, then open that address there\n",
              server.port());
   std::fflush(stderr);
-  if (!opens || !has_desktop()) return std::nullopt;
+  if (!opens || !has_desktop()) return nullptr;
   try {
-    return FedChild::start({"xdg-open", server.address()});
+    return std::make_unique<ViewOpener>(server.address());
   } catch (const Error& failure) {
     spdlog::warn("the view was not opened: {}", failure.what());
-    return std::nullopt;
+    return nullptr;
   }
 }
 

@@ -60,7 +60,7 @@ RecorderSettings recorder_settings(const RecordArguments& arguments, const std::
   RecorderSettings settings = arguments.settings;
   settings.servo.rate = servo_rate(arguments, felt);
   if (arguments.duration > 0.0) settings.servo.duration = arguments.duration;
-  if (arguments.device == pointer_name) settings.servo.stop_switch = PointerDevice::finish_switch;
+  if (arguments.device == pointer_name) settings.servo.stop_switch = PointerSample::finish_switch;
   if (arguments.start_switch >= 0) settings.servo.start.start_switch = arguments.start_switch;
   if (arguments.stop_switch >= 0) settings.servo.stop_switch = arguments.stop_switch;
   if (arguments.view) settings.watch = 1.0 / 60.0;
@@ -138,7 +138,7 @@ void warn(const RecordingReport& report, const std::string& output, double max_s
 int exit_code(const RecordingFooter& footer, double max_skipped) {
   const StopReason reason = footer.reason;
   if (is_complete(reason))
-    return is_starved(footer.ticks) && skipped_share(footer.ticks) > 0.01 * max_skipped ? 1 : 0;
+    return is_starved(footer) && skipped_share(footer.ticks) > 0.01 * max_skipped ? 1 : 0;
   if (reason == StopReason::signal) return 128 + interrupted();
   return static_cast<int>(reason == StopReason::no_number ? ErrorKind::unstable : ErrorKind::io);
 }
@@ -166,7 +166,9 @@ int check(const RecordArguments& arguments) {
   if (!arguments.felt_scene.empty()) felt = load_scene(arguments.felt_scene, arguments.overrides);
   DeviceSpecification device;
   device.max_force = std::numeric_limits<double>::infinity();  // unless it is named, the scene's limit holds
-  if (!arguments.device.empty() && arguments.device != pointer_name)
+  if (arguments.device == pointer_name)
+    device.max_force = 0.0;
+  else if (!arguments.device.empty())
     device = find_device(arguments.device, felt->force)->specification();
   return check_machine(recorder_settings(arguments, felt), felt, device, arguments.json);
 }
@@ -176,6 +178,9 @@ int record(const RecordArguments& arguments) {
       !(arguments.output.empty() && arguments.device.empty() && arguments.felt_scene.empty()))
     throw_input_error("record --list records nothing; leave out -o, --device and --feel");
   if (arguments.list) return list_devices(arguments.json);
+  if (!(arguments.max_skipped >= 0.0)) throw_input_error("--max-skipped: give a percentage from 0 to 100");
+  if (arguments.no_open && !arguments.view)
+    throw_input_error("--no-open: there is no view to open; leave it out, or add --view");
   if (arguments.check) return check(arguments);
   if (arguments.output.empty() || arguments.device.empty())
     throw_input_error(

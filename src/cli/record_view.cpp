@@ -19,7 +19,7 @@ RecordView::RecordView(const std::string& title, const Scene& scene, const Heigh
                        double max_force, PointerDevice* pointer, bool opens)
     : bed_(start),
       server_({bed_, state_, hello_of(title, scene, start, max_force, pointer), view_page(title), pointer}),
-      browser_(announce_view(server_, opens)) {}
+      opener_(announce_view(server_, opens)) {}
 
 void RecordView::follow(LiveSand& sand) {
   sand_ = &sand;

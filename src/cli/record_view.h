@@ -30,7 +30,7 @@ class RecordView {
   LiveBed bed_;
   LiveState state_;
   ViewServer server_;
-  std::optional<FedChild> browser_;
+  std::unique_ptr<ViewOpener> opener_;
   const LiveSand* sand_ = nullptr;
   RecentRate rate_;
 };

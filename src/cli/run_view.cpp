@@ -27,7 +27,7 @@ RunView::RunView(const Simulation& simulation, const std::string& title, bool op
                ViewHello{title, simulation.bed(), height_range(simulation.bed()), simulation.scene().tool,
                          simulation.scene().device.max_force, std::nullopt},
                view_page(title)}),
-      browser_(announce_view(server_, opens)),
+      opener_(announce_view(server_, opens)),
       playing_(simulation.stroke_seconds() > 0.0) {
   fmt::print(stderr, "the run begins when the page is open\n");
   while (server_.pages() == 0 && !interrupted()) sleep(picture_interval);

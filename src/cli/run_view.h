@@ -35,7 +35,7 @@ class RunView : public SimulationObserver {
   LiveBed bed_;
   LiveState shown_;
   ViewServer server_;
-  std::optional<FedChild> browser_;
+  std::unique_ptr<ViewOpener> opener_;
   ViewState state_;
   RecentRate rate_;
   std::optional<Stopwatch> clock_;                 // from the first tick on

@@ -16,7 +16,9 @@ double skipped_share(const TickCounts& ticks) {
   return ticks.skipped > 0 ? static_cast<double>(ticks.skipped) / static_cast<double>(ticks.elapsed) : 0.0;
 }
 
-bool is_starved(const TickCounts& ticks) { return skipped_share(ticks) > 0.1; }
+bool is_starved(const RecordingFooter& footer) {
+  return footer.reason != StopReason::cut_off && skipped_share(footer.ticks) > 0.1;
+}
 
 const char* stop_reason_text(StopReason reason) {
   switch (reason) {

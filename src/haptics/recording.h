@@ -75,8 +75,6 @@ struct TickCounts {
 
 /// Of the elapsed ticks, those that were skipped.
 double skipped_share(const TickCounts& ticks);
-/// So many ticks were skipped, more than a tenth, that the samples may not tell what the hand did.
-bool is_starved(const TickCounts& ticks);
 
 /// Counts a recorded sample's flags.
 void count_flags(std::uint32_t flags, TickCounts& ticks);
@@ -115,6 +113,9 @@ struct RecordingFooter {
   Lateness lateness;
   StopReason reason = StopReason::signal;
 };
+/// So many ticks were skipped, more than a tenth, that the samples may not tell what the hand did. Of a
+/// recording that was cut off nobody knows.
+bool is_starved(const RecordingFooter& footer);
 
 /// A recording, read once from its beginning. Error: io.
 class Recording {

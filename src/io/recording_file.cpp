@@ -162,7 +162,7 @@ RecordingInfo write_recording_file(const std::filesystem::path& path, Recording&
   visit_footer(info.footer, PutAttribute{file});
   const auto ticks = static_cast<double>(info.footer.ticks.elapsed);
   file.attribute(stroke_group, "duration", std::max(ticks - 1.0, 0.0) / info.header.nominal_rate);
-  file.attribute(stroke_group, "starved", is_starved(info.footer.ticks));
+  file.attribute(stroke_group, "starved", is_starved(info.footer));
   file.attribute(stroke_group, "clock", std::string("CLOCK_MONOTONIC"));
   file.attribute(stroke_group, "clock_start", start);
   file.attribute(stroke_group, "units", std::string(attribute_units));

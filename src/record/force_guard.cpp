@@ -37,7 +37,8 @@ FeltForce ForceGuard::admit(double time, const FeltForce& wanted, const Eigen::V
     given.force.setZero();
     return given;
   }
-  interlock_.see(time, length_of(wanted.force));
+  if (!wanted.is_above_or_in_sand) interlock_.close();
+  interlock_.see(time, wanted.is_above_or_in_sand ? length_of(wanted.force) : HUGE_VAL);
   const bool is_wanted = !wanted.force.isZero(0.0);
   if (!interlock_.is_open()) {
     given.force.setZero();

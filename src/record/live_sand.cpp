@@ -79,7 +79,9 @@ std::size_t LiveSand::changes_of_move(const Eigen::Vector3d& tip) const {
 }
 
 bool LiveSand::touches(const DeviceReading& reading) noexcept {
-  return sand_.look(replica_.bed(), tip(reading.position)).contact;
+  const Eigen::Vector3d tip = this->tip(reading.position);
+  const Interaction interaction = sand_.look(replica_.bed(), tip);
+  return interaction.contact || is_beside(interaction, tip);
 }
 
 FeltForce LiveSand::feel(double time, const DeviceReading& reading) noexcept {
@@ -108,6 +110,7 @@ FeltForce LiveSand::feel(double time, const DeviceReading& reading) noexcept {
   places_.push({tip, interaction.contact});  // where the ring is full the eroder knows an older one
   depth_.store(interaction.contact ? interaction.depth : std::numeric_limits<double>::quiet_NaN(),
                std::memory_order_relaxed);
+  felt.is_above_or_in_sand = !is_beside(interaction, tip);
   if (interaction.contact) {
     ++report_.contact_ticks;
     felt.force = placement_.force_back(sand_force(interaction.depth, speed, device_.max_force, force_).total);

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <atomic>
+#include <cmath>
 #include <limits>
 #include <string>
 
@@ -75,6 +76,10 @@ class LiveSand : public FeltWorld {
   };
 
   /// m, in the bed.
+  /// Beside the bed, lower than its highest sand.
+  bool is_beside(const Interaction& interaction, const Eigen::Vector3d& tip) const {
+    return std::isnan(interaction.level) && tip.z() <= highest_;
+  }
   Eigen::Vector3d velocity(double time, const Eigen::Vector3d& tip);
   /// Of the last velocity_window readings, by their number.
   Past& past(std::int64_t reading) { return past_[static_cast<std::size_t>(reading % velocity_window)]; }

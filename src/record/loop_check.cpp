@@ -28,6 +28,8 @@ LoopCheck check_loop(double seconds, const RecorderSettings& settings, const Rec
   const double rate = settings.servo.rate;
   ServoSettings servo = settings.servo;
   servo.duration = seconds;
+  servo.start = {};  // nobody is there to press a switch
+  servo.stop_switch.reset();
   NoDevice device;
   MonotonicClock clock;
   SpscRing<RecordedSample> ring(static_cast<std::size_t>(rate) + 1);  // of a second: emptied ten times in it

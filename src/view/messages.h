@@ -36,6 +36,8 @@ struct PointerSample {
   double time = 0.0;   ///< ms, on the page's own clock
   float x = 0, y = 0;  ///< m, in the bed
   float pressure = 0;  ///< 0 = lifted, up to 1
+  /// What the page's button "Finish" presses.
+  static constexpr int finish_switch = 31;
   std::uint32_t switches = 0;
 };
 

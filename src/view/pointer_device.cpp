@@ -29,8 +29,7 @@ PointerDevice::PointerDevice(const Scene& scene, const HeightField& start, LoopC
       scale_(scale_of(scene)),
       hover_(start.highest() + scale_.clearance),
       device_(scene.device),
-      clock_(clock),
-      path_({0.0, 0.0, hover_}, sample_interval) {
+      clock_(clock) {
   specification_.model = "pointer (60 to 120 Hz, replayed 40 ms later)";
   specification_.manufacturer = "sandstroke";
   specification_.frame = "bed";
@@ -51,12 +50,21 @@ double PointerDevice::surface(double x, double y) const {
 
 void PointerDevice::add(const Place& place, double pressure, std::int64_t time) {
   const double z = pressure > 0.0 ? surface(place.x, place.y) - pressure * scale_.depth : hover_;
-  path_.add({time, {place.x, place.y, z}, place.switches});
+  path_->add({time, {place.x, place.y, z}, place.switches});
 }
 
 /// Down and up only where the pointer is pressed: a finger that is set down elsewhere must not draw on its
 /// way there.
 void PointerDevice::go_to(Place place) {
+  if (!path_) {  // it appears there, out of the sand
+    path_.emplace(Eigen::Vector3d(place.x, place.y, hover_), sample_interval);
+    last_ = {place.time - sample_interval, place.x, place.y, 0.0, 0};
+    seen_.store(true, std::memory_order_release);
+  }
+  // Browsers repeat a pointer's place when what lies under it changes: that is no motion.
+  if (place.x == last_.x && place.y == last_.y && place.pressure == last_.pressure &&
+      place.switches == last_.switches)
+    return;
   const bool was_down = last_.pressure > 0.0, is_down = place.pressure > 0.0;
   if (was_down == is_down) {
     if (place.time < last_.time + closest_samples) return;
@@ -84,13 +92,14 @@ void PointerDevice::take(std::span<const PointerSample> samples, std::int64_t ar
 }
 
 void PointerDevice::leave() {
+  if (!path_) return;
   go_to({clock_.now() + latency, last_.x, last_.y, 0.0, 0});
   page_clock_.reset();
 }
 
-bool PointerDevice::read(double time, DeviceReading& reading) noexcept {
-  if (!begin_) begin_ = clock_.now() - to_nanoseconds(time);
-  const PointerKnot now = path_.at(*begin_ + to_nanoseconds(time));
+bool PointerDevice::read(double, DeviceReading& reading) noexcept {
+  if (!seen_.load(std::memory_order_acquire)) return false;
+  const PointerKnot now = path_->at(clock_.now());
   reading.position = placement_.position_back((now.tip - device_.offset) / device_.scale);
   reading.velocity.setZero();
   reading.switches = now.switches;

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <algorithm>
+#include <atomic>
 #include <limits>
+#include <optional>
 #include <span>
 
 #include "haptics/haptic_device.h"
@@ -38,7 +40,8 @@ class PageClock {
 /// pressure it is `clearance` above the highest sand of the start; with a pressure p it is p x depth below
 /// the surface of the start there: so furrows keep their depth, and a pointer that is held does not sink.
 /// Pages tell of it 60 to 120 times a second; it is replayed `latency` later, smoothly (PointerPath). Where
-/// there is no page, or its pointer is away, the tool is lifted where it was last.
+/// there is no page, or its pointer is away, the tool is lifted where it was last; before it was anywhere
+/// nothing is read.
 ///
 /// read() is called by the servo loop; take() and leave() by one other thread.
 class PointerDevice : public HapticDevice, public PointerSink {
@@ -46,8 +49,6 @@ class PointerDevice : public HapticDevice, public PointerSink {
   /// 2.4 samples at 60 Hz: a slope needs the sample after the next.
   static constexpr std::int64_t latency = 40'000'000;          // ns
   static constexpr std::int64_t sample_interval = 16'666'667;  // ns
-  /// What the page's button "Finish" presses.
-  static constexpr int finish_switch = 31;
 
   /// start: the bed before anything touches it. clock: of the servo loop.
   PointerDevice(const Scene& scene, const HeightField& start, LoopClock& clock);
@@ -62,6 +63,8 @@ class PointerDevice : public HapticDevice, public PointerSink {
   void open() override {}
   void calibrate() override {}
   const DeviceSpecification& specification() const override { return specification_; }
+  /// A pointer may come at any time.
+  double longest_silence() const override { return 1e9; }
   bool read(double time, DeviceReading& reading) noexcept override;
   bool command(const Eigen::Vector3d&) noexcept override { return false; }
   void release() noexcept override {}
@@ -87,8 +90,8 @@ class PointerDevice : public HapticDevice, public PointerSink {
   LoopClock& clock_;
   PageClock page_clock_;
   Place last_;  // that was added
-  PointerPath path_;
-  std::optional<std::int64_t> begin_;  // ns, monotonic, of the recording; the servo loop's own
+  std::optional<PointerPath> path_;
+  std::atomic<bool> seen_ = false;  // a page has told where its pointer is
 };
 
 }  // namespace sandstroke

@@ -174,8 +174,9 @@ class Page : public std::enable_shared_from_this<Page> {
     return true;
   }
   static bool draws(const std::vector<PointerSample>& samples) {
-    return std::any_of(samples.begin(), samples.end(),
-                       [](const auto& sample) { return sample.pressure > 0; });
+    return std::any_of(samples.begin(), samples.end(), [](const auto& sample) {
+      return sample.pressure > 0 || (sample.switches >> PointerSample::finish_switch & 1U) != 0;
+    });
   }
 
   void close() {

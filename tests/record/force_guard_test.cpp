@@ -176,6 +176,22 @@ TEST(ForceGuard, FadesInThenCutsThenHoldsBack) {
   EXPECT_NEAR(held_back.force.x(), 0.0, 1e-14);
 }
 
+TEST(ForceGuard, GivesNoneToAHandThatComesFromBesideTheSand) {
+  ForceGuard guard(limits(12.0, 1.0, 1000.0), 1000.0);
+  FeltForce beside;
+  beside.is_above_or_in_sand = false;
+  double time = 0.0;
+  for (; time < 2.0; time += 1e-3) guard.admit(time, beside, Vector3d::Zero());
+  const FeltForce deep{{0.0, 0.0, 12.0}};
+  for (; time < 3.0; time += 1e-3) {
+    const FeltForce given = guard.admit(time, deep, Vector3d::Zero());
+    ASSERT_EQ(given.force, Vector3d::Zero());
+    ASSERT_EQ(given.flags, interlocked_force);
+  }
+  guard.admit(time, {}, Vector3d::Zero());  // out of the sand
+  EXPECT_TRUE(guard.interlock().is_open());
+}
+
 TEST(ForceGuard, ALimitBelowZeroIsNone) {
   ForceGuard guard = open_for(0.0, limits(-3.0, 0.0, infinity));
   EXPECT_EQ(guard.admit(10.0, {{0.0, 2.0, 0.0}}, Vector3d::Zero()).force, Vector3d::Zero());

@@ -344,6 +344,21 @@ TEST(LiveSand, NothingIsDugOrSlipsBeforeTheRecordingBegins) {
   EXPECT_EQ((sand.bed().grid() - start.grid()).abs().maxCoeff(), 0.0);
 }
 
+TEST(LiveSand, BesideTheBedOnlyWhatIsAboveItsHighestSandIsOutOfTheSand) {
+  const Scene scene = small_scene();  // to x = 0.15 m, level at 0
+  LiveSand sand(scene, starting_bed(scene.bed), "bed");
+  const auto out = [&](double x, double z) {
+    const DeviceReading reading{{x, 0.0, z}};
+    const bool touches = sand.touches(reading);
+    EXPECT_EQ(sand.feel(0.0, reading).is_above_or_in_sand, !touches);  // there is no sand to be in
+    return !touches;
+  };
+  EXPECT_TRUE(out(0.2, 0.001));
+  EXPECT_FALSE(out(0.2, -0.065));
+  EXPECT_FALSE(out(-5.0, -1e-6));
+  EXPECT_TRUE(out(0.1, 0.001));
+}
+
 TEST(LiveSand, CountsTheTicksInContact) {
   Scene scene = small_scene();
   scene.relaxation.rate = 0.0;

@@ -35,6 +35,13 @@ TEST(CheckLoop, AccountsForEachTick) {
   EXPECT_EQ(check.loop.ticks.recorded + check.loop.ticks.skipped, 300);
 }
 
+TEST(CheckLoop, WaitsForNobody) {
+  RecorderSettings settings = without_real_time();
+  settings.servo.start = {.countdown = 1e6, .start_switch = 0, .at_contact = true};
+  settings.servo.stop_switch = 3;
+  EXPECT_EQ(check_loop(0.02, settings).loop.ticks.elapsed, 20);
+}
+
 TEST(CheckLoop, StopsWhenItIsAsked) {
   const LoopCheck check =
       check_loop(1e6, without_real_time(), [](const ServoProgress&) { return StopReason::key; });

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "record/fake_device.h"
@@ -55,7 +56,8 @@ class Hand {
   }
   Vector3d tip() {
     DeviceReading reading;
-    EXPECT_TRUE(device.read(1e-9 * static_cast<double>(time_), reading));
+    if (!device.read(1e-9 * static_cast<double>(time_), reading))
+      return Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
     EXPECT_EQ(reading.velocity, Vector3d::Zero());
     const PointPlacement placement = point_placement(scene.stroke->placement, device.specification().frame);
     return tip_of(scene.device, placement.position(reading.position));
@@ -88,9 +90,31 @@ TEST(PointerDevice, SaysHonestlyWhatItIs) {
   EXPECT_EQ(hand.device.scale().radius, radius);
 }
 
-TEST(PointerDevice, HoversAboveTheHighestSandWhereThereIsNoPointer) {
+TEST(PointerDevice, NothingIsReadBeforeAPointerIsThereAndThenItAppearsOutOfTheSand) {
   Hand hand;
-  EXPECT_LT((hand.wait(1000 * ms) - Vector3d(0.0, 0.0, hover)).norm(), 1e-12);
+  EXPECT_TRUE(std::isnan(hand.wait(1000 * ms).z()));
+  EXPECT_GT(hand.device.longest_silence(), 1e6);  // and is not lost for it
+  hand.point(0.05, 0.02, 0.0);
+  EXPECT_LT((hand.wait(ms) - Vector3d(0.05F, 0.02F, hover)).norm(), 1e-12);
+  EXPECT_LT((hand.wait(1000 * ms) - Vector3d(0.05F, 0.02F, hover)).norm(), 1e-12);
+}
+
+TEST(PointerDevice, APlaceThatIsRepeatedIsNoMotion) {
+  Hand hand;
+  hand.point(0.0, 0.0, 0.5);
+  const Vector3d there = hand.wait(500 * ms);
+  hand.point(0.0, 0.0, 0.5);  // a browser does so, right before what moves
+  hand.wait(ms);
+  hand.point(0.03, 0.0, 0.5);
+  double fastest = 0.0;  // m per tick
+  Vector3d before = there;
+  for (int tick = 0; tick < 200; ++tick) {
+    const Vector3d now = hand.wait(ms);
+    fastest = std::max(fastest, (now - before).head<2>().norm());
+    before = now;
+  }
+  EXPECT_NEAR(before.x(), 0.03, 1e-6);
+  EXPECT_LT(fastest, 0.03 * 1.6 / 16.0);  // within a sample's time, not within a tick
 }
 
 TEST(PointerDevice, IsWhereThePointerWasALatencyAgo) {

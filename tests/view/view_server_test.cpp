@@ -292,6 +292,15 @@ TEST(ViewServer, TheFirstPageThatDrawsIsTheHandUntilItGoes) {
   EXPECT_EQ(one->said.at("drawing"), false);
 }
 
+TEST(ViewServer, APageThatOnlyFinishesIsHeard) {
+  Taker taker;
+  const Served served(&taker);
+  ViewClient page(served.address);
+  page.point(1.0, 0.0f, 0.0f, 0.0f);  // hovers: that is of no page's hand
+  page.point(2.0, 0.0f, 0.0f, 0.0f, 1u << PointerSample::finish_switch);
+  wait_until([&] { return taker.taken == 1; });
+}
+
 TEST(ViewServer, EndsThoughAPageTakesNothing) {
   auto served = std::make_unique<Served>();
   ViewClient stalled(served->address);

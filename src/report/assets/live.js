@@ -55,32 +55,39 @@ function pointerHand(view, send, depthChanged) {
     const pressure = pressed ? live.depth * (event.pointerType === "pen" ? 2 * event.pressure : 1) : 0;
     return { time: event.timeStamp, x: place[0], y: place[1], pressure: Math.min(pressure, 1), switches: event.buttons };
   };
-  let pressed = false, last = null;
+  let pressed = null, last = null;  // pressed: the pointer that is down, by its id
+  const tell = (samples) => {
+    if (samples.length) send(pointerBytes(samples));
+  };
+  const lift = () => {
+    pressed = null;
+    if (last) tell([{ ...last, time: performance.now(), pressure: 0 }]);
+  };
   const hand = (event) => {
     if (!live.draws || live.ended) return false;
     if (event.type === "wheel") {
-      if (!pressed) return false;
+      if (pressed === null) return false;
       live.depth = Math.min(Math.max(live.depth * Math.exp(-Math.sign(event.deltaY) * 0.1), 0.05), 1);
       depthChanged();
       return true;
     }
-    if (event.type === "pointerdown") pressed = true;
-    const ends = ["pointerup", "pointercancel"].includes(event.type);
-    if (ends || (event.type === "pointerleave" && !pressed)) pressed = false;
+    if (pressed !== null && event.pointerId !== pressed) return true;  // one hand holds one tool
+    if (event.type === "pointerdown") pressed = event.pointerId;
+    if (["pointerup", "pointercancel"].includes(event.type)) pressed = null;
     const events = event.type === "pointermove" ? event.getCoalescedEvents?.() ?? [] : [];
-    const samples = (events.length ? events : [event]).map((one) => sampleOf(one, pressed)).filter(Boolean);
+    const samples = (events.length ? events : [event]).map((one) => sampleOf(one, pressed !== null)).filter(Boolean);
     last = samples.at(-1) ?? last;
     // Off the sand's edge it is lifted where it was last.
     if (samples.length === 0 && last) samples.push({ ...last, time: event.timeStamp, pressure: 0 });
-    if (samples.length) send(pointerBytes(samples));
+    tell(samples);
     return true;
   };
   /** Lifts the tool and presses the switch that ends the recording. */
   const finish = () => {
-    const { x, y } = last ?? { x: 0, y: 0 };
-    send(pointerBytes([{ time: performance.now(), x, y, pressure: 0, switches: 2 ** 31 }]));
+    const { x, y } = last ?? { x: 0, y: 0 }, time = performance.now();
+    send(pointerBytes([{ time: time - 50, x, y, pressure: 0, switches: 0 }, { time, x, y, pressure: 0, switches: 2 ** 31 }]));
   };
-  return { hand, finish };
+  return { hand, lift, finish };
 }
 
 function drawLive(main) {
@@ -112,6 +119,7 @@ function drawLive(main) {
     }
     live.view = view;
     place.prepend(view.canvas);
+    view.canvas.focus({ preventScroll: true });
     const colour = switchButton("Colours by height", false, view.act.colour);
     const follow = switchButton("Follow the tool", false, view.act.follow);
     const all = el("button", { type: "button", click: () => { view.act.all(); view.changed(); } }, "Look at all");
@@ -127,14 +135,16 @@ function drawLive(main) {
                                 input: (event) => { live.depth = Number(event.target.value); } });
     const draw = switchButton("Draw", true, () => {
       live.draws = !live.draws;
+      lift();
       return view.canvas.classList.toggle("draws", live.draws);
     });
     view.canvas.classList.add("draws");
-    const { hand, finish } = pointerHand(view, (bytes) => socket.readyState === 1 && socket.send(bytes),
+    const { hand, lift, finish } = pointerHand(view, (bytes) => socket.readyState === 1 && socket.send(bytes),
                                          () => { depth.value = live.depth; });
     tools.append(el("br"), draw, el("label", {}, "Depth", depth),
                  el("button", { type: "button", class: "finish", click: finish }, "Finish"));
-    help.prepend("Press and draw in the sand. The right button turns the view; the wheel, while you press, sets the depth. ");
+    help.prepend("Press and draw in the sand. The right button turns the view, as D and any button do; the wheel, while " +
+                 "you press, sets the depth. ");
     view.drawing = hand;
     view.canvas.addEventListener("keydown", (event) => {
       if (event.key.toLowerCase() === "d") draw.click();
