@@ -95,10 +95,11 @@ function drawLive(main) {
   const numbers = numberTable(["time", "depth", "force", "rate", "late", "at most"]);
   const tools = el("div", { class: "corner tools" });
   const place = el("div", { class: "sand" });
-  const help = el("p", { class: "corner help" }, viewHelp);
+  const help = el("p", {}, viewHelp, " F follows the tool.");
   main.append(place);
   place.append(el("div", { class: "corner top" }, title, said), tools,
-               el("div", { class: "corner numbers" }, numbers.element), help);
+               el("div", { class: "corner numbers" }, numbers.element),
+               el("details", { class: "corner help" }, el("summary", {}, "Mouse and keys"), help));
   const socket = new WebSocket(`${location.origin.replace(/^http/, "ws")}/live${location.search}`);
   socket.binaryType = "arraybuffer";
   const say = (text, now = false) => {
@@ -118,7 +119,7 @@ function drawLive(main) {
       return;
     }
     live.view = view;
-    place.prepend(view.canvas);
+    place.prepend(view.canvas, view.scale);
     view.canvas.focus({ preventScroll: true });
     const colour = switchButton("Colours by height", false, view.act.colour);
     const follow = switchButton("Follow the tool", false, view.act.follow);

@@ -12,6 +12,15 @@ const sunDirection = (() => {
 // How far a cell's light looks, in cells: for what hides the sun, and the sky.
 const lightReach = { sun: 80, sky: 19 };
 
+// Colours for numbers, from low to high; red, green and blue from 0 to 1.
+const palettes = {
+  sequential: [[0.27, 0, 0.33], [0.25, 0.27, 0.53], [0.16, 0.47, 0.56], [0.13, 0.66, 0.52], [0.48, 0.82, 0.32],
+               [0.99, 0.91, 0.14]],
+  diverging: [[0.13, 0.4, 0.67], [0.57, 0.77, 0.87], [0.97, 0.97, 0.97], [0.96, 0.65, 0.51], [0.7, 0.09, 0.17]],
+};
+const paletteShader = (name, colours) => `const vec3 ${name}[${colours.length}] = vec3[${colours.length}](${
+  colours.map((colour) => `vec3(${colour.map((part) => part.toFixed(3))})`)});`;
+
 const wholePicture = `
 void main() { gl_Position = vec4(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0, 0.0, 1.0); }`;
 
@@ -100,10 +109,8 @@ uniform vec3 range;        // of colours: low, high, and 1 where there are any
 uniform bool diverging;
 in vec3 world;
 out vec4 colour;
-const vec3 low_to_high[6] = vec3[6](vec3(0.27, 0.00, 0.33), vec3(0.25, 0.27, 0.53), vec3(0.16, 0.47, 0.56),
-                                    vec3(0.13, 0.66, 0.52), vec3(0.48, 0.82, 0.32), vec3(0.99, 0.91, 0.14));
-const vec3 blue_to_red[5] = vec3[5](vec3(0.13, 0.40, 0.67), vec3(0.57, 0.77, 0.87), vec3(0.97, 0.97, 0.97),
-                                    vec3(0.96, 0.65, 0.51), vec3(0.70, 0.09, 0.17));
+${paletteShader("low_to_high", palettes.sequential)}
+${paletteShader("blue_to_red", palettes.diverging)}
 vec3 scale_colour(float value) {
   float share = clamp((value - range.x) / (range.y - range.x), 0.0, 1.0);
   if (diverging) {

@@ -110,7 +110,7 @@ function drawSand(part) {
   });
   return [el("p", {}, part.text),
           el("div", { class: "controls" }, choice, el("label", {}, "Colours ", colours), pen),
-          el("div", { class: "sand" }, view.canvas), el("p", { class: "quiet keys" }, viewHelp), profile.element];
+          el("div", { class: "sand" }, view.canvas, view.scale), el("p", { class: "quiet keys" }, viewHelp), profile.element];
 }
 
 const sandParts = [];  // of this page

@@ -3,7 +3,7 @@
 
 /** A camera on a sphere about a target; angles in radians, azimuth from +x towards +y. */
 function orbitCamera(bed, size) {
-  const start = { azimuth: (-70 * Math.PI) / 180, elevation: (42 * Math.PI) / 180, distance: 1.95 * size,
+  const start = { azimuth: (-70 * Math.PI) / 180, elevation: (42 * Math.PI) / 180, distance: 2.1 * size,
                   target: [bed.x0 + ((bed.cols - 1) * bed.cellSize) / 2, bed.y0 + ((bed.rows - 1) * bed.cellSize) / 2,
                            (bed.low + bed.high) / 2] };
   const tan = Math.tan((17.5 * Math.PI) / 180);
@@ -43,7 +43,7 @@ function orbitCamera(bed, size) {
 }
 
 const viewHelp = "Drag to turn, with Shift to shift; the wheel zooms. Keys: arrows turn, Shift+arrows shift, + and − zoom, " +
-  "C colours by height, F follows the tool, Home looks at all.";
+  "C colours by height, Home looks at all.";
 
 /**
  * A bed to look at; null where it cannot be drawn. Its element; picture (sandPicture), of which changed() is told;
@@ -58,6 +58,21 @@ function sandView(bed, label) {
   const view = { canvas, picture, camera, follows: false, coloured: false, drawing: null, pictures: 0,
                  tool: null, colours: null };
   let waiting = false, rested = 0;
+
+  // What colours mean, while there are any.
+  view.scale = el("div", { class: "scale", hidden: true });
+  let said = null;
+  const sayColours = (colouring) => {
+    if (said?.low === colouring?.low && said?.high === colouring?.high) return;
+    said = colouring;
+    view.scale.hidden = !colouring;
+    if (!colouring) return;
+    const { low, high, diverging = false } = colouring;
+    const stops = palettes[diverging ? "diverging" : "sequential"]
+      .map((colour) => `rgb(${colour.map((part) => Math.round(255 * part))})`);
+    const text = (height) => `${withMinus((1e3 * height).toPrecision(3))} mm`;
+    view.scale.replaceChildren(text(low), el("span", { style: `background: linear-gradient(to right, ${stops})` }), text(high));
+  };
 
   // Where pictures take long, they are coarser while something moves, and one in full follows. None is begun before
   // the last one is done: they would only queue.
@@ -90,7 +105,9 @@ function sandView(bed, label) {
     if (canvas.width !== width || canvas.height !== height) Object.assign(canvas, { width, height });
     if (view.follows && view.tool) camera.look(view.tool.tip);
     picture.setTool(view.tool);
-    picture.setColours(view.coloured ? view.colours ?? { values: null, low: bed.low, high: bed.high } : null);
+    const colouring = view.coloured ? view.colours ?? { values: null, low: bed.low, high: bed.high } : null;
+    picture.setColours(colouring);
+    sayColours(colouring);
     picture.draw(camera, coarseness);
     view.pictures += 1;
   };
