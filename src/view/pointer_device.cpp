@@ -87,8 +87,9 @@ void PointerDevice::take(std::span<const PointerSample> samples, std::int64_t ar
   for (const PointerSample& sample : samples) page_clock_.see(page_time(sample), arrival);
   for (const PointerSample& sample : samples)
     go_to({page_clock_.to_monotonic(page_time(sample)) + latency,
-           std::clamp(double{sample.x}, -half_x, half_x), std::clamp(double{sample.y}, -half_y, half_y),
-           std::clamp(double{sample.pressure}, 0.0, 1.0), sample.switches});
+           std::clamp(static_cast<double>(sample.x), -half_x, half_x),
+           std::clamp(static_cast<double>(sample.y), -half_y, half_y),
+           std::clamp(static_cast<double>(sample.pressure), 0.0, 1.0), sample.switches});
 }
 
 void PointerDevice::leave() {
