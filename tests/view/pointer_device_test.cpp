@@ -94,9 +94,9 @@ TEST(PointerDevice, NothingIsReadBeforeAPointerIsThereAndThenItAppearsOutOfTheSa
   Hand hand;
   EXPECT_TRUE(std::isnan(hand.wait(1000 * ms).z()));
   EXPECT_GT(hand.device.longest_silence(), 1e6);  // and is not lost for it
-  hand.point(0.05, 0.02, 0.0);
-  EXPECT_LT((hand.wait(ms) - Vector3d(0.05F, 0.02F, hover)).norm(), 1e-12);
-  EXPECT_LT((hand.wait(1000 * ms) - Vector3d(0.05F, 0.02F, hover)).norm(), 1e-12);
+  hand.point(0.0625, 0.03125, 0.0);               // numbers that are the same in single precision
+  EXPECT_LT((hand.wait(ms) - Vector3d(0.0625, 0.03125, hover)).norm(), 1e-12);
+  EXPECT_LT((hand.wait(1000 * ms) - Vector3d(0.0625, 0.03125, hover)).norm(), 1e-12);
 }
 
 TEST(PointerDevice, APlaceThatIsRepeatedIsNoMotion) {
