@@ -64,8 +64,8 @@ TEST(LoopStability, DragThatLagsIsBoundedByMassOverLag) {
   // m v' = -B (v, lag late, its mean over a window) is stable up to the frequency w at which the drag comes a
   // quarter of a period late, B sinc(w window / 2) = m w. The lag is the delay, half a tick of holding and
   // half of the window. Without hand or damping.
-  for (const auto& [delay, window] : {std::pair{40, 1}, {20, 40}, {1, 60}}) {
-    DeviceSettings device = held_device(10e3, delay);
+  for (const auto& [delay, window] : {std::pair{12, 1}, {6, 12}, {1, 18}}) {
+    DeviceSettings device = held_device(3e3, delay);
     device.damping = device.hand_damping = device.hand_stiffness = 0.0;
     const double lag = (delay + 0.5 + 0.5 * window) / device.servo_rate;
     const double w = 0.5 * std::numbers::pi / lag, half_window = 0.5 * w * window / device.servo_rate;
