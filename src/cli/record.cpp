@@ -63,7 +63,7 @@ RecorderSettings recorder_settings(const RecordArguments& arguments, const std::
   if (arguments.device == pointer_name) settings.servo.stop_switch = PointerSample::finish_switch;
   if (arguments.start_switch >= 0) settings.servo.start.start_switch = arguments.start_switch;
   if (arguments.stop_switch >= 0) settings.servo.stop_switch = arguments.stop_switch;
-  if (arguments.view) settings.watch = 1.0 / 60.0;
+  if (arguments.view) settings.watch = picture_interval;
   settings.lock_memory = !arguments.no_memory_lock;
   if (!felt) settings.servo.force.max_force = 0.0;  // nothing is felt
   return settings;
@@ -85,15 +85,15 @@ RecordingReport record_stroke(HapticDevice& device, FeltWorld* world, const Reco
   catch_all_interrupts();
   StopKeys keys;
   RecordDisplay display(keys.listening() ? "; q ends it" : "");
-  double shown = -1.0;  // s
-  return record(
-      device, world, settings, std::move(header), journal_path(output),
-      [&](const ServoProgress& progress) -> std::optional<StopReason> {
-        if (view) view->show(progress);
-        if (std::exchange(shown, std::floor(10.0 * progress.time)) != std::floor(10.0 * progress.time))
-          display.show(progress);
-        return keys.pressed() ? std::optional(StopReason::key) : std::nullopt;
-      });
+  double shown = -1.0;  // tenths of a second
+  return record(device, world, settings, std::move(header), journal_path(output),
+                [&](const ServoProgress& progress) -> std::optional<StopReason> {
+                  if (view) view->show(progress);
+                  const double tenth = std::floor(10.0 * progress.time);
+                  if (tenth != shown) display.show(progress);
+                  shown = tenth;
+                  return keys.pressed() ? std::optional(StopReason::key) : std::nullopt;
+                });
 }
 
 /// The journal goes once the stroke is whole, or where there is nothing in it.
@@ -149,11 +149,6 @@ std::unique_ptr<HapticDevice> named_device(const RecordArguments& arguments, con
   if (arguments.device != pointer_name)
     return find_device(arguments.device, felt ? felt->force : ForceSettings{});
   return std::make_unique<PointerDevice>(*felt, *start, clock);
-}
-
-/// N: on the hand, at most.
-double largest_force(const RecorderSettings& settings, const HapticDevice& device, const Scene& felt) {
-  return std::min({settings.servo.force.max_force, device.specification().max_force, felt.device.max_force});
 }
 
 int check(const RecordArguments& arguments) {
@@ -213,8 +208,8 @@ int record(const RecordArguments& arguments) {
     header.felt_scene = scene_text(*felt);
     if (arguments.view) {
       view.emplace(fs::path(arguments.output).filename().string(), *felt, *bed,
-                   largest_force(settings, *device, *felt), dynamic_cast<PointerDevice*>(device.get()),
-                   !arguments.no_open);
+                   largest_force(*felt, device->specification(), settings.servo.force.max_force),
+                   dynamic_cast<PointerDevice*>(device.get()), !arguments.no_open);
       view->follow(*sand);
     }
     sand->start();
@@ -244,6 +239,10 @@ CLI::Validator recording_rate() {
       fmt::format("{} to {}", slowest, fastest));
 }
 
+void add_switch(CLI::App& app, const char* name, int& number, const char* help) {
+  app.add_option(name, number, help)->check(CLI::Range(0, 31))->option_text("K");
+}
+
 /// When the recording begins and ends.
 void add_time_options(CLI::App& app, RecordArguments& arguments) {
   StartSettings& start = arguments.settings.servo.start;
@@ -255,17 +254,13 @@ void add_time_options(CLI::App& app, RecordArguments& arguments) {
                  "Seconds until the recording begins. What is before its beginning is not in the stroke")
       ->check(not_negative_number())
       ->option_text("S");
-  app.add_option("--start-switch", arguments.start_switch,
-                 "Switch of the device that begins the recording, counted from 0")
-      ->check(CLI::Range(0, 31))
-      ->option_text("K");
+  add_switch(app, "--start-switch", arguments.start_switch,
+             "Switch of the device that begins the recording, counted from 0");
   app.add_flag("--start-at-contact", start.at_contact,
                "Begin a tick before the tool touches the sand from above")
       ->needs("--feel");
-  app.add_option("--stop-switch", arguments.stop_switch,
-                 "Switch of the device that ends the recording, counted from 0")
-      ->check(CLI::Range(0, 31))
-      ->option_text("K");
+  add_switch(app, "--stop-switch", arguments.stop_switch,
+             "Switch of the device that ends the recording, counted from 0");
   app.add_option("--max-skipped", arguments.max_skipped,
                  "Share of skipped ticks [%] above which there is a warning. Above 10 % too, the stroke is "
                  "marked starved and the exit code is 1")

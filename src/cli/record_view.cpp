@@ -1,8 +1,6 @@
 #include "cli/record_view.h"
 
-#include <cmath>
-
-#include "cli/view_page.h"
+#include "report/page.h"
 
 namespace sandstroke {
 namespace {
@@ -18,7 +16,8 @@ ViewHello hello_of(const std::string& title, const Scene& scene, const HeightFie
 RecordView::RecordView(const std::string& title, const Scene& scene, const HeightField& start,
                        double max_force, PointerDevice* pointer, bool opens)
     : bed_(start),
-      server_({bed_, state_, hello_of(title, scene, start, max_force, pointer), view_page(title), pointer}),
+      server_({bed_, state_, hello_of(title, scene, start, max_force, pointer),
+               html_page(title, PageScript::live, {}), pointer}),
       opener_(announce_view(server_, opens)) {}
 
 void RecordView::follow(LiveSand& sand) {
@@ -36,7 +35,6 @@ void RecordView::show(const ServoProgress& progress) {
   state.lateness = progress.lateness;
   state.max_lateness = progress.max_lateness;
   state.tip_known = progress.read;
-  state.contact = !std::isnan(state.depth);
   state.force_held_back = progress.awaited == Awaited::lift;
   state_.publish(state);
   state_.say(hint_of(progress));

@@ -155,11 +155,9 @@ void check_default_output(const fs::path& output, const fs::path& scene_path, co
 void warn_of_held_drag(const DeviceResult& result, const Scene& scene) {
   const double most = SimulatedDevice(scene.device, {}).strongest_drag();
   spdlog::warn(
-      "in {} ticks drag was too strong for device.drag = implicit: up to {:.4g} N s/m, where {:.4g} N s/m (2 "
-      "m / "
-      "T) stop the device in a tick, and no more acted; raise device.servo_rate, or lower force.k_f to "
-      "{:.3g} "
-      "s/m",
+      "in {} ticks drag was too strong for device.drag = implicit: up to {:.4g} N s/m, where {:.4g} N s/m "
+      "(2 m / T) stop the device in a tick, and no more acted; raise device.servo_rate, or lower force.k_f "
+      "to {:.3g} s/m",
       result.held_drag_ticks, result.held_drag, most, scene.force.k_f * most / result.held_drag);
 }
 
@@ -175,8 +173,7 @@ void warn_of(const RunResult& result, const Scene& scene) {
   if (result.device.swings_from)
     spdlog::error(
         "the device swings by itself from {:.3f} s on, by energy that the sand returns swing after swing: "
-        "the "
-        "loop is unstable; {}",
+        "the loop is unstable; {}",
         *result.device.swings_from, loop_remedies(scene.device, result.device.max_drag_force));
   if (!result.relaxation.converged)
     spdlog::warn(

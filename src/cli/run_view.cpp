@@ -8,13 +8,13 @@
 #include <limits>
 #include <thread>
 
-#include "cli/view_page.h"
 #include "core/interrupt.h"
+#include "report/page.h"
 
 namespace sandstroke {
 namespace {
 
-constexpr double picture_interval = 1.0 / 60.0, late = 0.25, nearly_in_time = 0.05;  // s
+constexpr double late = 0.25, nearly_in_time = 0.05;  // s
 
 void sleep(double seconds) { std::this_thread::sleep_for(std::chrono::duration<double>(seconds)); }
 
@@ -26,7 +26,7 @@ RunView::RunView(const Simulation& simulation, const std::string& title, bool op
       server_({bed_, shown_,
                ViewHello{title, simulation.bed(), height_range(simulation.bed()), simulation.scene().tool,
                          simulation.scene().device.max_force, std::nullopt},
-               view_page(title)}),
+               html_page(title, PageScript::live, {})}),
       opener_(announce_view(server_, opens)),
       playing_(simulation.stroke_seconds() > 0.0) {
   fmt::print(stderr, "the run begins when the page is open\n");
@@ -63,7 +63,6 @@ void RunView::publish(const TickRecord& tick) {
   state_.force = tick.device_force;
   state_.depth = tick.contact ? tick.depth : std::numeric_limits<double>::quiet_NaN();
   state_.rate = rate_.at(published_at_, static_cast<double>(ticks_));
-  state_.contact = tick.contact;
   state_.tip_known = tick.hand.down;
   shown_.publish(state_);
   if (state_.lateness > late) shown_.say("the run is slower than real time");

@@ -40,7 +40,9 @@ StrokeSummary summarize(const Stroke& stroke) {
     std::nth_element(spacings.begin(), middle, spacings.end());
     summary.median_spacing = *middle;
   }
-  summary.gaps = StrokeSampler(stroke).gaps();
+  const StrokeSampler sampler(stroke);
+  summary.gaps = sampler.gaps();
+  summary.played = played_part(sampler);
   if (!stroke.force.empty()) {
     const auto shorter = [](const Vector3d& a, const Vector3d& b) { return a.norm() < b.norm(); };
     const auto [least, greatest] = std::minmax_element(stroke.force.begin(), stroke.force.end(), shorter);
@@ -102,7 +104,7 @@ nlohmann::ordered_json describe(const std::string& file, const Stroke& stroke, c
     json[std::string("extent_") + "xyz"[axis]] = {summary.low[axis], summary.high[axis]};
   json["top_speed"] = summary.top_speed;
   json["gap_threshold"] = stroke.gap_threshold;
-  json["played_seconds"] = played_part(StrokeSampler(stroke)).played;
+  json["played_seconds"] = summary.played.played;
   json["gaps"] = nlohmann::json::array();
   for (const StrokeGap& gap : summary.gaps) json["gaps"].push_back({gap.begin, gap.end});
   if (!stroke.force.empty()) json["force"] = {summary.least_force, summary.greatest_force};
@@ -140,14 +142,12 @@ std::string as_table(const std::string& file, const Stroke& stroke, const Stroke
                     1e3 * summary.high[axis], 1e3 * (summary.high[axis] - summary.low[axis])));
   }
   row("top speed", fmt::format("{:.4g} m/s, gaps aside", summary.top_speed));
-  double lifted = 0.0;
-  for (const StrokeGap& gap : summary.gaps) lifted += gap.end - gap.begin;
   row("gaps",
       summary.gaps.empty()
           ? "none"
           : fmt::format("{}, {:.6g} s in all (pen lifted, or over {:.6g} s without a sample); a run {}",
-                        summary.gaps.size(), lifted, stroke.gap_threshold,
-                        played_text(played_part(StrokeSampler(stroke)))));
+                        summary.gaps.size(), summary.played.whole - summary.played.played,
+                        stroke.gap_threshold, played_text(summary.played)));
   row("force", stroke.force.empty()
                    ? "not recorded"
                    : fmt::format("{:.4g} to {:.4g} N", summary.least_force, summary.greatest_force));

@@ -21,6 +21,7 @@ struct StrokeSummary {
   Eigen::Vector3d low, high;                    // m
   double top_speed = 0.0;                       // m/s, between samples that are joined
   std::vector<StrokeGap> gaps;
+  PlayedPart played;                               // of a run
   double least_force = 0.0, greatest_force = 0.0;  // N, magnitude
 };
 StrokeSummary summarize(const Stroke& stroke);

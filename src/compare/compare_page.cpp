@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -76,18 +77,18 @@ PageOfParts run_page(const RunFile& golden, const RunFile& run, const Comparison
       return surfaces_part({"Initial height", a, a, b, b, tolerances.height});
     });
   }
+  std::optional<HeightField> a, b;  // final, once they are read
   page.add_part("Final height", [&] {
     const RunPair pair = run_pair(golden, run, coarsen);
-    return surfaces_part({"Final height", pair.golden.final(), pair.golden.initial(), pair.run.final(),
-                          pair.run.initial(), tolerances.height});
+    a = pair.golden.final(), b = pair.run.final();
+    return surfaces_part(
+        {"Final height", *a, pair.golden.initial(), *b, pair.run.initial(), tolerances.height});
   });
   page.add_part("Both in 3-D", [&]() -> Json {
-    const RunPair pair = run_pair(golden, run, coarsen);
-    const HeightField a = pair.golden.final(), b = pair.run.final();
-    if (a.rows() != b.rows() || a.cols() != b.cols()) return nullptr;
-    SandPart part("Both in 3-D", "The final surfaces, and how far they are apart.", a);
-    part.add(page.data["golden"].value("label", "golden"), a);
-    part.add(page.data["run"].value("label", "run"), b);
+    if (!a || !b || a->rows() != b->rows() || a->cols() != b->cols()) return nullptr;
+    SandPart part("Both in 3-D", "The final surfaces, and how far they are apart.", *a);
+    part.add(page.data["golden"].value("label", "golden"), *a);
+    part.add(page.data["run"].value("label", "run"), *b);
     part.offer_difference("by the difference");
     return part.json();
   });

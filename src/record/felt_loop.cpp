@@ -18,12 +18,16 @@ double rounded_down(double value) {
 
 }  // namespace
 
+double largest_force(const Scene& scene, const DeviceSpecification& device, double max_force) {
+  const double force = std::min(max_force, device.max_force);
+  return scene.device.max_force > 0.0 ? std::min(force, scene.device.max_force) : force;
+}
+
 std::optional<FeltLoop> felt_loop(const Scene& scene, const DeviceSpecification& device, double max_force,
                                   double servo_rate, std::optional<double> lateness) {
   if (device.max_force == any_force) return std::nullopt;  // feels none
   FeltLoop loop;
-  loop.force = std::min(max_force, device.max_force);
-  if (scene.device.max_force > 0.0) loop.force = std::min(loop.force, scene.device.max_force);
+  loop.force = largest_force(scene, device, max_force);
   if (loop.force <= 0.0 || loop.force >= any_force || scene.force.k_s <= 0.0 || scene.force.k_c <= 0.0)
     return std::nullopt;
   loop.scale = scene.device.scale * (scene.stroke ? scene.stroke->placement.scale : 1.0);

@@ -24,6 +24,10 @@ struct FeltLoop {
   }
 };
 
+/// N: what the hand may get at most, of the recording (max_force), the device and the scene; any_force: no
+/// limit.
+double largest_force(const Scene& scene, const DeviceSpecification& device, double max_force);
+
 /// None: no force, one without any limit, or a stand-in that takes any and feels none. max_force [N],
 /// servo_rate [Hz]: of the recording. lateness [s]: of 99 of 100 ticks, where it was measured. A force acts a
 /// whole number of ticks late, at least one: a device takes its time to take it.

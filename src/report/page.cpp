@@ -74,10 +74,13 @@ PageAssets assets_of(PageScript script) {
   return {};
 }
 
-/// The scripts of a page, in order.
-std::vector<std::string> scripts_of(const PageAssets& own) {
-  std::vector<std::string> scripts;
-  const auto add = [&scripts](std::string_view text) { scripts.emplace_back(text); };
+/// Appends the scripts of a page, in order.
+void add_scripts(const PageAssets& own, std::string& page) {
+  const auto add = [&page](std::string_view text) {
+    page += "<script>\n";
+    page += text;
+    page += "\n</script>\n";
+  };
   if (own.charts) add(SANDSTROKE_ASSET(charts));
   add(SANDSTROKE_ASSET(page));
   if (own.charts) add(SANDSTROKE_ASSET(plot));
@@ -88,7 +91,6 @@ std::vector<std::string> scripts_of(const PageAssets& own) {
     add(SANDSTROKE_ASSET(sand_view));
   }
   for (const std::string_view text : own.scripts) add(text);
-  return scripts;
 }
 
 /// JSON that can stand inside a script element: "<" only occurs within strings, where an escape says the
@@ -123,11 +125,7 @@ std::string html_page(std::string_view title, PageScript script, const nlohmann:
     page += SANDSTROKE_ASSET(charts_license);
     page += "-->\n";
   }
-  for (const std::string& text : scripts_of(own)) {
-    page += "<script>\n";
-    page += text;
-    page += "\n</script>\n";
-  }
+  add_scripts(own, page);
   page += "</body>\n</html>\n";
   return page;
 }

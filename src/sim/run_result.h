@@ -42,21 +42,18 @@ void visit_tick_fields(const Visit& visit) {
       Text{"time", "s", "start of the tick"}, [](auto& tick) -> auto& { return tick.time; });
   visit(
       Text{"hand_position", "m",
-           "where the hand wants the tip at the start of the tick, in the device's frame; until the next one "
-           "it goes "
-           "straight and uniformly"},
+           "where the hand wants the tip at the start of the tick, in the device's frame; until the next "
+           "one it goes straight and uniformly"},
       [](auto& tick) -> auto& { return tick.hand.position; });
   visit(
       Text{"device_position", "m",
            "tip as the device read it, rounded to its encoders, in its frame (on the bed: device.scale x "
-           "this + "
-           "device.offset)"},
+           "this + device.offset)"},
       [](auto& tick) -> auto& { return tick.device_position; });
   visit(
       Text{"device_force", "N",
-           "force that acts on the device in the tick: cut to its largest, late by device.delay and dropped "
-           "ticks, "
-           "faded in after a gap"},
+           "force that acts on the device in the tick: cut to its largest, late by device.delay and "
+           "dropped ticks, faded in after a gap"},
       [](auto& tick) -> auto& { return tick.device_force; });
   visit(
       Text{"repulse_force", "N", "force by which the sand repulses the tool there, neither late nor cut"},

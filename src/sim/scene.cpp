@@ -95,8 +95,7 @@ void describe_device(KeyVisitor& v, DeviceSettings& d) {
            "share of late ticks (the same in every run); the force of the tick before stays");
   choose(v, "drag", d.drag, {"sampled", "implicit"},
          "velocity that causes drag: read before the tick, or in it (implicit: no controller can, for it "
-         "knows the "
-         "hand's way)");
+         "knows the hand's way)");
   choose(v, "velocity", d.velocity, {"exact", "encoders"},
          "velocity read: the device's own, or differences of positions read 4 ticks apart");
 }

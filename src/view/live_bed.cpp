@@ -75,11 +75,6 @@ void LiveBed::take_newer(Reader& reader, Tiles& tiles) {
   }
 }
 
-bool LiveBed::has_newer(const Reader& reader) {
-  const std::lock_guard lock(mutex_);
-  return reader.versions != versions_;
-}
-
 HeightRange height_range(const HeightField& bed) {
   HeightRange range{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
   std::array<double, BedGeometry::tile_area> heights;

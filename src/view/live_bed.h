@@ -33,10 +33,8 @@ class LiveBed : public BedGeometry {
 
   /// Takes the tiles of this bed, or of a copy of it, that changed since the last time. By one thread.
   void publish(const HeightField& bed);
-  /// The tiles that this reader has not in their newest version.
+  /// The tiles that this reader has not in their newest version; none: it has all.
   void take_newer(Reader& reader, Tiles& tiles);
-  /// Whether there are any.
-  bool has_newer(const Reader& reader);
 
  private:
   void copy_tile(int tile, float* out);

@@ -16,7 +16,6 @@ struct ViewState {
   double depth = std::numeric_limits<double>::quiet_NaN();  ///< m, of the tip in the sand; NaN: none
   double rate = 0.0;                                        ///< Hz, reached
   double lateness = 0.0, max_lateness = 0.0;                ///< s
-  bool contact = false;
   bool tip_known = false;
   bool force_held_back = false;  ///< until the tool has been above the sand
 };

@@ -30,7 +30,6 @@ using asio::ip::tcp;
 using boost::system::error_code;
 using Seconds = std::chrono::duration<double>;
 
-constexpr std::chrono::nanoseconds picture_interval{16'666'667};
 constexpr std::chrono::milliseconds longest_end{500}, accept_pause{100};
 constexpr std::size_t most_request_bytes = 8192;
 constexpr int most_unsent_bytes = 256 * 1024;  // in the system: what lies there is old when it is seen
@@ -362,7 +361,7 @@ class ViewServer::Implementation {
   }
 
   void send_pictures() {
-    pictures_.expires_after(picture_interval);
+    pictures_.expires_after(std::chrono::duration_cast<std::chrono::nanoseconds>(Seconds(picture_interval)));
     pictures_.async_wait([this](error_code) {
       if (shared_->ended && shared_->pages.empty()) return io_.stop();
       send_pictures();

@@ -10,6 +10,9 @@
 
 namespace sandstroke {
 
+/// s between pictures, at least: of the server, and of who publishes for it.
+inline constexpr double picture_interval = 1.0 / 60.0;
+
 /// What a server shows. All outlives it.
 struct ViewSources {
   LiveBed& bed;

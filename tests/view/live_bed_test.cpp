@@ -23,8 +23,7 @@ HeightField waves(int rows, int cols) {
 std::map<int, std::vector<float>> read_all(LiveBed& live, LiveBed::Reader& reader) {
   std::map<int, std::vector<float>> all;
   LiveBed::Tiles tiles;
-  while (live.has_newer(reader)) {
-    live.take_newer(reader, tiles);
+  for (live.take_newer(reader, tiles); !tiles.index.empty(); live.take_newer(reader, tiles)) {
     EXPECT_LE(tiles.index.size(), LiveBed::most_tiles);
     EXPECT_EQ(tiles.heights.size(), tiles.index.size() * BedGeometry::tile_area);
     for (std::size_t i = 0; i < tiles.index.size(); ++i)
@@ -82,7 +81,7 @@ TEST(LiveBed, TilesThatAreAsTheirRuleSaysAreShownToo) {
   for (const auto& [index, tile] : read_all(live, reader)) expect_is(tile, bed, index);
   bed.allocate(5);  // as the rule says: nothing to tell
   live.publish(bed);
-  EXPECT_FALSE(live.has_newer(reader));
+  EXPECT_TRUE(read_all(live, reader).empty());
   bed.set(70, 70, 0.5);
   live.publish(bed);
   const auto changed = read_all(live, reader);

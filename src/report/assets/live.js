@@ -3,7 +3,7 @@
 // and how the loop keeps its times. Where the page may be the hand (a pointer), what it draws goes back.
 
 const recordBytes = { head: 64, tile: 4 + 4 * tileSide * tileSide, sample: 24 };
-const flagged = { contact: 1, placed: 2, withheld: 4 };
+const placed = 2;  // a flag: where the tool is is known
 
 /** What a message of the server says of the tool and the loop; numbers are as on the wire. */
 function readHead(bytes) {
@@ -166,7 +166,7 @@ function drawLive(main) {
                            new Float32Array(bytes, at + 4, tileSide * tileSide));
     const { tool, max_force: most } = live.hello;
     const long = (0.25 * view.picture.size) / (most > 0 && most < 1e3 ? most : 10);
-    const shown = flags & flagged.placed ? { tip: head.tip, radius: tool.radius, force: force.map((x) => x * long) } : null;
+    const shown = flags & placed ? { tip: head.tip, radius: tool.radius, force: force.map((x) => x * long) } : null;
     if (head.tiles === 0 && JSON.stringify(shown) === JSON.stringify(view.tool)) return;
     view.tool = shown;
     view.changed();
