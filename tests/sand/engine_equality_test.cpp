@@ -165,7 +165,7 @@ const int thread_counts[] = {1, 2, 3, 8};
 
 TEST(Engine, EqualsTheReferenceOn200RandomScenes) {
   const std::vector<std::int64_t> targets = hwy::SupportedAndGeneratedTargets();
-  for (unsigned seed = 1; seed <= (sanitized ? 10 : 200); ++seed) {
+  for (unsigned seed = 1; seed <= (sanitized ? 50 : 200); ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     const InstructionSet set(targets[seed % targets.size()]);
     on_threads(thread_counts[seed / targets.size() % 4], [&] {
