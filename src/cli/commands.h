@@ -30,6 +30,7 @@ void add_export_command(CLI::App& app, Command& chosen);
 void add_compare_command(CLI::App& app, Command& chosen);
 void add_golden_command(CLI::App& app, Command& chosen);
 void add_sweep_command(CLI::App& app, Command& chosen);
+void add_fit_command(CLI::App& app, Command& chosen);
 void add_stroke_command(CLI::App& app, Command& chosen);
 void add_record_command(CLI::App& app, Command& chosen);
 void add_bench_command(CLI::App& app, Command& chosen);

@@ -84,6 +84,7 @@ int run_program(int argc, char** argv) {
   add_compare_command(app, chosen);
   add_golden_command(app, chosen);
   add_sweep_command(app, chosen);
+  add_fit_command(app, chosen);
   add_stroke_command(app, chosen);
   add_record_command(app, chosen);
   add_bench_command(app, chosen);

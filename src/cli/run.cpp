@@ -24,6 +24,7 @@
 #include "run/run_scene.h"
 #include "sand/instruction_set.h"
 #include "sim/furrow.h"
+#include "sim/recorded_force.h"
 #include "sim/simulation.h"
 
 namespace sandstroke {
@@ -85,8 +86,12 @@ nlohmann::ordered_json as_json(const RunResult& r, const Scene& scene, const std
       {"interrupted", r.interrupted},
   };
   if (r.recorded_force)
-    json["recorded_force"] = {
-        {"ticks", r.recorded_force->ticks}, {"rms", r.recorded_force->rms}, {"max", r.recorded_force->max}};
+    json["recorded_force"] = {{"ticks", r.recorded_force->ticks},
+                              {"rms", r.recorded_force->rms},
+                              {"max", r.recorded_force->max},
+                              {"correlation", r.recorded_force->correlation},
+                              {"best_correlation", r.recorded_force->best_correlation},
+                              {"lag", r.recorded_force->lag}};
   if (r.error) {
     json["error_estimate"] = error_json(*r.error);
     json["error_estimate"]["wall_seconds"] = r.error->wall_seconds;
@@ -112,10 +117,7 @@ void print_summary(const RunResult& r, const Scene& scene, const std::string& ou
                           r.device.saturated_ticks > 0
                               ? fmt::format(", limited in {} ticks", r.device.saturated_ticks)
                               : ""));
-    if (r.recorded_force)
-      print_row("recorded force",
-                fmt::format("differs from this run's by {:.3g} N rms, {:.3g} N at most, over {} ticks",
-                            r.recorded_force->rms, r.recorded_force->max, r.recorded_force->ticks));
+    if (r.recorded_force) print_row("recorded force", text_of(*r.recorded_force));
     print_row(
         "energy into sand",
         fmt::format("{:.4g} J{}", r.device.absorbed_energy,

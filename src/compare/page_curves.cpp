@@ -3,11 +3,13 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <string>
 
 #include "haptics/passivity.h"
 #include "report/curve.h"
+#include "sim/recorded_force.h"
 
 namespace sandstroke {
 namespace {
@@ -20,6 +22,7 @@ struct Quantity {
   double limit;
   std::function<double(const TickRecord&)> value;
   std::function<double(const TickRecord& golden, const TickRecord& run)> difference;
+  std::function<double(const TickRecord&)> recorded = {};  ///< with the stroke; empty: it is not a force
 };
 
 std::vector<Quantity> quantities(const Tolerances& tolerances) {
@@ -37,10 +40,12 @@ std::vector<Quantity> quantities(const Tolerances& tolerances) {
                              [](const TickRecord& tick) { return tick.device_force.norm(); },
                              [](const TickRecord& golden, const TickRecord& run) {
                                return (run.device_force - golden.device_force).norm();
-                             }}};
+                             },
+                             [](const TickRecord& tick) { return tick.recorded_force.norm(); }}};
   for (const int axis : {0, 1, 2}) {
     all.push_back(number("Force on the device", fmt::format("along {}", "xyz"[axis]), "N", tolerances.force,
                          [axis](const TickRecord& tick) { return tick.device_force[axis]; }));
+    all.back().recorded = [axis](const TickRecord& tick) { return tick.recorded_force[axis]; };
   }
   all.push_back(number("Tool in the sand", "depth", "m", tolerances.depth,
                        [](const TickRecord& tick) { return tick.depth; }));
@@ -54,6 +59,14 @@ Json curve_over_time(const std::vector<TickRecord>& trace, std::size_t ticks, co
   Curve curve;
   for (std::size_t tick = 0; tick < ticks; ++tick) curve.add(trace[tick].time, value(tick));
   return curve_json(curve);
+}
+
+/// What was recorded with the stroke, beside what the run has.
+void add_recorded(Json& json, const Quantity& quantity, const std::vector<TickRecord>& trace) {
+  const auto is_known = [](const TickRecord& tick) { return !std::isnan(tick.recorded_force.x()); };
+  if (quantity.recorded && std::any_of(trace.begin(), trace.end(), is_known))
+    json["recorded"] = curve_over_time(trace, trace.size(),
+                                       [&](std::size_t tick) { return quantity.recorded(trace[tick]); });
 }
 
 std::string text(const std::optional<std::vector<TickRecord>>& golden,
@@ -98,6 +111,7 @@ Json traces_part(const std::optional<std::vector<TickRecord>>& golden,
     };
     add("golden", golden);
     add("run", run);
+    if (run) add_recorded(json, quantity, *run);
     if (golden && run) {
       json["difference"] = curve_over_time(
           *golden, std::min(golden->size(), run->size()),
@@ -109,20 +123,26 @@ Json traces_part(const std::optional<std::vector<TickRecord>>& golden,
 }
 
 Json traces_part(const std::vector<TickRecord>& trace) {
+  std::string text = fmt::format("{} ticks. {}", trace.size(), curves_are_thinned);
+  std::vector<ForcePair> forces;
+  for (const TickRecord& tick : trace) forces.push_back(forces_of(tick));
+  if (const std::optional<ForceAgreement> agreement = force_agreement(forces))
+    text += fmt::format(" The recorded force {}.", text_of(*agreement));
   Json part{{"kind", "traces"},
             {"title", "Force, depth and energy over time"},
-            {"text", fmt::format("{} ticks. {}", trace.size(), curves_are_thinned)},
+            {"text", text},
             {"quantities", Json::array()}};
   const auto add = [&](const std::string& group, const std::string& name, const std::string& unit,
-                       const std::function<double(std::size_t)>& value) {
-    part["quantities"].push_back({{"group", group},
-                                  {"name", name},
-                                  {"unit", unit},
-                                  {"run", curve_over_time(trace, trace.size(), value)}});
+                       const std::function<double(std::size_t)>& value) -> Json& {
+    return part["quantities"].emplace_back(Json{{"group", group},
+                                                {"name", name},
+                                                {"unit", unit},
+                                                {"run", curve_over_time(trace, trace.size(), value)}});
   };
   for (const Quantity& quantity : quantities({}))
-    add(quantity.group, quantity.name, quantity.unit,
-        [&](std::size_t tick) { return quantity.value(trace[tick]); });
+    add_recorded(add(quantity.group, quantity.name, quantity.unit,
+                     [&](std::size_t tick) { return quantity.value(trace[tick]); }),
+                 quantity, trace);
   const std::vector<double> energy = absorbed_energy(trace);
   add("Energy given to the sand", "energy", "J", [&](std::size_t tick) { return energy[tick]; });
   return part;

@@ -1,5 +1,8 @@
 #include "export/trace_table.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace sandstroke {
 
 Table trace_table(const std::vector<TickRecord>& ticks) {
@@ -10,6 +13,8 @@ Table trace_table(const std::vector<TickRecord>& ticks) {
       std::vector<double> numbers;
       numbers.reserve(ticks.size());
       for (const TickRecord& tick : ticks) numbers.push_back(static_cast<double>(number(of(tick))));
+      const auto is_nothing = [](double value) { return std::isnan(value); };
+      if (text.may_be_missing && std::all_of(numbers.begin(), numbers.end(), is_nothing)) return;
       table.columns.push_back(
           {unit.empty() ? name : name + " [" + unit + "]", name, unit, std::move(numbers)});
     };

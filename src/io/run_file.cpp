@@ -78,18 +78,23 @@ bool RunFile::has_trace() const { return file_.has("/trace/time"); }
 std::vector<TickRecord> RunFile::trace() const {
   const std::vector<double> time = file_.doubles("/trace/time");
   const std::size_t count = time.size();
-  visit_tick_fields([&](const FieldText& field, const auto&) {
-    const std::vector<hsize_t> shape = file_.shape(std::string("/trace/") + field.name);
+  const auto visit_trace = [&](const auto& visit) {
+    visit_tick_fields([&](const FieldText& field, const auto& of) {
+      const std::string name = std::string("/trace/") + field.name;
+      if (!field.may_be_missing || file_.has(name)) visit(name, of);
+    });
+  };
+  visit_trace([&](const std::string& name, const auto&) {
+    const std::vector<hsize_t> shape = file_.shape(name);
     if (shape.empty() || shape[0] != count)
-      throw_input_error("{}: /trace/{} has {} rows and /trace/time {}; the file is damaged", file_.name(),
-                        field.name, shape.empty() ? 0 : shape[0], count);
+      throw_input_error("{}: {} has {} rows and /trace/time {}; the file is damaged", file_.name(), name,
+                        shape.empty() ? 0 : shape[0], count);
   });
   check_memory(static_cast<double>(count) * sizeof(TickRecord),
                fmt::format("{}: /trace: working with {} ticks", file_.name(), count),
                "read a part of it, for example with h5py");
   std::vector<TickRecord> ticks(count);
-  visit_tick_fields([&](const FieldText& field, const auto& of) {
-    const std::string name = std::string("/trace/") + field.name;
+  visit_trace([&](const std::string& name, const auto& of) {
     const auto fill = [&](const auto& column) {
       for (std::size_t i = 0; i < ticks.size(); ++i) of(ticks[i]) = column[i];
     };

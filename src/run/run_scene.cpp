@@ -14,46 +14,17 @@
 #include "core/log.h"
 #include "core/machine.h"
 #include "core/output_file.h"
-#include "core/progress.h"
 #include "haptics/stroke_coverage.h"
 #include "io/run_writer.h"
 #include "io/stroke_file.h"
 #include "io/surface_file.h"
+#include "run/run_progress.h"
 #include "sim/furrow.h"
 #include "sim/recorded_force.h"
 #include "sim/stroke_depth.h"
 
 namespace sandstroke {
 namespace {
-
-/// The bar on the terminal.
-class ProgressBar : public SimulationObserver {
- public:
-  void on_progress(double fraction) override {
-    fraction_ = fraction;
-    bar_.update(fraction);
-  }
-  void on_pass(std::int64_t passes) override {
-    const bool after_the_stroke = fraction_ == 0.0 || fraction_ == 1.0;
-    if (after_the_stroke) bar_.count(passes, "passes towards rest");
-  }
-
- private:
-  Progress bar_{"run"};
-  double fraction_ = 0.0;  // of the stroke
-};
-
-/// The scene's stroke as it is played, and the hash of its content.
-Stroke placed_stroke(const Scene& scene, const std::filesystem::path& path, std::string& hash) {
-  const Stroke loaded = load_stroke(path, scene.force);
-  if (!loaded.complete)
-    spdlog::warn("{}: was cut off while it was recorded; the run ends where the stroke does", path.string());
-  // Not of a recorded stroke's bytes: they tell which build wrote it, too.
-  hash = is_recorded(path) ? content_hash(loaded) : file_hash(path);
-  Stroke placed = place_stroke(loaded, scene.stroke->placement, path.string());
-  warn_if_any(coverage_warning(placed, path.string()));
-  return placed;
-}
 
 /// None where it was interrupted, or where the second solution is unstable: the run itself stands.
 std::optional<ErrorEstimate> estimated_error(const Scene& scene, const HeightField& start,
@@ -77,6 +48,17 @@ std::optional<ErrorEstimate> estimated_error(const Scene& scene, const HeightFie
 }
 
 }  // namespace
+
+Stroke placed_stroke(const Scene& scene, const std::filesystem::path& path, std::string& hash) {
+  const Stroke loaded = load_stroke(path, scene.force);
+  if (!loaded.complete)
+    spdlog::warn("{}: was cut off while it was recorded; the run ends where the stroke does", path.string());
+  // Not of a recorded stroke's bytes: they tell which build wrote it, too.
+  hash = is_recorded(path) ? content_hash(loaded) : file_hash(path);
+  Stroke placed = place_stroke(loaded, scene.stroke->placement, path.string());
+  warn_if_any(coverage_warning(placed, path.string()));
+  return placed;
+}
 
 std::string scene_file_entry(const std::filesystem::path& scene_file, const std::filesystem::path& run_file) {
   const std::filesystem::path folder = std::filesystem::absolute(run_file).parent_path();
@@ -113,17 +95,17 @@ RunResult run_scene(const Scene& asked, const std::filesystem::path& output, con
       options.scene_file.empty() ? "" : scene_file_entry(options.scene_file, output);
   RunWriter writer(output, simulation, stroke_hash, scene_file);
   TipPathGatherer path(scene);
-  std::optional<ProgressBar> bar;
-  std::optional<RecordedForce> recorded_force;
+  std::optional<RunProgress> bar;
   Kept force(force_of);
+  Kept both_forces(forces_of);
   Observers observers = {&writer, &path};
   if (options.progress) observers.push_back(&bar.emplace());
-  if (stroke && !stroke->force.empty()) observers.push_back(&recorded_force.emplace(*stroke));
+  if (simulation.has_recorded_force()) observers.push_back(&both_forces);
   if (options.second) observers.push_back(&force);
   if (options.onlooker) observers.push_back(&options.onlooker(simulation));
   RunResult result = simulation.run(observers);
   result.threads = threads;
-  if (recorded_force) result.recorded_force = recorded_force->difference();
+  result.recorded_force = force_agreement(both_forces.values);
   if (stroke) result.furrow = path.furrow(*start, simulation.bed());
   bar.reset();
   writer.end(result, simulation.bed());

@@ -22,6 +22,10 @@ struct RunOptions {
   bool error_map = false;  ///< and keep the error of each cell's height
 };
 
+/// The scene's stroke, from that file, as it is played, and the hash of its content. Warns of what it leaves
+/// out. Error: io, input.
+Stroke placed_stroke(const Scene& scene, const std::filesystem::path& path, std::string& hash);
+
 /// What /provenance/scene_file says: where the scene lies, seen from the run's folder, so that both can be
 /// moved together.
 std::string scene_file_entry(const std::filesystem::path& scene_file, const std::filesystem::path& run_file);

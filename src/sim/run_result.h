@@ -19,7 +19,9 @@ struct TickRecord {
   Eigen::Vector3d device_force = Eigen::Vector3d::Zero();     ///< N, on the device, saturated
   Eigen::Vector3d repulse_force = Eigen::Vector3d::Zero();    ///< N
   Eigen::Vector3d drag_force = Eigen::Vector3d::Zero();       ///< N
-  double level = std::numeric_limits<double>::quiet_NaN();    ///< m, sand level under the tool; NaN: lifted
+  /// N, that the hand felt when its stroke was recorded (sim/recorded_force.h); NaN: not known.
+  Eigen::Vector3d recorded_force = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
+  double level = std::numeric_limits<double>::quiet_NaN();  ///< m, sand level under the tool; NaN: lifted
   double depth = 0.0;             ///< m, of the tip below the level; negative = above
   double displaced_volume = 0.0;  ///< m^3, pushed aside in this tick
   double passivity_margin = 0.0;  ///< N s/m, Colgate & Schenkel
@@ -31,6 +33,7 @@ struct TickRecord {
 /// A field of a record, for who reads it in a file.
 struct FieldText {
   const char *name, *units, *meaning;  // units: empty of what has none, "1" of a count or ratio
+  bool may_be_missing = false;         // then the record's default says that
 };
 
 /// The columns of /trace: visit(FieldText, of), where of(tick) is the field. Who writes and who reads a run
@@ -61,6 +64,13 @@ void visit_tick_fields(const Visit& visit) {
   visit(
       Text{"drag_force", "N", "force by which the sand drags at the tool there, neither late nor cut"},
       [](auto& tick) -> auto& { return tick.drag_force; });
+  visit(
+      Text{"recorded_force", "N",
+           "force on the hand that was recorded with the stroke, in the device's frame; not a number where "
+           "it is "
+           "not known or the recorder altered it",
+           true},
+      [](auto& tick) -> auto& { return tick.recorded_force; });
   visit(
       Text{"level", "m", "height of the sand under the tool; not a number where it is lifted"},
       [](auto& tick) -> auto& { return tick.level; });
@@ -103,10 +113,13 @@ void visit_relaxation_fields(const Visit& visit) {
       [](auto& record) -> auto& { return record.outcome.moved_volume; });
 }
 
-/// How far the forces of a run are from others, over the ticks in which they can be compared.
-struct ForceDifference {
-  std::int64_t ticks = 0;
-  double rms = 0.0, max = 0.0;  ///< N, of the difference's magnitude
+/// How well the forces of a run and those that were recorded agree (sim/recorded_force.h).
+struct ForceAgreement {
+  std::int64_t ticks = 0;                                              ///< that have both
+  double rms = 0.0, max = 0.0;                                         ///< N, of the difference's magnitude
+  double correlation = std::numeric_limits<double>::quiet_NaN();       ///< -1 to 1; NaN: one never changes
+  double best_correlation = std::numeric_limits<double>::quiet_NaN();  ///< with the run's moved by -lag
+  double lag = 0.0;  ///< s, by which the run's force comes later
 };
 
 /// How far a run is from what ever smaller steps (cells, ticks, times between relaxations, tolerances) would
@@ -198,9 +211,9 @@ struct RunResult {
   double max_depth = 0.0;         ///< m
   int threads = 1;
   bool interrupted = false;
-  std::optional<FurrowMeasures> furrow;           ///< where the stroke touched sand
-  std::optional<ErrorEstimate> error;             ///< where it was asked for
-  std::optional<ForceDifference> recorded_force;  ///< where the stroke was recorded with forces
+  std::optional<FurrowMeasures> furrow;          ///< where the stroke touched sand
+  std::optional<ErrorEstimate> error;            ///< where it was asked for
+  std::optional<ForceAgreement> recorded_force;  ///< where the stroke was recorded with forces
 };
 
 }  // namespace sandstroke

@@ -6,6 +6,7 @@
 #include "core/error.h"
 #include "core/interrupt.h"
 #include "core/stopwatch.h"
+#include "sim/recorded_force.h"
 
 namespace sandstroke {
 namespace {
@@ -94,6 +95,8 @@ TickRecord Simulation::tick(double time, const Hand& hand, const Hand& next,
   return record;
 }
 
+bool Simulation::has_recorded_force() const { return stroke_ && !stroke_->stroke().force.empty(); }
+
 std::int64_t Simulation::told_ticks() const {
   std::int64_t told = ticks_;
   for (const TickRange& idle : idle_) told -= idle.end - idle.begin;
@@ -155,6 +158,7 @@ void Simulation::run_stroke() {
     return std::min(begin + static_cast<double>(tick) / servo_rate, stroke_->end_time());
   };
   Hand hand = stroke_->at(begin);
+  RecordedForce recorded(stroke_->stroke());
   device_.start(hand);
 
   double time = 0.0;
@@ -173,6 +177,7 @@ void Simulation::run_stroke() {
     const Hand next = stroke_->at(next_time);
     TickRecord record = tick(time, hand, next, slip);
     record.lifts = stroke_->lifts_between(begin + time, next_time);
+    record.recorded_force = recorded.at(time);
 
     device_.advance(record);
     check_near(record);

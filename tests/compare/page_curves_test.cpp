@@ -50,6 +50,21 @@ TEST(TracesPart, OfOneRunHasItsQuantitiesAndItsEnergy) {
   EXPECT_EQ(part["quantities"][6]["run"]["value"], Json({0.0, 1.5, 3.0}));
 }
 
+TEST(TracesPart, HasTheForceThatWasRecordedWithTheStroke) {
+  std::vector<TickRecord> trace = trace_of(3, {0.0, 3.0, 4.0}, 0.5);
+  EXPECT_FALSE(traces_part(trace)["quantities"][0].contains("recorded"));
+  trace[0].recorded_force = {6.0, 0.0, 8.0};
+  trace[2].recorded_force = {0.0, 3.0, 4.0};
+  for (const Json& part : {traces_part(trace), traces_part(std::nullopt, trace, {})}) {
+    const std::string magnitude = part["quantities"][0]["recorded"]["value"].dump();
+    EXPECT_EQ(Json::parse(magnitude), Json({10.0, nullptr, 5.0}));
+    EXPECT_EQ(Json::parse(part["quantities"][3]["recorded"]["value"].dump()), Json({8.0, nullptr, 4.0}));
+    EXPECT_FALSE(part["quantities"][4].contains("recorded")) << "depth";
+  }
+  const std::string text = traces_part(trace)["text"];
+  EXPECT_NE(text.find("over 2 ticks"), std::string::npos) << text;
+}
+
 TEST(TracesPart, HasEachQuantityOfBothAndTheirDifferenceWhereBothHaveTicks) {
   const Json part = traces_part(trace_of(3, {0.0, 3.0, 4.0}, 0.5), trace_of(2, {0.0, 4.0, 3.0}, 0.75), {});
   std::vector<std::string> names;

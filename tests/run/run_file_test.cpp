@@ -241,16 +241,23 @@ TEST_F(RunFileTest, ForcesThatWereRecordedAreHeldAgainstThoseOfTheRun) {
     felt.force.push_back(tick.device_force);
   }
   write_stroke_file(folder_ / "felt.h5", felt);
-  const std::optional<ForceDifference> same =
+  const std::optional<ForceAgreement> same =
       run(scene({"relaxation.rate=0", "stroke.file=felt.h5"}), "b.h5").recorded_force;
   ASSERT_TRUE(same);
   EXPECT_EQ(same->ticks, static_cast<std::int64_t>(trace.size()));
   EXPECT_LT(same->rms, 0.02);  // drag is of a curve through the samples
+  EXPECT_GT(same->correlation, 0.999);
+  EXPECT_EQ(same->lag, 0.0);
+  EXPECT_TRUE(std::isnan(trace.front().recorded_force.x()));  // in a file that has none
+  const std::vector<TickRecord> kept = RunFile(folder_ / "b.h5").trace();
+  ASSERT_EQ(kept.size(), trace.size());
+  for (std::size_t i = 0; i < kept.size(); ++i) EXPECT_EQ(kept[i].recorded_force, trace[i].device_force);
   felt.force[trace.size() / 2].z() += 10.0;
   write_stroke_file(folder_ / "more.h5", felt);
-  const std::optional<ForceDifference> more =
+  const std::optional<ForceAgreement> more =
       run(scene({"relaxation.rate=0", "stroke.file=more.h5"}), "b.h5").recorded_force;
   EXPECT_NEAR(more->max, 10.0, 0.1);
+  EXPECT_LT(more->correlation, same->correlation);
   EXPECT_NEAR(more->rms, 10.0 / std::sqrt(static_cast<double>(trace.size())), 0.02);
 }
 

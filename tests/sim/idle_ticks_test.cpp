@@ -60,8 +60,11 @@ struct GapRun : Told {
 
 void expect_equal(const TickRecord& a, const TickRecord& b) {
   const auto same = [](const auto& of_a, const auto& of_b) {
-    if constexpr (std::is_same_v<std::decay_t<decltype(of_a)>, double>)
+    using Value = std::decay_t<decltype(of_a)>;
+    if constexpr (std::is_same_v<Value, double>)
       return of_a == of_b || (std::isnan(of_a) && std::isnan(of_b));
+    else if constexpr (std::is_same_v<Value, Eigen::Vector3d>)
+      return of_a == of_b || (of_a.hasNaN() && of_b.hasNaN());
     else
       return of_a == of_b;
   };

@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <limits>
+#include <numbers>
+
 #include "haptics/recording.h"
 
 namespace sandstroke {
@@ -19,70 +23,119 @@ Stroke rising() {
   return stroke;
 }
 
-TickRecord tick(double time, const Eigen::Vector3d& force) {
-  TickRecord record;
-  record.time = time;
-  record.device_force = force;
-  return record;
-}
+/// Along z; not-a-number where it is not known.
+double recorded_at(RecordedForce& recorded, double time) { return recorded.at(time).z(); }
 
-TEST(RecordedForce, IsHeldAgainstTheRunBetweenSamples) {
+TEST(RecordedForce, IsLinearBetweenSamples) {
   const Stroke stroke = rising();
   RecordedForce recorded(stroke);
-  recorded.on_tick(tick(0.0, {0.0, 0.0, 0.0}));
-  recorded.on_tick(tick(1.25, {0.0, 0.0, 2.5}));
-  EXPECT_EQ(recorded.difference().max, 0.0);
-  recorded.on_tick(tick(2.5, {3.0, 0.0, 1.0}));  // 5 N felt
-  recorded.on_tick(tick(3.0, {0.0, 0.0, 6.0}));
-  EXPECT_EQ(recorded.difference().ticks, 4);
-  EXPECT_DOUBLE_EQ(recorded.difference().max, 5.0);
-  EXPECT_DOUBLE_EQ(recorded.difference().rms, 2.5);
-}
-
-TEST(RecordedForce, IsNotComparedWhereTheRecorderAlteredItOrNothingWasRecorded) {
-  Stroke stroke = rising();
-  stroke.flags = {late_sample, 0, 0, ramped_force};
-  stroke.gap_threshold = 0.5;
-  RecordedForce across_gaps(stroke);
-  across_gaps.on_tick(tick(0.5, {9.0, 0.0, 0.0}));
-  EXPECT_EQ(across_gaps.difference().ticks, 0);
-  across_gaps.on_tick(tick(1.0, {0.0, 0.0, 2.0}));
-  EXPECT_EQ(across_gaps.difference().ticks, 1);
-  stroke.gap_threshold = 10.0;
-  RecordedForce altered(stroke);
-  altered.on_tick(tick(0.0, {0.0, 0.0, 0.0}));
-  altered.on_tick(tick(2.5, {9.0, 0.0, 0.0}));
-  altered.on_tick(tick(3.0, {9.0, 0.0, 0.0}));
-  EXPECT_EQ(altered.difference().ticks, 1);
-  EXPECT_EQ(altered.difference().max, 0.0);
-}
-
-TEST(RecordedForce, IsLinearBetweenSamplesThatAreUnevenAndBeginLate) {
-  Stroke stroke = rising();
-  stroke.time = {5.0, 5.25, 7.25, 7.5};  // ticks begin at 0
-  RecordedForce recorded(stroke);
+  for (const auto& [time, force] : {std::pair{0.0, 0.0}, {1.25, 2.5}, {2.5, 5.0}, {3.0, 6.0}})
+    EXPECT_EQ(recorded_at(recorded, time), force);
+  Stroke uneven = rising();
+  uneven.time = {5.0, 5.25, 7.25, 7.5};  // ticks begin at 0
+  RecordedForce late(uneven);
   for (const auto& [time, force] :
        {std::pair{0.0, 0.0}, {0.125, 1.0}, {0.25, 2.0}, {0.75, 2.5}, {1.75, 3.5}, {2.25, 4.0}, {2.375, 5.0}})
-    recorded.on_tick(tick(time, {0.0, 0.0, force}));
-  EXPECT_EQ(recorded.difference().ticks, 7);
-  EXPECT_LT(recorded.difference().max, 1e-14);
+    EXPECT_NEAR(recorded_at(late, time), force, 1e-14);
+}
+
+TEST(RecordedForce, IsNotKnownWhereTheRecorderAlteredItOrNothingWasRecorded) {
+  Stroke stroke = rising();
+  stroke.flags = {late_sample, 0, 0, ramped_force};
+  RecordedForce altered(stroke);
+  EXPECT_EQ(recorded_at(altered, 0.0), 0.0);
+  EXPECT_EQ(recorded_at(altered, 2.0), 4.0);
+  EXPECT_TRUE(std::isnan(recorded_at(altered, 2.5)));
+  EXPECT_TRUE(std::isnan(recorded_at(altered, 3.0)));
+  stroke.gap_threshold = 0.5;
+  RecordedForce across_gaps(stroke);
+  EXPECT_TRUE(std::isnan(recorded_at(across_gaps, 0.5)));
+  EXPECT_EQ(recorded_at(across_gaps, 1.0), 2.0);
+  stroke.force.clear();
+  EXPECT_TRUE(std::isnan(RecordedForce(stroke).at(1.0).z()));
 }
 
 TEST(RecordedForce, OnlyFlagsThatSayTheForceWasAlteredLeaveASampleOut) {
-  for (const auto& [flag, compared] : {std::pair{late_sample, true},
-                                       {after_skipped_ticks, true},
-                                       {clamped_force, false},
-                                       {ramped_force, false},
-                                       {rate_limited_force, false},
-                                       {refused_force, false},
-                                       {held_sand, false},
-                                       {interlocked_force, false}}) {
+  for (const auto& [flag, known] : {std::pair{late_sample, true},
+                                    {after_skipped_ticks, true},
+                                    {clamped_force, false},
+                                    {ramped_force, false},
+                                    {rate_limited_force, false},
+                                    {refused_force, false},
+                                    {held_sand, false},
+                                    {interlocked_force, false}}) {
     Stroke stroke = rising();
     stroke.flags = {0, flag, 0, 0};
     RecordedForce recorded(stroke);
-    recorded.on_tick(tick(1.0, {0.0, 0.0, 2.0}));
-    EXPECT_EQ(recorded.difference().ticks, compared ? 1 : 0) << flag;
+    EXPECT_EQ(!std::isnan(recorded_at(recorded, 1.0)), known) << flag;
   }
+}
+
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
+/// A force that turns and grows; `late` ticks of 1 ms late, and so many times as large.
+Eigen::Vector3d spiral(int tick, int late = 0, double scale = 1.0) {
+  const double t = 0.01 * (tick - late);
+  return scale * t * Eigen::Vector3d(std::cos(t), std::sin(t), 0.3 * std::cos(3.0 * t));
+}
+
+TEST(ForceAgreement, OfNothingRecordedIsNone) {
+  EXPECT_FALSE(force_agreement({}));
+  EXPECT_FALSE(force_agreement({{0.0, {1.0, 0.0, 0.0}, {unknown, unknown, unknown}}}));
+}
+
+TEST(ForceAgreement, IsOfTheTicksThatHaveBoth) {
+  const std::optional<ForceAgreement> found =
+      force_agreement({{0.0, {0.0, 0.0, 0.0}, {3.0, 0.0, 4.0}},
+                       {1.0, {9.0, 0.0, 0.0}, {unknown, unknown, unknown}},
+                       {2.0, {0.0, 1.0, 0.0}, {0.0, 1.0, 0.0}}});
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->ticks, 2);
+  EXPECT_EQ(found->max, 5.0);
+  EXPECT_DOUBLE_EQ(found->rms, 5.0 / std::sqrt(2.0));
+}
+
+TEST(ForceAgreement, CorrelationIsOfShapeAndNotOfSizeOrOffset) {
+  const Eigen::Vector3d offset(0.5, -1.0, 2.0);
+  std::vector<ForcePair> alike, opposite, still;
+  for (int k = 0; k < 300; ++k) {
+    alike.push_back({1e-3 * k, spiral(k, 0, 2.0) + offset, spiral(k)});
+    opposite.push_back({1e-3 * k, spiral(k, 0, -0.7) + offset, spiral(k)});
+    still.push_back({1e-3 * k, offset, spiral(k)});
+  }
+  EXPECT_NEAR(force_agreement(alike)->correlation, 1.0, 1e-12);
+  EXPECT_EQ(force_agreement(alike)->lag, 0.0);
+  EXPECT_NEAR(force_agreement(opposite)->correlation, -1.0, 1e-12);
+  EXPECT_TRUE(std::isnan(force_agreement(still)->correlation));
+}
+
+TEST(ForceAgreement, FindsByWhatTheRunComesLater) {
+  for (const int late : {-40, -1, 0, 7, 120}) {
+    std::vector<ForcePair> ticks;
+    for (int k = 0; k < 1000; ++k) ticks.push_back({1e-3 * k, spiral(k, late), spiral(k)});
+    const std::optional<ForceAgreement> found = force_agreement(ticks);
+    EXPECT_NEAR(found->lag, 1e-3 * late, 1e-12);
+    EXPECT_NEAR(found->best_correlation, 1.0, 1e-12);
+  }
+}
+
+TEST(ForceAgreement, HasNoLagWhereTheyAgreeEverBetterFurtherApart) {
+  std::vector<ForcePair> ticks;  // 1.25 s apart, of a period of 5 s
+  for (int k = 0; k < 3000; ++k) {
+    const double phase = 1e-3 * k * 2.0 * std::numbers::pi / 5.0;
+    ticks.push_back({1e-3 * k, {std::cos(phase), 0.0, 0.0}, {std::sin(phase), 0.0, 0.0}});
+  }
+  const std::optional<ForceAgreement> found = force_agreement(ticks);
+  EXPECT_EQ(found->lag, 0.0);
+  EXPECT_EQ(found->best_correlation, found->correlation);
+}
+
+TEST(ForceAgreement, DoesNotPairAcrossTicksThatAreLeftOut) {
+  std::vector<ForcePair> ticks;  // 3 ms late, in two parts 10 s apart
+  for (int part = 0; part < 2; ++part)
+    for (int k = 0; k < 300; ++k) ticks.push_back({10.0 * part + 1e-3 * k, spiral(k, 3), spiral(k)});
+  EXPECT_NEAR(force_agreement(ticks)->lag, 3e-3, 1e-12);
+  EXPECT_NEAR(force_agreement(ticks)->best_correlation, 1.0, 1e-12);
 }
 
 }  // namespace

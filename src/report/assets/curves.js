@@ -2,7 +2,8 @@
 // Curves: traces over time, of golden and run, and how far they are apart, in charts that zoom alike; and profiles of
 // the sand along a way.
 
-const lookOfSide = { golden: { colour: colours[0] }, run: { colour: colours[1], dash: "dashed" } };
+const lookOfSide = { golden: { colour: colours[0] }, run: { colour: colours[1], dash: "dashed" },
+                     recorded: { colour: colours[6], dash: "dotted" } };
 const lookOfDifference = { colour: colours[2] };
 const lookOfSurface = { initial: { colour: colours[6], dash: "dashed" }, last: { colour: colours[0] } };
 
@@ -55,10 +56,13 @@ function curveChart({ title, note, legend, whole, over }) {
   };
 }
 
-/** Two charts of the quantities of a group, one of which is chosen: golden and run, and how far they are apart. */
+/**
+ * Two charts of the quantities of a group, one of which is chosen: golden and run, and what was recorded with the
+ * stroke; and how far golden and run are apart.
+ */
 function groupCharts(group, quantities, whole) {
-  const sides = ["golden", "run"].filter((name) => quantities[0][name]);
-  const lookOf = (name) => (sides.length > 1 ? lookOfSide[name] : { colour: lookOfSide[name].colour });
+  const sides = ["golden", "run", "recorded"].filter((name) => quantities[0][name]);
+  const lookOf = (name) => (sides.includes("golden") || name === "recorded" ? lookOfSide[name] : { colour: lookOfSide[name].colour });
   const values = curveChart({
     title: group, whole, over: overTime, legend: sides.map((side) => ({ name: labelOf(side), series: true, ...lookOf(side) })) });
   const apart = quantities[0].difference && curveChart({

@@ -1,0 +1,49 @@
+#include "fit/felt_ticks.h"
+
+#include <cmath>
+
+#include "core/error.h"
+#include "core/interrupt.h"
+#include "io/surface_file.h"
+#include "run/run_progress.h"
+#include "run/run_scene.h"
+#include "sim/simulation.h"
+
+namespace sandstroke {
+namespace {
+
+class Gatherer : public SimulationObserver {
+ public:
+  explicit Gatherer(double scale) : scale_(scale) {}
+  void on_tick(const TickRecord& tick) override {
+    if (tick.contact && !std::isnan(tick.recorded_force.x()))
+      ticks.push_back({tick.depth, scale_ * tick.hand.velocity, tick.recorded_force});
+  }
+  std::vector<FeltTick> ticks;
+
+ private:
+  double scale_;
+};
+
+}  // namespace
+
+std::vector<FeltTick> felt_ticks(const Scene& asked, const std::filesystem::path& scene_folder) {
+  if (!asked.stroke)
+    throw_input_error("the scene has no stroke; name one that was recorded with forces: --stroke FILE");
+  Scene scene = asked;
+  scene.device.model = DeviceModel::kinematic;
+  const std::filesystem::path path = scene_folder / scene.stroke->file;
+  std::string hash;
+  const Stroke stroke = placed_stroke(scene, path, hash);
+  if (stroke.force.empty())
+    throw_input_error("{}: was recorded without forces, so there is nothing to fit; name another --stroke",
+                      path.string());
+  Simulation simulation(scene, load_surface(scene.bed, scene_folder), stroke);
+  Gatherer felt(scene.device.scale);
+  RunProgress bar;
+  simulation.run({&felt, &bar});
+  if (interrupted()) return {};
+  return std::move(felt.ticks);
+}
+
+}  // namespace sandstroke

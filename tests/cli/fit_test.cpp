@@ -1,0 +1,77 @@
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "cli/program.h"
+#include "io/run_file.h"
+#include "io/stroke_file.h"
+
+namespace sandstroke {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+/// What a run felt, as a recording of it.
+void write_felt_stroke(const fs::path& run, const fs::path& stroke, double sign = 1.0) {
+  Stroke felt;
+  for (const TickRecord& tick : RunFile(run).trace()) {
+    felt.time.push_back(tick.time);
+    felt.position.push_back(tick.hand.position);
+    felt.force.push_back(sign * tick.device_force);
+  }
+  write_stroke_file(stroke, felt);
+}
+
+TEST(CliFit, FindsTheConstantsOfARunFromWhatItFelt) {
+  const fs::path folder = test_folder();
+  ASSERT_EQ(run_program({"run", "scene.toml", "--set", "force.k_s=400", "--set", "force.k_f=6", "-o", "a.h5"},
+                        folder)
+                .exit_code,
+            0);
+  write_felt_stroke(folder / "a.h5", folder / "felt.h5");
+  const ProgramResult found = run_program({"fit", "scene.toml", "--stroke", "felt.h5", "--json"}, folder);
+  ASSERT_EQ(found.exit_code, 0) << found.err;
+  const Json fit = Json::parse(found.out);
+  EXPECT_NEAR(fit["stiffness"], 200.0, 2.0);
+  EXPECT_NEAR(fit["k_f"]["value"], 6.0, 0.3);
+  EXPECT_GT(fit["explained"], 0.99);
+  EXPECT_LT(fit["residual_rms"], fit["scene_residual_rms"]);
+  EXPECT_EQ(found.err.find("warning"), std::string::npos) << found.err;
+  const ProgramResult table = run_program({"fit", "scene.toml", "--stroke", "felt.h5"}, folder);
+  EXPECT_NE(table.out.find("--set force.k_s="), std::string::npos) << table.out;
+}
+
+TEST(CliFit, SaysWhenTheModelCannotExplainTheForceOrItsSignIsTheOther) {
+  const fs::path folder = test_folder();
+  ASSERT_EQ(run_program({"run", "scene.toml", "-o", "a.h5"}, folder).exit_code, 0);
+  write_felt_stroke(folder / "a.h5", folder / "turned.h5", -1.0);
+  const ProgramResult turned = run_program({"fit", "scene.toml", "--stroke", "turned.h5"}, folder);
+  EXPECT_EQ(turned.exit_code, 0);
+  EXPECT_NE(turned.err.find("the other sign"), std::string::npos) << turned.err;
+  Stroke odd = read_stroke_file(folder / "turned.h5");
+  for (std::size_t i = 0; i < odd.size(); ++i) odd.force[i] = {i % 2 == 0 ? 3.0 : -3.0, 0.0, 0.0};
+  write_stroke_file(folder / "odd.h5", odd);
+  const ProgramResult result = run_program({"fit", "scene.toml", "--stroke", "odd.h5"}, folder);
+  EXPECT_NE(result.err.find("cannot explain"), std::string::npos) << result.err;
+}
+
+TEST(CliFit, RefusesInASentence) {
+  const fs::path folder = test_folder();
+  const auto refusal = [&](const std::vector<std::string>& arguments) {
+    const ProgramResult result = run_program(arguments, folder);
+    EXPECT_EQ(result.exit_code, 2);
+    return result.err;
+  };
+  EXPECT_NE(refusal({"fit", "scene.toml"}).find("without forces"), std::string::npos);
+  ASSERT_EQ(run_program({"run", "scene.toml", "-o", "a.h5"}, folder).exit_code, 0);
+  write_felt_stroke(folder / "a.h5", folder / "felt.h5");
+  EXPECT_NE(refusal({"fit", "scene.toml", "--stroke", "felt.h5", "--constants", "k_x"}).find("k_s, k_c, k_f"),
+            std::string::npos);
+  EXPECT_NE(refusal({"fit", "scene.toml", "--stroke", "felt.h5", "--set", "stroke.offset=[0, 0, 1]"})
+                .find("touches sand and has a recorded force"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace sandstroke

@@ -1,0 +1,121 @@
+#include "fit/force_fit.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "core/error.h"
+
+namespace sandstroke {
+namespace {
+
+const std::vector<std::string> all = {"k_s", "k_c", "k_f"};
+constexpr double no_limit = 0.0;
+
+/// A hand that goes up and down between two depths [m] and in circles, and the force that sand with these
+/// constants would give it, with noise [N rms per component].
+std::vector<FeltTick> felt(const ForceSettings& truth, double shallow, double deep, double noise = 0.0,
+                           int count = 1000, double max_force = no_limit) {
+  std::mt19937 random(7);
+  std::normal_distribution<double> error(0.0, 1.0);
+  std::vector<FeltTick> ticks;
+  for (int k = 0; k < count; ++k) {
+    const double t = 0.01 * k, mean = 0.5 * (shallow + deep), half = 0.5 * (deep - shallow);
+    FeltTick tick{mean + half * std::sin(t),
+                  {0.1 * std::cos(3.0 * t), 0.08 * std::sin(2.0 * t), half * std::cos(t)},
+                  {}};
+    tick.recorded = sand_force(tick.depth, tick.velocity, max_force, truth).total;
+    for (double& component : tick.recorded) component += noise * error(random);
+    ticks.push_back(tick);
+  }
+  return ticks;
+}
+
+const ForceSettings truth = {.k_s = 40.0, .k_c = 30.0, .k_f = 4.0};
+
+TEST(ForceFit, FindsTheConstantsThatMadeTheForce) {
+  const ForceFit fit = fit_force(felt(truth, 0.001, 0.05), ForceSettings{}, no_limit, all);
+  EXPECT_NEAR(fit.force.k_s, truth.k_s, 1e-5 * truth.k_s);
+  EXPECT_NEAR(fit.force.k_c, truth.k_c, 1e-5 * truth.k_c);
+  EXPECT_NEAR(fit.force.k_f, truth.k_f, 1e-5 * truth.k_f);
+  EXPECT_NEAR(fit.stiffness, truth.k_s * truth.k_c, 1e-5 * truth.k_s * truth.k_c);
+  EXPECT_LT(fit.residual, 1e-5 * fit.recorded_rms);
+  EXPECT_GT(fit.start_residual, 0.1 * fit.recorded_rms);
+  EXPECT_NEAR(fit.explained, 1.0, 1e-9);
+  EXPECT_EQ(fit.ticks, 1000);
+}
+
+TEST(ForceFit, FindsThemWhereTheDevicesLimitCutSome) {
+  const ForceFit fit = fit_force(felt(truth, 0.001, 0.05, 0.0, 1000, 60.0), ForceSettings{}, 60.0, all);
+  EXPECT_NEAR(fit.force.k_s, truth.k_s, 1e-3 * truth.k_s);
+  EXPECT_NEAR(fit.force.k_c, truth.k_c, 1e-3 * truth.k_c);
+  EXPECT_NEAR(fit.force.k_f, truth.k_f, 1e-3 * truth.k_f);
+}
+
+TEST(ForceFit, ErrorsGrowWithTheNoiseAndCoverTheTruth) {
+  double before = 0.0;
+  for (const double noise : {0.1, 1.0}) {
+    const ForceFit fit = fit_force(felt(truth, 0.001, 0.05, noise, 4000), ForceSettings{}, no_limit, all);
+    ASSERT_EQ(fit.constants.size(), 3u);
+    for (const FittedConstant& one : fit.constants) {
+      EXPECT_EQ(one.value, fit.force.*one.constant.value);
+      EXPECT_NEAR(one.value, truth.*one.constant.value, 4.0 * one.error) << one.constant.name;
+      EXPECT_LT(one.error, 0.2 * one.value) << one.constant.name;
+    }
+    EXPECT_NEAR(fit.residual, std::sqrt(3.0) * noise, 0.05 * noise);
+    EXPECT_GT(fit.stiffness_error, 3.0 * before);
+    before = fit.stiffness_error;
+  }
+}
+
+TEST(ForceFit, FitsWhatIsAskedForAndKeepsTheOthers) {
+  ForceSettings start = truth;
+  start.k_f = 9.0;
+  const ForceFit fit = fit_force(felt(truth, 0.001, 0.05), start, no_limit, {"k_f"});
+  EXPECT_EQ(fit.force.k_s, truth.k_s);
+  EXPECT_EQ(fit.force.k_c, truth.k_c);
+  EXPECT_NEAR(fit.force.k_f, truth.k_f, 1e-6);
+  ASSERT_EQ(fit.constants.size(), 1u);
+  EXPECT_STREQ(fit.constants.front().constant.name, "k_f");
+}
+
+TEST(ForceFit, SaysThatAForceInShallowSandTellsOnlyTheProduct) {
+  const ForceSettings paper;  // k_c d = 0.002: the force is k_s k_c d to one in a thousand
+  ForceSettings start = paper;
+  start.k_s = 300.0, start.k_c = 2.0;
+  const ForceFit fit = fit_force(felt(paper, 0.001, 0.004, 0.05), start, no_limit, all);
+  EXPECT_EQ(fit.force.k_c, start.k_c);
+  EXPECT_TRUE(std::isinf(fit.constants[1].error));
+  const double bent = 500.0 * 0.5 * (start.k_c - paper.k_c) * 0.004;  // F = K d (1 + k_c d / 2)
+  EXPECT_NEAR(fit.stiffness, 500.0, bent + 4.0 * fit.stiffness_error);
+  EXPECT_LT(fit.stiffness_error, 10.0);
+}
+
+TEST(ForceFit, AForceOfAnotherKindIsHardlyExplained) {
+  std::vector<FeltTick> ticks = felt(truth, 0.001, 0.05);
+  for (FeltTick& tick : ticks) tick.recorded = {3.0, 0.0, 0.0};  // constant, and sideways
+  const ForceFit fit = fit_force(ticks, ForceSettings{}, no_limit, all);
+  EXPECT_NEAR(fit.recorded_rms, 3.0, 1e-12);
+  EXPECT_LT(fit.explained, 0.2);
+  EXPECT_GE(fit.residual, 2.5);
+}
+
+TEST(ForceFit, SeesAForceWithTheOtherSign) {
+  std::vector<FeltTick> ticks = felt(truth, 0.001, 0.05);
+  for (FeltTick& tick : ticks) tick.recorded = -tick.recorded;
+  const ForceFit fit = fit_force(ticks, ForceSettings{}, no_limit, all);
+  EXPECT_LT(fit.explained, 0.01);
+  EXPECT_GT(fit.explained_reversed, 0.99);
+  EXPECT_GE(fit.force.k_s, 0.0);
+  EXPECT_GE(fit.force.k_f, 0.0);
+}
+
+TEST(ForceFit, RefusesWhatItCannotDo) {
+  EXPECT_THROW(fit_force(felt(truth, 0.001, 0.05), truth, no_limit, {"k_x"}), Error);
+  EXPECT_THROW(fit_force(felt(truth, 0.001, 0.05, 0.0, 99), truth, no_limit, all), Error);
+  EXPECT_NO_THROW(fit_force(felt(truth, 0.001, 0.05, 0.0, 100), truth, no_limit, all));
+}
+
+}  // namespace
+}  // namespace sandstroke
