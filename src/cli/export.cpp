@@ -155,7 +155,7 @@ bool write_mesh(const MeshFormat& format, const RunFile& run, const ExportArgume
 bool write_trace(const RunFile& run, const ExportArguments& arguments) {
   if (!run.has_trace())
     throw_input_error("{}: has no trace; run a scene with a stroke and output.trace = true", run.name());
-  const Table table = trace_table(run.trace());
+  const Table table = trace_table(run.trace(), run.trace_content());
   return write_file(arguments.output, trace_output, [&](std::ostream& file) {
     write_csv(file, table);
     return !interrupted();

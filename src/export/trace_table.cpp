@@ -1,20 +1,16 @@
 #include "export/trace_table.h"
 
-#include <algorithm>
-#include <cmath>
-
 namespace sandstroke {
 
-Table trace_table(const std::vector<TickRecord>& ticks) {
+Table trace_table(const std::vector<TickRecord>& ticks, const TraceContent& content) {
   Table table;
   visit_tick_fields([&](const FieldText& text, const auto& of) {
+    if (text.only_with && !(content.*text.only_with)) return;
     const std::string field = text.name, unit = text.units;
     const auto add = [&](const std::string& name, const auto& number) {
       std::vector<double> numbers;
       numbers.reserve(ticks.size());
       for (const TickRecord& tick : ticks) numbers.push_back(static_cast<double>(number(of(tick))));
-      const auto is_nothing = [](double value) { return std::isnan(value); };
-      if (text.may_be_missing && std::all_of(numbers.begin(), numbers.end(), is_nothing)) return;
       table.columns.push_back(
           {unit.empty() ? name : name + " [" + unit + "]", name, unit, std::move(numbers)});
     };

@@ -18,7 +18,8 @@ LateForce::LateForce(const DeviceSettings& settings, const Eigen::Vector3d& befo
 
 Eigen::Vector3d LateForce::act(const Eigen::Vector3d& computed) {
   const std::int64_t tick = tick_++;
-  if (!drops_tick(tick, dropped_share_)) given_out_ = computed;
+  dropped_ = drops_tick(tick, dropped_share_);
+  if (!dropped_) given_out_ = computed;
   if (under_way_.empty()) return given_out_;
   return std::exchange(under_way_[static_cast<std::size_t>(tick) % under_way_.size()], given_out_);
 }

@@ -21,12 +21,15 @@ class LateForce {
 
   /// Takes the force [N] that was computed in this tick (the first call is tick 0); gives the one that acts.
   Eigen::Vector3d act(const Eigen::Vector3d& computed);
+  /// Whether the tick of the last call was dropped.
+  bool dropped() const { return dropped_; }
   /// No force is held or under way any more; which ticks are dropped stays as it was.
   void clear();
 
  private:
   double dropped_share_;
   std::int64_t tick_ = 0;
+  bool dropped_ = false;
   Eigen::Vector3d given_out_;
   std::vector<Eigen::Vector3d> under_way_;  // tick k's at k modulo its size, the delay
 };

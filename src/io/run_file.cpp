@@ -12,6 +12,8 @@ namespace {
 
 constexpr int first_version = 1;  // of the format
 
+std::string trace_dataset(const FieldText& field) { return std::string("/trace/") + field.name; }
+
 }  // namespace
 
 RunFile::RunFile(const std::filesystem::path& path) try : file_(path) {
@@ -73,15 +75,23 @@ HeightField RunFile::final_bed() const {
   return file_.bed("/surface/final", cell_size());
 }
 
+TraceContent RunFile::trace_content() const {
+  TraceContent content;
+  visit_tick_fields([&](const FieldText& field, const auto&) {
+    if (field.only_with) content.*field.only_with = file_.has(trace_dataset(field));
+  });
+  return content;
+}
+
 bool RunFile::has_trace() const { return file_.has("/trace/time"); }
 
 std::vector<TickRecord> RunFile::trace() const {
   const std::vector<double> time = file_.doubles("/trace/time");
   const std::size_t count = time.size();
+  const TraceContent content = trace_content();
   const auto visit_trace = [&](const auto& visit) {
     visit_tick_fields([&](const FieldText& field, const auto& of) {
-      const std::string name = std::string("/trace/") + field.name;
-      if (!field.may_be_missing || file_.has(name)) visit(name, of);
+      if (!field.only_with || content.*field.only_with) visit(trace_dataset(field), of);
     });
   };
   visit_trace([&](const std::string& name, const auto&) {

@@ -67,9 +67,9 @@ void append(Hdf5Column& column, const std::vector<Record>& records, const Of& of
 
 /// visit_tick_fields, of those that a run has.
 template <class Visit>
-void visit_trace(bool has_recorded_force, const Visit& visit) {
+void visit_trace(const TraceContent& content, const Visit& visit) {
   visit_tick_fields([&](const FieldText& field, const auto& of) {
-    if (has_recorded_force || !field.may_be_missing) visit(field, of);
+    if (!field.only_with || content.*field.only_with) visit(field, of);
   });
 }
 
@@ -78,7 +78,7 @@ void visit_trace(bool has_recorded_force, const Visit& visit) {
 double least_bytes(const Simulation& simulation) {
   const Scene& scene = simulation.scene();
   double per_tick = 0.0;
-  visit_trace(simulation.has_recorded_force(), [&](auto, const auto& of) {
+  visit_trace(simulation.trace_content(), [&](auto, const auto& of) {
     per_tick += static_cast<double>(sizeof(FieldOf<TickRecord, decltype(of)>));  // flags are bytes
   });
   const double trace = scene.output.trace ? per_tick * static_cast<double>(simulation.told_ticks()) : 0.0;
@@ -91,7 +91,7 @@ RunWriter::RunWriter(const std::filesystem::path& path, const Simulation& simula
     : path_(path),
       file_(path, output_kind(InputKind::run)),
       keeps_trace_(simulation.scene().output.trace && simulation.scene().stroke),
-      has_recorded_force_(simulation.has_recorded_force()),
+      content_(simulation.trace_content()),
       frames_(file_, simulation.bed()) {
   const HeightField& bed = simulation.bed();
   const std::string scene = scene_text(simulation.scene());
@@ -110,7 +110,7 @@ RunWriter::RunWriter(const std::filesystem::path& path, const Simulation& simula
   write_surface("/surface/initial", bed, "height of the sand at the start");
   if (keeps_trace_) {
     file_.write_scale("/trace/axis", {"x", "y", "z"});
-    visit_trace(has_recorded_force_, [&](const FieldText& field, const auto& of) {
+    visit_trace(content_, [&](const FieldText& field, const auto& of) {
       tick_columns_.push_back(column_of<TickRecord>(file_, "/trace", field, of));
     });
   }
@@ -145,8 +145,7 @@ void RunWriter::write_rows_in_time() {
 
 void RunWriter::write_rows() {
   auto column = tick_columns_.begin();
-  if (keeps_trace_)
-    visit_trace(has_recorded_force_, [&](auto, const auto& of) { append(*column++, ticks_, of); });
+  if (keeps_trace_) visit_trace(content_, [&](auto, const auto& of) { append(*column++, ticks_, of); });
   column = relaxation_columns_.begin();
   visit_relaxation_fields([&](auto, const auto& of) { append(*column++, relaxations_, of); });
   ticks_.clear();

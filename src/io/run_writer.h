@@ -44,7 +44,8 @@ class RunWriter : public SimulationObserver {
 
   std::filesystem::path path_;
   Hdf5GridWriter file_;
-  bool keeps_trace_, has_recorded_force_;
+  bool keeps_trace_;
+  TraceContent content_;
   std::vector<Hdf5Column> tick_columns_, relaxation_columns_;  // in the order of their fields
 
   std::chrono::steady_clock::time_point written_ = std::chrono::steady_clock::now();

@@ -100,7 +100,7 @@ RunResult run_scene(const Scene& asked, const std::filesystem::path& output, con
   Kept both_forces(forces_of);
   Observers observers = {&writer, &path};
   if (options.progress) observers.push_back(&bar.emplace());
-  if (simulation.has_recorded_force()) observers.push_back(&both_forces);
+  if (simulation.trace_content().recorded_force) observers.push_back(&both_forces);
   if (options.second) observers.push_back(&force);
   if (options.onlooker) observers.push_back(&options.onlooker(simulation));
   RunResult result = simulation.run(observers);

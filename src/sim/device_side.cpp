@@ -57,6 +57,7 @@ void DeviceSide::feel(TickRecord& record) {
     computed = share * force.total;
   }
   record.device_force = late_force_.act(computed);
+  record.dropped = late_force_.dropped();
   record.passivity_margin = passivity_margin(record.contact ? record.depth : 0.0, record.repulse_force.z(),
                                              force_, device_.settings());
 }

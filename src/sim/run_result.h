@@ -27,13 +27,20 @@ struct TickRecord {
   double passivity_margin = 0.0;  ///< N s/m, Colgate & Schenkel
   bool contact = false;           ///< the tool touches sand (depth > 0)
   bool saturated = false;         ///< the device's maximum force cut the force
+  bool dropped = false;           ///< the loop was late: the force of the tick before is given out again
   bool lifts = false;             ///< the hand is lifted before the tick ends
+};
+
+/// What the traces of some runs hold, and others have no need of.
+struct TraceContent {
+  bool recorded_force = false;  ///< the stroke was recorded with forces
+  bool dropped_ticks = false;   ///< the device has dropped ticks
 };
 
 /// A field of a record, for who reads it in a file.
 struct FieldText {
-  const char *name, *units, *meaning;  // units: empty of what has none, "1" of a count or ratio
-  bool may_be_missing = false;         // then the record's default says that
+  const char *name, *units, *meaning;       // units: empty of what has none, "1" of a count or ratio
+  bool TraceContent::*only_with = nullptr;  // else missing, and the record's default stands for it
 };
 
 /// The columns of /trace: visit(FieldText, of), where of(tick) is the field. Who writes and who reads a run
@@ -69,7 +76,7 @@ void visit_tick_fields(const Visit& visit) {
            "force on the hand that was recorded with the stroke, in the device's frame; not a number where "
            "it is "
            "not known or the recorder altered it",
-           true},
+           &TraceContent::recorded_force},
       [](auto& tick) -> auto& { return tick.recorded_force; });
   visit(
       Text{"level", "m", "height of the sand under the tool; not a number where it is lifted"},
@@ -88,6 +95,10 @@ void visit_tick_fields(const Visit& visit) {
   visit(
       Text{"saturated", "", "whether the device's largest force cut the force"},
       [](auto& tick) -> auto& { return tick.saturated; });
+  visit(
+      Text{"dropped", "", "whether the loop was late: the force of the tick before is given out again",
+           &TraceContent::dropped_ticks},
+      [](auto& tick) -> auto& { return tick.dropped; });
 }
 
 /// One call of the relaxation (a row of /relaxation).

@@ -95,7 +95,10 @@ TickRecord Simulation::tick(double time, const Hand& hand, const Hand& next,
   return record;
 }
 
-bool Simulation::has_recorded_force() const { return stroke_ && !stroke_->stroke().force.empty(); }
+TraceContent Simulation::trace_content() const {
+  return {.recorded_force = stroke_ && !stroke_->stroke().force.empty(),
+          .dropped_ticks = scene_.device.dropped_ticks > 0.0};
+}
 
 std::int64_t Simulation::told_ticks() const {
   std::int64_t told = ticks_;

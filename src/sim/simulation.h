@@ -27,7 +27,7 @@ class Simulation {
   const HeightField& bed() const { return bed_; }
   /// Of how many ticks run() tells: all of the stroke but idle ones.
   std::int64_t told_ticks() const;
-  bool has_recorded_force() const;
+  TraceContent trace_content() const;
   double stroke_seconds() const { return stroke_ ? stroke_->stroke().duration() : 0.0; }
 
   /// Runs once, to the end or until interrupted(). Error: unstable, where force or device leave all bounds.

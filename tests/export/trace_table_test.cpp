@@ -37,5 +37,14 @@ TEST(TraceTable, HasAColumnForEveryNumberOfEveryField) {
   EXPECT_FALSE(std::getline(lines, none));
 }
 
+TEST(TraceTable, HasWhatNotEveryRunHasWhereThisOneHasIt) {
+  const auto columns = [](const TraceContent& content) {
+    return trace_table({TickRecord{}}, content).columns.size();
+  };
+  EXPECT_EQ(columns({}), 22u);
+  EXPECT_EQ(columns({.recorded_force = true}), 25u);
+  EXPECT_EQ(columns({.recorded_force = true, .dropped_ticks = true}), 26u);
+}
+
 }  // namespace
 }  // namespace sandstroke

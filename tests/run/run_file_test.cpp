@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include <cmath>
 #include <fstream>
 #include <map>
@@ -249,6 +251,12 @@ TEST_F(RunFileTest, ForcesThatWereRecordedAreHeldAgainstThoseOfTheRun) {
   EXPECT_GT(same->correlation, 0.999);
   EXPECT_EQ(same->lag, 0.0);
   EXPECT_TRUE(std::isnan(trace.front().recorded_force.x()));  // in a file that has none
+  EXPECT_FALSE(RunFile(folder_ / "a.h5").trace_content().recorded_force);
+  EXPECT_TRUE(RunFile(folder_ / "b.h5").trace_content().recorded_force);
+  run(scene({"device.model=dynamic", "device.dropped_ticks=0.25"}), "c.h5");
+  EXPECT_TRUE(RunFile(folder_ / "c.h5").trace_content().dropped_ticks);
+  const std::vector<TickRecord> late = RunFile(folder_ / "c.h5").trace();
+  EXPECT_TRUE(std::any_of(late.begin(), late.end(), [](const TickRecord& tick) { return tick.dropped; }));
   const std::vector<TickRecord> kept = RunFile(folder_ / "b.h5").trace();
   ASSERT_EQ(kept.size(), trace.size());
   for (std::size_t i = 0; i < kept.size(); ++i) EXPECT_EQ(kept[i].recorded_force, trace[i].device_force);

@@ -285,6 +285,7 @@ TEST(Simulation, TheForceThatActsIsTheOneComputedTicksBefore) {
     const TickRecord& tick = recording.ticks[k];
     const Eigen::Vector3d computed = tick.repulse_force + tick.drag_force;
     EXPECT_EQ(tick.device_force, late.act(computed)) << k;
+    EXPECT_EQ(tick.dropped, drops_tick(static_cast<std::int64_t>(k), 0.3)) << k;
     Eigen::Matrix<double, 5, 1> before;
     const double hand = tick.hand.position.z(), next = recording.ticks[k + 1].hand.position.z();
     before << state, hand, (next - hand) * scene.device.servo_rate, tick.device_force.z();
