@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "core/input_file.h"
 #include "import/curve_points.h"
+#include "import/finite_samples.h"
 #include "import/gcode_words.h"
 #include "import/text_parts.h"
 
@@ -329,7 +330,7 @@ SampleTable parse_gcode(std::string_view text, const std::string& name) {
   if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
   GcodeReader reader(name);
   for (std::size_t number = 1; !text.empty(); ++number) reader.take_line(cut_line(text), number);
-  return reader.table();
+  return finite_samples(reader.table(), name);
 }
 
 SampleTable read_gcode(const std::filesystem::path& path) {

@@ -5,6 +5,7 @@
 
 #include "core/error.h"
 #include "core/input_file.h"
+#include "import/finite_samples.h"
 #include "import/text_parts.h"
 
 namespace sandstroke {
@@ -137,7 +138,7 @@ SampleTable parse_unipen(std::string_view text, const std::string& name) {
   if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
   UnipenReader reader(name);
   for (std::size_t number = 1; !text.empty(); ++number) reader.take_line(cut_line(text), number);
-  return reader.table();
+  return finite_samples(reader.table(), name);
 }
 
 SampleTable read_unipen(const std::filesystem::path& path) {
