@@ -1,0 +1,21 @@
+#pragma once
+
+#include <cmath>
+#include <string>
+
+#include "core/error.h"
+#include "import/sample_table.h"
+
+namespace sandstroke {
+
+/// For readers that reckon with what a file says: what they give must be finite still. Error: input.
+inline SampleTable finite_samples(SampleTable table, const std::string& name) {
+  for (const SampleColumn& column : table.columns)
+    for (std::size_t i = 0; i < column.values.size(); ++i)
+      if (!std::isfinite(column.values[i]))
+        throw_input_error("{}: {} of sample {} is too large a number; correct its units, rate or speed", name,
+                          column.name, i + 1);
+  return table;
+}
+
+}  // namespace sandstroke

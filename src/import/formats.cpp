@@ -1,0 +1,139 @@
+#include "import/formats.h"
+
+#include <algorithm>
+#include <array>
+
+#include "core/error.h"
+#include "core/input_file.h"
+#include "import/gcode.h"
+#include "import/gcode_words.h"
+#include "import/inkml.h"
+#include "import/mat.h"
+#include "import/ros2_bag.h"
+#include "import/text_parts.h"
+#include "import/thr.h"
+#include "import/unipen.h"
+
+namespace sandstroke {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A kind of file that is not read: what it begins with or, where that is empty, its ending.
+struct KindNotRead {
+  std::string_view begin, ending;
+  const char *name, *way_out;
+};
+
+constexpr const char* as_csv = "save or export it as CSV";
+constexpr const char* unpack = "unpack it and name the file that is in it";
+constexpr KindNotRead kinds_not_read[] = {
+    {"#ROSBAG V", "", "a ROS 1 bag",
+     "convert it: rosbags-convert --src FILE.bag --dst FOLDER, and name the .db3 in there"},
+    {"\x89MCAP0\r\n", "", "an MCAP file (ROS 2)", "convert it to a .db3: ros2 bag convert"},
+    {"PK\x03\x04", ".xlsx", "an Excel file (.xlsx)", as_csv},
+    {"PK\x03\x04", ".xlsm", "an Excel file (.xlsm)", as_csv},
+    {"PK\x03\x04", ".ods", "a spreadsheet (.ods)", as_csv},
+    {"PK\x03\x04", ".npz", "a NumPy archive (.npz)",
+     "save a table: numpy.savetxt('samples.csv', samples, delimiter=',', header='x,y,z')"},
+    {"PK\x03\x04", "", "a zip archive", unpack},
+    {"\xD0\xCF\x11\xE0\xA1\xB1\x1A\xE1", "", "an old Excel or Office file", as_csv},
+    {"PAR1", "", "a Parquet file",
+     "save it as CSV: pandas.read_parquet('FILE').to_csv('samples.csv', index=False)"},
+    {"ARROW1", "", "a Feather file (Arrow)",
+     "save it as CSV: pandas.read_feather('FILE').to_csv('samples.csv', index=False)"},
+    {"\x93NUMPY", "", "a NumPy file (.npy)",
+     "save a table: numpy.savetxt('samples.csv', numpy.load('FILE'), delimiter=',', header='x,y,z')"},
+    {"\x89HDF\r\n\x1A\n", "", "an HDF5 file without a stroke of this program",
+     "save its columns as CSV: pandas.DataFrame({'x': x, 'y': y}).to_csv('samples.csv', index=False)"},
+    {"%PDF", "", "a PDF", "name the file with the samples themselves"},
+    {"\x89PNG", "", "a PNG picture", "name the file with the samples themselves"},
+    {"\xFF\xD8\xFF", "", "a JPEG picture", "name the file with the samples themselves"},
+    {"\x1F\x8B", "", "packed by gzip", "unpack it: gunzip FILE"},
+    {"BZh", "", "packed by bzip2", "unpack it: bunzip2 FILE"},
+    {"\xFD"
+     "7zXZ",
+     "", "packed by xz", "unpack it: unxz FILE"},
+    {"\x28\xB5\x2F\xFD", "", "packed by zstd", "unpack it: unzstd FILE"},
+    {"7z\xBC\xAF", "", "a 7z archive", unpack},
+    {"", ".pkl", "a Python pickle", "save a table: DataFrame.to_csv('samples.csv', index=False)"},
+    {"", ".c3d", "a C3D file (motion capture)", "export its points as CSV"},
+    {"", ".svg", "an SVG drawing", "make G-code of it, for a plotter"},
+    {"", ".plt", "a plot in HPGL", "save it as G-code"},
+    {"", ".hpgl", "a plot in HPGL", "save it as G-code"},
+};
+
+bool has_ending(const fs::path& path, std::string_view ending) {
+  std::string own = path.extension().string();
+  std::transform(own.begin(), own.end(), own.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? c + 32 : c; });
+  return own == ending;
+}
+
+/// As much of a file as says which format it is.
+std::string head_of(const fs::path& path) {
+  std::string head(1 << 16, '\0');
+  head.resize(InputFile(path).read(head.data(), head.size()));
+  return head;
+}
+
+void refuse_kinds_not_read(const fs::path& path, std::string_view head) {
+  for (const KindNotRead& kind : kinds_not_read)
+    if (head.starts_with(kind.begin) && (kind.ending.empty() || has_ending(path, kind.ending)))
+      throw_input_error("{}: is {}, which is not read; {}", path.string(), kind.name, kind.way_out);
+}
+
+/// What begins as XML or JSON does. A script begins with [[segment]] or a name, and other programs read
+/// those.
+void refuse_trees_of_text(const fs::path& path, std::string_view text) {
+  if (text.starts_with('<'))
+    throw_input_error("{}: is XML or HTML without ink (InkML); {}", path.string(), as_csv);
+  const std::string_view inner = text.starts_with('[') ? without_blanks(text.substr(1)) : "";
+  const bool is_list =
+      !inner.empty() && std::string_view("{[-0123456789\"").find(inner[0]) != std::string_view::npos;
+  if (text.starts_with('{') || (is_list && !text.starts_with("[[")) || has_ending(path, ".json")) {
+    throw_input_error(
+        "{}: is JSON, which is not read; save it as CSV: pandas.read_json('FILE').to_csv('samples.csv', "
+        "index=False)",
+        path.string());
+  }
+}
+
+/// Tables may be in UTF-16, where every other byte is 0; numbers as computers keep them have several in a
+/// row.
+bool is_binary(std::string_view head) {
+  return head.find(std::string_view("\0\0", 2)) != std::string_view::npos;
+}
+
+bool is_inkml(std::string_view text) {
+  return text.starts_with('<') &&
+         (text.find("<ink") != std::string_view::npos || text.find(":ink") != std::string_view::npos);
+}
+
+}  // namespace
+
+std::optional<SampleTable> read_samples(const fs::path& path, const std::string& part) {
+  if (fs::exists(path) && !fs::is_regular_file(path) && !fs::is_directory(path)) return {};
+  const std::string head = head_of(path);
+  if (head.starts_with(std::string_view("SQLite format 3\0", 16))) return read_ros2_bag(path, part);
+  if (head.starts_with("MATLAB ") || has_ending(path, ".mat")) return read_mat(path, part);
+  if (!part.empty()) throw_input_error("{}: has no parts; leave out --part {}", path.string(), part);
+  refuse_kinds_not_read(path, head);
+  if (is_binary(head)) {
+    throw_input_error("{}: is neither text nor of a format that is read (ROS 2 bag, MATLAB); {}",
+                      path.string(), as_csv);
+  }
+  std::string_view text = head;
+  if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
+  text = without_blanks(text);
+  if (is_inkml(text)) return read_inkml(path);
+  if (looks_like_unipen(text)) return read_unipen(path);
+  if (has_ending(path, ".thr")) return read_thr(path);
+  for (const char* ending : {".gcode", ".gco", ".nc", ".ngc", ".tap"})
+    if (has_ending(path, ending)) return read_gcode(path);
+  if (looks_like_gcode(text)) return read_gcode(path);
+  refuse_trees_of_text(path, text);
+  return {};
+}
+
+}  // namespace sandstroke

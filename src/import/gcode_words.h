@@ -1,0 +1,29 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace sandstroke {
+
+/// The words of one line of G-code.
+struct GcodeWords {
+  std::vector<int> g, m;  ///< numbers times 10, in their order: G90.1 is 901
+  std::array<std::optional<double>, 26> value;
+
+  const std::optional<double>& operator[](char letter) const {
+    return value[static_cast<std::size_t>(letter - 'A')];
+  }
+  bool has_any_of(std::string_view letters) const;
+};
+
+/// A line without comments, checksum, blanks and what only machines ask for ($H). Error: input; `place` is
+/// the file and line.
+GcodeWords gcode_words(std::string_view line, const std::string& place);
+
+/// Whether a text looks like G-code: a line of words begins with one of motion, units or coordinates.
+bool looks_like_gcode(std::string_view text);
+
+}  // namespace sandstroke

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "import/sample_table.h"
+
+namespace sandstroke {
+
+/// Pen strokes in UNIPEN (Guyon et al. 1994): rows of .COORD's columns (X Y where it says nothing) after
+/// .PEN_DOWN and .PEN_UP; all other keywords and their text are passed over. Gives x and y in mm where the
+/// file says how many points an inch or a mm has; time from T (ms), or from .POINTS_PER_SECOND and .DT; the
+/// other columns by their names. Rows of a pen that is up take time and are left out: the sample before them
+/// lifts. Error: io; input, naming file and line.
+SampleTable read_unipen(const std::filesystem::path& path);
+/// The same from text; `name` stands for the file in messages.
+SampleTable parse_unipen(std::string_view text, const std::string& name);
+
+/// Whether a line begins with .PEN_DOWN or .COORD.
+bool looks_like_unipen(std::string_view text);
+
+}  // namespace sandstroke

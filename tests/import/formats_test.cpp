@@ -1,0 +1,100 @@
+#include "import/formats.h"
+
+#include <gmock/gmock-matchers.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "complaint.h"
+#include "test_folder.h"
+
+namespace sandstroke {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+/// A file of that name and content, read.
+std::optional<SampleTable> sampled(const std::string& name, std::string_view content,
+                                   const std::string& part = "") {
+  const TestFolder folder;
+  put_text(folder / name, content);
+  return read_samples(folder / name, part);
+}
+
+std::string description(const std::string& name, std::string_view content) {
+  const std::optional<SampleTable> table = sampled(name, content);
+  return table ? table->description : "text";
+}
+
+TEST(Formats, AreKnownByContent) {
+  EXPECT_THAT(description("track.txt", "; sand\nG21\nG1 X1 Y1\n"), StartsWith("G-code"));
+  EXPECT_THAT(description("pen.dat", ".VERSION 1.0\n.COORD X Y\n.PEN_DOWN\n1 2\n"), StartsWith("UNIPEN"));
+  EXPECT_THAT(description("pen", "\xEF\xBB\xBF<?xml version='1.0'?>\n<ink><trace>1 2</trace></ink>"),
+              StartsWith("InkML"));
+}
+
+TEST(Formats, OrByEndingWhereContentCannotTell) {
+  EXPECT_THAT(description("track.THR", "0 0\n1 1\n"), StartsWith("theta-rho"));
+  EXPECT_THAT(description("track.nc", "X1 Y1\nX2\n"), StartsWith("G-code"));
+}
+
+TEST(Formats, OtherTextIsLeftToTables) {
+  EXPECT_EQ(description("a.csv", "x,y\n1,2\n"), "text");
+  EXPECT_EQ(description("a.txt", "0 0\n1 1\n"), "text");
+  EXPECT_EQ(description("a.csv", "G1,G2\n1,2\n"), "text");
+  EXPECT_EQ(description("a.csv", "[mm],[s]\n1,2\n"), "text");
+  EXPECT_EQ(description("a.csv", std::string_view("\xFF\xFEx\0,\0y\0\n\0", 10)), "text");  // UTF-16
+  EXPECT_EQ(description("stroke.toml", "[[segment]]\nkind = 'line'\n"), "text");
+  EXPECT_EQ(description("empty", ""), "text");
+}
+
+TEST(Formats, KindsThatAreNotReadAreNamedWithTheWayOut) {
+  const struct {
+    std::string name;
+    std::string_view content;
+    const char *kind, *way_out;
+  } files[] = {
+      {"a.bag", "#ROSBAG V2.0\n", "a ROS 1 bag", "rosbags-convert"},
+      {"a.mcap", "\x89MCAP0\r\n", "an MCAP file", "ros2 bag convert"},
+      {"a.xlsx", "PK\x03\x04...", "an Excel file", "CSV"},
+      {"a.ods", "PK\x03\x04...", "a spreadsheet", "CSV"},
+      {"a.zip", "PK\x03\x04...", "a zip archive", "unpack"},
+      {"a.xls", "\xD0\xCF\x11\xE0\xA1\xB1\x1A\xE1", "an old Excel", "CSV"},
+      {"a", "PAR1...", "a Parquet file", "to_csv"},
+      {"a.npy", "\x93NUMPY\x01", "a NumPy file", "savetxt"},
+      {"a.h5", "\x89HDF\r\n\x1A\n", "an HDF5 file", "CSV"},
+      {"a.csv", "%PDF-1.5", "a PDF", "name the file"},
+      {"a.csv", "\x1F\x8B\x08", "packed by gzip", "gunzip"},
+      {"a.json", "{\"x\": [1, 2]}", "JSON", "CSV"},
+      {"a", "\n [ [1, 2], [3, 4]]", "JSON", "CSV"},
+      {"a.svg", "<svg xmlns=''/>", "an SVG drawing", "G-code"},
+      {"a.xml", "<?xml version='1.0'?><data/>", "XML or HTML", "CSV"},
+      {"a.dat", std::string_view("\x01\x02\0\0\x05", 5), "neither text", "CSV"},
+      {"a.db", std::string_view("SQLite format 3\0", 16), "", ""},
+      {"a.mat", "x", "not a MATLAB file", "save it again"},
+  };
+  for (const auto& file : files)
+    EXPECT_THAT(complaint_of([&] { sampled(file.name, file.content); }),
+                AllOf(HasSubstr(file.name), HasSubstr(file.kind), HasSubstr(file.way_out)));
+}
+
+TEST(Formats, OnlySomeHaveParts) {
+  EXPECT_THAT(complaint_of([] { sampled("a.thr", "0 0\n", "/tool"); }), HasSubstr("leave out --part /tool"));
+}
+
+TEST(Formats, AFolderOrNothingIsNoFile) {
+  const TestFolder folder;
+  for (const char* name : {".", "not there"}) {
+    try {
+      read_samples(folder / name);
+      FAIL();
+    } catch (const Error& failure) {
+      EXPECT_EQ(failure.kind(), ErrorKind::io);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace sandstroke
