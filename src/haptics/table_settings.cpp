@@ -34,7 +34,8 @@ void describe_table(KeyVisitor& v, TableSettings& t) {
   int device = t.frame == "device" ? 1 : 0;
   v.choice("frame", device, {"bed", "device"}, "axes of the positions");
   t.frame = device == 1 ? "device" : "bed";
-  v.text("merge", t.merge, "a second table beside the first, with force or orientation (named as above) at its own times");
+  v.text("merge", t.merge,
+         "a second table beside the first, with force or orientation (named as above) at its own times");
   v.text("merge_time", t.merge_time, "its column of the time");
   v.text("merge_time_unit", t.merge_time_unit, "of that time: s, ms, us or ns");
   v.number("merge_rate", t.merge_rate, not_negative, "Hz", "its samples per second, instead of times");
