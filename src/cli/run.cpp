@@ -261,7 +261,9 @@ void add_run_command(CLI::App& app, Command& chosen) {
                    "Run file to write (HDF5). Default: the name of SCENE with .h5, in this folder. The "
                    "default never replaces a run of another scene")
       ->type_name("FILE.h5");
-  command->add_option("--stroke", arguments->stroke, "Play this stroke instead of the scene's (.toml or .h5)")
+  command
+      ->add_option("--stroke", arguments->stroke,
+                   "Play this stroke instead of the scene's (.toml, .h5 or a table)")
       ->type_name("FILE.toml|.h5");
   add_set_option(*command, arguments->overrides);
   command->add_option("--frames", arguments->frames, "Surfaces to keep per second of stroke [Hz]")

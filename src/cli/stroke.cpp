@@ -5,11 +5,12 @@
 
 #include "cli/commands.h"
 #include "cli/stroke_parts.h"
+#include "cli/table_options.h"
 #include "core/error.h"
 #include "core/log.h"
 #include "core/output_file.h"
 #include "haptics/stroke_coverage.h"
-#include "io/stroke_csv.h"
+#include "import/import_stroke.h"
 #include "io/stroke_file.h"
 #include "io/stroke_format.h"
 
@@ -62,133 +63,48 @@ void add_script(CLI::App& stroke_app, Command& chosen) {
 
 // --- convert ---
 
-struct ConvertOptions {
-  std::string in, out;
-  std::vector<std::string> position, velocity, force, columns;
-  std::string position_unit, velocity_unit, force_unit, time_unit, time;
-  double rate = 0.0, pixel_size = 0.0;
-  std::string pen_up, skip, source, frame = "bed";
-  std::string equal_times = "error";
-  double gap_threshold = Stroke{}.gap_threshold;
-};
-
-Stroke convert(const ConvertOptions& options) {
-  StrokeCsvFormat format;
-  format.position = {options.position, position_unit(options.position_unit, options.pixel_size)};
-  if (!options.velocity.empty()) format.velocity = {options.velocity, speed_unit(options.velocity_unit)};
-  if (!options.force.empty()) format.force = {options.force, force_unit(options.force_unit)};
-  if (options.time.empty() == (options.rate == 0.0))
-    throw_input_error("the times are unknown or given twice; give either --time with --time-unit, or --rate");
-  if (!options.time.empty()) {
-    format.time = options.time;
-    format.time_unit = time_unit(options.time_unit);
-  }
-  format.rate = options.rate;
-  format.columns = options.columns;
-  format.pen_up = options.pen_up;
-  format.skip = options.skip;
-  format.equal_times = options.equal_times == "drop"     ? EqualTimes::drop
-                       : options.equal_times == "spread" ? EqualTimes::spread
-                                                         : EqualTimes::error;
-
-  Stroke stroke = read_stroke_csv(options.in, format);
-  stroke.gap_threshold = options.gap_threshold;
-  stroke.frame = options.frame;
-  stroke.source = options.source.empty() ? fs::path(options.in).filename().string() : options.source;
-  return stroke;
-}
-
 constexpr const char* convert_examples =
+    "Columns and units are found by the header's names: x, y, z, vx, fx, time ..., with mm in \"x [mm]\",\n"
+    "\"x (mm)\" or x_mm. So are separators, decimal marks and the encoding. The last line of the output "
+    "says\n"
+    "what was found. `run --stroke TABLE` reads a table without this command; its options are keys there:\n"
+    "--set stroke.table.rate=1000.\n"
     "Examples\n"
-    "  a recording at 1000 Hz, with force:\n"
-    "    sandstroke stroke convert trace.csv trace.h5 --rate 1000 \\\n"
-    "        --position x_m,y_m,z_m --position-unit m --force fx_N,fy_N,fz_N --force-unit N\n"
-    "  a letter drawn on a screen, without header line, pen strokes separated by lines with BREAK:\n"
-    "    sandstroke stroke convert letter.txt letter.h5 --columns x,y,t \\\n"
-    "        --position x,y --position-unit px --pixel-size 0.002 --time t --time-unit ms \\\n"
-    "        --equal-times spread --skip START --pen-up BREAK --gap-threshold 0.4";
-
-/// Of the samples.
-void add_time_options(CLI::App& app, ConvertOptions& options) {
-  auto* time =
-      app.add_option("--time", options.time, "Column of the time (or give --rate)")->option_text("T");
-  auto* time_unit = app.add_option("--time-unit", options.time_unit, "s, ms, us or ns")->option_text("UNIT");
-  time->needs(time_unit);
-  time_unit->needs(time);
-  app.add_option("--rate", options.rate, "Samples per second, instead of --time")
-      ->check(positive_number())
-      ->excludes(time)
-      ->option_text("HZ");
-  app.add_option("--equal-times", options.equal_times,
-                 "What to do with equal times: error (default), drop (keep the first sample) or spread "
-                 "(space them evenly)")
-      ->check(CLI::IsMember({"error", "drop", "spread"}))
-      ->option_text("RULE");
-}
-
-/// How lines are read, and what is said of them.
-void add_reading_options(CLI::App& app, ConvertOptions& options) {
-  app.add_option("--pen-up", options.pen_up,
-                 "Lines with this word lift the pen. The next sample starts a new pen stroke")
-      ->option_text("WORD");
-  app.add_option("--skip", options.skip, "Lines with this word are skipped")->option_text("WORD");
-  app.add_option("--gap-threshold", options.gap_threshold,
-                 "Samples further apart are not joined: the tool lifts (default 0.1 s)")
-      ->check(positive_number())
-      ->option_text("S");
-  app.add_option("--frame", options.frame, "Axes of the positions: bed (default) or device")
-      ->check(CLI::IsMember({"bed", "device"}))
-      ->option_text("FRAME");
-  app.add_option("--source", options.source, "A note on the origin of the samples. Default: the file's name")
-      ->option_text("TEXT");
-}
+    "  a recording at 1000 Hz, with force, whose header names columns and units:\n"
+    "    sandstroke stroke convert trace.csv trace.h5 --rate 1000 --force-sign \"on device\"\n"
+    "  a table without a header, with y up, in ms and mm:\n"
+    "    sandstroke stroke convert log.txt log.h5 --time 1 --time-unit ms --position 2,-4,3 \\\n"
+    "        --position-unit mm\n"
+    "  a letter drawn on a screen, pen strokes separated by lines with BREAK:\n"
+    "    sandstroke stroke convert letter.txt letter.h5 --columns x,y,t --position-unit px \\\n"
+    "        --pixel-size 0.002 --time-unit ms --equal-times spread --skip START --pen-up BREAK \\\n"
+    "        --gap-threshold 0.4";
 
 void add_convert(CLI::App& stroke_app, Command& chosen) {
-  auto options = std::make_shared<ConvertOptions>();
-  CLI::App* app = stroke_app.add_subcommand("convert", "Make a stroke from a table of samples (CSV)");
-  app->add_option("IN", options->in,
-                  "Table of comma-separated numbers: one sample per line, column names in the first line")
-      ->type_name("FILE.csv|.txt")
+  struct Options {
+    std::string in, out, source;
+    TableOptions table;
+  };
+  auto options = std::make_shared<Options>();
+  CLI::App* app = stroke_app.add_subcommand("convert", "Make a stroke from a table of samples (CSV, text)");
+  app->add_option("IN", options->in, "Table of numbers, one sample per line; - is standard input")
+      ->type_name("FILE.csv|.txt|-")
       ->required();
   app->add_option("OUT", options->out, "Stroke to write (.h5)")->type_name("FILE.h5")->required();
-
-  // A list is one argument, so that file names may follow it.
-  const auto add_list = [app](const char* name, std::vector<std::string>& columns, const char* help) {
-    return app->add_option(name, columns, help)->delimiter(',')->allow_extra_args(false);
-  };
-  add_list("--position", options->position,
-           "Columns of the tip's position: x,y,z with z up, or x,y (then z = 0)")
-      ->expected(2, 3)
-      ->required()
-      ->option_text("X,Y[,Z] REQUIRED");
-  app->add_option("--position-unit", options->position_unit, "m, cm, mm, um, in or px")
-      ->required()
-      ->option_text("UNIT REQUIRED");
-  app->add_option("--pixel-size", options->pixel_size, "Metres per pixel, for unit px")
-      ->check(positive_number())
-      ->option_text("M");
-
-  add_time_options(*app, *options);
-
-  const auto add_vector = [&](const std::string& name, std::vector<std::string>& columns, std::string& unit,
-                              const char* help, const char* units) {
-    auto* vector = add_list(name.c_str(), columns, help)->expected(2, 3)->option_text("X,Y[,Z]");
-    auto* vector_unit = app->add_option(name + "-unit", unit, units)->option_text("UNIT");
-    vector->needs(vector_unit);
-    vector_unit->needs(vector);
-  };
-  add_vector("--velocity", options->velocity, options->velocity_unit, "Columns of the tip's velocity",
-             "m/s, cm/s or mm/s");
-  add_vector("--force", options->force, options->force_unit, "Columns of the recorded force", "N or mN");
-
-  add_list("--columns", options->columns, "Names of all columns, for a file without a header line")
-      ->option_text("A,B,...");
-  add_reading_options(*app, *options);
+  add_table_options(*app, options->table);
+  app->add_option("--source", options->source,
+                  "A note on the origin of the samples. Default: the file's name")
+      ->option_text("TEXT");
   app->footer(convert_examples);
   app->callback([&chosen, options] {
     chosen = [options] {
       check_output(options->out, {options->in}, stroke_output);
-      write_and_tell(options->out, convert(*options));
+      ImportedStroke imported = import_stroke(options->in, table_settings(options->table));
+      imported.stroke.source =
+          options->source.empty() ? fs::path(options->in).filename().string() : options->source;
+      write_and_tell(options->out, imported.stroke);
+      for (const std::string& warning : imported.warnings) spdlog::warn("{}", warning);
+      spdlog::info("{}: {}", options->in, imported.description);
       return 0;
     };
   });

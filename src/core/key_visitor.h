@@ -41,4 +41,13 @@ class KeyVisitor {
   virtual bool reads() const = 0;
 };
 
+/// A choice that is an enum, counted from 0 in the order of the names.
+template <class Enum>
+void choose(KeyVisitor& visitor, const char* key, Enum& value, const std::vector<std::string>& names,
+            const char* help) {
+  int index = static_cast<int>(value);
+  visitor.choice(key, index, names, help);
+  value = static_cast<Enum>(index);
+}
+
 }  // namespace sandstroke

@@ -28,6 +28,17 @@ void check_vectors(const std::vector<Eigen::Vector3d>& rows, const char* column,
   }
 }
 
+void check_orientation(const Stroke& stroke, const std::string& name) {
+  check_length(stroke.orientation.size(), "orientation", stroke, name);
+  for (std::size_t i = 0; i < stroke.size(); ++i) {
+    if (std::abs(stroke.orientation[i].norm() - 1.0) < 1e-6) continue;
+    throw_input_error(
+        "{}: orientation of sample {} is no unit quaternion (its length is {}); correct or remove that "
+        "sample",
+        name, i, stroke.orientation[i].norm());
+  }
+}
+
 }  // namespace
 
 void check_stroke(const Stroke& stroke, const std::string& name) {
@@ -54,6 +65,7 @@ void check_stroke(const Stroke& stroke, const std::string& name) {
   }
   if (!stroke.velocity.empty()) check_vectors(stroke.velocity, "velocity", stroke, name);
   if (!stroke.force.empty()) check_vectors(stroke.force, "force", stroke, name);
+  if (!stroke.orientation.empty()) check_orientation(stroke, name);
   if (!stroke.switches.empty()) check_length(stroke.switches.size(), "switches", stroke, name);
   if (!stroke.flags.empty()) check_length(stroke.flags.size(), "flags", stroke, name);
   if (!stroke.contact.empty()) check_length(stroke.contact.size(), "contact", stroke, name);

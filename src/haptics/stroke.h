@@ -11,22 +11,29 @@ namespace sandstroke {
 /// pen strokes: so the last sample of a pen stroke says that the pen lifts right after it.
 enum PenState : std::uint8_t { pen_up = 0, pen_down = 1, pen_lifts = 2 };
 
+/// Whose force a stroke's is: that of its surroundings on the device, which the hand feels, or that of the
+/// hand.
+enum class ForceSign { not_said, on_device, by_hand };
+inline const std::vector<std::string> force_sign_names = {"unknown", "on device", "by hand"};
+
 /// A hand motion over time, recorded or scripted: n samples of a tool tip, z up. Optional columns are empty
 /// or have n entries.
 struct Stroke {
-  std::vector<double> time;               ///< s, strictly increasing
-  std::vector<Eigen::Vector3d> position;  ///< m, in `frame`
-  std::vector<Eigen::Vector3d> velocity;  ///< m/s, as recorded (optional)
-  std::vector<Eigen::Vector3d> force;     ///< N, as recorded (optional)
-  std::vector<std::uint32_t> switches;    ///< device switches, bit by bit (optional)
-  std::vector<std::uint32_t> flags;       ///< a recorder's SampleFlag bits (optional)
-  std::vector<std::uint8_t> contact;      ///< a PenState each (optional); without it the pen is down
-  double nominal_rate = 0.0;              ///< Hz; 0 = unknown
-  double gap_threshold = 0.1;             ///< s; samples further apart are not joined: the tool lifts
-  std::string source;                     ///< where it came from, for people
-  std::string frame = "bed";              ///< "bed" or "device"
-  bool complete = true;                   ///< false: cut off while being recorded
-  bool starved = false;                   ///< its recorder skipped many ticks (is_starved)
+  std::vector<double> time;                    ///< s, strictly increasing
+  std::vector<Eigen::Vector3d> position;       ///< m, in `frame`
+  std::vector<Eigen::Vector3d> velocity;       ///< m/s, as recorded (optional)
+  std::vector<Eigen::Vector3d> force;          ///< N, as recorded (optional)
+  std::vector<Eigen::Vector4d> orientation;    ///< of the tool: unit quaternions x, y, z, w (optional)
+  std::vector<std::uint32_t> switches;         ///< device switches, bit by bit (optional)
+  std::vector<std::uint32_t> flags;            ///< a recorder's SampleFlag bits (optional)
+  std::vector<std::uint8_t> contact;           ///< a PenState each (optional); without it the pen is down
+  double nominal_rate = 0.0;                   ///< Hz; 0 = unknown
+  double gap_threshold = 0.1;                  ///< s; samples further apart are not joined: the tool lifts
+  std::string source;                          ///< where it came from, for people
+  std::string frame = "bed";                   ///< "bed" or "device"
+  ForceSign force_sign = ForceSign::not_said;  ///< of `force`
+  bool complete = true;                        ///< false: cut off while being recorded
+  bool starved = false;                        ///< its recorder skipped many ticks (is_starved)
 
   std::size_t size() const { return time.size(); }
   double duration() const { return time.empty() ? 0.0 : time.back() - time.front(); }

@@ -35,13 +35,7 @@ void cut_time(Stroke& stroke, double start, double stop, const std::string& name
     throw_input_error("{}: no sample lies between start = {} s and stop = {} s; it lasts {} s", name, start,
                       std::min(stop, stroke.duration()), stroke.duration());
   }
-  cut(stroke.time, begin, end);
-  cut(stroke.position, begin, end);
-  cut(stroke.velocity, begin, end);
-  cut(stroke.force, begin, end);
-  cut(stroke.switches, begin, end);
-  cut(stroke.flags, begin, end);
-  cut(stroke.contact, begin, end);
+  keep_samples(stroke, begin, end);
   const double played_first = stroke.time.front();
   for (double& t : stroke.time) t -= played_first;
 }
@@ -50,6 +44,8 @@ void rotate(Stroke& stroke, const Matrix3d& rotation) {
   for (Vector3d& p : stroke.position) p = rotation * p;
   for (Vector3d& v : stroke.velocity) v = rotation * v;
   for (Vector3d& f : stroke.force) f = rotation * f;
+  const Eigen::Quaterniond turn(rotation);
+  for (Eigen::Vector4d& q : stroke.orientation) q = (turn * Eigen::Quaterniond(q)).coeffs();
 }
 
 /// The unit normal of the least-squares plane, with z > 0.
@@ -106,6 +102,17 @@ void lay_level(Stroke& stroke, const std::string& name) {
 }
 
 }  // namespace
+
+void keep_samples(Stroke& stroke, std::size_t begin, std::size_t end) {
+  cut(stroke.time, begin, end);
+  cut(stroke.position, begin, end);
+  cut(stroke.velocity, begin, end);
+  cut(stroke.force, begin, end);
+  cut(stroke.orientation, begin, end);
+  cut(stroke.switches, begin, end);
+  cut(stroke.flags, begin, end);
+  cut(stroke.contact, begin, end);
+}
 
 PointPlacement point_placement(const StrokePlacement& placement, const std::string& frame) {
   PointPlacement place;

@@ -23,6 +23,9 @@ struct StrokePlacement {
   double stop = std::numeric_limits<double>::infinity();  ///< s after the first sample: later samples are cut
 };
 
+/// Cuts all columns to the samples from begin to before end.
+void keep_samples(Stroke& stroke, std::size_t begin, std::size_t end);
+
 /// Where single points of a stroke go; all of a placement but the fit of a plane, which needs the whole
 /// stroke.
 struct PointPlacement {
@@ -49,7 +52,7 @@ PointPlacement point_placement(const StrokePlacement& placement, const std::stri
 
 /// The stroke as it is played: cut to start..stop, turned from the device's axes (frame "device") to the
 /// bed's, laid level (plane = fit), scaled, turned about z, lowered by `depth`, moved by `offset`; its time
-/// begins at 0. Velocities turn and scale with it, forces turn.
+/// begins at 0. Velocities turn and scale with it, forces and orientations turn.
 ///
 /// The fitted plane is the least-squares plane (total least squares) through the samples at which the pen is
 /// down. It is turned by the smallest rotation that makes it level and shifted onto z = 0; bumps about the

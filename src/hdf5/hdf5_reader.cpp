@@ -206,6 +206,15 @@ std::vector<Eigen::Vector3d> Hdf5Reader::vectors(const std::string& dataset) con
   return values;
 }
 
+std::vector<Eigen::Vector4d> Hdf5Reader::quaternions(const std::string& dataset) const {
+  std::vector<hsize_t> shape;
+  const Hdf5Handle opened = open_column(dataset, 2, sizeof(Eigen::Vector4d), shape);
+  if (shape[1] != 4) fail(dataset, fmt::format("has {} columns; write x, y, z, w", shape[1]));
+  std::vector<Eigen::Vector4d> values(shape[0]);
+  read(dataset, opened, H5T_NATIVE_DOUBLE, values.data());
+  return values;
+}
+
 HeightGrid Hdf5Reader::grid(const std::string& dataset) const {
   std::vector<hsize_t> shape;
   const Hdf5Handle opened = open_numbers(dataset, 2, shape);

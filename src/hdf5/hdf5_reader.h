@@ -26,9 +26,10 @@ class Hdf5Reader {
   bool has(const std::string& object) const;
   std::vector<hsize_t> shape(const std::string& dataset) const;  ///< empty for a scalar
 
-  std::vector<double> doubles(const std::string& dataset) const;           ///< rank 1
-  std::vector<Eigen::Vector3d> vectors(const std::string& dataset) const;  ///< (n, 3)
-  std::vector<std::uint32_t> integers(const std::string& dataset) const;   ///< rank 1
+  std::vector<double> doubles(const std::string& dataset) const;               ///< rank 1
+  std::vector<Eigen::Vector3d> vectors(const std::string& dataset) const;      ///< (n, 3)
+  std::vector<Eigen::Vector4d> quaternions(const std::string& dataset) const;  ///< (n, 4)
+  std::vector<std::uint32_t> integers(const std::string& dataset) const;       ///< rank 1
   /// Shape of a dataset of rank 2 as that of a bed.
   BedGeometry bed_geometry(const std::string& dataset, double cell_size) const;
   /// What a dataset of numbers reads as where nothing was written.

@@ -131,6 +131,9 @@ void Hdf5Writer::write(const std::string& dataset, const std::vector<double>& va
 void Hdf5Writer::write(const std::string& dataset, const std::vector<Eigen::Vector3d>& values) {
   put(dataset, H5T_NATIVE_DOUBLE, {values.size(), 3}, values.data());
 }
+void Hdf5Writer::write(const std::string& dataset, const std::vector<Eigen::Vector4d>& values) {
+  put(dataset, H5T_NATIVE_DOUBLE, {values.size(), 4}, values.data());
+}
 void Hdf5Writer::write(const std::string& dataset, const std::vector<std::uint32_t>& values) {
   put(dataset, H5T_NATIVE_UINT32, {values.size()}, values.data());
 }

@@ -84,6 +84,7 @@ class Hdf5Writer {
 
   void write(const std::string& dataset, const std::vector<double>& values);
   void write(const std::string& dataset, const std::vector<Eigen::Vector3d>& values);  ///< (n, 3)
+  void write(const std::string& dataset, const std::vector<Eigen::Vector4d>& values);  ///< (n, 4)
   void write(const std::string& dataset, const std::vector<std::uint32_t>& values);
   void write(const std::string& dataset, const std::vector<std::uint8_t>& values);
   void write(const std::string& dataset, const HeightGrid& heights,

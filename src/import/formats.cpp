@@ -112,7 +112,7 @@ bool is_inkml(std::string_view text) {
 
 }  // namespace
 
-std::optional<SampleTable> read_samples(const fs::path& path, const std::string& part) {
+std::optional<SampleTable> read_format(const fs::path& path, const std::string& part) {
   if (fs::exists(path) && !fs::is_regular_file(path) && !fs::is_directory(path)) return {};
   const std::string head = head_of(path);
   if (head.starts_with(std::string_view("SQLite format 3\0", 16))) return read_ros2_bag(path, part);

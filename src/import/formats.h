@@ -14,6 +14,6 @@ namespace sandstroke {
 /// of several recordings in a file: a topic of a bag, a variable of a MATLAB file. Error: io; input, also
 /// where the file is of a known kind that holds no samples or is not read: the sentence names it and the way
 /// out.
-std::optional<SampleTable> read_samples(const std::filesystem::path& path, const std::string& part = "");
+std::optional<SampleTable> read_format(const std::filesystem::path& path, const std::string& part = "");
 
 }  // namespace sandstroke

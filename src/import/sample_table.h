@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -8,20 +10,28 @@ namespace sandstroke {
 
 /// One column of a table of samples.
 struct SampleColumn {
-  std::string name;  ///< as in the file, without its unit; "1", "2", ... where columns have no names
-  std::string unit;  ///< as the file says it ("mm", "N"); empty: it does not
-  std::vector<double> values;  ///< one per sample, finite
+  std::string name;            ///< as in the file; "1", "2", ... where columns have no names
+  std::string unit;            ///< as the file says it ("mm", "N"); empty: it does not, or in the name
+  std::vector<double> values;  ///< one per sample, finite; empty: nobody asked for it
+  std::int64_t origin = 0;     ///< was taken off all values: of a clock's stamps, which no double holds
 };
+
+/// Instead of a unit of a column of times: it was dates, and has ns.
+inline constexpr const char* iso_unit = "ISO 8601";
 
 /// Samples as a file has them, whatever its format.
 struct SampleTable {
-  std::vector<SampleColumn> columns;  ///< of equal length
+  std::vector<SampleColumn> columns;  ///< of equal length, or empty
   std::vector<std::size_t> lines;     ///< of the file, one per sample; empty: it has none
   std::vector<bool> lifts;  ///< the pen lifts right after the sample; empty: nothing is said of a pen
   double rate = 0.0;        ///< Hz, where the file says it
   std::string description;  ///< for people: "semicolons, decimal commas, 7 columns, 12,040 rows"
 
-  std::size_t size() const { return columns.empty() ? 0 : columns.front().values.size(); }
+  std::size_t size() const {
+    std::size_t most = 0;
+    for (const SampleColumn& column : columns) most = std::max(most, column.values.size());
+    return most;
+  }
 };
 
 }  // namespace sandstroke

@@ -10,7 +10,7 @@ std::vector<KeySection> scene_settings(const Scene& scene) {
 std::vector<KeySection> all_scene_keys() {
   return all_keys([](KeyVisitor& visitor) {
     Scene scene;
-    scene.stroke.emplace();
+    scene.stroke.emplace().table.emplace();
     describe_scene(visitor, scene);
   });
 }

@@ -3,7 +3,9 @@
 #include "core/error.h"
 #include "core/hash.h"
 #include "core/input_file.h"
+#include "core/log.h"
 #include "haptics/stroke_script.h"
+#include "import/import_stroke.h"
 #include "io/input_kind.h"
 #include "io/stroke_format.h"
 #include "io/stroke_script_toml.h"
@@ -42,6 +44,7 @@ void write_stroke_file(const std::filesystem::path& path, const Stroke& stroke) 
   write("position", stroke.position);
   write("velocity", stroke.velocity);
   write("force", stroke.force);
+  write("orientation", stroke.orientation);
   write("switches", stroke.switches);
   write("flags", stroke.flags);
   write("contact", stroke.contact);
@@ -60,6 +63,7 @@ Stroke read_stroke_file(const std::filesystem::path& path) {
   stroke.position = file.vectors("/stroke/position");
   if (file.has("/stroke/velocity")) stroke.velocity = file.vectors("/stroke/velocity");
   if (file.has("/stroke/force")) stroke.force = file.vectors("/stroke/force");
+  if (file.has("/stroke/orientation")) stroke.orientation = file.quaternions("/stroke/orientation");
   if (file.has("/stroke/switches")) stroke.switches = file.integers("/stroke/switches");
   if (file.has("/stroke/flags")) stroke.flags = file.integers("/stroke/flags");
   if (file.has("/stroke/contact")) stroke.contact = contact_states(file.integers("/stroke/contact"), name);
@@ -73,8 +77,12 @@ bool is_recorded(const std::filesystem::path& path) {
   return path.extension() == ".h5" || begins_with(path, hdf5_signature);
 }
 
+bool is_script(const std::filesystem::path& path) {
+  return !is_recorded(path) && path.extension() == ".toml";
+}
+
 bool stroke_depends_on_force(const std::filesystem::path& path) {
-  return !is_recorded(path) && path.extension() == ".toml" && presses_by_force(read_stroke_script(path));
+  return is_script(path) && presses_by_force(read_stroke_script(path));
 }
 
 std::string content_hash(const Stroke& stroke) {
@@ -86,14 +94,15 @@ std::string content_hash(const Stroke& stroke) {
   return hash.text();
 }
 
-Stroke load_stroke(const std::filesystem::path& path, const ForceSettings& force) {
+Stroke load_stroke(const std::filesystem::path& path, const ForceSettings& force,
+                   const TableSettings& table) {
   return read_as({InputKind::stroke, InputKind::script}, path, [&] {
     if (is_recorded(path)) return read_stroke_file(path);
     if (path.extension() == ".toml") return trace_script(read_stroke_script(path), force);
-    throw_input_error(
-        "{}: is neither a recorded stroke (.h5) nor a scripted one (.toml); convert a table of samples "
-        "first: sandstroke stroke convert {} STROKE.h5 (--help says how)",
-        path.string(), path.string());
+    ImportedStroke imported = import_stroke(path, table);
+    for (const std::string& warning : imported.warnings) warn_if_any(warning);
+    imported.stroke.source = path.filename().string();
+    return std::move(imported.stroke);
   });
 }
 

@@ -4,6 +4,7 @@
 
 #include "haptics/force_model.h"
 #include "haptics/stroke.h"
+#include "haptics/table_settings.h"
 
 namespace sandstroke {
 
@@ -18,9 +19,13 @@ Stroke read_stroke_file(const std::filesystem::path& path);
 /// Whether a stroke is a recorded one (HDF5), by its name or its first bytes. Error: io.
 bool is_recorded(const std::filesystem::path& path);
 
-/// Reads a stroke of either form: recorded (HDF5) or scripted (.toml; `force` says how deep a scripted force
-/// presses). Error: io, input.
-Stroke load_stroke(const std::filesystem::path& path, const ForceSettings& force);
+/// Whether it is a scripted one (.toml). Error: io.
+bool is_script(const std::filesystem::path& path);
+
+/// Reads a stroke of any form: recorded (HDF5), scripted (.toml; `force` says how deep a scripted force
+/// presses), or a table of samples, whose warnings are logged. Error: io, input.
+Stroke load_stroke(const std::filesystem::path& path, const ForceSettings& force,
+                   const TableSettings& table = {});
 
 /// Of all that a run takes from a stroke.
 std::string content_hash(const Stroke& stroke);

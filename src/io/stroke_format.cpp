@@ -21,6 +21,7 @@ constexpr ColumnText column_texts[] = {
     {"velocity", "m/s", "as the device gave it, in its frame", true},
     {"force", "N", "on the hand, commanded after this reading and held until the next, in the device's frame",
      true},
+    {"orientation", "", "of the tool, as a unit quaternion x, y, z, w, in the positions' frame"},
     {"switches", "", "that were pressed: switch k is bit k"},
     {"sequence", "", "number of the tick, from 0; ticks without a sample are missing"},
     {"monotonic_time", "ns", "time, as the system's clock gave it (attribute clock of /stroke)"},
@@ -57,6 +58,8 @@ void write_stroke_attributes(Hdf5GridWriter& file, const Stroke& stroke) {
   file.attribute(stroke_group, "source", stroke.source);
   file.attribute(stroke_group, "frame", stroke.frame);
   file.attribute(stroke_group, "complete", stroke.complete);
+  if (stroke.force_sign != ForceSign::not_said)
+    file.attribute(stroke_group, "force_sign", force_sign_names[static_cast<std::size_t>(stroke.force_sign)]);
 }
 
 void read_stroke_attributes(const Hdf5Reader& file, Stroke& stroke) {
@@ -66,6 +69,14 @@ void read_stroke_attributes(const Hdf5Reader& file, Stroke& stroke) {
   if (has("source")) stroke.source = file.text_attribute(stroke_group, "source");
   if (has("frame")) stroke.frame = file.text_attribute(stroke_group, "frame");
   if (has("complete")) stroke.complete = file.number_attribute(stroke_group, "complete") != 0.0;
+  if (has("force_sign")) {
+    const std::string said = file.text_attribute(stroke_group, "force_sign");
+    const auto found = std::find(force_sign_names.begin(), force_sign_names.end(), said);
+    if (found == force_sign_names.end())
+      throw_input_error("{}: {} has force_sign '{}'; it must be one of: {}", file.name(), stroke_group, said,
+                        fmt::join(force_sign_names, ", "));
+    stroke.force_sign = static_cast<ForceSign>(found - force_sign_names.begin());
+  }
   if (has("starved")) stroke.starved = file.number_attribute(stroke_group, "starved") != 0.0;
 }
 
@@ -73,11 +84,19 @@ void describe_stroke_columns(Hdf5GridWriter& file, const std::vector<std::string
   const std::string group = std::string(stroke_group) + "/", time = group + "time", axis = group + "axis";
   file.make_scale(time);
   file.write_scale(axis, {"x", "y", "z"});
+  const std::string component = group + "component";
+  const auto is_there = [&](const char* name) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+  };
+  if (is_there("orientation")) file.write_scale(component, {"x", "y", "z", "w"});
   for (const ColumnText& text : column_texts) {
-    if (std::find(names.begin(), names.end(), text.name) == names.end()) continue;
+    if (!is_there(text.name)) continue;
     file.describe(group + text.name, text.units, text.meaning);
-    if (group + text.name != time)
-      file.attach_scales(group + text.name, text.is_vector ? std::vector{time, axis} : std::vector{time});
+    if (group + text.name == time) continue;
+    std::vector<std::string> scales{time};
+    if (text.is_vector) scales.push_back(axis);
+    if (text.name == std::string_view("orientation")) scales.push_back(component);
+    file.attach_scales(group + text.name, scales);
   }
 }
 

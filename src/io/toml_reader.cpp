@@ -246,6 +246,10 @@ bool TomlReader::boolean(std::string_view key, bool fallback) const {
 std::string TomlReader::text(std::string_view key, const std::string& fallback) const {
   const toml::node* node = find(key);
   if (!node) return fallback;
+  // --set stroke.table.time=1: shells take quotes away.
+  const auto set = document_->overrides.find(prefix_ + std::string(key));
+  if (node->is_number() && set != document_->overrides.end())
+    return set->second.substr(set->first.size() + 1);
   if (!node->is_string()) fail(key, fmt::format("is {}; give a string in quotes", type_name(*node)));
   return *node->value<std::string>();
 }

@@ -50,11 +50,11 @@ std::optional<ErrorEstimate> estimated_error(const Scene& scene, const HeightFie
 }  // namespace
 
 Stroke placed_stroke(const Scene& scene, const std::filesystem::path& path, std::string& hash) {
-  const Stroke loaded = load_stroke(path, scene.force);
+  const Stroke loaded = load_stroke(path, scene.force, scene.stroke->table.value_or(TableSettings{}));
   if (!loaded.complete)
     spdlog::warn("{}: was cut off while it was recorded; the run ends where the stroke does", path.string());
   // Not of a recorded stroke's bytes: they tell which build wrote it, too.
-  hash = is_recorded(path) ? content_hash(loaded) : file_hash(path);
+  hash = is_script(path) ? file_hash(path) : content_hash(loaded);
   Stroke placed = place_stroke(loaded, scene.stroke->placement, path.string());
   warn_if_any(coverage_warning(placed, path.string()));
   return placed;

@@ -10,14 +10,6 @@
 namespace sandstroke {
 namespace {
 
-template <class Enum>
-void choose(KeyVisitor& v, const char* key, Enum& value, const std::vector<std::string>& names,
-            const char* help) {
-  int index = static_cast<int>(value);
-  v.choice(key, index, names, help);
-  value = static_cast<Enum>(index);
-}
-
 void describe_bed(KeyVisitor& v, BedSettings& bed) {
   v.section("bed", "the sand box, centred on the origin, z up");
   double size[2] = {bed.width, bed.depth};
@@ -102,7 +94,8 @@ void describe_device(KeyVisitor& v, DeviceSettings& d) {
 
 void describe_stroke(KeyVisitor& v, StrokeSettings& stroke) {
   StrokePlacement& p = stroke.placement;
-  v.text("file", stroke.file, "scripted (.toml) or recorded (.h5), relative to the scene");
+  v.text("file", stroke.file,
+         "scripted (.toml), recorded (.h5) or a table of samples, relative to the scene");
   choose(v, "plane", p.plane, {"keep", "fit"},
          "keep recorded heights, or turn and shift the stroke so that its plane is level");
   v.number("scale", p.scale, positive, "", "scale of the positions");
@@ -114,6 +107,11 @@ void describe_stroke(KeyVisitor& v, StrokeSettings& stroke) {
   double stop = std::isinf(p.stop) ? 0.0 : p.stop;
   v.number("stop", stop, not_negative, "s", "time at which it ends; 0: its own end");
   p.stop = stop > 0.0 ? stop : std::numeric_limits<double>::infinity();
+  if (!v.optional_section("stroke.table", stroke.table.has_value(),
+                          "how a table of samples is read; what is not given is found in the table"))
+    return;
+  if (!stroke.table) stroke.table.emplace();
+  describe_table(v, *stroke.table);
 }
 
 void describe_view(KeyVisitor& v, ViewSettings& view) {
@@ -261,7 +259,9 @@ void check_scene(const Scene& scene, const std::string& name) {
         "device.drag = sampled",
         name);
   if (scene.stroke && scene.stroke->file.empty())
-    throw_input_error("{}: stroke.file is missing; name a stroke (.toml or .h5) or remove [stroke]", name);
+    throw_input_error(
+        "{}: stroke.file is missing; name a stroke (.toml, .h5 or a table of samples) or remove [stroke]",
+        name);
   if (s.kind == SurfaceKind::file && s.file.empty())
     throw_input_error("{}: bed.surface.file is missing; name a run file or a 16-bit PNG", name);
 }

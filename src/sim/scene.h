@@ -8,6 +8,7 @@
 #include "haptics/force_model.h"
 #include "haptics/simulated_device.h"
 #include "haptics/stroke_placement.h"
+#include "haptics/table_settings.h"
 #include "picture/view.h"
 #include "sand/displacement.h"
 #include "sand/initial_surface.h"
@@ -34,8 +35,9 @@ struct BedSettings {
 HeightField starting_bed(const BedSettings& bed);
 
 struct StrokeSettings {
-  std::string file;  ///< .toml (scripted) or .h5 (recorded)
+  std::string file;  ///< .toml (scripted), .h5 (recorded), or a table of samples
   StrokePlacement placement;
+  std::optional<TableSettings> table;  ///< how a table is read; none: as it says itself
 };
 
 struct OutputSettings {

@@ -31,7 +31,8 @@ std::shared_ptr<const SweepStroke> SweepInputs::stroke(const Scene& scene) {
   const std::string key = scene_text(named);
   if (const auto found = strokes_.find(key); found != strokes_.end()) return found->second;
   auto loaded = std::make_shared<SweepStroke>();
-  loaded->stroke = place_stroke(load_stroke(path, scene.force), scene.stroke->placement, path.string());
+  const Stroke stroke = load_stroke(path, scene.force, scene.stroke->table.value_or(TableSettings{}));
+  loaded->stroke = place_stroke(stroke, scene.stroke->placement, path.string());
   loaded->hash = content_hash(loaded->stroke);
   strokes_loaded_ += 1;
   stroke_samples_ += loaded->stroke.size();

@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "haptics/stroke_placement.h"
-#include "io/stroke_csv.h"
+#include "import/import_stroke.h"
 #include "sanitized.h"
 #include "sim/error_estimate.h"
 #include "validation/study/hand_strokes.h"
@@ -138,13 +138,12 @@ class PandaRecording : public testing::Test {
     const std::filesystem::path file =
         std::filesystem::path(SANDSTROKE_SHARED_DATA) / "panda_comanip_force_1khz" / "symbol17_rec2.csv";
     if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is not there";
-    StrokeCsvFormat format;
-    format.position = {{"x_m", "y_m", "z_m"}, {}};
-    format.rate = 1000.0;
+    TableSettings table;
+    table.rate = 1000.0;
     StrokePlacement placement;
     placement.plane = StrokePlane::fit;
     placement.depth = 0.005;
-    recorded = place_stroke(read_stroke_csv(file, format), placement);
+    recorded = place_stroke(import_stroke(file, table).stroke, placement);
     scene = hand_scene(ModelPreset::accurate);
     scene.tool.radius = 0.006;
     scene.bed.cols = scene.bed.rows = 200;  // five cells per radius

@@ -1,4 +1,7 @@
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <spdlog/fmt/fmt.h>
+#include <unistd.h>
 
 #include <nlohmann/json.hpp>
 
@@ -76,6 +79,47 @@ TEST(CliStroke, ConvertsOmniglotWithAnExplicitRuleForEqualTimes) {
     EXPECT_LE(nlohmann::json::parse(run.out)["volume_drift"], 1e-12);
     EXPECT_LT(RunFile(folder / "out.h5").final().minCoeff(), -0.002);
   }
+}
+
+/// A robot's log: semicolons, decimal commas, ms and mm, with y up.
+std::string log_of_a_robot() {
+  std::string text = "Zeit [ms];x [mm];y [mm];z [mm];Fx (N);Fy (N);Fz (N)\r\n";
+  for (int i = 0; i <= 50; ++i) text += fmt::format("{};{},5;-4;{},25;0;1,5;0\r\n", 10 * i, i - 25, i % 2);
+  return text;
+}
+
+TEST(CliStroke, ATableIsPlayedInOneLineAsIfConvertedFirst) {
+  const fs::path folder = test_folder();
+  write_file(folder / "log.csv", log_of_a_robot());
+  const ProgramResult convert = run_program(
+      {"stroke", "convert", "log.csv", "log.h5", "--position", "x,-z,y", "--force-sign", "on device"},
+      folder);
+  ASSERT_EQ(convert.exit_code, 0) << convert.err;
+  const std::string last =
+      "I log.csv: semicolons, decimal commas, 7 columns, 51 rows; position x [mm], -z [mm], y [mm] "
+      "(mm); force Fx (N), -Fz (N), Fy (N) (N); time Zeit [ms] (ms)\n";
+  EXPECT_TRUE(convert.err.ends_with(last)) << convert.err;
+  EXPECT_EQ(convert.err.find("W "), std::string::npos) << convert.err;
+  EXPECT_EQ(info(folder, "log.h5")["samples"], 51);
+  ASSERT_EQ(run_program({"run", "scene.toml", "-o", "a.h5", "--stroke", "log.h5"}, folder).exit_code, 0);
+  const ProgramResult run = run_program(
+      {"run", "scene.toml", "-o", "b.h5", "--stroke", "log.csv", "--set", "stroke.table.position=x,-z,y"},
+      folder);
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_NE(run.err.find("stroke.table.force_sign"), std::string::npos) << run.err;  // it was not said here
+  EXPECT_TRUE((RunFile(folder / "a.h5").final() == RunFile(folder / "b.h5").final()).all());
+  EXPECT_LT(RunFile(folder / "b.h5").final().minCoeff(), -0.002);
+}
+
+TEST(CliStroke, ATableCanComeThroughAPipe) {
+  const fs::path folder = test_folder();
+  write_file(folder / "log.csv", log_of_a_robot());
+  const ProgramResult convert = run_program({"stroke", "convert", "-", "log.h5"}, folder, {.in_child = [&] {
+                                              const int file = open((folder / "log.csv").c_str(), O_RDONLY);
+                                              dup2(file, 0);
+                                            }});
+  ASSERT_EQ(convert.exit_code, 0) << convert.err;
+  EXPECT_EQ(info(folder, "log.h5")["samples"], 51);
 }
 
 }  // namespace

@@ -20,7 +20,7 @@ std::optional<SampleTable> sampled(const std::string& name, std::string_view con
                                    const std::string& part = "") {
   const TestFolder folder;
   put_text(folder / name, content);
-  return read_samples(folder / name, part);
+  return read_format(folder / name, part);
 }
 
 std::string description(const std::string& name, std::string_view content) {
@@ -88,7 +88,7 @@ TEST(Formats, AFolderOrNothingIsNoFile) {
   const TestFolder folder;
   for (const char* name : {".", "not there"}) {
     try {
-      read_samples(folder / name);
+      read_format(folder / name);
       FAIL();
     } catch (const Error& failure) {
       EXPECT_EQ(failure.kind(), ErrorKind::io);

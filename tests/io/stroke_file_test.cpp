@@ -60,6 +60,8 @@ Stroke full_stroke() {
   stroke.position = {{1e-300, -0.0, 0.1}, {1.0 / 7.0, 2e10, 3}, {4, 5, 6}};
   stroke.velocity = {{0.1, 0.2, 0.3}, {1, 2, 3}, {4, 5, 6}};
   stroke.force = {{-0.1, -0.2, -0.3}, {1, 2, 3}, {4, 5, 6}};
+  stroke.orientation = {{0, 0, 0, 1}, {0.6, 0, 0, 0.8}, {-0.5, 0.5, -0.5, 0.5}};
+  stroke.force_sign = ForceSign::by_hand;
   stroke.switches = {0, 3, 0xffffffffu};
   stroke.flags = {1, 0, 64};
   stroke.contact = {pen_up, pen_down, pen_lifts};
@@ -76,6 +78,8 @@ void expect_same(const Stroke& a, const Stroke& b) {
   EXPECT_EQ(a.position, b.position);
   EXPECT_EQ(a.velocity, b.velocity);
   EXPECT_EQ(a.force, b.force);
+  EXPECT_EQ(a.orientation, b.orientation);
+  EXPECT_EQ(a.force_sign, b.force_sign);
   EXPECT_EQ(a.switches, b.switches);
   EXPECT_EQ(a.flags, b.flags);
   EXPECT_EQ(a.contact, b.contact);
@@ -194,8 +198,12 @@ TEST_F(StrokeFile, LoadsByContentOrExtension) {
   EXPECT_NEAR(repulse_force(-stroke.position[stroke.size() / 2].z(), settings), 2.0, 1e-12);
 
   const fs::path table = folder_ / "table.csv";
-  put_text(table, "x,y,z\n");
-  EXPECT_THAT(complaint(table), AllOf(HasSubstr("table.csv"), HasSubstr("sandstroke stroke convert")));
+  put_text(table, "x,y,z\n1,2,3\n4,5,6\n");
+  EXPECT_THAT(complaint(table), AllOf(HasSubstr("table.csv"), HasSubstr("stroke.table.position_unit")));
+  TableSettings of_table;
+  of_table.position_unit = "m";
+  of_table.rate = 10.0;
+  EXPECT_EQ(load_stroke(table, {}, of_table).position[1], Eigen::Vector3d(4, 5, 6));
   const fs::path journal = folder_ / "cut.h5.recording";
   put_text(journal, "sandstroke.recording");
   EXPECT_THAT(complaint(journal), HasSubstr("sandstroke stroke repair " + journal.string()));

@@ -1,4 +1,4 @@
-#include "io/stroke_csv.h"
+#include "import/import_stroke.h"
 
 #include <gmock/gmock-matchers.h>
 #include <gtest/gtest.h>
@@ -20,30 +20,30 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 
 /// t,x,y,z with a header row; s and m.
-StrokeCsvFormat txyz() {
-  StrokeCsvFormat format;
-  format.position.names = {"x", "y", "z"};
-  format.time = "t";
-  return format;
+TableSettings txyz() {
+  TableSettings table;
+  table.position_unit = "m";
+  table.time_unit = "s";
+  return table;
 }
 
 /// x,y,t without a header row; pen strokes parted by BREAK.
-StrokeCsvFormat drawing() {
-  StrokeCsvFormat format;
-  format.columns = {"x", "y", "t"};
-  format.position.names = {"x", "y"};
-  format.time = "t";
-  format.time_unit = time_unit("ms");
-  format.skip = "START";
-  format.pen_up = "BREAK";
-  return format;
+TableSettings drawing() {
+  TableSettings table;
+  table.columns = "x,y,t";
+  table.position = "x,y";
+  table.position_unit = "m";
+  table.time_unit = "ms";
+  table.skip = "START";
+  table.pen_up = "BREAK";
+  return table;
 }
 
-Stroke parse(const std::string& text, const StrokeCsvFormat& format) {
-  return parse_stroke_csv(text, "in.csv", format);
+Stroke parse(const std::string& text, const TableSettings& table) {
+  return import_stroke_text(text, "in.csv", table).stroke;
 }
 
-std::string complaint(const std::string& text, const StrokeCsvFormat& format) {
+std::string complaint(const std::string& text, const TableSettings& format) {
   try {
     parse(text, format);
   } catch (const Error& failure) {
@@ -53,10 +53,11 @@ std::string complaint(const std::string& text, const StrokeCsvFormat& format) {
   return "";
 }
 
-TEST(StrokeCsv, ReadsNamedColumnsInAnyOrder) {
-  StrokeCsvFormat format = txyz();
-  format.force = VectorColumns{{"fx", "fy", "fz"}, force_unit("mN")};
-  format.velocity = VectorColumns{{"vx", "vy"}, speed_unit("cm/s")};
+TEST(TextTable, ReadsNamedColumnsInAnyOrder) {
+  TableSettings format = txyz();
+  format.force_unit = "mN";
+  format.velocity = "vx,vy";
+  format.velocity_unit = "cm/s";
   const Stroke stroke = parse(
       "z,note,t,x,y,fx,fy,fz,vx,vy\n3,9,0.5,1,2,100,200,-300,10,20\n6,9,0.75,4,+5,0,0,1e3,0,0\n", format);
   EXPECT_THAT(stroke.time, ElementsAre(0.5, 0.75));
@@ -67,53 +68,23 @@ TEST(StrokeCsv, ReadsNamedColumnsInAnyOrder) {
   EXPECT_EQ(stroke.nominal_rate, 0.0);
 }
 
-TEST(StrokeCsv, WholeNumbersBecomeTheNearestDouble) {
-  EXPECT_EQ(position_unit("mm", 0).to_si(123), 0.123);
-  EXPECT_EQ(position_unit("cm", 0).to_si(123), 1.23);
-  EXPECT_EQ(position_unit("um", 0).to_si(55), 0.000055);
-  EXPECT_EQ(position_unit("in", 0).to_si(2), 0.0508);
-  EXPECT_EQ(position_unit("m", 0).to_si(0.1), 0.1);
-  EXPECT_EQ(position_unit("px", 0.25).to_si(3), 0.75);
-  EXPECT_EQ(time_unit("ms").to_si(66), 0.066);
-  EXPECT_EQ(time_unit("us").to_si(66), 0.000066);
-  EXPECT_EQ(time_unit("ns").to_si(7), 7e-9);
-  EXPECT_EQ(speed_unit("mm/s").to_si(3), 0.003);
-  EXPECT_EQ(force_unit("N").to_si(3), 3);
-}
-
-TEST(StrokeCsv, UnknownUnitsListTheKnown) {
-  const auto complaint_of = [](const auto& make) -> std::string {
-    try {
-      make();
-    } catch (const Error& failure) {
-      return failure.what();
-    }
-    return "";
-  };
-  EXPECT_THAT(complaint_of([] { position_unit("ft", 0); }), AllOf(HasSubstr("'ft'"), HasSubstr("mm")));
-  EXPECT_THAT(complaint_of([] { position_unit("px", 0); }), HasSubstr("--pixel-size"));
-  EXPECT_THAT(complaint_of([] { time_unit("min"); }), AllOf(HasSubstr("'min'"), HasSubstr("ms")));
-  EXPECT_THAT(complaint_of([] { speed_unit("km/h"); }), HasSubstr("mm/s"));
-  EXPECT_THAT(complaint_of([] { force_unit("lb"); }), HasSubstr("mN"));
-}
-
-TEST(StrokeCsv, AnEvenRateStandsForTheTimes) {
-  StrokeCsvFormat format = txyz();
-  format.time.reset();
+TEST(TextTable, AnEvenRateStandsForTheTimes) {
+  TableSettings format = txyz();
+  format.time_unit.clear();
   format.rate = 1000.0;
   const Stroke stroke = parse("x,y,z\n1,0,0\n2,0,0\n3,0,0\n", format);
   EXPECT_THAT(stroke.time, ElementsAre(0.0, 0.001, 0.002));
   EXPECT_EQ(stroke.nominal_rate, 1000.0);
 }
 
-TEST(StrokeCsv, ToleratesWhatEditorsDo) {
+TEST(TextTable, ToleratesWhatEditorsDo) {
   const std::string text =
       "\xEF\xBB\xBF t , x ,y,z\r\n\r\n0, 1 ,\t2,3\r\n   \r\n1,4,5,6";  // no newline at the end
   const Stroke stroke = parse(text, txyz());
   EXPECT_THAT(stroke.position, ElementsAre(Vector3d(1, 2, 3), Vector3d(4, 5, 6)));
 }
 
-TEST(StrokeCsv, PenStrokesAreKeptApart) {
+TEST(TextTable, PenStrokesAreKeptApart) {
   const Stroke stroke =
       parse("START\n1,2,0\n2,2,10\nBREAK\n5,5,20\nBREAK\n7,7,30\n8,8,40\nBREAK\n", drawing());
   EXPECT_THAT(stroke.contact, ElementsAre(pen_down, pen_lifts, pen_lifts, pen_down, pen_lifts));
@@ -125,9 +96,9 @@ TEST(StrokeCsv, PenStrokesAreKeptApart) {
   }
 }
 
-TEST(StrokeCsv, EqualTimesAreAnErrorUnlessAsked) {
+TEST(TextTable, EqualTimesAreAnErrorUnlessAsked) {
   const std::string text = "START\n0,0,0\n1,0,10\n2,0,10\n3,0,10\n4,0,40\n";
-  StrokeCsvFormat format = drawing();
+  TableSettings format = drawing();
   EXPECT_THAT(complaint(text, format),
               AllOf(HasSubstr("in.csv:4:"), HasSubstr("line 3"), HasSubstr("--equal-times")));
 
@@ -145,16 +116,16 @@ TEST(StrokeCsv, EqualTimesAreAnErrorUnlessAsked) {
   EXPECT_EQ(spread.time[4], 0.04);
 }
 
-TEST(StrokeCsv, TheLastEqualTimesAreSpacedAsBefore) {
-  StrokeCsvFormat format = drawing();
+TEST(TextTable, TheLastEqualTimesAreSpacedAsBefore) {
+  TableSettings format = drawing();
   format.equal_times = EqualTimes::spread;
   const Stroke stroke = parse("0,0,0\n1,0,10\n2,0,15\n3,0,15\n4,0,15\n", format);
   EXPECT_DOUBLE_EQ(stroke.time[3], 0.020);
   EXPECT_DOUBLE_EQ(stroke.time[4], 0.025);
 }
 
-TEST(StrokeCsv, EqualTimesDoNotStretchIntoThePauseBetweenPenStrokes) {
-  StrokeCsvFormat format = drawing();
+TEST(TextTable, EqualTimesDoNotStretchIntoThePauseBetweenPenStrokes) {
+  TableSettings format = drawing();
   format.equal_times = EqualTimes::spread;
   const Stroke stroke = parse("0,0,0\n1,0,10\n2,0,10\nBREAK\n3,0,1000\n", format);
   EXPECT_DOUBLE_EQ(stroke.time[2], 0.020);  // not 0.505
@@ -162,19 +133,19 @@ TEST(StrokeCsv, EqualTimesDoNotStretchIntoThePauseBetweenPenStrokes) {
   EXPECT_DOUBLE_EQ(close.time[2], 0.012);  // but before the next
 }
 
-TEST(StrokeCsv, DroppedSamplesLeaveTheLift) {
-  StrokeCsvFormat format = drawing();
+TEST(TextTable, DroppedSamplesLeaveTheLift) {
+  TableSettings format = drawing();
   format.equal_times = EqualTimes::drop;
   const Stroke stroke = parse("0,0,0\n1,0,10\n1,0,10\nBREAK\n3,0,20\n4,0,30\n", format);
   EXPECT_THAT(stroke.time, ElementsAre(0.0, 0.01, 0.02, 0.03));
   EXPECT_THAT(stroke.contact, ElementsAre(pen_down, pen_lifts, pen_down, pen_down));
 }
 
-TEST(StrokeCsv, OfEqualTimesTheFirstSampleStaysWhole) {
+TEST(TextTable, OfEqualTimesTheFirstSampleStaysWhole) {
   // Of each run its first sample: with its own velocity and force, not the next one's.
-  StrokeCsvFormat format = txyz();
-  format.velocity = VectorColumns{{"vx", "vy"}, {}};
-  format.force = VectorColumns{{"fx", "fy"}, {}};
+  TableSettings format = txyz();
+  format.velocity_unit = "m/s";
+  format.force_unit = "N";
   format.equal_times = EqualTimes::drop;
   const std::string header = "t,x,y,z,vx,vy,fx,fy\n";
   const auto rows = [&](const std::vector<double>& times) {
@@ -210,24 +181,26 @@ TEST(StrokeCsv, OfEqualTimesTheFirstSampleStaysWhole) {
   }
 }
 
-TEST(StrokeCsv, DecreasingTimeIsAlwaysAnError) {
+TEST(TextTable, DecreasingTimeIsAlwaysAnError) {
   for (const EqualTimes equal : {EqualTimes::error, EqualTimes::drop, EqualTimes::spread}) {
-    StrokeCsvFormat format = drawing();
+    TableSettings format = drawing();
     format.equal_times = equal;
     EXPECT_THAT(complaint("START\n0,0,5\nBREAK\n1,0,4\n", format),
                 AllOf(HasSubstr("in.csv:4:"), HasSubstr("line 2")));
   }
 }
 
-TEST(StrokeCsv, SaysWhichLineIsBad) {
-  const StrokeCsvFormat format = txyz();
+TEST(TextTable, SaysWhichLineIsBad) {
+  const TableSettings format = txyz();
   const std::string header = "t,x,y,z\n0,0,0,0\n";
   EXPECT_THAT(complaint("", format), AllOf(HasSubstr("in.csv"), HasSubstr("empty")));
   EXPECT_THAT(complaint("\r\n \n", format), HasSubstr("empty"));
   EXPECT_THAT(complaint("t,x,y,z\n", format), AllOf(HasSubstr("in.csv"), HasSubstr("has no samples")));
-  EXPECT_THAT(complaint("t,x,y\n0,0,0\n", format),
+  TableSettings other = txyz();
+  other.position = "x,y,z";
+  EXPECT_THAT(complaint("t,x,y\n0,0,0\n", other),
               AllOf(HasSubstr("in.csv:1:"), HasSubstr("column 'z' is missing"), HasSubstr("t, x, y")));
-  EXPECT_THAT(complaint("t,x,y,z,x\n", format),
+  EXPECT_THAT(complaint("t,x,y,z,x\n1,2,3,4,5\n", format),
               AllOf(HasSubstr("in.csv:1:"), HasSubstr("2 columns"), HasSubstr("'x'")));
   EXPECT_THAT(complaint(header + "1,2,3\n", format),
               AllOf(HasSubstr("in.csv:3:"), HasSubstr("3 fields instead of 4 ")));
@@ -239,23 +212,21 @@ TEST(StrokeCsv, SaysWhichLineIsBad) {
                 AllOf(HasSubstr("in.csv:4:"), HasSubstr("'" + bad + "'")))
         << bad;
 
-  StrokeCsvFormat headless = drawing();
-  headless.position.names = {"x", "w"};
+  TableSettings headless = drawing();
+  headless.position = "x,w";
   EXPECT_THAT(complaint("1,2,3\n", headless), AllOf(HasSubstr("--columns"), HasSubstr("'w'")));
-  StrokeCsvFormat spread = drawing();
+  TableSettings spread = drawing();
   spread.equal_times = EqualTimes::spread;
   EXPECT_THAT(complaint("1,2,3\n2,3,3\n", spread), AllOf(HasSubstr("same time"), HasSubstr("--rate")));
 }
 
-TEST(StrokeCsv, ReadsARecordingOfARobotArm) {
+TEST(TextTable, ReadsARecordingOfARobotArm) {
   const fs::path file = fs::path(SANDSTROKE_SHARED_DATA) / "panda_comanip_force_1khz" / "symbol17_rec2.csv";
   if (!fs::exists(file)) GTEST_SKIP() << file << " is not there";
-  StrokeCsvFormat format;
-  format.position = {{"x_m", "y_m", "z_m"}, {}};
-  format.velocity = VectorColumns{{"vx_mps", "vy_mps", "vz_mps"}, {}};
-  format.force = VectorColumns{{"fx_N", "fy_N", "fz_N"}, {}};
-  format.rate = 1000.0;
-  const Stroke stroke = read_stroke_csv(file, format);
+  TableSettings format;
+  format.rate = 1000.0;  // all else its header says: x_m, vx_mps, fx_N
+  const Stroke stroke = import_stroke(file, format).stroke;
+  EXPECT_EQ(stroke.velocity.size(), stroke.size());
   ASSERT_EQ(stroke.size(), 8647u);
   EXPECT_EQ(stroke.position[0], Vector3d(-0.5070279, -0.2422634, 0.2589536));
   EXPECT_EQ(stroke.force[1], Vector3d(0.1831, -0.3048, -1.9535));
@@ -267,22 +238,23 @@ TEST(StrokeCsv, ReadsARecordingOfARobotArm) {
   for (const Vector3d& p : place_stroke(stroke, placement).position) EXPECT_LT(std::abs(p.z()), 1e-3);
 }
 
-TEST(StrokeCsv, ReadsLettersDrawnOnAScreen) {
+TEST(TextTable, ReadsLettersDrawnOnAScreen) {
   const fs::path folder = fs::path(SANDSTROKE_SHARED_DATA) / "omniglot_timed_strokes" / "Greek";
   if (!fs::exists(folder)) GTEST_SKIP() << folder << " is not there";
-  StrokeCsvFormat format = drawing();
-  format.position.unit = position_unit("px", 0.002);
+  TableSettings format = drawing();
+  format.position_unit = "px";
+  format.pixel_size = 0.002;
   int drawings = 0, pen_strokes = 0;
   std::size_t points = 0, left = 0;
   for (const auto& entry : fs::recursive_directory_iterator(folder)) {
     if (entry.path().extension() != ".txt") continue;
     ++drawings;
     format.equal_times = EqualTimes::spread;
-    const Stroke stroke = read_stroke_csv(entry.path(), format);
+    const Stroke stroke = import_stroke(entry.path(), format).stroke;
     points += stroke.size();
     for (const std::uint8_t state : stroke.contact) pen_strokes += state == pen_lifts;
     format.equal_times = EqualTimes::drop;
-    left += read_stroke_csv(entry.path(), format).size();
+    left += import_stroke(entry.path(), format).stroke.size();
   }
   EXPECT_EQ(drawings, 120);
   EXPECT_EQ(pen_strokes, 184);
@@ -291,10 +263,10 @@ TEST(StrokeCsv, ReadsLettersDrawnOnAScreen) {
   EXPECT_NEAR(static_cast<double>(points - left) / static_cast<double>(points - 184), 0.022, 0.0005);
 }
 
-TEST(StrokeCsv, ADroppedSampleIsDroppedFromEveryColumn) {
-  StrokeCsvFormat format = txyz();
-  format.velocity = VectorColumns{{"vx", "vy", "vz"}, speed_unit("m/s")};
-  format.force = VectorColumns{{"fx", "fy", "fz"}, force_unit("N")};
+TEST(TextTable, ADroppedSampleIsDroppedFromEveryColumn) {
+  TableSettings format = txyz();
+  format.velocity_unit = "m/s";
+  format.force_unit = "N";
   format.pen_up = "BREAK";
   format.equal_times = EqualTimes::drop;
   const Stroke stroke = parse(
@@ -309,12 +281,12 @@ TEST(StrokeCsv, ADroppedSampleIsDroppedFromEveryColumn) {
   EXPECT_THAT(stroke.contact, ElementsAre(pen_down, pen_lifts, pen_down));
 }
 
-TEST(StrokeCsv, EachQuantityHasItsOwnUnit) {
-  StrokeCsvFormat format = txyz();
-  format.time_unit = time_unit("ms");
-  format.position.unit = position_unit("mm", 0.0);
-  format.velocity = VectorColumns{{"vx", "vy", "vz"}, speed_unit("cm/s")};
-  format.force = VectorColumns{{"fx", "fy", "fz"}, force_unit("mN")};
+TEST(TextTable, EachQuantityHasItsOwnUnit) {
+  TableSettings format = txyz();
+  format.time_unit = "ms";
+  format.position_unit = "mm";
+  format.velocity_unit = "cm/s";
+  format.force_unit = "mN";
   const Stroke stroke = parse("t,x,y,z,vx,vy,vz,fx,fy,fz\n50,1,2,3,100,200,300,7,8,9\n", format);
   EXPECT_EQ(stroke.time[0], 0.05);
   EXPECT_EQ(stroke.position[0], Vector3d(0.001, 0.002, 0.003));
@@ -322,27 +294,27 @@ TEST(StrokeCsv, EachQuantityHasItsOwnUnit) {
   EXPECT_EQ(stroke.force[0], Vector3d(0.007, 0.008, 0.009));
 }
 
-TEST(StrokeCsv, AFileIsReadInPartsWhereverTheyAreCut) {
+TEST(TextTable, AFileIsReadInPartsWhereverTheyAreCut) {
   const TestFolder folder;
   std::string text = "\xEF\xBB\xBFt,x,y,z\r\n";
   for (int i = 0; text.size() < 200'000; ++i) text += fmt::format("{},{},0.25,-1\r\n", i, i % 977);
   text += "1e6,0,0,0";  // without an end of its line
   write_text_file(folder / "table.csv", text);
-  const Stroke read = read_stroke_csv(folder / "table.csv", txyz()), parsed = parse(text, txyz());
+  const Stroke read = import_stroke(folder / "table.csv", txyz()).stroke, parsed = parse(text, txyz());
   EXPECT_EQ(read.time, parsed.time);
   EXPECT_EQ(read.position, parsed.position);
   EXPECT_EQ(read.time.back(), 1e6);
 }
 
-TEST(StrokeCsv, ALineThatDoesNotEndIsRefused) {
+TEST(TextTable, ALineThatDoesNotEndIsRefused) {
   const std::string text = "t,x,y,z\n0,0,0,0\n1" + std::string(1'000'000, ' ');
   EXPECT_EQ(complaint(text, txyz()), "in.csv:3: the line is longer than 1 MB; write one sample per line");
   EXPECT_EQ(parse(text.substr(0, text.size() - 7) + ",1,1,1", txyz()).size(), 2u);
 }
 
-TEST(StrokeCsv, WhatTheDiskDoesNotGiveIsAnError) {
+TEST(TextTable, WhatTheDiskDoesNotGiveIsAnError) {
   try {
-    read_stroke_csv("/proc/self/mem", txyz());  // at address 0 there is nothing: reading it is an EIO
+    import_stroke("/proc/self/mem", txyz());  // at address 0 there is nothing: reading it is an EIO
     FAIL();
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::io);

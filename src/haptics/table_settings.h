@@ -1,0 +1,49 @@
+#pragma once
+
+#include <string>
+
+#include "core/key_visitor.h"
+#include "haptics/stroke.h"
+
+namespace sandstroke {
+
+enum class Separator { found, comma, semicolon, tab, blanks };
+enum class DecimalMark { found, point, comma };
+
+/// What to do where a time stamp equals the one before it: report it; keep only the first sample with that
+/// stamp; or space the samples evenly up to the next stamp.
+enum class EqualTimes { error, drop, spread };
+
+/// How a table of samples becomes a stroke ([stroke.table] in a scene). What is empty, 0 or `found` is taken
+/// from the table. Columns are named, or numbered from 1; lists are parted by commas.
+struct TableSettings {
+  std::string position;       ///< 2 or 3 columns, each with - in front where its sign changes: "-x,z,y"
+  std::string position_unit;  ///< m cm mm um in px, or metres: "1e-5"
+  double pixel_size = 0.0;    ///< m, of px
+  std::string time, time_unit;
+  double rate = 0.0;   ///< Hz, instead of times
+  double speed = 0.0;  ///< m/s, instead of times: they follow from the length of the way
+  EqualTimes equal_times = EqualTimes::error;
+  std::string velocity, velocity_unit;
+  std::string force, force_unit;
+  ForceSign force_sign = ForceSign::not_said;
+  std::string orientation;  ///< 4 columns (quaternion x, y, z, w) or 9 (rotation matrix, row by row)
+  std::string part;         ///< one of several recordings in a file: a bag's topic, a variable of a .mat file
+  std::string columns;      ///< names of all, where the table has no header
+  Separator separator = Separator::found;
+  DecimalMark decimal = DecimalMark::found;
+  std::string encoding;        ///< as iconv names it
+  int skip_lines = 0;          ///< at the beginning
+  std::string skip, pen_up;    ///< words with which lines begin
+  double gap_threshold = 0.0;  ///< s; 0: as in Stroke, and none with `speed`
+  std::string frame = "bed";   ///< "bed" or "device"
+  std::string merge;           ///< a second table, with force or orientation at its own times
+  std::string merge_time, merge_time_unit;
+  double merge_rate = 0.0;   ///< Hz
+  double merge_shift = 0.0;  ///< s, added to the times of the second table
+};
+
+/// The one list of its keys: of [stroke.table], which is open, and of the options of `stroke convert`.
+void describe_table(KeyVisitor& visitor, TableSettings& table);
+
+}  // namespace sandstroke

@@ -1,0 +1,147 @@
+#include "import/column_name.h"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+#include <cctype>
+#include <set>
+
+#include "import/units.h"
+
+namespace sandstroke {
+namespace {
+
+using Words = std::set<std::string>;
+const Words position_words{"p",           "pos",   "position", "tip", "tcp",
+                           "translation", "point", "pose",     "ee",  "coord"};
+const Words velocity_words{"v", "vel", "velocity", "speed", "twist"};
+const Words force_words{"f", "force", "wrench"};
+const Words orientation_words{"q", "quat", "quaternion", "orientation", "rot", "rotation"};
+const Words time_words{"t", "time", "timestamp", "stamp", "zeit", "temps", "tiempo"};
+const Words other_words{"torque",       "tau",  "moment",  "a",   "acc",    "accel",
+                        "acceleration", "gyro", "omega",   "mag", "target", "desired",
+                        "goal",         "cmd",  "command", "ref", "cov",    "angular"};
+
+char lower(char c) { return static_cast<char>(std::tolower(static_cast<unsigned char>(c))); }
+bool alnum(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0; }
+
+bool is_unit(const std::string& text) {
+  for (const Quantity quantity : {Quantity::length, Quantity::time, Quantity::speed, Quantity::force})
+    if (known_unit(quantity, text)) return true;
+  return false;
+}
+
+std::string trimmed(const std::string& text) {
+  const auto begin = text.find_first_not_of(" \t");
+  return begin == std::string::npos ? "" : text.substr(begin, text.find_last_not_of(" \t") - begin + 1);
+}
+
+void take_unit(const std::string& name, ColumnName& column) {
+  column.bare = name;
+  const auto open = name.find_last_of("[(");
+  if (open != std::string::npos && open > 0 && (name.ends_with(']') || name.ends_with(')'))) {
+    const std::string inside = trimmed(name.substr(open + 1, name.size() - open - 2));
+    if (inside.empty() || std::isdigit(static_cast<unsigned char>(inside[0]))) return;  // an index
+    column.unit = inside;
+    column.bare = trimmed(name.substr(0, open));
+    return;
+  }
+  for (const char mark : {'_', '/', ' '}) {
+    const auto place = name.find(mark, 1);  // "v_m/s" has its unit after the first
+    if (place == std::string::npos) continue;
+    for (const auto at : {name.rfind(mark), place}) {
+      if (at == 0 || !is_unit(name.substr(at + 1))) continue;
+      column.unit = name.substr(at + 1);
+      column.bare = trimmed(name.substr(0, at));
+      return;
+    }
+  }
+}
+
+/// "tip_posX" is tip, pos, x.
+std::vector<std::string> words_of(const std::string& bare) {
+  std::vector<std::string> words;
+  for (std::size_t i = 0; i < bare.size(); ++i) {
+    if (!alnum(bare[i])) continue;
+    const bool hump = i > 0 && std::islower(static_cast<unsigned char>(bare[i - 1])) &&
+                      std::isupper(static_cast<unsigned char>(bare[i]));
+    if (i == 0 || !alnum(bare[i - 1]) || hump) words.emplace_back();
+    words.back() += lower(bare[i]);
+  }
+  return words;
+}
+
+/// Takes the axis off the last word: "x", or "fx".
+int take_axis(std::vector<std::string>& words) {
+  constexpr std::string_view axes = "xyzw";
+  std::string& last = words.back();
+  const auto axis = axes.find(last.back());
+  if (axis == std::string_view::npos) return -1;
+  const std::string before = last.substr(0, last.size() - 1);
+  if (!before.empty() && !position_words.contains(before) && !velocity_words.contains(before) &&
+      !force_words.contains(before) && !orientation_words.contains(before))
+    return -1;
+  words.pop_back();
+  if (!before.empty()) words.push_back(before);
+  return static_cast<int>(axis);
+}
+
+/// "r11" to "r33", or "r00" to "r22": the first is row 0, column 0 with first = '1'.
+int matrix_place(const std::string& word, char first) {
+  if (word.size() != 3 || word[0] != 'r') return -1;
+  const int row = word[1] - first, column = word[2] - first;
+  return row >= 0 && row < 3 && column >= 0 && column < 3 ? 3 * row + column : -1;
+}
+
+}  // namespace
+
+ColumnName column_name(const std::string& name) {
+  using enum ColumnName::Means;
+  ColumnName column;
+  take_unit(name, column);
+  std::vector<std::string> words = words_of(column.bare);
+  if (words.empty()) return column;
+  const auto any_in = [&](const Words& known) {
+    return std::any_of(words.begin(), words.end(),
+                       [&](const std::string& word) { return known.contains(word); });
+  };
+  column.rank = static_cast<int>(words.size());
+  if (time_words.contains(words.back())) {
+    column.means = time;
+    return column;
+  }
+  for (const char first : {'1', '0'}) {
+    column.axis = matrix_place(words.back(), first);
+    if (column.axis < 0) continue;
+    column.means = matrix;
+    column.group = first;
+    return column;
+  }
+  column.axis = take_axis(words);
+  column.group = fmt::format("{}", fmt::join(words, " "));
+  if (column.axis < 0 || any_in(other_words)) return column;
+  if (any_in(orientation_words)) {
+    column.means = orientation;
+  } else if (any_in(force_words)) {
+    column.means = force;
+  } else if (any_in(velocity_words)) {
+    column.means = velocity;
+  } else {
+    column.means = position;
+    column.rank = words.empty() ? 0 : any_in(position_words) ? 1 : 2;
+  }
+  return column;
+}
+
+std::vector<std::string> parts_of_list(const std::string& list) {
+  std::vector<std::string> parts;
+  std::size_t begin = 0;
+  while (begin <= list.size() && !list.empty()) {
+    const std::size_t end = std::min(list.find(',', begin), list.size());
+    parts.push_back(trimmed(list.substr(begin, end - begin)));
+    begin = end + 1;
+  }
+  return parts;
+}
+
+}  // namespace sandstroke

@@ -1,0 +1,62 @@
+#include "import/import_stroke.h"
+
+#include <optional>
+
+#include "core/input_file.h"
+#include "import/formats.h"
+#include "import/merge_strokes.h"
+#include "import/text_table.h"
+
+namespace sandstroke {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string name_of(const fs::path& path) { return path == "-" ? "standard input" : path.string(); }
+
+/// How the second table is read: force and orientation that are named are its own.
+TableSettings settings_of_second(const TableSettings& settings) {
+  TableSettings second;
+  second.time = settings.merge_time;
+  second.time_unit = settings.merge_time_unit;
+  second.rate = settings.merge_rate;
+  second.equal_times = settings.equal_times;
+  second.force = settings.force;
+  second.force_unit = settings.force_unit;
+  second.force_sign = settings.force_sign;
+  second.orientation = settings.orientation;
+  return second;
+}
+
+}  // namespace
+
+SampleTable read_samples(const fs::path& path, const TableSettings& settings, bool need_position) {
+  if (path != "-")
+    if (std::optional<SampleTable> samples = read_format(path, settings.part)) return std::move(*samples);
+  InputFile file(path == "-" ? "/dev/stdin" : path, InputFile::Pipe::taken);
+  TextTable table(name_of(path), settings, need_position);
+  for (std::string_view part = file.next_block(); !part.empty(); part = file.next_block()) table.read(part);
+  return table.take();
+}
+
+ImportedStroke import_stroke(const fs::path& path, const TableSettings& settings) {
+  TableSettings of_first = settings;
+  if (!settings.merge.empty()) of_first.force = of_first.orientation = "";
+  ImportedStroke first = stroke_of_table(read_samples(path, of_first), of_first, name_of(path));
+  if (settings.merge.empty()) return first;
+  const fs::path beside = path.parent_path() / settings.merge;
+  const TableSettings of_second = settings_of_second(settings);
+  const ImportedStroke second =
+      stroke_of_table(read_samples(beside, of_second, false), of_second, name_of(beside), false);
+  merge_strokes(first, second, settings.merge_shift, name_of(path), name_of(beside));
+  return first;
+}
+
+ImportedStroke import_stroke_text(std::string_view text, const std::string& name,
+                                  const TableSettings& settings) {
+  TextTable table(name, settings, true);
+  table.read(text);
+  return stroke_of_table(table.take(), settings, name);
+}
+
+}  // namespace sandstroke

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+
+#include "import/stroke_of_table.h"
+
+namespace sandstroke {
+
+/// The samples of a file. "-" is standard input. Error: input, naming file and line; io, where it cannot be
+/// read.
+SampleTable read_samples(const std::filesystem::path& path, const TableSettings& settings,
+                         bool need_position = true);
+
+/// The stroke in a file of samples, and what the settings' second table adds.
+ImportedStroke import_stroke(const std::filesystem::path& path, const TableSettings& settings);
+
+/// Of one text table; `name` stands for the file in sentences.
+ImportedStroke import_stroke_text(std::string_view text, const std::string& name,
+                                  const TableSettings& settings);
+
+}  // namespace sandstroke

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <string>
+
+#include "import/stroke_of_table.h"
+
+namespace sandstroke {
+
+/// Gives a stroke the force and the orientation of a second one at its own times: forces are interpolated
+/// linearly, orientations along the shortest turn. Where both have a clock, its stamps say how the times
+/// belong together; shift [s] is added to those of the second. Samples outside of the second's time are left
+/// out, which the description says. Error: input, where the second has neither, or they share no time.
+void merge_strokes(ImportedStroke& first, const ImportedStroke& second, double shift,
+                   const std::string& first_name, const std::string& second_name);
+
+}  // namespace sandstroke

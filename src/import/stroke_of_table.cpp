@@ -1,0 +1,238 @@
+#include "import/stroke_of_table.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.h"
+#include "import/equal_times.h"
+#include "import/table_layout.h"
+#include "import/units.h"
+
+namespace sandstroke {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+class StrokeMaker {
+ public:
+  StrokeMaker(const SampleTable& table, const TableSettings& settings, const std::string& name,
+              bool need_position)
+      : table_(table),
+        settings_(settings),
+        name_(name),
+        layout_(table_layout(table.columns, settings, need_position, name)) {}
+
+  ImportedStroke make() {
+    Stroke& stroke = made_.stroke;
+    made_.description = table_.description;
+    take_positions();
+    take_velocity();
+    take_force();
+    take_orientation();
+    if (!table_.lifts.empty())
+      for (const bool lifts : table_.lifts) stroke.contact.push_back(lifts ? pen_lifts : pen_down);
+    take_times();
+    EqualTimes rule = settings_.equal_times;
+    if (by_speed_) rule = EqualTimes::drop;  // the tip did not move
+    settle_equal_times(stroke, table_.lines, rule, name_);
+    stroke.frame = settings_.frame;
+    if (settings_.gap_threshold > 0.0)
+      stroke.gap_threshold = settings_.gap_threshold;
+    else if (by_speed_)
+      stroke.gap_threshold = 1.0 + stroke.duration();  // however far apart the points are
+    check_stroke(stroke, name_);
+    return std::move(made_);
+  }
+
+ private:
+  void tell(const std::string& what) { made_.description += (made_.description.empty() ? "" : "; ") + what; }
+
+  std::string names(const ColumnChoices& choices) const {
+    std::vector<std::string> texts;
+    for (const ColumnChoice& choice : choices)
+      texts.push_back((choice.sign < 0.0 ? "-" : "") + table_.columns[choice.column].name);
+    return fmt::format("{}", fmt::join(texts, ", "));
+  }
+
+  /// The columns' own unit; empty: they have none, or not all the same.
+  std::string own_unit(const ColumnChoices& choices) const {
+    const std::string& unit = table_.columns[choices.front().column].unit;
+    const bool same = std::all_of(choices.begin(), choices.end(), [&](const ColumnChoice& choice) {
+      return table_.columns[choice.column].unit == unit;
+    });
+    return same ? unit : "";
+  }
+
+  std::vector<Vector3d> vectors(const ColumnChoices& choices, const Unit& unit) const {
+    std::vector<Vector3d> rows(table_.size(), Vector3d::Zero());
+    for (std::size_t k = 0; k < choices.size(); ++k) {
+      const std::vector<double>& values = table_.columns[choices[k].column].values;
+      for (std::size_t i = 0; i < rows.size(); ++i)
+        rows[i][static_cast<Eigen::Index>(k)] = choices[k].sign * unit.to_si(values[i]);
+    }
+    return rows;
+  }
+
+  void take_positions() {
+    if (layout_.position.empty()) {
+      made_.stroke.position.assign(table_.size(), Vector3d::Zero());
+      return;
+    }
+    std::string unit = settings_.position_unit;
+    if (unit.empty()) unit = own_unit(layout_.position);
+    if (unit.empty() || (unit == "radius" && settings_.position_unit.empty()))
+      throw_input_error("{}: the unit of {} is {}; give {}: {}", name_, names(layout_.position),
+                        unit.empty() ? "not known" : "the pattern's radius", option_and_key("position_unit"),
+                        unit.empty() ? "m, cm, mm, um, in, px or metres" : "its metres");
+    made_.stroke.position = vectors(layout_.position, unit_of(Quantity::length, unit, settings_.pixel_size));
+    tell(fmt::format("position {} ({})", names(layout_.position), unit));
+    if (layout_.position.size() == 3 && layout_.axes.determinant() < 0.0)
+      made_.warnings.push_back(fmt::format(
+          "{}: the axes {} are left-handed, so the shape is mirrored; change one sign, or swap two", name_,
+          names(layout_.position)));
+  }
+
+  /// The unit of columns that were asked for, or are taken only where their names say it; empty: left out.
+  std::string unit_or_none(const ColumnChoices& choices, const std::string& unit, bool asked, const char* key,
+                           Quantity quantity) {
+    const std::string found = unit.empty() ? own_unit(choices) : unit;
+    if (asked && found.empty())
+      throw_input_error("{}: the unit of {} is not known; give {}", name_, names(choices),
+                        option_and_key(key));
+    if (asked || !unit.empty() || known_unit(quantity, found)) return found;
+    tell(fmt::format("{} left out, without a unit (--{})", names(choices), key));
+    return "";
+  }
+
+  void take_velocity() {
+    if (layout_.velocity.empty()) return;
+    const std::string unit = unit_or_none(layout_.velocity, settings_.velocity_unit,
+                                          !settings_.velocity.empty(), "velocity_unit", Quantity::speed);
+    if (unit.empty()) return;
+    made_.stroke.velocity = vectors(layout_.velocity, unit_of(Quantity::speed, unit));
+    tell(fmt::format("velocity {} ({})", names(layout_.velocity), unit));
+  }
+
+  void take_force() {
+    if (layout_.force.empty()) return;
+    const std::string unit = unit_or_none(layout_.force, settings_.force_unit, !settings_.force.empty(),
+                                          "force_unit", Quantity::force);
+    if (unit.empty()) return;
+    made_.stroke.force = vectors(layout_.force, unit_of(Quantity::force, unit));
+    tell(fmt::format("force {} ({})", names(layout_.force), unit));
+    made_.stroke.force_sign = settings_.force_sign;
+    if (settings_.force_sign == ForceSign::not_said)
+      made_.warnings.push_back(fmt::format(
+          "{}: whether {} is the force on the device or by the hand is not said, and taken as on the "
+          "device; set {}",
+          name_, names(layout_.force), option_and_key("force_sign")));
+  }
+
+  void take_orientation() {
+    if (layout_.orientation.empty()) return;
+    if (layout_.axes.determinant() < 0.0) {
+      if (!settings_.orientation.empty())
+        throw_input_error("{}: left-handed axes have no orientation; change a sign of {}", name_,
+                          names(layout_.position));
+      return;
+    }
+    const Eigen::Quaterniond turn(layout_.axes);
+    const auto value = [&](std::size_t k, std::size_t i) {
+      const ColumnChoice& choice = layout_.orientation[k];
+      return choice.sign * table_.columns[choice.column].values[i];
+    };
+    for (std::size_t i = 0; i < table_.size(); ++i) {
+      Eigen::Quaterniond q;
+      if (layout_.orientation.size() == 4) {
+        q = Eigen::Quaterniond(value(3, i), value(0, i), value(1, i), value(2, i));
+      } else {
+        Matrix3d matrix;
+        for (std::size_t k = 0; k < 9; ++k)
+          matrix(static_cast<int>(k / 3), static_cast<int>(k % 3)) = value(k, i);
+        const bool is_rotation = (matrix * matrix.transpose()).isIdentity(0.01) && matrix.determinant() > 0.0;
+        q = is_rotation ? Eigen::Quaterniond(matrix) : Eigen::Quaterniond(0.0, 0.0, 0.0, 0.0);
+      }
+      if (!(q.norm() > 0.5 && q.norm() < 2.0))
+        throw_input_error("{}: columns {} are no {}; name others, or correct it", place(i),
+                          names(layout_.orientation),
+                          layout_.orientation.size() == 4 ? "quaternion of length 1" : "rotation matrix");
+      made_.stroke.orientation.emplace_back((turn * q.normalized()).coeffs());
+    }
+    tell(fmt::format("orientation {}", names(layout_.orientation)));
+  }
+
+  std::string place(std::size_t i) const {
+    return table_.lines.empty() ? fmt::format("{}: sample {}", name_, i)
+                                : fmt::format("{}:{}", name_, table_.lines[i]);
+  }
+
+  void take_times() {
+    const bool asked = !settings_.time.empty();
+    if (asked + (settings_.rate > 0.0) + (settings_.speed > 0.0) > 1)
+      throw_input_error("{}: the times are given twice; give one of time, rate and speed", name_);
+    Stroke& stroke = made_.stroke;
+    const double rate = settings_.rate > 0.0 ? settings_.rate : table_.rate;
+    if (layout_.time) {
+      take_stamps(table_.columns[*layout_.time]);
+    } else if (settings_.speed > 0.0) {
+      times_by_way();
+    } else if (rate > 0.0) {
+      for (std::size_t i = 0; i < table_.size(); ++i) stroke.time.push_back(static_cast<double>(i) / rate);
+      stroke.nominal_rate = rate;
+      tell(fmt::format("{} Hz", rate));
+    } else {
+      throw_input_error(
+          "{}: the times are unknown, for no column is named time or t; give {}, {} in Hz, or {} in m/s",
+          name_, option_and_key("time"), option_and_key("rate"), option_and_key("speed"));
+    }
+  }
+
+  void take_stamps(const SampleColumn& column) {
+    const auto digits = std::to_string(column.origin).size();
+    std::string unit = settings_.time_unit;
+    if (unit.empty()) unit = column.unit;
+    if (column.unit == iso_unit) unit = "ns";
+    if (unit.empty() && digits >= 10 && digits % 3 == 1)  // clocks of today, since 1970
+      unit = digits == 10 ? "s" : digits == 13 ? "ms" : digits == 16 ? "us" : "ns";
+    if (unit.empty())
+      throw_input_error("{}: the unit of the times '{}' is not known; give {}: s, ms, us or ns", name_,
+                        column.name, option_and_key("time_unit"));
+    const Unit of_time = unit_of(Quantity::time, unit);
+    for (const double stamp : column.values) made_.stroke.time.push_back(of_time.to_si(stamp));
+    if (column.origin != 0) {
+      const auto per_unit = static_cast<std::int64_t>(of_time.to_si(1e9));
+      std::int64_t clock = 0;
+      if (!__builtin_mul_overflow(column.origin, per_unit, &clock)) made_.clock = clock;
+    }
+    tell(fmt::format("time {} ({})", column.name, column.unit == iso_unit ? iso_unit : unit));
+  }
+
+  void times_by_way() {
+    by_speed_ = true;
+    Stroke& stroke = made_.stroke;
+    double way = 0.0;
+    for (std::size_t i = 0; i < stroke.position.size(); ++i) {
+      if (i > 0) way += (stroke.position[i] - stroke.position[i - 1]).norm();
+      stroke.time.push_back(way / settings_.speed);
+    }
+    tell(fmt::format("{} m/s", settings_.speed));
+  }
+
+  const SampleTable& table_;
+  const TableSettings& settings_;
+  const std::string& name_;
+  TableLayout layout_;
+  ImportedStroke made_;
+  bool by_speed_ = false;
+};
+
+}  // namespace
+
+ImportedStroke stroke_of_table(const SampleTable& table, const TableSettings& settings,
+                               const std::string& name, bool need_position) {
+  return StrokeMaker(table, settings, name, need_position).make();
+}
+
+}  // namespace sandstroke

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "haptics/table_settings.h"
+#include "import/sample_table.h"
+
+namespace sandstroke {
+
+/// Reads a table of samples written as text: rows of numbers, one per sample, in any common dialect. Of any
+/// length: only the columns of the stroke are kept. What the settings do not say is found:
+///
+/// - the encoding by a byte-order mark or UTF-16's zeros; separator and decimal mark from the first rows
+///   (Excel's line sep=; is obeyed);
+/// - a header: the first row without a number, or the comment before the first row if it has as many words
+///   (numpy); a row of units under it; R's header that lacks the column of row names.
+///
+/// Passed over: blank lines, comments (# or %), what settings.skip and skip_lines say.
+class TextTable {
+ public:
+  /// name: of the file, in sentences. need_position: as in table_layout.
+  TextTable(std::string name, const TableSettings& settings, bool need_position);
+  TextTable(TextTable&&) noexcept;
+  ~TextTable();
+  /// The next part of the file, cut anywhere. Error: input, naming the line.
+  void read(std::string_view bytes);
+  /// Once, at the end. Error: input.
+  SampleTable take();
+
+ private:
+  class Rows;
+  std::unique_ptr<Rows> rows_;
+};
+
+}  // namespace sandstroke

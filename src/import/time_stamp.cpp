@@ -1,0 +1,93 @@
+#include "import/time_stamp.h"
+
+#include <date/date.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <sstream>
+
+namespace sandstroke {
+namespace {
+
+template <class Value>
+std::optional<Value> whole(std::string_view text) {
+  Value value{};
+  const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (failure != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+/// What a date or time says, nanoseconds; all of the text must be it.
+template <class Time>
+std::optional<std::int64_t> parsed(const std::string& text, const char* format) {
+  std::istringstream stream(text);
+  Time time{};
+  stream >> date::parse(format, time);
+  if (stream.fail() || stream.peek() != std::istringstream::traits_type::eof()) return std::nullopt;
+  if constexpr (requires { time.time_since_epoch(); })
+    return time.time_since_epoch().count();
+  else
+    return time.count();
+}
+
+}  // namespace
+
+std::optional<double> finite_number(std::string_view text) {
+  if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
+  const auto value = whole<double>(text);
+  return value && std::isfinite(*value) ? value : std::nullopt;
+}
+
+std::optional<std::int64_t> iso_time(std::string_view text) {
+  if (text.size() < 7 || text.size() > 40 || text.find(':') == std::string_view::npos) return std::nullopt;
+  std::string plain(text);
+  std::replace(plain.begin(), plain.end(), ',', '.');
+  if (plain.back() == 'Z') plain.pop_back();
+  using Nanoseconds = std::chrono::nanoseconds;
+  if (plain[2] == ':') return parsed<Nanoseconds>(plain, "%T");
+  if (plain.size() < 16 || plain[4] != '-') return std::nullopt;
+  plain[10] = 'T';
+  const int year = whole<int>(std::string_view(plain).substr(0, 4)).value_or(0);
+  if (year < 1700 || year > 2250) return std::nullopt;  // ns of others do not fit
+  using Time = date::sys_time<Nanoseconds>;
+  const bool has_offset = plain.find_first_of("+-", 11) != std::string::npos;
+  return parsed<Time>(plain, has_offset ? "%FT%T%Ez" : "%FT%T");
+}
+
+std::optional<double> TimeStamps::read(std::string_view text) {
+  if (kind_ == Kind::none) {
+    const std::size_t digits = std::min(text.find_first_not_of("0123456789"), text.size());
+    if (const auto time = iso_time(text)) {
+      kind_ = Kind::iso;
+      origin_ = *time;
+    } else if (const auto first = whole<std::int64_t>(text.substr(0, digits)); first && digits > 9) {
+      kind_ = Kind::clock;
+      origin_ = *first;
+    } else {
+      kind_ = Kind::plain;
+    }
+  }
+  if (kind_ == Kind::plain) return finite_number(text);
+  // A difference of 64-bit numbers may be beyond them.
+  const auto since_first = [&](std::int64_t time) {
+    std::int64_t difference = 0;
+    if (__builtin_sub_overflow(time, origin_, &difference)) return std::optional<double>();
+    return std::optional(static_cast<double>(difference));
+  };
+  if (kind_ == Kind::iso) {
+    const auto time = iso_time(text);
+    return time ? since_first(*time) : std::nullopt;
+  }
+  const std::size_t point = std::min(text.find('.'), text.size());
+  if (const auto number = whole<std::int64_t>(text.substr(0, point))) {
+    const std::string_view rest = text.substr(point);
+    const auto fraction = rest.size() > 1 ? whole<double>(rest) : std::optional(0.0);
+    const auto since = since_first(*number);
+    if (fraction && since) return *since + (*number < 0 ? -*fraction : *fraction);
+  }
+  const auto number = finite_number(text);
+  return number ? std::optional(*number - static_cast<double>(origin_)) : std::nullopt;
+}
+
+}  // namespace sandstroke

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace sandstroke {
+
+/// "1.5", "+3", "-1e3"; nothing else, and finite.
+std::optional<double> finite_number(std::string_view text);
+
+/// ISO 8601 ("2024-05-01T12:00:00.123456789+02:00", with a blank for the T, without an offset), or a time of
+/// day ("12:00:00.5"), in ns since 1970 or midnight.
+std::optional<std::int64_t> iso_time(std::string_view text);
+
+/// Reads the column of times. A clock's stamps (ISO 8601, or more than 9 digits before the point) are taken
+/// relative to the first, before they become doubles: these have 15 digits, and stamps of today in ns 19.
+class TimeStamps {
+ public:
+  /// Nothing: it is none, or not of the kind of the first.
+  std::optional<double> read(std::string_view text);
+
+  std::int64_t origin() const { return origin_; }  ///< was taken off, in the column's unit
+  bool iso() const { return kind_ == Kind::iso; }  ///< the unit is ns
+
+ private:
+  enum class Kind { none, plain, clock, iso } kind_ = Kind::none;
+  std::int64_t origin_ = 0;
+};
+
+}  // namespace sandstroke

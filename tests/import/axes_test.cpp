@@ -1,0 +1,160 @@
+#include <gmock/gmock-matchers.h>
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <filesystem>
+
+#include "core/error.h"
+#include "core/output_file.h"
+#include "haptics/stroke_placement.h"
+#include "import/import_stroke.h"
+#include "test_folder.h"
+
+namespace sandstroke {
+namespace {
+
+using Eigen::Quaterniond;
+using Eigen::Vector3d;
+using Eigen::Vector4d;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+constexpr double half = 0.70710678118654752;
+
+ImportedStroke with_position(const std::string& position, const std::string& text) {
+  TableSettings settings;
+  settings.rate = 10.0;
+  settings.position = position;
+  settings.force_sign = ForceSign::by_hand;
+  return import_stroke_text(text, "in.csv", settings);
+}
+
+TEST(TableAxes, AreNegatedAndPermuted) {
+  const std::string text = "x_m,y_m,z_m,vx_mps,vy_mps,vz_mps,fx_N,fy_N,fz_N\n1,2,3,4,5,6,7,8,9\n";
+  const ImportedStroke turned = with_position("-x_m,z_m,y_m", text);
+  EXPECT_EQ(turned.stroke.position[0], Vector3d(-1, 3, 2));
+  EXPECT_EQ(turned.stroke.velocity[0], Vector3d(-4, 6, 5));  // along with it
+  EXPECT_EQ(turned.stroke.force[0], Vector3d(-7, 9, 8));
+  EXPECT_THAT(turned.warnings, ElementsAre());
+  EXPECT_EQ(with_position("x,y,z", text).stroke.position[0], Vector3d(1, 2, 3));  // without the unit
+  EXPECT_EQ(with_position("x,-y", text).stroke.force[0], Vector3d(7, -8, 9));
+  EXPECT_THROW(with_position("x,x,z", text), Error);
+  EXPECT_THROW(with_position("x", text), Error);
+}
+
+TEST(TableAxes, LeftHandedOnesAreSaid) {
+  const std::string named = "x_m,y_m,z_m\n1,2,3\n", numbered = "a,b,c\n1,2,3\n";
+  for (const char* position : {"x,y,-z", "y,x,z", "-x,-y,-z", "x,z,y"})
+    EXPECT_THAT(with_position(position, named).warnings, ElementsAre(HasSubstr("left-handed"))) << position;
+  for (const char* position : {"x,y,z", "y,z,x", "-x,-y,z", "y,-x,z", "x,-z,y"})
+    EXPECT_THAT(with_position(position, named).warnings, ElementsAre()) << position;
+  TableSettings settings;
+  settings.rate = 1.0;
+  settings.position_unit = "m";
+  settings.position = "a,c,b";  // by their order in the table
+  EXPECT_THAT(import_stroke_text(numbered, "in.csv", settings).warnings,
+              ElementsAre(HasSubstr("left-handed")));
+}
+
+TEST(TableAxes, WhoseForceItIsIsAskedForOnce) {
+  TableSettings settings;
+  settings.rate = 1.0;
+  const std::string text = "x_m,y_m,fx_N,fy_N,fz_N\n1,2,3,4,5\n";
+  const ImportedStroke unsaid = import_stroke_text(text, "in.csv", settings);
+  EXPECT_THAT(unsaid.warnings, ElementsAre(HasSubstr("--force-sign (in a scene: stroke.table.force_sign)")));
+  EXPECT_EQ(unsaid.stroke.force_sign, ForceSign::not_said);
+  settings.force_sign = ForceSign::by_hand;
+  const ImportedStroke said = import_stroke_text(text, "in.csv", settings);
+  EXPECT_THAT(said.warnings, ElementsAre());
+  EXPECT_EQ(said.stroke.force_sign, ForceSign::by_hand);
+  EXPECT_EQ(said.stroke.force[0], Vector3d(3, 4, 5));  // as recorded
+}
+
+TEST(TableAxes, OrientationsAreKeptAndTurned) {
+  // About z by 90 deg, as a quaternion and as a matrix.
+  const std::string quaternion = "x_m,y_m,z_m,qx,qy,qz,qw\n0,0,0,0,0,0.70710678,0.70710678\n";
+  const std::string matrix = "x_m,y_m,z_m,r11,r12,r13,r21,r22,r23,r31,r32,r33\n0,0,0,0,-1,0,1,0,0,0,0,1\n";
+  for (const std::string& text : {quaternion, matrix}) {
+    const Stroke stroke = with_position("x,y,z", text).stroke;
+    ASSERT_EQ(stroke.orientation.size(), 1u);
+    EXPECT_TRUE((Quaterniond(stroke.orientation[0]) * Vector3d(1, 0, 0)).isApprox(Vector3d(0, 1, 0), 1e-9));
+    // The tool's own x axis points along the table's y, which is the stroke's z.
+    const Stroke turned = with_position("x,-z,y", text).stroke;
+    EXPECT_TRUE((Quaterniond(turned.orientation[0]) * Vector3d(1, 0, 0)).isApprox(Vector3d(0, 0, 1), 1e-9));
+    StrokePlacement placement;
+    placement.rotate_z = 90.0;
+    const Stroke placed = place_stroke(stroke, placement);
+    EXPECT_TRUE((Quaterniond(placed.orientation[0]) * Vector3d(1, 0, 0)).isApprox(Vector3d(-1, 0, 0), 1e-9));
+    EXPECT_THAT(with_position("x,y,-z", text).stroke.orientation, ElementsAre());  // mirrored: there is none
+  }
+  EXPECT_THROW(with_position("x,y,z", "x_m,y_m,z_m,qx,qy,qz,qw\n0,0,0,0,0,0,0\n"), Error);
+  EXPECT_THROW(
+      with_position("x,y,z", "x_m,y_m,z_m,r11,r12,r13,r21,r22,r23,r31,r32,r33\n0,0,0,1,0,0,0,1,0,0,0,-1\n"),
+      Error);
+}
+
+class MergedTables : public testing::Test {
+ protected:
+  ImportedStroke merged(const std::string& first, const std::string& second, double shift = 0.0) {
+    for (const char* name : {"first.csv", "second.csv"}) std::filesystem::remove(folder_ / name);
+    write_text_file(folder_ / "first.csv", first);
+    write_text_file(folder_ / "second.csv", second);
+    TableSettings settings;
+    settings.merge = "second.csv";
+    settings.merge_shift = shift;
+    settings.force_sign = ForceSign::on_device;
+    return import_stroke(folder_ / "first.csv", settings);
+  }
+  std::string refusal(const std::string& first, const std::string& second) {
+    try {
+      merged(first, second);
+    } catch (const Error& failure) {
+      return failure.what();
+    }
+    return "";
+  }
+  TestFolder folder_;
+};
+
+TEST_F(MergedTables, ForcesAreInterpolatedAtTheFirstOnesTimes) {
+  const Stroke stroke =
+      merged("t_s,x_m,y_m\n0,0,0\n1,1,0\n2,2,0\n", "t_ms;fx_N;fy_N;fz_N\n0;0;0;0\n800;8;0;-8\n4000;8;16;0\n")
+          .stroke;
+  ASSERT_EQ(stroke.size(), 3u);
+  EXPECT_TRUE(stroke.force[1].isApprox(Vector3d(8, 1, -7.5), 1e-12));
+  EXPECT_TRUE(stroke.force[2].isApprox(Vector3d(8, 6, -5), 1e-12));
+  EXPECT_EQ(stroke.force_sign, ForceSign::on_device);
+}
+
+TEST_F(MergedTables, OrientationsTurnTheShortestWay) {
+  const Stroke stroke =
+      merged("t_s,x_m,y_m\n0,0,0\n1,1,0\n",
+             "t_s,qx,qy,qz,qw\n0,0,0,0,1\n2,0,0,-0.70710678118654752,-0.70710678118654752\n")
+          .stroke;
+  const Quaterniond middle(stroke.orientation[1]);
+  EXPECT_NEAR(middle.angularDistance(Quaterniond::Identity()), std::acos(half), 1e-9);  // 45 of 90 deg
+  EXPECT_TRUE((middle * Vector3d(1, 0, 0)).isApprox(Vector3d(half, half, 0), 1e-9));
+}
+
+TEST_F(MergedTables, ClocksSayHowTimesBelongTogether) {
+  const std::string first =
+      "stamp,x_m,y_m\n1700000000000000000,0,0\n1700000000500000000,1,0\n1700000001000000000,2,0\n";
+  const ImportedStroke both =
+      merged(first, "stamp,fx_N,fy_N,fz_N\n1700000000250000000,1,0,0\n1700000002250000000,9,0,0\n");
+  EXPECT_THAT(both.stroke.time, ElementsAre(0.5, 1.0));  // before, there is no force
+  EXPECT_TRUE(both.stroke.force[0].isApprox(Vector3d(2, 0, 0), 1e-9));
+  EXPECT_TRUE(both.stroke.force[1].isApprox(Vector3d(4, 0, 0), 1e-9));
+  EXPECT_THAT(both.description, HasSubstr("begins +0.25 s and ends +1.25 s after it"));
+  EXPECT_THAT(both.warnings,
+              ElementsAre(HasSubstr("0.25 s at its beginning and 0 s at its end are left out")));
+
+  EXPECT_THAT(refusal(first, "t_s,fx_N,fy_N,fz_N\n0,1,0,0\n2,1,0,0\n"), HasSubstr("--merge-shift"));
+  EXPECT_EQ(merged(first, "t_s,fx_N,fy_N,fz_N\n7,1,0,0\n9,1,0,0\n", -7.0).stroke.size(), 3u);
+  EXPECT_THAT(refusal("t_s,x_m,y_m\n0,0,0\n1,1,0\n", "t_s,fx_N,fy_N,fz_N\n7,1,0,0\n9,1,0,0\n"),
+              HasSubstr("shares nothing"));
+  EXPECT_THAT(refusal("t_s,x_m,y_m\n0,0,0\n1,1,0\n", "t_s,a,b\n7,1,0\n"), HasSubstr("neither a force nor"));
+}
+
+}  // namespace
+}  // namespace sandstroke
