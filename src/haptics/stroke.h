@@ -25,8 +25,10 @@ struct Stroke {
   double gap_threshold = 0.1;             ///< s; samples further apart are not joined: the tool lifts
   std::string source;                     ///< where it came from, for people
   std::string frame = "bed";              ///< "bed" or "device"
-  bool complete = true;                   ///< false: cut off while being recorded
-  bool starved = false;                   ///< its recorder skipped many ticks (is_starved)
+  /// Heights count from the sand as it lies under the tip, not from z = 0.
+  bool follows_sand = false;
+  bool complete = true;  ///< false: cut off while being recorded
+  bool starved = false;  ///< its recorder skipped many ticks (is_starved)
 
   std::size_t size() const { return time.size(); }
   double duration() const { return time.empty() ? 0.0 : time.back() - time.front(); }

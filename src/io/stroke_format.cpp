@@ -57,6 +57,7 @@ void write_stroke_attributes(Hdf5GridWriter& file, const Stroke& stroke) {
   file.attribute(stroke_group, "source", stroke.source);
   file.attribute(stroke_group, "frame", stroke.frame);
   file.attribute(stroke_group, "complete", stroke.complete);
+  if (stroke.follows_sand) file.attribute(stroke_group, "follows_sand", true);
 }
 
 void read_stroke_attributes(const Hdf5Reader& file, Stroke& stroke) {
@@ -66,6 +67,7 @@ void read_stroke_attributes(const Hdf5Reader& file, Stroke& stroke) {
   if (has("source")) stroke.source = file.text_attribute(stroke_group, "source");
   if (has("frame")) stroke.frame = file.text_attribute(stroke_group, "frame");
   if (has("complete")) stroke.complete = file.number_attribute(stroke_group, "complete") != 0.0;
+  if (has("follows_sand")) stroke.follows_sand = file.number_attribute(stroke_group, "follows_sand") != 0.0;
   if (has("starved")) stroke.starved = file.number_attribute(stroke_group, "starved") != 0.0;
 }
 
