@@ -26,6 +26,7 @@
 #include "sim/furrow.h"
 #include "sim/recorded_force.h"
 #include "sim/simulation.h"
+#include "sim/stroke_depth.h"
 
 namespace sandstroke {
 namespace {
@@ -85,6 +86,12 @@ nlohmann::ordered_json as_json(const RunResult& r, const Scene& scene, const std
       {"instruction_set", instruction_set()},
       {"interrupted", r.interrupted},
   };
+  if (r.followed)
+    json["followed"] = {{"ticks", r.followed->ticks},
+                        {"asked_depth", r.followed->asked_depth},
+                        {"depth", r.followed->depth},
+                        {"asked_force", r.followed->asked_force},
+                        {"force", r.followed->force}};
   if (r.recorded_force)
     json["recorded_force"] = {{"ticks", r.recorded_force->ticks},
                               {"rms", r.recorded_force->rms},
@@ -112,6 +119,11 @@ void print_summary(const RunResult& r, const Scene& scene, const std::string& ou
     if (drag && !std::isnan(r.furrow->depth) && !std::isnan(r.furrow->asked_depth))
       print_row("furrow", fmt::format("{:.2f} mm deep; the stroke asked for {:.2f} mm (medians)",
                                       1e3 * r.furrow->depth, 1e3 * r.furrow->asked_depth));
+    if (r.followed && r.followed->ticks > 0)
+      print_row("on the sand",
+                fmt::format("asked {:.2f} mm and {:.3g} N, reached {:.2f} mm and {:.3g} N (means)",
+                            1e3 * r.followed->asked_depth, r.followed->asked_force, 1e3 * r.followed->depth,
+                            r.followed->force));
     print_row("largest force",
               fmt::format("{:.3f} N{}", r.device.max_force,
                           r.device.saturated_ticks > 0
@@ -164,8 +176,7 @@ void warn_of_held_drag(const DeviceResult& result, const Scene& scene) {
 }
 
 void warn_of(const RunResult& result, const Scene& scene) {
-  if (result.ticks > 0 && result.contact_ticks == 0)
-    spdlog::warn("the tool never touched the sand; check stroke.plane, stroke.depth and stroke.offset");
+  if (result.ticks > 0 && result.contact_ticks == 0) spdlog::warn("{}", untouched_text(scene, result));
   if (result.furrow) warn_if_any(furrow_warning(scene, *result.furrow));
   if (scene.device.model == DeviceModel::dynamic && loop_returned_energy(result.device, scene.device))
     spdlog::warn("the sand returned up to {:.3g} J more than it took: the loop was not passive; {}",

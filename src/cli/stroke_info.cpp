@@ -1,3 +1,5 @@
+#include <spdlog/spdlog.h>
+
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -9,6 +11,7 @@
 #include "core/log.h"
 #include "core/terminal_text.h"
 #include "haptics/stroke_coverage.h"
+#include "haptics/stroke_quality.h"
 #include "io/recording_file.h"
 #include "io/stroke_file.h"
 #include "record/recording_json.h"
@@ -29,11 +32,7 @@ StrokeSummary summarize(const Stroke& stroke) {
     summary.high = summary.high.cwiseMax(stroke.position[i]);
     if (i == 0) continue;
     spacings.push_back(stroke.time[i] - stroke.time[i - 1]);
-    if (stroke.joined(i - 1)) {
-      ++summary.joined_samples;
-      const double step = (stroke.position[i] - stroke.position[i - 1]).norm();
-      summary.top_speed = std::max(summary.top_speed, step / spacings.back());
-    }
+    summary.joined_samples += stroke.joined(i - 1);
   }
   if (!spacings.empty()) {
     const auto middle = spacings.begin() + static_cast<std::ptrdiff_t>(spacings.size() / 2);
@@ -102,7 +101,6 @@ nlohmann::ordered_json describe(const std::string& file, const Stroke& stroke, c
   json["median_spacing"] = summary.median_spacing;
   for (int axis = 0; axis < 3; ++axis)
     json[std::string("extent_") + "xyz"[axis]] = {summary.low[axis], summary.high[axis]};
-  json["top_speed"] = summary.top_speed;
   json["gap_threshold"] = stroke.gap_threshold;
   json["played_seconds"] = summary.played.played;
   json["gaps"] = nlohmann::json::array();
@@ -116,8 +114,36 @@ nlohmann::ordered_json describe(const std::string& file, const Stroke& stroke, c
   return json;
 }
 
+nlohmann::ordered_json as_json(const StrokeQuality& quality) {
+  return {{"jitter", quality.jitter},
+          {"repeated_share", quality.repeats.share},
+          {"repeat_period", quality.repeats.period},
+          {"noise", quality.noise},
+          {"top_speed", quality.top_speed},
+          {"usual_speed", quality.usual_speed},
+          {"plane_tilt_deg", quality.plane.tilt()},
+          {"plane_rms", quality.plane.rms()},
+          {"plane_largest", quality.plane.largest}};
+}
+
+std::string quality_rows(const StrokeQuality& quality) {
+  const LeastSquaresPlane& plane = quality.plane;
+  const Repeats& repeats = quality.repeats;
+  return table_row("jitter", fmt::format("{:.3g} ms rms of the spacing", 1e3 * quality.jitter)) +
+         table_row("repeats",
+                   fmt::format("{:.3g} % of the samples{}", 100.0 * repeats.share,
+                               repeats.period > 1 ? fmt::format(", up to {} alike", repeats.period) : "")) +
+         table_row("noise", fmt::format("{:.3g} mm rms", 1e3 * quality.noise)) +
+         table_row("plane", plane.is_line()
+                                ? "none: it is drawn along a line"
+                                : fmt::format("tilted {:.3g} deg, {:.3g} mm rms off it, {:.3g} mm at most",
+                                              plane.tilt(), 1e3 * plane.rms(), 1e3 * plane.largest)) +
+         table_row("speed", fmt::format("{:.4g} m/s usually, {:.4g} m/s at most (at {:.4g} s), gaps aside",
+                                        quality.usual_speed, quality.top_speed, quality.top_time));
+}
+
 std::string as_table(const std::string& file, const Stroke& stroke, const StrokeSummary& summary,
-                     const std::optional<RecordingInfo>& recording) {
+                     const StrokeQuality& quality, const std::optional<RecordingInfo>& recording) {
   std::string table;
   const auto row = [&table](std::string_view title, const std::string& value) {
     table += table_row(title, value);
@@ -141,7 +167,7 @@ std::string as_table(const std::string& file, const Stroke& stroke, const Stroke
         fmt::format("{:>10.3f} to {:>10.3f} mm, {:>10.3f} mm wide", 1e3 * summary.low[axis],
                     1e3 * summary.high[axis], 1e3 * (summary.high[axis] - summary.low[axis])));
   }
-  row("top speed", fmt::format("{:.4g} m/s, gaps aside", summary.top_speed));
+  table += quality_rows(quality);
   row("gaps",
       summary.gaps.empty()
           ? "none"
@@ -173,14 +199,19 @@ void add_stroke_info_command(CLI::App& stroke_app, Command& chosen) {
     chosen = [options] {
       const Stroke stroke = load_stroke(options->file, ForceSettings{});
       const StrokeSummary summary = summarize(stroke);
+      const StrokeQuality quality = quality_of(stroke);
       const std::optional<RecordingInfo> recording =
           is_recorded(options->file) ? read_recording_info(options->file) : std::nullopt;
       if (options->json) {
-        print_json(describe(options->file, stroke, summary, recording));
+        nlohmann::ordered_json json = describe(options->file, stroke, summary, recording);
+        json.update(as_json(quality));
+        print_json(json);
       } else {
-        print_text("{}", as_table(options->file, stroke, summary, recording));
+        print_text("{}", as_table(options->file, stroke, summary, quality, recording));
       }
       warn_if_any(coverage_warning(stroke, options->file));
+      for (const std::string& warning : quality_warnings(quality))
+        spdlog::warn("{}: {}", options->file, warning);
       return 0;
     };
   });

@@ -19,7 +19,6 @@ struct StrokeSummary {
   std::size_t samples = 0, drawn_samples = 0, joined_samples = 0;
   double duration = 0.0, median_spacing = 0.0;  // s
   Eigen::Vector3d low, high;                    // m
-  double top_speed = 0.0;                       // m/s, between samples that are joined
   std::vector<StrokeGap> gaps;
   PlayedPart played;                               // of a run
   double least_force = 0.0, greatest_force = 0.0;  // N, magnitude

@@ -2,13 +2,29 @@
 
 #include <spdlog/fmt/fmt.h>
 
+#include "core/error.h"
+#include "io/scene_toml.h"
 #include "io/toml_reader.h"
 
 namespace sandstroke {
 
+namespace {
+
+/// With the settings that were not there when it was written, by their defaults.
+std::string completed(const std::string& scene) {
+  try {
+    return scene_text(scene_from_text(scene, "the golden scene"));
+  } catch (const Error&) {  // it has settings that are not there any more
+    return scene;
+  }
+}
+
+}  // namespace
+
 std::string scene_difference(const std::string& golden, const std::string& run) {
   const TomlReader before = TomlReader::from_text(golden, "the golden scene"),
-                   after = TomlReader::from_text(run, "the run's scene");
+                   after = TomlReader::from_text(run, "the run's scene"),
+                   by_default = TomlReader::from_text(completed(golden), "the golden scene");
   std::vector<std::string> changes;
   for (const std::string& key : before.keys_in("")) {
     const std::string was = before.literal(key), is = after.literal(key);
@@ -17,7 +33,8 @@ std::string scene_difference(const std::string& golden, const std::string& run) 
                                    : fmt::format("{} was {}, is {}", key, was, is));
   }
   for (const std::string& key : after.keys_in(""))
-    if (!before.has(key)) changes.push_back(fmt::format("{} is new, {}", key, after.literal(key)));
+    if (!before.has(key) && by_default.literal(key) != after.literal(key))
+      changes.push_back(fmt::format("{} is new, {}", key, after.literal(key)));
   return fmt::format("{}", fmt::join(changes, "; "));
 }
 

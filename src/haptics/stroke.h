@@ -32,6 +32,7 @@ struct Stroke {
   std::string source;                          ///< where it came from, for people
   std::string frame = "bed";                   ///< "bed" or "device"
   ForceSign force_sign = ForceSign::not_said;  ///< of `force`
+  bool follows_sand = false;                   ///< heights count from the sand under the tip, not from z = 0
   bool complete = true;                        ///< false: cut off while being recorded
   bool starved = false;                        ///< its recorder skipped many ticks (is_starved)
 

@@ -1,22 +1,19 @@
 #include "haptics/stroke_placement.h"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
 #include "core/angle.h"
 #include "core/error.h"
+#include "haptics/stroke_plane.h"
+#include "haptics/stroke_smoothing.h"
 
 namespace sandstroke {
 namespace {
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
-
-// deg. The plane of a plunge, a drag along a line and a lift is upright: made level, it would lie on its
-// side.
-constexpr double steepest_table = 45.0;
 
 template <class Row>
 void cut(std::vector<Row>& column, std::size_t begin, std::size_t end) {
@@ -48,57 +45,71 @@ void rotate(Stroke& stroke, const Matrix3d& rotation) {
   for (Eigen::Vector4d& q : stroke.orientation) q = (turn * Eigen::Quaterniond(q)).coeffs();
 }
 
-/// The unit normal of the least-squares plane, with z > 0.
-Vector3d plane_normal(const std::vector<Vector3d>& points, const Vector3d& centroid,
-                      const std::string& name) {
-  Matrix3d covariance = Matrix3d::Zero();
-  for (const Vector3d& p : points) covariance += (p - centroid) * (p - centroid).transpose();
-  const Eigen::SelfAdjointEigenSolver<Matrix3d> axes(covariance);  // eigenvalues in increasing order
-  // Squared widths: below this ratio the tracing is a line to within a millionth of its length.
-  if (points.size() < 3 || !(axes.eigenvalues()[1] > 1e-12 * axes.eigenvalues()[2])) {
-    throw_input_error(
-        "{}: plane = \"fit\" finds no plane, because its {} samples with the pen down lie on one line; set "
-        "stroke.plane = \"keep\"",
-        name, points.size());
-  }
-  if (axes.eigenvalues()[1] < 4.0 * axes.eigenvalues()[0]) {
-    throw_input_error(
-        "{}: plane = \"fit\" finds no plane, because its samples with the pen down are less than twice as "
-        "wide as they are thick, so they are not a tracing on a table; set stroke.plane = \"keep\"",
-        name);
-  }
-  Vector3d normal = axes.eigenvectors().col(0);
-  if (normal.z() < 0.0) normal = -normal;
-  const double tilt = to_degrees(std::atan2(normal.head<2>().norm(), normal.z()));
-  if (tilt > steepest_table) {
-    throw_input_error(
-        "{}: its samples with the pen down fit a plane tilted {:.3g} deg, so they are not a tracing on a "
-        "table; set stroke.plane = \"keep\"",
-        name, tilt);
-  }
-  return normal;
+void speed_up(Stroke& stroke, double times) {
+  for (double& t : stroke.time) t /= times;
+  for (Vector3d& v : stroke.velocity) v *= times;
+  stroke.gap_threshold /= times;
+  stroke.nominal_rate *= times;
 }
 
-void lay_level(Stroke& stroke, const std::string& name) {
-  std::vector<Vector3d> tracing;
-  for (std::size_t i = 0; i < stroke.size(); ++i) {
-    if (stroke.pen_down(i)) tracing.push_back(stroke.position[i]);
-  }
-  Vector3d centroid = Vector3d::Zero();
-  for (const Vector3d& p : tracing) centroid += p;
-  centroid /= static_cast<double>(std::max<std::size_t>(tracing.size(), 1));
-  const Matrix3d level =
-      Eigen::Quaterniond::FromTwoVectors(plane_normal(tracing, centroid, name), Vector3d::UnitZ())
-          .toRotationMatrix();
+LeastSquaresPlane traced_plane(const std::vector<Vector3d>& drawn, bool flatten, const std::string& name) {
+  const LeastSquaresPlane plane = plane_through(drawn);
+  if (drawn.size() < 3 || plane.is_line())
+    throw_input_error(
+        "{}: stroke.plane finds no plane, because its {} samples with the pen down lie on one line; set "
+        "stroke.plane = \"keep\"",
+        name, drawn.size());
+  if (plane.is_thick() && !flatten)
+    throw_input_error(
+        "{}: plane = \"fit\" finds no plane, because its samples with the pen down are less than twice as "
+        "wide as they are thick: they lie {:.3g} mm rms, {:.3g} mm at most, off the nearest plane; set "
+        "stroke.plane = \"flatten\" to move them onto it, or \"keep\"",
+        name, 1e3 * plane.rms(), 1e3 * plane.largest);
+  return plane;
+}
 
-  // About the centroid, which lies on the plane: small numbers, and z = 0 is the plane at once.
-  for (Vector3d& p : stroke.position) p -= centroid;
-  rotate(stroke, level);
+Eigen::AlignedBox3d drawn_extent(const Stroke& stroke) {
   Eigen::AlignedBox3d extent;
   for (std::size_t i = 0; i < stroke.size(); ++i)
     if (stroke.pen_down(i)) extent.extend(stroke.position[i]);
-  const Vector3d centre(extent.center().x(), extent.center().y(), 0.0);
-  for (Vector3d& p : stroke.position) p -= centre;
+  return extent;
+}
+
+/// Shifts the stroke so that the middle of its drawn extent lies there.
+void bring_to(const Eigen::Vector2d& place, Stroke& stroke) {
+  const Eigen::AlignedBox3d extent = drawn_extent(stroke);
+  if (extent.isEmpty()) return;
+  const Vector3d shift(place.x() - extent.center().x(), place.y() - extent.center().y(), 0.0);
+  for (Vector3d& p : stroke.position) p += shift;
+}
+
+void lay_level(Stroke& stroke, const StrokePlacement& placement, const std::string& name) {
+  const bool flatten = placement.plane == StrokePlane::flatten;
+  const LeastSquaresPlane plane = traced_plane(drawn_points(stroke), flatten, name);
+  const UpNormal up = up_normal(stroke, plane, placement.up, name);
+  const Matrix3d level = Eigen::Quaterniond::FromTwoVectors(up.normal, Vector3d::UnitZ()).toRotationMatrix();
+
+  // About the centroid, which lies on the plane: small numbers, and z = 0 is the plane at once.
+  for (Vector3d& p : stroke.position) p -= plane.centroid;
+  rotate(stroke, level);
+  bring_to(Eigen::Vector2d::Zero(), stroke);
+  if (!flatten) return;
+  for (std::size_t i = 0; i < stroke.size(); ++i)
+    if (stroke.pen_down(i)) stroke.position[i].z() = 0.0;
+}
+
+/// By which the stroke, already turned, fills its share of the bed.
+double fitting_scale(const Stroke& stroke, double share, const Eigen::AlignedBox2d& bed,
+                     const std::string& name) {
+  const Eigen::AlignedBox3d extent = drawn_extent(stroke);
+  const Eigen::Vector2d size = extent.isEmpty() ? Eigen::Vector2d::Zero() : extent.sizes().head<2>().eval();
+  const double scale = share * bed.sizes().cwiseQuotient(size).minCoeff();
+  if (!std::isfinite(scale) || !(scale > 0.0))
+    throw_input_error(
+        "{}: stroke.fit = {} has nothing to scale, because it is drawn at one place; set "
+        "stroke.scale instead",
+        name, share);
+  return scale;
 }
 
 }  // namespace
@@ -124,20 +135,30 @@ PointPlacement point_placement(const StrokePlacement& placement, const std::stri
   return place;
 }
 
-Stroke place_stroke(const Stroke& stroke, const StrokePlacement& placement, const std::string& name) {
+Stroke place_stroke(const Stroke& stroke, const StrokePlacement& placement, const std::string& name,
+                    const Eigen::AlignedBox2d& bed) {
   if (!(placement.scale > 0.0))
     throw_input_error("{}: scale is {}; it must be positive", name, placement.scale);
   Stroke placed = stroke;
   cut_time(placed, placement.start, placement.stop, name);
+  if (placement.held == HeldSamples::drop) placed = without_held_samples(placed);
+  if (placement.smooth > 0.0) placed = smoothed(placed, placement.smooth);
   const PointPlacement place = point_placement(placement, placed.frame);
   rotate(placed, place.axes);
   placed.frame = "bed";
-  if (placement.plane == StrokePlane::fit) lay_level(placed, name);
+  if (placement.follow == StrokeFollow::sand) placed.follows_sand = true;
+  if (placement.plane != StrokePlane::keep) lay_level(placed, placement, name);
 
-  for (Vector3d& p : placed.position) p *= place.scale;
-  for (Vector3d& v : placed.velocity) v *= place.scale;
+  const auto scale = [&](double factor) {
+    for (Vector3d& p : placed.position) p *= factor;
+    for (Vector3d& v : placed.velocity) v *= factor;
+  };
+  if (placement.fit == 0.0) scale(place.scale);
   rotate(placed, place.turn);
+  if (placement.fit > 0.0) scale(fitting_scale(placed, placement.fit, bed, name));
+  if (placement.place == StrokePlace::centre) bring_to(bed.center(), placed);
   for (Vector3d& p : placed.position) p += place.shift;
+  if (placement.speed != 1.0) speed_up(placed, placement.speed);
   check_stroke(placed, name);
   return placed;
 }

@@ -1,25 +1,38 @@
 #pragma once
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <limits>
 #include <string>
 
+#include "haptics/held_samples.h"
 #include "haptics/stroke.h"
+#include "haptics/stroke_plane.h"
 
 namespace sandstroke {
 
 /// keep: as recorded. fit: the plane through the tracing is laid level, with the tracing's centre on the
-/// origin.
-enum class StrokePlane { keep, fit };
+/// origin. flatten: so, and the tracing is moved onto the plane.
+enum class StrokePlane { keep, fit, flatten };
+/// What the heights of a stroke count from: the bed's z = 0, or the sand as it lies under the tip.
+enum class StrokeFollow { bed, sand };
+/// keep: where it is. centre: the middle of its drawn extent goes onto the middle of the bed.
+enum class StrokePlace { keep, centre };
 
 /// Where a stroke goes on the bed ([stroke] in a scene).
 struct StrokePlacement {
-  double scale = 1.0;                                ///< of positions and velocities, > 0
+  double scale = 1.0;  ///< of positions and velocities, > 0
+  double fit = 0.0;    ///< > 0: the share of the bed's width or depth that it fills, instead of the scale
+  StrokePlace place = StrokePlace::keep;
   Eigen::Vector3d offset = Eigen::Vector3d::Zero();  ///< m
   double rotate_z = 0.0;                             ///< deg, from +x towards +y
   StrokePlane plane = StrokePlane::keep;
-  double depth = 0.0;  ///< m, how far below z = 0 the fitted plane is laid
-  double start = 0.0;  ///< s after the first sample: earlier samples are cut
+  StrokeUp up = StrokeUp::automatic;  ///< of the plane
+  double depth = 0.0;                 ///< m, how far below z = 0 the fitted plane is laid
+  StrokeFollow follow = StrokeFollow::bed;
+  HeldSamples held = HeldSamples::keep;
+  double smooth = 0.0;  ///< Hz, cut-off of the filter that takes tremble and noise out (smoothed); 0: none
+  double speed = 1.0;   ///< times faster, > 0
+  double start = 0.0;   ///< s after the first sample: earlier samples are cut
   double stop = std::numeric_limits<double>::infinity();  ///< s after the first sample: later samples are cut
 };
 
@@ -50,15 +63,17 @@ struct PointPlacement {
 /// sits at the bed's -y.
 PointPlacement point_placement(const StrokePlacement& placement, const std::string& frame);
 
-/// The stroke as it is played: cut to start..stop, turned from the device's axes (frame "device") to the
-/// bed's, laid level (plane = fit), scaled, turned about z, lowered by `depth`, moved by `offset`; its time
-/// begins at 0. Velocities turn and scale with it, forces and orientations turn.
+/// The stroke as it is played: cut to start..stop, without held samples, smoothed, turned from the device's
+/// axes (frame "device") to the bed's, laid level (plane), scaled, turned about z, lowered by `depth`,
+/// brought onto the bed (place), moved by `offset`; its time begins at 0, and is `speed` times shorter.
+/// Velocities turn and scale with it, forces and orientations turn. The drawn extent is that of the samples at which the pen
+/// is down. `bed` [m]: where the bed is, for what asks for it (fit, place).
 ///
-/// The fitted plane is the least-squares plane (total least squares) through the samples at which the pen is
-/// down. It is turned by the smallest rotation that makes it level and shifted onto z = 0; bumps about the
-/// plane stay. Error: input, naming the stroke by `name`, where nothing is left of it, or its samples span no
-/// plane or one steeper than 45 deg.
+/// The plane is the least-squares plane through the samples at which the pen is down (plane_through). It is
+/// turned by the smallest rotation that brings up_normal() to z, and shifted onto z = 0; bumps about the
+/// plane stay, but for flatten. Error: input, naming the stroke by `name`, where nothing is left of it, its
+/// samples span no plane or are no tracing in one, or it has no extent to fit.
 Stroke place_stroke(const Stroke& stroke, const StrokePlacement& placement,
-                    const std::string& name = "stroke");
+                    const std::string& name = "stroke", const Eigen::AlignedBox2d& bed = {});
 
 }  // namespace sandstroke

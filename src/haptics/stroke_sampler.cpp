@@ -7,27 +7,56 @@
 namespace sandstroke {
 namespace {
 
+using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-/// Slope at a sample between two secants over the spacings h0 and h1; 0 at a turning point.
+/// Slope of the height at a sample between two secants over the spacings h0 and h1; 0 at a turning point.
 double inner_slope(double h0, double secant0, double h1, double secant1) {
   if (!(secant0 * secant1 > 0.0)) return 0.0;
   const double weight0 = 2.0 * h1 + h0, weight1 = h1 + 2.0 * h0;
   return (weight0 + weight1) / (weight0 / secant0 + weight1 / secant1);
 }
 
-/// Slope at the end of a piece: the parabola through three samples, limited so that the cubic stays monotone.
-/// h0 and secant0 belong to the end's own spacing.
+/// Of the parabola through the last three samples of a piece; h0 and secant0 belong to the end's own spacing.
+template <class Slope>
+Slope parabola_at_end(double h0, const Slope& secant0, double h1, const Slope& secant1) {
+  return ((2.0 * h0 + h1) * secant0 - h0 * secant1) / (h0 + h1);
+}
+
+/// Slope of the height at the end of a piece: the parabola through three samples, limited so that the cubic
+/// stays monotone.
 double outer_slope(double h0, double secant0, double h1, double secant1) {
-  const double slope = ((2.0 * h0 + h1) * secant0 - h0 * secant1) / (h0 + h1);
+  const double slope = parabola_at_end(h0, secant0, h1, secant1);
   if (!(slope * secant0 > 0.0)) return 0.0;
   if (secant0 * secant1 < 0.0 && std::abs(slope) > 3.0 * std::abs(secant0)) return 3.0 * secant0;
   return slope;
 }
 
-/// Rounding must not carry a coordinate out of its bracket either.
-Vector3d between(const Vector3d& position, const Vector3d& a, const Vector3d& b) {
-  return position.cwiseMax(a.cwiseMin(b)).cwiseMin(a.cwiseMax(b));
+/// At most so fast.
+Vector2d limited(const Vector2d& velocity, double most) {
+  const double speed = velocity.norm();
+  return speed > most ? Vector2d(velocity * (most / speed)) : velocity;
+}
+
+/// As inner_slope(), of the way in the plane.
+Vector2d inner_velocity(double h0, const Vector2d& secant0, double h1, const Vector2d& secant1) {
+  const double speed0 = secant0.norm(), speed1 = secant1.norm();
+  if (speed0 == 0.0 || speed1 == 0.0) return Vector2d::Zero();
+  const double cosine = std::clamp((secant0 / speed0).dot(secant1 / speed1), -1.0, 1.0);
+  return limited((h1 * secant0 + h0 * secant1) / (h0 + h1), (1.0 + cosine) * std::min(speed0, speed1));
+}
+
+/// As outer_slope(), of the way in the plane.
+Vector2d outer_velocity(double h0, const Vector2d& secant0, double h1, const Vector2d& secant1) {
+  const Vector2d velocity = parabola_at_end(h0, secant0, h1, secant1);
+  if (!(velocity.dot(secant0) > 0.0)) return Vector2d::Zero();
+  return limited(velocity, 3.0 * secant0.norm());
+}
+
+/// Rounding must not carry the height out of its bracket either.
+Vector3d between(Vector3d position, const Vector3d& a, const Vector3d& b) {
+  position.z() = std::clamp(position.z(), std::min(a.z(), b.z()), std::max(a.z(), b.z()));
+  return position;
 }
 
 }  // namespace
@@ -110,11 +139,13 @@ Vector3d StrokeSampler::slope(std::size_t sample) const {
   }
   if (beside == near) return secant(near);  // a piece of two samples is straight
 
-  const auto rule = from_left && to_right ? inner_slope : outer_slope;
+  const bool inner = from_left && to_right;
   const Vector3d near_secant = secant(near), beside_secant = secant(beside);
   Vector3d slope;
-  for (int axis = 0; axis < 3; ++axis)
-    slope[axis] = rule(spacing(near), near_secant[axis], spacing(beside), beside_secant[axis]);
+  slope.head<2>() = (inner ? inner_velocity : outer_velocity)(spacing(near), near_secant.head<2>(),
+                                                              spacing(beside), beside_secant.head<2>());
+  slope.z() =
+      (inner ? inner_slope : outer_slope)(spacing(near), near_secant.z(), spacing(beside), beside_secant.z());
   return slope;
 }
 

@@ -22,10 +22,15 @@ struct StrokeGap {
 
 /// A stroke at any time, between its irregular samples.
 ///
-/// Along each joined piece (Stroke::joined) every coordinate is a monotone piecewise cubic (Fritsch &
-/// Carlson, SIAM J. Numer. Anal. 17, 1980; slopes by the weighted harmonic mean, one-sided at the ends, as
-/// pchip does): it passes through the samples and never leaves the range of the two samples around it. Across
-/// a gap the hand moves straight and lifted. A piece of one sample is a point, down at exactly its time.
+/// Each joined piece (Stroke::joined) is a piecewise cubic through the samples. Its height is monotone from
+/// sample to sample (Fritsch & Carlson, SIAM J. Numer. Anal. 17, 1980; slopes by the weighted harmonic mean,
+/// one-sided at the ends, as pchip does): it is never deeper than the deeper of the two samples around it.
+/// Its horizontal velocity at a sample is that of the parabola through three samples, but no more than
+/// (1 + cos a) times the slower of the two mean velocities around it, a being the angle between them. So the
+/// curve turns with the coordinates about z, is of third order on smooth ways, rests where two samples are
+/// equal, goes neither back nor too far on a straight line, and stays within a third of its chord's length of
+/// the chord (beside an end of a piece, two thirds). Across a gap the hand moves straight and lifted. A piece
+/// of one sample is a point, down at exactly its time.
 class StrokeSampler {
  public:
   /// The stroke must have passed check_stroke.

@@ -288,6 +288,7 @@ Stroke trace_script(const StrokeScript& script, const ForceSettings& force) {
   }
   pen.lift();
   Stroke stroke = pen.finish();
+  stroke.follows_sand = presses_by_force(script);
   check_stroke(stroke, script.name);
   return stroke;
 }

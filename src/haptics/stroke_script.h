@@ -16,7 +16,9 @@ namespace sandstroke {
 struct PressProfile {
   enum class Kind { depth, force };
   Kind kind = Kind::depth;
-  std::vector<double> values;  ///< depth: m below z = 0. force: N >= 0, the repulse force at that depth
+  /// depth: m below z = 0. force: N >= 0, the repulse force that is felt. Where anything presses by force,
+  /// the stroke follows the sand (Stroke::follows_sand), and depths count from there, too.
+  std::vector<double> values;
 };
 
 // What a segment draws, in the xy plane. All lengths in m, angles in deg counted from +x towards +y.

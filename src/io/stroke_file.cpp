@@ -91,6 +91,7 @@ std::string content_hash(const Stroke& stroke) {
   add(hash, stroke.position);
   add(hash, stroke.contact);
   hash.add(&stroke.gap_threshold, sizeof stroke.gap_threshold);
+  if (stroke.follows_sand) hash.add("sand", 4);
   return hash.text();
 }
 

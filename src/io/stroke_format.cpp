@@ -60,6 +60,7 @@ void write_stroke_attributes(Hdf5GridWriter& file, const Stroke& stroke) {
   file.attribute(stroke_group, "complete", stroke.complete);
   if (stroke.force_sign != ForceSign::not_said)
     file.attribute(stroke_group, "force_sign", force_sign_names[static_cast<std::size_t>(stroke.force_sign)]);
+  if (stroke.follows_sand) file.attribute(stroke_group, "follows_sand", true);
 }
 
 void read_stroke_attributes(const Hdf5Reader& file, Stroke& stroke) {
@@ -77,6 +78,7 @@ void read_stroke_attributes(const Hdf5Reader& file, Stroke& stroke) {
                         fmt::join(force_sign_names, ", "));
     stroke.force_sign = static_cast<ForceSign>(found - force_sign_names.begin());
   }
+  if (has("follows_sand")) stroke.follows_sand = file.number_attribute(stroke_group, "follows_sand") != 0.0;
   if (has("starved")) stroke.starved = file.number_attribute(stroke_group, "starved") != 0.0;
 }
 

@@ -25,7 +25,11 @@ const HeightField& checked(const Scene& scene, const HeightField& bed) {
   if (scene.stroke) {
     const StrokePlacement& placement = scene.stroke->placement;
     refuse_unless(placement.plane == StrokePlane::keep, "stroke.plane",
-                  "\"fit\" needs the whole stroke before it begins");
+                  "it needs the whole stroke before it begins");
+    refuse_unless(placement.fit == 0.0 && placement.place == StrokePlace::keep, "stroke.fit and stroke.place",
+                  "they need the whole stroke before it begins");
+    refuse_unless(placement.follow == StrokeFollow::bed, "stroke.follow",
+                  "the hand itself decides how deep it goes");
     refuse_unless(placement.start == 0.0 && std::isinf(placement.stop), "stroke.start and stroke.stop",
                   "they cut a stroke that does not exist yet");
   }

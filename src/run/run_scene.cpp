@@ -55,7 +55,7 @@ Stroke placed_stroke(const Scene& scene, const std::filesystem::path& path, std:
     spdlog::warn("{}: was cut off while it was recorded; the run ends where the stroke does", path.string());
   // Not of a recorded stroke's bytes: they tell which build wrote it, too.
   hash = is_script(path) ? file_hash(path) : content_hash(loaded);
-  Stroke placed = place_stroke(loaded, scene.stroke->placement, path.string());
+  Stroke placed = place_on_bed(loaded, scene, path.string());
   warn_if_any(coverage_warning(placed, path.string()));
   return placed;
 }

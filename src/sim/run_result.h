@@ -29,6 +29,8 @@ struct TickRecord {
   bool saturated = false;         ///< the device's maximum force cut the force
   bool dropped = false;           ///< the loop was late: the force of the tick before is given out again
   bool lifts = false;             ///< the hand is lifted before the tick ends
+  /// m, below the sand, that the hand asks for; NaN: it does not follow the sand.
+  double asked_depth = std::numeric_limits<double>::quiet_NaN();
 };
 
 /// What the traces of some runs hold, and others have no need of.
@@ -203,6 +205,15 @@ struct DeviceResult {
       {};  ///< s, where a dynamic device was found to swing by itself (SwingWatch)
 };
 
+/// What a stroke that follows the sand reached: means over the ticks in which it asked to be in it.
+struct FollowedSand {
+  std::int64_t ticks = 0;
+  double asked_depth = 0.0, depth = 0.0;  ///< m
+  double asked_force = 0.0, force = 0.0;  ///< N, repulse
+
+  void add(double asked, double reached, double force_asked, double force_reached);
+};
+
 /// What a whole run amounts to (`run --json`).
 struct RunResult {
   double wall_seconds = 0.0;  ///< the simulation, without start-up and file writing
@@ -220,9 +231,13 @@ struct RunResult {
   double moved_volume = 0.0;      ///< m^3, by tool and relaxation
   double volume_drift = 0.0;      ///< |final - initial| / moved volume; 0 where nothing moved
   double max_depth = 0.0;         ///< m
+  /// m, the largest depth of a tool that is down, touching or not; -infinity: it is never down over the bed.
+  double nearest = -std::numeric_limits<double>::infinity();
+  double nearest_time = 0.0;  ///< s
   int threads = 1;
   bool interrupted = false;
   std::optional<FurrowMeasures> furrow;          ///< where the stroke touched sand
+  std::optional<FollowedSand> followed;          ///< where the stroke follows the sand
   std::optional<ErrorEstimate> error;            ///< where it was asked for
   std::optional<ForceAgreement> recorded_force;  ///< where the stroke was recorded with forces
 };

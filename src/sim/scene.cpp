@@ -96,16 +96,32 @@ void describe_stroke(KeyVisitor& v, StrokeSettings& stroke) {
   StrokePlacement& p = stroke.placement;
   v.text("file", stroke.file,
          "scripted (.toml), recorded (.h5) or a table of samples, relative to the scene");
-  choose(v, "plane", p.plane, {"keep", "fit"},
-         "keep recorded heights, or turn and shift the stroke so that its plane is level");
-  v.number("scale", p.scale, positive, "", "scale of the positions");
+  choose(v, "plane", p.plane, {"keep", "fit", "flatten"},
+         "keep recorded heights, or turn and shift the stroke so that its plane is level, or so and move it "
+         "onto the plane exactly");
+  if (p.plane != StrokePlane::keep)
+    choose(v, "up", p.up, stroke_up_names,
+           "axis of the stroke that points up from its plane, about; auto: the side to which the pen lifts, "
+           "or the nearest positive axis");
+  v.number("fit", p.fit, not_negative, "", "share of the bed that it fills; 0: it keeps its size");
+  if (p.fit == 0.0) v.number("scale", p.scale, positive, "", "scale of the positions");
+  choose(v, "place", p.place, {"keep", "centre"},
+         "keep its place, or bring the middle of what it draws onto the middle of the bed");
   v.number("rotate_z", p.rotate_z, degrees, "deg", "turn about z, from +x towards +y");
   v.number("depth", p.depth, any_number, "m",
-           "how far it is lowered; with plane = fit: how far below z = 0 it runs");
-  v.numbers("offset", p.offset.data(), 3, any_number, "m", "shift on the bed");
-  v.number("start", p.start, not_negative, "s", "time at which it begins");
+           "how far it is lowered; with plane = fit or flatten: how far below z = 0 it runs");
+  choose(v, "follow", p.follow, {"bed", "sand"},
+         "its heights count from z = 0, or from the sand as it lies under the tool (as do those of a script "
+         "with a force)");
+  v.numbers("offset", p.offset.data(), 3, any_number, "m", "shift on the bed, after all else");
+  choose(v, "held", p.held, {"keep", "drop"},
+         "samples that a device repeated, because it was read faster than it measures");
+  v.number("smooth", p.smooth, not_negative, "Hz",
+           "smooths the hand without delay: a tremble of that frequency is halved; 0: as recorded");
+  v.number("speed", p.speed, positive, "", "times faster than recorded");
+  v.number("start", p.start, not_negative, "s", "time at which it begins, as recorded");
   double stop = std::isinf(p.stop) ? 0.0 : p.stop;
-  v.number("stop", stop, not_negative, "s", "time at which it ends; 0: its own end");
+  v.number("stop", stop, not_negative, "s", "time at which it ends, as recorded; 0: its own end");
   p.stop = stop > 0.0 ? stop : std::numeric_limits<double>::infinity();
   if (!v.optional_section("stroke.table", stroke.table.has_value(),
                           "how a table of samples is read; what is not given is found in the table"))
@@ -201,6 +217,13 @@ void apply_model_preset(Scene& scene) {
   // two cells only costs time.
   scene.relaxation.rate = paper ? 60.0 : 0.0;
   scene.relaxation.travel = paper ? 0.0 : 2.0;
+}
+
+Stroke place_on_bed(const Stroke& stroke, const Scene& scene, const std::string& name) {
+  // The bed in the hand's metres.
+  const Eigen::Vector2d half = 0.5 * Eigen::Vector2d(scene.bed.width, scene.bed.depth) / scene.device.scale;
+  const Eigen::Vector2d centre = -scene.device.offset.head<2>() / scene.device.scale;
+  return place_stroke(stroke, scene.stroke->placement, name, {centre - half, centre + half});
 }
 
 void check_scene(const Scene& scene, const std::string& name) {

@@ -65,6 +65,10 @@ void apply_model_preset(Scene& scene);
 /// Shows every setting to the visitor, in the order of a scene file.
 void describe_scene(KeyVisitor& visitor, Scene& scene);
 
+/// The stroke as the scene plays it, on its bed (haptics/stroke_placement.h); the scene has a stroke. Error:
+/// input, naming the stroke by `name`.
+Stroke place_on_bed(const Stroke& stroke, const Scene& scene, const std::string& name);
+
 /// What no single key can say: square cells, a tool that fits bed and cells, memory. Error: input, naming the
 /// keys; `name` is the scene's file.
 void check_scene(const Scene& scene, const std::string& name);

@@ -7,6 +7,7 @@
 #include "core/interrupt.h"
 #include "core/stopwatch.h"
 #include "sim/recorded_force.h"
+#include "sim/stroke_depth.h"
 
 namespace sandstroke {
 namespace {
@@ -54,32 +55,53 @@ Simulation::Simulation(const Scene& scene, HeightField bed, std::optional<Stroke
   check_inside(*stroke);
   ticks_ = static_cast<std::int64_t>(std::floor(stroke->duration() * scene.device.servo_rate + 1e-9)) + 1;
   idle_ = idle_ticks(*stroke, scene.device);
+  if (stroke->follows_sand) {
+    follower_.emplace(scene.tool, scene.device);
+    result_.followed.emplace();
+  }
   stroke_.emplace(std::move(*stroke));
 }
 
 void Simulation::check_inside(const Stroke& stroke) const {
-  const double highest = bed_.highest();
-  const double half_x = 0.5 * bed_.cols() * bed_.cell_size(), half_y = 0.5 * bed_.rows() * bed_.cell_size();
+  const double highest = stroke.follows_sand ? 0.0 : bed_.highest();
+  const Eigen::Vector2d half = 0.5 * bed_.cell_size() * Eigen::Vector2d(bed_.cols(), bed_.rows());
   for (std::size_t i = 0; i < stroke.size(); ++i) {
     const Eigen::Vector3d tip = tip_of(scene_.device, stroke.position[i]);
-    const bool outside = std::abs(tip.x()) > half_x || std::abs(tip.y()) > half_y;
-    if (outside && stroke.pen_down(i) && tip.z() < highest)
+    const double beyond = (tip.head<2>().cwiseAbs() - half).maxCoeff();
+    if (beyond > 0.0 && stroke.pen_down(i) && tip.z() < highest)
       throw_input_error(
-          "the stroke enters the sand outside the bed: at {:.3f} s it is at x = {:.4g} m, y = {:.4g} m, and "
-          "the bed ends at {:.4g} and {:.4g} m; change stroke.scale, stroke.offset or bed.size",
-          stroke.time[i], tip.x(), tip.y(), half_x, half_y);
+          "the stroke enters the sand outside the bed: at {:.3f} s it is {:.4g} mm beyond its edge, at x = "
+          "{:.4g} m, y = {:.4g} m; {}",
+          stroke.time[i], 1e3 * beyond, tip.x(), tip.y(), way_onto_the_bed(stroke, scene_));
   }
 }
 
-TickRecord Simulation::tick(double time, const Hand& hand, const Hand& next,
+Hand Simulation::hand_at(double time) {
+  const Hand hand = stroke_->at(time);
+  return follower_ ? follower_->follow(hand, bed_) : hand;
+}
+
+void Simulation::account(const TickRecord& record) {
+  result_.ticks += 1;
+  result_.contact_ticks += record.contact;
+  result_.displaced_volume += record.displaced_volume;
+  if (record.contact) result_.max_depth = std::max(result_.max_depth, record.depth);
+  if (!record.hand.down || std::isnan(record.level)) return;
+  if (record.depth > result_.nearest) result_.nearest = record.depth, result_.nearest_time = record.time;
+  if (record.asked_depth > 0.0)
+    result_.followed->add(record.asked_depth, record.depth, repulse_force(record.asked_depth, scene_.force),
+                          record.repulse_force.z());
+}
+
+TickRecord Simulation::tick(double time, const Hand& hand, double next_time,
                             const std::function<void()>& slip) {
   TickRecord record;
   const SimulatedDevice::State reading = device_.device().read();
   const Eigen::Vector3d tip = tip_of(scene_.device, reading.position);
   const Eigen::Vector3d true_tip = tip_of(scene_.device, device_.device().state().position);
+  if (follower_) record.asked_depth = follower_->asked_depth();
   record.time = time;
   record.hand = hand;
-  record.next = next;
   record.device_position = reading.position;
   if (hand.down) {
     const Interaction interaction = sand_.move(bed_, tip, true_tip, slip);
@@ -91,6 +113,7 @@ TickRecord Simulation::tick(double time, const Hand& hand, const Hand& next,
     sand_.lift();
     if (sand_.slip_is_due()) slip();
   }
+  record.next = hand_at(next_time);
   device_.feel(record);
   return record;
 }
@@ -160,7 +183,7 @@ void Simulation::run_stroke() {
   const auto time_of = [&](std::int64_t tick) {
     return std::min(begin + static_cast<double>(tick) / servo_rate, stroke_->end_time());
   };
-  Hand hand = stroke_->at(begin);
+  Hand hand = hand_at(begin);
   RecordedForce recorded(stroke_->stroke());
   device_.start(hand);
 
@@ -172,25 +195,22 @@ void Simulation::run_stroke() {
     if (idle_next != idle_.end() && k == idle_next->begin) {
       k = idle(*idle_next++);
       if (interrupted()) break;
-      hand = stroke_->at(time_of(k));
+      if (follower_) follower_->restart();
+      hand = hand_at(time_of(k));
       device_.start(hand);
     }
     time = static_cast<double>(k) / servo_rate;
     const double next_time = time_of(k + 1);
-    const Hand next = stroke_->at(next_time);
-    TickRecord record = tick(time, hand, next, slip);
+    TickRecord record = tick(time, hand, next_time, slip);
     record.lifts = stroke_->lifts_between(begin + time, next_time);
     record.recorded_force = recorded.at(time);
 
     device_.advance(record);
     check_near(record);
-    hand = next;
+    hand = record.next;
     if (record.lifts) sand_.lift();
 
-    result_.ticks += 1;
-    result_.contact_ticks += record.contact;
-    result_.displaced_volume += record.displaced_volume;
-    if (record.contact) result_.max_depth = std::max(result_.max_depth, record.depth);
+    account(record);
     tell([&](auto& observer) { observer.on_tick(record); });
     if (comes_due(k, servo_rate, scene_.relaxation.rate)) relax(time);
     if (comes_due(k, servo_rate, scene_.output.frames)) keep_frame(static_cast<double>(k + 1) / servo_rate);
@@ -223,6 +243,13 @@ RunResult Simulation::run(const Observers& observers) {
   result_.device = device_.result();
   result_.wall_seconds = watch.seconds();
   return result_;
+}
+
+void FollowedSand::add(double asked, double reached, double force_asked, double force_reached) {
+  const auto mean = [share = 1.0 / static_cast<double>(++ticks)](double& of, double value) {
+    of += share * (value - of);
+  };
+  mean(asked_depth, asked), mean(depth, reached), mean(asked_force, force_asked), mean(force, force_reached);
 }
 
 bool returned_energy(const DeviceResult& result) {

@@ -6,6 +6,7 @@
 #include "sim/device_side.h"
 #include "sim/idle_ticks.h"
 #include "sim/run_result.h"
+#include "sim/sand_follower.h"
 #include "sim/sand_side.h"
 #include "sim/scene.h"
 #include "sim/simulation_observer.h"
@@ -36,8 +37,12 @@ class Simulation {
  private:
   void check_inside(const Stroke& stroke) const;
   void run_stroke();
-  /// What sand and device do in the tick in which the hand goes from one place to the next.
-  TickRecord tick(double time, const Hand& hand, const Hand& next, const std::function<void()>& slip);
+  /// What sand and device do in the tick at whose end the stroke is at next_time.
+  TickRecord tick(double time, const Hand& hand, double next_time, const std::function<void()>& slip);
+  /// Where the stroke's hand is at that time of the stroke, on the sand as it lies now.
+  Hand hand_at(double time);
+  /// Adds what a tick reached.
+  void account(const TickRecord& record);
   /// Idle ticks: sand that is not at rest slips when it is due, and frames come. The tick after the last one.
   std::int64_t idle(const TickRange& ticks);
   RelaxationOutcome relax(double time);
@@ -52,6 +57,7 @@ class Simulation {
   Scene scene_;
   HeightField bed_;
   std::optional<StrokeSampler> stroke_;
+  std::optional<SandFollower> follower_;
   std::int64_t ticks_ = 0;  // of the stroke
   std::vector<TickRange> idle_;
   SandSide sand_;

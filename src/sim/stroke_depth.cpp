@@ -2,6 +2,9 @@
 
 #include <spdlog/fmt/fmt.h>
 
+#include <Eigen/Geometry>
+#include <cmath>
+
 namespace sandstroke {
 
 DeepestPlace deepest_place(const Scene& scene, const HeightField& bed, const Stroke& stroke) {
@@ -9,10 +12,40 @@ DeepestPlace deepest_place(const Scene& scene, const HeightField& bed, const Str
   for (std::size_t i = 0; i < stroke.size(); ++i) {
     if (!stroke.pen_down(i)) continue;
     const Eigen::Vector3d tip = tip_of(scene.device, stroke.position[i]);
-    const double depth = bed.height_at(tip.x(), tip.y()) - tip.z();
+    const double level = bed.height_at(tip.x(), tip.y());
+    const double depth = (stroke.follows_sand && !std::isnan(level) ? 0.0 : level) - tip.z();
     if (depth > deepest.depth) deepest = {depth, stroke.time[i]};
   }
   return deepest;
+}
+
+std::string way_onto_the_bed(const Stroke& stroke, const Scene& scene) {
+  Eigen::AlignedBox2d drawn;
+  for (std::size_t i = 0; i < stroke.size(); ++i)
+    if (stroke.pen_down(i)) drawn.extend(tip_of(scene.device, stroke.position[i]).head<2>());
+  const Eigen::Vector2d bed(scene.bed.width, scene.bed.depth);
+  const bool too_large = (drawn.sizes().array() > bed.array()).any();
+  return fmt::format(
+      "it draws from x = {:.4g} to {:.4g} m and y = {:.4g} to {:.4g} m, and the bed ends at {:.4g} and "
+      "{:.4g} m; set stroke.place = \"centre\"{}",
+      drawn.min().x(), drawn.max().x(), drawn.min().y(), drawn.max().y(), 0.5 * bed.x(), 0.5 * bed.y(),
+      too_large ? " and stroke.fit = 0.8 (or change stroke.scale; 0.001 makes metres of millimetres)"
+                : ", or change stroke.offset, stroke.scale or bed.size");
+}
+
+std::string untouched_text(const Scene& scene, const RunResult& result) {
+  constexpr const char* tracing =
+      "for a tracing on a table set stroke.plane = \"fit\" and stroke.depth = 0.004";
+  if (!(result.stroke.played > 0.0))
+    return "the tool never touched the sand: the stroke is never down; see its gaps and pen states with "
+           "sandstroke stroke info";
+  if (std::isinf(result.nearest))
+    return "the tool never touched the sand: it is never down over the bed; set stroke.place = \"centre\"";
+  const double away = -result.nearest, depth = scene.stroke->placement.depth;
+  return fmt::format(
+      "the tool never touched the sand: it stayed {:.4g} mm above it (nearest at {:.3f} s); set stroke.depth "
+      "above {:.4g} m (it is {:.4g} m), or lower stroke.offset; {}",
+      1e3 * away, result.nearest_time, depth + away / scene.device.scale, depth, tracing);
 }
 
 std::string depth_warning(const Scene& scene, const HeightField& bed, const Stroke& stroke,

@@ -27,12 +27,14 @@ std::shared_ptr<const SweepStroke> SweepInputs::stroke(const Scene& scene) {
   if (is_new) by_force->second = stroke_depends_on_force(path);
   Scene named;
   named.stroke = scene.stroke;
+  named.bed.width = scene.bed.width, named.bed.depth = scene.bed.depth;  // where it is placed
+  named.device.scale = scene.device.scale, named.device.offset = scene.device.offset;
   if (by_force->second) named.force = scene.force;
   const std::string key = scene_text(named);
   if (const auto found = strokes_.find(key); found != strokes_.end()) return found->second;
   auto loaded = std::make_shared<SweepStroke>();
-  const Stroke stroke = load_stroke(path, scene.force, scene.stroke->table.value_or(TableSettings{}));
-  loaded->stroke = place_stroke(stroke, scene.stroke->placement, path.string());
+  loaded->stroke = place_on_bed(load_stroke(path, scene.force, scene.stroke->table.value_or(TableSettings{})),
+                                scene, path.string());
   loaded->hash = content_hash(loaded->stroke);
   strokes_loaded_ += 1;
   stroke_samples_ += loaded->stroke.size();

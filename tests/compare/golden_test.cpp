@@ -211,6 +211,15 @@ TEST_F(Golden, AChangedSceneNamesItsSettingsWithBothValues) {
                       "if that is wanted: sandstroke golden update dune");
 }
 
+TEST_F(Golden, ASettingThatTheEntrysBuildDidNotHaveHadItsDefault) {
+  run.scene = "[tool]\nradius = 0.02\n[stroke]\nfile = \"hand.h5\"\n";
+  write_golden(folder / "golden/dune", finished());
+  run.scene += "rotate_z = 0.0\n";
+  EXPECT_TRUE(compare().passed());
+  run.scene += "depth = 0.001\n";
+  expect_only_failure("scene", "changed: stroke.depth is new, 0.001;");
+}
+
 TEST_F(Golden, AChangedStrokeNamesItsFile) {
   run.scene += "[stroke]\nfile = \"hand.h5\"\n";
   write_golden(folder / "golden/dune", finished());

@@ -107,7 +107,7 @@ TEST(SceneToml, EveryKeyOfTheTableIsReadWithItsDefaultJustWhereItSaysThatItAppli
     }
   }
   EXPECT_GT(keys, 50);
-  EXPECT_EQ(conditional, 14);
+  EXPECT_EQ(conditional, 15);
 }
 
 TEST(SceneToml, AKeyThatDoesNotApplyIsToldWhereItWould) {

@@ -63,5 +63,34 @@ TEST(StrokeDepth, TwentyRadiiAreWhatIsWarnedOf) {
   }
 }
 
+TEST(StrokeDepth, BesideTheBedTheWayOntoItIsSaid) {
+  const auto way = [](double size) {
+    Played played({{1.0, 2.0, -0.01}, {1.0 + size, 2.0 + 0.5 * size, -0.01}, {9, 9, 9}});
+    played.stroke.contact = {pen_down, pen_down, pen_up};
+    return way_onto_the_bed(played.stroke, played.scene);
+  };
+  EXPECT_TRUE(
+      way(0.1).starts_with("it draws from x = 1 to 1.1 m and y = 2 to 2.05 m, and the bed ends at 0.15 "
+                           "and 0.1 m; set stroke.place = \"centre\", or "))
+      << way(0.1);
+  EXPECT_NE(way(0.4).find("\"centre\" and stroke.fit = 0.8"), std::string::npos) << way(0.4);
+}
+
+TEST(StrokeDepth, OfAToolThatNeverTouchedSaysHowFarItStayed) {
+  Played played({{0, 0, 0.02}});
+  played.scene.stroke.emplace();
+  played.scene.stroke->placement.depth = 0.001;
+  played.scene.device.scale = 2.0;
+  RunResult result;
+  result.stroke.played = 1.0;
+  EXPECT_NE(untouched_text(played.scene, result).find("stroke.place = \"centre\""), std::string::npos);
+  result.nearest = -0.003, result.nearest_time = 0.25;
+  const std::string text = untouched_text(played.scene, result);
+  EXPECT_NE(text.find("3 mm above it (nearest at 0.250 s)"), std::string::npos) << text;
+  EXPECT_NE(text.find("stroke.depth above 0.0025 m (it is 0.001 m)"), std::string::npos) << text;
+  result.stroke.played = 0.0;
+  EXPECT_NE(untouched_text(played.scene, result).find("never down"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace sandstroke

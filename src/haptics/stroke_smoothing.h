@@ -1,0 +1,16 @@
+#pragma once
+
+#include "haptics/stroke.h"
+
+namespace sandstroke {
+
+/// The stroke without tremble and noise: positions and velocities of every joined piece pass a low-pass
+/// filter without phase shift, whose gain is 1 / (1 + (f / cut_off)^4), as that of a Butterworth filter of
+/// second order that runs forward and backward. So a sine at the cut-off [Hz] is halved. Times may be
+/// irregular: a piece minimises sum w |x - sample|^2 + lambda sum w |x''|^2, w being the time that a sample
+/// stands for (Whittaker; solved as by Reinsch, Numer. Math. 10, 1967). A straight uniform motion stays to
+/// rounding, both ends of a piece stay where they are. Pieces of two samples stay, and those that are sampled
+/// at less than twice the cut-off.
+Stroke smoothed(const Stroke& stroke, double cut_off);
+
+}  // namespace sandstroke
