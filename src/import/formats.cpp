@@ -112,8 +112,10 @@ bool is_inkml(std::string_view text) {
 
 }  // namespace
 
-std::optional<SampleTable> read_format(const fs::path& path, const std::string& part) {
-  if (fs::exists(path) && !fs::is_regular_file(path) && !fs::is_directory(path)) return {};
+std::optional<SampleTable> read_known_format(const fs::path& path, const std::string& part) {
+  const bool pipe =
+      path == "-" || (fs::exists(path) && !fs::is_regular_file(path) && !fs::is_directory(path));
+  if (pipe) return {};
   const std::string head = head_of(path);
   if (head.starts_with(std::string_view("SQLite format 3\0", 16))) return read_ros2_bag(path, part);
   if (head.starts_with("MATLAB ") || has_ending(path, ".mat")) return read_mat(path, part);

@@ -45,7 +45,7 @@ inline std::string_view cut_word(std::string_view& text) {
 }
 
 /// What all of the text says, if that is a finite number.
-inline std::optional<double> finite_number(std::string_view text) {
+inline std::optional<double> number_in(std::string_view text) {
   if (text.starts_with('+')) text.remove_prefix(1);
   double value = 0.0;
   const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), value);

@@ -96,12 +96,12 @@ Vector3d RecordedForce::at(double since_first) {
   if (!is_there()) return unknown;
   const double time = stroke_.time.front() + since_first;
   while (cursor_ + 1 < stroke_.size() && stroke_.time[cursor_ + 1] <= time) ++cursor_;
-  const Vector3d recorded = stroke_.force[cursor_];
+  const Vector3d recorded = sign_ * stroke_.force[cursor_];
   if (!unaltered(cursor_)) return unknown;
   if (time == stroke_.time[cursor_]) return recorded;
   if (!stroke_.joined(cursor_) || !unaltered(cursor_ + 1)) return unknown;
   const double share = (time - stroke_.time[cursor_]) / (stroke_.time[cursor_ + 1] - stroke_.time[cursor_]);
-  return recorded + share * (stroke_.force[cursor_ + 1] - recorded);
+  return recorded + share * (sign_ * stroke_.force[cursor_ + 1] - recorded);
 }
 
 std::optional<ForceAgreement> force_agreement(const std::vector<ForcePair>& ticks) {

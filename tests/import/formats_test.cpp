@@ -20,7 +20,7 @@ std::optional<SampleTable> sampled(const std::string& name, std::string_view con
                                    const std::string& part = "") {
   const TestFolder folder;
   put_text(folder / name, content);
-  return read_format(folder / name, part);
+  return read_known_format(folder / name, part);
 }
 
 std::string description(const std::string& name, std::string_view content) {
@@ -48,6 +48,7 @@ TEST(Formats, OtherTextIsLeftToTables) {
   EXPECT_EQ(description("a.csv", std::string_view("\xFF\xFEx\0,\0y\0\n\0", 10)), "text");  // UTF-16
   EXPECT_EQ(description("stroke.toml", "[[segment]]\nkind = 'line'\n"), "text");
   EXPECT_EQ(description("empty", ""), "text");
+  EXPECT_FALSE(read_known_format("-"));
 }
 
 TEST(Formats, KindsThatAreNotReadAreNamedWithTheWayOut) {
@@ -88,7 +89,7 @@ TEST(Formats, AFolderOrNothingIsNoFile) {
   const TestFolder folder;
   for (const char* name : {".", "not there"}) {
     try {
-      read_format(folder / name);
+      read_known_format(folder / name);
       FAIL();
     } catch (const Error& failure) {
       EXPECT_EQ(failure.kind(), ErrorKind::io);

@@ -164,6 +164,12 @@ TEST(Gcode, AZThatMovesByItselfLiftsThePen) {
               5.5 + std::hypot(4.0, 6.0) + 5.5, 1e-12);
 }
 
+TEST(Gcode, APenMayDrawAtSeveralDepths) {
+  const SampleTable table = gcode_table("G0 X0 Y0 Z5\nG1 Z-1\nX1\nZ-2\nX0\nZ5\nX9\n");
+  EXPECT_THAT(gcode_values(table, "z"), ElementsAre(-1, -1, -2, -2));
+  EXPECT_THAT(table.lifts, ElementsAre(false, false, false, true));
+}
+
 TEST(Gcode, APenMayDrawAboveZero) {
   const SampleTable table = gcode_table("G0 X0 Y0 Z9\nZ1\nX1\nZ9\nX5\nZ1\nX6\n");
   EXPECT_THAT(gcode_values(table, "x"), ElementsAre(0, 1, 5, 6));

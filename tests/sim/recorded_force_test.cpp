@@ -39,6 +39,14 @@ TEST(RecordedForce, IsLinearBetweenSamples) {
     EXPECT_NEAR(recorded_at(late, time), force, 1e-14);
 }
 
+TEST(RecordedForce, OfTheHandOnTheDeviceIsTurnedRound) {
+  Stroke stroke = rising();
+  stroke.force_sign = ForceSign::by_hand;
+  RecordedForce recorded(stroke);
+  EXPECT_EQ(recorded_at(recorded, 1.0), -2.0);
+  EXPECT_EQ(recorded_at(recorded, 1.25), -2.5);
+}
+
 TEST(RecordedForce, IsNotKnownWhereTheRecorderAlteredItOrNothingWasRecorded) {
   Stroke stroke = rising();
   stroke.flags = {late_sample, 0, 0, ramped_force};
