@@ -207,7 +207,7 @@ class TextTable::Rows {
     const std::string here = fmt::format("{}:{}", name_, line_);
     const bool is_header = std::none_of(fields.begin(), fields.end(), is_number);
     const bool names_all = fields.size() == fields_of_most_ ||
-                           (is_header && fields.size() + 1 == fields_of_most_) ||
+                           (is_header && fields.size() > 1 && fields.size() + 1 == fields_of_most_) ||
                            (fields.size() == fields_of_most_ + 1 && fields.back().empty());
     if (!names_all)
       throw_input_error(
