@@ -205,7 +205,16 @@ class TextTable::Rows {
   bool take_header(const std::vector<std::string>& fields) {
     const auto is_number = [&](const std::string& field) { return is_value(field, dialect_->decimal); };
     const std::string here = fmt::format("{}:{}", name_, line_);
-    if (std::none_of(fields.begin(), fields.end(), is_number)) {
+    const bool is_header = std::none_of(fields.begin(), fields.end(), is_number);
+    const bool names_all = fields.size() == fields_of_most_ ||
+                           (is_header && fields.size() > 1 && fields.size() + 1 == fields_of_most_) ||
+                           (fields.size() == fields_of_most_ + 1 && fields.back().empty());
+    if (!names_all)
+      throw_input_error(
+          "{}: the first line has {} fields ({}), and most lines have {}; pass over it with {} or {}", here,
+          fields.size(), excerpt(fmt::format("{}", fmt::join(fields, ", "))), fields_of_most_,
+          option_and_key("skip_lines"), option_and_key("skip"));
+    if (is_header) {
       std::vector<std::string> names = fields;
       if (names.size() + 1 == fields_of_most_) names.insert(names.begin(), "row");  // of R
       if (names.size() == fields_of_most_ + 1 && names.back().empty()) names.pop_back();

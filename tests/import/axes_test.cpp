@@ -149,6 +149,9 @@ TEST_F(MergedTables, ClocksSayHowTimesBelongTogether) {
   EXPECT_THAT(both.warnings,
               ElementsAre(HasSubstr("0.25 s at its beginning and 0 s at its end are left out")));
 
+  const std::string early = "stamp,fx_N,fy_N,fz_N\n1699999998500000000,1,0,0\n1700000002500000000,9,0,0\n";
+  EXPECT_TRUE(merged(first, early).stroke.force[0].isApprox(Vector3d(4, 0, 0), 1e-9));  // 1.5 s of 4
+
   EXPECT_THAT(refusal(first, "t_s,fx_N,fy_N,fz_N\n0,1,0,0\n2,1,0,0\n"), HasSubstr("--merge-shift"));
   EXPECT_EQ(merged(first, "t_s,fx_N,fy_N,fz_N\n7,1,0,0\n9,1,0,0\n", -7.0).stroke.size(), 3u);
   EXPECT_THAT(refusal("t_s,x_m,y_m\n0,0,0\n1,1,0\n", "t_s,fx_N,fy_N,fz_N\n7,1,0,0\n9,1,0,0\n"),

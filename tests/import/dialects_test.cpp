@@ -154,6 +154,10 @@ TEST(Dialect, LinesWithOneOfSeveralWordsAreSkipped) {
 TEST(Dialect, WhatIsNoTableIsSaidWithItsLine) {
   EXPECT_THAT(refusal("Dear all,\nthis is no table\nbut a letter\n"),
               AllOf(HasSubstr("in.csv:2: 'this is no table' is no row"), HasSubstr("--skip")));
+  EXPECT_THAT(refusal("Robot: UR5\nx_m;y_m\n1;2\n3;4\n"),
+              AllOf(HasSubstr("in.csv:1: the first line has 1 fields (Robot: UR5), and most lines have 2"),
+                    HasSubstr("--skip-lines")));
+  EXPECT_THAT(refusal("3\nx_m;y_m\n1;2\n3;4\n"), HasSubstr("--skip-lines"));
   EXPECT_THAT(refusal("x,y,z\n"), HasSubstr("no samples"));
   EXPECT_THAT(refusal("x,y\n1,2\n"), HasSubstr("unit of x, y is not known"));
   EXPECT_THAT(refusal("x_m,y_m\n1,2\n"),
