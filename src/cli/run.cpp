@@ -117,8 +117,10 @@ void print_summary(const RunResult& r, const Scene& scene, const std::string& ou
     print_row("deepest", fmt::format("{:.3f} mm", 1e3 * r.max_depth));
     const bool drag = r.furrow && r.furrow->length >= scene.tool.radius;  // a plunge asks for no furrow
     if (drag && !std::isnan(r.furrow->depth) && !std::isnan(r.furrow->asked_depth))
-      print_row("furrow", fmt::format("{:.2f} mm deep; the stroke asked for {:.2f} mm (medians)",
-                                      1e3 * r.furrow->depth, 1e3 * r.furrow->asked_depth));
+      print_row("furrow",
+                fmt::format("{:.2f} mm deep; the stroke {} {:.2f} mm (medians)", 1e3 * r.furrow->depth,
+                            r.followed ? "led below the sand as it was by" : "asked for",
+                            1e3 * r.furrow->asked_depth));
     if (r.followed && r.followed->ticks > 0)
       print_row("on the sand",
                 fmt::format("asked {:.2f} mm and {:.3g} N, reached {:.2f} mm and {:.3g} N (means)",

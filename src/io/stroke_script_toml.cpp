@@ -20,7 +20,10 @@ struct PressKeys {
 
 void show_press(KeyVisitor& v, PressKeys& press) {
   v.profile("depth", press.depth, depth_range, "m", "depth below z = 0; a list is spread along the segment");
-  v.profile("force", press.force, force_range, "N", "repulse force instead of depth; a list is spread too");
+  v.profile(
+      "force", press.force, force_range, "N",
+      "repulse force that is felt, instead of depth: all heights then count from the sand as it lies; a list "
+      "is spread too");
 }
 
 void show_script(KeyVisitor& v, StrokeScript& script, double& speed, PressKeys& press) {

@@ -32,6 +32,9 @@ const HeightField& checked(const Scene& scene, const HeightField& bed) {
                   "the hand itself decides how deep it goes");
     refuse_unless(placement.start == 0.0 && std::isinf(placement.stop), "stroke.start and stroke.stop",
                   "they cut a stroke that does not exist yet");
+    refuse_unless(placement.held == HeldSamples::keep && placement.smooth == 0.0 && placement.speed == 1.0,
+                  "stroke.held, stroke.smooth and stroke.speed",
+                  "they change a stroke that does not exist yet");
   }
   // Here and in the eroding thread, each with what the other knows.
   check_memory(4.0 * bed.tile_count() * static_cast<double>(HeightField::bytes_per_tile()),

@@ -245,6 +245,18 @@ TEST(StrokePlacement, AnAxisThatIsNotUpIsRefused) {
               testing::AllOf(HasSubstr("tilted 90 deg against stroke.up = \"x\""), HasSubstr("\"z\"")));
 }
 
+TEST(StrokePlacement, ANamedAxisIsWithin45DegOfTheNormal) {
+  StrokePlacement fit;
+  fit.plane = StrokePlane::fit;
+  fit.up = StrokeUp::z;
+  for (const double degrees : {44.0, 46.0, 134.0, 136.0}) {
+    std::vector<Vector3d> points = flat_tracing();
+    const Eigen::AngleAxisd tilt(degrees * std::numbers::pi / 180.0, Vector3d::UnitX());
+    for (Vector3d& p : points) p = tilt * p;
+    EXPECT_EQ(complaint(stroke_through(points), fit).empty(), degrees == 44.0 || degrees == 136.0) << degrees;
+  }
+}
+
 TEST(StrokePlacement, FlattenMovesWhatIsDrawnOntoThePlaneAndNothingElse) {
   // A bumpy tracing, and one that is as thick as it is wide.
   std::vector<Vector3d> points = flat_tracing();

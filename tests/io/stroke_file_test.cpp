@@ -98,6 +98,21 @@ TEST_F(StrokeFile, ComesBackToTheBit) {
   expect_same(load_stroke(path, {}), full_stroke());
 }
 
+TEST_F(StrokeFile, KeepsThatHeightsCountFromTheSand) {
+  Stroke stroke;
+  stroke.time = {0.0};
+  stroke.position = {Eigen::Vector3d::Zero()};
+  for (const bool follows : {true, false}) {
+    stroke.follows_sand = follows;
+    const fs::path path = folder_ / (follows ? "sand.h5" : "bed.h5");
+    write_stroke_file(path, stroke);
+    EXPECT_EQ(read_stroke_file(path).follows_sand, follows);
+  }
+  const std::string from_the_bed = content_hash(stroke);
+  stroke.follows_sand = true;
+  EXPECT_NE(content_hash(stroke), from_the_bed);
+}
+
 TEST_F(StrokeFile, ItsContentHashIsOfWhatARunTakesFromIt) {
   const Stroke stroke = full_stroke();
   const auto changes_it = [&](const std::function<void(Stroke&)>& change) {
