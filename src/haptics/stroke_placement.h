@@ -66,8 +66,8 @@ PointPlacement point_placement(const StrokePlacement& placement, const std::stri
 /// The stroke as it is played: cut to start..stop, without held samples, smoothed, turned from the device's
 /// axes (frame "device") to the bed's, laid level (plane), scaled, turned about z, lowered by `depth`,
 /// brought onto the bed (place), moved by `offset`; its time begins at 0, and is `speed` times shorter.
-/// Velocities turn and scale with it, forces and orientations turn. The drawn extent is that of the samples at which the pen
-/// is down. `bed` [m]: where the bed is, for what asks for it (fit, place).
+/// Velocities turn and scale with it, forces and orientations turn. The drawn extent is that of the samples
+/// at which the pen is down. `bed` [m]: where the bed is, for what asks for it (fit, place).
 ///
 /// The plane is the least-squares plane through the samples at which the pen is down (plane_through). It is
 /// turned by the smallest rotation that brings up_normal() to z, and shifted onto z = 0; bumps about the

@@ -32,7 +32,8 @@ TableSettings settings_of_second(const TableSettings& settings) {
 
 SampleTable read_samples(const fs::path& path, const TableSettings& settings, bool need_position) {
   if (path != "-")
-    if (std::optional<SampleTable> samples = read_known_format(path, settings.part)) return std::move(*samples);
+    if (std::optional<SampleTable> samples = read_known_format(path, settings.part))
+      return std::move(*samples);
   InputFile file(path == "-" ? "/dev/stdin" : path, InputFile::Pipe::taken);
   TextTable table(name_of(path), settings, need_position);
   for (std::string_view part = file.next_block(); !part.empty(); part = file.next_block()) table.read(part);

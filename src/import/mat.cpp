@@ -145,11 +145,13 @@ std::vector<MatVariable> chosen(std::vector<MatVariable> variables, const std::s
     }
   }
   if (fit.empty())
-    throw_input_error("{}: has no variable '{}'; --part takes one of: {}", name, part, listed(variables));
+    throw_input_error("{}: has no variable '{}'; --part (in a scene: stroke.table.part) takes one of: {}",
+                      name, part, listed(variables));
   if (lengths.size() == 1) return fit;
   throw_input_error(
-      "{}: its variables differ in length; name one by --part, and those as long are taken with it: {}", name,
-      listed(fit));
+      "{}: its variables differ in length; name one by --part (in a scene: stroke.table.part), and those as "
+      "long are taken with it: {}",
+      name, listed(fit));
 }
 
 bool is_ever_finite(const SampleColumn& column) {
@@ -193,7 +195,10 @@ SampleTable read_mat(const fs::path& path, const std::string& part) {
           {one.width == 1 ? one.name : fmt::format("{}.{}", one.name, k + 1), "", std::move(one.columns[k])});
   const std::size_t left_out = leave_out_unknown(table.columns);
   if (table.size() == 0)
-    throw_input_error("{}: no sample has finite numbers only; name other variables by --part", path.string());
+    throw_input_error(
+        "{}: no sample has finite numbers only; name other variables by --part (in a scene: "
+        "stroke.table.part)",
+        path.string());
   table.description = fmt::format("MATLAB file: {} columns, {} samples{}", table.columns.size(), table.size(),
                                   left_out ? fmt::format(", {} with NaN left out", left_out) : "");
   return table;

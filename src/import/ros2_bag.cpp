@@ -182,7 +182,8 @@ SampleTable read_ros2_bag(const fs::path& path, const std::string& topic) {
         "Stamped); it has: {}",
         path.string(), all.empty() ? "none" : fmt::format("{}", fmt::join(all, ", ")));
   }
-  const std::string choose = fmt::format("name one of its topics by --part: {}", fmt::join(readable, ", "));
+  const std::string choose = fmt::format(
+      "name one of its topics by --part (in a scene: stroke.table.part): {}", fmt::join(readable, ", "));
   if (topic.empty()) throw_input_error("{}: several topics could be meant; {}", path.string(), choose);
   throw_input_error("{}: topic '{}' cannot be read; {}", path.string(), topic, choose);
 }

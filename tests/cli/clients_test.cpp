@@ -78,6 +78,7 @@ TEST_F(CliClients, XarrayAndH5pyOpenARunWithItsAxes) {
 
   visit_tick_fields([&](const FieldText& field, const auto& of) {
     using Value = std::decay_t<decltype(of(std::declval<TickRecord&>()))>;
+    if (field.only_with) return;  // this run has neither recorded forces nor dropped ticks
     expect_described(groups[1], field.name, std::is_same_v<Value, Eigen::Vector3d> ? vectors : over_time,
                      field.units);
   });

@@ -122,6 +122,7 @@ const std::vector<KeyCase> cases = {
      stroke},
     {"stroke.table.orientation=4,5,6,7", [](S s) { return s.stroke->table->orientation == "4,5,6,7"; },
      stroke},
+    {"stroke.table.part=/pen/tip", [](S s) { return s.stroke->table->part == "/pen/tip"; }, stroke},
     {"stroke.table.columns=e,f,g", [](S s) { return s.stroke->table->columns == "e,f,g"; }, stroke},
     {"stroke.table.separator=tab", [](S s) { return s.stroke->table->separator == Separator::tab; }, stroke},
     {"stroke.table.decimal=comma", [](S s) { return s.stroke->table->decimal == DecimalMark::comma; },
