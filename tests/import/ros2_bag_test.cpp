@@ -86,9 +86,10 @@ TEST(Ros2Bag, OfSeveralTopicsOneIsAskedFor) {
   bag.topic(2, "/force", "geometry_msgs/msg/WrenchStamped");
   bag.message(2, 1000, wrench(5.0));
   bag.topic(3, "/silent", "geometry_msgs/msg/PoseStamped");
-  EXPECT_THAT(complaint_of([&] { read_ros2_bag(folder / "bag.db3"); }),
-              AllOf(HasSubstr("stroke.table.part): /force (geometry_msgs/msg/WrenchStamped, 1 messages), /tool"),
-                    Not(HasSubstr("/camera")), Not(HasSubstr("/silent"))));
+  EXPECT_THAT(
+      complaint_of([&] { read_ros2_bag(folder / "bag.db3"); }),
+      AllOf(HasSubstr("stroke.table.part): /force (geometry_msgs/msg/WrenchStamped, 1 messages), /tool"),
+            Not(HasSubstr("/camera")), Not(HasSubstr("/silent"))));
   EXPECT_THAT(complaint_of([&] { read_ros2_bag(folder / "bag.db3", "/camera"); }),
               HasSubstr("'/camera' cannot be read"));
   EXPECT_THAT(column(read_ros2_bag(folder / "bag.db3", "/force"), "fx").values, ElementsAre(5.0));
