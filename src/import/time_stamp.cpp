@@ -18,6 +18,12 @@ std::optional<Value> whole(std::string_view text) {
   return value;
 }
 
+/// Whether a text begins as `shape` does, in which 0 stands for any digit.
+bool has_shape(std::string_view text, std::string_view shape) {
+  const auto fits = [](char one, char c) { return one == '0' ? c >= '0' && c <= '9' : c == one; };
+  return text.size() >= shape.size() && std::equal(shape.begin(), shape.end(), text.begin(), fits);
+}
+
 /// What a date or time says, nanoseconds; all of the text must be it.
 template <class Time>
 std::optional<std::int64_t> parsed(const std::string& text, const char* format) {
@@ -45,9 +51,9 @@ std::optional<std::int64_t> iso_time(std::string_view text) {
   std::replace(plain.begin(), plain.end(), ',', '.');
   if (plain.back() == 'Z') plain.pop_back();
   using Nanoseconds = std::chrono::nanoseconds;
-  if (plain[2] == ':') return parsed<Nanoseconds>(plain, "%T");
-  if (plain.size() < 16 || plain[4] != '-') return std::nullopt;
-  plain[10] = 'T';
+  if (has_shape(plain, "00:00:00")) return parsed<Nanoseconds>(plain, "%T");
+  if (plain.size() > 10) plain[10] = 'T';
+  if (!has_shape(plain, "0000-00-00T00:00:00")) return std::nullopt;
   const int year = whole<int>(std::string_view(plain).substr(0, 4)).value_or(0);
   if (year < 1700 || year > 2250) return std::nullopt;  // ns of others do not fit
   using Time = date::sys_time<Nanoseconds>;
