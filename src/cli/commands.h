@@ -21,6 +21,9 @@ CLI::Validator number_within(Range range);
 /// --set, which overrides keys of a scene: for load_scene.
 CLI::Option* add_set_option(CLI::App& command, std::vector<std::string>& overrides);
 
+/// The override by which --stroke FILE replaces the scene's stroke.
+std::string stroke_override(const std::string& file);
+
 // Each adds one subcommand, which sets `chosen` when it is called.
 void add_init_command(CLI::App& app, Command& chosen);
 void add_run_command(CLI::App& app, Command& chosen);

@@ -13,7 +13,6 @@
 #include "core/interrupt.h"
 #include "fit/felt_ticks.h"
 #include "io/scene_toml.h"
-#include "io/toml_reader.h"
 
 namespace sandstroke {
 namespace {
@@ -93,8 +92,7 @@ void warn_of(const ForceFit& fit) {
 int fit(const FitArguments& arguments) {
   const fs::path scene_path = arguments.scene;
   std::vector<std::string> overrides = arguments.overrides;
-  if (!arguments.stroke.empty())
-    overrides.push_back("stroke.file=" + toml_string(fs::absolute(arguments.stroke).string()));
+  if (!arguments.stroke.empty()) overrides.push_back(stroke_override(arguments.stroke));
   const Scene scene = load_scene(scene_path, overrides);
   catch_interrupts();
   const std::vector<FeltTick> ticks = felt_ticks(scene, scene_path.parent_path());

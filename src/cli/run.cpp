@@ -19,7 +19,6 @@
 #include "io/png_file.h"
 #include "io/run_file.h"
 #include "io/scene_toml.h"
-#include "io/toml_reader.h"
 #include "io/xdmf.h"
 #include "run/run_scene.h"
 #include "sand/instruction_set.h"
@@ -200,8 +199,7 @@ void warn_of(const RunResult& result, const Scene& scene) {
 int run(const RunArguments& arguments) {
   const fs::path scene_path = arguments.scene;
   std::vector<std::string> overrides = arguments.overrides;
-  if (!arguments.stroke.empty())
-    overrides.push_back("stroke.file=" + toml_string(fs::absolute(arguments.stroke).string()));
+  if (!arguments.stroke.empty()) overrides.push_back(stroke_override(arguments.stroke));
   if (arguments.frames >= 0.0) overrides.push_back(fmt::format("output.frames={}", arguments.frames));
   const Scene scene = load_scene(scene_path, overrides);
   const std::string output = arguments.output.empty() ? scene_path.stem().string() + ".h5" : arguments.output;

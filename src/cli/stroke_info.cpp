@@ -9,6 +9,7 @@
 #include "cli/record_parts.h"
 #include "cli/stroke_parts.h"
 #include "core/log.h"
+#include "core/median.h"
 #include "core/terminal_text.h"
 #include "haptics/stroke_coverage.h"
 #include "haptics/stroke_quality.h"
@@ -34,11 +35,7 @@ StrokeSummary summarize(const Stroke& stroke) {
     spacings.push_back(stroke.time[i] - stroke.time[i - 1]);
     summary.joined_samples += stroke.joined(i - 1);
   }
-  if (!spacings.empty()) {
-    const auto middle = spacings.begin() + static_cast<std::ptrdiff_t>(spacings.size() / 2);
-    std::nth_element(spacings.begin(), middle, spacings.end());
-    summary.median_spacing = *middle;
-  }
+  summary.median_spacing = median(std::move(spacings));
   const StrokeSampler sampler(stroke);
   summary.gaps = sampler.gaps();
   summary.played = played_part(sampler);

@@ -6,16 +6,11 @@
 #include "cli/commands.h"
 #include "cli/parse_number.h"
 #include "core/error.h"
+#include "import/table_layout.h"
 #include "io/key_table.h"
 
 namespace sandstroke {
 namespace {
-
-std::string option_of(const std::string& key) {
-  std::string option = "--" + key;
-  std::replace(option.begin(), option.end(), '_', '-');
-  return option;
-}
 
 /// Gives each key the value of its option, which the command line has checked.
 class OptionReader : public KeyVisitor {

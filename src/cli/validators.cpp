@@ -1,4 +1,5 @@
 #include <cmath>
+#include <filesystem>
 
 #include "cli/commands.h"
 #include "cli/parse_number.h"
@@ -39,6 +40,10 @@ CLI::Option* add_set_option(CLI::App& command, std::vector<std::string>& overrid
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false)  // what follows its one value is not another
       ->take_all();
+}
+
+std::string stroke_override(const std::string& file) {
+  return "stroke.file=" + toml_string(std::filesystem::absolute(file).string());
 }
 
 }  // namespace sandstroke

@@ -31,13 +31,6 @@ std::size_t usual_size(const std::vector<StrokePiece>& runs) {
   return *longest;
 }
 
-template <class Row>
-void keep_rows(std::vector<Row>& column, const std::vector<std::size_t>& rows) {
-  if (column.empty()) return;
-  for (std::size_t i = 0; i < rows.size(); ++i) column[i] = column[rows[i]];
-  column.resize(rows.size());
-}
-
 }  // namespace
 
 Repeats repeats_of(const Stroke& stroke) {
@@ -60,13 +53,7 @@ Stroke without_held_samples(const Stroke& stroke) {
     }
   }
   Stroke thinned = stroke;
-  keep_rows(thinned.time, kept);
-  keep_rows(thinned.position, kept);
-  keep_rows(thinned.velocity, kept);
-  keep_rows(thinned.force, kept);
-  keep_rows(thinned.switches, kept);
-  keep_rows(thinned.flags, kept);
-  keep_rows(thinned.contact, kept);
+  keep_samples(thinned, kept);
   return thinned;
 }
 

@@ -41,6 +41,22 @@ void check_orientation(const Stroke& stroke, const std::string& name) {
 
 }  // namespace
 
+void keep_samples(Stroke& stroke, std::size_t begin, std::size_t end) {
+  visit_columns(stroke, [&](const char*, auto& column) {
+    if (column.empty()) return;
+    column.resize(end);
+    column.erase(column.begin(), column.begin() + static_cast<std::ptrdiff_t>(begin));
+  });
+}
+
+void keep_samples(Stroke& stroke, const std::vector<std::size_t>& samples) {
+  visit_columns(stroke, [&](const char*, auto& column) {
+    if (column.empty()) return;
+    for (std::size_t i = 0; i < samples.size(); ++i) column[i] = column[samples[i]];
+    column.resize(samples.size());
+  });
+}
+
 void check_stroke(const Stroke& stroke, const std::string& name) {
   if (stroke.time.empty()) throw_input_error("{}: time has no samples; a stroke needs at least one", name);
   for (std::size_t i = 0; i < stroke.size(); ++i) {

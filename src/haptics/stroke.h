@@ -50,6 +50,24 @@ struct Stroke {
   bool joined(std::size_t i) const { return sampled_between(i) && pen_down(i) && pen_down(i + 1); }
 };
 
+/// The one list of a stroke's columns: visit(name, column), by their names in files. Optional ones may be
+/// empty.
+template <class AnyStroke, class Visit>
+void visit_columns(AnyStroke& stroke, const Visit& visit) {
+  visit("time", stroke.time);
+  visit("position", stroke.position);
+  visit("velocity", stroke.velocity);
+  visit("force", stroke.force);
+  visit("orientation", stroke.orientation);
+  visit("switches", stroke.switches);
+  visit("flags", stroke.flags);
+  visit("contact", stroke.contact);
+}
+
+/// Keeps of all columns the samples from begin to before end, or these, in their order.
+void keep_samples(Stroke& stroke, std::size_t begin, std::size_t end);
+void keep_samples(Stroke& stroke, const std::vector<std::size_t>& samples);
+
 /// What every reader and maker of a stroke guarantees: at least one sample, columns of equal length, finite
 /// numbers, times and positions of at most 1e50, times that increase by at least 1e-50 s. Error: input;
 /// `name` says which stroke, the sentence names column and sample.

@@ -15,13 +15,6 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-template <class Row>
-void cut(std::vector<Row>& column, std::size_t begin, std::size_t end) {
-  if (column.empty()) return;
-  column.resize(end);
-  column.erase(column.begin(), column.begin() + static_cast<std::ptrdiff_t>(begin));
-}
-
 /// Keeps the samples from start to stop, and lets time begin at 0.
 void cut_time(Stroke& stroke, double start, double stop, const std::string& name) {
   const double first = stroke.time.front();
@@ -113,17 +106,6 @@ double fitting_scale(const Stroke& stroke, double share, const Eigen::AlignedBox
 }
 
 }  // namespace
-
-void keep_samples(Stroke& stroke, std::size_t begin, std::size_t end) {
-  cut(stroke.time, begin, end);
-  cut(stroke.position, begin, end);
-  cut(stroke.velocity, begin, end);
-  cut(stroke.force, begin, end);
-  cut(stroke.orientation, begin, end);
-  cut(stroke.switches, begin, end);
-  cut(stroke.flags, begin, end);
-  cut(stroke.contact, begin, end);
-}
 
 PointPlacement point_placement(const StrokePlacement& placement, const std::string& frame) {
   PointPlacement place;

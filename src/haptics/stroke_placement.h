@@ -36,9 +36,6 @@ struct StrokePlacement {
   double stop = std::numeric_limits<double>::infinity();  ///< s after the first sample: later samples are cut
 };
 
-/// Cuts all columns to the samples from begin to before end.
-void keep_samples(Stroke& stroke, std::size_t begin, std::size_t end);
-
 /// Where single points of a stroke go; all of a placement but the fit of a plane, which needs the whole
 /// stroke.
 struct PointPlacement {

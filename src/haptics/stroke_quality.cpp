@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 
+#include "core/median.h"
 #include "haptics/stroke_pieces.h"
 
 namespace sandstroke {
@@ -16,13 +17,6 @@ using Eigen::Vector3d;
 
 constexpr double widest_hand = 3.0;    // m, that an arm reaches across
 constexpr double fastest_hand = 10.0;  // m/s, of a throw less
-
-double median(std::vector<double> values) {
-  if (values.empty()) return 0.0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 /// m^2, of four samples: how far they are from any parabola over time, as the square of one sample's noise.
 double squared_residual(const Stroke& stroke, std::size_t first) {

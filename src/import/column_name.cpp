@@ -6,6 +6,7 @@
 #include <cctype>
 #include <set>
 
+#include "import/text_parts.h"
 #include "import/units.h"
 
 namespace sandstroke {
@@ -31,10 +32,7 @@ bool is_unit(const std::string& text) {
   return false;
 }
 
-std::string trimmed(const std::string& text) {
-  const auto begin = text.find_first_not_of(" \t");
-  return begin == std::string::npos ? "" : text.substr(begin, text.find_last_not_of(" \t") - begin + 1);
-}
+std::string trimmed(std::string_view text) { return std::string(without_blanks(text, " \t")); }
 
 void take_unit(const std::string& name, ColumnName& column) {
   column.bare = name;

@@ -8,6 +8,7 @@
 #include <map>
 #include <new>
 
+#include "import/text_parts.h"
 #include "import/time_stamp.h"
 
 namespace sandstroke {

@@ -39,17 +39,7 @@ void drop_equal_times(Stroke& stroke) {
       stroke.contact[kept.back()] = pen_lifts;
     }
   }
-  const auto keep = [&kept](auto& column) {
-    if (column.empty()) return;
-    for (std::size_t k = 0; k < kept.size(); ++k) column[k] = column[kept[k]];
-    column.resize(kept.size());
-  };
-  keep(stroke.time);
-  keep(stroke.position);
-  keep(stroke.velocity);
-  keep(stroke.force);
-  keep(stroke.orientation);
-  keep(stroke.contact);
+  keep_samples(stroke, kept);
 }
 
 void spread_equal_times(Stroke& stroke, const std::string& name) {

@@ -5,6 +5,7 @@
 
 #include "core/error.h"
 #include "core/input_file.h"
+#include "core/output_file.h"
 #include "import/gcode.h"
 #include "import/gcode_words.h"
 #include "import/inkml.h"
@@ -63,12 +64,7 @@ constexpr KindNotRead kinds_not_read[] = {
     {"", ".hpgl", "a plot in HPGL", "save it as G-code"},
 };
 
-bool has_ending(const fs::path& path, std::string_view ending) {
-  std::string own = path.extension().string();
-  std::transform(own.begin(), own.end(), own.begin(),
-                 [](char c) { return c >= 'A' && c <= 'Z' ? c + 32 : c; });
-  return own == ending;
-}
+bool has_ending(const fs::path& path, std::string_view ending) { return small_ending(path) == ending; }
 
 /// As much of a file as says which format it is.
 std::string head_of(const fs::path& path) {
@@ -125,9 +121,7 @@ std::optional<SampleTable> read_known_format(const fs::path& path, const std::st
     throw_input_error("{}: is neither text nor of a format that is read (ROS 2 bag, MATLAB); {}",
                       path.string(), as_csv);
   }
-  std::string_view text = head;
-  if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
-  text = without_blanks(text);
+  const std::string_view text = without_blanks(without_byte_order_mark(head));
   if (is_inkml(text)) return read_inkml(path);
   if (looks_like_unipen(text)) return read_unipen(path);
   if (has_ending(path, ".thr")) return read_thr(path);

@@ -327,7 +327,7 @@ SampleTable GcodeReader::table() {
 }  // namespace
 
 SampleTable parse_gcode(std::string_view text, const std::string& name) {
-  if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
+  text = without_byte_order_mark(text);
   GcodeReader reader(name);
   for (std::size_t number = 1; !text.empty(); ++number) reader.take_line(cut_line(text), number);
   return finite_samples(reader.table(), name);

@@ -28,9 +28,7 @@ TableSettings settings_of_second(const TableSettings& settings) {
   return second;
 }
 
-}  // namespace
-
-SampleTable read_samples(const fs::path& path, const TableSettings& settings, bool need_position) {
+SampleTable read_samples(const fs::path& path, const TableSettings& settings, bool need_position = true) {
   if (path != "-")
     if (std::optional<SampleTable> samples = read_known_format(path, settings.part))
       return std::move(*samples);
@@ -39,6 +37,8 @@ SampleTable read_samples(const fs::path& path, const TableSettings& settings, bo
   for (std::string_view part = file.next_block(); !part.empty(); part = file.next_block()) table.read(part);
   return table.take();
 }
+
+}  // namespace
 
 ImportedStroke import_stroke(const fs::path& path, const TableSettings& settings) {
   TableSettings of_first = settings;

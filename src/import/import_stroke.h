@@ -7,12 +7,8 @@
 
 namespace sandstroke {
 
-/// The samples of a file. "-" is standard input. Error: input, naming file and line; io, where it cannot be
-/// read.
-SampleTable read_samples(const std::filesystem::path& path, const TableSettings& settings,
-                         bool need_position = true);
-
-/// The stroke in a file of samples, and what the settings' second table adds.
+/// The stroke in a file of samples, and what the settings' second table adds. "-" is standard input. Error:
+/// input, naming file and line; io, where it cannot be read.
 ImportedStroke import_stroke(const std::filesystem::path& path, const TableSettings& settings);
 
 /// Of one text table; `name` stands for the file in sentences.

@@ -58,7 +58,7 @@ std::vector<InkChannel> channels_of(const pugi::xml_node& format) {
 /// A device's points per length: "1/cm".
 void take_resolution(const pugi::xml_node& property, std::vector<InkChannel>& channels) {
   const std::string_view units = property.attribute("units").value();
-  const std::optional<double> value = number_in(property.attribute("value").value());
+  const std::optional<double> value = finite_number(property.attribute("value").value());
   if (std::string_view(property.attribute("name").value()) != "resolution" || !units.starts_with("1/"))
     return;
   if (!value || !(*value > 0.0)) return;
@@ -111,7 +111,7 @@ class InkmlReader {
     pugi::xml_node root = document;
     root.traverse(nodes_);
     take_channels();
-    if (const auto rate = number_in(nodes_.sample_rate.attribute("value").value()); rate && *rate > 0.0)
+    if (const auto rate = finite_number(nodes_.sample_rate.attribute("value").value()); rate && *rate > 0.0)
       rate_ = *rate;
   }
 
@@ -158,7 +158,7 @@ class InkmlReader {
   void take_trace(const pugi::xml_node& trace) {
     const std::string all = trace.text().get();
     std::vector<InkValue> values(channels_.size());
-    const auto offset = number_in(trace.attribute("timeOffset").value());
+    const auto offset = finite_number(trace.attribute("timeOffset").value());
     const std::size_t begin = table_.size();
     for (std::string_view rest = without_blanks(all); !rest.empty();) {
       std::string_view point = without_blanks(cut_before(rest, ','));

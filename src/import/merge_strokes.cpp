@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include "core/error.h"
-#include "haptics/stroke_placement.h"
 #include "import/table_layout.h"
 
 namespace sandstroke {

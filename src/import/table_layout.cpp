@@ -179,10 +179,14 @@ ColumnChoices along(const ColumnChoices& found, const Eigen::Matrix3d& axes) {
 
 }  // namespace
 
-std::string option_and_key(const std::string& key) {
-  std::string option = key;
+std::string option_of(const std::string& key) {
+  std::string option = "--" + key;
   std::replace(option.begin(), option.end(), '_', '-');
-  return fmt::format("--{} (in a scene: stroke.table.{})", option, key);
+  return option;
+}
+
+std::string option_and_key(const std::string& key) {
+  return fmt::format("{} (in a scene: stroke.table.{})", option_of(key), key);
 }
 
 TableLayout table_layout(const std::vector<SampleColumn>& columns, const TableSettings& settings,

@@ -33,6 +33,8 @@ struct TableLayout {
 TableLayout table_layout(const std::vector<SampleColumn>& columns, const TableSettings& settings,
                          bool need_position, const std::string& place);
 
+/// The option of `stroke convert` for a key: "--position-unit".
+std::string option_of(const std::string& key);
 /// An option of `stroke convert` and its key, as sentences have them: "--rate (in a scene:
 /// stroke.table.rate)".
 std::string option_and_key(const std::string& key);

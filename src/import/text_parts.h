@@ -16,9 +16,12 @@ inline constexpr std::size_t most_sample_text_bytes = 200'000'000;
 
 inline constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
 
+inline std::string_view without_byte_order_mark(std::string_view text) {
+  return text.substr(text.starts_with(byte_order_mark) ? byte_order_mark.size() : 0);
+}
+
 /// Without blanks at both ends.
-inline std::string_view without_blanks(std::string_view text) {
-  constexpr std::string_view blanks = " \t\r\n\v\f";
+inline std::string_view without_blanks(std::string_view text, std::string_view blanks = " \t\r\n\v\f") {
   const std::size_t begin = text.find_first_not_of(blanks);
   if (begin == std::string_view::npos) return {};
   return text.substr(begin, text.find_last_not_of(blanks) - begin + 1);
@@ -44,9 +47,9 @@ inline std::string_view cut_word(std::string_view& text) {
   return word;
 }
 
-/// What all of the text says, if that is a finite number.
-inline std::optional<double> number_in(std::string_view text) {
-  if (text.starts_with('+')) text.remove_prefix(1);
+/// What all of the text says, if that is a finite number: "1.5", "+3", "-1e3".
+inline std::optional<double> finite_number(std::string_view text) {
+  if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
   double value = 0.0;
   const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (failure != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) return {};

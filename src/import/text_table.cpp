@@ -10,6 +10,7 @@
 #include "import/dialect.h"
 #include "import/table_layout.h"
 #include "import/text_decoder.h"
+#include "import/text_parts.h"
 #include "import/time_stamp.h"
 #include "import/units.h"
 
@@ -18,13 +19,6 @@ namespace {
 
 constexpr std::size_t most_line_bytes = 1'000'000;
 constexpr std::size_t lines_to_look_at = 64;  // for the dialect
-
-std::string_view trimmed_line(std::string_view text) {
-  constexpr std::string_view blank = " \t\r";
-  const std::size_t begin = text.find_first_not_of(blank);
-  if (begin == std::string_view::npos) return {};
-  return text.substr(begin, text.find_last_not_of(blank) - begin + 1);
-}
 
 bool begins_with_one_of(std::string_view line, const std::vector<std::string>& words) {
   return std::any_of(words.begin(), words.end(), [&](const std::string& word) {
@@ -117,12 +111,11 @@ class TextTable::Rows {
   }
 
   void end_line() {
-    std::string_view line = rest_;
-    if (++line_ == 1 && line.starts_with("\xEF\xBB\xBF")) line.remove_prefix(3);  // byte-order mark
+    const std::string_view line = ++line_ == 1 ? without_byte_order_mark(rest_) : rest_;
     if (line.find('\0') != std::string_view::npos)
       throw_input_error("{}:{}: holds a zero byte, so the file is no text; export it as a table (CSV)", name_,
                         line_);
-    if (line_ > static_cast<std::size_t>(settings_.skip_lines)) take_line(trimmed_line(line));
+    if (line_ > static_cast<std::size_t>(settings_.skip_lines)) take_line(without_blanks(line, " \t\r"));
     rest_.clear();
   }
 

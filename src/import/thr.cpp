@@ -26,7 +26,7 @@ double chords(const PolarPoint& from, const PolarPoint& to) {
 
 PolarPoint thr_point(std::string_view line, const std::string& name, std::size_t number) {
   std::string_view rest = line;
-  const std::optional<double> theta = number_in(cut_word(rest)), rho = number_in(cut_word(rest));
+  const std::optional<double> theta = finite_number(cut_word(rest)), rho = finite_number(cut_word(rest));
   if (!theta || !rho || !without_blanks(rest).empty()) {
     throw_input_error("{}:{}: '{}' is not a pair of numbers, theta and rho; correct or remove the line", name,
                       number, line.substr(0, 80));
@@ -49,7 +49,7 @@ SampleTable parse_thr(std::string_view text, const std::string& name) {
     table.columns[1].values.push_back(rho * std::cos(theta));
     table.lines.push_back(line);
   };
-  if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
+  text = without_byte_order_mark(text);
   PolarPoint last;
   std::size_t points = 0;
   for (std::size_t number = 1; !text.empty(); ++number) {

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <sstream>
 
+#include "import/text_parts.h"
+
 namespace sandstroke {
 namespace {
 
@@ -38,12 +40,6 @@ std::optional<std::int64_t> parsed(const std::string& text, const char* format) 
 }
 
 }  // namespace
-
-std::optional<double> finite_number(std::string_view text) {
-  if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
-  const auto value = whole<double>(text);
-  return value && std::isfinite(*value) ? value : std::nullopt;
-}
 
 std::optional<std::int64_t> iso_time(std::string_view text) {
   if (text.size() < 7 || text.size() > 40 || text.find(':') == std::string_view::npos) return std::nullopt;

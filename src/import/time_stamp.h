@@ -7,9 +7,6 @@
 
 namespace sandstroke {
 
-/// "1.5", "+3", "-1e3"; nothing else, and finite.
-std::optional<double> finite_number(std::string_view text);
-
 /// ISO 8601 ("2024-05-01T12:00:00.123456789+02:00", with a blank for the T, without an offset), or a time of
 /// day ("12:00:00.5"), in ns since 1970 or midnight.
 std::optional<std::int64_t> iso_time(std::string_view text);

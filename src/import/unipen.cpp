@@ -49,7 +49,7 @@ class UnipenReader {
   }
 
   double number_after(std::string_view keyword, std::string_view rest) const {
-    if (const std::optional<double> number = number_in(cut_word(rest))) return *number;
+    if (const std::optional<double> number = finite_number(cut_word(rest))) return *number;
     throw_input_error("{}:{}: {} needs a number; correct or remove the line", name_, line_, keyword);
   }
   double above_zero(std::string_view keyword, std::string_view rest) const {
@@ -86,7 +86,7 @@ class UnipenReader {
       for (const std::string& name : names_) table_.columns.push_back({name, name == "time" ? "ms" : "", {}});
     std::vector<double> row;
     for (std::string_view rest = line, word = cut_word(rest); !word.empty(); word = cut_word(rest)) {
-      const std::optional<double> number = number_in(word);
+      const std::optional<double> number = finite_number(word);
       if (!number)
         throw_input_error("{}:{}: '{}' is not a finite number; correct or remove the line", name_, line_,
                           word.substr(0, 40));
@@ -135,7 +135,7 @@ SampleTable UnipenReader::table() {
 }  // namespace
 
 SampleTable parse_unipen(std::string_view text, const std::string& name) {
-  if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
+  text = without_byte_order_mark(text);
   UnipenReader reader(name);
   for (std::size_t number = 1; !text.empty(); ++number) reader.take_line(cut_line(text), number);
   return finite_samples(reader.table(), name);

@@ -35,19 +35,11 @@ void write_stroke_file(const std::filesystem::path& path, const Stroke& stroke) 
   check_stroke(stroke, path.string());
   Hdf5GridWriter file(path, stroke_output);
   std::vector<std::string> names;
-  const auto write = [&](const std::string& name, const auto& column) {
+  visit_columns(stroke, [&](const std::string& name, const auto& column) {
     if (column.empty()) return;
     file.write("/stroke/" + name, column);
     names.push_back(name);
-  };
-  write("time", stroke.time);
-  write("position", stroke.position);
-  write("velocity", stroke.velocity);
-  write("force", stroke.force);
-  write("orientation", stroke.orientation);
-  write("switches", stroke.switches);
-  write("flags", stroke.flags);
-  write("contact", stroke.contact);
+  });
   describe_stroke_columns(file, names);
   write_stroke_attributes(file, stroke);
   file.attribute(stroke_group, "duration", stroke.duration());

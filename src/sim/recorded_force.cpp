@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <spdlog/fmt/fmt.h>
 
@@ -92,8 +93,8 @@ bool RecordedForce::unaltered(std::size_t sample) const {
 }
 
 Vector3d RecordedForce::at(double since_first) {
-  const Vector3d unknown = TickRecord().recorded_force;
-  if (!is_there()) return unknown;
+  const Vector3d unknown = Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
+  if (stroke_.force.empty()) return unknown;
   const double time = stroke_.time.front() + since_first;
   while (cursor_ + 1 < stroke_.size() && stroke_.time[cursor_ + 1] <= time) ++cursor_;
   const Vector3d recorded = sign_ * stroke_.force[cursor_];

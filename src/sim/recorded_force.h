@@ -15,7 +15,6 @@ class RecordedForce {
   /// placed: the stroke as it is played.
   explicit RecordedForce(const Stroke& placed)
       : stroke_(placed), sign_(placed.force_sign == ForceSign::by_hand ? -1.0 : 1.0) {}
-  bool is_there() const { return !stroke_.force.empty(); }
   /// [N] on the device, in the stroke's frame, `time` [s] after its first sample; not called with earlier
   /// times later. Not-a-number where none was recorded, where the recorder altered it (SampleFlag), and
   /// between samples that are not joined.

@@ -92,5 +92,22 @@ TEST(HeldSamples, NothingIsTornApart) {
   for (std::size_t i = 0; i + 1 < thinned.size(); ++i) EXPECT_TRUE(thinned.joined(i));
 }
 
+TEST(HeldSamples, AreLeftOutOfEveryColumn) {
+  Stroke stroke = read_at_200_hz(0.01);
+  const std::size_t count = stroke.size();
+  stroke.velocity.assign(count, Vector3d::Zero());
+  stroke.force.assign(count, Vector3d::Zero());
+  stroke.orientation.assign(count, Eigen::Vector4d::UnitW());
+  stroke.switches.assign(count, 0);
+  stroke.flags.assign(count, 0);
+  stroke.contact.assign(count, pen_down);
+  const Stroke thinned = without_held_samples(stroke);
+  EXPECT_LT(thinned.size(), count);
+  visit_columns(thinned, [&](const char* name, const auto& column) {
+    EXPECT_EQ(column.size(), thinned.size()) << name;
+  });
+  EXPECT_NO_THROW(check_stroke(thinned, "thinned"));
+}
+
 }  // namespace
 }  // namespace sandstroke
