@@ -114,8 +114,10 @@ void add_fit_command(CLI::App& app, Command& chosen) {
   CLI::App* command =
       app.add_subcommand("fit", "Find the force constants that come nearest to a recorded force");
   command->add_option("SCENE", arguments->scene, "Scene file (TOML)")->type_name("FILE.toml")->required();
-  command->add_option("--stroke", arguments->stroke, "Stroke with forces, instead of the scene's")
-      ->type_name("FILE.h5");
+  command
+      ->add_option("--stroke", arguments->stroke,
+                   "Stroke with forces, instead of the scene's: any file that 'run' takes")
+      ->type_name("FILE");
   add_set_option(*command, arguments->overrides);
   command
       ->add_option("--constants", arguments->constants,

@@ -273,9 +273,11 @@ void add_run_command(CLI::App& app, Command& chosen) {
                    "default never replaces a run of another scene")
       ->type_name("FILE.h5");
   command
-      ->add_option("--stroke", arguments->stroke,
-                   "Play this stroke instead of the scene's (.toml, .h5 or a table)")
-      ->type_name("FILE.toml|.h5");
+      ->add_option(
+          "--stroke", arguments->stroke,
+          "Play this stroke instead of the scene's: a script (.toml), a recording (.h5), or any file that "
+          "'stroke convert' reads")
+      ->type_name("FILE");
   add_set_option(*command, arguments->overrides);
   command->add_option("--frames", arguments->frames, "Surfaces to keep per second of stroke [Hz]")
       ->check(not_negative_number());

@@ -86,9 +86,13 @@ void add_convert(CLI::App& stroke_app, Command& chosen) {
     TableOptions table;
   };
   auto options = std::make_shared<Options>();
-  CLI::App* app = stroke_app.add_subcommand("convert", "Make a stroke from a table of samples (CSV, text)");
-  app->add_option("IN", options->in, "Table of numbers, one sample per line; - is standard input")
-      ->type_name("FILE.csv|.txt|-")
+  CLI::App* app = stroke_app.add_subcommand(
+      "convert", "Make a stroke from a table of samples, or from a file of another program");
+  app->add_option(
+         "IN", options->in,
+         "Table of numbers, one sample per line (- is standard input); or a file of a sand table (.thr), a "
+         "plotter (G-code), a pen (UNIPEN, InkML), MATLAB (.mat) or ROS 2 (.db3)")
+      ->type_name("FILE")
       ->required();
   app->add_option("OUT", options->out, "Stroke to write (.h5)")->type_name("FILE.h5")->required();
   add_table_options(*app, options->table);

@@ -5,29 +5,31 @@ namespace sandstroke {
 void describe_table(KeyVisitor& v, TableSettings& t) {
   v.text("position", t.position,
          "columns of the tip, by name or number: \"x,y,z\" with z up, or \"x,y\" (then z = 0); \"-x,z,y\" "
-         "turns axes and signs");
-  v.text("position_unit", t.position_unit, "of the position: m, cm, mm, um, in, px, or a number of metres");
+         "negates x and swaps the others");
+  v.text("position_unit", t.position_unit,
+         "unit of the position: m, cm, mm, um, in, px, or a number of metres");
   v.number("pixel_size", t.pixel_size, not_negative, "m", "size of a pixel, for unit px");
   v.text("time", t.time, "column of the time: numbers, or ISO 8601");
-  v.text("time_unit", t.time_unit, "of the time: s, ms, us or ns");
+  v.text("time_unit", t.time_unit, "unit of the time: s, ms, us or ns");
   v.number("rate", t.rate, not_negative, "Hz", "samples per second, instead of times");
   v.number("speed", t.speed, not_negative, "m/s", "speed of the tip, instead of times");
   choose(v, "equal_times", t.equal_times, {"error", "drop", "spread"},
-         "of samples with equal times: an error, the first is kept, or they are spaced evenly");
+         "what to do with samples of equal times: stop with an error, keep the first, or space them evenly");
   v.text("velocity", t.velocity, "columns of the tip's velocity, which the stroke keeps and no run uses");
-  v.text("velocity_unit", t.velocity_unit, "of the velocity: m/s, cm/s or mm/s");
+  v.text("velocity_unit", t.velocity_unit, "unit of the velocity: m/s, cm/s or mm/s");
   v.text("force", t.force, "columns of the recorded force");
-  v.text("force_unit", t.force_unit, "of the force: N, mN or kN");
+  v.text("force_unit", t.force_unit, "unit of the force: N, mN or kN");
   choose(v, "force_sign", t.force_sign, force_sign_names,
-         "whether it is the force on the device or by the hand");
+         "on device: the force of the sand on the device; by hand: the force of the hand, its opposite");
   v.text("orientation", t.orientation,
          "4 columns of a quaternion x,y,z,w, or 9 of a rotation matrix, row by row");
   v.text("part", t.part,
          "one of several recordings in a file: a topic of a ROS 2 bag, a variable of a MATLAB file");
   v.text("columns", t.columns, "names of all columns, where no header line has them: \"x,y,t\"");
-  choose(v, "separator", t.separator, {"found", "comma", "semicolon", "tab", "blanks"}, "between columns");
+  choose(v, "separator", t.separator, {"found", "comma", "semicolon", "tab", "blanks"},
+         "what stands between columns");
   choose(v, "decimal", t.decimal, {"found", "point", "comma"}, "decimal mark");
-  v.text("encoding", t.encoding, "of the text, such as UTF-16LE; else by its byte-order mark");
+  v.text("encoding", t.encoding, "encoding of the text, such as UTF-16LE");
   v.integers("skip_lines", &t.skip_lines, 1, 0, 1'000'000, "lines to pass over at the beginning");
   v.text("skip", t.skip, "lines that begin with one of these words are passed over: \"START,END\"");
   v.text("pen_up", t.pen_up, "lines that begin with one of these words lift the pen");
@@ -37,11 +39,13 @@ void describe_table(KeyVisitor& v, TableSettings& t) {
   v.choice("frame", device, {"bed", "device"}, "axes of the positions");
   t.frame = device == 1 ? "device" : "bed";
   v.text("merge", t.merge,
-         "a second table beside the first, with force or orientation (named as above) at its own times");
-  v.text("merge_time", t.merge_time, "its column of the time");
-  v.text("merge_time_unit", t.merge_time_unit, "of that time: s, ms, us or ns");
-  v.number("merge_rate", t.merge_rate, not_negative, "Hz", "its samples per second, instead of times");
-  v.number("merge_shift", t.merge_shift, any_number, "s", "added to its times");
+         "a second table in the same folder, with force or orientation (named as above) at its own times");
+  v.text("merge_time", t.merge_time, "column of the time in the second table");
+  v.text("merge_time_unit", t.merge_time_unit, "unit of the time in the second table: s, ms, us or ns");
+  v.number("merge_rate", t.merge_rate, not_negative, "Hz",
+           "samples per second of the second table, instead of times");
+  v.number("merge_shift", t.merge_shift, any_number, "s",
+           "seconds that are added to the times of the second table");
 }
 
 }  // namespace sandstroke
