@@ -21,6 +21,9 @@ CLI::Validator number_within(Range range);
 /// --set, which overrides keys of a scene: for load_scene.
 CLI::Option* add_set_option(CLI::App& command, std::vector<std::string>& overrides);
 
+/// What shells offer where a stroke can stand: scripts, recordings, and what `stroke convert` reads.
+inline constexpr const char* stroke_file_type = "FILE.toml|.h5|.csv|.txt|.thr|.gcode|.mat|.db3";
+
 /// The override by which --stroke FILE replaces the scene's stroke.
 std::string stroke_override(const std::string& file);
 

@@ -117,7 +117,7 @@ void add_fit_command(CLI::App& app, Command& chosen) {
   command
       ->add_option("--stroke", arguments->stroke,
                    "Stroke with forces, instead of the scene's: any file that 'run' takes")
-      ->type_name("FILE");
+      ->type_name(stroke_file_type);
   add_set_option(*command, arguments->overrides);
   command
       ->add_option("--constants", arguments->constants,

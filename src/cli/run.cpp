@@ -277,7 +277,7 @@ void add_run_command(CLI::App& app, Command& chosen) {
           "--stroke", arguments->stroke,
           "Play this stroke instead of the scene's: a script (.toml), a recording (.h5), or any file that "
           "'stroke convert' reads")
-      ->type_name("FILE");
+      ->type_name(stroke_file_type);
   add_set_option(*command, arguments->overrides);
   command->add_option("--frames", arguments->frames, "Surfaces to keep per second of stroke [Hz]")
       ->check(not_negative_number());

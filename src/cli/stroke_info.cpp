@@ -189,7 +189,7 @@ void add_stroke_info_command(CLI::App& stroke_app, Command& chosen) {
   CLI::App* app = stroke_app.add_subcommand("info", "Show the content of a stroke file");
   app->add_option("FILE", options->file,
                   "Recorded (.h5) or scripted (.toml) stroke, or any file that 'stroke convert' reads")
-      ->type_name("FILE")
+      ->type_name(stroke_file_type)
       ->option_text("REQUIRED")
       ->required();
   app->add_flag("--json", options->json, "One JSON object in SI units instead of a table");
