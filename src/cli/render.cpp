@@ -1,5 +1,3 @@
-#include <spdlog/spdlog.h>
-
 #include <algorithm>
 #include <filesystem>
 #include <memory>
@@ -11,12 +9,12 @@
 #include "cli/commands.h"
 #include "cli/parse_number.h"
 #include "cli/print_text.h"
+#include "cli/run_film.h"
 #include "cli/run_picture.h"
 #include "cli/run_surface.h"
 #include "core/error.h"
 #include "core/interrupt.h"
 #include "core/output_file.h"
-#include "core/progress.h"
 #include "io/film_file.h"
 #include "io/png_file.h"
 #include "io/scene_toml.h"
@@ -83,56 +81,21 @@ fs::path default_output(const RenderArguments& arguments, const std::string& end
   return beside(arguments.run, ending);
 }
 
-/// Draws the frames, one after the other, and gives them to take(k, image) until that returns false. The exit
-/// code.
-template <class Take>
-int draw_frames(const RunFile& run, const std::vector<double>& times, const ViewSettings& view,
-                const RenderArguments& arguments, const Take& take) {
-  const bool tool = arguments.tool.value_or(run.has_trace());
-  RunPainter painter(run, view, arguments.contour_interval.value_or(0.0));
-  RunFrames frames(run);
-  Progress progress("render");
-  for (std::size_t k = 0; k < times.size(); ++k) {
-    const Image image =
-        painter.draw(frames.surface(static_cast<int>(k)), tool ? std::optional(times[k]) : std::nullopt);
-    if (!take(k, image) || interrupted()) return 128 + interrupted();
-    progress.update(static_cast<double>(k + 1) / static_cast<double>(times.size()));
-  }
-  return 0;
-}
-
-int draw_pictures(const RunFile& run, const std::vector<double>& times, const ViewSettings& view,
-                  const RenderArguments& arguments) {
+int draw_pictures(const RunFile& run, const FrameLook& look, const RenderArguments& arguments) {
   const fs::path folder = default_output(arguments, "_frames");
   make_folder(folder);
   const auto picture = [&](std::size_t k) { return folder / (frame_name(k) + ".png"); };
-  for (std::size_t k = 0; k < times.size(); ++k) check_output(picture(k), {arguments.run}, picture_output);
-  const int exit_code = draw_frames(run, times, view, arguments, [&](std::size_t k, const Image& image) {
+  const std::size_t count = frame_times(run).size();
+  for (std::size_t k = 0; k < count; ++k) check_output(picture(k), {arguments.run}, picture_output);
+  const int exit_code = draw_frames(run, look, [&](std::size_t k, const Image& image) {
     write_png(picture(k), image);
     return true;
   });
   if (exit_code != 0) return exit_code;
-  for (std::size_t k = 0; k < times.size(); ++k)
+  for (std::size_t k = 0; k < count; ++k)
     if (!fs::exists(picture(k)))
       throw_io_error("{}: was removed while other frames were drawn; render again", picture(k).string());
   print_text("{}\n", folder.string());
-  return 0;
-}
-
-int draw_film(const RunFile& run, const std::vector<double>& times, const Scene& scene,
-              const ViewSettings& view, const RenderArguments& arguments) {
-  check_output(arguments.video, {arguments.run}, film_output);
-  const double own_rate = std::min(scene.output.frames, scene.device.servo_rate);
-  const double rate = arguments.fps.value_or(own_rate);
-  FilmWriter film(arguments.video, view.width, view.height, rate);
-  spdlog::info("{} frames, {:g} per second: {}", times.size(), rate,
-               rate == own_rate ? "as fast as the stroke"
-                                : fmt::format("{:g} times as fast as the stroke", rate / own_rate));
-  const int exit_code = draw_frames(run, times, view, arguments,
-                                    [&](std::size_t, const Image& image) { return film.add(image); });
-  if (exit_code != 0) return exit_code;
-  if (!film.finish()) return 128 + interrupted();
-  print_text("{}\n", arguments.video.string());
   return 0;
 }
 
@@ -143,9 +106,12 @@ int render(const RenderArguments& arguments) {
   const ViewSettings view = view_of(scene, arguments);
   if (arguments.frame == "all") {
     catch_interrupts();
-    const std::vector<double> times = frame_times(run);
-    return arguments.video.empty() ? draw_pictures(run, times, view, arguments)
-                                   : draw_film(run, times, scene, view, arguments);
+    const FrameLook look{view, arguments.tool, arguments.contour_interval.value_or(0.0)};
+    if (arguments.video.empty()) return draw_pictures(run, look, arguments);
+    check_output(arguments.video, {arguments.run}, film_output);
+    const int exit_code = draw_film(run, look, arguments.fps, arguments.video);
+    if (exit_code == 0) print_text("{}\n", arguments.video.string());
+    return exit_code;
   }
   RunPainter painter(run, view, arguments.contour_interval.value_or(0.0));
   const RunSurface surface = surface_named(run, arguments.frame, "final, initial, all or a number");

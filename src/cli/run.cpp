@@ -9,12 +9,14 @@
 #include "cli/commands.h"
 #include "cli/print_json.h"
 #include "cli/print_row.h"
+#include "cli/run_film.h"
 #include "cli/run_picture.h"
 #include "cli/run_view.h"
 #include "core/error.h"
 #include "core/interrupt.h"
 #include "core/log.h"
 #include "core/output_file.h"
+#include "io/film_file.h"
 #include "io/input_kind.h"
 #include "io/png_file.h"
 #include "io/run_file.h"
@@ -33,7 +35,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct RunArguments {
-  std::string scene, output, stroke, picture;
+  std::string scene, output, stroke, picture, video;
   std::vector<std::string> overrides;
   double frames = -1.0;
   int threads = 0;
@@ -220,6 +222,15 @@ int run(const RunArguments& arguments) {
     check_drawable(scene.bed.rows, scene.bed.cols);
   }
 
+  if (!arguments.video.empty()) {
+    check_film_name(arguments.video);
+    check(arguments.video, film_output);
+    check_drawable(scene.bed.rows, scene.bed.cols);
+    if (scene.output.frames == 0.0)
+      throw_input_error(
+          "--video shows the surfaces that a run keeps, and this one keeps none; add --frames 10");
+  }
+
   catch_interrupts();
   RunOptions options;
   options.scene_folder = folder;
@@ -248,6 +259,11 @@ int run(const RunArguments& arguments) {
   if (!arguments.picture.empty()) {
     write_png(arguments.picture, run_picture(RunFile(output), scene.view));
     if (!arguments.json) print_row("picture", arguments.picture);
+  }
+  if (!arguments.video.empty()) {
+    const int exit_code = draw_film(RunFile(output), {scene.view}, std::nullopt, arguments.video);
+    if (exit_code != 0) return exit_code;
+    if (!arguments.json) print_row("film", arguments.video);
   }
   warn_of(result, scene);
   if (view && view->lag())
@@ -284,6 +300,13 @@ void add_run_command(CLI::App& app, Command& chosen) {
   command
       ->add_option("--png", arguments->picture, "Picture (PNG) of the final surface, in the scene's [view]")
       ->type_name("FILE.png");
+  command
+      ->add_option(
+          "--video", arguments->video,
+          fmt::format("Film of the surfaces that --frames keeps ({}), in the scene's [view]. Needs the "
+                      "program ffmpeg",
+                      fmt::join(film_endings(), ", ")))
+      ->type_name(fmt::format("FILE{}", fmt::join(film_endings(), "|")));
   command
       ->add_option("--threads", arguments->threads,
                    "Number of threads. Default: 0, all cores. The result does not depend on it")

@@ -48,7 +48,9 @@ HeightField load_surface(const BedSettings& settings, const std::filesystem::pat
   check_cells(heights.rows(), heights.cols());
   if (!heights.isFinite().all())
     throw_input_error("{}: holds heights that are not finite numbers; correct it", path.string());
-  return HeightField(heights, bed.cell_size());
+  HeightField sand(heights, bed.cell_size());
+  sand.enclose(bed.shape);
+  return sand;
 }
 
 }  // namespace sandstroke

@@ -79,7 +79,8 @@ class HeightFieldRenderer::Drawing {
   void draw_tool(const ToolSphere& tool, const Camera& camera, const Sun& sun) const;
 
   BedGeometry bed_;
-  CurrentContext context_;  // before everything that lives in it
+  double wall_radius_ = 0.0;  // m, of a round bed
+  CurrentContext context_;    // before everything that lives in it
   SurfaceTextures surface_;
   TileMesh tiles_;
   BedBox box_;
@@ -137,6 +138,7 @@ void HeightFieldRenderer::Drawing::draw_tiles(const ShaderProgram& program, cons
   program.set("bed_origin", Eigen::Vector2d(bed_.col_at(0.0), bed_.row_at(0.0)));
   program.set("cells", bed_.cols(), bed_.rows());
   program.set("cell_size", bed_.cell_size());
+  program.set("wall_radius", wall_radius_);
   program.set("shading", 1);
   surface_.bind_heights(0);
   surface_.bind_shading(1);
@@ -265,6 +267,7 @@ Image HeightFieldRenderer::Drawing::render(const HeightField& surface, const Ren
   if (!framebuffer_ || framebuffer_->width() != view.width || framebuffer_->height() != view.height)
     framebuffer_ = std::make_unique<Framebuffer>(view.width, view.height);
 
+  wall_radius_ = surface.shape() == BedShape::round ? surface.wall_radius() : 0.0;
   counters = {};
   counters.tiles_changed = surface_.update(surface);
   const Sun sun{view.light_azimuth, view.light_elevation};

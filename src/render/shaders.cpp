@@ -46,7 +46,9 @@ uniform sampler2D shading;   // slope along x and y, parts of sun and sky seen
 uniform vec2 bed_origin;     // cell coordinates of the bed's centre
 uniform ivec2 cells;
 uniform float cell_size;
+uniform float wall_radius;   // m, of a round bed; 0: the bed is not round
 in vec3 world;
+bool beyond_wall() { return wall_radius > 0.0 && length(world.xy) > wall_radius; }
 vec2 texture_place() { return (world.xy / cell_size + bed_origin + 0.5) / vec2(cells); }
 // Metres per pixel, along the longer side of the pixel's footprint.
 float pixel_footprint() { return max(length(dFdx(world.xy)), length(dFdy(world.xy))); }
@@ -151,6 +153,11 @@ float rough_diffuse(vec3 normal, vec3 from_sun, vec3 to_viewer) {
 void main() {
   float pixel = pixel_footprint();
   vec4 here = mean_over(shading, pixel);
+  if (beyond_wall()) {
+    vec3 received = sun_colour * 0.9 * sun_direction.z + ambient(vec3(0.0, 0.0, 1.0));
+    colour = vec4(tone(vec3(0.27, 0.155, 0.085) * received), 1.0);
+    return;
+  }
   vec3 grains = grain(world.xy, pixel);
   vec3 ground = normalize(vec3(-here.xy, 1.0));
   vec3 normal = normalize(vec3(-here.xy - grains.yz, 1.0));
@@ -203,6 +210,7 @@ void main() {
   line *= smoothstep(0.0005, 0.002, per_pixel / contour_interval);
   line *= 1.0 - smoothstep(0.15, 0.4, per_pixel / contour_interval);
   bool dark = dot(mapped, vec3(0.3, 0.6, 0.1)) < 0.35;
+  if (beyond_wall()) mapped = vec3(0.8), line = 0.0;
   colour = vec4(mix(mapped, vec3(dark ? 0.85 : 0.05), 0.6 * line), 1.0);
 }
 )";

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 
 namespace sandstroke {
 
@@ -11,6 +12,14 @@ struct CellRange {
   int rows() const { return row_end - row_begin; }
   int cols() const { return col_end - col_begin; }
   bool operator==(const CellRange&) const = default;
+};
+
+/// What of its rectangle a bed fills: all of it; or the largest circle in it, as a sand table does.
+enum class BedShape { rectangle, round };
+
+/// Half-open: begin <= col < end.
+struct ColumnRange {
+  int begin = 0, end = 0;
 };
 
 /// Rows x cols square cells over a rectangle centred on the origin, x growing with col, y with row; and how
@@ -37,6 +46,21 @@ class BedGeometry {
   double cell_size() const { return cell_size_; }
   double cell_area() const { return cell_size_ * cell_size_; }
   CellRange cells() const { return {0, rows_, 0, cols_}; }
+  BedShape shape() const { return shape_; }
+  /// m, of a round bed.
+  double wall_radius() const { return 0.5 * std::min(rows_, cols_) * cell_size_; }
+  /// The cells of a row that have sand: those whose centres lie within the shape. All others are wall.
+  ColumnRange sand_cols(int row) const {
+    if (shape_ == BedShape::rectangle) return {0, cols_};
+    const double radius = 0.5 * std::min(rows_, cols_), y = rows_from_centre(row);
+    if (std::abs(y) > radius) return {};
+    const int begin = static_cast<int>(std::ceil(col_origin_ - std::sqrt(radius * radius - y * y)));
+    return {begin, std::max(begin, cols_ - begin)};
+  }
+  bool has_sand(int row, int col) const {
+    const ColumnRange sand = sand_cols(row);
+    return col >= sand.begin && col < sand.end;
+  }
   /// As many cells, of the same size.
   bool same_grid(const BedGeometry& other) const {
     return rows_ == other.rows_ && cols_ == other.cols_ && cell_size_ == other.cell_size_;
@@ -74,9 +98,13 @@ class BedGeometry {
             tiles.col_begin * tile_side, std::min(tiles.col_end * tile_side, cols_)};
   }
 
+ protected:
+  void set_shape(BedShape shape) { shape_ = shape; }
+
  private:
   int rows_, cols_;
   double cell_size_;
+  BedShape shape_ = BedShape::rectangle;
   double row_origin_, col_origin_;  // the bed's centre in cell indices, (n - 1) / 2
   int tile_rows_, tile_cols_;
 };

@@ -56,8 +56,9 @@ double spread_outward(ToolFootprint& f, double pushed, double distance) {
     std::array<double, 4> shares{};
     for (int i = 0; i < 4; ++i) {
       const int r = first_row + i / 2, c = first_col + i % 2;
-      if (r < 0 || r >= window.rows() || c < 0 || c >= window.cols() || std::isfinite(f.underside(r)[c]))
-        continue;
+      if (r < 0 || r >= window.rows()) continue;
+      const ColumnRange sand = f.sand_cols(r);
+      if (c < sand.begin || c >= sand.end || std::isfinite(f.underside(r)[c])) continue;
       shares[i] =
           std::max(0.0, 1.0 - std::abs(c - axis_x - to_x)) * std::max(0.0, 1.0 - std::abs(r - axis_y - to_y));
     }

@@ -27,25 +27,24 @@ HWY_INLINE V sine(V u) {
 /// Between 0 and 1.
 HWY_INLINE V clamped(V x) { return Min(Max(x, hn::Zero(d)), all(1.0)); }
 
-/// Where the cells of a window lie relative to the tool's axis [m]; infinitely far beyond its last column.
+/// Where the cells of a window lie relative to the tool's axis [m]; infinitely far where they have no sand.
 class Offsets {
  public:
   explicit Offsets(const ToolFootprint& f)
       : dx_(f.cell_size()),
-        cols_(f.cells().cols()),
         first_x_(f.first_x()),
         first_y_(f.first_y()),
         axis_x_(f.axis_x()),
         axis_y_(f.axis_y()) {}
-  HWY_INLINE V x(int col) const {
-    const V x = (hn::Iota(d, first_x_ + col) - all(axis_x_)) * all(dx_);
-    return hn::IfThenElse(hn::Iota(d, col) < all(cols_), x, all(std::numeric_limits<double>::infinity()));
+  HWY_INLINE V x(const ColumnRange& sand, int col) const {
+    const V x = (hn::Iota(d, first_x_ + col) - all(axis_x_)) * all(dx_), at = hn::Iota(d, col);
+    const Mask has_sand = hn::And(at >= all(sand.begin), at < all(sand.end));
+    return hn::IfThenElse(has_sand, x, all(std::numeric_limits<double>::infinity()));
   }
   double y(int row) const { return (first_y_ + row - axis_y_) * dx_; }
 
  private:
   double dx_;
-  int cols_;
   double first_x_, first_y_, axis_x_, axis_y_;
 };
 
@@ -61,8 +60,9 @@ double ShapeFootprint(const FootprintShape& shape, ToolFootprint& f) {
   LaneSum heights, weights;
   for (int row = 0; row < f.cells().rows(); ++row) {
     const V y = all(offsets.y(row)), y2 = y * y;
+    const ColumnRange sand = f.sand_cols(row);
     for (int col = 0; col < f.stride(); col += lanes) {
-      const V x = offsets.x(col), rho2 = x * x + y2;
+      const V x = offsets.x(sand, col), rho2 = x * x + y2;
       double* underside = f.underside(row) + col;
       double* rampart = f.rampart(row) + col;
       if (hn::AllFalse(d, rho2 <= far2)) {
@@ -96,6 +96,7 @@ Carved Carve(ToolFootprint& f, double tip_height, const RingFront& front) {
   LaneSum pushed, front_weight, ring_weight;
   for (int row = 0; row < f.cells().rows(); ++row) {
     const V ahead_y = all(offsets.y(row) * front.direction.y());
+    const ColumnRange sand = f.sand_cols(row);
     unsigned char* flags = f.flags(row);
     std::fill_n(flags, f.stride() / group, static_cast<unsigned char>(0));
     for (int col = 0; col < f.stride(); col += lanes) {
@@ -112,7 +113,7 @@ Carved Carve(ToolFootprint& f, double tip_height, const RingFront& front) {
       V weight = rampart;
       const Mask in_ring = rampart > zero;  // elsewhere offsets may be infinite
       if (front.drag_share > 0.0 && !hn::AllFalse(d, in_ring)) {
-        const V p = offsets.x(col) * all(front.direction.x()) + ahead_y;
+        const V p = offsets.x(sand, col) * all(front.direction.x()) + ahead_y;
         weight = where(in_ring, rampart * (one - drag * (one - clamped(p / cell + half))));
       }
       hn::Store(weight, d, f.weights(row) + col);

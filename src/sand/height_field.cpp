@@ -50,11 +50,36 @@ HeightField::HeightField(const HeightField& other)
 
 HeightField& HeightField::operator=(const HeightField& other) { return *this = HeightField(other); }
 
+std::uint64_t HeightField::beyond_wall(int tile, int row_in_tile) const {
+  if (shape() == BedShape::rectangle) return 0;
+  const CellRange cells = tile_cells(tile);
+  const ColumnRange sand = sand_cols(cells.row_begin + row_in_tile);
+  const auto first_cells = [&](int end) {  // of the row, up to a column of the bed
+    const int count = std::clamp(end - cells.col_begin, 0, tile_side);
+    return count == tile_side ? ~std::uint64_t{0} : (std::uint64_t{1} << count) - 1;
+  };
+  return ~(first_cells(sand.end) & ~first_cells(sand.begin));
+}
+
+void HeightField::enclose(BedShape shape) {
+  set_shape(shape);
+  for (const auto& tile : tiles_)
+    for (int row = 0; row < tile_side; ++row) tile->held[row] = beyond_wall(tile->index, row);
+  held_.clear();
+}
+
+HeightField HeightField::untouched_bed() const {
+  HeightField bed(rows(), cols(), cell_size(), untouched_);
+  bed.enclose(shape());
+  return bed;
+}
+
 int HeightField::make_tile(int tile) {
   auto made = std::make_unique<Tile>();  // zeros, outside the bed too
   made->index = tile;
   made->revision = new_tile_revision;
   untouched_->fill(*this, tile_cells(tile), made->heights.data(), tile_side);
+  for (int row = 0; row < tile_side; ++row) made->held[row] = beyond_wall(tile, row);
   tiles_.push_back(std::move(made));
   slots_.get()[tile] = static_cast<std::uint32_t>(tiles_.size());
   return allocated_tiles() - 1;
@@ -83,7 +108,8 @@ void HeightField::hold(const std::vector<RowCells>& cells) {
         mark_disturbed(row.slot, row.row_in_tile, unheld);
   };
   disturb_unheld(cells);
-  for (const RowCells& row : held_) tiles_[row.slot]->held[row.row_in_tile] = 0;
+  for (const RowCells& row : held_)
+    tiles_[row.slot]->held[row.row_in_tile] = beyond_wall(tiles_[row.slot]->index, row.row_in_tile);
   for (const RowCells& row : cells) tiles_[row.slot]->held[row.row_in_tile] |= row.cells;
   disturb_unheld(held_);
   held_ = cells;

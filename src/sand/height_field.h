@@ -38,6 +38,9 @@ class HeightField : public BedGeometry {
   HeightField(HeightField&&) = default;
   HeightField& operator=(HeightField&&) = default;
 
+  /// The wall around the bed: what lies beyond it neither gives nor takes sand. Its heights are as they were.
+  void enclose(BedShape shape);
+
   double operator()(int row, int col) const {
     const int slot = slot_of(tile_index(row / tile_side, col / tile_side));
     return slot < 0 ? untouched_->height(*this, row, col) : tiles_[slot]->heights[in_tile(row, col)];
@@ -59,7 +62,7 @@ class HeightField : public BedGeometry {
 
   const SurfaceRule& untouched() const { return *untouched_; }
   /// The same bed with no tile allocated: as its rule says throughout.
-  HeightField untouched_bed() const { return {rows(), cols(), cell_size(), untouched_}; }
+  HeightField untouched_bed() const;
 
   // --- allocated tiles ---
   int allocated_tiles() const { return static_cast<int>(tiles_.size()); }
@@ -90,14 +93,15 @@ class HeightField : public BedGeometry {
   const CellFlags& disturbed_cells(int slot) const { return tiles_[slot]->disturbed; }
   void clear_disturbed();
 
-  /// The next relaxations take these cells for walls, and no others: a solid tool stands on them. The next
+  /// The next relaxations take these cells for walls, and no others of the bed: a solid tool stands on them.
+  /// The next
   /// one looks at those that are held now and were not, or the other way round.
   void hold(const std::vector<RowCells>& cells);
   const std::vector<RowCells>& held() const { return held_; }
   const CellFlags& held_cells(int slot) const { return tiles_[slot]->held; }
   bool is_held(int row, int col) const {
     const int slot = slot_of(tile_index(row / tile_side, col / tile_side));
-    return slot >= 0 && (held_cells(slot)[row % tile_side] >> (col % tile_side) & 1) != 0;
+    return slot < 0 ? !has_sand(row, col) : (held_cells(slot)[row % tile_side] >> (col % tile_side) & 1) != 0;
   }
 
   /// Changes whenever a cell of the tile may have changed; 0 while it is not allocated. By tile index.
@@ -138,6 +142,8 @@ class HeightField : public BedGeometry {
     return (r % tile_side) * tile_side + c % tile_side;
   }
   int make_tile(int tile);
+  /// The cells of a tile's row that lie beyond the bed's wall.
+  std::uint64_t beyond_wall(int tile, int row_in_tile) const;
 
   std::shared_ptr<const SurfaceRule> untouched_;
   // Per tile of the bed: slot + 1, or 0. From calloc: pages of a huge bed that nobody touches stay unreal.

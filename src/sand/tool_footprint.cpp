@@ -29,9 +29,9 @@ ToolFootprint::ToolFootprint(const ToolSettings& settings)
 void ToolFootprint::place(const HeightField& bed, double x, double y) {
   cells_ = {};
   level_ = std::numeric_limits<double>::quiet_NaN();
-  cell_size_ = bed.cell_size();
-  axis_x_ = x / cell_size_, axis_y_ = y / cell_size_;
-  const double extent = shape_.reach / cell_size_ + 1.0;  // cells; beyond it the level weight is 0
+  bed_ = bed;
+  axis_x_ = x / cell_size(), axis_y_ = y / cell_size();
+  const double extent = shape_.reach / cell_size() + 1.0;  // cells; beyond it the level weight is 0
   if (!(std::abs(axis_y_) <= bed.rows_from_centre(bed.rows() - 1) + extent)) return;
   if (!(std::abs(axis_x_) <= bed.cols_from_centre(bed.cols() - 1) + extent)) return;
   std::tie(cells_.row_begin, cells_.row_end) = cells_between(axis_y_ - extent, axis_y_ + extent, bed.rows());

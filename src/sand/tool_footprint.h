@@ -43,7 +43,8 @@ class ToolFootprint {
   /// Needs radius > 0.
   explicit ToolFootprint(const ToolSettings& settings);
 
-  /// Moves the tool's axis to (x, y) [m] and reads the sand there. Cells outside the bed are left out.
+  /// Moves the tool's axis to (x, y) [m] and reads the sand there. Cells outside the bed, or beyond its wall,
+  /// are left out.
   void place(const HeightField& bed, double x, double y);
 
   /// The window, in cells of the bed; empty where the tool is outside it.
@@ -55,7 +56,13 @@ class ToolFootprint {
   double axis_y() const { return axis_y_; }
   double first_x() const { return first_x_; }
   double first_y() const { return first_y_; }
-  double cell_size() const { return cell_size_; }
+  double cell_size() const { return bed_.cell_size(); }
+  /// The columns of a row of the window that have sand.
+  ColumnRange sand_cols(int row) const {
+    const ColumnRange sand = bed_.sand_cols(cells_.row_begin + row);
+    return {std::max(sand.begin - cells_.col_begin, 0),
+            std::min(sand.end, cells_.col_end) - cells_.col_begin};
+  }
 
   /// Mean height [m] under the footprint (u <= u1 in full, fading out within a cell around it, so that it
   /// changes continuously as the tool moves). Displacement moves sand only where the weight is 1: it does not
@@ -92,9 +99,10 @@ class ToolFootprint {
   void read_heights(const HeightField& bed);
 
   FootprintShape shape_;
+  BedGeometry bed_{1, 1, 1.0};
   CellRange cells_;
   int stride_ = 0;
-  double axis_x_ = 0.0, axis_y_ = 0.0, first_x_ = 0.0, first_y_ = 0.0, cell_size_ = 0.0, level_;
+  double axis_x_ = 0.0, axis_y_ = 0.0, first_x_ = 0.0, first_y_ = 0.0, level_;
   std::size_t room_ = 0;
   hwy::AlignedFreeUniquePtr<double[]> heights_, underside_, rampart_, weights_, excess_;
   std::vector<RowCells> bowl_;  // while it is handed over

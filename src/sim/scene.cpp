@@ -18,6 +18,8 @@ void describe_bed(KeyVisitor& v, BedSettings& bed) {
   int cells[2] = {bed.cols, bed.rows};
   v.integers("cells", cells, 2, 1, BedGeometry::most_cells, "cells along x and y; they must come out square");
   bed.cols = cells[0], bed.rows = cells[1];
+  choose(v, "shape", bed.shape, {"rectangle", "round"},
+         "all of its rectangle, or the largest circle in it, inside a wall: a sand table");
 
   SurfaceSettings& s = bed.surface;
   v.section("bed.surface", "the sand before anything touches it");
@@ -290,7 +292,9 @@ void check_scene(const Scene& scene, const std::string& name) {
 }
 
 HeightField starting_bed(const BedSettings& bed) {
-  return make_surface(bed.surface, bed.rows, bed.cols, bed.cell_size());
+  HeightField sand = make_surface(bed.surface, bed.rows, bed.cols, bed.cell_size());
+  sand.enclose(bed.shape);
+  return sand;
 }
 
 }  // namespace sandstroke

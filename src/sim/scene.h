@@ -28,6 +28,7 @@ inline const std::string& preset_name(ModelPreset preset) {
 struct BedSettings {
   double width = 2.0, depth = 2.0;  ///< m, along x and y
   int cols = 1000, rows = 1000;     ///< cells along x and y
+  BedShape shape = BedShape::rectangle;
   SurfaceSettings surface;
   double cell_size() const { return width / cols; }
 };

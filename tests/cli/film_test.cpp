@@ -75,6 +75,22 @@ TEST_F(CliFilm, FfmpegIsFedThePicturesOfAllFrames) {
   EXPECT_EQ(files("a.mp4").size(), 1u);
 }
 
+TEST_F(CliFilm, ARunFilmsItsFramesInTheSameCommand) {
+  fake_ffmpeg("cat > \"$output\"");
+  ASSERT_EQ(film().exit_code, 0);
+  Conditions conditions;
+  conditions.path = (folder_ / "programs").string();
+  const ProgramResult result = run_program(
+      {"run", "scene.toml", "-o", "b.h5", "--frames", "4", "--video", "b.mp4"}, folder_, conditions);
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_TRUE(read_file(folder_ / "b.mp4") == read_file(folder_ / "a.mp4"));
+
+  const ProgramResult none = run_program({"run", "scene.toml", "-o", "c.h5", "--video", "c.mp4"}, folder_);
+  EXPECT_EQ(none.exit_code, 2);
+  EXPECT_NE(none.err.find("keeps none; add --frames 10"), std::string::npos) << none.err;
+  EXPECT_FALSE(fs::exists(folder_ / "c.h5"));
+}
+
 TEST_F(CliFilm, HasItsOwnRateWhereOneIsGiven) {
   fake_ffmpeg("cat > \"$output\"");
   const ProgramResult result = film({"--fps", "10"});

@@ -55,6 +55,7 @@ DisplacementReference::DisplacementReference(const ToolSettings& tool, const Bed
 }
 
 double DisplacementReference::rho2(int row, int col) const {
+  if (!bed_.has_sand(row, col)) return std::numeric_limits<double>::infinity();
   return x_of(col) * x_of(col) + y_of(row) * y_of(row);
 }
 double DisplacementReference::u(int row, int col) const {
@@ -136,6 +137,7 @@ HeightGrid DisplacementReference::outward(const HeightGrid& excess, double pushe
                 c0 = static_cast<int>(std::floor(axis_x + to_x));
       const auto share = [&](int r, int c) {  // by the distance to a cell's centre, along x and along y
         const bool free = r >= 0 && r < cells_.rows() && c >= 0 && c < cells_.cols() &&
+                          bed_.has_sand(cells_.row_begin + r, cells_.col_begin + c) &&
                           !in_bowl(cells_.row_begin + r, cells_.col_begin + c);
         return free ? std::max(0.0, 1.0 - std::abs(c - axis_x - to_x)) *
                           std::max(0.0, 1.0 - std::abs(r - axis_y - to_y))

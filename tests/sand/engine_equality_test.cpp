@@ -36,7 +36,7 @@ void on_threads(int threads, const Body& body) {
 }
 
 /// A bed, and a tool that works on it, drawn at random: sizes that are no whole number of tiles, walls and
-/// tile borders hugged, gentle and steep talus angles, flat, rough, bumpy and cliff beds.
+/// tile borders hugged, gentle and steep talus angles, flat, rough, bumpy and cliff beds, some of them round.
 class RandomScene {
  public:
   RandomScene(unsigned seed, int least_side, int largest_side) : random_(seed) {
@@ -51,6 +51,7 @@ class RandomScene {
     surface.amplitude = real(0.0, 6.0) * dx;
     surface.wavelength = whole(0, 1) || surface.kind == SurfaceKind::ripples ? real(5.0, 60.0) * dx : 0.0;
     bed = make_surface(surface, rows, cols, dx);
+    if (whole(0, 2) == 0) bed.enclose(BedShape::round);
     relaxation.law = whole(0, 1) ? RelaxationLaw::paper : RelaxationLaw::isotropic;
     relaxation.talus_angle = real(3.0, 70.0);
     relaxation.tolerance = whole(0, 3) ? 1e-3 : 0.05;
@@ -235,7 +236,8 @@ TEST(Tool, EqualsThePlainReferenceOn400RandomScenes) {
       footprint.hold_bowl(scene.bed);
       for (int row = 0; row < scene.bed.rows(); ++row)
         for (int col = 0; col < scene.bed.cols(); ++col)
-          ASSERT_EQ(scene.bed.is_held(row, col), reference.in_bowl(row, col)) << row << ", " << col;
+          ASSERT_EQ(scene.bed.is_held(row, col), reference.in_bowl(row, col) || !scene.bed.has_sand(row, col))
+              << row << ", " << col;
       scene.bed.hold({});
       scene.bed.clear_disturbed(), expected.clear_disturbed();
     }
