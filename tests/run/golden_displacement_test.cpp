@@ -29,7 +29,8 @@ TEST_P(GoldenStroke, DisplacesAsTheReferenceDoesInEveryTick) {
   const std::filesystem::path folder = std::filesystem::path(SANDSTROKE_SOURCE) / "strokes" / GetParam();
   const Scene scene = load_scene(folder / "scene.toml", {});
   const std::filesystem::path path = folder / scene.stroke->file;
-  StrokeSampler stroke(place_stroke(load_stroke(path, scene.force), scene.stroke->placement, path.string()));
+  StrokeSampler stroke(place_on_bed(
+      load_stroke(path, scene.force, scene.stroke->table.value_or(TableSettings{})), scene, path.string()));
 
   HeightField sand(scene.bed.rows, scene.bed.cols, scene.bed.cell_size()), expected = sand;
   const auto relaxer = make_relaxer(scene.relaxation, sand.cell_size()),

@@ -211,7 +211,8 @@ TEST_P(GoldenScene, EngineEqualsItsVariantsAndTheReference) {
   std::optional<Stroke> stroke;
   if (scene.stroke) {
     const fs::path path = folder / scene.stroke->file;
-    stroke = place_stroke(load_stroke(path, scene.force), scene.stroke->placement, path.string());
+    stroke = place_on_bed(load_stroke(path, scene.force, scene.stroke->table.value_or(TableSettings{})),
+                          scene, path.string());
   }
   auto relaxer = std::make_unique<CheckedRelaxer>(scene.relaxation, scene.bed.cell_size());
   const CheckedRelaxer& checked = *relaxer;
