@@ -174,6 +174,9 @@ std::string as_table(const std::string& file, const Stroke& stroke, const Stroke
   row("force", stroke.force.empty()
                    ? "not recorded"
                    : fmt::format("{:.4g} to {:.4g} N", summary.least_force, summary.greatest_force));
+  if (const auto [least, greatest] = std::minmax_element(stroke.pressure.begin(), stroke.pressure.end());
+      least != stroke.pressure.end())
+    row("pressure", fmt::format("{:.4g} to {:.4g}", *least, *greatest));
   if (recording) table += recording_rows(*recording, summary);
   return table;
 }

@@ -108,6 +108,10 @@ ColumnName column_name(const std::string& name) {
     column.means = time;
     return column;
   }
+  if (words.back() == "pressure") {
+    column.means = pressure;
+    return column;
+  }
   for (const char first : {'1', '0'}) {
     column.axis = matrix_place(words.back(), first);
     if (column.axis < 0) continue;

@@ -7,7 +7,7 @@ namespace sandstroke {
 
 /// What a column's name tells of it.
 struct ColumnName {
-  enum class Means { position, velocity, force, orientation, matrix, time, other };
+  enum class Means { position, velocity, force, orientation, matrix, pressure, time, other };
   Means means = Means::other;
   std::string bare;   ///< without its unit
   std::string unit;   ///< "mm" of "x [mm]", "x (mm)", "x_mm", "x/mm"; empty: none

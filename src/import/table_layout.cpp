@@ -84,10 +84,10 @@ class LayoutFinder {
     return choices;
   }
 
-  std::optional<std::size_t> found_time() const {
+  std::optional<std::size_t> found_one(Means means) const {
     std::optional<std::size_t> best;
     for (std::size_t i = 0; i < names_.size(); ++i) {
-      if (names_[i].parts.means != Means::time) continue;
+      if (names_[i].parts.means != means) continue;
       if (!best || names_[i].parts.rank < names_[*best].parts.rank) best = i;
     }
     return best;
@@ -214,10 +214,12 @@ TableLayout table_layout(const std::vector<SampleColumn>& columns, const TableSe
     layout.orientation = finder.found(Means::orientation, 4, 4);
     if (layout.orientation.empty()) layout.orientation = finder.found(Means::matrix, 9, 9);
   }
+  layout.pressure =
+      settings.pressure.empty() ? finder.found_one(Means::pressure) : finder.one(settings.pressure);
   if (!settings.time.empty()) {
     layout.time = finder.one(settings.time);
   } else if (settings.rate == 0.0 && settings.speed == 0.0) {
-    layout.time = finder.found_time();
+    layout.time = finder.found_one(Means::time);
   }
   return layout;
 }

@@ -56,6 +56,7 @@ Stroke read_stroke_file(const std::filesystem::path& path) {
   if (file.has("/stroke/velocity")) stroke.velocity = file.vectors("/stroke/velocity");
   if (file.has("/stroke/force")) stroke.force = file.vectors("/stroke/force");
   if (file.has("/stroke/orientation")) stroke.orientation = file.quaternions("/stroke/orientation");
+  if (file.has("/stroke/pressure")) stroke.pressure = file.doubles("/stroke/pressure");
   if (file.has("/stroke/switches")) stroke.switches = file.integers("/stroke/switches");
   if (file.has("/stroke/flags")) stroke.flags = file.integers("/stroke/flags");
   if (file.has("/stroke/contact")) stroke.contact = contact_states(file.integers("/stroke/contact"), name);
@@ -82,6 +83,8 @@ std::string content_hash(const Stroke& stroke) {
   add(hash, stroke.time);
   add(hash, stroke.position);
   add(hash, stroke.contact);
+  add(hash, stroke.force);
+  add(hash, stroke.pressure);
   hash.add(&stroke.gap_threshold, sizeof stroke.gap_threshold);
   if (stroke.follows_sand) hash.add("sand", 4);
   return hash.text();
