@@ -66,6 +66,7 @@ Stroke read_stroke_file(const std::filesystem::path& path) {
 }
 
 bool is_recorded(const std::filesystem::path& path) {
+  if (path == "-") return false;  // can be read once only
   check_readable(path);
   return path.extension() == ".h5" || begins_with(path, hdf5_signature);
 }
@@ -97,7 +98,7 @@ Stroke load_stroke(const std::filesystem::path& path, const ForceSettings& force
     if (path.extension() == ".toml") return trace_script(read_stroke_script(path), force);
     ImportedStroke imported = import_stroke(path, table);
     for (const std::string& warning : imported.warnings) warn_if_any(warning);
-    imported.stroke.source = path.filename().string();
+    imported.stroke.source = samples_name(path.filename());
     return std::move(imported.stroke);
   });
 }
