@@ -103,7 +103,7 @@ class StrokeMaker {
       throw_input_error("{}: the unit of {} is not known; give {}", name_, names(choices),
                         option_and_key(key));
     if (asked || !unit.empty() || known_unit(quantity, found)) return found;
-    tell(fmt::format("{} left out, without a unit (--{})", names(choices), key));
+    tell(fmt::format("{} left out, without a unit ({})", names(choices), option_and_key(key)));
     return "";
   }
 

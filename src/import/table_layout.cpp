@@ -23,6 +23,7 @@ struct Named {
 struct Group {
   int rank = 0;
   std::array<int, 9> axes{-1, -1, -1, -1, -1, -1, -1, -1, -1};
+  bool numbered = false;
   bool has(int count) const {
     return std::none_of(axes.begin(), axes.begin() + count, [](int index) { return index < 0; });
   }
@@ -60,12 +61,13 @@ class LayoutFinder {
       if (parts.means != means) continue;
       Group& group = groups[parts.group];
       group.rank = parts.rank;
+      group.numbered = parts.numbered;
       int& index = group.axes[static_cast<std::size_t>(parts.axis)];
       if (index < 0) index = static_cast<int>(i);
     }
     std::vector<const Group*> plainest;
     for (const auto& [name, group] : groups) {
-      if (!group.has(least)) continue;
+      if (!group.has(least) || (group.numbered && group.has(4))) continue;  // wider than a vector
       if (!plainest.empty() && group.rank > plainest.front()->rank) continue;
       if (!plainest.empty() && group.rank < plainest.front()->rank) plainest.clear();
       plainest.push_back(&group);
