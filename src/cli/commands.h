@@ -24,7 +24,7 @@ CLI::Option* add_set_option(CLI::App& command, std::vector<std::string>& overrid
 /// What shells offer where a stroke can stand: scripts, recordings, and what `stroke convert` reads.
 inline constexpr const char* stroke_file_type = "FILE.toml|.h5|.csv|.txt|.thr|.gcode|.mat|.db3";
 
-/// The override by which --stroke FILE replaces the scene's stroke.
+/// The override by which --stroke FILE (- is standard input) replaces the scene's stroke.
 std::string stroke_override(const std::string& file);
 
 // Each adds one subcommand, which sets `chosen` when it is called.

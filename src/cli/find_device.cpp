@@ -54,7 +54,13 @@ std::unique_ptr<HapticDevice> find_device(const std::string& name, const ForceSe
   if (name == "scripted:" || name == "replay:")
     throw_input_error("--device {}: the stroke is missing; write scripted:FILE.toml or replay:FILE.h5", name);
   if (file.empty()) throw_no_such_device(name);
-  return std::make_unique<StrokeDevice>(load_stroke(file, force), name);
+  Stroke stroke = load_stroke(file, force);
+  if (stroke.follows_sand)
+    throw_input_error(
+        "--device {}: its heights count from the sand (as those of a script with a force do), which a device "
+        "does not know; give depths instead, or play it: sandstroke run SCENE --stroke {}",
+        name, file.string());
+  return std::make_unique<StrokeDevice>(std::move(stroke), name);
 }
 
 std::vector<ConnectedDevice> connected_devices() {

@@ -29,8 +29,6 @@ constexpr double most_of_it = 0.5;  // of the recorded force: below it the const
 
 bool explains(const ForceFit& fit) { return fit.explained >= most_of_it; }
 
-bool is_known(const FittedConstant& one) { return std::isfinite(one.error); }
-
 nlohmann::ordered_json as_json(const ForceFit& fit) {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();  // null
   nlohmann::ordered_json json = {{"ticks", fit.ticks},
@@ -43,7 +41,8 @@ nlohmann::ordered_json as_json(const ForceFit& fit) {
                                  {"stiffness_error", fit.stiffness_error}};
   for (const FittedConstant& one : fit.constants)
     json[one.constant.name] = {{"value", one.value},
-                               {"error", is_known(one) ? one.error : none},
+                               {"error", std::isfinite(one.error) ? one.error : none},
+                               {"determined", one.determined()},
                                {"unit", one.constant.unit},
                                {"key", one.constant.key}};
   return json;
@@ -54,15 +53,20 @@ std::string value_text(double value, double error, const char* unit) {
   return fmt::format("{:.4g} +- {:.2g} {}", value, error, unit);
 }
 
+std::string text_of(const FittedConstant& one) {
+  const char* const unit = one.constant.unit;
+  if (one.determined()) return value_text(one.value, one.error, unit);
+  return (std::isfinite(one.error) ? value_text(one.value, one.error, unit)
+                                   : fmt::format("{:.4g} {}, the scene's", one.value, unit)) +
+         ": the recording does not determine it";
+}
+
 void print_fit(const ForceFit& fit) {
   print_row("ticks",
             fmt::format("{} in contact, with a recorded force of {:.3g} N rms", fit.ticks, fit.recorded_rms));
   std::string settings;
   for (const FittedConstant& one : fit.constants) {
-    const bool known = is_known(one);
-    print_row(one.constant.key, known ? value_text(one.value, one.error, one.constant.unit)
-                                      : fmt::format("{:.4g} {} (the scene's: the recording does not tell)",
-                                                    one.value, one.constant.unit));
+    print_row(one.constant.key, text_of(one));
     settings += fmt::format(" --set {}={:.6g}", one.constant.key, one.value);
   }
   print_row("k_s k_c", value_text(fit.stiffness, fit.stiffness_error, "N/m: how the force begins to grow"));

@@ -292,7 +292,7 @@ void add_run_command(CLI::App& app, Command& chosen) {
       ->add_option(
           "--stroke", arguments->stroke,
           "Play this stroke instead of the scene's: a script (.toml), a recording (.h5), or any file that "
-          "'stroke convert' reads")
+          "'stroke convert' reads (- is standard input)")
       ->type_name(stroke_file_type);
   add_set_option(*command, arguments->overrides);
   command->add_option("--frames", arguments->frames, "Surfaces to keep per second of stroke [Hz]")

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "cli/commands.h"
+#include "cli/print_json.h"
 #include "cli/stroke_parts.h"
 #include "cli/table_options.h"
 #include "core/error.h"
@@ -84,6 +85,7 @@ void add_convert(CLI::App& stroke_app, Command& chosen) {
   struct Options {
     std::string in, out, source;
     TableOptions table;
+    bool json = false;
   };
   auto options = std::make_shared<Options>();
   CLI::App* app = stroke_app.add_subcommand(
@@ -99,14 +101,17 @@ void add_convert(CLI::App& stroke_app, Command& chosen) {
   app->add_option("--source", options->source,
                   "A note on the origin of the samples. Default: the file's name")
       ->option_text("TEXT");
+  app->add_flag("--json", options->json, "Print the stroke as 'stroke info --json' does");
   app->footer(convert_examples);
   app->callback([&chosen, options] {
     chosen = [options] {
-      check_output(options->out, {options->in}, stroke_output);
-      ImportedStroke imported = import_stroke(options->in, table_settings(options->table));
+      const TableSettings settings = table_settings(options->table);
+      check_output(options->out, sample_files(options->in, settings), stroke_output);
+      ImportedStroke imported = import_stroke(options->in, settings);
       imported.stroke.source =
-          options->source.empty() ? fs::path(options->in).filename().string() : options->source;
+          options->source.empty() ? samples_name(fs::path(options->in).filename()) : options->source;
       write_and_tell(options->out, imported.stroke);
+      if (options->json) print_json(stroke_json(options->out, imported.stroke));
       for (const std::string& warning : imported.warnings) spdlog::warn("{}", warning);
       spdlog::info("{}: {}", options->in, imported.description);
       return 0;

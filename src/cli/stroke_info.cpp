@@ -83,8 +83,23 @@ std::string recording_rows(const RecordingInfo& recording, const StrokeSummary& 
          table_row("ended", stop_reason_text(footer.reason));
 }
 
-nlohmann::ordered_json describe(const std::string& file, const Stroke& stroke, const StrokeSummary& summary,
-                                const std::optional<RecordingInfo>& recording) {
+nlohmann::ordered_json as_json(const StrokeQuality& quality) {
+  return {{"jitter", quality.jitter},
+          {"repeated_share", quality.repeats.share},
+          {"repeat_period", quality.repeats.period},
+          {"noise", quality.noise},
+          {"top_speed", quality.top_speed},
+          {"usual_speed", quality.usual_speed},
+          {"plane_tilt_deg", quality.plane.tilt()},
+          {"plane_rms", quality.plane.rms()},
+          {"plane_largest", quality.plane.largest}};
+}
+
+}  // namespace
+
+nlohmann::ordered_json stroke_json(const std::string& file, const Stroke& stroke,
+                                   const std::optional<RecordingInfo>& recording) {
+  const StrokeSummary summary = summarize(stroke);
   nlohmann::ordered_json json;
   json["file"] = file;
   json["source"] = stroke.source;
@@ -108,20 +123,11 @@ nlohmann::ordered_json describe(const std::string& file, const Stroke& stroke, c
     recorded.update(as_json(recording->footer));
     recorded["rate"] = reached_rate(summary);
   }
+  json.update(as_json(quality_of(stroke)));
   return json;
 }
 
-nlohmann::ordered_json as_json(const StrokeQuality& quality) {
-  return {{"jitter", quality.jitter},
-          {"repeated_share", quality.repeats.share},
-          {"repeat_period", quality.repeats.period},
-          {"noise", quality.noise},
-          {"top_speed", quality.top_speed},
-          {"usual_speed", quality.usual_speed},
-          {"plane_tilt_deg", quality.plane.tilt()},
-          {"plane_rms", quality.plane.rms()},
-          {"plane_largest", quality.plane.largest}};
-}
+namespace {
 
 std::string quality_rows(const StrokeQuality& quality) {
   const LeastSquaresPlane& plane = quality.plane;
@@ -174,6 +180,9 @@ std::string as_table(const std::string& file, const Stroke& stroke, const Stroke
   row("force", stroke.force.empty()
                    ? "not recorded"
                    : fmt::format("{:.4g} to {:.4g} N", summary.least_force, summary.greatest_force));
+  if (const auto [least, greatest] = std::minmax_element(stroke.pressure.begin(), stroke.pressure.end());
+      least != stroke.pressure.end())
+    row("pressure", fmt::format("{:.4g} to {:.4g}", *least, *greatest));
   if (recording) table += recording_rows(*recording, summary);
   return table;
 }
@@ -196,16 +205,13 @@ void add_stroke_info_command(CLI::App& stroke_app, Command& chosen) {
   app->callback([&chosen, options] {
     chosen = [options] {
       const Stroke stroke = load_stroke(options->file, ForceSettings{});
-      const StrokeSummary summary = summarize(stroke);
       const StrokeQuality quality = quality_of(stroke);
       const std::optional<RecordingInfo> recording =
           is_recorded(options->file) ? read_recording_info(options->file) : std::nullopt;
       if (options->json) {
-        nlohmann::ordered_json json = describe(options->file, stroke, summary, recording);
-        json.update(as_json(quality));
-        print_json(json);
+        print_json(stroke_json(options->file, stroke, recording));
       } else {
-        print_text("{}", as_table(options->file, stroke, summary, quality, recording));
+        print_text("{}", as_table(options->file, stroke, summarize(stroke), quality, recording));
       }
       warn_if_any(coverage_warning(stroke, options->file));
       for (const std::string& warning : quality_warnings(quality))

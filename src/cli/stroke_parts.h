@@ -1,12 +1,15 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "cli/commands.h"
 #include "haptics/recording.h"
 #include "haptics/stroke_sampler.h"
+#include "io/recording_file.h"
 
 namespace sandstroke {
 
@@ -24,6 +27,10 @@ struct StrokeSummary {
   double least_force = 0.0, greatest_force = 0.0;  // N, magnitude
 };
 StrokeSummary summarize(const Stroke& stroke);
+
+/// What `stroke info --json` prints of a stroke that is in that file.
+nlohmann::ordered_json stroke_json(const std::string& file, const Stroke& stroke,
+                                   const std::optional<RecordingInfo>& recording = {});
 
 /// Where a recording's ticks went, also of one that was cut off.
 std::string recorded_ticks_text(const RecordingFooter& footer);

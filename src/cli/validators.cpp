@@ -43,6 +43,7 @@ CLI::Option* add_set_option(CLI::App& command, std::vector<std::string>& overrid
 }
 
 std::string stroke_override(const std::string& file) {
+  if (file == "-") return "stroke.file=-";
   return "stroke.file=" + toml_string(std::filesystem::absolute(file).string());
 }
 

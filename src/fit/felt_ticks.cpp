@@ -4,6 +4,8 @@
 
 #include "core/error.h"
 #include "core/interrupt.h"
+#include "import/import_stroke.h"
+#include "io/scene_toml.h"
 #include "io/surface_file.h"
 #include "run/run_progress.h"
 #include "run/run_scene.h"
@@ -32,12 +34,12 @@ std::vector<FeltTick> felt_ticks(const Scene& asked, const std::filesystem::path
     throw_input_error("the scene has no stroke; name one that was recorded with forces: --stroke FILE");
   Scene scene = asked;
   scene.device.model = DeviceModel::kinematic;
-  const std::filesystem::path path = scene_folder / scene.stroke->file;
+  const std::filesystem::path path = stroke_path(scene, scene_folder);
   std::string hash;
   const Stroke stroke = placed_stroke(scene, path, hash);
   if (stroke.force.empty())
     throw_input_error("{}: was recorded without forces, so there is nothing to fit; name another --stroke",
-                      path.string());
+                      samples_name(path));
   Simulation simulation(scene, load_surface(scene.bed, scene_folder), stroke);
   Gatherer felt(scene.device.scale);
   RunProgress bar;

@@ -29,8 +29,10 @@ inline constexpr ForceConstant force_constants[] = {{"k_s", "N", "force.k_s", &F
 struct FittedConstant {
   ForceConstant constant;
   double value = 0.0;
-  double error =
-      0.0;  ///< standard error; infinite: the recording does not tell, and the start's value was kept
+  double error = 0.0;  ///< standard error; infinite: the start's value was kept
+
+  /// The recording determines it.
+  bool determined() const { return error < value; }
 };
 
 /// The force constants that come nearest to a recorded force.

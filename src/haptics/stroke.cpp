@@ -82,6 +82,11 @@ void check_stroke(const Stroke& stroke, const std::string& name) {
   if (!stroke.velocity.empty()) check_vectors(stroke.velocity, "velocity", stroke, name);
   if (!stroke.force.empty()) check_vectors(stroke.force, "force", stroke, name);
   if (!stroke.orientation.empty()) check_orientation(stroke, name);
+  if (!stroke.pressure.empty()) check_length(stroke.pressure.size(), "pressure", stroke, name);
+  for (std::size_t i = 0; i < stroke.pressure.size(); ++i)
+    if (!std::isfinite(stroke.pressure[i]))
+      throw_input_error("{}: pressure of sample {} is {}, which is not finite; correct or remove that sample",
+                        name, i, stroke.pressure[i]);
   if (!stroke.switches.empty()) check_length(stroke.switches.size(), "switches", stroke, name);
   if (!stroke.flags.empty()) check_length(stroke.flags.size(), "flags", stroke, name);
   if (!stroke.contact.empty()) check_length(stroke.contact.size(), "contact", stroke, name);

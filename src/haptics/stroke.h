@@ -24,6 +24,7 @@ struct Stroke {
   std::vector<Eigen::Vector3d> velocity;       ///< m/s, as recorded (optional)
   std::vector<Eigen::Vector3d> force;          ///< N, as recorded (optional)
   std::vector<Eigen::Vector4d> orientation;    ///< of the tool: unit quaternions x, y, z, w (optional)
+  std::vector<double> pressure;                ///< of the pen, in its own unit (optional)
   std::vector<std::uint32_t> switches;         ///< device switches, bit by bit (optional)
   std::vector<std::uint32_t> flags;            ///< a recorder's SampleFlag bits (optional)
   std::vector<std::uint8_t> contact;           ///< a PenState each (optional); without it the pen is down
@@ -59,6 +60,7 @@ void visit_columns(AnyStroke& stroke, const Visit& visit) {
   visit("velocity", stroke.velocity);
   visit("force", stroke.force);
   visit("orientation", stroke.orientation);
+  visit("pressure", stroke.pressure);
   visit("switches", stroke.switches);
   visit("flags", stroke.flags);
   visit("contact", stroke.contact);

@@ -105,6 +105,44 @@ double fitting_scale(const Stroke& stroke, double share, const Eigen::AlignedBox
   return scale;
 }
 
+/// How hard the hand presses at a sample.
+double press(const Stroke& stroke, std::size_t i, DepthBy by) {
+  return by == DepthBy::pressure ? std::max(stroke.pressure[i], 0.0) : stroke.force[i].norm();
+}
+
+/// The pressure or force of full depth.
+double full_press(const Stroke& stroke, const StrokePlacement& placement, const std::string& name) {
+  const std::string& by = depth_by_names[static_cast<std::size_t>(placement.depth_by)];
+  if (placement.depth_by == DepthBy::pressure ? stroke.pressure.empty() : stroke.force.empty())
+    throw_input_error(
+        "{}: stroke.depth_by = \"{}\", but it has no {}; name its column, if it is a table, with "
+        "stroke.table.{}, or leave stroke.depth_by out",
+        name, by, by, by);
+  if (placement.full_depth_at > 0.0) return placement.full_depth_at;
+  double full = 0.0;
+  for (std::size_t i = 0; i < stroke.size(); ++i)
+    if (stroke.pen_down(i)) full = std::max(full, press(stroke, i, placement.depth_by));
+  if (!(full > 0.0))
+    throw_input_error("{}: no sample with the pen down has a {} above 0; leave stroke.depth_by out", name,
+                      by);
+  return full;
+}
+
+/// Raises drawn samples that are lowered by the whole depth to where they are as deep as they press.
+void raise_to_press(Stroke& stroke, const StrokePlacement& placement, double full, const std::string& name) {
+  const Eigen::AlignedBox3d extent = drawn_extent(stroke);
+  if (placement.plane == StrokePlane::keep && extent.min().z() < extent.max().z())
+    throw_input_error(
+        "{}: stroke.depth_by needs a stroke in one plane, and its heights differ by {:.3g} mm; set "
+        "stroke.plane = \"fit\" or \"flatten\"",
+        name, 1e3 * extent.sizes().z());
+  for (std::size_t i = 0; i < stroke.size(); ++i) {
+    if (!stroke.pen_down(i)) continue;
+    const double share = std::min(press(stroke, i, placement.depth_by) / full, 1.0);
+    stroke.position[i].z() += (1.0 - share) * placement.depth;
+  }
+}
+
 }  // namespace
 
 PointPlacement point_placement(const StrokePlacement& placement, const std::string& frame) {
@@ -140,6 +178,8 @@ Stroke place_stroke(const Stroke& stroke, const StrokePlacement& placement, cons
   if (placement.fit > 0.0) scale(fitting_scale(placed, placement.fit, bed, name));
   if (placement.place == StrokePlace::centre) bring_to(bed.center(), placed);
   for (Vector3d& p : placed.position) p += place.shift;
+  if (placement.depth_by != DepthBy::none)
+    raise_to_press(placed, placement, full_press(stroke, placement, name), name);
   if (placement.speed != 1.0) speed_up(placed, placement.speed);
   check_stroke(placed, name);
   return placed;

@@ -15,6 +15,10 @@ namespace sandstroke {
 enum class StrokePlane { keep, fit, flatten };
 /// What the heights of a stroke count from: the bed's z = 0, or the sand as it lies under the tip.
 enum class StrokeFollow { bed, sand };
+/// none: `depth` everywhere. pressure, force: `depth` where the recorded pressure, or the size of the
+/// recorded force, is largest, and in proportion elsewhere.
+enum class DepthBy { none, pressure, force };
+inline const std::vector<std::string> depth_by_names = {"none", "pressure", "force"};
 /// keep: where it is. centre: the middle of its drawn extent goes onto the middle of the bed.
 enum class StrokePlace { keep, centre };
 
@@ -28,6 +32,8 @@ struct StrokePlacement {
   StrokePlane plane = StrokePlane::keep;
   StrokeUp up = StrokeUp::automatic;  ///< of the plane
   double depth = 0.0;                 ///< m, how far below z = 0 the fitted plane is laid
+  DepthBy depth_by = DepthBy::none;
+  double full_depth_at = 0.0;  ///< the pressure, or force [N], of full depth; 0: the largest of the stroke
   StrokeFollow follow = StrokeFollow::bed;
   HeldSamples held = HeldSamples::keep;
   double smooth = 0.0;  ///< Hz, cut-off of the filter that takes tremble and noise out (smoothed); 0: none
@@ -68,8 +74,10 @@ PointPlacement point_placement(const StrokePlacement& placement, const std::stri
 ///
 /// The plane is the least-squares plane through the samples at which the pen is down (plane_through). It is
 /// turned by the smallest rotation that brings up_normal() to z, and shifted onto z = 0; bumps about the
-/// plane stay, but for flatten. Error: input, naming the stroke by `name`, where nothing is left of it, its
-/// samples span no plane or are no tracing in one, or it has no extent to fit.
+/// plane stay, but for flatten. With depth_by, a drawn sample goes no deeper than `depth`, and one without
+/// pressure (or force) not at all. Error: input, naming the stroke by `name`, where nothing is left of it,
+/// its samples span no plane or are no tracing in one, it has no extent to fit, or depth_by finds no
+/// pressure, or heights that differ without a plane.
 Stroke place_stroke(const Stroke& stroke, const StrokePlacement& placement,
                     const std::string& name = "stroke", const Eigen::AlignedBox2d& bed = {});
 

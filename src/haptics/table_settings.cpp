@@ -23,6 +23,7 @@ void describe_table(KeyVisitor& v, TableSettings& t) {
          "on device: the force of the sand on the device; by hand: the force of the hand, its opposite");
   v.text("orientation", t.orientation,
          "4 columns of a quaternion x,y,z,w, or 9 of a rotation matrix, row by row");
+  v.text("pressure", t.pressure, "column of the pen's pressure, in any unit");
   v.text("part", t.part,
          "one of several recordings in a file: a topic of a ROS 2 bag, a variable of a MATLAB file");
   v.text("columns", t.columns, "names of all columns, where no header line has them: \"x,y,t\"");

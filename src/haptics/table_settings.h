@@ -28,6 +28,7 @@ struct TableSettings {
   std::string force, force_unit;
   ForceSign force_sign = ForceSign::not_said;
   std::string orientation;  ///< 4 columns (quaternion x, y, z, w) or 9 (rotation matrix, row by row)
+  std::string pressure;     ///< column of the pen's pressure, in any unit
   std::string part;         ///< one of several recordings in a file: a bag's topic, a variable of a .mat file
   std::string columns;      ///< names of all, where the table has no header
   Separator separator = Separator::found;

@@ -13,8 +13,8 @@ namespace sandstroke {
 namespace {
 
 using Words = std::set<std::string>;
-const Words position_words{"p",           "pos",   "position", "tip", "tcp",
-                           "translation", "point", "pose",     "ee",  "coord"};
+const Words position_words{"p",     "pos",  "position", "tip",   "tcp", "translation",
+                           "point", "pose", "ee",       "coord", "xyz"};
 const Words velocity_words{"v", "vel", "velocity", "speed", "twist"};
 const Words force_words{"f", "force", "wrench"};
 const Words orientation_words{"q", "quat", "quaternion", "orientation", "rot", "rotation"};
@@ -84,6 +84,19 @@ int take_axis(std::vector<std::string>& words) {
   return static_cast<int>(axis);
 }
 
+/// Of a matrix's columns "pos.1" to "pos.3": takes the number off. A quaternion's say no order: MATLAB has w
+/// first.
+int take_number(const std::string& bare, std::vector<std::string>& words) {
+  if (words.size() < 2 || bare.size() < 2 || bare[bare.size() - 2] != '.') return -1;
+  const int axis = bare.back() - '1';
+  const std::string& before = words[words.size() - 2];
+  if (axis < 0 || axis > 3 ||
+      (!position_words.contains(before) && !velocity_words.contains(before) && !force_words.contains(before)))
+    return -1;
+  words.pop_back();
+  return axis;
+}
+
 /// "r11" to "r33", or "r00" to "r22": the first is row 0, column 0 with first = '1'.
 int matrix_place(const std::string& word, char first) {
   if (word.size() != 3 || word[0] != 'r') return -1;
@@ -108,6 +121,10 @@ ColumnName column_name(const std::string& name) {
     column.means = time;
     return column;
   }
+  if (words.back() == "pressure") {
+    column.means = pressure;
+    return column;
+  }
   for (const char first : {'1', '0'}) {
     column.axis = matrix_place(words.back(), first);
     if (column.axis < 0) continue;
@@ -115,7 +132,9 @@ ColumnName column_name(const std::string& name) {
     column.group = first;
     return column;
   }
-  column.axis = take_axis(words);
+  column.axis = take_number(column.bare, words);
+  column.numbered = column.axis >= 0;
+  if (!column.numbered) column.axis = take_axis(words);
   column.group = fmt::format("{}", fmt::join(words, " "));
   if (column.axis < 0 || any_in(other_words)) return column;
   if (any_in(orientation_words)) {

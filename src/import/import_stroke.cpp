@@ -12,8 +12,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string name_of(const fs::path& path) { return path == "-" ? "standard input" : path.string(); }
-
 /// How the second table is read: force and orientation that are named are its own.
 TableSettings settings_of_second(const TableSettings& settings) {
   TableSettings second;
@@ -33,23 +31,32 @@ SampleTable read_samples(const fs::path& path, const TableSettings& settings, bo
     if (std::optional<SampleTable> samples = read_known_format(path, settings.part))
       return std::move(*samples);
   InputFile file(path == "-" ? "/dev/stdin" : path, InputFile::Pipe::taken);
-  TextTable table(name_of(path), settings, need_position);
+  TextTable table(samples_name(path), settings, need_position);
   for (std::string_view part = file.next_block(); !part.empty(); part = file.next_block()) table.read(part);
   return table.take();
 }
 
 }  // namespace
 
+std::string samples_name(const fs::path& path) { return path == "-" ? "standard input" : path.string(); }
+
+std::vector<fs::path> sample_files(const fs::path& path, const TableSettings& settings) {
+  std::vector<fs::path> files;
+  if (path != "-") files.push_back(path);
+  if (!settings.merge.empty()) files.push_back(path.parent_path() / settings.merge);
+  return files;
+}
+
 ImportedStroke import_stroke(const fs::path& path, const TableSettings& settings) {
   TableSettings of_first = settings;
   if (!settings.merge.empty()) of_first.force = of_first.orientation = "";
-  ImportedStroke first = stroke_of_table(read_samples(path, of_first), of_first, name_of(path));
+  ImportedStroke first = stroke_of_table(read_samples(path, of_first), of_first, samples_name(path));
   if (settings.merge.empty()) return first;
-  const fs::path beside = path.parent_path() / settings.merge;
+  const fs::path beside = sample_files(path, settings).back();
   const TableSettings of_second = settings_of_second(settings);
   const ImportedStroke second =
-      stroke_of_table(read_samples(beside, of_second, false), of_second, name_of(beside), false);
-  merge_strokes(first, second, settings.merge_shift, name_of(path), name_of(beside));
+      stroke_of_table(read_samples(beside, of_second, false), of_second, samples_name(beside), false);
+  merge_strokes(first, second, settings.merge_shift, samples_name(path), samples_name(beside));
   return first;
 }
 

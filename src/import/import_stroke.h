@@ -1,7 +1,9 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "import/stroke_of_table.h"
 
@@ -10,6 +12,13 @@ namespace sandstroke {
 /// The stroke in a file of samples, and what the settings' second table adds. "-" is standard input. Error:
 /// input, naming file and line; io, where it cannot be read.
 ImportedStroke import_stroke(const std::filesystem::path& path, const TableSettings& settings);
+
+/// As sentences name it.
+std::string samples_name(const std::filesystem::path& path);
+
+/// The files that are read: this one, but for standard input, and the table that is merged with it.
+std::vector<std::filesystem::path> sample_files(const std::filesystem::path& path,
+                                                const TableSettings& settings);
 
 /// Of one text table; `name` stands for the file in sentences.
 ImportedStroke import_stroke_text(std::string_view text, const std::string& name,

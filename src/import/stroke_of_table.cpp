@@ -31,6 +31,7 @@ class StrokeMaker {
     take_velocity();
     take_force();
     take_orientation();
+    take_pressure();
     if (!table_.lifts.empty())
       for (const bool lifts : table_.lifts) stroke.contact.push_back(lifts ? pen_lifts : pen_down);
     take_times();
@@ -102,7 +103,7 @@ class StrokeMaker {
       throw_input_error("{}: the unit of {} is not known; give {}", name_, names(choices),
                         option_and_key(key));
     if (asked || !unit.empty() || known_unit(quantity, found)) return found;
-    tell(fmt::format("{} left out, without a unit (--{})", names(choices), key));
+    tell(fmt::format("{} left out, without a unit ({})", names(choices), option_and_key(key)));
     return "";
   }
 
@@ -161,6 +162,13 @@ class StrokeMaker {
       made_.stroke.orientation.emplace_back((turn * q.normalized()).coeffs());
     }
     tell(fmt::format("orientation {}", names(layout_.orientation)));
+  }
+
+  void take_pressure() {
+    if (!layout_.pressure) return;
+    const SampleColumn& column = table_.columns[*layout_.pressure];
+    made_.stroke.pressure = column.values;
+    tell(fmt::format("pressure {}", column.name));
   }
 
   std::string place(std::size_t i) const {

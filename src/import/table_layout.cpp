@@ -23,6 +23,7 @@ struct Named {
 struct Group {
   int rank = 0;
   std::array<int, 9> axes{-1, -1, -1, -1, -1, -1, -1, -1, -1};
+  bool numbered = false;
   bool has(int count) const {
     return std::none_of(axes.begin(), axes.begin() + count, [](int index) { return index < 0; });
   }
@@ -60,12 +61,13 @@ class LayoutFinder {
       if (parts.means != means) continue;
       Group& group = groups[parts.group];
       group.rank = parts.rank;
+      group.numbered = parts.numbered;
       int& index = group.axes[static_cast<std::size_t>(parts.axis)];
       if (index < 0) index = static_cast<int>(i);
     }
     std::vector<const Group*> plainest;
     for (const auto& [name, group] : groups) {
-      if (!group.has(least)) continue;
+      if (!group.has(least) || (group.numbered && group.has(4))) continue;  // wider than a vector
       if (!plainest.empty() && group.rank > plainest.front()->rank) continue;
       if (!plainest.empty() && group.rank < plainest.front()->rank) plainest.clear();
       plainest.push_back(&group);
@@ -84,10 +86,10 @@ class LayoutFinder {
     return choices;
   }
 
-  std::optional<std::size_t> found_time() const {
+  std::optional<std::size_t> found_one(Means means) const {
     std::optional<std::size_t> best;
     for (std::size_t i = 0; i < names_.size(); ++i) {
-      if (names_[i].parts.means != Means::time) continue;
+      if (names_[i].parts.means != means) continue;
       if (!best || names_[i].parts.rank < names_[*best].parts.rank) best = i;
     }
     return best;
@@ -214,10 +216,12 @@ TableLayout table_layout(const std::vector<SampleColumn>& columns, const TableSe
     layout.orientation = finder.found(Means::orientation, 4, 4);
     if (layout.orientation.empty()) layout.orientation = finder.found(Means::matrix, 9, 9);
   }
+  layout.pressure =
+      settings.pressure.empty() ? finder.found_one(Means::pressure) : finder.one(settings.pressure);
   if (!settings.time.empty()) {
     layout.time = finder.one(settings.time);
   } else if (settings.rate == 0.0 && settings.speed == 0.0) {
-    layout.time = finder.found_time();
+    layout.time = finder.found_one(Means::time);
   }
   return layout;
 }

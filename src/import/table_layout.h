@@ -22,7 +22,7 @@ struct TableLayout {
   ColumnChoices position;         ///< 2 or 3; none where it was not asked for
   ColumnChoices velocity, force;  ///< 2 or 3, or none
   ColumnChoices orientation;      ///< 4, 9 or none
-  std::optional<std::size_t> time;
+  std::optional<std::size_t> time, pressure;
   /// From the axes that the table is in to the stroke's: its rows are the positions' columns.
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
 };

@@ -255,6 +255,7 @@ class TextTable::Rows {
     want(layout_.velocity);
     want(layout_.force);
     want(layout_.orientation);
+    if (layout_.pressure) wanted_.push_back(*layout_.pressure);
     std::sort(wanted_.begin(), wanted_.end());
     wanted_.erase(std::unique(wanted_.begin(), wanted_.end()), wanted_.end());
     if (layout_.time) std::erase(wanted_, *layout_.time);

@@ -3,6 +3,7 @@
 #include <spdlog/fmt/fmt.h>
 
 #include "core/error.h"
+#include "import/import_stroke.h"
 #include "io/input_kind.h"
 #include "io/key_reader.h"
 #include "io/scene_keys.h"
@@ -36,8 +37,15 @@ Scene read_scene(TomlReader toml, const std::vector<std::string>& overrides) {
 }  // namespace
 
 Scene load_scene(const std::filesystem::path& path, const std::vector<std::string>& overrides) {
-  return read_as({InputKind::scene}, path,
-                 [&] { return read_scene(TomlReader::from_file(path), overrides); });
+  return read_as({InputKind::scene}, path, [&] {
+    TomlReader toml = TomlReader::from_file(path);
+    if (toml.has("stroke") && toml.text("stroke.file", "") == "-")
+      throw_input_error(
+          "{}: stroke.file = \"-\" names no file; to play standard input, leave it out and "
+          "give --stroke - to sandstroke run",
+          path.string());
+    return read_scene(std::move(toml), overrides);
+  });
 }
 
 Scene scene_from_text(const std::string& text, const std::string& name,
@@ -45,9 +53,14 @@ Scene scene_from_text(const std::string& text, const std::string& name,
   return read_scene(TomlReader::from_text(text, name), overrides);
 }
 
+std::filesystem::path stroke_path(const Scene& scene, const std::filesystem::path& folder) {
+  return scene.stroke->file == "-" ? "-" : folder / scene.stroke->file;
+}
+
 std::vector<std::filesystem::path> input_files(const Scene& scene, const std::filesystem::path& folder) {
   std::vector<std::filesystem::path> files;
-  if (scene.stroke) files.push_back(folder / scene.stroke->file);
+  if (scene.stroke)
+    files = sample_files(stroke_path(scene, folder), scene.stroke->table.value_or(TableSettings{}));
   if (scene.bed.surface.kind == SurfaceKind::file) files.push_back(folder / scene.bed.surface.file);
   return files;
 }

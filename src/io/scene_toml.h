@@ -9,14 +9,18 @@
 namespace sandstroke {
 
 /// Reads a scene (TOML) and checks it. overrides: "key=value" as --set takes them. Error: input, naming file,
-/// line, key and remedy; io where the file cannot be read.
+/// line, key and remedy; io where the file cannot be read. Only an override may take the stroke from standard
+/// input ("stroke.file=-").
 Scene load_scene(const std::filesystem::path& path, const std::vector<std::string>& overrides = {});
 
 /// The same from text; `name` stands for the file in messages.
 Scene scene_from_text(const std::string& text, const std::string& name,
                       const std::vector<std::string>& overrides = {});
 
-/// The files that a scene names, seen from its folder: stroke and surface.
+/// The scene's stroke, seen from its folder; "-": standard input.
+std::filesystem::path stroke_path(const Scene& scene, const std::filesystem::path& folder);
+
+/// The files that a scene names, seen from its folder: stroke, the table that is merged with it, surface.
 std::vector<std::filesystem::path> input_files(const Scene& scene, const std::filesystem::path& folder);
 
 /// Every setting of a scene as TOML, such that reading it back gives the same scene.

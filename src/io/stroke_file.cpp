@@ -56,6 +56,7 @@ Stroke read_stroke_file(const std::filesystem::path& path) {
   if (file.has("/stroke/velocity")) stroke.velocity = file.vectors("/stroke/velocity");
   if (file.has("/stroke/force")) stroke.force = file.vectors("/stroke/force");
   if (file.has("/stroke/orientation")) stroke.orientation = file.quaternions("/stroke/orientation");
+  if (file.has("/stroke/pressure")) stroke.pressure = file.doubles("/stroke/pressure");
   if (file.has("/stroke/switches")) stroke.switches = file.integers("/stroke/switches");
   if (file.has("/stroke/flags")) stroke.flags = file.integers("/stroke/flags");
   if (file.has("/stroke/contact")) stroke.contact = contact_states(file.integers("/stroke/contact"), name);
@@ -65,6 +66,7 @@ Stroke read_stroke_file(const std::filesystem::path& path) {
 }
 
 bool is_recorded(const std::filesystem::path& path) {
+  if (path == "-") return false;  // can be read once only
   check_readable(path);
   return path.extension() == ".h5" || begins_with(path, hdf5_signature);
 }
@@ -82,6 +84,8 @@ std::string content_hash(const Stroke& stroke) {
   add(hash, stroke.time);
   add(hash, stroke.position);
   add(hash, stroke.contact);
+  add(hash, stroke.force);
+  add(hash, stroke.pressure);
   hash.add(&stroke.gap_threshold, sizeof stroke.gap_threshold);
   if (stroke.follows_sand) hash.add("sand", 4);
   return hash.text();
@@ -94,7 +98,7 @@ Stroke load_stroke(const std::filesystem::path& path, const ForceSettings& force
     if (path.extension() == ".toml") return trace_script(read_stroke_script(path), force);
     ImportedStroke imported = import_stroke(path, table);
     for (const std::string& warning : imported.warnings) warn_if_any(warning);
-    imported.stroke.source = path.filename().string();
+    imported.stroke.source = samples_name(path.filename());
     return std::move(imported.stroke);
   });
 }

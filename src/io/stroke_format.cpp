@@ -22,6 +22,7 @@ constexpr ColumnText column_texts[] = {
     {"force", "N", "on the hand, commanded after this reading and held until the next, in the device's frame",
      true},
     {"orientation", "", "of the tool, as a unit quaternion x, y, z, w, in the positions' frame"},
+    {"pressure", "", "of the pen, in its own unit"},
     {"switches", "", "that were pressed: switch k is bit k"},
     {"sequence", "", "number of the tick, from 0; ticks without a sample are missing"},
     {"monotonic_time", "ns", "time, as the system's clock gave it (attribute clock of /stroke)"},

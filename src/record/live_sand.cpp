@@ -28,6 +28,8 @@ const HeightField& checked(const Scene& scene, const HeightField& bed) {
                   "it needs the whole stroke before it begins");
     refuse_unless(placement.fit == 0.0 && placement.place == StrokePlace::keep, "stroke.fit and stroke.place",
                   "they need the whole stroke before it begins");
+    refuse_unless(placement.depth_by == DepthBy::none, "stroke.depth_by",
+                  "the hand itself decides how deep it goes");
     refuse_unless(placement.follow == StrokeFollow::bed, "stroke.follow",
                   "the hand itself decides how deep it goes");
     refuse_unless(placement.start == 0.0 && std::isinf(placement.stop), "stroke.start and stroke.stop",

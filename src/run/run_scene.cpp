@@ -15,7 +15,9 @@
 #include "core/machine.h"
 #include "core/output_file.h"
 #include "haptics/stroke_coverage.h"
+#include "import/import_stroke.h"
 #include "io/run_writer.h"
+#include "io/scene_toml.h"
 #include "io/stroke_file.h"
 #include "io/surface_file.h"
 #include "run/run_progress.h"
@@ -50,13 +52,14 @@ std::optional<ErrorEstimate> estimated_error(const Scene& scene, const HeightFie
 }  // namespace
 
 Stroke placed_stroke(const Scene& scene, const std::filesystem::path& path, std::string& hash) {
+  const std::string name = samples_name(path);
   const Stroke loaded = load_stroke(path, scene.force, scene.stroke->table.value_or(TableSettings{}));
   if (!loaded.complete)
-    spdlog::warn("{}: was cut off while it was recorded; the run ends where the stroke does", path.string());
+    spdlog::warn("{}: was cut off while it was recorded; the run ends where the stroke does", name);
   // Not of a recorded stroke's bytes: they tell which build wrote it, too.
   hash = is_script(path) ? file_hash(path) : content_hash(loaded);
-  Stroke placed = place_on_bed(loaded, scene, path.string());
-  warn_if_any(coverage_warning(placed, path.string()));
+  Stroke placed = place_on_bed(loaded, scene, name);
+  warn_if_any(coverage_warning(placed, name));
   return placed;
 }
 
@@ -73,12 +76,12 @@ RunResult run_scene(const Scene& asked, const std::filesystem::path& output, con
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                   static_cast<std::size_t>(threads));
 
-  std::filesystem::path stroke_path;
+  std::filesystem::path stroke_file;
   std::string stroke_hash;
   std::optional<Stroke> stroke;
   if (scene.stroke) {
-    stroke_path = options.scene_folder / scene.stroke->file;
-    stroke = placed_stroke(scene, stroke_path, stroke_hash);
+    stroke_file = stroke_path(scene, options.scene_folder);
+    stroke = placed_stroke(scene, stroke_file, stroke_hash);
   }
   if (options.second) second_scene(scene, *options.second);  // refused before any work, if at all
   HeightField bed = load_surface(scene.bed, options.scene_folder);
@@ -86,7 +89,7 @@ RunResult run_scene(const Scene& asked, const std::filesystem::path& output, con
   if (stroke || options.second) start = bed;
   Simulation simulation(scene, std::move(bed), stroke);
   if (stroke) {
-    warn_if_any(depth_warning(scene, simulation.bed(), *stroke, stroke_path.string()));
+    warn_if_any(depth_warning(scene, simulation.bed(), *stroke, samples_name(stroke_file)));
     check_disk(output, least_bytes(simulation),
                "choose another place or free disk space; output.trace = false, fewer output.frames or a "
                "stroke.stop keep less");

@@ -29,7 +29,7 @@ struct TickRecord {
   bool saturated = false;         ///< the device's maximum force cut the force
   bool dropped = false;           ///< the loop was late: the force of the tick before is given out again
   bool lifts = false;             ///< the hand is lifted before the tick ends
-  /// m, below the sand, that the hand asks for; NaN: it does not follow the sand.
+  /// m, below the sand, that the hand asks for; NaN: it is lifted, or does not follow the sand.
   double asked_depth = std::numeric_limits<double>::quiet_NaN();
 };
 
@@ -37,6 +37,7 @@ struct TickRecord {
 struct TraceContent {
   bool recorded_force = false;  ///< the stroke was recorded with forces
   bool dropped_ticks = false;   ///< the device has dropped ticks
+  bool asked_depth = false;     ///< the stroke follows the sand
 };
 
 /// A field of a record, for who reads it in a file.
@@ -86,6 +87,12 @@ void visit_tick_fields(const Visit& visit) {
   visit(
       Text{"depth", "m", "depth of the tip, as read, below that level; negative above it"},
       [](auto& tick) -> auto& { return tick.depth; });
+  visit(
+      Text{
+          "asked_depth", "m",
+          "depth below the sand that the stroke asks for; negative above it, not a number where it is lifted",
+          &TraceContent::asked_depth},
+      [](auto& tick) -> auto& { return tick.asked_depth; });
   visit(
       Text{"displaced_volume", "m^3", "sand pushed aside in the tick"},
       [](auto& tick) -> auto& { return tick.displaced_volume; });

@@ -112,6 +112,11 @@ void describe_stroke(KeyVisitor& v, StrokeSettings& stroke) {
   v.number("rotate_z", p.rotate_z, degrees, "deg", "turn about z, from +x towards +y");
   v.number("depth", p.depth, any_number, "m",
            "how far it is lowered; with plane = fit or flatten: how far below z = 0 it runs");
+  choose(v, "depth_by", p.depth_by, depth_by_names,
+         "as deep everywhere, or in proportion to the pressure or the size of the force that was recorded");
+  if (p.depth_by != DepthBy::none)
+    v.number("full_depth_at", p.full_depth_at, not_negative, "",
+             "pressure, or force in N, of the full depth; 0: the largest of the stroke");
   choose(v, "follow", p.follow, {"bed", "sand"},
          "its heights count from z = 0, or from the sand as it lies under the tool (as do those of a script "
          "with a force)");

@@ -99,7 +99,7 @@ TickRecord Simulation::tick(double time, const Hand& hand, double next_time,
   const SimulatedDevice::State reading = device_.device().read();
   const Eigen::Vector3d tip = tip_of(scene_.device, reading.position);
   const Eigen::Vector3d true_tip = tip_of(scene_.device, device_.device().state().position);
-  if (follower_) record.asked_depth = follower_->asked_depth();
+  if (follower_ && hand.down) record.asked_depth = follower_->asked_depth();
   record.time = time;
   record.hand = hand;
   record.device_position = reading.position;
@@ -120,7 +120,8 @@ TickRecord Simulation::tick(double time, const Hand& hand, double next_time,
 
 TraceContent Simulation::trace_content() const {
   return {.recorded_force = stroke_ && !stroke_->stroke().force.empty(),
-          .dropped_ticks = scene_.device.dropped_ticks > 0.0};
+          .dropped_ticks = scene_.device.dropped_ticks > 0.0,
+          .asked_depth = follower_.has_value()};
 }
 
 std::int64_t Simulation::told_ticks() const {

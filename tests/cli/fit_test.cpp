@@ -36,6 +36,7 @@ TEST(CliFit, FindsTheConstantsOfARunFromWhatItFelt) {
   EXPECT_NEAR(fit["stiffness"], 200.0, 2.0);
   EXPECT_NEAR(fit["k_f"]["value"], 6.0, 0.3);
   EXPECT_GT(fit["explained"], 0.99);
+  EXPECT_EQ(fit["k_f"]["determined"], true);
   EXPECT_LT(fit["residual_rms"], fit["scene_residual_rms"]);
   EXPECT_EQ(found.err.find("warning"), std::string::npos) << found.err;
   const ProgramResult table = run_program({"fit", "scene.toml", "--stroke", "felt.h5"}, folder);

@@ -305,6 +305,9 @@ TEST(CliRecord, ADiskThatIsFullFromTheStartIsAnErrorBeforeAnything) {
 TEST(CliRecord, WhatIsWrongIsSaidBeforeAnythingIsRecorded) {
   const fs::path folder = test_folder();
   write_file(folder / "dynamic.toml", read_file(folder / "scene.toml") + "[device]\nmodel = \"dynamic\"\n");
+  write_file(
+      folder / "press.toml",
+      "start = [0.0, 0.0]\nspeed = 0.2\n[[segment]]\nkind = \"line\"\nto = [0.05, 0.0]\nforce = 2.0\n");
   struct Attempt {
     std::vector<std::string> arguments;
     int exit_code;
@@ -320,6 +323,7 @@ TEST(CliRecord, WhatIsWrongIsSaidBeforeAnythingIsRecorded) {
       {with(to_a, {"chai3d:-1"}), 2, "unknown device"},
       {with(to_a, {"scripted:none.toml"}), 4, "none.toml"},
       {with(to_a, {"replay:scene.toml"}), 2, "scene.toml"},
+      {with(to_a, {"scripted:press.toml"}), 2, "give depths instead"},
       {with(record_line, {"--duration", "-1"}), 2, "--duration"},
       {with(record_line, {"--duration", "nan"}), 2, "--duration"},
       {with(record_line, {"--rate", "0"}), 2, "--rate"},

@@ -122,5 +122,63 @@ TEST(CliStroke, ATableCanComeThroughAPipe) {
   EXPECT_EQ(info(folder, "log.h5")["samples"], 51);
 }
 
+TEST(CliStroke, RunPlaysATableThatComesThroughAPipe) {
+  const fs::path folder = test_folder();
+  write_file(folder / "log.csv", log_of_a_robot());
+  const Conditions piped{.in_child = [&] {
+    int ends[2];
+    if (pipe(ends) == 0) dup2(ends[0], 0);
+    const std::string log = log_of_a_robot();
+    if (write(ends[1], log.data(), log.size()) < 0) return;  // it fits into the pipe
+    close(ends[1]);
+  }};
+  const std::string axes = "stroke.table.position=x,-z,y";
+  ASSERT_EQ(run_program({"run", "scene.toml", "-o", "a.h5", "--stroke", "log.csv", "--set", axes}, folder)
+                .exit_code,
+            0);
+  const ProgramResult run =
+      run_program({"run", "scene.toml", "-o", "b.h5", "--stroke", "-", "--set", axes}, folder, piped);
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_NE(run.err.find("standard input: "), std::string::npos) << run.err;
+  const RunFile from_file(folder / "a.h5"), from_pipe(folder / "b.h5");
+  EXPECT_TRUE((from_file.final() == from_pipe.final()).all());
+  const auto hash = [](const RunFile& file) {
+    for (const auto& [name, value] : file.provenance())
+      if (name == "stroke_hash") return value;
+    return std::string();
+  };
+  EXPECT_EQ(hash(from_file), hash(from_pipe));
+  EXPECT_NE(from_pipe.scene_text().find("file = \"-\""), std::string::npos);
+  EXPECT_EQ(run_program({"info", "b.h5"}, folder).exit_code, 0);
+
+  write_file(folder / "waits.toml", "[stroke]\nfile = \"-\"\n");
+  const ProgramResult refused = run_program({"run", "waits.toml", "-o", "c.h5"}, folder, piped);
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_NE(refused.err.find("--stroke -"), std::string::npos) << refused.err;
+}
+
+TEST(CliStroke, ASecondTableIsAnInputThatNoOutputReplaces) {
+  const fs::path folder = test_folder();
+  write_file(folder / "tip.csv", "t_s,x_m,y_m,z_m\n0,-0.05,0,-0.004\n0.05,0,0,-0.004\n0.1,0.05,0,-0.004\n");
+  const std::string force = "t_s,fx_N,fy_N,fz_N\n0,0,0,1\n0.1,0,0,2\n";
+  write_file(folder / "force.h5", force);  // the ending of an output
+  const std::string merge = "stroke.table.merge=force.h5";
+  const ProgramResult run = run_program(
+      {"run", "scene.toml", "-o", "force.h5", "--stroke", "tip.csv", "--set", merge, "--overwrite"}, folder);
+  EXPECT_EQ(run.exit_code, 2) << run.err;
+  const ProgramResult convert =
+      run_program({"stroke", "convert", "tip.csv", "force.h5", "--merge", "force.h5", "--overwrite"}, folder);
+  EXPECT_EQ(convert.exit_code, 2) << convert.err;
+  EXPECT_EQ(read_file(folder / "force.h5"), force);
+}
+
+TEST(CliStroke, ConvertDescribesTheStrokeAsInfoDoes) {
+  const fs::path folder = test_folder();
+  write_file(folder / "log.csv", log_of_a_robot());
+  const ProgramResult convert = run_program({"stroke", "convert", "log.csv", "log.h5", "--json"}, folder);
+  ASSERT_EQ(convert.exit_code, 0) << convert.err;
+  EXPECT_EQ(nlohmann::json::parse(convert.out), info(folder, "log.h5"));
+}
+
 }  // namespace
 }  // namespace sandstroke

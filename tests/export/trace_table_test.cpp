@@ -44,6 +44,7 @@ TEST(TraceTable, HasWhatNotEveryRunHasWhereThisOneHasIt) {
   EXPECT_EQ(columns({}), 22u);
   EXPECT_EQ(columns({.recorded_force = true}), 25u);
   EXPECT_EQ(columns({.recorded_force = true, .dropped_ticks = true}), 26u);
+  EXPECT_EQ(columns({.asked_depth = true}), 23u);
 }
 
 }  // namespace

@@ -92,6 +92,19 @@ TEST(ForceFit, SaysThatAForceInShallowSandTellsOnlyTheProduct) {
   EXPECT_LT(fit.stiffness_error, 10.0);
 }
 
+TEST(ForceFit, SaysWhichConstantsTheRecordingDetermines) {
+  for (const double k_f : {4.0, 0.0}) {  // without drag, noise alone is fitted
+    ForceSettings sand = truth;
+    sand.k_f = k_f;
+    const ForceFit fit = fit_force(felt(sand, 0.001, 0.05, 1.0, 4000), ForceSettings{}, no_limit, all);
+    EXPECT_TRUE(fit.constants[0].determined());
+    EXPECT_TRUE(fit.constants[1].determined());
+    EXPECT_EQ(fit.constants[2].determined(), k_f > 0.0) << fit.constants[2].value;
+  }
+  EXPECT_FALSE((FittedConstant{force_constants[2], 0.5, 0.5}.determined()));
+  EXPECT_FALSE((FittedConstant{force_constants[2], 0.0, 0.0}.determined()));
+}
+
 TEST(ForceFit, AForceOfAnotherKindIsHardlyExplained) {
   std::vector<FeltTick> ticks = felt(truth, 0.001, 0.05);
   for (FeltTick& tick : ticks) tick.recorded = {3.0, 0.0, 0.0};  // constant, and sideways

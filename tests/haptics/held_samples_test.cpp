@@ -98,6 +98,7 @@ TEST(HeldSamples, AreLeftOutOfEveryColumn) {
   stroke.velocity.assign(count, Vector3d::Zero());
   stroke.force.assign(count, Vector3d::Zero());
   stroke.orientation.assign(count, Eigen::Vector4d::UnitW());
+  stroke.pressure.assign(count, 0.5);
   stroke.switches.assign(count, 0);
   stroke.flags.assign(count, 0);
   stroke.contact.assign(count, pen_down);

@@ -309,6 +309,69 @@ TEST(StrokePlacement, CentredAndFittedItFillsItsShareOfTheBed) {
   EXPECT_THAT(complaint(stroke_through({{0, 0, 0}, {0, 0, -1}}), fit), HasSubstr("stroke.scale"));
 }
 
+/// A flat tracing 0.25 m up, whose pressure goes from 0 to 199 and whose force turns and is twice as large.
+Stroke pressed_tracing() {
+  std::vector<Vector3d> points = flat_tracing();
+  for (Vector3d& p : points) p.z() += 0.25;
+  Stroke stroke = stroke_through(points);
+  for (std::size_t i = 0; i < stroke.size(); ++i) {
+    const auto pressure = static_cast<double>(i);
+    stroke.pressure.push_back(pressure);
+    stroke.force.emplace_back(2.0 * pressure * Vector3d(std::sin(0.3 * pressure), 0.6, -0.8).normalized());
+  }
+  return stroke;
+}
+
+TEST(StrokePlacement, DepthIsAsTheHandPresses) {
+  const Stroke stroke = pressed_tracing();
+  StrokePlacement placement;
+  placement.depth = 0.004;
+  for (const DepthBy by : {DepthBy::pressure, DepthBy::force})
+    for (const StrokePlane plane : {StrokePlane::keep, StrokePlane::fit, StrokePlane::flatten}) {
+      placement.depth_by = by, placement.plane = plane;
+      const Stroke placed = place_stroke(stroke, placement);
+      const double surface = plane == StrokePlane::keep ? 0.25 : 0.0;
+      for (std::size_t i = 0; i < stroke.size(); ++i)
+        EXPECT_NEAR(placed.position[i].z(), surface - 0.004 * static_cast<double>(i) / 199.0, 1e-12);
+    }
+  EXPECT_EQ(place_stroke(stroke, placement).pressure, stroke.pressure);
+}
+
+TEST(StrokePlacement, FullDepthIsThatOfTheWholeStrokeOrOfWhatIsNamed) {
+  Stroke stroke = pressed_tracing();
+  StrokePlacement placement;
+  placement.depth = 0.004, placement.plane = StrokePlane::flatten, placement.depth_by = DepthBy::pressure;
+  placement.stop = 1.0;  // a part goes as deep as in the whole
+  EXPECT_NEAR(place_stroke(stroke, placement).position.back().z(), -0.004 * 100 / 199, 1e-12);
+  placement.full_depth_at = 50.0;  // more goes no deeper
+  EXPECT_NEAR(place_stroke(stroke, placement).position.back().z(), -0.004, 1e-12);
+  EXPECT_NEAR(place_stroke(stroke, placement).position[25].z(), -0.002, 1e-12);
+  stroke.pressure[25] = -3.0;  // a pen at rest that is badly calibrated
+  EXPECT_NEAR(place_stroke(stroke, placement).position[25].z(), 0.0, 1e-12);
+  // In the air nothing presses.
+  stroke.contact.assign(stroke.size(), pen_down);
+  stroke.contact[199] = pen_up;
+  placement.full_depth_at = 0.0;
+  EXPECT_NEAR(place_stroke(stroke, placement).position[99].z(), -0.004 * 99 / 198, 1e-12);
+}
+
+TEST(StrokePlacement, SaysWhyNoDepthFollowsThePressure) {
+  StrokePlacement placement;
+  placement.depth = 0.004, placement.depth_by = DepthBy::pressure;
+  const Stroke flat = stroke_through(flat_tracing());
+  EXPECT_THAT(complaint(flat, placement), testing::AllOf(HasSubstr("hand.h5"), HasSubstr("no pressure"),
+                                                         HasSubstr("stroke.table.pressure")));
+  Stroke bumpy = pressed_tracing();
+  bumpy.position[7].z() += 1e-6;
+  EXPECT_THAT(complaint(bumpy, placement), HasSubstr("stroke.plane = \"fit\" or \"flatten\""));
+  Stroke idle = pressed_tracing();
+  idle.pressure.assign(idle.size(), 0.0);
+  EXPECT_THAT(complaint(idle, placement), HasSubstr("pressure above 0"));
+  placement.depth_by = DepthBy::force;
+  EXPECT_THAT(complaint(flat, placement),
+              testing::AllOf(HasSubstr("no force"), HasSubstr("stroke.table.force")));
+}
+
 /// Points of an ellipse, so wide and so thick along the axes of a turned frame.
 Stroke ellipsoid(double length, double width, double thickness) {
   std::vector<Vector3d> points;

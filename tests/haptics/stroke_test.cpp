@@ -56,6 +56,12 @@ TEST(CheckStroke, NamesWhatIsWrongAndWhere) {
   EXPECT_THAT(complaint(stroke), AllOf(HasSubstr("position of sample 1"), HasSubstr("inf")));
 
   stroke = three_samples();
+  stroke.pressure = {0.0, 1.0, std::numeric_limits<double>::infinity()};
+  EXPECT_THAT(complaint(stroke), AllOf(HasSubstr("pressure of sample 2"), HasSubstr("inf")));
+  stroke.pressure.pop_back();
+  EXPECT_THAT(complaint(stroke), HasSubstr("pressure has 2 rows"));
+
+  stroke = three_samples();
   stroke.position[1].y() = 1e300;
   EXPECT_THAT(complaint(stroke), AllOf(HasSubstr("position of sample 1"), HasSubstr("1e+300")));
 

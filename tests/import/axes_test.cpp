@@ -43,6 +43,21 @@ TEST(TableAxes, AreNegatedAndPermuted) {
   EXPECT_THROW(with_position("x", text), Error);
 }
 
+TEST(TablePressure, IsFoundByItsNameOrNamed) {
+  const ImportedStroke found = with_position("x,y", "x_mm,y_mm,Pressure\n1,2,300\n3,4,-0.5\n");
+  EXPECT_THAT(found.stroke.pressure, ElementsAre(300.0, -0.5));
+  EXPECT_THAT(found.description, HasSubstr("pressure Pressure"));
+  TableSettings settings;
+  settings.rate = 10.0;
+  settings.pressure = "p";
+  EXPECT_THAT(import_stroke_text("x_mm,y_mm,p,pressure\n1,2,7,8\n", "in.csv", settings).stroke.pressure,
+              ElementsAre(7.0));
+  for (const char* other : {"air pressure target", "p", "pressures"})
+    EXPECT_THAT(with_position("x,y", std::string("x_mm,y_mm,") + other + "\n1,2,3\n").stroke.pressure,
+                ElementsAre())
+        << other;
+}
+
 TEST(TableAxes, LeftHandedOnesAreSaid) {
   const std::string named = "x_m,y_m,z_m\n1,2,3\n", numbered = "a,b,c\n1,2,3\n";
   for (const char* position : {"x,y,-z", "y,x,z", "-x,-y,-z", "x,z,y"})

@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "complaint.h"
+#include "import/import_stroke.h"
 #include "test_folder.h"
 
 namespace sandstroke {
@@ -85,6 +86,38 @@ TEST(Mat, NumbersOfAnyKindAreRead) {
   EXPECT_THAT(column(table, "single").values, ElementsAre(0.5, -1.5));
   EXPECT_THAT(column(table, "whole").values, ElementsAre(-3, 300));
   EXPECT_THAT(column(table, "byte").values, ElementsAre(200, 255));
+}
+
+TEST(Mat, AMatrixOfVectorsIsFoundByItsName) {
+  const TestFolder folder;
+  TableSettings settings;
+  settings.rate = 10.0, settings.position_unit = "mm", settings.force_unit = "N";
+  for (const char* name : {"pos", "position", "xyz", "p", "tip_pos"}) {
+    const std::filesystem::path path = folder / fmt::format("{}.mat", name);
+    {
+      MatlabFile file(path);
+      file.save(MatlabFile::matrix(name, 5, 3, 0));
+      file.save(MatlabFile::matrix("f", 5, 3, 100));
+      file.save(MatlabFile::matrix("quat", 5, 4, 0));
+      file.save(MatlabFile::matrix("joints", 5, 3, 200));
+    }
+    const Stroke stroke = import_stroke(path, settings).stroke;
+    EXPECT_LT((stroke.position[1] - Eigen::Vector3d(0.001, 0.006, 0.011)).norm(), 1e-15) << name;
+    EXPECT_EQ(stroke.force[1], Eigen::Vector3d(101, 106, 111));
+    EXPECT_TRUE(stroke.orientation.empty());  // x, y, z, w or w, x, y, z?
+  }
+}
+
+TEST(Mat, AMatrixThatIsNoVectorIsNot) {
+  const TestFolder folder;
+  for (const std::size_t width : {1u, 4u, 6u}) {
+    const std::filesystem::path path = folder / fmt::format("{}.mat", width);
+    {
+      MatlabFile file(path);
+      file.save(MatlabFile::matrix("pos", 9, width, 0));
+    }
+    EXPECT_THAT(complaint_of([&] { import_stroke(path, {}); }), HasSubstr("--position")) << width;
+  }
 }
 
 void save_struct(MatlabFile& file) {

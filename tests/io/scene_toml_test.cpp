@@ -107,7 +107,7 @@ TEST(SceneToml, EveryKeyOfTheTableIsReadWithItsDefaultJustWhereItSaysThatItAppli
     }
   }
   EXPECT_GT(keys, 50);
-  EXPECT_EQ(conditional, 15);
+  EXPECT_EQ(conditional, 16);
 }
 
 TEST(SceneToml, AKeyThatDoesNotApplyIsToldWhereItWould) {

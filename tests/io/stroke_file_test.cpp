@@ -61,6 +61,7 @@ Stroke full_stroke() {
   stroke.velocity = {{0.1, 0.2, 0.3}, {1, 2, 3}, {4, 5, 6}};
   stroke.force = {{-0.1, -0.2, -0.3}, {1, 2, 3}, {4, 5, 6}};
   stroke.orientation = {{0, 0, 0, 1}, {0.6, 0, 0, 0.8}, {-0.5, 0.5, -0.5, 0.5}};
+  stroke.pressure = {0.0, 0.1, 1023.0};
   stroke.force_sign = ForceSign::by_hand;
   stroke.switches = {0, 3, 0xffffffffu};
   stroke.flags = {1, 0, 64};
@@ -79,6 +80,7 @@ void expect_same(const Stroke& a, const Stroke& b) {
   EXPECT_EQ(a.velocity, b.velocity);
   EXPECT_EQ(a.force, b.force);
   EXPECT_EQ(a.orientation, b.orientation);
+  EXPECT_EQ(a.pressure, b.pressure);
   EXPECT_EQ(a.force_sign, b.force_sign);
   EXPECT_EQ(a.switches, b.switches);
   EXPECT_EQ(a.flags, b.flags);
@@ -127,6 +129,8 @@ TEST_F(StrokeFile, ItsContentHashIsOfWhatARunTakesFromIt) {
     EXPECT_TRUE(changes_it([axis](Stroke& s) { s.position.back()[axis] += 1e-12; })) << axis;
   EXPECT_TRUE(changes_it([](Stroke& s) { s.contact[0] = pen_down; }));
   EXPECT_TRUE(changes_it([](Stroke& s) { s.contact.clear(); }));
+  EXPECT_TRUE(changes_it([](Stroke& s) { s.force[1].y() += 1e-12; }));
+  EXPECT_TRUE(changes_it([](Stroke& s) { s.pressure[1] += 1e-12; }));
   EXPECT_TRUE(changes_it([](Stroke& s) { s.gap_threshold += 1e-12; }));
 }
 

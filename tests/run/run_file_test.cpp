@@ -269,6 +269,27 @@ TEST_F(RunFileTest, ForcesThatWereRecordedAreHeldAgainstThoseOfTheRun) {
   EXPECT_NEAR(more->rms, 10.0 / std::sqrt(static_cast<double>(trace.size())), 0.02);
 }
 
+TEST_F(RunFileTest, TheDepthThatWasAskedIsKeptWhereTheStrokeFollowsTheSand) {
+  Stroke stroke;  // a slope of 10 mm in 0.4 s, then a sample in the air
+  stroke.time = {0.0, 0.4, 0.45};
+  stroke.position = {{-0.04, 0.0, 0.002}, {0.04, 0.0, -0.008}, {0.04, 0.0, -0.008}};
+  stroke.contact = {pen_down, pen_down, pen_up};
+  stroke.gap_threshold = 1.0;
+  write_stroke_file(folder_ / "slope.h5", stroke);
+  const std::vector<std::string> settings = {"relaxation.rate=0", "stroke.file=slope.h5"};
+  run(scene(settings), "bed.h5");
+  EXPECT_FALSE(RunFile(folder_ / "bed.h5").trace_content().asked_depth);
+  run(scene({settings[0], settings[1], "stroke.follow=sand"}), "sand.h5");
+  const RunFile file(folder_ / "sand.h5");
+  EXPECT_TRUE(file.trace_content().asked_depth);
+  for (const TickRecord& tick : file.trace())
+    if (tick.time < 0.3995) {
+      EXPECT_NEAR(tick.asked_depth, 0.025 * tick.time - 0.002, 1e-9) << tick.time;
+    } else if (tick.time > 0.4005) {
+      EXPECT_TRUE(std::isnan(tick.asked_depth)) << tick.time;
+    }
+}
+
 TEST_F(RunFileTest, TheFurrowIsBetweenTheFirstSurfaceAndTheLast) {
   const RunResult result = run(scene({"model.preset=accurate"}), "a.h5");
   ASSERT_TRUE(result.furrow);
