@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <set>
 
 #include "core/error.h"
 #include "core/input_file.h"
 #include "import/curve_points.h"
 #include "import/finite_samples.h"
+#include "import/gcode_path.h"
 #include "import/gcode_words.h"
 #include "import/text_parts.h"
 
@@ -40,14 +40,6 @@ struct GcodeArc {
   }
 };
 
-struct GcodeSample {
-  Vector3d position;
-  std::size_t line;
-  double length, feed;     // of the way here: mm, mm/s; 0 where no speed was said
-  bool down, lifts;        // as M words have it
-  bool along_xy, along_z;  // the way here
-};
-
 class GcodeReader {
  public:
   explicit GcodeReader(const std::string& name) : name_(name) {}
@@ -64,12 +56,12 @@ class GcodeReader {
       arc(words);
     } else if (words.has_any_of("XYZ")) {
       const Vector3d end = target(words);
-      if (!samples_.empty() || words.has_any_of("XY")) add(end, (end - position_).norm());
+      if (!path_.samples.empty() || words.has_any_of("XY")) add(end, (end - position_).norm());
       position_ = end;
     }
   }
 
-  SampleTable table();
+  SampleTable table() const { return table_of_gcode(path_, name_); }
 
  private:
   std::string place() const { return fmt::format("{}:{}", name_, line_); }
@@ -113,7 +105,7 @@ class GcodeReader {
       case 281:
       case 300:
       case 301:  // the tool waits, or goes where only the machine knows
-        passed_over_.insert(code);
+        path_.passed_over.insert(code);
         return false;
       case 400:
       case 430:
@@ -142,7 +134,7 @@ class GcodeReader {
     if (const auto& power = words['S']; power && !std::count(words.g.begin(), words.g.end(), 40))
       power_ = *power;
     for (const int code : words.m) {
-      if (code == 30 || code == 40) spindle_ = has_spindle_ = true;
+      if (code == 30 || code == 40) spindle_ = path_.has_spindle = true;
       if (code == 50) spindle_ = false;
     }
   }
@@ -164,32 +156,32 @@ class GcodeReader {
     if (words['P'] && *words['P'] != 1.0)
       throw_input_error("{}: an arc of several turns (P); write each turn in a line of its own", place());
     const Vector3d begin = position_, end = target(words);
-    GcodeArc path;
-    path.centre =
+    GcodeArc curve;
+    curve.centre =
         words['R'] ? centre_by_radius(end.head<2>(), *words['R'] * scale_) : centre_by_offset(words);
-    const Vector2d from = begin.head<2>() - path.centre, to = end.head<2>() - path.centre;
-    path.radius = from.norm();
-    path.end_radius = to.norm();
-    if (!(path.radius >= 1e-6 && path.radius <= most))
-      throw_input_error("{}: the arc's radius is {:g} mm; correct I and J, or R", place(), path.radius);
-    const double off = std::abs(path.radius - path.end_radius);
-    if (!(off <= 0.5 && off <= std::max(0.005, 0.001 * path.radius))) {  // as Grbl and LinuxCNC have it
+    const Vector2d from = begin.head<2>() - curve.centre, to = end.head<2>() - curve.centre;
+    curve.radius = from.norm();
+    curve.end_radius = to.norm();
+    if (!(curve.radius >= 1e-6 && curve.radius <= most))
+      throw_input_error("{}: the arc's radius is {:g} mm; correct I and J, or R", place(), curve.radius);
+    const double off = std::abs(curve.radius - curve.end_radius);
+    if (!(off <= 0.5 && off <= std::max(0.005, 0.001 * curve.radius))) {  // as Grbl and LinuxCNC have it
       throw_input_error(
           "{}: the arc begins {:g} mm from its centre and ends {:g} mm from it; correct X, Y, I or J",
-          place(), path.radius, path.end_radius);
+          place(), curve.radius, curve.end_radius);
     }
-    path.start = std::atan2(from.y(), from.x());
-    path.sweep = std::atan2(to.y(), to.x()) - path.start;
+    curve.start = std::atan2(from.y(), from.x());
+    curve.sweep = std::atan2(to.y(), to.x()) - curve.start;
     constexpr double nothing = 5e-7;  // rad: a whole turn
-    if (motion_ == 3 && path.sweep <= nothing) path.sweep += 2.0 * pi;
-    if (motion_ == 2 && path.sweep >= -nothing) path.sweep -= 2.0 * pi;
-    const double count = path.chords(), climb = end.z() - begin.z();
-    check_curve_points(count, samples_.size(), name_, line_);
-    if (samples_.empty()) add(begin, 0.0);
+    if (motion_ == 3 && curve.sweep <= nothing) curve.sweep += 2.0 * pi;
+    if (motion_ == 2 && curve.sweep >= -nothing) curve.sweep -= 2.0 * pi;
+    const double count = curve.chords(), climb = end.z() - begin.z();
+    check_curve_points(count, path_.samples.size(), name_, line_);
+    if (path_.samples.empty()) add(begin, 0.0);
     for (double k = 1.0; k <= count; ++k) {
       Vector3d point = end;
-      if (k < count) point << path.at(k / count), begin.z() + climb * k / count;
-      add(point, path.length(climb) / count);
+      if (k < count) point << curve.at(k / count), begin.z() + climb * k / count;
+      add(point, curve.length(climb) / count);
     }
     position_ = end;
   }
@@ -218,26 +210,22 @@ class GcodeReader {
 
   void add(const Vector3d& point, double length) {
     constexpr double least = 1e-6;  // mm: a shorter move takes no time that a sample could tell
-    if (!samples_.empty() && length < least) return;
-    if (samples_.empty() && relative_ && motion_ < 2 && length > 0.0) keep(position_, 0.0);
-    keep(point, samples_.empty() ? 0.0 : length);
+    if (!path_.samples.empty() && length < least) return;
+    if (path_.samples.empty() && relative_ && motion_ < 2 && length > 0.0) keep(position_, 0.0);
+    keep(point, path_.samples.empty() ? 0.0 : length);
   }
   void keep(const Vector3d& point, double length) {
     const bool down = pen_down() && motion_ != 0;
     bool along_xy = false, along_z = false;
-    if (!samples_.empty()) {
-      GcodeSample& last = samples_.back();
+    if (!path_.samples.empty()) {
+      GcodeSample& last = path_.samples.back();
       along_xy = point.head<2>() != last.position.head<2>();
       along_z = point.z() != last.position.z();
       last.lifts = !down;
       last.down = last.down || down;
     }
-    samples_.push_back({point, line_, length, feed_, down, false, along_xy, along_z});
+    path_.samples.push_back({point, line_, length, feed_, down, false, along_xy, along_z});
   }
-
-  bool z_lifts_a_pen() const;
-  std::vector<bool> pen_is_down(bool by_z) const;
-  std::vector<double> times() const;
 
   static constexpr double most = 1e12;  // mm
   const std::string& name_;
@@ -245,84 +233,11 @@ class GcodeReader {
   int motion_ = 0, plane_ = 17;
   double scale_ = 1.0;  // mm
   bool relative_ = false, centre_relative_ = true;
-  bool has_spindle_ = false, spindle_ = false;
+  bool spindle_ = false;
   double power_ = 1.0, feed_ = 0.0;
   Vector3d position_ = Vector3d::Zero(), origin_ = Vector3d::Zero();  // mm
-  std::vector<GcodeSample> samples_;
-  std::set<int> passed_over_;
+  GcodePath path_;
 };
-
-/// Z moves, and never while X or Y do.
-bool GcodeReader::z_lifts_a_pen() const {
-  bool moves = false;
-  for (const GcodeSample& sample : samples_) {
-    if (sample.along_z && sample.along_xy) return false;
-    moves = moves || sample.along_z;
-  }
-  return moves;
-}
-
-std::vector<bool> GcodeReader::pen_is_down(bool by_z) const {
-  double lowest = std::numeric_limits<double>::infinity();  // that anything is drawn at
-  for (const GcodeSample& sample : samples_)
-    if (sample.along_xy) lowest = std::min(lowest, sample.position.z());
-  std::vector<bool> down;
-  for (const GcodeSample& sample : samples_)
-    down.push_back((!has_spindle_ || sample.down) && (!by_z || sample.position.z() <= std::max(lowest, 0.0)));
-  return down;
-}
-
-/// s. Empty where no speed is said; what comes before the first F goes as fast as what follows.
-std::vector<double> GcodeReader::times() const {
-  const auto said =
-      std::find_if(samples_.begin(), samples_.end(), [](const auto& sample) { return sample.feed > 0.0; });
-  std::vector<double> times;
-  if (said == samples_.end()) return times;
-  double time = 0.0;
-  for (const GcodeSample& sample : samples_)
-    times.push_back(time += sample.length / (sample.feed > 0.0 ? sample.feed : said->feed));
-  return times;
-}
-
-SampleTable GcodeReader::table() {
-  if (samples_.empty())
-    throw_input_error("{}: has no moves (G0 to G3 with X, Y or Z); give a file with a path", name_);
-  const bool by_z = z_lifts_a_pen();
-  const bool has_z = by_z || std::any_of(samples_.begin(), samples_.end(),
-                                         [](const auto& sample) { return sample.position.z() != 0.0; });
-  const std::vector<bool> down = pen_is_down(by_z);
-  const std::vector<double> time = times();
-
-  SampleTable table;
-  table.columns = {{"x", "mm", {}}, {"y", "mm", {}}};
-  if (has_z) table.columns.push_back({"z", "mm", {}});
-  if (!time.empty()) table.columns.push_back({"time", "s", {}});
-  for (std::size_t i = 0; i < samples_.size(); ++i) {
-    if (!down[i]) continue;
-    const Vector3d& at = samples_[i].position;
-    table.columns[0].values.push_back(at.x());
-    table.columns[1].values.push_back(at.y());
-    if (has_z) table.columns[2].values.push_back(at.z());
-    if (!time.empty()) table.columns.back().values.push_back(time[i]);
-    table.lines.push_back(samples_[i].line);
-    if (by_z || has_spindle_)
-      table.lifts.push_back((has_spindle_ && samples_[i].lifts) || (i + 1 < down.size() && !down[i + 1]));
-  }
-  if (table.size() == 0)
-    throw_input_error("{}: the pen is never down; let M3 (S above 0) or Z lower it before a move by G1",
-                      name_);
-
-  std::vector<std::string> passed;
-  for (const int code : passed_over_) passed.push_back(fmt::format("G{:g}", code / 10.0));
-  table.description =
-      fmt::format("G-code: {} points{}{}{}", table.size(),
-                  by_z    ? ", the pen is up where Z is high"
-                  : has_z ? ", Z is a height"
-                          : "",
-                  has_spindle_ ? ", the pen is down after M3" : "",
-                  passed.empty() ? "" : fmt::format(", {} passed over", fmt::join(passed, ", ")));
-  return table;
-}
 
 }  // namespace
 

@@ -9,7 +9,7 @@
 #include "import/column_name.h"
 #include "import/dialect.h"
 #include "import/table_layout.h"
-#include "import/text_decoder.h"
+#include "import/text_lines.h"
 #include "import/text_parts.h"
 #include "import/time_stamp.h"
 #include "import/units.h"
@@ -17,7 +17,6 @@
 namespace sandstroke {
 namespace {
 
-constexpr std::size_t most_line_bytes = 1'000'000;
 constexpr std::size_t lines_to_look_at = 64;  // for the dialect
 
 bool begins_with_one_of(std::string_view line, const std::vector<std::string>& words) {
@@ -66,13 +65,14 @@ class TextTable::Rows {
         need_position_(need_position),
         skip_(parts_of_list(settings.skip)),
         pen_up_(parts_of_list(settings.pen_up)),
-        decoder_(name_, settings.encoding) {}
+        lines_(name_, settings.encoding) {}
 
-  void read(std::string_view bytes) { read_text(decoder_.decode(bytes)); }
+  void read(std::string_view bytes) {
+    lines_.read(bytes, [this](std::string_view line, std::size_t number) { take_numbered(line, number); });
+  }
 
   SampleTable take() {
-    read_text(decoder_.end());
-    if (!rest_.empty()) end_line();
+    lines_.end([this](std::string_view line, std::size_t number) { take_numbered(line, number); });
     if (!dialect_) begin_rows();
     if (table_.lines.empty()) throw_input_error("{}: has no samples; add at least one row", name_);
     if (layout_.time) {
@@ -80,9 +80,9 @@ class TextTable::Rows {
       time.origin = stamps_.origin();
       if (stamps_.iso()) time.unit = iso_unit;
     }
-    table_.description = fmt::format("{}{}, {} columns, {} rows",
-                                     decoder_.encoding().empty() ? "" : decoder_.encoding() + ", ",
-                                     dialect_->text(), table_.columns.size(), grouped(table_.lines.size()));
+    table_.description =
+        fmt::format("{}{}, {} columns, {} rows", lines_.encoding().empty() ? "" : lines_.encoding() + ", ",
+                    dialect_->text(), table_.columns.size(), grouped(table_.lines.size()));
     if (has_no_header_) table_.description += ", no header";
     return std::move(table_);
   }
@@ -95,28 +95,9 @@ class TextTable::Rows {
     bool lifts;
   };
 
-  void read_text(std::string_view part) {
-    for (std::size_t end; (end = part.find('\n')) != std::string_view::npos; part.remove_prefix(end + 1)) {
-      extend_line(part.substr(0, end));
-      end_line();
-    }
-    extend_line(part);
-  }
-
-  void extend_line(std::string_view part) {
-    if (rest_.size() + part.size() > most_line_bytes)
-      throw_input_error("{}:{}: the line is longer than {} MB; write one sample per line", name_, line_ + 1,
-                        most_line_bytes / 1'000'000);
-    rest_ += part;
-  }
-
-  void end_line() {
-    const std::string_view line = ++line_ == 1 ? without_byte_order_mark(rest_) : rest_;
-    if (line.find('\0') != std::string_view::npos)
-      throw_input_error("{}:{}: holds a zero byte, so the file is no text; export it as a table (CSV)", name_,
-                        line_);
-    if (line_ > static_cast<std::size_t>(settings_.skip_lines)) take_line(without_blanks(line, " \t\r"));
-    rest_.clear();
+  void take_numbered(std::string_view line, std::size_t number) {
+    line_ = number;
+    if (line_ > static_cast<std::size_t>(settings_.skip_lines)) take_line(line);
   }
 
   void take_line(std::string_view line) {
@@ -299,9 +280,8 @@ class TextTable::Rows {
   TableSettings settings_;
   bool need_position_;
   std::vector<std::string> skip_, pen_up_;
-  TextDecoder decoder_;
-  std::size_t line_ = 0;  // the last whole one
-  std::string rest_;      // of the text: a line that has not ended
+  TextLines lines_;
+  std::size_t line_ = 0;  // the number of the one that is taken
   std::vector<Line> waiting_;
   std::size_t waiting_rows_ = 0;
   std::string comment_;  // the last before the first row

@@ -1,0 +1,90 @@
+#include "import/gcode_path.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "core/error.h"
+
+namespace sandstroke {
+namespace {
+
+using Eigen::Vector3d;
+using Samples = std::vector<GcodeSample>;
+
+/// Z moves, and never while X or Y do.
+bool z_lifts_a_pen(const Samples& samples) {
+  bool moves = false;
+  for (const GcodeSample& sample : samples) {
+    if (sample.along_z && sample.along_xy) return false;
+    moves = moves || sample.along_z;
+  }
+  return moves;
+}
+
+std::vector<bool> pen_is_down(const GcodePath& path, bool by_z) {
+  double lowest = std::numeric_limits<double>::infinity();  // that anything is drawn at
+  for (const GcodeSample& sample : path.samples)
+    if (sample.along_xy) lowest = std::min(lowest, sample.position.z());
+  std::vector<bool> down;
+  for (const GcodeSample& sample : path.samples)
+    down.push_back((!path.has_spindle || sample.down) &&
+                   (!by_z || sample.position.z() <= std::max(lowest, 0.0)));
+  return down;
+}
+
+/// s. Empty where no speed is said; what comes before the first F goes as fast as what follows.
+std::vector<double> times_of(const Samples& samples) {
+  const auto said =
+      std::find_if(samples.begin(), samples.end(), [](const auto& sample) { return sample.feed > 0.0; });
+  std::vector<double> times;
+  if (said == samples.end()) return times;
+  double time = 0.0;
+  for (const GcodeSample& sample : samples)
+    times.push_back(time += sample.length / (sample.feed > 0.0 ? sample.feed : said->feed));
+  return times;
+}
+
+}  // namespace
+
+SampleTable table_of_gcode(const GcodePath& path, const std::string& name) {
+  const Samples& samples = path.samples;
+  if (samples.empty())
+    throw_input_error("{}: has no moves (G0 to G3 with X, Y or Z); give a file with a path", name);
+  const bool by_z = z_lifts_a_pen(samples);
+  const bool has_z = by_z || std::any_of(samples.begin(), samples.end(),
+                                         [](const auto& sample) { return sample.position.z() != 0.0; });
+  const std::vector<bool> down = pen_is_down(path, by_z);
+  const std::vector<double> time = times_of(samples);
+
+  SampleTable table;
+  table.columns = {{"x", "mm", {}}, {"y", "mm", {}}};
+  if (has_z) table.columns.push_back({"z", "mm", {}});
+  if (!time.empty()) table.columns.push_back({"time", "s", {}});
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    if (!down[i]) continue;
+    const Vector3d& at = samples[i].position;
+    table.columns[0].values.push_back(at.x());
+    table.columns[1].values.push_back(at.y());
+    if (has_z) table.columns[2].values.push_back(at.z());
+    if (!time.empty()) table.columns.back().values.push_back(time[i]);
+    table.lines.push_back(samples[i].line);
+    if (by_z || path.has_spindle)
+      table.lifts.push_back((path.has_spindle && samples[i].lifts) || (i + 1 < down.size() && !down[i + 1]));
+  }
+  if (table.size() == 0)
+    throw_input_error("{}: the pen is never down; let M3 (S above 0) or Z lower it before a move by G1",
+                      name);
+
+  std::vector<std::string> passed;
+  for (const int code : path.passed_over) passed.push_back(fmt::format("G{:g}", code / 10.0));
+  table.description =
+      fmt::format("G-code: {} points{}{}{}", table.size(),
+                  by_z    ? ", the pen is up where Z is high"
+                  : has_z ? ", Z is a height"
+                          : "",
+                  path.has_spindle ? ", the pen is down after M3" : "",
+                  passed.empty() ? "" : fmt::format(", {} passed over", fmt::join(passed, ", ")));
+  return table;
+}
+
+}  // namespace sandstroke

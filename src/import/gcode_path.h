@@ -1,0 +1,32 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "import/sample_table.h"
+
+namespace sandstroke {
+
+/// The end of a move, or a point of an arc.
+struct GcodeSample {
+  Eigen::Vector3d position;  // mm
+  std::size_t line;
+  double length, feed;     // of the way here: mm, mm/s; 0 where no speed was said
+  bool down, lifts;        // as M words have it
+  bool along_xy, along_z;  // the way here
+};
+
+/// Where a program of G-code leads its tool.
+struct GcodePath {
+  std::vector<GcodeSample> samples;
+  bool has_spindle = false;   ///< M words say whether the pen is down
+  std::set<int> passed_over;  ///< G words that were, in tenths
+};
+
+/// The samples at which the pen is down: by the M words, and by Z where it only moves by itself. Error:
+/// input; `name` is the file's.
+SampleTable table_of_gcode(const GcodePath& path, const std::string& name);
+
+}  // namespace sandstroke

@@ -1,0 +1,42 @@
+#include "import/text_lines.h"
+
+#include "core/error.h"
+#include "import/text_parts.h"
+
+namespace sandstroke {
+namespace {
+
+constexpr std::size_t most_line_bytes = 1'000'000;
+
+}  // namespace
+
+void TextLines::end(const Take& take) {
+  read_text(decoder_.end(), take);
+  if (!rest_.empty()) end_line(take);
+}
+
+void TextLines::read_text(std::string_view part, const Take& take) {
+  for (std::size_t end; (end = part.find('\n')) != std::string_view::npos; part.remove_prefix(end + 1)) {
+    extend_line(part.substr(0, end));
+    end_line(take);
+  }
+  extend_line(part);
+}
+
+void TextLines::extend_line(std::string_view part) {
+  if (rest_.size() + part.size() > most_line_bytes)
+    throw_input_error("{}:{}: the line is longer than {} MB; write one sample per line", name_, line_ + 1,
+                      most_line_bytes / 1'000'000);
+  rest_ += part;
+}
+
+void TextLines::end_line(const Take& take) {
+  const std::string_view line = ++line_ == 1 ? without_byte_order_mark(rest_) : rest_;
+  if (line.find('\0') != std::string_view::npos)
+    throw_input_error("{}:{}: holds a zero byte, so the file is no text; export it as a table (CSV)", name_,
+                      line_);
+  take(without_blanks(line, " \t\r"), line_);
+  rest_.clear();
+}
+
+}  // namespace sandstroke
