@@ -67,7 +67,8 @@ int run_program(int argc, char** argv) {
       "  3        a run is not at rest or unstable, a sweep's point failed, or stress found a surprise\n"
       "  4        a file or a device cannot be read or written\n"
       "  128 + n  stopped by signal n: 130 by Ctrl-C, 143 by kill\n"
-      "Begin with: sandstroke init FOLDER. Help on a command: sandstroke run --help");
+      "Begin with: sandstroke init FOLDER. A recording of yours: sandstroke run SCENE --stroke FILE. Help on "
+      "a command: sandstroke run --help");
   bool quiet = false;
   app.add_flag("-q,--quiet", quiet, "Print only results, warnings and errors");
   bool overwrite = false;
