@@ -100,6 +100,20 @@ double residual_rms(const std::vector<FeltTick>& ticks, const ForceSettings& for
   return std::sqrt(squares / static_cast<double>(ticks.size()));
 }
 
+/// The best of the fits from `start` and from weak sand: where the device's limit cuts every force, no
+/// constant changes any, and a fit would stay where it began.
+ForceSettings best_fitted(const std::vector<FeltTick>& ticks, const ForceSettings& start, double max_force,
+                          const std::array<bool, 3>& is_free) {
+  constexpr double weak_k_s = 1e-3, weak_k_f = 1e-2;  // N, s/m: a drag below any limit
+  ForceSettings weak = start;
+  if (is_free[0]) weak.k_s = std::min(start.k_s, weak_k_s);
+  if (is_free[2]) weak.k_f = std::min(start.k_f, weak_k_f);
+  const ForceSettings from_start = fitted(ticks, start, max_force, is_free),
+                      from_weak = fitted(ticks, weak, max_force, is_free);
+  return residual_rms(ticks, from_weak, max_force) < residual_rms(ticks, from_start, max_force) ? from_weak
+                                                                                                : from_start;
+}
+
 /// All but one stretch.
 std::vector<FeltTick> without(const std::vector<FeltTick>& ticks, std::size_t stretch) {
   std::vector<FeltTick> kept;
@@ -124,7 +138,7 @@ struct Estimate {
 
 Estimate estimate(const std::vector<FeltTick>& ticks, const ForceSettings& start, double max_force,
                   const std::array<bool, 3>& is_free) {
-  Estimate found{fitted(ticks, start, max_force, is_free)};
+  Estimate found{best_fitted(ticks, start, max_force, is_free)};
   std::array<std::array<double, stretches>, 3> values{};
   std::array<double, stretches> stiffness{};
   for (std::size_t k = 0; k < stretches; ++k) {
@@ -195,7 +209,7 @@ ForceFit fit_force(const std::vector<FeltTick>& all, const ForceSettings& start,
   for (FeltTick& tick : reversed) tick.recorded = -tick.recorded;
   fit.explained_reversed =
       fit.recorded_rms > 0.0
-          ? share(residual_rms(reversed, fitted(reversed, start, max_force, is_free), max_force))
+          ? share(residual_rms(reversed, best_fitted(reversed, start, max_force, is_free), max_force))
           : 0.0;
   return fit;
 }

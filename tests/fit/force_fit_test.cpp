@@ -114,6 +114,23 @@ TEST(ForceFit, AForceOfAnotherKindIsHardlyExplained) {
   EXPECT_GE(fit.residual, 2.5);
 }
 
+TEST(ForceFit, NeverLeavesMoreThanNoForceWouldWhereverItBegins) {
+  std::mt19937 random(11);
+  std::normal_distribution<double> any(0.0, 1.0);
+  std::vector<FeltTick> ticks;  // a quick hand, and a force that has nothing to do with it
+  for (int k = 0; k < 1000; ++k)
+    ticks.push_back({0.02 + 0.01 * std::abs(any(random)),
+                     {0.5 * any(random), 0.5 * any(random), 0.0},
+                     {any(random), any(random), any(random) - 1.0}});
+  for (const double k_f : {0.0, 1.0, 10.0, 100.0}) {
+    ForceSettings start;
+    start.k_f = k_f;
+    const ForceFit fit = fit_force(ticks, start, 12.0, all);
+    EXPECT_LE(fit.residual, fit.recorded_rms * (1.0 + 1e-9)) << "from k_f = " << k_f;
+    EXPECT_GE(fit.explained, -1e-9);
+  }
+}
+
 TEST(ForceFit, SeesAForceWithTheOtherSign) {
   std::vector<FeltTick> ticks = felt(truth, 0.001, 0.05);
   for (FeltTick& tick : ticks) tick.recorded = -tick.recorded;
