@@ -93,9 +93,9 @@ class HeightField : public BedGeometry {
   const CellFlags& disturbed_cells(int slot) const { return tiles_[slot]->disturbed; }
   void clear_disturbed();
 
-  /// The next relaxations take these cells for walls, besides those beyond the bed's own wall, and no others: a
-  /// solid tool stands on them. The next one looks at those that are held now and were not, or the other way
-  /// round.
+  /// The next relaxations take these cells for walls, besides those beyond the bed's own wall, and no others:
+  /// a solid tool stands on them. The next one looks at those that are held now and were not, or the other
+  /// way round.
   void hold(const std::vector<RowCells>& cells);
   /// What hold() was given last.
   const std::vector<RowCells>& held() const { return held_; }
