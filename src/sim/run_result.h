@@ -241,6 +241,8 @@ struct RunResult {
   /// m, the largest depth of a tool that is down, touching or not; -infinity: it is never down over the bed.
   double nearest = -std::numeric_limits<double>::infinity();
   double nearest_time = 0.0;  ///< s
+  /// m, how far beyond the bed's edge a tool that is down is at least; negative: it comes over the bed.
+  double least_beside = std::numeric_limits<double>::infinity();
   int threads = 1;
   bool interrupted = false;
   std::optional<FurrowMeasures> furrow;          ///< where the stroke touched sand

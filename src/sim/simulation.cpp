@@ -64,10 +64,9 @@ Simulation::Simulation(const Scene& scene, HeightField bed, std::optional<Stroke
 
 void Simulation::check_inside(const Stroke& stroke) const {
   const double highest = stroke.follows_sand ? 0.0 : bed_.highest();
-  const Eigen::Vector2d half = 0.5 * bed_.cell_size() * Eigen::Vector2d(bed_.cols(), bed_.rows());
   for (std::size_t i = 0; i < stroke.size(); ++i) {
     const Eigen::Vector3d tip = tip_of(scene_.device, stroke.position[i]);
-    const double beyond = (tip.head<2>().cwiseAbs() - half).maxCoeff();
+    const double beyond = bed_.beyond_edge(tip.x(), tip.y());
     if (beyond > 0.0 && stroke.pen_down(i) && tip.z() < highest)
       throw_input_error(
           "the stroke enters the sand outside the bed: at {:.3f} s it is {:.4g} mm beyond its edge, at x = "
@@ -86,7 +85,10 @@ void Simulation::account(const TickRecord& record) {
   result_.contact_ticks += record.contact;
   result_.displaced_volume += record.displaced_volume;
   if (record.contact) result_.max_depth = std::max(result_.max_depth, record.depth);
-  if (!record.hand.down || std::isnan(record.level)) return;
+  if (!record.hand.down) return;
+  const Eigen::Vector3d tip = tip_of(scene_.device, record.device_position);
+  result_.least_beside = std::min(result_.least_beside, bed_.beyond_edge(tip.x(), tip.y()));
+  if (std::isnan(record.level)) return;
   if (record.depth > result_.nearest) result_.nearest = record.depth, result_.nearest_time = record.time;
   if (record.asked_depth > 0.0)
     result_.followed->add(record.asked_depth, record.depth, repulse_force(record.asked_depth, scene_.force),

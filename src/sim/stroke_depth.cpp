@@ -40,7 +40,11 @@ std::string untouched_text(const Scene& scene, const RunResult& result) {
     return "the tool never touched the sand: the stroke is never down; see its gaps and pen states with "
            "sandstroke stroke info";
   if (std::isinf(result.nearest))
-    return "the tool never touched the sand: it is never down over the bed; set stroke.place = \"centre\"";
+    return fmt::format(
+        "the tool never touched the sand: it is never down over the bed, but {:.4g} mm beyond its edge at "
+        "least; "
+        "set stroke.place = \"centre\"; {}",
+        1e3 * result.least_beside, tracing);
   const double away = -result.nearest, depth = scene.stroke->placement.depth;
   return fmt::format(
       "the tool never touched the sand: it stayed {:.4g} mm above it (nearest at {:.3f} s); set stroke.depth "

@@ -482,6 +482,29 @@ TEST(CliRun, AToolThatNeverTouchesTheSandIsPointedOut) {
   EXPECT_NE(run.err.find("never touched"), std::string::npos) << run.err;
 }
 
+TEST(CliRun, AToolBesideTheBedIsToldHowFar) {
+  const fs::path folder = test_folder();
+  std::string rows = "t [s],x [m],y [m],z [m]\n";
+  for (int i = 0; i <= 10; ++i) rows += fmt::format("{},3,{},0.01\n", 0.01 * i, 3.0 + 0.01 * i);
+  write_file(folder / "corner.csv", rows);
+  const auto said = [&](const std::vector<std::string>& keys) {
+    std::vector<std::string> words = {"run", "scene.toml", "-o", "a.h5", "--stroke", "corner.csv"};
+    for (const std::string& key : keys) words.insert(words.end(), {"--set", key});
+    return run_program(words, folder);
+  };
+  const std::vector<std::string> rectangle = {"bed.size=[8, 8]", "bed.cells=[100, 100]", "tool.radius=0.1"};
+  std::vector<std::string> round = rectangle;
+  round.push_back("bed.shape=round");
+  EXPECT_EQ(said(rectangle).err.find("beyond its edge"), std::string::npos);
+  const ProgramResult above = said(round);  // |(3, 3)| = 4.243, and the wall is at 4
+  EXPECT_EQ(above.exit_code, 0);
+  EXPECT_NE(above.err.find("242.6 mm beyond its edge at least"), std::string::npos) << above.err;
+  round.push_back("stroke.depth=0.02");
+  const ProgramResult inside = said(round);
+  EXPECT_EQ(inside.exit_code, 2);
+  EXPECT_NE(inside.err.find("242.6 mm beyond its edge, at x = 3 m"), std::string::npos) << inside.err;
+}
+
 TEST(CliRun, AStrokeInMillimetresIsPointedOut) {
   const fs::path folder = test_folder();
   const auto said = [&](const char* depth) {

@@ -22,6 +22,7 @@ TEST(RoundBed, HasTheCellsWhoseCentresLieInItsLargestCircle) {
       for (int col = 0; col < cols; ++col) {
         const double from_centre = std::hypot(bed.x_of(col), bed.y_of(row));
         if (std::abs(from_centre - radius) < 1e-12) continue;  // on the wall: as rounding has it
+        EXPECT_DOUBLE_EQ(bed.beyond_edge(bed.x_of(col), bed.y_of(row)), from_centre - radius);
         ASSERT_EQ(bed.has_sand(row, col), from_centre < radius) << row << ", " << col;
         ASSERT_EQ(bed.is_held(row, col), !bed.has_sand(row, col)) << "before its tile is there";
         ASSERT_EQ(bed.has_sand(row, col), bed.has_sand(rows - 1 - row, cols - 1 - col)) << "symmetric";

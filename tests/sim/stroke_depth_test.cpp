@@ -83,7 +83,9 @@ TEST(StrokeDepth, OfAToolThatNeverTouchedSaysHowFarItStayed) {
   played.scene.device.scale = 2.0;
   RunResult result;
   result.stroke.played = 1.0;
-  EXPECT_NE(untouched_text(played.scene, result).find("stroke.place = \"centre\""), std::string::npos);
+  result.least_beside = 0.25;
+  const std::string beside = untouched_text(played.scene, result);
+  EXPECT_NE(beside.find("250 mm beyond its edge at least; set stroke.place = \"centre\""), std::string::npos);
   result.nearest = -0.003, result.nearest_time = 0.25;
   const std::string text = untouched_text(played.scene, result);
   EXPECT_NE(text.find("3 mm above it (nearest at 0.250 s)"), std::string::npos) << text;
