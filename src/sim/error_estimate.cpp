@@ -57,7 +57,9 @@ HeightField start_of(const Scene& second, const HeightField& start) {
   const int rows = second.bed.rows, cols = second.bed.cols;
   if (!cell_by_cell) return starting_bed(second.bed);
   const CellMeans means(start, rows, cols);
-  return HeightField(HeightGrid::NullaryExpr(rows, cols, means), second.bed.cell_size());
+  HeightField sand(HeightGrid::NullaryExpr(rows, cols, means), second.bed.cell_size());
+  sand.enclose(second.bed.shape);
+  return sand;
 }
 
 /// The sand that is not where it was.

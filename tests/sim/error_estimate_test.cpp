@@ -107,6 +107,20 @@ TEST(ErrorEstimate, IsNothingWhereNothingMoves) {
   EXPECT_EQ(e.force_rms, 0.0);
 }
 
+TEST(ErrorEstimate, IsNothingBeyondARoundWall) {
+  Scene scene = cylinder_scene(32);
+  scene.bed.shape = BedShape::round;
+  scene.bed.surface.kind = SurfaceKind::noise;
+  scene.bed.surface.amplitude = 0.2, scene.bed.surface.wavelength = 0.0;  // cells are split
+  const FeltRun run(scene);
+  HeightField map(32, 32, scene.bed.cell_size());
+  const ErrorEstimate e = estimate_error(scene, starting_bed(scene.bed), {}, run.solution, run.force,
+                                         SecondSolution::finer, &map);
+  EXPECT_GT(e.height_rms, 0.0);
+  for (int row = 0; row < 3; ++row)
+    for (int col = 0; col < 3; ++col) EXPECT_NEAR(map(row, col), 0.0, 1e-15) << row << ", " << col;
+}
+
 TEST(ErrorEstimate, OfAPlungesForceIsNothingSinceTheForceDependsOnDepthAlone) {
   Scene scene = stroke_scene(50);
   scene.relaxation.rate = 0.0;
