@@ -28,10 +28,6 @@ void write_and_tell(const std::string& file, const Stroke& stroke) {
                summary.duration, 1e3 * (summary.high.x() - summary.low.x()),
                1e3 * (summary.high.y() - summary.low.y()), 1e3 * (summary.high.z() - summary.low.z()),
                summary.gaps.size());
-  if (summary.joined_samples == 0) {
-    spdlog::warn("the tool never draws: all samples are further apart in time than the gap threshold of {} s",
-                 stroke.gap_threshold);
-  }
   warn_if_any(coverage_warning(stroke, file));
 }
 

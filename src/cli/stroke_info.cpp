@@ -33,7 +33,6 @@ StrokeSummary summarize(const Stroke& stroke) {
     summary.high = summary.high.cwiseMax(stroke.position[i]);
     if (i == 0) continue;
     spacings.push_back(stroke.time[i] - stroke.time[i - 1]);
-    summary.joined_samples += stroke.joined(i - 1);
   }
   summary.median_spacing = median(std::move(spacings));
   const StrokeSampler sampler(stroke);

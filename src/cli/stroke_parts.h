@@ -19,7 +19,7 @@ void add_stroke_info_command(CLI::App& stroke, Command& chosen);
 void add_stroke_repair_command(CLI::App& stroke, Command& chosen);
 
 struct StrokeSummary {
-  std::size_t samples = 0, drawn_samples = 0, joined_samples = 0;
+  std::size_t samples = 0, drawn_samples = 0;
   double duration = 0.0, median_spacing = 0.0;  // s
   Eigen::Vector3d low, high;                    // m
   std::vector<StrokeGap> gaps;

@@ -16,6 +16,25 @@ std::string played_text(const PlayedPart& part) {
                      part.gaps, part.gaps == 1 ? "" : "s");
 }
 
+namespace {
+
+/// Samples that no line joins, though the pen is down there and is not said to lift; and all such.
+struct LoneSamples {
+  std::size_t alone = 0, all = 0;
+};
+
+LoneSamples lone_samples(const Stroke& stroke) {
+  LoneSamples samples;
+  for (std::size_t i = 0; i < stroke.size(); ++i) {
+    if (!stroke.pen_down(i) || (!stroke.contact.empty() && stroke.contact[i] == pen_lifts)) continue;
+    ++samples.all;
+    samples.alone += !stroke.joined(i) && (i == 0 || !stroke.joined(i - 1));
+  }
+  return samples;
+}
+
+}  // namespace
+
 std::string coverage_warning(const Stroke& stroke, const std::string& name) {
   double missing = 0.0, begin = 0.0, end = 0.0;  // s, of all gaps; of the largest one
   for (std::size_t i = 0; i + 1 < stroke.size(); ++i) {
@@ -28,12 +47,20 @@ std::string coverage_warning(const Stroke& stroke, const std::string& name) {
         "{}: over a tenth of its ticks were skipped while it was recorded; a run {}; record it again on a "
         "machine that sandstroke record --check finds fit",
         name, played_text(played_part(StrokeSampler(stroke))));
-  if (!(missing > 60.0 && missing > 0.99 * stroke.duration())) return "";
-  return fmt::format(
-      "{}: samples cover {:.4g} s of {:.10g} s, and the tool is lifted in the rest; the largest gap is "
-      "{:.10g} s, from {:.10g} s to {:.10g} s; check the unit of the times (stroke convert --time-unit), and "
-      "the times there",
-      name, stroke.duration() - missing, stroke.duration(), end - begin, begin, end);
+  if (missing > 60.0 && missing > 0.99 * stroke.duration())
+    return fmt::format(
+        "{}: samples cover {:.4g} s of {:.10g} s, and the tool is lifted in the rest; the largest gap is "
+        "{:.10g} s, from {:.10g} s to {:.10g} s; check the unit of the times (stroke convert --time-unit), "
+        "and "
+        "the times there",
+        name, stroke.duration() - missing, stroke.duration(), end - begin, begin, end);
+  if (const auto [alone, all] = lone_samples(stroke); alone > 1 && 2 * alone > all)
+    return fmt::format(
+        "{}: {} of its {} samples are over {:.4g} s from the next, and the tool is lifted between them: "
+        "hardly anything is drawn; check the unit of the times, or give a larger gap threshold (stroke "
+        "convert --gap-threshold, stroke.table.gap_threshold)",
+        name, alone, all, stroke.gap_threshold);
+  return "";
 }
 
 }  // namespace sandstroke

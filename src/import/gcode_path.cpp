@@ -57,6 +57,7 @@ SampleTable table_of_gcode(const GcodePath& path, const std::string& name) {
   const std::vector<double> time = times_of(samples);
 
   SampleTable table;
+  table.line_tolerance = gcode_line_tolerance;
   table.columns = {{"x", "mm", {}}, {"y", "mm", {}}};
   if (has_z) table.columns.push_back({"z", "mm", {}});
   if (!time.empty()) table.columns.push_back({"time", "s", {}});

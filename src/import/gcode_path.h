@@ -25,6 +25,9 @@ struct GcodePath {
   std::set<int> passed_over;  ///< G words that were, in tenths
 };
 
+/// How far the tip may be off lines and corners. The chords of usual arcs have none (keep_lines_straight).
+inline constexpr double gcode_line_tolerance = 0.01;  // mm
+
 /// The samples at which the pen is down: by the M words, and by Z where it only moves by itself. Error:
 /// input; `name` is the file's.
 SampleTable table_of_gcode(const GcodePath& path, const std::string& name);

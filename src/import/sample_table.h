@@ -25,6 +25,9 @@ struct SampleTable {
   std::vector<std::size_t> lines;     ///< of the file, one per sample; empty: it has none
   std::vector<bool> lifts;  ///< the pen lifts right after the sample; empty: nothing is said of a pen
   double rate = 0.0;        ///< Hz, where the file says it
+  /// Above 0: no motion was sampled, but a path is told as straight lines from sample to sample. The tip may
+  /// leave them by this, in the unit of the position.
+  double line_tolerance = 0.0;
   std::string description;  ///< for people: "semicolons, decimal commas, 7 columns, 12,040 rows"
 
   std::size_t size() const {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "haptics/stroke_lines.h"
 #include "import/equal_times.h"
 #include "import/table_layout.h"
 #include "import/units.h"
@@ -41,9 +42,10 @@ class StrokeMaker {
     stroke.frame = settings_.frame;
     if (settings_.gap_threshold > 0.0)
       stroke.gap_threshold = settings_.gap_threshold;
-    else if (by_speed_)
+    else if (by_speed_ || table_.line_tolerance > 0.0)
       stroke.gap_threshold = 1.0 + stroke.duration();  // however far apart the points are
     check_stroke(stroke, name_);
+    if (table_.line_tolerance > 0.0) keep_lines_straight(stroke, length_.to_si(table_.line_tolerance));
     return std::move(made_);
   }
 
@@ -87,7 +89,8 @@ class StrokeMaker {
       throw_input_error("{}: the unit of {} is {}; give {}: {}", name_, names(layout_.position),
                         unit.empty() ? "not known" : "the pattern's radius", option_and_key("position_unit"),
                         unit.empty() ? "m, cm, mm, um, in, px or metres" : "its metres");
-    made_.stroke.position = vectors(layout_.position, unit_of(Quantity::length, unit, settings_.pixel_size));
+    length_ = unit_of(Quantity::length, unit, settings_.pixel_size);
+    made_.stroke.position = vectors(layout_.position, length_);
     tell(fmt::format("position {} ({})", names(layout_.position), unit));
     if (layout_.position.size() == 3 && layout_.axes.determinant() < 0.0)
       made_.warnings.push_back(fmt::format(
@@ -233,6 +236,7 @@ class StrokeMaker {
   const std::string& name_;
   TableLayout layout_;
   ImportedStroke made_;
+  Unit length_;  // of the position
   bool by_speed_ = false;
 };
 

@@ -43,6 +43,7 @@ PolarPoint thr_point(std::string_view line, const std::string& name, std::size_t
 
 SampleTable parse_thr(std::string_view text, const std::string& name) {
   SampleTable table;
+  table.line_tolerance = thr_line_tolerance;
   table.columns = {{"x", "radius", {}}, {"y", "radius", {}}};
   const auto add = [&table](double theta, double rho, std::size_t line) {
     table.columns[0].values.push_back(rho * std::sin(theta));

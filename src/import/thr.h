@@ -19,5 +19,7 @@ SampleTable parse_thr(std::string_view text, const std::string& name);
 
 /// As far as the lines between the points may be off the spirals. [radius]
 inline constexpr double thr_tolerance = 1e-4;
+/// As far as the tip may be off the lines. The chords of a spiral have no corners then (keep_lines_straight).
+inline constexpr double thr_line_tolerance = 3e-4;
 
 }  // namespace sandstroke

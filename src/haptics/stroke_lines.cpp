@@ -1,0 +1,67 @@
+#include "haptics/stroke_lines.h"
+
+#include <type_traits>
+#include <vector>
+
+namespace sandstroke {
+namespace {
+
+/// On the line from one sample to the next.
+struct PlaceOnLine {
+  std::size_t sample;
+  double share;  // of the line
+};
+
+/// s: over no longer time may the curve's velocity be wrong by this at both ends of a line. The cubic's error
+/// is at most 4/27 of the time and of each end's error.
+double time_in_tolerance(double velocity, double tolerance) { return tolerance * 27.0 / (8.0 * velocity); }
+
+template <class Value>
+Value between(const Value& a, const Value& b, double share) {
+  if constexpr (std::is_integral_v<Value>)
+    return a;
+  else
+    return a + share * (b - a);
+}
+
+std::vector<PlaceOnLine> places_of(const Stroke& stroke, double tolerance) {
+  const auto time = [&](std::size_t i) { return stroke.time[i + 1] - stroke.time[i]; };
+  const auto velocity = [&](std::size_t i) -> Eigen::Vector3d {
+    return (stroke.position[i + 1] - stroke.position[i]) / time(i);
+  };
+  /// Share of line i that is close to the corner between lines `before` and `before` + 1; 0: it needs none.
+  const auto close_share = [&](std::size_t i, std::size_t before) {
+    const double corner = (velocity(before + 1) - velocity(before)).norm();
+    const double longest = time_in_tolerance(corner, tolerance);
+    return time(i) > longest ? 0.25 * longest / time(i) : 0.0;
+  };
+  std::vector<PlaceOnLine> places;
+  const auto add = [&](std::size_t i, double share) {
+    const double at = between(stroke.time[i], stroke.time[i + 1], share);
+    const bool is_time = stroke.time[i] < at && at < stroke.time[i + 1];  // that a double can tell
+    if (share > 0.0 && share < 1.0 && is_time) places.push_back({i, share});
+  };
+  for (std::size_t i = 0; i + 1 < stroke.size(); ++i) {
+    places.push_back({i, 0.0});
+    if (!stroke.joined(i)) continue;
+    if (i > 0 && stroke.joined(i - 1)) add(i, close_share(i, i - 1));
+    if (stroke.joined(i + 1)) add(i, 1.0 - close_share(i, i));
+  }
+  places.push_back({stroke.size() - 1, 0.0});
+  return places;
+}
+
+}  // namespace
+
+void keep_lines_straight(Stroke& stroke, double tolerance) {
+  const std::vector<PlaceOnLine> places = places_of(stroke, tolerance);
+  visit_columns(stroke, [&](const char*, auto& column) {
+    if (column.empty()) return;
+    std::remove_reference_t<decltype(column)> all;
+    for (const auto& [sample, share] : places)
+      all.push_back(share > 0.0 ? between(column[sample], column[sample + 1], share) : column[sample]);
+    column = std::move(all);
+  });
+}
+
+}  // namespace sandstroke
