@@ -114,6 +114,21 @@ ForceSettings best_fitted(const std::vector<FeltTick>& ticks, const ForceSetting
                                                                                                 : from_start;
 }
 
+double deepest(const std::vector<FeltTick>& ticks) {
+  double depth = 0.0;
+  for (const FeltTick& tick : ticks) depth = std::max(depth, tick.depth);
+  return depth;
+}
+
+/// How many have a force that the device's limit does not cut.
+std::size_t ticks_within(double max_force, const std::vector<FeltTick>& ticks, const ForceSettings& force) {
+  constexpr double no_limit = 0.0;
+  if (max_force == no_limit) return ticks.size();
+  return static_cast<std::size_t>(std::count_if(ticks.begin(), ticks.end(), [&](const FeltTick& tick) {
+    return sand_force(tick.depth, tick.velocity, no_limit, force).total.norm() < max_force;
+  }));
+}
+
 /// All but one stretch.
 std::vector<FeltTick> without(const std::vector<FeltTick>& ticks, std::size_t stretch) {
   std::vector<FeltTick> kept;
@@ -184,10 +199,19 @@ ForceFit fit_force(const std::vector<FeltTick>& all, const ForceSettings& start,
   const std::vector<FeltTick> ticks = evenly_chosen(all);
   std::array<bool, 3> is_free = asked;
   Estimate found = estimate(ticks, start, max_force, is_free);
-  if (is_free[1] && !(found.error[1] < found.force.k_c)) {
+  const auto only_product = [&] {
+    return !(found.error[1] < found.force.k_c) || found.force.k_c * deepest(ticks) < 1e-6;
+  };
+  if (is_free[1] && only_product()) {
     is_free[1] = false;
     found = estimate(ticks, start, max_force, is_free);
   }
+
+  if (const std::size_t free = ticks_within(max_force, ticks, found.force); free < least_ticks)
+    throw_input_error(
+        "the device's limit (device.max_force = {:.4g} N) cuts the force in {} of {} ticks, so its constants "
+        "hardly show; take a recording with smaller forces, or raise the limit if the recording had another",
+        max_force, ticks.size() - free, ticks.size());
 
   ForceFit fit;
   fit.force = found.force;

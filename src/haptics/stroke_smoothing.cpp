@@ -4,12 +4,16 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/error.h"
 #include "haptics/stroke_pieces.h"
 
 namespace sandstroke {
 namespace {
 
 using Eigen::Vector3d;
+/// (2 pi f h)^4: the solution's relative error is about 1e-16 of its inverse (measured: 2e-4).
+constexpr double least_bend = 1e-12;
+
 using Sparse = Eigen::SparseMatrix<double>;
 
 /// The filter of one piece of samples. With Q the second divided differences, R the time between them and W
@@ -74,6 +78,12 @@ Stroke smoothed(const Stroke& stroke, double cut_off) {
     if (piece.size() < 3) continue;
     const double rate = static_cast<double>(piece.size() - 1) / piece.duration(stroke.time);
     if (rate < 2.0 * cut_off) continue;
+    if (std::pow(2.0 * std::numbers::pi * cut_off / rate, 4) < least_bend)
+      throw_input_error(
+          "stroke.smooth = {:.4g} Hz is too low for samples at {:.6g} Hz: rounding would move them; set "
+          "{:.2g} "
+          "Hz or more",
+          cut_off, rate, 1.01 * rate * std::pow(least_bend, 0.25) / (2.0 * std::numbers::pi));
     const PieceFilter filter(stroke.time, piece, cut_off);
     filter.apply(smooth.position);
     if (!smooth.velocity.empty()) filter.apply(smooth.velocity);

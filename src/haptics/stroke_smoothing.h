@@ -10,7 +10,8 @@ namespace sandstroke {
 /// irregular: a piece minimises sum w |x - sample|^2 + lambda sum w |x''|^2, w being the time that a sample
 /// stands for (Whittaker; solved as by Reinsch, Numer. Math. 10, 1967). A straight uniform motion stays to
 /// rounding, both ends of a piece stay where they are. Pieces of two samples stay, and those that are sampled
-/// at less than twice the cut-off.
+/// at less than twice the cut-off. Error: input, where the cut-off is so low beside the rate (0.16 Hz at 1
+/// kHz) that rounding would show.
 Stroke smoothed(const Stroke& stroke, double cut_off);
 
 }  // namespace sandstroke

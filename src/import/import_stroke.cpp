@@ -26,12 +26,13 @@ TableSettings settings_of_second(const TableSettings& settings) {
   return second;
 }
 
-SampleTable read_samples(const fs::path& path, const TableSettings& settings, bool need_position = true) {
+SampleTable read_samples(const fs::path& path, const TableSettings& settings,
+                         const std::optional<Eigen::Matrix3d>& of_first = {}) {
   if (path != "-")
     if (std::optional<SampleTable> samples = read_known_format(path, settings.part))
       return std::move(*samples);
   InputFile file(path == "-" ? "/dev/stdin" : path, InputFile::Pipe::taken);
-  TextTable table(samples_name(path), settings, need_position);
+  TextTable table(samples_name(path), settings, of_first);
   for (std::string_view part = file.next_block(); !part.empty(); part = file.next_block()) table.read(part);
   return table.take();
 }
@@ -54,15 +55,15 @@ ImportedStroke import_stroke(const fs::path& path, const TableSettings& settings
   if (settings.merge.empty()) return first;
   const fs::path beside = sample_files(path, settings).back();
   const TableSettings of_second = settings_of_second(settings);
-  const ImportedStroke second =
-      stroke_of_table(read_samples(beside, of_second, false), of_second, samples_name(beside), false);
+  const ImportedStroke second = stroke_of_table(read_samples(beside, of_second, first.axes), of_second,
+                                                samples_name(beside), first.axes);
   merge_strokes(first, second, settings.merge_shift, samples_name(path), samples_name(beside));
   return first;
 }
 
 ImportedStroke import_stroke_text(std::string_view text, const std::string& name,
                                   const TableSettings& settings) {
-  TextTable table(name, settings, true);
+  TextTable table(name, settings);
   table.read(text);
   return stroke_of_table(table.take(), settings, name);
 }

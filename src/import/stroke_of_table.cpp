@@ -19,15 +19,16 @@ using Eigen::Vector3d;
 class StrokeMaker {
  public:
   StrokeMaker(const SampleTable& table, const TableSettings& settings, const std::string& name,
-              bool need_position)
+              const std::optional<Matrix3d>& of_first)
       : table_(table),
         settings_(settings),
         name_(name),
-        layout_(table_layout(table.columns, settings, need_position, name)) {}
+        layout_(table_layout(table.columns, settings, name, of_first)) {}
 
   ImportedStroke make() {
     Stroke& stroke = made_.stroke;
     made_.description = table_.description;
+    made_.axes = layout_.axes;
     take_positions();
     take_velocity();
     take_force();
@@ -243,8 +244,8 @@ class StrokeMaker {
 }  // namespace
 
 ImportedStroke stroke_of_table(const SampleTable& table, const TableSettings& settings,
-                               const std::string& name, bool need_position) {
-  return StrokeMaker(table, settings, name, need_position).make();
+                               const std::string& name, const std::optional<Matrix3d>& of_first) {
+  return StrokeMaker(table, settings, name, of_first).make();
 }
 
 }  // namespace sandstroke

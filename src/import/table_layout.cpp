@@ -5,6 +5,7 @@
 #include <array>
 #include <charconv>
 #include <map>
+#include <set>
 
 #include "core/error.h"
 #include "import/column_name.h"
@@ -95,22 +96,19 @@ class LayoutFinder {
     return best;
   }
 
-  /// Rows: the axes of these columns, by name; else by their order in the table.
+  /// Rows: the axes of these columns, by name; else by their order in the table. Of two columns, the third
+  /// row is the axis that is left.
   Eigen::Matrix3d axes_of(const ColumnChoices& choices) const {
     std::vector<int> axis;
     for (const ColumnChoice& choice : choices) axis.push_back(names_[choice.column].parts.axis);
-    std::vector<int> sorted = axis;
-    std::sort(sorted.begin(), sorted.end());
-    for (std::size_t k = 0; k < sorted.size(); ++k) {
-      if (sorted[k] == static_cast<int>(k)) continue;
+    const std::set<int> each(axis.begin(), axis.end());
+    if (each.size() < axis.size() || (!each.empty() && (*each.begin() < 0 || *each.rbegin() > 2)))
       axis = order_of(choices);
-      break;
-    }
-    Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
-    for (std::size_t k = 0; k < choices.size(); ++k) {
-      axes.row(static_cast<int>(k)).setZero();
-      axes(static_cast<int>(k), axis[k]) = choices[k].sign;
-    }
+    Eigen::Matrix3d axes = Eigen::Matrix3d::Zero();
+    for (std::size_t k = 0; k < choices.size(); ++k) axes(static_cast<int>(k), axis[k]) = choices[k].sign;
+    for (int k = static_cast<int>(choices.size()); k < 3; ++k)
+      for (int left = 0; left < 3 && axes.row(k).isZero(); ++left)
+        if (axes.col(left).isZero()) axes(k, left) = 1.0;
     return axes;
   }
 
@@ -192,19 +190,19 @@ std::string option_and_key(const std::string& key) {
 }
 
 TableLayout table_layout(const std::vector<SampleColumn>& columns, const TableSettings& settings,
-                         bool need_position, const std::string& place) {
+                         const std::string& place, const std::optional<Eigen::Matrix3d>& of_first) {
   const LayoutFinder finder(columns, place);
   TableLayout layout;
   if (!settings.position.empty()) {
     layout.position = finder.named(settings.position, "position", {2, 3});
-  } else if (need_position) {
+  } else if (!of_first) {
     layout.position = finder.found(Means::position, 2, 3, true);
     if (layout.position.empty())
       throw_input_error(
           "{}: no columns are named x, y and z; name or number the position's with {}; they are: {}", place,
           option_and_key("position"), finder.all_names());
   }
-  layout.axes = finder.axes_of(layout.position);
+  layout.axes = of_first ? *of_first : finder.axes_of(layout.position);
   const auto vector = [&](const std::string& list, const char* key, Means means) {
     return list.empty() ? along(finder.found(means, 2, 3), layout.axes) : finder.named(list, key, {2, 3});
   };

@@ -27,11 +27,11 @@ struct TableLayout {
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
 };
 
-/// Columns are those that the settings name, and else those whose names say it. need_position: of the second
-/// of two merged tables none is taken. Values may still be missing. Error: input; `place` says where the
-/// names stand.
+/// Columns are those that the settings name, and else those whose names say it. `of_first`: the axes of the
+/// table with which this one is merged, which has the position then. Values may still be missing. Error:
+/// input; `place` says where the names stand.
 TableLayout table_layout(const std::vector<SampleColumn>& columns, const TableSettings& settings,
-                         bool need_position, const std::string& place);
+                         const std::string& place, const std::optional<Eigen::Matrix3d>& of_first = {});
 
 /// The option of `stroke convert` for a key: "--position-unit".
 std::string option_of(const std::string& key);

@@ -59,10 +59,10 @@ std::string grouped(std::size_t number) {
 
 class TextTable::Rows {
  public:
-  Rows(std::string name, const TableSettings& settings, bool need_position)
+  Rows(std::string name, const TableSettings& settings, const std::optional<Eigen::Matrix3d>& of_first)
       : name_(std::move(name)),
         settings_(settings),
-        need_position_(need_position),
+        of_first_(of_first),
         skip_(parts_of_list(settings.skip)),
         pen_up_(parts_of_list(settings.pen_up)),
         lines_(name_, settings.encoding) {}
@@ -228,7 +228,7 @@ class TextTable::Rows {
 
   void begin_samples() {
     after_header_ = false;
-    layout_ = table_layout(table_.columns, settings_, need_position_, place_);
+    layout_ = table_layout(table_.columns, settings_, place_, of_first_);
     const auto want = [&](const ColumnChoices& choices) {
       for (const ColumnChoice& choice : choices) wanted_.push_back(choice.column);
     };
@@ -278,7 +278,7 @@ class TextTable::Rows {
 
   std::string name_;
   TableSettings settings_;
-  bool need_position_;
+  std::optional<Eigen::Matrix3d> of_first_;
   std::vector<std::string> skip_, pen_up_;
   TextLines lines_;
   std::size_t line_ = 0;  // the number of the one that is taken
@@ -297,8 +297,9 @@ class TextTable::Rows {
   SampleTable table_;
 };
 
-TextTable::TextTable(std::string name, const TableSettings& settings, bool need_position)
-    : rows_(std::make_unique<Rows>(std::move(name), settings, need_position)) {}
+TextTable::TextTable(std::string name, const TableSettings& settings,
+                     const std::optional<Eigen::Matrix3d>& of_first)
+    : rows_(std::make_unique<Rows>(std::move(name), settings, of_first)) {}
 TextTable::TextTable(TextTable&&) noexcept = default;
 TextTable::~TextTable() = default;
 void TextTable::read(std::string_view bytes) { rows_->read(bytes); }

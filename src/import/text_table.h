@@ -1,6 +1,8 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -20,8 +22,9 @@ namespace sandstroke {
 /// Passed over: blank lines, comments (# or %), what settings.skip and skip_lines say.
 class TextTable {
  public:
-  /// name: of the file, in sentences. need_position: as in table_layout.
-  TextTable(std::string name, const TableSettings& settings, bool need_position);
+  /// name: of the file, in sentences. of_first: as in table_layout.
+  TextTable(std::string name, const TableSettings& settings,
+            const std::optional<Eigen::Matrix3d>& of_first = {});
   TextTable(TextTable&&) noexcept;
   ~TextTable();
   /// The next part of the file, cut anywhere. Error: input, naming the line.

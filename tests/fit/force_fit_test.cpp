@@ -92,6 +92,32 @@ TEST(ForceFit, SaysThatAForceInShallowSandTellsOnlyTheProduct) {
   EXPECT_LT(fit.stiffness_error, 10.0);
 }
 
+/// All of it is at the device's limit: any sand that is hard enough gives it.
+TEST(ForceFit, AForceThatTheLimitCutsEverywhereTellsNothing) {
+  const std::vector<FeltTick> ticks =
+      felt({.k_s = 4e4, .k_c = 30.0, .k_f = 4.0}, 0.01, 0.05, 0.0, 1000, 12.0);
+  std::string said;
+  try {
+    fit_force(ticks, ForceSettings{}, 12.0, all);
+  } catch (const Error& failure) {
+    said = failure.what();
+  }
+  EXPECT_NE(said.find("device.max_force = 12 N) cuts the force in 1000 of 1000 ticks"), std::string::npos)
+      << said;
+}
+
+/// It grows in proportion to the depth: no k_c is small enough, and none is known.
+TEST(ForceFit, AForceThatIsExactlyStraightTellsOnlyTheProduct) {
+  std::vector<FeltTick> ticks = felt(truth, 0.001, 0.05);
+  for (FeltTick& tick : ticks) tick.recorded = {0.0, 0.0, 500.0 * tick.depth};
+  ForceSettings start;
+  start.k_c = 0.01;
+  const ForceFit fit = fit_force(ticks, start, no_limit, all);
+  EXPECT_EQ(fit.force.k_c, start.k_c);
+  EXPECT_TRUE(std::isinf(fit.constants[1].error));
+  EXPECT_NEAR(fit.stiffness, 500.0, 0.2);
+}
+
 TEST(ForceFit, SaysWhichConstantsTheRecordingDetermines) {
   for (const double k_f : {4.0, 0.0}) {  // without drag, noise alone is fitted
     ForceSettings sand = truth;

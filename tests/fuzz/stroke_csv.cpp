@@ -38,7 +38,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     }
     ImportedStroke first = import_stroke_text(text, "table.csv", settings);
     if (!second.empty()) {
-      TextTable table("second.csv", {}, false);
+      TextTable table("second.csv", {}, Eigen::Matrix3d::Identity());
       table.read(second);
       merge_strokes(first, stroke_of_table(table.take(), {}, "second.csv", false), settings.merge_shift,
                     "table.csv", "second.csv");

@@ -8,6 +8,8 @@
 #include <numbers>
 #include <random>
 
+#include "core/error.h"
+
 namespace sandstroke {
 namespace {
 
@@ -108,6 +110,19 @@ TEST(StrokeSmoothing, WhatIsSampledTooRarelyStays) {
   const Stroke stroke = sine(3.0, 20.0);
   EXPECT_EQ(smoothed(stroke, 10.5).position, stroke.position);
   EXPECT_NE(smoothed(stroke, 9.5).position, stroke.position);
+}
+
+/// The same motion at two rates, down to the lowest cut-off: rounding grows with the fourth power of the
+/// rate.
+TEST(StrokeSmoothing, LowCutOffsAreExactAtHighRatesOrRefused) {
+  for (const double cut_off : {0.17, 0.3, 1.0, 3.0}) {
+    const Stroke coarse = smoothed(sine(cut_off, 50.0), cut_off),
+                 fine = smoothed(sine(cut_off, 1000.0), cut_off);
+    for (std::size_t i = 0; i < coarse.size(); ++i)
+      ASSERT_LT((coarse.position[i] - fine.position[20 * i]).norm(), 2e-3 * 3.8) << cut_off << " Hz, " << i;
+  }
+  EXPECT_THROW(smoothed(sine(1.0, 1000.0), 0.15), Error);
+  EXPECT_NO_THROW(smoothed(sine(1.0, 50.0), 0.15));
 }
 
 }  // namespace

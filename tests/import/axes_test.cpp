@@ -39,6 +39,7 @@ TEST(TableAxes, AreNegatedAndPermuted) {
   EXPECT_THAT(turned.warnings, ElementsAre());
   EXPECT_EQ(with_position("x,y,z", text).stroke.position[0], Vector3d(1, 2, 3));  // without the unit
   EXPECT_EQ(with_position("x,-y", text).stroke.force[0], Vector3d(7, -8, 9));
+  EXPECT_EQ(with_position("x,z", text).stroke.force[0], Vector3d(7, 9, 8));  // y is left: it is up
   EXPECT_THROW(with_position("x,x,z", text), Error);
   EXPECT_THROW(with_position("x", text), Error);
 }
@@ -111,12 +112,14 @@ TEST(TableAxes, OrientationsAreKeptAndTurned) {
 
 class MergedTables : public testing::Test {
  protected:
-  ImportedStroke merged(const std::string& first, const std::string& second, double shift = 0.0) {
+  ImportedStroke merged(const std::string& first, const std::string& second, double shift = 0.0,
+                        const std::string& position = "") {
     for (const char* name : {"first.csv", "second.csv"}) std::filesystem::remove(folder_ / name);
     write_text_file(folder_ / "first.csv", first);
     write_text_file(folder_ / "second.csv", second);
     TableSettings settings;
     settings.merge = "second.csv";
+    settings.position = position;
     settings.merge_shift = shift;
     settings.force_sign = ForceSign::on_device;
     return import_stroke(folder_ / "first.csv", settings);
@@ -140,6 +143,27 @@ TEST_F(MergedTables, ForcesAreInterpolatedAtTheFirstOnesTimes) {
   EXPECT_TRUE(stroke.force[1].isApprox(Vector3d(8, 1, -7.5), 1e-12));
   EXPECT_TRUE(stroke.force[2].isApprox(Vector3d(8, 6, -5), 1e-12));
   EXPECT_EQ(stroke.force_sign, ForceSign::on_device);
+}
+
+/// Two tables are one table in two files.
+TEST_F(MergedTables, TurnWithThePositionsColumns) {
+  const std::string turned = "-y,x,z";
+  const Stroke two =
+      merged("t_s,x_m,y_m,z_m\n0,1,2,3\n1,4,5,6\n",
+             "t_s,fx_N,fy_N,fz_N,qx,qy,qz,qw\n0,1,2,3,0,0,0,1\n1,4,5,6,0.6,0,0,0.8\n", 0.0, turned)
+          .stroke;
+  TableSettings settings;
+  settings.position = turned;
+  settings.force_sign = ForceSign::on_device;
+  const Stroke one = import_stroke_text(
+                         "t_s,x_m,y_m,z_m,fx_N,fy_N,fz_N,qx,qy,qz,qw\n0,1,2,3,1,2,3,0,0,0,1\n"
+                         "1,4,5,6,4,5,6,0.6,0,0,0.8\n",
+                         "one.csv", settings)
+                         .stroke;
+  EXPECT_EQ(two.position, one.position);
+  EXPECT_EQ(two.force, one.force);
+  EXPECT_EQ(two.force[0], Vector3d(-2, 1, 3));
+  for (std::size_t i = 0; i < 2; ++i) EXPECT_TRUE(two.orientation[i].isApprox(one.orientation[i], 1e-15));
 }
 
 TEST_F(MergedTables, OrientationsTurnTheShortestWay) {
