@@ -38,8 +38,10 @@ std::vector<FeltTick> felt_ticks(const Scene& asked, const std::filesystem::path
   std::string hash;
   const Stroke stroke = placed_stroke(scene, path, hash);
   if (stroke.force.empty())
-    throw_input_error("{}: was recorded without forces, so there is nothing to fit; name another --stroke",
-                      samples_name(path));
+    throw_input_error(
+        "{}: has no forces, so there is nothing to fit; name their columns and unit (stroke.table.force, "
+        "force_unit), or another --stroke",
+        samples_name(path));
   Simulation simulation(scene, load_surface(scene.bed, scene_folder), stroke);
   Gatherer felt(scene.device.scale);
   RunProgress bar;

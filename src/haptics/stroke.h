@@ -30,6 +30,7 @@ struct Stroke {
   std::vector<std::uint8_t> contact;           ///< a PenState each (optional); without it the pen is down
   double nominal_rate = 0.0;                   ///< Hz; 0 = unknown
   double gap_threshold = 0.1;                  ///< s; samples further apart are not joined: the tool lifts
+  double tip_speed = 0.0;                      ///< m/s that `time` was made for, in any size; 0: recorded
   std::string source;                          ///< where it came from, for people
   std::string frame = "bed";                   ///< "bed" or "device"
   ForceSign force_sign = ForceSign::not_said;  ///< of `force`

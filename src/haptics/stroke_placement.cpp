@@ -39,10 +39,18 @@ void rotate(Stroke& stroke, const Matrix3d& rotation) {
 }
 
 void speed_up(Stroke& stroke, double times) {
+  if (times == 1.0) return;
   for (double& t : stroke.time) t /= times;
   for (Vector3d& v : stroke.velocity) v *= times;
   stroke.gap_threshold /= times;
   stroke.nominal_rate *= times;
+}
+
+/// A stroke whose times were made for a speed keeps it.
+void resize(Stroke& stroke, double scale) {
+  for (Vector3d& p : stroke.position) p *= scale;
+  for (Vector3d& v : stroke.velocity) v *= scale;
+  if (stroke.tip_speed > 0.0) speed_up(stroke, 1.0 / scale);
 }
 
 LeastSquaresPlane traced_plane(const std::vector<Vector3d>& drawn, bool flatten, const std::string& name) {
@@ -169,18 +177,14 @@ Stroke place_stroke(const Stroke& stroke, const StrokePlacement& placement, cons
   if (placement.follow == StrokeFollow::sand) placed.follows_sand = true;
   if (placement.plane != StrokePlane::keep) lay_level(placed, placement, name);
 
-  const auto scale = [&](double factor) {
-    for (Vector3d& p : placed.position) p *= factor;
-    for (Vector3d& v : placed.velocity) v *= factor;
-  };
-  if (placement.fit == 0.0) scale(place.scale);
+  if (placement.fit == 0.0) resize(placed, place.scale);
   rotate(placed, place.turn);
-  if (placement.fit > 0.0) scale(fitting_scale(placed, placement.fit, bed, name));
+  if (placement.fit > 0.0) resize(placed, fitting_scale(placed, placement.fit, bed, name));
   if (placement.place == StrokePlace::centre) bring_to(bed.center(), placed);
   for (Vector3d& p : placed.position) p += place.shift;
   if (placement.depth_by != DepthBy::none)
     raise_to_press(placed, placement, full_press(stroke, placement, name), name);
-  if (placement.speed != 1.0) speed_up(placed, placement.speed);
+  speed_up(placed, placement.speed);
   check_stroke(placed, name);
   return placed;
 }

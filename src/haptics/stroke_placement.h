@@ -69,6 +69,7 @@ PointPlacement point_placement(const StrokePlacement& placement, const std::stri
 /// The stroke as it is played: cut to start..stop, without held samples, smoothed, turned from the device's
 /// axes (frame "device") to the bed's, laid level (plane), scaled, turned about z, lowered by `depth`,
 /// brought onto the bed (place), moved by `offset`; its time begins at 0, and is `speed` times shorter.
+/// Times that were made for a speed of the tip (Stroke::tip_speed) are those of the size on the bed.
 /// Velocities turn and scale with it, forces and orientations turn. The drawn extent is that of the samples
 /// at which the pen is down. `bed` [m]: where the bed is, for what asks for it (fit, place).
 ///

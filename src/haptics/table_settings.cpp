@@ -12,7 +12,7 @@ void describe_table(KeyVisitor& v, TableSettings& t) {
   v.text("time", t.time, "column of the time: numbers, or ISO 8601");
   v.text("time_unit", t.time_unit, "unit of the time: s, ms, us or ns");
   v.number("rate", t.rate, not_negative, "Hz", "samples per second, instead of times");
-  v.number("speed", t.speed, not_negative, "m/s", "speed of the tip, instead of times");
+  v.number("speed", t.speed, not_negative, "m/s", "speed of the tip on the bed, instead of times");
   choose(v, "equal_times", t.equal_times, {"error", "drop", "spread"},
          "what to do with samples of equal times: stop with an error, keep the first, or space them evenly");
   v.text("velocity", t.velocity, "columns of the tip's velocity, which the stroke keeps and no run uses");
@@ -33,7 +33,9 @@ void describe_table(KeyVisitor& v, TableSettings& t) {
   v.text("encoding", t.encoding, "encoding of the text, such as UTF-16LE");
   v.integers("skip_lines", &t.skip_lines, 1, 0, 1'000'000, "lines to pass over at the beginning");
   v.text("skip", t.skip, "lines that begin with one of these words are passed over: \"START,END\"");
-  v.text("pen_up", t.pen_up, "lines that begin with one of these words lift the pen");
+  v.text("pen_up", t.pen_up,
+         "lines that begin with one of these words lift the pen; of G-code, the word of its servo: \"M280 "
+         "S90\"");
   v.number("gap_threshold", t.gap_threshold, not_negative, "s",
            "samples further apart are not joined: the tool lifts; 0: 0.1 s, or no gaps with speed");
   int device = t.frame == "device" ? 1 : 0;

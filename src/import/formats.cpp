@@ -108,7 +108,8 @@ bool is_inkml(std::string_view text) {
 
 }  // namespace
 
-std::optional<SampleTable> read_known_format(const fs::path& path, const std::string& part) {
+std::optional<SampleTable> read_known_format(const fs::path& path, const TableSettings& settings) {
+  const std::string& part = settings.part;
   const bool pipe =
       path == "-" || (fs::exists(path) && !fs::is_regular_file(path) && !fs::is_directory(path));
   if (pipe) return {};
@@ -126,8 +127,8 @@ std::optional<SampleTable> read_known_format(const fs::path& path, const std::st
   if (looks_like_unipen(text)) return read_unipen(path);
   if (has_ending(path, ".thr")) return read_thr(path);
   for (const char* ending : {".gcode", ".gco", ".nc", ".ngc", ".tap"})
-    if (has_ending(path, ending)) return read_gcode(path);
-  if (looks_like_gcode(text)) return read_gcode(path);
+    if (has_ending(path, ending)) return read_gcode(path, settings.pen_up);
+  if (looks_like_gcode(text)) return read_gcode(path, settings.pen_up);
   refuse_trees_of_text(path, text);
   return {};
 }

@@ -4,16 +4,18 @@
 #include <optional>
 #include <string>
 
+#include "haptics/table_settings.h"
 #include "import/sample_table.h"
 
 namespace sandstroke {
 
 /// Reads samples from a file of any format but tables of text: theta-rho, G-code, UNIPEN, InkML, MATLAB, ROS
 /// 2 bags. Which one it is says its content, and where that cannot (theta-rho), its ending. None: it is text
-/// of none of these, so perhaps a table; or a pipe (also "-", standard input), which is left alone. `part`
-/// names one of several recordings in a file: a topic of a bag, a variable of a MATLAB file. Error: io;
-/// input, also where the file is of a known kind that holds no samples or is not read: the sentence names it
-/// and the way out.
-std::optional<SampleTable> read_known_format(const std::filesystem::path& path, const std::string& part = "");
+/// of none of these, so perhaps a table; or a pipe (also "-", standard input), which is left alone.
+/// settings.part names one of several recordings in a file: a topic of a bag, a variable of a MATLAB file.
+/// Error: io; input, also where the file is of a known kind that holds no samples or is not read: the
+/// sentence names it and the way out.
+std::optional<SampleTable> read_known_format(const std::filesystem::path& path,
+                                             const TableSettings& settings = {});
 
 }  // namespace sandstroke

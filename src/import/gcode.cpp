@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <set>
 
 #include "core/error.h"
 #include "core/input_file.h"
@@ -11,6 +12,7 @@
 #include "import/finite_samples.h"
 #include "import/gcode_path.h"
 #include "import/gcode_words.h"
+#include "import/table_layout.h"
 #include "import/text_parts.h"
 
 namespace sandstroke {
@@ -42,7 +44,12 @@ struct GcodeArc {
 
 class GcodeReader {
  public:
-  explicit GcodeReader(const std::string& name) : name_(name) {}
+  GcodeReader(const std::string& name, const std::string& pen_up)
+      : name_(name), pen_up_(gcode_words(pen_up, "pen_up")) {
+    if (!pen_up.empty() && pen_up_.m.size() != 1)
+      throw_input_error("pen_up = \"{}\" is no word by which a pen is lifted; give one such as \"M280 S90\"",
+                        pen_up);
+  }
 
   void take_line(std::string_view text, std::size_t number) {
     line_ = number;
@@ -61,7 +68,14 @@ class GcodeReader {
     }
   }
 
-  SampleTable table() const { return table_of_gcode(path_, name_); }
+  SampleTable table() const {
+    if (pen_up_.m.empty() && servo_angles_.size() > 1)
+      throw_input_error(
+          "{}:{}: M{} moves a pen, at S {}, and which of them lifts it is not known; give {} \"M{} S{}\"",
+          name_, servo_line_, servo_ / 10, fmt::join(servo_angles_, " and "), option_and_key("pen_up"),
+          servo_ / 10, *servo_angles_.rbegin());
+    return table_of_gcode(path_, name_);
+  }
 
  private:
   std::string place() const { return fmt::format("{}:{}", name_, line_); }
@@ -131,12 +145,30 @@ class GcodeReader {
   }
 
   void take_m(const GcodeWords& words) {
-    if (const auto& power = words['S']; power && !std::count(words.g.begin(), words.g.end(), 40))
-      power_ = *power;
+    const bool of_spindle = std::all_of(words.m.begin(), words.m.end(),
+                                        [](int code) { return code == 30 || code == 40 || code == 50; });
+    const auto& power = words['S'];
+    if (power && of_spindle && !std::count(words.g.begin(), words.g.end(), 40)) power_ = *power;
     for (const int code : words.m) {
+      take_servo(code, words);
       if (code == 30 || code == 40) spindle_ = path_.has_spindle = true;
       if (code == 50) spindle_ = false;
     }
+  }
+  void take_servo(int code, const GcodeWords& words) {
+    if (!pen_up_.m.empty()) {
+      if (code != pen_up_.m.front()) return;
+      bool is_up = true;
+      for (std::size_t i = 0; i < words.value.size(); ++i)
+        is_up = is_up && (!pen_up_.value[i] || words.value[i] == pen_up_.value[i]);
+      spindle_ = !is_up;
+      path_.has_spindle = true;
+      return;
+    }
+    constexpr double most_angle = 180.0;  // M300 with more is a tone
+    if ((code != 2800 && code != 3000) || !words['S'] || *words['S'] > most_angle) return;
+    if (servo_angles_.empty()) servo_ = code, servo_line_ = line_;
+    if (code == servo_) servo_angles_.insert(*words['S']);
   }
   bool pen_down() const { return spindle_ && power_ != 0.0; }
 
@@ -229,6 +261,10 @@ class GcodeReader {
 
   static constexpr double most = 1e12;  // mm
   const std::string& name_;
+  const GcodeWords pen_up_;  // none: not named
+  int servo_ = 0;            // the M word that moves a pen
+  std::size_t servo_line_ = 0;
+  std::set<double> servo_angles_;
   std::size_t line_ = 0;
   int motion_ = 0, plane_ = 17;
   double scale_ = 1.0;  // mm
@@ -241,15 +277,15 @@ class GcodeReader {
 
 }  // namespace
 
-SampleTable parse_gcode(std::string_view text, const std::string& name) {
+SampleTable parse_gcode(std::string_view text, const std::string& name, const std::string& pen_up) {
   text = without_byte_order_mark(text);
-  GcodeReader reader(name);
+  GcodeReader reader(name, pen_up);
   for (std::size_t number = 1; !text.empty(); ++number) reader.take_line(cut_line(text), number);
   return finite_samples(reader.table(), name);
 }
 
-SampleTable read_gcode(const std::filesystem::path& path) {
-  return parse_gcode(read_text_file(path, most_sample_text_bytes), path.string());
+SampleTable read_gcode(const std::filesystem::path& path, const std::string& pen_up) {
+  return parse_gcode(read_text_file(path, most_sample_text_bytes), path.string(), pen_up);
 }
 
 }  // namespace sandstroke

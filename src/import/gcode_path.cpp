@@ -28,7 +28,7 @@ std::vector<bool> pen_is_down(const GcodePath& path, bool by_z) {
   std::vector<bool> down;
   for (const GcodeSample& sample : path.samples)
     down.push_back((!path.has_spindle || sample.down) &&
-                   (!by_z || sample.position.z() <= std::max(lowest, 0.0)));
+                   (!by_z || sample.position.z() < 0.0 || sample.position.z() <= lowest));
   return down;
 }
 

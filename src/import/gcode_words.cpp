@@ -31,6 +31,12 @@ std::string bare_gcode(std::string_view line) {
   return for_the_machine ? "" : bare.substr(bare.starts_with('/') ? 1 : 0);
 }
 
+/// Messages, and names of files.
+bool is_followed_by_text(double m) {
+  const auto with_text = {16.0, 23.0, 28.0, 30.0, 32.0, 33.0, 117.0, 118.0, 928.0};
+  return std::find(with_text.begin(), with_text.end(), m) != with_text.end();
+}
+
 }  // namespace
 
 bool GcodeWords::has_any_of(std::string_view letters) const {
@@ -55,6 +61,7 @@ GcodeWords gcode_words(std::string_view line, const std::string& place) {
     rest.remove_prefix(static_cast<std::size_t>(end - rest.data()));
     if (letter == 'G' || letter == 'M') {
       const double code = std::clamp(number, 0.0, 1e6);
+      if (letter == 'M' && is_followed_by_text(code)) return words;
       (letter == 'G' ? words.g : words.m).push_back(static_cast<int>(std::lround(10.0 * code)));
     } else {
       words.value[static_cast<std::size_t>(letter - 'A')] = number;

@@ -29,8 +29,7 @@ TableSettings settings_of_second(const TableSettings& settings) {
 SampleTable read_samples(const fs::path& path, const TableSettings& settings,
                          const std::optional<Eigen::Matrix3d>& of_first = {}) {
   if (path != "-")
-    if (std::optional<SampleTable> samples = read_known_format(path, settings.part))
-      return std::move(*samples);
+    if (std::optional<SampleTable> samples = read_known_format(path, settings)) return std::move(*samples);
   InputFile file(path == "-" ? "/dev/stdin" : path, InputFile::Pipe::taken);
   TextTable table(samples_name(path), settings, of_first);
   for (std::string_view part = file.next_block(); !part.empty(); part = file.next_block()) table.read(part);

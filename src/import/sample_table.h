@@ -28,7 +28,8 @@ struct SampleTable {
   /// Above 0: no motion was sampled, but a path is told as straight lines from sample to sample. The tip may
   /// leave them by this, in the unit of the position.
   double line_tolerance = 0.0;
-  std::string description;  ///< for people: "semicolons, decimal commas, 7 columns, 12,040 rows"
+  std::vector<std::string> warnings;  ///< a sentence each
+  std::string description;            ///< for people: "semicolons, decimal commas, 7 columns, 12,040 rows"
 
   std::size_t size() const {
     std::size_t most = 0;

@@ -29,17 +29,18 @@ class StrokeMaker {
     Stroke& stroke = made_.stroke;
     made_.description = table_.description;
     made_.axes = layout_.axes;
+    made_.warnings = table_.warnings;
     take_positions();
     take_velocity();
     take_force();
     take_orientation();
     take_pressure();
-    if (!table_.lifts.empty())
-      for (const bool lifts : table_.lifts) stroke.contact.push_back(lifts ? pen_lifts : pen_down);
+    take_pen();
     take_times();
     EqualTimes rule = settings_.equal_times;
     if (by_speed_) rule = EqualTimes::drop;  // the tip did not move
     settle_equal_times(stroke, table_.lines, rule, name_);
+    tell_unused_columns();
     stroke.frame = settings_.frame;
     if (settings_.gap_threshold > 0.0)
       stroke.gap_threshold = settings_.gap_threshold;
@@ -58,6 +59,24 @@ class StrokeMaker {
     for (const ColumnChoice& choice : choices)
       texts.push_back((choice.sign < 0.0 ? "-" : "") + table_.columns[choice.column].name);
     return fmt::format("{}", fmt::join(texts, ", "));
+  }
+
+  void tell_unused_columns() {
+    std::vector<bool> used(table_.columns.size(), false);
+    for (const ColumnChoices* choices :
+         {&layout_.position, &layout_.velocity, &layout_.force, &layout_.orientation})
+      for (const ColumnChoice& choice : *choices) used[choice.column] = true;
+    for (const std::optional<std::size_t>& column : {layout_.time, layout_.pressure})
+      if (column) used[*column] = true;
+    constexpr std::size_t most = 8;
+    std::vector<std::string> left;
+    for (std::size_t i = 0; i < used.size(); ++i)
+      if (!used[i]) left.push_back(table_.columns[i].name);
+    if (left.empty()) return;
+    const std::size_t more = left.size() - std::min(left.size(), most);
+    left.resize(left.size() - more);
+    tell(fmt::format("not used: {}{}", fmt::join(left, ", "),
+                     more > 0 ? fmt::format(" and {} more", more) : ""));
   }
 
   /// The columns' own unit; empty: they have none, or not all the same.
@@ -93,6 +112,12 @@ class StrokeMaker {
     length_ = unit_of(Quantity::length, unit, settings_.pixel_size);
     made_.stroke.position = vectors(layout_.position, length_);
     tell(fmt::format("position {} ({})", names(layout_.position), unit));
+    if (unit == "px" && layout_.position[1].sign > 0.0)
+      made_.warnings.push_back(fmt::format(
+          "{}: on screens and tablets y counts downwards, and here it is taken upwards: if the shape is "
+          "upside down, set {} \"{},-{}\"",
+          name_, option_and_key("position"), table_.columns[layout_.position[0].column].name,
+          table_.columns[layout_.position[1].column].name));
     if (layout_.position.size() == 3 && layout_.axes.determinant() < 0.0)
       made_.warnings.push_back(fmt::format(
           "{}: the axes {} are left-handed, so the shape is mirrored; change one sign, or swap two", name_,
@@ -107,7 +132,12 @@ class StrokeMaker {
       throw_input_error("{}: the unit of {} is not known; give {}", name_, names(choices),
                         option_and_key(key));
     if (asked || !unit.empty() || known_unit(quantity, found)) return found;
-    tell(fmt::format("{} left out, without a unit ({})", names(choices), option_and_key(key)));
+    const std::string left_out =
+        fmt::format("{} left out, for its unit is not known; give {}", names(choices), option_and_key(key));
+    if (quantity == Quantity::force)
+      made_.warnings.push_back(fmt::format("{}: {}", name_, left_out));
+    else
+      tell(left_out);  // no run uses it
     return "";
   }
 
@@ -175,6 +205,19 @@ class StrokeMaker {
     tell(fmt::format("pressure {}", column.name));
   }
 
+  /// A pen that presses in some samples hovers in those without pressure.
+  void take_pen() {
+    Stroke& stroke = made_.stroke;
+    for (const bool lifts : table_.lifts) stroke.contact.push_back(lifts ? pen_lifts : pen_down);
+    const auto presses = [](double pressure) { return pressure > 0.0; };
+    const auto pressed = std::count_if(stroke.pressure.begin(), stroke.pressure.end(), presses);
+    if (pressed == 0 || pressed == std::ssize(stroke.pressure)) return;
+    stroke.contact.resize(table_.size(), pen_down);
+    for (std::size_t i = 0; i < stroke.contact.size(); ++i)
+      if (!presses(stroke.pressure[i])) stroke.contact[i] = pen_up;
+    tell(fmt::format("the pen is up in {} samples without pressure", std::ssize(stroke.pressure) - pressed));
+  }
+
   std::string place(std::size_t i) const {
     return table_.lines.empty() ? fmt::format("{}: sample {}", name_, i)
                                 : fmt::format("{}:{}", name_, table_.lines[i]);
@@ -229,6 +272,7 @@ class StrokeMaker {
       if (i > 0) way += (stroke.position[i] - stroke.position[i - 1]).norm();
       stroke.time.push_back(way / settings_.speed);
     }
+    stroke.tip_speed = settings_.speed;
     tell(fmt::format("{} m/s", settings_.speed));
   }
 

@@ -83,6 +83,9 @@ class TextTable::Rows {
     table_.description =
         fmt::format("{}{}, {} columns, {} rows", lines_.encoding().empty() ? "" : lines_.encoding() + ", ",
                     dialect_->text(), table_.columns.size(), grouped(table_.lines.size()));
+    if (!pen_up_.empty() && !lifted_)
+      table_.warnings.push_back(fmt::format("{}: no line begins with {}, so the pen never lifts; correct {}",
+                                            name_, settings_.pen_up, option_and_key("pen_up")));
     if (has_no_header_) table_.description += ", no header";
     return std::move(table_);
   }
@@ -103,6 +106,7 @@ class TextTable::Rows {
   void take_line(std::string_view line) {
     if (line.empty() || begins_with_one_of(line, skip_)) return;
     const bool lifts = begins_with_one_of(line, pen_up_);
+    lifted_ = lifted_ || lifts;
     if (!lifts && (line[0] == '#' || line[0] == '%')) {
       if (waiting_rows_ == 0 && !dialect_) comment_ = line.substr(1);
       return;
@@ -280,6 +284,7 @@ class TextTable::Rows {
   TableSettings settings_;
   std::optional<Eigen::Matrix3d> of_first_;
   std::vector<std::string> skip_, pen_up_;
+  bool lifted_ = false;  // a line began with one of pen_up_
   TextLines lines_;
   std::size_t line_ = 0;  // the number of the one that is taken
   std::vector<Line> waiting_;

@@ -1,5 +1,7 @@
 #include "io/stroke_file.h"
 
+#include <spdlog/spdlog.h>
+
 #include "core/error.h"
 #include "core/hash.h"
 #include "core/input_file.h"
@@ -87,6 +89,7 @@ std::string content_hash(const Stroke& stroke) {
   add(hash, stroke.force);
   add(hash, stroke.pressure);
   hash.add(&stroke.gap_threshold, sizeof stroke.gap_threshold);
+  if (stroke.tip_speed > 0.0) hash.add("speed", 5);
   if (stroke.follows_sand) hash.add("sand", 4);
   return hash.text();
 }
@@ -97,6 +100,7 @@ Stroke load_stroke(const std::filesystem::path& path, const ForceSettings& force
     if (is_recorded(path)) return read_stroke_file(path);
     if (path.extension() == ".toml") return trace_script(read_stroke_script(path), force);
     ImportedStroke imported = import_stroke(path, table);
+    spdlog::info("{}: {}", samples_name(path), imported.description);
     for (const std::string& warning : imported.warnings) warn_if_any(warning);
     imported.stroke.source = samples_name(path.filename());
     return std::move(imported.stroke);

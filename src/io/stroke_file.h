@@ -23,7 +23,8 @@ bool is_recorded(const std::filesystem::path& path);
 bool is_script(const std::filesystem::path& path);
 
 /// Reads a stroke of any form: recorded (HDF5), scripted (.toml; `force` says how deep a scripted force
-/// presses), or a table of samples ("-": standard input), whose warnings are logged. Error: io, input.
+/// presses), or a table of samples ("-": standard input), of which is logged what was found, and warnings.
+/// Error: io, input.
 Stroke load_stroke(const std::filesystem::path& path, const ForceSettings& force,
                    const TableSettings& table = {});
 

@@ -61,6 +61,7 @@ void write_stroke_attributes(Hdf5GridWriter& file, const Stroke& stroke) {
   file.attribute(stroke_group, "complete", stroke.complete);
   if (stroke.force_sign != ForceSign::not_said)
     file.attribute(stroke_group, "force_sign", force_sign_names[static_cast<std::size_t>(stroke.force_sign)]);
+  if (stroke.tip_speed > 0.0) file.attribute(stroke_group, "tip_speed", stroke.tip_speed);
   if (stroke.follows_sand) file.attribute(stroke_group, "follows_sand", true);
 }
 
@@ -68,6 +69,7 @@ void read_stroke_attributes(const Hdf5Reader& file, Stroke& stroke) {
   const auto has = [&](const char* attribute) { return file.has_attribute(stroke_group, attribute); };
   if (has("nominal_rate")) stroke.nominal_rate = file.number_attribute(stroke_group, "nominal_rate");
   if (has("gap_threshold")) stroke.gap_threshold = file.number_attribute(stroke_group, "gap_threshold");
+  if (has("tip_speed")) stroke.tip_speed = file.number_attribute(stroke_group, "tip_speed");
   if (has("source")) stroke.source = file.text_attribute(stroke_group, "source");
   if (has("frame")) stroke.frame = file.text_attribute(stroke_group, "frame");
   if (has("complete")) stroke.complete = file.number_attribute(stroke_group, "complete") != 0.0;

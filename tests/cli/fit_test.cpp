@@ -64,7 +64,7 @@ TEST(CliFit, RefusesInASentence) {
     EXPECT_EQ(result.exit_code, 2);
     return result.err;
   };
-  EXPECT_NE(refusal({"fit", "scene.toml"}).find("without forces"), std::string::npos);
+  EXPECT_NE(refusal({"fit", "scene.toml"}).find("has no forces"), std::string::npos);
   ASSERT_EQ(run_program({"run", "scene.toml", "-o", "a.h5"}, folder).exit_code, 0);
   write_felt_stroke(folder / "a.h5", folder / "felt.h5");
   EXPECT_NE(refusal({"fit", "scene.toml", "--stroke", "felt.h5", "--constants", "k_x"}).find("k_s, k_c, k_f"),

@@ -467,5 +467,26 @@ TEST(PlaceStroke, TurnsDeviceAxesToTheBeds) {
   EXPECT_EQ(placed.force[0], Eigen::Vector3d(0.0, -1.0, 0.0));
 }
 
+TEST(StrokePlacement, TimesMadeForASpeedAreThoseOfTheSizeOnTheBed) {
+  Stroke line;
+  line.time = {0.0, 1.0, 2.0};
+  line.position = {{0, 0, 0}, {0.5, 0, 0}, {1, 0, 0}};
+  line.velocity.assign(3, {0.5, 0, 0});
+  line.gap_threshold = 1.5;
+  StrokePlacement placement;
+  placement.fit = 0.8;
+  const Eigen::AlignedBox2d bed(Eigen::Vector2d(-0.1, -0.1), Eigen::Vector2d(0.1, 0.1));
+  EXPECT_EQ(place_stroke(line, placement, "recorded", bed).time, line.time);
+  line.tip_speed = 0.5;
+  const Stroke placed = place_stroke(line, placement, "made", bed);
+  EXPECT_NEAR(placed.duration(), 0.16 / 0.5, 1e-12);
+  EXPECT_NEAR(placed.velocity[1].x(), 0.5, 1e-12);
+  EXPECT_TRUE(placed.joined(0) && placed.joined(1));
+  placement.fit = 0.0;
+  placement.scale = 3.0;
+  placement.speed = 2.0;
+  EXPECT_NEAR(place_stroke(line, placement).duration(), 3.0 / 0.5 / 2.0, 1e-12);
+}
+
 }  // namespace
 }  // namespace sandstroke

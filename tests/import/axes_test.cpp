@@ -59,6 +59,34 @@ TEST(TablePressure, IsFoundByItsNameOrNamed) {
         << other;
 }
 
+TEST(TablePressure, APenWithoutPressureIsUp) {
+  const std::string text = "x_mm,y_mm,pressure\n1,2,0\n3,4,0.5\n5,6,0.7\n7,8,0\n";
+  const ImportedStroke hovering = with_position("x,y", text);
+  EXPECT_THAT(hovering.stroke.contact, ElementsAre(pen_up, pen_down, pen_down, pen_up));
+  EXPECT_THAT(hovering.description, HasSubstr("up in 2 samples without pressure"));
+  for (const char* same : {"x_mm,y_mm,pressure\n1,2,0\n3,4,0\n", "x_mm,y_mm,pressure\n1,2,3\n3,4,5\n"})
+    EXPECT_THAT(with_position("x,y", same).stroke.contact, ElementsAre()) << "it says nothing of the pen";
+}
+
+TEST(TableAxes, PixelsCountDownwards) {
+  TableSettings settings;
+  settings.rate = 10.0;
+  settings.pixel_size = 1e-3;
+  settings.position_unit = "px";
+  const std::string text = "x,y\n1,2\n3,4\n";
+  EXPECT_THAT(import_stroke_text(text, "in.csv", settings).warnings,
+              ElementsAre(HasSubstr("stroke.table.position) \"x,-y\"")));
+  settings.position = "x,-y";
+  EXPECT_THAT(import_stroke_text(text, "in.csv", settings).warnings, ElementsAre());
+}
+
+TEST(TableColumns, WhatIsNotUsedIsSaid) {
+  const ImportedStroke imported = with_position("x,y", "x_mm,y_mm,fx,fy,gripper,mode\n1,2,3,4,5,6\n");
+  EXPECT_THAT(imported.description, HasSubstr("not used: gripper, mode"));
+  EXPECT_THAT(imported.warnings, ElementsAre(HasSubstr("fx, fy left out, for its unit is not known")));
+  EXPECT_THAT(imported.stroke.force, ElementsAre());
+}
+
 TEST(TableAxes, LeftHandedOnesAreSaid) {
   const std::string named = "x_m,y_m,z_m\n1,2,3\n", numbered = "a,b,c\n1,2,3\n";
   for (const char* position : {"x,y,-z", "y,x,z", "-x,-y,-z", "x,z,y"})

@@ -146,6 +146,8 @@ TEST(Dialect, LinesWithOneOfSeveralWordsAreSkipped) {
           .stroke;
   EXPECT_THAT(stroke.position, ElementsAre(Vector3d(-1, 2, 0), Vector3d(3, 4, 0), Vector3d(4, 4, 0)));
   EXPECT_THAT(stroke.contact, ElementsAre(pen_lifts, pen_down, pen_lifts));
+  EXPECT_THAT(import_text("a\nb\nx,y\n1,2\n3,4\n", settings).warnings,
+              ElementsAre(HasSubstr("no line begins with BREAK,UP, so the pen never lifts")));
   EXPECT_THAT(refusal("x,y\n1,2\nSTARTED\n", settings), HasSubstr("no samples"));  // two were passed over
   settings.skip_lines = 0;
   EXPECT_THAT(refusal("x,y\n1,2\nSTARTED\n", settings), HasSubstr("in.csv:3: 1 fields instead of 2"));

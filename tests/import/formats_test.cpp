@@ -20,7 +20,9 @@ std::optional<SampleTable> sampled(const std::string& name, std::string_view con
                                    const std::string& part = "") {
   const TestFolder folder;
   put_text(folder / name, content);
-  return read_known_format(folder / name, part);
+  TableSettings settings;
+  settings.part = part;
+  return read_known_format(folder / name, settings);
 }
 
 std::string description(const std::string& name, std::string_view content) {

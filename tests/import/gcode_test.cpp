@@ -194,6 +194,34 @@ TEST(Gcode, ALaserDrawsWithPowerAndNotInG0) {
   EXPECT_THAT(table.lifts, ElementsAre(false, true, false, true, false, false));
 }
 
+TEST(Gcode, APenUpAtZeroIsUpWhereItDrawsBelow) {
+  const SampleTable table = gcode_table("G0 X0 Y0 Z0\nG1 Z-2\nX1\nG1 Z0\nX5\nZ-2\nX6\n");
+  EXPECT_THAT(gcode_values(table, "x"), ElementsAre(0, 1, 5, 6));
+  EXPECT_THAT(table.lifts, ElementsAre(false, true, false, false));
+}
+
+TEST(Gcode, APenOnAServoIsLiftedByTheWordThatIsNamed) {
+  const std::string drawn = "M280 P0 S90\nG1 X1 Y0\nM280 P0 S30\nX2\nX3\nM280 P0 S90\nX7\nM280 P0 S30\nX8\n";
+  const SampleTable table = parse_gcode(drawn, "path.gcode", "M280 S90");
+  EXPECT_THAT(gcode_values(table, "x"), ElementsAre(1, 2, 3, 7, 8));
+  EXPECT_THAT(table.lifts, ElementsAre(false, false, true, false, false));
+  EXPECT_THAT(gcode_complaint(drawn), AllOf(HasSubstr("path.gcode:1: M280 moves a pen, at S 30 and 90"),
+                                            HasSubstr("--pen-up (in a scene: stroke.table.pen_up)")));
+  EXPECT_THAT(gcode_complaint("M300 S30\nG1 X1 Y0\nM300 S50\nX2\n"), HasSubstr("M300 moves a pen"));
+  EXPECT_EQ(gcode_complaint("M300 S440\nG1 X1 Y0\nM300 S880\nX2\n"), "") << "tones";
+  EXPECT_THAT(complaint_of([&] { parse_gcode(drawn, "path.gcode", "S90"); }), HasSubstr("\"M280 S90\""));
+}
+
+TEST(Gcode, OnlyTheSpindlesWordsSetItsPower) {
+  const SampleTable table = gcode_table("M3 S9\nG1 X1 Y0\nM106 S0\nX2\nM84 S0\nX3\n");
+  EXPECT_THAT(gcode_values(table, "x"), ElementsAre(1, 2, 3));
+  EXPECT_THAT(table.lifts, ElementsAre(false, false, false));
+}
+
+TEST(Gcode, MessagesMoveNothing) {
+  EXPECT_THAT(gcode_values(gcode_table("G1 X1 Y0\nM117 X5 Y7\nX2\n"), "x"), ElementsAre(1, 2));
+}
+
 TEST(Gcode, SaysWhatIsWrong) {
   EXPECT_THAT(gcode_complaint("G1 X0 Y0\nG81 X1\n"),
               AllOf(HasSubstr("path.gcode:2"), HasSubstr("G81 is not read")));

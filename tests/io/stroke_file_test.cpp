@@ -115,6 +115,17 @@ TEST_F(StrokeFile, KeepsThatHeightsCountFromTheSand) {
   EXPECT_NE(content_hash(stroke), from_the_bed);
 }
 
+TEST_F(StrokeFile, KeepsTheSpeedThatItsTimesWereMadeFor) {
+  Stroke stroke;
+  stroke.time = {0.0};
+  stroke.position = {Eigen::Vector3d::Zero()};
+  const std::string recorded = content_hash(stroke);
+  stroke.tip_speed = 0.05;
+  write_stroke_file(folder_ / "made.h5", stroke);
+  EXPECT_EQ(read_stroke_file(folder_ / "made.h5").tip_speed, 0.05);
+  EXPECT_NE(content_hash(stroke), recorded);
+}
+
 TEST_F(StrokeFile, ItsContentHashIsOfWhatARunTakesFromIt) {
   const Stroke stroke = full_stroke();
   const auto changes_it = [&](const std::function<void(Stroke&)>& change) {
