@@ -329,7 +329,11 @@ void add_run_command(CLI::App& app, Command& chosen) {
       ->needs(shown);
   command->add_flag("--json", arguments->json, "Print the summary as one JSON object");
   command->footer(
-      "Example:  sandstroke run strokes/wscg/scene.toml -o wscg.h5 --png wscg.png\n"
+      "Examples\n"
+      "  sandstroke run strokes/wscg/scene.toml -o wscg.h5 --png wscg.png\n"
+      "  a tracing of your own, in any plane, 4 mm deep, in the middle of the bed:\n"
+      "    sandstroke run scene.toml --stroke tracing.csv --png tracing.png \\\n"
+      "        --set stroke.plane=fit stroke.depth=0.004 stroke.place=centre stroke.fit=0.8\n"
       "All scene keys with units and defaults:  sandstroke help scene");
   command->callback([arguments, &chosen] { chosen = [arguments] { return run(*arguments); }; });
 }

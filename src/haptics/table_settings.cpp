@@ -43,6 +43,8 @@ void describe_table(KeyVisitor& v, TableSettings& t) {
   t.frame = device == 1 ? "device" : "bed";
   v.text("merge", t.merge,
          "a second table in the same folder, with force or orientation (named as above) at its own times");
+  v.text("merge_part", t.merge_part,
+         "one of several recordings in the second file, which may be the first one");
   v.text("merge_time", t.merge_time, "column of the time in the second table");
   v.text("merge_time_unit", t.merge_time_unit, "unit of the time in the second table: s, ms, us or ns");
   v.number("merge_rate", t.merge_rate, not_negative, "Hz",

@@ -39,6 +39,7 @@ struct TableSettings {
   double gap_threshold = 0.0;  ///< s; 0: as in Stroke, and none with `speed`
   std::string frame = "bed";   ///< "bed" or "device"
   std::string merge;           ///< a second table, with force or orientation at its own times
+  std::string merge_part;      ///< `part` of the second table, which may be the same file
   std::string merge_time, merge_time_unit;
   double merge_rate = 0.0;   ///< Hz
   double merge_shift = 0.0;  ///< s, added to the times of the second table

@@ -15,6 +15,7 @@ namespace fs = std::filesystem;
 /// How the second table is read: force and orientation that are named are its own.
 TableSettings settings_of_second(const TableSettings& settings) {
   TableSettings second;
+  second.part = settings.merge_part;
   second.time = settings.merge_time;
   second.time_unit = settings.merge_time_unit;
   second.rate = settings.merge_rate;

@@ -145,11 +145,12 @@ std::vector<MatVariable> chosen(std::vector<MatVariable> variables, const std::s
     }
   }
   if (fit.empty())
-    throw_input_error("{}: has no variable '{}'; --part (in a scene: stroke.table.part) takes one of: {}",
+    throw_input_error("{}: has no variable '{}'; stroke.table.part (stroke convert: --part) takes one of: {}",
                       name, part, listed(variables));
   if (lengths.size() == 1) return fit;
   throw_input_error(
-      "{}: its variables differ in length; name one by --part (in a scene: stroke.table.part), and those as "
+      "{}: its variables differ in length; name one by stroke.table.part (stroke convert: --part), and those "
+      "as "
       "long are taken with it: {}",
       name, listed(fit));
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <numeric>
 
 #include "core/error.h"
 #include "core/input_file.h"
@@ -119,6 +120,27 @@ std::vector<BagTopic> Ros2Bag::topics() {
   return topics;
 }
 
+/// Fills the first column with the time since the first stamp, and brings the rows into its order: headers
+/// may come in another order than their messages.
+void set_stamps(SampleTable& table, const std::vector<std::int64_t>& stamps) {
+  std::vector<std::size_t> order(stamps.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return stamps[a] < stamps[b]; });
+  for (SampleColumn& column : table.columns) {
+    std::vector<double> ordered;
+    for (const std::size_t row : order)
+      if (!column.values.empty()) ordered.push_back(column.values[row]);
+    column.values = std::move(ordered);
+  }
+  SampleColumn& time = table.columns.front();
+  time.origin = stamps[order.front()];
+  for (const std::size_t row : order) {
+    std::int64_t since = 0;  // of a damaged file they may be further apart than a number holds
+    const bool beyond = __builtin_sub_overflow(stamps[row], *time.origin, &since);
+    time.values.push_back(beyond ? 0x1p63 : static_cast<double>(since));
+  }
+}
+
 SampleTable Ros2Bag::table(const BagTopic& topic) {
   SampleTable table;
   table.columns = ros_message_columns(topic.type);
@@ -151,11 +173,8 @@ SampleTable Ros2Bag::table(const BagTopic& topic) {
     throw_input_error("{}: no message of {} has finite numbers; name another topic", name_, topic.name);
   const bool has_stamps =
       std::any_of(stamps.begin(), stamps.end(), [](std::int64_t stamp) { return stamp != 0; });
-  SampleColumn time{"time", "s", {}};
-  for (const std::int64_t stamp : has_stamps ? stamps : received)
-    time.values.push_back(static_cast<double>(stamp / 1'000'000'000) +
-                          1e-9 * static_cast<double>(stamp % 1'000'000'000));
-  table.columns.insert(table.columns.begin(), std::move(time));
+  table.columns.insert(table.columns.begin(), {"time", "ns", {}});
+  set_stamps(table, has_stamps ? stamps : received);
   table.description = fmt::format("ROS 2 bag: {} messages of {} ({}), time by {}{}", stamps.size(),
                                   topic.name, topic.type, has_stamps ? "their headers" : "the bag",
                                   left_out ? fmt::format(", {} that are not finite left out", left_out) : "");
@@ -183,7 +202,7 @@ SampleTable read_ros2_bag(const fs::path& path, const std::string& topic) {
         path.string(), all.empty() ? "none" : fmt::format("{}", fmt::join(all, ", ")));
   }
   const std::string choose = fmt::format(
-      "name one of its topics by --part (in a scene: stroke.table.part): {}", fmt::join(readable, ", "));
+      "name one of its topics by stroke.table.part (stroke convert: --part): {}", fmt::join(readable, ", "));
   if (topic.empty()) throw_input_error("{}: several topics could be meant; {}", path.string(), choose);
   throw_input_error("{}: topic '{}' cannot be read; {}", path.string(), topic, choose);
 }

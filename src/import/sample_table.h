@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,7 +14,8 @@ struct SampleColumn {
   std::string name;            ///< as in the file; "1", "2", ... where columns have no names
   std::string unit;            ///< as the file says it ("mm", "N"); empty: it does not, or in the name
   std::vector<double> values;  ///< one per sample, finite; empty: nobody asked for it
-  std::int64_t origin = 0;     ///< was taken off all values: of a clock's stamps, which no double holds
+  /// Was taken off all values: of a clock's stamps, which no double holds.
+  std::optional<std::int64_t> origin = {};
 };
 
 /// Instead of a unit of a column of times: it was dates, and has ns.

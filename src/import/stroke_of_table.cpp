@@ -37,6 +37,7 @@ class StrokeMaker {
     take_pressure();
     take_pen();
     take_times();
+    if (!asks_.empty()) throw_input_error("{}: {}", name_, fmt::join(asks_, "; and "));
     EqualTimes rule = settings_.equal_times;
     if (by_speed_) rule = EqualTimes::drop;  // the tip did not move
     settle_equal_times(stroke, table_.lines, rule, name_);
@@ -88,6 +89,14 @@ class StrokeMaker {
     return same ? unit : "";
   }
 
+  std::string unit_not_known(const ColumnChoices& choices) const {
+    std::vector<std::string> units;
+    for (const ColumnChoice& choice : choices) units.push_back(table_.columns[choice.column].unit);
+    const bool none =
+        std::all_of(units.begin(), units.end(), [](const std::string& unit) { return unit.empty(); });
+    return none ? "not known" : fmt::format("not one ({})", fmt::join(units, ", "));
+  }
+
   std::vector<Vector3d> vectors(const ColumnChoices& choices, const Unit& unit) const {
     std::vector<Vector3d> rows(table_.size(), Vector3d::Zero());
     for (std::size_t k = 0; k < choices.size(); ++k) {
@@ -105,10 +114,13 @@ class StrokeMaker {
     }
     std::string unit = settings_.position_unit;
     if (unit.empty()) unit = own_unit(layout_.position);
-    if (unit.empty() || (unit == "radius" && settings_.position_unit.empty()))
-      throw_input_error("{}: the unit of {} is {}; give {}: {}", name_, names(layout_.position),
-                        unit.empty() ? "not known" : "the pattern's radius", option_and_key("position_unit"),
-                        unit.empty() ? "m, cm, mm, um, in, px or metres" : "its metres");
+    if (unit.empty() || (unit == "radius" && settings_.position_unit.empty())) {
+      asks_.push_back(fmt::format("the unit of {} is {}; give {}: {}", names(layout_.position),
+                                  unit.empty() ? unit_not_known(layout_.position) : "the pattern's radius",
+                                  option_and_key("position_unit"),
+                                  unit.empty() ? "m, cm, mm, um, in, px or metres" : "its metres"));
+      unit = "m";
+    }
     length_ = unit_of(Quantity::length, unit, settings_.pixel_size);
     made_.stroke.position = vectors(layout_.position, length_);
     tell(fmt::format("position {} ({})", names(layout_.position), unit));
@@ -238,28 +250,35 @@ class StrokeMaker {
       stroke.nominal_rate = rate;
       tell(fmt::format("{} Hz", rate));
     } else {
-      throw_input_error(
-          "{}: the times are unknown, for no column is named time or t; give {}, {} in Hz, or {} in m/s",
-          name_, option_and_key("time"), option_and_key("rate"), option_and_key("speed"));
+      asks_.push_back(fmt::format(
+          "the times are unknown, for no column is named time or t; give {}, {} in Hz, or {} in m/s",
+          option_and_key("time"), option_and_key("rate"), option_and_key("speed")));
     }
   }
 
   void take_stamps(const SampleColumn& column) {
-    const auto digits = std::to_string(column.origin).size();
+    const auto digits = std::to_string(column.origin.value_or(0)).size();
     std::string unit = settings_.time_unit;
     if (unit.empty()) unit = column.unit;
     if (column.unit == iso_unit) unit = "ns";
-    if (unit.empty() && digits >= 10 && digits % 3 == 1)  // clocks of today, since 1970
+    if (unit.empty() && digits >= 10 && digits % 3 == 1) {  // clocks of today, since 1970
       unit = digits == 10 ? "s" : digits == 13 ? "ms" : digits == 16 ? "us" : "ns";
-    if (unit.empty())
-      throw_input_error("{}: the unit of the times '{}' is not known; give {}: s, ms, us or ns", name_,
-                        column.name, option_and_key("time_unit"));
+      // The time since a computer was started has so many digits, too: in a smaller unit.
+      constexpr double most_spacing = 10.0;  // s, of samples
+      const double span = unit_of(Quantity::time, unit).to_si(column.values.back() - column.values.front());
+      if (span > most_spacing * static_cast<double>(column.values.size())) unit.clear();
+    }
+    if (unit.empty()) {
+      asks_.push_back(fmt::format("the unit of the times '{}' is not known; give {}: s, ms, us or ns",
+                                  column.name, option_and_key("time_unit")));
+      return;
+    }
     const Unit of_time = unit_of(Quantity::time, unit);
     for (const double stamp : column.values) made_.stroke.time.push_back(of_time.to_si(stamp));
-    if (column.origin != 0) {
+    if (column.origin) {
       const auto per_unit = static_cast<std::int64_t>(of_time.to_si(1e9));
       std::int64_t clock = 0;
-      if (!__builtin_mul_overflow(column.origin, per_unit, &clock)) made_.clock = clock;
+      if (!__builtin_mul_overflow(*column.origin, per_unit, &clock)) made_.clock = clock;
     }
     tell(fmt::format("time {} ({})", column.name, column.unit == iso_unit ? iso_unit : unit));
   }
@@ -281,7 +300,8 @@ class StrokeMaker {
   const std::string& name_;
   TableLayout layout_;
   ImportedStroke made_;
-  Unit length_;  // of the position
+  std::vector<std::string> asks_;  // what has to be given
+  Unit length_;                    // of the position
   bool by_speed_ = false;
 };
 

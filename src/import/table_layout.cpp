@@ -186,7 +186,7 @@ std::string option_of(const std::string& key) {
 }
 
 std::string option_and_key(const std::string& key) {
-  return fmt::format("{} (in a scene: stroke.table.{})", option_of(key), key);
+  return fmt::format("stroke.table.{} (stroke convert: {})", key, option_of(key));
 }
 
 TableLayout table_layout(const std::vector<SampleColumn>& columns, const TableSettings& settings,

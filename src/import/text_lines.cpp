@@ -16,10 +16,14 @@ void TextLines::end(const Take& take) {
 }
 
 void TextLines::read_text(std::string_view part, const Take& take) {
-  for (std::size_t end; (end = part.find('\n')) != std::string_view::npos; part.remove_prefix(end + 1)) {
+  for (std::size_t end; (end = part.find_first_of("\r\n")) != std::string_view::npos;
+       part.remove_prefix(end + 1)) {
     extend_line(part.substr(0, end));
-    end_line(take);
+    const bool ended = after_return_ && end == 0 && part[0] == '\n' && rest_.empty();
+    after_return_ = part[end] == '\r';
+    if (!ended) end_line(take);
   }
+  if (!part.empty()) after_return_ = false;
   extend_line(part);
 }
 

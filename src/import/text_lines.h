@@ -33,7 +33,8 @@ class TextLines {
   std::string name_;
   TextDecoder decoder_;
   std::size_t line_ = 0;  // the last whole one
-  std::string rest_;      // of the text: a line that has not ended
+  bool after_return_ = false;
+  std::string rest_;  // of the text: a line that has not ended
 };
 
 }  // namespace sandstroke

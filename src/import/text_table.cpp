@@ -143,6 +143,7 @@ class TextTable::Rows {
       throw_input_error("{}: is empty; give a table with one row per sample, and a header above", name_);
     dialect_ = find_dialect(lines, settings_, fields_of_most_);
     if (!dialect_) refuse(lines);
+    refuse_thousands(lines);
     const std::size_t last = line_;
     for (const Line& line : std::exchange(waiting_, {})) {
       line_ = line.number;
@@ -163,6 +164,26 @@ class TextTable::Rows {
         "table "
         "with one row per sample (--skip-lines and --skip pass over other lines)",
         name_, second->number, excerpt(second->text));
+  }
+
+  /// "1,000" in quotes, between commas, is a thousand or 1.
+  void refuse_thousands(const std::vector<std::string>& lines) {
+    if (settings_.decimal != DecimalMark::found || dialect_->decimal != DecimalMark::comma ||
+        dialect_->separator != Separator::comma)
+      return;
+    std::string first;
+    for (const std::string& line : lines)
+      for (const std::string& field : splitter_.split(line, Separator::comma)) {
+        const std::size_t comma = field.find(',');
+        if (comma == std::string::npos || !field_number(field, DecimalMark::comma)) continue;
+        if (field.size() != comma + 4) return;  // not three digits after it
+        if (first.empty()) first = field;
+      }
+    if (!first.empty())
+      throw_input_error(
+          "{}: \"{}\" may be thousands or a decimal; give {}, or save the table without thousands "
+          "separators",
+          name_, first, option_and_key("decimal"));
   }
 
   void take_row(const std::vector<std::string>& fields) {

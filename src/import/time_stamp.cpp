@@ -53,8 +53,9 @@ std::optional<std::int64_t> iso_time(std::string_view text) {
   const int year = whole<int>(std::string_view(plain).substr(0, 4)).value_or(0);
   if (year < 1700 || year > 2250) return std::nullopt;  // ns of others do not fit
   using Time = date::sys_time<Nanoseconds>;
-  const bool has_offset = plain.find_first_of("+-", 11) != std::string::npos;
-  return parsed<Time>(plain, has_offset ? "%FT%T%Ez" : "%FT%T");
+  const std::size_t zone = plain.find_first_of("+-", 11);
+  if (zone == std::string::npos) return parsed<Time>(plain, "%FT%T");
+  return parsed<Time>(plain, plain.find(':', zone) == std::string::npos ? "%FT%T%z" : "%FT%T%Ez");
 }
 
 std::optional<double> TimeStamps::read(std::string_view text) {

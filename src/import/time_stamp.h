@@ -18,7 +18,10 @@ class TimeStamps {
   /// Nothing: it is none, or not of the kind of the first.
   std::optional<double> read(std::string_view text);
 
-  std::int64_t origin() const { return origin_; }  ///< was taken off, in the column's unit
+  /// Was taken off, in the column's unit; none: these are no clock's stamps.
+  std::optional<std::int64_t> origin() const {
+    return kind_ == Kind::clock || kind_ == Kind::iso ? std::optional(origin_) : std::nullopt;
+  }
   bool iso() const { return kind_ == Kind::iso; }  ///< the unit is ns
 
  private:

@@ -46,7 +46,8 @@ Unit unit_of(Quantity quantity, const std::string& name, double pixel_size) {
   if (quantity == Quantity::length && name == "px") {
     if (!(pixel_size > 0.0))
       throw_input_error(
-          "unit px needs the size of a pixel in m; give --pixel-size (in a scene: stroke.table.pixel_size)");
+          "unit px needs the size of a pixel in m; give stroke.table.pixel_size (stroke convert: "
+          "--pixel-size)");
     return {pixel_size, 1.0};
   }
   if (const auto unit = known_unit(quantity, name)) return *unit;

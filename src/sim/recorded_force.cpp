@@ -15,6 +15,7 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double most_lag = 0.5;                  // s
+constexpr std::ptrdiff_t most_lags = 1'000;       // on each side, then those around the best
 constexpr std::ptrdiff_t most_searched = 20'000;  // ticks, at each lag
 
 /// Sums over ticks with a run's force a and a recorded one b.
@@ -68,16 +69,21 @@ void correlate(const std::vector<ForcePair>& ticks, ForceAgreement& agreement) {
       static_cast<std::ptrdiff_t>(std::min(most_lag / tick_seconds, static_cast<double>(count)));
   const std::ptrdiff_t stride = 1 + count / most_searched;
   std::ptrdiff_t best = 0;
-  for (std::ptrdiff_t k = 0; k <= 2 * most; ++k) {
-    const std::ptrdiff_t lag =
-        (k % 2 == 0 ? 1 : -1) * ((k + 1) / 2);  // 0, -1, 1, -2, ...: of equals the least
-    const Moments shifted = moments(ticks, lag, stride, tick_seconds);
-    if (2.0 * shifted.ticks * static_cast<double>(stride) < static_cast<double>(agreement.ticks)) continue;
-    if (shifted.correlation() <= agreement.best_correlation || std::isnan(shifted.correlation())) continue;
-    agreement.best_correlation = shifted.correlation();
-    best = lag;
-  }
-  if (std::abs(best) == most) {  // it still grows there: that is no maximum
+  /// Lags around one, in steps: of equals the least.
+  const auto search = [&](std::ptrdiff_t middle, std::ptrdiff_t steps, std::ptrdiff_t step) {
+    for (std::ptrdiff_t k = 0; k <= 2 * steps; ++k) {
+      const std::ptrdiff_t lag = middle + (k % 2 == 0 ? step : -step) * ((k + 1) / 2);  // 0, -1, 1, -2, ...
+      const Moments shifted = moments(ticks, lag, stride, tick_seconds);
+      if (2.0 * shifted.ticks * static_cast<double>(stride) < static_cast<double>(agreement.ticks)) continue;
+      if (shifted.correlation() <= agreement.best_correlation || std::isnan(shifted.correlation())) continue;
+      agreement.best_correlation = shifted.correlation();
+      best = lag;
+    }
+  };
+  const std::ptrdiff_t coarse = 1 + most / most_lags;
+  search(0, most / coarse, coarse);
+  if (coarse > 1) search(best, coarse - 1, 1);
+  if (std::abs(best) > most - coarse) {  // it still grows there: that is no maximum
     agreement.best_correlation = agreement.correlation;
     best = 0;
   }

@@ -106,7 +106,7 @@ void describe_stroke(KeyVisitor& v, StrokeSettings& stroke) {
            "axis of the stroke that points up from its plane, about; auto: the side to which the pen lifts, "
            "or the nearest positive axis");
   v.number("fit", p.fit, not_negative, "", "share of the bed that it fills; 0: it keeps its size");
-  if (p.fit == 0.0) v.number("scale", p.scale, positive, "", "scale of the positions");
+  v.number("scale", p.scale, positive, "", "scale of the positions, where fit is 0");
   choose(v, "place", p.place, {"keep", "centre"},
          "keep its place, or bring the middle of what it draws onto the middle of the bed");
   v.number("rotate_z", p.rotate_z, degrees, "deg", "turn about z, from +x towards +y");

@@ -49,7 +49,7 @@ std::string untouched_text(const Scene& scene, const RunResult& result) {
   return fmt::format(
       "the tool never touched the sand: it stayed {:.4g} mm above it (nearest at {:.3f} s); set stroke.depth "
       "above {:.4g} m (it is {:.4g} m), or lower stroke.offset; {}",
-      1e3 * away, result.nearest_time, depth + away / scene.device.scale, depth, tracing);
+      1e3 * std::abs(away), result.nearest_time, depth + away / scene.device.scale, depth, tracing);
 }
 
 std::string depth_warning(const Scene& scene, const HeightField& bed, const Stroke& stroke,

@@ -75,7 +75,7 @@ TEST(TableAxes, PixelsCountDownwards) {
   settings.position_unit = "px";
   const std::string text = "x,y\n1,2\n3,4\n";
   EXPECT_THAT(import_stroke_text(text, "in.csv", settings).warnings,
-              ElementsAre(HasSubstr("stroke.table.position) \"x,-y\"")));
+              ElementsAre(HasSubstr("--position) \"x,-y\"")));
   settings.position = "x,-y";
   EXPECT_THAT(import_stroke_text(text, "in.csv", settings).warnings, ElementsAre());
 }
@@ -106,7 +106,8 @@ TEST(TableAxes, WhoseForceItIsIsAskedForOnce) {
   settings.rate = 1.0;
   const std::string text = "x_m,y_m,fx_N,fy_N,fz_N\n1,2,3,4,5\n";
   const ImportedStroke unsaid = import_stroke_text(text, "in.csv", settings);
-  EXPECT_THAT(unsaid.warnings, ElementsAre(HasSubstr("--force-sign (in a scene: stroke.table.force_sign)")));
+  EXPECT_THAT(unsaid.warnings,
+              ElementsAre(HasSubstr("stroke.table.force_sign (stroke convert: --force-sign)")));
   EXPECT_EQ(unsaid.stroke.force_sign, ForceSign::not_said);
   settings.force_sign = ForceSign::by_hand;
   const ImportedStroke said = import_stroke_text(text, "in.csv", settings);

@@ -114,16 +114,16 @@ TEST(Dialect, WhatIsNamedIsNotLookedFor) {
 
 TEST(Dialect, ColumnsWithoutNamesHaveNumbers) {
   TableSettings settings;
-  EXPECT_THAT(
-      refusal("0\t1\t2\t3\n1\t1\t2\t4\n"),
-      AllOf(HasSubstr("in.csv:1 (no header"), HasSubstr("--position (in a scene: stroke.table.position)")));
+  EXPECT_THAT(refusal("0\t1\t2\t3\n1\t1\t2\t4\n"),
+              AllOf(HasSubstr("in.csv:1 (no header"),
+                    HasSubstr("stroke.table.position (stroke convert: --position)")));
   settings.position = "2,3,4";
   settings.time = "1";
   EXPECT_THAT(refusal("0\t1\t2\t3\n", settings),
-              HasSubstr("--position-unit (in a scene: stroke.table.position_unit)"));
+              HasSubstr("stroke.table.position_unit (stroke convert: --position-unit)"));
   settings.position_unit = "cm";
   EXPECT_THAT(refusal("0\t1\t2\t3\n", settings),
-              HasSubstr("--time-unit (in a scene: stroke.table.time_unit)"));
+              HasSubstr("stroke.table.time_unit (stroke convert: --time-unit)"));
   settings.time_unit = "us";
   const ImportedStroke imported = import_text("0\t1\t2\t3\n50\t1\t2\t4\n", settings);
   EXPECT_THAT(imported.stroke.time, ElementsAre(0.0, 0.00005));
@@ -163,13 +163,42 @@ TEST(Dialect, WhatIsNoTableIsSaidWithItsLine) {
   EXPECT_THAT(refusal("x,y,z\n"), HasSubstr("no samples"));
   EXPECT_THAT(refusal("x,y\n1,2\n"), HasSubstr("unit of x, y is not known"));
   EXPECT_THAT(refusal("x_m,y_m\n1,2\n"),
-              AllOf(HasSubstr("--time (in"), HasSubstr("--rate (in"), HasSubstr("--speed (in")));
+              AllOf(HasSubstr("--time)"), HasSubstr("--rate)"), HasSubstr("--speed)")));
   EXPECT_THAT(refusal("a_x,a_y,u_x,u_y,b_x,b_y\n1,2,3,4,5,6\n"), HasSubstr("'b_x' and 'u_x' may both be"));
   EXPECT_THAT(refusal(std::string("x,y\n1,2\0\n", 9)), HasSubstr("in.csv:2: holds a zero byte"));
   EXPECT_THAT(refusal("\xFF\xFEx"), HasSubstr("ends within a character"));
   TableSettings settings;
   settings.encoding = "ASCII";
   EXPECT_THAT(refusal("x,\xE4\n1,2\n", settings), HasSubstr("is not text in ASCII"));
+}
+
+TEST(Dialect, LinesMayEndAsOnOldMacs) {
+  TableSettings settings;
+  settings.rate = 10.0;
+  for (const char* text : {"x_m,y_m\r1,2\r3,4\r", "x_m,y_m\r\n1,2\r\n3,4"}) {
+    EXPECT_EQ(import_text(text, settings).stroke.size(), 2u);
+  }
+  EXPECT_THAT(refusal("x_m,y_m\r\n1,2\r\n\r\n3,a\r\n", settings), HasSubstr("in.csv:4"));
+  EXPECT_THAT(refusal("x_m,y_m\r1,2\r\r3,a\r", settings), HasSubstr("in.csv:4"));
+}
+
+TEST(Dialect, ThousandsAreNotTakenForDecimals) {
+  TableSettings settings;
+  settings.rate = 10.0;
+  settings.position_unit = "mm";
+  EXPECT_THAT(refusal("x,y\n\"1,000\",\"12,500\"\n999,\"1,001\"\n", settings),
+              HasSubstr("\"1,000\" may be thousands or a decimal"));
+  const std::string decimals = "x,y\n\"1,000\",\"12,500\"\n999,\"1,25\"\n";
+  EXPECT_EQ(import_text(decimals, settings).stroke.position[1], Vector3d(0.999, 1.25e-3, 0));
+  settings.decimal = DecimalMark::comma;
+  EXPECT_EQ(import_text("x,y\n\"1,000\",\"12,500\"\n", settings).stroke.position[0],
+            Vector3d(1e-3, 0.0125, 0));
+}
+
+TEST(Dialect, WhatIsMissingIsAskedForInOneSentence) {
+  const std::string said = refusal("x,y\n1,2\n", {});
+  EXPECT_THAT(said, AllOf(HasSubstr("unit of x, y is not known"), HasSubstr("; and the times are unknown")));
+  EXPECT_THAT(refusal("x_m,y_mm,t_s\n1,2,0\n", {}), HasSubstr("unit of x_m, y_mm is not one (m, mm)"));
 }
 
 TEST(TableUnits, WholeNumbersBecomeTheNearestDouble) {

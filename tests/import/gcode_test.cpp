@@ -206,7 +206,7 @@ TEST(Gcode, APenOnAServoIsLiftedByTheWordThatIsNamed) {
   EXPECT_THAT(gcode_values(table, "x"), ElementsAre(1, 2, 3, 7, 8));
   EXPECT_THAT(table.lifts, ElementsAre(false, false, true, false, false));
   EXPECT_THAT(gcode_complaint(drawn), AllOf(HasSubstr("path.gcode:1: M280 moves a pen, at S 30 and 90"),
-                                            HasSubstr("--pen-up (in a scene: stroke.table.pen_up)")));
+                                            HasSubstr("stroke.table.pen_up (stroke convert: --pen-up)")));
   EXPECT_THAT(gcode_complaint("M300 S30\nG1 X1 Y0\nM300 S50\nX2\n"), HasSubstr("M300 moves a pen"));
   EXPECT_EQ(gcode_complaint("M300 S440\nG1 X1 Y0\nM300 S880\nX2\n"), "") << "tones";
   EXPECT_THAT(complaint_of([&] { parse_gcode(drawn, "path.gcode", "S90"); }), HasSubstr("\"M280 S90\""));

@@ -43,6 +43,16 @@ TEST(TableTimes, StampsOf19DigitsKeepTheirDifferences) {
   EXPECT_THAT(timed({"1700000000", "1700000500"}, "t [us]").stroke.time, ElementsAre(0.0, 5e-4));
 }
 
+TEST(TableTimes, ClocksThatBeganWithTheComputerAreAskedFor) {
+  std::string said;
+  try {  // ns, 80 minutes after the start, at 1 kHz: as ms each sample would last a quarter of an hour
+    timed({"4800000000000", "4800001000000", "4800002000000"});
+  } catch (const Error& failure) {
+    said = failure.what();
+  }
+  EXPECT_THAT(said, HasSubstr("the unit of the times 't' is not known"));
+}
+
 TEST(TableTimes, ShortStampsStayAsTheyAre) {
   const ImportedStroke plain = timed({"0.5", "0.75"}, "t_s");
   EXPECT_THAT(plain.stroke.time, ElementsAre(0.5, 0.75));
@@ -65,6 +75,8 @@ TEST(TableTimes, DatesAreTakenRelativeToTheFirst) {
 TEST(TableTimes, IsoTimesAreReadWhole) {
   EXPECT_EQ(iso_time("1970-01-01T00:00:00Z"), 0);
   EXPECT_EQ(iso_time("1970-01-01T01:00:00+01:00"), 0);
+  EXPECT_EQ(iso_time("1970-01-01T01:00:00+0100"), 0);
+  EXPECT_EQ(iso_time("1969-12-31T22:30:00-01:30"), 0);
   EXPECT_EQ(iso_time("00:00:01"), 1'000'000'000);
   for (const char* bad :
        {"", "12", "1970-01-01", "1970-13-01T00:00:00", "1970-01-01T00:00:00 1", "1970-01-01T25:00:00",

@@ -140,6 +140,7 @@ const std::vector<KeyCase> cases = {
     {"stroke.table.gap_threshold=0.91", [](S s) { return s.stroke->table->gap_threshold == 0.91; }, stroke},
     {"stroke.table.frame=device", [](S s) { return s.stroke->table->frame == "device"; }, stroke},
     {"stroke.table.merge=force.csv", [](S s) { return s.stroke->table->merge == "force.csv"; }, stroke},
+    {"stroke.table.merge_part=/wrench", [](S s) { return s.stroke->table->merge_part == "/wrench"; }, stroke},
     {"stroke.table.merge_time=h", [](S s) { return s.stroke->table->merge_time == "h"; }, stroke},
     {"stroke.table.merge_time_unit=us", [](S s) { return s.stroke->table->merge_time_unit == "us"; }, stroke},
     {"stroke.table.merge_rate=92", [](S s) { return s.stroke->table->merge_rate == 92.0; }, stroke},
