@@ -91,6 +91,18 @@ std::vector<Vector3d> drawn_points(const Stroke& stroke) {
   return points;
 }
 
+std::string off_plane_warning(const Stroke& stroke, const std::string& name) {
+  constexpr double far = 3.5;  // rms: a wave reaches 1.4, a slope 1.7, noise of a thousand samples 3.3
+  const LeastSquaresPlane plane = plane_through(drawn_points(stroke));
+  if (plane.is_line() || !(plane.largest > far * plane.rms() && plane.largest > 0.01 * plane.widths[2]))
+    return "";
+  return fmt::format(
+      "{}: the plane is pulled by samples up to {:.3g} mm off it ({:.3g} mm rms), as an approach or a lift "
+      "have; "
+      "cut them off with stroke.start and stroke.stop (s), or give pen states",
+      name, 1e3 * plane.largest, 1e3 * plane.rms());
+}
+
 UpNormal up_normal(const Stroke& stroke, const LeastSquaresPlane& plane, StrokeUp up,
                    const std::string& name) {
   if (up != StrokeUp::automatic) {

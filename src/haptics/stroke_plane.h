@@ -26,6 +26,10 @@ LeastSquaresPlane plane_through(const std::vector<Eigen::Vector3d>& points);
 /// The positions at which the pen is down.
 std::vector<Eigen::Vector3d> drawn_points(const Stroke& stroke);
 
+/// A sentence where a few drawn samples lie far off the plane through all, as an approach or a lift do that
+/// no pen state tells: they tilt it, and are no part of the tracing. Empty: not so. `name` is the stroke's.
+std::string off_plane_warning(const Stroke& stroke, const std::string& name);
+
 /// Which way is up from a traced plane: `automatic`, or an axis of the stroke's frame.
 enum class StrokeUp { automatic, x, y, z, minus_x, minus_y, minus_z };
 inline const std::vector<std::string> stroke_up_names = {"auto", "x", "y", "z", "-x", "-y", "-z"};

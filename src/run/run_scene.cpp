@@ -15,6 +15,8 @@
 #include "core/machine.h"
 #include "core/output_file.h"
 #include "haptics/stroke_coverage.h"
+#include "haptics/stroke_plane.h"
+#include "haptics/stroke_quality.h"
 #include "import/import_stroke.h"
 #include "io/run_writer.h"
 #include "io/scene_toml.h"
@@ -60,6 +62,10 @@ Stroke placed_stroke(const Scene& scene, const std::filesystem::path& path, std:
   hash = is_script(path) ? file_hash(path) : content_hash(loaded);
   Stroke placed = place_on_bed(loaded, scene, name);
   warn_if_any(coverage_warning(placed, name));
+  if (scene.stroke->placement.plane != StrokePlane::keep) warn_if_any(off_plane_warning(loaded, name));
+  if (!is_script(path))
+    for (const std::string& warning : quality_warnings(quality_of(placed)))
+      spdlog::warn("{}: {}", name, warning);
   return placed;
 }
 

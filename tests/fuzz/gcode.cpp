@@ -1,4 +1,4 @@
-// G-code of a sand table or a plotter.
+// G-code of a sand table or a plotter: a line with the word that lifts its pen, and the program.
 #include "import/gcode.h"
 
 #include "samples.h"
@@ -6,6 +6,10 @@
 using namespace sandstroke;
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  try_input([&] { require_sound(parse_gcode(as_text(data, size), "path.gcode")); });
+  try_input([&] {
+    std::string_view text = as_text(data, size);
+    const std::string pen_up(take_line(text));
+    require_path(parse_gcode(text, "path.gcode", pen_up));
+  });
   return 0;
 }

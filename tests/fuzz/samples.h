@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "fuzz.h"
-#include "import/sample_table.h"
+#include "import/stroke_of_table.h"
 
 namespace sandstroke {
 
@@ -16,6 +16,17 @@ inline void require_sound(const SampleTable& table) {
   }
   require(table.lines.empty() || table.lines.size() == table.size());
   require(table.lifts.empty() || table.lifts.size() == table.size());
+}
+
+/// Of a path that takes its time: its lines are drawn.
+inline void require_path(const SampleTable& table) {
+  require_sound(table);
+  TableSettings settings;
+  settings.position_unit = "0.2";
+  settings.speed = 0.05;
+  const Stroke stroke = stroke_of_table(table, settings, "path").stroke;
+  require(stroke.size() >= 1 && stroke.size() <= 3 * table.size());
+  check_stroke(stroke, "path");
 }
 
 }  // namespace sandstroke

@@ -38,9 +38,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     }
     ImportedStroke first = import_stroke_text(text, "table.csv", settings);
     if (!second.empty()) {
-      TextTable table("second.csv", {}, Eigen::Matrix3d::Identity());
+      TextTable table("second.csv", {}, first.axes);
       table.read(second);
-      merge_strokes(first, stroke_of_table(table.take(), {}, "second.csv", false), settings.merge_shift,
+      merge_strokes(first, stroke_of_table(table.take(), {}, "second.csv", first.axes), settings.merge_shift,
                     "table.csv", "second.csv");
       check_stroke(first.stroke, "table.csv");
     }

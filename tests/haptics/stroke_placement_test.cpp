@@ -488,5 +488,20 @@ TEST(StrokePlacement, TimesMadeForASpeedAreThoseOfTheSizeOnTheBed) {
   EXPECT_NEAR(place_stroke(line, placement).duration(), 3.0 / 0.5 / 2.0, 1e-12);
 }
 
+TEST(StrokePlane, AnApproachThatPullsThePlaneIsTold) {
+  Stroke circle;
+  for (int i = 0; i < 1000; ++i) {
+    circle.time.push_back(0.01 * i);
+    circle.position.emplace_back(0.05 * std::cos(0.01 * i), 0.05 * std::sin(0.01 * i),
+                                 1e-4 * std::sin(0.3 * i));
+  }
+  EXPECT_EQ(off_plane_warning(circle, "hand"), "");
+  for (std::size_t i = 0; i < 50; ++i) circle.position[i].z() += 0.03 * (1.0 - 0.02 * static_cast<double>(i));
+  EXPECT_NE(off_plane_warning(circle, "hand").find("stroke.start and stroke.stop"), std::string::npos);
+  circle.contact.assign(1000, pen_down);
+  for (std::size_t i = 0; i < 50; ++i) circle.contact[i] = pen_up;
+  EXPECT_EQ(off_plane_warning(circle, "hand"), "");
+}
+
 }  // namespace
 }  // namespace sandstroke
