@@ -219,13 +219,11 @@ int run(const RunArguments& arguments) {
   if (!arguments.picture.empty()) {
     check_picture_name(arguments.picture);
     check(arguments.picture, picture_output);
-    check_drawable(scene.bed.rows, scene.bed.cols);
   }
-
+  if (!arguments.picture.empty() || !arguments.video.empty()) check_drawable(scene.bed.rows, scene.bed.cols);
   if (!arguments.video.empty()) {
     check_film_name(arguments.video);
     check(arguments.video, film_output);
-    check_drawable(scene.bed.rows, scene.bed.cols);
     if (scene.output.frames == 0.0)
       throw_input_error(
           "--video shows the surfaces that a run keeps, and this one keeps none; add --frames 10");
@@ -332,8 +330,8 @@ void add_run_command(CLI::App& app, Command& chosen) {
       "Examples\n"
       "  sandstroke run strokes/wscg/scene.toml -o wscg.h5 --png wscg.png\n"
       "  a tracing of your own, in any plane, 4 mm deep, in the middle of the bed:\n"
-      "    sandstroke run scene.toml --stroke tracing.csv --png tracing.png \\\n"
-      "        --set stroke.plane=fit stroke.depth=0.004 stroke.place=centre stroke.fit=0.8\n"
+      "    sandstroke run scene.toml --stroke tracing.csv --png tracing.png --set stroke.plane=fit \\\n"
+      "        --set stroke.depth=0.004 --set stroke.place=centre --set stroke.fit=0.8\n"
       "All scene keys with units and defaults:  sandstroke help scene");
   command->callback([arguments, &chosen] { chosen = [arguments] { return run(*arguments); }; });
 }

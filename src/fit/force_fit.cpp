@@ -114,10 +114,22 @@ ForceSettings best_fitted(const std::vector<FeltTick>& ticks, const ForceSetting
                                                                                                 : from_start;
 }
 
-double deepest(const std::vector<FeltTick>& ticks) {
-  double depth = 0.0;
-  for (const FeltTick& tick : ticks) depth = std::max(depth, tick.depth);
-  return depth;
+ForceSettings without_stiffness(ForceSettings force) {
+  force.k_s = 0.0;
+  return force;
+}
+
+/// N, by which k_c changes the force from one that is straight in the depth, with the same k_s k_c.
+double bend_rms(const std::vector<FeltTick>& ticks, const ForceSettings& force) {
+  ForceSettings straight = force;
+  straight.k_c *= 1e-4;
+  straight.k_s *= 1e4;
+  double squares = 0.0;
+  for (const FeltTick& tick : ticks)
+    squares += (sand_force(tick.depth, Eigen::Vector3d::Zero(), 0.0, force).total -
+                sand_force(tick.depth, Eigen::Vector3d::Zero(), 0.0, straight).total)
+                   .squaredNorm();
+  return std::sqrt(squares / static_cast<double>(ticks.size()));
 }
 
 /// How many have a force that the device's limit does not cut.
@@ -200,7 +212,9 @@ ForceFit fit_force(const std::vector<FeltTick>& all, const ForceSettings& start,
   std::array<bool, 3> is_free = asked;
   Estimate found = estimate(ticks, start, max_force, is_free);
   const auto only_product = [&] {
-    return !(found.error[1] < found.force.k_c) || found.force.k_c * deepest(ticks) < 1e-6;
+    const double unseen = std::max(0.01 * residual_rms(ticks, found.force, max_force),
+                                   1e-6 * residual_rms(ticks, without_stiffness(start), max_force));
+    return !(found.error[1] < found.force.k_c) || bend_rms(ticks, found.force) < unseen;
   };
   if (is_free[1] && only_product()) {
     is_free[1] = false;
@@ -222,9 +236,7 @@ ForceFit fit_force(const std::vector<FeltTick>& all, const ForceSettings& start,
   fit.stiffness = found.force.k_s * found.force.k_c;
   fit.stiffness_error = found.stiffness_error;
   fit.ticks = static_cast<std::int64_t>(all.size());
-  ForceSettings none = start;
-  none.k_s = 0.0;
-  fit.recorded_rms = residual_rms(ticks, none, max_force);
+  fit.recorded_rms = residual_rms(ticks, without_stiffness(start), max_force);
   fit.start_residual = residual_rms(ticks, start, max_force);
   fit.residual = residual_rms(ticks, fit.force, max_force);
   const auto share = [&](double residual) { return 1.0 - std::pow(residual / fit.recorded_rms, 2); };
@@ -233,7 +245,7 @@ ForceFit fit_force(const std::vector<FeltTick>& all, const ForceSettings& start,
   for (FeltTick& tick : reversed) tick.recorded = -tick.recorded;
   fit.explained_reversed =
       fit.recorded_rms > 0.0
-          ? share(residual_rms(reversed, best_fitted(reversed, start, max_force, is_free), max_force))
+          ? share(residual_rms(reversed, best_fitted(reversed, start, max_force, asked), max_force))
           : 0.0;
   return fit;
 }

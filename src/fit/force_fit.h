@@ -52,8 +52,9 @@ struct ForceFit {
 /// that sand_force() gives with that limit [N, 0: none]. The constants are not negative.
 ///
 /// Errors are by the jackknife over ten stretches of time: neighbouring ticks err alike, and a formula for
-/// independent ones would promise too much. Where the error of k_c is larger than its value, or k_c does
-/// not bend the force by a millionth, only k_s k_c is known: the start's k_c is kept.
+/// independent ones would promise too much. Where the error of k_c is larger than its value, or k_c
+/// bends the force by less than a hundredth of what the fit leaves, only k_s k_c is known: the start's k_c is
+/// kept.
 ///
 /// names: of force_constants. Error: input, where a name is none of these, or fewer than a hundred ticks
 /// have a force that the limit does not cut.

@@ -124,7 +124,10 @@ class StrokeMaker {
     length_ = unit_of(Quantity::length, unit, settings_.pixel_size);
     made_.stroke.position = vectors(layout_.position, length_);
     tell(fmt::format("position {} ({})", names(layout_.position), unit));
-    if (unit == "px" && layout_.position[1].sign > 0.0)
+    const std::vector<double>& y = table_.columns[layout_.position[1].column].values;
+    const bool counts_down = layout_.position[1].sign > 0.0 &&
+                             std::any_of(y.begin(), y.end(), [](double value) { return value > 0.0; });
+    if (unit == "px" && counts_down)
       made_.warnings.push_back(fmt::format(
           "{}: on screens and tablets y counts downwards, and here it is taken upwards: if the shape is "
           "upside down, set {} \"{},-{}\"",

@@ -241,7 +241,7 @@ struct RunResult {
   /// m, the largest depth of a tool that is down, touching or not; -infinity: it is never down over the bed.
   double nearest = -std::numeric_limits<double>::infinity();
   double nearest_time = 0.0;  ///< s
-  /// m, how far beyond the bed's edge a tool that is down is at least; negative: it comes over the bed.
+  /// m, how far beyond the bed's edge a tool that is down beside the bed is at least; infinity: it never is.
   double least_beside = std::numeric_limits<double>::infinity();
   int threads = 1;
   bool interrupted = false;

@@ -86,9 +86,11 @@ void Simulation::account(const TickRecord& record) {
   result_.displaced_volume += record.displaced_volume;
   if (record.contact) result_.max_depth = std::max(result_.max_depth, record.depth);
   if (!record.hand.down) return;
-  const Eigen::Vector3d tip = tip_of(scene_.device, record.device_position);
-  result_.least_beside = std::min(result_.least_beside, bed_.beyond_edge(tip.x(), tip.y()));
-  if (std::isnan(record.level)) return;
+  if (std::isnan(record.level)) {
+    const Eigen::Vector3d tip = tip_of(scene_.device, record.device_position);
+    result_.least_beside = std::min(result_.least_beside, bed_.beyond_edge(tip.x(), tip.y()));
+    return;
+  }
   if (record.depth > result_.nearest) result_.nearest = record.depth, result_.nearest_time = record.time;
   if (record.asked_depth > 0.0)
     result_.followed->add(record.asked_depth, record.depth, repulse_force(record.asked_depth, scene_.force),

@@ -76,6 +76,8 @@ TEST(TableAxes, PixelsCountDownwards) {
   const std::string text = "x,y\n1,2\n3,4\n";
   EXPECT_THAT(import_stroke_text(text, "in.csv", settings).warnings,
               ElementsAre(HasSubstr("--position) \"x,-y\"")));
+  EXPECT_THAT(import_stroke_text("x,y\n1,-2\n3,-4\n", "in.csv", settings).warnings, ElementsAre())
+      << "below the origin: somebody turned it over";
   settings.position = "x,-y";
   EXPECT_THAT(import_stroke_text(text, "in.csv", settings).warnings, ElementsAre());
 }
