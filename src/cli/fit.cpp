@@ -88,9 +88,11 @@ void warn_of(const ForceFit& fit) {
   else
     spdlog::warn(
         "the model cannot explain this force: with the best constants {:.3g} of {:.3g} N rms are left. It "
-        "grows "
-        "with the depth in the sand and, sideways, with the speed; the recorded one does something else",
-        fit.residual, fit.recorded_rms);
+        "grows with the depth in the sand and, sideways, with the speed; the recorded one does something "
+        "else{}",
+        fit.residual, fit.recorded_rms,
+        fit.constants.size() < std::size(force_constants) ? ", or needs constants that --constants holds"
+                                                          : "");
 }
 
 int fit(const FitArguments& arguments) {
@@ -131,7 +133,8 @@ void add_fit_command(CLI::App& app, Command& chosen) {
       ->option_text("A,B,...");
   command->add_flag("--json", arguments->json, "Print one JSON object in SI units");
   command->footer(
-      "The stroke is played through the scene's sand, and the force of the model is held against the "
+      "The stroke is played through the scene's sand: depths count from the sand under the tool, furrows "
+      "and all,\nand the force of the model is held against the "
       "recorded one,\n"
       "by least squares. Errors are standard errors (jackknife over ten stretches of time).\n"
       "Example:  sandstroke fit strokes/wscg/scene.toml --stroke tracing.h5 --set stroke.depth=0.004");

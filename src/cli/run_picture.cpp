@@ -33,9 +33,7 @@ Image RunPainter::draw(const HeightGrid& surface, std::optional<double> tool_tim
   subject_.tool = tool_time ? std::optional(tool_at(*tool_time)) : std::nullopt;
   const HeightGrid difference = surface - initial_;
   subject_.difference = &difference;
-  HeightField bed(surface, run_.cell_size());
-  bed.enclose(scene_.bed.shape);
-  return renderer_.render(bed, subject_);
+  return renderer_.render(HeightField(surface, run_.cell_size(), scene_.bed.shape), subject_);
 }
 
 ToolSphere RunPainter::tool_at(double time) {

@@ -114,9 +114,20 @@ ForceSettings best_fitted(const std::vector<FeltTick>& ticks, const ForceSetting
                                                                                                 : from_start;
 }
 
-ForceSettings without_stiffness(ForceSettings force) {
-  force.k_s = 0.0;
+ForceSettings without(ForceSettings force, const ForceConstant& constant) {
+  force.*constant.value = 0.0;
   return force;
+}
+
+/// N, by which two forces differ, without the device's limit.
+double difference_rms(const std::vector<FeltTick>& ticks, const ForceSettings& one,
+                      const ForceSettings& other) {
+  double squares = 0.0;
+  for (const FeltTick& tick : ticks)
+    squares += (sand_force(tick.depth, tick.velocity, 0.0, one).total -
+                sand_force(tick.depth, tick.velocity, 0.0, other).total)
+                   .squaredNorm();
+  return std::sqrt(squares / static_cast<double>(ticks.size()));
 }
 
 /// N, by which k_c changes the force from one that is straight in the depth, with the same k_s k_c.
@@ -124,12 +135,7 @@ double bend_rms(const std::vector<FeltTick>& ticks, const ForceSettings& force) 
   ForceSettings straight = force;
   straight.k_c *= 1e-4;
   straight.k_s *= 1e4;
-  double squares = 0.0;
-  for (const FeltTick& tick : ticks)
-    squares += (sand_force(tick.depth, Eigen::Vector3d::Zero(), 0.0, force).total -
-                sand_force(tick.depth, Eigen::Vector3d::Zero(), 0.0, straight).total)
-                   .squaredNorm();
-  return std::sqrt(squares / static_cast<double>(ticks.size()));
+  return difference_rms(ticks, force, straight);
 }
 
 /// How many have a force that the device's limit does not cut.
@@ -210,11 +216,17 @@ ForceFit fit_force(const std::vector<FeltTick>& all, const ForceSettings& start,
         all.size(), least_ticks);
   const std::vector<FeltTick> ticks = evenly_chosen(all);
   std::array<bool, 3> is_free = asked;
+  const double recorded_rms = residual_rms(ticks, without(start, force_constants[0]), max_force);
+  if (recorded_rms == 0.0)
+    throw_input_error("the recorded force is 0 in all {} ticks in contact, so there is nothing to fit",
+                      all.size());
+  // N, below which a change of the force is not noticed.
+  const auto least_seen = [&](const ForceSettings& force) {
+    return std::max(0.01 * residual_rms(ticks, force, max_force), 1e-6 * recorded_rms);
+  };
   Estimate found = estimate(ticks, start, max_force, is_free);
   const auto only_product = [&] {
-    const double unseen = std::max(0.01 * residual_rms(ticks, found.force, max_force),
-                                   1e-6 * residual_rms(ticks, without_stiffness(start), max_force));
-    return !(found.error[1] < found.force.k_c) || bend_rms(ticks, found.force) < unseen;
+    return !(found.error[1] < found.force.k_c) || bend_rms(ticks, found.force) < least_seen(found.force);
   };
   if (is_free[1] && only_product()) {
     is_free[1] = false;
@@ -232,11 +244,13 @@ ForceFit fit_force(const std::vector<FeltTick>& all, const ForceSettings& start,
   for (std::size_t i = 0; i < 3; ++i)
     if (asked[i])
       fit.constants.push_back({force_constants[i], found.force.*force_constants[i].value,
-                               is_free[i] ? found.error[i] : std::numeric_limits<double>::infinity()});
+                               is_free[i] ? found.error[i] : std::numeric_limits<double>::infinity(),
+                               difference_rms(ticks, found.force, without(found.force, force_constants[i])) >
+                                   least_seen(found.force)});
   fit.stiffness = found.force.k_s * found.force.k_c;
   fit.stiffness_error = found.stiffness_error;
   fit.ticks = static_cast<std::int64_t>(all.size());
-  fit.recorded_rms = residual_rms(ticks, without_stiffness(start), max_force);
+  fit.recorded_rms = recorded_rms;
   fit.start_residual = residual_rms(ticks, start, max_force);
   fit.residual = residual_rms(ticks, fit.force, max_force);
   const auto share = [&](double residual) { return 1.0 - std::pow(residual / fit.recorded_rms, 2); };

@@ -30,9 +30,10 @@ struct FittedConstant {
   ForceConstant constant;
   double value = 0.0;
   double error = 0.0;  ///< standard error; infinite: the start's value was kept
+  bool acts = true;    ///< without it the force would change by over a hundredth of what the fit leaves
 
   /// The recording determines it.
-  bool determined() const { return error < value; }
+  bool determined() const { return acts && error < value; }
 };
 
 /// The force constants that come nearest to a recorded force.

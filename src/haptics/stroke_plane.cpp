@@ -92,15 +92,21 @@ std::vector<Vector3d> drawn_points(const Stroke& stroke) {
 }
 
 std::string off_plane_warning(const Stroke& stroke, const std::string& name) {
-  constexpr double far = 3.5;  // rms: a wave reaches 1.4, a slope 1.7, noise of a thousand samples 3.3
-  const LeastSquaresPlane plane = plane_through(drawn_points(stroke));
-  if (plane.is_line() || !(plane.largest > far * plane.rms() && plane.largest > 0.01 * plane.widths[2]))
-    return "";
+  const std::vector<Vector3d> drawn = drawn_points(stroke);
+  const auto fifth = static_cast<std::ptrdiff_t>(drawn.size() / 5);
+  const LeastSquaresPlane middle = plane_through({drawn.begin() + fifth, drawn.end() - fifth});
+  if (drawn.size() < 10 || middle.is_line()) return "";
+  double largest = 0.0;
+  for (const Vector3d& p : drawn)
+    largest = std::max(largest, std::abs(middle.normal.dot(p - middle.centroid)));
+  constexpr double far = 8.0,
+                   thin = 0.005;  // of the middle's rms; of its length, where it is as flat as that
+  if (!(largest > far * std::max(middle.rms(), thin * middle.widths[2]))) return "";
   return fmt::format(
-      "{}: the plane is pulled by samples up to {:.3g} mm off it ({:.3g} mm rms), as an approach or a lift "
-      "have; "
-      "cut them off with stroke.start and stroke.stop (s), or give pen states",
-      name, 1e3 * plane.largest, 1e3 * plane.rms());
+      "{}: it begins or ends up to {:.3g} mm off the plane of its middle ({:.3g} mm rms), as an approach or "
+      "a lift "
+      "do, and they pull the plane; cut them off with stroke.start and stroke.stop (s), or give pen states",
+      name, 1e3 * largest, 1e3 * middle.rms());
 }
 
 UpNormal up_normal(const Stroke& stroke, const LeastSquaresPlane& plane, StrokeUp up,

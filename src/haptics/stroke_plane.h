@@ -26,8 +26,9 @@ LeastSquaresPlane plane_through(const std::vector<Eigen::Vector3d>& points);
 /// The positions at which the pen is down.
 std::vector<Eigen::Vector3d> drawn_points(const Stroke& stroke);
 
-/// A sentence where a few drawn samples lie far off the plane through all, as an approach or a lift do that
-/// no pen state tells: they tilt it, and are no part of the tracing. Empty: not so. `name` is the stroke's.
+/// A sentence where the drawn samples begin or end far off the plane of their middle three fifths, as an
+/// approach or a lift do that no pen state tells: they tilt a plane through all, and are no part of the
+/// tracing. Empty: not so. `name` is the stroke's.
 std::string off_plane_warning(const Stroke& stroke, const std::string& name);
 
 /// Which way is up from a traced plane: `automatic`, or an axis of the stroke's frame.

@@ -45,7 +45,7 @@ struct GcodeArc {
 class GcodeReader {
  public:
   GcodeReader(const std::string& name, const std::string& pen_up)
-      : name_(name), pen_up_(gcode_words(pen_up, "pen_up")) {
+      : name_(name), pen_up_text_(pen_up), pen_up_(gcode_words(pen_up, "pen_up")) {
     if (!pen_up.empty() && pen_up_.m.size() != 1)
       throw_input_error("pen_up = \"{}\" is no word by which a pen is lifted; give one such as \"M280 S90\"",
                         pen_up);
@@ -74,7 +74,11 @@ class GcodeReader {
           "{}:{}: M{} moves a pen, at S {}, and which of them lifts it is not known; give {} \"M{} S{}\"",
           name_, servo_line_, servo_ / 10, fmt::join(servo_angles_, " and "), option_and_key("pen_up"),
           servo_ / 10, *servo_angles_.rbegin());
-    return table_of_gcode(path_, name_);
+    SampleTable table = table_of_gcode(path_, name_);
+    if (!pen_up_.m.empty() && !pen_lifts_)
+      table.warnings.push_back(fmt::format("{}: no line has {}, so the pen never lifts; correct {}", name_,
+                                           pen_up_text_, option_and_key("pen_up")));
+    return table;
   }
 
  private:
@@ -151,7 +155,7 @@ class GcodeReader {
     if (power && of_spindle && !std::count(words.g.begin(), words.g.end(), 40)) power_ = *power;
     for (const int code : words.m) {
       take_servo(code, words);
-      if (code == 30 || code == 40) spindle_ = path_.has_spindle = true;
+      if (code == 30 || code == 40) spindle_ = true, path_.pen_word = gcode_spindle;
       if (code == 50) spindle_ = false;
     }
   }
@@ -162,7 +166,8 @@ class GcodeReader {
       for (std::size_t i = 0; i < words.value.size(); ++i)
         is_up = is_up && (!pen_up_.value[i] || words.value[i] == pen_up_.value[i]);
       spindle_ = !is_up;
-      path_.has_spindle = true;
+      path_.pen_word = pen_up_text_;
+      pen_lifts_ = pen_lifts_ || is_up;
       return;
     }
     constexpr double most_angle = 180.0;  // M300 with more is a tone
@@ -256,15 +261,18 @@ class GcodeReader {
       last.lifts = !down;
       last.down = last.down || down;
     }
+    path_.draws_rapidly = path_.draws_rapidly || (motion_ == 0 && along_xy);
     path_.samples.push_back({point, line_, length, feed_, down, false, along_xy, along_z});
   }
 
   static constexpr double most = 1e12;  // mm
   const std::string& name_;
+  const std::string pen_up_text_;
   const GcodeWords pen_up_;  // none: not named
   int servo_ = 0;            // the M word that moves a pen
   std::size_t servo_line_ = 0;
   std::set<double> servo_angles_;
+  bool pen_lifts_ = false;  // by pen_up_
   std::size_t line_ = 0;
   int motion_ = 0, plane_ = 17;
   double scale_ = 1.0;  // mm

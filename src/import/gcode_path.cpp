@@ -22,12 +22,13 @@ bool z_lifts_a_pen(const Samples& samples) {
 }
 
 std::vector<bool> pen_is_down(const GcodePath& path, bool by_z) {
+  const bool has_word = !path.pen_word.empty();
   double lowest = std::numeric_limits<double>::infinity();  // that anything is drawn at
   for (const GcodeSample& sample : path.samples)
     if (sample.along_xy) lowest = std::min(lowest, sample.position.z());
   std::vector<bool> down;
   for (const GcodeSample& sample : path.samples)
-    down.push_back((!path.has_spindle || sample.down) &&
+    down.push_back((!has_word || sample.down) &&
                    (!by_z || sample.position.z() < 0.0 || sample.position.z() <= lowest));
   return down;
 }
@@ -48,6 +49,7 @@ std::vector<double> times_of(const Samples& samples) {
 
 SampleTable table_of_gcode(const GcodePath& path, const std::string& name) {
   const Samples& samples = path.samples;
+  const bool has_word = !path.pen_word.empty();
   if (samples.empty())
     throw_input_error("{}: has no moves (G0 to G3 with X, Y or Z); give a file with a path", name);
   const bool by_z = z_lifts_a_pen(samples);
@@ -69,12 +71,16 @@ SampleTable table_of_gcode(const GcodePath& path, const std::string& name) {
     if (has_z) table.columns[2].values.push_back(at.z());
     if (!time.empty()) table.columns.back().values.push_back(time[i]);
     table.lines.push_back(samples[i].line);
-    if (by_z || path.has_spindle)
-      table.lifts.push_back((path.has_spindle && samples[i].lifts) || (i + 1 < down.size() && !down[i + 1]));
+    if (by_z || has_word)
+      table.lifts.push_back((has_word && samples[i].lifts) || (i + 1 < down.size() && !down[i + 1]));
   }
+  const bool is_spindle = path.pen_word == gcode_spindle;
   if (table.size() == 0)
-    throw_input_error("{}: the pen is never down; let M3 (S above 0) or Z lower it before a move by G1",
-                      name);
+    throw_input_error(
+        "{}: the pen is never down; {}", name,
+        has_word && !is_spindle
+            ? fmt::format("pen_up = \"{}\" lifts it all the time: name the other position", path.pen_word)
+            : "let M3 (S above 0) or Z lower it before a move by G1");
 
   std::vector<std::string> passed;
   for (const int code : path.passed_over) passed.push_back(fmt::format("G{:g}", code / 10.0));
@@ -83,7 +89,10 @@ SampleTable table_of_gcode(const GcodePath& path, const std::string& name) {
                   by_z    ? ", the pen is up where Z is high"
                   : has_z ? ", Z is a height"
                           : "",
-                  path.has_spindle ? ", the pen is down after M3" : "",
+                  is_spindle                    ? ", the pen is down after M3"
+                  : has_word                    ? fmt::format(", the pen is up after {}", path.pen_word)
+                  : path.draws_rapidly && !by_z ? ", G0 draws, too, for nothing lifts a pen"
+                                                : "",
                   passed.empty() ? "" : fmt::format(", {} passed over", fmt::join(passed, ", ")));
   return table;
 }

@@ -18,11 +18,15 @@ struct GcodeSample {
   bool along_xy, along_z;  // the way here
 };
 
+/// As GcodePath::pen_word: M3 and M5, or S, of an engraver.
+inline constexpr const char* gcode_spindle = "M3";
+
 /// Where a program of G-code leads its tool.
 struct GcodePath {
   std::vector<GcodeSample> samples;
-  bool has_spindle = false;   ///< M words say whether the pen is down
-  std::set<int> passed_over;  ///< G words that were, in tenths
+  std::string pen_word;        ///< that says whether the pen is down: "M3", "M280 S90"; empty: none does
+  bool draws_rapidly = false;  ///< G0 leads along X or Y
+  std::set<int> passed_over;   ///< G words that were, in tenths
 };
 
 /// How far the tip may be off lines and corners. The chords of usual arcs have none (keep_lines_straight).

@@ -23,7 +23,8 @@ class StrokeMaker {
       : table_(table),
         settings_(settings),
         name_(name),
-        layout_(table_layout(table.columns, settings, name, of_first)) {}
+        layout_(table_layout(table.columns, settings, name, of_first)),
+        is_second_(of_first.has_value()) {}
 
   ImportedStroke make() {
     Stroke& stroke = made_.stroke;
@@ -79,6 +80,9 @@ class StrokeMaker {
     tell(fmt::format("not used: {}{}", fmt::join(left, ", "),
                      more > 0 ? fmt::format(" and {} more", more) : ""));
   }
+
+  /// By which the times of this table are named.
+  std::string own_key(const std::string& key) const { return is_second_ ? "merge_" + key : key; }
 
   /// The columns' own unit; empty: they have none, or not all the same.
   std::string own_unit(const ColumnChoices& choices) const {
@@ -253,9 +257,16 @@ class StrokeMaker {
       stroke.nominal_rate = rate;
       tell(fmt::format("{} Hz", rate));
     } else {
-      asks_.push_back(fmt::format(
-          "the times are unknown, for no column is named time or t; give {}, {} in Hz, or {} in m/s",
-          option_and_key("time"), option_and_key("rate"), option_and_key("speed")));
+      if (table_.line_tolerance > 0.0)
+        asks_.push_back(fmt::format("it says no speed (F); give {} in m/s", option_and_key("speed")));
+      else if (is_second_)
+        asks_.push_back(
+            fmt::format("the times are unknown, for no column is named time or t; give {}, or {} in Hz",
+                        option_and_key(own_key("time")), option_and_key(own_key("rate"))));
+      else
+        asks_.push_back(fmt::format(
+            "the times are unknown, for no column is named time or t; give {}, {} in Hz, or {} in m/s",
+            option_and_key("time"), option_and_key("rate"), option_and_key("speed")));
     }
   }
 
@@ -273,7 +284,7 @@ class StrokeMaker {
     }
     if (unit.empty()) {
       asks_.push_back(fmt::format("the unit of the times '{}' is not known; give {}: s, ms, us or ns",
-                                  column.name, option_and_key("time_unit")));
+                                  column.name, option_and_key(own_key("time_unit"))));
       return;
     }
     const Unit of_time = unit_of(Quantity::time, unit);
@@ -302,6 +313,7 @@ class StrokeMaker {
   const TableSettings& settings_;
   const std::string& name_;
   TableLayout layout_;
+  bool is_second_;  // of two that are merged
   ImportedStroke made_;
   std::vector<std::string> asks_;  // what has to be given
   Unit length_;                    // of the position

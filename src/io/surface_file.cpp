@@ -48,9 +48,7 @@ HeightField load_surface(const BedSettings& settings, const std::filesystem::pat
   check_cells(heights.rows(), heights.cols());
   if (!heights.isFinite().all())
     throw_input_error("{}: holds heights that are not finite numbers; correct it", path.string());
-  HeightField sand(heights, bed.cell_size());
-  sand.enclose(bed.shape);
-  return sand;
+  return HeightField(heights, bed.cell_size(), bed.shape);
 }
 
 }  // namespace sandstroke

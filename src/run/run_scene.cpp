@@ -17,6 +17,7 @@
 #include "haptics/stroke_coverage.h"
 #include "haptics/stroke_plane.h"
 #include "haptics/stroke_quality.h"
+#include "haptics/stroke_smoothing.h"
 #include "import/import_stroke.h"
 #include "io/run_writer.h"
 #include "io/scene_toml.h"
@@ -63,6 +64,11 @@ Stroke placed_stroke(const Scene& scene, const std::filesystem::path& path, std:
   Stroke placed = place_on_bed(loaded, scene, name);
   warn_if_any(coverage_warning(placed, name));
   if (scene.stroke->placement.plane != StrokePlane::keep) warn_if_any(off_plane_warning(loaded, name));
+  const double smooth = scene.stroke->placement.smooth;
+  if (smooth > 0.0 && smoothed(loaded, smooth).position == loaded.position)
+    spdlog::warn(
+        "{}: stroke.smooth = {:.4g} Hz changes nothing, for its samples come at less than twice that", name,
+        smooth);
   if (!is_script(path))
     for (const std::string& warning : quality_warnings(quality_of(placed)))
       spdlog::warn("{}: {}", name, warning);

@@ -32,10 +32,11 @@ class BedGeometry {
   static constexpr int most_cells = 65536;  ///< along a side
 
   /// cell_size [m] > 0.
-  BedGeometry(int rows, int cols, double cell_size)
+  BedGeometry(int rows, int cols, double cell_size, BedShape shape = BedShape::rectangle)
       : rows_(rows),
         cols_(cols),
         cell_size_(cell_size),
+        shape_(shape),
         row_origin_(0.5 * (rows - 1)),
         col_origin_(0.5 * (cols - 1)),
         tile_rows_((rows + tile_side - 1) / tile_side),
@@ -48,11 +49,11 @@ class BedGeometry {
   CellRange cells() const { return {0, rows_, 0, cols_}; }
   BedShape shape() const { return shape_; }
   /// m, of a round bed.
-  double wall_radius() const { return 0.5 * std::min(rows_, cols_) * cell_size_; }
+  double wall_radius() const { return wall_radius_in_cells() * cell_size_; }
   /// The cells of a row that have sand: those whose centres lie within the shape. All others are wall.
   ColumnRange sand_cols(int row) const {
     if (shape_ == BedShape::rectangle) return {0, cols_};
-    const double radius = 0.5 * std::min(rows_, cols_), y = rows_from_centre(row);
+    const double radius = wall_radius_in_cells(), y = rows_from_centre(row);
     if (std::abs(y) > radius) return {};
     const int begin = static_cast<int>(std::ceil(col_origin_ - std::sqrt(radius * radius - y * y)));
     return {begin, std::max(begin, cols_ - begin)};
@@ -103,13 +104,12 @@ class BedGeometry {
             tiles.col_begin * tile_side, std::min(tiles.col_end * tile_side, cols_)};
   }
 
- protected:
-  void set_shape(BedShape shape) { shape_ = shape; }
-
  private:
+  double wall_radius_in_cells() const { return 0.5 * std::min(rows_, cols_); }
+
   int rows_, cols_;
   double cell_size_;
-  BedShape shape_ = BedShape::rectangle;
+  BedShape shape_;
   double row_origin_, col_origin_;  // the bed's centre in cell indices, (n - 1) / 2
   int tile_rows_, tile_cols_;
 };

@@ -54,13 +54,16 @@ double spread_outward(ToolFootprint& f, double pushed, double distance) {
     // Rounded towards 0; below 0 that is not down, but no cell of the window lies there.
     const int first_row = static_cast<int>(axis_y + to_y), first_col = static_cast<int>(axis_x + to_x);
     std::array<double, 4> shares{};
-    for (int i = 0; i < 4; ++i) {
-      const int r = first_row + i / 2, c = first_col + i % 2;
+    for (int down = 0; down < 2; ++down) {
+      const int r = first_row + down;
       if (r < 0 || r >= window.rows()) continue;
       const ColumnRange sand = f.sand_cols(r);
-      if (c < sand.begin || c >= sand.end || std::isfinite(f.underside(r)[c])) continue;
-      shares[i] =
-          std::max(0.0, 1.0 - std::abs(c - axis_x - to_x)) * std::max(0.0, 1.0 - std::abs(r - axis_y - to_y));
+      for (int right = 0; right < 2; ++right) {
+        const int c = first_col + right;
+        if (c < sand.begin || c >= sand.end || std::isfinite(f.underside(r)[c])) continue;
+        shares[2 * down + right] = std::max(0.0, 1.0 - std::abs(c - axis_x - to_x)) *
+                                   std::max(0.0, 1.0 - std::abs(r - axis_y - to_y));
+      }
     }
     const double all = (shares[0] + shares[3]) + (shares[1] + shares[2]);  // symmetric
     if (!(all > 0.0)) return;

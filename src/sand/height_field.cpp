@@ -17,14 +17,17 @@ std::uint32_t* zeros(int count) {
 
 }  // namespace
 
-HeightField::HeightField(int rows, int cols, double cell_size)
-    : HeightField(rows, cols, cell_size, std::make_shared<LevelRule>(0.0)) {}
+HeightField::HeightField(int rows, int cols, double cell_size, BedShape shape)
+    : HeightField(rows, cols, cell_size, std::make_shared<LevelRule>(0.0), shape) {}
 
-HeightField::HeightField(int rows, int cols, double cell_size, std::shared_ptr<const SurfaceRule> untouched)
-    : BedGeometry(rows, cols, cell_size), untouched_(std::move(untouched)), slots_(zeros(tile_count())) {}
+HeightField::HeightField(int rows, int cols, double cell_size, std::shared_ptr<const SurfaceRule> untouched,
+                         BedShape shape)
+    : BedGeometry(rows, cols, cell_size, shape),
+      untouched_(std::move(untouched)),
+      slots_(zeros(tile_count())) {}
 
-HeightField::HeightField(const HeightGrid& heights, double cell_size)
-    : HeightField(static_cast<int>(heights.rows()), static_cast<int>(heights.cols()), cell_size) {
+HeightField::HeightField(const HeightGrid& heights, double cell_size, BedShape shape)
+    : HeightField(static_cast<int>(heights.rows()), static_cast<int>(heights.cols()), cell_size, shape) {
   for (int tile = 0; tile < tile_count(); ++tile) {
     const int slot = make_tile(tile);
     mark_changed(slot);
@@ -61,17 +64,8 @@ std::uint64_t HeightField::beyond_wall(int tile, int row_in_tile) const {
   return ~(first_cells(sand.end) & ~first_cells(sand.begin));
 }
 
-void HeightField::enclose(BedShape shape) {
-  set_shape(shape);
-  for (const auto& tile : tiles_)
-    for (int row = 0; row < tile_side; ++row) tile->held[row] = beyond_wall(tile->index, row);
-  held_.clear();
-}
-
 HeightField HeightField::untouched_bed() const {
-  HeightField bed(rows(), cols(), cell_size(), untouched_);
-  bed.enclose(shape());
-  return bed;
+  return HeightField(rows(), cols(), cell_size(), untouched_, shape());
 }
 
 int HeightField::make_tile(int tile) {

@@ -27,19 +27,17 @@ struct RowCells {
 /// by `slot`, in order of allocation, and each has a revision that changes when one of its cells does.
 class HeightField : public BedGeometry {
  public:
-  /// A flat bed at z = 0. cell_size [m] > 0.
-  HeightField(int rows, int cols, double cell_size);
+  /// A flat bed at z = 0. cell_size [m] > 0. What lies beyond the shape's wall neither gives nor takes sand.
+  HeightField(int rows, int cols, double cell_size, BedShape shape = BedShape::rectangle);
   /// A bed that follows a rule.
-  HeightField(int rows, int cols, double cell_size, std::shared_ptr<const SurfaceRule> untouched);
+  HeightField(int rows, int cols, double cell_size, std::shared_ptr<const SurfaceRule> untouched,
+              BedShape shape = BedShape::rectangle);
   /// All tiles are allocated.
-  HeightField(const HeightGrid& heights, double cell_size);
+  HeightField(const HeightGrid& heights, double cell_size, BedShape shape = BedShape::rectangle);
   HeightField(const HeightField& other);
   HeightField& operator=(const HeightField& other);
   HeightField(HeightField&&) = default;
   HeightField& operator=(HeightField&&) = default;
-
-  /// The wall around the bed: what lies beyond it neither gives nor takes sand. Its heights are as they were.
-  void enclose(BedShape shape);
 
   double operator()(int row, int col) const {
     const int slot = slot_of(tile_index(row / tile_side, col / tile_side));

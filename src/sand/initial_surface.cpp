@@ -124,12 +124,14 @@ double disk_cell_area(double radius, double x, double y, double cell_size) {
   return far.copies * near.copies * quadrant_area(radius, far.begin, far.end, near.begin, near.end);
 }
 
-HeightField make_surface(const SurfaceSettings& settings, int rows, int cols, double cell_size) {
+HeightField make_surface(const SurfaceSettings& settings, int rows, int cols, double cell_size,
+                         BedShape shape) {
   const BedGeometry bed(rows, cols, cell_size);
   const auto with = [&](auto height, auto steepest, double highest) {
     return HeightField(
         rows, cols, cell_size,
-        std::make_shared<FormulaRule<decltype(height), decltype(steepest)>>(height, steepest, highest));
+        std::make_shared<FormulaRule<decltype(height), decltype(steepest)>>(height, steepest, highest),
+        shape);
   };
   const SurfaceSettings s = settings;  // into the rules, by value
   switch (s.kind) {
@@ -177,7 +179,7 @@ HeightField make_surface(const SurfaceSettings& settings, int rows, int cols, do
           everywhere(2.0 * std::numbers::pi * s.amplitude / s.wavelength), s.amplitude);
     }
   }
-  return HeightField(rows, cols, cell_size);
+  return HeightField(rows, cols, cell_size, shape);
 }
 
 }  // namespace sandstroke

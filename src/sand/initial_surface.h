@@ -23,7 +23,8 @@ struct SurfaceSettings {
 
 /// A bed of rows x cols with any surface but `file`, centred on the origin, by rule: no tile exists yet.
 /// Cells hold averages: exact for cylinder, cliff and ripples, 8 x 8 samples for the cone.
-HeightField make_surface(const SurfaceSettings& settings, int rows, int cols, double cell_size);
+HeightField make_surface(const SurfaceSettings& settings, int rows, int cols, double cell_size,
+                         BedShape shape = BedShape::rectangle);
 
 /// Area [m^2] of a disk of this radius at the origin inside the square cell centred at (x, y), both multiples
 /// of half a cell.

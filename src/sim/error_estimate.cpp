@@ -57,9 +57,7 @@ HeightField start_of(const Scene& second, const HeightField& start) {
   const int rows = second.bed.rows, cols = second.bed.cols;
   if (!cell_by_cell) return starting_bed(second.bed);
   const CellMeans means(start, rows, cols);
-  HeightField sand(HeightGrid::NullaryExpr(rows, cols, means), second.bed.cell_size());
-  sand.enclose(second.bed.shape);
-  return sand;
+  return HeightField(HeightGrid::NullaryExpr(rows, cols, means), second.bed.cell_size(), second.bed.shape);
 }
 
 /// The sand that is not where it was.

@@ -297,9 +297,7 @@ void check_scene(const Scene& scene, const std::string& name) {
 }
 
 HeightField starting_bed(const BedSettings& bed) {
-  HeightField sand = make_surface(bed.surface, bed.rows, bed.cols, bed.cell_size());
-  sand.enclose(bed.shape);
-  return sand;
+  return make_surface(bed.surface, bed.rows, bed.cols, bed.cell_size(), bed.shape);
 }
 
 }  // namespace sandstroke

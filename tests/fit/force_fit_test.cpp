@@ -131,6 +131,20 @@ TEST(ForceFit, SaysWhichConstantsTheRecordingDetermines) {
   EXPECT_FALSE((FittedConstant{force_constants[2], 0.0, 0.0}.determined()));
 }
 
+/// A force without any drag, to rounding: a tiny k_f is found, and is sure to be tiny, but it is no
+/// knowledge.
+TEST(ForceFit, AConstantThatDoesNotActIsNotDetermined) {
+  ForceSettings no_drag = truth;
+  no_drag.k_f = 0.0;
+  const ForceFit fit = fit_force(felt(no_drag, 0.001, 0.05), ForceSettings{}, no_limit, all);
+  EXPECT_TRUE(fit.constants[0].determined());
+  EXPECT_TRUE(fit.constants[1].determined());
+  EXPECT_FALSE(fit.constants[2].determined()) << fit.constants[2].value << " +- " << fit.constants[2].error;
+  std::vector<FeltTick> still = felt(truth, 0.001, 0.05);
+  for (FeltTick& tick : still) tick.recorded.setZero();
+  EXPECT_THROW(fit_force(still, ForceSettings{}, no_limit, all), Error);
+}
+
 TEST(ForceFit, AForceOfAnotherKindIsHardlyExplained) {
   std::vector<FeltTick> ticks = felt(truth, 0.001, 0.05);
   for (FeltTick& tick : ticks) tick.recorded = {3.0, 0.0, 0.0};  // constant, and sideways

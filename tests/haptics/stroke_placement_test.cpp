@@ -496,11 +496,17 @@ TEST(StrokePlane, AnApproachThatPullsThePlaneIsTold) {
                                  1e-4 * std::sin(0.3 * i));
   }
   EXPECT_EQ(off_plane_warning(circle, "hand"), "");
-  for (std::size_t i = 0; i < 50; ++i) circle.position[i].z() += 0.03 * (1.0 - 0.02 * static_cast<double>(i));
-  EXPECT_NE(off_plane_warning(circle, "hand").find("stroke.start and stroke.stop"), std::string::npos);
-  circle.contact.assign(1000, pen_down);
-  for (std::size_t i = 0; i < 50; ++i) circle.contact[i] = pen_up;
-  EXPECT_EQ(off_plane_warning(circle, "hand"), "");
+  const Stroke level = circle;
+  for (const std::size_t approach : {20u, 50u, 150u}) {
+    circle = level;
+    for (std::size_t i = 0; i < approach; ++i)
+      circle.position[i].z() += 0.03 * (1.0 - static_cast<double>(i) / static_cast<double>(approach));
+    EXPECT_NE(off_plane_warning(circle, "hand").find("stroke.start and stroke.stop"), std::string::npos)
+        << approach;
+    circle.contact.assign(1000, pen_down);
+    for (std::size_t i = 0; i < approach; ++i) circle.contact[i] = pen_up;
+    EXPECT_EQ(off_plane_warning(circle, "hand"), "");
+  }
 }
 
 }  // namespace

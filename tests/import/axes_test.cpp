@@ -176,6 +176,13 @@ TEST_F(MergedTables, ForcesAreInterpolatedAtTheFirstOnesTimes) {
   EXPECT_EQ(stroke.force_sign, ForceSign::on_device);
 }
 
+TEST_F(MergedTables, TheSecondOnesTimesHaveTheirOwnKeys) {
+  EXPECT_THAT(refusal("t_s,x_m,y_m\n0,0,0\n1,1,0\n", "t,fx_N,fy_N,fz_N\n0,1,2,3\n1,4,5,6\n"),
+              HasSubstr("give stroke.table.merge_time_unit"));
+  EXPECT_THAT(refusal("t_s,x_m,y_m\n0,0,0\n1,1,0\n", "a,fx_N,fy_N,fz_N\n0,1,2,3\n1,4,5,6\n"),
+              HasSubstr("stroke.table.merge_rate"));
+}
+
 /// Two tables are one table in two files.
 TEST_F(MergedTables, TurnWithThePositionsColumns) {
   const std::string turned = "-y,x,z";

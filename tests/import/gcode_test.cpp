@@ -209,6 +209,12 @@ TEST(Gcode, APenOnAServoIsLiftedByTheWordThatIsNamed) {
                                             HasSubstr("stroke.table.pen_up (stroke convert: --pen-up)")));
   EXPECT_THAT(gcode_complaint("M300 S30\nG1 X1 Y0\nM300 S50\nX2\n"), HasSubstr("M300 moves a pen"));
   EXPECT_EQ(gcode_complaint("M300 S440\nG1 X1 Y0\nM300 S880\nX2\n"), "") << "tones";
+  EXPECT_THAT(table.description, HasSubstr("the pen is up after M280 S90"));
+  EXPECT_THAT(table.warnings, ElementsAre());
+  EXPECT_THAT(parse_gcode(drawn, "path.gcode", "M280 S45").warnings,
+              ElementsAre(HasSubstr("no line has M280 S45, so the pen never lifts")));
+  EXPECT_THAT(complaint_of([&] { parse_gcode(drawn, "path.gcode", "M280"); }),
+              HasSubstr("pen_up = \"M280\" lifts it all the time"));
   EXPECT_THAT(complaint_of([&] { parse_gcode(drawn, "path.gcode", "S90"); }), HasSubstr("\"M280 S90\""));
 }
 
@@ -216,6 +222,13 @@ TEST(Gcode, OnlyTheSpindlesWordsSetItsPower) {
   const SampleTable table = gcode_table("M3 S9\nG1 X1 Y0\nM106 S0\nX2\nM84 S0\nX3\n");
   EXPECT_THAT(gcode_values(table, "x"), ElementsAre(1, 2, 3));
   EXPECT_THAT(table.lifts, ElementsAre(false, false, false));
+}
+
+TEST(Gcode, ThatG0DrawsIsSaidWhereNothingLiftsAPen) {
+  const std::string path = "G0 X0 Y0\nG1 X9\nG0 Y5\nG1 X0\n";
+  EXPECT_THAT(gcode_table(path).description, HasSubstr("G0 draws, too"));
+  EXPECT_THAT(gcode_table("M3\n" + path).description, Not(HasSubstr("G0 draws")));
+  EXPECT_THAT(gcode_table("G0 X0 Y0\nG1 X9\n").description, Not(HasSubstr("G0 draws")));
 }
 
 TEST(Gcode, MessagesMoveNothing) {

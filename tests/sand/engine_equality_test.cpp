@@ -50,8 +50,7 @@ class RandomScene {
     surface.radius = real(2.0, 30.0) * dx;
     surface.amplitude = real(0.0, 6.0) * dx;
     surface.wavelength = whole(0, 1) || surface.kind == SurfaceKind::ripples ? real(5.0, 60.0) * dx : 0.0;
-    bed = make_surface(surface, rows, cols, dx);
-    if (whole(0, 2) == 0) bed.enclose(BedShape::round);
+    bed = make_surface(surface, rows, cols, dx, whole(0, 2) == 0 ? BedShape::round : BedShape::rectangle);
     relaxation.law = whole(0, 1) ? RelaxationLaw::paper : RelaxationLaw::isotropic;
     relaxation.talus_angle = real(3.0, 70.0);
     relaxation.tolerance = whole(0, 3) ? 1e-3 : 0.05;

@@ -14,8 +14,7 @@ constexpr double width = 0.002;  // m, of a cell
 
 TEST(RoundBed, HasTheCellsWhoseCentresLieInItsLargestCircle) {
   for (const auto& [rows, cols] : {std::pair(130, 130), {129, 129}, {70, 131}, {131, 70}, {1, 1}}) {
-    HeightField bed(rows, cols, width);
-    bed.enclose(BedShape::round);
+    HeightField bed(rows, cols, width, BedShape::round);
     const double radius = 0.5 * width * std::min(rows, cols);
     EXPECT_DOUBLE_EQ(bed.wall_radius(), radius);
     for (int row = 0; row < rows; ++row)
@@ -31,8 +30,7 @@ TEST(RoundBed, HasTheCellsWhoseCentresLieInItsLargestCircle) {
 }
 
 TEST(RoundBed, ItsWallStaysWhereAToolStood) {
-  HeightField bed(130, 130, width);
-  bed.enclose(BedShape::round);
+  HeightField bed(130, 130, width, BedShape::round);
   ToolFootprint tool({0.01, ToolProfile::sphere, true});
   tool.place(bed, bed.wall_radius() - 0.005, 0.0);
   tool.hold_bowl(bed);
@@ -60,8 +58,7 @@ TEST(RoundBed, SandThatSlipsStaysInside) {
   cliff.kind = SurfaceKind::cliff;
   cliff.height = 0.02;
   for (const RelaxationLaw law : {RelaxationLaw::paper, RelaxationLaw::isotropic}) {
-    HeightField bed = make_surface(cliff, 130, 130, width);
-    bed.enclose(BedShape::round);
+    HeightField bed = make_surface(cliff, 130, 130, width, BedShape::round);
     const HeightField before = bed;
     RelaxationSettings settings;
     settings.law = law;
@@ -72,8 +69,7 @@ TEST(RoundBed, SandThatSlipsStaysInside) {
 
 TEST(RoundBed, AToolAtTheWallPushesSandInside) {
   for (const Deposit deposit : {Deposit::ring, Deposit::ahead, Deposit::outward}) {
-    HeightField bed(130, 130, width);
-    bed.enclose(BedShape::round);
+    HeightField bed(130, 130, width, BedShape::round);
     const HeightField before = bed;
     ToolFootprint tool({0.01, ToolProfile::sphere, true});
     const double along = (bed.wall_radius() - 0.005) * std::sqrt(0.5);
@@ -85,8 +81,7 @@ TEST(RoundBed, AToolAtTheWallPushesSandInside) {
 }
 
 TEST(RoundBed, TheLevelUnderAToolIsThatOfTheSandAlone) {
-  HeightField bed(130, 130, width);
-  bed.enclose(BedShape::round);
+  HeightField bed(130, 130, width, BedShape::round);
   for (int row = 0; row < 130; ++row)
     for (int col = 0; col < 130; ++col)
       if (!bed.has_sand(row, col)) bed.set(row, col, 1.0);
@@ -96,8 +91,7 @@ TEST(RoundBed, TheLevelUnderAToolIsThatOfTheSandAlone) {
 }
 
 TEST(RoundBed, AToolBeyondTheWallFindsNoLevel) {
-  HeightField bed(130, 130, width);
-  bed.enclose(BedShape::round);
+  HeightField bed(130, 130, width, BedShape::round);
   ToolFootprint tool({0.01, ToolProfile::sphere, true});
   tool.place(bed, bed.wall_radius(), bed.wall_radius());  // a corner of the rectangle
   EXPECT_TRUE(std::isnan(tool.sand_level()));
