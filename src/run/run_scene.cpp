@@ -63,7 +63,12 @@ Stroke placed_stroke(const Scene& scene, const std::filesystem::path& path, std:
   hash = is_script(path) ? file_hash(path) : content_hash(loaded);
   Stroke placed = place_on_bed(loaded, scene, name);
   warn_if_any(coverage_warning(placed, name));
-  if (scene.stroke->placement.plane != StrokePlane::keep) warn_if_any(off_plane_warning(loaded, name));
+  if (scene.stroke->placement.plane != StrokePlane::keep) {
+    StrokePlacement cut;
+    cut.start = scene.stroke->placement.start;
+    cut.stop = scene.stroke->placement.stop;
+    warn_if_any(off_plane_warning(place_stroke(loaded, cut, name), name));
+  }
   const double smooth = scene.stroke->placement.smooth;
   if (smooth > 0.0 && smoothed(loaded, smooth).position == loaded.position)
     spdlog::warn(

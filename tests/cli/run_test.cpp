@@ -518,6 +518,28 @@ TEST(CliRun, AStrokeInMillimetresIsPointedOut) {
   EXPECT_NE(said("stroke.depth=0.2").find("20 times tool.radius"), std::string::npos);
 }
 
+/// A circle of 40 mm that is reached from 30 mm above, and left again.
+TEST(CliRun, AnApproachThatPullsThePlaneIsPointedOutUntilItIsCutOff) {
+  const fs::path folder = test_folder();
+  std::string table = "t_s,x_m,y_m,z_m\n";
+  for (int i = 0; i <= 400; ++i) {
+    const double angle = 0.03 * std::clamp(i, 50, 350),
+                 above = 6e-4 * (std::max(50 - i, 0) + std::max(i - 350, 0));
+    table += fmt::format("{},{},{},{}\n", 0.01 * i, 0.04 * std::cos(angle), 0.04 * std::sin(angle), above);
+  }
+  put_text(folder / "approach.csv", table);
+  const auto said = [&](const char* start, const char* stop) {
+    return run_program({"run", "scene.toml", "-o", "a.h5", "--quiet", "--stroke", "approach.csv", "--set",
+                        "stroke.plane=fit", "--set", start, "--set", stop},
+                       folder)
+        .err;
+  };
+  constexpr const char* warning = "begins or ends up to 30 mm off the plane of its middle";
+  const std::string whole = said("stroke.start=0", "stroke.stop=0");
+  EXPECT_NE(whole.find(warning), std::string::npos) << whole;
+  EXPECT_EQ(said("stroke.start=0.5", "stroke.stop=3.5").find("off the plane"), std::string::npos);
+}
+
 TEST(CliRun, EstimatesItsErrorOnRequest) {
   const fs::path folder = test_folder();
   const ProgramResult plain = run_program({"run", "scene.toml", "--json"}, folder);
