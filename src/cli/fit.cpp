@@ -91,8 +91,9 @@ void warn_of(const ForceFit& fit) {
         "grows with the depth in the sand and, sideways, with the speed; the recorded one does something "
         "else{}",
         fit.residual, fit.recorded_rms,
-        fit.constants.size() < std::size(force_constants) ? ", or needs constants that --constants holds"
-                                                          : "");
+        fit.constants.size() < std::size(force_constants)
+            ? ", or needs a constant that --constants leaves out"
+            : "");
 }
 
 int fit(const FitArguments& arguments) {
@@ -133,10 +134,9 @@ void add_fit_command(CLI::App& app, Command& chosen) {
       ->option_text("A,B,...");
   command->add_flag("--json", arguments->json, "Print one JSON object in SI units");
   command->footer(
-      "The stroke is played through the scene's sand: depths count from the sand under the tool, furrows "
-      "and all,\nand the force of the model is held against the "
-      "recorded one,\n"
-      "by least squares. Errors are standard errors (jackknife over ten stretches of time).\n"
+      "The stroke is played through the scene's sand. Depths count from the sand under the tool, which lies\n"
+      "lower in the tool's own furrow. The force of the model is held against the recorded one, by least\n"
+      "squares. Errors are standard errors (jackknife over ten stretches of time).\n"
       "Example:  sandstroke fit strokes/wscg/scene.toml --stroke tracing.h5 --set stroke.depth=0.004");
   command->callback([arguments, &chosen] { chosen = [arguments] { return fit(*arguments); }; });
 }

@@ -254,13 +254,11 @@ ForceFit fit_force(const std::vector<FeltTick>& all, const ForceSettings& start,
   fit.start_residual = residual_rms(ticks, start, max_force);
   fit.residual = residual_rms(ticks, fit.force, max_force);
   const auto share = [&](double residual) { return 1.0 - std::pow(residual / fit.recorded_rms, 2); };
-  fit.explained = fit.recorded_rms > 0.0 ? share(fit.residual) : 0.0;
+  fit.explained = share(fit.residual);
   std::vector<FeltTick> reversed = ticks;
   for (FeltTick& tick : reversed) tick.recorded = -tick.recorded;
   fit.explained_reversed =
-      fit.recorded_rms > 0.0
-          ? share(residual_rms(reversed, best_fitted(reversed, start, max_force, asked), max_force))
-          : 0.0;
+      share(residual_rms(reversed, best_fitted(reversed, start, max_force, asked), max_force));
   return fit;
 }
 

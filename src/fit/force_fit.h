@@ -57,8 +57,8 @@ struct ForceFit {
 /// bends the force by less than a hundredth of what the fit leaves, only k_s k_c is known: the start's k_c is
 /// kept.
 ///
-/// names: of force_constants. Error: input, where a name is none of these, or fewer than a hundred ticks
-/// have a force that the limit does not cut.
+/// names: of force_constants. Error: input, where a name is none of these, all recorded forces are
+/// 0, or fewer than a hundred ticks have a force that the limit does not cut.
 ForceFit fit_force(const std::vector<FeltTick>& ticks, const ForceSettings& start, double max_force,
                    const std::vector<std::string>& names);
 

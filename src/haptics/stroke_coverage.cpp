@@ -3,19 +3,6 @@
 #include <spdlog/fmt/fmt.h>
 
 namespace sandstroke {
-
-PlayedPart played_part(const StrokeSampler& stroke) {
-  const double whole = stroke.stroke().duration();
-  double lifted = 0.0;
-  for (const StrokeGap& gap : stroke.gaps()) lifted += gap.end - gap.begin;
-  return {whole - lifted, whole, static_cast<int>(stroke.gaps().size())};
-}
-
-std::string played_text(const PlayedPart& part) {
-  return fmt::format("plays {:.4g} s of {:.4g} s: the tool is lifted in {} gap{}", part.played, part.whole,
-                     part.gaps, part.gaps == 1 ? "" : "s");
-}
-
 namespace {
 
 /// Samples that no line joins, though the pen is down there and is not said to lift; and all such.
@@ -35,6 +22,18 @@ LoneSamples lone_samples(const Stroke& stroke) {
 
 }  // namespace
 
+PlayedPart played_part(const StrokeSampler& stroke) {
+  const double whole = stroke.stroke().duration();
+  double lifted = 0.0;
+  for (const StrokeGap& gap : stroke.gaps()) lifted += gap.end - gap.begin;
+  return {whole - lifted, whole, static_cast<int>(stroke.gaps().size())};
+}
+
+std::string played_text(const PlayedPart& part) {
+  return fmt::format("plays {:.4g} s of {:.4g} s: the tool is lifted in {} gap{}", part.played, part.whole,
+                     part.gaps, part.gaps == 1 ? "" : "s");
+}
+
 std::string coverage_warning(const Stroke& stroke, const std::string& name) {
   double missing = 0.0, begin = 0.0, end = 0.0;  // s, of all gaps; of the largest one
   for (std::size_t i = 0; i + 1 < stroke.size(); ++i) {
@@ -51,8 +50,7 @@ std::string coverage_warning(const Stroke& stroke, const std::string& name) {
     return fmt::format(
         "{}: samples cover {:.4g} s of {:.10g} s, and the tool is lifted in the rest; the largest gap is "
         "{:.10g} s, from {:.10g} s to {:.10g} s; check the unit of the times (stroke convert --time-unit), "
-        "and "
-        "the times there",
+        "and the times there",
         name, stroke.duration() - missing, stroke.duration(), end - begin, begin, end);
   if (const auto [alone, all] = lone_samples(stroke); alone > 1 && 2 * alone > all)
     return fmt::format(

@@ -17,9 +17,8 @@ std::string played_text(const PlayedPart& part);
 
 /// A sentence for whoever took milliseconds for seconds, or has one time that is wrong: over a minute of the
 /// stroke, and over 99 % of it, lie where there are no samples (Stroke::sampled_between). Or for whoever
-/// plays what a starved recorder left, and where it lifts the tool; or samples of which most are joined to no
-/// other. Empty: not so, for hands do rest between
-/// two drags. `name` is the stroke's.
+/// plays what a starved recorder left, and where it lifts the tool; or samples of which most are joined to
+/// no other. Empty: not so, for hands do rest between two drags. `name` is the stroke's.
 std::string coverage_warning(const Stroke& stroke, const std::string& name);
 
 }  // namespace sandstroke

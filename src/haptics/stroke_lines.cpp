@@ -29,7 +29,7 @@ std::vector<PlaceOnLine> places_of(const Stroke& stroke, double tolerance) {
   const auto velocity = [&](std::size_t i) -> Eigen::Vector3d {
     return (stroke.position[i + 1] - stroke.position[i]) / time(i);
   };
-  /// Share of line i that is close to the corner between lines `before` and `before` + 1; 0: it needs none.
+  // Share of line i that is close to the corner between lines `before` and `before` + 1; 0: it needs none.
   const auto close_share = [&](std::size_t i, std::size_t before) {
     const double corner = (velocity(before + 1) - velocity(before)).norm();
     const double longest = time_in_tolerance(corner, tolerance);

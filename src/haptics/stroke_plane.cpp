@@ -99,13 +99,13 @@ std::string off_plane_warning(const Stroke& stroke, const std::string& name) {
   double largest = 0.0;
   for (const Vector3d& p : drawn)
     largest = std::max(largest, std::abs(middle.normal.dot(p - middle.centroid)));
-  constexpr double far = 8.0,
-                   thin = 0.005;  // of the middle's rms; of its length, where it is as flat as that
+  constexpr double far = 8.0;     // of the middle's rms
+  constexpr double thin = 0.005;  // of its length: no middle counts as flatter
   if (!(largest > far * std::max(middle.rms(), thin * middle.widths[2]))) return "";
   return fmt::format(
       "{}: it begins or ends up to {:.3g} mm off the plane of its middle ({:.3g} mm rms), as an approach or "
-      "a lift "
-      "do, and they pull the plane; cut them off with stroke.start and stroke.stop (s), or give pen states",
+      "a lift do, and they pull the plane; cut them off with stroke.start and stroke.stop (s), or give pen "
+      "states",
       name, 1e3 * largest, 1e3 * middle.rms());
 }
 

@@ -1,6 +1,7 @@
 #include "haptics/stroke_smoothing.h"
 
 #include <Eigen/Sparse>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -11,10 +12,19 @@ namespace sandstroke {
 namespace {
 
 using Eigen::Vector3d;
+using Sparse = Eigen::SparseMatrix<double>;
+
 /// (2 pi f h)^4: the solution's relative error is about 1e-16 of its inverse (measured: 2e-4).
 constexpr double least_bend = 1e-12;
 
-using Sparse = Eigen::SparseMatrix<double>;
+/// Hz, the mean.
+double rate_of(const Stroke& stroke, const StrokePiece& piece) {
+  return static_cast<double>(piece.size() - 1) / piece.duration(stroke.time);
+}
+
+bool is_filtered(const Stroke& stroke, const StrokePiece& piece, double cut_off) {
+  return piece.size() >= 3 && rate_of(stroke, piece) >= 2.0 * cut_off;
+}
 
 /// The filter of one piece of samples. With Q the second divided differences, R the time between them and W
 /// the time of each sample: (R^-1 + lambda Q^T W^-1 Q) g = Q^T y, x = y - lambda W^-1 Q g. Ends have W^-1 =
@@ -72,17 +82,21 @@ class PieceFilter {
 
 }  // namespace
 
+bool is_smoothed(const Stroke& stroke, double cut_off) {
+  const std::vector<StrokePiece> pieces = joined_pieces(stroke);
+  return std::any_of(pieces.begin(), pieces.end(),
+                     [&](const StrokePiece& piece) { return is_filtered(stroke, piece, cut_off); });
+}
+
 Stroke smoothed(const Stroke& stroke, double cut_off) {
   Stroke smooth = stroke;
   for (const StrokePiece& piece : joined_pieces(stroke)) {
-    if (piece.size() < 3) continue;
-    const double rate = static_cast<double>(piece.size() - 1) / piece.duration(stroke.time);
-    if (rate < 2.0 * cut_off) continue;
+    if (!is_filtered(stroke, piece, cut_off)) continue;
+    const double rate = rate_of(stroke, piece);
     if (std::pow(2.0 * std::numbers::pi * cut_off / rate, 4) < least_bend)
       throw_input_error(
           "stroke.smooth = {:.4g} Hz is too low for samples at {:.6g} Hz: rounding would move them; set "
-          "{:.2g} "
-          "Hz or more",
+          "{:.2g} Hz or more",
           cut_off, rate, 1.01 * rate * std::pow(least_bend, 0.25) / (2.0 * std::numbers::pi));
     const PieceFilter filter(stroke.time, piece, cut_off);
     filter.apply(smooth.position);

@@ -14,4 +14,7 @@ namespace sandstroke {
 /// kHz) that rounding would show.
 Stroke smoothed(const Stroke& stroke, double cut_off);
 
+/// Whether any piece of it is: others are sampled too rarely, or have two samples.
+bool is_smoothed(const Stroke& stroke, double cut_off);
+
 }  // namespace sandstroke

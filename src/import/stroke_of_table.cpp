@@ -258,7 +258,7 @@ class StrokeMaker {
       tell(fmt::format("{} Hz", rate));
     } else {
       if (table_.line_tolerance > 0.0)
-        asks_.push_back(fmt::format("it says no speed (F); give {} in m/s", option_and_key("speed")));
+        asks_.push_back(fmt::format("the file says no speed; give {} in m/s", option_and_key("speed")));
       else if (is_second_)
         asks_.push_back(
             fmt::format("the times are unknown, for no column is named time or t; give {}, or {} in Hz",

@@ -19,9 +19,9 @@ void TextLines::read_text(std::string_view part, const Take& take) {
   for (std::size_t end; (end = part.find_first_of("\r\n")) != std::string_view::npos;
        part.remove_prefix(end + 1)) {
     extend_line(part.substr(0, end));
-    const bool ended = after_return_ && end == 0 && part[0] == '\n' && rest_.empty();
+    const bool ends_with_both = after_return_ && end == 0 && part[0] == '\n';
     after_return_ = part[end] == '\r';
-    if (!ended) end_line(take);
+    if (!ends_with_both) end_line(take);
   }
   if (!part.empty()) after_return_ = false;
   extend_line(part);

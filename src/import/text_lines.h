@@ -32,9 +32,9 @@ class TextLines {
 
   std::string name_;
   TextDecoder decoder_;
-  std::size_t line_ = 0;  // the last whole one
-  bool after_return_ = false;
-  std::string rest_;  // of the text: a line that has not ended
+  std::size_t line_ = 0;       // the last whole one
+  bool after_return_ = false;  // a \r ended the last line: a \n right after it belongs to it
+  std::string rest_;           // of the text: a line that has not ended
 };
 
 }  // namespace sandstroke

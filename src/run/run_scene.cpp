@@ -70,7 +70,7 @@ Stroke placed_stroke(const Scene& scene, const std::filesystem::path& path, std:
     warn_if_any(off_plane_warning(place_stroke(loaded, cut, name), name));
   }
   const double smooth = scene.stroke->placement.smooth;
-  if (smooth > 0.0 && smoothed(loaded, smooth).position == loaded.position)
+  if (smooth > 0.0 && !is_smoothed(loaded, smooth))
     spdlog::warn(
         "{}: stroke.smooth = {:.4g} Hz changes nothing, for its samples come at less than twice that", name,
         smooth);

@@ -69,7 +69,7 @@ void correlate(const std::vector<ForcePair>& ticks, ForceAgreement& agreement) {
       static_cast<std::ptrdiff_t>(std::min(most_lag / tick_seconds, static_cast<double>(count)));
   const std::ptrdiff_t stride = 1 + count / most_searched;
   std::ptrdiff_t best = 0;
-  /// Lags around one, in steps: of equals the least.
+  // Tries lags on both sides of the middle, the nearest first: of equals the least is kept.
   const auto search = [&](std::ptrdiff_t middle, std::ptrdiff_t steps, std::ptrdiff_t step) {
     for (std::ptrdiff_t k = 0; k <= 2 * steps; ++k) {
       const std::ptrdiff_t lag = middle + (k % 2 == 0 ? step : -step) * ((k + 1) / 2);  // 0, -1, 1, -2, ...
