@@ -79,10 +79,10 @@ void RunView::on_relaxation(const RelaxationRecord&) {
   if (!playing_) bed_.publish(simulation_.bed());
 }
 
-void RunView::on_pass(std::int64_t) {
+void RunView::on_pass(std::int64_t, const BedNow& bed_now) {
   if (playing_ || since_pass_.seconds() < picture_interval) return;
   since_pass_ = {};
-  bed_.publish(simulation_.bed());
+  bed_.publish(bed_now());
 }
 
 }  // namespace sandstroke

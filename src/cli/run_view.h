@@ -20,7 +20,7 @@ class RunView : public SimulationObserver {
 
   void on_tick(const TickRecord& tick) override;
   void on_relaxation(const RelaxationRecord&) override;
-  void on_pass(std::int64_t) override;
+  void on_pass(std::int64_t, const BedNow& bed_now) override;
   void on_progress(double fraction) override { playing_ = fraction < 1.0; }
 
   /// How far it was behind real time at worst, if by more than a quarter of a second [s].

@@ -12,7 +12,7 @@ class RunProgress : public SimulationObserver {
     fraction_ = fraction;
     bar_.update(fraction);
   }
-  void on_pass(std::int64_t passes) override {
+  void on_pass(std::int64_t passes, const BedNow&) override {
     const bool after_the_stroke = fraction_ == 0.0 || fraction_ == 1.0;
     if (after_the_stroke) bar_.count(passes, "passes towards rest");
   }

@@ -1,15 +1,22 @@
 #pragma once
 
-#include <functional>
 #include <memory>
 #include <vector>
 
+#include "core/compensated_sum.h"
 #include "core/parallel.h"
 #include "sand/flow_kernels.h"
 #include "sand/relaxation.h"
 #include "sand/tile_activity.h"
 
 namespace sandstroke {
+
+/// What a tile that takes part in a relaxation has while that lasts.
+struct RelaxedTile {
+  TilePatch patch;    ///< its heights: the bed's are as they were, until they are written back
+  TileFlow flow;      ///< of the last pass
+  CellFlags changed;  ///< in that, in the flow's rows
+};
 
 /// The sand of a bed that can move, and one law's flow in it: what the steppers (passes, rkl) are made of. A
 /// pass is compute_flow, then advance: two sweeps over the active tiles, on more threads where that pays,
@@ -20,9 +27,8 @@ class ActiveSand {
   // with any active ones costs as much as 400 more (measured: tests/bench/active_sand_bench.cpp).
   static constexpr std::int64_t work_worth_threads = 8'000, work_per_tile = 400;
 
-  /// holds_still: only cells within one of a change may give; all others are held still, however steep.
-  ActiveSand(const TalusLaw& law, double cell_size, bool holds_still = false,
-             std::int64_t worth_threads = work_worth_threads);
+  explicit ActiveSand(const TalusLaw& law, double cell_size, bool tells_givers = false,
+                      std::int64_t worth_threads = work_worth_threads);
 
   /// Takes up what was set since the last relaxation.
   void begin(HeightField& bed);
@@ -30,76 +36,107 @@ class ActiveSand {
   const std::vector<int>& tiles() const { return activity_.tiles(); }  ///< active ones, by slot
   const CellFlags& cells(int slot) const { return activity_.cells(slot); }
   void rest() { activity_.rest(); }  ///< nothing is active any more
+  /// Tiles are counted as they join a relaxation, so that a stepper can keep things for each.
+  std::size_t place_of(int slot) const { return static_cast<std::size_t>(places_[slot]); }
+  std::size_t places() const { return joined_; }
+  RelaxedTile& tile_at(std::size_t place) { return *tiles_[place]; }
+  RelaxedTile& tile(int slot) { return *tiles_[place_of(slot)]; }
+  const RelaxedTile& tile(int slot) const { return *tiles_[place_of(slot)]; }
 
-  /// Every active cell's gain in a pass. then(slot, flow), if given, is called for each active tile, from any
-  /// thread. Returns the sum of outflows [m].
-  double compute_flow(const HeightField& bed, const std::function<void(int, const TileFlow&)>& then = {});
-  /// As computed last for tiles()[i].
-  const TileFlow& flow(std::size_t i) const { return *flows_[i]; }
-  /// body(slot, flow) for each active tile.
+  /// Every active cell's gain in a pass. Returns the sum of outflows [m]. first(slot): the flow that a
+  /// super-step began with in a tile: then only cells within one of a change may give, and all others are
+  /// held still, however steep (tells_givers); null: all may. join(slot) is called before for each active
+  /// tile, one after the other; the first time when places() has just grown by it.
+  template <class First, class Join>
+  double compute_flow(HeightField& bed, const First& first, const Join& join);
+  /// body(slot, tile) for each active tile.
   template <class Body>
-  void for_each_tile(const Body& body) const {
-    for_active_tiles([&](std::size_t i) { body(tiles()[i], flow(i)); });
+  void for_each_tile(const Body& body) {
+    for_active_tiles([&](int slot) { body(slot, tile(slot)); });
   }
 
-  /// Calls apply(slot, flow, changed) for each active tile: it changes the tile's heights, flags in
-  /// `changed` the cells that are another number now, and returns whether there is one. Next active: the
-  /// cells that see a change. False where nothing changed, and nothing is active.
+  /// Calls apply(slot, tile) for each active tile: it changes the tile's patch, and flags in `changed` the
+  /// cells that are another number now. Next active: the cells that see a change. False where nothing
+  /// changed, and nothing is active.
   template <class Apply>
   bool advance(HeightField& bed, const Apply& apply) {
-    for_active_tiles([&](std::size_t i) {
-      const int slot = activity_.tiles()[i];
-      any_changed_[i] = apply(slot, *flows_[i], changed_[i]);
+    for_each_tile(apply);
+    activity_.advance(bed, [this](int slot) {
+      return TileActivity::Changed{tile(slot).changed, tile(slot).flow.rows};
     });
-    activity_.advance(bed, changed_, any_changed_);
     return !at_rest();
   }
 
-  /// Heap memory for each tile that has been active at once with all others [bytes].
+  /// Brings to the bed what the passes so far have made of it.
+  void write_back(HeightField& bed) const;
+
+  /// Heap memory for each tile that takes part in a relaxation [bytes].
   static constexpr std::size_t bytes_per_tile() {
-    return sizeof(TileFlow) + sizeof(CellFlags) + sizeof(Look) + TileActivity::bytes_per_tile();
+    return sizeof(RelaxedTile) + sizeof(int) + sizeof(Residuals) + sizeof(double) +
+           TileActivity::bytes_per_tile();
   }
 
-  /// Ends a relaxation: residual of the whole bed, and the counters since begin(). The flow of what is still
-  /// active must have been computed: that is where it is looked at.
-  void end(const HeightField& bed, RelaxationOutcome& outcome);
+  /// Ends a relaxation: writes back; residual of the whole bed, and the counters since begin().
+  void end(HeightField& bed, RelaxationOutcome& outcome);
 
  private:
   template <class Body>
   void for_active_tiles(const Body& body) const {
-    parallel_for(tiles().size(), work_ >= worth_threads_, body);
+    parallel_for(tiles().size(), work_ >= worth_threads_, [&](std::size_t i) { body(tiles()[i]); });
   }
-  void load_givers(const HeightField& bed, int slot, GiverFlags& givers) const;
-  std::int64_t look_at_active_cells();
+  void take_part(int slot);
+  void look_at_active_cells();
+  void load_rim(const HeightField& bed, TilePatch& patch, RowSpan rows, const CellFlags& cells) const;
+  void load_givers(const HeightField& bed, int slot, RowSpan rows, FlowScratch& scratch) const;
 
   TalusLaw law_;
-  bool holds_still_;
   std::int64_t worth_threads_;
   double stable_slope_;  // rise over run
   TileActivity activity_;
 
-  std::vector<std::unique_ptr<TileFlow>> flows_;  // per active tile, as are the next two
-  std::vector<CellFlags> changed_;
-  std::vector<char> any_changed_;
-
-  struct Look {
-    CellFlags cells{};  // active at some time in this relaxation
-    // Residual of each group.
-    std::array<double, HeightField::tile_area / cells_per_group> steepest{};
-    bool listed = false;  // in looked_at_
-  };
-  std::vector<Look> looks_;        // per slot
-  std::vector<double> residuals_;  // per slot, after the relaxation before
-  std::vector<int> looked_at_;
+  // Of this relaxation: by place; those beyond joined_ are left from others.
+  std::vector<std::unique_ptr<RelaxedTile>> tiles_;
+  std::size_t joined_ = 0;
+  std::vector<int> places_;  // per slot; -1: takes no part
+  // Residual of each group of cells, per slot, and their largest; after the last relaxation that saw them.
+  using Residuals = std::array<double, HeightField::tile_area / cells_per_group>;
+  std::vector<Residuals> group_residuals_;
+  std::vector<double> residuals_;
 
   std::int64_t work_ = 0, cells_visited_ = 0, wake_ups_before_ = 0;
   int tiles_active_max_ = 0;
 };
 
+template <class First, class Join>
+double ActiveSand::compute_flow(HeightField& bed, const First& first, const Join& join) {
+  for (const int slot : tiles()) {
+    take_part(slot);
+    join(slot);
+  }
+  look_at_active_cells();
+  // What the next heights of cells depend on is two cells away.
+  const auto seen_rows = [&](int slot) {
+    const RowSpan rows = activity_.rows(slot);
+    return RowSpan{rows.begin - TilePatch::rim, rows.end + TilePatch::rim};
+  };
+  for_active_tiles([&](int slot) { tile(slot).patch.load_rows(bed, seen_rows(slot)); });
+  for_active_tiles([&](int slot) {
+    RelaxedTile& one = tile(slot);
+    load_rim(bed, one.patch, seen_rows(slot), cells(slot));
+    FlowScratch& scratch = FlowScratch::of_this_thread();
+    const FirstFlow* begun = first(slot);
+    if (begun) load_givers(bed, slot, activity_.rows(slot), scratch);
+    sandstroke::compute_flow(law_, one.patch, cells(slot), activity_.rows(slot), begun, scratch, one.flow);
+  });
+  CompensatedSum given;
+  for (const int slot : tiles()) given.add(tile(slot).flow.given);
+  return given.value();
+}
+
 // Those steppers.
 std::unique_ptr<Relaxer> make_tile_relaxer(const RelaxationSettings& settings, double cell_size);
 std::unique_ptr<Relaxer> make_rkl_relaxer(const RelaxationSettings& settings, double cell_size);
-/// Heap memory that the latter takes besides ActiveSand for each tile that has been active [bytes].
+/// Heap memory that the latter takes besides ActiveSand for each tile that takes part [bytes].
 std::size_t rkl_bytes_per_tile();
 
 }  // namespace sandstroke

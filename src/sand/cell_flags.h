@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 
@@ -10,38 +11,53 @@ namespace sandstroke {
 /// A flag per cell of a tile: bit c of word r is cell (r, c).
 using CellFlags = std::array<std::uint64_t, BedGeometry::tile_side>;
 
-/// Which columns have a flag.
-inline std::uint64_t columns_of(const CellFlags& flags) {
+/// The columns [begin, end) as flags.
+inline std::uint64_t columns_between(int begin, int end) {
+  if (begin >= end) return 0;
+  const std::uint64_t all = ~std::uint64_t{0};
+  return all >> (BedGeometry::tile_side - end) & all << begin;
+}
+
+/// Rows of a tile, half-open.
+struct RowSpan {
+  int begin = 0, end = 0;
+  bool empty() const { return begin >= end; }
+};
+/// The least span that holds both.
+inline RowSpan joined(RowSpan a, RowSpan b) {
+  if (a.empty()) return b;
+  return b.empty() ? a : RowSpan{std::min(a.begin, b.begin), std::max(a.end, b.end)};
+}
+inline constexpr RowSpan all_rows{0, BedGeometry::tile_side};
+
+/// The rows from the first to the last with a flag; empty where there is none. `within` holds all of them.
+inline RowSpan row_span(const CellFlags& flags, RowSpan within = all_rows) {
+  RowSpan span = within;
+  while (span.begin < span.end && !flags[span.end - 1]) --span.end;
+  while (span.begin < span.end && !flags[span.begin]) ++span.begin;
+  return span;
+}
+
+/// Which columns have a flag in these rows.
+inline std::uint64_t columns_of(const CellFlags& flags, RowSpan rows = all_rows) {
   std::uint64_t all = 0;
-  for (const std::uint64_t row : flags) all |= row;
+  for (int row = rows.begin; row < rows.end; ++row) all |= flags[row];
   return all;
 }
 
-inline bool any(const CellFlags& flags) { return columns_of(flags) != 0; }
-
 /// Not with std::popcount, which is a call per word where the compiler may not assume the instruction.
-inline int count(const CellFlags& flags) {
+inline int count(const CellFlags& flags, RowSpan rows = all_rows) {
   constexpr std::uint64_t twos = 0x3333333333333333u, fours = 0x0f0f0f0f0f0f0f0fu,
                           bytes = 0x00ff00ff00ff00ffu;
   std::uint64_t sums = 0;  // four of 16 bits each
-  for (std::uint64_t row : flags) {
+  for (int i = rows.begin; i < rows.end; ++i) {
+    std::uint64_t row = flags[i];
     row -= row >> 1 & 0x5555555555555555u;
     row = (row & twos) + (row >> 2 & twos);
     row = (row + (row >> 4)) & fours;
     sums += (row & bytes) + (row >> 8 & bytes);
   }
   return static_cast<int>((sums * 0x0001000100010001u) >> 48);
-}
-
-/// Rows of a tile from the first to the last with a flag, half-open; empty where there is none.
-struct RowSpan {
-  int begin = 0, end = 0;
-};
-inline RowSpan row_span(const CellFlags& flags) {
-  RowSpan span{0, BedGeometry::tile_side};
-  while (span.end > 0 && !flags[span.end - 1]) --span.end;
-  while (span.begin < span.end && !flags[span.begin]) ++span.begin;
-  return span;
 }
 
 /// Cells are computed in groups of so many neighbours in a row, whatever the width of the machine's vectors.

@@ -73,22 +73,25 @@ struct Drops {
   HWY_INLINE Drops() : axis(hn::Zero(d)), diagonal(hn::Zero(d)) {}
 };
 
-// Which cells may give, and whether anyone asks how steep the sand is.
+// Which cells may give, and what is looked at besides.
 
-/// All may, and nobody does.
+/// All may, and nothing is.
 struct FreeSand {
-  explicit FreeSand(const GiverFlags*) {}
+  FreeSand(const FirstFlow*, const FlowScratch&) {}
   HWY_INLINE void begin_row(int) {}
   HWY_INLINE Mask may_give(int, Mask moves) const { return moves; }
   HWY_INLINE void meet(V, V) {}
-  HWY_INLINE Drops steepest() const { return {}; }
+  HWY_INLINE void flows(int, int, V) {}
+  HWY_INLINE void ends(int, unsigned) {}
+  HWY_INLINE void report(const TalusLaw&, TileFlow&) {}
 };
 
-/// Those with a flag.
-class HeldSand {
+/// In a super-step: those with a flag; how steep the sand is; and how its flow differs from the first one.
+class SteppedSand {
  public:
-  explicit HeldSand(const GiverFlags* givers) : givers_(givers), row_(nullptr) {}
-  HWY_INLINE void begin_row(int row) { row_ = &givers_->rows[row + 1]; }
+  SteppedSand(const FirstFlow* first, const FlowScratch& scratch)
+      : first_(*first), givers_(scratch.givers.data()), row_(nullptr), difference_(hn::Zero(d)) {}
+  HWY_INLINE void begin_row(int row) { row_ = givers_ + row + 1; }
   HWY_INLINE Mask may_give(int c, Mask moves) const {
     const std::uint64_t flags = c < 0       ? std::uint64_t{row_->west} << (group - 1) >> (c + group)
                                 : c >= side ? std::uint64_t{row_->east} >> (c - side)
@@ -99,12 +102,40 @@ class HeldSand {
     steepest_.axis = higher(axis, steepest_.axis);
     steepest_.diagonal = higher(diagonal, steepest_.diagonal);
   }
-  HWY_INLINE Drops steepest() const { return steepest_; }
+  HWY_INLINE void flows(int row, int c, V gain) {
+    if (!(first_.moved[row] >> (c / group) & 1)) {
+      difference_ = Max(difference_, hn::Abs(gain));
+      return;
+    }
+    const V before = hn::Load(d, first_.gain.data() + row * side + c);
+    difference_ = Max(difference_, hn::Abs(gain - before));
+    product_.add(c, gain * before);
+  }
+  /// Groups of the row that do not flow any more.
+  HWY_INLINE void ends(int row, unsigned moved) {
+    for (unsigned over = first_.moved[row] & ~moved; over; over &= over - 1) {
+      const int begin = std::countr_zero(over) * group;
+      for (int c = begin; c < begin + group; c += lanes)
+        difference_ = Max(difference_, hn::Abs(hn::Load(d, first_.gain.data() + row * side + c)));
+    }
+  }
+  HWY_INLINE void report(const TalusLaw& law, TileFlow& flow) {
+    for (int row = first_.rows.begin; row < first_.rows.end; ++row)
+      if (row < flow.rows.begin || row >= flow.rows.end) ends(row, 0);
+    const double axis = largest(steepest_.axis);
+    flow.axis_drop = law.law == RelaxationLaw::paper ? axis : std::sqrt(axis);
+    flow.diagonal_drop = largest(steepest_.diagonal);
+    flow.change = largest(difference_);
+    flow.product = product_.total();
+  }
 
  private:
-  const GiverFlags* givers_;
-  const GiverFlags::Row* row_;
+  const FirstFlow& first_;
+  const FlowScratch::Row* givers_;
+  const FlowScratch::Row* row_;
   Drops steepest_;
+  V difference_;
+  LaneSum product_;
 };
 
 // Factors of the cells in a vector: what a cell gives a lower neighbour is its factor x (m - m_i). Bits:
@@ -168,7 +199,7 @@ struct IsotropicFactors {
 };
 
 /// Flags of a row's cells and of its rim's.
-using WideRow = GiverFlags::Row;
+using WideRow = FlowScratch::Row;
 HWY_INLINE WideRow widened(std::uint64_t row) {
   return {row | row << 1 | row >> 1, (row & 1) != 0, row >> (side - 1) != 0};
 }
@@ -176,10 +207,8 @@ HWY_INLINE WideRow widened(std::uint64_t row) {
 /// Computes the factors of a row's flagged groups (others keep what they had: no active cell sees them);
 /// returns the cells that have one.
 template <class Factors, class Sand>
-HWY_INLINE WideRow factor_row(const Factors& factors_of, TilePatch& patch, int row, const WideRow& cells,
-                              Sand& sand) {
-  const double* heights = patch.heights(row);
-  double* factors = patch.factors(row);
+HWY_INLINE WideRow factor_row(const Factors& factors_of, const double* heights, double* factors, int row,
+                              const WideRow& cells, Sand& sand) {
   sand.begin_row(row);
   const auto one_group = [&](int begin) {
     unsigned flags = 0;
@@ -232,73 +261,69 @@ struct GainOf {
 };
 
 template <class Factors, class Gain, class Sand>
-HWY_INLINE void flow_of(const TalusLaw& law, TilePatch& patch, const CellFlags& active,
-                        const GiverFlags* givers, TileFlow& flow) {
-  const RowSpan span = row_span(active);
-  const auto active_row = [&](int row) { return row < 0 || row >= side ? 0 : active[row]; };
+HWY_INLINE void flow_of(const TalusLaw& law, const TilePatch& patch, const CellFlags& active, RowSpan rows,
+                        const FirstFlow* first, FlowScratch& scratch, TileFlow& flow) {
+  const auto active_row = [&](int row) { return row < rows.begin || row >= rows.end ? 0 : active[row]; };
+  const auto factors_in = [&](int row) { return scratch.factors.data() + TilePatch::start(row); };
   std::array<WideRow, side + 2> moving;  // from row -1; those around the span
   const Factors factors(law);
-  Sand sand(givers);
-  for (int row = span.begin - 1; row <= span.end; ++row)
-    moving[row + 1] = factor_row(factors, patch, row,
+  Sand sand(first, scratch);
+  for (int row = rows.begin - 1; row <= rows.end; ++row)
+    moving[row + 1] = factor_row(factors, patch.heights(row), factors_in(row), row,
                                  widened(active_row(row - 1) | active_row(row) | active_row(row + 1)), sand);
 
   const Gain gain(law);
   LaneSum given;
-  flow.moved = {};
-  for (int row = span.begin; row < span.end; ++row) {
+  flow.rows = rows;
+  for (int row = rows.begin; row < rows.end; ++row) {
     const WideRow &n = moving[row], &m = moving[row + 1], &s = moving[row + 2];
     const std::uint64_t own = n.own | m.own | s.own;
     const std::uint64_t west = n.west || m.west || s.west, east = n.east || m.east || s.east;
     const std::uint64_t cells = (own | own << 1 | own >> 1 | west | east << (side - 1)) & active[row];
     flow.moved[row] = cells;
-    for (unsigned wanted = groups_of(cells); wanted; wanted &= wanted - 1) {
+    const unsigned moved = groups_of(cells);
+    for (unsigned wanted = moved; wanted; wanted &= wanted - 1) {
       const int begin = std::countr_zero(wanted) * group;
-      for (int c = 0; c < group; c += lanes) {
-        const Mask flagged = lanes_of(cells >> (begin + c));
-        hn::Store(gain(patch.heights(row), patch.factors(row), begin + c, flagged, given), d,
-                  flow.gain.data() + row * side + begin + c);
+      for (int c = begin; c < begin + group; c += lanes) {
+        const V gained = gain(patch.heights(row), factors_in(row), c, lanes_of(cells >> c), given);
+        hn::Store(gained, d, flow.gain.data() + row * side + c);
+        sand.flows(row, c, gained);
       }
     }
+    sand.ends(row, moved);
   }
   flow.given = given.total();
-  const Drops steepest = sand.steepest();
-  flow.axis_drop =
-      law.law == RelaxationLaw::paper ? largest(steepest.axis) : std::sqrt(largest(steepest.axis));
-  flow.diagonal_drop = largest(steepest.diagonal);
+  sand.report(law, flow);
 }
 
-void ComputeFlow(const TalusLaw& law, TilePatch& patch, const CellFlags& active, const GiverFlags* givers,
-                 TileFlow& flow) {
+void ComputeFlow(const TalusLaw& law, const TilePatch& patch, const CellFlags& active, RowSpan rows,
+                 const FirstFlow* first, FlowScratch& scratch, TileFlow& flow) {
   if (law.law == RelaxationLaw::paper) {
-    givers ? flow_of<PaperFactors, GainOf<true>, HeldSand>(law, patch, active, givers, flow)
-           : flow_of<PaperFactors, GainOf<true>, FreeSand>(law, patch, active, givers, flow);
+    first ? flow_of<PaperFactors, GainOf<true>, SteppedSand>(law, patch, active, rows, first, scratch, flow)
+          : flow_of<PaperFactors, GainOf<true>, FreeSand>(law, patch, active, rows, first, scratch, flow);
   } else {
-    givers ? flow_of<IsotropicFactors, GainOf<false>, HeldSand>(law, patch, active, givers, flow)
-           : flow_of<IsotropicFactors, GainOf<false>, FreeSand>(law, patch, active, givers, flow);
+    first
+        ? flow_of<IsotropicFactors, GainOf<false>, SteppedSand>(law, patch, active, rows, first, scratch,
+                                                                flow)
+        : flow_of<IsotropicFactors, GainOf<false>, FreeSand>(law, patch, active, rows, first, scratch, flow);
   }
 }
 
-bool ApplyFlow(const TileFlow& flow, double* heights, CellFlags& changed) {
-  bool any = false;
-  changed = {};
-  const RowSpan span = row_span(flow.moved);
-  for (int row = span.begin; row < span.end; ++row) {
+void ApplyFlow(const TileFlow& flow, TilePatch& patch, CellFlags& changed) {
+  for (int row = flow.rows.begin; row < flow.rows.end; ++row) {
     std::uint64_t flags = 0;
     for (unsigned wanted = groups_of(flow.moved[row]); wanted; wanted &= wanted - 1) {
       const int begin = std::countr_zero(wanted) * group;
-      for (int c = 0; c < group; c += lanes) {
-        double* cell = heights + row * side + begin + c;
+      for (int c = begin; c < begin + group; c += lanes) {
+        double* cell = patch.heights(row) + c;
         const V old = hn::Load(d, cell);
-        const V next = old + hn::Load(d, flow.gain.data() + row * side + begin + c);
+        const V next = old + hn::Load(d, flow.gain.data() + row * side + c);
         hn::Store(next, d, cell);
-        flags |= static_cast<std::uint64_t>(bits(next != old)) << (begin + c);
+        flags |= static_cast<std::uint64_t>(bits(next != old)) << c;
       }
     }
-    changed[row] = flags;
-    any |= flags != 0;
+    changed[row] = flags & flow.moved[row];  // beside them may be walls, which equal nothing
   }
-  return any;
 }
 
 void ComputeResiduals(const TalusLaw& law, const TilePatch& patch, const CellFlags& cells, double* steepest) {
@@ -332,12 +357,17 @@ HWY_EXPORT(ComputeFlow);
 HWY_EXPORT(ApplyFlow);
 HWY_EXPORT(ComputeResiduals);
 
-void compute_flow(const TalusLaw& law, TilePatch& patch, const CellFlags& active, const GiverFlags* givers,
-                  TileFlow& flow) {
-  HWY_DYNAMIC_DISPATCH(ComputeFlow)(law, patch, active, givers, flow);
+FlowScratch& FlowScratch::of_this_thread() {
+  thread_local FlowScratch scratch;
+  return scratch;
 }
-bool apply_flow(const TileFlow& flow, double* heights, CellFlags& changed) {
-  return HWY_DYNAMIC_DISPATCH(ApplyFlow)(flow, heights, changed);
+
+void compute_flow(const TalusLaw& law, const TilePatch& patch, const CellFlags& active, RowSpan rows,
+                  const FirstFlow* first, FlowScratch& scratch, TileFlow& flow) {
+  HWY_DYNAMIC_DISPATCH(ComputeFlow)(law, patch, active, rows, first, scratch, flow);
+}
+void apply_flow(const TileFlow& flow, TilePatch& patch, CellFlags& changed) {
+  HWY_DYNAMIC_DISPATCH(ApplyFlow)(flow, patch, changed);
 }
 void compute_residuals(const TalusLaw& law, const TilePatch& patch, const CellFlags& cells,
                        double* steepest) {

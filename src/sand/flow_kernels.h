@@ -6,36 +6,56 @@
 
 namespace sandstroke {
 
+/// A flow that a super-step began with (F0).
+struct FirstFlow {
+  /// Groups of 8 cells: bit g of a row's byte is its group g.
+  using Groups = std::array<std::uint8_t, BedGeometry::tile_side>;
+  /// m: in the groups of `moved`; elsewhere it is 0.
+  alignas(64) std::array<double, BedGeometry::tile_area> gain;
+  Groups moved{};
+  RowSpan rows;  ///< that hold those
+};
+
 /// What the sand of a tile does in one pass.
 struct TileFlow {
+  RowSpan rows;       ///< those with active cells: what follows is of them
   CellFlags moved{};  ///< cells whose gain was computed; that of others is 0
   /// m: inflow less outflow; in groups that moved.
   alignas(64) std::array<double, BedGeometry::tile_area> gain{};
   double given = 0.0;  ///< m: sum of outflows
-  // Where sand is held still (givers):
+  // In super-steps:
   double axis_drop = 0.0;      ///< m: the largest drop between neighbours that was met (isotropic: dx |g|)
   double diagonal_drop = 0.0;  ///< m: the same between diagonal ones (paper law)
+  double change = 0.0;         ///< m: max |F - F0|
+  double product = 0.0;        ///< m^2: sum F F0
 };
 
-/// The cells that may give, of a tile and one cell around it; all others are held still.
-struct GiverFlags {
+/// What a pass needs besides, for one tile after the other.
+struct FlowScratch {
+  /// The part of each drop that a cell gives away; laid out like a patch.
+  alignas(64) std::array<double, TilePatch::size> factors{};
+  /// The cells that may give in a super-step, of a tile and one cell around it; all others are held still.
   struct Row {
     std::uint64_t own;
     bool west, east;
   };
-  std::array<Row, BedGeometry::tile_side + 2> rows;  ///< from row -1
+  std::array<Row, BedGeometry::tile_side + 2> givers;  ///< from row -1; those around the active rows
+
+  /// Each thread has one, so that its memory is made once and shared with nobody.
+  static FlowScratch& of_this_thread();
 };
 
 // Vector code (Highway) for the best instruction set of the machine, with the same bits in all of them: each
 // cell's expression is evaluated in one order, without contraction, and sums run over 8 lanes.
 
-/// The law's flow of the active cells, from a loaded patch. Cells at rest cost a comparison with their
-/// neighbours. givers: none = all cells may give.
-void compute_flow(const TalusLaw& law, TilePatch& patch, const CellFlags& active, const GiverFlags* givers,
-                  TileFlow& flow);
+/// The law's flow of the active cells, all in `rows`, from a patch that holds them and two cells around them.
+/// Cells at rest cost a comparison with their neighbours. first: the super-step's, in which only the
+/// scratch's givers may give; none: all may.
+void compute_flow(const TalusLaw& law, const TilePatch& patch, const CellFlags& active, RowSpan rows,
+                  const FirstFlow* first, FlowScratch& scratch, TileFlow& flow);
 
-/// heights += gain; flags the cells that are another number now. Returns false where none is.
-bool apply_flow(const TileFlow& flow, double* heights, CellFlags& changed);
+/// heights += gain; flags, in the flow's rows, the cells that are another number now.
+void apply_flow(const TileFlow& flow, TilePatch& patch, CellFlags& changed);
 
 /// slope / tan(talus) - 1 of the steepest cell in each group of 8 that holds a flagged cell, from a loaded
 /// patch. steepest: tile_area / 8 numbers; other groups' are left alone.

@@ -49,6 +49,12 @@ struct RelaxationOutcome {
   void add(const RelaxationOutcome& next);
 };
 
+/// The bed as the passes so far have made it. Whoever does not look at it should not ask, which costs a copy
+/// of what moves.
+using BedNow = std::function<const HeightField&()>;
+/// Told after each pass: how many there were in this relaxation.
+using PassWatcher = std::function<void(std::int64_t passes, const BedNow& bed_now)>;
+
 /// Relaxes a bed to equilibrium, again and again as it is disturbed. Passes are Jacobi: all cells at once,
 /// from the old heights. A cell at rest (slope within the tolerance) gives nothing; so what a patch of sand
 /// does depends on its neighbourhood only, not on whether sand elsewhere still moves. (The stages of rkl have
@@ -64,9 +70,8 @@ class Relaxer {
  public:
   virtual ~Relaxer() = default;
   /// Stops at equilibrium, after max_passes (those that changed something, rejected ones included), or when
-  /// interrupted(). after_pass, if given, is told the number of passes so far after each.
-  virtual RelaxationOutcome relax(HeightField& bed,
-                                  const std::function<void(std::int64_t)>& after_pass = {}) = 0;
+  /// interrupted(). Meanwhile the bed has its old heights, but for who asks after a pass.
+  virtual RelaxationOutcome relax(HeightField& bed, const PassWatcher& after_pass = {}) = 0;
 };
 
 /// How many tiles are allocated, or steep enough to move by their rule: the first relaxation wakes them, and

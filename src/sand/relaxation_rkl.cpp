@@ -52,19 +52,23 @@ class RklRelaxer : public Relaxer {
         largest_share_(std::min(law_.share, largest_share)),
         sand_(ungated(settings, cell_size), cell_size, true) {}
 
-  RelaxationOutcome relax(HeightField& bed, const std::function<void(std::int64_t)>& after_pass) override {
+  RelaxationOutcome relax(HeightField& bed, const PassWatcher& after_pass) override {
     outcome_ = {};
     moved_ = {};
     low_ = std::numeric_limits<double>::infinity(), high_ = -low_;
-    ++relaxation_, ++step_;
+    ++step_;
+    taken_in_ = 0;
     travelled_ = 0.0;
     too_steep_ = false;
-    in_step_.clear();
+    const BedNow bed_now = [&]() -> const HeightField& { return sand_.write_back(bed), bed; };
+    const auto told = [&] {
+      if (after_pass) after_pass(outcome_.passes, bed_now);
+    };
     double share = largest_share_ * first_share;
     sand_.begin(bed);
     if (!sand_.at_rest()) compute_flow(bed);
     while (goes_on()) {
-      super_step(bed, share, after_pass);
+      super_step(bed, share, told);
       share = std::min(2.0 * share, largest_share_);
     }
     if (!too_steep_) sand_.rest();
@@ -75,31 +79,29 @@ class RklRelaxer : public Relaxer {
 
   struct StepTile {
     SuperStepTile kept;
-    FlowSize first{};              // of F0, where it is active at the step's start
-    FlowChange change{};           // from F0, in the last pass
-    HeightRange range{};           // of the active cells, after the last stage
-    std::int64_t relaxation = -1;  // whose range knows this tile
-    std::int64_t step = -1;        // super-step that it takes part in
-    std::int64_t pass = -1;        // the last in which it was active
+    FlowSize first{};        // of F0, where it is active at the step's start
+    HeightRange range{};     // of the active cells, after the last stage
+    std::int64_t step = -1;  // super-step that it takes part in
+    std::int64_t pass = -1;  // the last in which it was active
   };
 
  private:
   bool goes_on() const {
     return !sand_.at_rest() && too_steep_ && outcome_.passes < max_passes_ && !interrupted();
   }
-  StepTile& tile(int slot) { return *tiles_[slot]; }
+  StepTile& tile(int slot) { return *tiles_[sand_.place_of(slot)]; }
 
-  void super_step(HeightField& bed, double share, const std::function<void(std::int64_t)>& after_pass) {
+  template <class Told>
+  void super_step(HeightField& bed, double share, const Told& told) {
     ++step_;
     ++outcome_.super_steps;
-    in_step_.clear();
-    const FlowSize first = start_step(bed);
+    const FlowSize first = start_step();
     double tau = 0.0, flowing = 0.0;
     for (int j = 0;; ++j) {
       const double momentum = j / (j + 1.0), step = share * (2.0 * j + 1.0) / (j + 1.0);
       if (!advance(bed, momentum, step)) break;  // what still flows is below rounding
       ++outcome_.passes;
-      if (after_pass) after_pass(outcome_.passes);
+      told();
       if (j > 0 && left_range()) {
         take_back(bed);
         break;
@@ -120,40 +122,41 @@ class RklRelaxer : public Relaxer {
 
   /// F of the heights as they are, how it differs from F0, and whether any slope is beyond the tolerance.
   void compute_flow(HeightField& bed) {
-    for (const int slot : sand_.tiles()) take_in(bed, slot);
-    given_ = sand_.compute_flow(bed, [this](int slot, const TileFlow& flow) {
-      tile(slot).change = compare_flows(flow, tile(slot).kept);
-    });
+    given_ = sand_.compute_flow(
+        bed, [&](int slot) { return &tile(slot).kept.first; }, [&](int slot) { take_in(bed, slot); });
     too_steep_ = false;
-    for (std::size_t i = 0; i < sand_.tiles().size(); ++i) {
-      const TileFlow& flow = sand_.flow(i);
+    for (const int slot : sand_.tiles()) {
+      const TileFlow& flow = sand_.tile(slot).flow;
       too_steep_ |= flow.axis_drop > law_.axis_limit || flow.diagonal_drop > law_.diagonal_limit;
     }
   }
 
   /// Gives an active tile its place in the step, and its starting heights theirs in the range.
   void take_in(const HeightField& bed, int slot) {
-    if (tiles_.size() <= static_cast<std::size_t>(slot)) tiles_.resize(slot + 1);
-    if (!tiles_[slot]) tiles_[slot] = std::make_unique<StepTile>();
-    StepTile& joining = tile(slot);
-    joining.pass = outcome_.passes;
-    if (joining.relaxation != relaxation_) {
-      joining.relaxation = relaxation_;
+    if (tiles_.size() < sand_.places()) tiles_.push_back(std::make_unique<StepTile>());
+    if (taken_in_ < sand_.places()) {  // as this relaxation's last
+      ++taken_in_;
+      tile(slot).step = -1;
       const CellRange cells = bed.tile_cells(bed.tile_of(slot));
       const HeightRange range = range_of(bed.tile_heights(slot), cells.rows(), cells.cols());
       low_ = std::min(low_, range.low), high_ = std::max(high_, range.high);
     }
+    join(slot);
+  }
+  void join(int slot) {
+    StepTile& joining = tile(slot);
+    joining.pass = outcome_.passes;
     if (joining.step == step_) return;
     joining.step = step_;
-    joining.kept.stepped = joining.kept.first_moved = {};
-    in_step_.push_back(slot);
+    joining.kept.stepped = joining.kept.first.moved = {};
+    joining.kept.rows = joining.kept.first.rows = {};
   }
 
   /// Keeps the flow as F0.
-  FlowSize start_step(const HeightField& bed) {
-    for (const int slot : sand_.tiles()) take_in(bed, slot);
-    sand_.for_each_tile([this](int slot, const TileFlow& flow) {
-      tile(slot).first = keep_first_flow(flow, tile(slot).kept);
+  FlowSize start_step() {
+    for (const int slot : sand_.tiles()) join(slot);
+    sand_.for_each_tile([this](int slot, RelaxedTile& relaxed) {
+      tile(slot).first = keep_first_flow(relaxed.flow, tile(slot).kept.first);
     });
     double peak = 0.0;
     CompensatedSum square;
@@ -164,40 +167,50 @@ class RklRelaxer : public Relaxer {
     return {peak, square.value()};
   }
 
+  struct FlowChange {
+    double difference;  // m: max |F - F0|
+    double product;     // m^2: sum F F0
+  };
   /// How the flow as computed last differs from F0. A tile that flowed then is active until the step ends,
   /// even where its flow is over: it goes on by its momentum.
-  FlowChange change_from_start() {
+  FlowChange change_from_start() const {
     double difference = 0.0;
     CompensatedSum product;
     for (const int slot : sand_.tiles()) {
-      difference = std::max(difference, tile(slot).change.difference);
-      product.add(tile(slot).change.product);
+      difference = std::max(difference, sand_.tile(slot).flow.change);
+      product.add(sand_.tile(slot).flow.product);
     }
     return {difference, product.value()};
   }
 
   /// One stage. False where no height is another number now: all is at rest.
   bool advance(HeightField& bed, double momentum, double step) {
-    return sand_.advance(bed, [&](int slot, const TileFlow& flow, CellFlags& changed) {
-      tile(slot).range = super_stage(flow, sand_.cells(slot), momentum, step, bed.tile_heights(slot),
-                                     tile(slot).kept, changed);
-      if (!any(changed)) return false;
-      bed.mark_changed(slot);
-      return true;
+    return sand_.advance(bed, [&](int slot, RelaxedTile& relaxed) {
+      tile(slot).range = super_stage(relaxed.flow, sand_.cells(slot), momentum, step, relaxed.patch,
+                                     tile(slot).kept, relaxed.changed);
     });
+  }
+
+  /// Calls body(tile, its step's tile) for those that take part in this super-step.
+  template <class Body>
+  void for_tiles_in_step(const Body& body) {
+    for (std::size_t place = 0; place < taken_in_; ++place)
+      if (tiles_[place]->step == step_) body(sand_.tile_at(place), *tiles_[place]);
   }
 
   /// Whether the last stage took any height out of the range of the starting ones.
   bool left_range() {
-    return std::any_of(in_step_.begin(), in_step_.end(), [this](int slot) {
-      const StepTile& one = tile(slot);
-      return one.pass == outcome_.passes - 1 && (one.range.low < low_ || one.range.high > high_);
+    bool left = false;
+    for_tiles_in_step([&](RelaxedTile&, const StepTile& one) {
+      left |= one.pass == outcome_.passes - 1 && (one.range.low < low_ || one.range.high > high_);
     });
+    return left;
   }
 
   void take_back(HeightField& bed) {
     ++outcome_.rejected_stages;
-    for (const int slot : in_step_) take_back_stage(tile(slot).kept, bed.tile_heights(slot));
+    for_tiles_in_step(
+        [](RelaxedTile& relaxed, const StepTile& one) { take_back_stage(one.kept, relaxed.patch); });
     compute_flow(bed);
   }
 
@@ -207,12 +220,12 @@ class RklRelaxer : public Relaxer {
   double largest_share_;
   ActiveSand sand_;
 
-  std::vector<std::unique_ptr<StepTile>> tiles_;  // per slot
-  std::vector<int> in_step_;                      // slots of the tiles in this super-step
-  std::int64_t relaxation_ = 0, step_ = 0;        // which one this is
+  std::vector<std::unique_ptr<StepTile>> tiles_;  // by place in sand_
+  std::int64_t step_ = 0;                         // which super-step this is
 
   // Of this relaxation.
   RelaxationOutcome outcome_;
+  std::size_t taken_in_ = 0;  // how many tiles have taken part
   CompensatedSum moved_;
   double low_ = 0.0, high_ = 0.0;  // m: range of the starting heights, in the tiles that took part
   double travelled_ = 0.0;         // m: how far sand has moved, sum of tau max |F0|

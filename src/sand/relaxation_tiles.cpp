@@ -11,20 +11,18 @@ class TileRelaxer : public Relaxer {
   TileRelaxer(const RelaxationSettings& settings, double cell_size)
       : max_passes_(settings.max_passes), sand_(TalusLaw(settings, cell_size), cell_size) {}
 
-  RelaxationOutcome relax(HeightField& bed, const std::function<void(std::int64_t)>& after_pass) override {
+  RelaxationOutcome relax(HeightField& bed, const PassWatcher& after_pass) override {
     RelaxationOutcome outcome;
     CompensatedSum moved;
+    const BedNow bed_now = [&]() -> const HeightField& { return sand_.write_back(bed), bed; };
     sand_.begin(bed);
     while (!sand_.at_rest() && outcome.passes != max_passes_ && !interrupted()) {
-      moved.add(sand_.compute_flow(bed));
-      const bool changed = sand_.advance(bed, [&bed](int slot, const TileFlow& flow, CellFlags& cells) {
-        if (!apply_flow(flow, bed.tile_heights(slot), cells)) return false;
-        bed.mark_changed(slot);
-        return true;
-      });
+      moved.add(compute_flow(bed));
+      const bool changed =
+          sand_.advance(bed, [](int, RelaxedTile& tile) { apply_flow(tile.flow, tile.patch, tile.changed); });
       if (!changed) break;  // what still flows is below rounding
       ++outcome.passes;
-      if (after_pass) after_pass(outcome.passes);
+      if (after_pass) after_pass(outcome.passes, bed_now);
     }
     if (!sand_.at_rest()) look_for_rest(bed);  // cut off: perhaps the last pass was enough
     outcome.moved_volume = moved.value() * bed.cell_area();
@@ -33,10 +31,16 @@ class TileRelaxer : public Relaxer {
   }
 
  private:
-  void look_for_rest(const HeightField& bed) {
-    sand_.compute_flow(bed);
-    for (std::size_t i = 0; i < sand_.tiles().size(); ++i)
-      if (any(sand_.flow(i).moved)) return;
+  double compute_flow(HeightField& bed) {
+    const auto all_may_give = [](int) { return nullptr; };
+    return sand_.compute_flow(bed, all_may_give, [](int) {});
+  }
+  void look_for_rest(HeightField& bed) {
+    compute_flow(bed);
+    for (const int slot : sand_.tiles()) {
+      const TileFlow& flow = sand_.tile(slot).flow;
+      if (columns_of(flow.moved, flow.rows)) return;
+    }
     sand_.rest();
   }
 

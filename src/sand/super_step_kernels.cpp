@@ -16,45 +16,32 @@ namespace HWY_NAMESPACE {
 
 constexpr int side = BedGeometry::tile_side;
 
-/// Calls body(row, group) for the groups that groups_in(row) flags.
+/// Calls body(row, column of a vector) for the groups that groups_in(row) flags.
 template <class Groups, class Body>
-HWY_INLINE void for_groups(const Groups& groups_in, const Body& body) {
-  for (int row = 0; row < side; ++row)
-    for (unsigned wanted = groups_in(row); wanted; wanted &= wanted - 1) body(row, std::countr_zero(wanted));
+HWY_INLINE void for_groups(RowSpan rows, const Groups& groups_in, const Body& body) {
+  for (int row = rows.begin; row < rows.end; ++row)
+    for (unsigned wanted = groups_in(row); wanted; wanted &= wanted - 1) {
+      const int begin = std::countr_zero(wanted) * group;
+      for (int c = begin; c < begin + group; c += lanes) body(row, c);
+    }
 }
 
-FlowSize KeepFirstFlow(const TileFlow& flow, SuperStepTile& tile) {
+FlowSize KeepFirstFlow(const TileFlow& flow, FirstFlow& first) {
   V peak = hn::Zero(d);
   LaneSum square;
-  for (int row = 0; row < side; ++row)
-    tile.first_moved[row] = static_cast<std::uint8_t>(groups_of(flow.moved[row]));
-  for_groups([&](int row) { return tile.first_moved[row]; },
-             [&](int row, int g) {
-               for (int c = g * group; c < (g + 1) * group; c += lanes) {
-                 const V gain = hn::Load(d, flow.gain.data() + row * side + c);
-                 peak = Max(peak, hn::Abs(gain));
-                 square.add(c, gain * gain);
-                 hn::Store(gain, d, tile.first_gain.data() + row * side + c);
-               }
-             });
+  first.moved = {};
+  first.rows = flow.rows;
+  for (int row = flow.rows.begin; row < flow.rows.end; ++row)
+    first.moved[row] = static_cast<std::uint8_t>(groups_of(flow.moved[row]));
+  for_groups(
+      flow.rows, [&](int row) { return first.moved[row]; },
+      [&](int row, int c) {
+        const V gain = hn::Load(d, flow.gain.data() + row * side + c);
+        peak = Max(peak, hn::Abs(gain));
+        square.add(c, gain * gain);
+        hn::Store(gain, d, first.gain.data() + row * side + c);
+      });
   return {largest(peak), square.total()};
-}
-
-FlowChange CompareFlows(const TileFlow& flow, const SuperStepTile& tile) {
-  V difference = hn::Zero(d);
-  LaneSum product;
-  for_groups([&](int row) { return groups_of(flow.moved[row]) | tile.first_moved[row]; },
-             [&](int row, int g) {
-               const bool now = groups_of(flow.moved[row]) >> g & 1, first = tile.first_moved[row] >> g & 1;
-               for (int c = g * group; c < (g + 1) * group; c += lanes) {
-                 const int at = row * side + c;
-                 const V gain = now ? hn::Load(d, flow.gain.data() + at) : hn::Zero(d);
-                 const V before = first ? hn::Load(d, tile.first_gain.data() + at) : hn::Zero(d);
-                 difference = Max(difference, hn::Abs(gain - before));
-                 product.add(c, gain * before);
-               }
-             });
-  return {largest(difference), product.total()};
 }
 
 /// Lowest and highest, lane by lane.
@@ -77,37 +64,40 @@ HeightRange RangeOf(const double* heights, int rows, int cols) {
 }
 
 HeightRange SuperStage(const TileFlow& flow, const CellFlags& active, double momentum, double step,
-                       double* heights, SuperStepTile& tile, CellFlags& changed) {
+                       TilePatch& patch, SuperStepTile& tile, CellFlags& changed) {
   Range range;
-  changed = {};
-  for_groups([&](int row) { return groups_of(active[row]); },
-             [&](int row, int g) {
-               const bool moved = groups_of(flow.moved[row]) >> g & 1, stepped = tile.stepped[row] >> g & 1;
-               for (int c = g * group; c < (g + 1) * group; c += lanes) {
-                 const int at = row * side + c;
-                 const V now = hn::Load(d, heights + at);
-                 V next = now;
-                 if (stepped) {
-                   const V before = hn::Load(d, tile.before.data() + at);
-                   next += all(momentum) * (now - before);
-                 }
-                 if (moved) next += all(step) * hn::Load(d, flow.gain.data() + at);
-                 hn::Store(now, d, tile.before.data() + at);
-                 hn::Store(next, d, heights + at);
-                 range.add(next, lanes_of(active[row] >> c));
-                 changed[row] |= static_cast<std::uint64_t>(bits(next != now)) << c;
-               }
-             });
-  for (int row = 0; row < side; ++row) tile.stepped[row] |= static_cast<std::uint8_t>(groups_of(active[row]));
+  for (int row = flow.rows.begin; row < flow.rows.end; ++row) {
+    const unsigned wanted = groups_of(active[row]), moved = groups_of(flow.moved[row]);
+    std::uint64_t flags = 0;
+    for (unsigned left = wanted; left; left &= left - 1) {
+      const int g = std::countr_zero(left);
+      const bool moves = moved >> g & 1, stepped = tile.stepped[row] >> g & 1;
+      for (int c = g * group; c < (g + 1) * group; c += lanes) {
+        const int at = row * side + c;
+        double* cells = patch.heights(row) + c;
+        const V now = hn::Load(d, cells);
+        V next = now;
+        if (stepped) next += all(momentum) * (now - hn::Load(d, tile.before.data() + at));
+        if (moves) next += all(step) * hn::Load(d, flow.gain.data() + at);
+        hn::Store(now, d, tile.before.data() + at);
+        hn::Store(next, d, cells);
+        range.add(next, lanes_of(active[row] >> c));
+        flags |= static_cast<std::uint64_t>(bits(next != now)) << c;
+      }
+    }
+    changed[row] = flags & active[row];  // beside them may be walls, which equal nothing
+    tile.stepped[row] |= static_cast<std::uint8_t>(wanted);
+  }
+  tile.rows = joined(tile.rows, flow.rows);
   return range.over_lanes();
 }
 
-void TakeBackStage(const SuperStepTile& tile, double* heights) {
-  for_groups([&](int row) { return tile.stepped[row]; },
-             [&](int row, int g) {
-               for (int at = row * side + g * group, end = at + group; at < end; at += lanes)
-                 hn::Store(hn::Load(d, tile.before.data() + at), d, heights + at);
-             });
+void TakeBackStage(const SuperStepTile& tile, TilePatch& patch) {
+  for_groups(
+      tile.rows, [&](int row) { return tile.stepped[row]; },
+      [&](int row, int c) {
+        hn::Store(hn::Load(d, tile.before.data() + row * side + c), d, patch.heights(row) + c);
+      });
 }
 
 }  // namespace HWY_NAMESPACE
@@ -118,26 +108,22 @@ HWY_AFTER_NAMESPACE();
 namespace sandstroke {
 
 HWY_EXPORT(KeepFirstFlow);
-HWY_EXPORT(CompareFlows);
 HWY_EXPORT(RangeOf);
 HWY_EXPORT(SuperStage);
 HWY_EXPORT(TakeBackStage);
 
-FlowSize keep_first_flow(const TileFlow& flow, SuperStepTile& tile) {
-  return HWY_DYNAMIC_DISPATCH(KeepFirstFlow)(flow, tile);
-}
-FlowChange compare_flows(const TileFlow& flow, const SuperStepTile& tile) {
-  return HWY_DYNAMIC_DISPATCH(CompareFlows)(flow, tile);
+FlowSize keep_first_flow(const TileFlow& flow, FirstFlow& first) {
+  return HWY_DYNAMIC_DISPATCH(KeepFirstFlow)(flow, first);
 }
 HeightRange range_of(const double* heights, int rows, int cols) {
   return HWY_DYNAMIC_DISPATCH(RangeOf)(heights, rows, cols);
 }
 HeightRange super_stage(const TileFlow& flow, const CellFlags& active, double momentum, double step,
-                        double* heights, SuperStepTile& tile, CellFlags& changed) {
-  return HWY_DYNAMIC_DISPATCH(SuperStage)(flow, active, momentum, step, heights, tile, changed);
+                        TilePatch& patch, SuperStepTile& tile, CellFlags& changed) {
+  return HWY_DYNAMIC_DISPATCH(SuperStage)(flow, active, momentum, step, patch, tile, changed);
 }
-void take_back_stage(const SuperStepTile& tile, double* heights) {
-  HWY_DYNAMIC_DISPATCH(TakeBackStage)(tile, heights);
+void take_back_stage(const SuperStepTile& tile, TilePatch& patch) {
+  HWY_DYNAMIC_DISPATCH(TakeBackStage)(tile, patch);
 }
 
 }  // namespace sandstroke

@@ -6,13 +6,11 @@ namespace sandstroke {
 
 /// What a super-step keeps of a tile.
 struct SuperStepTile {
-  /// Groups of 8 cells: bit g of a row's byte is its group g.
-  using Groups = std::array<std::uint8_t, BedGeometry::tile_side>;
   /// m: heights one stage ago, in the groups of `stepped`.
   alignas(64) std::array<double, BedGeometry::tile_area> before;
-  /// m: F0, the flow of the step's start, in the groups of `first_moved`; elsewhere it is 0.
-  alignas(64) std::array<double, BedGeometry::tile_area> first_gain;
-  Groups stepped, first_moved;
+  FirstFlow::Groups stepped{};
+  RowSpan rows;  ///< that hold those
+  FirstFlow first;
 };
 
 struct FlowSize {
@@ -20,14 +18,7 @@ struct FlowSize {
   double square;  ///< m^2: sum F^2
 };
 /// Keeps a flow as F0.
-FlowSize keep_first_flow(const TileFlow& flow, SuperStepTile& tile);
-
-/// How a flow F differs from F0.
-struct FlowChange {
-  double difference;  ///< m: max |F - F0|
-  double product;     ///< m^2: sum F F0
-};
-FlowChange compare_flows(const TileFlow& flow, const SuperStepTile& tile);
+FlowSize keep_first_flow(const TileFlow& flow, FirstFlow& first);
 
 /// Lowest and highest of some heights [m].
 struct HeightRange {
@@ -36,12 +27,13 @@ struct HeightRange {
 /// Of a tile's cells that lie inside the bed.
 HeightRange range_of(const double* heights, int rows, int cols);
 
-/// heights Y, tile.before Z: Y, Z = Y + momentum (Y - Z) + step F, Y, in the active cells' groups. Flags the
-/// cells that are another number now. Returns the range of the active cells' new heights.
+/// heights Y, tile.before Z: Y, Z = Y + momentum (Y - Z) + step F, Y, in the active cells' groups. Flags, in
+/// the flow's rows, the cells that are another number now. Returns the range of the active cells' new
+/// heights.
 HeightRange super_stage(const TileFlow& flow, const CellFlags& active, double momentum, double step,
-                        double* heights, SuperStepTile& tile, CellFlags& changed);
+                        TilePatch& patch, SuperStepTile& tile, CellFlags& changed);
 
 /// Undoes the last stage.
-void take_back_stage(const SuperStepTile& tile, double* heights);
+void take_back_stage(const SuperStepTile& tile, TilePatch& patch);
 
 }  // namespace sandstroke

@@ -10,12 +10,6 @@ namespace {
 constexpr int side = BedGeometry::tile_side;
 constexpr int reach = 2;  // cells
 
-/// The columns [begin, end) as flags.
-std::uint64_t columns(int begin, int end) {
-  const std::uint64_t below_end = end == side ? ~std::uint64_t{0} : (std::uint64_t{1} << end) - 1;
-  return below_end & (~std::uint64_t{0} << begin);
-}
-
 }  // namespace
 
 void TileActivity::wake_disturbed(HeightField& bed, double stable_slope) {
@@ -24,38 +18,27 @@ void TileActivity::wake_disturbed(HeightField& bed, double stable_slope) {
     CellFlags all;
     all.fill(~std::uint64_t{0});
     const int existing = bed.allocated_tiles();
-    for (int slot = 0; slot < existing; ++slot) wake_around(bed, slot, all);
-    visit_steep_tiles(bed, stable_slope, [&](int tile) { wake_around(bed, bed.allocate(tile), all); });
+    for (int slot = 0; slot < existing; ++slot) wake_around(bed, slot, {all, all_rows});
+    visit_steep_tiles(bed, stable_slope, [&](int tile) {
+      wake_around(bed, bed.allocate(tile), {all, all_rows});
+    });
   } else {
-    for (const int slot : bed.disturbed_tiles()) wake_around(bed, slot, bed.disturbed_cells(slot));
+    for (const int slot : bed.disturbed_tiles())
+      wake_around(bed, slot, {bed.disturbed_cells(slot), all_rows});
   }
   bed.clear_disturbed();
   make_seen_tiles(bed);
 }
 
 void TileActivity::rest() {
-  for (const int slot : tiles_) {
-    marks_[slot].active = marks_[slot].givers = {};
-    marks_[slot].listed = false;
-  }
+  for (const int slot : tiles_) marks_[slot].sleep();
   tiles_.clear();
-}
-
-void TileActivity::advance(HeightField& bed, const std::vector<CellFlags>& changed,
-                           const std::vector<char>& any_changed) {
-  tiles_before_ = tiles_;
-  for (const int slot : tiles_before_) marks_[slot].was_active = true;
-  rest();
-  for (std::size_t i = 0; i < tiles_before_.size(); ++i)
-    if (any_changed[i]) wake_around(bed, tiles_before_[i], changed[i]);
-  for (const int slot : tiles_before_) marks_[slot].was_active = false;
-  make_seen_tiles(bed);
 }
 
 void TileActivity::wake(HeightField& bed, int tile, int row_begin, const std::uint64_t* active,
                         const std::uint64_t* givers, int count) {
   const CellRange cells = bed.tile_cells(tile);
-  const std::uint64_t inside = columns(0, cells.cols());
+  const std::uint64_t inside = columns_between(0, cells.cols());
   count = std::min(count, cells.rows() - row_begin);
   std::uint64_t some = 0;
   for (int r = 0; r < count; ++r) some |= active[r] & inside;
@@ -63,9 +46,17 @@ void TileActivity::wake(HeightField& bed, int tile, int row_begin, const std::ui
   const int slot = bed.allocate(tile);
   if (marks_.size() <= static_cast<std::size_t>(slot)) marks_.resize(slot + 1);
   Marks& marks = marks_[slot];
-  for (int r = 0; r < count; ++r) marks.active[row_begin + r] |= active[r] & inside;
-  if (tells_givers_)
-    for (int r = 0; r < count; ++r) marks.givers[row_begin + r] |= givers[r] & inside;
+  const std::uint64_t* held = bed.held_cells(slot).data() + row_begin;
+  RowSpan rows{row_begin + count, row_begin};
+  for (int r = 0; r < count; ++r) {
+    marks.seen[row_begin + r] |= active[r] & inside;
+    const std::uint64_t free = inside & ~held[r];
+    if (!(active[r] & free)) continue;
+    marks.active[row_begin + r] |= active[r] & free;
+    if (tells_givers_) marks.givers[row_begin + r] |= givers[r] & free;
+    rows = {std::min(rows.begin, row_begin + r), row_begin + r + 1};
+  }
+  marks.rows = joined(marks.rows, rows);
   if (marks.listed) return;
   marks.listed = true;
   wake_ups_ += !marks.was_active;
@@ -80,12 +71,12 @@ struct Spread {
   std::array<std::uint64_t, side + 2 * reach> own, west, east;
   std::uint64_t any_west = 0, any_east = 0;
 
+  /// flags: from row -2 reach of the tile on.
   template <int by>
-  void fill(const CellFlags& flags, int begin, int end) {
+  void fill(const std::uint64_t* flags, int begin, int end) {
     for (int r = begin; r < end; ++r) {
       std::uint64_t f = 0;
-      for (int row = std::max(r - reach - by, 0); row <= std::min(r - reach + by, side - 1); ++row)
-        f |= flags[row];
+      for (int i = -by; i <= by; ++i) f |= flags[r + reach + i];
       own[r] = f | f << 1 | f >> 1;
       west[r] = f << (side - 1), east[r] = f >> (side - 1);
       if constexpr (by == 2) {
@@ -99,13 +90,18 @@ struct Spread {
 
 }  // namespace
 
-void TileActivity::wake_around(HeightField& bed, int slot, const CellFlags& changed) {
-  const RowSpan span = row_span(changed);
-  if (span.begin == span.end) return;
+void TileActivity::wake_around(HeightField& bed, int slot, const Changed& changed) {
+  const RowSpan span = row_span(changed.cells, changed.rows);
+  if (span.empty()) return;
   const int begin = span.begin, end = span.end + 2 * reach;
+  std::array<std::uint64_t, side + 4 * reach> flags;  // with rows that have none around the span
+  std::fill(flags.begin() + begin, flags.begin() + begin + 2 * reach, 0);
+  std::copy(changed.cells.begin() + span.begin, changed.cells.begin() + span.end,
+            flags.begin() + begin + 2 * reach);
+  std::fill(flags.begin() + end, flags.begin() + end + 2 * reach, 0);
   Spread active, givers;
-  active.fill<reach>(changed, begin, end);
-  if (tells_givers_) givers.fill<1>(changed, begin, end);
+  active.fill<reach>(flags.data(), begin, end);
+  if (tells_givers_) givers.fill<1>(flags.data(), begin, end);
 
   const auto wake_column = [&](int col_step, const auto& rows, const auto& giving) {
     const auto wake_rows = [&](int row_step, int to, int first, int last) {
@@ -125,11 +121,11 @@ void TileActivity::wake_around(HeightField& bed, int slot, const CellFlags& chan
 void TileActivity::make_seen_tiles(HeightField& bed) {
   for (const int slot : tiles_) {
     const CellFlags& active = marks_[slot].active;
-    const std::uint64_t all = columns_of(active);
+    const std::uint64_t all = columns_of(active, marks_[slot].rows);
     const bool sees_north = (active[0] | active[1]) != 0,
                sees_south = (active[side - 2] | active[side - 1]) != 0;
-    const bool sees_west = (all & columns(0, reach)) != 0,
-               sees_east = (all & columns(side - reach, side)) != 0;
+    const bool sees_west = (all & columns_between(0, reach)) != 0,
+               sees_east = (all & columns_between(side - reach, side)) != 0;
     for (int row_step = -sees_north; row_step <= sees_south; ++row_step)
       for (int col_step = -sees_west; col_step <= sees_east; ++col_step)
         if (const int tile = bed.tile_beside(bed.tile_of(slot), row_step, col_step); tile >= 0)

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "sand/cell_flags.h"
@@ -25,10 +26,26 @@ class TileActivity {
   /// Slots of the tiles with active cells. All tiles that an active cell can see are allocated.
   const std::vector<int>& tiles() const { return tiles_; }
   const CellFlags& cells(int slot) const { return marks_[slot].active; }
+  RowSpan rows(int slot) const { return marks_[slot].rows; }  ///< those that have them
+  /// Which were active at some time since look_away(), or would have been if the bed did not hold them.
+  const CellFlags& seen(int slot) const { return marks_[slot].seen; }
+  void look_away(int slot) { marks_[slot].seen = {}; }
 
-  /// Next active: all cells within two of those that changed. changed[i] belongs to tiles()[i] and counts
-  /// where any_changed[i].
-  void advance(HeightField& bed, const std::vector<CellFlags>& changed, const std::vector<char>& any_changed);
+  /// Cells of a tile that changed; all in these rows.
+  struct Changed {
+    const CellFlags& cells;
+    RowSpan rows;
+  };
+  /// Next active: all cells within two of those that changed; changed(slot) in each of tiles().
+  template <class ChangedIn>
+  void advance(HeightField& bed, const ChangedIn& changed) {
+    std::swap(tiles_before_, tiles_);
+    for (const int slot : tiles_before_) marks_[slot].sleep(), marks_[slot].was_active = true;
+    tiles_.clear();
+    for (const int slot : tiles_before_) wake_around(bed, slot, changed(slot));
+    for (const int slot : tiles_before_) marks_[slot].was_active = false;
+    make_seen_tiles(bed);
+  }
 
   /// Nothing is active any more.
   void rest();
@@ -44,17 +61,24 @@ class TileActivity {
   std::int64_t wake_ups() const { return wake_ups_; }
 
  private:
-  /// Wakes all cells within two of the flagged ones.
-  void wake_around(HeightField& bed, int slot, const CellFlags& changed);
-  /// Flags rows [row_begin, row_begin + count) of a tile; those outside the bed are left out.
+  /// Wakes all cells within two of those.
+  void wake_around(HeightField& bed, int slot, const Changed& changed);
+  /// Flags rows [row_begin, row_begin + count) of a tile; those outside the bed are left out, and cells that
+  /// it holds, which never change.
   void wake(HeightField& bed, int tile, int row_begin, const std::uint64_t* active,
             const std::uint64_t* givers, int count);
   void make_seen_tiles(HeightField& bed);
 
   struct Marks {
-    CellFlags active{}, givers{};
+    CellFlags active{}, givers{}, seen{};
+    RowSpan rows;             // that hold the flags of the first two
     bool listed = false;      // in tiles_
     bool was_active = false;  // in tiles_before_
+    void sleep() {
+      for (int row = rows.begin; row < rows.end; ++row) active[row] = givers[row] = 0;
+      rows = {};
+      listed = false;
+    }
   };
 
   bool tells_givers_;

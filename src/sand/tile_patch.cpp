@@ -5,54 +5,47 @@
 #include <limits>
 
 namespace sandstroke {
+namespace {
 
-TilePatch::TilePatch() {
-  heights_.fill(std::numeric_limits<double>::quiet_NaN());
-  factors_.fill(0.0);
+constexpr double wall = std::numeric_limits<double>::quiet_NaN();
+
+}  // namespace
+
+TilePatch::TilePatch() { heights_.fill(wall); }
+
+void TilePatch::copy_cells(const HeightField& bed, int slot, int row, int first, int last, double* out) {
+  const CellRange inside = slot < 0 ? CellRange{} : bed.tile_cells(bed.tile_of(slot));
+  const int until = row < inside.rows() ? std::clamp(inside.cols(), first, last) : first;
+  std::fill(out + until, out + last, wall);
+  if (first == until) return;
+  const double* in = bed.tile_heights(slot) + row * side;
+  std::copy(in + first, in + until, out + first);
+  for (std::uint64_t held = bed.held_cells(slot)[row] & columns_between(first, until); held; held &= held - 1)
+    out[std::countr_zero(held)] = wall;
 }
 
-TilePatch& TilePatch::of_this_thread() {
-  thread_local TilePatch patch;
-  return patch;
+void TilePatch::load_rows(const HeightField& bed, RowSpan span) {
+  const RowSpan wanted = {std::max(span.begin, 0), std::min(span.end, side)};
+  const auto load = [&](int begin, int end) {
+    for (int row = begin; row < end; ++row) copy_cells(bed, slot_, row, 0, side, heights(row));
+  };
+  if (loaded_.empty()) loaded_ = {wanted.begin, wanted.begin};
+  load(wanted.begin, loaded_.begin);
+  load(loaded_.end, wanted.end);
+  loaded_ = {std::min(loaded_.begin, wanted.begin), std::max(loaded_.end, wanted.end)};
 }
 
-void TilePatch::load(const HeightField& bed, int slot, const CellFlags& cells) {
-  constexpr double wall = std::numeric_limits<double>::quiet_NaN();
-  const RowSpan span = row_span(cells);
-  // Columns in whole groups: those with a flagged cell, one more on either side, and what their cells compare
-  // with.
-  const unsigned groups = groups_of(columns_of(cells));
-  if (!groups) return;
-  const int col_begin = std::max((std::countr_zero(groups) - 1) * cells_per_group - 1, -rim);
-  const int col_end =
-      std::min((static_cast<int>(std::bit_width(groups)) + 1) * cells_per_group + 1, side + rim);
-  for (int part = -1; part <= 1; ++part) {  // the tile row above, the tile's own, the one below
-    const int begin = std::max(span.begin - rim, part * side);
-    const int end = std::min(span.end + rim, (part + 1) * side);
-    if (begin >= end) continue;
-    for (int col_part = -1; col_part <= 1; ++col_part) {
-      const int first = std::max(col_begin - col_part * side, 0);
-      const int last = std::min(col_end - col_part * side, side);
-      if (first >= last) continue;
-      const int beside = bed.tile_beside(bed.tile_of(slot), part, col_part);
-      const int other = beside < 0 ? -1 : bed.slot_of(beside);
-      const double* source = other < 0 ? nullptr : bed.tile_heights(other);
-      const CellRange inside = other < 0 ? CellRange{} : bed.tile_cells(beside);
-      for (int row = begin; row < end; ++row) {
-        double* out = heights(row) + col_part * side;
-        const int in_source = row - part * side;
-        const int until = in_source < inside.rows() ? std::clamp(inside.cols(), first, last) : first;
-        for (int col = first; col < until; ++col) out[col] = source[in_source * side + col];
-        for (int col = until; col < last; ++col) out[col] = wall;
-        if (first == until) continue;
-        for (std::uint64_t held = bed.held_cells(other)[in_source] >> first; held; held &= held - 1) {
-          const int col = first + std::countr_zero(held);
-          if (col >= until) break;
-          out[col] = wall;
-        }
-      }
+void TilePatch::write_back(HeightField& bed, const CellFlags& cells) const {
+  bool changed = false;
+  for (int row = loaded_.begin; row < loaded_.end; ++row) {
+    double* out = bed.tile_heights(slot_) + row * side;
+    for (std::uint64_t flags = cells[row] & ~bed.held_cells(slot_)[row]; flags; flags &= flags - 1) {
+      const int col = std::countr_zero(flags);
+      changed |= out[col] != heights(row)[col];
+      out[col] = heights(row)[col];
     }
   }
+  if (changed) bed.mark_changed(slot_);
 }
 
 }  // namespace sandstroke

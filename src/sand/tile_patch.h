@@ -7,8 +7,10 @@
 
 namespace sandstroke {
 
-/// A tile's heights with a rim of two cells around them, as a relaxation pass reads them, and the pass's
-/// scratch. Row r of the tile (-2 ... tile_side + 1) begins with column 0 on a 64-byte boundary.
+/// A tile's heights with a rim of two cells around them, as a relaxation pass reads them, and what the tile's
+/// cells become in it: the working copy of one relaxation. Row r of the tile (-2 ... tile_side + 1) begins
+/// with column 0 on a 64-byte boundary. Outside the bed, where no tile exists, and where the bed holds them,
+/// cells are NaN: every comparison with them is false.
 class TilePatch {
  public:
   static constexpr int side = BedGeometry::tile_side;
@@ -17,28 +19,61 @@ class TilePatch {
   static constexpr int stride = side + 2 * margin;
 
   TilePatch();
-  /// Each thread has one, so that its memory is made once and shared with nobody.
-  static TilePatch& of_this_thread();
 
-  /// Loads the rows and columns that the flagged cells' next heights depend on, whole groups of 8 with all
-  /// that their cells compare with; the tiles that they lie in must exist. Outside the bed, where no tile
-  /// exists, and where the bed holds them, cells are NaN: every comparison with them is false. The rest keeps
-  /// what an earlier tile left there, but for the margins beyond the rim: those are NaN for ever.
-  void load(const HeightField& bed, int slot, const CellFlags& cells);
+  /// Becomes the copy of another tile, of which nothing is loaded yet.
+  void begin(int slot) { slot_ = slot, loaded_ = {}; }
+  int slot() const { return slot_; }
+
+  /// Loads the tile's own rows within `rows`, and keeps those that are there.
+  void load_rows(const HeightField& bed, RowSpan rows);
+  /// Copies the rim beside the rows, those above and below the tile among them where `rows` reaches there,
+  /// and to the west or the east where asked to. patch_of(slot): the copy of another tile, or null; its own
+  /// rows that are not as in the bed have been loaded.
+  template <class PatchOf>
+  void load_rim(const HeightField& bed, RowSpan rows, bool west, bool east, const PatchOf& patch_of);
+  /// Brings the flagged cells' heights to the bed, but for those that it holds.
+  void write_back(HeightField& bed, const CellFlags& cells) const;
 
   double* heights(int row) { return heights_.data() + start(row); }
   const double* heights(int row) const { return heights_.data() + start(row); }
-  /// The part of each drop that a cell gives away.
-  double* factors(int row) { return factors_.data() + start(row); }
-  const double* factors(int row) const { return factors_.data() + start(row); }
 
- private:
-  static constexpr int rows = side + 2 * rim;
-  static constexpr int size = rows * stride + 2 * margin;  // vectors reach a double beyond the margins
+  // Of an array that is laid out like this one: its size, and where a row begins.
+  static constexpr int size = (side + 2 * rim) * stride + 2 * margin;  // vectors reach beyond the margins
   static int start(int row) { return margin + (row + rim) * stride + margin; }
 
+ private:
+  /// Columns [first, last) of a row of the bed's tile, as `out` ..., walls as NaN.
+  static void copy_cells(const HeightField& bed, int slot, int row, int first, int last, double* out);
+
+  int slot_ = -1;
+  RowSpan loaded_;
   alignas(64) std::array<double, size> heights_;
-  alignas(64) std::array<double, size> factors_;
 };
+
+template <class PatchOf>
+void TilePatch::load_rim(const HeightField& bed, RowSpan span, bool west, bool east,
+                         const PatchOf& patch_of) {
+  const int tile = bed.tile_of(slot_);
+  for (int part = -1; part <= 1; ++part) {  // the tile row above, the tile's own, the one below
+    const int begin = std::max(span.begin, part < 0 ? -rim : part * side);
+    const int end = std::min(span.end, part > 0 ? side + rim : (part + 1) * side);
+    if (begin >= end) continue;
+    for (int col_part = -1; col_part <= 1; ++col_part) {
+      if ((col_part < 0 && !west) || (col_part > 0 && !east) || (part == 0 && col_part == 0)) continue;
+      const int first = col_part < 0 ? side - rim : 0, last = col_part > 0 ? rim : side;
+      const int beside = bed.tile_beside(tile, part, col_part);
+      const int other = beside < 0 ? -1 : bed.slot_of(beside);
+      const TilePatch* patch = other < 0 ? nullptr : patch_of(other);
+      for (int row = begin; row < end; ++row) {
+        double* out = heights(row) + col_part * side;
+        const int there = row - part * side;
+        if (patch && there >= patch->loaded_.begin && there < patch->loaded_.end)
+          std::copy(patch->heights(there) + first, patch->heights(there) + last, out + first);
+        else
+          copy_cells(bed, other, there, first, last, out);
+      }
+    }
+  }
+}
 
 }  // namespace sandstroke

@@ -158,8 +158,9 @@ std::int64_t Simulation::idle(const TickRange& ticks) {
 
 RelaxationOutcome Simulation::relax(double time) {
   sand_.hold(bed_);
-  const RelaxationOutcome outcome = relaxer_->relax(
-      bed_, [this](std::int64_t passes) { tell([&](auto& observer) { observer.on_pass(passes); }); });
+  const RelaxationOutcome outcome = relaxer_->relax(bed_, [this](std::int64_t passes, const BedNow& bed_now) {
+    tell([&](auto& observer) { observer.on_pass(passes, bed_now); });
+  });
   result_.relaxations += 1;
   result_.relaxation.add(outcome);
   tell([&](auto& observer) { observer.on_relaxation({time, outcome}); });

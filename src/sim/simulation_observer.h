@@ -19,7 +19,7 @@ class SimulationObserver {
   /// Share of the stroke that is done, 0 to 1.
   virtual void on_progress(double /*fraction*/) {}
   /// Passes of the relaxation that is going on.
-  virtual void on_pass(std::int64_t /*passes*/) {}
+  virtual void on_pass(std::int64_t /*passes*/, const BedNow& /*bed_now*/) {}
 };
 
 /// Told in this order; they outlive the run.

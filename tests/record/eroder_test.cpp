@@ -50,7 +50,7 @@ TEST(Eroder, UnderASolidToolNothingSlipsUntilItHasGone) {
 class CountingRelaxer : public Relaxer {
  public:
   explicit CountingRelaxer(std::atomic<int>& count) : count_(count) {}
-  RelaxationOutcome relax(HeightField&, const std::function<void(std::int64_t)>&) override {
+  RelaxationOutcome relax(HeightField&, const PassWatcher&) override {
     ++count_;
     RelaxationOutcome outcome;
     outcome.converged = true;
@@ -91,9 +91,7 @@ TEST(Eroder, SlipsInItsThreadAsOftenAsTheToolHasGoneItsWay) {
 /// Of a machine without memory left.
 class FailingRelaxer : public Relaxer {
  public:
-  RelaxationOutcome relax(HeightField&, const std::function<void(std::int64_t)>&) override {
-    throw std::bad_alloc();
-  }
+  RelaxationOutcome relax(HeightField&, const PassWatcher&) override { throw std::bad_alloc(); }
 };
 
 TEST(Eroder, ThatFailsEndsItsThreadAndNotTheProgram) {

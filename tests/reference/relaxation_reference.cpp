@@ -28,7 +28,7 @@ class ReferenceRelaxer : public Relaxer {
   ReferenceRelaxer(const RelaxationSettings& settings, double cell_size)
       : law_(settings, cell_size), max_passes_(settings.max_passes) {}
 
-  RelaxationOutcome relax(HeightField& bed, const std::function<void(std::int64_t)>& after_pass) override {
+  RelaxationOutcome relax(HeightField& bed, const PassWatcher& after_pass) override {
     RelaxationOutcome outcome;
     outcome.tiles_active_max = bed.tile_count();
     heights_ = bed.grid();
@@ -53,7 +53,7 @@ class ReferenceRelaxer : public Relaxer {
       if (outcome.converged) break;
       heights_.swap(next);
       ++outcome.passes;
-      if (after_pass) after_pass(outcome.passes);
+      if (after_pass) after_pass(outcome.passes, [&]() -> const HeightField& { return bed; });
     }
     outcome.moved_volume = moved.value() * bed.cell_area();
     for (int row = 0; row < rows(); ++row)

@@ -87,7 +87,7 @@ class CheckedRelaxer : public Relaxer {
   CheckedRelaxer(const RelaxationSettings& settings, double cell_size)
       : settings_(settings), engine_(make_relaxer(settings, cell_size)) {}
 
-  RelaxationOutcome relax(HeightField& bed, const std::function<void(std::int64_t)>& after_pass) override {
+  RelaxationOutcome relax(HeightField& bed, const PassWatcher& after_pass) override {
     if (sanitized && relaxations == 3) throw Enough{};
     CellRange window = first_ ? bed.cells() : disturbed(bed);
     first_ = false;

@@ -181,7 +181,7 @@ class TellingRelaxer : public Relaxer {
             .wake_ups = 800 + call,
             .converged = converged};
   }
-  RelaxationOutcome relax(HeightField&, const std::function<void(std::int64_t)>&) override {
+  RelaxationOutcome relax(HeightField&, const PassWatcher&) override {
     const std::int64_t call = calls_++;
     return outcome(call, converged_.at(static_cast<std::size_t>(call)));
   }
