@@ -1,6 +1,7 @@
 #include "sand/footprint_kernels.h"
 
 #include <algorithm>
+#include <bit>
 #include <limits>
 
 #undef HWY_TARGET_INCLUDE
@@ -48,67 +49,117 @@ class Offsets {
   double first_x_, first_y_, axis_x_, axis_y_;
 };
 
-double ShapeFootprint(const FootprintShape& shape, ToolFootprint& f) {
-  const double dx = f.cell_size();
-  const V zero = hn::Zero(d), one = all(1.0), infinite = all(std::numeric_limits<double>::infinity());
-  const V rho1 = all(shape.reach), cell = all(dx), s2 = all(shape.filter_scale2), a = all(shape.amplitude);
-  const V R = all(shape.radius), R2 = all(shape.radius * shape.radius);
-  const V far2 = all((shape.reach + dx) * (shape.reach + dx) * (1.0 + 1e-14));
-  const V u0 = all(filter::u0), u1 = all(filter::u1), offset = all(filter::offset);
-  const bool sphere = shape.profile == ToolProfile::sphere;
+/// Calls body(row, column, rho^2 of a vector's cells) [m^2].
+template <class Body>
+HWY_INLINE void for_vectors(const ToolFootprint& f, const Body& body) {
   const Offsets offsets(f);
-  LaneSum heights, weights;
   for (int row = 0; row < f.cells().rows(); ++row) {
     const V y = all(offsets.y(row)), y2 = y * y;
     const ColumnRange sand = f.sand_cols(row);
     for (int col = 0; col < f.stride(); col += lanes) {
-      const V x = offsets.x(sand, col), rho2 = x * x + y2;
-      double* underside = f.underside(row) + col;
-      double* rampart = f.rampart(row) + col;
-      if (hn::AllFalse(d, rho2 <= far2)) {
-        hn::Store(infinite, d, underside);
-        hn::Store(zero, d, rampart);
-        continue;
-      }
-      const V weight = clamped((rho1 - Sqrt(rho2)) / cell + one);
-      heights.add(col, weight * hn::Load(d, f.heights(row) + col));
-      weights.add(col, weight);
-
-      const V u = rho2 / s2, sin_u = sine(u);
-      // The root's argument may fall below 0 by rounding at the rim.
-      const V bowl = sphere ? R - Sqrt(Max(R2 - rho2, zero)) : a * sin_u;
-      hn::Store(hn::IfThenElse(u <= u0, bowl, infinite), d, underside);
-      hn::Store(where(hn::And(u > u0, u <= u1), Max(sin_u - offset, zero)), d, rampart);
+      const V x = offsets.x(sand, col);
+      body(row, col, x * x + y2);
     }
   }
+}
+
+/// More and less than a squared distance, by what rounding may change.
+constexpr double above = 1.0 + 1e-14, below = 1.0 - 1e-14;
+
+double LevelOf(const FootprintShape& shape, const ToolFootprint& f) {
+  const double reach2 = shape.reach * shape.reach, beyond = shape.reach + f.cell_size();
+  const V one = all(1.0), rho1 = all(shape.reach), cell = all(f.cell_size());
+  const V near2 = all(reach2 * below), far2 = all(beyond * beyond * above);
+  LaneSum heights, weights;
+  for_vectors(f, [&](int row, int col, V rho2) {
+    if (hn::AllFalse(d, rho2 <= far2)) return;
+    const V height = hn::Load(d, f.heights(row) + col);
+    if (hn::AllTrue(d, rho2 <= near2)) {
+      heights.add(col, height);
+      weights.add(col, one);
+      return;
+    }
+    const V weight = clamped((rho1 - Sqrt(rho2)) / cell + one);
+    heights.add(col, weight * height);
+    weights.add(col, weight);
+  });
   const double weight = weights.total();
   return weight > 0.0 ? heights.total() / weight : std::numeric_limits<double>::quiet_NaN();
+}
+
+void ShapeBowl(const FootprintShape& shape, ToolFootprint& f) {
+  const double square = shape.radius * shape.radius;
+  const V zero = hn::Zero(d), one = all(1.0), infinite = all(std::numeric_limits<double>::infinity());
+  const V R = all(shape.radius), R2 = all(square), inside = all(square * below),
+          outside = all(square * above);
+  const V s2 = all(shape.filter_scale2), a = all(shape.amplitude), u0 = all(filter::u0);
+  const bool sphere = shape.profile == ToolProfile::sphere;
+  for_vectors(f, [&](int row, int col, V rho2) {
+    V underside = infinite, takes = where(rho2 < infinite, one);
+    if (!hn::AllFalse(d, rho2 <= outside)) {
+      if (sphere && hn::AllTrue(d, rho2 <= inside)) {
+        underside = R - Sqrt(R2 - rho2);
+        takes = zero;
+      } else {
+        const V u = rho2 / s2;
+        const Mask bowl = u <= u0;
+        // The root's argument may fall below 0 by rounding at the rim.
+        underside = hn::IfThenElse(bowl, sphere ? R - Sqrt(Max(R2 - rho2, zero)) : a * sine(u), infinite);
+        takes = hn::IfThenZeroElse(bowl, takes);
+      }
+    }
+    hn::Store(underside, d, f.underside(row) + col);
+    hn::Store(takes, d, f.takes(row) + col);
+  });
+}
+
+void ShapeRing(const FootprintShape& shape, ToolFootprint& f) {
+  const V zero = hn::Zero(d), s2 = all(shape.filter_scale2), offset = all(filter::offset);
+  const V u0 = all(filter::u0), u1 = all(filter::u1);
+  const V inside = all(shape.radius * shape.radius * below), outside = all(shape.reach * shape.reach * above);
+  for_vectors(f, [&](int row, int col, V rho2) {
+    V rampart = zero;
+    if (!hn::AllFalse(d, hn::And(rho2 >= inside, rho2 <= outside))) {
+      const V u = rho2 / s2;
+      rampart = where(hn::And(u > u0, u <= u1), Max(sine(u) - offset, zero));
+    }
+    hn::Store(rampart, d, f.rampart(row) + col);
+  });
 }
 
 HWY_INLINE void set_flags(unsigned char* flags, int col, Mask mask) {
   flags[col / group] = static_cast<unsigned char>(flags[col / group] | bits(mask) << (col % group));
 }
 
-Carved Carve(ToolFootprint& f, double tip_height, const RingFront& front) {
-  const V zero = hn::Zero(d), one = all(1.0), half = all(0.5), tip = all(tip_height);
-  const V cell = all(f.cell_size()), drag = all(front.drag_share);
-  const Offsets offsets(f);
-  LaneSum pushed, front_weight, ring_weight;
+double Carve(ToolFootprint& f, double tip_height) {
+  const V zero = hn::Zero(d), tip = all(tip_height);
+  LaneSum pushed;
   for (int row = 0; row < f.cells().rows(); ++row) {
-    const V ahead_y = all(offsets.y(row) * front.direction.y());
-    const ColumnRange sand = f.sand_cols(row);
     unsigned char* flags = f.flags(row);
     std::fill_n(flags, f.stride() / group, static_cast<unsigned char>(0));
     for (int col = 0; col < f.stride(); col += lanes) {
       const V height = hn::Load(d, f.heights(row) + col);
       const V excess = Max(height - (tip + hn::Load(d, f.underside(row) + col)), zero);
       const Mask cut = excess > zero;
-      if (!hn::AllFalse(d, cut)) {
-        hn::Store(height - excess, d, f.heights(row) + col);
-        hn::Store(excess, d, f.excess(row) + col);
-        pushed.add(col, excess);
-        set_flags(flags, col, cut);
-      }
+      if (hn::AllFalse(d, cut)) continue;
+      hn::Store(height - excess, d, f.heights(row) + col);
+      hn::Store(excess, d, f.excess(row) + col);
+      pushed.add(col, excess);
+      set_flags(flags, col, cut);
+    }
+  }
+  return pushed.total();
+}
+
+RingWeight WeighRing(ToolFootprint& f, const RingFront& front) {
+  const V zero = hn::Zero(d), one = all(1.0), half = all(0.5);
+  const V cell = all(f.cell_size()), drag = all(front.drag_share);
+  const Offsets offsets(f);
+  LaneSum front_weight, ring_weight;
+  for (int row = 0; row < f.cells().rows(); ++row) {
+    const V ahead_y = all(offsets.y(row) * front.direction.y());
+    const ColumnRange sand = f.sand_cols(row);
+    for (int col = 0; col < f.stride(); col += lanes) {
       const V rampart = hn::Load(d, f.rampart(row) + col);
       V weight = rampart;
       const Mask in_ring = rampart > zero;  // elsewhere offsets may be infinite
@@ -121,7 +172,77 @@ Carved Carve(ToolFootprint& f, double tip_height, const RingFront& front) {
       ring_weight.add(col, rampart);
     }
   }
-  return {pushed.total(), front_weight.total(), ring_weight.total()};
+  return {front_weight.total(), ring_weight.total()};
+}
+
+/// Cut cells, a vector full: where they lie from the axis [cells], their sand [m], and where that goes.
+struct CutCells {
+  alignas(64) double x[group], y[group], excess[group];
+  alignas(64) double part[4][group];
+  alignas(64) std::int64_t to[4][group];
+};
+
+HWY_INLINE V spread_cells(const ToolFootprint& f, const Outward& outward, CutCells& cells, int i) {
+  const hn::RebindToSigned<decltype(d)> di;
+  const V zero = hn::Zero(d), one = all(1.0), shift = all(outward.shift);
+  const V axis_x = all(f.axis_x() - f.first_x()), axis_y = all(f.axis_y() - f.first_y());  // columns, rows
+  const V x = hn::Load(d, cells.x + i), y = hn::Load(d, cells.y + i);
+  const V from_axis = Sqrt(x * x + y * y);
+  const V ratio = all(outward.distance / f.cell_size()) / from_axis, to_x = ratio * x, to_y = ratio * y;
+  // Rounded towards 0; below 0 that is not down, but no cell of the window lies there.
+  const V first_col = hn::Trunc(axis_x + to_x), first_row = hn::Trunc(axis_y + to_y);
+  const V rows = all(f.cells().rows()), cols = all(f.cells().cols()), stride = all(f.stride());
+  const auto share = [&](int down, int right, V& to) {
+    const V row = first_row + all(down), col = first_col + all(right);
+    const Mask inside = hn::And(hn::And(row >= zero, row < rows), hn::And(col >= zero, col < cols));
+    to = where(inside, row * stride + col);
+    const V takes = hn::GatherIndex(d, f.takes(0), hn::ConvertTo(di, to));
+    const V near_x = Max(zero, one - hn::Abs(col - axis_x - to_x)),
+            near_y = Max(zero, one - hn::Abs(row - axis_y - to_y));
+    return where(inside, near_x * near_y * takes);
+  };
+  V to[4];
+  const V shares[4] = {share(0, 0, to[0]), share(0, 1, to[1]), share(1, 0, to[2]), share(1, 1, to[3])};
+  const V whole = (shares[0] + shares[3]) + (shares[1] + shares[2]);  // symmetric
+  const Mask goes = hn::And(whole > zero, from_axis > zero);
+  const V excess = hn::Load(d, cells.excess + i);
+  V total = zero;
+  for (int corner = 0; corner < 4; ++corner) {
+    const V part = where(goes, excess * (shares[corner] / whole) + shift - shift);
+    total += part;
+    hn::Store(part, d, cells.part[corner] + i);
+    hn::Store(hn::ConvertTo(di, where(goes, to[corner])), di, cells.to[corner] + i);
+  }
+  return total;
+}
+
+double SpreadOutward(ToolFootprint& f, const Outward& outward) {
+  for (int row = 0; row < f.cells().rows(); ++row) std::fill_n(f.weights(row), f.stride(), 0.0);
+  CutCells cells;
+  int count = 0;
+  V total = hn::Zero(d);  // of parts whose sums are exact: in any order the same
+  const auto spread = [&] {
+    for (int i = 0; i < group; i += lanes) total += spread_cells(f, outward, cells, i);
+    for (int i = 0; i < group; ++i)
+      for (int corner = 0; corner < 4; ++corner) f.weights(0)[cells.to[corner][i]] += cells.part[corner][i];
+    count = 0;
+  };
+  const double axis_x = f.axis_x() - f.first_x(), axis_y = f.axis_y() - f.first_y();
+  for (int row = 0; row < f.cells().rows(); ++row)
+    for (int g = 0; g < f.stride() / group; ++g)
+      for (unsigned flags = f.flags(row)[g]; flags != 0; flags &= flags - 1) {
+        const int col = g * group + std::countr_zero(flags);
+        cells.x[count] = col - axis_x, cells.y[count] = row - axis_y;
+        cells.excess[count] = f.excess(row)[col];
+        if (++count == group) spread();
+      }
+  for (int rest = count; rest < group; ++rest) cells.x[rest] = cells.y[rest] = cells.excess[rest] = 0.0;
+  if (count > 0) spread();
+  alignas(64) double sums[group] = {};
+  hn::Store(total, d, sums);
+  double sum = 0.0;
+  for (const double one : sums) sum += one;
+  return sum;
 }
 
 void Heap(ToolFootprint& f, double rise, bool whole_ring) {
@@ -145,15 +266,31 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace sandstroke {
 
-HWY_EXPORT(ShapeFootprint);
+HWY_EXPORT(LevelOf);
+HWY_EXPORT(ShapeBowl);
+HWY_EXPORT(ShapeRing);
 HWY_EXPORT(Carve);
+HWY_EXPORT(WeighRing);
+HWY_EXPORT(SpreadOutward);
 HWY_EXPORT(Heap);
 
-double shape_footprint(const FootprintShape& shape, ToolFootprint& footprint) {
-  return HWY_DYNAMIC_DISPATCH(ShapeFootprint)(shape, footprint);
+double level_of(const FootprintShape& shape, const ToolFootprint& footprint) {
+  return HWY_DYNAMIC_DISPATCH(LevelOf)(shape, footprint);
 }
-Carved carve(ToolFootprint& footprint, double tip_height, const RingFront& front) {
-  return HWY_DYNAMIC_DISPATCH(Carve)(footprint, tip_height, front);
+void shape_bowl(const FootprintShape& shape, ToolFootprint& footprint) {
+  HWY_DYNAMIC_DISPATCH(ShapeBowl)(shape, footprint);
+}
+void shape_ring(const FootprintShape& shape, ToolFootprint& footprint) {
+  HWY_DYNAMIC_DISPATCH(ShapeRing)(shape, footprint);
+}
+double carve(ToolFootprint& footprint, double tip_height) {
+  return HWY_DYNAMIC_DISPATCH(Carve)(footprint, tip_height);
+}
+RingWeight weigh_ring(ToolFootprint& footprint, const RingFront& front) {
+  return HWY_DYNAMIC_DISPATCH(WeighRing)(footprint, front);
+}
+double spread_outward(ToolFootprint& footprint, const Outward& outward) {
+  return HWY_DYNAMIC_DISPATCH(SpreadOutward)(footprint, outward);
 }
 void heap(ToolFootprint& footprint, double rise, bool whole_ring) {
   HWY_DYNAMIC_DISPATCH(Heap)(footprint, rise, whole_ring);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <tuple>
+#include <utility>
 
 #include "sand/footprint_kernels.h"
 
@@ -28,6 +29,7 @@ ToolFootprint::ToolFootprint(const ToolSettings& settings)
 
 void ToolFootprint::place(const HeightField& bed, double x, double y) {
   cells_ = {};
+  has_bowl_ = has_ring_ = false;
   level_ = std::numeric_limits<double>::quiet_NaN();
   bed_ = bed;
   axis_x_ = x / cell_size(), axis_y_ = y / cell_size();
@@ -44,7 +46,15 @@ void ToolFootprint::place(const HeightField& bed, double x, double y) {
   stride_ = (cells_.cols() + cells_per_group - 1) / cells_per_group * cells_per_group;
   make_room();
   read_heights(bed);
-  level_ = shape_footprint(shape_, *this);
+  level_ = level_of(shape_, *this);
+}
+
+void ToolFootprint::shape_bowl() {
+  if (!std::exchange(has_bowl_, true)) sandstroke::shape_bowl(shape_, *this);
+}
+
+void ToolFootprint::shape_ring() {
+  if (!std::exchange(has_ring_, true)) sandstroke::shape_ring(shape_, *this);
 }
 
 void ToolFootprint::make_room() {
@@ -53,7 +63,7 @@ void ToolFootprint::make_room() {
   // As the tool moves, the window gains a row or a column, and so perhaps a group of the stride: not in a
   // servo loop.
   room_ = static_cast<std::size_t>(cells_.rows() + 1) * (stride_ + cells_per_group);
-  for (auto* memory : {&heights_, &underside_, &rampart_, &weights_, &excess_}) {
+  for (auto* memory : {&heights_, &underside_, &takes_, &rampart_, &weights_, &excess_}) {
     *memory = hwy::AllocateAligned<double>(room_);
     std::fill_n(memory->get(), room_, 0.0);
   }
@@ -121,6 +131,7 @@ void ToolFootprint::write_flagged(HeightField& bed) {
 void ToolFootprint::hold_bowl(HeightField& bed) {
   constexpr int side = BedGeometry::tile_side;
   bowl_.clear();
+  shape_bowl();
   for (int row = 0; row < cells_.rows(); ++row) {
     std::fill_n(flags(row), stride_ / cells_per_group, static_cast<unsigned char>(0));
     for (int col = 0; col < cells_.cols(); ++col)

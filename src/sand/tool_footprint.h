@@ -69,12 +69,20 @@ class ToolFootprint {
   /// change the level. NaN where the footprint lies outside the bed.
   double sand_level() const { return level_; }
 
+  // What the cells mean to the tool is found out where somebody needs it: a tool that hovers asks for the
+  // level only.
+  void shape_bowl();  ///< underside() and takes()
+  void shape_ring();  ///< rampart()
+
   // Row r of the window.
   double* heights(int row) { return heights_.get() + at(row); }  ///< m, of the sand
   const double* heights(int row) const { return heights_.get() + at(row); }
   /// Tool's underside above its tip [m]; infinite outside the bowl (u <= u0).
   double* underside(int row) { return underside_.get() + at(row); }
   const double* underside(int row) const { return underside_.get() + at(row); }
+  /// 1 where there is sand outside the bowl; elsewhere 0.
+  double* takes(int row) { return takes_.get() + at(row); }
+  const double* takes(int row) const { return takes_.get() + at(row); }
   /// Positive filter sin(u) - 0.53; 0 outside the ring (u0 < u <= u1).
   double* rampart(int row) { return rampart_.get() + at(row); }
   const double* rampart(int row) const { return rampart_.get() + at(row); }
@@ -99,12 +107,13 @@ class ToolFootprint {
   void read_heights(const HeightField& bed);
 
   FootprintShape shape_;
+  bool has_bowl_ = false, has_ring_ = false;  // shaped where it is now
   BedGeometry bed_{1, 1, 1.0};
   CellRange cells_;
   int stride_ = 0;
   double axis_x_ = 0.0, axis_y_ = 0.0, first_x_ = 0.0, first_y_ = 0.0, level_;
   std::size_t room_ = 0;
-  hwy::AlignedFreeUniquePtr<double[]> heights_, underside_, rampart_, weights_, excess_;
+  hwy::AlignedFreeUniquePtr<double[]> heights_, underside_, takes_, rampart_, weights_, excess_;
   std::vector<RowCells> bowl_;  // while it is handed over
   hwy::AlignedFreeUniquePtr<unsigned char[]> flags_;
 };

@@ -117,6 +117,7 @@ TEST(Displacement, OutwardCarriesEachCellsSandAlongItsOwnNormal) {
       bed.set(row, col, 0.005);
       ToolFootprint footprint({R, ToolProfile::sphere});
       footprint.place(bed, axis, 0.0);
+      footprint.shape_bowl();
       const double tip =
           0.005 - 1e-4 -
           footprint.underside(row - footprint.cells().row_begin)[col - footprint.cells().col_begin];

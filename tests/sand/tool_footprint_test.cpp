@@ -13,7 +13,9 @@ constexpr double radius = 0.01;
 /// Calls body(distance to the tool's axis, underside, rampart) for each cell of the footprint, and checks
 /// that what lies beyond its columns means nothing to the tool.
 template <class Body>
-void for_each_cell(const HeightField& bed, const ToolFootprint& footprint, const Body& body) {
+void for_each_cell(const HeightField& bed, ToolFootprint& footprint, const Body& body) {
+  footprint.shape_bowl();
+  footprint.shape_ring();
   const CellRange& cells = footprint.cells();
   for (int r = 0; r < cells.rows(); ++r)
     for (int c = 0; c < footprint.stride(); ++c) {
