@@ -17,11 +17,11 @@
 namespace sandstroke {
 namespace {
 
-// What a killed run can lose. Not after fewer rows: ticks may take microseconds.
-constexpr std::chrono::milliseconds time_per_write{500};
+constexpr std::chrono::milliseconds time_per_flush{500};  // what a killed run can lose
 constexpr const char* provenance = "/provenance";
 constexpr double bytes_per_frame = 1800.0;  // at least: where nothing changes
-constexpr std::size_t least_rows_per_write = 1000, most_rows_per_write = 50'000;
+// The clock is looked at after so many rows, for ticks may take microseconds; kept are no more than make a chunk.
+constexpr std::size_t rows_per_look = 1024, most_rows_kept = 4 * rows_per_look;
 
 /// What a field of(record) of records is.
 template <class Record, class Of>
@@ -130,17 +130,19 @@ void RunWriter::write_surface(const std::string& dataset, const HeightField& sur
 void RunWriter::on_tick(const TickRecord& tick) {
   if (!keeps_trace_) return;
   ticks_.push_back(tick);
-  if (ticks_.size() % least_rows_per_write == 0) write_rows_in_time();
+  if (ticks_.size() % rows_per_look == 0) write_in_time();
 }
 
 void RunWriter::on_relaxation(const RelaxationRecord& relaxation) {
   relaxations_.push_back(relaxation);
-  if (relaxations_.size() % least_rows_per_write == 0) write_rows_in_time();
+  if (relaxations_.size() % rows_per_look == 0) write_in_time();
 }
 
-void RunWriter::write_rows_in_time() {
-  const bool full = std::max(ticks_.size(), relaxations_.size()) >= most_rows_per_write;
-  if (full || std::chrono::steady_clock::now() - written_ >= time_per_write) write_rows();
+void RunWriter::write_in_time() {
+  if (std::chrono::steady_clock::now() - flushed_ >= time_per_flush)
+    flush();
+  else if (std::max(ticks_.size(), relaxations_.size()) >= most_rows_kept)
+    write_rows();
 }
 
 void RunWriter::write_rows() {
@@ -150,17 +152,21 @@ void RunWriter::write_rows() {
   visit_relaxation_fields([&](auto, const auto& of) { append(*column++, relaxations_, of); });
   ticks_.clear();
   relaxations_.clear();
+}
+
+void RunWriter::flush() {
+  write_rows();
   file_.flush();
-  written_ = std::chrono::steady_clock::now();
+  flushed_ = std::chrono::steady_clock::now();
 }
 
 void RunWriter::on_frame(double time, const HeightField& surface) {
   frames_.add(time, surface);
-  write_rows_in_time();
+  write_in_time();
 }
 
 void RunWriter::end(const RunResult& result, const HeightField& surface) {
-  write_rows();
+  flush();
   file_.attribute(provenance, "threads", result.threads);
   if (result.interrupted) {
     file_.flush();

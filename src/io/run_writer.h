@@ -39,8 +39,9 @@ class RunWriter : public SimulationObserver {
 
  private:
   void write_surface(const std::string& dataset, const HeightField& surface, const std::string& meaning);
-  void write_rows_in_time();
+  void write_in_time();
   void write_rows();
+  void flush();
 
   std::filesystem::path path_;
   Hdf5GridWriter file_;
@@ -48,7 +49,7 @@ class RunWriter : public SimulationObserver {
   TraceContent content_;
   std::vector<Hdf5Column> tick_columns_, relaxation_columns_;  // in the order of their fields
 
-  std::chrono::steady_clock::time_point written_ = std::chrono::steady_clock::now();
+  std::chrono::steady_clock::time_point flushed_ = std::chrono::steady_clock::now();
   std::vector<TickRecord> ticks_;  // not written yet
   std::vector<RelaxationRecord> relaxations_;
   FrameWriter frames_;
