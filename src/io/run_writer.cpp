@@ -20,7 +20,8 @@ namespace {
 constexpr std::chrono::milliseconds time_per_flush{500};  // what a killed run can lose
 constexpr const char* provenance = "/provenance";
 constexpr double bytes_per_frame = 1800.0;  // at least: where nothing changes
-// The clock is looked at after so many rows, for ticks may take microseconds; kept are no more than make a chunk.
+// The clock is looked at after so many rows, for ticks may take microseconds; kept are no more than make a
+// chunk.
 constexpr std::size_t rows_per_look = 1024, most_rows_kept = 4 * rows_per_look;
 
 /// What a field of(record) of records is.

@@ -19,28 +19,34 @@ RingFront front_of(const Eigen::Vector3d& motion, Deposit deposit) {
 /// sums of parts of `whole` are exact, and so the same in any order: a symmetric tool leaves symmetric sand.
 double rounding_shift(double whole) { return std::scalbn(3.0, std::ilogb(whole) + 1); }
 
+/// Lowers the sand and puts it where the settings say; what moved [m], 0 where none did.
+double dig(const HeightField& bed, ToolFootprint& footprint, double tip_height, const Eigen::Vector3d& motion,
+           const DisplacementSettings& settings) {
+  if (settings.deposit == Deposit::outward) {
+    const double pushed = carve(footprint.shape(), footprint, tip_height);
+    if (pushed == 0.0) return 0.0;
+    const Outward outward{settings.distance * footprint.radius(), rounding_shift(pushed)};
+    const double spread = std::isfinite(pushed) ? spread_outward(footprint, outward) : 0.0;
+    if (spread > 0.0) return heap(footprint, pushed / spread, false), pushed;
+    footprint.read_heights(bed);  // all around is bowl or wall: the ring takes the sand
+  }
+  const Carved carved =
+      carve_for_ring(footprint.shape(), footprint, tip_height, front_of(motion, settings.deposit));
+  // A wall right ahead may cut off the whole front: what is left of the ring takes the sand.
+  const bool whole_ring = !(carved.front_weight > 0.0);
+  const double weight = whole_ring ? carved.ring_weight : carved.front_weight;
+  if (carved.pushed == 0.0 || !(weight > 0.0)) return 0.0;
+  heap(footprint, carved.pushed / weight, whole_ring);
+  return carved.pushed;
+}
+
 }  // namespace
 
 double displace(HeightField& bed, ToolFootprint& footprint, double tip_height, const Eigen::Vector3d& motion,
                 const DisplacementSettings& settings) {
   if (footprint.cells().empty()) return 0.0;
-  footprint.shape_bowl();
-  const double pushed = carve(footprint, tip_height);
-  if (pushed == 0.0) return 0.0;
-  double weight = 0.0;
-  bool whole_ring = false;
-  if (settings.deposit == Deposit::outward && std::isfinite(pushed))
-    weight = spread_outward(footprint, {settings.distance * footprint.radius(), rounding_shift(pushed)});
-  if (!(weight > 0.0)) {
-    footprint.shape_ring();
-    const RingWeight ring = weigh_ring(footprint, front_of(motion, settings.deposit));
-    // A wall right ahead may cut off the whole front: what is left of the ring takes the sand.
-    whole_ring = !(ring.front > 0.0);
-    weight = whole_ring ? ring.whole : ring.front;
-  }
-  if (!(weight > 0.0)) return 0.0;
-  heap(footprint, pushed / weight, whole_ring);
-  footprint.write_flagged(bed);
+  const double pushed = dig(bed, footprint, tip_height, motion, settings);
+  if (pushed > 0.0) footprint.write_flagged(bed);
   return pushed * bed.cell_area();
 }
 

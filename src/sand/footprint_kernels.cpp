@@ -49,20 +49,6 @@ class Offsets {
   double first_x_, first_y_, axis_x_, axis_y_;
 };
 
-/// Calls body(row, column, rho^2 of a vector's cells) [m^2].
-template <class Body>
-HWY_INLINE void for_vectors(const ToolFootprint& f, const Body& body) {
-  const Offsets offsets(f);
-  for (int row = 0; row < f.cells().rows(); ++row) {
-    const V y = all(offsets.y(row)), y2 = y * y;
-    const ColumnRange sand = f.sand_cols(row);
-    for (int col = 0; col < f.stride(); col += lanes) {
-      const V x = offsets.x(sand, col);
-      body(row, col, x * x + y2);
-    }
-  }
-}
-
 /// More and less than a squared distance, by what rounding may change.
 constexpr double above = 1.0 + 1e-14, below = 1.0 - 1e-14;
 
@@ -70,109 +56,104 @@ double LevelOf(const FootprintShape& shape, const ToolFootprint& f) {
   const double reach2 = shape.reach * shape.reach, beyond = shape.reach + f.cell_size();
   const V one = all(1.0), rho1 = all(shape.reach), cell = all(f.cell_size());
   const V near2 = all(reach2 * below), far2 = all(beyond * beyond * above);
+  const Offsets offsets(f);
   LaneSum heights, weights;
-  for_vectors(f, [&](int row, int col, V rho2) {
-    if (hn::AllFalse(d, rho2 <= far2)) return;
-    const V height = hn::Load(d, f.heights(row) + col);
-    if (hn::AllTrue(d, rho2 <= near2)) {
-      heights.add(col, height);
-      weights.add(col, one);
-      return;
-    }
-    const V weight = clamped((rho1 - Sqrt(rho2)) / cell + one);
-    heights.add(col, weight * height);
-    weights.add(col, weight);
-  });
-  const double weight = weights.total();
-  return weight > 0.0 ? heights.total() / weight : std::numeric_limits<double>::quiet_NaN();
-}
-
-void ShapeBowl(const FootprintShape& shape, ToolFootprint& f) {
-  const double square = shape.radius * shape.radius;
-  const V zero = hn::Zero(d), one = all(1.0), infinite = all(std::numeric_limits<double>::infinity());
-  const V R = all(shape.radius), R2 = all(square), inside = all(square * below),
-          outside = all(square * above);
-  const V s2 = all(shape.filter_scale2), a = all(shape.amplitude), u0 = all(filter::u0);
-  const bool sphere = shape.profile == ToolProfile::sphere;
-  for_vectors(f, [&](int row, int col, V rho2) {
-    V underside = infinite, takes = where(rho2 < infinite, one);
-    if (!hn::AllFalse(d, rho2 <= outside)) {
-      if (sphere && hn::AllTrue(d, rho2 <= inside)) {
-        underside = R - Sqrt(R2 - rho2);
-        takes = zero;
+  for (int row = 0; row < f.cells().rows(); ++row) {
+    const V y = all(offsets.y(row)), y2 = y * y;
+    const ColumnRange sand = f.sand_cols(row);
+    const double* cells = f.heights(row);
+    for (int col = 0, end = f.stride(); col < end; col += lanes) {
+      const V x = offsets.x(sand, col), rho2 = x * x + y2;
+      if (hn::AllFalse(d, rho2 <= far2)) continue;
+      const V height = hn::Load(d, cells + col);
+      if (hn::AllTrue(d, rho2 <= near2)) {
+        heights.add(col, height);
+        weights.add(col, one);
       } else {
-        const V u = rho2 / s2;
-        const Mask bowl = u <= u0;
-        // The root's argument may fall below 0 by rounding at the rim.
-        underside = hn::IfThenElse(bowl, sphere ? R - Sqrt(Max(R2 - rho2, zero)) : a * sine(u), infinite);
-        takes = hn::IfThenZeroElse(bowl, takes);
+        const V weight = clamped((rho1 - Sqrt(rho2)) / cell + one);
+        heights.add(col, weight * height);
+        weights.add(col, weight);
       }
     }
-    hn::Store(underside, d, f.underside(row) + col);
-    hn::Store(takes, d, f.takes(row) + col);
-  });
-}
-
-void ShapeRing(const FootprintShape& shape, ToolFootprint& f) {
-  const V zero = hn::Zero(d), s2 = all(shape.filter_scale2), offset = all(filter::offset);
-  const V u0 = all(filter::u0), u1 = all(filter::u1);
-  const V inside = all(shape.radius * shape.radius * below), outside = all(shape.reach * shape.reach * above);
-  for_vectors(f, [&](int row, int col, V rho2) {
-    V rampart = zero;
-    if (!hn::AllFalse(d, hn::And(rho2 >= inside, rho2 <= outside))) {
-      const V u = rho2 / s2;
-      rampart = where(hn::And(u > u0, u <= u1), Max(sine(u) - offset, zero));
-    }
-    hn::Store(rampart, d, f.rampart(row) + col);
-  });
+  }
+  const double weight = weights.total();
+  return weight > 0.0 ? heights.total() / weight : std::numeric_limits<double>::quiet_NaN();
 }
 
 HWY_INLINE void set_flags(unsigned char* flags, int col, Mask mask) {
   flags[col / group] = static_cast<unsigned char>(flags[col / group] | bits(mask) << (col % group));
 }
 
-double Carve(ToolFootprint& f, double tip_height) {
-  const V zero = hn::Zero(d), tip = all(tip_height);
-  LaneSum pushed;
+template <bool ring>
+HWY_INLINE Carved carve(const FootprintShape& shape, ToolFootprint& f, double tip_height,
+                        const RingFront& front) {
+  const V zero = hn::Zero(d), one = all(1.0), half = all(0.5);
+  const V infinite = all(std::numeric_limits<double>::infinity()), tip = all(tip_height);
+  const double square = shape.radius * shape.radius;
+  const V R = all(shape.radius), R2 = all(square), under = all(square * below);
+  const V beyond = all((ring ? shape.reach * shape.reach : square) * above);
+  const V s2 = all(shape.filter_scale2), a = all(shape.amplitude), offset = all(filter::offset);
+  const V u0 = all(filter::u0), u1 = all(filter::u1);
+  const V cell = all(f.cell_size()), drag = all(front.drag_share);
+  const bool sphere = shape.profile == ToolProfile::sphere;
+  const Offsets offsets(f);
+  LaneSum pushed, front_weight, ring_weight;
   for (int row = 0; row < f.cells().rows(); ++row) {
+    const V y = all(offsets.y(row)), y2 = y * y, ahead_y = all(offsets.y(row) * front.direction.y());
+    const ColumnRange sand = f.sand_cols(row);
+    double *heights = f.heights(row), *undersides = f.underside(row), *ramparts = f.rampart(row),
+           *weights = f.weights(row);
     unsigned char* flags = f.flags(row);
     std::fill_n(flags, f.stride() / group, static_cast<unsigned char>(0));
-    for (int col = 0; col < f.stride(); col += lanes) {
-      const V height = hn::Load(d, f.heights(row) + col);
-      const V excess = Max(height - (tip + hn::Load(d, f.underside(row) + col)), zero);
+    for (int col = 0, end = f.stride(); col < end; col += lanes) {
+      const V x = offsets.x(sand, col), rho2 = x * x + y2;
+      V underside = infinite, takes = where(rho2 < infinite, one), rampart = zero;
+      if (sphere && hn::AllTrue(d, rho2 <= under)) {
+        underside = R - Sqrt(R2 - rho2);
+        takes = zero;
+      } else if (!hn::AllFalse(d, rho2 <= beyond)) {
+        const V u = rho2 / s2, sin_u = ring || !sphere ? sine(u) : zero;
+        const Mask bowl = u <= u0;
+        // The root's argument may fall below 0 by rounding at the rim.
+        underside = hn::IfThenElse(bowl, sphere ? R - Sqrt(Max(R2 - rho2, zero)) : a * sin_u, infinite);
+        takes = hn::IfThenZeroElse(bowl, takes);
+        if (ring) rampart = where(hn::And(u > u0, u <= u1), Max(sin_u - offset, zero));
+      }
+      hn::Store(underside, d, undersides + col);
+      const V height = hn::Load(d, heights + col);
+      const V excess = Max(height - (tip + underside), zero);
       const Mask cut = excess > zero;
-      if (hn::AllFalse(d, cut)) continue;
-      hn::Store(height - excess, d, f.heights(row) + col);
-      hn::Store(excess, d, f.excess(row) + col);
-      pushed.add(col, excess);
-      set_flags(flags, col, cut);
-    }
-  }
-  return pushed.total();
-}
-
-RingWeight WeighRing(ToolFootprint& f, const RingFront& front) {
-  const V zero = hn::Zero(d), one = all(1.0), half = all(0.5);
-  const V cell = all(f.cell_size()), drag = all(front.drag_share);
-  const Offsets offsets(f);
-  LaneSum front_weight, ring_weight;
-  for (int row = 0; row < f.cells().rows(); ++row) {
-    const V ahead_y = all(offsets.y(row) * front.direction.y());
-    const ColumnRange sand = f.sand_cols(row);
-    for (int col = 0; col < f.stride(); col += lanes) {
-      const V rampart = hn::Load(d, f.rampart(row) + col);
+      if (!hn::AllFalse(d, cut)) {
+        hn::Store(height - excess, d, heights + col);
+        hn::Store(excess, d, f.excess(row) + col);
+        pushed.add(col, excess);
+        set_flags(flags, col, cut);
+      }
+      if (!ring) {
+        hn::Store(takes, d, f.takes(row) + col);
+        continue;
+      }
       V weight = rampart;
       const Mask in_ring = rampart > zero;  // elsewhere offsets may be infinite
       if (front.drag_share > 0.0 && !hn::AllFalse(d, in_ring)) {
-        const V p = offsets.x(sand, col) * all(front.direction.x()) + ahead_y;
+        const V p = x * all(front.direction.x()) + ahead_y;
         weight = where(in_ring, rampart * (one - drag * (one - clamped(p / cell + half))));
       }
-      hn::Store(weight, d, f.weights(row) + col);
+      hn::Store(rampart, d, ramparts + col);
+      hn::Store(weight, d, weights + col);
       front_weight.add(col, weight);
       ring_weight.add(col, rampart);
     }
   }
-  return {front_weight.total(), ring_weight.total()};
+  return {pushed.total(), front_weight.total(), ring_weight.total()};
+}
+
+Carved CarveForRing(const FootprintShape& shape, ToolFootprint& f, double tip_height,
+                    const RingFront& front) {
+  return carve<true>(shape, f, tip_height, front);
+}
+double CarveOnly(const FootprintShape& shape, ToolFootprint& f, double tip_height) {
+  return carve<false>(shape, f, tip_height, {0.0, Eigen::Vector2d::Zero()}).pushed;
 }
 
 /// Cut cells, a vector full: where they lie from the axis [cells], their sand [m], and where that goes.
@@ -267,27 +248,20 @@ HWY_AFTER_NAMESPACE();
 namespace sandstroke {
 
 HWY_EXPORT(LevelOf);
-HWY_EXPORT(ShapeBowl);
-HWY_EXPORT(ShapeRing);
-HWY_EXPORT(Carve);
-HWY_EXPORT(WeighRing);
+HWY_EXPORT(CarveOnly);
+HWY_EXPORT(CarveForRing);
 HWY_EXPORT(SpreadOutward);
 HWY_EXPORT(Heap);
 
 double level_of(const FootprintShape& shape, const ToolFootprint& footprint) {
   return HWY_DYNAMIC_DISPATCH(LevelOf)(shape, footprint);
 }
-void shape_bowl(const FootprintShape& shape, ToolFootprint& footprint) {
-  HWY_DYNAMIC_DISPATCH(ShapeBowl)(shape, footprint);
+double carve(const FootprintShape& shape, ToolFootprint& footprint, double tip_height) {
+  return HWY_DYNAMIC_DISPATCH(CarveOnly)(shape, footprint, tip_height);
 }
-void shape_ring(const FootprintShape& shape, ToolFootprint& footprint) {
-  HWY_DYNAMIC_DISPATCH(ShapeRing)(shape, footprint);
-}
-double carve(ToolFootprint& footprint, double tip_height) {
-  return HWY_DYNAMIC_DISPATCH(Carve)(footprint, tip_height);
-}
-RingWeight weigh_ring(ToolFootprint& footprint, const RingFront& front) {
-  return HWY_DYNAMIC_DISPATCH(WeighRing)(footprint, front);
+Carved carve_for_ring(const FootprintShape& shape, ToolFootprint& footprint, double tip_height,
+                      const RingFront& front) {
+  return HWY_DYNAMIC_DISPATCH(CarveForRing)(shape, footprint, tip_height, front);
 }
 double spread_outward(ToolFootprint& footprint, const Outward& outward) {
   return HWY_DYNAMIC_DISPATCH(SpreadOutward)(footprint, outward);

@@ -11,13 +11,11 @@ namespace sandstroke {
 /// The sand level [m] of a placed footprint; NaN where no cell counts.
 double level_of(const FootprintShape& shape, const ToolFootprint& footprint);
 
-// What its cells mean to the tool: underside() and takes(); rampart().
-void shape_bowl(const FootprintShape& shape, ToolFootprint& footprint);
-void shape_ring(const FootprintShape& shape, ToolFootprint& footprint);
+// First pass: fills underside() and takes(), lowers heights() to the tool's underside, its tip at tip_height
+// [m], and flags those cells, with their excess(). pushed [m]: the sum of heights taken out.
 
-/// First pass: lowers heights() to the tool's underside, its tip at tip_height [m], and flags those cells,
-/// with their excess(). Returns the sum of heights taken out [m].
-double carve(ToolFootprint& footprint, double tip_height);
+/// And no more: for a tool whose sand is spread, or that only stands there (tip_height infinite).
+double carve(const FootprintShape& shape, ToolFootprint& footprint, double tip_height);
 
 /// How much of the ring a motion fills: all of it where drag_share is 0, its front half where it is 1. A cell
 /// that lies p [m] ahead of the axis keeps 1 - drag_share (1 - clamp(p / dx + 1/2, 0, 1)) of its rampart.
@@ -25,13 +23,14 @@ struct RingFront {
   double drag_share;
   Eigen::Vector2d direction;  ///< of the drag, a unit vector
 };
-/// Sums of weights over the ring.
-struct RingWeight {
-  double front;  ///< of those left in weights()
-  double whole;  ///< of the rampart
+struct Carved {
+  double pushed;
+  double front_weight;  ///< sums of weights over the ring: of those left in weights(), ...
+  double ring_weight;   ///< ... and of the rampart
 };
-/// Fills weights() with the rampart's share for a motion.
-RingWeight weigh_ring(ToolFootprint& footprint, const RingFront& front);
+/// And fills rampart(), and weights() with its share for a motion.
+Carved carve_for_ring(const FootprintShape& shape, ToolFootprint& footprint, double tip_height,
+                      const RingFront& front);
 
 /// Where the cut cells' sand goes along the tool's outward normal, to `distance` [m] from the axis.
 struct Outward {

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 #include <tuple>
-#include <utility>
 
 #include "sand/footprint_kernels.h"
 
@@ -29,7 +28,6 @@ ToolFootprint::ToolFootprint(const ToolSettings& settings)
 
 void ToolFootprint::place(const HeightField& bed, double x, double y) {
   cells_ = {};
-  has_bowl_ = has_ring_ = false;
   level_ = std::numeric_limits<double>::quiet_NaN();
   bed_ = bed;
   axis_x_ = x / cell_size(), axis_y_ = y / cell_size();
@@ -47,14 +45,6 @@ void ToolFootprint::place(const HeightField& bed, double x, double y) {
   make_room();
   read_heights(bed);
   level_ = level_of(shape_, *this);
-}
-
-void ToolFootprint::shape_bowl() {
-  if (!std::exchange(has_bowl_, true)) sandstroke::shape_bowl(shape_, *this);
-}
-
-void ToolFootprint::shape_ring() {
-  if (!std::exchange(has_ring_, true)) sandstroke::shape_ring(shape_, *this);
 }
 
 void ToolFootprint::make_room() {
@@ -131,7 +121,7 @@ void ToolFootprint::write_flagged(HeightField& bed) {
 void ToolFootprint::hold_bowl(HeightField& bed) {
   constexpr int side = BedGeometry::tile_side;
   bowl_.clear();
-  shape_bowl();
+  carve(shape_, *this, std::numeric_limits<double>::infinity());
   for (int row = 0; row < cells_.rows(); ++row) {
     std::fill_n(flags(row), stride_ / cells_per_group, static_cast<unsigned char>(0));
     for (int col = 0; col < cells_.cols(); ++col)

@@ -69,12 +69,12 @@ class ToolFootprint {
   /// change the level. NaN where the footprint lies outside the bed.
   double sand_level() const { return level_; }
 
-  // What the cells mean to the tool is found out where somebody needs it: a tool that hovers asks for the
-  // level only.
-  void shape_bowl();  ///< underside() and takes()
-  void shape_ring();  ///< rampart()
+  /// Reads the sand again, from the bed that it was placed on.
+  void read_heights(const HeightField& bed);
+  const FootprintShape& shape() const { return shape_; }
 
-  // Row r of the window.
+  // Row r of the window. What a cell means to the tool is found out by whoever needs it
+  // (footprint_kernels.h).
   double* heights(int row) { return heights_.get() + at(row); }  ///< m, of the sand
   const double* heights(int row) const { return heights_.get() + at(row); }
   /// Tool's underside above its tip [m]; infinite outside the bowl (u <= u0).
@@ -104,10 +104,8 @@ class ToolFootprint {
  private:
   std::size_t at(int row) const { return static_cast<std::size_t>(row) * stride_; }
   void make_room();
-  void read_heights(const HeightField& bed);
 
   FootprintShape shape_;
-  bool has_bowl_ = false, has_ring_ = false;  // shaped where it is now
   BedGeometry bed_{1, 1, 1.0};
   CellRange cells_;
   int stride_ = 0;

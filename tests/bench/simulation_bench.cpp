@@ -42,6 +42,8 @@ BENCHMARK_CAPTURE(tool_tick, paper_ahead, ToolProfile::paper, Deposit::ahead)->N
 BENCHMARK_CAPTURE(tool_tick, sphere_ring, ToolProfile::sphere, Deposit::ring)->Name("tool_tick/sphere/ring");
 BENCHMARK_CAPTURE(tool_tick, sphere_ahead, ToolProfile::sphere, Deposit::ahead)
     ->Name("tool_tick/sphere/ahead");
+BENCHMARK_CAPTURE(tool_tick, sphere_outward, ToolProfile::sphere, Deposit::outward)
+    ->Name("tool_tick/sphere/outward");
 
 /// Times the ticks of a run but the first.
 class TickClock : public SimulationObserver {

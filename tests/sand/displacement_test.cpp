@@ -6,6 +6,7 @@
 #include <cmath>
 #include <random>
 
+#include "sand/footprint_kernels.h"
 #include "sand/relaxation.h"
 #include "sand/symmetry.h"
 
@@ -117,7 +118,7 @@ TEST(Displacement, OutwardCarriesEachCellsSandAlongItsOwnNormal) {
       bed.set(row, col, 0.005);
       ToolFootprint footprint({R, ToolProfile::sphere});
       footprint.place(bed, axis, 0.0);
-      footprint.shape_bowl();
+      carve(footprint.shape(), footprint, std::numeric_limits<double>::infinity());
       const double tip =
           0.005 - 1e-4 -
           footprint.underside(row - footprint.cells().row_begin)[col - footprint.cells().col_begin];

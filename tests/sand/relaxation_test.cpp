@@ -136,6 +136,36 @@ TEST_P(BothLaws, ATileThatChangesTellsAndNoOther) {
   }
 }
 
+TEST_P(BothLaws, TheBedIsAsItWasUntilARelaxationEndsButForWhoAsks) {
+  for (const RelaxationMethod method : {RelaxationMethod::passes, RelaxationMethod::rkl}) {
+    RelaxationSettings s = settings(GetParam());
+    s.method = method;
+    const HeightField start = random_bed(150, 150, 1.0, 8.0, 1);
+    const auto relax = [&](std::int64_t passes, const PassWatcher& watcher = {}) {
+      RelaxationSettings some = s;
+      some.max_passes = passes;
+      HeightField bed = start;
+      make_relaxer(some, 1.0)->relax(bed, watcher);
+      return bed;
+    };
+    HeightField bed = start;
+    std::int64_t told = 0;
+    make_relaxer(s, 1.0)->relax(bed, [&](std::int64_t passes, const BedNow& bed_now) {
+      EXPECT_EQ(passes, ++told);
+      if (passes == 2) {
+        EXPECT_TRUE((bed.grid() == start.grid()).all());
+        EXPECT_TRUE((bed_now().grid() == relax(2).grid()).all());
+        EXPECT_TRUE((bed.grid() == relax(2).grid()).all());
+      }
+      if (passes == 5) {
+        EXPECT_TRUE((bed_now().grid() == relax(5).grid()).all());
+      }
+    });
+    EXPECT_GT(told, 5);
+    EXPECT_TRUE((bed.grid() == relax(s.max_passes).grid()).all());  // looking changes nothing
+  }
+}
+
 TEST_P(BothLaws, TilesGiveTheBitsOfTheReference) {
   struct Case {
     int rows, cols;

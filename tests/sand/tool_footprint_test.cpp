@@ -5,17 +5,19 @@
 #include <cmath>
 #include <numbers>
 
+#include "sand/footprint_kernels.h"
+
 namespace sandstroke {
 namespace {
 
 constexpr double radius = 0.01;
+constexpr double high_above = 1.0;  // m, of a tip that cuts nothing
 
 /// Calls body(distance to the tool's axis, underside, rampart) for each cell of the footprint, and checks
 /// that what lies beyond its columns means nothing to the tool.
 template <class Body>
 void for_each_cell(const HeightField& bed, ToolFootprint& footprint, const Body& body) {
-  footprint.shape_bowl();
-  footprint.shape_ring();
+  carve_for_ring(footprint.shape(), footprint, high_above, {0.0, Eigen::Vector2d::Zero()});
   const CellRange& cells = footprint.cells();
   for (int r = 0; r < cells.rows(); ++r)
     for (int c = 0; c < footprint.stride(); ++c) {
