@@ -2,6 +2,7 @@
 // figures can be compared with each other; between runs on a busy machine compare ratios.
 #include "bench/end_to_end.h"
 
+#include <spdlog/fmt/fmt.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <tbb/global_control.h>
@@ -31,6 +32,22 @@ void write_all(int file, const std::string& text) {
     if (n <= 0) _exit(2);
     done += static_cast<std::size_t>(n);
   }
+}
+
+/// Rows of speed, as Markdown.
+std::string table_of(const nlohmann::json& rows) {
+  const bool compares = !rows.empty() && rows[0].contains("before");
+  std::string text = compares ? "| what | | before | now | times |\n|---|---|---|---|---|\n"
+                              : "| what | | |\n|---|---|---|\n";
+  const auto number = [](const nlohmann::json& value) { return fmt::format("{:.3g}", value.get<double>()); };
+  for (const nlohmann::json& row : rows) {
+    text += "| " + row["name"].get<std::string>() + " | " + row["unit"].get<std::string>() + " | ";
+    if (compares) text += number(row["before"]) + " | ";
+    text += number(row["value"]);
+    if (compares) text += " | " + fmt::format("{:.2f}", row["ratio"].get<double>());
+    text += " |\n";
+  }
+  return text;
 }
 
 }  // namespace
@@ -91,9 +108,12 @@ int main(int argc, char** argv) {
   CLI::App app("Measures whole runs of sandstroke on one thread and prints one JSON object");
   BenchOptions options;
   std::string output, only;
+  bool table = false;
   app.add_flag("--quick", options.quick, "Seconds rather than minutes: smaller beds, shorter strokes");
   app.add_option("--only", only,
                  "One part of the report, such as sweeps; soak (10 min) is only measured where it is named");
+  app.add_option("--before", options.before, "Another build of the program, which speed compares with");
+  app.add_flag("--table", table, "Print speed as a table (Markdown)");
   app.add_option("-o,--output", output, "Write the report to this file");
   CLI11_PARSE(app, argc, argv);
 
@@ -115,7 +135,8 @@ int main(int argc, char** argv) {
     add("sweeps", [&] { return in_child([&] { return measure_sweeps(options); }); });
     add("recording", [&] { return in_child([&] { return measure_recording(options); }); });
     if (only == "soak") add(only, [&] { return in_child([&] { return measure_soak(options); }); });
-    const std::string text = report.dump(2) + "\n";
+    add("speed", [&] { return measure_speed(options); });
+    const std::string text = table ? table_of(report["speed"]) : report.dump(2) + "\n";
     if (output.empty()) {
       std::cout << text;
     } else {

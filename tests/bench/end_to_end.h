@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <nlohmann/json.hpp>
+#include <string>
 #include <vector>
 
 namespace sandstroke {
@@ -9,6 +10,7 @@ namespace sandstroke {
 /// How thoroughly to measure.
 struct BenchOptions {
   bool quick = false;  ///< seconds rather than minutes: smaller beds, shorter strokes
+  std::string before;  ///< another build of the program, for `speed` to compare with
 };
 
 // The parts of the report. Each runs in a child process, so that none finds memory that another has warmed
@@ -22,6 +24,9 @@ nlohmann::json measure_rough_beds(const BenchOptions& options);
 nlohmann::json measure_paper_law(const BenchOptions& options);
 nlohmann::json measure_sweeps(const BenchOptions& options);
 nlohmann::json measure_recording(const BenchOptions& options);
+/// Rows of name, unit, value, and with a program to compare with: before, and how many times better it is
+/// now.
+nlohmann::json measure_speed(const BenchOptions& options);
 /// Ten minutes with pages that look on: memory must not grow.
 nlohmann::json measure_soak(const BenchOptions& options);
 

@@ -1,0 +1,204 @@
+// What a user waits for, measured through the program itself; so that another build of it can be measured in
+// the same run, in turn: machines differ, and so do their hours. The README of src/validation has its table.
+#include <fcntl.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <optional>
+#include <sstream>
+#include <stdexcept>
+
+#include "bench/end_to_end.h"
+#include "core/stopwatch.h"
+#include "core/temporary_folder.h"
+
+namespace sandstroke {
+namespace {
+
+struct Ended {
+  double wall, cpu;  // s, its children's included
+  double peak;       // bytes, resident
+  std::string out;
+};
+
+Ended run(const std::string& program, std::vector<std::string> words) {
+  const TemporaryFolder folder;
+  const std::string out = (folder / "out").string(), err = (folder / "err").string();
+  words.insert(words.begin(), program);
+  std::vector<char*> argv;
+  for (std::string& word : words) argv.push_back(word.data());
+  argv.push_back(nullptr);
+  const Stopwatch watch;
+  const pid_t child = fork();
+  if (child < 0) throw std::runtime_error("no child process");
+  if (child == 0) {
+    dup2(open(out.c_str(), O_WRONLY | O_CREAT, 0600), 1);
+    dup2(open(err.c_str(), O_WRONLY | O_CREAT, 0600), 2);
+    execv(program.c_str(), argv.data());
+    _exit(127);
+  }
+  int status = 0;
+  rusage usage{};
+  wait4(child, &status, 0, &usage);
+  const double wall = watch.seconds();
+  const auto read = [](const std::string& path) {
+    std::ostringstream text;
+    text << std::ifstream(path).rdbuf();
+    return text.str();
+  };
+  if (status != 0) throw std::runtime_error(program + " failed: " + read(err));
+  const auto seconds = [](const timeval& t) {
+    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+  };
+  return {wall, seconds(usage.ru_utime) + seconds(usage.ru_stime),
+          1024.0 * static_cast<double>(usage.ru_maxrss), read(out)};
+}
+
+/// Of a scene, with these words besides.
+std::vector<std::string> run_words(const std::string& scene, const TemporaryFolder& folder,
+                                   std::vector<std::string> more = {}) {
+  std::vector<std::string> words = {"run", scene, "-o", (folder / "run.h5").string(), "--overwrite"};
+  words.insert(words.end(), more.begin(), more.end());
+  return words;
+}
+nlohmann::json summary(const std::string& program, const std::string& scene, std::vector<std::string> more,
+                       int threads = 1) {
+  const TemporaryFolder folder;
+  more.insert(more.end(), {"--json", "--threads", std::to_string(threads)});
+  return nlohmann::json::parse(run(program, run_words(scene, folder, std::move(more))).out);
+}
+
+const std::string strokes = std::string(SANDSTROKE_SOURCE) + "/strokes/";
+const std::string wscg_scene = strokes + "wscg/scene.toml";
+
+/// The peers' pile (piles.cpp) on n x n cells, which collapses by rkl.
+nlohmann::json collapse(const std::string& program, int n, int threads) {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "pile.toml")
+      << "[bed]\nsize = [" << n * 0.001 << ", " << n * 0.001 << "]\ncells = [" << n << ", " << n
+      << "]\nsurface = { kind = \"cylinder\", radius = " << 60.0 / 512 * n * 0.001
+      << ", height = " << 80.0 / 512 * n * 0.001
+      << " }\n[relaxation]\nlaw = \"isotropic\"\nmethod = \"rkl\"\n";
+  return summary(program, (folder / "pile.toml").string(), {}, threads);
+}
+
+double sweep_seconds(const std::string& program, int jobs) {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "plan.toml")
+      << "[sweep]\nscene = \"" << wscg_scene
+      << "\"\n[axes]\nrelaxation.talus_angle = { from = 20, to = 42.5, count = 20 }\n";
+  return run(program, {"sweep", (folder / "plan.toml").string(), "-o", (folder / "swept").string(), "--jobs",
+                       std::to_string(jobs)})
+      .wall;
+}
+
+/// A line of the table, by a program.
+struct Line {
+  std::string name, unit;
+  bool more_is_better;
+  int repeats;
+  std::function<double(const std::string&)> measure;
+};
+
+std::vector<Line> lines(bool quick) {
+  std::vector<Line> all;
+  const auto add = [&](std::string name, std::string unit, bool more_is_better, auto measure,
+                       int repeats = 7) {
+    all.push_back({std::move(name), std::move(unit), more_is_better, quick ? 1 : repeats, measure});
+  };
+  for (const char* preset : {"paper", "accurate"})
+    add("stroke of 29 s (strokes/wscg), `" + std::string(preset) + "`", "times real time", true,
+        [preset](const std::string& program) -> double {
+          return summary(program, wscg_scene,
+                         {"--set", std::string("model.preset=") + preset})["real_time_factor"];
+        });
+  const std::string robot =
+      std::string(SANDSTROKE_SHARED_DATA) + "/panda_comanip_force_1khz/symbol17_rec2.csv";
+  if (std::filesystem::exists(robot))
+    add("a robot's drawing of 9 s, as recorded, `accurate`", "times real time", true,
+        [robot](const std::string& program) -> double {
+          return summary(program, wscg_scene,
+                         {"--stroke", robot, "--set", "stroke.table.rate=1000", "--set", "stroke.plane=fit",
+                          "--set", "stroke.place=centre", "--set", "stroke.depth=0.004", "--set",
+                          "model.preset=accurate"})["real_time_factor"];
+        });
+  for (const int n : quick ? std::vector{128, 256} : std::vector{512, 1024, 2048, 4096}) {
+    const std::string cells = "pile on " + std::to_string(n) + "²";
+    add(
+        cells, "s", false,
+        [n](const std::string& program) -> double { return collapse(program, n, 1)["wall_seconds"]; },
+        n > 2000 ? 1 : 5);
+    if (n <= 2048)
+      add(
+          cells, "passes", false,
+          [n](const std::string& program) -> double { return collapse(program, n, 1)["passes"]; }, 1);
+  }
+  const int large = quick ? 256 : 2048;
+  add(
+      "pile on " + std::to_string(large) + "², two threads over one", "times as fast", true,
+      [large](const std::string& program) {
+        return collapse(program, large, 1)["wall_seconds"].get<double>() /
+               collapse(program, large, 2)["wall_seconds"].get<double>();
+      },
+      2);
+  if (!quick)
+    add(
+        "sweep of 20 points, two jobs over one", "times as fast", true,
+        [](const std::string& program) { return sweep_seconds(program, 1) / sweep_seconds(program, 2); }, 5);
+  add(
+      "`--version`", "ms", false,
+      [](const std::string& program) { return 1e3 * run(program, {"--version"}).wall; }, 21);
+  add(
+      "`--version`", "MB", false,
+      [](const std::string& program) { return 1e-6 * run(program, {"--version"}).peak; }, 3);
+  const auto with_and_without = [](const std::string& program, const std::string& scene, auto more,
+                                   auto field) {
+    const TemporaryFolder folder;
+    const Ended without = run(program, run_words(scene, folder, {"--frames", "5"}));
+    return field(run(program, run_words(scene, folder, more(folder)))) - field(without);
+  };
+  const auto picture = [](const TemporaryFolder& folder) {
+    return std::vector<std::string>{"--frames", "5", "--png", (folder / "run.png").string()};
+  };
+  add("a picture of 1280 x 720, beside its run", "s", false, [=](const std::string& program) {
+    return with_and_without(program, wscg_scene, picture, [](const Ended& e) { return e.wall; });
+  });
+  add(
+      "a picture of 1280 x 720, beside its run", "MB", false,
+      [=](const std::string& program) {
+        return 1e-6 * with_and_without(program, wscg_scene, picture, [](const Ended& e) { return e.peak; });
+      },
+      3);
+  return all;
+}
+
+}  // namespace
+
+nlohmann::json measure_speed(const BenchOptions& options) {
+  std::vector<std::string> programs = {SANDSTROKE_PROGRAM};
+  if (!options.before.empty()) programs.insert(programs.begin(), options.before);
+  nlohmann::json rows = nlohmann::json::array();
+  for (const Line& line : lines(options.quick)) {
+    std::vector<double> best(programs.size(),
+                             line.more_is_better ? 0.0 : std::numeric_limits<double>::infinity());
+    for (int repeat = 0; repeat < line.repeats; ++repeat)
+      for (std::size_t i = 0; i < programs.size(); ++i) {  // in turn
+        const double value = line.measure(programs[i]);
+        best[i] = line.more_is_better ? std::max(best[i], value) : std::min(best[i], value);
+      }
+    nlohmann::json row = {{"name", line.name}, {"unit", line.unit}, {"value", best.back()}};
+    if (programs.size() > 1) {
+      row["before"] = best.front();
+      row["ratio"] = line.more_is_better ? best.back() / best.front() : best.front() / best.back();
+    }
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+}  // namespace sandstroke
