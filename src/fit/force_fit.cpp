@@ -38,7 +38,9 @@ class Parameters {
   ForceSettings force(const VectorXd& free) const {
     Eigen::Index next = 0;
     const auto value = [&](std::size_t i, double kept) {
-      return is_free_[i] ? std::pow(free[next++], 2) : kept;
+      if (!is_free_[i]) return kept;
+      const double root = free[next++];
+      return root * root;
     };
     ForceSettings force = start_;
     const double stiffness = value(0, 0.0);
@@ -253,7 +255,10 @@ ForceFit fit_force(const std::vector<FeltTick>& all, const ForceSettings& start,
   fit.recorded_rms = recorded_rms;
   fit.start_residual = residual_rms(ticks, start, max_force);
   fit.residual = residual_rms(ticks, fit.force, max_force);
-  const auto share = [&](double residual) { return 1.0 - std::pow(residual / fit.recorded_rms, 2); };
+  const auto share = [&](double residual) {
+    const double part = residual / fit.recorded_rms;
+    return 1.0 - part * part;
+  };
   fit.explained = share(fit.residual);
   std::vector<FeltTick> reversed = ticks;
   for (FeltTick& tick : reversed) tick.recorded = -tick.recorded;

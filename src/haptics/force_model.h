@@ -1,7 +1,8 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <cmath>
+
+#include "core/elementary.h"
 
 namespace sandstroke {
 
@@ -25,7 +26,7 @@ FeltSand felt_sand(double depth, double repulse, double scale, const ForceSettin
 
 /// Without overflow, and the same bits wherever the vector lies in memory: Eigen's stableNorm() goes by its
 /// alignment.
-inline double length_of(const Eigen::Vector3d& v) { return std::hypot(v.x(), v.y(), v.z()); }
+inline double length_of(const Eigen::Vector3d& v) { return elementary::hypot(v.x(), v.y(), v.z()); }
 
 struct SandForce {
   double repulse = 0.0;                             ///< N, upward

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/angle.h"
+#include "core/elementary.h"
 #include "core/error.h"
 #include "picture/hershey_text.h"
 
@@ -135,7 +136,7 @@ class Pen {
   void climb_to(double z) { run(Curve::line(point_, point_), 0.0, 1.0, z, script_.plunge_speed); }
   /// Along a curve from one fraction to another while the height changes linearly: constant speed in space.
   void run(const Curve& curve, double begin, double end, double end_z, double speed) {
-    add(curve, begin, end, end_z, std::hypot((end - begin) * curve.length, end_z - z_) / speed);
+    add(curve, begin, end, end_z, elementary::hypot((end - begin) * curve.length, end_z - z_) / speed);
   }
   void add(const Curve& curve, double begin, double end, double end_z, double seconds) {
     if (++legs_ > most_legs)

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <set>
 
+#include "core/elementary.h"
 #include "core/error.h"
 #include "core/input_file.h"
 #include "import/curve_points.h"
@@ -34,7 +35,7 @@ struct GcodeArc {
     return std::ceil(std::abs(sweep) / step);
   }
   double length(double climb) const {
-    return std::hypot(0.5 * (radius + end_radius) * sweep, end_radius - radius, climb);
+    return elementary::hypot(0.5 * (radius + end_radius) * sweep, end_radius - radius, climb);
   }
   Vector2d at(double share) const {
     const double angle = start + share * sweep;

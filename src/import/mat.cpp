@@ -31,7 +31,7 @@ class MatReader {
  public:
   explicit MatReader(const fs::path& path) : name_(path.string()) {
     check_readable(path);
-    Mat_LogInitFunc("sandstroke", [](int, char*) {});
+    Mat_LogInitFunc("sandstroke", [](int, auto*) {});  // char*, and since 1.5.27 const char*
     file_.reset(Mat_Open(name_.c_str(), MAT_ACC_RDONLY));
     if (!file_)
       throw_input_error("{}: is not a MATLAB file that can be read; save it again: save('FILE.mat', '-v7')",

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "core/elementary.h"
 #include "core/error.h"
 #include "core/input_file.h"
 #include "import/curve_points.h"
@@ -19,7 +20,7 @@ struct PolarPoint {
 double chords(const PolarPoint& from, const PolarPoint& to) {
   const double turn = std::abs(to.theta - from.theta), out = std::abs(to.rho - from.rho);
   const double rho = std::max(std::abs(from.rho), std::abs(to.rho));
-  const double bend = std::hypot(rho * turn * turn, 2.0 * out * turn);
+  const double bend = elementary::hypot(rho * turn * turn, 2.0 * out * turn);
   const bool moves = out > 0.0 || (turn > 0.0 && rho > 0.0);
   return std::max(std::ceil(std::sqrt(bend / (8.0 * thr_tolerance))), moves ? 1.0 : 0.0);
 }

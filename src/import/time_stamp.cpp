@@ -1,6 +1,13 @@
 #include "import/time_stamp.h"
 
+#if defined(__GNUC__) && !defined(__clang__)  // gcc is wrong about a buffer in it, for arm64
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wstringop-overflow"
 #include <date/date.h>
+#pragma GCC diagnostic pop
+#else
+#include <date/date.h>
+#endif
 
 #include <algorithm>
 #include <charconv>

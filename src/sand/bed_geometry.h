@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/elementary.h"
+
 namespace sandstroke {
 
 /// A half-open rectangle of cells: row_begin <= row < row_end, likewise col.
@@ -64,7 +66,7 @@ class BedGeometry {
   }
   /// How far a place [m] lies beyond the bed's edge [m]; negative inside.
   double beyond_edge(double x, double y) const {
-    if (shape_ == BedShape::round) return std::hypot(x, y) - wall_radius();
+    if (shape_ == BedShape::round) return elementary::hypot(x, y) - wall_radius();
     return std::max(std::abs(x) - 0.5 * cols_ * cell_size_, std::abs(y) - 0.5 * rows_ * cell_size_);
   }
   /// As many cells, of the same size.

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "core/elementary.h"
 #include "sand/footprint_kernels.h"
 
 namespace sandstroke {
@@ -10,7 +11,7 @@ namespace {
 /// For a drag only the ring's front half; in between, blended by how much of the motion is horizontal, so
 /// that a plunge that turns into a drag makes no jump.
 RingFront front_of(const Eigen::Vector3d& motion, Deposit deposit) {
-  const double horizontal = std::hypot(motion.x(), motion.y());
+  const double horizontal = elementary::hypot(motion.x(), motion.y());
   if (deposit != Deposit::ahead || horizontal == 0.0) return {0.0, Eigen::Vector2d::Zero()};
   return {horizontal / (horizontal + std::abs(motion.z())), motion.head<2>() / horizontal};
 }

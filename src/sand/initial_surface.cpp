@@ -6,6 +6,7 @@
 #include <numbers>
 #include <utility>
 
+#include "core/elementary.h"
 #include "core/hash.h"
 
 namespace sandstroke {
@@ -51,7 +52,7 @@ double cone_average(double x, double y, double dx, const SurfaceSettings& s) {
   double sum = 0.0;
   for (int i = 0; i < n; ++i)
     for (int j = 0; j < n; ++j) {
-      const double rho = std::hypot(x + ((j + 0.5) / n - 0.5) * dx, y + ((i + 0.5) / n - 0.5) * dx);
+      const double rho = elementary::hypot(x + ((j + 0.5) / n - 0.5) * dx, y + ((i + 0.5) / n - 0.5) * dx);
       sum += std::max(0.0, 1.0 - rho / s.radius);
     }
   return s.height * sum / (n * n);
@@ -67,7 +68,7 @@ std::pair<double, double> distances(const BedGeometry& bed, const CellRange& cel
   };
   const auto [near_x, far_x] = along(bed.x_of(cells.col_begin), bed.x_of(cells.col_end - 1));
   const auto [near_y, far_y] = along(bed.y_of(cells.row_begin), bed.y_of(cells.row_end - 1));
-  return {std::hypot(near_x, near_y), std::hypot(far_x, far_y)};
+  return {elementary::hypot(near_x, near_y), elementary::hypot(far_x, far_y)};
 }
 
 /// A rule made of height(x, y) [m] at a cell's centre and a bound of the slope over a range.

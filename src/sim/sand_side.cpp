@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "core/elementary.h"
 #include "core/interrupt.h"
 #include "sand/tool_path.h"
 
@@ -47,7 +48,7 @@ Interaction SandSide::move(HeightField& bed, const Eigen::Vector3d& read_tip, co
   const Eigen::Vector3d motion = last_tip_ ? Eigen::Vector3d(true_tip - *last_tip_) : Eigen::Vector3d::Zero();
   TipSteps steps{read_tip - motion, motion, 1};
   const double longest = longest_step * footprint_.radius();
-  if (std::hypot(motion.x(), motion.y()) > longest)
+  if (elementary::hypot(motion.x(), motion.y()) > longest)
     steps = steps_between(bed, footprint_.reach(), steps.begin, read_tip, longest,
                           highest ? *highest : bed.highest());
   double on_the_way = 0.0;

@@ -2,13 +2,15 @@
 
 #include <cmath>
 
+#include "core/elementary.h"
+
 namespace sandstroke {
 
 bool SlipSchedule::is_due(const Eigen::Vector3d& tip, bool contact) const {
   if (travel_ == 0.0 || contact != slipped_at_.has_value()) return travel_ > 0.0;
   if (!contact) return false;
   const Eigen::Vector3d away = tip - *slipped_at_;
-  return std::hypot(away.x(), away.y()) >= travel_ || std::abs(away.z()) >= travel_;
+  return elementary::hypot(away.x(), away.y()) >= travel_ || std::abs(away.z()) >= travel_;
 }
 
 std::optional<double> SlipSchedule::way_to_next(const Eigen::Vector3d& from,

@@ -6,6 +6,7 @@
 
 #include "core/angle.h"
 #include "core/compensated_sum.h"
+#include "core/elementary.h"
 
 namespace sandstroke {
 
@@ -40,7 +41,7 @@ double law_slope(const HeightField& bed, int row, int col, RelaxationLaw law) {
     return inside ? std::max(0.0, bed(row, col) - bed(r, c)) : 0.0;
   };
   const double x = std::max(drop(0, -1), drop(0, 1)), y = std::max(drop(-1, 0), drop(1, 0));
-  if (law == RelaxationLaw::isotropic) return std::hypot(x, y) / bed.cell_size();
+  if (law == RelaxationLaw::isotropic) return elementary::hypot(x, y) / bed.cell_size();
   const double diagonal = std::max({drop(-1, -1), drop(-1, 1), drop(1, -1), drop(1, 1)});
   return std::max({x, y, diagonal / std::numbers::sqrt2}) / bed.cell_size();
 }
