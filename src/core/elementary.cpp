@@ -1,8 +1,12 @@
 #include "core/elementary.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
+
+#include "core/double_double.h"
 
 namespace sandstroke::elementary {
 namespace {
@@ -10,7 +14,167 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
+// In as many parts as make pi / 2 exact to 2^-163 and ln 2 to 2^-110.
+constexpr std::array half_pi = {0x1.921fb54442d18p+0, 0x1.1a62633145c07p-54, -0x1.f1976b7ed8fbcp-110};
+constexpr DoubleDouble pi{2.0 * half_pi[0], 2.0 * half_pi[1]};
+constexpr DoubleDouble ln2{0x1.62e42fefa39efp-1, 0x1.abc9e3b39803fp-56};
+
+/// 1 / n!, for the series of exp, sin and cos.
+constexpr std::array<DoubleDouble, 32> inverse_factorial = [] {
+  std::array<DoubleDouble, 32> inverse;
+  inverse[0] = 1.0;
+  for (int n = 1; n < 32; ++n) inverse[n] = inverse[n - 1] / static_cast<double>(n);
+  return inverse;
+}();
+
+/// r^first / first! - r^(first + 2) / (first + 2)! + ..., for |r| up to about pi / 4.
+DoubleDouble alternating(const DoubleDouble& r, int first) {
+  const DoubleDouble square = r * r;
+  DoubleDouble sum;
+  for (int n = 28 + first; n >= first; n -= 2) sum = inverse_factorial[n] - square * sum;
+  return first == 1 ? r * sum : sum;
+}
+
+struct Turned {
+  DoubleDouble sin, cos;
+};
+/// Both of a finite x.
+Turned turned(double x) {
+  if (std::abs(x) >= 0x1p52) x = std::fmod(x, 2.0 * std::numbers::pi);  // which is exact
+  const double quarters = std::floor(x / half_pi[0] + 0.5);
+  DoubleDouble rest = x;
+  for (const double part : half_pi) rest = rest - DoubleDouble::product(quarters, part);
+  const DoubleDouble s = alternating(rest, 1), c = alternating(rest, 0);
+  switch (static_cast<int>(quarters - 4.0 * std::floor(quarters / 4.0))) {
+    case 0:
+      return {s, c};
+    case 1:
+      return {c, -s};
+    case 2:
+      return {-s, -c};
+    default:
+      return {-c, s};
+  }
+}
+
+/// exp(x) - 1 = 2^power (fraction + 1) - 1, with a fraction between about -0.3 and 0.42.
+struct Exponential {
+  DoubleDouble fraction;
+  int power = 0;
+};
+/// |x| < 2000
+Exponential exponential(const DoubleDouble& x) {
+  const double power = std::floor(x.high / ln2.high + 0.5);
+  const DoubleDouble rest = x - ln2 * power;
+  constexpr int halvings = 9;
+  const DoubleDouble small = scaled(rest, -halvings);
+  DoubleDouble sum;
+  for (int n = 10; n >= 1; --n) sum = inverse_factorial[n] + small * sum;
+  sum = small * sum;
+  for (int i = 0; i < halvings; ++i) sum = sum * (sum + 2.0);  // (1 + s)^2 - 1
+  return {sum, static_cast<int>(power)};
+}
+
+/// Of |x| < 2000: 0 and infinity where it is beyond all doubles.
+double exp_of(const DoubleDouble& x) {
+  const Exponential e = exponential(x);
+  return std::scalbn((e.fraction + 1.0).high, e.power);
+}
+
+/// ln(1 + x) for finite x > -1, where `x` and 1 + x are both given so that neither loses bits.
+DoubleDouble log_of(const DoubleDouble& x, const DoubleDouble& one_more) {
+  int power = 0;
+  if (std::frexp(one_more.high, &power) < std::numbers::sqrt2 / 2.0) --power;
+  const DoubleDouble less = power == 0 ? x : scaled(one_more, -power) - 1.0;
+  const DoubleDouble s = less / (less + 2.0), square = s * s;  // ln(1 + l) = 2 artanh(l / (2 + l))
+  DoubleDouble sum;
+  for (int n = 45; n >= 1; n -= 2) sum = DoubleDouble(1.0) / static_cast<double>(n) + square * sum;
+  return ln2 * static_cast<double>(power) + scaled(s * sum, 1);
+}
+
+/// Of t from 0 to 1.
+DoubleDouble arctangent(DoubleDouble t) {
+  constexpr int halvings = 3;  // of the angle
+  for (int i = 0; i < halvings; ++i) t = t / (sqrt(t * t + 1.0) + 1.0);
+  const DoubleDouble square = t * t;
+  DoubleDouble sum;
+  for (int n = 33; n >= 1; n -= 2) sum = DoubleDouble(1.0) / static_cast<double>(n) - square * sum;
+  return scaled(t * sum, halvings);
+}
+
+/// The angle, from 0 to pi, of finite (x, y), y >= 0, of which one is not 0.
+double angle_of(const DoubleDouble& x, const DoubleDouble& y) {
+  const DoubleDouble across = x.high < 0.0 ? -x : x;
+  const bool steep = y.high > across.high;
+  DoubleDouble angle = arctangent(steep ? across / y : y / across);
+  if (steep) angle = scaled(pi, -1) - angle;
+  return (x.high < 0.0 ? pi - angle : angle).high;
+}
+
+/// sqrt(1 - x^2)
+DoubleDouble beside(double x) { return sqrt(DoubleDouble::sum(1.0, -x) * DoubleDouble::sum(1.0, x)); }
+
 }  // namespace
+
+double sin(double x) {
+  if (!std::isfinite(x)) return nan;
+  return x == 0.0 ? x : turned(x).sin.high;
+}
+
+double cos(double x) { return std::isfinite(x) ? turned(x).cos.high : nan; }
+
+double tan(double x) {
+  if (!std::isfinite(x)) return nan;
+  if (x == 0.0) return x;
+  const Turned t = turned(x);
+  return (t.sin / t.cos).high;
+}
+
+double asin(double x) {
+  if (!(std::abs(x) <= 1.0)) return nan;
+  return x == 0.0 ? x : std::copysign(angle_of(beside(x), std::abs(x)), x);
+}
+
+double acos(double x) { return std::abs(x) <= 1.0 ? angle_of(x, beside(x)) : nan; }
+
+double atan2(double y, double x) {
+  if (std::isnan(x) || std::isnan(y)) return nan;
+  if (std::isinf(x) || std::isinf(y)) {  // along an axis or a diagonal
+    y = std::copysign(std::isinf(y) ? 1.0 : 0.0, y);
+    x = std::copysign(std::isinf(x) ? 1.0 : 0.0, x);
+  }
+  if (y == 0.0) return std::signbit(x) ? std::copysign(pi.high, y) : y;
+  const int power = -std::ilogb(std::max(std::abs(x), std::abs(y)));
+  return std::copysign(angle_of(std::scalbn(x, power), std::scalbn(std::abs(y), power)), y);
+}
+
+double exp(double x) {
+  if (std::isnan(x)) return nan;
+  return exp_of(std::clamp(x, -1000.0, 1000.0));
+}
+
+double expm1(double x) {
+  if (std::isnan(x)) return nan;
+  if (std::abs(x) < 0x1p-54) return x;  // also 0, of either sign
+  if (x < -50.0) return -1.0;           // the nearest double
+  if (x > 50.0) return exp(x);          // the same double
+  const Exponential e = exponential(x);
+  const DoubleDouble more = DoubleDouble::sum(1.0, -std::scalbn(1.0, -e.power));
+  return std::scalbn((e.fraction + more).high, e.power);
+}
+
+double log1p(double x) {
+  if (!(x >= -1.0)) return nan;
+  if (x == -1.0) return -infinity;
+  if (x == infinity || x == 0.0) return x;
+  return log_of(x, DoubleDouble::sum(1.0, x)).high;
+}
+
+double pow(double x, double y) {
+  if (!(x > 0.0) || !std::isfinite(x) || !std::isfinite(y)) return x == 1.0 || y == 0.0 ? 1.0 : nan;
+  const DoubleDouble exponent = log_of(DoubleDouble::sum(x, -1.0), x) * y;
+  return std::abs(exponent.high) < 1000.0 ? exp_of(exponent) : exp(exponent.high);
+}
 
 double hypot(double x, double y) {
   if (std::isinf(x) || std::isinf(y)) return infinity;

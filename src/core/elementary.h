@@ -2,9 +2,25 @@
 
 namespace sandstroke::elementary {
 
-// With the same bits on every machine, unlike <cmath>'s: by + - * / and sqrt, which are rounded alike
-// everywhere, and functions that are exact.
+// Functions with the same bits on every machine. Those of the C library depend on its version, on the
+// architecture, and on whether the processor fuses multiplications with additions. So wherever a result goes
+// into sand, strokes or forces, these take the place of <cmath>'s. They use + - * / and sqrt, which are
+// rounded alike everywhere, and functions that are exact. All but hypot are worked out in about 100 bits
+// (DoubleDouble) and rounded once, which is the nearest double in all but one case of about 2^40, in 0.4
+// to 1.5 us.
+//
+// Arguments that are infinite, not a number or outside the domain give what <cmath> gives.
 
+double sin(double x);  ///< |x| of 2^52 and more is taken modulo the double nearest 2 pi
+double cos(double x);
+double tan(double x);
+double asin(double x);
+double acos(double x);
+double atan2(double y, double x);
+double exp(double x);
+double expm1(double x);
+double log1p(double x);
+double pow(double x, double y);              ///< of x > 0
 double hypot(double x, double y);            ///< within 0.57 units in the last place
 double hypot(double x, double y, double z);  ///< within 2.4
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/elementary.h"
+
 namespace sandstroke {
 
 namespace {
@@ -14,11 +16,11 @@ double product(double a, double b) { return a == 0.0 || b == 0.0 ? 0.0 : a * b; 
 }  // namespace
 
 double repulse_force(double depth, const ForceSettings& settings) {
-  return depth > 0.0 ? product(settings.k_s, std::expm1(settings.k_c * depth)) : 0.0;
+  return depth > 0.0 ? product(settings.k_s, elementary::expm1(settings.k_c * depth)) : 0.0;
 }
 
 double depth_of_repulse_force(double force, const ForceSettings& settings) {
-  return std::log1p(force / settings.k_s) / settings.k_c;
+  return elementary::log1p(force / settings.k_s) / settings.k_c;
 }
 
 double plunge_work(double depth, double max_force, const ForceSettings& settings) {
@@ -26,13 +28,13 @@ double plunge_work(double depth, double max_force, const ForceSettings& settings
   const double limited_from =
       max_force > 0.0 ? depth_of_repulse_force(max_force, settings) : std::numeric_limits<double>::infinity();
   const double d = std::min(depth, limited_from);
-  const double work = settings.k_s * (std::expm1(settings.k_c * d) / settings.k_c - d);
+  const double work = settings.k_s * (elementary::expm1(settings.k_c * d) / settings.k_c - d);
   return depth > limited_from ? work + max_force * (depth - limited_from) : work;
 }
 
 FeltSand felt_sand(double depth, double repulse, double scale, const ForceSettings& settings) {
   if (depth <= 0.0) return {};
-  return {product(scale * settings.k_s * settings.k_c, std::exp(settings.k_c * depth)),
+  return {product(scale * settings.k_s * settings.k_c, elementary::exp(settings.k_c * depth)),
           product(scale * settings.k_f, repulse)};
 }
 

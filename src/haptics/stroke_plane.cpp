@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/angle.h"
+#include "core/elementary.h"
 #include "core/error.h"
 
 namespace sandstroke {
@@ -49,7 +50,7 @@ double lifted_height(const Stroke& stroke, const LeastSquaresPlane& plane) {
 
 /// The share of the way in an upright plane that is more than 10 deg off both z and the horizontal.
 double oblique_share(const Stroke& stroke) {
-  const double least = std::sin(to_radians(10.0));
+  const double least = elementary::sin(to_radians(10.0));
   double oblique = 0.0, whole = 0.0;
   for (std::size_t i = 0; i + 1 < stroke.size(); ++i) {
     if (!stroke.joined(i)) continue;
@@ -64,7 +65,7 @@ double oblique_share(const Stroke& stroke) {
 }  // namespace
 
 double LeastSquaresPlane::tilt() const {
-  return to_degrees(std::atan2(normal.head<2>().norm(), std::abs(normal.z())));
+  return to_degrees(elementary::atan2(normal.head<2>().norm(), std::abs(normal.z())));
 }
 
 LeastSquaresPlane plane_through(const std::vector<Vector3d>& points) {
@@ -113,7 +114,7 @@ UpNormal up_normal(const Stroke& stroke, const LeastSquaresPlane& plane, StrokeU
                    const std::string& name) {
   if (up != StrokeUp::automatic) {
     const double cosine = plane.normal.dot(direction_of(up));
-    const double tilt = to_degrees(std::acos(std::min(std::abs(cosine), 1.0)));
+    const double tilt = to_degrees(elementary::acos(std::min(std::abs(cosine), 1.0)));
     const StrokeUp nearest = nearest_axis(plane.normal);
     if (tilt > steepest_table)
       throw_input_error(

@@ -48,7 +48,7 @@ struct Curve {
   Vector2d at(double fraction) const {
     if (radius == 0.0) return from + fraction * (to - from);
     const double angle = start_angle + fraction * (end_angle - start_angle);
-    return centre + radius * Vector2d(std::cos(angle), std::sin(angle));
+    return centre + radius * Vector2d(elementary::cos(angle), elementary::sin(angle));
   }
 };
 using Path = std::vector<Curve>;
@@ -205,7 +205,7 @@ Path spline_path(const std::vector<Vector2d>& points) {
 /// One path per pen stroke.
 std::vector<Path> text_paths(const ScriptText& text) {
   const double angle = to_radians(text.angle);
-  const Vector2d along(std::cos(angle), std::sin(angle)), up(-along.y(), along.x());
+  const Vector2d along(elementary::cos(angle), elementary::sin(angle)), up(-along.y(), along.x());
   const HersheyFont font(text.font);
   std::vector<Path> paths;
   double x = 0.0;  // m along the base line

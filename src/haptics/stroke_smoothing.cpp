@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/elementary.h"
 #include "core/error.h"
 #include "haptics/stroke_pieces.h"
 
@@ -39,7 +40,7 @@ class PieceFilter {
     };
     const double mean_step = piece.duration(time) / static_cast<double>(piece.size() - 1);
     // Exact for even steps: a sine's second difference is (2 sin(pi f h) / h)^2 times the sine.
-    const double bend = 2.0 * std::sin(std::numbers::pi * cut_off * mean_step) / mean_step;
+    const double bend = 2.0 * elementary::sin(std::numbers::pi * cut_off * mean_step) / mean_step;
     lambda_ = 1.0 / (bend * bend * bend * bend);
 
     Sparse q(inner_ + 2, inner_);
@@ -93,11 +94,12 @@ Stroke smoothed(const Stroke& stroke, double cut_off) {
   for (const StrokePiece& piece : joined_pieces(stroke)) {
     if (!is_filtered(stroke, piece, cut_off)) continue;
     const double rate = rate_of(stroke, piece);
-    if (std::pow(2.0 * std::numbers::pi * cut_off / rate, 4) < least_bend)
+    const double turn = 2.0 * std::numbers::pi * cut_off / rate, square = turn * turn;
+    if (square * square < least_bend)
       throw_input_error(
           "stroke.smooth = {:.4g} Hz is too low for samples at {:.6g} Hz: rounding would move them; set "
           "{:.2g} Hz or more",
-          cut_off, rate, 1.01 * rate * std::pow(least_bend, 0.25) / (2.0 * std::numbers::pi));
+          cut_off, rate, 1.01 * rate * std::sqrt(std::sqrt(least_bend)) / (2.0 * std::numbers::pi));
     const PieceFilter filter(stroke.time, piece, cut_off);
     filter.apply(smooth.position);
     if (!smooth.velocity.empty()) filter.apply(smooth.velocity);

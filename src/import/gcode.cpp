@@ -31,7 +31,7 @@ struct GcodeArc {
 
   double chords() const {
     const double share = std::max(gcode_arc_share, gcode_arc_tolerance / std::max(radius, end_radius));
-    const double step = 2.0 * std::acos(std::max(1.0 - share, 0.0));
+    const double step = 2.0 * elementary::acos(std::max(1.0 - share, 0.0));
     return std::ceil(std::abs(sweep) / step);
   }
   double length(double climb) const {
@@ -39,7 +39,8 @@ struct GcodeArc {
   }
   Vector2d at(double share) const {
     const double angle = start + share * sweep;
-    return centre + std::lerp(radius, end_radius, share) * Vector2d(std::cos(angle), std::sin(angle));
+    return centre +
+           std::lerp(radius, end_radius, share) * Vector2d(elementary::cos(angle), elementary::sin(angle));
   }
 };
 
@@ -208,8 +209,8 @@ class GcodeReader {
           "{}: the arc begins {:g} mm from its centre and ends {:g} mm from it; correct X, Y, I or J",
           place(), curve.radius, curve.end_radius);
     }
-    curve.start = std::atan2(from.y(), from.x());
-    curve.sweep = std::atan2(to.y(), to.x()) - curve.start;
+    curve.start = elementary::atan2(from.y(), from.x());
+    curve.sweep = elementary::atan2(to.y(), to.x()) - curve.start;
     constexpr double nothing = 5e-7;  // rad: a whole turn
     if (motion_ == 3 && curve.sweep <= nothing) curve.sweep += 2.0 * pi;
     if (motion_ == 2 && curve.sweep >= -nothing) curve.sweep -= 2.0 * pi;

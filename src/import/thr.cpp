@@ -47,8 +47,8 @@ SampleTable parse_thr(std::string_view text, const std::string& name) {
   table.line_tolerance = thr_line_tolerance;
   table.columns = {{"x", "radius", {}}, {"y", "radius", {}}};
   const auto add = [&table](double theta, double rho, std::size_t line) {
-    table.columns[0].values.push_back(rho * std::sin(theta));
-    table.columns[1].values.push_back(rho * std::cos(theta));
+    table.columns[0].values.push_back(rho * elementary::sin(theta));
+    table.columns[1].values.push_back(rho * elementary::cos(theta));
     table.lines.push_back(line);
   };
   text = without_byte_order_mark(text);

@@ -17,7 +17,7 @@ double quadrant_area(double r, double x0, double x1, double y0, double y1) {
   const auto arc_at = [r](double s) { return s < r ? std::sqrt((r - s) * (r + s)) : 0.0; };
   const auto primitive = [&](double x) {
     const double clipped = std::min(x, r);
-    return 0.5 * (clipped * arc_at(clipped) + r * r * std::asin(clipped / r));
+    return 0.5 * (clipped * arc_at(clipped) + r * r * elementary::asin(clipped / r));
   };
   const double full_until = std::clamp(arc_at(y1), x0, x1);          // the arc runs above y1
   const double some_until = std::clamp(arc_at(y0), full_until, x1);  // then between y1 and y0, then below y0
@@ -174,9 +174,11 @@ HeightField make_surface(const SurfaceSettings& settings, int rows, int cols, do
     case SurfaceKind::ripples: {
       // The mean of a sine over a cell is the sine at its centre, weakened by sinc(pi dx / wavelength).
       const double phase = std::numbers::pi * cell_size / s.wavelength;
-      const double amplitude = s.amplitude * std::sin(phase) / phase;
+      const double amplitude = s.amplitude * elementary::sin(phase) / phase;
       return with(
-          [=](double x, double) { return amplitude * std::sin(2.0 * std::numbers::pi * x / s.wavelength); },
+          [=](double x, double) {
+            return amplitude * elementary::sin(2.0 * std::numbers::pi * x / s.wavelength);
+          },
           everywhere(2.0 * std::numbers::pi * s.amplitude / s.wavelength), s.amplitude);
     }
   }

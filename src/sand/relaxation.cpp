@@ -1,8 +1,7 @@
 #include "sand/relaxation.h"
 
-#include <cmath>
-
 #include "core/angle.h"
+#include "core/elementary.h"
 #include "sand/active_sand.h"
 #include "sand/steep_tiles.h"
 
@@ -20,7 +19,7 @@ void RelaxationOutcome::add(const RelaxationOutcome& next) {
   converged = next.converged;
 }
 
-double talus_slope(double talus_angle) { return std::tan(to_radians(talus_angle)); }
+double talus_slope(double talus_angle) { return elementary::tan(to_radians(talus_angle)); }
 
 double flow_share(const RelaxationSettings& settings) {
   if (settings.share > 0.0) return settings.share;

@@ -8,6 +8,7 @@
 #include <set>
 #include <utility>
 
+#include "core/elementary.h"
 #include "core/input_file.h"
 #include "io/key_reader.h"
 
@@ -32,7 +33,7 @@ struct AxisRange {
 
   /// At 0 <= share < 1 of it.
   double at(double share) const {
-    return std::clamp(logarithmic ? from * std::pow(to / from, share) : from + (to - from) * share,
+    return std::clamp(logarithmic ? from * elementary::pow(to / from, share) : from + (to - from) * share,
                       std::min(from, to), std::max(from, to));
   }
 };

@@ -8,6 +8,8 @@
 #include <numeric>
 #include <random>
 
+#include "core/elementary.h"
+
 namespace sandstroke {
 namespace {
 
@@ -75,10 +77,10 @@ std::vector<double> spread(double from, double to, std::size_t count, bool logar
   const double size = logarithmic ? 0.0 : std::max(std::abs(from), std::abs(to));
   for (std::size_t i = 1; i < count; ++i) {
     const double share = static_cast<double>(i) / static_cast<double>(count - 1);
-    values[i] =
-        i + 1 == count
-            ? to
-            : rounded(logarithmic ? from * std::pow(to / from, share) : from + (to - from) * share, size);
+    values[i] = i + 1 == count ? to
+                               : rounded(logarithmic ? from * elementary::pow(to / from, share)
+                                                     : from + (to - from) * share,
+                                         size);
   }
   return values;
 }
