@@ -15,6 +15,8 @@
 #include <new>
 #include <vector>
 
+#include "core/error.h"
+
 namespace sandstroke {
 namespace {
 
@@ -272,6 +274,10 @@ herr_t write_part(H5FD_t* file, H5FD_mem_t, hid_t, haddr_t place, std::size_t co
 const H5FD_class_t& part_class() {
   static const H5FD_class_t made = [] {
     H5FD_class_t methods{};
+#ifdef H5FD_CLASS_VERSION  // since HDF5 1.14
+    methods.version = H5FD_CLASS_VERSION;
+    methods.value = H5_VFD_RESERVED + 101;  // nobody's: for drivers that are not published
+#endif
     methods.name = "sandstroke_part";
     methods.maxaddr = (haddr_t{1} << 62) - 1;
     methods.fc_degree = H5F_CLOSE_STRONG;  // whoever still has a dataset of it: closed is closed
@@ -295,6 +301,9 @@ const H5FD_class_t& part_class() {
 
 Hdf5Handle part_access() {
   static const hid_t driver = H5FDregister(&part_class());
+  if (driver < 0)
+    throw_io_error(
+        "the HDF5 library does not take sandstroke's file driver; build sandstroke with its headers");
   Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   H5Pset_driver(access, driver, nullptr);
   return access;
