@@ -5,9 +5,8 @@
 namespace sandstroke {
 
 /// A number as the sum of two doubles, the second at most half a unit in the last place of the first: 106
-/// bits, by
-/// + - * / and sqrt alone, which every machine rounds alike (Dekker, Numer. Math. 18, 1971; Shewchuk, 1997).
-/// No part may be near the largest double.
+/// bits, by + - * / and sqrt alone, which every machine rounds alike (Dekker, Numer. Math. 18, 1971;
+/// Shewchuk, 1997). No part may be near the largest double.
 struct DoubleDouble {
   double high = 0.0;
   double low = 0.0;

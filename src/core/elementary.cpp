@@ -57,22 +57,36 @@ Turned turned(double x) {
   }
 }
 
-/// exp(x) - 1 = 2^power (fraction + 1) - 1, with a fraction between about -0.3 and 0.42.
+constexpr int steps_of_two = 32;
+
+/// 2^(j / 32) - 1.
+constexpr std::array<DoubleDouble, steps_of_two> part_of_two = [] {
+  std::array<DoubleDouble, steps_of_two> parts;
+  for (int j = 0; j < steps_of_two; ++j) {
+    const DoubleDouble x = ln2 * (static_cast<double>(j) / steps_of_two);
+    for (std::size_t n = inverse_factorial.size() - 1; n >= 1; --n)
+      parts[j] = x * (parts[j] + inverse_factorial[n]);
+  }
+  return parts;
+}();
+
+/// exp(x) - 1 = 2^power (fraction + 1) - 1, with a fraction from -0.02 to 0.98.
 struct Exponential {
   DoubleDouble fraction;
   int power = 0;
 };
-/// |x| < 2000
+/// |x| < 2000. Forces are computed with it in every tick: what is beyond 70 bits goes by plain numbers.
 Exponential exponential(const DoubleDouble& x) {
-  const double power = std::floor(x.high / ln2.high + 0.5);
-  const DoubleDouble rest = x - ln2 * power;
-  constexpr int halvings = 9;
-  const DoubleDouble small = scaled(rest, -halvings);
-  DoubleDouble sum;
-  for (int n = 10; n >= 1; --n) sum = inverse_factorial[n] + small * sum;
-  sum = small * sum;
-  for (int i = 0; i < halvings; ++i) sum = sum * (sum + 2.0);  // (1 + s)^2 - 1
-  return {sum, static_cast<int>(power)};
+  const double count = std::floor(x.high * (steps_of_two / ln2.high) + 0.5);
+  const DoubleDouble rest = x - ln2 * (count / steps_of_two);
+  const double r = rest.high;  // at most 0.011
+  double tail = 1.0 / 40320;
+  for (const double term : {1.0 / 5040, 1.0 / 720, 1.0 / 120, 1.0 / 24, 1.0 / 6}) tail = term + r * tail;
+  const DoubleDouble square = rest * rest, half = {0.5 * square.high, 0.5 * square.low};
+  const DoubleDouble grown = rest + (half + r * r * r * tail);  // exp(rest) - 1
+  const double power = std::floor(count / steps_of_two);
+  const DoubleDouble& part = part_of_two[static_cast<std::size_t>(count - steps_of_two * power)];
+  return {part + grown + part * grown, static_cast<int>(power)};
 }
 
 /// Of |x| < 2000: 0 and infinity where it is beyond all doubles.
