@@ -145,9 +145,8 @@ TEST(CliHelp, HasNoPageOfWhatIsNotThere) {
   }
 }
 
-/// What bash offers for the last of these words, parted as bash does it.
+/// What bash offers for the last of these words, parted as bash does it, by the folder's file `completion`.
 std::set<std::string> completed(const fs::path& folder, const std::string& words) {
-  write_file(folder / "completion", printed({"completion", "bash"}));
   write_file(folder / "ask", "set -u\nsource ./completion\nCOMP_WORDS=(sandstroke " + words +
                                  ")\nCOMP_CWORD=$((${#COMP_WORDS[@]} - 1))\ncompopt() { :; }\n_sandstroke\n"
                                  "printf '%s\\n' \"${COMPREPLY[@]}\" > answer\n");
@@ -167,6 +166,7 @@ TEST(CliCompletion, BashOffersWhatCanStandThere) {
   write_file(folder / "picture.png", "");
   fs::create_directories(folder / "strokes/hole");
   write_file(folder / "strokes/hole/scene.toml", "");
+  write_file(folder / "completion", printed({"completion", "bash"}));
   const auto offered = [&](const std::string& words) { return completed(folder, words); };
 
   EXPECT_EQ(offered("st"), (Offered{"stress", "stroke"}));
