@@ -156,6 +156,30 @@ std::vector<Line> lines(bool quick) {
   add(
       "`--version`", "MB", false,
       [](const std::string& program) { return 1e-6 * run(program, {"--version"}).peak; }, 3);
+  add(
+      "a run of an empty bed", "MB", false,
+      [](const std::string& program) {
+        const TemporaryFolder folder;
+        std::ofstream(folder / "empty.toml") << "[bed]\ncells = [64, 64]\nsize = [0.128, 0.128]\n";
+        return 1e-6 * run(program, run_words((folder / "empty.toml").string(), folder)).peak;
+      },
+      3);
+  add(
+      "a frame of a film, 1280 x 720", "ms of CPU", false,
+      [](const std::string& program) {
+        const TemporaryFolder folder;
+        constexpr int frames = 21;  // of two seconds
+        run(program, run_words(wscg_scene, folder,
+                               {"--frames", "10", "--set", "stroke.start=1", "--set", "stroke.stop=3"}));
+        const auto drawn = [&](const char* which) {
+          return run(program, {"render", (folder / "run.h5").string(), "--frame", which, "-o",
+                               (folder / which).string() + (which[0] == '0' ? ".png" : "")})
+              .cpu;
+        };
+        const double one = drawn("0");
+        return 1e3 * (drawn("all") - one) / (frames - 1);
+      },
+      3);
   const auto with_and_without = [](const std::string& program, const std::string& scene, auto more,
                                    auto field) {
     const TemporaryFolder folder;
