@@ -117,9 +117,7 @@ TEST(HeightFieldRenderer, AFilmsFramesEqualFreshPicturesAndTakeFewPixels) {
         const HeightField surface(heights, 0.005);
         EXPECT_EQ(renderer.render(surface, subject).rgb, fresh_picture(surface, subject).rgb)
             << elevation << " deg, sun at " << sun << " deg, frame " << frame;
-        if (frame > 0 && elevation > 30.0) {
-          EXPECT_LT(renderer.counters().pixels, 320 * 180 / 3);
-        }
+        if (frame > 0 && elevation > 30.0) EXPECT_LT(renderer.counters().pixels, 320 * 180 / 3);
       }
       subject.tool.reset();
       const HeightField surface(heights, 0.005);

@@ -36,8 +36,7 @@ TEST(TileDetail, CutTilesEndAtTheirLastCells) {
 TEST(TileDetail, TheSteepestIsTheLargestGradient) {
   DrawnHeights heights(65, 65);
   for (int row = 0; row < 65; ++row)
-    for (int col = 0; col < 65; ++col)
-      heights(row, col) = 0.003f * static_cast<float>(col) - 0.004f * static_cast<float>(row);
+    for (int col = 0; col < 65; ++col) heights(row, col) = 0.003f * col - 0.004f * row;
   EXPECT_NEAR(tile_detail(heights, {0, 65, 0, 65}).steepest, 0.005, 1e-6);
 }
 
