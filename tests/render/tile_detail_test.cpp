@@ -33,22 +33,6 @@ TEST(TileDetail, CutTilesEndAtTheirLastCells) {
   EXPECT_FLOAT_EQ(static_cast<float>(detail.error[coarsest_level]), 0.9f);  // row 9 of a slope over 10 rows
 }
 
-TEST(TileDetail, TheSteepestIsTheLargestGradient) {
-  DrawnHeights heights(65, 65);
-  for (int row = 0; row < 65; ++row)
-    for (int col = 0; col < 65; ++col) heights(row, col) = 0.003f * col - 0.004f * row;
-  EXPECT_NEAR(tile_detail(heights, {0, 65, 0, 65}).steepest, 0.005, 1e-6);
-}
-
-TEST(TileDetail, ASkirtEndsACellOrTwoBelowTheLowest) {
-  for (const double lowest : {-0.0301, -0.01, 0.0, 0.0049, 0.0151}) {
-    TileDetail detail;
-    detail.lowest = lowest;
-    EXPECT_LE(skirt_bottom(detail, 0.01), lowest - 0.01 + 1e-12);
-    EXPECT_GE(skirt_bottom(detail, 0.01), lowest - 0.02 - 1e-12);
-  }
-}
-
 TEST(LevelOfDetail, GetsCoarserWithDistance) {
   TileDetail rough;
   rough.error = {0.0, 0.01, 0.02, 0.03, 0.04, 0.05, 0.06};
