@@ -27,6 +27,13 @@ constexpr std::array<DoubleDouble, 32> inverse_factorial = [] {
   return inverse;
 }();
 
+/// 1 / n, for those of log and atan.
+constexpr std::array<DoubleDouble, 46> inverse = [] {
+  std::array<DoubleDouble, 46> inverses;
+  for (int n = 1; n < 46; ++n) inverses[n] = DoubleDouble(1.0) / static_cast<double>(n);
+  return inverses;
+}();
+
 /// r^first / first! - r^(first + 2) / (first + 2)! + ..., for |r| up to about pi / 4.
 DoubleDouble alternating(const DoubleDouble& r, int first) {
   const DoubleDouble square = r * r;
@@ -102,7 +109,7 @@ DoubleDouble log_of(const DoubleDouble& x, const DoubleDouble& one_more) {
   const DoubleDouble less = power == 0 ? x : scaled(one_more, -power) - 1.0;
   const DoubleDouble s = less / (less + 2.0), square = s * s;  // ln(1 + l) = 2 artanh(l / (2 + l))
   DoubleDouble sum;
-  for (int n = 45; n >= 1; n -= 2) sum = DoubleDouble(1.0) / static_cast<double>(n) + square * sum;
+  for (int n = 45; n >= 1; n -= 2) sum = inverse[n] + square * sum;
   return ln2 * static_cast<double>(power) + scaled(s * sum, 1);
 }
 
@@ -112,7 +119,7 @@ DoubleDouble arctangent(DoubleDouble t) {
   for (int i = 0; i < halvings; ++i) t = t / (sqrt(t * t + 1.0) + 1.0);
   const DoubleDouble square = t * t;
   DoubleDouble sum;
-  for (int n = 33; n >= 1; n -= 2) sum = DoubleDouble(1.0) / static_cast<double>(n) - square * sum;
+  for (int n = 33; n >= 1; n -= 2) sum = inverse[n] - square * sum;
   return scaled(t * sum, halvings);
 }
 

@@ -21,6 +21,7 @@ double quadrant_area(double r, double x0, double x1, double y0, double y1) {
   };
   const double full_until = std::clamp(arc_at(y1), x0, x1);          // the arc runs above y1
   const double some_until = std::clamp(arc_at(y0), full_until, x1);  // then between y1 and y0, then below y0
+  if (some_until == full_until) return (full_until - x0) * (y1 - y0);  // most cells: no arc in them
   return (full_until - x0) * (y1 - y0) + primitive(some_until) - primitive(full_until) -
          y0 * (some_until - full_until);
 }
