@@ -27,8 +27,9 @@ class ActiveSand {
   // with any active ones costs as much as 400 more (measured: tests/bench/active_sand_bench.cpp).
   static constexpr std::int64_t work_worth_threads = 8'000, work_per_tile = 400;
 
-  explicit ActiveSand(const TalusLaw& law, double cell_size, bool tells_givers = false,
-                      std::int64_t worth_threads = work_worth_threads);
+  /// tells_givers: super-steps will ask which cells may give.
+  ActiveSand(const TalusLaw& law, double cell_size, bool tells_givers = false,
+             std::int64_t worth_threads = work_worth_threads);
 
   /// Takes up what was set since the last relaxation.
   void begin(HeightField& bed);
@@ -76,7 +77,8 @@ class ActiveSand {
            TileActivity::bytes_per_tile();
   }
 
-  /// Ends a relaxation: writes back; residual of the whole bed, and the counters since begin().
+  /// Ends a relaxation: writes back; residual of the whole bed, and the counters since begin(). The flow of
+  /// what is still active must have been computed: only what takes part is looked at.
   void end(HeightField& bed, RelaxationOutcome& outcome);
 
  private:
