@@ -3,7 +3,6 @@
 #include <thread>
 
 #include "core/machine.h"
-#include "render/gl_functions.h"
 
 namespace sandstroke {
 
@@ -14,7 +13,6 @@ CurrentContext::CurrentContext() {
                "allow more, or do without pictures");
   context_ = make_offscreen_context();
   context_->make_current();
-  load_gl_functions();
 }
 
 }  // namespace sandstroke

@@ -49,6 +49,4 @@ class EglContext : public OffscreenContext {
 
 std::unique_ptr<OffscreenContext> make_offscreen_context() { return std::make_unique<EglContext>(); }
 
-void (*find_gl_function(const char* name))() { return eglGetProcAddress(name); }
-
 }  // namespace sandstroke
