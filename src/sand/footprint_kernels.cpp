@@ -156,7 +156,7 @@ double CarveOnly(const FootprintShape& shape, ToolFootprint& f, double tip_heigh
   return carve<false>(shape, f, tip_height, {0.0, Eigen::Vector2d::Zero()}).pushed;
 }
 
-/// Cut cells, a vector full: where they lie from the axis [cells], their sand [m], and where that goes.
+/// A group of cut cells: where they lie from the axis [cells], their sand [m], and where that goes.
 struct CutCells {
   alignas(64) double x[group], y[group], excess[group];
   alignas(64) double part[4][group];

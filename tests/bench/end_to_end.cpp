@@ -113,9 +113,10 @@ int main(int argc, char** argv) {
   app.add_option("--only", only,
                  "One part of the report, such as sweeps; soak (10 min) is only measured where it is named");
   app.add_option("--before", options.before, "Another build of the program, which speed compares with");
-  app.add_flag("--table", table, "Print speed as a table (Markdown)");
+  app.add_flag("--table", table, "Only speed, as a table (Markdown)");
   app.add_option("-o,--output", output, "Write the report to this file");
   CLI11_PARSE(app, argc, argv);
+  if (table) only = "speed";
 
   try {
     const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);

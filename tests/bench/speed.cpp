@@ -1,62 +1,42 @@
 // What a user waits for, measured through the program itself; so that another build of it can be measured in
-// the same run, in turn: machines differ, and so do their hours. The README of src/validation has its table.
-#include <fcntl.h>
+// the same run, in turn: machines differ, and so do their hours.
 #include <sys/resource.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <limits>
-#include <optional>
-#include <sstream>
+#include <map>
 #include <stdexcept>
 
 #include "bench/end_to_end.h"
+#include "core/child_process.h"
 #include "core/stopwatch.h"
 #include "core/temporary_folder.h"
 
 namespace sandstroke {
 namespace {
 
-struct Ended {
-  double wall, cpu;  // s, its children's included
-  double peak;       // bytes, resident
-  std::string out;
-};
-
-Ended run(const std::string& program, std::vector<std::string> words) {
-  const TemporaryFolder folder;
-  const std::string out = (folder / "out").string(), err = (folder / "err").string();
+/// Of a run of the program: wall and cpu [s, its children's included], peak [bytes, resident], and out, what
+/// it said.
+nlohmann::json run(const std::string& program, std::vector<std::string> words) {
   words.insert(words.begin(), program);
-  std::vector<char*> argv;
-  for (std::string& word : words) argv.push_back(word.data());
-  argv.push_back(nullptr);
-  const Stopwatch watch;
-  const pid_t child = fork();
-  if (child < 0) throw std::runtime_error("no child process");
-  if (child == 0) {
-    dup2(open(out.c_str(), O_WRONLY | O_CREAT, 0600), 1);
-    dup2(open(err.c_str(), O_WRONLY | O_CREAT, 0600), 2);
-    execv(program.c_str(), argv.data());
-    _exit(127);
-  }
-  int status = 0;
-  rusage usage{};
-  wait4(child, &status, 0, &usage);
-  const double wall = watch.seconds();
-  const auto read = [](const std::string& path) {
-    std::ostringstream text;
-    text << std::ifstream(path).rdbuf();
-    return text.str();
-  };
-  if (status != 0) throw std::runtime_error(program + " failed: " + read(err));
-  const auto seconds = [](const timeval& t) {
-    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
-  };
-  return {wall, seconds(usage.ru_utime) + seconds(usage.ru_stime),
-          1024.0 * static_cast<double>(usage.ru_maxrss), read(out)};
+  return in_child([&] {  // which has no other children to tell it from
+    const Stopwatch watch;
+    const std::optional<ChildResult> ended = run_child(words);
+    const double wall = watch.seconds();
+    if (!ended || ended->exit_code != 0)
+      throw std::runtime_error(program + " failed: " + (ended ? ended->err : "it is not there"));
+    rusage usage{};
+    getrusage(RUSAGE_CHILDREN, &usage);
+    const auto seconds = [](const timeval& t) {
+      return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+    };
+    return nlohmann::json{{"wall", wall},
+                          {"cpu", seconds(usage.ru_utime) + seconds(usage.ru_stime)},
+                          {"peak", 1024.0 * static_cast<double>(usage.ru_maxrss)},
+                          {"out", ended->out}};
+  });
 }
 
 /// Of a scene, with these words besides.
@@ -70,7 +50,8 @@ nlohmann::json summary(const std::string& program, const std::string& scene, std
                        int threads = 1) {
   const TemporaryFolder folder;
   more.insert(more.end(), {"--json", "--threads", std::to_string(threads)});
-  return nlohmann::json::parse(run(program, run_words(scene, folder, std::move(more))).out);
+  return nlohmann::json::parse(
+      run(program, run_words(scene, folder, std::move(more)))["out"].get<std::string>());
 }
 
 const std::string strokes = std::string(SANDSTROKE_SOURCE) + "/strokes/";
@@ -93,8 +74,7 @@ double sweep_seconds(const std::string& program, int jobs) {
       << "[sweep]\nscene = \"" << wscg_scene
       << "\"\n[axes]\nrelaxation.talus_angle = { from = 20, to = 42.5, count = 20 }\n";
   return run(program, {"sweep", (folder / "plan.toml").string(), "-o", (folder / "swept").string(), "--jobs",
-                       std::to_string(jobs)})
-      .wall;
+                       std::to_string(jobs)})["wall"];
 }
 
 /// A line of the table, by a program.
@@ -127,16 +107,24 @@ std::vector<Line> lines(bool quick) {
                           "--set", "stroke.place=centre", "--set", "stroke.depth=0.004", "--set",
                           "model.preset=accurate"})["real_time_factor"];
         });
+  // How many passes a pile took is known from when it was timed.
+  const auto passes = std::make_shared<std::map<std::pair<std::string, int>, double>>();
   for (const int n : quick ? std::vector{128, 256} : std::vector{512, 1024, 2048, 4096}) {
-    const std::string cells = "pile on " + std::to_string(n) + "²";
+    const std::string pile = "pile on " + std::to_string(n) + "²";
     add(
-        cells, "s", false,
-        [n](const std::string& program) -> double { return collapse(program, n, 1)["wall_seconds"]; },
+        pile, "s", false,
+        [=](const std::string& program) -> double {
+          const nlohmann::json outcome = collapse(program, n, 1);
+          (*passes)[{program, n}] = outcome["passes"];
+          return outcome["wall_seconds"];
+        },
         n > 2000 ? 1 : 5);
-    if (n <= 2048)
-      add(
-          cells, "passes", false,
-          [n](const std::string& program) -> double { return collapse(program, n, 1)["passes"]; }, 1);
+    add(
+        pile, "passes", false,
+        [=](const std::string& program) {
+          return passes->at({program, n});
+        },
+        1);
   }
   const int large = quick ? 256 : 2048;
   add(
@@ -152,16 +140,16 @@ std::vector<Line> lines(bool quick) {
         [](const std::string& program) { return sweep_seconds(program, 1) / sweep_seconds(program, 2); }, 5);
   add(
       "`--version`", "ms", false,
-      [](const std::string& program) { return 1e3 * run(program, {"--version"}).wall; }, 21);
+      [](const std::string& program) { return 1e3 * run(program, {"--version"})["wall"].get<double>(); }, 21);
   add(
       "`--version`", "MB", false,
-      [](const std::string& program) { return 1e-6 * run(program, {"--version"}).peak; }, 3);
+      [](const std::string& program) { return 1e-6 * run(program, {"--version"})["peak"].get<double>(); }, 3);
   add(
       "a run of an empty bed", "MB", false,
       [](const std::string& program) {
         const TemporaryFolder folder;
         std::ofstream(folder / "empty.toml") << "[bed]\ncells = [64, 64]\nsize = [0.128, 0.128]\n";
-        return 1e-6 * run(program, run_words((folder / "empty.toml").string(), folder)).peak;
+        return 1e-6 * run(program, run_words((folder / "empty.toml").string(), folder))["peak"].get<double>();
       },
       3);
   add(
@@ -171,33 +159,25 @@ std::vector<Line> lines(bool quick) {
         constexpr int frames = 21;  // of two seconds
         run(program, run_words(wscg_scene, folder,
                                {"--frames", "10", "--set", "stroke.start=1", "--set", "stroke.stop=3"}));
-        const auto drawn = [&](const char* which) {
+        const auto drawn = [&](const std::string& which, const char* to) -> double {
           return run(program, {"render", (folder / "run.h5").string(), "--frame", which, "-o",
-                               (folder / which).string() + (which[0] == '0' ? ".png" : "")})
-              .cpu;
+                               (folder / to).string()})["cpu"];
         };
-        const double one = drawn("0");
-        return 1e3 * (drawn("all") - one) / (frames - 1);
+        const double one = drawn("0", "one.png");
+        return 1e3 * (drawn("all", "all") - one) / (frames - 1);
       },
       3);
-  const auto with_and_without = [](const std::string& program, const std::string& scene, auto more,
-                                   auto field) {
+  const auto picture = [](const std::string& program, const char* cost) {
     const TemporaryFolder folder;
-    const Ended without = run(program, run_words(scene, folder, {"--frames", "5"}));
-    return field(run(program, run_words(scene, folder, more(folder)))) - field(without);
+    const nlohmann::json without = run(program, run_words(wscg_scene, folder)),
+                         with = run(program,
+                                    run_words(wscg_scene, folder, {"--png", (folder / "run.png").string()}));
+    return with[cost].get<double>() - without[cost].get<double>();
   };
-  const auto picture = [](const TemporaryFolder& folder) {
-    return std::vector<std::string>{"--frames", "5", "--png", (folder / "run.png").string()};
-  };
-  add("a picture of 1280 x 720, beside its run", "s", false, [=](const std::string& program) {
-    return with_and_without(program, wscg_scene, picture, [](const Ended& e) { return e.wall; });
-  });
+  const std::string name = "a picture of 1280 x 720, beside its run";
+  add(name, "s", false, [=](const std::string& program) { return picture(program, "wall"); });
   add(
-      "a picture of 1280 x 720, beside its run", "MB", false,
-      [=](const std::string& program) {
-        return 1e-6 * with_and_without(program, wscg_scene, picture, [](const Ended& e) { return e.peak; });
-      },
-      3);
+      name, "MB", false, [=](const std::string& program) { return 1e-6 * picture(program, "peak"); }, 3);
   return all;
 }
 

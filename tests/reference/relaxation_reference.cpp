@@ -36,6 +36,7 @@ class ReferenceRelaxer : public Relaxer {
     for (int row = 0; row < rows(); ++row)
       for (int col = 0; col < cols(); ++col) held_(row, col) = bed.is_held(row, col);
     CompensatedSum moved;
+    const BedNow bed_now = [&]() -> const HeightField& { return write_back(bed), bed; };
     while (true) {
       outcome.cells_visited += heights_.size();
       outcome.residual = 0.0;
@@ -53,16 +54,19 @@ class ReferenceRelaxer : public Relaxer {
       if (outcome.converged) break;
       heights_.swap(next);
       ++outcome.passes;
-      if (after_pass) after_pass(outcome.passes, [&]() -> const HeightField& { return bed; });
+      if (after_pass) after_pass(outcome.passes, bed_now);
     }
     outcome.moved_volume = moved.value() * bed.cell_area();
-    for (int row = 0; row < rows(); ++row)
-      for (int col = 0; col < cols(); ++col)
-        if (bed(row, col) != heights_(row, col)) bed.set(row, col, heights_(row, col));
+    write_back(bed);
     return outcome;
   }
 
  private:
+  void write_back(HeightField& bed) const {
+    for (int row = 0; row < rows(); ++row)
+      for (int col = 0; col < cols(); ++col)
+        if (bed(row, col) != heights_(row, col)) bed.set(row, col, heights_(row, col));
+  }
   int rows() const { return static_cast<int>(heights_.rows()); }
   int cols() const { return static_cast<int>(heights_.cols()); }
 
