@@ -20,8 +20,10 @@ set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME sandstroke)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS hershey-fonts-data)  # the letters of scripted strokes
-if(SANDSTROKE_GL STREQUAL "egl" OR NOT TARGET sandstroke_osmesa)  # loads it by itself, unseen by dpkg-shlibdeps
+if(SANDSTROKE_GL STREQUAL "egl" OR NOT TARGET sandstroke_osmesa)  # what draws is loaded, unseen by dpkg-shlibdeps
   string(APPEND CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS ", libgl1-mesa-dri")
+else()
+  string(APPEND CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS ", libosmesa6")
 endif()
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS ffmpeg)  # films: render --video
 set(CPACK_DEBIAN_PROGRAM_DESCRIPTION "Plays scripted or recorded strokes through a bed of sand: a stroke goes in;

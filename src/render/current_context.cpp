@@ -3,6 +3,7 @@
 #include <thread>
 
 #include "core/machine.h"
+#include "render/gl_functions.h"
 
 namespace sandstroke {
 
@@ -13,6 +14,7 @@ CurrentContext::CurrentContext() {
                "allow more, or do without pictures");
   context_ = make_offscreen_context();
   context_->make_current();
+  load_gl_functions();
 }
 
 }  // namespace sandstroke

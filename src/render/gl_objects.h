@@ -1,13 +1,11 @@
 #pragma once
 
-// Private to src/render: OpenGL with the prototypes of its 3.3 functions, and owners of its objects.
-#define GL_GLEXT_PROTOTYPES
-#include <GL/gl.h>
-#include <GL/glext.h>
-
+// Private to src/render: owners of OpenGL's objects.
 #include <Eigen/Core>
 #include <string>
 #include <utility>
+
+#include "render/gl_functions.h"
 
 namespace sandstroke {
 

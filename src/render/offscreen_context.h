@@ -28,4 +28,8 @@ class OffscreenContext {
 /// (SANDSTROKE_GL). Error: io, with what is missing.
 std::unique_ptr<OffscreenContext> make_offscreen_context();
 
+/// A function of OpenGL, to be cast to what it is; null where there is none of this name. To be asked when
+/// there is a context.
+void (*find_gl_function(const char* name))();
+
 }  // namespace sandstroke

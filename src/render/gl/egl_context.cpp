@@ -49,4 +49,6 @@ class EglContext : public OffscreenContext {
 
 std::unique_ptr<OffscreenContext> make_offscreen_context() { return std::make_unique<EglContext>(); }
 
+void (*find_gl_function(const char* name))() { return eglGetProcAddress(name); }
+
 }  // namespace sandstroke

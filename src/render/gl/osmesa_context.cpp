@@ -1,13 +1,49 @@
-#include "render/offscreen_context.h"
-
 #include <GL/osmesa.h>
+#include <dlfcn.h>
 
 #include <array>
 
 #include "core/error.h"
+#include "render/offscreen_context.h"
 
 namespace sandstroke {
 namespace {
+
+/// The library, loaded when the first context is made: with it comes a whole compiler.
+class OsMesa {
+ public:
+  static const OsMesa& get() {
+    static const OsMesa library;  // where it fails, it is tried again the next time
+    return library;
+  }
+
+  decltype(&OSMesaCreateContextAttribs) create_context;
+  decltype(&OSMesaDestroyContext) destroy_context;
+  decltype(&OSMesaMakeCurrent) make_current;
+  decltype(&OSMesaGetProcAddress) find_function;
+
+ private:
+  OsMesa() : library_(dlopen("libOSMesa.so.8", RTLD_NOW | RTLD_LOCAL)) {
+    if (!library_) throw_missing();
+    find(create_context, "OSMesaCreateContextAttribs");
+    find(destroy_context, "OSMesaDestroyContext");
+    find(make_current, "OSMesaMakeCurrent");
+    find(find_function, "OSMesaGetProcAddress");
+  }
+  template <class Function>
+  void find(Function& function, const char* name) {
+    function = reinterpret_cast<Function>(dlsym(library_, name));
+    if (!function) throw_missing();
+  }
+  [[noreturn]] static void throw_missing() {
+    throw_io_error(
+        "pictures are drawn by the library OSMesa, which cannot be loaded ({}); install it (Debian: apt-get "
+        "install libosmesa6), or do without pictures",
+        dlerror());
+  }
+
+  void* library_;  // never given back: Mesa's threads and the compiler's may still be there
+};
 
 class OsMesaContext : public OffscreenContext {
  public:
@@ -25,19 +61,20 @@ class OsMesaContext : public OffscreenContext {
                                                 0,
                                                 0,
                                                 0};
-    context_ = OSMesaCreateContextAttribs(attributes.data(), nullptr);
+    context_ = mesa_.create_context(attributes.data(), nullptr);
     if (!context_)
       throw_io_error("no OpenGL 3.3 core context could be made; install a Mesa with OSMesa and llvmpipe");
   }
-  ~OsMesaContext() override { OSMesaDestroyContext(context_); }
+  ~OsMesaContext() override { mesa_.destroy_context(context_); }
 
   void make_current() override {
-    if (!OSMesaMakeCurrent(context_, unused_.data(), GL_UNSIGNED_BYTE, side, side))
+    if (!mesa_.make_current(context_, unused_.data(), GL_UNSIGNED_BYTE, side, side))
       throw_io_error("the OpenGL context cannot be made current");
   }
 
  private:
   static constexpr int side = 16;
+  const OsMesa& mesa_ = OsMesa::get();
   OSMesaContext context_;
   std::array<unsigned char, 4 * side * side> unused_{};  // OSMesa insists on a window to draw to
 };
@@ -45,5 +82,7 @@ class OsMesaContext : public OffscreenContext {
 }  // namespace
 
 std::unique_ptr<OffscreenContext> make_offscreen_context() { return std::make_unique<OsMesaContext>(); }
+
+void (*find_gl_function(const char* name))() { return OsMesa::get().find_function(name); }
 
 }  // namespace sandstroke
