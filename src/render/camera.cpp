@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "core/angle.h"
 #include "core/error.h"
@@ -60,6 +61,33 @@ void check(const ViewSettings& view) {
 
 double Camera::pixels_per_metre(const Eigen::AlignedBox3d& box) const {
   return orthographic ? scale : scale / std::max(1e-9, box.exteriorDistance(eye));
+}
+
+PixelRect Camera::pixels_of(const Eigen::AlignedBox3d& box, int width, int height) const {
+  Eigen::Array2d low = Eigen::Array2d::Constant(1.0), high = -low;
+  for (const Eigen::Vector3d& p : corners(box)) {
+    const Eigen::Vector4d clip = to_clip * p.homogeneous();
+    if (clip.w() <= 0.0) return {0, 0, width, height};  // beside the eye
+    const Eigen::Array2d place = (clip.head<2>() / clip.w()).array().max(-1.0).min(1.0);
+    low = low.min(place), high = high.max(place);
+  }
+  const auto pixel = [](double place, int pixels, int beyond) {  // two more: samples lie around centres
+    return std::clamp(static_cast<int>(std::floor(0.5 * (place + 1.0) * pixels)) + beyond, 0, pixels);
+  };
+  return {pixel(low.x(), width, -2), pixel(low.y(), height, -2), pixel(high.x(), width, 3),
+          pixel(high.y(), height, 3)};
+}
+
+double Camera::widest_pixel(const Eigen::AlignedBox3d& box, double steepest) const {
+  double farthest = 1.0, sine = -forward.z();  // of the least angle between the way to the eye and the level
+  if (!orthographic) {
+    farthest = 0.0;
+    for (const Eigen::Vector3d& p : corners(box)) farthest = std::max(farthest, (eye - p).norm());
+    sine = std::clamp((eye.z() - box.max().z()) / farthest, -1.0, 1.0);
+  }
+  const double facing = sine - steepest * std::sqrt(1.0 - sine * sine);  // of a slope that falls away
+  constexpr double room = 4.0;  // for what differs between pixels, and for coarser triangles
+  return facing < 0.02 ? std::numeric_limits<double>::infinity() : room * farthest / (scale * facing);
 }
 
 bool Camera::misses(const Eigen::AlignedBox3d& box) const {

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 
 #include "picture/view.h"
+#include "render/pixel_rect.h"
 
 namespace sandstroke {
 
@@ -18,6 +19,11 @@ struct Camera {
   double pixels_per_metre(const Eigen::AlignedBox3d& box) const;
   /// Whether no part of a box can be in the picture.
   bool misses(const Eigen::AlignedBox3d& box) const;
+  /// All pixels of a picture of this size on which a box may be seen.
+  PixelRect pixels_of(const Eigen::AlignedBox3d& box, int width, int height) const;
+  /// A bound on how far [m] a surface in a box moves under a pixel, as seen from above, from one pixel to the
+  /// next; steepest: its largest slope. Infinite where it may be seen edge-on.
+  double widest_pixel(const Eigen::AlignedBox3d& box, double steepest) const;
 };
 
 /// The camera of a view. `subject` is what overview, stroke and top frame; they fit it into the picture less

@@ -42,23 +42,25 @@ Framebuffer::Framebuffer(int width, int height) : width_(width), height_(height)
   check_complete(width, height);
 }
 
-void Framebuffer::bind() const {
+void Framebuffer::bind(const PixelRect& pixels) const {
   glBindFramebuffer(GL_FRAMEBUFFER, target_);
   glViewport(0, 0, width_, height_);
+  glEnable(GL_SCISSOR_TEST);
+  glScissor(pixels.left, pixels.bottom, pixels.width(), pixels.height());
 }
 
-Image Framebuffer::read() const {
+void Framebuffer::read(const PixelRect& pixels, Image& image) const {
+  const auto& [left, bottom, right, top] = pixels;
   glBindFramebuffer(GL_READ_FRAMEBUFFER, target_);
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, resolved_);
-  glBlitFramebuffer(0, 0, width_, height_, 0, 0, width_, height_, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+  glBlitFramebuffer(left, bottom, right, top, left, bottom, right, top, GL_COLOR_BUFFER_BIT, GL_NEAREST);
   glBindFramebuffer(GL_READ_FRAMEBUFFER, resolved_);
-  Image image(width_, height_);
+  Image part(pixels.width(), pixels.height());
   glPixelStorei(GL_PACK_ALIGNMENT, 1);
-  glReadPixels(0, 0, width_, height_, GL_RGB, GL_UNSIGNED_BYTE, image.rgb.data());
+  glReadPixels(left, bottom, part.width, part.height, GL_RGB, GL_UNSIGNED_BYTE, part.rgb.data());
   check_gl("drawing a picture");
-  for (int y = 0; y < height_ / 2; ++y)  // GL counts rows from the bottom
-    std::swap_ranges(image.pixel(0, y), image.pixel(0, y) + 3 * width_, image.pixel(0, height_ - 1 - y));
-  return image;
+  for (int y = 0; y < part.height; ++y)  // GL counts rows from the bottom
+    std::copy_n(part.pixel(0, y), 3 * part.width, image.pixel(left, height_ - 1 - bottom - y));
 }
 
 }  // namespace sandstroke

@@ -2,6 +2,7 @@
 
 #include "picture/image.h"
 #include "render/gl_objects.h"
+#include "render/pixel_rect.h"
 
 namespace sandstroke {
 
@@ -13,10 +14,11 @@ class Framebuffer {
   Framebuffer(int width, int height);
   int width() const { return width_; }
   int height() const { return height_; }
-  /// Makes it the target of drawing.
-  void bind() const;
-  /// The picture drawn, each pixel the mean of its samples.
-  Image read() const;
+  /// Makes it the target of drawing, of these pixels alone.
+  void bind(const PixelRect& pixels) const;
+  PixelRect whole() const { return {0, 0, width_, height_}; }
+  /// Copies what is drawn there into a picture of this size, each pixel the mean of its samples.
+  void read(const PixelRect& pixels, Image& image) const;
 
  private:
   int width_, height_;

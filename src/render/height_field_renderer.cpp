@@ -1,6 +1,7 @@
 #include "render/height_field_renderer.h"
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 #include "core/error.h"
@@ -10,6 +11,7 @@
 #include "render/colour_map.h"
 #include "render/current_context.h"
 #include "render/framebuffer.h"
+#include "render/redraw.h"
 #include "render/round_scale.h"
 #include "render/shaders.h"
 #include "render/sphere_mesh.h"
@@ -65,11 +67,13 @@ class HeightFieldRenderer::Drawing {
   void check(const HeightField& surface, const ViewSettings& view) const;
   /// Colour scale of the picture; also puts the values where the map shader finds them.
   Legend prepare_values(const RenderSubject& subject);
-  Eigen::AlignedBox3d box_over(const CellRange& cells, double lowest, double highest) const;
   /// legend_part: of the picture's width.
   Camera camera_for(const RenderSubject& subject, const StartHeights& start, double legend_part) const;
   void set_light(const ShaderProgram& program, const Camera& camera, const Sun& sun) const;
   void set_tool(const ShaderProgram& program, const ToolSphere& tool) const;
+  /// Draws the pixels_ anew.
+  void draw(const RenderSubject& subject, const std::optional<Legend>& legend, const Camera& camera,
+            const Sun& sun);
   void draw_surroundings(const RenderSubject& subject, const Camera& camera, const Sun& sun) const;
   void draw_sand(const RenderSubject& subject, const Camera& camera, const Sun& sun);
   void draw_map(const RenderSubject& subject, const Legend& legend, const Camera& camera, const Sun& sun);
@@ -89,13 +93,10 @@ class HeightFieldRenderer::Drawing {
   GlObject sequential_, diverging_, no_vertices_;
   std::unique_ptr<SurfaceTextures> difference_;
   std::unique_ptr<Framebuffer> framebuffer_;
+  std::optional<PictureState> drawn_;  // what the framebuffer shows; none: nothing of use
+  PixelRect pixels_;                   // those that are drawn
+  Image image_;
 };
-
-Eigen::AlignedBox3d HeightFieldRenderer::Drawing::box_over(const CellRange& cells, double lowest,
-                                                           double highest) const {
-  return {Eigen::Vector3d(bed_.x_of(cells.col_begin), bed_.y_of(cells.row_begin), lowest),
-          Eigen::Vector3d(bed_.x_of(cells.col_end - 1), bed_.y_of(cells.row_end - 1), highest)};
-}
 
 void HeightFieldRenderer::Drawing::set_light(const ShaderProgram& program, const Camera& camera,
                                              const Sun& sun) const {
@@ -142,18 +143,23 @@ void HeightFieldRenderer::Drawing::draw_tiles(const ShaderProgram& program, cons
   program.set("shading", 1);
   surface_.bind_heights(0);
   surface_.bind_shading(1);
-  const GLint tile_origin = program.place("tile_origin"), skirt_height = program.place("skirt_height");
+  const GLint tile_origin = program.place("tile_origin"), skirt_height = program.place("skirt_height"),
+              widest = program.place("widest_pixel");
   for (int tile = 0; tile < bed_.tile_count(); ++tile) {
     const CellRange patch = surface_.patch(tile);
     const TileDetail& detail = surface_.detail(tile);
-    const Eigen::AlignedBox3d bounds = box_over(patch, detail.lowest, detail.highest);
+    const Eigen::AlignedBox3d bounds = surface_.bounds(tile);
     if (camera.misses(bounds)) continue;
+    Eigen::AlignedBox3d with_skirt = bounds;
+    with_skirt.min().z() = skirt_bottom(detail, bed_.cell_size());
+    if (!camera.pixels_of(with_skirt, framebuffer_->width(), framebuffer_->height()).touches(pixels_))
+      continue;
     const int level = levels.empty()
                           ? level_of_detail(detail, bed_.cell_size(), camera.pixels_per_metre(bounds))
                           : levels[tile];
     glUniform2i(tile_origin, patch.col_begin, patch.row_begin);
-    // A cell below the lowest: between flat tiles, too, rounding leaves gaps of a sample here and there.
-    glUniform1f(skirt_height, static_cast<float>(detail.lowest - bed_.cell_size()));
+    glUniform1f(skirt_height, static_cast<float>(with_skirt.min().z()));
+    glUniform1f(widest, static_cast<float>(widest_pixel(surface_, tile, detail, camera)));
     tiles_.bind(level);
     counters.triangles += tiles_.draw(level);
     ++counters.tiles_drawn;
@@ -197,16 +203,16 @@ void HeightFieldRenderer::Drawing::check(const HeightField& surface, const ViewS
 Camera HeightFieldRenderer::Drawing::camera_for(const RenderSubject& subject, const StartHeights& start,
                                                 double legend_part) const {
   Eigen::AlignedBox3d framed = box_.bounds();
-  framed.extend(box_over(bed_.cells(), start.lowest, start.highest));
+  framed.extend(box_over(bed_, bed_.cells(), start.lowest, start.highest));
   // The range of depths, too, decides on bits: so it has room for most of what sand can do.
   const double side = framed.sizes().maxCoeff();
   Eigen::AlignedBox3d scene = framed;
   scene.extend(framed.min() - side * Eigen::Vector3d::UnitZ());
   scene.extend(framed.max() + 0.25 * side * Eigen::Vector3d::UnitZ());
-  scene.extend(box_over(bed_.cells(), surface_.lowest(), surface_.highest()));
+  scene.extend(box_over(bed_, bed_.cells(), surface_.lowest(), surface_.highest()));
   if (subject.view.name == ViewName::stroke) {
     const CellRange cells = framed_cells(subject.focus, bed_.rows(), bed_.cols(), bed_.cell_size(), 0.03);
-    framed = box_over(cells, start.lowest, start.highest);
+    framed = box_over(bed_, cells, start.lowest, start.highest);
   }
   if (subject.tool) {
     scene.extend(subject.tool->centre() + Eigen::Vector3d::Constant(subject.tool->radius));
@@ -264,8 +270,13 @@ void HeightFieldRenderer::Drawing::draw_tool(const ToolSphere& tool, const Camer
 Image HeightFieldRenderer::Drawing::render(const HeightField& surface, const RenderSubject& subject) {
   const ViewSettings& view = subject.view;
   check(surface, view);
-  if (!framebuffer_ || framebuffer_->width() != view.width || framebuffer_->height() != view.height)
+  const std::optional<PictureState> before = std::exchange(drawn_, std::nullopt);  // an error leaves none
+  const bool other_size =
+      !framebuffer_ || framebuffer_->width() != view.width || framebuffer_->height() != view.height;
+  if (other_size) {
     framebuffer_ = std::make_unique<Framebuffer>(view.width, view.height);
+    image_ = Image(view.width, view.height);
+  }
 
   wall_radius_ = surface.shape() == BedShape::round ? surface.wall_radius() : 0.0;
   counters = {};
@@ -280,7 +291,22 @@ Image HeightFieldRenderer::Drawing::render(const HeightField& surface, const Ren
   box_.update(bed_, start);
   const Camera camera = camera_for(subject, start, legend_part);
 
-  framebuffer_->bind();
+  PictureState now{
+      camera,      sun, start, wall_radius_, view.style, subject.box, subject.background, subject.tile_levels,
+      subject.tool};
+  const PixelRect whole = framebuffer_->whole();
+  pixels_ = before && !other_size ? changed_pixels(*before, now, surface_, whole) : whole;
+  counters.pixels = pixels_.empty() ? 0 : std::int64_t{pixels_.width()} * pixels_.height();
+  if (!pixels_.empty()) draw(subject, legend, camera, sun);
+  drawn_ = std::move(now);
+  Image image = image_;
+  if (legend) draw_legend(image, *legend);
+  return image;
+}
+
+void HeightFieldRenderer::Drawing::draw(const RenderSubject& subject, const std::optional<Legend>& legend,
+                                        const Camera& camera, const Sun& sun) {
+  framebuffer_->bind(pixels_);
   glEnable(GL_MULTISAMPLE);
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
   draw_surroundings(subject, camera, sun);
@@ -289,11 +315,9 @@ Image HeightFieldRenderer::Drawing::render(const HeightField& surface, const Ren
     draw_map(subject, *legend, camera, sun);
   else
     draw_sand(subject, camera, sun);
-  if (subject.box) draw_wall(view.style, camera, sun);
+  if (subject.box) draw_wall(subject.view.style, camera, sun);
   if (subject.tool) draw_tool(*subject.tool, camera, sun);
-  Image image = framebuffer_->read();
-  if (legend) draw_legend(image, *legend);
-  return image;
+  framebuffer_->read(pixels_, image_);
 }
 
 HeightFieldRenderer::HeightFieldRenderer(int rows, int cols, double cell_size)

@@ -11,7 +11,8 @@ namespace sandstroke {
 /// What the last picture took.
 struct RenderCounters {
   int tiles_changed = 0;       ///< worked out and uploaded again
-  int tiles_drawn = 0;         ///< in the picture
+  std::int64_t pixels = 0;     ///< drawn again; the others are as before
+  int tiles_drawn = 0;         ///< there
   std::int64_t triangles = 0;  ///< of the sand
 };
 

@@ -38,6 +38,11 @@ CellRange cells_under(const std::vector<Eigen::Vector3d>& tips, double radius, c
   return range.empty() ? CellRange{} : range;
 }
 
+Eigen::AlignedBox3d box_over(const BedGeometry& bed, const CellRange& cells, double lowest, double highest) {
+  return {Eigen::Vector3d(bed.x_of(cells.col_begin), bed.y_of(cells.row_begin), lowest),
+          Eigen::Vector3d(bed.x_of(cells.col_end - 1), bed.y_of(cells.row_end - 1), highest)};
+}
+
 ValueRange value_range(double least, double greatest, bool diverging) {
   if (diverging) {
     const double most = std::max(std::abs(least), std::abs(greatest));

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <array>
 #include <optional>
 #include <vector>
@@ -15,6 +15,7 @@ struct ToolSphere {
   Eigen::Vector3d tip = Eigen::Vector3d::Zero();  ///< m
   double radius = 0.01;                           ///< m
   Eigen::Vector3d centre() const { return tip + radius * Eigen::Vector3d::UnitZ(); }
+  bool operator==(const ToolSphere& other) const { return tip == other.tip && radius == other.radius; }
 };
 
 /// Ends of a colour scale [m].
@@ -27,6 +28,7 @@ struct ValueRange {
 struct StartHeights {
   double lowest = 0.0, highest = 0.0;
   double border = 0.0;  ///< the highest along the bed's border
+  bool operator==(const StartHeights&) const = default;
 };
 StartHeights start_heights(const HeightGrid& surface);
 
@@ -52,6 +54,9 @@ CellRange framed_cells(const CellRange& focus, int rows, int cols, double cell_s
 /// it never is. What a stroke covers, whatever the sand then does.
 CellRange cells_under(const std::vector<Eigen::Vector3d>& tips, double radius, const BedGeometry& bed,
                       double highest);
+
+/// The box [m] over the centres of cells, between two heights.
+Eigen::AlignedBox3d box_over(const BedGeometry& bed, const CellRange& cells, double lowest, double highest);
 
 /// The colour scale of values that are shown without a given range: from the least to the greatest; around
 /// zero where `diverging`; one millimetre wide where all are equal.

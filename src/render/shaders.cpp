@@ -108,8 +108,10 @@ void main() {
 }
 
 std::string sand_fragment() {
-  return std::string(version) + light + noise + bed + R"(
+  return std::string(version) + light + noise + bed +
+         "const float tool_reach = " + std::to_string(tool_reach) + R"(;
 uniform vec4 tool;           // centre and radius; radius 0 = none
+uniform float widest_pixel;  // m, of this tile
 out vec4 colour;
 
 // Grains and patches: octaves of noise, each gone before a pixel covers half a wave, so that nothing shimmers.
@@ -140,7 +142,8 @@ vec2 past_tool(vec3 place, vec3 normal) {
   float penumbra = 0.03 * max(along, 0.0) + 0.04 * tool.w;
   float sun = along > 0.0 ? smoothstep(-penumbra, penumbra, miss) : 1.0;
   float part = min(1.0, tool.w / distance);
-  return vec2(sun, 1.0 - 0.8 * part * part * clamp(0.5 + 0.5 * dot(normal, to / distance), 0.0, 1.0));
+  float taken = max(part * part - 1.0 / (tool_reach * tool_reach), 0.0);
+  return vec2(sun, 1.0 - 0.8 * taken * clamp(0.5 + 0.5 * dot(normal, to / distance), 0.0, 1.0));
 }
 
 // Diffuse reflection of a rough ground (Oren and Nayar, roughness 0.5): flatter than Lambert's, as sand is.
@@ -152,7 +155,7 @@ float rough_diffuse(vec3 normal, vec3 from_sun, vec3 to_viewer) {
 
 void main() {
   float pixel = pixel_footprint();
-  vec4 here = mean_over(shading, pixel);
+  vec4 here = mean_over(shading, min(pixel, widest_pixel));
   if (beyond_wall()) {
     vec3 received = sun_colour * 0.9 * sun_direction.z + ambient(vec3(0.0, 0.0, 1.0));
     colour = vec4(tone(vec3(0.27, 0.155, 0.085) * received), 1.0);

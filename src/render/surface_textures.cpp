@@ -7,6 +7,7 @@
 #include "core/error.h"
 #include "core/machine.h"
 #include "core/parallel.h"
+#include "render/cell_ranges.h"
 
 namespace sandstroke {
 namespace {
@@ -89,25 +90,33 @@ CellRange SurfaceTextures::patch(int tile) const {
   return cells;
 }
 
-std::vector<int> SurfaceTextures::take_heights(const HeightField& surface) {
-  std::vector<int> changed;
+std::vector<SurfaceTextures::ChangedTile> SurfaceTextures::take_heights(const HeightField& surface) {
+  std::vector<ChangedTile> changed;
   bool finite = true;
   std::vector<double> block(BedGeometry::tile_area);
   for (int tile = 0; tile < bed_.tile_count(); ++tile) {
     const CellRange cells = bed_.tile_cells(tile);
     bool differs = !filled_;
     surface.read_tile(tile, block.data());
-    const double* heights = block.data();
-    for (int row = cells.row_begin; row < cells.row_end; ++row, heights += side) {
-      float* drawn = heights_.row(row).data() + cells.col_begin;
+    const auto row_of = [&](int row) { return block.data() + side * (row - cells.row_begin); };
+    for (int row = cells.row_begin; row < cells.row_end; ++row) {
+      const double* heights = row_of(row);
+      const float* drawn = heights_.row(row).data() + cells.col_begin;
       for (int col = 0; col < cells.cols(); ++col) {
         const auto height = static_cast<float>(heights[col]);
         differs |= height != drawn[col];
         finite &= std::isfinite(height);
-        drawn[col] = height;
       }
     }
-    if (differs) changed.push_back(tile);
+    if (!differs) continue;
+    const auto height_at = [&](int row, int col) {
+      return static_cast<float>(row_of(row)[col - cells.col_begin]);
+    };
+    const CellRange part = changed_part(
+        cells, [&](int row, int col) { return !filled_ || height_at(row, col) != heights_(row, col); });
+    for (int row = part.row_begin; row < part.row_end; ++row)
+      for (int col = part.col_begin; col < part.col_end; ++col) heights_(row, col) = height_at(row, col);
+    changed.push_back({tile, part});
   }
   if (!finite) {
     filled_ = false;  // what is kept is of no use any more
@@ -118,18 +127,21 @@ std::vector<int> SurfaceTextures::take_heights(const HeightField& surface) {
 }
 
 int SurfaceTextures::update(const HeightField& surface) {
-  const std::vector<int> changed = take_heights(surface);
+  changes_.clear();
+  const std::vector<ChangedTile> changed = take_heights(surface);
   if (changed.empty()) return 0;
 
-  std::vector<char> detail_outdated(details_.size(), 0);
-  for (const int tile : changed) {  // a tile's patch reaches into the tiles after it
+  std::vector<CellRange> changed_of(details_.size());
+  for (const auto& [tile, cells] : changed) {  // a tile's patch reaches into the tiles after it
     for (const int row_step : {-1, 0})
       for (const int col_step : {-1, 0})
         if (const int before = bed_.tile_beside(tile, row_step, col_step); before >= 0)
-          detail_outdated[before] = 1;
+          changed_of[before] = around(changed_of[before], common(cells, patch(before)));
   }
-  parallel_for(details_.size(), true, [&](std::size_t tile) {
-    if (detail_outdated[tile]) details_[tile] = tile_detail(heights_, patch(static_cast<int>(tile)));
+  for (int tile = 0; tile < static_cast<int>(details_.size()); ++tile)
+    if (!changed_of[tile].empty()) changes_.push_back({tile, changed_of[tile], details_[tile]});
+  parallel_for(changes_.size(), true, [&](std::size_t i) {
+    details_[changes_[i].tile] = tile_detail(heights_, patch(changes_[i].tile));
   });
 
   const double highest_before = filled_ ? highest_ : -1e300;
@@ -143,11 +155,10 @@ int SurfaceTextures::update(const HeightField& surface) {
   bind_texture(height_texture_, 0);
   glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
   glPixelStorei(GL_UNPACK_ROW_LENGTH, bed_.cols());
-  for (const int tile : changed) {
-    const CellRange cells = bed_.tile_cells(tile);
+  for (const auto& [tile, cells] : changed) {
     glTexSubImage2D(GL_TEXTURE_2D, 0, cells.col_begin, cells.row_begin, cells.cols(), cells.rows(), GL_RED,
                     GL_FLOAT, &heights_(cells.row_begin, cells.col_begin));
-    mark_shading(tile, relief);
+    mark_shading(cells, relief);
   }
   glPixelStorei(GL_UNPACK_ROW_LENGTH, 0);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);  // the coarser ones wait until they are asked for
@@ -157,15 +168,14 @@ int SurfaceTextures::update(const HeightField& surface) {
   return static_cast<int>(changed.size());
 }
 
-/// Marks the tiles whose shading a changed tile can alter: those that its shadow may reach, and its
+/// Marks the tiles whose shading these cells can alter: those that their shadow may reach, and their
 /// surroundings.
-void SurfaceTextures::mark_shading(int tile, double relief) {
+void SurfaceTextures::mark_shading(const CellRange& cells, double relief) {
   const int reach = shadow_reach(sun_used_, relief, bed_.cell_size()) + 1;
   const Eigen::Vector2d towards = sun_used_.direction().head<2>().normalized();
   const auto shift = [&](double part) {
     return static_cast<int>(std::lround(std::min(1e6, reach * std::abs(part))));
   };
-  const CellRange cells = bed_.tile_cells(tile);
   const int col_low = cells.col_begin - sky_reach - (towards.x() > 0.0 ? shift(towards.x()) : 0);
   const int col_high = cells.col_end + sky_reach + (towards.x() < 0.0 ? shift(towards.x()) : 0);
   const int row_low = cells.row_begin - sky_reach - (towards.y() > 0.0 ? shift(towards.y()) : 0);
@@ -176,6 +186,7 @@ void SurfaceTextures::mark_shading(int tile, double relief) {
 }
 
 void SurfaceTextures::update_shading(const Sun& sun) {
+  shaded_ = {};
   if (!(sun == sun_used_)) {
     std::fill(shading_outdated_.begin(), shading_outdated_.end(), char{1});
     sun_used_ = sun;
@@ -184,19 +195,36 @@ void SurfaceTextures::update_shading(const Sun& sun) {
   for (int tile = 0; tile < static_cast<int>(shading_outdated_.size()); ++tile)
     if (shading_outdated_[tile]) outdated.push_back(tile);
   if (outdated.empty()) return;
-  if (sun_.size() == 0) {
+  const bool first = sun_.size() == 0;
+  if (first) {
     sun_.resize(bed_.rows(), bed_.cols());
     sky_.resize(bed_.rows(), bed_.cols());
   }
+  std::vector<CellRange> changed(outdated.size());
   parallel_for(outdated.size(), true, [&](std::size_t i) {
     const CellRange cells = bed_.tile_cells(outdated[i]);
+    const auto here = [&](const DrawnHeights& values) {
+      return values.block(cells.row_begin, cells.col_begin, cells.rows(), cells.cols());
+    };
+    const DrawnHeights sun_before = here(sun_), sky_before = here(sky_);
     sun_visibility(heights_, bed_.cell_size(), sun, highest_, cells, sun_);
     sky_visibility(heights_, bed_.cell_size(), cells, sky_);
+    changed[i] = changed_part(cells, [&](int row, int col) {
+      const int r = row - cells.row_begin, c = col - cells.col_begin;
+      return sun_(row, col) != sun_before(r, c) || sky_(row, col) != sky_before(r, c);
+    });
   });
+  upload_shading(outdated);
+  for (const CellRange& cells : changed) shaded_ = around(shaded_, cells);
+  for (const Change& change : changes_) shaded_ = around(shaded_, change.cells);
+  shaded_ = first ? bed_.cells() : common(grown(shaded_, 1), bed_.cells());  // slopes and softened()
+}
+
+void SurfaceTextures::upload_shading(const std::vector<int>& tiles) {
   bind_texture(shading_texture_, 0);
   glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
   std::vector<std::array<Eigen::half, 4>> texels(static_cast<std::size_t>(side) * side);
-  for (const int tile : outdated) {
+  for (const int tile : tiles) {
     const CellRange cells = bed_.tile_cells(tile);
     std::size_t i = 0;
     for (int row = cells.row_begin; row < cells.row_end; ++row) {

@@ -4,6 +4,7 @@
 
 #include "render/gl_objects.h"
 #include "render/horizon.h"
+#include "render/render_subject.h"
 #include "render/tile_detail.h"
 
 namespace sandstroke {
@@ -24,13 +25,28 @@ class SurfaceTextures {
   /// Takes a surface of the same shape over; returns the number of tiles that changed. Error: input, where
   /// heights are not finite.
   int update(const HeightField& surface);
+  /// A tile whose patch is other than before the last update(): in which cells, and what it was then.
+  struct Change {
+    int tile = 0;
+    CellRange cells;
+    TileDetail before;
+  };
+  const std::vector<Change>& changes() const { return changes_; }
   /// Brings what shading takes up to date with the surface.
   void update_shading(const Sun& sun);
+  /// Holds all cells whose shading changed with the last update_shading().
+  const CellRange& shaded() const { return shaded_; }
 
   const DrawnHeights& heights() const { return heights_; }
   /// The cells of a tile, and the first row and column of the tiles after it where there are any.
   CellRange patch(int tile) const;
+  const BedGeometry& bed() const { return bed_; }
   const TileDetail& detail(int tile) const { return details_[tile]; }
+  /// What of space the sand of a tile takes.
+  Eigen::AlignedBox3d bounds(int tile) const { return bounds(tile, details_[tile]); }
+  Eigen::AlignedBox3d bounds(int tile, const TileDetail& detail) const {
+    return box_over(bed_, patch(tile), detail.lowest, detail.highest);
+  }
   double lowest() const { return lowest_; }
   double highest() const { return highest_; }
 
@@ -43,13 +59,21 @@ class SurfaceTextures {
   void bind_shading(int unit) const;
 
  private:
-  /// Which tiles differ from what is drawn; their heights are kept. Error: input, where one is not finite.
-  std::vector<int> take_heights(const HeightField& surface);
-  void mark_shading(int tile, double relief);
+  /// A tile that differs from what is drawn, and where.
+  struct ChangedTile {
+    int tile = 0;
+    CellRange cells;
+  };
+  /// Keeps the heights of those that differ. Error: input, where one is not finite.
+  std::vector<ChangedTile> take_heights(const HeightField& surface);
+  void mark_shading(const CellRange& changed, double relief);
+  void upload_shading(const std::vector<int>& tiles);
 
   BedGeometry bed_;
   DrawnHeights heights_, sun_, sky_;
   std::vector<TileDetail> details_;
+  std::vector<Change> changes_;
+  CellRange shaded_;
   std::vector<char> shading_outdated_;
   Sun sun_used_;
   double lowest_ = 0.0, highest_ = 0.0;

@@ -12,6 +12,12 @@ TileDetail tile_detail(const DrawnHeights& heights, const CellRange& patch) {
   detail.lowest = static_cast<double>(cells.minCoeff());
   detail.highest = static_cast<double>(cells.maxCoeff());
   if (detail.lowest == detail.highest) return detail;
+  if (rows > 1 && cols > 1) {
+    const auto corner = cells.topLeftCorner(rows - 1, cols - 1);
+    const auto along_x = cells.topRightCorner(rows - 1, cols - 1) - corner;
+    const auto along_y = cells.bottomLeftCorner(rows - 1, cols - 1) - corner;
+    detail.steepest = std::sqrt(static_cast<double>((along_x.square() + along_y.square()).maxCoeff()));
+  }
   for (int level = 1; level <= coarsest_level; ++level) {
     const int side = 1 << level;
     float worst = 0.0f;
@@ -31,6 +37,8 @@ TileDetail tile_detail(const DrawnHeights& heights, const CellRange& patch) {
   }
   return detail;
 }
+
+double skirt_bottom(const TileDetail& detail, double cell_size) { return detail.lowest - cell_size; }
 
 int level_of_detail(const TileDetail& detail, double cell_size, double pixels_per_metre) {
   constexpr double longest = 2.0, largest_error = 0.33;  // pixels

@@ -114,6 +114,33 @@ TEST(Camera, MissesWhatIsOutsideThePictureOnly) {
   EXPECT_TRUE(camera.misses(Eigen::AlignedBox3d(Eigen::Vector3d(0.9, 0, 0), Eigen::Vector3d(1, 0.1, 0.01))));
 }
 
+TEST(Camera, LevelGroundMovesUnderAPixelByItsWidthOverTheSineOfTheView) {
+  Camera camera;
+  camera.orthographic = true;
+  camera.scale = 500.0;
+  camera.forward = {0.8, 0.0, -0.6};
+  const Eigen::AlignedBox3d box(Eigen::Vector3d(-1.0, -1.0, 0.0), Eigen::Vector3d(1.0, 1.0, 0.1));
+  EXPECT_GE(camera.widest_pixel(box, 0.0), 0.002 / 0.6);
+  EXPECT_LE(camera.widest_pixel(box, 0.0), 4.0 * 0.002 / 0.6);
+  // A slope that falls away by 0.5 is met at 0.6 - 0.5 * 0.8.
+  EXPECT_NEAR(camera.widest_pixel(box, 0.5) / camera.widest_pixel(box, 0.0), 3.0, 1e-9);
+  EXPECT_EQ(camera.widest_pixel(box, 0.75), std::numeric_limits<double>::infinity());  // edge-on
+  camera.forward = Eigen::Vector3d::UnitX();
+  EXPECT_EQ(camera.widest_pixel(box, 0.0), std::numeric_limits<double>::infinity());
+}
+
+TEST(Camera, PixelsOfABoxAreWhereItsCornersAreAndLittleMore) {
+  Camera camera;  // x and y from -1 to 1 as they are
+  const PixelRect pixels =
+      camera.pixels_of({Eigen::Vector3d(-0.5, 0.0, 0.0), Eigen::Vector3d(0.5, 3.0, 0.2)}, 400, 200);
+  EXPECT_NEAR(pixels.left, 100, 3);
+  EXPECT_LE(pixels.left, 99);
+  EXPECT_NEAR(pixels.right, 300, 3);
+  EXPECT_GE(pixels.right, 301);
+  EXPECT_NEAR(pixels.bottom, 100, 3);
+  EXPECT_EQ(pixels.top, 200);  // no pixels are beyond the picture
+}
+
 TEST(Camera, NearerBoxesAreLarger) {
   ViewSettings view;
   const Camera camera = make_camera(view, bed, bed);

@@ -99,6 +99,37 @@ TEST(HeightFieldRenderer, UpdatedPictureEqualsAFreshOne) {
   }
 }
 
+/// A hand digs and heaps sand along its way, under a high and under a low sun, seen from above and from a
+/// side.
+TEST(HeightFieldRenderer, AFilmsFramesEqualFreshPicturesAndTakeFewPixels) {
+  for (const double elevation : {8.0, 40.0, 90.0}) {
+    for (const double sun : {8.0, 50.0}) {
+      HeightGrid heights = noisy(400, 400, 0.0002);
+      HeightFieldRenderer renderer(400, 400, 0.005);
+      RenderSubject subject = small_picture();
+      subject.view.elevation = elevation;
+      subject.view.light_elevation = sun;
+      subject.start = start_heights(heights);
+      for (int frame = 0; frame < 6; ++frame) {
+        const int row = 150 + 9 * frame, col = 190 + 13 * frame;
+        heights.block(row, col, 5, 7) = frame % 2 ? -0.02 : 0.01;
+        subject.tool = ToolSphere{{0.005 * (col - 200), 0.005 * (row - 200), -0.01}, 0.015};
+        const HeightField surface(heights, 0.005);
+        EXPECT_EQ(renderer.render(surface, subject).rgb, fresh_picture(surface, subject).rgb)
+            << elevation << " deg, sun at " << sun << " deg, frame " << frame;
+        if (frame > 0 && elevation > 30.0) {
+          EXPECT_LT(renderer.counters().pixels, 320 * 180 / 2);
+        }
+      }
+      subject.tool.reset();
+      const HeightField surface(heights, 0.005);
+      EXPECT_EQ(renderer.render(surface, subject).rgb, fresh_picture(surface, subject).rgb);
+      renderer.render(surface, subject);
+      EXPECT_EQ(renderer.counters().pixels, 0);
+    }
+  }
+}
+
 TEST(HeightFieldRenderer, ChangedTilesAreCounted) {
   HeightFieldRenderer renderer(200, 270, 0.01);
   HeightField surface(200, 270, 0.01);

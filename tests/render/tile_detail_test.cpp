@@ -33,6 +33,14 @@ TEST(TileDetail, CutTilesEndAtTheirLastCells) {
   EXPECT_FLOAT_EQ(static_cast<float>(detail.error[coarsest_level]), 0.9f);  // row 9 of a slope over 10 rows
 }
 
+TEST(TileDetail, TheSteepestIsTheLargestGradient) {
+  DrawnHeights heights(65, 65);
+  for (int row = 0; row < 65; ++row)
+    for (int col = 0; col < 65; ++col)
+      heights(row, col) = 0.003f * static_cast<float>(col) - 0.004f * static_cast<float>(row);
+  EXPECT_NEAR(tile_detail(heights, {0, 65, 0, 65}).steepest, 0.005, 1e-6);
+}
+
 TEST(LevelOfDetail, GetsCoarserWithDistance) {
   TileDetail rough;
   rough.error = {0.0, 0.01, 0.02, 0.03, 0.04, 0.05, 0.06};
