@@ -62,6 +62,10 @@ double room_of(__rlimit_resource resource, const char* taken) {
   return limit_of(resource) - 1024.0 * number_after("/proc/self/status", taken);
 }
 
+/// What the limit of the address space leaves, and how that is said.
+double address_room() { return room_of(RLIMIT_AS, "VmSize:"); }
+constexpr const char* addresses_left = "the limit of its address space (ulimit -v) leaves it {:.3g} GB";
+
 }  // namespace
 
 double physical_memory() {
@@ -79,7 +83,7 @@ MemoryRoom memory_room() {
   };
   consider(control_group_room(groups.str(), "/sys/fs/cgroup"),
            "its control group (container or job) leaves it {:.3g} GB");
-  consider(room_of(RLIMIT_AS, "VmSize:"), "the limit of its address space (ulimit -v) leaves it {:.3g} GB");
+  consider(address_room(), addresses_left);
   consider(room_of(RLIMIT_DATA, "VmData:"), "the limit of its data (ulimit -d) leaves it {:.3g} GB");
   least.reason = fmt::format(fmt::runtime(least.reason), 1e-9 * least.bytes);
   return least;
@@ -92,6 +96,13 @@ void check_memory(double bytes, const std::string& what, const std::string& reme
         fmt::format("{} takes about {:.3g} GB of memory{}, and {}; {}", what, 1e-9 * bytes,
                     share < 1.0 ? fmt::format(", which may be {:.3g} of what there is", share) : "",
                     room.reason, remedy));
+}
+
+void check_addresses(double bytes, const std::string& what, const std::string& remedy) {
+  const double room = std::max(0.0, address_room());
+  if (bytes > room)
+    throw NotEnoughMemory(fmt::format("{} takes about {:.3g} GB of addresses, and {}; {}", what, 1e-9 * bytes,
+                                      fmt::format(addresses_left, 1e-9 * room), remedy));
 }
 
 void check_disk(const fs::path& path, double bytes, const std::string& remedy) {

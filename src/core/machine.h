@@ -20,6 +20,10 @@ MemoryRoom memory_room();
 /// than this share of memory_room(). To be asked before it is taken.
 void check_memory(double bytes, const std::string& what, const std::string& remedy, double share = 1.0);
 
+/// Error: input, where the address space (ulimit -v) has no room for so many more bytes, which are mapped
+/// rather than taken, as those of a library.
+void check_addresses(double bytes, const std::string& what, const std::string& remedy);
+
 /// Error: io, "PATH: takes about 3 GB, and there is room for 2 GB; REMEDY", where a file of so many bytes has
 /// no room there, or is more than the system lets it be (ulimit -f). What a PATH.part of before takes is
 /// free. To be asked before any work is done.

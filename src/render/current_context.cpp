@@ -8,6 +8,7 @@
 namespace sandstroke {
 
 CurrentContext::CurrentContext() {
+  load_offscreen_library();  // first: what it takes is no room for the rest
   // Where it finds no memory, Mesa or its compiler ends the program. Measured: 90 MB and threads' stacks.
   // Those who draw at the same time may not have taken theirs yet.
   check_memory(living_.count * (100e6 + 10e6 * std::thread::hardware_concurrency()), "drawing",

@@ -24,6 +24,10 @@ class OffscreenContext {
   }
 };
 
+/// Loads what draws, where that is not there from the start. Error: io, with what is missing; input, where
+/// there is not the memory for it.
+void load_offscreen_library();
+
 /// Software rendering by Mesa's llvmpipe, through OSMesa or EGL: which of them, the build says
 /// (SANDSTROKE_GL). Error: io, with what is missing.
 std::unique_ptr<OffscreenContext> make_offscreen_context();

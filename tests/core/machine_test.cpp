@@ -74,6 +74,27 @@ TEST(Memory, MoreThanThereIsIsRefusedWithWhoAllowsHowMuch) {
   }
 }
 
+TEST(MemoryDeathTest, MoreAddressesThanTheLimitLeavesAreRefused) {
+  EXPECT_NO_THROW(check_addresses(1e15, "a desert", ""));  // where there is no limit
+  EXPECT_EXIT(
+      {
+        rlimit limit{};
+        limit.rlim_cur = limit.rlim_max = 1'000'000'000'000'000;  // more than a sanitizer maps
+        setrlimit(RLIMIT_AS, &limit);
+        check_addresses(5e14, "a dune", "");
+        try {
+          check_addresses(2e15, "a desert", "take a smaller one");
+        } catch (const Error& refused) {
+          const std::string sentence = refused.what();
+          const bool said = sentence.starts_with("a desert takes about 2e+06 GB of addresses, and ") &&
+                            sentence.ends_with(" GB; take a smaller one");
+          _exit(said && refused.kind() == ErrorKind::input ? 0 : 1);
+        }
+        _exit(2);
+      },
+      testing::ExitedWithCode(0), "");
+}
+
 TEST(DiskDeathTest, MoreThanThereIsRoomForIsRefusedWithWhatToDo) {
   const TestFolder folder;
   EXPECT_NO_THROW(check_disk(folder / "a.h5", 1.0, ""));

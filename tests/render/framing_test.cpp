@@ -15,9 +15,10 @@ bool is_magenta(const std::uint8_t* pixel) { return pixel[0] == 255 && pixel[1] 
 
 /// With the same renderer as the picture before, where that is of the same bed.
 Image picture_of(const HeightField& surface, const RenderSubject& subject) {
-  static std::unique_ptr<HeightFieldRenderer> renderer;
-  static BedGeometry bed(2, 2, 1.0);
-  if (!renderer || !bed.same_grid(surface)) {
+  // Made here, as all statics go in turn: the renderer before the library that is loaded for it.
+  static BedGeometry bed = surface;
+  static auto renderer = std::make_unique<HeightFieldRenderer>(bed.rows(), bed.cols(), bed.cell_size());
+  if (!bed.same_grid(surface)) {
     bed = surface;
     renderer = std::make_unique<HeightFieldRenderer>(bed.rows(), bed.cols(), bed.cell_size());
   }

@@ -49,6 +49,8 @@ class EglContext : public OffscreenContext {
 
 std::unique_ptr<OffscreenContext> make_offscreen_context() { return std::make_unique<EglContext>(); }
 
+void load_offscreen_library() {}  // EGL is linked, and loads Mesa with the first context
+
 void (*find_gl_function(const char* name))() { return eglGetProcAddress(name); }
 
 }  // namespace sandstroke
