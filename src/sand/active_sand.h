@@ -44,12 +44,14 @@ class ActiveSand {
   RelaxedTile& tile(int slot) { return *tiles_[place_of(slot)]; }
   const RelaxedTile& tile(int slot) const { return *tiles_[place_of(slot)]; }
 
-  /// Every active cell's gain in a pass. Returns the sum of outflows [m]. first(slot): the flow that a
-  /// super-step began with in a tile: then only cells within one of a change may give, and all others are
-  /// held still, however steep (tells_givers); null: all may. join(slot) is called before for each active
+  /// Every active cell's gain in a pass. Returns the sum of outflows [m]. in_step(slot, tile): what a
+  /// super-step has to do with a tile's flow (FlowInStep): in one only cells within one of a change may give,
+  /// and all others are held still, however steep (tells_givers). join(slot) is called before for each active
   /// tile, one after the other; the first time when places() has just grown by it.
-  template <class First, class Join>
-  double compute_flow(HeightField& bed, const First& first, const Join& join);
+  template <class InStep, class Join>
+  double compute_flow(HeightField& bed, const InStep& in_step, const Join& join);
+  /// What the pass has to look at, in cells.
+  std::int64_t work() const { return work_; }
   /// body(slot, tile) for each active tile.
   template <class Body>
   void for_each_tile(const Body& body) {
@@ -73,7 +75,7 @@ class ActiveSand {
 
   /// Heap memory for each tile that takes part in a relaxation [bytes].
   static constexpr std::size_t bytes_per_tile() {
-    return sizeof(RelaxedTile) + sizeof(int) + sizeof(Residuals) + sizeof(double) +
+    return sizeof(RelaxedTile) + sizeof(PatchHeights) + sizeof(int) + sizeof(Residuals) + sizeof(double) +
            TileActivity::bytes_per_tile();
   }
 
@@ -109,8 +111,8 @@ class ActiveSand {
   int tiles_active_max_ = 0;
 };
 
-template <class First, class Join>
-double ActiveSand::compute_flow(HeightField& bed, const First& first, const Join& join) {
+template <class InStep, class Join>
+double ActiveSand::compute_flow(HeightField& bed, const InStep& in_step, const Join& join) {
   for (const int slot : tiles()) {
     take_part(slot);
     join(slot);
@@ -126,9 +128,9 @@ double ActiveSand::compute_flow(HeightField& bed, const First& first, const Join
     RelaxedTile& one = tile(slot);
     load_rim(bed, one.patch, seen_rows(slot), cells(slot));
     FlowScratch& scratch = FlowScratch::of_this_thread();
-    const FirstFlow* begun = first(slot);
-    if (begun) load_givers(bed, slot, activity_.rows(slot), scratch);
-    sandstroke::compute_flow(law_, one.patch, cells(slot), activity_.rows(slot), begun, scratch, one.flow);
+    const FlowInStep step = in_step(slot, one);
+    if (step.first) load_givers(bed, slot, activity_.rows(slot), scratch);
+    sandstroke::compute_flow(law_, one.patch, cells(slot), activity_.rows(slot), step, scratch, one.flow);
   });
   CompensatedSum given;
   for (const int slot : tiles()) given.add(tile(slot).flow.given);

@@ -8,13 +8,12 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "sand/lanes-inl.h"
+#include "sand/flow_in_step-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace sandstroke {
 namespace HWY_NAMESPACE {
 
-constexpr int side = BedGeometry::tile_side;
 constexpr int groups = side / group;
 
 /// The lower one; a wall (NaN) as `a` loses.
@@ -23,15 +22,6 @@ HWY_INLINE V lower(V a, V b) {
   return hn::Min(a, b);  // min*pd: the second operand where one is NaN
 #else
   return hn::IfThenElse(a < b, a, b);
-#endif
-}
-
-/// The higher one; a wall (NaN) as `a` loses.
-HWY_INLINE V higher(V a, V b) {
-#if HWY_ARCH_X86
-  return hn::Max(a, b);
-#else
-  return hn::IfThenElse(a > b, a, b);
 #endif
 }
 
@@ -66,77 +56,6 @@ HWY_INLINE V squared_slope(const Around& a) {
   const V gx = a.m - lower(a.w, lower(a.e, a.m)), gy = a.m - lower(a.n, lower(a.s, a.m));
   return gx * gx + gy * gy;
 }
-
-/// The largest drops met, lane by lane; isotropic: axis holds their squares' sum.
-struct Drops {
-  V axis, diagonal;
-  HWY_INLINE Drops() : axis(hn::Zero(d)), diagonal(hn::Zero(d)) {}
-};
-
-// Which cells may give, and what is looked at besides.
-
-/// All may, and nothing is.
-struct FreeSand {
-  FreeSand(const FirstFlow*, const FlowScratch&) {}
-  HWY_INLINE void begin_row(int) {}
-  HWY_INLINE Mask may_give(int, Mask moves) const { return moves; }
-  HWY_INLINE void meet(V, V) {}
-  HWY_INLINE void flows(int, int, V) {}
-  HWY_INLINE void ends(int, unsigned) {}
-  HWY_INLINE void report(const TalusLaw&, TileFlow&) {}
-};
-
-/// In a super-step: those with a flag; how steep the sand is; and how its flow differs from the first one.
-class SteppedSand {
- public:
-  SteppedSand(const FirstFlow* first, const FlowScratch& scratch)
-      : first_(*first), givers_(scratch.givers.data()), row_(nullptr), difference_(hn::Zero(d)) {}
-  HWY_INLINE void begin_row(int row) { row_ = givers_ + row + 1; }
-  HWY_INLINE Mask may_give(int c, Mask moves) const {
-    const std::uint64_t flags = c < 0       ? std::uint64_t{row_->west} << (group - 1) >> (c + group)
-                                : c >= side ? std::uint64_t{row_->east} >> (c - side)
-                                            : row_->own >> c;
-    return hn::And(moves, lanes_of(flags));
-  }
-  HWY_INLINE void meet(V axis, V diagonal) {
-    steepest_.axis = higher(axis, steepest_.axis);
-    steepest_.diagonal = higher(diagonal, steepest_.diagonal);
-  }
-  HWY_INLINE void flows(int row, int c, V gain) {
-    if (!(first_.moved[row] >> (c / group) & 1)) {
-      difference_ = Max(difference_, hn::Abs(gain));
-      return;
-    }
-    const V before = hn::Load(d, first_.gain.data() + row * side + c);
-    difference_ = Max(difference_, hn::Abs(gain - before));
-    product_.add(c, gain * before);
-  }
-  /// Groups of the row that do not flow any more.
-  HWY_INLINE void ends(int row, unsigned moved) {
-    for (unsigned over = first_.moved[row] & ~moved; over; over &= over - 1) {
-      const int begin = std::countr_zero(over) * group;
-      for (int c = begin; c < begin + group; c += lanes)
-        difference_ = Max(difference_, hn::Abs(hn::Load(d, first_.gain.data() + row * side + c)));
-    }
-  }
-  HWY_INLINE void report(const TalusLaw& law, TileFlow& flow) {
-    for (int row = first_.rows.begin; row < first_.rows.end; ++row)
-      if (row < flow.rows.begin || row >= flow.rows.end) ends(row, 0);
-    const double axis = largest(steepest_.axis);
-    flow.axis_drop = law.law == RelaxationLaw::paper ? axis : std::sqrt(axis);
-    flow.diagonal_drop = largest(steepest_.diagonal);
-    flow.change = largest(difference_);
-    flow.product = product_.total();
-  }
-
- private:
-  const FirstFlow& first_;
-  const FlowScratch::Row* givers_;
-  const FlowScratch::Row* row_;
-  Drops steepest_;
-  V difference_;
-  LaneSum product_;
-};
 
 // Factors of the cells in a vector: what a cell gives a lower neighbour is its factor x (m - m_i). Bits:
 // those that are not 0.
@@ -260,14 +179,13 @@ struct GainOf {
   }
 };
 
-template <class Factors, class Gain, class Sand>
+template <class Factors, class Gain, class Sand, class Sink>
 HWY_INLINE void flow_of(const TalusLaw& law, const TilePatch& patch, const CellFlags& active, RowSpan rows,
-                        const FirstFlow* first, FlowScratch& scratch, TileFlow& flow) {
+                        Sand& sand, Sink& sink, FlowScratch& scratch, TileFlow& flow) {
   const auto active_row = [&](int row) { return row < rows.begin || row >= rows.end ? 0 : active[row]; };
   const auto factors_in = [&](int row) { return scratch.factors.data() + TilePatch::start(row); };
   std::array<WideRow, side + 2> moving;  // from row -1; those around the span
   const Factors factors(law);
-  Sand sand(first, scratch);
   for (int row = rows.begin - 1; row <= rows.end; ++row)
     moving[row + 1] = factor_row(factors, patch.heights(row), factors_in(row), row,
                                  widened(active_row(row - 1) | active_row(row) | active_row(row + 1)), sand);
@@ -282,31 +200,43 @@ HWY_INLINE void flow_of(const TalusLaw& law, const TilePatch& patch, const CellF
     const std::uint64_t cells = (own | own << 1 | own >> 1 | west | east << (side - 1)) & active[row];
     flow.moved[row] = cells;
     const unsigned moved = groups_of(cells);
+    sink.begin_row(row, active[row]);
     for (unsigned wanted = moved; wanted; wanted &= wanted - 1) {
       const int begin = std::countr_zero(wanted) * group;
       for (int c = begin; c < begin + group; c += lanes) {
         const V gained = gain(patch.heights(row), factors_in(row), c, lanes_of(cells >> c), given);
-        hn::Store(gained, d, flow.gain.data() + row * side + c);
+        sink.take(c, gained);
         sand.flows(row, c, gained);
       }
     }
     sand.ends(row, moved);
+    sink.end_row(row, moved);
   }
+  sink.end(rows);
   flow.given = given.total();
   sand.report(law, flow);
 }
 
+template <class Factors, class Gain>
+void flow_by(const TalusLaw& law, const TilePatch& patch, const CellFlags& active, RowSpan rows,
+             const FlowInStep& in_step, FlowScratch& scratch, TileFlow& flow) {
+  const auto compute = [&](auto sand, auto sink) {
+    flow_of<Factors, Gain>(law, patch, active, rows, sand, sink, scratch, flow);
+  };
+  if (!in_step.first)
+    compute(FreeSand{}, KeptGain(flow));
+  else if (!in_step.ahead)
+    compute(SteppedSand(*in_step.first, scratch), KeptGain(flow));
+  else
+    compute(SteppedSand(*in_step.first, scratch), TakenStage(patch, *in_step.ahead));
+}
+
 void ComputeFlow(const TalusLaw& law, const TilePatch& patch, const CellFlags& active, RowSpan rows,
-                 const FirstFlow* first, FlowScratch& scratch, TileFlow& flow) {
-  if (law.law == RelaxationLaw::paper) {
-    first ? flow_of<PaperFactors, GainOf<true>, SteppedSand>(law, patch, active, rows, first, scratch, flow)
-          : flow_of<PaperFactors, GainOf<true>, FreeSand>(law, patch, active, rows, first, scratch, flow);
-  } else {
-    first
-        ? flow_of<IsotropicFactors, GainOf<false>, SteppedSand>(law, patch, active, rows, first, scratch,
-                                                                flow)
-        : flow_of<IsotropicFactors, GainOf<false>, FreeSand>(law, patch, active, rows, first, scratch, flow);
-  }
+                 const FlowInStep& in_step, FlowScratch& scratch, TileFlow& flow) {
+  if (law.law == RelaxationLaw::paper)
+    flow_by<PaperFactors, GainOf<true>>(law, patch, active, rows, in_step, scratch, flow);
+  else
+    flow_by<IsotropicFactors, GainOf<false>>(law, patch, active, rows, in_step, scratch, flow);
 }
 
 void ApplyFlow(const TileFlow& flow, TilePatch& patch, CellFlags& changed) {
@@ -363,8 +293,8 @@ FlowScratch& FlowScratch::of_this_thread() {
 }
 
 void compute_flow(const TalusLaw& law, const TilePatch& patch, const CellFlags& active, RowSpan rows,
-                  const FirstFlow* first, FlowScratch& scratch, TileFlow& flow) {
-  HWY_DYNAMIC_DISPATCH(ComputeFlow)(law, patch, active, rows, first, scratch, flow);
+                  const FlowInStep& in_step, FlowScratch& scratch, TileFlow& flow) {
+  HWY_DYNAMIC_DISPATCH(ComputeFlow)(law, patch, active, rows, in_step, scratch, flow);
 }
 void apply_flow(const TileFlow& flow, TilePatch& patch, CellFlags& changed) {
   HWY_DYNAMIC_DISPATCH(ApplyFlow)(flow, patch, changed);

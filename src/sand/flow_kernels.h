@@ -1,20 +1,11 @@
 #pragma once
 
-#include "sand/cell_flags.h"
+#include <optional>
+
+#include "sand/super_step_tile.h"
 #include "sand/talus_law.h"
-#include "sand/tile_patch.h"
 
 namespace sandstroke {
-
-/// A flow that a super-step began with (F0).
-struct FirstFlow {
-  /// Groups of 8 cells: bit g of a row's byte is its group g.
-  using Groups = std::array<std::uint8_t, BedGeometry::tile_side>;
-  /// m: in the groups of `moved`; elsewhere it is 0.
-  alignas(64) std::array<double, BedGeometry::tile_area> gain;
-  Groups moved{};
-  RowSpan rows;  ///< that hold those
-};
 
 /// What the sand of a tile does in one pass.
 struct TileFlow {
@@ -48,11 +39,16 @@ struct FlowScratch {
 // Vector code (Highway) for the best instruction set of the machine, with the same bits in all of them: each
 // cell's expression is evaluated in one order, without contraction, and sums run over 8 lanes.
 
+/// What a super-step has to do with a tile's flow.
+struct FlowInStep {
+  const FirstFlow* first = nullptr;  ///< only the scratch's givers may give; none: no super-step, and all may
+  std::optional<StageAhead> ahead{};  ///< flow.gain is left alone then
+};
+
 /// The law's flow of the active cells, all in `rows`, from a patch that holds them and two cells around them.
-/// Cells at rest cost a comparison with their neighbours. first: the super-step's, in which only the
-/// scratch's givers may give; none: all may.
+/// Cells at rest cost a comparison with their neighbours.
 void compute_flow(const TalusLaw& law, const TilePatch& patch, const CellFlags& active, RowSpan rows,
-                  const FirstFlow* first, FlowScratch& scratch, TileFlow& flow);
+                  const FlowInStep& in_step, FlowScratch& scratch, TileFlow& flow);
 
 /// heights += gain; flags, in the flow's rows, the cells that are another number now.
 void apply_flow(const TileFlow& flow, TilePatch& patch, CellFlags& changed);

@@ -32,8 +32,8 @@ class TileRelaxer : public Relaxer {
 
  private:
   double compute_flow(HeightField& bed) {
-    const auto all_may_give = [](int) { return nullptr; };
-    return sand_.compute_flow(bed, all_may_give, [](int) {});
+    return sand_.compute_flow(
+        bed, [](int, RelaxedTile&) { return FlowInStep{}; }, [](int) {});
   }
   void look_for_rest(HeightField& bed) {
     compute_flow(bed);

@@ -8,7 +8,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "sand/lanes-inl.h"
+#include "sand/stage-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace sandstroke {
@@ -44,17 +44,6 @@ FlowSize KeepFirstFlow(const TileFlow& flow, FirstFlow& first) {
   return {largest(peak), square.total()};
 }
 
-/// Lowest and highest, lane by lane.
-struct Range {
-  V low, high;
-  HWY_INLINE Range() : low(all(std::numeric_limits<double>::infinity())), high(hn::Neg(low)) {}
-  HWY_INLINE void add(V heights, Mask counts) {
-    low = hn::IfThenElse(counts, Min(low, heights), low);
-    high = hn::IfThenElse(counts, Max(high, heights), high);
-  }
-  HWY_INLINE HeightRange over_lanes() const { return {least(low), largest(high)}; }
-};
-
 HeightRange RangeOf(const double* heights, int rows, int cols) {
   Range range;
   for (int row = 0; row < rows; ++row)
@@ -73,13 +62,11 @@ HeightRange SuperStage(const TileFlow& flow, const CellFlags& active, double mom
       const int g = std::countr_zero(left);
       const bool moves = moved >> g & 1, stepped = tile.stepped[row] >> g & 1;
       for (int c = g * group; c < (g + 1) * group; c += lanes) {
-        const int at = row * side + c;
-        double* cells = patch.heights(row) + c;
+        double *cells = patch.heights(row) + c, *before = tile.before->row(row) + c;
         const V now = hn::Load(d, cells);
-        V next = now;
-        if (stepped) next += all(momentum) * (now - hn::Load(d, tile.before.data() + at));
-        if (moves) next += all(step) * hn::Load(d, flow.gain.data() + at);
-        hn::Store(now, d, tile.before.data() + at);
+        V next = with_momentum(now, stepped, all(momentum), before);
+        if (moves) next += all(step) * hn::Load(d, flow.gain.data() + row * side + c);
+        hn::Store(now, d, before);
         hn::Store(next, d, cells);
         range.add(next, lanes_of(active[row] >> c));
         flags |= static_cast<std::uint64_t>(bits(next != now)) << c;
@@ -87,6 +74,7 @@ HeightRange SuperStage(const TileFlow& flow, const CellFlags& active, double mom
     }
     changed[row] = flags & active[row];  // beside them may be walls, which equal nothing
     tile.stepped[row] |= static_cast<std::uint8_t>(wanted);
+    tile.same[row] &= static_cast<std::uint8_t>(~wanted);
   }
   tile.rows = joined(tile.rows, flow.rows);
   return range.over_lanes();
@@ -95,9 +83,7 @@ HeightRange SuperStage(const TileFlow& flow, const CellFlags& active, double mom
 void TakeBackStage(const SuperStepTile& tile, TilePatch& patch) {
   for_groups(
       tile.rows, [&](int row) { return tile.stepped[row]; },
-      [&](int row, int c) {
-        hn::Store(hn::Load(d, tile.before.data() + row * side + c), d, patch.heights(row) + c);
-      });
+      [&](int row, int c) { hn::Store(hn::Load(d, tile.before->row(row) + c), d, patch.heights(row) + c); });
 }
 
 }  // namespace HWY_NAMESPACE

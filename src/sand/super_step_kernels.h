@@ -4,15 +4,6 @@
 
 namespace sandstroke {
 
-/// What a super-step keeps of a tile.
-struct SuperStepTile {
-  /// m: heights one stage ago, in the groups of `stepped`.
-  alignas(64) std::array<double, BedGeometry::tile_area> before;
-  FirstFlow::Groups stepped{};
-  RowSpan rows;  ///< that hold those
-  FirstFlow first;
-};
-
 struct FlowSize {
   double peak;    ///< m: max |F|
   double square;  ///< m^2: sum F^2
@@ -20,10 +11,6 @@ struct FlowSize {
 /// Keeps a flow as F0.
 FlowSize keep_first_flow(const TileFlow& flow, FirstFlow& first);
 
-/// Lowest and highest of some heights [m].
-struct HeightRange {
-  double low, high;
-};
 /// Of a tile's cells that lie inside the bed.
 HeightRange range_of(const double* heights, int rows, int cols);
 

@@ -11,7 +11,7 @@ constexpr double wall = std::numeric_limits<double>::quiet_NaN();
 
 }  // namespace
 
-TilePatch::TilePatch() { heights_.fill(wall); }
+PatchHeights::PatchHeights() { values_.fill(wall); }
 
 void TilePatch::copy_cells(const HeightField& bed, int slot, int row, int first, int last, double* out) {
   const CellRange inside = slot < 0 ? CellRange{} : bed.tile_cells(bed.tile_of(slot));

@@ -2,25 +2,41 @@
 
 #include <algorithm>
 #include <array>
+#include <memory>
+#include <utility>
 
 #include "sand/cell_flags.h"
 #include "sand/height_field.h"
 
 namespace sandstroke {
 
-/// A tile's heights with a rim of two cells around them, as a relaxation pass reads them, and what the tile's
-/// cells become in it: the working copy of one relaxation. Row r of the tile (-2 ... tile_side + 1) begins
-/// with column 0 on a 64-byte boundary. Outside the bed, where no tile exists, and where the bed holds them,
-/// cells are NaN: every comparison with them is false.
-class TilePatch {
- public:
+/// Numbers for the cells of a tile and a rim of two around them. Row r of the tile (-2 ... tile_side + 1)
+/// begins with column 0 on a 64-byte boundary.
+struct PatchLayout {
   static constexpr int side = BedGeometry::tile_side;
   static constexpr int rim = 2;  ///< inflow comes from one cell away, whose share depends on one cell further
   static constexpr int margin = cells_per_group;  ///< doubles before column 0 and after the last
   static constexpr int stride = side + 2 * margin;
+  static constexpr int size = (side + 2 * rim) * stride + 2 * margin;  // vectors reach beyond the margins
+  static int start(int row) { return margin + (row + rim) * stride + margin; }
+};
 
-  TilePatch();
+/// Heights so laid out [m]; NaN at first.
+class PatchHeights : public PatchLayout {
+ public:
+  PatchHeights();
+  double* row(int r) { return values_.data() + start(r); }
+  const double* row(int r) const { return values_.data() + start(r); }
 
+ private:
+  alignas(64) std::array<double, size> values_;
+};
+
+/// A tile's heights with a rim of two cells around them, as a relaxation pass reads them, and what the tile's
+/// cells become in it: the working copy of one relaxation. Outside the bed, where no tile exists, and where
+/// the bed holds them, cells are NaN: every comparison with them is false.
+class TilePatch : public PatchLayout {
+ public:
   /// Becomes the copy of another tile, of which nothing is loaded yet.
   void begin(int slot) { slot_ = slot, loaded_ = {}; }
   int slot() const { return slot_; }
@@ -35,12 +51,11 @@ class TilePatch {
   /// Brings the flagged cells' heights to the bed, but for those that it holds.
   void write_back(HeightField& bed, const CellFlags& cells) const;
 
-  double* heights(int row) { return heights_.data() + start(row); }
-  const double* heights(int row) const { return heights_.data() + start(row); }
-
-  // Of an array that is laid out like this one: its size, and where a row begins.
-  static constexpr int size = (side + 2 * rim) * stride + 2 * margin;  // vectors reach beyond the margins
-  static int start(int row) { return margin + (row + rim) * stride + margin; }
+  double* heights(int row) { return heights_->row(row); }
+  const double* heights(int row) const { return std::as_const(*heights_).row(row); }
+  RowSpan loaded_rows() const { return loaded_; }  ///< of the tile's own
+  /// The tile's own loaded rows must be in them.
+  void exchange(std::unique_ptr<PatchHeights>& heights) { heights_.swap(heights); }
 
  private:
   /// Columns [first, last) of a row of the bed's tile, as `out` ..., walls as NaN.
@@ -48,7 +63,7 @@ class TilePatch {
 
   int slot_ = -1;
   RowSpan loaded_;
-  alignas(64) std::array<double, size> heights_;
+  std::unique_ptr<PatchHeights> heights_ = std::make_unique<PatchHeights>();
 };
 
 template <class PatchOf>

@@ -49,7 +49,7 @@ struct Tile {
     patch.load_rows(bed, seen);
     patch.load_rim(bed, seen, true, true, [](int) { return nullptr; });
   }
-  void flow_once() { compute_flow(law, patch, cells, rows, nullptr, scratch, flow); }
+  void flow_once() { compute_flow(law, patch, cells, rows, {}, scratch, flow); }
 };
 
 void flow_bench(benchmark::State& state, std::int64_t target, RelaxationLaw law, SandState sand) {

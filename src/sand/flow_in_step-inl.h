@@ -1,0 +1,186 @@
+// What a flow's sweep does besides, for each instruction set; as <hwy/foreach_target.h> asks.
+#if defined(SANDSTROKE_SAND_FLOW_IN_STEP_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef SANDSTROKE_SAND_FLOW_IN_STEP_INL_H_
+#undef SANDSTROKE_SAND_FLOW_IN_STEP_INL_H_
+#else
+#define SANDSTROKE_SAND_FLOW_IN_STEP_INL_H_
+#endif
+
+#include <bit>
+#include <cmath>
+
+#include "sand/flow_kernels.h"
+#include "sand/stage-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace sandstroke {
+namespace HWY_NAMESPACE {
+
+constexpr int side = BedGeometry::tile_side;
+
+/// The higher one; a wall (NaN) as `a` loses.
+HWY_INLINE V higher(V a, V b) {
+#if HWY_ARCH_X86
+  return hn::Max(a, b);
+#else
+  return hn::IfThenElse(a > b, a, b);
+#endif
+}
+
+/// The largest drops met, lane by lane; isotropic: axis holds their squares' sum.
+struct Drops {
+  V axis, diagonal;
+  HWY_INLINE Drops() : axis(hn::Zero(d)), diagonal(hn::Zero(d)) {}
+};
+
+// Which cells may give, and what is looked at besides.
+
+/// All may, and nothing is.
+struct FreeSand {
+  HWY_INLINE void begin_row(int) {}
+  HWY_INLINE Mask may_give(int, Mask moves) const { return moves; }
+  HWY_INLINE void meet(V, V) {}
+  HWY_INLINE void flows(int, int, V) {}
+  HWY_INLINE void ends(int, unsigned) {}
+  HWY_INLINE void report(const TalusLaw&, TileFlow&) {}
+};
+
+/// In a super-step: those with a flag; how steep the sand is; and how its flow differs from the first one.
+class SteppedSand {
+ public:
+  SteppedSand(const FirstFlow& first, const FlowScratch& scratch)
+      : first_(first), givers_(scratch.givers.data()), row_(nullptr), difference_(hn::Zero(d)) {}
+  HWY_INLINE void begin_row(int row) { row_ = givers_ + row + 1; }
+  HWY_INLINE Mask may_give(int c, Mask moves) const {
+    const std::uint64_t flags = c < 0       ? std::uint64_t{row_->west} << (group - 1) >> (c + group)
+                                : c >= side ? std::uint64_t{row_->east} >> (c - side)
+                                            : row_->own >> c;
+    return hn::And(moves, lanes_of(flags));
+  }
+  HWY_INLINE void meet(V axis, V diagonal) {
+    steepest_.axis = higher(axis, steepest_.axis);
+    steepest_.diagonal = higher(diagonal, steepest_.diagonal);
+  }
+  HWY_INLINE void flows(int row, int c, V gain) {
+    if (!(first_.moved[row] >> (c / group) & 1)) {
+      difference_ = Max(difference_, hn::Abs(gain));
+      return;
+    }
+    const V before = hn::Load(d, first_.gain.data() + row * side + c);
+    difference_ = Max(difference_, hn::Abs(gain - before));
+    product_.add(c, gain * before);
+  }
+  /// Groups of the row that do not flow any more.
+  HWY_INLINE void ends(int row, unsigned moved) {
+    for (unsigned over = first_.moved[row] & ~moved; over; over &= over - 1) {
+      const int begin = std::countr_zero(over) * group;
+      for (int c = begin; c < begin + group; c += lanes)
+        difference_ = Max(difference_, hn::Abs(hn::Load(d, first_.gain.data() + row * side + c)));
+    }
+  }
+  HWY_INLINE void report(const TalusLaw& law, TileFlow& flow) {
+    for (int row = first_.rows.begin; row < first_.rows.end; ++row)
+      if (row < flow.rows.begin || row >= flow.rows.end) ends(row, 0);
+    const double axis = largest(steepest_.axis);
+    flow.axis_drop = law.law == RelaxationLaw::paper ? axis : std::sqrt(axis);
+    flow.diagonal_drop = largest(steepest_.diagonal);
+    flow.change = largest(difference_);
+    flow.product = product_.total();
+  }
+
+ private:
+  const FirstFlow& first_;
+  const FlowScratch::Row* givers_;
+  const FlowScratch::Row* row_;
+  Drops steepest_;
+  V difference_;
+  LaneSum product_;
+};
+
+// Where the gains of the active cells go.
+
+/// They are kept.
+class KeptGain {
+ public:
+  explicit KeptGain(TileFlow& flow) : gain_(flow.gain.data()) {}
+  HWY_INLINE void begin_row(int row, std::uint64_t) { row_ = gain_ + row * side; }
+  HWY_INLINE void take(int c, V gain) { hn::Store(gain, d, row_ + c); }
+  HWY_INLINE void end_row(int, unsigned) {}
+  HWY_INLINE void end(RowSpan) {}
+
+ private:
+  double *gain_, *row_ = nullptr;
+};
+
+/// The stage ahead is taken with them: as super_stage, into the other heights.
+class TakenStage {
+ public:
+  TakenStage(const TilePatch& patch, const StageAhead& ahead)
+      : patch_(patch), ahead_(ahead), momentum_(all(ahead.momentum)), step_(all(ahead.step)) {}
+  HWY_INLINE void begin_row(int row, std::uint64_t active) {
+    now_ = patch_.heights(row), out_ = ahead_.tile.before->row(row);
+    active_ = active, changed_ = 0;
+    stepped_ = ahead_.tile.stepped[row];
+  }
+  HWY_INLINE void take(int c, V gain) {
+    const V now = hn::Load(d, now_ + c);
+    take(c, now, momentum_of(c, now) + step_ * gain);
+  }
+  HWY_INLINE void end_row(int row, unsigned moved) {
+    const unsigned wanted = groups_of(active_);
+    for (unsigned left = wanted & ~moved; left; left &= left - 1) {
+      const int begin = std::countr_zero(left) * group;
+      for (int c = begin; c < begin + group; c += lanes) {
+        const V now = hn::Load(d, now_ + c);
+        take(c, now, momentum_of(c, now));
+      }
+    }
+    ahead_.changed[row] = changed_ & active_;  // beside them may be walls, which equal nothing
+    ahead_.tile.stepped[row] |= static_cast<std::uint8_t>(wanted);
+    copy_others(row, wanted);
+  }
+  HWY_INLINE void end(RowSpan rows) {
+    const RowSpan loaded = patch_.loaded_rows();
+    for (int row = loaded.begin; row < rows.begin; ++row) copy_others(row, 0);
+    for (int row = rows.end; row < loaded.end; ++row) copy_others(row, 0);
+    ahead_.tile.rows = joined(ahead_.tile.rows, rows);
+    ahead_.range = range_.over_lanes();
+  }
+
+ private:
+  HWY_INLINE V momentum_of(int c, V now) const {
+    return with_momentum(now, stepped_ >> (c / group) & 1, momentum_, out_ + c);
+  }
+  HWY_INLINE void take(int c, V now, V next) {
+    hn::Store(next, d, out_ + c);
+    range_.add(next, lanes_of(active_ >> c));
+    changed_ |= static_cast<std::uint64_t>(bits(next != now)) << c;
+  }
+  /// Groups that are not active stay as they are: in the other heights, too.
+  HWY_INLINE void copy_others(int row, unsigned active) {
+    std::uint8_t& same = ahead_.tile.same[row];
+    const double* from = patch_.heights(row);
+    double* to = ahead_.tile.before->row(row);
+    for (unsigned left = ~(active | same) & 0xffu; left; left &= left - 1) {
+      const int begin = std::countr_zero(left) * group;
+      for (int c = begin; c < begin + group; c += lanes) hn::Store(hn::Load(d, from + c), d, to + c);
+    }
+    same = static_cast<std::uint8_t>(~active);
+  }
+
+  const TilePatch& patch_;
+  const StageAhead& ahead_;
+  V momentum_, step_;
+  Range range_;
+  // Of this row.
+  const double* now_ = nullptr;
+  double* out_ = nullptr;
+  std::uint64_t active_ = 0, changed_ = 0;
+  unsigned stepped_ = 0;
+};
+
+}  // namespace HWY_NAMESPACE
+}  // namespace sandstroke
+HWY_AFTER_NAMESPACE();
+
+#endif
