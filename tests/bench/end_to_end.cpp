@@ -39,7 +39,10 @@ std::string table_of(const nlohmann::json& rows) {
   const bool compares = !rows.empty() && rows[0].contains("before");
   std::string text = compares ? "| what | | before | now | times |\n|---|---|---|---|---|\n"
                               : "| what | | |\n|---|---|---|\n";
-  const auto number = [](const nlohmann::json& value) { return fmt::format("{:.3g}", value.get<double>()); };
+  const auto number = [](const nlohmann::json& value) {
+    const double x = value.get<double>();
+    return x < 1000.0 ? fmt::format("{:.3g}", x) : fmt::format("{:.0f}", x);
+  };
   for (const nlohmann::json& row : rows) {
     text += "| " + row["name"].get<std::string>() + " | " + row["unit"].get<std::string>() + " | ";
     if (compares) text += number(row["before"]) + " | ";
