@@ -146,7 +146,8 @@ class RklRelaxer : public Relaxer {
     const auto in_step = [&](int slot, RelaxedTile& relaxed) {
       StepTile& one = tile(slot);
       FlowInStep step{&one.kept.first};
-      if (ahead) step.ahead.emplace(ahead->momentum, ahead->step, one.kept, relaxed.changed, one.range);
+      if (ahead)
+        step.ahead.emplace(StageAhead{ahead->momentum, ahead->step, one.kept, relaxed.changed, one.range});
       return step;
     };
     given_ = sand_.compute_flow(bed, in_step, [&](int slot) { take_in(bed, slot); });
