@@ -1,4 +1,4 @@
-// What a flow's sweep does besides, for each instruction set; as <hwy/foreach_target.h> asks.
+// What the sweep that computes a flow does besides. Included once per instruction set, as lanes-inl.h.
 #if defined(SANDSTROKE_SAND_FLOW_IN_STEP_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef SANDSTROKE_SAND_FLOW_IN_STEP_INL_H_
 #undef SANDSTROKE_SAND_FLOW_IN_STEP_INL_H_
@@ -6,7 +6,6 @@
 #define SANDSTROKE_SAND_FLOW_IN_STEP_INL_H_
 #endif
 
-#include <bit>
 #include <cmath>
 
 #include "sand/flow_kernels.h"
@@ -72,11 +71,9 @@ class SteppedSand {
   }
   /// Groups of the row that do not flow any more.
   HWY_INLINE void ends(int row, unsigned moved) {
-    for (unsigned over = first_.moved[row] & ~moved; over; over &= over - 1) {
-      const int begin = std::countr_zero(over) * group;
-      for (int c = begin; c < begin + group; c += lanes)
-        difference_ = Max(difference_, hn::Abs(hn::Load(d, first_.gain.data() + row * side + c)));
-    }
+    for_vectors(first_.moved[row] & ~moved, [&](int c) {
+      difference_ = Max(difference_, hn::Abs(hn::Load(d, first_.gain.data() + row * side + c)));
+    });
   }
   HWY_INLINE void report(const TalusLaw& law, TileFlow& flow) {
     for (int row = first_.rows.begin; row < first_.rows.end; ++row)
@@ -128,13 +125,10 @@ class TakenStage {
   }
   HWY_INLINE void end_row(int row, unsigned moved) {
     const unsigned wanted = groups_of(active_);
-    for (unsigned left = wanted & ~moved; left; left &= left - 1) {
-      const int begin = std::countr_zero(left) * group;
-      for (int c = begin; c < begin + group; c += lanes) {
-        const V now = hn::Load(d, now_ + c);
-        take(c, now, momentum_of(c, now));
-      }
-    }
+    for_vectors(wanted & ~moved, [&](int c) {
+      const V now = hn::Load(d, now_ + c);
+      take(c, now, momentum_of(c, now));
+    });
     ahead_.changed[row] = changed_ & active_;  // beside them may be walls, which equal nothing
     ahead_.tile.stepped[row] |= static_cast<std::uint8_t>(wanted);
     copy_others(row, wanted);
@@ -161,10 +155,7 @@ class TakenStage {
     std::uint8_t& same = ahead_.tile.same[row];
     const double* from = patch_.heights(row);
     double* to = ahead_.tile.before->row(row);
-    for (unsigned left = ~(active | same) & 0xffu; left; left &= left - 1) {
-      const int begin = std::countr_zero(left) * group;
-      for (int c = begin; c < begin + group; c += lanes) hn::Store(hn::Load(d, from + c), d, to + c);
-    }
+    for_vectors(~(active | same) & 0xffu, [&](int c) { hn::Store(hn::Load(d, from + c), d, to + c); });
     same = static_cast<std::uint8_t>(~active);
   }
 

@@ -201,14 +201,11 @@ HWY_INLINE void flow_of(const TalusLaw& law, const TilePatch& patch, const CellF
     flow.moved[row] = cells;
     const unsigned moved = groups_of(cells);
     sink.begin_row(row, active[row]);
-    for (unsigned wanted = moved; wanted; wanted &= wanted - 1) {
-      const int begin = std::countr_zero(wanted) * group;
-      for (int c = begin; c < begin + group; c += lanes) {
-        const V gained = gain(patch.heights(row), factors_in(row), c, lanes_of(cells >> c), given);
-        sink.take(c, gained);
-        sand.flows(row, c, gained);
-      }
-    }
+    for_vectors(moved, [&](int c) {
+      const V gained = gain(patch.heights(row), factors_in(row), c, lanes_of(cells >> c), given);
+      sink.take(c, gained);
+      sand.flows(row, c, gained);
+    });
     sand.ends(row, moved);
     sink.end_row(row, moved);
   }
@@ -242,16 +239,13 @@ void ComputeFlow(const TalusLaw& law, const TilePatch& patch, const CellFlags& a
 void ApplyFlow(const TileFlow& flow, TilePatch& patch, CellFlags& changed) {
   for (int row = flow.rows.begin; row < flow.rows.end; ++row) {
     std::uint64_t flags = 0;
-    for (unsigned wanted = groups_of(flow.moved[row]); wanted; wanted &= wanted - 1) {
-      const int begin = std::countr_zero(wanted) * group;
-      for (int c = begin; c < begin + group; c += lanes) {
-        double* cell = patch.heights(row) + c;
-        const V old = hn::Load(d, cell);
-        const V next = old + hn::Load(d, flow.gain.data() + row * side + c);
-        hn::Store(next, d, cell);
-        flags |= static_cast<std::uint64_t>(bits(next != old)) << c;
-      }
-    }
+    for_vectors(groups_of(flow.moved[row]), [&](int c) {
+      double* cell = patch.heights(row) + c;
+      const V old = hn::Load(d, cell);
+      const V next = old + hn::Load(d, flow.gain.data() + row * side + c);
+      hn::Store(next, d, cell);
+      flags |= static_cast<std::uint64_t>(bits(next != old)) << c;
+    });
     changed[row] = flags & flow.moved[row];  // beside them may be walls, which equal nothing
   }
 }

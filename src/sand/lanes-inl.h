@@ -9,6 +9,8 @@
 
 #include <hwy/highway.h>
 
+#include <bit>
+
 #include "sand/cell_flags.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -62,6 +64,15 @@ class LaneSum {
  private:
   V sums_[group / lanes];
 };
+
+/// Calls body(column of a vector's first lane) for the vectors of a row's flagged groups.
+template <class Body>
+HWY_INLINE void for_vectors(unsigned groups, const Body& body) {
+  for (; groups; groups &= groups - 1) {
+    const int begin = std::countr_zero(groups) * group;
+    for (int c = begin; c < begin + group; c += lanes) body(c);
+  }
+}
 
 }  // namespace HWY_NAMESPACE
 }  // namespace sandstroke

@@ -1,9 +1,9 @@
-// Part of the kernels of super-steps, for each instruction set; as <hwy/foreach_target.h> asks.
-#if defined(SANDSTROKE_SAND_STAGE_INL_H) == defined(HWY_TARGET_TOGGLE)
-#ifdef SANDSTROKE_SAND_STAGE_INL_H
-#undef SANDSTROKE_SAND_STAGE_INL_H
+// What both ways to take a super-step's stage share. Included once per instruction set, as lanes-inl.h.
+#if defined(SANDSTROKE_SAND_STAGE_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef SANDSTROKE_SAND_STAGE_INL_H_
+#undef SANDSTROKE_SAND_STAGE_INL_H_
 #else
-#define SANDSTROKE_SAND_STAGE_INL_H
+#define SANDSTROKE_SAND_STAGE_INL_H_
 #endif
 
 #include <limits>

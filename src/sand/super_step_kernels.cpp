@@ -19,11 +19,7 @@ constexpr int side = BedGeometry::tile_side;
 /// Calls body(row, column of a vector) for the groups that groups_in(row) flags.
 template <class Groups, class Body>
 HWY_INLINE void for_groups(RowSpan rows, const Groups& groups_in, const Body& body) {
-  for (int row = rows.begin; row < rows.end; ++row)
-    for (unsigned wanted = groups_in(row); wanted; wanted &= wanted - 1) {
-      const int begin = std::countr_zero(wanted) * group;
-      for (int c = begin; c < begin + group; c += lanes) body(row, c);
-    }
+  for (int row = rows.begin; row < rows.end; ++row) for_vectors(groups_in(row), [&](int c) { body(row, c); });
 }
 
 FlowSize KeepFirstFlow(const TileFlow& flow, FirstFlow& first) {

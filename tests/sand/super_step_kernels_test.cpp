@@ -103,7 +103,8 @@ TEST(SuperStage, TakenWithTheFlowIsTheSameBits) {
       apart->range =
           super_stage(apart->flow, apart->active, 0.4, 0.2, apart->patch, apart->kept, apart->changed);
       together->compute(talus, StageAhead{0.4, 0.2, together->kept, together->changed, together->range});
-      EXPECT_EQ(together->patch.heights(20)[5], TileInStep().patch.heights(20)[5]);  // until it is wanted
+      EXPECT_EQ(together->patch.heights(20)[5],
+                TileInStep().patch.heights(20)[5]);  // until they are exchanged
       together->patch.exchange(together->kept.before);
       hwy::SetSupportedTargetsForTest(0);
 
