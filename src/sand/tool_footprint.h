@@ -5,17 +5,9 @@
 #include <vector>
 
 #include "sand/height_field.h"
+#include "tool/tool_settings.h"
 
 namespace sandstroke {
-
-/// Underside of the tool: the paper's filter a sin(rho^2/s^2), or the sphere itself.
-enum class ToolProfile { paper, sphere };
-
-struct ToolSettings {
-  double radius = 0.01;  ///< m, of the sphere (paper 4.1)
-  ToolProfile profile = ToolProfile::paper;
-  bool solid = false;  ///< while it touches the sand, relaxation takes the cells under its bowl for walls
-};
 
 /// The paper's filter g(u) = sin(u) - 0.53, u = (rho/s)^2 (figure 2): negative up to u0 = asin(0.53),
 /// positive up to u1, where its plane integral vanishes: 1 - cos(u1) = 0.53 u1. (The paper prints u1 as 1.2,
