@@ -46,6 +46,37 @@ void describe_bed(KeyVisitor& v, BedSettings& bed) {
   }
 }
 
+void describe_tool(KeyVisitor& v, ToolSettings& tool) {
+  v.section("tool", "what is pushed through the sand");
+  choose(v, "shape", tool.shape, {"sphere", "cylinder", "cone", "box", "plate", "rake", "mesh"},
+         "its shape; its tip is the middle of its underside, a mesh's the origin of its file");
+  const auto is = [&](auto... shapes) { return ((tool.shape == shapes) || ...); };
+  using enum ToolShape;
+  if (is(sphere, cylinder, cone, rake))
+    v.number("radius", tool.radius, positive, "m", "radius; of a cone at its top, of a rake's teeth");
+  if (is(cylinder, cone, plate, rake)) v.number("height", tool.height, positive, "m", "height above the tip");
+  if (is(box)) v.numbers("size", tool.size.data(), 3, positive, "m", "extent along x, y and z");
+  if (is(plate)) {
+    v.number("width", tool.width, positive, "m", "extent along y");
+    v.number("thickness", tool.thickness, positive, "m", "extent along x");
+  }
+  if (is(rake)) {
+    v.integers("teeth", &tool.teeth, 1, 1, 200, "teeth in a row along y, round at their ends");
+    v.number("spacing", tool.spacing, positive, "m", "distance between the axes of teeth");
+  }
+  if (is(mesh)) {
+    v.text("file", tool.file, "a closed surface (.stl, .ply or .obj), z up, relative to the scene");
+    v.number("scale", tool.scale, positive, "m", "length of the file's unit (0.001: it is in millimetres)");
+  }
+  if (is(sphere)) {
+    choose(v, "profile", tool.profile, {"paper", "sphere"}, "underside: the paper's filter, or the sphere");
+  } else {
+    v.numbers("orientation", tool.orientation.data(), 3, degrees, "deg",
+              "how it is held: turned about x, then about y, then about z");
+  }
+  v.flag("solid", tool.solid, "no sand slips under the tool while it touches the sand");
+}
+
 void describe_relaxation(KeyVisitor& v, RelaxationSettings& r) {
   v.section("relaxation", "how sand that lies too steep flows");
   choose(v, "law", r.law, {"paper", "isotropic"},
@@ -177,11 +208,7 @@ void describe_scene(KeyVisitor& v, Scene& scene) {
 
   describe_bed(v, scene.bed);
 
-  v.section("tool", "the sphere that is dragged through the sand");
-  v.number("radius", scene.tool.radius, positive, "m", "radius of the sphere");
-  choose(v, "profile", scene.tool.profile, {"paper", "sphere"},
-         "underside: the paper's filter, or the sphere");
-  v.flag("solid", scene.tool.solid, "no sand slips under the tool while it touches the sand");
+  describe_tool(v, scene.tool);
 
   v.section("displacement", "where pushed sand goes");
   choose(v, "deposit", scene.displacement.deposit, {"ring", "ahead", "outward"},
@@ -256,6 +283,14 @@ void check_scene(const Scene& scene, const std::string& name) {
   check_memory(memory_of_bed(scene), fmt::format("{}: bed.cells = [{}, {}]", name, bed.cols, bed.rows),
                "take fewer cells");
 
+  const bool is_sphere = scene.tool.shape == ToolShape::sphere;
+  if (!is_sphere && scene.displacement.deposit != Deposit::outward)
+    throw_input_error(
+        "{}: the paper's ring of sand (displacement.deposit) is a sphere's; for any other tool.shape set "
+        "model.preset = \"accurate\", or displacement.deposit = \"outward\"",
+        name);
+  if (scene.tool.shape == ToolShape::mesh && scene.tool.file.empty())
+    throw_input_error("{}: tool.file is missing; name a mesh (.stl, .ply or .obj)", name);
   const double reach = ToolFootprint(scene.tool).reach();
   if (scene.stroke && 2.0 * reach > std::min(bed.width, bed.depth))
     throw_input_error(

@@ -86,7 +86,8 @@ std::vector<Vector2d> sphere_profile(double radius, bool whole) {
   const int steps = whole ? sides / 2 : sides / 4;
   for (int i = 0; i <= steps; ++i) {
     const Vector2d point = on_circle(i);  // sin(angle from the axis) is its y
-    profile.emplace_back(i == 0 || (whole && i == steps) ? 0.0 : radius * point.y(), radius - radius * point.x());
+    profile.emplace_back(i == 0 || (whole && i == steps) ? 0.0 : radius * point.y(),
+                         radius - radius * point.x());
   }
   return profile;
 }
@@ -148,12 +149,13 @@ TriangleMesh tool_surface(const ToolSettings& tool) {
 }
 
 Eigen::Matrix3d rotation_of(const Eigen::Quaterniond& orientation) {
-  return orientation.toRotationMatrix().unaryExpr([](double entry) { return std::round(entry * 0x1p50) * 0x1p-50; });
+  return orientation.toRotationMatrix().unaryExpr(
+      [](double entry) { return std::round(entry * 0x1p50) * 0x1p-50; });
 }
 
 Eigen::Matrix3d own_rotation(const ToolSettings& settings) {
   const auto about = [&](int axis) {
-    const double half = 0.5 * to_radians(settings.turn[axis]);
+    const double half = 0.5 * to_radians(settings.orientation[axis]);
     Eigen::Quaterniond turn(elementary::cos(half), 0.0, 0.0, 0.0);
     turn.vec()[axis] = elementary::sin(half);
     return turn;

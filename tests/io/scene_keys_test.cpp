@@ -31,6 +31,12 @@ const std::vector<std::string> stroke = {"stroke.file=x.h5"}, dynamic = {"device
 
 bool is(const Eigen::Vector3d& v, double x, double y, double z) { return v == Eigen::Vector3d(x, y, z); }
 
+std::vector<std::string> shape(const std::string& name) {
+  return {"displacement.deposit=outward", "tool.shape=" + name};
+}
+
+const std::vector<std::string> mesh = {"displacement.deposit=outward", "tool.shape=mesh", "tool.file=x.stl"};
+
 /// All values differ from the defaults, and those of neighbours from each other.
 const std::vector<KeyCase> cases = {
     {"model.preset=accurate", [](S s) { return s.preset == ModelPreset::accurate && s.tool.solid; }},
@@ -54,6 +60,19 @@ const std::vector<KeyCase> cases = {
     {"bed.surface.file=z.png", [](S s) { return s.bed.surface.file == "z.png"; }, read_from},
     {"bed.surface.low=-0.41", [](S s) { return s.bed.surface.low == -0.41; }, read_from},
     {"bed.surface.high=0.42", [](S s) { return s.bed.surface.high == 0.42; }, read_from},
+    {"tool.shape=rake", [](S s) { return s.tool.shape == ToolShape::rake; }, outward},
+    {"tool.height=0.061", [](S s) { return s.tool.height == 0.061; }, shape("cylinder")},
+    {"tool.height=0.062", [](S s) { return s.tool.height == 0.062; }, shape("plate")},
+    {"tool.size=[0.063, 0.064, 0.065]", [](S s) { return is(s.tool.size, 0.063, 0.064, 0.065); },
+     shape("box")},
+    {"tool.width=0.066", [](S s) { return s.tool.width == 0.066; }, shape("plate")},
+    {"tool.thickness=0.067", [](S s) { return s.tool.thickness == 0.067; }, shape("plate")},
+    {"tool.teeth=7", [](S s) { return s.tool.teeth == 7; }, shape("rake")},
+    {"tool.spacing=0.068", [](S s) { return s.tool.spacing == 0.068; }, shape("rake")},
+    {"tool.file=hand.stl", [](S s) { return s.tool.file == "hand.stl"; }, mesh},
+    {"tool.scale=0.001", [](S s) { return s.tool.scale == 0.001; }, mesh},
+    {"tool.orientation=[10.0, 20.0, 30.0]", [](S s) { return is(s.tool.orientation, 10.0, 20.0, 30.0); },
+     shape("cone")},
     {"tool.radius=0.043", [](S s) { return s.tool.radius == 0.043; }},
     {"tool.profile=sphere", [](S s) { return s.tool.profile == ToolProfile::sphere; }},
     {"tool.solid=true", [](S s) { return s.tool.solid; }},
@@ -191,7 +210,7 @@ TEST(SceneKeys, EachChangesTheHashOfTheScene) {
     const bool of_bed = key == "bed.size" || key == "bed.cells";
     const std::vector<std::string> before = of_bed ? std::vector<std::string>{} : one.with;
     std::vector<std::string> after = one.with;
-    if (key == "stroke.file" || key == "bed.surface.file") after.pop_back();
+    if (key.ends_with(".file")) after.pop_back();
     after.push_back(one.setting);
     const auto hash = [](const std::vector<std::string>& settings) {
       return content_hash(scene_text(scene_from_text("", "scene.toml", settings)));

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <regex>
 
 #include "core/error.h"
@@ -90,6 +91,8 @@ TEST(SceneToml, EveryKeyOfTheTableIsReadWithItsDefaultJustWhereItSaysThatItAppli
         if (row.name.starts_with("stroke.")) settings.push_back("stroke.file=x.h5");
         if (!with.empty()) settings.push_back(with);
         if (with == "bed.surface.kind=file") settings.push_back("bed.surface.file=x.h5");
+        if (with.starts_with("tool.shape=")) settings.push_back("displacement.deposit=outward");
+        if (with == "tool.shape=mesh" && row.name != "tool.file") settings.push_back("tool.file=x.stl");
         try {
           read("", settings);
           return true;
@@ -100,14 +103,15 @@ TEST(SceneToml, EveryKeyOfTheTableIsReadWithItsDefaultJustWhereItSaysThatItAppli
         }
       };
       const std::vector<std::string> brought_by = settings_that_bring(row);
-      EXPECT_EQ(reads(""), brought_by.empty()) << row.name;
+      const bool by_default = brought_by.empty() || std::ranges::count(brought_by, "tool.shape=sphere") > 0;
+      EXPECT_EQ(reads(""), by_default) << row.name;
       for (const std::string& setting : brought_by) EXPECT_TRUE(reads(setting)) << row.name << " " << setting;
       conditional += !brought_by.empty();
       ++keys;
     }
   }
   EXPECT_GT(keys, 50);
-  EXPECT_EQ(conditional, 16);
+  EXPECT_EQ(conditional, 26);
 }
 
 TEST(SceneToml, AKeyThatDoesNotApplyIsToldWhereItWould) {

@@ -74,12 +74,12 @@ TEST(ToolSurface, AQuarterTurnOfARoundToolIsTheSameSetOfCorners) {
 
 TEST(ToolSurface, IsTurnedAboutXThenYThenZ) {
   ToolSettings tool;
-  tool.turn = {90.0, 0.0, 0.0};
+  tool.orientation = {90.0, 0.0, 0.0};
   EXPECT_EQ(own_rotation(tool) * Eigen::Vector3d::UnitY(), Eigen::Vector3d::UnitZ());
-  tool.turn = {90.0, 0.0, 90.0};  // y goes to z, which stays; x goes to y
+  tool.orientation = {90.0, 0.0, 90.0};  // y goes to z, which stays; x goes to y
   EXPECT_EQ(own_rotation(tool) * Eigen::Vector3d::UnitY(), Eigen::Vector3d::UnitZ());
   EXPECT_EQ(own_rotation(tool) * Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY());
-  tool.turn = {0.0, 30.0, 0.0};  // about y: x sinks
+  tool.orientation = {0.0, 30.0, 0.0};  // about y: x sinks
   EXPECT_NEAR((own_rotation(tool) * Eigen::Vector3d::UnitX()).z(), -0.5, 1e-14);
 }
 
