@@ -20,9 +20,21 @@ RingFront front_of(const Eigen::Vector3d& motion, Deposit deposit) {
 /// sums of parts of `whole` are exact, and so the same in any order: a symmetric tool leaves symmetric sand.
 double rounding_shift(double whole) { return std::scalbn(3.0, std::ilogb(whole) + 1); }
 
+/// The same of any tool but the sphere: outward only.
+double dig_any(const HeightField& bed, ToolFootprint& footprint, double tip_height, double distance) {
+  const double pushed = footprint.carve(tip_height);
+  if (pushed == 0.0 || !std::isfinite(pushed)) return pushed;
+  const double spread =
+      spread_outward(footprint, {distance, rounding_shift(pushed), footprint.way_out(distance)});
+  if (spread > 0.0) return heap(footprint, pushed / spread, false), pushed;
+  footprint.read_heights(bed);  // all around is tool or wall
+  return 0.0;
+}
+
 /// Lowers the sand and puts it where the settings say; what moved [m], 0 where none did.
 double dig(const HeightField& bed, ToolFootprint& footprint, double tip_height, const Eigen::Vector3d& motion,
            const DisplacementSettings& settings) {
+  if (!footprint.is_sphere()) return dig_any(bed, footprint, tip_height, settings.distance);
   if (settings.deposit == Deposit::outward) {
     const double pushed = carve(footprint.shape(), footprint, tip_height);
     if (pushed == 0.0) return 0.0;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <limits>
 
 #undef HWY_TARGET_INCLUDE
@@ -156,20 +157,82 @@ double CarveOnly(const FootprintShape& shape, ToolFootprint& f, double tip_heigh
   return carve<false>(shape, f, tip_height, {0.0, Eigen::Vector2d::Zero()}).pushed;
 }
 
-/// A group of cut cells: where they lie from the axis [cells], their sand [m], and where that goes.
+CarvedUnder CarveUnder(const EnvelopePlace& envelope, ToolFootprint& f, double tip_height) {
+  const V zero = hn::Zero(d), half = all(0.5), tip = all(tip_height);
+  const V infinite = all(std::numeric_limits<double>::infinity());
+  // What is cut is a multiple of 2^-40 cells or less, so that its sum is exact, in any order; it leaves a
+  // second time nothing to cut.
+  const V shift = all(std::scalbn(1.5 * 0x1p12, std::ilogb(f.cell_size())));
+  LaneSum pushed;
+  V highest = all(-std::numeric_limits<double>::infinity());
+  for (int row = 0; row < f.cells().rows(); ++row) {
+    const ColumnRange sand = f.sand_cols(row);
+    double* heights = f.heights(row);
+    unsigned char* flags = f.flags(row);
+    std::fill_n(flags, f.stride() / group, static_cast<unsigned char>(0));
+    // Diagonal corners first: a quarter turn has the same bits.
+    const auto between = [&](const double* const* corners, int col) {
+      const auto part = [&](int i) {
+        return all(envelope.weight[i]) * hn::LoadU(d, corners[i] + row * envelope.stride + col);
+      };
+      return (part(0) + part(3)) + (part(1) + part(2));
+    };
+    for (int col = 0, end = f.stride(); col < end; col += lanes) {
+      const V at = hn::Iota(d, col);
+      const Mask has_sand = hn::And(at >= all(sand.begin), at < all(sand.end));
+      const Mask covered = hn::And(has_sand, between(envelope.cover, col) >= half);
+      const V underside = hn::IfThenElse(covered, between(envelope.underside, col), infinite);
+      hn::Store(underside, d, f.underside(row) + col);
+      const V height = hn::Load(d, heights + col);
+      const V above = Max(height - (tip + underside), zero), excess = above + shift - shift;
+      const Mask cut = excess > zero;
+      if (hn::AllFalse(d, cut)) continue;
+      hn::Store(height - excess, d, heights + col);
+      hn::Store(excess, d, f.excess(row) + col);
+      pushed.add(col, excess);
+      highest = Max(highest, hn::IfThenElse(cut, underside, highest));
+      set_flags(flags, col, cut);
+    }
+  }
+  return {pushed.total(), largest(highest)};
+}
+
+void CoverUpTo(ToolFootprint& f, double height) {
+  const V infinite = all(std::numeric_limits<double>::infinity());
+  for (int row = 0; row < f.cells().rows(); ++row) {
+    const ColumnRange sand = f.sand_cols(row);
+    for (int col = 0, end = f.stride(); col < end; col += lanes) {
+      const V underside = hn::Load(d, f.underside(row) + col), at = hn::Iota(d, col);
+      const Mask covered = underside <= all(height);
+      const Mask has_sand = hn::And(at >= all(sand.begin), at < all(sand.end));
+      hn::Store(hn::IfThenElse(covered, underside, infinite), d, f.underside(row) + col);
+      hn::Store(where(hn::AndNot(covered, has_sand), all(1.0)), d, f.takes(row) + col);
+    }
+  }
+}
+
+/// A group of cut cells: where they lie from the axis [cells], their sand [m], where that goes [cells from
+/// the axis; not a number: nowhere], and to which cells.
 struct CutCells {
   alignas(64) double x[group], y[group], excess[group];
+  alignas(64) double to_x[group], to_y[group];
   alignas(64) double part[4][group];
   alignas(64) std::int64_t to[4][group];
 };
+
+/// Away from the axis of a sphere; nowhere from right on it.
+HWY_INLINE void aim_from_axis(const ToolFootprint& f, const Outward& outward, CutCells& cells, int i) {
+  const V x = hn::Load(d, cells.x + i), y = hn::Load(d, cells.y + i);
+  const V ratio = all(outward.distance / f.cell_size()) / Sqrt(x * x + y * y);
+  hn::Store(ratio * x, d, cells.to_x + i);
+  hn::Store(ratio * y, d, cells.to_y + i);
+}
 
 HWY_INLINE V spread_cells(const ToolFootprint& f, const Outward& outward, CutCells& cells, int i) {
   const hn::RebindToSigned<decltype(d)> di;
   const V zero = hn::Zero(d), one = all(1.0), shift = all(outward.shift);
   const V axis_x = all(f.axis_x() - f.first_x()), axis_y = all(f.axis_y() - f.first_y());  // columns, rows
-  const V x = hn::Load(d, cells.x + i), y = hn::Load(d, cells.y + i);
-  const V from_axis = Sqrt(x * x + y * y);
-  const V ratio = all(outward.distance / f.cell_size()) / from_axis, to_x = ratio * x, to_y = ratio * y;
+  const V to_x = hn::Load(d, cells.to_x + i), to_y = hn::Load(d, cells.to_y + i);
   // Rounded towards 0; below 0 that is not down, but no cell of the window lies there.
   const V first_col = hn::Trunc(axis_x + to_x), first_row = hn::Trunc(axis_y + to_y);
   const V rows = all(f.cells().rows()), cols = all(f.cells().cols()), stride = all(f.stride());
@@ -185,7 +248,7 @@ HWY_INLINE V spread_cells(const ToolFootprint& f, const Outward& outward, CutCel
   V to[4];
   const V shares[4] = {share(0, 0, to[0]), share(0, 1, to[1]), share(1, 0, to[2]), share(1, 1, to[3])};
   const V whole = (shares[0] + shares[3]) + (shares[1] + shares[2]);  // symmetric
-  const Mask goes = hn::And(whole > zero, from_axis > zero);
+  const Mask goes = whole > zero;
   const V excess = hn::Load(d, cells.excess + i);
   V total = zero;
   for (int corner = 0; corner < 4; ++corner) {
@@ -203,7 +266,10 @@ double SpreadOutward(ToolFootprint& f, const Outward& outward) {
   int count = 0;
   V total = hn::Zero(d);  // of parts whose sums are exact: in any order the same
   const auto spread = [&] {
-    for (int i = 0; i < group; i += lanes) total += spread_cells(f, outward, cells, i);
+    for (int i = 0; i < group; i += lanes) {
+      if (!outward.way) aim_from_axis(f, outward, cells, i);
+      total += spread_cells(f, outward, cells, i);
+    }
     for (int i = 0; i < group; ++i)
       for (int corner = 0; corner < 4; ++corner) f.weights(0)[cells.to[corner][i]] += cells.part[corner][i];
     count = 0;
@@ -215,9 +281,12 @@ double SpreadOutward(ToolFootprint& f, const Outward& outward) {
         const int col = g * group + std::countr_zero(flags);
         cells.x[count] = col - axis_x, cells.y[count] = row - axis_y;
         cells.excess[count] = f.excess(row)[col];
+        if (outward.way)
+          outward.way->aim(row, col, cells.x[count], cells.y[count], cells.to_x[count], cells.to_y[count]);
         if (++count == group) spread();
       }
-  for (int rest = count; rest < group; ++rest) cells.x[rest] = cells.y[rest] = cells.excess[rest] = 0.0;
+  for (int rest = count; rest < group; ++rest)
+    cells.x[rest] = cells.y[rest] = cells.excess[rest] = cells.to_x[rest] = cells.to_y[rest] = 0.0;
   if (count > 0) spread();
   alignas(64) double sums[group] = {};
   hn::Store(total, d, sums);
@@ -250,6 +319,8 @@ namespace sandstroke {
 HWY_EXPORT(LevelOf);
 HWY_EXPORT(CarveOnly);
 HWY_EXPORT(CarveForRing);
+HWY_EXPORT(CarveUnder);
+HWY_EXPORT(CoverUpTo);
 HWY_EXPORT(SpreadOutward);
 HWY_EXPORT(Heap);
 
@@ -262,6 +333,12 @@ double carve(const FootprintShape& shape, ToolFootprint& footprint, double tip_h
 Carved carve_for_ring(const FootprintShape& shape, ToolFootprint& footprint, double tip_height,
                       const RingFront& front) {
   return HWY_DYNAMIC_DISPATCH(CarveForRing)(shape, footprint, tip_height, front);
+}
+CarvedUnder carve_under(const EnvelopePlace& envelope, ToolFootprint& footprint, double tip_height) {
+  return HWY_DYNAMIC_DISPATCH(CarveUnder)(envelope, footprint, tip_height);
+}
+void cover_up_to(ToolFootprint& footprint, double height) {
+  HWY_DYNAMIC_DISPATCH(CoverUpTo)(footprint, height);
 }
 double spread_outward(ToolFootprint& footprint, const Outward& outward) {
   return HWY_DYNAMIC_DISPATCH(SpreadOutward)(footprint, outward);

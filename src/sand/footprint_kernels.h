@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 
 #include "sand/tool_footprint.h"
 
@@ -32,10 +33,22 @@ struct Carved {
 Carved carve_for_ring(const FootprintShape& shape, ToolFootprint& footprint, double tip_height,
                       const RingFront& front);
 
-/// Where the cut cells' sand goes along the tool's outward normal, to `distance` [m] from the axis.
+/// And so of any tool, by its envelope: underside() is infinite beside its footprint. highest [m above the
+/// tip]: of what touched sand, -infinity where nothing did.
+struct CarvedUnder {
+  double pushed, highest;
+};
+CarvedUnder carve_under(const EnvelopePlace& envelope, ToolFootprint& footprint, double tip_height);
+/// Of underside() only what is no higher than `height` [m above the tip] counts: it is infinite elsewhere,
+/// and takes() sand.
+void cover_up_to(ToolFootprint& footprint, double height);
+
+/// Where the cut cells' sand goes along the tool's outward normal: of a sphere to `distance` [m] from the
+/// axis, of any other tool by its way out.
 struct Outward {
   double distance;
   double shift;  ///< m: x + shift - shift rounds x so that sums of such parts are exact
+  std::optional<WayOutPlace> way = {};
 };
 /// Fills weights() with that sand: each cell's is shared among the four cells around its place (linearly)
 /// that take any. Sand right on the axis, or with no such cell, is left out. Returns the sum.

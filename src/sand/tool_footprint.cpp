@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "sand/footprint_kernels.h"
+#include "tool/tool_surface.h"
 
 namespace sandstroke {
 namespace {
@@ -24,13 +25,31 @@ std::pair<int, int> cells_between(double low, double high, int count) {
 ToolFootprint::ToolFootprint(const ToolSettings& settings)
     : shape_{settings.profile, settings.radius, settings.radius * settings.radius / filter::u0,
              settings.radius / (2.0 * filter::u0), settings.radius * std::sqrt(filter::u1 / filter::u0)},
-      level_(std::numeric_limits<double>::quiet_NaN()) {}
+      level_(std::numeric_limits<double>::quiet_NaN()) {
+  if (settings.shape == ToolShape::sphere) return;
+  surface_ = tool_surface(settings);
+  rotation_ = own_rotation(settings);
+  shape_.radius = shape_.reach = horizontal_reach(turned(surface_, rotation_));
+}
+
+void ToolFootprint::turn(const Eigen::Matrix3d& rotation) {
+  if (is_sphere() || rotation == rotation_) return;
+  if (envelope_) {
+    double farthest = 0.0;  // m
+    for (const Eigen::Vector3d& vertex : surface_.vertices) farthest = std::max(farthest, vertex.norm());
+    const double allowed = envelope_->cell_size() / (8.0 * envelope_->phases());
+    if ((rotation - rotation_).norm() * farthest < allowed) return;
+  }
+  rotation_ = rotation;
+  envelope_.reset();
+}
 
 void ToolFootprint::place(const HeightField& bed, double x, double y) {
   cells_ = {};
   level_ = std::numeric_limits<double>::quiet_NaN();
   bed_ = bed;
   axis_x_ = x / cell_size(), axis_y_ = y / cell_size();
+  if (!is_sphere()) return place_envelope(bed);
   const double extent = shape_.reach / cell_size() + 1.0;  // cells; beyond it the level weight is 0
   if (!(std::abs(axis_y_) <= bed.rows_from_centre(bed.rows() - 1) + extent)) return;
   if (!(std::abs(axis_x_) <= bed.cols_from_centre(bed.cols() - 1) + extent)) return;
@@ -40,11 +59,88 @@ void ToolFootprint::place(const HeightField& bed, double x, double y) {
     cells_ = {};
     return;
   }
-  first_x_ = bed.cols_from_centre(cells_.col_begin), first_y_ = bed.rows_from_centre(cells_.row_begin);
-  stride_ = (cells_.cols() + cells_per_group - 1) / cells_per_group * cells_per_group;
-  make_room();
+  take_window();
   read_heights(bed);
   level_ = level_of(shape_, *this);
+}
+
+void ToolFootprint::take_window() {
+  first_x_ = bed_.cols_from_centre(cells_.col_begin), first_y_ = bed_.rows_from_centre(cells_.row_begin);
+  stride_ = (cells_.cols() + cells_per_group - 1) / cells_per_group * cells_per_group;
+  make_room();
+}
+
+void ToolFootprint::place_envelope(const HeightField& bed) {
+  if (!envelope_ || envelope_->cell_size() != bed.cell_size()) {
+    envelope_.emplace(turned(surface_, rotation_), bed.cell_size());
+    shape_.radius = shape_.reach = envelope_->reach();
+  }
+  constexpr double beyond_any_bed = 1e6;  // cells
+  if (!(std::abs(axis_x_) < beyond_any_bed && std::abs(axis_y_) < beyond_any_bed)) return;
+  const int last_row = envelope_->first_row() + envelope_->rows() - 2,
+            last_col = envelope_->first_col() + envelope_->cols() - 2;
+  std::tie(cells_.row_begin, cells_.row_end) =
+      cells_between(axis_y_ + envelope_->first_row(), axis_y_ + last_row, bed.rows());
+  std::tie(cells_.col_begin, cells_.col_end) =
+      cells_between(axis_x_ + envelope_->first_col(), axis_x_ + last_col, bed.cols());
+  if (cells_.empty()) {
+    cells_ = {};
+    return;
+  }
+  take_window();
+  read_heights(bed);
+  find_first_sample();
+  level_ = fit_sand_plane(bed, axis_x_ * cell_size(), axis_y_ * cell_size(), envelope_->reach()).height;
+}
+
+void ToolFootprint::find_first_sample() {
+  // On multiples of 2^-30 what is left to a sample and to the next one are exact, either way round.
+  const auto split = [&](double cells, int first, int& sample, double& rest) {
+    const double place = std::round(envelope_->phases() * cells * 0x1p30) * 0x1p-30;
+    const double whole = std::floor(place);
+    rest = place - whole;
+    sample = std::max(static_cast<int>(whole) - first * envelope_->phases(), 0);
+  };
+  split(first_x_ - axis_x_, envelope_->first_col(), sample_col_, sample_x_);
+  split(first_y_ - axis_y_, envelope_->first_row(), sample_row_, sample_y_);
+}
+
+double ToolFootprint::covered_height(double tip_height, double touched) const {
+  const double depth = level_ - (tip_height + lowest());
+  return envelope_->covered_height(std::max(lowest() + (depth > 0.0 ? 2.0 * depth : 0.0), touched));
+}
+
+EnvelopePlace ToolFootprint::envelope_place() const {
+  EnvelopePlace place;
+  place.stride = envelope_->stride();
+  const int phases = envelope_->phases();
+  for (int corner = 0; corner < 4; ++corner) {
+    const int right = corner % 2, up = corner / 2, row = sample_row_ + up, col = sample_col_ + right;
+    const std::size_t at = envelope_->at(row / phases, col / phases, row % phases, col % phases);
+    place.underside[corner] = envelope_->underside() + at;
+    place.cover[corner] = envelope_->cover() + at;
+    place.weight[corner] = (right ? sample_x_ : 1.0 - sample_x_) * (up ? sample_y_ : 1.0 - sample_y_);
+  }
+  return place;
+}
+
+double ToolFootprint::carve(double tip_height) {
+  const CarvedUnder carved = carve_under(envelope_place(), *this, tip_height);
+  covered_ = covered_height(tip_height, carved.highest);
+  cover_up_to(*this, covered_);
+  return carved.pushed;
+}
+
+void ToolFootprint::stand(double tip_height) {
+  if (!cells_.empty()) covered_ = covered_height(tip_height, -std::numeric_limits<double>::infinity());
+}
+
+WayOutPlace ToolFootprint::way_out(double distance) {
+  const int phases = envelope_->phases();
+  const WayOut& way = envelope_->way_out(covered_, distance);
+  const int row = sample_row_ + (sample_y_ >= 0.5), col = sample_col_ + (sample_x_ >= 0.5);
+  const std::size_t at = envelope_->at(row / phases, col / phases, row % phases, col % phases);
+  return {way.x.data() + at, way.y.data() + at, envelope_->stride()};
 }
 
 void ToolFootprint::make_room() {
@@ -120,8 +216,12 @@ void ToolFootprint::write_flagged(HeightField& bed) {
 
 void ToolFootprint::hold_bowl(HeightField& bed) {
   constexpr int side = BedGeometry::tile_side;
+  constexpr double nowhere = std::numeric_limits<double>::infinity();
   bowl_.clear();
-  carve(shape_, *this, std::numeric_limits<double>::infinity());
+  if (is_sphere())
+    sandstroke::carve(shape_, *this, nowhere);
+  else if (!cells_.empty())
+    carve_under(envelope_place(), *this, nowhere), cover_up_to(*this, covered_);
   for (int row = 0; row < cells_.rows(); ++row) {
     std::fill_n(flags(row), stride_ / cells_per_group, static_cast<unsigned char>(0));
     for (int col = 0; col < cells_.cols(); ++col)

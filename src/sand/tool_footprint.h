@@ -2,9 +2,12 @@
 
 #include <hwy/aligned_allocator.h>
 
+#include <optional>
 #include <vector>
 
 #include "sand/height_field.h"
+#include "sand/sand_plane.h"
+#include "sand/tool_envelope.h"
 #include "tool/tool_settings.h"
 
 namespace sandstroke {
@@ -27,16 +30,42 @@ struct FootprintShape {
   double reach;          ///< m, rho1 = s sqrt(u1)
 };
 
+/// Where a window of cells lies in a tool's envelope: the samples around its first cell, and how near they
+/// are. Corners: lower left, lower right, upper left, upper right.
+struct EnvelopePlace {
+  const double* underside[4];
+  const double* cover[4];
+  double weight[4];
+  int stride;
+};
+/// Where sand of a window's cells leaves the tool.
+struct WayOutPlace {
+  const double *x, *y;  ///< of its first cell [cells]
+  int stride;
+  /// Of a cell at (x, y) from the axis [cells]; not a number: nowhere.
+  void aim(int row, int col, double at_x, double at_y, double& to_x, double& to_y) const {
+    const std::ptrdiff_t i = static_cast<std::ptrdiff_t>(row) * stride + col;
+    const bool goes = x[i] != 0.0 || y[i] != 0.0;
+    to_x = goes ? at_x + x[i] : std::numeric_limits<double>::quiet_NaN();
+    to_y = at_y + y[i];
+  }
+};
+
 /// The cells under and around a tool at a sub-cell position: the sand there, and what each cell means to the
 /// tool. A window of rows x cols cells, kept row after row, `stride` doubles apart (whole groups; what
 /// lies beyond cols has no weight). Placing it again reuses the memory.
 class ToolFootprint {
  public:
-  /// Needs radius > 0.
+  /// Needs radius > 0; a mesh that was read.
   explicit ToolFootprint(const ToolSettings& settings);
 
+  /// Turns the tool [its frame in the bed]; of a sphere nothing changes. Seen at the next place(). What moves
+  /// no point of it by an eighth of a sample's distance or more is left undone.
+  void turn(const Eigen::Matrix3d& rotation);
+  bool is_sphere() const { return surface_.vertices.empty(); }
+
   /// Moves the tool's axis to (x, y) [m] and reads the sand there. Cells outside the bed, or beyond its wall,
-  /// are left out.
+  /// are left out. Error: input, where a tool other than the sphere is too thin or too large for the cells.
   void place(const HeightField& bed, double x, double y);
 
   /// The window, in cells of the bed; empty where the tool is outside it.
@@ -58,8 +87,11 @@ class ToolFootprint {
 
   /// Mean height [m] under the footprint (u <= u1 in full, fading out within a cell around it, so that it
   /// changes continuously as the tool moves). Displacement moves sand only where the weight is 1: it does not
-  /// change the level. NaN where the footprint lies outside the bed.
+  /// change the level. NaN where the footprint lies outside the bed. Of any tool but the sphere: of the plane
+  /// around it, at its axis.
   double sand_level() const { return level_; }
+  /// Its lowest point above its tip [m].
+  double lowest() const { return envelope_ ? envelope_->lowest() : 0.0; }
 
   /// Reads the sand again, from the bed that it was placed on.
   void read_heights(const HeightField& bed);
@@ -86,18 +118,41 @@ class ToolFootprint {
   /// m, the sand that carve() took out of the flagged cells.
   double* excess(int row) { return excess_.get() + at(row); }
 
-  /// The bed holds the cells of the bowl, and no others (HeightField::hold).
+  // --- any tool but the sphere (!is_sphere()), where the window is not empty ---
+  /// Cuts the sand to its underside, the tip at `tip_height` [m]; what was taken out [m]. What of it counts
+  /// as covered goes up from its lowest point to twice its depth, and wherever it touched sand: an overhang
+  /// far above the sand holds none off.
+  double carve(double tip_height);
+  /// The same, without cutting.
+  void stand(double tip_height);
+  /// Where sand goes from there, to (distance - 1) inradii beyond the edge.
+  WayOutPlace way_out(double distance);
+
+  /// The bed holds the cells of the bowl, and no others (HeightField::hold). Of any tool but
+  /// the sphere: what it covered when it carved or stood last.
   void hold_bowl(HeightField& bed);
 
-  double radius() const { return shape_.radius; }  ///< m, of the sphere
+  double radius() const { return shape_.radius; }  ///< m, of the sphere; else the footprint's reach
   /// rho1 = s sqrt(u1) [m]: how far the footprint reaches.
   double reach() const { return shape_.reach; }
 
  private:
   std::size_t at(int row) const { return static_cast<std::size_t>(row) * stride_; }
   void make_room();
+  void take_window();
+  void place_envelope(const HeightField& bed);
+  /// The sample at the window's first cell (row, column), from the envelope's first, and what is left to it.
+  void find_first_sample();
+  EnvelopePlace envelope_place() const;
+  double covered_height(double tip_height, double touched) const;
 
   FootprintShape shape_;
+  TriangleMesh surface_;  // of any tool but the sphere
+  Eigen::Matrix3d rotation_;
+  std::optional<ToolEnvelope> envelope_;
+  int sample_row_ = 0, sample_col_ = 0;
+  double sample_y_ = 0.0, sample_x_ = 0.0;
+  double covered_ = 0.0;  // m above the tip: what of the tool is no higher covers cells
   BedGeometry bed_{1, 1, 1.0};
   CellRange cells_;
   int stride_ = 0;

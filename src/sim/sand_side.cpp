@@ -22,7 +22,7 @@ Interaction SandSide::look(const HeightField& bed, const Eigen::Vector3d& read_t
   footprint_.place(bed, read_tip.x(), read_tip.y());
   Interaction interaction;
   interaction.level = footprint_.sand_level();
-  const double depth = interaction.level - read_tip.z();
+  const double depth = interaction.level - (read_tip.z() + footprint_.lowest());
   interaction.contact = depth > 0.0;
   if (!std::isnan(depth)) interaction.depth = depth;
   return interaction;
@@ -30,8 +30,10 @@ Interaction SandSide::look(const HeightField& bed, const Eigen::Vector3d& read_t
 
 Interaction SandSide::dig(HeightField& bed, const Eigen::Vector3d& tip, const Eigen::Vector3d& motion) {
   Interaction interaction = look(bed, tip);
-  if (interaction.contact)
+  // Any tool but the sphere may meet a heap beside the level around it.
+  if (interaction.contact || !footprint_.is_sphere())
     interaction.displaced_volume = displace(bed, footprint_, tip.z(), motion, displacement_);
+  interaction.contact |= interaction.displaced_volume > 0.0;
   tip_ = tip;
   contact_ = interaction.contact;
   return interaction;
@@ -39,6 +41,7 @@ Interaction SandSide::dig(HeightField& bed, const Eigen::Vector3d& tip, const Ei
 
 void SandSide::put(const HeightField& bed, const Eigen::Vector3d& read_tip, bool contact) {
   footprint_.place(bed, read_tip.x(), read_tip.y());
+  if (!footprint_.is_sphere()) footprint_.stand(read_tip.z());
   tip_ = read_tip;
   contact_ = contact;
 }

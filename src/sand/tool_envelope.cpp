@@ -1,0 +1,160 @@
+#include "sand/tool_envelope.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/elementary.h"
+#include "core/error.h"
+#include "sand/cell_flags.h"
+#include "sand/distance_transform.h"
+
+namespace sandstroke {
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+constexpr double most_samples = 1.6e7;  // 130 MB per field
+constexpr double most_distance = 1.4;   // as displacement.distance may be
+
+double cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
+
+}  // namespace
+
+ToolEnvelope::ToolEnvelope(const TriangleMesh& surface, double cell_size) : cell_size_(cell_size) {
+  Eigen::AlignedBox3d box;
+  for (const Vector3d& vertex : surface.vertices) box.extend(vertex);
+  const Vector2d size = box.sizes().head<2>();
+  const double margin = (most_distance - 1.0) * 0.5 * size.minCoeff() + 3.0 * cell_size;
+  const auto first = [&](double low) { return std::floor((low - margin) / cell_size); };
+  const auto count = [&](double low, double high) {
+    return std::ceil((high + margin) / cell_size) - first(low) + 1.0;
+  };
+  const double cols = count(box.min().x(), box.max().x()), rows = count(box.min().y(), box.max().y());
+  while (phases_ > 1 && cols * rows * phases_ * phases_ > most_samples) phases_ /= 2;
+  if (!(cols * rows <= most_samples))
+    throw_input_error(
+        "the tool is {:.4g} m by {:.4g} m, which is {:.3g} cells; take a smaller tool or fewer bed.cells",
+        size.x(), size.y(), size.x() * size.y() / (cell_size * cell_size));
+  first_col_ = static_cast<int>(first(box.min().x())), first_row_ = static_cast<int>(first(box.min().y()));
+  cols_ = static_cast<int>(cols), rows_ = static_cast<int>(rows);
+  stride_ = cols_ + 2 * cells_per_group;
+  rasterise(surface);
+}
+
+void ToolEnvelope::rasterise(const TriangleMesh& surface) {
+  const std::size_t samples = at(0, 0, phases_, 0);
+  underside_.assign(samples, infinite);
+  cover_.assign(samples, 0.0);
+  for (std::size_t i = 0; i < surface.triangles.size(); ++i)
+    draw_triangle(surface.corner(i, 0), surface.corner(i, 1), surface.corner(i, 2));
+  lowest_ = infinite, highest_ = -infinite;
+  for (int row = 0; row < sample_rows(); ++row)
+    for (int col = 0; col < sample_cols(); ++col) {
+      const double height = underside_[at_sample(row, col)];
+      if (height == infinite) continue;
+      cover_[at_sample(row, col)] = 1.0;
+      lowest_ = std::min(lowest_, height), highest_ = std::max(highest_, height);
+      const Vector2d place(first_col_ + static_cast<double>(col) / phases_,
+                           first_row_ + static_cast<double>(row) / phases_);
+      reach_ = std::max(reach_, cell_size_ * elementary::hypot(place.x(), place.y()));
+    }
+  if (lowest_ == infinite)
+    throw_input_error(
+        "the tool is so thin that it covers no cell of the bed; take more bed.cells or a thicker tool");
+  continue_beyond_edge();
+}
+
+/// The samples over a triangle, its edges among them, take its height where that is lower.
+void ToolEnvelope::draw_triangle(const Vector3d& a, const Vector3d& b, const Vector3d& c) {
+  const double per_metre = phases_ / cell_size_;
+  const auto place = [&](const Vector3d& p) { return Vector2d(per_metre * p.x(), per_metre * p.y()); };
+  const Vector2d A = place(a), B = place(b), C = place(c);
+  const double area = cross(B - A, C - A);
+  if (std::abs(area) < 1e-9) return;  // upright: its neighbours cover its edges
+  const double slack = -1e-9 * std::abs(area), low_z = std::min({a.z(), b.z(), c.z()}),
+               high_z = std::max({a.z(), b.z(), c.z()});
+  const Vector2d low = A.cwiseMin(B).cwiseMin(C), high = A.cwiseMax(B).cwiseMax(C);
+  const int origin_x = first_col_ * phases_, origin_y = first_row_ * phases_;
+  for (int y = static_cast<int>(std::ceil(low.y() - 1e-9)); y <= std::floor(high.y() + 1e-9); ++y)
+    for (int x = static_cast<int>(std::ceil(low.x() - 1e-9)); x <= std::floor(high.x() + 1e-9); ++x) {
+      const Vector2d P(x, y);
+      const double u = cross(C - B, P - B), v = cross(A - C, P - C), w = cross(B - A, P - A);
+      const double sign = area > 0.0 ? 1.0 : -1.0;
+      if (sign * u < slack || sign * v < slack || sign * w < slack) continue;
+      const double z = std::clamp((u * a.z() + v * b.z() + w * c.z()) / area, low_z, high_z);
+      double& height = underside_[at_sample(y - origin_y, x - origin_x)];
+      height = std::min(height, z);
+    }
+}
+
+/// Between a covered sample and its neighbour heights are interpolated: that needs one there.
+void ToolEnvelope::continue_beyond_edge() {
+  std::vector<double> continued = underside_;
+  for (int row = 0; row < sample_rows(); ++row)
+    for (int col = 0; col < sample_cols(); ++col) {
+      double& here = continued[at_sample(row, col)];
+      if (here < infinite) continue;
+      for (int r = std::max(row - 1, 0); r <= std::min(row + 1, sample_rows() - 1); ++r)
+        for (int c = std::max(col - 1, 0); c <= std::min(col + 1, sample_cols() - 1); ++c)
+          here = std::min(here, underside_[at_sample(r, c)]);
+    }
+  for (double& height : continued)
+    if (height == infinite) height = 0.0;
+  underside_ = std::move(continued);
+}
+
+double ToolEnvelope::covered_height(double height) const {
+  // Multiples of a cell by powers of sqrt(2), above the lowest point.
+  double steps = cell_size_;
+  for (int k = 0; lowest_ + steps < height && lowest_ + steps < highest_; ++k)
+    steps *= k % 2 == 0 ? 1.5 : 4.0 / 3.0;
+  return std::min(lowest_ + steps, highest_);
+}
+
+const WayOut& ToolEnvelope::way_out(double height, double distance) {
+  const auto found = ways_out_.find(height);
+  return found != ways_out_.end() ? found->second
+                                  : ways_out_.emplace(height, make_way_out(height, distance)).first->second;
+}
+
+WayOut ToolEnvelope::make_way_out(double height, double distance) const {
+  const int rows = sample_rows(), cols = sample_cols();
+  std::vector<unsigned char> covered(static_cast<std::size_t>(rows) * static_cast<std::size_t>(cols));
+  const auto index = [&](int row, int col) {
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(cols) + static_cast<std::size_t>(col);
+  };
+  for (int row = 0; row < rows; ++row)
+    for (int col = 0; col < cols; ++col)
+      covered[index(row, col)] =
+          cover_[at_sample(row, col)] > 0.0 && underside_[at_sample(row, col)] <= height;
+  const std::vector<double> inside = signed_distance(covered, rows, cols);
+  const double deepest = *std::max_element(inside.begin(), inside.end());
+
+  WayOut way;
+  way.inradius = deepest * cell_size_ / phases_;
+  way.x.assign(underside_.size(), 0.0);
+  way.y.assign(underside_.size(), 0.0);
+  const double beyond = std::max((distance - 1.0) * deepest, 0.5 * phases_);  // samples
+  constexpr int around = 3;
+  for (int row = around; row < rows - around; ++row)
+    for (int col = around; col < cols - around; ++col) {
+      if (!covered[index(row, col)]) continue;
+      // Outward: down the distance, by least squares. The sums are of multiples of a quantum, so exact, and
+      // nothing where two edges are as near.
+      Vector2d outward = Vector2d::Zero();
+      for (int r = -around; r <= around; ++r)
+        for (int c = -around; c <= around; ++c) outward -= inside[index(row + r, col + c)] * Vector2d(c, r);
+      const double length = elementary::hypot(outward.x(), outward.y());
+      if (length == 0.0) continue;
+      const double far = (inside[index(row, col)] + beyond) / (length * phases_);
+      way.x[at_sample(row, col)] = far * outward.x();
+      way.y[at_sample(row, col)] = far * outward.y();
+    }
+  return way;
+}
+
+}  // namespace sandstroke

@@ -1,0 +1,76 @@
+#pragma once
+
+#include <map>
+#include <vector>
+
+#include "tool/triangle_mesh.h"
+
+namespace sandstroke {
+
+/// Where sand leaves a tool: of each sample that a part of it covers, how far [cells] and where to.
+struct WayOut {
+  std::vector<double> x, y;  ///< as ToolEnvelope's samples; both 0 where no edge is nearest
+  double inradius = 0.0;     ///< m, of the largest circle that the part covers
+};
+
+/// A tool's underside over the bed while it does not turn: the lowest height of its surface above every
+/// place, on a grid of `phases` samples per cell and direction. Samples are kept phase by phase, so that the
+/// cells of a bed, wherever the tool is, read neighbouring numbers. A tool is solid from there up: sand that
+/// lies on top of an overhang is pushed aside, too.
+class ToolEnvelope {
+ public:
+  /// surface: as it is turned, tip at the origin [m]. Error: input, where it covers no sample.
+  ToolEnvelope(const TriangleMesh& surface, double cell_size);
+
+  double cell_size() const { return cell_size_; }
+  int phases() const { return phases_; }
+  /// The samples' grid, in cells of the bed from the tip's: first and how many. Three cells and what sand is
+  /// put beside the tool are around its footprint.
+  int first_col() const { return first_col_; }
+  int first_row() const { return first_row_; }
+  int cols() const { return cols_; }
+  int rows() const { return rows_; }
+  /// From a row to the next in the samples of a phase; whole groups may be read from any of cols().
+  int stride() const { return stride_; }
+  /// Of a sample `phase_x` and `phase_y` samples right of and above the lower left corner of a cell of the
+  /// grid.
+  std::size_t at(int row, int col, int phase_y, int phase_x) const {
+    return (static_cast<std::size_t>(phase_y * phases_ + phase_x) * static_cast<std::size_t>(rows_) +
+            static_cast<std::size_t>(row)) *
+               static_cast<std::size_t>(stride_) +
+           static_cast<std::size_t>(col);
+  }
+  /// m above the tip; beside the footprint as at its edge.
+  const double* underside() const { return underside_.data(); }
+  /// 1 under the tool, else 0: its edge is where what lies between two samples is 1/2.
+  const double* cover() const { return cover_.data(); }
+  double lowest() const { return lowest_; }    ///< m above the tip, of the underside
+  double highest() const { return highest_; }  ///< m
+  double reach() const { return reach_; }      ///< m, of the footprint from the axis
+
+  /// The way to the nearest edge of the part of the footprint that is no higher than `height` [m above the
+  /// tip], and beyond it by (distance - 1) inradii, half a cell at least. Made when it is asked for first.
+  const WayOut& way_out(double height, double distance);
+  /// That height, rounded up to one of a few: so often the way is made anew.
+  double covered_height(double height) const;
+
+ private:
+  void rasterise(const TriangleMesh& surface);
+  void draw_triangle(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c);
+  void continue_beyond_edge();
+  int sample_cols() const { return cols_ * phases_; }
+  int sample_rows() const { return rows_ * phases_; }
+  std::size_t at_sample(int row, int col) const {
+    return at(row / phases_, col / phases_, row % phases_, col % phases_);
+  }
+  WayOut make_way_out(double height, double distance) const;
+
+  double cell_size_;
+  int phases_ = 4;
+  int first_col_ = 0, first_row_ = 0, cols_ = 0, rows_ = 0, stride_ = 0;
+  double lowest_ = 0.0, highest_ = 0.0, reach_ = 0.0;
+  std::vector<double> underside_, cover_;
+  std::map<double, WayOut> ways_out_;  // by covered height
+};
+
+}  // namespace sandstroke
