@@ -28,6 +28,7 @@
 #include "sim/recorded_force.h"
 #include "sim/simulation.h"
 #include "sim/stroke_depth.h"
+#include "tool/tool_surface.h"
 
 namespace sandstroke {
 namespace {
@@ -116,7 +117,7 @@ void print_summary(const RunResult& r, const Scene& scene, const std::string& ou
                                     r.contact_ticks));
     print_row("speed", fmt::format("{:.1f} times real time", r.simulated_seconds / r.wall_seconds));
     print_row("deepest", fmt::format("{:.3f} mm", 1e3 * r.max_depth));
-    const bool drag = r.furrow && r.furrow->length >= scene.tool.radius;  // a plunge asks for no furrow
+    const bool drag = r.furrow && r.furrow->length >= tool_reach(scene.tool);  // a plunge asks for no furrow
     if (drag && !std::isnan(r.furrow->depth) && !std::isnan(r.furrow->asked_depth))
       print_row("furrow",
                 fmt::format("{:.2f} mm deep; the stroke {} {:.2f} mm (medians)", 1e3 * r.furrow->depth,
@@ -183,14 +184,13 @@ void warn_of(const RunResult& result, const Scene& scene) {
   if (result.furrow) warn_if_any(furrow_warning(scene, *result.furrow));
   if (scene.device.model == DeviceModel::dynamic && loop_returned_energy(result.device, scene.device))
     spdlog::warn("the sand returned up to {:.3g} J more than it took: the loop was not passive; {}",
-                 -result.device.least_absorbed_energy,
-                 loop_remedies(scene.device, result.device.max_drag_force));
+                 -result.device.least_absorbed_energy, loop_remedies(scene, result.device.max_drag_force));
   if (result.device.held_drag_ticks > 0) warn_of_held_drag(result.device, scene);
   if (result.device.swings_from)
     spdlog::error(
         "the device swings by itself from {:.3f} s on, by energy that the sand returns swing after swing: "
         "the loop is unstable; {}",
-        *result.device.swings_from, loop_remedies(scene.device, result.device.max_drag_force));
+        *result.device.swings_from, loop_remedies(scene, result.device.max_drag_force));
   if (!result.relaxation.converged)
     spdlog::warn(
         "the sand is not at rest (residual {:.2e}, tolerance {:.2e}); raise relaxation.max_passes or "

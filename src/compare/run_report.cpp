@@ -12,6 +12,7 @@
 #include "compare/page_sand.h"
 #include "compare/trace_difference.h"
 #include "io/scene_toml.h"
+#include "tool/tool_surface.h"
 
 namespace sandstroke {
 namespace {
@@ -93,7 +94,7 @@ void add_stroke(PageOfParts& page, const RunFile& run, const LastSurface& last) 
   page.data["figures"] = figures_of(trace, gatherer.furrow(initial, last.surface));
   page.add_part("A profile of the sand", [&] {
     if (gatherer.path().points.empty()) throw_input_error("{}: the tool never touched it", run.name());
-    return profiles_part(gatherer.path(), scene.tool.radius, initial, last);
+    return profiles_part(gatherer.path(), tool_reach(scene.tool), initial, last);
   });
 }
 

@@ -32,6 +32,8 @@ class Gatherer : public SimulationObserver {
 std::vector<FeltTick> felt_ticks(const Scene& asked, const std::filesystem::path& scene_folder) {
   if (!asked.stroke)
     throw_input_error("the scene has no stroke; name one that was recorded with forces: --stroke FILE");
+  if (asked.force.law != ForceLaw::paper)
+    throw_input_error("the constants of force.law = \"paper\" are fitted; set it (--set force.law=paper)");
   Scene scene = asked;
   scene.device.model = DeviceModel::kinematic;
   const std::filesystem::path path = stroke_path(scene, scene_folder);

@@ -6,6 +6,8 @@
 
 namespace sandstroke {
 
+/// paper: of depth and velocity, as published. rft, archimedes: of the contact (sim/contact_force.h).
+enum class ForceLaw { paper, rft, archimedes };
 enum class DragDirection { horizontal, full };
 
 /// Constants of the force on the device; the defaults are the paper's (section 4.1).
@@ -14,6 +16,7 @@ struct ForceSettings {
   double k_c = 0.5;     ///< 1/m, its growth with depth
   double k_f = 10.0;    ///< s/m, drag per speed and repulse force
   DragDirection drag = DragDirection::horizontal;
+  ForceLaw law = ForceLaw::paper;
 };
 
 /// Sand as a device feels it that moves `scale` bed metres per metre: what its motion is resisted by, about a

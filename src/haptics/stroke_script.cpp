@@ -276,6 +276,11 @@ bool presses_by_force(const StrokeScript& script) {
 }
 
 Stroke trace_script(const StrokeScript& script, const ForceSettings& force) {
+  if (presses_by_force(script) && force.law != ForceLaw::paper)
+    throw_input_error(
+        "{}: it presses by force, which is known for the paper's law only; give depths, or set force.law = "
+        "\"paper\"",
+        script.name);
   if (script.segments.empty()) throw_input_error("{}: it has no segments; add at least one", script.name);
   Pen pen(script);
   for (int turn = 0; turn < script.repeat; ++turn) {

@@ -22,6 +22,7 @@ const HeightField& checked(const Scene& scene, const HeightField& bed) {
   };
   refuse_unless(scene.device.model == DeviceModel::kinematic, "device.model",
                 "\"dynamic\" simulates a device, and the hand holds a real one");
+  refuse_unless(scene.force.law == ForceLaw::paper, "force.law", "only the paper's is felt live");
   if (scene.stroke) {
     const StrokePlacement& placement = scene.stroke->placement;
     refuse_unless(placement.plane == StrokePlane::keep, "stroke.plane",

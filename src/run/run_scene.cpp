@@ -129,6 +129,7 @@ RunResult run_scene(const Scene& asked, const std::filesystem::path& output, con
   if (stroke) result.furrow = path.furrow(*start, simulation.bed());
   bar.reset();
   writer.end(result, simulation.bed());
+  if (stroke) warn_if_any(theory_warning(scene, result.max_contact_speed));
   if (result.interrupted) return result;
   if (options.second) {
     if (options.progress) spdlog::info("estimating the error");

@@ -31,35 +31,62 @@ double DeviceSide::faded_in(const TickRecord& record) {
   }
   if (!fading_since_) return 1.0;
   const double share = record.contact ? (record.time - *fading_since_) / fade_in : 1.0;
-  const DeviceSettings& d = device_.settings();
-  if (record.contact)
-    energy_.give((std::min(share, 1.0) - share_) * plunge_work(record.depth, d.max_force, force_) / d.scale);
+  if (record.contact) energy_.give((std::min(share, 1.0) - share_) * stored(record));
   share_ = share;
   if (share >= 1.0) fading_since_.reset();
   return std::min(share, 1.0);
 }
 
+double DeviceSide::stored(const TickRecord& record) const {
+  const DeviceSettings& d = device_.settings();
+  const double of_sand = of_contact() ? record.wrench.stored : plunge_work(record.depth, d.max_force, force_);
+  return of_sand / d.scale;
+}
+
+double DeviceSide::stiffness(const TickRecord& record) const {
+  const double scale = device_.settings().scale;
+  return of_contact() ? scale * record.wrench.stiffness
+                      : felt_sand(record.depth, 0.0, scale, force_).stiffness;
+}
+
+void DeviceSide::feel_contact(TickRecord& record, double share, Eigen::Vector3d& computed) {
+  const Eigen::Vector3d& force = record.wrench.force;
+  const double most = device_.settings().max_force, size = length_of(force);
+  record.repulse_force = {0.0, 0.0, force.z()};
+  record.drag_force = {force.x(), force.y(), 0.0};
+  record.saturated = most > 0.0 && !(size <= most);
+  result_.max_drag_force = std::max(result_.max_drag_force, length_of(record.drag_force));
+  computed = record.saturated ? Eigen::Vector3d(share * most * force.stableNormalized()) : share * force;
+}
+
+void DeviceSide::feel_paper(TickRecord& record, double share, Eigen::Vector3d& computed) {
+  const SandForce force =
+      force_on_device(record.depth, device_, as_state(record.hand), as_state(record.next), force_);
+  record.repulse_force = {0.0, 0.0, force.repulse};
+  record.drag_force = force.drag;
+  record.saturated = force.saturated;
+  result_.max_drag_force = std::max(result_.max_drag_force, length_of(force.drag));
+  if (force.held_drag) {
+    ++result_.held_drag_ticks;
+    result_.held_drag = std::max(
+        result_.held_drag, felt_sand(record.depth, force.repulse, device_.settings().scale, force_).drag);
+  }
+  computed = share * force.total;
+}
+
 void DeviceSide::feel(TickRecord& record) {
   Eigen::Vector3d computed = Eigen::Vector3d::Zero();
   const double share = faded_in(record);
-  if (record.contact) {
-    const SandForce force =
-        force_on_device(record.depth, device_, as_state(record.hand), as_state(record.next), force_);
-    record.repulse_force = {0.0, 0.0, force.repulse};
-    record.drag_force = force.drag;
-    record.saturated = force.saturated;
-    result_.max_drag_force = std::max(result_.max_drag_force, length_of(force.drag));
-    if (force.held_drag) {
-      ++result_.held_drag_ticks;
-      result_.held_drag = std::max(
-          result_.held_drag, felt_sand(record.depth, force.repulse, device_.settings().scale, force_).drag);
-    }
-    computed = share * force.total;
-  }
+  if (record.contact)
+    of_contact() ? feel_contact(record, share, computed) : feel_paper(record, share, computed);
   record.device_force = late_force_.act(computed);
   record.dropped = late_force_.dropped();
-  record.passivity_margin = passivity_margin(record.contact ? record.depth : 0.0, record.repulse_force.z(),
-                                             force_, device_.settings());
+  if (of_contact())  // no drag that grows with speed
+    record.passivity_margin =
+        passivity_margin(record.contact ? stiffness(record) : 0.0, 0.0, device_.settings());
+  else
+    record.passivity_margin = passivity_margin(record.contact ? record.depth : 0.0, record.repulse_force.z(),
+                                               force_, device_.settings());
 }
 
 void DeviceSide::move(const TickRecord& record) {
@@ -74,9 +101,8 @@ void DeviceSide::watch(const TickRecord& record, const Eigen::Vector3d& motion) 
   const DeviceSettings& d = device_.settings();
   Eigen::Vector3d returned = record.device_force.cwiseProduct(motion);
   if (record.contact) {
-    most_stored_ = std::max(most_stored_, plunge_work(record.depth, d.max_force, force_) / d.scale);
-    const double stiffness = felt_sand(record.depth, 0.0, d.scale, force_).stiffness;
-    returned.z() -= 0.5 * d.resolution * stiffness * std::abs(motion.z());
+    most_stored_ = std::max(most_stored_, stored(record));
+    returned.z() -= 0.5 * d.resolution * stiffness(record) * std::abs(motion.z());
   }
   const Eigen::Vector3d hand = d.servo_rate * (record.next.position - record.hand.position);
   const bool swings = swing_.add(device_.state().velocity - hand, hand, returned, most_stored_, d.mass);
@@ -113,16 +139,19 @@ DeviceResult DeviceSide::result() const {
   if (contact_ticks_ > 0)
     result.mean_force = contact_force_.value() / static_cast<double>(contact_ticks_);
   else
-    result.least_passivity_margin = passivity_margin(0.0, 0.0, force_, device_.settings());
+    result.least_passivity_margin = passivity_margin(0.0, 0.0, device_.settings());
   return result;
 }
 
-std::string loop_remedies(const DeviceSettings& device, double max_drag_force) {
-  std::vector<std::string> lower = {"force.k_s"};
-  if (max_drag_force > 0.0) lower.emplace_back("force.k_f");
+std::string loop_remedies(const Scene& scene, double max_drag_force) {
+  const DeviceSettings& device = scene.device;
+  const bool paper = scene.force.law == ForceLaw::paper;
+  std::vector<std::string> lower = {paper ? "force.k_s" : "force.density"};
+  if (paper && max_drag_force > 0.0) lower.emplace_back("force.k_f");
   if (device.delay > 0) lower.emplace_back("device.delay");
   if (device.dropped_ticks > 0.0) lower.emplace_back("device.dropped_ticks");
-  return fmt::format("lower {}, or raise device.servo_rate or device.damping", fmt::join(lower, " or "));
+  return fmt::format("lower {}, or raise {}device.servo_rate or device.damping", fmt::join(lower, " or "),
+                     paper ? "" : "force.yield or ");
 }
 
 }  // namespace sandstroke

@@ -10,6 +10,7 @@
 #include "haptics/simulated_device.h"
 #include "haptics/swing_watch.h"
 #include "sim/run_result.h"
+#include "sim/scene.h"
 
 namespace sandstroke {
 
@@ -44,6 +45,13 @@ class DeviceSide {
   void move(const TickRecord& record);
   void watch(const TickRecord& record, const Eigen::Vector3d& motion);
   double faded_in(const TickRecord& record);
+  bool of_contact() const { return force_.law != ForceLaw::paper; }
+  /// At most, that the sand may give back there [J, of the device].
+  double stored(const TickRecord& record) const;
+  /// Of the sand there, as the device feels it [N/m].
+  double stiffness(const TickRecord& record) const;
+  void feel_paper(TickRecord& record, double share, Eigen::Vector3d& computed);
+  void feel_contact(TickRecord& record, double share, Eigen::Vector3d& computed);
 
   ForceSettings force_;
   SimulatedDevice device_;
@@ -60,7 +68,8 @@ class DeviceSide {
 };
 
 /// What to change where a loop is unstable or returns energy: the keys of a scene that have a part in it.
-/// "lower force.k_s or device.delay, or raise ...". max_drag_force [N]: 0 where drag did nothing.
-std::string loop_remedies(const DeviceSettings& device, double max_drag_force);
+/// "lower force.k_s or device.delay, or raise ..."; of any law but the paper's "raise force.yield ...".
+/// max_drag_force [N]: 0 where drag did nothing.
+std::string loop_remedies(const Scene& scene, double max_drag_force);
 
 }  // namespace sandstroke

@@ -218,11 +218,12 @@ FurrowMeasures measure_furrow(const HeightField& initial, const HeightField& fin
 
 std::string furrow_warning(const Scene& scene, const FurrowMeasures& furrow) {
   if (scene.device.model == DeviceModel::dynamic) return "";  // perhaps the hand gave way
-  if (furrow.length < 4.0 * scene.tool.radius || !(furrow.depth < 0.5 * furrow.asked_depth)) return "";
+  const double reach = tool_reach(scene.tool);
+  if (furrow.length < 4.0 * reach || !(furrow.depth < 0.5 * furrow.asked_depth)) return "";
   const std::string left = fmt::format("the furrow is {:.3g} mm deep; the stroke asked for {:.3g} mm",
                                        1e3 * furrow.depth, 1e3 * furrow.asked_depth);
   const bool solid = scene.tool.solid && scene.displacement.deposit == Deposit::outward;
-  if (!solid && furrow.asked_depth < 2.0 * scene.tool.radius)
+  if (!solid && furrow.asked_depth < 2.0 * reach)
     return left +
            ": sand slips into the tool, or is pushed into the furrow behind it, as published; set "
            "tool.solid = true and displacement.deposit = \"outward\", as model.preset = \"accurate\" does";

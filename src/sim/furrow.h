@@ -7,6 +7,7 @@
 
 #include "sim/scene.h"
 #include "sim/simulation_observer.h"
+#include "tool/tool_surface.h"
 
 namespace sandstroke {
 
@@ -23,7 +24,7 @@ struct TipPath {
 /// goes on with the piece that it left there.
 class TipPathGatherer : public SimulationObserver {
  public:
-  explicit TipPathGatherer(const Scene& scene) : device_(scene.device), radius_(scene.tool.radius) {}
+  explicit TipPathGatherer(const Scene& scene) : device_(scene.device), radius_(tool_reach(scene.tool)) {}
   void on_tick(const TickRecord& tick) override;
   const TipPath& path() const { return path_; }
   /// Of the run, between its initial and its final surface (measure_furrow); none where nothing was touched.

@@ -8,6 +8,7 @@
 #include "haptics/stroke_coverage.h"
 #include "haptics/stroke_sampler.h"
 #include "sand/relaxation.h"
+#include "sand/resistive_force.h"
 
 namespace sandstroke {
 
@@ -21,6 +22,8 @@ struct TickRecord {
   Eigen::Vector3d drag_force = Eigen::Vector3d::Zero();       ///< N
   /// N, that the hand felt when its stroke was recorded (sim/recorded_force.h); NaN: not known.
   Eigen::Vector3d recorded_force = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
+  Wrench wrench =
+      {};  ///< of the contact, where force.law is not the paper's: force and torque on the bed's axes
   double level = std::numeric_limits<double>::quiet_NaN();  ///< m, sand level under the tool; NaN: lifted
   double depth = 0.0;             ///< m, of the tip below the level; negative = above
   double displaced_volume = 0.0;  ///< m^3, pushed aside in this tick
@@ -38,6 +41,7 @@ struct TraceContent {
   bool recorded_force = false;  ///< the stroke was recorded with forces
   bool dropped_ticks = false;   ///< the device has dropped ticks
   bool asked_depth = false;     ///< the stroke follows the sand
+  bool torque = false;          ///< force.law is not the paper's
 };
 
 /// A field of a record, for who reads it in a file.
@@ -74,6 +78,9 @@ void visit_tick_fields(const Visit& visit) {
   visit(
       Text{"drag_force", "N", "force by which the sand drags at the tool there, neither late nor cut"},
       [](auto& tick) -> auto& { return tick.drag_force; });
+  visit(
+      Text{"torque", "N m", "torque of the sand on the tool about its tip", &TraceContent::torque},
+      [](auto& tick) -> auto& { return tick.wrench.torque; });
   visit(
       Text{"recorded_force", "N",
            "force on the hand that was recorded with the stroke, in the device's frame; not a number where "
@@ -232,12 +239,13 @@ struct RunResult {
   /// Of all relaxations; residual and converged are the last one's.
   RelaxationOutcome relaxation{.converged = true};
   DeviceResult device;
-  double volume_initial = 0.0;    ///< m^3
-  double volume_final = 0.0;      ///< m^3
-  double displaced_volume = 0.0;  ///< m^3, by the tool
-  double moved_volume = 0.0;      ///< m^3, by tool and relaxation
-  double volume_drift = 0.0;      ///< |final - initial| / moved volume; 0 where nothing moved
-  double max_depth = 0.0;         ///< m
+  double volume_initial = 0.0;     ///< m^3
+  double volume_final = 0.0;       ///< m^3
+  double displaced_volume = 0.0;   ///< m^3, by the tool
+  double moved_volume = 0.0;       ///< m^3, by tool and relaxation
+  double volume_drift = 0.0;       ///< |final - initial| / moved volume; 0 where nothing moved
+  double max_depth = 0.0;          ///< m
+  double max_contact_speed = 0.0;  ///< m/s, of the tool in the bed
   /// m, the largest depth of a tool that is down, touching or not; -infinity: it is never down over the bed.
   double nearest = -std::numeric_limits<double>::infinity();
   double nearest_time = 0.0;  ///< s

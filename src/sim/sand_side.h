@@ -44,6 +44,11 @@ class SandSide {
   /// Sand is about to slip: a solid tool in contact, and none else, holds the cells under its bowl.
   void hold(HeightField& bed);
 
+  /// The footprint where it is, with the sand as it lies there now.
+  const ToolFootprint& seen(const HeightField& bed) {
+    footprint_.read_heights(bed);
+    return footprint_;
+  }
   const ToolFootprint& footprint() const { return footprint_; }
   /// Where it was in the last tick [m]; none where it was lifted since.
   const std::optional<Eigen::Vector3d>& last_tip() const { return last_tip_; }

@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "core/machine.h"
+#include "tool/tool_surface.h"
 
 namespace sandstroke {
 namespace {
@@ -75,6 +76,28 @@ void describe_tool(KeyVisitor& v, ToolSettings& tool) {
               "how it is held: turned about x, then about y, then about z");
   }
   v.flag("solid", tool.solid, "no sand slips under the tool while it touches the sand");
+}
+
+void describe_force(KeyVisitor& v, ForceSettings& force, SandStrength& sand) {
+  v.section("force", "the force of the sand on the device");
+  choose(v, "law", force.law, {"paper", "rft", "archimedes"},
+         "of depth and velocity as published; resistive force theory over the tool's surface, in newtons; or "
+         "that "
+         "theory's lift of the volume in the sand, without drag");
+  if (force.law == ForceLaw::paper) {
+    v.number("k_s", force.k_s, not_negative, "N", "repulse force k_s (exp(k_c depth) - 1)");
+    v.number("k_c", force.k_c, positive, "1/m", "growth of the repulse force with depth");
+    v.number("k_f", force.k_f, not_negative, "s/m", "drag k_f velocity x repulse force");
+    choose(v, "drag", force.drag, {"horizontal", "full"}, "part of the velocity that causes drag");
+    return;
+  }
+  v.number("friction_angle", sand.friction_angle, {5.0, 60.0, false}, "deg",
+           "internal friction of the sand, as a shear test gives it");
+  v.number("density", sand.density, positive, "kg/m^3", "of the sand in bulk");
+  if (force.law == ForceLaw::rft)
+    v.number("tool_friction", sand.tool_friction, not_negative, "", "friction of sand on the tool's surface");
+  v.number("yield", sand.yield_way, {1e-6, 1.0, false}, "m",
+           "way of the tool until the sand's resistance is all there, or has turned round");
 }
 
 void describe_relaxation(KeyVisitor& v, RelaxationSettings& r) {
@@ -217,11 +240,7 @@ void describe_scene(KeyVisitor& v, Scene& scene) {
     v.number("distance", scene.displacement.distance, {1.0, 1.4, false}, "R",
              "distance from the tool's axis");
 
-  v.section("force", "the force of the sand on the device");
-  v.number("k_s", scene.force.k_s, not_negative, "N", "repulse force k_s (exp(k_c depth) - 1)");
-  v.number("k_c", scene.force.k_c, positive, "1/m", "growth of the repulse force with depth");
-  v.number("k_f", scene.force.k_f, not_negative, "s/m", "drag k_f velocity x repulse force");
-  choose(v, "drag", scene.force.drag, {"horizontal", "full"}, "part of the velocity that causes drag");
+  describe_force(v, scene.force, scene.strength);
 
   describe_relaxation(v, scene.relaxation);
   describe_device(v, scene.device);
@@ -291,13 +310,17 @@ void check_scene(const Scene& scene, const std::string& name) {
         name);
   if (scene.tool.shape == ToolShape::mesh && scene.tool.file.empty())
     throw_input_error("{}: tool.file is missing; name a mesh (.stl, .ply or .obj)", name);
-  const double reach = ToolFootprint(scene.tool).reach();
-  if (scene.stroke && 2.0 * reach > std::min(bed.width, bed.depth))
+  const double reach = is_sphere ? ToolFootprint(scene.tool).reach() : tool_reach(scene.tool);
+  if (!is_sphere && scene.stroke && 2.0 * reach > std::min(bed.width, bed.depth))
+    throw_input_error(
+        "{}: the tool is {:.3g} m wide and does not fit the bed ({} m by {} m); take a smaller one", name,
+        2.0 * reach, bed.width, bed.depth);
+  if (is_sphere && scene.stroke && 2.0 * reach > std::min(bed.width, bed.depth))
     throw_input_error(
         "{}: tool.radius = {} m: the tool and its rampart ({:.3g} m) do not fit the bed ({} m by {} m); take "
         "a smaller radius",
         name, scene.tool.radius, 2.0 * reach, bed.width, bed.depth);
-  if (scene.stroke && scene.tool.radius < 0.5 * dx)
+  if (is_sphere && scene.stroke && scene.tool.radius < 0.5 * dx)
     throw_input_error(
         "{}: tool.radius = {} m is less than half a cell ({} m); take more bed.cells or a larger tool", name,
         scene.tool.radius, dx);
@@ -322,6 +345,11 @@ void check_scene(const Scene& scene, const std::string& name) {
     throw_input_error(
         "{}: device.drag = implicit goes by no velocity that is read; set device.velocity = exact, or "
         "device.drag = sampled",
+        name);
+  if (scene.force.law != ForceLaw::paper && device.drag == DragVelocity::implicit)
+    throw_input_error(
+        "{}: device.drag = implicit is for the paper's drag; set force.law = paper, or device.drag = "
+        "sampled",
         name);
   if (scene.stroke && scene.stroke->file.empty())
     throw_input_error(

@@ -13,6 +13,7 @@
 #include "sand/displacement.h"
 #include "sand/initial_surface.h"
 #include "sand/relaxation.h"
+#include "sand/resistive_force.h"
 #include "sand/tool_footprint.h"
 
 namespace sandstroke {
@@ -53,6 +54,7 @@ struct Scene {
   ToolSettings tool;
   DisplacementSettings displacement;
   ForceSettings force;
+  SandStrength strength;  ///< of the sand, for any force.law but the paper's
   RelaxationSettings relaxation;
   DeviceSettings device;
   std::optional<StrokeSettings> stroke;  ///< without one, the bed is only relaxed

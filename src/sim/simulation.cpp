@@ -47,6 +47,7 @@ Simulation::Simulation(const Scene& scene, HeightField bed, std::optional<Stroke
       device_(scene.force, scene.device),
       relaxer_(relaxer ? std::move(relaxer) : make_relaxer(scene.relaxation, bed_.cell_size())) {
   if (!stroke) return;
+  if (scene.force.law != ForceLaw::paper) contact_force_.emplace(scene, bed_.cell_size());
   if (!(stroke->duration() * scene.device.servo_rate < 1e15))
     throw_input_error(
         "the stroke lasts {} s, more ticks at {} Hz than can be played; correct its times, or set "
@@ -84,7 +85,11 @@ void Simulation::account(const TickRecord& record) {
   result_.ticks += 1;
   result_.contact_ticks += record.contact;
   result_.displaced_volume += record.displaced_volume;
-  if (record.contact) result_.max_depth = std::max(result_.max_depth, record.depth);
+  if (record.contact) {
+    result_.max_depth = std::max(result_.max_depth, record.depth);
+    result_.max_contact_speed =
+        std::max(result_.max_contact_speed, scene_.device.scale * length_of(record.hand.velocity));
+  }
   if (!record.hand.down) return;
   if (std::isnan(record.level)) {
     const Eigen::Vector3d tip = tip_of(scene_.device, record.device_position);
@@ -108,13 +113,17 @@ TickRecord Simulation::tick(double time, const Hand& hand, double next_time,
   record.hand = hand;
   record.device_position = reading.position;
   if (hand.down) {
+    const std::optional<Eigen::Vector3d> before = sand_.last_tip();
     const Interaction interaction = sand_.move(bed_, tip, true_tip, slip);
+    const Eigen::Vector3d motion = before ? Eigen::Vector3d(true_tip - *before) : Eigen::Vector3d::Zero();
+    if (contact_force_) record.wrench = contact_force_->feel(sand_, bed_, tip, motion, interaction.contact);
     record.level = interaction.level;
     record.depth = interaction.depth;
     record.displaced_volume = interaction.displaced_volume;
     record.contact = interaction.contact;
   } else {
     sand_.lift();
+    if (contact_force_) contact_force_->lift();
     if (sand_.slip_is_due()) slip();
   }
   record.next = hand_at(next_time);
@@ -125,7 +134,8 @@ TickRecord Simulation::tick(double time, const Hand& hand, double next_time,
 TraceContent Simulation::trace_content() const {
   return {.recorded_force = stroke_ && !stroke_->stroke().force.empty(),
           .dropped_ticks = scene_.device.dropped_ticks > 0.0,
-          .asked_depth = follower_.has_value()};
+          .asked_depth = follower_.has_value(),
+          .torque = contact_force_.has_value()};
 }
 
 std::int64_t Simulation::told_ticks() const {
@@ -177,10 +187,9 @@ void Simulation::check_near(const TickRecord& record) const {
   const double far = 100.0 * (scene_.bed.width + scene_.bed.depth) + 2.0 * hand;
   const double distance = tip_of(scene_.device, device_.device().state().position).norm();
   if (!(distance < far))
-    throw Error(
-        ErrorKind::unstable,
-        fmt::format("at {:.4f} s the device has diverged ({:.3g} m from the bed's centre); {}", record.time,
-                    distance, loop_remedies(scene_.device, device_.result().max_drag_force)));
+    throw Error(ErrorKind::unstable,
+                fmt::format("at {:.4f} s the device has diverged ({:.3g} m from the bed's centre); {}",
+                            record.time, distance, loop_remedies(scene_, device_.result().max_drag_force)));
 }
 
 void Simulation::run_stroke() {
@@ -214,7 +223,10 @@ void Simulation::run_stroke() {
     device_.advance(record);
     check_near(record);
     hand = record.next;
-    if (record.lifts) sand_.lift();
+    if (record.lifts) {
+      sand_.lift();
+      if (contact_force_) contact_force_->lift();
+    }
 
     account(record);
     tell([&](auto& observer) { observer.on_tick(record); });

@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "haptics/stroke_sampler.h"
+#include "sim/contact_force.h"
 #include "sim/device_side.h"
 #include "sim/idle_ticks.h"
 #include "sim/run_result.h"
@@ -61,6 +62,7 @@ class Simulation {
   std::int64_t ticks_ = 0;  // of the stroke
   std::vector<TickRange> idle_;
   SandSide sand_;
+  std::optional<ContactForce> contact_force_;  // where force.law is not the paper's
   DeviceSide device_;
   std::unique_ptr<Relaxer> relaxer_;
   Observers observers_;

@@ -1,4 +1,5 @@
 #include "sim/stroke_depth.h"
+#include "tool/tool_surface.h"
 
 #include <spdlog/fmt/fmt.h>
 
@@ -56,12 +57,13 @@ std::string depth_warning(const Scene& scene, const HeightField& bed, const Stro
                           const std::string& name) {
   constexpr double most_radii = 20.0;  // strokes in sand stay within a few
   const DeepestPlace deepest = deepest_place(scene, bed, stroke);
-  const double radii = deepest.depth / scene.tool.radius;
+  const double reach = tool_reach(scene.tool), radii = deepest.depth / reach;
   if (!(radii > most_radii)) return "";
   return fmt::format(
-      "{}: goes {:.4g} m deep into the sand (at {:.3f} s), {:.0f} times tool.radius = {:g} m; lengths are "
+      "{}: goes {:.4g} m deep into the sand (at {:.3f} s), {:.0f} times the tool's reach of {:g} m; lengths "
+      "are "
       "metres: check stroke.depth, stroke.offset and stroke.scale, and the depths in the stroke itself",
-      name, deepest.depth, deepest.time, radii, scene.tool.radius);
+      name, deepest.depth, deepest.time, radii, reach);
 }
 
 }  // namespace sandstroke

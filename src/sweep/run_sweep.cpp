@@ -23,6 +23,7 @@
 #include "io/scene_toml.h"
 #include "sim/stroke_depth.h"
 #include "sweep/point_runner.h"
+#include "tool/tool_surface.h"
 
 namespace sandstroke {
 namespace {
@@ -41,7 +42,7 @@ CellRange stroke_cells(const Scene& scene, const HeightField& bed, const SweepSt
   std::vector<Eigen::Vector3d> tips;
   for (std::size_t i = 0; i < stroke->stroke.size(); ++i)
     if (stroke->stroke.pen_down(i)) tips.push_back(tip_of(scene.device, stroke->stroke.position[i]));
-  return cells_under(tips, scene.tool.radius, bed, bed.highest());
+  return cells_under(tips, tool_reach(scene.tool), bed, bed.highest());
 }
 
 }  // namespace

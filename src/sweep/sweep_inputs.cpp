@@ -68,6 +68,7 @@ std::string sand_key(const Scene& scene, const SweepStroke* stroke) {
   named.preset = ModelPreset::paper;  // sets other settings, no more
   if (scene.device.model == DeviceModel::kinematic) {
     named.force = {};
+    named.force.law = scene.force.law;  // of the contact: it is felt where the sand moves, by named.strength
     const DeviceSettings& device = scene.device;
     named.device = {};
     named.device.servo_rate = device.servo_rate;

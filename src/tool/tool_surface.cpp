@@ -163,6 +163,12 @@ Eigen::Matrix3d own_rotation(const ToolSettings& settings) {
   return rotation_of((about(2) * about(1) * about(0)).normalized());
 }
 
+double tool_reach(const ToolSettings& tool) {
+  if (tool.shape == ToolShape::sphere) return tool.radius;
+  if (tool.shape == ToolShape::mesh && !tool.mesh) return 0.0;
+  return horizontal_reach(turned(tool_surface(tool), own_rotation(tool)));
+}
+
 TriangleMesh turned(const TriangleMesh& mesh, const Eigen::Matrix3d& rotation) {
   TriangleMesh result = mesh;
   for (Vector3d& vertex : result.vertices) vertex = rotation * vertex;

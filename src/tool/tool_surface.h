@@ -14,6 +14,10 @@ TriangleMesh tool_surface(const ToolSettings& settings);
 /// How the tool's own frame lies in the bed while the hand is not turned (ToolSettings::orientation).
 Eigen::Matrix3d own_rotation(const ToolSettings& settings);
 
+/// How far the tool, as it is held, reaches from the vertical axis through its tip [m]: of a sphere its
+/// radius. Of a mesh that was not read: 0.
+double tool_reach(const ToolSettings& settings);
+
 /// The rotation of a unit quaternion, rounded to multiples of 2^-50: a quarter turn is exactly one.
 Eigen::Matrix3d rotation_of(const Eigen::Quaterniond& orientation);
 

@@ -1,4 +1,5 @@
 #include "view/pointer_device.h"
+#include "tool/tool_surface.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +11,8 @@ constexpr std::int64_t window = 5'000'000'000;       // ns, of the page's clock
 constexpr std::int64_t closest_samples = 1'000'000;  // ns: no servo loop sees what lies closer
 
 PointerScale scale_of(const Scene& scene) {
-  return {scene.tool.radius, scene.tool.radius, scene.tool.radius};
+  const double reach = tool_reach(scene.tool);
+  return {reach, reach, reach};
 }
 
 }  // namespace

@@ -27,7 +27,9 @@ const std::vector<std::string> stroke = {"stroke.file=x.h5"}, dynamic = {"device
                                cliff = {"bed.surface.kind=cliff"}, noise = {"bed.surface.kind=noise"},
                                ripples = {"bed.surface.kind=ripples"},
                                read_from = {"bed.surface.kind=file", "bed.surface.file=y.h5"},
-                               rkl = {"relaxation.method=rkl"}, outward = {"displacement.deposit=outward"};
+                               rkl = {"relaxation.method=rkl"}, rft = {"force.law=rft"},
+                               archimedes = {"force.law=archimedes"},
+                               outward = {"displacement.deposit=outward"};
 
 bool is(const Eigen::Vector3d& v, double x, double y, double z) { return v == Eigen::Vector3d(x, y, z); }
 
@@ -82,6 +84,14 @@ const std::vector<KeyCase> cases = {
     {"force.k_s=44", [](S s) { return s.force.k_s == 44.0; }},
     {"force.k_c=45", [](S s) { return s.force.k_c == 45.0; }},
     {"force.k_f=46", [](S s) { return s.force.k_f == 46.0; }},
+    {"force.law=rft", [](S s) { return s.force.law == ForceLaw::rft; }},
+    {"force.friction_angle=34.0", [](S s) { return s.strength.friction_angle == 34.0; }, rft},
+    {"force.friction_angle=33.0", [](S s) { return s.strength.friction_angle == 33.0; }, archimedes},
+    {"force.density=1601.0", [](S s) { return s.strength.density == 1601.0; }, rft},
+    {"force.density=1602.0", [](S s) { return s.strength.density == 1602.0; }, archimedes},
+    {"force.tool_friction=0.31", [](S s) { return s.strength.tool_friction == 0.31; }, rft},
+    {"force.yield=0.002", [](S s) { return s.strength.yield_way == 0.002; }, rft},
+    {"force.yield=0.003", [](S s) { return s.strength.yield_way == 0.003; }, archimedes},
     {"force.drag=full", [](S s) { return s.force.drag == DragDirection::full; }},
     {"relaxation.law=isotropic", [](S s) { return s.relaxation.law == RelaxationLaw::isotropic; }},
     {"relaxation.method=rkl", [](S s) { return s.relaxation.method == RelaxationMethod::rkl; }},

@@ -1,0 +1,44 @@
+#include "sand/resistive_force.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/angle.h"
+#include "core/compensated_sum.h"
+#include "core/elementary.h"
+#include "sand/resistive_kernels.h"
+
+namespace sandstroke {
+
+double resistance(const SandStrength& sand) {
+  constexpr double gravity = 9.81;  // m/s^2
+  const double mu = elementary::tan(to_radians(sand.friction_angle));
+  return sand.density * gravity * (((894.0 * mu - 386.0) * mu + 89.0) * mu);
+}
+
+ResistiveForce::ResistiveForce(const TriangleMesh& surface, double element_size)
+    : elements_(surface, element_size), ways_(hwy::AllocateAligned<double>(3 * elements_.size())) {
+  lift();
+}
+
+void ResistiveForce::lift() { std::fill_n(ways_.get(), 3 * elements_.size(), 0.0); }
+
+Wrench ResistiveForce::feel(const ToolFootprint& footprint, const Eigen::Vector3d& tip,
+                            const SandPlane& plane, const Eigen::Vector3d& motion, const SandStrength& sand) {
+  if (footprint.cells().empty() || std::isnan(plane.height)) return lift(), Wrench{};
+  return resistive_wrench({footprint, elements_, ways_.get(), tip, plane, motion / sand.yield_way,
+                           resistance(sand), sand.tool_friction, sand.yield_way});
+}
+
+double ResistiveForce::volume_below(const Eigen::Vector3d& tip, const SandPlane& plane) const {
+  const ToolElements& e = elements_;
+  CompensatedSum volume;
+  for (int i = 0; i < e.count(); ++i) {
+    const double depth =
+        plane.height + plane.slope.x() * e.x()[i] + plane.slope.y() * e.y()[i] - tip.z() - e.z()[i];
+    if (depth > 0.0) volume.add(-depth * e.normal_z()[i] * e.area()[i]);
+  }
+  return volume.value();
+}
+
+}  // namespace sandstroke

@@ -1,0 +1,149 @@
+#include "sand/resistive_kernels.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "sand/resistive_kernels.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "sand/lanes-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace sandstroke {
+namespace HWY_NAMESPACE {
+
+struct Vector {
+  V x, y, z;
+  HWY_INLINE V dot(const Vector& o) const { return x * o.x + y * o.y + z * o.z; }
+  HWY_INLINE Vector times(V s) const { return {s * x, s * y, s * z}; }
+  HWY_INLINE Vector plus(const Vector& o) const { return {x + o.x, y + o.y, z + o.z}; }
+};
+
+/// Coefficients of 1, x1, x2, x3, x1^2, x2^2, x3^2, x1 x2, x2 x3, x3 x1, x1^3, x2^3, x3^3, x1 x2^2, x2 x1^2,
+/// x2 x3^2, x3 x2^2, x3 x1^2, x1 x3^2, x1 x2 x3 (Agarwal, Goldman, Kamrin 2023, table 1).
+constexpr double table[3][20] = {
+    {0.00212, -0.02320, -0.20890, -0.43083, -0.00259, 0.48872, -0.00415, 0.07204, -0.02750, -0.08772,
+     0.01992, -0.45961, 0.40799,  -0.10107, -0.06576, 0.05664, -0.09269, 0.01892, 0.01033,  0.15120},
+    {-0.06796, -0.10941, 0.04725, -0.06914, -0.05835, -0.65880, -0.11985, -0.25739, -0.26834, 0.02692,
+     -0.00736, 0.63758,  0.08997, 0.21069,  0.04748,  0.20406,  0.18519,  0.04934,  0.13527,  -0.33207},
+    {-0.02634, -0.03436, 0.45256,  0.00835,  0.02553, -1.31290, -0.05532, 0.06790,  -0.16404, 0.02287,
+     0.02927,  0.95406,  -0.00131, -0.11028, 0.01487, -0.02730, 0.10911,  -0.04097, 0.07881,  -0.27519}};
+
+HWY_INLINE V polynomial(const double* c, V x1, V x2, V x3) {
+  const V in_x3 = all(c[3]) + x3 * (all(c[6]) + x3 * all(c[12]) + x1 * all(c[18]) + x2 * all(c[15])) +
+                  x1 * (all(c[9]) + x1 * all(c[17]) + x2 * all(c[19])) + x2 * (all(c[8]) + x2 * all(c[16]));
+  const V in_x2 =
+      all(c[2]) + x2 * (all(c[5]) + x2 * all(c[11]) + x1 * all(c[13])) + x1 * (all(c[7]) + x1 * all(c[14]));
+  const V in_x1 = all(c[1]) + x1 * (all(c[4]) + x1 * all(c[10]));
+  return all(c[0]) + x1 * in_x1 + x2 * in_x2 + x3 * in_x3;
+}
+
+/// resistive_stress() of as many elements. In vectors, with gravity along -z: x1, x2 and x3 are the cosines
+/// between motion and gravity, normal and gravity, and normal and motion; alpha = f1 n + f2 u - f3 z.
+HWY_INLINE Vector stress(const Vector& n, const Vector& u, V tool_friction) {
+  const V x1 = Neg(u.z), x2 = Neg(n.z), x3 = u.dot(n);
+  const V f1 = polynomial(table[0], x1, x2, x3), f2 = polynomial(table[1], x1, x2, x3),
+          f3 = polynomial(table[2], x1, x2, x3);
+  Vector alpha = n.times(f1).plus(u.times(f2));
+  alpha.z -= f3;
+  const V across = alpha.dot(n);
+  const Vector along = alpha.plus(n.times(Neg(across)));
+  const V along2 = along.dot(along), most = tool_friction * hn::Abs(across);
+  const Mask slips = along2 > most * most;
+  const V share = hn::IfThenElse(slips, most / Sqrt(Max(along2, all(1e-300))), all(1.0));
+  return n.times(across).plus(along.times(share));
+}
+
+/// Elements that trail by less than so much of a right angle's cosine fade out: an upright side that is
+/// pushed along itself would else be dragged at or not as its motion trembles.
+constexpr double fade = 0.05;
+
+HWY_INLINE V between_0_and_1(V x) { return Min(Max(x, hn::Zero(d)), all(1.0)); }
+
+Wrench ResistiveWrench(const ResistiveTick& tick) {
+  const ToolFootprint& f = tick.footprint;
+  const ToolElements& e = tick.elements;
+  const V zero = hn::Zero(d), one = all(1.0), half = all(0.5);
+  const double dx = f.cell_size();
+  // A place from the tip [m] is (x + ...) / dx columns from the window's first.
+  const V per_cell = all(1.0 / dx), col0 = all(f.axis_x() - f.first_x()),
+          row0 = all(f.axis_y() - f.first_y());
+  const V last_col = all(f.cells().cols() - 1), last_row = all(f.cells().rows() - 1),
+          stride = all(f.stride());
+  const V height0 = all(tick.plane.height - tick.tip.z()), slope_x = all(tick.plane.slope.x()),
+          slope_y = all(tick.plane.slope.y()), tip_z = all(tick.tip.z());
+  const V near = all(0.25 * dx);
+  const Vector motion = {all(tick.motion.x()), all(tick.motion.y()), all(tick.motion.z())};
+  double *ways_x = tick.ways, *ways_y = tick.ways + e.size(), *ways_z = tick.ways + 2 * e.size();
+  LaneSum force_x, force_y, force_z, torque_x, torque_y, torque_z, stiffness, amount;
+  for (std::size_t i = 0; i < e.size(); i += lanes) {
+    const int place = static_cast<int>(i);
+    const Vector r = {hn::Load(d, e.x() + i), hn::Load(d, e.y() + i), hn::Load(d, e.z() + i)};
+    const V depth = height0 + slope_x * r.x + slope_y * r.y - r.z;
+    if (hn::AllFalse(d, depth > zero)) {
+      for (double* ways : {ways_x, ways_y, ways_z}) hn::Store(zero, d, ways + i);
+      continue;
+    }
+    const Vector n = {hn::Load(d, e.normal_x() + i), hn::Load(d, e.normal_y() + i),
+                      hn::Load(d, e.normal_z() + i)};
+    // The sand right outside of it.
+    const V col = Min(Max(hn::Floor(col0 + r.x * per_cell + n.x + half), zero), last_col);
+    const V row = Min(Max(hn::Floor(row0 + r.y * per_cell + n.y + half), zero), last_row);
+    const hn::RebindToSigned<decltype(d)> di;
+    const V height = hn::GatherIndex(d, f.heights(0), hn::ConvertTo(di, row * stride + col));
+    const V touches = where(depth > zero, between_0_and_1((height - tip_z - r.z) / near + one));
+
+    const Mask in_sand = touches > zero;
+    Vector way =
+        Vector{hn::Load(d, ways_x + i), hn::Load(d, ways_y + i), hn::Load(d, ways_z + i)}.plus(motion);
+    const V length = Sqrt(way.dot(way));
+    way = way.times(where(in_sand, one / Max(length, one)));
+    hn::Store(way.x, d, ways_x + i);
+    hn::Store(way.y, d, ways_y + i);
+    hn::Store(way.z, d, ways_z + i);
+    const V mobilised = Min(length, one);
+    const Vector u = way.times(where(mobilised > zero, one / Max(mobilised, all(1e-300))));
+
+    const V leads = between_0_and_1(u.dot(n) / all(fade) + one);
+    const V area = where(in_sand, hn::Load(d, e.area() + i) * touches * leads) * all(tick.resistance);
+    const Vector alpha = stress(n, u, all(tick.tool_friction));
+    const V size = Sqrt(alpha.dot(alpha)) * area;
+    const Vector force = alpha.times(area * depth * mobilised);
+    force_x.add(place, force.x);
+    force_y.add(place, force.y);
+    force_z.add(place, force.z);
+    torque_x.add(place, r.y * force.z - r.z * force.y);
+    torque_y.add(place, r.z * force.x - r.x * force.z);
+    torque_z.add(place, r.x * force.y - r.y * force.x);
+    stiffness.add(place, size * (one + Max(depth, zero) / all(tick.yield_way)));
+    amount.add(place, size * Max(depth, zero) * mobilised);
+  }
+  return {{force_x.total(), force_y.total(), force_z.total()},
+          {torque_x.total(), torque_y.total(), torque_z.total()},
+          stiffness.total(),
+          0.5 * tick.yield_way * amount.total()};
+}
+
+Eigen::Vector3d StressOf(const Eigen::Vector3d& normal, const Eigen::Vector3d& motion, double tool_friction) {
+  const auto as_vector = [](const Eigen::Vector3d& v) { return Vector{all(v.x()), all(v.y()), all(v.z())}; };
+  const Vector alpha = stress(as_vector(normal), as_vector(motion), all(tool_friction));
+  return {hn::GetLane(alpha.x), hn::GetLane(alpha.y), hn::GetLane(alpha.z)};
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace sandstroke
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace sandstroke {
+
+HWY_EXPORT(ResistiveWrench);
+HWY_EXPORT(StressOf);
+
+Wrench resistive_wrench(const ResistiveTick& tick) { return HWY_DYNAMIC_DISPATCH(ResistiveWrench)(tick); }
+Eigen::Vector3d resistive_stress(const Eigen::Vector3d& normal, const Eigen::Vector3d& motion,
+                                 double tool_friction) {
+  return HWY_DYNAMIC_DISPATCH(StressOf)(normal, motion, tool_friction);
+}
+
+}  // namespace sandstroke
+#endif

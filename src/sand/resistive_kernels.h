@@ -1,0 +1,20 @@
+#pragma once
+
+#include "sand/resistive_force.h"
+
+namespace sandstroke {
+
+/// A tick of resistive force theory: vector code (Highway), the same bits for every instruction set.
+struct ResistiveTick {
+  const ToolFootprint& footprint;
+  const ToolElements& elements;
+  double* ways;  ///< x, y, z of each element, in yield ways; brought up to date
+  Eigen::Vector3d tip;
+  SandPlane plane;
+  Eigen::Vector3d motion;  ///< in yield ways
+  double resistance;       ///< N/m^3, xi
+  double tool_friction, yield_way;
+};
+Wrench resistive_wrench(const ResistiveTick& tick);
+
+}  // namespace sandstroke

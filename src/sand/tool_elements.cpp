@@ -1,0 +1,85 @@
+#include "sand/tool_elements.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+
+#include "sand/cell_flags.h"
+
+namespace sandstroke {
+namespace {
+
+using Eigen::Vector3d;
+
+/// A cube, and the side of a finer one about the origin through which normals point.
+using Place = std::array<std::int64_t, 6>;
+
+struct Patch {
+  Vector3d moment = Vector3d::Zero();  // m^3: area x centre
+  Vector3d facing = Vector3d::Zero();  // m^2: area x normal
+  double area = 0.0;                   // m^2
+};
+
+class Patches {
+ public:
+  explicit Patches(double size) : size_(size) {}
+  std::map<Place, Patch> all;
+
+  void add(const Vector3d& a, const Vector3d& b, const Vector3d& c) {
+    const double longest = std::max({(b - a).norm(), (c - b).norm(), (a - c).norm()});
+    if (longest > size_) return divide(a, b, c, longest);
+    const Vector3d facing = 0.5 * (b - a).cross(c - a), centre = (a + b + c) / 3.0;
+    const double area = facing.norm();
+    if (!(area > 0.0)) return;
+    constexpr double directions = 2.0;  // so many either way along an axis: about 30 degrees each
+    Place place;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto axis = static_cast<Eigen::Index>(i);
+      place[i] = static_cast<std::int64_t>(std::floor(centre[axis] / size_));
+      place[i + 3] = static_cast<std::int64_t>(std::round(directions * facing[axis] / area));
+    }
+    Patch& patch = all[place];
+    patch.moment += area * centre, patch.facing += facing, patch.area += area;
+  }
+
+ private:
+  /// In two, across its longest side.
+  void divide(const Vector3d& a, const Vector3d& b, const Vector3d& c, double longest) {
+    if ((b - a).norm() == longest) return halves(a, b, c);
+    if ((c - b).norm() == longest) return halves(b, c, a);
+    halves(c, a, b);
+  }
+  void halves(const Vector3d& a, const Vector3d& b, const Vector3d& c) {
+    const Vector3d middle = 0.5 * (a + b);
+    add(a, middle, c);
+    add(middle, b, c);
+  }
+
+  double size_;
+};
+
+}  // namespace
+
+ToolElements::ToolElements(const TriangleMesh& surface, double size) {
+  Patches patches(size);
+  for (std::size_t i = 0; i < surface.triangles.size(); ++i)
+    patches.add(surface.corner(i, 0), surface.corner(i, 1), surface.corner(i, 2));
+  count_ = static_cast<int>(patches.all.size());
+  size_ = (patches.all.size() + cells_per_group - 1) / cells_per_group * cells_per_group;
+  columns_ = hwy::AllocateAligned<double>(7 * size_);
+  std::fill_n(columns_.get(), 7 * size_, 0.0);
+  std::size_t i = 0;
+  for (const auto& [place, patch] : patches.all) {
+    const Vector3d centre = patch.moment / patch.area, normal = patch.facing.normalized();
+    for (Eigen::Index axis = 0; axis < 3; ++axis) {
+      columns_[static_cast<std::size_t>(axis) * size_ + i] = centre[axis];
+      columns_[static_cast<std::size_t>(axis + 3) * size_ + i] = normal[axis];
+    }
+    // The vector sum: then the whole surface's is 0, as that of a closed one must be.
+    columns_[6 * size_ + i++] = patch.facing.norm();
+  }
+}
+
+}  // namespace sandstroke

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <hwy/aligned_allocator.h>
+
+#include "tool/triangle_mesh.h"
+
+namespace sandstroke {
+
+/// A tool's surface as elements of about one size: what forces are summed over. Columns of size(), which is a
+/// multiple of 8: what is beyond count() has no area.
+class ToolElements {
+ public:
+  /// Triangles larger than `size` [m] are divided, and those that lie in one cube of that size and face about
+  /// the same way are one element: so the number of elements follows the surface, not the mesh. surface: as
+  /// it is turned, tip at the origin [m].
+  ToolElements(const TriangleMesh& surface, double size);
+
+  std::size_t size() const { return size_; }
+  int count() const { return count_; }
+  const double* x() const { return column(0); }  ///< m, from the tip
+  const double* y() const { return column(1); }
+  const double* z() const { return column(2); }
+  const double* normal_x() const { return column(3); }  ///< outward, a unit vector
+  const double* normal_y() const { return column(4); }
+  const double* normal_z() const { return column(5); }
+  const double* area() const { return column(6); }  ///< m^2
+
+ private:
+  const double* column(std::size_t i) const { return columns_.get() + i * size_; }
+
+  std::size_t size_ = 0;
+  int count_ = 0;
+  hwy::AlignedFreeUniquePtr<double[]> columns_;
+};
+
+}  // namespace sandstroke

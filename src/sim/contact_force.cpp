@@ -1,0 +1,74 @@
+#include "sim/contact_force.h"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/angle.h"
+#include "tool/tool_surface.h"
+
+namespace sandstroke {
+
+ContactForce::ContactForce(const Scene& scene, double cell_size)
+    : law_(scene.force.law),
+      sand_(scene.strength),
+      reach_(tool_reach(scene.tool)),
+      resistive_(turned(tool_surface(scene.tool), own_rotation(scene.tool)), cell_size) {
+  if (scene.tool.shape == ToolShape::sphere) sphere_radius_ = scene.tool.radius;
+}
+
+void ContactForce::lift() {
+  resistive_.lift();
+  sunk_ = 0.0;
+}
+
+Wrench ContactForce::feel(SandSide& sand, const HeightField& bed, const Eigen::Vector3d& tip,
+                          const Eigen::Vector3d& motion, bool contact) {
+  if (!contact) return lift(), Wrench{};
+  const SandPlane plane = fit_sand_plane(bed, tip.x(), tip.y(), reach_);
+  if (law_ == ForceLaw::archimedes) return archimedes(tip, plane, -motion.z());
+  return resistive_.feel(sand.seen(bed), tip, plane, motion, sand_);
+}
+
+double ContactForce::volume_below(const Eigen::Vector3d& tip, const SandPlane& plane) const {
+  if (!sphere_radius_) return resistive_.volume_below(tip, plane);
+  const double R = *sphere_radius_, depth = std::clamp(plane.height - tip.z(), 0.0, 2.0 * R);
+  return std::numbers::pi * depth * depth * (R - depth / 3.0);
+}
+
+Wrench ContactForce::archimedes(const Eigen::Vector3d& tip, const SandPlane& plane, double sinks) {
+  constexpr double plate = 0.87574;
+  const double yield = sand_.yield_way, share = plate * resistance(sand_);
+  sunk_ = std::clamp(sunk_ + sinks / yield, 0.0, 1.0);
+  const double volume = volume_below(tip, plane),
+               deeper = volume_below(tip - Eigen::Vector3d(0.0, 0.0, yield), plane);
+  Wrench wrench;
+  wrench.force.z() = share * volume * sunk_;
+  wrench.stiffness = share * std::max(deeper, volume) / yield;  // it grows with volume and way
+  wrench.stored = 0.5 * yield * wrench.force.z();
+  return wrench;
+}
+
+std::string theory_warning(const Scene& scene, double fastest) {
+  const SandStrength& sand = scene.strength;
+  if (scene.force.law == ForceLaw::paper) return "";
+  const double friction = std::tan(to_radians(sand.friction_angle));
+  if (friction < 0.3 || friction > 0.9)
+    return fmt::format(
+        "force.friction_angle = {} deg is outside of what the force's constants were fitted for (16.7 to 42 "
+        "deg); "
+        "take its forces for a guess",
+        sand.friction_angle);
+  constexpr double gravity = 9.81, most = 0.4;
+  const double length = 2.0 * tool_reach(scene.tool), froude = fastest / std::sqrt(gravity * length);
+  if (froude <= most) return "";
+  return fmt::format(
+      "the tool goes at {:.3g} m/s through the sand, {:.2g} times the square root of g times its width; the "
+      "force's "
+      "theory is for less than {}: expect more force than it says",
+      fastest, froude, most);
+}
+
+}  // namespace sandstroke

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <optional>
+
+#include "sand/resistive_force.h"
+#include "sim/sand_side.h"
+#include "sim/scene.h"
+
+namespace sandstroke {
+
+/// The force of the sand on the tool where force.law is not the paper's: of the contact itself.
+/// - rft: resistive force theory over the tool's surface (ResistiveForce).
+/// - archimedes: 0.87574 xi V upwards, V being what lies below the sand's plane (Kang, Feng, Liu, Blumenfeld,
+/// Nature
+///   Communications 9, 2018, as the theory gives it for a plate), and no drag; it grows over the yield way as
+///   the tool sinks, and goes as it rises.
+class ContactForce {
+ public:
+  /// Elements are about a cell large. The scene's law is not the paper's.
+  ContactForce(const Scene& scene, double cell_size);
+
+  /// After the tool went by `motion` [m] to where it dug last, `tip` [m], in contact or not.
+  Wrench feel(SandSide& sand, const HeightField& bed, const Eigen::Vector3d& tip,
+              const Eigen::Vector3d& motion, bool contact);
+  void lift();
+
+ private:
+  Wrench archimedes(const Eigen::Vector3d& tip, const SandPlane& plane, double sinks);
+  double volume_below(const Eigen::Vector3d& tip, const SandPlane& plane) const;
+
+  ForceLaw law_;
+  SandStrength sand_;
+  double reach_;                         // m, of the tool
+  std::optional<double> sphere_radius_;  // m
+  ResistiveForce resistive_;
+  double sunk_ = 0.0;  // yield ways, 0 to 1
+};
+
+/// Where the theory holds no more: a tool faster than 0.4 sqrt(g L) (Agarwal et al. 2023), L its width, or
+/// sand whose friction is outside of what it was fitted for. Empty: it holds.
+std::string theory_warning(const Scene& scene, double fastest);
+
+}  // namespace sandstroke

@@ -1,0 +1,153 @@
+#include "sand/resistive_force.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "sand/displacement.h"
+#include "tool/tool_surface.h"
+
+namespace sandstroke {
+namespace {
+
+using Eigen::Vector3d;
+using std::numbers::pi;
+
+const Vector3d falling(0.0, 0.0, -1.0);
+
+TEST(ResistiveStress, OfAPlateIsThatOfTheTheory) {
+  // Pushed down: -f1 - f2 - f3 at (1, 1, 1). Dragged face on: |f1 + f2| at (0, 0, 1).
+  const Vector3d down = resistive_stress(falling, falling, 10.0);
+  EXPECT_NEAR(down.z(), 0.87574, 1e-9);
+  EXPECT_EQ(down.x(), 0.0);
+  const Vector3d dragged = resistive_stress(Vector3d::UnitX(), Vector3d::UnitX(), 10.0);
+  EXPECT_NEAR(dragged.x(), -0.192, 5e-4);
+}
+
+TEST(ResistiveStress, TurnsWithNormalAndMotionAboutTheVertical) {
+  const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.7, Vector3d::UnitZ()).toRotationMatrix();
+  const Vector3d normal = Vector3d(0.3, -0.5, -0.6).normalized(),
+                 motion = Vector3d(0.8, -0.1, -0.3).normalized();
+  EXPECT_LT(
+      (turn * resistive_stress(normal, motion, 0.4) - resistive_stress(turn * normal, turn * motion, 0.4))
+          .norm(),
+      1e-15);
+}
+
+TEST(ResistiveStress, AlongTheSurfaceIsAtMostFriction) {
+  const Vector3d normal = Vector3d(0.2, 0.1, -0.9).normalized(),
+                 motion = Vector3d(0.9, 0.3, -0.1).normalized();
+  for (const double friction : {0.0, 0.1, 0.3}) {
+    const Vector3d stress = resistive_stress(normal, motion, friction);
+    const double across = stress.dot(normal), along = (stress - across * normal).norm();
+    EXPECT_NEAR(along, friction * std::abs(across), 1e-12);
+  }
+}
+
+TEST(Resistance, OfQuikreteIsWhatWasMeasuredWithinAFewPercent) {
+  // 2.02 N/cm^3 measured under a plate; the formula gives 2.13.
+  EXPECT_NEAR(0.87574 * resistance({34.0, 1560.0}) * 1e-6, 2.13, 0.005);
+}
+
+/// A tool pushed straight down into sand that stays as it is but for what it takes the place of.
+Wrench pushed_in(const ToolSettings& tool, double depth, const SandStrength& sand, double cell,
+                 double element, const Vector3d& then = Vector3d::Zero()) {
+  const int side = 2 * static_cast<int>(0.03 / cell) + 1;
+  HeightField bed(side, side, cell);
+  ToolFootprint footprint(tool);
+  ResistiveForce force(turned(tool_surface(tool), own_rotation(tool)), element);
+  Wrench felt;
+  const auto go = [&](const Vector3d& to, const Vector3d& motion) {
+    footprint.place(bed, to.x(), to.y());
+    if (footprint.is_sphere())
+      displace(bed, footprint, to.z(), motion, {Deposit::outward});
+    else
+      displace(bed, footprint, to.z(), motion, {Deposit::outward});
+    footprint.read_heights(bed);
+    felt = force.feel(footprint, to, {0.0}, motion, sand);
+  };
+  constexpr double step = 2.5e-4;
+  const int steps = static_cast<int>(std::lround(depth / step));
+  for (int i = 1; i <= steps; ++i) go({0.0, 0.0, -step * i}, {0.0, 0.0, -step});
+  const int more = static_cast<int>(std::lround(then.norm() / step));
+  for (int i = 1; i <= more; ++i) go(Vector3d(0.0, 0.0, -depth) + then * i / more, then / more);
+  return felt;
+}
+
+/// The theory itself: over all of a sphere's surface that leads, below z = 0.
+Vector3d theory_of_sphere(double radius, double depth, const Vector3d& motion, const SandStrength& sand) {
+  const ToolElements elements(tool_surface(ToolSettings{radius}), radius / 40.0);
+  Vector3d force = Vector3d::Zero();
+  for (int i = 0; i < elements.count(); ++i) {
+    const Vector3d normal(elements.normal_x()[i], elements.normal_y()[i], elements.normal_z()[i]);
+    const double below = depth - elements.z()[i];
+    if (below > 0.0 && normal.dot(motion) >= 0.0)
+      force += resistance(sand) * below * elements.area()[i] *
+               resistive_stress(normal, motion, sand.tool_friction);
+  }
+  return force;
+}
+
+constexpr double depths[] = {0.002, 0.004, 0.006, 0.010, 0.020};
+
+TEST(ResistiveForce, OfASphereIsThatOfTheTable) {
+  const ToolSettings sphere{0.01, ToolProfile::sphere, true};
+  const double repulse30[] = {0.17, 0.64, 1.3, 2.9, 7.1}, repulse34[] = {0.28, 1.07, 2.2, 4.9, 11.9},
+               drag30[] = {0.08, 0.11, 0.14, 0.18, 0.27};
+  for (int i = 0; i < 5; ++i) {
+    // In the table's digits, but for its own rounding.
+    EXPECT_NEAR(theory_of_sphere(0.01, depths[i], falling, {30.0}).z(), repulse30[i], 0.03 * repulse30[i]);
+    EXPECT_NEAR(theory_of_sphere(0.01, depths[i], falling, {34.0}).z(), repulse34[i], 0.03 * repulse34[i]);
+    const Vector3d dragged = theory_of_sphere(0.01, depths[i], Vector3d::UnitX(), {30.0});
+    const double plunged = theory_of_sphere(0.01, depths[i], falling, {30.0}).z();
+    EXPECT_NEAR(-dragged.x() / plunged, drag30[i], i < 4 ? 0.005 : 0.035);  // 0.240 where the table has 0.27
+  }
+  // What a footprint on cells feels: within 1 % at 10 cells per radius, but for what has not yielded yet;
+  // with a way of 1 mm that is 8 % at 2 mm and 2 % at 4 mm.
+  for (const double cell : {0.001, 0.0005})
+    for (int i = 0; i < 5; ++i) {
+      const SandStrength sand{30.0, 1560.0, 0.4, 1e-4};
+      const Vector3d felt = pushed_in(sphere, depths[i], sand, cell, cell).force;
+      const double plunged = theory_of_sphere(0.01, depths[i], falling, sand).z();
+      EXPECT_NEAR(felt.z(), plunged, (i == 0 ? 13.0 : 10.0) * cell * plunged) << depths[i];
+      EXPECT_LT(felt.head<2>().norm(), 1e-3 * felt.z());
+      if (i == 4) continue;  // a sphere that is buried shuts the sand off above it
+      const double dragged = theory_of_sphere(0.01, depths[i], Vector3d::UnitX(), sand).x();
+      EXPECT_NEAR(pushed_in(sphere, depths[i], sand, cell, cell, {0.006, 0.0, 0.0}).force.x(), dragged,
+                  0.015 * std::abs(dragged));
+    }
+}
+
+TEST(ResistiveForce, DependsOnTheWayAndNotOnTheTimeItTakes) {
+  // Twice as many ticks: the same ways, in smaller parts.
+  const SandStrength sand;
+  HeightField bed(61, 61, 0.001);
+  ToolFootprint footprint(ToolSettings{0.01, ToolProfile::sphere, true});
+  const TriangleMesh sphere = tool_surface(ToolSettings{0.01});
+  ResistiveForce coarse(sphere, 0.001), fine(sphere, 0.001);
+  footprint.place(bed, 0.0, 0.0);
+  displace(bed, footprint, -0.005, falling, {Deposit::outward});
+  footprint.read_heights(bed);
+  const Vector3d tip(0.0, 0.0, -0.005), way(3e-4, -1e-4, -4e-4);
+  const Vector3d once = coarse.feel(footprint, tip, {0.0}, way, sand).force;
+  fine.feel(footprint, tip, {0.0}, 0.5 * way, sand);
+  const Vector3d twice = fine.feel(footprint, tip, {0.0}, 0.5 * way, sand).force;
+  EXPECT_LT((once - twice).norm(), 1e-12 * once.norm());
+  // It holds where the tool rests, and is soon gone where it rises.
+  EXPECT_LT((fine.feel(footprint, tip, {0.0}, Vector3d::Zero(), sand).force - twice).norm(),
+            1e-12 * twice.norm());
+  fine.feel(footprint, tip, {0.0}, {0.0, 0.0, 2.0 * sand.yield_way}, sand);
+  EXPECT_LT(fine.feel(footprint, tip, {0.0}, {0.0, 0.0, 2.0 * sand.yield_way}, sand).force.z(),
+            0.05 * twice.z());
+}
+
+TEST(ResistiveForce, VolumeBelowThePlaneIsTheCap) {
+  const double R = 0.01, depth = 0.006;
+  const ResistiveForce force(tool_surface(ToolSettings{R}), R / 20.0);
+  const double cap = pi * depth * depth * (R - depth / 3.0);
+  EXPECT_NEAR(force.volume_below({0.0, 0.0, -depth}, {0.0}), cap, 0.01 * cap);
+}
+
+}  // namespace
+}  // namespace sandstroke
