@@ -29,6 +29,12 @@ HWY_INLINE V sine(V u) {
 /// Between 0 and 1.
 HWY_INLINE V clamped(V x) { return Min(Max(x, hn::Zero(d)), all(1.0)); }
 
+/// The cells of a vector, by its first column in the window, that have sand.
+HWY_INLINE Mask has_sand(const ColumnRange& sand, int col) {
+  const V at = hn::Iota(d, col);
+  return hn::And(at >= all(sand.begin), at < all(sand.end));
+}
+
 /// Where the cells of a window lie relative to the tool's axis [m]; infinitely far where they have no sand.
 class Offsets {
  public:
@@ -39,9 +45,8 @@ class Offsets {
         axis_x_(f.axis_x()),
         axis_y_(f.axis_y()) {}
   HWY_INLINE V x(const ColumnRange& sand, int col) const {
-    const V x = (hn::Iota(d, first_x_ + col) - all(axis_x_)) * all(dx_), at = hn::Iota(d, col);
-    const Mask has_sand = hn::And(at >= all(sand.begin), at < all(sand.end));
-    return hn::IfThenElse(has_sand, x, all(std::numeric_limits<double>::infinity()));
+    const V x = (hn::Iota(d, first_x_ + col) - all(axis_x_)) * all(dx_);
+    return hn::IfThenElse(has_sand(sand, col), x, all(std::numeric_limits<double>::infinity()));
   }
   double y(int row) const { return (first_y_ + row - axis_y_) * dx_; }
 
@@ -178,9 +183,7 @@ CarvedUnder CarveUnder(const EnvelopePlace& envelope, ToolFootprint& f, double t
       return (part(0) + part(3)) + (part(1) + part(2));
     };
     for (int col = 0, end = f.stride(); col < end; col += lanes) {
-      const V at = hn::Iota(d, col);
-      const Mask has_sand = hn::And(at >= all(sand.begin), at < all(sand.end));
-      const Mask covered = hn::And(has_sand, between(envelope.cover, col) >= half);
+      const Mask covered = hn::And(has_sand(sand, col), between(envelope.cover, col) >= half);
       const V underside = hn::IfThenElse(covered, between(envelope.underside, col), infinite);
       hn::Store(underside, d, f.underside(row) + col);
       const V height = hn::Load(d, heights + col);
@@ -202,11 +205,10 @@ void CoverUpTo(ToolFootprint& f, double height) {
   for (int row = 0; row < f.cells().rows(); ++row) {
     const ColumnRange sand = f.sand_cols(row);
     for (int col = 0, end = f.stride(); col < end; col += lanes) {
-      const V underside = hn::Load(d, f.underside(row) + col), at = hn::Iota(d, col);
+      const V underside = hn::Load(d, f.underside(row) + col);
       const Mask covered = underside <= all(height);
-      const Mask has_sand = hn::And(at >= all(sand.begin), at < all(sand.end));
       hn::Store(hn::IfThenElse(covered, underside, infinite), d, f.underside(row) + col);
-      hn::Store(where(hn::AndNot(covered, has_sand), all(1.0)), d, f.takes(row) + col);
+      hn::Store(where(hn::AndNot(covered, has_sand(sand, col)), all(1.0)), d, f.takes(row) + col);
     }
   }
 }

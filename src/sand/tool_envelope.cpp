@@ -66,6 +66,8 @@ void ToolEnvelope::rasterise(const TriangleMesh& surface) {
     throw_input_error(
         "the tool is so thin that it covers no cell of the bed; take more bed.cells or a thicker tool");
   continue_beyond_edge();
+  const std::vector<double> inside = depths_inside(highest_);
+  inradius_ = *std::max_element(inside.begin(), inside.end()) * cell_size_ / phases_;
 }
 
 /// The samples over a triangle, its edges among them, take its height where that is lower.
@@ -108,7 +110,7 @@ void ToolEnvelope::continue_beyond_edge() {
 }
 
 double ToolEnvelope::covered_height(double height) const {
-  // Multiples of a cell by powers of sqrt(2), above the lowest point.
+  // A cell above the lowest point, then 1.5 and 2 cells, 3 and 4, ...
   double steps = cell_size_;
   for (int k = 0; lowest_ + steps < height && lowest_ + steps < highest_; ++k)
     steps *= k % 2 == 0 ? 1.5 : 4.0 / 3.0;
@@ -121,28 +123,30 @@ const WayOut& ToolEnvelope::way_out(double height, double distance) {
                                   : ways_out_.emplace(height, make_way_out(height, distance)).first->second;
 }
 
+std::vector<double> ToolEnvelope::depths_inside(double height) const {
+  std::vector<unsigned char> covered;
+  covered.reserve(underside_.size());
+  for (int row = 0; row < sample_rows(); ++row)
+    for (int col = 0; col < sample_cols(); ++col)
+      covered.push_back(cover_[at_sample(row, col)] > 0.0 && underside_[at_sample(row, col)] <= height);
+  return signed_distance(covered, sample_rows(), sample_cols());
+}
+
 WayOut ToolEnvelope::make_way_out(double height, double distance) const {
   const int rows = sample_rows(), cols = sample_cols();
-  std::vector<unsigned char> covered(static_cast<std::size_t>(rows) * static_cast<std::size_t>(cols));
+  const std::vector<double> inside = depths_inside(height);
   const auto index = [&](int row, int col) {
     return static_cast<std::size_t>(row) * static_cast<std::size_t>(cols) + static_cast<std::size_t>(col);
   };
-  for (int row = 0; row < rows; ++row)
-    for (int col = 0; col < cols; ++col)
-      covered[index(row, col)] =
-          cover_[at_sample(row, col)] > 0.0 && underside_[at_sample(row, col)] <= height;
-  const std::vector<double> inside = signed_distance(covered, rows, cols);
   const double deepest = *std::max_element(inside.begin(), inside.end());
-
+  const double beyond = std::max((distance - 1.0) * deepest, 0.5 * phases_);  // samples
   WayOut way;
-  way.inradius = deepest * cell_size_ / phases_;
   way.x.assign(underside_.size(), 0.0);
   way.y.assign(underside_.size(), 0.0);
-  const double beyond = std::max((distance - 1.0) * deepest, 0.5 * phases_);  // samples
   constexpr int around = 3;
   for (int row = around; row < rows - around; ++row)
     for (int col = around; col < cols - around; ++col) {
-      if (!covered[index(row, col)]) continue;
+      if (!(inside[index(row, col)] > 0.0)) continue;
       // Outward: down the distance, by least squares. The sums are of multiples of a quantum, so exact, and
       // nothing where two edges are as near.
       Vector2d outward = Vector2d::Zero();

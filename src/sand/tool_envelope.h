@@ -10,7 +10,6 @@ namespace sandstroke {
 /// Where sand leaves a tool: of each sample that a part of it covers, how far [cells] and where to.
 struct WayOut {
   std::vector<double> x, y;  ///< as ToolEnvelope's samples; both 0 where no edge is nearest
-  double inradius = 0.0;     ///< m, of the largest circle that the part covers
 };
 
 /// A tool's underside over the bed while it does not turn: the lowest height of its surface above every
@@ -44,12 +43,14 @@ class ToolEnvelope {
   const double* underside() const { return underside_.data(); }
   /// 1 under the tool, else 0: its edge is where what lies between two samples is 1/2.
   const double* cover() const { return cover_.data(); }
-  double lowest() const { return lowest_; }    ///< m above the tip, of the underside
-  double highest() const { return highest_; }  ///< m
-  double reach() const { return reach_; }      ///< m, of the footprint from the axis
+  double lowest() const { return lowest_; }      ///< m above the tip, of the underside
+  double highest() const { return highest_; }    ///< m
+  double reach() const { return reach_; }        ///< m, of the footprint from the axis
+  double inradius() const { return inradius_; }  ///< m, of the largest circle in the footprint
 
   /// The way to the nearest edge of the part of the footprint that is no higher than `height` [m above the
-  /// tip], and beyond it by (distance - 1) inradii, half a cell at least. Made when it is asked for first.
+  /// tip], and beyond it by (distance - 1) times that part's inradius, half a cell at least. Made when it is
+  /// asked for first.
   const WayOut& way_out(double height, double distance);
   /// That height, rounded up to one of a few: so often the way is made anew.
   double covered_height(double height) const;
@@ -63,12 +64,14 @@ class ToolEnvelope {
   std::size_t at_sample(int row, int col) const {
     return at(row / phases_, col / phases_, row % phases_, col % phases_);
   }
+  /// How far each sample lies inside the part that is no higher [samples], row after row.
+  std::vector<double> depths_inside(double height) const;
   WayOut make_way_out(double height, double distance) const;
 
   double cell_size_;
   int phases_ = 4;
   int first_col_ = 0, first_row_ = 0, cols_ = 0, rows_ = 0, stride_ = 0;
-  double lowest_ = 0.0, highest_ = 0.0, reach_ = 0.0;
+  double lowest_ = 0.0, highest_ = 0.0, reach_ = 0.0, inradius_ = 0.0;
   std::vector<double> underside_, cover_;
   std::map<double, WayOut> ways_out_;  // by covered height
 };

@@ -73,7 +73,7 @@ void ToolFootprint::take_window() {
 void ToolFootprint::place_envelope(const HeightField& bed) {
   if (!envelope_ || envelope_->cell_size() != bed.cell_size()) {
     envelope_.emplace(turned(surface_, rotation_), bed.cell_size());
-    shape_.radius = shape_.reach = envelope_->reach();
+    shape_.radius = envelope_->inradius(), shape_.reach = envelope_->reach();
   }
   constexpr double beyond_any_bed = 1e6;  // cells
   if (!(std::abs(axis_x_) < beyond_any_bed && std::abs(axis_y_) < beyond_any_bed)) return;

@@ -132,7 +132,9 @@ class ToolFootprint {
   /// the sphere: what it covered when it carved or stood last.
   void hold_bowl(HeightField& bed);
 
-  double radius() const { return shape_.radius; }  ///< m, of the sphere; else the footprint's reach
+  /// m, of the sphere; of any other tool of the largest circle in its footprint: how far it may go before
+  /// what it left is no furrow.
+  double radius() const { return shape_.radius; }
   /// rho1 = s sqrt(u1) [m]: how far the footprint reaches.
   double reach() const { return shape_.reach; }
 

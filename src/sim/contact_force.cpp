@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "core/angle.h"
+#include "core/elementary.h"
 #include "tool/tool_surface.h"
 
 namespace sandstroke {
@@ -54,7 +55,7 @@ Wrench ContactForce::archimedes(const Eigen::Vector3d& tip, const SandPlane& pla
 std::string theory_warning(const Scene& scene, double fastest) {
   const SandStrength& sand = scene.strength;
   if (scene.force.law == ForceLaw::paper) return "";
-  const double friction = std::tan(to_radians(sand.friction_angle));
+  const double friction = elementary::tan(to_radians(sand.friction_angle));
   if (friction < 0.3 || friction > 0.9)
     return fmt::format(
         "force.friction_angle = {} deg is outside of what the force's constants were fitted for (16.7 to 42 "

@@ -153,5 +153,17 @@ TEST(SandSide, IsInContactBelowTheLevelAndNotAtIt) {
   }
 }
 
+TEST(SandSide, ARakeThatGoesFarInATickLeavesFurrowsAndNoPits) {
+  ToolSettings rake{0.004, ToolProfile::sphere, true, ToolShape::rake};
+  rake.teeth = 3, rake.spacing = 0.02;
+  HeightField bed(120, 120, 0.001);
+  SandSide side(rake, {Deposit::outward}, 0.0);
+  const Eigen::Vector3d from(-0.03, 0.0, -0.003), to(0.03, 0.0, -0.003);
+  side.move(bed, from, from, no_slip);
+  side.move(bed, to, to, no_slip);
+  for (const double y : {-0.02, 0.0, 0.02})
+    for (double x = -0.025; x < 0.025; x += 0.001) EXPECT_LT(bed.height_at(x, y), -0.002) << x << ", " << y;
+}
+
 }  // namespace
 }  // namespace sandstroke

@@ -49,8 +49,8 @@ TEST(StrokeDepth, OverTwentyRadiiAreWarnedOf) {
   EXPECT_EQ(Played({{0, 0, -0.1999}}).warning(), "");
   const std::string warning = Played({{0, 0, 0.0}, {0, 0, -4.0}}).warning();
   EXPECT_TRUE(
-      warning.starts_with("stroke.h5: goes 4 m deep into the sand (at 1.000 s), 400 times tool.radius "
-                          "= 0.01 m; "))
+      warning.starts_with("stroke.h5: goes 4 m deep into the sand (at 1.000 s), 400 times the tool's "
+                          "reach of 0.01 m; "))
       << warning;
 }
 
