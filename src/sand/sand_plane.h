@@ -14,7 +14,7 @@ struct SandPlane {
 
 /// A plane through the sand on three circles around (x, y) [m], at 1.5, 2 and 2.5 times `reach` [m]: beside
 /// the tool, its furrow and most of what it has heaped up. What does not fit the others there (the furrow
-/// behind) counts for little: least absolute deviations, by five turns of weighted least squares.
+/// behind) counts for little: least absolute deviations, by four turns of weighted least squares.
 SandPlane fit_sand_plane(const HeightField& bed, double x, double y, double reach);
 
 }  // namespace sandstroke

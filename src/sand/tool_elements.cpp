@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <vector>
 
 #include "sand/cell_flags.h"
 
@@ -70,15 +71,20 @@ ToolElements::ToolElements(const TriangleMesh& surface, double size) {
   size_ = (patches.all.size() + cells_per_group - 1) / cells_per_group * cells_per_group;
   columns_ = hwy::AllocateAligned<double>(7 * size_);
   std::fill_n(columns_.get(), 7 * size_, 0.0);
-  std::size_t i = 0;
-  for (const auto& [place, patch] : patches.all) {
+  std::vector<const Patch*> upwards;
+  for (const auto& [place, patch] : patches.all) upwards.push_back(&patch);
+  std::stable_sort(upwards.begin(), upwards.end(), [](const Patch* one, const Patch* other) {
+    return one->moment.z() / one->area < other->moment.z() / other->area;
+  });
+  for (std::size_t i = 0; i < upwards.size(); ++i) {
+    const Patch& patch = *upwards[i];
     const Vector3d centre = patch.moment / patch.area, normal = patch.facing.normalized();
     for (Eigen::Index axis = 0; axis < 3; ++axis) {
       columns_[static_cast<std::size_t>(axis) * size_ + i] = centre[axis];
       columns_[static_cast<std::size_t>(axis + 3) * size_ + i] = normal[axis];
     }
     // The vector sum: then the whole surface's is 0, as that of a closed one must be.
-    columns_[6 * size_ + i++] = patch.facing.norm();
+    columns_[6 * size_ + i] = patch.facing.norm();
   }
 }
 

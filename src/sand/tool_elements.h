@@ -6,8 +6,8 @@
 
 namespace sandstroke {
 
-/// A tool's surface as elements of about one size: what forces are summed over. Columns of size(), which is a
-/// multiple of 8: what is beyond count() has no area.
+/// A tool's surface as elements of about one size, the lowest first: what forces are summed over. Columns of
+/// size(), which is a multiple of 8: what is beyond count() has no area.
 class ToolElements {
  public:
   /// Triangles larger than `size` [m] are divided, and those that lie in one cube of that size and face about
