@@ -34,7 +34,7 @@ class Patches {
     const Vector3d facing = 0.5 * (b - a).cross(c - a), centre = (a + b + c) / 3.0;
     const double area = facing.norm();
     if (!(area > 0.0)) return;
-    constexpr double directions = 2.0;  // so many either way along an axis: about 30 degrees each
+    constexpr double directions = 1.0;  // so many either way along an axis: about 50 degrees each
     Place place;
     for (std::size_t i = 0; i < 3; ++i) {
       const auto axis = static_cast<Eigen::Index>(i);
