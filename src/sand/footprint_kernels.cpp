@@ -167,7 +167,8 @@ CarvedUnder CarveUnder(const EnvelopePlace& envelope, ToolFootprint& f, double t
   const V infinite = all(std::numeric_limits<double>::infinity());
   // What is cut is a multiple of 2^-40 cells or less, so that its sum is exact, in any order; it leaves a
   // second time nothing to cut.
-  const V shift = all(std::scalbn(1.5 * 0x1p12, std::ilogb(f.cell_size())));
+  const V shift = all(std::scalbn(1.5 * 0x1p12, std::ilogb(f.cell_size()))),
+          nearly = all(-0x1p-38 * f.cell_size());
   LaneSum pushed;
   V highest = all(-std::numeric_limits<double>::infinity());
   for (int row = 0; row < f.cells().rows(); ++row) {
@@ -187,13 +188,14 @@ CarvedUnder CarveUnder(const EnvelopePlace& envelope, ToolFootprint& f, double t
       const V underside = hn::IfThenElse(covered, between(envelope.underside, col), infinite);
       hn::Store(underside, d, f.underside(row) + col);
       const V height = hn::Load(d, heights + col);
-      const V above = Max(height - (tip + underside), zero), excess = above + shift - shift;
-      const Mask cut = excess > zero;
+      const V above = height - (tip + underside), excess = Max(above, zero) + shift - shift;
+      const Mask touches = above >= nearly, cut = excess > zero;
+      if (hn::AllFalse(d, touches)) continue;
+      highest = Max(highest, hn::IfThenElse(touches, underside, highest));
       if (hn::AllFalse(d, cut)) continue;
       hn::Store(height - excess, d, heights + col);
       hn::Store(excess, d, f.excess(row) + col);
       pushed.add(col, excess);
-      highest = Max(highest, hn::IfThenElse(cut, underside, highest));
       set_flags(flags, col, cut);
     }
   }

@@ -126,6 +126,7 @@ EnvelopePlace ToolFootprint::envelope_place() const {
 
 double ToolFootprint::carve(double tip_height) {
   const CarvedUnder carved = carve_under(envelope_place(), *this, tip_height);
+  touches_ = std::isfinite(carved.highest);
   covered_ = covered_height(tip_height, carved.highest);
   cover_up_to(*this, covered_);
   return carved.pushed;

@@ -123,6 +123,8 @@ class ToolFootprint {
   /// as covered goes up from its lowest point to twice its depth, and wherever it touched sand: an overhang
   /// far above the sand holds none off.
   double carve(double tip_height);
+  /// Sand reached its underside in the last carve().
+  bool touches() const { return touches_; }
   /// The same, without cutting.
   void stand(double tip_height);
   /// Where sand goes from there, to (distance - 1) inradii beyond the edge.
@@ -154,6 +156,7 @@ class ToolFootprint {
   std::optional<ToolEnvelope> envelope_;
   int sample_row_ = 0, sample_col_ = 0;
   double sample_y_ = 0.0, sample_x_ = 0.0;
+  bool touches_ = false;
   double covered_ = 0.0;  // m above the tip: what of the tool is no higher covers cells
   BedGeometry bed_{1, 1, 1.0};
   CellRange cells_;

@@ -33,7 +33,7 @@ Interaction SandSide::dig(HeightField& bed, const Eigen::Vector3d& tip, const Ei
   // Any tool but the sphere may meet a heap beside the level around it.
   if (interaction.contact || !footprint_.is_sphere())
     interaction.displaced_volume = displace(bed, footprint_, tip.z(), motion, displacement_);
-  interaction.contact |= interaction.displaced_volume > 0.0;
+  if (!footprint_.is_sphere()) interaction.contact |= !footprint_.cells().empty() && footprint_.touches();
   tip_ = tip;
   contact_ = interaction.contact;
   return interaction;
