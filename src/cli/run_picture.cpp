@@ -7,6 +7,7 @@
 #include "io/last_surface.h"
 #include "io/scene_toml.h"
 #include "render/change_picture.h"
+#include "tool/tool_surface.h"
 
 namespace sandstroke {
 RunPainter::RunPainter(const RunFile& run, const ViewSettings& view, double contour_interval)
@@ -14,6 +15,9 @@ RunPainter::RunPainter(const RunFile& run, const ViewSettings& view, double cont
       scene_(scene_from_text(run.scene_text(), run.name() + ": /scene")),
       renderer_(run.rows(), run.cols(), run.cell_size()),
       initial_(run.initial()) {
+  const bool kept = scene_.tool.shape != ToolShape::mesh;  // runs keep no mesh
+  if (scene_.tool.shape != ToolShape::sphere && kept)
+    mesh_ = std::make_shared<TriangleMesh>(turned(tool_surface(scene_.tool), own_rotation(scene_.tool)));
   const CellRange stroke = view.name == ViewName::stroke ? stroke_cells() : CellRange{};
   subject_ = subject_of_change(initial_, last_surface(run).surface.grid(), stroke, view, contour_interval);
 }
@@ -25,18 +29,19 @@ CellRange RunPainter::stroke_cells() {
   std::vector<Eigen::Vector3d> tips;
   for (const TickRecord& tick : *trace_)
     if (!std::isnan(tick.level)) tips.push_back(tip_of(scene_.device, tick.hand.position));
-  return cells_under(tips, scene_.tool.radius, BedGeometry(run_.rows(), run_.cols(), run_.cell_size()),
+  return cells_under(tips, tool_reach(scene_.tool), BedGeometry(run_.rows(), run_.cols(), run_.cell_size()),
                      initial_.maxCoeff());
 }
 
 Image RunPainter::draw(const HeightGrid& surface, std::optional<double> tool_time) {
-  subject_.tool = tool_time ? std::optional(tool_at(*tool_time)) : std::nullopt;
+  const bool known = mesh_ || scene_.tool.shape == ToolShape::sphere;
+  subject_.tool = tool_time && known ? std::optional(tool_at(*tool_time)) : std::nullopt;
   const HeightGrid difference = surface - initial_;
   subject_.difference = &difference;
   return renderer_.render(HeightField(surface, run_.cell_size(), scene_.bed.shape), subject_);
 }
 
-ToolSphere RunPainter::tool_at(double time) {
+ToolBody RunPainter::tool_at(double time) {
   if (!trace_) {
     if (!run_.has_trace())
       throw_input_error("{}: has no trace, so the position of the tool is unknown; add --no-tool",
@@ -47,7 +52,7 @@ ToolSphere RunPainter::tool_at(double time) {
     throw_input_error("{}: has no stroke, so there is no tool to draw; add --no-tool", run_.name());
   const auto after = std::upper_bound(trace_->begin() + 1, trace_->end(), time,
                                       [](double at, const TickRecord& tick) { return at < tick.time; });
-  return {tip_of(scene_.device, std::prev(after)->device_position), scene_.tool.radius};
+  return {tip_of(scene_.device, std::prev(after)->device_position), scene_.tool.radius, mesh_};
 }
 
 Image run_picture(const RunFile& run, const ViewSettings& view) {

@@ -26,13 +26,14 @@ class RunPainter {
 
  private:
   CellRange stroke_cells();
-  ToolSphere tool_at(double time);
+  ToolBody tool_at(double time);
 
   const RunFile& run_;
   Scene scene_;
   HeightFieldRenderer renderer_;  // before the surfaces: it refuses beds that cannot be drawn
   HeightGrid initial_;
   RenderSubject subject_;
+  std::shared_ptr<const TriangleMesh> mesh_;  // of any tool but the sphere
   std::optional<std::vector<TickRecord>> trace_;
 };
 

@@ -5,6 +5,7 @@
 #include "core/error.h"
 #include "core/interrupt.h"
 #include "import/import_stroke.h"
+#include "io/mesh_file.h"
 #include "io/scene_toml.h"
 #include "io/surface_file.h"
 #include "run/run_progress.h"
@@ -35,6 +36,7 @@ std::vector<FeltTick> felt_ticks(const Scene& asked, const std::filesystem::path
   if (asked.force.law != ForceLaw::paper)
     throw_input_error("the constants of force.law = \"paper\" are fitted; set it (--set force.law=paper)");
   Scene scene = asked;
+  scene.tool = with_mesh(scene.tool, scene_folder);
   scene.device.model = DeviceModel::kinematic;
   const std::filesystem::path path = stroke_path(scene, scene_folder);
   std::string hash;

@@ -62,6 +62,7 @@ std::vector<std::filesystem::path> input_files(const Scene& scene, const std::fi
   if (scene.stroke)
     files = sample_files(stroke_path(scene, folder), scene.stroke->table.value_or(TableSettings{}));
   if (scene.bed.surface.kind == SurfaceKind::file) files.push_back(folder / scene.bed.surface.file);
+  if (scene.tool.shape == ToolShape::mesh) files.push_back(folder / scene.tool.file);
   return files;
 }
 

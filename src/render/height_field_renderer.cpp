@@ -14,9 +14,9 @@
 #include "render/redraw.h"
 #include "render/round_scale.h"
 #include "render/shaders.h"
-#include "render/sphere_mesh.h"
 #include "render/surface_textures.h"
 #include "render/tile_mesh.h"
+#include "render/tool_mesh.h"
 
 namespace sandstroke {
 namespace {
@@ -70,7 +70,7 @@ class HeightFieldRenderer::Drawing {
   /// legend_part: of the picture's width.
   Camera camera_for(const RenderSubject& subject, const StartHeights& start, double legend_part) const;
   void set_light(const ShaderProgram& program, const Camera& camera, const Sun& sun) const;
-  void set_tool(const ShaderProgram& program, const ToolSphere& tool) const;
+  void set_tool(const ShaderProgram& program, const ToolBody& tool) const;
   /// Draws the pixels_ anew.
   void draw(const RenderSubject& subject, const std::optional<Legend>& legend, const Camera& camera,
             const Sun& sun);
@@ -80,7 +80,7 @@ class HeightFieldRenderer::Drawing {
   void draw_tiles(const ShaderProgram& program, const Camera& camera, const std::vector<int>& levels);
   void draw_ground_depth(const Camera& camera) const;
   void draw_wall(RenderStyle style, const Camera& camera, const Sun& sun) const;
-  void draw_tool(const ToolSphere& tool, const Camera& camera, const Sun& sun) const;
+  void draw_tool(const ToolBody& tool, const Camera& camera, const Sun& sun);
 
   BedGeometry bed_;
   double wall_radius_ = 0.0;  // m, of a round bed
@@ -88,7 +88,7 @@ class HeightFieldRenderer::Drawing {
   SurfaceTextures surface_;
   TileMesh tiles_;
   BedBox box_;
-  SphereMesh sphere_;
+  ToolMesh tool_;
   ShaderProgram sand_, map_, wall_, ball_, surroundings_;
   GlObject sequential_, diverging_, no_vertices_;
   std::unique_ptr<SurfaceTextures> difference_;
@@ -108,8 +108,9 @@ void HeightFieldRenderer::Drawing::set_light(const ShaderProgram& program, const
   program.set("orthographic", camera.orthographic ? 1 : 0);
 }
 
-void HeightFieldRenderer::Drawing::set_tool(const ShaderProgram& program, const ToolSphere& tool) const {
-  program.set("tool", Eigen::Vector4d(tool.centre().x(), tool.centre().y(), tool.centre().z(), tool.radius));
+void HeightFieldRenderer::Drawing::set_tool(const ShaderProgram& program, const ToolBody& tool) const {
+  const double radius = tool.mesh ? 0.0 : tool.radius;  // a mesh throws no shadow
+  program.set("tool", Eigen::Vector4d(tool.centre().x(), tool.centre().y(), tool.centre().z(), radius));
 }
 
 void HeightFieldRenderer::Drawing::draw_surroundings(const RenderSubject& subject, const Camera& camera,
@@ -214,17 +215,14 @@ Camera HeightFieldRenderer::Drawing::camera_for(const RenderSubject& subject, co
     const CellRange cells = framed_cells(subject.focus, bed_.rows(), bed_.cols(), bed_.cell_size(), 0.03);
     framed = box_over(bed_, cells, start.lowest, start.highest);
   }
-  if (subject.tool) {
-    scene.extend(subject.tool->centre() + Eigen::Vector3d::Constant(subject.tool->radius));
-    scene.extend(subject.tool->centre() - Eigen::Vector3d::Constant(subject.tool->radius));
-  }
+  if (subject.tool) scene.extend(subject.tool->box());
   return make_camera(subject.view, framed, scene, legend_part);
 }
 
 void HeightFieldRenderer::Drawing::draw_sand(const RenderSubject& subject, const Camera& camera,
                                              const Sun& sun) {
   set_light(sand_, camera, sun);
-  set_tool(sand_, subject.tool.value_or(ToolSphere{Eigen::Vector3d::Zero(), 0.0}));
+  set_tool(sand_, subject.tool.value_or(ToolBody{Eigen::Vector3d::Zero(), 0.0}));
   draw_tiles(sand_, camera, subject.tile_levels);
 }
 
@@ -258,13 +256,14 @@ void HeightFieldRenderer::Drawing::draw_wall(RenderStyle style, const Camera& ca
   box_.draw_wall();
 }
 
-void HeightFieldRenderer::Drawing::draw_tool(const ToolSphere& tool, const Camera& camera,
-                                             const Sun& sun) const {
+void HeightFieldRenderer::Drawing::draw_tool(const ToolBody& tool, const Camera& camera, const Sun& sun) {
   set_light(ball_, camera, sun);
   set_tool(ball_, tool);
-  ball_.set("scale", tool.radius);
-  ball_.set("offset", tool.centre());
-  sphere_.draw();
+  ball_.set("facets", tool.mesh ? 1.0 : 0.0);
+  ball_.set("scale", tool.mesh ? 1.0 : tool.radius);
+  ball_.set("offset", tool.mesh ? tool.tip : tool.centre());
+  tool_.show(tool.mesh);
+  tool_.draw();
 }
 
 Image HeightFieldRenderer::Drawing::render(const HeightField& surface, const RenderSubject& subject) {

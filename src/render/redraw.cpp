@@ -20,7 +20,7 @@ bool same_but_tool(const PictureState& a, const PictureState& b) {
 
 /// Where the tool itself is, and the sand whose light it changes (past_tool() of the shader). None where the
 /// sun stands so low that its shadow has no end.
-std::vector<Eigen::AlignedBox3d> boxes_of(const ToolSphere& tool, const Sun& sun,
+std::vector<Eigen::AlignedBox3d> boxes_of(const ToolBody& tool, const Sun& sun,
                                           const SurfaceTextures& surface) {
   const Eigen::Vector3d centre = tool.centre(), up = sun.direction();
   const double low = surface.lowest(), high = surface.highest(), radius = tool.radius;
@@ -31,6 +31,7 @@ std::vector<Eigen::AlignedBox3d> boxes_of(const ToolSphere& tool, const Sun& sun
     box.min().z() = low, box.max().z() = high;
     return box;
   };
+  if (tool.mesh) return {tool.box()};  // it throws no shadow
   if (up.z() < 0.05) return {};
   // As far along its axis as the shadow, which widens by 0.03 of the way, can reach the lowest sand.
   const double length = std::max(0.0, centre.z() - low + 1.04 * radius) / (up.z() - 0.03);
@@ -59,7 +60,7 @@ PixelRect changed_pixels(const PictureState& before, const PictureState& now, co
     changed.extend(now.camera.pixels_of(box, picture.right, picture.top));
   };
   if (before.tool != now.tool) {
-    for (const std::optional<ToolSphere>& tool : {before.tool, now.tool}) {
+    for (const std::optional<ToolBody>& tool : {before.tool, now.tool}) {
       if (!tool) continue;
       const std::vector<Eigen::AlignedBox3d> boxes = boxes_of(*tool, now.sun, surface);
       if (boxes.empty()) return picture;

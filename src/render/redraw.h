@@ -15,7 +15,7 @@ struct PictureState {
   bool box = true;
   std::optional<std::array<double, 3>> background;
   std::vector<int> tile_levels;
-  std::optional<ToolSphere> tool;
+  std::optional<ToolBody> tool;
 };
 
 /// A bound on how far [m] the sand of a tile of this detail moves under a pixel, from one pixel to the next:

@@ -6,6 +6,14 @@
 
 namespace sandstroke {
 
+Eigen::AlignedBox3d ToolBody::box() const {
+  Eigen::AlignedBox3d box(centre().array() - radius, centre().array() + radius);
+  if (!mesh) return box;
+  box.setEmpty();
+  for (const Eigen::Vector3d& vertex : mesh->vertices) box.extend(tip + vertex);
+  return box;
+}
+
 CellRange framed_cells(const CellRange& focus, int rows, int cols, double cell_size, double margin) {
   if (focus.empty()) return {0, rows, 0, cols};
   const int larger = std::max(focus.rows(), focus.cols());

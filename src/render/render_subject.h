@@ -2,20 +2,24 @@
 
 #include <Eigen/Geometry>
 #include <array>
+#include <memory>
 #include <optional>
 #include <vector>
 
 #include "picture/view.h"
 #include "sand/height_field.h"
+#include "tool/triangle_mesh.h"
 
 namespace sandstroke {
 
-/// The tool as it is drawn: a sphere whose lowest point is the tip.
-struct ToolSphere {
-  Eigen::Vector3d tip = Eigen::Vector3d::Zero();  ///< m
-  double radius = 0.01;                           ///< m
+/// The tool as it is drawn: a sphere whose lowest point is the tip, or a mesh.
+struct ToolBody {
+  Eigen::Vector3d tip = Eigen::Vector3d::Zero();       ///< m
+  double radius = 0.01;                                ///< m
+  std::shared_ptr<const TriangleMesh> mesh = nullptr;  ///< as it is turned, tip at the origin; null: a sphere
   Eigen::Vector3d centre() const { return tip + radius * Eigen::Vector3d::UnitZ(); }
-  bool operator==(const ToolSphere& other) const { return tip == other.tip && radius == other.radius; }
+  Eigen::AlignedBox3d box() const;  ///< m
+  bool operator==(const ToolBody&) const = default;
 };
 
 /// Ends of a colour scale [m].
@@ -36,7 +40,7 @@ StartHeights start_heights(const HeightGrid& surface);
 struct RenderSubject {
   ViewSettings view;
   CellRange focus;  ///< what the view `stroke` frames; empty = the whole bed
-  std::optional<ToolSphere> tool;
+  std::optional<ToolBody> tool;
   const HeightGrid* difference = nullptr;  ///< m, the colours of style difference; of the bed's shape
   std::optional<ValueRange> range;         ///< of the colours; else that of the values shown
   std::optional<StartHeights> start;       ///< else those of the surface itself

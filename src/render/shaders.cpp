@@ -246,10 +246,15 @@ void main() {
 std::string tool_fragment() {
   return std::string(version) + light + R"(
 uniform vec4 tool;
+uniform float facets;        // 1: flat triangles; 0: a sphere
 in vec3 world;
 out vec4 colour;
 void main() {
-  vec3 normal = normalize(world - tool.xyz), viewer = to_eye(world);
+  vec3 viewer = to_eye(world), normal = normalize(world - tool.xyz);
+  if (facets > 0.5) {
+    normal = normalize(cross(dFdx(world), dFdy(world)));
+    if (dot(normal, viewer) < 0.0) normal = -normal;
+  }
   vec3 mirror = reflect(-viewer, normal), halfway = normalize(viewer + sun_direction);
   float edge = pow(1.0 - max(dot(normal, viewer), 0.0), 5.0);
   vec3 albedo = vec3(0.11, 0.15, 0.20);

@@ -19,6 +19,7 @@
 #include "haptics/stroke_quality.h"
 #include "haptics/stroke_smoothing.h"
 #include "import/import_stroke.h"
+#include "io/mesh_file.h"
 #include "io/run_writer.h"
 #include "io/scene_toml.h"
 #include "io/stroke_file.h"
@@ -88,6 +89,7 @@ std::string scene_file_entry(const std::filesystem::path& scene_file, const std:
 RunResult run_scene(const Scene& asked, const std::filesystem::path& output, const RunOptions& options) {
   Scene scene = asked;
   scene.bed = with_own_range(scene.bed, options.scene_folder);  // so that the run file says it
+  scene.tool = with_mesh(scene.tool, options.scene_folder);
   const int cores = tbb::info::default_concurrency();
   const int threads = options.threads > 0 ? std::min(options.threads, cores) : cores;
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,

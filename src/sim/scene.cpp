@@ -66,7 +66,7 @@ void describe_tool(KeyVisitor& v, ToolSettings& tool) {
     v.number("spacing", tool.spacing, positive, "m", "distance between the axes of teeth");
   }
   if (is(mesh)) {
-    v.text("file", tool.file, "a closed surface (.stl, .ply or .obj), z up, relative to the scene");
+    v.text("file", tool.file, "a closed surface (.stl), z up, relative to the scene");
     v.number("scale", tool.scale, positive, "m", "length of the file's unit (0.001: it is in millimetres)");
   }
   if (is(sphere)) {
@@ -309,7 +309,7 @@ void check_scene(const Scene& scene, const std::string& name) {
         "model.preset = \"accurate\", or displacement.deposit = \"outward\"",
         name);
   if (scene.tool.shape == ToolShape::mesh && scene.tool.file.empty())
-    throw_input_error("{}: tool.file is missing; name a mesh (.stl, .ply or .obj)", name);
+    throw_input_error("{}: tool.file is missing; name a mesh (.stl)", name);
   const double reach = is_sphere ? ToolFootprint(scene.tool).reach() : tool_reach(scene.tool);
   if (!is_sphere && scene.stroke && 2.0 * reach > std::min(bed.width, bed.depth))
     throw_input_error(

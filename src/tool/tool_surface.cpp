@@ -6,6 +6,7 @@
 
 #include "core/angle.h"
 #include "core/elementary.h"
+#include "core/error.h"
 
 namespace sandstroke {
 namespace {
@@ -143,6 +144,8 @@ TriangleMesh tool_surface(const ToolSettings& tool) {
       add_rake(mesh, tool);
       break;
     case ToolShape::mesh:
+      if (!tool.mesh)
+        throw_input_error("tool.shape = \"mesh\": the mesh is not read here; use sandstroke run");
       return *tool.mesh;
   }
   return mesh;

@@ -8,7 +8,7 @@ namespace sandstroke {
 
 /// The surface of any tool in its own frame [m], tip at the origin, before it is turned. Round shapes have so
 /// many corners that no point of them is farther than 1e-4 radii inside the surface. A rake's teeth are
-/// cylinders with hemispheres at their ends, under a beam. Needs a mesh that was read.
+/// cylinders with hemispheres at their ends, under a beam. Error: input, of a mesh that was not read.
 TriangleMesh tool_surface(const ToolSettings& settings);
 
 /// How the tool's own frame lies in the bed while the hand is not turned (ToolSettings::orientation).

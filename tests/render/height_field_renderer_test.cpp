@@ -8,6 +8,7 @@
 
 #include "core/error.h"
 #include "render/colour_map.h"
+#include "tool/tool_surface.h"
 
 namespace sandstroke {
 namespace {
@@ -68,7 +69,7 @@ TEST(HeightFieldRenderer, SamePictureToTheBitFromEveryRenderer) {
   const HeightField surface(noisy(130, 200, 0.002), 0.01);
   for (const RenderStyle style : {RenderStyle::sand, RenderStyle::height}) {
     RenderSubject subject = small_picture(style);
-    subject.tool = ToolSphere{{0.1, 0.2, 0.0}, 0.05};
+    subject.tool = ToolBody{{0.1, 0.2, 0.0}, 0.05};
     HeightFieldRenderer renderer(130, 200, 0.01);
     const Image first = renderer.render(surface, subject), again = renderer.render(surface, subject);
     EXPECT_EQ(first.rgb, again.rgb);
@@ -113,7 +114,7 @@ TEST(HeightFieldRenderer, AFilmsFramesEqualFreshPicturesAndTakeFewPixels) {
       for (int frame = 0; frame < 6; ++frame) {
         const int row = 150 + 9 * frame, col = 190 + 13 * frame;
         heights.block(row, col, 5, 7) = frame % 2 ? -0.02 : 0.01;
-        subject.tool = ToolSphere{{0.005 * (col - 200), 0.005 * (row - 200), -0.01}, 0.015};
+        subject.tool = ToolBody{{0.005 * (col - 200), 0.005 * (row - 200), -0.01}, 0.015};
         const HeightField surface(heights, 0.005);
         EXPECT_EQ(renderer.render(surface, subject).rgb, fresh_picture(surface, subject).rgb)
             << elevation << " deg, sun at " << sun << " deg, frame " << frame;
@@ -343,7 +344,7 @@ TEST(HeightFieldRenderer, ToolIsDrawnAndThrowsItsShadowAwayFromTheSun) {
   subject.view.light_elevation = 45.0;
   HeightFieldRenderer renderer(128, 128, 0.01);
   const Image without = renderer.render(surface, subject);
-  subject.tool = ToolSphere{{0.0, 0.0, 0.0}, 0.1};
+  subject.tool = ToolBody{{0.0, 0.0, 0.0}, 0.1};
   const Image with = renderer.render(surface, subject);
   const double pixels_per_metre = 0.9 * 180 / (127 * 0.01 * 1.024);
   const auto change = [&](double x, double y) {
@@ -355,6 +356,34 @@ TEST(HeightFieldRenderer, ToolIsDrawnAndThrowsItsShadowAwayFromTheSun) {
   EXPECT_LT(change(0.15, 0.0), -60);   // the centre's shadow falls 0.1 m to the right
   EXPECT_GT(change(-0.15, 0.0), -30);  // towards the sun only some sky is missing
   EXPECT_EQ(change(0.0, 0.55), change(-0.55, 0.0));
+}
+
+TEST(HeightFieldRenderer, AMeshIsDrawnWhereItIsAndRedrawnAsFromScratch) {
+  const HeightField surface(128, 128, 0.01);
+  RenderSubject subject = small_picture(RenderStyle::sand, ViewName::top);
+  HeightFieldRenderer renderer(128, 128, 0.01);
+  const Image without = renderer.render(surface, subject);
+  ToolSettings box;
+  box.shape = ToolShape::box;
+  box.size = {0.3, 0.1, 0.05};
+  const double pixels_per_metre = 0.9 * 180 / (127 * 0.01 * 1.024);
+  for (const double turn : {0.0, 90.0}) {
+    box.orientation.z() = turn;
+    const auto mesh = std::make_shared<TriangleMesh>(turned(tool_surface(box), own_rotation(box)));
+    subject.tool = ToolBody{{0.1, 0.0, 0.0}, 0.01, mesh};
+    const Image with = renderer.render(surface, subject);
+    EXPECT_EQ(with.rgb, fresh_picture(surface, subject).rgb);
+    const auto changed = [&](double x, double y) {
+      const int col = static_cast<int>(160 + x * pixels_per_metre),
+                row = static_cast<int>(90 - y * pixels_per_metre);
+      return with.pixel(col, row)[0] != without.pixel(col, row)[0];
+    };
+    const double x = turn == 0.0 ? 0.13 : 0.03, y = turn == 0.0 ? 0.03 : 0.13;  // inside, from its axis
+    for (const double sx : {-x, x})
+      for (const double sy : {-y, y}) EXPECT_TRUE(changed(0.1 + sx, sy)) << turn;
+    EXPECT_FALSE(changed(0.1 + 1.5 * x + 0.03, 0.0));
+    EXPECT_FALSE(changed(0.1, 1.5 * y + 0.03));
+  }
 }
 
 TEST(HeightFieldRenderer, RefusesWhatItCannotDraw) {

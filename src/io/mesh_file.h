@@ -1,0 +1,16 @@
+#pragma once
+
+#include <filesystem>
+
+#include "tool/tool_settings.h"
+
+namespace sandstroke {
+
+/// A mesh file (.stl binary or text, .ply, .obj) by the library assimp, which is loaded when it is needed
+/// first: its surface as a tool's (checked_mesh), `scale` m per unit. Error: input or io, naming the file.
+TriangleMesh read_mesh(const std::filesystem::path& path, double scale);
+
+/// The same tool with its mesh read, where it is one (tool.file, relative to `folder`).
+ToolSettings with_mesh(ToolSettings tool, const std::filesystem::path& folder);
+
+}  // namespace sandstroke

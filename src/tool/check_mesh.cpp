@@ -1,0 +1,111 @@
+#include "tool/check_mesh.h"
+
+#include <spdlog/spdlog.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "core/error.h"
+
+namespace sandstroke {
+namespace {
+
+constexpr std::size_t most_triangles = 2'000'000;
+constexpr double largest_tool = 1.0;  // m
+
+TriangleMesh welded(const TriangleMesh& mesh) {
+  std::map<std::array<double, 3>, std::int32_t> known;
+  TriangleMesh result;
+  std::vector<std::int32_t> to(mesh.vertices.size());
+  for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
+    const Eigen::Vector3d& vertex = mesh.vertices[i];
+    const auto next = static_cast<std::int32_t>(result.vertices.size());
+    const auto [place, is_new] =
+        known.try_emplace({vertex.x() + 0.0, vertex.y() + 0.0, vertex.z() + 0.0}, next);
+    if (is_new) result.vertices.push_back(vertex);
+    to[i] = place->second;
+  }
+  for (const auto& corners : mesh.triangles) {
+    const std::array<std::int32_t, 3> here = {to[static_cast<std::size_t>(corners[0])],
+                                              to[static_cast<std::size_t>(corners[1])],
+                                              to[static_cast<std::size_t>(corners[2])]};
+    if (here[0] != here[1] && here[1] != here[2] && here[2] != here[0]) result.triangles.push_back(here);
+  }
+  return result;
+}
+
+void check_extent(const TriangleMesh& mesh, const std::string& name) {
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3d& vertex : mesh.vertices) {
+    if (!vertex.allFinite() || vertex.cwiseAbs().maxCoeff() > 1e6)
+      throw_input_error("{}: a corner lies at ({:g}, {:g}, {:g}), which is no place; export the mesh again",
+                        name, vertex.x(), vertex.y(), vertex.z());
+    box.extend(vertex);
+  }
+  const double extent = box.sizes().maxCoeff();
+  if (extent > largest_tool)
+    throw_input_error(
+        "{}: is {:.4g} m large; if it is in millimetres set tool.scale = 0.001, else a smaller one", name,
+        extent);
+  const double away = box.exteriorDistance(Eigen::Vector3d(Eigen::Vector3d::Zero()));
+  if (away > extent)
+    throw_input_error("{}: lies {:.4g} m away from its origin, which is the tool's tip; move it there", name,
+                      away);
+}
+
+/// Each edge must be gone along once each way.
+void check_closed(const TriangleMesh& mesh, const std::string& name) {
+  std::vector<std::pair<std::int32_t, std::int32_t>> edges;
+  edges.reserve(3 * mesh.triangles.size());
+  for (const auto& corners : mesh.triangles)
+    for (std::size_t i = 0; i < 3; ++i) edges.emplace_back(corners[i], corners[(i + 1) % 3]);
+  std::sort(edges.begin(), edges.end());
+  const auto times = [&](const std::pair<std::int32_t, std::int32_t>& edge) {
+    const auto [first, last] = std::equal_range(edges.begin(), edges.end(), edge);
+    return last - first;
+  };
+  std::int64_t open = 0, turned = 0;
+  for (const auto& edge : edges) {
+    const auto back = times({edge.second, edge.first});
+    if (times(edge) == back) continue;
+    ++(back == 0 && times(edge) > 1 ? turned : open);
+  }
+  if (turned > 0)
+    throw_input_error(
+        "{}: some triangles go round the other way than their neighbours ({} edges); unify the normals in "
+        "the program that made it",
+        name, turned);
+  if (open > 0)
+    throw_input_error(
+        "{}: is no closed surface: {} edges have a triangle on one side only; close its holes in the "
+        "program that made it",
+        name, open);
+}
+
+}  // namespace
+
+TriangleMesh checked_mesh(const TriangleMesh& mesh, const std::string& name) {
+  if (mesh.triangles.size() > most_triangles)
+    throw_input_error("{}: has {} triangles, and a tool at most {}; simplify it", name, mesh.triangles.size(),
+                      most_triangles);
+  check_extent(mesh, name);
+  TriangleMesh checked = welded(mesh);
+  if (checked.triangles.empty()) throw_input_error("{}: has no triangles; export the mesh again", name);
+  check_closed(checked, name);
+  const double volume = enclosed_volume(checked);
+  if (!(std::abs(volume) > 1e-15))
+    throw_input_error(
+        "{}: encloses {:.3g} m^3, no volume to push sand with; take a solid, or a larger tool.scale", name,
+        volume);
+  if (volume < 0.0) {
+    spdlog::warn("{}: is inside out; it is taken the other way round", name);
+    for (auto& corners : checked.triangles) std::swap(corners[1], corners[2]);
+  }
+  return checked;
+}
+
+}  // namespace sandstroke

@@ -1,0 +1,128 @@
+#include "io/mesh_file.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <random>
+
+#include "core/error.h"
+#include "test_folder.h"
+#include "tool/tool_surface.h"
+
+namespace sandstroke {
+namespace {
+
+namespace fs = std::filesystem;
+
+TriangleMesh box_mesh() {
+  ToolSettings box;
+  box.shape = ToolShape::box;
+  return tool_surface(box);
+}
+
+std::string binary_stl(const TriangleMesh& mesh) {
+  std::string bytes(80, ' ');
+  const auto put = [&](const auto& value) {
+    bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
+  };
+  put(static_cast<std::uint32_t>(mesh.triangles.size()));
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    for (int k = 0; k < 3; ++k) put(0.0f);
+    for (int corner = 0; corner < 3; ++corner)
+      for (const double x : mesh.corner(i, corner)) put(static_cast<float>(x));
+    put(std::uint16_t{0});
+  }
+  return bytes;
+}
+std::string text_stl(const TriangleMesh& mesh) {
+  std::string text = "solid tool\n";
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    text += "facet normal 0 0 0\nouter loop\n";
+    for (int corner = 0; corner < 3; ++corner) {
+      const Eigen::Vector3d& v = mesh.corner(i, corner);
+      text += fmt::format("vertex {} {} {}\n", v.x(), v.y(), v.z());
+    }
+    text += "endloop\nendfacet\n";
+  }
+  return text + "endsolid tool\n";
+}
+class MeshFile : public testing::Test {
+ protected:
+  TestFolder folder;
+  TriangleMesh read(const std::string& bytes, const std::string& file = "tool.stl", double scale = 1.0) {
+    std::ofstream(folder.path() / file, std::ios::binary) << bytes;
+    return read_mesh(folder.path() / file, scale);
+  }
+  std::string complaint(const std::string& bytes, const std::string& file = "tool.stl", double scale = 1.0) {
+    try {
+      read(bytes, file, scale);
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "";
+  }
+};
+
+TEST_F(MeshFile, IsReadFromEachFormat) {
+  const TriangleMesh box = box_mesh();
+  const double volume = enclosed_volume(box);
+  for (const auto& [file, bytes] : {std::pair{"a.stl", binary_stl(box)}, {"b.STL", text_stl(box)}}) {
+    const TriangleMesh mesh = read(bytes, file);
+    EXPECT_EQ(mesh.vertices.size(), 8u) << file;
+    EXPECT_EQ(mesh.triangles.size(), 12u) << file;
+    EXPECT_NEAR(enclosed_volume(mesh), volume, 1e-6 * volume) << file;
+  }
+  EXPECT_NEAR(enclosed_volume(read(binary_stl(box), "half.stl", 0.5)), volume / 8.0, 1e-6 * volume);
+}
+
+TEST_F(MeshFile, WhatIsNoToolIsSaidInASentence) {
+  const TriangleMesh box = box_mesh();
+  EXPECT_NE(complaint(binary_stl(box), "mm.stl", 1000.0).find("set tool.scale = 0.001"), std::string::npos);
+  TriangleMesh open = box;
+  open.triangles.pop_back();
+  EXPECT_NE(complaint(binary_stl(open)).find("3 edges have a triangle on one side only"), std::string::npos);
+  TriangleMesh twisted = box;
+  std::swap(twisted.triangles[0][0], twisted.triangles[0][1]);
+  EXPECT_NE(complaint(binary_stl(twisted)).find("go round the other way"), std::string::npos);
+  TriangleMesh flat = box;
+  for (Eigen::Vector3d& vertex : flat.vertices) vertex.z() = 0.0;
+  EXPECT_NE(complaint(text_stl(flat)).find("no volume"), std::string::npos);
+  TriangleMesh away = box;
+  for (Eigen::Vector3d& vertex : away.vertices) vertex.x() += 0.5;
+  EXPECT_NE(complaint(binary_stl(away)).find("away from its origin"), std::string::npos);
+  EXPECT_NE(complaint(binary_stl(box).substr(0, 300)).find("ends too soon"), std::string::npos);
+  EXPECT_NE(complaint("").find("is no STL file"), std::string::npos);
+  EXPECT_NE(complaint("solid a\nfacet\nvertex 0 0 1,5").find("tool.stl:3: '1,5' is no number"),
+            std::string::npos);
+}
+
+TEST_F(MeshFile, InsideOutIsMended) {
+  TriangleMesh box = box_mesh();
+  for (auto& corners : box.triangles) std::swap(corners[0], corners[1]);
+  EXPECT_GT(enclosed_volume(read(binary_stl(box))), 0.0);
+}
+
+TEST_F(MeshFile, TwoHundredHostileFilesAreReadOrRefused) {
+  const TriangleMesh box = box_mesh();
+  const std::pair<std::string, std::string> whole[] = {{"h.stl", binary_stl(box)}, {"t.stl", text_stl(box)}};
+  std::mt19937 random(7);
+  int refused = 0;
+  for (int i = 0; i < 200; ++i) {
+    auto [file, bytes] = whole[i % 2];
+    const auto place = [&] { return random() % bytes.size(); };
+    if (i % 3 == 0) bytes.resize(place());
+    for (unsigned k = 0; !bytes.empty() && k < 1 + random() % 6; ++k) {
+      if (i % 5 == 4)
+        bytes.insert(place(), "nan -1e999 ");
+      else
+        bytes[place()] = static_cast<char>(random());
+    }
+    const std::string said = complaint(bytes, file);
+    refused += !said.empty();
+    EXPECT_TRUE(!said.empty() || enclosed_volume(read(bytes, file)) > 0.0);
+  }
+  EXPECT_GT(refused, 100);
+}
+
+}  // namespace
+}  // namespace sandstroke
