@@ -17,15 +17,17 @@ namespace {
 constexpr std::size_t most_triangles = 2'000'000;
 constexpr double largest_tool = 1.0;  // m
 
-TriangleMesh welded(const TriangleMesh& mesh) {
+/// Corners that lie within a millionth of the extent are one: what a file's digits make of it.
+TriangleMesh welded(const TriangleMesh& mesh, double extent) {
   std::map<std::array<double, 3>, std::int32_t> known;
   TriangleMesh result;
   std::vector<std::int32_t> to(mesh.vertices.size());
+  const auto place_of = [&](double x) { return std::round(x / (1e-6 * extent)) + 0.0; };
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
     const Eigen::Vector3d& vertex = mesh.vertices[i];
     const auto next = static_cast<std::int32_t>(result.vertices.size());
     const auto [place, is_new] =
-        known.try_emplace({vertex.x() + 0.0, vertex.y() + 0.0, vertex.z() + 0.0}, next);
+        known.try_emplace({place_of(vertex.x()), place_of(vertex.y()), place_of(vertex.z())}, next);
     if (is_new) result.vertices.push_back(vertex);
     to[i] = place->second;
   }
@@ -38,7 +40,8 @@ TriangleMesh welded(const TriangleMesh& mesh) {
   return result;
 }
 
-void check_extent(const TriangleMesh& mesh, const std::string& name) {
+/// m, how large it is.
+double check_extent(const TriangleMesh& mesh, const std::string& name) {
   Eigen::AlignedBox3d box;
   for (const Eigen::Vector3d& vertex : mesh.vertices) {
     if (!vertex.allFinite() || vertex.cwiseAbs().maxCoeff() > 1e6)
@@ -55,6 +58,7 @@ void check_extent(const TriangleMesh& mesh, const std::string& name) {
   if (away > extent)
     throw_input_error("{}: lies {:.4g} m away from its origin, which is the tool's tip; move it there", name,
                       away);
+  return extent;
 }
 
 /// Each edge must be gone along once each way.
@@ -92,8 +96,8 @@ TriangleMesh checked_mesh(const TriangleMesh& mesh, const std::string& name) {
   if (mesh.triangles.size() > most_triangles)
     throw_input_error("{}: has {} triangles, and a tool at most {}; simplify it", name, mesh.triangles.size(),
                       most_triangles);
-  check_extent(mesh, name);
-  TriangleMesh checked = welded(mesh);
+  if (mesh.triangles.empty()) throw_input_error("{}: has no triangles; export the mesh again", name);
+  TriangleMesh checked = welded(mesh, check_extent(mesh, name));
   if (checked.triangles.empty()) throw_input_error("{}: has no triangles; export the mesh again", name);
   check_closed(checked, name);
   const double volume = enclosed_volume(checked);

@@ -96,6 +96,14 @@ TEST_F(MeshFile, WhatIsNoToolIsSaidInASentence) {
             std::string::npos);
 }
 
+TEST_F(MeshFile, CornersThatDifferByDigitsAreOne) {
+  std::string text = text_stl(box_mesh());
+  for (std::size_t at = text.find("vertex -0.01 "); at != std::string::npos;
+       at = text.find("vertex -0.01 ", at + 30))
+    if (at % 2 == 0) text.replace(at, 12, "vertex -0.010000001");
+  EXPECT_EQ(read(text).vertices.size(), 8u);
+}
+
 TEST_F(MeshFile, InsideOutIsMended) {
   TriangleMesh box = box_mesh();
   for (auto& corners : box.triangles) std::swap(corners[0], corners[1]);
