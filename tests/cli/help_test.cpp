@@ -195,7 +195,7 @@ TEST(CliCompletion, BashOffersWhatCanStandThere) {
   EXPECT_EQ(offered("golden check ''"), Offered{"hole"});
   EXPECT_EQ(offered("golden check --json h"), Offered{"hole"});
 
-  EXPECT_EQ(offered("run --set tool."), (Offered{"tool.profile=", "tool.radius=", "tool.solid="}));
+  EXPECT_EQ(offered("run --set displacement."), (Offered{"displacement.deposit=", "displacement.distance="}));
   EXPECT_EQ(offered("run --set tool.profile ="), (Offered{"paper", "sphere"}));
   EXPECT_EQ(offered("run --set tool.profile = s"), Offered{"sphere"});
   EXPECT_EQ(offered("run --set tool.radius = 1"), Offered{});
