@@ -14,9 +14,11 @@ Table trace_table(const std::vector<TickRecord>& ticks, const TraceContent& cont
       table.columns.push_back(
           {unit.empty() ? name : name + " [" + unit + "]", name, unit, std::move(numbers)});
     };
-    if constexpr (std::is_same_v<std::decay_t<decltype(of(ticks.front()))>, Eigen::Vector3d>)
-      for (int i = 0; i < 3; ++i)
-        add(field + "_" + "xyz"[i], [i](const Eigen::Vector3d& vector) { return vector[i]; });
+    constexpr std::string_view components = components_of<std::decay_t<decltype(of(ticks.front()))>>();
+    if constexpr (!components.empty())
+      for (std::size_t i = 0; i < components.size(); ++i)
+        add(field + "_" + components[i],
+            [i](const auto& numbers) { return numbers[static_cast<Eigen::Index>(i)]; });
     else
       add(field, [](auto value) { return value; });
   });

@@ -93,14 +93,36 @@ void StrokeSampler::find_slopes() {
 }
 
 Hand StrokeSampler::at(double t) {
-  if (t < start_time()) return {stroke_.position.front(), Vector3d::Zero(), false};
-  if (t > end_time()) return {stroke_.position.back(), Vector3d::Zero(), false};
-  seek(t);
+  Hand hand;
+  if (t < start_time()) {
+    hand.position = stroke_.position.front();
+  } else if (t > end_time()) {
+    hand.position = stroke_.position.back();
+  } else {
+    seek(t);
+    hand = joined_or_lifted(t);
+  }
+  if (!stroke_.orientation.empty())
+    hand.orientation = orientation_at(std::clamp(t, start_time(), end_time()));
+  return hand;
+}
+
+Hand StrokeSampler::joined_or_lifted(double t) const {
   if (stroke_.joined(cursor_)) return on_curve(t);
   const bool last = cursor_ + 1 == stroke_.size();
   if (last || (t == stroke_.time[cursor_] && stroke_.pen_down(cursor_)))
     return {stroke_.position[cursor_], begin_slope_, stroke_.pen_down(cursor_)};
   return lifted(t);
+}
+
+Eigen::Quaterniond StrokeSampler::orientation_at(double t) const {
+  const auto& time = stroke_.time;
+  const auto next = static_cast<std::size_t>(std::upper_bound(time.begin(), time.end(), t) - time.begin());
+  const Eigen::Vector4d& a = stroke_.orientation[next - 1];
+  if (next == time.size() || t == time[next - 1]) return Eigen::Quaterniond(a);
+  const Eigen::Vector4d& b = stroke_.orientation[next];
+  const double share = (t - time[next - 1]) / (time[next] - time[next - 1]);
+  return Eigen::Quaterniond((1.0 - share) * a + (a.dot(b) < 0.0 ? -share : share) * b).normalized();
 }
 
 Hand StrokeSampler::on_curve(double t) const {

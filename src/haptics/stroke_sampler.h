@@ -1,6 +1,6 @@
 #pragma once
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <cstddef>
 #include <vector>
 
@@ -10,9 +10,10 @@ namespace sandstroke {
 
 /// Where the hand is at one instant.
 struct Hand {
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< m
-  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< m/s, the derivative of position
-  bool down = false;                                   ///< false: lifted, nothing is touched
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();               ///< m
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();               ///< m/s, the derivative of position
+  bool down = false;                                                ///< false: lifted, nothing is touched
+  Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();  ///< of the tool
 };
 
 /// A stretch of time in which the tool is lifted.
@@ -31,6 +32,10 @@ struct StrokeGap {
 /// equal, goes neither back nor too far on a straight line, and stays within a third of its chord's length of
 /// the chord (beside an end of a piece, two thirds). Across a gap the hand moves straight and lifted. A piece
 /// of one sample is a point, down at exactly its time.
+///
+/// The tool turns from sample to sample by the shortest way, also in gaps: the normalised straight line
+/// between two quaternions, whose angle is of second order in the samples' spacing, as if it turned
+/// uniformly.
 class StrokeSampler {
  public:
   /// The stroke must have passed check_stroke.
@@ -50,9 +55,11 @@ class StrokeSampler {
  private:
   void seek(double t);
   void find_slopes();
+  Hand joined_or_lifted(double t) const;
   Hand on_curve(double t) const;
   Hand lifted(double t) const;
   Eigen::Vector3d slope(std::size_t sample) const;
+  Eigen::Quaterniond orientation_at(double t) const;
 
   Stroke stroke_;
   std::vector<StrokeGap> gaps_;

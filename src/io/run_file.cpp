@@ -111,6 +111,8 @@ std::vector<TickRecord> RunFile::trace() const {
     using Value = std::decay_t<decltype(of(ticks.front()))>;
     if constexpr (std::is_same_v<Value, Eigen::Vector3d>)
       fill(file_.vectors(name));
+    else if constexpr (std::is_same_v<Value, Eigen::Vector4d>)
+      fill(file_.quaternions(name));
     else if constexpr (std::is_same_v<Value, bool>)
       fill(file_.integers(name));
     else

@@ -36,18 +36,19 @@ using StoredAs = std::conditional_t<std::is_same_v<Field, bool>, std::uint8_t, F
 template <class Record, class Of>
 Hdf5Column column_of(Hdf5GridWriter& file, const std::string& group, const FieldText& field, const Of&) {
   using Field = FieldOf<Record, Of>;
-  constexpr bool is_vector = std::is_same_v<Field, Eigen::Vector3d>;
-  const std::string name = group + "/" + field.name, time = group + "/time", axis = group + "/axis";
+  constexpr std::size_t components = components_of<Field>().size();
+  const std::string name = group + "/" + field.name, time = group + "/time",
+                    axis = group + (components == 4 ? "/component" : "/axis");
   Hdf5Column column;
-  if constexpr (is_vector)
-    column = file.column(name, 3);
+  if constexpr (components > 0)
+    column = file.column(name, components);
   else
     column = file.column<StoredAs<Field>>(name);
   file.describe(name, field.units, field.meaning);
   if (name == time)
     file.make_scale(time);
   else
-    file.attach_scales(name, is_vector ? std::vector{time, axis} : std::vector{time});
+    file.attach_scales(name, components > 0 ? std::vector{time, axis} : std::vector{time});
   return column;
 }
 
@@ -55,7 +56,7 @@ Hdf5Column column_of(Hdf5GridWriter& file, const std::string& group, const Field
 template <class Record, class Of>
 void append(Hdf5Column& column, const std::vector<Record>& records, const Of& of) {
   using Field = FieldOf<Record, Of>;
-  if constexpr (std::is_same_v<Field, Eigen::Vector3d>) {
+  if constexpr (!components_of<Field>().empty()) {
     std::vector<double> rows;
     for (const Record& record : records) rows.insert(rows.end(), of(record).begin(), of(record).end());
     column.append(rows.data(), records.size());
@@ -111,6 +112,7 @@ RunWriter::RunWriter(const std::filesystem::path& path, const Simulation& simula
   write_surface("/surface/initial", bed, "height of the sand at the start");
   if (keeps_trace_) {
     file_.write_scale("/trace/axis", {"x", "y", "z"});
+    if (content_.orientation) file_.write_scale("/trace/component", {"x", "y", "z", "w"});
     visit_trace(content_, [&](const FieldText& field, const auto& of) {
       tick_columns_.push_back(column_of<TickRecord>(file_, "/trace", field, of));
     });

@@ -21,12 +21,26 @@ ResistiveForce::ResistiveForce(const TriangleMesh& surface, double element_size)
   lift();
 }
 
-void ResistiveForce::lift() { std::fill_n(ways_.get(), 3 * elements_.size(), 0.0); }
+void ResistiveForce::turn(const Eigen::Matrix3d& rotation) {
+  if (rotation == rotation_) return;
+  elements_.turn(rotation_ = rotation);
+}
+
+void ResistiveForce::lift() {
+  std::fill_n(ways_.get(), 3 * elements_.size(), 0.0);
+  felt_ = false;
+}
 
 Wrench ResistiveForce::feel(const ToolFootprint& footprint, const Eigen::Vector3d& tip,
                             const SandPlane& plane, const Eigen::Vector3d& motion, const SandStrength& sand) {
   if (footprint.cells().empty() || std::isnan(plane.height)) return lift(), Wrench{};
-  return resistive_wrench({footprint, elements_, ways_.get(), tip, plane, motion / sand.yield_way,
+  // An element at r, turned, was at (old rotation) (new rotation)^T r.
+  Eigen::Matrix3d spin = Eigen::Matrix3d::Zero();
+  if (felt_ && rotation_ != felt_rotation_)
+    spin = (Eigen::Matrix3d::Identity() - felt_rotation_ * rotation_.transpose()) / sand.yield_way;
+  felt_rotation_ = rotation_;
+  felt_ = true;
+  return resistive_wrench({footprint, elements_, ways_.get(), tip, plane, motion / sand.yield_way, spin,
                            resistance(sand), sand.tool_friction, sand.yield_way});
 }
 

@@ -43,8 +43,12 @@ struct Wrench {
 /// reaches it beside or below. No memory of disturbed sand, no shadow of one tooth on the next.
 class ResistiveForce {
  public:
-  /// surface: tip at the origin, as it is turned. element_size [m].
+  /// surface: in its own frame, tip at the origin. element_size [m].
   ResistiveForce(const TriangleMesh& surface, double element_size);
+
+  /// The tool lies in the bed like this from now on: what the next feel() takes for part of its motion, where
+  /// it felt something before.
+  void turn(const Eigen::Matrix3d& rotation);
 
   /// The tool went by `motion` [m] to where the footprint lies, its tip at `tip` [m].
   Wrench feel(const ToolFootprint& footprint, const Eigen::Vector3d& tip, const SandPlane& plane,
@@ -59,6 +63,8 @@ class ResistiveForce {
  private:
   ToolElements elements_;
   hwy::AlignedFreeUniquePtr<double[]> ways_;  // 3 columns: x, y, z
+  Eigen::Matrix3d rotation_ = Eigen::Matrix3d::Identity(), felt_rotation_ = Eigen::Matrix3d::Identity();
+  bool felt_ = false;  // since the last lift()
 };
 
 }  // namespace sandstroke

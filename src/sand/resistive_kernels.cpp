@@ -73,6 +73,11 @@ Wrench ResistiveWrench(const ResistiveTick& tick) {
           slope_y = all(tick.plane.slope.y()), tip_z = all(tick.tip.z());
   const V near = all(0.25 * dx);
   const Vector motion = {all(tick.motion.x()), all(tick.motion.y()), all(tick.motion.z())};
+  const auto spin_of = [&](int axis) {
+    return Vector{all(tick.spin(axis, 0)), all(tick.spin(axis, 1)), all(tick.spin(axis, 2))};
+  };
+  const Vector spin_x = spin_of(0), spin_y = spin_of(1), spin_z = spin_of(2);
+  const bool spins = !tick.spin.isZero(0.0);
   double *ways_x = tick.ways, *ways_y = tick.ways + e.size(), *ways_z = tick.ways + 2 * e.size();
   LaneSum force_x, force_y, force_z, torque_x, torque_y, torque_z, stiffness, amount;
   for (std::size_t i = 0; i < e.size(); i += lanes) {
@@ -95,6 +100,7 @@ Wrench ResistiveWrench(const ResistiveTick& tick) {
     const Mask in_sand = touches > zero;
     Vector way =
         Vector{hn::Load(d, ways_x + i), hn::Load(d, ways_y + i), hn::Load(d, ways_z + i)}.plus(motion);
+    if (spins) way = way.plus({spin_x.dot(r), spin_y.dot(r), spin_z.dot(r)});
     const V length = Sqrt(way.dot(way));
     way = way.times(where(in_sand, one / Max(length, one)));
     hn::Store(way.x, d, ways_x + i);

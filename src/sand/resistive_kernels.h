@@ -11,8 +11,9 @@ struct ResistiveTick {
   double* ways;  ///< x, y, z of each element, in yield ways; brought up to date
   Eigen::Vector3d tip;
   SandPlane plane;
-  Eigen::Vector3d motion;  ///< in yield ways
-  double resistance;       ///< N/m^3, xi
+  Eigen::Vector3d motion;  ///< of the tip, in yield ways
+  Eigen::Matrix3d spin;  ///< 1/m: what an element's place has to be multiplied by for the rest of its motion
+  double resistance;     ///< N/m^3, xi
   double tool_friction, yield_way;
 };
 Wrench resistive_wrench(const ResistiveTick& tick);

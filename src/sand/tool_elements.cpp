@@ -78,13 +78,21 @@ ToolElements::ToolElements(const TriangleMesh& surface, double size) {
   });
   for (std::size_t i = 0; i < upwards.size(); ++i) {
     const Patch& patch = *upwards[i];
-    const Vector3d centre = patch.moment / patch.area, normal = patch.facing.normalized();
-    for (Eigen::Index axis = 0; axis < 3; ++axis) {
-      columns_[static_cast<std::size_t>(axis) * size_ + i] = centre[axis];
-      columns_[static_cast<std::size_t>(axis + 3) * size_ + i] = normal[axis];
-    }
+    places_.emplace_back(patch.moment / patch.area);
+    normals_.emplace_back(patch.facing.normalized());
     // The vector sum: then the whole surface's is 0, as that of a closed one must be.
     columns_[6 * size_ + i] = patch.facing.norm();
+  }
+  turn(Eigen::Matrix3d::Identity());
+}
+
+void ToolElements::turn(const Eigen::Matrix3d& rotation) {
+  for (std::size_t i = 0; i < places_.size(); ++i) {
+    const Vector3d place = rotation * places_[i], normal = rotation * normals_[i];
+    for (Eigen::Index axis = 0; axis < 3; ++axis) {
+      columns_[static_cast<std::size_t>(axis) * size_ + i] = place[axis];
+      columns_[static_cast<std::size_t>(axis + 3) * size_ + i] = normal[axis];
+    }
   }
 }
 

@@ -2,18 +2,23 @@
 
 #include <hwy/aligned_allocator.h>
 
+#include <vector>
+
 #include "tool/triangle_mesh.h"
 
 namespace sandstroke {
 
-/// A tool's surface as elements of about one size, the lowest first: what forces are summed over. Columns of
-/// size(), which is a multiple of 8: what is beyond count() has no area.
+/// A tool's surface as elements of about one size, the lowest first as it is not turned: what forces are
+/// summed over. Columns of size(), which is a multiple of 8: what is beyond count() has no area.
 class ToolElements {
  public:
   /// Triangles larger than `size` [m] are divided, and those that lie in one cube of that size and face about
-  /// the same way are one element: so the number of elements follows the surface, not the mesh. surface: as
-  /// it is turned, tip at the origin [m].
+  /// the same way are one element: so the number of elements follows the surface, not the mesh. surface: in
+  /// its own frame, tip at the origin [m].
   ToolElements(const TriangleMesh& surface, double size);
+
+  /// Places and normals are from now on those of the surface turned about the tip.
+  void turn(const Eigen::Matrix3d& rotation);
 
   std::size_t size() const { return size_; }
   int count() const { return count_; }
@@ -30,6 +35,7 @@ class ToolElements {
 
   std::size_t size_ = 0;
   int count_ = 0;
+  std::vector<Eigen::Vector3d> places_, normals_;  // in its own frame
   hwy::AlignedFreeUniquePtr<double[]> columns_;
 };
 

@@ -29,19 +29,18 @@ ToolFootprint::ToolFootprint(const ToolSettings& settings)
   if (settings.shape == ToolShape::sphere) return;
   surface_ = tool_surface(settings);
   rotation_ = own_rotation(settings);
+  for (const Eigen::Vector3d& vertex : surface_.vertices) farthest_ = std::max(farthest_, vertex.norm());
   shape_.radius = shape_.reach = horizontal_reach(turned(surface_, rotation_));
 }
 
 void ToolFootprint::turn(const Eigen::Matrix3d& rotation) {
   if (is_sphere() || rotation == rotation_) return;
-  if (envelope_) {
-    double farthest = 0.0;  // m
-    for (const Eigen::Vector3d& vertex : surface_.vertices) farthest = std::max(farthest, vertex.norm());
-    const double allowed = envelope_->cell_size() / (8.0 * envelope_->phases());
-    if ((rotation - rotation_).norm() * farthest < allowed) return;
-  }
+  if (envelope_ &&
+      (rotation - rotation_).norm() * farthest_ < envelope_->cell_size() / (8.0 * envelope_->phases()))
+    return;
   rotation_ = rotation;
   envelope_.reset();
+  cells_ = {};
 }
 
 void ToolFootprint::place(const HeightField& bed, double x, double y) {

@@ -59,7 +59,8 @@ class ToolFootprint {
   /// Needs radius > 0; a mesh that was read.
   explicit ToolFootprint(const ToolSettings& settings);
 
-  /// Turns the tool [its frame in the bed]; of a sphere nothing changes. Seen at the next place(). What moves
+  /// Turns the tool [its frame in the bed]; of a sphere nothing changes. Seen at the next place(), before
+  /// which the window is empty. What moves
   /// no point of it by an eighth of a sample's distance or more is left undone.
   void turn(const Eigen::Matrix3d& rotation);
   bool is_sphere() const { return surface_.vertices.empty(); }
@@ -153,6 +154,7 @@ class ToolFootprint {
   FootprintShape shape_;
   TriangleMesh surface_;  // of any tool but the sphere
   Eigen::Matrix3d rotation_;
+  double farthest_ = 0.0;  // m, of its points from the tip
   std::optional<ToolEnvelope> envelope_;
   int sample_row_ = 0, sample_col_ = 0;
   double sample_y_ = 0.0, sample_x_ = 0.0;

@@ -13,10 +13,8 @@
 namespace sandstroke {
 
 ContactForce::ContactForce(const Scene& scene, double cell_size)
-    : law_(scene.force.law),
-      sand_(scene.strength),
-      reach_(tool_reach(scene.tool)),
-      resistive_(turned(tool_surface(scene.tool), own_rotation(scene.tool)), cell_size) {
+    : law_(scene.force.law), sand_(scene.strength), resistive_(tool_surface(scene.tool), cell_size) {
+  turn(own_rotation(scene.tool));
   if (scene.tool.shape == ToolShape::sphere) sphere_radius_ = scene.tool.radius;
 }
 
@@ -28,7 +26,8 @@ void ContactForce::lift() {
 Wrench ContactForce::feel(SandSide& sand, const HeightField& bed, const Eigen::Vector3d& tip,
                           const Eigen::Vector3d& motion, bool contact) {
   if (!contact) return lift(), Wrench{};
-  const SandPlane plane = fit_sand_plane(bed, tip.x(), tip.y(), reach_);
+  const SandPlane plane =
+      fit_sand_plane(bed, tip.x(), tip.y(), sphere_radius_.value_or(sand.footprint().reach()));
   if (law_ == ForceLaw::archimedes) return archimedes(tip, plane, -motion.z());
   return resistive_.feel(sand.seen(bed), tip, plane, motion, sand_);
 }

@@ -23,6 +23,8 @@ class ContactForce {
   Wrench feel(SandSide& sand, const HeightField& bed, const Eigen::Vector3d& tip,
               const Eigen::Vector3d& motion, bool contact);
   void lift();
+  /// How the tool lies in the bed from the next feel() on.
+  void turn(const Eigen::Matrix3d& rotation) { resistive_.turn(rotation); }
 
  private:
   Wrench archimedes(const Eigen::Vector3d& tip, const SandPlane& plane, double sinks);
@@ -30,7 +32,6 @@ class ContactForce {
 
   ForceLaw law_;
   SandStrength sand_;
-  double reach_;                         // m, of the tool
   std::optional<double> sphere_radius_;  // m
   ResistiveForce resistive_;
   double sunk_ = 0.0;  // yield ways, 0 to 1

@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <string_view>
+#include <type_traits>
 
 #include "haptics/stroke_coverage.h"
 #include "haptics/stroke_sampler.h"
@@ -42,6 +44,7 @@ struct TraceContent {
   bool dropped_ticks = false;   ///< the device has dropped ticks
   bool asked_depth = false;     ///< the stroke follows the sand
   bool torque = false;          ///< force.law is not the paper's
+  bool orientation = false;     ///< the stroke turns the tool
 };
 
 /// A field of a record, for who reads it in a file.
@@ -49,6 +52,17 @@ struct FieldText {
   const char *name, *units, *meaning;       // units: empty of what has none, "1" of a count or ratio
   bool TraceContent::*only_with = nullptr;  // else missing, and the record's default stands for it
 };
+
+/// The numbers that a field is made of, a letter each; none: it is one number.
+template <class Field>
+constexpr std::string_view components_of() {
+  if constexpr (std::is_same_v<Field, Eigen::Vector3d>)
+    return "xyz";
+  else if constexpr (std::is_same_v<Field, Eigen::Vector4d>)
+    return "xyzw";
+  else
+    return "";
+}
 
 /// The columns of /trace: visit(FieldText, of), where of(tick) is the field. Who writes and who reads a run
 /// file goes through this list.
@@ -62,6 +76,10 @@ void visit_tick_fields(const Visit& visit) {
            "where the hand wants the tip at the start of the tick, in the device's frame; until the next "
            "one it goes straight and uniformly"},
       [](auto& tick) -> auto& { return tick.hand.position; });
+  visit(
+      Text{"orientation", "", "of the hand: unit quaternion that turns the tool from how it holds by itself",
+           &TraceContent::orientation},
+      [](auto& tick) -> auto& { return tick.hand.orientation.coeffs(); });
   visit(
       Text{"device_position", "m",
            "tip as the device read it, rounded to its encoders, in its frame (on the bed: device.scale x "

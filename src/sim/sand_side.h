@@ -24,6 +24,9 @@ class SandSide {
   /// travel [m]: its way between two slips (SlipSchedule).
   SandSide(const ToolSettings& tool, const DisplacementSettings& displacement, double travel);
 
+  /// How the tool lies in the bed from the next move() on (ToolFootprint::turn): all of its way there it is
+  /// turned like this.
+  void turn(const Eigen::Matrix3d& rotation) { footprint_.turn(rotation); }
   /// Displaces along the way from the last tick's place and at this one [m]. read_tip: as the device's
   /// encoders read it; true_tip: where it is, for encoder steps are no motion. slip(): called with the tool
   /// at the places where sand is to slip by its way; it calls hold(). highest [m]: no sand is higher; none:

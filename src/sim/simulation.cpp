@@ -8,6 +8,7 @@
 #include "core/stopwatch.h"
 #include "sim/recorded_force.h"
 #include "sim/stroke_depth.h"
+#include "tool/tool_surface.h"
 
 namespace sandstroke {
 namespace {
@@ -43,6 +44,7 @@ Simulation::Simulation(const Scene& scene, HeightField bed, std::optional<Stroke
                        std::unique_ptr<Relaxer> relaxer)
     : scene_(scene),
       bed_(std::move(bed)),
+      own_rotation_(own_rotation(scene.tool)),
       sand_(scene.tool, scene.displacement, scene.relaxation.travel * bed_.cell_size()),
       device_(scene.force, scene.device),
       relaxer_(relaxer ? std::move(relaxer) : make_relaxer(scene.relaxation, bed_.cell_size())) {
@@ -113,6 +115,7 @@ TickRecord Simulation::tick(double time, const Hand& hand, double next_time,
   record.hand = hand;
   record.device_position = reading.position;
   if (hand.down) {
+    if (stroke_ && !stroke_->stroke().orientation.empty()) turn_tool(hand.orientation);
     const std::optional<Eigen::Vector3d> before = sand_.last_tip();
     const Interaction interaction = sand_.move(bed_, tip, true_tip, slip);
     const Eigen::Vector3d motion = before ? Eigen::Vector3d(true_tip - *before) : Eigen::Vector3d::Zero();
@@ -131,11 +134,18 @@ TickRecord Simulation::tick(double time, const Hand& hand, double next_time,
   return record;
 }
 
+void Simulation::turn_tool(const Eigen::Quaterniond& hand) {
+  const Eigen::Matrix3d rotation = rotation_of(hand) * own_rotation_;
+  sand_.turn(rotation);
+  if (contact_force_) contact_force_->turn(rotation);
+}
+
 TraceContent Simulation::trace_content() const {
   return {.recorded_force = stroke_ && !stroke_->stroke().force.empty(),
           .dropped_ticks = scene_.device.dropped_ticks > 0.0,
           .asked_depth = follower_.has_value(),
-          .torque = contact_force_.has_value()};
+          .torque = contact_force_.has_value(),
+          .orientation = stroke_ && !stroke_->stroke().orientation.empty()};
 }
 
 std::int64_t Simulation::told_ticks() const {

@@ -40,6 +40,8 @@ class Simulation {
   void run_stroke();
   /// What sand and device do in the tick at whose end the stroke is at next_time.
   TickRecord tick(double time, const Hand& hand, double next_time, const std::function<void()>& slip);
+  /// As the hand, which turns from how it lies by itself.
+  void turn_tool(const Eigen::Quaterniond& hand);
   /// Where the stroke's hand is at that time of the stroke, on the sand as it lies now.
   Hand hand_at(double time);
   /// Adds what a tick reached.
@@ -61,6 +63,7 @@ class Simulation {
   std::optional<SandFollower> follower_;
   std::int64_t ticks_ = 0;  // of the stroke
   std::vector<TickRange> idle_;
+  Eigen::Matrix3d own_rotation_;  // of the tool
   SandSide sand_;
   std::optional<ContactForce> contact_force_;  // where force.law is not the paper's
   DeviceSide device_;

@@ -378,5 +378,51 @@ TEST(StrokeSampler, TheOrderOfCallsDoesNotMatter) {
   }
 }
 
+Eigen::Quaterniond about_z(double angle) {
+  return Eigen::Quaterniond(Eigen::AngleAxisd(angle, Vector3d::UnitZ()));
+}
+
+TEST(StrokeSampler, TurnsTheToolFromSampleToSampleByTheShortestWay) {
+  Stroke stroke = evenly_spaced({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}}, 0.06);
+  // A quaternion and its negative are one orientation; the third sample is a gap's end.
+  for (const double angle : {0.2, 0.6, 0.6, -0.4}) stroke.orientation.push_back(about_z(angle).coeffs());
+  stroke.orientation[1] *= -1.0;
+  stroke.contact = {pen_down, pen_down, pen_lifts, pen_down};
+  StrokeSampler sampler(stroke);
+  const auto angle = [&](double t) {
+    const Vector3d x = sampler.at(t).orientation * Vector3d::UnitX();
+    return std::atan2(x.y(), x.x());
+  };
+  EXPECT_NEAR(angle(0.0), 0.2, 1e-12);
+  EXPECT_NEAR(angle(0.03), 0.4, 1e-12);
+  EXPECT_NEAR(angle(0.06), 0.6, 1e-12);
+  EXPECT_NEAR(angle(0.1), 0.6, 1e-12);
+  EXPECT_NEAR(angle(0.15), 0.1, 1e-12);
+  for (const double after : {0.18, 1.0}) EXPECT_NEAR(angle(after), -0.4, 1e-12);
+  EXPECT_NEAR(angle(-1.0), 0.2, 1e-12);
+  for (double t = 0.0; t < 0.18; t += 0.007) EXPECT_NEAR(sampler.at(t).orientation.norm(), 1.0, 1e-15);
+
+  Stroke not_turned = stroke;
+  not_turned.orientation.clear();
+  EXPECT_EQ(StrokeSampler(not_turned).at(0.03).orientation.coeffs(), Eigen::Vector4d(0, 0, 0, 1));
+}
+
+TEST(StrokeSampler, OrientationsConvergeAsTheSamplesAreMoreAtSecondOrder) {
+  // A turn that speeds up and down, as a wrist does.
+  const auto true_angle = [](double t) { return 1.2 * std::sin(3.0 * t) + 0.7 * t; };
+  const auto worst = [&](int samples) {
+    Stroke stroke =
+        evenly_spaced(std::vector<Vector3d>(static_cast<std::size_t>(samples) + 1), 2.0 / samples);
+    for (const double t : stroke.time) stroke.orientation.push_back(about_z(true_angle(t)).coeffs());
+    StrokeSampler sampler(stroke);
+    double error = 0.0;
+    for (double t = 0.0; t < 2.0; t += 0.0007)
+      error = std::max(error, sampler.at(t).orientation.angularDistance(about_z(true_angle(t))));
+    return error;
+  };
+  EXPECT_LT(worst(40), 4e-3);
+  EXPECT_NEAR(worst(80) / worst(160), 4.0, 0.4);
+}
+
 }  // namespace
 }  // namespace sandstroke

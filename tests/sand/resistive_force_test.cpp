@@ -149,5 +149,33 @@ TEST(ResistiveForce, VolumeBelowThePlaneIsTheCap) {
   EXPECT_NEAR(force.volume_below({0.0, 0.0, -depth}, {0.0}), cap, 0.01 * cap);
 }
 
+TEST(ResistiveForce, OfABladeThatTurnsInItsPlaceIsATorque) {
+  // Each half leads with one face: 2 x the integral over it of 0.192 xi depth y = 0.192 xi D^2 W^2 / 8. The
+  // other faces trail.
+  ToolSettings blade{0.01, ToolProfile::sphere, true};
+  blade.shape = ToolShape::plate;
+  blade.width = 0.04, blade.height = 0.03, blade.thickness = 0.002;
+  const double depth = 0.012, angle = 0.02;
+  HeightField bed(101, 101, 0.0005);
+  ToolFootprint footprint(blade);
+  ResistiveForce force(tool_surface(blade), 0.001);
+  const SandStrength sand{30.0, 1560.0, 0.0, 1e-6};
+  footprint.place(bed, 0.0, 0.0);
+  displace(bed, footprint, -depth, falling, {Deposit::outward});
+  footprint.read_heights(bed);
+  const Vector3d tip(0.0, 0.0, -depth);
+  EXPECT_EQ(force.feel(footprint, tip, {0.0}, Vector3d::Zero(), sand).torque, Vector3d::Zero());
+  const auto turn = [&](double by) {
+    force.turn(Eigen::AngleAxisd(by, Vector3d::UnitZ()).toRotationMatrix());
+    return force.feel(footprint, tip, {0.0}, Vector3d::Zero(), sand);
+  };
+  const Wrench left = turn(angle);
+  const double expected = 0.192 * resistance(sand) * depth * depth * 0.04 * 0.04 / 8.0;
+  EXPECT_NEAR(left.torque.z(), -expected, 0.04 * expected);
+  EXPECT_LT(left.force.head<2>().norm(), 1e-3 * expected / 0.01);
+  EXPECT_LT((turn(angle).torque - left.torque).norm(), 1e-9 * expected);  // it rests: what it has yielded to, it holds
+  EXPECT_NEAR(turn(-angle).torque.z(), expected, 0.04 * expected);
+}
+
 }  // namespace
 }  // namespace sandstroke

@@ -63,7 +63,7 @@ void expect_equal(const TickRecord& a, const TickRecord& b) {
     using Value = std::decay_t<decltype(of_a)>;
     if constexpr (std::is_same_v<Value, double>)
       return of_a == of_b || (std::isnan(of_a) && std::isnan(of_b));
-    else if constexpr (std::is_same_v<Value, Eigen::Vector3d>)
+    else if constexpr (!components_of<Value>().empty())
       return of_a == of_b || (of_a.hasNaN() && of_b.hasNaN());
     else
       return of_a == of_b;

@@ -413,5 +413,55 @@ TEST(Simulation, AtItsEndTheToolIsGoneAndTheSandRestsWithoutIt) {
   EXPECT_LE(more.moved_volume, 1e-3 * result.moved_volume);
 }
 
+/// A blade that is drawn through sand along a quarter turn of its hand.
+struct Drawn {
+  RunResult result;
+  HeightGrid surface;
+  std::vector<TickRecord> ticks;
+};
+Drawn drawn_blade(double own_turn, const std::vector<double>& hand_turns, ForceLaw law = ForceLaw::rft) {
+  Scene scene = small_scene();
+  scene.tool.shape = ToolShape::plate;
+  scene.tool.solid = true;
+  scene.tool.width = 0.04;
+  scene.tool.orientation.z() = own_turn;
+  scene.displacement.deposit = Deposit::outward;
+  scene.force.law = law;
+  Stroke stroke = through({{-0.05, 0.0, -0.005}, {0.0, 0.01, -0.005}, {0.05, 0.0, -0.005}}, 0.2);
+  for (const double turn : hand_turns)
+    stroke.orientation.push_back(
+        Eigen::Quaterniond(Eigen::AngleAxisd(turn * 1.7453292519943295e-2, Eigen::Vector3d::UnitZ()))
+            .coeffs());
+  Simulation simulation(scene, starting_bed(scene.bed), std::move(stroke));
+  Told told;
+  Drawn drawn{simulation.run({&told}), simulation.bed().grid(), {}};
+  drawn.ticks = std::move(told.ticks);
+  return drawn;
+}
+
+TEST(Simulation, ATurnedHandHoldsTheToolAsOneThatIsTurnedByItself) {
+  const Drawn by_hand = drawn_blade(0.0, {30.0, 30.0, 30.0}), by_itself = drawn_blade(30.0, {}),
+              in_part = drawn_blade(10.0, {20.0, 20.0, 20.0}), level = drawn_blade(0.0, {});
+  const double furrow = -level.surface.minCoeff();
+  EXPECT_LT((by_hand.surface - by_itself.surface).abs().maxCoeff(), 1e-9 * furrow);
+  EXPECT_LT((in_part.surface - by_itself.surface).abs().maxCoeff(), 1e-9 * furrow);
+  EXPECT_GT((level.surface - by_itself.surface).abs().maxCoeff(), 0.1 * furrow);
+  for (std::size_t i = 0; i < by_hand.ticks.size(); i += 20)
+    EXPECT_LT((by_hand.ticks[i].wrench.torque - by_itself.ticks[i].wrench.torque).norm(),
+              1e-6 * (1e-3 + by_itself.ticks[i].wrench.torque.norm()));
+}
+
+TEST(Simulation, AToolThatTurnsOnItsWayKeepsAllSandAndEndsTurned) {
+  const Drawn turning = drawn_blade(0.0, {0.0, 50.0, 90.0});
+  EXPECT_LT(turning.result.volume_drift, 1e-12);
+  EXPECT_GT(turning.result.moved_volume, 0.0);
+  for (const TickRecord& tick : turning.ticks) ASSERT_TRUE(tick.wrench.torque.allFinite()) << tick.time;
+  // Across the way at first, it digs a furrow of its width; at last along it, one of its thickness.
+  const Eigen::Vector3d end = turning.ticks.back().hand.orientation * Eigen::Vector3d::UnitX();
+  EXPECT_NEAR(end.y(), 1.0, 1e-4);
+  const auto dug_cells = [&](int col) { return (turning.surface.col(col) < -0.0015).count(); };
+  EXPECT_GT(dug_cells(58), 2 * dug_cells(92));
+}
+
 }  // namespace
 }  // namespace sandstroke
