@@ -32,6 +32,7 @@ DeviceSpecification specification_of(const cHapticDeviceInfo& info) {
   specification.workspace_radius = info.m_workspaceRadius;
   specification.switches = 0;  // CHAI3D does not say
   specification.measures_velocity = true;
+  specification.measures_orientation = info.m_sensedRotation;
   return specification;
 }
 
@@ -47,6 +48,14 @@ std::optional<bool> drd_is_calibrated() {
 }
 
 Eigen::Vector3d from_chai3d(const cVector3d& vector) { return {vector.x(), vector.y(), vector.z()}; }
+
+/// Of what is measured about it rounded: a unit quaternion, where the rotation is one at all.
+Eigen::Quaterniond from_chai3d(const chai3d::cMatrix3d& rotation) {
+  Eigen::Matrix3d matrix;
+  for (int row = 0; row < 3; ++row)
+    for (int col = 0; col < 3; ++col) matrix(row, col) = rotation(row, col);
+  return Eigen::Quaterniond(matrix).normalized();
+}
 
 }  // namespace
 
@@ -132,6 +141,12 @@ bool Chai3dDevice::read(double, DeviceReading& reading) noexcept {
   // of another reading, which takes its time). The position is what was measured.
   if (!positioned || !device_->getLinearVelocity(velocity) || !device_->getUserSwitches(switches))
     return false;
+  if (specification_.measures_orientation) {
+    chai3d::cMatrix3d rotation;
+    rotation.identity();
+    if (!device_->getRotation(rotation)) return false;
+    reading.orientation = from_chai3d(rotation);
+  }
   reading.position = from_chai3d(position);
   reading.velocity = from_chai3d(velocity);
   reading.switches = switches;

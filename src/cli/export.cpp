@@ -18,7 +18,6 @@
 #include "export/mesh_files.h"
 #include "export/trace_table.h"
 #include "io/png_file.h"
-#include "io/scene_toml.h"
 
 namespace sandstroke {
 namespace {
@@ -101,7 +100,7 @@ HeightGrid surface_of(const RunFile& run, const ExportArguments& arguments) {
 GrayRange range_of(const RunFile& run, const HeightGrid& heights, const ExportArguments& arguments) {
   if (!arguments.range.empty()) return {arguments.range[0], arguments.range[1]};
   const double low = heights.minCoeff(), high = heights.maxCoeff();
-  const SurfaceSettings begun = scene_from_text(run.scene_text(), run.name() + ": /scene").bed.surface;
+  const SurfaceSettings begun = run.scene().bed.surface;
   const auto [black, white] = std::minmax(begun.low, begun.high);
   if (begun.kind == SurfaceKind::file && black < white && black <= low && high <= white)
     return {begun.low, begun.high};

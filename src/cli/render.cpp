@@ -17,7 +17,6 @@
 #include "core/output_file.h"
 #include "io/film_file.h"
 #include "io/png_file.h"
-#include "io/scene_toml.h"
 
 namespace sandstroke {
 namespace {
@@ -102,7 +101,7 @@ int draw_pictures(const RunFile& run, const FrameLook& look, const RenderArgumen
 int render(const RenderArguments& arguments) {
   if (!arguments.video.empty()) check_film_name(arguments.video);
   const RunFile run(arguments.run);
-  const Scene scene = scene_from_text(run.scene_text(), run.name() + ": /scene");
+  const Scene scene = run.scene();
   const ViewSettings view = view_of(scene, arguments);
   if (arguments.frame == "all") {
     catch_interrupts();

@@ -7,7 +7,6 @@
 #include "compare/run_report.h"
 #include "core/error.h"
 #include "core/output_file.h"
-#include "io/scene_toml.h"
 #include "report/page.h"
 
 namespace sandstroke {
@@ -25,7 +24,7 @@ int report(const ReportArguments& arguments) {
     throw_input_error("{}: is not a name for a page; end it with .html", output.string());
   check_output(output, {arguments.run}, page_output);
   const auto draw = [&](const LastSurface& last) {
-    const Scene scene = scene_from_text(run.scene_text(), run.name() + ": /scene");
+    const Scene scene = run.scene();
     return RunPainter(run, scene.view).draw(last.surface.grid());
   };
   write_text_file(output, run_report(run, draw, run.error_estimate()).html(), page_output);

@@ -9,7 +9,6 @@
 #include "core/interrupt.h"
 #include "core/progress.h"
 #include "io/film_file.h"
-#include "io/scene_toml.h"
 
 namespace sandstroke {
 
@@ -31,7 +30,7 @@ int draw_frames(const RunFile& run, const FrameLook& look,
 
 int draw_film(const RunFile& run, const FrameLook& look, std::optional<double> given_rate,
               const std::filesystem::path& path) {
-  const Scene scene = scene_from_text(run.scene_text(), run.name() + ": /scene");
+  const Scene scene = run.scene();
   const double own_rate = std::min(scene.output.frames, scene.device.servo_rate);
   const double rate = given_rate.value_or(own_rate);
   const std::size_t count = frame_times(run).size();

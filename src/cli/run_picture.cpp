@@ -5,19 +5,15 @@
 
 #include "core/error.h"
 #include "io/last_surface.h"
-#include "io/scene_toml.h"
 #include "render/change_picture.h"
 #include "tool/tool_surface.h"
 
 namespace sandstroke {
 RunPainter::RunPainter(const RunFile& run, const ViewSettings& view, double contour_interval)
     : run_(run),
-      scene_(scene_from_text(run.scene_text(), run.name() + ": /scene")),
+      scene_(run.scene()),
       renderer_(run.rows(), run.cols(), run.cell_size()),
       initial_(run.initial()) {
-  const bool kept = scene_.tool.shape != ToolShape::mesh;  // runs keep no mesh
-  if (scene_.tool.shape != ToolShape::sphere && kept)
-    mesh_ = std::make_shared<TriangleMesh>(turned(tool_surface(scene_.tool), own_rotation(scene_.tool)));
   const CellRange stroke = view.name == ViewName::stroke ? stroke_cells() : CellRange{};
   subject_ = subject_of_change(initial_, last_surface(run).surface.grid(), stroke, view, contour_interval);
 }
@@ -34,8 +30,7 @@ CellRange RunPainter::stroke_cells() {
 }
 
 Image RunPainter::draw(const HeightGrid& surface, std::optional<double> tool_time) {
-  const bool known = mesh_ || scene_.tool.shape == ToolShape::sphere;
-  subject_.tool = tool_time && known ? std::optional(tool_at(*tool_time)) : std::nullopt;
+  subject_.tool = tool_time ? std::optional(tool_at(*tool_time)) : std::nullopt;
   const HeightGrid difference = surface - initial_;
   subject_.difference = &difference;
   return renderer_.render(HeightField(surface, run_.cell_size(), scene_.bed.shape), subject_);
@@ -52,7 +47,16 @@ ToolBody RunPainter::tool_at(double time) {
     throw_input_error("{}: has no stroke, so there is no tool to draw; add --no-tool", run_.name());
   const auto after = std::upper_bound(trace_->begin() + 1, trace_->end(), time,
                                       [](double at, const TickRecord& tick) { return at < tick.time; });
-  return {tip_of(scene_.device, std::prev(after)->device_position), scene_.tool.radius, mesh_};
+  const TickRecord& tick = *std::prev(after);
+  return {tip_of(scene_.device, tick.device_position), scene_.tool.radius, mesh_as(tick.hand.orientation)};
+}
+
+std::shared_ptr<const TriangleMesh> RunPainter::mesh_as(const Eigen::Quaterniond& hand) {
+  if (scene_.tool.shape == ToolShape::sphere) return nullptr;
+  const Eigen::Matrix3d rotation = rotation_of(hand) * own_rotation(scene_.tool);
+  if (!mesh_ || rotation != rotation_)
+    mesh_ = std::make_shared<TriangleMesh>(turned(tool_surface(scene_.tool), rotation_ = rotation));
+  return mesh_;
 }
 
 Image run_picture(const RunFile& run, const ViewSettings& view) {

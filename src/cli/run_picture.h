@@ -27,13 +27,15 @@ class RunPainter {
  private:
   CellRange stroke_cells();
   ToolBody tool_at(double time);
+  std::shared_ptr<const TriangleMesh> mesh_as(const Eigen::Quaterniond& hand);
 
   const RunFile& run_;
   Scene scene_;
   HeightFieldRenderer renderer_;  // before the surfaces: it refuses beds that cannot be drawn
   HeightGrid initial_;
   RenderSubject subject_;
-  std::shared_ptr<const TriangleMesh> mesh_;  // of any tool but the sphere
+  std::shared_ptr<const TriangleMesh> mesh_;  // of any tool but the sphere,
+  Eigen::Matrix3d rotation_;                  // turned like this
   std::optional<std::vector<TickRecord>> trace_;
 };
 

@@ -11,7 +11,6 @@
 #include "compare/page_profiles.h"
 #include "compare/page_sand.h"
 #include "compare/trace_difference.h"
-#include "io/scene_toml.h"
 #include "tool/tool_surface.h"
 
 namespace sandstroke {
@@ -79,7 +78,7 @@ void add_stroke(PageOfParts& page, const RunFile& run, const LastSurface& last) 
   Scene scene;
   std::vector<TickRecord> trace;
   page.add_part("The stroke", [&] {
-    scene = scene_from_text(run.scene_text(), run.name() + ": /scene");
+    scene = run.scene();
     if (!scene.stroke) throw_input_error("{}: the scene has none; the bed only came to rest", run.name());
     if (!run.has_trace())
       throw_input_error("{}: holds no trace of it; run the scene with output.trace = true", run.name());

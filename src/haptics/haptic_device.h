@@ -1,6 +1,6 @@
 #pragma once
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -21,13 +21,15 @@ struct DeviceSpecification {
   double workspace_radius = 0.0;  ///< m; 0 = unknown
   int switches = 0;               ///< how many it has; 0 = none, or unknown
   bool measures_velocity = false;
+  bool measures_orientation = false;
 };
 
 /// One look at a device, as it gave it out: no scaling, no filter.
 struct DeviceReading {
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< m, in the device's frame
-  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< m/s; 0 where it measures none
-  std::uint32_t switches = 0;                          ///< bit by bit
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();               ///< m, in the device's frame
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();               ///< m/s; 0 where it measures none
+  std::uint32_t switches = 0;                                       ///< bit by bit
+  Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();  ///< of its grip, where it measures that
 };
 
 /// A haptic device as the recorder knows it: a real one (chai3d/), or what stands in for one. After open(),

@@ -37,9 +37,10 @@ struct RecordedSample {
   double velocity[3] = {};     ///< m/s, as read
   double force[3] = {};        ///< N, commanded last (and taken), in the device's frame
   std::uint32_t switches = 0;
-  std::uint32_t flags = 0;  ///< SampleFlag
+  std::uint32_t flags = 0;                       ///< SampleFlag
+  double orientation[4] = {0.0, 0.0, 0.0, 1.0};  ///< as read: unit quaternion x, y, z, w
 };
-static_assert(sizeof(RecordedSample) == 96);
+static_assert(sizeof(RecordedSample) == 128);
 
 /// What the system gave of what was asked of it, for a loop that must not wait.
 struct Scheduling {

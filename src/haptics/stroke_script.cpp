@@ -18,6 +18,8 @@ constexpr double most_samples = 2e7;   // over five hours at 1000 Hz, 640 MB
 constexpr int most_legs = 20'000'000;  // straight or round: seconds of work, however few samples they give
 constexpr double same_point = 1e-9;    // m
 
+constexpr double smooth_turn = 10.0;  // deg: a path's corner up to here is taken on the way
+
 /// A straight line, or an arc about `centre`.
 struct Curve {
   Vector2d from, to;
@@ -50,6 +52,13 @@ struct Curve {
     const double angle = start_angle + fraction * (end_angle - start_angle);
     return centre + radius * Vector2d(elementary::cos(angle), elementary::sin(angle));
   }
+  /// deg from +x towards +y; on an arc it goes on counting.
+  double heading(double fraction) const {
+    const Vector2d way = to - from;
+    if (radius == 0.0) return to_degrees(elementary::atan2(way.y(), way.x()));
+    const double angle = start_angle + fraction * (end_angle - start_angle);
+    return to_degrees(angle) + (end_angle > start_angle ? 90.0 : -90.0);
+  }
 };
 using Path = std::vector<Curve>;
 
@@ -59,86 +68,156 @@ double length_of(const Path& path) {
   return length;
 }
 
-/// Heights at evenly spaced fractions of a path's length, linear in between.
-class HeightProfile {
+/// Values at evenly spaced fractions of a path's length, linear in between; none: 0.
+class Profile {
  public:
-  HeightProfile(const PressProfile& press, const ForceSettings& force) {
-    for (const double value : press.values)
-      heights_.push_back(press.kind == PressProfile::Kind::depth ? -value
-                                                                 : -depth_of_repulse_force(value, force));
+  explicit Profile(std::vector<double> values) : values_(std::move(values)) {
+    if (values_.empty()) values_.push_back(0.0);
   }
-  double highest() const { return *std::max_element(heights_.begin(), heights_.end()); }
+  double highest() const { return *std::max_element(values_.begin(), values_.end()); }
   double at(double fraction) const {
-    const std::size_t knots = heights_.size();
-    if (knots == 1) return heights_.front();
+    const std::size_t knots = values_.size();
+    if (knots == 1) return values_.front();
     const double place = fraction * static_cast<double>(knots - 1);
     const std::size_t knot = std::min(static_cast<std::size_t>(place), knots - 2);
-    return heights_[knot] + (place - static_cast<double>(knot)) * (heights_[knot + 1] - heights_[knot]);
+    return values_[knot] + (place - static_cast<double>(knot)) * (values_[knot + 1] - values_[knot]);
   }
   /// The fractions at which the profile bends.
+  void add_knots(std::vector<double>& found) const {
+    for (std::size_t i = 1; i + 1 < values_.size(); ++i)
+      found.push_back(static_cast<double>(i) / static_cast<double>(values_.size() - 1));
+  }
+
+ private:
+  std::vector<double> values_;
+};
+
+Profile height_profile(const PressProfile& press, const ForceSettings& force) {
+  std::vector<double> heights;
+  for (const double value : press.values)
+    heights.push_back(press.kind == PressProfile::Kind::depth ? -value
+                                                              : -depth_of_repulse_force(value, force));
+  return Profile(std::move(heights));
+}
+
+/// How a pen is held: a height [m], and angles [deg] as of ToolTurn.
+struct Posture {
+  double z, turn = 0.0, tilt = 0.0;
+  Posture towards(const Posture& other, double share) const {
+    return {z + share * (other.z - z), turn + share * (other.turn - turn),
+            tilt + share * (other.tilt - tilt)};
+  }
+  Eigen::Vector4d quaternion() const {
+    const double half_turn = 0.5 * to_radians(turn), half_tilt = 0.5 * to_radians(tilt);
+    const double ct = elementary::cos(half_turn), st = elementary::sin(half_turn),
+                 cl = elementary::cos(half_tilt), sl = elementary::sin(half_tilt);
+    return {-st * sl, ct * sl, st * cl, ct * cl};
+  }
+};
+
+/// How a pen is held along a path.
+class PostureProfile {
+ public:
+  PostureProfile(Profile height, const ToolTurn& turn)
+      : height_(std::move(height)),
+        turn_(turn.turn),
+        tilt_(turn.tilt),
+        along_path_(turn.heading == ToolTurn::Heading::path) {}
+
+  /// At a fraction of the path, which is one of that curve.
+  Posture at(double fraction, const Curve& curve, double of_curve) const {
+    return {height_.at(fraction), turn_.at(fraction) + (along_path_ ? curve.heading(of_curve) : 0.0),
+            tilt_.at(fraction)};
+  }
+  double highest() const { return height_.highest(); }
   std::vector<double> knots() const {
     std::vector<double> found;
-    for (std::size_t i = 1; i + 1 < heights_.size(); ++i)
-      found.push_back(static_cast<double>(i) / static_cast<double>(heights_.size() - 1));
+    for (const Profile* profile : {&height_, &turn_, &tilt_}) profile->add_knots(found);
+    std::sort(found.begin(), found.end());
     return found;
   }
 
  private:
-  std::vector<double> heights_;
+  Profile height_, turn_, tilt_;
+  bool along_path_;
 };
+
+bool turns_tool(const StrokeScript& script) {
+  return std::any_of(script.segments.begin(), script.segments.end(),
+                     [](const ScriptSegment& segment) { return segment.turn.turns(); });
+}
 
 /// The pen, moved leg by leg; samples are taken as it goes.
 class Pen {
  public:
-  explicit Pen(const StrokeScript& script) : script_(script), point_(script.start), z_(script.clearance) {}
+  explicit Pen(const StrokeScript& script)
+      : script_(script), turns_(turns_tool(script)), point_(script.start), held_{script.clearance} {}
 
   const Vector2d& point() const { return point_; }
 
-  void wait(double seconds) { add(Curve::line(point_, point_), 0.0, 1.0, z_, seconds); }
+  void wait(double seconds) { add(Curve::line(point_, point_), 0.0, 1.0, held_, seconds); }
   void lift() { climb_to(script_.clearance); }
   void travel(const Vector2d& to) {
     lift();
-    run(Curve::line(point_, to), 0.0, 1.0, z_, script_.travel_speed);
+    run(Curve::line(point_, to), 0.0, 1.0, held_, script_.travel_speed);
   }
   /// Goes to the path's first point, lifted where that is elsewhere, and draws the path.
-  void draw(const Path& path, const HeightProfile& profile, double speed) {
+  void draw(const Path& path, const PostureProfile& profile, double speed) {
     const Vector2d& first = path.front().from;
     if ((first - point_).norm() > same_point) travel(first);
-    climb_to(profile.at(0.0));
-    if (first != point_) run(Curve::line(point_, first), 0.0, 1.0, z_, speed);  // rounding of an arc's end
+    const Posture begin = profile.at(0.0, path.front(), 0.0);
+    turn_to(begin);
+    climb_to(begin.z);
+    if (first != point_) run(Curve::line(point_, first), 0.0, 1.0, held_, speed);  // rounding of an arc's end
 
     const double length = length_of(path);
     const std::vector<double> knots = profile.knots();
     auto knot = knots.begin();
     double drawn = 0.0;  // m of the path, up to the current curve
     for (const Curve& curve : path) {
+      if (!(curve.length > 0.0)) continue;
+      turn_to(profile.at(std::min(drawn / length, 1.0), curve, 0.0));
       double fraction = 0.0;  // of the curve
       for (; knot != knots.end() && *knot * length < drawn + curve.length; ++knot) {
         const double next = std::max(fraction, (*knot * length - drawn) / curve.length);
-        run(curve, fraction, next, profile.at(*knot), speed);
+        run(curve, fraction, next, profile.at(*knot, curve, next), speed);
         fraction = next;
       }
       drawn += curve.length;
-      run(curve, fraction, 1.0, profile.at(&curve == &path.back() ? 1.0 : std::min(drawn / length, 1.0)),
-          speed);
+      run(curve, fraction, 1.0,
+          profile.at(&curve == &path.back() ? 1.0 : std::min(drawn / length, 1.0), curve, 1.0), speed);
     }
   }
 
   /// The samples so far and one more, at which the pen has come to rest.
   Stroke finish() {
-    sample(point_, z_);
+    sample(point_, held_);
     stroke_.nominal_rate = script_.rate;
     stroke_.source = "script " + script_.name;
     return std::move(stroke_);
   }
 
  private:
-  void climb_to(double z) { run(Curve::line(point_, point_), 0.0, 1.0, z, script_.plunge_speed); }
-  /// Along a curve from one fraction to another while the height changes linearly: constant speed in space.
-  void run(const Curve& curve, double begin, double end, double end_z, double speed) {
-    add(curve, begin, end, end_z, elementary::hypot((end - begin) * curve.length, end_z - z_) / speed);
+  void climb_to(double z) {
+    run(Curve::line(point_, point_), 0.0, 1.0, {z, held_.turn, held_.tilt}, script_.plunge_speed);
   }
-  void add(const Curve& curve, double begin, double end, double end_z, double seconds) {
+  /// As there, in its place and the shorter way round; by a little at once.
+  void turn_to(const Posture& posture) {
+    if (!turns_) return;
+    const double whole_turns = 360.0 * std::round((posture.turn - held_.turn) / 360.0);
+    held_.turn += whole_turns;
+    const double most = std::max(std::abs(posture.turn - held_.turn), std::abs(posture.tilt - held_.tilt));
+    const Posture turned{held_.z, posture.turn, posture.tilt};
+    if (most > smooth_turn)
+      add(Curve::line(point_, point_), 0.0, 1.0, turned, most / script_.turn_speed);
+    else
+      held_ = turned;
+  }
+  /// Along a curve from one fraction to another while the posture changes linearly: constant speed in space.
+  void run(const Curve& curve, double begin, double end, const Posture& after, double speed) {
+    add(curve, begin, end, after, elementary::hypot((end - begin) * curve.length, after.z - held_.z) / speed);
+  }
+  void add(const Curve& curve, double begin, double end, const Posture& after, double seconds) {
     if (++legs_ > most_legs)
       throw_input_error("it has more than {} short lines; lower repeat, or draw less", most_legs);
     const double end_time = time_ + seconds;
@@ -149,21 +228,23 @@ class Pen {
     }
     while (next_time() < end_time) {
       const double u = std::clamp((next_time() - time_) / seconds, 0.0, 1.0);
-      sample(curve.at(begin + u * (end - begin)), z_ + u * (end_z - z_));
+      sample(curve.at(begin + u * (end - begin)), held_.towards(after, u));
     }
     time_ = end_time;
-    z_ = end_z;
+    held_ = after;
     point_ = end == 1.0 ? curve.to : curve.at(end);
   }
   double next_time() const { return static_cast<double>(stroke_.size()) / script_.rate; }
-  void sample(const Vector2d& point, double z) {
+  void sample(const Vector2d& point, const Posture& held) {
     stroke_.time.push_back(next_time());
-    stroke_.position.emplace_back(point.x(), point.y(), z);
+    stroke_.position.emplace_back(point.x(), point.y(), held.z);
+    if (turns_) stroke_.orientation.push_back(held.quaternion());
   }
 
   const StrokeScript& script_;
+  bool turns_;
   Vector2d point_;
-  double z_;
+  Posture held_;
   double time_ = 0.0;
   int legs_ = 0;
   Stroke stroke_;
@@ -251,7 +332,7 @@ void run_segment(Pen& pen, const ScriptSegment& segment, const StrokeScript& scr
     pen.travel(move->to);
   } else {
     if (segment.press.values.empty()) throw_input_error("neither depth nor force is given; give one of them");
-    const HeightProfile profile(segment.press, force);
+    const PostureProfile profile(height_profile(segment.press, force), segment.turn);
     if (profile.highest() > script.clearance) {
       throw_input_error("it rises to {} m, above the clearance of {} m; raise clearance or press deeper",
                         profile.highest(), script.clearance);

@@ -21,6 +21,17 @@ struct PressProfile {
   std::vector<double> values;
 };
 
+/// How the tool is turned while a segment is drawn: leant over by `tilt` about its own y axis, its upper end
+/// towards its +x, then turned about z. Each a list in deg, spread like a PressProfile's; none: 0.
+struct ToolTurn {
+  enum class Heading { fixed, path };
+  Heading heading = Heading::fixed;  ///< path: its +x points along the path, and `turn` counts from there
+  std::vector<double> turn = {};     ///< from +x towards +y
+  std::vector<double> tilt = {};
+
+  bool turns() const { return heading == Heading::path || !turn.empty() || !tilt.empty(); }
+};
+
 // What a segment draws, in the xy plane. All lengths in m, angles in deg counted from +x towards +y.
 struct ScriptMove {
   Eigen::Vector2d to = Eigen::Vector2d::Zero();  ///< reached in the air
@@ -50,16 +61,19 @@ struct ScriptSegment {
   PressProfile press = {};  ///< unused by a move; a text presses like this along each of its pen strokes
   double speed = 0.1;       ///< m/s, of the tip along its path in space; unused by a move
   double wait = 0.0;        ///< s, rest at the segment's end
+  ToolTurn turn = {};       ///< as press; a move keeps the tool turned as it is
 };
 
 /// A stroke described by what it draws. The tool starts and ends in the air, at height `clearance`. A segment
-/// that begins away from the current point is reached lifted: up, across, down.
+/// that begins away from the current point is reached lifted: up, across, down. Where the tool has to be
+/// turned otherwise, at a segment's beginning or a corner that it follows, it turns in its place.
 struct StrokeScript {
   std::string name = "script";                      ///< for messages
   Eigen::Vector2d start = Eigen::Vector2d::Zero();  ///< m
   double clearance = 0.02;                          ///< m above z = 0
   double travel_speed = 0.2;                        ///< m/s, across
   double plunge_speed = 0.05;                       ///< m/s, up and down
+  double turn_speed = 180.0;                        ///< deg/s, of turns in its place
   double rate = 1000.0;                             ///< Hz, samples of the stroke
   int repeat = 1;                                   ///< times the segments are run
   std::vector<ScriptSegment> segments;

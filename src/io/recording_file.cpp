@@ -24,9 +24,11 @@ class SampleColumns {
         flags_(file.column<std::uint32_t>("/stroke/flags")) {
     if (header.device.measures_velocity) velocity_ = file.column("/stroke/velocity", 3);
     if (header.force_limit > 0.0) force_ = file.column("/stroke/force", 3);
+    if (header.device.measures_orientation) orientation_ = file.column("/stroke/orientation", 4);
     std::vector<std::string> names = {"time", "position", "switches", "sequence", "monotonic_time", "flags"};
     if (velocity_) names.emplace_back("velocity");
     if (force_) names.emplace_back("force");
+    if (orientation_) names.emplace_back("orientation");
     describe_stroke_columns(file, names);
   }
 
@@ -37,16 +39,17 @@ class SampleColumns {
       for (const RecordedSample& sample : samples) values.push_back(value_of(sample));
       column.append(values.data(), values.size());
     };
-    const auto put_vectors = [&samples](Hdf5Column& column, double const(RecordedSample::*field)[3]) {
+    const auto put_vectors = [&samples](Hdf5Column& column, auto field) {
       std::vector<double> numbers;
       for (const RecordedSample& sample : samples)
-        numbers.insert(numbers.end(), sample.*field, sample.*field + 3);
+        numbers.insert(numbers.end(), std::begin(sample.*field), std::end(sample.*field));
       column.append(numbers.data(), samples.size());
     };
     put(time_, [start](const RecordedSample& s) { return static_cast<double>(s.time - start) / 1e9; });
     put_vectors(position_, &RecordedSample::position);
     if (velocity_) put_vectors(*velocity_, &RecordedSample::velocity);
     if (force_) put_vectors(*force_, &RecordedSample::force);
+    if (orientation_) put_vectors(*orientation_, &RecordedSample::orientation);
     put(switches_, [](const RecordedSample& s) { return s.switches; });
     put(sequence_, [](const RecordedSample& s) { return s.sequence; });
     put(monotonic_time_, [](const RecordedSample& s) { return s.time; });
@@ -55,7 +58,7 @@ class SampleColumns {
 
  private:
   Hdf5Column time_, position_, switches_, sequence_, monotonic_time_, flags_;
-  std::optional<Hdf5Column> velocity_, force_;
+  std::optional<Hdf5Column> velocity_, force_, orientation_;
 };
 
 constexpr const char* attribute_units =

@@ -6,6 +6,7 @@
 #include "core/machine.h"
 #include "io/frame_writer.h"
 #include "io/input_kind.h"
+#include "io/scene_toml.h"
 
 namespace sandstroke {
 namespace {
@@ -165,6 +166,30 @@ std::optional<HeightField> RunFile::error_map() const {
 }
 
 std::string RunFile::scene_text() const { return file_.text("/scene"); }
+
+Scene RunFile::scene() const {
+  Scene scene = scene_from_text(scene_text(), name() + ": /scene");
+  if (scene.tool.shape == ToolShape::mesh && file_.has("/tool/triangles"))
+    scene.tool.mesh = std::make_shared<TriangleMesh>(tool_mesh());
+  return scene;
+}
+
+TriangleMesh RunFile::tool_mesh() const {
+  TriangleMesh mesh;
+  mesh.vertices = file_.vectors("/tool/vertices");
+  const auto count = static_cast<double>(mesh.vertices.size());
+  for (const Eigen::Vector3d& corners : file_.vectors("/tool/triangles")) {
+    if (!(corners.minCoeff() >= 0.0 && corners.maxCoeff() < count &&
+          corners == corners.array().floor().matrix()))
+      throw_input_error(
+          "{}: /tool/triangles names a vertex that /tool/vertices does not have; the file is "
+          "damaged",
+          name());
+    const Eigen::Vector3i indices = corners.cast<int>();
+    mesh.triangles.push_back({indices[0], indices[1], indices[2]});
+  }
+  return mesh;
+}
 
 std::vector<std::pair<std::string, std::string>> RunFile::provenance() const {
   constexpr const char* group = "/provenance";

@@ -8,6 +8,7 @@
 
 #include "hdf5/hdf5_file.h"
 #include "sim/run_result.h"
+#include "sim/scene.h"
 
 namespace sandstroke {
 
@@ -43,12 +44,14 @@ class RunFile {
   std::optional<ErrorEstimate> error_estimate() const;
   std::optional<HeightField> error_map() const;
   std::string scene_text() const;  ///< the resolved scene (TOML)
+  Scene scene() const;             ///< the same, with its tool's mesh
   /// Name and value of each attribute of /provenance.
   std::vector<std::pair<std::string, std::string>> provenance() const;
 
  private:
   std::vector<hsize_t> shape() const;  // of /surface/initial
   void check_final() const;            // that it is there, in the same shape
+  TriangleMesh tool_mesh() const;
 
   Hdf5Reader file_;
   double version_ = 0.0;  // of the format

@@ -75,6 +75,15 @@ void visit_trace(const TraceContent& content, const Visit& visit) {
   });
 }
 
+void write_tool_mesh(Hdf5GridWriter& file, const TriangleMesh& mesh) {
+  file.write("/tool/vertices", mesh.vertices);
+  file.describe("/tool/vertices", "m", "of the tool's surface in its own frame: x, y, z");
+  Hdf5Column triangles = file.column<std::int32_t>("/tool/triangles", 3);
+  triangles.append(mesh.triangles.data()->data(), mesh.triangles.size());
+  file.describe("/tool/triangles", "",
+                "of the tool's surface: its corners' rows, counterclockwise from outside");
+}
+
 }  // namespace
 
 double least_bytes(const Simulation& simulation) {
@@ -109,6 +118,7 @@ RunWriter::RunWriter(const std::filesystem::path& path, const Simulation& simula
   if (!scene_file.empty()) file_.attribute(provenance, "scene_file", scene_file);
   write_bed_axes(file_, "/surface", bed);
   file_.attribute("/surface", "cell_size", bed.cell_size());
+  if (simulation.scene().tool.mesh) write_tool_mesh(file_, *simulation.scene().tool.mesh);
   write_surface("/surface/initial", bed, "height of the sand at the start");
   if (keeps_trace_) {
     file_.write_scale("/trace/axis", {"x", "y", "z"});

@@ -26,15 +26,36 @@ void show_press(KeyVisitor& v, PressKeys& press) {
       "is spread too");
 }
 
-void show_script(KeyVisitor& v, StrokeScript& script, double& speed, PressKeys& press) {
+void show_turn(KeyVisitor& v, ToolTurn& turn) {
+  int heading = static_cast<int>(turn.heading);
+  v.choice("heading", heading, {"fixed", "path"},
+           "the tool keeps its heading, or its +x points along the path");
+  turn.heading = static_cast<ToolTurn::Heading>(heading);
+  v.profile("turn", turn.turn, degrees, "deg",
+            "turn of the tool about z from its heading, from +x towards +y; a list is spread");
+  v.profile("tilt", turn.tilt, degrees, "deg",
+            "lean of the tool, its upper end towards its own +x; a list is spread");
+}
+
+/// What segments take over from the script where they say nothing.
+struct Defaults {
+  double speed = ScriptSegment{}.speed;
+  PressKeys press;
+  ToolTurn turn;
+};
+
+void show_script(KeyVisitor& v, StrokeScript& script, Defaults& defaults) {
   v.numbers("start", script.start.data(), 2, any_number, "m", "where the tool begins, in the air");
   v.number("clearance", script.clearance, {0.0, 1.0}, "m", "height above z = 0 at which it travels");
   v.number("travel_speed", script.travel_speed, speed_range, "m/s", "speed between segments, in the air");
   v.number("plunge_speed", script.plunge_speed, speed_range, "m/s", "speed down into the sand and up again");
+  v.number("turn_speed", script.turn_speed, {0.0, 1e5, true}, "deg/s",
+           "speed of the tool where it turns in its place");
   v.number("rate", script.rate, {20.0, 1e6}, "Hz", "samples per second");  // slower ones would count as gaps
   v.integers("repeat", &script.repeat, 1, 1, 1000, "number of times that the segments are drawn");
-  v.number("speed", speed, speed_range, "m/s", "speed of the tip while it draws");
-  show_press(v, press);
+  v.number("speed", defaults.speed, speed_range, "m/s", "speed of the tip while it draws");
+  show_press(v, defaults.press);
+  show_turn(v, defaults.turn);
 }
 
 void show_point(KeyVisitor& v, const char* key, Vector2d& point, const char* help) {
@@ -91,6 +112,7 @@ void show_segment(KeyVisitor& v, ScriptSegment& segment, PressKeys& press) {
   if (kind > 0) {
     v.number("speed", segment.speed, speed_range, "m/s", "speed of the tip; default: that of the script");
     show_press(v, press);
+    show_turn(v, segment.turn);
   }
   std::visit([&](auto& shape) { show_shape(v, shape); }, segment.shape);
 }
@@ -111,9 +133,11 @@ void check_letters(const TomlReader& toml, const std::string& text) {
     toml.fail("text", "has a letter that the fonts lack; use ASCII letters only");
 }
 
-ScriptSegment read_segment(const TomlReader& toml, const PressProfile& default_press, double default_speed) {
+ScriptSegment read_segment(const TomlReader& toml, const PressProfile& default_press,
+                           const Defaults& defaults) {
   ScriptSegment segment;
-  segment.speed = default_speed;
+  segment.speed = defaults.speed;
+  segment.turn = defaults.turn;
   PressKeys press;
   read_keys(toml, [&](KeyVisitor& visitor) { show_segment(visitor, segment, press); });
   segment.press = press_of(toml, press, default_press);
@@ -128,13 +152,12 @@ ScriptSegment read_segment(const TomlReader& toml, const PressProfile& default_p
 StrokeScript read(const TomlReader& toml) {
   StrokeScript script;
   script.name = toml.name();
-  double speed = ScriptSegment{}.speed;
-  PressKeys press;
-  read_keys(toml, [&](KeyVisitor& visitor) { show_script(visitor, script, speed, press); });
-  const PressProfile default_press = press_of(toml, press, {});
+  Defaults defaults;
+  read_keys(toml, [&](KeyVisitor& visitor) { show_script(visitor, script, defaults); });
+  const PressProfile default_press = press_of(toml, defaults.press, {});
   toml.require("segment");
   for (const TomlReader& table : toml.tables("segment"))
-    script.segments.push_back(read_segment(table, default_press, speed));
+    script.segments.push_back(read_segment(table, default_press, defaults));
   toml.reject_unread([] { return conditions(script_keys()); });
   return script;
 }
@@ -145,9 +168,10 @@ std::vector<KeySection> script_keys() {
   return all_keys([](KeyVisitor& visitor) {
     StrokeScript script;
     ScriptSegment segment;
+    Defaults defaults;
     PressKeys press;
-    visitor.section("", "Keys of the whole script; depth, force and speed are defaults of the segments");
-    show_script(visitor, script, segment.speed, press);
+    visitor.section("", "Keys of the whole script; from speed on they are defaults of the segments");
+    show_script(visitor, script, defaults);
     visitor.section("segment", "the parts that are drawn in turn; each begins with [[segment]]");
     show_segment(visitor, segment, press);
   });

@@ -20,7 +20,8 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "numbers go into the journal as they are");
 
 constexpr std::string_view signature = "sandstroke.recording";
-constexpr std::uint32_t format_version = 1;
+constexpr std::uint32_t format_version = 2;
+constexpr std::size_t first_sample_bytes = 96;  // of version 1: without what was added at its end
 
 enum BlockKind : std::uint32_t { header_block = 1, sample_block = 2, footer_block = 3 };
 
@@ -171,7 +172,7 @@ JournalReader::JournalReader(const fs::path& path) : name_(path.string()), file_
     throw_input_error("{}: is not the journal of a recording; name another file", name_);
   std::uint32_t version = format_version;
   const bool has_version = read(&version, sizeof version);
-  if (version != format_version)
+  if (version < 1 || version > format_version)
     throw_input_error(
         "{}: has journal format {}, and this program reads format {}; use a newer version of sandstroke",
         name_, version, format_version);
@@ -208,9 +209,10 @@ std::vector<RecordedSample> JournalReader::next(std::size_t most) {
     const std::optional<Block> block = read_block();
     at_end_ = true;  // unless a sample says otherwise
     if (!block) break;
-    if (block->kind == sample_block && block->content.size() == sizeof(RecordedSample)) {
+    const std::size_t length = block->content.size();
+    if (block->kind == sample_block && (length == sizeof(RecordedSample) || length == first_sample_bytes)) {
       RecordedSample sample;
-      std::memcpy(&sample, block->content.data(), sizeof sample);
+      std::memcpy(&sample, block->content.data(), length);
       const auto sequence = static_cast<std::int64_t>(sample.sequence);
       if (sequence > last_sequence_ && sequence < most_ticks && sample.time > last_time_) {
         last_sequence_ = sequence;

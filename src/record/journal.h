@@ -14,12 +14,14 @@
 namespace sandstroke {
 
 // The journal of a recording, all little-endian:
-//   "sandstroke.recording"  20 bytes, and a uint32: the format's version, 1
+//   "sandstroke.recording"  20 bytes, and a uint32: the format's version, 2 (1 is read, too)
 //   blocks, each
 //     uint32 kind           1 header, 2 sample, 3 footer
 //     uint32 length         of the content, bytes
 //     uint64 checksum       FNV-1a of kind, length and content
-//     content               sample: RecordedSample's 96 bytes; header, footer: JSON (recording_json.h)
+//     content               sample: RecordedSample's 128 bytes (in version 1 its first 96); header, footer:
+//     JSON
+//                           (recording_json.h)
 // A header first, then samples, then the footer, unless the recording was cut off.
 
 /// Of a sample's block.

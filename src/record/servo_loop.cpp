@@ -209,7 +209,7 @@ void ServoLoop::stop_where_it_lasts(bool fails, Fault& fault, std::int64_t now) 
 
 bool ServoLoop::read(std::int64_t now, DeviceReading& reading) noexcept {
   read_ = device_.read(to_seconds(now - played_from_), reading) && reading.position.allFinite() &&
-          reading.velocity.allFinite();
+          reading.velocity.allFinite() && reading.orientation.coeffs().allFinite();
   if (read_) position_ = reading.position;
   return read_;
 }
@@ -240,6 +240,7 @@ void ServoLoop::keep(const DeviceReading& reading, std::int64_t now, std::uint32
   sample.time = now;
   copy(reading.position, sample.position);
   copy(reading.velocity, sample.velocity);
+  std::copy_n(reading.orientation.coeffs().data(), 4, sample.orientation);
   copy(held_, sample.force);
   sample.switches = reading.switches;
   const std::int64_t due = tick_time(ticks_.elapsed);

@@ -28,6 +28,7 @@ StrokeDevice::StrokeDevice(Stroke stroke, std::string name) : sampler_(std::move
   specification_.frame = sampler_.stroke().frame;
   specification_.max_force = any_force;
   specification_.switches = std::bit_width(ever_pressed);
+  specification_.measures_orientation = !sampler_.stroke().orientation.empty();
   specification_.measures_velocity = true;  // the derivative of its positions, exactly
 }
 
@@ -38,7 +39,8 @@ bool StrokeDevice::read(double time, DeviceReading& reading) noexcept {
   const auto last = static_cast<std::size_t>(std::max<std::ptrdiff_t>(after, 1) - 1);
   if (last + 1 < stroke.size() && t > stroke.time[last] && !stroke.sampled_between(last)) return false;
   const Hand hand = sampler_.at(t);
-  reading = {hand.position, hand.velocity, stroke.switches.empty() ? 0 : stroke.switches[last]};
+  reading = {hand.position, hand.velocity, stroke.switches.empty() ? 0 : stroke.switches[last],
+             hand.orientation};
   return true;
 }
 

@@ -138,11 +138,13 @@ TEST(Chai3dDevice, GivesOutWhatCHAI3DRead) {
   opened.fake->position.set(0.1, -0.2, 0.3);
   opened.fake->velocity.set(-1.0, 2.0, -3.0);
   opened.fake->switches = 0x80000005u;
+  opened.fake->rotation.set(0, -1, 0, 1, 0, 0, 0, 0, 1);  // +x to +y
   DeviceReading reading;
   ASSERT_TRUE(opened.device.read(0.0, reading));
   EXPECT_EQ(reading.position, Vector3d(0.1, -0.2, 0.3));
   EXPECT_EQ(reading.velocity, Vector3d(-1.0, 2.0, -3.0));
   EXPECT_EQ(reading.switches, 0x80000005u);
+  EXPECT_LT((reading.orientation * Vector3d::UnitX() - Vector3d::UnitY()).norm(), 1e-15);
 }
 
 TEST(Chai3dDevice, GivesNothingWhereAnythingOfAReadingIsMissing) {

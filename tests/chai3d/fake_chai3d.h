@@ -19,6 +19,7 @@ class FakeChai3d : public chai3d::cGenericHapticDevice {
   bool switches_on = true;
   chai3d::cVector3d position{0, 0, 0}, velocity{0, 0, 0};
   unsigned switches = 0;
+  chai3d::cMatrix3d rotation{1, 0, 0, 0, 1, 0, 0, 0, 1};
   std::function<void(const Eigen::Vector3d&)> on_force;  ///< called while a force is on its way
 
   explicit FakeChai3d(chai3d::cHapticDeviceModel model = chai3d::C_HAPTIC_DEVICE_OMEGA_3) {
@@ -29,6 +30,7 @@ class FakeChai3d : public chai3d::cGenericHapticDevice {
     m_specifications.m_maxLinearStiffness = 5000.0;
     m_specifications.m_maxLinearDamping = 30.0;
     m_specifications.m_workspaceRadius = 0.075;
+    m_specifications.m_sensedRotation = true;
     m_specifications.m_sensedPosition = m_specifications.m_actuatedPosition = true;
     m_deviceAvailable = true;
   }
@@ -67,6 +69,7 @@ class FakeChai3d : public chai3d::cGenericHapticDevice {
   }
   bool getPosition(chai3d::cVector3d& value) override { return give(gives_position, position, value); }
   bool getLinearVelocity(chai3d::cVector3d& value) override { return give(gives_velocity, velocity, value); }
+  bool getRotation(chai3d::cMatrix3d& value) override { return give(true, rotation, value); }
   bool getUserSwitches(unsigned& value) override { return give(gives_switches, switches, value); }
   bool enableForces(bool enabled) override {
     note(enabled ? "motors on" : "motors off");

@@ -27,7 +27,7 @@ std::vector<std::string> with(std::vector<std::string> arguments, const std::vec
   return arguments;
 }
 
-/// The journal of a.h5 holds samples (of 112 bytes) beside its header.
+/// The journal of a.h5 holds samples (of 144 bytes) beside its header.
 std::function<bool()> recording(const fs::path& folder, std::uintmax_t bytes = 20'000) {
   return [journal = folder / "a.h5.recording", bytes] {
     std::error_code not_there;

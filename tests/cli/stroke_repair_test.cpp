@@ -106,13 +106,14 @@ TEST(CliStrokeRepair, AKilledRecordingCanBePlayed) {
 TEST(CliStrokeRepair, SaysWhatIsLost) {
   const fs::path folder = test_folder();
   const fs::path journal = write_journal(folder / "hand.h5.recording");
-  fs::resize_file(journal, fs::file_size(journal) - 2 * 112 - 1);  // 297 samples from the front, but a byte
+  fs::resize_file(journal, fs::file_size(journal) - 2 * journal_sample_bytes -
+                               1);  // 297 samples from the front, but a byte
   const nlohmann::json told =
       parsed(run_program({"stroke", "repair", "hand.h5.recording", "out.h5", "--json"}, folder));
   EXPECT_EQ(told["ticks_recorded"], 296);
   EXPECT_EQ(told["ticks_elapsed"], 297);
   EXPECT_EQ(told["ticks_skipped"], 1);
-  EXPECT_EQ(told["lost_bytes"], 111);
+  EXPECT_EQ(told["lost_bytes"], journal_sample_bytes - 1);
   EXPECT_EQ(told["duration"], 0.296);
   EXPECT_EQ(told["complete"], false);
   EXPECT_EQ(told["stop_reason"], "cut off");
@@ -122,7 +123,7 @@ TEST(CliStrokeRepair, SaysWhatIsLost) {
 
   const ProgramResult again = run_program({"stroke", "repair", "hand.h5.recording"}, folder);
   EXPECT_THAT(again.out,
-              AllOf(HasSubstr("111 bytes after the last sound sample"), HasSubstr("a sample has 112")));
+              AllOf(HasSubstr("143 bytes after the last sound sample"), HasSubstr("a sample has 144")));
 }
 
 TEST(CliStrokeRepair, AFinishedJournalBecomesACompleteStroke) {

@@ -327,5 +327,61 @@ TEST(StrokeScript, RefusesWorkWithoutEndThatGivesFewSamples) {
   EXPECT_THAT(complaint(script), HasSubstr("infinitely far"));
 }
 
+/// deg from +x towards +y, of where the tool's own axis points at a time.
+double heading(const Stroke& stroke, double time, const Vector3d& axis = Vector3d::UnitX()) {
+  const auto i = static_cast<std::size_t>(std::lround(time * stroke.nominal_rate));
+  const Vector3d points = Eigen::Quaterniond(stroke.orientation[i]) * axis;
+  return std::atan2(points.y(), points.x()) * 180.0 / pi;
+}
+
+TEST(StrokeScript, WithoutATurnItHasNoOrientation) {
+  EXPECT_TRUE(trace_script(script_of({{ScriptLine{{}, {0.1, 0}}, depth({0.01})}}), {}).orientation.empty());
+}
+
+TEST(StrokeScript, AToolThatFollowsThePathPointsAlongIt) {
+  // A quarter of a circle to the left and one to the right, each from heading +y.
+  for (const double end : {90.0, -90.0}) {
+    const double side = end > 0 ? 1.0 : -1.0;
+    ScriptSegment arc{ScriptArc{{-0.1 * side, 0}, 0.1, end > 0 ? 0.0 : 180.0, end > 0 ? 90.0 : 90.0},
+                      depth({0.01}), 0.1};
+    arc.turn.heading = ToolTurn::Heading::path;
+    StrokeScript script = script_of({arc});
+    const Stroke stroke = trace_script(script, {});
+    // Turned by 90 deg in the air first: 0.5 s; then 0.5 s of plunge.
+    const double drawn = 0.1 * pi / 2 / 0.1;
+    for (const double share : {0.001, 0.3, 0.5, 0.99})
+      EXPECT_NEAR(heading(stroke, 1.0 + share * drawn), 90.0 + side * 90.0 * share, 0.2);
+    for (const Eigen::Vector4d& q : stroke.orientation) EXPECT_NEAR(q.norm(), 1.0, 1e-12);
+  }
+}
+
+TEST(StrokeScript, AtACornerTheToolTurnsInItsPlaceTheShorterWay) {
+  ScriptSegment there{ScriptLine{{}, {-0.1, 0.001}}, depth({0.01}), 0.1};
+  there.turn.heading = ToolTurn::Heading::path;
+  ScriptSegment up{ScriptLine{{}, {-0.2, -0.099}}, depth({0.01}), 0.1};
+  up.turn.heading = ToolTurn::Heading::path;
+  StrokeScript script = script_of({there, up});
+  script.turn_speed = 90.0;
+  const Stroke stroke = trace_script(script, {});
+  // 179.4 deg at the beginning, then on to -135 = 225 deg, by 45.6.
+  const double begin = (180.0 - std::atan(0.01) * 180.0 / pi) / 90.0 + 0.5 + std::hypot(0.1, 0.001) / 0.1;
+  EXPECT_NEAR(heading(stroke, begin + 0.25), 180.0 - 0.57 + 22.5 - 360.0, 0.2);
+  EXPECT_LT((at(stroke, begin + 0.25) - Vector3d(-0.1, 0.001, -0.01)).norm(), 1e-9);
+  EXPECT_NEAR(heading(stroke, begin + 0.6), -135.0, 0.2);
+}
+
+TEST(StrokeScript, TurnAndTiltRunThroughTheirValues) {
+  ScriptSegment line{ScriptLine{{}, {0.2, 0}}, depth({0.01}), 0.1};
+  line.turn.turn = {0.0, 60.0};
+  line.turn.tilt = {0.0, 40.0, 0.0};
+  const Stroke stroke = trace_script(script_of({line}), {});
+  EXPECT_NEAR(heading(stroke, 1.0), 15.0, 0.1);
+  EXPECT_NEAR(heading(stroke, 2.0), 45.0, 0.1);
+  // In the middle it leans by 40 deg, its upper end towards its own +x.
+  const Vector3d up = Eigen::Quaterniond(stroke.orientation[1500]) * Vector3d::UnitZ();
+  EXPECT_NEAR(std::acos(up.z()) * 180.0 / pi, 40.0, 0.1);
+  EXPECT_NEAR(heading(stroke, 1.5, Vector3d::UnitZ()), 30.0, 0.1);
+}
+
 }  // namespace
 }  // namespace sandstroke

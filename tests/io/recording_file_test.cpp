@@ -100,15 +100,18 @@ TEST_F(RecordingFile, SaysOfEachColumnWhatItIsAndInWhichUnit) {
   for (const double force_limit : {0.0, 3.0}) {
     RecordingHeader header = full_header();
     header.force_limit = force_limit;
-    header.device.measures_velocity = force_limit > 0.0;
+    header.device.measures_velocity = header.device.measures_orientation = force_limit > 0.0;
     write(made_samples(3), full_footer(), header);
     const Hdf5Reader file(path_);
     const std::map<std::string, std::string> units = {
-        {"time", "s"},    {"position", "m"}, {"velocity", "m/s"}, {"force", "N"},
-        {"switches", ""}, {"sequence", ""},  {"flags", ""},       {"monotonic_time", "ns"}};
+        {"time", "s"},    {"position", "m"},   {"velocity", "m/s"},
+        {"force", "N"},   {"orientation", ""}, {"switches", ""},
+        {"sequence", ""}, {"flags", ""},       {"monotonic_time", "ns"}};
     for (const auto& [name, unit] : units) {
       const std::string column = "/stroke/" + name;
-      ASSERT_EQ(file.has(column), force_limit > 0.0 || (name != "velocity" && name != "force")) << name;
+      ASSERT_EQ(file.has(column),
+                force_limit > 0.0 || (name != "velocity" && name != "force" && name != "orientation"))
+          << name;
       if (!file.has(column)) continue;
       EXPECT_FALSE(file.text_attribute(column, "long_name").empty()) << name;
       EXPECT_EQ(file.has_attribute(column, "units") ? file.text_attribute(column, "units") : "", unit);
@@ -143,6 +146,7 @@ TEST_F(RecordingFile, HoldsTheSamplesToTheBit) {
     const auto position = column<double>(path_, "/stroke/position");
     const auto velocity = column<double>(path_, "/stroke/velocity");
     const auto force = column<double>(path_, "/stroke/force");
+    const auto orientation = column<double>(path_, "/stroke/orientation");
     const auto seconds = column<double>(path_, "/stroke/time");
     ASSERT_EQ(sequence.size(), samples.size());
     for (std::size_t i = 0; i < samples.size(); ++i) {
@@ -152,6 +156,7 @@ TEST_F(RecordingFile, HoldsTheSamplesToTheBit) {
       std::copy_n(&position.at(3 * i), 3, back.position);
       std::copy_n(&velocity.at(3 * i), 3, back.velocity);
       std::copy_n(&force.at(3 * i), 3, back.force);
+      std::copy_n(&orientation.at(4 * i), 4, back.orientation);
       back.switches = switches.at(i);
       back.flags = flags.at(i);
       ASSERT_EQ(std::memcmp(&back, &samples[i], sizeof back), 0) << i;

@@ -37,6 +37,10 @@ clearance = 0.03
 speed = 0.15
 travel_speed = 0.4
 plunge_speed = 0.07
+turn_speed = 60
+heading = "path"
+turn = 20
+tilt = [0, 10]
 rate = 500
 repeat = 3
 depth = [0.008, 0.001]
@@ -77,6 +81,13 @@ font = "cursive"
   EXPECT_EQ(script.clearance, 0.03);
   EXPECT_EQ(script.travel_speed, 0.4);
   EXPECT_EQ(script.plunge_speed, 0.07);
+  EXPECT_EQ(script.turn_speed, 60.0);
+  for (const ScriptSegment& segment : script.segments) {
+    if (std::holds_alternative<ScriptMove>(segment.shape)) continue;
+    EXPECT_EQ(segment.turn.heading, ToolTurn::Heading::path);
+    EXPECT_EQ(segment.turn.turn, std::vector{20.0});
+    EXPECT_EQ(segment.turn.tilt, (std::vector{0.0, 10.0}));
+  }
   EXPECT_EQ(script.rate, 500.0);
   EXPECT_EQ(script.repeat, 3);
   ASSERT_EQ(script.segments.size(), 6u);

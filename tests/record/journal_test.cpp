@@ -29,7 +29,7 @@ namespace fs = std::filesystem;
 using testing::AllOf;
 using testing::HasSubstr;
 
-constexpr std::size_t sample_block = 16 + 96;  // bytes, as journal.h says
+constexpr std::size_t sample_block = 16 + 128;  // bytes, as journal.h says
 
 std::vector<RecordedSample> first(const std::vector<RecordedSample>& samples, std::size_t count) {
   return {samples.begin(), samples.begin() + static_cast<std::ptrdiff_t>(count)};
@@ -164,13 +164,32 @@ TEST_F(Journal, ComesBackToTheBit) {
   }
 }
 
+TEST_F(Journal, OfTheVersionBeforeIsRead) {  // whose samples were 96 bytes and had no orientation
+  const std::vector<RecordedSample> samples = made_samples(1);
+  std::string bytes = bytes_of(samples);
+  bytes[20] = 1;
+  std::string block = bytes.substr(bytes.size() - sample_block, 16 + 96);
+  block[4] = 96;
+  ContentHash hash;
+  hash.add(block.substr(0, 8) + block.substr(16));
+  const std::uint64_t checksum = hash.value();
+  std::memcpy(block.data() + 8, &checksum, 8);
+  const fs::path path = folder_ / "before.h5.recording";
+  std::ofstream(path, std::ios::binary) << bytes.substr(0, bytes.size() - sample_block) << block;
+  JournalReader reader(path);
+  const std::vector<RecordedSample> back = reader.next(7);
+  ASSERT_EQ(back.size(), 1u);
+  EXPECT_EQ(std::memcmp(back.data(), samples.data(), 96), 0);
+  EXPECT_TRUE(std::equal(back[0].orientation, back[0].orientation + 4, RecordedSample{}.orientation));
+}
+
 TEST_F(Journal, IsWhatItsHeaderSays) {  // by another program's eyes
   const std::vector<RecordedSample> samples = made_samples(1);
   const std::string bytes = bytes_of(samples);
-  EXPECT_EQ(bytes.substr(0, 24), std::string("sandstroke.recording\1\0\0\0", 24));
+  EXPECT_EQ(bytes.substr(0, 24), std::string("sandstroke.recording\2\0\0\0", 24));
   const std::string sample = bytes.substr(bytes.size() - sample_block);
-  EXPECT_EQ(sample.substr(0, 8), std::string("\2\0\0\0\x60\0\0\0", 8));
-  EXPECT_EQ(std::memcmp(sample.data() + 16, samples.data(), 96), 0);
+  EXPECT_EQ(sample.substr(0, 8), std::string("\2\0\0\0\x80\0\0\0", 8));
+  EXPECT_EQ(std::memcmp(sample.data() + 16, samples.data(), 128), 0);
   ContentHash hash;
   hash.add(sample.substr(0, 8) + sample.substr(16));
   std::uint64_t checksum = 0;
@@ -278,7 +297,7 @@ std::string garbage(std::mt19937_64& random) {
     std::string content(upto(200), '\0');
     for (char& c : content) c = static_cast<char>(random());
     if (upto(2) == 0) content = "{\"source\": [[[[{}]]]], \"frame\": 1e999}";
-    if (upto(3) == 0) content.resize(96, 'x');
+    if (upto(3) == 0) content.resize(128, 'x');
     const std::uint32_t frame[2] = {
         static_cast<std::uint32_t>(upto(4)),
         upto(3) == 0 ? static_cast<std::uint32_t>(random()) : static_cast<std::uint32_t>(content.size())};
@@ -464,9 +483,9 @@ TEST_F(Journal, SaysWhatCannotBeRead) {
   EXPECT_THAT(complaint(ErrorKind::input, [&] { JournalReader{file_of("no journal")}; }),
               HasSubstr("not the journal"));
   std::string later = bytes_of({});
-  later[20] = 2;
+  later[20] = 3;
   EXPECT_THAT(complaint(ErrorKind::input, [&] { JournalReader{file_of(later)}; }),
-              AllOf(HasSubstr("format 2"), HasSubstr("reads format 1")));
+              AllOf(HasSubstr("format 3"), HasSubstr("reads format 2")));
 }
 
 TEST_F(Journal, SaysWhereItCannotBeWritten) {

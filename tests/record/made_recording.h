@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <vector>
@@ -11,7 +12,7 @@ namespace sandstroke {
 /// A header in which every field says something.
 inline RecordingHeader full_header() {
   RecordingHeader header;
-  header.device = {"Möbius 3", "A \"maker\"", "device", 12.5, 1e3 / 3.0, 7.5, 0.08, 4, true};
+  header.device = {"Möbius 3", "A \"maker\"", "device", 12.5, 1e3 / 3.0, 7.5, 0.08, 4, true, true};
   header.source = "scripted:wscg.toml";
   header.started = "2026-11-21T18:00:00.250Z";
   header.started_monotonic = 1e6 / 3.0;
@@ -42,6 +43,9 @@ inline std::vector<RecordedSample> made_samples(int count) {
       sample.velocity[axis] = std::ldexp(1.0 + i, -1060 + axis);
       sample.force[axis] = -1e300 / (1 + i + axis);
     }
+    const double half = 0.1 * i;
+    const double turn[] = {0.0, std::sin(half), 0.0, std::cos(half)};
+    std::copy(turn, turn + 4, sample.orientation);
     sample.switches = i == 0 ? 0xffffffffu : static_cast<std::uint32_t>(i);
     sample.flags = static_cast<std::uint32_t>(i % 256);
     samples.push_back(sample);

@@ -71,7 +71,7 @@ TEST(SampleWriter, WritesWhileItIsFilled) {
   SampleWriter writer(parts.ring, parts.journal, parts.loop);
   const auto empty = fs::file_size(folder / "a");
   push(parts.ring, made_samples(10));
-  while (fs::file_size(folder / "a") != empty + 10 * 112) std::this_thread::yield();
+  while (fs::file_size(folder / "a") != empty + 10 * journal_sample_bytes) std::this_thread::yield();
   EXPECT_EQ(parts.ring.size(), 0u);
 }
 
@@ -92,7 +92,7 @@ TEST(SampleWriter, AFullDiskStopsTheLoopAndKeepsWhatWasThere) {
   const std::uint64_t header = fs::file_size(folder / "header");
   const pid_t child = fork();
   if (child == 0) {
-    const rlimit limit{header + 2000 * 112 + 5, header + 2000 * 112 + 5};
+    const rlimit limit{header + 2000 * journal_sample_bytes + 5, header + 2000 * journal_sample_bytes + 5};
     setrlimit(RLIMIT_FSIZE, &limit);
     signal(SIGXFSZ, SIG_IGN);  // writing fails instead, as on a full disk
     Parts parts(folder / "a", 4096);
