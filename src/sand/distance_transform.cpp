@@ -1,18 +1,18 @@
 #include "sand/distance_transform.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
 namespace sandstroke {
 namespace {
 
-constexpr double nowhere = 1e15;  // squared samples: whole, and larger than any
+constexpr double far_away = 1e7;  // samples: whole, and farther than any
 
-/// min over q of (p - q)^2 + f(q), for each p of a line of `count` numbers `step` apart: the lower envelope
-/// of parabolas.
-void nearest_along(double* f, int count, std::ptrdiff_t step, std::vector<int>& apex,
-                   std::vector<double>& from, std::vector<double>& result) {
-  const auto value = [&](int q) { return f[q * step]; };
+/// min over q of (p - q)^2 + f(q), for each p of a line of `count` numbers: the lower envelope of parabolas.
+void nearest_along(double* f, int count, std::vector<int>& apex, std::vector<double>& from,
+                   std::vector<double>& result) {
+  const auto value = [&](int q) { return f[q]; };
   int last = 0;
   apex[0] = 0;
   from[0] = -std::numeric_limits<double>::infinity();
@@ -34,24 +34,35 @@ void nearest_along(double* f, int count, std::ptrdiff_t step, std::vector<int>& 
     const double way = p - apex[static_cast<std::size_t>(at)];
     result[static_cast<std::size_t>(p)] = way * way + value(apex[static_cast<std::size_t>(at)]);
   }
-  for (int p = 0; p < count; ++p) f[p * step] = result[static_cast<std::size_t>(p)];
+  std::copy_n(result.begin(), count, f);
 }
 
 /// Squared distances to the nearest sample that is `sought`.
 std::vector<double> squared_distance(const std::vector<unsigned char>& covered, unsigned char sought,
                                      int rows, int cols) {
+  // Along columns by two sweeps; then along rows.
   std::vector<double> squared(covered.size());
-  for (std::size_t i = 0; i < covered.size(); ++i) squared[i] = covered[i] == sought ? 0.0 : nowhere;
-  const auto longest = static_cast<std::size_t>(std::max(rows, cols));
-  std::vector<int> apex(longest);
-  std::vector<double> from(longest + 1), result(longest);
-  for (int col = 0; col < cols; ++col) nearest_along(squared.data() + col, rows, cols, apex, from, result);
-  for (int row = 0; row < rows; ++row)
-    nearest_along(squared.data() + static_cast<std::ptrdiff_t>(row) * cols, cols, 1, apex, from, result);
+  const auto width = static_cast<std::size_t>(cols), length = static_cast<std::size_t>(rows);
+  for (std::size_t i = 0; i < covered.size(); ++i)
+    squared[i] = covered[i] == sought ? 0.0 : i < width ? far_away : squared[i - width] + 1.0;
+  for (std::size_t i = (length - 1) * width; i-- > 0;)
+    squared[i] = std::min(squared[i], squared[i + width] + 1.0);
+  for (double& distance : squared) distance *= distance;
+  std::vector<int> apex(width);
+  std::vector<double> from(width + 1), result(width);
+  for (std::size_t row = 0; row < length; ++row)
+    nearest_along(squared.data() + row * width, cols, apex, from, result);
   return squared;
 }
 
 }  // namespace
+
+std::vector<double> distance_inside(const std::vector<unsigned char>& covered, int rows, int cols) {
+  std::vector<double> inside = squared_distance(covered, 0, rows, cols);
+  for (double& squared : inside)
+    squared = squared > 0.0 ? std::round((std::sqrt(squared) - 0.5) * 0x1p20) * 0x1p-20 : 0.0;
+  return inside;
+}
 
 std::vector<double> signed_distance(const std::vector<unsigned char>& covered, int rows, int cols) {
   std::vector<double> inside = squared_distance(covered, 0, rows, cols);

@@ -9,5 +9,7 @@ namespace sandstroke {
 /// Huttenlocher, Theory of Computing 8, 2012) but for rounding to multiples of 2^-20, so that sums of them
 /// are exact.
 std::vector<double> signed_distance(const std::vector<unsigned char>& covered, int rows, int cols);
+/// The same, but 0 outside: at half the work.
+std::vector<double> distance_inside(const std::vector<unsigned char>& covered, int rows, int cols);
 
 }  // namespace sandstroke

@@ -42,6 +42,8 @@ ToolEnvelope::ToolEnvelope(const TriangleMesh& surface, double cell_size) : cell
   first_col_ = static_cast<int>(first(box.min().x())), first_row_ = static_cast<int>(first(box.min().y()));
   cols_ = static_cast<int>(cols), rows_ = static_cast<int>(rows);
   stride_ = cols_ + 2 * cells_per_group;
+  for (int row = 0; row < sample_rows(); ++row) rows_at_.push_back(at(row / phases_, 0, row % phases_, 0));
+  for (int col = 0; col < sample_cols(); ++col) cols_at_.push_back(at(0, col / phases_, 0, col % phases_));
   rasterise(surface);
 }
 
@@ -66,7 +68,7 @@ void ToolEnvelope::rasterise(const TriangleMesh& surface) {
     throw_input_error(
         "the tool is so thin that it covers no cell of the bed; take more bed.cells or a thicker tool");
   continue_beyond_edge();
-  const std::vector<double> inside = depths_inside(highest_);
+  const std::vector<double> inside = distance_inside(covered_up_to(highest_), sample_rows(), sample_cols());
   inradius_ = *std::max_element(inside.begin(), inside.end()) * cell_size_ / phases_;
 }
 
@@ -96,13 +98,14 @@ void ToolEnvelope::draw_triangle(const Vector3d& a, const Vector3d& b, const Vec
 /// Between a covered sample and its neighbour heights are interpolated: that needs one there.
 void ToolEnvelope::continue_beyond_edge() {
   std::vector<double> continued = underside_;
-  for (int row = 0; row < sample_rows(); ++row)
-    for (int col = 0; col < sample_cols(); ++col) {
-      double& here = continued[at_sample(row, col)];
-      if (here < infinite) continue;
-      for (int r = std::max(row - 1, 0); r <= std::min(row + 1, sample_rows() - 1); ++r)
-        for (int c = std::max(col - 1, 0); c <= std::min(col + 1, sample_cols() - 1); ++c)
-          here = std::min(here, underside_[at_sample(r, c)]);
+  for (int row = 1; row < sample_rows() - 1; ++row)
+    for (int col = 1; col < sample_cols() - 1; ++col) {
+      const double here = underside_[at_sample(row, col)];
+      if (here == infinite) continue;
+      for (int r = row - 1; r <= row + 1; ++r)
+        for (int c = col - 1; c <= col + 1; ++c)
+          if (cover_[at_sample(r, c)] == 0.0)
+            continued[at_sample(r, c)] = std::min(continued[at_sample(r, c)], here);
     }
   for (double& height : continued)
     if (height == infinite) height = 0.0;
@@ -117,36 +120,42 @@ double ToolEnvelope::covered_height(double height) const {
   return std::min(lowest_ + steps, highest_);
 }
 
-const WayOut& ToolEnvelope::way_out(double height, double distance) {
-  const auto found = ways_out_.find(height);
-  return found != ways_out_.end() ? found->second
-                                  : ways_out_.emplace(height, make_way_out(height, distance)).first->second;
+const WayOut& ToolEnvelope::way_out(double height, double distance, int phase_y, int phase_x) {
+  const std::tuple key(height, phase_y, phase_x);
+  if (const auto found = ways_out_.find(key); found != ways_out_.end()) return found->second;
+  auto part = parts_.find(height);
+  if (part == parts_.end()) {
+    std::vector<double> inside = signed_distance(covered_up_to(height), sample_rows(), sample_cols());
+    const double deepest = *std::max_element(inside.begin(), inside.end());
+    part = parts_.emplace(height, Part{std::move(inside), deepest}).first;
+  }
+  return ways_out_.emplace(key, make_way_out(part->second, distance, phase_y, phase_x)).first->second;
 }
 
-std::vector<double> ToolEnvelope::depths_inside(double height) const {
+std::vector<unsigned char> ToolEnvelope::covered_up_to(double height) const {
   std::vector<unsigned char> covered;
   covered.reserve(underside_.size());
   for (int row = 0; row < sample_rows(); ++row)
     for (int col = 0; col < sample_cols(); ++col)
       covered.push_back(cover_[at_sample(row, col)] > 0.0 && underside_[at_sample(row, col)] <= height);
-  return signed_distance(covered, sample_rows(), sample_cols());
+  return covered;
 }
 
-WayOut ToolEnvelope::make_way_out(double height, double distance) const {
+WayOut ToolEnvelope::make_way_out(const Part& part, double distance, int phase_y, int phase_x) const {
   const int rows = sample_rows(), cols = sample_cols();
-  const std::vector<double> inside = depths_inside(height);
+  const std::vector<double>& inside = part.inside;
   const auto index = [&](int row, int col) {
     return static_cast<std::size_t>(row) * static_cast<std::size_t>(cols) + static_cast<std::size_t>(col);
   };
-  const double deepest = *std::max_element(inside.begin(), inside.end());
-  const double beyond = std::max((distance - 1.0) * deepest, 0.5 * phases_);  // samples
+  const double beyond = std::max((distance - 1.0) * part.deepest, 0.5 * phases_);  // samples
   WayOut way;
-  way.x.assign(underside_.size(), 0.0);
-  way.y.assign(underside_.size(), 0.0);
+  const auto size = static_cast<std::size_t>(rows_) * static_cast<std::size_t>(stride_);
+  way.x.assign(size, 0.0);
+  way.y.assign(size, 0.0);
   constexpr int around = 3;
-  for (int row = around; row < rows - around; ++row)
-    for (int col = around; col < cols - around; ++col) {
-      if (!(inside[index(row, col)] > 0.0)) continue;
+  for (int row = phase_y; row < rows - around; row += phases_)
+    for (int col = phase_x; col < cols - around; col += phases_) {
+      if (row < around || col < around || !(inside[index(row, col)] > 0.0)) continue;
       // Outward: down the distance, by least squares. The sums are of multiples of a quantum, so exact, and
       // nothing where two edges are as near.
       Vector2d outward = Vector2d::Zero();
@@ -155,8 +164,9 @@ WayOut ToolEnvelope::make_way_out(double height, double distance) const {
       const double length = elementary::hypot(outward.x(), outward.y());
       if (length == 0.0) continue;
       const double far = (inside[index(row, col)] + beyond) / (length * phases_);
-      way.x[at_sample(row, col)] = far * outward.x();
-      way.y[at_sample(row, col)] = far * outward.y();
+      const std::size_t cell = at(row / phases_, col / phases_, 0, 0);
+      way.x[cell] = far * outward.x();
+      way.y[cell] = far * outward.y();
     }
   return way;
 }

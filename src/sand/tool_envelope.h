@@ -1,15 +1,17 @@
 #pragma once
 
 #include <map>
+#include <tuple>
 #include <vector>
 
 #include "tool/triangle_mesh.h"
 
 namespace sandstroke {
 
-/// Where sand leaves a tool: of each sample that a part of it covers, how far [cells] and where to.
+/// Where sand leaves a tool: of the samples of a phase that a part of it covers, how far [cells] and where
+/// to.
 struct WayOut {
-  std::vector<double> x, y;  ///< as ToolEnvelope's samples; both 0 where no edge is nearest
+  std::vector<double> x, y;  ///< as a phase's of ToolEnvelope's samples; both 0 where no edge is nearest
 };
 
 /// A tool's underside over the bed while it does not turn: the lowest height of its surface above every
@@ -49,9 +51,9 @@ class ToolEnvelope {
   double inradius() const { return inradius_; }  ///< m, of the largest circle in the footprint
 
   /// The way to the nearest edge of the part of the footprint that is no higher than `height` [m above the
-  /// tip], and beyond it by (distance - 1) times that part's inradius, half a cell at least. Made when it is
-  /// asked for first.
-  const WayOut& way_out(double height, double distance);
+  /// tip], and beyond it by (distance - 1) times that part's inradius, half a cell at least: of one phase's
+  /// samples, which is all that a place of the tool needs. Made when it is asked for first.
+  const WayOut& way_out(double height, double distance, int phase_y, int phase_x);
   /// That height, rounded up to one of a few: so often the way is made anew.
   double covered_height(double height) const;
 
@@ -62,18 +64,25 @@ class ToolEnvelope {
   int sample_cols() const { return cols_ * phases_; }
   int sample_rows() const { return rows_ * phases_; }
   std::size_t at_sample(int row, int col) const {
-    return at(row / phases_, col / phases_, row % phases_, col % phases_);
+    return rows_at_[static_cast<std::size_t>(row)] + cols_at_[static_cast<std::size_t>(col)];
   }
-  /// How far each sample lies inside the part that is no higher [samples], row after row.
-  std::vector<double> depths_inside(double height) const;
-  WayOut make_way_out(double height, double distance) const;
+  /// The samples in the part that is no higher, row after row.
+  std::vector<unsigned char> covered_up_to(double height) const;
+  /// How far each sample lies inside a part of the footprint, and the deepest [samples].
+  struct Part {
+    std::vector<double> inside;
+    double deepest;
+  };
+  WayOut make_way_out(const Part& part, double distance, int phase_y, int phase_x) const;
 
   double cell_size_;
   int phases_ = 4;
   int first_col_ = 0, first_row_ = 0, cols_ = 0, rows_ = 0, stride_ = 0;
   double lowest_ = 0.0, highest_ = 0.0, reach_ = 0.0, inradius_ = 0.0;
+  std::vector<std::size_t> rows_at_, cols_at_;  // at() of a sample's row, and what its column adds
   std::vector<double> underside_, cover_;
-  std::map<double, WayOut> ways_out_;  // by covered height
+  std::map<double, Part> parts_;                             // by covered height
+  std::map<std::tuple<double, int, int>, WayOut> ways_out_;  // and phase
 };
 
 }  // namespace sandstroke

@@ -137,9 +137,9 @@ void ToolFootprint::stand(double tip_height) {
 
 WayOutPlace ToolFootprint::way_out(double distance) {
   const int phases = envelope_->phases();
-  const WayOut& way = envelope_->way_out(covered_, distance);
   const int row = sample_row_ + (sample_y_ >= 0.5), col = sample_col_ + (sample_x_ >= 0.5);
-  const std::size_t at = envelope_->at(row / phases, col / phases, row % phases, col % phases);
+  const WayOut& way = envelope_->way_out(covered_, distance, row % phases, col % phases);
+  const std::size_t at = envelope_->at(row / phases, col / phases, 0, 0);
   return {way.x.data() + at, way.y.data() + at, envelope_->stride()};
 }
 
