@@ -16,6 +16,7 @@
 #include "core/error.h"
 #include "core/interrupt.h"
 #include "core/output_file.h"
+#include "io/mesh_file.h"
 #include "io/recording_file.h"
 #include "io/scene_toml.h"
 #include "io/stroke_format.h"
@@ -151,14 +152,21 @@ std::unique_ptr<HapticDevice> named_device(const RecordArguments& arguments, con
   return std::make_unique<PointerDevice>(*felt, *start, clock);
 }
 
+/// The sand to be felt; none: no --feel.
+std::optional<Scene> felt_scene(const RecordArguments& arguments) {
+  if (arguments.felt_scene.empty()) return std::nullopt;
+  Scene scene = load_scene(arguments.felt_scene, arguments.overrides);
+  scene.tool = with_mesh(scene.tool, fs::path(arguments.felt_scene).parent_path());
+  return scene;
+}
+
 int check(const RecordArguments& arguments) {
   if (!arguments.output.empty()) throw_input_error("record --check records nothing; leave out -o");
   if (!arguments.device.empty() && arguments.felt_scene.empty())
     throw_input_error(
         "record --check needs no device; leave out --device, or name the sand that it is to hold with "
         "--feel");
-  std::optional<Scene> felt;
-  if (!arguments.felt_scene.empty()) felt = load_scene(arguments.felt_scene, arguments.overrides);
+  const std::optional<Scene> felt = felt_scene(arguments);
   DeviceSpecification device;
   device.max_force = std::numeric_limits<double>::infinity();  // unless it is named, the scene's limit holds
   if (arguments.device == pointer_name)
@@ -186,8 +194,7 @@ int record(const RecordArguments& arguments) {
         "record --view and --device pointer show and shape the sand of a scene; name it with --feel "
         "SCENE.toml");
 
-  std::optional<Scene> felt;
-  if (!arguments.felt_scene.empty()) felt = load_scene(arguments.felt_scene, arguments.overrides);
+  std::optional<Scene> felt = felt_scene(arguments);
   const RecorderSettings settings = recorder_settings(arguments, felt);
   check_output(arguments.output, inputs(arguments, felt), recording_output);
   check_no_journal(journal_path(arguments.output));

@@ -1,6 +1,7 @@
 #include "sweep/sweep_inputs.h"
 
 #include "core/machine.h"
+#include "io/mesh_file.h"
 #include "io/scene_toml.h"
 #include "io/stroke_file.h"
 #include "io/surface_file.h"
@@ -58,6 +59,17 @@ std::shared_ptr<const HeightField> SweepInputs::bed(const BedSettings& bed) {
     bed_bytes_ = bytes;
   }
   return beds_[key] = loaded;
+}
+
+ToolSettings SweepInputs::tool(const ToolSettings& settings) {
+  if (settings.shape != ToolShape::mesh) return settings;
+  const std::scoped_lock lock(files_);
+  ToolSettings tool = settings;
+  std::shared_ptr<const TriangleMesh>& mesh = meshes_[{settings.file, settings.scale}];
+  tool.mesh = mesh;
+  tool = with_mesh(tool, scene_folder_);
+  mesh = tool.mesh;
+  return tool;
 }
 
 std::string sand_key(const Scene& scene, const SweepStroke* stroke) {

@@ -18,8 +18,8 @@ struct SweepStroke {
   std::string hash;
 };
 
-/// Strokes and beds that points of a sweep start from, each loaded once for all points that share it. For use
-/// by several threads. Error: input, io.
+/// Strokes, beds and tools that points of a sweep start from, each loaded once for all points that share it.
+/// For use by several threads. Error: input, io.
 class SweepInputs {
  public:
   explicit SweepInputs(std::filesystem::path scene_folder) : scene_folder_(std::move(scene_folder)) {}
@@ -27,6 +27,8 @@ class SweepInputs {
   /// The stroke that a scene plays; none where it has none.
   std::shared_ptr<const SweepStroke> stroke(const Scene& scene);
   std::shared_ptr<const HeightField> bed(const BedSettings& bed);
+  /// The same tool, with its mesh where it is one.
+  ToolSettings tool(const ToolSettings& settings);
 
   int strokes_loaded() const { return strokes_loaded_; }
   int beds_loaded() const { return beds_loaded_; }
@@ -41,6 +43,7 @@ class SweepInputs {
   std::size_t stroke_samples_ = 0;                                     // in strokes_
   std::map<std::string, std::shared_ptr<const HeightField>> beds_;     // by their settings
   double bed_bytes_ = 0.0;                                             // of beds_
+  std::map<std::pair<std::string, double>, std::shared_ptr<const TriangleMesh>> meshes_;  // by file and scale
   int strokes_loaded_ = 0, beds_loaded_ = 0;
 };
 

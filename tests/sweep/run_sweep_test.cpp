@@ -269,5 +269,42 @@ TEST_F(ASweep, AnEstimateMeasuresAPointThatCanBeRun) {
   EXPECT_GT(s.estimate().bytes, 6 * 80 * 80 * sizeof(double));
 }
 
+/// A box of 20 x 20 x 40 mm in millimetres, its tip at the origin.
+std::string box_stl() {
+  const auto corner = [](int i) {
+    return fmt::format("vertex {} {} {}\n", i & 1 ? 10 : -10, i & 2 ? 10 : -10, i & 4 ? 40 : 0);
+  };
+  std::string text = "solid box\n";
+  for (const std::array<int, 4>& face :
+       {std::array{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}})
+    for (const int side : {1, 2})
+      text += "facet normal 0 0 0\nouter loop\n" + corner(face[0]) +
+              corner(face[static_cast<std::size_t>(side)]) +
+              corner(face[static_cast<std::size_t>(side) + 1]) + "endloop\nendfacet\n";
+  return text + "endsolid box\n";
+}
+
+TEST_F(ASweep, AToolFromAFileIsSweptAsTheSameShapeByFormula) {
+  put_text(temporary / "box.stl", box_stl());
+  const auto swept = [&](const std::string& name, const std::string& tool) {
+    put_text(temporary / "plan.toml",
+             "[sweep]\nscene = \"scene.toml\"\nkeep = [\"surface\"]\n[set]\ndisplacement.deposit = "
+             "\"outward\"\nforce.law = \"rft\"\n" +
+                 tool + "[axes]\nforce.friction_angle = [25, 35]\n");
+    Sweep sweep(load_plan(temporary / "plan.toml"));
+    SweepFolder into = folder(sweep, name);
+    sweep.run(into, with_jobs(1));
+    return into;
+  };
+  const SweepFolder file =
+      swept("file", "tool.shape = \"mesh\"\ntool.file = \"box.stl\"\ntool.scale = 0.001\n");
+  const SweepFolder formula = swept("formula", "tool.shape = \"box\"\ntool.size = [0.02, 0.02, 0.04]\n");
+  for (std::size_t point = 0; point < 2; ++point) {
+    ASSERT_EQ(file.read(point)->verdict, formula.read(point)->verdict) << file.read(point)->reason;
+    EXPECT_LT((surface_in(file, point) - surface_in(formula, point)).abs().maxCoeff(), 1e-9);
+    EXPECT_LT(surface_in(file, point).minCoeff(), -0.001);
+  }
+}
+
 }  // namespace
 }  // namespace sandstroke
