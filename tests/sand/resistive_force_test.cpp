@@ -173,7 +173,8 @@ TEST(ResistiveForce, OfABladeThatTurnsInItsPlaceIsATorque) {
   const double expected = 0.192 * resistance(sand) * depth * depth * 0.04 * 0.04 / 8.0;
   EXPECT_NEAR(left.torque.z(), -expected, 0.04 * expected);
   EXPECT_LT(left.force.head<2>().norm(), 1e-3 * expected / 0.01);
-  EXPECT_LT((turn(angle).torque - left.torque).norm(), 1e-9 * expected);  // it rests: what it has yielded to, it holds
+  EXPECT_LT((turn(angle).torque - left.torque).norm(),
+            1e-9 * expected);  // it rests: what it has yielded to, it holds
   EXPECT_NEAR(turn(-angle).torque.z(), expected, 0.04 * expected);
 }
 
