@@ -143,6 +143,11 @@ Json traces_part(const std::vector<TickRecord>& trace) {
     add_recorded(add(quantity.group, quantity.name, quantity.unit,
                      [&](std::size_t tick) { return quantity.value(trace[tick]); }),
                  quantity, trace);
+  const auto has_torque = [](const TickRecord& tick) { return !tick.wrench.torque.isZero(0.0); };
+  if (std::any_of(trace.begin(), trace.end(), has_torque))
+    for (const int axis : {0, 1, 2})
+      add("Torque on the tool about its tip", fmt::format("about {}", "xyz"[axis]), "N m",
+          [&, axis](std::size_t tick) { return trace[tick].wrench.torque[axis]; });
   const std::vector<double> energy = absorbed_energy(trace);
   add("Energy given to the sand", "energy", "J", [&](std::size_t tick) { return energy[tick]; });
   return part;

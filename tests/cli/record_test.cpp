@@ -9,6 +9,7 @@
 #include "cli/program.h"
 #include "io/run_file.h"
 #include "io/stroke_file.h"
+#include "record/journal.h"
 #include "sanitized.h"
 
 namespace sandstroke {
@@ -27,7 +28,7 @@ std::vector<std::string> with(std::vector<std::string> arguments, const std::vec
   return arguments;
 }
 
-/// The journal of a.h5 holds samples (of 144 bytes) beside its header.
+/// The journal of a.h5 holds samples beside its header.
 std::function<bool()> recording(const fs::path& folder, std::uintmax_t bytes = 20'000) {
   return [journal = folder / "a.h5.recording", bytes] {
     std::error_code not_there;
@@ -192,7 +193,7 @@ TEST(CliRecord, StoppedBySignalItKeepsWhatThereIsAndMarksIt) {
 TEST(CliRecord, KilledItsJournalBecomesAStrokeThatRuns) {
   const fs::path folder = folder_with_long_stroke();
   Conditions killed{SIGKILL};
-  killed.when = recording(folder, 80'000);  // over 700 samples: the tool is in the sand
+  killed.when = recording(folder, 4000 + 700 * journal_sample_bytes);  // the tool is in the sand
   EXPECT_EQ(run_program(record_line, folder, killed).exit_code, 128 + SIGKILL);
   EXPECT_FALSE(fs::exists(folder / "a.h5"));
   const ProgramResult again = run_program(record_line, folder);  // what was recorded is not written over

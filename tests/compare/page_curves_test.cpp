@@ -50,6 +50,19 @@ TEST(TracesPart, OfOneRunHasItsQuantitiesAndItsEnergy) {
   EXPECT_EQ(part["quantities"][6]["run"]["value"], Json({0.0, 1.5, 3.0}));
 }
 
+TEST(TracesPart, OfARunOfAContactLawHasItsTorque) {
+  std::vector<TickRecord> trace(3);
+  for (std::size_t tick = 0; tick < trace.size(); ++tick) {
+    trace[tick].time = 0.5 * static_cast<double>(tick);
+    trace[tick].wrench.torque = {0.0, 0.1 * static_cast<double>(tick), 0.0};
+  }
+  const Json part = traces_part(trace);
+  ASSERT_EQ(part["quantities"].size(), 10u);
+  EXPECT_EQ(part["quantities"][7]["name"], "about y");
+  EXPECT_EQ(part["quantities"][7]["unit"], "N m");
+  EXPECT_EQ(part["quantities"][7]["run"]["value"], Json({0.0, 0.1, 0.2}));
+}
+
 TEST(TracesPart, HasTheForceThatWasRecordedWithTheStroke) {
   std::vector<TickRecord> trace = trace_of(3, {0.0, 3.0, 4.0}, 0.5);
   EXPECT_FALSE(traces_part(trace)["quantities"][0].contains("recorded"));

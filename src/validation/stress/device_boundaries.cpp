@@ -21,7 +21,7 @@ std::string in_words(const LoopSettings& settings) {
     words += fmt::format(", sand: scale {:.3g}, k_c {:.3g} 1/m, {:.3g} mm deep", d.scale, sand->force.k_c,
                          1e3 * sand->depth);
   else
-    words += ", wall";
+    words += std::holds_alternative<Wall>(settings.against) ? ", wall" : ", yielding sand";
   if (felt.z.damping > 0.0) words += fmt::format(", drag {:.3g} s of K", felt.z.damping / felt.z.stiffness);
   return words;
 }

@@ -14,6 +14,8 @@ using State = SimulatedDevice::State;
 
 /// N, on the device at its rest.
 Eigen::Vector3d force_at_rest(const LoopSettings& settings) {
+  if (const auto* yielding = std::get_if<YieldingSand>(&settings.against))
+    return {0.0, 0.0, 0.5 * yielding->strength};
   const auto* sand = std::get_if<PressedSand>(&settings.against);
   if (!sand) return Eigen::Vector3d::Zero();
   const double drag = felt_about_rest(settings).x.damping;
@@ -39,6 +41,8 @@ LoopSettings with_gain(LoopSettings settings, double gain) {
   if (auto* wall = std::get_if<Wall>(&settings.against)) {
     wall->stiffness *= gain;
     wall->damping *= gain;
+  } else if (auto* yielding = std::get_if<YieldingSand>(&settings.against)) {
+    yielding->strength *= gain;
   } else {
     std::get<PressedSand>(settings.against).force.k_s *= gain;
   }
@@ -47,6 +51,8 @@ LoopSettings with_gain(LoopSettings settings, double gain) {
 
 FeltAlong felt_about_rest(const LoopSettings& settings) {
   if (const auto* wall = std::get_if<Wall>(&settings.against)) return {{}, *wall};
+  if (const auto* yielding = std::get_if<YieldingSand>(&settings.against))
+    return {{}, {settings.device.scale * yielding->strength / yielding->yield, 0.0}};
   const auto& [force, depth, speed] = std::get<PressedSand>(settings.against);
   const FeltSand sand = felt_sand(depth, repulse_force(depth, force), settings.device.scale, force);
   return {{0.0, sand.drag}, {sand.stiffness, force.drag == DragDirection::full ? sand.drag : 0.0}};
@@ -58,7 +64,8 @@ DeviceLoop::DeviceLoop(const LoopSettings& settings)
       lead_(Eigen::Vector3d::Zero()),
       device_(settings.device, disturbed(settings)),
       late_force_(settings.device, force_at_rest(settings)),
-      force_(force_at_rest(settings)) {
+      force_(force_at_rest(settings)),
+      read_z_(rest_.position.z()) {
   // At rest the hand's spring holds what sand and damping take: k_h lead = b v - F.
   const DeviceSettings& d = settings.device;
   const Eigen::Vector3d held = d.damping * rest_.velocity - force_;
@@ -78,10 +85,16 @@ Eigen::Vector3d DeviceLoop::heading_off_rest() const {
   return off_rest() + (device_.state().velocity - rest_.velocity) / settings_.device.servo_rate;
 }
 
-Eigen::Vector3d DeviceLoop::force_now(const State& hand, const State& next) const {
+Eigen::Vector3d DeviceLoop::force_now(const State& hand, const State& next) {
   const State reading = device_.read();
   if (const auto* wall = std::get_if<Wall>(&settings_.against))
     return {0.0, 0.0, -wall->stiffness * reading.position.z() - wall->damping * reading.velocity.z()};
+  if (const auto* yielding = std::get_if<YieldingSand>(&settings_.against)) {
+    const double way = settings_.device.scale * (read_z_ - reading.position.z()) / yielding->yield;
+    yielded_ = std::clamp(yielded_ + way, -1.0, 1.0);
+    read_z_ = reading.position.z();
+    return {0.0, 0.0, yielded_ * yielding->strength};
+  }
   const double depth = -settings_.device.scale * reading.position.z();
   return force_on_device(depth, device_, hand, next, std::get<PressedSand>(settings_.against).force).total;
 }

@@ -24,15 +24,23 @@ struct PressedSand {
   double speed = 0.0;  ///< m/s of the device
 };
 
+/// The sand of force.law = "rft" under a tool that trembles about its rest, along z: a force that is all
+/// there after the yield way and turns round as the tool does (ResistiveForce). At rest it is half of what it
+/// may be, so that it resists either way as a spring of strength / yield.
+struct YieldingSand {
+  double strength = 0.0;  ///< N, when it has yielded
+  double yield = 0.001;   ///< m in the bed
+};
+
 /// A dynamic device held against something by a hand, a little off its rest at first.
 struct LoopSettings {
   DeviceSettings device;
-  std::variant<Wall, PressedSand> against;
+  std::variant<Wall, PressedSand, YieldingSand> against;
   double disturbance = 1e-6;  ///< m, along z and, in sand, x
   double far = 1e3;           ///< m off its rest, where a device has diverged
 };
 
-/// The same with all of its forces `gain` times as strong at the same place (for sand: k_s).
+/// The same with all of its forces `gain` times as strong at the same place (for sand: k_s, strength).
 LoopSettings with_gain(LoopSettings settings, double gain);
 
 /// What resists the device's motion along x and z about its rest.
@@ -57,7 +65,7 @@ class DeviceLoop {
 
  private:
   SimulatedDevice::State hand_at(std::int64_t tick) const;
-  Eigen::Vector3d force_now(const SimulatedDevice::State& hand, const SimulatedDevice::State& next) const;
+  Eigen::Vector3d force_now(const SimulatedDevice::State& hand, const SimulatedDevice::State& next);
 
   LoopSettings settings_;
   std::int64_t tick_ = 0;
@@ -66,6 +74,8 @@ class DeviceLoop {
   SimulatedDevice device_;
   LateForce late_force_;
   Eigen::Vector3d force_;
+  double yielded_ = 0.5;  // of YieldingSand, the share of its strength, -1 to 1,
+  double read_z_;         // m of the device, there
 };
 
 struct LoopRun {

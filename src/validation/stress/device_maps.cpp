@@ -178,6 +178,21 @@ LoopMapPlan depth_plan(const MapAxis& k_c, const MapAxis& depths) {
               });
 }
 
+LoopMapPlan yield_plan(const MapAxis& yield, const MapAxis& strength) {
+  return plan(
+      "rft-yield-strength", "Resistive force theory: yield way and strength",
+      "force.law = \"rft\" at 1 kHz: the force turns round within force.yield, as a spring of strength / "
+      "yield. What is too stiff swings by little more than the yield way, or comes to rest where the sand "
+      "has yielded, and never diverges.",
+      yield, strength, [](double way, double newton) {
+        LoopSettings loop;
+        loop.device = ideal_device();
+        loop.against = YieldingSand{newton, way};
+        loop.disturbance = 0.01 * way;
+        return loop;
+      });
+}
+
 }  // namespace
 
 std::vector<LoopMapPlan> device_map_plans(bool quick) {
@@ -231,6 +246,7 @@ std::vector<LoopMapPlan> device_map_plans(bool quick) {
            }),
       dropped_ticks(map_axis("dropped ticks", "", false, 0.0, 0.9, quick ? 7 : 19), stiffness),
       encoder_steps(x("encoder resolution", "m", 1e-7, 1e-3), stiffness),
+      yield_plan(x("yield way", "m", 1e-5, 1e-2), y("strength", "N", 0.1, 100.0)),
       depth_plan(x("k_c", "1/m", 10.0, 400.0), y("depth", "m", 5e-4, 0.05)),
       drag(DragVelocity::sampled, x("k_f", "s/m", 1.0, 1e5), y("pressing force", "N", 0.1, 20.0)),
       drag(DragVelocity::implicit, x("k_f", "s/m", 1.0, 1e5), y("pressing force", "N", 0.1, 20.0)),

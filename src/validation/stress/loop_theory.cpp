@@ -129,6 +129,9 @@ std::vector<Verdict> expected_verdicts(const LoopSettings& settings, std::int64_
   if (std::max(weaker, stronger) < -shown) return {stable};
   if (std::min(weaker, stronger) < shown) return {stable, limit_cycle, diverged};
   if (std::holds_alternative<Wall>(settings.against)) return {diverged};
+  // What yields is never stronger than it is, and takes energy: thrown off its rest the device swings, or it
+  // comes to rest where the sand has yielded.
+  if (std::holds_alternative<YieldingSand>(settings.against)) return {stable, limit_cycle};
   if (settings.device.max_force > 0.0) return {limit_cycle};
   return {limit_cycle, diverged};
 }

@@ -68,6 +68,26 @@ TEST(RunLoop, SandSettlesOrThrowsTheDeviceUpAndTheHandBringsItBack) {
   EXPECT_GT(thrown.swing, 3.0 / 50e3);  // more than it is deep: it leaves the sand
 }
 
+TEST(RunLoop, SandThatYieldsSettlesOrSwingsByAboutItsYieldWay) {
+  LoopSettings loop;
+  loop.device = ideal_device();
+  loop.against = YieldingSand{1.0, 0.001};
+  loop.disturbance = 1e-5;
+  EXPECT_EQ(felt_about_rest(loop).z.stiffness, 1000.0);
+  const double boundary = exact_boundary_gain(loop);
+  EXPECT_EQ(run_loop(with_gain(loop, 0.9 * boundary), ticks).verdict, Verdict::stable);
+  const LoopRun beyond = run_loop(with_gain(loop, 1.3 * boundary), ticks);
+  EXPECT_EQ(beyond.verdict, Verdict::limit_cycle);
+  EXPECT_GT(beyond.swing, 0.001);
+  EXPECT_LT(beyond.swing, 0.02);
+  // The force turns round within two yield ways, and rests where the tool does.
+  loop.disturbance = 0.0;
+  DeviceLoop at_rest(loop);
+  for (int k = 0; k < 100; ++k) at_rest.tick();
+  EXPECT_LT(at_rest.off_rest().norm(), 1e-12);
+  EXPECT_NEAR(at_rest.force().z(), 0.5, 1e-9);
+}
+
 TEST(RunLoop, ADitherWithinOneEncoderStepIsRest) {
   DeviceSettings coarse = ideal_device();
   coarse.resolution = 30e-6;
