@@ -58,7 +58,7 @@ LiveSand::LiveSand(const Scene& scene, const HeightField& bed, const std::string
       replica_(checked(scene, bed)),
       eroder_(bed, scene.tool, scene.relaxation, dug_, places_, slipped_),
       sand_(scene.tool, scene.displacement, 0.0) {
-  sand_.look(replica_.bed(), Eigen::Vector3d::Zero());  // takes the footprint's memory
+  sand_.take_memory(replica_.bed());
 }
 
 Eigen::Vector3d LiveSand::velocity(double time, const Eigen::Vector3d& tip) {

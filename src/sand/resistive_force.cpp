@@ -10,6 +10,11 @@
 
 namespace sandstroke {
 
+void apply_sand_preset(SandStrength& sand) {
+  sand.friction_angle = sand.preset == SandPreset::quikrete ? 34.0 : 30.0;
+  sand.density = 1560.0;
+}
+
 double resistance(const SandStrength& sand) {
   constexpr double gravity = 9.81;  // m/s^2
   const double mu = elementary::tan(to_radians(sand.friction_angle));

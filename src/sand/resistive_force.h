@@ -9,13 +9,20 @@
 
 namespace sandstroke {
 
+/// Sands by name. dry: typical. quikrete: as Agarwal, Goldman and Kamrin (2023) measured it.
+enum class SandPreset { dry, quikrete };
+
 /// What sand and a tool's surface are for a force: all of it measurable.
 struct SandStrength {
   double friction_angle = 30.0;  ///< deg, internal friction phi
   double density = 1560.0;       ///< kg/m^3, of the bulk
   double tool_friction = 0.4;    ///< mu_s, of the tool's surface
   double yield_way = 0.001;      ///< m, of the tool until the sand's resistance is all there
+  SandPreset preset = SandPreset::dry;
 };
+
+/// Sets friction_angle and density to those of sand.preset.
+void apply_sand_preset(SandStrength& sand);
 
 /// xi = rho g (894 mu^3 - 386 mu^2 + 89 mu) [N/m^3], mu = tan(phi): fitted for mu of 0.3 to 0.9 (Agarwal,
 /// Goldman, Kamrin, PNAS 120, 2023).

@@ -132,6 +132,15 @@ const WayOut& ToolEnvelope::way_out(double height, double distance, int phase_y,
   return ways_out_.emplace(key, make_way_out(part->second, distance, phase_y, phase_x)).first->second;
 }
 
+void ToolEnvelope::make_ways_out(double distance) {
+  for (double height = covered_height(lowest_);; height = covered_height(std::nextafter(height, infinite))) {
+    for (int phase_y = 0; phase_y < phases_; ++phase_y)
+      for (int phase_x = 0; phase_x < phases_; ++phase_x) way_out(height, distance, phase_y, phase_x);
+    if (height == highest_) break;
+  }
+  parts_.clear();
+}
+
 std::vector<unsigned char> ToolEnvelope::covered_up_to(double height) const {
   std::vector<unsigned char> covered;
   covered.reserve(underside_.size());

@@ -54,6 +54,8 @@ class ToolEnvelope {
   /// tip], and beyond it by (distance - 1) times that part's inradius, half a cell at least: of one phase's
   /// samples, which is all that a place of the tool needs. Made when it is asked for first.
   const WayOut& way_out(double height, double distance, int phase_y, int phase_x);
+  /// Makes all that way_out() may be asked for with that distance: then it takes neither time nor memory.
+  void make_ways_out(double distance);
   /// That height, rounded up to one of a few: so often the way is made anew.
   double covered_height(double height) const;
 

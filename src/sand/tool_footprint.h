@@ -128,6 +128,10 @@ class ToolFootprint {
   bool touches() const { return touches_; }
   /// The same, without cutting.
   void stand(double tip_height);
+  /// Of the tool as it is turned and placed: makes all that way_out() may be asked for.
+  void make_ways_out(double distance) {
+    if (envelope_) envelope_->make_ways_out(distance);
+  }
   /// Where sand goes from there, to (distance - 1) inradii beyond the edge.
   WayOutPlace way_out(double distance);
 

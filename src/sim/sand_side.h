@@ -35,6 +35,11 @@ class SandSide {
                    const std::function<void()>& slip, std::optional<double> highest = {});
   /// The same place, without displacing anything.
   Interaction look(const HeightField& bed, const Eigen::Vector3d& read_tip);
+  /// Takes all memory that a tool that does not turn needs on this bed: move() then takes none of its own.
+  void take_memory(const HeightField& bed) {
+    look(bed, Eigen::Vector3d::Zero());
+    footprint_.make_ways_out(displacement_.distance);
+  }
   /// The tool is here [m], in contact or not, by somebody else's account: nothing is displaced.
   void put(const HeightField& bed, const Eigen::Vector3d& read_tip, bool contact);
   /// The tool touches nothing until the next move(), which begins anew: nothing is displaced on the way to

@@ -91,6 +91,9 @@ void describe_force(KeyVisitor& v, ForceSettings& force, SandStrength& sand) {
     choose(v, "drag", force.drag, {"horizontal", "full"}, "part of the velocity that causes drag");
     return;
   }
+  choose(v, "sand", sand.preset, {"dry", "quikrete"},
+         "sets friction_angle and density: typical dry sand, or Quikrete (Agarwal et al. 2023)");
+  if (v.reads()) apply_sand_preset(sand);
   v.number("friction_angle", sand.friction_angle, {5.0, 60.0, false}, "deg",
            "internal friction of the sand, as a shear test gives it");
   v.number("density", sand.density, positive, "kg/m^3", "of the sand in bulk");

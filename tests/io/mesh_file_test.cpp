@@ -116,7 +116,8 @@ TEST_F(MeshFile, TwoHundredHostileFilesAreReadOrRefused) {
   std::mt19937 random(7);
   int refused = 0;
   for (int i = 0; i < 200; ++i) {
-    auto [file, bytes] = whole[i % 2];
+    const std::string file = whole[i % 2].first;
+    std::string bytes = whole[i % 2].second;
     const auto place = [&] { return random() % bytes.size(); };
     if (i % 3 == 0) bytes.resize(place());
     for (unsigned k = 0; !bytes.empty() && k < 1 + random() % 6; ++k) {

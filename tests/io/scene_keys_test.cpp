@@ -85,6 +85,8 @@ const std::vector<KeyCase> cases = {
     {"force.k_c=45", [](S s) { return s.force.k_c == 45.0; }},
     {"force.k_f=46", [](S s) { return s.force.k_f == 46.0; }},
     {"force.law=rft", [](S s) { return s.force.law == ForceLaw::rft; }},
+    {"force.sand=quikrete", [](S s) { return s.strength.friction_angle == 34.0; }, rft},
+    {"force.sand=quikrete", [](S s) { return s.strength.preset == SandPreset::quikrete; }, archimedes},
     {"force.friction_angle=34.0", [](S s) { return s.strength.friction_angle == 34.0; }, rft},
     {"force.friction_angle=33.0", [](S s) { return s.strength.friction_angle == 33.0; }, archimedes},
     {"force.density=1601.0", [](S s) { return s.strength.density == 1601.0; }, rft},

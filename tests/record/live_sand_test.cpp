@@ -200,6 +200,26 @@ TEST_P(LiveTool, TakesNoMemoryInTheLoop) {
   sand.finish();
 }
 
+TEST(LiveSand, OfAToolOfAnyShapeTakesNoMemoryInTheLoop) {
+  if (!allocations_are_counted()) GTEST_SKIP() << "allocations are not counted under sanitizers";
+  for (const ToolShape shape : {ToolShape::cone, ToolShape::plate, ToolShape::rake}) {
+    Scene scene = small_scene();
+    scene.preset = ModelPreset::accurate;
+    apply_model_preset(scene);
+    scene.tool.shape = shape;
+    scene.tool.height = 0.03;
+    LiveSand sand(scene, starting_bed(scene.bed), "bed");
+    sand.start();
+    const std::vector<double> times = even_times(1.0);
+    const std::int64_t before = allocations_of_this_thread();
+    std::int64_t contact = 0;
+    for (const double t : times) contact += sand.feel(t, {SmoothHand::at(t)}).force.z() > 0.0;
+    EXPECT_EQ(allocations_of_this_thread(), before) << static_cast<int>(shape);
+    EXPECT_GT(contact, 100);
+    sand.finish();
+  }
+}
+
 TEST(LiveSand, ThatErodesTooSlowlyIsFeltButNotDug) {
   // Nobody takes what is dug: when the way to the eroding bed is full, the tool stops digging, and says so;
   // no sand is lost.
