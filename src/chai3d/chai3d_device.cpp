@@ -49,7 +49,7 @@ std::optional<bool> drd_is_calibrated() {
 
 Eigen::Vector3d from_chai3d(const cVector3d& vector) { return {vector.x(), vector.y(), vector.z()}; }
 
-/// Of what is measured about it rounded: a unit quaternion, where the rotation is one at all.
+/// What was measured is a rotation only about: normalised.
 Eigen::Quaterniond from_chai3d(const chai3d::cMatrix3d& rotation) {
   Eigen::Matrix3d matrix;
   for (int row = 0; row < 3; ++row)

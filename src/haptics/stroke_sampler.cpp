@@ -93,17 +93,11 @@ void StrokeSampler::find_slopes() {
 }
 
 Hand StrokeSampler::at(double t) {
-  Hand hand;
-  if (t < start_time()) {
-    hand.position = stroke_.position.front();
-  } else if (t > end_time()) {
-    hand.position = stroke_.position.back();
-  } else {
-    seek(t);
-    hand = joined_or_lifted(t);
-  }
-  if (!stroke_.orientation.empty())
-    hand.orientation = orientation_at(std::clamp(t, start_time(), end_time()));
+  const double within = std::clamp(t, start_time(), end_time());
+  seek(within);
+  Hand hand = joined_or_lifted(within);
+  if (!stroke_.orientation.empty()) hand.orientation = orientation_at(within);
+  if (t != within) hand.velocity.setZero(), hand.down = false;
   return hand;
 }
 
@@ -116,12 +110,10 @@ Hand StrokeSampler::joined_or_lifted(double t) const {
 }
 
 Eigen::Quaterniond StrokeSampler::orientation_at(double t) const {
-  const auto& time = stroke_.time;
-  const auto next = static_cast<std::size_t>(std::upper_bound(time.begin(), time.end(), t) - time.begin());
-  const Eigen::Vector4d& a = stroke_.orientation[next - 1];
-  if (next == time.size() || t == time[next - 1]) return Eigen::Quaterniond(a);
-  const Eigen::Vector4d& b = stroke_.orientation[next];
-  const double share = (t - time[next - 1]) / (time[next] - time[next - 1]);
+  const Eigen::Vector4d& a = stroke_.orientation[cursor_];
+  if (t == stroke_.time[cursor_]) return Eigen::Quaterniond(a);
+  const Eigen::Vector4d& b = stroke_.orientation[cursor_ + 1];
+  const double share = (t - stroke_.time[cursor_]) / (stroke_.time[cursor_ + 1] - stroke_.time[cursor_]);
   return Eigen::Quaterniond((1.0 - share) * a + (a.dot(b) < 0.0 ? -share : share) * b).normalized();
 }
 

@@ -175,7 +175,6 @@ class Pen {
     auto knot = knots.begin();
     double drawn = 0.0;  // m of the path, up to the current curve
     for (const Curve& curve : path) {
-      if (!(curve.length > 0.0)) continue;
       turn_to(profile.at(std::min(drawn / length, 1.0), curve, 0.0));
       double fraction = 0.0;  // of the curve
       for (; knot != knots.end() && *knot * length < drawn + curve.length; ++knot) {
@@ -201,7 +200,7 @@ class Pen {
   void climb_to(double z) {
     run(Curve::line(point_, point_), 0.0, 1.0, {z, held_.turn, held_.tilt}, script_.plunge_speed);
   }
-  /// As there, in its place and the shorter way round; by a little at once.
+  /// Turns the tool in its place, the shorter way round; by no more than smooth_turn it takes no time.
   void turn_to(const Posture& posture) {
     if (!turns_) return;
     const double whole_turns = 360.0 * std::round((posture.turn - held_.turn) / 360.0);
@@ -298,7 +297,7 @@ std::vector<Path> text_paths(const ScriptText& text) {
     for (const std::vector<Vector2d>& line : drawn.polylines) {
       Path path;
       for (std::size_t i = 0; i + 1 < line.size(); ++i)
-        path.push_back(Curve::line(place(line[i]), place(line[i + 1])));
+        if (line[i] != line[i + 1]) path.push_back(Curve::line(place(line[i]), place(line[i + 1])));
       if (length_of(path) > 0.0) paths.push_back(std::move(path));
     }
     x += drawn.width * text.height + text.spacing;

@@ -6,8 +6,8 @@
 
 namespace sandstroke {
 
-/// A mesh file (.stl binary or text, .ply, .obj) by the library assimp, which is loaded when it is needed
-/// first: its surface as a tool's (checked_mesh), `scale` m per unit. Error: input or io, naming the file.
+/// The surface in an STL file, binary or text, as a tool's (checked_mesh); `scale`: m per unit of the file.
+/// Error: input or io, naming the file.
 TriangleMesh read_mesh(const std::filesystem::path& path, double scale);
 
 /// The same tool with its mesh read, where it is one (tool.file, relative to `folder`).

@@ -55,12 +55,13 @@ std::vector<double> squared_distance(const std::vector<unsigned char>& covered, 
   return squared;
 }
 
+double rounded(double distance) { return std::round(distance * 0x1p20) * 0x1p-20; }
+
 }  // namespace
 
 std::vector<double> distance_inside(const std::vector<unsigned char>& covered, int rows, int cols) {
   std::vector<double> inside = squared_distance(covered, 0, rows, cols);
-  for (double& squared : inside)
-    squared = squared > 0.0 ? std::round((std::sqrt(squared) - 0.5) * 0x1p20) * 0x1p-20 : 0.0;
+  for (double& squared : inside) squared = squared > 0.0 ? rounded(std::sqrt(squared) - 0.5) : 0.0;
   return inside;
 }
 
@@ -68,8 +69,7 @@ std::vector<double> signed_distance(const std::vector<unsigned char>& covered, i
   std::vector<double> inside = squared_distance(covered, 0, rows, cols);
   const std::vector<double> outside = squared_distance(covered, 1, rows, cols);
   for (std::size_t i = 0; i < inside.size(); ++i) {
-    const double distance = covered[i] ? std::sqrt(inside[i]) - 0.5 : 0.5 - std::sqrt(outside[i]);
-    inside[i] = std::round(distance * 0x1p20) * 0x1p-20;
+    inside[i] = rounded(covered[i] ? std::sqrt(inside[i]) - 0.5 : 0.5 - std::sqrt(outside[i]));
   }
   return inside;
 }

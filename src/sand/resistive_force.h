@@ -53,8 +53,8 @@ class ResistiveForce {
   /// surface: in its own frame, tip at the origin. element_size [m].
   ResistiveForce(const TriangleMesh& surface, double element_size);
 
-  /// The tool lies in the bed like this from now on: what the next feel() takes for part of its motion, where
-  /// it felt something before.
+  /// How the tool lies in the bed from now on. The next feel() counts the turn as motion, if the one before
+  /// felt something.
   void turn(const Eigen::Matrix3d& rotation);
 
   /// The tool went by `motion` [m] to where the footprint lies, its tip at `tip` [m].

@@ -77,7 +77,8 @@ void visit_tick_fields(const Visit& visit) {
            "one it goes straight and uniformly"},
       [](auto& tick) -> auto& { return tick.hand.position; });
   visit(
-      Text{"orientation", "", "of the hand: unit quaternion that turns the tool from how it holds by itself",
+      Text{"orientation", "",
+           "of the hand, as a unit quaternion; it turns the tool from how tool.orientation holds it",
            &TraceContent::orientation},
       [](auto& tick) -> auto& { return tick.hand.orientation.coeffs(); });
   visit(

@@ -40,7 +40,7 @@ class Simulation {
   void run_stroke();
   /// What sand and device do in the tick at whose end the stroke is at next_time.
   TickRecord tick(double time, const Hand& hand, double next_time, const std::function<void()>& slip);
-  /// As the hand, which turns from how it lies by itself.
+  /// Turns the tool with the hand, from how tool.orientation holds it.
   void turn_tool(const Eigen::Quaterniond& hand);
   /// Where the stroke's hand is at that time of the stroke, on the sand as it lies now.
   Hand hand_at(double time);

@@ -181,6 +181,19 @@ TEST(LiveSand, ErodingInItsOwnThreadLosesNoSand) {
   EXPECT_LT(std::abs(sand.bed().volume() - start.volume()), 1e-15);
 }
 
+/// Of so many seconds, in more than so many ticks of contact.
+void expect_no_memory_in_loop(const Scene& scene, double seconds, std::int64_t least_contact) {
+  LiveSand sand(scene, starting_bed(scene.bed), "bed");
+  sand.start();
+  const std::vector<double> times = even_times(seconds);
+  const std::int64_t before = allocations_of_this_thread();
+  std::int64_t contact = 0;
+  for (const double t : times) contact += sand.feel(t, {SmoothHand::at(t)}).force.z() > 0.0;
+  EXPECT_EQ(allocations_of_this_thread(), before);
+  EXPECT_GT(contact, least_contact);
+  sand.finish();
+}
+
 TEST_P(LiveTool, TakesNoMemoryInTheLoop) {
   if (!allocations_are_counted()) GTEST_SKIP() << "allocations are not counted under sanitizers";
   Scene scene = small_scene();
@@ -189,15 +202,7 @@ TEST_P(LiveTool, TakesNoMemoryInTheLoop) {
     scene.preset = ModelPreset::accurate;
     apply_model_preset(scene);
   }
-  LiveSand sand(scene, starting_bed(scene.bed), "bed");
-  sand.start();
-  const std::vector<double> times = even_times(3.0);
-  const std::int64_t before = allocations_of_this_thread();
-  std::int64_t contact = 0;
-  for (const double t : times) contact += sand.feel(t, {SmoothHand::at(t)}).force.z() > 0.0;
-  EXPECT_EQ(allocations_of_this_thread(), before);
-  EXPECT_GT(contact, 500);
-  sand.finish();
+  expect_no_memory_in_loop(scene, 3.0, 500);
 }
 
 TEST(LiveSand, OfAToolOfAnyShapeTakesNoMemoryInTheLoop) {
@@ -206,17 +211,10 @@ TEST(LiveSand, OfAToolOfAnyShapeTakesNoMemoryInTheLoop) {
     Scene scene = small_scene();
     scene.preset = ModelPreset::accurate;
     apply_model_preset(scene);
+    SCOPED_TRACE(static_cast<int>(shape));
     scene.tool.shape = shape;
     scene.tool.height = 0.03;
-    LiveSand sand(scene, starting_bed(scene.bed), "bed");
-    sand.start();
-    const std::vector<double> times = even_times(1.0);
-    const std::int64_t before = allocations_of_this_thread();
-    std::int64_t contact = 0;
-    for (const double t : times) contact += sand.feel(t, {SmoothHand::at(t)}).force.z() > 0.0;
-    EXPECT_EQ(allocations_of_this_thread(), before) << static_cast<int>(shape);
-    EXPECT_GT(contact, 100);
-    sand.finish();
+    expect_no_memory_in_loop(scene, 1.0, 100);
   }
 }
 

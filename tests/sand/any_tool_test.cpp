@@ -39,6 +39,14 @@ ToolSettings mesh_sphere(double radius) {
 const std::vector<ToolShape> any_shape = {ToolShape::cylinder, ToolShape::cone, ToolShape::box,
                                           ToolShape::plate, ToolShape::rake};
 
+std::unique_ptr<Relaxer> rkl_relaxer(double cell, double talus = RelaxationSettings{}.talus_angle) {
+  RelaxationSettings settings;
+  settings.law = RelaxationLaw::isotropic;
+  settings.method = RelaxationMethod::rkl;
+  settings.talus_angle = talus;
+  return make_relaxer(settings, cell);
+}
+
 TEST(SignedDistance, IsThatToTheNearestOtherSample) {
   constexpr int rows = 13, cols = 17;
   std::vector<unsigned char> covered(rows * cols);
@@ -83,10 +91,7 @@ TEST(AnyTool, ASphereAsAMeshLeavesWhatTheSphereLeaves) {
   for (const double cell : {0.002, 0.001, 0.0005}) {
     const int side = static_cast<int>(std::lround(0.12 / cell)) + 1;
     const auto relaxed_after = [&](const ToolSettings& tool) {
-      RelaxationSettings settings;
-      settings.law = RelaxationLaw::isotropic;
-      settings.method = RelaxationMethod::rkl;
-      const auto relaxer = make_relaxer(settings, cell);
+      const auto relaxer = rkl_relaxer(cell);
       HeightField bed(side, side, cell);
       ToolFootprint footprint(tool);
       for (int i = 0; i <= 40; ++i) {
@@ -160,10 +165,7 @@ HeightField drawn_at(double angle, ToolShape shape, double cell) {
   HeightField bed(side, side, cell);
   ToolFootprint footprint(solid_tool(shape));
   footprint.turn(Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitZ()).toRotationMatrix());
-  RelaxationSettings settings;
-  settings.law = RelaxationLaw::isotropic;
-  settings.method = RelaxationMethod::rkl;
-  const auto relaxer = make_relaxer(settings, cell);
+  const auto relaxer = rkl_relaxer(cell);
   const Eigen::Vector3d way(std::cos(angle), std::sin(angle), 0.0);
   for (int i = 0; i <= 30; ++i) {
     const Eigen::Vector3d at = (0.001 * i - 0.015) * way;
@@ -208,11 +210,7 @@ TEST(AnyTool, ABladeAcrossATroughPushesTheHeapOfItsSand) {
     ToolSettings blade = solid_tool(ToolShape::plate);
     blade.width = 1.0, blade.height = 0.1, blade.thickness = 0.004;
     ToolFootprint footprint(blade);
-    RelaxationSettings settings;
-    settings.law = RelaxationLaw::isotropic;
-    settings.method = RelaxationMethod::rkl;
-    settings.talus_angle = talus;
-    const auto relaxer = make_relaxer(settings, cell);
+    const auto relaxer = rkl_relaxer(cell, talus);
     const double step = 0.25 * cell;
     const int steps = static_cast<int>(std::lround(way / step));
     for (int i = 0; i <= steps; ++i) {
@@ -250,11 +248,7 @@ TEST(AnyTool, AWedgeLeavesLeveesOfTheSandThatItTookThePlaceOf) {
     const ToolSettings tool = wedge(flank, 20.0 * cell);
     EXPECT_GT(enclosed_volume(*tool.mesh), 0.0);
     ToolFootprint footprint(tool);
-    RelaxationSettings settings;
-    settings.law = RelaxationLaw::isotropic;
-    settings.method = RelaxationMethod::rkl;
-    settings.talus_angle = talus;
-    const auto relaxer = make_relaxer(settings, cell);
+    const auto relaxer = rkl_relaxer(cell, talus);
     const double step = 0.1 * cell;
     const int steps = static_cast<int>(std::lround(depth / step));
     for (int i = 1; i <= steps; ++i) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/angle.h"
 #include "core/error.h"
 #include "sim/told.h"
 
@@ -413,25 +414,24 @@ TEST(Simulation, AtItsEndTheToolIsGoneAndTheSandRestsWithoutIt) {
   EXPECT_LE(more.moved_volume, 1e-3 * result.moved_volume);
 }
 
-/// A blade that is drawn through sand along a quarter turn of its hand.
+/// A blade that is drawn through sand, turned by itself and by its hand [deg].
 struct Drawn {
   RunResult result;
   HeightGrid surface;
   std::vector<TickRecord> ticks;
 };
-Drawn drawn_blade(double own_turn, const std::vector<double>& hand_turns, ForceLaw law = ForceLaw::rft) {
+Drawn drawn_blade(double own_turn, const std::vector<double>& hand_turns) {
   Scene scene = small_scene();
   scene.tool.shape = ToolShape::plate;
   scene.tool.solid = true;
   scene.tool.width = 0.04;
   scene.tool.orientation.z() = own_turn;
   scene.displacement.deposit = Deposit::outward;
-  scene.force.law = law;
+  scene.force.law = ForceLaw::rft;
   Stroke stroke = through({{-0.05, 0.0, -0.005}, {0.0, 0.01, -0.005}, {0.05, 0.0, -0.005}}, 0.2);
   for (const double turn : hand_turns)
     stroke.orientation.push_back(
-        Eigen::Quaterniond(Eigen::AngleAxisd(turn * 1.7453292519943295e-2, Eigen::Vector3d::UnitZ()))
-            .coeffs());
+        Eigen::Quaterniond(Eigen::AngleAxisd(to_radians(turn), Eigen::Vector3d::UnitZ())).coeffs());
   Simulation simulation(scene, starting_bed(scene.bed), std::move(stroke));
   Told told;
   Drawn drawn{simulation.run({&told}), simulation.bed().grid(), {}};

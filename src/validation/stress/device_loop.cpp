@@ -15,7 +15,7 @@ using State = SimulatedDevice::State;
 /// N, on the device at its rest.
 Eigen::Vector3d force_at_rest(const LoopSettings& settings) {
   if (const auto* yielding = std::get_if<YieldingSand>(&settings.against))
-    return {0.0, 0.0, 0.5 * yielding->strength};
+    return {0.0, 0.0, YieldingSand::share_at_rest * yielding->strength};
   const auto* sand = std::get_if<PressedSand>(&settings.against);
   if (!sand) return Eigen::Vector3d::Zero();
   const double drag = felt_about_rest(settings).x.damping;

@@ -30,6 +30,7 @@ struct PressedSand {
 struct YieldingSand {
   double strength = 0.0;  ///< N, when it has yielded
   double yield = 0.001;   ///< m in the bed
+  static constexpr double share_at_rest = 0.5;
 };
 
 /// A dynamic device held against something by a hand, a little off its rest at first.
@@ -74,8 +75,8 @@ class DeviceLoop {
   SimulatedDevice device_;
   LateForce late_force_;
   Eigen::Vector3d force_;
-  double yielded_ = 0.5;  // of YieldingSand, the share of its strength, -1 to 1,
-  double read_z_;         // m of the device, there
+  double yielded_ = YieldingSand::share_at_rest;  // of YieldingSand, the share of its strength, -1 to 1,
+  double read_z_;                                 // m of the device, there
 };
 
 struct LoopRun {
