@@ -205,17 +205,17 @@ int record(const RecordArguments& arguments) {
   if (felt)
     if (const std::optional<FeltLoop> loop =
             felt_loop(*felt, device->specification(), settings.servo.force.max_force, settings.servo.rate))
-      check_felt_loop(*loop, felt->force, arguments.felt_scene);
+      check_felt_loop(*loop, *felt, arguments.felt_scene);
   RecordingHeader header;
   header.source = arguments.device;
   std::optional<RecordView> view;
   std::optional<LiveSand> sand;
   if (felt) {
-    sand.emplace(*felt, *bed, device->specification().frame);
+    const double largest = largest_force(*felt, device->specification(), settings.servo.force.max_force);
+    sand.emplace(*felt, *bed, device->specification().frame, largest);
     header.felt_scene = scene_text(*felt);
     if (arguments.view) {
-      view.emplace(fs::path(arguments.output).filename().string(), *felt, *bed,
-                   largest_force(*felt, device->specification(), settings.servo.force.max_force),
+      view.emplace(fs::path(arguments.output).filename().string(), *felt, *bed, largest,
                    dynamic_cast<PointerDevice*>(device.get()), !arguments.no_open);
       view->follow(*sand);
     }

@@ -36,12 +36,12 @@ void print_table(const LoopCheck& check, const ServoSettings& servo) {
   }
 }
 
-void print_felt_loop(const FeltLoop& loop, const ForceSettings& force) {
+void print_felt_loop(const FeltLoop& loop, const Scene& scene) {
   print_row("sand", fmt::format("{} at {:.3g} N", felt_sand_text(loop.felt), loop.force));
   print_row("device names", named_text(loop.named));
   print_row("theory allows", felt_sand_text(loop.stable));
   print_row("assumed", assumed_text(loop.device));
-  print_row("verdict", verdict_text(loop, force));
+  print_row("verdict", verdict_text(loop, scene));
 }
 
 nlohmann::ordered_json felt_loop_json(const FeltLoop& loop) {
@@ -87,7 +87,7 @@ int check_machine(const RecorderSettings& settings, const std::optional<Scene>& 
     print_json(object);
   } else {
     print_table(check, settings.servo);
-    if (sand) print_felt_loop(*sand, felt->force);
+    if (sand) print_felt_loop(*sand, *felt);
     if (felt && !sand)
       print_row("sand", "held against no limit: no force is given, or none that a device names");
   }

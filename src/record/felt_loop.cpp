@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/bisection.h"
 #include "haptics/loop_stability.h"
 #include "record/live_sand.h"
+#include "sim/contact_stiffness.h"
 
 namespace sandstroke {
 namespace {
@@ -16,30 +18,12 @@ double rounded_down(double value) {
   return std::floor(value / unit) * unit;
 }
 
-}  // namespace
+bool is_paper(const Scene& scene) { return scene.force.law == ForceLaw::paper; }
 
-double largest_force(const Scene& scene, const DeviceSpecification& device, double max_force) {
-  const double force = std::min(max_force, device.max_force);
-  return scene.device.max_force > 0.0 ? std::min(force, scene.device.max_force) : force;
-}
-
-std::optional<FeltLoop> felt_loop(const Scene& scene, const DeviceSpecification& device, double max_force,
-                                  double servo_rate, std::optional<double> lateness) {
-  if (device.max_force == any_force) return std::nullopt;  // feels none
-  FeltLoop loop;
-  loop.force = largest_force(scene, device, max_force);
-  if (loop.force <= 0.0 || loop.force >= any_force || scene.force.k_s <= 0.0 || scene.force.k_c <= 0.0)
-    return std::nullopt;
-  loop.scale = scene.device.scale * (scene.stroke ? scene.stroke->placement.scale : 1.0);
-  loop.device = scene.device;
-  loop.device.servo_rate = servo_rate;
-  constexpr double longest = 100.0;  // ticks, of a map of moderate size: who is later is not fit to record
-  loop.device.delay =
-      static_cast<int>(std::clamp(std::ceil(lateness.value_or(0.0) * servo_rate), 1.0, longest));
-  loop.felt = felt_sand(depth_of_repulse_force(loop.force, scene.force), loop.force, loop.scale, scene.force);
-  loop.named = {device.max_stiffness, device.max_damping};
-  loop.stable = stable_sand(loop.device, scene.force.drag, loop.felt.drag, LiveSand::velocity_window);
-  return loop;
+/// As the device feels it, at the largest force.
+FeltSand sand_felt(const Scene& scene, double force, double scale) {
+  if (!is_paper(scene)) return {scale * contact_stiffness(scene, force), 0.0};
+  return felt_sand(depth_of_repulse_force(force, scene.force), force, scale, scene.force);
 }
 
 ForceSettings settling_force(const FeltLoop& loop, const ForceSettings& force) {
@@ -57,6 +41,62 @@ ForceSettings settling_force(const FeltLoop& loop, const ForceSettings& force) {
   if (settling.k_s > 0.0) return settling;
   settling.k_s = force.k_s;
   settling.k_c = rounded_down(stiffness / (loop.scale * (force.k_s + loop.force)));
+  return settling;
+}
+
+/// m, the least way of two digits.
+std::optional<double> settling_yield(const FeltLoop& loop, Scene scene) {
+  const auto shakes = [&](double yield) {
+    scene.strength.yield_way = yield;
+    return sand_felt(scene, loop.force, loop.scale).stiffness >= loop.stable.stiffness;
+  };
+  double low = scene.strength.yield_way, high = 2.0 * low;
+  constexpr double longest = 1.0;  // m, of the key
+  for (; high <= longest && shakes(high); high *= 2.0) low = high;
+  if (high > longest) return std::nullopt;
+  constexpr int halvings = 8;
+  low = boundary_between(low, high, halvings, mean, shakes);
+  const double unit = std::pow(10.0, std::floor(std::log10(low)) - 1.0);
+  double yield = std::ceil(low / unit) * unit;
+  while (shakes(yield)) yield += unit;
+  return yield;
+}
+
+}  // namespace
+
+double largest_force(const Scene& scene, const DeviceSpecification& device, double max_force) {
+  const double force = std::min(max_force, device.max_force);
+  return scene.device.max_force > 0.0 ? std::min(force, scene.device.max_force) : force;
+}
+
+std::optional<FeltLoop> felt_loop(const Scene& scene, const DeviceSpecification& device, double max_force,
+                                  double servo_rate, std::optional<double> lateness) {
+  if (device.max_force == any_force) return std::nullopt;  // feels none
+  FeltLoop loop;
+  loop.force = largest_force(scene, device, max_force);
+  if (loop.force <= 0.0 || loop.force >= any_force) return std::nullopt;
+  if (is_paper(scene) && (scene.force.k_s <= 0.0 || scene.force.k_c <= 0.0)) return std::nullopt;
+  loop.scale = scene.device.scale * (scene.stroke ? scene.stroke->placement.scale : 1.0);
+  loop.device = scene.device;
+  loop.device.servo_rate = servo_rate;
+  constexpr double longest = 100.0;  // ticks, of a map of moderate size: who is later is not fit to record
+  loop.device.delay =
+      static_cast<int>(std::clamp(std::ceil(lateness.value_or(0.0) * servo_rate), 1.0, longest));
+  loop.felt = sand_felt(scene, loop.force, loop.scale);
+  loop.named = {device.max_stiffness, device.max_damping};
+  loop.stable = stable_sand(loop.device, scene.force.drag, loop.felt.drag, LiveSand::velocity_window);
+  return loop;
+}
+
+std::optional<Scene> settling_scene(const FeltLoop& loop, const Scene& scene) {
+  Scene settling = scene;
+  if (is_paper(scene)) {
+    settling.force = settling_force(loop, scene.force);
+  } else if (!loop.is_stable()) {
+    const std::optional<double> yield = settling_yield(loop, scene);
+    if (!yield) return std::nullopt;
+    settling.strength.yield_way = *yield;
+  }
   return settling;
 }
 

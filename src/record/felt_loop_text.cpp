@@ -7,16 +7,18 @@
 namespace sandstroke {
 namespace {
 
-/// "force.k_f = 9.4"
-std::string remedy_text(const FeltLoop& loop, const ForceSettings& force) {
-  const ForceSettings settling = settling_force(loop, force);
-  std::string text;
+/// "set force.k_f = 9.4"
+std::string remedy_text(const FeltLoop& loop, const Scene& scene) {
+  const std::optional<Scene> settling = settling_scene(loop, scene);
+  if (!settling) return "take a smaller tool";
+  std::string text = "set ";
   const auto say = [&text](const char* key, double value, double before) {
-    if (value != before) text += fmt::format("{}{} = {:.2g}", text.empty() ? "" : " and ", key, value);
+    if (value != before) text += fmt::format("{}{} = {:.2g}", text.back() == ' ' ? "" : " and ", key, value);
   };
-  say("force.k_f", settling.k_f, force.k_f);
-  say("force.k_s", settling.k_s, force.k_s);
-  say("force.k_c", settling.k_c, force.k_c);
+  say("force.k_f", settling->force.k_f, scene.force.k_f);
+  say("force.k_s", settling->force.k_s, scene.force.k_s);
+  say("force.k_c", settling->force.k_c, scene.force.k_c);
+  say("force.yield", settling->strength.yield_way, scene.strength.yield_way);
   return text;
 }
 
@@ -40,27 +42,28 @@ std::string assumed_text(const DeviceSettings& device) {
       device.hand_stiffness, device.hand_damping);
 }
 
-std::string verdict_text(const FeltLoop& loop, const ForceSettings& force) {
-  if (!loop.is_stable()) return "REFUSED: the hand would shake; set " + remedy_text(loop, force);
+std::string verdict_text(const FeltLoop& loop, const Scene& scene) {
+  if (!loop.is_stable()) return "REFUSED: the hand would shake; " + remedy_text(loop, scene);
   if (!loop.is_within_named()) return "settles in theory, but is beyond what the device names";
   if (loop.named.stiffness <= 0.0 || loop.named.drag <= 0.0)
     return "settles in theory; what the device can hold is not known";
   return "settles in theory, and is within what the device names";
 }
 
-void check_felt_loop(const FeltLoop& loop, const ForceSettings& force, const std::string& scene) {
+void check_felt_loop(const FeltLoop& loop, const Scene& scene, const std::string& name) {
   if (!loop.is_stable())
     throw_input_error(
         "{}: on this device the sand has {} at {:.3g} N, and a loop settles up to {} ({}); the hand would "
-        "shake. Set {} (--set), or a smaller --max-force; if the device or the hand is another, set "
-        "device.mass, device.damping, device.hand_stiffness and device.hand_damping",
-        scene, felt_sand_text(loop.felt), loop.force, felt_sand_text(loop.stable), assumed_text(loop.device),
-        remedy_text(loop, force));
+        "shake. To mend it, {} (--set), or take a smaller --max-force; if the device or the hand is another, "
+        "set device.mass, device.damping, device.hand_stiffness and device.hand_damping",
+        name, felt_sand_text(loop.felt), loop.force, felt_sand_text(loop.stable), assumed_text(loop.device),
+        remedy_text(loop, scene));
   if (!loop.is_within_named())
     spdlog::warn(
         "{}: the sand has {} at {:.3g} N, and the device names {} as its most. In theory the hand settles; "
-        "lower --max-force or force.k_f if it buzzes",
-        scene, felt_sand_text(loop.felt), loop.force, named_text(loop.named));
+        "lower --max-force{} if it buzzes",
+        name, felt_sand_text(loop.felt), loop.force, named_text(loop.named),
+        scene.force.law == ForceLaw::paper ? " or force.k_f" : ", or raise force.yield,");
 }
 
 }  // namespace sandstroke

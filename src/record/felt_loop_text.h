@@ -15,10 +15,10 @@ std::string named_text(const FeltSand& named);
 /// What theory takes for true of loop, device and hand.
 std::string assumed_text(const DeviceSettings& device);
 /// Whether the device can hold the sand, and if not, which settings of its scene would do.
-std::string verdict_text(const FeltLoop& loop, const ForceSettings& force);
+std::string verdict_text(const FeltLoop& loop, const Scene& scene);
 
 /// Error: input, with such settings, where no hand as assumed settles on the device. Warns beyond what it
-/// names. scene: its name.
-void check_felt_loop(const FeltLoop& loop, const ForceSettings& force, const std::string& scene);
+/// names. name: the scene's.
+void check_felt_loop(const FeltLoop& loop, const Scene& scene, const std::string& name);
 
 }  // namespace sandstroke

@@ -22,7 +22,6 @@ const HeightField& checked(const Scene& scene, const HeightField& bed) {
   };
   refuse_unless(scene.device.model == DeviceModel::kinematic, "device.model",
                 "\"dynamic\" simulates a device, and the hand holds a real one");
-  refuse_unless(scene.force.law == ForceLaw::paper, "force.law", "only the paper's is felt live");
   if (scene.stroke) {
     const StrokePlacement& placement = scene.stroke->placement;
     refuse_unless(placement.plane == StrokePlane::keep, "stroke.plane",
@@ -47,7 +46,7 @@ const HeightField& checked(const Scene& scene, const HeightField& bed) {
 
 }  // namespace
 
-LiveSand::LiveSand(const Scene& scene, const HeightField& bed, const std::string& frame)
+LiveSand::LiveSand(const Scene& scene, const HeightField& bed, const std::string& frame, double largest_force)
     : force_(scene.force),
       device_(scene.device),
       placement_(point_placement(scene.stroke ? scene.stroke->placement : StrokePlacement{}, frame)),
@@ -57,8 +56,10 @@ LiveSand::LiveSand(const Scene& scene, const HeightField& bed, const std::string
       places_(most_places),
       replica_(checked(scene, bed)),
       eroder_(bed, scene.tool, scene.relaxation, dug_, places_, slipped_),
-      sand_(scene.tool, scene.displacement, 0.0) {
+      sand_(scene.tool, scene.displacement, 0.0),
+      largest_force_(device_.max_force > 0.0 ? std::min(largest_force, device_.max_force) : largest_force) {
   sand_.take_memory(replica_.bed());
+  if (force_.law != ForceLaw::paper) contact_force_.emplace(scene, bed.cell_size());
 }
 
 Eigen::Vector3d LiveSand::velocity(double time, const Eigen::Vector3d& tip) {
@@ -94,13 +95,26 @@ bool LiveSand::touches(const DeviceReading& reading) noexcept {
   return interaction.contact || is_beside(interaction, tip);
 }
 
+Eigen::Vector3d LiveSand::force(const Interaction& interaction, const Eigen::Vector3d& tip,
+                                const Eigen::Vector3d& motion, const Eigen::Vector3d& speed) {
+  if (contact_force_)
+    return contact_force_->feel(sand_, replica_.bed(), tip, motion, interaction.contact)
+        .limited(largest_force_)
+        .force;
+  if (!interaction.contact) return Eigen::Vector3d::Zero();
+  return sand_force(interaction.depth, speed, device_.max_force, force_).total;
+}
+
 FeltForce LiveSand::feel(double time, const DeviceReading& reading) noexcept {
   take_slipped(most_taken);
   const Eigen::Vector3d tip = this->tip(reading.position);
   if (readings_ > 0 && time - past(readings_ - 1).time > gap_threshold) {
     sand_.lift();
+    if (contact_force_) contact_force_->lift();
     readings_ = 0;
   }
+  const std::optional<Eigen::Vector3d> before = sand_.last_tip();
+  const Eigen::Vector3d motion = before ? Eigen::Vector3d(tip - *before) : Eigen::Vector3d::Zero();
   const Eigen::Vector3d speed = velocity(time, tip);
 
   FeltForce felt;
@@ -121,10 +135,8 @@ FeltForce LiveSand::feel(double time, const DeviceReading& reading) noexcept {
   depth_.store(interaction.contact ? interaction.depth : std::numeric_limits<double>::quiet_NaN(),
                std::memory_order_relaxed);
   felt.is_above_or_in_sand = !is_beside(interaction, tip);
-  if (interaction.contact) {
-    ++report_.contact_ticks;
-    felt.force = placement_.force_back(sand_force(interaction.depth, speed, device_.max_force, force_).total);
-  }
+  report_.contact_ticks += interaction.contact;
+  felt.force = placement_.force_back(force(interaction, tip, motion, speed));
   return felt;
 }
 

@@ -9,7 +9,7 @@
 #include "haptics/stroke_placement.h"
 #include "record/eroder.h"
 #include "record/felt_force.h"
-#include "sim/sand_side.h"
+#include "sim/contact_force.h"
 #include "sim/scene.h"
 
 namespace sandstroke {
@@ -31,18 +31,21 @@ struct LiveSandReport {
 /// apart [s] (by way: travel / v), W = velocity_window and K the sand's stiffness (felt_sand), where the
 /// recorder did not alter the force:
 ///   |difference| <= K v (2 h + r) (1 + k_f v) + k_f |F_r| a (W / 2 + 2) h
-/// for in h the hand goes v h, and digs and feels that much elsewhere; in r sand slips no further than its
-/// disturbance reached, v r. Where a script's speed jumps, a is as large as the jump over h.
+/// (laws of the contact know no speed: k_f = 0) for in h the hand goes v h, and digs and feels that much
+/// elsewhere; in r sand slips no further than its disturbance reached, v r. Where a script's speed jumps, a
+/// is as large as the jump over h.
 class LiveSand : public FeltWorld {
  public:
   /// The velocity that drag is taken of is the mean over this many ticks, so that it lags by half of them:
   /// the encoders' steps over one tick alone would be felt (9 um in 1 ms are 9 mm/s).
   static constexpr int velocity_window = 4;
 
-  /// frame: of the device (DeviceSpecification). Error: input, naming the key, where the scene is of a kind
-  /// that cannot be felt live: a simulated device, a stroke placed by its plane or cut, or a bed too large
-  /// for memory.
-  LiveSand(const Scene& scene, const HeightField& bed, const std::string& frame);
+  /// frame: of the device (DeviceSpecification). largest_force [N]: what the hand may get; a law of the
+  /// contact is limited to it (Wrench::limited), and by device.max_force. Error: input, naming the key, where
+  /// the scene is of a kind that cannot be felt live: a simulated device, a stroke placed by its plane or
+  /// cut, or a bed too large for memory.
+  LiveSand(const Scene& scene, const HeightField& bed, const std::string& frame,
+           double largest_force = any_force);
 
   /// Is shown the eroding bed, in the thread that erodes. Before start().
   void show_to(std::function<void(const HeightField&)> onlooker) { eroder_.show_to(std::move(onlooker)); }
@@ -81,6 +84,9 @@ class LiveSand : public FeltWorld {
     return std::isnan(interaction.level) && tip.z() <= highest_;
   }
   Eigen::Vector3d velocity(double time, const Eigen::Vector3d& tip);
+  /// On the bed's axes [N], after the tool went by `motion` [m].
+  Eigen::Vector3d force(const Interaction& interaction, const Eigen::Vector3d& tip,
+                        const Eigen::Vector3d& motion, const Eigen::Vector3d& speed);
   /// Of the last velocity_window readings, by their number.
   Past& past(std::int64_t reading) { return past_[static_cast<std::size_t>(reading % velocity_window)]; }
   void take_slipped(int most);
@@ -95,6 +101,8 @@ class LiveSand : public FeltWorld {
   BedReplica replica_;
   Eroder eroder_;
   SandSide sand_;
+  std::optional<ContactForce> contact_force_;  // where force.law is not the paper's
+  double largest_force_;                       // N
   std::array<Past, velocity_window> past_;
   std::int64_t readings_ = 0;                                             // since the tool was lifted
   std::atomic<double> depth_ = std::numeric_limits<double>::quiet_NaN();  // m

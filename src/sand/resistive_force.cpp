@@ -21,6 +21,12 @@ double resistance(const SandStrength& sand) {
   return sand.density * gravity * (((894.0 * mu - 386.0) * mu + 89.0) * mu);
 }
 
+Wrench Wrench::limited(double max_force) const {
+  if (!(max_force > 0.0) || strength <= max_force) return *this;
+  const double share = max_force / strength;
+  return {share * force, share * torque, share * stiffness, share * stored, max_force};
+}
+
 ResistiveForce::ResistiveForce(const TriangleMesh& surface, double element_size)
     : elements_(surface, element_size), ways_(hwy::AllocateAligned<double>(3 * elements_.size())) {
   lift();
@@ -49,15 +55,19 @@ Wrench ResistiveForce::feel(const ToolFootprint& footprint, const Eigen::Vector3
                            resistance(sand), sand.tool_friction, sand.yield_way});
 }
 
-double ResistiveForce::volume_below(const Eigen::Vector3d& tip, const SandPlane& plane) const {
+VolumeBelow ResistiveForce::volume_below(const Eigen::Vector3d& tip, const SandPlane& plane) const {
   const ToolElements& e = elements_;
-  CompensatedSum volume;
+  CompensatedSum volume, moment_x, moment_y;
   for (int i = 0; i < e.count(); ++i) {
     const double depth =
         plane.height + plane.slope.x() * e.x()[i] + plane.slope.y() * e.y()[i] - tip.z() - e.z()[i];
-    if (depth > 0.0) volume.add(-depth * e.normal_z()[i] * e.area()[i]);
+    if (!(depth > 0.0)) continue;
+    const double above = -depth * e.normal_z()[i] * e.area()[i];  // up to the plane
+    volume.add(above);
+    moment_x.add(e.x()[i] * above);
+    moment_y.add(e.y()[i] * above);
   }
-  return volume.value();
+  return {volume.value(), {moment_x.value(), moment_y.value()}};
 }
 
 }  // namespace sandstroke

@@ -38,8 +38,21 @@ Eigen::Vector3d resistive_stress(const Eigen::Vector3d& normal, const Eigen::Vec
 struct Wrench {
   Eigen::Vector3d force = Eigen::Vector3d::Zero();   ///< N
   Eigen::Vector3d torque = Eigen::Vector3d::Zero();  ///< N m, about the tip
-  double stiffness = 0.0;                            ///< N/m, of the force at most, in any direction
+  double stiffness = 0.0;                            ///< N/m, how the force grows with the tool's way
   double stored = 0.0;                               ///< J, at most, that it may give back
+  double strength = 0.0;  ///< N, of all its parts, whatever their directions, once the tool has yielded
+
+  /// The sand made weaker, so that its strength is no more than max_force [N] (0: as it is): what a device of
+  /// that maximum gives. To cut the force alone would leave sand as stiff as before where the tool turns
+  /// round, and turn it round late.
+  Wrench limited(double max_force) const;
+};
+
+/// What of a tool lies below the sand's plane.
+struct VolumeBelow {
+  double volume = 0.0;  ///< m^3
+  Eigen::Vector2d moment =
+      Eigen::Vector2d::Zero();  ///< m^4, the volume times its centroid's way from the tip
 };
 
 /// Resistive force theory over the surface that touches sand. The law knows a direction of motion and no
@@ -64,8 +77,8 @@ class ResistiveForce {
   void lift();
 
   const ToolElements& elements() const { return elements_; }
-  /// m^3, below the plane, of the tool with its tip there: by the divergence theorem.
-  double volume_below(const Eigen::Vector3d& tip, const SandPlane& plane) const;
+  /// Of the tool with its tip there: by the divergence theorem.
+  VolumeBelow volume_below(const Eigen::Vector3d& tip, const SandPlane& plane) const;
 
  private:
   ToolElements elements_;

@@ -79,7 +79,7 @@ Wrench ResistiveWrench(const ResistiveTick& tick) {
   const Vector spin_x = spin_of(0), spin_y = spin_of(1), spin_z = spin_of(2);
   const bool spins = !tick.spin.isZero(0.0);
   double *ways_x = tick.ways, *ways_y = tick.ways + e.size(), *ways_z = tick.ways + 2 * e.size();
-  LaneSum force_x, force_y, force_z, torque_x, torque_y, torque_z, stiffness, amount;
+  LaneSum force_x, force_y, force_z, torque_x, torque_y, torque_z, growth, strength, amount;
   for (std::size_t i = 0; i < e.size(); i += lanes) {
     const int place = static_cast<int>(i);
     const Vector r = {hn::Load(d, e.x() + i), hn::Load(d, e.y() + i), hn::Load(d, e.z() + i)};
@@ -120,13 +120,16 @@ Wrench ResistiveWrench(const ResistiveTick& tick) {
     torque_x.add(place, r.y * force.z - r.z * force.y);
     torque_y.add(place, r.z * force.x - r.x * force.z);
     torque_z.add(place, r.x * force.y - r.y * force.x);
-    stiffness.add(place, size * (one + Max(depth, zero) / all(tick.yield_way)));
-    amount.add(place, size * Max(depth, zero) * mobilised);
+    const V full = size * Max(depth, zero);
+    growth.add(place, size);
+    strength.add(place, full);
+    amount.add(place, full * mobilised);
   }
   return {{force_x.total(), force_y.total(), force_z.total()},
           {torque_x.total(), torque_y.total(), torque_z.total()},
-          stiffness.total(),
-          0.5 * tick.yield_way * amount.total()};
+          growth.total() + strength.total() / tick.yield_way,
+          0.5 * tick.yield_way * amount.total(),
+          strength.total()};
 }
 
 Eigen::Vector3d StressOf(const Eigen::Vector3d& normal, const Eigen::Vector3d& motion, double tool_friction) {

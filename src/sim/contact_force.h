@@ -10,10 +10,9 @@ namespace sandstroke {
 
 /// The force of the sand on the tool where force.law is not the paper's: of the contact itself.
 /// - rft: resistive force theory over the tool's surface (ResistiveForce).
-/// - archimedes: 0.87574 xi V upwards, V being what lies below the sand's plane (Kang, Feng, Liu, Blumenfeld,
-/// Nature
-///   Communications 9, 2018, as the theory gives it for a plate), and no drag; it grows over the yield way as
-///   the tool sinks, and goes as it rises.
+/// - archimedes: 0.87574 xi V upwards at the centroid of V, which is what lies below the sand's plane (Kang,
+///   Feng, Liu, Blumenfeld, Nature Communications 9, 2018, as the theory gives it for a plate), and no drag;
+///   it grows over the yield way as the tool sinks, and goes as it rises.
 class ContactForce {
  public:
   /// Elements are about a cell large. The scene's law is not the paper's.
@@ -28,7 +27,7 @@ class ContactForce {
 
  private:
   Wrench archimedes(const Eigen::Vector3d& tip, const SandPlane& plane, double sinks);
-  double volume_below(const Eigen::Vector3d& tip, const SandPlane& plane) const;
+  VolumeBelow volume_below(const Eigen::Vector3d& tip, const SandPlane& plane) const;
 
   ForceLaw law_;
   SandStrength sand_;

@@ -39,24 +39,25 @@ double DeviceSide::faded_in(const TickRecord& record) {
 
 double DeviceSide::stored(const TickRecord& record) const {
   const DeviceSettings& d = device_.settings();
-  const double of_sand = of_contact() ? record.wrench.stored : plunge_work(record.depth, d.max_force, force_);
+  const double of_sand = of_contact() ? record.wrench.limited(d.max_force).stored
+                                      : plunge_work(record.depth, d.max_force, force_);
   return of_sand / d.scale;
 }
 
 double DeviceSide::stiffness(const TickRecord& record) const {
   const double scale = device_.settings().scale;
-  return of_contact() ? scale * record.wrench.stiffness
+  return of_contact() ? scale * record.wrench.limited(device_.settings().max_force).stiffness
                       : felt_sand(record.depth, 0.0, scale, force_).stiffness;
 }
 
 void DeviceSide::feel_contact(TickRecord& record, double share, Eigen::Vector3d& computed) {
   const Eigen::Vector3d& force = record.wrench.force;
-  const double most = device_.settings().max_force, size = length_of(force);
+  const double most = device_.settings().max_force;
   record.repulse_force = {0.0, 0.0, force.z()};
   record.drag_force = {force.x(), force.y(), 0.0};
-  record.saturated = most > 0.0 && !(size <= most);
+  record.saturated = most > 0.0 && record.wrench.strength > most;
   result_.max_drag_force = std::max(result_.max_drag_force, length_of(record.drag_force));
-  computed = record.saturated ? Eigen::Vector3d(share * most * force.stableNormalized()) : share * force;
+  computed = share * record.wrench.limited(most).force;
 }
 
 void DeviceSide::feel_paper(TickRecord& record, double share, Eigen::Vector3d& computed) {

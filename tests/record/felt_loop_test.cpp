@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "sim/contact_stiffness.h"
 
 namespace sandstroke {
 namespace {
@@ -79,7 +80,7 @@ TEST(FeltLoop, ItsRemedySettlesAndNothingMuchHarderDoes) {
       scene.force.k_s = k_s, scene.force.k_f = k_f, scene.force.drag = drag;
       const FeltLoop loop = felt_loop(scene, touch(), any_force, 1000.0).value();
       EXPECT_FALSE(loop.is_stable());
-      const ForceSettings settling = settling_force(loop, scene.force);
+      const ForceSettings settling = settling_scene(loop, scene).value().force;
       EXPECT_EQ(settling.k_s<k_s, k_s> 1e5);
       EXPECT_EQ(settling.k_f<k_f, k_f> 100.0);
       scene.force = settling;
@@ -94,30 +95,78 @@ TEST(FeltLoop, ThatIsRefusedNamesTheNumbersAndTheSettings) {
   const auto sentence = [](const Scene& scene) -> std::string {
     const FeltLoop loop = felt_loop(scene, touch(), any_force, 1000.0).value();
     try {
-      check_felt_loop(loop, scene.force, "scene.toml");
+      check_felt_loop(loop, scene, "scene.toml");
     } catch (const Error& error) {
       EXPECT_EQ(error.kind(), ErrorKind::input);
-      EXPECT_NE(verdict_text(loop, scene.force).find("REFUSED"), std::string::npos);
+      EXPECT_NE(verdict_text(loop, scene).find("REFUSED"), std::string::npos);
       return error.what();
     }
     return "";
   };
   Scene scene;
   EXPECT_EQ(sentence(scene), "") << "only warned of";
-  EXPECT_NE(verdict_text(*felt_loop(scene, touch(), any_force, 1000.0), scene.force)
-                .find("beyond what the device names"),
-            std::string::npos);
+  EXPECT_NE(
+      verdict_text(*felt_loop(scene, touch(), any_force, 1000.0), scene).find("beyond what the device names"),
+      std::string::npos);
   scene.force.k_f = 200.0;
   const std::string drag = sentence(scene);
   for (const char* part :
-       {"scene.toml", "660 N s/m", "138 N s/m", "3.3 N", "Set force.k_f = 41 ", "--max-force"})
+       {"scene.toml", "660 N s/m", "138 N s/m", "3.3 N", "set force.k_f = 41 ", "--max-force"})
     EXPECT_NE(drag.find(part), std::string::npos) << drag;
   scene.force.k_s = 1e5;
-  EXPECT_NE(sentence(scene).find("Set force.k_f = 41 and force.k_s = 1.2e+04 "), std::string::npos)
+  EXPECT_NE(sentence(scene).find("set force.k_f = 41 and force.k_s = 1.2e+04 "), std::string::npos)
       << sentence(scene);
   scene.force = {};
   scene.force.k_c = 1e4;  // K = 1e4 (k_s + F) whatever k_s: only k_c can help
-  EXPECT_NE(sentence(scene).find("Set force.k_c = 6"), std::string::npos) << sentence(scene);
+  EXPECT_NE(sentence(scene).find("set force.k_c = 6"), std::string::npos) << sentence(scene);
+}
+
+Scene contact_scene(ToolShape shape) {
+  Scene scene;
+  scene.bed.width = scene.bed.depth = 0.3;
+  scene.bed.cols = scene.bed.rows = 150;
+  scene.force.law = ForceLaw::rft;
+  scene.tool.shape = shape;
+  return scene;
+}
+
+TEST(FeltLoop, OfALawOfTheContactIsAsStiffAsThatAndDragsAtAnySpeedAlike) {
+  Scene scene = contact_scene(ToolShape::sphere);
+  scene.device.scale = 2.0;
+  const FeltLoop loop = felt_loop(scene, touch(), 2.0, 1000.0).value();
+  EXPECT_EQ(loop.felt.stiffness, 2.0 * contact_stiffness(scene, 2.0));
+  EXPECT_EQ(loop.felt.drag, 0.0);
+  scene.force.k_s = 0.0;  // the paper's, which does not count here
+  EXPECT_TRUE(felt_loop(scene, touch(), 2.0, 1000.0));
+}
+
+TEST(FeltLoop, TheRemedyOfALawOfTheContactIsTheShortestYieldWayThatSettles) {
+  for (const ToolShape shape : {ToolShape::sphere, ToolShape::plate}) {
+    Scene scene = contact_scene(shape);
+    scene.strength.yield_way = 2e-4;
+    const FeltLoop loop = felt_loop(scene, touch(), any_force, 1000.0).value();
+    EXPECT_FALSE(loop.is_stable());
+    Scene settling = settling_scene(loop, scene).value();
+    EXPECT_TRUE(felt_loop(settling, touch(), any_force, 1000.0)->is_stable());
+    EXPECT_EQ(settling_scene(*felt_loop(settling, touch(), any_force, 1000.0), settling)->strength.yield_way,
+              settling.strength.yield_way)
+        << "what settles stays";
+    settling.strength.yield_way *= 0.85;
+    EXPECT_FALSE(felt_loop(settling, touch(), any_force, 1000.0)->is_stable());
+    EXPECT_NE(verdict_text(loop, scene).find("set force.yield = 0.0"), std::string::npos)
+        << verdict_text(loop, scene);
+  }
+}
+
+TEST(FeltLoop, AToolThatNoYieldWayMakesSoftEnoughIsNamed) {
+  // Heavy sand under a plate that is 20 cm square: 0.876 xi A as it sinks, whatever the way.
+  Scene scene = contact_scene(ToolShape::box);
+  scene.bed.cols = scene.bed.rows = 60;
+  scene.strength.density = 1e5;
+  scene.tool.size = {0.2, 0.2, 0.02};
+  const FeltLoop loop = felt_loop(scene, touch(), any_force, 1000.0).value();
+  EXPECT_FALSE(settling_scene(loop, scene));
+  EXPECT_NE(verdict_text(loop, scene).find("take a smaller tool"), std::string::npos);
 }
 
 }  // namespace

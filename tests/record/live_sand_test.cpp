@@ -10,6 +10,8 @@
 #include "allocations.h"
 #include "core/error.h"
 #include "haptics/recording.h"
+#include "haptics/simulated_device.h"
+#include "record/felt_loop.h"
 #include "sim/simulation.h"
 
 namespace sandstroke {
@@ -126,6 +128,88 @@ TEST_P(LiveTool, OfEvenTicksHasTheSandAndTheRepulseForceThatARunOfThemHas) {
   EXPECT_GT(result.moved_volume, 0.0);
 }
 
+/// accurate, with a law of the contact, and sand that does not slip.
+Scene contact_scene(ForceLaw law, ToolShape shape) {
+  Scene scene = small_scene();
+  scene.preset = ModelPreset::accurate;
+  apply_model_preset(scene);
+  scene.relaxation.rate = scene.relaxation.travel = 0.0;
+  scene.force.law = law;
+  scene.tool.shape = shape;
+  scene.tool.height = 0.03;
+  scene.device.max_force = 3.3;
+  scene.strength.density *= 10.0;  // that forces are large with this hand
+  return scene;
+}
+
+TEST(LiveSand, OfALawOfTheContactHasTheForceThatARunHas) {
+  for (const ForceLaw law : {ForceLaw::rft, ForceLaw::archimedes})
+    for (const ToolShape shape : {ToolShape::sphere, ToolShape::cone, ToolShape::plate}) {
+      Scene scene = contact_scene(law, shape);
+      const std::vector<double> times = even_times(1.0);
+      const Feeling felt = feel_all(scene, times);
+      scene.stroke.emplace();
+      Simulation simulation(scene, starting_bed(scene.bed), sampled(times));
+      Ticks run;
+      simulation.run({&run});
+      double most = 0.0;
+      for (std::size_t k = 0; k < times.size(); ++k) {
+        EXPECT_LT((felt.forces[k] - run.ticks[k].device_force).norm(), 1e-6) << times[k];
+        most = std::max(most, felt.forces[k].norm());
+      }
+      EXPECT_GT(most, 0.05);
+      EXPECT_LE(most, 3.3 * (1.0 + 1e-12));
+    }
+}
+
+/// m/s, how fast a device still moves, at most, that a hand has pressed into the sand, drawn back a little,
+/// and holds there; its force acts a tick late.
+double shaking(const Scene& scene) {
+  DeviceSettings device = scene.device;
+  device.model = DeviceModel::dynamic;
+  device.resolution = 0.0;
+  SimulatedDevice held(device, {Eigen::Vector3d(0.0, 0.0, 0.005), Eigen::Vector3d::Zero()});
+  LiveSand sand(scene, starting_bed(scene.bed), "bed");
+  Eigen::Vector3d acts = Eigen::Vector3d::Zero(), late = acts;
+  const auto hand = [](double t) {
+    const double down = std::min(t / 0.4, 1.0), back = std::clamp((t - 0.5) / 0.1, 0.0, 1.0);
+    const double speed = t < 0.4 ? -0.05 : t > 0.5 && t < 0.6 ? 0.04 : 0.0;
+    return SimulatedDevice::State{Eigen::Vector3d(0.0, 0.0, 0.005 - 0.02 * down + 0.004 * back),
+                                  Eigen::Vector3d(0.0, 0.0, speed)};
+  };
+  double fastest = 0.0;
+  for (const double t : even_times(1.5)) {
+    acts = late;
+    late = sand.feel(t, {held.state().position}).force;
+    held.advance(hand(t), hand(t + 1e-3), acts);
+    if (t > 1.2) fastest = std::max(fastest, held.state().velocity.norm());
+  }
+  return fastest;
+}
+
+TEST(LiveSand, OfALawOfTheContactLetsAHandRestWhereTheoryDoes) {
+  Scene scene = contact_scene(ForceLaw::rft, ToolShape::sphere);
+  DeviceSpecification touch;
+  touch.max_force = 3.3;
+  const FeltLoop loop = felt_loop(scene, touch, any_force, 1000.0).value();
+  scene = settling_scene(loop, scene).value();
+  EXPECT_LT(shaking(scene), 1e-4);
+  scene.strength.yield_way /= 30.0;
+  EXPECT_FALSE(felt_loop(scene, touch, any_force, 1000.0)->is_stable());
+  EXPECT_GT(shaking(scene), 1e-2) << "as hard as that, and it shakes";
+}
+
+TEST(LiveSand, OfALawOfTheContactBeginsAnewAfterAGap) {
+  const Scene scene = contact_scene(ForceLaw::rft, ToolShape::sphere);
+  LiveSand sand(scene, starting_bed(scene.bed), "bed");
+  FeltForce felt;
+  for (int k = 0; k < 100; ++k) felt = sand.feel(1e-3 * k, {Eigen::Vector3d(0.0, 0.0, 0.002 - 1e-4 * k)});
+  EXPECT_GT(felt.force.z(), 0.5);
+  const Eigen::Vector3d there(0.0, 0.0, 0.002 - 1e-4 * 99);
+  EXPECT_NEAR(sand.feel(0.1, {there}).force.z(), felt.force.z(), 1e-9) << "it holds while the hand rests";
+  EXPECT_EQ(sand.feel(0.3, {there}).force.norm(), 0.0) << "its way there is not known";
+}
+
 TEST(LiveSand, OfUnevenTicksIsWithinTheBoundOfSampling) {
   // Ticks up to 0.4 ms late, some missing; sand that does not slip, so that nothing but sampling differs.
   Scene scene = small_scene();
@@ -183,6 +267,7 @@ TEST(LiveSand, ErodingInItsOwnThreadLosesNoSand) {
 
 /// Of so many seconds, in more than so many ticks of contact.
 void expect_no_memory_in_loop(const Scene& scene, double seconds, std::int64_t least_contact) {
+  SCOPED_TRACE(static_cast<int>(scene.force.law));
   LiveSand sand(scene, starting_bed(scene.bed), "bed");
   sand.start();
   const std::vector<double> times = even_times(seconds);
@@ -214,7 +299,10 @@ TEST(LiveSand, OfAToolOfAnyShapeTakesNoMemoryInTheLoop) {
     SCOPED_TRACE(static_cast<int>(shape));
     scene.tool.shape = shape;
     scene.tool.height = 0.03;
-    expect_no_memory_in_loop(scene, 1.0, 100);
+    for (const ForceLaw law : {ForceLaw::paper, ForceLaw::rft, ForceLaw::archimedes}) {
+      scene.force.law = law;
+      expect_no_memory_in_loop(scene, 1.0, 100);
+    }
   }
 }
 

@@ -146,7 +146,7 @@ TEST(ResistiveForce, VolumeBelowThePlaneIsTheCap) {
   const double R = 0.01, depth = 0.006;
   const ResistiveForce force(tool_surface(ToolSettings{R}), R / 20.0);
   const double cap = pi * depth * depth * (R - depth / 3.0);
-  EXPECT_NEAR(force.volume_below({0.0, 0.0, -depth}, {0.0}), cap, 0.01 * cap);
+  EXPECT_NEAR(force.volume_below({0.0, 0.0, -depth}, {0.0}).volume, cap, 0.01 * cap);
 }
 
 TEST(ResistiveForce, OfABladeThatTurnsInItsPlaceIsATorque) {
