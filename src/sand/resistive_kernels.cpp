@@ -71,7 +71,7 @@ Wrench ResistiveWrench(const ResistiveTick& tick) {
           stride = all(f.stride());
   const V height0 = all(tick.plane.height - tick.tip.z()), slope_x = all(tick.plane.slope.x()),
           slope_y = all(tick.plane.slope.y()), tip_z = all(tick.tip.z());
-  const V near = all(0.25 * dx);
+  const V per_touch = all(4.0 / dx);  // it fades in over a quarter of a cell
   const Vector motion = {all(tick.motion.x()), all(tick.motion.y()), all(tick.motion.z())};
   const auto spin_of = [&](int axis) {
     return Vector{all(tick.spin(axis, 0)), all(tick.spin(axis, 1)), all(tick.spin(axis, 2))};
@@ -95,22 +95,23 @@ Wrench ResistiveWrench(const ResistiveTick& tick) {
     const V row = Min(Max(hn::Floor(row0 + r.y * per_cell + n.y + half), zero), last_row);
     const hn::RebindToSigned<decltype(d)> di;
     const V height = hn::GatherIndex(d, f.heights(0), hn::ConvertTo(di, row * stride + col));
-    const V touches = where(depth > zero, between_0_and_1((height - tip_z - r.z) / near + one));
+    const V touches = where(depth > zero, between_0_and_1((height - tip_z - r.z) * per_touch + one));
 
     const Mask in_sand = touches > zero;
     Vector way =
         Vector{hn::Load(d, ways_x + i), hn::Load(d, ways_y + i), hn::Load(d, ways_z + i)}.plus(motion);
     if (spins) way = way.plus({spin_x.dot(r), spin_y.dot(r), spin_z.dot(r)});
-    const V length = Sqrt(way.dot(way));
-    way = way.times(where(in_sand, one / Max(length, one)));
+    const V length = Sqrt(way.dot(way)), per_length = one / Max(length, all(1e-300));
+    const Vector u = way.times(per_length);
+    way = way.times(where(in_sand, Min(per_length, one)));
     hn::Store(way.x, d, ways_x + i);
     hn::Store(way.y, d, ways_y + i);
     hn::Store(way.z, d, ways_z + i);
     const V mobilised = Min(length, one);
-    const Vector u = way.times(where(mobilised > zero, one / Max(mobilised, all(1e-300))));
 
-    const V leads = between_0_and_1(u.dot(n) / all(fade) + one);
+    const V leads = between_0_and_1(u.dot(n) * all(1.0 / fade) + one);
     const V area = where(in_sand, hn::Load(d, e.area() + i) * touches * leads) * all(tick.resistance);
+    if (hn::AllFalse(d, area > zero)) continue;
     const Vector alpha = stress(n, u, all(tick.tool_friction));
     const V size = Sqrt(alpha.dot(alpha)) * area;
     const Vector force = alpha.times(area * depth * mobilised);

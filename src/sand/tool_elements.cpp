@@ -23,6 +23,18 @@ struct Patch {
   double area = 0.0;                   // m^2
 };
 
+/// The layer of cubes, and where its normal points.
+using Order = std::pair<std::int64_t, double>;
+
+/// A number from 0 to 4 that grows with the angle of (x, y) from +x towards +y.
+double around(double x, double y) {
+  const double size = std::abs(x) + std::abs(y);
+  if (size == 0.0) return 0.0;
+  const double across = y / size;
+  if (x < 0.0) return 2.0 - across;
+  return across < 0.0 ? 4.0 + across : across;
+}
+
 class Patches {
  public:
   explicit Patches(double size) : size_(size) {}
@@ -71,13 +83,15 @@ ToolElements::ToolElements(const TriangleMesh& surface, double size) {
   size_ = (patches.all.size() + cells_per_group - 1) / cells_per_group * cells_per_group;
   columns_ = hwy::AllocateAligned<double>(7 * size_);
   std::fill_n(columns_.get(), 7 * size_, 0.0);
-  std::vector<const Patch*> upwards;
-  for (const auto& [place, patch] : patches.all) upwards.push_back(&patch);
-  std::stable_sort(upwards.begin(), upwards.end(), [](const Patch* one, const Patch* other) {
-    return one->moment.z() / one->area < other->moment.z() / other->area;
-  });
-  for (std::size_t i = 0; i < upwards.size(); ++i) {
-    const Patch& patch = *upwards[i];
+  // Layer by layer, and around in each: then the groups of a kernel lie deep or not, and lead or trail, as a
+  // whole.
+  std::vector<std::pair<Order, const Patch*>> order;
+  for (const auto& [place, patch] : patches.all)
+    order.push_back({{place[2], around(patch.facing.x(), patch.facing.y())}, &patch});
+  std::stable_sort(order.begin(), order.end(),
+                   [](const auto& one, const auto& other) { return one.first < other.first; });
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const Patch& patch = *order[i].second;
     places_.emplace_back(patch.moment / patch.area);
     normals_.emplace_back(patch.facing.normalized());
     // The vector sum: then the whole surface's is 0, as that of a closed one must be.

@@ -8,8 +8,9 @@
 
 namespace sandstroke {
 
-/// A tool's surface as elements of about one size, the lowest first as it is not turned: what forces are
-/// summed over. Columns of size(), which is a multiple of 8: what is beyond count() has no area.
+/// A tool's surface as elements of about one size: what forces are summed over. As it is not turned, the
+/// lowest come first, in layers of that size, and within a layer those that face alike lie together. Columns
+/// of size(), which is a multiple of 8: what is beyond count() has no area.
 class ToolElements {
  public:
   /// Triangles larger than `size` [m] are divided, and those that lie in one cube of that size and face about
