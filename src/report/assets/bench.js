@@ -170,6 +170,51 @@ drawPage((data, main) => {
     });
   }
 
+  /** A chart that comes with a problem: curves of one name in one colour, looks that mean what is said. */
+  function plotChart({ title, note, x_title, x_unit, y_title, curves, looks: meanings }) {
+    const x = scaleOf(curves.flatMap((curve) => curve.x), { title: x_title, unit: x_unit, margin: 0.02 });
+    const y = scaleOf(curves.flatMap((curve) => curve.y), { title: y_title });
+    const names = [...new Set(curves.map(({ name }) => name))];
+    const lookIn = { line: { dash: "solid" }, dashed: { dash: "dashed" }, points: { dash: "none", symbol: symbols[0] } };
+    const series = curves.map(({ name, look, x: places, y: values }) => {
+      const { colour } = lookOf(names.indexOf(name)), { dash, symbol } = lookIn[look];
+      const data = places.map((place, i) => ({ value: [x.at(place), y.at(values[i])], place, value_there: values[i] }));
+      return { type: "line", name, data, symbol: symbol ? outlined(symbol) : "none", symbolSize: 8,
+               itemStyle: { color: colour },
+               lineStyle: { color: colour, type: dash === "none" ? "solid" : dash, width: symbol ? 0 : 1.75 } };
+    });
+    const legend = [...names.map((name, i) => ({ name, series: true, colour: lookOf(i).colour })),
+                    ...meanings.map(({ look, text }) => ({ name: text, colour: "#333333", ...lookIn[look] }))];
+    const option = {
+      ...chartBase(({ seriesName, data }) => tipOf(seriesName, [[x_title, data.place], [y_title, data.value_there]])),
+      xAxis: x.axis, yAxis: { ...y.axis, nameGap: 46 }, series };
+    return chart({ title, note, legend, option });
+  }
+
+  /** What others measured, beside the law. */
+  const comparisonTable = (rows) => table(
+    [{ name: "medium", title: "Medium", cell: (row) => el("span", { class: "long" }, row.medium) },
+     { name: "what", title: "What", cell: (row) => el("span", { class: "long" }, row.what) },
+     ...[["measured", "Measured"], ["model", "The law"]].map(([name, title]) =>
+       ({ name, title, cell: (row) => toTwo(row[name]) })),
+     { name: "off", title: "Off by", unit: "%", value: (row) => Math.round(100 * row.off) },
+     { name: "source", title: "Source" }], rows, { label: "The law beside measurements" }).element;
+
+  /** Times of ticks: a row for each tool and setting, a column for each law. */
+  function tickTable(own) {
+    const laws = [...new Set(own.map((run) => run.force_law))], rows = new Map();
+    for (const run of own) {
+      const key = `${run.tool}, ${run.label}`;
+      if (!rows.has(key)) rows.set(key, { tool: run.tool, label: run.label });
+      Object.assign(rows.get(key), { [run.force_law]: run.tick_microseconds, [`${run.force_law} times`]: run.of_paper });
+    }
+    return table([{ name: "tool", title: "Tool" }, { name: "label", title: "Settings" },
+                  ...laws.map((law) => ({ name: law, title: law, unit: "µs", cell: (row) => toTwo(row[law]) })),
+                  ...laws.filter((law) => law !== "paper").map((law) =>
+                    ({ name: `${law} times`, title: `${law} over paper`, cell: (row) => toTwo(row[`${law} times`]) }))],
+                 [...rows.values()], { label: "Time of a tick" }).element;
+  }
+
   main.append(el("h1", {}, document.title), machineLine(data.machine));
   if (data.quick)
     main.append(el("p", { class: "warning" }, "A quick run: few and coarse runs, to see that all works."));
@@ -191,10 +236,16 @@ drawPage((data, main) => {
 
   problems.forEach((problem, i) => {
     const own = runs.filter((run) => run.problem === problem.name);
-    const drawn = [workChart, convergenceChart, slopeChart].map((draw) => draw(problem, own)).filter(Boolean);
-    main.append(el("section", { id: sections[i][0] }, el("h2", {}, problem.title), el("p", {}, problem.text),
-                   drawn.length ? el("div", { class: "charts lead" }, ...drawn)
-                                : el("p", { class: "quiet" }, "No run of this problem can be drawn.")));
+    const section = el("section", { id: sections[i][0] }, el("h2", {}, problem.title), el("p", {}, problem.text));
+    main.append(section);
+    if (problem.times_ticks) return section.append(tickTable(own));
+    const drawn = [...[workChart, convergenceChart, slopeChart].map((draw) => draw(problem, own)).filter(Boolean),
+                   ...(problem.plots ?? []).map(plotChart)];
+    section.append(drawn.length ? el("div", { class: "charts lead" }, ...drawn)
+                                : el("p", { class: "quiet" }, "No run of this problem can be drawn."));
+    if (problem.comparisons?.length)
+      section.append(el("h3", {}, "The law beside measurements"), el("p", {}, problem.comparisons_text),
+                     comparisonTable(problem.comparisons));
   });
 
   const problemColumn = { name: "problem", title: "Problem",
@@ -225,7 +276,8 @@ drawPage((data, main) => {
     },
     runs: () => {
       const all = table([problemColumn, { name: "series", title: "Series" }, { name: "label", title: "Run" },
-                         ...columns, { name: "pareto", title: "Front", value: (row) => (row.pareto ? "●" : null),
+                         ...columns.filter(({ name }) => !["problem", "series", "label", "pareto"].includes(name)),
+                         { name: "pareto", title: "Front", value: (row) => (row.pareto ? "●" : null),
                                         cell: (row) => (row.pareto ? "●" : "") }],
                         runs, { label: "All runs" });
       const choice = el("select", { change: (event) => all.show((row) =>

@@ -4,32 +4,13 @@
 #include <cmath>
 
 #include "sim/simulation.h"
+#include "validation/study/contact_scene.h"
 #include "validation/study/error_checks.h"
 #include "validation/study/exact_shapes.h"
 #include "validation/study/problem.h"
 
 namespace sandstroke {
 namespace {
-
-/// A bed that does not relax while the tool moves, so that the sand's level is what the closed form says.
-Scene contact_scene(double width, int cells, double servo_rate) {
-  Scene scene;
-  scene.bed.width = scene.bed.depth = width;
-  scene.bed.cols = scene.bed.rows = cells;
-  scene.device.servo_rate = servo_rate;
-  scene.device.max_force = 0.0;
-  scene.relaxation.rate = 0.0;
-  scene.output.trace = false;
-  return scene;
-}
-
-Stroke straight(const Eigen::Vector3d& from, const Eigen::Vector3d& to, double seconds) {
-  Stroke stroke;
-  stroke.gap_threshold = 2.0 * seconds;
-  stroke.time = {0.0, seconds};
-  stroke.position = {from, to};
-  return stroke;
-}
 
 Trial work_trial(const Scene& scene, const HeightField& bed, const Stroke& stroke, double exact_work) {
   const RunResult result = solve(scene, bed, stroke).result;
@@ -58,7 +39,7 @@ Problem plunge_problem(const ProblemOptions& options) {
     Scene scene = contact_scene(0.2, 100, rate);
     scene.force.drag = DragDirection::full;
     const double exact = plunge_work(depth, scene.force) * (1.0 + scene.force.k_f * speed);
-    const Stroke stroke = straight({0.0, 0.0, above}, {0.0, 0.0, -depth}, (above + depth) / speed);
+    const Stroke stroke = straight({{0.0, 0.0, above}, {0.0, 0.0, -depth}}, {(above + depth) / speed});
     const HeightField bed(scene.bed.rows, scene.bed.cols, scene.bed.cell_size());
     problem.contenders.push_back(
         work_contender("force held for a tick", fmt::format("servo rate {} Hz", rate), scene, options.threads,
@@ -92,7 +73,8 @@ Problem drag_problem(const ProblemOptions& options) {
     const double level = -slot_depth * strip_share_of_disk(ToolFootprint(scene.tool).reach(), half_width);
     const double tip = -0.97 * slot_depth;
     const double exact = drag_work(level - tip, speed, length, scene.force);
-    const Stroke stroke = straight({-0.5 * length, centre, tip}, {0.5 * length, centre, tip}, length / speed);
+    const Stroke stroke =
+        straight({{-0.5 * length, centre, tip}, {0.5 * length, centre, tip}}, {length / speed});
     if (cells_per_radius == 8.0) {
       Scene cell_by_cell = scene;
       cell_by_cell.bed.surface.kind = SurfaceKind::file;

@@ -24,6 +24,7 @@ struct RunSettings {
   double servo_rate = not_applicable;       ///< Hz
   double relaxation_rate = not_applicable;  ///< Hz
   double threads = 1;
+  std::string tool = {}, force_law = {};  ///< where a problem compares them
 };
 
 /// What one run took besides time, and how far it is from the truth.
@@ -42,6 +43,7 @@ struct Score {
   double volume_drift = not_applicable;      ///< of the moved volume
   double displaced_volume = not_applicable;  ///< m^3, pushed by the tool, the same sand again and again
   double furrow_depth = not_applicable;      ///< m, the median (sim/furrow.h)
+  double timed_ticks = not_applicable;       ///< how many the run's time is that of
   bool converged = true;
   std::vector<double> slope_errors = {};  ///< deg, by flank_directions(); may be empty
 };
@@ -67,6 +69,27 @@ struct ErrorCheck {
   double estimate, truth;
 };
 
+/// A chart that comes with a problem, of curves over x.
+struct Plot {
+  enum class Look { line, dashed, points };
+  struct Curve {
+    std::string name;  ///< curves of one name have one colour
+    Look look;
+    std::vector<double> x, y;
+  };
+  std::string title, note;
+  std::string x_title, x_unit, y_title;
+  std::vector<Curve> curves;
+  std::vector<std::pair<Look, std::string>> looks;  ///< what they mean
+};
+
+/// What somebody measured, beside what the program's law says of it.
+struct Comparison {
+  std::string medium, what;
+  double measured, model;
+  std::string source;
+};
+
 /// A problem with a known answer.
 struct Problem {
   std::string name, title;
@@ -78,6 +101,11 @@ struct Problem {
   /// What runs of it say of their own error; none where `sandstroke run` cannot run it.
   std::function<std::vector<ErrorCheck>()> check_errors = {};
   double converged_to = not_applicable;  ///< how far a computed reference is from a coarser one, as `error`
+  /// What counts is no error but the time of a tick, beside that of the paper's law: no front, no order.
+  bool times_ticks = false;
+  std::vector<Plot> plots = {};
+  std::string comparisons_text = {};
+  std::vector<Comparison> comparisons = {};
 };
 
 /// A rule for relaxing sand that is not this library's, to stand beside it.
@@ -111,6 +139,15 @@ Problem crater_problem(const ProblemOptions& options);
 // The device's work, against closed forms (contact.cpp).
 Problem plunge_problem(const ProblemOptions& options);
 Problem drag_problem(const ProblemOptions& options);
+// Tools of any shape, against closed forms and the sphere (tool_shapes.cpp).
+Problem blade_problem(const ProblemOptions& options);
+Problem wedge_problem(const ProblemOptions& options);
+Problem mesh_problem(const ProblemOptions& options);
+// The force of the contact, against closed forms and the theory itself (contact_forces.cpp).
+Problem plate_force_problem(const ProblemOptions& options);
+Problem sphere_force_problem(const ProblemOptions& options);
+// What laws of the force take (tick_time.cpp).
+Problem tick_problem(const ProblemOptions& options);
 // The dynamic device against a servo loop that is all but continuous; whole strokes against themselves, finer
 // (strokes.cpp).
 Problem dynamic_problem(const ProblemOptions& options);

@@ -143,6 +143,14 @@ void mark_pareto(std::vector<StudyRun>& runs) {
     });
 }
 
+void compare_ticks(std::vector<StudyRun>& runs) {
+  for (StudyRun& run : runs)
+    for (const StudyRun& other : runs)
+      if (other.settings.force_law == "paper" && other.settings.tool == run.settings.tool &&
+          other.label == run.label)
+        run.of_paper = run.error / other.error;
+}
+
 namespace {
 
 /// The 97.5 % point of Student's t: exact to the digits for up to 10 degrees of freedom, above by its
@@ -205,8 +213,12 @@ Study run_study(const StudyOptions& options) {
     std::vector<StudyRun> runs = Race(problem, limits, study).run(repeats, [&](double done) {
       options.progress(share * (static_cast<double>(i) + done));
     });
-    mark_pareto(runs);
-    add_orders(problem, runs, study.orders);
+    if (problem.times_ticks) {
+      compare_ticks(runs);
+    } else {
+      mark_pareto(runs);
+      add_orders(problem, runs, study.orders);
+    }
     study.runs.insert(study.runs.end(), runs.begin(), runs.end());
     if (!problem.check_errors || interrupted()) continue;
     for (ErrorCheck& check : problem.check_errors()) {

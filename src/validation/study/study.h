@@ -17,8 +17,9 @@ struct StudyRun {
   double least_seconds = 0.0, largest_seconds = 0.0;
   double repeats = 0;
   Score score;
-  double error = not_applicable;  ///< the problem's
-  bool pareto = false;            ///< no other run of the problem is both as near and as fast
+  double error = not_applicable;     ///< the problem's
+  double of_paper = not_applicable;  ///< time of a tick, over that of the paper's law in the same study
+  bool pareto = false;               ///< no other run of the problem is both as near and as fast
 };
 
 /// How a series' error falls with its step: log error = order * log step + constant by least squares, with
@@ -51,6 +52,9 @@ Study run_study(const StudyOptions& options);
 
 /// Sets `pareto` of runs with an error, problem by problem.
 void mark_pareto(std::vector<StudyRun>& runs);
+
+/// Sets `of_paper` of runs that time ticks: over the run with the same tool and label under the paper's law.
+void compare_ticks(std::vector<StudyRun>& runs);
 
 /// Of points (step, error), all above 0, with at least 3 different steps; not_applicable otherwise.
 ConvergenceOrder fit_order(const std::vector<std::pair<double, double>>& points);

@@ -32,6 +32,8 @@ const std::vector<Column> columns = {
     {"share", "Share of a pass", "", NUMBER(run.settings.share)},
     {"servo_rate", "Servo rate", "Hz", NUMBER(run.settings.servo_rate)},
     {"relaxation_rate", "Relaxation rate", "Hz", NUMBER(run.settings.relaxation_rate)},
+    {"tool", "Tool", "", TEXT(run.settings.tool)},
+    {"force_law", "Law of the force", "", TEXT(run.settings.force_law)},
     {"threads", "Threads", "", NUMBER(run.settings.threads)},
     {"wall_seconds", "Time", "s", NUMBER(run.wall_seconds)},
     {"wall_least", "Least time", "s", NUMBER(run.least_seconds)},
@@ -52,6 +54,8 @@ const std::vector<Column> columns = {
     {"volume_drift", "Volume drift, of the moved", "", NUMBER(run.score.volume_drift)},
     {"displaced_volume", "Sand pushed", "m^3", NUMBER(run.score.displaced_volume)},
     {"furrow_depth", "Furrow", "m", NUMBER(run.score.furrow_depth)},
+    {"tick_microseconds", "Time of a tick", "us", NUMBER(1e6 * run.wall_seconds / run.score.timed_ticks)},
+    {"of_paper", "Time of a tick, over the paper's law", "", NUMBER(run.of_paper)},
     {"converged", "At rest", "", NUMBER(run.score.converged)},
     {"pareto", "On the Pareto front", "", NUMBER(run.pareto)},
 };
@@ -116,20 +120,77 @@ Table orders_table(const std::vector<ConvergenceOrder>& orders) {
            {"points", "Points", "", points}}};
 }
 
-nlohmann::ordered_json study_json(const Study& study) {
-  using Json = nlohmann::ordered_json;
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json plot_json(const Plot& plot) {
+  const auto look_name = [](Plot::Look look) {
+    return look == Plot::Look::line ? "line" : look == Plot::Look::dashed ? "dashed" : "points";
+  };
+  Json json{{"title", plot.title},   {"note", plot.note},       {"x_title", plot.x_title},
+            {"x_unit", plot.x_unit}, {"y_title", plot.y_title}, {"curves", Json::array()},
+            {"looks", Json::array()}};
+  for (const Plot::Curve& curve : plot.curves)
+    json["curves"].push_back(
+        {{"name", curve.name}, {"look", look_name(curve.look)}, {"x", curve.x}, {"y", curve.y}});
+  for (const auto& [look, text] : plot.looks)
+    json["looks"].push_back({{"look", look_name(look)}, {"text", text}});
+  return json;
+}
+
+Json comparison_json(const Comparison& one) {
+  return {{"medium", one.medium},
+          {"what", one.what},
+          {"measured", one.measured},
+          {"model", one.model},
+          {"off", one.model / one.measured - 1.0},
+          {"source", one.source}};
+}
+
+Json problem_json(const Problem& problem) {
+  Json json{{"name", problem.name},
+            {"title", problem.title},
+            {"text", problem.text},
+            {"error", problem.error},
+            {"error_title", problem.error_title},
+            {"error_unit", problem.error_unit},
+            {"converged_to", number_or_null(problem.converged_to)},
+            {"times_ticks", problem.times_ticks},
+            {"plots", Json::array()},
+            {"comparisons_text", problem.comparisons_text},
+            {"comparisons", Json::array()}};
+  for (const Plot& plot : problem.plots) json["plots"].push_back(plot_json(plot));
+  for (const Comparison& one : problem.comparisons) json["comparisons"].push_back(comparison_json(one));
+  return json;
+}
+
+/// What a tick takes under each law, and over the paper's.
+std::string ticks_text(const std::vector<StudyRun>& runs) {
+  std::vector<std::string> tools, labels, laws;
+  std::vector<double> times, of_paper;
+  for (const StudyRun& run : runs) {
+    if (std::isnan(run.of_paper)) continue;
+    tools.push_back(run.settings.tool), labels.push_back(run.label), laws.push_back(run.settings.force_law);
+    times.push_back(run.error), of_paper.push_back(run.of_paper);
+  }
+  if (times.empty()) return "";
+  return "\nTime of a tick\n" + aligned_text({{{"tool", "Tool", "", tools},
+                                               {"label", "Settings", "", labels},
+                                               {"force_law", "Law of the force", "", laws},
+                                               {"tick_microseconds", "Time", "us", times},
+                                               {"of_paper", "Over paper", "", of_paper}}},
+                                             3);
+}
+
+}  // namespace
+
+Json study_json(const Study& study) {
   const Table runs = runs_table(study.runs), orders = orders_table(study.orders);
   Json json{{"machine", describe_machine()}, {"quick", study.quick},  {"problems", Json::array()},
             {"columns", columns_json(runs)}, {"runs", Json::array()}, {"orders", Json::array()},
             {"estimates", Json::array()},    {"notes", study.notes}};
-  for (const Problem& problem : study.problems)
-    json["problems"].push_back({{"name", problem.name},
-                                {"title", problem.title},
-                                {"text", problem.text},
-                                {"error", problem.error},
-                                {"error_title", problem.error_title},
-                                {"error_unit", problem.error_unit},
-                                {"converged_to", number_or_null(problem.converged_to)}});
+  for (const Problem& problem : study.problems) json["problems"].push_back(problem_json(problem));
   for (std::size_t i = 0; i < study.runs.size(); ++i) {
     const std::vector<double>& slopes = study.runs[i].score.slope_errors;
     Json run = row_json(runs, i);
@@ -171,6 +232,7 @@ std::string study_summary(const Study& study) {
       "Nearest to the truth, and the fastest with no more than twice that error\n" + aligned_text(table, 3);
   if (!study.orders.empty())
     text += "\nOrders of convergence\n" + aligned_text(orders_table(study.orders), 3);
+  text += ticks_text(study.runs);
   for (const Problem& problem : study.problems)
     if (!std::isnan(problem.converged_to))
       text += fmt::format("\n{}: the reference itself is converged to {:.2g}\n", problem.title,

@@ -41,6 +41,34 @@ TEST(StudyJson, HoldsEveryColumnOfEveryRunAndWhatIsNoNumberAsNull) {
   EXPECT_EQ(json["notes"][0], "left out");
 }
 
+TEST(StudyJson, HoldsWhatComesWithAProblem) {
+  Study study = small_study();
+  Problem& heap = study.problems[0];
+  heap.plots = {{"Stress",
+                 "note",
+                 "angle",
+                 "°",
+                 "stress",
+                 {{"flat", Plot::Look::dashed, {0.0, 1.0}, {2.0, 3.0}}},
+                 {{Plot::Look::dashed, "a theory"}}}};
+  heap.comparisons = {{"sand", "a plate", 2.0, 2.5, "somebody"}};
+  const nlohmann::ordered_json json = study_json(study)["problems"][0];
+  EXPECT_EQ(json["plots"][0]["curves"][0]["look"], "dashed");
+  EXPECT_EQ(json["plots"][0]["curves"][0]["y"], nlohmann::json({2.0, 3.0}));
+  EXPECT_EQ(json["plots"][0]["looks"][0]["text"], "a theory");
+  EXPECT_EQ(json["comparisons"][0]["off"], 0.25);
+  EXPECT_EQ(json["times_ticks"], false);
+}
+
+TEST(StudySummary, SaysWhatTicksTake) {
+  Study study = small_study();
+  study.runs[0].settings.tool = "rake", study.runs[0].settings.force_law = "rft";
+  study.runs[0].of_paper = 2.25;
+  const std::string text = study_summary(study);
+  EXPECT_NE(text.find("rake"), std::string::npos) << text;
+  EXPECT_NE(text.find("2.25"), std::string::npos) << text;
+}
+
 TEST(StudySummary, NamesTheNearestAndTheFastestThatIsNearlyAsNear) {
   const std::string text = study_summary(small_study());
   EXPECT_NE(text.find("0.24\n"), std::string::npos) << text;
