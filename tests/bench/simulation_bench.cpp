@@ -63,13 +63,12 @@ class TickClock : public SimulationObserver {
 
 enum class Tool { in_sand, above, lifted };
 
-void simulation_tick(benchmark::State& state, DeviceModel device, Tool tool) {
-  Scene scene;
-  scene.device.model = device;
+/// Eight lines of 1.8 m at 0.25 m/s, over 2 m by 2 m of sand.
+void simulation_tick(benchmark::State& state, Scene scene, Tool tool) {
   scene.relaxation.rate = 0.0;
   scene.relaxation.max_passes = 0;
   scene.output.trace = false;
-  Stroke stroke;  // eight lines of 1.8 m at 0.25 m/s
+  Stroke stroke;
   const double z = tool == Tool::in_sand ? -0.004 : 0.02;
   for (int i = 0; i <= 8 * 7200; ++i) {
     const int line = std::min(i / 7200, 7);
@@ -79,7 +78,7 @@ void simulation_tick(benchmark::State& state, DeviceModel device, Tool tool) {
     if (tool == Tool::lifted) stroke.contact.push_back(pen_up);
   }
   for (auto _ : state) {
-    Simulation simulation(scene, HeightField(1000, 1000, dx), stroke);
+    Simulation simulation(scene, HeightField(scene.bed.rows, scene.bed.cols, scene.bed.cell_size()), stroke);
     TickClock clock;
     const RunResult result = simulation.run({&clock});
     if ((result.contact_ticks > 0) != (tool == Tool::in_sand))
@@ -87,16 +86,40 @@ void simulation_tick(benchmark::State& state, DeviceModel device, Tool tool) {
     state.SetIterationTime(clock.seconds_per_tick());
   }
 }
-#define SIMULATION_TICK(device, tool)                                                  \
-  BENCHMARK_CAPTURE(simulation_tick, device##_##tool, DeviceModel::device, Tool::tool) \
-      ->Name("simulation_tick/" #device "/" #tool)                                     \
-      ->UseManualTime()                                                                \
+
+Scene with_device(DeviceModel model) {
+  Scene scene;
+  scene.device.model = model;
+  return scene;
+}
+#define SIMULATION_TICK(device, tool)                                                               \
+  BENCHMARK_CAPTURE(simulation_tick, device##_##tool, with_device(DeviceModel::device), Tool::tool) \
+      ->Name("simulation_tick/" #device "/" #tool)                                                  \
+      ->UseManualTime()                                                                             \
       ->Iterations(5)
 SIMULATION_TICK(kinematic, in_sand);
 SIMULATION_TICK(kinematic, above);
 SIMULATION_TICK(kinematic, lifted);
 SIMULATION_TICK(dynamic, in_sand);
 SIMULATION_TICK(dynamic, lifted);
+
+/// The same tick under another law of the force, with the sphere of the accurate preset.
+Scene with_law(ForceLaw law) {
+  Scene scene;
+  scene.preset = ModelPreset::accurate;
+  apply_model_preset(scene);
+  scene.relaxation.travel = 0.0;
+  scene.force.law = law;
+  return scene;
+}
+#define FORCE_TICK(law)                                                                 \
+  BENCHMARK_CAPTURE(simulation_tick, law_##law, with_law(ForceLaw::law), Tool::in_sand) \
+      ->Name("simulation_tick/law/" #law)                                               \
+      ->UseManualTime()                                                                 \
+      ->Iterations(5)
+FORCE_TICK(paper);
+FORCE_TICK(rft);
+FORCE_TICK(archimedes);
 
 }  // namespace
 }  // namespace sandstroke
