@@ -192,9 +192,8 @@ drawPage((data, main) => {
   }
 
   /** What others measured, beside the law. */
-  const comparisonTable = (rows) => table(
-    [{ name: "medium", title: "Medium", cell: (row) => el("span", { class: "long" }, row.medium) },
-     { name: "what", title: "What", cell: (row) => el("span", { class: "long" }, row.what) },
+  const measuredTable = (rows) => table(
+    [{ name: "medium", title: "Medium" }, { name: "what", title: "What" },
      ...[["measured", "Measured"], ["model", "The law"]].map(([name, title]) =>
        ({ name, title, cell: (row) => toTwo(row[name]) })),
      { name: "off", title: "Off by", unit: "%", value: (row) => Math.round(100 * row.off) },
@@ -243,9 +242,9 @@ drawPage((data, main) => {
                    ...(problem.plots ?? []).map(plotChart)];
     section.append(drawn.length ? el("div", { class: "charts lead" }, ...drawn)
                                 : el("p", { class: "quiet" }, "No run of this problem can be drawn."));
-    if (problem.comparisons?.length)
-      section.append(el("h3", {}, "The law beside measurements"), el("p", {}, problem.comparisons_text),
-                     comparisonTable(problem.comparisons));
+    if (problem.measured?.length)
+      section.append(el("h3", {}, "The law beside measurements"), el("p", {}, problem.measured_text),
+                     measuredTable(problem.measured));
   });
 
   const problemColumn = { name: "problem", title: "Problem",

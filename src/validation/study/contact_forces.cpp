@@ -94,10 +94,10 @@ Problem plate_force_problem(const ProblemOptions& options) {
                                   "resistance. The plate's error is "
                                   "the area that it lacks as a polygon, whatever the cells.");
   problem.plots = stress_plots();
-  problem.comparisons_text =
+  problem.measured_text =
       "Stress over depth. Where no unit is named, it is that of the medium's flat plate pushed straight "
       "down.";
-  problem.comparisons = measured_stresses();
+  problem.measured = measured_stresses();
   constexpr double depth = 0.0105;  // m
   ToolSettings plate, blade;
   plate.shape = ToolShape::cylinder;

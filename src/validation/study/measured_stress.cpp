@@ -86,12 +86,12 @@ std::vector<Plot> stress_plots() {
           stress_plot("Horizontal stress of the law, against the motion", &PlanarStress::against)};
 }
 
-std::vector<Comparison> measured_stresses() {
+std::vector<MeasuredFigure> measured_stresses() {
   SandStrength quikrete;
   quikrete.preset = SandPreset::quikrete;
   apply_sand_preset(quikrete);
   const double flat = law_stress(0.0, to_radians(straight_down)).up;
-  std::vector<Comparison> rows = {
+  std::vector<MeasuredFigure> rows = {
       {fmt::format("Quikrete sand ({:.0f}°, {:.0f} kg/m³)", quikrete.friction_angle, quikrete.density),
        "flat plate pushed down: upwards, N/cm³", 2.02, 1e-6 * flat * resistance(quikrete),
        "Agarwal et al. 2023"}};

@@ -15,6 +15,6 @@ PlanarStress law_stress(double tilt, double dive);
 std::vector<Plot> stress_plots();
 
 /// The law beside measured figures.
-std::vector<Comparison> measured_stresses();
+std::vector<MeasuredFigure> measured_stresses();
 
 }  // namespace sandstroke

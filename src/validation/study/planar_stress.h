@@ -6,7 +6,7 @@ namespace sandstroke {
 
 /// A granular medium as two-dimensional resistive force theory knows it: the Fourier coefficients of the
 /// stress on a plate over its depth [N/cm^3], fitted to measurements (Li, Zhang, Goldman, Science 339, 2013,
-/// supplement, tables S2 and S3). The generic ones are those of what all media have in common, so scaled that
+/// supplement, table S2). The generic ones are those of what all media have in common, so scaled that
 /// a flat plate pushed straight down feels 1. Not a number: not known here.
 struct PlanarMedium {
   const char* name;

@@ -84,7 +84,7 @@ struct Plot {
 };
 
 /// What somebody measured, beside what the program's law says of it.
-struct Comparison {
+struct MeasuredFigure {
   std::string medium, what;
   double measured, model;
   std::string source;
@@ -104,8 +104,8 @@ struct Problem {
   /// What counts is no error but the time of a tick, beside that of the paper's law: no front, no order.
   bool times_ticks = false;
   std::vector<Plot> plots = {};
-  std::string comparisons_text = {};
-  std::vector<Comparison> comparisons = {};
+  std::string measured_text = {};
+  std::vector<MeasuredFigure> measured = {};
 };
 
 /// A rule for relaxing sand that is not this library's, to stand beside it.

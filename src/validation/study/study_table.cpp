@@ -139,7 +139,7 @@ Json plot_json(const Plot& plot) {
   return json;
 }
 
-Json comparison_json(const Comparison& one) {
+Json figure_json(const MeasuredFigure& one) {
   return {{"medium", one.medium},
           {"what", one.what},
           {"measured", one.measured},
@@ -158,10 +158,10 @@ Json problem_json(const Problem& problem) {
             {"converged_to", number_or_null(problem.converged_to)},
             {"times_ticks", problem.times_ticks},
             {"plots", Json::array()},
-            {"comparisons_text", problem.comparisons_text},
-            {"comparisons", Json::array()}};
+            {"measured_text", problem.measured_text},
+            {"measured", Json::array()}};
   for (const Plot& plot : problem.plots) json["plots"].push_back(plot_json(plot));
-  for (const Comparison& one : problem.comparisons) json["comparisons"].push_back(comparison_json(one));
+  for (const MeasuredFigure& one : problem.measured) json["measured"].push_back(figure_json(one));
   return json;
 }
 

@@ -54,7 +54,7 @@ TEST(AnyToolProblems, ForcesOnPlatesAreThoseOfTheTheory) {
 TEST(AnyToolProblems, ForcesOnASphereAreThoseOfTheTheory) {
   for (const auto& [series, errors] : errors_of("force-sphere")) {
     ASSERT_EQ(errors.size(), 3u);
-    EXPECT_LT(errors[2], errors[0]) << series;
+    EXPECT_LT(errors[2], series.starts_with("pushed") ? errors[0] : 0.01) << series;
     EXPECT_LT(errors[2], 0.025) << series;
   }
 }

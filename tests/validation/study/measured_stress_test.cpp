@@ -43,10 +43,10 @@ TEST(StressPlots, ShowEveryTiltByBothTheoriesAndAsMeasured) {
 }
 
 TEST(MeasuredStresses, HaveSourcesAndNumbers) {
-  const std::vector<Comparison> rows = measured_stresses();
+  const std::vector<MeasuredFigure> rows = measured_stresses();
   ASSERT_GT(rows.size(), 1u);
   EXPECT_NEAR(rows[0].model / rows[0].measured, 1.05, 0.01);  // Quikrete: 2.13 of 2.02 N/cm^3
-  for (const Comparison& row : rows) {
+  for (const MeasuredFigure& row : rows) {
     EXPECT_FALSE(row.source.empty());
     EXPECT_TRUE(std::isfinite(row.measured) && std::isfinite(row.model)) << row.what;
   }

@@ -51,12 +51,12 @@ TEST(StudyJson, HoldsWhatComesWithAProblem) {
                  "stress",
                  {{"flat", Plot::Look::dashed, {0.0, 1.0}, {2.0, 3.0}}},
                  {{Plot::Look::dashed, "a theory"}}}};
-  heap.comparisons = {{"sand", "a plate", 2.0, 2.5, "somebody"}};
+  heap.measured = {{"sand", "a plate", 2.0, 2.5, "somebody"}};
   const nlohmann::ordered_json json = study_json(study)["problems"][0];
   EXPECT_EQ(json["plots"][0]["curves"][0]["look"], "dashed");
   EXPECT_EQ(json["plots"][0]["curves"][0]["y"], nlohmann::json({2.0, 3.0}));
   EXPECT_EQ(json["plots"][0]["looks"][0]["text"], "a theory");
-  EXPECT_EQ(json["comparisons"][0]["off"], 0.25);
+  EXPECT_EQ(json["measured"][0]["off"], 0.25);
   EXPECT_EQ(json["times_ticks"], false);
 }
 
