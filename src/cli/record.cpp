@@ -212,7 +212,8 @@ int record(const RecordArguments& arguments) {
   std::optional<LiveSand> sand;
   if (felt) {
     const double largest = largest_force(*felt, device->specification(), settings.servo.force.max_force);
-    sand.emplace(*felt, *bed, device->specification().frame, largest);
+    const DeviceSpecification& is = device->specification();
+    sand.emplace(*felt, *bed, FeltDevice{is.frame, largest, is.measures_orientation});
     header.felt_scene = scene_text(*felt);
     if (arguments.view) {
       view.emplace(fs::path(arguments.output).filename().string(), *felt, *bed, largest,

@@ -56,6 +56,9 @@ struct PointPlacement {
     return axes.transpose() * (turn.transpose() * (placed - shift)) / scale;
   }
   Eigen::Vector3d force(const Eigen::Vector3d& force) const { return turn * (axes * force); }
+  Eigen::Quaterniond orientation(const Eigen::Quaterniond& q) const {
+    return Eigen::Quaterniond(Eigen::Matrix3d(turn * axes)) * q;
+  }
   /// A force on the bed's axes, on those of the stroke's frame.
   Eigen::Vector3d force_back(const Eigen::Vector3d& force) const {
     return axes.transpose() * (turn.transpose() * force);

@@ -50,6 +50,7 @@ void Eroder::exchange() {
   ToolPlace place;
   bool told = false;
   while (places_.pop(place)) told = true;
+  if (told && place.rotation) tool_.turn(*place.rotation);
   if (told) tool_.put(replica_.bed(), place.tip, place.contact);
   begun_ = begun_ || told;
   SandChange change;

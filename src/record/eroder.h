@@ -4,6 +4,7 @@
 #include <exception>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <thread>
 
 #include "record/bed_replica.h"
@@ -17,6 +18,7 @@ namespace sandstroke {
 struct ToolPlace {
   Eigen::Vector3d tip = Eigen::Vector3d::Zero();  ///< m, in the bed
   bool contact = false;
+  std::optional<Eigen::Matrix3d> rotation = {};  ///< of the tool's frame in the bed; none: as it is held
 };
 
 using SandRing = SpscRing<SandChange>;

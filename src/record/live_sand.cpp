@@ -6,6 +6,7 @@
 #include "core/error.h"
 #include "core/machine.h"
 #include "haptics/recording.h"
+#include "tool/tool_surface.h"
 
 namespace sandstroke {
 namespace {
@@ -46,10 +47,10 @@ const HeightField& checked(const Scene& scene, const HeightField& bed) {
 
 }  // namespace
 
-LiveSand::LiveSand(const Scene& scene, const HeightField& bed, const std::string& frame, double largest_force)
+LiveSand::LiveSand(const Scene& scene, const HeightField& bed, const FeltDevice& device)
     : force_(scene.force),
       device_(scene.device),
-      placement_(point_placement(scene.stroke ? scene.stroke->placement : StrokePlacement{}, frame)),
+      placement_(point_placement(scene.stroke ? scene.stroke->placement : StrokePlacement{}, device.frame)),
       highest_(bed.highest()),
       dug_(ring_size),
       slipped_(ring_size),
@@ -57,9 +58,37 @@ LiveSand::LiveSand(const Scene& scene, const HeightField& bed, const std::string
       replica_(checked(scene, bed)),
       eroder_(bed, scene.tool, scene.relaxation, dug_, places_, slipped_),
       sand_(scene.tool, scene.displacement, 0.0),
-      largest_force_(device_.max_force > 0.0 ? std::min(largest_force, device_.max_force) : largest_force) {
+      largest_force_(device_.max_force > 0.0 ? std::min(device.largest_force, device_.max_force)
+                                             : device.largest_force),
+      own_rotation_(own_rotation(scene.tool)),
+      turns_(device.turns) {
   sand_.take_memory(replica_.bed());
+  if (turns_ && !sand_.footprint().is_sphere())
+    shaper_.emplace(scene.tool, scene.displacement.distance, bed.cell_size());
   if (force_.law != ForceLaw::paper) contact_force_.emplace(scene, bed.cell_size());
+}
+
+void LiveSand::start() {
+  eroder_.start();
+  if (shaper_) shaper_->start();
+}
+
+/// The surface that feels turns at once; what digs as soon as it can.
+void LiveSand::turn_tool(const Eigen::Quaterniond& orientation) {
+  if (!turns_) return;
+  const Eigen::Quaterniond placed = placement_.orientation(orientation);
+  for (Eigen::Index i = 0; i < 4; ++i)
+    orientation_[static_cast<std::size_t>(i)].store(placed.coeffs()[i], std::memory_order_relaxed);
+  const Eigen::Matrix3d rotation = rotation_of(placed) * own_rotation_;
+  if (shaper_) shaper_->follow(rotation, sand_.footprint());
+  if (contact_force_) contact_force_->turn(rotation);
+}
+
+Eigen::Quaterniond LiveSand::orientation() const {
+  Eigen::Quaterniond orientation;
+  for (Eigen::Index i = 0; i < 4; ++i)
+    orientation.coeffs()[i] = orientation_[static_cast<std::size_t>(i)].load(std::memory_order_relaxed);
+  return orientation;
 }
 
 Eigen::Vector3d LiveSand::velocity(double time, const Eigen::Vector3d& tip) {
@@ -91,6 +120,7 @@ std::size_t LiveSand::changes_of_move(const Eigen::Vector3d& tip) const {
 
 bool LiveSand::touches(const DeviceReading& reading) noexcept {
   const Eigen::Vector3d tip = this->tip(reading.position);
+  turn_tool(reading.orientation);
   const Interaction interaction = sand_.look(replica_.bed(), tip);
   return interaction.contact || is_beside(interaction, tip);
 }
@@ -116,6 +146,7 @@ FeltForce LiveSand::feel(double time, const DeviceReading& reading) noexcept {
   const std::optional<Eigen::Vector3d> before = sand_.last_tip();
   const Eigen::Vector3d motion = before ? Eigen::Vector3d(tip - *before) : Eigen::Vector3d::Zero();
   const Eigen::Vector3d speed = velocity(time, tip);
+  turn_tool(reading.orientation);
 
   FeltForce felt;
   Interaction interaction;
@@ -131,7 +162,9 @@ FeltForce LiveSand::feel(double time, const DeviceReading& reading) noexcept {
     felt.flags |= held_sand;
     ++report_.held_ticks;
   }
-  places_.push({tip, interaction.contact});  // where the ring is full the eroder knows an older one
+  places_.push({tip, interaction.contact,
+                shaper_ ? std::optional(shaper_->rotation())
+                        : std::nullopt});  // where the ring is full the eroder knows an older one
   depth_.store(interaction.contact ? interaction.depth : std::numeric_limits<double>::quiet_NaN(),
                std::memory_order_relaxed);
   felt.is_above_or_in_sand = !is_beside(interaction, tip);
@@ -141,6 +174,7 @@ FeltForce LiveSand::feel(double time, const DeviceReading& reading) noexcept {
 }
 
 LiveSandReport LiveSand::finish() {
+  if (shaper_) shaper_->stop();
   eroder_.stop();
   if (eroder_.failure()) std::rethrow_exception(eroder_.failure());
   do {

@@ -9,10 +9,18 @@
 #include "haptics/stroke_placement.h"
 #include "record/eroder.h"
 #include "record/felt_force.h"
+#include "record/tool_shaper.h"
 #include "sim/contact_force.h"
 #include "sim/scene.h"
 
 namespace sandstroke {
+
+/// What LiveSand has to know of a device.
+struct FeltDevice {
+  std::string frame;                 ///< DeviceSpecification::frame
+  double largest_force = any_force;  ///< N, what the hand may get
+  bool turns = false;                ///< the tool with the hand
+};
 
 /// What came of feeling sand live.
 struct LiveSandReport {
@@ -40,17 +48,15 @@ class LiveSand : public FeltWorld {
   /// the encoders' steps over one tick alone would be felt (9 um in 1 ms are 9 mm/s).
   static constexpr int velocity_window = 4;
 
-  /// frame: of the device (DeviceSpecification). largest_force [N]: what the hand may get; a law of the
-  /// contact is limited to it (Wrench::limited), and by device.max_force. Error: input, naming the key, where
-  /// the scene is of a kind that cannot be felt live: a simulated device, a stroke placed by its plane or
-  /// cut, or a bed too large for memory.
-  LiveSand(const Scene& scene, const HeightField& bed, const std::string& frame,
-           double largest_force = any_force);
+  /// A law of the contact is limited to the device's largest force (Wrench::limited). Error: input, naming
+  /// the key, where the scene is of a kind that cannot be felt live: a simulated device, a stroke placed by
+  /// its plane or cut, or a bed too large for memory.
+  LiveSand(const Scene& scene, const HeightField& bed, const FeltDevice& device);
 
   /// Is shown the eroding bed, in the thread that erodes. Before start().
   void show_to(std::function<void(const HeightField&)> onlooker) { eroder_.show_to(std::move(onlooker)); }
   /// Starts eroding; the recording is about to begin.
-  void start() { eroder_.start(); }
+  void start();
   FeltForce feel(double time, const DeviceReading& reading) noexcept override;
   bool touches(const DeviceReading& reading) noexcept override;
   /// The recording is over: stops eroding, and brings both beds together. Throws what eroding may have failed
@@ -59,6 +65,10 @@ class LiveSand : public FeltWorld {
 
   /// Lets sand slip once, where it was not started: for a loop whose time is not the wall's.
   void erode() { eroder_.turn(); }
+  /// The same of the tool that turns: it is as the hand held it last.
+  void shape() {
+    if (shaper_) shaper_->work();
+  }
   /// Where the tip is in the bed [m], of a device's position.
   Eigen::Vector3d tip(const Eigen::Vector3d& position) const {
     return tip_of(device_, placement_.position(position));
@@ -67,6 +77,8 @@ class LiveSand : public FeltWorld {
   Eigen::Vector3d force_on_bed(const Eigen::Vector3d& force) const { return placement_.force(force); }
   /// Of the tip in the sand [m] when it was last felt, NaN: it was above. From any thread.
   double depth() const { return depth_.load(std::memory_order_relaxed); }
+  /// How the hand turns the tool, on the bed's axes, as far as it does. From any thread; not of one tick.
+  Eigen::Quaterniond orientation() const;
   /// As the hand feels it.
   const HeightField& bed() const { return replica_.bed(); }
   /// As it erodes.
@@ -84,6 +96,7 @@ class LiveSand : public FeltWorld {
     return std::isnan(interaction.level) && tip.z() <= highest_;
   }
   Eigen::Vector3d velocity(double time, const Eigen::Vector3d& tip);
+  void turn_tool(const Eigen::Quaterniond& orientation);
   /// On the bed's axes [N], after the tool went by `motion` [m].
   Eigen::Vector3d force(const Interaction& interaction, const Eigen::Vector3d& tip,
                         const Eigen::Vector3d& motion, const Eigen::Vector3d& speed);
@@ -103,9 +116,13 @@ class LiveSand : public FeltWorld {
   SandSide sand_;
   std::optional<ContactForce> contact_force_;  // where force.law is not the paper's
   double largest_force_;                       // N
+  Eigen::Matrix3d own_rotation_;               // of the tool
+  bool turns_;                                 // with the hand
+  std::optional<ToolShaper> shaper_;           // of a tool that turns, and is no sphere
   std::array<Past, velocity_window> past_;
   std::int64_t readings_ = 0;                                             // since the tool was lifted
   std::atomic<double> depth_ = std::numeric_limits<double>::quiet_NaN();  // m
+  std::array<std::atomic<double>, 4> orientation_{0.0, 0.0, 0.0, 1.0};    // x, y, z, w
   LiveSandReport report_;
 };
 

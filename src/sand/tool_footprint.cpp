@@ -33,11 +33,14 @@ ToolFootprint::ToolFootprint(const ToolSettings& settings)
   shape_.radius = shape_.reach = horizontal_reach(turned(surface_, rotation_));
 }
 
+bool ToolFootprint::would_turn(const Eigen::Matrix3d& rotation) const {
+  if (is_sphere() || rotation == rotation_) return false;
+  return !envelope_ ||
+         (rotation - rotation_).norm() * farthest_ >= envelope_->cell_size() / (8.0 * envelope_->phases());
+}
+
 void ToolFootprint::turn(const Eigen::Matrix3d& rotation) {
-  if (is_sphere() || rotation == rotation_) return;
-  if (envelope_ &&
-      (rotation - rotation_).norm() * farthest_ < envelope_->cell_size() / (8.0 * envelope_->phases()))
-    return;
+  if (!would_turn(rotation)) return;
   rotation_ = rotation;
   envelope_.reset();
   cells_ = {};

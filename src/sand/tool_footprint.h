@@ -59,10 +59,13 @@ class ToolFootprint {
   /// Needs radius > 0; a mesh that was read.
   explicit ToolFootprint(const ToolSettings& settings);
 
-  /// Turns the tool [its frame in the bed]; of a sphere nothing changes. Seen at the next place(), before
-  /// which the window is empty. What moves
-  /// no point of it by an eighth of a sample's distance or more is left undone.
+  /// Turns the tool [its frame in the bed], unless it would not turn. Seen at the next place(), before which
+  /// the window is empty.
   void turn(const Eigen::Matrix3d& rotation);
+  /// False of a sphere, and of what moves no point of the tool by an eighth of a sample's distance.
+  bool would_turn(const Eigen::Matrix3d& rotation) const;
+  /// m, of its points from the tip; of a sphere 0.
+  double farthest() const { return farthest_; }
   bool is_sphere() const { return surface_.vertices.empty(); }
 
   /// Moves the tool's axis to (x, y) [m] and reads the sand there. Cells outside the bed, or beyond its wall,

@@ -58,6 +58,8 @@ class SandSide {
     return footprint_;
   }
   const ToolFootprint& footprint() const { return footprint_; }
+  /// To put another one in its place; seen at the next move().
+  ToolFootprint& footprint() { return footprint_; }
   /// Where it was in the last tick [m]; none where it was lifted since.
   const std::optional<Eigen::Vector3d>& last_tip() const { return last_tip_; }
 

@@ -55,7 +55,7 @@ struct Feeling {
 
 /// Feels at these times; the sand slips as often as the scene says, by the loop's own time.
 Feeling feel_all(const Scene& scene, const std::vector<double>& times) {
-  LiveSand sand(scene, starting_bed(scene.bed), "bed");
+  LiveSand sand(scene, starting_bed(scene.bed), {"bed"});
   Feeling feeling;
   for (const double t : times) {
     feeling.forces.push_back(sand.feel(t, {SmoothHand::at(t)}).force);
@@ -134,6 +134,7 @@ Scene contact_scene(ForceLaw law, ToolShape shape) {
   scene.preset = ModelPreset::accurate;
   apply_model_preset(scene);
   scene.relaxation.rate = scene.relaxation.travel = 0.0;
+  scene.relaxation.max_passes = 0;
   scene.force.law = law;
   scene.tool.shape = shape;
   scene.tool.height = 0.03;
@@ -162,6 +163,73 @@ TEST(LiveSand, OfALawOfTheContactHasTheForceThatARunHas) {
     }
 }
 
+/// A blade that a hand presses in, turns by a right angle in a second, and holds.
+Eigen::Quaterniond turning(double t) {
+  const double angle = 0.5 * std::numbers::pi * std::clamp(t - 0.2, 0.0, 1.0);
+  return Eigen::Quaterniond(Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitZ()));
+}
+DeviceReading turning_reading(double t) {
+  DeviceReading reading;
+  reading.position = {0.0, 0.0, 0.002 - 0.01 * std::min(t / 0.2, 1.0)};
+  reading.orientation = turning(t);
+  return reading;
+}
+
+TEST(LiveSand, TurnsTheToolWithTheHandAsARunDoes) {
+  Scene scene = contact_scene(ForceLaw::rft, ToolShape::plate);
+  scene.device.max_force = 0.0;
+  const std::vector<double> times = even_times(1.5);
+  LiveSand sand(scene, starting_bed(scene.bed), {"bed", any_force, true});
+  Stroke stroke;
+  stroke.time = times;
+  std::vector<double> forces;
+  for (const double t : times) {
+    const DeviceReading reading = turning_reading(t);
+    forces.push_back(sand.feel(t, reading).force.z());
+    sand.shape();
+    stroke.position.push_back(reading.position);
+    stroke.orientation.push_back(turning(t - 1e-3).coeffs());  // what digs is a tick behind
+  }
+  EXPECT_TRUE(sand.orientation().isApprox(turning(1.5), 1e-12));
+  scene.stroke.emplace();
+  Simulation simulation(scene, starting_bed(scene.bed), stroke);
+  Ticks run;
+  simulation.run({&run});
+  const HeightGrid live = sand.bed().grid(), ran = simulation.bed().grid();
+  EXPECT_LT((live - ran).abs().maxCoeff(), 1e-12);
+  EXPECT_GT(ran.abs().sum() * 4e-6, 1e-6) << "m^3: a quarter of a disc";
+  for (std::size_t k = 202; k < times.size(); ++k)  // since it turns
+    EXPECT_NEAR(forces[k - 1], run.ticks[k].device_force.z(), 1e-6) << times[k];
+  EXPECT_GT(forces.back(), 1.0);
+  // Of a device that does not measure how it is turned, nothing turns.
+  LiveSand straight(scene, starting_bed(scene.bed), {"bed"});
+  for (const double t : times) straight.feel(t, turning_reading(t)), straight.shape();
+  EXPECT_GT((straight.bed().grid() - ran).abs().sum(), 0.3 * ran.abs().sum());
+}
+
+TEST(LiveSand, OfAToolThatTurnsTakesNoMemoryInTheLoopAndItsErosionTurnsWithIt) {
+  Scene scene = contact_scene(ForceLaw::rft, ToolShape::plate);
+  scene.relaxation.rate = 60.0;
+  scene.relaxation.max_passes = RelaxationSettings{}.max_passes;
+  const HeightField start = starting_bed(scene.bed);
+  LiveSand sand(scene, start, {"bed", any_force, true});
+  sand.start();
+  const std::vector<double> times = even_times(1.5);
+  const std::int64_t before = allocations_of_this_thread();
+  for (const double t : times) {
+    sand.feel(t, turning_reading(t));
+    std::this_thread::sleep_for(std::chrono::microseconds(200));
+  }
+  if (allocations_are_counted()) {
+    EXPECT_EQ(allocations_of_this_thread(), before);
+  }
+  // It dug where it was turned to: across x.
+  EXPECT_LT(sand.bed()(75, 75 + 20), -0.003);
+  sand.finish();
+  EXPECT_LT((sand.bed().grid() - sand.eroding_bed().grid()).abs().maxCoeff(), 1e-12);
+  EXPECT_LT(std::abs(sand.bed().volume() - start.volume()), 1e-15);
+}
+
 /// m/s, how fast a device still moves, at most, that a hand has pressed into the sand, drawn back a little,
 /// and holds there; its force acts a tick late.
 double shaking(const Scene& scene) {
@@ -169,7 +237,7 @@ double shaking(const Scene& scene) {
   device.model = DeviceModel::dynamic;
   device.resolution = 0.0;
   SimulatedDevice held(device, {Eigen::Vector3d(0.0, 0.0, 0.005), Eigen::Vector3d::Zero()});
-  LiveSand sand(scene, starting_bed(scene.bed), "bed");
+  LiveSand sand(scene, starting_bed(scene.bed), {"bed"});
   Eigen::Vector3d acts = Eigen::Vector3d::Zero(), late = acts;
   const auto hand = [](double t) {
     const double down = std::min(t / 0.4, 1.0), back = std::clamp((t - 0.5) / 0.1, 0.0, 1.0);
@@ -201,7 +269,7 @@ TEST(LiveSand, OfALawOfTheContactLetsAHandRestWhereTheoryDoes) {
 
 TEST(LiveSand, OfALawOfTheContactBeginsAnewAfterAGap) {
   const Scene scene = contact_scene(ForceLaw::rft, ToolShape::sphere);
-  LiveSand sand(scene, starting_bed(scene.bed), "bed");
+  LiveSand sand(scene, starting_bed(scene.bed), {"bed"});
   FeltForce felt;
   for (int k = 0; k < 100; ++k) felt = sand.feel(1e-3 * k, {Eigen::Vector3d(0.0, 0.0, 0.002 - 1e-4 * k)});
   EXPECT_GT(felt.force.z(), 0.5);
@@ -252,7 +320,7 @@ TEST(LiveSand, ErodingInItsOwnThreadLosesNoSand) {
   Scene scene = small_scene();
   scene.relaxation.rate = 1000.0;
   const HeightField start = starting_bed(scene.bed);
-  LiveSand sand(scene, start, "bed");
+  LiveSand sand(scene, start, {"bed"});
   sand.start();
   int ticks = 0;
   for (const double t : even_times(2.0)) {
@@ -268,7 +336,7 @@ TEST(LiveSand, ErodingInItsOwnThreadLosesNoSand) {
 /// Of so many seconds, in more than so many ticks of contact.
 void expect_no_memory_in_loop(const Scene& scene, double seconds, std::int64_t least_contact) {
   SCOPED_TRACE(static_cast<int>(scene.force.law));
-  LiveSand sand(scene, starting_bed(scene.bed), "bed");
+  LiveSand sand(scene, starting_bed(scene.bed), {"bed"});
   sand.start();
   const std::vector<double> times = even_times(seconds);
   const std::int64_t before = allocations_of_this_thread();
@@ -311,7 +379,7 @@ TEST(LiveSand, ThatErodesTooSlowlyIsFeltButNotDug) {
   // no sand is lost.
   Scene scene = small_scene();
   const HeightField start = starting_bed(scene.bed);
-  LiveSand sand(scene, start, "bed");
+  LiveSand sand(scene, start, {"bed"});
   std::uint32_t flags = 0;
   FeltForce felt;
   for (int k = 0; k < 100'000 && !(flags & held_sand); ++k) {
@@ -333,7 +401,7 @@ TEST(LiveSand, FeelsInTheDevicesAxesAndScale) {
   Scene scene = small_scene();
   scene.relaxation.rate = 0.0;
   scene.device.scale = 5.0;
-  LiveSand sand(scene, starting_bed(scene.bed), "device");
+  LiveSand sand(scene, starting_bed(scene.bed), {"device"});
   FeltForce felt;
   for (int k = 0; k < 100; ++k) felt = sand.feel(k * 1e-3, {Eigen::Vector3d(0.005 - 1e-4 * k, 0.0, -0.001)});
   EXPECT_GT(felt.force.z(), 0.0);
@@ -347,7 +415,7 @@ TEST(LiveSand, AFarJumpDoesNotDigAcrossTheBed) {
   // Two readings more than the gap threshold apart are not joined.
   Scene scene = small_scene();
   scene.relaxation.rate = 0.0;
-  LiveSand sand(scene, starting_bed(scene.bed), "bed");
+  LiveSand sand(scene, starting_bed(scene.bed), {"bed"});
   sand.feel(0.0, {Eigen::Vector3d(-0.1, 0.0, -0.004)});
   sand.feel(0.2, {Eigen::Vector3d(0.1, 0.0, -0.004)});
   EXPECT_EQ(sand.bed()(75, 75), 0.0);
@@ -361,7 +429,7 @@ TEST(LiveSand, AfterAGapTheHandBeginsAtRest) {
   for (const double gap : {0.095, 0.105}) {  // s; the threshold is 0.1 s
     Scene scene = small_scene();
     scene.relaxation.rate = 0.0;
-    LiveSand sand(scene, starting_bed(scene.bed), "bed");
+    LiveSand sand(scene, starting_bed(scene.bed), {"bed"});
     const auto speed_felt = [&](double t, double x) {
       const Eigen::Vector3d force = sand.feel(t, {Eigen::Vector3d(x, 0.0, -0.005)}).force;
       EXPECT_GT(force.z(), 0.0);
@@ -384,7 +452,7 @@ TEST(LiveSand, AfterAGapTheHandBeginsAtRest) {
 TEST(LiveSand, RefusesScenesThatCannotBeFelt) {
   const auto sentence = [](const Scene& scene) -> std::string {
     try {
-      LiveSand sand(scene, starting_bed(scene.bed), "device");
+      LiveSand sand(scene, starting_bed(scene.bed), {"device"});
     } catch (const Error& failure) {
       return failure.what();
     }
@@ -406,7 +474,7 @@ TEST(LiveSand, ReadingsFurtherApartThanATenthOfASecondAreNotJoined) {
   for (const auto& [pause, joined] : {std::pair{0.095, true}, {0.105, false}}) {
     Scene scene = small_scene();
     scene.relaxation.rate = 0.0;
-    LiveSand sand(scene, starting_bed(scene.bed), "bed");
+    LiveSand sand(scene, starting_bed(scene.bed), {"bed"});
     sand.feel(0.0, {Eigen::Vector3d(-0.05, 0.0, -0.004)});
     const FeltForce after = sand.feel(pause, {Eigen::Vector3d(0.05, 0.0, -0.004)});
     EXPECT_EQ(sand.bed()(75, 75) < 0.0, joined) << pause;
@@ -418,7 +486,7 @@ TEST(LiveSand, TheVelocityOfDragIsTheMeanOverTheLastFourReadings) {
   Scene scene = small_scene();
   scene.relaxation.rate = 0.0;
   scene.device.max_force = 0.0;
-  LiveSand sand(scene, starting_bed(scene.bed), "bed");
+  LiveSand sand(scene, starting_bed(scene.bed), {"bed"});
   const std::vector<double> times = {0.0, 0.001, 0.003, 0.004, 0.007, 0.0075, 0.009, 0.0101};
   const auto place = [](double t) -> Eigen::Vector3d { return {20.0 * t * t, -0.3 * t, -0.004}; };
   for (std::size_t i = 0; i < times.size(); ++i) {
@@ -439,7 +507,7 @@ TEST(LiveSand, NothingIsDugOrSlipsBeforeTheRecordingBegins) {
   const Scene scene = small_scene();
   HeightField start = starting_bed(scene.bed);
   start.set(30, 30, 0.05);  // too steep to rest
-  LiveSand sand(scene, start, "bed");
+  LiveSand sand(scene, start, {"bed"});
   sand.start();
   for (int i = 0; i < 20; ++i) {
     EXPECT_TRUE(sand.touches({Eigen::Vector3d(0.0, 0.0, -0.01)}));
@@ -452,7 +520,7 @@ TEST(LiveSand, NothingIsDugOrSlipsBeforeTheRecordingBegins) {
 
 TEST(LiveSand, BesideTheBedOnlyWhatIsAboveItsHighestSandIsOutOfTheSand) {
   const Scene scene = small_scene();  // to x = 0.15 m, level at 0
-  LiveSand sand(scene, starting_bed(scene.bed), "bed");
+  LiveSand sand(scene, starting_bed(scene.bed), {"bed"});
   const auto out = [&](double x, double z) {
     const DeviceReading reading{{x, 0.0, z}};
     const bool touches = sand.touches(reading);
@@ -468,7 +536,7 @@ TEST(LiveSand, BesideTheBedOnlyWhatIsAboveItsHighestSandIsOutOfTheSand) {
 TEST(LiveSand, CountsTheTicksInContact) {
   Scene scene = small_scene();
   scene.relaxation.rate = 0.0;
-  LiveSand sand(scene, starting_bed(scene.bed), "bed");
+  LiveSand sand(scene, starting_bed(scene.bed), {"bed"});
   int contact = 0;
   for (int k = 0; k < 300; ++k)
     contact += sand.feel(1e-3 * k, {Eigen::Vector3d(0.0, 0.0, k < 100 ? 0.001 : -0.001)}).force.z() > 0.0;

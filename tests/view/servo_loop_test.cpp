@@ -44,7 +44,7 @@ TEST(ServoLoopBesideAView, TakesNoMemoryAndShowsWhatIsDug) {
   LiveState state;
   ViewServer server(
       {live, state, {"", start, height_range(start), scene.tool, 0.0, device.scale()}, "", &device});
-  LiveSand sand(scene, start, device.specification().frame);
+  LiveSand sand(scene, start, {device.specification().frame});
   sand.show_to([&live](const HeightField& bed) { live.publish(bed); });
   sand.start();
   RecorderSettings settings;

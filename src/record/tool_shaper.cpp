@@ -1,0 +1,63 @@
+#include "record/tool_shaper.h"
+
+#include <chrono>
+#include <cmath>
+#include <utility>
+
+#include "core/error.h"
+#include "tool/tool_surface.h"
+
+namespace sandstroke {
+
+ToolShaper::ToolShaper(const ToolSettings& tool, double distance, double cell_size)
+    : tool_(tool),
+      distance_(distance),
+      cell_size_(cell_size),
+      spare_(tool),
+      rotation_(own_rotation(tool)),
+      asked_(rotation_) {}
+
+void ToolShaper::start() {
+  stopping_ = false;
+  thread_ = std::thread([this] {
+    for (; !stopping_; std::this_thread::sleep_for(std::chrono::milliseconds(1))) work();
+  });
+}
+
+void ToolShaper::stop() {
+  stopping_ = true;
+  if (thread_.joinable()) thread_.join();
+}
+
+void ToolShaper::work() {
+  if (state_.load(std::memory_order_acquire) != asked) return;
+  try {
+    ToolFootprint footprint(tool_);
+    footprint.turn(asked_);
+    // On a bed that holds all of it, so that it has its memory.
+    const int cells = 2 * static_cast<int>(std::ceil(1.5 * footprint.farthest() / cell_size_)) + 16;
+    footprint.place(HeightField(cells, cells, cell_size_), 0.0, 0.0);
+    footprint.make_ways_out(distance_);
+    spare_ = std::move(footprint);
+    state_.store(made, std::memory_order_release);
+  } catch (const Error&) {
+    state_.store(idle, std::memory_order_release);
+  }
+}
+
+bool ToolShaper::follow(const Eigen::Matrix3d& rotation, ToolFootprint& footprint) noexcept {
+  const State state = state_.load(std::memory_order_acquire);
+  if (state == asked) return false;
+  if (state == made) {
+    std::swap(footprint, spare_);
+    rotation_ = asked_;
+  }
+  state_.store(idle, std::memory_order_relaxed);
+  if (footprint.would_turn(rotation)) {
+    asked_ = rotation;
+    state_.store(asked, std::memory_order_release);
+  }
+  return state == made;
+}
+
+}  // namespace sandstroke
