@@ -115,11 +115,14 @@ TriangleMesh text_mesh(const std::string& bytes, const std::string& name) {
 
 }  // namespace
 
-TriangleMesh read_mesh(const std::filesystem::path& path, double scale) {
-  const std::string name = path.string(), bytes = whole_file(path);
+TriangleMesh parse_mesh(const std::string& bytes, double scale, const std::string& name) {
   TriangleMesh mesh = is_binary(bytes) ? binary_mesh(bytes, name) : text_mesh(bytes, name);
   for (Eigen::Vector3d& vertex : mesh.vertices) vertex *= scale;
   return checked_mesh(mesh, name);
+}
+
+TriangleMesh read_mesh(const std::filesystem::path& path, double scale) {
+  return parse_mesh(whole_file(path), scale, path.string());
 }
 
 ToolSettings with_mesh(ToolSettings tool, const std::filesystem::path& folder) {

@@ -7,7 +7,8 @@
 namespace sandstroke {
 
 /// The surface in an STL file, binary or text, as a tool's (checked_mesh); `scale`: m per unit of the file.
-/// Error: input or io, naming the file.
+/// Error: input or io, naming the file by `name`.
+TriangleMesh parse_mesh(const std::string& bytes, double scale, const std::string& name);
 TriangleMesh read_mesh(const std::filesystem::path& path, double scale);
 
 /// The same tool with its mesh read, where it is one (tool.file, relative to `folder`).
