@@ -1,5 +1,6 @@
-#include "fit/force_fit.h"
+#include "fit/fit_scene.h"
 
+#include <spdlog/fmt/ranges.h>
 #include <spdlog/spdlog.h>
 
 #include <cmath>
@@ -10,9 +11,10 @@
 #include "cli/commands.h"
 #include "cli/print_json.h"
 #include "cli/print_row.h"
+#include "core/error.h"
 #include "core/interrupt.h"
-#include "fit/felt_ticks.h"
 #include "io/scene_toml.h"
+#include "sim/contact_force.h"
 
 namespace sandstroke {
 namespace {
@@ -37,8 +39,8 @@ nlohmann::ordered_json as_json(const ForceFit& fit) {
                                  {"residual_rms", fit.residual},
                                  {"explained", fit.explained},
                                  {"explained_reversed", fit.explained_reversed},
-                                 {"stiffness", fit.stiffness},
-                                 {"stiffness_error", fit.stiffness_error}};
+                                 {fit.of_scale.json_name, fit.scale},
+                                 {fit.of_scale.json_name + std::string("_error"), fit.scale_error}};
   for (const FittedConstant& one : fit.constants)
     json[one.constant.name] = {{"value", one.value},
                                {"error", std::isfinite(one.error) ? one.error : none},
@@ -46,6 +48,13 @@ nlohmann::ordered_json as_json(const ForceFit& fit) {
                                {"unit", one.constant.unit},
                                {"key", one.constant.key}};
   return json;
+}
+
+/// What a law's force does, in a sentence that begins with "it".
+const char* nature_of(ForceLaw law) {
+  if (law == ForceLaw::paper) return "grows with the depth in the sand and, sideways, with the speed";
+  if (law == ForceLaw::archimedes) return "points up and grows with the volume of the tool in the sand";
+  return "grows with the depth of each part of the tool in the sand and is the same at any speed";
 }
 
 /// Values with as many digits as their error has a say in.
@@ -61,24 +70,27 @@ std::string text_of(const FittedConstant& one) {
          ": the recording does not determine it";
 }
 
+/// As --set takes them.
+std::vector<std::string> settings_of(const ForceFit& fit) {
+  std::vector<std::string> settings;
+  for (const FittedConstant& one : fit.constants)
+    settings.push_back(fmt::format("{}={:.6g}", one.constant.key, one.value));
+  return settings;
+}
+
 void print_fit(const ForceFit& fit) {
   print_row("ticks",
             fmt::format("{} in contact, with a recorded force of {:.3g} N rms", fit.ticks, fit.recorded_rms));
-  std::string settings;
-  for (const FittedConstant& one : fit.constants) {
-    print_row(one.constant.key, text_of(one));
-    settings += fmt::format(" --set {}={:.6g}", one.constant.key, one.value);
-  }
-  print_row("k_s k_c", value_text(fit.stiffness, fit.stiffness_error, "N/m: how the force begins to grow"));
+  for (const FittedConstant& one : fit.constants) print_row(one.constant.key, text_of(one));
+  const std::string meaning = fmt::format("{}: {}", fit.of_scale.unit, fit.of_scale.meaning);
+  print_row(fit.of_scale.name, value_text(fit.scale, fit.scale_error, meaning.c_str()));
   print_row("left", fmt::format("{:.3g} N rms; with the scene's constants {:.3g} N", fit.residual,
                                 fit.start_residual));
   print_row("explained",
             fmt::format("{:.0f} % of the recorded force (of its mean square)", 100.0 * fit.explained));
-  if (explains(fit)) print_row("to use it", "sandstroke run SCENE" + settings);
 }
 
-void warn_of(const ForceFit& fit) {
-  if (explains(fit)) return;
+void warn_of(const ForceFit& fit, const Scene& scene) {
   if (fit.explained_reversed >= most_of_it)
     spdlog::warn(
         "the recorded force has the other sign: turned round, the model explains {:.0f} % of it. It must be "
@@ -88,12 +100,27 @@ void warn_of(const ForceFit& fit) {
   else
     spdlog::warn(
         "the model cannot explain this force: with the best constants {:.3g} of {:.3g} N rms are left. It "
-        "grows with the depth in the sand and, sideways, with the speed; the recorded one does something "
-        "else{}",
-        fit.residual, fit.recorded_rms,
-        fit.constants.size() < std::size(force_constants)
+        "{}; the recorded one does something else{}",
+        fit.residual, fit.recorded_rms, nature_of(scene.force.law),
+        fit.constants.size() < constants_of(scene.force.law).size()
             ? ", or needs a constant that --constants leaves out"
             : "");
+}
+
+/// Says how to play a scene with the fitted constants, or why none can be.
+void show_use(const ForceFit& fit, const FitArguments& arguments) {
+  const std::vector<std::string> settings = settings_of(fit);
+  std::vector<std::string> overrides = arguments.overrides;
+  overrides.insert(overrides.end(), settings.begin(), settings.end());
+  try {
+    const std::string doubt = theory_warning(load_scene(arguments.scene, overrides), 0.0);
+    if (!arguments.json)
+      print_row("to use it", fmt::format("sandstroke run SCENE --set {}", fmt::join(settings, " --set ")));
+    if (!doubt.empty()) spdlog::warn("{}", doubt);
+  } catch (const Error& refusal) {
+    spdlog::warn("no scene can have these constants: {}. Is the force in newtons, and are tool and {} right?",
+                 refusal.what(), fit.of_scale.json_name);
+  }
 }
 
 int fit(const FitArguments& arguments) {
@@ -101,23 +128,33 @@ int fit(const FitArguments& arguments) {
   std::vector<std::string> overrides = arguments.overrides;
   if (!arguments.stroke.empty()) overrides.push_back(stroke_override(arguments.stroke));
   const Scene scene = load_scene(scene_path, overrides);
+  const std::vector<bool> asked = chosen_constants(constants_of(scene.force.law), arguments.constants);
   catch_interrupts();
-  const std::vector<FeltTick> ticks = felt_ticks(scene, scene_path.parent_path());
-  if (interrupted()) return 128 + interrupted();
-  const ForceFit found = fit_force(ticks, scene.force, scene.device.max_force, arguments.constants);
+  const std::optional<ForceFit> found = fit_stroke(felt_stroke(scene, scene_path.parent_path()), asked);
+  if (!found) return 128 + interrupted();
   if (arguments.json)
-    print_json(as_json(found));
+    print_json(as_json(*found));
   else
-    print_fit(found);
-  warn_of(found);
+    print_fit(*found);
+  if (explains(*found))
+    show_use(*found, arguments);
+  else
+    warn_of(*found, scene);
   return 0;
+}
+
+/// "k_s, k_c and k_f", each law's, and which of them are fitted by default.
+std::string constants_text(ForceLaw law) {
+  std::vector<std::string> names;
+  for (const ForceConstant& one : constants_of(law))
+    names.push_back(one.name + std::string(one.by_default ? "" : " (where asked for)"));
+  return fmt::format("{}", fmt::join(names, ", "));
 }
 
 }  // namespace
 
 void add_fit_command(CLI::App& app, Command& chosen) {
   auto arguments = std::make_shared<FitArguments>();
-  for (const ForceConstant& constant : force_constants) arguments->constants.push_back(constant.name);
   CLI::App* command =
       app.add_subcommand("fit", "Find the force constants that come nearest to a recorded force");
   command->add_option("SCENE", arguments->scene, "Scene file (TOML)")->type_name("FILE.toml")->required();
@@ -128,16 +165,24 @@ void add_fit_command(CLI::App& app, Command& chosen) {
   add_set_option(*command, arguments->overrides);
   command
       ->add_option("--constants", arguments->constants,
-                   "Constants to fit; the others stay as in the scene. Default: k_s,k_c,k_f")
+                   "Constants of force.law to fit; the others stay as in the scene. Default: see below")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->option_text("A,B,...");
   command->add_flag("--json", arguments->json, "Print one JSON object in SI units");
-  command->footer(
+  command->footer(fmt::format(
+      "Constants of force.law:\n"
+      "  paper       {}\n"
+      "  rft         {}\n"
+      "  archimedes  {}\n"
+      "Of the last two the force goes with friction_angle and density by one number, the sand's resistance;\n"
+      "so the scene's force.density must be right.\n"
+      "\n"
       "The stroke is played through the scene's sand. Depths count from the sand under the tool, which lies\n"
       "lower in the tool's own furrow. The force of the model is held against the recorded one, by least\n"
       "squares. Errors are standard errors (jackknife over ten stretches of time).\n"
-      "Example:  sandstroke fit strokes/wscg/scene.toml --stroke tracing.h5 --set stroke.depth=0.004");
+      "Example:  sandstroke fit strokes/wscg/scene.toml --stroke tracing.h5 --set stroke.depth=0.004",
+      constants_text(ForceLaw::paper), constants_text(ForceLaw::rft), constants_text(ForceLaw::archimedes)));
   command->callback([arguments, &chosen] { chosen = [arguments] { return fit(*arguments); }; });
 }
 

@@ -2,25 +2,19 @@
 
 #include <cmath>
 
-#include "core/error.h"
-#include "core/interrupt.h"
-#include "import/import_stroke.h"
-#include "io/mesh_file.h"
-#include "io/scene_toml.h"
-#include "io/surface_file.h"
 #include "run/run_progress.h"
-#include "run/run_scene.h"
-#include "sim/simulation.h"
+#include "tool/tool_surface.h"
 
 namespace sandstroke {
 namespace {
 
-class Gatherer : public SimulationObserver {
+bool is_felt(const TickRecord& tick) { return tick.contact && !std::isnan(tick.recorded_force.x()); }
+
+class PaperTicks : public SimulationObserver {
  public:
-  explicit Gatherer(double scale) : scale_(scale) {}
+  explicit PaperTicks(double scale) : scale_(scale) {}
   void on_tick(const TickRecord& tick) override {
-    if (tick.contact && !std::isnan(tick.recorded_force.x()))
-      ticks.push_back({tick.depth, scale_ * tick.hand.velocity, tick.recorded_force});
+    if (is_felt(tick)) ticks.push_back({tick.depth, scale_ * tick.hand.velocity, tick.recorded_force});
   }
   std::vector<FeltTick> ticks;
 
@@ -28,30 +22,77 @@ class Gatherer : public SimulationObserver {
   double scale_;
 };
 
+/// Goes with the tool and feels what it touches in each of the grid's sands, as the run does in its own.
+class ContactTicks : public SimulationObserver {
+ public:
+  ContactTicks(const Simulation& run, ContactLaw& law)
+      : run_(run),
+        law_(law),
+        turns_(run.trace_content().orientation),
+        own_rotation_(own_rotation(run.scene().tool)),
+        sand_(run.scene().tool, run.scene().displacement, 0.0) {
+    Scene scene = run.scene();
+    for (const SandStrength& sand : law.grid().sands()) {
+      scene.strength = sand;
+      forces_.emplace_back(scene, run.bed().cell_size());
+    }
+    felt_.resize(forces_.size());
+  }
+
+  void on_tick(const TickRecord& tick) override {
+    if (tick.hand.down) feel(tick);
+    if (!tick.hand.down || tick.lifts) lift();
+  }
+
+ private:
+  void lift() {
+    last_tip_.reset();
+    for (ContactForce& force : forces_) force.lift();
+  }
+
+  void feel(const TickRecord& tick) {
+    const Eigen::Vector3d tip = tip_of(run_.scene().device, tick.device_position);
+    const Eigen::Vector3d motion = last_tip_ ? Eigen::Vector3d(tip - *last_tip_) : Eigen::Vector3d::Zero();
+    last_tip_ = tip;
+    if (turns_) turn(rotation_of(tick.hand.orientation) * own_rotation_);
+    sand_.look(run_.bed(), tip);
+    for (std::size_t i = 0; i < forces_.size(); ++i)
+      felt_[i] = forces_[i].feel(sand_, run_.bed(), tip, motion, tick.contact);
+    if (is_felt(tick)) law_.add(felt_, tick.recorded_force);
+  }
+
+  void turn(const Eigen::Matrix3d& rotation) {
+    sand_.turn(rotation);
+    for (ContactForce& force : forces_) force.turn(rotation);
+  }
+
+  const Simulation& run_;
+  ContactLaw& law_;
+  bool turns_;  // with the hand
+  Eigen::Matrix3d own_rotation_;
+  SandSide sand_;
+  std::vector<ContactForce> forces_;
+  std::vector<Wrench> felt_;
+  std::optional<Eigen::Vector3d> last_tip_;
+};
+
 }  // namespace
 
-std::vector<FeltTick> felt_ticks(const Scene& asked, const std::filesystem::path& scene_folder) {
-  if (!asked.stroke)
-    throw_input_error("the scene has no stroke; name one that was recorded with forces: --stroke FILE");
-  if (asked.force.law != ForceLaw::paper)
-    throw_input_error("the constants of force.law = \"paper\" are fitted; set it (--set force.law=paper)");
-  Scene scene = asked;
-  scene.tool = with_mesh(scene.tool, scene_folder);
-  scene.device.model = DeviceModel::kinematic;
-  const std::filesystem::path path = stroke_path(scene, scene_folder);
-  std::string hash;
-  const Stroke stroke = placed_stroke(scene, path, hash);
-  if (stroke.force.empty())
-    throw_input_error(
-        "{}: has no forces, so there is nothing to fit; name their columns and unit (stroke.table.force, "
-        "force_unit), or another --stroke",
-        samples_name(path));
-  Simulation simulation(scene, load_surface(scene.bed, scene_folder), stroke);
-  Gatherer felt(scene.device.scale);
+std::vector<FeltTick> FeltStroke::paper_ticks() const {
+  Simulation run(scene, bed, stroke);
+  PaperTicks felt(scene.device.scale);
   RunProgress bar;
-  simulation.run({&felt, &bar});
-  if (interrupted()) return {};
+  run.run({&felt, &bar});
   return std::move(felt.ticks);
+}
+
+ContactLaw FeltStroke::contact_law(SandGrid grid) const {
+  Simulation run(scene, bed, stroke);
+  ContactLaw law(std::move(grid), scene.device.max_force);
+  ContactTicks felt(run, law);
+  RunProgress bar;
+  run.run({&felt, &bar});
+  return law;
 }
 
 }  // namespace sandstroke

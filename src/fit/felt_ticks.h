@@ -1,17 +1,25 @@
 #pragma once
 
-#include <filesystem>
-#include <vector>
+#include <optional>
 
-#include "fit/force_fit.h"
-#include "sim/scene.h"
+#include "fit/contact_law.h"
+#include "fit/paper_law.h"
+#include "sim/simulation.h"
 
 namespace sandstroke {
 
-/// What a run of the scene gives a fit: the ticks in which its tool touches sand, at the time of a recorded
-/// force. The device follows the stroke (device.model = "kinematic", whatever the scene says), so that depths
-/// and velocities do not hang on the constants. Shows a bar; empty where it was interrupted. Error: input,
-/// where the scene has no stroke or the stroke no forces; io; unstable.
-std::vector<FeltTick> felt_ticks(const Scene& scene, const std::filesystem::path& scene_folder);
+/// What a fit is given: a scene that the device follows (device.model = "kinematic"), so that sand, depths
+/// and velocities do not hang on the constants; its bed, and its stroke, with forces, placed on it. A run of
+/// it shows a bar and stops where it is interrupted.
+struct FeltStroke {
+  Scene scene;
+  HeightField bed;
+  Stroke stroke;
+
+  /// The ticks in which the tool touches sand, at the time of a recorded force. Error: input, unstable.
+  std::vector<FeltTick> paper_ticks() const;
+  /// The same of a law of the contact, felt in each of the grid's sands.
+  ContactLaw contact_law(SandGrid grid) const;
+};
 
 }  // namespace sandstroke

@@ -1,29 +1,12 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <cstdint>
 #include <string>
 #include <vector>
 
-#include "haptics/force_model.h"
+#include "fit/felt_law.h"
 
 namespace sandstroke {
-
-/// A tick in which the tool touched sand and a force was recorded.
-struct FeltTick {
-  double depth = 0.0;        ///< m, of the tip below the sand's level, > 0
-  Eigen::Vector3d velocity;  ///< m/s, of the tool in the bed
-  Eigen::Vector3d recorded;  ///< N, on the hand
-};
-
-/// The constants of the force that can be fitted: members of ForceSettings.
-struct ForceConstant {
-  const char *name, *unit, *key;  ///< key: in a scene
-  double ForceSettings::*value;
-};
-inline constexpr ForceConstant force_constants[] = {{"k_s", "N", "force.k_s", &ForceSettings::k_s},
-                                                    {"k_c", "1/m", "force.k_c", &ForceSettings::k_c},
-                                                    {"k_f", "s/m", "force.k_f", &ForceSettings::k_f}};
 
 /// What the fit says of one constant.
 struct FittedConstant {
@@ -38,9 +21,10 @@ struct FittedConstant {
 
 /// The force constants that come nearest to a recorded force.
 struct ForceFit {
-  ForceSettings force;                            ///< with the fitted constants
-  std::vector<FittedConstant> constants;          ///< those that were asked for
-  double stiffness = 0.0, stiffness_error = 0.0;  ///< N/m, k_s k_c: how the force begins to grow with depth
+  Eigen::VectorXd values;                 ///< of all constants of the law
+  std::vector<FittedConstant> constants;  ///< those that were asked for
+  ForceScale of_scale;
+  double scale = 0.0, scale_error = 0.0;
   std::int64_t ticks = 0;
   double recorded_rms = 0.0;  ///< N, of the recorded force
   double start_residual = 0.0,
@@ -49,17 +33,22 @@ struct ForceFit {
   double explained_reversed = 0.0;  ///< the same, had the recorded force the other sign
 };
 
-/// Least squares over all components of all ticks (Levenberg and Marquardt), from `start` on, of the force
-/// that sand_force() gives with that limit [N, 0: none]. The constants are not negative.
+/// Which of the constants have these names; no names: those by default. Error: input, where a name is none of
+/// theirs.
+std::vector<bool> chosen_constants(std::span<const ForceConstant> constants,
+                                   const std::vector<std::string>& names);
+
+/// Least squares over all components of all ticks, of the force within the device's limit. The constants are
+/// not negative.
 ///
 /// Errors are by the jackknife over ten stretches of time: neighbouring ticks err alike, and a formula for
-/// independent ones would promise too much. Where the error of k_c is larger than its value, or k_c
-/// bends the force by less than a hundredth of what the fit leaves, only k_s k_c is known: the start's k_c is
-/// kept.
+/// independent ones would promise too much. Where a constant has rivals or extremes (FeltLaw), and its
+/// error is larger than its value, or a rival changes the force by less than a hundredth of what the fit
+/// leaves, or an extreme does not leave clearly more, the start's value is kept.
 ///
-/// names: of force_constants. Error: input, where a name is none of these, all recorded forces are
-/// 0, or fewer than a hundred ticks have a force that the limit does not cut.
-ForceFit fit_force(const std::vector<FeltTick>& ticks, const ForceSettings& start, double max_force,
-                   const std::vector<std::string>& names);
+/// Error: input, where all recorded forces are 0, or fewer than a hundred ticks have a force that the limit
+/// does not cut.
+/// asked: of law.constants().
+ForceFit fit_force(const FeltLaw& law, const std::vector<bool>& asked);
 
 }  // namespace sandstroke

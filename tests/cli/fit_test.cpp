@@ -57,6 +57,55 @@ TEST(CliFit, SaysWhenTheModelCannotExplainTheForceOrItsSignIsTheOther) {
   EXPECT_NE(result.err.find("cannot explain"), std::string::npos) << result.err;
 }
 
+const std::vector<std::string> rft = {"--set", "force.law=rft", "--set", "tool.profile=sphere"};
+
+ProgramResult run_with(std::vector<std::string> arguments, const std::vector<std::string>& settings,
+                       const fs::path& folder) {
+  arguments.insert(arguments.end(), settings.begin(), settings.end());
+  return run_program(arguments, folder);
+}
+
+TEST(CliFit, FindsTheSandOfTheOtherLaws) {
+  const fs::path folder = test_folder();
+  ASSERT_EQ(run_with({"run", "scene.toml", "--set", "force.friction_angle=37", "--set",
+                      "force.tool_friction=0.2", "-o", "a.h5"},
+                     rft, folder)
+                .exit_code,
+            0);
+  write_felt_stroke(folder / "a.h5", folder / "felt.h5");
+  const ProgramResult found = run_with({"fit", "scene.toml", "--stroke", "felt.h5", "--json"}, rft, folder);
+  ASSERT_EQ(found.exit_code, 0) << found.err;
+  const Json fit = Json::parse(found.out);
+  EXPECT_NEAR(fit["friction_angle"]["value"], 37.0, 0.01);
+  EXPECT_NEAR(fit["tool_friction"]["value"], 0.2, 0.002);
+  EXPECT_EQ(fit["tool_friction"]["key"], "force.tool_friction");
+  EXPECT_EQ(fit["tool_friction"]["determined"], true);
+  EXPECT_FALSE(fit.contains("yield"));
+  EXPECT_GT(fit["explained"], 0.999);
+  const ProgramResult table = run_with({"fit", "scene.toml", "--stroke", "felt.h5"}, rft, folder);
+  EXPECT_NE(table.out.find("sandstroke run SCENE --set force.friction_angle=37"), std::string::npos)
+      << table.out;
+  EXPECT_NE(table.out.find("--set force.tool_friction=0."), std::string::npos) << table.out;
+  EXPECT_EQ(table.err.find("warning"), std::string::npos) << table.err;
+  // The same force, as another law sees it: most of it is lift.
+  const ProgramResult lift = run_program(
+      {"fit", "scene.toml", "--stroke", "felt.h5", "--set", "force.law=archimedes", "--json"}, folder);
+  ASSERT_EQ(lift.exit_code, 0) << lift.err;
+  EXPECT_GT(Json::parse(lift.out)["friction_angle"]["value"], 20.0);
+}
+
+TEST(CliFit, SaysThatNoSceneCanHaveTheSandThatAForceAsksFor) {
+  const fs::path folder = test_folder();
+  ASSERT_EQ(run_with({"run", "scene.toml", "-o", "a.h5"}, rft, folder).exit_code, 0);
+  write_felt_stroke(folder / "a.h5", folder / "milli.h5", 1000.0);
+  const ProgramResult result =
+      run_with({"fit", "scene.toml", "--stroke", "milli.h5", "--set", "device.max_force=0"}, rft, folder);
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_NE(result.err.find("no scene can have these constants"), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find("friction_angle"), std::string::npos) << result.err;
+  EXPECT_EQ(result.out.find("to use it"), std::string::npos) << result.out;
+}
+
 TEST(CliFit, RefusesInASentence) {
   const fs::path folder = test_folder();
   const auto refusal = [&](const std::vector<std::string>& arguments) {
@@ -68,6 +117,10 @@ TEST(CliFit, RefusesInASentence) {
   ASSERT_EQ(run_program({"run", "scene.toml", "-o", "a.h5"}, folder).exit_code, 0);
   write_felt_stroke(folder / "a.h5", folder / "felt.h5");
   EXPECT_NE(refusal({"fit", "scene.toml", "--stroke", "felt.h5", "--constants", "k_x"}).find("k_s, k_c, k_f"),
+            std::string::npos);
+  EXPECT_NE(refusal({"fit", "scene.toml", "--stroke", "felt.h5", "--set", "force.law=archimedes",
+                     "--constants", "k_s"})
+                .find("take some of friction_angle, yield"),
             std::string::npos);
   EXPECT_NE(refusal({"fit", "scene.toml", "--stroke", "felt.h5", "--set", "stroke.offset=[0, 0, 1]"})
                 .find("touches sand and has a recorded force"),

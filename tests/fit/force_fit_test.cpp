@@ -6,12 +6,25 @@
 #include <random>
 
 #include "core/error.h"
+#include "fit/paper_law.h"
 
 namespace sandstroke {
 namespace {
 
 const std::vector<std::string> all = {"k_s", "k_c", "k_f"};
 constexpr double no_limit = 0.0;
+
+struct PaperFit : ForceFit {
+  ForceSettings force;  // with the fitted constants
+  double stiffness = 0.0, stiffness_error = 0.0;
+};
+
+PaperFit fit_force(const std::vector<FeltTick>& ticks, const ForceSettings& start, double max_force,
+                   const std::vector<std::string>& names) {
+  const PaperLaw law(ticks, start, max_force);
+  const ForceFit fit = fit_force(law, chosen_constants(law.constants(), names));
+  return {fit, law.settings(fit.values), fit.scale, fit.scale_error};
+}
 
 /// A hand that goes up and down between two depths [m] and in circles, and the force that sand with these
 /// constants would give it, with noise [N rms per component].
@@ -35,7 +48,7 @@ std::vector<FeltTick> felt(const ForceSettings& truth, double shallow, double de
 const ForceSettings truth = {.k_s = 40.0, .k_c = 30.0, .k_f = 4.0};
 
 TEST(ForceFit, FindsTheConstantsThatMadeTheForce) {
-  const ForceFit fit = fit_force(felt(truth, 0.001, 0.05), ForceSettings{}, no_limit, all);
+  const PaperFit fit = fit_force(felt(truth, 0.001, 0.05), ForceSettings{}, no_limit, all);
   EXPECT_NEAR(fit.force.k_s, truth.k_s, 1e-5 * truth.k_s);
   EXPECT_NEAR(fit.force.k_c, truth.k_c, 1e-5 * truth.k_c);
   EXPECT_NEAR(fit.force.k_f, truth.k_f, 1e-5 * truth.k_f);
@@ -47,7 +60,7 @@ TEST(ForceFit, FindsTheConstantsThatMadeTheForce) {
 }
 
 TEST(ForceFit, FindsThemWhereTheDevicesLimitCutSome) {
-  const ForceFit fit = fit_force(felt(truth, 0.001, 0.05, 0.0, 1000, 60.0), ForceSettings{}, 60.0, all);
+  const PaperFit fit = fit_force(felt(truth, 0.001, 0.05, 0.0, 1000, 60.0), ForceSettings{}, 60.0, all);
   EXPECT_NEAR(fit.force.k_s, truth.k_s, 1e-3 * truth.k_s);
   EXPECT_NEAR(fit.force.k_c, truth.k_c, 1e-3 * truth.k_c);
   EXPECT_NEAR(fit.force.k_f, truth.k_f, 1e-3 * truth.k_f);
@@ -56,11 +69,13 @@ TEST(ForceFit, FindsThemWhereTheDevicesLimitCutSome) {
 TEST(ForceFit, ErrorsGrowWithTheNoiseAndCoverTheTruth) {
   double before = 0.0;
   for (const double noise : {0.1, 1.0}) {
-    const ForceFit fit = fit_force(felt(truth, 0.001, 0.05, noise, 4000), ForceSettings{}, no_limit, all);
+    const PaperFit fit = fit_force(felt(truth, 0.001, 0.05, noise, 4000), ForceSettings{}, no_limit, all);
     ASSERT_EQ(fit.constants.size(), 3u);
-    for (const FittedConstant& one : fit.constants) {
-      EXPECT_EQ(one.value, fit.force.*one.constant.value);
-      EXPECT_NEAR(one.value, truth.*one.constant.value, 4.0 * one.error) << one.constant.name;
+    const double true_values[] = {truth.k_s, truth.k_c, truth.k_f};
+    for (std::size_t i = 0; i < fit.constants.size(); ++i) {
+      const FittedConstant& one = fit.constants[i];
+      EXPECT_EQ(one.value, fit.values[static_cast<Eigen::Index>(i)]);
+      EXPECT_NEAR(one.value, true_values[i], 4.0 * one.error) << one.constant.name;
       EXPECT_LT(one.error, 0.2 * one.value) << one.constant.name;
     }
     EXPECT_NEAR(fit.residual, std::sqrt(3.0) * noise, 0.05 * noise);
@@ -72,7 +87,7 @@ TEST(ForceFit, ErrorsGrowWithTheNoiseAndCoverTheTruth) {
 TEST(ForceFit, FitsWhatIsAskedForAndKeepsTheOthers) {
   ForceSettings start = truth;
   start.k_f = 9.0;
-  const ForceFit fit = fit_force(felt(truth, 0.001, 0.05), start, no_limit, {"k_f"});
+  const PaperFit fit = fit_force(felt(truth, 0.001, 0.05), start, no_limit, {"k_f"});
   EXPECT_EQ(fit.force.k_s, truth.k_s);
   EXPECT_EQ(fit.force.k_c, truth.k_c);
   EXPECT_NEAR(fit.force.k_f, truth.k_f, 1e-6);
@@ -84,7 +99,7 @@ TEST(ForceFit, SaysThatAForceInShallowSandTellsOnlyTheProduct) {
   const ForceSettings paper;  // k_c d = 0.002: the force is k_s k_c d to one in a thousand
   ForceSettings start = paper;
   start.k_s = 300.0, start.k_c = 2.0;
-  const ForceFit fit = fit_force(felt(paper, 0.001, 0.004, 0.05), start, no_limit, all);
+  const PaperFit fit = fit_force(felt(paper, 0.001, 0.004, 0.05), start, no_limit, all);
   EXPECT_EQ(fit.force.k_c, start.k_c);
   EXPECT_TRUE(std::isinf(fit.constants[1].error));
   const double bent = 500.0 * 0.5 * (start.k_c - paper.k_c) * 0.004;  // F = K d (1 + k_c d / 2)
@@ -112,7 +127,7 @@ TEST(ForceFit, AForceThatIsExactlyStraightTellsOnlyTheProduct) {
   for (FeltTick& tick : ticks) tick.recorded = {0.0, 0.0, 500.0 * tick.depth};
   ForceSettings start;
   start.k_c = 0.01;
-  const ForceFit fit = fit_force(ticks, start, no_limit, all);
+  const PaperFit fit = fit_force(ticks, start, no_limit, all);
   EXPECT_EQ(fit.force.k_c, start.k_c);
   EXPECT_TRUE(std::isinf(fit.constants[1].error));
   EXPECT_NEAR(fit.stiffness, 500.0, 0.2);
@@ -122,13 +137,13 @@ TEST(ForceFit, SaysWhichConstantsTheRecordingDetermines) {
   for (const double k_f : {4.0, 0.0}) {  // without drag, noise alone is fitted
     ForceSettings sand = truth;
     sand.k_f = k_f;
-    const ForceFit fit = fit_force(felt(sand, 0.001, 0.05, 1.0, 4000), ForceSettings{}, no_limit, all);
+    const PaperFit fit = fit_force(felt(sand, 0.001, 0.05, 1.0, 4000), ForceSettings{}, no_limit, all);
     EXPECT_TRUE(fit.constants[0].determined());
     EXPECT_TRUE(fit.constants[1].determined());
     EXPECT_EQ(fit.constants[2].determined(), k_f > 0.0) << fit.constants[2].value;
   }
-  EXPECT_FALSE((FittedConstant{force_constants[2], 0.5, 0.5}.determined()));
-  EXPECT_FALSE((FittedConstant{force_constants[2], 0.0, 0.0}.determined()));
+  EXPECT_FALSE((FittedConstant{paper_constants[2], 0.5, 0.5}.determined()));
+  EXPECT_FALSE((FittedConstant{paper_constants[2], 0.0, 0.0}.determined()));
 }
 
 /// A force without any drag, to rounding: a tiny k_f is found, and is sure to be tiny, but it is no
@@ -136,7 +151,7 @@ TEST(ForceFit, SaysWhichConstantsTheRecordingDetermines) {
 TEST(ForceFit, AConstantThatDoesNotActIsNotDetermined) {
   ForceSettings no_drag = truth;
   no_drag.k_f = 0.0;
-  const ForceFit fit = fit_force(felt(no_drag, 0.001, 0.05), ForceSettings{}, no_limit, all);
+  const PaperFit fit = fit_force(felt(no_drag, 0.001, 0.05), ForceSettings{}, no_limit, all);
   EXPECT_TRUE(fit.constants[0].determined());
   EXPECT_TRUE(fit.constants[1].determined());
   EXPECT_FALSE(fit.constants[2].determined()) << fit.constants[2].value << " +- " << fit.constants[2].error;
@@ -148,7 +163,7 @@ TEST(ForceFit, AConstantThatDoesNotActIsNotDetermined) {
 TEST(ForceFit, AForceOfAnotherKindIsHardlyExplained) {
   std::vector<FeltTick> ticks = felt(truth, 0.001, 0.05);
   for (FeltTick& tick : ticks) tick.recorded = {3.0, 0.0, 0.0};  // constant, and sideways
-  const ForceFit fit = fit_force(ticks, ForceSettings{}, no_limit, all);
+  const PaperFit fit = fit_force(ticks, ForceSettings{}, no_limit, all);
   EXPECT_NEAR(fit.recorded_rms, 3.0, 1e-12);
   EXPECT_LT(fit.explained, 0.2);
   EXPECT_GE(fit.residual, 2.5);
@@ -165,7 +180,7 @@ TEST(ForceFit, NeverLeavesMoreThanNoForceWouldWhereverItBegins) {
   for (const double k_f : {0.0, 1.0, 10.0, 100.0}) {
     ForceSettings start;
     start.k_f = k_f;
-    const ForceFit fit = fit_force(ticks, start, 12.0, all);
+    const PaperFit fit = fit_force(ticks, start, 12.0, all);
     EXPECT_LE(fit.residual, fit.recorded_rms * (1.0 + 1e-9)) << "from k_f = " << k_f;
     EXPECT_GE(fit.explained, -1e-9);
   }
@@ -174,7 +189,7 @@ TEST(ForceFit, NeverLeavesMoreThanNoForceWouldWhereverItBegins) {
 TEST(ForceFit, SeesAForceWithTheOtherSign) {
   std::vector<FeltTick> ticks = felt(truth, 0.001, 0.05);
   for (FeltTick& tick : ticks) tick.recorded = -tick.recorded;
-  const ForceFit fit = fit_force(ticks, ForceSettings{}, no_limit, all);
+  const PaperFit fit = fit_force(ticks, ForceSettings{}, no_limit, all);
   EXPECT_LT(fit.explained, 0.01);
   EXPECT_GT(fit.explained_reversed, 0.99);
   EXPECT_GE(fit.force.k_s, 0.0);

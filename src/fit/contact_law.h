@@ -1,0 +1,41 @@
+#pragma once
+
+#include "fit/sand_grid.h"
+
+namespace sandstroke {
+
+/// The force of a contact: in proportion to the sand's resistance, and in the other constants as the grid's
+/// sands have it.
+class ContactLaw : public FeltLaw {
+ public:
+  /// max_force [N]: 0: no limit.
+  ContactLaw(SandGrid grid, double max_force) : grid_(std::move(grid)), max_force_(max_force) {}
+
+  const SandGrid& grid() const { return grid_; }
+  /// The next tick: a force for each of the grid's sands. So that memory has a bound, every second tick is
+  /// let go where there are too many, and of those to come, too.
+  void add(const std::vector<Wrench>& felt, const Eigen::Vector3d& recorded);
+  std::span<const ForceConstant> constants() const override { return contact_constants(grid_.law()); }
+  ForceScale scale() const override {
+    return {"resistance", "resistance", "N/m^3", "of the sand, by which all its force goes"};
+  }
+  const Eigen::VectorXd& start() const override { return grid_.start(); }
+  Eigen::VectorXd weak() const override;
+  Eigen::VectorXd numbers(const Eigen::VectorXd& values) const override;
+  Eigen::VectorXd values(const Eigen::VectorXd& numbers) const override;
+  std::vector<double> extremes(std::size_t constant) const override { return grid_.extremes(constant); }
+  Eigen::Matrix3Xd recorded() const override;
+  Eigen::Matrix3Xd forces(const Eigen::VectorXd& values, bool limited) const override;
+  double max_force() const override { return max_force_; }
+  std::int64_t ticks() const override { return ticks_; }
+
+ private:
+  SandGrid grid_;
+  double max_force_;
+  std::vector<Eigen::Vector4d>
+      felt_;  // of each tick, for each sand: force and strength over resistance [m^3]
+  std::vector<Eigen::Vector3d> recorded_;
+  std::int64_t ticks_ = 0, every_ = 1;
+};
+
+}  // namespace sandstroke

@@ -1,0 +1,49 @@
+#pragma once
+
+#include "fit/felt_law.h"
+#include "haptics/force_model.h"
+
+namespace sandstroke {
+
+/// A tick in which the tool touched sand and a force was recorded.
+struct FeltTick {
+  double depth = 0.0;        ///< m, of the tip below the sand's level, > 0
+  Eigen::Vector3d velocity;  ///< m/s, of the tool in the bed
+  Eigen::Vector3d recorded;  ///< N, on the hand
+};
+
+inline constexpr ForceConstant paper_constants[] = {
+    {"k_s", "N", "force.k_s"}, {"k_c", "1/m", "force.k_c"}, {"k_f", "s/m", "force.k_f"}};
+
+/// The force that sand_force() gives. A fit changes k_s k_c instead of k_s, which is badly known where k_c d
+/// is small, for the force is then nearly k_s k_c d.
+class PaperLaw : public FeltLaw {
+ public:
+  /// max_force [N]: 0: no limit.
+  PaperLaw(const std::vector<FeltTick>& ticks, const ForceSettings& start, double max_force);
+
+  ForceSettings settings(const Eigen::VectorXd& values) const;
+
+  std::span<const ForceConstant> constants() const override { return paper_constants; }
+  ForceScale scale() const override {
+    return {"k_s k_c", "stiffness", "N/m", "how the force begins to grow with depth"};
+  }
+  const Eigen::VectorXd& start() const override { return start_; }
+  Eigen::VectorXd weak() const override;
+  Eigen::VectorXd numbers(const Eigen::VectorXd& values) const override;
+  Eigen::VectorXd values(const Eigen::VectorXd& numbers) const override;
+  std::vector<Eigen::VectorXd> rivals(const Eigen::VectorXd& values, std::size_t constant) const override;
+  Eigen::Matrix3Xd recorded() const override;
+  Eigen::Matrix3Xd forces(const Eigen::VectorXd& values, bool limited) const override;
+  double max_force() const override { return max_force_; }
+  std::int64_t ticks() const override { return all_ticks_; }
+
+ private:
+  std::vector<FeltTick> ticks_;
+  ForceSettings settings_;
+  Eigen::VectorXd start_;
+  double max_force_;
+  std::int64_t all_ticks_;
+};
+
+}  // namespace sandstroke
