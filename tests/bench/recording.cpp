@@ -145,7 +145,7 @@ nlohmann::json recorded(double seconds, bool load, bool sand, bool view = false)
   if (sand) {
     const Scene scene = collapsing_scene();
     const HeightField bed = starting_bed(scene.bed);
-    live.emplace(scene, bed, "bed");
+    live.emplace(scene, bed, FeltDevice{"bed"});
     if (view) watched.emplace(scene, bed, *live, seconds);
     if (view) settings.watch = 1.0 / 60.0;
   }

@@ -93,10 +93,8 @@ Problem tick_problem(const ProblemOptions& options) {
   };
   for (const int cells_per_radius : {5, 10, 20}) add("sphere", sphere, cells_per_radius, 0.005);
   for (const double depth : {0.002, 0.01, 0.02}) add("sphere", sphere, 10, depth);
-  for (const int cells_per_radius : {5, 10, 20}) {
-    add("sphere as a mesh", mesh, cells_per_radius, 0.005);
-    add("blade", blade, cells_per_radius, 0.005);
-  }
+  for (const int cells_per_radius : {5, 10, 20}) add("sphere as a mesh", mesh, cells_per_radius, 0.005);
+  for (const int cells_per_radius : {5, 10, 20}) add("blade", blade, cells_per_radius, 0.005);
   return problem;
 }
 
