@@ -30,6 +30,7 @@ void RecordView::show(const ServoProgress& progress) {
   state.time = progress.time;
   state.tip = sand_->tip(progress.position);
   state.force = sand_->force_on_bed(progress.held);
+  state.orientation = sand_->orientation();
   state.depth = sand_->depth();
   state.rate = rate_.at(progress.time, static_cast<double>(progress.recorded));
   state.lateness = progress.lateness;

@@ -61,6 +61,7 @@ void RunView::publish(const TickRecord& tick) {
   state_.time = tick.time;
   state_.tip = tip_of(device, tick.device_position);
   state_.force = tick.device_force;
+  state_.orientation = tick.hand.orientation;
   state_.depth = tick.contact ? tick.depth : std::numeric_limits<double>::quiet_NaN();
   state_.rate = rate_.at(published_at_, static_cast<double>(ticks_));
   state_.tip_known = tick.hand.down;

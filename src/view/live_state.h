@@ -1,6 +1,6 @@
 #pragma once
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <cstdint>
 #include <limits>
 #include <mutex>
@@ -10,12 +10,13 @@ namespace sandstroke {
 
 /// What a page shows beside the sand.
 struct ViewState {
-  double time = 0.0;                                        ///< s
-  Eigen::Vector3d tip = Eigen::Vector3d::Zero();            ///< m, in the bed
-  Eigen::Vector3d force = Eigen::Vector3d::Zero();          ///< N, on the bed's axes
-  double depth = std::numeric_limits<double>::quiet_NaN();  ///< m, of the tip in the sand; NaN: none
-  double rate = 0.0;                                        ///< Hz, reached
-  double lateness = 0.0, max_lateness = 0.0;                ///< s
+  double time = 0.0;                                                ///< s
+  Eigen::Vector3d tip = Eigen::Vector3d::Zero();                    ///< m, in the bed
+  Eigen::Vector3d force = Eigen::Vector3d::Zero();                  ///< N, on the bed's axes
+  Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();  ///< from how tool.orientation holds it
+  double depth = std::numeric_limits<double>::quiet_NaN();          ///< m, of the tip in the sand; NaN: none
+  double rate = 0.0;                                                ///< Hz, reached
+  double lateness = 0.0, max_lateness = 0.0;                        ///< s
   bool tip_known = false;
   bool force_held_back = false;  ///< until the tool has been above the sand
 };

@@ -5,6 +5,8 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 
+#include "tool/tool_surface.h"
+
 namespace sandstroke {
 namespace {
 
@@ -36,6 +38,19 @@ std::string text_of(const ordered_json& json) {
   return json.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
 }
 
+/// How the tool looks before the hand turns it.
+ordered_json tool_json(const ToolSettings& tool) {
+  ordered_json json = {{"radius", tool_reach(tool)}};
+  if (tool.shape == ToolShape::sphere) return json;
+  const TriangleMesh mesh = turned(tool_surface(tool), own_rotation(tool));
+  std::vector<float> vertices;
+  for (const Eigen::Vector3d& vertex : mesh.vertices)
+    for (int axis = 0; axis < 3; ++axis) vertices.push_back(static_cast<float>(vertex[axis]));
+  json["vertices"] = vertices;
+  json["triangles"] = mesh.triangles;
+  return json;
+}
+
 }  // namespace
 
 std::string hello_message(const ViewHello& hello) {
@@ -44,10 +59,6 @@ std::string hello_message(const ViewHello& hello) {
     pointer = {{"depth", hello.pointer->depth},
                {"radius", hello.pointer->radius},
                {"clearance", hello.pointer->clearance}};
-  const ordered_json tool = {{"shape", "sphere"},
-                             {"radius", hello.tool.radius},
-                             {"profile", hello.tool.profile == ToolProfile::paper ? "paper" : "sphere"},
-                             {"solid", hello.tool.solid}};
   const ordered_json said = {{"title", hello.title},
                              {"rows", hello.bed.rows()},
                              {"cols", hello.bed.cols()},
@@ -57,7 +68,7 @@ std::string hello_message(const ViewHello& hello) {
                              {"y0", hello.bed.y_of(0)},
                              {"low", hello.heights.low},
                              {"high", hello.heights.high},
-                             {"tool", tool},
+                             {"tool", tool_json(hello.tool)},
                              {"max_force", hello.max_force},
                              {"pointer", pointer}};
   return text_of({{"hello", said}});
@@ -81,6 +92,7 @@ void put_picture(const ViewState& state, const LiveBed::Tiles& tiles, std::strin
   const unsigned flags =
       (std::isnan(state.depth) ? 0u : 1u) | (state.tip_known ? 2u : 0u) | (state.force_held_back ? 4u : 0u);
   put(message, std::uint32_t{flags});
+  for (const double part : state.orientation.coeffs()) put(message, static_cast<float>(part));
   put(message, std::uint32_t{0});
   for (std::size_t i = 0; i < tiles.index.size(); ++i) {
     put(message, static_cast<std::uint32_t>(tiles.index[i]));

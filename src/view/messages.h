@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "sand/tool_footprint.h"
+#include "tool/tool_settings.h"
 #include "view/live_bed.h"
 #include "view/live_state.h"
 
@@ -49,7 +49,7 @@ std::string drawing_message(bool drawing);
 std::string end_message(std::string_view reason);
 
 // To the page, in binary:
-inline constexpr std::size_t picture_header_bytes = 64;
+inline constexpr std::size_t picture_header_bytes = 80;
 /// Into `message`, whose memory is used again.
 void put_picture(const ViewState& state, const LiveBed::Tiles& tiles, std::string& message);
 

@@ -103,6 +103,30 @@ TEST_F(CliLivePage, ShowsTheFurrowWhereTheStrokeWentAndTurnsByMouseAndKeys) {
   EXPECT_TRUE(browser().errors().empty()) << browser().errors().front();
 }
 
+TEST_F(CliLivePage, DrawsTheToolAsItIs) {
+  Viewed program(
+      {"record", "--device", "scripted:line.toml", "--feel", "scene.toml", "--set", "tool.shape=plate",
+       "--set", "tool.width=0.12", "--set", "model.preset=accurate", "--view", "--no-open", "-o", "plate.h5"},
+      test_folder_);
+  open(program);
+  browser().wait_for("live.ended && live.view.tool !== null");
+  EXPECT_EQ(program.end().exit_code, 0);
+  browser().evaluate("live.view.camera.turn(0, 2)");
+  settle();
+  const Image window = picture();
+  const nlohmann::json tip = browser().evaluate("live.view.tool.tip");
+  const double top = tip[2].get<double>() + 0.04;  // tool.height
+  const auto is_steel = [&](double x, double y) {  // bluish, as no sand is
+    const Point at = seen(tip[0].get<double>() + x, tip[1].get<double>() + y, top);
+    const std::uint8_t* pixel = window.pixel(static_cast<int>(at.x), static_cast<int>(at.y));
+    return pixel[2] > pixel[0];
+  };
+  // Along y, as far as the blade is wide, and nowhere else.
+  for (const double y : {-0.055, -0.03, 0.0, 0.03, 0.055}) EXPECT_TRUE(is_steel(0.0, y)) << y;
+  for (const double y : {-0.068, 0.068}) EXPECT_FALSE(is_steel(0.0, y)) << y;
+  for (const double x : {-0.012, 0.012}) EXPECT_FALSE(is_steel(x, 0.03)) << x;
+}
+
 TEST_F(CliLivePage, AMouseDrawsAStrokeWhoseRunIsWhatWasSeen) {
   const std::vector<std::string> firm = {"--set", "relaxation.talus_angle=85", "--set", "relaxation.rate=0"};
   std::vector<std::string> arguments = {"record", "--device", "pointer",   "--feel", "scene.toml",

@@ -26,6 +26,7 @@ TEST(ViewMessages, APictureIsItsBytes) {
   state.rate = 1000.0;
   state.lateness = 0.125;
   state.max_lateness = 4.0;
+  state.orientation = {0.5, 0.5, 0.5, -0.5};  // w, x, y, z
   state.force_held_back = true;
   LiveBed::Tiles tiles;
   tiles.index = {258};
@@ -33,21 +34,23 @@ TEST(ViewMessages, APictureIsItsBytes) {
   tiles.heights.back() = -2.0f;
   std::string message = "what was there before";
   put_picture(state, tiles, message);
-  ASSERT_EQ(message.size(), 64u + 4u + 4u * 4096u);
+  ASSERT_EQ(message.size(), 80u + 4u + 4u * 4096u);
   EXPECT_EQ(message.substr(0, 16), "SAND" + bytes({1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0x40}));
   EXPECT_EQ(message.substr(16, 12), bytes({0, 0, 0x80, 0x3f, 0, 0, 0x80, 0xbf, 0, 0, 0, 0x3f}));
   EXPECT_EQ(message.substr(28, 12), bytes({0, 0, 0, 0, 0, 0, 0, 0x40, 0, 0, 0, 0xbf}));
   EXPECT_EQ(message.substr(40, 16),
             bytes({0, 0, 0x80, 0x3e, 0, 0, 0x7a, 0x44, 0, 0, 0, 0x3e, 0, 0, 0x80, 0x40}));
-  EXPECT_EQ(message.substr(56, 8), bytes({5, 0, 0, 0, 0, 0, 0, 0}));
-  EXPECT_EQ(message.substr(64, 8), bytes({2, 1, 0, 0, 0, 0, 0x80, 0x3f}));
+  EXPECT_EQ(message.substr(56, 8), bytes({5, 0, 0, 0, 0, 0, 0, 0x3f}));
+  EXPECT_EQ(message.substr(60, 20),
+            bytes({0, 0, 0, 0x3f, 0, 0, 0, 0x3f, 0, 0, 0, 0xbf, 0, 0, 0, 0x3f, 0, 0, 0, 0}));
+  EXPECT_EQ(message.substr(80, 8), bytes({2, 1, 0, 0, 0, 0, 0x80, 0x3f}));
   EXPECT_EQ(message.substr(message.size() - 8), bytes({0, 0, 0x80, 0x3f, 0, 0, 0, 0xc0}));
 
   state.force_held_back = false;
   state.tip_known = true;
   state.depth = std::numeric_limits<double>::quiet_NaN();
   put_picture(state, {}, message);
-  ASSERT_EQ(message.size(), 64u);
+  ASSERT_EQ(message.size(), 80u);
   EXPECT_EQ(message[56], 2);
   float depth;
   std::memcpy(&depth, &message[40], sizeof depth);
@@ -67,6 +70,25 @@ TEST(ViewMessages, WhatIsSaidIsJson) {
   EXPECT_EQ(said.at("tile_side"), 64);
   EXPECT_EQ(said.at("tool").at("radius"), ToolSettings{}.radius);
   EXPECT_EQ(said.at("pointer"), (nlohmann::json{{"depth", 1.0}, {"radius", 2.0}, {"clearance", 3.0}}));
+}
+
+TEST(ViewMessages, AToolThatIsNoSphereComesAsItLies) {
+  ToolSettings plate;
+  plate.shape = ToolShape::plate;
+  plate.orientation = {0.0, 0.0, 90.0};  // its width lies along x
+  const auto said =
+      nlohmann::json::parse(hello_message({"", BedGeometry(3, 5, 0.5), {}, plate, 0.0, {}})).at("hello");
+  const auto& vertices = said.at("tool").at("vertices");
+  ASSERT_EQ(vertices.size(), 3u * 8u);
+  EXPECT_EQ(said.at("tool").at("triangles").size(), 12u);
+  for (std::size_t i = 0; i < 8; ++i) {
+    EXPECT_NEAR(std::abs(vertices[3 * i].get<double>()), 0.5 * plate.width, 1e-8);
+    EXPECT_NEAR(std::abs(vertices[3 * i + 1].get<double>()), 0.5 * plate.thickness, 1e-8);
+  }
+  EXPECT_FALSE(nlohmann::json::parse(hello_message({"", BedGeometry(3, 5, 0.5), {}, {}, 0.0, {}}))
+                   .at("hello")
+                   .at("tool")
+                   .contains("vertices"));
 }
 
 TEST(ViewMessages, PointerSamplesAreReadWholeOrNotAtAll) {

@@ -38,7 +38,7 @@ Number get(const char*& at) {
 
 SeenPicture decoded(const std::string& message) {
   const char* at = message.data();
-  if (message.size() < 64 || get<std::uint32_t>(at) != 0x444e4153) throw std::runtime_error("no picture");
+  if (message.size() < 80 || get<std::uint32_t>(at) != 0x444e4153) throw std::runtime_error("no picture");
   const auto count = get<std::uint32_t>(at);
   SeenPicture picture;
   picture.time = get<double>(at);
@@ -47,8 +47,8 @@ SeenPicture decoded(const std::string& message) {
   for (float* number : {&picture.depth, &picture.rate, &picture.lateness, &picture.max_lateness})
     *number = get<float>(at);
   picture.flags = get<std::uint32_t>(at);
-  get<std::uint32_t>(at);
-  if (message.size() != 64 + count * (4 + 4 * 4096)) throw std::runtime_error("a picture of a wrong size");
+  at += 20;  // how the tool is turned, and nothing
+  if (message.size() != 80 + count * (4 + 4 * 4096)) throw std::runtime_error("a picture of a wrong size");
   for (std::uint32_t i = 0; i < count; ++i) {
     std::vector<float>& tile = picture.tiles[get<std::uint32_t>(at)];
     tile.resize(4096);

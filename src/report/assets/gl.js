@@ -55,7 +55,7 @@ function glProgram(gl, vertexText, fragmentText) {
   };
 }
 
-/** Triangles: three numbers a vertex, of an array's own type; draw(). */
+/** Triangles: three numbers a vertex, of an array's own type; indices of 16 or 32 bits; draw(). */
 function glMesh(gl, vertices, indices) {
   const array = gl.createVertexArray();
   gl.bindVertexArray(array);
@@ -67,7 +67,7 @@ function glMesh(gl, vertices, indices) {
   gl.bufferData(gl.ELEMENT_ARRAY_BUFFER, indices, gl.STATIC_DRAW);
   return () => {
     gl.bindVertexArray(array);
-    gl.drawElements(gl.TRIANGLES, indices.length, gl.UNSIGNED_SHORT, 0);
+    gl.drawElements(gl.TRIANGLES, indices.length, indices instanceof Uint32Array ? gl.UNSIGNED_INT : gl.UNSIGNED_SHORT, 0);
   };
 }
 

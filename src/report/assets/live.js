@@ -2,7 +2,7 @@
 // The live view: sand as it is shaped, from the server that the page came from, with the tool, the force on the hand
 // and how the loop keeps its times. Where the page may be the hand (a pointer), what it draws goes back.
 
-const recordBytes = { head: 64, tile: 4 + 4 * tileSide * tileSide, sample: 24 };
+const recordBytes = { head: 80, tile: 4 + 4 * tileSide * tileSide, sample: 24 };
 const placed = 2;  // a flag: where the tool is is known
 
 /** What a message of the server says of the tool and the loop; numbers are as on the wire. */
@@ -11,7 +11,8 @@ function readHead(bytes) {
   const three = (from) => [0, 4, 8].map((i) => at.getFloat32(from + i, true));
   return { tiles: at.getUint32(4, true), time: at.getFloat64(8, true), tip: three(16), force: three(28),
            depth: at.getFloat32(40, true), rate: at.getFloat32(44, true), lateness: at.getFloat32(48, true),
-           latest: at.getFloat32(52, true), flags: at.getUint32(56, true) };
+           latest: at.getFloat32(52, true), flags: at.getUint32(56, true),
+           turn: [...three(60), at.getFloat32(72, true)] };
 }
 
 /** Samples of a pointer, as they are sent. */
@@ -119,6 +120,7 @@ function drawLive(main) {
       return;
     }
     live.view = view;
+    if (hello.tool.vertices) view.picture.setToolMesh(hello.tool.vertices, hello.tool.triangles.flat());
     place.prepend(view.canvas, view.scale);
     view.canvas.focus({ preventScroll: true });
     const colour = switchButton("Colours by height", false, view.act.colour);
@@ -166,7 +168,7 @@ function drawLive(main) {
                            new Float32Array(bytes, at + 4, tileSide * tileSide));
     const { tool, max_force: most } = live.hello;
     const long = (0.25 * view.picture.size) / (most > 0 && most < 1e3 ? most : 10);
-    const shown = flags & placed ? { tip: head.tip, radius: tool.radius, force: force.map((x) => x * long) } : null;
+    const shown = flags & placed ? { tip: head.tip, turn: head.turn, radius: tool.radius, force: force.map((x) => x * long) } : null;
     if (head.tiles === 0 && JSON.stringify(shown) === JSON.stringify(view.tool)) return;
     view.tool = shown;
     view.changed();

@@ -146,12 +146,14 @@ void main() {
 const solidVertex = `
 in vec3 vertex;
 uniform mat4 to_picture;
-uniform vec3 place, scale, axis;   // the mesh's z goes along the axis
+uniform vec3 place, scale, axis;   // the mesh's z goes along the axis,
+uniform vec4 turn;                 // after it was turned by a quaternion (x, y, z, w)
 out vec3 mesh, world;
 void main() {
   vec3 x = normalize(abs(axis.z) < 0.9 ? cross(vec3(0.0, 0.0, 1.0), axis) : cross(vec3(0.0, 1.0, 0.0), axis));
   mesh = vertex;
-  world = place + mat3(x, cross(axis, x), axis) * (vertex * scale);
+  vec3 turned = vertex + 2.0 * cross(turn.xyz, cross(turn.xyz, vertex) + turn.w * vertex);
+  world = place + mat3(x, cross(axis, x), axis) * (turned * scale);
   gl_Position = to_picture * vec4(world, 1.0);
 }`;
 
@@ -224,7 +226,7 @@ function sandPicture(canvas, bed) {
   const waiting = new Map();  // heights by tile, not taken yet
   let unfinished = null;      // the last picture, while it is drawn
   let stale = [[0, 0, cols, rows]];  // rectangles of cells whose light is to be worked out
-  let tool = null, line = null, colouring = null, [lowest, highest] = [bed.low, bed.high];
+  let tool = null, toolMesh = null, line = null, colouring = null, [lowest, highest] = [bed.low, bed.high];
 
   /** Cells [first column, row, end column, row] changed: the light near them has, and in their shadow. */
   const shade = ([left, lower, right, upper]) => {
@@ -317,10 +319,10 @@ function sandPicture(canvas, bed) {
     gl.enable(gl.DEPTH_TEST);
     const centre = tool ? plus(tool.tip, [0, 0, tool.radius]) : [0, 0, 0];
     sand({ ...world, heights: toHeights, light: toLight, values: colouring?.values ? toValues : toHeights, cells,
-           cell_size: cellSize, origin, tool: centre, radius: tool ? tool.radius : 0,
+           cell_size: cellSize, origin, tool: centre, radius: tool && !toolMesh ? tool.radius : 0,
            range: colouring ? [colouring.low, colouring.high, 1] : [0, 1, 0], diverging: colouring?.diverging ?? false });
     drawTiles(camera, canvas.height / (2 * camera.tan * coarseness));
-    const upright = { ...world, axis: [0, 0, 1], gloss: 0 };
+    const upright = { ...world, axis: [0, 0, 1], turn: [0, 0, 0, 1], gloss: 0 };
     drawSolid(box, { ...upright, place: [0, 0, 0], scale: [1, 1, 1], paint: [0.27, 0.16, 0.09, 1] });
     if (line) {
       const along = plus(line[1], line[0], -1), thin = 0.002 * size;
@@ -330,20 +332,22 @@ function sandPicture(canvas, bed) {
       gl.enable(gl.DEPTH_TEST);
     }
     if (!tool) return;
-    const ball = { ...upright, place: centre, scale: [tool.radius, tool.radius, tool.radius], gloss: 2.5 };
-    drawSolid(sphere, { ...ball, paint: [0.12, 0.16, 0.21, 1] });
+    const { radius } = tool, ball = { place: centre, scale: [radius, radius, radius], gloss: 2.5 };
+    const body = { ...upright, ...(toolMesh ? { place: tool.tip, scale: [1, 1, 1], turn: tool.turn } : ball) };
+    const drawTool = (opacity) => drawSolid(toolMesh ?? sphere, { ...body, paint: [0.12, 0.16, 0.21, opacity] });
+    drawTool(1);
     gl.enable(gl.BLEND);
     gl.blendFunc(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA);
     gl.depthFunc(gl.GREATER);   // and what of it lies in the sand
     gl.depthMask(false);
-    drawSolid(sphere, { ...ball, paint: [0.12, 0.16, 0.21, 0.25] });
+    drawTool(0.25);
     gl.depthMask(true);
     gl.depthFunc(gl.LESS);
     gl.disable(gl.BLEND);
     const push = lengthOf(tool.force);
-    if (push > 0.2 * tool.radius)
+    if (push > 0.2 * radius)
       drawSolid(arrow, { ...upright, axis: unitOf(tool.force), place: centre, paint: [0.75, 0.13, 0.02, 1],
-                         scale: [0.3 * tool.radius, 0.3 * tool.radius, tool.radius + push] });
+                         scale: [0.3 * radius, 0.3 * radius, radius + push] });
   };
 
   return {
@@ -359,8 +363,12 @@ function sandPicture(canvas, bed) {
       gl.texSubImage2D(gl.TEXTURE_2D, 0, 0, 0, cols, rows, gl.RED, gl.FLOAT, values);
       stale = [[0, 0, cols, rows]];
     },
-    /** The tool: {tip, radius, force} in m and as an arrow's length in m; null: there is none. */
+    /** The tool: {tip, radius, force} in m and as an arrow's length in m, and its turn; null: there is none. */
     setTool: (one) => { tool = one; },
+    /** What it looks like, its tip at the origin [m]; without that a sphere. */
+    setToolMesh: (vertices, triangles) => {
+      toolMesh = glMesh(gl, Float32Array.from(vertices), Uint32Array.from(triangles));
+    },
     /** A line between two places; null: there is none. */
     setLine: (one) => { line = one; },
     /** Colours for values (by cell; null: the heights themselves) from low to high; null: sand. */
