@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "core/angle.h"
-#include "core/compensated_sum.h"
 #include "core/elementary.h"
 #include "sand/resistive_kernels.h"
 
@@ -53,21 +52,6 @@ Wrench ResistiveForce::feel(const ToolFootprint& footprint, const Eigen::Vector3
   felt_ = true;
   return resistive_wrench({footprint, elements_, ways_.get(), tip, plane, motion / sand.yield_way, spin,
                            resistance(sand), sand.tool_friction, sand.yield_way});
-}
-
-VolumeBelow ResistiveForce::volume_below(const Eigen::Vector3d& tip, const SandPlane& plane) const {
-  const ToolElements& e = elements_;
-  CompensatedSum volume, moment_x, moment_y;
-  for (int i = 0; i < e.count(); ++i) {
-    const double depth =
-        plane.height + plane.slope.x() * e.x()[i] + plane.slope.y() * e.y()[i] - tip.z() - e.z()[i];
-    if (!(depth > 0.0)) continue;
-    const double above = -depth * e.normal_z()[i] * e.area()[i];  // up to the plane
-    volume.add(above);
-    moment_x.add(e.x()[i] * above);
-    moment_y.add(e.y()[i] * above);
-  }
-  return {volume.value(), {moment_x.value(), moment_y.value()}};
 }
 
 }  // namespace sandstroke

@@ -50,10 +50,12 @@ struct Wrench {
 
 /// What of a tool lies below the sand's plane.
 struct VolumeBelow {
-  double volume = 0.0;  ///< m^3
-  Eigen::Vector2d moment =
-      Eigen::Vector2d::Zero();  ///< m^4, the volume times its centroid's way from the tip
+  double volume = 0.0;                  ///< m^3
+  Eigen::Vector2d moment = {0.0, 0.0};  ///< m^4, the volume times its centroid's way from the tip
+  double area = 0.0;                    ///< m^2, by which it grows as the tool sinks
 };
+/// Below a plane that lies `height` [m] above the tip, and slopes from there: by the divergence theorem.
+VolumeBelow volume_below(const ToolElements& elements, double height, const Eigen::Vector2d& slope);
 
 /// Resistive force theory over the surface that touches sand. The law knows a direction of motion and no
 /// speed. What stands for it is each element's way through the sand since it met it, in units of the yield
@@ -77,8 +79,9 @@ class ResistiveForce {
   void lift();
 
   const ToolElements& elements() const { return elements_; }
-  /// Of the tool with its tip there: by the divergence theorem.
-  VolumeBelow volume_below(const Eigen::Vector3d& tip, const SandPlane& plane) const;
+  VolumeBelow volume_below(const Eigen::Vector3d& tip, const SandPlane& plane) const {
+    return sandstroke::volume_below(elements_, plane.height - tip.z(), plane.slope);
+  }
 
  private:
   ToolElements elements_;

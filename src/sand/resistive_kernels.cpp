@@ -71,7 +71,7 @@ Wrench ResistiveWrench(const ResistiveTick& tick) {
           stride = all(f.stride());
   const V height0 = all(tick.plane.height - tick.tip.z()), slope_x = all(tick.plane.slope.x()),
           slope_y = all(tick.plane.slope.y()), tip_z = all(tick.tip.z());
-  const V per_touch = all(4.0 / dx);  // it fades in over a quarter of a cell
+  const V half_cell = all(0.5 * dx), per_touch = all(4.0 / dx);  // it fades in over a quarter of a cell
   const Vector motion = {all(tick.motion.x()), all(tick.motion.y()), all(tick.motion.z())};
   const auto spin_of = [&](int axis) {
     return Vector{all(tick.spin(axis, 0)), all(tick.spin(axis, 1)), all(tick.spin(axis, 2))};
@@ -94,8 +94,10 @@ Wrench ResistiveWrench(const ResistiveTick& tick) {
     const V col = Min(Max(hn::Floor(col0 + r.x * per_cell + n.x + half), zero), last_col);
     const V row = Min(Max(hn::Floor(row0 + r.y * per_cell + n.y + half), zero), last_row);
     const hn::RebindToSigned<decltype(d)> di;
+    // A cell was cut at its centre: beside it a slanting element lies higher.
+    const V slack = half_cell * (hn::Abs(n.x) + hn::Abs(n.y));
     const V height = hn::GatherIndex(d, f.heights(0), hn::ConvertTo(di, row * stride + col));
-    const V touches = where(depth > zero, between_0_and_1((height - tip_z - r.z) * per_touch + one));
+    const V touches = where(depth > zero, between_0_and_1((height + slack - tip_z - r.z) * per_touch + one));
 
     const Mask in_sand = touches > zero;
     Vector way =
@@ -133,6 +135,24 @@ Wrench ResistiveWrench(const ResistiveTick& tick) {
           strength.total()};
 }
 
+VolumeBelow VolumeBelowPlane(const ToolElements& e, double height, const Eigen::Vector2d& slope) {
+  const V slope_x = all(slope.x()), slope_y = all(slope.y()), height0 = all(height), zero = hn::Zero(d);
+  LaneSum volume, moment_x, moment_y, area;
+  for (std::size_t i = 0; i < e.size(); i += lanes) {
+    const int place = static_cast<int>(i);
+    const V x = hn::Load(d, e.x() + i), y = hn::Load(d, e.y() + i);
+    const V depth = height0 + slope_x * x + slope_y * y - hn::Load(d, e.z() + i);
+    // Up from each element to the plane.
+    const V level = where(depth > zero, Neg(hn::Load(d, e.normal_z() + i)) * hn::Load(d, e.area() + i));
+    const V above = level * depth;
+    area.add(place, level);
+    volume.add(place, above);
+    moment_x.add(place, x * above);
+    moment_y.add(place, y * above);
+  }
+  return {volume.total(), {moment_x.total(), moment_y.total()}, area.total()};
+}
+
 Eigen::Vector3d StressOf(const Eigen::Vector3d& normal, const Eigen::Vector3d& motion, double tool_friction) {
   const auto as_vector = [](const Eigen::Vector3d& v) { return Vector{all(v.x()), all(v.y()), all(v.z())}; };
   const Vector alpha = stress(as_vector(normal), as_vector(motion), all(tool_friction));
@@ -148,8 +168,12 @@ namespace sandstroke {
 
 HWY_EXPORT(ResistiveWrench);
 HWY_EXPORT(StressOf);
+HWY_EXPORT(VolumeBelowPlane);
 
 Wrench resistive_wrench(const ResistiveTick& tick) { return HWY_DYNAMIC_DISPATCH(ResistiveWrench)(tick); }
+VolumeBelow volume_below(const ToolElements& elements, double height, const Eigen::Vector2d& slope) {
+  return HWY_DYNAMIC_DISPATCH(VolumeBelowPlane)(elements, height, slope);
+}
 Eigen::Vector3d resistive_stress(const Eigen::Vector3d& normal, const Eigen::Vector3d& motion,
                                  double tool_friction) {
   return HWY_DYNAMIC_DISPATCH(StressOf)(normal, motion, tool_friction);

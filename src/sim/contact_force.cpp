@@ -35,7 +35,9 @@ Wrench ContactForce::feel(SandSide& sand, const HeightField& bed, const Eigen::V
 VolumeBelow ContactForce::volume_below(const Eigen::Vector3d& tip, const SandPlane& plane) const {
   if (!sphere_radius_) return resistive_.volume_below(tip, plane);
   const double R = *sphere_radius_, depth = std::clamp(plane.height - tip.z(), 0.0, 2.0 * R);
-  return {std::numbers::pi * depth * depth * (R - depth / 3.0)};
+  return {std::numbers::pi * depth * depth * (R - depth / 3.0),
+          {0.0, 0.0},
+          std::numbers::pi * depth * (2.0 * R - depth)};
 }
 
 Wrench ContactForce::archimedes(const Eigen::Vector3d& tip, const SandPlane& plane, double sinks) {
@@ -43,12 +45,11 @@ Wrench ContactForce::archimedes(const Eigen::Vector3d& tip, const SandPlane& pla
   const double yield = sand_.yield_way, share = plate * resistance(sand_);
   sunk_ = std::clamp(sunk_ + sinks / yield, 0.0, 1.0);
   const VolumeBelow below = volume_below(tip, plane);
-  const double deeper = volume_below(tip - Eigen::Vector3d(0.0, 0.0, yield), plane).volume;
   Wrench wrench;
   wrench.strength = share * below.volume;
   wrench.force.z() = wrench.strength * sunk_;
   wrench.torque = share * sunk_ * Eigen::Vector3d(below.moment.y(), -below.moment.x(), 0.0);
-  wrench.stiffness = share * std::max(deeper, below.volume) / yield;  // it grows with volume and way
+  wrench.stiffness = share * (below.area + below.volume / yield);  // it grows with volume and way
   wrench.stored = 0.5 * yield * wrench.force.z();
   return wrench;
 }
