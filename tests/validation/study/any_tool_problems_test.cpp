@@ -54,8 +54,8 @@ TEST(AnyToolProblems, ForcesOnPlatesAreThoseOfTheTheory) {
 TEST(AnyToolProblems, ForcesOnASphereAreThoseOfTheTheory) {
   for (const auto& [series, errors] : errors_of("force-sphere")) {
     ASSERT_EQ(errors.size(), 3u);
-    EXPECT_LT(errors[2], series.starts_with("pushed") ? errors[0] : 0.01) << series;
-    EXPECT_LT(errors[2], 0.025) << series;
+    EXPECT_LT(errors[2], series.starts_with("pushed") ? 0.3 * errors[0] : 0.01) << series;
+    EXPECT_LT(errors[2], 0.01) << series;  // pushed: 1.0, 0.3, 0.1 %; dragged: within 0.6 %
   }
 }
 
