@@ -18,6 +18,8 @@ struct Vector {
   HWY_INLINE Vector plus(const Vector& o) const { return {x + o.x, y + o.y, z + o.z}; }
 };
 
+HWY_INLINE V between_0_and_1(V x) { return Min(Max(x, hn::Zero(d)), all(1.0)); }
+
 /// Coefficients of 1, x1, x2, x3, x1^2, x2^2, x3^2, x1 x2, x2 x3, x3 x1, x1^3, x2^3, x3^3, x1 x2^2, x2 x1^2,
 /// x2 x3^2, x3 x2^2, x3 x1^2, x1 x3^2, x1 x2 x3 (Agarwal, Goldman, Kamrin 2023, table 1).
 constexpr double table[3][20] = {
@@ -37,14 +39,32 @@ HWY_INLINE V polynomial(const double* c, V x1, V x2, V x3) {
   return all(c[0]) + x1 * in_x1 + x2 * in_x2 + x3 * in_x3;
 }
 
-/// resistive_stress() of as many elements. In vectors, with gravity along -z: x1, x2 and x3 are the cosines
+/// The theory's stress on a plate, n being its normal that looks down: its tilt is from -90 to 90 degrees,
+/// all that its polynomials were fitted to. In vectors, with gravity along -z: x1, x2 and x3 are the cosines
 /// between motion and gravity, normal and gravity, and normal and motion; alpha = f1 n + f2 u - f3 z.
-HWY_INLINE Vector stress(const Vector& n, const Vector& u, V tool_friction) {
+HWY_INLINE Vector plate_stress(const Vector& n, const Vector& u) {
   const V x1 = Neg(u.z), x2 = Neg(n.z), x3 = u.dot(n);
   const V f1 = polynomial(table[0], x1, x2, x3), f2 = polynomial(table[1], x1, x2, x3),
           f3 = polynomial(table[2], x1, x2, x3);
   Vector alpha = n.times(f1).plus(u.times(f2));
   alpha.z -= f3;
+  return alpha;
+}
+
+/// resistive_stress() of as many elements. Of one that looks up, the plate's normal is the other side's. An
+/// upright plate has both, of which the polynomials make 0.192 and 0.229 where it is dragged face on: from an
+/// upright element to one that looks up by 3 degrees the first goes over into the second.
+HWY_INLINE Vector stress(const Vector& n, const Vector& u, V tool_friction) {
+  constexpr double goes_over = 0.05;
+  const V zero = hn::Zero(d), one = all(1.0);
+  const V up = between_0_and_1(n.z * all(1.0 / goes_over));
+  const Mask between = hn::And(up > zero, up < one);
+  Vector alpha = plate_stress(n.times(hn::IfThenElse(up < one, one, all(-1.0))), u);
+  if (!hn::AllFalse(d, between)) {
+    const Vector other = plate_stress(n.times(all(-1.0)), u);
+    const V part = where(between, up);
+    alpha = alpha.times(one - part).plus(other.times(part));
+  }
   const V across = alpha.dot(n);
   const Vector along = alpha.plus(n.times(Neg(across)));
   const V along2 = along.dot(along), most = tool_friction * hn::Abs(across);
@@ -56,8 +76,6 @@ HWY_INLINE Vector stress(const Vector& n, const Vector& u, V tool_friction) {
 /// Elements that trail by less than so much of a right angle's cosine fade out: an upright side that is
 /// pushed along itself would else be dragged at or not as its motion trembles.
 constexpr double fade = 0.05;
-
-HWY_INLINE V between_0_and_1(V x) { return Min(Max(x, hn::Zero(d)), all(1.0)); }
 
 Wrench ResistiveWrench(const ResistiveTick& tick) {
   const ToolFootprint& f = tick.footprint;

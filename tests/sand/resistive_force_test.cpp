@@ -45,6 +45,37 @@ TEST(ResistiveStress, AlongTheSurfaceIsAtMostFriction) {
   }
 }
 
+TEST(ResistiveStress, OfWhatLeadsTakesEnergyWhereverItLooks) {
+  // The polynomials are a fit: where they come to nearly nothing they may give a hundredth of a push.
+  const double push = resistive_stress({0.0, 0.0, -1.0}, {0.0, 0.0, -1.0}, 0.4).z();
+  for (int tilt = -9; tilt <= 9; ++tilt)
+    for (int way = -9; way <= 9; ++way)
+      for (int side = 0; side < 12; ++side) {
+        const double b = pi * tilt / 18.0, w = pi * way / 18.0, s = pi * side / 6.0;
+        const Vector3d normal(std::cos(b), 0.0, std::sin(b)),
+            motion(std::cos(w) * std::cos(s), std::cos(w) * std::sin(s), std::sin(w));
+        if (normal.dot(motion) < 0.0) continue;
+        EXPECT_LT(resistive_stress(normal, motion, 10.0).dot(motion), 0.02 * push) << normal << motion;
+      }
+}
+
+TEST(ResistiveStress, OfAPlatePulledUpIsAThirdOfAPushAtMost) {
+  // -0.20 to -0.30 of it, measured in three media (Li, Zhang, Goldman 2013); the polynomials have -0.09.
+  const double push = resistive_stress({0.0, 0.0, -1.0}, {0.0, 0.0, -1.0}, 0.4).z(),
+               pull = resistive_stress({0.0, 0.0, 1.0}, {0.0, 0.0, 1.0}, 0.4).z();
+  EXPECT_LT(pull, 0.0);
+  EXPECT_GT(pull, -push / 3.0);
+}
+
+TEST(ResistiveStress, ChangesSteadilyFromAnUprightElementToOneThatLooksUp) {
+  const auto dragged = [](double up) {
+    return resistive_stress({std::sqrt(1.0 - up * up), 0.0, up}, Vector3d::UnitX(), 10.0);
+  };
+  EXPECT_NEAR(dragged(0.0).x(), -0.192, 0.0005);
+  for (double up = -0.1; up < 0.1; up += 0.001)
+    EXPECT_LT((dragged(up + 0.001) - dragged(up)).norm(), 0.003) << up;
+}
+
 TEST(Resistance, OfQuikreteIsWhatWasMeasuredWithinAFewPercent) {
   // 2.02 N/cm^3 measured under a plate; the formula gives 2.13.
   EXPECT_NEAR(0.87574 * resistance({34.0, 1560.0}) * 1e-6, 2.13, 0.005);
@@ -99,7 +130,7 @@ TEST(ResistiveForce, OfASphereIsThatOfTheTable) {
     EXPECT_NEAR(theory_of_sphere(0.01, depths[i], falling, {34.0}).z(), repulse34[i], 0.03 * repulse34[i]);
     const Vector3d dragged = theory_of_sphere(0.01, depths[i], Vector3d::UnitX(), {30.0});
     const double plunged = theory_of_sphere(0.01, depths[i], falling, {30.0}).z();
-    EXPECT_NEAR(-dragged.x() / plunged, drag30[i], i < 4 ? 0.005 : 0.035);  // 0.240 where the table has 0.27
+    EXPECT_NEAR(-dragged.x() / plunged, drag30[i], 0.005);
   }
   // What a footprint on cells feels: within 1 % at 10 cells per radius, but for what has not yielded yet;
   // with a way of 1 mm that is 8 % at 2 mm and 2 % at 4 mm.
