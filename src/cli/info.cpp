@@ -17,6 +17,7 @@
 #include "io/run_file.h"
 #include "io/scene_keys.h"
 #include "io/scene_toml.h"
+#include "run/run_summary.h"
 
 namespace sandstroke {
 namespace {

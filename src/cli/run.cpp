@@ -23,7 +23,7 @@
 #include "io/scene_toml.h"
 #include "io/xdmf.h"
 #include "run/run_scene.h"
-#include "sand/instruction_set.h"
+#include "run/run_summary.h"
 #include "sim/furrow.h"
 #include "sim/recorded_force.h"
 #include "sim/simulation.h"
@@ -45,68 +45,6 @@ struct RunArguments {
   bool view = false, no_open = false;
   bool json = false;
 };
-
-nlohmann::ordered_json as_json(const RunResult& r, const Scene& scene, const std::string& output) {
-  constexpr double none = std::numeric_limits<double>::quiet_NaN();  // null
-  nlohmann::ordered_json json = {
-      {"output", output},
-      {"preset", preset_name(scene.preset)},
-      {"wall_seconds", r.wall_seconds},
-      {"ticks", r.ticks},
-      {"simulated_seconds", r.simulated_seconds},
-      {"real_time_factor", r.simulated_seconds / r.wall_seconds},
-      {"contact_ticks", r.contact_ticks},
-      {"saturated_ticks", r.device.saturated_ticks},
-      {"stroke_seconds", r.stroke.whole},
-      {"played_seconds", r.stroke.played},
-      {"gaps", r.stroke.gaps},
-      {"passes", r.relaxation.passes},
-      {"relaxations", r.relaxations},
-      {"super_steps", r.relaxation.super_steps},
-      {"rejected_stages", r.relaxation.rejected_stages},
-      {"cells_visited", r.relaxation.cells_visited},
-      {"tiles_active_max", r.relaxation.tiles_active_max},
-      {"wake_ups", r.relaxation.wake_ups},
-      {"residual", r.relaxation.residual},
-      {"converged", r.relaxation.converged},
-      {"volume_initial", r.volume_initial},
-      {"volume_final", r.volume_final},
-      {"volume_drift", r.volume_drift},
-      {"displaced_volume", r.displaced_volume},
-      {"moved_volume", r.moved_volume},
-      {"max_force", r.device.max_force},
-      {"mean_force", r.device.mean_force},
-      {"max_depth", r.max_depth},
-      {"asked_depth", r.furrow ? r.furrow->asked_depth : none},
-      {"furrow_depth", r.furrow ? r.furrow->depth : none},
-      {"held_drag_ticks", r.device.held_drag_ticks},
-      {"swings_from", r.device.swings_from.value_or(none)},
-      {"absorbed_energy", r.device.absorbed_energy},
-      {"least_absorbed_energy", r.device.least_absorbed_energy},
-      {"least_passivity_margin", r.device.least_passivity_margin},
-      {"threads", r.threads},
-      {"instruction_set", instruction_set()},
-      {"interrupted", r.interrupted},
-  };
-  if (r.followed)
-    json["followed"] = {{"ticks", r.followed->ticks},
-                        {"asked_depth", r.followed->asked_depth},
-                        {"depth", r.followed->depth},
-                        {"asked_force", r.followed->asked_force},
-                        {"force", r.followed->force}};
-  if (r.recorded_force)
-    json["recorded_force"] = {{"ticks", r.recorded_force->ticks},
-                              {"rms", r.recorded_force->rms},
-                              {"max", r.recorded_force->max},
-                              {"correlation", r.recorded_force->correlation},
-                              {"best_correlation", r.recorded_force->best_correlation},
-                              {"lag", r.recorded_force->lag}};
-  if (r.error) {
-    json["error_estimate"] = error_json(*r.error);
-    json["error_estimate"]["wall_seconds"] = r.error->wall_seconds;
-  }
-  return json;
-}
 
 void print_summary(const RunResult& r, const Scene& scene, const std::string& output) {
   print_row("run", output);
@@ -249,7 +187,7 @@ int run(const RunArguments& arguments) {
 
   const std::string written = result.interrupted ? part_path(output).string() : output;
   if (arguments.json) {
-    print_json(as_json(result, scene, written));
+    print_json(run_summary(result, scene, written));
   } else {
     print_summary(result, scene, written);
   }

@@ -53,15 +53,8 @@ std::optional<ErrorEstimate> estimated_error(const Scene& scene, const HeightFie
   }
 }
 
-}  // namespace
-
-Stroke placed_stroke(const Scene& scene, const std::filesystem::path& path, std::string& hash) {
-  const std::string name = samples_name(path);
-  const Stroke loaded = load_stroke(path, scene.force, scene.stroke->table.value_or(TableSettings{}));
-  if (!loaded.complete)
-    spdlog::warn("{}: was cut off while it was recorded; the run ends where the stroke does", name);
-  // Not of a recorded stroke's bytes: they tell which build wrote it, too.
-  hash = is_script(path) ? file_hash(path) : content_hash(loaded);
+/// The stroke as it is played. scripted: its samples have nothing to be warned of.
+Stroke placed_samples(const Scene& scene, const Stroke& loaded, const std::string& name, bool scripted) {
   Stroke placed = place_on_bed(loaded, scene, name);
   warn_if_any(coverage_warning(placed, name));
   if (scene.stroke->placement.plane != StrokePlane::keep) {
@@ -75,10 +68,22 @@ Stroke placed_stroke(const Scene& scene, const std::filesystem::path& path, std:
     spdlog::warn(
         "{}: stroke.smooth = {:.4g} Hz changes nothing, for its samples come at less than twice that", name,
         smooth);
-  if (!is_script(path))
+  if (!scripted)
     for (const std::string& warning : quality_warnings(quality_of(placed)))
       spdlog::warn("{}: {}", name, warning);
   return placed;
+}
+
+}  // namespace
+
+Stroke placed_stroke(const Scene& scene, const std::filesystem::path& path, std::string& hash) {
+  const std::string name = samples_name(path);
+  const Stroke loaded = load_stroke(path, scene.force, scene.stroke->table.value_or(TableSettings{}));
+  if (!loaded.complete)
+    spdlog::warn("{}: was cut off while it was recorded; the run ends where the stroke does", name);
+  // Not of a recorded stroke's bytes: they tell which build wrote it, too.
+  hash = is_script(path) ? file_hash(path) : content_hash(loaded);
+  return placed_samples(scene, loaded, name, is_script(path));
 }
 
 std::string scene_file_entry(const std::filesystem::path& scene_file, const std::filesystem::path& run_file) {
@@ -95,12 +100,16 @@ RunResult run_scene(const Scene& asked, const std::filesystem::path& output, con
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                   static_cast<std::size_t>(threads));
 
-  std::filesystem::path stroke_file;
-  std::string stroke_hash;
+  std::string stroke_name, stroke_hash;
   std::optional<Stroke> stroke;
-  if (scene.stroke) {
-    stroke_file = stroke_path(scene, options.scene_folder);
-    stroke = placed_stroke(scene, stroke_file, stroke_hash);
+  if (scene.stroke && options.stroke) {
+    stroke_name = options.stroke->source;
+    stroke_hash = content_hash(*options.stroke);
+    stroke = placed_samples(scene, *options.stroke, stroke_name, false);
+  } else if (scene.stroke) {
+    const std::filesystem::path file = stroke_path(scene, options.scene_folder);
+    stroke_name = samples_name(file);
+    stroke = placed_stroke(scene, file, stroke_hash);
   }
   if (options.second) second_scene(scene, *options.second);  // refused before any work, if at all
   HeightField bed = load_surface(scene.bed, options.scene_folder);
@@ -108,19 +117,22 @@ RunResult run_scene(const Scene& asked, const std::filesystem::path& output, con
   if (stroke || options.second) start = bed;
   Simulation simulation(scene, std::move(bed), stroke);
   if (stroke) {
-    warn_if_any(depth_warning(scene, simulation.bed(), *stroke, samples_name(stroke_file)));
-    check_disk(output, least_bytes(simulation),
-               "choose another place or free disk space; output.trace = false, fewer output.frames or a "
-               "stroke.stop keep less");
+    warn_if_any(depth_warning(scene, simulation.bed(), *stroke, stroke_name));
+    if (!output.empty())
+      check_disk(output, least_bytes(simulation),
+                 "choose another place or free disk space; output.trace = false, fewer output.frames or a "
+                 "stroke.stop keep less");
   }
   const std::string scene_file =
       options.scene_file.empty() ? "" : scene_file_entry(options.scene_file, output);
-  RunWriter writer(output, simulation, stroke_hash, scene_file);
+  std::optional<RunWriter> writer;
+  if (!output.empty()) writer.emplace(output, simulation, stroke_hash, scene_file);
   TipPathGatherer path(scene);
   std::optional<RunProgress> bar;
   Kept force(force_of);
   Kept both_forces(forces_of);
-  Observers observers = {&writer, &path};
+  Observers observers = {&path};
+  if (writer) observers.push_back(&*writer);
   if (options.progress) observers.push_back(&bar.emplace());
   if (simulation.trace_content().recorded_force) observers.push_back(&both_forces);
   if (options.second) observers.push_back(&force);
@@ -130,7 +142,8 @@ RunResult run_scene(const Scene& asked, const std::filesystem::path& output, con
   result.recorded_force = force_agreement(both_forces.values);
   if (stroke) result.furrow = path.furrow(*start, simulation.bed());
   bar.reset();
-  writer.end(result, simulation.bed());
+  if (options.at_end) options.at_end(simulation, result);
+  if (writer) writer->end(result, simulation.bed());
   if (stroke) warn_if_any(theory_warning(scene, result.max_contact_speed));
   if (result.interrupted) return result;
   if (options.second) {
@@ -140,9 +153,9 @@ RunResult run_scene(const Scene& asked, const std::filesystem::path& output, con
     if (options.error_map) map.emplace(end.rows(), end.cols(), end.cell_size());
     HeightField* const kept = map ? &*map : nullptr;
     result.error = estimated_error(scene, *start, stroke, {end, result}, force, *options.second, kept);
-    if (result.error) writer.write_error(*result.error, kept);
+    if (result.error && writer) writer->write_error(*result.error, kept);
   }
-  writer.finish();
+  if (writer) writer->finish();
   return result;
 }
 

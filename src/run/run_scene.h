@@ -19,7 +19,10 @@ struct RunOptions {
   std::optional<SecondSolution> second;      ///< estimate the error, from this
   /// Who else is told of the simulation that is about to run; none: nobody. It outlives the run.
   std::function<SimulationObserver&(const Simulation&)> onlooker;
-  bool error_map = false;  ///< and keep the error of each cell's height
+  bool error_map = false;        ///< and keep the error of each cell's height
+  std::optional<Stroke> stroke;  ///< samples to play instead of the file that the scene's [stroke] names
+  /// Is shown the simulation after its run, which may have been interrupted; none: nobody.
+  std::function<void(const Simulation&, const RunResult&)> at_end;
 };
 
 /// The scene's stroke, from that file, as it is played, and the hash of its content. Warns of what it leaves
@@ -30,9 +33,9 @@ Stroke placed_stroke(const Scene& scene, const std::filesystem::path& path, std:
 /// moved together.
 std::string scene_file_entry(const std::filesystem::path& scene_file, const std::filesystem::path& run_file);
 
-/// Loads bed and stroke, simulates, writes the run file, and then, where asked, estimates its error: none
-/// where it was interrupted, or where the second solution is unstable, which it warns of. Error: input, io or
-/// unstable.
+/// Loads bed and stroke, simulates, writes the run file (output empty: none), and then, where asked,
+/// estimates its error: none where it was interrupted, or where the second solution is unstable, which it
+/// warns of. Error: input, io or unstable.
 RunResult run_scene(const Scene& scene, const std::filesystem::path& output, const RunOptions& options);
 
 }  // namespace sandstroke
