@@ -25,6 +25,7 @@
 #include "io/stroke_file.h"
 #include "io/surface_file.h"
 #include "run/run_progress.h"
+#include "sim/contact_force.h"
 #include "sim/furrow.h"
 #include "sim/recorded_force.h"
 #include "sim/stroke_depth.h"

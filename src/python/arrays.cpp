@@ -1,0 +1,81 @@
+#include "python/arrays.h"
+
+#include <pybind11/stl.h>
+#include <spdlog/fmt/ranges.h>
+
+#include "core/error.h"
+
+namespace sandstroke {
+namespace {
+
+namespace py = pybind11;
+
+template <class Number>
+using Dense = py::array_t<Number, py::array::c_style | py::array::forcecast>;
+
+std::string shape_text(const py::array& array) {
+  std::vector<py::ssize_t> shape(array.shape(), array.shape() + array.ndim());
+  return fmt::format("({})", fmt::join(shape, ", "));
+}
+
+template <class Number>
+Dense<Number> numbers(const char* name, const py::object& given, py::ssize_t components) {
+  py::array array;
+  try {
+    array = py::array(given);
+  } catch (const py::error_already_set&) {
+    array = py::array();
+  }
+  const char kind = array.dtype().kind();
+  if (kind != 'f' && kind != 'i' && kind != 'u' && kind != 'b')
+    throw_input_error("stroke: {} must be an array of numbers", name);
+  const bool fits = components == 0 ? array.ndim() == 1 : array.ndim() == 2 && array.shape(1) == components;
+  if (!fits)
+    throw_input_error("stroke: {} has the shape {}; it must be {}", name, shape_text(array),
+                      components == 0 ? "(n,)" : fmt::format("(n, {})", components));
+  return Dense<Number>(array);
+}
+
+template <class Number>
+void take(const char* name, const py::object& given, std::vector<Number>& column) {
+  if constexpr (std::is_arithmetic_v<Number>) {
+    const Dense<Number> array = numbers<Number>(name, given, 0);
+    column.assign(array.data(), array.data() + array.size());
+  } else {
+    constexpr py::ssize_t components = Number::SizeAtCompileTime;
+    const Dense<double> array = numbers<double>(name, given, components);
+    column.resize(static_cast<std::size_t>(array.shape(0)));
+    for (std::size_t i = 0; i < column.size(); ++i)
+      column[i] = Eigen::Map<const Number>(array.data() + components * static_cast<py::ssize_t>(i));
+  }
+}
+
+}  // namespace
+
+Stroke stroke_of(const py::dict& columns) {
+  Stroke stroke;
+  stroke.source = "stroke";
+  std::size_t known = 0;
+  std::vector<std::string> names;
+  visit_columns(stroke, [&](const char* name, auto& column) {
+    names.emplace_back(name);
+    if (!columns.contains(name) || py::object(columns[name]).is_none()) {
+      known += columns.contains(name);
+      return;
+    }
+    ++known;
+    take(name, columns[name], column);
+  });
+  if (known != columns.size()) {
+    for (const auto& [name, column] : columns)
+      if (const auto text = name.cast<std::string>();
+          std::find(names.begin(), names.end(), text) == names.end())
+        throw_input_error("stroke: '{}' is no column of a stroke; it has {}", text, fmt::join(names, ", "));
+  }
+  for (const char* name : {"time", "position"})
+    if (!columns.contains(name)) throw_input_error("stroke: needs the column {}", name);
+  check_stroke(stroke, "stroke");
+  return stroke;
+}
+
+}  // namespace sandstroke

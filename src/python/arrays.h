@@ -1,0 +1,42 @@
+#pragma once
+
+#include <pybind11/numpy.h>
+
+#include <Eigen/Core>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "haptics/stroke.h"
+
+namespace sandstroke {
+
+/// Numbers of somebody else as an array that keeps him alive: no copy, and read only. first: at `strides`
+/// [bytes] from each other.
+template <class Number>
+pybind11::array view_of(const Number* first, std::vector<pybind11::ssize_t> shape,
+                        std::vector<pybind11::ssize_t> strides, pybind11::handle owner) {
+  pybind11::array array(pybind11::dtype::of<Number>(), std::move(shape), std::move(strides), first, owner);
+  array.attr("setflags")(pybind11::arg("write") = false);
+  return array;
+}
+
+/// A field of records that lie in a row, as visit_tick_fields() gives it.
+template <class Record, class Of>
+pybind11::array column_view(std::vector<Record>& records, const Of& of, pybind11::handle owner) {
+  static Record none;
+  auto& first = of(records.empty() ? none : records.front());
+  using Field = std::decay_t<decltype(first)>;
+  const auto rows = static_cast<pybind11::ssize_t>(records.size());
+  constexpr auto step = static_cast<pybind11::ssize_t>(sizeof(Record));
+  if constexpr (std::is_arithmetic_v<Field>)
+    return view_of(&first, {rows}, {step}, owner);
+  else
+    return view_of(first.data(), {rows, first.size()}, {step, pybind11::ssize_t{sizeof(double)}}, owner);
+}
+
+/// A stroke of arrays by the names of its columns (visit_columns), "time" [s] and "position" [m] at least.
+/// Error: input, with the column's name and the shape that it must have.
+Stroke stroke_of(const pybind11::dict& columns);
+
+}  // namespace sandstroke

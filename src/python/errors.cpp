@@ -1,0 +1,93 @@
+#include "python/errors.h"
+
+#include <spdlog/sinks/base_sink.h>
+#include <spdlog/spdlog.h>
+
+#include <chrono>
+#include <cstdio>
+#include <mutex>
+
+#include "core/error.h"
+
+namespace sandstroke {
+namespace {
+
+namespace py = pybind11;
+
+thread_local std::vector<std::string>* collecting = nullptr;
+
+class WarningSink : public spdlog::sinks::base_sink<std::mutex> {
+  void sink_it_(const spdlog::details::log_msg& message) override {
+    const std::string text(message.payload.data(), message.payload.size());
+    if (collecting)
+      collecting->push_back(text);
+    else
+      fmt::print(stderr, "sandstroke: {}\n", text);
+  }
+  void flush_() override {}
+};
+
+/// Whether it was said on a command line does not matter here.
+std::string without_option(std::string sentence) {
+  for (std::size_t at; (at = sentence.find("--set ")) != std::string::npos;) sentence.erase(at, 6);
+  return sentence;
+}
+
+py::handle new_error(py::module_& module, const char* name, py::handle base, py::handle also,
+                     const char* text) {
+  const std::string full = std::string("sandstroke.") + name;
+  const py::tuple bases = also ? py::make_tuple(base, also) : py::make_tuple(base);
+  py::handle error = PyErr_NewExceptionWithDoc(full.c_str(), text, bases.ptr(), nullptr);
+  module.add_object(name, error);
+  return error;
+}
+
+py::handle input_error, unstable_error, file_error;
+
+}  // namespace
+
+void add_errors(py::module_& module) {
+  const py::handle error =
+      new_error(module, "Error", PyExc_Exception, {}, "What sandstroke ends with: one sentence.");
+  input_error =
+      new_error(module, "InputError", error, PyExc_ValueError, "Something that was given is wrong.");
+  unstable_error = new_error(module, "UnstableError", error, PyExc_ArithmeticError,
+                             "The run does not settle; other settings may.");
+  file_error = new_error(module, "FileError", error, PyExc_OSError, "The system would not read or write.");
+  py::register_exception_translator([](std::exception_ptr thrown) {
+    try {
+      if (thrown) std::rethrow_exception(thrown);
+    } catch (const Error& failure) {
+      const py::handle type = failure.kind() == ErrorKind::input      ? input_error
+                              : failure.kind() == ErrorKind::unstable ? unstable_error
+                                                                      : file_error;
+      PyErr_SetString(type.ptr(), without_option(failure.what()).c_str());
+    }
+  });
+  auto logger = std::make_shared<spdlog::logger>("sandstroke", std::make_shared<WarningSink>());
+  logger->set_level(spdlog::level::warn);
+  spdlog::set_default_logger(logger);
+}
+
+Warnings::Warnings() : before_(collecting) { collecting = &sentences_; }
+Warnings::~Warnings() { collecting = before_; }
+
+void Warnings::give() {
+  constexpr Py_ssize_t caller = 3;  // of the function in the package
+  for (const std::string& sentence : sentences_)
+    if (PyErr_WarnEx(PyExc_UserWarning, without_option(sentence).c_str(), caller) != 0)
+      throw py::error_already_set();
+  sentences_.clear();
+}
+
+void SignalWatch::look() {
+  constexpr double interval = 0.05;  // s
+  using Seconds = std::chrono::duration<double>;
+  const double now = Seconds(std::chrono::steady_clock::now().time_since_epoch()).count();
+  if (now < next_) return;
+  next_ = now + interval;
+  const py::gil_scoped_acquire held;
+  if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+}
+
+}  // namespace sandstroke

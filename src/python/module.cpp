@@ -1,0 +1,191 @@
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include <algorithm>
+
+#include "compare/compare_runs.h"
+#include "core/error.h"
+#include "core/interrupt.h"
+#include "core/version.h"
+#include "io/mesh_file.h"
+#include "io/run_file.h"
+#include "io/scene_keys.h"
+#include "io/scene_toml.h"
+#include "python/arrays.h"
+#include "python/errors.h"
+#include "python/kept_run.h"
+#include "render/height_field_renderer.h"
+#include "tool/tool_surface.h"
+
+// What src/python/sandstroke builds its functions on: names with a _ are not for users.
+
+namespace sandstroke {
+namespace {
+
+namespace py = pybind11;
+using Doubles = py::array_t<double, py::array::c_style | py::array::forcecast>;
+using Run = std::shared_ptr<KeptRun>;
+
+py::array grid_view(const HeightGrid& grid, py::handle owner) {
+  constexpr py::ssize_t number = sizeof(double);
+  return view_of(grid.data(), {grid.rows(), grid.cols()}, {grid.cols() * number, number}, owner);
+}
+
+/// A row of name, units, meaning, array, and the names of its components, for each field that the run has.
+py::list trace_columns(const py::object& self) {
+  KeptRun& run = *self.cast<Run>();
+  py::list columns;
+  if (run.trace.empty()) return columns;
+  visit_tick_fields([&](const FieldText& field, const auto& of) {
+    if (field.only_with && !(run.content.*field.only_with)) return;
+    using Field = std::decay_t<decltype(of(run.trace.front()))>;
+    columns.append(py::make_tuple(field.name, field.units, field.meaning, column_view(run.trace, of, self),
+                                  components_of<Field>()));
+  });
+  return columns;
+}
+
+py::list relaxation_columns(const py::object& self) {
+  KeptRun& run = *self.cast<Run>();
+  py::list columns;
+  visit_relaxation_fields([&](const FieldText& field, const auto& of) {
+    columns.append(
+        py::make_tuple(field.name, field.units, field.meaning, column_view(run.relaxations, of, self), ""));
+  });
+  return columns;
+}
+
+py::array frames(const py::object& self) {
+  const KeptRun& run = *self.cast<Run>();
+  constexpr py::ssize_t number = sizeof(double);
+  const py::ssize_t rows = run.initial.rows(), cols = run.initial.cols();
+  return view_of(run.frames.data(), {static_cast<py::ssize_t>(run.frame_times.size()), rows, cols},
+                 {rows * cols * number, cols * number, number}, self);
+}
+
+py::array axis_of(int count, const std::function<double(int)>& place) {
+  py::array_t<double> axis(count);
+  for (int i = 0; i < count; ++i) axis.mutable_at(i) = place(i);
+  return py::array(axis);
+}
+
+SceneHere scene_of_file(const std::filesystem::path& path, const std::vector<std::string>& overrides) {
+  return {load_scene(path, overrides), path.parent_path()};
+}
+
+SceneHere scene_of_text(const std::string& text, const std::filesystem::path& folder,
+                        const std::vector<std::string>& overrides) {
+  return {scene_from_text(text, "scene", overrides), folder};
+}
+
+HeightGrid grid_of(const Doubles& heights) {
+  if (heights.ndim() != 2)
+    throw_input_error("heights: must have two dimensions, rows along y and columns along x");
+  const HeightGrid grid = Eigen::Map<const HeightGrid>(heights.data(), heights.shape(0), heights.shape(1));
+  if (!grid.allFinite()) throw_input_error("heights: a height is not a number");
+  return grid;
+}
+
+/// (height, width, 3), of 8 bits. tip: none: no tool is drawn.
+py::array picture(const SceneHere& here, const Doubles& heights, const Doubles& start,
+                  const std::optional<std::array<double, 3>>& tip, const std::array<double, 4>& orientation) {
+  const Scene& scene = here.scene;
+  const HeightGrid shown = grid_of(heights), before = grid_of(start);
+  if (before.rows() != shown.rows() || before.cols() != shown.cols())
+    throw_input_error("start: must have as many rows and columns as heights");
+  Image image;
+  {
+    const py::gil_scoped_release let_go;
+    RenderSubject subject;
+    subject.view = scene.view;
+    subject.start = start_heights(before);
+    HeightGrid change;
+    if (scene.view.style == RenderStyle::difference) {
+      change = shown - before;
+      subject.difference = &change;
+    }
+    if (tip) {
+      subject.tool = ToolBody{Eigen::Vector3d((*tip)[0], (*tip)[1], (*tip)[2]), scene.tool.radius};
+      if (scene.tool.shape != ToolShape::sphere) {
+        const ToolSettings tool = with_mesh(scene.tool, here.folder);
+        const Eigen::Quaterniond hand(orientation[3], orientation[0], orientation[1], orientation[2]);
+        subject.tool->mesh = std::make_shared<TriangleMesh>(
+            turned(tool_surface(tool), rotation_of(hand.normalized()) * own_rotation(tool)));
+      }
+    }
+    const double cell_size = scene.bed.width / static_cast<double>(shown.cols());
+    HeightFieldRenderer renderer(static_cast<int>(shown.rows()), static_cast<int>(shown.cols()), cell_size);
+    image = renderer.render(HeightField(shown, cell_size, scene.bed.shape), subject);
+  }
+  py::array_t<std::uint8_t> array({image.height, image.width, 3});
+  std::copy(image.rgb.begin(), image.rgb.end(), array.mutable_data());
+  return py::array(array);
+}
+
+/// As JSON text.
+std::string comparison(const std::filesystem::path& golden, const std::filesystem::path& run,
+                       const GivenTolerances& given, bool coarsen) {
+  const py::gil_scoped_release let_go;
+  for (const auto& [name, value] : given) {
+    const auto known = std::find_if(tolerance_keys.begin(), tolerance_keys.end(),
+                                    [&](const ToleranceKey& key) { return key.name == name; });
+    if (known == tolerance_keys.end()) throw_input_error("'{}' is no tolerance", name);
+  }
+  const Tolerances tolerances = values_of(used_tolerances(given));
+  return to_json(compare_runs(RunFile(golden), RunFile(run), tolerances, coarsen)).dump();
+}
+
+void add_run(py::module_& module) {
+  py::class_<KeptRun, Run>(module, "_Run")
+      .def_property_readonly("path", [](const KeptRun& run) { return run.path; })
+      .def_property_readonly("scene", [](const KeptRun& run) { return run.scene; })
+      .def_property_readonly("summary", [](const KeptRun& run) { return run.summary.dump(); })
+      .def_property_readonly("cell_size", [](const KeptRun& run) { return run.bed.cell_size(); })
+      .def_property_readonly(
+          "x",
+          [](const KeptRun& run) { return axis_of(run.bed.cols(), [&](int i) { return run.bed.x_of(i); }); })
+      .def_property_readonly(
+          "y",
+          [](const KeptRun& run) { return axis_of(run.bed.rows(), [&](int i) { return run.bed.y_of(i); }); })
+      .def_property_readonly(
+          "initial", [](const py::object& self) { return grid_view(self.cast<Run>()->initial, self); })
+      .def_property_readonly("final",
+                             [](const py::object& self) { return grid_view(self.cast<Run>()->final, self); })
+      .def_property_readonly("frame_times",
+                             [](const py::object& self) {
+                               const KeptRun& run = *self.cast<Run>();
+                               return view_of(run.frame_times.data(),
+                                              {static_cast<py::ssize_t>(run.frame_times.size())},
+                                              {sizeof(double)}, self);
+                             })
+      .def_property_readonly("frames", &frames)
+      .def("trace_columns", &trace_columns)
+      .def("relaxation_columns", &relaxation_columns);
+}
+
+}  // namespace
+
+PYBIND11_MODULE(_sandstroke, module) {
+  ignore_write_signals();
+  module.attr("version") = version;
+  add_errors(module);
+  py::class_<SceneHere>(module, "_Scene")
+      .def_property_readonly("text", [](const SceneHere& here) { return scene_text(here.scene); })
+      .def_property_readonly("folder", [](const SceneHere& here) { return here.folder; });
+  add_run(module);
+  module.def("_scene_of_file", &scene_of_file);
+  module.def("_scene_of_text", &scene_of_text);
+  module.def("_run", [](const SceneHere& scene, const py::object& stroke, const std::filesystem::path& output,
+                        int threads) {
+    std::optional<Stroke> samples;
+    if (!stroke.is_none()) samples = stroke_of(stroke.cast<py::dict>());
+    return kept_run(scene, std::move(samples), output, threads);
+  });
+  module.def("_read", &read_run);
+  module.def("_picture", &picture);
+  module.def("_compare", &comparison);
+}
+
+}  // namespace sandstroke

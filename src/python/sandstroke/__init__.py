@@ -1,0 +1,20 @@
+"""Sand that is sculpted with a haptic device: simulate strokes, step a device through sand, draw and compare.
+
+    import sandstroke
+    run = sandstroke.run("scene.toml", settings={"relaxation.talus_angle": 34})
+    run.final           # heights [m], a NumPy array of rows (along y) and columns (along x)
+    run.trace["force"]  # see Run.trace
+
+All numbers are in SI units. The results have the same bits as those of the command `sandstroke run`.
+"""
+
+from ._arguments import Scene, SceneLike, StrokeLike
+from ._picture import render
+from ._run import Comparison, Run, compare, read, run
+from ._sandstroke import Error, FileError, InputError, UnstableError
+from ._sandstroke import version as __version__
+
+__all__ = [
+    "Comparison", "Error", "FileError", "InputError", "Run", "Scene", "SceneLike", "StrokeLike", "UnstableError",
+    "compare", "read", "render", "run",
+]

@@ -1,0 +1,33 @@
+"""Pictures of sand."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from . import _sandstroke as _core
+from ._arguments import Scene, SceneLike
+from ._run import Run
+
+
+def render(sand: Run | np.ndarray, scene: SceneLike | None = None, *, start: np.ndarray | None = None,
+           tool: Sequence[float] | None = None, orientation: Sequence[float] = (0.0, 0.0, 0.0, 1.0),
+           **view: Any) -> np.ndarray:
+    """A picture of a run's end, or of heights [m], as an array of 8 bits: (height, width, 3).
+
+    scene: whose bed and tool it is; of a run, its own. start: heights before [m], from which camera and colours
+    follow; of a run, its own. tool: where the tip is [m], to draw it; orientation: of the hand (x, y, z, w). view:
+    keys of the scene's [view]: name="top", style="height" or "difference", azimuth, elevation [deg], size=(w, h).
+    """
+    if isinstance(sand, Run):
+        scene = sand.scene if scene is None else scene
+        start = sand.initial if start is None else start
+        sand = sand.final
+    elif scene is None:
+        raise _core.InputError("render: heights need the scene whose bed they are; give scene=...")
+    settings: Mapping[str, Any] = {f"view.{key}": value for key, value in view.items()}
+    here = Scene(scene, settings)._here
+    place = None if tool is None else tuple(float(x) for x in tool)
+    return _core._picture(here, sand, sand if start is None else start, place, tuple(float(x) for x in orientation))

@@ -1,0 +1,183 @@
+"""Whole runs: of a scene, of a run file, and how two of them differ."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Mapping
+from functools import cached_property
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from . import _sandstroke as _core
+from ._arguments import Scene, SceneLike, StrokeLike, with_stroke
+
+if TYPE_CHECKING:
+    import xarray
+
+
+class Run:
+    """What a run left. Its arrays are read only, and none of them is a copy."""
+
+    def __init__(self, kept: Any) -> None:
+        self._kept = kept
+
+    @property
+    def final(self) -> np.ndarray:
+        """Heights at the end [m]: rows along y, columns along x."""
+        return self._kept.final
+
+    @property
+    def initial(self) -> np.ndarray:
+        """Heights at the start [m], as final."""
+        return self._kept.initial
+
+    @property
+    def x(self) -> np.ndarray:
+        """Centres of the columns [m]."""
+        return self._kept.x
+
+    @property
+    def y(self) -> np.ndarray:
+        """Centres of the rows [m]."""
+        return self._kept.y
+
+    @property
+    def cell_size(self) -> float:
+        """Width of a cell [m]."""
+        return self._kept.cell_size
+
+    @property
+    def frames(self) -> np.ndarray:
+        """Heights during the run [m], as output.frames asks: (frame, row, column)."""
+        return self._kept.frames
+
+    @property
+    def frame_times(self) -> np.ndarray:
+        """When the frames were [s]."""
+        return self._kept.frame_times
+
+    @cached_property
+    def trace(self) -> dict[str, np.ndarray]:
+        """Every tick, by name: time [s], device_force [N] (n, 3), depth [m], torque [N m], contact ...
+
+        `to_xarray("trace")` has the same with units and meanings.
+        """
+        return {name: array for name, _, _, array, _ in self._kept.trace_columns()}
+
+    @cached_property
+    def relaxations(self) -> dict[str, np.ndarray]:
+        """Every relaxation, by name: time [s], passes, residual, moved_volume [m^3]. Not of a run that was read."""
+        return {name: array for name, _, _, array, _ in self._kept.relaxation_columns()}
+
+    @cached_property
+    def summary(self) -> dict[str, Any]:
+        """What `sandstroke run --json` prints. Empty of a run that was read."""
+        return json.loads(self._kept.summary) or {}
+
+    @property
+    def scene(self) -> Scene:
+        """All settings of the run."""
+        scene = Scene.__new__(Scene)
+        scene._here = self._kept.scene
+        return scene
+
+    @property
+    def path(self) -> str | None:
+        """Of its file, where it has one."""
+        return self._kept.path or None
+
+    def to_xarray(self, group: str = "surface") -> xarray.Dataset:
+        """As xarray opens that group of the run file: "surface", "trace" or "relaxation"."""
+        import xarray
+
+        if group == "surface":
+            axes = {
+                "y": ("y", self.y, {"units": "m", "long_name": "centre of a row of cells"}),
+                "x": ("x", self.x, {"units": "m", "long_name": "centre of a column of cells"}),
+            }
+            heights = {
+                "initial": (("y", "x"), self.initial, {"units": "m", "long_name": "height of the sand at the start"}),
+                "final": (("y", "x"), self.final, {"units": "m", "long_name": "height of the sand at the end"}),
+            }
+            if len(self.frame_times):
+                axes["time"] = ("time", self.frame_times, {"units": "s", "long_name": "of a frame"})
+                heights["frames"] = (("time", "y", "x"), self.frames,
+                                     {"units": "m", "long_name": "height of the sand over time"})
+            return xarray.Dataset(heights, axes, {"cell_size": self.cell_size})
+        if group not in ("trace", "relaxation"):
+            raise _core.InputError(f"'{group}' is no group of a run; it has surface, trace and relaxation")
+        columns = self._kept.trace_columns() if group == "trace" else self._kept.relaxation_columns()
+        variables: dict[str, Any] = {}
+        for name, units, meaning, array, components in columns:
+            attributes = {"units": units, "long_name": meaning} if units else {"long_name": meaning}
+            over = ("time",) if not components else ("time", "component" if len(components) == 4 else "axis")
+            if components:
+                variables.setdefault(over[1], (over[1], np.array(list(components), dtype=object)))
+            variables[name] = (over, array.view(np.uint8) if array.dtype == bool else array, attributes)
+        data = xarray.Dataset(variables)
+        return data.set_coords([name for name in ("time", "axis", "component") if name in data])
+
+    def __repr__(self) -> str:
+        rows, columns = self.final.shape
+        return f"<sandstroke.Run: {rows} x {columns} cells, {len(self.trace.get('time', ()))} ticks>"
+
+
+def run(scene: SceneLike, stroke: StrokeLike | None = None, *, settings: Mapping[str, Any] | None = None,
+        output: str | os.PathLike[str] | None = None, threads: int = 0) -> Run:
+    """Plays a stroke through the sand of a scene, and lets the sand come to rest.
+
+    scene: a TOML file, a mapping, or a Scene. stroke, instead of the scene's: a file, an array of time [s], x, y, z
+    [m] in four columns, or a mapping of "time" (n,) and "position" (n, 3), and perhaps "velocity", "force" (n, 3),
+    "orientation" (n, 4: x, y, z, w), "pressure" and "pen_down" (n,). settings: other values for keys of the scene,
+    as {"relaxation.talus_angle": 34}. output: also write the run file (.h5). threads: 0 is all cores; the result
+    does not depend on it.
+
+    Lets other Python threads run meanwhile; Ctrl-C ends it.
+    """
+    here, samples = with_stroke(scene, stroke, settings)
+    return Run(_core._run(here, samples, "" if output is None else os.fspath(output), threads))
+
+
+def read(path: str | os.PathLike[str]) -> Run:
+    """A run file (.h5)."""
+    return Run(_core._read(os.fspath(path)))
+
+
+class Check(NamedTuple):
+    """One thing that was compared. measured and limit are in `unit`; None: there is no number."""
+
+    name: str
+    passed: bool
+    measured: float | None
+    limit: float | None
+    unit: str
+    sentence: str
+
+
+class Comparison(NamedTuple):
+    """passed: all checks did."""
+
+    passed: bool
+    checks: list[Check]
+
+    def __bool__(self) -> bool:
+        return self.passed
+
+
+def compare(golden: str | os.PathLike[str] | Run, other: str | os.PathLike[str] | Run, *, coarsen: bool = False,
+            **tolerances: float) -> Comparison:
+    """Holds two runs against each other, as `sandstroke compare`: files, or runs that have one.
+
+    tolerances: height [m], force [N], depth [m]. coarsen: see finer cells over as large ones.
+    """
+    paths = []
+    for one in (golden, other):
+        path = one.path if isinstance(one, Run) else one
+        if path is None:
+            raise _core.InputError("a run that is compared needs a file; give run(..., output='run.h5')")
+        paths.append(os.fspath(path))
+    found = json.loads(_core._compare(paths[0], paths[1], tolerances, coarsen))
+    checks = [Check(**{name: check[name] for name in Check._fields}) for check in found["checks"]]
+    return Comparison(found["passed"], checks)

@@ -1,0 +1,255 @@
+"""Runs from Python are those of the command, and wrong input is told as it tells it."""
+import gc
+import os
+import pathlib
+import resource
+import signal
+import subprocess
+import sys
+import threading
+import time
+import warnings
+
+import numpy as np
+import pytest
+
+import sandstroke
+
+PROGRAM = os.environ["SANDSTROKE_PROGRAM"]
+SOURCE = pathlib.Path(os.environ["SANDSTROKE_SOURCE"])
+
+
+def run_program(*arguments):
+    return subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True)
+
+
+def test_a_scene_file_gives_the_bits_of_the_command(tmp_path):
+    scene = SOURCE / "strokes/weakening/scene.toml"
+    assert run_program("run", scene, "-o", tmp_path / "a.h5").returncode == 0
+    command = sandstroke.read(tmp_path / "a.h5")
+    module = sandstroke.run(scene)
+    assert np.array_equal(module.final, command.final)
+    assert np.array_equal(module.initial, command.initial)
+    assert module.trace.keys() == command.trace.keys()
+    for name, column in module.trace.items():
+        assert np.array_equal(column, command.trace[name], equal_nan=True), name
+    assert module.scene.text == command.scene.text
+
+
+def test_a_run_that_writes_a_file_writes_that_of_the_command(tmp_path):
+    scene = SOURCE / "strokes/weakening/scene.toml"
+    run_program("run", scene, "-o", tmp_path / "a.h5")
+    run = sandstroke.run(scene, output=tmp_path / "b.h5")
+    assert run.path == str(tmp_path / "b.h5")
+    assert sandstroke.compare(tmp_path / "a.h5", run).passed
+    assert sandstroke.compare(tmp_path / "a.h5", run, height=0.0, force=0.0, depth=0.0)
+
+
+def test_scenes_are_files_mappings_and_scenes_with_other_settings(small, line):
+    flat = {"bed.size": [0.2, 0.12], "bed.cells": np.array([100, 60]), "model.preset": "accurate", "tool.radius": 0.008}
+    one, other = sandstroke.run(small, line), sandstroke.run(flat, line)
+    assert np.array_equal(one.final, other.final)
+    again = sandstroke.run(sandstroke.Scene(small), line)
+    assert np.array_equal(one.final, again.final)
+    steeper = sandstroke.run(small, line, settings={"relaxation.talus_angle": 40})
+    assert steeper.final.max() > one.final.max()  # ramparts stand steeper
+    assert "talus_angle = 40" in steeper.scene.text
+
+
+def test_strokes_are_files_arrays_and_mappings(small, line, tmp_path):
+    run = sandstroke.run(small, line)
+    assert run.final.min() < -0.002
+    assert run.summary["ticks"] == len(run.trace["time"]) == 400
+    columns = {"time": line[:, 0], "position": line[:, 1:]}
+    assert np.array_equal(sandstroke.run(small, columns).final, run.final)
+    # Strides, other orders and types of numbers are all the same.
+    assert np.array_equal(sandstroke.run(small, np.asfortranarray(line)).final, run.final)
+    assert np.array_equal(sandstroke.run(small, np.repeat(line, 2, axis=0)[::2]).final, run.final)
+    np.savetxt(tmp_path / "line.csv", line, delimiter=",", header="time,x,y,z", comments="", fmt="%.17g")
+    settings = {"stroke.table.position_unit": "m", "stroke.table.time_unit": "s"}
+    assert np.array_equal(sandstroke.run(small, tmp_path / "line.csv", settings=settings).final, run.final)
+    # Half of it in the air.
+    lifted = sandstroke.run(small, {**columns, "pen_down": line[:, 0] < 0.2})
+    assert lifted.summary["contact_ticks"] < 0.6 * run.summary["contact_ticks"]
+
+
+def test_the_axes_say_where_cells_are(small, line):
+    run = sandstroke.run(small, line)
+    assert run.final.shape == (60, 100) == (len(run.y), len(run.x))
+    assert run.cell_size == pytest.approx(0.002)
+    assert np.allclose(np.diff(run.x), 0.002) and abs(run.x.sum()) < 1e-12
+    row, column = np.unravel_index(run.final.argmin(), run.final.shape)
+    assert abs(run.y[row]) < 0.008 and -0.06 < run.x[column] < 0.06  # in the furrow along x
+
+
+def test_arrays_are_no_copies_read_only_and_outlive_the_run(small, line):
+    run = sandstroke.run(small, line)
+    assert np.shares_memory(run.final, run.final) and np.shares_memory(run.trace["depth"], run.trace["depth"])
+    with pytest.raises(ValueError):
+        run.final[0, 0] = 1.0
+    final, depth = run.final, run.trace["depth"]
+    volume, deepest = final.sum(), depth.max()
+    del run
+    gc.collect()
+    assert final.sum() == volume and depth.max() == deepest
+
+
+def test_frames(small, line):
+    run = sandstroke.run(small, line, settings={"output.frames": 10})
+    assert len(run.frame_times) == len(run.frames) == 5  # at 0, 0.1, ... 0.4 s
+    assert np.array_equal(run.frames[0], run.initial)
+    assert run.frames[-1].min() < -0.002
+
+
+def test_xarray_is_what_it_makes_of_the_file(tmp_path):
+    xarray = pytest.importorskip("xarray")
+    pytest.importorskip("h5netcdf")
+    run = sandstroke.run(SOURCE / "strokes/plough/scene.toml", settings={"output.frames": 2}, output=tmp_path / "run.h5")
+    for group in ("surface", "trace", "relaxation"):
+        with xarray.open_dataset(tmp_path / "run.h5", group=group, engine="h5netcdf") as file:
+            mine = run.to_xarray(group)
+            xarray.testing.assert_equal(mine, file)
+            for name, variable in file.variables.items():
+                assert variable.dtype == mine[name].dtype, name
+                if name != "final":  # the file's says the furrow, too
+                    assert dict(variable.attrs) == dict(mine[name].attrs), name
+    with pytest.raises(sandstroke.InputError, match="it has surface, trace and relaxation"):
+        run.to_xarray("sand")
+
+
+@pytest.mark.parametrize("change, sentence", [
+    ({"relaxation.talus_angle": 95}, "relaxation.talus_angle"),
+    ({"relaxation.talus_angel": 30}, "talus_angle"),  # did you mean
+    ({"bed.cells": [100, 61]}, "bed.cells"),
+    ({"tool.radius": float("nan")}, "tool.radius"),
+    ({"tool.radius": "wide"}, "tool.radius"),
+    ({"tool.radius": None}, "no value of a scene"),
+])
+def test_wrong_settings_are_told(small, line, change, sentence):
+    with pytest.raises(sandstroke.InputError, match=sentence) as told:
+        sandstroke.run(small, line, settings=change)
+    assert isinstance(told.value, ValueError) and "--set" not in str(told.value)
+
+
+@pytest.mark.parametrize("stroke, sentence", [
+    (np.zeros((5, 3)), r"columns time, x, y and z.*\(5, 3\)"),
+    (np.zeros(4), "columns time"),
+    (np.array([["a"] * 4]), "columns time"),
+    ({"time": [0.0, 1.0]}, "needs the column position"),
+    ({"time": [0.0, 1.0], "position": np.zeros((2, 2))}, r"position has the shape \(2, 2\); it must be \(n, 3\)"),
+    ({"time": [0.0, 1.0], "position": np.zeros((3, 3))}, "position"),
+    ({"time": [1.0, 0.0], "position": np.zeros((2, 3))}, "time"),
+    ({"time": [0.0, np.nan], "position": np.zeros((2, 3))}, "time"),
+    ({"time": [0.0, 1.0], "position": np.full((2, 3), np.inf)}, "position"),
+    ({"time": [0.0, 1.0], "position": np.zeros((2, 3)), "speed": [1, 2]}, "'speed' is no column"),
+    ({"time": [0.0, 1.0], "position": "here"}, "array of numbers"),
+    ({"time": [], "position": np.zeros((0, 3))}, "stroke"),
+])
+def test_wrong_strokes_are_told(small, stroke, sentence):
+    with pytest.raises(sandstroke.InputError, match=sentence):
+        sandstroke.run(small, stroke)
+
+
+def test_files_that_are_not_there_are_told(tmp_path, small, line):
+    with pytest.raises(sandstroke.FileError, match="nothing.toml"):
+        sandstroke.run(tmp_path / "nothing.toml")
+    with pytest.raises(OSError, match="nothing.h5"):
+        sandstroke.read(tmp_path / "nothing.h5")
+    with pytest.raises(sandstroke.InputError, match="needs a file"):
+        sandstroke.compare(sandstroke.run(small, line), tmp_path / "nothing.h5")
+    with pytest.raises(sandstroke.InputError, match="'hight' is no tolerance"):
+        sandstroke.compare(tmp_path / "a.h5", tmp_path / "b.h5", hight=1.0)
+
+
+def test_what_the_command_warns_of_is_a_python_warning(small, line):
+    high = line + [0.0, 0.0, 0.0, 0.05]
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        with pytest.raises(UserWarning):
+            sandstroke.run(small, line[::10], settings={"stroke.smooth": 80.0})  # of 100 Hz
+        sandstroke.run(small, line)
+    assert sandstroke.run(small, high).summary["contact_ticks"] == 0
+
+
+def test_other_threads_run_meanwhile_and_runs_in_threads_are_the_same(small, line):
+    one = sandstroke.run(small, line, threads=1)
+    results = [None] * 4
+
+    def work(i):
+        results[i] = sandstroke.run(small, line, threads=1)
+
+    workers = [threading.Thread(target=work, args=(i,)) for i in range(4)]
+    for worker in workers:
+        worker.start()
+    counted = 0
+    while any(worker.is_alive() for worker in workers):
+        counted += 1
+        time.sleep(0)
+    for worker in workers:
+        worker.join()
+    assert counted > 10
+    for result in results:
+        assert np.array_equal(result.final, one.final)
+
+
+def _final_sum(arguments):
+    scene, stroke = arguments
+    return sandstroke.run(scene, stroke).final.tobytes()
+
+
+@pytest.mark.parametrize("method", ["fork", "spawn"])
+def test_runs_in_processes_are_the_same(small, line, method):
+    import multiprocessing
+    expected = sandstroke.run(small, line).final.tobytes()
+    with multiprocessing.get_context(method).Pool(2) as pool:
+        assert pool.map(_final_sum, [(small, line)] * 4) == [expected] * 4
+
+
+def test_ctrl_c_ends_a_run(tmp_path):
+    program = (
+        "import sandstroke, sys\n"
+        "print('begun', flush=True)\n"
+        "sandstroke.run({'bed': {'size': [4.0, 4.0], 'cells': [2000, 2000], 'surface': {'kind': 'noise', 'amplitude': 1.0}},"
+        " 'relaxation': {'tolerance': 1e-9}})\n")
+    child = subprocess.Popen([sys.executable, "-c", program], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    assert child.stdout.readline() == "begun\n"
+    time.sleep(1.0)
+    child.send_signal(signal.SIGINT)
+    _, said = child.communicate(timeout=60)
+    assert "KeyboardInterrupt" in said and child.returncode != 0
+
+
+def test_many_runs_leak_nothing(small, line):
+    few = line[:20]
+    tiny = {**small, "bed": {"size": [0.2, 0.12], "cells": [50, 30]}}
+
+    def play(times):
+        for _ in range(times):
+            sandstroke.run(tiny, few, threads=1)
+        gc.collect()
+        return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss  # kB
+
+    runs = int(os.environ.get("SANDSTROKE_SHORT_RUNS", "1000"))
+    before = play(200)
+    assert play(runs) - before < 2000 + 0.2 * runs
+
+
+def test_a_picture_is_that_of_the_command(tmp_path):
+    scene = SOURCE / "strokes/weakening/scene.toml"
+    run = sandstroke.run(scene, output=tmp_path / "run.h5")
+    picture = sandstroke.render(run, name="top", size=(320, 180))
+    assert picture.shape == (180, 320, 3) and picture.dtype == np.uint8
+    assert run_program("render", tmp_path / "run.h5", "-o", tmp_path / "a.png", "--view", "top", "--size", "320x180",
+                       "--no-tool").returncode == 0
+    plt = pytest.importorskip("matplotlib.image")
+    drawn = (255 * plt.imread(tmp_path / "a.png")[:, :, :3]).round().astype(np.uint8)
+    assert np.array_equal(picture, drawn)
+    with_tool = sandstroke.render(run, name="top", size=(320, 180), tool=(0.0, 0.0, 0.0))
+    assert not np.array_equal(picture, with_tool)
+    with pytest.raises(sandstroke.InputError, match="scene=..."):
+        sandstroke.render(run.final)
+    assert np.array_equal(sandstroke.render(run.final, run.scene, start=run.initial, name="top", size=(320, 180)), picture)
+    with pytest.raises(sandstroke.InputError, match="two dimensions"):
+        sandstroke.render(run.final[0], run.scene)
+    with pytest.raises(sandstroke.InputError, match="not a number"):
+        sandstroke.render(np.full((4, 4), np.nan), run.scene)
