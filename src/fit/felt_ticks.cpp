@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "run/run_progress.h"
+#include "sim/contact_force.h"
 #include "tool/tool_surface.h"
 
 namespace sandstroke {
@@ -57,7 +58,7 @@ class ContactTicks : public SimulationObserver {
     if (turns_) turn(rotation_of(tick.hand.orientation) * own_rotation_);
     sand_.look(run_.bed(), tip);
     for (std::size_t i = 0; i < forces_.size(); ++i)
-      felt_[i] = forces_[i].feel(sand_, run_.bed(), tip, motion, tick.contact);
+      felt_[i] = forces_[i].in_tick(sand_, run_.bed(), tip, motion, tick.contact);
     if (is_felt(tick)) law_.add(felt_, tick.recorded_force);
   }
 

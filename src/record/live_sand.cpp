@@ -128,7 +128,7 @@ bool LiveSand::touches(const DeviceReading& reading) noexcept {
 Eigen::Vector3d LiveSand::force(const Interaction& interaction, const Eigen::Vector3d& tip,
                                 const Eigen::Vector3d& motion, const Eigen::Vector3d& speed) {
   if (contact_force_)
-    return contact_force_->feel(sand_, replica_.bed(), tip, motion, interaction.contact)
+    return contact_force_->in_tick(sand_, replica_.bed(), tip, motion, interaction.contact)
         .limited(largest_force_)
         .force;
   if (!interaction.contact) return Eigen::Vector3d::Zero();

@@ -25,4 +25,16 @@ struct DisplacementSettings {
 double displace(HeightField& bed, ToolFootprint& footprint, double tip_height, const Eigen::Vector3d& motion,
                 const DisplacementSettings& settings);
 
+/// A rule of your own in place of displace().
+class Displacer {
+ public:
+  virtual ~Displacer() = default;
+  /// The tool went by `motion` [m] to where the footprint lies, its tip at tip_height [m]. Takes the sand out
+  /// of its way and puts it elsewhere (HeightField::set); returns the volume moved [m^3]. Sand is neither
+  /// made nor lost, and none is put beyond the bed's wall (BedGeometry::sand_cols). The footprint's heights()
+  /// are the bed's; its underside() and takes() are filled.
+  virtual double displace(HeightField& bed, const ToolFootprint& footprint, double tip_height,
+                          const Eigen::Vector3d& motion) = 0;
+};
+
 }  // namespace sandstroke

@@ -134,6 +134,14 @@ double ToolFootprint::carve(double tip_height) {
   return carved.pushed;
 }
 
+void ToolFootprint::meet(const HeightField& bed, double tip_height) {
+  if (is_sphere())
+    sandstroke::carve(shape_, *this, tip_height);
+  else
+    carve(tip_height);
+  read_heights(bed);
+}
+
 void ToolFootprint::stand(double tip_height) {
   if (!cells_.empty()) covered_ = covered_height(tip_height, -std::numeric_limits<double>::infinity());
 }

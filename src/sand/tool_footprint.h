@@ -122,6 +122,10 @@ class ToolFootprint {
   /// m, the sand that carve() took out of the flagged cells.
   double* excess(int row) { return excess_.get() + at(row); }
 
+  /// Fills underside() and takes() without cutting, the tip at `tip_height` [m]; the window is not empty, and
+  /// lies on the bed as it is now.
+  void meet(const HeightField& bed, double tip_height);
+
   // --- any tool but the sphere (!is_sphere()), where the window is not empty ---
   /// Cuts the sand to its underside, the tip at `tip_height` [m]; what was taken out [m]. What of it counts
   /// as covered goes up from its lowest point to twice its depth, and wherever it touched sand: an overhang

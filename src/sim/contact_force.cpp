@@ -14,7 +14,7 @@ namespace sandstroke {
 
 ContactForce::ContactForce(const Scene& scene, double cell_size)
     : law_(scene.force.law), sand_(scene.strength), resistive_(tool_surface(scene.tool), cell_size) {
-  turn(own_rotation(scene.tool));
+  resistive_.turn(own_rotation(scene.tool));
   if (scene.tool.shape == ToolShape::sphere) sphere_radius_ = scene.tool.radius;
 }
 
@@ -23,13 +23,11 @@ void ContactForce::lift() {
   sunk_ = 0.0;
 }
 
-Wrench ContactForce::feel(SandSide& sand, const HeightField& bed, const Eigen::Vector3d& tip,
-                          const Eigen::Vector3d& motion, bool contact) {
-  if (!contact) return lift(), Wrench{};
-  const SandPlane plane =
-      fit_sand_plane(bed, tip.x(), tip.y(), sphere_radius_.value_or(sand.footprint().reach()));
-  if (law_ == ForceLaw::archimedes) return archimedes(tip, plane, -motion.z());
-  return resistive_.feel(sand.seen(bed), tip, plane, motion, sand_);
+Wrench ContactForce::feel(const ToolInSand& touch) {
+  const SandPlane plane = fit_sand_plane(touch.bed, touch.tip.x(), touch.tip.y(),
+                                         sphere_radius_.value_or(touch.footprint.reach()));
+  if (law_ == ForceLaw::archimedes) return archimedes(touch.tip, plane, -touch.motion.z());
+  return resistive_.feel(touch.footprint, touch.tip, plane, touch.motion, sand_);
 }
 
 VolumeBelow ContactForce::volume_below(const Eigen::Vector3d& tip, const SandPlane& plane) const {
@@ -56,7 +54,7 @@ Wrench ContactForce::archimedes(const Eigen::Vector3d& tip, const SandPlane& pla
 
 std::string theory_warning(const Scene& scene, double fastest) {
   const SandStrength& sand = scene.strength;
-  if (scene.force.law == ForceLaw::paper) return "";
+  if (scene.force.law == ForceLaw::paper || !scene.own.force.empty()) return "";
   const double friction = elementary::tan(to_radians(sand.friction_angle));
   if (friction < 0.3 || friction > 0.9)
     return fmt::format(

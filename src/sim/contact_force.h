@@ -2,9 +2,8 @@
 
 #include <optional>
 
-#include "sand/resistive_force.h"
-#include "sim/sand_side.h"
 #include "sim/scene.h"
+#include "sim/tool_force.h"
 
 namespace sandstroke {
 
@@ -13,17 +12,14 @@ namespace sandstroke {
 /// - archimedes: 0.87574 xi V upwards at the centroid of V, which is what lies below the sand's plane (Kang,
 ///   Feng, Liu, Blumenfeld, Nature Communications 9, 2018, as the theory gives it for a plate), and no drag;
 ///   it grows over the yield way as the tool sinks, and goes as it rises.
-class ContactForce {
+class ContactForce : public ToolForce {
  public:
   /// Elements are about a cell large. The scene's law is not the paper's.
   ContactForce(const Scene& scene, double cell_size);
 
-  /// After the tool went by `motion` [m] to where it dug last, `tip` [m], in contact or not.
-  Wrench feel(SandSide& sand, const HeightField& bed, const Eigen::Vector3d& tip,
-              const Eigen::Vector3d& motion, bool contact);
-  void lift();
-  /// How the tool lies in the bed from the next feel() on.
-  void turn(const Eigen::Matrix3d& rotation) { resistive_.turn(rotation); }
+  Wrench feel(const ToolInSand& touch) override;
+  void lift() override;
+  void turn(const Eigen::Matrix3d& rotation) override { resistive_.turn(rotation); }
 
  private:
   Wrench archimedes(const Eigen::Vector3d& tip, const SandPlane& plane, double sinks);

@@ -40,8 +40,8 @@ class LevelSand {
   Wrench at(double depth, const Vector3d& yielded, const Vector3d& then) {
     const Vector3d tip(0.0, 0.0, -depth - sand_.footprint().lowest());
     law_.lift();
-    const Wrench full = law_.feel(sand_, bed_, tip, yield_ * yielded, true);
-    return then.isZero(0.0) ? full : law_.feel(sand_, bed_, tip + then, then, true);
+    const Wrench full = law_.in_tick(sand_, bed_, tip, yield_ * yielded, true);
+    return then.isZero(0.0) ? full : law_.in_tick(sand_, bed_, tip + then, then, true);
   }
 
  private:

@@ -17,8 +17,11 @@ SimulatedDevice::State as_state(const Hand& hand) { return {hand.position, hand.
 
 }  // namespace
 
-DeviceSide::DeviceSide(const ForceSettings& force, const DeviceSettings& device)
-    : force_(force), device_(device, as_state(Hand{})), late_force_(device) {
+DeviceSide::DeviceSide(const Scene& scene)
+    : force_(scene.force),
+      of_contact_(is_contact_law(scene)),
+      device_(scene.device, as_state(Hand{})),
+      late_force_(scene.device) {
   result_.least_passivity_margin = std::numeric_limits<double>::infinity();
 }
 
@@ -39,15 +42,15 @@ double DeviceSide::faded_in(const TickRecord& record) {
 
 double DeviceSide::stored(const TickRecord& record) const {
   const DeviceSettings& d = device_.settings();
-  const double of_sand = of_contact() ? record.wrench.limited(d.max_force).stored
-                                      : plunge_work(record.depth, d.max_force, force_);
+  const double of_sand = of_contact_ ? record.wrench.limited(d.max_force).stored
+                                     : plunge_work(record.depth, d.max_force, force_);
   return of_sand / d.scale;
 }
 
 double DeviceSide::stiffness(const TickRecord& record) const {
   const double scale = device_.settings().scale;
-  return of_contact() ? scale * record.wrench.limited(device_.settings().max_force).stiffness
-                      : felt_sand(record.depth, 0.0, scale, force_).stiffness;
+  return of_contact_ ? scale * record.wrench.limited(device_.settings().max_force).stiffness
+                     : felt_sand(record.depth, 0.0, scale, force_).stiffness;
 }
 
 void DeviceSide::feel_contact(TickRecord& record, double share, Eigen::Vector3d& computed) {
@@ -79,10 +82,10 @@ void DeviceSide::feel(TickRecord& record) {
   Eigen::Vector3d computed = Eigen::Vector3d::Zero();
   const double share = faded_in(record);
   if (record.contact)
-    of_contact() ? feel_contact(record, share, computed) : feel_paper(record, share, computed);
+    of_contact_ ? feel_contact(record, share, computed) : feel_paper(record, share, computed);
   record.device_force = late_force_.act(computed);
   record.dropped = late_force_.dropped();
-  if (of_contact())  // no drag that grows with speed
+  if (of_contact_)  // no drag that grows with speed
     record.passivity_margin =
         passivity_margin(record.contact ? stiffness(record) : 0.0, 0.0, device_.settings());
   else
@@ -146,13 +149,13 @@ DeviceResult DeviceSide::result() const {
 
 std::string loop_remedies(const Scene& scene, double max_drag_force) {
   const DeviceSettings& device = scene.device;
-  const bool paper = scene.force.law == ForceLaw::paper;
-  std::vector<std::string> lower = {paper ? "force.k_s" : "force.density"};
+  const bool paper = !is_contact_law(scene), own = !scene.own.force.empty();
+  std::vector<std::string> lower = {own ? "what model.force gives" : paper ? "force.k_s" : "force.density"};
   if (paper && max_drag_force > 0.0) lower.emplace_back("force.k_f");
   if (device.delay > 0) lower.emplace_back("device.delay");
   if (device.dropped_ticks > 0.0) lower.emplace_back("device.dropped_ticks");
   return fmt::format("lower {}, or raise {}device.servo_rate or device.damping", fmt::join(lower, " or "),
-                     paper ? "" : "force.yield or ");
+                     paper || own ? "" : "force.yield or ");
 }
 
 }  // namespace sandstroke

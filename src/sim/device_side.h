@@ -24,7 +24,7 @@ inline constexpr double fade_in = 0.1;
 /// side needs to know where it is, no more: the sand of a kinematic device is the same whatever its forces.
 class DeviceSide {
  public:
-  DeviceSide(const ForceSettings& force, const DeviceSettings& device);
+  explicit DeviceSide(const Scene& scene);
 
   /// Before the first tick: the device is where the hand is, and moves as it does.
   void start(const Hand& hand);
@@ -45,7 +45,6 @@ class DeviceSide {
   void move(const TickRecord& record);
   void watch(const TickRecord& record, const Eigen::Vector3d& motion);
   double faded_in(const TickRecord& record);
-  bool of_contact() const { return force_.law != ForceLaw::paper; }
   /// At most, that the sand may give back there [J, of the device].
   double stored(const TickRecord& record) const;
   /// Of the sand there, as the device feels it [N/m].
@@ -54,6 +53,7 @@ class DeviceSide {
   void feel_contact(TickRecord& record, double share, Eigen::Vector3d& computed);
 
   ForceSettings force_;
+  bool of_contact_;  // is_contact_law()
   SimulatedDevice device_;
   LateForce late_force_;
   EnergyAccount energy_;

@@ -15,8 +15,13 @@ constexpr double longest_step = 0.5;
 
 }  // namespace
 
-SandSide::SandSide(const ToolSettings& tool, const DisplacementSettings& displacement, double travel)
-    : footprint_(tool), displacement_(displacement), solid_(tool.solid), slips_(travel) {}
+SandSide::SandSide(const ToolSettings& tool, const DisplacementSettings& displacement, double travel,
+                   std::unique_ptr<Displacer> own)
+    : footprint_(tool),
+      displacement_(displacement),
+      own_(std::move(own)),
+      solid_(tool.solid),
+      slips_(travel) {}
 
 Interaction SandSide::look(const HeightField& bed, const Eigen::Vector3d& read_tip) {
   footprint_.place(bed, read_tip.x(), read_tip.y());
@@ -28,11 +33,18 @@ Interaction SandSide::look(const HeightField& bed, const Eigen::Vector3d& read_t
   return interaction;
 }
 
+double SandSide::displace_sand(HeightField& bed, const Eigen::Vector3d& tip, const Eigen::Vector3d& motion) {
+  if (!own_) return displace(bed, footprint_, tip.z(), motion, displacement_);
+  if (footprint_.cells().empty()) return 0.0;
+  footprint_.meet(bed, tip.z());
+  return own_->displace(bed, footprint_, tip.z(), motion);
+}
+
 Interaction SandSide::dig(HeightField& bed, const Eigen::Vector3d& tip, const Eigen::Vector3d& motion) {
   Interaction interaction = look(bed, tip);
   // Any tool but the sphere may meet a heap beside the level around it.
   if (interaction.contact || !footprint_.is_sphere())
-    interaction.displaced_volume = displace(bed, footprint_, tip.z(), motion, displacement_);
+    interaction.displaced_volume = displace_sand(bed, tip, motion);
   if (!footprint_.is_sphere()) interaction.contact |= !footprint_.cells().empty() && footprint_.touches();
   tip_ = tip;
   contact_ = interaction.contact;

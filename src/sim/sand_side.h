@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <limits>
+#include <memory>
 #include <optional>
 
 #include "sand/displacement.h"
@@ -21,8 +22,9 @@ struct Interaction {
 /// The sand's side of a tick: a tool that goes through a bed, from place to place.
 class SandSide {
  public:
-  /// travel [m]: its way between two slips (SlipSchedule).
-  SandSide(const ToolSettings& tool, const DisplacementSettings& displacement, double travel);
+  /// travel [m]: its way between two slips (SlipSchedule). own: in place of what the settings say.
+  SandSide(const ToolSettings& tool, const DisplacementSettings& displacement, double travel,
+           std::unique_ptr<Displacer> own = nullptr);
 
   /// How the tool lies in the bed from the next move() on (ToolFootprint::turn): all of its way there it is
   /// turned like this.
@@ -65,9 +67,12 @@ class SandSide {
 
  private:
   Interaction dig(HeightField& bed, const Eigen::Vector3d& tip, const Eigen::Vector3d& motion);
+  /// The volume moved [m^3].
+  double displace_sand(HeightField& bed, const Eigen::Vector3d& tip, const Eigen::Vector3d& motion);
 
   ToolFootprint footprint_;
   DisplacementSettings displacement_;
+  std::unique_ptr<Displacer> own_;
   bool solid_;
   SlipSchedule slips_;
   std::optional<Eigen::Vector3d> last_tip_;        // the true one

@@ -225,12 +225,30 @@ double memory_of_bed(const Scene& scene) {
   return per_tile * static_cast<double>(tiles);
 }
 
+/// Written only where a scene has laws of its own: all others are as they were before there were any.
+void describe_own_laws(KeyVisitor& v, OwnLawSettings& own) {
+  const bool any = !(own.plugin.empty() && own.relaxation.empty() && own.displacement.empty() &&
+                     own.force.empty() && own.parameters == OwnLawSettings{}.parameters);
+  if (!any && !v.reads()) return;
+  v.text("plugin", own.plugin, "laws of your own (.so), relative to the scene");
+  v.text("relaxation", own.relaxation, "the plugin's law that takes the place of relaxation.law and method");
+  v.text("displacement", own.displacement, "the plugin's rule that takes the place of displacement.deposit");
+  v.text("force", own.force, "the plugin's law that takes the place of force.law");
+  v.numbers("parameters", own.parameters.data(), static_cast<int>(own.parameters.size()), any_number, "",
+            "what the plugin's laws make of them");
+}
+
 }  // namespace
 
+bool is_contact_law(const Scene& scene) {
+  return scene.force.law != ForceLaw::paper || !scene.own.force.empty();
+}
+
 void describe_scene(KeyVisitor& v, Scene& scene) {
-  v.section("model", "the set of defaults that the other settings start from");
+  v.section("model", "the set of defaults that the other settings start from, and laws of your own");
   choose(v, "preset", scene.preset, preset_names, "as published, or the choices for accuracy");
   if (v.reads()) apply_model_preset(scene);
+  describe_own_laws(v, scene.own);
 
   describe_bed(v, scene.bed);
 
@@ -306,7 +324,7 @@ void check_scene(const Scene& scene, const std::string& name) {
                "take fewer cells");
 
   const bool is_sphere = scene.tool.shape == ToolShape::sphere;
-  if (!is_sphere && scene.displacement.deposit != Deposit::outward)
+  if (!is_sphere && scene.own.displacement.empty() && scene.displacement.deposit != Deposit::outward)
     throw_input_error(
         "{}: the paper's ring of sand (displacement.deposit) is a sphere's; for any other tool.shape set "
         "model.preset = \"accurate\", or displacement.deposit = \"outward\"",
@@ -329,7 +347,7 @@ void check_scene(const Scene& scene, const std::string& name) {
         scene.tool.radius, dx);
 
   const RelaxationSettings& r = scene.relaxation;
-  if (r.law == RelaxationLaw::isotropic && flow_share(r) > 0.25)
+  if (scene.own.relaxation.empty() && r.law == RelaxationLaw::isotropic && flow_share(r) > 0.25)
     throw_input_error(
         "{}: relaxation.share = {} is not stable with relaxation.law = isotropic; take 0.25 or less", name,
         r.share);
@@ -349,10 +367,10 @@ void check_scene(const Scene& scene, const std::string& name) {
         "{}: device.drag = implicit goes by no velocity that is read; set device.velocity = exact, or "
         "device.drag = sampled",
         name);
-  if (scene.force.law != ForceLaw::paper && device.drag == DragVelocity::implicit)
+  if (is_contact_law(scene) && device.drag == DragVelocity::implicit)
     throw_input_error(
-        "{}: device.drag = implicit is for the paper's drag; set force.law = paper, or device.drag = "
-        "sampled",
+        "{}: device.drag = implicit is for the paper's drag; set force.law = paper and no model.force, or "
+        "device.drag = sampled",
         name);
   if (scene.stroke && scene.stroke->file.empty())
     throw_input_error(

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -47,10 +49,23 @@ struct OutputSettings {
   bool trace = true;    ///< keep every tick
 };
 
+struct OwnLaws;
+
+/// Laws that are not this library's (sim/own_laws.h), by name; empty: as the scene says otherwise.
+struct OwnLawSettings {
+  std::string plugin;                     ///< file that has them, relative to the scene
+  std::string relaxation;                 ///< in place of relaxation.law and method
+  std::string displacement;               ///< in place of displacement.deposit
+  std::string force;                      ///< in place of force.law
+  std::array<double, 4> parameters = {};  ///< what each law makes of them
+  std::shared_ptr<const OwnLaws> laws;    ///< that are there; the plugin's, once it is loaded
+};
+
 /// All settings of a run. describe_scene() is the one list of their keys.
 struct Scene {
   BedSettings bed;
   ModelPreset preset = ModelPreset::paper;
+  OwnLawSettings own;
   ToolSettings tool;
   DisplacementSettings displacement;
   ForceSettings force;
@@ -61,6 +76,9 @@ struct Scene {
   OutputSettings output;
   ViewSettings view;
 };
+
+/// The force is that of the contact: neither by name nor by force.law the paper's.
+bool is_contact_law(const Scene& scene);
 
 /// Sets what scene.preset stands for.
 void apply_model_preset(Scene& scene);

@@ -6,6 +6,7 @@
 #include "core/error.h"
 #include "core/interrupt.h"
 #include "core/stopwatch.h"
+#include "sim/own_laws.h"
 #include "sim/recorded_force.h"
 #include "sim/stroke_depth.h"
 #include "tool/tool_surface.h"
@@ -45,11 +46,12 @@ Simulation::Simulation(const Scene& scene, HeightField bed, std::optional<Stroke
     : scene_(scene),
       bed_(std::move(bed)),
       own_rotation_(own_rotation(scene.tool)),
-      sand_(scene.tool, scene.displacement, scene.relaxation.travel * bed_.cell_size()),
-      device_(scene.force, scene.device),
-      relaxer_(relaxer ? std::move(relaxer) : make_relaxer(scene.relaxation, bed_.cell_size())) {
+      sand_(scene.tool, scene.displacement, scene.relaxation.travel * bed_.cell_size(),
+            stroke ? make_own_displacer(scene, bed_.cell_size()) : nullptr),
+      device_(scene),
+      relaxer_(relaxer ? std::move(relaxer) : make_relaxer(scene, bed_.cell_size())) {
   if (!stroke) return;
-  if (scene.force.law != ForceLaw::paper) contact_force_.emplace(scene, bed_.cell_size());
+  contact_force_ = make_tool_force(scene, bed_.cell_size());
   if (!(stroke->duration() * scene.device.servo_rate < 1e15))
     throw_input_error(
         "the stroke lasts {} s, more ticks at {} Hz than can be played; correct its times, or set "
@@ -119,7 +121,8 @@ TickRecord Simulation::tick(double time, const Hand& hand, double next_time,
     const std::optional<Eigen::Vector3d> before = sand_.last_tip();
     const Interaction interaction = sand_.move(bed_, tip, true_tip, slip);
     const Eigen::Vector3d motion = before ? Eigen::Vector3d(true_tip - *before) : Eigen::Vector3d::Zero();
-    if (contact_force_) record.wrench = contact_force_->feel(sand_, bed_, tip, motion, interaction.contact);
+    if (contact_force_)
+      record.wrench = contact_force_->in_tick(sand_, bed_, tip, motion, interaction.contact);
     record.level = interaction.level;
     record.depth = interaction.depth;
     record.displaced_volume = interaction.displaced_volume;
@@ -144,7 +147,7 @@ TraceContent Simulation::trace_content() const {
   return {.recorded_force = stroke_ && !stroke_->stroke().force.empty(),
           .dropped_ticks = scene_.device.dropped_ticks > 0.0,
           .asked_depth = follower_.has_value(),
-          .torque = contact_force_.has_value(),
+          .torque = contact_force_ != nullptr,
           .orientation = stroke_ && !stroke_->stroke().orientation.empty()};
 }
 
@@ -176,11 +179,17 @@ std::int64_t Simulation::idle(const TickRange& ticks) {
   return tick;
 }
 
+void Simulation::check_own_law(const char* key, const std::string& name) const {
+  if (!name.empty()) watch_->check(bed_, law_in_words(scene_.own, key, name));
+}
+
 RelaxationOutcome Simulation::relax(double time) {
   sand_.hold(bed_);
+  check_own_law("displacement", scene_.own.displacement);
   const RelaxationOutcome outcome = relaxer_->relax(bed_, [this](std::int64_t passes, const BedNow& bed_now) {
     tell([&](auto& observer) { observer.on_pass(passes, bed_now); });
   });
+  check_own_law("relaxation", scene_.own.relaxation);
   result_.relaxations += 1;
   result_.relaxation.add(outcome);
   tell([&](auto& observer) { observer.on_relaxation({time, outcome}); });
@@ -253,6 +262,7 @@ RunResult Simulation::run(const Observers& observers) {
   observers_ = observers;
   const Stopwatch watch;
   result_.volume_initial = bed_.volume();
+  if (!scene_.own.relaxation.empty() || !scene_.own.displacement.empty()) watch_.emplace(bed_);
   if (stroke_) run_stroke();
   if (!interrupted()) {
     sand_.lift();

@@ -1,16 +1,18 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 
 #include "haptics/stroke_sampler.h"
-#include "sim/contact_force.h"
 #include "sim/device_side.h"
 #include "sim/idle_ticks.h"
 #include "sim/run_result.h"
 #include "sim/sand_follower.h"
 #include "sim/sand_side.h"
+#include "sim/sand_watch.h"
 #include "sim/scene.h"
 #include "sim/simulation_observer.h"
+#include "sim/tool_force.h"
 
 namespace sandstroke {
 
@@ -49,6 +51,8 @@ class Simulation {
   /// Idle ticks: sand that is not at rest slips when it is due, and frames come. The tick after the last one.
   std::int64_t idle(const TickRange& ticks);
   RelaxationOutcome relax(double time);
+  /// Error: unstable, where it made or lost sand.
+  void check_own_law(const char* key, const std::string& name) const;
   void keep_frame(double time);
   /// Error: unstable, where the device, at the end of a tick, has left all bounds.
   void check_near(const TickRecord& record) const;
@@ -65,9 +69,10 @@ class Simulation {
   std::vector<TickRange> idle_;
   Eigen::Matrix3d own_rotation_;  // of the tool
   SandSide sand_;
-  std::optional<ContactForce> contact_force_;  // where force.law is not the paper's
+  std::unique_ptr<ToolForce> contact_force_;  // none: the paper's law
   DeviceSide device_;
   std::unique_ptr<Relaxer> relaxer_;
+  std::optional<SandWatch> watch_;  // where a law that is not this library's moves sand
   Observers observers_;
   RunResult result_;
 };

@@ -13,8 +13,7 @@ namespace {
 /// One scene's device on sand that a simulation moves.
 class Feeler : public SimulationObserver {
  public:
-  Feeler(const Scene& scene, bool keeps_force)
-      : device_(scene.force, scene.device), keeps_force_(keeps_force) {}
+  Feeler(const Scene& scene, bool keeps_force) : device_(scene), keeps_force_(keeps_force) {}
 
   void on_tick(const TickRecord& sand) override {
     if (!failure_.empty()) return;

@@ -26,7 +26,7 @@ Wrench pressed(const Scene& scene, double depth) {
   SandSide sand(scene.tool, scene.displacement, 0.0);
   sand.look(bed, Vector3d::Zero());
   const Vector3d tip(0.0, 0.0, -depth - sand.footprint().lowest());
-  return law.feel(sand, bed, tip, {0.0, 0.0, -2.0 * scene.strength.yield_way}, true);
+  return law.in_tick(sand, bed, tip, {0.0, 0.0, -2.0 * scene.strength.yield_way}, true);
 }
 
 TEST(ContactForce, LiftOfArchimedesActsAtTheCentroidOfWhatIsInTheSand) {

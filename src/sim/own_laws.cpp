@@ -1,0 +1,162 @@
+#include "sim/own_laws.h"
+
+#include <spdlog/fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "core/error.h"
+#include "core/interrupt.h"
+#include "sim/contact_force.h"
+#include "tool/tool_surface.h"
+
+namespace sandstroke {
+namespace {
+
+/// Does something of an own law's. An Error passes: it is a sentence already, of the law or of who watches
+/// it.
+template <class Work>
+auto by_law(const std::string& law, const Work& work) {
+  try {
+    return work();
+  } catch (const Error&) {
+    throw;
+  } catch (const std::exception& failure) {
+    throw_input_error("{} failed: {}; correct the law", law, failure.what());
+  }
+}
+
+struct Stopped {};  // not for a law to catch: no std::exception
+
+class WatchedRelaxer : public Relaxer {
+ public:
+  WatchedRelaxer(std::string law, std::unique_ptr<Relaxer> own)
+      : law_(std::move(law)), own_(std::move(own)) {}
+
+  RelaxationOutcome relax(HeightField& bed, const PassWatcher& after_pass) override {
+    const BedGeometry before = bed;
+    RelaxationOutcome outcome;
+    try {
+      outcome = by_law(law_, [&] {
+        return own_->relax(bed, [&](std::int64_t passes, const BedNow& bed_now) {
+          if (after_pass) after_pass(passes, bed_now);
+          if (interrupted()) throw Stopped();
+        });
+      });
+    } catch (const Stopped&) {
+    }
+    if (!(bed.rows() == before.rows() && bed.cols() == before.cols() && bed.shape() == before.shape() &&
+          bed.cell_size() == before.cell_size()))
+      throw_input_error("{} made another bed of {} x {} cells; set the heights of the bed it is given", law_,
+                        bed.cols(), bed.rows());
+    if (!(outcome.moved_volume >= 0.0 && std::isfinite(outcome.moved_volume)))
+      throw Error(ErrorKind::unstable,
+                  fmt::format("{} says that it moved {} m^3; correct the law", law_, outcome.moved_volume));
+    bed.clear_disturbed();
+    return outcome;
+  }
+
+ private:
+  std::string law_;
+  std::unique_ptr<Relaxer> own_;
+};
+
+class WatchedDisplacer : public Displacer {
+ public:
+  WatchedDisplacer(std::string law, std::unique_ptr<Displacer> own)
+      : law_(std::move(law)), own_(std::move(own)) {}
+
+  double displace(HeightField& bed, const ToolFootprint& footprint, double tip_height,
+                  const Eigen::Vector3d& motion) override {
+    const double moved = by_law(law_, [&] { return own_->displace(bed, footprint, tip_height, motion); });
+    if (!(moved >= 0.0 && std::isfinite(moved)))
+      throw Error(ErrorKind::unstable,
+                  fmt::format("{} says that it moved {} m^3; correct the law", law_, moved));
+    return moved;
+  }
+
+ private:
+  std::string law_;
+  std::unique_ptr<Displacer> own_;
+};
+
+class WatchedForce : public ToolForce {
+ public:
+  WatchedForce(std::string law, std::unique_ptr<ToolForce> own)
+      : law_(std::move(law)), own_(std::move(own)) {}
+
+  Wrench feel(const ToolInSand& touch) override {
+    Wrench wrench = by_law(law_, [&] { return own_->feel(touch); });
+    if (!(wrench.force.allFinite() && wrench.torque.allFinite() && std::isfinite(wrench.stiffness) &&
+          std::isfinite(wrench.stored) && std::isfinite(wrench.strength)))
+      throw Error(ErrorKind::unstable,
+                  fmt::format("{} gives a force that is not a number, {:.4g} m deep at x = {:.4g} m, y = "
+                              "{:.4g} m; correct the law",
+                              law_, touch.depth, touch.tip.x(), touch.tip.y()));
+    wrench.strength = std::max(wrench.strength, wrench.force.norm());  // or a device's limit would not hold
+    return wrench;
+  }
+  void lift() override {
+    by_law(law_, [&] { own_->lift(); });
+  }
+  void turn(const Eigen::Matrix3d& rotation) override {
+    by_law(law_, [&] { own_->turn(rotation); });
+  }
+
+ private:
+  std::string law_;
+  std::unique_ptr<ToolForce> own_;
+};
+
+std::string file_of(const OwnLawSettings& own) { return own.plugin.empty() ? "" : own.plugin + ": "; }
+
+/// The law that a key names, made for the scene and watched; nullptr: it names none.
+template <class Watched, class Law>
+std::unique_ptr<Law> make_own(const Scene& scene, double cell_size, const char* key, const std::string& name,
+                              const std::map<std::string, LawMaker<Law>> OwnLaws::*kind) {
+  if (name.empty()) return nullptr;
+  if (!scene.own.laws)
+    throw_input_error("model.{} = \"{}\" is a law of a plugin; name its file: model.plugin", key, name);
+  const auto& makers = (*scene.own.laws).*kind;
+  const std::string file = file_of(scene.own);
+  if (const auto maker = makers.find(name); maker != makers.end()) {
+    const std::string law = law_in_words(scene.own, key, name);
+    std::unique_ptr<Law> made = by_law(law, [&] { return maker->second(scene, cell_size); });
+    if (!made) throw_input_error("{} was not made: its maker returns nothing; correct the law", law);
+    return std::make_unique<Watched>(law, std::move(made));
+  }
+  std::vector<std::string> known;
+  for (const auto& [one, maker] : makers) known.push_back(one);
+  throw_input_error("{}has no {} '{}' (model.{}); {}", file, key, name, key,
+                    known.empty() ? std::string("it has none at all")
+                                  : fmt::format("take one of: {}", fmt::join(known, ", ")));
+}
+
+}  // namespace
+
+std::string law_in_words(const OwnLawSettings& own, const char* key, const std::string& name) {
+  return fmt::format("{}{} '{}'", file_of(own), key, name);
+}
+
+std::unique_ptr<Relaxer> make_relaxer(const Scene& scene, double cell_size) {
+  std::unique_ptr<Relaxer> own =
+      make_own<WatchedRelaxer>(scene, cell_size, "relaxation", scene.own.relaxation, &OwnLaws::relaxations);
+  return own ? std::move(own) : make_relaxer(scene.relaxation, cell_size);
+}
+
+std::unique_ptr<Displacer> make_own_displacer(const Scene& scene, double cell_size) {
+  return make_own<WatchedDisplacer>(scene, cell_size, "displacement", scene.own.displacement,
+                                    &OwnLaws::displacements);
+}
+
+std::unique_ptr<ToolForce> make_tool_force(const Scene& scene, double cell_size) {
+  if (!is_contact_law(scene)) return nullptr;
+  std::unique_ptr<ToolForce> own =
+      make_own<WatchedForce>(scene, cell_size, "force", scene.own.force, &OwnLaws::forces);
+  if (!own) return std::make_unique<ContactForce>(scene, cell_size);
+  own->turn(own_rotation(scene.tool));
+  return own;
+}
+
+}  // namespace sandstroke
