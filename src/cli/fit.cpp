@@ -115,7 +115,7 @@ void show_use(const ForceFit& fit, const FitArguments& arguments) {
   try {
     const std::string doubt = theory_warning(load_scene(arguments.scene, overrides), 0.0);
     if (!arguments.json)
-      print_row("to use it", fmt::format("sandstroke run SCENE --set {}", fmt::join(settings, " --set ")));
+      print_row("to use it", fmt::format("sandstroke run SCENE --set {}", fmt::join(overrides, " --set ")));
     if (!doubt.empty()) spdlog::warn("{}", doubt);
   } catch (const Error& refusal) {
     spdlog::warn("no scene can have these constants: {}. Is the force in newtons, and are tool and {} right?",

@@ -173,6 +173,8 @@ Stroke place_stroke(const Stroke& stroke, const StrokePlacement& placement, cons
   if (placement.smooth > 0.0) placed = smoothed(placed, placement.smooth);
   const PointPlacement place = point_placement(placement, placed.frame);
   rotate(placed, place.axes);
+  const Eigen::Quaterniond back = Eigen::Quaterniond(place.axes).conjugate();
+  for (Eigen::Vector4d& q : placed.orientation) q = (Eigen::Quaterniond(q) * back).coeffs();
   placed.frame = "bed";
   if (placement.follow == StrokeFollow::sand) placed.follows_sand = true;
   if (placement.plane != StrokePlane::keep) lay_level(placed, placement, name);

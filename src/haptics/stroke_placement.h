@@ -56,8 +56,10 @@ struct PointPlacement {
     return axes.transpose() * (turn.transpose() * (placed - shift)) / scale;
   }
   Eigen::Vector3d force(const Eigen::Vector3d& force) const { return turn * (axes * force); }
+  /// A hand that is not turned in its frame is not turned on the bed.
   Eigen::Quaterniond orientation(const Eigen::Quaterniond& q) const {
-    return Eigen::Quaterniond(Eigen::Matrix3d(turn * axes)) * q;
+    const Eigen::Quaterniond to_bed(axes);
+    return Eigen::Quaterniond(turn) * to_bed * q * to_bed.conjugate();
   }
   /// A force on the bed's axes, on those of the stroke's frame.
   Eigen::Vector3d force_back(const Eigen::Vector3d& force) const {

@@ -26,6 +26,7 @@ Eroder::Eroder(const HeightField& bed, const ToolSettings& tool, const Relaxatio
     : replica_(bed),
       rate_(settings.rate),
       travel_(settings.travel * bed.cell_size()),
+      solid_(tool.solid),
       tool_(tool, {}, travel_),
       relaxer_(relaxer ? std::move(relaxer) : make_relaxer(in_short_turns(settings), bed.cell_size())),
       dug_(dug),
@@ -50,8 +51,10 @@ void Eroder::exchange() {
   ToolPlace place;
   bool told = false;
   while (places_.pop(place)) told = true;
-  if (told && place.rotation) tool_.turn(*place.rotation);
-  if (told) tool_.put(replica_.bed(), place.tip, place.contact);
+  if (told) {
+    place_ = place;
+    tool_.put(replica_.bed(), place.tip, place.contact);
+  }
   begun_ = begun_ || told;
   SandChange change;
   while (dug_.pop(change)) replica_.take(change, true);
@@ -66,6 +69,10 @@ void Eroder::turn() {
 
 void Eroder::relax() {
   if (rate_ <= 0.0 && travel_ <= 0.0) return;
+  if (solid_ && place_.rotation) {  // not while sand waits to be exchanged, for it takes long
+    tool_.turn(*place_.rotation);
+    tool_.put(replica_.bed(), place_.tip, place_.contact);
+  }
   tool_.hold(replica_.bed());
   const RelaxationOutcome outcome = relaxer_->relax(replica_.bed());
   report_.relaxations += 1;

@@ -71,8 +71,10 @@ class Eroder {
 
   BedReplica replica_;
   double rate_, travel_;  // Hz, m
-  SandSide tool_;         // as last told of; it displaces nothing
-  bool begun_ = false;    // it was told of: until then sand stays as a run of the stroke finds it
+  bool solid_;
+  SandSide tool_;       // as last told of; it displaces nothing
+  ToolPlace place_;     // of it
+  bool begun_ = false;  // it was told of: until then sand stays as a run of the stroke finds it
   std::unique_ptr<Relaxer> relaxer_;
   SandRing& dug_;
   PlaceRing& places_;

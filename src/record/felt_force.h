@@ -11,6 +11,9 @@ namespace sandstroke {
 struct FeltForce {
   Eigen::Vector3d force = Eigen::Vector3d::Zero();  ///< N, in the device's frame
   std::uint32_t flags = 0;
+  /// N, that sand would give there once the tool moves, where that is more than the force: what the interlock
+  /// goes by. A tool that rests deep in the sand may feel nothing.
+  double due = 0.0;
   /// false: the tool is where no sand is above which it could be, lower than the highest sand: beside the
   /// bed. What it meets next may be deep in the sand.
   bool is_above_or_in_sand = true;

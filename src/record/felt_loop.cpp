@@ -21,8 +21,9 @@ double rounded_down(double value) {
 bool is_paper(const Scene& scene) { return scene.force.law == ForceLaw::paper; }
 
 /// As the device feels it, at the largest force.
-FeltSand sand_felt(const Scene& scene, double force, double scale) {
-  if (!is_paper(scene)) return {scale * contact_stiffness(scene, force), 0.0};
+FeltSand sand_felt(const Scene& scene, const FeltLoop& loop) {
+  const double force = loop.force, scale = loop.scale;
+  if (!is_paper(scene)) return {scale * contact_stiffness(scene, force, loop.turns), 0.0};
   return felt_sand(depth_of_repulse_force(force, scene.force), force, scale, scene.force);
 }
 
@@ -48,7 +49,7 @@ ForceSettings settling_force(const FeltLoop& loop, const ForceSettings& force) {
 std::optional<double> settling_yield(const FeltLoop& loop, Scene scene) {
   const auto shakes = [&](double yield) {
     scene.strength.yield_way = yield;
-    return sand_felt(scene, loop.force, loop.scale).stiffness >= loop.stable.stiffness;
+    return sand_felt(scene, loop).stiffness >= loop.stable.stiffness;
   };
   double low = scene.strength.yield_way, high = 2.0 * low;
   constexpr double longest = 1.0;  // m, of the key
@@ -77,12 +78,13 @@ std::optional<FeltLoop> felt_loop(const Scene& scene, const DeviceSpecification&
   if (loop.force <= 0.0 || loop.force >= any_force) return std::nullopt;
   if (is_paper(scene) && (scene.force.k_s <= 0.0 || scene.force.k_c <= 0.0)) return std::nullopt;
   loop.scale = scene.device.scale * (scene.stroke ? scene.stroke->placement.scale : 1.0);
+  loop.turns = device.measures_orientation;
   loop.device = scene.device;
   loop.device.servo_rate = servo_rate;
   constexpr double longest = 100.0;  // ticks, of a map of moderate size: who is later is not fit to record
   loop.device.delay =
       static_cast<int>(std::clamp(std::ceil(lateness.value_or(0.0) * servo_rate), 1.0, longest));
-  loop.felt = sand_felt(scene, loop.force, loop.scale);
+  loop.felt = sand_felt(scene, loop);
   loop.named = {device.max_stiffness, device.max_damping};
   loop.stable = stable_sand(loop.device, scene.force.drag, loop.felt.drag, LiveSand::velocity_window);
   return loop;

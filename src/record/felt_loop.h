@@ -11,6 +11,7 @@ namespace sandstroke {
 struct FeltLoop {
   double force = 0.0;     ///< N, the largest
   double scale = 1.0;     ///< bed metres per device metre
+  bool turns = false;     ///< the tool with the hand
   DeviceSettings device;  ///< servo rate and delay of the loop; mass, damping and hand as the scene has them
   FeltSand felt;          ///< at that force
   FeltSand named;         ///< by the device, as its most; 0: it names none

@@ -38,7 +38,7 @@ FeltForce ForceGuard::admit(double time, const FeltForce& wanted, const Eigen::V
     return given;
   }
   if (!wanted.is_above_or_in_sand) interlock_.close();
-  interlock_.see(time, wanted.is_above_or_in_sand ? length_of(wanted.force) : HUGE_VAL);
+  interlock_.see(time, wanted.is_above_or_in_sand ? std::max(length_of(wanted.force), wanted.due) : HUGE_VAL);
   const bool is_wanted = !wanted.force.isZero(0.0);
   if (!interlock_.is_open()) {
     given.force.setZero();

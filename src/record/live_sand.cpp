@@ -125,14 +125,20 @@ bool LiveSand::touches(const DeviceReading& reading) noexcept {
   return interaction.contact || is_beside(interaction, tip);
 }
 
-Eigen::Vector3d LiveSand::force(const Interaction& interaction, const Eigen::Vector3d& tip,
-                                const Eigen::Vector3d& motion, const Eigen::Vector3d& speed) {
-  if (contact_force_)
-    return contact_force_->in_tick(sand_, replica_.bed(), tip, motion, interaction.contact)
-        .limited(largest_force_)
-        .force;
-  if (!interaction.contact) return Eigen::Vector3d::Zero();
-  return sand_force(interaction.depth, speed, device_.max_force, force_).total;
+void LiveSand::give_force(const Interaction& interaction, const Eigen::Vector3d& tip,
+                          const Eigen::Vector3d& motion, const Eigen::Vector3d& speed, FeltForce& felt) {
+  if (!contact_force_) {
+    if (!interaction.contact) return;
+    const double most = device_.max_force;
+    felt.force = placement_.force_back(sand_force(interaction.depth, speed, most, force_).total);
+    return;
+  }
+  const Wrench full = contact_force_->in_tick(sand_, replica_.bed(), tip, motion, interaction.contact);
+  const Wrench given = full.limited(largest_force_);
+  felt.force = placement_.force_back(given.force);
+  felt.due = given.strength;
+  // Beyond what a run of the scene would do.
+  if (full.limited(device_.max_force).strength > given.strength) felt.flags |= clamped_force;
 }
 
 FeltForce LiveSand::feel(double time, const DeviceReading& reading) noexcept {
@@ -143,8 +149,9 @@ FeltForce LiveSand::feel(double time, const DeviceReading& reading) noexcept {
     if (contact_force_) contact_force_->lift();
     readings_ = 0;
   }
-  const std::optional<Eigen::Vector3d> before = sand_.last_tip();
-  const Eigen::Vector3d motion = before ? Eigen::Vector3d(tip - *before) : Eigen::Vector3d::Zero();
+  // Also where the tool did not dig.
+  const Eigen::Vector3d motion =
+      readings_ > 0 ? Eigen::Vector3d(tip - past(readings_ - 1).tip) : Eigen::Vector3d::Zero();
   const Eigen::Vector3d speed = velocity(time, tip);
   turn_tool(reading.orientation);
 
@@ -169,12 +176,15 @@ FeltForce LiveSand::feel(double time, const DeviceReading& reading) noexcept {
                std::memory_order_relaxed);
   felt.is_above_or_in_sand = !is_beside(interaction, tip);
   report_.contact_ticks += interaction.contact;
-  felt.force = placement_.force_back(force(interaction, tip, motion, speed));
+  give_force(interaction, tip, motion, speed, felt);
   return felt;
 }
 
 LiveSandReport LiveSand::finish() {
-  if (shaper_) shaper_->stop();
+  if (shaper_) {
+    shaper_->stop();
+    if (shaper_->failure()) std::rethrow_exception(shaper_->failure());
+  }
   eroder_.stop();
   if (eroder_.failure()) std::rethrow_exception(eroder_.failure());
   do {

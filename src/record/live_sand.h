@@ -34,7 +34,9 @@ struct LiveSandReport {
 /// forces, but for
 /// - time: it plays a smooth curve through the samples, at even ticks;
 /// - velocity: of that curve, while here only the past is known (velocity_window);
-/// - erosion: there at the tick it is due, here when its thread has come to it.
+/// - erosion: there at the tick it is due, here when its thread has come to it;
+/// - a tool that turns: what digs is turned as the hand was a while ago (ToolShaper);
+/// - a law of the contact: here the sand is weakened to what the hand may get, too (flagged: clamped_force).
 /// With a tip of speed v and acceleration a [m/s, m/s^2, in the bed], samples at most h and relaxations r
 /// apart [s] (by way: travel / v), W = velocity_window and K the sand's stiffness (felt_sand), where the
 /// recorder did not alter the force:
@@ -90,16 +92,15 @@ class LiveSand : public FeltWorld {
     Eigen::Vector3d tip;
   };
 
-  /// m, in the bed.
-  /// Beside the bed, lower than its highest sand.
+  /// Beside the bed, and lower than its highest sand; tip: in the bed [m].
   bool is_beside(const Interaction& interaction, const Eigen::Vector3d& tip) const {
-    return std::isnan(interaction.level) && tip.z() <= highest_;
+    return std::isnan(interaction.level) && tip.z() + sand_.footprint().lowest() <= highest_;
   }
   Eigen::Vector3d velocity(double time, const Eigen::Vector3d& tip);
   void turn_tool(const Eigen::Quaterniond& orientation);
-  /// On the bed's axes [N], after the tool went by `motion` [m].
-  Eigen::Vector3d force(const Interaction& interaction, const Eigen::Vector3d& tip,
-                        const Eigen::Vector3d& motion, const Eigen::Vector3d& speed);
+  /// After the tool went by `motion` [m].
+  void give_force(const Interaction& interaction, const Eigen::Vector3d& tip, const Eigen::Vector3d& motion,
+                  const Eigen::Vector3d& speed, FeltForce& felt);
   /// Of the last velocity_window readings, by their number.
   Past& past(std::int64_t reading) { return past_[static_cast<std::size_t>(reading % velocity_window)]; }
   void take_slipped(int most);

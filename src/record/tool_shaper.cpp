@@ -20,7 +20,11 @@ ToolShaper::ToolShaper(const ToolSettings& tool, double distance, double cell_si
 void ToolShaper::start() {
   stopping_ = false;
   thread_ = std::thread([this] {
-    for (; !stopping_; std::this_thread::sleep_for(std::chrono::milliseconds(1))) work();
+    using std::chrono::milliseconds;
+    while (!stopping_) {
+      const bool fine = work();
+      std::this_thread::sleep_for(fine ? milliseconds(1) : milliseconds(100));
+    }
   });
 }
 
@@ -29,8 +33,8 @@ void ToolShaper::stop() {
   if (thread_.joinable()) thread_.join();
 }
 
-void ToolShaper::work() {
-  if (state_.load(std::memory_order_acquire) != asked) return;
+bool ToolShaper::work() noexcept {
+  if (state_.load(std::memory_order_acquire) != asked) return true;
   try {
     ToolFootprint footprint(tool_);
     footprint.turn(asked_);
@@ -40,9 +44,13 @@ void ToolShaper::work() {
     footprint.make_ways_out(distance_);
     spare_ = std::move(footprint);
     state_.store(made, std::memory_order_release);
-  } catch (const Error&) {
-    state_.store(idle, std::memory_order_release);
+    return true;
+  } catch (const Error&) {  // too thin for the cells
+  } catch (...) {  // the hand goes on feeling: a program that ended here would not release the device
+    failure_ = std::current_exception();
   }
+  state_.store(idle, std::memory_order_release);
+  return false;
 }
 
 bool ToolShaper::follow(const Eigen::Matrix3d& rotation, ToolFootprint& footprint) noexcept {

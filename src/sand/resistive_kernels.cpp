@@ -122,7 +122,7 @@ Wrench ResistiveWrench(const ResistiveTick& tick) {
         Vector{hn::Load(d, ways_x + i), hn::Load(d, ways_y + i), hn::Load(d, ways_z + i)}.plus(motion);
     if (spins) way = way.plus({spin_x.dot(r), spin_y.dot(r), spin_z.dot(r)});
     const V length = Sqrt(way.dot(way)), per_length = one / Max(length, all(1e-300));
-    const Vector u = way.times(per_length);
+    const Vector u = way.times(where(length > zero, per_length));  // whose square may be no number any more
     way = way.times(where(in_sand, Min(per_length, one)));
     hn::Store(way.x, d, ways_x + i);
     hn::Store(way.y, d, ways_y + i);

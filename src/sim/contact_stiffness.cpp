@@ -2,10 +2,12 @@
 
 #include <Eigen/SVD>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
 #include "core/bisection.h"
+#include "core/elementary.h"
 #include "sim/contact_force.h"
 #include "tool/tool_surface.h"
 
@@ -14,12 +16,15 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Towards the faces, edges and corners of a cube.
-std::vector<Vector3d> directions() {
+/// Spread evenly over a sphere (by the golden angle), and up, down and along the axes.
+std::vector<Vector3d> directions(int count) {
   std::vector<Vector3d> all;
-  for (int i = 0; i < 27; ++i) {
-    const Vector3d towards(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1);
-    if (!towards.isZero(0.0)) all.push_back(towards.normalized());
+  for (int axis = 0; axis < 3; ++axis)
+    for (const double sign : {-1.0, 1.0}) all.push_back(sign * Vector3d::Unit(axis));
+  for (int i = 0; i < count; ++i) {
+    const double z = 1.0 - (2.0 * i + 1.0) / count, angle = 2.399963229728653 * i,
+                 across = std::sqrt(1.0 - z * z);
+    all.emplace_back(across * elementary::cos(angle), across * elementary::sin(angle), z);
   }
   return all;
 }
@@ -58,27 +63,42 @@ class LevelSand {
 
 }  // namespace
 
-double contact_stiffness(const Scene& scene, double max_force) {
-  LevelSand sand(scene);
-  constexpr double seen = 2e-5;  // m: about what devices measure
-  const double step = std::min(0.05 * scene.strength.yield_way, seen);
+double contact_stiffness(const Scene& scene, double max_force, bool turns) {
+  constexpr double seen = 2e-5;    // m: about what devices measure
   constexpr double deepest = 1.0;  // m, where lift that never reaches max_force does not grow any more
-  double stiffest = 0.0;
-  for (const Vector3d& yielded : directions()) {
-    const double depth = std::min(deepest, boundary_of_positive([&](double deep) {
-                                    return sand.at(deep, yielded, Vector3d::Zero()).strength < max_force;
-                                  }));
-    const Vector3d before = sand.at(depth, yielded, Vector3d::Zero()).limited(max_force).force;
-    for (const double sign : {-1.0, 1.0}) {
-      Eigen::Matrix3d change;
-      for (int axis = 0; axis < 3; ++axis)
-        change.col(axis) =
-            (sand.at(depth, yielded, sign * step * Vector3d::Unit(axis)).limited(max_force).force - before) /
-            step;
-      stiffest = std::max(stiffest, change.jacobiSvd().singularValues()[0]);
+  constexpr int all_around = 400, each_when_turned = 100;
+  // deg, as tool.orientation: upright and leaning, each way round.
+  const std::array<Vector3d, 6> leans = {Vector3d(10.0, 20.0, 30.0), {-35.0, 5.0, 60.0}, {0.0, 45.0, 0.0},
+                                         {60.0, -10.0, 20.0},        {90.0, 0.0, 45.0},  {5.0, 80.0, -15.0}};
+  const double step = std::min(0.05 * scene.strength.yield_way, seen);
+  const auto stiffest = [&](const Scene& held, int count) {
+    LevelSand sand(held);
+    double most = 0.0;
+    for (const Vector3d& yielded : directions(count)) {
+      const double depth = std::min(deepest, boundary_of_positive([&](double deep) {
+                                      return sand.at(deep, yielded, Vector3d::Zero()).strength < max_force;
+                                    }));
+      const Vector3d before = sand.at(depth, yielded, Vector3d::Zero()).limited(max_force).force;
+      for (const double sign : {-1.0, 1.0}) {
+        Eigen::Matrix3d change;
+        for (int axis = 0; axis < 3; ++axis)
+          change.col(axis) =
+              (sand.at(depth, yielded, sign * step * Vector3d::Unit(axis)).limited(max_force).force -
+               before) /
+              step;
+        most = std::max(most, change.jacobiSvd().singularValues()[0]);
+      }
     }
+    return most;
+  };
+  double most = stiffest(scene, all_around);
+  if (!turns || scene.tool.shape == ToolShape::sphere) return most;
+  for (const Vector3d& lean : leans) {
+    Scene held = scene;
+    held.tool.orientation += lean;
+    most = std::max(most, stiffest(held, each_when_turned));
   }
-  return stiffest;
+  return most;
 }
 
 }  // namespace sandstroke

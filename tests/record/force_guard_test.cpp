@@ -192,6 +192,20 @@ TEST(ForceGuard, GivesNoneToAHandThatComesFromBesideTheSand) {
   EXPECT_TRUE(guard.interlock().is_open());
 }
 
+TEST(ForceGuard, GivesNoneToAHandThatRestsWhereAForceIsDue) {
+  ForceGuard guard(limits(5.0, 0.0, 1e6), 1000.0);
+  FeltForce resting;
+  resting.due = 0.21;
+  for (int i = 0; i < 1000; ++i) guard.admit(1e-3 * i, resting, Vector3d::Zero());
+  EXPECT_FALSE(guard.interlock().is_open());
+  const FeltForce given = guard.admit(1.0, {{0.0, 0.0, 3.0}}, Vector3d::Zero());
+  EXPECT_EQ(given.force, Vector3d::Zero());
+  EXPECT_TRUE(given.flags & interlocked_force);
+  resting.due = 0.19;  // out of the sand, nearly
+  for (int i = 0; i < 100; ++i) guard.admit(1.001 + 1e-3 * i, resting, Vector3d::Zero());
+  EXPECT_TRUE(guard.interlock().is_open());
+}
+
 TEST(ForceGuard, ALimitBelowZeroIsNone) {
   ForceGuard guard = open_for(0.0, limits(-3.0, 0.0, infinity));
   EXPECT_EQ(guard.admit(10.0, {{0.0, 2.0, 0.0}}, Vector3d::Zero()).force, Vector3d::Zero());

@@ -267,6 +267,91 @@ TEST(LiveSand, OfALawOfTheContactLetsAHandRestWhereTheoryDoes) {
   EXPECT_GT(shaking(scene), 1e-2) << "as hard as that, and it shakes";
 }
 
+TEST(LiveSand, AToolThatRestsDeepIsDueAForceThatItDoesNotFeel) {
+  // So that the interlock stays closed (ForceGuard): at the beginning, and after a gap.
+  for (const ForceLaw law : {ForceLaw::rft, ForceLaw::archimedes})
+    for (const ToolShape shape : {ToolShape::sphere, ToolShape::plate}) {
+      const Scene scene = contact_scene(law, shape);
+      LiveSand sand(scene, starting_bed(scene.bed), {"bed"});
+      for (const double t : {0.0, 0.001, 0.5, 0.501}) {
+        const FeltForce felt = sand.feel(t, {Eigen::Vector3d(0.0, 0.0, -0.01)});
+        EXPECT_LT(felt.force.norm(), 1e-9) << t;
+        EXPECT_GT(felt.due, 1.0) << t;
+      }
+      EXPECT_EQ(sand.feel(0.6, {Eigen::Vector3d(0.0, 0.0, 0.05)}).due, 0.0);
+    }
+}
+
+TEST(LiveSand, WhatIsWeakenedBeyondTheScenesLimitIsFlagged) {
+  const Scene scene = contact_scene(ForceLaw::rft, ToolShape::plate);  // of 3.3 N
+  for (const double largest : {any_force, 3.3, 1.0}) {
+    LiveSand sand(scene, starting_bed(scene.bed), {"bed", largest});
+    std::uint32_t flags = 0;
+    double most = 0.0;
+    for (int k = 0; k < 100; ++k) {
+      const FeltForce felt = sand.feel(1e-3 * k, {Eigen::Vector3d(0.0, 0.0, -1e-4 * k)});
+      flags |= felt.flags;
+      most = std::max(most, felt.force.norm());
+    }
+    EXPECT_EQ(flags, largest < 3.3 ? clamped_force : 0u);
+    EXPECT_NEAR(most, std::min(largest, 3.3), 0.3);
+  }
+}
+
+TEST(LiveSand, OfALawOfTheContactGoesOnWhileTheToolIsHeldFromDigging) {
+  // The eroding bed is far behind, and the hand rises: lift is gone after the yield way.
+  Scene scene = contact_scene(ForceLaw::archimedes, ToolShape::box);
+  LiveSand sand(scene, starting_bed(scene.bed), {"bed"});
+  int k = 0;
+  std::uint32_t flags = 0;
+  for (; k < 200'000 && !(flags & held_sand); ++k) {
+    const double angle = 0.05 * k;
+    flags =
+        sand.feel(1e-3 * k, {Eigen::Vector3d(0.1 * std::cos(angle), 0.1 * std::sin(angle), -0.01 - 1e-7 * k)})
+            .flags;
+  }
+  ASSERT_TRUE(flags & held_sand);
+  const double angle = 0.05 * (k - 1), z = -0.01 - 1e-7 * (k - 1);
+  FeltForce felt;
+  for (int i = 1; i <= 20; ++i, ++k)
+    felt = sand.feel(1e-3 * k, {Eigen::Vector3d(0.1 * std::cos(angle), 0.1 * std::sin(angle), z + 1e-4 * i)});
+  EXPECT_EQ(felt.force.norm(), 0.0);
+}
+
+TEST(LiveSand, AHandThatIsNotTurnedInItsFrameDoesNotTurnTheTool) {
+  const Scene scene = contact_scene(ForceLaw::rft, ToolShape::plate);
+  LiveSand sand(scene, starting_bed(scene.bed), {"device", any_force, true});
+  DeviceReading reading;
+  reading.position = {0.0, 0.0, -0.005};
+  for (int k = 0; k < 3; ++k) sand.feel(1e-3 * k, reading), sand.shape();
+  EXPECT_TRUE(sand.orientation().isApprox(Eigen::Quaterniond::Identity(), 1e-12));
+  EXPECT_LT(sand.bed()(75 + 20, 75), -0.003) << "its width is along y";
+  // Turned about the axis towards the operator, which is the bed's -y.
+  reading.orientation = Eigen::AngleAxisd(0.3, Eigen::Vector3d::UnitX());
+  sand.feel(3e-3, reading);
+  const Eigen::Quaterniond about_y(Eigen::AngleAxisd(-0.3, Eigen::Vector3d::UnitY()));
+  EXPECT_TRUE(sand.orientation().isApprox(about_y, 1e-12));
+}
+
+TEST(LiveSand, BesideTheBedTheLowestPointOfTheToolCounts) {
+  Scene scene = contact_scene(ForceLaw::rft, ToolShape::plate);
+  scene.tool.orientation = {180.0, 0.0, 0.0};  // it hangs 30 mm below its tip
+  LiveSand sand(scene, starting_bed(scene.bed), {"bed"});
+  EXPECT_FALSE(sand.feel(0.0, {Eigen::Vector3d(0.5, 0.0, 0.02)}).is_above_or_in_sand);
+  EXPECT_TRUE(sand.feel(0.001, {Eigen::Vector3d(0.5, 0.0, 0.04)}).is_above_or_in_sand);
+}
+
+TEST(LiveSand, OfALawOfTheContactPastACornerOfTheBedIsANumber) {
+  for (const ForceLaw law : {ForceLaw::rft, ForceLaw::archimedes}) {
+    const Scene scene = contact_scene(law, ToolShape::sphere);
+    LiveSand sand(scene, starting_bed(scene.bed), {"bed"});
+    for (int k = 0; k < 800; ++k) {
+      const double x = 0.1 + 1e-4 * k;
+      EXPECT_TRUE(sand.feel(1e-3 * k, {Eigen::Vector3d(x, x, -0.005)}).force.allFinite()) << x;
+    }
+  }
+}
+
 TEST(LiveSand, OfALawOfTheContactBeginsAnewAfterAGap) {
   const Scene scene = contact_scene(ForceLaw::rft, ToolShape::sphere);
   LiveSand sand(scene, starting_bed(scene.bed), {"bed"});

@@ -190,6 +190,19 @@ TEST(ResistiveForce, DependsOnTheWayAndNotOnTheTimeItTakes) {
             0.05 * twice.z());
 }
 
+TEST(ResistiveForce, OfAWayWhoseSquareIsNoNumberAnyMoreIsANumber) {
+  HeightField bed(61, 61, 0.001);
+  const ToolSettings sphere{0.01, ToolProfile::sphere, true};
+  ToolFootprint footprint(sphere);
+  footprint.place(bed, 0.0, 0.0);
+  for (const double way : {0.0, 1e-158, 1e-165, 1e-200, 1e-320}) {
+    ResistiveForce force(tool_surface(sphere), 0.001);
+    const Wrench felt = force.feel(footprint, {0.0, 0.0, -0.005}, {0.0}, {way, 0.0, -way}, {});
+    EXPECT_LT(felt.force.norm(), 1e-100) << way;
+    EXPECT_TRUE(std::isfinite(felt.strength)) << way;
+  }
+}
+
 TEST(ResistiveForce, VolumeBelowThePlaneIsTheCap) {
   const double R = 0.01, depth = 0.006;
   const ResistiveForce force(tool_surface(ToolSettings{R}), R / 20.0);
