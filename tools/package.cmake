@@ -12,6 +12,9 @@ set(CPACK_PACKAGE_CONTACT "The sandstroke authors <maintainers@sandstroke.invali
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_COMPONENTS_ALL program development)
+if(SANDSTROKE_PYTHON)
+  list(APPEND CPACK_COMPONENTS_ALL python_debian)
+endif()
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
@@ -37,9 +40,21 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
 set(CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION "For programs of your own: the simulation (sand, haptics, sim) as static
 libraries, with headers and a CMake package.")
 
+set(CPACK_DEBIAN_PYTHON_DEBIAN_PACKAGE_NAME python3-sandstroke)
+set(CPACK_DEBIAN_PYTHON_DEBIAN_PACKAGE_SECTION python)
+set(CPACK_DEBIAN_PYTHON_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PYTHON_DEBIAN_PACKAGE_RECOMMENDS "python3-xarray, python3-matplotlib")
+set(CPACK_DEBIAN_PYTHON_DEBIAN_DESCRIPTION "The simulation of sandstroke as a Python module: runs of strokes through
+sand, a device that is stepped tick by tick, and pictures, as NumPy arrays.")
+if(SANDSTROKE_PYTHON)
+  math(EXPR next "${Python_VERSION_MINOR} + 1")
+  set(CPACK_DEBIAN_PYTHON_DEBIAN_PACKAGE_DEPENDS "python3 (>= ${Python_VERSION_MAJOR}.${Python_VERSION_MINOR}), \
+python3 (<< ${Python_VERSION_MAJOR}.${next}), python3-numpy, ${CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS}")
+endif()
+
 configure_file(tools/debian/changelog.in changelog @ONLY)
 execute_process(COMMAND ${GZIP} -9nc changelog OUTPUT_FILE changelog.gz WORKING_DIRECTORY ${PROJECT_BINARY_DIR})
-foreach(component PROGRAM DEVELOPMENT)
+foreach(component PROGRAM DEVELOPMENT PYTHON_DEBIAN)
   string(TOLOWER ${component} lower)
   install(FILES tools/debian/copyright ${PROJECT_BINARY_DIR}/changelog.gz
           DESTINATION ${doc}/${CPACK_DEBIAN_${component}_PACKAGE_NAME} COMPONENT ${lower})
