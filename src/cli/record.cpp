@@ -156,6 +156,14 @@ std::unique_ptr<HapticDevice> named_device(const RecordArguments& arguments, con
 std::optional<Scene> felt_scene(const RecordArguments& arguments) {
   if (arguments.felt_scene.empty()) return std::nullopt;
   Scene scene = load_scene(arguments.felt_scene, arguments.overrides);
+  const OwnLawSettings& own = scene.own;
+  for (const auto& [key, name] : {std::pair("relaxation", own.relaxation),
+                                  std::pair("displacement", own.displacement), std::pair("force", own.force)})
+    if (!name.empty())
+      throw_input_error(
+          "{}: model.{} = \"{}\" is a law of a plugin, and no hand may feel those, for nothing is known of "
+          "their time; leave it out of the scene that --feel names",
+          arguments.felt_scene, key, name);
   scene.tool = with_mesh(scene.tool, fs::path(arguments.felt_scene).parent_path());
   return scene;
 }

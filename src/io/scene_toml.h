@@ -20,7 +20,8 @@ Scene scene_from_text(const std::string& text, const std::string& name,
 /// The scene's stroke, seen from its folder; "-": standard input.
 std::filesystem::path stroke_path(const Scene& scene, const std::filesystem::path& folder);
 
-/// The files that a scene names, seen from its folder: stroke, the table that is merged with it, surface.
+/// The files that a scene names, seen from its folder: stroke, the table that is merged with it, surface,
+/// mesh, plugin.
 std::vector<std::filesystem::path> input_files(const Scene& scene, const std::filesystem::path& folder);
 
 /// Every setting of a scene as TOML, such that reading it back gives the same scene.

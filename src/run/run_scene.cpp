@@ -20,6 +20,7 @@
 #include "haptics/stroke_smoothing.h"
 #include "import/import_stroke.h"
 #include "io/mesh_file.h"
+#include "io/plugin_file.h"
 #include "io/run_writer.h"
 #include "io/scene_toml.h"
 #include "io/stroke_file.h"
@@ -96,6 +97,7 @@ RunResult run_scene(const Scene& asked, const std::filesystem::path& output, con
   Scene scene = asked;
   scene.bed = with_own_range(scene.bed, options.scene_folder);  // so that the run file says it
   scene.tool = with_mesh(scene.tool, options.scene_folder);
+  scene.own = with_plugin(scene.own, options.scene_folder);
   const int cores = tbb::info::default_concurrency();
   const int threads = options.threads > 0 ? std::min(options.threads, cores) : cores;
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,

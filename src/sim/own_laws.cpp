@@ -14,6 +14,8 @@
 namespace sandstroke {
 namespace {
 
+struct Stopped {};  // thrown through a law, which is not to catch it: no std::exception
+
 /// Does something of an own law's. An Error passes: it is a sentence already, of the law or of who watches
 /// it.
 template <class Work>
@@ -24,10 +26,12 @@ auto by_law(const std::string& law, const Work& work) {
     throw;
   } catch (const std::exception& failure) {
     throw_input_error("{} failed: {}; correct the law", law, failure.what());
+  } catch (const Stopped&) {
+    throw;
+  } catch (...) {
+    throw_input_error("{} failed, and does not say of what; correct the law", law);
   }
 }
-
-struct Stopped {};  // not for a law to catch: no std::exception
 
 class WatchedRelaxer : public Relaxer {
  public:

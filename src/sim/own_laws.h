@@ -22,6 +22,7 @@ struct OwnLaws {
   std::map<std::string, LawMaker<Relaxer>> relaxations;
   std::map<std::string, LawMaker<Displacer>> displacements;
   std::map<std::string, LawMaker<ToolForce>> forces;
+  std::string hash;  ///< of the file that they are from; empty: none
 };
 
 /// As sentences call the law that a key of [model] names.

@@ -3,16 +3,12 @@
 #include <memory>
 #include <optional>
 
-#include "haptics/stroke_sampler.h"
-#include "sim/device_side.h"
 #include "sim/idle_ticks.h"
 #include "sim/run_result.h"
 #include "sim/sand_follower.h"
-#include "sim/sand_side.h"
-#include "sim/sand_watch.h"
 #include "sim/scene.h"
 #include "sim/simulation_observer.h"
-#include "sim/tool_force.h"
+#include "sim/tick_loop.h"
 
 namespace sandstroke {
 
@@ -27,8 +23,8 @@ class Simulation {
   Simulation(const Scene& scene, HeightField bed, std::optional<Stroke> stroke,
              std::unique_ptr<Relaxer> relaxer = nullptr);
 
-  const Scene& scene() const { return scene_; }
-  const HeightField& bed() const { return bed_; }
+  const Scene& scene() const { return loop_.scene(); }
+  const HeightField& bed() const { return loop_.bed(); }
   /// Of how many ticks run() tells: all of the stroke but idle ones.
   std::int64_t told_ticks() const;
   TraceContent trace_content() const;
@@ -42,8 +38,6 @@ class Simulation {
   void run_stroke();
   /// What sand and device do in the tick at whose end the stroke is at next_time.
   TickRecord tick(double time, const Hand& hand, double next_time, const std::function<void()>& slip);
-  /// Turns the tool with the hand, from how tool.orientation holds it.
-  void turn_tool(const Eigen::Quaterniond& hand);
   /// Where the stroke's hand is at that time of the stroke, on the sand as it lies now.
   Hand hand_at(double time);
   /// Adds what a tick reached.
@@ -51,28 +45,17 @@ class Simulation {
   /// Idle ticks: sand that is not at rest slips when it is due, and frames come. The tick after the last one.
   std::int64_t idle(const TickRange& ticks);
   RelaxationOutcome relax(double time);
-  /// Error: unstable, where it made or lost sand.
-  void check_own_law(const char* key, const std::string& name) const;
   void keep_frame(double time);
-  /// Error: unstable, where the device, at the end of a tick, has left all bounds.
-  void check_near(const TickRecord& record) const;
   template <class Event>
   void tell(const Event& event) {
     for (SimulationObserver* observer : observers_) event(*observer);
   }
 
-  Scene scene_;
-  HeightField bed_;
+  TickLoop loop_;
   std::optional<StrokeSampler> stroke_;
   std::optional<SandFollower> follower_;
   std::int64_t ticks_ = 0;  // of the stroke
   std::vector<TickRange> idle_;
-  Eigen::Matrix3d own_rotation_;  // of the tool
-  SandSide sand_;
-  std::unique_ptr<ToolForce> contact_force_;  // none: the paper's law
-  DeviceSide device_;
-  std::unique_ptr<Relaxer> relaxer_;
-  std::optional<SandWatch> watch_;  // where a law that is not this library's moves sand
   Observers observers_;
   RunResult result_;
 };

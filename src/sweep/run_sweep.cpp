@@ -151,7 +151,10 @@ bool Sweep::run_group(const SweepFolder& folder, const std::vector<std::size_t>&
   std::shared_ptr<const HeightField> bed;
   try {
     bed = inputs_.bed(scenes.front().bed);
-    for (Scene& scene : scenes) scene.tool = inputs_.tool(scene.tool);
+    for (Scene& scene : scenes) {
+      scene.tool = inputs_.tool(scene.tool);
+      scene.own = inputs_.own(scene.own);
+    }
   } catch (const Error& error) {
     if (is_of_the_machine(error)) throw;
     return refuse(error.what());

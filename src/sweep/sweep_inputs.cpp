@@ -2,6 +2,7 @@
 
 #include "core/machine.h"
 #include "io/mesh_file.h"
+#include "io/plugin_file.h"
 #include "io/scene_toml.h"
 #include "io/stroke_file.h"
 #include "io/surface_file.h"
@@ -70,6 +71,16 @@ ToolSettings SweepInputs::tool(const ToolSettings& settings) {
   tool = with_mesh(tool, scene_folder_);
   mesh = tool.mesh;
   return tool;
+}
+
+OwnLawSettings SweepInputs::own(const OwnLawSettings& settings) {
+  const std::scoped_lock lock(files_);
+  OwnLawSettings own = settings;
+  std::shared_ptr<const OwnLaws>& laws = plugins_[settings.plugin];
+  own.laws = laws;
+  own = with_plugin(own, scene_folder_);
+  laws = own.laws;
+  return own;
 }
 
 std::string sand_key(const Scene& scene, const SweepStroke* stroke) {

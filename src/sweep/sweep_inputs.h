@@ -29,6 +29,8 @@ class SweepInputs {
   std::shared_ptr<const HeightField> bed(const BedSettings& bed);
   /// The same tool, with its mesh where it is one.
   ToolSettings tool(const ToolSettings& settings);
+  /// The same settings, with the laws of their plugin where they name one.
+  OwnLawSettings own(const OwnLawSettings& settings);
 
   int strokes_loaded() const { return strokes_loaded_; }
   int beds_loaded() const { return beds_loaded_; }
@@ -44,6 +46,7 @@ class SweepInputs {
   std::map<std::string, std::shared_ptr<const HeightField>> beds_;     // by their settings
   double bed_bytes_ = 0.0;                                             // of beds_
   std::map<std::pair<std::string, double>, std::shared_ptr<const TriangleMesh>> meshes_;  // by file and scale
+  std::map<std::string, std::shared_ptr<const OwnLaws>> plugins_;                         // by file
   int strokes_loaded_ = 0, beds_loaded_ = 0;
 };
 

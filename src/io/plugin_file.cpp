@@ -1,0 +1,59 @@
+#include "io/plugin_file.h"
+
+#include <dlfcn.h>
+
+#include "core/error.h"
+#include "core/input_file.h"
+#include "sim/plugin.h"
+
+namespace sandstroke {
+namespace {
+
+template <class Function>
+Function* function_of(void* library, const char* name, const std::string& file) {
+  void* const found = dlsym(library, name);
+  if (!found)
+    throw_input_error(
+        "{}: is no plugin, for it has no {}; write SANDSTROKE_LAWS(laws) {{ ... }} in one of its files, and "
+        "build it again",
+        file, name);
+  return reinterpret_cast<Function*>(found);
+}
+
+}  // namespace
+
+std::shared_ptr<const OwnLaws> load_plugin(const std::filesystem::path& path) {
+  const std::string file = path.string();
+  auto laws = std::make_shared<OwnLaws>();
+  laws->hash = file_hash(path);  // says what is wrong with a file that cannot be read
+  // Never closed: laws, and what they throw, may be anywhere.
+  void* const library = dlopen(std::filesystem::absolute(path).c_str(), RTLD_NOW | RTLD_LOCAL);
+  if (!library) {
+    const char* const why = dlerror();
+    throw_input_error(
+        "{}: is no plugin that can be loaded ({}); build it again, with add_library(... MODULE ...)", file,
+        why ? why : "no reason given");
+  }
+  const std::string theirs = function_of<const char*()>(library, "sandstroke_plugin_interface", file)(),
+                    ours = plugin_interface();
+  if (theirs != ours)
+    throw_input_error("{}: was built for {}, and this program is {}; build it again", file, theirs, ours);
+  const auto add_laws = function_of<void(OwnLaws&)>(library, "sandstroke_plugin_laws", file);
+  try {
+    add_laws(*laws);
+  } catch (const Error&) {
+    throw;
+  } catch (const std::exception& failure) {
+    throw_input_error("{}: failed to name its laws: {}; correct it", file, failure.what());
+  }
+  if (laws->relaxations.empty() && laws->displacements.empty() && laws->forces.empty())
+    throw_input_error("{}: has no laws; add some in its SANDSTROKE_LAWS", file);
+  return laws;
+}
+
+OwnLawSettings with_plugin(OwnLawSettings own, const std::filesystem::path& folder) {
+  if (!own.plugin.empty() && !own.laws) own.laws = load_plugin(folder / own.plugin);
+  return own;
+}
+
+}  // namespace sandstroke

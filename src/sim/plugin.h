@@ -1,0 +1,32 @@
+#pragma once
+
+#include <spdlog/fmt/fmt.h>
+
+#include "core/error.h"
+#include "core/version.h"
+#include "sim/own_laws.h"
+
+namespace sandstroke {
+
+/// What a plugin has to agree on with the program that loads it: the library, the C++ ABI of the compiler,
+/// and how objects lie in memory. To be raised by hand: `interface`, where a class that laws derive from
+/// changes.
+inline std::string plugin_interface() {
+  constexpr int interface = 1;
+  return fmt::format("sandstroke {}, laws {}, C++ ABI {}.{}, Eigen {}.{}.{}, objects of {} {} {} {} {} bytes",
+                     version, interface, __GXX_ABI_VERSION, _GLIBCXX_USE_CXX11_ABI, EIGEN_WORLD_VERSION,
+                     EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION, sizeof(Scene), sizeof(HeightField),
+                     sizeof(ToolFootprint), sizeof(RelaxationOutcome), sizeof(Wrench));
+}
+
+}  // namespace sandstroke
+
+/// Once in a plugin (a shared library that links sandstroke::sim), before a body that adds its laws to
+/// `laws`:
+///   SANDSTROKE_LAWS(laws) { laws.forces["spring"] = [](const Scene& scene, double) { ... }; }
+#define SANDSTROKE_LAWS(laws)                                            \
+  extern "C" const char* sandstroke_plugin_interface() {                 \
+    static const std::string interface = sandstroke::plugin_interface(); \
+    return interface.c_str();                                            \
+  }                                                                      \
+  extern "C" void sandstroke_plugin_laws(sandstroke::OwnLaws& laws)

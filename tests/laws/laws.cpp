@@ -1,0 +1,145 @@
+// Laws of your own, one of each kind: relaxation in plain passes, sand that goes ahead of the tool, and a
+// spring with friction. model.parameters = [share of a pass, stiffness in N/m, friction, 0]; 0: as below.
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "sim/plugin.h"
+
+using namespace sandstroke;
+
+namespace {
+
+double or_else(double parameter, double usual) { return parameter > 0.0 ? parameter : usual; }
+
+/// The slope of a cell towards its lower neighbours; where it is too steep, each gets its share of the
+/// excess.
+class PlainPasses : public Relaxer {
+ public:
+  PlainPasses(const Scene& scene, double cell_size)
+      : drop_(talus_slope(scene.relaxation.talus_angle) * cell_size),
+        tolerance_(scene.relaxation.tolerance),
+        share_(or_else(scene.own.parameters[0], 0.25)),
+        max_passes_(scene.relaxation.max_passes) {}
+
+  RelaxationOutcome relax(HeightField& bed, const PassWatcher& after_pass) override {
+    HeightGrid heights = bed.grid();
+    RelaxationOutcome outcome;
+    while (!outcome.converged && outcome.passes < max_passes_) {
+      const HeightGrid before = heights;
+      outcome.residual = 0.0;
+      for (int row = 0; row < bed.rows(); ++row)
+        for (int col = 0; col < bed.cols(); ++col)
+          if (!bed.is_held(row, col)) slip(bed, before, row, col, heights, outcome);
+      outcome.cells_visited += heights.size();
+      outcome.converged = outcome.residual <= tolerance_;
+      if (outcome.converged) break;  // what was looked at last is at rest
+      ++outcome.passes;
+      after_pass(outcome.passes, [&]() -> const HeightField& { return bed; });
+    }
+    for (int row = 0; row < bed.rows(); ++row)
+      for (int col = 0; col < bed.cols(); ++col)
+        if (bed(row, col) != heights(row, col)) bed.set(row, col, heights(row, col));
+    return outcome;
+  }
+
+ private:
+  void slip(const HeightField& bed, const HeightGrid& before, int row, int col, HeightGrid& heights,
+            RelaxationOutcome& outcome) const {
+    double drops[4], steepest[2] = {0.0, 0.0};
+    for (int side = 0; side < 4; ++side) {
+      const int i = row + (side == 2) - (side == 3), j = col + (side == 0) - (side == 1);
+      const bool wall = i < 0 || j < 0 || i >= bed.rows() || j >= bed.cols() || bed.is_held(i, j);
+      drops[side] = wall ? 0.0 : before(row, col) - before(i, j);
+      steepest[side / 2] = std::max(steepest[side / 2], drops[side]);
+    }
+    const double slope = std::hypot(steepest[0], steepest[1]);
+    if (slope <= drop_ * (1.0 + tolerance_)) return;
+    outcome.residual = std::max(outcome.residual, slope / drop_ - 1.0);
+    for (int side = 0; side < 4; ++side) {
+      if (drops[side] <= 0.0) continue;
+      const double amount = share_ * (1.0 - drop_ / slope) * drops[side];
+      heights(row, col) -= amount;
+      heights(row + (side == 2) - (side == 3), col + (side == 0) - (side == 1)) += amount;
+      outcome.moved_volume += amount * bed.cell_area();
+    }
+  }
+
+  double drop_, tolerance_, share_;
+  std::int64_t max_passes_;
+};
+
+/// All sand in the tool's way goes onto the cells beside it that lie ahead of its motion, each as much.
+class AllAhead : public Displacer {
+ public:
+  double displace(HeightField& bed, const ToolFootprint& footprint, double tip_height,
+                  const Eigen::Vector3d& motion) override {
+    struct Cell {
+      int row, col;
+    };
+    std::vector<Cell> under, ahead;
+    const CellRange& window = footprint.cells();
+    const double reach = footprint.reach() / footprint.cell_size();  // in cells, as all places here
+    for (int row = 0; row < window.rows(); ++row) {
+      const ColumnRange sand = footprint.sand_cols(row);
+      for (int col = sand.begin; col < sand.end; ++col) {
+        const double x = footprint.first_x() + col - footprint.axis_x(),
+                     y = footprint.first_y() + row - footprint.axis_y();
+        const Cell cell{window.row_begin + row, window.col_begin + col};
+        if (footprint.heights(row)[col] > tip_height + footprint.underside(row)[col])
+          under.push_back(cell);
+        else if (footprint.takes(row)[col] > 0.0 && std::hypot(x, y) <= reach &&
+                 x * motion.x() + y * motion.y() >= 0.0)
+          ahead.push_back(cell);
+      }
+    }
+    if (under.empty() || ahead.empty()) return 0.0;
+    double taken = 0.0;
+    for (const Cell& cell : under) {
+      const double left =
+          tip_height + footprint.underside(cell.row - window.row_begin)[cell.col - window.col_begin];
+      taken += bed(cell.row, cell.col) - left;
+      bed.set(cell.row, cell.col, left);
+    }
+    for (const Cell& cell : ahead)
+      bed.set(cell.row, cell.col, bed(cell.row, cell.col) + taken / static_cast<double>(ahead.size()));
+    return taken * bed.cell_area();
+  }
+};
+
+/// A spring that the depth compresses, and Coulomb friction across it, which is all there after a yield way.
+class SpringAndFriction : public ToolForce {
+ public:
+  explicit SpringAndFriction(const Scene& scene)
+      : stiffness_(or_else(scene.own.parameters[1], 500.0)),
+        friction_(or_else(scene.own.parameters[2], scene.strength.tool_friction)),
+        yield_(scene.strength.yield_way) {}
+
+  Wrench feel(const ToolInSand& touch) override {
+    way_ += touch.motion.head<2>() / yield_;
+    if (way_.norm() > 1.0) way_.normalize();
+    Wrench wrench;
+    const double normal = stiffness_ * std::max(touch.depth, 0.0);
+    wrench.force << -friction_ * normal * way_, normal;
+    wrench.stiffness = stiffness_ + friction_ * normal / yield_;
+    wrench.stored = 0.5 * (normal * touch.depth + friction_ * normal * yield_);
+    return wrench;
+  }
+  void lift() override { way_.setZero(); }
+
+ private:
+  double stiffness_, friction_, yield_;
+  Eigen::Vector2d way_ = Eigen::Vector2d::Zero();  // of the tool through the sand, in yield ways
+};
+
+}  // namespace
+
+SANDSTROKE_LAWS(laws) {
+  laws.relaxations["plain"] = [](const Scene& scene, double cell_size) {
+    return std::make_unique<PlainPasses>(scene, cell_size);
+  };
+  laws.displacements["ahead"] = [](const Scene&, double) { return std::make_unique<AllAhead>(); };
+  laws.forces["spring"] = [](const Scene& scene, double) {
+    return std::make_unique<SpringAndFriction>(scene);
+  };
+}
