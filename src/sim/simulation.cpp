@@ -6,10 +6,9 @@
 #include "core/error.h"
 #include "core/interrupt.h"
 #include "core/stopwatch.h"
-#include "sim/own_laws.h"
 #include "sim/recorded_force.h"
 #include "sim/stroke_depth.h"
-#include "tool/tool_surface.h"
+#include "sim/tick_schedule.h"
 
 namespace sandstroke {
 

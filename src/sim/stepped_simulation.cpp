@@ -1,0 +1,46 @@
+#include "sim/stepped_simulation.h"
+
+#include <utility>
+
+#include "core/error.h"
+#include "sim/tick_schedule.h"
+
+namespace sandstroke {
+
+SteppedSimulation::SteppedSimulation(const Scene& scene, HeightField bed, bool slips)
+    : loop_(scene, std::move(bed), true), slips_(slips) {
+  if (scene.device.model == DeviceModel::dynamic && scene.device.drag == DragVelocity::implicit)
+    throw_input_error(
+        "device.drag = \"implicit\" knows where the hand goes in a tick, which is not known tick by tick; "
+        "set "
+        "\"sampled\"");
+}
+
+double SteppedSimulation::time() const { return static_cast<double>(ticks_) / scene().device.servo_rate; }
+
+const TickRecord& SteppedSimulation::tick(Hand hand, bool knows_velocity, bool turns) {
+  if (!hand.position.allFinite() || !hand.velocity.allFinite() || !hand.orientation.coeffs().allFinite())
+    throw_input_error("at {:.4f} s the hand's position, velocity or orientation is not a number", time());
+  if (!knows_velocity)
+    hand.velocity = last_
+                        ? Eigen::Vector3d(scene().device.servo_rate * (hand.position - last_->hand.position))
+                        : Eigen::Vector3d::Zero();
+  if (last_) {
+    last_->next = hand;
+    last_->lifts = last_->hand.down && !hand.down;
+    loop_.advance(*last_);
+  } else {
+    loop_.start(hand);
+  }
+  TickRecord record = loop_.touch(time(), hand, turns, [this] {
+    if (slips_) relax();
+  });
+  record.next = hand;
+  loop_.feel(record);
+  last_ = record;
+  if (slips_ && comes_due(ticks_, scene().device.servo_rate, scene().relaxation.rate)) relax();
+  ++ticks_;
+  return *last_;
+}
+
+}  // namespace sandstroke

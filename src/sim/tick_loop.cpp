@@ -1,0 +1,84 @@
+#include "sim/tick_loop.h"
+
+#include "core/error.h"
+#include "sim/own_laws.h"
+#include "tool/tool_surface.h"
+
+namespace sandstroke {
+
+TickLoop::TickLoop(const Scene& scene, HeightField bed, bool plays, std::unique_ptr<Relaxer> relaxer)
+    : scene_(scene),
+      bed_(std::move(bed)),
+      own_rotation_(own_rotation(scene.tool)),
+      sand_(scene.tool, scene.displacement, scene.relaxation.travel * bed_.cell_size(),
+            plays ? make_own_displacer(scene, bed_.cell_size()) : nullptr),
+      contact_force_(plays ? make_tool_force(scene, bed_.cell_size()) : nullptr),
+      device_(scene),
+      relaxer_(relaxer ? std::move(relaxer) : make_relaxer(scene, bed_.cell_size())) {
+  if (!scene.own.relaxation.empty() || !scene.own.displacement.empty()) watch_.emplace(bed_);
+}
+
+TickRecord TickLoop::touch(double time, const Hand& hand, bool turns, const std::function<void()>& slip) {
+  TickRecord record;
+  const SimulatedDevice::State reading = device_.device().read();
+  const Eigen::Vector3d tip = tip_of(scene_.device, reading.position);
+  const Eigen::Vector3d true_tip = tip_of(scene_.device, device_.device().state().position);
+  record.time = time;
+  record.hand = hand;
+  record.device_position = reading.position;
+  if (!hand.down) {
+    lift();
+    if (sand_.slip_is_due()) slip();
+    return record;
+  }
+  if (turns) {
+    const Eigen::Matrix3d rotation = rotation_of(hand.orientation) * own_rotation_;
+    sand_.turn(rotation);
+    if (contact_force_) contact_force_->turn(rotation);
+  }
+  const std::optional<Eigen::Vector3d> before = sand_.last_tip();
+  const Interaction interaction = sand_.move(bed_, tip, true_tip, slip);
+  const Eigen::Vector3d motion = before ? Eigen::Vector3d(true_tip - *before) : Eigen::Vector3d::Zero();
+  if (contact_force_) record.wrench = contact_force_->in_tick(sand_, bed_, tip, motion, interaction.contact);
+  record.level = interaction.level;
+  record.depth = interaction.depth;
+  record.displaced_volume = interaction.displaced_volume;
+  record.contact = interaction.contact;
+  return record;
+}
+
+void TickLoop::advance(const TickRecord& record) {
+  device_.advance(record);
+  check_near(record);
+  if (record.lifts) lift();
+}
+
+void TickLoop::lift() {
+  sand_.lift();
+  if (contact_force_) contact_force_->lift();
+}
+
+RelaxationOutcome TickLoop::relax(const PassWatcher& watcher) {
+  sand_.hold(bed_);
+  check_own_law("displacement", scene_.own.displacement);
+  const RelaxationOutcome outcome = relaxer_->relax(bed_, watcher);
+  check_own_law("relaxation", scene_.own.relaxation);
+  return outcome;
+}
+
+void TickLoop::check_near(const TickRecord& record) const {
+  const double hand = std::max(tip_of(scene_.device, record.hand.position).norm(),
+                               tip_of(scene_.device, record.next.position).norm());
+  const double far = 100.0 * (scene_.bed.width + scene_.bed.depth) + 2.0 * hand;
+  const double distance = tip_of(scene_.device, device_.device().state().position).norm();
+  if (!(distance < far))
+    throw Error(ErrorKind::unstable,
+                fmt::format("at {:.4f} s the device has diverged ({:.3g} m from the bed's centre); {}",
+                            record.time, distance, loop_remedies(scene_, device_.result().max_drag_force)));
+}
+
+void TickLoop::check_own_law(const char* key, const std::string& name) const {
+  if (!name.empty()) watch_->check(bed_, law_in_words(scene_.own, key, name));
+}
+
+}  // namespace sandstroke

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+
+#include "haptics/stroke_sampler.h"
+#include "sim/device_side.h"
+#include "sim/sand_side.h"
+#include "sim/sand_watch.h"
+#include "sim/tool_force.h"
+
+namespace sandstroke {
+
+/// A device whose tool goes through a bed, tick by tick: what whole runs (Simulation) and those who drive a
+/// hand themselves (SteppedSimulation) have in common. A tick: touch(), then feel(), then advance().
+class TickLoop {
+ public:
+  /// plays: a hand will move the tool; else the bed is only relaxed. relaxer: none = as the scene says.
+  TickLoop(const Scene& scene, HeightField bed, bool plays, std::unique_ptr<Relaxer> relaxer = nullptr);
+
+  const Scene& scene() const { return scene_; }
+  const HeightField& bed() const { return bed_; }
+  /// The trace has torques.
+  bool has_torque() const { return contact_force_ != nullptr; }
+  DeviceResult device_result() const { return device_.result(); }
+
+  /// The device is where the hand is, and moves as it does.
+  void start(const Hand& hand) { device_.start(hand); }
+  /// The tool digs where the device is. turns: with the hand, from how tool.orientation holds it. slip():
+  /// sand is to slip with the tool where it is; it calls relax().
+  TickRecord touch(double time, const Hand& hand, bool turns, const std::function<void()>& slip);
+  /// record.next, where the hand goes in the tick, is filled in: fills in what the device feels.
+  void feel(TickRecord& record) { device_.feel(record); }
+  /// The device goes to the tick's end; where the hand is lifted before it (record.lifts), with it. Error:
+  /// unstable, where force or device leave all bounds.
+  void advance(const TickRecord& record);
+  /// The tool touches nothing.
+  void lift();
+  /// Sand slips to rest, under a solid tool or into the place that it has left. Error: unstable, where an own
+  /// law makes or loses sand.
+  RelaxationOutcome relax(const PassWatcher& watcher);
+
+ private:
+  void check_near(const TickRecord& record) const;
+  void check_own_law(const char* key, const std::string& name) const;
+
+  Scene scene_;
+  HeightField bed_;
+  Eigen::Matrix3d own_rotation_;  // of the tool
+  SandSide sand_;
+  std::unique_ptr<ToolForce> contact_force_;  // none: the paper's law
+  DeviceSide device_;
+  std::unique_ptr<Relaxer> relaxer_;
+  std::optional<SandWatch> watch_;  // where a law that is not this library's moves sand
+};
+
+}  // namespace sandstroke
