@@ -73,7 +73,7 @@ Warnings::Warnings() : before_(collecting) { collecting = &sentences_; }
 Warnings::~Warnings() { collecting = before_; }
 
 void Warnings::give() {
-  constexpr Py_ssize_t caller = 3;  // of the function in the package
+  constexpr Py_ssize_t caller = 2;  // of the package's function
   for (const std::string& sentence : sentences_)
     if (PyErr_WarnEx(PyExc_UserWarning, without_option(sentence).c_str(), caller) != 0)
       throw py::error_already_set();

@@ -16,6 +16,7 @@
 #include "python/arrays.h"
 #include "python/errors.h"
 #include "python/kept_run.h"
+#include "python/stepped.h"
 #include "render/height_field_renderer.h"
 #include "tool/tool_surface.h"
 
@@ -175,6 +176,7 @@ PYBIND11_MODULE(_sandstroke, module) {
       .def_property_readonly("text", [](const SceneHere& here) { return scene_text(here.scene); })
       .def_property_readonly("folder", [](const SceneHere& here) { return here.folder; });
   add_run(module);
+  add_stepped(module);
   module.def("_scene_of_file", &scene_of_file);
   module.def("_scene_of_text", &scene_of_text);
   module.def("_run", [](const SceneHere& scene, const py::object& stroke, const std::filesystem::path& output,

@@ -11,10 +11,11 @@ All numbers are in SI units. The results have the same bits as those of the comm
 from ._arguments import Scene, SceneLike, StrokeLike
 from ._picture import render
 from ._run import Comparison, Run, compare, read, run
-from ._sandstroke import Error, FileError, InputError, UnstableError
+from ._sandstroke import Error, FileError, InputError, Tick, UnstableError
 from ._sandstroke import version as __version__
+from ._simulation import Simulation
 
 __all__ = [
-    "Comparison", "Error", "FileError", "InputError", "Run", "Scene", "SceneLike", "StrokeLike", "UnstableError",
-    "compare", "read", "render", "run",
+    "Comparison", "Error", "FileError", "InputError", "Run", "Scene", "SceneLike", "Simulation", "StrokeLike", "Tick",
+    "UnstableError", "compare", "read", "render", "run",
 ]

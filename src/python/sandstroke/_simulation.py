@@ -1,0 +1,82 @@
+"""A simulation that somebody drives, tick by tick."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from . import _sandstroke as _core
+from ._arguments import Scene, SceneLike
+from ._sandstroke import Tick
+
+
+class Simulation:
+    """A device whose hand you move, for a controller, an optimiser or a learner.
+
+    scene, settings: as in run(); a stroke of the scene is not played. slips: sand relaxes as the scene says; with
+    False only when relax() is called. With the hand of a stroke and its velocities, ticks have the bits of run().
+
+        sim = sandstroke.Simulation("scene.toml")
+        tick = sim.tick((0.01, 0.0, -0.004))
+        tick.force, tick.depth, tick.torque
+    """
+
+    def __init__(self, scene: SceneLike = {}, *, settings: Mapping[str, Any] | None = None, slips: bool = True) -> None:
+        self._stepped = _core._Simulation(Scene(scene, settings)._here, slips)
+        #: tick(position, velocity=None, *, down=True, orientation=None): see tick()
+        self.tick = self._stepped.tick
+
+    def tick(self, position: Sequence[float], velocity: Sequence[float] | None = None, *, down: bool = True,
+             orientation: Sequence[float] | None = None) -> Tick:
+        """The hand is there [m] now; 1 / device.servo_rate later comes the next tick.
+
+        velocity [m/s]: None is that of the way since the tick before. down: False lifts the tool. orientation: of the
+        hand, a quaternion (x, y, z, w), from how tool.orientation holds the tool.
+        """
+        raise NotImplementedError  # the instance has its own, without a call in between
+
+    def relax(self) -> dict[str, Any]:
+        """Sand slips to rest: passes, residual, moved_volume [m^3], converged."""
+        return self._stepped.relax()
+
+    def lift(self) -> None:
+        """The tool touches nothing until the next tick."""
+        self._stepped.lift()
+
+    @property
+    def heights(self) -> np.ndarray:
+        """The sand as it is now [m]: rows along y, columns along x; a copy."""
+        return self._stepped.heights
+
+    def height_at(self, x: float, y: float) -> float:
+        """Of the cell there [m]; nan beside the bed."""
+        return self._stepped.height_at(x, y)
+
+    @property
+    def time(self) -> float:
+        """Of the next tick [s]."""
+        return self._stepped.time
+
+    @property
+    def volume(self) -> float:
+        """Of the sand above z = 0, less what is missing below [m^3]."""
+        return self._stepped.volume
+
+    @property
+    def x(self) -> np.ndarray:
+        """Centres of the columns [m]."""
+        return np.array([self._stepped.x_of(i) for i in range(self.heights.shape[1])])
+
+    @property
+    def y(self) -> np.ndarray:
+        """Centres of the rows [m]."""
+        return np.array([self._stepped.y_of(i) for i in range(self.heights.shape[0])])
+
+    @property
+    def scene(self) -> Scene:
+        """All its settings."""
+        scene = Scene.__new__(Scene)
+        scene._here = self._stepped.scene
+        return scene

@@ -1,0 +1,154 @@
+#include "python/stepped.h"
+
+#include <pybind11/numpy.h>
+#include <pybind11/stl.h>
+
+#include <array>
+#include <memory>
+
+#include "core/error.h"
+#include "io/mesh_file.h"
+#include "io/surface_file.h"
+#include "python/errors.h"
+#include "python/kept_run.h"
+#include "sim/stepped_simulation.h"
+
+namespace sandstroke {
+namespace {
+
+namespace py = pybind11;
+
+/// The simulation, and what its scene's files are relative to.
+class Stepped {
+ public:
+  Stepped(const SceneHere& here, bool slips) : folder_(here.folder) {
+    Warnings warnings;
+    {
+      const py::gil_scoped_release let_go;
+      Scene scene = here.scene;
+      scene.bed = with_own_range(scene.bed, folder_);
+      scene.tool = with_mesh(scene.tool, folder_);
+      simulation_ = std::make_unique<SteppedSimulation>(scene, load_surface(scene.bed, folder_), slips);
+    }
+    warnings.give();
+  }
+
+  SteppedSimulation& operator*() { return *simulation_; }
+  const SteppedSimulation* operator->() const { return simulation_.get(); }
+  SteppedSimulation* operator->() { return simulation_.get(); }
+  SceneHere scene() const { return {simulation_->scene(), folder_}; }
+
+ private:
+  std::filesystem::path folder_;
+  std::unique_ptr<SteppedSimulation> simulation_;
+};
+
+/// Numbers of a sequence or array. Error: input, naming it.
+template <int n>
+Eigen::Matrix<double, n, 1> vector_of(const py::handle& given, const char* name) {
+  Eigen::Matrix<double, n, 1> vector;
+  if (py::isinstance<py::array_t<double>>(given)) {  // the quick way
+    const auto array = py::reinterpret_borrow<py::array_t<double>>(given);
+    if (array.ndim() == 1 && array.shape(0) == n) {
+      for (int i = 0; i < n; ++i) vector[i] = *array.data(i);
+      return vector;
+    }
+  } else {
+    try {
+      const auto numbers = given.cast<std::array<double, n>>();
+      for (int i = 0; i < n; ++i) vector[i] = numbers[static_cast<std::size_t>(i)];
+      return vector;
+    } catch (const py::cast_error&) {
+    }
+  }
+  throw_input_error("{}: give {} numbers", name, n);
+}
+
+py::array_t<double> array_of(const Eigen::Vector3d& vector) {
+  return py::array_t<double>(3, vector.data());
+}
+
+TickRecord tick(Stepped& stepped, const py::object& position, const py::object& velocity, bool down,
+                const py::object& orientation) {
+  Hand hand;
+  hand.position = vector_of<3>(position, "position");
+  hand.down = down;
+  const bool moves = !velocity.is_none(), turns = !orientation.is_none();
+  if (moves) hand.velocity = vector_of<3>(velocity, "velocity");
+  if (turns) {
+    const Eigen::Vector4d q = vector_of<4>(orientation, "orientation");
+    if (!(q.norm() > 1e-6)) throw_input_error("orientation: a quaternion x, y, z, w must not be 0");
+    hand.orientation = Eigen::Quaterniond(q).normalized();
+  }
+  const py::gil_scoped_release let_go;
+  return stepped->tick(hand, moves, turns);
+}
+
+py::dict relax(Stepped& stepped) {
+  RelaxationOutcome outcome;
+  SignalWatch signals;
+  {
+    const py::gil_scoped_release let_go;
+    outcome = stepped->relax([&](std::int64_t, const BedNow&) { signals.look(); });
+  }
+  RelaxationRecord record{stepped->time(), outcome};
+  py::dict result;
+  visit_relaxation_fields([&](const FieldText& field, const auto& of) { result[field.name] = of(record); });
+  result["converged"] = outcome.converged;
+  return result;
+}
+
+py::array heights(const Stepped& stepped) {
+  const HeightGrid grid = stepped->bed().grid();
+  py::array_t<double> array({grid.rows(), grid.cols()});
+  std::copy(grid.data(), grid.data() + grid.size(), array.mutable_data());
+  return py::array(array);
+}
+
+}  // namespace
+
+void add_stepped(py::module_& module) {
+  py::class_<TickRecord>(module, "Tick", "What the tool felt in a tick.")
+      .def_readonly("time", &TickRecord::time, "Start of the tick [s].")
+      .def_property_readonly(
+          "force", [](const TickRecord& tick) { return array_of(tick.device_force); },
+          "On the device [N]: what its largest force and delays leave of the sand's.")
+      .def_property_readonly(
+          "sand_force",
+          [](const TickRecord& tick) {
+            return array_of(Eigen::Vector3d(tick.repulse_force + tick.drag_force));
+          },
+          "Of the sand on the tool [N].")
+      .def_property_readonly(
+          "torque", [](const TickRecord& tick) { return array_of(tick.wrench.torque); },
+          "Of the sand on the tool about its tip [N m]; 0 with force.law = \"paper\".")
+      .def_readonly("depth", &TickRecord::depth, "Of the tip below the sand's level [m]; negative above it.")
+      .def_readonly("level", &TickRecord::level, "Height of the sand under the tool [m]; nan: there is none.")
+      .def_readonly("contact", &TickRecord::contact, "Whether the tool touches sand.")
+      .def_readonly("displaced_volume", &TickRecord::displaced_volume, "Sand pushed aside [m^3].")
+      .def_property_readonly(
+          "position", [](const TickRecord& tick) { return array_of(tick.device_position); },
+          "Of the device, as it was read [m].")
+      .def("__repr__", [](const TickRecord& tick) {
+        return fmt::format("<sandstroke.Tick at {:.4f} s: depth {:.3g} m, force ({:.3g}, {:.3g}, {:.3g}) N>",
+                           tick.time, tick.depth, tick.device_force.x(), tick.device_force.y(),
+                           tick.device_force.z());
+      });
+  py::class_<Stepped>(module, "_Simulation")
+      .def(py::init<const SceneHere&, bool>())
+      .def("tick", &tick, py::arg("position"), py::arg("velocity") = py::none(), py::kw_only(),
+           py::arg("down") = true, py::arg("orientation") = py::none())
+      .def("relax", &relax)
+      .def("lift", [](Stepped& stepped) { stepped->lift(); })
+      .def("height_at",
+           [](const Stepped& stepped, double x, double y) { return stepped->bed().height_at(x, y); })
+      .def_property_readonly("heights", &heights)
+      .def_property_readonly("time", [](const Stepped& stepped) { return stepped->time(); })
+      .def_property_readonly("scene", &Stepped::scene)
+      .def_property_readonly("volume", [](const Stepped& stepped) { return stepped->bed().volume(); })
+      .def_property_readonly("cell_size", [](const Stepped& stepped) { return stepped->bed().cell_size(); })
+      .def("x_of", [](const Stepped& stepped, int col) { return stepped->bed().x_of(col); })
+      .def("y_of", [](const Stepped& stepped, int row) { return stepped->bed().y_of(row); });
+}
+
+}  // namespace sandstroke

@@ -1,0 +1,86 @@
+"""Ticks that Python drives are those of a run."""
+import gc
+import resource
+import time
+
+import numpy as np
+import pytest
+
+import sandstroke
+
+RFT = {"force.law": "rft"}
+
+
+def test_ticks_have_the_bits_of_a_run(small, line):
+    run = sandstroke.run(small, line, settings=RFT)
+    sim = sandstroke.Simulation(small, settings=RFT)
+    for k, position in enumerate(run.trace["hand_position"]):
+        tick = sim.tick(position)
+        assert tick.time == run.trace["time"][k]
+        assert np.array_equal(tick.force, run.trace["device_force"][k])
+        assert np.array_equal(tick.torque, run.trace["torque"][k])
+        assert tick.depth == run.trace["depth"][k] and tick.contact == run.trace["contact"][k]
+    sim.lift()
+    assert sim.relax()["converged"]
+    assert np.array_equal(sim.heights, run.final)
+    assert np.array_equal(sim.x, run.x) and np.array_equal(sim.y, run.y)
+
+
+def test_sand_keeps_its_volume_and_slips_when_told(small):
+    sim = sandstroke.Simulation(small, slips=False)
+    for k in range(200):
+        sim.tick([-0.05 + 5e-4 * k, 0.0, -0.006])
+    steep = np.abs(np.diff(sim.heights, axis=0)).max()
+    sim.lift()
+    assert sim.relax()["passes"] > 0
+    assert np.abs(np.diff(sim.heights, axis=0)).max() < steep
+    assert abs(sim.volume) < 1e-15
+    assert sim.height_at(0.0, 0.0) < -0.002 and np.isnan(sim.height_at(1.0, 0.0))
+
+
+def test_a_hand_that_is_lifted_or_turned(small):
+    small["tool"] = {"shape": "plate", "width": 0.06, "height": 0.02}
+    sim = sandstroke.Simulation(small)
+    assert sim.tick((0.0, 0.0, -0.004), down=False).contact is False
+    assert sim.heights.min() == 0.0
+    sim.tick((0.0, 0.0, -0.004), orientation=(0.0, 0.0, np.sin(np.pi / 4), np.cos(np.pi / 4)))
+    assert sim.height_at(0.025, 0.0) < -0.003 and sim.height_at(0.0, 0.025) > -0.001  # its width along x
+
+
+def test_a_controller_holds_a_force(small):
+    """A hand that goes by the force it feels reaches it: the loop is closed in Python."""
+    sim = sandstroke.Simulation(small, settings={**RFT, "force.density": 5000.0})
+    wanted, z, x = 0.5, 0.0, -0.06
+    for _ in range(1500):
+        felt = sim.tick((x, 0.0, z)).force[2]
+        z -= 2e-5 * np.clip(wanted - felt, -1.0, 1.0)
+        x += 5e-5
+    assert felt == pytest.approx(wanted, abs=0.1)
+
+
+def test_arguments_of_any_kind_and_wrong_ones(small):
+    sim = sandstroke.Simulation(small)
+    for position in [(0, 0, 1), [0.0, 0.0, 1.0], np.zeros(3), np.zeros(3, dtype=np.float32), np.zeros(6)[::2]]:
+        sim.tick(position)
+    for position in [(0.0, 0.0), "abc", None, np.zeros((3, 1)), [1, 2, "x"], np.zeros(4), 1.0]:
+        with pytest.raises(sandstroke.InputError, match="position: give 3 numbers"):
+            sim.tick(position)
+    with pytest.raises(sandstroke.InputError, match="not a number"):
+        sim.tick((0.0, np.nan, 0.0))
+    with pytest.raises(sandstroke.InputError, match="velocity"):
+        sim.tick((0.0, 0.0, 0.0), (1.0,))
+    with pytest.raises(sandstroke.InputError, match="quaternion"):
+        sim.tick((0.0, 0.0, 0.0), orientation=(0, 0, 0, 0))
+    with pytest.raises(sandstroke.InputError, match="implicit"):
+        sandstroke.Simulation(small, settings={"device.model": "dynamic", "device.drag": "implicit"})
+
+
+def test_many_simulations_leak_nothing(small):
+    def make(times):
+        for _ in range(times):
+            sandstroke.Simulation(small).tick((0.0, 0.0, -0.003))
+        gc.collect()
+        return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss  # kB
+
+    before = make(100)
+    assert make(500) - before < 2000
