@@ -16,6 +16,7 @@
 #include "python/arrays.h"
 #include "python/errors.h"
 #include "python/kept_run.h"
+#include "python/own_laws.h"
 #include "python/stepped.h"
 #include "render/height_field_renderer.h"
 #include "tool/tool_surface.h"
@@ -186,6 +187,7 @@ PYBIND11_MODULE(_sandstroke, module) {
     return kept_run(scene, std::move(samples), output, threads);
   });
   module.def("_read", &read_run);
+  module.def("_with_laws", &with_python_laws);
   module.def("_picture", &picture);
   module.def("_compare", &comparison);
 }

@@ -64,9 +64,7 @@ Eigen::Matrix<double, n, 1> vector_of(const py::handle& given, const char* name)
   throw_input_error("{}: give {} numbers", name, n);
 }
 
-py::array_t<double> array_of(const Eigen::Vector3d& vector) {
-  return py::array_t<double>(3, vector.data());
-}
+py::array_t<double> array_of(const Eigen::Vector3d& vector) { return py::array_t<double>(3, vector.data()); }
 
 TickRecord tick(Stepped& stepped, const py::object& position, const py::object& velocity, bool down,
                 const py::object& orientation) {

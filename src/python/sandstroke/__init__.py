@@ -8,7 +8,7 @@
 All numbers are in SI units. The results have the same bits as those of the command `sandstroke run`.
 """
 
-from ._arguments import Scene, SceneLike, StrokeLike
+from ._arguments import Laws, Scene, SceneLike, StrokeLike
 from ._picture import render
 from ._run import Comparison, Run, compare, read, run
 from ._sandstroke import Error, FileError, InputError, Tick, UnstableError
@@ -16,6 +16,6 @@ from ._sandstroke import version as __version__
 from ._simulation import Simulation
 
 __all__ = [
-    "Comparison", "Error", "FileError", "InputError", "Run", "Scene", "SceneLike", "Simulation", "StrokeLike", "Tick",
+    "Comparison", "Error", "FileError", "InputError", "Laws", "Run", "Scene", "SceneLike", "Simulation", "StrokeLike", "Tick",
     "UnstableError", "compare", "read", "render", "run",
 ]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import Any, Union
 
 import numpy as np
@@ -69,6 +69,21 @@ class Scene:
 
     def __repr__(self) -> str:
         return f"<sandstroke.Scene of {len(self.text.splitlines())} lines; print(scene.text) shows them>"
+
+
+Laws = Mapping[str, Callable[..., Any]]
+"""Laws of your own, for trying out: "relaxation", "displacement" and "force", each a function.
+
+relaxation(heights, walls, **numbers): changes heights [m] in place, but no cell that walls marks; may return how many
+passes it took.
+displacement(heights, underside, motion, **numbers): of the cells around the tool; takes out what stands above the tool's
+underside [m] (inf beside it), and puts it elsewhere in heights; motion [m] is that of the tool in the tick.
+force(depth, motion, tip, **numbers): returns the force on the tool [N], three numbers; depth [m] is that of its lowest
+point below the level around it.
+
+numbers: cell_size [m], talus_slope, tolerance, radius [m], servo_rate [Hz], parameters (model.parameters).
+A run fails where a law makes or loses sand, or gives what is not a number.
+"""
 
 
 def stroke_columns(stroke: np.ndarray | Mapping[str, Any]) -> dict[str, Any]:

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from . import _sandstroke as _core
-from ._arguments import Scene, SceneLike, StrokeLike, with_stroke
+from ._arguments import Laws, Scene, SceneLike, StrokeLike, with_stroke
 
 if TYPE_CHECKING:
     import xarray
@@ -125,18 +125,19 @@ class Run:
 
 
 def run(scene: SceneLike, stroke: StrokeLike | None = None, *, settings: Mapping[str, Any] | None = None,
-        output: str | os.PathLike[str] | None = None, threads: int = 0) -> Run:
+        output: str | os.PathLike[str] | None = None, threads: int = 0, laws: Laws | None = None) -> Run:
     """Plays a stroke through the sand of a scene, and lets the sand come to rest.
 
     scene: a TOML file, a mapping, or a Scene. stroke, instead of the scene's: a file, an array of time [s], x, y, z
     [m] in four columns, or a mapping of "time" (n,) and "position" (n, 3), and perhaps "velocity", "force" (n, 3),
     "orientation" (n, 4: x, y, z, w), "pressure" and "pen_down" (n,). settings: other values for keys of the scene,
     as {"relaxation.talus_angle": 34}. output: also write the run file (.h5). threads: 0 is all cores; the result
-    does not depend on it.
+    does not depend on it. laws: functions of your own in place of the model's (sandstroke.Laws); slow, for trying out.
 
     Lets other Python threads run meanwhile; Ctrl-C ends it.
     """
     here, samples = with_stroke(scene, stroke, settings)
+    here = _core._with_laws(here, dict(laws or {}))
     return Run(_core._run(here, samples, "" if output is None else os.fspath(output), threads))
 
 

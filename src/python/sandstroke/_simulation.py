@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from . import _sandstroke as _core
-from ._arguments import Scene, SceneLike
+from ._arguments import Laws, Scene, SceneLike
 from ._sandstroke import Tick
 
 
@@ -16,15 +16,17 @@ class Simulation:
     """A device whose hand you move, for a controller, an optimiser or a learner.
 
     scene, settings: as in run(); a stroke of the scene is not played. slips: sand relaxes as the scene says; with
-    False only when relax() is called. With the hand of a stroke and its velocities, ticks have the bits of run().
+    False only when relax() is called. laws: as in run(). With the hand of a stroke and its velocities, ticks have the bits of run().
 
         sim = sandstroke.Simulation("scene.toml")
         tick = sim.tick((0.01, 0.0, -0.004))
         tick.force, tick.depth, tick.torque
     """
 
-    def __init__(self, scene: SceneLike = {}, *, settings: Mapping[str, Any] | None = None, slips: bool = True) -> None:
-        self._stepped = _core._Simulation(Scene(scene, settings)._here, slips)
+    def __init__(self, scene: SceneLike = {}, *, settings: Mapping[str, Any] | None = None, slips: bool = True,
+                 laws: Laws | None = None) -> None:
+        here = _core._with_laws(Scene(scene, settings)._here, dict(laws or {}))
+        self._stepped = _core._Simulation(here, slips)
         #: tick(position, velocity=None, *, down=True, orientation=None): see tick()
         self.tick = self._stepped.tick
 

@@ -1,0 +1,194 @@
+#include "python/own_laws.h"
+
+#include <pybind11/numpy.h>
+#include <pybind11/stl.h>
+
+#include <memory>
+#include <stdexcept>
+
+#include "core/error.h"
+#include "python/arrays.h"
+#include "sim/own_laws.h"
+
+namespace sandstroke {
+namespace {
+
+namespace py = pybind11;
+
+/// A function of somebody else's, which may go away when no interpreter is held.
+class Function {
+ public:
+  explicit Function(py::object function)
+      : function_(new py::object(std::move(function)), [](py::object* held) {
+          const py::gil_scoped_acquire interpreter;
+          delete held;
+        }) {}
+  /// With the interpreter held. What it raises becomes a sentence.
+  template <class... Arguments>
+  py::object operator()(Arguments&&... arguments) const {
+    try {
+      return (*function_)(std::forward<Arguments>(arguments)...);
+    } catch (const py::error_already_set& raised) {
+      throw std::runtime_error(raised.what());
+    }
+  }
+
+ private:
+  std::shared_ptr<py::object> function_;
+};
+
+/// Heights that a function changes in place.
+py::array_t<double> copy_of(const HeightGrid& grid) {
+  py::array_t<double> array({grid.rows(), grid.cols()});
+  std::copy(grid.data(), grid.data() + grid.size(), array.mutable_data());
+  return array;
+}
+
+/// Of the numbers that laws may need.
+py::dict numbers_of(const Scene& scene, double cell_size) {
+  using namespace py::literals;
+  return py::dict("cell_size"_a = cell_size, "talus_slope"_a = talus_slope(scene.relaxation.talus_angle),
+                  "tolerance"_a = scene.relaxation.tolerance, "radius"_a = scene.tool.radius,
+                  "servo_rate"_a = scene.device.servo_rate, "parameters"_a = scene.own.parameters);
+}
+
+class PythonRelaxer : public Relaxer {
+ public:
+  PythonRelaxer(Function law, const Scene& scene, double cell_size)
+      : law_(std::move(law)), scene_(scene), cell_size_(cell_size) {}
+
+  RelaxationOutcome relax(HeightField& bed, const PassWatcher& after_pass) override {
+    const HeightGrid before = bed.grid();
+    RelaxationOutcome outcome;
+    {
+      const py::gil_scoped_acquire interpreter;
+      py::array_t<double> heights = copy_of(before);
+      py::array_t<bool> walls({before.rows(), before.cols()});
+      for (int row = 0; row < bed.rows(); ++row)
+        for (int col = 0; col < bed.cols(); ++col) walls.mutable_at(row, col) = bed.is_held(row, col);
+      const py::object passes = law_(heights, walls, **numbers_of(scene_, cell_size_));
+      outcome.passes = passes.is_none() ? 1 : passes.cast<std::int64_t>();
+      outcome.converged = true;
+      const auto after = heights.unchecked<2>();
+      for (int row = 0; row < bed.rows(); ++row)
+        for (int col = 0; col < bed.cols(); ++col) {
+          const double height = after(row, col);
+          if (height == before(row, col)) continue;
+          if (walls.at(row, col))
+            throw std::runtime_error(fmt::format("it changed the wall in row {}, column {}", row, col));
+          outcome.moved_volume += 0.5 * std::abs(height - before(row, col)) * cell_size_ * cell_size_;
+          bed.set(row, col, height);
+        }
+    }
+    if (after_pass) after_pass(outcome.passes, [&]() -> const HeightField& { return bed; });
+    return outcome;
+  }
+
+ private:
+  Function law_;
+  Scene scene_;
+  double cell_size_;
+};
+
+class PythonDisplacer : public Displacer {
+ public:
+  PythonDisplacer(Function law, const Scene& scene, double cell_size)
+      : law_(std::move(law)), scene_(scene), cell_size_(cell_size) {}
+
+  double displace(HeightField& bed, const ToolFootprint& footprint, double tip_height,
+                  const Eigen::Vector3d& motion) override {
+    const py::gil_scoped_acquire interpreter;
+    const CellRange& cells = footprint.cells();
+    HeightGrid before(cells.rows(), cells.cols()), underside(cells.rows(), cells.cols());
+    for (int row = 0; row < cells.rows(); ++row)
+      for (int col = 0; col < cells.cols(); ++col) {
+        before(row, col) = footprint.heights(row)[col];
+        underside(row, col) = tip_height + footprint.underside(row)[col];
+      }
+    py::array_t<double> heights = copy_of(before);
+    law_(heights, copy_of(underside), py::array_t<double>(3, motion.data()),
+         **numbers_of(scene_, cell_size_));
+    double moved = 0.0;
+    const auto after = heights.unchecked<2>();
+    for (int row = 0; row < cells.rows(); ++row)
+      for (int col = 0; col < cells.cols(); ++col) {
+        const double height = after(row, col);
+        if (height == before(row, col)) continue;
+        moved += 0.5 * std::abs(height - before(row, col)) * cell_size_ * cell_size_;
+        bed.set(cells.row_begin + row, cells.col_begin + col, height);
+      }
+    return moved;
+  }
+
+ private:
+  Function law_;
+  Scene scene_;
+  double cell_size_;
+};
+
+class PythonForce : public ToolForce {
+ public:
+  PythonForce(Function law, const Scene& scene, double cell_size)
+      : law_(std::move(law)), scene_(scene), cell_size_(cell_size) {}
+
+  Wrench feel(const ToolInSand& touch) override {
+    const py::gil_scoped_acquire interpreter;
+    const py::object given = law_(touch.depth, py::array_t<double>(3, touch.motion.data()),
+                                  py::array_t<double>(3, touch.tip.data()), **numbers_of(scene_, cell_size_));
+    Wrench wrench;
+    try {
+      const auto force = given.cast<std::array<double, 3>>();
+      wrench.force = {force[0], force[1], force[2]};
+    } catch (const py::cast_error&) {
+      throw std::runtime_error("it must return three numbers, the force on the tool in N");
+    }
+    // Of a spring to the surface: what devices are told of its stiffness.
+    wrench.strength = wrench.force.norm();
+    wrench.stiffness = touch.depth > 0.0 ? wrench.strength / touch.depth : 0.0;
+    wrench.stored = 0.5 * wrench.strength * std::max(touch.depth, 0.0);
+    return wrench;
+  }
+
+ private:
+  Function law_;
+  Scene scene_;
+  double cell_size_;
+};
+
+}  // namespace
+
+SceneHere with_python_laws(SceneHere here, const py::dict& laws) {
+  if (laws.empty()) return here;
+  OwnLawSettings& own = here.scene.own;
+  if (!own.plugin.empty())
+    throw_input_error("laws: the scene has those of model.plugin; leave one of the two out");
+  auto made = std::make_shared<OwnLaws>();
+  for (const auto& [key, function] : laws) {
+    const auto kind = key.cast<std::string>();
+    const std::string name = py::str(py::getattr(function, "__name__", py::str("law")));
+    if (!PyCallable_Check(function.ptr())) throw_input_error("laws: {} is no function", kind);
+    const Function law(py::reinterpret_borrow<py::object>(function));
+    if (kind == "relaxation") {
+      own.relaxation = name;
+      made->relaxations[name] = [law](const Scene& scene, double cell_size) {
+        return std::make_unique<PythonRelaxer>(law, scene, cell_size);
+      };
+    } else if (kind == "displacement") {
+      own.displacement = name;
+      made->displacements[name] = [law](const Scene& scene, double cell_size) {
+        return std::make_unique<PythonDisplacer>(law, scene, cell_size);
+      };
+    } else if (kind == "force") {
+      own.force = name;
+      made->forces[name] = [law](const Scene& scene, double cell_size) {
+        return std::make_unique<PythonForce>(law, scene, cell_size);
+      };
+    } else {
+      throw_input_error("laws: '{}' is none of relaxation, displacement and force", kind);
+    }
+  }
+  own.laws = std::move(made);
+  return here;
+}
+
+}  // namespace sandstroke

@@ -1,0 +1,93 @@
+"""Laws that are Python functions take the place of the model's, and are watched."""
+import numpy as np
+import pytest
+
+import sandstroke
+
+
+def slip(heights, walls, *, cell_size, talus_slope, **_):
+    """The axis neighbours' excess over the talus slope goes down by a quarter, until there is none."""
+    open_ = ~walls
+    for passes in range(1, 5000):
+        change = np.zeros_like(heights)
+        for axis in (0, 1):
+            low, high = [slice(None)] * 2, [slice(None)] * 2
+            low[axis], high[axis] = slice(None, -1), slice(1, None)
+            low, high = tuple(low), tuple(high)
+            step = heights[low] - heights[high]
+            flow = np.sign(step) * np.maximum(np.abs(step) - talus_slope * cell_size, 0) / 8
+            flow = np.where(open_[low] & open_[high], flow, 0.0)
+            change[low] -= flow
+            change[high] += flow
+        if np.abs(change).max() < 1e-7:
+            return passes
+        heights += change
+
+
+def ahead(heights, underside, motion, **_):
+    """All of it to the cells right ahead of the tool."""
+    taken = np.where(np.isfinite(underside), np.maximum(heights - underside, 0), 0)
+    heights -= taken
+    free = ~np.isfinite(underside)
+    free[:, : heights.shape[1] // 2] = False  # +x is ahead
+    heights[free] += taken.sum() / free.sum()
+
+
+def spring(depth, motion, tip, *, parameters, **_):
+    return (0.0, 0.0, parameters[0] * depth)
+
+
+def test_a_relaxation_of_ones_own_comes_to_rest_at_the_talus_slope(small):
+    small["bed"] = {"size": [0.2, 0.2], "cells": [50, 50], "surface": {"kind": "cylinder", "radius": 0.05, "height": 0.06}}
+    own, models = sandstroke.run(small, laws={"relaxation": slip}), sandstroke.run(small)
+    for run in (own, models):
+        slope = np.abs(np.diff(run.final, axis=1)).max() / run.cell_size
+        assert slope == pytest.approx(np.tan(np.radians(30)), rel=0.01)
+    assert own.summary["passes"] > 10 and own.summary["volume_drift"] < 1e-12
+    assert np.abs(own.final - own.final.T).max() < 1e-12
+    assert "relaxation = \"slip\"" in own.scene.text
+
+
+def test_a_displacement_of_ones_own_leaves_its_sand_ahead(small, line):
+    settings = {"relaxation.rate": 0.0, "relaxation.travel": 0.0, "relaxation.talus_angle": 80}
+    run = sandstroke.run(small, line, settings=settings, laws={"displacement": ahead})
+    assert run.summary["volume_drift"] < 1e-12 and run.final.min() == pytest.approx(-0.003, abs=1e-4)
+    outward = sandstroke.run(small, line, settings=settings)
+    assert run.final[:, run.x > 0.05].sum() > 1.3 * outward.final[:, run.x > 0.05].sum()
+
+
+def test_a_force_of_ones_own_is_felt(small, line):
+    run = sandstroke.run(small, line, settings={"model.parameters": [250.0, 0, 0, 0]}, laws={"force": spring})
+    contact = run.trace["contact"]
+    assert contact.sum() > 300
+    assert np.allclose(run.trace["device_force"][contact, 2], 250.0 * run.trace["depth"][contact])
+    sim = sandstroke.Simulation(small, settings={"model.parameters": [250.0, 0, 0, 0]}, laws={"force": spring})
+    assert sim.tick((0.0, 0.0, -0.002)).force[2] == pytest.approx(0.5, rel=0.1)
+
+
+def losing(heights, walls, **_):
+    heights[0, 0] -= 1e-3
+
+
+def not_a_number(heights, walls, **_):
+    heights[3, 3] = np.nan
+
+
+def failing(*_, **__):
+    raise ValueError("no idea")
+
+
+@pytest.mark.parametrize("laws, error, sentence", [
+    ({"relaxation": losing}, sandstroke.UnstableError, "losing"),
+    ({"relaxation": not_a_number}, sandstroke.UnstableError, "not_a_number"),
+    ({"relaxation": failing}, sandstroke.InputError, "failing.*no idea"),
+    ({"displacement": failing}, sandstroke.InputError, "failing.*no idea"),
+    ({"force": failing}, sandstroke.InputError, "failing.*no idea"),
+    ({"force": lambda *_, **__: (0.0, np.nan, 0.0)}, sandstroke.UnstableError, "not a number"),
+    ({"force": lambda *_, **__: 3.0}, sandstroke.InputError, "three numbers"),
+    ({"force": 3.0}, sandstroke.InputError, "no function"),
+    ({"friction": failing}, sandstroke.InputError, "'friction' is none of relaxation, displacement and force"),
+])
+def test_wrong_laws_are_told(small, line, laws, error, sentence):
+    with pytest.raises(error, match=sentence):
+        sandstroke.run(small, line, laws=laws)
