@@ -1,5 +1,12 @@
+import importlib
+import os
+import pathlib
+
 import numpy as np
 import pytest
+
+PROGRAM = os.environ["SANDSTROKE_PROGRAM"]
+SOURCE = pathlib.Path(os.environ["SANDSTROKE_SOURCE"])
 
 SMALL = {
     "bed": {"size": [0.2, 0.12], "cells": [100, 60]},
@@ -19,3 +26,12 @@ def line():
     """A straight drag 3 mm deep: time, x, y, z."""
     time = np.arange(0.0, 0.4, 1e-3)
     return np.column_stack([time, -0.05 + 0.25 * time, 0.0 * time, np.full_like(time, -0.003)])
+
+
+def needs(module):
+    """A module of somebody else's; where it is missing the test is skipped, in continuous integration it fails."""
+    try:
+        return importlib.import_module(module)
+    except ImportError:
+        message = f"the Python module {module} is not installed; tools/setup installs it"
+        pytest.fail(message) if os.environ.get("CI") else pytest.skip(message)

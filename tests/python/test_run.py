@@ -1,7 +1,6 @@
 """Runs from Python are those of the command, and wrong input is told as it tells it."""
 import gc
 import os
-import pathlib
 import resource
 import signal
 import subprocess
@@ -14,9 +13,8 @@ import numpy as np
 import pytest
 
 import sandstroke
+from conftest import PROGRAM, SOURCE, needs
 
-PROGRAM = os.environ["SANDSTROKE_PROGRAM"]
-SOURCE = pathlib.Path(os.environ["SANDSTROKE_SOURCE"])
 
 
 def run_program(*arguments):
@@ -102,8 +100,8 @@ def test_frames(small, line):
 
 
 def test_xarray_is_what_it_makes_of_the_file(tmp_path):
-    xarray = pytest.importorskip("xarray")
-    pytest.importorskip("h5netcdf")
+    xarray = needs("xarray")
+    needs("h5netcdf")
     run = sandstroke.run(SOURCE / "strokes/plough/scene.toml", settings={"output.frames": 2}, output=tmp_path / "run.h5")
     for group in ("surface", "trace", "relaxation"):
         with xarray.open_dataset(tmp_path / "run.h5", group=group, engine="h5netcdf") as file:
@@ -241,7 +239,7 @@ def test_a_picture_is_that_of_the_command(tmp_path):
     assert picture.shape == (180, 320, 3) and picture.dtype == np.uint8
     assert run_program("render", tmp_path / "run.h5", "-o", tmp_path / "a.png", "--view", "top", "--size", "320x180",
                        "--no-tool").returncode == 0
-    plt = pytest.importorskip("matplotlib.image")
+    plt = needs("matplotlib.image")
     drawn = (255 * plt.imread(tmp_path / "a.png")[:, :, :3]).round().astype(np.uint8)
     assert np.array_equal(picture, drawn)
     with_tool = sandstroke.render(run, name="top", size=(320, 180), tool=(0.0, 0.0, 0.0))
