@@ -68,7 +68,8 @@ int run_program(int argc, char** argv) {
       "  4        a file or a device cannot be read or written\n"
       "  128 + n  stopped by signal n: 130 by Ctrl-C, 143 by kill\n"
       "Begin with: sandstroke init FOLDER. A recording of yours: sandstroke run SCENE --stroke FILE. Help on "
-      "a command: sandstroke run --help");
+      "a command: sandstroke run --help\n"
+      "In Python: import sandstroke; run = sandstroke.run(\"scene.toml\"); run.final");
   bool quiet = false;
   app.add_flag("-q,--quiet", quiet, "Print only results, warnings and errors");
   bool overwrite = false;
