@@ -5,10 +5,12 @@
 #include <optional>
 
 #include "cli/commands.h"
+#include "cli/plugin_options.h"
 #include "cli/print_json.h"
 #include "cli/print_text.h"
 #include "core/interrupt.h"
 #include "core/progress.h"
+#include "validation/study/own_contenders.h"
 #include "validation/study/study_files.h"
 #include "validation/study/study_table.h"
 
@@ -19,15 +21,26 @@ struct BenchArguments {
   StudyOptions study;
   std::filesystem::path folder = "bench";
   bool json = false;
+  PluginOptions plugin;
 };
 
+/// The study's own, and laws of a plugin beside them.
+StudyOptions study_options(const BenchArguments& arguments) {
+  StudyOptions study = arguments.study;
+  study.own = arguments.plugin.laws();
+  for (const OwnLawSettings& law : study.own)
+    if (!law.relaxation.empty()) study.peers.push_back(peer_of(law));
+  if (study.problems.empty()) study.problems = problems_of(study.own);  // without a plugin: all
+  return study;
+}
+
 int bench(const BenchArguments& arguments) {
+  StudyOptions options = study_options(arguments);
   const StudyFiles files(arguments.folder);
   catch_interrupts();
   std::optional<Progress> bar(std::in_place, "bench");
-  StudyOptions study_options = arguments.study;
-  study_options.progress = [&](double done) { bar->update(done); };
-  const Study study = run_study(study_options);
+  options.progress = [&](double done) { bar->update(done); };
+  const Study study = run_study(options);
   bar.reset();
   if (interrupted()) return 128 + interrupted();
   files.write(study);
@@ -63,6 +76,10 @@ void add_bench_command(CLI::App& app, Command& chosen) {
   command->add_option("--threads", arguments->study.threads, "Threads per run, unless the run varies them")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
+  arguments->plugin.add_to(
+      *command,
+      "Laws of your own (.so), beside the program's: in heaps, a stroke and a plunge, which "
+      "are then all that runs unless --scene says otherwise");
   command->add_flag("--json", arguments->json,
                     "Print the page's data as one JSON object instead of the tables");
   command->footer("Example:  sandstroke bench --quick -o bench");

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/commands.h"
+#include "cli/plugin_options.h"
 #include "cli/print_json.h"
 #include "cli/print_text.h"
 #include "core/error.h"
@@ -26,6 +27,7 @@ namespace fs = std::filesystem;
 
 struct StressArguments {
   fs::path output = "stress";
+  PluginOptions plugin;
   bool quick = false, json = false;
 };
 
@@ -69,12 +71,13 @@ void print_summary(const StressReport& report) {
 
 int stress(const StressArguments& arguments) {
   const fs::path page = arguments.output / "stress.html";
+  StressOptions options;
+  options.quick = arguments.quick;
+  options.own = arguments.plugin.laws();
   make_folder(arguments.output);
   check_output(page, {}, page_output);
   catch_interrupts();
   Progress bar("stress");
-  StressOptions options;
-  options.quick = arguments.quick;
   options.progress = [&bar](double fraction) { bar.update(fraction); };
   const Stopwatch watch;
   const StressReport report = stress_all(options);
@@ -109,6 +112,7 @@ void add_stress_command(CLI::App& app, Command& chosen) {
       ->capture_default_str();
   command->add_flag("--quick", arguments->quick,
                     "Take 10 seconds instead of 7 minutes, with coarser maps, fewer and shorter cases");
+  arguments->plugin.add_to(*command, "Test laws of your own (.so), and not the program's");
   command->add_flag("--json", arguments->json,
                     "Print the page's data as one JSON object instead of the table");
   command->footer(

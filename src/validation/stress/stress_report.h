@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "sim/scene.h"
+
 namespace sandstroke {
 
 /// How a case ended. stable: to rest, or bounded as it should be. limit_cycle: bounded, but it never comes to
@@ -72,6 +74,8 @@ struct StressReport {
 
 struct StressOptions {
   bool quick = false;  ///< coarser maps, fewer and shorter cases: under a minute
+  /// Laws of a plugin, each in settings of its own: then they are tested, and not the program's.
+  std::vector<OwnLawSettings> own;
   std::function<void(double)> progress = [](double) {};  ///< share of the whole that is done
 };
 

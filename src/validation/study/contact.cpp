@@ -7,6 +7,7 @@
 #include "validation/study/contact_scene.h"
 #include "validation/study/error_checks.h"
 #include "validation/study/exact_shapes.h"
+#include "validation/study/own_contenders.h"
 #include "validation/study/problem.h"
 
 namespace sandstroke {
@@ -20,8 +21,8 @@ Trial work_trial(const Scene& scene, const HeightField& bed, const Stroke& strok
 }
 
 Contender work_contender(const std::string& series, const std::string& label, const Scene& scene, int threads,
-                         double step, std::function<Trial()> run) {
-  return {series, label, settings_of(scene, threads), step, std::move(run)};
+                         double step, std::function<Trial()> run, bool foreign = false) {
+  return {series, label, settings_of(scene, threads), step, std::move(run), foreign};
 }
 
 Problem work_problem(const char* name, const char* title, const std::string& text) {
@@ -35,15 +36,37 @@ Problem plunge_problem(const ProblemOptions& options) {
                                  "The tip is pushed 10 mm into flat sand at 20 mm/s, with drag in all "
                                  "directions; the work is known in closed form.");
   constexpr double depth = 0.01, speed = 0.02, above = 0.001;  // m, m/s, m
-  for (const double rate : {62.5, 125.0, 250.0, 500.0, 1000.0, 2000.0, 4000.0, 8000.0, 16000.0}) {
+  const std::vector<double> rates = {62.5, 125.0, 250.0, 500.0, 1000.0, 2000.0, 4000.0, 8000.0, 16000.0};
+  const Stroke stroke = straight({{0.0, 0.0, above}, {0.0, 0.0, -depth}}, {(above + depth) / speed});
+  const auto at_rate = [](double rate) {
     Scene scene = contact_scene(0.2, 100, rate);
     scene.force.drag = DragDirection::full;
+    return scene;
+  };
+  for (const double rate : rates) {
+    const Scene scene = at_rate(rate);
     const double exact = plunge_work(depth, scene.force) * (1.0 + scene.force.k_f * speed);
-    const Stroke stroke = straight({{0.0, 0.0, above}, {0.0, 0.0, -depth}}, {(above + depth) / speed});
-    const HeightField bed(scene.bed.rows, scene.bed.cols, scene.bed.cell_size());
-    problem.contenders.push_back(
-        work_contender("force held for a tick", fmt::format("servo rate {} Hz", rate), scene, options.threads,
-                       1.0 / rate, [=] { return work_trial(scene, bed, stroke, exact); }));
+    problem.contenders.push_back(work_contender(
+        "force held for a tick", fmt::format("servo rate {} Hz", rate), scene, options.threads, 1.0 / rate,
+        [=] { return work_trial(scene, starting_bed(scene.bed), stroke, exact); }));
+  }
+  for (const OwnLawSettings& own : options.own) {
+    if (own.force.empty()) continue;
+    problem.text += " A plugin's law is held against itself at 128 kHz.";
+    const auto by_law = [=](double rate) {
+      Scene scene = at_rate(rate);
+      scene.own = own;
+      return scene;
+    };
+    const auto law_truth = truth_when_asked<double>([=] {
+      const Scene finer = by_law(8.0 * rates.back());
+      return solve(finer, starting_bed(finer.bed), stroke).result.device.absorbed_energy;
+    });
+    for (const double rate : rates)
+      problem.contenders.push_back(work_contender(
+          series_of(own), fmt::format("servo rate {} Hz", rate), by_law(rate), options.threads, 1.0 / rate,
+          [=] { return work_trial(by_law(rate), starting_bed(by_law(rate).bed), stroke, law_truth()); },
+          true));
   }
   return problem;
 }

@@ -60,6 +60,7 @@ struct Contender {
   RunSettings settings;
   double step = not_applicable;  ///< what the series refines (cell size [m] or time step [s]), for its order
   std::function<Trial()> run;    ///< gives the same score each time
+  bool foreign = false;          ///< not this library's: where it fails, the others go on
 };
 
 /// An error that a run states of itself (sim/error_estimate.h), beside its true one.
@@ -118,6 +119,9 @@ struct ProblemOptions {
   bool quick = false;  ///< coarser grids, shorter strokes
   int threads = 1;
   std::vector<Peer> peers;
+  /// Rules of displacement and laws of force of a plugin, each in settings of its own: strokes and plunges
+  /// with them are held against the same, finer.
+  std::vector<OwnLawSettings> own;
 };
 
 /// Makes one problem; where the truth has to be computed, that happens here.

@@ -3,6 +3,7 @@
 
 #include "sim/error_estimate.h"
 #include "validation/study/hand_strokes.h"
+#include "validation/study/own_contenders.h"
 #include "validation/study/stroke_replay.h"
 
 namespace sandstroke {
@@ -92,7 +93,7 @@ Problem stroke_problem(ModelPreset preset, double depth, const ProblemOptions& o
   const std::string all_finer = "all finer";
   Problem problem = unsolved(preset, depth, finest);
   const Stroke stroke = s_curve(depth, 0.25, options.quick);
-  const auto all = [&](int by) { return refined(preset, by, by, by); };
+  const auto all = [preset](int by) { return refined(preset, by, by, by); };
   const auto truth = std::make_shared<const Replay>(replay(all(finest), stroke));
   problem.converged_to = judge(replay(all(finest / 2), stroke), *truth).l1;
   const auto add = [&](const std::string& series, const std::string& label, const Scene& scene) {
@@ -102,6 +103,24 @@ Problem stroke_problem(ModelPreset preset, double depth, const ProblemOptions& o
         stroke_contender(series, label, scene, options.threads, step, stroke, truth));
   };
   for (int by = 1; by < finest; by *= 2) add(all_finer, fmt::format("1/{} of all", by), all(by));
+  for (const OwnLawSettings& own : options.own) {
+    if (own.displacement.empty()) continue;
+    problem.text += " A rule of a plugin is held against itself, as fine.";
+    const auto by_law = [=](int by) {
+      Scene scene = all(by);
+      scene.own = own;
+      return scene;
+    };
+    const auto law_truth = truth_when_asked<Replay>([=] { return replay(by_law(finest), stroke); });
+    for (int by = 1; by < finest; by *= 2)
+      problem.contenders.push_back({series_of(own), fmt::format("1/{} of all", by),
+                                    settings_of(by_law(by), options.threads), by_law(by).bed.cell_size(),
+                                    [=] {
+                                      const Replay run = replay(by_law(by), stroke);
+                                      return Trial{run.result.wall_seconds, judge(run, law_truth())};
+                                    },
+                                    true});
+  }
   if (!paper)
     for (int by = 1; by < finest; by *= 2)
       add("sand slips into the tool, 240 a second", fmt::format("1/{} of all", by), pumping(by));

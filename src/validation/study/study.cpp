@@ -94,11 +94,21 @@ class Race {
     const Contender& contender = problem_.contenders[i];
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                     static_cast<std::size_t>(contender.settings.threads));
-    const Trial trial = contender.run();
+    Trial trial;
+    try {
+      trial = contender.run();
+    } catch (const Error& failure) {
+      if (!contender.foreign) throw;
+      runs_[i].repeats = 0;
+      study_.notes.push_back(fmt::format("{}: {}, {}: failed: {}.", problem_.title, contender.series,
+                                         contender.label, failure.what()));
+      return;
+    }
     StudyRun& run = runs_[i];
     run.problem = problem_.name, run.series = contender.series, run.label = contender.label;
     run.settings = contender.settings;
     run.step = contender.step;
+    run.foreign = contender.foreign;
     run.score = trial.score;
     std::vector<double>& seconds = seconds_[i];
     seconds.insert(std::upper_bound(seconds.begin(), seconds.end(), trial.seconds), trial.seconds);

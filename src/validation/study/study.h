@@ -20,6 +20,7 @@ struct StudyRun {
   double error = not_applicable;     ///< the problem's
   double of_paper = not_applicable;  ///< time of a tick, over that of the paper's law in the same study
   bool pareto = false;               ///< no other run of the problem is both as near and as fast
+  bool foreign = false;              ///< Contender::foreign
 };
 
 /// How a series' error falls with its step: log error = order * log step + constant by least squares, with

@@ -210,26 +210,44 @@ Json study_json(const Study& study) {
   return json;
 }
 
-std::string study_summary(const Study& study) {
-  std::vector<StudyRun> best;
-  for (const Problem& problem : study.problems) {
-    const std::vector<const StudyRun*> ends = best_of(study.runs, problem.name);
-    for (const StudyRun* run : ends) best.push_back(*run);
-  }
+namespace {
+
+/// Some runs, by these columns of runs_table(), and their errors.
+std::string runs_text(const Study& study, const std::vector<StudyRun>& runs,
+                      std::initializer_list<const char*> columns) {
   std::vector<double> errors;
+  for (const StudyRun& run : runs) errors.push_back(run.error);
   Table table;
-  const Table all = runs_table(best);
-  for (const char* name : {"problem", "series", "label", "wall_seconds", "passes"})
+  const Table all = runs_table(runs);
+  for (const char* name : columns)
     for (const TableColumn& column : all.columns)
       if (column.name == name) table.columns.push_back(column);
-  for (const StudyRun& run : best) errors.push_back(run.error);
   table.columns.push_back({"error", "Error", "", errors});
   for (TableColumn& column : table.columns)
     if (column.name == "problem")
       for (std::string& name : std::get<std::vector<std::string>>(column.values))
         name = title_of(study, name);
-  std::string text =
-      "Nearest to the truth, and the fastest with no more than twice that error\n" + aligned_text(table, 3);
+  return aligned_text(table, 3);
+}
+
+}  // namespace
+
+std::string study_summary(const Study& study) {
+  std::vector<StudyRun> best, foreign;
+  for (const Problem& problem : study.problems) {
+    const std::vector<const StudyRun*> ends = best_of(study.runs, problem.name);
+    for (const StudyRun* run : ends) best.push_back(*run);
+  }
+  for (const StudyRun& run : study.runs)
+    if (run.foreign) foreign.push_back(run);
+  std::string text = "Nearest to the truth, and the fastest with no more than twice that error\n" +
+                     runs_text(study, best, {"problem", "series", "label", "wall_seconds", "passes"});
+  if (!foreign.empty())
+    text +=
+        "\nRules that are not the program's (converged: 1 at rest; the drift is a share of the moved "
+        "sand)\n" +
+        runs_text(study, foreign,
+                  {"problem", "series", "label", "wall_seconds", "passes", "converged", "volume_drift"});
   if (!study.orders.empty())
     text += "\nOrders of convergence\n" + aligned_text(orders_table(study.orders), 3);
   text += ticks_text(study.runs);

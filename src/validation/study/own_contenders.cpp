@@ -1,0 +1,66 @@
+#include "validation/study/own_contenders.h"
+
+#include <spdlog/fmt/fmt.h>
+#include <spdlog/fmt/ranges.h>
+
+#include <algorithm>
+
+#include "core/error.h"
+#include "sim/own_laws.h"
+#include "sim/sand_watch.h"
+
+namespace sandstroke {
+
+std::vector<OwnLawSettings> single_laws(const OwnLawSettings& plugin, const std::vector<std::string>& names) {
+  std::vector<OwnLawSettings> found;
+  std::vector<std::string> known;
+  const auto add_kind = [&](const auto& makers, std::string OwnLawSettings::*key) {
+    for (const auto& [name, maker] : makers) {
+      known.push_back(name);
+      if (!names.empty() && std::find(names.begin(), names.end(), name) == names.end()) continue;
+      OwnLawSettings& law = found.emplace_back(plugin);
+      law.relaxation = law.displacement = law.force = "";
+      law.*key = name;
+    }
+  };
+  add_kind(plugin.laws->relaxations, &OwnLawSettings::relaxation);
+  add_kind(plugin.laws->displacements, &OwnLawSettings::displacement);
+  add_kind(plugin.laws->forces, &OwnLawSettings::force);
+  std::sort(known.begin(), known.end());
+  known.erase(std::unique(known.begin(), known.end()), known.end());
+  for (const std::string& name : names)
+    if (!std::binary_search(known.begin(), known.end(), name))
+      throw_input_error("{}: has no law '{}'; take some of: {}", plugin.plugin, name, fmt::join(known, ", "));
+  return found;
+}
+
+std::string series_of(const OwnLawSettings& law) {
+  return "plugin: " + law.relaxation + law.displacement + law.force;  // one of them
+}
+
+std::vector<std::string> problems_of(const std::vector<OwnLawSettings>& laws) {
+  const auto any = [&](std::string OwnLawSettings::*key) {
+    return std::any_of(laws.begin(), laws.end(), [&](const auto& law) { return !(law.*key).empty(); });
+  };
+  std::vector<std::string> names;
+  if (any(&OwnLawSettings::relaxation)) names = {"cylinder", "truncated", "cone", "cliff", "trench"};
+  if (any(&OwnLawSettings::displacement)) names.emplace_back("stroke-accurate");
+  if (any(&OwnLawSettings::force)) names.emplace_back("plunge");
+  return names;
+}
+
+Peer peer_of(const OwnLawSettings& law) {
+  return {series_of(law), [law](HeightField& bed, double talus_angle) {
+            Scene scene;
+            scene.own = law;
+            scene.bed.cols = bed.cols(), scene.bed.rows = bed.rows();
+            scene.bed.width = bed.cols() * bed.cell_size(), scene.bed.depth = bed.rows() * bed.cell_size();
+            scene.relaxation.talus_angle = talus_angle;
+            const SandWatch watch(bed);
+            const RelaxationOutcome outcome = make_relaxer(scene, bed.cell_size())->relax(bed);
+            watch.check(bed, law_in_words(law, "relaxation", law.relaxation));
+            return outcome;
+          }};
+}
+
+}  // namespace sandstroke
