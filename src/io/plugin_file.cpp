@@ -4,6 +4,7 @@
 
 #include "core/error.h"
 #include "core/input_file.h"
+#include "io/stroke_file.h"
 #include "sim/plugin.h"
 
 namespace sandstroke {
@@ -54,6 +55,14 @@ std::shared_ptr<const OwnLaws> load_plugin(const std::filesystem::path& path) {
 OwnLawSettings with_plugin(OwnLawSettings own, const std::filesystem::path& folder) {
   if (!own.plugin.empty() && !own.laws) own.laws = load_plugin(folder / own.plugin);
   return own;
+}
+
+void check_own_force(const Scene& scene, const std::filesystem::path& stroke_file) {
+  if (scene.own.force.empty() || !stroke_depends_on_force(stroke_file)) return;
+  throw_input_error(
+      "{}: it presses by force, which is known for the paper's law only; give depths, or leave out "
+      "model.force = \"{}\"",
+      stroke_file.string(), scene.own.force);
 }
 
 }  // namespace sandstroke

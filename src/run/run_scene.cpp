@@ -80,6 +80,7 @@ Stroke placed_samples(const Scene& scene, const Stroke& loaded, const std::strin
 
 Stroke placed_stroke(const Scene& scene, const std::filesystem::path& path, std::string& hash) {
   const std::string name = samples_name(path);
+  check_own_force(scene, path);
   const Stroke loaded = load_stroke(path, scene.force, scene.stroke->table.value_or(TableSettings{}));
   if (!loaded.complete)
     spdlog::warn("{}: was cut off while it was recorded; the run ends where the stroke does", name);

@@ -27,6 +27,7 @@ std::shared_ptr<const SweepStroke> SweepInputs::stroke(const Scene& scene) {
   const std::scoped_lock lock(files_);
   const auto [by_force, is_new] = by_force_.try_emplace(path.string());
   if (is_new) by_force->second = stroke_depends_on_force(path);
+  check_own_force(scene, path);
   Scene named;
   named.stroke = scene.stroke;
   named.bed.width = scene.bed.width, named.bed.depth = scene.bed.depth;  // where it is placed
