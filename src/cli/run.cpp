@@ -24,6 +24,7 @@
 #include "io/xdmf.h"
 #include "run/run_scene.h"
 #include "run/run_summary.h"
+#include "run/run_warnings.h"
 #include "sim/furrow.h"
 #include "sim/recorded_force.h"
 #include "sim/simulation.h"
@@ -108,34 +109,6 @@ void check_default_output(const fs::path& output, const fs::path& scene_path, co
           output.string(), value);
 }
 
-void warn_of_held_drag(const DeviceResult& result, const Scene& scene) {
-  const double most = SimulatedDevice(scene.device, {}).strongest_drag();
-  spdlog::warn(
-      "in {} ticks drag was too strong for device.drag = implicit: up to {:.4g} N s/m, where {:.4g} N s/m "
-      "(2 m / T) stop the device in a tick, and no more acted; raise device.servo_rate, or lower force.k_f "
-      "to {:.3g} s/m",
-      result.held_drag_ticks, result.held_drag, most, scene.force.k_f * most / result.held_drag);
-}
-
-void warn_of(const RunResult& result, const Scene& scene) {
-  if (result.ticks > 0 && result.contact_ticks == 0) spdlog::warn("{}", untouched_text(scene, result));
-  if (result.furrow) warn_if_any(furrow_warning(scene, *result.furrow));
-  if (scene.device.model == DeviceModel::dynamic && loop_returned_energy(result.device, scene.device))
-    spdlog::warn("the sand returned up to {:.3g} J more than it took: the loop was not passive; {}",
-                 -result.device.least_absorbed_energy, loop_remedies(scene, result.device.max_drag_force));
-  if (result.device.held_drag_ticks > 0) warn_of_held_drag(result.device, scene);
-  if (result.device.swings_from)
-    spdlog::error(
-        "the device swings by itself from {:.3f} s on, by energy that the sand returns swing after swing: "
-        "the loop is unstable; {}",
-        *result.device.swings_from, loop_remedies(scene, result.device.max_drag_force));
-  if (!result.relaxation.converged)
-    spdlog::warn(
-        "the sand is not at rest (residual {:.2e}, tolerance {:.2e}); raise relaxation.max_passes or "
-        "relaxation.tolerance",
-        result.relaxation.residual, scene.relaxation.tolerance);
-}
-
 int run(const RunArguments& arguments) {
   const fs::path scene_path = arguments.scene;
   std::vector<std::string> overrides = arguments.overrides;
@@ -201,7 +174,7 @@ int run(const RunArguments& arguments) {
     if (exit_code != 0) return exit_code;
     if (!arguments.json) print_row("film", arguments.video);
   }
-  warn_of(result, scene);
+  warn_of_run(result, scene);
   if (view && view->lag())
     spdlog::warn(
         "the run was up to {:.2f} s behind real time; its result is the same. Fewer bed.cells are faster",

@@ -84,6 +84,22 @@ TraceContent RunFile::trace_content() const {
   return content;
 }
 
+std::vector<RelaxationRecord> RunFile::relaxations() const {
+  const std::size_t count = file_.has("/relaxation/time") ? file_.doubles("/relaxation/time").size() : 0;
+  std::vector<RelaxationRecord> relaxations(count);
+  visit_relaxation_fields([&](const FieldText& field, const auto& of) {
+    if (count == 0) return;
+    const std::string name = std::string("/relaxation/") + field.name;
+    const std::vector<double> column = file_.doubles(name);
+    if (column.size() != count)
+      throw_input_error("{}: {} has {} rows and /relaxation/time {}; the file is damaged", file_.name(), name,
+                        column.size(), count);
+    using Value = std::decay_t<decltype(of(relaxations.front()))>;
+    for (std::size_t i = 0; i < count; ++i) of(relaxations[i]) = static_cast<Value>(column[i]);
+  });
+  return relaxations;
+}
+
 bool RunFile::has_trace() const { return file_.has("/trace/time"); }
 
 std::vector<TickRecord> RunFile::trace() const {

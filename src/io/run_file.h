@@ -35,6 +35,7 @@ class RunFile {
   bool has_trace() const;
   std::vector<TickRecord> trace() const;  ///< what visit_tick_fields() names
   TraceContent trace_content() const;
+  std::vector<RelaxationRecord> relaxations() const;  ///< what visit_relaxation_fields() names
   /// Times of the frames kept during the run [s]; RunFrames has their surfaces. Not of run format 1.
   std::vector<double> frame_times() const;
   /// Makes the k-th frame of the one before (of the initial surface): how many parts changed.

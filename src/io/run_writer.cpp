@@ -46,6 +46,7 @@ Hdf5Column column_of(Hdf5GridWriter& file, const std::string& group, const Field
   else
     column = file.column<StoredAs<Field>>(name);
   file.describe(name, field.units, field.meaning);
+  if constexpr (std::is_same_v<Field, bool>) file.attribute(name, "dtype", "bool");  // to xarray
   if (name == time)
     file.make_scale(time);
   else

@@ -52,11 +52,32 @@ void take(const char* name, const py::object& given, std::vector<Number>& column
 
 }  // namespace
 
+HeightGrid grid_of(const char* name, const py::object& given) {
+  py::array array;
+  try {
+    array = py::array(given);
+  } catch (const py::error_already_set&) {
+  }
+  const char kind = array.dtype().kind();
+  if (array.ndim() != 2 || (kind != 'f' && kind != 'i' && kind != 'u'))
+    throw_input_error("{}: must have two dimensions of numbers, rows along y and columns along x", name);
+  const Dense<double> heights(array);
+  HeightGrid grid = Eigen::Map<const HeightGrid>(heights.data(), heights.shape(0), heights.shape(1));
+  if (!grid.allFinite()) throw_input_error("{}: a height is not a number", name);
+  return grid;
+}
+
 Stroke stroke_of(const py::dict& columns) {
   Stroke stroke;
   stroke.source = "stroke";
   std::size_t known = 0;
   std::vector<std::string> names;
+  if (columns.contains("gap_threshold")) {
+    ++known;
+    stroke.gap_threshold =
+        numbers<double>("gap_threshold", py::make_tuple(columns["gap_threshold"]), 0).at(0);
+    if (!(stroke.gap_threshold > 0.0)) throw_input_error("stroke: gap_threshold must be above 0 s");
+  }
   visit_columns(stroke, [&](const char* name, auto& column) {
     names.emplace_back(name);
     if (!columns.contains(name) || py::object(columns[name]).is_none()) {
@@ -69,8 +90,12 @@ Stroke stroke_of(const py::dict& columns) {
   if (known != columns.size()) {
     for (const auto& [name, column] : columns)
       if (const auto text = name.cast<std::string>();
-          std::find(names.begin(), names.end(), text) == names.end())
-        throw_input_error("stroke: '{}' is no column of a stroke; it has {}", text, fmt::join(names, ", "));
+          text != "gap_threshold" && std::find(names.begin(), names.end(), text) == names.end())
+        throw_input_error(
+            "stroke: '{}' is no column of a stroke; it has {}, and may have pen_down and gap_threshold{}",
+            text, fmt::join(names, ", "),
+            text == "x" || text == "y" || text == "z" ? "; x, y and z are the columns of position (n, 3)"
+                                                      : "");
   }
   for (const char* name : {"time", "position"})
     if (!columns.contains(name)) throw_input_error("stroke: needs the column {}", name);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "haptics/stroke.h"
+#include "sand/height_field.h"
 
 namespace sandstroke {
 
@@ -34,6 +35,9 @@ pybind11::array column_view(std::vector<Record>& records, const Of& of, pybind11
   else
     return view_of(first.data(), {rows, first.size()}, {step, pybind11::ssize_t{sizeof(double)}}, owner);
 }
+
+/// Heights: two dimensions, rows along y. Error: input, naming them, also where one is not a number.
+HeightGrid grid_of(const char* name, const pybind11::object& heights);
 
 /// A stroke of arrays by the names of its columns (visit_columns), "time" [s] and "position" [m] at least.
 /// Error: input, with the column's name and the shape that it must have.

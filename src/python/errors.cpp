@@ -5,7 +5,10 @@
 
 #include <chrono>
 #include <cstdio>
+#include <exception>
 #include <mutex>
+#include <stdexcept>
+#include <utility>
 
 #include "core/error.h"
 
@@ -67,6 +70,20 @@ void add_errors(py::module_& module) {
   auto logger = std::make_shared<spdlog::logger>("sandstroke", std::make_shared<WarningSink>());
   logger->set_level(spdlog::level::warn);
   spdlog::set_default_logger(logger);
+}
+
+thread_local std::exception_ptr kept_exception;
+
+void throw_raised(const py::error_already_set& raised) {
+  if (raised.matches(PyExc_KeyboardInterrupt) || raised.matches(PyExc_SystemExit))
+    kept_exception = std::make_exception_ptr(raised);
+  const std::string text = raised.what();
+  throw std::runtime_error(text.substr(0, text.find('\n')));
+}
+
+void throw_kept() {
+  if (kept_exception) std::rethrow_exception(std::exchange(kept_exception, nullptr));
+  throw;
 }
 
 Warnings::Warnings() : before_(collecting) { collecting = &sentences_; }

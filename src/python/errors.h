@@ -27,6 +27,22 @@ class Warnings {
   std::vector<std::string>* before_;
 };
 
+/// Of a function of the user's that was called from work: its KeyboardInterrupt or SystemExit is kept, to end
+/// that work as itself; what else it raised is told in one line.
+[[noreturn]] void throw_raised(const pybind11::error_already_set& raised);
+/// Throws what was kept, if anything; else what is being thrown. In a catch.
+[[noreturn]] void throw_kept();
+
+/// Does work that calls functions of the user's.
+template <class Work>
+auto or_what_ended_it(const Work& work) {
+  try {
+    return work();
+  } catch (...) {
+    throw_kept();
+  }
+}
+
 /// Lets Ctrl-C through to Python now and then, from work that lets the interpreter go: throws
 /// KeyboardInterrupt as Python does.
 class SignalWatch {

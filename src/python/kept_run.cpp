@@ -2,9 +2,11 @@
 
 #include <pybind11/pybind11.h>
 
+#include "core/error.h"
 #include "io/run_file.h"
 #include "python/errors.h"
 #include "run/run_summary.h"
+#include "run/run_warnings.h"
 
 namespace sandstroke {
 namespace {
@@ -36,8 +38,17 @@ class Keeper : public SimulationObserver {
 
 }  // namespace
 
+HeightField surface_of(const Scene& scene, const HeightGrid& heights) {
+  if (heights.rows() != scene.bed.rows || heights.cols() != scene.bed.cols)
+    throw_input_error("surface: has {} rows and {} columns, and the scene's bed {} and {} (bed.cells)",
+                      heights.rows(), heights.cols(), scene.bed.rows, scene.bed.cols);
+  return HeightField(heights, scene.bed.cell_size(), scene.bed.shape);
+}
+
 std::shared_ptr<KeptRun> kept_run(const SceneHere& scene, std::optional<Stroke> stroke,
-                                  const std::filesystem::path& output, int threads) {
+                                  std::optional<HeightField> surface, const std::filesystem::path& output,
+                                  int threads) {
+  if (threads < 0) throw_input_error("threads: {} is below 0; 0 is all cores", threads);
   auto run = std::make_shared<KeptRun>();
   run->scene = scene;
   run->path = output.string();
@@ -46,6 +57,7 @@ std::shared_ptr<KeptRun> kept_run(const SceneHere& scene, std::optional<Stroke> 
   options.scene_folder = scene.folder;
   options.threads = threads;
   options.stroke = std::move(stroke);
+  options.surface = std::move(surface);
   options.onlooker = [&](const Simulation& simulation) -> SimulationObserver& {
     run->scene.scene = simulation.scene();
     run->bed = simulation.bed();
@@ -59,7 +71,9 @@ std::shared_ptr<KeptRun> kept_run(const SceneHere& scene, std::optional<Stroke> 
   Warnings warnings;
   {
     const py::gil_scoped_release let_go;
-    run->summary = run_summary(run_scene(scene.scene, output, options), run->scene.scene, run->path);
+    const RunResult result = run_scene(scene.scene, output, options);
+    warn_of_run(result, run->scene.scene);
+    run->summary = run_summary(result, run->scene.scene, run->path);
   }
   warnings.give();
   return run;
@@ -78,6 +92,7 @@ std::shared_ptr<KeptRun> read_run(const std::filesystem::path& path) {
     run->content = file.trace_content();
     run->trace = file.trace();
   }
+  run->relaxations = file.relaxations();
   run->frame_times = file.frame_times();
   RunFrames frames(file);
   for (std::size_t k = 0; k < run->frame_times.size(); ++k)

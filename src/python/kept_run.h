@@ -26,15 +26,19 @@ struct KeptRun {
   HeightGrid initial, final;  ///< m
   TraceContent content;
   std::vector<TickRecord> trace;
-  std::vector<RelaxationRecord> relaxations;  ///< of a file: none
-  std::vector<double> frame_times;            ///< s
-  std::vector<double> frames;                 ///< m, one after the other
+  std::vector<RelaxationRecord> relaxations;
+  std::vector<double> frame_times;  ///< s
+  std::vector<double> frames;       ///< m, one after the other
 };
 
-/// stroke: none: the scene's. output: empty: no file is written. Called with the interpreter held, which it
-/// lets go. Errors as run_scene.
+/// The bed of a scene with these heights [m]. Error: input, where they are not those of its cells.
+HeightField surface_of(const Scene& scene, const HeightGrid& heights);
+
+/// stroke, surface: none: the scene's. output: empty: no file is written. Called with the interpreter held,
+/// which it lets go. Errors as run_scene.
 std::shared_ptr<KeptRun> kept_run(const SceneHere& scene, std::optional<Stroke> stroke,
-                                  const std::filesystem::path& output, int threads);
+                                  std::optional<HeightField> surface, const std::filesystem::path& output,
+                                  int threads);
 std::shared_ptr<KeptRun> read_run(const std::filesystem::path& path);
 
 }  // namespace sandstroke

@@ -27,7 +27,6 @@ namespace sandstroke {
 namespace {
 
 namespace py = pybind11;
-using Doubles = py::array_t<double, py::array::c_style | py::array::forcecast>;
 using Run = std::shared_ptr<KeptRun>;
 
 py::array grid_view(const HeightGrid& grid, py::handle owner) {
@@ -82,19 +81,11 @@ SceneHere scene_of_text(const std::string& text, const std::filesystem::path& fo
   return {scene_from_text(text, "scene", overrides), folder};
 }
 
-HeightGrid grid_of(const Doubles& heights) {
-  if (heights.ndim() != 2)
-    throw_input_error("heights: must have two dimensions, rows along y and columns along x");
-  const HeightGrid grid = Eigen::Map<const HeightGrid>(heights.data(), heights.shape(0), heights.shape(1));
-  if (!grid.allFinite()) throw_input_error("heights: a height is not a number");
-  return grid;
-}
-
 /// (height, width, 3), of 8 bits. tip: none: no tool is drawn.
-py::array picture(const SceneHere& here, const Doubles& heights, const Doubles& start,
+py::array picture(const SceneHere& here, const py::object& heights, const py::object& start,
                   const std::optional<std::array<double, 3>>& tip, const std::array<double, 4>& orientation) {
   const Scene& scene = here.scene;
-  const HeightGrid shown = grid_of(heights), before = grid_of(start);
+  const HeightGrid shown = grid_of("heights", heights), before = grid_of("start", start);
   if (before.rows() != shown.rows() || before.cols() != shown.cols())
     throw_input_error("start: must have as many rows and columns as heights");
   Image image;
@@ -131,9 +122,9 @@ std::string comparison(const std::filesystem::path& golden, const std::filesyste
                        const GivenTolerances& given, bool coarsen) {
   const py::gil_scoped_release let_go;
   for (const auto& [name, value] : given) {
-    const auto known = std::find_if(tolerance_keys.begin(), tolerance_keys.end(),
-                                    [&](const ToleranceKey& key) { return key.name == name; });
-    if (known == tolerance_keys.end()) throw_input_error("'{}' is no tolerance", name);
+    bool known = false;
+    for (const ToleranceKey& key : tolerance_keys) known |= key.name == name;
+    if (!known) throw_input_error("'{}' is no tolerance; take height, force or depth", name);
   }
   const Tolerances tolerances = values_of(used_tolerances(given));
   return to_json(compare_runs(RunFile(golden), RunFile(run), tolerances, coarsen)).dump();
@@ -180,11 +171,14 @@ PYBIND11_MODULE(_sandstroke, module) {
   add_stepped(module);
   module.def("_scene_of_file", &scene_of_file);
   module.def("_scene_of_text", &scene_of_text);
-  module.def("_run", [](const SceneHere& scene, const py::object& stroke, const std::filesystem::path& output,
-                        int threads) {
+  module.def("_run", [](const SceneHere& scene, const py::object& stroke, const py::object& surface,
+                        const std::filesystem::path& output, int threads) {
     std::optional<Stroke> samples;
     if (!stroke.is_none()) samples = stroke_of(stroke.cast<py::dict>());
-    return kept_run(scene, std::move(samples), output, threads);
+    std::optional<HeightField> start;
+    if (!surface.is_none()) start = surface_of(scene.scene, grid_of("surface", surface));
+    return or_what_ended_it(
+        [&] { return kept_run(scene, std::move(samples), std::move(start), output, threads); });
   });
   module.def("_read", &read_run);
   module.def("_with_laws", &with_python_laws);

@@ -8,6 +8,7 @@
 
 #include "core/error.h"
 #include "python/arrays.h"
+#include "python/errors.h"
 #include "sim/own_laws.h"
 
 namespace sandstroke {
@@ -29,7 +30,7 @@ class Function {
     try {
       return (*function_)(std::forward<Arguments>(arguments)...);
     } catch (const py::error_already_set& raised) {
-      throw std::runtime_error(raised.what());
+      throw_raised(raised);
     }
   }
 
@@ -67,8 +68,12 @@ class PythonRelaxer : public Relaxer {
       for (int row = 0; row < bed.rows(); ++row)
         for (int col = 0; col < bed.cols(); ++col) walls.mutable_at(row, col) = bed.is_held(row, col);
       const py::object passes = law_(heights, walls, **numbers_of(scene_, cell_size_));
-      outcome.passes = passes.is_none() ? 1 : passes.cast<std::int64_t>();
-      outcome.converged = true;
+      try {
+        outcome.passes = passes.is_none() ? 1 : passes.cast<std::int64_t>();
+      } catch (const py::cast_error&) {
+        throw std::runtime_error(
+            "it must change heights in place, and return nothing or how many passes it took");
+      }
       const auto after = heights.unchecked<2>();
       for (int row = 0; row < bed.rows(); ++row)
         for (int col = 0; col < bed.cols(); ++col) {
@@ -80,6 +85,12 @@ class PythonRelaxer : public Relaxer {
           bed.set(row, col, height);
         }
     }
+    // Whether that is rest: by the scene's own law, which only looks.
+    HeightField seen = bed;
+    RelaxationSettings look = scene_.relaxation;
+    look.max_passes = 0;
+    const RelaxationOutcome left = make_relaxer(look, cell_size_)->relax(seen);
+    outcome.residual = left.residual, outcome.converged = left.converged;
     if (after_pass) after_pass(outcome.passes, [&]() -> const HeightField& { return bed; });
     return outcome;
   }

@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "io/mesh_file.h"
 #include "io/surface_file.h"
+#include "python/arrays.h"
 #include "python/errors.h"
 #include "python/kept_run.h"
 #include "sim/stepped_simulation.h"
@@ -21,14 +22,18 @@ namespace py = pybind11;
 /// The simulation, and what its scene's files are relative to.
 class Stepped {
  public:
-  Stepped(const SceneHere& here, bool slips) : folder_(here.folder) {
+  /// surface: none: the scene's.
+  Stepped(const SceneHere& here, bool slips, const py::object& surface) : folder_(here.folder) {
+    std::optional<HeightField> start;
+    if (!surface.is_none()) start = surface_of(here.scene, grid_of("surface", surface));
     Warnings warnings;
     {
       const py::gil_scoped_release let_go;
       Scene scene = here.scene;
       scene.bed = with_own_range(scene.bed, folder_);
       scene.tool = with_mesh(scene.tool, folder_);
-      simulation_ = std::make_unique<SteppedSimulation>(scene, load_surface(scene.bed, folder_), slips);
+      simulation_ = std::make_unique<SteppedSimulation>(
+          scene, start ? *start : load_surface(scene.bed, folder_), slips);
     }
     warnings.give();
   }
@@ -78,17 +83,19 @@ TickRecord tick(Stepped& stepped, const py::object& position, const py::object& 
     if (!(q.norm() > 1e-6)) throw_input_error("orientation: a quaternion x, y, z, w must not be 0");
     hand.orientation = Eigen::Quaterniond(q).normalized();
   }
-  const py::gil_scoped_release let_go;
-  return stepped->tick(hand, moves, turns);
+  return or_what_ended_it([&] {
+    const py::gil_scoped_release let_go;
+    return stepped->tick(hand, moves, turns);
+  });
 }
 
 py::dict relax(Stepped& stepped) {
   RelaxationOutcome outcome;
   SignalWatch signals;
-  {
+  or_what_ended_it([&] {
     const py::gil_scoped_release let_go;
-    outcome = stepped->relax([&](std::int64_t, const BedNow&) { signals.look(); });
-  }
+    return outcome = stepped->relax([&](std::int64_t, const BedNow&) { signals.look(); });
+  });
   RelaxationRecord record{stepped->time(), outcome};
   py::dict result;
   visit_relaxation_fields([&](const FieldText& field, const auto& of) { result[field.name] = of(record); });
@@ -133,7 +140,7 @@ void add_stepped(py::module_& module) {
                            tick.device_force.z());
       });
   py::class_<Stepped>(module, "_Simulation")
-      .def(py::init<const SceneHere&, bool>())
+      .def(py::init<const SceneHere&, bool, const py::object&>())
       .def("tick", &tick, py::arg("position"), py::arg("velocity") = py::none(), py::kw_only(),
            py::arg("down") = true, py::arg("orientation") = py::none())
       .def("relax", &relax)

@@ -116,7 +116,7 @@ RunResult run_scene(const Scene& asked, const std::filesystem::path& output, con
     stroke = placed_stroke(scene, file, stroke_hash);
   }
   if (options.second) second_scene(scene, *options.second);  // refused before any work, if at all
-  HeightField bed = load_surface(scene.bed, options.scene_folder);
+  HeightField bed = options.surface ? *options.surface : load_surface(scene.bed, options.scene_folder);
   std::optional<HeightField> start;
   if (stroke || options.second) start = bed;
   Simulation simulation(scene, std::move(bed), stroke);

@@ -21,6 +21,7 @@ struct RunOptions {
   std::function<SimulationObserver&(const Simulation&)> onlooker;
   bool error_map = false;        ///< and keep the error of each cell's height
   std::optional<Stroke> stroke;  ///< samples to play instead of the file that the scene's [stroke] names
+  std::optional<HeightField> surface;  ///< to start from, instead of the scene's
   /// Is shown the simulation after its run, which may have been interrupted; none: nobody.
   std::function<void(const Simulation&, const RunResult&)> at_end;
 };

@@ -39,7 +39,9 @@ def spring(depth, motion, tip, *, parameters, **_):
 
 def test_a_relaxation_of_ones_own_comes_to_rest_at_the_talus_slope(small):
     small["bed"] = {"size": [0.2, 0.2], "cells": [50, 50], "surface": {"kind": "cylinder", "radius": 0.05, "height": 0.06}}
-    own, models = sandstroke.run(small, laws={"relaxation": slip}), sandstroke.run(small)
+    with pytest.warns(UserWarning, match="not at rest"):  # as the model's own law sees it, in other directions
+        own = sandstroke.run(small, laws={"relaxation": slip})
+    models = sandstroke.run(small)
     for run in (own, models):
         slope = np.abs(np.diff(run.final, axis=1)).max() / run.cell_size
         assert slope == pytest.approx(np.tan(np.radians(30)), rel=0.01)
@@ -87,8 +89,27 @@ def failing(*_, **__):
     ({"force": lambda *_, **__: (0.0, np.nan, 0.0)}, sandstroke.UnstableError, "not a number"),
     ({"force": lambda *_, **__: 3.0}, sandstroke.InputError, "three numbers"),
     ({"force": 3.0}, sandstroke.InputError, "no function"),
+    ({"relaxation": lambda heights, *_, **__: heights}, sandstroke.InputError, "change heights in place"),
+    (spring, sandstroke.InputError, "laws: give"),
     ({"friction": failing}, sandstroke.InputError, "'friction' is none of relaxation, displacement and force"),
 ])
 def test_wrong_laws_are_told(small, line, laws, error, sentence):
     with pytest.raises(error, match=sentence):
         sandstroke.run(small, line, laws=laws)
+
+
+def test_a_relaxation_that_leaves_steep_sand_is_not_at_rest(small):
+    small["bed"] = {"size": [0.2, 0.2], "cells": [50, 50], "surface": {"kind": "cylinder", "radius": 0.05, "height": 0.06}}
+    with pytest.warns(UserWarning, match="not at rest"):
+        run = sandstroke.run(small, laws={"relaxation": lambda *_, **__: None})
+    assert not run.summary["converged"] and run.summary["residual"] > 1.0
+
+
+def test_ctrl_c_in_a_law_is_ctrl_c(small, line):
+    def interrupted(*_, **__):
+        raise KeyboardInterrupt
+
+    for kind in ("relaxation", "displacement", "force"):
+        with pytest.raises(KeyboardInterrupt):
+            sandstroke.run(small, line, laws={kind: interrupted})
+    sandstroke.run(small, line)

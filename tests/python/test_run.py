@@ -1,10 +1,12 @@
 """Runs from Python are those of the command, and wrong input is told as it tells it."""
 import gc
 import os
+import re
 import resource
 import signal
 import subprocess
 import sys
+import textwrap
 import threading
 import time
 import warnings
@@ -71,6 +73,66 @@ def test_strokes_are_files_arrays_and_mappings(small, line, tmp_path):
     assert lifted.summary["contact_ticks"] < 0.6 * run.summary["contact_ticks"]
 
 
+def test_scenes_are_texts_can_be_read_and_sent(small, line):
+    import pickle
+    scene = sandstroke.Scene("[bed]\nsize = [0.2, 0.12]\ncells = [100, 60]\n", {"tool.radius": 0.008})
+    assert scene["bed.cells"] == [100, 60] and scene["tool.radius"] == 0.008
+    assert scene.to_dict()["relaxation"]["talus_angle"] == 30.0
+    again = pickle.loads(pickle.dumps(scene))
+    assert again.text == scene.text
+    assert np.array_equal(sandstroke.run(again, line).final, sandstroke.run(scene, line).final)
+    with pytest.raises(KeyError):
+        scene["tool.wide"]
+    with pytest.raises(sandstroke.InputError, match="given as arrays.*give them again"):
+        sandstroke.run(sandstroke.run(small, line).scene)
+    with pytest.raises(TypeError, match="return its arrays"):
+        pickle.dumps(sandstroke.run(small, line))
+
+
+class Table(dict):
+    """As much of a DataFrame as counts: columns by name."""
+
+    columns = property(lambda self: list(self))
+
+    def __getitem__(self, names):
+        return np.column_stack([dict.__getitem__(self, name) for name in names]) if isinstance(names, list) else (
+            dict.__getitem__(self, names))
+
+
+def test_a_table_is_taken_by_its_names(small, line):
+    class Frame:
+        def __init__(self, table):
+            self.table, self.columns = table, table.columns
+
+        def __getitem__(self, names):
+            return self.table[names]
+
+    table = Table(x=line[:, 1], z=line[:, 3], time=line[:, 0], y=line[:, 2])
+    assert np.array_equal(sandstroke.run(small, Frame(table)).final, sandstroke.run(small, line).final)
+    del table["y"]
+    with pytest.raises(sandstroke.InputError, match="y is missing"):
+        sandstroke.run(small, Frame(table))
+
+
+def test_a_surface_of_ones_own(small, line):
+    first = sandstroke.run(small, line)
+    second = sandstroke.run(small, line + [0, 0, 0.02, 0], surface=first.final)
+    assert np.array_equal(second.initial, first.final)
+    sim = sandstroke.Simulation(small, surface=first.final)
+    assert np.array_equal(sim.heights, first.final)
+    for surface, sentence in [(first.final[1:], "59 rows"), (first.final[0], "two dimensions"),
+                              (np.full_like(first.final, np.nan), "not a number"), ("sand", "two dimensions")]:
+        with pytest.raises(sandstroke.InputError, match=sentence):
+            sandstroke.run(small, line, surface=surface)
+
+
+def test_samples_far_apart_are_joined_where_that_is_asked(small):
+    ends = {"time": [0.0, 0.4], "position": [[-0.05, 0.0, -0.003], [0.05, 0.0, -0.003]]}
+    assert sandstroke.run(small, {**ends, "gap_threshold": 1.0}).summary["contact_ticks"] > 300
+    with pytest.raises(sandstroke.InputError, match="gap_threshold"):
+        sandstroke.run(small, {**ends, "gap_threshold": 0.0})
+
+
 def test_the_axes_say_where_cells_are(small, line):
     run = sandstroke.run(small, line)
     assert run.final.shape == (60, 100) == (len(run.y), len(run.x))
@@ -111,6 +173,7 @@ def test_xarray_is_what_it_makes_of_the_file(tmp_path):
                 assert variable.dtype == mine[name].dtype, name
                 if name != "final":  # the file's says the furrow, too
                     assert dict(variable.attrs) == dict(mine[name].attrs), name
+        xarray.testing.assert_equal(sandstroke.read(tmp_path / "run.h5").to_xarray(group), mine)
     with pytest.raises(sandstroke.InputError, match="it has surface, trace and relaxation"):
         run.to_xarray("sand")
 
@@ -141,11 +204,18 @@ def test_wrong_settings_are_told(small, line, change, sentence):
     ({"time": [0.0, 1.0], "position": np.full((2, 3), np.inf)}, "position"),
     ({"time": [0.0, 1.0], "position": np.zeros((2, 3)), "speed": [1, 2]}, "'speed' is no column"),
     ({"time": [0.0, 1.0], "position": "here"}, "array of numbers"),
+    ({"time": [0.0], "x": [0.0], "y": [0.0], "z": [0.0]}, "x, y and z are the columns of position"),
     ({"time": [], "position": np.zeros((0, 3))}, "stroke"),
 ])
 def test_wrong_strokes_are_told(small, stroke, sentence):
     with pytest.raises(sandstroke.InputError, match=sentence):
         sandstroke.run(small, stroke)
+
+
+@pytest.mark.parametrize("scene", [np.zeros((3, 4)), None, 3])
+def test_what_is_no_scene_is_told(line, scene):
+    with pytest.raises(sandstroke.InputError, match="scene: give a TOML file"):
+        sandstroke.run(scene, line)
 
 
 def test_files_that_are_not_there_are_told(tmp_path, small, line):
@@ -166,10 +236,14 @@ def test_what_the_command_warns_of_is_a_python_warning(small, line):
         with pytest.raises(UserWarning):
             sandstroke.run(small, line[::10], settings={"stroke.smooth": 80.0})  # of 100 Hz
         sandstroke.run(small, line)
-    assert sandstroke.run(small, high).summary["contact_ticks"] == 0
+    with pytest.warns(UserWarning, match="never touched the sand"):
+        assert sandstroke.run(small, high).summary["contact_ticks"] == 0
+    with pytest.warns(UserWarning, match="not at rest"):
+        assert not sandstroke.run(small, line, settings={"relaxation.max_passes": 3}).summary["converged"]
 
 
 def test_other_threads_run_meanwhile_and_runs_in_threads_are_the_same(small, line):
+    small["bed"]["cells"] = [400, 240]  # so that they take a while
     one = sandstroke.run(small, line, threads=1)
     results = [None] * 4
 
@@ -251,3 +325,14 @@ def test_a_picture_is_that_of_the_command(tmp_path):
         sandstroke.render(run.final[0], run.scene)
     with pytest.raises(sandstroke.InputError, match="not a number"):
         sandstroke.render(np.full((4, 4), np.nan), run.scene)
+
+
+def test_what_the_page_of_the_module_shows_works(tmp_path):
+    needs("matplotlib")
+    page = (SOURCE / "src/python/README.md").read_text()
+    blocks = re.findall(r"^ *```python\n(.*?)^ *```", page, re.DOTALL | re.MULTILINE)
+    assert len(blocks) >= 5
+    program = "import matplotlib\nmatplotlib.use('Agg')\nimport multiprocessing\n" + "\n".join(map(textwrap.dedent, blocks))
+    done = subprocess.run([sys.executable, "-c", program], cwd=tmp_path, capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    assert (tmp_path / "furrow.png").stat().st_size > 1000

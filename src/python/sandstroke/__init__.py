@@ -2,10 +2,10 @@
 
     import sandstroke
     run = sandstroke.run("scene.toml", settings={"relaxation.talus_angle": 34})
-    run.final           # heights [m], a NumPy array of rows (along y) and columns (along x)
-    run.trace["force"]  # see Run.trace
+    run.final                  # heights [m], a NumPy array of rows (along y) and columns (along x)
+    run.trace["device_force"]  # on the hand in every tick [N]
 
-All numbers are in SI units. The results have the same bits as those of the command `sandstroke run`.
+run, read, compare and render are functions; Simulation is a device that is stepped tick by tick. All numbers are in SI units. The results have the same bits as those of the command `sandstroke run`.
 """
 
 from ._arguments import Laws, Scene, SceneLike, StrokeLike

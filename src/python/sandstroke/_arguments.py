@@ -8,11 +8,13 @@ from collections.abc import Callable, Mapping
 from typing import Any, Union
 
 import numpy as np
+import numpy.typing as npt
 
 from . import _sandstroke as _core
 
+Array = npt.ArrayLike
 SceneLike = Union[str, "os.PathLike[str]", Mapping[str, Any], "Scene"]
-StrokeLike = Union[str, "os.PathLike[str]", np.ndarray, Mapping[str, Any]]
+StrokeLike = Union[str, "os.PathLike[str]", npt.ArrayLike, Mapping[str, Any]]
 
 
 def _toml(value: Any) -> str:
@@ -27,7 +29,9 @@ def _toml(value: Any) -> str:
         return json.dumps(os.fspath(value), ensure_ascii=False)
     if isinstance(value, (list, tuple)):
         return "[" + ", ".join(map(_toml, value)) + "]"
-    raise _core.InputError(f"{value!r} is no value of a scene; give a number, a text, True or False, or a list of them")
+    shown = repr(value)
+    shown = shown if len(shown) <= 80 else shown[:77] + "..."
+    raise _core.InputError(f"{shown} is no value of a scene; give a number, a text, True or False, or a list of them")
 
 
 def _flat(settings: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:
@@ -46,29 +50,55 @@ def _overrides(*settings: Mapping[str, Any] | None) -> list[str]:
 
 
 class Scene:
-    """All settings of a run: a TOML file or text, or a mapping such as {"bed": {"cells": [300, 200]}}.
+    """All settings of a run: a TOML file or text of several lines, or a mapping such as {"bed": {"cells": [300, 200]}}.
 
     settings: other values for keys, as {"relaxation.talus_angle": 34}. `sandstroke help scene` lists the keys.
-    Files in a mapping are relative to the current folder.
+    Files in a mapping or text are relative to the current folder. scene["relaxation.talus_angle"] is a value, in the
+    text's own types.
     """
 
     def __init__(self, scene: SceneLike = {}, settings: Mapping[str, Any] | None = None) -> None:
         if isinstance(scene, Scene):
             self._here = _core._scene_of_text(scene.text, scene._here.folder, _overrides(settings))
         elif isinstance(scene, Mapping):
-            # The model's preset is given first, for it sets what other keys then change.
-            given = _flat(scene)
-            self._here = _core._scene_of_text("", os.getcwd(), _overrides(given, settings))
-        else:
+            self._here = _core._scene_of_text("", os.getcwd(), _overrides(_flat(scene), settings))
+        elif isinstance(scene, str) and "\n" in scene:
+            self._here = _core._scene_of_text(scene, os.getcwd(), _overrides(settings))
+        elif isinstance(scene, (str, os.PathLike)):
             self._here = _core._scene_of_file(os.fspath(scene), _overrides(settings))
+        else:
+            raise _core.InputError(f"scene: give a TOML file, a mapping or a Scene, not {type(scene).__name__}")
 
     @property
     def text(self) -> str:
         """Every setting, as TOML."""
         return self._here.text
 
+    def to_dict(self) -> dict[str, Any]:
+        """Every setting: {"bed": {"size": [0.3, 0.2], ...}, ...}."""
+        import tomllib  # of Python 3.11
+
+        return tomllib.loads(self.text)
+
+    def __getitem__(self, key: str) -> Any:
+        value: Any = self.to_dict()
+        for part in key.split("."):
+            if not isinstance(value, Mapping) or part not in value:
+                raise KeyError(key)
+            value = value[part]
+        return value
+
+    def __reduce__(self) -> Any:
+        return _scene_again, (self.text, os.fspath(self._here.folder))
+
     def __repr__(self) -> str:
         return f"<sandstroke.Scene of {len(self.text.splitlines())} lines; print(scene.text) shows them>"
+
+
+def _scene_again(text: str, folder: str) -> Scene:
+    scene = Scene.__new__(Scene)
+    scene._here = _core._scene_of_text(text, folder, [])
+    return scene
 
 
 Laws = Mapping[str, Callable[..., Any]]
@@ -86,24 +116,46 @@ A run fails where a law makes or loses sand, or gives what is not a number.
 """
 
 
-def stroke_columns(stroke: np.ndarray | Mapping[str, Any]) -> dict[str, Any]:
-    """Of an array of time [s], x, y, z [m] in four columns, or a mapping of arrays by name."""
+IN_ARRAYS = "<arrays>"  # what a scene calls a stroke that is in no file
+
+
+def stroke_columns(stroke: Any) -> dict[str, Any]:
+    """Of an array of time [s], x, y, z [m] in four columns, a table with these names, or a mapping of arrays."""
     if isinstance(stroke, Mapping):
         columns = dict(stroke)
         if "pen_down" in columns:
             columns["contact"] = np.asarray(columns.pop("pen_down"), dtype=np.uint8)
         return columns
+    if hasattr(stroke, "columns"):  # a DataFrame, whose order says nothing
+        missing = [name for name in ("time", "x", "y", "z") if name not in stroke.columns]
+        if missing:
+            raise _core.InputError(f"stroke: a table needs the columns time, x, y and z; {', '.join(missing)} is missing")
+        return {"time": np.asarray(stroke["time"]), "position": np.asarray(stroke[["x", "y", "z"]])}
     table = np.asarray(stroke)
     if table.dtype.kind not in "fiu" or table.ndim != 2 or table.shape[1] != 4:
-        raise _core.InputError(f"stroke: an array has the columns time, x, y and z; this one has the shape {table.shape}")
+        raise _core.InputError(
+            f"stroke: an array has the columns time, x, y and z; this one has the shape {table.shape}; for more "
+            "columns give {'time': ..., 'position': ..., 'orientation': ...}")
     return {"time": table[:, 0], "position": table[:, 1:]}
 
 
 def with_stroke(scene: SceneLike, stroke: StrokeLike | None, settings: Mapping[str, Any] | None) -> tuple[Any, Any]:
     """The scene that plays the stroke, and its samples where these are not in a file."""
     if stroke is None:
-        return Scene(scene, settings)._here, None
+        whole = Scene(scene, settings)
+        if f'file = "{IN_ARRAYS}"' in whole.text:
+            raise _core.InputError("the scene's stroke was given as arrays, which it does not keep; give them again")
+        return whole._here, None
     if isinstance(stroke, (str, os.PathLike)):
         file = os.path.abspath(os.fspath(stroke))
         return Scene(scene, {"stroke.file": file, **(settings or {})})._here, None
-    return Scene(scene, {"stroke.file": "stroke", **(settings or {})})._here, stroke_columns(stroke)
+    return Scene(scene, {"stroke.file": IN_ARRAYS, **(settings or {})})._here, stroke_columns(stroke)
+
+
+def with_laws(here: Any, laws: Laws | None) -> Any:
+    """The scene with laws of one's own."""
+    if laws is None:
+        return here
+    if not isinstance(laws, Mapping):
+        raise _core.InputError('laws: give {"relaxation": f}, {"displacement": f} or {"force": f}, or several of them')
+    return _core._with_laws(here, dict(laws))

@@ -8,11 +8,11 @@ from typing import Any
 import numpy as np
 
 from . import _sandstroke as _core
-from ._arguments import Scene, SceneLike
+from ._arguments import Array, Scene, SceneLike
 from ._run import Run
 
 
-def render(sand: Run | np.ndarray, scene: SceneLike | None = None, *, start: np.ndarray | None = None,
+def render(sand: Run | Array, scene: SceneLike | None = None, *, start: Array | None = None,
            tool: Sequence[float] | None = None, orientation: Sequence[float] = (0.0, 0.0, 0.0, 1.0),
            **view: Any) -> np.ndarray:
     """A picture of a run's end, or of heights [m], as an array of 8 bits: (height, width, 3).

@@ -6,12 +6,12 @@ import json
 import os
 from collections.abc import Mapping
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 import numpy as np
 
 from . import _sandstroke as _core
-from ._arguments import Laws, Scene, SceneLike, StrokeLike, with_stroke
+from ._arguments import Array, Laws, Scene, SceneLike, StrokeLike, with_laws, with_stroke
 
 if TYPE_CHECKING:
     import xarray
@@ -68,7 +68,7 @@ class Run:
 
     @cached_property
     def relaxations(self) -> dict[str, np.ndarray]:
-        """Every relaxation, by name: time [s], passes, residual, moved_volume [m^3]. Not of a run that was read."""
+        """Every relaxation, by name: time [s], passes, residual, moved_volume [m^3]."""
         return {name: array for name, _, _, array, _ in self._kept.relaxation_columns()}
 
     @cached_property
@@ -88,7 +88,10 @@ class Run:
         """Of its file, where it has one."""
         return self._kept.path or None
 
-    def to_xarray(self, group: str = "surface") -> xarray.Dataset:
+    def __reduce__(self) -> Any:
+        raise TypeError("a Run cannot be sent between processes; return its arrays (run.final) or run.to_xarray()")
+
+    def to_xarray(self, group: Literal["surface", "trace", "relaxation"] = "surface") -> xarray.Dataset:
         """As xarray opens that group of the run file: "surface", "trace" or "relaxation"."""
         import xarray
 
@@ -108,6 +111,8 @@ class Run:
             return xarray.Dataset(heights, axes, {"cell_size": self.cell_size})
         if group not in ("trace", "relaxation"):
             raise _core.InputError(f"'{group}' is no group of a run; it has surface, trace and relaxation")
+        if group == "trace" and not self.trace:
+            raise _core.InputError("the run kept no trace; it has no stroke, or output.trace is false")
         columns = self._kept.trace_columns() if group == "trace" else self._kept.relaxation_columns()
         variables: dict[str, Any] = {}
         for name, units, meaning, array, components in columns:
@@ -115,7 +120,7 @@ class Run:
             over = ("time",) if not components else ("time", "component" if len(components) == 4 else "axis")
             if components:
                 variables.setdefault(over[1], (over[1], np.array(list(components), dtype=object)))
-            variables[name] = (over, array.view(np.uint8) if array.dtype == bool else array, attributes)
+            variables[name] = (over, array, attributes)
         data = xarray.Dataset(variables)
         return data.set_coords([name for name in ("time", "axis", "component") if name in data])
 
@@ -125,20 +130,32 @@ class Run:
 
 
 def run(scene: SceneLike, stroke: StrokeLike | None = None, *, settings: Mapping[str, Any] | None = None,
-        output: str | os.PathLike[str] | None = None, threads: int = 0, laws: Laws | None = None) -> Run:
+        surface: Array | None = None, output: str | os.PathLike[str] | None = None, threads: int = 0,
+        laws: Laws | None = None) -> Run:
     """Plays a stroke through the sand of a scene, and lets the sand come to rest.
 
     scene: a TOML file, a mapping, or a Scene. stroke, instead of the scene's: a file, an array of time [s], x, y, z
     [m] in four columns, or a mapping of "time" (n,) and "position" (n, 3), and perhaps "velocity", "force" (n, 3),
-    "orientation" (n, 4: x, y, z, w), "pressure" and "pen_down" (n,). settings: other values for keys of the scene,
-    as {"relaxation.talus_angle": 34}. output: also write the run file (.h5). threads: 0 is all cores; the result
-    does not depend on it. laws: functions of your own in place of the model's (sandstroke.Laws); slow, for trying out.
+    "orientation" (n, 4: x, y, z, w), "pressure" and "pen_down" (n,). Samples more than 0.1 s apart are not joined: the
+    tool is lifted between them ("gap_threshold" [s] in a mapping changes that). settings: other values for keys of the
+    scene, as {"relaxation.talus_angle": 34}. surface: heights to start from [m], (rows, columns) of the bed, instead of
+    the scene's. output: also write the run file (.h5). threads: 0 is all cores; the result does not depend on it.
+
+    laws: functions of your own, slow, for trying out: "relaxation", "displacement", "force".
+      relaxation(heights, walls, **numbers) changes heights [m], (row along y, column along x), in place, but no cell
+        that walls marks; returns nothing, or how many passes it took.
+      displacement(heights, underside, motion, **numbers): the same of the cells around the tool; what stands above
+        the tool's underside [m; inf beside it] goes elsewhere in heights.
+      force(depth, motion, tip, **numbers) returns the force on the tool [N], three numbers, before the device's limit.
+        It is asked in ticks in which the tool touches sand.
+      depth [m]: of the tool's lowest point below the level around it. motion [m]: of the tool on the bed since the tick
+        before; times servo_rate it is its velocity. tip [m]: its place on the bed. numbers: cell_size [m], talus_slope,
+        tolerance, radius [m], servo_rate [Hz], parameters (model.parameters).
 
     Lets other Python threads run meanwhile; Ctrl-C ends it.
     """
     here, samples = with_stroke(scene, stroke, settings)
-    here = _core._with_laws(here, dict(laws or {}))
-    return Run(_core._run(here, samples, "" if output is None else os.fspath(output), threads))
+    return Run(_core._run(with_laws(here, laws), samples, surface, "" if output is None else os.fspath(output), threads))
 
 
 def read(path: str | os.PathLike[str]) -> Run:

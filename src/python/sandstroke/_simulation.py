@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
 
 from . import _sandstroke as _core
-from ._arguments import Laws, Scene, SceneLike
+from ._arguments import Array, Laws, Scene, SceneLike, with_laws
 from ._sandstroke import Tick
 
 
@@ -16,7 +16,7 @@ class Simulation:
     """A device whose hand you move, for a controller, an optimiser or a learner.
 
     scene, settings: as in run(); a stroke of the scene is not played. slips: sand relaxes as the scene says; with
-    False only when relax() is called. laws: as in run(). With the hand of a stroke and its velocities, ticks have the bits of run().
+    False only when relax() is called. surface, laws: as in run(). With the hand of a stroke and its velocities, ticks have the bits of run().
 
         sim = sandstroke.Simulation("scene.toml")
         tick = sim.tick((0.01, 0.0, -0.004))
@@ -24,18 +24,17 @@ class Simulation:
     """
 
     def __init__(self, scene: SceneLike = {}, *, settings: Mapping[str, Any] | None = None, slips: bool = True,
-                 laws: Laws | None = None) -> None:
-        here = _core._with_laws(Scene(scene, settings)._here, dict(laws or {}))
-        self._stepped = _core._Simulation(here, slips)
+                 surface: Array | None = None, laws: Laws | None = None) -> None:
+        self._stepped = _core._Simulation(with_laws(Scene(scene, settings)._here, laws), slips, surface)
         #: tick(position, velocity=None, *, down=True, orientation=None): see tick()
         self.tick = self._stepped.tick
 
-    def tick(self, position: Sequence[float], velocity: Sequence[float] | None = None, *, down: bool = True,
-             orientation: Sequence[float] | None = None) -> Tick:
+    def tick(self, position: Array, velocity: Array | None = None, *, down: bool = True,
+             orientation: Array | None = None) -> Tick:
         """The hand is there [m] now; 1 / device.servo_rate later comes the next tick.
 
         velocity [m/s]: None is that of the way since the tick before. down: False lifts the tool. orientation: of the
-        hand, a quaternion (x, y, z, w), from how tool.orientation holds the tool.
+        hand, a quaternion (x, y, z, w), from how tool.orientation holds the tool. Beside the bed nothing is felt.
         """
         raise NotImplementedError  # the instance has its own, without a call in between
 
@@ -82,3 +81,6 @@ class Simulation:
         scene = Scene.__new__(Scene)
         scene._here = self._stepped.scene
         return scene
+
+    def __repr__(self) -> str:
+        return f"<sandstroke.Simulation at {self.time:.4f} s>"
