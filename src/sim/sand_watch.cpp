@@ -2,9 +2,11 @@
 
 #include <spdlog/fmt/fmt.h>
 
+#include <array>
 #include <cmath>
 #include <utility>
 
+#include "core/compensated_sum.h"
 #include "core/error.h"
 
 namespace sandstroke {
@@ -36,20 +38,49 @@ std::string no_number(const HeightField& bed, const std::string& law) {
 
 }  // namespace
 
-void SandWatch::check(const HeightField& bed, const std::string& law) const {
-  const double volume = bed.volume();
-  if (!std::isfinite(volume_)) return;  // as it was given
-  if (!std::isfinite(volume)) throw Error(ErrorKind::unstable, no_number(bed, law));
-  const double gained = volume - volume_;
-  if (gained == 0.0) return;
+SandWatch::SandWatch(const HeightField& bed) : untouched_(bed.untouched_bed()), at_first_(gained(bed)) {}
+
+double SandWatch::gained(const HeightField& bed) {
+  const bool replaced = &bed.untouched() != &untouched_.untouched();  // by another bed, of other revisions
+  if (replaced || replaced_) sums_.clear();
+  replaced_ = replaced;
+  sums_.resize(static_cast<std::size_t>(bed.allocated_tiles()));
+  std::array<double, HeightField::tile_area> heights, rule;
+  CompensatedSum all;
+  for (int slot = 0; slot < bed.allocated_tiles(); ++slot) {
+    const int tile = bed.tile_of(slot);
+    TileSum& sum = sums_[static_cast<std::size_t>(slot)];
+    if (sum.tile != tile || sum.revision != bed.tile_revision(tile)) {
+      const CellRange cells = bed.tile_cells(tile);
+      bed.read_tile(tile, heights.data());
+      untouched_.untouched().fill(bed, cells, rule.data(), HeightField::tile_side);
+      CompensatedSum more;
+      sum = {tile, bed.tile_revision(tile), 0.0, 0.0};
+      for (int row = 0; row < cells.rows(); ++row)
+        for (int col = 0; col < cells.cols(); ++col) {
+          const auto at = static_cast<std::size_t>(row * HeightField::tile_side + col);
+          more.add(heights[at]), more.add(-rule[at]);
+          sum.sand += std::abs(heights[at]);
+        }
+      sum.gained = more.value();
+    }
+    all.add(sum.gained);
+  }
+  return all.value();
+}
+
+void SandWatch::check(const HeightField& bed, const std::string& law) {
+  const double more = gained(bed) - at_first_;
+  if (more == 0.0 || !std::isfinite(at_first_)) return;  // or as it was given
+  if (!std::isfinite(more)) throw Error(ErrorKind::unstable, no_number(bed, law));
   double sand = 0.0;
-  visit_touched(bed, [&](int, int, double height) { sand += std::abs(height); });
-  sand *= bed.cell_area();
-  if (std::abs(gained) <= rounding * sand) return;
+  for (const TileSum& sum : sums_) sand += sum.sand;
+  const double share = std::abs(more) / sand;
+  if (share <= rounding) return;
   throw Error(ErrorKind::unstable,
               fmt::format("{} {} {:.3g} m^3 of sand, {:.2g} of what lies above and below z = 0; correct the "
                           "law: what it takes from a cell it has to give to others",
-                          law, gained < 0.0 ? "lost" : "made", std::abs(gained), std::abs(gained) / sand));
+                          law, more < 0.0 ? "lost" : "made", std::abs(more) * bed.cell_area(), share));
 }
 
 }  // namespace sandstroke

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
+#include <vector>
 
 #include "sand/height_field.h"
 
@@ -10,13 +12,25 @@ namespace sandstroke {
 class SandWatch {
  public:
   /// Of a bed before such a law touches it.
-  explicit SandWatch(const HeightField& bed) : volume_(bed.volume()) {}
-  /// After `law` (in words) changed it. Error: unstable, naming the law: where a height is not a number, or
-  /// the volume is another one than at first, by more than 1e-9 of what lies above and below z = 0.
-  void check(const HeightField& bed, const std::string& law) const;
+  explicit SandWatch(const HeightField& bed);
+  /// After `law` (in words) changed it; looks at the tiles whose revision is another one than last time.
+  /// Error: unstable, naming the law: where a height is not a number, or there is more or less sand than at
+  /// first, by more than 1e-9 of what lies above and below z = 0.
+  void check(const HeightField& bed, const std::string& law);
 
  private:
-  double volume_;  // m^3
+  struct TileSum {
+    int tile = -1;
+    std::uint64_t revision = 0;
+    double gained = 0.0, sand = 0.0;  // m, sums of h - what the rule says, and of |h|
+  };
+  /// What tiles have more than the rule says [m], in sums_.
+  double gained(const HeightField& bed);
+
+  HeightField untouched_;      // keeps the rule
+  std::vector<TileSum> sums_;  // by slot
+  bool replaced_ = false;
+  double at_first_;  // m, gained()
 };
 
 }  // namespace sandstroke

@@ -77,7 +77,7 @@ void TickLoop::check_near(const TickRecord& record) const {
                             record.time, distance, loop_remedies(scene_, device_.result().max_drag_force)));
 }
 
-void TickLoop::check_own_law(const char* key, const std::string& name) const {
+void TickLoop::check_own_law(const char* key, const std::string& name) {
   if (!name.empty()) watch_->check(bed_, law_in_words(scene_.own, key, name));
 }
 

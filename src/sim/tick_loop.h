@@ -43,7 +43,7 @@ class TickLoop {
 
  private:
   void check_near(const TickRecord& record) const;
-  void check_own_law(const char* key, const std::string& name) const;
+  void check_own_law(const char* key, const std::string& name);
 
   Scene scene_;
   HeightField bed_;

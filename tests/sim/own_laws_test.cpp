@@ -204,7 +204,7 @@ TEST(OwnLaws, WhatALawThrowsNamesIt) {
 TEST(SandWatch, SeesSandThatIsMadeOrLostButNoRounding) {
   HeightField bed(70, 80, 0.01);
   bed.set(3, 4, 0.5);
-  const SandWatch watch(bed);
+  SandWatch watch(bed);
   const auto check = [&] { watch.check(bed, "law 'x'"); };
   EXPECT_NO_THROW(check());
   for (int i = 0; i < 30; ++i) bed.set(10, 10 + i, 0.1), bed.set(40, 10 + i, -0.1);
@@ -214,6 +214,13 @@ TEST(SandWatch, SeesSandThatIsMadeOrLostButNoRounding) {
   EXPECT_TRUE(says(refusal_of(check, ErrorKind::unstable), "law 'x' made 1e-10 m^3 of sand"));
   bed.set(10, 10, 0.0);
   EXPECT_TRUE(says(refusal_of(check, ErrorKind::unstable), "law 'x' lost 1e-05 m^3 of sand"));
+  bed.set(10, 10, 0.1);
+  EXPECT_NO_THROW(check());
+  HeightField other(bed.grid(), bed.cell_size());
+  EXPECT_NO_THROW(watch.check(other, "a bed in its place"));
+  other.set(69, 79, 0.1);
+  EXPECT_THROW(watch.check(other, "a bed in its place"), Error);
+  EXPECT_NO_THROW(check());
   bed.set(10, 10, std::numeric_limits<double>::quiet_NaN());
   EXPECT_TRUE(says(refusal_of(check, ErrorKind::unstable), "law 'x' left a height that is not a number"));
 }

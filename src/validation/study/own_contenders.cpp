@@ -56,7 +56,7 @@ Peer peer_of(const OwnLawSettings& law) {
             scene.bed.cols = bed.cols(), scene.bed.rows = bed.rows();
             scene.bed.width = bed.cols() * bed.cell_size(), scene.bed.depth = bed.rows() * bed.cell_size();
             scene.relaxation.talus_angle = talus_angle;
-            const SandWatch watch(bed);
+            SandWatch watch(bed);
             const RelaxationOutcome outcome = make_relaxer(scene, bed.cell_size())->relax(bed);
             watch.check(bed, law_in_words(law, "relaxation", law.relaxation));
             return outcome;
