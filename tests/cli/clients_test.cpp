@@ -82,7 +82,7 @@ TEST_F(CliClients, XarrayAndH5pyOpenARunWithItsAxes) {
     expect_described(groups[1], field.name, std::is_same_v<Value, Eigen::Vector3d> ? vectors : over_time,
                      field.units);
   });
-  EXPECT_EQ(groups[1]["variables"]["contact"]["kind"], "u");
+  EXPECT_EQ(groups[1]["variables"]["contact"]["kind"], "b");  // bool
   expect_described(groups[2], "passes", over_time, "1");
   EXPECT_EQ(groups[2]["variables"]["passes"]["kind"], "i");
   for (const auto& [name, value] : run.provenance()) EXPECT_EQ(groups[3]["attrs"][name], value) << name;
