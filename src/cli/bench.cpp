@@ -24,18 +24,9 @@ struct BenchArguments {
   PluginOptions plugin;
 };
 
-/// The study's own, and laws of a plugin beside them.
-StudyOptions study_options(const BenchArguments& arguments) {
-  StudyOptions study = arguments.study;
-  study.own = arguments.plugin.laws();
-  for (const OwnLawSettings& law : study.own)
-    if (!law.relaxation.empty()) study.peers.push_back(peer_of(law));
-  if (study.problems.empty()) study.problems = problems_of(study.own);  // without a plugin: all
-  return study;
-}
-
 int bench(const BenchArguments& arguments) {
-  StudyOptions options = study_options(arguments);
+  StudyOptions options = arguments.study;
+  add_own_laws(options, arguments.plugin.laws());  // without a plugin: none, and all problems
   const StudyFiles files(arguments.folder);
   catch_interrupts();
   std::optional<Progress> bar(std::in_place, "bench");

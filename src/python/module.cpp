@@ -15,6 +15,7 @@
 #include "io/scene_toml.h"
 #include "python/arrays.h"
 #include "python/errors.h"
+#include "python/judging.h"
 #include "python/kept_run.h"
 #include "python/own_laws.h"
 #include "python/stepped.h"
@@ -169,6 +170,7 @@ PYBIND11_MODULE(_sandstroke, module) {
       .def_property_readonly("folder", [](const SceneHere& here) { return here.folder; });
   add_run(module);
   add_stepped(module);
+  add_judging(module);
   module.def("_scene_of_file", &scene_of_file);
   module.def("_scene_of_text", &scene_of_text);
   module.def("_run", [](const SceneHere& scene, const py::object& stroke, const py::object& surface,

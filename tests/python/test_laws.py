@@ -113,3 +113,20 @@ def test_ctrl_c_in_a_law_is_ctrl_c(small, line):
         with pytest.raises(KeyboardInterrupt):
             sandstroke.run(small, line, laws={kind: interrupted})
     sandstroke.run(small, line)
+
+
+def test_bench_says_whether_laws_converge(tmp_path):
+    found = sandstroke.bench({"force": spring, "displacement": ahead}, tmp_path / "bench", parameters=[500.0])
+    assert (tmp_path / "bench/bench.html").stat().st_size > 10_000
+    series = {run["series"] for run in found["runs"]}
+    assert any("spring" in one for one in series) and any("ahead" in one for one in series)
+    assert max(run["volume_drift"] or 0.0 for run in found["runs"]) < 1e-9
+
+
+def test_stress_finds_no_surprise_in_a_sound_law_and_one_in_another(tmp_path):
+    sound = sandstroke.stress({"force": spring}, parameters=[500.0])
+    assert len(sound["cases"]) > 5 and not any(case["surprise"] for case in sound["cases"])
+    wrong = sandstroke.stress({"force": lambda *_, **__: (0.0, np.nan, 0.0)})
+    assert any(case["surprise"] for case in wrong["cases"])
+    with pytest.raises(sandstroke.InputError, match="four at most"):
+        sandstroke.stress({"force": spring}, parameters=range(5))

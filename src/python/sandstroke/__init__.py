@@ -9,6 +9,7 @@ run, read, compare and render are functions; Simulation is a device that is step
 """
 
 from ._arguments import Laws, Scene, SceneLike, StrokeLike
+from ._judging import bench, stress
 from ._picture import render
 from ._run import Comparison, Run, compare, read, run
 from ._sandstroke import Error, FileError, InputError, Tick, UnstableError
@@ -17,5 +18,5 @@ from ._simulation import Simulation
 
 __all__ = [
     "Comparison", "Error", "FileError", "InputError", "Laws", "Run", "Scene", "SceneLike", "Simulation", "StrokeLike", "Tick",
-    "UnstableError", "compare", "read", "render", "run",
+    "UnstableError", "bench", "compare", "read", "render", "run", "stress",
 ]

@@ -152,10 +152,13 @@ def with_stroke(scene: SceneLike, stroke: StrokeLike | None, settings: Mapping[s
     return Scene(scene, {"stroke.file": IN_ARRAYS, **(settings or {})})._here, stroke_columns(stroke)
 
 
-def with_laws(here: Any, laws: Laws | None) -> Any:
-    """The scene with laws of one's own."""
-    if laws is None:
-        return here
+def check_laws(laws: Laws) -> dict[str, Any]:
+    """As a dictionary, of which the module sees to names and functions."""
     if not isinstance(laws, Mapping):
         raise _core.InputError('laws: give {"relaxation": f}, {"displacement": f} or {"force": f}, or several of them')
-    return _core._with_laws(here, dict(laws))
+    return dict(laws)
+
+
+def with_laws(here: Any, laws: Laws | None) -> Any:
+    """The scene with laws of one's own."""
+    return here if laws is None else _core._with_laws(here, check_laws(laws))

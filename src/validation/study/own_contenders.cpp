@@ -49,6 +49,13 @@ std::vector<std::string> problems_of(const std::vector<OwnLawSettings>& laws) {
   return names;
 }
 
+void add_own_laws(StudyOptions& study, const std::vector<OwnLawSettings>& laws) {
+  study.own = laws;
+  for (const OwnLawSettings& law : laws)
+    if (!law.relaxation.empty()) study.peers.push_back(peer_of(law));
+  if (study.problems.empty()) study.problems = problems_of(laws);
+}
+
 Peer peer_of(const OwnLawSettings& law) {
   return {series_of(law), [law](HeightField& bed, double talus_angle) {
             Scene scene;

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "validation/study/problem.h"
+#include "validation/study/study.h"
 
 namespace sandstroke {
 
@@ -19,6 +19,9 @@ std::string series_of(const OwnLawSettings& law);
 
 /// The problems that such laws take part in: the heaps, a stroke, a plunge.
 std::vector<std::string> problems_of(const std::vector<OwnLawSettings>& laws);
+
+/// Lets such laws take part in a study; where it names no problems, in those that they take part in.
+void add_own_laws(StudyOptions& study, const std::vector<OwnLawSettings>& laws);
 
 /// An own law of relaxation, for heaps; its sand is watched (SandWatch).
 Peer peer_of(const OwnLawSettings& law);

@@ -1,0 +1,63 @@
+#include "python/judging.h"
+
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include <algorithm>
+
+#include "python/errors.h"
+#include "python/own_laws.h"
+#include "validation/stress/stress.h"
+#include "validation/study/own_contenders.h"
+#include "validation/study/study_files.h"
+#include "validation/study/study_table.h"
+
+namespace sandstroke {
+namespace {
+
+namespace py = pybind11;
+
+std::vector<OwnLawSettings> settings_of(const py::dict& laws, const std::array<double, 4>& parameters) {
+  OwnLawSettings own = with_python_laws({}, laws).scene.own;
+  own.plugin = "Python";
+  own.parameters = parameters;
+  return single_laws(own, {});
+}
+
+/// As JSON text. folder: of the page.
+std::string bench(const py::dict& laws, const std::array<double, 4>& parameters,
+                  const std::filesystem::path& folder, bool quick, const std::vector<std::string>& problems) {
+  const std::vector<OwnLawSettings> own = settings_of(laws, parameters);
+  return or_what_ended_it([&] {
+    const py::gil_scoped_release let_go;
+    StudyOptions options;
+    options.quick = quick;
+    options.problems = problems;
+    add_own_laws(options, own);
+    SignalWatch signals;
+    options.progress = [&](double) { signals.look(); };
+    const StudyFiles files(folder);
+    const Study study = run_study(options);
+    files.write(study);
+    return study_json(study).dump();
+  });
+}
+
+std::string stress(const py::dict& laws, const std::array<double, 4>& parameters, bool quick) {
+  StressOptions options;
+  options.own = settings_of(laws, parameters);
+  options.quick = quick;
+  return or_what_ended_it([&] {
+    const py::gil_scoped_release let_go;
+    return as_json(stress_all(options)).dump();
+  });
+}
+
+}  // namespace
+
+void add_judging(py::module_& module) {
+  module.def("_bench", &bench);
+  module.def("_stress", &stress);
+}
+
+}  // namespace sandstroke

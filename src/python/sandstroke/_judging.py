@@ -1,0 +1,36 @@
+"""Whether a law of one's own converges, conserves and stays stable."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Sequence
+from typing import Any
+
+from . import _sandstroke as _core
+from ._arguments import Laws, check_laws
+
+
+def bench(laws: Laws, folder: str | os.PathLike[str] = "bench", *, parameters: Sequence[float] = (), quick: bool = True,
+          problems: Sequence[str] = ()) -> dict[str, Any]:
+    """Holds laws of your own (as in run()) against problems with known answers, beside the program's.
+
+    Writes folder/bench.html, a page of errors, orders and times, and gives its data. parameters: up to four numbers,
+    as model.parameters. quick=False takes finer grids. problems: names of some (`sandstroke bench --help`); without,
+    those that such laws take part in. A Python law may take minutes.
+    """
+    return json.loads(_core._bench(check_laws(laws), _four(parameters), os.fspath(folder), quick, list(problems)))
+
+
+def stress(laws: Laws, *, parameters: Sequence[float] = (), quick: bool = True) -> dict[str, Any]:
+    """Seeks where laws of your own lose sand, give what is no number, or find no end, as `sandstroke stress`.
+
+    Gives the page's data: "cases" have a verdict and whether it was a surprise.
+    """
+    return json.loads(_core._stress(check_laws(laws), _four(parameters), quick))
+
+
+def _four(parameters: Sequence[float]) -> list[float]:
+    if len(parameters) > 4:
+        raise _core.InputError(f"parameters: has {len(parameters)} numbers; a law has four at most")
+    return [*map(float, parameters), 0.0, 0.0, 0.0, 0.0][:4]
