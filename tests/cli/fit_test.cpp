@@ -83,8 +83,7 @@ TEST(CliFit, FindsTheSandOfTheOtherLaws) {
   EXPECT_FALSE(fit.contains("yield"));
   EXPECT_GT(fit["explained"], 0.999);
   const ProgramResult table = run_with({"fit", "scene.toml", "--stroke", "felt.h5"}, rft, folder);
-  EXPECT_NE(table.out.find("sandstroke run SCENE --set force.law=rft"), std::string::npos)
-      << table.out;
+  EXPECT_NE(table.out.find("sandstroke run SCENE --set force.law=rft"), std::string::npos) << table.out;
   EXPECT_NE(table.out.find(" --set force.friction_angle=37"), std::string::npos) << table.out;
   EXPECT_NE(table.out.find(" --set force.tool_friction=0."), std::string::npos) << table.out;
   EXPECT_EQ(table.err.find("warning"), std::string::npos) << table.err;
