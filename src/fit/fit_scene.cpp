@@ -4,8 +4,6 @@
 #include "core/interrupt.h"
 #include "fit/least_squares.h"
 #include "import/import_stroke.h"
-#include "io/mesh_file.h"
-#include "io/plugin_file.h"
 #include "io/scene_toml.h"
 #include "io/surface_file.h"
 #include "run/run_scene.h"
@@ -35,14 +33,12 @@ std::span<const ForceConstant> constants_of(ForceLaw law) {
 FeltStroke felt_stroke(const Scene& asked, const std::filesystem::path& scene_folder) {
   if (!asked.stroke)
     throw_input_error("the scene has no stroke; name one that was recorded with forces: --stroke FILE");
-  Scene scene = asked;
-  if (!scene.own.force.empty())
+  if (!asked.own.force.empty())
     throw_input_error(
         "model.force = \"{}\" is a law of a plugin, whose constants fit does not know; vary its "
         "model.parameters in a sweep, or leave it out to fit force.law",
-        scene.own.force);
-  scene.tool = with_mesh(scene.tool, scene_folder);
-  scene.own = with_plugin(scene.own, scene_folder);
+        asked.own.force);
+  Scene scene = with_files(asked, scene_folder);
   scene.device.model = DeviceModel::kinematic;
   const std::filesystem::path path = stroke_path(scene, scene_folder);
   std::string hash;

@@ -52,6 +52,24 @@ void take(const char* name, const py::object& given, std::vector<Number>& column
 
 }  // namespace
 
+py::array_t<double> copy_of(const HeightGrid& grid) {
+  py::array_t<double> array({grid.rows(), grid.cols()});
+  std::copy(grid.data(), grid.data() + grid.size(), array.mutable_data());
+  return array;
+}
+
+py::array_t<double> columns_of(const BedGeometry& bed) {
+  py::array_t<double> places(bed.cols());
+  for (int col = 0; col < bed.cols(); ++col) places.mutable_at(col) = bed.x_of(col);
+  return places;
+}
+
+py::array_t<double> rows_of(const BedGeometry& bed) {
+  py::array_t<double> places(bed.rows());
+  for (int row = 0; row < bed.rows(); ++row) places.mutable_at(row) = bed.y_of(row);
+  return places;
+}
+
 HeightGrid grid_of(const char* name, const py::object& given) {
   py::array array;
   try {

@@ -36,6 +36,13 @@ pybind11::array column_view(std::vector<Record>& records, const Of& of, pybind11
     return view_of(first.data(), {rows, first.size()}, {step, pybind11::ssize_t{sizeof(double)}}, owner);
 }
 
+/// As an array of somebody else's own.
+pybind11::array_t<double> copy_of(const HeightGrid& grid);
+
+// Centres of a bed's columns and rows [m].
+pybind11::array_t<double> columns_of(const BedGeometry& bed);
+pybind11::array_t<double> rows_of(const BedGeometry& bed);
+
 /// Heights: two dimensions, rows along y. Error: input, naming them, also where one is not a number.
 HeightGrid grid_of(const char* name, const pybind11::object& heights);
 

@@ -3,7 +3,7 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
-#include <algorithm>
+#include <array>
 
 #include "python/errors.h"
 #include "python/own_laws.h"
@@ -49,6 +49,8 @@ std::string stress(const py::dict& laws, const std::array<double, 4>& parameters
   options.quick = quick;
   return or_what_ended_it([&] {
     const py::gil_scoped_release let_go;
+    SignalWatch signals;
+    options.progress = [&](double) { signals.look(); };
     return as_json(stress_all(options)).dump();
   });
 }

@@ -11,7 +11,6 @@
 #include "core/version.h"
 #include "io/mesh_file.h"
 #include "io/run_file.h"
-#include "io/scene_keys.h"
 #include "io/scene_toml.h"
 #include "python/arrays.h"
 #include "python/errors.h"
@@ -65,12 +64,6 @@ py::array frames(const py::object& self) {
   const py::ssize_t rows = run.initial.rows(), cols = run.initial.cols();
   return view_of(run.frames.data(), {static_cast<py::ssize_t>(run.frame_times.size()), rows, cols},
                  {rows * cols * number, cols * number, number}, self);
-}
-
-py::array axis_of(int count, const std::function<double(int)>& place) {
-  py::array_t<double> axis(count);
-  for (int i = 0; i < count; ++i) axis.mutable_at(i) = place(i);
-  return py::array(axis);
 }
 
 SceneHere scene_of_file(const std::filesystem::path& path, const std::vector<std::string>& overrides) {
@@ -137,12 +130,8 @@ void add_run(py::module_& module) {
       .def_property_readonly("scene", [](const KeptRun& run) { return run.scene; })
       .def_property_readonly("summary", [](const KeptRun& run) { return run.summary.dump(); })
       .def_property_readonly("cell_size", [](const KeptRun& run) { return run.bed.cell_size(); })
-      .def_property_readonly(
-          "x",
-          [](const KeptRun& run) { return axis_of(run.bed.cols(), [&](int i) { return run.bed.x_of(i); }); })
-      .def_property_readonly(
-          "y",
-          [](const KeptRun& run) { return axis_of(run.bed.rows(), [&](int i) { return run.bed.y_of(i); }); })
+      .def_property_readonly("x", [](const KeptRun& run) { return columns_of(run.bed); })
+      .def_property_readonly("y", [](const KeptRun& run) { return rows_of(run.bed); })
       .def_property_readonly(
           "initial", [](const py::object& self) { return grid_view(self.cast<Run>()->initial, self); })
       .def_property_readonly("final",

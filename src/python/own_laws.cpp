@@ -3,6 +3,8 @@
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 
+#include <array>
+#include <cmath>
 #include <memory>
 #include <stdexcept>
 
@@ -38,11 +40,19 @@ class Function {
   std::shared_ptr<py::object> function_;
 };
 
-/// Heights that a function changes in place.
-py::array_t<double> copy_of(const HeightGrid& grid) {
-  py::array_t<double> array({grid.rows(), grid.cols()});
-  std::copy(grid.data(), grid.data() + grid.size(), array.mutable_data());
-  return array;
+/// Sets the cells from (row, col) on that a function changed; the volume moved [m^3].
+double take_changes(HeightField& bed, int first_row, int first_col, const HeightGrid& before,
+                    const py::array_t<double>& heights) {
+  const auto after = heights.unchecked<2>();
+  double moved = 0.0;
+  for (int row = 0; row < before.rows(); ++row)
+    for (int col = 0; col < before.cols(); ++col) {
+      const double height = after(row, col);
+      if (height == before(row, col)) continue;
+      moved += 0.5 * std::abs(height - before(row, col)) * bed.cell_size() * bed.cell_size();
+      bed.set(first_row + row, first_col + col, height);
+    }
+  return moved;
 }
 
 /// Of the numbers that laws may need.
@@ -76,14 +86,10 @@ class PythonRelaxer : public Relaxer {
       }
       const auto after = heights.unchecked<2>();
       for (int row = 0; row < bed.rows(); ++row)
-        for (int col = 0; col < bed.cols(); ++col) {
-          const double height = after(row, col);
-          if (height == before(row, col)) continue;
-          if (walls.at(row, col))
+        for (int col = 0; col < bed.cols(); ++col)
+          if (walls.at(row, col) && after(row, col) != before(row, col))
             throw std::runtime_error(fmt::format("it changed the wall in row {}, column {}", row, col));
-          outcome.moved_volume += 0.5 * std::abs(height - before(row, col)) * cell_size_ * cell_size_;
-          bed.set(row, col, height);
-        }
+      outcome.moved_volume = take_changes(bed, 0, 0, before, heights);
     }
     // Whether that is rest: by the scene's own law, which only looks.
     HeightField seen = bed;
@@ -119,16 +125,7 @@ class PythonDisplacer : public Displacer {
     py::array_t<double> heights = copy_of(before);
     law_(heights, copy_of(underside), py::array_t<double>(3, motion.data()),
          **numbers_of(scene_, cell_size_));
-    double moved = 0.0;
-    const auto after = heights.unchecked<2>();
-    for (int row = 0; row < cells.rows(); ++row)
-      for (int col = 0; col < cells.cols(); ++col) {
-        const double height = after(row, col);
-        if (height == before(row, col)) continue;
-        moved += 0.5 * std::abs(height - before(row, col)) * cell_size_ * cell_size_;
-        bed.set(cells.row_begin + row, cells.col_begin + col, height);
-      }
-    return moved;
+    return take_changes(bed, cells.row_begin, cells.col_begin, before, heights);
   }
 
  private:

@@ -7,7 +7,6 @@
 #include <memory>
 
 #include "core/error.h"
-#include "io/mesh_file.h"
 #include "io/surface_file.h"
 #include "python/arrays.h"
 #include "python/errors.h"
@@ -29,16 +28,13 @@ class Stepped {
     Warnings warnings;
     {
       const py::gil_scoped_release let_go;
-      Scene scene = here.scene;
-      scene.bed = with_own_range(scene.bed, folder_);
-      scene.tool = with_mesh(scene.tool, folder_);
+      const Scene scene = with_files(here.scene, folder_);
       simulation_ = std::make_unique<SteppedSimulation>(
           scene, start ? *start : load_surface(scene.bed, folder_), slips);
     }
     warnings.give();
   }
 
-  SteppedSimulation& operator*() { return *simulation_; }
   const SteppedSimulation* operator->() const { return simulation_.get(); }
   SteppedSimulation* operator->() { return simulation_.get(); }
   SceneHere scene() const { return {simulation_->scene(), folder_}; }
@@ -103,13 +99,6 @@ py::dict relax(Stepped& stepped) {
   return result;
 }
 
-py::array heights(const Stepped& stepped) {
-  const HeightGrid grid = stepped->bed().grid();
-  py::array_t<double> array({grid.rows(), grid.cols()});
-  std::copy(grid.data(), grid.data() + grid.size(), array.mutable_data());
-  return py::array(array);
-}
-
 }  // namespace
 
 void add_stepped(py::module_& module) {
@@ -147,13 +136,13 @@ void add_stepped(py::module_& module) {
       .def("lift", [](Stepped& stepped) { stepped->lift(); })
       .def("height_at",
            [](const Stepped& stepped, double x, double y) { return stepped->bed().height_at(x, y); })
-      .def_property_readonly("heights", &heights)
+      .def_property_readonly("heights", [](const Stepped& stepped) { return copy_of(stepped->bed().grid()); })
       .def_property_readonly("time", [](const Stepped& stepped) { return stepped->time(); })
       .def_property_readonly("scene", &Stepped::scene)
       .def_property_readonly("volume", [](const Stepped& stepped) { return stepped->bed().volume(); })
       .def_property_readonly("cell_size", [](const Stepped& stepped) { return stepped->bed().cell_size(); })
-      .def("x_of", [](const Stepped& stepped, int col) { return stepped->bed().x_of(col); })
-      .def("y_of", [](const Stepped& stepped, int row) { return stepped->bed().y_of(row); });
+      .def_property_readonly("x", [](const Stepped& stepped) { return columns_of(stepped->bed()); })
+      .def_property_readonly("y", [](const Stepped& stepped) { return rows_of(stepped->bed()); });
 }
 
 }  // namespace sandstroke

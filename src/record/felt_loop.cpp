@@ -18,12 +18,10 @@ double rounded_down(double value) {
   return std::floor(value / unit) * unit;
 }
 
-bool is_paper(const Scene& scene) { return scene.force.law == ForceLaw::paper; }
-
 /// As the device feels it, at the largest force.
 FeltSand sand_felt(const Scene& scene, const FeltLoop& loop) {
   const double force = loop.force, scale = loop.scale;
-  if (!is_paper(scene)) return {scale * contact_stiffness(scene, force, loop.turns), 0.0};
+  if (is_contact_law(scene)) return {scale * contact_stiffness(scene, force, loop.turns), 0.0};
   return felt_sand(depth_of_repulse_force(force, scene.force), force, scale, scene.force);
 }
 
@@ -76,7 +74,7 @@ std::optional<FeltLoop> felt_loop(const Scene& scene, const DeviceSpecification&
   FeltLoop loop;
   loop.force = largest_force(scene, device, max_force);
   if (loop.force <= 0.0 || loop.force >= any_force) return std::nullopt;
-  if (is_paper(scene) && (scene.force.k_s <= 0.0 || scene.force.k_c <= 0.0)) return std::nullopt;
+  if (!is_contact_law(scene) && (scene.force.k_s <= 0.0 || scene.force.k_c <= 0.0)) return std::nullopt;
   loop.scale = scene.device.scale * (scene.stroke ? scene.stroke->placement.scale : 1.0);
   loop.turns = device.measures_orientation;
   loop.device = scene.device;
@@ -92,7 +90,7 @@ std::optional<FeltLoop> felt_loop(const Scene& scene, const DeviceSpecification&
 
 std::optional<Scene> settling_scene(const FeltLoop& loop, const Scene& scene) {
   Scene settling = scene;
-  if (is_paper(scene)) {
+  if (!is_contact_law(scene)) {
     settling.force = settling_force(loop, scene.force);
   } else if (!loop.is_stable()) {
     const std::optional<double> yield = settling_yield(loop, scene);

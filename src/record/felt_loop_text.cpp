@@ -63,7 +63,7 @@ void check_felt_loop(const FeltLoop& loop, const Scene& scene, const std::string
         "{}: the sand has {} at {:.3g} N, and the device names {} as its most. In theory the hand settles; "
         "lower --max-force{} if it buzzes",
         name, felt_sand_text(loop.felt), loop.force, named_text(loop.named),
-        scene.force.law == ForceLaw::paper ? " or force.k_f" : ", or raise force.yield,");
+        is_contact_law(scene) ? ", or raise force.yield," : " or force.k_f");
 }
 
 }  // namespace sandstroke

@@ -94,11 +94,15 @@ std::string scene_file_entry(const std::filesystem::path& scene_file, const std:
   return std::filesystem::proximate(scene_file, folder).generic_string();
 }
 
+Scene with_files(Scene scene, const std::filesystem::path& folder) {
+  scene.bed = with_own_range(scene.bed, folder);  // so that a run file says it
+  scene.tool = with_mesh(scene.tool, folder);
+  scene.own = with_plugin(scene.own, folder);
+  return scene;
+}
+
 RunResult run_scene(const Scene& asked, const std::filesystem::path& output, const RunOptions& options) {
-  Scene scene = asked;
-  scene.bed = with_own_range(scene.bed, options.scene_folder);  // so that the run file says it
-  scene.tool = with_mesh(scene.tool, options.scene_folder);
-  scene.own = with_plugin(scene.own, options.scene_folder);
+  const Scene scene = with_files(asked, options.scene_folder);
   const int cores = tbb::info::default_concurrency();
   const int threads = options.threads > 0 ? std::min(options.threads, cores) : cores;
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,

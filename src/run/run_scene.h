@@ -26,6 +26,10 @@ struct RunOptions {
   std::function<void(const Simulation&, const RunResult&)> at_end;
 };
 
+/// The scene with what its files hold besides stroke and surface: the range of a PNG's heights, the tool's
+/// mesh, a plugin's laws. Files are relative to `folder`. Error: io, input.
+Scene with_files(Scene scene, const std::filesystem::path& folder);
+
 /// The scene's stroke, from that file, as it is played, and the hash of its content. Warns of what it leaves
 /// out. Error: io, input.
 Stroke placed_stroke(const Scene& scene, const std::filesystem::path& path, std::string& hash);

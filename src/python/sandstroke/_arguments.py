@@ -69,6 +69,12 @@ class Scene:
         else:
             raise _core.InputError(f"scene: give a TOML file, a mapping or a Scene, not {type(scene).__name__}")
 
+    @classmethod
+    def _of(cls, here: Any) -> Scene:
+        scene = cls.__new__(cls)
+        scene._here = here
+        return scene
+
     @property
     def text(self) -> str:
         """Every setting, as TOML."""
@@ -96,9 +102,7 @@ class Scene:
 
 
 def _scene_again(text: str, folder: str) -> Scene:
-    scene = Scene.__new__(Scene)
-    scene._here = _core._scene_of_text(text, folder, [])
-    return scene
+    return Scene._of(_core._scene_of_text(text, folder, []))
 
 
 Laws = Mapping[str, Callable[..., Any]]

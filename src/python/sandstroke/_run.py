@@ -79,9 +79,7 @@ class Run:
     @property
     def scene(self) -> Scene:
         """All settings of the run."""
-        scene = Scene.__new__(Scene)
-        scene._here = self._kept.scene
-        return scene
+        return Scene._of(self._kept.scene)
 
     @property
     def path(self) -> str | None:

@@ -15,8 +15,9 @@ from ._sandstroke import Tick
 class Simulation:
     """A device whose hand you move, for a controller, an optimiser or a learner.
 
-    scene, settings: as in run(); a stroke of the scene is not played. slips: sand relaxes as the scene says; with
-    False only when relax() is called. surface, laws: as in run(). With the hand of a stroke and its velocities, ticks have the bits of run().
+    scene, settings, surface, laws: as in run(); a stroke of the scene is not played. slips: sand relaxes as the scene
+    says; with False only when relax() is called. With the hand of a stroke and its velocities, ticks have the bits of
+    run().
 
         sim = sandstroke.Simulation("scene.toml")
         tick = sim.tick((0.01, 0.0, -0.004))
@@ -26,7 +27,6 @@ class Simulation:
     def __init__(self, scene: SceneLike = {}, *, settings: Mapping[str, Any] | None = None, slips: bool = True,
                  surface: Array | None = None, laws: Laws | None = None) -> None:
         self._stepped = _core._Simulation(with_laws(Scene(scene, settings)._here, laws), slips, surface)
-        #: tick(position, velocity=None, *, down=True, orientation=None): see tick()
         self.tick = self._stepped.tick
 
     def tick(self, position: Array, velocity: Array | None = None, *, down: bool = True,
@@ -68,19 +68,17 @@ class Simulation:
     @property
     def x(self) -> np.ndarray:
         """Centres of the columns [m]."""
-        return np.array([self._stepped.x_of(i) for i in range(self.heights.shape[1])])
+        return self._stepped.x
 
     @property
     def y(self) -> np.ndarray:
         """Centres of the rows [m]."""
-        return np.array([self._stepped.y_of(i) for i in range(self.heights.shape[0])])
+        return self._stepped.y
 
     @property
     def scene(self) -> Scene:
         """All its settings."""
-        scene = Scene.__new__(Scene)
-        scene._here = self._stepped.scene
-        return scene
+        return Scene._of(self._stepped.scene)
 
     def __repr__(self) -> str:
         return f"<sandstroke.Simulation at {self.time:.4f} s>"
