@@ -4,7 +4,7 @@ set(doc ${CMAKE_INSTALL_DATAROOTDIR}/doc)
 install(FILES README.md DESTINATION ${doc}/sandstroke COMPONENT program)
 install(DIRECTORY strokes/ DESTINATION ${doc}/sandstroke/examples COMPONENT program)
 # Debian has the texts of common licences, and wants one file that says which apply to what.
-install(FILES LICENSE src/report/assets/echarts.LICENSE src/report/assets/echarts.NOTICE
+install(FILES LICENSE src/report/assets/echarts.LICENSE src/report/assets/echarts.NOTICE src/picture/futural.NOTICE
         DESTINATION ${doc}/sandstroke COMPONENT licences)
 
 set(CPACK_GENERATOR DEB)
@@ -22,13 +22,12 @@ set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME sandstroke)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS hershey-fonts-data)  # the letters of scripted strokes
 if(SANDSTROKE_GL STREQUAL "egl" OR NOT TARGET sandstroke_osmesa)  # what draws is loaded, unseen by dpkg-shlibdeps
-  string(APPEND CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS ", libgl1-mesa-dri")
+  set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS libgl1-mesa-dri)
 else()
-  string(APPEND CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS ", libosmesa6")
+  set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS libosmesa6)
 endif()
-set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS ffmpeg)  # films: render --video
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "ffmpeg, hershey-fonts-data")  # films; more fonts for scripts
 set(CPACK_DEBIAN_PROGRAM_DESCRIPTION "Plays scripted or recorded strokes through a bed of sand: a stroke goes in;
 a height field, a force trace, a picture and a verdict come out, the same
 bits for the same input. Needs neither a screen nor the haptic device.")
@@ -36,7 +35,7 @@ bits for the same input. Needs neither a screen nor the haptic device.")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libsandstroke-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
-    "libeigen3-dev, libspdlog-dev, libtbb-dev, libhwy-dev, libhersheyfont-dev")
+    "libeigen3-dev, libspdlog-dev, libtbb-dev, libhwy-dev")
 set(CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION "For programs of your own: the simulation (sand, haptics, sim) as static
 libraries, with headers and a CMake package.")
 

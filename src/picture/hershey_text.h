@@ -1,12 +1,9 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
-
-struct hershey_font;  // of the library hersheyfont
 
 namespace sandstroke {
 
@@ -17,18 +14,24 @@ struct SingleStrokeText {
   double width = 0.0;
 };
 
-/// A single-stroke Hershey font from hershey-fonts-data ("futural", "rowmans", "cursive", ...), read once.
+/// A single-stroke Hershey font. "futural" is part of the program; others ("rowmans", "cursive", ...) are
+/// those of Debian's package hershey-fonts-data.
 class HersheyFont {
  public:
-  /// Error: input, if there is no such font.
+  /// Error: input, if there is no such font, or its file is damaged; io.
   explicit HersheyFont(std::string_view name);
   /// Error: input, if a letter is missing.
   SingleStrokeText draw(std::string_view text) const;
 
  private:
   std::string name_;
-  std::unique_ptr<hershey_font, void (*)(hershey_font*)> font_;
+  std::vector<SingleStrokeText> glyphs_;  // from the space (code 32) on
 };
+
+/// The glyphs of a font, from ASCII's space on, in James Hurt's format (.jhf): for each five columns of its
+/// number, three of its count of letter pairs, and the pairs; a long one goes on in the next line. Error:
+/// input, with the font's name.
+std::vector<SingleStrokeText> read_jhf(std::string_view jhf, std::string_view name);
 
 /// Draws text with a font of that name. Error: input, if the font or a letter is missing.
 SingleStrokeText hershey_text(std::string_view text, std::string_view font = "futural");

@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
 #include "core/error.h"
 
 namespace sandstroke {
@@ -15,6 +19,16 @@ TEST(HersheyText, CapitalsStandOnTheBaseLineAndAreOneHigh) {
   EXPECT_EQ(text.polylines.size(), 3u);  // two uprights and a bar
   EXPECT_DOUBLE_EQ(low, 0.0);
   EXPECT_DOUBLE_EQ(high, 1.0);
+}
+
+TEST(HersheyText, APointIsCountedFromTheLeftEdgeAndTheBaseLine) {
+  // In the font "12345  9MWRFRT RRYQZR[SZRY": from M to W are 10 units, and 21 to a capital.
+  const SingleStrokeText text = hershey_text("!");
+  ASSERT_EQ(text.polylines.size(), 2u);
+  EXPECT_DOUBLE_EQ(text.width, 10.0 / 21.0);
+  EXPECT_EQ(text.polylines[0], (std::vector<Eigen::Vector2d>{{5.0 / 21.0, 1.0}, {5.0 / 21.0, 7.0 / 21.0}}));
+  EXPECT_EQ(text.polylines[1].size(), 5u);
+  EXPECT_EQ(text.polylines[1].front(), text.polylines[1].back());
 }
 
 TEST(HersheyText, LettersFollowEachOther) {
@@ -32,10 +46,52 @@ TEST(HersheyText, AFontIsReadOnceForManyTexts) {
   }
 }
 
+TEST(HersheyText, OtherFontsAreReadWhereTheyAreInstalled) {
+  const std::filesystem::path folder = "/usr/share/hershey-fonts";
+  if (!std::filesystem::exists(folder)) GTEST_SKIP() << "hershey-fonts-data is not installed";
+  int fonts = 0;
+  for (const auto& file : std::filesystem::directory_iterator(folder)) {
+    const HersheyFont font(file.path().stem().string());
+    for (char code = '!'; code < '\x7f'; ++code) {
+      SingleStrokeText drawn;
+      try {
+        drawn = font.draw({&code, 1});
+      } catch (const Error&) {  // fonts of signs lack some
+      }
+      for (const auto& line : drawn.polylines)
+        for (const auto& point : line) ASSERT_LT(point.cwiseAbs().maxCoeff(), 3.0) << file << code;
+    }
+    ++fonts;
+  }
+  EXPECT_GE(fonts, 32);
+  // The font that is part of the program is Debian's.
+  std::ostringstream debians;
+  debians << std::ifstream(folder / "futural.jhf").rdbuf();
+  std::ostringstream ours;
+  ours << std::ifstream(SANDSTROKE_SOURCE "/src/picture/futural.jhf").rdbuf();
+  EXPECT_EQ(ours.str(), debians.str());
+}
+
+TEST(HersheyText, ALongGlyphGoesOnInTheNextLine) {
+  const auto whole = read_jhf("    1  4MWRFRTRZ\n", "own"),
+             broken = read_jhf("    1  4MWRF\nRTRZ\r\n", "own");
+  ASSERT_EQ(whole.size(), 1u);
+  EXPECT_EQ(whole[0].polylines, broken.at(0).polylines);
+  EXPECT_EQ(whole[0].polylines.at(0).size(), 3u);
+}
+
+TEST(HersheyText, RefusesDamagedFonts) {
+  for (const char* jhf :
+       {"    1  9MWRF\n", "    1  0\n", "    1 -1MW\n", "    1", "no font at all\n", "    1  1M"})
+    EXPECT_THROW(read_jhf(jhf, "own"), Error) << jhf;
+  EXPECT_TRUE(read_jhf("", "own").empty());
+}
+
 TEST(HersheyText, RefusesFontsAndLettersThatAreNotThere) {
   EXPECT_THROW(hershey_text("A", "no-such-font"), Error);
   EXPECT_THROW(hershey_text("A", "../futural"), Error);
   EXPECT_THROW(hershey_text("\xff"), Error);
+  EXPECT_THROW(hershey_text("A", ""), Error);
 }
 
 }  // namespace
