@@ -3,11 +3,14 @@
 #include <spdlog/fmt/fmt.h>
 #include <spdlog/spdlog.h>
 
+#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
+#include <thread>
 
 #include "core/error.h"
+#include "core/interrupt.h"
 
 namespace sandstroke {
 namespace {
@@ -43,6 +46,12 @@ std::unique_ptr<ViewOpener> announce_view(const ViewServer& server, bool opens) 
     spdlog::warn("the view was not opened: {}", failure.what());
     return nullptr;
   }
+}
+
+void wait_for_page(const ViewServer& server, const char* what) {
+  fmt::print(stderr, "the {} begins when the page is open\n", what);
+  while (server.pages() == 0 && !interrupted())
+    std::this_thread::sleep_for(std::chrono::duration<double>(picture_interval));
 }
 
 }  // namespace sandstroke

@@ -26,4 +26,9 @@ class ViewOpener {
 /// desktop, and not in CI, a browser opens it; what opens it is kept while the view lives.
 std::unique_ptr<ViewOpener> announce_view(const ViewServer& server, bool opens);
 
+/// Returns when the first page watches, so that it sees all, however long a browser takes; or at an
+/// interrupt. what
+/// ("run") begins then: stderr says so.
+void wait_for_page(const ViewServer& server, const char* what);
+
 }  // namespace sandstroke

@@ -83,7 +83,6 @@ std::vector<fs::path> inputs(const RecordArguments& arguments, const std::option
 
 RecordingReport record_stroke(HapticDevice& device, FeltWorld* world, const RecorderSettings& settings,
                               RecordingHeader header, const fs::path& output, RecordView* view) {
-  catch_all_interrupts();
   StopKeys keys;
   RecordDisplay display(keys.listening() ? "; q ends it" : "");
   double shown = -1.0;  // tenths of a second
@@ -214,6 +213,7 @@ int record(const RecordArguments& arguments) {
     if (const std::optional<FeltLoop> loop =
             felt_loop(*felt, device->specification(), settings.servo.force.max_force, settings.servo.rate))
       check_felt_loop(*loop, *felt, arguments.felt_scene);
+  catch_all_interrupts();
   RecordingHeader header;
   header.source = arguments.device;
   std::optional<RecordView> view;

@@ -18,7 +18,9 @@ RecordView::RecordView(const std::string& title, const Scene& scene, const Heigh
     : bed_(start),
       server_({bed_, state_, hello_of(title, scene, start, max_force, pointer),
                html_page(title, PageScript::live, {}), pointer}),
-      opener_(announce_view(server_, opens)) {}
+      opener_(announce_view(server_, opens)) {
+  if (!pointer) wait_for_page(server_, "recording");
+}
 
 void RecordView::follow(LiveSand& sand) {
   sand_ = &sand;

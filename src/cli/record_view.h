@@ -15,7 +15,8 @@ namespace sandstroke {
 class RecordView {
  public:
   /// start: the bed before anything touches it. max_force [N]: on the hand. pointer: none, where pages only
-  /// watch; outlives it. Error: input, for a bed that is too large; io.
+  /// watch, and then it waits for one of them, or an interrupt; outlives it. Error: input, for a bed that is
+  /// too large; io.
   RecordView(const std::string& title, const Scene& scene, const HeightField& start, double max_force,
              PointerDevice* pointer, bool opens);
 

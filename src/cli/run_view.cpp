@@ -1,10 +1,7 @@
 #include "cli/run_view.h"
 
-#include <spdlog/fmt/fmt.h>
-
 #include <algorithm>
 #include <chrono>
-#include <cstdio>
 #include <limits>
 #include <thread>
 
@@ -29,8 +26,7 @@ RunView::RunView(const Simulation& simulation, const std::string& title, bool op
                html_page(title, PageScript::live, {})}),
       opener_(announce_view(server_, opens)),
       playing_(simulation.stroke_seconds() > 0.0) {
-  fmt::print(stderr, "the run begins when the page is open\n");
-  while (server_.pages() == 0 && !interrupted()) sleep(picture_interval);
+  wait_for_page(server_, "run");
 }
 
 void RunView::on_tick(const TickRecord& tick) {
