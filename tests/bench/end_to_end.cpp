@@ -16,6 +16,7 @@
 #include <stdexcept>
 
 #include "report/page.h"
+#include "validation/study/study.h"
 
 namespace sandstroke {
 namespace {
@@ -39,6 +40,7 @@ std::string table_of(const nlohmann::json& rows) {
   const bool compares = !rows.empty() && rows[0].contains("before");
   std::string text = compares ? "| what | | before | now | times |\n|---|---|---|---|---|\n"
                               : "| what | | |\n|---|---|---|\n";
+  bool disturbed = false;
   const auto number = [](const nlohmann::json& value) {
     const double x = value.get<double>();
     return x < 1000.0 ? fmt::format("{:.3g}", x) : fmt::format("{:.0f}", x);
@@ -46,10 +48,13 @@ std::string table_of(const nlohmann::json& rows) {
   for (const nlohmann::json& row : rows) {
     text += "| " + row["name"].get<std::string>() + " | " + row["unit"].get<std::string>() + " | ";
     if (compares) text += number(row["before"]) + " | ";
-    text += number(row["value"]);
+    text += number(row["value"]) + (row["disturbed"].get<bool>() ? " *" : "");
     if (compares) text += " | " + fmt::format("{:.2f}", row["ratio"].get<double>());
     text += " |\n";
+    disturbed = disturbed || row["disturbed"].get<bool>();
   }
+  if (disturbed)
+    text += "\n\\* Repeats differ by more than 20 %: other programs disturbed them. Measure again.\n";
   return text;
 }
 
@@ -85,12 +90,6 @@ nlohmann::json in_child(const std::function<nlohmann::json()>& measure) {
   return nlohmann::json::parse(text);
 }
 
-double cpu_seconds() {
-  timespec time{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
-  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-}
-
 double median(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
@@ -101,6 +100,8 @@ nlohmann::json spread(const std::vector<double>& values) {
   return {{"median", median(values)},
           {"least", *std::min_element(values.begin(), values.end())},
           {"largest", *std::max_element(values.begin(), values.end())},
+          {"disturbed", is_disturbed(*std::min_element(values.begin(), values.end()),
+                                     *std::max_element(values.begin(), values.end()), 0.0)},
           {"repeats", values.size()}};
 }
 

@@ -25,16 +25,13 @@ nlohmann::json measure_paper_law(const BenchOptions& options);
 nlohmann::json measure_sweeps(const BenchOptions& options);
 nlohmann::json measure_recording(const BenchOptions& options);
 /// Rows of name, unit, value, and with a program to compare with: before, and how many times better it is
-/// now.
+/// now; disturbed: repeats of one program differ by more than 20 %.
 nlohmann::json measure_speed(const BenchOptions& options);
 /// Ten minutes with pages that look on: memory must not grow.
 nlohmann::json measure_soak(const BenchOptions& options);
 
 /// Runs `measure` in a child process and adds "peak_rss_bytes": by how much it raised its resident memory.
 nlohmann::json in_child(const std::function<nlohmann::json()>& measure);
-
-/// CPU time of this process [s]: other programs disturb it less than they do the clock on the wall.
-double cpu_seconds();
 
 double median(std::vector<double> values);
 

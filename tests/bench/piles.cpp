@@ -36,9 +36,9 @@ nlohmann::json relax(HeightField& bed, const Method& method) {
   const auto relaxer = make_relaxer(settings, bed.cell_size());
   const double volume = bed.volume();
   const Stopwatch watch;
-  const double cpu_begin = cpu_seconds();
+  const double cpu_begin = processor_seconds();
   const RelaxationOutcome outcome = relaxer->relax(bed);
-  const double cpu = cpu_seconds() - cpu_begin;
+  const double cpu = processor_seconds() - cpu_begin;
   const double seconds = watch.seconds();
   return {{"method", method.name},
           {"cells", bed.rows()},

@@ -13,6 +13,7 @@
 #include "core/child_process.h"
 #include "core/stopwatch.h"
 #include "core/temporary_folder.h"
+#include "validation/study/study.h"
 
 namespace sandstroke {
 namespace {
@@ -190,12 +191,18 @@ nlohmann::json measure_speed(const BenchOptions& options) {
   for (const Line& line : lines(options.quick)) {
     std::vector<double> best(programs.size(),
                              line.more_is_better ? 0.0 : std::numeric_limits<double>::infinity());
+    std::vector<std::vector<double>> values(programs.size());
     for (int repeat = 0; repeat < line.repeats; ++repeat)
       for (std::size_t i = 0; i < programs.size(); ++i) {  // in turn
         const double value = line.measure(programs[i]);
         best[i] = line.more_is_better ? std::max(best[i], value) : std::min(best[i], value);
+        values[i].push_back(value);
       }
     nlohmann::json row = {{"name", line.name}, {"unit", line.unit}, {"value", best.back()}};
+    row["disturbed"] = std::any_of(values.begin(), values.end(), [](const std::vector<double>& of_program) {
+      const auto [least, largest] = std::minmax_element(of_program.begin(), of_program.end());
+      return is_disturbed(*least, *largest, 0.0);
+    });
     if (programs.size() > 1) {
       row["before"] = best.front();
       row["ratio"] = line.more_is_better ? best.back() / best.front() : best.front() / best.back();

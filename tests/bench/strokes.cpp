@@ -9,6 +9,7 @@
 
 #include "bench/end_to_end.h"
 #include "core/hash.h"
+#include "core/stopwatch.h"
 #include "haptics/stroke_script.h"
 #include "reference/relaxation_reference.h"
 #include "sim/simulation.h"
@@ -68,9 +69,9 @@ Replay replay(const Scene& scene, const Stroke& stroke, std::unique_ptr<Relaxer>
   Simulation simulation(scene, HeightField(scene.bed.rows, scene.bed.cols, scene.bed.cell_size()), stroke,
                         std::move(relaxer));
   RelaxationClock clock;
-  const double cpu_begin = cpu_seconds();
+  const double cpu_begin = processor_seconds();
   const RunResult result = simulation.run({&clock});
-  return {result, cpu_seconds() - cpu_begin, clock.seconds(), simulation.bed()};
+  return {result, processor_seconds() - cpu_begin, clock.seconds(), simulation.bed()};
 }
 
 /// The first moments of contact with the engine and the reference, and what the whole stroke would take the
@@ -212,7 +213,7 @@ class Minutes : public SimulationObserver {
   explicit Minutes(double seconds) : seconds_(seconds) {}
   void on_tick(const TickRecord& record) override {
     if (record.time < seconds_ * static_cast<double>(cpu_seconds.size() + 1)) return;
-    const double now = sandstroke::cpu_seconds();
+    const double now = processor_seconds();
     cpu_seconds.push_back(now - std::exchange(last_, now));
     std::int64_t pages = 0, resident = 0;
     std::ifstream("/proc/self/statm") >> pages >> resident;
@@ -221,7 +222,7 @@ class Minutes : public SimulationObserver {
   std::vector<double> cpu_seconds, resident_bytes;
 
  private:
-  double seconds_, last_ = sandstroke::cpu_seconds();
+  double seconds_, last_ = processor_seconds();
 };
 
 }  // namespace

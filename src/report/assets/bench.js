@@ -205,10 +205,12 @@ drawPage((data, main) => {
     for (const run of own) {
       const key = `${run.tool}, ${run.label}`;
       if (!rows.has(key)) rows.set(key, { tool: run.tool, label: run.label });
-      Object.assign(rows.get(key), { [run.force_law]: run.tick_microseconds, [`${run.force_law} times`]: run.of_paper });
+      Object.assign(rows.get(key), { [run.force_law]: run.tick_microseconds, [`${run.force_law} times`]: run.of_paper,
+                                     [`${run.force_law} disturbed`]: run.disturbed });
     }
     return table([{ name: "tool", title: "Tool" }, { name: "label", title: "Settings" },
-                  ...laws.map((law) => ({ name: law, title: law, unit: "µs", cell: (row) => toTwo(row[law]) })),
+                  ...laws.map((law) => ({ name: law, title: law, unit: "µs",
+                                cell: (row) => toTwo(row[law]) + (row[`${law} disturbed`] ? " *" : "") })),
                   ...laws.filter((law) => law !== "paper").map((law) =>
                     ({ name: `${law} times`, title: `${law} over paper`, cell: (row) => toTwo(row[`${law} times`]) }))],
                  [...rows.values()], { label: "Time of a tick" }).element;
@@ -217,11 +219,12 @@ drawPage((data, main) => {
   main.append(el("h1", {}, document.title), machineLine(data.machine));
   if (data.quick)
     main.append(el("p", { class: "warning" }, "A quick run: few and coarse runs, to see that all works."));
+  if (data.disturbance) main.append(el("p", { class: "warning" }, data.disturbance));
   if (runs.length === 0) {
     main.append(el("p", {}, "Nothing was measured: this study holds no runs."));
   } else {
     main.append(el("p", {},
-      "Each point is a run. Run time is the median of repeats. The repeats take turns, so a change of the " +
+      "Each point is a run. Run time is the least of repeats. The repeats take turns, so a change of the " +
       "machine's speed affects all runs alike. The error is the distance to the known answer, or to a converged " +
       "solution. Errors below the dotted line mean nothing, because that answer is no more exact. Point at a " +
       "symbol for its figures. Click on a name to hide its line."));
@@ -275,9 +278,10 @@ drawPage((data, main) => {
     },
     runs: () => {
       const all = table([problemColumn, { name: "series", title: "Series" }, { name: "label", title: "Run" },
-                         ...columns.filter(({ name }) => !["problem", "series", "label", "pareto"].includes(name)),
-                         { name: "pareto", title: "Front", value: (row) => (row.pareto ? "●" : null),
-                                        cell: (row) => (row.pareto ? "●" : "") }],
+                         ...columns.filter(({ name }) => !["problem", "series", "label", "disturbed", "pareto"].includes(name)),
+                         ...[["disturbed", "Disturbed", "*"], ["pareto", "Front", "●"]].map(([name, title, mark]) =>
+                           ({ name, title, value: (row) => (row[name] ? mark : null),
+                              cell: (row) => (row[name] ? mark : "") }))],
                         runs, { label: "All runs" });
       const choice = el("select", { change: (event) => all.show((row) =>
         event.target.value === "" || row.problem === problems[Number(event.target.value)].name) },

@@ -8,6 +8,7 @@
 
 #include "core/error.h"
 #include "core/interrupt.h"
+#include "core/stopwatch.h"
 #include "validation/study/study_table.h"
 
 namespace sandstroke {
@@ -55,7 +56,7 @@ class Race {
   /// progress: share of this problem that is done.
   std::vector<StudyRun> run(int repeats, const std::function<void(double)>& progress) {
     const std::size_t count = problem_.contenders.size();
-    runs_.resize(count), seconds_.resize(count);
+    runs_.resize(count), seconds_.resize(count), waited_.resize(count);
     for (int repeat = 0; repeat < repeats; ++repeat)
       for (std::size_t i = 0; i < count; ++i) {
         if (interrupted()) return {};
@@ -95,6 +96,8 @@ class Race {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                     static_cast<std::size_t>(contender.settings.threads));
     Trial trial;
+    const Stopwatch watch;
+    const double worked_before = processor_seconds();
     try {
       trial = contender.run();
     } catch (const Error& failure) {
@@ -110,11 +113,17 @@ class Race {
     run.step = contender.step;
     run.foreign = contender.foreign;
     run.score = trial.score;
+    // Of one thread alone is known how long it would have worked.
+    const double idle_share =
+        contender.settings.threads == 1 ? 1.0 - (processor_seconds() - worked_before) / watch.seconds() : 0.0;
     std::vector<double>& seconds = seconds_[i];
     seconds.insert(std::upper_bound(seconds.begin(), seconds.end(), trial.seconds), trial.seconds);
-    run.wall_seconds = 0.5 * (seconds[(seconds.size() - 1) / 2] + seconds[seconds.size() / 2]);
-    run.least_seconds = seconds.front(), run.largest_seconds = seconds.back();
+    if (trial.seconds == seconds.front()) waited_[i] = idle_share * trial.seconds;
+    run.wall_seconds = seconds.front();
+    run.median_seconds = 0.5 * (seconds[(seconds.size() - 1) / 2] + seconds[seconds.size() / 2]);
+    run.largest_seconds = seconds.back();
     run.repeats = static_cast<double>(seconds.size());
+    run.disturbed = is_disturbed(run.wall_seconds, run.largest_seconds, waited_[i]);
     run.error = number_in(problem_.error, run);
   }
 
@@ -123,6 +132,7 @@ class Race {
   Study& study_;
   std::vector<StudyRun> runs_;
   std::vector<std::vector<double>> seconds_;  // of each run's repeats, sorted
+  std::vector<double> waited_;                // s, of each run's fastest repeat
 };
 
 void add_orders(const Problem& problem, const std::vector<StudyRun>& runs,
@@ -144,6 +154,11 @@ void add_orders(const Problem& problem, const std::vector<StudyRun>& runs,
 
 }  // namespace
 
+bool is_disturbed(double least, double largest, double waited) {
+  constexpr double borne = 0.2;
+  return largest - least > borne * least || waited > borne * least;
+}
+
 void mark_pareto(std::vector<StudyRun>& runs) {
   for (StudyRun& run : runs)
     run.pareto = !std::isnan(run.error) && std::none_of(runs.begin(), runs.end(), [&](const StudyRun& other) {
@@ -157,8 +172,10 @@ void compare_ticks(std::vector<StudyRun>& runs) {
   for (StudyRun& run : runs)
     for (const StudyRun& other : runs)
       if (other.settings.force_law == "paper" && other.settings.tool == run.settings.tool &&
-          other.label == run.label)
+          other.label == run.label) {
         run.of_paper = run.error / other.error;
+        run.disturbed = run.disturbed || other.disturbed;
+      }
 }
 
 namespace {

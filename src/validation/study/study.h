@@ -13,9 +13,10 @@ struct StudyRun {
   std::string problem, series, label;
   RunSettings settings;
   double step = not_applicable;  ///< Contender::step
-  double wall_seconds = 0.0;     ///< median of the repeats
-  double least_seconds = 0.0, largest_seconds = 0.0;
+  double wall_seconds = 0.0;     ///< least of the repeats: nothing makes a run faster than it is
+  double median_seconds = 0.0, largest_seconds = 0.0;
   double repeats = 0;
+  bool disturbed = false;  ///< by other programs: is_disturbed() of the repeats
   Score score;
   double error = not_applicable;     ///< the problem's
   double of_paper = not_applicable;  ///< time of a tick, over that of the paper's law in the same study
@@ -50,6 +51,11 @@ struct StudyOptions : ProblemOptions {
 /// machine's drift hits all alike. Ends early, incomplete, when interrupted(). Error: input, for a problem
 /// that is not known.
 Study run_study(const StudyOptions& options);
+
+/// Whether times of the same work [s] say that the machine was busy with something else: they differ by more
+/// than 20 % of the least, or more than 20 % of the least was spent waiting for a processor. waited [s]: of
+/// the least.
+bool is_disturbed(double least, double largest, double waited);
 
 /// Sets `pareto` of runs with an error, problem by problem.
 void mark_pareto(std::vector<StudyRun>& runs);

@@ -2,6 +2,7 @@
 
 #include <spdlog/fmt/fmt.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/error.h"
@@ -36,9 +37,10 @@ const std::vector<Column> columns = {
     {"force_law", "Law of the force", "", TEXT(run.settings.force_law)},
     {"threads", "Threads", "", NUMBER(run.settings.threads)},
     {"wall_seconds", "Time", "s", NUMBER(run.wall_seconds)},
-    {"wall_least", "Least time", "s", NUMBER(run.least_seconds)},
+    {"wall_median", "Median time", "s", NUMBER(run.median_seconds)},
     {"wall_largest", "Largest time", "s", NUMBER(run.largest_seconds)},
     {"repeats", "Repeats", "", NUMBER(run.repeats)},
+    {"disturbed", "Disturbed by other programs", "", NUMBER(run.disturbed)},
     {"passes", "Passes", "", NUMBER(run.score.passes)},
     {"cells_visited", "Cells visited", "", NUMBER(run.score.cells_visited)},
     {"l1", "Misplaced sand, of the moved", "", NUMBER(run.score.l1)},
@@ -165,21 +167,37 @@ Json problem_json(const Problem& problem) {
   return json;
 }
 
+/// "*" beside a time that tells of a busy machine.
+std::string mark_of(const StudyRun& run) { return run.disturbed ? "*" : ""; }
+
+/// What a busy machine did to the times; "": nothing.
+std::string disturbance(const std::vector<StudyRun>& runs) {
+  const auto disturbed =
+      std::count_if(runs.begin(), runs.end(), [](const StudyRun& run) { return run.disturbed; });
+  if (disturbed == 0) return "";
+  return fmt::format(
+      "{} of {} runs (marked *) were disturbed by other programs: their repeats differ by more than 20 %, or "
+      "waited "
+      "for a processor. Their times are too long. Measure again when nothing else runs.",
+      disturbed, runs.size());
+}
+
 /// What a tick takes under each law, and over the paper's.
 std::string ticks_text(const std::vector<StudyRun>& runs) {
-  std::vector<std::string> tools, labels, laws;
+  std::vector<std::string> tools, labels, laws, marks;
   std::vector<double> times, of_paper;
   for (const StudyRun& run : runs) {
     if (std::isnan(run.of_paper)) continue;
     tools.push_back(run.settings.tool), labels.push_back(run.label), laws.push_back(run.settings.force_law);
-    times.push_back(run.error), of_paper.push_back(run.of_paper);
+    times.push_back(run.error), of_paper.push_back(run.of_paper), marks.push_back(mark_of(run));
   }
   if (times.empty()) return "";
   return "\nTime of a tick\n" + aligned_text({{{"tool", "Tool", "", tools},
                                                {"label", "Settings", "", labels},
                                                {"force_law", "Law of the force", "", laws},
                                                {"tick_microseconds", "Time", "us", times},
-                                               {"of_paper", "Over paper", "", of_paper}}},
+                                               {"of_paper", "Over paper", "", of_paper},
+                                               {"disturbed", "", "", marks}}},
                                              3);
 }
 
@@ -187,14 +205,16 @@ std::string ticks_text(const std::vector<StudyRun>& runs) {
 
 Json study_json(const Study& study) {
   const Table runs = runs_table(study.runs), orders = orders_table(study.orders);
-  Json json{{"machine", describe_machine()}, {"quick", study.quick},  {"problems", Json::array()},
-            {"columns", columns_json(runs)}, {"runs", Json::array()}, {"orders", Json::array()},
-            {"estimates", Json::array()},    {"notes", study.notes}};
+  Json json{
+      {"machine", describe_machine()}, {"quick", study.quick},  {"problems", Json::array()},
+      {"columns", columns_json(runs)}, {"runs", Json::array()}, {"orders", Json::array()},
+      {"estimates", Json::array()},    {"notes", study.notes},  {"disturbance", disturbance(study.runs)}};
   for (const Problem& problem : study.problems) json["problems"].push_back(problem_json(problem));
   for (std::size_t i = 0; i < study.runs.size(); ++i) {
     const std::vector<double>& slopes = study.runs[i].score.slope_errors;
     Json run = row_json(runs, i);
     run["pareto"] = study.runs[i].pareto;
+    run["disturbed"] = study.runs[i].disturbed;
     run["directions"] = slopes.empty() ? Json() : Json(flank_directions());
     run["slope_error"] = slopes.empty() ? Json() : Json(slopes);
     json["runs"].push_back(std::move(run));
@@ -216,13 +236,15 @@ namespace {
 std::string runs_text(const Study& study, const std::vector<StudyRun>& runs,
                       std::initializer_list<const char*> columns) {
   std::vector<double> errors;
-  for (const StudyRun& run : runs) errors.push_back(run.error);
+  std::vector<std::string> marks;
+  for (const StudyRun& run : runs) errors.push_back(run.error), marks.push_back(mark_of(run));
   Table table;
   const Table all = runs_table(runs);
   for (const char* name : columns)
     for (const TableColumn& column : all.columns)
       if (column.name == name) table.columns.push_back(column);
   table.columns.push_back({"error", "Error", "", errors});
+  table.columns.push_back({"disturbed", "", "", marks});
   for (TableColumn& column : table.columns)
     if (column.name == "problem")
       for (std::string& name : std::get<std::vector<std::string>>(column.values))
@@ -256,6 +278,7 @@ std::string study_summary(const Study& study) {
       text += fmt::format("\n{}: the reference itself is converged to {:.2g}\n", problem.title,
                           problem.converged_to);
   for (const std::string& note : study.notes) text += "\n" + note + "\n";
+  if (const std::string said = disturbance(study.runs); !said.empty()) text += "\n* " + said + "\n";
   return text;
 }
 

@@ -69,6 +69,23 @@ TEST(StudySummary, SaysWhatTicksTake) {
   EXPECT_NE(text.find("2.25"), std::string::npos) << text;
 }
 
+TEST(StudySummary, MarksWhatABusyMachineDisturbed) {
+  Study study = small_study();
+  EXPECT_EQ(study_summary(study).find('*'), std::string::npos);
+  EXPECT_EQ(study_json(study)["disturbance"], "");
+  study.runs[2].disturbed = true;
+  study.runs[0].disturbed = true, study.runs[0].of_paper = 2.25;
+  const std::string text = study_summary(study);
+  EXPECT_NE(text.find("0.24  *\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("2.25  *\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("2 of 3 runs (marked *) were disturbed"), std::string::npos) << text;
+  const nlohmann::ordered_json json = study_json(study);
+  EXPECT_NE(json["disturbance"].get<std::string>().find("2 of 3 runs"), std::string::npos);
+  EXPECT_EQ(json["runs"][2]["disturbed"], true);
+  EXPECT_EQ(json["runs"][1]["disturbed"], false);
+  EXPECT_NE(csv_text(runs_table(study.runs)).find(",disturbed,"), std::string::npos);
+}
+
 TEST(StudySummary, NamesTheNearestAndTheFastestThatIsNearlyAsNear) {
   const std::string text = study_summary(small_study());
   EXPECT_NE(text.find("0.24\n"), std::string::npos) << text;
