@@ -188,8 +188,8 @@ CarvedUnder CarveUnder(const EnvelopePlace& envelope, ToolFootprint& f, double t
       const V underside = hn::IfThenElse(covered, between(envelope.underside, col), infinite);
       hn::Store(underside, d, f.underside(row) + col);
       const V height = hn::Load(d, heights + col);
-      const V above = height - (tip + underside), excess = Max(above, zero) + shift - shift;
-      const Mask touches = above >= nearly, cut = excess > zero;
+      const V overlap = height - (tip + underside), excess = Max(overlap, zero) + shift - shift;
+      const Mask touches = overlap >= nearly, cut = excess > zero;
       if (hn::AllFalse(d, touches)) continue;
       highest = Max(highest, hn::IfThenElse(touches, underside, highest));
       if (hn::AllFalse(d, cut)) continue;
