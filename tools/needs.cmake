@@ -1,0 +1,73 @@
+# What a build needs. All of it is looked for here, before anything is compiled; what is missing is told all at once.
+set(missing "")
+set(missing_packages "")
+file(READ tools/setup setup)
+
+# sandstroke_needs(FOUND PACKAGE WHAT COMMAND): after COMMAND, which looks for WHAT, FOUND is true, or Debian's
+# PACKAGE is missing.
+macro(sandstroke_needs found package what command)
+  if(NOT setup MATCHES "[ \n]${package}[ \n]")
+    message(FATAL_ERROR "tools/setup does not install ${package} (tools/needs.cmake)")
+  endif()
+  cmake_language(EVAL CODE "${command}")
+  if(NOT ${found})
+    string(APPEND missing "\n  ${what}: ${package}")
+    list(APPEND missing_packages ${package})
+  endif()
+endmacro()
+
+sandstroke_needs(PKG_CONFIG_FOUND pkg-config "pkg-config (to find others)" "find_package(PkgConfig QUIET)")
+sandstroke_needs(GZIP gzip "gzip (manuals)" "find_program(GZIP gzip)")
+sandstroke_needs(Eigen3_FOUND libeigen3-dev "Eigen (arrays)" "find_package(Eigen3 NO_MODULE QUIET)")
+sandstroke_needs(spdlog_FOUND libspdlog-dev "spdlog (messages)" "find_package(spdlog QUIET)")
+sandstroke_needs(TBB_FOUND libtbb-dev "oneTBB (threads)" "find_package(TBB QUIET)")
+sandstroke_needs(hwy_FOUND libhwy-dev "Highway (vector instructions)" "find_package(hwy QUIET)")
+sandstroke_needs(CLI11_FOUND libcli11-dev "CLI11 (command lines)" "find_package(CLI11 QUIET)")
+sandstroke_needs(tomlplusplus_FOUND libtomlplusplus-dev "toml++ (scenes)" "find_package(tomlplusplus QUIET)")
+sandstroke_needs(nlohmann_json_FOUND nlohmann-json3-dev "nlohmann/json (pages)" "find_package(nlohmann_json QUIET)")
+sandstroke_needs(PNG_FOUND libpng-dev "libpng (pictures)" "find_package(PNG QUIET)")
+sandstroke_needs(ZLIB_FOUND zlib1g-dev "zlib (run files)" "find_package(ZLIB QUIET)")
+sandstroke_needs(Boost_FOUND libboost-dev "Boost 1.74 (Beast and Asio: the live view)" "find_package(Boost 1.74 CONFIG QUIET)")
+sandstroke_needs(HDF5_FOUND libhdf5-dev "HDF5 (run files)" "pkg_check_modules(HDF5 QUIET IMPORTED_TARGET hdf5)")
+sandstroke_needs(HDF5_HL_LIBRARY libhdf5-dev "HDF5's high-level library (dimension scales)"
+                 "find_library(HDF5_HL_LIBRARY hdf5_hl HINTS ${HDF5_LIBRARY_DIRS})")
+sandstroke_needs(MATIO_FOUND libmatio-dev "matio (strokes from .mat)" "pkg_check_modules(MATIO QUIET IMPORTED_TARGET matio)")
+sandstroke_needs(SQLITE_FOUND libsqlite3-dev "SQLite (ROS 2 bags)" "pkg_check_modules(SQLITE QUIET IMPORTED_TARGET sqlite3)")
+sandstroke_needs(PUGIXML_FOUND libpugixml-dev "pugixml (InkML)" "pkg_check_modules(PUGIXML QUIET IMPORTED_TARGET pugixml)")
+sandstroke_needs(CSV_LIBRARY libcsv-dev "libcsv (tables)" "find_library(CSV_LIBRARY csv)")
+sandstroke_needs(DATE_INCLUDE_DIR libhowardhinnant-date-dev "date/date.h (ISO 8601)" "find_path(DATE_INCLUDE_DIR date/date.h)")
+
+# Pictures are drawn by Mesa's llvmpipe, which is reached through OSMesa (gone since Mesa 25.1) or EGL: one is enough.
+pkg_check_modules(OSMESA QUIET IMPORTED_TARGET osmesa)
+pkg_check_modules(EGL QUIET IMPORTED_TARGET egl)
+if(SANDSTROKE_GL STREQUAL "osmesa")
+  sandstroke_needs(OSMESA_FOUND libosmesa6-dev "OSMesa (pictures)" "")
+elseif(SANDSTROKE_GL STREQUAL "egl" OR NOT OSMESA_FOUND)
+  sandstroke_needs(EGL_FOUND libegl-dev "EGL (pictures)" "")
+endif()
+
+if(SANDSTROKE_PYTHON)
+  if(NOT Python_EXECUTABLE AND EXISTS /usr/bin/python3)  # Debian's is preferred, for its packages have what tests need
+    set(Python_EXECUTABLE /usr/bin/python3)
+  endif()
+  sandstroke_needs(Python_FOUND python3-dev "Python 3.9 with its headers (or -DSANDSTROKE_PYTHON=OFF)"
+                   "find_package(Python 3.9 QUIET COMPONENTS Interpreter Development.Module)")
+  sandstroke_needs(pybind11_FOUND pybind11-dev "pybind11 2.9 (or -DSANDSTROKE_PYTHON=OFF)"
+                   "find_package(pybind11 2.9 CONFIG QUIET)")
+endif()
+
+if(SANDSTROKE_TESTS)
+  sandstroke_needs(GTest_FOUND libgtest-dev "googletest (or -DSANDSTROKE_TESTS=OFF)" "find_package(GTest QUIET)")
+  sandstroke_needs(GMOCK_INCLUDE_DIR libgmock-dev "gmock/gmock.h (or -DSANDSTROKE_TESTS=OFF)"
+                   "find_path(GMOCK_INCLUDE_DIR gmock/gmock.h)")
+  if(NOT SANDSTROKE_SANITIZE)
+    sandstroke_needs(benchmark_FOUND libbenchmark-dev "benchmark (or -DSANDSTROKE_TESTS=OFF)" "find_package(benchmark QUIET)")
+  endif()
+endif()
+
+if(missing)
+  list(REMOVE_DUPLICATES missing_packages)
+  list(JOIN missing_packages " " missing_packages)
+  message(FATAL_ERROR "sandstroke needs what is not here. With the names of Debian's packages:${missing}\n"
+                      "apt-get install ${missing_packages}, or tools/setup, which installs all.")
+endif()
