@@ -172,7 +172,8 @@ def test_xarray_is_what_it_makes_of_the_file(tmp_path):
             mine = run.to_xarray(group)
             xarray.testing.assert_equal(mine, file)
             for name, variable in file.variables.items():
-                assert variable.dtype == mine[name].dtype, name
+                if variable.dtype.kind not in "OU":  # text: Python's or, since xarray 2025, NumPy's
+                    assert variable.dtype == mine[name].dtype, name
                 if name != "final":  # the file's says the furrow, too
                     assert dict(variable.attrs) == dict(mine[name].attrs), name
         xarray.testing.assert_equal(sandstroke.read(tmp_path / "run.h5").to_xarray(group), mine)
