@@ -4,7 +4,7 @@
 
 namespace sandstroke {
 
-constexpr double to_radians(double degrees) { return degrees * std::numbers::pi / 180.0; }
-constexpr double to_degrees(double radians) { return radians * 180.0 / std::numbers::pi; }
+constexpr double to_radians(double angle) { return angle * std::numbers::pi / 180.0; }
+constexpr double to_degrees(double angle) { return angle * 180.0 / std::numbers::pi; }
 
 }  // namespace sandstroke
