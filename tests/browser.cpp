@@ -22,7 +22,7 @@ namespace sandstroke {
 namespace {
 
 using Json = nlohmann::ordered_json;
-constexpr int limit_ms = 60'000;  // of any answer: only ever met when something hangs
+constexpr int limit_ms = 600'000;  // of any answer: only ever met when something hangs
 
 void require(bool holds, const std::string& what) {
   if (!holds) throw std::runtime_error("browser: " + what);
@@ -123,7 +123,7 @@ Browser::~Browser() {
 Json Browser::next_message() {
   for (std::size_t end; (end = read_.find('\0')) == std::string::npos;) {
     pollfd wait{from_browser_, POLLIN, 0};
-    require(poll(&wait, 1, limit_ms) > 0, "no answer for a minute");
+    require(poll(&wait, 1, limit_ms) > 0, "no answer for ten minutes");
     char part[65536];
     const ssize_t count = read(from_browser_, part, sizeof part);
     if (count <= 0) {
@@ -235,7 +235,7 @@ Json Browser::evaluate(const std::string& expression) {
 
 void Browser::wait_for(const std::string& condition) {
   const Json held = evaluate("new Promise((done, fail) => { let turns = 0; const look = () => { try { if (" +
-                             condition + ") done(true); else if (++turns < 3000) setTimeout(look, 10); " +
+                             condition + ") done(true); else if (++turns < 60000) setTimeout(look, 10); " +
                              "else done(false); } catch (error) { fail(error); } }; look(); })");
   require(held == true, "waited in vain for " + condition);
 }

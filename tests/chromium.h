@@ -45,7 +45,7 @@ inline OpenedPage open_in_chromium(const std::string& page, const std::string& p
   // Virtual time runs until nothing is left to do, at most so many milliseconds.
   const std::string at = folder.path().string();
   const std::string command =
-      "timeout 120 " + chromium_command +
+      "timeout 1200 " + chromium_command +
       " --window-size=1200,4000 --virtual-time-budget=10000 --enable-logging=stderr --user-data-dir='" + at +
       "/profile' --dump-dom 'file://" + at + "/page.html' > '" + at + "/dom' 2> '" + at + "/log'";
   OpenedPage opened;

@@ -56,7 +56,7 @@ class CliLivePage : public BrowserTest {
 
 TEST_F(CliLivePage, ShowsTheFurrowWhereTheStrokeWentAndTurnsByMouseAndKeys) {
   Viewed program({"record", "--device", "scripted:line.toml", "--feel", "scene.toml", "--view", "--no-open",
-                  "-o", "a.h5"},
+                  "--max-skipped", "100", "-o", "a.h5"},
                  test_folder_);
   open(program);
   browser().wait_for("live.ended");
@@ -104,10 +104,10 @@ TEST_F(CliLivePage, ShowsTheFurrowWhereTheStrokeWentAndTurnsByMouseAndKeys) {
 }
 
 TEST_F(CliLivePage, DrawsTheToolAsItIs) {
-  Viewed program(
-      {"record", "--device", "scripted:line.toml", "--feel", "scene.toml", "--set", "tool.shape=plate",
-       "--set", "tool.width=0.12", "--set", "model.preset=accurate", "--view", "--no-open", "-o", "plate.h5"},
-      test_folder_);
+  Viewed program({"record", "--device", "scripted:line.toml", "--feel", "scene.toml", "--set",
+                  "tool.shape=plate", "--set", "tool.width=0.12", "--set", "model.preset=accurate", "--view",
+                  "--no-open", "--max-skipped", "100", "-o", "plate.h5"},
+                 test_folder_);
   open(program);
   browser().wait_for("live.ended && live.view.tool !== null");
   EXPECT_EQ(program.end().exit_code, 0);
@@ -129,8 +129,9 @@ TEST_F(CliLivePage, DrawsTheToolAsItIs) {
 
 TEST_F(CliLivePage, AMouseDrawsAStrokeWhoseRunIsWhatWasSeen) {
   const std::vector<std::string> firm = {"--set", "relaxation.talus_angle=85", "--set", "relaxation.rate=0"};
-  std::vector<std::string> arguments = {"record", "--device", "pointer",   "--feel", "scene.toml",
-                                        "-o",     "hand.h5",  "--no-open", "--json"};
+  std::vector<std::string> arguments = {"record",  "--max-skipped", "100",        "--device",
+                                        "pointer", "--feel",        "scene.toml", "-o",
+                                        "hand.h5", "--no-open",     "--json"};
   arguments.insert(arguments.end(), firm.begin(), firm.end());
   Viewed program(arguments, test_folder_);
   open(program);

@@ -162,7 +162,8 @@ TEST(CliRecordTerminal, TheLineSaysThatTheToolMustBeLifted) {
     hand.position.emplace_back(0.0, 0.0, -0.065);
   }
   write_stroke_file(folder / "resting.h5", hand);
-  AtTerminal program({"record", "-o", "a.h5", "--device", "replay:resting.h5", "--feel", "scene.toml"},
+  AtTerminal program({"record", "--max-skipped", "100", "-o", "a.h5", "--device", "replay:resting.h5",
+                      "--feel", "scene.toml"},
                      folder);
   EXPECT_TRUE(program.shows(" s: lift the tool out of the sand to begin; q ends it")) << program.shown();
   program.type("q");

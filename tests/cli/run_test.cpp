@@ -250,7 +250,7 @@ TEST(CliRun, ASceneThatNobodyWritesIsNotWaitedForAfterASignal) {
     writer = open((folder / "fifo").c_str(), O_WRONLY | O_NONBLOCK | O_CLOEXEC);
     return writer >= 0;
   };
-  stopped.in_child = [] { alarm(10); };  // one that would wait for ever
+  stopped.in_child = [] { alarm(600); };  // one that would wait for ever
   EXPECT_EQ(run_program({"run", "fifo", "-o", "a.h5"}, folder, stopped).exit_code, 128 + SIGTERM);
   close(writer);
 }

@@ -15,12 +15,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A device that nobody asks for anything.
+/// A device that has nothing to say, however long it is asked: so a loop ends only where something else ends
+/// it.
 class IdleDevice : public HapticDevice {
  public:
   void open() override {}
   void calibrate() override {}
   const DeviceSpecification& specification() const override { return specification_; }
+  double longest_silence() const override { return 1e6; }
   bool read(double, DeviceReading&) noexcept override { return false; }
   bool command(const Eigen::Vector3d&) noexcept override { return true; }
   void release() noexcept override {}

@@ -28,7 +28,7 @@ const std::string cluster = std::getenv("SANDSTROKE_CLUSTER") ? std::getenv("SAN
 /// Asks again and again. The bound only ends what would never come.
 template <class Condition>
 bool comes_true(const Condition& condition) {
-  const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(2);
+  const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(20);
   while (!condition()) {
     if (std::chrono::steady_clock::now() > end) return false;
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
