@@ -1,5 +1,6 @@
 #include "tool/triangle_mesh.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 
 #include "core/compensated_sum.h"
