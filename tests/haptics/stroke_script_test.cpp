@@ -371,6 +371,21 @@ TEST(StrokeScript, AtACornerTheToolTurnsInItsPlaceTheShorterWay) {
   EXPECT_NEAR(heading(stroke, begin + 0.6), -135.0, 0.2);
 }
 
+TEST(StrokeScript, ACornerOfUpToTenDegreesTakesNoTime) {
+  for (const double corner : {9.5, 10.5}) {
+    ScriptSegment ahead{ScriptLine{{}, {0.1, 0}}, depth({0.01}), 0.1};
+    ScriptSegment on{
+        ScriptLine{{}, {0.1 + 0.1 * std::cos(corner * pi / 180.0), 0.1 * std::sin(corner * pi / 180.0)}},
+        depth({0.01}), 0.1};
+    ahead.turn.heading = on.turn.heading = ToolTurn::Heading::path;
+    StrokeScript script = script_of({ahead, on});
+    script.turn_speed = 90.0;
+    // Plunge and lift take 0.5 s each, the lines 1 s each.
+    EXPECT_NEAR(trace_script(script, {}).duration(), 3.0 + (corner > 10.0 ? corner / 90.0 : 0.0), 2e-3)
+        << corner;
+  }
+}
+
 TEST(StrokeScript, TurnAndTiltRunThroughTheirValues) {
   ScriptSegment line{ScriptLine{{}, {0.2, 0}}, depth({0.01}), 0.1};
   line.turn.turn = {0.0, 60.0};
