@@ -47,6 +47,13 @@ void refuse_real_time() {
 
 }  // namespace
 
+void reset_signals() {
+  for (int number = 1; number < NSIG; ++number) signal(number, SIG_DFL);
+  sigset_t none;
+  sigemptyset(&none);
+  sigprocmask(SIG_SETMASK, &none, nullptr);
+}
+
 ProgramResult run_program(const std::vector<std::string>& arguments, const fs::path& folder,
                           const Conditions& conditions) {
   // In memory: the folder may be full, read-only, or gone.
@@ -59,6 +66,7 @@ ProgramResult run_program(const std::vector<std::string>& arguments, const fs::p
 
   const pid_t child = fork();
   if (child == 0) {
+    reset_signals();
     dup2(out, STDOUT_FILENO);
     dup2(err, STDERR_FILENO);
     if (conditions.most_file_bytes > 0) {

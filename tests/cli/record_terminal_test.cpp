@@ -36,6 +36,7 @@ class AtTerminal {
     argv.push_back(nullptr);
     child_ = fork();
     if (child_ == 0) {
+      reset_signals();
       close(master_);
       login_tty(slave_);
       dup2(open(out_.c_str(), O_CREAT | O_TRUNC | O_WRONLY, 0644), STDOUT_FILENO);
