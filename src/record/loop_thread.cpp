@@ -40,6 +40,7 @@ void LoopThread::watch(const RecordingWatcher& watcher, double interval) {
     if (!watcher) continue;
     if (const std::optional<StopReason> reason = watcher(loop_.progress())) loop_.stop(*reason);
   }
+  if (watcher) watcher(loop_.progress());
 }
 
 }  // namespace sandstroke

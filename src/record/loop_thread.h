@@ -24,8 +24,8 @@ class LoopThread {
   const Scheduling& scheduling() const { return scheduling_; }
   /// After an interrupt the loop ends before its first tick.
   void start();
-  /// Until the loop is over, or the watcher throws, which is called every `interval` [s]. Interrupts
-  /// (core/interrupt.h) stop the loop.
+  /// Until the loop is over, or the watcher throws, which is called every `interval` [s], and once when all
+  /// is over. Interrupts (core/interrupt.h) stop the loop.
   void watch(const RecordingWatcher& watcher, double interval = 0.1);
   /// Waits for the loop's end. Once.
   RecordingFooter footer() { return footer_.get(); }

@@ -78,6 +78,7 @@ RecordingFooter ServoLoop::run() noexcept {
   }
   if (!device_.command(Vector3d::Zero())) device_.release();
   force_.store(0.0, relaxed);
+  for (std::atomic<double>& axis : seen_force_) axis.store(0.0, relaxed);
   heartbeat_.store(0, std::memory_order_release);
   return {ticks_, lateness_.summary(), static_cast<StopReason>(reason_.load())};
 }

@@ -65,12 +65,14 @@ TEST_F(RecorderTest, AccountsForEachTickAndKeepsEachSample) {
   settings.servo.duration = 1.0;
   FakeWorld world([](double time) { return FeltForce{{0.0, 0.0, time}, 0}; });
   int looks = 0;
+  std::int64_t told = 0;
   RecordingHeader known;
   known.source = "fake:";
   const RecordingReport report =
       record(*seen(device), &world, settings, known, journal, [&](const ServoProgress& progress) {
         EXPECT_LE(progress.recorded, progress.elapsed);
         ++looks;
+        told = progress.elapsed;
         return std::nullopt;
       });
   EXPECT_GT(looks, 0);
@@ -78,6 +80,7 @@ TEST_F(RecorderTest, AccountsForEachTickAndKeepsEachSample) {
   EXPECT_EQ(report.footer.reason, StopReason::duration);
   const TickCounts& ticks = report.footer.ticks;
   EXPECT_EQ(ticks.elapsed, 1000);
+  EXPECT_EQ(told, 1000) << "the last look sees all";
   EXPECT_EQ(ticks.elapsed, ticks.recorded + ticks.skipped + ticks.unread + ticks.dropped);
   EXPECT_EQ(ticks.unread + ticks.dropped, 0);
   expect_device_left_safe();

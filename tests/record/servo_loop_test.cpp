@@ -40,6 +40,7 @@ class ServoLoopTest : public testing::Test {
     const RecordingFooter footer = loop.run();
     made = nullptr;
     EXPECT_EQ(loop.heartbeat(), 0);
+    EXPECT_EQ(loop.progress().held, Vector3d::Zero());
 
     RecordedSample sample;
     while (ring.pop(sample)) samples.push_back(sample);
