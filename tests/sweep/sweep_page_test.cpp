@@ -59,7 +59,7 @@ TEST_F(ASweepPage, ShowsDesignPointsAndCounts) {
   for (const auto& shown : data["metrics"]) {
     const auto& metrics = all_metrics();
     const auto metric = std::find_if(metrics.begin(), metrics.end(),
-                                     [&](const Metric& one) { return one.name == shown["name"]; });
+                                     [&](const Metric& one) { return shown["name"] == one.name; });
     ASSERT_NE(metric, metrics.end());
     EXPECT_EQ(shown, Json({{"name", metric->name},
                            {"title", metric->title},

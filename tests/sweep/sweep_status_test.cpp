@@ -130,7 +130,8 @@ TEST_F(SweepStatusTest, WithoutAQueueTheFolderIsWhatIsKnown) {
 }
 
 TEST_F(SweepStatusTest, ThePointsOfALargerSweepThatWasHereDoNotHarm) {
-  const SweepStatus status = sweep_status(folder, SlurmJobs{12, 13, 1, {{1, {7, 8, 1000}}}}, {{{}}, ""});
+  const SweepStatus status =
+      sweep_status(folder, SlurmJobs{12, 13, 1, {{1, {7, 8, 1000}}}}, {std::vector<QueuedTask>(), ""});
   EXPECT_EQ(status.tasks[0].missing, 1u);
 }
 
