@@ -66,8 +66,8 @@ class Hdf5Chunks {
 
 /// Outputs that are HDF5 files. Until the first flush there is but their superblock.
 constexpr OutputKind hdf5_output(std::string_view name, std::string_view mark, bool kept = false,
-                                 int version = 1) {
-  return {name, hdf5_signature, mark, 96, kept, true, version};
+                                 int format_version = 1) {
+  return {name, hdf5_signature, mark, 96, kept, true, format_version};
 }
 
 /// An HDF5 file being written as PATH.part and renamed to PATH by finish(). Groups on the way to a dataset

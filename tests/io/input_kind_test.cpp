@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
+
 #include "any_hdf5.h"
 #include "core/error.h"
 #include "core/output_file.h"
@@ -52,7 +54,7 @@ TEST_F(InputKinds, AreKnownByContent) {
   stroke.time = {0.0};
   stroke.position = {{0, 0, 0}};
   write_stroke_file(folder_ / "a.h5", stroke);
-  fs::rename(folder_ / "a.h5", folder_ / "named.toml");
+  std::filesystem::rename(folder_ / "a.h5", folder_ / "named.toml");
   EXPECT_EQ(kind_of(folder_ / "named.toml"), InputKind::stroke);
   write_png(folder_ / "named.h5", Image(2, 2));
   EXPECT_EQ(kind_of(folder_ / "named.h5"), InputKind::picture);

@@ -1,6 +1,7 @@
 #include "io/run_writer.h"
 
 #include <gtest/gtest.h>
+#include <spdlog/fmt/fmt.h>
 
 #include <array>
 #include <filesystem>

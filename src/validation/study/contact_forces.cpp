@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "sim/simulation.h"
+#include "sim/solution.h"
 #include "tool/tool_surface.h"
 #include "validation/study/contact_scene.h"
 #include "validation/study/measured_stress.h"

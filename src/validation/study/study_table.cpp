@@ -234,13 +234,13 @@ namespace {
 
 /// Some runs, by these columns of runs_table(), and their errors.
 std::string runs_text(const Study& study, const std::vector<StudyRun>& runs,
-                      std::initializer_list<const char*> columns) {
+                      std::initializer_list<const char*> names) {
   std::vector<double> errors;
   std::vector<std::string> marks;
   for (const StudyRun& run : runs) errors.push_back(run.error), marks.push_back(mark_of(run));
   Table table;
   const Table all = runs_table(runs);
-  for (const char* name : columns)
+  for (const char* name : names)
     for (const TableColumn& column : all.columns)
       if (column.name == name) table.columns.push_back(column);
   table.columns.push_back({"error", "Error", "", errors});

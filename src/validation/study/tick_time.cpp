@@ -2,11 +2,14 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <cmath>
+#include <cstdint>
 
 #include "core/stopwatch.h"
 #include "sim/simulation.h"
+#include "sim/solution.h"
 #include "tool/tool_surface.h"
 #include "validation/study/contact_scene.h"
+#include "validation/study/problem.h"
 
 namespace sandstroke {
 namespace {
