@@ -340,9 +340,10 @@ void add_record_command(CLI::App& app, Command& chosen) {
       ->check(recording_rate())
       ->option_text("HZ");
   add_force_options(*command, *arguments);
-  command->add_flag("--view", arguments->view,
-                    "Show the sand of --feel live in a browser. The address is printed, and opened where "
-                    "there is a desktop");
+  command->add_flag(
+      "--view", arguments->view,
+      "Begin once a page is open, and show the sand of --feel live in it. The address is printed, "
+      "and opened where there is a desktop");
   command->add_flag("--no-open", arguments->no_open, "Print the address of --view, but do not open it");
   add_time_options(*command, *arguments);
   command->add_flag("--calibrate", settings.calibrate,
