@@ -8,6 +8,7 @@
 
 #include "cli/commands.h"
 #include "haptics/recording.h"
+#include "haptics/stroke_coverage.h"
 #include "haptics/stroke_sampler.h"
 #include "io/recording_file.h"
 
