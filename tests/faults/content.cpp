@@ -52,7 +52,9 @@ herr_t add_attribute(hid_t object, const char* name, const H5A_info_t*, void* ha
   return 0;
 }
 
-herr_t add_object(hid_t file, const char* name, const H5O_info_t* info, void* to) {
+/// Info: H5O_info_t of HDF5 1.10, which later versions call H5O_info1_t.
+template <class Info>
+herr_t add_object(hid_t file, const char* name, const Info* info, void* to) {
   auto& hash = *static_cast<ContentHash*>(to);
   if (is_measured(name)) return 0;
   const Hdf5Handle object(H5Oopen(file, name, H5P_DEFAULT), H5Oclose);
@@ -76,7 +78,7 @@ std::string hdf5_content(const fs::path& path) {
   const Hdf5Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, reading_access(path)), H5Fclose);
   if (!file.valid()) fail(path.string());
   ContentHash hash;
-  if (H5Ovisit(file, H5_INDEX_NAME, H5_ITER_INC, add_object, &hash) < 0)
+  if (H5Ovisit2(file, H5_INDEX_NAME, H5_ITER_INC, add_object, &hash, H5O_INFO_BASIC) < 0)
     fail("an object in " + path.string());
   return hash.text();
 }

@@ -229,7 +229,7 @@ void write_dataset(const Hdf5Handle& dataset, Bytes& bytes) {
 /// Groups and datasets of the file, and what is not there.
 std::vector<std::string> objects(hid_t file) {
   std::vector<std::string> names = {"/", "/none"};
-  const auto add = [](hid_t, const char* name, const H5O_info_t*, void* list) -> herr_t {
+  const auto add = [](hid_t, const char* name, const auto*, void* list) -> herr_t {
     if (*name != '.') static_cast<std::vector<std::string>*>(list)->push_back(std::string("/") + name);
     return 0;
   };
