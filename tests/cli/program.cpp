@@ -14,6 +14,7 @@
 #include <memory>
 #include <sstream>
 
+#include "reset_signals.h"
 #include "test_folder.h"
 
 namespace sandstroke {
@@ -46,13 +47,6 @@ void refuse_real_time() {
 }
 
 }  // namespace
-
-void reset_signals() {
-  for (int number = 1; number < NSIG; ++number) signal(number, SIG_DFL);
-  sigset_t none;
-  sigemptyset(&none);
-  sigprocmask(SIG_SETMASK, &none, nullptr);
-}
 
 ProgramResult run_program(const std::vector<std::string>& arguments, const fs::path& folder,
                           const Conditions& conditions) {

@@ -30,10 +30,6 @@ struct Conditions {
 ProgramResult run_program(const std::vector<std::string>& arguments, const std::filesystem::path& folder,
                           const Conditions& conditions = {});
 
-/// In a child process: no signal is ignored or blocked, though what started the tests may ignore some
-/// (nohup).
-void reset_signals();
-
 /// A fresh folder for one test, with a small scene and stroke in it: scene.toml, line.toml. Gone when all
 /// tests have passed.
 std::filesystem::path test_folder();

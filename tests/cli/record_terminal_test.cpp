@@ -15,6 +15,7 @@
 
 #include "cli/program.h"
 #include "io/stroke_file.h"
+#include "reset_signals.h"
 
 namespace sandstroke {
 namespace {

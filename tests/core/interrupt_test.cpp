@@ -7,6 +7,8 @@
 #include <chrono>
 #include <thread>
 
+#include "reset_signals.h"
+
 namespace sandstroke {
 namespace {
 
@@ -23,6 +25,7 @@ TEST(CatchInterruptsDeathTest, ASecondOneEndsTheProgramAtOnce) {
   for (const int number : {SIGINT, SIGTERM, SIGUSR1})
     EXPECT_EXIT(
         {
+          reset_signals();
           catch_interrupts();
           raise(number);
           if (interrupted() == number) raise(number);
@@ -34,6 +37,7 @@ TEST(CatchInterruptsDeathTest, ASecondOneEndsTheProgramAtOnce) {
 TEST(CatchInterruptsDeathTest, WhateverEndsAProgramIsCaught) {
   EXPECT_EXIT(
       {
+        reset_signals();
         catch_interrupts();
         for (const int number : signals_from_outside()) {
           raise(number);
@@ -47,6 +51,7 @@ TEST(CatchInterruptsDeathTest, WhateverEndsAProgramIsCaught) {
 TEST(CatchInterruptsDeathTest, TheLimitOfCpuTimeIsToldEverySecondAndIsOne) {
   EXPECT_EXIT(
       {
+        reset_signals();
         catch_interrupts();
         for (int second = 0; second < 3; ++second) raise(SIGXCPU);
         _exit(interrupted() == SIGXCPU ? 0 : 1);
@@ -70,6 +75,7 @@ TEST(CatchAllInterruptsDeathTest, WhateverEndsOrStopsAProgramIsCaught) {
   for (const int number : signals_from_outside())
     EXPECT_EXIT(
         {
+          reset_signals();
           catch_all_interrupts();
           raise(number);
           _exit(interrupted() == number ? 0 : 1);
@@ -77,6 +83,7 @@ TEST(CatchAllInterruptsDeathTest, WhateverEndsOrStopsAProgramIsCaught) {
         testing::ExitedWithCode(0), "");
   EXPECT_EXIT(
       {
+        reset_signals();
         catch_all_interrupts();
         for (const int number : {SIGTSTP, SIGTTIN, SIGTTOU})
           if (signal(number, SIG_DFL) != SIG_IGN) _exit(number);
@@ -88,6 +95,7 @@ TEST(CatchAllInterruptsDeathTest, WhateverEndsOrStopsAProgramIsCaught) {
 TEST(CatchAllInterruptsDeathTest, ThoseThatComeTogetherAreOne) {
   EXPECT_EXIT(
       {
+        reset_signals();
         catch_all_interrupts();
         for (const int number : {SIGHUP, SIGHUP, SIGINT, SIGINT, SIGTERM, SIGUSR1, SIGTSTP}) raise(number);
         _exit(interrupted() == SIGHUP ? 0 : 1);
@@ -98,6 +106,7 @@ TEST(CatchAllInterruptsDeathTest, ThoseThatComeTogetherAreOne) {
 TEST(CatchAllInterruptsDeathTest, OneThatComesLaterEndsTheProgram) {
   EXPECT_EXIT(
       {
+        reset_signals();
         catch_all_interrupts();
         raise(SIGXCPU);
         std::this_thread::sleep_for(std::chrono::milliseconds(1001));
