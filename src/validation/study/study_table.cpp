@@ -178,7 +178,7 @@ std::string disturbance(const std::vector<StudyRun>& runs) {
   return fmt::format(
       "{} of {} runs (marked *) were disturbed by other programs: their repeats differ by more than 20 %, or "
       "waited "
-      "for a processor. Their times are too long. Measure again when nothing else runs.",
+      "for a processor. Their times may be too long. Measure again when nothing else runs.",
       disturbed, runs.size());
 }
 
