@@ -30,7 +30,7 @@ using asio::ip::tcp;
 using boost::system::error_code;
 using Seconds = std::chrono::duration<double>;
 
-constexpr std::chrono::milliseconds longest_end{500}, accept_pause{100};
+constexpr std::chrono::milliseconds accept_pause{100};
 constexpr std::size_t most_request_bytes = 8192;
 constexpr int most_unsent_bytes = 256 * 1024;  // in the system: what lies there is old when it is seen
 
@@ -288,7 +288,7 @@ class ViewServer::Implementation {
       shared_->ended = true;
       shared_->end = end_message(reason);
       acceptor_.close();
-      pause_.expires_after(longest_end);
+      pause_.expires_after(milliseconds(shared_->limits.end));
       pause_.async_wait([this](error_code) { io_.stop(); });
       for (const std::shared_ptr<Page>& page : shared_->pages) page->send_texts();
     });

@@ -27,6 +27,7 @@ struct ViewLimits {
   int pages = 8, connections = 32;
   double silence = 5.0;        ///< s, for a request to come
   double page_silence = 60.0;  ///< s, until a page that answers no ping is taken for gone
+  double end = 10.0;  ///< s, for pages to take what is newest when all has ended; a busy browser needs some
 };
 
 /// Shows sand as it is shaped to pages in a browser on this machine: HTTP and WebSocket on the loopback
@@ -47,8 +48,7 @@ class ViewServer {
   std::string address() const;
   /// How many watch now; from any thread.
   int pages() const;
-  /// Pages get what is newest, and why it ended; half a second later all is closed, whether they took it or
-  /// not. Once.
+  /// Pages get what is newest, and why it ended. Returns when they have taken it, or after limits.end. Once.
   void end(const std::string& reason);
 
  private:

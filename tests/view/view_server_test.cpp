@@ -302,7 +302,7 @@ TEST(ViewServer, APageThatOnlyFinishesIsHeard) {
 }
 
 TEST(ViewServer, EndsThoughAPageTakesNothing) {
-  auto served = std::make_unique<Served>();
+  auto served = std::make_unique<Served>(nullptr, ViewLimits{.end = 0.5});
   ViewClient stalled(served->address);
   std::vector<SilentConnection> silent;
   for (int i = 0; i < 5; ++i) silent.emplace_back(served->port);
