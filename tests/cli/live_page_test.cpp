@@ -121,6 +121,7 @@ TEST_F(CliLivePage, DrawsTheToolAsItIs) {
     const std::uint8_t* pixel = window.pixel(static_cast<int>(at.x), static_cast<int>(at.y));
     return pixel[2] > pixel[0];
   };
+  SCOPED_TRACE(browser().evaluate("JSON.stringify(live.head)").get<std::string>());
   // Along y, as far as the blade is wide, and nowhere else.
   for (const double y : {-0.055, -0.03, 0.0, 0.03, 0.055}) EXPECT_TRUE(is_steel(0.0, y)) << y;
   for (const double y : {-0.068, 0.068}) EXPECT_FALSE(is_steel(0.0, y)) << y;
