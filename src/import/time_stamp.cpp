@@ -33,6 +33,18 @@ bool has_shape(std::string_view text, std::string_view shape) {
   return text.size() >= shape.size() && std::equal(shape.begin(), shape.end(), text.begin(), fits);
 }
 
+/// Whether a text is what may stand behind the seconds: a fraction (".123456"), a zone ("+02:00"), both or
+/// neither.
+bool is_fraction_and_zone(std::string_view text) {
+  if (text.starts_with('.'))
+    text.remove_prefix(std::min(text.find_first_not_of("0123456789", 1), text.size()));
+  if (text.empty()) return true;
+  const auto is_zone = [&](std::string_view shape) {
+    return text.size() == shape.size() + 1 && has_shape(text.substr(1), shape);
+  };
+  return (text[0] == '+' || text[0] == '-') && (is_zone("00") || is_zone("0000") || is_zone("00:00"));
+}
+
 /// What a date or time says, nanoseconds; all of the text must be it.
 template <class Time>
 std::optional<std::int64_t> parsed(const std::string& text, const char* format) {
@@ -56,7 +68,9 @@ std::optional<std::int64_t> iso_time(std::string_view text) {
   using Nanoseconds = std::chrono::nanoseconds;
   if (has_shape(plain, "00:00:00")) return parsed<Nanoseconds>(plain, "%T");
   if (plain.size() > 10) plain[10] = 'T';
-  if (!has_shape(plain, "0000-00-00T00:00:00")) return std::nullopt;
+  // Strict: the library takes any byte for a digit of the zone.
+  if (!has_shape(plain, "0000-00-00T00:00:00") || !is_fraction_and_zone(std::string_view(plain).substr(19)))
+    return std::nullopt;
   const int year = whole<int>(std::string_view(plain).substr(0, 4)).value_or(0);
   if (year < 1700 || year > 2250) return std::nullopt;  // ns of others do not fit
   using Time = date::sys_time<Nanoseconds>;

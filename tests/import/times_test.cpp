@@ -77,12 +77,15 @@ TEST(TableTimes, IsoTimesAreReadWhole) {
   EXPECT_EQ(iso_time("1970-01-01T01:00:00+01:00"), 0);
   EXPECT_EQ(iso_time("1970-01-01T01:00:00+0100"), 0);
   EXPECT_EQ(iso_time("1969-12-31T22:30:00-01:30"), 0);
+  EXPECT_EQ(iso_time("1970-01-01 02:00:00,25+02"), 250'000'000);
   EXPECT_EQ(iso_time("00:00:01"), 1'000'000'000);
   for (const char* bad :
        {"", "12", "1970-01-01", "1970-13-01T00:00:00", "1970-01-01T00:00:00 1", "1970-01-01T25:00:00",
         "9999-01-01T00:00:00", "1970-01-01T00:00:00+", ":::::::", "12:00:00:00",
         "2024-05-01T12pOsit:00:00.5Z", "2024-05-01T12:00:", "2024-05-01T12:00:x0", "12:00:", "12:0a:00"})
     EXPECT_FALSE(iso_time(bad)) << bad;
+  for (const char* bad_end : {".4-0\3451T1", "+0a:00", "+2", "-01:00:00", ".5.5", ".5 +02:00"})
+    EXPECT_FALSE(iso_time("2024-05-01T12:00:00" + std::string(bad_end))) << bad_end;
 }
 
 TEST(TableTimes, AStampOfAnotherKindIsRefused) {
