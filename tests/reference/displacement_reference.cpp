@@ -128,27 +128,32 @@ HeightGrid DisplacementReference::outward(const HeightGrid& excess, double pushe
                axis_y = axis_y_ - bed_.rows_from_centre(cells_.row_begin);
   HeightGrid weights = HeightGrid::Zero(excess.rows(), excess.cols());
   for (int row = 0; row < cells_.rows(); ++row)
-    for (int col = 0; col < cells_.cols(); ++col) {
-      const double x = col - axis_x, y = row - axis_y, rho = std::sqrt(x * x + y * y);
-      if (excess(row, col) == 0.0 || rho == 0.0) continue;
-      const double ratio = distance * tool_.radius / bed_.cell_size() / rho, to_x = ratio * x,
-                   to_y = ratio * y;
-      const int r0 = static_cast<int>(std::floor(axis_y + to_y)),
-                c0 = static_cast<int>(std::floor(axis_x + to_x));
-      const auto share = [&](int r, int c) {  // by the distance to a cell's centre, along x and along y
-        const bool free = r >= 0 && r < cells_.rows() && c >= 0 && c < cells_.cols() &&
-                          bed_.has_sand(cells_.row_begin + r, cells_.col_begin + c) &&
-                          !in_bowl(cells_.row_begin + r, cells_.col_begin + c);
-        return free ? std::max(0.0, 1.0 - std::abs(c - axis_x - to_x)) *
-                          std::max(0.0, 1.0 - std::abs(r - axis_y - to_y))
-                    : 0.0;
-      };
-      const double all = (share(r0, c0) + share(r0 + 1, c0 + 1)) + (share(r0, c0 + 1) + share(r0 + 1, c0));
-      for (int r = r0; r <= r0 + 1; ++r)
-        for (int c = c0; c <= c0 + 1; ++c)
-          if (share(r, c) > 0.0)
-            weights(r, c) += std::nearbyint(excess(row, col) * (share(r, c) / all) / quantum) * quantum;
-    }
+    for (int col = 0; col < cells_.cols(); ++col)
+      for (const double aside :
+           {-1.0 / 3.0, 0.0, 1.0 / 3.0}) {  // thirds of a cell, side by side round the axis
+        const double x = col - axis_x, y = row - axis_y, rho = std::sqrt(x * x + y * y);
+        if (excess(row, col) == 0.0 || rho == 0.0) continue;
+        const double turn = aside / rho, from_x = x - turn * y, from_y = y + turn * x;
+        const double ratio =
+            distance * tool_.radius / bed_.cell_size() / std::sqrt(from_x * from_x + from_y * from_y);
+        const double to_x = ratio * from_x, to_y = ratio * from_y;
+        const int r0 = static_cast<int>(std::floor(axis_y + to_y)),
+                  c0 = static_cast<int>(std::floor(axis_x + to_x));
+        const auto share = [&](int r, int c) {  // by the distance to a cell's centre, along x and along y
+          const bool free = r >= 0 && r < cells_.rows() && c >= 0 && c < cells_.cols() &&
+                            bed_.has_sand(cells_.row_begin + r, cells_.col_begin + c) &&
+                            !in_bowl(cells_.row_begin + r, cells_.col_begin + c);
+          return free ? std::max(0.0, 1.0 - std::abs(c - axis_x - to_x)) *
+                            std::max(0.0, 1.0 - std::abs(r - axis_y - to_y))
+                      : 0.0;
+        };
+        const double all = (share(r0, c0) + share(r0 + 1, c0 + 1)) + (share(r0, c0 + 1) + share(r0 + 1, c0));
+        for (int r = r0; r <= r0 + 1; ++r)
+          for (int c = c0; c <= c0 + 1; ++c)
+            if (share(r, c) > 0.0)
+              weights(r, c) +=
+                  std::nearbyint(excess(row, col) / 3.0 * (share(r, c) / all) / quantum) * quantum;
+      }
   return weights;
 }
 
