@@ -82,8 +82,9 @@ void ActiveSand::end(HeightField& bed, RelaxationOutcome& outcome) {
     TilePatch& patch = tiles_[i]->patch;
     const CellFlags& seen = activity_.seen(patch.slot());
     const RowSpan rows = row_span(seen);
-    patch.load_rows(bed, {rows.begin - 1, rows.end + 1});
-    patch.load_rim(bed, {rows.begin - 1, rows.end + 1}, true, true, [](int) { return nullptr; });
+    const RowSpan around{rows.begin - TilePatch::rim, rows.end + TilePatch::rim};
+    patch.load_rows(bed, around);
+    patch.load_rim(bed, around, true, true, [](int) { return nullptr; });
     Residuals& residuals = group_residuals_[patch.slot()];
     compute_residuals(law_, patch, seen, residuals.data());
     residuals_[patch.slot()] = std::max(0.0, *std::max_element(residuals.begin(), residuals.end()));

@@ -36,8 +36,7 @@ struct Drops {
 
 /// All may, and nothing is.
 struct FreeSand {
-  HWY_INLINE void begin_row(int) {}
-  HWY_INLINE Mask may_give(int, Mask moves) const { return moves; }
+  HWY_INLINE Mask may_give(int, int) const { return hn::FirstN(d, lanes); }
   HWY_INLINE void meet(V, V) {}
   HWY_INLINE void flows(int, int, V) {}
   HWY_INLINE void ends(int, unsigned) {}
@@ -48,13 +47,14 @@ struct FreeSand {
 class SteppedSand {
  public:
   SteppedSand(const FirstFlow& first, const FlowScratch& scratch)
-      : first_(first), givers_(scratch.givers.data()), row_(nullptr), difference_(hn::Zero(d)) {}
-  HWY_INLINE void begin_row(int row) { row_ = givers_ + row + 1; }
-  HWY_INLINE Mask may_give(int c, Mask moves) const {
-    const std::uint64_t flags = c < 0       ? std::uint64_t{row_->west} << (group - 1) >> (c + group)
-                                : c >= side ? std::uint64_t{row_->east} >> (c - side)
-                                            : row_->own >> c;
-    return hn::And(moves, lanes_of(flags));
+      : first_(first), givers_(scratch.givers.data()), difference_(hn::Zero(d)) {}
+  /// The cells of a row from column c on.
+  HWY_INLINE Mask may_give(int row, int c) const {
+    const FlowScratch::Row& flags = givers_[row + 1];
+    const std::uint64_t west = flags.west, east = flags.east;
+    if (c < 0) return lanes_of(west << (-c - 1) | flags.own << -c);
+    if (c >= side) return lanes_of(east >> (c - side));
+    return lanes_of(c == 0 ? flags.own : flags.own >> c | east << (side - c));
   }
   HWY_INLINE void meet(V axis, V diagonal) {
     steepest_.axis = higher(axis, steepest_.axis);
@@ -88,7 +88,6 @@ class SteppedSand {
  private:
   const FirstFlow& first_;
   const FlowScratch::Row* givers_;
-  const FlowScratch::Row* row_;
   Drops steepest_;
   V difference_;
   LaneSum product_;

@@ -8,7 +8,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "sand/flow_in_step-inl.h"
+#include "sand/face_flow-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace sandstroke {
@@ -72,12 +72,12 @@ struct PaperFactors {
         share(all(law.share)) {}
 
   template <class Sand>
-  HWY_INLINE unsigned operator()(const double* row, int c, double* factors, Sand& sand) const {
+  HWY_INLINE unsigned operator()(const double* row, int c, double* factors, Mask may_give, Sand& sand) const {
     const Around a(row, c);
     const Corners k(row, c);
     const V axis = axis_drop(a), diagonal = diagonal_drop(a.m, k);
     sand.meet(axis, diagonal);
-    const Mask moves = sand.may_give(c, hn::Or(axis > axis_limit, diagonal > diagonal_limit));
+    const Mask moves = hn::And(may_give, hn::Or(axis > axis_limit, diagonal > diagonal_limit));
     if (hn::AllFalse(d, moves)) {
       hn::Store(hn::Zero(d), d, factors + c);
       return 0;
@@ -103,7 +103,7 @@ struct IsotropicFactors {
         one(all(1.0)) {}
 
   template <class Sand>
-  HWY_INLINE unsigned operator()(const double* row, int c, double* factors, Sand& sand) const {
+  HWY_INLINE unsigned operator()(const double* row, int c, double* factors, Mask may_give, Sand& sand) const {
     const V square = squared_slope(Around(row, c));
     sand.meet(square, hn::Zero(d));
     if (hn::AllFalse(d, square > surely_at_rest)) {
@@ -111,7 +111,7 @@ struct IsotropicFactors {
       return 0;
     }
     const V g = Sqrt(square);
-    const Mask moves = sand.may_give(c, g > limit);
+    const Mask moves = hn::And(may_give, g > limit);
     hn::Store(where(moves, share * (one - T / g)), d, factors + c);
     return bits(moves);
   }
@@ -128,10 +128,10 @@ HWY_INLINE WideRow widened(std::uint64_t row) {
 template <class Factors, class Sand>
 HWY_INLINE WideRow factor_row(const Factors& factors_of, const double* heights, double* factors, int row,
                               const WideRow& cells, Sand& sand) {
-  sand.begin_row(row);
   const auto one_group = [&](int begin) {
     unsigned flags = 0;
-    for (int c = 0; c < group; c += lanes) flags |= factors_of(heights, begin + c, factors, sand) << c;
+    for (int c = begin; c < begin + group; c += lanes)
+      flags |= factors_of(heights, c, factors, sand.may_give(row, c), sand) << (c - begin);
     return flags;
   };
   WideRow moving{};
@@ -214,11 +214,17 @@ HWY_INLINE void flow_of(const TalusLaw& law, const TilePatch& patch, const CellF
   sand.report(law, flow);
 }
 
-template <class Factors, class Gain>
-void flow_by(const TalusLaw& law, const TilePatch& patch, const CellFlags& active, RowSpan rows,
-             const FlowInStep& in_step, FlowScratch& scratch, TileFlow& flow) {
+void ComputeFlow(const TalusLaw& law, const TilePatch& patch, const CellFlags& active, RowSpan rows,
+                 const FlowInStep& in_step, FlowScratch& scratch, TileFlow& flow) {
   const auto compute = [&](auto sand, auto sink) {
-    flow_of<Factors, Gain>(law, patch, active, rows, sand, sink, scratch, flow);
+    switch (law.law) {
+      case RelaxationLaw::paper:
+        return flow_of<PaperFactors, GainOf<true>>(law, patch, active, rows, sand, sink, scratch, flow);
+      case RelaxationLaw::isotropic:
+        return flow_of<IsotropicFactors, GainOf<false>>(law, patch, active, rows, sand, sink, scratch, flow);
+      case RelaxationLaw::faces:
+        return face_flow(law, patch, active, rows, sand, sink, scratch, flow);
+    }
   };
   if (!in_step.first)
     compute(FreeSand{}, KeptGain(flow));
@@ -226,14 +232,6 @@ void flow_by(const TalusLaw& law, const TilePatch& patch, const CellFlags& activ
     compute(SteppedSand(*in_step.first, scratch), KeptGain(flow));
   else
     compute(SteppedSand(*in_step.first, scratch), TakenStage(patch, *in_step.ahead));
-}
-
-void ComputeFlow(const TalusLaw& law, const TilePatch& patch, const CellFlags& active, RowSpan rows,
-                 const FlowInStep& in_step, FlowScratch& scratch, TileFlow& flow) {
-  if (law.law == RelaxationLaw::paper)
-    flow_by<PaperFactors, GainOf<true>>(law, patch, active, rows, in_step, scratch, flow);
-  else
-    flow_by<IsotropicFactors, GainOf<false>>(law, patch, active, rows, in_step, scratch, flow);
 }
 
 void ApplyFlow(const TileFlow& flow, TilePatch& patch, CellFlags& changed) {
@@ -251,17 +249,22 @@ void ApplyFlow(const TileFlow& flow, TilePatch& patch, CellFlags& changed) {
 }
 
 void ComputeResiduals(const TalusLaw& law, const TilePatch& patch, const CellFlags& cells, double* steepest) {
-  const bool paper = law.law == RelaxationLaw::paper;
+  const bool paper = law.law == RelaxationLaw::paper, faces = law.law == RelaxationLaw::faces;
   const RowSpan span = row_span(cells);
   for (int row = span.begin; row < span.end; ++row) {
     for (unsigned wanted = groups_of(cells[row]); wanted; wanted &= wanted - 1) {
       const int g = std::countr_zero(wanted);
       Drops drops;
       for (int c = g * group; c < (g + 1) * group; c += lanes) {
-        const Around a(patch.heights(row), c);
+        const double* heights = patch.heights(row);
+        if (faces) {  // each is one cell's
+          drops.axis = higher(FaceSlope(heights + c, 1, TilePatch::stride).square, drops.axis);
+          drops.axis = higher(FaceSlope(heights + c, TilePatch::stride, 1).square, drops.axis);
+          continue;
+        }
+        const Around a(heights, c);
         drops.axis = higher(paper ? axis_drop(a) : squared_slope(a), drops.axis);
-        if (paper)
-          drops.diagonal = higher(diagonal_drop(a.m, Corners(patch.heights(row), c)), drops.diagonal);
+        if (paper) drops.diagonal = higher(diagonal_drop(a.m, Corners(heights, c)), drops.diagonal);
       }
       const double axis = largest(drops.axis), diagonal = largest(drops.diagonal);
       steepest[row * groups + g] = paper ? std::max(axis / law.axis_drop, diagonal / law.diagonal_drop) - 1.0

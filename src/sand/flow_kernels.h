@@ -15,7 +15,7 @@ struct TileFlow {
   alignas(64) std::array<double, BedGeometry::tile_area> gain{};
   double given = 0.0;  ///< m: sum of outflows
   // In super-steps:
-  double axis_drop = 0.0;      ///< m: the largest drop between neighbours that was met (isotropic: dx |g|)
+  double axis_drop = 0.0;      ///< m: the largest drop between neighbours that was met (others: dx |g|)
   double diagonal_drop = 0.0;  ///< m: the same between diagonal ones (paper law)
   double change = 0.0;         ///< m: max |F - F0|
   double product = 0.0;        ///< m^2: sum F F0
@@ -23,8 +23,9 @@ struct TileFlow {
 
 /// What a pass needs besides, for one tile after the other.
 struct FlowScratch {
-  /// The part of each drop that a cell gives away; laid out like a patch.
+  /// The part of each drop that a cell gives away, or what flows to the right of it; laid out like a patch.
   alignas(64) std::array<double, TilePatch::size> factors{};
+  alignas(64) std::array<double, TilePatch::size> below{};  ///< what flows down from it (law: faces)
   /// The cells that may give in a super-step, of a tile and one cell around it; all others are held still.
   struct Row {
     std::uint64_t own;

@@ -9,7 +9,7 @@
 namespace sandstroke {
 
 /// How sand that lies too steep flows: as Relaxer says.
-enum class RelaxationLaw { paper, isotropic };
+enum class RelaxationLaw { paper, isotropic, faces };
 /// passes: explicit Jacobi passes of the law. rkl: super time steps, which reach the rest that small steps of
 /// the law reach in far fewer passes (relaxation_rkl.cpp).
 enum class RelaxationMethod { passes, rkl };
@@ -20,9 +20,9 @@ struct RelaxationSettings {
   double talus_angle = 30.0;    ///< deg (angle of repose), above 0, below 90
   double tolerance = 1e-3;      ///< a cell whose slope exceeds tan(talus) by no more than this share rests
   double step_tolerance = 0.1;  ///< rkl: error of a super-step, as a share of how far sand has moved
-  double rate = 60.0;   ///< Hz, relaxations during a stroke; 0 = none by time (paper: the visual loop)
+  double rate = 60.0;       ///< Hz, relaxations during a stroke; 0 = none by time (paper: the visual loop)
   double travel = 0.0;  ///< cells, way of the tool through sand between relaxations; 0 = none by way
-  double share = 0.0;   ///< c: 0 = the law's own (paper 1/2, isotropic 1/4, which is also its limit)
+  double share = 0.0;       ///< c: 0 = the law's own (paper 1/2, isotropic 1/4, which is also its limit)
   std::int64_t max_passes = 1'000'000;  ///< per relaxation
 };
 
@@ -64,6 +64,11 @@ using PassWatcher = std::function<void(std::int64_t passes, const BedNow& bed_no
 ///              proportion to m - m_i (paper 3.2)
 ///   isotropic: upwind slope |g| = sqrt(gx^2 + gy^2), gx = max(0, m - west, m - east)/dx; each lower axis
 ///              neighbour gets c (1 - tan(talus)/|g|) (m - m_i); monotone for c <= 1/4
+///   faces:     the same with |g| at the face to each neighbour, so that a crest that slips on one side gives
+///              nothing to the other: along it the drop M = m - m_i, and k = n^2 / (3 max(M, n)), n = min(M,
+///              N), where the giver falls to its other side, too, by N (heights are means: those of a crest
+///              of slope T whose top is in the cell drop by M and N with M + N^2 / (3 M) = T dx, N <= M);
+///              across it the mean of both cells' central differences, one-sided at walls
 /// Nothing crosses the border, nor gets into or out of cells that the bed holds (HeightField::hold). Sums run
 /// over opposite pairs, so that a symmetric bed stays symmetric to the bit.
 class Relaxer {

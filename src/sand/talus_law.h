@@ -25,10 +25,11 @@ struct TalusLaw {
         diagonal_limit(diagonal_drop * (1.0 + settings.tolerance)) {}
 };
 
-/// Where no slope (rise over run) is above this, both laws leave all sand at rest: they compare slopes along
-/// rows, columns and diagonals; the isotropic one adds up two of them.
+/// Where no slope (rise over run) is above this, the law leaves all sand at rest. Laws compare slopes along
+/// rows, columns and diagonals; isotropic adds up two of them, faces 4/3 of one (M + M / 3) and another.
 inline double stable_slope(const TalusLaw& law, double cell_size) {
-  return law.axis_drop / cell_size / std::numbers::sqrt2 * (1.0 - 1e-9);
+  const double added = law.law == RelaxationLaw::faces ? 5.0 / 3.0 : std::numbers::sqrt2;
+  return law.axis_drop / cell_size / added * (1.0 - 1e-9);
 }
 
 }  // namespace sandstroke

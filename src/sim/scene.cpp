@@ -105,8 +105,9 @@ void describe_force(KeyVisitor& v, ForceSettings& force, SandStrength& sand) {
 
 void describe_relaxation(KeyVisitor& v, RelaxationSettings& r) {
   v.section("relaxation", "how sand that lies too steep flows");
-  choose(v, "law", r.law, {"paper", "isotropic"},
-         "8 neighbours as published, or the same slope in every direction");
+  choose(
+      v, "law", r.law, {"paper", "isotropic", "faces"},
+      "8 neighbours as published, the same slope in every direction, or that slope between each two cells");
   choose(v, "method", r.method, {"passes", "rkl"}, "plain passes, or super time steps, which are far fewer");
   if (r.method == RelaxationMethod::rkl)
     v.number("step_tolerance", r.step_tolerance, {1e-6, 10.0, false}, "",
@@ -118,7 +119,7 @@ void describe_relaxation(KeyVisitor& v, RelaxationSettings& r) {
   v.number("travel", r.travel, not_negative, "cells",
            "distance that the tool moves through sand between relaxations; 0: none");
   v.number("share", r.share, {0.0, 1.0, false}, "",
-           "part of the excess that a pass moves; 0: 1/2 (paper) or 1/4 (isotropic)");
+           "part of the excess that a pass moves; 0: 1/2 (paper) or 1/4 (others)");
   double passes = static_cast<double>(r.max_passes);
   v.number("max_passes", passes, {0.0, 1e15, false, true}, "", "largest number of passes in one relaxation");
   r.max_passes = static_cast<std::int64_t>(passes);
@@ -347,9 +348,9 @@ void check_scene(const Scene& scene, const std::string& name) {
         scene.tool.radius, dx);
 
   const RelaxationSettings& r = scene.relaxation;
-  if (scene.own.relaxation.empty() && r.law == RelaxationLaw::isotropic && flow_share(r) > 0.25)
+  if (scene.own.relaxation.empty() && r.law != RelaxationLaw::paper && flow_share(r) > 0.25)
     throw_input_error(
-        "{}: relaxation.share = {} is not stable with relaxation.law = isotropic; take 0.25 or less", name,
+        "{}: relaxation.share = {} is stable only with relaxation.law = paper; take 0.25 or less", name,
         r.share);
   constexpr double least_travel = 0.01;  // cells: with a way below rounding a tick would never end
   if (r.travel > 0.0 && r.travel < least_travel)

@@ -34,7 +34,35 @@ double descent_slope(const HeightField& bed, int row, int col) {
   return std::sqrt(steepest) / bed.cell_size();
 }
 
+namespace {
+
+/// RelaxationLaw::faces: of the steepest face through which the cell may give.
+double steepest_face(const HeightField& bed, int row, int col) {
+  const auto inside = [&](int r, int c) { return r >= 0 && r < bed.rows() && c >= 0 && c < bed.cols(); };
+  const auto drop = [&](int r, int c, int down, int right) {
+    return inside(r + down, c + right) ? bed(r, c) - bed(r + down, c + right) : 0.0;
+  };
+  const auto across = [&](int r, int c, int down, int right) {
+    const bool both = inside(r + down, c + right) && inside(r - down, c - right);
+    return (drop(r, c, -down, -right) - drop(r, c, down, right)) / (both ? 2.0 : 1.0);
+  };
+  double steepest = 0.0;
+  for (const auto& [down, right] : {std::pair(0, -1), std::pair(0, 1), std::pair(-1, 0), std::pair(1, 0)}) {
+    const double fall = drop(row, col, down, right), behind = std::max(0.0, drop(row, col, -down, -right));
+    if (!(fall > 0.0)) continue;
+    const double low = std::min(fall, behind);
+    const double sideways = 0.5 * (across(row, col, std::abs(right), std::abs(down)) +
+                                   across(row + down, col + right, std::abs(right), std::abs(down)));
+    steepest =
+        std::max(steepest, elementary::hypot(fall + low * low / (3.0 * std::max(fall, behind)), sideways));
+  }
+  return steepest / bed.cell_size();
+}
+
+}  // namespace
+
 double law_slope(const HeightField& bed, int row, int col, RelaxationLaw law) {
+  if (law == RelaxationLaw::faces) return steepest_face(bed, row, col);
   const auto drop = [&](int row_step, int col_step) {
     const int r = row + row_step, c = col + col_step;
     const bool inside = r >= 0 && r < bed.rows() && c >= 0 && c < bed.cols();

@@ -27,7 +27,8 @@ struct SlopeMeasures {
 double descent_slope(const HeightField& bed, int row, int col);
 
 /// Steepest slope of a cell, rise over run, as a law of relaxation (sand/relaxation.h) compares it with
-/// tan(talus): paper: the largest drop to one of 8 neighbours over its distance; isotropic: the upwind slope.
+/// tan(talus): paper: the largest drop to one of 8 neighbours over its distance; isotropic: the upwind slope;
+/// faces: that of the steepest face through which the cell may give.
 double law_slope(const HeightField& bed, int row, int col, RelaxationLaw law);
 
 /// Over the cells whose height is not what it was; `settings` made them rest. Fields of one shape; tiles that

@@ -40,10 +40,7 @@ class ReferenceRelaxer : public Relaxer {
     while (true) {
       outcome.cells_visited += heights_.size();
       outcome.residual = 0.0;
-      factors_ = HeightGrid::Zero(heights_.rows(), heights_.cols());
-      for (int row = 0; row < rows(); ++row)
-        for (int col = 0; col < cols(); ++col) factors_(row, col) = flow_factor(row, col, outcome.residual);
-      outcome.converged = (factors_ == 0.0).all();
+      outcome.converged = !look_for_flow(outcome.residual);
       if (outcome.converged || outcome.passes == max_passes_ || interrupted()) break;
 
       HeightGrid next(heights_.rows(), heights_.cols());
@@ -82,6 +79,51 @@ class ReferenceRelaxer : public Relaxer {
     return heights_(row, col) - heights_(r, c);
   }
 
+  /// What flows in this pass; false where nothing does. Raises `residual` to the steepest cell's, or face's.
+  bool look_for_flow(double& residual) {
+    if (law_.law == RelaxationLaw::faces) {
+      right_ = below_ = HeightGrid::Zero(heights_.rows(), heights_.cols());
+      for (int row = 0; row < rows(); ++row)
+        for (int col = 0; col < cols(); ++col) {
+          right_(row, col) = face_flux(row, col, {0, 1}, residual);
+          below_(row, col) = face_flux(row, col, {1, 0}, residual);
+        }
+      return !((right_ == 0.0).all() && (below_ == 0.0).all());
+    }
+    factors_ = HeightGrid::Zero(heights_.rows(), heights_.cols());
+    for (int row = 0; row < rows(); ++row)
+      for (int col = 0; col < cols(); ++col) factors_(row, col) = flow_factor(row, col, residual);
+    return !(factors_ == 0.0).all();
+  }
+
+  /// From (row, col) to its neighbour, negative the other way.
+  double face_flux(int row, int col, Offset to, double& residual) const {
+    const double down = drop(row, col, to);
+    if (!std::isfinite(down) || down == 0.0) return 0.0;
+    const Offset next{row + to.row, col + to.col};
+    const double fall = std::abs(down);
+    const double behind = down > 0.0 ? drop(row, col, {-to.row, -to.col}) : drop(next.row, next.col, to);
+    double along = fall;
+    if (behind > 0.0) {
+      const double low = std::min(fall, behind), high = std::max(fall, behind);
+      along += low * low / (3.0 * high);
+    }
+    const Offset side{to.col, to.row};
+    const double across = 0.5 * (slope_across(row, col, side) + slope_across(next.row, next.col, side));
+    const double slope = std::sqrt(along * along + across * across);
+    residual = std::max(residual, slope / law_.axis_drop - 1.0);
+    return slope > law_.axis_limit ? law_.share * (1.0 - law_.axis_drop / slope) * down : 0.0;
+  }
+
+  double slope_across(int row, int col, Offset side) const {
+    const bool has_after = !is_wall(row + side.row, col + side.col),
+               has_before = !is_wall(row - side.row, col - side.col);
+    const double here = heights_(row, col),
+                 after = has_after ? heights_(row + side.row, col + side.col) : here,
+                 before = has_before ? heights_(row - side.row, col - side.col) : here;
+    return (after - before) * (has_after && has_before ? 0.5 : 1.0);
+  }
+
   /// The part of each drop that a cell gives away in this pass; 0 at rest. Raises `residual` to the cell's
   /// own.
   double flow_factor(int row, int col, double& residual) const {
@@ -114,6 +156,13 @@ class ReferenceRelaxer : public Relaxer {
 
   /// Height that (row, col) gains from its neighbours less what it gives; adds what it gives to `moved`.
   double net_inflow(int row, int col, CompensatedSum& moved) const {
+    if (law_.law == RelaxationLaw::faces) {
+      const double east = right_(row, col), west = col > 0 ? right_(row, col - 1) : 0.0;
+      const double south = below_(row, col), north = row > 0 ? below_(row - 1, col) : 0.0;
+      moved.add((std::max(0.0, east) + std::max(0.0, -west)) +
+                (std::max(0.0, south) + std::max(0.0, -north)));
+      return (west - east) + (north - south);
+    }
     const bool paper = law_.law == RelaxationLaw::paper;
     double out = 0.0, in = 0.0;
     const auto exchange = [&](const std::array<Offset, 4>& neighbours, double threshold) {
@@ -138,6 +187,7 @@ class ReferenceRelaxer : public Relaxer {
   TalusLaw law_;
   std::int64_t max_passes_;
   HeightGrid heights_, factors_;
+  HeightGrid right_, below_;  // through the faces to the right of the cells, and below them
   Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> held_;
 };
 

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "sand/all_laws.h"
 #include "sand/displacement.h"
 #include "sand/initial_surface.h"
 #include "sand/relaxation.h"
@@ -57,7 +58,7 @@ TEST(RoundBed, SandThatSlipsStaysInside) {
   SurfaceSettings cliff;
   cliff.kind = SurfaceKind::cliff;
   cliff.height = 0.02;
-  for (const RelaxationLaw law : {RelaxationLaw::paper, RelaxationLaw::isotropic}) {
+  for (const RelaxationLaw law : all_laws) {
     HeightField bed = make_surface(cliff, 130, 130, width, BedShape::round);
     const HeightField before = bed;
     RelaxationSettings settings;

@@ -9,6 +9,7 @@
 #include <random>
 
 #include "reference/relaxation_reference.h"
+#include "sand/all_laws.h"
 #include "sand/initial_surface.h"
 #include "sand/relaxation.h"
 
@@ -125,10 +126,7 @@ class RuleBed : public testing::TestWithParam<RelaxationLaw> {
   }
   static constexpr RelaxationMethod methods[] = {RelaxationMethod::passes, RelaxationMethod::rkl};
 };
-INSTANTIATE_TEST_SUITE_P(Laws, RuleBed, testing::Values(RelaxationLaw::paper, RelaxationLaw::isotropic),
-                         [](const auto& law) {
-                           return law.param == RelaxationLaw::paper ? "paper" : "isotropic";
-                         });
+INSTANTIATE_TEST_SUITE_P(Laws, RuleBed, testing::ValuesIn(all_laws), law_name);
 
 TEST_P(RuleBed, AConeThatIsAllButAsSteepAsTheTalusMovesAsTheReferenceSays) {
   // Cells near the apex may lie steeper than the cone: |g| adds up two drops.

@@ -1,4 +1,5 @@
 #include "sand/super_step_kernels.h"
+#include "sand/all_laws.h"
 
 #include <gtest/gtest.h>
 
@@ -92,7 +93,7 @@ struct TileInStep {
 
 TEST(SuperStage, TakenWithTheFlowIsTheSameBits) {
   for (const std::int64_t target : hwy::SupportedAndGeneratedTargets())
-    for (const RelaxationLaw law : {RelaxationLaw::paper, RelaxationLaw::isotropic}) {
+    for (const RelaxationLaw law : all_laws) {
       SCOPED_TRACE(hwy::TargetName(target));
       hwy::SetSupportedTargetsForTest(target);
       RelaxationSettings settings;

@@ -6,6 +6,7 @@
 #include <functional>
 #include <numbers>
 
+#include "sand/all_laws.h"
 #include "sand/relaxation.h"
 
 namespace sandstroke {
@@ -63,7 +64,7 @@ TEST(DescentSlope, OfAConeIsItsOwnUpToTheBendOfItsContours) {
 }
 
 TEST(LawSlope, OnAPlaneIsTheLawsOwn) {
-  // The paper's law looks in eight directions; the isotropic one sees the plane's slope.
+  // The paper's law looks in eight directions; the others see the plane's slope.
   for (int turn = 0; turn < 64; ++turn) {
     const double angle = turn * std::numbers::pi / 32;
     const HeightField bed =
@@ -71,6 +72,7 @@ TEST(LawSlope, OnAPlaneIsTheLawsOwn) {
     const double off = std::remainder(angle, std::numbers::pi / 4);  // from the nearest of the eight
     EXPECT_NEAR(law_slope(bed, 2, 2, RelaxationLaw::paper), 0.7 * std::cos(off), 1e-13) << angle;
     EXPECT_NEAR(law_slope(bed, 2, 2, RelaxationLaw::isotropic), 0.7, 1e-13) << angle;
+    EXPECT_NEAR(law_slope(bed, 2, 2, RelaxationLaw::faces), 0.7, 1e-13) << angle;
   }
 }
 
@@ -80,6 +82,10 @@ TEST(LawSlope, OnAPeakIsOfTheSteeperSidesAndInAPitAndOnAWallZero) {
   bed.set(1, 0, 2.0 * cell_size), bed.set(0, 1, cell_size), bed.set(2, 1, -cell_size);
   EXPECT_NEAR(law_slope(bed, 1, 1, RelaxationLaw::paper), 4.0, 1e-13);
   EXPECT_NEAR(law_slope(bed, 1, 1, RelaxationLaw::isotropic), std::hypot(3.0, 4.0), 1e-13);
+  // To the right, or below: a crest that falls by 3 and 1, or 4 and 2, and half of either's rise across it
+  // and at the other cell.
+  EXPECT_NEAR(law_slope(bed, 1, 1, RelaxationLaw::faces),
+              std::hypot(4.0 + 2.0 * 2.0 / (3.0 * 4.0), 0.5 * (0.5 * (3.0 - 1.0) + 0.0)), 1e-13);
   EXPECT_EQ(law_slope(bed, 2, 1, RelaxationLaw::paper), 0.0);
   EXPECT_EQ(law_slope(bed, 2, 1, RelaxationLaw::isotropic), 0.0);
   const HeightField alone(HeightGrid::Constant(1, 1, 3.0), cell_size);
@@ -88,7 +94,7 @@ TEST(LawSlope, OnAPeakIsOfTheSteeperSidesAndInAPitAndOnAWallZero) {
 }
 
 TEST(Slopes, OfSandAtRestAreByItsLawNoMoreThanTalusAngleAndResidual) {
-  for (const RelaxationLaw law : {RelaxationLaw::paper, RelaxationLaw::isotropic})
+  for (const RelaxationLaw law : all_laws)
     for (const RelaxationMethod method : {RelaxationMethod::passes, RelaxationMethod::rkl})
       for (const double angle : {10.0, 20.0, 35.0, 45.0}) {
         const HeightField before = bed_of(64, [&](double x, double y) {

@@ -1,0 +1,157 @@
+// The flow of RelaxationLaw::faces. Included once per instruction set, as lanes-inl.h.
+#if defined(SANDSTROKE_SAND_FACE_FLOW_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef SANDSTROKE_SAND_FACE_FLOW_INL_H_
+#undef SANDSTROKE_SAND_FACE_FLOW_INL_H_
+#else
+#define SANDSTROKE_SAND_FACE_FLOW_INL_H_
+#endif
+
+#include "sand/flow_in_step-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace sandstroke {
+namespace HWY_NAMESPACE {
+
+/// The face between a cell and its neighbour one step `along`: right of it, or below.
+struct FaceSlope {
+  V drop;    ///< to the neighbour; NaN at a wall
+  V square;  ///< of dx |g|
+
+  HWY_INLINE FaceSlope(const double* cell, std::ptrdiff_t along, std::ptrdiff_t across) {
+    const V m = hn::LoadU(d, cell), next = hn::LoadU(d, cell + along), zero = hn::Zero(d);
+    drop = m - next;
+    const V fall = hn::Abs(drop);
+    // What the giver falls to its other side, where it is a crest.
+    const V behind = Max(zero, hn::IfThenElse(drop > zero, m - hn::LoadU(d, cell - along),
+                                              next - hn::LoadU(d, cell + 2 * along)));
+    V slope = fall;
+    if (const Mask crest = behind > zero; !hn::AllFalse(d, crest)) {
+      const V low = Min(fall, behind), high = Max(fall, behind);
+      slope += where(crest, low * low / (all(3.0) * high));
+    }
+    const V sideways = all(0.5) * (slope_across(m, cell, across) + slope_across(next, cell + along, across));
+    square = hn::IfThenElse(fall > zero, slope * slope + sideways * sideways, zero);
+  }
+
+ private:
+  /// dx times the slope across the face: central, or towards the only neighbour that is no wall.
+  static HWY_INLINE V slope_across(V m, const double* cell, std::ptrdiff_t across) {
+    const V before = hn::LoadU(d, cell - across), after = hn::LoadU(d, cell + across);
+    const Mask has_before = before == before, has_after = after == after;
+    const V rise = hn::IfThenElse(has_after, after, m) - hn::IfThenElse(has_before, before, m);
+    return rise * hn::IfThenElse(hn::And(has_before, has_after), all(0.5), all(1.0));
+  }
+};
+
+/// Flags of a row's faces to the right of its cells, and of the one at its western end.
+struct RightFaces {
+  std::uint64_t own;
+  bool west;
+};
+
+template <class Sand>
+class FaceFluxes {
+ public:
+  FaceFluxes(const TalusLaw& law, const TilePatch& patch, Sand& sand, FlowScratch& scratch)
+      : T_(all(law.axis_drop)),
+        limit_(all(law.axis_limit)),
+        surely_at_rest_(all(law.axis_limit * law.axis_limit * (1.0 - 1e-14))),
+        share_(all(law.share)),
+        patch_(patch),
+        sand_(sand),
+        scratch_(scratch) {}
+
+  double* right(int row) const { return scratch_.factors.data() + TilePatch::start(row); }
+  double* below(int row) const { return scratch_.below.data() + TilePatch::start(row); }
+
+  /// The flux [m a pass] through the faces beside the flagged cells; returns those through which sand flows.
+  HWY_INLINE RightFaces to_the_right(int row, std::uint64_t cells) {
+    RightFaces flowing{0, false};
+    if (cells & 1) flowing.west = group_of_faces(row, -group, 0, 1) >> (group - 1) & 1;
+    for (unsigned wanted = groups_of(cells | cells >> 1); wanted; wanted &= wanted - 1) {
+      const int begin = std::countr_zero(wanted) * group;
+      flowing.own |= static_cast<std::uint64_t>(group_of_faces(row, begin, 0, 1)) << begin;
+    }
+    return flowing;
+  }
+  HWY_INLINE std::uint64_t downwards(int row, std::uint64_t cells) {
+    std::uint64_t flowing = 0;
+    for (unsigned wanted = groups_of(cells); wanted; wanted &= wanted - 1) {
+      const int begin = std::countr_zero(wanted) * group;
+      flowing |= static_cast<std::uint64_t>(group_of_faces(row, begin, 1, 0)) << begin;
+    }
+    return flowing;
+  }
+
+ private:
+  HWY_INLINE unsigned group_of_faces(int row, int begin, int down, int right_by) {
+    double* out = (down ? below(row) : right(row)) + begin;
+    const double* cells = patch_.heights(row) + begin;
+    unsigned flags = 0;
+    for (int c = 0; c < group; c += lanes) {
+      const FaceSlope face(cells + c, down ? TilePatch::stride : 1, down ? 1 : TilePatch::stride);
+      sand_.meet(face.square, hn::Zero(d));
+      V flux = hn::Zero(d);
+      if (!hn::AllFalse(d, face.square > surely_at_rest_)) {
+        const V g = Sqrt(face.square);
+        const Mask falls = face.drop > hn::Zero(d);
+        const Mask gives = hn::Or(hn::And(falls, sand_.may_give(row, begin + c)),
+                                  hn::AndNot(falls, sand_.may_give(row + down, begin + c + right_by)));
+        const Mask moves = hn::And(gives, g > limit_);
+        flux = where(moves, share_ * (all(1.0) - T_ / g) * face.drop);
+        flags |= bits(moves) << c;
+      }
+      hn::Store(flux, d, out + c);
+    }
+    return flags;
+  }
+
+  V T_, limit_, surely_at_rest_, share_;
+  const TilePatch& patch_;
+  Sand& sand_;
+  FlowScratch& scratch_;
+};
+
+template <class Sand, class Sink>
+HWY_INLINE void face_flow(const TalusLaw& law, const TilePatch& patch, const CellFlags& active, RowSpan rows,
+                          Sand& sand, Sink& sink, FlowScratch& scratch, TileFlow& flow) {
+  const auto active_row = [&](int row) { return row < rows.begin || row >= rows.end ? 0 : active[row]; };
+  FaceFluxes<Sand> faces(law, patch, sand, scratch);
+  LaneSum given;
+  flow.rows = rows;
+  std::uint64_t above = faces.downwards(rows.begin - 1, active_row(rows.begin));
+  for (int row = rows.begin; row < rows.end; ++row) {
+    const RightFaces beside = faces.to_the_right(row, active[row]);
+    const std::uint64_t below = faces.downwards(row, active[row] | active_row(row + 1));
+    const std::uint64_t cells =
+        (beside.own | beside.own << 1 | static_cast<std::uint64_t>(beside.west) | above | below) &
+        active[row];
+    above = below;
+    flow.moved[row] = cells;
+    const unsigned moved = groups_of(cells);
+    sink.begin_row(row, active[row]);
+    for_vectors(moved, [&](int c) {
+      const V zero = hn::Zero(d);
+      const V east = hn::Load(d, faces.right(row) + c), west = hn::LoadU(d, faces.right(row) + c - 1);
+      const V south = hn::Load(d, faces.below(row) + c), north = hn::Load(d, faces.below(row - 1) + c);
+      const Mask flagged = lanes_of(cells >> c);
+      const V gained = where(flagged, (west - east) + (north - south));
+      const V out =
+          (Max(zero, east) + Max(zero, hn::Neg(west))) + (Max(zero, south) + Max(zero, hn::Neg(north)));
+      given.add(c, where(flagged, out));
+      sink.take(c, gained);
+      sand.flows(row, c, gained);
+    });
+    sand.ends(row, moved);
+    sink.end_row(row, moved);
+  }
+  sink.end(rows);
+  flow.given = given.total();
+  sand.report(law, flow);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace sandstroke
+HWY_AFTER_NAMESPACE();
+
+#endif

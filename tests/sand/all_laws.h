@@ -1,0 +1,22 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "sand/relaxation.h"
+
+namespace sandstroke {
+
+inline constexpr RelaxationLaw all_laws[] = {RelaxationLaw::paper, RelaxationLaw::isotropic,
+                                             RelaxationLaw::faces};
+
+inline std::string name_of(RelaxationLaw law) {
+  constexpr const char* names[] = {"paper", "isotropic", "faces"};
+  return names[static_cast<int>(law)];
+}
+
+/// Of a test for each of them.
+inline std::string law_name(const testing::TestParamInfo<RelaxationLaw>& law) { return name_of(law.param); }
+
+}  // namespace sandstroke
