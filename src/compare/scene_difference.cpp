@@ -28,6 +28,7 @@ std::string scene_difference(const std::string& golden, const std::string& run) 
   std::vector<std::string> changes;
   for (const std::string& key : before.keys_in("")) {
     const std::string was = before.literal(key), is = after.literal(key);
+    if (is_void(key, was)) continue;
     if (was != is)
       changes.push_back(is.empty() ? fmt::format("{} was {}, is gone", key, was)
                                    : fmt::format("{} was {}, is {}", key, was, is));

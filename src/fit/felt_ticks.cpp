@@ -31,7 +31,7 @@ class ContactTicks : public SimulationObserver {
         law_(law),
         turns_(run.trace_content().orientation),
         own_rotation_(own_rotation(run.scene().tool)),
-        sand_(run.scene().tool, run.scene().displacement, 0.0) {
+        sand_(run.scene().tool, run.scene().displacement) {
     Scene scene = run.scene();
     for (const SandStrength& sand : law.grid().sands()) {
       scene.strength = sand;

@@ -29,12 +29,21 @@ Scene read_scene(TomlReader toml, const std::vector<std::string>& overrides) {
   Scene scene;
   read_keys(toml, [&](KeyVisitor& visitor) { describe_scene(visitor, scene); });
   toml.skip("relaxation.engine");  // of older scenes and run files: all gave the same bits
+  if (constexpr const char* travel = "relaxation.travel"; toml.has(travel)) {
+    if (!is_void(travel, toml.literal(travel)))
+      toml.fail(travel, "is now relaxation.way, in tool radii instead of cells");
+    toml.skip(travel);
+  }
   toml.reject_unread([] { return conditions(all_scene_keys()); });
   check(scene, toml);
   return scene;
 }
 
 }  // namespace
+
+bool is_void(const std::string& key, const std::string& literal) {
+  return key == "relaxation.travel" && literal == "0";
+}
 
 Scene load_scene(const std::filesystem::path& path, const std::vector<std::string>& overrides) {
   return read_as({InputKind::scene}, path, [&] {

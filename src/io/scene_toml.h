@@ -24,6 +24,9 @@ std::filesystem::path stroke_path(const Scene& scene, const std::filesystem::pat
 /// mesh, plugin.
 std::vector<std::filesystem::path> input_files(const Scene& scene, const std::filesystem::path& folder);
 
+/// A key of older scenes and run files with a value that changes nothing.
+bool is_void(const std::string& key, const std::string& literal);
+
 /// Every setting of a scene as TOML, such that reading it back gives the same scene.
 std::string scene_text(const Scene& scene);
 

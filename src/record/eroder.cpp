@@ -25,9 +25,9 @@ Eroder::Eroder(const HeightField& bed, const ToolSettings& tool, const Relaxatio
                SandRing& dug, PlaceRing& places, SandRing& slipped, std::unique_ptr<Relaxer> relaxer)
     : replica_(bed),
       rate_(settings.rate),
-      travel_(settings.travel * bed.cell_size()),
+      by_way_(settings.way > 0.0),
       solid_(tool.solid),
-      tool_(tool, {}, travel_),
+      tool_(tool, {}, settings),
       relaxer_(relaxer ? std::move(relaxer) : make_relaxer(in_short_turns(settings), bed.cell_size())),
       dug_(dug),
       places_(places),
@@ -60,7 +60,7 @@ void Eroder::exchange() {
   while (dug_.pop(change)) replica_.take(change, true);
 }
 
-bool Eroder::slip_is_due() const { return travel_ > 0.0 && (!report_.converged || tool_.slip_is_due()); }
+bool Eroder::slip_is_due() const { return by_way_ && (!report_.converged || tool_.slip_is_due()); }
 
 void Eroder::turn() {
   exchange();
@@ -68,13 +68,14 @@ void Eroder::turn() {
 }
 
 void Eroder::relax() {
-  if (rate_ <= 0.0 && travel_ <= 0.0) return;
+  if (rate_ <= 0.0 && !by_way_) return;
   if (solid_ && place_.rotation) {  // not while sand waits to be exchanged, for it takes long
     tool_.turn(*place_.rotation);
     tool_.put(replica_.bed(), place_.tip, place_.contact);
   }
   tool_.hold(replica_.bed());
   const RelaxationOutcome outcome = relaxer_->relax(replica_.bed());
+  tool_.slipped(replica_.bed());
   report_.relaxations += 1;
   report_.passes += outcome.passes;
   report_.converged = outcome.converged;
@@ -111,7 +112,7 @@ void Eroder::run() {
       relax();
     }
     if (onlooker_) onlooker_(replica_.bed());
-    std::this_thread::sleep_for(std::min(due - now(), travel_ > 0.0 ? longest_look : longest_wait));
+    std::this_thread::sleep_for(std::min(due - now(), by_way_ ? longest_look : longest_wait));
   }
 }
 

@@ -70,8 +70,8 @@ class Eroder {
   bool slip_is_due() const;
 
   BedReplica replica_;
-  double rate_, travel_;  // Hz, m
-  bool solid_;
+  double rate_;  // Hz
+  bool by_way_, solid_;
   SandSide tool_;       // as last told of; it displaces nothing
   ToolPlace place_;     // of it
   bool begun_ = false;  // it was told of: until then sand stays as a run of the stroke finds it

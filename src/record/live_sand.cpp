@@ -57,7 +57,7 @@ LiveSand::LiveSand(const Scene& scene, const HeightField& bed, const FeltDevice&
       places_(most_places),
       replica_(checked(scene, bed)),
       eroder_(bed, scene.tool, scene.relaxation, dug_, places_, slipped_),
-      sand_(scene.tool, scene.displacement, 0.0),
+      sand_(scene.tool, scene.displacement),
       largest_force_(device_.max_force > 0.0 ? std::min(device.largest_force, device_.max_force)
                                              : device.largest_force),
       own_rotation_(own_rotation(scene.tool)),

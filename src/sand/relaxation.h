@@ -10,6 +10,7 @@ namespace sandstroke {
 
 /// How sand that lies too steep flows: as Relaxer says.
 enum class RelaxationLaw { paper, isotropic, faces };
+inline constexpr const char* relaxation_law_names[] = {"paper", "isotropic", "faces"};
 /// passes: explicit Jacobi passes of the law. rkl: super time steps, which reach the rest that small steps of
 /// the law reach in far fewer passes (relaxation_rkl.cpp).
 enum class RelaxationMethod { passes, rkl };
@@ -21,7 +22,8 @@ struct RelaxationSettings {
   double tolerance = 1e-3;      ///< a cell whose slope exceeds tan(talus) by no more than this share rests
   double step_tolerance = 0.1;  ///< rkl: error of a super-step, as a share of how far sand has moved
   double rate = 60.0;       ///< Hz, relaxations during a stroke; 0 = none by time (paper: the visual loop)
-  double travel = 0.0;  ///< cells, way of the tool through sand between relaxations; 0 = none by way
+  double way = 0.0;         ///< tool radii that it goes through sand between relaxations; 0 = none by way
+  double way_at_rim = 0.0;  ///< tool radii, of a sphere: the same while sand stands at its rim; 0 = as `way`
   double share = 0.0;       ///< c: 0 = the law's own (paper 1/2, isotropic 1/4, which is also its limit)
   std::int64_t max_passes = 1'000'000;  ///< per relaxation
 };

@@ -66,6 +66,20 @@ void ToolFootprint::place(const HeightField& bed, double x, double y) {
   level_ = level_of(shape_, *this);
 }
 
+double ToolFootprint::highest_at_rim() const {
+  const double rim = shape_.radius / cell_size(), beyond = rim + 1.0;  // cells
+  double highest = -std::numeric_limits<double>::infinity();
+  for (int row = 0; row < cells_.rows(); ++row) {
+    const double y = first_y_ + row - axis_y_;
+    const ColumnRange sand = sand_cols(row);
+    for (int col = sand.begin; col < sand.end; ++col) {
+      const double x = first_x_ + col - axis_x_, rho2 = x * x + y * y;
+      if (rho2 > rim * rim && rho2 <= beyond * beyond) highest = std::max(highest, heights(row)[col]);
+    }
+  }
+  return highest;
+}
+
 void ToolFootprint::take_window() {
   first_x_ = bed_.cols_from_centre(cells_.col_begin), first_y_ = bed_.rows_from_centre(cells_.row_begin);
   stride_ = (cells_.cols() + cells_per_group - 1) / cells_per_group * cells_per_group;

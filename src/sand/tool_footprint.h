@@ -94,6 +94,8 @@ class ToolFootprint {
   /// change the level. NaN where the footprint lies outside the bed. Of any tool but the sphere: of the plane
   /// around it, at its axis.
   double sand_level() const { return level_; }
+  /// Of the cells that lie within one of a sphere's rim, beside it [m]; -infinity where there are none.
+  double highest_at_rim() const;
   /// Its lowest point above its tip [m].
   double lowest() const { return envelope_ ? envelope_->lowest() : 0.0; }
 

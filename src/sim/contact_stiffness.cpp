@@ -36,7 +36,7 @@ class LevelSand {
       : cell_(scene.bed.cell_size()),
         yield_(scene.strength.yield_way),
         law_(scene, cell_),
-        sand_(scene.tool, scene.displacement, 0.0),
+        sand_(scene.tool, scene.displacement),
         bed_(cells(scene), cells(scene), cell_) {
     sand_.look(bed_, Vector3d::Zero());
   }

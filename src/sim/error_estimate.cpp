@@ -107,6 +107,8 @@ Scene second_scene(const Scene& scene, SecondSolution which) {
   second.bed.cols = scene.bed.cols / units * units_then;
   second.device.servo_rate /= factor;
   second.relaxation.rate /= factor;
+  second.relaxation.way *= factor;
+  second.relaxation.way_at_rim *= factor;
   second.relaxation.tolerance *= factor;
   second.relaxation.step_tolerance *= factor;
   second.output.frames = 0.0;

@@ -12,16 +12,20 @@ namespace {
 /// Of the radius. A drag at 2 radii a tick then leaves the mean furrow depth of 20 times as many ticks within
 /// 2.5 %, with steps of a whole radius within 9 %, without any 49 % short (4 and 10 mm deep).
 constexpr double longest_step = 0.5;
+/// Cells: sand that slips more often than that has hardly moved. A plate of two cells would ask for it.
+constexpr double least_way = 0.25;
 
 }  // namespace
 
-SandSide::SandSide(const ToolSettings& tool, const DisplacementSettings& displacement, double travel,
-                   std::unique_ptr<Displacer> own)
+SandSide::SandSide(const ToolSettings& tool, const DisplacementSettings& displacement,
+                   const RelaxationSettings& relaxation, std::unique_ptr<Displacer> own)
     : footprint_(tool),
       displacement_(displacement),
       own_(std::move(own)),
       solid_(tool.solid),
-      slips_(travel) {}
+      way_(relaxation.way),
+      way_at_rim_(relaxation.way_at_rim),
+      slips_(relaxation.way > 0.0) {}
 
 Interaction SandSide::look(const HeightField& bed, const Eigen::Vector3d& read_tip) {
   footprint_.place(bed, read_tip.x(), read_tip.y());
@@ -86,13 +90,24 @@ Interaction SandSide::move(HeightField& bed, const Eigen::Vector3d& read_tip, co
   return interaction;
 }
 
+double SandSide::way_to_next_slip(const HeightField& bed) {
+  // What a sphere pushed outward and what falls in behind it run from one crest, once sand stands at its rim.
+  // At the sides of any other tool it always does: what they heap leans on them, and runs nowhere.
+  const auto at_rim = [&] { return seen(bed).highest_at_rim() > tip_.z() + footprint_.radius(); };
+  const bool sooner = way_at_rim_ > 0.0 && footprint_.is_sphere() && at_rim();
+  return std::max((sooner ? way_at_rim_ : way_) * footprint_.radius(), least_way * bed.cell_size());
+}
+
 void SandSide::hold(HeightField& bed) {
-  slips_.slipped(tip_, contact_);
   if (!solid_) return;
   if (contact_)
     footprint_.hold_bowl(bed);
   else
     bed.hold({});
+}
+
+void SandSide::slipped(const HeightField& bed) {
+  slips_.slips(tip_, contact_, contact_ ? way_to_next_slip(bed) : 0.0);
 }
 
 }  // namespace sandstroke

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "sand/displacement.h"
+#include "sand/relaxation.h"
 #include "sim/slip_schedule.h"
 
 namespace sandstroke {
@@ -22,9 +23,10 @@ struct Interaction {
 /// The sand's side of a tick: a tool that goes through a bed, from place to place.
 class SandSide {
  public:
-  /// travel [m]: its way between two slips (SlipSchedule). own: in place of what the settings say.
-  SandSide(const ToolSettings& tool, const DisplacementSettings& displacement, double travel,
-           std::unique_ptr<Displacer> own = nullptr);
+  /// relaxation: its ways between two slips (SlipSchedule); without them none is due. own: in place of what
+  /// the settings say.
+  SandSide(const ToolSettings& tool, const DisplacementSettings& displacement,
+           const RelaxationSettings& relaxation = {}, std::unique_ptr<Displacer> own = nullptr);
 
   /// How the tool lies in the bed from the next move() on (ToolFootprint::turn): all of its way there it is
   /// turned like this.
@@ -53,6 +55,8 @@ class SandSide {
   bool slip_is_due() const { return slips_.is_due(tip_, contact_); }
   /// Sand is about to slip: a solid tool in contact, and none else, holds the cells under its bowl.
   void hold(HeightField& bed);
+  /// It has slipped. How far the tool may go until it does again depends on how it lies now.
+  void slipped(const HeightField& bed);
 
   /// The footprint where it is, with the sand as it lies there now.
   const ToolFootprint& seen(const HeightField& bed) {
@@ -66,6 +70,8 @@ class SandSide {
   const std::optional<Eigen::Vector3d>& last_tip() const { return last_tip_; }
 
  private:
+  /// m
+  double way_to_next_slip(const HeightField& bed);
   Interaction dig(HeightField& bed, const Eigen::Vector3d& tip, const Eigen::Vector3d& motion);
   /// The volume moved [m^3].
   double displace_sand(HeightField& bed, const Eigen::Vector3d& tip, const Eigen::Vector3d& motion);
@@ -74,6 +80,7 @@ class SandSide {
   DisplacementSettings displacement_;
   std::unique_ptr<Displacer> own_;
   bool solid_;
+  double way_, way_at_rim_;  // radii
   SlipSchedule slips_;
   std::optional<Eigen::Vector3d> last_tip_;        // the true one
   Eigen::Vector3d tip_ = Eigen::Vector3d::Zero();  // as read, where it dug last

@@ -10,7 +10,7 @@ TickLoop::TickLoop(const Scene& scene, HeightField bed, bool plays, std::unique_
     : scene_(scene),
       bed_(std::move(bed)),
       own_rotation_(own_rotation(scene.tool)),
-      sand_(scene.tool, scene.displacement, scene.relaxation.travel * bed_.cell_size(),
+      sand_(scene.tool, scene.displacement, scene.relaxation,
             plays ? make_own_displacer(scene, bed_.cell_size()) : nullptr),
       contact_force_(plays ? make_tool_force(scene, bed_.cell_size()) : nullptr),
       device_(scene),
@@ -62,6 +62,7 @@ RelaxationOutcome TickLoop::relax(const PassWatcher& watcher) {
   sand_.hold(bed_);
   check_own_law("displacement", scene_.own.displacement);
   const RelaxationOutcome outcome = relaxer_->relax(bed_, watcher);
+  sand_.slipped(bed_);
   check_own_law("relaxation", scene_.own.relaxation);
   return outcome;
 }

@@ -108,7 +108,7 @@ Scene with_law(ForceLaw law) {
   Scene scene;
   scene.preset = ModelPreset::accurate;
   apply_model_preset(scene);
-  scene.relaxation.travel = 0.0;
+  scene.relaxation.way = 0.0;
   scene.force.law = law;
   return scene;
 }

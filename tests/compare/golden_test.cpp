@@ -220,6 +220,14 @@ TEST_F(Golden, ASettingThatTheEntrysBuildDidNotHaveHadItsDefault) {
   expect_only_failure("scene", "changed: stroke.depth is new, 0.001;");
 }
 
+TEST_F(Golden, ASettingThatIsGoneAndAskedForNothingIsNoDifference) {
+  const std::string scene = "[tool]\nradius = 0.02\n[relaxation]\nrate = 60.0\n";
+  run.scene = scene + "travel = 0.0\n";
+  write_golden(folder / "golden/dune", finished());
+  run.scene = scene + "way = 0.0\n";
+  EXPECT_TRUE(compare().passed());
+}
+
 TEST_F(Golden, AChangedStrokeNamesItsFile) {
   run.scene += "[stroke]\nfile = \"hand.h5\"\n";
   write_golden(folder / "golden/dune", finished());

@@ -35,9 +35,13 @@ TEST(SceneToml, ThePresetIsOverriddenByKeysAndKeysBySet) {
       read("[model]\npreset = 'accurate'\n[displacement]\ndeposit = 'ring'\n[relaxation]\ntalus_angle = 20\n",
            {"relaxation.talus_angle=25"});
   EXPECT_EQ(scene.tool.profile, ToolProfile::sphere);
-  EXPECT_EQ(scene.relaxation.law, RelaxationLaw::isotropic);
+  EXPECT_EQ(scene.relaxation.law, RelaxationLaw::faces);
   EXPECT_EQ(scene.displacement.deposit, Deposit::ring);
   EXPECT_EQ(scene.relaxation.talus_angle, 25.0);
+}
+
+TEST(SceneToml, AWayInCellsThatWasNoneIsPassedOver) {
+  EXPECT_EQ(read("[relaxation]\ntravel = 0.0\n").relaxation.way, 0.0);
 }
 
 TEST(SceneToml, DevicePresetSetsItsLimitsAndKeysOverrideThem) {
@@ -174,6 +178,8 @@ TEST(SceneToml, RefusesWhatCannotBeMeant) {
   refuses("[relaxation]\ntalus_angle = 90.0\n", "above 0 and below 90");
   refuses("[relaxation]\nlaw = 'magic'\n", "paper, isotropic");
   refuses("[relaxation]\nlaw = 'isotropic'\nshare = 0.3\n", "0.25");
+  refuses("[relaxation]\ntravel = 2.0\n",
+          "scene.toml:2: relaxation.travel is now relaxation.way, in tool radii instead of cells");
   refuses("[relaxation]\nengin = 1\n", "unknown key relaxation.engin; did you mean relaxation.law?");
   refuses("[tool]\nradius = 3.0\n[stroke]\nfile = \"x.toml\"\n", "fit");
   refuses("[tool]\nradius = 1e-4\n[stroke]\nfile = 'x.h5'\n", "half a cell");

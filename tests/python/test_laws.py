@@ -51,7 +51,7 @@ def test_a_relaxation_of_ones_own_comes_to_rest_at_the_talus_slope(small):
 
 
 def test_a_displacement_of_ones_own_leaves_its_sand_ahead(small, line):
-    settings = {"relaxation.rate": 0.0, "relaxation.travel": 0.0, "relaxation.talus_angle": 80}
+    settings = {"relaxation.rate": 0.0, "relaxation.way": 0.0, "relaxation.talus_angle": 80}
     run = sandstroke.run(small, line, settings=settings, laws={"displacement": ahead})
     assert run.summary["volume_drift"] < 1e-12 and run.final.min() == pytest.approx(-0.003, abs=1e-4)
     outward = sandstroke.run(small, line, settings=settings)

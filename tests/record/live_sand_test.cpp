@@ -133,7 +133,7 @@ Scene contact_scene(ForceLaw law, ToolShape shape) {
   Scene scene = small_scene();
   scene.preset = ModelPreset::accurate;
   apply_model_preset(scene);
-  scene.relaxation.rate = scene.relaxation.travel = 0.0;
+  scene.relaxation.rate = scene.relaxation.way = 0.0;
   scene.relaxation.max_passes = 0;
   scene.force.law = law;
   scene.tool.shape = shape;

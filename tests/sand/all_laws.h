@@ -11,10 +11,7 @@ namespace sandstroke {
 inline constexpr RelaxationLaw all_laws[] = {RelaxationLaw::paper, RelaxationLaw::isotropic,
                                              RelaxationLaw::faces};
 
-inline std::string name_of(RelaxationLaw law) {
-  constexpr const char* names[] = {"paper", "isotropic", "faces"};
-  return names[static_cast<int>(law)];
-}
+inline std::string name_of(RelaxationLaw law) { return relaxation_law_names[static_cast<int>(law)]; }
 
 /// Of a test for each of them.
 inline std::string law_name(const testing::TestParamInfo<RelaxationLaw>& law) { return name_of(law.param); }

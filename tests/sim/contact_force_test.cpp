@@ -23,7 +23,7 @@ Scene scene_of(ForceLaw law, ToolShape shape) {
 Wrench pressed(const Scene& scene, double depth) {
   HeightField bed = starting_bed(scene.bed);
   ContactForce law(scene, bed.cell_size());
-  SandSide sand(scene.tool, scene.displacement, 0.0);
+  SandSide sand(scene.tool, scene.displacement);
   sand.look(bed, Vector3d::Zero());
   const Vector3d tip(0.0, 0.0, -depth - sand.footprint().lowest());
   return law.in_tick(sand, bed, tip, {0.0, 0.0, -2.0 * scene.strength.yield_way}, true);

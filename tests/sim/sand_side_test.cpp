@@ -19,7 +19,7 @@ TEST(SandSide, AFastTickDisplacesAsTicksInBetweenWould) {
   const ToolSettings tool{0.01, ToolProfile::sphere};
   const DisplacementSettings ahead{Deposit::ahead};
   HeightField one(100, 100, 0.002), many = one;
-  SandSide fast(tool, ahead, 0.0);
+  SandSide fast(tool, ahead);
   fast.move(one, from, from, no_slip);
   const double volume = fast.move(one, to, to, no_slip).displaced_volume;
 
@@ -41,7 +41,7 @@ TEST(SandSide, AFastTickDisplacesAsTicksInBetweenWould) {
 
 /// What a second tick there displaces, after a first one here that displaces nothing (in the air).
 double displaced_between(HeightField& bed, const Eigen::Vector3d& here, const Eigen::Vector3d& there) {
-  SandSide sand({0.01, ToolProfile::sphere}, {Deposit::ahead}, 0.0);
+  SandSide sand({0.01, ToolProfile::sphere}, {Deposit::ahead});
   EXPECT_EQ(sand.move(bed, here, here, no_slip).displaced_volume, 0.0);
   return sand.move(bed, there, there, no_slip).displaced_volume;
 }
@@ -79,7 +79,9 @@ TEST(SandSide, FromBeyondAllMeasureItDisplacesOnlyWhatCrossesTheSand) {
 /// Where sand slips along a drag of 40 mm in ticks of this length [m].
 std::vector<double> slips_of_a_drag(double tick) {
   HeightField bed(100, 100, 0.002);
-  SandSide sand({0.01, ToolProfile::sphere, true}, {Deposit::outward}, 0.004);
+  RelaxationSettings relaxation;
+  relaxation.way = 0.4;
+  SandSide sand({0.01, ToolProfile::sphere, true}, {Deposit::outward}, relaxation);
   std::vector<double> slips;
   Eigen::Vector3d tip(-0.02, 0.0, -0.003);
   const auto slip = [&] {
@@ -89,6 +91,7 @@ std::vector<double> slips_of_a_drag(double tick) {
     for (int col = 0; col < 100; ++col)
       if (bed.is_held(50, col)) sum += bed.x_of(col), cells += 1.0;
     slips.push_back(cells > 0.0 ? sum / cells : std::numeric_limits<double>::quiet_NaN());
+    sand.slipped(bed);
   };
   const auto ticks = static_cast<int>(std::lround(0.04 / tick));
   for (int i = 0; i <= ticks; ++i) {
@@ -111,9 +114,42 @@ TEST(SandSide, SandSlipsAtTheSamePlacesWhateverTheTicks) {
   }
 }
 
+/// How often sand slips from x = -60 mm on through a bed that is 1 cm high beyond x = 0, the tip this far
+/// below z = 0.
+int slips_towards_a_step(const RelaxationSettings& relaxation, double depth, double until) {
+  HeightField bed(100, 100, 0.002);
+  for (int row = 0; row < 100; ++row)
+    for (int col = 50; col < 100; ++col) bed.set(row, col, 0.01);
+  SandSide sand({0.01, ToolProfile::sphere, true}, {Deposit::outward}, relaxation);
+  int slips = 0;
+  for (int i = 0; i <= 400; ++i) {
+    const Eigen::Vector3d tip(-0.06 + (until + 0.06) * i / 400, 0.0, -depth);
+    sand.move(bed, tip, tip, [&] { ++slips, sand.slipped(bed); });
+  }
+  return slips;
+}
+
+TEST(SandSide, SandSlipsMoreOftenWhereItStandsAtTheRim) {
+  RelaxationSettings relaxation;
+  relaxation.way = 0.4;
+  const int seldom = slips_towards_a_step(relaxation, 0.003, -0.018);
+  EXPECT_EQ(seldom, 1 + 10);  // as it touches down, and every 4 mm of 42
+  relaxation.way_at_rim = 0.1;
+  EXPECT_EQ(slips_towards_a_step(relaxation, 0.003, -0.018), seldom);  // the rim is 7 mm above the sand
+  // At -16, -12 and -8 mm; there a cell of the step is within one of the rim, and it goes on by 1 mm.
+  EXPECT_EQ(slips_towards_a_step(relaxation, 0.003, 0.0005), seldom + 3 + 8);
+  EXPECT_NEAR(slips_towards_a_step(relaxation, 0.0101, -0.018), 42, 3);  // deeper than its radius: always
+}
+
+TEST(SandSide, SandSlipsEveryQuarterOfACellAtMost) {
+  RelaxationSettings relaxation;
+  relaxation.way = 1e-9;
+  EXPECT_EQ(slips_towards_a_step(relaxation, 0.003, -0.0548), 1 + 10);  // 5.2 mm in steps of 0.5 mm
+}
+
 TEST(SandSide, ALiftedToolHoldsNothing) {
   HeightField bed(100, 100, 0.002);
-  SandSide sand({0.01, ToolProfile::sphere, true}, {Deposit::outward}, 0.0);
+  SandSide sand({0.01, ToolProfile::sphere, true}, {Deposit::outward});
   const Eigen::Vector3d tip(0.0, 0.0, -0.003);
   sand.move(bed, tip, tip, no_slip);
   sand.hold(bed);
@@ -122,7 +158,7 @@ TEST(SandSide, ALiftedToolHoldsNothing) {
   sand.hold(bed);
   EXPECT_TRUE(bed.held().empty());
 
-  SandSide hollow({0.01, ToolProfile::sphere}, {Deposit::outward}, 0.0);
+  SandSide hollow({0.01, ToolProfile::sphere}, {Deposit::outward});
   hollow.move(bed, tip, tip, no_slip);
   hollow.hold(bed);
   EXPECT_TRUE(bed.held().empty());
@@ -130,7 +166,7 @@ TEST(SandSide, ALiftedToolHoldsNothing) {
 
 TEST(SandSide, BesideTheBedThereIsNoLevelAndNoContact) {
   HeightField bed(100, 100, 0.002);
-  SandSide sand({0.01, ToolProfile::sphere}, {Deposit::ahead}, 0.0);
+  SandSide sand({0.01, ToolProfile::sphere}, {Deposit::ahead});
   for (const double height : {-1.0, 0.0, 1.0}) {
     const Eigen::Vector3d tip(0.5, 0.0, height);
     for (const Interaction& beside : {sand.look(bed, tip), sand.move(bed, tip, tip, no_slip)}) {
@@ -144,7 +180,7 @@ TEST(SandSide, BesideTheBedThereIsNoLevelAndNoContact) {
 
 TEST(SandSide, IsInContactBelowTheLevelAndNotAtIt) {
   const HeightField bed(100, 100, 0.002, std::make_shared<LevelRule>(0.25));
-  SandSide sand({0.01, ToolProfile::sphere}, {Deposit::ahead}, 0.0);
+  SandSide sand({0.01, ToolProfile::sphere}, {Deposit::ahead});
   for (const double above : {-0.02, -1e-12, 0.0, 1e-12, 0.02}) {
     const Interaction seen = sand.look(bed, {0.01, -0.02, 0.25 + above});
     EXPECT_DOUBLE_EQ(seen.level, 0.25);
@@ -157,7 +193,7 @@ TEST(SandSide, ARakeThatGoesFarInATickLeavesFurrowsAndNoPits) {
   ToolSettings rake{0.004, ToolProfile::sphere, true, ToolShape::rake};
   rake.teeth = 3, rake.spacing = 0.02;
   HeightField bed(120, 120, 0.001);
-  SandSide side(rake, {Deposit::outward}, 0.0);
+  SandSide side(rake, {Deposit::outward});
   const Eigen::Vector3d from(-0.03, 0.0, -0.003), to(0.03, 0.0, -0.003);
   side.move(bed, from, from, no_slip);
   side.move(bed, to, to, no_slip);

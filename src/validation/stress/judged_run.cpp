@@ -11,7 +11,7 @@ namespace sandstroke {
 namespace {
 
 bool monotone(const RelaxationSettings& settings) {
-  return settings.law == RelaxationLaw::isotropic || settings.method == RelaxationMethod::rkl;
+  return settings.law != RelaxationLaw::paper || settings.method == RelaxationMethod::rkl;
 }
 
 /// What is wrong with a run that ended; empty: nothing.

@@ -26,7 +26,7 @@ Scene felt_scene(const ToolSettings& tool, double cell, double tool_friction) {
   Scene scene = contact_scene(width, static_cast<int>(std::lround(width / cell)), 1000.0);
   scene.preset = ModelPreset::accurate;
   apply_model_preset(scene);
-  scene.relaxation.travel = 0.0;
+  scene.relaxation.way = 0.0;
   scene.relaxation.max_passes = 0;  // what the sand does afterwards is nothing to the force
   scene.tool = tool;
   scene.tool.solid = true;

@@ -65,7 +65,7 @@ Scene pumping(int cells_by) {
   Scene scene = refined(ModelPreset::accurate, cells_by, cells_by, cells_by);
   scene.tool.solid = false;
   scene.displacement.deposit = Deposit::ahead;
-  scene.relaxation.travel = 0.0;
+  scene.relaxation.way = 0.0;
   scene.relaxation.rate = 240.0 * cells_by;
   return scene;
 }
@@ -153,8 +153,8 @@ Problem stroke_problem(ModelPreset preset, double depth, const ProblemOptions& o
       "step tolerance alone", {1.0, 0.1, 0.01},
       [](Scene& s) -> double& { return s.relaxation.step_tolerance; }, "step tolerance {}");
   vary(
-      "way between relaxations alone", {0.25, 0.5, 1.0, 2.0, 4.0},
-      [](Scene& s) -> double& { return s.relaxation.travel; }, "{} cells");
+      "way between relaxations alone", {0.05, 0.1, 0.2, 0.4, 0.8},
+      [](Scene& s) -> double& { return s.relaxation.way; }, "{} radii");
   vary(
       "place of pushed sand alone", {1.05, 1.1, 1.15, 1.2, 1.25},
       [](Scene& s) -> double& { return s.displacement.distance; }, "{} radii from the axis");

@@ -84,7 +84,7 @@ Problem tick_problem(const ProblemOptions& options) {
         contact_scene(width, static_cast<int>(std::lround(width / sphere.radius)) * cells_per_radius, 1000.0);
     scene.preset = ModelPreset::accurate;
     apply_model_preset(scene);
-    scene.relaxation.travel = 0.0;
+    scene.relaxation.way = 0.0;
     scene.relaxation.max_passes = 0;
     scene.tool = tool;
     scene.tool.solid = true;
