@@ -92,10 +92,13 @@ Interaction SandSide::move(HeightField& bed, const Eigen::Vector3d& read_tip, co
 
 double SandSide::way_to_next_slip(const HeightField& bed) {
   // What a sphere pushed outward and what falls in behind it run from one crest, once sand stands at its rim.
-  // At the sides of any other tool it always does: what they heap leans on them, and runs nowhere.
-  const auto at_rim = [&] { return seen(bed).highest_at_rim() > tip_.z() + footprint_.radius(); };
-  const bool sooner = way_at_rim_ > 0.0 && footprint_.is_sphere() && at_rim();
-  return std::max((sooner ? way_at_rim_ : way_) * footprint_.radius(), least_way * bed.cell_size());
+  // At the sides of any other tool it always does. (A plough that goes 0.4 inradii leaves 25 % of its sand
+  // elsewhere than one that goes 0.05; 0.1: 7 %.)
+  const auto at_rim = [&] {
+    return !footprint_.is_sphere() || seen(bed).highest_at_rim() > tip_.z() + footprint_.radius();
+  };
+  const double way = way_at_rim_ > 0.0 && at_rim() ? way_at_rim_ : way_;
+  return std::max(way * footprint_.radius(), least_way * bed.cell_size());
 }
 
 void SandSide::hold(HeightField& bed) {

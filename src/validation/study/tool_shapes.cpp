@@ -40,7 +40,7 @@ enum class Measured { tool_in_sand, tool_gone };
 /// waits for its sand is not what the closed form is about.
 Contender heap_contender(const std::string& series, Scene scene, int threads, const Stroke& stroke,
                          Measured when, double exact) {
-  scene.relaxation.way = 1e-3;
+  scene.relaxation.way = scene.relaxation.way_at_rim = 1e-3;
   if (when == Measured::tool_in_sand) scene.output.frames = 100.0;
   return {series, fmt::format("cells of {:.3g} mm", 1e3 * scene.bed.cell_size()), settings_of(scene, threads),
           scene.bed.cell_size(), [=] {
