@@ -11,12 +11,14 @@ import grains
 HERE = Path(__file__).parent
 START = 15.0  # mm, x of a drag's start and of a plunge
 FROM, TO = 20.0, 37.0  # mm from there: where drags are measured
+STRETCH = 8.5  # mm, of the way, for what is not steady yet
 # name: bed, shape, R, depth, way, shift [mm]; as in `run`
 STROKES = {
     "sphere-2-a": (1, "sphere", 10.0, 2.0, 45.0, 0.0),
     "sphere-4-a": (1, "sphere", 10.0, 4.0, 45.0, 0.0),
     "sphere-6-a": (1, "sphere", 10.0, 6.0, 45.0, 0.0),
     "plunge-6-a": (1, "sphere", 10.0, 6.0, 0.0, 0.0),
+    "plunge-6-b": (2, "sphere", 10.0, 6.0, 0.0, 14.0),
     "blade-4-a": (1, "blade", 10.0, 4.0, 45.0, 0.0),
     "sphere-2-b": (2, "sphere", 10.0, 2.0, 45.0, 14.0),
     "sphere-4-b": (2, "sphere", 10.0, 4.0, 45.0, 14.0),
@@ -49,22 +51,21 @@ def talus(name):
 
 
 def touch_along(folder, name):
-    """Where the tool of a stroke first touches its bed: height of its zero, and the scatter along its way [mm]."""
-    bed, shape, size, _, way, shift = STROKES[name]
+    """Where the tool of a stroke first touches its bed: mean height along the bed, which is its zero, the scatter, and
+    how much higher it touches where it goes down [mm]."""
+    bed, shape, size, _, _, shift = STROKES[name]
     (x, y, z, radius), length = grains.load(folder / f"bed{bed}.bed")
-    all_along = grains.first_touch((x, y + shift, z, radius), length, shape, size, np.arange(0.0, length[0], 0.5),
-                                   length[1] / 2)
-    own = grains.first_touch((x, y + shift, z, radius), length, shape, size,
-                             np.arange(START, START + way + 0.1, 0.5), length[1] / 2)
-    return all_along.mean(), all_along.std(), own.mean()
+    along = [grains.first_touch((x, y + shift, z, radius), length, shape, size, places, length[1] / 2)
+             for places in (np.arange(0.0, length[0], 0.5), [START])]
+    return along[0].mean(), along[0].std(), along[1][0] - along[0].mean()
 
 
 def main(folder):
-    sections, forces, strokes, plunges, beds = [], [], [], [], []
+    sections, forces, strokes, stretches, plunges, beds = [], [], [], [], [], []
     for bed in (1, 2):
         if not (folder / f"bed{bed}.bed").exists():
             continue
-        slope = talus(folder / f"slot{bed}.after") if (folder / f"slot{bed}.after").exists() else (np.nan, np.nan)
+        slope = talus(folder / f"slot{bed}.after") if (folder / f"slot{bed}.after").exists() else ("", "")
         beds.append([bed, grains.solid_share(folder / f"bed{bed}.bed"),
                      grains.envelope(folder / f"bed{bed}.bed")[0].mean(), *slope])
     for name, (bed, shape, size, depth, way, _) in STROKES.items():
@@ -75,28 +76,32 @@ def main(folder):
         measure = grains.section if way > 0.0 else grains.crater
         middle, change, error = measure(before, after, step, START + FROM if way > 0.0 else START, START + TO)
         sections += [[name, float(at), float(one), float(off)] for at, one, off in zip(middle, change, error)]
-        touch, scatter, own = touch_along(folder, name)
-        strokes.append([name, bed, shape, size, depth, touch, scatter, own - touch, *grains.of_section(middle, change),
+        groove = grains.of_section(middle, change) if way > 0.0 else [""] * 4
+        strokes.append([name, bed, shape, size, depth, *touch_along(folder, name), *groove,
                         grains.above_over_below(before, after)])
-        time, dx, deep, fx, _, fz = np.loadtxt(folder / f"{name}.force").T[1:]
+        dx, deep, fx, _, fz = np.loadtxt(folder / f"{name}.force").T[2:]
         dx, deep = dx * 1e3, deep * 1e3
-        counts = (dx > FROM) & (dx < TO) if way > 0.0 else (dx == 0.0) & (np.gradient(deep) > 0) & (deep > depth - 0.4)
-        half = np.array_split(np.flatnonzero(counts), 2)
-        forces.append([name, fx[counts].mean(), fx[counts].std(), -fz[counts].mean(), fz[counts].std(),
-                       *[float(part) for which in half for part in (fx[which].mean(), -fz[which].mean())]])
-        if shape == "sphere":
-            going = (time <= time[deep.argmax()]) & (dx == 0.0)
+        sinks = np.diff(deep, prepend=-1.0) > 0.19  # 0.2 mm from record to record
+        counts = (dx > FROM) & (dx < TO) if way > 0.0 else sinks & (deep > depth - 0.4)
+        forces.append([name, fx[counts].mean(), fx[counts].std(), -fz[counts].mean(), fz[counts].std()])
+        for low in np.arange(FROM - STRETCH, way - STRETCH - 7.9, STRETCH):  # the tool rests on the last 8 mm
+            on_it = (dx > low) & (dx < low + STRETCH)
+            part = grains.section(before, after, step, START + low, START + low + STRETCH)[:2]
+            stretches.append([name, float(low), float(low + STRETCH), *grains.of_section(*part)[:3], fx[on_it].mean(),
+                              -fz[on_it].mean()])
+        if way == 0.0:  # drags begin in the same place
             for at in np.arange(1.0, depth + 0.1, 1.0):
-                near = going & (np.abs(deep - at) < 0.31)
+                near = sinks & (np.abs(deep - at) < 0.31)
                 if near.any():
                     plunges.append([name, float(at), -fz[near].mean()])
     write("beds.csv", ["bed", "solid_share", "mean_envelope_mm", "talus_deg", "talus_sd_deg"], beds)
     write("strokes.csv", ["stroke", "bed", "shape", "R_mm", "depth_mm", "zero_mm", "zero_sd_mm",
-                          "first_touch_on_the_way_over_zero_mm", "groove_mm2", "levees_mm2", "levee_mm",
+                          "touch_at_start_over_zero_mm", "groove_mm2", "levees_mm2", "levee_mm",
                           "levee_place_mm", "above_over_below"], strokes)
     write("sections.csv", ["stroke", "distance_mm", "change_mm", "standard_error_mm"], sections)
-    write("forces.csv", ["stroke", "against_N", "against_sd_N", "up_N", "up_sd_N", "first_half_against_N",
-                         "first_half_up_N", "second_half_against_N", "second_half_up_N"], forces)
+    write("forces.csv", ["stroke", "against_N", "against_sd_N", "up_N", "up_sd_N"], forces)
+    write("stretches.csv", ["stroke", "from_mm", "to_mm", "groove_mm2", "levees_mm2", "levee_mm", "against_N", "up_N"],
+          stretches)
     write("plunges.csv", ["stroke", "depth_mm", "up_N"], plunges)
 
 
