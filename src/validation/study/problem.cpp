@@ -23,6 +23,7 @@ const std::vector<ProblemMaker>& problem_makers() {
       {"stroke-deep", deep_stroke_problem},
       {"hands", hands_problem},
       {"stroke-paper", paper_stroke_problem},
+      {"grains", grains_problem},
   };
   return makers;
 }

@@ -159,6 +159,8 @@ Problem accurate_stroke_problem(const ProblemOptions& options);
 Problem deep_stroke_problem(const ProblemOptions& options);
 Problem hands_problem(const ProblemOptions& options);
 Problem paper_stroke_problem(const ProblemOptions& options);
+// The presets against simulated grains (grains.cpp).
+Problem grains_problem(const ProblemOptions& options);
 
 RunSettings settings_of(const RelaxationSettings& relaxation, const BedGeometry& bed, int threads);
 /// The same with the rates of a stroke.
