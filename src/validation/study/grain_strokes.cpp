@@ -15,7 +15,7 @@ constexpr double bed_length = 0.09, bed_width = 0.056;  // m
 constexpr double drag_start = -0.03;                    // m, along x
 
 // Of the grains' beds (tests/accuracy/grains).
-constexpr double talus = 23.5;           // deg
+constexpr double talus = 23.2;           // deg
 constexpr double bulk_density = 1540.0;  // kg/m^3
 constexpr double tool_friction = 0.5;
 
