@@ -181,6 +181,22 @@ TEST(Furrow, TheMedianIsOverTheLengthOfAllPieces) {
                  profile);
 }
 
+TEST(Furrow, TheMedianHardlyDependsOnWhereStationsFall) {
+  // 2 to 6 mm deep, to and fro within each radius.
+  const auto depth = [](double x) { return 0.004 + 0.004 * std::remainder(x / radius, 1.0); };
+  for (const double start : {0.0, 0.2, 0.4, 0.6, 0.8}) {
+    const Line line{{-0.1 + start * radius, 0.0002}, {1.0, 0.0}, 0.15};
+    const double median = measured(
+                              flat,
+                              [&](double x, double y) {
+                                return Profile{depth(x), 0.01, 0.01}(line.distance(x, y));
+                              },
+                              line.path())
+                              .depth;
+    EXPECT_NEAR(median, 0.004, 0.0004) << start;  // an eighth of the range is 0.5 mm
+  }
+}
+
 TEST(Furrow, APointContactIsASectionThroughIt) {
   const Profile profile;
   const TipPath path{std::vector<Vector2d>(200, Vector2d(0.0204, -0.0301)), {0}};
