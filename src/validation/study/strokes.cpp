@@ -49,20 +49,21 @@ Problem dynamic_problem(const ProblemOptions& options) {
 
 namespace {
 
-/// The default cell size, tolerance and relaxations, each divided as told, with ticks enough for the finest.
-/// (By way, relaxations are divided with the cells.)
-Scene refined(ModelPreset preset, int cells_by, int tolerance_by, int period_by) {
+/// The default cell size and ways or times between relaxations, each divided as told, with ticks enough for
+/// the finest.
+Scene refined(ModelPreset preset, int cells_by, int period_by) {
   Scene scene = hand_scene(preset);
   scene.bed.cols *= cells_by, scene.bed.rows *= cells_by;
-  scene.relaxation.tolerance /= tolerance_by;
   scene.relaxation.rate *= period_by;
+  scene.relaxation.way /= period_by;
+  scene.relaxation.way_at_rim /= period_by;
   scene.device.servo_rate = 2000.0;
   return scene;
 }
 
 /// The accurate preset before tools were solid: sand slips into the tool and is pushed ahead again.
 Scene pumping(int cells_by) {
-  Scene scene = refined(ModelPreset::accurate, cells_by, cells_by, cells_by);
+  Scene scene = refined(ModelPreset::accurate, cells_by, 1);
   scene.tool.solid = false;
   scene.displacement.deposit = Deposit::ahead;
   scene.relaxation.way = 0.0;
@@ -73,18 +74,19 @@ Scene pumping(int cells_by) {
 /// Of a stroke against itself with 1/finest of all steps.
 Problem unsolved(ModelPreset preset, double depth, int finest) {
   const bool paper = preset == ModelPreset::paper, deep = depth > 0.005;
-  return {paper  ? "stroke-paper"
-          : deep ? "stroke-deep"
-                 : "stroke-accurate",
-          fmt::format("A stroke {:.0f} mm deep, {} preset", 1e3 * depth, paper ? "paper" : "accurate"),
-          fmt::format("A curved stroke at 2 kHz; in place of the truth stands the same stroke with cell "
-                      "size, tolerance and relaxation period divided by {}. How far that is from their "
-                      "division by {} is the dotted line.",
-                      finest, finest / 2),
-          "l1",
-          "misplaced sand, of the sand that moves",
-          "",
-          {}};
+  return {
+      paper  ? "stroke-paper"
+      : deep ? "stroke-deep"
+             : "stroke-accurate",
+      fmt::format("A stroke {:.0f} mm deep, {} preset", 1e3 * depth, paper ? "paper" : "accurate"),
+      fmt::format("A curved stroke at 2 kHz; in place of the truth stands the same stroke with cell "
+                  "size and the time or way between relaxations divided by {}. How far that is from their "
+                  "division by {} is the dotted line.",
+                  finest, finest / 2),
+      "l1",
+      "misplaced sand, of the sand that moves",
+      "",
+      {}};
 }
 
 Problem stroke_problem(ModelPreset preset, double depth, const ProblemOptions& options) {
@@ -93,7 +95,7 @@ Problem stroke_problem(ModelPreset preset, double depth, const ProblemOptions& o
   const std::string all_finer = "all finer";
   Problem problem = unsolved(preset, depth, finest);
   const Stroke stroke = s_curve(depth, 0.25, options.quick);
-  const auto all = [preset](int by) { return refined(preset, by, by, by); };
+  const auto all = [preset](int by) { return refined(preset, by, by); };
   const auto truth = std::make_shared<const Replay>(replay(all(finest), stroke));
   problem.converged_to = judge(replay(all(finest / 2), stroke), *truth).l1;
   const auto add = [&](const std::string& series, const std::string& label, const Scene& scene) {
@@ -136,9 +138,19 @@ Problem stroke_problem(ModelPreset preset, double depth, const ProblemOptions& o
       "relaxation rate alone", {15.0, 30.0, 60.0, 120.0, 240.0, 480.0, 960.0, 1920.0},
       [](Scene& s) -> double& { return s.relaxation.rate; },
       paper ? "{} relaxations a second" : "{} relaxations a second besides those by way");
+  if (!paper)
+    for (int by = 1; by < finest; by *= 2) {
+      Scene scene = all(by);
+      scene.relaxation.law = RelaxationLaw::isotropic;
+      add("law isotropic", fmt::format("1/{} of all", by), scene);
+    }
+  if (deep)
+    vary(
+        "way at the rim alone", {0.025, 0.05, 0.1, 0.2, 0.4},
+        [](Scene& s) -> double& { return s.relaxation.way_at_rim; }, "{} radii");
   if (deep) return problem;
   for (int by = 1; by <= finest; by *= 2) {
-    const Scene scene = refined(preset, by, 1, 1);
+    const Scene scene = refined(preset, by, 1);
     add("cell size alone", fmt::format("{:.3g} cells per radius", scene.tool.radius / scene.bed.cell_size()),
         scene);
   }
@@ -146,7 +158,7 @@ Problem stroke_problem(ModelPreset preset, double depth, const ProblemOptions& o
       "tolerance alone", {1e-2, 1e-3, 1e-4}, [](Scene& s) -> double& { return s.relaxation.tolerance; },
       "tolerance {}");
   problem.check_errors = [=] {
-    return check_errors("5 cells per radius", refined(preset, 1, 1, 1), stroke, *truth);
+    return check_errors("5 cells per radius", refined(preset, 1, 1), stroke, *truth);
   };
   if (paper) return problem;
   vary(

@@ -112,8 +112,10 @@ Problem wedge_problem(const ProblemOptions& options) {
       const Scene scene = trough(0.24, cell, 12, wedge(flank));
       const double slope = talus_slope(scene.relaxation.talus_angle);
       const Stroke stroke = straight({{0.0, 0.0, 0.001}, {0.0, 0.0, -depth}}, {at_once ? 0.001 : 1.0});
+      // Heights are means: of the cell in whose middle the crest lies.
+      const double height = depth * std::sqrt(slope / (2.0 * flank)) - 0.25 * slope * cell;
       Contender contender = heap_contender(at_once ? "at once" : "slowly", scene, options.threads, stroke,
-                                           Measured::tool_gone, depth * std::sqrt(slope / (2.0 * flank)));
+                                           Measured::tool_gone, height);
       if (!at_once) contender.step = not_applicable;
       problem.contenders.push_back(std::move(contender));
     }
@@ -135,7 +137,7 @@ Problem mesh_problem(const ProblemOptions& options) {
     Scene sphere = hand_scene(ModelPreset::accurate);
     const int by = cells_per_radius / 5;
     sphere.bed.cols *= by, sphere.bed.rows *= by;
-    sphere.relaxation.tolerance /= by;
+    sphere.relaxation.way = sphere.relaxation.way_at_rim = 0.2;  // for a mesh the latter counts always
     Scene mesh = sphere;
     mesh.tool.shape = ToolShape::mesh;
     mesh.tool.mesh = std::make_shared<TriangleMesh>(tool_surface(sphere.tool));
