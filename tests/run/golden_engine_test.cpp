@@ -106,10 +106,14 @@ class CheckedRelaxer : public Relaxer {
       if (std::exchange(revisions_[slot], bed.tile_revision(bed.tile_of(slot))) !=
           bed.tile_revision(bed.tile_of(slot)))
         changed.push_back(slot);
-    for (const int slot : changed) EXPECT_TRUE(same_outside(window, bed, whole_before, slot));
     for (const Variant& variant : variants_)
       EXPECT_TRUE(variant.equals(bed, changed)) << variant.name() << ", relaxation " << relaxations;
-    if (relaxations++ % 3 != 0) return outcome;
+    const bool compares = relaxations++ % 3 == 0;
+    // A window's border is a wall, at which the law of faces takes other slopes: sand/engine_equality_test
+    // has it on whole beds.
+    if (settings_.law == RelaxationLaw::faces) return outcome;
+    for (const int slot : changed) EXPECT_TRUE(same_outside(window, bed, whole_before, slot));
+    if (!compares) return outcome;
     HeightField after = before;
     const RelaxationOutcome plain = make_reference_relaxer(settings_, bed.cell_size())->relax(after);
     EXPECT_EQ(outcome.passes, plain.passes);
@@ -210,6 +214,7 @@ TEST_P(GoldenScene, EngineEqualsItsVariantsAndTheReference) {
   if (scene.tool.shape != ToolShape::sphere)
     GTEST_SKIP() << "what a large tool lets go slips farther than the windows that are compared here";
   scene.relaxation.method = RelaxationMethod::passes;
+  scene.relaxation.way_at_rim = 0.0;  // as often as in shallow sand is enough for bits
   std::optional<Stroke> stroke;
   if (scene.stroke) {
     const fs::path path = folder / scene.stroke->file;
