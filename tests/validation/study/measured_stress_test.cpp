@@ -26,7 +26,8 @@ TEST(LawStress, OfAPlateThatLeansToEitherSideIsTheSameToWhatGoesStraightDown) {
 }
 
 TEST(StressPlots, ShowEveryTiltByBothTheoriesAndAsMeasured) {
-  for (const Plot& plot : stress_plots()) {
+  const std::vector<Plot> plots = stress_plots();
+  for (const Plot& plot : plots) {
     std::set<std::string> tilts;
     for (const Plot::Curve& curve : plot.curves) {
       tilts.insert(curve.name);
@@ -36,7 +37,7 @@ TEST(StressPlots, ShowEveryTiltByBothTheoriesAndAsMeasured) {
     EXPECT_EQ(plot.curves.size(), 3 * tilts.size());
   }
   // All in units of the same plate.
-  for (const Plot::Curve& curve : stress_plots()[0].curves)
+  for (const Plot::Curve& curve : plots[0].curves)
     if (curve.name.starts_with("tilt 0")) {
       EXPECT_NEAR(curve.y.back(), 1.0, 1e-9);
     }
