@@ -31,7 +31,7 @@ TEST(Eroder, ThatErodesOnceInAnAgeTakesWhatIsDugMeanwhileAndEndsWhenItIsAsked) {
 TEST(Eroder, UnderASolidToolNothingSlipsUntilItHasGone) {
   const ToolSettings tool{0.03, ToolProfile::sphere, true};
   RelaxationSettings settings;
-  settings.rate = 0.0, settings.way = 0.35;
+  settings.rate = 0.0, settings.way = 1.0 / 3.0;  // of 30 mm: a cell
   SandRing dug(64), slipped(64);
   PlaceRing places(8);
   Eroder eroder(HeightField(41, 41, 0.01), tool, settings, dug, places, slipped);
@@ -63,7 +63,7 @@ class CountingRelaxer : public Relaxer {
 
 TEST(Eroder, SlipsInItsThreadAsOftenAsTheToolHasGoneItsWay) {
   RelaxationSettings settings;
-  settings.rate = 0.0, settings.way = 0.35;
+  settings.rate = 0.0, settings.way = 1.0 / 3.0;  // of 30 mm: a cell
   SandRing dug(64), slipped(64);
   PlaceRing places(8);
   std::atomic<int> slips = 0;
@@ -141,7 +141,7 @@ TEST(Eroder, WhatWasDugSlips) {
 
 TEST(Eroder, SandThatAsksByWayAndHasFarToGoGoesOnWithoutTheToolsMoving) {
   RelaxationSettings settings;
-  settings.rate = 0.0, settings.way = 0.35;
+  settings.rate = 0.0, settings.way = 1.0 / 3.0;  // of 30 mm: a cell
   SandRing dug(8), slipped(std::size_t{1} << 18);
   PlaceRing places(8);
   HeightField heap(61, 61, 0.01);
