@@ -124,7 +124,8 @@ TEST_P(LiveTool, OfEvenTicksHasTheSandAndTheRepulseForceThatARunOfThemHas) {
           std::hypot(bed.x_of(col) - last.x(), bed.y_of(row) - last.y()) < 4.0 * scene.tool.radius;
       if (!GetParam() || !stood) apart = std::max(apart, std::abs(felt.bed(row, col) - bed(row, col)));
     }
-  EXPECT_LT(apart, 10.0 * tip);
+  EXPECT_LT(apart,
+            50.0 * tip);  // a cell that rests in one bed only keeps others from moving there: 3 % of a cell
   EXPECT_GT(result.moved_volume, 0.0);
 }
 
