@@ -38,7 +38,7 @@ struct LiveSandReport {
 /// - a tool that turns: what digs is turned as the hand was a while ago (ToolShaper);
 /// - a law of the contact: here the sand is weakened to what the hand may get, too (flagged: clamped_force).
 /// With a tip of speed v and acceleration a [m/s, m/s^2, in the bed], samples at most h and relaxations r
-/// apart [s] (by way: travel / v), W = velocity_window and K the sand's stiffness (felt_sand), where the
+/// apart [s] (by way: that way / v), W = velocity_window and K the sand's stiffness (felt_sand), where the
 /// recorder did not alter the force:
 ///   |difference| <= K v (2 h + r) (1 + k_f v) + k_f |F_r| a (W / 2 + 2) h
 /// (laws of the contact know no speed: k_f = 0) for in h the hand goes v h, and digs and feels that much

@@ -67,10 +67,10 @@ class FaceFluxes {
   /// The flux [m a pass] through the faces beside the flagged cells; returns those through which sand flows.
   HWY_INLINE RightFaces to_the_right(int row, std::uint64_t cells) {
     RightFaces flowing{0, false};
-    if (cells & 1) flowing.west = group_of_faces(row, -group, 0, 1) >> (group - 1) & 1;
+    if (cells & 1) flowing.west = group_of_faces(row, -group, 0) >> (group - 1) & 1;
     for (unsigned wanted = groups_of(cells | cells >> 1); wanted; wanted &= wanted - 1) {
       const int begin = std::countr_zero(wanted) * group;
-      flowing.own |= static_cast<std::uint64_t>(group_of_faces(row, begin, 0, 1)) << begin;
+      flowing.own |= static_cast<std::uint64_t>(group_of_faces(row, begin, 0)) << begin;
     }
     return flowing;
   }
@@ -78,13 +78,14 @@ class FaceFluxes {
     std::uint64_t flowing = 0;
     for (unsigned wanted = groups_of(cells); wanted; wanted &= wanted - 1) {
       const int begin = std::countr_zero(wanted) * group;
-      flowing |= static_cast<std::uint64_t>(group_of_faces(row, begin, 1, 0)) << begin;
+      flowing |= static_cast<std::uint64_t>(group_of_faces(row, begin, 1)) << begin;
     }
     return flowing;
   }
 
  private:
-  HWY_INLINE unsigned group_of_faces(int row, int begin, int down, int right_by) {
+  /// Of eight cells: their faces below them (down: 1), or to the right of them (0).
+  HWY_INLINE unsigned group_of_faces(int row, int begin, int down) {
     double* out = (down ? below(row) : right(row)) + begin;
     const double* cells = patch_.heights(row) + begin;
     unsigned flags = 0;
@@ -96,7 +97,7 @@ class FaceFluxes {
         const V g = Sqrt(face.square);
         const Mask falls = face.drop > hn::Zero(d);
         const Mask gives = hn::Or(hn::And(falls, sand_.may_give(row, begin + c)),
-                                  hn::AndNot(falls, sand_.may_give(row + down, begin + c + right_by)));
+                                  hn::AndNot(falls, sand_.may_give(row + down, begin + c + 1 - down)));
         const Mask moves = hn::And(gives, g > limit_);
         flux = where(moves, share_ * (all(1.0) - T_ / g) * face.drop);
         flags |= bits(moves) << c;
@@ -117,37 +118,22 @@ HWY_INLINE void face_flow(const TalusLaw& law, const TilePatch& patch, const Cel
                           Sand& sand, Sink& sink, FlowScratch& scratch, TileFlow& flow) {
   const auto active_row = [&](int row) { return row < rows.begin || row >= rows.end ? 0 : active[row]; };
   FaceFluxes<Sand> faces(law, patch, sand, scratch);
-  LaneSum given;
-  flow.rows = rows;
-  std::uint64_t above = faces.downwards(rows.begin - 1, active_row(rows.begin));
-  for (int row = rows.begin; row < rows.end; ++row) {
+  std::uint64_t below = faces.downwards(rows.begin - 1, active_row(rows.begin));
+  const auto cells_of = [&](int row) {
     const RightFaces beside = faces.to_the_right(row, active[row]);
-    const std::uint64_t below = faces.downwards(row, active[row] | active_row(row + 1));
-    const std::uint64_t cells =
-        (beside.own | beside.own << 1 | static_cast<std::uint64_t>(beside.west) | above | below) &
-        active[row];
-    above = below;
-    flow.moved[row] = cells;
-    const unsigned moved = groups_of(cells);
-    sink.begin_row(row, active[row]);
-    for_vectors(moved, [&](int c) {
-      const V zero = hn::Zero(d);
-      const V east = hn::Load(d, faces.right(row) + c), west = hn::LoadU(d, faces.right(row) + c - 1);
-      const V south = hn::Load(d, faces.below(row) + c), north = hn::Load(d, faces.below(row - 1) + c);
-      const Mask flagged = lanes_of(cells >> c);
-      const V gained = where(flagged, (west - east) + (north - south));
-      const V out =
-          (Max(zero, east) + Max(zero, hn::Neg(west))) + (Max(zero, south) + Max(zero, hn::Neg(north)));
-      given.add(c, where(flagged, out));
-      sink.take(c, gained);
-      sand.flows(row, c, gained);
-    });
-    sand.ends(row, moved);
-    sink.end_row(row, moved);
-  }
-  sink.end(rows);
-  flow.given = given.total();
-  sand.report(law, flow);
+    const std::uint64_t above = below;
+    below = faces.downwards(row, active[row] | active_row(row + 1));
+    return beside.own | beside.own << 1 | static_cast<std::uint64_t>(beside.west) | above | below;
+  };
+  sweep_rows(law, active, rows, sand, sink, flow, cells_of, [&](int row, int c, Mask cells, LaneSum& given) {
+    const V zero = hn::Zero(d);
+    const V east = hn::Load(d, faces.right(row) + c), west = hn::LoadU(d, faces.right(row) + c - 1);
+    const V south = hn::Load(d, faces.below(row) + c), north = hn::Load(d, faces.below(row - 1) + c);
+    const V out =
+        (Max(zero, east) + Max(zero, hn::Neg(west))) + (Max(zero, south) + Max(zero, hn::Neg(north)));
+    given.add(c, where(cells, out));
+    return where(cells, (west - east) + (north - south));
+  });
 }
 
 }  // namespace HWY_NAMESPACE

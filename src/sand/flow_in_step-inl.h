@@ -169,6 +169,32 @@ class TakenStage {
   unsigned stepped_ = 0;
 };
 
+/// One sweep over the active rows. cells_of(row): the active cells that gain or give, as flags; what gain_of
+/// needs of the row is ready then. gain_of(row, column, those cells, given): the gains of a vector of cells
+/// [m]; adds what they give to `given`.
+template <class Sand, class Sink, class CellsOf, class GainOf>
+HWY_INLINE void sweep_rows(const TalusLaw& law, const CellFlags& active, RowSpan rows, Sand& sand, Sink& sink,
+                           TileFlow& flow, const CellsOf& cells_of, const GainOf& gain_of) {
+  LaneSum given;
+  flow.rows = rows;
+  for (int row = rows.begin; row < rows.end; ++row) {
+    const std::uint64_t cells = cells_of(row) & active[row];
+    flow.moved[row] = cells;
+    const unsigned moved = groups_of(cells);
+    sink.begin_row(row, active[row]);
+    for_vectors(moved, [&](int c) {
+      const V gained = gain_of(row, c, lanes_of(cells >> c), given);
+      sink.take(c, gained);
+      sand.flows(row, c, gained);
+    });
+    sand.ends(row, moved);
+    sink.end_row(row, moved);
+  }
+  sink.end(rows);
+  flow.given = given.total();
+  sand.report(law, flow);
+}
+
 }  // namespace HWY_NAMESPACE
 }  // namespace sandstroke
 HWY_AFTER_NAMESPACE();

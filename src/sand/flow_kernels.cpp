@@ -191,27 +191,15 @@ HWY_INLINE void flow_of(const TalusLaw& law, const TilePatch& patch, const CellF
                                  widened(active_row(row - 1) | active_row(row) | active_row(row + 1)), sand);
 
   const Gain gain(law);
-  LaneSum given;
-  flow.rows = rows;
-  for (int row = rows.begin; row < rows.end; ++row) {
+  const auto cells_of = [&](int row) {
     const WideRow &n = moving[row], &m = moving[row + 1], &s = moving[row + 2];
     const std::uint64_t own = n.own | m.own | s.own;
     const std::uint64_t west = n.west || m.west || s.west, east = n.east || m.east || s.east;
-    const std::uint64_t cells = (own | own << 1 | own >> 1 | west | east << (side - 1)) & active[row];
-    flow.moved[row] = cells;
-    const unsigned moved = groups_of(cells);
-    sink.begin_row(row, active[row]);
-    for_vectors(moved, [&](int c) {
-      const V gained = gain(patch.heights(row), factors_in(row), c, lanes_of(cells >> c), given);
-      sink.take(c, gained);
-      sand.flows(row, c, gained);
-    });
-    sand.ends(row, moved);
-    sink.end_row(row, moved);
-  }
-  sink.end(rows);
-  flow.given = given.total();
-  sand.report(law, flow);
+    return own | own << 1 | own >> 1 | west | east << (side - 1);
+  };
+  sweep_rows(law, active, rows, sand, sink, flow, cells_of, [&](int row, int c, Mask cells, LaneSum& given) {
+    return gain(patch.heights(row), factors_in(row), c, cells, given);
+  });
 }
 
 void ComputeFlow(const TalusLaw& law, const TilePatch& patch, const CellFlags& active, RowSpan rows,

@@ -9,6 +9,18 @@
 #include "core/elementary.h"
 
 namespace sandstroke {
+namespace {
+
+bool is_inside(const HeightField& bed, int row, int col) {
+  return row >= 0 && row < bed.rows() && col >= 0 && col < bed.cols();
+}
+
+/// m, to a neighbour; 0 beyond the border.
+double drop(const HeightField& bed, int row, int col, int down, int right) {
+  return is_inside(bed, row + down, col + right) ? bed(row, col) - bed(row + down, col + right) : 0.0;
+}
+
+}  // namespace
 
 double descent_slope(const HeightField& bed, int row, int col) {
   // Round the cell, beginning and ending east; beyond a wall there is no way down.
@@ -17,8 +29,7 @@ double descent_slope(const HeightField& bed, int row, int col) {
   const double here = bed(row, col);
   for (int i = 0; i < 9; ++i) {
     const int r = row + row_steps[i], c = col + col_steps[i];
-    const bool inside = r >= 0 && r < bed.rows() && c >= 0 && c < bed.cols();
-    drops[i] = inside ? here - bed(r, c) : std::numeric_limits<double>::quiet_NaN();
+    drops[i] = is_inside(bed, r, c) ? here - bed(r, c) : std::numeric_limits<double>::quiet_NaN();
   }
   double steepest = 0.0;  // squared
   for (int i = 0; i < 8; ++i) {
@@ -38,17 +49,14 @@ namespace {
 
 /// RelaxationLaw::faces: of the steepest face through which the cell may give.
 double steepest_face(const HeightField& bed, int row, int col) {
-  const auto inside = [&](int r, int c) { return r >= 0 && r < bed.rows() && c >= 0 && c < bed.cols(); };
-  const auto drop = [&](int r, int c, int down, int right) {
-    return inside(r + down, c + right) ? bed(r, c) - bed(r + down, c + right) : 0.0;
-  };
   const auto across = [&](int r, int c, int down, int right) {
-    const bool both = inside(r + down, c + right) && inside(r - down, c - right);
-    return (drop(r, c, -down, -right) - drop(r, c, down, right)) / (both ? 2.0 : 1.0);
+    const bool both = is_inside(bed, r + down, c + right) && is_inside(bed, r - down, c - right);
+    return (drop(bed, r, c, -down, -right) - drop(bed, r, c, down, right)) / (both ? 2.0 : 1.0);
   };
   double steepest = 0.0;
   for (const auto& [down, right] : {std::pair(0, -1), std::pair(0, 1), std::pair(-1, 0), std::pair(1, 0)}) {
-    const double fall = drop(row, col, down, right), behind = std::max(0.0, drop(row, col, -down, -right));
+    const double fall = drop(bed, row, col, down, right),
+                 behind = std::max(0.0, drop(bed, row, col, -down, -right));
     if (!(fall > 0.0)) continue;
     const double low = std::min(fall, behind);
     const double sideways = 0.5 * (across(row, col, std::abs(right), std::abs(down)) +
@@ -63,14 +71,10 @@ double steepest_face(const HeightField& bed, int row, int col) {
 
 double law_slope(const HeightField& bed, int row, int col, RelaxationLaw law) {
   if (law == RelaxationLaw::faces) return steepest_face(bed, row, col);
-  const auto drop = [&](int row_step, int col_step) {
-    const int r = row + row_step, c = col + col_step;
-    const bool inside = r >= 0 && r < bed.rows() && c >= 0 && c < bed.cols();
-    return inside ? std::max(0.0, bed(row, col) - bed(r, c)) : 0.0;
-  };
-  const double x = std::max(drop(0, -1), drop(0, 1)), y = std::max(drop(-1, 0), drop(1, 0));
+  const auto fall = [&](int down, int right) { return std::max(0.0, drop(bed, row, col, down, right)); };
+  const double x = std::max(fall(0, -1), fall(0, 1)), y = std::max(fall(-1, 0), fall(1, 0));
   if (law == RelaxationLaw::isotropic) return elementary::hypot(x, y) / bed.cell_size();
-  const double diagonal = std::max({drop(-1, -1), drop(-1, 1), drop(1, -1), drop(1, 1)});
+  const double diagonal = std::max({fall(-1, -1), fall(-1, 1), fall(1, -1), fall(1, 1)});
   return std::max({x, y, diagonal / std::numbers::sqrt2}) / bed.cell_size();
 }
 

@@ -9,6 +9,8 @@
 #include <memory>
 #include <random>
 
+#include "sand/all_laws.h"
+
 namespace sandstroke {
 namespace {
 
