@@ -96,7 +96,7 @@ void write_golden_content(const std::filesystem::path& path, const RunFile& run)
   file.attribute("/surface/change", "row", block.row_begin);
   file.attribute("/surface/change", "col", block.col_begin);
   if (const std::optional<std::vector<TickRecord>> trace = whole_trace(run)) {
-    const double servo_rate = scene_from_text(scene, run.name() + ": /scene").device.servo_rate;
+    const double servo_rate = stored_scene(scene, run.name() + ": /scene").device.servo_rate;
     file.make_group("/trace");
     file.attribute("/trace", "servo_rate", servo_rate);
     file.write_whole_numbers("/trace/ticks", packed_trace(*trace, servo_rate, run.name()));

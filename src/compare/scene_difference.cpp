@@ -13,7 +13,7 @@ namespace {
 /// With the settings that were not there when it was written, by their defaults.
 std::string completed(const std::string& scene) {
   try {
-    return scene_text(scene_from_text(scene, "the golden scene"));
+    return scene_text(stored_scene(scene, "the golden scene"));
   } catch (const Error&) {  // it has settings that are not there any more
     return scene;
   }

@@ -184,7 +184,7 @@ std::optional<HeightField> RunFile::error_map() const {
 std::string RunFile::scene_text() const { return file_.text("/scene"); }
 
 Scene RunFile::scene() const {
-  Scene scene = scene_from_text(scene_text(), name() + ": /scene");
+  Scene scene = stored_scene(scene_text(), name() + ": /scene");
   if (scene.tool.shape == ToolShape::mesh && file_.has("/tool/triangles"))
     scene.tool.mesh = std::make_shared<TriangleMesh>(tool_mesh());
   return scene;

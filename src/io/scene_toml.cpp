@@ -24,13 +24,16 @@ void check(const Scene& scene, const TomlReader& toml) {
   }
 }
 
-Scene read_scene(TomlReader toml, const std::vector<std::string>& overrides) {
+enum class Written { by_a_user, by_a_run };
+
+Scene read_scene(TomlReader toml, const std::vector<std::string>& overrides,
+                 Written written = Written::by_a_user) {
   for (const std::string& assignment : overrides) toml.override_with(assignment);
   Scene scene;
   read_keys(toml, [&](KeyVisitor& visitor) { describe_scene(visitor, scene); });
   toml.skip("relaxation.engine");  // of older scenes and run files: all gave the same bits
   if (constexpr const char* travel = "relaxation.travel"; toml.has(travel)) {
-    if (!is_void(travel, toml.literal(travel)))
+    if (written == Written::by_a_user && !is_void(travel, toml.literal(travel)))
       toml.fail(travel, "is now relaxation.way, in tool radii instead of cells");
     toml.skip(travel);
   }
@@ -60,6 +63,10 @@ Scene load_scene(const std::filesystem::path& path, const std::vector<std::strin
 Scene scene_from_text(const std::string& text, const std::string& name,
                       const std::vector<std::string>& overrides) {
   return read_scene(TomlReader::from_text(text, name), overrides);
+}
+
+Scene stored_scene(const std::string& text, const std::string& name) {
+  return read_scene(TomlReader::from_text(text, name), {}, Written::by_a_run);
 }
 
 std::filesystem::path stroke_path(const Scene& scene, const std::filesystem::path& folder) {

@@ -17,6 +17,10 @@ Scene load_scene(const std::filesystem::path& path, const std::vector<std::strin
 Scene scene_from_text(const std::string& text, const std::string& name,
                       const std::vector<std::string>& overrides = {});
 
+/// The scene that an earlier run stored, to look at what it left: a way in cells (relaxation.travel) is
+/// passed over.
+Scene stored_scene(const std::string& text, const std::string& name);
+
 /// The scene's stroke, seen from its folder; "-": standard input.
 std::filesystem::path stroke_path(const Scene& scene, const std::filesystem::path& folder);
 

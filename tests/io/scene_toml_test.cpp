@@ -40,8 +40,11 @@ TEST(SceneToml, ThePresetIsOverriddenByKeysAndKeysBySet) {
   EXPECT_EQ(scene.relaxation.talus_angle, 25.0);
 }
 
-TEST(SceneToml, AWayInCellsThatWasNoneIsPassedOver) {
+TEST(SceneToml, AWayInCellsIsPassedOverWhereItWasNoneOrARunStoredIt) {
   EXPECT_EQ(read("[relaxation]\ntravel = 0.0\n").relaxation.way, 0.0);
+  const Scene stored = stored_scene("[relaxation]\ntravel = 2.0\nrate = 50.0\n", "run.h5: /scene");
+  EXPECT_EQ(stored.relaxation.rate, 50.0);
+  EXPECT_THROW(stored_scene("[relaxation]\ntravl = 2.0\n", "run.h5: /scene"), Error);
 }
 
 TEST(SceneToml, DevicePresetSetsItsLimitsAndKeysOverrideThem) {
