@@ -1,5 +1,6 @@
 #include "sim/sand_side.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/elementary.h"
@@ -14,6 +15,10 @@ namespace {
 constexpr double longest_step = 0.5;
 /// Cells: sand that slips more often than that has hardly moved. A plate of two cells would ask for it.
 constexpr double least_way = 0.25;
+/// Radii of sand above the rim, where the way is the short one: every stroke at tip depth R is deeper, and
+/// works its ground as well as if it were short from the first grain at the rim on (Panda 6.9 for 6.9 %); a
+/// scribble 0.6 R deep takes half the time (4.7 for 4.2 %).
+constexpr double deep_at_rim = 0.5;
 
 }  // namespace
 
@@ -91,13 +96,17 @@ Interaction SandSide::move(HeightField& bed, const Eigen::Vector3d& read_tip, co
 }
 
 double SandSide::way_to_next_slip(const HeightField& bed) {
+  if (way_at_rim_ <= 0.0 || way_at_rim_ >= way_)
+    return std::max(way_ * footprint_.radius(), least_way * bed.cell_size());
   // What a sphere pushed outward and what falls in behind it run from one crest, once sand stands at its rim.
   // At the sides of any other tool it always does. (A plough that goes 0.4 inradii leaves 25 % of its sand
   // elsewhere than one that goes 0.05; 0.1: 7 %.)
-  const auto at_rim = [&] {
-    return !footprint_.is_sphere() || seen(bed).highest_at_rim() > tip_.z() + footprint_.radius();
-  };
-  const double way = way_at_rim_ > 0.0 && at_rim() ? way_at_rim_ : way_;
+  double buried = 1.0;
+  if (footprint_.is_sphere()) {
+    const double above_rim = seen(bed).highest_at_rim() - (tip_.z() + footprint_.radius());
+    buried = std::clamp(above_rim / (deep_at_rim * footprint_.radius()), 0.0, 1.0);
+  }
+  const double way = way_ * elementary::pow(way_at_rim_ / way_, buried);
   return std::max(way * footprint_.radius(), least_way * bed.cell_size());
 }
 

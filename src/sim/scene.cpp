@@ -119,7 +119,7 @@ void describe_relaxation(KeyVisitor& v, RelaxationSettings& r) {
   v.number("way", r.way, not_negative, "tool radii",
            "how far the tool moves through sand between relaxations; 0: none");
   v.number("way_at_rim", r.way_at_rim, not_negative, "tool radii",
-           "the same while sand stands at its rim; 0: no shorter");
+           "the same where sand stands half a radius above its rim; 0: no shorter");
   v.number("share", r.share, {0.0, 1.0, false}, "",
            "part of the excess that a pass moves; 0: 1/2 (paper) or 1/4 (others)");
   double passes = static_cast<double>(r.max_passes);
@@ -294,7 +294,7 @@ void apply_model_preset(Scene& scene) {
   // tool overruns what it put 1.2 radii from its axis: in shallow, fresh sand that does no harm.
   scene.relaxation.rate = paper ? 60.0 : 0.0;
   scene.relaxation.way = paper ? 0.0 : 0.4;
-  scene.relaxation.way_at_rim = paper ? 0.0 : 0.1;
+  scene.relaxation.way_at_rim = paper ? 0.0 : 0.05;
 }
 
 Stroke place_on_bed(const Stroke& stroke, const Scene& scene, const std::string& name) {

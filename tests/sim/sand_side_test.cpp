@@ -114,37 +114,60 @@ TEST(SandSide, SandSlipsAtTheSamePlacesWhateverTheTicks) {
   }
 }
 
-/// How often sand slips from x = -60 mm on through a bed that is 1 cm high beyond x = 0, the tip this far
-/// below z = 0.
-int slips_towards_a_step(const RelaxationSettings& relaxation, double depth, double until) {
+/// How often sand slips in a drag of this length through flat sand, the tip this far below it [m].
+int slips_on_a_drag(const RelaxationSettings& relaxation, double depth, double length) {
   HeightField bed(100, 100, 0.002);
-  for (int row = 0; row < 100; ++row)
-    for (int col = 50; col < 100; ++col) bed.set(row, col, 0.01);
   SandSide sand({0.01, ToolProfile::sphere, true}, {Deposit::outward}, relaxation);
   int slips = 0;
   for (int i = 0; i <= 400; ++i) {
-    const Eigen::Vector3d tip(-0.06 + (until + 0.06) * i / 400, 0.0, -depth);
+    const Eigen::Vector3d tip(-0.06 + length * i / 400, 0.0, -depth);
     sand.move(bed, tip, tip, [&] { ++slips, sand.slipped(bed); });
   }
   return slips;
 }
 
-TEST(SandSide, SandSlipsMoreOftenWhereItStandsAtTheRim) {
+/// How far the sphere of 10 mm goes [m] until sand slips again, where a step in front of it rises from its
+/// rim by this [m].
+double way_before_a_step(const RelaxationSettings& relaxation, double above_rim) {
+  HeightField bed(100, 100, 0.002);
+  for (int row = 0; row < 100; ++row)
+    for (int col = 50; col < 100; ++col) bed.set(row, col, 0.007 + above_rim);
+  SandSide sand({0.01, ToolProfile::sphere, true}, {Deposit::outward}, relaxation);
+  sand.put(bed, {-0.0105, 0.0, -0.003}, true);
+  sand.slipped(bed);
+  double way = 0.0;
+  for (; !sand.slip_is_due() && way < 0.01; way += 1e-5) sand.put(bed, {-0.0105 - way, 0.0, -0.003}, true);
+  return way;
+}
+
+TEST(SandSide, TheWayFallsAsSandRisesAtTheRim) {
   RelaxationSettings relaxation;
   relaxation.way = 0.4;
-  const int seldom = slips_towards_a_step(relaxation, 0.003, -0.018);
-  EXPECT_EQ(seldom, 1 + 10);  // as it touches down, and every 4 mm of 42
+  EXPECT_NEAR(way_before_a_step(relaxation, 0.02), 0.004, 3e-5);
   relaxation.way_at_rim = 0.1;
-  EXPECT_EQ(slips_towards_a_step(relaxation, 0.003, -0.018), seldom);  // the rim is 7 mm above the sand
-  // At -16, -12 and -8 mm; there a cell of the step is within one of the rim, and it goes on by 1 mm.
-  EXPECT_EQ(slips_towards_a_step(relaxation, 0.003, 0.0005), seldom + 3 + 8);
-  EXPECT_NEAR(slips_towards_a_step(relaxation, 0.0101, -0.018), 42, 3);  // deeper than its radius: always
+  // From 0.4 R to 0.1 R while sand rises by R/2: half the way after half of that.
+  EXPECT_NEAR(way_before_a_step(relaxation, -0.001), 0.004, 3e-5);
+  EXPECT_NEAR(way_before_a_step(relaxation, 0.0), 0.004, 3e-5);
+  EXPECT_NEAR(way_before_a_step(relaxation, 0.0025), 0.002, 3e-5);
+  EXPECT_NEAR(way_before_a_step(relaxation, 0.005), 0.001, 3e-5);
+  EXPECT_NEAR(way_before_a_step(relaxation, 0.02), 0.001, 3e-5);
+  relaxation.way_at_rim = 0.8;  // never a longer one
+  EXPECT_NEAR(way_before_a_step(relaxation, 0.02), 0.004, 3e-5);
+}
+
+TEST(SandSide, SandSlipsMoreOftenInDeepStrokes) {
+  RelaxationSettings relaxation;
+  relaxation.way = 0.4;
+  relaxation.way_at_rim = 0.1;
+  const auto slips = [&](double depth) { return slips_on_a_drag(relaxation, depth, 0.042); };
+  EXPECT_EQ(slips(0.003), 1 + 10);  // as it touches down, and every 4 mm of 42
+  EXPECT_NEAR(slips(0.02), 42, 3);  // a radius below the sand: every 1 mm
 }
 
 TEST(SandSide, SandSlipsEveryQuarterOfACellAtMost) {
   RelaxationSettings relaxation;
   relaxation.way = 1e-9;
-  EXPECT_EQ(slips_towards_a_step(relaxation, 0.003, -0.0548), 1 + 10);  // 5.2 mm in steps of 0.5 mm
+  EXPECT_EQ(slips_on_a_drag(relaxation, 0.003, 0.0052), 1 + 10);  // 5.2 mm in steps of 0.5 mm
 }
 
 TEST(SandSide, ALiftedToolHoldsNothing) {

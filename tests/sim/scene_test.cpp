@@ -181,7 +181,7 @@ TEST(ModelPreset, SetsEachOfItsChoicesAndBackAgain) {
     EXPECT_EQ(scene.relaxation.method, paper ? RelaxationMethod::passes : RelaxationMethod::rkl);
     EXPECT_EQ(scene.relaxation.rate, paper ? 60.0 : 0.0);
     EXPECT_EQ(scene.relaxation.way, paper ? 0.0 : 0.4);
-    EXPECT_EQ(scene.relaxation.way_at_rim, paper ? 0.0 : 0.1);
+    EXPECT_EQ(scene.relaxation.way_at_rim, paper ? 0.0 : 0.05);
   }
 }
 
