@@ -23,7 +23,7 @@ struct RelaxationSettings {
   double step_tolerance = 0.1;  ///< rkl: error of a super-step, as a share of how far sand has moved
   double rate = 60.0;       ///< Hz, relaxations during a stroke; 0 = none by time (paper: the visual loop)
   double way = 0.0;         ///< tool radii that it goes through sand between relaxations; 0 = none by way
-  double way_at_rim = 0.0;  ///< tool radii: the same where sand stands R/2 above its rim; 0 = as `way`
+  double way_at_rim = 0.0;  ///< tool radii: the same where sand stands R/5 above its rim; 0 = as `way`
   double share = 0.0;       ///< c: 0 = the law's own (paper 1/2, isotropic 1/4, which is also its limit)
   std::int64_t max_passes = 1'000'000;  ///< per relaxation
 };

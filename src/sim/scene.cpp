@@ -119,7 +119,7 @@ void describe_relaxation(KeyVisitor& v, RelaxationSettings& r) {
   v.number("way", r.way, not_negative, "tool radii",
            "how far the tool moves through sand between relaxations; 0: none");
   v.number("way_at_rim", r.way_at_rim, not_negative, "tool radii",
-           "the same where sand stands half a radius above its rim; 0: no shorter");
+           "the same where sand stands R/5 above its rim; 0: no shorter");
   v.number("share", r.share, {0.0, 1.0, false}, "",
            "part of the excess that a pass moves; 0: 1/2 (paper) or 1/4 (others)");
   double passes = static_cast<double>(r.max_passes);

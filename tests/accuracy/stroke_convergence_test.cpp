@@ -56,22 +56,37 @@ TEST(StrokeConvergence, OfAnSCurveFourMillimetresDeep) {
   }
 }
 
+/// What lies elsewhere with 5 and 10 cells per radius, and what half of the way alone changes with 5.
+struct Convergence {
+  double coarse, middle, way;
+};
+Convergence convergence_of(const Scene& scene, const Stroke& stroke) {
+  const Replay truth = replay(truth_of(scene), stroke), run = replay(scene, stroke);
+  Scene half = scene;
+  half.relaxation.way /= 2, half.relaxation.way_at_rim /= 2;
+  const Convergence errors{apart(run, truth), apart(replay(finer(scene, 2), stroke), truth),
+                           apart(run, replay(half, stroke))};
+  std::printf("%.1f %% with 5 cells, %.1f %% with 10; half the way %.1f %%\n", 100 * errors.coarse,
+              100 * errors.middle, 100 * errors.way);
+  return errors;
+}
+
 TEST(StrokeConvergence, AsDeepAsTheToolsRadiusItIsWorse) {
   // What is pushed out and what falls in behind the tool run from one crest, 2 mm from its rim: one cell of
   // five.
   if (sanitized) GTEST_SKIP() << "takes long under sanitizers";
-  const Stroke stroke = s_curve(0.01, 0.25);
-  const Replay truth = replay(truth_of(accurate()), stroke);
-  Scene often = finer(accurate(), 2);
-  often.relaxation.way_at_rim = 0.05;
-  const double coarse = apart(replay(accurate(), stroke), truth),
-               middle = apart(replay(finer(accurate(), 2), stroke), truth),
-               middle_often = apart(replay(often, stroke), truth);
-  std::printf("10 mm deep: %.1f %% with 5 cells, %.1f %% with 10, %.1f %% with half the way\n", 100 * coarse,
-              100 * middle, 100 * middle_often);
-  EXPECT_LT(coarse, 0.15);
-  EXPECT_LT(middle, 0.65 * coarse);
-  EXPECT_LT(middle_often, 0.65 * middle);
+  const Convergence errors = convergence_of(accurate(), s_curve(0.01, 0.25));
+  EXPECT_LT(errors.coarse, 0.13);
+  EXPECT_LT(errors.middle, 0.045);
+  EXPECT_LT(errors.way, 0.02);
+}
+
+TEST(StrokeConvergence, OfAScribbleOverItsOwnGround) {
+  if (sanitized) GTEST_SKIP() << "takes long under sanitizers";
+  const Convergence errors = convergence_of(accurate(), scribble(0.005, 0.25));
+  EXPECT_LT(errors.coarse, 0.06);
+  EXPECT_LT(errors.middle, 0.035);
+  EXPECT_LT(errors.way, 0.03);
 }
 
 TEST(StrokeConvergence, TwoLawsOfSlopeHaveOneLimit) {
@@ -148,7 +163,8 @@ TEST(StrokeConvergence, TheEstimatedErrorIsNearTheTrueOneForHandsToo) {
   const HeightField start(accurate().bed.rows, accurate().bed.cols, accurate().bed.cell_size());
   for (const auto& [name, stroke] :
        {std::pair("a slow hand", s_curve(0.004, 0.1)), std::pair("noise", with_noise(clean, 55e-6)),
-        std::pair("slopes", with_slopes(clean, 0.05)), std::pair("deep", s_curve(0.01, 0.25))}) {
+        std::pair("slopes", with_slopes(clean, 0.05)), std::pair("deep", s_curve(0.01, 0.25)),
+        std::pair("reworked", scribble(0.005, 0.25))}) {
     Kept force(force_of);
     const Solution run = solve(accurate(), start, stroke, {&force});
     const double estimate =
@@ -209,12 +225,10 @@ TEST_F(PandaRecording, LeavesTheFurrowOfItsSmoothedPath) {
 TEST_F(PandaRecording, ConvergesAsCellsAndTicksAreDivided) {
   // The tip is 0.83 radii deep: see the deep S-curve.
   if (sanitized) GTEST_SKIP() << "takes long under sanitizers";
-  const Replay truth = replay(truth_of(scene), recorded);
-  const double coarse = apart(replay(scene, recorded), truth),
-               middle = apart(replay(finer(scene, 2), recorded), truth);
-  std::printf("Panda: %.1f %% with 5 cells, %.1f %% with 10\n", 100 * coarse, 100 * middle);
-  EXPECT_LT(coarse, 0.09);
-  EXPECT_LT(middle, 0.65 * coarse);
+  const Convergence errors = convergence_of(scene, recorded);
+  EXPECT_LT(errors.coarse, 0.07);
+  EXPECT_LT(errors.middle, 0.035);
+  EXPECT_LT(errors.way, 0.02);
 }
 
 }  // namespace

@@ -145,11 +145,11 @@ TEST(SandSide, TheWayFallsAsSandRisesAtTheRim) {
   relaxation.way = 0.4;
   EXPECT_NEAR(way_before_a_step(relaxation, 0.02), 0.004, 3e-5);
   relaxation.way_at_rim = 0.1;
-  // From 0.4 R to 0.1 R while sand rises by R/2: half the way after half of that.
+  // From 0.4 R to 0.1 R while sand rises by R/5: half the way after half of that.
   EXPECT_NEAR(way_before_a_step(relaxation, -0.001), 0.004, 3e-5);
   EXPECT_NEAR(way_before_a_step(relaxation, 0.0), 0.004, 3e-5);
-  EXPECT_NEAR(way_before_a_step(relaxation, 0.0025), 0.002, 3e-5);
-  EXPECT_NEAR(way_before_a_step(relaxation, 0.005), 0.001, 3e-5);
+  EXPECT_NEAR(way_before_a_step(relaxation, 0.001), 0.002, 3e-5);
+  EXPECT_NEAR(way_before_a_step(relaxation, 0.002), 0.001, 3e-5);
   EXPECT_NEAR(way_before_a_step(relaxation, 0.02), 0.001, 3e-5);
   relaxation.way_at_rim = 0.8;  // never a longer one
   EXPECT_NEAR(way_before_a_step(relaxation, 0.02), 0.004, 3e-5);

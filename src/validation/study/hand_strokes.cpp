@@ -43,6 +43,31 @@ Stroke s_curve(double depth, double speed, bool cut) {
   return trace_script(script, {});
 }
 
+Stroke scribble(double depth, double speed, bool cut) {
+  const double size = cut ? 0.5 : 1.0;
+  const Eigen::Vector2d half(0.03 * size, 0.02 * size);
+  constexpr double apart = 0.005;
+  StrokeScript script;
+  script.start = -half;
+  script.clearance = 0.005;
+  Eigen::Vector2d at = script.start;
+  const auto lines = [&](int across, int along) {
+    for (int i = 0; i <= std::lround(2.0 * half[across] / apart); ++i) {
+      Eigen::Vector2d from, to;
+      from[across] = to[across] = i * apart - half[across];
+      from[along] = i % 2 ? half[along] : -half[along], to[along] = -from[along];
+      for (const Eigen::Vector2d& point : {from, to}) {
+        if (point == at) continue;
+        script.segments.push_back({ScriptLine{{}, point}, {PressProfile::Kind::depth, {depth}}, speed});
+        at = point;
+      }
+    }
+  };
+  lines(1, 0);
+  lines(0, 1);
+  return trace_script(script, {});
+}
+
 Stroke with_noise(const Stroke& stroke, double rms) {
   std::mt19937 random(5);
   std::uniform_real_distribution<double> share(-0.5, 0.5);  // a normal one's numbers depend on the library

@@ -9,6 +9,10 @@ namespace sandstroke {
 /// it.
 Stroke s_curve(double depth, double speed, bool cut = false);
 
+/// A scribble of the same speed over a patch of 60 x 40 mm: to and fro along x, its lines 5 mm apart, then
+/// along y over the same ground; with `cut` half as large.
+Stroke scribble(double depth, double speed, bool cut = false);
+
 /// The same stroke as a device records it: sampled at 1 kHz, with white noise of `rms` [m] in z. The same
 /// each time.
 Stroke with_noise(const Stroke& stroke, double rms);

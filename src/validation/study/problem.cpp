@@ -21,6 +21,7 @@ const std::vector<ProblemMaker>& problem_makers() {
       {"dynamic", dynamic_problem},
       {"stroke-accurate", accurate_stroke_problem},
       {"stroke-deep", deep_stroke_problem},
+      {"stroke-reworked", reworked_stroke_problem},
       {"hands", hands_problem},
       {"stroke-paper", paper_stroke_problem},
       {"grains", grains_problem},

@@ -157,6 +157,7 @@ Problem tick_problem(const ProblemOptions& options);
 Problem dynamic_problem(const ProblemOptions& options);
 Problem accurate_stroke_problem(const ProblemOptions& options);
 Problem deep_stroke_problem(const ProblemOptions& options);
+Problem reworked_stroke_problem(const ProblemOptions& options);
 Problem hands_problem(const ProblemOptions& options);
 Problem paper_stroke_problem(const ProblemOptions& options);
 // The presets against simulated grains (grains.cpp).

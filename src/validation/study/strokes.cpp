@@ -71,30 +71,32 @@ Scene pumping(int cells_by) {
   return scene;
 }
 
-/// Of a stroke against itself with 1/finest of all steps.
-Problem unsolved(ModelPreset preset, double depth, int finest) {
-  const bool paper = preset == ModelPreset::paper, deep = depth > 0.005;
-  return {
-      paper  ? "stroke-paper"
-      : deep ? "stroke-deep"
-             : "stroke-accurate",
-      fmt::format("A stroke {:.0f} mm deep, {} preset", 1e3 * depth, paper ? "paper" : "accurate"),
-      fmt::format("A curved stroke at 2 kHz; in place of the truth stands the same stroke with cell "
-                  "size and the time or way between relaxations divided by {}. How far that is from their "
-                  "division by {} is the dotted line.",
+/// A stroke against itself with smaller steps.
+struct StrokeCase {
+  const char* name;
+  const char* title;
+  ModelPreset preset;
+  Stroke stroke;
+  bool at_rim;  // sand stands at the tool's rim: there more steps and their order matter
+};
+
+Problem stroke_problem(const StrokeCase& given, const ProblemOptions& options) {
+  const ModelPreset preset = given.preset;
+  const Stroke stroke = given.stroke;
+  const bool paper = preset == ModelPreset::paper;
+  const int finest = options.quick || given.at_rim ? 4 : 8;
+  const std::string all_finer = "all finer";
+  Problem problem{
+      given.name,
+      given.title,
+      fmt::format("At 2 kHz; in place of the truth stands the same stroke with cell size and the time or way "
+                  "between relaxations divided by {}. How far that is from their division by {} is the "
+                  "dotted line.",
                   finest, finest / 2),
       "l1",
       "misplaced sand, of the sand that moves",
       "",
       {}};
-}
-
-Problem stroke_problem(ModelPreset preset, double depth, const ProblemOptions& options) {
-  const bool paper = preset == ModelPreset::paper, deep = depth > 0.005;
-  const int finest = options.quick || deep ? 4 : 8;
-  const std::string all_finer = "all finer";
-  Problem problem = unsolved(preset, depth, finest);
-  const Stroke stroke = s_curve(depth, 0.25, options.quick);
   const auto all = [preset](int by) { return refined(preset, by, by); };
   const auto truth = std::make_shared<const Replay>(replay(all(finest), stroke));
   problem.converged_to = judge(replay(all(finest / 2), stroke), *truth).l1;
@@ -144,22 +146,22 @@ Problem stroke_problem(ModelPreset preset, double depth, const ProblemOptions& o
       scene.relaxation.law = RelaxationLaw::isotropic;
       add("law isotropic", fmt::format("1/{} of all", by), scene);
     }
-  if (deep)
+  problem.check_errors = [=] {
+    return check_errors("5 cells per radius", refined(preset, 1, 1), stroke, *truth);
+  };
+  if (given.at_rim)
     vary(
         "way at the rim alone", {0.025, 0.05, 0.1, 0.2, 0.4},
         [](Scene& s) -> double& { return s.relaxation.way_at_rim; }, "{} radii");
-  if (deep) return problem;
   for (int by = 1; by <= finest; by *= 2) {
     const Scene scene = refined(preset, by, 1);
     add("cell size alone", fmt::format("{:.3g} cells per radius", scene.tool.radius / scene.bed.cell_size()),
         scene);
   }
+  if (given.at_rim) return problem;
   vary(
       "tolerance alone", {1e-2, 1e-3, 1e-4}, [](Scene& s) -> double& { return s.relaxation.tolerance; },
       "tolerance {}");
-  problem.check_errors = [=] {
-    return check_errors("5 cells per radius", refined(preset, 1, 1), stroke, *truth);
-  };
   if (paper) return problem;
   vary(
       "step tolerance alone", {1.0, 0.1, 0.01},
@@ -176,37 +178,56 @@ Problem stroke_problem(ModelPreset preset, double depth, const ProblemOptions& o
 }  // namespace
 
 Problem accurate_stroke_problem(const ProblemOptions& options) {
-  return stroke_problem(ModelPreset::accurate, 0.004, options);
+  return stroke_problem({"stroke-accurate", "A stroke 4 mm deep, accurate preset", ModelPreset::accurate,
+                         s_curve(0.004, 0.25, options.quick), false},
+                        options);
 }
 
 Problem deep_stroke_problem(const ProblemOptions& options) {
-  return stroke_problem(ModelPreset::accurate, 0.01, options);
+  return stroke_problem({"stroke-deep", "A stroke as deep as the tool's radius, accurate preset",
+                         ModelPreset::accurate, s_curve(0.01, 0.25, options.quick), true},
+                        options);
+}
+
+Problem reworked_stroke_problem(const ProblemOptions& options) {
+  return stroke_problem({"stroke-reworked", "A scribble 5 mm deep over its own ground, accurate preset",
+                         ModelPreset::accurate, scribble(0.005, 0.25, options.quick), true},
+                        options);
 }
 
 Problem paper_stroke_problem(const ProblemOptions& options) {
-  return stroke_problem(ModelPreset::paper, 0.004, options);
+  return stroke_problem({"stroke-paper", "A stroke 4 mm deep, paper preset", ModelPreset::paper,
+                         s_curve(0.004, 0.25, options.quick), false},
+                        options);
 }
 
 Problem hands_problem(const ProblemOptions& options) {
   Problem problem{
       "hands",
       "What hands change",
-      "A curved stroke 4 mm deep with five cells per radius at 1 kHz, at the speeds, with the noise "
-      "in z and the slopes of hands, against the same preset's stroke at 0.25 m/s without any. A "
-      "stroke's outcome should depend on none of them.",
+      "A curved stroke 4 mm deep, and one as deep as the radius, with five cells per radius at 1 kHz, at the "
+      "speeds, with the noise in z and the slopes of hands, against the same preset's stroke at 0.25 m/s "
+      "without any. A stroke's outcome should depend on none of them.",
       "l1",
       "sand that lies elsewhere, of the sand that moves",
       "",
       {}};
-  for (const ModelPreset preset : {ModelPreset::paper, ModelPreset::accurate}) {
+  struct Case {
+    const char* name;
+    ModelPreset preset;
+    double depth;  // m
+  };
+  for (const auto& [name, preset, depth] : {Case{"paper", ModelPreset::paper, 0.004},
+                                            {"accurate", ModelPreset::accurate, 0.004},
+                                            {"accurate, deep", ModelPreset::accurate, 0.01}}) {
     const Scene scene = hand_scene(preset);
-    const Stroke clean = s_curve(0.004, 0.25, options.quick);
+    const Stroke clean = s_curve(depth, 0.25, options.quick);
     const auto truth = std::make_shared<const Replay>(replay(scene, clean));
     const auto add = [&](const std::string& what, const std::string& label, const Stroke& stroke,
                          double rate = 0.0) {
       Scene one = scene;
       if (rate > 0.0) one.relaxation.rate = rate;
-      Contender contender = stroke_contender(preset_name(preset) + ", " + what, label, one, options.threads,
+      Contender contender = stroke_contender(fmt::format("{}, {}", name, what), label, one, options.threads,
                                              not_applicable, stroke, truth);
       if (what == "speed")  // forces and places are those of other times
         contender.run = [run = contender.run] {
@@ -217,7 +238,7 @@ Problem hands_problem(const ProblemOptions& options) {
       problem.contenders.push_back(std::move(contender));
     };
     for (const double speed : {0.02, 0.05, 0.1, 0.5, 1.0})
-      add("speed", fmt::format("{} m/s", speed), s_curve(0.004, speed, options.quick));
+      add("speed", fmt::format("{} m/s", speed), s_curve(depth, speed, options.quick));
     for (const double noise : {0.0, 2e-6, 10e-6, 55e-6})
       add("noise", fmt::format("{:.0f} um rms", 1e6 * noise), with_noise(clean, noise));
     for (const double rate : {60.0, 960.0})
