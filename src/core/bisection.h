@@ -6,11 +6,11 @@
 namespace sandstroke {
 
 inline double mean(double a, double b) { return 0.5 * (a + b); }
-/// Of positive numbers.
+/// Both numbers must be positive.
 inline double geometric_mean(double a, double b) { return std::sqrt(a * b); }
 
-/// Where a condition stops to hold, between low, where it holds, and high, where it does not: halves what is
-/// between them so many times, at middle(low, high).
+/// The point between low, where the condition holds, and high, where it does not, at which it stops to hold.
+/// Halves the interval `halvings` times, at middle(low, high).
 template <class Middle, class Condition>
 double boundary_between(double low, double high, int halvings, const Middle& middle, const Condition& holds) {
   for (; halvings > 0; --halvings) {
@@ -20,8 +20,8 @@ double boundary_between(double low, double high, int halvings, const Middle& mid
   return middle(low, high);
 }
 
-/// The positive number up to which a condition holds, to 1 in 10^7; infinity where it holds up to 1e12, 0
-/// where it does not hold at 1e-12.
+/// The positive number up to which a condition holds, to 1 in 10^7. Infinity if it holds up to 1e12, 0 if it
+/// does not hold at 1e-12.
 template <class Condition>
 double boundary_of_positive(const Condition& holds) {
   double low = 1.0, high = 1.0;

@@ -19,7 +19,7 @@
 namespace sandstroke {
 namespace {
 
-constexpr int look_ms = 20;  // how often a wait looks whether this program is interrupted
+constexpr int look_ms = 20;  // how often a wait checks for an interrupt
 
 std::string written_to(std::FILE* output) {
   std::rewind(output);
@@ -36,7 +36,7 @@ ChildOutputs outputs_of(const std::string& program) {
   return outputs;
 }
 
-/// The process started, 0 where there is no such program; without an input it has nothing to read.
+/// Returns the started process, or 0 if there is no such program. input < 0: it has nothing to read.
 pid_t spawn(const std::vector<std::string>& words, int input, const ChildOutputs& outputs) {
   std::vector<char*> arguments;
   arguments.reserve(words.size() + 1);
@@ -82,7 +82,7 @@ ChildResult result_of(int status, const ChildOutputs& outputs) {
 
 std::optional<FedChild> FedChild::start(const std::vector<std::string>& words) {
   ChildOutputs outputs = outputs_of(words[0]);
-  int ends[2];  // sockets, not a pipe: a child that is gone raises no SIGPIPE
+  int ends[2];  // sockets, not a pipe: writing to a child that has ended raises no SIGPIPE
   if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0)
     throw_io_error("{} cannot be fed: {}; close other programs", words[0], std::strerror(errno));
   const std::unique_ptr<int, void (*)(int*)> its_end(&ends[1], [](int* end) { close(*end); });

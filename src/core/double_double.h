@@ -4,9 +4,9 @@
 
 namespace sandstroke {
 
-/// A number as the sum of two doubles, the second at most half a unit in the last place of the first: 106
-/// bits, by + - * / and sqrt alone, which every machine rounds alike (Dekker, Numer. Math. 18, 1971;
-/// Shewchuk, 1997). No part may be near the largest double.
+/// A number as the sum of two doubles; the second is at most half a unit in the last place of the first. It
+/// has 106 bits. It needs only + - * / and sqrt, which every machine rounds alike (Dekker, Numer. Math. 18,
+/// 1971; Shewchuk, 1997). No part may be near the largest double.
 struct DoubleDouble {
   double high = 0.0;
   double low = 0.0;
@@ -25,7 +25,7 @@ struct DoubleDouble {
     const double sum = a + b, from_b = sum - a;
     return {sum, (a - (sum - from_b)) + (b - from_b)};
   }
-  /// a b without error: each in halves, whose products are exact.
+  /// a b without error: splits a and b into halves, whose products are exact.
   static constexpr DoubleDouble product(double a, double b) {
     constexpr double splitter = 0x1p27 + 1.0;
     const double a_high = splitter * a - (splitter * a - a), a_low = a - a_high;
@@ -53,7 +53,7 @@ struct DoubleDouble {
   }
 };
 
-/// Of x >= 0.
+/// The square root of x >= 0.
 inline DoubleDouble sqrt(const DoubleDouble& x) {
   const double root = std::sqrt(x.high);
   if (root == 0.0) return root;

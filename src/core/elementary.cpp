@@ -14,7 +14,7 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-// In as many parts as make pi / 2 exact to 2^-163 and ln 2 to 2^-110.
+// Constants as sums of parts: pi / 2 is exact to 2^-163 and ln 2 to 2^-110.
 constexpr std::array half_pi = {0x1.921fb54442d18p+0, 0x1.1a62633145c07p-54, -0x1.f1976b7ed8fbcp-110};
 constexpr DoubleDouble pi{2.0 * half_pi[0], 2.0 * half_pi[1]};
 constexpr DoubleDouble ln2{0x1.62e42fefa39efp-1, 0x1.abc9e3b39803fp-56};
@@ -27,7 +27,7 @@ constexpr std::array<DoubleDouble, 32> inverse_factorial = [] {
   return inverse;
 }();
 
-/// 1 / n, for those of log and atan.
+/// 1 / n, for the series of log and atan.
 constexpr std::array<DoubleDouble, 46> inverse = [] {
   std::array<DoubleDouble, 46> inverses;
   for (int n = 1; n < 46; ++n) inverses[n] = DoubleDouble(1.0) / static_cast<double>(n);
@@ -35,7 +35,7 @@ constexpr std::array<DoubleDouble, 46> inverse = [] {
 }();
 
 /// r^first / first! - r^(first + 2) / (first + 2)! + ..., for |r| up to about pi / 4. Terms below 2^-20 of
-/// the first go by plain numbers: 70 bits.
+/// the first are plain doubles, which gives 70 bits.
 DoubleDouble alternating(const DoubleDouble& r, int first) {
   const int plain_from = first + 10;
   double tail = 0.0;
@@ -46,20 +46,20 @@ DoubleDouble alternating(const DoubleDouble& r, int first) {
   return first == 1 ? r * sum : sum;
 }
 
-/// A finite x from the nearest multiple of pi / 2, and which that is, modulo 4.
+/// A finite x as its distance from the nearest multiple of pi / 2, and the number of that multiple modulo 4.
 struct Turn {
   DoubleDouble rest;
   int quarters;
 };
 Turn turn_of(double x) {
-  if (std::abs(x) >= 0x1p52) x = std::fmod(x, 2.0 * std::numbers::pi);  // which is exact
+  if (std::abs(x) >= 0x1p52) x = std::fmod(x, 2.0 * std::numbers::pi);  // fmod is exact
   const double quarters = std::floor(x / half_pi[0] + 0.5);
   DoubleDouble rest = x;
   for (const double part : half_pi) rest = rest - DoubleDouble::product(quarters, part);
   return {rest, static_cast<int>(quarters - 4.0 * std::floor(quarters / 4.0))};
 }
 
-/// The sine, so many quarters later.
+/// The sine of the turn plus `later` times pi / 2.
 DoubleDouble sine_of(const Turn& turn, int later = 0) {
   const int quarters = (turn.quarters + later) % 4;
   const DoubleDouble size = alternating(turn.rest, quarters % 2 == 0 ? 1 : 0);
@@ -84,7 +84,7 @@ struct Exponential {
   DoubleDouble fraction;
   int power = 0;
 };
-/// |x| < 2000. Forces are computed with it in every tick: what is beyond 70 bits goes by plain numbers.
+/// exp(x) - 1 for |x| < 2000. Every tick computes forces with it, so small terms are plain doubles (70 bits).
 Exponential exponential(const DoubleDouble& x) {
   const double count = std::floor(x.high * (steps_of_two / ln2.high) + 0.5);
   const DoubleDouble rest = x - ln2 * (count / steps_of_two);
@@ -98,13 +98,13 @@ Exponential exponential(const DoubleDouble& x) {
   return {part + grown + part * grown, static_cast<int>(power)};
 }
 
-/// Of |x| < 2000: 0 and infinity where it is beyond all doubles.
+/// exp(x) for |x| < 2000; 0 or infinity if it is beyond all doubles.
 double exp_of(const DoubleDouble& x) {
   const Exponential e = exponential(x);
   return std::scalbn((e.fraction + 1.0).high, e.power);
 }
 
-/// ln(1 + x) for finite x > -1, where `x` and 1 + x are both given so that neither loses bits.
+/// ln(1 + x) for finite x > -1. one_more: 1 + x, given beside x so that neither loses bits.
 DoubleDouble log_of(const DoubleDouble& x, const DoubleDouble& one_more) {
   int power = 0;
   if (std::frexp(one_more.high, &power) < std::numbers::sqrt2 / 2.0) --power;
@@ -115,7 +115,7 @@ DoubleDouble log_of(const DoubleDouble& x, const DoubleDouble& one_more) {
   return ln2 * static_cast<double>(power) + scaled(s * sum, 1);
 }
 
-/// Of t from 0 to 1.
+/// The arctangent of t from 0 to 1.
 DoubleDouble arctangent(DoubleDouble t) {
   constexpr int halvings = 3;  // of the angle
   for (int i = 0; i < halvings; ++i) t = t / (sqrt(t * t + 1.0) + 1.0);
@@ -125,7 +125,7 @@ DoubleDouble arctangent(DoubleDouble t) {
   return scaled(t * sum, halvings);
 }
 
-/// The angle, from 0 to pi, of finite (x, y), y >= 0, of which one is not 0.
+/// The angle of the point (x, y), from 0 to pi. x and y are finite, y >= 0, and one of them is not 0.
 double angle_of(const DoubleDouble& x, const DoubleDouble& y) {
   const DoubleDouble across = x.high < 0.0 ? -x : x;
   const bool steep = y.high > across.high;
@@ -206,8 +206,8 @@ double hypot(double x, double y) {
   if (smaller <= larger * 0x1p-54) return larger + smaller;
   if (larger > 0x1p511) return 0x1p600 * hypot(x * 0x1p-600, y * 0x1p-600);
   if (smaller < 0x1p-459) return 0x1p-600 * hypot(x * 0x1p600, y * 0x1p600);
-  // Borges, An Improved Algorithm for hypot(a, b), arXiv:1904.09481: the root, and what its square is too
-  // large by.
+  // Borges, An Improved Algorithm for hypot(a, b), arXiv:1904.09481. `excess` is how much the root's square
+  // is too large.
   const double root = std::sqrt(larger * larger + smaller * smaller);
   double excess = 0.0;
   if (root <= 2.0 * smaller) {
@@ -223,7 +223,7 @@ double hypot(double x, double y) {
 double hypot(double x, double y, double z) {
   if (std::isinf(x) || std::isinf(y) || std::isinf(z)) return infinity;
   const double largest = std::max({std::abs(x), std::abs(y), std::abs(z)});
-  if (largest == 0.0) return x + y + z;  // not a number, where one is
+  if (largest == 0.0) return x + y + z;  // NaN if one of them is NaN
   x /= largest, y /= largest, z /= largest;
   return largest * std::sqrt(x * x + y * y + z * z);
 }

@@ -3,11 +3,11 @@
 namespace sandstroke::elementary {
 
 // Functions with the same bits on every machine. Those of the C library depend on its version, on the
-// architecture, and on whether the processor fuses multiplications with additions. So wherever a result goes
-// into sand, strokes or forces, these take the place of <cmath>'s. They use + - * / and sqrt, which are
-// rounded alike everywhere, and functions that are exact. All but hypot are worked out in 70 to 100
-// bits (DoubleDouble) and rounded once: almost always to the nearest double. exp, expm1, sin and cos take 0.1
-// to 0.2 us, the others up to 1 us.
+// architecture, and on whether the processor fuses multiplications with additions. All results that go into
+// sand, strokes or forces therefore use these functions instead of <cmath>. They use + - * / and sqrt, which
+// are rounded alike everywhere, and functions that are exact. All but hypot are computed in 70 to 100 bits
+// (DoubleDouble) and rounded once: almost always to the nearest double. exp, expm1, sin and cos take 0.1 to
+// 0.2 us, the others up to 1 us.
 //
 // Arguments that are infinite, not a number or outside the domain give what <cmath> gives.
 

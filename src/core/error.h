@@ -7,14 +7,14 @@
 
 namespace sandstroke {
 
-/// What a program's exit code says: 0 fine, 1 a comparison failed.
+/// The program's exit code when it fails. 0 means success; 1 means that a comparison failed.
 enum class ErrorKind {
-  input = 2,     ///< bad input or usage: the user changes what was given
-  unstable = 3,  ///< not converged or unstable: the user changes settings
+  input = 2,     ///< bad input or usage: the user must change the input
+  unstable = 3,  ///< not converged or unstable: the user must change settings
   io = 4,        ///< the system would not read or write
 };
 
-/// The one exception of this program: a sentence that says what, where (file, line, key) and what to do.
+/// The only exception of this program. Its sentence says what failed, where (file, line, key) and what to do.
 class Error : public std::runtime_error {
  public:
   Error(ErrorKind kind, const std::string& sentence) : std::runtime_error(sentence), kind_(kind) {}
@@ -25,13 +25,13 @@ class Error : public std::runtime_error {
   ErrorKind kind_;
 };
 
-/// Bad input for this machine: with more memory it is fine.
+/// Input that needs more memory than this machine has.
 class NotEnoughMemory : public Error {
  public:
   explicit NotEnoughMemory(const std::string& sentence) : Error(ErrorKind::input, sentence) {}
 };
 
-/// Elsewhere, or later, the same input may do: says nothing about it.
+/// True if the machine is the cause: the same input may work elsewhere or later.
 inline bool is_of_the_machine(const Error& error) {
   return error.kind() == ErrorKind::io || dynamic_cast<const NotEnoughMemory*>(&error);
 }

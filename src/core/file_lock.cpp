@@ -31,7 +31,8 @@ FileLock FileLock::wait_and_take(const std::filesystem::path& path) {
 }
 
 std::optional<FileLock> FileLock::take(const std::filesystem::path& path, int how) {
-  // Again, where its last holder renamed or removed it between open and lock: that is no longer this file.
+  // Tries again if the last holder renamed or removed the file between open and lock: it is then another
+  // file.
   while (true) {
     FileLock taken(open(path.c_str(), O_CREAT | O_RDWR | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK, 0666));
     if (taken.descriptor_ < 0 && errno == ELOOP)
@@ -59,14 +60,14 @@ bool FileLock::lock(const std::filesystem::path& path, short type, int how) {
   struct flock whole_file {};
   whole_file.l_type = type;
   whole_file.l_whence = SEEK_SET;
-  // Bound to this descriptor: others of the same process may open and close the file on their own.
+  // The lock belongs to this descriptor: others in the same process may open and close the file.
   int result;
   do result = fcntl(descriptor_, how, &whole_file);
   while (result != 0 && errno == EINTR);
   if (result == 0) return true;
   const int error = errno;
   if (error == EAGAIN || error == EACCES) return false;
-  // What NFS, Lustre and others say where they are mounted without locks. People must work there, too.
+  // Errors of NFS, Lustre and others that are mounted without locks. Users must be able to work there, too.
   if (error != ENOLCK && error != EOPNOTSUPP && error != EINVAL && error != ENOSYS)
     throw_io_error("{}: cannot be locked ({}); choose another place", path.string(), std::strerror(error));
   if (type == F_RDLCK) return true;  // it only reads

@@ -6,19 +6,20 @@
 
 namespace sandstroke {
 
-/// Whether the name still means this open file: nobody renamed, removed or replaced it.
+/// True if the name still means this open file: nobody renamed, removed or replaced it.
 bool still_named(int descriptor, const std::filesystem::path& path);
 
-/// Keeps other processes, and other holders in this one, from what a file stands for; gone with its holder,
-/// however that ends. On a file system without locks it keeps nobody from anything, and warns once.
+/// A lock on a file. It keeps out other processes, and other holders in this one. It ends with its holder,
+/// however that ends. On a file system without locks it keeps nobody out, and warns once.
 class FileLock {
  public:
-  /// Makes the file where it is not there. None: somebody holds it. Error: io; also where something else than
-  /// a file has its name, as a link to one that nobody meant.
+  /// Creates the file if it is missing. None: somebody holds the lock. Error: io, also if the name belongs to
+  /// something other than a regular file, such as a link.
   static std::optional<FileLock> try_take(const std::filesystem::path& path);
-  /// The same, of a file that others may be looking at for a moment: waits for them.
+  /// The same, for a file that others lock only for a moment: waits for them.
   static FileLock wait_and_take(const std::filesystem::path& path);
-  /// With others that only read the file, which is there. None: somebody has taken it. Error: io.
+  /// Shares the lock with others that only read the file, which must exist. None: somebody holds it alone.
+  /// Error: io.
   static std::optional<FileLock> try_share(const std::filesystem::path& path);
   FileLock(FileLock&& other) noexcept;
   FileLock& operator=(FileLock&& other) noexcept {

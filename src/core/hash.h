@@ -7,7 +7,7 @@
 
 namespace sandstroke {
 
-/// FNV-1a, 64 bits: names content (a scene's text, a file's bytes). Not for security.
+/// FNV-1a hash, 64 bits, that identifies content (a scene's text, a file's bytes). Not for security.
 class ContentHash {
  public:
   void add(const void* bytes, std::size_t count);
@@ -22,8 +22,8 @@ class ContentHash {
 
 std::string content_hash(std::string_view text);
 
-/// A number in [0, 1), the same for the same bits and as good as random for others: the upper 53 bits of
-/// SplitMix64's finaliser (Steele, Lea, Flood, OOPSLA 2014).
+/// A number in [0, 1): the same for the same bits, and as good as random between different bits. It is the
+/// upper 53 bits of SplitMix64's finaliser (Steele, Lea, Flood, OOPSLA 2014).
 inline double unit_hash(std::uint64_t bits) {
   bits = (bits ^ (bits >> 30)) * 0xbf58476d1ce4e5b9ULL;
   bits = (bits ^ (bits >> 27)) * 0x94d049bb133111ebULL;

@@ -10,12 +10,12 @@
 namespace sandstroke {
 namespace {
 
-std::atomic<int> caught_signal = 0;                    // set by one thread and asked for by others
-std::atomic<std::int64_t> caught_at = 0;               // ns, the first one that may come twice
-static_assert(std::atomic<int>::is_always_lock_free);  // or no signal handler might set it
+std::atomic<int> caught_signal = 0;                    // one thread sets it, others read it
+std::atomic<std::int64_t> caught_at = 0;               // ns, when the first signal came, which may come twice
+static_assert(std::atomic<int>::is_always_lock_free);  // else a signal handler could not set it
 static_assert(std::atomic<std::int64_t>::is_always_lock_free);
 
-constexpr std::int64_t together = 1'000'000'000;  // ns
+constexpr std::int64_t together = 1'000'000'000;  // ns; signals within this time count as one
 
 void remember_signal(int number) {
   caught_signal = number;
@@ -24,7 +24,7 @@ void remember_signal(int number) {
 
 void remember_first_signal(int number) {
   timespec time;
-  clock_gettime(CLOCK_MONOTONIC, &time);  // which a signal handler may call (POSIX)
+  clock_gettime(CLOCK_MONOTONIC, &time);  // a signal handler may call this (POSIX)
   const std::int64_t now = time.tv_sec * std::int64_t{1'000'000'000} + time.tv_nsec;
   if (caught_signal == 0) {
     caught_at = now;
@@ -41,7 +41,7 @@ void catch_unless_set(int number, void (*handler)(int)) {
   if (now.sa_handler == SIG_DFL) signal(number, handler);
 }
 
-/// All that end a program and come from outside, but SIGINT, SIGTERM and SIGQUIT.
+/// Catches all signals that come from outside and end a program, except SIGINT, SIGTERM and SIGQUIT.
 void catch_others(void (*handler)(int)) {
   for (const int number :
        {SIGHUP, SIGUSR1, SIGUSR2, SIGALRM, SIGVTALRM, SIGPROF, SIGXCPU, SIGPOLL, SIGPWR, SIGSTKFLT})

@@ -2,20 +2,20 @@
 
 namespace sandstroke {
 
-/// For the whole program: a write to a pipe that nobody reads (SIGPIPE), or beyond a limit of size (SIGXFSZ,
-/// ulimit -f), fails like any other and ends nothing.
+/// Makes this program ignore SIGPIPE and SIGXFSZ. A write to a pipe that nobody reads, or beyond a size limit
+/// (ulimit -f), then fails like any other and ends nothing.
 void ignore_write_signals();
 
-/// From here on what asks this program to end only raises a flag, which long work asks for at its next step:
-/// SIGINT, SIGTERM, and of all others that would end it those that come from outside, such as SIGUSR1 (a
-/// batch system's warning) and SIGXCPU (ulimit -t). What nohup or a profiler has set stays. A second one ends
-/// the program at once, but for SIGXCPU, which the system repeats every second. To be called where such work
-/// begins: what waits for an input, a pipe perhaps, is to end at the first.
+/// Makes signals that ask this program to end only raise a flag, which long work checks at its next step.
+/// These are SIGINT, SIGTERM, and all others from outside that would end it, such as SIGUSR1 (a batch
+/// system's warning) and SIGXCPU (ulimit -t). A handler that nohup or a profiler has set stays. A second
+/// signal ends the program at once, except SIGXCPU, which the system repeats every second. Call this where
+/// long work begins: a program that still waits for an input, perhaps a pipe, must end at the first signal.
 void catch_interrupts();
 
-/// The same, also for Ctrl-\, and Ctrl-Z and a terminal that others have do nothing: for work that must not
-/// stand still, nor end before it has let go. So those that come within a second of the first are taken for
-/// the same one: a closed terminal sends two, a key that is held many.
+/// The same, also for Ctrl-\. Ctrl-Z, and using a terminal that another job has, do nothing. It is for work
+/// that must not stand still, nor end before it has let go. Signals within a second of the first count as
+/// one: a closed terminal sends two, a held key many.
 void catch_all_interrupts();
 
 /// The signal caught so far, or 0.

@@ -6,8 +6,8 @@
 
 namespace sandstroke {
 
-/// A whole number from 0 to `most` in nlohmann's JSON, which would cast any number to any other. Error: one
-/// of its own.
+/// Reads a whole number from 0 to `most` from nlohmann's JSON, which itself would cast any number to any
+/// other. Error: nlohmann's own.
 template <class Count, class Json>
 Count json_count(const Json& value, std::int64_t most = std::numeric_limits<std::int64_t>::max()) {
   const std::int64_t number = value.template get_ref<const typename Json::number_integer_t&>();

@@ -8,16 +8,16 @@
 
 namespace sandstroke {
 
-/// What a file's keys are shown to, one after the other: a reader sets the value, a writer prints it, a help
-/// page explains it. A function that shows them is the one list of these keys; a key that means nothing for
-/// the choices made (the radius of a flat surface) it does not show, so that a reader refuses it.
+/// A visitor of a file's keys, one after the other: a reader sets the value, a writer prints it, a help page
+/// explains it. The function that shows the keys is the only list of them. It does not show a key that means
+/// nothing for the choices made (the radius of a flat surface), so a reader refuses that key.
 class KeyVisitor {
  public:
   virtual ~KeyVisitor() = default;
   virtual void section(const char* name, const char* help) = 0;
   /// A section that may be absent: true if it is there.
   virtual bool optional_section(const char* name, bool present, const char* help) = 0;
-  /// Whether the next key is given, where that is more than its value says; listed without a default.
+  /// True if the next key is given, for a key whose presence says more than its value. Help lists no default.
   virtual bool given(const char* key) = 0;
   /// The next key must be given.
   virtual void require(const char* key) = 0;
@@ -34,14 +34,14 @@ class KeyVisitor {
   virtual void flag(const char* key, bool& value, const char* help) = 0;
   virtual void text(const char* key, std::string& value, const char* help) = 0;
   virtual void texts(const char* key, std::vector<std::string>& values, const char* help) = 0;
-  /// value: index into names.
+  /// value: an index into names.
   virtual void choice(const char* key, int& value, const std::vector<std::string>& names,
                       const char* help) = 0;
-  /// True for a reader: a preset just read then sets the values it stands for, and later keys override them.
+  /// True for a reader: a preset that was just read sets its values, and later keys override them.
   virtual bool reads() const = 0;
 };
 
-/// A choice that is an enum, counted from 0 in the order of the names.
+/// A choice whose values are an enum, counted from 0 in the order of the names.
 template <class Enum>
 void choose(KeyVisitor& visitor, const char* key, Enum& value, const std::vector<std::string>& names,
             const char* help) {

@@ -11,7 +11,7 @@
 namespace sandstroke {
 namespace {
 
-/// The message, as terminal_line() writes it.
+/// Prints the message as terminal_line() escapes it.
 class SafeMessage : public spdlog::custom_flag_formatter {
  public:
   void format(const spdlog::details::log_msg& message, const std::tm&, spdlog::memory_buf_t& line) override {

@@ -4,11 +4,11 @@
 
 namespace sandstroke {
 
-/// Human text goes to stderr (stdout is for results and --json): plain lines, warnings marked.
-/// quiet: warnings only.
+/// Sends text for people to stderr: plain lines, warnings marked. stdout is for results and --json. quiet:
+/// warnings only.
 void start_log(bool quiet);
 
-/// Nothing where the sentence is empty.
+/// Warns, unless the sentence is empty.
 void warn_if_any(const std::string& sentence);
 
 }  // namespace sandstroke

@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 constexpr double unlimited = std::numeric_limits<double>::infinity();
 
-/// The number after a name in lines of "name number", as in /proc/meminfo; 0 where it is not there.
+/// The number after a name in lines of "name number", as in /proc/meminfo; 0 if the name is missing.
 double number_after(const fs::path& file, const std::string& name) {
   std::ifstream lines(file);
   double number = 0.0;
@@ -29,21 +29,21 @@ double number_after(const fs::path& file, const std::string& name) {
   return 0.0;
 }
 
-/// The number that a file holds; none where it holds a word ("max"), or is not there.
+/// The number in a file; `none` if the file holds a word ("max") or does not exist.
 double number_in(const fs::path& file, double none) {
   double number = none;
   return std::ifstream(file) >> number ? number : none;
 }
 
 struct GroupFiles {
-  const char *limit, *usage, *cached;  // cached: names in memory.stat, of what is given up when it gets tight
+  const char *limit, *usage, *cached;  // cached: prefix, in memory.stat, of caches that can be freed
 };
 constexpr GroupFiles version_1{"memory.limit_in_bytes", "memory.usage_in_bytes", "total_"},
     version_2{"memory.max", "memory.current", ""};
 
 double room_in(const fs::path& group, const GroupFiles& files) {
   const double limit = number_in(group / files.limit, unlimited);
-  if (limit >= 0x1p62) return unlimited;  // version 1 says so by a huge number
+  if (limit >= 0x1p62) return unlimited;  // version 1 writes a huge number for no limit
   double taken = number_in(group / files.usage, 0.0);
   for (const char* kind : {"active_file", "inactive_file"})
     taken -= number_after(group / "memory.stat", std::string(files.cached) + kind);
@@ -57,12 +57,12 @@ double limit_of(__rlimit_resource resource) {
   return static_cast<double>(limit.rlim_cur);
 }
 
-/// What is left of it; what the process has taken is in /proc/self/status under a name.
+/// The rest of a limit. taken: the name in /proc/self/status of what the process has taken.
 double room_of(__rlimit_resource resource, const char* taken) {
   return limit_of(resource) - 1024.0 * number_after("/proc/self/status", taken);
 }
 
-/// What the limit of the address space leaves, and how that is said.
+/// The room that the limit of the address space leaves, and the message about it.
 double address_room() { return room_of(RLIMIT_AS, "VmSize:"); }
 constexpr const char* addresses_left = "the limit of its address space (ulimit -v) leaves it {:.3g} GB";
 
@@ -114,7 +114,7 @@ void check_disk(const fs::path& path, double bytes, const std::string& remedy) {
   refuse_beyond(limit_of(RLIMIT_FSIZE), "the limit of a file's size (ulimit -f) is");
   const fs::path folder = fs::absolute(path).parent_path();
   struct statvfs disk = {};
-  if (statvfs(folder.c_str(), &disk) != 0 || disk.f_blocks == 0) return;  // it does not say
+  if (statvfs(folder.c_str(), &disk) != 0 || disk.f_blocks == 0) return;  // the system does not say
   std::error_code none;
   const std::uintmax_t before = fs::file_size(part_path(path), none);
   refuse_beyond(static_cast<double>(disk.f_bavail) * static_cast<double>(disk.f_frsize) +
@@ -127,7 +127,7 @@ void share_heap_if_limited() {
 }
 
 void check_stack() {
-  // Drawing by several threads takes 160 kB.
+  // Drawing with several threads takes 160 kB.
   constexpr double least = 512 * 1024.0;
   if (const double stack = limit_of(RLIMIT_STACK); stack < least)
     throw_io_error("the stack is limited to {:.0f} kB, which is too small; allow {:.0f} kB (ulimit -s)",
@@ -143,7 +143,7 @@ double control_group_room(const std::string& groups, const fs::path& mount) {
     const std::string controllers = fmt::format(",{},", line.substr(first + 1, second - first - 1));
     const bool is_version_2 = controllers == ",,";
     if (!is_version_2 && controllers.find(",memory,") == std::string::npos) continue;
-    // Those above limit it too. In a container its own group may be mounted as the topmost.
+    // Groups above this one limit it, too. In a container its own group may be mounted as the topmost.
     const fs::path top = is_version_2 ? mount : mount / "memory";
     fs::path group = fs::path(line.substr(second + 1)).relative_path();
     for (;; group = group.parent_path()) {

@@ -6,7 +6,7 @@
 
 namespace sandstroke {
 
-/// The middle one by size, of an even count the upper of the two; 0 of none.
+/// The middle value by size; the upper of the two if the count is even; 0 if there are none.
 inline double median(std::vector<double> values) {
   if (values.empty()) return 0.0;
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);

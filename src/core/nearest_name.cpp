@@ -22,13 +22,13 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   return row[b.size()];
 }
 
-/// Of a dotted key.
+/// The last part of a dotted key.
 std::string_view last_part(std::string_view name) { return name.substr(name.rfind('.') + 1); }
 
 }  // namespace
 
 std::string nearest_name(const std::string& name, const std::set<std::string>& known) {
-  if (known.contains(name)) return {};  // a key, to another [[table]] of the same name
+  if (known.contains(name)) return {};  // a key of another [[table]] of the same name
   const auto next = known.upper_bound(name);
   if (next != known.end() && next->starts_with(name) && next->find('.', name.size()) == std::string::npos)
     return *next;

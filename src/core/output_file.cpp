@@ -18,9 +18,9 @@ namespace {
 
 bool overwrite = false;
 
-/// Whether this program wrote it, as an output of this kind; or it holds nothing.
+/// True if this program wrote the file as an output of this kind, or if it holds nothing.
 bool is_own(const fs::path& path, const OutputKind& kind) {
-  if (!fs::exists(fs::symlink_status(path))) return true;  // somebody may have taken it away
+  if (!fs::exists(fs::symlink_status(path))) return true;  // somebody may have removed it
   std::string text(64 * 1024, '\0');
   text.resize(InputFile(path).read(text.data(), text.size()));
   if (text.empty()) return true;
@@ -29,7 +29,7 @@ bool is_own(const fs::path& path, const OutputKind& kind) {
           text.find(kind.mark) != std::string::npos);
 }
 
-/// Others would take it for a file of that format.
+/// Refuses a name that others would take for another format.
 void check_name(const fs::path& path, const OutputKind& kind) {
   const std::string ending = path.extension().string();
   if (kind.hdf5 && !has_hdf5_name(path) && ending.find_first_not_of(".0123456789") != std::string::npos)
@@ -42,7 +42,7 @@ void refuse(const fs::path& path, const OutputKind& kind) {
       kind.begin.empty() || kind.kept ? "" : fmt::format(" and is not {} that sandstroke wrote", kind.name));
 }
 
-/// Refuses what no output replaces. False: nothing is in the way that may be somebody's.
+/// Refuses what no output replaces. True: a regular file is there, and --overwrite is not given.
 bool check_place(const fs::path& path) {
   const fs::file_status there = fs::symlink_status(path);
   if (!fs::exists(there) || fs::is_directory(there)) return false;
@@ -164,7 +164,7 @@ void sync_folder_of(const fs::path& path) {
 
 void finish_part(const fs::path& path, const OutputKind& kind) {
   const fs::path part = part_path(path);
-  // On the disk before it has its name: after a power failure, too, a file of that name is complete.
+  // Puts the file on the disk before it gets its name: then it is complete even after a power failure.
   const int file = open(part.c_str(), O_RDONLY | O_CLOEXEC);
   const bool safe = file >= 0 && fsync(file) == 0;
   const std::string reason = std::strerror(errno);
@@ -172,7 +172,7 @@ void finish_part(const fs::path& path, const OutputKind& kind) {
   if (!safe)
     throw_io_error("{}: cannot be written ({}); free disk space or choose another place", path.string(),
                    reason);
-  check_replaceable(path, kind);  // again: work takes time
+  check_replaceable(path, kind);  // again: a file may have come there since
   std::error_code failure;
   fs::rename(part, path, failure);
   if (failure) {

@@ -8,8 +8,8 @@
 
 namespace sandstroke {
 
-/// body(i) for each i in [0, count), in any order, on as many threads as tbb::global_control allows, or,
-/// where they are not worth their while, on this one. All is done, and seen here, when it returns.
+/// Calls body(i) for each i in [0, count), in any order, on as many threads as tbb::global_control allows; on
+/// this thread alone if threads are not worth their cost. On return, all is done and visible here.
 template <class Body>
 void parallel_for(std::size_t count, bool worth_threads, const Body& body) {
   if (!worth_threads || count < 2) {
@@ -17,7 +17,7 @@ void parallel_for(std::size_t count, bool worth_threads, const Body& body) {
     return;
   }
 #ifdef SANDSTROKE_SANITIZE_THREADS
-  // The thread sanitizer cannot see how TBB's own library synchronises: there, plain threads take turns.
+  // The thread sanitizer cannot see how TBB's own library synchronises. There, plain threads take turns.
   constexpr std::size_t threads = 3;
   std::vector<std::jthread> running;
   for (std::size_t first = 0; first < threads; ++first) {

@@ -8,14 +8,14 @@
 
 namespace sandstroke {
 
-/// A progress bar with the time left on stderr, for work that lasts over a second, on a terminal only.
+/// A progress bar with the time left, on stderr. It appears after a second, and only on a terminal.
 class Progress {
  public:
   explicit Progress(std::string title);
 
-  /// fraction done, 0 to 1; cheap enough to be called often.
+  /// fraction: done so far, 0 to 1. It is cheap enough to be called often.
   void update(double fraction);
-  /// For work whose end is not known: how much is done.
+  /// Shows how much is done, for work whose end is not known.
   void count(std::int64_t done, const char* what);
 
  private:

@@ -4,15 +4,15 @@
 
 namespace sandstroke {
 
-/// Numbers a setting accepts: finite, from lowest to highest; open: the ends themselves are not accepted;
-/// whole: nor what has a fraction.
+/// Numbers that a setting accepts: finite, from lowest to highest. open: the ends themselves are not
+/// accepted; whole: fractions are not accepted.
 struct Range {
   double lowest = -std::numeric_limits<double>::max();
   double highest = std::numeric_limits<double>::max();
   bool open = false;
   bool whole = false;
 
-  /// Between the ends. Whether the number is whole is not asked here.
+  /// True if the number is between the ends. This does not check whether it is whole.
   constexpr bool contains(double number) const {
     return open ? number > lowest && number < highest : number >= lowest && number <= highest;
   }

@@ -4,7 +4,7 @@
 
 namespace sandstroke {
 
-/// Text as a shell takes it for one word: quoted where it must be.
+/// Quotes text, if it must be quoted, so that a shell takes it for one word.
 std::string shell_quoted(const std::string& text);
 
 }  // namespace sandstroke

@@ -15,13 +15,13 @@ bool takes_output() {
   return poll(&terminal, 1, 0) > 0 && (terminal.revents & POLLOUT) != 0;
 }
 
-/// Of the terminal; 0: it does not say.
+/// The width of the terminal; 0: the system does not say.
 std::size_t columns() {
   winsize terminal{};
   return ioctl(STDERR_FILENO, TIOCGWINSZ, &terminal) == 0 ? terminal.ws_col : 0;
 }
 
-/// Another job has the terminal, and somebody types there. None: it is no terminal of this session.
+/// True if another job has the terminal, and somebody types there. False, too, if it is no terminal of ours.
 bool in_background() {
   const pid_t foreground = tcgetpgrp(STDERR_FILENO);
   return foreground >= 0 && foreground != getpgrp();
@@ -34,8 +34,8 @@ StatusLine::StatusLine() : visible_(isatty(STDERR_FILENO) != 0 && spdlog::should
 void StatusLine::draw(const std::string& text) {
   if (!visible_ || in_background() || !takes_output()) return;
   std::string line = "\r" + text;
-  // What is longer would go on in the next line, and stay there. The last column stays free: what clears the
-  // rest of the line may clear it, too.
+  // A longer text would go on in the next line, and stay there. The last column stays free, because clearing
+  // the rest of the line may clear it, too.
   if (const std::size_t most = columns(); most > 0 && line.size() > most) line.resize(most);
   std::fputs((line + "\033[K").c_str(), stderr);
   std::fflush(stderr);

@@ -4,9 +4,9 @@
 
 namespace sandstroke {
 
-/// One line on stderr that is drawn over and over, on a terminal only, not where the log is quiet nor while
-/// the program runs in the background; gone with its holder. A terminal that is held (Ctrl-S) is left out,
-/// for who draws must not be held with it.
+/// One line on stderr that is drawn over and over, and cleared by the destructor. It is drawn only on a
+/// terminal, not if the log is quiet, nor while the program runs in the background. It is not drawn on a held
+/// terminal (Ctrl-S), which would stop the program, too.
 class StatusLine {
  public:
   StatusLine();
@@ -14,9 +14,9 @@ class StatusLine {
   StatusLine(const StatusLine&) = delete;
   StatusLine& operator=(const StatusLine&) = delete;
 
-  /// Somebody sees it.
+  /// True if somebody can see the line.
   bool visible() const { return visible_; }
-  /// Cut to the width of the terminal.
+  /// Draws the text, cut to the width of the terminal.
   void draw(const std::string& text);
   void clear();
 

@@ -5,7 +5,7 @@
 
 namespace sandstroke {
 
-/// Time on the wall since it was made.
+/// The time on the clock since construction.
 class Stopwatch {
  public:
   double seconds() const {
@@ -16,8 +16,7 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-/// What this process has had of processors so far, all its threads together [s]. What others take does not
-/// count.
+/// Processor time of this process so far, all its threads together [s]. Other processes do not count.
 inline double processor_seconds() {
   timespec time{};
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);

@@ -5,7 +5,7 @@
 
 namespace sandstroke {
 
-/// An empty folder of its own, gone with all that is in it when done with. Error: io.
+/// A new, empty folder. The destructor removes it and all that is in it. Error: io.
 class TemporaryFolder {
  public:
   TemporaryFolder();

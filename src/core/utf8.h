@@ -10,7 +10,8 @@ struct Utf8Character {
   char32_t code = 0;
 };
 
-/// The character that a text begins with. No bytes: it is empty, or does not begin with one (RFC 3629).
+/// The first character of a text. bytes = 0: the text is empty, or does not begin with a character (RFC
+/// 3629).
 inline Utf8Character first_character(std::string_view text) {
   const auto byte = [&](std::size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u; };
   const unsigned lead = byte(0);
@@ -22,7 +23,7 @@ inline Utf8Character first_character(std::string_view text) {
     if ((byte(i) & 0xC0u) != 0x80u) return {};
     code = code << 6 | (byte(i) & 0x3Fu);
   }
-  constexpr unsigned least[] = {0x80, 0x800, 0x10000};  // of two, three and four bytes: else it is overlong
+  constexpr unsigned least[] = {0x80, 0x800, 0x10000};  // of 2, 3 and 4 bytes: a smaller code is overlong
   const bool surrogate = code >= 0xD800 && code < 0xE000;
   if (code < least[bytes - 2] || code > 0x10FFFF || surrogate) return {};
   return {bytes, code};

@@ -7,7 +7,7 @@
 namespace sandstroke {
 namespace {
 
-/// Bytes of the character of UTF-8 that the text begins with; 0: it does not, or XML has no such character.
+/// Bytes of the first character of a UTF-8 text. 0: it is not valid, or XML has no such character.
 std::size_t character_bytes(std::string_view text) {
   const auto [bytes, code] = first_character(text);
   return code < 0x20 || (code & ~1u) == 0xFFFE ? 0 : bytes;

@@ -30,7 +30,7 @@ Eigen::Vector3d BedMesh::vertex(std::uint64_t number) const {
 }
 
 Eigen::Vector3d BedMesh::on_surface(std::uint64_t number) const {
-  // Of vertex i among n: between the walls it is cell i - 1.
+  // The coordinate of vertex i among n. Between the walls it is the centre of cell i - 1.
   const auto place = [&](std::uint64_t i, std::uint64_t n, int& cell) {
     cell = std::clamp(static_cast<int>(i) - 1, 0, static_cast<int>(n) - 3);
     const double half = 0.5 * static_cast<double>(n - 2);

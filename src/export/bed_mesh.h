@@ -14,24 +14,24 @@ struct MeshSize {
   std::uint64_t vertices = 0, triangles = 0;
 };
 
-/// Of the mesh of so many cells: of a body, or of its surface alone.
+/// The size of the mesh of so many cells: of a body, or of its surface alone.
 MeshSize mesh_size(int rows, int cols, bool body);
 
-/// A bed as triangles. The surface has a vertex at the centre of every cell, and reaches the walls as high as
-/// the cells beside them. A body also has the walls and a floor: then every edge has two triangles, one in
-/// each direction. All face outwards, counterclockwise. Nothing is stored but the heights.
+/// A bed as triangles. The surface has a vertex at the centre of every cell, and reaches the walls at the
+/// height of the cells beside them. A body also has the walls and a floor: then every edge has two triangles,
+/// one in each direction. All face outwards, counterclockwise. Only the heights are stored.
 class BedMesh {
  public:
-  /// base [m] > 0: the floor of a body lies so far below the lowest height; none: the surface alone. heights
-  /// [m] must outlive this.
+  /// base [m] > 0: the floor of a body lies this far below the lowest height; none: the surface alone.
+  /// `heights` [m] must outlive this.
   BedMesh(const HeightGrid& heights, double cell_size, std::optional<double> base);
 
   using Triangle = std::array<std::uint64_t, 3>;  ///< numbers of vertices, from 0
   MeshSize size() const { return size_; }
-  /// [m], the bed's centre being x = y = 0.
+  /// [m]; the bed's centre is x = y = 0.
   Eigen::Vector3d vertex(std::uint64_t number) const;
 
-  /// visit(Triangle) for each. False: interrupted().
+  /// Calls visit(Triangle) for each triangle. False: interrupted().
   template <class Visit>
   bool visit_triangles(const Visit& visit) const {
     for (std::uint64_t row = 0; row + 1 < rows_; ++row) {
@@ -55,9 +55,9 @@ class BedMesh {
 
  private:
   // The surface's vertices are rows_ x cols_, two more each way than the cells. Those of a body's floor come
-  // after them: a ring below the surface's border, counterclockwise from the first corner, and the centre.
+  // after them: a border below the surface's border, counterclockwise from the first corner, and the centre.
   std::uint64_t ring_size() const { return 2 * (rows_ - 1) + 2 * (cols_ - 1); }
-  std::uint64_t on_ring(std::uint64_t k) const;  // the surface's vertex above
+  std::uint64_t on_ring(std::uint64_t k) const;  // the surface's vertex above vertex k of the floor's border
   Eigen::Vector3d on_surface(std::uint64_t number) const;
 
   const HeightGrid& heights_;

@@ -14,7 +14,8 @@ namespace {
 static_assert(std::endian::native == std::endian::little);
 
 bool write_npy(std::ostream& file, const HeightGrid& heights, double) {
-  // Version 1.0 of the format: all before the numbers takes a multiple of 64 bytes, a newline being the last.
+  // Version 1.0 of the format: what comes before the numbers takes a multiple of 64 bytes and ends with a
+  // newline.
   std::string header = fmt::format("{{'descr': '<f8', 'fortran_order': False, 'shape': ({}, {}), }}",
                                    heights.rows(), heights.cols());
   constexpr std::size_t before = 10;

@@ -7,18 +7,18 @@
 
 namespace sandstroke {
 
-/// A format of heights, as other programs read them. Every number reads back to the same double. Neither has
-/// room for a mark.
+/// A format of heights that other programs read. Every number reads back to the same double. Neither format
+/// has room for a mark.
 struct GridFormat {
   OutputKind kind;
   double (*bytes)(double cells);  ///< about how large a file becomes
-  /// A whole file, of heights [m] and a cell size [m]; false: interrupted().
+  /// Writes a whole file from heights [m] and a cell size [m]. False: interrupted().
   bool (*write)(std::ostream&, const HeightGrid&, double);
 };
 
 /// For numpy.load: float64 (rows, cols), as in a run file.
 extern const GridFormat npy_format;
-/// For programs of maps: the row of the largest y first, the bed's centre at 0, 0.
+/// For programs of maps: the row of the largest y comes first, and the bed's centre is at 0, 0.
 extern const GridFormat esri_grid_format;
 
 }  // namespace sandstroke

@@ -15,7 +15,7 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little);
 
-/// As in the files: mm, in single precision.
+/// A vertex as in the files: in mm, in single precision.
 Eigen::Vector3f in_file(const BedMesh& mesh, std::uint64_t vertex) {
   return (1e3 * mesh.vertex(vertex)).cast<float>();
 }
@@ -30,7 +30,7 @@ void put(std::ostream& file, const Eigen::Vector3f& vector) {
   file.write(reinterpret_cast<const char*>(vector.data()), 3 * sizeof(float));
 }
 
-/// visit(vertex's number) for all. False: interrupted().
+/// Calls visit(number) for all vertices. False: interrupted().
 template <class Visit>
 bool visit_vertices(const BedMesh& mesh, const Visit& visit) {
   for (std::uint64_t i = 0; i < mesh.size().vertices; ++i) {
@@ -41,7 +41,7 @@ bool visit_vertices(const BedMesh& mesh, const Visit& visit) {
 }
 
 bool write_stl(std::ostream& file, const BedMesh& mesh) {
-  char header[80];  // what begins with "solid" would be taken for text
+  char header[80];  // a header that begins with "solid" would be taken for text
   std::memset(header, ' ', sizeof header);
   const std::string text = origin();
   text.copy(header, sizeof header);

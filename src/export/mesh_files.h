@@ -7,12 +7,12 @@
 
 namespace sandstroke {
 
-/// A format of triangles, in mm: none of them names a unit, and what prints them takes mm.
+/// A format of triangles, in mm: none of the formats names a unit, and printing programs take mm.
 struct MeshFormat {
   OutputKind kind;
-  double most_vertices, most_triangles;          ///< that it can count
+  double most_vertices, most_triangles;          ///< that the format can count
   double (*bytes)(const MeshSize& size);         ///< about how large a file becomes
-  bool (*write)(std::ostream&, const BedMesh&);  ///< a whole file; false: interrupted()
+  bool (*write)(std::ostream&, const BedMesh&);  ///< writes a whole file; false: interrupted()
 };
 
 extern const MeshFormat stl_format;  ///< binary, with normals

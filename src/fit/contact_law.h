@@ -4,16 +4,16 @@
 
 namespace sandstroke {
 
-/// The force of a contact: in proportion to the sand's resistance, and in the other constants as the grid's
-/// sands have it.
+/// The force of a contact. It is proportional to the sand's resistance. In the other constants it is
+/// interpolated between the grid's sands.
 class ContactLaw : public FeltLaw {
  public:
-  /// max_force [N]: 0: no limit.
+  /// max_force [N]; 0: no limit.
   ContactLaw(SandGrid grid, double max_force) : grid_(std::move(grid)), max_force_(max_force) {}
 
   const SandGrid& grid() const { return grid_; }
-  /// The next tick: a force for each of the grid's sands. So that memory has a bound, every second tick is
-  /// let go where there are too many, and of those to come, too.
+  /// Adds the next tick: a force for each of the grid's sands. To limit memory, it drops every second tick if
+  /// there are too many, and every second of those to come, too.
   void add(const std::vector<Wrench>& felt, const Eigen::Vector3d& recorded);
   std::span<const ForceConstant> constants() const override { return contact_constants(grid_.law()); }
   ForceScale scale() const override {

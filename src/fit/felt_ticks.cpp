@@ -23,7 +23,7 @@ class PaperTicks : public SimulationObserver {
   double scale_;
 };
 
-/// Goes with the tool and feels what it touches in each of the grid's sands, as the run does in its own.
+/// Follows the tool and computes its force in each of the grid's sands, as the run does in its own sand.
 class ContactTicks : public SimulationObserver {
  public:
   ContactTicks(const Simulation& run, ContactLaw& law)
@@ -69,7 +69,7 @@ class ContactTicks : public SimulationObserver {
 
   const Simulation& run_;
   ContactLaw& law_;
-  bool turns_;  // with the hand
+  bool turns_;  // the tool turns with the hand
   Eigen::Matrix3d own_rotation_;
   SandSide sand_;
   std::vector<ContactForce> forces_;

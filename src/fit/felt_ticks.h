@@ -8,17 +8,17 @@
 
 namespace sandstroke {
 
-/// What a fit is given: a scene that the device follows (device.model = "kinematic"), so that sand, depths
-/// and velocities do not hang on the constants; its bed, and its stroke, with forces, placed on it. A run of
-/// it shows a bar and stops where it is interrupted.
+/// The input of a fit. In the scene the device follows the stroke (device.model = "kinematic"), so that sand,
+/// depths and velocities do not depend on the constants. The stroke has forces and is placed on the bed. A
+/// run of it shows a bar and stops if it is interrupted.
 struct FeltStroke {
   Scene scene;
   HeightField bed;
   Stroke stroke;
 
-  /// The ticks in which the tool touches sand, at the time of a recorded force. Error: input, unstable.
+  /// The ticks in which the tool touches sand and a force was recorded. Error: input, unstable.
   std::vector<FeltTick> paper_ticks() const;
-  /// The same of a law of the contact, felt in each of the grid's sands.
+  /// The same for a law of the contact, with the force in each of the grid's sands.
   ContactLaw contact_law(SandGrid grid) const;
 };
 

@@ -12,7 +12,7 @@ namespace sandstroke {
 namespace {
 
 std::optional<ForceFit> fit_contact(const FeltStroke& felt, const std::vector<bool>& is_free) {
-  constexpr int most_turns = 5;  // what the recording does not determine may never settle
+  constexpr int most_turns = 5;  // a constant that the recording does not determine may never converge
   const ForceLaw law = felt.scene.force.law;
   Eigen::VectorXd best = contact_values(law, felt.scene.strength);
   for (int turn = 1;; ++turn) {

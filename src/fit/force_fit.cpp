@@ -22,7 +22,7 @@ double jackknife_error(const VectorXd& values) {
   return std::sqrt(squares * (stretches - 1.0) / stretches);
 }
 
-/// A fit with the errors of all values, and of the scale.
+/// A fit, and the errors of all its values and of the scale.
 struct Estimate {
   VectorXd values, error;
   double scale_error = 0.0;
@@ -46,13 +46,14 @@ Estimate estimate(const LeastSquares& problem) {
   return found;
 }
 
-/// N, by which two forces differ, without the device's limit.
+/// The root mean square [N] of the difference of two forces, without the device's limit.
 double difference_rms(const FeltLaw& law, const VectorXd& one, const VectorXd& other) {
   return rms(law.forces(one, false) - law.forces(other, false));
 }
 
-/// With that value of a constant, and the others fitted anew, clearly more is left: the difference of squares
-/// is larger than its standard error between stretches. That is two standard errors of the constant.
+/// True if this value of a constant, with the others fitted anew, leaves clearly more of the force: the
+/// difference of squares is larger than its standard error between stretches. That is two standard errors of
+/// the constant.
 bool fits_worse(LeastSquares problem, const VectorXd& best, Eigen::Index constant, double value) {
   VectorXd rival = best;
   rival[constant] = value;
@@ -121,7 +122,7 @@ ForceFit fit_force(const FeltLaw& law, const std::vector<bool>& asked) {
   LeastSquares problem{law, law.recorded(), asked};
   ForceFit fit;
   fit.recorded_rms = rms(problem.recorded);
-  // N, below which a change of the force is not noticed.
+  // A smaller change of the force [N] is not noticed.
   const auto least_seen = [&](const VectorXd& values) {
     return std::max(0.01 * problem.residual(values), 1e-6 * fit.recorded_rms);
   };

@@ -8,14 +8,14 @@
 
 namespace sandstroke {
 
-/// What the fit says of one constant.
+/// The result of the fit for one constant.
 struct FittedConstant {
   ForceConstant constant;
   double value = 0.0;
   double error = 0.0;  ///< standard error; infinite: the start's value was kept
   bool acts = true;    ///< without it the force would change by over a hundredth of what the fit leaves
 
-  /// The recording determines it.
+  /// True if the recording determines it.
   bool determined() const { return acts && error < value; }
 };
 
@@ -28,27 +28,27 @@ struct ForceFit {
   std::int64_t ticks = 0;
   double recorded_rms = 0.0;  ///< N, of the recorded force
   double start_residual = 0.0,
-         residual = 0.0;            ///< N rms, left with the start's constants and the fitted ones
-  double explained = 0.0;           ///< share of the recorded force's mean square
-  double explained_reversed = 0.0;  ///< the same, had the recorded force the other sign
+         residual = 0.0;            ///< N rms, what the start's constants and the fitted ones leave
+  double explained = 0.0;           ///< fitted fraction of the recorded force's mean square
+  double explained_reversed = 0.0;  ///< the same, if the recorded force had the other sign
 };
 
-/// Which of the constants have these names; no names: those by default. Error: input, where a name is none of
-/// theirs.
+/// Marks the constants with these names; without names, those fitted by default. Error: input, if a name is
+/// none of theirs.
 std::vector<bool> chosen_constants(std::span<const ForceConstant> constants,
                                    const std::vector<std::string>& names);
 
-/// Least squares over all components of all ticks, of the force within the device's limit. The constants are
-/// not negative.
+/// Fits the force within the device's limit by least squares over all components of all ticks. No constant
+/// becomes negative.
 ///
 /// Errors are by the jackknife over ten stretches of time: neighbouring ticks err alike, and a formula for
-/// independent ones would promise too much. Where a constant has rivals or extremes (FeltLaw), and its
-/// error is larger than its value, or a rival changes the force by less than a hundredth of what the fit
-/// leaves, or an extreme does not leave clearly more, the start's value is kept.
+/// independent ones would promise too much. A constant with rivals or extremes (FeltLaw) keeps the start's
+/// value if its error is larger than its value, if a rival changes the force by less than a hundredth of what
+/// the fit leaves, or if an extreme does not leave clearly more.
 ///
-/// Error: input, where all recorded forces are 0, or fewer than a hundred ticks have a force that the limit
-/// does not cut.
-/// asked: of law.constants().
+/// Error: input, if all recorded forces are 0, or fewer than a hundred ticks have a force that the limit does
+/// not cut.
+/// asked: which of law.constants() to fit.
 ForceFit fit_force(const FeltLaw& law, const std::vector<bool>& asked);
 
 }  // namespace sandstroke

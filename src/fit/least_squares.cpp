@@ -10,14 +10,14 @@ namespace {
 
 using Eigen::VectorXd;
 
-/// The roots of those numbers that are free, so that none becomes negative.
+/// The square roots of the free numbers. A fit changes these, so that no number becomes negative.
 class FreeRoots {
  public:
   FreeRoots(const LeastSquares& problem, const VectorXd& from)
       : problem_(problem), from_(from), numbers_(problem.law.numbers(from)) {}
 
   VectorXd roots() const {
-    constexpr double least = 1e-6;  // a root of 0 would stay there: its square does not change at first order
+    constexpr double least = 1e-6;  // a root of 0 would stay there, because its square has no slope
     VectorXd roots(std::count(problem_.is_free.begin(), problem_.is_free.end(), true));
     Eigen::Index next = 0;
     for (std::size_t i = 0; i < problem_.is_free.size(); ++i)
@@ -45,7 +45,7 @@ class FreeRoots {
   VectorXd from_, numbers_;
 };
 
-/// What is left of the recorded force, in every component.
+/// The law's force minus the recorded one, in every component.
 struct Residuals {
   using Scalar = double;
   using InputType = VectorXd;

@@ -4,28 +4,29 @@
 
 namespace sandstroke {
 
-/// Ticks begin to end - 1 of a law's.
+/// A law's ticks from begin to end - 1.
 struct Stretch {
   Eigen::Index begin = 0, end = 0;
 };
 
-/// Which values may change and what the force should be [N, a column for each tick].
+/// A least-squares problem: which values may change, and what the force should be [N, a column for each
+/// tick].
 struct LeastSquares {
   const FeltLaw& law;
   Eigen::Matrix3Xd recorded;
   std::vector<bool> is_free;
 
-  /// N rms over the ticks.
+  /// The force that these values leave, N rms over the ticks.
   double residual(const Eigen::VectorXd& values) const;
   /// The values that leave least, over all components of all ticks but those of a stretch (Levenberg and
-  /// Marquardt), from some on; values that are not free stay as they are there.
+  /// Marquardt). The search begins at `from`; values that are not free stay as they are there.
   Eigen::VectorXd solved(const Eigen::VectorXd& from, Stretch left_out = {}) const;
-  /// The better of those from the law's start and from weak sand: where the device's limit cuts every force,
-  /// no constant changes any, and a fit would stay where it began.
+  /// The better of two fits, from the law's start and from weak sand. Where the device's limit cuts every
+  /// force, no constant changes the force, and a fit would stay where it began.
   Eigen::VectorXd best() const;
 };
 
-/// N, of columns.
+/// The root mean square of the columns [N].
 double rms(const Eigen::Matrix3Xd& forces);
 
 }  // namespace sandstroke

@@ -47,7 +47,7 @@ VectorXd PaperLaw::values(const VectorXd& numbers) const {
   return Eigen::Vector3d(numbers[0] / growth, growth, numbers[k_f]);
 }
 
-/// A force that is straight in the depth, with the same k_s k_c.
+/// A rival force that is linear in the depth, with the same k_s k_c.
 std::vector<VectorXd> PaperLaw::rivals(const VectorXd& values, std::size_t constant) const {
   if (constant != k_c) return {};
   return {Eigen::Vector3d(1e4 * values[k_s], 1e-4 * values[k_c], values[k_f])};

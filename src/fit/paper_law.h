@@ -15,11 +15,11 @@ struct FeltTick {
 inline constexpr ForceConstant paper_constants[] = {
     {"k_s", "N", "force.k_s"}, {"k_c", "1/m", "force.k_c"}, {"k_f", "s/m", "force.k_f"}};
 
-/// The force that sand_force() gives. A fit changes k_s k_c instead of k_s, which is badly known where k_c d
-/// is small, for the force is then nearly k_s k_c d.
+/// The force of sand_force(). A fit changes k_s k_c instead of k_s: where k_c d is small, the force is nearly
+/// k_s k_c d and says little about k_s alone.
 class PaperLaw : public FeltLaw {
  public:
-  /// max_force [N]: 0: no limit.
+  /// max_force [N]; 0: no limit.
   PaperLaw(const std::vector<FeltTick>& ticks, const ForceSettings& start, double max_force);
 
   ForceSettings settings(const Eigen::VectorXd& values) const;

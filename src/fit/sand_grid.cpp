@@ -11,16 +11,16 @@ namespace {
 
 using Eigen::VectorXd;
 
-constexpr double nearest = 0.02;  // node to the middle, as a share
+constexpr double nearest = 0.02;  // distance of the nearest node from the middle, as a fraction of the middle
 
-/// What a constant is.
+/// A constant of a sand, and its limits.
 struct SandConstant {
   double SandStrength::*member;
-  double least, most;                ///< which stand for 0 and for more than any
-  double least_middle, most_middle;  ///< of a grid
+  double least, most;                ///< stand for 0 and for more than any sand has
+  double least_middle, most_middle;  ///< limits of a grid's middle
 };
 
-/// In the order of contact_constants().
+/// The constants of a law, in the order of contact_constants().
 std::vector<SandConstant> sand_constants(ForceLaw law) {
   const SandConstant angle = {&SandStrength::friction_angle, 0.0, 90.0, 0.0, 90.0},
                      friction = {&SandStrength::tool_friction, 0.0, 1e3, 0.02, 3.0},
@@ -74,7 +74,7 @@ void SandGrid::add_nodes(std::size_t constant) {
       values.push_back(middle * elementary::exp(std::ldexp(sign * nearest, k)));
   std::sort(values.begin(), values.end());
   for (const double value : values) {
-    constexpr double apart = 1e-6;  // as a share: what lies nearer has no slope to speak of
+    constexpr double apart = 1e-6;  // as a fraction: between closer nodes there is no slope to speak of
     if (!axis.values.empty() && value <= (1.0 + apart) * axis.values.back()) continue;
     axis.values.push_back(value);
     sands_.push_back(SandStrength(sands_[1]));

@@ -6,51 +6,54 @@
 
 namespace sandstroke {
 
-/// Of resistive force theory. The density is not among them: the force goes with density and friction angle
-/// by one number, the resistance.
+/// The constants of resistive force theory. The density is not among them: density and friction angle change
+/// the force only through one number, the resistance.
 inline constexpr ForceConstant rft_constants[] = {{"friction_angle", "deg", "force.friction_angle"},
                                                   {"tool_friction", "", "force.tool_friction"},
                                                   {"yield", "m", "force.yield", false}};
 inline constexpr ForceConstant archimedes_constants[] = {rft_constants[0], rft_constants[2]};
-/// Of a law but the paper's.
+/// The constants of any law but the paper's.
 std::span<const ForceConstant> contact_constants(ForceLaw law);
 
-/// Those values of a sand.
+/// The values of these constants in a sand.
 Eigen::VectorXd contact_values(ForceLaw law, const SandStrength& sand);
 
-/// The angle [deg] of sand with that resistance [N/m^3] and density [kg/m^3]: the inverse of resistance(),
-/// which grows with the angle all the way from 0 to 90 deg. It may be one that no scene can have.
+/// The friction angle [deg] of sand with that resistance [N/m^3] and density [kg/m^3]: the inverse of
+/// resistance(), which grows with the angle all the way from 0 to 90 deg. It may be an angle that no scene
+/// can have.
 double friction_angle_of(double resistance, double density);
 
-/// Sands in which every tick is felt, so that the force is known in between: that of the scene, a middle one,
-/// and for each constant but the angle some that differ from the middle in that alone. Constants are counted
-/// as in contact_constants().
+/// The sands in which every tick is felt, so that the force between them is known. They are the scene's, a
+/// middle one, and for each constant but the angle some that differ from the middle in that constant alone.
+/// Constants are counted as in contact_constants().
 class SandGrid {
  public:
-  /// about: values; the middle is there in what is free, within what sand and tools are like, and as the
-  /// scene in all else. The nodes of a free constant are the scene's value and the middle's, nine on each
-  /// side of it, the nearest 2 % away and each twice as far as the one before, and what stands for 0 and for
-  /// more than any (tool_friction 0 and 1000, yield 1e-6 and 1 m).
+  /// about: values of the constants. The middle sand has these where a constant is free, within what sand and
+  /// tools are like; in all else it is the scene's. The nodes of a free constant are the scene's value and
+  /// the middle's, nine on each side of the middle, the nearest 2 % away and each twice as far as the one
+  /// before, and the values that stand for 0 and for more than any (tool_friction 0 and 1000, yield 1e-6 and
+  /// 1 m).
   SandGrid(ForceLaw law, const SandStrength& scene, const Eigen::VectorXd& about,
            const std::vector<bool>& is_free);
 
   ForceLaw law() const { return law_; }
-  /// What stands for 0 and for more than any; of the angle none.
+  /// The values that stand for 0 and for more than any; none for the angle.
   std::vector<double> extremes(std::size_t constant) const;
-  /// Values whose force the grid knows to about 1e-4 of it: less than half the way to the nearest nodes.
+  /// True if the grid knows the force of these values to about 1e-4 of it: they lie less than half the way to
+  /// the nearest nodes.
   bool is_close_about(const Eigen::VectorXd& values) const;
   const std::vector<SandStrength>& sands() const { return sands_; }
-  /// Of the scene's sand.
+  /// The values of the scene's sand.
   const Eigen::VectorXd& start() const { return start_; }
-  /// How much of each sand's force, at the same resistance, is in that of a sand with these values: linear
-  /// between nodes, and beyond the last two.
+  /// Factors of the sands' forces. Their sum is the force of a sand with these values, at the same
+  /// resistance. It is linear between nodes, and beyond the last two.
   Eigen::VectorXd weights(const Eigen::VectorXd& values) const;
 
  private:
   struct Axis {
     Eigen::Index constant;
     std::size_t first;           // of sands_
-    std::vector<double> values;  // of its nodes, ever larger
+    std::vector<double> values;  // of its nodes, increasing
   };
 
   void add_nodes(std::size_t constant);

@@ -9,7 +9,7 @@ namespace {
 
 std::vector<hsize_t> extent(const Hdf5GridWriter::Shape& shape) { return {shape.begin(), shape.end()}; }
 
-/// Of a dataset of doubles that are elsewhere; not-a-number where they are nowhere.
+/// Properties of a dataset whose doubles are in other datasets. Where there are none, it reads as NaN.
 Hdf5Handle virtual_properties() {
   Hdf5Handle properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
   H5Pset_obj_track_times(properties, false);
@@ -63,7 +63,7 @@ void Hdf5GridWriter::attach_scales(const std::string& dataset, const std::vector
 
 void Hdf5GridWriter::write_scale(const std::string& dataset, const std::vector<double>& values,
                                  const std::string& units, const std::string& meaning) {
-  constexpr std::size_t worth_packing = 4096;  // what is even packs to a 20th
+  constexpr std::size_t worth_packing = 4096;  // evenly spaced numbers shrink to a 20th
   put(dataset, H5T_NATIVE_DOUBLE, {values.size()}, values.data(),
       values.size() > worth_packing ? Compression::fast : Compression::none);
   describe(dataset, units, meaning);

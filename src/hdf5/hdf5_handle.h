@@ -7,7 +7,7 @@
 
 namespace sandstroke {
 
-/// How every HDF5 file of this program begins.
+/// The first bytes of every HDF5 file of this program.
 inline constexpr std::string_view hdf5_signature = "\x89HDF\r\n\x1a\n";
 
 /// Owns one HDF5 identifier.
@@ -24,9 +24,9 @@ class Hdf5Handle {
   }
   ~Hdf5Handle() { close(); }
 
-  /// False where closing failed (a full disk shows here at the latest).
+  /// False if closing failed (a full disk shows here at the latest).
   bool close() { return id_ < 0 || close_(std::exchange(id_, H5I_INVALID_HID)) >= 0; }
-  /// Nobody's any more: it is never closed.
+  /// Gives the identifier up: it is never closed.
   void release() { id_ = H5I_INVALID_HID; }
   operator hid_t() const { return id_; }
   bool valid() const { return id_ >= 0; }
@@ -36,9 +36,9 @@ class Hdf5Handle {
   herr_t (*close_)(hid_t) = nullptr;
 };
 
-/// To be called before anything else of HDF5: its errors are reported here, in the user's terms, and it does
-/// not touch open files again when the program ends (with a full disk it crashes there; every file is closed
-/// before). Code is not loaded because a file asks for a filter.
+/// Prepares HDF5. Call it before anything else of HDF5. HDF5 prints no errors: this program reports them in
+/// the user's terms. HDF5 does not touch open files again when the program ends: with a full disk it would
+/// crash there, and every file is closed before. It loads no code because a file asks for a filter.
 inline void prepare_hdf5() {
   static const herr_t once = [] {
     H5dont_atexit();  // must be the first call
@@ -48,7 +48,7 @@ inline void prepare_hdf5() {
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
 }
 
-/// How files are opened: HDF5's own lock is refused where there are none, and on NFS beside a FileLock.
+/// Opens files without HDF5's own lock, which fails where there are no locks, and on NFS beside a FileLock.
 inline Hdf5Handle without_locks() {
   Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   H5Pset_file_locking(access, false, true);

@@ -35,8 +35,8 @@ bool is_number(hid_t type) {
   return kind == H5T_INTEGER || kind == H5T_FLOAT || kind == H5T_ENUM;
 }
 
-/// Reads a scalar string, of fixed or variable length, if it is one.
-/// `read` is given the memory type and the buffer.
+/// Reads a scalar string, of fixed or variable length. False: it is no string. read: gets the memory type and
+/// the buffer.
 template <class Read>
 bool read_string(hid_t file_type, std::string& text, const Read& read) {
   if (H5Tget_class(file_type) != H5T_STRING) return false;
@@ -58,15 +58,15 @@ bool read_string(hid_t file_type, std::string& text, const Read& read) {
   return true;
 }
 
-/// For HDF5 to call of each link or attribute; adds its name to a list.
+/// HDF5 calls this for each link or attribute. It adds the name to a list.
 template <class Info>
 herr_t add_name(hid_t, const char* name, const Info*, void* list) {
   static_cast<std::vector<std::string>*>(list)->emplace_back(name);
   return 0;
 }
 
-/// Whether this program is writing it, or another one has it open for writing by HDF5, which locks it where
-/// there are locks.
+/// True if sandstroke is writing the file, or another program has it open for writing through HDF5, which
+/// locks it where there are locks.
 bool is_being_written(const std::filesystem::path& path) {
   if (path.extension() == ".part" && !FileLock::try_share(path)) return true;
   const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC);
@@ -112,14 +112,14 @@ bool Hdf5Reader::yes(const std::function<htri_t()>& ask) const {
   htri_t answer = ask();
   if (answer < 0) {
     check_can_be_read_whole(name_);
-    answer = ask();  // the disk may have failed once; a link into another file always does
+    answer = ask();  // the disk may have failed once; a link into another file always fails
   }
   return answer > 0;
 }
 
 bool Hdf5Reader::has(const std::string& object) const {
   if (object == "/") return true;
-  // H5Lexists wants every group on the way to exist.
+  // H5Lexists needs every group on the way to exist.
   for (std::size_t slash = object.find('/', 1); slash != std::string::npos;
        slash = object.find('/', slash + 1)) {
     if (!yes([&] { return H5Lexists(file_, object.substr(0, slash).c_str(), access_); })) return false;
@@ -165,7 +165,7 @@ void Hdf5Reader::read(const std::string& dataset, const Hdf5Handle& opened, hid_
                       void* values) const {
   if (const std::string fault = storage_fault(opened, file_bytes_); !fault.empty())
     fail_to_read(dataset, fault);
-  constexpr double most_chunks = 2e5;  // for each of which HDF5 takes memory
+  constexpr double most_chunks = 2e5;  // HDF5 takes memory for each chunk
   if (const double chunks = chunk_count(opened); chunks > most_chunks)
     fail(dataset,
          fmt::format("is cut into {:.0f} chunks; make them larger: h5repack -l CHUNK=... OLD NEW", chunks));
@@ -188,7 +188,7 @@ std::vector<double> Hdf5Reader::doubles(const std::string& dataset) const {
 std::vector<std::uint32_t> Hdf5Reader::integers(const std::string& dataset) const {
   std::vector<hsize_t> shape;
   const Hdf5Handle opened = open_column(dataset, 1, sizeof(std::int64_t) + sizeof(std::uint32_t), shape);
-  std::vector<std::int64_t> stored(shape[0]);  // HDF5 would make 0 of -1
+  std::vector<std::int64_t> stored(shape[0]);  // HDF5 would turn -1 into 0
   read(dataset, opened, H5T_NATIVE_INT64, stored.data());
   constexpr std::int64_t most = std::numeric_limits<std::uint32_t>::max();
   for (const std::int64_t value : stored)
@@ -218,8 +218,8 @@ std::vector<Eigen::Vector4d> Hdf5Reader::quaternions(const std::string& dataset)
 HeightGrid Hdf5Reader::grid(const std::string& dataset) const {
   std::vector<hsize_t> shape;
   const Hdf5Handle opened = open_numbers(dataset, 2, shape);
-  // A file says nothing about how large that is: parts that were never written take no room in it. Whoever
-  // works with a grid holds a few of its size.
+  // The file's size does not limit the grid's: parts that were never written take no room in it. A caller
+  // that works with a grid holds a few of its size.
   check_memory(4.0 * sizeof(double) * static_cast<double>(shape[0]) * static_cast<double>(shape[1]),
                fmt::format("{}: {}: working with {} x {} numbers", name_, dataset, shape[0], shape[1]),
                "read a part of it, for example with h5py");

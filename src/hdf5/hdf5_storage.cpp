@@ -13,11 +13,11 @@ namespace {
 
 constexpr const char* damaged = "cannot be read; the file is damaged";
 
-/// Of a chunked dataset.
+/// How a chunked dataset is stored.
 struct Chunks {
   int rank = 0;
   std::array<hsize_t, H5S_MAX_RANK> sides{};
-  double bytes = 0.0;                 // of one, unpacked
+  double bytes = 0.0;                 // of one chunk, unpacked
   std::vector<H5Z_filter_t> filters;  // in the order in which they pack
 
   explicit Chunks(const Hdf5Handle& properties, const Hdf5Handle& dataset) {
@@ -36,7 +36,7 @@ struct Chunks {
 
 Hdf5Handle properties_of(const Hdf5Handle& dataset) { return {H5Dget_create_plist(dataset), H5Pclose}; }
 
-/// Of shuffle, deflate and Fletcher's checksum each at most once, in this order.
+/// True if the filters are shuffle, deflate and Fletcher's checksum, each at most once and in this order.
 bool are_known(const std::vector<H5Z_filter_t>& filters) {
   const std::array known = {H5Z_FILTER_SHUFFLE, H5Z_FILTER_DEFLATE, H5Z_FILTER_FLETCHER32};
   auto next = known.begin();
@@ -46,7 +46,7 @@ bool are_known(const std::vector<H5Z_filter_t>& filters) {
   });
 }
 
-/// Whether zlib's stream gives exactly so many bytes.
+/// True if a zlib stream unpacks to exactly so many bytes.
 bool inflates_to(double bytes, std::vector<Bytef>& packed, std::size_t packed_bytes) {
   z_stream stream{};
   if (inflateInit(&stream) != Z_OK) return false;
@@ -65,7 +65,8 @@ bool inflates_to(double bytes, std::vector<Bytef>& packed, std::size_t packed_by
   return state == Z_STREAM_END && total == bytes;
 }
 
-/// skipped: bit i, that filter i has not packed it. stored: bytes.
+/// True if a chunk unpacks to its full size. skipped: bit i is set if filter i did not pack it. stored:
+/// bytes.
 bool is_whole(const Hdf5Handle& dataset, const Chunks& chunks, const hsize_t* start, unsigned skipped,
               hsize_t stored, double file_bytes) {
   if (static_cast<double>(stored) > file_bytes) return false;

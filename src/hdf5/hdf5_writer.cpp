@@ -27,7 +27,7 @@ Hdf5Handle string_type(std::size_t length) {
   return type;
 }
 
-/// Of a scalar where the shape is empty.
+/// A space of this shape; a scalar's if the shape is empty.
 Hdf5Handle space_of(const std::vector<hsize_t>& shape) {
   return {shape.empty() ? H5Screate(H5S_SCALAR)
                         : H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr),
@@ -64,7 +64,7 @@ void Hdf5Column::extend(const void* rows, std::size_t count, hid_t memory_type) 
 
 void Hdf5Chunks::write(int row, int col, const double* numbers) {
   const hsize_t first[2] = {static_cast<hsize_t>(row), static_cast<hsize_t>(col)};
-  // As it is, past HDF5's cache of chunks: nothing is to be converted.
+  // Writes past HDF5's cache of chunks, because nothing has to be converted.
   if (H5Dwrite_chunk(dataset_, H5P_DEFAULT, 0, first, size() * sizeof(double), numbers) < 0)
     throw_write_error(where_);
 }
@@ -79,7 +79,7 @@ Hdf5Writer::Hdf5Writer(const std::filesystem::path& path, const OutputKind& kind
     if (!kind.mark.empty()) {
       attribute("/", "format", std::string(kind.mark));
       attribute("/", "format_version", kind.version);
-      commit();  // from now on known to be ours
+      commit();  // from now on the file is known to be ours
     }
   } catch (const Error&) {
     drop();
@@ -89,8 +89,8 @@ Hdf5Writer::Hdf5Writer(const std::filesystem::path& path, const OutputKind& kind
 
 Hdf5Writer::~Hdf5Writer() {
   if (!flushed_) drop();
-  // Closing would write what has come since the last flush, half of it where the disk is full: what was
-  // flushed stays as it is.
+  // Closing would write what came after the last flush, on a full disk only half of it. So the file stays as
+  // it was flushed.
   file_.release();
 }
 
@@ -193,7 +193,7 @@ Hdf5Column Hdf5Writer::growing(const std::string& dataset, hid_t type, int width
   std::vector<hsize_t> chunk = {rows_per_chunk};
   if (rank == 2) chunk.push_back(width);
   const Hdf5Handle space(H5Screate_simple(rank, shape, most), H5Sclose);
-  // Rows go to the file at once, not when a cache is full: what a flush takes is known before.
+  // Rows go to the file at once, not when a cache is full, so that it is known before what a flush takes.
   const Hdf5Handle access(H5Pcreate(H5P_DATASET_ACCESS), H5Pclose);
   H5Pset_chunk_cache(access, 0, 0, H5D_CHUNK_CACHE_W0_DEFAULT);
   Hdf5Column column;
@@ -215,7 +215,7 @@ Hdf5Chunks Hdf5Writer::chunks(const std::string& dataset, std::array<int, 2> sha
   check(H5Pset_fill_value(properties, H5T_NATIVE_DOUBLE, &fill) >= 0 &&
             H5Pset_alloc_time(properties, H5D_ALLOC_TIME_INCR) >= 0 &&
             H5Pset_fill_time(properties, H5D_FILL_TIME_IFSET) >=
-                0,  // "never": missing chunks would not read as it
+                0,  // with "never", missing chunks would not read as the fill value
         dataset);
   chunks.dataset_ = create(dataset, H5T_NATIVE_DOUBLE, space, properties);
   return chunks;

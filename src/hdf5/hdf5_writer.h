@@ -15,11 +15,10 @@
 
 namespace sandstroke {
 
-/// How much work a dataset's compression may be.
-/// none; fast: shuffle + deflate 1; small: shuffle + deflate 9.
+/// How a dataset is compressed. none; fast: shuffle + deflate 1; small: shuffle + deflate 9.
 enum class Compression { none, fast, small };
 
-// The types of numbers in columns and attributes. Yes and no are 1 and 0 in a byte.
+// The types of numbers in columns and attributes. A bool is a byte, 1 or 0.
 inline hid_t hdf5_type(bool) { return H5T_NATIVE_UINT8; }
 inline hid_t hdf5_type(double) { return H5T_NATIVE_DOUBLE; }
 inline hid_t hdf5_type(std::uint8_t) { return H5T_NATIVE_UINT8; }
@@ -32,7 +31,7 @@ inline hid_t hdf5_type(std::uint64_t) { return H5T_NATIVE_UINT64; }
 class Hdf5Column {
  public:
   Hdf5Column() = default;
-  /// count rows of `width` numbers each. Error: io.
+  /// Appends `count` rows of `width` numbers each. Error: io.
   template <class Number>
   void append(const Number* rows, std::size_t count) {
     extend(rows, count, hdf5_type(Number{}));
@@ -53,8 +52,8 @@ class Hdf5Chunks {
  public:
   std::size_t cols() const { return cols_; }          ///< of a chunk
   std::size_t size() const { return rows_ * cols_; }  ///< numbers in a chunk
-  /// A whole chunk, row after row, by its first row and column in the dataset (multiples of the chunk's);
-  /// what lies outside the dataset does not matter. Error: io.
+  /// Writes a whole chunk, row after row. row, col: its first row and column in the dataset (multiples of the
+  /// chunk's size). Numbers outside the dataset do not matter. Error: io.
   void write(int row, int col, const double* numbers);
 
  private:
@@ -64,16 +63,16 @@ class Hdf5Chunks {
   std::size_t rows_ = 1, cols_ = 1;
 };
 
-/// Outputs that are HDF5 files. Until the first flush there is but their superblock.
+/// A kind of output that is an HDF5 file. Until the first flush it holds only its superblock.
 constexpr OutputKind hdf5_output(std::string_view name, std::string_view mark, bool kept = false,
                                  int format_version = 1) {
   return {name, hdf5_signature, mark, 96, kept, true, format_version};
 }
 
-/// An HDF5 file being written as PATH.part and renamed to PATH by finish(). Groups on the way to a dataset
-/// are made as needed. Attributes of the root say what it is: written_by, and of a kind that has a mark
-/// format = that mark, and format_version. Error: io, for whatever the system refuses, and while another
-/// process writes it; input, where it must not replace what is there.
+/// Writes an HDF5 file as PATH.part, which finish() renames to PATH. It makes the groups on the way to a
+/// dataset. Attributes of the root say what the file is: written_by and, for a kind with a mark, format =
+/// that mark and format_version. Error: io, if the system refuses something, or another process writes the
+/// file; input, if it must not replace what is there.
 class Hdf5Writer {
  public:
   /// Without a kind it replaces nothing.
@@ -89,10 +88,10 @@ class Hdf5Writer {
   void write(const std::string& dataset, const std::vector<std::uint8_t>& values);
   void write(const std::string& dataset, const HeightGrid& heights,
              Compression compression = Compression::none);
-  /// Of few rows and many columns, small: numbers from 0 to 2^53, kept as 64-bit ones.
+  /// Writes numbers from 0 to 2^53 as 64-bit integers, strongly compressed. For few rows and many columns.
   void write_whole_numbers(const std::string& dataset, const HeightGrid& numbers);
   void write(const std::string& dataset, const std::string& text);
-  void write(const std::string& dataset, const std::vector<std::string>& texts);  ///< of the longest's length
+  void write(const std::string& dataset, const std::vector<std::string>& texts);  ///< all of one length
 
   template <class Number>
   requires std::is_arithmetic_v<Number>
@@ -100,19 +99,19 @@ class Hdf5Writer {
     put_attribute(object, attribute, hdf5_type(value), {}, &value);
   }
   void attribute(const std::string& object, const std::string& attribute, const std::string& value);
-  /// What a dataset is, as netCDF has it (CF conventions): long_name, and units where it has any.
+  /// Describes a dataset as netCDF does (CF conventions): long_name, and units if there are any.
   void describe(const std::string& dataset, const std::string& units, const std::string& meaning);
 
   template <class Number = double>
   Hdf5Column column(const std::string& dataset, int width = 1) {
     return growing(dataset, hdf5_type(Number{}), width);
   }
-  /// chunk: rows and columns, cut where the dataset has fewer.
+  /// chunk: rows and columns, at most as many as the dataset has.
   Hdf5Chunks chunks(const std::string& dataset, std::array<int, 2> shape, std::array<int, 2> chunk,
                     double fill);
   void make_group(const std::string& group);
 
-  /// What has been written so far can be read from the .part file from now on, also where a kill hits a later
+  /// From now on, all that was written so far can be read from the .part file, even if a kill hits a later
   /// flush (part_driver.h).
   void flush();
   /// Flushes, closes and renames.
@@ -133,7 +132,7 @@ class Hdf5Writer {
   void commit();
   Hdf5Column growing(const std::string& dataset, hid_t type, int width);
 
-  /// Away with a .part file that holds nothing.
+  /// Removes a .part file that holds nothing.
   void drop();
 
   std::filesystem::path path_;

@@ -21,12 +21,12 @@ namespace sandstroke {
 namespace {
 
 constexpr haddr_t page_bytes = 4096;
-constexpr haddr_t first_bytes = 64 * 1024;   // that the first commit is to write, all of them held until then
-constexpr std::size_t most_pages = 1 << 18;  // of a commit: 1 GiB
+constexpr haddr_t first_bytes = 64 * 1024;   // all held in memory until the first commit writes them
+constexpr std::size_t most_pages = 1 << 18;  // in a commit: 1 GiB
 
 /// A page as a commit appends it.
 struct Page {
-  std::uint64_t place = 0;  // bytes from the file's begin
+  std::uint64_t place = 0;  // bytes from the file's beginning
   std::array<char, page_bytes> bytes{};
 };
 
@@ -42,7 +42,7 @@ int failure = 0;  // errno
 
 haddr_t up_to_page(haddr_t bytes) { return (bytes + page_bytes - 1) / page_bytes * page_bytes; }
 
-/// All the bytes, by as many calls as it takes. call(bytes done): what the system's did.
+/// Transfers all bytes, with as many calls as it takes. call(bytes done): returns what the system call does.
 template <class Call>
 bool transfer(std::size_t count, std::size_t& done, const Call& call) {
   for (done = 0; done < count;) {
@@ -65,7 +65,7 @@ bool write_at(int file, haddr_t place, const void* bytes, std::size_t count) {
          done == count;
 }
 
-/// Zeros behind the file's end.
+/// Reads bytes; behind the file's end they are zeros.
 bool read_at(int file, haddr_t place, void* bytes, std::size_t count) {
   auto* const to = static_cast<char*>(bytes);
   std::size_t done = 0;
@@ -80,14 +80,14 @@ std::uint64_t checksum_of(std::uint64_t so_far, const Page& page) {
   return crc32(so_far, reinterpret_cast<const Bytef*>(&page), sizeof page);
 }
 
-/// The file as HDF5 knows it, and the rest.
+/// The file as HDF5 knows it, and what this driver knows of it.
 struct PartFile : H5FD_t {
   int file = -1;
   bool writes = false;
   bool bare = true;       // nothing was committed yet
-  bool failed = false;    // to write something: no commit may make half of it stand
+  bool failed = false;    // a write failed: no commit may keep half of it
   haddr_t allocated = 0;  // by HDF5 (its "end of allocation")
-  haddr_t end = 0;        // of what was written
+  haddr_t end = 0;        // of the bytes that were written
   haddr_t committed = first_bytes;
   std::map<haddr_t, Page> held;  // by place
 
@@ -107,7 +107,7 @@ struct PartFile : H5FD_t {
 PartFile& part_of(H5FD_t* file) { return static_cast<PartFile&>(*file); }
 const PartFile& part_of(const H5FD_t* file) { return static_cast<const PartFile&>(*file); }
 
-/// Holds the pages of a commit that was not carried out. False: the file cannot be read.
+/// Takes back the pages of a commit that a kill interrupted. False: the file cannot be read.
 bool PartFile::take_appended() {
   struct stat status {};
   if (fstat(file, &status) != 0) return false;
@@ -145,7 +145,7 @@ Page* PartFile::page_at(haddr_t place) {
   return &page;
 }
 
-/// Takes room on the disk for all that was allocated, before anything is written over what is there.
+/// Reserves disk space for all that was allocated, before anything old is overwritten.
 bool PartFile::reserve(haddr_t bytes) const {
   if (fallocate(file, FALLOC_FL_KEEP_SIZE, 0, static_cast<off_t>(bytes)) == 0) return true;
   if (errno != ENOSPC && errno != EDQUOT) return true;  // not every file system can
@@ -156,7 +156,7 @@ bool PartFile::cut_off(haddr_t bytes) const {
   return ftruncate(file, static_cast<off_t>(bytes)) == 0 || (failure = errno, false);
 }
 
-/// The pages that wait, and the seal.
+/// Appends the held pages, and the seal.
 bool PartFile::append(haddr_t start) const {
   Seal seal;
   haddr_t place = start;
@@ -169,7 +169,7 @@ bool PartFile::append(haddr_t start) const {
   return write_at(file, place, &seal, sizeof seal);
 }
 
-/// What there is from the first commit on is there at once: who is killed before leaves an empty file.
+/// The first commit writes everything in one call: a kill before it leaves an empty file.
 bool PartFile::put_in_place() const {
   if (bare && !held.empty()) {
     std::vector<char> begin(held.rbegin()->first + page_bytes);
@@ -201,7 +201,7 @@ bool PartFile::commit() {
   return true;
 }
 
-/// HDF5 is C: nothing is thrown through it.
+/// Lets no exception pass through HDF5, which is C.
 template <class Result, class Work>
 Result guarded(Result failed, const Work& work) noexcept {
   try {
@@ -276,11 +276,11 @@ const H5FD_class_t& part_class() {
     H5FD_class_t methods{};
 #ifdef H5FD_CLASS_VERSION  // since HDF5 1.14
     methods.version = H5FD_CLASS_VERSION;
-    methods.value = H5_VFD_RESERVED + 101;  // nobody's: for drivers that are not published
+    methods.value = H5_VFD_RESERVED + 101;  // a number that nobody owns, for drivers that are not published
 #endif
     methods.name = "sandstroke_part";
     methods.maxaddr = (haddr_t{1} << 62) - 1;
-    methods.fc_degree = H5F_CLOSE_STRONG;  // whoever still has a dataset of it: closed is closed
+    methods.fc_degree = H5F_CLOSE_STRONG;  // closing the file also closes datasets that are still open
     methods.open = open_part;
     methods.close = close_part;
     methods.query = query;

@@ -6,26 +6,26 @@
 
 namespace sandstroke {
 
-// HDF5 writes its indices over the old ones, one after the other, whenever it likes. A kill in between leaves
-// a file that nobody can read. So PATH.part is written and read through a driver of its own: on the disk the
-// file stays as the last commit left it. New bytes behind its end are written at once. Pages that are to
+// HDF5 writes its indices over the old ones, one after the other, at any time. A kill in between leaves a
+// file that nobody can read. So this program writes and reads PATH.part through its own driver: on the disk
+// the file stays as the last commit left it. The driver writes new bytes behind the end at once. Pages that
 // replace old ones wait in memory. A commit
 //   1. appends these pages to the file, and a seal,
 //   2. writes them into their places,
 //   3. cuts off what it appended.
 // A kill before the seal leaves the old state. After a later kill this driver reads the pages behind the end.
-// This is about kills: nothing is forced to the disk in between, as a power failure would need.
+// This protects against kills only: a power failure would need writes to be forced to the disk in between.
 
-/// How PATH.part is opened.
+/// Access properties for PATH.part.
 Hdf5Handle part_access();
-/// How any file is opened to be read: PATH.part so, and others as HDF5 does.
+/// Access properties for reading any file: PATH.part through the driver, others as HDF5 reads them.
 Hdf5Handle reading_access(const std::filesystem::path& path);
 
-/// Makes what H5Fflush() wrote into such a file the state that a kill leaves. False: it could not be written,
-/// and the state before stays.
+/// Commits what H5Fflush() wrote into such a file: from now on a kill leaves this state. False: it could not
+/// be written, and the state before stays.
 bool commit_part(const Hdf5Handle& file);
 
-/// What the system said when it last refused to read or write a file opened so; 0: it never did.
+/// The errno of the last refused read or write through this driver; 0: none since the last open.
 int part_failure();
 
 }  // namespace sandstroke

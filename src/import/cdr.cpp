@@ -6,7 +6,7 @@
 namespace sandstroke {
 
 CdrReader::CdrReader(std::string_view bytes) {
-  constexpr std::size_t header = 4;  // which encoding, and options
+  constexpr std::size_t header = 4;  // the encoding, and options
   const auto encoding = [&] {
     return static_cast<unsigned char>(bytes[0]) << 8 | static_cast<unsigned char>(bytes[1]);
   };

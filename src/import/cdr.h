@@ -6,9 +6,9 @@
 
 namespace sandstroke {
 
-/// Reads a message of ROS 2 from its bytes: CDR as DDS has it (OMG DDS-XTypes 1.3, 7.4), plain, of version 1
-/// or 2, and either byte order. A number is aligned to its size, counted from the end of the header (in
-/// version 2 to 4 bytes at most). Where the bytes are too few, it gives 0 from then on and is not sound.
+/// Reads a message of ROS 2 from its bytes: CDR of DDS (OMG DDS-XTypes 1.3, 7.4), plain, version 1 or 2, in
+/// either byte order. A number is aligned to its size, counted from the end of the header (in version 2 to at
+/// most 4 bytes). If there are too few bytes, it returns 0 from then on and is not sound.
 class CdrReader {
  public:
   explicit CdrReader(std::string_view bytes);

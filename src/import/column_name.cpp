@@ -45,7 +45,7 @@ void take_unit(const std::string& name, ColumnName& column) {
     return;
   }
   for (const char mark : {'_', '/', ' '}) {
-    const auto place = name.find(mark, 1);  // "v_m/s" has its unit after the first
+    const auto place = name.find(mark, 1);  // the unit of "v_m/s" follows the first mark
     if (place == std::string::npos) continue;
     for (const auto at : {name.rfind(mark), place}) {
       if (at == 0 || !is_unit(name.substr(at + 1))) continue;
@@ -56,7 +56,7 @@ void take_unit(const std::string& name, ColumnName& column) {
   }
 }
 
-/// "tip_posX" is tip, pos, x.
+/// The words of a name, in small letters: tip, pos, x of "tip_posX".
 std::vector<std::string> words_of(const std::string& bare) {
   std::vector<std::string> words;
   for (std::size_t i = 0; i < bare.size(); ++i) {
@@ -69,7 +69,7 @@ std::vector<std::string> words_of(const std::string& bare) {
   return words;
 }
 
-/// Takes the axis off the last word: "x", or "fx".
+/// Takes the axis off the last word, such as "x" or "fx".
 int take_axis(std::vector<std::string>& words) {
   constexpr std::string_view axes = "xyzw";
   std::string& last = words.back();
@@ -84,8 +84,8 @@ int take_axis(std::vector<std::string>& words) {
   return static_cast<int>(axis);
 }
 
-/// Of a matrix's columns "pos.1" to "pos.3": takes the number off. A quaternion's say no order: MATLAB has w
-/// first.
+/// Takes the number off a matrix's column, "pos.1" to "pos.3". Numbers do not tell a quaternion's order:
+/// MATLAB has w first.
 int take_number(const std::string& bare, std::vector<std::string>& words) {
   if (words.size() < 2 || bare.size() < 2 || bare[bare.size() - 2] != '.') return -1;
   const int axis = bare.back() - '1';
@@ -97,7 +97,7 @@ int take_number(const std::string& bare, std::vector<std::string>& words) {
   return axis;
 }
 
-/// "r11" to "r33", or "r00" to "r22": the first is row 0, column 0 with first = '1'.
+/// The place of "r11" to "r33" (first = '1'), or "r00" to "r22" (first = '0'), in a matrix, row by row.
 int matrix_place(const std::string& word, char first) {
   if (word.size() != 3 || word[0] != 'r') return -1;
   const int row = word[1] - first, column = word[2] - first;

@@ -16,8 +16,7 @@ namespace {
 
 constexpr unsigned char separator_bytes[] = {',', ',', ';', '\t', ' '};
 
-/// How well lines are understood in a dialect: many fields that are numbers, few that are none, in rows of
-/// the length that most have.
+/// How well a dialect fits the lines: many fields are numbers, few are not, and most rows are equally long.
 long score_of(const std::vector<std::string>& lines, const Dialect& dialect, std::size_t& columns) {
   LineSplitter splitter;
   struct Rows {
@@ -73,7 +72,7 @@ const std::vector<std::string>& LineSplitter::split(std::string_view line, Separ
   count_ = 0;
   const auto take = [](void* text, std::size_t length, void* data) {
     const Taken& to = *static_cast<Taken*>(data);
-    if (!text && to.blanks) return;  // between two of a row of blanks
+    if (!text && to.blanks) return;  // between two blanks in a row
     LineSplitter& splitter = *to.splitter;
     if (splitter.count_ == splitter.fields_.size()) splitter.fields_.emplace_back();
     splitter.fields_[splitter.count_++].assign(text ? static_cast<const char*>(text) : "", length);
@@ -81,7 +80,7 @@ const std::vector<std::string>& LineSplitter::split(std::string_view line, Separ
   const auto end = [](int, void*) {};
   if (csv_parse(parser_, line_.data(), line_.size(), take, end, &taken) != line_.size() ||
       csv_fini(parser_, take, end, &taken) != 0)
-    throw std::bad_alloc();  // not strict: it has no other errors
+    throw std::bad_alloc();  // csv_parse() is not strict: it has no other errors
   fields_.resize(count_);
   return fields_;
 }

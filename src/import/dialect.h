@@ -11,11 +11,11 @@ struct csv_parser;
 
 namespace sandstroke {
 
-/// How lines of a table are parted into fields; neither is `found`.
+/// How the lines of a table are split into fields. Neither member is `found`.
 struct Dialect {
   Separator separator = Separator::comma;
   DecimalMark decimal = DecimalMark::point;
-  /// "semicolons, decimal commas".
+  /// For people: "semicolons, decimal commas".
   std::string text() const;
 };
 
@@ -25,7 +25,7 @@ class LineSplitter {
   LineSplitter();
   LineSplitter(const LineSplitter&) = delete;
   ~LineSplitter();
-  /// The fields, trimmed, without their quotes; there until the next call.
+  /// The fields, trimmed and without their quotes; valid until the next call.
   const std::vector<std::string>& split(std::string_view line, Separator separator);
 
  private:
@@ -35,13 +35,13 @@ class LineSplitter {
   std::string line_;
 };
 
-/// A field as a number, with that decimal mark; finite.
+/// A field as a finite number with that decimal mark.
 std::optional<double> field_number(const std::string& field, DecimalMark decimal);
-/// A number (also not-a-number), or a date with a time.
+/// True for a number (also not-a-number), or a date with a time.
 bool is_value(const std::string& field, DecimalMark decimal);
 
-/// The dialect in which most of these lines are rows of numbers of equal length; `columns` is that length.
-/// What the settings say is taken. Nothing: in none are there two columns of numbers.
+/// The dialect in which most of these lines are rows of numbers of equal length; `columns` becomes that
+/// length. What the settings name is kept. None: no dialect gives two columns of numbers.
 std::optional<Dialect> find_dialect(const std::vector<std::string>& lines, const TableSettings& settings,
                                     std::size_t& columns);
 

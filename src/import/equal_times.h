@@ -8,12 +8,12 @@
 
 namespace sandstroke {
 
-/// Lets the times of a stroke increase. After a drop pen strokes are still apart.
+/// Makes the times of a stroke increase. Pen strokes stay apart after a drop.
 ///
-/// spread: the samples of a run of k equal stamps are placed evenly up to the next stamp, 1/k of the way
-/// apart. A run that ends a pen stroke (or the file) is placed with the spacing before it instead, where that
-/// is less: what follows is no part of the drawing. Error: input, naming the line (lines: of each sample, or
-/// empty), where times decrease, or are equal with EqualTimes::error.
+/// spread: k samples in a row with equal stamps are placed evenly up to the next stamp, 1/k of the way apart.
+/// If they end a pen stroke (or the file), they take the spacing before them instead, if that is less: what
+/// follows is not part of the drawing. Error: input, naming the line (lines: of each sample, or empty), if
+/// times decrease, or are equal with EqualTimes::error.
 void settle_equal_times(Stroke& stroke, const std::vector<std::size_t>& lines, EqualTimes rule,
                         const std::string& name);
 

@@ -8,7 +8,7 @@
 
 namespace sandstroke {
 
-/// For readers that reckon with what a file says: what they give must be finite still. Error: input.
+/// Checks that samples are still finite after a reader has calculated with a file's numbers. Error: input.
 inline SampleTable finite_samples(SampleTable table, const std::string& name) {
   for (const SampleColumn& column : table.columns)
     for (std::size_t i = 0; i < column.values.size(); ++i)

@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A kind of file that is not read: what it begins with or, where that is empty, its ending.
+/// A kind of file that is not read, known by its first bytes, its ending, or both.
 struct KindNotRead {
   std::string_view begin, ending;
   const char *name, *way_out;
@@ -66,7 +66,7 @@ constexpr KindNotRead kinds_not_read[] = {
 
 bool has_ending(const fs::path& path, std::string_view ending) { return small_ending(path) == ending; }
 
-/// As much of a file as says which format it is.
+/// The beginning of a file, long enough to tell its format.
 std::string head_of(const fs::path& path) {
   std::string head(1 << 16, '\0');
   head.resize(InputFile(path).read(head.data(), head.size()));
@@ -79,8 +79,8 @@ void refuse_kinds_not_read(const fs::path& path, std::string_view head) {
       throw_input_error("{}: is {}, which is not read; {}", path.string(), kind.name, kind.way_out);
 }
 
-/// What begins as XML or JSON does. A script begins with [[segment]] or a name, and other programs read
-/// those.
+/// Refuses text that begins as XML or JSON, which other programs read. A script begins with [[segment]] or a
+/// name.
 void refuse_trees_of_text(const fs::path& path, std::string_view text) {
   if (text.starts_with('<'))
     throw_input_error("{}: is XML or HTML without ink (InkML); {}", path.string(), as_csv);
@@ -95,8 +95,8 @@ void refuse_trees_of_text(const fs::path& path, std::string_view text) {
   }
 }
 
-/// Tables may be in UTF-16, where every other byte is 0; numbers as computers keep them have several in a
-/// row.
+/// True for binary data, which has several zero bytes in a row. Tables may be in UTF-16, where every other
+/// byte is 0.
 bool is_binary(std::string_view head) {
   return head.find(std::string_view("\0\0", 2)) != std::string_view::npos;
 }

@@ -23,7 +23,7 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 using std::numbers::pi;
 
-/// An arc in the plane, of which z and the radius change evenly.
+/// An arc in the plane. Z and the radius change evenly along it.
 struct GcodeArc {
   Vector2d centre;
   double radius = 0.0, end_radius = 0.0;  // mm
@@ -86,7 +86,7 @@ class GcodeReader {
  private:
   std::string place() const { return fmt::format("{}:{}", name_, line_); }
 
-  /// Whether the line's words still are those of a motion.
+  /// True if the line's other words still belong to a motion.
   bool take_g(int code, const GcodeWords& words) {
     switch (code) {
       case 0:
@@ -143,7 +143,7 @@ class GcodeReader {
 
   void take_speed(const GcodeWords& words) {
     for (const int code : words.g)
-      if (code == 200 || code == 210) take_g(code, words);  // in force in its whole line
+      if (code == 200 || code == 210) take_g(code, words);  // applies to its whole line
     if (const auto& feed = words['F']) {
       if (!(*feed > 0.0)) throw_input_error("{}: speed F{} is not above 0; correct it", place(), *feed);
       feed_ = *feed * scale_ / 60.0;
@@ -179,7 +179,7 @@ class GcodeReader {
   }
   bool pen_down() const { return spindle_ && power_ != 0.0; }
 
-  /// Where a motion's words lead.
+  /// The end point of a motion.
   Vector3d target(const GcodeWords& words) const {
     Vector3d end = position_;
     for (int axis = 0; axis < 3; ++axis)
@@ -204,14 +204,14 @@ class GcodeReader {
     if (!(curve.radius >= 1e-6 && curve.radius <= most))
       throw_input_error("{}: the arc's radius is {:g} mm; correct I and J, or R", place(), curve.radius);
     const double off = std::abs(curve.radius - curve.end_radius);
-    if (!(off <= 0.5 && off <= std::max(0.005, 0.001 * curve.radius))) {  // as Grbl and LinuxCNC have it
+    if (!(off <= 0.5 && off <= std::max(0.005, 0.001 * curve.radius))) {  // the limits of Grbl and LinuxCNC
       throw_input_error(
           "{}: the arc begins {:g} mm from its centre and ends {:g} mm from it; correct X, Y, I or J",
           place(), curve.radius, curve.end_radius);
     }
     curve.start = elementary::atan2(from.y(), from.x());
     curve.sweep = elementary::atan2(to.y(), to.x()) - curve.start;
-    constexpr double nothing = 5e-7;  // rad: a whole turn
+    constexpr double nothing = 5e-7;  // rad; a smaller sweep means a whole turn
     if (motion_ == 3 && curve.sweep <= nothing) curve.sweep += 2.0 * pi;
     if (motion_ == 2 && curve.sweep >= -nothing) curve.sweep -= 2.0 * pi;
     const double count = curve.chords(), climb = end.z() - begin.z();
@@ -233,7 +233,7 @@ class GcodeReader {
     return centre;
   }
 
-  /// R above 0 is the shorter of the two arcs.
+  /// radius > 0 means the shorter of the two arcs.
   Vector2d centre_by_radius(const Vector2d& end, double radius) const {
     const Vector2d way = end - position_.head<2>();
     const double half = 0.5 * way.norm();
@@ -248,7 +248,7 @@ class GcodeReader {
   }
 
   void add(const Vector3d& point, double length) {
-    constexpr double least = 1e-6;  // mm: a shorter move takes no time that a sample could tell
+    constexpr double least = 1e-6;  // mm; a shorter move takes no time that shows in a sample
     if (!path_.samples.empty() && length < least) return;
     if (path_.samples.empty() && relative_ && motion_ < 2 && length > 0.0) keep(position_, 0.0);
     keep(point, path_.samples.empty() ? 0.0 : length);
@@ -270,11 +270,11 @@ class GcodeReader {
   static constexpr double most = 1e12;  // mm
   const std::string& name_;
   const std::string pen_up_text_;
-  const GcodeWords pen_up_;  // none: not named
+  const GcodeWords pen_up_;  // empty: not named
   int servo_ = 0;            // the M word that moves a pen
   std::size_t servo_line_ = 0;
   std::set<double> servo_angles_;
-  bool pen_lifts_ = false;  // by pen_up_
+  bool pen_lifts_ = false;  // a line had the words of pen_up_
   std::size_t line_ = 0;
   int motion_ = 0, plane_ = 17;
   double scale_ = 1.0;  // mm

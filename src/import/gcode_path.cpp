@@ -11,7 +11,7 @@ namespace {
 using Eigen::Vector3d;
 using Samples = std::vector<GcodeSample>;
 
-/// Z moves, and never while X or Y do.
+/// True if Z moves, and never together with X or Y.
 bool z_lifts_a_pen(const Samples& samples) {
   bool moves = false;
   for (const GcodeSample& sample : samples) {
@@ -23,7 +23,7 @@ bool z_lifts_a_pen(const Samples& samples) {
 
 std::vector<bool> pen_is_down(const GcodePath& path, bool by_z) {
   const bool has_word = !path.pen_word.empty();
-  double lowest = std::numeric_limits<double>::infinity();  // that anything is drawn at
+  double lowest = std::numeric_limits<double>::infinity();  // Z of a move along X or Y
   for (const GcodeSample& sample : path.samples)
     if (sample.along_xy) lowest = std::min(lowest, sample.position.z());
   std::vector<bool> down;
@@ -33,7 +33,7 @@ std::vector<bool> pen_is_down(const GcodePath& path, bool by_z) {
   return down;
 }
 
-/// s. Empty where no speed is said; what comes before the first F goes as fast as what follows.
+/// Times [s]; empty if the file gives no speed. Moves before the first F go as fast as the moves after it.
 std::vector<double> times_of(const Samples& samples) {
   const auto said =
       std::find_if(samples.begin(), samples.end(), [](const auto& sample) { return sample.feed > 0.0; });

@@ -13,27 +13,28 @@ namespace sandstroke {
 struct GcodeSample {
   Eigen::Vector3d position;  // mm
   std::size_t line;
-  double length, feed;     // of the way here: mm, mm/s; 0 where no speed was said
-  bool down, lifts;        // as M words have it
-  bool along_xy, along_z;  // the way here
+  double length, feed;     // of the move to here: mm, mm/s; 0: no speed was given
+  bool down, lifts;        // according to M words
+  bool along_xy, along_z;  // directions of the move to here
 };
 
-/// As GcodePath::pen_word: M3 and M5, or S, of an engraver.
+/// GcodePath::pen_word of an engraver, with M3 and M5, or S.
 inline constexpr const char* gcode_spindle = "M3";
 
-/// Where a program of G-code leads its tool.
+/// The path along which a program of G-code leads its tool.
 struct GcodePath {
   std::vector<GcodeSample> samples;
-  std::string pen_word;        ///< that says whether the pen is down: "M3", "M280 S90"; empty: none does
-  bool draws_rapidly = false;  ///< G0 leads along X or Y
-  std::set<int> passed_over;   ///< G words that were, in tenths
+  std::string pen_word;        ///< lifts or lowers the pen: "M3", "M280 S90"; empty: no word does
+  bool draws_rapidly = false;  ///< G0 moves along X or Y
+  std::set<int> passed_over;   ///< G words that were passed over, times 10
 };
 
-/// How far the tip may be off lines and corners. The chords of usual arcs have none (keep_lines_straight).
+/// How far the tip may be off lines and corners. The chords of usual arcs have no corners
+/// (keep_lines_straight).
 inline constexpr double gcode_line_tolerance = 0.01;  // mm
 
-/// The samples at which the pen is down: by the M words, and by Z where it only moves by itself. Error:
-/// input; `name` is the file's.
+/// A table of the samples at which the pen is down: according to M words, and to Z if it only moves by
+/// itself. Error: input; `name` is the file's.
 SampleTable table_of_gcode(const GcodePath& path, const std::string& name);
 
 }  // namespace sandstroke

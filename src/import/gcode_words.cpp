@@ -10,7 +10,7 @@
 namespace sandstroke {
 namespace {
 
-/// Only what is G-code, in capitals. A comment ends with its line.
+/// The G-code of a line, in capitals and without comments. A comment ends with its line.
 std::string bare_gcode(std::string_view line) {
   std::string bare;
   bool in_comment = false;
@@ -31,7 +31,7 @@ std::string bare_gcode(std::string_view line) {
   return for_the_machine ? "" : bare.substr(bare.starts_with('/') ? 1 : 0);
 }
 
-/// Messages, and names of files.
+/// True for M words that a message or a file's name follows.
 bool is_followed_by_text(double m) {
   const auto with_text = {16.0, 23.0, 28.0, 30.0, 32.0, 33.0, 117.0, 118.0, 928.0};
   return std::find(with_text.begin(), with_text.end(), m) != with_text.end();

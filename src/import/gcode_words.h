@@ -19,11 +19,11 @@ struct GcodeWords {
   bool has_any_of(std::string_view letters) const;
 };
 
-/// A line without comments, checksum, blanks and what only machines ask for ($H). Error: input; `place` is
-/// the file and line.
+/// The words of a line, without comments, checksum, blanks and commands to the machine ($H). Error: input;
+/// `place` is the file and line.
 GcodeWords gcode_words(std::string_view line, const std::string& place);
 
-/// Whether a text looks like G-code: a line of words begins with one of motion, units or coordinates.
+/// True if a text looks like G-code: some line has a G word of motion, units or coordinates.
 bool looks_like_gcode(std::string_view text);
 
 }  // namespace sandstroke

@@ -12,7 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// How the second table is read: force and orientation that are named are its own.
+/// Settings for reading the second table. It has the force and the orientation that the settings name.
 TableSettings settings_of_second(const TableSettings& settings) {
   TableSettings second;
   second.part = settings.merge_part;

@@ -14,10 +14,10 @@ namespace {
 
 std::string_view local_name(const pugi::xml_node& node) {
   const std::string_view name = node.name();
-  return name.substr(name.find(':') + 1);  // from the begin, where there is none
+  return name.substr(name.find(':') + 1);  // the whole name, if it has no colon
 }
 
-/// What of a document is used, wherever it stands. pugixml walks without recursion.
+/// The nodes of a document that are used, wherever they stand. pugixml walks without recursion.
 struct InkNodes : pugi::xml_tree_walker {
   std::vector<pugi::xml_node> traces, formats, properties;
   pugi::xml_node sample_rate;
@@ -55,7 +55,7 @@ std::vector<InkChannel> channels_of(const pugi::xml_node& format) {
   return channels;
 }
 
-/// A device's points per length: "1/cm".
+/// Takes a device's points per length, "1/cm".
 void take_resolution(const pugi::xml_node& property, std::vector<InkChannel>& channels) {
   const std::string_view units = property.attribute("units").value();
   const std::optional<double> value = finite_number(property.attribute("value").value());
@@ -101,7 +101,7 @@ class InkValue {
   }
 
  private:
-  int order_ = 0;  // of the differences given
+  int order_ = 0;  // of the given differences
   double given_ = 0.0, value_ = 0.0, change_ = 0.0;
 };
 
@@ -202,7 +202,7 @@ SampleTable parse_inkml(std::string_view text, const std::string& name) {
 }
 
 SampleTable read_inkml(const std::filesystem::path& path) {
-  constexpr std::size_t most_bytes = 50'000'000;  // as nodes it is several times as large
+  constexpr std::size_t most_bytes = 50'000'000;  // as nodes in memory it is several times as large
   return parse_inkml(read_text_file(path, most_bytes), path.string());
 }
 

@@ -8,12 +8,12 @@
 
 namespace sandstroke {
 
-/// Pen strokes in InkML (W3C 2011): the points of each trace, by the channels of traceFormat (X and Y where
-/// there is none), also as first and second differences. X, Y, Z, T and F become x, y, z, time and pressure;
-/// others keep their names; intermittent channels are left out. Units are those of the channels, or of a
-/// resolution per cm or mm. Time comes from T (ms, where no unit is said), or from sampleRate and the traces'
-/// timeOffset (ms). Each trace but the last lifts, unless one continues it; traces of a pen that is up are
-/// left out. Error: io; input.
+/// Reads pen strokes in InkML (W3C 2011): the points of each trace, by the channels of traceFormat (X and Y
+/// if there is none), also as first and second differences. X, Y, Z, T and F become x, y, z, time and
+/// pressure; others keep their names; intermittent channels are left out. Units are those of the channels, or
+/// of a resolution per cm or mm. Time comes from T (ms if no unit is given), or from sampleRate and the
+/// traces' timeOffset (ms). Each trace lifts at its end, unless the next one continues it. Traces with the
+/// pen up are left out. Error: io; input.
 SampleTable read_inkml(const std::filesystem::path& path);
 /// The same from text; `name` stands for the file in messages.
 SampleTable parse_inkml(std::string_view text, const std::string& name);

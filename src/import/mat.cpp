@@ -31,7 +31,7 @@ class MatReader {
  public:
   explicit MatReader(const fs::path& path) : name_(path.string()) {
     check_readable(path);
-    Mat_LogInitFunc("sandstroke", [](int, auto*) {});  // char*, and since 1.5.27 const char*
+    Mat_LogInitFunc("sandstroke", [](int, auto*) {});  // char* before 1.5.27, since then const char*
     file_.reset(Mat_Open(name_.c_str(), MAT_ACC_RDONLY));
     if (!file_)
       throw_input_error("{}: is not a MATLAB file that can be read; save it again: save('FILE.mat', '-v7')",
@@ -130,7 +130,7 @@ std::string listed(const std::vector<MatVariable>& variables) {
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
-/// Those of one length.
+/// The variables to take, all of one length.
 std::vector<MatVariable> chosen(std::vector<MatVariable> variables, const std::string& part,
                                 const std::string& name) {
   const auto exact =
@@ -160,7 +160,8 @@ bool is_ever_finite(const SampleColumn& column) {
                      [](double value) { return std::isfinite(value); });
 }
 
-/// Leaves out samples of which a number is not finite. How many.
+/// Leaves out samples with a number that is not finite, and columns without a finite number. Returns how many
+/// samples.
 std::size_t leave_out_unknown(std::vector<SampleColumn>& columns) {
   std::erase_if(columns, [](const SampleColumn& column) { return !is_ever_finite(column); });
   if (columns.empty()) return 0;

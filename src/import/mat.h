@@ -7,12 +7,12 @@
 
 namespace sandstroke {
 
-/// Columns from a MATLAB file (.mat, up to version 7.3): its real numeric vectors and matrices, and those of
-/// structs, one level deep, as STRUCT.FIELD. Samples go along the longer side. A vector is the column NAME; a
-/// matrix gives NAME.1, NAME.2, ... Single numbers, and what is never finite, are left out; so are samples of
-/// which a number is not finite. `part` names a variable or a struct, where the file has variables of several
-/// lengths: all that are as long as it are taken (of a struct: its fields). Error: io; input, listing the
-/// variables.
+/// Reads columns from a MATLAB file (.mat, up to version 7.3): its real numeric vectors and matrices, and
+/// those of structs, one level deep, as STRUCT.FIELD. Samples go along the longer side. A vector is the
+/// column NAME; a matrix gives NAME.1, NAME.2, ... Single numbers, columns without a finite number, and
+/// samples with a number that is not finite are left out. If the file has variables of several lengths,
+/// `part` names a variable, and all of its length are taken; or a struct, and its fields are taken. Error:
+/// io; input, listing the variables.
 SampleTable read_mat(const std::filesystem::path& path, const std::string& part = "");
 
 }  // namespace sandstroke

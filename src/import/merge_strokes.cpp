@@ -9,7 +9,7 @@
 namespace sandstroke {
 namespace {
 
-/// How much is added to the second's times.
+/// The seconds to add to the second's times.
 double offset_of(const ImportedStroke& first, const ImportedStroke& second, double shift,
                  const std::string& first_name, const std::string& second_name) {
   if (first.clock.has_value() != second.clock.has_value() && shift == 0.0)

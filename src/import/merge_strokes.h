@@ -7,9 +7,9 @@
 namespace sandstroke {
 
 /// Gives a stroke the force and the orientation of a second one at its own times: forces are interpolated
-/// linearly, orientations along the shortest turn. Where both have a clock, its stamps say how the times
-/// belong together; shift [s] is added to those of the second. Samples outside of the second's time are left
-/// out, which the description says. Error: input, where the second has neither, or they share no time.
+/// linearly, orientations along the shortest turn. If both have a clock, its stamps tell how the times belong
+/// together; shift [s] is added to those of the second. Samples outside the second's time are left out, with
+/// a warning. Error: input, if the second has neither, or they share no time.
 void merge_strokes(ImportedStroke& first, const ImportedStroke& second, double shift,
                    const std::string& first_name, const std::string& second_name);
 

@@ -34,7 +34,7 @@ class Ros2Bag {
 
  private:
   Statement query(const char* sql);
-  /// Whether there is another row.
+  /// True if there is another row.
   bool step(const Statement& rows) const;
   std::string text(const Statement& rows, int column) const;
 
@@ -43,7 +43,7 @@ class Ros2Bag {
   double steps_left_ = 0.0;
 };
 
-/// What SQLite opens only for reading, and without looking for a writer.
+/// A URI that SQLite opens only for reading, and without looking for a writer.
 std::string read_only_uri(const fs::path& path) {
   std::string uri = "file:";
   for (const char c : fs::absolute(path).string())
@@ -67,8 +67,8 @@ Ros2Bag::Ros2Bag(const fs::path& path) : name_(path.string()) {
   database_.reset(opened);
   if (failure != SQLITE_OK)
     throw_io_error("{}: cannot be opened ({}); check the path", name_, sqlite3_errstr(failure));
-  // A stranger's file: no views, no functions that do anything, no values that the file is too small for, and
-  // an end.
+  // The file is a stranger's: allow no views, no functions with effects, no values larger than the file, and
+  // only so many steps.
   sqlite3_db_config(opened, SQLITE_DBCONFIG_ENABLE_VIEW, 0, nullptr);
   sqlite3_db_config(opened, SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, nullptr);
   const double bytes = static_cast<double>(fs::file_size(path));
@@ -120,8 +120,8 @@ std::vector<BagTopic> Ros2Bag::topics() {
   return topics;
 }
 
-/// Fills the first column with the time since the first stamp, and brings the rows into its order: headers
-/// may come in another order than their messages.
+/// Fills the first column with the time since the first stamp, and sorts the rows by it: headers may be in
+/// another order than their messages.
 void set_stamps(SampleTable& table, const std::vector<std::int64_t>& stamps) {
   std::vector<std::size_t> order(stamps.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -135,7 +135,7 @@ void set_stamps(SampleTable& table, const std::vector<std::int64_t>& stamps) {
   SampleColumn& time = table.columns.front();
   time.origin = stamps[order.front()];
   for (const std::size_t row : order) {
-    std::int64_t since = 0;  // of a damaged file they may be further apart than a number holds
+    std::int64_t since = 0;  // stamps of a damaged file may differ by more than it holds
     const bool beyond = __builtin_sub_overflow(stamps[row], *time.origin, &since);
     time.values.push_back(beyond ? 0x1p63 : static_cast<double>(since));
   }

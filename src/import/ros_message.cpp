@@ -8,8 +8,8 @@
 namespace sandstroke {
 namespace {
 
-/// A type's fields, in their order (geometry_msgs of ROS 2): h a header, s a string, and vectors: p a
-/// position, q an orientation, f a force, t a torque.
+/// The fields of a message type, in order (geometry_msgs of ROS 2). h: header, s: string; vectors: p
+/// position, q orientation, f force, t torque.
 struct RosType {
   std::string_view name, fields;
 };

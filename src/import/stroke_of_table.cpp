@@ -40,7 +40,7 @@ class StrokeMaker {
     take_times();
     if (!asks_.empty()) throw_input_error("{}: {}", name_, fmt::join(asks_, "; and "));
     EqualTimes rule = settings_.equal_times;
-    if (by_speed_) rule = EqualTimes::drop;  // the tip did not move
+    if (by_speed_) rule = EqualTimes::drop;  // at equal times the tip did not move
     settle_equal_times(stroke, table_.lines, rule, name_);
     tell_unused_columns();
     stroke.frame = settings_.frame;
@@ -81,10 +81,10 @@ class StrokeMaker {
                      more > 0 ? fmt::format(" and {} more", more) : ""));
   }
 
-  /// By which the times of this table are named.
+  /// The key that names the times of this table.
   std::string own_key(const std::string& key) const { return is_second_ ? "merge_" + key : key; }
 
-  /// The columns' own unit; empty: they have none, or not all the same.
+  /// The common unit of the columns; empty: they have none, or different ones.
   std::string own_unit(const ColumnChoices& choices) const {
     const std::string& unit = table_.columns[choices.front().column].unit;
     const bool same = std::all_of(choices.begin(), choices.end(), [&](const ColumnChoice& choice) {
@@ -143,7 +143,8 @@ class StrokeMaker {
           names(layout_.position)));
   }
 
-  /// The unit of columns that were asked for, or are taken only where their names say it; empty: left out.
+  /// The unit of optional columns; empty: it is not known, and they are left out. asked: the settings name
+  /// them, and without a unit this is an Error: input.
   std::string unit_or_none(const ColumnChoices& choices, const std::string& unit, bool asked, const char* key,
                            Quantity quantity) {
     const std::string found = unit.empty() ? own_unit(choices) : unit;
@@ -277,8 +278,8 @@ class StrokeMaker {
     if (column.unit == iso_unit) unit = "ns";
     if (unit.empty() && digits >= 10 && digits % 3 == 1) {  // clocks of today, since 1970
       unit = digits == 10 ? "s" : digits == 13 ? "ms" : digits == 16 ? "us" : "ns";
-      // The time since a computer was started has so many digits, too: in a smaller unit.
-      constexpr double most_spacing = 10.0;  // s, of samples
+      // The time since a computer started can have as many digits, in a smaller unit.
+      constexpr double most_spacing = 10.0;  // s, between samples
       const double span = unit_of(Quantity::time, unit).to_si(column.values.back() - column.values.front());
       if (span > most_spacing * static_cast<double>(column.values.size())) unit.clear();
     }
@@ -313,9 +314,9 @@ class StrokeMaker {
   const TableSettings& settings_;
   const std::string& name_;
   TableLayout layout_;
-  bool is_second_;  // of two that are merged
+  bool is_second_;  // of two tables that are merged
   ImportedStroke made_;
-  std::vector<std::string> asks_;  // what has to be given
+  std::vector<std::string> asks_;  // what the user has to give
   Unit length_;                    // of the position
   bool by_speed_ = false;
 };

@@ -12,18 +12,18 @@
 
 namespace sandstroke {
 
-/// A stroke, and what is to be said of how it was made.
+/// A stroke, and messages about how it was made.
 struct ImportedStroke {
   Stroke stroke;
-  std::string description;            ///< one line: what was seen, and what was taken as what
+  std::string description;            ///< one line: what was found, and how each column was used
   std::vector<std::string> warnings;  ///< a sentence each
-  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< from the table's to the stroke's
-  std::optional<std::int64_t> clock;  ///< ns that the table's clock showed at time 0; none: it began at 0
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< from the table's axes to the stroke's
+  std::optional<std::int64_t> clock;  ///< ns that the table's clock showed at time 0; none: no clock's stamps
 };
 
-/// Makes a stroke of a table as its settings say, and what they do not say as names and units of the columns
-/// do. With the axes of a first table, with which it is merged, positions are 0. The settings' merge is left
-/// to who reads files. Error: input; `name` is the table's.
+/// Makes a stroke from a table as the settings say; what they leave open, names and units of the columns
+/// tell. of_first: the axes of the first table, with which this one is merged; positions are 0 then. The
+/// caller does the settings' merge. Error: input; `name` is the table's.
 ImportedStroke stroke_of_table(const SampleTable& table, const TableSettings& settings,
                                const std::string& name, const std::optional<Eigen::Matrix3d>& of_first = {});
 

@@ -20,7 +20,7 @@ struct Named {
   ColumnName parts;
 };
 
-/// Columns with one meaning whose names differ in the axis only: indices by axis, -1 where there is none.
+/// Columns of one meaning whose names differ only in the axis: indices by axis, -1 if there is none.
 struct Group {
   int rank = 0;
   std::array<int, 9> axes{-1, -1, -1, -1, -1, -1, -1, -1, -1};
@@ -53,8 +53,8 @@ class LayoutFinder {
 
   std::size_t one(const std::string& wanted) const { return find_column(wanted); }
 
-  /// The plainest group that has its first `least` axes; with all of the first `most` if it has those. None:
-  /// there is no such group. Where `only`, no two may be equally plain.
+  /// The plainest group that has its first `least` axes; all of its first `most` axes, if it has those.
+  /// Empty: there is no such group. only: two groups must not be equally plain.
   ColumnChoices found(Means means, int least, int most, bool only = false) const {
     std::map<std::string, Group> groups;
     for (std::size_t i = 0; i < names_.size(); ++i) {
@@ -96,7 +96,7 @@ class LayoutFinder {
     return best;
   }
 
-  /// Rows: the axes of these columns, by name; else by their order in the table. Of two columns, the third
+  /// Rows: the axes of these columns by name, else by their order in the table. With two columns, the third
   /// row is the axis that is left.
   Eigen::Matrix3d axes_of(const ColumnChoices& choices) const {
     std::vector<int> axis;
@@ -137,7 +137,7 @@ class LayoutFinder {
     return {find_column(wanted), 1.0};
   }
 
-  /// By its name, by its name without the unit, or by its number.
+  /// Finds a column by its name, by its name without the unit, or by its number.
   std::size_t find_column(const std::string& wanted) const {
     check_only_one(wanted);
     for (std::size_t i = 0; i < names_.size(); ++i)
@@ -167,7 +167,7 @@ class LayoutFinder {
   std::vector<Named> names_;
 };
 
-/// Found columns are in the table's axes: turned as the position's columns are.
+/// Turns found columns, which are in the table's axes, as the position's columns are turned.
 ColumnChoices along(const ColumnChoices& found, const Eigen::Matrix3d& axes) {
   ColumnChoices turned = found;
   for (std::size_t k = 0; k < found.size(); ++k)

@@ -17,26 +17,25 @@ struct ColumnChoice {
 };
 using ColumnChoices = std::vector<ColumnChoice>;
 
-/// Which columns of a table are what.
+/// The columns of a table by their meaning.
 struct TableLayout {
-  ColumnChoices position;         ///< 2 or 3; none where it was not asked for
+  ColumnChoices position;         ///< 2 or 3; none in a second table without one
   ColumnChoices velocity, force;  ///< 2 or 3, or none
   ColumnChoices orientation;      ///< 4, 9 or none
   std::optional<std::size_t> time, pressure;
-  /// From the axes that the table is in to the stroke's: its rows are the positions' columns.
+  /// From the table's axes to the stroke's: its rows are the positions' columns.
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
 };
 
-/// Columns are those that the settings name, and else those whose names say it. `of_first`: the axes of the
-/// table with which this one is merged, which has the position then. Values may still be missing. Error:
-/// input; `place` says where the names stand.
+/// Takes the columns that the settings name, and else those whose names tell their meaning. of_first: the
+/// axes of the first table, with which this one is merged, and which has the position then. The columns may
+/// have no values yet. Error: input; `place` says where the names stand.
 TableLayout table_layout(const std::vector<SampleColumn>& columns, const TableSettings& settings,
                          const std::string& place, const std::optional<Eigen::Matrix3d>& of_first = {});
 
 /// The option of `stroke convert` for a key: "--position-unit".
 std::string option_of(const std::string& key);
-/// An option of `stroke convert` and its key, as sentences have them: "--rate (in a scene:
-/// stroke.table.rate)".
+/// A key and its option of `stroke convert`, for messages: "stroke.table.rate (stroke convert: --rate)".
 std::string option_and_key(const std::string& key);
 
 }  // namespace sandstroke

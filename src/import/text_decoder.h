@@ -5,20 +5,20 @@
 
 namespace sandstroke {
 
-/// Turns the bytes of a text into UTF-8, by its byte-order mark, its zero bytes (UTF-16 without a mark), or
-/// as it is told.
+/// Converts the bytes of a text to UTF-8. The encoding is given, or found by a byte-order mark or by zero
+/// bytes (UTF-16 without a mark).
 class TextDecoder {
  public:
-  /// encoding: as iconv names it; empty: to be found. Error: input, where iconv does not know it.
+  /// encoding: iconv's name for it; empty: find it. Error: input, if iconv does not know it.
   TextDecoder(std::string name, std::string encoding);
   TextDecoder(const TextDecoder&) = delete;
   ~TextDecoder();
 
-  /// The next part, cut anywhere; there until the next call. Error: input, where it is no such text.
+  /// Converts the next part, cut anywhere; valid until the next call. Error: input, if it is no such text.
   std::string_view decode(std::string_view part);
-  /// What is left at the end of the text.
+  /// The rest, at the end of the text.
   std::string_view end();
-  /// Empty: UTF-8, or what is written like it.
+  /// Empty: UTF-8, or text that is taken for it.
   const std::string& encoding() const { return encoding_; }
 
  private:

@@ -8,7 +8,7 @@
 
 namespace sandstroke {
 
-/// A text in any encoding, given part by part, as its lines.
+/// Splits a text in any encoding, given part by part, into its lines.
 class TextLines {
  public:
   /// A line without blanks at both ends, and its number from 1 on.
@@ -17,12 +17,12 @@ class TextLines {
   /// `name` stands for the file in sentences.
   TextLines(const std::string& name, const std::string& encoding) : name_(name), decoder_(name, encoding) {}
 
-  /// Gives out the lines that end in the next bytes. Error: input, where a line is too long or is no text.
+  /// Gives out the lines that end in the next bytes. Error: input, if a line is too long or is no text.
   void read(std::string_view bytes, const Take& take) { read_text(decoder_.decode(bytes), take); }
-  /// Gives out the last line, if no end of a line comes after it.
+  /// Gives out the last line, if it has no end of line.
   void end(const Take& take);
 
-  /// As it is told; empty: UTF-8.
+  /// The given or found encoding; empty: UTF-8.
   const std::string& encoding() const { return decoder_.encoding(); }
 
  private:
@@ -32,9 +32,9 @@ class TextLines {
 
   std::string name_;
   TextDecoder decoder_;
-  std::size_t line_ = 0;       // the last whole one
+  std::size_t line_ = 0;       // number of the last whole line
   bool after_return_ = false;  // a \r ended the last line: a \n right after it belongs to it
-  std::string rest_;           // of the text: a line that has not ended
+  std::string rest_;           // the beginning of a line that has not ended
 };
 
 }  // namespace sandstroke

@@ -9,9 +9,9 @@
 
 namespace sandstroke {
 
-// Parts of a text that is being read. Each cut_...() takes what it gives off the text.
+// Functions that take a text apart. Each cut_...() removes what it returns from the text.
 
-/// The largest text of which samples are read at once. [bytes]
+/// The largest text from which samples are read at once [bytes].
 inline constexpr std::size_t most_sample_text_bytes = 200'000'000;
 
 inline constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
@@ -27,7 +27,7 @@ inline std::string_view without_blanks(std::string_view text, std::string_view b
   return text.substr(begin, text.find_last_not_of(blanks) - begin + 1);
 }
 
-/// Up to a separator, or all there is.
+/// Cuts off the text up to a separator, or all of it.
 inline std::string_view cut_before(std::string_view& text, char separator) {
   const std::size_t end = text.find(separator);
   const std::string_view part = text.substr(0, end);
@@ -35,10 +35,10 @@ inline std::string_view cut_before(std::string_view& text, char separator) {
   return part;
 }
 
-/// A line without blanks at both ends.
+/// Cuts off a line, without blanks at both ends.
 inline std::string_view cut_line(std::string_view& text) { return without_blanks(cut_before(text, '\n')); }
 
-/// The next word between blanks or commas; empty where there is none.
+/// Cuts off the next word between blanks or commas; empty if there is none.
 inline std::string_view cut_word(std::string_view& text) {
   constexpr std::string_view between = " \t\r\n,";
   text.remove_prefix(std::min(text.find_first_not_of(between), text.size()));
@@ -47,7 +47,7 @@ inline std::string_view cut_word(std::string_view& text) {
   return word;
 }
 
-/// What all of the text says, if that is a finite number: "1.5", "+3", "-1e3".
+/// The number that is the whole text, if it is a finite number: "1.5", "+3", "-1e3".
 inline std::optional<double> finite_number(std::string_view text) {
   if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
   double value = 0.0;

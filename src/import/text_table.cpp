@@ -27,13 +27,13 @@ bool begins_with_one_of(std::string_view line, const std::vector<std::string>& w
   });
 }
 
-/// Short enough for a sentence.
+/// The beginning of a line, short enough for a message.
 std::string excerpt(std::string_view line) {
   constexpr std::size_t most = 60;
   return line.size() <= most ? std::string(line) : std::string(line.substr(0, most)) + "...";
 }
 
-/// "[mm]" is mm.
+/// A unit without its brackets: mm of "[mm]".
 std::string bare_unit(const std::string& field) {
   if (field.size() > 2 && (field.front() == '[' || field.front() == '('))
     return field.substr(1, field.size() - 2);
@@ -48,7 +48,7 @@ bool is_unit_or_empty(const std::string& field) {
          known_unit(force, unit);
 }
 
-/// 12040 is "12,040".
+/// A number with commas: "12,040" of 12040.
 std::string grouped(std::size_t number) {
   std::string digits = std::to_string(number);
   for (std::size_t place = digits.size(); place > 3;) digits.insert(place -= 3, ",");
@@ -111,7 +111,7 @@ class TextTable::Rows {
       if (waiting_rows_ == 0 && !dialect_) comment_ = line.substr(1);
       return;
     }
-    if (line_ == 1 && line.size() == 5 && line.starts_with("sep=")) {  // of Excel
+    if (line_ == 1 && line.size() == 5 && line.starts_with("sep=")) {  // Excel writes it
       const auto separator = std::string_view(" ,;\t").find(line[4]);
       if (separator != std::string_view::npos && separator > 0) {
         if (settings_.separator == Separator::found) settings_.separator = static_cast<Separator>(separator);
@@ -166,7 +166,7 @@ class TextTable::Rows {
         name_, second->number, excerpt(second->text));
   }
 
-  /// "1,000" in quotes, between commas, is a thousand or 1.
+  /// Refuses quoted "1,000" between commas, which is a thousand or 1.
   void refuse_thousands(const std::vector<std::string>& lines) {
     if (settings_.decimal != DecimalMark::found || dialect_->decimal != DecimalMark::comma ||
         dialect_->separator != Separator::comma)
@@ -200,7 +200,7 @@ class TextTable::Rows {
     take_sample(fields);
   }
 
-  /// Whether the row is no sample.
+  /// True if the row is a header, and no sample.
   bool take_header(const std::vector<std::string>& fields) {
     const auto is_number = [&](const std::string& field) { return is_value(field, dialect_->decimal); };
     const std::string here = fmt::format("{}:{}", name_, line_);
@@ -215,7 +215,7 @@ class TextTable::Rows {
           option_and_key("skip_lines"), option_and_key("skip"));
     if (is_header) {
       std::vector<std::string> names = fields;
-      if (names.size() + 1 == fields_of_most_) names.insert(names.begin(), "row");  // of R
+      if (names.size() + 1 == fields_of_most_) names.insert(names.begin(), "row");  // R leaves it out
       if (names.size() == fields_of_most_ + 1 && names.back().empty()) names.pop_back();
       set_columns(names, here);
       return true;
@@ -307,18 +307,18 @@ class TextTable::Rows {
   std::vector<std::string> skip_, pen_up_;
   bool lifted_ = false;  // a line began with one of pen_up_
   TextLines lines_;
-  std::size_t line_ = 0;  // the number of the one that is taken
+  std::size_t line_ = 0;  // number of the line that is taken
   std::vector<Line> waiting_;
   std::size_t waiting_rows_ = 0;
-  std::string comment_;  // the last before the first row
+  std::string comment_;  // the last one before the first row
   std::optional<Dialect> dialect_;
   std::size_t fields_of_most_ = 0;
   LineSplitter splitter_;
-  std::string place_;          // of the names
+  std::string place_;          // of the columns' names
   bool after_header_ = false;  // no sample yet
   bool has_no_header_ = false;
   TableLayout layout_;
-  std::vector<std::size_t> wanted_;  // columns, but for the time
+  std::vector<std::size_t> wanted_;  // columns to read, except the time
   TimeStamps stamps_;
   SampleTable table_;
 };

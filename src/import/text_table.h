@@ -11,25 +11,25 @@
 
 namespace sandstroke {
 
-/// Reads a table of samples written as text: rows of numbers, one per sample, in any common dialect. Of any
-/// length: only the columns of the stroke are kept. What the settings do not say is found:
+/// Reads a table of samples as text: rows of numbers, one per sample, in any common dialect and of any
+/// length. It keeps only the columns of the stroke. It finds what the settings do not name:
 ///
 /// - the encoding by a byte-order mark or UTF-16's zeros; separator and decimal mark from the first rows
 ///   (Excel's line sep=; is obeyed);
 /// - a header: the first row without a number, or the comment before the first row if it has as many words
 ///   (numpy); a row of units under it; R's header that lacks the column of row names.
 ///
-/// Passed over: blank lines, comments (# or %), what settings.skip and skip_lines say.
+/// It passes over blank lines, comments (# or %), and what settings.skip and skip_lines name.
 class TextTable {
  public:
-  /// name: of the file, in sentences. of_first: as in table_layout.
+  /// name: the file's name in messages. of_first: as in table_layout().
   TextTable(std::string name, const TableSettings& settings,
             const std::optional<Eigen::Matrix3d>& of_first = {});
   TextTable(TextTable&&) noexcept;
   ~TextTable();
-  /// The next part of the file, cut anywhere. Error: input, naming the line.
+  /// Takes the next part of the file, cut anywhere. Error: input, naming the line.
   void read(std::string_view bytes);
-  /// Once, at the end. Error: input.
+  /// Returns the table. Call it once, at the end. Error: input.
   SampleTable take();
 
  private:

@@ -15,8 +15,8 @@ struct PolarPoint {
   double theta = 0.0, rho = 0.0;
 };
 
-/// How many chords stand for the spiral: a chord over h is off by at most h^2 |p''| / 8, and the spiral's
-/// second derivative by theta is 2 rho' along the circle and -rho along the radius.
+/// The number of chords for a spiral. A chord over h is off by at most h^2 |p''| / 8, and the spiral's second
+/// derivative by theta is 2 rho' along the circle and -rho along the radius.
 double chords(const PolarPoint& from, const PolarPoint& to) {
   const double turn = std::abs(to.theta - from.theta), out = std::abs(to.rho - from.rho);
   const double rho = std::max(std::abs(from.rho), std::abs(to.rho));
@@ -32,7 +32,7 @@ PolarPoint thr_point(std::string_view line, const std::string& name, std::size_t
     throw_input_error("{}:{}: '{}' is not a pair of numbers, theta and rho; correct or remove the line", name,
                       number, line.substr(0, 80));
   }
-  if (std::abs(*rho) > 1.01) {  // digits are few, and some tables are told a little more than all
+  if (std::abs(*rho) > 1.01) {  // digits are few, and some tracks go a little beyond the table
     throw_input_error(
         "{}:{}: rho is {}, but it is a share of the table's radius, up to 1; divide rho by the largest", name,
         number, *rho);

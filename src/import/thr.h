@@ -8,18 +8,19 @@
 
 namespace sandstroke {
 
-/// A track of a sand table (.thr): lines "theta rho", theta in rad, rho as a share of the table's radius; "#"
-/// begins a comment. Gives x = rho sin(theta) and y = rho cos(theta) in the unit "radius": theta turns
-/// clockwise from the y axis, as the tables' own programs have it (Sisyphus' programming guide: theta =
+/// Reads a track of a sand table (.thr): lines "theta rho", theta in rad, rho as a fraction of the table's
+/// radius; "#" begins a comment. Gives x = rho sin(theta) and y = rho cos(theta) in the unit "radius". Theta
+/// turns clockwise from the y axis, as in the tables' own programs (Sisyphus' programming guide: theta =
 /// arctan(x / y); Sandify, ThetaRhoExporter: atan2(x, y)). Between two lines both change evenly: the ball
-/// goes along Archimedean spirals. No time: tables go at a constant speed. Error: io, input.
+/// goes along Archimedean spirals. There is no time: tables go at a constant speed. Error: io, input.
 SampleTable read_thr(const std::filesystem::path& path);
 /// The same from text; `name` stands for the file in messages.
 SampleTable parse_thr(std::string_view text, const std::string& name);
 
-/// As far as the lines between the points may be off the spirals. [radius]
+/// How far the lines between the points may be off the spirals [radius].
 inline constexpr double thr_tolerance = 1e-4;
-/// As far as the tip may be off the lines. The chords of a spiral have no corners then (keep_lines_straight).
+/// How far the tip may be off the lines [radius]. The chords of a spiral have no corners then
+/// (keep_lines_straight).
 inline constexpr double thr_line_tolerance = 3e-4;
 
 }  // namespace sandstroke

@@ -1,6 +1,6 @@
 #include "import/time_stamp.h"
 
-#if defined(__GNUC__) && !defined(__clang__)  // gcc is wrong about a buffer in it, for arm64
+#if defined(__GNUC__) && !defined(__clang__)  // gcc for arm64 warns wrongly of a buffer in it
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wstringop-overflow"
 #include <date/date.h>
@@ -27,14 +27,13 @@ std::optional<Value> whole(std::string_view text) {
   return value;
 }
 
-/// Whether a text begins as `shape` does, in which 0 stands for any digit.
+/// True if a text begins as `shape`, in which 0 stands for any digit.
 bool has_shape(std::string_view text, std::string_view shape) {
   const auto fits = [](char one, char c) { return one == '0' ? c >= '0' && c <= '9' : c == one; };
   return text.size() >= shape.size() && std::equal(shape.begin(), shape.end(), text.begin(), fits);
 }
 
-/// Whether a text is what may stand behind the seconds: a fraction (".123456"), a zone ("+02:00"), both or
-/// neither.
+/// True if a text may stand behind the seconds: a fraction (".123456"), a zone ("+02:00"), both or neither.
 bool is_fraction_and_zone(std::string_view text) {
   if (text.starts_with('.'))
     text.remove_prefix(std::min(text.find_first_not_of("0123456789", 1), text.size()));
@@ -45,7 +44,7 @@ bool is_fraction_and_zone(std::string_view text) {
   return (text[0] == '+' || text[0] == '-') && (is_zone("00") || is_zone("0000") || is_zone("00:00"));
 }
 
-/// What a date or time says, nanoseconds; all of the text must be it.
+/// A date or time in nanoseconds. It must be the whole text.
 template <class Time>
 std::optional<std::int64_t> parsed(const std::string& text, const char* format) {
   std::istringstream stream(text);
@@ -68,11 +67,11 @@ std::optional<std::int64_t> iso_time(std::string_view text) {
   using Nanoseconds = std::chrono::nanoseconds;
   if (has_shape(plain, "00:00:00")) return parsed<Nanoseconds>(plain, "%T");
   if (plain.size() > 10) plain[10] = 'T';
-  // Strict: the library takes any byte for a digit of the zone.
+  // This check is strict, because the library takes any byte for a digit of the zone.
   if (!has_shape(plain, "0000-00-00T00:00:00") || !is_fraction_and_zone(std::string_view(plain).substr(19)))
     return std::nullopt;
   const int year = whole<int>(std::string_view(plain).substr(0, 4)).value_or(0);
-  if (year < 1700 || year > 2250) return std::nullopt;  // ns of others do not fit
+  if (year < 1700 || year > 2250) return std::nullopt;  // 64 bits do not hold the ns of other years
   using Time = date::sys_time<Nanoseconds>;
   const std::size_t zone = plain.find_first_of("+-", 11);
   if (zone == std::string::npos) return parsed<Time>(plain, "%FT%T");
@@ -93,7 +92,7 @@ std::optional<double> TimeStamps::read(std::string_view text) {
     }
   }
   if (kind_ == Kind::plain) return finite_number(text);
-  // A difference of 64-bit numbers may be beyond them.
+  // The difference of two 64-bit numbers may not fit into 64 bits.
   const auto since_first = [&](std::int64_t time) {
     std::int64_t difference = 0;
     if (__builtin_sub_overflow(time, origin_, &difference)) return std::optional<double>();

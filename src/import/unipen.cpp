@@ -111,7 +111,7 @@ class UnipenReader {
   std::vector<std::string> names_{"x", "y"};
   std::map<std::string, double> points_per_mm_;
   double rate_ = 0.0, waited_ = 0.0;  // Hz, s
-  std::size_t rows_ = 0;              // with those of a pen that is up
+  std::size_t rows_ = 0;              // also those with the pen up
   std::vector<double> times_;         // s
   SampleTable table_;
 };

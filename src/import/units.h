@@ -5,8 +5,8 @@
 
 namespace sandstroke {
 
-/// A unit as an exact ratio to the SI unit: value * factor / divisor rounds only once for whole numbers (66
-/// ms is the double nearest to 0.066 s), which value * 0.001 does not.
+/// A unit as an exact ratio to the SI unit. value * factor / divisor rounds only once for whole numbers (66
+/// ms is the double nearest to 0.066 s); value * 0.001 does not.
 struct Unit {
   double factor = 1.0, divisor = 1.0;
   double to_si(double value) const { return value * factor / divisor; }
@@ -14,11 +14,11 @@ struct Unit {
 
 enum class Quantity { length, time, speed, force };
 
-/// By its name ("mm", "[mm]" is none); nothing where it is none of that quantity's.
+/// The unit with this name ("mm"; "[mm]" is none). None: the quantity has no such unit.
 std::optional<Unit> known_unit(Quantity quantity, const std::string& name);
 
-/// Error: input, listing the units there are. A length may also be any number of metres ("1e-5"); pixel_size
-/// [m] is what "px" stands for, 0 = not given.
+/// The unit with this name. A length may also be any number of metres ("1e-5"). pixel_size [m]: the meaning
+/// of "px"; 0: not given. Error: input, listing the units there are.
 Unit unit_of(Quantity quantity, const std::string& name, double pixel_size = 0.0);
 
 }  // namespace sandstroke

@@ -9,11 +9,11 @@ namespace sandstroke {
 namespace {
 
 constexpr int side = BedGeometry::tile_side;
-// Chunks of 128 x 128: a dense bed of 1000^2 or 4096^2 is written as fast as in one piece. With 64 the small
-// one takes 1.5 times as long; with 256 a stroke's file grows.
+// Chunks of 128 x 128 cells: a dense bed of 1000^2 or 4096^2 is written as fast as in one piece. With 64 the
+// small one takes 1.5 times as long; with 256 a stroke's file grows.
 constexpr int chunk_tiles = 2;  // along each side
 
-/// The height that most level sand has by the bed's rule; 0 where none is level.
+/// The height of most of the sand that is level by the bed's rule; 0 if none is level.
 double commonest_level(const HeightField& bed) {
   std::map<double, double> cells_at;
   visit_quarters({0, bed.tile_rows(), 0, bed.tile_cols()}, [&](const CellRange& tiles) {
@@ -28,7 +28,7 @@ double commonest_level(const HeightField& bed) {
   return most == cells_at.end() ? 0.0 : most->first;
 }
 
-/// Which chunks hold anything but the fill value, row by row: found without a look at untouched cells.
+/// Marks, row by row, the chunks that hold anything but the fill value. It does not look at untouched cells.
 std::vector<bool> chunks_to_write(const HeightField& bed, int chunk_rows, int chunk_cols, double fill) {
   std::vector<bool> wanted(static_cast<std::size_t>(chunk_rows) * chunk_cols);
   const auto want = [&](int row, int col) {

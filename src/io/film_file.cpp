@@ -12,17 +12,17 @@ namespace {
 namespace fs = std::filesystem;
 
 struct FilmFormat {
-  std::string ending;  // with its dot, as ffmpeg's name of the format is without
+  std::string ending;  // with its dot; without it, it is ffmpeg's name of the format
   std::string options;
 };
 
-// Colours are BT.709's and marked so. By itself ffmpeg makes BT.601's, and players take them for others.
+// Colours are in BT.709 and marked so. By default ffmpeg writes BT.601, and players show other colours.
 const std::string bt709 =
     " -vf scale=out_color_matrix=bt709:out_range=tv,format=yuv420p -colorspace bt709 -color_range tv"
     " -color_primaries bt709 -color_trc bt709";
 
-// Fine sand without visible blocks; mp4 plays before it is loaded; each picture of a gif has colours of its
-// own, for those of all would only be known at the end.
+// Fine sand shows no blocks. An mp4 plays before it is loaded. Each picture of a gif has its own colours,
+// because common ones would only be known at the end.
 const std::vector<FilmFormat> film_formats = {
     {".mp4", "-c:v libx264 -crf 18 -movflags +faststart" + bt709},
     {".webm", "-c:v libvpx-vp9 -crf 30 -b:v 0 -row-mt 1" + bt709},
@@ -45,13 +45,13 @@ FedChild start_ffmpeg(const fs::path& path, int width, int height, double rate) 
   if (format.ending != ".gif" && (width % 2 || height % 2))
     throw_input_error("a film needs an even number of pixels along each side, not {} x {}; add --size {}x{}",
                       width, height, width + width % 2, height + height % 2);
-  // -xerror: without it a full disk is no failure.
+  // -xerror: without it ffmpeg reports no failure on a full disk.
   std::vector<std::string> words =
       words_of(fmt::format("ffmpeg -nostdin -loglevel error -xerror -y -f rawvideo -pixel_format rgb24 "
                            "-video_size {}x{} -framerate {} "
                            "-i pipe:0 {} -f {}",
                            width, height, rate, format.options, format.ending.substr(1)));
-  // "file:", or a name with a colon would be a protocol's, and one with a dash an option.
+  // "file:": otherwise a name with a colon would be a protocol's, and one with a dash an option.
   words.push_back("file:" + part_path(path).string());
   std::optional<FedChild> ffmpeg = FedChild::start(words);
   if (!ffmpeg)
@@ -80,7 +80,7 @@ FilmWriter::FilmWriter(const fs::path& path, int width, int height, double rate)
     : part_{path, take_part(path, film_output)}, ffmpeg_(start_ffmpeg(path, width, height, rate)) {}
 
 void FilmWriter::fail(const ChildResult& result) const {
-  const std::size_t line = result.err.find_last_of('\n');  // none: from the first on
+  const std::size_t line = result.err.find_last_of('\n');  // no newline: npos + 1 is 0
   throw_io_error("{}: ffmpeg cannot write it: {}", part_.path.string(),
                  result.err.empty() ? fmt::format("it stopped early with exit code {}", result.exit_code)
                                     : result.err.substr(line + 1));
@@ -89,7 +89,7 @@ void FilmWriter::fail(const ChildResult& result) const {
 bool FilmWriter::add(const Image& image) {
   if (ffmpeg_.feed(image.rgb.data(), image.rgb.size())) return true;
   const std::optional<ChildResult> result = ffmpeg_.wait();
-  if (result && !interrupted()) fail(*result);  // a key at the terminal ends both
+  if (result && !interrupted()) fail(*result);  // Ctrl-C at the terminal ends both
   return false;
 }
 

@@ -11,30 +11,31 @@
 
 namespace sandstroke {
 
-/// ffmpeg leaves no sure sign of whose a film is.
+/// No film is known as ours, because ffmpeg leaves no sure sign of it.
 inline constexpr OutputKind film_output{"a film"};
 
 /// The endings of films, each with its dot.
 std::vector<std::string> film_endings();
 
-/// Error: input, where the name has none of them.
+/// Error: input, if the name has none of these endings.
 void check_film_name(const std::filesystem::path& path);
 
-/// Writes a film, picture by picture, through the program ffmpeg: they go down to it, none is kept. PATH.part
-/// until it is complete; what is not finished leaves nothing.
+/// Writes a film, picture by picture, through the program ffmpeg. It keeps no picture. The film is PATH.part
+/// until it is complete. An unfinished film leaves no file.
 class FilmWriter {
  public:
-  /// Sizes in pixels, rate in pictures a second. Error: input, where the name has no film's ending or a side
-  /// is odd; io, where ffmpeg is not there.
+  /// Sizes in pixels, rate in pictures per second. Error: input, if the name has no film's ending, or a side
+  /// is odd (except for .gif); io, if ffmpeg is missing.
   FilmWriter(const std::filesystem::path& path, int width, int height, double rate);
 
-  /// Of the film's size. False where this program is interrupted. Error: io, with what ffmpeg said.
+  /// Adds an image of the film's size. False if this program is interrupted. Error: io, with ffmpeg's
+  /// message.
   bool add(const Image& image);
-  /// Puts the film in place. False where this program is interrupted before. Error: io, as above.
+  /// Puts the film in place. False if this program is interrupted before. Error: io, as above.
   bool finish();
 
  private:
-  /// PATH.part: ours alone, gone unless it is kept.
+  /// PATH.part, which this process alone writes. It is removed unless it is kept.
   struct Part {
     std::filesystem::path path;
     FileLock lock;
@@ -44,7 +45,7 @@ class FilmWriter {
   [[noreturn]] void fail(const ChildResult& result) const;
 
   Part part_;
-  FedChild ffmpeg_;  // after the file that it writes: gone before it
+  FedChild ffmpeg_;  // after the file that it writes, so it is destroyed first
 };
 
 }  // namespace sandstroke

@@ -11,7 +11,7 @@ namespace {
 constexpr int tile_side = BedGeometry::tile_side;
 constexpr const char *time_name = "/surface/time", *initial = "/surface/initial";
 
-/// Tiles, in order, as rectangles of cells: runs along a row, and such runs below each other.
+/// Tiles, in order, as rectangles of cells: tiles in a row are joined, then equal joins below each other.
 std::vector<CellRange> rectangles(const BedGeometry& bed, const std::vector<int>& tiles) {
   std::vector<CellRange> runs;  // of tiles
   for (const int tile : tiles) {
@@ -60,7 +60,7 @@ std::vector<int> FrameWriter::take_changed(const HeightField& surface) {
 }
 
 std::vector<Hdf5GridWriter::Patch> FrameWriter::patches() const {
-  std::map<int, std::vector<int>> tiles_of;  // by the frame that they are as in
+  std::map<int, std::vector<int>> tiles_of;  // by the frame of their last change
   for (const auto& [tile, frame] : last_change_) tiles_of[frame].push_back(tile);
   std::vector<Hdf5GridWriter::Patch> patches;
   for (const auto& [frame, tiles] : tiles_of) patches.push_back({changed(frame), rectangles(bed_, tiles)});
@@ -105,9 +105,9 @@ void FrameWriter::finish() {
 
 std::vector<XdmfStep> FrameWriter::steps(double end) const {
   std::vector<XdmfStep> steps = {{0.0, initial}};
-  for (std::size_t k = 0; k < times_.size(); ++k)  // that at time 0 is the initial one
+  for (std::size_t k = 0; k < times_.size(); ++k)  // a frame at time 0 is the initial surface
     if (times_[k] > 0.0) steps.push_back({times_[k], height(static_cast<int>(k))});
-  constexpr double after = 1.0;  // s; sand without a stroke rests in no time, but not in the same step
+  constexpr double after = 1.0;  // s; without a stroke the end is at time 0, too, but must be another step
   steps.push_back({end > steps.back().time ? end : steps.back().time + after, "/surface/final"});
   return steps;
 }

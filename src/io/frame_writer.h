@@ -11,23 +11,23 @@
 
 namespace sandstroke {
 
-/// Writes the surfaces of a run over time, at the cost of what changes. Of frame K a file holds
+/// Writes the surfaces of a run over time, at the cost of what changes. For frame K a file holds
 ///
 ///   /surface/frame/K/changed  (ny, nx) heights [m] of the tiles that changed since the frame before;
 ///                             others are not stored and read as not-a-number
 ///   /surface/frame/K/height   (ny, nx) the whole surface. It is virtual: /surface/initial, and over that
 ///                             the newest `changed` of each tile
 ///
-/// finish() adds /surface/frames (time, y, x), which is all of these `height`, over /surface/time [s].
+/// finish() adds /surface/frames (time, y, x), which shows all these `height` over /surface/time [s].
 class FrameWriter {
  public:
-  /// bed: /surface/initial, as it was written.
+  /// bed: the surface that was written as /surface/initial.
   FrameWriter(Hdf5GridWriter& file, const HeightField& bed);
   void add(double time, const HeightField& surface);
-  /// Makes them one array over time, if there are any.
+  /// Joins the frames into one array over time, if there are any.
   void finish();
 
-  /// All surfaces of the file, also the initial and the final one, which is at `end` [s].
+  /// All surfaces of the file, with the initial one, and the final one at `end` [s].
   std::vector<XdmfStep> steps(double end) const;
 
   const BedGeometry& bed() const { return bed_; }
@@ -36,7 +36,7 @@ class FrameWriter {
   static std::string height(int k);
 
  private:
-  /// Tiles that are other than in the frame before, in order.
+  /// Tiles that changed since the frame before, in order.
   std::vector<int> take_changed(const HeightField& surface);
   std::vector<Hdf5GridWriter::Patch> patches() const;
 
@@ -45,7 +45,7 @@ class FrameWriter {
   std::vector<std::uint64_t> revisions_;  // per slot, as of the last frame
   std::map<int, int> last_change_;        // frame, per tile that ever changed
   Hdf5Column time_;
-  std::string shown_ = "/surface/initial";  // what the last frame is the same as
+  std::string shown_ = "/surface/initial";  // a dataset that equals the last frame
   std::vector<double> times_;
 };
 

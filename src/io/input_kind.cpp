@@ -23,7 +23,7 @@ bool is_scene(const TomlReader& file) {
 bool is_plan(const TomlReader& file) { return file.is_table("sweep") || file.is_table("axes"); }
 bool is_script(const TomlReader& file) { return file.has("segment"); }
 
-/// A kind of file: its name, how it is known, and what to do with it.
+/// A kind of file: its name, how it is recognised, and what to do with it.
 struct KindText {
   InputKind kind;
   const char* name;

@@ -10,7 +10,7 @@
 namespace sandstroke {
 namespace {
 
-/// Collects the keys that it is shown; `name` is set to `chosen` first, as if read from a file.
+/// Collects the keys that it is shown. Before, it sets key `name` to `chosen`, as if read from a file.
 class KeyLister : public KeyVisitor {
  public:
   explicit KeyLister(bool reads, std::string name = "", std::string chosen = "")
@@ -72,7 +72,7 @@ class KeyLister : public KeyVisitor {
     return section.keys.back();
   }
 
-  /// The shortest digits that give the same number back; with a point or exponent, as TOML wants of a float.
+  /// The shortest digits that give the same number back, with a point or exponent, as TOML requires.
   static std::string literal(double value) {
     std::string digits = fmt::format("{}", value);
     if (digits.find_first_of(".en") == std::string::npos) digits += ".0";
@@ -84,7 +84,7 @@ class KeyLister : public KeyVisitor {
   bool no_default_ = false, required_ = false;  // of the next key
 };
 
-/// The defaults, but for one choice; no name: none.
+/// The keys with their defaults, except for one choice; no name: no exception.
 std::vector<KeySection> keys_with(const ShowKeys& show, const std::string& name, const std::string& chosen) {
   KeyLister lister(true, name, chosen);
   show(lister);
@@ -104,9 +104,10 @@ void merge(std::vector<KeyRow>& keys, const std::vector<KeyRow>& more) {
   }
 }
 
-/// Adds to `all` what each value of one choice brings; a preset's values go to the rows of what it sets.
+/// Adds to `all` the keys that each value of one choice brings. A preset's values go to the keys that it
+/// sets.
 void try_choices(const ShowKeys& show, const KeyRow& by, std::vector<KeySection>& all) {
-  std::map<std::string, std::vector<std::string>> brought_by;  // key: the choices with which it is there
+  std::map<std::string, std::vector<std::string>> brought_by;  // key -> the choices that show it
   for (const std::string& chosen : by.choices) {
     const std::vector<KeySection> other = keys_with(show, by.name, chosen);
     for (std::size_t i = 0; i < all.size(); ++i) {
@@ -120,7 +121,7 @@ void try_choices(const ShowKeys& show, const KeyRow& by, std::vector<KeySection>
       }
     }
   }
-  if (by.key() == "preset") return;  // it only makes choices that could be made without it
+  if (by.key() == "preset") return;  // a preset only makes choices that could be made without it
   for (KeySection& section : all) {
     for (KeyRow& key : section.keys) {
       const std::vector<std::string>& with = brought_by[key.name];

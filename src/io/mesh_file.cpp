@@ -13,7 +13,7 @@
 namespace sandstroke {
 namespace {
 
-constexpr std::size_t most_bytes = 1'000'000'000;  // 2 million triangles of text are less
+constexpr std::size_t most_bytes = 1'000'000'000;  // 2 million triangles as text take less
 
 std::string whole_file(const std::filesystem::path& path) {
   InputFile file(path);
@@ -26,15 +26,15 @@ std::string whole_file(const std::filesystem::path& path) {
   return bytes;
 }
 
-/// Adds a triangle of three corners of its own.
+/// Adds a triangle with three vertices of its own.
 void add_triangle(TriangleMesh& mesh, const std::array<Eigen::Vector3d, 3>& corners) {
   const auto first = static_cast<std::int32_t>(mesh.vertices.size());
   mesh.vertices.insert(mesh.vertices.end(), corners.begin(), corners.end());
   mesh.triangles.push_back({first, first + 1, first + 2});
 }
 
-// A binary file: 80 bytes of anything, a count, and for each triangle a normal, three corners (floats) and 2
-// bytes.
+// A binary file has 80 bytes of anything, a count, and for each triangle a normal, three corners (floats) and
+// 2 bytes.
 constexpr std::size_t header = 80, per_triangle = 50;
 
 template <class Number>

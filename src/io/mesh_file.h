@@ -6,12 +6,12 @@
 
 namespace sandstroke {
 
-/// The surface in an STL file, binary or text, as a tool's (checked_mesh); `scale`: m per unit of the file.
-/// Error: input or io, naming the file by `name`.
+/// Reads the surface in an STL file, binary or text, as a tool's (checked_mesh). scale: m per unit of the
+/// file. Error: input or io, naming the file by `name`.
 TriangleMesh parse_mesh(const std::string& bytes, double scale, const std::string& name);
 TriangleMesh read_mesh(const std::filesystem::path& path, double scale);
 
-/// The same tool with its mesh read, where it is one (tool.file, relative to `folder`).
+/// The same tool; if it is a mesh, with that mesh read (tool.file, relative to `folder`).
 ToolSettings with_mesh(ToolSettings tool, const std::filesystem::path& folder);
 
 }  // namespace sandstroke

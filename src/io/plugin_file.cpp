@@ -26,8 +26,8 @@ Function* function_of(void* library, const char* name, const std::string& file) 
 std::shared_ptr<const OwnLaws> load_plugin(const std::filesystem::path& path) {
   const std::string file = path.string();
   auto laws = std::make_shared<OwnLaws>();
-  laws->hash = file_hash(path);  // says what is wrong with a file that cannot be read
-  // Never closed: laws, and what they throw, may be anywhere.
+  laws->hash = file_hash(path);  // this reports a file that cannot be read
+  // The library is never closed: its laws, and what they throw, may be in use anywhere.
   void* const library = dlopen(std::filesystem::absolute(path).c_str(), RTLD_NOW | RTLD_LOCAL);
   if (!library) {
     const char* const why = dlerror();

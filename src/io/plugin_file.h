@@ -7,15 +7,15 @@
 
 namespace sandstroke {
 
-/// The laws of a plugin (sim/plugin.h), a shared library, which stays loaded until the program ends. It runs
-/// what is in it. Error: input or io, naming the file: where it is none, was built for another sandstroke, or
-/// has no laws.
+/// Loads a plugin (sim/plugin.h), a shared library, and returns its laws. This runs the plugin's code. It
+/// stays loaded until the program ends. Error: input or io, naming the file, if it is no plugin, was built
+/// for another sandstroke, or has no laws.
 std::shared_ptr<const OwnLaws> load_plugin(const std::filesystem::path& path);
 
-/// The same settings with the laws of their plugin loaded, where they name one (relative to `folder`).
+/// The same settings with the laws of their plugin loaded, if they name one (relative to `folder`).
 OwnLawSettings with_plugin(OwnLawSettings own, const std::filesystem::path& folder);
 
-/// Error: input, where the scene has a force law of its own, and its stroke is a script that presses by
+/// Error: input, if the scene has a force law from a plugin, and its stroke is a script that presses by
 /// force: the depth of a force is known for the paper's law only.
 void check_own_force(const Scene& scene, const std::filesystem::path& stroke_file);
 

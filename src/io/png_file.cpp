@@ -21,8 +21,8 @@ namespace sandstroke {
 namespace {
 namespace fs = std::filesystem;
 
-/// Reads one PNG. libpng reports errors by longjmp, which must not pass over anything with a destructor: each
-/// method below that calls it sets its own return point and holds only plain data.
+/// Reads one PNG. libpng reports errors by longjmp, which must not pass over anything with a destructor. Each
+/// method below that calls libpng sets its own return point and holds only plain data.
 class PngReader {
  public:
   explicit PngReader(const fs::path& path) : name_(path.string()), file_(path) {
@@ -46,7 +46,7 @@ class PngReader {
   int bit_depth() const { return png_get_bit_depth(png_, info_); }
   bool gray() const { return png_get_color_type(png_, info_) == PNG_COLOR_TYPE_GRAY; }
 
-  /// The text of a keyword before the pixels; empty where there is none.
+  /// The text of a keyword before the pixels; empty if there is none.
   std::string text(const std::string& keyword) const {
     png_textp texts = nullptr;
     const int count = png_get_text(png_, info_, &texts, nullptr);
@@ -55,7 +55,7 @@ class PngReader {
     return "";
   }
 
-  /// Must be asked before memory is taken for the pixels.
+  /// Must be called before memory is taken for the pixels.
   void check_size() const {
     if (width() > largest_png_side || height() > largest_png_side)
       throw_input_error("{}: has {} x {} pixels, which is too large; at most {} per side", name_, width(),
@@ -77,7 +77,7 @@ class PngReader {
     auto* reader = static_cast<PngReader*>(png_get_io_ptr(png));
     if (!reader->take(bytes, count)) png_error(png, "Read Error");
   }
-  /// No exception passes through libpng.
+  /// Keeps exceptions from passing through libpng.
   bool take(png_bytep bytes, png_size_t count) {
     try {
       return file_.read(bytes, count) == count;
@@ -149,18 +149,18 @@ std::string text_chunk(const std::string& keyword, const std::string& text) {
 
 constexpr std::size_t header_end = 8 + 25;  // signature and IHDR, which comes first
 
-/// 8-bit RGB. Of sand, in which no two pixels are alike, libpng's own choice of filters and the search for
-/// what came before take five times as long for a file as large: one filter and a short search do.
+/// Encodes 8-bit RGB with one filter and a short search. In pictures of sand no two pixels are alike:
+/// libpng's own choice of filters and its full search take five times as long, for a file as large.
 struct ColourEncoder {
   std::string bytes;
   char message[160] = "out of memory";
 
-  /// By libpng's rules (see PngReader) it holds only plain data.
+  /// Holds only plain data, as libpng requires (see PngReader).
   bool write(const Image& image) {
     constexpr std::size_t part = 8192,
-                          around = 12;  // how it cuts the compressed pixels, and what frames a part
+                          around = 12;  // libpng's parts of the compressed pixels, and the bytes around each
     const std::size_t most = compressBound((3 * static_cast<uLong>(image.width) + 1) * image.height);
-    bytes.reserve(most + (most / part + 1) * around + 1024);  // now: append() must not throw
+    bytes.reserve(most + (most / part + 1) * around + 1024);  // reserved now, because append() must not throw
     png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, this, fail, ignore_warning);
     png_infop info = png ? png_create_info_struct(png) : nullptr;
     if (!info || setjmp(png_jmpbuf(png))) {
@@ -194,7 +194,7 @@ struct ColourEncoder {
   static void ignore_warning(png_structp, png_const_charp) {}
 };
 
-/// 16-bit gray. chunks: come first, behind the header.
+/// Encodes 16-bit gray. chunks: inserted right behind the header.
 std::string encode_gray(int width, int height, const png_uint_16* pixels, const std::string& chunks) {
   png_image header{};
   header.version = PNG_IMAGE_VERSION;
@@ -209,7 +209,7 @@ std::string encode_gray(int width, int height, const png_uint_16* pixels, const 
                    header.message);
   bytes.resize(size);
   constexpr std::string_view gamma("\0\0\0\4gAMA", 8);
-  // Of 16-bit values libpng says that they are light. Heights are none: no viewer is to brighten them.
+  // libpng marks 16-bit values as linear light. Heights are no light, and no viewer may brighten them.
   if (bytes.compare(header_end, gamma.size(), gamma) == 0) bytes.erase(header_end, 16);
   bytes.insert(header_end, chunks);
   return bytes;

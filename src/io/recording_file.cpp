@@ -65,7 +65,8 @@ constexpr const char* attribute_units =
     "s, Hz, m, N, N/m, N s/m; clock_start: ns; yes and no: 1 and 0; of the device 0 means none or unknown, "
     "a force of 1.8e308 N any. A sample's wall time: started + monotonic_time / 1e9 - started_monotonic";
 
-/// recorded: the counts of the samples there are, with elapsed as far as these reach.
+/// The footer, with counts that fit the samples there are. recorded: the samples' counts; `elapsed` ends with
+/// the last sample.
 RecordingFooter settled_footer(const std::optional<RecordingFooter>& footer, const TickCounts& recorded) {
   RecordingFooter settled;
   settled.ticks = recorded;
@@ -75,7 +76,7 @@ RecordingFooter settled_footer(const std::optional<RecordingFooter>& footer, con
     settled.ticks.elapsed = footer->ticks.elapsed;
     settled.ticks.skipped = footer->ticks.skipped;
     settled.ticks.unread = footer->ticks.unread;
-    // With those that the loop had recorded and the disk did not take.
+    // Also those ticks that the loop recorded and the disk did not take.
     settled.ticks.dropped =
         footer->ticks.elapsed - recorded.recorded - footer->ticks.skipped - footer->ticks.unread;
   } else {
@@ -102,7 +103,7 @@ struct PutAttribute {
   }
 };
 
-/// A number that is missing, of a file from before it was recorded, stays as it is by default.
+/// Takes an attribute. A number that an older file does not have keeps its default.
 struct TakeAttribute {
   const Hdf5Reader& file;
 
@@ -155,7 +156,7 @@ RecordingInfo write_recording_file(const std::filesystem::path& path, Recording&
   }
   info.footer = settled_footer(recording.footer(), counted);
 
-  Stroke stroke;  // what is said of it
+  Stroke stroke;  // only for its attributes
   stroke.nominal_rate = info.header.nominal_rate;
   stroke.source = info.header.source;
   stroke.frame = info.header.device.frame;

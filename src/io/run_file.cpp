@@ -45,7 +45,7 @@ int RunFile::rows() const { return static_cast<int>(shape()[0]); }
 int RunFile::cols() const { return static_cast<int>(shape()[1]); }
 
 HeightGrid RunFile::initial() const {
-  shape();  // that there is one
+  shape();  // checks that there is one
   return file_.grid("/surface/initial");
 }
 

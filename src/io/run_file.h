@@ -12,11 +12,11 @@
 
 namespace sandstroke {
 
-/// Its attributes are what visit_error_fields() names.
+/// The group of attributes that visit_error_fields() names.
 inline constexpr const char* error_group = "/error_estimate";
 
-/// A run file (HDF5) read back. Error: io where it cannot be opened; input where it is no run file or lacks
-/// what is asked for.
+/// Reads a run file (HDF5). Error: io, if it cannot be opened; input, if it is no run file or lacks what is
+/// asked for.
 class RunFile {
  public:
   explicit RunFile(const std::filesystem::path& path);
@@ -27,21 +27,21 @@ class RunFile {
   int rows() const;          ///< cells along y and x
   int cols() const;
   HeightGrid initial() const;
-  HeightGrid final() const;  ///< error where the run was cut off before its end
-  /// The same as beds, in which only what the file holds exists: for beds of any size.
+  HeightGrid final() const;  ///< error if the run was cut off before its end
+  /// The same as beds of any size: only what the file holds takes memory.
   HeightField initial_bed() const;
   HeightField final_bed() const;
   bool has_final() const;
   bool has_trace() const;
-  std::vector<TickRecord> trace() const;  ///< what visit_tick_fields() names
+  std::vector<TickRecord> trace() const;  ///< the fields of visit_tick_fields()
   TraceContent trace_content() const;
-  std::vector<RelaxationRecord> relaxations() const;  ///< what visit_relaxation_fields() names
-  /// Times of the frames kept during the run [s]; RunFrames has their surfaces. Not of run format 1.
+  std::vector<RelaxationRecord> relaxations() const;  ///< the fields of visit_relaxation_fields()
+  /// Times of the frames that the run kept [s]; RunFrames has their surfaces. Error: input, for run format 1.
   std::vector<double> frame_times() const;
-  /// Makes the k-th frame of the one before (of the initial surface): how many parts changed.
+  /// Changes frame k - 1 (for k = 0 the initial surface) into frame k. Returns how many parts changed.
   int apply_frame(int k, HeightField& surface) const;
-  /// Where the run was asked to estimate its error, and the error of each cell's height [m], where asked for.
-  /// What the estimate took is not known.
+  /// The estimated error, if the run was asked for it, and the error of each cell's height [m], if that was
+  /// asked for, too. The time that the estimate took is not stored.
   std::optional<ErrorEstimate> error_estimate() const;
   std::optional<HeightField> error_map() const;
   std::string scene_text() const;  ///< the resolved scene (TOML)
@@ -51,20 +51,19 @@ class RunFile {
 
  private:
   std::vector<hsize_t> shape() const;  // of /surface/initial
-  void check_final() const;            // that it is there, in the same shape
+  void check_final() const;            // that the final surface is there, in the same shape
   TriangleMesh tool_mesh() const;
 
   Hdf5Reader file_;
   double version_ = 0.0;  // of the format
 };
 
-/// The surfaces of a run's frames, put together from what changed.
-/// Asked for in sequence, each change is read once.
+/// The surfaces of a run's frames, put together from what changed. In sequence, each change is read once.
 class RunFrames {
  public:
   explicit RunFrames(const RunFile& run) : run_(run) {}
 
-  /// The k-th, which the run holds. Further back than the last one asked for: from the start again.
+  /// Frame k, which the run must hold. Going back, it begins at the initial surface again.
   HeightGrid surface(int k);
   std::int64_t tiles_read() const { return tiles_read_; }
 

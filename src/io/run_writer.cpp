@@ -20,16 +20,16 @@ namespace {
 
 constexpr std::chrono::milliseconds time_per_flush{500};  // what a killed run can lose
 constexpr const char* provenance = "/provenance";
-constexpr double bytes_per_frame = 1800.0;  // at least: where nothing changes
-// The clock is looked at after so many rows, for ticks may take microseconds; kept are no more than make a
-// chunk.
+constexpr double bytes_per_frame = 1800.0;  // at least, if nothing changes
+// The clock is read after so many rows, because a tick may take microseconds. No more rows are kept than a
+// chunk has.
 constexpr std::size_t rows_per_look = 1024, most_rows_kept = 4 * rows_per_look;
 
-/// What a field of(record) of records is.
+/// The type of the field of(record) of a record.
 template <class Record, class Of>
 using FieldOf = std::decay_t<std::invoke_result_t<Of, Record&>>;
 
-/// The numbers that a field is kept as.
+/// The type of number that a field is stored as.
 template <class Field>
 using StoredAs = std::conditional_t<std::is_same_v<Field, bool>, std::uint8_t, Field>;
 
@@ -46,7 +46,7 @@ Hdf5Column column_of(Hdf5GridWriter& file, const std::string& group, const Field
   else
     column = file.column<StoredAs<Field>>(name);
   file.describe(name, field.units, field.meaning);
-  if constexpr (std::is_same_v<Field, bool>) file.attribute(name, "dtype", "bool");  // to xarray
+  if constexpr (std::is_same_v<Field, bool>) file.attribute(name, "dtype", "bool");  // for xarray
   if (name == time)
     file.make_scale(time);
   else
@@ -54,7 +54,7 @@ Hdf5Column column_of(Hdf5GridWriter& file, const std::string& group, const Field
   return column;
 }
 
-/// Appends of(record) of all records.
+/// Appends of(record) for all records.
 template <class Record, class Of>
 void append(Hdf5Column& column, const std::vector<Record>& records, const Of& of) {
   using Field = FieldOf<Record, Of>;
@@ -69,7 +69,7 @@ void append(Hdf5Column& column, const std::vector<Record>& records, const Of& of
   }
 }
 
-/// visit_tick_fields, of those that a run has.
+/// Visits those of visit_tick_fields() that a run has.
 template <class Visit>
 void visit_trace(const TraceContent& content, const Visit& visit) {
   visit_tick_fields([&](const FieldText& field, const auto& of) {
@@ -213,7 +213,7 @@ void RunWriter::finish() {
   check_replaceable(xdmf, xdmf_output);
   const std::filesystem::file_status earlier = std::filesystem::status(xdmf);
   std::filesystem::remove(
-      xdmf);  // of an earlier run: it would describe this one's surface by that one's cells
+      xdmf);  // an earlier run's file would describe this run's surface with that run's cells
   file_.finish();
   write_text_file(xdmf, xdmf_text(path_.filename().string(), frames_.bed(), frames_.steps(seconds_)),
                   xdmf_output);

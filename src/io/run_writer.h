@@ -14,14 +14,14 @@
 
 namespace sandstroke {
 
-/// What a run file takes on the disk at least [bytes]: its trace, and frames in which nothing moves.
+/// The least room that a run file takes on the disk [bytes]: its trace, and frames in which nothing moves.
 double least_bytes(const Simulation& simulation);
 
-/// Writes a run file while the simulation runs: PATH.part, flushed about twice a second so that a killed
-/// run can be read up to there, renamed when complete. Error: io.
+/// Writes a run file while the simulation runs. It is PATH.part, flushed about twice a second so that a
+/// killed run can be read up to there, and renamed when complete. Error: io.
 class RunWriter : public SimulationObserver {
  public:
-  /// For /provenance: stroke_hash, of the stroke file, and scene_file, of which it is the run; empty: none.
+  /// For /provenance: the hash of the stroke, and the path of the scene's file; empty: none.
   RunWriter(const std::filesystem::path& path, const Simulation& simulation, const std::string& stroke_hash,
             const std::string& scene_file = "");
 
@@ -29,12 +29,11 @@ class RunWriter : public SimulationObserver {
   void on_relaxation(const RelaxationRecord& relaxation) override;
   void on_frame(double time, const HeightField& surface) override;
 
-  /// Writes what the run came to: the final surface, but of one that was interrupted, which stays a .part
-  /// file.
+  /// Writes the final surface and the furrow's depths. An interrupted run gets none and stays a .part file.
   void end(const RunResult& result, const HeightField& surface);
-  /// After that. map [m]: of each cell, where there is one.
+  /// Call it after end(). map [m]: the error of each cell, if there is one.
   void write_error(const ErrorEstimate& error, const HeightField* map);
-  /// Puts the file of a run that was not interrupted in place, and an XDMF file beside it.
+  /// Puts the file of a run that was not interrupted in place, with an XDMF file beside it.
   void finish();
 
  private:

@@ -8,7 +8,7 @@
 
 namespace sandstroke {
 
-/// The settings that this scene has, with its values, in the order of a scene file.
+/// The settings of this scene, with its values, in the order of a scene file.
 std::vector<KeySection> scene_settings(const Scene& scene);
 
 /// Every key that some scene can have.

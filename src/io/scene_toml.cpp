@@ -12,7 +12,7 @@
 namespace sandstroke {
 namespace {
 
-/// What is wrong is said of the --set that gave it, where one did, and else of the file.
+/// Checks the scene. An error names the --set that gave the value, if one did, and else the file.
 void check(const Scene& scene, const TomlReader& toml) {
   try {
     check_scene(scene, toml.name());
@@ -20,7 +20,7 @@ void check(const Scene& scene, const TomlReader& toml) {
     const std::string overrides = toml.overrides_in(failure.what());
     if (overrides.empty()) throw;
     check_scene(scene, overrides);
-    throw;  // not reached, unless memory was given free meanwhile
+    throw;  // reached only if memory has become free meanwhile
   }
 }
 
@@ -31,7 +31,7 @@ Scene read_scene(TomlReader toml, const std::vector<std::string>& overrides,
   for (const std::string& assignment : overrides) toml.override_with(assignment);
   Scene scene;
   read_keys(toml, [&](KeyVisitor& visitor) { describe_scene(visitor, scene); });
-  toml.skip("relaxation.engine");  // of older scenes and run files: all gave the same bits
+  toml.skip("relaxation.engine");  // in older scenes and run files: all engines gave the same bits
   if (constexpr const char* travel = "relaxation.travel"; toml.has(travel)) {
     if (written == Written::by_a_user && !is_void(travel, toml.literal(travel)))
       toml.fail(travel, "is now relaxation.way, in tool radii instead of cells");

@@ -17,21 +17,21 @@ Scene load_scene(const std::filesystem::path& path, const std::vector<std::strin
 Scene scene_from_text(const std::string& text, const std::string& name,
                       const std::vector<std::string>& overrides = {});
 
-/// The scene that an earlier run stored, to look at what it left: a way in cells (relaxation.travel) is
-/// passed over.
+/// The scene that an earlier run stored, for looking at its results. It passes over the old key
+/// relaxation.travel, a way in cells.
 Scene stored_scene(const std::string& text, const std::string& name);
 
-/// The scene's stroke, seen from its folder; "-": standard input.
+/// The path of the scene's stroke, from `folder`, the scene's; "-": standard input.
 std::filesystem::path stroke_path(const Scene& scene, const std::filesystem::path& folder);
 
-/// The files that a scene names, seen from its folder: stroke, the table that is merged with it, surface,
-/// mesh, plugin.
+/// The files that a scene names, from `folder`, the scene's: stroke, the table that is merged with it,
+/// surface, mesh, plugin.
 std::vector<std::filesystem::path> input_files(const Scene& scene, const std::filesystem::path& folder);
 
-/// A key of older scenes and run files with a value that changes nothing.
+/// True for a key of older scenes and run files with a value that changes nothing.
 bool is_void(const std::string& key, const std::string& literal);
 
-/// Every setting of a scene as TOML, such that reading it back gives the same scene.
+/// Every setting of a scene as TOML. Reading it back gives the same scene.
 std::string scene_text(const Scene& scene);
 
 }  // namespace sandstroke

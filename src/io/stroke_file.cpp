@@ -15,7 +15,7 @@
 namespace sandstroke {
 namespace {
 
-/// The pen states. Other flags of foreign files would lose their meaning in 8 bits: they are refused.
+/// The pen states. Refuses larger numbers of other programs, which would lose their meaning in 8 bits.
 std::vector<std::uint8_t> contact_states(const std::vector<std::uint32_t>& values, const std::string& name) {
   std::vector<std::uint8_t> states;
   for (const std::uint32_t value : values) {
@@ -68,7 +68,7 @@ Stroke read_stroke_file(const std::filesystem::path& path) {
 }
 
 bool is_recorded(const std::filesystem::path& path) {
-  if (path == "-") return false;  // can be read once only
+  if (path == "-") return false;  // it can be read only once
   check_readable(path);
   return path.extension() == ".h5" || begins_with(path, hdf5_signature);
 }

@@ -10,9 +10,9 @@ namespace {
 constexpr const char* format = "sandstroke.stroke";
 constexpr int format_version = 1;
 
-/// In the file, for who reads it without this program.
+/// Texts in the file, for people who read it without this program.
 struct ColumnText {
-  const char *name, *units, *meaning;  // units: empty of what has none
+  const char *name, *units, *meaning;  // units: empty if it has none
   bool is_vector = false;
 };
 constexpr ColumnText column_texts[] = {

@@ -13,7 +13,7 @@ constexpr Range speed_range{0.0, 100.0, true};
 constexpr Range depth_range{-1.0, 1.0};
 constexpr Range force_range{0.0, 1000.0};
 
-/// depth and force as they are given; no numbers: not.
+/// The given depth and force; no numbers: not given.
 struct PressKeys {
   std::vector<double> depth, force;
 };
@@ -37,7 +37,7 @@ void show_turn(KeyVisitor& v, ToolTurn& turn) {
             "lean of the tool, its upper end towards its own +x; a list is spread");
 }
 
-/// What segments take over from the script where they say nothing.
+/// The script's values, which segments take if they have none of their own.
 struct Defaults {
   double speed = ScriptSegment{}.speed;
   PressKeys press;
@@ -117,7 +117,7 @@ void show_segment(KeyVisitor& v, ScriptSegment& segment, PressKeys& press) {
   std::visit([&](auto& shape) { show_shape(v, shape); }, segment.shape);
 }
 
-/// depth or force of a table, or else the fallback.
+/// The depth or force of a table, else the fallback.
 PressProfile press_of(const TomlReader& toml, const PressKeys& given, const PressProfile& fallback) {
   if (!given.depth.empty() && !given.force.empty())
     toml.fail("force", "cannot stand beside depth; give only one of them");

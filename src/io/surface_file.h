@@ -11,8 +11,8 @@ namespace sandstroke {
 /// (with_own_range). Its cells must be the scene's. Error: input or io, naming the file.
 HeightField load_surface(const BedSettings& bed, const std::filesystem::path& folder);
 
-/// The same bed with the surface.low and high that its PNG names (read_gray_range), where it names none
-/// itself: where both are equal. Error: as of load_surface.
+/// The same bed. If its surface.low and high are equal, it takes those of its PNG (read_gray_range). Error:
+/// as load_surface().
 BedSettings with_own_range(BedSettings bed, const std::filesystem::path& folder);
 
 }  // namespace sandstroke

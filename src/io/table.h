@@ -10,7 +10,7 @@
 
 namespace sandstroke {
 
-/// A column of results: a number or a text per row. Not-a-number: the column says nothing about that row.
+/// A column of results: a number or a text per row. Not-a-number: the row has no value in this column.
 struct TableColumn {
   std::string name;   ///< as in files
   std::string title;  ///< for people
@@ -24,19 +24,19 @@ struct Table {
   std::size_t rows() const;
 };
 
-/// CSV (RFC 4180): names in the first line, an empty field where there is no number, fields with commas or
-/// quotes in quotes.
+/// CSV (RFC 4180): names in the first line, an empty field if there is no number, quotes around fields with
+/// commas or quotes.
 std::string csv_text(const Table& table);
-/// The same, of any length.
+/// The same, for a table of any length.
 void write_csv(std::ostream& file, const Table& table);
 
-/// One dataset of rank 1 per column in the group, with its title and unit as attributes.
+/// Writes one dataset of rank 1 per column into the group, with its title and unit as attributes.
 void write_table(Hdf5Writer& file, const std::string& group, const Table& table);
 
-/// JSON has neither infinity nor not-a-number: null.
+/// The number, or null for infinity and not-a-number, which JSON does not have.
 nlohmann::ordered_json number_or_null(double value);
 
-/// {column: value} of a row; null where there is no number.
+/// {column: value} of a row; null if there is no number.
 nlohmann::ordered_json row_json(const Table& table, std::size_t row);
 /// [{name, title, unit}].
 nlohmann::ordered_json columns_json(const Table& table);

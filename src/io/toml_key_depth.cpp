@@ -9,7 +9,7 @@ namespace {
 
 constexpr int most_parts = 16;  // of a dotted key
 
-/// The line with the first key of more parts; 0: none.
+/// The line of the first key with more parts; 0: none.
 int line_of_too_deep_key(std::string_view text) {
   int line = 1, dots = 0;
   const auto skip = [&](std::size_t count) {

@@ -70,7 +70,7 @@ std::string type_name(const toml::node& node) {
   }
 }
 
-/// "35deg", "[5mm, 6mm]".
+/// True for "35deg" or "[5mm, 6mm]".
 bool begins_as_number(std::string_view text) {
   const auto begin = text.find_first_not_of("[ +-.");
   return begin != std::string_view::npos && text[begin] >= '0' && text[begin] <= '9';
@@ -86,7 +86,7 @@ std::vector<std::string> parts_of(std::string_view key) {
   }
 }
 
-/// A value as TOML text, on one line: a number in the shortest digits that give it back.
+/// A value as TOML text, on one line. A number has the shortest digits that give it back.
 std::string literal_of(const toml::node& node) {
   if (const auto* number = node.as_floating_point()) return fmt::format("{}", number->get());
   if (const auto* number = node.as_integer()) return fmt::format("{}", number->get());  // decimal
@@ -173,12 +173,12 @@ bool TomlReader::has(std::string_view key) const { return find(key) != nullptr; 
 
 void TomlReader::skip(std::string_view key) const {
   find(key);
-  document_->asked_for.erase(prefix_ + std::string(key));  // nobody is told to write it
+  document_->asked_for.erase(prefix_ + std::string(key));  // no error suggests it
 }
 
 void TomlReader::require(std::string_view key) const {
   if (has(key)) return;
-  const toml::table* table = table_;  // the innermost that is there
+  const toml::table* table = table_;  // the innermost one that exists
   std::vector<std::string> parts = parts_of(key);
   for (; table->contains(parts.front()); parts.erase(parts.begin()))
     table = table->get_as<toml::table>(parts.front());
@@ -208,7 +208,7 @@ double TomlReader::checked(std::string_view key, const toml::node& node, Range r
     fail(key, fmt::format("is '{}'; give it without a unit{}", text->get(),
                           unit.empty() ? "" : fmt::format(", in {}", unit)));
   if (!node.is_number()) fail(key, fmt::format("is {}; give a number", type_name(node)));
-  const std::optional<double> held = node.value<double>();  // none of most integers beyond 2^53
+  const std::optional<double> held = node.value<double>();  // none for most integers beyond 2^53
   if (!held)
     fail(key, fmt::format("is {}, a whole number beyond 2^53 = 9007199254740992, up to which all are exact; "
                           "give a smaller one, or write it with a decimal point",
@@ -246,7 +246,7 @@ bool TomlReader::boolean(std::string_view key, bool fallback) const {
 std::string TomlReader::text(std::string_view key, const std::string& fallback) const {
   const toml::node* node = find(key);
   if (!node) return fallback;
-  // --set stroke.table.time=1: shells take quotes away.
+  // With --set stroke.table.time=1 the shell has taken the quotes away.
   const auto set = document_->overrides.find(prefix_ + std::string(key));
   if (node->is_number() && set != document_->overrides.end())
     return set->second.substr(set->first.size() + 1);

@@ -14,33 +14,33 @@
 
 namespace sandstroke {
 
-/// Text, a file's name perhaps, as a TOML string; its basic strings escape as JSON's do. Error: input, where
-/// it is no UTF-8.
+/// Text, such as a file's name, as a TOML string. TOML's basic strings escape as JSON's do. Error: input, if
+/// it is not UTF-8.
 std::string toml_string(const std::string& text);
 
 /// "above 0 and below 90"; empty for any number.
 std::string range_text(Range range);
 
-/// One table of a TOML file, read key by key with errors that name file, line, key, value and remedy (Error:
-/// input). Keys nobody asked for are errors too: call reject_unread() last. Keys may be dotted ("bed.cells").
+/// One table of a TOML file, read key by key. Errors name file, line, key, value and remedy (Error: input).
+/// Keys that nobody reads are errors, too: call reject_unread() last. Keys may be dotted ("bed.cells").
 /// Copies share the document.
 class TomlReader {
  public:
   static TomlReader from_file(const std::filesystem::path& path);
   static TomlReader from_text(std::string_view text, const std::string& name);
 
-  /// Sets one key from "key=value" (--set): the value is TOML, or else taken as a string.
+  /// Sets one key from "key=value" (--set). The value is TOML, or else a string.
   void override_with(const std::string& assignment);
   const std::string& name() const;  ///< of the file
   /// The assignments of keys that a sentence names, as "--set key=value, --set ..."; empty: none.
   std::string overrides_in(std::string_view sentence) const;
 
   bool has(std::string_view key) const;
-  /// Passes over a key that has no meaning any more, whatever it says.
+  /// Passes over a key that has no meaning any more, whatever its value.
   void skip(std::string_view key) const;
 
-  // Each returns the fallback where the key is absent.
-  // `unit`: in which numbers are given, for whoever writes it behind one; empty: none.
+  // Each returns the fallback if the key is absent. unit: the unit of the numbers, for the error if somebody
+  // writes one behind a number; empty: none.
   double number(std::string_view key, double fallback, Range range = any_number,
                 std::string_view unit = "") const;
   int integer(std::string_view key, int fallback, int lowest, int highest) const;
@@ -58,11 +58,10 @@ class TomlReader {
   int choice(std::string_view key, int fallback, const std::vector<std::string>& names) const;
   /// An array of strings.
   std::vector<std::string> texts(std::string_view key, const std::vector<std::string>& fallback) const;
-  /// What a file says about settings it does not know: dotted keys of all values in table `key` (empty: in
-  /// the file), relative to it, in the order of the file. A table that holds one of the keys `leaves` counts
-  /// as a value.
+  /// The dotted keys of all values in table `key` (empty: in the file), whatever their names, relative to
+  /// the table and in the order of the file. A table that holds one of the keys `leaves` counts as a value.
   std::vector<std::string> keys_in(std::string_view key, const std::vector<std::string>& leaves = {}) const;
-  /// A value as TOML text, on one line; of an array, each element.
+  /// A value as TOML text, on one line. literals(): each element of an array.
   std::string literal(std::string_view key) const;
   std::vector<std::string> literals(std::string_view key) const;
   bool is_table(std::string_view key) const;
@@ -70,19 +69,19 @@ class TomlReader {
   std::vector<TomlReader> tables(std::string_view key) const;
 
   void require(std::string_view key) const;
-  /// Throws for the first key that no call above has read. In the root reader: for the whole document.
-  /// conditions: where keys apply that are not always read ("bed.surface.kind is noise"), by their names.
+  /// Throws for the first key in the whole document that no call above has read. conditions: where keys apply
+  /// that are not always read ("bed.surface.kind is noise"), by their names.
   using Conditions = std::function<std::map<std::string, std::string>()>;
   void reject_unread(const Conditions& conditions = {}) const;
 
-  /// Throws: file, line of the key, key, then the sentence.
+  /// Throws an Error: file, line of the key, key, then the sentence.
   [[noreturn]] void fail(std::string_view key, const std::string& sentence) const;
 
  private:
   struct Document;
   TomlReader(std::shared_ptr<Document> document, toml::table* table, std::string prefix);
   const toml::node* find(std::string_view key) const;
-  /// "--set ..." that gave a key, its table or what is in it; empty: none.
+  /// The "--set ..." that gave a key, its table or what is in it; empty: none.
   std::string override_of(const std::string& key) const;
   double checked(std::string_view key, const toml::node& node, Range range, std::string_view unit = "") const;
 

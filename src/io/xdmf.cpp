@@ -8,8 +8,8 @@ namespace sandstroke {
 
 std::string xdmf_text(const std::string& run_name, const BedGeometry& bed,
                       const std::vector<XdmfStep>& steps) {
-  // 3DCoRectMesh of one layer (z, y, x): ParaView 5.11 ends with an error where its usual reader meets a
-  // 2DCoRectMesh, and its other one takes that for a grid in y and z.
+  // A 3DCoRectMesh of one layer (z, y, x), because ParaView 5.11 fails on a 2DCoRectMesh in its usual reader,
+  // and takes it for a grid in y and z in its other one.
   const std::string geometry = fmt::format(
       "        <Topology TopologyType=\"3DCoRectMesh\" Dimensions=\"1 {} {}\"/>\n"
       "        <Geometry GeometryType=\"ORIGIN_DXDYDZ\">\n"

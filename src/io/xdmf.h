@@ -8,20 +8,20 @@
 
 namespace sandstroke {
 
-/// RUN.xdmf, known by what it describes.
+/// RUN.xdmf is known by the dataset that it describes.
 inline constexpr OutputKind xdmf_output{"an XDMF file of a run",
                                         "<?xml version=\"1.0\"?>\n<Xdmf Version=\"2.0\">\n  <Domain>\n",
                                         ":/surface/initial</DataItem>"};
 
-/// A surface of a run file, and when it was so [s].
+/// A surface of a run file, and its time [s].
 struct XdmfStep {
   double time;
   std::string dataset;
 };
 
 /// Describes a run file to programs that read XDMF, such as ParaView with each of its readers: a grid in the
-/// plane of x and y, with the points of the cells' centres, whose `height` changes over time. run_name: as
-/// seen from the XDMF file; the steps in order.
+/// plane of x and y, with points at the cells' centres, whose `height` changes over time. run_name: the run
+/// file's path from the XDMF file; steps: in order.
 std::string xdmf_text(const std::string& run_name, const BedGeometry& bed,
                       const std::vector<XdmfStep>& steps);
 

@@ -17,13 +17,12 @@ const std::filesystem::path fonts = "/usr/share/hershey-fonts";
 constexpr std::size_t most_font_bytes = 1'000'000;
 constexpr char zero = 'R';               // a coordinate is a letter, counted from R
 constexpr double capital_height = 21.0;  // in a font's units
-constexpr int base_line = 9;             // y, which runs down
+constexpr int base_line = 9;             // y of the base line; y points down
 constexpr char first_code = ' ', last_code = '~';
 
 bool is_line_end(char c) { return c == '\n' || c == '\r'; }
 
-/// A glyph's coordinates, two letters each: its left and right edge, then points, " R" where the pen is
-/// lifted.
+/// Reads a glyph from pairs of letters: its left and right edge, then points; " R" lifts the pen.
 SingleStrokeText glyph_of(std::string_view pairs) {
   const int left = pairs[0] - zero, right = pairs[1] - zero;
   SingleStrokeText glyph{{}, (right - left) / capital_height};

@@ -14,8 +14,8 @@ struct SingleStrokeText {
   double width = 0.0;
 };
 
-/// A single-stroke Hershey font. "futural" is part of the program; others ("rowmans", "cursive", ...) are
-/// those of Debian's package hershey-fonts-data.
+/// A single-stroke Hershey font. "futural" is part of the program. Others ("rowmans", "cursive", ...) come
+/// from Debian's package hershey-fonts-data.
 class HersheyFont {
  public:
   /// Error: input, if there is no such font, or its file is damaged; io.
@@ -28,12 +28,12 @@ class HersheyFont {
   std::vector<SingleStrokeText> glyphs_;  // from the space (code 32) on
 };
 
-/// The glyphs of a font, from ASCII's space on, in James Hurt's format (.jhf): for each five columns of its
-/// number, three of its count of letter pairs, and the pairs; a long one goes on in the next line. Error:
-/// input, with the font's name.
+/// Reads the glyphs of a font in James Hurt's format (.jhf), from ASCII's space on. Each glyph has five
+/// columns for its number, three for its count of letter pairs, then the pairs; a long glyph goes on in the
+/// next line. Error: input, with the font's name.
 std::vector<SingleStrokeText> read_jhf(std::string_view jhf, std::string_view name);
 
-/// Draws text with a font of that name. Error: input, if the font or a letter is missing.
+/// Draws text with the named font. Error: input, if the font or a letter is missing.
 SingleStrokeText hershey_text(std::string_view text, std::string_view font = "futural");
 
 }  // namespace sandstroke

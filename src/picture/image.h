@@ -7,7 +7,7 @@
 
 namespace sandstroke {
 
-/// A colour as images hold it: sRGB, 8 bits a channel.
+/// A colour of an image: sRGB, 8 bits a channel.
 using Rgb = std::array<std::uint8_t, 3>;
 
 /// 8-bit RGB, rows from the top; pixel (x, y) starts at rgb[3 (y width + x)].

@@ -6,22 +6,22 @@
 
 namespace sandstroke {
 
-/// Where a camera with a name stands: `custom` takes azimuth, elevation, distance and target as they are.
+/// Named places of the camera. `custom` takes azimuth, elevation, distance and target from the settings.
 enum class ViewName { overview, stroke, top, custom };
-/// sand: as one sees it. height, difference: colour maps with contour lines and a legend, for measuring.
+/// sand: natural look. height, difference: colour maps with contour lines and a legend, for measuring.
 enum class RenderStyle { sand, height, difference };
 
 /// Their names in files and on the command line, in the order of the values.
 inline const std::vector<std::string> view_names = {"overview", "stroke", "top", "custom"};
 inline const std::vector<std::string> style_names = {"sand", "height", "difference"};
 
-/// How a bed is looked at ([view] in a scene). Angles in degrees; azimuth is counted from +x towards +y.
+/// The camera and the light ([view] in a scene). Angles in degrees; azimuth counts from +x towards +y.
 struct ViewSettings {
   ViewName name = ViewName::overview;
   RenderStyle style = RenderStyle::sand;
   double azimuth = -70.0;                            ///< deg, from the target to the camera
   double elevation = 40.0;                           ///< deg above the horizon
-  double distance = 0.0;                             ///< m, camera to target; 0 = what frames the subject
+  double distance = 0.0;                             ///< m, camera to target; 0: frames the subject
   Eigen::Vector3d target = Eigen::Vector3d::Zero();  ///< m
   double field_of_view = 35.0;                       ///< deg, vertical
   double light_azimuth = 145.0;                      ///< deg, towards the sun

@@ -5,7 +5,7 @@
 
 namespace sandstroke {
 
-/// A run's bar on the terminal.
+/// A run's progress bar on the terminal.
 class RunProgress : public SimulationObserver {
  public:
   void on_progress(double fraction) override {

@@ -34,7 +34,7 @@
 namespace sandstroke {
 namespace {
 
-/// None where it was interrupted, or where the second solution is unstable: the run itself stands.
+/// None if it was interrupted, or if the second solution is unstable; the run itself stays valid.
 std::optional<ErrorEstimate> estimated_error(const Scene& scene, const HeightField& start,
                                              const std::optional<Stroke>& stroke, const Solution& run,
                                              const Kept<Eigen::Vector3d>& force, SecondSolution which,
@@ -55,7 +55,7 @@ std::optional<ErrorEstimate> estimated_error(const Scene& scene, const HeightFie
   }
 }
 
-/// The stroke as it is played. scripted: its samples have nothing to be warned of.
+/// The stroke as it is played. scripted: no warnings about its samples.
 Stroke placed_samples(const Scene& scene, const Stroke& loaded, const std::string& name, bool scripted) {
   Stroke placed = place_on_bed(loaded, scene, name);
   warn_if_any(coverage_warning(placed, name));
@@ -84,7 +84,7 @@ Stroke placed_stroke(const Scene& scene, const std::filesystem::path& path, std:
   const Stroke loaded = load_stroke(path, scene.force, scene.stroke->table.value_or(TableSettings{}));
   if (!loaded.complete)
     spdlog::warn("{}: was cut off while it was recorded; the run ends where the stroke does", name);
-  // Not of a recorded stroke's bytes: they tell which build wrote it, too.
+  // A recorded stroke's bytes also tell which build wrote them, so its content is hashed instead.
   hash = is_script(path) ? file_hash(path) : content_hash(loaded);
   return placed_samples(scene, loaded, name, is_script(path));
 }
@@ -95,7 +95,7 @@ std::string scene_file_entry(const std::filesystem::path& scene_file, const std:
 }
 
 Scene with_files(Scene scene, const std::filesystem::path& folder) {
-  scene.bed = with_own_range(scene.bed, folder);  // so that a run file says it
+  scene.bed = with_own_range(scene.bed, folder);  // so that a run file contains it
   scene.tool = with_mesh(scene.tool, folder);
   scene.own = with_plugin(scene.own, folder);
   return scene;
@@ -119,7 +119,7 @@ RunResult run_scene(const Scene& asked, const std::filesystem::path& output, con
     stroke_name = samples_name(file);
     stroke = placed_stroke(scene, file, stroke_hash);
   }
-  if (options.second) second_scene(scene, *options.second);  // refused before any work, if at all
+  if (options.second) second_scene(scene, *options.second);  // if this is refused, then before any work
   HeightField bed = options.surface ? *options.surface : load_surface(scene.bed, options.scene_folder);
   std::optional<HeightField> start;
   if (stroke || options.second) start = bed;

@@ -8,7 +8,7 @@
 
 namespace sandstroke {
 
-/// What a run amounts to, in SI units: `run --json`. output: its file. Not-a-number becomes null.
+/// The results of a run in SI units, for `run --json`. output: the run file. NaN becomes null.
 nlohmann::ordered_json run_summary(const RunResult& result, const Scene& scene, const std::string& output);
 
 /// {"height_share": ..., ...}
