@@ -6,7 +6,7 @@
 #include <thread>
 
 #include "core/error.h"
-// CHAI3D's headers are in this file only.
+// Only this file includes CHAI3D's headers.
 #ifndef LINUX
 #error "CHAI3D was compiled with LINUX; without it its classes have other sizes here than in its library"
 #endif
@@ -24,9 +24,8 @@ DeviceSpecification specification_of(const cHapticDeviceInfo& info) {
   DeviceSpecification specification;
   specification.model = info.m_modelName;
   specification.manufacturer = info.m_manufacturerName;
-  // CHAI3D's frame (+x towards the operator, +y to the operator's right, +z up) is the device's, by name.
-  if (info.m_actuatedPosition)
-    specification.max_force = info.m_maxLinearForce;  // trackers have motors in none
+  // CHAI3D's frame (+x towards the operator, +y to the operator's right, +z up) has the name "device".
+  if (info.m_actuatedPosition) specification.max_force = info.m_maxLinearForce;  // trackers have no motors
   specification.max_stiffness = info.m_maxLinearStiffness;
   specification.max_damping = info.m_maxLinearDamping;
   specification.workspace_radius = info.m_workspaceRadius;
@@ -40,8 +39,8 @@ bool is_phantom(chai3d::cHapticDeviceModel model) {
   return model >= chai3d::C_HAPTIC_DEVICE_PHANTOM_TOUCH && model <= chai3d::C_HAPTIC_DEVICE_PHANTOM_OTHER;
 }
 
-/// CHAI3D does not say whether a device is calibrated, nor by which number Force Dimension's driver knows it:
-/// the driver takes the one that was opened last in this thread.
+/// Asks Force Dimension's driver about the device that was opened last in this thread. CHAI3D does not say
+/// whether a device is calibrated, nor which number the driver gives it.
 std::optional<bool> drd_is_calibrated() {
   if (!drdIsSupported()) return std::nullopt;
   return drdIsInitialized();
@@ -49,7 +48,7 @@ std::optional<bool> drd_is_calibrated() {
 
 Eigen::Vector3d from_chai3d(const cVector3d& vector) { return {vector.x(), vector.y(), vector.z()}; }
 
-/// What was measured is a rotation only about: normalised.
+/// A measured matrix is only nearly a rotation, so the result is normalised.
 Eigen::Quaterniond from_chai3d(const chai3d::cMatrix3d& rotation) {
   Eigen::Matrix3d matrix;
   for (int row = 0; row < 3; ++row)
@@ -71,7 +70,7 @@ std::vector<DeviceSpecification> list_chai3d_devices() {
 
 std::unique_ptr<HapticDevice> make_chai3d_device(int index) {
   chai3d::cHapticDeviceHandler handler;
-  // The number is asked for first: where there is no device, getDevice gives out a dummy.
+  // Asks for the number first: where there is no device, getDevice gives out a dummy.
   const int count = static_cast<int>(handler.getNumDevices());
   if (count == 0)
     throw_io_error(
@@ -92,8 +91,8 @@ std::unique_ptr<HapticDevice> make_chai3d_device(int index) {
 Chai3dDevice::Chai3dDevice(std::shared_ptr<chai3d::cGenericHapticDevice> device,
                            std::function<std::optional<bool>()> asks_calibrated)
     : device_(std::move(device)), asks_calibrated_(std::move(asks_calibrated)) {
-  // The dummy that getDevice gives out where there is no device is not available, and its model is never set:
-  // it must not be read, nor copied.
+  // getDevice gives out a dummy where there is no device. The dummy is not available, and its model is never
+  // set, so the model must not be read or copied.
   const cHapticDeviceInfo& info = device_->m_specifications;
   if (!device_->isDeviceAvailable() || !info.m_sensedPosition ||
       info.m_model == chai3d::C_HAPTIC_DEVICE_VIRTUAL)
@@ -109,7 +108,7 @@ void Chai3dDevice::open() {
         "the haptic device {} cannot be opened: end other programs that use it, unplug it, plug it in again, "
         "and try again",
         specification_.model);
-  specification_ = specification_of(device_->m_specifications);  // now it has been asked itself
+  specification_ = specification_of(device_->m_specifications);  // now the device itself was asked
   if (asks_calibrated_) calibrated_ = asks_calibrated_();
   released_ = false;
   motors_on_ = false;
@@ -121,7 +120,7 @@ void Chai3dDevice::calibrate() {
                specification_.model);
   constexpr bool even_if_calibrated = false;
   const bool calibrated = device_->calibrate(even_if_calibrated);
-  device_->enableForces(false);  // Force Dimension's are left with motors on
+  device_->enableForces(false);  // Force Dimension's driver leaves the motors on
   if (!calibrated)
     throw_io_error(
         "the haptic device {} did not calibrate: clear its way, or calibrate it by hand as its manual "
@@ -135,10 +134,10 @@ bool Chai3dDevice::read(double, DeviceReading& reading) noexcept {
   cVector3d position(0, 0, 0), velocity(0, 0, 0);
   unsigned switches = 0;
   // cPhantomDevice::getPosition (3.3.0) returns `error != 0`, so false on success, of a call that fails only
-  // while the device is not open. So what it returns is not asked of a Phantom, whichever way round it is.
+  // while the device is not open. So its result is ignored for a Phantom, whichever way round it is.
   const bool positioned = device_->getPosition(position) || phantom_;
-  // The velocity is what CHAI3D makes of its readings within 15 ms by the clock on the wall (Force Dimension:
-  // of another reading, which takes its time). The position is what was measured.
+  // CHAI3D makes the velocity from its readings within 15 ms of wall time (Force Dimension: by another
+  // reading, which takes time). The position is as measured.
   if (!positioned || !device_->getLinearVelocity(velocity) || !device_->getUserSwitches(switches))
     return false;
   if (specification_.measures_orientation) {
@@ -155,8 +154,8 @@ bool Chai3dDevice::read(double, DeviceReading& reading) noexcept {
 
 bool Chai3dDevice::command(const Eigen::Vector3d& force) noexcept {
   if (!open_) return false;
-  // Nothing is sent until there is a force: the first one sent, be it zero, switches on the motors of Force
-  // Dimension's devices, past the button on them that has them off.
+  // Nothing is sent before the first force that is not zero. The first force sent, even zero, switches on the
+  // motors of Force Dimension's devices, although their button has switched them off.
   if (!motors_on_ && force.isZero(0.0)) return true;
   if (released_) return false;
   if (!force.allFinite()) {
@@ -164,20 +163,20 @@ bool Chai3dDevice::command(const Eigen::Vector3d& force) noexcept {
     return false;
   }
   const bool motors = motors_on_.exchange(true) || device_->enableForces(true);
-  if (!motors) motors_on_ = false;  // to be tried again: no later force is given while they are off
+  if (!motors) motors_on_ = false;  // tries again next time: no force is given while they are off
   const bool taken = motors && send(force);
-  if (released_) motors_off();  // while this force was on its way: the last word is release()'s
+  if (released_) motors_off();  // released while this force was on its way: release() has the last word
   return taken;
 }
 
 void Chai3dDevice::release() noexcept {
   const std::scoped_lock lock(releasing_);
   released_ = true;
-  // Whatever the loop is doing, for it may hang in there. CHAI3D's classes lock nothing: a second call
-  // changes only their copies of the last force, which nobody reads. Below them, a Phantom's force is a
-  // number that the driver's own thread sends (and goes on sending, however long the loop hangs: that is why
-  // this must be); Force Dimension's driver locks each transfer, so that this waits for one that hangs, no
-  // longer.
+  // This does not wait for the loop, because the loop may hang in the driver. CHAI3D's classes lock nothing:
+  // a second call changes only their copies of the last force, which nobody reads. Below them, a Phantom's
+  // force is a number that the driver's own thread sends. It goes on sending while the loop hangs, so
+  // release() is needed. Force Dimension's driver locks each transfer, so this waits only for a transfer that
+  // hangs.
   if (open_ && motors_on_) motors_off();
 }
 
@@ -186,7 +185,8 @@ void Chai3dDevice::close() noexcept {
   const std::scoped_lock lock(releasing_);
   if (!open_.exchange(false)) return;
   device_->enableForces(false);
-  // Closing ends the driver's thread that sends a Phantom its force, 1000 times a second: first the zero.
+  // Closing ends the driver's thread, which sends a Phantom its force 1000 times a second. Let it send the
+  // zero first.
   if (phantom_) std::this_thread::sleep_for(std::chrono::milliseconds(10));
   device_->close();
 }

@@ -19,10 +19,10 @@ struct Check {
   double limit = no_number;     ///< in `unit`; NaN where there is no number to stay below
   std::string unit;
   std::string sentence;  ///< what was found and where
-  double seconds = 0.0;  ///< that it took, with what it is the first to need
+  double seconds = 0.0;  ///< for this check, with the shared work that it is the first to need
 };
 
-/// A check that holds where measured <= limit; not where measured is NaN.
+/// A check that passes where measured <= limit. It fails where measured is NaN.
 Check limit_check(std::string name, double measured, double limit, std::string unit, std::string sentence);
 
 /// A check of a fact, without numbers.
@@ -32,9 +32,9 @@ Check fact_check(std::string name, bool passed, std::string sentence);
 struct Comparison {
   std::string name;
   std::vector<Check> checks;
-  std::vector<UsedTolerance> tolerances = {};  ///< that it was made with
+  std::vector<UsedTolerance> tolerances = {};  ///< that the checks used
 
-  /// All of them hold, and there is at least one: comparing nothing is not a success.
+  /// True where all checks pass and there is at least one: comparing nothing is not a success.
   bool passed() const;
   int failures() const;
   double seconds() const;  ///< of all checks

@@ -21,8 +21,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
-/// One of the two that are compared, called "golden" and "run" unless it has a label: its file, name and
-/// value of its provenance, its resolved scene.
+/// One side of the comparison: its file, name and value of its provenance, its resolved scene. The page calls
+/// it "golden" or "run" unless it has a label.
 Json side(const std::string& name, const std::vector<std::pair<std::string, std::string>>& provenance = {},
           const std::string& scene = "") {
   Json entries = Json::array();
@@ -54,7 +54,7 @@ bool failed(const Comparison& comparison, const std::string& name) {
                      [&](const Check& check) { return check.name == name && !check.passed; });
 }
 
-/// A page on two files, which are called by their names; by their whole paths where the names are the same.
+/// A page on two files. It calls them by their names, or by their whole paths where the names are the same.
 PageOfParts start_page_of_files(const fs::path& golden_file, const fs::path& run_file,
                                 const Comparison& comparison, Json golden, Json run) {
   const bool same = golden_file.filename() == run_file.filename();
@@ -73,7 +73,7 @@ PageOfParts run_page(const RunFile& golden, const RunFile& run, const Comparison
     page.add_part("Initial height", [&]() -> Json {
       const RunPair pair = run_pair(golden, run, coarsen);
       const HeightField a = pair.golden.initial(), b = pair.run.initial();
-      if (a.rows() != b.rows() || a.cols() != b.cols()) return nullptr;  // the final ones show that
+      if (a.rows() != b.rows() || a.cols() != b.cols()) return nullptr;  // "Final height" says so
       return surfaces_part({"Initial height", a, a, b, b, tolerances.height});
     });
   }

@@ -15,16 +15,17 @@ namespace sandstroke {
 // Pages on a comparison: the checks, maps of golden, run and difference, traces, and what is known about the
 // files. Where the data of a part is missing or damaged, the page says so instead of showing it.
 
-/// Two run files: final surfaces, initial ones where they differ, traces. coarsen: as compare_runs().
+/// A page on two run files: final surfaces, initial ones where they differ, traces. coarsen: see
+/// compare_runs().
 PageOfParts run_page(const RunFile& golden, const RunFile& run, const Comparison& comparison,
                      const Tolerances& tolerances, bool coarsen = false);
 
-/// Two pictures and the names of their files.
+/// A page on two pictures, with the names of their files.
 PageOfParts picture_page(const std::filesystem::path& golden_file, const Image& golden,
                          const std::filesystem::path& run_file, const Image& run,
                          const Comparison& comparison, const Tolerances& tolerances);
 
-/// A run and its golden entry: change of height, picture, traces.
+/// A page on a run and its golden entry: change of height, picture, traces.
 PageOfParts golden_page(const GoldenEntry& entry, const GoldenRun& run, const Comparison& comparison,
                         const Tolerances& tolerances);
 

@@ -8,8 +8,8 @@
 namespace sandstroke {
 namespace {
 
-/// How many cells of the fine bed lie along a cell of the coarse one, over the same ground; 1 where they do
-/// not fit, or are as large.
+/// How many cells of the fine bed lie along a cell of the coarse one, over the same ground. It is 1 where
+/// they do not fit or are equally large.
 int cells_along(const RunFile& fine, const RunFile& coarse) {
   const int factor = fine.rows() / coarse.rows();
   const bool fits = factor > 1 && fine.rows() == factor * coarse.rows() &&

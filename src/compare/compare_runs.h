@@ -12,7 +12,7 @@ namespace sandstroke {
 /// Every tick of a run; none where it has no trace.
 std::optional<std::vector<TickRecord>> whole_trace(const RunFile& run);
 
-/// A run file as it is compared: over means of factor x factor cells.
+/// A run file as it is compared: each cell is the mean of factor x factor cells.
 struct ComparedRun {
   const RunFile& file;
   int factor = 1;
@@ -24,12 +24,12 @@ struct ComparedRun {
 struct RunPair {
   ComparedRun golden, run;
 };
-/// coarsen: of two beds over the same ground, one of which has cells that a whole number of the other's fill,
-/// the finer one is seen over as large cells. Otherwise both as they are. Error: input, where they do not say
-/// their cells.
+/// With coarsen, where the beds cover the same ground and a whole number of fine cells fills a coarse cell:
+/// the finer bed is coarsened to the larger cells. Otherwise both stay as they are. Error: input, where a
+/// file does not say its cells.
 RunPair run_pair(const RunFile& golden, const RunFile& run, bool coarsen);
 
-/// Two run files: complete, the same bed (or, with coarsen, as run_pair() says), initial and final surface,
+/// Compares two run files: complete, the same bed (with coarsen, see run_pair()), initial and final surface,
 /// and the trace where there is one (in both, or in neither). The comparison has the run's name.
 Comparison compare_runs(const RunFile& golden, const RunFile& run, const Tolerances& tolerances,
                         bool coarsen = false);

@@ -18,8 +18,8 @@ namespace {
       golden_cols, golden_rows, cols, rows);
 }
 
-/// visit(row, col, run - golden) for every cell of every tile in which the two may differ. Two equal
-/// infinities give NaN: nothing that is not finite is missed.
+/// Calls visit(row, col, run - golden) for every cell of every tile in which the two may differ. Two equal
+/// infinities give NaN, so no value is missed that is not finite.
 template <class Visit>
 void visit_differences(const HeightField& golden, const HeightField& run, const Visit& visit) {
   if (golden.rows() != run.rows() || golden.cols() != run.cols() || golden.rows() == 0 || golden.cols() == 0)
@@ -32,7 +32,7 @@ void visit_differences(const HeightField& golden, const HeightField& run, const 
 FieldDifference field_difference(const HeightField& golden, const HeightField& run) {
   FieldDifference result;
   CompensatedSum sum, squares;
-  // The largest, and of equal ones the first, row by row; a cell that is not finite before any number.
+  // Keeps the largest, and of equal ones the first, row by row. A cell that is not finite beats any number.
   const auto compare = [&](int row, int col, double difference) {
     const bool finite = std::isfinite(difference), was_finite = !std::isnan(result.max);
     const bool earlier = row < result.row || (row == result.row && col < result.col);

@@ -29,7 +29,7 @@ fs::path existing(const GoldenEntry& entry, const char* name) {
   return file;
 }
 
-/// What a run file says about itself (/provenance).
+/// An entry of a run file's /provenance.
 std::string provenance_of(const RunFile& run, const std::string& entry) {
   for (const auto& [name, value] : run.provenance())
     if (name == entry) return value;
@@ -45,10 +45,10 @@ std::string provenance_text(const RunFile& run, const RunResult& result) {
       result.ticks, result.relaxation.passes, result.relaxation.residual, result.volume_drift);
 }
 
-/// Where the new entry is made, which then changes places with the old one.
+/// Where the new entry is made before it changes places with the old one.
 fs::path new_entry(const fs::path& entry) { return part_path(fs::path(entry) += ".new"); }
 
-/// What writing an entry leaves: the old one, or half a new one.
+/// Removes what writing an entry leaves: the old one, or half a new one.
 struct Leftovers {
   const fs::path& entry;
   ~Leftovers() {
@@ -58,7 +58,7 @@ struct Leftovers {
   }
 };
 
-/// Others may keep files in an entry: they come along, and files that are replaced leave their modes.
+/// Copies an entry. Other files in it come along, and new files take the modes of those that they replace.
 void copy_entry(const fs::path& entry, const fs::path& made) {
   fs::remove_all(made);
   if (!fs::exists(entry)) {
@@ -72,7 +72,7 @@ void copy_entry(const fs::path& entry, const fs::path& made) {
   fs::permissions(made, fs::status(entry).permissions());
 }
 
-/// change: what has changed; empty: nothing.
+/// change: what has changed, or empty.
 Check same_check(const std::string& what, const GoldenEntry& entry, const std::string& change) {
   if (change.empty()) return fact_check(what, true, "as recorded");
   return fact_check(what, false, fmt::format("{}; if that is wanted: {}", change, entry.update));
@@ -102,7 +102,7 @@ Check drift_check(double drift) {
   return check;
 }
 
-/// The checks by what golden.h5 holds.
+/// The checks against golden.h5.
 std::vector<Check> content_checks(const GoldenEntry& entry, const RunFile& run,
                                   const Tolerances& tolerances) {
   const GoldenContent golden = read_golden(entry);

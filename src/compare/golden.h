@@ -18,11 +18,11 @@ namespace sandstroke {
 //
 //   golden.h5        the run in numbers (golden_content.h)
 //   picture.png      the final surface in the scene's own view
-//   provenance.toml  the build that wrote it, what it ran (hashes), what came out; no date, so that the same
+//   provenance.toml  the build that wrote it, hashes of what it ran, the results; no date, so that the same
 //                    run gives the same text
-//   tolerances.toml  what people wrote who want other tolerances (tolerances.h); may be missing
+//   tolerances.toml  tolerances that people set for this entry (tolerances.h); may be missing
 
-/// Where one is, and what to type to make it anew.
+/// Where an entry is, and the command that makes it anew.
 struct GoldenEntry {
   std::string name;  ///< of the scene
   std::filesystem::path folder;
@@ -34,23 +34,23 @@ struct GoldenRun {
   std::filesystem::path run_file;
   Image picture;
   RunResult result;
-  double seconds = 0.0;  ///< that running and drawing took
+  double seconds = 0.0;  ///< for running and drawing
 };
 
-/// To be asked before the run: that the files of an entry may be replaced. Error: input, io.
+/// Checks that the files of an entry may be replaced. Call it before the run. Error: input, io.
 void check_golden_replaceable(const std::filesystem::path& folder);
 
-/// Puts a golden entry in place of what is there, if anything, as a whole or not at all. Other files in its
+/// Writes a golden entry as a whole or not at all, in place of an old one if there is one. Other files in its
 /// folder stay. Error: input where the run is not complete and finite, or files must not be replaced; io.
 void write_golden(const std::filesystem::path& folder, const GoldenRun& run);
 
 // Error: input where the file is missing or damaged.
 GoldenContent read_golden(const GoldenEntry& entry);
 Image read_golden_picture(const GoldenEntry& entry);
-/// Name and value of what provenance.toml says about the build and what it ran.
+/// Names and values in provenance.toml: the build, and what it ran.
 std::vector<std::pair<std::string, std::string>> golden_provenance(const GoldenEntry& entry);
 
-/// Judges a run by a golden entry: the same scene and stroke, initial surface, change of heights, trace,
+/// Compares a run with a golden entry: the same scene and stroke, initial surface, change of heights, trace,
 /// picture.
 Comparison compare_golden(const GoldenEntry& entry, const GoldenRun& run, const Tolerances& tolerances);
 

@@ -21,7 +21,7 @@ namespace {
 constexpr double height_quantum = 0x1p-30;   // m
 constexpr double initial_quantum = 0x1p-20;  // m
 
-/// Of the whole bed, of the block that golden.h5 holds of it.
+/// The change of the whole bed. golden.h5 holds a block of it.
 HeightGrid read_change(const Hdf5Reader& file, const std::string& update) {
   const double rows = file.number_attribute("/surface", "rows"),
                cols = file.number_attribute("/surface", "cols");

@@ -15,8 +15,8 @@ namespace sandstroke {
 //   /scene           the resolved scene (TOML)
 //   /surface         attributes rows, cols, cell_size [m], and initial_hash (of the initial heights in
 //                    steps of 2^-20 m: coarse, so that the last bits of sin() do not matter)
-//   /surface/change  (n, m) float64, final - initial height [m] of the smallest block of cells with all of
-//                    it, from (row, col) on (two attributes); rounded to 2^-30 m
+//   /surface/change  (n, m) float64, final - initial height [m], rounded to 2^-30 m, in the smallest block
+//                    that holds all changes; the attributes row and col say where the block begins
 //   /trace           attribute servo_rate [Hz]
 //   /trace/ticks     (7, ticks) uint64, every tick, as golden_trace.h says
 //
@@ -31,17 +31,17 @@ struct GoldenContent {
   std::optional<std::vector<TickRecord>> trace;
 };
 
-/// Of the initial heights [m].
+/// A hash of the initial heights [m].
 std::string initial_hash(const HeightGrid& heights);
 
 /// Final - initial heights [m] of a run.
 HeightGrid height_change(const RunFile& run);
 
-/// Error: input, where the run is not complete, or not finite; io.
+/// Writes golden.h5. Error: input, where the run is not complete or not finite; io.
 void write_golden_content(const std::filesystem::path& path, const RunFile& run);
 
-/// update: the command that makes the entry anew, for messages. Error: input, where the file is damaged or of
-/// another format.
+/// Reads golden.h5. update: the command that makes the entry anew, for messages. Error: input, where the file
+/// is damaged or of another format.
 GoldenContent read_golden_content(const std::filesystem::path& path, const std::string& update);
 
 }  // namespace sandstroke

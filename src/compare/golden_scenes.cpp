@@ -23,15 +23,15 @@ std::set<std::string> folders_in(const fs::path& parent) {
   std::set<std::string> names;
   if (!fs::is_directory(parent)) return names;
   for (const fs::directory_entry& child : fs::directory_iterator(parent)) {
-    // NAME.part: an update that was killed.
+    // An update that was killed leaves NAME.part.
     if (child.is_directory() && child.path().extension() != ".part")
       names.insert(child.path().filename().string());
   }
   return names;
 }
 
-/// That a file which a scene names is not there: a finding of this scene, and not the machine's failure.
-/// Empty: all are. Error: of a scene that cannot be read.
+/// Says which file named by the scene does not exist; empty where all exist. That is a finding about this
+/// scene, not a failure of the machine. Error: where the scene cannot be read.
 std::string missing_input(const fs::path& scene_file) {
   for (const fs::path& file : input_files(load_scene(scene_file), scene_file.parent_path()))
     if (!fs::exists(file))
@@ -124,7 +124,7 @@ bool update_golden(const std::string& name, const GoldenFolders& folders, const 
   const fs::path scene = folders.scene(name);
   if (!fs::exists(scene))
     throw_input_error("{}: {} does not exist; check the name and --strokes", name, scene.string());
-  make_folder(folders.golden);  // or refused before the run
+  make_folder(folders.golden);  // fails before the run, not after it
   const fs::path entry = folders.entry(name).folder;
   check_golden_replaceable(entry);
   const TemporaryFolder folder;

@@ -26,20 +26,20 @@ struct GoldenFolders {
 std::vector<std::string> golden_names(const GoldenFolders& folders,
                                       const std::vector<std::string>& asked_for);
 
-/// Where check_golden leaves a scene's page in a folder for them.
+/// Where check_golden writes a scene's page, in the folder of pages.
 inline std::filesystem::path golden_page_path(const std::filesystem::path& report, const std::string& name) {
   return report / (name + ".html");
 }
 
-/// Runs one scene and judges it by its golden entry, with the tolerances of the entry's own tolerances.toml,
-/// over which those of `options` go. A scene without entry, an entry without scene, a file of tolerances with
-/// bad input, and a run that stops with bad input or is interrupted, are failed checks. report: a folder for
-/// the page, or empty.
+/// Runs one scene and compares it with its golden entry. Tolerances in `options` override those of the
+/// entry's own tolerances.toml. These are failed checks: a scene without entry, an entry without scene, a
+/// file of tolerances with bad input, and a run that stops with bad input or is interrupted. report: a folder
+/// for the page, or empty.
 Comparison check_golden(const std::string& name, const GoldenFolders& folders, const SceneRunner& runner,
                         const GivenTolerances& options, const std::filesystem::path& report);
 
-/// Runs one scene and makes the result its golden entry; false where the run was interrupted and nothing has
-/// changed. Error: input where there is no such scene.
+/// Runs one scene and makes the result its golden entry. Returns false, and changes nothing, where the run
+/// was interrupted. Error: input where there is no such scene.
 bool update_golden(const std::string& name, const GoldenFolders& folders, const SceneRunner& runner);
 
 }  // namespace sandstroke

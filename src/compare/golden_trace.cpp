@@ -10,7 +10,7 @@ namespace {
 constexpr double most_steps = 0x1p50;  // so that second differences are exact
 constexpr double in_contact = 1.0, lifted = 2.0;
 
-/// The rows as they are, before differences are taken.
+/// The rows before differences are taken.
 HeightGrid whole_numbers(const std::vector<TickRecord>& trace, double servo_rate, const std::string& name) {
   HeightGrid table(packed_trace_rows, static_cast<Eigen::Index>(trace.size()));
   double level = 0.0;

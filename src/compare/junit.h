@@ -8,13 +8,13 @@
 
 namespace sandstroke {
 
-/// Known by its name.
+/// The name of the test suites tells such a report from other files.
 inline constexpr OutputKind junit_output{
     "a JUnit report", "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"sandstroke "};
 
-/// JUnit XML, as continuous integration reads it: one testsuite per comparison, one testcase per check, a
-/// failure with its sentence where it failed, and the seconds that each took (of a golden entry's scene the
-/// run, in "run complete").
+/// JUnit XML for continuous integration: one testsuite per comparison, one testcase per check with the
+/// seconds it took, and a failure with the check's sentence where it failed. The seconds of a golden entry's
+/// run are in "run complete".
 std::string junit_report(const std::vector<Comparison>& comparisons);
 
 }  // namespace sandstroke

@@ -16,13 +16,13 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// A number per tick of a trace, and how far two of them are apart.
+/// A number per tick of a trace, and the distance between two of them.
 struct Quantity {
   std::string group, name, unit;
   double limit;
   std::function<double(const TickRecord&)> value;
   std::function<double(const TickRecord& golden, const TickRecord& run)> difference;
-  std::function<double(const TickRecord&)> recorded = {};  ///< with the stroke; empty: it is not a force
+  std::function<double(const TickRecord&)> recorded = {};  ///< with the stroke; empty: it is no force
 };
 
 std::vector<Quantity> quantities(const Tolerances& tolerances) {
@@ -61,7 +61,7 @@ Json curve_over_time(const std::vector<TickRecord>& trace, std::size_t ticks, co
   return curve_json(curve);
 }
 
-/// What was recorded with the stroke, beside what the run has.
+/// Adds the force that was recorded with the stroke, if there is one.
 void add_recorded(Json& json, const Quantity& quantity, const std::vector<TickRecord>& trace) {
   const auto is_known = [](const TickRecord& tick) { return !std::isnan(tick.recorded_force.x()); };
   if (quantity.recorded && std::any_of(trace.begin(), trace.end(), is_known))

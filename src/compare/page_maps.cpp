@@ -46,7 +46,7 @@ ValueRange finite_range(const HeightGrid& values) {
   return {finite.select(values, HUGE_VAL).minCoeff(), finite.select(values, -HUGE_VAL).maxCoeff()};
 }
 
-/// What colours mean: from low to high in a unit of which one is `one` [m], or 1 for numbers without one.
+/// A colour scale from low to high. `one` is the size of its unit [m], or 1 for numbers without a unit.
 Json scale_json(const std::string& title, const ValueRange& range, const std::string& unit, double one,
                 bool around_zero) {
   Json colours = Json::array();
@@ -83,7 +83,7 @@ Image height_map(const HeightGrid& values, const ValueRange& range, bool around_
                    std::max(1, static_cast<int>(std::lround(rows * scale))));
 }
 
-/// Each cell with the value of its spot: as many cells as the surfaces, so that a place is the same pixel.
+/// Gives each cell the value of its spot. The grid keeps its size, so that a place stays in the same pixel.
 HeightGrid spread(const HeightGrid& values, const Spots& spots) {
   const HeightGrid seen = at_spots(values, spots);
   return HeightGrid::NullaryExpr(values.rows(), values.cols(), [&](Eigen::Index row, Eigen::Index col) {
@@ -101,7 +101,7 @@ std::string float_text(const HeightGrid& values) {
   return base64(bytes);
 }
 
-/// What can be read off: the golden height and the difference [m] of the worst cell of each spot.
+/// Numbers that a reader can read off: golden height and difference [m] at the worst cell of each spot.
 Json numbers_json(const HeightGrid& golden, const HeightGrid& difference) {
   const Spots spots = spots_of(difference, most_numbers);
   return {{"side", spots.side},

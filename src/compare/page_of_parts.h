@@ -9,20 +9,19 @@
 
 namespace sandstroke {
 
-/// A page on one run or two: what is said first, and parts. Its data has at least the lists `parts` and
-/// `missing`.
+/// A page on one run or two: a head and parts. Its data has at least the lists `parts` and `missing`.
 struct PageOfParts {
   PageScript script;
   std::string title;
   nlohmann::ordered_json data;
 
-  /// Appends what `make` returns, unless that is null; where it finds its data missing or damaged (Error:
-  /// input), the sentence why `name` is not shown.
+  /// Appends what `make` returns, unless that is null. Where `make` finds its data missing or damaged (Error:
+  /// input), the page says why `name` is not shown.
   void add_part(const std::string& name, const std::function<nlohmann::ordered_json()>& make);
   std::string html() const { return html_page(title, script, data); }
 };
 
-/// What `make` returns; empty where the file does not say it.
+/// The result of `make`, or an empty one where the file does not hold it (Error: input).
 template <class Make>
 auto as_far_as_known(const Make& make) -> decltype(make()) {
   try {

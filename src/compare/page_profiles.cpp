@@ -17,14 +17,14 @@ using Json = nlohmann::ordered_json;
 constexpr double side_reach = 6.0;  // radii, as furrows are measured
 constexpr double most_stations = 1e5;
 
-/// A place on the way of the tip.
+/// A place on the path of the tip.
 struct Station {
-  double length;  // m, from the start of the way
+  double length;  // m, from the start of the path
   Eigen::Vector2d place;
   bool begins;  // the tip came down here
 };
 
-/// The path's own points. Error: input, where they are no numbers.
+/// The points of the path. Error: input, where one is not finite.
 std::vector<Station> path_stations(const TipPath& path) {
   std::vector<Station> stations;
   double length = 0.0;
@@ -42,7 +42,7 @@ std::vector<Station> path_stations(const TipPath& path) {
   return stations;
 }
 
-/// With others in between, no further apart than `step` [m] while the tip was down.
+/// Adds stations in between, so that no two are further apart than `step` [m] while the tip was down.
 std::vector<Station> subdivided(const std::vector<Station>& coarse, double step) {
   std::vector<Station> fine;
   for (const Station& next : coarse) {
@@ -58,7 +58,7 @@ std::vector<Station> subdivided(const std::vector<Station>& coarse, double step)
   return fine;
 }
 
-/// The two surfaces along places that are added in order.
+/// The initial and the last surface at places that are added in order.
 struct Profile {
   Curve initial, last;
   void add(double at, const Eigen::Vector2d& place, const HeightField& a, const HeightField& b) {
@@ -79,7 +79,7 @@ struct Profile {
   }
 };
 
-/// Over a radius to either side, as far as the tip was not lifted; along x where it stayed.
+/// The direction over half a radius to either side, but not past a lift; x where the tip stayed in place.
 Eigen::Vector2d direction_at(const std::vector<Station>& stations, std::size_t middle, double radius) {
   std::size_t from = middle, to = middle;
   while (!stations[from].begins && stations[middle].length - stations[from].length < 0.5 * radius) --from;

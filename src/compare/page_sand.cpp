@@ -14,7 +14,7 @@ namespace {
 
 constexpr double quanta_per_cell = 1000.0;
 
-/// As a page unpacks it: zlib, then RFC 4648.
+/// Packs bytes as the page unpacks them: zlib, then base64 (RFC 4648).
 std::string packed(const std::string& bytes) {
   uLongf size = compressBound(bytes.size());
   std::string small(size, '\0');

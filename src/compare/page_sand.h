@@ -7,19 +7,19 @@
 
 namespace sandstroke {
 
-/// Surfaces of one bed, one after the other, to be looked at in 3-D: a part of a page. Where a side has more
-/// than most_side cells they are means over more of them. Heights are kept to a thousandth of what a cell
-/// then measures.
+/// A part of a page that shows surfaces of one bed in 3-D, one after the other. Where a side has more than
+/// most_side cells, the page has larger cells with mean heights. Heights are rounded to a thousandth of the
+/// page's cell size.
 class SandPart {
  public:
   static constexpr int most_side = 512;      ///< cells, in the page
-  static constexpr double most_cells = 2e7;  ///< of a bed: to show more would take too long
+  static constexpr double most_cells = 2e7;  ///< of a bed; more would take too long
 
   /// Error: input, where the bed has too many cells.
   SandPart(const std::string& title, const std::string& text, const HeightField& bed);
-  /// Of the bed's shape; all its heights are finite, or Error: input.
+  /// Adds a surface of the bed's shape. Error: input, where a height is not finite.
   void add(const std::string& name, const HeightField& surface);
-  /// The last surface less the one before may be shown in colours: what that is called.
+  /// Lets the page colour the last surface by its difference from the one before. name: what that is called.
   void offer_difference(const std::string& name) { part_["difference"] = name; }
   nlohmann::ordered_json json() const { return part_; }
 

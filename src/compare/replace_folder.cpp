@@ -11,10 +11,10 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// In two steps: for want of an old one, or of a file system that exchanges names.
+/// Moves the folder in two steps: for the case that there is no old one, or names cannot be exchanged.
 void move_folder(const fs::path& made, const fs::path& place) {
   const fs::path old = part_path(fs::path(place) += ".old");
-  if (fs::exists(fs::symlink_status(place))) {  // else the old one may be all there is
+  if (fs::exists(fs::symlink_status(place))) {  // if not, `old` may be the only entry
     fs::remove_all(old);
     fs::rename(place, old);
   }

@@ -31,7 +31,7 @@ Check column_check(const std::string& name, const ColumnDifference& difference, 
                          : fmt::format("differs by {:.6g} {} {}", difference.max, unit, where));
 }
 
-/// That all positions are numbers. They are not compared: the forces that follow from them are.
+/// Checks that all positions are numbers. It does not compare them: the forces that follow from them are.
 Check positions_check(const std::vector<TickRecord>& golden, const std::vector<TickRecord>& run) {
   for (const auto& [which, trace] : {std::pair("golden", &golden), {"the run", &run}})
     for (const TickRecord& tick : *trace)

@@ -12,34 +12,34 @@
 
 namespace sandstroke {
 
-// What both a pair of run files and a golden entry are judged by. Whatever is missing or of another shape is
-// a check that failed, with a sentence.
+// Checks for both a pair of run files and a golden entry. Data that is missing or of another shape gives a
+// failed check with a sentence.
 
-/// True for a complete run.
+/// Passes for a complete run.
 Check complete_check(const std::string& which, const RunFile& run);
 
-/// That the surfaces of all frames of both can be read; they are not compared, the final ones are. Error:
-/// input, where one cannot, or holds what is not a number.
+/// Checks that the surfaces of all frames of both can be read. It does not compare them; the final ones are
+/// compared. Error: input, where one cannot be read, or holds what is not a number.
 Check frames_check(const RunFile& golden, const RunFile& run);
 
-/// Two surfaces of one bed, cell by cell; beds of other cells fail.
+/// Compares two surfaces of one bed, cell by cell. Beds of other cells fail.
 Check height_check(const std::string& name, const HeightField& golden, const HeightField& run, double limit);
 
-/// Cell sizes [m]: the same up to rounding.
+/// Compares cell sizes [m]: they are the same up to rounding.
 Check cell_size_check(double golden, double run);
 
-/// Numbers of ticks (the same), and time, force, depth and level over the ticks that both traces have. A
-/// trace that is missing on one side fails; on both, there is nothing to compare.
+/// Compares the numbers of ticks, and time, force, depth and level over the ticks that both traces have. A
+/// trace that only one side has fails. Where neither has one, the check passes.
 std::vector<Check> trace_checks(const std::optional<std::vector<TickRecord>>& golden,
                                 const std::optional<std::vector<TickRecord>>& run,
                                 const Tolerances& tolerances);
 
-/// Largest difference and share of differing pixels.
+/// The largest difference of two pictures, and the share of their pixels that differ.
 std::vector<Check> picture_checks(const Image& golden, const Image& run, const Tolerances& tolerances);
 
-/// Appends what `make` returns, with the time that it took, or, where the data it asks for is missing or
-/// damaged (Error: input), the failed check `name` with the error's sentence. What is_of_the_machine() says
-/// nothing about the data: Error.
+/// Appends what `make` returns, with the time it took. Where the data is missing or damaged (Error: input),
+/// appends the failed check `name` with the error's sentence. Passes on errors that is_of_the_machine(): they
+/// say nothing about the data.
 void add_checks(std::vector<Check>& checks, const std::string& name,
                 const std::function<std::vector<Check>()>& make);
 

@@ -18,7 +18,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Not-a-number is no figure.
+/// Adds a figure, unless it is NaN.
 void add_figure(Json& figures, const std::string& name, double value, const std::string& unit) {
   if (!std::isnan(value)) figures.push_back({{"name", name}, {"value", value}, {"unit", unit}});
 }
@@ -73,7 +73,7 @@ Json sand_part(const RunFile& run, const LastSurface& last) {
   return part.json();
 }
 
-/// What hangs on the trace: curves, figures, profiles.
+/// Adds the parts that need the trace: curves, figures, profiles.
 void add_stroke(PageOfParts& page, const RunFile& run, const LastSurface& last) {
   Scene scene;
   std::vector<TickRecord> trace;

@@ -10,7 +10,7 @@ namespace sandstroke {
 
 namespace {
 
-/// With the settings that were not there when it was written, by their defaults.
+/// The scene, completed with the defaults of settings that are newer than it.
 std::string completed(const std::string& scene) {
   try {
     return scene_text(stored_scene(scene, "the golden scene"));

@@ -5,8 +5,8 @@
 namespace sandstroke {
 
 /// The settings in which two resolved scenes (TOML) differ, with both values: "tool.radius was 0.01, is
-/// 0.02"; a setting that the golden scene's build did not have yet had its default; empty where they are the
-/// same. Error: input, where either is no TOML.
+/// 0.02"; empty where they are the same. A setting that is newer than the golden scene counts there with its
+/// default. Error: input, where either is no TOML.
 std::string scene_difference(const std::string& golden, const std::string& run);
 
 }  // namespace sandstroke

@@ -19,17 +19,17 @@ struct Tolerances {
   double pixel_share = 1e-3;  ///< 0 to 1, pixels that differ at all
 };
 
-/// One of them, as files and options give it.
+/// One tolerance, as files and options give it.
 struct ToleranceKey {
   const char* name;  ///< in tolerances.toml
   const char* option;
   double Tolerances::*value;
   Range range;
-  double golden_least;  ///< the rounding of a golden entry would fail below
+  double golden_least;  ///< below it, the rounding of a golden entry would fail
   const char* unit;     ///< empty: none
   const char* help;
 
-  /// What it may be where a run is held against a golden entry.
+  /// The values it may have where a run is compared with a golden entry.
   constexpr Range golden_range() const { return {golden_least, range.highest, false, range.whole}; }
 };
 inline constexpr std::array<ToleranceKey, 5> tolerance_keys{{
@@ -55,27 +55,27 @@ inline constexpr std::array<ToleranceKey, 5> tolerance_keys{{
      "Share of pixels that may differ"},
 }};
 
-/// Those that somebody set, by name.
+/// Tolerances that somebody set, by name.
 using GivenTolerances = std::map<std::string, double>;
 
-/// One that was used, and where it comes from: "default", an option, or a file.
+/// A tolerance that was used, and where it comes from: "default", an option, or a file.
 struct UsedTolerance {
   ToleranceKey key;
   double value;
   std::string source;
 };
 
-/// All of them. An option counts before the file, and that before the default.
+/// All tolerances. An option overrides the file, and the file overrides the default.
 std::vector<UsedTolerance> used_tolerances(const GivenTolerances& options,
                                            const GivenTolerances& in_file = {},
                                            const std::filesystem::path& file = {});
 Tolerances values_of(const std::vector<UsedTolerance>& used);
 
-/// Those that are not the default: "force 0.01 N (--force-tolerance), ..."; empty where all are.
+/// Tolerances that are not the default: "force 0.01 N (--force-tolerance), ..."; empty where all are.
 std::string changed_tolerances(const std::vector<UsedTolerance>& used);
 
-/// What a golden entry's own file (TOML, keys as above) says; nothing where there is none. Error: input, as
-/// TomlReader; io.
+/// Reads a golden entry's own tolerances (TOML, keys as above); empty where there is no file. Error: input,
+/// as TomlReader; io.
 GivenTolerances read_tolerances(const std::filesystem::path& file);
 
 }  // namespace sandstroke

@@ -11,14 +11,14 @@ struct ColumnDifference {
   double time = 0.0;     ///< s, of that tick in the golden trace
 };
 
-/// The largest of a trace.
+/// The largest values of a trace.
 struct TracePeaks {
   double force = 0.0;  ///< N, on the device
   double depth = 0.0;  ///< m; 0 where the tip was never below the sand
 };
 TracePeaks trace_peaks(const std::vector<TickRecord>& trace);
 
-/// Two traces, over the ticks that both have.
+/// The differences of two traces, over the ticks that both have.
 struct TraceDifference {
   ColumnDifference time;   ///< s
   ColumnDifference force;  ///< N, on the device
@@ -26,8 +26,8 @@ struct TraceDifference {
   ColumnDifference level;  ///< m
 };
 
-/// The level may be NaN where it is in both and neither tool is in contact: the tool is lifted.
-/// Only the fields named above and `contact` are looked at.
+/// The level may be NaN in both where neither tool is in contact: the tool is lifted.
+/// Only the fields named above and `contact` are compared.
 TraceDifference trace_difference(const std::vector<TickRecord>& golden, const std::vector<TickRecord>& run);
 
 }  // namespace sandstroke

@@ -11,7 +11,7 @@ HeightField with_all_tiles(HeightField bed) {
 }  // namespace
 
 BedReplica::BedReplica(const HeightField& bed) : bed_(with_all_tiles(bed)), known_(bed_) {
-  // So that the list of disturbed tiles has its memory.
+  // Gives the list of disturbed tiles its memory.
   for (int slot = 0; slot < bed_.allocated_tiles(); ++slot) bed_.mark_disturbed(slot, 0, 0);
   bed_.clear_disturbed();
   for (int slot = 0; slot < bed_.allocated_tiles(); ++slot)

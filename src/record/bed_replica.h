@@ -13,30 +13,30 @@ struct SandChange {
   double change = 0.0;
 };
 
-/// A bed of which another thread has a replica. Each thread changes its own and tells the other by how much;
-/// as changes are added, their order does not matter, and the two are the same (to rounding) whenever all has
-/// been told and taken. So neither ever waits for the other, and no sand is lost between them.
+/// A bed of which another thread has a replica. Each thread changes its own bed and tells the other by how
+/// much. Changes are added, so their order does not matter: the two beds are the same (to rounding) whenever
+/// all changes have been told and taken. Neither thread ever waits for the other, and no sand is lost.
 class BedReplica {
  public:
-  /// Brings all tiles into being: from now on it takes no memory.
+  /// Allocates all tiles: later calls take no memory.
   explicit BedReplica(const HeightField& bed);
 
   HeightField& bed() { return bed_; }
   const HeightField& bed() const { return bed_; }
 
-  /// What the other one changed. disturbs: the next relaxation is to look at it.
+  /// Adds a change of the other thread. disturbs: the next relaxation looks at this cell.
   void take(const SandChange& change, bool disturbs);
 
   /// Calls tell(SandChange) for every cell that was disturbed here (HeightField::set, displacement), and
-  /// settles the bed.
+  /// clears the list of disturbed cells.
   template <class Tell>
   void tell_disturbed(const Tell& tell);
-  /// The same for every cell that was changed at all (relaxation); looks at whole tiles.
+  /// The same for every cell that changed at all (relaxation); looks at whole tiles.
   template <class Tell>
   void tell_changed(const Tell& tell);
 
  private:
-  /// Tells of one cell unless the other knows.
+  /// Tells of one cell unless the other thread knows its height.
   template <class Tell>
   void tell_cell(int slot, int row_in_tile, int col_in_tile, const Tell& tell) {
     const int at = row_in_tile * HeightField::tile_side + col_in_tile;
@@ -48,7 +48,7 @@ class BedReplica {
     known = height;
   }
 
-  HeightField bed_, known_;  // known_: as far as the other one has been told; the same slots
+  HeightField bed_, known_;                    // known_: what the other thread has been told; the same slots
   std::vector<std::uint64_t> told_revisions_;  // by slot
 };
 

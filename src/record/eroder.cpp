@@ -9,9 +9,9 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr std::chrono::duration<double> longest_wait(1.0 / 60.0);  // s, with what was dug, and to be stopped
-constexpr std::chrono::duration<double> longest_look(1e-3);        // s, for where the tool is
-// Where sand has far to go it is felt, and stopped, on its way: some 50 ms of a million moving cells.
+constexpr std::chrono::duration<double> longest_wait(1.0 / 60.0);  // s, to take displaced sand or to stop
+constexpr std::chrono::duration<double> longest_look(1e-3);        // s, to see where the tool is
+// Sand with far to go is felt, and can be stopped, on its way: some 50 ms of a million moving cells.
 constexpr std::int64_t most_passes = 50;
 
 RelaxationSettings in_short_turns(RelaxationSettings settings) {
@@ -47,7 +47,7 @@ void Eroder::exchange() {
   std::vector<SandChange> before;
   before.swap(held_);
   for (const SandChange& change : before) give(change);
-  // Places first: a place is told after what was dug there, so that the sand is never older than the tool.
+  // Places first: a place is told after the sand displaced there, so the sand is never older than the tool.
   ToolPlace place;
   bool told = false;
   while (places_.pop(place)) told = true;
@@ -69,7 +69,7 @@ void Eroder::turn() {
 
 void Eroder::relax() {
   if (rate_ <= 0.0 && !by_way_) return;
-  if (solid_ && place_.rotation) {  // not while sand waits to be exchanged, for it takes long
+  if (solid_ && place_.rotation) {  // not in exchange(), because it takes long
     tool_.turn(*place_.rotation);
     tool_.put(replica_.bed(), place_.tip, place_.contact);
   }
@@ -88,7 +88,7 @@ void Eroder::start() {
   thread_ = std::thread([this] {
     try {
       run();
-    } catch (...) {  // the hand goes on feeling: a program that ended here would not release the device
+    } catch (...) {  // the hand goes on feeling: ending the program here would not release the device
       failure_ = std::current_exception();
     }
   });

@@ -7,26 +7,26 @@
 
 namespace sandstroke {
 
-/// A force, and what was out of the ordinary about it (SampleFlag).
+/// A force, and what was unusual about it (SampleFlag).
 struct FeltForce {
   Eigen::Vector3d force = Eigen::Vector3d::Zero();  ///< N, in the device's frame
   std::uint32_t flags = 0;
-  /// N, that sand would give there once the tool moves, where that is more than the force: what the interlock
-  /// goes by. A tool that rests deep in the sand may feel nothing.
+  /// N, the force that sand would give there once the tool moves, where that is more than `force`. The
+  /// interlock uses it: a tool that rests deep in the sand may feel nothing.
   double due = 0.0;
-  /// false: the tool is where no sand is above which it could be, lower than the highest sand: beside the
-  /// bed. What it meets next may be deep in the sand.
+  /// false: the tool is beside the bed, lower than its highest sand. There is no sand that it could be above,
+  /// and the sand it meets next may be deep.
   bool is_above_or_in_sand = true;
 };
 
-/// What the recorded hand feels. Called in the servo loop: no waiting, throwing, or taking memory.
+/// The world that the recorded hand feels. Called in the servo loop: it must not wait, throw, or take memory.
 class FeltWorld {
  public:
   virtual ~FeltWorld() = default;
-  /// For a device read at `time` [s] since the recording began; times increase.
+  /// The force for a device that was read at `time` [s] since the recording began. Times increase.
   virtual FeltForce feel(double time, const DeviceReading& reading) noexcept = 0;
-  /// Before the recording begins: whether the tool would touch anything, or is beside the bed, lower than its
-  /// highest sand. Changes nothing that is felt later.
+  /// Before the recording begins: true where the tool would touch anything, or is beside the bed, lower than
+  /// its highest sand. Changes nothing that is felt later.
   virtual bool touches(const DeviceReading& reading) noexcept = 0;
 };
 

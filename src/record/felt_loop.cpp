@@ -11,14 +11,14 @@
 namespace sandstroke {
 namespace {
 
-/// Down, to two digits.
+/// Rounds down to two digits.
 double rounded_down(double value) {
   if (!(value > 0.0) || std::isinf(value)) return std::max(value, 0.0);
   const double unit = std::pow(10.0, std::floor(std::log10(value)) - 1.0);
   return std::floor(value / unit) * unit;
 }
 
-/// As the device feels it, at the largest force.
+/// The sand as the device feels it at the largest force.
 FeltSand sand_felt(const Scene& scene, const FeltLoop& loop) {
   const double force = loop.force, scale = loop.scale;
   if (is_contact_law(scene)) return {scale * contact_stiffness(scene, force, loop.turns), 0.0};
@@ -43,14 +43,14 @@ ForceSettings settling_force(const FeltLoop& loop, const ForceSettings& force) {
   return settling;
 }
 
-/// m, the least way of two digits.
+/// The least force.yield of two digits that settles [m].
 std::optional<double> settling_yield(const FeltLoop& loop, Scene scene) {
   const auto shakes = [&](double yield) {
     scene.strength.yield_way = yield;
     return sand_felt(scene, loop).stiffness >= loop.stable.stiffness;
   };
   double low = scene.strength.yield_way, high = 2.0 * low;
-  constexpr double longest = 1.0;  // m, of the key
+  constexpr double longest = 1.0;  // m, the key's highest value
   for (; high <= longest && shakes(high); high *= 2.0) low = high;
   if (high > longest) return std::nullopt;
   constexpr int halvings = 8;
@@ -70,7 +70,7 @@ double largest_force(const Scene& scene, const DeviceSpecification& device, doub
 
 std::optional<FeltLoop> felt_loop(const Scene& scene, const DeviceSpecification& device, double max_force,
                                   double servo_rate, std::optional<double> lateness) {
-  if (device.max_force == any_force) return std::nullopt;  // feels none
+  if (device.max_force == any_force) return std::nullopt;  // a stand-in that feels none
   FeltLoop loop;
   loop.force = largest_force(scene, device, max_force);
   if (loop.force <= 0.0 || loop.force >= any_force) return std::nullopt;
@@ -79,7 +79,7 @@ std::optional<FeltLoop> felt_loop(const Scene& scene, const DeviceSpecification&
   loop.turns = device.measures_orientation;
   loop.device = scene.device;
   loop.device.servo_rate = servo_rate;
-  constexpr double longest = 100.0;  // ticks, of a map of moderate size: who is later is not fit to record
+  constexpr double longest = 100.0;  // ticks, for a map of moderate size; a later loop is not fit to record
   loop.device.delay =
       static_cast<int>(std::clamp(std::ceil(lateness.value_or(0.0) * servo_rate), 1.0, longest));
   loop.felt = sand_felt(scene, loop);

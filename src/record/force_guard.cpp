@@ -33,7 +33,7 @@ FeltForce ForceGuard::admit(double time, const FeltForce& wanted, const Eigen::V
     given.flags |= refused_force;
     return given;
   }
-  if (limits_.max_force == 0.0) {  // of a hand that gets none, nothing is cut
+  if (limits_.max_force == 0.0) {  // the hand gets no force: nothing is cut
     given.force.setZero();
     return given;
   }

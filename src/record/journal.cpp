@@ -21,7 +21,7 @@ static_assert(std::endian::native == std::endian::little, "numbers go into the j
 
 constexpr std::string_view signature = "sandstroke.recording";
 constexpr std::uint32_t format_version = 2;
-constexpr std::size_t first_sample_bytes = 96;  // of version 1: without what was added at its end
+constexpr std::size_t first_sample_bytes = 96;  // in version 1: without the fields added at its end
 
 enum BlockKind : std::uint32_t { header_block = 1, sample_block = 2, footer_block = 3 };
 
@@ -47,14 +47,14 @@ void put_block(std::string& blocks, BlockKind kind, const void* content, std::si
   blocks.append(static_cast<const char*>(content), length);
 }
 
-/// Names of devices and files may be no UTF-8: what is not is replaced.
+/// Names of devices and files may not be UTF-8: invalid bytes are replaced.
 template <class Part>
 void put_block(std::string& blocks, BlockKind kind, const Part& part) {
   const std::string text = as_json(part).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
   put_block(blocks, kind, text.data(), text.size());
 }
 
-/// A journal's lock, for reading it.
+/// Locks a finished journal for reading.
 FileLock share_finished(const fs::path& path) {
   std::optional<FileLock> lock = FileLock::try_share(path);
   if (!lock)
@@ -89,7 +89,7 @@ JournalWriter::JournalWriter(const fs::path& path, const RecordingHeader& header
     fail(error);
   }
   try {
-    lock_ = FileLock::wait_and_take(path);  // it is ours: others can only be asking whose it is
+    lock_ = FileLock::wait_and_take(path);  // the file is new: others only ask whose it is
     std::string begin(signature);
     begin.append(reinterpret_cast<const char*>(&format_version), sizeof format_version);
     put_block(begin, header_block, header);
@@ -97,7 +97,7 @@ JournalWriter::JournalWriter(const fs::path& path, const RecordingHeader& header
     sync();
     sync_folder_of(path);
   } catch (...) {
-    unlink(path.c_str());  // there is nothing in it, and it would be in the next one's way
+    unlink(path.c_str());  // it is empty, and would be in the way of the next recording
     close(file_);
     throw;
   }
@@ -121,7 +121,7 @@ void JournalWriter::write(const std::string& blocks, std::size_t block_size) {
     if (taken > 0 || (taken < 0 && errno == EINTR)) continue;
     const int error = taken < 0 ? errno : ENOSPC;
     size_ += done - done % block_size;
-    // Where it cannot be cut off, the reader finds half a block there, and the next write goes over it.
+    // If half a block cannot be cut off, the reader finds it there, and the next write goes over it.
     [[maybe_unused]] const int cut = ftruncate(file_, static_cast<off_t>(size_));
     fail(error);
   }
@@ -183,7 +183,7 @@ JournalReader::JournalReader(const fs::path& path) : name_(path.string()), file_
       header_ = header_from_json(nlohmann::ordered_json::parse(block->content));
       return;
     }
-  } catch (const nlohmann::json::exception&) {  // as if cut off
+  } catch (const nlohmann::json::exception&) {  // treated as cut off
   }
   throw_input_error("{}: is cut off or damaged within its header, and has no sample; remove it", name_);
 }
@@ -192,7 +192,7 @@ bool JournalReader::read(void* bytes, std::size_t count) { return file_.read(byt
 
 std::optional<JournalReader::Block> JournalReader::read_block() {
   BlockFrame frame;
-  // A damaged length may say anything: no memory is taken for more than there is.
+  // A damaged length may be any number. No memory is taken for more bytes than the file has.
   if (size_ - sound_ < sizeof frame || !read(&frame, sizeof frame)) return std::nullopt;
   if (frame.length > size_ - sound_ - sizeof frame) return std::nullopt;
   Block block{frame.kind, std::string(frame.length, '\0')};
@@ -207,7 +207,7 @@ std::vector<RecordedSample> JournalReader::next(std::size_t most) {
   while (!at_end_ && samples.size() < most) {
     const std::uint64_t begin = sound_;
     const std::optional<Block> block = read_block();
-    at_end_ = true;  // unless a sample says otherwise
+    at_end_ = true;  // unless the block is a sound sample
     if (!block) break;
     const std::size_t length = block->content.size();
     if (block->kind == sample_block && (length == sizeof(RecordedSample) || length == first_sample_bytes)) {

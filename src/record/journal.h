@@ -19,41 +19,40 @@ namespace sandstroke {
 //     uint32 kind           1 header, 2 sample, 3 footer
 //     uint32 length         of the content, bytes
 //     uint64 checksum       FNV-1a of kind, length and content
-//     content               sample: RecordedSample's 128 bytes (in version 1 its first 96); header, footer:
-//     JSON
-//                           (recording_json.h)
-// A header first, then samples, then the footer, unless the recording was cut off.
+//     content               sample: RecordedSample's 128 bytes (in version 1 its first 96)
+//                           header, footer: JSON (recording_json.h)
+// The header comes first, then samples, then the footer, unless the recording was cut off.
 
-/// Of a sample's block.
+/// Bytes of a sample's block.
 inline constexpr std::size_t journal_sample_bytes = 16 + sizeof(RecordedSample);
 
 /// Where the samples of STROKE.h5 are until the recording is over: STROKE.h5.recording.
 std::filesystem::path journal_path(const std::filesystem::path& stroke_file);
-/// Error: io, where this journal is there: a recording that goes on, or an earlier one that nobody repaired,
-/// is not overwritten.
+/// Error: io, where this journal exists. It is a recording in progress, or an earlier one that nobody
+/// repaired, and must not be overwritten.
 void check_no_journal(const std::filesystem::path& path);
 
-/// A recording while it goes on: a file that is only ever appended to, sample by sample with a checksum each,
-/// so that whatever ends the program, all that was written can be read. Error: io.
+/// A recording in progress: a file that is only appended to, sample by sample with a checksum each. So all
+/// that was written can be read, whatever ends the program. Error: io.
 class JournalWriter {
  public:
-  /// Error: io, also as check_no_journal.
+  /// Error: io, also as in check_no_journal.
   JournalWriter(const std::filesystem::path& path, const RecordingHeader& header);
   JournalWriter(const JournalWriter&) = delete;
   ~JournalWriter();
-  /// With the system when it returns: no end of this program loses them. Where that takes no more, those
-  /// that it did take are sound, and the next call goes on after them.
+  /// Hands samples to the system: no end of this program loses them. Where the system takes no more, those
+  /// that it took are sound, and the next call goes on after them.
   void append(std::span<const RecordedSample> samples);
-  /// On the disk: a power failure does not lose it either. Error: io, also where the file was removed: what
-  /// goes on would be lost.
+  /// Puts all samples on the disk: a power failure does not lose them either. Error: io, also where the file
+  /// was removed, because later samples would be lost.
   void sync();
-  /// Samples that are in it, whole; after a failure too, where not all of an append were taken.
+  /// Number of whole samples in the file; also after a failure, where not all of an append were taken.
   std::int64_t samples() const { return samples_; }
-  /// On the disk, and free for readers.
+  /// Puts the footer on the disk, and frees the file for readers.
   void finish(const RecordingFooter& footer);
 
  private:
-  /// Blocks of equal size. After a failure the file ends with the last whole one.
+  /// Writes blocks of equal size. After a failure the file ends with the last whole one.
   void write(const std::string& blocks, std::size_t block_size);
   [[noreturn]] void fail(int error) const;
 
@@ -65,7 +64,7 @@ class JournalWriter {
   std::string blocks_;  // of one append
 };
 
-/// Reads back what there is of a recording: up to the last sound sample, whatever follows.
+/// Reads back a recording up to its last sound sample, whatever follows.
 class JournalReader : public Recording {
  public:
   /// Error: io (also where it is still being written), input (not a journal, or cut off within its header).
@@ -73,14 +72,14 @@ class JournalReader : public Recording {
   const RecordingHeader& header() const override { return header_; }
   std::vector<RecordedSample> next(std::size_t most) override;
   const std::optional<RecordingFooter>& footer() const override { return footer_; }
-  /// After the last sample: bytes that follow what is sound (cut off while being written, or damaged).
+  /// After the last sample: bytes that follow the last sound block (cut off while being written, or damaged).
   std::uint64_t lost_bytes() const { return size_ - sound_; }
 
  private:
   struct Block;
-  /// The next one, if it is whole and its checksum right.
+  /// The next block, if it is whole and its checksum is right.
   std::optional<Block> read_block();
-  /// Exactly so many bytes; false where the file ends before.
+  /// Reads exactly `count` bytes; false where the file ends before.
   bool read(void* bytes, std::size_t count);
 
   std::string name_;

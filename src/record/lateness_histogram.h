@@ -7,15 +7,15 @@
 
 namespace sandstroke {
 
-/// Lateness of any number of ticks in a fixed memory, all taken when it is made. Mean and maximum are exact;
-/// the percentile is too large by at most 1 us below 10 ms, and the maximum above.
+/// The lateness of any number of ticks, in fixed memory that is taken when it is made. Mean and maximum are
+/// exact. The percentile is too large by at most 1 us below 10 ms; above, it is the maximum.
 class LatenessHistogram {
  public:
   LatenessHistogram() : ticks_(bins) {}
   /// late [ns]: below 0 counts as 0.
   void add(std::int64_t late) noexcept;
   std::int64_t max() const noexcept { return max_; }  ///< ns
-  /// p99: of 99 of 100 ticks none is later (the ceil(0.99 n)th of n); all 0 before the first.
+  /// p99: 99 of 100 ticks are no later (the ceil(0.99 n)th of n). All are 0 before the first tick.
   Lateness summary() const noexcept;
 
  private:

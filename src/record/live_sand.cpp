@@ -12,9 +12,9 @@ namespace sandstroke {
 namespace {
 
 constexpr std::size_t ring_size = std::size_t{1} << 20;  // changes: 16 MB each way
-constexpr std::size_t most_places = 1024;                // of the tool, not looked at yet: a second of ticks
+constexpr std::size_t most_places = 1024;                // of the tool, not read yet: a second of ticks
 constexpr int most_taken = 4096;                         // changes per tick: some 50 us
-const double gap_threshold = Stroke{}.gap_threshold;     // s: what `run` does not join is not joined here
+const double gap_threshold = Stroke{}.gap_threshold;     // s: gaps that `run` does not join stay gaps
 
 const HeightField& checked(const Scene& scene, const HeightField& bed) {
   const auto refuse_unless = [](bool felt, const char* key, const char* why) {
@@ -39,7 +39,7 @@ const HeightField& checked(const Scene& scene, const HeightField& bed) {
                   "stroke.held, stroke.smooth and stroke.speed",
                   "they change a stroke that does not exist yet");
   }
-  // Here and in the eroding thread, each with what the other knows.
+  // The servo loop and the eroder each hold their own bed, and what the other knows of it.
   check_memory(4.0 * bed.tile_count() * static_cast<double>(HeightField::bytes_per_tile()),
                fmt::format("bed.cells = [{}, {}], felt live,", bed.cols(), bed.rows()), "take fewer", 0.5);
   return bed;
@@ -73,7 +73,7 @@ void LiveSand::start() {
   if (shaper_) shaper_->start();
 }
 
-/// The surface that feels turns at once; what digs as soon as it can.
+/// The surface that feels turns at once. The footprint that displaces follows as soon as it can.
 void LiveSand::turn_tool(const Eigen::Quaterniond& orientation) {
   if (!turns_) return;
   const Eigen::Quaterniond placed = placement_.orientation(orientation);
@@ -137,7 +137,7 @@ void LiveSand::give_force(const Interaction& interaction, const Eigen::Vector3d&
   const Wrench given = full.limited(largest_force_);
   felt.force = placement_.force_back(given.force);
   felt.due = given.strength;
-  // Beyond what a run of the scene would do.
+  // Cut by more than a run of the scene would cut it.
   if (full.limited(device_.max_force).strength > given.strength) felt.flags |= clamped_force;
 }
 
@@ -149,7 +149,7 @@ FeltForce LiveSand::feel(double time, const DeviceReading& reading) noexcept {
     if (contact_force_) contact_force_->lift();
     readings_ = 0;
   }
-  // Also where the tool did not dig.
+  // Also where the tool displaced no sand.
   const Eigen::Vector3d motion =
       readings_ > 0 ? Eigen::Vector3d(tip - past(readings_ - 1).tip) : Eigen::Vector3d::Zero();
   const Eigen::Vector3d speed = velocity(time, tip);
@@ -171,7 +171,7 @@ FeltForce LiveSand::feel(double time, const DeviceReading& reading) noexcept {
   }
   places_.push({tip, interaction.contact,
                 shaper_ ? std::optional(shaper_->rotation())
-                        : std::nullopt});  // where the ring is full the eroder knows an older one
+                        : std::nullopt});  // where the ring is full the eroder knows an older place
   depth_.store(interaction.contact ? interaction.depth : std::numeric_limits<double>::quiet_NaN(),
                std::memory_order_relaxed);
   felt.is_above_or_in_sand = !is_beside(interaction, tip);

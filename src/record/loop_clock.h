@@ -8,7 +8,7 @@ namespace sandstroke {
 inline std::int64_t to_nanoseconds(double seconds) { return std::llround(seconds * 1e9); }
 inline double to_seconds(std::int64_t nanoseconds) { return 1e-9 * static_cast<double>(nanoseconds); }
 
-/// The time that the servo loop lives by [ns]. Tests give it one that goes as they like.
+/// The clock of the servo loop [ns]. Tests give it one that goes as they like.
 class LoopClock {
  public:
   virtual ~LoopClock() = default;
@@ -17,7 +17,7 @@ class LoopClock {
   virtual void sleep_until(std::int64_t time) noexcept = 0;
 };
 
-/// CLOCK_MONOTONIC, slept on to absolute times.
+/// CLOCK_MONOTONIC. It sleeps until absolute times.
 class MonotonicClock : public LoopClock {
  public:
   std::int64_t now() noexcept override;

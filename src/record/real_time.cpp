@@ -32,8 +32,8 @@ bool has_capability(unsigned capability) {
          (sets[capability / 32].effective >> (capability % 32) & 1U) != 0;
 }
 
-/// Where there is a limit (8 MB for most users), a process that just fits would have its memory locked, and
-/// then each later allocation beyond the limit would fail: not asked for there.
+/// Memory is not locked where there is a limit (8 MB for most users). A process that just fits would be
+/// locked, and then each later allocation beyond the limit would fail.
 bool memory_may_be_locked() {
   rlimit limit{};
   return has_capability(CAP_IPC_LOCK) ||
@@ -61,7 +61,7 @@ std::string advice(int refused_priority, bool memory_refused) {
 
 Scheduling ask_for_real_time(int priority, bool lock_memory) noexcept {
   Scheduling given;
-  // Where SCHED_FIFO is refused, a sleep may otherwise end 50 us late, for the system to save power.
+  // Where SCHED_FIFO is refused, a sleep may otherwise end 50 us late, because the system saves power.
   prctl(PR_SET_TIMERSLACK, 1UL);  // ns
   sched_param parameters{};
   parameters.sched_priority = priority;

@@ -17,7 +17,7 @@
 namespace sandstroke {
 namespace {
 
-/// A device that is open as long as this is there.
+/// Keeps a device open as long as this object lives.
 class OpenDevice {
  public:
   explicit OpenDevice(HapticDevice& device) : device_(device) { device_.open(); }
@@ -40,7 +40,7 @@ void check_switch(const char* use, std::optional<int> number, const DeviceSpecif
   }
 }
 
-/// The wrong positions of a device that is not calibrated would be the wrong forces.
+/// Checks the calibration: wrong positions would give wrong forces.
 void check_calibrated(const HapticDevice& device, const FeltWorld* world, const RecorderSettings& settings) {
   const std::optional<bool> calibrated = device.is_calibrated();
   const std::string& model = device.specification().model;
@@ -110,7 +110,8 @@ RecordingReport record(HapticDevice& device, FeltWorld* world, const RecorderSet
     writer.finish();
     file.finish(report.footer);
   } catch (const Error& error) {
-    // What the loop put into the ring and is not in the file is no more recorded than what found it full.
+    // Samples that the loop put into the ring and are not in the file count as dropped, as if it had been
+    // full.
     TickCounts& ticks = report.footer.ticks;
     ticks.dropped += ticks.recorded - file.samples();
     ticks.recorded = file.samples();

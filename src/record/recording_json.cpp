@@ -21,7 +21,7 @@ struct PutField {
   void operator()(const char* name, const StopReason& reason) const { json[name] = stop_reason_text(reason); }
 };
 
-/// A number that is missing, of a file from before it was recorded, stays as it is by default.
+/// Reads fields. A number that is missing, because the file is older than it, keeps its default.
 struct TakeField {
   const Json& json;
 
@@ -39,7 +39,7 @@ struct TakeField {
     number = value.is_null() ? std::numeric_limits<double>::quiet_NaN() : value.get<double>();
   }
   void operator()(const char* name, StopReason& reason) const {
-    // Not of this program's reasons: a later one's. That there was one is all there is to know.
+    // A reason that this program does not know, from a later one, becomes cut_off.
     reason = stop_reason_of(json.at(name).get<std::string>()).value_or(StopReason::cut_off);
   }
 };

@@ -8,14 +8,15 @@
 
 namespace sandstroke {
 
-/// Carries samples from the ring to the journal, in a thread of its own: about 20 times a second, and through
-/// to the disk twice a second. Where the disk takes no more it stops the loop (disk) and carries no more.
+/// Carries samples from the ring to the journal in a thread of its own, about 20 times a second, and puts
+/// them on the disk twice a second. Where the disk takes no more, it stops the loop (reason `disk`) and
+/// carries no more.
 class SampleWriter {
  public:
-  /// By a thread of normal priority: its own gets the same.
+  /// Construct it in a thread of normal priority: its own thread gets the same.
   SampleWriter(SpscRing<RecordedSample>& ring, JournalWriter& journal, ServoLoop& loop);
   SampleWriter(const SampleWriter&) = delete;
-  /// Writes what is left; the loop has ended. Error: io, as the journal had it.
+  /// Writes what is left, after the loop has ended. Error: io, as the journal threw it.
   void finish();
 
  private:
@@ -25,7 +26,7 @@ class SampleWriter {
   SpscRing<RecordedSample>& ring_;
   JournalWriter& journal_;
   ServoLoop& loop_;
-  std::exception_ptr failure_;  // the thread's while it runs
+  std::exception_ptr failure_;  // only the thread uses it while it runs
   std::jthread thread_;
 };
 

@@ -12,9 +12,9 @@ using Eigen::Vector3d;
 
 constexpr auto relaxed = std::memory_order_relaxed;
 
-/// How many ticks make up a time, to the nearest.
+/// The number of ticks in a time, to the nearest.
 std::int64_t ticks_in(double seconds, double rate) {
-  const double longest = 1e15;  // beyond it a tick's time is no longer exact, after 30,000 years
+  const double longest = 1e15;  // a later tick's time is not exact; that takes 30,000 years
   return std::llround(std::clamp(seconds * rate, 0.0, longest));
 }
 
@@ -63,7 +63,7 @@ RecordingFooter ServoLoop::run() noexcept {
   await_start();
   while (true) {
     if (ticks_.elapsed > last_tick_) stop(end_reason_);
-    // Right after the last tick's command: where the watchdog has released the device since the tick looked,
+    // This follows right after the last tick's command: where the watchdog has released the device meanwhile,
     // that command is taken back at once.
     if (stopped()) break;
     const std::int64_t now = wait_for_tick();
@@ -104,8 +104,8 @@ ServoProgress ServoLoop::progress() const noexcept {
           .awaited = awaited_.load(relaxed)};
 }
 
-/// From the tick's number, not from the tick before: nothing adds up where a tick is no whole number of
-/// nanoseconds.
+/// Computed from the tick's number, not from the tick before, so that no error adds up where a tick is no
+/// whole number of nanoseconds.
 std::int64_t ServoLoop::tick_time(std::int64_t tick) const noexcept {
   return start_ + std::llround(static_cast<double>(tick) * 1e9 / rate_);
 }
@@ -113,7 +113,7 @@ std::int64_t ServoLoop::tick_time(std::int64_t tick) const noexcept {
 std::int64_t ServoLoop::wait_for_tick() noexcept {
   if (ticks_.elapsed == 0) return start_;
   const std::int64_t due = tick_time(ticks_.elapsed), now = clock_.now();
-  // To sleep until a time that has passed is to give the core away: on a busy machine, for many ticks.
+  // Sleeping until a time that has passed gives the core away: on a busy machine, for many ticks.
   if (now >= due) return now;
   clock_.sleep_until(due);
   return clock_.now();
@@ -136,7 +136,7 @@ void ServoLoop::await_start() noexcept {
     stop_where_it_lasts(!reads, silent_, now);
     if (reads) {
       const bool touches = world_ && world_->touches(reading);
-      // How large a force is due is not known without digging.
+      // Without displacing sand the force due is not known: infinity stands for any force.
       guard_.interlock().see(to_seconds(now - awake_),
                              touches ? std::numeric_limits<double>::infinity() : 0.0);
       const Awaited awaited = gate.see(now, reading.switches, touches);
@@ -167,7 +167,7 @@ void ServoLoop::begin(std::int64_t now, const DeviceReading* before) noexcept {
     }
   }
   if (!before) return;
-  world_->feel(0.0, *before);  // no force, for there was no contact
+  world_->feel(0.0, *before);  // no force: there was no contact
   keep(*before, now, 0);
   lateness_.add(0);
   ++ticks_.elapsed;
@@ -186,7 +186,7 @@ void ServoLoop::serve_tick(std::int64_t now) noexcept {
   bool answers = false;
   if (read(now, reading)) {
     FeltForce given = feel(now, reading);
-    if (stopped()) given.force.setZero();  // perhaps for a call that hung: its force is of another time
+    if (stopped()) given.force.setZero();  // a call may have hung, and its force is out of date
     answers = command(given.force);
     if (!answers) guard_.interlock().close();
     keep(reading, now, given.flags);
@@ -223,8 +223,8 @@ FeltForce ServoLoop::feel(std::int64_t now, const DeviceReading& reading) noexce
   return given;
 }
 
-/// False: since it refused a command the device has taken none. That it refuses zero where it holds none does
-/// not matter.
+/// False: the device refused a command and has taken none since. Refusing zero while it holds none does not
+/// matter.
 bool ServoLoop::command(const Vector3d& force) noexcept {
   if (gives_force_ && device_.command(force)) {
     held_ = force;

@@ -6,12 +6,12 @@
 
 namespace sandstroke {
 
-/// A queue from one thread to one other that neither ever waits at (Lamport 1983, with the indices cached).
-/// Its memory is all taken, and touched, when it is made.
+/// A queue from one thread to one other. Neither ever waits (Lamport 1983, with the indices cached). All its
+/// memory is taken, and touched, when it is made.
 template <class Item>
 class SpscRing {
  public:
-  /// capacity: at least so many items; rounded up to a power of two.
+  /// capacity: the least number of items; rounded up to a power of two.
   explicit SpscRing(std::size_t capacity) {
     std::size_t size = 1;
     while (size < capacity) size *= 2;
@@ -20,9 +20,9 @@ class SpscRing {
 
   std::size_t capacity() const { return items_.size(); }
 
-  /// By the one thread that fills it. Room for at least so many.
+  /// For the thread that fills it: there is room for at least so many.
   std::size_t room() const { return capacity() - size(); }
-  /// False: it is full, and the item is not in it.
+  /// False: the ring is full, and did not take the item.
   bool push(const Item& item) {
     const std::size_t end = end_.load(std::memory_order_relaxed);
     if (end - seen_begin_ == items_.size()) {
@@ -34,7 +34,7 @@ class SpscRing {
     return true;
   }
 
-  /// By the one thread that empties it. False: it is empty.
+  /// For the thread that empties it. False: it is empty.
   bool pop(Item& item) {
     const std::size_t begin = begin_.load(std::memory_order_relaxed);
     if (begin == seen_end_) {
@@ -46,13 +46,13 @@ class SpscRing {
     return true;
   }
 
-  /// By either: how many wait in it, at least (emptier) or at most (filler).
+  /// For both: how many items wait, at least (emptier) or at most (filler).
   std::size_t size() const {
     return end_.load(std::memory_order_acquire) - begin_.load(std::memory_order_acquire);
   }
 
  private:
-  static constexpr std::size_t line = 64;  // bytes: what one thread writes lies on no line of the other's
+  static constexpr std::size_t line = 64;  // bytes: the two threads write to different cache lines
   std::vector<Item> items_;
   alignas(line) std::atomic<std::size_t> end_{0};
   std::size_t seen_begin_ = 0;

@@ -7,15 +7,15 @@
 
 namespace sandstroke {
 
-/// When a recording begins: once all that is asked for has come to pass, in this order.
+/// When a recording begins: once all that is asked for has happened, in this order.
 struct StartSettings {
   double countdown = 0.0;           ///< s
   std::optional<int> start_switch;  ///< (from 0, to 31) is pressed
-  bool at_contact = false;          ///< the tool has been out of the sand, and touches it
+  bool at_contact = false;          ///< the tool has been out of the sand, and then touches it
   bool at_once() const { return countdown <= 0.0 && !start_switch && !at_contact; }
 };
 
-/// What a recorder waits for.
+/// The event that a recorder waits for.
 enum class Awaited {
   nothing,
   countdown,
@@ -27,10 +27,11 @@ enum class Awaited {
 /// Says when a recording begins, reading by reading.
 class StartGate {
  public:
-  /// countdown_end, debounce [ns]: the latter as SwitchPress has it.
+  /// countdown_end, debounce [ns]. debounce: as in SwitchPress.
   StartGate(const StartSettings& settings, std::int64_t countdown_end, std::int64_t debounce);
 
-  /// What is still waited for after a reading at `now` [ns], which increases. touches: the tool the sand.
+  /// Takes a reading at `now` [ns] and says what is still awaited. Times increase. touches: the tool touches
+  /// the sand.
   Awaited see(std::int64_t now, std::uint32_t switches, bool touches) noexcept;
 
  private:

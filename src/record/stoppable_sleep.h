@@ -5,7 +5,7 @@
 
 namespace sandstroke {
 
-/// Sleeps in a thread that works by turns. False, and at once: it is asked to stop.
+/// Sleeps, in a thread that works by turns. Returns false at once when the thread is asked to stop.
 bool sleep_unless_stopped(const std::stop_token& stop, std::chrono::nanoseconds time);
 
 }  // namespace sandstroke

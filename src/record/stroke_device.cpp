@@ -7,7 +7,7 @@
 namespace sandstroke {
 namespace {
 
-/// Gaps with one sample between them are one [s]: no tick may meet that sample.
+/// The longest gap [s]. Gaps with one sample between them count as one: perhaps no tick meets that sample.
 double longest_gap(const Stroke& stroke) {
   double longest = 0.0, begin = 0.0;
   for (std::size_t i = 0; i + 1 < stroke.size(); ++i) {

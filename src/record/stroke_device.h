@@ -9,16 +9,16 @@
 
 namespace sandstroke {
 
-/// A device whose hand moves along a stroke, scripted or recorded, in real time, and rests at its end: for
-/// people without one. It takes any force and feels nothing.
+/// A stand-in for people without a device. Its hand moves along a stroke, scripted or recorded, in real time,
+/// and rests at its end. It takes any force and feels nothing.
 ///
-/// Where the stroke has no samples (they are further apart than its gap_threshold, or the pen lifts) nobody
-/// knows where the hand was, so nothing is read: what is recorded has the same gap, not a line drawn across
-/// it. A device knows no pen: samples with the pen up are played as positions like all others, so what was
-/// lifted on a tablet must be lifted in space (as scripts do, by their clearance) not to be drawn.
+/// Where the stroke has no samples (they are further apart than its gap_threshold, or the pen lifts), nothing
+/// is read, because nobody knows where the hand was. The recording then has the same gap, not a line across
+/// it. A device knows no pen: samples with the pen up are played as positions like all others. A pen that was
+/// lifted on a tablet must also be lifted in space (as scripts do, by their clearance) not to draw.
 class StrokeDevice : public HapticDevice {
  public:
-  /// The stroke must have passed check_stroke. name: of its specification's model.
+  /// The stroke must have passed check_stroke. name: the model in its specification.
   StrokeDevice(Stroke stroke, std::string name);
 
   void open() override {}
@@ -28,7 +28,7 @@ class StrokeDevice : public HapticDevice {
   std::optional<double> duration() const override { return sampler_.stroke().duration(); }
   /// Its longest gap.
   double longest_silence() const override { return longest_silence_; }
-  /// time [s]: since the stroke's first sample. The switches are those of the last sample until then.
+  /// time [s]: since the stroke's first sample. The switches are those of the last sample before `time`.
   bool read(double time, DeviceReading& reading) noexcept override;
   bool command(const Eigen::Vector3d& force) noexcept override;
   void release() noexcept override { command(Eigen::Vector3d::Zero()); }

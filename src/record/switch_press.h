@@ -5,13 +5,13 @@
 
 namespace sandstroke {
 
-/// The switch of a device that begins or ends a recording. Contacts bounce, and a hand may hold it down
-/// before: it counts once it has been seen up, and then been down for a while without interruption.
+/// The switch of a device that begins or ends a recording. Switches bounce, and a hand may already hold it
+/// down. So a press counts once the switch was seen up, and was then down for a while without interruption.
 class SwitchPress {
  public:
-  /// number: its bit. debounce [ns]: for how long it must be down.
+  /// number: the switch's bit. debounce [ns]: how long it must be down.
   SwitchPress(int number, std::int64_t debounce) : number_(number), debounce_(debounce) {}
-  /// By a reading's switches at `time` [ns]; times increase.
+  /// True: pressed, by a reading's switches at `time` [ns]. Times increase.
   bool pressed(std::uint32_t switches, std::int64_t time) noexcept;
 
  private:

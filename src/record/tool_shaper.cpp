@@ -38,7 +38,7 @@ bool ToolShaper::work() noexcept {
   try {
     ToolFootprint footprint(tool_);
     footprint.turn(asked_);
-    // On a bed that holds all of it, so that it has its memory.
+    // On a bed that holds the whole footprint, so that it takes its memory now.
     const int cells = 2 * static_cast<int>(std::ceil(1.5 * footprint.farthest() / cell_size_)) + 16;
     footprint.place(HeightField(cells, cells, cell_size_), 0.0, 0.0);
     footprint.make_ways_out(distance_);
@@ -46,7 +46,7 @@ bool ToolShaper::work() noexcept {
     state_.store(made, std::memory_order_release);
     return true;
   } catch (const Error&) {  // too thin for the cells
-  } catch (...) {  // the hand goes on feeling: a program that ended here would not release the device
+  } catch (...) {           // the hand goes on feeling: ending the program here would not release the device
     failure_ = std::current_exception();
   }
   state_.store(idle, std::memory_order_release);

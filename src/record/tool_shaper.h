@@ -8,36 +8,37 @@
 
 namespace sandstroke {
 
-/// The footprints of a tool that a hand turns. To make one takes 10 to 400 ms with cells of 1 to 2 mm, and
-/// seconds with 0.5 mm (ToolEnvelope), so a thread of its own makes them, and the servo loop takes the
-/// newest: what digs is turned as the hand was that long ago.
+/// Makes the footprints of a tool that a hand turns. One takes 10 to 400 ms with cells of 1 to 2 mm, and
+/// seconds with 0.5 mm (ToolEnvelope). So a thread of its own makes them, and the servo loop takes the
+/// newest: the footprint is turned as the hand was that long ago.
 class ToolShaper {
  public:
-  /// distance: DisplacementSettings::distance. The tool is no sphere.
+  /// distance: DisplacementSettings::distance. The tool must be no sphere.
   ToolShaper(const ToolSettings& tool, double distance, double cell_size);
   ~ToolShaper() { stop(); }
 
   void start();
   void stop();
-  /// By that thread, or, where none runs, by the caller: makes what was asked for. False: it could not.
+  /// Makes the footprint that was asked for. Called by that thread, or, where none runs, by the caller.
+  /// False: failed.
   bool work() noexcept;
-  /// What kept it from that last, if it was no Error: memory, most likely. After stop().
+  /// The last failure of work() that was no Error: memory, most likely. Call it after stop().
   const std::exception_ptr& failure() const { return failure_; }
 
-  /// In the servo loop: the hand holds the tool like this now. Takes neither time nor memory. True: a newer
-  /// footprint is in `footprint`, turned by rotation(). What is too thin for the cells when it is turned like
-  /// this stays as it was.
+  /// For the servo loop: the hand holds the tool like this now. Takes neither time nor memory. True:
+  /// `footprint` is newer, turned by rotation(). A tool that is too thin for the cells in this orientation
+  /// keeps its footprint.
   bool follow(const Eigen::Matrix3d& rotation, ToolFootprint& footprint) noexcept;
   const Eigen::Matrix3d& rotation() const { return rotation_; }
 
  private:
-  enum State { idle, asked, made };  // of spare_ and asked_: the loop's, the thread's, the loop's
+  enum State { idle, asked, made };  // who uses spare_ and asked_: the loop, the thread, the loop
 
   ToolSettings tool_;
   double distance_, cell_size_;
   ToolFootprint spare_;
   Eigen::Matrix3d rotation_, asked_;
-  std::exception_ptr failure_;  // the thread's while it runs
+  std::exception_ptr failure_;  // only the thread uses it while it runs
   std::atomic<State> state_{idle};
   std::atomic<bool> stopping_{true};
   std::thread thread_;

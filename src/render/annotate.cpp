@@ -45,7 +45,7 @@ double distance_to_segment(const Eigen::Vector2d& p, const Eigen::Vector2d& a, c
   return (p - a - t * along).norm();
 }
 
-/// Sizes of the legend's parts, all from the capital height.
+/// Sizes of the legend's parts. All follow from the capital height.
 struct LegendLayout {
   double cap, margin, bar_width, tick_length, label_width, usual_width;
   std::string title;
@@ -131,7 +131,7 @@ void draw_legend(Image& image, const Legend& legend) {
   }
   const double line = std::max(1.0, 0.08 * cap);
   const double spacing = legend.contour_interval / (legend.high - legend.low) * (bottom - top);  // pixels
-  if (spacing > line) {  // where lines would touch there are none, as in the picture
+  if (spacing > line) {  // no lines where they would touch, as in the picture
     for (double k = std::ceil(legend.low / legend.contour_interval);
          k * legend.contour_interval <= legend.high; ++k) {
       const double y = y_at(k * legend.contour_interval);

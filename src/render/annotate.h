@@ -11,13 +11,13 @@ namespace sandstroke {
 /// down; cap_height: of capital letters, in pixels. What lies outside the image is cut off.
 void draw_text(Image& image, double x, double y, double cap_height, std::string_view text, Rgb rgb);
 
-/// Width in pixels of what draw_text draws.
+/// The width in pixels of the text that draw_text draws.
 double text_width(double cap_height, std::string_view text);
 
 /// Capital height [pixels] that reads well in a picture of this height.
 double annotation_cap_height(int image_height);
 
-/// What a colour bar says: a quantity in metres from low to high (low < high).
+/// The content of a colour bar: a quantity in metres from low to high (low < high).
 struct Legend {
   std::string quantity = "height";
   double low = 0.0, high = 1.0;  ///< m
@@ -26,8 +26,8 @@ struct Legend {
       0.0;  ///< m; > 0: the bar shows the picture's contour lines, unless they would touch
 };
 
-/// Width [pixels] of the strip at the right border that draw_legend uses in a picture of this height, unless
-/// the scale has numbers of many digits: it depends on the quantity, never on the range.
+/// Width [pixels] of the strip at the right border that draw_legend uses in a picture of this height. It
+/// depends on the quantity, never on the range. Only a scale with numbers of many digits needs more.
 int legend_width(const Legend& legend, int image_height);
 
 /// Draws the colour bar with round numbers, title and unit on a light strip along the right border.

@@ -12,7 +12,7 @@ struct Vertex {
   Eigen::Vector3f place, normal;
 };
 
-/// A line around the bed: on each side `out` [m] away from the outermost cells, at one height [m].
+/// A line around the bed at one height [m], on each side `out` [m] away from the outermost cells.
 struct Frame {
   double out, height;
 };
@@ -50,7 +50,7 @@ void BedBox::update(const BedGeometry& bed, const StartHeights& start) {
   const Eigen::Vector2d half_bed(bed.x_of(bed.cols() - 1), bed.y_of(bed.rows() - 1));
   const double side = 2.0 * half_bed.maxCoeff(), thickness = 0.012 * side;
   const double rim = start.border + 0.15 * thickness, ground = start.lowest - 3.0 * thickness;
-  // Inside, the wall lines pits below the ground as well.
+  // On the inside, the wall also lines pits below the ground.
   const Frame bottom{0.0, ground - side}, inner{0.0, rim}, outer{thickness, rim}, foot{thickness, ground};
   const Frame horizon{20.0 * side, ground};
 
@@ -79,7 +79,7 @@ void BedBox::draw_wall() const {
 
 void BedBox::draw_ground_depth() const {
   glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
-  glEnable(GL_DEPTH_CLAMP);  // it is nearer than the range of depths where it comes up to the camera
+  glEnable(GL_DEPTH_CLAMP);  // near the camera the ground is nearer than the range of depths
   glBindVertexArray(layout_);
   glDrawArrays(GL_TRIANGLES, wall_vertices_, ground_vertices_);
   glDisable(GL_DEPTH_CLAMP);

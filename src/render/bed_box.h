@@ -7,17 +7,17 @@
 
 namespace sandstroke {
 
-/// The box that holds the sand: a wall around the bed, with a level rim, on level ground. Sand may come to
-/// lie above the rim and below the ground: the box does not follow it.
+/// The box that holds the sand: a wall around the bed, with a level rim, on level ground. The box does not
+/// follow the sand, which may come to lie above the rim and below the ground.
 class BedBox {
  public:
   BedBox();
-  /// Rebuilds the wall around a bed that started so.
+  /// Rebuilds the wall around a bed with these start heights.
   void update(const BedGeometry& bed, const StartHeights& start);
   void draw_wall() const;
-  /// Only where it is, no colours: the ground hides a pit that is deeper than the box.
+  /// Draws only the ground's depth, no colours. The ground hides a pit that is deeper than the box.
   void draw_ground_depth() const;
-  /// All of the wall above the ground it stands on, [m].
+  /// The wall above the ground [m].
   const Eigen::AlignedBox3d& bounds() const { return bounds_; }
   double wall_thickness() const { return wall_thickness_; }  ///< m
 

@@ -28,8 +28,8 @@ Eigen::Matrix3d camera_axes(double azimuth, double elevation) {
   return axes;
 }
 
-/// One pair of opposite frustum planes pushed against the subject: an eye that stands at `depth` (along the
-/// backward axis) sees all of it from anywhere between low - slope_high depth and high + slope_low depth.
+/// One pair of opposite frustum planes, pushed against the subject. An eye at `depth` (along the backward
+/// axis) sees all of the subject from anywhere between low - slope_high depth and high + slope_low depth.
 struct Fit {
   double low, high, slope_low, slope_high;
   Fit(const std::array<Eigen::Vector3d, 8>& points, int across, double slope_low_side, double slope_high_side)
@@ -67,7 +67,7 @@ PixelRect Camera::pixels_of(const Eigen::AlignedBox3d& box, int width, int heigh
   Eigen::Array2d low = Eigen::Array2d::Constant(1.0), high = -low;
   for (const Eigen::Vector3d& p : corners(box)) {
     const Eigen::Vector4d clip = to_clip * p.homogeneous();
-    if (clip.w() <= 0.0) return {0, 0, width, height};  // beside the eye
+    if (clip.w() <= 0.0) return {0, 0, width, height};  // a corner is beside the eye or behind it
     const Eigen::Array2d place = (clip.head<2>() / clip.w()).array().max(-1.0).min(1.0);
     low = low.min(place), high = high.max(place);
   }
@@ -79,14 +79,14 @@ PixelRect Camera::pixels_of(const Eigen::AlignedBox3d& box, int width, int heigh
 }
 
 double Camera::widest_pixel(const Eigen::AlignedBox3d& box, double steepest) const {
-  double farthest = 1.0, sine = -forward.z();  // of the least angle between the way to the eye and the level
+  double farthest = 1.0, sine = -forward.z();  // of the least angle between the level and the way to the eye
   if (!orthographic) {
     farthest = 0.0;
     for (const Eigen::Vector3d& p : corners(box)) farthest = std::max(farthest, (eye - p).norm());
     sine = std::clamp((eye.z() - box.max().z()) / farthest, -1.0, 1.0);
   }
-  const double facing = sine - steepest * std::sqrt(1.0 - sine * sine);  // of a slope that falls away
-  constexpr double room = 4.0;  // for what differs between pixels, and for coarser triangles
+  const double facing = sine - steepest * std::sqrt(1.0 - sine * sine);  // for a slope that falls away
+  constexpr double room = 4.0;  // for differences between pixels, and for coarser triangles
   return facing < 0.02 ? std::numeric_limits<double>::infinity() : room * farthest / (scale * facing);
 }
 
@@ -105,7 +105,7 @@ bool Camera::misses(const Eigen::AlignedBox3d& box) const {
 
 namespace {
 
-/// The depth range holds the whole scene, but starts a little before the eye at the nearest.
+/// The depth range holds the whole scene, but starts a little in front of the eye at the nearest.
 void set_depth_range(Eigen::Matrix4d& projection, const Camera& camera, const Eigen::AlignedBox3d& scene) {
   double nearest = 1e300, farthest = -1e300;
   for (const Eigen::Vector3d& p : corners(scene)) {
@@ -155,7 +155,7 @@ Camera make_camera(const ViewSettings& view, const Eigen::AlignedBox3d& subject,
     const double half_height =
         std::max(extent.y() / (2.0 * inside), extent.x() / (aspect * (inside + inside_right)));
     const double half_width = aspect * half_height;
-    const double shift = 0.5 * (inside - inside_right) * half_width;  // the middle of what the margin leaves
+    const double shift = 0.5 * (inside - inside_right) * half_width;  // to the middle beside the margin
     camera.eye = axes.transpose() * Eigen::Vector3d(centre.x() + shift, centre.y(), in_camera.max().z());
     camera.scale = 0.5 * view.height / half_height;
     projection(0, 0) = 1.0 / half_width;

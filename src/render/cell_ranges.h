@@ -6,13 +6,13 @@
 
 namespace sandstroke {
 
-/// The cells of both; may be empty().
+/// The cells that both hold; may be empty().
 inline CellRange common(const CellRange& a, const CellRange& b) {
   return {std::max(a.row_begin, b.row_begin), std::min(a.row_end, b.row_end),
           std::max(a.col_begin, b.col_begin), std::min(a.col_end, b.col_end)};
 }
 
-/// The smallest rectangle that holds both, either of which may be empty().
+/// The smallest rectangle that holds both. Either may be empty().
 inline CellRange around(const CellRange& a, const CellRange& b) {
   if (a.empty()) return b;
   if (b.empty()) return a;
@@ -20,12 +20,12 @@ inline CellRange around(const CellRange& a, const CellRange& b) {
           std::min(a.col_begin, b.col_begin), std::max(a.col_end, b.col_end)};
 }
 
-/// So many cells more on each side; may reach beyond the bed.
+/// `by` more cells on each side; may reach beyond the bed.
 inline CellRange grown(const CellRange& cells, int by) {
   return {cells.row_begin - by, cells.row_end + by, cells.col_begin - by, cells.col_end + by};
 }
 
-/// Of `cells` those at which change(row, col) is true: the rectangle that holds them.
+/// The smallest rectangle that holds all of `cells` where change(row, col) is true.
 template <class Change>
 CellRange changed_part(const CellRange& cells, Change change) {
   CellRange part;

@@ -24,7 +24,7 @@ RenderSubject subject_of_change(const HeightGrid& initial, const HeightGrid& las
 Image ChangePainter::draw(const HeightField& initial, const HeightField& last, const CellRange& stroke,
                           const ViewSettings& view) {
   if (!renderer_ || !bed_->same_grid(last)) {
-    renderer_.reset();  // before the next: two take twice the memory
+    renderer_.reset();  // before the next is made: two take twice the memory
     bed_ = last;
     renderer_ = std::make_unique<HeightFieldRenderer>(last.rows(), last.cols(), last.cell_size());
   }

@@ -7,14 +7,14 @@
 
 namespace sandstroke {
 
-/// How surfaces between an initial and a last one [m] are shown, all with one camera, which the initial one
-/// sets, and on one scale of colours: that of the two together. stroke: what view stroke frames.
-/// contour_interval [m]: 0 = a round one.
+/// How to show surfaces between an initial and a last one [m]. The initial one sets the camera of all. Their
+/// colour scale is that of both together. stroke: the cells that view stroke frames. contour_interval [m]: 0
+/// = a round one.
 RenderSubject subject_of_change(const HeightGrid& initial, const HeightGrid& last, const CellRange& stroke,
                                 const ViewSettings& view, double contour_interval = 0.0);
 
-/// Draws the last surfaces of runs, one after the other; beds of one size cost the graphics system's start
-/// only once. For one thread.
+/// Draws the last surfaces of runs, one after the other. Beds of one size start the graphics system only
+/// once. For one thread.
 class ChangePainter {
  public:
   /// Error: input, io, as HeightFieldRenderer.
@@ -23,7 +23,7 @@ class ChangePainter {
 
  private:
   std::unique_ptr<HeightFieldRenderer> renderer_;
-  std::optional<BedGeometry> bed_;  // that it draws
+  std::optional<BedGeometry> bed_;  // that renderer_ draws
 };
 
 }  // namespace sandstroke

@@ -4,11 +4,11 @@
 
 namespace sandstroke {
 
-/// What settles around a stroke moves by no more than this share of the largest change.
+/// Sand that relaxes around a stroke moves by no more than this share of the largest change.
 inline constexpr double settled_share = 0.02;
 
 /// The smallest rectangle that holds every cell whose height differs by more than threshold [m]; empty where
-/// none does. Error: input, where the grids differ in shape.
+/// there is none. Error: input, where the grids differ in shape.
 CellRange changed_cells(const HeightGrid& initial, const HeightGrid& final, double threshold);
 
 }  // namespace sandstroke

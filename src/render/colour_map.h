@@ -16,7 +16,7 @@ std::array<double, 3> diverging_colour(double minus_one_to_one);
 /// The colour of `value` on the scale from low to high; a diverging scale has its white in the middle.
 std::array<double, 3> scale_colour(double value, double low, double high, bool diverging);
 
-/// A colour given in [0, 1], as images hold it.
+/// A colour given in [0, 1] as the bytes of an image.
 Rgb as_bytes(const std::array<double, 3>& colour);
 
 }  // namespace sandstroke

@@ -8,9 +8,9 @@
 namespace sandstroke {
 
 CurrentContext::CurrentContext() {
-  load_offscreen_library();  // first: what it takes is no room for the rest
-  // Where it finds no memory, Mesa or its compiler ends the program. Measured: 90 MB and threads' stacks.
-  // Those who draw at the same time may not have taken theirs yet.
+  load_offscreen_library();  // first, because it leaves less room for the rest
+  // Where Mesa or its compiler finds no memory, it ends the program. Measured: 90 MB, and threads' stacks.
+  // Others who draw at the same time may not have taken theirs yet.
   check_memory(living_.count * (100e6 + 10e6 * std::thread::hardware_concurrency()), "drawing",
                "allow more, or do without pictures");
   context_ = make_offscreen_context();

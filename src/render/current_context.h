@@ -7,15 +7,15 @@
 
 namespace sandstroke {
 
-/// A context that is current from its construction on: what is made after it may use GL.
+/// A context that is current once it is constructed: members that follow it may use GL.
 class CurrentContext {
  public:
-  /// Error: io, as make_offscreen_context; input, where there is not the memory for it.
+  /// Error: io, as make_offscreen_context; input, where memory is short.
   CurrentContext();
   void make_current() { context_->make_current(); }
 
  private:
-  /// Counts those that there are.
+  /// Counts the living objects.
   struct Living {
     Living() { ++count; }
     ~Living() { --count; }

@@ -6,7 +6,8 @@
 
 namespace sandstroke {
 
-/// What is drawn to: colour and depth with 4 samples a pixel. Error: input, where the size is out of limits.
+/// The target of drawing: colour and depth with 4 samples a pixel. Error: input, where the size is out of
+/// limits.
 class Framebuffer {
  public:
   static constexpr int smallest = 16, largest = 8192;  ///< pixels a side
@@ -14,10 +15,10 @@ class Framebuffer {
   Framebuffer(int width, int height);
   int width() const { return width_; }
   int height() const { return height_; }
-  /// Makes it the target of drawing, of these pixels alone.
+  /// Makes it the target of drawing, and limits drawing to these pixels.
   void bind(const PixelRect& pixels) const;
   PixelRect whole() const { return {0, 0, width_, height_}; }
-  /// Copies what is drawn there into a picture of this size, each pixel the mean of its samples.
+  /// Copies these pixels into a picture of this size. Each pixel is the mean of its samples.
   void read(const PixelRect& pixels, Image& image) const;
 
  private:

@@ -1,12 +1,12 @@
 #pragma once
 
 // Private to src/render: OpenGL, loaded when something is drawn. It and its compiler take 20 ms and 40 MB,
-// which those who draw nothing do without.
+// which commands without pictures save.
 #define GL_GLEXT_PROTOTYPES
 #include <GL/gl.h>
 #include <GL/glext.h>
 
-// What of OpenGL 3.3 is called here.
+// The functions of OpenGL 3.3 that are called here.
 #define SANDSTROKE_GL_FUNCTIONS(of)                                                                          \
   of(glActiveTexture) of(glAttachShader) of(glBindBuffer) of(glBindFramebuffer) of(glBindRenderbuffer)       \
       of(glBindTexture) of(glBindVertexArray) of(glBlitFramebuffer) of(glBufferData) of(                     \
@@ -29,13 +29,13 @@
 
 namespace sandstroke {
 
-// Pointers of the functions' own names, which come before those of the header in this namespace. One that the
-// list lacks is an undefined reference for the linker.
+// Pointers with the functions' own names. In this namespace they come before those of the header. A function
+// that the list lacks is an undefined reference for the linker.
 #define SANDSTROKE_DECLARE(name) inline decltype(&::name) name = nullptr;
 SANDSTROKE_GL_FUNCTIONS(SANDSTROKE_DECLARE)
 #undef SANDSTROKE_DECLARE
 
-/// Sets them, once per process. Error: io, with what is missing.
+/// Sets these pointers, once per process. Error: io, with what is missing.
 void load_gl_functions();
 
 }  // namespace sandstroke

@@ -9,7 +9,7 @@
 
 namespace sandstroke {
 
-/// Owns one GL object. Its context must be current when it is made and when it goes.
+/// Owns one GL object. Its context must be current when the object is made and when it is destroyed.
 class GlObject {
  public:
   using Destroy = void (*)(GLuint);
@@ -37,7 +37,7 @@ GlObject make_vertex_array();
 GlObject make_framebuffer();
 GlObject make_renderbuffer();
 
-/// Throws (io) where GL has recorded an error since the last call; `doing` says what was tried.
+/// Throws (io) where GL has recorded an error since the last call; `doing` names the step.
 void check_gl(const char* doing);
 
 /// A linked vertex and fragment shader. Error: io, with the compiler's log.
@@ -46,7 +46,7 @@ class ShaderProgram {
   ShaderProgram(const std::string& name, const std::string& vertex, const std::string& fragment);
   void use() const { glUseProgram(program_); }
 
-  // For the program in use; names that the compiler has optimised away are ignored.
+  // These set values of the program in use. Names that the compiler has optimised away are ignored.
   void set(const char* name, int value) const { glUniform1i(place(name), value); }
   void set(const char* name, double value) const { glUniform1f(place(name), static_cast<float>(value)); }
   void set(const char* name, int x, int y) const { glUniform2i(place(name), x, y); }
@@ -54,7 +54,7 @@ class ShaderProgram {
   void set(const char* name, const Eigen::Vector3d& value) const;
   void set(const char* name, const Eigen::Vector4d& value) const;
   void set(const char* name, const Eigen::Matrix4d& value) const;
-  /// For glUniform calls that are made often.
+  /// The place of a name, for glUniform calls that are made often.
   GLint place(const char* name) const { return glGetUniformLocation(program_, name); }
 
  private:

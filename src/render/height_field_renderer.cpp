@@ -65,13 +65,13 @@ class HeightFieldRenderer::Drawing {
 
  private:
   void check(const HeightField& surface, const ViewSettings& view) const;
-  /// Colour scale of the picture; also puts the values where the map shader finds them.
+  /// The picture's colour scale. Also puts the values where the map shader finds them.
   Legend prepare_values(const RenderSubject& subject);
-  /// legend_part: of the picture's width.
+  /// legend_part: the legend's part of the picture's width.
   Camera camera_for(const RenderSubject& subject, const StartHeights& start, double legend_part) const;
   void set_light(const ShaderProgram& program, const Camera& camera, const Sun& sun) const;
   void set_tool(const ShaderProgram& program, const ToolBody& tool) const;
-  /// Draws the pixels_ anew.
+  /// Redraws the pixels_.
   void draw(const RenderSubject& subject, const std::optional<Legend>& legend, const Camera& camera,
             const Sun& sun);
   void draw_surroundings(const RenderSubject& subject, const Camera& camera, const Sun& sun) const;
@@ -84,7 +84,7 @@ class HeightFieldRenderer::Drawing {
 
   BedGeometry bed_;
   double wall_radius_ = 0.0;  // m, of a round bed
-  CurrentContext context_;    // before everything that lives in it
+  CurrentContext context_;    // before all members that live in it
   SurfaceTextures surface_;
   TileMesh tiles_;
   BedBox box_;
@@ -93,8 +93,8 @@ class HeightFieldRenderer::Drawing {
   GlObject sequential_, diverging_, no_vertices_;
   std::unique_ptr<SurfaceTextures> difference_;
   std::unique_ptr<Framebuffer> framebuffer_;
-  std::optional<PictureState> drawn_;  // what the framebuffer shows; none: nothing of use
-  PixelRect pixels_;                   // those that are drawn
+  std::optional<PictureState> drawn_;  // what the framebuffer shows; none: nothing that can be reused
+  PixelRect pixels_;                   // the pixels to be drawn
   Image image_;
 };
 
@@ -205,7 +205,7 @@ Camera HeightFieldRenderer::Drawing::camera_for(const RenderSubject& subject, co
                                                 double legend_part) const {
   Eigen::AlignedBox3d framed = box_.bounds();
   framed.extend(box_over(bed_, bed_.cells(), start.lowest, start.highest));
-  // The range of depths, too, decides on bits: so it has room for most of what sand can do.
+  // The range of depths also decides on bits, so it has room for most of what sand can do.
   const double side = framed.sizes().maxCoeff();
   Eigen::AlignedBox3d scene = framed;
   scene.extend(framed.min() - side * Eigen::Vector3d::UnitZ());
@@ -323,7 +323,7 @@ HeightFieldRenderer::HeightFieldRenderer(int rows, int cols, double cell_size)
     : drawing_(std::make_unique<Drawing>(BedGeometry(rows, cols, cell_size))) {}
 
 HeightFieldRenderer::~HeightFieldRenderer() {
-  if (drawing_) drawing_->make_current();  // for what goes with it
+  if (drawing_) drawing_->make_current();  // it must be current while its objects are destroyed
 }
 
 Image HeightFieldRenderer::render(const HeightField& surface, const RenderSubject& subject) {

@@ -8,16 +8,16 @@
 
 namespace sandstroke {
 
-/// What the last picture took.
+/// How much the last picture drew.
 struct RenderCounters {
-  int tiles_changed = 0;       ///< worked out and uploaded again
-  std::int64_t pixels = 0;     ///< drawn again; the others are as before
-  int tiles_drawn = 0;         ///< there
+  int tiles_changed = 0;       ///< computed and uploaded again
+  std::int64_t pixels = 0;     ///< drawn again; all others are as before
+  int tiles_drawn = 0;         ///< in those pixels
   std::int64_t triangles = 0;  ///< of the sand
 };
 
-/// Whether the graphics system can draw a bed of this size: the errors of HeightFieldRenderer's constructor,
-/// without the memory that it takes.
+/// Checks that the graphics system can draw a bed of this size. It gives the errors of HeightFieldRenderer's
+/// constructor, but takes no memory for the bed.
 void check_drawable(int rows, int cols);
 
 /// Draws beds of one size, off screen, on the CPU. What it keeps from picture to picture only saves time: a

@@ -33,7 +33,7 @@ class Horizon {
     const int across_cell = static_cast<int>(std::floor(across));
     const auto part = static_cast<float>(across - across_cell);
     const int row_step = along_x_ ? across_cell : sign_ * k, col_step = along_x_ ? sign_ * k : across_cell;
-    // The second of the two neighbours across; itself where the ray goes through cell centres.
+    // The second of the two neighbours across; it is the first where the ray goes through cell centres.
     const int beside = part > 0.0f ? 1 : 0;
     const int row_beside = along_x_ ? beside : 0, col_beside = along_x_ ? 0 : beside;
     const auto rows = static_cast<int>(heights_.rows()), cols = static_cast<int>(heights_.cols());
@@ -64,7 +64,7 @@ class Horizon {
   DrawnHeights slopes_;
 };
 
-/// Slope of a ray to the lowest point of the sun: what stays below it throws no shadow.
+/// Slope of a ray to the lowest point of the sun. Sand below it throws no shadow.
 double lowest_ray(const Sun& sun) {
   return std::tan(to_radians(std::max(0.3, sun.elevation - sun.softness)));
 }
@@ -92,7 +92,7 @@ void sun_visibility(const DrawnHeights& heights, double cell_size, const Sun& su
                static_cast<int>(std::max(heights.rows(), heights.cols())));
   for (int k = 1; k <= reach; ++k) horizon.look(k);
 
-  // A penumbra centred, in slope, on the sun's own elevation.
+  // A penumbra whose middle, in slope, is the sun's own elevation.
   const double sun_slope = std::tan(to_radians(std::min(sun.elevation, 89.0)));
   const double half_width = sun_slope - std::min(lowest_ray(sun), 0.999 * sun_slope);
   const auto first = static_cast<float>(sun_slope - half_width), width = static_cast<float>(2.0 * half_width);

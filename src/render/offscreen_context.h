@@ -6,8 +6,8 @@
 namespace sandstroke {
 
 /// An OpenGL 3.3 core context that needs no window and no display. It draws into framebuffer objects only, so
-/// it has no size of its own. Made current before GL calls, per thread; another context may have been current
-/// before.
+/// it has no size of its own. Make it current before GL calls, in each thread; another context may have been
+/// current before.
 class OffscreenContext {
  public:
   virtual ~OffscreenContext() = default;
@@ -18,22 +18,22 @@ class OffscreenContext {
 
  protected:
   OffscreenContext() {
-    // With 512-bit vectors llvmpipe of Mesa 22 crashes on multisampled targets; it reads this once per
-    // process.
+    // With 512-bit vectors llvmpipe of Mesa 22 crashes on multisampled targets. Mesa reads this variable once
+    // per process.
     setenv("LP_NATIVE_VECTOR_WIDTH", "256", 1);
   }
 };
 
-/// Loads what draws, where that is not there from the start. Error: io, with what is missing; input, where
-/// there is not the memory for it.
+/// Loads the library that draws, unless it is there from the start. Error: io, with what is missing; input,
+/// where memory is short.
 void load_offscreen_library();
 
-/// Software rendering by Mesa's llvmpipe, through OSMesa or EGL: which of them, the build says
-/// (SANDSTROKE_GL). Error: io, with what is missing.
+/// Software rendering by Mesa's llvmpipe, through OSMesa or EGL, as the build says (SANDSTROKE_GL). Error:
+/// io, with what is missing.
 std::unique_ptr<OffscreenContext> make_offscreen_context();
 
-/// A function of OpenGL, to be cast to what it is; null where there is none of this name. To be asked when
-/// there is a context.
+/// An OpenGL function, to be cast to its type; null where none has this name. Call it while there is a
+/// context.
 void (*find_gl_function(const char* name))();
 
 }  // namespace sandstroke

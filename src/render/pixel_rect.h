@@ -13,7 +13,7 @@ struct PixelRect {
   bool touches(const PixelRect& other) const {
     return left < other.right && other.left < right && bottom < other.top && other.bottom < top;
   }
-  /// Grows to hold the other, too.
+  /// Grows to hold the other rectangle, too.
   void extend(const PixelRect& other) {
     if (other.empty()) return;
     if (empty()) {

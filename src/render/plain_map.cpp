@@ -9,7 +9,7 @@ namespace sandstroke {
 
 Image plain_map(const HeightGrid& values, double low, double high, bool diverging, int width, int height) {
   const auto rows = static_cast<double>(values.rows()), cols = static_cast<double>(values.cols());
-  // Cells of pixel k of `pixels`: [first, last), at least one.
+  // The cells of pixel k of `pixels` pixels: [first, last), at least one.
   const auto first = [](int k, int pixels, double cells) {
     return static_cast<Eigen::Index>(k * cells / pixels);
   };

@@ -9,7 +9,7 @@
 namespace sandstroke {
 namespace {
 
-/// Whether two pictures of the same surface would differ by the tool alone.
+/// True where two pictures of the same surface would differ only by the tool.
 bool same_but_tool(const PictureState& a, const PictureState& b) {
   return a.camera.to_clip == b.camera.to_clip && a.camera.eye == b.camera.eye &&
          a.camera.forward == b.camera.forward && a.camera.orthographic == b.camera.orthographic &&
@@ -18,8 +18,8 @@ bool same_but_tool(const PictureState& a, const PictureState& b) {
          a.background == b.background && a.tile_levels == b.tile_levels;
 }
 
-/// Where the tool itself is, and the sand whose light it changes (past_tool() of the shader). None where the
-/// sun stands so low that its shadow has no end.
+/// Boxes around the tool itself, and around the sand whose light it changes (past_tool() of the shader). None
+/// where the sun stands so low that the tool's shadow has no end.
 std::vector<Eigen::AlignedBox3d> boxes_of(const ToolBody& tool, const Sun& sun,
                                           const SurfaceTextures& surface) {
   const Eigen::Vector3d centre = tool.centre(), up = sun.direction();
@@ -31,9 +31,9 @@ std::vector<Eigen::AlignedBox3d> boxes_of(const ToolBody& tool, const Sun& sun,
     box.min().z() = low, box.max().z() = high;
     return box;
   };
-  if (tool.mesh) return {tool.box()};  // it throws no shadow
+  if (tool.mesh) return {tool.box()};  // a mesh throws no shadow
   if (up.z() < 0.05) return {};
-  // As far along its axis as the shadow, which widens by 0.03 of the way, can reach the lowest sand.
+  // The length along the axis at which the shadow, widening by 0.03 of it, has passed the lowest sand.
   const double length = std::max(0.0, centre.z() - low + 1.04 * radius) / (up.z() - 0.03);
   const double width = 1.04 * radius + 0.03 * length;
   Eigen::AlignedBox3d shadow = around(centre, width);
@@ -81,18 +81,19 @@ PixelRect changed_pixels(const PictureState& before, const PictureState& now, co
                  is_bottom = skirt_bottom(is, bed.cell_size());
     const bool same_triangles =
         level(was) == level(is) && was_bottom == is_bottom && widest(was) == widest(is);
-    // Each triangle that has a corner in the cells that changed.
+    // All triangles that have a corner in the cells that changed.
     const CellRange part = same_triangles ? common(grown(change.cells, 1 << level(is)), patch) : patch;
     add(box_over(bed, part, std::min(was_bottom, is_bottom), std::max(was.highest, is.highest)));
   }
 
-  // Shading is looked up as a mean over a pixel: so where it changed, that of pixels beside does, too.
+  // A pixel's shading is a mean over an area: where it changed, the pixels beside change, too.
   const CellRange& shaded = surface.shaded();
   if (shaded.empty()) return changed;
   for (int tile = 0; tile < bed.tile_count(); ++tile) {
     const double cells = widest_pixel(surface, tile, surface.detail(tile), now.camera) / bed.cell_size();
-    // Of the coarser of two levels, whose texels are up to two pixels wide: one and a half to each side, and
-    // one more, by which texels of an odd bed's levels lie beside those they are means of.
+    // The reach in the coarser of two levels, whose texels are up to two pixels wide: one and a half texels
+    // to each side, and one more, because texels of an odd bed's levels lie beside the cells they are means
+    // of.
     const int reach = static_cast<int>(std::ceil(5.0 * std::max(1.0, cells))) + 1;
     const CellRange part = common(grown(shaded, reach), surface.patch(tile));
     if (part.empty()) continue;

@@ -5,11 +5,11 @@
 
 namespace sandstroke {
 
-/// All that a picture depends on besides the surface and its own size.
+/// Everything that a picture depends on, besides the surface and the picture's size.
 struct PictureState {
   Camera camera;
   Sun sun;
-  StartHeights start;        ///< the box
+  StartHeights start;        ///< of the box
   double wall_radius = 0.0;  ///< m, of a round bed; 0: the bed is not round
   RenderStyle style = RenderStyle::sand;
   bool box = true;
@@ -18,13 +18,13 @@ struct PictureState {
   std::optional<ToolBody> tool;
 };
 
-/// A bound on how far [m] the sand of a tile of this detail moves under a pixel, from one pixel to the next:
-/// its shading is never a mean over more, so that what changes elsewhere cannot reach it. A power of two, at
-/// most about the bed, so that it seldom changes.
+/// A bound on how far [m] the place under a pixel moves, from one pixel to the next, on the sand of a tile of
+/// this detail. Shading is never a mean over more, so changes elsewhere cannot reach the tile. It is a power
+/// of two, at most about the bed's side, so it seldom changes.
 double widest_pixel(const SurfaceTextures& surface, int tile, const TileDetail& detail, const Camera& camera);
 
-/// Holds all pixels that differ from the picture before, given what the surface's last update changed: all of
-/// the picture's, unless it is of sand, and only sand and tool have moved.
+/// A rectangle of all pixels that differ from the picture before, given what the surface's last update
+/// changed. It is the whole picture, unless the style is sand, and only sand and tool have moved.
 PixelRect changed_pixels(const PictureState& before, const PictureState& now, const SurfaceTextures& surface,
                          const PixelRect& picture);
 

@@ -16,7 +16,7 @@ namespace sandstroke {
 struct ToolBody {
   Eigen::Vector3d tip = Eigen::Vector3d::Zero();       ///< m
   double radius = 0.01;                                ///< m
-  std::shared_ptr<const TriangleMesh> mesh = nullptr;  ///< as it is turned, tip at the origin; null: a sphere
+  std::shared_ptr<const TriangleMesh> mesh = nullptr;  ///< turned, with the tip at the origin; null: a sphere
   Eigen::Vector3d centre() const { return tip + radius * Eigen::Vector3d::UnitZ(); }
   Eigen::AlignedBox3d box() const;  ///< m
   bool operator==(const ToolBody&) const = default;
@@ -27,7 +27,7 @@ struct ValueRange {
   double low = 0.0, high = 1.0;
 };
 
-/// Heights of the surface that a bed started from [m]: box and camera follow from these, and not from what
+/// Heights of the surface that a bed started from [m]. Box and camera follow from these, and not from what
 /// the sand did since, so that pictures of one scene can be laid over one another.
 struct StartHeights {
   double lowest = 0.0, highest = 0.0;
@@ -36,7 +36,7 @@ struct StartHeights {
 };
 StartHeights start_heights(const HeightGrid& surface);
 
-/// What a picture shows besides the surface.
+/// Everything that a picture shows besides the surface.
 struct RenderSubject {
   ViewSettings view;
   CellRange focus;  ///< what the view `stroke` frames; empty = the whole bed
@@ -50,20 +50,20 @@ struct RenderSubject {
   std::vector<int> tile_levels;  ///< level of detail of each tile; empty = by its size in the picture
 };
 
-/// The cells of `focus` (of the whole bed where it is empty) grown by a tenth and at least by `margin` [m],
-/// cut to the bed: what a close-up of a stroke frames.
+/// The cells that a close-up of a stroke frames: those of `focus` (of the whole bed where it is empty), grown
+/// by a tenth and at least by `margin` [m], cut to the bed.
 CellRange framed_cells(const CellRange& focus, int rows, int cols, double cell_size, double margin);
 
-/// The cells under a tool [radius, m] wherever its tip is below `highest` [m], of these places; empty where
-/// it never is. What a stroke covers, whatever the sand then does.
+/// The cells under a tool [radius, m] at those of the places `tips` that are below `highest` [m]; empty where
+/// there is none. A stroke covers these cells, whatever the sand then does.
 CellRange cells_under(const std::vector<Eigen::Vector3d>& tips, double radius, const BedGeometry& bed,
                       double highest);
 
 /// The box [m] over the centres of cells, between two heights.
 Eigen::AlignedBox3d box_over(const BedGeometry& bed, const CellRange& cells, double lowest, double highest);
 
-/// The colour scale of values that are shown without a given range: from the least to the greatest; around
-/// zero where `diverging`; one millimetre wide where all are equal.
+/// The colour scale of values without a given range. It goes from the least to the greatest. It is symmetric
+/// about zero where `diverging`, and one millimetre wide where all values are equal.
 ValueRange value_range(double least, double greatest, bool diverging);
 
 }  // namespace sandstroke

@@ -10,7 +10,7 @@ namespace sandstroke {
 double round_interval(double range, int most) {
   const double least = range / most;
   const double decade = std::pow(10.0, std::floor(std::log10(least)));
-  constexpr double slack = 1e-9;  // 0.3 / 3 is a hair off 0.1
+  constexpr double slack = 1e-9;  // 0.3 / 3 is not exactly 0.1
   for (const double factor : {1.0, 2.0, 5.0})
     if (factor * decade >= least * (1.0 - slack)) return factor * decade;
   return 10.0 * decade;

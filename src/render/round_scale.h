@@ -5,13 +5,14 @@
 
 namespace sandstroke {
 
-/// The smallest of 1, 2, 5 x 10^k of which at most `most` fit into `range`. range > 0 and finite, most >= 1.
+/// The smallest of 1, 2, 5 x 10^k that fits into `range` at most `most` times. range > 0 and finite, most >=
+/// 1.
 double round_interval(double range, int most);
 
-/// A unit in which lengths up to some magnitude read as short numbers.
+/// A unit in which lengths up to some magnitude are short numbers.
 struct LengthUnit {
   std::string name;  ///< "m", "mm", "um" or "nm"
-  double metres;     ///< one of it in m
+  double metres;     ///< m per unit
 };
 LengthUnit length_unit(double magnitude);
 

@@ -9,7 +9,7 @@ namespace {
 
 constexpr const char* version = "#version 330 core\n";
 
-/// Where light comes from and goes to.
+/// The light: its sources, and the way to the eye.
 const std::string light = std::string(SANDSTROKE_ASSET(sand_look)) + R"(
 uniform vec3 eye;
 uniform vec3 forward;        // used where the camera is orthographic
@@ -17,7 +17,7 @@ uniform bool orthographic;
 vec3 to_eye(vec3 place) { return orthographic ? -forward : normalize(eye - place); }
 )";
 
-/// Smooth random values over the bed, anchored in metres. The same integers on every machine.
+/// Smooth random values over the bed, anchored in metres. Every machine computes them from the same integers.
 constexpr const char* noise = R"(
 vec2 lattice(ivec2 p, uint seed) {
   uint h = uint(p.x) * 0x8da6b343u ^ uint(p.y) * 0xd8163841u ^ seed * 0xcb1ab31fu;
@@ -40,7 +40,7 @@ vec3 gradient_noise(vec2 p, uint seed) {
 }
 )";
 
-/// The shading of the bed, from all its cells whatever triangles are drawn.
+/// The shading of the bed. It comes from all cells, whatever triangles are drawn.
 constexpr const char* bed = R"(
 uniform sampler2D shading;   // slope along x and y, parts of sun and sky seen
 uniform vec2 bed_origin;     // cell coordinates of the bed's centre

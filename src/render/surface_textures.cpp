@@ -31,7 +31,7 @@ void bind_texture(const GlObject& texture, int unit) {
   glBindTexture(GL_TEXTURE_2D, texture);
 }
 
-/// Central differences, smoothed across (Sobel); at the border, of what there is.
+/// Central differences, smoothed across (Sobel); at the border, of the cells that there are.
 Eigen::Vector2f slope_at(const DrawnHeights& heights, double cell_size, int row, int col) {
   const int west = std::max(col - 1, 0), east = std::min(col + 1, static_cast<int>(heights.cols()) - 1);
   const int south = std::max(row - 1, 0), north = std::min(row + 1, static_cast<int>(heights.rows()) - 1);
@@ -119,7 +119,7 @@ std::vector<SurfaceTextures::ChangedTile> SurfaceTextures::take_heights(const He
     changed.push_back({tile, part});
   }
   if (!finite) {
-    filled_ = false;  // what is kept is of no use any more
+    filled_ = false;  // the kept heights are of no use any more
     throw_input_error(
         "a surface with heights that are not finite cannot be drawn; check the run it comes from");
   }
@@ -161,15 +161,15 @@ int SurfaceTextures::update(const HeightField& surface) {
     mark_shading(cells, relief);
   }
   glPixelStorei(GL_UNPACK_ROW_LENGTH, 0);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);  // the coarser ones wait until they are asked for
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);  // coarser levels are made when they are asked for
   check_gl("uploading heights");
   filled_ = true;
   filtered_ = false;
   return static_cast<int>(changed.size());
 }
 
-/// Marks the tiles whose shading these cells can alter: those that their shadow may reach, and their
-/// surroundings.
+/// Marks the tiles whose shading these cells can change: tiles that their shadow may reach, and their
+/// neighbourhood.
 void SurfaceTextures::mark_shading(const CellRange& cells, double relief) {
   const int reach = shadow_reach(sun_used_, relief, bed_.cell_size()) + 1;
   const Eigen::Vector2d towards = sun_used_.direction().head<2>().normalized();

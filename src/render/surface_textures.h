@@ -9,11 +9,11 @@
 
 namespace sandstroke {
 
-/// A surface on its way to the GPU, kept from picture to picture: its heights in single precision, how finely
-/// each tile must be drawn, its slopes, how much sun and sky each cell sees, and the textures of all that.
-/// Only what changed is worked out and uploaded again: tiles are compared by content, so that frames read
-/// from a file (whose revisions start over) take part. The textures depend on the surface and the sun only,
-/// never on what was shown before.
+/// A surface as textures for the GPU, kept from picture to picture. It holds heights in single precision, how
+/// finely each tile must be drawn, slopes, how much sun and sky each cell sees, and the textures of all
+/// these. Only what changed is computed and uploaded again. Tiles are compared by content, so this also works
+/// for frames read from a file (whose revisions start over). The textures depend only on the surface and the
+/// sun, never on what was shown before.
 class SurfaceTextures {
  public:
   /// Error: input, where the bed has a side of fewer than 2 cells or more than a texture can have. A context
@@ -22,27 +22,28 @@ class SurfaceTextures {
   /// Error: as check_size, before any memory is taken.
   explicit SurfaceTextures(const BedGeometry& bed);
 
-  /// Takes a surface of the same shape over; returns the number of tiles that changed. Error: input, where
+  /// Takes over a surface of the same shape; returns the number of tiles that changed. Error: input, where
   /// heights are not finite.
   int update(const HeightField& surface);
-  /// A tile whose patch is other than before the last update(): in which cells, and what it was then.
+  /// A tile whose patch differs from before the last update(): the cells where it differs, and its detail
+  /// before.
   struct Change {
     int tile = 0;
     CellRange cells;
     TileDetail before;
   };
   const std::vector<Change>& changes() const { return changes_; }
-  /// Brings what shading takes up to date with the surface.
+  /// Computes the shading of tiles whose shading is out of date.
   void update_shading(const Sun& sun);
-  /// Holds all cells whose shading changed with the last update_shading().
+  /// A rectangle of all cells whose shading changed with the last update_shading().
   const CellRange& shaded() const { return shaded_; }
 
   const DrawnHeights& heights() const { return heights_; }
-  /// The cells of a tile, and the first row and column of the tiles after it where there are any.
+  /// The cells of a tile, and the first row and column of the next tiles, where there are any.
   CellRange patch(int tile) const;
   const BedGeometry& bed() const { return bed_; }
   const TileDetail& detail(int tile) const { return details_[tile]; }
-  /// What of space the sand of a tile takes.
+  /// The box that the sand of a tile fills.
   Eigen::AlignedBox3d bounds(int tile) const { return bounds(tile, details_[tile]); }
   Eigen::AlignedBox3d bounds(int tile, const TileDetail& detail) const {
     return box_over(bed_, patch(tile), detail.lowest, detail.highest);
@@ -59,12 +60,12 @@ class SurfaceTextures {
   void bind_shading(int unit) const;
 
  private:
-  /// A tile that differs from what is drawn, and where.
+  /// A tile that differs from what is drawn, and the cells where it differs.
   struct ChangedTile {
     int tile = 0;
     CellRange cells;
   };
-  /// Keeps the heights of those that differ. Error: input, where one is not finite.
+  /// Keeps the heights of tiles that differ. Error: input, where a height is not finite.
   std::vector<ChangedTile> take_heights(const HeightField& surface);
   void mark_shading(const CellRange& changed, double relief);
   void upload_shading(const std::vector<int>& tiles);

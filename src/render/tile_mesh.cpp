@@ -19,7 +19,7 @@ TileMesh::TileMesh() {
       vertices.push_back({static_cast<std::int16_t>(col << level), static_cast<std::int16_t>(row << level),
                           static_cast<std::int16_t>(skirt)});
     };
-    const auto square = [&](int a, int b, int c, int d) {  // a - b below c - d
+    const auto square = [&](int a, int b, int c, int d) {  // a - b lies below c - d
       for (const int corner : {a, b, d, a, d, c}) triangles.push_back(static_cast<std::uint16_t>(corner));
     };
     for (int row = 0; row <= side; ++row)
@@ -29,7 +29,7 @@ TileMesh::TileMesh() {
       for (int col = 0; col < side; ++col)
         square(surface(col, row), surface(col + 1, row), surface(col, row + 1), surface(col + 1, row + 1));
 
-    // The skirt, side by side: its bottom follows the border.
+    // The skirt, one side after the other. Its bottom follows the border.
     const auto hang = [&](int col, int row, int step_col, int step_row) {
       for (int i = 0; i <= side; ++i) {
         vertex(col + i * step_col, row + i * step_row, 1);

@@ -7,19 +7,19 @@
 
 namespace sandstroke {
 
-/// The triangles of one tile at each level of detail, shared by all tiles: the vertex shader looks the
-/// heights up. A vertex is (column, row, 0 on the surface | 1 at the bottom of the skirt), in cells from the
+/// The triangles of one tile at each level of detail. All tiles share them, and the vertex shader looks up
+/// the heights. A vertex is (column, row, 0 on the surface | 1 at the bottom of the skirt), in cells from the
 /// tile's first.
 ///
-/// Around the tile hangs a skirt, from its border down to its lowest height. Two tiles share their border
-/// cells and neither draws the border below the lowest of them, so that whatever gap two levels leave between
-/// them has a skirt behind it.
+/// A skirt hangs around the tile, from its border down to below its lowest height. Two tiles share their
+/// border cells, and neither draws the border below the lowest of them. So every gap between two levels has a
+/// skirt behind it.
 class TileMesh {
  public:
   TileMesh();
-  /// Makes a level the one to draw.
+  /// Selects the level to draw.
   void bind(int level) const { glBindVertexArray(levels_[level].layout); }
-  /// Draws a tile of the level bound; returns the number of triangles.
+  /// Draws a tile at the selected level; returns the number of triangles.
   int draw(int level) const;
 
  private:

@@ -7,11 +7,11 @@
 
 namespace sandstroke {
 
-/// Triangles of a tool in GL's memory: of the unit sphere about its centre, or of a mesh.
+/// Triangles of a tool in GL's memory: the unit sphere about its centre, or a mesh.
 class ToolMesh {
  public:
   ToolMesh();
-  /// Null: the sphere. Nothing is done where it is what is there.
+  /// Puts this mesh into GL's memory, unless it is there already. Null: the sphere.
   void show(const std::shared_ptr<const TriangleMesh>& mesh);
   void draw() const;
 

@@ -9,16 +9,16 @@ namespace sandstroke {
 /// A curve as a page draws it.
 struct Curve {
   std::vector<double> at;     ///< in order: times, say
-  std::vector<double> value;  ///< of each; NaN: a gap
+  std::vector<double> value;  ///< one for each place; NaN: a gap
   void add(double place, double height) {
     at.push_back(place);
     value.push_back(height);
   }
 };
 
-/// At most about `most` points that stand for all of a longer curve: of each of most / 2 stretches with
-/// equally many points the least and the greatest, in their order, and the first that is not finite, if any.
-/// So every extreme is kept, where and as it is. Each place has a value.
+/// A curve with at most about `most` points in place of a longer one. It has most / 2 stretches with equally
+/// many points. Each keeps its least and greatest point, in their order, and the first point that is not
+/// finite, if any. So every extreme stays as it is, in its place. Each place has a value.
 Curve thinned_curve(const Curve& curve, std::size_t most);
 
 /// {at, value}, thinned to what a page can draw.

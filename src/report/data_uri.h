@@ -8,7 +8,7 @@ namespace sandstroke {
 /// Bytes as text, in the alphabet of RFC 4648, section 4, padded with "=". A page reads them with atob().
 std::string base64(std::string_view bytes);
 
-/// A file that is held by the page itself, for an image's src: type "image/png", say.
+/// A file that the page itself holds, for an image's src. type: "image/png", say.
 std::string data_uri(std::string_view type, std::string_view bytes);
 
 }  // namespace sandstroke

@@ -42,7 +42,7 @@ SANDSTROKE_DECLARE_ASSET(live_style);
 namespace sandstroke {
 namespace {
 
-/// What a page has of its own.
+/// The parts of a page that not all pages have.
 struct PageAssets {
   std::vector<std::string_view> scripts, styles;
   bool charts = true, sand = false;
@@ -93,7 +93,7 @@ void add_scripts(const PageAssets& own, std::string& page) {
   for (const std::string_view text : own.scripts) add(text);
 }
 
-/// JSON that can stand inside a script element: "<" only occurs within strings, where an escape says the
+/// JSON that can stand inside a script element. "<" occurs only within strings, where an escape means the
 /// same.
 std::string script_safe(const nlohmann::ordered_json& data) {
   std::string safe;

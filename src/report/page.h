@@ -8,17 +8,17 @@
 
 namespace sandstroke {
 
-/// What draws a page: page.js, which all pages share, and scripts of the page's own. live: sand as it is
-/// shaped, from the server that the page came from; it has no charts.
+/// The scripts of a page: page.js, which all pages share, and its own. live: sand while it is shaped, from
+/// the server that the page came from; it has no charts.
 enum class PageScript { bench, stress, sweep, compare, run, live };
 
-/// Known by its generator.
+/// The generator tells a page from other files.
 inline constexpr OutputKind page_output{"a page", "<!DOCTYPE html>\n",
                                         "<meta name=\"generator\" content=\"sandstroke "};
 
 /// One self-contained HTML page: style, chart library (with its licence), scripts and data are embedded, so
-/// that it needs no network. Text in `data` may come from anywhere: nothing in it ends the page's script
-/// element, and the scripts put it into the page as text only.
+/// it needs no network. Text in `data` may come from anywhere: it cannot end the page's script element, and
+/// the scripts put it into the page as text only.
 std::string html_page(std::string_view title, PageScript script, const nlohmann::ordered_json& data);
 
 /// The machine and the build that measured: cpu, cores, compiler, instruction_set, version, commit.

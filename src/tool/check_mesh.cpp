@@ -17,7 +17,7 @@ namespace {
 constexpr std::size_t most_triangles = 2'000'000;
 constexpr double largest_tool = 1.0;  // m
 
-/// Corners that lie within a millionth of the extent are one: what a file's digits make of it.
+/// Merges corners that lie within a millionth of the extent. Rounding in the file's digits separates them.
 TriangleMesh welded(const TriangleMesh& mesh, double extent) {
   std::map<std::array<double, 3>, std::int32_t> known;
   TriangleMesh result;
@@ -40,7 +40,7 @@ TriangleMesh welded(const TriangleMesh& mesh, double extent) {
   return result;
 }
 
-/// m, how large it is.
+/// The extent of the mesh [m].
 double check_extent(const TriangleMesh& mesh, const std::string& name) {
   Eigen::AlignedBox3d box;
   for (const Eigen::Vector3d& vertex : mesh.vertices) {
@@ -61,7 +61,7 @@ double check_extent(const TriangleMesh& mesh, const std::string& name) {
   return extent;
 }
 
-/// Each edge must be gone along once each way.
+/// Each edge must occur once in each direction.
 void check_closed(const TriangleMesh& mesh, const std::string& name) {
   std::vector<std::pair<std::int32_t, std::int32_t>> edges;
   edges.reserve(3 * mesh.triangles.size());

@@ -6,10 +6,10 @@
 
 namespace sandstroke {
 
-/// The same surface with each corner once, and no triangles without area; turned outside out where all of it
-/// was inside out, which is warned of. Error: input, with what to do, where it is no closed surface of a
-/// solid, too large for a tool (an extent above 1 m, as of millimetres taken for metres), far from its tip
-/// (the origin), or of too many triangles. `name`: the file's.
+/// The same surface with each corner once, and no triangles without area. A mesh that is inside out is
+/// turned, with a warning. Error: input, with what to do, where the mesh is no closed surface of a solid, is
+/// too large for a tool (an extent above 1 m, as when millimetres are taken for metres), is far from its tip
+/// (the origin), or has too many triangles. `name`: the file's.
 TriangleMesh checked_mesh(const TriangleMesh& mesh, const std::string& name);
 
 }  // namespace sandstroke

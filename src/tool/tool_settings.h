@@ -8,17 +8,17 @@
 
 namespace sandstroke {
 
-/// mesh: of a file; the others are made by formula (tool_surface.h).
+/// A mesh is read from a file. The others are made by formula (tool_surface.h).
 enum class ToolShape { sphere, cylinder, cone, box, plate, rake, mesh };
 
 /// Underside of the sphere: the paper's filter a sin(rho^2/s^2), or the sphere itself.
 enum class ToolProfile { paper, sphere };
 
-/// A solid in its own frame, its tip at the origin, z up.
+/// The tool's body in its own frame: its tip at the origin, z up.
 struct ToolSettings {
   double radius = 0.01;  ///< m, of the sphere (paper 4.1), cylinder, cone (at its top), a rake's teeth
   ToolProfile profile = ToolProfile::paper;  ///< of the sphere
-  bool solid = false;  ///< while it touches the sand, relaxation takes the cells under it for walls
+  bool solid = false;  ///< while it touches the sand, the cells under it are walls in relaxation
   ToolShape shape = ToolShape::sphere;
   double height = 0.04;                                   ///< m, of cylinder, cone, plate, a rake's teeth
   Eigen::Vector3d size = {0.02, 0.02, 0.04};              ///< m, of the box

@@ -25,7 +25,7 @@ std::int32_t add_vertex(TriangleMesh& mesh, const Vector3d& vertex) {
   return static_cast<std::int32_t>(mesh.vertices.size()) - 1;
 }
 
-/// A point of a circle; quarter turns of each other have the same bits.
+/// A point of the unit circle. Points that are quarter turns apart have coordinates of the same bits.
 Vector2d on_circle(int side) {
   const int quarter = sides / 4, within = side % quarter;
   // The second eighth mirrors the first.
@@ -38,8 +38,8 @@ Vector2d on_circle(int side) {
   return point;
 }
 
-/// A body of revolution about z: from the lowest to the highest (radius, z) of a profile. Where its ends lie
-/// on the axis they are one point, else flat.
+/// Adds a body of revolution about z. profile: (radius, z) from the lowest to the highest point. An end on
+/// the axis is one point; another end is flat.
 void add_revolution(TriangleMesh& mesh, const std::vector<Vector2d>& profile, const Vector3d& at) {
   const auto ring_of = [&](const Vector2d& point) {
     const auto first = static_cast<std::int32_t>(mesh.vertices.size());
@@ -81,7 +81,7 @@ void add_revolution(TriangleMesh& mesh, const std::vector<Vector2d>& profile, co
   }
 }
 
-/// (radius, z) up a quarter or half circle of a sphere that touches z = 0 with its lowest point.
+/// Points (radius, z), upwards, on a quarter or half circle of a sphere whose lowest point is at z = 0.
 std::vector<Vector2d> sphere_profile(double radius, bool whole) {
   std::vector<Vector2d> profile;
   const int steps = whole ? sides / 2 : sides / 4;

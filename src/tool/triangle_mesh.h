@@ -18,11 +18,11 @@ struct TriangleMesh {
   bool operator==(const TriangleMesh&) const = default;
 };
 
-/// The volume inside a closed surface [m^3]: sum over triangles of a . (b x c) / 6; negative where it is
-/// inside out.
+/// The volume inside a closed surface [m^3]: the sum over triangles of a . (b x c) / 6. It is negative where
+/// the surface is inside out.
 double enclosed_volume(const TriangleMesh& mesh);
 
-/// No corner of it lies farther from the vertical axis through the origin [m].
+/// The largest distance of a corner from the vertical axis through the origin [m].
 double horizontal_reach(const TriangleMesh& mesh);
 
 }  // namespace sandstroke

@@ -6,7 +6,7 @@
 
 namespace sandstroke {
 
-/// What a request says of itself; fields that it lacks are none.
+/// The fields of a request; those that it lacks are none.
 struct ViewRequest {
   std::string_view method, target;
   std::optional<std::string_view> host, origin;
@@ -18,15 +18,15 @@ struct Refusal {
   const char* sentence;
 };
 
-/// Who may see a view: who knows its token, and asks for it by the loopback address. A page of another site
-/// knows no token; one whose name was turned to this address (DNS rebinding) has another Host.
+/// Admits those who know the view's token and ask for it by the loopback address. A page of another site
+/// knows no token. A page whose name was pointed to this address (DNS rebinding) has another Host.
 class Admission {
  public:
   explicit Admission(int port);
 
   /// 128 random bits, as 32 hexadecimal digits. Error: io, where the system gives none.
   const std::string& token() const { return token_; }
-  /// None: it may have what it asks for, which is "/" or "/live" (path_of).
+  /// The reason for a refusal. None: the request may have what it asks for, "/" or "/live" (path_of).
   std::optional<Refusal> refuses(const ViewRequest& request) const;
 
  private:
@@ -36,7 +36,7 @@ class Admission {
 
 /// A target without its query.
 std::string_view path_of(std::string_view target);
-/// In a time that does not depend on where the two differ.
+/// Compares in a time that does not depend on where the two differ.
 bool same_secret(std::string_view one, std::string_view other);
 
 }  // namespace sandstroke

@@ -9,15 +9,16 @@
 
 namespace sandstroke {
 
-/// The newest heights of a bed [m] as 32-bit floats, tile by tile, each with a version: published by one
-/// thread while others read. Neither waits longer for the other than a tile's copy takes. Tiles that nothing
+/// The newest heights of a bed [m] as 32-bit floats, tile by tile, each with a version. One thread publishes
+/// them while others read. Neither waits longer for the other than a tile's copy takes. Tiles that nothing
 /// has touched take no memory.
 class LiveBed : public BedGeometry {
  public:
-  /// Tiles that a reader gets at once, at most.
+  /// The most tiles that a reader gets at once.
   static constexpr std::size_t most_tiles = 64;
 
-  /// What a reader has: versions by tile, and where it looks next, so that no tile has to wait for ever.
+  /// The state of a reader: its versions by tile, and the tile where it looks next, so that none waits for
+  /// ever.
   struct Reader {
     std::vector<std::uint64_t> versions;
     int next = 0;
@@ -28,25 +29,27 @@ class LiveBed : public BedGeometry {
     std::vector<float> heights;
   };
 
-  /// As `bed` is now. Error: input, where it is too large for a page: more than 4096 x 4096 cells.
+  /// Starts with the heights of `bed`. Error: input, where it is too large for a page: more than 4096 x 4096
+  /// cells.
   explicit LiveBed(const HeightField& bed);
 
-  /// Takes the tiles of this bed, or of a copy of it, that changed since the last time. By one thread.
+  /// Takes the tiles of this bed, or of a copy of it, that changed since the last time. Only one thread calls
+  /// it.
   void publish(const HeightField& bed);
-  /// The tiles that this reader has not in their newest version; none: it has all.
+  /// Gives the tiles whose newest version this reader does not have; none: it has all.
   void take_newer(Reader& reader, Tiles& tiles);
 
  private:
   void copy_tile(int tile, float* out);
 
-  HeightField untouched_;                          // what tiles are that nothing has touched
-  std::vector<std::uint64_t> published_;           // revisions, by tile; the publisher's own
-  std::mutex mutex_;                               // of what follows
+  HeightField untouched_;                          // heights of tiles that nothing has touched
+  std::vector<std::uint64_t> published_;           // revisions, by tile; only the publisher uses it
+  std::mutex mutex_;                               // guards what follows
   std::vector<std::uint64_t> versions_;            // by tile, from 1
   std::vector<std::unique_ptr<float[]>> heights_;  // by tile; none: untouched
 };
 
-/// The lowest and the highest of a bed [m].
+/// The lowest and the highest height of a bed [m].
 struct HeightRange {
   double low = 0.0, high = 0.0;
 };

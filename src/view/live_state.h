@@ -8,12 +8,12 @@
 
 namespace sandstroke {
 
-/// What a page shows beside the sand.
+/// The state that a page shows beside the sand.
 struct ViewState {
   double time = 0.0;                                                ///< s
   Eigen::Vector3d tip = Eigen::Vector3d::Zero();                    ///< m, in the bed
   Eigen::Vector3d force = Eigen::Vector3d::Zero();                  ///< N, on the bed's axes
-  Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();  ///< from how tool.orientation holds it
+  Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();  ///< relative to tool.orientation
   double depth = std::numeric_limits<double>::quiet_NaN();          ///< m, of the tip in the sand; NaN: none
   double rate = 0.0;                                                ///< Hz, reached
   double lateness = 0.0, max_lateness = 0.0;                        ///< s
@@ -21,7 +21,8 @@ struct ViewState {
   bool force_held_back = false;  ///< until the tool has been above the sand
 };
 
-/// The newest of it, from who knows to who shows; not for the servo loop, for it locks.
+/// The newest state, from the one who knows it to those who show it. It locks, so the servo loop must not use
+/// it.
 class LiveState {
  public:
   void publish(const ViewState& state) {
@@ -34,7 +35,7 @@ class LiveState {
     const std::lock_guard lock(mutex_);
     status_ = std::move(status);
   }
-  /// The state, where it is newer than `version`, which becomes its own. False: it is not.
+  /// Gives the state and its version. False: it is not newer than `version`.
   bool take_newer(std::uint64_t& version, ViewState& state) const {
     const std::lock_guard lock(mutex_);
     const bool newer = version != version_;

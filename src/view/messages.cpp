@@ -33,12 +33,12 @@ Number get(const char*& at) {
   return number;
 }
 
-/// Names of files may be no UTF-8: what is not is replaced.
+/// Names of files may not be UTF-8: invalid bytes are replaced.
 std::string text_of(const ordered_json& json) {
   return json.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
 }
 
-/// How the tool looks before the hand turns it.
+/// The tool's shape before the hand turns it.
 ordered_json tool_json(const ToolSettings& tool) {
   ordered_json json = {{"radius", tool_reach(tool)}};
   if (tool.shape == ToolShape::sphere) return json;

@@ -12,16 +12,16 @@
 
 namespace sandstroke {
 
-// What server and page tell each other through a WebSocket. Numbers are little-endian.
+// Messages between server and page through a WebSocket. Numbers are little-endian.
 
-/// How a pointer in a page is the hand.
+/// How a pointer in a page becomes the hand.
 struct PointerScale {
   double depth = 0.0;      ///< m below the surface at the start, at full pressure
   double radius = 0.0;     ///< m, of the tool
-  double clearance = 0.0;  ///< m above the highest sand at the start, where it is lifted
+  double clearance = 0.0;  ///< m above the highest sand at the start, while it is lifted
 };
 
-/// What a page has to know before the first picture.
+/// The facts that a page needs before the first picture.
 struct ViewHello {
   std::string title;
   BedGeometry bed;
@@ -36,7 +36,7 @@ struct PointerSample {
   double time = 0.0;   ///< ms, on the page's own clock
   float x = 0, y = 0;  ///< m, in the bed
   float pressure = 0;  ///< 0 = lifted, up to 1
-  /// What the page's button "Finish" presses.
+  /// The page's button "Finish" presses this switch.
   static constexpr int finish_switch = 31;
   std::uint32_t switches = 0;
 };
@@ -50,13 +50,13 @@ std::string end_message(std::string_view reason);
 
 // To the page, in binary:
 inline constexpr std::size_t picture_header_bytes = 80;
-/// Into `message`, whose memory is used again.
+/// Fills `message`, and reuses its memory.
 void put_picture(const ViewState& state, const LiveBed::Tiles& tiles, std::string& message);
 
 // From the page, in binary:
 inline constexpr std::size_t pointer_sample_bytes = 24;
 inline constexpr std::size_t most_message_bytes = 8192;  ///< from a page
-/// None where it is no message of whole samples, all of finite numbers.
+/// None where the message is not made of whole samples, all of finite numbers.
 std::optional<std::vector<PointerSample>> pointer_samples(std::string_view message);
 
 }  // namespace sandstroke

@@ -8,7 +8,7 @@ namespace sandstroke {
 namespace {
 
 constexpr std::int64_t window = 5'000'000'000;       // ns, of the page's clock
-constexpr std::int64_t closest_samples = 1'000'000;  // ns: no servo loop sees what lies closer
+constexpr std::int64_t closest_samples = 1'000'000;  // ns: no servo loop sees a shorter distance
 
 PointerScale scale_of(const Scene& scene) {
   const double reach = tool_reach(scene.tool);
@@ -39,7 +39,7 @@ PointerDevice::PointerDevice(const Scene& scene, const HeightField& start, LoopC
       point_placement(scene.stroke ? scene.stroke->placement : StrokePlacement{}, specification_.frame);
 }
 
-/// Between the cells' centres, linearly.
+/// The height between the cells' centres, linearly.
 double PointerDevice::surface(double x, double y) const {
   const double row = std::clamp(start_.row_at(y), 0.0, start_.rows() - 1.0);
   const double col = std::clamp(start_.col_at(x), 0.0, start_.cols() - 1.0);
@@ -55,15 +55,15 @@ void PointerDevice::add(const Place& place, double pressure, std::int64_t time) 
   path_->add({time, {place.x, place.y, z}, place.switches});
 }
 
-/// Down and up only where the pointer is pressed: a finger that is set down elsewhere must not draw on its
-/// way there.
+/// The tool goes down and up in place, where the pointer is pressed or let go: a finger that is set down
+/// elsewhere must not draw on its way there.
 void PointerDevice::go_to(Place place) {
   if (!path_) {  // it appears there, out of the sand
     path_.emplace(Eigen::Vector3d(place.x, place.y, hover_), sample_interval);
     last_ = {place.time - sample_interval, place.x, place.y, 0.0, 0};
     seen_.store(true, std::memory_order_release);
   }
-  // Browsers repeat a pointer's place when what lies under it changes: that is no motion.
+  // Browsers repeat a pointer's place when the element under it changes. That is no motion.
   if (place.x == last_.x && place.y == last_.y && place.pressure == last_.pressure &&
       place.switches == last_.switches)
     return;
@@ -80,7 +80,7 @@ void PointerDevice::go_to(Place place) {
 }
 
 void PointerDevice::take(std::span<const PointerSample> samples, std::int64_t arrival) {
-  // A tool whose middle is beyond the outermost cells would have no sand on one side of it.
+  // A tool with its middle beyond the outermost cells would have no sand on one side.
   const double half_x = start_.x_of(start_.cols() - 1), half_y = start_.y_of(start_.rows() - 1);
   const auto page_time = [](const PointerSample& sample) {
     constexpr double longest = 1e12;  // ms, of a page's clock: 30 years

@@ -17,13 +17,13 @@
 
 namespace sandstroke {
 
-/// The clock of a page on the monotonic one: of the messages of the last five to ten seconds, that which came
-/// fastest says how they lie. A new page has a clock of its own.
+/// Converts a page's clock to the monotonic clock. The fastest message of the last five to ten seconds gives
+/// the difference. A new page has a clock of its own.
 class PageClock {
  public:
-  /// A page's time [ns] came here at `arrival` [ns, monotonic].
+  /// Notes that a page's time [ns] arrived at `arrival` [ns, monotonic].
   void see(std::int64_t page_time, std::int64_t arrival);
-  /// After see().
+  /// Call it after see().
   std::int64_t to_monotonic(std::int64_t page_time) const {
     return page_time + std::min(smallest_, smallest_before_);
   }
@@ -36,28 +36,28 @@ class PageClock {
   std::int64_t window_begin_ = 0;
 };
 
-/// A mouse, pen or finger in a page as the hand. Its tip is at the pointer's place on the bed. Without
-/// pressure it is `clearance` above the highest sand of the start; with a pressure p it is p x depth below
+/// A mouse, pen or finger in a page as the hand. The tip is at the pointer's place on the bed. Without
+/// pressure it is `clearance` above the highest sand of the start. With a pressure p it is p x depth below
 /// the surface of the start there: so furrows keep their depth, and a pointer that is held does not sink.
-/// Pages tell of it 60 to 120 times a second; it is replayed `latency` later, smoothly (PointerPath). Where
-/// there is no page, or its pointer is away, the tool is lifted where it was last; before it was anywhere
+/// Pages send it 60 to 120 times a second. It is replayed `latency` later, smoothly (PointerPath). Where
+/// there is no page, or its pointer is away, the tool is lifted at its last place. Before the first place
 /// nothing is read.
 ///
-/// read() is called by the servo loop; take() and leave() by one other thread.
+/// The servo loop calls read(); one other thread calls take() and leave().
 class PointerDevice : public HapticDevice, public PointerSink {
  public:
   /// 2.4 samples at 60 Hz: a slope needs the sample after the next.
   static constexpr std::int64_t latency = 40'000'000;          // ns
   static constexpr std::int64_t sample_interval = 16'666'667;  // ns
 
-  /// start: the bed before anything touches it. clock: of the servo loop.
+  /// start: the bed before anything touches it. clock: that of the servo loop.
   PointerDevice(const Scene& scene, const HeightField& start, LoopClock& clock);
 
   const PointerScale& scale() const { return scale_; }
-  /// The samples of the page whose pointer is the hand; they came at `arrival` [ns].
+  /// Takes samples of the page whose pointer is the hand. They came at `arrival` [ns].
   void take(std::span<const PointerSample> samples, std::int64_t arrival);
   void take(std::span<const PointerSample> samples) override { take(samples, clock_.now()); }
-  /// That page is gone: the tool is lifted.
+  /// Lifts the tool: that page is gone.
   void leave() override;
 
   void open() override {}
@@ -89,9 +89,9 @@ class PointerDevice : public HapticDevice, public PointerSink {
   DeviceSpecification specification_;
   LoopClock& clock_;
   PageClock page_clock_;
-  Place last_;  // that was added
+  Place last_;  // the last that was added
   std::optional<PointerPath> path_;
-  std::atomic<bool> seen_ = false;  // a page has told where its pointer is
+  std::atomic<bool> seen_ = false;  // a page has said where its pointer is
 };
 
 }  // namespace sandstroke

@@ -8,11 +8,10 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr std::size_t most_waiting = 4096;  // knots: a second of a page's fastest message rate
-constexpr std::int64_t shortest_piece =
-    1'000'000;  // ns: knots that come late are made up for, but not at once
+constexpr std::size_t most_waiting = 4096;          // knots: a second of a page's fastest message rate
+constexpr std::int64_t shortest_piece = 1'000'000;  // ns: late knots are caught up, but not at once
 
-/// Slope at a knot [1/ns], between pieces of slopes d and lengths h: Steffen's equation 11.
+/// The slope at a knot [1/ns] between pieces of slopes d and lengths h: Steffen's equation 11.
 double limited_slope(double d_before, double h_before, double d_after, double h_after) {
   if (!(d_before * d_after > 0.0)) return 0.0;
   const double parabola = (d_before * h_after + d_after * h_before) / (h_before + h_after);
@@ -33,7 +32,7 @@ bool PointerPath::look_ahead() noexcept {
   return next_.has_value();
 }
 
-/// From end_ at this time, to the next knot.
+/// Starts the piece from end_ at this time to the next knot.
 void PointerPath::set_out(std::int64_t time) noexcept {
   begin_ = end_;
   begin_.time = time;

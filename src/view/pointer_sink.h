@@ -6,11 +6,11 @@
 
 namespace sandstroke {
 
-/// Whom a pointer in a page moves. Called by the server's thread.
+/// Takes what a pointer in a page does. Called by the server's thread.
 class PointerSink {
  public:
   virtual ~PointerSink() = default;
-  /// Samples that came just now from the page whose pointer is the hand.
+  /// Takes samples that just came from the page whose pointer is the hand.
   virtual void take(std::span<const PointerSample> samples) = 0;
   /// That page is gone.
   virtual void leave() = 0;

@@ -32,13 +32,13 @@ using Seconds = std::chrono::duration<double>;
 
 constexpr std::chrono::milliseconds accept_pause{100};
 constexpr std::size_t most_request_bytes = 8192;
-constexpr int most_unsent_bytes = 256 * 1024;  // in the system: what lies there is old when it is seen
+constexpr int most_unsent_bytes = 256 * 1024;  // in the system: what waits there is old when it is seen
 
 std::chrono::milliseconds milliseconds(double seconds) {
   return std::chrono::duration_cast<std::chrono::milliseconds>(Seconds(seconds));
 }
 
-/// One of so many, while it lives.
+/// Counts one object while it lives.
 class Counted {
  public:
   explicit Counted(std::atomic<int>& count) : count_(count) { ++count_; }
@@ -52,7 +52,7 @@ class Counted {
 
 class Page;
 
-/// What pages share. All in the server's thread, but for the counts.
+/// Data that pages share. Only the server's thread uses it, but for the counts.
 struct Shared {
   Shared(ViewSources shown, const ViewLimits& set, int port)
       : sources(std::move(shown)), limits(set), admission(port), hello(hello_message(sources.hello)) {}
@@ -65,7 +65,7 @@ struct Shared {
   std::vector<std::shared_ptr<Page>> pages;
   const Page* hand = nullptr;  // the page whose pointer is the hand
   bool ended = false;
-  std::string end;  // message
+  std::string end;  // the message
 };
 
 /// A page that watches, and perhaps draws.
@@ -93,12 +93,12 @@ class Page : public std::enable_shared_from_this<Page> {
     });
   }
 
-  /// A time for a picture has come.
+  /// Sends a picture; called when it is time for one.
   void send_picture() {
     if (writing_ || closing_ || !said_hello_) return;
     if (fill_picture()) write(picture_, false);
   }
-  /// Something that is not a picture may have changed. What is newest is sent, not what was between.
+  /// Sends texts that may have changed. Only the newest are sent, not those in between.
   void send_texts() {
     if (writing_ || closing_) return;
     if (!said_hello_) {
@@ -120,7 +120,7 @@ class Page : public std::enable_shared_from_this<Page> {
     closing_ = true;
     write(shared_.end, true);
   }
-  /// It is closed, or to be: nothing is sent to it any more.
+  /// Forgets a page that is closed or must be closed: nothing is sent to it any more.
   void gone() {
     if (std::erase(shared_.pages, shared_from_this()) == 0) return;
     beast::get_lowest_layer(stream_).close();
@@ -158,7 +158,7 @@ class Page : public std::enable_shared_from_this<Page> {
     });
   }
 
-  /// False: it is no message of the contract.
+  /// False: the message breaks the contract.
   bool hear() {
     if (stream_.got_text() || !shared_.sources.pointer) return false;
     const auto bytes = heard_.cdata();
@@ -233,7 +233,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
       return answer(426, "text/plain; charset=utf-8", "This address is for the page itself.\n");
     if (shared_.ended || shared_.page_count >= shared_.limits.pages)
       return answer(503, "text/plain; charset=utf-8", "As many pages watch as may: close one of them.\n");
-    stream_.expires_never();  // the page has limits of its own
+    stream_.expires_never();  // the page has its own limits
     std::make_shared<Page>(stream_.release_socket(), shared_)->start(request);
   }
 
@@ -314,7 +314,7 @@ class ViewServer::Implementation {
     }
   }
 
-  /// What one page brings about (no memory for it, say) ends that page, not the others.
+  /// An error of one page (no memory for it, say) ends that page, not the others.
   void run() {
     while (!io_.stopped()) {
       try {

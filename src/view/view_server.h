@@ -10,10 +10,10 @@
 
 namespace sandstroke {
 
-/// s between pictures, at least: of the server, and of who publishes for it.
+/// s, the least between two pictures: of the server, and of the one who publishes for it.
 inline constexpr double picture_interval = 1.0 / 60.0;
 
-/// What a server shows. All outlives it.
+/// The things that a server shows. All of them must outlive the server.
 struct ViewSources {
   LiveBed& bed;
   LiveState& state;
@@ -22,23 +22,23 @@ struct ViewSources {
   PointerSink* pointer = nullptr;  ///< with hello.pointer
 };
 
-/// How much of this machine pages may take.
+/// How much of this machine the pages may take.
 struct ViewLimits {
   int pages = 8, connections = 32;
   double silence = 5.0;        ///< s, for a request to come
-  double page_silence = 60.0;  ///< s, until a page that answers no ping is taken for gone
-  double end = 10.0;  ///< s, for pages to take what is newest when all has ended; a busy browser needs some
+  double page_silence = 60.0;  ///< s, after which a page that answers no ping counts as gone
+  double end = 10.0;           ///< s, for pages to take the newest after the end; a busy browser needs some
 };
 
-/// Shows sand as it is shaped to pages in a browser on this machine: HTTP and WebSocket on the loopback
-/// address, at a port that the system chooses, for who knows the token (Admission). In a thread of its own. A
-/// page is sent a picture 60 times a second at most, and none while the one before has not left: so one that
-/// stalls takes no more memory than any, and later gets the newest.
+/// Shows sand while it is shaped, to pages in a browser on this machine. It serves HTTP and WebSocket on the
+/// loopback address, at a port that the system chooses, to those who know the token (Admission). It runs in a
+/// thread of its own. It sends a page at most 60 pictures a second, and none while the one before has not
+/// left. So a page that stalls takes no more memory than others, and later gets the newest.
 class ViewServer {
  public:
-  /// Serves when this returns. Error: io, where the system gives no port.
+  /// Returns when it serves. Error: io, where the system gives no port.
   explicit ViewServer(ViewSources sources, const ViewLimits& limits = {});
-  /// end(), where that was not called.
+  /// Calls end(), if nobody did.
   ~ViewServer();
   ViewServer(const ViewServer&) = delete;
   ViewServer& operator=(const ViewServer&) = delete;
@@ -46,9 +46,10 @@ class ViewServer {
   int port() const;
   /// "http://127.0.0.1:PORT/?token=TOKEN"
   std::string address() const;
-  /// How many watch now; from any thread.
+  /// How many pages watch now; from any thread.
   int pages() const;
-  /// Pages get what is newest, and why it ended. Returns when they have taken it, or after limits.end. Once.
+  /// Sends pages the newest state, and why it ended. Returns when they have it, or after limits.end. Call it
+  /// once.
   void end(const std::string& reason);
 
  private:

@@ -7,7 +7,7 @@
 namespace sandstroke {
 namespace {
 
-/// What EGL calls surfaceless: no display, no window, no configuration of one.
+/// A context that EGL calls surfaceless: it has no display, no window and no window's configuration.
 class EglContext : public OffscreenContext {
  public:
   EglContext() {
@@ -29,7 +29,7 @@ class EglContext : public OffscreenContext {
           eglGetError());
   }
   ~EglContext() override {
-    // One that is current would live on.
+    // A context that is current would live on.
     if (eglGetCurrentContext() == context_)
       eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
     eglDestroyContext(display_, context_);
@@ -41,7 +41,7 @@ class EglContext : public OffscreenContext {
   }
 
  private:
-  EGLDisplay display_ = EGL_NO_DISPLAY;  // the process's; never given back
+  EGLDisplay display_ = EGL_NO_DISPLAY;  // shared by the process; never given back
   EGLContext context_ = EGL_NO_CONTEXT;
 };
 

@@ -12,11 +12,11 @@ namespace {
 
 constexpr const char* remedy = "allow more, or do without pictures";
 
-/// The library, loaded when the first context is made: with it comes a whole compiler.
+/// The library. It is loaded when the first context is made, because it brings a whole compiler.
 class OsMesa {
  public:
   static const OsMesa& get() {
-    static const OsMesa library;  // where it fails, it is tried again the next time
+    static const OsMesa library;  // after a failure the next call tries again
     return library;
   }
 
@@ -27,7 +27,7 @@ class OsMesa {
 
  private:
   OsMesa() {
-    // Where it finds no memory while it is loaded, the compiler ends the program. Measured: 50 MB, and 190 MB
+    // Where the compiler finds no memory while it is loaded, it ends the program. Measured: 50 MB, and 190 MB
     // mapped.
     check_memory(60e6, "the library for drawing", remedy);
     check_addresses(210e6, "the library for drawing", remedy);
@@ -50,7 +50,7 @@ class OsMesa {
         dlerror());
   }
 
-  void* library_;  // never given back: Mesa's threads and the compiler's may still be there
+  void* library_;  // never given back: threads of Mesa and the compiler may still run
 };
 
 class OsMesaContext : public OffscreenContext {

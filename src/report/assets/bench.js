@@ -1,6 +1,6 @@
 "use strict";
-// The work-precision study: for each problem run time against error, error against resolution and slope
-// errors by direction; then orders, estimates and all runs as tables.
+// The page of bench: for each problem run time against error, error against resolution and slope errors by direction;
+// then orders, estimates and all runs as tables.
 
 /** The series, in the order of the runs. */
 const seriesOf = (runs) => [...new Set(runs.map((run) => run.series))];
@@ -16,7 +16,7 @@ drawPage((data, main) => {
     tipOf(`${run.series} · ${run.label}`, columns.filter(({ name }) => isNumber(run[name])).map((one) =>
       [withUnit(one.name === problem.error ? problem.error_title : one.title, one.unit), run[one.name]]));
 
-  /** The points of a series as a line; its look is the series'. */
+  /** The points of a series as a line with the look of the series. */
   const curve = (problem, series, points, x, y, xName) => {
     const { colour, symbol, dash } = looks.get(series);
     return {
@@ -36,7 +36,7 @@ drawPage((data, main) => {
   const errorScale = (problem, points) =>
     scaleOf([...points.map((run) => run[problem.error]), problem.converged_to],
             { logarithmic: true, title: problem.error_title, unit: problem.error_unit });
-  /** Where the problem's reference is itself only converged so far: a line, and its name in the legend. */
+  /** A line, and its name in the legend, where the problem's reference is itself only converged so far. */
   const addReference = (problem, x, y, lines, legend) => {
     if (!plotted(problem, "converged_to")) return;
     const look = { colour: "#5b6670", dash: "dotted" };
@@ -44,7 +44,7 @@ drawPage((data, main) => {
     legend.push({ name: "converged", text: "how far the reference is converged", series: true, ...look });
   };
 
-  /** Run time against error, the points as they were run; no run beats one on the front in both. */
+  /** Run time against error, with the points as they were run. No run beats a run on the front in both. */
   function workChart(problem, own) {
     const points = own.filter((run) => plotted(run, "wall_seconds", problem.error));
     if (points.length === 0) return null;
@@ -109,8 +109,8 @@ drawPage((data, main) => {
     });
   }
 
-  /** Slope errors by direction, of each series' run with the most cells. asinh: linear within the bound of
-      0.15 degrees, logarithmic far beyond it. */
+  /** Slope errors by direction, of each series' run with the most cells. The scale is asinh: linear within the bound
+      of 0.15 degrees, logarithmic far beyond it. */
   function slopeChart(problem, own) {
     const bound = 0.15;
     const at = (error) => (isNumber(error) ? Math.asinh(error / bound) : null);
@@ -170,7 +170,7 @@ drawPage((data, main) => {
     });
   }
 
-  /** A chart that comes with a problem: curves of one name in one colour, looks that mean what is said. */
+  /** A chart that comes with a problem. Curves of one name have one colour; their looks mean what `looks` says. */
   function plotChart({ title, note, x_title, x_unit, y_title, curves, looks: meanings }) {
     const x = scaleOf(curves.flatMap((curve) => curve.x), { title: x_title, unit: x_unit, margin: 0.02 });
     const y = scaleOf(curves.flatMap((curve) => curve.y), { title: y_title });
@@ -191,7 +191,7 @@ drawPage((data, main) => {
     return chart({ title, note, legend, option });
   }
 
-  /** What others measured, beside the law. */
+  /** Measurements of others, beside the law. */
   const measuredTable = (rows) => table(
     [{ name: "medium", title: "Medium" }, { name: "what", title: "What" },
      ...[["measured", "Measured"], ["model", "The law"]].map(([name, title]) =>

@@ -3,7 +3,7 @@
 
 // ---- The files.
 
-/** Rows of what golden and run say, from two maps. */
+/** Rows of the entries of golden and run, from two maps. */
 const rowsOf = (golden, run) => [...new Set([...golden.keys(), ...run.keys()])].map((name) =>
   ({ name, golden: golden.get(name) ?? null, run: run.get(name) ?? null }));
 

@@ -1,6 +1,6 @@
 "use strict";
-// Curves: traces over time, of golden and run, and how far they are apart, in charts that zoom alike; and profiles of
-// the sand along a way.
+// Curves: traces of golden and run over time and their difference, in charts that zoom together; and profiles of the
+// sand along a way.
 
 const lookOfSide = { golden: { colour: colours[0] }, run: { colour: colours[1], dash: "dashed" },
                      recorded: { colour: colours[6], dash: "dotted" } };
@@ -10,8 +10,8 @@ const lookOfSurface = { initial: { colour: colours[6], dash: "dashed" }, last: {
 const overTime = { title: "time", unit: "s" };
 
 /**
- * A chart of curves {name, look, curve: {at, value}} over time or a way (`over`). `limit`: a band around zero that
- * it holds, if any. Its show(from, to) zooms to a stretch, with round ticks, and heights that fit what is in sight.
+ * A chart of curves {name, look, curve: {at, value}} over time or a way (`over`). `limit`, if any, draws a band around
+ * zero. Its show(from, to) zooms to a stretch, with round ticks, and a height that fits what is in sight.
  */
 function curveChart({ title, note, legend, whole, over }) {
   let shown = { curves: [], quantity: "", unit: "", limit: null };
@@ -57,8 +57,8 @@ function curveChart({ title, note, legend, whole, over }) {
 }
 
 /**
- * Two charts of the quantities of a group, one of which is chosen: golden and run, and what was recorded with the
- * stroke; and how far golden and run are apart.
+ * Two charts of a group of quantities, one of which is chosen. One shows golden, run and what was recorded with the
+ * stroke; the other shows the difference of golden and run.
  */
 function groupCharts(group, quantities, whole) {
   const sides = ["golden", "run", "recorded"].filter((name) => quantities[0][name]);
@@ -84,7 +84,7 @@ function groupCharts(group, quantities, whole) {
            choose: (i) => choose(quantities[i]) };
 }
 
-/** Charts that zoom alike: by buttons, and whichever of them the pointer zooms. */
+/** Charts that zoom together: by buttons, or when the pointer zooms one of them. */
 function zoomTogether(curveCharts, whole) {
   let [from, to] = whole;
   const show = (start, end) => {

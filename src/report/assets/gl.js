@@ -1,5 +1,5 @@
 "use strict";
-// A little WebGL 2 and the mathematics of a camera: what sand.js draws with. Matrices are arrays of 16, by columns.
+// A little WebGL 2 and the mathematics of a camera, for sand.js. Matrices are arrays of 16 numbers, by columns.
 
 const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
 const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
@@ -12,7 +12,7 @@ const matrixProduct = (a, b) => Float64Array.from({ length: 16 }, (_, at) => {
   return a[row] * b[col] + a[row + 4] * b[col + 1] + a[row + 8] * b[col + 2] + a[row + 12] * b[col + 3];
 });
 
-/** From the world to the picture: perspective, `tan` of half its height, seen from `eye` along `forward`. */
+/** The matrix from the world to the picture: perspective, `tan` of half its height, seen from `eye` along `forward`. */
 function cameraMatrix({ eye, forward, right, up }, tan, aspect, near, far) {
   const rotate = [right, up, forward.map((x) => -x)];
   const view = [0, 1, 2].flatMap((i) => [...rotate.map((axis) => axis[i]), 0])
@@ -22,7 +22,7 @@ function cameraMatrix({ eye, forward, right, up }, tan, aspect, near, far) {
                         0, 0, (far + near) / depth, -1, 0, 0, (2 * far * near) / depth, 0], view);
 }
 
-/** A program of two shaders; set(values) gives its uniforms their values: numbers, arrays, [texture unit]. */
+/** A program of two shaders. set(values) sets its uniforms: numbers, arrays, [texture unit]. */
 function glProgram(gl, vertexText, fragmentText) {
   const program = gl.createProgram();
   for (const [type, text] of [[gl.VERTEX_SHADER, vertexText], [gl.FRAGMENT_SHADER, fragmentText]]) {
@@ -55,7 +55,7 @@ function glProgram(gl, vertexText, fragmentText) {
   };
 }
 
-/** Triangles: three numbers a vertex, of an array's own type; indices of 16 or 32 bits; draw(). */
+/** Triangles: three numbers per vertex, of any array type; indices of 16 or 32 bits. Returns draw(). */
 function glMesh(gl, vertices, indices) {
   const array = gl.createVertexArray();
   gl.bindVertexArray(array);
@@ -71,7 +71,7 @@ function glMesh(gl, vertices, indices) {
   };
 }
 
-/** A texture whose storage is taken at once. */
+/** A texture whose storage is allocated at once. */
 function glTexture(gl, unit, format, width, height, filter) {
   const texture = gl.createTexture();
   gl.activeTexture(gl.TEXTURE0 + unit);

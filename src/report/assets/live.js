@@ -1,11 +1,11 @@
 "use strict";
-// The live view: sand as it is shaped, from the server that the page came from, with the tool, the force on the hand
-// and how the loop keeps its times. Where the page may be the hand (a pointer), what it draws goes back.
+// The live view: sand while it is shaped, from the server that the page came from, with the tool, the force on the hand
+// and how well the loop keeps its times. Where the page may be the hand (a pointer), it sends back what it draws.
 
 const recordBytes = { head: 80, tile: 4 + 4 * tileSide * tileSide, sample: 24 };
-const placed = 2;  // a flag: where the tool is is known
+const placed = 2;  // a flag: the tool's place is known
 
-/** What a message of the server says of the tool and the loop; numbers are as on the wire. */
+/** Reads what a server's message says about the tool and the loop; numbers are as on the wire. */
 function readHead(bytes) {
   const at = new DataView(bytes);
   const three = (from) => [0, 4, 8].map((i) => at.getFloat32(from + i, true));
@@ -15,7 +15,7 @@ function readHead(bytes) {
            turn: [...three(60), at.getFloat32(72, true)] };
 }
 
-/** Samples of a pointer, as they are sent. */
+/** Samples of a pointer as the bytes that are sent. */
 function pointerBytes(samples) {
   const bytes = new ArrayBuffer(samples.length * recordBytes.sample), at = new DataView(bytes);
   samples.forEach(({ time, x, y, pressure, switches }, i) => {
@@ -27,7 +27,7 @@ function pointerBytes(samples) {
   return bytes;
 }
 
-/** Names with numbers that change: set(values). */
+/** A table of names with numbers that change: set(values). */
 function numberTable(names) {
   const cells = names.map(() => el("dd", {}, "–"));
   return { element: el("dl", {}, ...names.flatMap((name, i) => [el("dt", {}, name), cells[i]])),
@@ -36,7 +36,7 @@ function numberTable(names) {
 
 const live = { view: null, hello: null, head: null, messages: 0, draws: false, depth: 0.5, ended: false };
 
-/** A button that is pressed or not, as act() says. */
+/** A button that is pressed or not, as act() returns. */
 function switchButton(text, pressed, act) {
   const button = el("button", { type: "button", "aria-pressed": String(pressed), click: () => {
     button.setAttribute("aria-pressed", String(act()));
@@ -46,8 +46,8 @@ function switchButton(text, pressed, act) {
 }
 
 /**
- * The pointer as a hand: while it draws, events with the main button press the tool into the sand. A pen presses as
- * hard as it is pressed; mouse and finger by the depth chosen.
+ * The pointer as a hand. While it draws, events with the main button press the tool into the sand: to the chosen depth
+ * with mouse or finger, and to twice a pen's pressure times that depth.
  */
 function pointerHand(view, send, depthChanged) {
   const sampleOf = (event, pressed) => {
@@ -56,7 +56,7 @@ function pointerHand(view, send, depthChanged) {
     const pressure = pressed ? live.depth * (event.pointerType === "pen" ? 2 * event.pressure : 1) : 0;
     return { time: event.timeStamp, x: place[0], y: place[1], pressure: Math.min(pressure, 1), switches: event.buttons };
   };
-  let pressed = null, last = null;  // pressed: the pointer that is down, by its id
+  let pressed = null, last = null;  // pressed: the id of the pointer that is down
   const tell = (samples) => {
     if (samples.length) send(pointerBytes(samples));
   };
@@ -78,7 +78,7 @@ function pointerHand(view, send, depthChanged) {
     const events = event.type === "pointermove" ? event.getCoalescedEvents?.() ?? [] : [];
     const samples = (events.length ? events : [event]).map((one) => sampleOf(one, pressed !== null)).filter(Boolean);
     last = samples.at(-1) ?? last;
-    // Off the sand's edge it is lifted where it was last.
+    // Off the sand's edge the tool is lifted at its last place.
     if (samples.length === 0 && last) samples.push({ ...last, time: event.timeStamp, pressure: 0 });
     tell(samples);
     return true;

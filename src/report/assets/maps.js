@@ -1,23 +1,23 @@
 "use strict";
-// Maps and pictures: one, or golden, run and their difference side by side, and two of them over one another with
-// a slider that wipes between them.
+// Maps and pictures: one, or golden, run and their difference side by side; then also two of them over one another,
+// with a slider that wipes between them.
 
 const sideLabels = new Map();
-/** What the page calls golden and run: two files by their names. */
+/** The page's names of golden and run: for two files, their own names. */
 const labelOf = (side) => sideLabels.get(side) ?? side;
 const titleOf = (side) =>
   `${side[0].toUpperCase()}${side.slice(1)}${sideLabels.has(side) ? `: ${labelOf(side)}` : ""}`;
 
-/** What the colours of a map mean. */
+/** The colour bar of a map. */
 const barOf = ({ title, unit, low, high, colours: stops }) =>
   colourBar({ name: withUnit(title, unitText(unit)), low, high, stops,
               ticks: roundTicks(low, high, 5).map((tick) => [tick, tickText(tick)]) });
 
-/** A map, which fills its place, with a ring around the largest difference where it shows that. */
+/** A map that fills its place. The map of the difference has a ring around its largest value. */
 function layer(part, map) {
   const picture = el("img", { src: map.picture, width: map.width, height: map.height, draggable: "false",
                               alt: `${part.title}: ${labelOf(map.name)}` });
-  // Cells stay squares where they are larger than a pixel; the browser's mean shows them where smaller.
+  // Cells stay squares where they are larger than a pixel. Where they are smaller, the browser shows their mean.
   new ResizeObserver(() => {
     picture.style.imageRendering = picture.clientWidth > map.width ? "pixelated" : "auto";
   }).observe(picture);
@@ -30,7 +30,7 @@ function layer(part, map) {
     : null);
 }
 
-/** The values under the pointer: a function of the place, as shares of width and height from the upper left. */
+/** Gives the values under the pointer: a function of the place, as shares of width and height from the upper left. */
 function reader(part) {
   if (!part.spots) return null;
   const floats = (text) => {
@@ -54,7 +54,7 @@ function reader(part) {
   };
 }
 
-/** Layers over one another, and a line that says the values under the pointer. */
+/** Layers over one another, and a line with the values under the pointer. */
 function stage(part, map, ...layers) {
   const read = reader(part);
   const readout = el("p", { class: "readout quiet" });
@@ -77,7 +77,7 @@ const mapFigure = (part, map) => {
             element, map.scale ? barOf(map.scale) : null, readout);
 };
 
-/** Two maps over one another: the first left of an edge, which a slider or the pointer moves, the other right. */
+/** Two maps over one another, left and right of an edge. A slider or the pointer moves the edge. */
 function wipe(part) {
   const named = new Map(part.maps.map((map) => [map.name, map]));
   const pairs = [["golden", "run"], ["golden", "difference"], ["run", "difference"]];

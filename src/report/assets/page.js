@@ -1,6 +1,6 @@
 "use strict";
-// What every page shares (but for its charts, see plot.js): elements, numbers, tables, and drawPage(), which
-// says on <html data-ready data-charts data-errors> how it went. Text from the data only becomes text nodes.
+// Functions that all pages share (charts are in plot.js): elements, numbers, tables, and drawPage(), which says on
+// <html data-ready data-charts data-errors> how it went. Text from the data only becomes text nodes.
 
 const errors = { count: 0 };
 const countError = () => {
@@ -15,7 +15,7 @@ console.error = (...values) => {
   consoleError.apply(console, values);
 };
 
-/** An element; children are elements or text, null ones are left out. */
+/** An element. Children are elements or text; null children are left out. */
 function el(tag, attributes = {}, ...children) {
   const element = document.createElement(tag);
   for (const [name, value] of Object.entries(attributes)) {
@@ -37,7 +37,7 @@ const grouped = (value) => {
   return withMinus([Math.abs(value) < 1e4 ? whole : whole.replace(/\B(?=(\d{3})+$)/g, "\u202f"), ...rest].join("."));
 };
 
-/** A number as text: to four digits, or in full where it is `whole`; "–" for none. */
+/** A number as text: to four digits, or in full if it is `whole`; "–" for none. */
 function format(value, whole = Number.isInteger(value)) {
   if (value === null || value === undefined) return "–";
   if (typeof value === "boolean") return value ? "yes" : "no";
@@ -50,7 +50,7 @@ function format(value, whole = Number.isInteger(value)) {
   return `${withMinus(mantissa)}×${powerOfTen(Number(exponent))}`;
 }
 
-/** A setting as text: as it was given, to six digits. */
+/** A setting as text: as it was given, up to six digits. */
 function exact(value) {
   const size = Math.abs(value);
   return size === 0 || (size >= 1e-4 && size < 1e9) ? grouped(Number(value.toPrecision(6))) : tickText(value);
@@ -70,13 +70,13 @@ function tickText(value) {
 const unitText = (unit) => unit.replace(/^um$/, "µm").replace(/\^(-?\d+)/g, (all, power) => raised(power));
 const withUnit = (title, unit) => (unit ? `${title} (${unit})` : title);
 const count = (n, one, many = `${one}s`) => `${format(n)} ${n === 1 ? one : many}`;
-/** Orders text, numbers in it by their size. */
+/** Orders text; numbers within it by size. */
 const collator = new Intl.Collator("en", { numeric: true });
 
 // ---- Tables.
 
 /**
- * Leafs through rows, `perPage` at a time: draw(part) shows a part. Returns its element; take(rows); and
+ * Shows rows page by page, `perPage` at a time: draw(part) shows a part. Returns its element; take(rows); and
  * reveal(row), which turns to the page of a row.
  */
 function pager(perPage, draw) {
@@ -110,11 +110,11 @@ function pager(perPage, draw) {
 }
 
 /**
- * A table that sorts by a click (or Enter) on a column's head: numbers by size, text by its order, none last.
- * columns: {name, title, unit, value(row) to sort by, cell(row) to show}; only name is needed. `perPage` rows
- * are shown at a time; choose(row) is called for the row that is clicked.
- * Returns its element; show(keep), which leaves the rows that keep(row) wants and says how many; mark(row), which
- * sets one off and brings it into sight; and texts(row), what its cells say.
+ * A table that sorts by a click (or Enter) on a column's head: numbers by size, text in order, empty cells last.
+ * columns: {name, title, unit, value(row) to sort by, cell(row) to show}; only name is needed. `perPage` rows are shown
+ * at a time; choose(row) is called for the row that is clicked.
+ * Returns its element; show(keep), which keeps the rows for which keep(row) is true and returns how many; mark(row),
+ * which highlights a row and brings it into sight; and texts(row), the texts of its cells.
  */
 function table(columns, rows, { label, rowClass = () => null, perPage = Infinity, choose = null } = {}) {
   const valueOf = (column) => column.value ?? ((row) => row[column.name]);
@@ -167,7 +167,7 @@ function table(columns, rows, { label, rowClass = () => null, perPage = Infinity
   const head = el("thead", {}, el("tr", {}, ...heads));
   const box = el("div", { class: "scroll", tabindex: "0", role: "region", "aria-label": label },
                  el("table", { class: choose && "choice" }, head, body));
-  /** Scrolls within the box: not the page, where something else may be looked at. */
+  /** Scrolls within the box, not the page: the reader may look at something else there. */
   const reveal = (line) => {
     const low = line.offsetTop + line.offsetHeight - box.clientHeight, high = line.offsetTop - head.offsetHeight;
     if (box.scrollTop < low || box.scrollTop > high) box.scrollTop = (low + high) / 2;
@@ -200,7 +200,7 @@ function machineLine(machine = {}) {
   return el("p", { class: "machine" }, parts.filter(Boolean).join(" · "));
 }
 
-/** A figure among those that say the outcome. */
+/** One of the figures that state the outcome. */
 const fact = (name, value, kind = null) => el("div", {}, el("dt", {}, name), el("dd", { class: kind }, value));
 
 /** Links to the sections: [id, title]. */

@@ -1,6 +1,5 @@
 "use strict";
-// Pages that are made of parts, about one run or two: maps (maps.js), sand in 3-D (sand_part.js), curves (curves.js),
-// figures.
+// Pages made of parts, about one run or two: maps (maps.js), sand in 3-D (sand_part.js), curves (curves.js), figures.
 
 const valueWithUnit = (value, unit) => format(value) + (unit === "" || unit.startsWith("/") ? "" : "\u00a0") + unit;
 
@@ -16,7 +15,7 @@ function settingsOf(scene) {
   return settings;
 }
 
-/** What a page does not show, and why. */
+/** Lines on what a page does not show, and why. */
 const missingLines = (missing) => missing.map(({ name, sentence }) =>
   el("p", { class: "warning" }, el("strong", {}, `${name} is not shown`), `: ${sentence}`));
 

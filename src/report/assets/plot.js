@@ -1,12 +1,12 @@
 "use strict";
-// Charts of every page: looks, scales with their ticks, legends and tooltips. Text from the data reaches the
-// chart library as text of SVG elements, and tooltips as elements made here.
+// Charts of every page: looks, scales with their ticks, legends and tooltips. The chart library gets text from the data
+// only as text of SVG elements. Tooltips are elements made here.
 
-// Okabe & Ito's palette, but for its yellow, which is lost on white. A symbol goes with each colour, so that
-// grey print tells them apart.
+// Okabe & Ito's palette without its yellow, which is hard to see on white. Each colour has a symbol, so that grey print
+// tells series apart.
 const colours = ["#0072b2", "#d55e00", "#009e73", "#b65c92", "#e69f00", "#3fa7e0", "#333333"];
 const symbols = [  // outlines in a square of 10
-  // A circle of one arc would be drawn, but never found under the pointer.
+  // A circle of one arc would be drawn, but the pointer would never find it.
   "M5 0a5 5 0 0 1 0 10a5 5 0 0 1 0-10z", "M0 0h10v10h-10z", "M5 0l5.5 10h-11z", "M5 0l5 5-5 5-5-5z",
   "M5 10l5.5-10h-11z",
   "M3.3 0h3.4v3.3h3.3v3.4h-3.3v3.3h-3.4v-3.3h-3.3v-3.4h3.3z", "M2 0h6l3 5-3 5h-6l-3-5z",
@@ -19,8 +19,8 @@ const lookOf = (i) => ({
   dash: dashes[Math.floor(i / colours.length) % dashes.length],
 });
 
-// ---- Scales. ECharts draws everything on linear axes, of the values' logarithms where one is asked for: so
-// ticks are ours, and rectangles and lines meet on any axis.
+// ---- Scales. ECharts draws everything on linear axes; for a logarithmic axis it gets the values' logarithms. So the
+// ticks are made here, and rectangles and lines meet on any axis.
 
 /** Round values between low and high, about `count` of them. */
 function roundTicks(low, high, count = 6) {
@@ -59,8 +59,8 @@ function logarithmicTicks(low, high) {
 }
 
 /**
- * Where values stand on an axis. `values` are what it must hold (others than positive ones have no place on a
- * logarithmic one); `margin` is the share of the axis left free at each end.
+ * The places of values on an axis. `values` are what it must hold (on a logarithmic axis only positive values have a
+ * place). `margin` is the share of the axis that is left free at each end.
  */
 function scaleOf(values, { logarithmic = false, margin = 0.05, title = "", unit = "" } = {}) {
   const at = (value) => {
@@ -86,7 +86,7 @@ function scaleOf(values, { logarithmic = false, margin = 0.05, title = "", unit 
   return { at, low, high, from: back(low), to: back(high), axis };
 }
 
-/** Where names stand on an axis: the i-th at i. */
+/** The places of names on an axis: the i-th is at i. */
 function nameScale(names, { title = "" } = {}) {
   const [low, high] = [-0.5, names.length - 0.5], places = names.map((_, i) => i);
   const axis = axisOf(low, high, title, places, places, (i) => names[i]);
@@ -94,7 +94,7 @@ function nameScale(names, { title = "" } = {}) {
   return { at: (i) => i, low, high, axis };
 }
 
-/** An axis with ticks, labelled ones among them, that text(place) names. */
+/** An axis with ticks, some of which have labels: text(place). */
 const axisOf = (low, high, name, ticks, labelled, text) => ({
   type: "value", min: low, max: high, name, nameLocation: "middle", nameGap: 30,
   nameTextStyle: { color: "#1d2329", fontSize: 12 },
@@ -104,16 +104,16 @@ const axisOf = (low, high, name, ticks, labelled, text) => ({
   splitLine: { lineStyle: { color: "#dde2e6" } },
 });
 
-// ---- Colours for numbers: from light to dark, which grey print keeps.
+// ---- Colours for numbers: from light to dark, so that grey print keeps their order.
 const rampColours = ["#fdf5cc", "#cbe7bf", "#76c5bf", "#3394bd", "#2b60a4", "#222a63"];
 /** The colour at a share between 0 and 1. */
 const ramp = (share) => echarts.color.lerp(Math.min(Math.max(share, 0), 1), rampColours);
-/** Text on that colour. */
+/** The colour of text on that colour. */
 const rampInk = (share) => (share > 0.55 ? "#ffffff" : "#1d2329");
-/** The share of a scale (without margin) that a value takes. */
+/** The place of a value on a scale (without margin), as a share of the scale. */
 const shareOf = (scale, value) => (scale.at(value) - scale.low) / (scale.high - scale.low);
 
-/** What colours mean: a bar of colour stops from low to high, with ticks [value, text]. */
+/** A colour bar: colour stops from low to high, with ticks [value, text]. */
 function colourBar({ name, low, high, ticks, stops }) {
   const marks = ticks.map(([value, text]) =>
     el("span", { style: `left: ${(100 * (value - low)) / (high - low)}%` }, text));
@@ -122,7 +122,7 @@ function colourBar({ name, low, high, ticks, stops }) {
                el("div", { class: "marks" }, ...marks)));
 }
 
-/** That of the ramp, from a share of it on, over a scale. */
+/** The ramp's colour bar over a scale, from the share `from` of the ramp on. */
 function rampBar({ low, high, axis: { name, axisLabel } }, from = 0) {
   const ticks = axisLabel.customValues.map((place) => [place, axisLabel.formatter(place)]);
   const stops = Array.from({ length: 11 }, (_, i) => ramp(from + (1 - from) * (i / 10)));
@@ -161,9 +161,9 @@ function swatch({ colour, symbol, hollow, dash, fill, sign, ink }) {
 const verdictMark = (look, name) => el("span", { class: "verdict" }, swatch(look), name);
 
 /**
- * A chart with its title and legend. `legend`: [{name, text, colour, symbol, dash, fill, ...}]; an entry with
- * `series: true` hides and shows the series of its name, one without colour heads what follows. `bar` is a
- * colour bar; click(item) is told what was clicked. It is drawn once the page stands, as SVG but for `many` items.
+ * A chart with its title and legend. `legend`: [{name, text, colour, symbol, dash, fill, ...}]. An entry with
+ * `series: true` hides and shows the series of its name; an entry without colour is a heading. `bar` is a colour bar.
+ * click(item) gets what was clicked. The chart is drawn once the page stands: as SVG, or on a canvas for `many` items.
  */
 function chart({ title, note = null, legend = [], bar = null, option, height = null, click = null, many = false }) {
   const canvas = el("div", { class: "canvas", style: height && `height: ${height}` });
@@ -197,7 +197,7 @@ function drawChart(one) {
   one.observer.observe(one.canvas);
 }
 
-/** A place for charts one after the other: show(what) draws chart(what) there, change(option) what is drawn. */
+/** A place for one chart after the other: show(what) draws chart(what) there; change(option) changes what is drawn. */
 function chartPlace(attributes) {
   const element = el("div", attributes);
   let one = null;
@@ -218,7 +218,7 @@ function chartPlace(attributes) {
   };
 }
 
-/** What every chart's option starts from. `tip(item)` gives what is shown about the item under the pointer. */
+/** The start of every chart's option. `tip(item)` gives the tooltip of the item under the pointer. */
 const chartBase = (tip) => ({
   animation: false,
   textStyle: { fontFamily: "system-ui, -apple-system, 'Segoe UI', Roboto, 'Noto Sans', 'DejaVu Sans', sans-serif" },
@@ -231,10 +231,10 @@ const tipOf = (heading, pairs) =>
   el("div", { class: "tip" }, el("strong", {}, heading),
      el("dl", {}, ...pairs.flatMap(([name, value]) => [el("dt", {}, name), el("dd", {}, format(value))])));
 
-/** How the chart library is told a symbol. */
+/** A symbol as the chart library needs it. */
 const outlined = (symbol) => `path://${symbol}`;
 
-/** A line, through [x, y] in the data's values. */
+/** A line through [x, y], given as the data's values. */
 const lineOf = (name, points, x, y, look, more = {}) => ({
   type: "line", name, data: points.map(([px, py]) => [x.at(px), y.at(py)]), symbol: "none", silent: true,
   lineStyle: { color: look.colour, type: look.dash ?? "solid", width: look.width ?? 1.5 }, ...more,

@@ -1,7 +1,7 @@
 "use strict";
-// Sand in 3-D: a bed of heights that may change tile by tile, the tool in it and the force on the hand. The colour of
-// a cell (sun past what shades it, open sky, grains) is worked out when sand near it changes, and kept; a picture
-// then costs one look at it per pixel. Tiles that are small in the picture are drawn with fewer triangles.
+// Sand in 3-D: a bed of heights that may change tile by tile, the tool in it and the force on the hand. The colour of a
+// cell (sun, shadow, open sky, grains) is computed when sand near it changes, and kept. A picture then looks it up once
+// per pixel. Tiles that are small in the picture are drawn with fewer triangles.
 
 const tileSide = 64;
 const sunDirection = (() => {
@@ -9,7 +9,7 @@ const sunDirection = (() => {
   return [Math.cos(elevation) * Math.cos(azimuth), Math.cos(elevation) * Math.sin(azimuth), Math.sin(elevation)];
 })();
 
-// How far a cell's light looks, in cells: for what hides the sun, and the sky.
+// How far a cell's light depends on other cells, in cells: those that hide the sun, and the sky.
 const lightReach = { sun: 80, sky: 19 };
 
 // Colours for numbers, from low to high; red, green and blue from 0 to 1.
@@ -188,11 +188,11 @@ function boxMesh({ low, high, floor, rim, wall }) {
 }
 
 /**
- * A bed {rows, cols, cellSize, x0, y0, low, high} [m] in a canvas; x0, y0 are its first cell's centre, low and high what
- * its heights span. Null where there is no WebGL 2, or none that takes so many cells.
+ * A bed {rows, cols, cellSize, x0, y0, low, high} [m] in a canvas. x0, y0: its first cell's centre. low, high: the
+ * range of its heights. Null where there is no WebGL 2, or where it does not take so many cells.
  */
 function sandPicture(canvas, bed) {
-  // Where the processor draws, smooth edges would cost as much as all else.
+  // Where the processor draws, smooth edges would cost as much as everything else.
   const fast = document.createElement("canvas").getContext("webgl2", { failIfMajorPerformanceCaveat: true }) !== null;
   const gl = canvas.getContext("webgl2", { antialias: fast, powerPreference: "high-performance" });
   if (!gl || Math.max(bed.rows, bed.cols) > gl.getParameter(gl.MAX_TEXTURE_SIZE)) return null;
@@ -224,11 +224,11 @@ function sandPicture(canvas, bed) {
                                       floor: Math.min(bed.low, -0.02) - 0.03 * size, rim: Math.max(bed.high, 0) + 0.6 * wall }));
 
   const waiting = new Map();  // heights by tile, not taken yet
-  let unfinished = null;      // the last picture, while it is drawn
-  let stale = [[0, 0, cols, rows]];  // rectangles of cells whose light is to be worked out
+  let unfinished = null;      // the last picture, while it is being drawn
+  let stale = [[0, 0, cols, rows]];  // rectangles of cells whose light must be computed
   let tool = null, toolMesh = null, line = null, colouring = null, [lowest, highest] = [bed.low, bed.high];
 
-  /** Cells [first column, row, end column, row] changed: the light near them has, and in their shadow. */
+  /** Cells [first column, row, end column, row] changed: the light near them and in their shadow becomes stale. */
   const shade = ([left, lower, right, upper]) => {
     const tangent = sunDirection[2] / Math.hypot(sunDirection[0], sunDirection[1]);
     const reach = Math.min(lightReach.sun, (highest - lowest) / ((tangent - 0.1) * cellSize) + 1);
@@ -338,7 +338,7 @@ function sandPicture(canvas, bed) {
     drawTool(1);
     gl.enable(gl.BLEND);
     gl.blendFunc(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA);
-    gl.depthFunc(gl.GREATER);   // and what of it lies in the sand
+    gl.depthFunc(gl.GREATER);   // then the part of the tool that lies in the sand
     gl.depthMask(false);
     drawTool(0.25);
     gl.depthMask(true);
@@ -352,9 +352,9 @@ function sandPicture(canvas, bed) {
 
   return {
     canvas, heights,
-    /** A tile by its index: 64 x 64 heights. */
+    /** Sets a tile, by its index: 64 x 64 heights. */
     setTile: (tile, values) => { waiting.set(tile, values); },
-    /** All heights, row by row. */
+    /** Sets all heights, row by row. */
     setHeights: (values) => {
       waiting.clear();
       heights.set(values);
@@ -363,15 +363,15 @@ function sandPicture(canvas, bed) {
       gl.texSubImage2D(gl.TEXTURE_2D, 0, 0, 0, cols, rows, gl.RED, gl.FLOAT, values);
       stale = [[0, 0, cols, rows]];
     },
-    /** The tool: {tip, radius, force} in m and as an arrow's length in m, and its turn; null: there is none. */
+    /** Sets the tool: tip and radius in m, force as an arrow's length in m, and its turn; null: there is none. */
     setTool: (one) => { tool = one; },
-    /** What it looks like, its tip at the origin [m]; without that a sphere. */
+    /** Sets the tool's shape, its tip at the origin [m]. Without it the tool is a sphere. */
     setToolMesh: (vertices, triangles) => {
       toolMesh = glMesh(gl, Float32Array.from(vertices), Uint32Array.from(triangles));
     },
-    /** A line between two places; null: there is none. */
+    /** Sets a line between two places; null: there is none. */
     setLine: (one) => { line = one; },
-    /** Colours for values (by cell; null: the heights themselves) from low to high; null: sand. */
+    /** Sets colours for values (by cell; null: the heights themselves) from low to high; null: sand. */
     setColours: (one) => {
       colouring = one;
       if (!one?.values) return;
@@ -380,14 +380,14 @@ function sandPicture(canvas, bed) {
       gl.pixelStorei(gl.UNPACK_ROW_LENGTH, 0);
       gl.texSubImage2D(gl.TEXTURE_2D, 0, 0, 0, cols, rows, gl.RED, gl.FLOAT, one.values);
     },
-    /** Whether the last picture is still being drawn: who asks for more meanwhile only waits longer. */
+    /** True while the last picture is being drawn: asking for another one then only takes longer. */
     isBusy: () => {
       if (unfinished && !gl.isContextLost() && gl.getSyncParameter(unfinished, gl.SYNC_STATUS) !== gl.SIGNALED) return true;
       gl.deleteSync(unfinished);
       unfinished = null;
       return false;
     },
-    /** Draws it as a camera (orbitCamera) sees it; triangles may be `coarseness` times larger than they need be. */
+    /** Draws what a camera (orbitCamera) sees. Triangles may be `coarseness` times larger than they need be. */
     draw: (orbit, coarseness = 1) => {
       if (gl.isContextLost()) return;
       takeTiles();
@@ -396,7 +396,7 @@ function sandPicture(canvas, bed) {
       unfinished = gl.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
       gl.flush();
     },
-    /** Where a ray meets the sand [m]; null: nowhere. */
+    /** The place where a ray meets the sand [m]; null: nowhere. */
     meet: ([from, way]) => {
       const reaches = [0, 1].map((i) => [[origin[i] - from[i]], [origin[i] + (cells[i] - 1) * cellSize - from[i]]]
         .map(([d]) => d / (way[i] || 1e-12)).sort((a, b) => a - b));

@@ -1,8 +1,8 @@
 "use strict";
-// A part of a page: surfaces in 3-D (sand_view.js), one after the other; heights along a line that is drawn on them; and
-// how far two surfaces are apart, in colours.
+// A part of a page: surfaces in 3-D (sand_view.js), one after the other; heights along a line that is drawn on them;
+// and the difference of two surfaces, in colours.
 
-/** The surfaces of a part, as heights [m]: each was kept as whole steps from the one before. */
+/** The surfaces of a part, as heights [m]. Each was kept as whole steps from the one before. */
 async function unpackSurfaces({ surfaces, rows, cols, quantum }) {
   const steps = new Int32Array(rows * cols), all = [];
   for (const { data } of surfaces) {
@@ -63,7 +63,7 @@ function drawSand(part) {
     const first = { name: surfaces[other].name, heights: state.heights[other], look: lookOfSurface.initial };
     profile.show(profileChart(bed, state.line, [first, last]));
   };
-  /** A line of the bed, between two places. */
+  /** Draws a line on the bed, between two places. */
   state.draw = (line) => {
     state.line = line;
     view.picture.setLine(line.map((at) => [at[0], at[1], at[2] ?? 0]));

@@ -1,5 +1,5 @@
 "use strict";
-// Looking at sand (sand.js) with mouse, finger, pen and keys: turn, shift, zoom, colours, and the tool that is followed.
+// Looks at sand (sand.js) with mouse, finger, pen and keys: turns, shifts, zooms, colours, and follows the tool.
 
 /** A camera on a sphere about a target; angles in radians, azimuth from +x towards +y. */
 function orbitCamera(bed, size) {
@@ -23,7 +23,7 @@ function orbitCamera(bed, size) {
       now.azimuth -= right;
       now.elevation = clamp(now.elevation + up, 0.02, Math.PI / 2 - 1e-3);
     },
-    /** By shares of the picture's height. */
+    /** Shifts by shares of the picture's height. */
     shift: (right, up) => {
       const camera = of(1), metres = 2 * tan * camera.distance;
       const ahead = [-Math.cos(now.azimuth), -Math.sin(now.azimuth), 0];
@@ -46,9 +46,9 @@ const viewHelp = "Drag to turn, with Shift to shift; the wheel zooms. Keys: arro
   "C colours by height, Home looks at all.";
 
 /**
- * A bed to look at; null where it cannot be drawn. Its element; picture (sandPicture), of which changed() is told;
- * place(event), where the pointer is on the sand; and drawing: a function that takes pointer events of the main button
- * (and says so by true) instead of turning.
+ * A view of a bed; null where it cannot be drawn. It has canvas; picture (sandPicture): call changed() when it changed;
+ * place(event): the place on the sand under the pointer; and drawing: a function that takes pointer events of the main
+ * button instead of turning, and then returns true.
  */
 function sandView(bed, label) {
   const canvas = el("canvas", { tabindex: "0", role: "img", "aria-label": `${label}. ${viewHelp}` });
@@ -59,7 +59,7 @@ function sandView(bed, label) {
                  tool: null, colours: null };
   let waiting = false, rested = 0;
 
-  // What colours mean, while there are any.
+  // The scale of the colours, while there are any.
   view.scale = el("div", { class: "scale", hidden: true });
   let said = null;
   const sayColours = (colouring) => {
@@ -74,12 +74,12 @@ function sandView(bed, label) {
     view.scale.replaceChildren(text(low), el("span", { style: `background: linear-gradient(to right, ${stops})` }), text(high));
   };
 
-  // Where pictures take long, they are coarser while something moves, and one in full follows. None is begun before
-  // the last one is done: they would only queue.
-  const pace = { coarseness: picture.fast ? 1 : 2, mean: 20, busy: false };  // mean [ms]: what a picture takes
+  // Where pictures take long, they are coarser while something moves, and a full one follows. No picture is begun
+  // before the last one is done: it would only wait in a queue.
+  const pace = { coarseness: picture.fast ? 1 : 2, mean: 20, busy: false };  // mean [ms]: the time of a picture
   view.pace = pace;
   const takePace = (took) => {
-    pace.mean += 0.2 * (Math.min(took, 80) - pace.mean);  // one that took very long says little
+    pace.mean += 0.2 * (Math.min(took, 80) - pace.mean);  // a picture that took very long says little
     if (pace.mean > 31 && pace.coarseness < 4) [pace.coarseness, pace.mean] = [pace.coarseness * 1.15, 28];
     if (pace.mean < 25 && pace.coarseness > 1) [pace.coarseness, pace.mean] = [Math.max(1, pace.coarseness / 1.1), 28];
   };
@@ -127,7 +127,7 @@ function sandView(bed, label) {
     },
   };
 
-  // ---- The pointer. The place is where a ray through it meets the sand.
+  // ---- The pointer. Its place is where a ray through it meets the sand.
   const sharesOf = (event) => {
     const { left, top, width, height } = canvas.getBoundingClientRect();
     return [(2 * (event.clientX - left)) / width - 1, 1 - (2 * (event.clientY - top)) / height, width / height];
@@ -154,7 +154,7 @@ function sandView(bed, label) {
   canvas.addEventListener("pointerdown", (event) => {
     canvas.focus({ preventScroll: true });
     event.preventDefault();
-    canvas.setPointerCapture(event.pointerId);  // until it is up, wherever it goes
+    canvas.setPointerCapture(event.pointerId);  // until it is let go, wherever it goes
     if (event.button === 0 && !event.shiftKey && held.size === 0 && view.drawing?.(event)) return;
     held.set(event.pointerId, { x: event.clientX, y: event.clientY, shifts: event.button === 1 });
   });

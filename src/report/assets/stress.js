@@ -1,8 +1,8 @@
 "use strict";
-// The stability report: the outcome, maps of verdicts over two settings, measured against exact boundaries,
+// The stability report: the outcome, maps of verdicts over two settings, measured boundaries against exact ones,
 // traces, and every case.
 
-// Light to dark from harmless to bad, and a sign each, so that grey print tells them apart.
+// Light to dark from harmless to bad, each with a sign, so that grey print tells them apart.
 const verdicts = new Map([
   ["stable", { fill: "#d3e6f2", sign: "", ink: "#1d2329" }],
   ["limit cycle", { fill: "#efb23e", sign: "~", ink: "#1d2329" }],
@@ -30,7 +30,7 @@ function mapChart(map) {
     verdict, i, j, surprise: map.surprise[j]?.[i] === true,
   })));
   const surprises = cells.filter((cell) => cell.surprise);
-  // A white line beneath each, since they cross dark and light.
+  // A white line beneath each curve, because curves cross dark and light.
   const curves = map.curves.flatMap((curve, i) => [
     lineOf(curve.name, curve.points, x, y, { colour: "#ffffff", width: 5 }, { z: 2, clip: true }),
     lineOf(curve.name, curve.points, x, y, { ...theory[i % theory.length], width: 2 }, { z: 3, clip: true }),
@@ -58,7 +58,7 @@ function mapChart(map) {
   });
 }
 
-/** How far the measured boundaries are from the exact ones, and how far inside the passive ones are. */
+/** The measured boundaries against the exact ones, and against the passive ones, which should lie inside. */
 function boundaryCharts(boundaries) {
   const usable = boundaries.filter((one) => one.exact > 0 && isNumber(one.measured));
   if (usable.length === 0) return [];
@@ -109,7 +109,8 @@ function boundaryCharts(boundaries) {
   return charts;
 }
 
-/** In words: how far off the worst is, and whether passive loops were stable. What was not measured is neither. */
+/** The result in words: how far off the worst is, and whether passive loops were stable. A boundary without a
+    measurement fails both. */
 function boundaryText(boundaries) {
   const off = boundaries.filter((one) => isNumber(one.measured) && one.exact > 0)
     .map((one) => Math.abs(one.measured / one.exact - 1));
@@ -141,7 +142,7 @@ function traceChart(trace) {
   });
 }
 
-/** The cases group by group, with a switch that leaves surprises only. */
+/** The cases group by group, with a switch that shows surprises only. */
 function caseTables(cases) {
   const groups = [...new Set(cases.map((one) => one.group))].map((name) => {
     const own = cases.filter((one) => one.group === name);

@@ -1,7 +1,7 @@
 "use strict";
-// The report of a sweep: what was swept, charts of any metric over any one or two axes, the selected point with
-// its command line, pictures, and a table of all points. One point is always the selected one: the values of
-// the axes that a chart does not show are its own.
+// The report of a sweep: what was swept, charts of any metric over any one or two axes, the selected point with its
+// command line, pictures, and a table of all points. One point is always selected. It gives the values of the axes that
+// a chart does not show.
 
 function readSweep(data) {
   const shown = (one) => ({ ...one, unit: unitText(one.unit) });
@@ -10,7 +10,7 @@ function readSweep(data) {
   return { ...data, axes, metrics, latin: data.design === "latin", pointAt: (at) => byPlace.get(at.join()) ?? null };
 }
 
-/** What was swept, in words. */
+/** The axes and the size of the sweep, in words. */
 function summary({ axes, latin, points, scene }) {
   const range = ({ name, unit, numeric, logarithmic, values, order, text }) => {
     const notes = [!latin && count(values.length, "value"), logarithmic && "logarithmic"].filter(Boolean).join(", ");
@@ -25,10 +25,10 @@ function summary({ axes, latin, points, scene }) {
             `, from the scene ${scene}.`);
 }
 
-/** What is drawn: one axis alone is always drawn as lines. */
+/** The kind of chart that is drawn: one axis alone is always drawn as lines. */
 const kindOf = ({ chart, second }) => (second === null ? "lines" : chart);
 
-/** Choices of the view; changed() once one was made, move(axis, i) when a slider was moved. */
+/** Choices of the view. Calls changed() after a choice, and move(axis, i) when a slider was moved. */
 function viewControls({ axes, metrics, points, latin }, view, changed, move) {
   const field = (label, input) => el("label", {}, label, input);
   const choice = (name, options, change) =>
@@ -67,7 +67,7 @@ function viewControls({ axes, metrics, points, latin }, view, changed, move) {
     element: el("form", { class: "controls view", submit: (event) => event.preventDefault(), autocomplete: "off" },
       field("Metric", metric), latin ? null : field("Chart", kind), field("Horizontal axis", x),
       field("Second axis", second), field(log, "log scale"), ...sliders.map(({ label }) => label)),
-    /** Makes the view one that can be drawn, and shows it. */
+    /** Corrects the view so that it can be drawn, and shows it. */
     sync: () => {
       const values = points.map((point) => point.metrics[view.metric]).filter(isNumber);
       log.disabled = values.length === 0 || values.some((value) => value <= 0);
@@ -104,7 +104,7 @@ drawPage((data, main) => {
   const view = { metric: 0, log: false, chart: few ? "lines" : "map", x: 0,
                  second: axes.length < 2 || latin ? null : 1, at: points[0].at };
 
-  /** The view stands in the address, so that a link leads back to it. */
+  /** Puts the view into the address, so that a link leads back to it. */
   const write = () => {
     const state = { metric: metrics[view.metric]?.name ?? "", chart: kindOf(view), x: axes[view.x].name,
                     second: axes[view.second]?.name ?? "", ...(view.log ? { log: "1" } : {}),
@@ -133,7 +133,7 @@ drawPage((data, main) => {
     else redraw();
   };
   const select = (point) => selectAt(point.at);
-  /** One step along the chart's axes; over the points in their order where there is no grid. */
+  /** One step along the chart's axes; where there is no grid, over the points in their order. */
   const step = (dx, dy) => {
     if (latin) {
       const along = (k) => ({ at }) => axes[k].place(at[k]);

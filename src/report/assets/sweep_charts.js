@@ -1,9 +1,9 @@
 "use strict";
-// The charts of a sweep's report: a metric along an axis as lines, over two axes as a map, and the scattered
-// points of a Latin hypercube. Points without a value have their place and sign in each.
+// The charts of a sweep's report: a metric along an axis as lines, over two axes as a map, and the scattered points of
+// a Latin hypercube. In each, points without a value have a place and a sign.
 
 const cross = "M0.5 2l1.5-1.5 3 3 3-3 1.5 1.5-3 3 3 3-1.5 1.5-3-3-3 3-1.5-1.5 3-3z";
-// The look of a verdict in maps, and its mark among symbols where a point has no value because of it.
+// The look of a verdict in maps. `mark` is its symbol where a point has no value because of it.
 const verdicts = new Map([
   ["at rest", { fill: "#d3e6f2", sign: "", ink: "#1d2329" }],
   ["not at rest", { fill: "#efb23e", sign: "~", ink: "#1d2329" }],
@@ -48,15 +48,15 @@ function prepareAxis(axis) {
   return { ...axis, numeric, logarithmic, place, order, rank, text, scale, cells };
 }
 
-/** The points that a view shows: those that share the selected one's values of its `fixed` axes. */
+/** The points that a view shows: those that have the selected point's values of the `fixed` axes. */
 function sliceOf({ axes, points, latin }, view) {
   const fixed = latin ? [] : axes.map((_, i) => i).filter((i) => i !== view.x && i !== view.second);
   return { fixed, shown: points.filter(({ at }) => fixed.every((i) => at[i] === view.at[i])) };
 }
 
 /**
- * What all charts of a view start from: the points on it, the metric's scale over the whole sweep (so that it
- * stays while other axes move), what a tooltip says, and the legend of the points without a value.
+ * The basis of all charts of a view: its points, the metric's scale over the whole sweep (so that it stays while other
+ * axes move), the tooltip, and the legend of the points without a value.
  */
 function viewOf(sweep, view) {
   const { axes, metrics, points } = sweep;
@@ -86,24 +86,24 @@ function viewOf(sweep, view) {
   return { metric, x, second, valueOf, shown, without, scaled, tip, legend, note };
 }
 
-/** An entry of the legend where points are symbols. */
+/** An entry of the legend for points that are symbols. */
 const marked = ({ name, text, mark }) => ({ name, text, ...mark, dash: "none" });
 
-/** What hollow symbols, or heavy edges, are: where there are any. */
+/** An entry of the legend for hollow symbols, or heavy edges, where there are any. */
 const doubtfulEntry = (points, how) => (points.some(isDoubtful)
   ? [{ name: "doubtful", text: `${how}: not at rest, or active`, colour: "#333333", symbol: symbols[0], hollow: true,
        dash: "none" }] : []);
 
-/** Room below a scale's values for signs, some one above the other. */
+/** Makes room below a scale's values for signs, one above the other. */
 const addGround = (y, signs) => { y.low = y.axis.min -= (y.high - y.low) * (0.02 + 0.045 * signs); };
 
-/** How the selected point is set off among symbols. */
+/** The ring around the selected point, among symbols. */
 const ring = (data) => ({
   type: "scatter", id: "selected", name: "selected", silent: true, z: 6, data, symbol: outlined(symbols[0]),
   symbolSize: 17, itemStyle: { color: "none", borderColor: "#111111", borderWidth: 2.5 },
 });
 
-/** Symbols of points that have no value; place(point) is where. */
+/** Symbols of points that have no value, at place(point). */
 const signSeries = (points, place, offset = () => 0) =>
   points.map((point) => {
     const { symbol, colour, hollow } = lookWithout(point).mark;
@@ -111,11 +111,11 @@ const signSeries = (points, place, offset = () => 0) =>
              itemStyle: { color: hollow ? "#ffffff" : colour, borderColor: colour, borderWidth: hollow ? 1.75 : 0 } };
   });
 
-/** The metric along one axis; a line for each value of a second one. Points without a value lie on the ground. */
+/** The metric along one axis; a line for each value of a second one. Points without a value lie at the bottom. */
 function linesChart(sweep, view) {
   const { metric, x, second, valueOf, shown, without, scaled, tip, legend, note } = viewOf(sweep, view);
   const xScale = x.scale(), y = scaled(0.08);
-  // Signs stand one above the other where lines lack a value at the same place, on ground of their own.
+  // Signs stand one above the other where lines lack a value at the same place, in room of their own.
   const height = new Map(), steps = new Map();
   for (const point of without) {
     const step = steps.get(point.at[view.x]) ?? 0;
@@ -128,7 +128,7 @@ function linesChart(sweep, view) {
     points: shown.filter(({ at }) => i === null || at[view.second] === i)
       .sort((a, b) => x.rank[a.at[view.x]] - x.rank[b.at[view.x]]),
   })).filter(({ points }) => points.length > 0);
-  // Colours of the ramp where they tell an order that has more steps than there are colours.
+  // Colours of the ramp, where lines have an order and are more than the colours.
   const graded = second?.numeric && families.length > colours.length;
   const bar = graded && families.length > 2 * colours.length;
   const gradeFrom = 0.22;

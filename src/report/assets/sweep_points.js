@@ -1,13 +1,13 @@
 "use strict";
-// How a sweep's report shows its points: those without results, the selected one with its command line, pictures,
-// and a table of all.
+// The points in a sweep's report: those without results, the selected one with its command line, pictures, and a table
+// of all.
 
 const thumbnailOf = ({ thumbnail }) =>
   (typeof thumbnail === "string" && thumbnail.startsWith("data:image/png;base64,") ? thumbnail : null);
 const hasFailed = ({ verdict }) => verdict === "unstable" || verdict === "refused";
 const isDone = ({ verdict }) => verdict !== "missing" && !hasFailed({ verdict });
 
-/** Points that failed or are missing, with their reasons: as many as one reads. */
+/** Points that failed or are missing, with their reasons; only as many as one can read. */
 function mishaps(points, select) {
   const groups = new Map();
   for (const point of points.filter((one) => !isDone(one))) {
@@ -28,7 +28,7 @@ function mishaps(points, select) {
             groups.size > most ? el("p", {}, `${count(groups.size - most, "more reason")} in the table.`) : null);
 }
 
-/** The command line, and a button that copies it: or selects it, where the browser does not allow more. */
+/** The command line and a button that copies it, or selects it where the browser does not allow copying. */
 function commandLine(text) {
   const code = el("code", { tabindex: "0" }, text), said = el("span", { role: "status" });
   const copy = async () => {
@@ -44,7 +44,7 @@ function commandLine(text) {
             el("div", { class: "controls" }, el("button", { type: "button", click: copy }, "Copy"), said));
 }
 
-/** The selected point. */
+/** The panel of the selected point. */
 function detailPanel({ axes, metrics }) {
   const body = el("div"), said = el("p", { class: "unseen", "aria-live": "polite" });
   const rows = (pairs) => el("dl", {}, ...pairs.flatMap(([name, value, unit, definition]) =>
@@ -73,7 +73,7 @@ function detailPanel({ axes, metrics }) {
   };
 }
 
-/** Pictures of the points that the chart shows: by rows and columns as its axes where they fit, or in turn. */
+/** Pictures of the chart's points: in rows and columns as its axes where they fit, otherwise one after the other. */
 function gallery(sweep, view, select, keys) {
   const { axes, latin } = sweep;
   const arrangement = el("p", { class: "quiet" });
@@ -90,7 +90,7 @@ function gallery(sweep, view, select, keys) {
     buttons.set(point, one);
     return one;
   };
-  // All as the first one is shaped.
+  // All pictures get the shape of the first one.
   const first = new Image();
   first.onload = () => body.style.setProperty("--aspect", first.naturalWidth / first.naturalHeight);
   first.src = thumbnailOf(sweep.points.find(thumbnailOf));
