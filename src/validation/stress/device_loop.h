@@ -37,7 +37,7 @@ struct YieldingSand {
 struct LoopSettings {
   DeviceSettings device;
   std::variant<Wall, PressedSand, YieldingSand> against;
-  double disturbance = 1e-6;  ///< m, along z and, in sand, x
+  double disturbance = 1e-6;  ///< m, along z and, in PressedSand, x
   double far = 1e3;           ///< m off its rest: a device beyond it has diverged
 };
 
