@@ -1,4 +1,4 @@
-# Cross-builds for arm64 against a root of Debian packages: -DSANDSTROKE_ARM64_ROOT=FOLDER, which tools/arm64 makes.
+# Cross-builds for arm64 with a root folder of Debian packages: -DSANDSTROKE_ARM64_ROOT=FOLDER. tools/arm64 makes it.
 set(CMAKE_SYSTEM_NAME Linux)
 set(CMAKE_SYSTEM_PROCESSOR aarch64)
 list(APPEND CMAKE_TRY_COMPILE_PLATFORM_VARIABLES SANDSTROKE_ARM64_ROOT)
@@ -12,4 +12,4 @@ set(CMAKE_FIND_ROOT_PATH_MODE_INCLUDE ONLY)
 set(CMAKE_FIND_ROOT_PATH_MODE_PACKAGE ONLY)
 set(ENV{PKG_CONFIG_SYSROOT_DIR} ${SANDSTROKE_ARM64_ROOT})
 set(ENV{PKG_CONFIG_LIBDIR} ${SANDSTROKE_ARM64_ROOT}/usr/lib/aarch64-linux-gnu/pkgconfig:${SANDSTROKE_ARM64_ROOT}/usr/share/pkgconfig)
-set(CMAKE_CROSSCOMPILING_EMULATOR qemu-aarch64-static;-L;${SANDSTROKE_ARM64_ROOT})  # the program prints its manual
+set(CMAKE_CROSSCOMPILING_EMULATOR qemu-aarch64-static;-L;${SANDSTROKE_ARM64_ROOT})  # the build runs the program: it prints its manual

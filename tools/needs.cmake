@@ -1,9 +1,9 @@
-# What a build needs. All of it is looked for here, before anything is compiled; what is missing is told all at once.
+# Looks for all that a build needs, before anything is compiled, and lists all missing packages at once.
 set(missing "")
 set(missing_packages "")
 file(READ tools/setup setup)
 
-# sandstroke_needs(FOUND PACKAGE WHAT COMMAND): after COMMAND, which looks for WHAT, FOUND is true, or Debian's
+# sandstroke_needs(FOUND PACKAGE WHAT COMMAND): runs COMMAND, which looks for WHAT. If FOUND is then not true, Debian's
 # PACKAGE is missing.
 macro(sandstroke_needs found package what command)
   if(NOT setup MATCHES "[ \n]${package}[ \n]")
@@ -37,7 +37,7 @@ sandstroke_needs(PUGIXML_FOUND libpugixml-dev "pugixml (InkML)" "pkg_check_modul
 sandstroke_needs(CSV_LIBRARY libcsv-dev "libcsv (tables)" "find_library(CSV_LIBRARY csv)")
 sandstroke_needs(DATE_INCLUDE_DIR libhowardhinnant-date-dev "date/date.h (ISO 8601)" "find_path(DATE_INCLUDE_DIR date/date.h)")
 
-# Pictures are drawn by Mesa's llvmpipe, which is reached through OSMesa (gone since Mesa 25.1) or EGL: one is enough.
+# Mesa's llvmpipe draws the pictures, through OSMesa (gone since Mesa 25.1) or EGL. One of the two is enough.
 pkg_check_modules(OSMESA QUIET IMPORTED_TARGET osmesa)
 pkg_check_modules(EGL QUIET IMPORTED_TARGET egl)
 if(SANDSTROKE_GL STREQUAL "osmesa")
@@ -47,7 +47,7 @@ elseif(SANDSTROKE_GL STREQUAL "egl" OR NOT OSMESA_FOUND)
 endif()
 
 if(SANDSTROKE_PYTHON)
-  if(NOT Python_EXECUTABLE AND EXISTS /usr/bin/python3)  # Debian's is preferred, for its packages have what tests need
+  if(NOT Python_EXECUTABLE AND EXISTS /usr/bin/python3)  # prefers Debian's, which has the packages for the tests
     set(Python_EXECUTABLE /usr/bin/python3)
   endif()
   sandstroke_needs(Python_FOUND python3-dev "Python 3.9 with its headers (or -DSANDSTROKE_PYTHON=OFF)"

@@ -1,9 +1,9 @@
-# What is installed beside program, manual and libraries, and the Debian packages of it all (tools/package).
+# Installs the remaining files (beside program, manual and libraries), and makes Debian packages of all (tools/package).
 include(GNUInstallDirs)
 set(doc ${CMAKE_INSTALL_DATAROOTDIR}/doc)
 install(FILES README.md DESTINATION ${doc}/sandstroke COMPONENT program)
 install(DIRECTORY strokes/ DESTINATION ${doc}/sandstroke/examples COMPONENT program)
-# Debian has the texts of common licences, and wants one file that says which apply to what.
+# Debian has the texts of common licences. It requires one file that says which licence applies to which files.
 install(FILES LICENSE src/report/assets/echarts.LICENSE src/report/assets/echarts.NOTICE src/picture/futural.NOTICE
         DESTINATION ${doc}/sandstroke COMPONENT licences)
 
@@ -22,7 +22,7 @@ set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME sandstroke)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
-if(SANDSTROKE_GL STREQUAL "egl" OR NOT TARGET sandstroke_osmesa)  # what draws is loaded, unseen by dpkg-shlibdeps
+if(SANDSTROKE_GL STREQUAL "egl" OR NOT TARGET sandstroke_osmesa)  # the drawing library is loaded at run time, unseen by dpkg-shlibdeps
   set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS libgl1-mesa-dri)
 else()
   set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS libosmesa6)

@@ -10,11 +10,11 @@
 
 namespace sandstroke {
 
-/// What opens a view in a browser: of this user alone is a page that leads to its address, so that the token
-/// is in no command line, which all users of a machine may read.
+/// Opens a view in a browser, through a page that only this user can read and that leads to the view's
+/// address. So the token is in no command line, which all users of a machine may read.
 class ViewOpener {
  public:
-  /// Error: io, where there is nothing to open it with.
+  /// Error: io, if no program can open it.
   explicit ViewOpener(const std::string& address);
 
  private:
@@ -22,13 +22,13 @@ class ViewOpener {
   std::optional<FedChild> child_;
 };
 
-/// On stderr: the address of a view, and how to see it from another machine over SSH. opens: where there is a
-/// desktop, and not in CI, a browser opens it; what opens it is kept while the view lives.
+/// Prints to stderr the address of a view, and how to see it from another machine over SSH. opens: also opens
+/// it in a browser, if there is a desktop and not in CI. Keep the result while the view lives.
 std::unique_ptr<ViewOpener> announce_view(const ViewServer& server, bool opens);
 
-/// Returns when the first page watches, so that it sees all, however long a browser takes; or at an
-/// interrupt. what
-/// ("run") begins then: stderr says so.
+/// Waits until the first page watches, so that it sees all, or until an interrupt. Tells on stderr that
+/// `what`
+/// ("run") begins then.
 void wait_for_page(const ViewServer& server, const char* what);
 
 }  // namespace sandstroke

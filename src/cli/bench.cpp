@@ -26,7 +26,7 @@ struct BenchArguments {
 
 int bench(const BenchArguments& arguments) {
   StudyOptions options = arguments.study;
-  add_own_laws(options, arguments.plugin.laws());  // without a plugin: none, and all problems
+  add_own_laws(options, arguments.plugin.laws());  // without a plugin: no laws, all problems
   const StudyFiles files(arguments.folder);
   catch_interrupts();
   std::optional<Progress> bar(std::in_place, "bench");

@@ -9,22 +9,22 @@
 
 namespace sandstroke {
 
-/// What the command line asked for: runs it and returns the exit code.
+/// The command that the user called: runs and returns the exit code.
 using Command = std::function<int()>;
 
-/// What an option accepts, said in a user's words; not-a-number is refused too.
+// Check an option's number and describe it in a user's words. They also refuse NaN.
 CLI::Validator positive_number();
 CLI::Validator not_negative_number();
 CLI::Validator finite_number();
 CLI::Validator number_within(Range range);
 
-/// --set, which overrides keys of a scene: for load_scene.
+/// Adds --set, which overrides keys of a scene. For load_scene.
 CLI::Option* add_set_option(CLI::App& command, std::vector<std::string>& overrides);
 
-/// What shells offer where a stroke can stand: scripts, recordings, and what `stroke convert` reads.
+/// The files that shells offer for a stroke: scripts, recordings, and all that `stroke convert` reads.
 inline constexpr const char* stroke_file_type = "FILE.toml|.h5|.csv|.txt|.thr|.gcode|.mat|.db3";
 
-/// The override by which --stroke FILE (- is standard input) replaces the scene's stroke.
+/// The override with which --stroke FILE (- is standard input) replaces the scene's stroke.
 std::string stroke_override(const std::string& file);
 
 // Each adds one subcommand, which sets `chosen` when it is called.

@@ -7,7 +7,7 @@
 #include "core/asset.h"
 #include "io/scene_keys.h"
 
-// What shells do with the tables below; embedded by assets.S.
+// The shell scripts that use the tables below; embedded by assets.S.
 SANDSTROKE_DECLARE_ASSET(completion_common);
 SANDSTROKE_DECLARE_ASSET(completion_bash);
 SANDSTROKE_DECLARE_ASSET(completion_zsh);
@@ -15,8 +15,8 @@ SANDSTROKE_DECLARE_ASSET(completion_zsh);
 namespace sandstroke {
 namespace {
 
-/// What a value can be, as the scripts take it: "words A B", "files .EXT .EXT", "folder", "settings",
-/// "scenes" or, where there is nothing to offer, "none". By the option's type name, which --help shows.
+/// The kind of an option's value for the scripts: "words A B", "files .EXT .EXT", "folder", "settings",
+/// "scenes", or "none" if there is nothing to offer. Follows from the option's type name, which --help shows.
 std::string value_kind(const CLI::Option& option) {
   const std::string type = option.get_type_name();
   if (const auto open = type.find('{'); open != std::string::npos) {
@@ -33,7 +33,7 @@ std::string value_kind(const CLI::Option& option) {
   return "files " + extensions;
 }
 
-/// A shell function that sets REPLY by its arguments: cases are patterns and what it becomes.
+/// Writes a shell function that sets REPLY by its arguments. cases: patterns with their values of REPLY.
 std::string table(const char* name, const std::string& cases) {
   return fmt::format("\n{}() {{\n  REPLY=''\n  case \"$*\" in\n{}  esac\n}}\n", name, cases);
 }

@@ -28,10 +28,10 @@ struct ExportArguments {
   std::string frame;           // empty: final
   std::optional<double> base;  // mm
   bool surface_only = false;
-  std::vector<double> range;  // m, of a PNG: black and white
+  std::vector<double> range;  // m, heights of a PNG's black and white
 };
 
-/// What an ending stands for: heights, triangles, or neither: a PNG, the trace.
+/// The format of a file name's ending: heights, triangles, or neither (a PNG, the trace).
 struct ExportFormat {
   std::string_view ending;
   OutputKind kind;
@@ -70,7 +70,7 @@ const ExportFormat& format_of(const fs::path& output) {
                     fmt::join(endings, ", "));
 }
 
-/// Refuses what would change nothing in this format.
+/// Refuses options that would change nothing in this format.
 void reject_ignored(const ExportArguments& arguments, const ExportFormat& format) {
   const auto reject = [&](bool given, const char* option, bool taken, const char* wanted) {
     if (given && !taken)
@@ -95,8 +95,8 @@ HeightGrid surface_of(const RunFile& run, const ExportArguments& arguments) {
   return heights;
 }
 
-/// What was asked for; or that of the PNG which the bed was, so that it comes out as it went in; or what the
-/// heights take.
+/// The range of a PNG: the given one; or that of the PNG from which the bed was read, so that it comes out
+/// the same; or the range of the heights.
 GrayRange range_of(const RunFile& run, const HeightGrid& heights, const ExportArguments& arguments) {
   if (!arguments.range.empty()) return {arguments.range[0], arguments.range[1]};
   const double low = heights.minCoeff(), high = heights.maxCoeff();

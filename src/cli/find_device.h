@@ -10,25 +10,25 @@
 
 namespace sandstroke {
 
-/// The device of a name: "chai3d" (the first) or "chai3d:N" (the N-th, from 0), "scripted:FILE.toml" or
-/// "replay:FILE.h5" (a stand-in that plays this stroke; `force` says how deep a scripted force presses). It
-/// is not open yet. Error: input, listing what there is; io where a file cannot be read.
+/// Makes the device of a name and does not open it: "chai3d" (the first) or "chai3d:N" (the N-th, from 0),
+/// "scripted:FILE.toml" or "replay:FILE.h5" (a stand-in that plays this stroke; `force` says how deep a
+/// scripted force presses). Error: input, listing the devices; io, if a file cannot be read.
 std::unique_ptr<HapticDevice> find_device(const std::string& name, const ForceSettings& force);
 
-/// The device that a page of `record --view` is; it is made with the view, not by find_device().
+/// The name of the device that is a page of `record --view`. The view makes it, not find_device().
 inline constexpr const char* pointer_name = "pointer";
 
-/// The file that the device of a name plays; empty: none.
+/// The file that a device plays, from its name. Empty: none.
 std::filesystem::path file_played(const std::string& name);
 
-/// A device that is connected, and how to name it.
+/// A connected device and its name for --device.
 struct ConnectedDevice {
   std::string name;
   DeviceSpecification specification;
 };
 std::vector<ConnectedDevice> connected_devices();
 
-/// Whether this program can talk to real devices; where not, how to get one that can.
+/// True if this program can talk to real devices. The sentence says how to build one that can.
 #ifdef SANDSTROKE_CHAI3D
 inline constexpr bool knows_chai3d = true;
 #else

@@ -27,12 +27,12 @@ struct FitArguments {
   bool json = false;
 };
 
-constexpr double most_of_it = 0.5;  // of the recorded force: below it the constants mean little
+constexpr double most_of_it = 0.5;  // fraction of the recorded force; below it the constants mean little
 
 bool explains(const ForceFit& fit) { return fit.explained >= most_of_it; }
 
 nlohmann::ordered_json as_json(const ForceFit& fit) {
-  constexpr double none = std::numeric_limits<double>::quiet_NaN();  // null
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();  // NaN becomes null in JSON
   nlohmann::ordered_json json = {{"ticks", fit.ticks},
                                  {"recorded_rms", fit.recorded_rms},
                                  {"scene_residual_rms", fit.start_residual},
@@ -50,14 +50,14 @@ nlohmann::ordered_json as_json(const ForceFit& fit) {
   return json;
 }
 
-/// What a law's force does, in a sentence that begins with "it".
+/// Describes a law's force, for a sentence that begins with "it".
 const char* nature_of(ForceLaw law) {
   if (law == ForceLaw::paper) return "grows with the depth in the sand and, sideways, with the speed";
   if (law == ForceLaw::archimedes) return "points up and grows with the volume of the tool in the sand";
   return "grows with the depth of each part of the tool in the sand and is the same at any speed";
 }
 
-/// Values with as many digits as their error has a say in.
+/// Writes a value and its error, with units.
 std::string value_text(double value, double error, const char* unit) {
   return fmt::format("{:.4g} +- {:.2g} {}", value, error, unit);
 }
@@ -70,7 +70,7 @@ std::string text_of(const FittedConstant& one) {
          ": the recording does not determine it";
 }
 
-/// As --set takes them.
+/// The constants in the form of --set.
 std::vector<std::string> settings_of(const ForceFit& fit) {
   std::vector<std::string> settings;
   for (const FittedConstant& one : fit.constants)
@@ -107,7 +107,7 @@ void warn_of(const ForceFit& fit, const Scene& scene) {
             : "");
 }
 
-/// Says how to play a scene with the fitted constants, or why none can be.
+/// Says how to play a scene with the fitted constants, or why no scene can have them.
 void show_use(const ForceFit& fit, const FitArguments& arguments) {
   const std::vector<std::string> settings = settings_of(fit);
   std::vector<std::string> overrides = arguments.overrides;
@@ -143,7 +143,7 @@ int fit(const FitArguments& arguments) {
   return 0;
 }
 
-/// "k_s, k_c and k_f", each law's, and which of them are fitted by default.
+/// Lists a law's constants, "k_s, k_c and k_f", and marks those that are not fitted by default.
 std::string constants_text(ForceLaw law) {
   std::vector<std::string> names;
   for (const ForceConstant& one : constants_of(law))

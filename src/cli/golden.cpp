@@ -57,7 +57,7 @@ std::string summary(const Comparison& comparison) {
 int check(const GoldenArguments& arguments) {
   const std::vector<std::string> names = golden_names(arguments.folders, arguments.names);
   std::vector<fs::path> files;
-  if (!arguments.report.empty()) make_folder(arguments.report);  // where the other may lie
+  if (!arguments.report.empty()) make_folder(arguments.report);  // the JUnit file may lie in it
   if (!arguments.junit.empty()) {
     check_output(arguments.junit, {}, junit_output);
     files.push_back(arguments.junit);

@@ -8,10 +8,10 @@
 namespace sandstroke {
 namespace {
 
-/// What a value can be.
+/// Describes the values that an option takes.
 std::string value_words(const CLI::Option& option) {
   std::string type = option.get_type_name();
-  type.erase(0, type.find(':') + 1);  // what is checked says more than the type before it
+  type.erase(0, type.find(':') + 1);  // the check after the colon says more than the type before it
   if (type == "FLOAT") return "NUMBER";
   if (type == "INT") return "INTEGER";
   return std::regex_replace(type, std::regex(R"((?:INT|FLOAT) in \[(.*) - (.*)\])"), "$1 to $2");
@@ -27,7 +27,7 @@ std::string names(const std::set<CLI::Option*>& options) {
 
 std::string HelpFormatter::make_option_name(const CLI::Option* option, bool is_positional) const {
   const std::string name = CLI::Formatter::make_option_name(option, is_positional);
-  return name.substr(0, name.find('{'));  // a flag's value, where it has none
+  return name.substr(0, name.find('{'));  // without a flag's default value
 }
 
 std::string HelpFormatter::make_option_opts(const CLI::Option* option) const {

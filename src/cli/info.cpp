@@ -27,7 +27,7 @@ struct InfoArguments {
   bool json = false, scene = false, scene_keys = false;
 };
 
-/// Of a bed as a run file gives it: level where no tile exists.
+/// The lowest and highest sand of a bed from a run file. The bed is level where it has no tile.
 nlohmann::ordered_json range_of(const HeightField& bed) {
   double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
   const auto take = [&](double height) {

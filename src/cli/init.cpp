@@ -40,7 +40,7 @@ int init(const fs::path& folder) {
   make_folder(folder);
   try {
     for (const ExampleFile& file : files) write_text_file(folder / file.name, file.text);
-  } catch (...) {  // all or none, so that the next try need not write over anything
+  } catch (...) {  // writes all files or none, so that a second try replaces no file
     std::error_code ignored;
     for (const ExampleFile& file : files) fs::remove(folder / file.name, ignored);
     throw;

@@ -26,7 +26,7 @@ using namespace sandstroke;
 
 constexpr int io_error = 4;
 
-/// A standard error that takes nothing changes no exit code (fmt::print would throw).
+/// Prints an error sentence. A closed stderr does not change the exit code (fmt::print would throw).
 void complain(const std::string& sentence) {
   std::fputs(("sandstroke: " + terminal_line(sentence) + "\n").c_str(), stderr);
 }
@@ -45,7 +45,7 @@ int run(const Command& command) {
     flush_output();
     return exit_code;
   } catch (const std::system_error& failure) {
-    if (std::ferror(stdout)) throw_output_error(failure.code().value());  // of fmt::print
+    if (std::ferror(stdout)) throw_output_error(failure.code().value());  // fmt::print threw it
     throw;
   }
 }
@@ -55,7 +55,7 @@ int run_program(int argc, char** argv) {
       "Simulates sand that is sculpted with a haptic device. A stroke goes in. A height field, a trace of "
       "forces and a picture come out.");
   app.name("sandstroke");
-  app.formatter(std::make_shared<HelpFormatter>());  // of all commands
+  app.formatter(std::make_shared<HelpFormatter>());  // for all commands
   app.set_version_flag("--version", fmt::format("{}, {}", build, instruction_set()));
   app.require_subcommand(1);
   app.fallthrough();
@@ -93,14 +93,14 @@ int run_program(int argc, char** argv) {
   add_stress_command(app, chosen);
   add_info_command(app, chosen);
   add_completion_command(app, chosen);
-  add_help_command(app, chosen);  // last: it knows the others
+  add_help_command(app, chosen);  // last: it needs the others
 
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& failure) {
     const std::string sentence = usage_sentence(app, failure);
     if (!sentence.empty()) throw_input_error("{}", sentence);
-    return run([&] { return app.exit(failure); });  // help or the version was asked for
+    return run([&] { return app.exit(failure); });  // the user asked for help or the version
   }
   start_log(quiet);
   if (overwrite) overwrite_outputs();
@@ -128,7 +128,7 @@ int main(int argc, char** argv) {
   } catch (const std::system_error& failure) {
     return complain_of_threads(failure);
   } catch (const std::exception& failure) {
-    if (std::string_view(failure.what()).starts_with("pthread_create"))  // TBB's
+    if (std::string_view(failure.what()).starts_with("pthread_create"))  // thrown by TBB
       return complain_of_threads(failure);
     complain(fmt::format("unexpected failure: {}", failure.what()));
     return io_error;

@@ -15,7 +15,7 @@
 namespace sandstroke {
 namespace {
 
-/// Text that roff takes as it is: no dash becomes another, no line a command.
+/// Escapes text for roff: dashes stay dashes, and no line becomes a command.
 std::string roff(std::string_view text) {
   std::string out;
   for (const char c : text) {
@@ -33,13 +33,13 @@ std::string roff(std::string_view text) {
 
 std::string bold(std::string_view text) { return fmt::format("\\fB{}\\fR", roff(text)); }
 
-/// Lines as they are.
+/// Lines that roff prints unchanged.
 std::string preformatted(std::string text) {
   while (text.ends_with('\n')) text.pop_back();
   return fmt::format(".nf\n{}\n.fi\n", roff(text));
 }
 
-/// A paragraph in short lines, each as its words allow.
+/// Breaks a paragraph into short lines at its words.
 std::string filled(const std::string& text) {
   std::istringstream words(text);
   std::string lines, line;
@@ -51,7 +51,7 @@ std::string filled(const std::string& text) {
   return roff(lines + line) + '\n';
 }
 
-/// One thing and what is to be said of it.
+/// A headword and its explanation.
 std::string entry(const std::string& head, const std::string& text) {
   return fmt::format(".TP\n{}\n{}", head, filled(text));
 }
@@ -68,7 +68,7 @@ std::string head(const std::string& name, int section, const std::string& title)
 
 std::string page_of(const HelpTopic& topic) { return fmt::format("sandstroke-{}", topic.name); }
 
-/// What --help says of each option.
+/// The help text of each option.
 std::string options_text(const CLI::App& app) {
   const HelpFormatter words;
   std::string text;
@@ -93,7 +93,7 @@ std::string command_text(const NamedCommand& command) {
   return text;
 }
 
-/// Every key with all that is known of it.
+/// Every key with its default, unit and meaning.
 std::string keys_text(const std::vector<KeySection>& sections) {
   std::string text;
   for (const KeySection& section : sections) {

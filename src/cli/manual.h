@@ -8,11 +8,11 @@
 
 namespace sandstroke {
 
-/// What a page explains: a file that people write, or what files say.
+/// The topic of a manual page: a kind of file that people write, or the metrics.
 struct HelpTopic {
   const char* name;
   const char* title;  ///< one line
-  const char* intro;  ///< a sentence on what is listed
+  const char* intro;  ///< a sentence about the list
   std::vector<KeySection> (*keys)();
 };
 

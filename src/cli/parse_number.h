@@ -6,7 +6,7 @@
 
 namespace sandstroke {
 
-/// Whether the whole text is this kind of number.
+/// Reads a number. True if the whole text is such a number.
 template <class Number>
 bool parse_number(std::string_view text, Number& number) {
   const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), number);

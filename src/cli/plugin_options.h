@@ -9,15 +9,16 @@
 
 namespace sandstroke {
 
-/// --plugin, --law and --parameters: laws of a plugin that a command tests.
+/// The options --plugin, --law and --parameters of commands that test plugin laws.
 struct PluginOptions {
   std::filesystem::path file;
   std::vector<std::string> names;
   std::vector<double> parameters;
 
-  /// help: of --plugin. They are kept here, so it must outlive the command.
+  /// Adds the options. help: the text for --plugin. This object keeps their values, so it must outlive the
+  /// command.
   void add_to(CLI::App& command, const std::string& help);
-  /// Those that are asked for, each in settings of its own; none without --plugin. Error: input, io.
+  /// The chosen laws, each in its own settings. Empty without --plugin. Error: input, io.
   std::vector<OwnLawSettings> laws() const;
 };
 

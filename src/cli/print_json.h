@@ -6,8 +6,8 @@
 
 namespace sandstroke {
 
-/// One JSON object on the standard output, in ASCII: no name in it controls a terminal. Names of files may be
-/// no UTF-8: what is not is replaced.
+/// Prints one JSON object on the standard output, in ASCII, so that no name in it controls a terminal.
+/// Replaces bytes of file names that are not UTF-8.
 template <class Json>
 void print_json(const Json& json) {
   fmt::print("{}\n", json.dump(2, ' ', true, Json::error_handler_t::replace));

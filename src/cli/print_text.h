@@ -8,7 +8,7 @@
 
 namespace sandstroke {
 
-/// Lines for people on the standard output; nothing in them controls their terminal.
+/// Prints lines for people on the standard output. Nothing in them controls the terminal.
 template <class... Args>
 void print_text(fmt::format_string<Args...> format, Args&&... args) {
   fmt::print("{}", terminal_text(fmt::format(format, std::forward<Args>(args)...)));

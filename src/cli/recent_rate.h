@@ -5,10 +5,11 @@
 
 namespace sandstroke {
 
-/// How fast a count grew over the last second of its own time [1/s].
+/// The rate [1/s] at which a count grew over the last second of its own time.
 class RecentRate {
  public:
-  /// The count at a time [s]. Where that goes back, a recording has begun after a wait: it begins anew.
+  /// Takes the count at a time [s] and returns the rate. Starts anew if the time goes back, as when a
+  /// recording begins after a wait.
   double at(double time, double count) {
     if (!last_second_.empty() && time < last_second_.back().first) last_second_.clear();
     last_second_.emplace_back(time, count);

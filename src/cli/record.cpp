@@ -32,20 +32,20 @@ namespace fs = std::filesystem;
 
 struct RecordArguments {
   std::string output, device, felt_scene;
-  std::vector<std::string> overrides;  // of the felt scene
+  std::vector<std::string> overrides;  // settings for the felt scene
   RecorderSettings settings;
   double duration = 0.0;                    // s; 0: not given
   double rate = 0.0;                        // Hz; 0: not given
   int start_switch = -1, stop_switch = -1;  // not given
-  double max_skipped = 1.0;                 // percent of the ticks
+  double max_skipped = 1.0;                 // % of the ticks
   bool list = false, check = false, no_memory_lock = false, json = false;
   bool view = false, no_open = false;
 };
 
-// Hz. Slower, the watchdog would take every tick for a stall; faster, no device is.
+// Hz. Below it the watchdog would take every tick for a stall. No device is faster.
 constexpr double slowest = 100.0, fastest = 10000.0;
 
-/// The rate given, or that at which `run` will play the stroke in the scene that is felt.
+/// The given rate, or the rate at which `run` will play the stroke in the felt scene.
 double servo_rate(const RecordArguments& arguments, const std::optional<Scene>& felt) {
   if (arguments.rate > 0.0) return arguments.rate;
   if (!felt) return ServoSettings{}.rate;
@@ -66,11 +66,11 @@ RecorderSettings recorder_settings(const RecordArguments& arguments, const std::
   if (arguments.stop_switch >= 0) settings.servo.stop_switch = arguments.stop_switch;
   if (arguments.view) settings.watch = picture_interval;
   settings.lock_memory = !arguments.no_memory_lock;
-  if (!felt) settings.servo.force.max_force = 0.0;  // nothing is felt
+  if (!felt) settings.servo.force.max_force = 0.0;  // without sand there is no force
   return settings;
 }
 
-/// The files that may not be written over, for they are read.
+/// The files that the command reads and must not overwrite.
 std::vector<fs::path> inputs(const RecordArguments& arguments, const std::optional<Scene>& felt) {
   std::vector<fs::path> files;
   if (const fs::path played = file_played(arguments.device); !played.empty()) files.push_back(played);
@@ -96,7 +96,7 @@ RecordingReport record_stroke(HapticDevice& device, FeltWorld* world, const Reco
                 });
 }
 
-/// The journal goes once the stroke is whole, or where there is nothing in it.
+/// Writes the stroke, then removes the journal. Also removes a journal without samples.
 void write_stroke(const fs::path& output, const RecordingFooter& recorded) {
   const fs::path journal = journal_path(output);
   if (recorded.ticks.recorded == 0) {
@@ -143,7 +143,7 @@ int exit_code(const RecordingFooter& footer, double max_skipped) {
   return static_cast<int>(reason == StopReason::no_number ? ErrorKind::unstable : ErrorKind::io);
 }
 
-/// The device named. start: the felt scene's bed, which a pointer needs; none: nothing is felt.
+/// Makes the named device. start: the felt scene's bed, which a pointer needs; none without --feel.
 std::unique_ptr<HapticDevice> named_device(const RecordArguments& arguments, const std::optional<Scene>& felt,
                                            const std::optional<HeightField>& start, LoopClock& clock) {
   if (arguments.device != pointer_name)
@@ -151,7 +151,7 @@ std::unique_ptr<HapticDevice> named_device(const RecordArguments& arguments, con
   return std::make_unique<PointerDevice>(*felt, *start, clock);
 }
 
-/// The sand to be felt; none: no --feel.
+/// The scene whose sand the hand feels. None without --feel.
 std::optional<Scene> felt_scene(const RecordArguments& arguments) {
   if (arguments.felt_scene.empty()) return std::nullopt;
   Scene scene = load_scene(arguments.felt_scene, arguments.overrides);
@@ -175,7 +175,7 @@ int check(const RecordArguments& arguments) {
         "--feel");
   const std::optional<Scene> felt = felt_scene(arguments);
   DeviceSpecification device;
-  device.max_force = std::numeric_limits<double>::infinity();  // unless it is named, the scene's limit holds
+  device.max_force = std::numeric_limits<double>::infinity();  // without --device the scene's limit holds
   if (arguments.device == pointer_name)
     device.max_force = 0.0;
   else if (!arguments.device.empty())
@@ -259,7 +259,7 @@ void add_switch(CLI::App& app, const char* name, int& number, const char* help) 
   app.add_option(name, number, help)->check(CLI::Range(0, 31))->option_text("K");
 }
 
-/// When the recording begins and ends.
+/// Adds the options for the beginning and end of the recording.
 void add_time_options(CLI::App& app, RecordArguments& arguments) {
   StartSettings& start = arguments.settings.servo.start;
   app.add_option("--duration", arguments.duration,
@@ -285,7 +285,7 @@ void add_time_options(CLI::App& app, RecordArguments& arguments) {
       ->option_text("PERCENT");
 }
 
-/// What the hand feels while it is recorded.
+/// Adds the options for the force on the hand.
 void add_force_options(CLI::App& app, RecordArguments& arguments) {
   ForceLimits& force = arguments.settings.servo.force;
   auto* feel = app.add_option("--feel", arguments.felt_scene,

@@ -14,7 +14,7 @@ namespace {
 
 constexpr int not_fit = 1;
 
-/// What may help, where the scheduling was all that was asked for.
+/// Advice for a machine that already gave the requested scheduling.
 constexpr const char* other_remedies =
     "close other programs, switch power saving off (cpupower frequency-set -g performance), or take a lower "
     "--rate";

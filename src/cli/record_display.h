@@ -8,10 +8,10 @@
 
 namespace sandstroke {
 
-/// The line that shows a recording: time, rate reached over the last second, force, lateness.
+/// Shows a recording in one line: time, rate over the last second, force, lateness.
 class RecordDisplay {
  public:
-  /// keys: which of them stop it, for people; may be empty.
+  /// keys: text that names the keys which stop it; may be empty.
   explicit RecordDisplay(std::string keys) : keys_(std::move(keys)) {}
   void show(const ServoProgress& progress);
 

@@ -20,7 +20,7 @@ constexpr StandIn stand_ins[] = {
     {"replay:FILE.h5", "plays a recorded stroke in real time; forces do not move it"},
 };
 
-/// What a device says with a zero that it does not know.
+/// A device's number. A zero means that the device does not know it.
 double known(double value) { return value > 0.0 ? value : std::numeric_limits<double>::quiet_NaN(); }
 
 Table device_table(const std::vector<ConnectedDevice>& devices) {

@@ -65,7 +65,7 @@ void print_recording(const RecordingReport& report, const std::optional<LiveSand
         {"output", file.string()}, {"complete", is_complete(footer.reason)}, {"seconds", seconds(report)}};
     object.update(as_json(footer));
     object.update(as_json(header));
-    object.erase("felt_scene");  // a page of text, which is in the file
+    object.erase("felt_scene");  // a long text, which the file contains
     if (felt)
       object["felt"] = {{"contact_ticks", felt->contact_ticks},
                         {"held_ticks", felt->held_ticks},

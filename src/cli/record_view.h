@@ -11,20 +11,20 @@
 
 namespace sandstroke {
 
-/// The sand of a recording, live in pages (`record --view`). Outlives the sand that it follows.
+/// Shows the sand of a recording live in pages (`record --view`). Must outlive the sand that it follows.
 class RecordView {
  public:
-  /// start: the bed before anything touches it. max_force [N]: on the hand. pointer: none, where pages only
-  /// watch, and then it waits for one of them, or an interrupt; outlives it. Error: input, for a bed that is
-  /// too large; io.
+  /// start: the untouched bed. max_force: on the hand [N]. pointer: the device that pages drive; it must
+  /// outlive the view. Without it pages only watch, and the constructor waits for one, or for an interrupt.
+  /// Error: input, for a bed that is too large; io.
   RecordView(const std::string& title, const Scene& scene, const HeightField& start, double max_force,
              PointerDevice* pointer, bool opens);
 
-  /// Before the sand starts.
+  /// Call it before the sand starts.
   void follow(LiveSand& sand);
-  /// Of the recording that goes on.
+  /// Shows the progress of the recording.
   void show(const ServoProgress& progress);
-  /// The sand is finished.
+  /// Call it when the sand is finished.
   void end(const std::string& reason);
 
  private:

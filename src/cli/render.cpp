@@ -33,13 +33,13 @@ struct RenderArguments {
   std::optional<bool> tool;  // unset: in frames, not in initial and final
 };
 
-/// The value with this name, which is known to be one of them.
+/// The value with this name. The name must be in the list.
 template <class Value>
 Value named(const std::vector<std::string>& names, const std::string& name) {
   return static_cast<Value>(std::find(names.begin(), names.end(), name) - names.begin());
 }
 
-/// Refuses what would change nothing in this view.
+/// Refuses options that would change nothing in this view.
 void reject_ignored(const RenderArguments& arguments, const ViewSettings& view) {
   if (!arguments.target.empty() && view.name != ViewName::custom)
     throw_input_error("--target needs --view custom; the view is {}",
@@ -53,7 +53,7 @@ void reject_ignored(const RenderArguments& arguments, const ViewSettings& view) 
     throw_input_error("--contour needs --style height or difference; the style sand draws no contour lines");
 }
 
-/// The scene's view, changed by what the command line says.
+/// The scene's view, changed by the command line.
 ViewSettings view_of(const Scene& scene, const RenderArguments& arguments) {
   ViewSettings view = scene.view;
   if (!arguments.view.empty()) view.name = named<ViewName>(view_names, arguments.view);
@@ -123,7 +123,7 @@ int render(const RenderArguments& arguments) {
   return 0;
 }
 
-/// What of the scene's [view] is to be otherwise.
+/// Adds the options that change the scene's [view].
 void add_view_options(CLI::App& app, RenderArguments& arguments) {
   const std::string scenes = ". Default: the scene's [view]";
   app.add_option("--size", arguments.size, "Picture size in pixels, like 1280x720" + scenes)

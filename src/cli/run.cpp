@@ -56,7 +56,7 @@ void print_summary(const RunResult& r, const Scene& scene, const std::string& ou
                                     r.contact_ticks));
     print_row("speed", fmt::format("{:.1f} times real time", r.simulated_seconds / r.wall_seconds));
     print_row("deepest", fmt::format("{:.3f} mm", 1e3 * r.max_depth));
-    const bool drag = r.furrow && r.furrow->length >= tool_reach(scene.tool);  // a plunge asks for no furrow
+    const bool drag = r.furrow && r.furrow->length >= tool_reach(scene.tool);  // a plunge has no furrow
     if (drag && !std::isnan(r.furrow->depth) && !std::isnan(r.furrow->asked_depth))
       print_row("furrow",
                 fmt::format("{:.2f} mm deep; the stroke {} {:.2f} mm (medians)", 1e3 * r.furrow->depth,
@@ -97,7 +97,7 @@ void print_summary(const RunResult& r, const Scene& scene, const std::string& ou
               fmt::format("+-{:.3g} N rms, {:.3g} N at most", r.error->force_rms, r.error->force_max));
 }
 
-/// A name that nobody chose must not cost another scene's finished run.
+/// Checks that the default output does not replace a finished run of another scene.
 void check_default_output(const fs::path& output, const fs::path& scene_path, const Scene& scene) {
   if (kind_of(output) != InputKind::run) return;
   const RunFile run(output);
@@ -180,7 +180,7 @@ int run(const RunArguments& arguments) {
         "the run was up to {:.2f} s behind real time; its result is the same. Fewer bed.cells are faster",
         *view->lag());
   if (!result.relaxation.converged || result.device.swings_from) return static_cast<int>(ErrorKind::unstable);
-  if (options.second && !result.error)  // the run is complete, the estimate is not
+  if (options.second && !result.error)  // the run is complete, but the estimate failed
     return interrupted() ? 128 + interrupted() : static_cast<int>(ErrorKind::unstable);
   return 0;
 }

@@ -18,7 +18,7 @@ RunPainter::RunPainter(const RunFile& run, const ViewSettings& view, double cont
   subject_ = subject_of_change(initial_, last_surface(run).surface.grid(), stroke, view, contour_interval);
 }
 
-/// Where the hand led the tool below the sand as it was at the start; empty without a trace.
+/// The cells where the hand took the tool below the starting surface. Empty without a trace.
 CellRange RunPainter::stroke_cells() {
   if (!run_.has_trace()) return {};
   trace_ = run_.trace();

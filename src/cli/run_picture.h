@@ -10,18 +10,17 @@
 
 namespace sandstroke {
 
-/// Draws the surfaces of one run, all in the same view and on the same colour scale: that of the initial and
-/// the last surface together. Camera and box follow from the scene alone: the bed, its initial surface and,
-/// in view stroke, the way of the hand through it (of a run without a trace: the whole bed). So pictures of
-/// runs that differ only in what the sand did can be laid over one another. Style difference shows what
-/// changed since the initial surface.
+/// Draws the surfaces of one run in the same view and on one colour scale, which covers the initial and the
+/// last surface. Camera and box depend on the scene alone: the bed, its initial surface and, in view
+/// `stroke`, the hand's path (without a trace: the whole bed). So pictures of runs that differ only in their
+/// sand fit over one another. Style `difference` shows the change since the initial surface.
 class RunPainter {
  public:
-  /// contour_interval [m]: 0 = a round one. Error: input or io, as RunFile and HeightFieldRenderer.
+  /// contour_interval [m]: 0 chooses a round one. Error: input or io, as in RunFile and HeightFieldRenderer.
   RunPainter(const RunFile& run, const ViewSettings& view, double contour_interval = 0.0);
 
-  /// The tool is drawn where it is at `tool_time` [s] (the last tick before it), if that is given. Error:
-  /// input, where the run holds no trace.
+  /// Draws a surface and, if given `tool_time` [s], the tool at that time (at the last tick before it).
+  /// Error: input, if the run has no trace.
   Image draw(const HeightGrid& surface, std::optional<double> tool_time = std::nullopt);
 
  private:
@@ -31,11 +30,11 @@ class RunPainter {
 
   const RunFile& run_;
   Scene scene_;
-  HeightFieldRenderer renderer_;  // before the surfaces: it refuses beds that cannot be drawn
+  HeightFieldRenderer renderer_;  // declared before the surfaces: it refuses beds that cannot be drawn
   HeightGrid initial_;
   RenderSubject subject_;
-  std::shared_ptr<const TriangleMesh> mesh_;  // of any tool but the sphere,
-  Eigen::Matrix3d rotation_;                  // turned like this
+  std::shared_ptr<const TriangleMesh> mesh_;  // of any tool but the sphere
+  Eigen::Matrix3d rotation_;                  // the orientation of mesh_
   std::optional<std::vector<TickRecord>> trace_;
 };
 

@@ -7,19 +7,19 @@
 
 namespace sandstroke {
 
-/// A surface of a run, as --frame names it.
+/// A surface of a run that --frame names.
 struct RunSurface {
   HeightGrid heights;
   double time = 0.0;      ///< s; the final one: infinity
-  std::string ending;     ///< of a file's name without its format: "", "_initial", "_frame_0003"
-  bool is_frame = false;  ///< one of those kept during the run
+  std::string ending;     ///< for file names, before the extension: "", "_initial", "_frame_0003"
+  bool is_frame = false;  ///< it was kept during the run
 };
 
-/// final, initial, or a frame's number. Error: input, which says that it can be one of `choices`, or what the
-/// run lacks; io.
+/// Reads a surface by name: final, initial, or a frame's number. Error: input, which lists `choices`, or says
+/// what the run lacks; io.
 RunSurface surface_named(const RunFile& run, const std::string& name, const char* choices);
 
-/// Of a run that holds frames (Error: input) [s].
+/// The times of a run's frames [s]. Error: input, if it has none.
 std::vector<double> frame_times(const RunFile& run);
 
 std::string frame_name(std::size_t k);

@@ -40,7 +40,7 @@ void RunView::on_tick(const TickRecord& tick) {
   if (due || clock_->seconds() - published_at_ >= picture_interval) publish(tick);
 }
 
-/// Idle ticks are not told, so it may be long.
+/// Shows the time while it waits: a simulation reports no idle ticks, so the wait may be long.
 void RunView::wait_until(double time) {
   for (double left; !interrupted() && (left = time - clock_->seconds()) > 0.0;) {
     sleep(std::min(left, picture_interval));
@@ -71,7 +71,7 @@ std::optional<double> RunView::lag() const {
   return state_.max_lateness > late ? std::optional(state_.max_lateness) : std::nullopt;
 }
 
-/// After the stroke, when nothing waits for the clock.
+/// Shows the bed after the stroke, when nothing waits for the clock.
 void RunView::on_relaxation(const RelaxationRecord&) {
   if (!playing_) bed_.publish(simulation_.bed());
 }

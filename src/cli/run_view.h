@@ -10,9 +10,9 @@
 
 namespace sandstroke {
 
-/// A run whose stroke is played in real time before pages (`run --view`): it begins when the first page is
-/// open, and its ticks wait for the wall clock, which changes none of its bits. Until the run is over it
-/// looks at the simulation.
+/// Shows a run in pages while it plays the stroke in real time (`run --view`). The run begins when the first
+/// page is open. Ticks wait for the wall clock, which does not change the result's bits. The view reads the
+/// simulation until the run is over.
 class RunView : public SimulationObserver {
  public:
   /// Waits for a page, or an interrupt. Error: input, for a bed that is too large; io.
@@ -23,7 +23,7 @@ class RunView : public SimulationObserver {
   void on_pass(std::int64_t, const BedNow& bed_now) override;
   void on_progress(double fraction) override { playing_ = fraction < 1.0; }
 
-  /// How far it was behind real time at worst, if by more than a quarter of a second [s].
+  /// The longest time [s] by which the run was behind real time, if over a quarter of a second.
   std::optional<double> lag() const;
   void end(const std::string& reason) { server_.end(reason); }
 
@@ -39,9 +39,9 @@ class RunView : public SimulationObserver {
   ViewState state_;
   RecentRate rate_;
   std::optional<Stopwatch> clock_;                 // from the first tick on
-  double published_ = -1.0, published_at_ = -1.0;  // s, of the stroke and on the clock
+  double published_ = -1.0, published_at_ = -1.0;  // s, in the stroke and on the clock
   std::int64_t ticks_ = 0;
-  bool playing_;  // the stroke
+  bool playing_;  // the stroke goes on
   Stopwatch since_pass_;
 };
 

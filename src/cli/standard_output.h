@@ -2,11 +2,11 @@
 
 namespace sandstroke {
 
-/// The standard output took not all that was printed, for this reason (errno). Error: io; where its reader
-/// has gone, as `head` does, the program ends quietly, by SIGPIPE as others do.
+/// Reports that the standard output could not be written (errno `error`). Error: io. If its reader has gone,
+/// as `head` does, the program ends quietly by SIGPIPE, as other programs do.
 [[noreturn]] void throw_output_error(int error);
 
-/// What was printed is out. Error: as above.
+/// Flushes the standard output. Errors as above.
 void flush_output();
 
 }  // namespace sandstroke

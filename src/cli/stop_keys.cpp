@@ -17,10 +17,10 @@ bool has_input() {
   return poll(&keyboard, 1, 0) > 0 && (keyboard.revents & POLLIN) != 0;
 }
 
-// What ends a program, among it what a driver may do wrong.
+// Signals that end a program, also those of faults in a driver.
 constexpr std::array ending_signals = {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGABRT, SIGSEGV, SIGBUS, SIGFPE};
 
-// For the signal handler, which takes no arguments.
+// Globals, because a signal handler takes no arguments.
 termios terminal_before;
 std::array<struct sigaction, ending_signals.size()> handlers_before;
 
@@ -28,7 +28,7 @@ std::atomic<bool> terminal_taken = false;
 
 void leave_terminal() {
   if (!terminal_taken.exchange(false)) return;
-  tcsetattr(STDIN_FILENO, TCSANOW, &terminal_before);  // which a signal handler may call (POSIX)
+  tcsetattr(STDIN_FILENO, TCSANOW, &terminal_before);  // POSIX allows this call in a signal handler
   for (std::size_t i = 0; i < ending_signals.size(); ++i)
     sigaction(ending_signals[i], &handlers_before[i], nullptr);
 }
@@ -41,9 +41,9 @@ void leave_terminal_and_pass_on(int signal) {
 }  // namespace
 
 StopKeys::StopKeys() {
-  // A job in the background that touches the terminal would be stopped.
+  // The system would stop a background job that touches the terminal.
   if (tcgetpgrp(STDIN_FILENO) != getpgrp() || tcgetattr(STDIN_FILENO, &terminal_before) != 0) return;
-  if (has_input()) return;  // typed ahead, or pasted: for the shell
+  if (has_input()) return;  // typed ahead or pasted input is for the shell
   terminal_taken = true;
   struct sigaction leave = {};
   leave.sa_handler = leave_terminal_and_pass_on;
@@ -65,7 +65,7 @@ bool StopKeys::pressed() {
   char bytes[64];
   const ssize_t count = read(STDIN_FILENO, bytes, sizeof bytes);
   const std::string_view typed(bytes, count > 0 ? static_cast<std::size_t>(count) : 0);
-  // Other keys begin with the code of Esc, too: an arrow is "\033[A".
+  // Other keys also begin with the code of Esc: an arrow is "\033[A".
   return typed.starts_with('\033') ? typed.size() == 1 : typed.find_first_of("qQ \n\r") != typed.npos;
 }
 

@@ -2,10 +2,9 @@
 
 namespace sandstroke {
 
-/// While it lives, the keys typed at the terminal come one by one and unseen, so that one of them can stop
-/// what goes on. Nothing, where the standard input is no terminal, or another job's, or where something was
-/// typed ahead, for that is meant for the shell. Whatever ends the program, but what cannot be caught, the
-/// terminal is left as it was.
+/// Reads keys at the terminal one by one and without echo, so that a key can stop the program. Does nothing
+/// if the standard input is not a terminal, or is another job's, or if something was typed ahead, which is
+/// for the shell. Restores the terminal however the program ends, except by signals that cannot be caught.
 class StopKeys {
  public:
   StopKeys();
@@ -13,9 +12,9 @@ class StopKeys {
   StopKeys(const StopKeys&) = delete;
   StopKeys& operator=(const StopKeys&) = delete;
 
-  /// There is a keyboard.
+  /// True if it reads keys.
   bool listening() const { return listening_; }
-  /// q, Esc, Enter or space was typed since the last time it was asked.
+  /// True if q, Esc, Enter or space was typed since the last call.
   bool pressed();
 
  private:

@@ -31,7 +31,7 @@ struct StressArguments {
   bool quick = false, json = false;
 };
 
-/// How many cases of each group, and cells of each map, ended how, and how many surprised.
+/// Counts the verdicts and surprises in each group of cases and in each map.
 Table counts(const StressReport& report) {
   constexpr Verdict verdicts[] = {Verdict::stable,  Verdict::limit_cycle,   Verdict::diverged,
                                   Verdict::refused, Verdict::not_converged, Verdict::broken};

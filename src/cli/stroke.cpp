@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Writes a stroke and tells what came out.
+/// Writes a stroke and prints its summary.
 void write_and_tell(const std::string& file, const Stroke& stroke) {
   write_stroke_file(file, stroke);
   const StrokeSummary summary = summarize(stroke);

@@ -60,7 +60,7 @@ std::string table_row(std::string_view title, const std::string& value) {
   return fmt::format("{:<11}{}\n", title, terminal_line(value));
 }
 
-/// Hz, of the samples that there are.
+/// The mean rate of the samples [Hz].
 double reached_rate(const StrokeSummary& summary) {
   return summary.samples > 1 ? static_cast<double>(summary.samples - 1) / summary.duration : 0.0;
 }

@@ -14,7 +14,7 @@
 
 namespace sandstroke {
 
-// What `stroke` does besides making strokes.
+// The other tasks of `stroke`, and the summary of a stroke.
 
 void add_stroke_info_command(CLI::App& stroke, Command& chosen);
 void add_stroke_repair_command(CLI::App& stroke, Command& chosen);
@@ -24,16 +24,16 @@ struct StrokeSummary {
   double duration = 0.0, median_spacing = 0.0;  // s
   Eigen::Vector3d low, high;                    // m
   std::vector<StrokeGap> gaps;
-  PlayedPart played;                               // of a run
+  PlayedPart played;                               // the part that a run plays
   double least_force = 0.0, greatest_force = 0.0;  // N, magnitude
 };
 StrokeSummary summarize(const Stroke& stroke);
 
-/// What `stroke info --json` prints of a stroke that is in that file.
+/// The output of `stroke info --json` for a stroke in that file.
 nlohmann::ordered_json stroke_json(const std::string& file, const Stroke& stroke,
                                    const std::optional<RecordingInfo>& recording = {});
 
-/// Where a recording's ticks went, also of one that was cut off.
+/// The counts of a recording's ticks, also for a recording that was cut off.
 std::string recorded_ticks_text(const RecordingFooter& footer);
 
 }  // namespace sandstroke

@@ -22,12 +22,12 @@ struct RepairArguments {
   bool remove = false, json = false;
 };
 
-/// What is to be repaired, and into what.
+/// The journal to repair, and the stroke to write.
 struct Task {
   fs::path journal, output;
 };
 
-/// file: STROKE.h5.recording, or the STROKE.h5 that it is to become.
+/// Finds journal and output. arguments.file is STROKE.h5.recording, or the STROKE.h5 to write.
 Task task_of(const RepairArguments& arguments) {
   const fs::path file = arguments.file;
   Task task;
@@ -44,7 +44,7 @@ Task task_of(const RepairArguments& arguments) {
 struct Repair {
   RecordingInfo recording;
   double duration = 0.0;         // s, from the first sample to the last
-  std::uint64_t lost_bytes = 0;  // of the journal
+  std::uint64_t lost_bytes = 0;  // damaged or cut off in the journal
 };
 
 Repair repair(const Task& task) {
@@ -52,7 +52,7 @@ Repair repair(const Task& task) {
   JournalReader journal(task.journal);
   done.recording = write_recording_file(task.output, journal);
   done.lost_bytes = journal.lost_bytes();
-  done.duration = read_stroke_file(task.output).duration();  // so it can be played
+  done.duration = read_stroke_file(task.output).duration();  // also checks that the stroke can be read
   return done;
 }
 

@@ -169,7 +169,7 @@ int sweep(const SweepArguments& arguments) {
   if (restless > 0)
     spdlog::warn("{} not at rest; raise relaxation.max_passes or relaxation.tolerance",
                  counted(restless, "point"));
-  if (counters.failed() > 0 && !all)  // collecting said so
+  if (counters.failed() > 0 && !all)  // collecting has reported it
     spdlog::warn("{} without result; see: sandstroke sweep status {}", counted(counters.failed(), "point"),
                  folder.path().string());
   if (lost) return static_cast<int>(ErrorKind::io);

@@ -8,25 +8,26 @@
 
 namespace sandstroke {
 
-// What `sweep` does besides sweeping; first `sweep status` and `sweep collect`.
+// The other tasks of `sweep`: `sweep status`, `sweep collect` and Slurm.
 
-/// A subcommand of `sweep` that takes the folder of one, and --json.
+/// Adds a subcommand of `sweep` that takes a sweep's folder, and --json.
 void add_sweep_folder_command(CLI::App& sweep, const char* name, const char* help, const char* footer,
                               int (*run)(const SweepFolder& folder, bool json), Command& chosen);
 void add_sweep_status_command(CLI::App& sweep, Command& chosen);
 void add_sweep_collect_command(CLI::App& sweep, Command& chosen);
 
-/// Collects a sweep and says what came of it (json: not on the standard output).
+/// Collects a sweep and prints the report (json: not on the standard output).
 CollectReport collect_sweep(const SweepFolder& folder, bool json);
 
-/// `sweep --slurm`, and the options that say what to ask of the cluster.
+/// `sweep --slurm`, and the options for the cluster.
 struct SlurmArguments {
   bool submit = false;
   SlurmOptions options;
 };
 void add_slurm_options(CLI::App& sweep, SlurmArguments& arguments);
 
-/// Submits a task for each part of the sweep that has points missing, and says so. Error: as submit_to_slurm.
+/// Submits a task for each part of the sweep with missing points, and prints the jobs. Errors as in
+/// submit_to_slurm.
 int submit_sweep(const SlurmArguments& arguments, const std::filesystem::path& plan,
                  const SweepFolder& folder, const std::vector<PointGroup>& groups, bool json);
 

@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The parts that have points missing.
+/// The parts of the sweep with missing points.
 std::vector<SlurmTask> tasks_to_do(const SweepFolder& folder, const std::vector<PointGroup>& groups, int of) {
   std::vector<SlurmTask> tasks;
   for (int number = 1; number <= of; ++number) {

@@ -12,7 +12,7 @@
 namespace sandstroke {
 namespace {
 
-/// Gives each key the value of its option, which the command line has checked.
+/// Gives each key the value of its option. The command line has checked the value.
 class OptionReader : public KeyVisitor {
  public:
   explicit OptionReader(const TableOptions& given) : given_(given) {}
@@ -34,7 +34,7 @@ class OptionReader : public KeyVisitor {
   }
   bool reads() const override { return true; }
 
-  // A table has no others.
+  // [stroke.table] uses none of these.
   void section(const char*, const char*) override {}
   bool optional_section(const char*, bool, const char*) override { return true; }
   bool given(const char*) override { return false; }

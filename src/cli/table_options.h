@@ -8,14 +8,14 @@
 
 namespace sandstroke {
 
-/// What was given on the command line, by key.
+/// The values given on the command line, by key.
 using TableOptions = std::map<std::string, std::string>;
 
 /// Adds an option for each key of [stroke.table] (describe_table): --position-unit is position_unit. `given`
 /// must live as long as the command.
 void add_table_options(CLI::App& command, TableOptions& given);
 
-/// The settings with what was given. Error: input, naming the option.
+/// The settings with the given values. Error: input, naming the option.
 TableSettings table_settings(const TableOptions& given);
 
 }  // namespace sandstroke

@@ -1,5 +1,5 @@
 #include <hwy/nanobenchmark.h>
 
-// While it is loaded, libhwy measures its clock for benchmarks, by this function: 4 ms of each start of the
-// program, which has no use for it. The linker lets this one come first.
+// Replaces a function of libhwy. When loaded, libhwy calls it to measure its clock for benchmarks. That takes
+// 4 ms of each start, and the program does not need it. The linker prefers this definition.
 uint64_t hwy::platform::TimerResolution() { return 1; }

@@ -5,7 +5,8 @@
 
 namespace sandstroke {
 
-/// An option for each tolerance. golden: one that the rounding of golden entries would fail is refused.
+/// Adds an option for each tolerance. golden: refuses tolerances that the rounding of golden entries would
+/// fail.
 void add_tolerance_options(CLI::App& command, GivenTolerances& given, bool golden);
 
 }  // namespace sandstroke

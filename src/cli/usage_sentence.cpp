@@ -10,7 +10,7 @@
 namespace sandstroke {
 namespace {
 
-/// The command that was called, as far as its words are known.
+/// The called command, found from those of its words that are commands.
 NamedCommand called_command(const CLI::App& app) {
   NamedCommand called{"", &app};
   while (!called.app->get_subcommands().empty()) {
@@ -20,7 +20,7 @@ NamedCommand called_command(const CLI::App& app) {
   return called;
 }
 
-/// The first word that nothing takes; empty: none.
+/// The first word that no command or option takes. Empty: none.
 std::string left_over(const CLI::App& app) {
   for (const std::string& word : app.remaining())
     if (word != "--") return word;
@@ -34,7 +34,7 @@ std::set<std::string> names_of_commands(const CLI::App& app) {
   return names;
 }
 
-/// The long ones, without their dashes; those of the program, which every command takes, too.
+/// The long names of a command's options without dashes, and those of the program, which every command takes.
 std::set<std::string> names_of_options(const CLI::App& app, const CLI::App& command) {
   std::set<std::string> names;
   for (const CLI::App* taker : {&app, &command})

@@ -5,8 +5,8 @@
 
 namespace sandstroke {
 
-/// What is wrong with a command line that could not be parsed, and whose help says more; empty where help or
-/// the version was asked for. A word that is no command comes first: there is no help of it either.
+/// Says what is wrong with a command line, and which command's help says more. Empty if the user asked for
+/// help or the version. A word that is not a command is reported first: it has no help either.
 std::string usage_sentence(const CLI::App& app, const CLI::ParseError& failure);
 
 }  // namespace sandstroke

@@ -38,7 +38,7 @@ CLI::Option* add_set_option(CLI::App& command, std::vector<std::string>& overrid
   return command
       .add_option("--set", overrides, "Override a scene key, such as relaxation.talus_angle=35 (repeatable)")
       ->type_name("KEY=VALUE")
-      ->allow_extra_args(false)  // what follows its one value is not another
+      ->allow_extra_args(false)  // takes one value each time
       ->take_all();
 }
 

@@ -12,8 +12,8 @@
 
 namespace sandstroke {
 
-/// Numbers of somebody else as an array that keeps him alive: no copy, and read only. first: at `strides`
-/// [bytes] from each other.
+/// A read-only array over the owner's numbers, without a copy. The array keeps `owner` alive. strides: the
+/// distances between numbers [bytes].
 template <class Number>
 pybind11::array view_of(const Number* first, std::vector<pybind11::ssize_t> shape,
                         std::vector<pybind11::ssize_t> strides, pybind11::handle owner) {
@@ -22,7 +22,7 @@ pybind11::array view_of(const Number* first, std::vector<pybind11::ssize_t> shap
   return array;
 }
 
-/// A field of records that lie in a row, as visit_tick_fields() gives it.
+/// An array over one field of consecutive records. `of` selects it, as visit_tick_fields() does.
 template <class Record, class Of>
 pybind11::array column_view(std::vector<Record>& records, const Of& of, pybind11::handle owner) {
   static Record none;
@@ -36,18 +36,19 @@ pybind11::array column_view(std::vector<Record>& records, const Of& of, pybind11
     return view_of(first.data(), {rows, first.size()}, {step, pybind11::ssize_t{sizeof(double)}}, owner);
 }
 
-/// As an array of somebody else's own.
+/// Copies a grid into an array of its own.
 pybind11::array_t<double> copy_of(const HeightGrid& grid);
 
 // Centres of a bed's columns and rows [m].
 pybind11::array_t<double> columns_of(const BedGeometry& bed);
 pybind11::array_t<double> rows_of(const BedGeometry& bed);
 
-/// Heights: two dimensions, rows along y. Error: input, naming them, also where one is not a number.
+/// Reads heights: two dimensions, rows along y. Error: input, naming `name`, also if a height is not a
+/// number.
 HeightGrid grid_of(const char* name, const pybind11::object& heights);
 
-/// A stroke of arrays by the names of its columns (visit_columns), "time" [s] and "position" [m] at least.
-/// Error: input, with the column's name and the shape that it must have.
+/// Makes a stroke from arrays by column name (visit_columns): at least "time" [s] and "position" [m]. Error:
+/// input, with the column's name and the shape that it must have.
 Stroke stroke_of(const pybind11::dict& columns);
 
 }  // namespace sandstroke

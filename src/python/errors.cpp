@@ -30,7 +30,7 @@ class WarningSink : public spdlog::sinks::base_sink<std::mutex> {
   void flush_() override {}
 };
 
-/// Whether it was said on a command line does not matter here.
+/// Removes "--set " from an error sentence: Python has no command line.
 std::string without_option(std::string sentence) {
   for (std::size_t at; (at = sentence.find("--set ")) != std::string::npos;) sentence.erase(at, 6);
   return sentence;
@@ -90,7 +90,7 @@ Warnings::Warnings() : before_(collecting) { collecting = &sentences_; }
 Warnings::~Warnings() { collecting = before_; }
 
 void Warnings::give() {
-  constexpr Py_ssize_t caller = 2;  // of the package's function
+  constexpr Py_ssize_t caller = 2;  // the stack level of the code that called the package
   for (const std::string& sentence : sentences_)
     if (PyErr_WarnEx(PyExc_UserWarning, without_option(sentence).c_str(), caller) != 0)
       throw py::error_already_set();

@@ -7,19 +7,19 @@
 
 namespace sandstroke {
 
-/// Error, InputError (a ValueError), UnstableError (an ArithmeticError) and FileError (an OSError) of the
-/// module: what the program ends with, in the same sentences.
+/// Adds Error, InputError (a ValueError), UnstableError (an ArithmeticError) and FileError (an OSError) to
+/// the module. Their sentences are the program's error sentences.
 void add_errors(pybind11::module_& module);
 
-/// What is logged as a warning by this thread while it lives becomes Python warnings when it is told to
-/// give them; so none comes while the interpreter is let go.
+/// Collects the warnings that this thread logs while it lives. give() makes Python warnings of them, so that
+/// none is raised while the interpreter lock is released.
 class Warnings {
  public:
   Warnings();
   ~Warnings();
   Warnings(const Warnings&) = delete;
   Warnings& operator=(const Warnings&) = delete;
-  /// With the interpreter held. May throw: a warning can be made an error.
+  /// Call it with the interpreter lock. May throw: users can turn a warning into an error.
   void give();
 
  private:
@@ -27,13 +27,13 @@ class Warnings {
   std::vector<std::string>* before_;
 };
 
-/// Of a function of the user's that was called from work: its KeyboardInterrupt or SystemExit is kept, to end
-/// that work as itself; what else it raised is told in one line.
+/// Handles an exception that a user's function raised. Keeps a KeyboardInterrupt or SystemExit for
+/// throw_kept(). Throws a std::runtime_error with the first line of the exception's text.
 [[noreturn]] void throw_raised(const pybind11::error_already_set& raised);
-/// Throws what was kept, if anything; else what is being thrown. In a catch.
+/// Throws the kept exception, or rethrows the current one if none was kept. Call it in a catch block.
 [[noreturn]] void throw_kept();
 
-/// Does work that calls functions of the user's.
+/// Runs work that calls a user's functions. An exception that throw_raised() kept ends it.
 template <class Work>
 auto or_what_ended_it(const Work& work) {
   try {
@@ -43,8 +43,8 @@ auto or_what_ended_it(const Work& work) {
   }
 }
 
-/// Lets Ctrl-C through to Python now and then, from work that lets the interpreter go: throws
-/// KeyboardInterrupt as Python does.
+/// Checks for Ctrl-C now and then during work without the interpreter lock. Throws KeyboardInterrupt as
+/// Python does.
 class SignalWatch {
  public:
   void look();

@@ -24,7 +24,7 @@ std::vector<OwnLawSettings> settings_of(const py::dict& laws, const std::array<d
   return single_laws(own, {});
 }
 
-/// As JSON text. folder: of the page.
+/// Runs the bench and returns JSON text. folder: for the page.
 std::string bench(const py::dict& laws, const std::array<double, 4>& parameters,
                   const std::filesystem::path& folder, bool quick, const std::vector<std::string>& problems) {
   const std::vector<OwnLawSettings> own = settings_of(laws, parameters);

@@ -4,8 +4,8 @@
 
 namespace sandstroke {
 
-/// _bench and _stress: what `sandstroke bench --plugin` and `stress --plugin` do with a plugin's laws, for
-/// laws that are Python functions.
+/// Adds _bench and _stress: they test laws that are Python functions, as `sandstroke bench --plugin` and
+/// `stress --plugin` test plugin laws.
 void add_judging(pybind11::module_& module);
 
 }  // namespace sandstroke

@@ -11,17 +11,17 @@
 
 namespace sandstroke {
 
-/// A scene, and what its files are relative to.
+/// A scene, and the folder to which its files are relative.
 struct SceneHere {
   Scene scene;
   std::filesystem::path folder;
 };
 
-/// A run in memory: of a simulation, or of its file.
+/// A run in memory, from a simulation or from a file.
 struct KeptRun {
   SceneHere scene;
-  std::string path;                ///< of its file; empty: there is none
-  nlohmann::ordered_json summary;  ///< `run --json`; of a file: null
+  std::string path;                ///< of its file; empty: none
+  nlohmann::ordered_json summary;  ///< as `run --json`; null for a file
   BedGeometry bed{1, 1, 1.0};
   HeightGrid initial, final;  ///< m
   TraceContent content;
@@ -31,11 +31,11 @@ struct KeptRun {
   std::vector<double> frames;       ///< m, one after the other
 };
 
-/// The bed of a scene with these heights [m]. Error: input, where they are not those of its cells.
+/// Makes the bed of a scene with these heights [m]. Error: input, if their shape is not that of bed.cells.
 HeightField surface_of(const Scene& scene, const HeightGrid& heights);
 
-/// stroke, surface: none: the scene's. output: empty: no file is written. Called with the interpreter held,
-/// which it lets go. Errors as run_scene.
+/// Runs a scene. Without stroke or surface it takes the scene's. Writes no file if output is empty. Call it
+/// with the interpreter lock, which it releases. Errors as in run_scene.
 std::shared_ptr<KeptRun> kept_run(const SceneHere& scene, std::optional<Stroke> stroke,
                                   std::optional<HeightField> surface, const std::filesystem::path& output,
                                   int threads);

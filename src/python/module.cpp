@@ -21,7 +21,7 @@
 #include "render/height_field_renderer.h"
 #include "tool/tool_surface.h"
 
-// What src/python/sandstroke builds its functions on: names with a _ are not for users.
+// The extension module on which src/python/sandstroke builds its functions. Names with a _ are not for users.
 
 namespace sandstroke {
 namespace {
@@ -34,7 +34,7 @@ py::array grid_view(const HeightGrid& grid, py::handle owner) {
   return view_of(grid.data(), {grid.rows(), grid.cols()}, {grid.cols() * number, number}, owner);
 }
 
-/// A row of name, units, meaning, array, and the names of its components, for each field that the run has.
+/// Lists the run's fields: name, units, meaning, array and names of its components for each.
 py::list trace_columns(const py::object& self) {
   KeptRun& run = *self.cast<Run>();
   py::list columns;
@@ -75,7 +75,7 @@ SceneHere scene_of_text(const std::string& text, const std::filesystem::path& fo
   return {scene_from_text(text, "scene", overrides), folder};
 }
 
-/// (height, width, 3), of 8 bits. tip: none: no tool is drawn.
+/// Draws an array (height, width, 3) of 8 bits. Without tip it draws no tool.
 py::array picture(const SceneHere& here, const py::object& heights, const py::object& start,
                   const std::optional<std::array<double, 3>>& tip, const std::array<double, 4>& orientation) {
   const Scene& scene = here.scene;
@@ -111,7 +111,7 @@ py::array picture(const SceneHere& here, const py::object& heights, const py::ob
   return py::array(array);
 }
 
-/// As JSON text.
+/// Compares two runs and returns JSON text.
 std::string comparison(const std::filesystem::path& golden, const std::filesystem::path& run,
                        const GivenTolerances& given, bool coarsen) {
   const py::gil_scoped_release let_go;

@@ -18,7 +18,7 @@ namespace {
 
 namespace py = pybind11;
 
-/// A function of somebody else's, which may go away when no interpreter is held.
+/// A user's function. It may be destroyed without the interpreter lock.
 class Function {
  public:
   explicit Function(py::object function)
@@ -26,7 +26,7 @@ class Function {
           const py::gil_scoped_acquire interpreter;
           delete held;
         }) {}
-  /// With the interpreter held. What it raises becomes a sentence.
+  /// Call it with the interpreter lock. An exception of the function becomes an error sentence.
   template <class... Arguments>
   py::object operator()(Arguments&&... arguments) const {
     try {
@@ -40,7 +40,7 @@ class Function {
   std::shared_ptr<py::object> function_;
 };
 
-/// Sets the cells from (row, col) on that a function changed; the volume moved [m^3].
+/// Sets the cells that a function changed, from (first_row, first_col) on. Returns the moved volume [m^3].
 double take_changes(HeightField& bed, int first_row, int first_col, const HeightGrid& before,
                     const py::array_t<double>& heights) {
   const auto after = heights.unchecked<2>();
@@ -55,7 +55,7 @@ double take_changes(HeightField& bed, int first_row, int first_col, const Height
   return moved;
 }
 
-/// Of the numbers that laws may need.
+/// A dict of the numbers that laws may need.
 py::dict numbers_of(const Scene& scene, double cell_size) {
   using namespace py::literals;
   return py::dict("cell_size"_a = cell_size, "talus_slope"_a = talus_slope(scene.relaxation.talus_angle),
@@ -91,7 +91,7 @@ class PythonRelaxer : public Relaxer {
             throw std::runtime_error(fmt::format("it changed the wall in row {}, column {}", row, col));
       outcome.moved_volume = take_changes(bed, 0, 0, before, heights);
     }
-    // Whether that is rest: by the scene's own law, which only looks.
+    // The scene's own law decides, without moving sand, whether the bed is at rest.
     HeightField seen = bed;
     RelaxationSettings look = scene_.relaxation;
     look.max_passes = 0;
@@ -150,7 +150,7 @@ class PythonForce : public ToolForce {
     } catch (const py::cast_error&) {
       throw std::runtime_error("it must return three numbers, the force on the tool in N");
     }
-    // Of a spring to the surface: what devices are told of its stiffness.
+    // Devices get the stiffness of a spring to the surface.
     wrench.strength = wrench.force.norm();
     wrench.stiffness = touch.depth > 0.0 ? wrench.strength / touch.depth : 0.0;
     wrench.stored = 0.5 * wrench.strength * std::max(touch.depth, 0.0);

@@ -6,9 +6,9 @@
 
 namespace sandstroke {
 
-/// The scene with laws that are Python functions, for trying out: laws has "relaxation", "displacement" or
-/// "force". They are called with the interpreter held, which a run lets go otherwise. Error: input, where
-/// another name is given, or what is no function.
+/// The scene with Python functions as laws, for trying out: laws has "relaxation", "displacement" or "force".
+/// They are called with the interpreter lock, which a run otherwise releases. Error: input, for another name
+/// or a value that is not a function.
 SceneHere with_python_laws(SceneHere here, const pybind11::dict& laws);
 
 }  // namespace sandstroke

@@ -18,10 +18,10 @@ namespace {
 
 namespace py = pybind11;
 
-/// The simulation, and what its scene's files are relative to.
+/// The simulation, and the folder to which its scene's files are relative.
 class Stepped {
  public:
-  /// surface: none: the scene's.
+  /// Without surface it takes the scene's.
   Stepped(const SceneHere& here, bool slips, const py::object& surface) : folder_(here.folder) {
     std::optional<HeightField> start;
     if (!surface.is_none()) start = surface_of(here.scene, grid_of("surface", surface));
@@ -44,11 +44,11 @@ class Stepped {
   std::unique_ptr<SteppedSimulation> simulation_;
 };
 
-/// Numbers of a sequence or array. Error: input, naming it.
+/// Reads n numbers from a sequence or array. Error: input, naming `name`.
 template <int n>
 Eigen::Matrix<double, n, 1> vector_of(const py::handle& given, const char* name) {
   Eigen::Matrix<double, n, 1> vector;
-  if (py::isinstance<py::array_t<double>>(given)) {  // the quick way
+  if (py::isinstance<py::array_t<double>>(given)) {  // the fast case
     const auto array = py::reinterpret_borrow<py::array_t<double>>(given);
     if (array.ndim() == 1 && array.shape(0) == n) {
       for (int i = 0; i < n; ++i) vector[i] = *array.data(i);

@@ -4,7 +4,7 @@
 
 namespace sandstroke {
 
-/// Tick, and _Simulation: SteppedSimulation.
+/// Adds Tick, and _Simulation, which wraps SteppedSimulation.
 void add_stepped(pybind11::module_& module);
 
 }  // namespace sandstroke

@@ -10,10 +10,10 @@
 namespace sandstroke {
 namespace {
 
-/// By its columns.
+/// A sweep's table is recognised by its columns.
 constexpr OutputKind table_output{"a sweep's table", "point,", ",verdict,"};
 
-/// A row per point: point, axes, verdict, metrics, reason.
+/// Makes a table with a row per point: point, axes, verdict, metrics, reason.
 Table sweep_table(const CollectedSweep& sweep) {
   Table table;
   const auto add = [&]<class Value>(const std::string& name, const std::string& title,

@@ -4,11 +4,11 @@
 
 namespace sandstroke {
 
-/// Refuses, before any work is done, files of others where collect() will write. Error: input, io.
+/// Checks, before any work is done, that collect() would replace only files of sweeps. Error: input, io.
 void check_collectable(const SweepFolder& folder);
 
 /// Writes sweep.h5 (write_sweep_file), sweep.csv and sweep.html into a sweep's folder, from the points that
-/// are there. Error: io; input, as above.
+/// it has. Error: io; input, as above.
 CollectReport collect(const SweepFolder& folder);
 
 }  // namespace sandstroke

@@ -9,7 +9,7 @@
 namespace sandstroke {
 namespace {
 
-/// Of those points that have results.
+/// Reads the surfaces of the points that have results.
 void read_surfaces(CollectedSweep& sweep, CollectReport& report) {
   std::string first_missing;
   const KeptSurface* first = nullptr;
@@ -102,7 +102,7 @@ std::string content_hash(const CollectedSweep& sweep) {
     if (!sweep.results[point]) continue;
     for (std::size_t i = 0; i < metrics.size(); ++i) {
       if (metrics[i].timing) continue;
-      // Not-a-numbers may have been made in different ways.
+      // NaNs may differ in their bits.
       const double value = sweep.metric(point, i), number = std::isnan(value) ? PointResult::none : value;
       hash.add(&number, sizeof number);
     }

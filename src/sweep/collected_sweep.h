@@ -9,41 +9,42 @@
 
 namespace sandstroke {
 
-/// Of points that have no result, beside verdict_names.
+/// The verdict of points without a result, in addition to verdict_names.
 inline const std::string missing_verdict = "missing";
 
-/// How a sweep stands. done + failed + missing + unreadable = its points.
+/// Counts of a sweep's points. done + failed + missing + unreadable = all points.
 struct CollectReport {
   std::size_t done = 0, failed = 0;
   std::size_t missing = 0;           ///< not run yet
-  std::size_t unreadable = 0;        ///< cut off or damaged: running the sweep again makes them again
-  std::size_t surfaces_missing = 0;  ///< of points that are done, where surfaces are kept
+  std::size_t unreadable = 0;        ///< cut off or damaged: the next call of sweep runs them again
+  std::size_t surfaces_missing = 0;  ///< missing surfaces of done points, if surfaces are kept
   std::string content_hash;
-  std::vector<std::string> sentences;  ///< worth saying
+  std::vector<std::string> sentences;  ///< messages for the user
 };
 
-/// All points of a sweep, as far as they are there.
+/// All points that a sweep has so far.
 struct CollectedSweep {
-  /// Reads them, and says in the report what is missing.
+  /// Reads the points, and reports what is missing.
   CollectedSweep(const SweepFolder& of, CollectReport& report);
 
-  /// Not-a-number where the point has none.
+  /// NaN if the point has no such metric.
   double metric(std::size_t point, std::size_t metric) const;
-  /// Index into verdict_names; their number stands for missing_verdict.
+  /// Index into verdict_names, or their count for missing_verdict.
   std::size_t verdict(std::size_t point) const;
   const std::string& verdict_name(std::size_t point) const;
-  /// Why it has no metrics; empty where it has, or is still to run.
+  /// Why the point has no metrics. Empty if it has them or did not run yet.
   std::string reason(std::size_t point) const;
 
   const SweepFolder& folder;
   std::vector<std::optional<PointResult>> results;
   std::vector<bool> unreadable;
   std::vector<std::optional<KeptSurface>> surfaces;
-  std::optional<BedGeometry> bed;  ///< of all surfaces; none where none was kept, or they differ
+  std::optional<BedGeometry> bed;  ///< bed of all surfaces; none if they differ or none was kept
 };
 
-/// Of axes, verdicts, metrics (but for timings) and surfaces: the same for two sweeps with the same content,
-/// wherever and in whatever order they ran. Not of reasons: they name files as each call found them.
+/// Hashes axes, verdicts, metrics (without timings) and surfaces. Two sweeps with the same content have the
+/// same hash, wherever and in whatever order they ran. Reasons are not hashed: they name files as each call
+/// found them.
 std::string content_hash(const CollectedSweep& sweep);
 
 }  // namespace sandstroke

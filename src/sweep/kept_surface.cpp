@@ -12,7 +12,7 @@ namespace {
 
 const std::string surface = "/surface";
 
-/// Calls visit(row, col, heights) for each part of it that is not at its level throughout, row by row.
+/// Calls visit(row, col, heights) for each part of the surface that is not all at `level`, row by row.
 template <class Visit>
 void visit_parts(const Hdf5Reader& file, double level, const Visit& visit) {
   file.visit_written(surface, [&](Eigen::Index row, Eigen::Index col, const HeightGrid& heights) {

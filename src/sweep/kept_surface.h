@@ -6,19 +6,20 @@
 
 namespace sandstroke {
 
-/// What there is to know of a point's kept surface without holding it in memory.
+/// A summary of a point's kept surface, which need not be held in memory.
 struct KeptSurface {
   BedGeometry bed;
-  double highest = 0.0;  ///< m, largest |height| that is finite
+  double highest = 0.0;  ///< m, largest finite |height|
   std::string
-      hash;  ///< of its shape, cell size and heights; whether parts at its level were written does not matter
+      hash;  ///< of shape, cell size and heights; the same whether parts at the level were written or not
 };
 
-/// /surface of a point's file. Error: io, input, where it is not there or cannot be read.
+/// Reads /surface of a point's file. Error: io, input, if it is missing or cannot be read.
 KeptSurface inspect_surface(const std::filesystem::path& point_file);
 
-/// Its heights [m] in square blocks of cells, at most `most` along a side: of each block the cell furthest
-/// from the bed's commonest level, so that a furrow narrower than a block does not fade among its ramparts.
+/// Reads the surface's heights [m] in square blocks of cells, at most `most` along a side. Each block has the
+/// height of its cell furthest from the bed's commonest level, so that a furrow narrower than a block stays
+/// visible.
 HeightGrid coarse_surface(const std::filesystem::path& point_file, int most);
 
 }  // namespace sandstroke

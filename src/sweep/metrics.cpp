@@ -5,7 +5,7 @@
 namespace sandstroke {
 namespace {
 
-/// value, where the tool touched sand.
+/// Returns `value` if the tool touched sand, else none.
 double in_contact(const PointOutcome& o, double value) {
   return o.run.contact_ticks > 0 ? value : PointResult::none;
 }

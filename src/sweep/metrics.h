@@ -13,28 +13,28 @@
 
 namespace sandstroke {
 
-/// What a point of a sweep came to. at_rest: as it should be. not_at_rest: relaxation.max_passes were not
-/// enough. active: it came to rest, but the loop gave out energy. unstable: force or device left all bounds.
-/// refused: the scene cannot be run.
+/// How a point of a sweep ended. at_rest: the normal end. not_at_rest: relaxation.max_passes were not enough.
+/// active: at rest, but the loop gave out energy. unstable: force or device left all bounds. refused: the
+/// scene cannot be run.
 enum class PointVerdict { at_rest, not_at_rest, active, unstable, refused };
 inline const std::vector<std::string> verdict_names = {"at rest", "not at rest", "active", "unstable",
                                                        "refused"};
-/// How many points came to each verdict.
+/// The number of points with each verdict.
 using VerdictCounts = std::array<std::size_t, 5>;
 
-/// No metrics came of it.
+/// True if a point with this verdict has no metrics.
 inline bool failed(PointVerdict verdict) {
   return verdict == PointVerdict::unstable || verdict == PointVerdict::refused;
 }
 
-/// What metrics are taken from.
+/// The data from which metrics are computed.
 struct PointOutcome {
   const RunResult& run;
-  const SlopeMeasures& slopes;                   ///< where a metric needs them
-  const std::optional<FieldDifference>& golden;  ///< the same; none where there is nothing to compare with
+  const SlopeMeasures& slopes;                   ///< filled in if a metric needs them
+  const std::optional<FieldDifference>& golden;  ///< the same; none without a golden surface
 };
 
-/// One number that is collected of each point.
+/// One number that a sweep collects from each point.
 struct Metric {
   enum Needs { run, slopes, golden, error };
 
@@ -42,24 +42,24 @@ struct Metric {
   std::string title;  ///< "peak force"
   std::string unit;
   std::string definition;                     ///< its formula, in words
-  double (*of)(const PointOutcome& outcome);  ///< not-a-number where it means nothing
+  double (*of)(const PointOutcome& outcome);  ///< NaN if it means nothing here
   Needs needs = run;
   bool timing = false;  ///< differs from run to run
 };
 
-/// All there are, in the order in which they are shown.
+/// All metrics, in the order in which they are shown.
 const std::vector<Metric>& all_metrics();
 
 /// The same, as `help metrics` lists them.
 std::vector<KeySection> metric_keys();
 
-/// Of one point.
+/// The result of one point.
 struct PointResult {
   static constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
   PointVerdict verdict = PointVerdict::at_rest;
-  std::string reason;           ///< where it failed: the error's sentence
-  std::vector<double> metrics;  ///< in the order of the sweep's; none where one means nothing
+  std::string reason;           ///< the error sentence of a failed point
+  std::vector<double> metrics;  ///< in the sweep's order; `none` if a metric means nothing
 };
 
 }  // namespace sandstroke

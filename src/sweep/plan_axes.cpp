@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t most_values = 1'000'000;  // of all axes: to try them all takes two minutes
+constexpr std::size_t most_values = 1'000'000;  // of all axes: checking them takes two minutes
 
 std::vector<std::string> as_literals(const std::vector<double>& numbers) {
   std::vector<std::string> literals;
@@ -25,13 +25,13 @@ std::vector<std::string> as_literals(const std::vector<double>& numbers) {
   return literals;
 }
 
-/// A range, not sampled yet: `count` values evenly spread, or, where that is 0, any between its ends.
+/// A range, not sampled yet: `count` evenly spread values. count 0: any value between the ends.
 struct AxisRange {
   double from = 0.0, to = 0.0;
   std::size_t count = 0;
   bool logarithmic = false;
 
-  /// At 0 <= share < 1 of it.
+  /// The value at 0 <= share < 1 of the range.
   double at(double share) const {
     return std::clamp(logarithmic ? from * elementary::pow(to / from, share) : from + (to - from) * share,
                       std::min(from, to), std::max(from, to));
@@ -58,7 +58,7 @@ AxisRange read_range(const TomlReader& toml, const std::string& key, int most) {
   if (steps >= most)
     toml.fail(key + ".step", fmt::format("gives {:.0f} values; sweep.max_points is {}", steps + 1.0, most));
   range.count = static_cast<std::size_t>(steps) + 1;
-  range.to = rounded(range.from + steps * step, range.from);  // the last step's end
+  range.to = rounded(range.from + steps * step, range.from);  // the end of the last step
   return range;
 }
 
@@ -67,7 +67,7 @@ void check_distinct(const TomlReader& toml, const std::string& key, const std::v
     toml.fail(key, "has a value twice; give each once");
 }
 
-/// The axis of sweep.strokes; none where they are not given.
+/// The axis of sweep.strokes. None if the plan has no such key.
 std::optional<SweepAxis> read_strokes(const TomlReader& toml, const PlanKeys& keys, const SweepPlan& plan) {
   const char* key = "sweep.strokes";
   if (!toml.has(key)) return std::nullopt;
@@ -86,7 +86,7 @@ std::optional<SweepAxis> read_strokes(const TomlReader& toml, const PlanKeys& ke
   return axis;
 }
 
-/// An axis, and the range of which its values are to be samples, where it has none of its own.
+/// Reads an axis. If it has no values of its own, they will be samples of the range.
 std::pair<SweepAxis, AxisRange> read_axis(const TomlReader& toml, const std::string& name, bool grid,
                                           int most) {
   const std::string key = "axes." + name;
@@ -115,7 +115,7 @@ void check_points(const TomlReader& toml, const SweepDesign& grid, int most) {
                           points, most));
 }
 
-/// Samples each axis' values, or its range where it has none.
+/// Samples the values of each axis, or its range if it has no values.
 void sample(SweepDesign& latin, const std::vector<AxisRange>& ranges, std::size_t samples,
             std::uint32_t seed) {
   const auto shares = latin_hypercube(latin.axes.size(), samples, seed);
@@ -140,7 +140,7 @@ SweepDesign read_design(const TomlReader& toml, const PlanKeys& keys, const Swee
     if ((all_values += more) > most_values)
       toml.fail("axes", fmt::format("give over {} values, each to be tried; take fewer", most_values));
   };
-  std::vector<AxisRange> ranges;  // of each axis
+  std::vector<AxisRange> ranges;  // one for each axis
   if (std::optional<SweepAxis> strokes = read_strokes(toml, keys, plan)) {
     design.axes.push_back(std::move(*strokes));
     ranges.emplace_back();

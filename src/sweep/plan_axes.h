@@ -11,9 +11,8 @@ namespace sandstroke {
 /// The setting that sweep.strokes varies.
 inline const std::string stroke_key = "stroke.file";
 
-/// What varies, as a plan says in [axes] and [sweep] (`keys`); axes of a Latin hypercube are sampled. Of
-/// `plan` its file and scene must be known. Units are not set. Error: input; io, where a stroke cannot be
-/// read.
+/// Reads the axes from a plan's [axes] and [sweep] (`keys`), and samples those of a Latin hypercube. Needs
+/// the file and the scene of `plan`. Does not set units. Error: input; io, if a stroke cannot be read.
 SweepDesign read_design(const TomlReader& toml, const PlanKeys& keys, const SweepPlan& plan);
 
 }  // namespace sandstroke

@@ -10,9 +10,9 @@ namespace sandstroke {
 
 inline constexpr int most_points = 10'000'000;
 
-/// [sweep] of a plan.
+/// The keys in [sweep] of a plan.
 struct PlanKeys {
-  std::string scene, golden;  ///< golden: empty: none
+  std::string scene, golden;  ///< an empty golden: none
   std::vector<std::string> strokes, metrics, keep;
   int max_points = 10'000;
   int second = 0;    ///< none, coarser, finer
@@ -21,7 +21,7 @@ struct PlanKeys {
 };
 void show_plan(KeyVisitor& visitor, PlanKeys& keys);
 
-/// A range of [axes], which is the table `name`.
+/// A range in [axes], written as the table `name`.
 struct RangeKeys {
   double from = 0.0, to = 0.0;
   bool logarithmic = false;

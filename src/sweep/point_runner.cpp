@@ -10,7 +10,7 @@
 namespace sandstroke {
 namespace {
 
-/// One scene's device on sand that a simulation moves.
+/// One scene's device, which feels the sand of a simulation and does not move it.
 class Feeler : public SimulationObserver {
  public:
   Feeler(const Scene& scene, bool keeps_force) : device_(scene), keeps_force_(keeps_force) {}
@@ -27,7 +27,7 @@ class Feeler : public SimulationObserver {
       failure_ = unstable.what();
     }
   }
-  /// Why it went no further; empty: it went to the end.
+  /// Why the device stopped. Empty: it went to the end.
   const std::string& failure() const { return failure_; }
   DeviceResult result() const { return device_.result(); }
   const Kept<Eigen::Vector3d>& force() const { return force_; }
@@ -47,7 +47,7 @@ PointVerdict verdict_of(const RunResult& result, const Scene& scene) {
   return active ? PointVerdict::active : PointVerdict::at_rest;
 }
 
-/// None where the second solution is unstable: the run itself stands.
+/// Estimates a run's error. None if the second solution is unstable: the run itself stays valid.
 std::optional<ErrorEstimate> error_of(const Scene& scene, const HeightField& bed,
                                       const std::optional<Stroke>& stroke, const Solution& run,
                                       const Kept<Eigen::Vector3d>& force, SecondSolution second) {
@@ -77,7 +77,7 @@ std::optional<SharedRunResult> run_shared(const std::vector<Scene>& scenes, cons
   std::vector<Feeler> feelers;
   if (scene.device.model == DeviceModel::kinematic) {
     for (const Scene& felt : scenes) feelers.emplace_back(felt, second.has_value());
-    scene.force.k_s = 0.0;  // the sand's own run feels nothing, and so cannot fail for a force
+    scene.force.k_s = 0.0;  // the shared run feels no force, so no force can end it
   }
   Observers observers;
   for (Feeler& feeler : feelers) observers.push_back(&feeler);

@@ -10,18 +10,18 @@
 
 namespace sandstroke {
 
-/// The result of a point that failed; so many metrics, none of which it has.
+/// Makes the result of a point that failed, with `metrics` empty metrics.
 PointResult failed_point(PointVerdict verdict, const std::string& reason, std::size_t metrics);
 
 struct SharedRunResult {
-  std::vector<PointResult> points;  ///< of each scene, with these metrics
-  HeightField surface;              ///< the final one; of points that did not fail
+  std::vector<PointResult> points;  ///< one for each scene
+  HeightField surface;              ///< the final surface of the points that did not fail
 };
 
-/// Runs scenes of one sand_key, at least one, by one simulation: with a kinematic device the sand is the same
-/// whatever the force constants, so that each tick's sand is felt with each of them. A result is the same
-/// bits as if its scene had been run alone. stroke: as it is played, or none; golden: what surfaces are
-/// compared with, or none; second: estimate each scene's error, from this. Nothing where it was
+/// Runs scenes with the same sand_key, at least one, in one simulation. With a kinematic device the force
+/// constants do not change the sand, so a device for each scene feels the sand of each tick. Each result has
+/// the same bits as if its scene had run alone. stroke: the placed stroke, or none. golden: the surface to
+/// compare with, or none. second: the second solution for each scene's error estimate. Nothing if
 /// interrupted(). Error: io.
 std::optional<SharedRunResult> run_shared(const std::vector<Scene>& scenes, const HeightField& bed,
                                           const Stroke* stroke, const std::vector<Metric>& metrics,

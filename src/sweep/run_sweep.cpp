@@ -36,7 +36,7 @@ std::string view_text(const Scene& scene) {
   return scene_text(named);
 }
 
-/// What view stroke frames: where the hand leads the tool below the sand as it is at the start.
+/// The cells that view `stroke` shows: those where the hand takes the tool below the starting surface.
 CellRange stroke_cells(const Scene& scene, const HeightField& bed, const SweepStroke* stroke) {
   if (!stroke || scene.view.name != ViewName::stroke) return {};
   std::vector<Eigen::Vector3d> tips;
@@ -56,12 +56,12 @@ std::vector<PointGroup> Shard::among(const std::vector<PointGroup>& groups) cons
 }
 
 struct Sweep::Work {
-  std::vector<PointGroup> groups;  // what is to be done
-  std::size_t points = 0;          // in them
+  std::vector<PointGroup> groups;  // the groups to run
+  std::size_t points = 0;          // the number of points in them
   std::function<void(double)> progress;
 
   std::atomic<std::size_t> next = 0;
-  std::mutex mutex;  // of all below
+  std::mutex mutex;  // guards the members below
   std::size_t points_done = 0, simulations = 0;
   VerdictCounts verdicts{};
   std::exception_ptr failure;
@@ -202,7 +202,7 @@ void Sweep::work_through(const SweepFolder& folder, Work& work) {
     } catch (...) {
       const std::scoped_lock lock(work.mutex);
       work.failure = std::current_exception();
-      work.next = work.groups.size();  // nobody begins another
+      work.next = work.groups.size();  // no thread begins another
       return;
     }
   }
@@ -232,10 +232,10 @@ SweepCounters Sweep::run(const SweepFolder& folder, const SweepOptions& options)
     if (!missing.empty()) work.groups.push_back(std::move(missing));
   }
 
-  // Of a cluster's node, or beside other shards, a sweep has no more cores than it was given.
+  // On a cluster's node, or beside other shards, a sweep uses no more cores than it was given.
   const int cores = options.jobs > 0 ? options.jobs : tbb::info::default_concurrency();
   const int jobs = std::min(cores, static_cast<int>(std::max<std::size_t>(1, work.groups.size())));
-  // Each job is a thread of its own; what cores are left help them.
+  // Each job has its own thread. The remaining cores help them.
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                   static_cast<std::size_t>(std::max(1, cores - jobs + 1)));
   {
@@ -257,14 +257,14 @@ SweepCounters Sweep::run(const SweepFolder& folder, const SweepOptions& options)
 Sweep::Estimate Sweep::estimate() {
   const TemporaryFolder temporary;
   const SweepFolder folder = SweepFolder::make(temporary.path(), manifest());
-  std::size_t measured = groups_.size() / 2;  // or the next one that can be run
+  std::size_t measured = groups_.size() / 2;  // or the next group that can run
   for (std::size_t i = 0; i < groups_.size() && refused_.contains(groups_[measured].front()); ++i)
     measured = (measured + 1) % groups_.size();
   ChangePainter painter;
   const Stopwatch watch;
   run_group(folder, {groups_[measured].front()}, painter, [](const PointResult&) {});
   Estimate estimate;
-  // A second solution is of one point alone.
+  // Points do not share second solutions.
   estimate.seconds =
       watch.seconds() * static_cast<double>(plan_.second ? plan_.design.points() : simulations());
   for (const auto& file : fs::directory_iterator(folder.path() / "points"))

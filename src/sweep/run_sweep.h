@@ -11,10 +11,10 @@
 
 namespace sandstroke {
 
-/// Points that one simulation serves.
+/// Points that share one simulation.
 using PointGroup = std::vector<std::size_t>;
 
-/// A part of a sweep: groups i, i + of, ... of those that the plan has.
+/// A part of a sweep: groups index, index + of, ... of the plan's groups.
 struct Shard {
   int index = 1, of = 1;  ///< counted from 1
 
@@ -22,28 +22,28 @@ struct Shard {
 };
 
 struct SweepOptions {
-  int jobs = 0;  ///< cores, and at most so many simulations at a time; 0: all cores
+  int jobs = 0;  ///< number of cores and of simulations at a time; 0: all cores
   Shard shard;
-  std::function<void(double)> progress = [](double) {};  ///< share of the points to do that are done
+  std::function<void(double)> progress = [](double) {};  ///< gets the fraction of the points that is done
 };
 
-/// What a call of run_sweep did; counts are of the shard's points.
+/// The work of one call of Sweep::run. Counts points of its shard.
 struct SweepCounters {
-  std::size_t points = 0;       ///< that belong to it
-  std::size_t done_before = 0;  ///< found done
-  std::size_t run = 0;          ///< done now
-  VerdictCounts verdicts{};     ///< of all done
-  std::size_t simulations = 0;  ///< run now: points of equal sand share one
+  std::size_t points = 0;       ///< all points of the shard
+  std::size_t done_before = 0;  ///< were done already
+  std::size_t run = 0;          ///< run by this call
+  VerdictCounts verdicts{};     ///< of all done points
+  std::size_t simulations = 0;  ///< run by this call; points with equal sand share one
   int strokes_loaded = 0, beds_loaded = 0;
   bool interrupted = false;
 
   std::size_t of(PointVerdict verdict) const { return verdicts[static_cast<std::size_t>(verdict)]; }
-  /// Without metrics.
+  /// Points without metrics.
   std::size_t failed() const { return of(PointVerdict::unstable) + of(PointVerdict::refused); }
 };
 
-/// A plan made ready: what each point's scene is, and which of them share their sand. Error: io, where a file
-/// that is named cannot be read; input, where a golden surface is of no point's shape.
+/// A plan ready to run: knows the scene of each point, and which points share their sand. Error: io, if a
+/// named file cannot be read; input, if no point's bed has the shape of the golden surface.
 class Sweep {
  public:
   explicit Sweep(SweepPlan plan);
@@ -51,43 +51,42 @@ class Sweep {
   const SweepPlan& plan() const { return plan_; }
   const std::vector<PointGroup>& groups() const { return groups_; }
   SweepManifest manifest() const;
-  /// Points whose settings do not go together, and why.
+  /// Points whose settings contradict each other, and why.
   const std::map<std::size_t, std::string>& refused() const { return refused_; }
-  /// Points that were run by this call, or by estimate(), whose stroke goes suspiciously deep:
-  /// depth_warning().
+  /// Points, run by run() or estimate(), whose stroke goes suspiciously deep: depth_warning().
   const std::map<std::size_t, std::string>& too_deep() const { return too_deep_; }
-  /// That the points take, as far as is known before they run.
+  /// The number of simulations for all points, as far as known before they run.
   std::size_t simulations() const { return groups_.size() - refused_.size(); }
 
-  /// Runs what the folder does not hold yet of the shard's points. Points that fail are recorded; what
-  /// cannot be written ends it. Stops at the next tick when interrupted(). Error: io, also where another
-  /// process is at the same shard.
+  /// Runs the shard's points that the folder does not hold yet. Records points that fail, and ends if a file
+  /// cannot be written. Stops at the next tick when interrupted(). Error: io, also if another process runs
+  /// the same shard.
   SweepCounters run(const SweepFolder& folder, const SweepOptions& options);
 
-  /// Runs one point of a group, in the middle of them, and its picture, and says what that took.
+  /// Runs one point, of a group in the middle, with its picture, and estimates time and bytes of the sweep.
   struct Estimate {
-    double seconds = 0.0;  ///< for all, on one core
-    double bytes = 0.0;    ///< for all
+    double seconds = 0.0;  ///< for all points, on one core
+    double bytes = 0.0;    ///< for all points
   };
   Estimate estimate();
 
  private:
   struct Work;
-  /// Takes group after group from what is to be done.
+  /// Takes group after group from `work` and runs it.
   void work_through(const SweepFolder& folder, Work& work);
-  /// Runs these points of a group and writes their files, which it tells of each; stops when interrupted().
-  /// Whether a simulation served them.
+  /// Runs these points of a group and writes their files; calls `written` after each. Stops when
+  /// interrupted(). Returns true if it ran a simulation.
   bool run_group(const SweepFolder& folder, const std::vector<std::size_t>& points, ChangePainter& painter,
                  const std::function<void(const PointResult&)>& written);
 
   SweepPlan plan_;
   SweepInputs inputs_;
-  std::optional<HeightField> golden_;  // surface that each is compared with
+  std::optional<HeightField> golden_;  // the surface to compare with
   std::vector<PointGroup> groups_;
   std::map<std::size_t, std::string> refused_;
   std::mutex too_deep_mutex_;
   std::map<std::size_t, std::string> too_deep_;
-  // That scenes name, and their hashes; in order of use, which does not depend on where they are.
+  // The files that scenes name, and their hashes, in the order of use, which does not depend on their places.
   std::vector<std::pair<std::string, std::string>> files_;
 };
 

@@ -15,7 +15,7 @@ bool is_inside(const HeightField& bed, int row, int col) {
   return row >= 0 && row < bed.rows() && col >= 0 && col < bed.cols();
 }
 
-/// m, to a neighbour; 0 beyond the border.
+/// The drop [m] to a neighbour. 0 beyond the border.
 double drop(const HeightField& bed, int row, int col, int down, int right) {
   return is_inside(bed, row + down, col + right) ? bed(row, col) - bed(row + down, col + right) : 0.0;
 }
@@ -23,7 +23,7 @@ double drop(const HeightField& bed, int row, int col, int down, int right) {
 }  // namespace
 
 double descent_slope(const HeightField& bed, int row, int col) {
-  // Round the cell, beginning and ending east; beyond a wall there is no way down.
+  // The neighbours around the cell, from east to east. Beyond the border there is no way down.
   constexpr int row_steps[] = {0, 1, 1, 1, 0, -1, -1, -1, 0}, col_steps[] = {1, 1, 0, -1, -1, -1, 0, 1, 1};
   double drops[9];
   const double here = bed(row, col);
@@ -35,8 +35,8 @@ double descent_slope(const HeightField& bed, int row, int col) {
   for (int i = 0; i < 8; ++i) {
     const double to_axis = drops[i + i % 2], to_diagonal = drops[i + 1 - i % 2];
     const double onwards = to_diagonal - to_axis;  // from the axis neighbour to the diagonal one
-    // The triangle's own slope where that leads down within it, otherwise along its nearer side, where that
-    // leads down.
+    // The triangle's slope, if its steepest way down lies within the triangle. Otherwise the slope of its
+    // nearer side, if that leads down.
     const double square = onwards < 0.0       ? to_axis * std::max(0.0, to_axis)
                           : onwards > to_axis ? 0.5 * to_diagonal * std::max(0.0, to_diagonal)
                                               : to_axis * to_axis + onwards * onwards;
@@ -47,7 +47,7 @@ double descent_slope(const HeightField& bed, int row, int col) {
 
 namespace {
 
-/// RelaxationLaw::faces: of the steepest face through which the cell may give.
+/// RelaxationLaw::faces: the slope of the steepest face through which the cell may give.
 double steepest_face(const HeightField& bed, int row, int col) {
   const auto across = [&](int r, int c, int down, int right) {
     const bool both = is_inside(bed, r + down, c + right) && is_inside(bed, r - down, c - right);

@@ -42,7 +42,7 @@ void write_slurm_jobs(const fs::path& path, const SlurmJobs& jobs) {
                   jobs_output);
 }
 
-/// The whole number that a text begins with, or `otherwise`.
+/// The whole number at the start of a text, or `otherwise`.
 template <class Number>
 Number leading_number(const std::string& text, Number otherwise) {
   std::from_chars(text.data(), text.data() + text.size(), otherwise);
@@ -53,7 +53,7 @@ Number leading_number(const std::string& text, Number otherwise) {
   throw_io_error("sbatch is not installed here; submit the sweep where Slurm is, or leave out --slurm");
 }
 
-/// The job's id.
+/// Submits a script and returns the job's id.
 long submit(const std::vector<std::string>& options, const fs::path& script) {
   std::vector<std::string> words = {"sbatch", "--parsable"};
   words.insert(words.end(), options.begin(), options.end());
@@ -67,7 +67,7 @@ long submit(const std::vector<std::string>& options, const fs::path& script) {
   return id;
 }
 
-/// Slurm would run the same points twice.
+/// Refuses to submit while the last jobs are queued: Slurm would run the same points twice.
 void refuse_if_alive(const fs::path& sweep_folder) {
   const std::optional<SlurmJobs> last = read_slurm_jobs(sweep_folder);
   if (!last) return;
@@ -136,7 +136,7 @@ std::vector<QueuedTask> parse_queue(const std::string& text) {
 }
 
 SlurmQueue ask_slurm_queue(const SlurmJobs& jobs) {
-  // Of two jobs squeue says what it knows; of one that it has forgotten, that there is no such job.
+  // Asked for one forgotten job, squeue fails; asked for two, it lists what it knows. So name two.
   const std::optional<ChildResult> result = run_child(
       {"squeue", "--noheader", "--array", "--states=all",
        fmt::format("--jobs={},{}", jobs.array, jobs.collect ? jobs.collect : jobs.array), queue_format});

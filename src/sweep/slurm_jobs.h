@@ -9,53 +9,53 @@
 
 namespace sandstroke {
 
-/// One task of a job array and the sweep's points that it is to run.
+/// One task of a job array, and the points that it runs.
 struct SlurmTask {
   int number = 1;  ///< I of shard I/N
   std::vector<std::size_t> points;
 };
 
-/// How a sweep was submitted last: DIR/slurm/jobs.json.
+/// The jobs of a sweep's last submission: DIR/slurm/jobs.json.
 struct SlurmJobs {
   long array = 0;    ///< the job array's id
-  long collect = 0;  ///< of the job that collects; 0: there is none
+  long collect = 0;  ///< the id of the job that collects; 0: there is none
   int of = 1;        ///< N of shard I/N
   std::vector<SlurmTask> tasks;
 };
 
-/// None where the sweep was never submitted. Error: io, input.
+/// Reads jobs.json. None if the sweep was never submitted. Error: io, input.
 std::optional<SlurmJobs> read_slurm_jobs(const std::filesystem::path& sweep_folder);
 
 /// A line of Slurm's queue.
 struct QueuedTask {
-  long job = 0;  ///< of an array: the array's
-  int task = 0;  ///< 0: the job is no array
+  long job = 0;  ///< the job's id, or its array's
+  int task = 0;  ///< 0: the job is not an array
   std::string state;
   int restarts = 0;    ///< how many times it was requeued
-  std::string reason;  ///< for its waiting; empty: none
+  std::string reason;  ///< why it waits; empty: no reason
 
-  /// Has not ended, and may yet run.
+  /// True if it has not ended and may still run.
   bool alive() const;
-  /// Waits until somebody releases it.
+  /// True if it waits until somebody releases it.
   bool held() const;
 };
 
-/// What squeue prints of jobs by queue_format. Lines that are no such thing are left out.
+/// Parses squeue's output in queue_format. Skips other lines.
 std::vector<QueuedTask> parse_queue(const std::string& text);
 
-/// What the queue says of the jobs; none where squeue is not there or does not answer: why.
+/// The jobs' tasks in the queue. None if squeue is missing or does not answer; `trouble` says why.
 struct SlurmQueue {
   std::optional<std::vector<QueuedTask>> tasks;
   std::string trouble;
 };
 SlurmQueue ask_slurm_queue(const SlurmJobs& jobs);
 
-/// Error: io, where sbatch is not installed or no cluster answers: for before anything is written.
+/// Checks Slurm before anything is written. Error: io, if sbatch is not installed or no cluster answers.
 void check_slurm();
 
-/// Writes DIR/slurm/job.sh and collect.sh, submits them, the second after the first, and writes jobs.json.
-/// tasks: those to submit, of so many. Error: input, where the sweep's last jobs are still queued, or sbatch
-/// refuses (its sentence); io, where Slurm is not there or does not answer.
+/// Writes DIR/slurm/job.sh and collect.sh, submits both (collect.sh runs after job.sh) and writes jobs.json.
+/// tasks: the tasks to submit; of: the number of all tasks. Error: input, if the sweep's last jobs are still
+/// queued, or with sbatch's sentence if it refuses; io, if Slurm is missing or does not answer.
 SlurmJobs submit_to_slurm(const SlurmOptions& options, const SlurmWork& work, std::vector<SlurmTask> tasks,
                           int of);
 

@@ -15,14 +15,14 @@ bool has_control_character(const std::string& text) {
   return std::any_of(text.begin(), text.end(), [](unsigned char c) { return std::iscntrl(c); });
 }
 
-/// "#SBATCH --NAME=VALUE", or nothing where there is no value.
+/// "#SBATCH --NAME=VALUE". Empty without a value.
 std::string option_line(const std::string& name, const std::string& value) {
   if (has_control_character(value) || value.find_first_of(" '\"\\#") != std::string::npos)
     throw_input_error("{}: '{}' is not one plain word; name it as sbatch knows it", name, value);
   return value.empty() ? "" : fmt::format("#SBATCH {}={}\n", name, value);
 }
 
-/// Where jobs write: a file in DIR/slurm.
+/// The lines that make jobs write to a file in DIR/slurm.
 std::string log_lines(const SlurmWork& work, const std::string& name) {
   const std::string folder = (work.start / work.folder / "slurm").lexically_normal().string();
   if (has_control_character(folder) || folder.find_first_of("\"\\") != std::string::npos)
@@ -30,7 +30,7 @@ std::string log_lines(const SlurmWork& work, const std::string& name) {
         "{}: Slurm writes no logs into a folder whose name has quotes, backslashes or line breaks; choose "
         "another -o",
         folder);
-  std::string escaped;  // Slurm puts job ids and the like for %j
+  std::string escaped;  // Slurm replaces %j and the like by job ids
   for (const char c : folder) escaped += c == '%' ? std::string("%%") : std::string(1, c);
   return fmt::format("#SBATCH --output=\"{}/{}\"\n#SBATCH --open-mode=append\n", escaped, name);
 }
@@ -47,12 +47,12 @@ std::string resource_lines(const SlurmOptions& options) {
   return text;
 }
 
-/// A word of a shell that no program takes for an option.
+/// Quotes a file for a shell, so that no program takes it for an option.
 std::string file_argument(const fs::path& file) {
   return shell_quoted(file.string().starts_with('-') ? fs::path(".") / file : file);
 }
 
-/// The job becomes the program, so that Slurm's signals reach it.
+/// The lines that replace the job's shell by the program, so that Slurm's signals reach it.
 std::string program_lines(const SlurmWork& work, const std::string& arguments) {
   return fmt::format("cd {} || exit\nexec {} sweep {}\n", shell_quoted(work.start),
                      shell_quoted(work.program), arguments);

@@ -13,7 +13,7 @@
 namespace sandstroke {
 namespace {
 
-/// The whole text as a number, if it is one.
+/// Reads a text that is a number as a whole.
 bool as_number(const std::string& text, double& number) {
   const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), number);
   return failure == std::errc() && end == text.data() + text.size();
@@ -68,7 +68,7 @@ std::vector<std::string> SweepDesign::settings(std::size_t point) const {
 
 double rounded(double value, double size) {
   if (std::abs(value) < 1e-12 * std::abs(size)) return 0.0;
-  as_number(fmt::format("{:.12g}", value), value);  // not std::stod, to which 1e-310 is out of range
+  as_number(fmt::format("{:.12g}", value), value);  // std::stod would refuse 1e-310
   return value;
 }
 
@@ -92,7 +92,7 @@ std::vector<std::vector<double>> latin_hypercube(std::size_t axes, std::size_t n
   for (std::vector<double>& axis : samples) {
     std::vector<std::size_t> order(n);
     std::iota(order.begin(), order.end(), std::size_t{0});
-    // Not std::shuffle: its order is the library's own.
+    // Not std::shuffle: its order depends on the library.
     for (std::size_t i = n; i > 1; --i)
       std::swap(order[i - 1], order[static_cast<std::size_t>(below_one() * static_cast<double>(i))]);
     for (std::size_t i = 0; i < n; ++i)

@@ -9,43 +9,43 @@ namespace sandstroke {
 /// One setting that a sweep varies, and the values it takes.
 struct SweepAxis {
   std::string key;                  ///< the setting's dotted name in a scene
-  std::string unit;                 ///< the setting's; empty: none
-  bool logarithmic = false;         ///< its values are spread evenly in their logarithm
+  std::string unit;                 ///< the setting's unit; empty: none
+  bool logarithmic = false;         ///< its values are spread evenly on a logarithmic scale
   std::vector<std::string> values;  ///< TOML literals
 
-  /// Every value is a number.
+  /// True if every value is a number.
   bool numeric() const;
   double number(std::size_t value) const;
-  /// For people: as the plan has it, strings without their quotes.
+  /// The value for people: as in the plan, strings without quotes.
   std::string label(std::size_t value) const;
 };
 
-/// Which points a sweep has. All that a point is follows from its index.
+/// The points of a sweep. A point's index determines all its settings.
 struct SweepDesign {
-  /// Every combination of values, the last axis fastest; otherwise (a Latin hypercube) point i takes value i
-  /// of each axis.
+  /// True: every combination of values, the last axis varies fastest. False (a Latin hypercube): point i
+  /// takes value i of each axis.
   bool grid = true;
   std::vector<SweepAxis> axes;
 
-  /// Of arrays with a value per point: a length per axis, or the number of points.
+  /// The shape of arrays with a value per point: a length per axis, or the number of points.
   std::vector<std::size_t> shape() const;
   std::size_t points() const;
-  /// Which of its values an axis takes at a point.
+  /// The index of an axis's value at a point.
   std::size_t value_at(std::size_t point, std::size_t axis) const;
-  /// "key=value" for each axis, as --set takes them.
+  /// "key=value" for each axis, in the form of --set.
   std::vector<std::string> settings(std::size_t point) const;
 };
 
-/// To 12 digits, so that 0.1 + 2 x 0.1 is 0.3; and 0 where it is no more than that of numbers of that size,
-/// so that -0.3 + 3 x 0.1 is 0.
+/// Rounds to 12 digits, so that 0.1 + 2 x 0.1 is 0.3. Values below 1e-12 of `size` become 0, so that -0.3 + 3
+/// x 0.1 is 0.
 double rounded(double value, double size);
 
-/// Numbers from `from` to `to` [count >= 1], evenly spread, or evenly in their logarithm (from, to > 0), the
-/// ends exactly, the others rounded.
+/// Spreads `count` >= 1 numbers evenly from `from` to `to`, or evenly on a logarithmic scale (from, to > 0).
+/// The ends are exact, the others rounded().
 std::vector<double> spread(double from, double to, std::size_t count, bool logarithmic);
 
-/// Latin hypercube (McKay, Beckman & Conover 1979): for each of `axes`, n numbers in [0, 1), one in each
-/// n-th, in an order of its own, and anywhere in it. The same for the same seed, on any machine.
+/// Latin hypercube (McKay, Beckman & Conover 1979): for each axis n numbers in [0, 1), one at a random place
+/// in each n-th of it, in random order. The same seed gives the same numbers on any machine.
 std::vector<std::vector<double>> latin_hypercube(std::size_t axes, std::size_t n, std::uint32_t seed);
 
 }  // namespace sandstroke

@@ -44,7 +44,7 @@ class SweepFile {
     return values;
   }
 
-  /// An array over the axes.
+  /// Writes an array over the axes.
   template <class Value>
   void put(const std::string& name, const std::vector<Value>& values) {
     file_.write(name, shape_, values);
@@ -83,7 +83,7 @@ class SweepFile {
     std::iota(values.begin(), values.end(), std::uint8_t{0});
     std::string meanings;
     for (std::string name : verdict_names) {
-      std::replace(name.begin(), name.end(), ' ', '_');  // words are separated by blanks there
+      std::replace(name.begin(), name.end(), ' ', '_');  // blanks separate the words of flag_meanings
       meanings += name + " ";
     }
     file_.attribute("verdict", "flag_values", values);
@@ -103,7 +103,7 @@ class SweepFile {
     if (!metric.timing) file_.attribute(name, "coordinates", coordinates());
   }
 
-  /// What else says where a value is (CF conventions).
+  /// The names of further arrays that locate a value (CF conventions).
   std::string coordinates() const {
     if (design_.grid) return "point";
     std::string names;

@@ -55,13 +55,13 @@ SweepManifest from_json(const Json& json) {
   m.metrics = json.at("metrics");
   m.keep_surface = json.at("keep_surface");
   m.keep_picture = json.at("keep_picture");
-  m.estimate_error = json.value("estimate_error", "");  // was not there in the beginning
+  m.estimate_error = json.value("estimate_error", "");  // early manifests lack it
   m.golden = json.at("golden");
   for (const Json& input : json.at("inputs")) m.inputs.emplace_back(input.at("file"), input.at("hash"));
   return m;
 }
 
-/// What decides the results: a scene that was moved is still the same.
+/// The parts of a manifest that decide the results. A moved scene is still the same.
 Json without_places(Json manifest) {
   manifest.erase("scene");
   manifest.erase("golden");
@@ -69,7 +69,7 @@ Json without_places(Json manifest) {
   return manifest;
 }
 
-/// It has points, no more than a plan may have, and a value of each axis for each.
+/// True if the design has points, not more than a plan may have, and each point has a value of each axis.
 bool is_whole(const SweepDesign& design) {
   double points = 1.0;
   for (const SweepAxis& axis : design.axes) points *= static_cast<double>(axis.values.size());
@@ -84,7 +84,7 @@ constexpr OutputKind manifest_output{"a sweep's manifest", "{\n  \"format\": \"s
 
 fs::path manifest_path(const fs::path& folder) { return folder / "manifest.json"; }
 
-/// None where the program has no metric of this name.
+/// nullptr if the program has no metric of this name.
 const Metric* find_metric(const std::string& name) {
   const auto found = std::find_if(all_metrics().begin(), all_metrics().end(),
                                   [&](const Metric& metric) { return metric.name == name; });
@@ -129,14 +129,14 @@ SweepFolder SweepFolder::make(const fs::path& path, const SweepManifest& manifes
           path.string(), key == "inputs" ? "scene, strokes or other files" : key,
           key == "axes" || key == "inputs" || key == "settings" || key == "metrics" ? "" : "s");
     }
-    make_folder(path / "points");  // somebody may have removed it: then all are missing
+    make_folder(path / "points");  // if somebody removed it, all points are missing
     return there;
   }
   if (fs::is_directory(path))
     for (const auto& entry : fs::directory_iterator(path)) {
       const std::string name = entry.path().filename().string();
-      // Another process may be making the same folder. Points come after its manifest: without it, nobody
-      // knows what they are of.
+      // Another process may be making the same folder. It writes the manifest before any points. Points
+      // without a manifest belong to an unknown sweep.
       if (name.starts_with("manifest")) continue;
       if (name == "points") {
         if (fs::is_empty(entry.path()) || fs::exists(manifest_path(path))) continue;
@@ -151,7 +151,7 @@ SweepFolder SweepFolder::make(const fs::path& path, const SweepManifest& manifes
   make_folder(path / "points");
   SweepFolder made(path, manifest);
   const fs::path own = path / fmt::format("manifest-{}.json", getpid());
-  // A folder's name may be no UTF-8.
+  // A folder's name need not be UTF-8.
   write_text_file(own, to_json(manifest).dump(2, ' ', false, Json::error_handler_t::replace) + "\n",
                   manifest_output);
   std::error_code failure;

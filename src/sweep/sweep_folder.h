@@ -11,59 +11,59 @@
 
 namespace sandstroke {
 
-/// What a sweep is: two sweeps with the same manifest have the same results.
+/// All that defines a sweep. Two sweeps with the same manifest have the same results.
 struct SweepManifest {
-  std::string scene;                  ///< the scene's file, as one names it from where the sweep was begun
+  std::string scene;                  ///< the scene's file, relative to where the sweep was begun
   std::vector<std::string> settings;  ///< "key=value" of every point
   SweepDesign design;
   std::vector<std::string> metrics;  ///< names
   bool keep_surface = false, keep_picture = false;
-  std::string estimate_error;  ///< coarser, finer; empty: it is not estimated
-  std::string golden;          ///< run file whose final surface each is compared with; empty: none
-  /// File and hash of what it reads, the scene first.
+  std::string estimate_error;  ///< coarser, finer; empty: no estimate
+  std::string golden;          ///< run file with the final surface to compare with; empty: none
+  /// The files that the sweep reads, and their hashes. The scene is first.
   std::vector<std::pair<std::string, std::string>> inputs;
   std::string version, commit;  ///< of the program
 };
 
-/// Of what a sweep notes for itself: a million values with long names, tasks of ten million points.
+/// Largest size of a sweep's own JSON files: a million values with long names, tasks of ten million points.
 inline constexpr std::size_t most_note_bytes = 1'000'000'000;
 
-/// Refuses a folder within a sweep's that is a link: what is written there would lie where nobody named.
+/// Refuses a folder inside a sweep's folder that is a link: files would go to a place that nobody named.
 /// Error: input.
 void refuse_link(const std::filesystem::path& folder);
 
 /// The folder of a sweep:
 ///   manifest.json         SweepManifest, written before any point
-///   points/000042.h5      one point, complete or not there: attributes of / format = "sandstroke.point",
-///                         format_version = 1, point, verdict, reason; of /metrics one per metric;
-///                         /scene the resolved scene; /surface (ny, nx) m, where it is kept
-///   points/000042.png     its picture, where it is kept; written before the .h5
-///   sweep.h5 .csv .html   what collect() makes of them
+///   points/000042.h5      one point, complete or absent. / has the attributes format = "sandstroke.point",
+///                         format_version = 1, point, verdict, reason; /metrics has one per metric.
+///                         /scene: the resolved scene; /surface (ny, nx) m, if kept
+///   points/000042.png     its picture, if kept; written before the .h5
+///   sweep.h5 .csv .html   written by collect()
 class SweepFolder {
  public:
-  /// Makes the folder, or takes up one that holds the same sweep. Error: input, where it holds another one
-  /// (naming what differs), or other files; io.
+  /// Makes the folder, or opens one that holds the same sweep. Error: input, if it holds another sweep (says
+  /// what differs) or other files; io.
   static SweepFolder make(const std::filesystem::path& path, const SweepManifest& manifest);
-  /// Opens what make() made. Error: io, input.
+  /// Opens a folder that make() made. Error: io, input.
   static SweepFolder open(const std::filesystem::path& path);
 
   const std::filesystem::path& path() const { return path_; }
   const SweepManifest& manifest() const { return manifest_; }
   const SweepDesign& design() const { return manifest_.design; }
   std::size_t points() const { return manifest_.design.points(); }
-  /// Of the manifest's names.
+  /// The metrics that the manifest names.
   const std::vector<Metric>& metrics() const { return metrics_; }
 
   std::filesystem::path point_file(std::size_t point) const;
   std::filesystem::path picture_file(std::size_t point) const;
-  /// A point that is done; none where its file is missing or cannot be read (cut off).
+  /// Reads a point. None if its file is missing or cannot be read (cut off).
   std::optional<PointResult> read(std::size_t point) const;
 
-  /// Writes one point's file: whole, on the disk, or not at all. Error: io.
+  /// Writes one point's file, completely and on the disk, or not at all. Error: io.
   void write(std::size_t point, const PointResult& result, const std::string& scene_text,
              const HeightField* surface) const;
 
-  /// The command that runs one point by itself.
+  /// The command that runs one point alone.
   std::string command(std::size_t point) const;
 
  private:

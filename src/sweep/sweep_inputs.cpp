@@ -10,9 +10,9 @@
 namespace sandstroke {
 namespace {
 
-constexpr std::size_t most_samples_kept = 10'000'000;  // of strokes: about a gigabyte
+constexpr std::size_t most_samples_kept = 10'000'000;  // in all strokes: about a gigabyte
 
-/// Default settings but for these: as text, they name them.
+/// The text of a scene with this bed and default settings otherwise: a key for the bed.
 std::string text_of(const BedSettings& bed) {
   Scene scene;
   scene.bed = bed;
@@ -30,7 +30,7 @@ std::shared_ptr<const SweepStroke> SweepInputs::stroke(const Scene& scene) {
   check_own_force(scene, path);
   Scene named;
   named.stroke = scene.stroke;
-  named.bed.width = scene.bed.width, named.bed.depth = scene.bed.depth;  // where it is placed
+  named.bed.width = scene.bed.width, named.bed.depth = scene.bed.depth;  // the stroke's placement
   named.device.scale = scene.device.scale, named.device.offset = scene.device.offset;
   if (by_force->second) named.force = scene.force;
   const std::string key = scene_text(named);
@@ -89,10 +89,10 @@ std::string sand_key(const Scene& scene, const SweepStroke* stroke) {
   named.stroke.reset();
   named.output = {};
   named.view = {};
-  named.preset = ModelPreset::paper;  // sets other settings, no more
+  named.preset = ModelPreset::paper;  // it only sets other settings
   if (scene.device.model == DeviceModel::kinematic) {
     named.force = {};
-    named.force.law = scene.force.law;  // of the contact: it is felt where the sand moves, by named.strength
+    named.force.law = scene.force.law;  // a contact law is computed with the sand, by named.strength
     const DeviceSettings& device = scene.device;
     named.device = {};
     named.device.servo_rate = device.servo_rate;

@@ -12,46 +12,46 @@
 
 namespace sandstroke {
 
-/// A placed stroke, and a hash of what it holds.
+/// A placed stroke, and a hash of its content.
 struct SweepStroke {
   Stroke stroke;
   std::string hash;
 };
 
-/// Strokes, beds and tools that points of a sweep start from, each loaded once for all points that share it.
-/// For use by several threads. Error: input, io.
+/// Loads the strokes, beds and tools of a sweep's points, each once for all points that share it. Several
+/// threads may use it. Error: input, io.
 class SweepInputs {
  public:
   explicit SweepInputs(std::filesystem::path scene_folder) : scene_folder_(std::move(scene_folder)) {}
 
-  /// The stroke that a scene plays; none where it has none.
+  /// The stroke that a scene plays. nullptr if it plays none.
   std::shared_ptr<const SweepStroke> stroke(const Scene& scene);
   std::shared_ptr<const HeightField> bed(const BedSettings& bed);
-  /// The same tool, with its mesh where it is one.
+  /// The same tool, with its mesh if it is a mesh.
   ToolSettings tool(const ToolSettings& settings);
-  /// The same settings, with the laws of their plugin where they name one.
+  /// The same settings, with the laws of their plugin if they name one.
   OwnLawSettings own(const OwnLawSettings& settings);
 
   int strokes_loaded() const { return strokes_loaded_; }
   int beds_loaded() const { return beds_loaded_; }
-  /// Held by whoever reads or writes an HDF5 file: the library is not made for several threads.
+  /// Hold it while reading or writing an HDF5 file: the library is not safe for several threads.
   std::mutex& files() { return files_; }
 
  private:
   std::filesystem::path scene_folder_;
   std::mutex files_;
-  std::map<std::string, bool> by_force_;  // stroke files that force constants make a difference to
+  std::map<std::string, bool> by_force_;  // by file: whether force constants change the stroke
   std::map<std::string, std::shared_ptr<const SweepStroke>> strokes_;  // by file and settings
-  std::size_t stroke_samples_ = 0;                                     // in strokes_
+  std::size_t stroke_samples_ = 0;                                     // number of samples in strokes_
   std::map<std::string, std::shared_ptr<const HeightField>> beds_;     // by their settings
-  double bed_bytes_ = 0.0;                                             // of beds_
+  double bed_bytes_ = 0.0;                                             // size of beds_
   std::map<std::pair<std::string, double>, std::shared_ptr<const TriangleMesh>> meshes_;  // by file and scale
   std::map<std::string, std::shared_ptr<const OwnLaws>> plugins_;                         // by file
   int strokes_loaded_ = 0, beds_loaded_ = 0;
 };
 
-/// What decides a point's sand: points of equal keys have the same surfaces throughout. `stroke`: as
-/// SweepInputs has it.
+/// A key of all that decides a point's sand: points with equal keys have the same surfaces all the time.
+/// `stroke`: from SweepInputs.
 std::string sand_key(const Scene& scene, const SweepStroke* stroke);
 
 }  // namespace sandstroke

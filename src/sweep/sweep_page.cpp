@@ -17,7 +17,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
-/// An axis' values as the page has them: each text once, though points of a Latin hypercube may share it.
+/// An axis's values on the page. Each text is listed once, even if points of a Latin hypercube share it.
 struct PageAxis {
   PageAxis(const SweepAxis& axis, bool join_texts) {
     const bool numeric = axis.numeric();
@@ -39,11 +39,11 @@ struct PageAxis {
   }
 
   Json values = Json::array(), json;
-  std::vector<std::size_t> place;  // of each of the axis' values in these
+  std::vector<std::size_t> place;  // place of each of the axis's values in `values`
 };
 
 std::vector<PageAxis> page_axes(const SweepDesign& design) {
-  // Points are told apart by their places on the axes.
+  // The page tells points apart by their places on the axes.
   const bool join_texts = std::any_of(design.axes.begin(), design.axes.end(),
                                       [](const SweepAxis& axis) { return axis.numeric(); });
   std::vector<PageAxis> axes;
@@ -51,7 +51,7 @@ std::vector<PageAxis> page_axes(const SweepDesign& design) {
   return axes;
 }
 
-/// Pictures of points as data URIs, null where there is none.
+/// Makes pictures of points as data URIs. null: there is none.
 class Thumbnails {
  public:
   explicit Thumbnails(const CollectedSweep& sweep) : sweep_(sweep) {
@@ -60,7 +60,7 @@ class Thumbnails {
     if (span_ == 0.0) span_ = 1.0;  // all sand at 0
   }
 
-  /// Its picture, where that was kept; or a map of its surface, of all points on one scale.
+  /// The point's picture, if kept; otherwise a map of its surface. All maps have the same scale.
   Json of(std::size_t point) {
     if (!sweep_.results[point] || failed(sweep_.results[point]->verdict)) return nullptr;
     const SweepFolder& folder = sweep_.folder;
@@ -131,7 +131,7 @@ Json sweep_page_data(const CollectedSweep& sweep, CollectReport& report) {
   const std::vector<PageAxis> axes = page_axes(sweep.folder.design());
   Json axes_json = Json::array();
   for (const PageAxis& axis : axes) axes_json.push_back(axis.json);
-  // A file in it: the folder itself may be named "." or end in a slash.
+  // Takes the folder's name from a file in it: the folder may be given as "." or end in a slash.
   const fs::path file = fs::absolute(sweep.folder.point_file(0)).lexically_normal();
   return {{"title", file.parent_path().parent_path().filename().string()},
           {"machine", describe_machine()},

@@ -6,11 +6,11 @@
 
 namespace sandstroke {
 
-/// Beyond so many points the page has no thumbnails: it would be too large to open.
+/// With more points the page has no thumbnails: it would be too large to open.
 inline constexpr std::size_t most_thumbnails = 2000;
 
-/// What sweep.js shows: title, machine, scene, design, axes, metrics, points and counts. What cannot be shown
-/// is said in the report's sentences.
+/// The data for sweep.js: title, machine, scene, design, axes, metrics, points and counts. Adds a sentence to
+/// the report for what cannot be shown.
 nlohmann::ordered_json sweep_page_data(const CollectedSweep& sweep, CollectReport& report);
 
 }  // namespace sandstroke

@@ -20,7 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 
 std::vector<std::string> read_metrics(const TomlReader& toml, const PlanKeys& keys) {
-  std::vector<std::string> known;  // but for those that lack what they need
+  std::vector<std::string> known;  // without those that lack a golden surface or an error estimate
   const bool golden = toml.has("sweep.golden"), error = keys.second != 0;
   for (const Metric& metric : all_metrics())
     if ((golden || metric.needs != Metric::golden) && (error || metric.needs != Metric::error))
@@ -42,7 +42,7 @@ std::vector<std::string> read_metrics(const TomlReader& toml, const PlanKeys& ke
   return metrics;
 }
 
-/// Tries a scene; what is wrong with it is said of the plan's key that gave the setting.
+/// Tries a scene. An error names the plan's key that gave the wrong setting.
 Scene try_scene(const TomlReader& toml, const SweepPlan& plan, const std::vector<std::string>& settings,
                 const std::string& tried_key) {
   try {
@@ -63,7 +63,7 @@ Scene try_scene(const TomlReader& toml, const SweepPlan& plan, const std::vector
   }
 }
 
-/// Whatever its axes.
+/// True if the plan's scene fails even without its axes.
 bool fails_without_axes(const SweepPlan& plan) {
   try {
     plan.scene_with(plan.settings);
@@ -73,7 +73,7 @@ bool fails_without_axes(const SweepPlan& plan) {
   }
 }
 
-/// Each value of each axis, beside the first of the others.
+/// Checks each value of each axis, together with the first values of the others.
 void check_values(const TomlReader& toml, SweepPlan& plan) {
   std::vector<std::string> firsts = plan.settings;
   for (const std::string& setting : plan.design.settings(0)) firsts.push_back(setting);
@@ -89,7 +89,7 @@ void check_values(const TomlReader& toml, SweepPlan& plan) {
   }
 }
 
-/// All that its scene and its keys make of it.
+/// Fills in a plan from its scene and its keys.
 void fill_plan(const TomlReader& toml, const PlanKeys& keys, SweepPlan& plan) {
   for (const std::string& key : toml.keys_in("set"))
     plan.settings.push_back(key + "=" + toml.literal("set." + key));
@@ -113,7 +113,7 @@ void fill_plan(const TomlReader& toml, const PlanKeys& keys, SweepPlan& plan) {
 
 Scene SweepPlan::scene_with(const std::vector<std::string>& all_settings) const {
   Scene made = scene_from_text(scene_text, scene.string(), all_settings);
-  if (second) second_scene(made, *second);  // refused here, if at all
+  if (second) second_scene(made, *second);  // throws here if there is no second solution
   return made;
 }
 

@@ -10,7 +10,7 @@
 
 namespace sandstroke {
 
-/// What is to be swept, as a plan (TOML) says: all_plan_keys().
+/// A sweep's plan, read from TOML: all_plan_keys().
 struct SweepPlan {
   std::filesystem::path file, scene;
   std::string scene_text;
@@ -19,17 +19,17 @@ struct SweepPlan {
   std::vector<std::string> metrics;  ///< names
   bool keep_surface = false, keep_picture = false;
   std::filesystem::path golden;          ///< empty: none
-  std::optional<SecondSolution> second;  ///< estimate each point's error, from this
+  std::optional<SecondSolution> second;  ///< the solution for estimating each point's error
 
-  /// The scene with these settings. Error: input, where they do not go together.
+  /// The scene with these settings. Error: input, if they contradict each other.
   Scene scene_with(const std::vector<std::string>& all_settings) const;
   Scene scene_of(std::size_t point) const;
-  /// What file names in scenes are relative to.
+  /// The folder to which file names in scenes are relative.
   std::filesystem::path scene_folder() const { return scene.parent_path(); }
 };
 
-/// Reads a plan and checks each value of each axis, beside the first values of the others, and all files'
-/// being there. Error: input, naming file, line, key and remedy; io.
+/// Reads a plan, and checks that all files exist and each value of each axis works with the first values of
+/// the others. Error: input, naming file, line, key and remedy; io.
 SweepPlan load_plan(const std::filesystem::path& path);
 
 }  // namespace sandstroke

@@ -17,7 +17,7 @@ std::string lower(std::string text) {
   return text;
 }
 
-/// Adds what the queue says to a task whose points are counted.
+/// Adds the queue's data to a task whose points are counted.
 void add_queued(TaskStatus& task, const SlurmJobs& jobs, const SlurmQueue& queue) {
   task.state = task.missing == 0 ? "done" : queue.tasks ? "gone" : "unknown";
   if (!queue.tasks) return;
@@ -75,7 +75,7 @@ SweepStatus sweep_status(const SweepFolder& folder, const std::optional<SlurmJob
     task.number = submitted.number;
     task.points = submitted.points.size();
     for (const std::size_t point : submitted.points) {
-      if (point >= folder.points()) continue;  // of another sweep that was here
+      if (point >= folder.points()) continue;  // belongs to an earlier sweep in this folder
       task.missing += point_missing[point];
       task.failed += point_failed[point];
     }

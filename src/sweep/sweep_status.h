@@ -12,35 +12,35 @@
 
 namespace sandstroke {
 
-/// What became of a submitted task: its points as the folder has them, its job as the queue has it.
+/// The state of a submitted task: its points in the folder, its job in the queue.
 struct TaskStatus {
   int number = 1;
   std::size_t points = 0, failed = 0, missing = 0;
-  std::string state;  ///< done, pending, requeued, running, ..., gone; unknown: the queue was not to be asked
+  std::string state;   ///< done, pending, requeued, running, ..., gone; unknown: the queue could not be asked
   bool alive = false;  ///< its job has not ended
   int restarts = 0;
-  std::string reason;  ///< for its waiting
+  std::string reason;  ///< why it waits
 };
 
-/// How far a sweep is.
+/// The progress of a sweep.
 struct SweepStatus {
   std::size_t points = 0, missing = 0;
-  bool collected = false;  ///< sweep.h5 is there, and younger than every point
+  bool collected = false;  ///< sweep.h5 exists and is newer than every point
   VerdictCounts verdicts{};
   std::vector<std::pair<std::size_t, std::string>> failures;  ///< point and reason
-  std::optional<long> array;                                  ///< the job array's id, where it was submitted
-  std::vector<TaskStatus> tasks;                              ///< of it
-  std::string queue_trouble;                                  ///< why the queue was not to be asked; or empty
+  std::optional<long> array;                                  ///< the job array's id, if it was submitted
+  std::vector<TaskStatus> tasks;                              ///< the array's tasks
+  std::string queue_trouble;                                  ///< why the queue could not be asked, or empty
 
-  /// What is so, and what to do next.
+  /// Says how far the sweep is, and what to do next.
   std::string advice() const;
 };
 
-/// Reads every point's file. jobs, queue: how it was submitted, if it was, and what Slurm says of that.
+/// Reads every point's file. jobs: the submission, if any; queue: the jobs in Slurm's queue.
 SweepStatus sweep_status(const SweepFolder& folder, const std::optional<SlurmJobs>& jobs,
                          const SlurmQueue& queue);
 
-/// A row for each task that is not done.
+/// A table with a row for each task that is not done.
 Table open_tasks(const SweepStatus& status);
 
 nlohmann::ordered_json as_json(const SweepStatus& status);

@@ -2,7 +2,7 @@
 _sandstroke() {
   local REPLY kind current word glue=''
   local -a line=()
-  for word in "${COMP_WORDS[@]:1:COMP_CWORD}"; do  # readline parts words at =
+  for word in "${COMP_WORDS[@]:1:COMP_CWORD}"; do  # readline splits words at =
     if [[ ${#line[@]} -gt 0 && ($word == '=' || -n $glue) ]]; then
       line[-1]+=$word
     else

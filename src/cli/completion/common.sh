@@ -1,5 +1,5 @@
 
-# What the last of these words can be: in `kind`; `current` is what is typed of it. For bash and for zsh.
+# Sets `kind` to what the last of these words can be, and `current` to what is typed of it. For bash and zsh.
 _sandstroke_find() {
   local word option='' position=1 command=''
   while (( $# > 1 )); do

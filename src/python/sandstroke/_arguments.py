@@ -120,7 +120,7 @@ A run fails where a law makes or loses sand, or gives what is not a number.
 """
 
 
-IN_ARRAYS = "<arrays>"  # what a scene calls a stroke that is in no file
+IN_ARRAYS = "<arrays>"  # the file name in a scene of a stroke that is in no file
 
 
 def stroke_columns(stroke: Any) -> dict[str, Any]:
@@ -130,7 +130,7 @@ def stroke_columns(stroke: Any) -> dict[str, Any]:
         if "pen_down" in columns:
             columns["contact"] = np.asarray(columns.pop("pen_down"), dtype=np.uint8)
         return columns
-    if hasattr(stroke, "columns"):  # a DataFrame, whose order says nothing
+    if hasattr(stroke, "columns"):  # a DataFrame; the order of its columns does not matter
         missing = [name for name in ("time", "x", "y", "z") if name not in stroke.columns]
         if missing:
             raise _core.InputError(f"stroke: a table needs the columns time, x, y and z; {', '.join(missing)} is missing")

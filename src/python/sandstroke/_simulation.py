@@ -36,7 +36,7 @@ class Simulation:
         velocity [m/s]: None is that of the way since the tick before. down: False lifts the tool. orientation: of the
         hand, a quaternion (x, y, z, w), from how tool.orientation holds the tool. Beside the bed nothing is felt.
         """
-        raise NotImplementedError  # the instance has its own, without a call in between
+        raise NotImplementedError  # each instance has its own tick, which saves a call
 
     def relax(self) -> dict[str, Any]:
         """Sand slips to rest: passes, residual, moved_volume [m^3], converged."""

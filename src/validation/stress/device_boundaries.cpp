@@ -30,7 +30,7 @@ std::string in_words(const LoopSettings& settings) {
 
 std::vector<LoopSettings> varied_loops(int count) {
   std::mt19937 random(2006);
-  const auto between = [&random](double low, double high) {  // as many in every decade
+  const auto between = [&random](double low, double high) {  // equally many in every decade
     return low * std::pow(high / low, 0x1p-32 * static_cast<double>(random()));
   };
   std::vector<LoopSettings> loops;
@@ -45,7 +45,8 @@ std::vector<LoopSettings> varied_loops(int count) {
     d.hand_damping = between(0.5, 30.0);
     d.scale = between(0.2, 5.0);
     d.delay = i % 2 ? static_cast<int>(random() % 21) : 0;
-    const double drag = i % 3 ? 0.0 : between(1e-4, 0.3) / d.servo_rate;  // s, B / K
+    const double drag =
+        i % 3 ? 0.0 : between(1e-4, 0.3) / d.servo_rate;  // s, the drag B over the stiffness K
     if (i % 4 < 2) {
       loop.against = Wall{1.0, drag};
       loop.far = 1e3 * loop.disturbance;
@@ -57,7 +58,7 @@ std::vector<LoopSettings> varied_loops(int count) {
       sand.force.drag = DragDirection::full;
       // B / K = k_f |F_r| / (k_s k_c exp(k_c d))
       sand.force.k_f = drag * sand.force.k_c / -std::expm1(-sand.force.k_c * sand.depth);
-      loop.disturbance = 1e-7 * sand.depth / d.scale;  // so little that the law is straight about the rest
+      loop.disturbance = 1e-7 * sand.depth / d.scale;  // so small that the law is linear about the rest
       loop.far = 1e4 * loop.disturbance;
       loop.against = sand;
     }
@@ -72,8 +73,8 @@ double passive_gain(const LoopSettings& settings) {
 
 namespace {
 
-/// The gain at which a little disturbance stops dying out and starts to grow, by bisection on the simulated
-/// loop to 0.1 %.
+/// The gain at which a small disturbance starts to grow instead of dying out. Found to 0.1 % by bisection on
+/// the simulated loop.
 double measured_boundary_gain(const LoopSettings& settings) {
   constexpr std::int64_t ticks = 20'000;
   const auto settles = [&](double gain) { return run_loop(with_gain(settings, gain), ticks).growth < 1.0; };

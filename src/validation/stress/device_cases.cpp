@@ -15,7 +15,7 @@ namespace {
 
 constexpr double hand_depth = 0.015;                      // m, where the hand wants the tool
 constexpr double plunged = 0.4, drawn = 1.2, held = 2.4;  // s, when each part of the stroke ends
-constexpr double rests_within = 1e-3;                     // N, peak to peak, of the force on it
+constexpr double rests_within = 1e-3;  // N: a tool at rest feels a force that swings by less, peak to peak
 
 /// The paper's sand on a small bed, and a device with a force limit and exact encoders.
 Scene small_scene() {
@@ -27,7 +27,7 @@ Scene small_scene() {
   return scene;
 }
 
-/// Of device positions, so that in the bed it is the same for every scale.
+/// The stroke, in positions of the device. In the bed it is the same for every scale.
 Stroke plunge_draw_and_hold(double scale) {
   Stroke stroke;
   stroke.time = {0.0, plunged, drawn, held};
@@ -44,7 +44,7 @@ struct Outcome {
   std::vector<TickRecord> ticks;
 };
 
-/// N, peak to peak along any axis, of the force from one time [s] to another.
+/// The force's largest swing along any axis [N], peak to peak, between two times [s].
 double swing_between(const std::vector<TickRecord>& ticks, double from, double to) {
   Eigen::AlignedBox3d forces;
   for (const TickRecord& tick : ticks)
@@ -59,7 +59,7 @@ Outcome simulate(const Scene& scene) {
     const RunResult result =
         solve(scene, starting_bed(scene.bed), plunge_draw_and_hold(scene.device.scale), {&ticks}).result;
     const DeviceResult& device = result.device;
-    // At the end the tool is held: there it rests, or still creeps to rest, or swings.
+    // At the end the hand holds the tool. The tool then rests, creeps to rest, or swings.
     const double swing = swing_between(ticks.values, held - 0.25, held);
     const bool creeps = swing < 0.7 * swing_between(ticks.values, held - 0.5, held - 0.25);
     outcome.verdict = swing < rests_within || creeps ? Verdict::stable : Verdict::limit_cycle;
@@ -80,7 +80,7 @@ Outcome simulate(const Scene& scene) {
   return outcome;
 }
 
-/// The loop about the depth at which the hand's spring and the sand are in balance.
+/// The loop about the depth where the hand's spring and the sand balance.
 LoopSettings about_balance(const Scene& scene) {
   const double scale = scene.device.scale;
   const double rest = boundary_between(0.0, hand_depth, 60, mean, [&](double depth) {
@@ -137,7 +137,7 @@ Scene scene_of(const Plan& plan) {
   return scene;
 }
 
-/// Series over time, one from each simulation.
+/// Runs each scene and takes one series over time from each.
 StressTrace trace_of(const char* name, const char* title, const char* text, const char* y_name, double until,
                      const std::vector<std::pair<std::string, Scene>>& scenes,
                      const std::function<double(const TickRecord&)>& value) {

@@ -4,9 +4,9 @@
 
 namespace sandstroke {
 
-/// Whole simulations on a small bed: a dynamic device is plunged into sand, drawn along and held, by loops
-/// that are stable and loops that are not. Adds cases with their energy account, and traces of the paper's
-/// remark (a late loop sinks too deep and is thrown back) and of both kinds of drag.
+/// Runs whole simulations on a small bed. A hand plunges a dynamic device into sand, draws it along and holds
+/// it; some loops are stable, some are not. Adds cases with their energy account, and traces of both kinds of
+/// drag and of the paper's remark (a late loop sinks too deep and is thrown back).
 void add_device_cases(StressReport& report);
 
 }  // namespace sandstroke

@@ -12,7 +12,7 @@ namespace {
 
 using State = SimulatedDevice::State;
 
-/// N, on the device at its rest.
+/// The force on the device at rest [N].
 Eigen::Vector3d force_at_rest(const LoopSettings& settings) {
   if (const auto* yielding = std::get_if<YieldingSand>(&settings.against))
     return {0.0, 0.0, YieldingSand::share_at_rest * yielding->strength};
@@ -66,7 +66,7 @@ DeviceLoop::DeviceLoop(const LoopSettings& settings)
       late_force_(settings.device, force_at_rest(settings)),
       force_(force_at_rest(settings)),
       read_z_(rest_.position.z()) {
-  // At rest the hand's spring holds what sand and damping take: k_h lead = b v - F.
+  // At rest the hand's spring balances sand and damping: k_h lead = b v - F.
   const DeviceSettings& d = settings.device;
   const Eigen::Vector3d held = d.damping * rest_.velocity - force_;
   if (!held.isZero(0.0)) lead_ = held / d.hand_stiffness;
@@ -117,7 +117,7 @@ LoopRun run_loop(const LoopSettings& settings, std::int64_t ticks) {
     for (std::int64_t k = 0; k < window; ++k) {
       places.extend(loop.heading_off_rest());
       loop.tick();
-      if (!(loop.off_rest().cwiseAbs().maxCoeff() < settings.far)) {  // NaN is far, too
+      if (!(loop.off_rest().cwiseAbs().maxCoeff() < settings.far)) {  // NaN also counts as far
         const double infinite = std::numeric_limits<double>::infinity();
         return {Verdict::diverged, infinite, infinite};
       }

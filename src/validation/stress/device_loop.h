@@ -10,59 +10,59 @@
 
 namespace sandstroke {
 
-/// A two-sided spring and damper along z, as the device feels it, at rest at z = 0.
+/// A spring and damper along z that push and pull, as the device feels them. Their rest is at z = 0.
 struct Wall {
   double stiffness = 0.0;  ///< N/m
   double damping = 0.0;    ///< N s/m
 };
 
-/// The sand as it is, one-sided, its level at z = 0 whatever the tool does (displacement does not change the
-/// level under the tool). The hand presses the tool to `depth` and draws it along x.
+/// The model's sand: it only pushes. Its level stays at z = 0, since displacement does not change the level
+/// under the tool. The hand presses the tool to `depth` and draws it along x.
 struct PressedSand {
   ForceSettings force;
   double depth = 0.0;  ///< m in the bed, > 0
   double speed = 0.0;  ///< m/s of the device
 };
 
-/// The sand of force.law = "rft" under a tool that trembles about its rest, along z: a force that is all
-/// there after the yield way and turns round as the tool does (ResistiveForce). At rest it is half of what it
-/// may be, so that it resists either way as a spring of strength / yield.
+/// The sand of force.law = "rft" under a tool that trembles about its rest along z (ResistiveForce). The
+/// force is complete after the yield way, and reverses when the tool does. At rest it is half of its maximum,
+/// so it resists both directions as a spring of strength / yield.
 struct YieldingSand {
-  double strength = 0.0;  ///< N, when it has yielded
+  double strength = 0.0;  ///< N, the force once the sand has yielded
   double yield = 0.001;   ///< m in the bed
   static constexpr double share_at_rest = 0.5;
 };
 
-/// A dynamic device held against something by a hand, a little off its rest at first.
+/// A dynamic device that a hand holds against something. It starts a little off its rest.
 struct LoopSettings {
   DeviceSettings device;
   std::variant<Wall, PressedSand, YieldingSand> against;
-  double disturbance = 1e-6;  ///< m, along z and, in sand, x
-  double far = 1e3;           ///< m off its rest, where a device has diverged
+  double disturbance = 1e-6;  ///< m, along z and, in PressedSand, x
+  double far = 1e3;           ///< m off its rest: a device beyond it has diverged
 };
 
-/// The same with all of its forces `gain` times as strong at the same place (for sand: k_s, strength).
+/// Multiplies all forces at the same place by `gain` (for sand: k_s or strength).
 LoopSettings with_gain(LoopSettings settings, double gain);
 
-/// What resists the device's motion along x and z about its rest.
+/// The stiffness and damping that resist the device's motion along x and z about its rest.
 struct FeltAlong {
   Wall x, z;
 };
 FeltAlong felt_about_rest(const LoopSettings& settings);
 
-/// Device, force model, delay and dropped ticks, tick by tick.
+/// Simulates device, force model, delay and dropped ticks, tick by tick.
 class DeviceLoop {
  public:
   explicit DeviceLoop(const LoopSettings& settings);
 
   void tick();
-  /// m, from where the device would rest or, drawn along, steadily be.
+  /// Distance [m] from the device's rest or, when drawn along, from its steady place.
   Eigen::Vector3d off_rest() const;
-  /// m, from where it would be a tick later, with the speed that it has. At half the servo rate a device
-  /// turns round within each tick and is in the same place at every start of one: only its speed tells.
+  /// off_rest() one tick later [m], if the device kept its speed. A device that swings at half the servo rate
+  /// is at the same place at the start of every tick: only its speed shows the swing.
   Eigen::Vector3d heading_off_rest() const;
   const SimulatedDevice& device() const { return device_; }
-  const Eigen::Vector3d& force() const { return force_; }  ///< N, that acted in the last tick
+  const Eigen::Vector3d& force() const { return force_; }  ///< N, acted in the last tick
 
  private:
   SimulatedDevice::State hand_at(std::int64_t tick) const;
@@ -71,12 +71,12 @@ class DeviceLoop {
   LoopSettings settings_;
   std::int64_t tick_ = 0;
   SimulatedDevice::State rest_;  // of the device, in tick 0
-  Eigen::Vector3d lead_;         // m, of the hand before the device at rest
+  Eigen::Vector3d lead_;         // m, how far the hand is ahead of the device at rest
   SimulatedDevice device_;
   LateForce late_force_;
   Eigen::Vector3d force_;
-  double yielded_ = YieldingSand::share_at_rest;  // of YieldingSand, the share of its strength, -1 to 1,
-  double read_z_;                                 // m of the device, there
+  double yielded_ = YieldingSand::share_at_rest;  // YieldingSand: force over strength, -1 to 1, and
+  double read_z_;                                 // where the device was read then, m
 };
 
 struct LoopRun {
@@ -85,13 +85,13 @@ struct LoopRun {
   double growth = 0.0;  ///< swing of the last window over that of one half the run earlier
 };
 
-/// Runs the loop for so many ticks or until it is decided, by the swing, peak to peak, over each of 16
+/// Runs the loop for `ticks`, or until the verdict is clear from the peak-to-peak swing in each of 16
 /// windows:
-/// - diverged: off its rest by more than `far`; against a wall, where what grows grows for ever, also where
-///   the swing doubled over the second half.
-/// - stable: the swing fell to 1e-4 of the disturbance, or to less than half over the second half and still
-///   falls, or is within one step of the encoders, which they cannot tell from rest.
-/// - limit_cycle: neither. A dither of more than one encoder step is one, by quantisation.
+/// - diverged: the device is farther than `far` off its rest. Against a wall, where a growing swing grows for
+///   ever, a swing that doubled over the second half is enough.
+/// - stable: the swing fell to 1e-4 of the disturbance; or it fell by more than half over the second half and
+///   still falls; or it is within one step of the encoders, which they cannot tell from rest.
+/// - limit_cycle: all others. A dither of more than one encoder step, caused by rounding, is one.
 LoopRun run_loop(const LoopSettings& settings, std::int64_t ticks);
 
 }  // namespace sandstroke

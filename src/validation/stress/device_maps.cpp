@@ -8,7 +8,7 @@
 namespace sandstroke {
 namespace {
 
-constexpr double pressing = 3.0;      // N, what the paper feels
+constexpr double pressing = 3.0;      // N, the largest force in the paper
 constexpr double force_limit = 12.0;  // N, of its omega3
 constexpr const char* eigenvalue = "eigenvalue of the exact tick leaves the unit circle";
 constexpr const char* passive = "Colgate & Schenkel: b = K (T/2 + delay) + |B|";
@@ -19,7 +19,7 @@ DeviceSettings limited_device() {
   return device;
 }
 
-/// Pressed to a depth, disturbed so little that the law is straight about it.
+/// The loop pressed to a depth, disturbed so little that the law is linear there.
 LoopSettings pressed_to(double depth, const DeviceSettings& device, const ForceSettings& force) {
   LoopSettings loop;
   loop.device = device;
@@ -32,7 +32,7 @@ LoopSettings pressed_with(double newton, const DeviceSettings& device, const For
   return pressed_to(depth_of_repulse_force(newton, force), device, force);
 }
 
-/// Sand without drag whose stiffness, as the device feels it under the pressing force, is K.
+/// The loop in sand without drag. Under the pressing force the device feels the stiffness K.
 LoopSettings sand_of_stiffness(double K, const DeviceSettings& device) {
   ForceSettings force;
   force.k_f = 0.0;
@@ -60,8 +60,8 @@ LoopMapPlan plan(std::string name, std::string title, std::string text, MapAxis 
            {passive, [](const LoopSettings& at) { return passivity_margin(at); }}}};
 }
 
-/// With dropped ticks: the random products of exact tick maps decide as an eigenvalue does; and where the
-/// dampers take what the oldest force can return, the loop must be stable.
+/// The map with dropped ticks. Random products of exact tick maps decide, as an eigenvalue does without
+/// drops. Where the dampers take all energy that the oldest force can return, the loop must be stable.
 LoopMapPlan dropped_ticks(const MapAxis& x, const MapAxis& stiffness) {
   LoopMapPlan map =
       plan("dropped-stiffness", "Dropped ticks and stiffness",
@@ -88,7 +88,7 @@ LoopMapPlan dropped_ticks(const MapAxis& x, const MapAxis& stiffness) {
   return map;
 }
 
-/// With encoders: a loop that settles dithers at most by what their rounding can cause.
+/// The map with encoders. A loop that settles dithers at most as much as their rounding can cause.
 LoopMapPlan encoder_steps(const MapAxis& x, const MapAxis& stiffness) {
   LoopMapPlan map = plan("encoder-stiffness", "Encoder resolution and stiffness",
                          "Sand under 3 N at 1 kHz, 12 N at most. Rounded positions make a loop dither that "
@@ -112,14 +112,14 @@ LoopMapPlan encoder_steps(const MapAxis& x, const MapAxis& stiffness) {
     if (!settles) return run.verdict == Verdict::diverged;
     const double most = swing_of_encoders(loop);
     const double depth = std::get<PressedSand>(loop.against).depth;
-    if (2.0 * most > depth) return run.verdict == Verdict::diverged;  // it may leave the sand
+    if (2.0 * most > depth) return run.verdict == Verdict::diverged;  // the tool may leave the sand
     return run.swing > std::max(most, 0.02 * loop.disturbance);
   };
   map.curves.insert(map.curves.begin() + 1, {"rounding can cause a swing of one step", dither});
   return map;
 }
 
-/// Drawn along at 0.1 m/s through the paper's sand.
+/// The map of a device drawn at 0.1 m/s through the paper's sand.
 LoopMapPlan drag(DragVelocity velocity, const MapAxis& k_f, const MapAxis& force) {
   const bool implicit = velocity == DragVelocity::implicit;
   return plan(implicit ? "drag-implicit" : "drag-sampled",

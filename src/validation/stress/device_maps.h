@@ -4,7 +4,7 @@
 
 namespace sandstroke {
 
-/// Where the device loop is stable, swings or diverges, over pairs of its settings.
+/// Plans maps that show, over pairs of settings, where the device loop is stable, swings or diverges.
 std::vector<LoopMapPlan> device_map_plans(bool quick);
 
 }  // namespace sandstroke

@@ -49,7 +49,7 @@ void add_boundaries(StressReport& report) {
   report.boundaries.insert(report.boundaries.end(), found.begin(), found.end());
 }
 
-/// Drawn along under 3 N: the largest k_f that is stable.
+/// Finds the largest stable k_f for a device drawn along under 3 N.
 void add_drag_gain(StressReport& report) {
   LoopSettings loop;
   loop.device = ideal_device();

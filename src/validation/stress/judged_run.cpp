@@ -14,7 +14,7 @@ bool monotone(const RelaxationSettings& settings) {
   return settings.law != RelaxationLaw::paper || settings.method == RelaxationMethod::rkl;
 }
 
-/// What is wrong with a run that ended; empty: nothing.
+/// Says what is wrong with a run that ended. Empty: nothing is wrong.
 std::string fault_of(const HeightGrid& start, const HeightGrid& end, double cell_area, bool keeps_range,
                      JudgedRun& run) {
   if (!end.isFinite().all()) return "a height is not a number";

@@ -9,7 +9,7 @@
 namespace sandstroke {
 namespace {
 
-/// Where value(y) changes its sign from one of the axis's values to the next, first from below.
+/// The lowest place on the axis where value(y) changes its sign between neighbouring values.
 template <class Value>
 std::optional<double> sign_change(const MapAxis& axis, const Value& value) {
   for (std::size_t i = 0; i + 1 < axis.values.size(); ++i) {

@@ -12,11 +12,11 @@
 namespace sandstroke {
 namespace {
 
-constexpr double band = 0.05;     // of the gain, about the boundary
-constexpr double shown_by = 3.0;  // growth or decay over the second half of a run that shows its side
+constexpr double band = 0.05;     // half width about the boundary, as a fraction of the gain
+constexpr double shown_by = 3.0;  // growth or decay over a run's second half that shows on which side it is
 constexpr double least_ticks = 4e3, most_ticks = 3e5;
 
-/// (k_x, k_v) of the force -k_x x - k_v v.
+/// The factors (k_x, k_v) of the force -k_x x - k_v v.
 Eigen::RowVector2d feedback(const DeviceSettings& device, const Eigen::Matrix<double, 2, 5>& map,
                             const Wall& felt, bool implicit) {
   if (!implicit) return {felt.stiffness, felt.damping};
@@ -37,7 +37,7 @@ double spectral_radius(const LoopSettings& settings, const Wall& felt) {
   return sandstroke::spectral_radius(loop_map(settings, felt));
 }
 
-/// Logarithm of the growth per tick, with the gain changed.
+/// Logarithm of the growth per tick at this gain.
 double growth_at(const LoopSettings& settings, double gain) {
   const LoopSettings changed = with_gain(settings, gain);
   return std::log(settings.device.dropped_ticks > 0.0 ? mean_growth_with_drops(changed)
@@ -80,7 +80,7 @@ double margin_by_age(const LoopSettings& settings, std::int64_t ticks) {
 }
 
 double mean_growth_with_drops(const LoopSettings& settings) {
-  constexpr int first = 1'000, ticks = 20'000;  // the first ones turn the state to what grows most
+  constexpr int first = 1'000, ticks = 20'000;  // the first ones turn the state to the fastest growth
   const Wall felt = felt_about_rest(settings).z;
   const Eigen::Matrix<double, 2, 5> map = device_tick_map(settings.device);
   Eigen::Matrix3d dropped = Eigen::Matrix3d::Identity();
@@ -88,7 +88,7 @@ double mean_growth_with_drops(const LoopSettings& settings) {
   Eigen::Matrix3d fresh = Eigen::Matrix3d::Zero();
   fresh.bottomLeftCorner<1, 2>() << -felt.stiffness, -felt.damping;
   fresh.topLeftCorner<2, 2>() = map.leftCols<2>() + map.col(4) * fresh.bottomLeftCorner<1, 2>();
-  std::mt19937 random(1);  // another sequence than drops_tick's
+  std::mt19937 random(1);  // not the sequence of drops_tick
   Eigen::Vector3d state(1.0, 0.0, -felt.stiffness);
   double logarithm = 0.0;
   for (int k = -first; k < ticks; ++k) {
@@ -118,7 +118,8 @@ std::int64_t ticks_to_decide(const LoopSettings& settings) {
   const double slowest =
       std::min(std::abs(growth_at(settings, 1.0 - band)), std::abs(growth_at(settings, 1.0 + band)));
   const double to_show = 2.0 * std::log(shown_by) / slowest;
-  const double to_forget = 2.0 * std::log(1e8) / std::abs(growth_at(settings, 0.0));  // how it began
+  const double to_forget =
+      2.0 * std::log(1e8) / std::abs(growth_at(settings, 0.0));  // the free device's start
   return static_cast<std::int64_t>(std::clamp(std::max(to_show, to_forget), least_ticks, most_ticks));
 }
 
@@ -129,8 +130,8 @@ std::vector<Verdict> expected_verdicts(const LoopSettings& settings, std::int64_
   if (std::max(weaker, stronger) < -shown) return {stable};
   if (std::min(weaker, stronger) < shown) return {stable, limit_cycle, diverged};
   if (std::holds_alternative<Wall>(settings.against)) return {diverged};
-  // What yields is never stronger than it is, and takes energy: thrown off its rest the device swings, or it
-  // comes to rest where the sand has yielded.
+  // Yielding sand has a greatest force and takes energy. A device thrown off its rest swings, or comes to
+  // rest where the sand has yielded.
   if (std::holds_alternative<YieldingSand>(settings.against)) return {stable, limit_cycle};
   if (settings.device.max_force > 0.0) return {limit_cycle};
   return {limit_cycle, diverged};

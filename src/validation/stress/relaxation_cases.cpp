@@ -1,4 +1,5 @@
-// Beds that no one would draw: relaxation ends, conserves and stays in range, or is refused in a sentence.
+// Beds that no user would draw. Relaxation ends, keeps the volume and the range of heights, or is refused
+// with an error sentence.
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
@@ -20,7 +21,7 @@ const char* name_of(BedKind kind) {
   return names[static_cast<int>(kind)];
 }
 
-/// Cells, and their size [m].
+/// Counts of cells, and their size [m].
 struct BedSize {
   int rows, cols;
   double dx;
@@ -72,7 +73,7 @@ struct Method {
   OwnLawSettings own = {};
 };
 
-/// The program's, or those of a plugin.
+/// The program's methods of relaxation, or those of a plugin.
 std::vector<Method> methods_of(const StressOptions& options) {
   if (options.own.empty())
     return {{"paper, passes", RelaxationLaw::paper, RelaxationMethod::passes},
@@ -102,14 +103,15 @@ Variations variations(std::string name, std::string settings, std::vector<Verdic
   return {"relaxation", std::move(name), std::move(settings), std::move(expected)};
 }
 
-/// One kind of bed at one talus angle, of any size. Up to so many cells high; beyond, see towers().
+/// Relaxes one kind of bed at one talus angle, in many sizes. Heights go up to `most` cells; towers() goes
+/// beyond.
 StressCase beds(const Method& method, BedKind kind, double talus_angle, bool quick) {
   using Values = std::vector<double>;
   const Values heights =
       quick ? Values{1e-310, 1e-12, 1e-4, 1e4} : Values{5e-324, 1e-310, 1e-12, 1e-6, 1e-3, 1.0, 1e3, 1e6};
   const Values cell_sizes = quick ? Values{1e-6, 1e3} : Values{1e-6, 1e-3, 1.0, 1e3};
   const double most = quick ? 100.0 : 1000.0;
-  const bool few_cells = quick && !method.own.relaxation.empty();  // it may go through all, at no great speed
+  const bool few_cells = quick && !method.own.relaxation.empty();  // a plugin law may visit all, slowly
   Variations all = variations(
       fmt::format("{}, {}, talus {}", method.name, name_of(kind), talus_angle),
       fmt::format("talus angle {} deg; cells of 1e-6 to 1e3 m; heights from {} m to {} cells; 1 x 1, "
@@ -130,8 +132,8 @@ StressCase beds(const Method& method, BedKind kind, double talus_angle, bool qui
   return all.done();
 }
 
-/// Higher than there is room to fall, and than doubles resolve a talus drop: the allowed passes end it,
-/// unless what flows falls below rounding first.
+/// Relaxes beds higher than the bed has room for, and so high that doubles no longer resolve a talus drop.
+/// They end with the allowed passes, or when the flow falls below rounding.
 StressCase towers(const Method& method, bool quick) {
   const int passes = quick ? 100 : 2000;
   Variations all = variations(fmt::format("{}, towers", method.name),
@@ -149,11 +151,11 @@ StressCase towers(const Method& method, bool quick) {
   return all.done();
 }
 
-/// The isotropic law and that of faces are monotone up to a share of 1/4, and refused beyond (rkl as well,
-/// which takes c from it). The paper's is monotone at no share, its own 1/2 included: a pit takes from 8
-/// sides. But a cell gives no more than its steepest excess, so what was heaped too high falls back in the
-/// next pass onto all 8: it comes to rest at any share up to 1, in fewer passes. (So did 360,000 runs on
-/// 60,000 random beds of up to 9 x 12 cells.)
+/// Relaxes beds with one share of a pass. The laws `isotropic` and `faces` are monotone up to a share of 1/4,
+/// and refused beyond (also with rkl, which takes c from the share). The paper's law is monotone at no share,
+/// even its own 1/2: a pit takes sand from 8 sides. But a cell gives no more than its steepest excess, so
+/// sand heaped too high falls back onto all 8 in the next pass. The bed comes to rest at any share up to 1,
+/// in fewer passes (as in 360,000 runs on 60,000 random beds of up to 9 x 12 cells).
 StressCase shares(const Method& method, double share, bool quick) {
   const double most = quick ? 50.0 : 500.0;
   const bool refused = method.law != RelaxationLaw::paper && share > 0.25;
@@ -171,7 +173,7 @@ StressCase shares(const Method& method, double share, bool quick) {
   return all.done();
 }
 
-/// What no double can hold.
+/// Relaxes beds whose numbers no double can hold.
 StressCase beyond_numbers(const Method& method) {
   Variations all = variations(fmt::format("{}, beyond numbers", method.name),
                               "cells of 1e-307, 1e-160 and 1e110 m; heights of 1e307 m; at most 100 passes",

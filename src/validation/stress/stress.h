@@ -4,16 +4,16 @@
 
 namespace sandstroke {
 
-/// All parts, one after the other; what is missing where it was interrupted() is no surprise.
+/// Runs all parts, one after the other. Parts missing after interrupted() are no surprise.
 StressReport stress_all(const StressOptions& options);
 
-// The parts of the stress test. Each adds its cases, maps, boundaries and traces to the report.
+// The parts of the stress test. Each adds cases, maps, boundaries and traces to the report.
 
-/// The haptic loop against wall and sand: where it is stable, swings or diverges.
+/// Seeks where the haptic loop, against wall and sand, is stable, swings or diverges.
 void stress_device_loop(StressReport& report, const StressOptions& options);
-/// Beds that no one would draw.
+/// Relaxes beds that no user would draw.
 void stress_relaxation(StressReport& report, const StressOptions& options);
-/// Strokes that no hand would make.
+/// Runs strokes that no hand would make.
 void stress_strokes(StressReport& report, const StressOptions& options);
 
 }  // namespace sandstroke

@@ -9,21 +9,21 @@
 
 namespace sandstroke {
 
-/// How a case ended. stable: to rest, or bounded as it should be. limit_cycle: bounded, but it never comes to
-/// rest. diverged: beyond all bounds. refused: an Error told the user why, before or while it ran.
-/// not_converged: still moving when the allowed passes were used up. broken: sand lost, out of range, not a
-/// number, or no end: never expected.
+/// How a case ended. stable: it came to rest, or stayed bounded as it should. limit_cycle: bounded, but never
+/// at rest. diverged: beyond all bounds. refused: an Error told the user why, before or while it ran.
+/// not_converged: still moving after all allowed passes. broken: sand was lost, out of range or not a number,
+/// or the run did not end. Nobody expects that.
 enum class Verdict { stable, limit_cycle, diverged, refused, not_converged, broken };
 const char* name_of(Verdict verdict);
 bool is_among(Verdict verdict, const std::vector<Verdict>& expected);
 
-/// One case and what was expected of it. `expected` may allow several: the theory then decides no further.
+/// One case and its expected verdicts. There may be several: then theory does not say which.
 struct StressCase {
   std::string group, name;
-  std::string settings;  ///< for a person: what was set, with units
+  std::string settings;  ///< the settings in words, with units
   std::vector<Verdict> expected;
   Verdict verdict = Verdict::broken;
-  std::string detail;  ///< what was measured, or the sentence of a refusal
+  std::string detail;  ///< what was measured, or the error sentence of a refusal
   bool surprise() const;
 };
 
@@ -33,13 +33,13 @@ struct MapAxis {
   std::vector<double> values;
 };
 
-/// A line in a map: where theory says the boundary is, or where it was measured.
+/// A line in a map: the boundary by theory, or as measured.
 struct MapCurve {
   std::string name;
   std::vector<std::pair<double, double>> points;  ///< x, y
 };
 
-/// Verdicts over two settings, row = y index, col = x index. A cell may expect several verdicts.
+/// Verdicts over two settings: row = y index, col = x index. A cell may expect several verdicts.
 struct StabilityMap {
   std::string name, title, text;
   MapAxis x, y;
@@ -48,15 +48,15 @@ struct StabilityMap {
   std::vector<MapCurve> curves;
 };
 
-/// A stability boundary: measured by bisection, and where an eigenvalue of the exact one-tick map leaves the
-/// unit circle.
+/// A stability boundary. measured: by bisection. exact: where an eigenvalue of the exact one-tick map leaves
+/// the unit circle.
 struct Boundary {
   std::string settings;
   double measured = 0.0, exact = 0.0;  ///< N/m
-  double passive = 0.0;                ///< N/m, up to which Colgate & Schenkel's condition holds
+  double passive = 0.0;                ///< N/m, Colgate & Schenkel's condition holds up to it
 };
 
-/// Values over time, to look at.
+/// Values over time, for a chart.
 struct StressTrace {
   std::string name, title, text, y_name;
   std::vector<double> time;                                         ///< s
@@ -74,12 +74,12 @@ struct StressReport {
 
 struct StressOptions {
   bool quick = false;  ///< coarser maps, fewer and shorter cases: under a minute
-  /// Laws of a plugin, each in settings of its own: then they are tested, and not the program's.
+  /// Plugin laws, each in its own settings. If there are any, they are tested instead of the program's.
   std::vector<OwnLawSettings> own;
-  std::function<void(double)> progress = [](double) {};  ///< share of the whole that is done
+  std::function<void(double)> progress = [](double) {};  ///< gets the fraction of the test that is done
 };
 
-/// The page's data.
+/// The data of the HTML page.
 nlohmann::ordered_json as_json(const StressReport& report);
 
 }  // namespace sandstroke

@@ -1,4 +1,4 @@
-// Strokes that no hand would make: the run ends, all numbers are finite, and no sand is lost.
+// Strokes that no hand would make. The run ends, all numbers are finite, and no sand is lost.
 #include <spdlog/fmt/fmt.h>
 
 #include <cmath>
@@ -11,10 +11,10 @@
 namespace sandstroke {
 namespace {
 
-constexpr double half = 0.15;  // m, of the bed's sides
-constexpr int cells = 150;     // along each
+constexpr double half = 0.15;  // m, half of the bed's side
+constexpr int cells = 150;     // along each side
 
-/// Where the hand is [m] at a time from 0 to 1 s.
+/// The hand's position [m] at a time [s].
 using Motion = std::function<Eigen::Vector3d(double)>;
 
 struct ExtremeStroke {
@@ -59,7 +59,7 @@ Stroke stroke_of(const Motion& at, double seconds, double rate) {
   return stroke;
 }
 
-/// A preset of the program's, or the paper's with a law of a plugin.
+/// A preset of the program, or the paper's with a plugin law.
 struct Model {
   std::string name;
   ModelPreset preset;
@@ -88,7 +88,7 @@ Scene scene_of(const Model& model, DeviceModel device) {
   return scene;
 }
 
-/// What a stroke comes to on a flat bed.
+/// Runs a stroke on a flat bed and judges it.
 StressCase play(const Scene& scene, const Stroke& stroke, std::string name, std::string settings,
                 std::vector<Verdict> expected) {
   const JudgedRun run = judged_run(scene, starting_bed(scene.bed), stroke);
@@ -100,11 +100,11 @@ StressCase play(const Scene& scene, const Stroke& stroke, std::string name, std:
           std::move(expected), run.verdict,     run.reason.empty() ? figures : run.reason};
 }
 
-/// One stroke with both devices, as they are and without a limit. The limited device's force is bounded at
-/// any depth, and its hand and mass are a stable linear system: it stays bounded. Without a limit, the
-/// kinematic device cannot diverge, but its force may exceed all numbers, which is refused; the dynamic one
-/// may do both, but not down to a metre: k_f |F_r| stays below the 2 m / T that sampled drag bears, or
-/// nothing moves sideways. (Of a plugin's force nothing is known without a limit.)
+/// Runs one stroke with both devices, with and without a force limit. With a limit, the force is bounded at
+/// any depth, and hand and mass are a stable linear system: the device stays bounded. Without a limit, the
+/// kinematic device cannot diverge, but its force may overflow, which is refused. The dynamic device may
+/// diverge or overflow, but not down to a metre: there k_f |F_r| stays below the 2 m / T that sampled drag
+/// bears, or nothing moves sideways. (Nothing is known of a plugin's force without a limit.)
 void play_extreme(StressReport& report, const ExtremeStroke& extreme, const Model& model,
                   const Stroke& stroke) {
   const double deepest = -stroke.position.back().z();
@@ -113,7 +113,7 @@ void play_extreme(StressReport& report, const ExtremeStroke& extreme, const Mode
       const bool dynamic = device == DeviceModel::dynamic;
       Scene scene = scene_of(model, device);
       std::vector<Verdict> expected = {Verdict::stable};
-      if (deepest > 1.0) {  // a tower of what was there, see the relaxation's
+      if (deepest > 1.0) {  // the displaced sand stands as a tower, see relaxation_cases.cpp
         scene.relaxation.max_passes = 20;
         expected.push_back(Verdict::not_converged);
       }
@@ -130,7 +130,7 @@ void play_extreme(StressReport& report, const ExtremeStroke& extreme, const Mode
     }
 }
 
-/// Hours at the servo: neither a tool that rests nor one that never stops loses sand, however many ticks.
+/// Runs a stroke of hours. A tool that rests, or that never stops, loses no sand in any number of ticks.
 void play_long(StressReport& report, const Model& model, const char* name, const Motion& at, double seconds,
                double rate) {
   Stroke stroke = stroke_of(at, seconds, rate);
@@ -140,7 +140,7 @@ void play_long(StressReport& report, const Model& model, const char* name, const
            fmt::format("5 or 6 mm deep, {:.0f} ticks at 1 kHz", 1000.0 * seconds), {Verdict::stable}));
 }
 
-/// What no bed, and no clock, has room for.
+/// Adds strokes that leave the bed or take too long: they must be refused.
 void refuse(StressReport& report) {
   const Scene scene = scene_of({"paper", ModelPreset::paper}, DeviceModel::kinematic);
   const Motion leaves = [](double t) { return V(0.2 * t, 0.0, -0.005); };
@@ -154,7 +154,7 @@ void refuse(StressReport& report) {
 }  // namespace
 
 void stress_strokes(StressReport& report, const StressOptions& options) {
-  const double short_ones = options.quick ? 0.8 : 0.05;  // of the time they all take
+  const double short_ones = options.quick ? 0.8 : 0.05;  // their fraction of the time of all strokes
   const double seconds = options.quick ? 0.5 : 1.0;
   const std::vector<Model> models = models_of(options);
   const double share = 1.0 / static_cast<double>(models.size());

@@ -72,8 +72,8 @@ Problem plunge_problem(const ProblemOptions& options) {
 }
 
 Problem drag_problem(const ProblemOptions& options) {
-  // In a slot that the tip fits into without touching it nothing is pushed aside, so that depth and force
-  // stay: the level is that of a disk across the slot.
+  // The tip fits into a slot without touching the sand. Nothing is displaced, so depth and force stay
+  // constant. The level is the mean over a disk across the slot.
   Problem problem =
       work_problem("drag", "Work of a drag",
                    "The tip is drawn along a slot that it fits into without touching the sand, so "
@@ -86,10 +86,10 @@ Problem drag_problem(const ProblemOptions& options) {
     Scene scene = contact_scene(20.0 * radius, cells, 1000.0);
     scene.relaxation.talus_angle = 89.9;  // the walls stand
     HeightField bed(cells, cells, scene.bed.cell_size());
-    const double dx = bed.cell_size(), centre = 0.13 * dx;  // m, of the slot: no grid line is special
+    const double dx = bed.cell_size(), centre = 0.13 * dx;  // m, the slot's middle, off every grid line
     for (int row = 0; row < cells; ++row) {
       const double from_wall = half_width - std::abs(bed.y_of(row) - centre);
-      const double share = std::clamp(from_wall / dx + 0.5, 0.0, 1.0);  // of the cell that is slot
+      const double share = std::clamp(from_wall / dx + 0.5, 0.0, 1.0);  // fraction of the cell in the slot
       for (int col = 0; col < cells && share > 0.0; ++col) bed.set(row, col, -slot_depth * share);
     }
     bed.clear_disturbed();

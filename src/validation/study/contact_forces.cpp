@@ -1,4 +1,4 @@
-// The force of the contact (force.law = "rft"), against closed forms and the theory summed over a sphere.
+// The contact force (force.law = "rft"), against closed forms and the theory summed over a sphere.
 #include <spdlog/fmt/fmt.h>
 
 #include <cmath>
@@ -13,21 +13,21 @@
 namespace sandstroke {
 namespace {
 
-/// Of the last tick that it was told of.
+/// Keeps the force of the last tick.
 class LastWrench : public SimulationObserver {
  public:
   void on_tick(const TickRecord& tick) override { force = tick.wrench.force; }
   Eigen::Vector3d force = Eigen::Vector3d::Zero();  ///< N
 };
 
-/// Sand that yields at once (0.001 mm), so that force.yield is no error of the cells.
+/// A scene whose sand yields at once (0.001 mm), so that force.yield adds no error to that of the cells.
 Scene felt_scene(const ToolSettings& tool, double cell, double tool_friction) {
   constexpr double width = 0.16;  // m
   Scene scene = contact_scene(width, static_cast<int>(std::lround(width / cell)), 1000.0);
   scene.preset = ModelPreset::accurate;
   apply_model_preset(scene);
   scene.relaxation.way = 0.0;
-  scene.relaxation.max_passes = 0;  // what the sand does afterwards is nothing to the force
+  scene.relaxation.max_passes = 0;  // relaxation would not change the force
   scene.tool = tool;
   scene.tool.solid = true;
   scene.tool.profile = ToolProfile::sphere;
@@ -37,8 +37,8 @@ Scene felt_scene(const ToolSettings& tool, double cell, double tool_friction) {
   return scene;
 }
 
-/// Straight down to `depth` [m] at 50 mm/s, and then `drag` [m] along x; where cells of `cell` [m] are, no
-/// grid line is special.
+/// The stroke goes straight down to `depth` [m] at 50 mm/s, and then `drag` [m] along x. With cells of `cell`
+/// [m] it lies off every grid line.
 Stroke push(double cell, double depth, double drag) {
   constexpr double speed = 0.05, above = 0.001;  // m/s, m
   const double x = 0.3 * cell, y = 0.17 * cell;
@@ -48,7 +48,7 @@ Stroke push(double cell, double depth, double drag) {
   return straight(places, seconds);
 }
 
-/// The force's part along `axis`, against `exact` [N].
+/// Compares the force along `axis` with `exact` [N].
 Contender force_contender(const std::string& series, const std::string& label, const Scene& scene,
                           int threads, double step, const Stroke& stroke, int axis, double exact) {
   return {series, label, settings_of(scene, threads), step, [=] {
@@ -61,7 +61,8 @@ Contender force_contender(const std::string& series, const std::string& label, c
           }};
 }
 
-/// The theory itself: summed over what of a sphere's surface leads, by latitude and longitude, without cells.
+/// The theory itself, without cells: sums the force over the leading part of a sphere's surface, by latitude
+/// and longitude.
 Eigen::Vector3d theory_of_sphere(double radius, double depth, const Eigen::Vector3d& motion,
                                  const SandStrength& sand) {
   constexpr int rings = 400, sectors = 400;

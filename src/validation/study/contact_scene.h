@@ -5,11 +5,11 @@
 
 namespace sandstroke {
 
-/// A flat square bed [m] that does not relax while the tool moves, so that the sand's level is what a closed
-/// form says; a device without a limit of force.
+/// A flat square bed, `width` [m] wide, and a device without a force limit. The sand does not relax while the
+/// tool moves, so its level follows a closed form.
 Scene contact_scene(double width, int cells, double servo_rate);
 
-/// Uniformly from place to place [m], `seconds` each: for as long as there are places.
+/// A stroke that moves uniformly from place to place [m]; seconds[i] is the time of the i-th move.
 Stroke straight(const std::vector<Eigen::Vector3d>& places, const std::vector<double>& seconds);
 
 }  // namespace sandstroke

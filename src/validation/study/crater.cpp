@@ -1,4 +1,4 @@
-// Sand that drains through a hole: each law against the steepest shape that it allows.
+// Sand that drains through a hole. Compares each law with the steepest shape that it allows.
 #include <spdlog/fmt/fmt.h>
 
 #include <cmath>
@@ -13,7 +13,7 @@ namespace {
 constexpr double crater_bed_width = 2.0, depth = 0.25;  // m
 constexpr double hole_radius = 0.1;  // m: a hole of one cell would be a point, of infinite curvature
 
-/// Cuts the sand in the hole down to the crater until no more follows.
+/// Cuts the sand in the hole down to the crater and relaxes the bed, until no more sand flows.
 Trial drain(int cells, const ExactCrater& crater, const RelaxationSettings& settings) {
   const HeightField start(cells, cells, crater_bed_width / cells);
   HeightField bed = start;

@@ -5,14 +5,14 @@
 
 namespace sandstroke {
 
-/// How far a solution is from the truth; not_applicable where that is not known.
+/// A solution's true error; not_applicable where the truth is not known.
 struct TrueError {
-  double height_share = not_applicable;  ///< as ErrorEstimate's
+  double height_share = not_applicable;  ///< as in ErrorEstimate
   double force_rms = not_applicable;     ///< N, over the ticks with a force
 };
 
-/// Solves a scene, lets it state its error from a coarser second solution and from a finer one, and puts both
-/// beside the truth.
+/// Solves a scene, estimates its error from a coarser and from a finer second solution, and compares both
+/// estimates with the true error.
 std::vector<ErrorCheck> check_errors(
     const std::string& label, const Scene& scene, const HeightField& start,
     const std::optional<Stroke>& stroke,

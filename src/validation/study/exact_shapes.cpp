@@ -11,7 +11,7 @@ double ExactCone::operator()(double x, double y) const {
 }
 
 ExactCone collapsed_cylinder(double radius, double height, double talus_angle) {
-  const double t = talus_slope(talus_angle), width = height / t;  // of the flank
+  const double t = talus_slope(talus_angle), width = height / t;  // width of the flank
   if (height >= std::sqrt(3.0) * radius * t) return {t, 0.0, std::cbrt(3.0 * radius * radius * width)};
   const double plateau = (-3.0 * width + std::sqrt(36.0 * radius * radius - 3.0 * width * width)) / 6.0;
   return {t, plateau, plateau + width};

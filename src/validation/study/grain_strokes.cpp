@@ -14,20 +14,20 @@ constexpr double tool_radius = 0.01;                    // m
 constexpr double bed_length = 0.09, bed_width = 0.056;  // m
 constexpr double drag_start = -0.03;                    // m, along x
 
-// Of the grains' beds (tests/accuracy/grains).
+// Values of the grains' beds (tests/accuracy/grains).
 constexpr double talus = 23.2;           // deg
 constexpr double bulk_density = 1540.0;  // kg/m^3
 constexpr double tool_friction = 0.5;
 
 bool is_drag(const GrainStroke& stroke) { return stroke.way > 0.0; }
 
-/// Where the tool goes down [m].
+/// The x at which the tool goes down [m].
 double start_of(const GrainStroke& stroke) { return is_drag(stroke) ? drag_start : 0.0; }
 
-/// Along x, from where the tool went down: within the way that is measured.
+/// True if `way` [m], counted along x from the start, lies in the measured part.
 bool is_measured(double way) { return way > grain_way_from && way < grain_way_to; }
 
-/// The mean force on the tool, on the measured way; of a plunge, over its last 0.4 mm.
+/// Computes the mean force on the tool: over the measured part of a drag, or the last 0.4 mm of a plunge.
 class MeanForce : public SimulationObserver {
  public:
   explicit MeanForce(const GrainStroke& stroke) : stroke_(stroke) {}
@@ -99,8 +99,9 @@ GrainReply reply_to(const GrainStroke& stroke, const Scene& scene) {
 double section_error(const std::vector<double>& change, const GrainStroke& grains) {
   double difference = 0.0, moved = 0.0;
   for (std::size_t bin = 0; bin < grains.change.size(); ++bin) {
-    const double area =
-        is_drag(grains) ? 1.0 : 2.0 * static_cast<double>(bin) + 1.0;  // of a strip, of a ring
+    const double area = is_drag(grains)
+                            ? 1.0
+                            : 2.0 * static_cast<double>(bin) + 1.0;  // relative: a strip, or a circular ring
     difference += area * std::abs(change[bin] - grains.change[bin]);
     moved += area * std::abs(grains.change[bin]);
   }

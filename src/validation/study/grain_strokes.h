@@ -9,45 +9,44 @@
 
 namespace sandstroke {
 
-/// A stroke through a bed of simulated grains, and what it left and felt: means over all beds
-/// (tests/accuracy/grains, where the same numbers are tables). The tool, of R 10 mm, goes down, along x and
-/// up again. Its depth counts from where it first touches the bed.
+/// A stroke through simulated grains, with the surface that it left and the force: means over all beds
+/// (tables in tests/accuracy/grains). The tool (R 10 mm) goes down, along x and up again. Its depth counts
+/// from the first touch of the bed.
 struct GrainStroke {
   std::string name;
   ToolShape shape;
-  double depth;  ///< m, of the tool's lowest point
-  double way;    ///< m, along x; 0: a plunge
-  std::vector<double>
-      change;          ///< m, of the height: means by the distance from the axis, in bins of grain_bin
-  double against, up;  ///< N, of the grains on the tool, on the measured way; of a plunge, at its end
+  double depth;                ///< m, depth of the tool's lowest point
+  double way;                  ///< m, length of the drag along x; 0: a plunge
+  std::vector<double> change;  ///< m, mean height change by distance from the axis, in bins of grain_bin
+  double against, up;          ///< N, force on the tool: mean over the measured part, or at a plunge's end
 };
 extern const std::vector<GrainStroke> grain_strokes;
 
 inline constexpr double grain_bin = 0.002;  ///< m
-/// m, from a drag's start: sections and forces are means over this way.
+/// The measured part of a drag [m, from its start]. Sections and forces are means over it.
 inline constexpr double grain_way_from = 0.020, grain_way_to = 0.037;
 
-/// The grains' sand and tool on a flat bed, with so many cells per radius.
+/// The program's scene for the grains' sand and tool, on a flat bed.
 Scene grain_scene(const GrainStroke& stroke, ModelPreset preset, int cells_per_radius);
 
-/// The hand's way through grain_scene(), whose sand lies at 0.
+/// The stroke through grain_scene(), whose sand lies at z = 0.
 Stroke hand_of(const GrainStroke& stroke);
 
-/// What the program makes of a stroke, measured as of the grains.
+/// The program's result for a stroke, measured in the same way as the grains'.
 struct GrainReply {
   RunResult result;
   std::vector<double> change;
-  double against, up;  ///< N, of force.law = "rft"; 0 of the paper's
+  double against, up;  ///< N, by force.law = "rft"; 0 by the paper's law
 };
 GrainReply reply_to(const GrainStroke& stroke, const Scene& scene);
 
-/// The difference of two sections over the grains' change, each bin by the area that it stands for.
+/// The sum of the sections' differences over the grains' change. Each bin is weighted by its area.
 double section_error(const std::vector<double>& change, const GrainStroke& grains);
 
-/// The difference of the two forces over the grains' force.
+/// The difference of the two forces, divided by the grains' force.
 double force_error(const GrainReply& reply, const GrainStroke& grains);
 
-/// Of a section: the groove's area, both sides [m^2], and the height of its levee [m].
+/// A section's groove area, both sides [m^2], and the height of its levee [m].
 struct Groove {
   double area = 0.0, levee = 0.0;
 };

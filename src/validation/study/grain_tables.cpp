@@ -2,7 +2,7 @@
 
 namespace sandstroke {
 
-// From sections.csv and forces.csv of tests/accuracy/grains.
+// The numbers are from sections.csv and forces.csv in tests/accuracy/grains.
 const std::vector<GrainStroke> grain_strokes = {
     {"sphere, 2 mm deep",
      ToolShape::sphere,

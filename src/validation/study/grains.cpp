@@ -1,4 +1,4 @@
-// Strokes through simulated grains: what they left and felt, and what the program says of them.
+// Strokes through simulated grains. Compares their surfaces and forces with the program's.
 #include <spdlog/fmt/fmt.h>
 
 #include "validation/study/grain_strokes.h"
@@ -7,7 +7,7 @@
 namespace sandstroke {
 namespace {
 
-/// The program's grooves, levees and forces beside the grains'.
+/// Lists the program's grooves, levees and forces beside the grains'.
 std::vector<MeasuredFigure> grain_figures(const GrainStroke& grains, const GrainReply& reply) {
   std::vector<MeasuredFigure> rows;
   const auto add = [&](const char* what, double measured, double model) {

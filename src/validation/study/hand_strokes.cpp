@@ -9,7 +9,7 @@
 namespace sandstroke {
 namespace {
 
-/// `stroke` at 1 kHz, each sample moved up by raise(sample, way along the bed [m]).
+/// Samples `stroke` at 1 kHz, and moves each sample up by raise(sample, way along the bed [m]).
 template <class Raise>
 Stroke recorded(const Stroke& stroke, const Raise& raise) {
   StrokeSampler hand(stroke);
@@ -70,9 +70,9 @@ Stroke scribble(double depth, double speed, bool cut) {
 
 Stroke with_noise(const Stroke& stroke, double rms) {
   std::mt19937 random(5);
-  std::uniform_real_distribution<double> share(-0.5, 0.5);  // a normal one's numbers depend on the library
+  std::uniform_real_distribution<double> share(-0.5, 0.5);  // std::normal_distribution depends on the library
   return recorded(stroke, [&](const Eigen::Vector3d&, double) {
-    double sum = 0.0;  // of twelve: variance 1
+    double sum = 0.0;  // the sum of twelve has variance 1
     for (int i = 0; i < 12; ++i) sum += share(random);
     return rms * sum;
   });
@@ -82,7 +82,7 @@ Stroke with_slopes(const Stroke& stroke, double slope) {
   constexpr double amplitude = 0.5e-3;  // m
   return recorded(stroke, [&](const Eigen::Vector3d& position, double way) {
     if (position.z() >= 0.0) return 0.0;
-    const double phase = way * slope / amplitude;  // a triangle's side is 2 long
+    const double phase = way * slope / amplitude;  // each side of the triangle wave is 2 long
     return amplitude * (1.0 - std::abs(std::fmod(phase, 4.0) - 2.0));
   });
 }

@@ -20,7 +20,7 @@ PlateStress stress_in(const PlanarMedium& medium) {
   return [&medium](double tilt, double dive) { return planar_stress(medium, tilt, dive); };
 }
 
-/// Angles in deg; in units of the flat plate that is pushed straight down.
+/// The stress in units of a flat plate's that is pushed straight down. Angles in deg.
 PlanarStress relative(const PlateStress& stress, double tilt, double dive) {
   const double unit = stress(0.0, to_radians(straight_down)).up;
   const PlanarStress found = stress(to_radians(tilt), to_radians(dive));
@@ -55,7 +55,7 @@ Plot stress_plot(const char* title, double PlanarStress::*part) {
   return plot;
 }
 
-/// A motion of a plate whose stress is compared, in deg.
+/// A plate's tilt and motion [deg], and the part of its stress to compare.
 struct Motion {
   const char* what;
   double tilt, dive;

@@ -35,7 +35,7 @@ std::vector<OwnLawSettings> single_laws(const OwnLawSettings& plugin, const std:
 }
 
 std::string series_of(const OwnLawSettings& law) {
-  return "plugin: " + law.relaxation + law.displacement + law.force;  // one of them
+  return "plugin: " + law.relaxation + law.displacement + law.force;  // one of the three names a law
 }
 
 std::vector<std::string> problems_of(const std::vector<OwnLawSettings>& laws) {

@@ -1,4 +1,4 @@
-// Sand left to itself until it rests, against exact shapes.
+// Sand that relaxes until it rests, against exact shapes.
 #include <spdlog/fmt/fmt.h>
 
 #include <cmath>
@@ -15,15 +15,15 @@ namespace {
 
 const double talus_angle = RelaxationSettings{}.talus_angle;  // deg
 constexpr double pile_bed_width = 2.0;                        // m
-constexpr int band_rows = 64;                                 // of shapes that do not change along y
+constexpr int band_rows = 64;                                 // for shapes that do not change along y
 
-/// Relaxes a bed and says what that took.
+/// Relaxes a bed and returns how that went.
 using Relaxing = std::function<RelaxationOutcome(HeightField&)>;
 
 struct Pile {
   std::function<HeightField(int cells)> start;
   Shape shape;
-  SurfaceSettings surface;  // the start's rule; kind file: none
+  SurfaceSettings surface;  // the rule that made `start`; kind file: no rule
 };
 
 Trial collapse(const Pile& pile, int cells, const Relaxing& relax) {
@@ -55,7 +55,7 @@ class PileField {
     problem_.contenders.push_back(std::move(contender));
   }
 
-  /// A curve over the cell size. (What takes too long the study leaves out.)
+  /// Adds a curve over the cell size. (The bench leaves out runs that take too long.)
   void add_sizes(const std::string& series, const RelaxationSettings& settings) {
     for (int cells = 64; cells <= most_cells(); cells *= 2)
       add(series, fmt::format("{} cells", cells), cells, settings, options_.threads, true);
@@ -75,7 +75,7 @@ class PileField {
       }
   }
 
-  /// The curves that all piles have.
+  /// Adds the curves that all piles have.
   void add_laws_and_methods() {
     const RelaxationSettings super{.law = RelaxationLaw::isotropic, .method = RelaxationMethod::rkl};
     add_sizes("isotropic rkl", super);
@@ -89,7 +89,7 @@ class PileField {
     add_error_checks();
   }
 
-  /// What a run says of its own error.
+  /// Adds runs that estimate their own error.
   void add_error_checks() {
     Scene scene;
     scene.preset = ModelPreset::accurate;
@@ -108,7 +108,7 @@ class PileField {
     };
   }
 
-  /// Curves over the other knobs, each alone.
+  /// Adds curves over the other settings, one at a time.
   void add_knobs() {
     const int cells = options_.quick ? 128 : 512;
     const RelaxationSettings super{.law = RelaxationLaw::isotropic, .method = RelaxationMethod::rkl};

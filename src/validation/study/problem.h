@@ -10,67 +10,67 @@
 
 namespace sandstroke {
 
-/// Stands where a column says nothing about a run.
+/// The value in columns that do not apply to a run.
 inline constexpr double not_applicable = std::numeric_limits<double>::quiet_NaN();
 
-/// The knobs of one run.
+/// The settings of one run.
 struct RunSettings {
   std::string law, method;
   double cells = not_applicable;            ///< along x
   double cell_size = not_applicable;        ///< m
-  double tolerance = not_applicable;        ///< of the relaxation
+  double tolerance = not_applicable;        ///< of relaxation
   double step_tolerance = not_applicable;   ///< of super steps
-  double share = not_applicable;            ///< c of a pass
+  double share = not_applicable;            ///< c, fraction of the excess that a pass moves
   double servo_rate = not_applicable;       ///< Hz
   double relaxation_rate = not_applicable;  ///< Hz
   double threads = 1;
-  std::string tool = {}, force_law = {};  ///< where a problem compares them
+  std::string tool = {}, force_law = {};  ///< set where a problem compares them
 };
 
-/// What one run took besides time, and how far it is from the truth.
+/// The work of one run, and how far it is from the truth.
 struct Score {
   double passes = not_applicable;
   double cells_visited = not_applicable;
   double l1 = not_applicable;              ///< surface_error.h
   double rms_height = not_applicable;      ///< m
   double largest_height = not_applicable;  ///< m
-  double rms_relative = not_applicable;    ///< of the exact shape's height
+  double rms_relative = not_applicable;    ///< fraction of the exact shape's height
   double largest_relative = not_applicable;
   double slope_error = not_applicable;       ///< deg, the largest of all directions
   double work_error = not_applicable;        ///< relative
   double force_error = not_applicable;       ///< rms over the largest force
   double position_error = not_applicable;    ///< m, rms
-  double volume_drift = not_applicable;      ///< of the moved volume
-  double displaced_volume = not_applicable;  ///< m^3, pushed by the tool, the same sand again and again
+  double volume_drift = not_applicable;      ///< fraction of the moved volume
+  double displaced_volume = not_applicable;  ///< m^3, by the tool; counts the same sand each time
   double furrow_depth = not_applicable;      ///< m, the median (sim/furrow.h)
-  double timed_ticks = not_applicable;       ///< how many the run's time is that of
+  double timed_ticks = not_applicable;       ///< how many ticks the run's time covers
   bool converged = true;
   std::vector<double> slope_errors = {};  ///< deg, by flank_directions(); may be empty
 };
 
 struct Trial {
-  double seconds = 0.0;  ///< of the work itself: neither setting up nor judging it
+  double seconds = 0.0;  ///< time of the work itself, without setting up and judging
   Score score;
 };
 
-/// One way of solving a problem: a point on a curve.
+/// One way to solve a problem: a point on a curve.
 struct Contender {
   std::string series;  ///< the curve
-  std::string label;   ///< where on it, in words
+  std::string label;   ///< the place on the curve, in words
   RunSettings settings;
   double step = not_applicable;  ///< what the series refines (cell size [m] or time step [s]), for its order
   std::function<Trial()> run;    ///< gives the same score each time
-  bool foreign = false;          ///< not this library's: where it fails, the others go on
+  bool foreign = false;          ///< from outside this library: if it fails, the others go on
 };
 
-/// An error that a run states of itself (sim/error_estimate.h), beside its true one.
+/// A run's estimate of its own error (sim/error_estimate.h), beside its true error.
 struct ErrorCheck {
   std::string problem, label;
-  std::string quantity;  ///< "height" (share of the changed sand) or "force" (rms, N)
+  std::string quantity;  ///< "height" (fraction of the changed sand) or "force" (rms, N)
   double estimate, truth;
 };
 
-/// A chart that comes with a problem, of curves over x.
+/// A chart of a problem: curves over x.
 struct Plot {
   enum class Look { line, dashed, points };
   struct Curve {
@@ -81,10 +81,10 @@ struct Plot {
   std::string title, note;
   std::string x_title, x_unit, y_title;
   std::vector<Curve> curves;
-  std::vector<std::pair<Look, std::string>> looks;  ///< what they mean
+  std::vector<std::pair<Look, std::string>> looks;  ///< the meaning of each look
 };
 
-/// What somebody measured, beside what the program's law says of it.
+/// A published measurement, beside the value by the program's law.
 struct MeasuredFigure {
   std::string medium, what;
   double measured, model;
@@ -94,22 +94,22 @@ struct MeasuredFigure {
 /// A problem with a known answer.
 struct Problem {
   std::string name, title;
-  std::string text;         ///< one sentence: what, and how the truth is known
+  std::string text;         ///< one sentence: the problem, and how the truth is known
   std::string error;        ///< the column that counts as its error
-  std::string error_title;  ///< what that is here
+  std::string error_title;  ///< what the column means here
   std::string error_unit;
   std::vector<Contender> contenders;  ///< within a series, the cheap ones first
-  /// What runs of it say of their own error; none where `sandstroke run` cannot run it.
+  /// Makes runs that estimate their own error. Empty if `sandstroke run` cannot run the problem.
   std::function<std::vector<ErrorCheck>()> check_errors = {};
-  double converged_to = not_applicable;  ///< how far a computed reference is from a coarser one, as `error`
-  /// What counts is no error but the time of a tick, beside that of the paper's law: no front, no order.
+  double converged_to = not_applicable;  ///< distance of a computed reference from a coarser one, as `error`
+  /// Measures the time of a tick, beside that of the paper's law, and no error: no front, no order.
   bool times_ticks = false;
   std::vector<Plot> plots = {};
   std::string measured_text = {};
   std::vector<MeasuredFigure> measured = {};
 };
 
-/// A rule for relaxing sand that is not this library's, to stand beside it.
+/// A rule for relaxing sand from outside this library, to compare with.
 struct Peer {
   std::string name;
   std::function<RelaxationOutcome(HeightField& bed, double talus_angle)> relax;  ///< talus angle in deg
@@ -119,12 +119,12 @@ struct ProblemOptions {
   bool quick = false;  ///< coarser grids, shorter strokes
   int threads = 1;
   std::vector<Peer> peers;
-  /// Rules of displacement and laws of force of a plugin, each in settings of its own: strokes and plunges
-  /// with them are held against the same, finer.
+  /// A plugin's laws of displacement and force, each in its own settings. Their strokes and plunges are
+  /// compared with the same in finer steps.
   std::vector<OwnLawSettings> own;
 };
 
-/// Makes one problem; where the truth has to be computed, that happens here.
+/// Makes one problem, and computes its truth if no closed form gives it.
 struct ProblemMaker {
   const char* name;
   Problem (*make)(const ProblemOptions& options);
@@ -132,7 +132,7 @@ struct ProblemMaker {
 /// All problems, in the order of the report.
 const std::vector<ProblemMaker>& problem_makers();
 
-// Sand left to itself, against exact shapes (piles.cpp).
+// Sand that relaxes, against exact shapes (piles.cpp).
 Problem cylinder_problem(const ProblemOptions& options);
 Problem truncated_problem(const ProblemOptions& options);
 Problem cone_problem(const ProblemOptions& options);
@@ -147,13 +147,13 @@ Problem drag_problem(const ProblemOptions& options);
 Problem blade_problem(const ProblemOptions& options);
 Problem wedge_problem(const ProblemOptions& options);
 Problem mesh_problem(const ProblemOptions& options);
-// The force of the contact, against closed forms and the theory itself (contact_forces.cpp).
+// The contact force, against closed forms and the theory itself (contact_forces.cpp).
 Problem plate_force_problem(const ProblemOptions& options);
 Problem sphere_force_problem(const ProblemOptions& options);
-// What laws of the force take (tick_time.cpp).
+// The time of a tick under each force law (tick_time.cpp).
 Problem tick_problem(const ProblemOptions& options);
-// The dynamic device against a servo loop that is all but continuous; whole strokes against themselves, finer
-// (strokes.cpp).
+// The dynamic device against an almost continuous servo loop, and whole strokes against the same in finer
+// steps (strokes.cpp).
 Problem dynamic_problem(const ProblemOptions& options);
 Problem accurate_stroke_problem(const ProblemOptions& options);
 Problem deep_stroke_problem(const ProblemOptions& options);
@@ -164,10 +164,10 @@ Problem paper_stroke_problem(const ProblemOptions& options);
 Problem grains_problem(const ProblemOptions& options);
 
 RunSettings settings_of(const RelaxationSettings& relaxation, const BedGeometry& bed, int threads);
-/// The same with the rates of a stroke.
+/// The same, and the rates of a stroke.
 RunSettings settings_of(const Scene& scene, int threads);
 
-/// What a run of a stroke took; of its errors nothing yet.
+/// Fills in the work of a stroke's run. The errors stay not_applicable.
 Score score_of(const RunResult& result);
 
 }  // namespace sandstroke

@@ -7,15 +7,15 @@
 
 namespace sandstroke {
 
-/// What sand comes to where a problem ends.
+/// The shape in which a problem's sand comes to rest.
 struct Shape {
   ExactSurface exact;
   double height = 0.0;         ///< m, of the exact surface
-  std::optional<Flank> flank;  ///< whose slope is measured
+  std::optional<Flank> flank;  ///< the flank to measure the slope on
 };
 
-/// What a relaxation took and how far it left the bed from its shape. Without the volume drift: a problem may
-/// take sand away.
+/// The work of a relaxation, and the bed's distance from its shape. Leaves out the volume drift, as a problem
+/// may take sand away.
 Score score_of(const HeightField& bed, const HeightField& start, const RelaxationOutcome& outcome,
                const Shape& shape);
 

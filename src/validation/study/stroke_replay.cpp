@@ -10,7 +10,7 @@
 namespace sandstroke {
 namespace {
 
-constexpr double sample_rate = 100.0;  // Hz, of what is compared; every servo rate is a multiple
+constexpr double sample_rate = 100.0;  // Hz, of the compared samples; every servo rate is a multiple
 
 std::int64_t ticks_a_sample(const Scene& scene) {
   return std::llround(scene.device.servo_rate / sample_rate);
@@ -41,7 +41,7 @@ double largest(const std::vector<Eigen::Vector3d>& values) {
   return norm;
 }
 
-/// Misplaced sand against a run on as fine a grid or a finer one, that began flat.
+/// Misplaced sand, against a run on the same grid or a finer one. Both runs began flat.
 SurfaceError surface_distance(const HeightGrid& heights, const Replay& truth) {
   const int factor = static_cast<int>(truth.heights.rows() / heights.rows());
   const HeightGrid exact = coarsened(HeightField(truth.heights, 1.0), factor).grid();

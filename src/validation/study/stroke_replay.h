@@ -9,20 +9,20 @@
 
 namespace sandstroke {
 
-/// What one run of a stroke leaves behind.
+/// The results of one run of a stroke.
 struct Replay {
   RunResult result;
   HeightGrid heights;
-  std::vector<Eigen::Vector3d> force, position;  ///< of the device, 100 times a second
+  std::vector<Eigen::Vector3d> force, position;  ///< the device's, 100 times a second
 };
 
-/// From the scene's own surface. The servo rate is a multiple of 100 Hz.
+/// Runs a stroke on the scene's starting surface. The servo rate must be a multiple of 100 Hz.
 Replay replay(const Scene& scene, const Stroke& stroke);
 
-/// Against a run on as fine a grid or a finer one, that began flat.
+/// Compares with a run on the same grid or a finer one. Both runs began flat.
 Score judge(const Replay& run, const Replay& truth);
 
-/// What a run of the scene says of its error, beside its distance to the truth.
+/// Runs the scene, and compares its estimates of its own error with its distance to the truth.
 std::vector<ErrorCheck> check_errors(const std::string& label, const Scene& scene, const Stroke& stroke,
                                      const Replay& truth);
 

@@ -1,4 +1,4 @@
-// Strokes whose truth has to be computed: the same run, finer.
+// Strokes without a closed form. The truth is the same run in finer steps.
 #include <spdlog/fmt/fmt.h>
 
 #include "sim/error_estimate.h"
@@ -21,7 +21,7 @@ Problem dynamic_problem(const ProblemOptions& options) {
   scene.bed.width = scene.bed.depth = 0.2;
   scene.bed.cols = scene.bed.rows = 100;
   scene.device = ideal_device();
-  scene.relaxation.rate = 0.0;  // sand that slips between ticks is another matter
+  scene.relaxation.rate = 0.0;  // relaxation between ticks is not measured here
   Stroke stroke;
   stroke.gap_threshold = 1.0;
   stroke.time = {0.0, 0.2, 0.6};
@@ -39,7 +39,7 @@ Problem dynamic_problem(const ProblemOptions& options) {
     problem.contenders.push_back(stroke_contender("force held for a tick",
                                                   fmt::format("servo rate {} Hz", rate), at_rate(rate),
                                                   options.threads, 1.0 / rate, stroke, truth));
-  problem.check_errors = [=] {  // cells count here, too: the level under the tool is a mean of theirs
+  problem.check_errors = [=] {  // cells matter here too: the level is a mean of cells
     Scene eighth = scene;
     for (int halvings = 0; halvings < 3; ++halvings) eighth = second_scene(eighth, SecondSolution::finer);
     return check_errors("1000 Hz, 5 cells per radius", scene, stroke, replay(eighth, stroke));
@@ -49,8 +49,8 @@ Problem dynamic_problem(const ProblemOptions& options) {
 
 namespace {
 
-/// The default cell size and ways or times between relaxations, each divided as told, with ticks enough for
-/// the finest.
+/// The preset's scene with its cell size divided by `cells_by`, and its ways and times between relaxations by
+/// `period_by`. The servo rate suits the finest.
 Scene refined(ModelPreset preset, int cells_by, int period_by) {
   Scene scene = hand_scene(preset);
   scene.bed.cols *= cells_by, scene.bed.rows *= cells_by;
@@ -61,7 +61,7 @@ Scene refined(ModelPreset preset, int cells_by, int period_by) {
   return scene;
 }
 
-/// The accurate preset before tools were solid: sand slips into the tool and is pushed ahead again.
+/// The accurate preset without a solid tool: sand flows into the tool, and the tool displaces it ahead again.
 Scene pumping(int cells_by) {
   Scene scene = refined(ModelPreset::accurate, cells_by, 1);
   scene.tool.solid = false;
@@ -71,13 +71,13 @@ Scene pumping(int cells_by) {
   return scene;
 }
 
-/// A stroke against itself with smaller steps.
+/// A stroke that is compared with the same stroke in smaller steps.
 struct StrokeCase {
   const char* name;
   const char* title;
   ModelPreset preset;
   Stroke stroke;
-  bool at_rim;  // sand stands at the tool's rim: there more steps and their order matter
+  bool at_rim;  // sand stands at the tool's rim: then more steps and their order matter
 };
 
 Problem stroke_problem(const StrokeCase& given, const ProblemOptions& options) {
@@ -101,7 +101,7 @@ Problem stroke_problem(const StrokeCase& given, const ProblemOptions& options) {
   const auto truth = std::make_shared<const Replay>(replay(all(finest), stroke));
   problem.converged_to = judge(replay(all(finest / 2), stroke), *truth).l1;
   const auto add = [&](const std::string& series, const std::string& label, const Scene& scene) {
-    // Where the model has no limit no order is fitted.
+    // The paper's model has no limit, so no order is fitted.
     const double step = !paper && series == all_finer ? scene.bed.cell_size() : not_applicable;
     problem.contenders.push_back(
         stroke_contender(series, label, scene, options.threads, step, stroke, truth));
@@ -229,7 +229,7 @@ Problem hands_problem(const ProblemOptions& options) {
       if (rate > 0.0) one.relaxation.rate = rate;
       Contender contender = stroke_contender(fmt::format("{}, {}", name, what), label, one, options.threads,
                                              not_applicable, stroke, truth);
-      if (what == "speed")  // forces and places are those of other times
+      if (what == "speed")  // its forces and places belong to other times
         contender.run = [run = contender.run] {
           Trial trial = run();
           trial.score.force_error = trial.score.position_error = not_applicable;

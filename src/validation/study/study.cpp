@@ -14,8 +14,8 @@
 namespace sandstroke {
 namespace {
 
-/// What a study may take. Cells, not seconds, decide what is left out, so that a busy machine leaves out the
-/// same; a cell takes 5 to 20 ns.
+/// The limits of a bench. Cells, not seconds, decide which runs are left out, so that a busy machine leaves
+/// out the same. A cell takes 5 to 20 ns.
 struct Limits {
   double cells_visited;  // by one run
   double seconds;        // by all repeats of a run after the first
@@ -35,8 +35,8 @@ std::vector<ProblemMaker> chosen_makers(const std::vector<std::string>& names) {
   return chosen;
 }
 
-/// How many cells a run will visit, from the series' last and, where there is one, the one before it. (Plain
-/// passes over n x n cells number n^2, and visit n^4.)
+/// Estimates how many cells a run will visit, from the last one or two runs of its series. (n x n cells need
+/// n^2 plain passes, which visit n^4 cells.)
 double foreseen_visits(double cells, const StudyRun& last, const StudyRun* before) {
   const double ratio = cells / last.settings.cells;
   if (!(ratio > 1.0)) return last.score.cells_visited;
@@ -47,13 +47,13 @@ double foreseen_visits(double cells, const StudyRun& last, const StudyRun* befor
   return last.score.cells_visited * std::pow(ratio, power);
 }
 
-/// The contenders of one problem, their repeats in turn.
+/// Runs the contenders of one problem, and takes their repeats in turn.
 class Race {
  public:
   Race(const Problem& problem, const Limits& limits, Study& study)
       : problem_(problem), limits_(limits), study_(study) {}
 
-  /// progress: share of this problem that is done.
+  /// progress gets the fraction of this problem that is done.
   std::vector<StudyRun> run(int repeats, const std::function<void(double)>& progress) {
     const std::size_t count = problem_.contenders.size();
     runs_.resize(count), seconds_.resize(count), waited_.resize(count);
@@ -72,10 +72,10 @@ class Race {
     return runs_[i].repeats > 0 && (runs_[i].repeats + 1) * runs_[i].wall_seconds <= limits_.seconds;
   }
 
-  /// Whether the limit allows a run at all.
+  /// True if the limit allows at least one run.
   bool fits(std::size_t i) {
     const Contender& contender = problem_.contenders[i];
-    const StudyRun *last = nullptr, *before = nullptr;  // of the series
+    const StudyRun *last = nullptr, *before = nullptr;  // runs of the same series
     for (std::size_t j = 0; j < i; ++j)
       if (problem_.contenders[j].series == contender.series) before = last, last = &runs_[j];
     if (!last) return true;
@@ -113,7 +113,7 @@ class Race {
     run.step = contender.step;
     run.foreign = contender.foreign;
     run.score = trial.score;
-    // Of one thread alone is known how long it would have worked.
+    // Only for one thread the program knows how long it waited for a processor.
     const double idle_share =
         contender.settings.threads == 1 ? 1.0 - (processor_seconds() - worked_before) / watch.seconds() : 0.0;
     std::vector<double>& seconds = seconds_[i];
@@ -131,8 +131,8 @@ class Race {
   const Limits limits_;
   Study& study_;
   std::vector<StudyRun> runs_;
-  std::vector<std::vector<double>> seconds_;  // of each run's repeats, sorted
-  std::vector<double> waited_;                // s, of each run's fastest repeat
+  std::vector<std::vector<double>> seconds_;  // the repeats of each run, sorted
+  std::vector<double> waited_;                // s, waiting time of each run's fastest repeat
 };
 
 void add_orders(const Problem& problem, const std::vector<StudyRun>& runs,
@@ -180,8 +180,8 @@ void compare_ticks(std::vector<StudyRun>& runs) {
 
 namespace {
 
-/// The 97.5 % point of Student's t: exact to the digits for up to 10 degrees of freedom, above by its
-/// expansion in 1/freedom.
+/// The 97.5 % point of Student's t: from a table for up to 10 degrees of freedom, above that by its expansion
+/// in 1/freedom.
 double student_t(int freedom) {
   constexpr double table[] = {12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.262, 2.228};
   if (freedom <= 10) return table[freedom - 1];
@@ -218,7 +218,8 @@ ConvergenceOrder fit_order(const std::vector<std::pair<double, double>>& points)
 
 namespace {
 
-/// (Limits of TBB do not nest upwards: this one must not last while contenders set theirs.)
+/// Makes a problem with a thread limit. The limit ends here: an inner limit of TBB cannot raise an outer one,
+/// and contenders set their own.
 Problem make(const ProblemMaker& maker, const ProblemOptions& options) {
   const tbb::global_control threads(tbb::global_control::max_allowed_parallelism,
                                     static_cast<std::size_t>(options.threads));

@@ -13,19 +13,19 @@ struct StudyRun {
   std::string problem, series, label;
   RunSettings settings;
   double step = not_applicable;  ///< Contender::step
-  double wall_seconds = 0.0;     ///< least of the repeats: nothing makes a run faster than it is
+  double wall_seconds = 0.0;     ///< least of the repeats: disturbances only add time
   double median_seconds = 0.0, largest_seconds = 0.0;
   double repeats = 0;
-  bool disturbed = false;  ///< by other programs: is_disturbed() of the repeats
+  bool disturbed = false;  ///< other programs disturbed the repeats (is_disturbed())
   Score score;
-  double error = not_applicable;     ///< the problem's
-  double of_paper = not_applicable;  ///< time of a tick, over that of the paper's law in the same study
-  bool pareto = false;               ///< no other run of the problem is both as near and as fast
+  double error = not_applicable;     ///< in the problem's error column
+  double of_paper = not_applicable;  ///< time of a tick, over that of the paper's law in the same bench
+  bool pareto = false;               ///< no other run of the problem has as small an error and time
   bool foreign = false;              ///< Contender::foreign
 };
 
-/// How a series' error falls with its step: log error = order * log step + constant by least squares, with
-/// the 95 % confidence interval of the order (Student's t).
+/// The order at which a series' error falls with its step, with its 95 % confidence interval (Student's t).
+/// Least squares fit: log error = order * log step + constant.
 struct ConvergenceOrder {
   std::string problem, series, error;
   double order, low, high;
@@ -43,27 +43,27 @@ struct Study {
 
 struct StudyOptions : ProblemOptions {
   std::vector<std::string> problems;                     ///< names; empty: all
-  int repeats = 0;                                       ///< of each run, at most; 0: 5, quick 3
-  std::function<void(double)> progress = [](double) {};  ///< share that is done
+  int repeats = 0;                                       ///< most repeats of each run; 0: 5, quick 3
+  std::function<void(double)> progress = [](double) {};  ///< gets the fraction that is done
 };
 
-/// Runs every contender of every problem, the repeats in turn (all once, then all again, ...), so that the
-/// machine's drift hits all alike. Ends early, incomplete, when interrupted(). Error: input, for a problem
-/// that is not known.
+/// Runs every contender of every problem. Takes repeats in turn (all once, then all again, ...), so that
+/// drift of the machine affects all alike. Ends early, incomplete, when interrupted(). Error: input, for an
+/// unknown problem.
 Study run_study(const StudyOptions& options);
 
-/// Whether times of the same work [s] say that the machine was busy with something else: they differ by more
-/// than 20 % of the least, or more than 20 % of the least was spent waiting for a processor. waited [s]: of
-/// the least.
+/// True if the times of the same work [s] show that the machine was busy: they differ by more than 20 % of
+/// the least, or the least includes more than 20 % of waiting for a processor (`waited` [s]).
 bool is_disturbed(double least, double largest, double waited);
 
-/// Sets `pareto` of runs with an error, problem by problem.
+/// Sets `pareto` in runs that have an error, problem by problem.
 void mark_pareto(std::vector<StudyRun>& runs);
 
-/// Sets `of_paper` of runs that time ticks: over the run with the same tool and label under the paper's law.
+/// Sets `of_paper` in runs that time ticks: divides by the run with the same tool and label under the paper's
+/// law.
 void compare_ticks(std::vector<StudyRun>& runs);
 
-/// Of points (step, error), all above 0, with at least 3 different steps; not_applicable otherwise.
+/// Fits the order to points (step, error), all above 0. not_applicable with fewer than 3 different steps.
 ConvergenceOrder fit_order(const std::vector<std::pair<double, double>>& points);
 
 }  // namespace sandstroke

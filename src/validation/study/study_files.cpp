@@ -11,7 +11,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// By its columns.
+/// A table of bench is recognised by its columns.
 constexpr OutputKind table_output{"a table of bench", "problem,series,", ",pareto\n"};
 
 }  // namespace

@@ -6,15 +6,15 @@
 
 namespace sandstroke {
 
-/// Where a study's report goes: FOLDER/bench.html, bench.csv and bench.h5. The folder is made; files of an
-/// earlier study are replaced, each when its successor is complete.
+/// The files of a bench's report: FOLDER/bench.html, bench.csv and bench.h5. Makes the folder. Replaces each
+/// file of an earlier bench when the new one is complete.
 class StudyFiles {
  public:
-  /// Refuses, before any work is done, a place that cannot be written. Error: io.
+  /// Checks, before any work is done, that the files can be written. Error: io.
   explicit StudyFiles(const std::filesystem::path& folder);
   std::filesystem::path page() const { return folder_ / "bench.html"; }
-  /// bench.h5: /runs/COLUMN (n), /orders/COLUMN, and /slope_error (n, directions) in deg, NaN where a problem
-  /// has no flanks, with /directions in deg. Error: io.
+  /// Writes all files. bench.h5 has /runs/COLUMN (n), /orders/COLUMN, /slope_error (n, directions) in deg
+  /// (NaN if a problem has no flanks) and /directions in deg. Error: io.
   void write(const Study& study) const;
 
  private:

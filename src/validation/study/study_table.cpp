@@ -64,7 +64,7 @@ const std::vector<Column> columns = {
 #undef TEXT
 #undef NUMBER
 
-/// The run of a problem with the least error, and before it the fastest with no more than twice that.
+/// The problem's fastest run with at most twice the least error, and the run with the least error.
 std::vector<const StudyRun*> best_of(const std::vector<StudyRun>& runs, const std::string& problem) {
   const StudyRun *nearest = nullptr, *fastest = nullptr;
   const auto in_race = [&](const StudyRun& run) { return run.pareto && run.problem == problem; };
@@ -167,10 +167,10 @@ Json problem_json(const Problem& problem) {
   return json;
 }
 
-/// "*" beside a time that tells of a busy machine.
+/// "*" beside the time of a disturbed run.
 std::string mark_of(const StudyRun& run) { return run.disturbed ? "*" : ""; }
 
-/// What a busy machine did to the times; "": nothing.
+/// Says how many runs a busy machine disturbed. Empty: none.
 std::string disturbance(const std::vector<StudyRun>& runs) {
   const auto disturbed =
       std::count_if(runs.begin(), runs.end(), [](const StudyRun& run) { return run.disturbed; });
@@ -182,7 +182,7 @@ std::string disturbance(const std::vector<StudyRun>& runs) {
       disturbed, runs.size());
 }
 
-/// What a tick takes under each law, and over the paper's.
+/// The time of a tick under each law, and its ratio to the paper's.
 std::string ticks_text(const std::vector<StudyRun>& runs) {
   std::vector<std::string> tools, labels, laws, marks;
   std::vector<double> times, of_paper;
@@ -232,7 +232,7 @@ Json study_json(const Study& study) {
 
 namespace {
 
-/// Some runs, by these columns of runs_table(), and their errors.
+/// Writes these columns of runs_table() for some runs, and their errors.
 std::string runs_text(const Study& study, const std::vector<StudyRun>& runs,
                       std::initializer_list<const char*> names) {
   std::vector<double> errors;

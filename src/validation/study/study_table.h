@@ -5,14 +5,14 @@
 
 namespace sandstroke {
 
-/// Every column of a run: what files, page and terminal show.
+/// All columns of all runs, for files, page and terminal.
 Table runs_table(const std::vector<StudyRun>& runs);
 Table orders_table(const std::vector<ConvergenceOrder>& orders);
 
-/// The number that a column holds for a run.
+/// The run's number in a column.
 double number_in(const std::string& column, const StudyRun& run);
 
-/// What the page draws (report/assets/bench.js).
+/// The data that the page draws (report/assets/bench.js).
 nlohmann::ordered_json study_json(const Study& study);
 
 /// The result for a terminal: the fastest and the nearest of each problem, and the orders.

@@ -33,7 +33,7 @@ namespace {
 
 constexpr int directions = 36;
 
-/// The slope of the least-squares line through points, as they come.
+/// Computes the slope of the least-squares line through points added one by one.
 class LineFit {
  public:
   void add(double x, double y) {

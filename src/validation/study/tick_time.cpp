@@ -1,4 +1,4 @@
-// What a tick in sand takes under each law of the force.
+// The time of a tick in sand under each force law.
 #include <spdlog/fmt/fmt.h>
 
 #include <cmath>
@@ -14,7 +14,7 @@
 namespace sandstroke {
 namespace {
 
-/// Time from the first tick that touches sand to the last one, and how many ticks lie between.
+/// Measures the time from the first tick that touches sand to the last one, and counts the ticks between.
 class TickTimer : public SimulationObserver {
  public:
   void on_tick(const TickRecord& tick) override {

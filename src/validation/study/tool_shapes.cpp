@@ -1,5 +1,4 @@
-// Tools of any shape: what they heap up, against closed forms, and a sphere that is a mesh against the
-// sphere.
+// Tools of any shape. Compares their heaps with closed forms, and a sphere given as a mesh with the sphere.
 #include <spdlog/fmt/fmt.h>
 
 #include <cmath>
@@ -13,8 +12,8 @@
 namespace sandstroke {
 namespace {
 
-/// A bed along x, `rows` cells across, for a tool that reaches from wall to wall: what it does is the same
-/// all across.
+/// A bed along x, `rows` cells across, for a tool that reaches from side to side. The sand is the same in
+/// every row.
 Scene trough(double length, double cell, int rows, const ToolSettings& tool) {
   Scene scene = contact_scene(length, static_cast<int>(std::lround(length / cell)), 1000.0);
   scene.preset = ModelPreset::accurate;
@@ -26,7 +25,7 @@ Scene trough(double length, double cell, int rows, const ToolSettings& tool) {
   return scene;
 }
 
-/// The highest sand, as of the last frame [m].
+/// Keeps the height of the highest sand in the last frame [m].
 class HighestSand : public SimulationObserver {
  public:
   void on_frame(double, const HeightField& bed) override { height = bed.grid().maxCoeff(); }
@@ -35,9 +34,9 @@ class HighestSand : public SimulationObserver {
 
 enum class Measured { tool_in_sand, tool_gone };
 
-/// A run that should heap sand up to this height [m]: as long as the tool is there to lean on, or when sand
-/// has slipped back from where it was. Sand slips as often as it may, every quarter of a cell: a heap that
-/// waits for its sand is not what the closed form is about.
+/// A run that should heap sand up to the height `exact` [m], either while the tool supports the heap or after
+/// the tool left and the sand relaxed. Relaxation is as frequent as possible, every quarter of a cell,
+/// because the closed form assumes sand at rest.
 Contender heap_contender(const std::string& series, Scene scene, int threads, const Stroke& stroke,
                          Measured when, double exact) {
   scene.relaxation.way = scene.relaxation.way_at_rim = 1e-3;
@@ -59,8 +58,8 @@ Problem heap_problem(const char* name, const char* title, const char* text) {
   return {name, title, text, "largest_relative", "height of the heap, relative error", "", {}};
 }
 
-/// A wedge along y, its edge below, with flanks of this slope: so long that the way out of it is over them,
-/// and so wide that what it pushes aside comes to lie clear of its flanks.
+/// A wedge along y with its edge below and flanks of this slope. It is so long that displaced sand leaves
+/// over the flanks, and so wide that it comes to lie clear of them.
 ToolSettings wedge(double flank) {
   constexpr double half_width = 0.04, half_length = 0.045;  // m
   auto mesh = std::make_shared<TriangleMesh>();
@@ -112,7 +111,7 @@ Problem wedge_problem(const ProblemOptions& options) {
       const Scene scene = trough(0.24, cell, 12, wedge(flank));
       const double slope = talus_slope(scene.relaxation.talus_angle);
       const Stroke stroke = straight({{0.0, 0.0, 0.001}, {0.0, 0.0, -depth}}, {at_once ? 0.001 : 1.0});
-      // Heights are means: of the cell in whose middle the crest lies.
+      // Heights are means over a cell. The crest lies in the middle of its cell.
       const double height = depth * std::sqrt(slope / (2.0 * flank)) - 0.25 * slope * cell;
       Contender contender = heap_contender(at_once ? "at once" : "slowly", scene, options.threads, stroke,
                                            Measured::tool_gone, height);
@@ -137,7 +136,7 @@ Problem mesh_problem(const ProblemOptions& options) {
     Scene sphere = hand_scene(ModelPreset::accurate);
     const int by = cells_per_radius / 5;
     sphere.bed.cols *= by, sphere.bed.rows *= by;
-    sphere.relaxation.way = sphere.relaxation.way_at_rim = 0.2;  // for a mesh the latter counts always
+    sphere.relaxation.way = sphere.relaxation.way_at_rim = 0.2;  // a mesh always relaxes by way_at_rim
     Scene mesh = sphere;
     mesh.tool.shape = ToolShape::mesh;
     mesh.tool.mesh = std::make_shared<TriangleMesh>(tool_surface(sphere.tool));
