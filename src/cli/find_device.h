@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "haptics/force_model.h"
 #include "haptics/haptic_device.h"
+#include "rules/force.h"
 
 namespace sandstroke {
 

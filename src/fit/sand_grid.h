@@ -1,7 +1,7 @@
 #pragma once
 
 #include "fit/felt_law.h"
-#include "haptics/force_model.h"
+#include "rules/force.h"
 #include "sand/resistive_force.h"
 
 namespace sandstroke {

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "haptics/force_model.h"
 #include "haptics/simulated_device.h"
+#include "rules/force.h"
 
 namespace sandstroke {
 

@@ -6,8 +6,8 @@
 #include <variant>
 #include <vector>
 
-#include "haptics/force_model.h"
 #include "haptics/stroke.h"
+#include "rules/force.h"
 
 namespace sandstroke {
 

@@ -2,9 +2,9 @@
 
 #include <filesystem>
 
-#include "haptics/force_model.h"
 #include "haptics/stroke.h"
 #include "haptics/table_settings.h"
+#include "rules/force.h"
 
 namespace sandstroke {
 

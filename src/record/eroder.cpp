@@ -22,7 +22,7 @@ RelaxationSettings in_short_turns(RelaxationSettings settings) {
 }  // namespace
 
 Eroder::Eroder(const HeightField& bed, const ToolSettings& tool, const RelaxationSettings& settings,
-               SandRing& dug, PlaceRing& places, SandRing& slipped, std::unique_ptr<Relaxer> relaxer)
+               SandRing& dug, PlaceRing& places, SandRing& relaxed, std::unique_ptr<Relaxer> relaxer)
     : replica_(bed),
       rate_(settings.rate),
       by_way_(settings.way > 0.0),
@@ -31,10 +31,10 @@ Eroder::Eroder(const HeightField& bed, const ToolSettings& tool, const Relaxatio
       relaxer_(relaxer ? std::move(relaxer) : make_relaxer(in_short_turns(settings), bed.cell_size())),
       dug_(dug),
       places_(places),
-      slipped_(slipped) {}
+      relaxed_(relaxed) {}
 
 void Eroder::give(const SandChange& change) {
-  while (!slipped_.push(change)) {
+  while (!relaxed_.push(change)) {
     if (stopping_) {
       held_.push_back(change);
       return;
@@ -60,7 +60,9 @@ void Eroder::exchange() {
   while (dug_.pop(change)) replica_.take(change, true);
 }
 
-bool Eroder::slip_is_due() const { return by_way_ && (!report_.converged || tool_.slip_is_due()); }
+bool Eroder::relaxation_is_due() const {
+  return by_way_ && (!report_.converged || tool_.relaxation_is_due());
+}
 
 void Eroder::turn() {
   exchange();
@@ -75,12 +77,12 @@ void Eroder::relax() {
   }
   tool_.hold(replica_.bed());
   const RelaxationOutcome outcome = relaxer_->relax(replica_.bed());
-  tool_.slipped(replica_.bed());
+  tool_.relaxed(replica_.bed());
   report_.relaxations += 1;
   report_.passes += outcome.passes;
   report_.converged = outcome.converged;
-  replica_.tell_changed([this](const SandChange& slipped) { give(slipped); });
-  report_.most_waiting = std::max(report_.most_waiting, slipped_.size());
+  replica_.tell_changed([this](const SandChange& relaxed) { give(relaxed); });
+  report_.most_waiting = std::max(report_.most_waiting, relaxed_.size());
 }
 
 void Eroder::start() {
@@ -108,7 +110,7 @@ void Eroder::run() {
     if (now() >= due) {
       relax();
       due = std::max(due + period, now());
-    } else if (slip_is_due()) {
+    } else if (relaxation_is_due()) {
       relax();
     }
     if (onlooker_) onlooker_(replica_.bed());

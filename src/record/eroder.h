@@ -33,12 +33,12 @@ struct ErosionReport {
 
 /// Relaxes a bed that is felt live, outside the servo loop as in the paper (section 4). It takes displaced
 /// sand from `dug` and the tool's place from `places`, relaxes its own replica (with walls under a solid tool
-/// at its last known place), and puts the changes into `slipped`.
+/// at its last known place), and puts the changes into `relaxed`.
 class Eroder {
  public:
   /// relaxer: null = as the settings say.
   Eroder(const HeightField& bed, const ToolSettings& tool, const RelaxationSettings& settings, SandRing& dug,
-         PlaceRing& places, SandRing& slipped, std::unique_ptr<Relaxer> relaxer = nullptr);
+         PlaceRing& places, SandRing& relaxed, std::unique_ptr<Relaxer> relaxer = nullptr);
   ~Eroder() { stop(); }
 
   /// Shows the bed to `onlooker` after every turn, in the eroder's thread. Call it before start().
@@ -51,7 +51,7 @@ class Eroder {
   void stop();
 
   /// Exchanges changes, and relaxes. Called by the thread, or, where none runs, by the caller. The thread
-  /// waits where `slipped` is full. Changes that it could not give before stop(), or a caller at all, go with
+  /// waits where `relaxed` is full. Changes that it could not give before stop(), or a caller at all, go with
   /// the next turn.
   void turn();
   /// The same without the relaxation.
@@ -68,7 +68,7 @@ class Eroder {
   void give(const SandChange& change);
   void relax();
   /// The tool asks for a relaxation, or the last one has not brought the sand to rest.
-  bool slip_is_due() const;
+  bool relaxation_is_due() const;
 
   BedReplica replica_;
   double rate_;  // Hz
@@ -79,7 +79,7 @@ class Eroder {
   std::unique_ptr<Relaxer> relaxer_;
   SandRing& dug_;
   PlaceRing& places_;
-  SandRing& slipped_;
+  SandRing& relaxed_;
   std::vector<SandChange> held_;  // changes that could not be given before the stop
   std::atomic<bool> stopping_ = true;
   std::function<void(const HeightField&)> onlooker_;

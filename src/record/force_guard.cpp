@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "haptics/force_model.h"
 #include "haptics/recording.h"
+#include "rules/force.h"
 
 namespace sandstroke {
 namespace {

@@ -53,10 +53,10 @@ LiveSand::LiveSand(const Scene& scene, const HeightField& bed, const FeltDevice&
       placement_(point_placement(scene.stroke ? scene.stroke->placement : StrokePlacement{}, device.frame)),
       highest_(bed.highest()),
       dug_(ring_size),
-      slipped_(ring_size),
+      relaxed_(ring_size),
       places_(most_places),
       replica_(checked(scene, bed)),
-      eroder_(bed, scene.tool, scene.relaxation, dug_, places_, slipped_),
+      eroder_(bed, scene.tool, scene.relaxation, dug_, places_, relaxed_),
       sand_(scene.tool, scene.displacement),
       largest_force_(device_.max_force > 0.0 ? std::min(device.largest_force, device_.max_force)
                                              : device.largest_force),
@@ -104,7 +104,7 @@ Eigen::Vector3d LiveSand::velocity(double time, const Eigen::Vector3d& tip) {
 
 void LiveSand::take_slipped(int most) {
   SandChange change;
-  for (int i = 0; i < most && slipped_.pop(change); ++i) {
+  for (int i = 0; i < most && relaxed_.pop(change); ++i) {
     replica_.take(change, false);
     highest_ = std::max(highest_, replica_.bed()(change.row, change.col));
   }

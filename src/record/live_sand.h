@@ -110,7 +110,7 @@ class LiveSand : public FeltWorld {
   DeviceSettings device_;
   PointPlacement placement_;
   double highest_;  // m: no sand is higher
-  SandRing dug_, slipped_;
+  SandRing dug_, relaxed_;
   PlaceRing places_;
   BedReplica replica_;
   Eroder eroder_;

@@ -1,5 +1,7 @@
 #include "sand/active_sand.h"
 
+#include "sand/steep_tiles.h"
+
 #include <algorithm>
 
 namespace sandstroke {

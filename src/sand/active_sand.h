@@ -137,10 +137,11 @@ double ActiveSand::compute_flow(HeightField& bed, const InStep& in_step, const J
   return given.value();
 }
 
-// Those steppers.
+// The relaxers of each method.
+std::unique_ptr<Relaxer> make_plain_relaxer(const RelaxationSettings& settings, double cell_size);
 std::unique_ptr<Relaxer> make_tile_relaxer(const RelaxationSettings& settings, double cell_size);
 std::unique_ptr<Relaxer> make_rkl_relaxer(const RelaxationSettings& settings, double cell_size);
-/// Heap memory that the latter takes besides ActiveSand for each tile that takes part [bytes].
+/// Heap memory [bytes] of the rkl relaxer besides ActiveSand, for each tile that takes part.
 std::size_t rkl_bytes_per_tile();
 
 }  // namespace sandstroke

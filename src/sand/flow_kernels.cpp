@@ -1,3 +1,5 @@
+// The fast form of talus_pass (rules/talus.h): only cells that may move, many at once. tests/sand/
+// engine_equality_test.cpp and tests/run/golden_engine_test.cpp hold both to the same bits.
 #include "sand/flow_kernels.h"
 
 #include <bit>

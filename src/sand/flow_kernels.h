@@ -2,8 +2,8 @@
 
 #include <optional>
 
+#include "rules/talus.h"
 #include "sand/super_step_tile.h"
-#include "sand/talus_law.h"
 
 namespace sandstroke {
 

@@ -1,3 +1,5 @@
+// The fast form of the filter and of PlainDisplacement (rules/displacement.h), many cells at once.
+// tests/sand/ engine_equality_test.cpp and tests/run/golden_displacement_test.cpp hold both to the same bits.
 #include "sand/footprint_kernels.h"
 
 #include <algorithm>

@@ -7,14 +7,12 @@
 #include <memory>
 #include <vector>
 
+#include "rules/talus.h"
 #include "sand/bed_geometry.h"
 #include "sand/cell_flags.h"
 #include "sand/surface_rule.h"
 
 namespace sandstroke {
-
-/// A bed seen as one block, height(row, col) in m; row-major, as files and pictures take it.
-using HeightGrid = Eigen::Array<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 /// Some cells of a row of a tile: bit c is column c.
 struct RowCells {

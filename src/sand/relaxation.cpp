@@ -1,7 +1,5 @@
 #include "sand/relaxation.h"
 
-#include "core/angle.h"
-#include "core/elementary.h"
 #include "sand/active_sand.h"
 #include "sand/steep_tiles.h"
 
@@ -19,28 +17,41 @@ void RelaxationOutcome::add(const RelaxationOutcome& next) {
   converged = next.converged;
 }
 
-double talus_slope(double talus_angle) { return elementary::tan(to_radians(talus_angle)); }
-
 double flow_share(const RelaxationSettings& settings) {
   if (settings.share > 0.0) return settings.share;
   return settings.law == RelaxationLaw::paper ? 0.5 : 0.25;
 }
 
+TalusLaw talus_law(const RelaxationSettings& settings, double cell_size) {
+  return {settings.law, flow_share(settings), settings.talus_angle, settings.tolerance, cell_size};
+}
+
 std::int64_t tiles_to_relax(const HeightField& bed, const RelaxationSettings& settings) {
+  if (settings.method == RelaxationMethod::plain) return bed.tile_count();
   std::int64_t tiles = bed.allocated_tiles();
-  visit_steep_tiles(bed, stable_slope(TalusLaw(settings, bed.cell_size()), bed.cell_size()),
+  visit_steep_tiles(bed, stable_slope(talus_law(settings, bed.cell_size()), bed.cell_size()),
                     [&](int tile) { tiles += bed.slot_of(tile) < 0; });
   return tiles;
 }
 
 std::size_t bytes_per_relaxed_tile(const RelaxationSettings& settings) {
+  // plain: the old heights and the new ones, and the rule's own two fields.
+  if (settings.method == RelaxationMethod::plain)
+    return HeightField::bytes_per_tile() + 4 * sizeof(double) * BedGeometry::tile_area;
   return HeightField::bytes_per_tile() + ActiveSand::bytes_per_tile() +
          (settings.method == RelaxationMethod::rkl ? rkl_bytes_per_tile() : 0);
 }
 
 std::unique_ptr<Relaxer> make_relaxer(const RelaxationSettings& settings, double cell_size) {
-  return settings.method == RelaxationMethod::rkl ? make_rkl_relaxer(settings, cell_size)
-                                                  : make_tile_relaxer(settings, cell_size);
+  switch (settings.method) {
+    case RelaxationMethod::rkl:
+      return make_rkl_relaxer(settings, cell_size);
+    case RelaxationMethod::plain:
+      return make_plain_relaxer(settings, cell_size);
+    case RelaxationMethod::passes:
+      break;
+  }
+  return make_tile_relaxer(settings, cell_size);
 }
 
 }  // namespace sandstroke

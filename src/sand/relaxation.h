@@ -4,16 +4,17 @@
 #include <functional>
 #include <memory>
 
+#include "rules/talus.h"
 #include "sand/height_field.h"
 
 namespace sandstroke {
 
-/// How sand that lies too steep flows: as Relaxer says.
-enum class RelaxationLaw { paper, isotropic, faces };
 inline constexpr const char* relaxation_law_names[] = {"paper", "isotropic", "faces"};
-/// passes: explicit Jacobi passes of the law. rkl: super time steps, which reach the rest that small steps of
-/// the law reach in far fewer passes (relaxation_rkl.cpp).
-enum class RelaxationMethod { passes, rkl };
+/// passes: Jacobi passes of the law over the sand that can move. rkl: super time steps, which reach the rest
+/// that small steps of the law reach in far fewer passes (relaxation_rkl.cpp). plain: talus_pass over all
+/// cells, which is slow, and has the bits of `passes`; a law of your own begins there.
+enum class RelaxationMethod { passes, rkl, plain };
+inline constexpr const char* relaxation_method_names[] = {"passes", "rkl", "plain"};
 
 struct RelaxationSettings {
   RelaxationLaw law = RelaxationLaw::paper;
@@ -28,11 +29,10 @@ struct RelaxationSettings {
   std::int64_t max_passes = 1'000'000;  ///< per relaxation
 };
 
-/// tan(talus angle [deg]): rise over run.
-double talus_slope(double talus_angle);
-
 /// c of the settings, or the law's own.
 double flow_share(const RelaxationSettings& settings);
+/// The law of the settings on cells of this size [m].
+TalusLaw talus_law(const RelaxationSettings& settings, double cell_size);
 
 struct RelaxationOutcome {
   std::int64_t passes = 0;
@@ -57,22 +57,11 @@ using BedNow = std::function<const HeightField&()>;
 /// Told after each pass: how many there were in this relaxation.
 using PassWatcher = std::function<void(std::int64_t passes, const BedNow& bed_now)>;
 
-/// Relaxes a bed to equilibrium, again and again as it is disturbed. Passes are Jacobi: all cells at once,
-/// from the old heights. A cell at rest (slope within the tolerance) gives nothing; so what a patch of sand
-/// does depends on its neighbourhood only, not on whether sand elsewhere still moves. (The stages of rkl have
-/// no tolerance, and its steps are as long as the whole of the moving sand allows.) With m the cell's height
-/// and T_i = tan(talus) x distance to neighbour i:
-///   paper:     dm = c max_i(m - m_i - T_i) over the 8 neighbours, shared among those with m - m_i > T_i in
-///              proportion to m - m_i (paper 3.2)
-///   isotropic: upwind slope |g| = sqrt(gx^2 + gy^2), gx = max(0, m - west, m - east)/dx; each lower axis
-///              neighbour gets c (1 - tan(talus)/|g|) (m - m_i); monotone for c <= 1/4
-///   faces:     the same with |g| at the face to each neighbour, so that a crest that slips on one side gives
-///              nothing to the other: along it the drop M = m - m_i, and k = n^2 / (3 max(M, n)), n = min(M,
-///              N), where the giver falls to its other side, too, by N (heights are means: those of a crest
-///              of slope T whose top is in the cell drop by M and N with M + N^2 / (3 M) = T dx, N <= M);
-///              across it the mean of both cells' central differences, one-sided at walls
-/// Nothing crosses the border, nor gets into or out of cells that the bed holds (HeightField::hold). Sums run
-/// over opposite pairs, so that a symmetric bed stays symmetric to the bit.
+/// Relaxes a bed to equilibrium by a law (rules/talus.h), again and again as it is disturbed. Passes are
+/// Jacobi: all cells at once, from the old heights. A cell at rest (its slope is within the tolerance) gives
+/// nothing. So what a patch of sand does depends on its neighbourhood only, not on whether sand elsewhere
+/// still moves. (The stages of rkl have no tolerance, and its steps are as long as the whole of the moving
+/// sand allows.) Nothing crosses the border, nor gets into or out of walls (HeightField::hold).
 class Relaxer {
  public:
   virtual ~Relaxer() = default;

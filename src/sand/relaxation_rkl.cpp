@@ -33,7 +33,7 @@ TalusLaw ungated(const RelaxationSettings& settings, double cell_size) {
   RelaxationSettings law = settings;
   law.tolerance = 0.0;
   law.share = 1.0;
-  return TalusLaw(law, cell_size);
+  return talus_law(law, cell_size);
 }
 
 // Found on cones, rough beds and furrows (tests/accuracy and tests/bench hold them):
@@ -52,7 +52,7 @@ constexpr std::int64_t work_worth_ahead = 20'000;
 class RklRelaxer : public Relaxer {
  public:
   RklRelaxer(const RelaxationSettings& settings, double cell_size)
-      : law_(settings, cell_size),
+      : law_(talus_law(settings, cell_size)),
         step_tolerance_(settings.step_tolerance),
         max_passes_(settings.max_passes),
         largest_share_(std::min(law_.share, largest_share)),

@@ -5,21 +5,13 @@
 #include <optional>
 #include <vector>
 
+#include "rules/filter.h"
 #include "sand/height_field.h"
 #include "sand/sand_plane.h"
 #include "sand/tool_envelope.h"
 #include "tool/tool_settings.h"
 
 namespace sandstroke {
-
-/// The paper's filter g(u) = sin(u) - 0.53, u = (rho/s)^2 (figure 2): negative up to u0 = asin(0.53),
-/// positive up to u1, where its plane integral vanishes: 1 - cos(u1) = 0.53 u1. (The paper prints u1 as 1.2,
-/// and its limits for rho/s where only u makes that integral vanish.)
-namespace filter {
-inline constexpr double offset = 0.53;
-inline constexpr double u0 = 0.5586005653428008;
-inline constexpr double u1 = 1.195907635584353;
-}  // namespace filter
 
 /// What a footprint is computed from.
 struct FootprintShape {

@@ -4,11 +4,11 @@
 #include <string>
 
 #include "core/compensated_sum.h"
-#include "haptics/force_model.h"
 #include "haptics/late_force.h"
 #include "haptics/passivity.h"
 #include "haptics/simulated_device.h"
 #include "haptics/swing_watch.h"
+#include "rules/force.h"
 #include "sim/run_result.h"
 #include "sim/scene.h"
 

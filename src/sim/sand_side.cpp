@@ -13,7 +13,7 @@ namespace {
 /// Of the radius. A drag at 2 radii a tick then leaves the mean furrow depth of 20 times as many ticks within
 /// 2.5 %, with steps of a whole radius within 9 %, without any 49 % short (4 and 10 mm deep).
 constexpr double longest_step = 0.5;
-/// Cells: sand that slips more often than that has hardly moved. A plate of two cells would ask for it.
+/// Cells: sand that relaxes more often than that has hardly moved. A plate of two cells would ask for it.
 constexpr double least_way = 0.25;
 /// Radii of sand above the rim, where the way is the short one: strokes at tip depth R are deeper. With 0.5 a
 /// scribble R/2 deep over its own ground leaves 6.6 % of its sand elsewhere, with 0.2 5.5 %, with 0.1 5.2 %;
@@ -30,7 +30,7 @@ SandSide::SandSide(const ToolSettings& tool, const DisplacementSettings& displac
       solid_(tool.solid),
       way_(relaxation.way),
       way_at_rim_(relaxation.way_at_rim),
-      slips_(relaxation.way > 0.0) {}
+      by_way_(relaxation.way > 0.0) {}
 
 Interaction SandSide::look(const HeightField& bed, const Eigen::Vector3d& read_tip) {
   footprint_.place(bed, read_tip.x(), read_tip.y());
@@ -68,7 +68,7 @@ void SandSide::put(const HeightField& bed, const Eigen::Vector3d& read_tip, bool
 }
 
 Interaction SandSide::move(HeightField& bed, const Eigen::Vector3d& read_tip, const Eigen::Vector3d& true_tip,
-                           const std::function<void()>& slip, std::optional<double> highest) {
+                           const std::function<void()>& relax, std::optional<double> highest) {
   const Eigen::Vector3d motion = last_tip_ ? Eigen::Vector3d(true_tip - *last_tip_) : Eigen::Vector3d::Zero();
   TipSteps steps{read_tip - motion, motion, 1};
   const double longest = longest_step * footprint_.radius();
@@ -78,24 +78,24 @@ Interaction SandSide::move(HeightField& bed, const Eigen::Vector3d& read_tip, co
   double on_the_way = 0.0;
   for (std::int64_t i = 1; i <= steps.count; ++i) {
     Eigen::Vector3d from = steps.at(i - 1);
-    while (const std::optional<double> share = slips_.way_to_next(from, steps.at(i) - from)) {
+    while (const std::optional<double> share = by_way_.way_to_next(from, steps.at(i) - from)) {
       if (interrupted()) break;
       from += *share * (steps.at(i) - from);
       on_the_way += dig(bed, from, steps.way).displaced_volume;
-      slip();
+      relax();
     }
     if (i == steps.count) break;
     on_the_way += dig(bed, steps.at(i), steps.way).displaced_volume;
-    if (slip_is_due()) slip();
+    if (relaxation_is_due()) relax();
   }
   Interaction interaction = dig(bed, read_tip, motion);
-  if (slip_is_due()) slip();
+  if (relaxation_is_due()) relax();
   interaction.displaced_volume += on_the_way;
   last_tip_ = true_tip;
   return interaction;
 }
 
-double SandSide::way_to_next_slip(const HeightField& bed) {
+double SandSide::way_to_next_relaxation(const HeightField& bed) {
   if (way_at_rim_ <= 0.0 || way_at_rim_ >= way_)
     return std::max(way_ * footprint_.radius(), least_way * bed.cell_size());
   // What a sphere pushed outward and what falls in behind it run from one crest, once sand stands at its rim.
@@ -118,8 +118,8 @@ void SandSide::hold(HeightField& bed) {
     bed.hold({});
 }
 
-void SandSide::slipped(const HeightField& bed) {
-  slips_.slips(tip_, contact_, contact_ ? way_to_next_slip(bed) : 0.0);
+void SandSide::relaxed(const HeightField& bed) {
+  by_way_.relaxed(tip_, contact_, contact_ ? way_to_next_relaxation(bed) : 0.0);
 }
 
 }  // namespace sandstroke

@@ -5,9 +5,9 @@
 #include <memory>
 #include <optional>
 
+#include "rules/schedule.h"
 #include "sand/displacement.h"
 #include "sand/relaxation.h"
-#include "sim/slip_schedule.h"
 
 namespace sandstroke {
 
@@ -23,8 +23,8 @@ struct Interaction {
 /// The sand's side of a tick: a tool that goes through a bed, from place to place.
 class SandSide {
  public:
-  /// relaxation: its ways between two slips (SlipSchedule); without them none is due. own: in place of what
-  /// the settings say.
+  /// relaxation: its ways (RelaxationByWay); without them no relaxation is due by way. own: replaces the
+  /// displacement of the settings.
   SandSide(const ToolSettings& tool, const DisplacementSettings& displacement,
            const RelaxationSettings& relaxation = {}, std::unique_ptr<Displacer> own = nullptr);
 
@@ -32,11 +32,11 @@ class SandSide {
   /// turned like this.
   void turn(const Eigen::Matrix3d& rotation) { footprint_.turn(rotation); }
   /// Displaces along the way from the last tick's place and at this one [m]. read_tip: as the device's
-  /// encoders read it; true_tip: where it is, for encoder steps are no motion. slip(): called with the tool
-  /// at the places where sand is to slip by its way; it calls hold(). highest [m]: no sand is higher; none:
-  /// it is looked up where it matters, which visits every tile.
+  /// encoders read it; true_tip: where it is, for encoder steps are no motion. relax() is
+  /// called with the tool at the places where a relaxation is due by its way; it calls hold() and relaxed().
+  /// highest [m]: no sand is higher; none: it is looked up where it matters, which visits every tile.
   Interaction move(HeightField& bed, const Eigen::Vector3d& read_tip, const Eigen::Vector3d& true_tip,
-                   const std::function<void()>& slip, std::optional<double> highest = {});
+                   const std::function<void()>& relax, std::optional<double> highest = {});
   /// The same place, without displacing anything.
   Interaction look(const HeightField& bed, const Eigen::Vector3d& read_tip);
   /// Takes all memory that a tool that does not turn needs on this bed: move() then takes none of its own.
@@ -52,11 +52,11 @@ class SandSide {
     last_tip_.reset();
     contact_ = false;
   }
-  bool slip_is_due() const { return slips_.is_due(tip_, contact_); }
-  /// Sand is about to slip: a solid tool in contact, and none else, holds the cells under its bowl.
+  bool relaxation_is_due() const { return by_way_.is_due(tip_, contact_); }
+  /// Marks the cells under a solid tool in contact as walls for the next relaxation; of any other, none.
   void hold(HeightField& bed);
-  /// It has slipped. How far the tool may go until it does again depends on how it lies now.
-  void slipped(const HeightField& bed);
+  /// Sand has relaxed. How far the tool may go until the next time depends on how the sand lies now.
+  void relaxed(const HeightField& bed);
 
   /// The footprint where it is, with the sand as it lies there now.
   const ToolFootprint& seen(const HeightField& bed) {
@@ -71,7 +71,7 @@ class SandSide {
 
  private:
   /// m
-  double way_to_next_slip(const HeightField& bed);
+  double way_to_next_relaxation(const HeightField& bed);
   Interaction dig(HeightField& bed, const Eigen::Vector3d& tip, const Eigen::Vector3d& motion);
   /// The volume moved [m^3].
   double displace_sand(HeightField& bed, const Eigen::Vector3d& tip, const Eigen::Vector3d& motion);
@@ -81,7 +81,7 @@ class SandSide {
   std::unique_ptr<Displacer> own_;
   bool solid_;
   double way_, way_at_rim_;  // radii
-  SlipSchedule slips_;
+  RelaxationByWay by_way_;
   std::optional<Eigen::Vector3d> last_tip_;        // the true one
   Eigen::Vector3d tip_ = Eigen::Vector3d::Zero();  // as read, where it dug last
   bool contact_ = false;                           // there

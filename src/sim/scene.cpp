@@ -108,7 +108,8 @@ void describe_relaxation(KeyVisitor& v, RelaxationSettings& r) {
   choose(
       v, "law", r.law, {std::begin(relaxation_law_names), std::end(relaxation_law_names)},
       "8 neighbours as published, the same slope in every direction, or that slope between each two cells");
-  choose(v, "method", r.method, {"passes", "rkl"}, "plain passes, or super time steps, which are far fewer");
+  choose(v, "method", r.method, {"passes", "rkl", "plain"},
+         "passes, or super time steps, which are far fewer; or the rule cell by cell, which is slow");
   if (r.method == RelaxationMethod::rkl)
     v.number("step_tolerance", r.step_tolerance, {1e-6, 10.0, false}, "",
              "error of a super step, as a share of how far sand has moved");

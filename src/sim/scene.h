@@ -7,11 +7,11 @@
 #include <vector>
 
 #include "core/key_visitor.h"
-#include "haptics/force_model.h"
 #include "haptics/simulated_device.h"
 #include "haptics/stroke_placement.h"
 #include "haptics/table_settings.h"
 #include "picture/view.h"
+#include "rules/force.h"
 #include "sand/displacement.h"
 #include "sand/initial_surface.h"
 #include "sand/relaxation.h"

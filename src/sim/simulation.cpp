@@ -71,12 +71,11 @@ void Simulation::account(const TickRecord& record) {
 }
 
 TickRecord Simulation::tick(double time, const Hand& hand, double next_time,
-                            const std::function<void()>& slip) {
+                            const std::function<void()>& relax) {
   const double asked_depth = follower_ && hand.down ? follower_->asked_depth() : TickRecord{}.asked_depth;
-  TickRecord record = loop_.touch(time, hand, !stroke_->stroke().orientation.empty(), slip);
+  TickRecord record = loop_.step(
+      {time, hand, !stroke_->stroke().orientation.empty(), [&] { return hand_at(next_time); }, relax});
   record.asked_depth = asked_depth;
-  record.next = hand_at(next_time);
-  loop_.feel(record);
   return record;
 }
 
@@ -98,12 +97,12 @@ std::int64_t Simulation::idle(const TickRange& ticks) {
   const double servo_rate = scene().device.servo_rate, rate = scene().relaxation.rate;
   std::int64_t tick = ticks.begin, at_rest_from = ticks.end;
   for (; tick < ticks.end && !interrupted(); ++tick) {
-    const std::int64_t slip = at_rest_from < ticks.end ? ticks.end
-                                                       : next_due({tick, ticks.end}, servo_rate, rate),
+    const std::int64_t due = at_rest_from < ticks.end ? ticks.end
+                                                      : next_due({tick, ticks.end}, servo_rate, rate),
                        frame = next_due({tick, ticks.end}, servo_rate, scene().output.frames);
-    tick = std::min(slip, frame);
+    tick = std::min(due, frame);
     if (tick == ticks.end) break;
-    if (tick == slip) {
+    if (tick == due) {
       const RelaxationOutcome outcome = relax(static_cast<double>(tick) / servo_rate);
       if (outcome.converged && outcome.cells_visited == 0) at_rest_from = tick + 1;  // and all that come
     }
@@ -141,7 +140,7 @@ void Simulation::run_stroke() {
   loop_.start(hand);
 
   double time = 0.0;
-  const std::function<void()> slip = [&] { relax(time); };
+  const std::function<void()> relax_now = [&] { relax(time); };
   auto idle_next = idle_.begin();
   if (scene().output.frames > 0.0) keep_frame(0.0);
   for (std::int64_t k = 0; k < ticks_ && !interrupted(); ++k) {
@@ -154,7 +153,7 @@ void Simulation::run_stroke() {
     }
     time = static_cast<double>(k) / servo_rate;
     const double next_time = time_of(k + 1);
-    TickRecord record = tick(time, hand, next_time, slip);
+    TickRecord record = tick(time, hand, next_time, relax_now);
     record.lifts = stroke_->lifts_between(begin + time, next_time);
     record.recorded_force = recorded.at(time);
 

@@ -37,12 +37,13 @@ class Simulation {
   void check_inside(const Stroke& stroke) const;
   void run_stroke();
   /// What sand and device do in the tick at whose end the stroke is at next_time.
-  TickRecord tick(double time, const Hand& hand, double next_time, const std::function<void()>& slip);
+  TickRecord tick(double time, const Hand& hand, double next_time, const std::function<void()>& relax);
   /// Where the stroke's hand is at that time of the stroke, on the sand as it lies now.
   Hand hand_at(double time);
   /// Adds what a tick reached.
   void account(const TickRecord& record);
-  /// Idle ticks: sand that is not at rest slips when it is due, and frames come. The tick after the last one.
+  /// Idle ticks: sand that is not at rest relaxes when it is due, and frames come. The tick after the last
+  /// one.
   std::int64_t idle(const TickRange& ticks);
   RelaxationOutcome relax(double time);
   void keep_frame(double time);

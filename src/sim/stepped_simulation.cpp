@@ -7,8 +7,8 @@
 
 namespace sandstroke {
 
-SteppedSimulation::SteppedSimulation(const Scene& scene, HeightField bed, bool slips)
-    : loop_(scene, std::move(bed), true), slips_(slips) {
+SteppedSimulation::SteppedSimulation(const Scene& scene, HeightField bed, bool relaxes)
+    : loop_(scene, std::move(bed), true), relaxes_(relaxes) {
   if (scene.device.model == DeviceModel::dynamic && scene.device.drag == DragVelocity::implicit)
     throw_input_error(
         "device.drag = \"implicit\" knows where the hand goes in a tick, which is not known tick by tick; "
@@ -32,13 +32,11 @@ const TickRecord& SteppedSimulation::tick(Hand hand, bool knows_velocity, bool t
   } else {
     loop_.start(hand);
   }
-  TickRecord record = loop_.touch(time(), hand, turns, [this] {
-    if (slips_) relax();
-  });
-  record.next = hand;
-  loop_.feel(record);
-  last_ = record;
-  if (slips_ && comes_due(ticks_, scene().device.servo_rate, scene().relaxation.rate)) relax();
+  last_ = loop_.step({time(), hand, turns, [&] { return hand; },
+                      [this] {
+                        if (relaxes_) relax();
+                      }});
+  if (relaxes_ && comes_due(ticks_, scene().device.servo_rate, scene().relaxation.rate)) relax();
   ++ticks_;
   return *last_;
 }

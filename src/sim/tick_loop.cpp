@@ -18,33 +18,47 @@ TickLoop::TickLoop(const Scene& scene, HeightField bed, bool plays, std::unique_
   if (!scene.own.relaxation.empty() || !scene.own.displacement.empty()) watch_.emplace(bed_);
 }
 
-TickRecord TickLoop::touch(double time, const Hand& hand, bool turns, const std::function<void()>& slip) {
-  TickRecord record;
-  const SimulatedDevice::State reading = device_.device().read();
-  const Eigen::Vector3d tip = tip_of(scene_.device, reading.position);
-  const Eigen::Vector3d true_tip = tip_of(scene_.device, device_.device().state().position);
-  record.time = time;
-  record.hand = hand;
-  record.device_position = reading.position;
-  if (!hand.down) {
+TickRecord TickLoop::step(const TickInput& tick) {
+  TickRecord record = read_device(tick);
+  if (tick.hand.down) {
+    if (tick.turns) turn_tool(tick.hand);
+    displace(record, tick);
+  } else {
     lift();
-    if (sand_.slip_is_due()) slip();
-    return record;
+    if (sand_.relaxation_is_due()) tick.relax();
   }
-  if (turns) {
-    const Eigen::Matrix3d rotation = rotation_of(hand.orientation) * own_rotation_;
-    sand_.turn(rotation);
-    if (contact_force_) contact_force_->turn(rotation);
-  }
+  record.next = tick.next_hand();
+  device_.feel(record);
+  return record;
+}
+
+TickRecord TickLoop::read_device(const TickInput& tick) const {
+  TickRecord record;
+  record.time = tick.time;
+  record.hand = tick.hand;
+  record.device_position = device_.device().read().position;
+  return record;
+}
+
+void TickLoop::turn_tool(const Hand& hand) {
+  const Eigen::Matrix3d rotation = rotation_of(hand.orientation) * own_rotation_;
+  sand_.turn(rotation);
+  if (contact_force_) contact_force_->turn(rotation);
+}
+
+/// Depth, both passes of the displacement along the tool's path, relaxations by its way, and what the sand
+/// then does to the tool.
+void TickLoop::displace(TickRecord& record, const TickInput& tick) {
+  const Eigen::Vector3d tip = tip_of(scene_.device, record.device_position);
+  const Eigen::Vector3d true_tip = tip_of(scene_.device, device_.device().state().position);
   const std::optional<Eigen::Vector3d> before = sand_.last_tip();
-  const Interaction interaction = sand_.move(bed_, tip, true_tip, slip);
+  const Interaction interaction = sand_.move(bed_, tip, true_tip, tick.relax);
   const Eigen::Vector3d motion = before ? Eigen::Vector3d(true_tip - *before) : Eigen::Vector3d::Zero();
   if (contact_force_) record.wrench = contact_force_->in_tick(sand_, bed_, tip, motion, interaction.contact);
   record.level = interaction.level;
   record.depth = interaction.depth;
   record.displaced_volume = interaction.displaced_volume;
   record.contact = interaction.contact;
-  return record;
 }
 
 void TickLoop::advance(const TickRecord& record) {
@@ -62,7 +76,7 @@ RelaxationOutcome TickLoop::relax(const PassWatcher& watcher) {
   sand_.hold(bed_);
   check_own_law("displacement", scene_.own.displacement);
   const RelaxationOutcome outcome = relaxer_->relax(bed_, watcher);
-  sand_.slipped(bed_);
+  sand_.relaxed(bed_);
   check_own_law("relaxation", scene_.own.relaxation);
   return outcome;
 }

@@ -12,8 +12,19 @@
 
 namespace sandstroke {
 
+/// What a hand does in a tick.
+struct TickInput {
+  double time;  ///< s, of its start
+  Hand hand;    ///< at its start
+  bool turns;   ///< the tool turns with the hand, from tool.orientation
+  /// Where the hand is at its end, as far as that is known; called once the tool has displaced sand.
+  std::function<Hand()> next_hand;
+  /// Called with the tool at the places where a relaxation is due by its way; calls TickLoop::relax().
+  std::function<void()> relax;
+};
+
 /// A device whose tool goes through a bed, tick by tick: what whole runs (Simulation) and those who drive a
-/// hand themselves (SteppedSimulation) have in common. A tick: touch(), then feel(), then advance().
+/// hand themselves (SteppedSimulation) have in common. A tick is step(), then advance().
 class TickLoop {
  public:
   /// plays: a hand will move the tool; else the bed is only relaxed. relaxer: none = as the scene says.
@@ -27,21 +38,22 @@ class TickLoop {
 
   /// The device is where the hand is, and moves as it does.
   void start(const Hand& hand) { device_.start(hand); }
-  /// The tool digs where the device is. turns: with the hand, from how tool.orientation holds it. slip():
-  /// sand is to slip with the tool where it is; it calls relax().
-  TickRecord touch(double time, const Hand& hand, bool turns, const std::function<void()>& slip);
-  /// record.next, where the hand goes in the tick, is filled in: fills in what the device feels.
-  void feel(TickRecord& record) { device_.feel(record); }
+  /// The stages of a tick in the order of the README's model: the device is read, the tool displaces sand,
+  /// and the device feels the sand's force.
+  TickRecord step(const TickInput& tick);
   /// The device goes to the tick's end; where the hand is lifted before it (record.lifts), with it. Error:
   /// unstable, where force or device leave all bounds.
   void advance(const TickRecord& record);
   /// The tool touches nothing.
   void lift();
-  /// Sand slips to rest, under a solid tool or into the place that it has left. Error: unstable, where an own
-  /// law makes or loses sand.
+  /// Relaxes the sand to rest, around a solid tool or into the place that it has left. Error: unstable, where
+  /// a plugin law makes or loses sand.
   RelaxationOutcome relax(const PassWatcher& watcher);
 
  private:
+  TickRecord read_device(const TickInput& tick) const;
+  void turn_tool(const Hand& hand);
+  void displace(TickRecord& record, const TickInput& tick);
   void check_near(const TickRecord& record) const;
   void check_own_law(const char* key, const std::string& name);
 

@@ -4,15 +4,13 @@
 #include <memory>
 #include <string>
 
+#include "rules/filter.h"
 #include "tool/triangle_mesh.h"
 
 namespace sandstroke {
 
 /// A mesh is read from a file. The others are made by formula (tool_surface.h).
 enum class ToolShape { sphere, cylinder, cone, box, plate, rake, mesh };
-
-/// Underside of the sphere: the paper's filter a sin(rho^2/s^2), or the sphere itself.
-enum class ToolProfile { paper, sphere };
 
 /// The tool's body in its own frame: its tip at the origin, z up.
 struct ToolSettings {

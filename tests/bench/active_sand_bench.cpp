@@ -44,7 +44,7 @@ class EndlessPasses {
   static TalusLaw slow(RelaxationLaw law) {
     RelaxationSettings settings = relaxation_settings(law);
     settings.share = 1e-30;
-    return TalusLaw(settings, 1.0);
+    return talus_law(settings, 1.0);
   }
   static HeightField bed_of(int tiles) {
     int rows = 1;

@@ -8,8 +8,8 @@
 #include <random>
 #include <string>
 
+#include "rules/talus.h"
 #include "sand/height_field.h"
-#include "sand/talus_law.h"
 
 namespace sandstroke {
 

@@ -11,7 +11,7 @@
 #include "core/hash.h"
 #include "core/stopwatch.h"
 #include "haptics/stroke_script.h"
-#include "reference/relaxation_reference.h"
+#include "sand/active_sand.h"
 #include "sim/simulation.h"
 
 namespace sandstroke {
@@ -91,7 +91,7 @@ nlohmann::json against_reference(const Scene& scene, const Stroke& stroke, const
     tiles_seconds.push_back(tiles->relaxation_seconds);
   }
   const Replay reference =
-      replay(scene, beginning, make_reference_relaxer(scene.relaxation, scene.bed.cell_size()));
+      replay(scene, beginning, make_plain_relaxer(scene.relaxation, scene.bed.cell_size()));
 
   const HeightGrid a = tiles->bed.grid(), b = reference.bed.grid();
   const bool same = std::memcmp(a.data(), b.data(), static_cast<std::size_t>(a.size()) * sizeof(double)) == 0;

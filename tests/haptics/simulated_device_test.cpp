@@ -7,8 +7,8 @@
 #include <cmath>
 #include <vector>
 
-#include "haptics/force_model.h"
 #include "haptics/passivity.h"
+#include "rules/force.h"
 #include "sanitized.h"
 
 namespace sandstroke {

@@ -12,9 +12,9 @@ TEST(Eroder, ThatErodesOnceInAnAgeTakesWhatIsDugMeanwhileAndEndsWhenItIsAsked) {
   for (const double rate : {1e-4, 1e-300, 0.0}) {
     RelaxationSettings settings;
     settings.rate = rate;
-    SandRing dug(8), slipped(8);
+    SandRing dug(8), relaxed(8);
     PlaceRing places(8);
-    Eroder eroder(HeightField(10, 10, 0.01), {}, settings, dug, places, slipped);
+    Eroder eroder(HeightField(10, 10, 0.01), {}, settings, dug, places, relaxed);
     places.push({});  // from the first place on
     eroder.start();
     for (int i = 0; i < 3; ++i) {
@@ -32,18 +32,18 @@ TEST(Eroder, UnderASolidToolNothingSlipsUntilItHasGone) {
   const ToolSettings tool{0.03, ToolProfile::sphere, true};
   RelaxationSettings settings;
   settings.rate = 0.0, settings.way = 1.0 / 3.0;  // of 30 mm: a cell
-  SandRing dug(64), slipped(64);
+  SandRing dug(64), relaxed(64);
   PlaceRing places(8);
-  Eroder eroder(HeightField(41, 41, 0.01), tool, settings, dug, places, slipped);
+  Eroder eroder(HeightField(41, 41, 0.01), tool, settings, dug, places, relaxed);
   dug.push({20, 20, 0.05});
   places.push({{0.0, 0.0, -0.01}, true});
   eroder.turn();
   EXPECT_EQ(eroder.bed()(20, 20), 0.05);
-  EXPECT_EQ(slipped.size(), 0u);
+  EXPECT_EQ(relaxed.size(), 0u);
   places.push({{0.0, 0.0, 0.1}, false});
   eroder.turn();
   EXPECT_LT(eroder.bed()(20, 20), 0.05);
-  EXPECT_GT(slipped.size(), 0u);
+  EXPECT_GT(relaxed.size(), 0u);
 }
 
 /// Only counts.
@@ -64,10 +64,10 @@ class CountingRelaxer : public Relaxer {
 TEST(Eroder, SlipsInItsThreadAsOftenAsTheToolHasGoneItsWay) {
   RelaxationSettings settings;
   settings.rate = 0.0, settings.way = 1.0 / 3.0;  // of 30 mm: a cell
-  SandRing dug(64), slipped(64);
+  SandRing dug(64), relaxed(64);
   PlaceRing places(8);
   std::atomic<int> slips = 0;
-  Eroder eroder(HeightField(41, 41, 0.01), {0.03, ToolProfile::sphere, true}, settings, dug, places, slipped,
+  Eroder eroder(HeightField(41, 41, 0.01), {0.03, ToolProfile::sphere, true}, settings, dug, places, relaxed,
                 std::make_unique<CountingRelaxer>(slips));
   const auto go_to = [&](double x, bool contact) {
     places.push({{x, 0.0, contact ? -0.01 : 0.1}, contact});
@@ -95,9 +95,9 @@ class FailingRelaxer : public Relaxer {
 };
 
 TEST(Eroder, ThatFailsEndsItsThreadAndNotTheProgram) {
-  SandRing dug(8), slipped(8);
+  SandRing dug(8), relaxed(8);
   PlaceRing places(8);
-  Eroder eroder(HeightField(10, 10, 0.01), {}, {}, dug, places, slipped, std::make_unique<FailingRelaxer>());
+  Eroder eroder(HeightField(10, 10, 0.01), {}, {}, dug, places, relaxed, std::make_unique<FailingRelaxer>());
   dug.push({5, 5, -1e-6});
   places.push({});
   eroder.start();
@@ -111,12 +111,12 @@ TEST(Eroder, TurnsAreAsShortAsTheSettingsSayAndTheirPassesAddUp) {
   for (const auto& [most, in_a_turn] : {std::pair<std::int64_t, std::int64_t>{7, 7}, {1'000'000, 50}}) {
     RelaxationSettings settings;
     settings.max_passes = most;
-    SandRing dug(8), slipped(std::size_t{1} << 16);
+    SandRing dug(8), relaxed(std::size_t{1} << 16);
     PlaceRing places(8);
     HeightField heap(61, 61, 0.01);
     for (int row = 25; row < 36; ++row)
       for (int col = 25; col < 36; ++col) heap.set(row, col, 0.3);
-    Eroder eroder(heap, {}, settings, dug, places, slipped);
+    Eroder eroder(heap, {}, settings, dug, places, relaxed);
     for (int turn = 1; turn <= 3; ++turn) {
       eroder.turn();
       EXPECT_EQ(eroder.report().relaxations, turn);
@@ -128,11 +128,11 @@ TEST(Eroder, TurnsAreAsShortAsTheSettingsSayAndTheirPassesAddUp) {
 
 TEST(Eroder, WhatWasDugSlips) {
   RelaxationSettings settings;
-  SandRing dug(8), slipped(1024);
+  SandRing dug(8), relaxed(1024);
   PlaceRing places(8);
-  Eroder eroder(HeightField(41, 41, 0.01), {}, settings, dug, places, slipped);
+  Eroder eroder(HeightField(41, 41, 0.01), {}, settings, dug, places, relaxed);
   eroder.turn();
-  EXPECT_EQ(slipped.size(), 0u);
+  EXPECT_EQ(relaxed.size(), 0u);
   dug.push({20, 20, 0.05});
   eroder.turn();
   EXPECT_LT(eroder.bed()(20, 20), 0.05);
@@ -142,13 +142,13 @@ TEST(Eroder, WhatWasDugSlips) {
 TEST(Eroder, SandThatAsksByWayAndHasFarToGoGoesOnWithoutTheToolsMoving) {
   RelaxationSettings settings;
   settings.rate = 0.0, settings.way = 1.0 / 3.0;  // of 30 mm: a cell
-  SandRing dug(8), slipped(std::size_t{1} << 18);
+  SandRing dug(8), relaxed(std::size_t{1} << 18);
   PlaceRing places(8);
   HeightField heap(61, 61, 0.01);
   for (int row = 25; row < 36; ++row)
     for (int col = 25; col < 36; ++col) heap.set(row, col, 0.3);
   places.push({{0.2, 0.2, -0.01}, true});  // it touches down beside the heap, and rests
-  Eroder eroder(heap, {0.01, ToolProfile::sphere, false}, settings, dug, places, slipped);
+  Eroder eroder(heap, {0.01, ToolProfile::sphere, false}, settings, dug, places, relaxed);
   eroder.start();
   RelaxationSettings looser = settings;  // changes add up to the eroder's own heights but for rounding
   looser.tolerance *= 2.0;
@@ -157,7 +157,7 @@ TEST(Eroder, SandThatAsksByWayAndHasFarToGoGoesOnWithoutTheToolsMoving) {
     return make_relaxer(looser, 0.01)->relax(copy).passes == 0;
   };
   for (SandChange change; !rests();) {
-    while (slipped.pop(change))
+    while (relaxed.pop(change))
       heap.set(change.row, change.col, heap(change.row, change.col) + change.change);
     std::this_thread::yield();
   }

@@ -19,7 +19,7 @@
 #include "io/scene_toml.h"
 #include "io/stroke_file.h"
 #include "io/surface_file.h"
-#include "reference/relaxation_reference.h"
+#include "sand/active_sand.h"
 #include "sanitized.h"
 #include "sim/simulation.h"
 
@@ -115,7 +115,7 @@ class CheckedRelaxer : public Relaxer {
     for (const int slot : changed) EXPECT_TRUE(same_outside(window, bed, whole_before, slot));
     if (!compares) return outcome;
     HeightField after = before;
-    const RelaxationOutcome plain = make_reference_relaxer(settings_, bed.cell_size())->relax(after);
+    const RelaxationOutcome plain = make_plain_relaxer(settings_, bed.cell_size())->relax(after);
     EXPECT_EQ(outcome.passes, plain.passes);
     const HeightGrid expected = after.grid(), start = before.grid();
     EXPECT_TRUE((window_of(bed, window).grid() == expected).all()) << "relaxation " << relaxations;

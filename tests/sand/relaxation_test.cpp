@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-#include "reference/relaxation_reference.h"
+#include "sand/active_sand.h"
 #include "sand/all_laws.h"
 #include "sand/initial_surface.h"
 #include "sand/symmetry.h"
@@ -184,7 +184,7 @@ TEST_P(AllLaws, TilesGiveTheBitsOfTheReference) {
     HeightField tiles = random_bed(c.rows, c.cols, 1.0, c.amplitude, ++seed);
     HeightField plain = tiles;
     const auto by_tiles = make_relaxer(s, 1.0);
-    const auto by_reference = make_reference_relaxer(s, 1.0);
+    const auto by_reference = make_plain_relaxer(s, 1.0);
     // Again after a disturbance at a tile corner: sleeping tiles must wake.
     for (int round = 0; round < 3; ++round) {
       const auto a = by_tiles->relax(tiles), b = by_reference->relax(plain);
@@ -206,7 +206,7 @@ TEST_P(AllLaws, EnginesAgreeWhereWhatFlowsIsBelowRounding) {
   s.max_passes = sanitized ? 1'000 : 20'000;
   HeightField tiles = random_bed(20, 20, 0.01, 0.1, 2), plain = tiles;
   const auto a = make_relaxer(s, 0.01)->relax(tiles);
-  const auto b = make_reference_relaxer(s, 0.01)->relax(plain);
+  const auto b = make_plain_relaxer(s, 0.01)->relax(plain);
   EXPECT_TRUE((tiles.grid() == plain.grid()).all());
   EXPECT_EQ(a.passes, b.passes);
   EXPECT_EQ(a.converged, b.converged);

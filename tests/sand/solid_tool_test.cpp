@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "reference/relaxation_reference.h"
+#include "sand/active_sand.h"
 #include "sand/displacement.h"
 #include "sand/symmetry.h"
 #include "sanitized.h"
@@ -27,7 +27,7 @@ Relaxers engine() {
 }
 Relaxers engine_and_reference() {
   Relaxers relaxers = engine();
-  relaxers.push_back(make_reference_relaxer({}, cell));
+  relaxers.push_back(make_plain_relaxer({}, cell));
   return relaxers;
 }
 

@@ -100,7 +100,7 @@ TEST(SuperStage, TakenWithTheFlowIsTheSameBits) {
       hwy::SetSupportedTargetsForTest(target);
       RelaxationSettings settings;
       settings.law = law;
-      const TalusLaw talus(settings, 1.0);
+      const TalusLaw talus = talus_law(settings, 1.0);
       const auto apart = std::make_unique<TileInStep>(), together = std::make_unique<TileInStep>();
       apart->compute(talus, {});
       apart->range =

@@ -91,7 +91,7 @@ std::vector<double> slips_of_a_drag(double tick) {
     for (int col = 0; col < 100; ++col)
       if (bed.is_held(50, col)) sum += bed.x_of(col), cells += 1.0;
     slips.push_back(cells > 0.0 ? sum / cells : std::numeric_limits<double>::quiet_NaN());
-    sand.slipped(bed);
+    sand.relaxed(bed);
   };
   const auto ticks = static_cast<int>(std::lround(0.04 / tick));
   for (int i = 0; i <= ticks; ++i) {
@@ -121,7 +121,7 @@ int slips_on_a_drag(const RelaxationSettings& relaxation, double depth, double l
   int slips = 0;
   for (int i = 0; i <= 400; ++i) {
     const Eigen::Vector3d tip(-0.06 + length * i / 400, 0.0, -depth);
-    sand.move(bed, tip, tip, [&] { ++slips, sand.slipped(bed); });
+    sand.move(bed, tip, tip, [&] { ++slips, sand.relaxed(bed); });
   }
   return slips;
 }
@@ -134,9 +134,10 @@ double way_before_a_step(const RelaxationSettings& relaxation, double above_rim)
     for (int col = 50; col < 100; ++col) bed.set(row, col, 0.007 + above_rim);
   SandSide sand({0.01, ToolProfile::sphere, true}, {Deposit::outward}, relaxation);
   sand.put(bed, {-0.0105, 0.0, -0.003}, true);
-  sand.slipped(bed);
+  sand.relaxed(bed);
   double way = 0.0;
-  for (; !sand.slip_is_due() && way < 0.01; way += 1e-5) sand.put(bed, {-0.0105 - way, 0.0, -0.003}, true);
+  for (; !sand.relaxation_is_due() && way < 0.01; way += 1e-5)
+    sand.put(bed, {-0.0105 - way, 0.0, -0.003}, true);
   return way;
 }
 

@@ -3,9 +3,9 @@
 #include <cstdint>
 #include <variant>
 
-#include "haptics/force_model.h"
 #include "haptics/late_force.h"
 #include "haptics/simulated_device.h"
+#include "rules/force.h"
 #include "validation/stress/stress_report.h"
 
 namespace sandstroke {

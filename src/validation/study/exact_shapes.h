@@ -2,7 +2,7 @@
 
 #include <functional>
 
-#include "haptics/force_model.h"
+#include "rules/force.h"
 #include "sand/relaxation.h"
 
 namespace sandstroke {

@@ -83,6 +83,7 @@ class PileField {
     close.tolerance = 1e-4;
     add_sizes("isotropic rkl, tolerance 1e-4", close);
     add_sizes("isotropic passes", {.law = RelaxationLaw::isotropic, .method = RelaxationMethod::passes});
+    add_sizes("isotropic plain", {.law = RelaxationLaw::isotropic, .method = RelaxationMethod::plain});
     add_sizes("paper passes", {.law = RelaxationLaw::paper, .method = RelaxationMethod::passes});
     add_sizes("paper rkl", {.law = RelaxationLaw::paper, .method = RelaxationMethod::rkl});
     add_peers();

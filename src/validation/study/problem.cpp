@@ -32,7 +32,7 @@ const std::vector<ProblemMaker>& problem_makers() {
 RunSettings settings_of(const RelaxationSettings& relaxation, const BedGeometry& bed, int threads) {
   RunSettings settings;
   settings.law = relaxation_law_names[static_cast<int>(relaxation.law)];
-  settings.method = relaxation.method == RelaxationMethod::rkl ? "rkl" : "passes";
+  settings.method = relaxation_method_names[static_cast<int>(relaxation.method)];
   settings.cells = bed.cols();
   settings.cell_size = bed.cell_size();
   settings.tolerance = relaxation.tolerance;

@@ -1,45 +1,45 @@
-#include "sim/slip_schedule.h"
+#include "rules/schedule.h"
 
 #include <gtest/gtest.h>
 
 namespace sandstroke {
 namespace {
 
-TEST(SlipSchedule, AsksAsTheToolTouchesDownHasGoneItsWayAndLeaves) {
-  SlipSchedule slips(true);
+TEST(RelaxationByWay, AsksAsTheToolTouchesDownHasGoneItsWayAndLeaves) {
+  RelaxationByWay slips(true);
   const Eigen::Vector3d here(0.1, 0.2, -0.003);
   EXPECT_FALSE(slips.is_due(here, false));
   EXPECT_TRUE(slips.is_due(here, true));
-  slips.slips(here, true, 0.01);
+  slips.relaxed(here, true, 0.01);
   EXPECT_FALSE(slips.is_due(here, true));
   EXPECT_FALSE(slips.is_due(here + Eigen::Vector3d(0.0, 0.0099, 0.0), true));
   EXPECT_FALSE(slips.is_due(here + Eigen::Vector3d(0.006, -0.006, 0.009), true));  // 8.5 mm along the bed
   EXPECT_TRUE(slips.is_due(here + Eigen::Vector3d(0.008, -0.008, 0.0), true));
   EXPECT_TRUE(slips.is_due(here + Eigen::Vector3d(0.0, 0.0, -0.01), true));
   EXPECT_TRUE(slips.is_due(here, false));
-  slips.slips(here, false, 0.0);
+  slips.relaxed(here, false, 0.0);
   EXPECT_FALSE(slips.is_due(here, false));
 }
 
-TEST(SlipSchedule, EachWayIsItsOwn) {
-  SlipSchedule slips(true);
-  slips.slips({0.0, 0.0, 0.0}, true, 0.01);
-  slips.slips({0.01, 0.0, 0.0}, true, 0.002);
+TEST(RelaxationByWay, EachWayIsItsOwn) {
+  RelaxationByWay slips(true);
+  slips.relaxed({0.0, 0.0, 0.0}, true, 0.01);
+  slips.relaxed({0.01, 0.0, 0.0}, true, 0.002);
   EXPECT_TRUE(slips.is_due({0.012, 0.0, 0.0}, true));
   EXPECT_FALSE(slips.is_due({0.0119, 0.0, 0.0}, true));
   EXPECT_NEAR(slips.way_to_next({0.01, 0.0, 0.0}, {0.004, 0.0, 0.0}).value(), 0.5, 1e-12);
 }
 
-TEST(SlipSchedule, NotByWayNeverAsks) {
-  const SlipSchedule slips(false);
+TEST(RelaxationByWay, NotByWayNeverAsks) {
+  const RelaxationByWay slips(false);
   EXPECT_FALSE(slips.is_due({1.0, 2.0, 3.0}, true));
   EXPECT_FALSE(slips.way_to_next({0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}));
 }
 
-TEST(SlipSchedule, FindsWhereOnAStepTheNextSlipIsDue) {
-  SlipSchedule slips(true);
+TEST(RelaxationByWay, FindsWhereOnAStepTheNextSlipIsDue) {
+  RelaxationByWay slips(true);
   EXPECT_FALSE(slips.way_to_next({0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}));  // nothing has slipped
-  slips.slips({0.0, 0.0, 0.0}, true, 0.01);
+  slips.relaxed({0.0, 0.0, 0.0}, true, 0.01);
   EXPECT_NEAR(slips.way_to_next({0.004, 0.0, 0.0}, {0.008, 0.0, -0.5}).value(), 0.75, 1e-12);
   EXPECT_FALSE(slips.way_to_next({0.004, 0.0, 0.0}, {0.0059, 0.0, 0.0}));
   EXPECT_FALSE(slips.way_to_next({0.004, 0.0, 0.0}, {0.0, 0.0, -1.0}));  // straight down

@@ -1,4 +1,4 @@
-#include "haptics/force_model.h"
+#include "rules/force.h"
 
 #include <gtest/gtest.h>
 

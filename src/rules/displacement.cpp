@@ -1,0 +1,150 @@
+#include "rules/displacement.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/elementary.h"
+
+namespace sandstroke {
+namespace {
+
+/// A sum in eight parts by column: the order of the kernels, and so their bits.
+class SumOfColumns {
+ public:
+  void add(int col, double term) { parts_[col % 8] += term; }
+  double total() const {
+    const double* p = parts_;
+    return ((p[0] + p[1]) + (p[2] + p[3])) + ((p[4] + p[5]) + (p[6] + p[7]));
+  }
+
+ private:
+  double parts_[8] = {};
+};
+
+}  // namespace
+
+PlainDisplacement::PlainDisplacement(ToolProfile profile, double radius, const WallGrid& walls,
+                                     double cell_size, double x, double y)
+    : profile_(profile),
+      radius_(radius),
+      walls_(walls),
+      cell_size_(cell_size),
+      row_origin_(0.5 * static_cast<double>(walls.rows() - 1)),
+      col_origin_(0.5 * static_cast<double>(walls.cols() - 1)),
+      axis_x_(x / cell_size),
+      axis_y_(y / cell_size),
+      row_end_(static_cast<int>(walls.rows())),
+      col_end_(static_cast<int>(walls.cols())) {
+  const double extent = filter::reach(radius) / cell_size + 1.0;
+  while (row_begin_ < row_end_ && row_begin_ - row_origin_ < axis_y_ - extent) ++row_begin_;
+  while (row_begin_ < row_end_ && row_end_ - 1 - row_origin_ > axis_y_ + extent) --row_end_;
+  while (col_begin_ < col_end_ && col_begin_ - col_origin_ < axis_x_ - extent) ++col_begin_;
+  while (col_begin_ < col_end_ && col_end_ - 1 - col_origin_ > axis_x_ + extent) --col_end_;
+}
+
+template <class Visit>
+void PlainDisplacement::for_cells(const Visit& visit) const {
+  for (int row = row_begin_; row < row_end_; ++row)
+    for (int col = col_begin_; col < col_end_; ++col) visit(row, col);
+}
+
+double PlainDisplacement::rho2(int row, int col) const {
+  if (walls_(row, col)) return std::numeric_limits<double>::infinity();
+  return x_of(col) * x_of(col) + y_of(row) * y_of(row);
+}
+
+double PlainDisplacement::sand_level(const HeightGrid& heights) const {
+  SumOfColumns sum, weights;
+  for_cells([&](int row, int col) {
+    const double inside = filter::reach(radius_) - std::sqrt(rho2(row, col));
+    const double weight = std::clamp(inside / cell_size_ + 1.0, 0.0, 1.0);
+    sum.add(col - col_begin_, weight * heights(row, col));
+    weights.add(col - col_begin_, weight);
+  });
+  return sum.total() / weights.total();
+}
+
+double PlainDisplacement::displace(HeightGrid& heights, double tip_height, const Eigen::Vector3d& motion,
+                                   const DisplacementSettings& settings) const {
+  HeightGrid excess = HeightGrid::Zero(row_end_ - row_begin_, col_end_ - col_begin_), ring = excess,
+             weights = excess;  // of the window
+  SumOfColumns taken, on_ring, on_part;
+  for_cells([&](int row, int col) {
+    const int r = row - row_begin_, c = col - col_begin_;
+    const double underside = tip_height + filter::underside(profile_, radius_, rho2(row, col));
+    excess(r, c) = std::max(0.0, heights(row, col) - underside);
+    weights(r, c) = ring(r, c) = filter::positive(u(row, col));
+    if (settings.deposit == Deposit::ahead) weights(r, c) *= share_ahead(row, col, motion);
+    taken.add(c, excess(r, c));
+    on_ring.add(c, ring(r, c));
+    on_part.add(c, weights(r, c));
+  });
+  const double V = taken.total();
+  if (V == 0.0) return 0.0;
+  double sum = on_part.total();
+  if (settings.deposit == Deposit::outward) {
+    weights = spread_outward(excess, V, settings.distance);
+    sum = weights.sum();  // exact, in any order
+  }
+  if (sum == 0.0) {  // a wall is in the way
+    weights = ring;
+    sum = on_ring.total();
+  }
+  if (sum == 0.0) return 0.0;
+  for_cells([&](int row, int col) {
+    const int r = row - row_begin_, c = col - col_begin_;
+    if (excess(r, c) > 0.0) heights(row, col) -= excess(r, c);
+    if (weights(r, c) > 0.0) heights(row, col) += V / sum * weights(r, c);
+  });
+  return V * (cell_size_ * cell_size_);
+}
+
+/// `ahead`: a drag deposits on the ring's front half only. The share follows how much of the motion is
+/// horizontal, so that a plunge that turns into a drag makes no jump.
+double PlainDisplacement::share_ahead(int row, int col, const Eigen::Vector3d& motion) const {
+  const double drag = elementary::hypot(motion.x(), motion.y());
+  if (drag == 0.0) return 1.0;
+  const double ahead = x_of(col) * (motion.x() / drag) + y_of(row) * (motion.y() / drag);
+  const double horizontal = drag / (drag + std::abs(motion.z()));
+  return 1.0 - horizontal * (1.0 - std::clamp(ahead / cell_size_ + 0.5, 0.0, 1.0));
+}
+
+/// `outward`: what each cell's sand brings to the four cells around the place `distance` radii from the axis.
+/// It goes in three parts, side by side round the axis.
+HeightGrid PlainDisplacement::spread_outward(const HeightGrid& excess, double taken, double distance) const {
+  const double quantum = std::ldexp(1.0, std::ilogb(taken) - 50);  // its multiples add up exactly
+  const double axis_x = axis_x_ - (col_begin_ - col_origin_),      // cells, from the window's first
+      axis_y = axis_y_ - (row_begin_ - row_origin_);
+  HeightGrid weights = HeightGrid::Zero(excess.rows(), excess.cols());
+  const auto takes = [&](int r, int c) {
+    return r >= 0 && r < weights.rows() && c >= 0 && c < weights.cols() &&
+           !walls_(row_begin_ + r, col_begin_ + c) && !covers(row_begin_ + r, col_begin_ + c);
+  };
+  const auto part = [&](int row, int col, double aside) {
+    const double x = col - axis_x, y = row - axis_y, rho = std::sqrt(x * x + y * y);
+    if (rho == 0.0) return;
+    const double turn = aside / rho, from_x = x - turn * y, from_y = y + turn * x;
+    const double ratio = distance * radius_ / cell_size_ / std::sqrt(from_x * from_x + from_y * from_y);
+    const double to_x = ratio * from_x, to_y = ratio * from_y;
+    const int r0 = static_cast<int>(std::floor(axis_y + to_y)),
+              c0 = static_cast<int>(std::floor(axis_x + to_x));
+    const auto share = [&](int r, int c) {  // by the distance to the cell's centre, along x and along y
+      if (!takes(r, c)) return 0.0;
+      return std::max(0.0, 1.0 - std::abs(c - axis_x - to_x)) *
+             std::max(0.0, 1.0 - std::abs(r - axis_y - to_y));
+    };
+    const double all = (share(r0, c0) + share(r0 + 1, c0 + 1)) + (share(r0, c0 + 1) + share(r0 + 1, c0));
+    for (int r = r0; r <= r0 + 1; ++r)
+      for (int c = c0; c <= c0 + 1; ++c)
+        if (share(r, c) > 0.0)
+          weights(r, c) += std::nearbyint(excess(row, col) / 3.0 * (share(r, c) / all) / quantum) * quantum;
+  };
+  for (int row = 0; row < weights.rows(); ++row)
+    for (int col = 0; col < weights.cols(); ++col)
+      for (const double aside : {-1.0 / 3.0, 0.0, 1.0 / 3.0})  // cells
+        if (excess(row, col) > 0.0) part(row, col, aside);
+  return weights;
+}
+
+}  // namespace sandstroke

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "core/compensated_sum.h"
+
+namespace sandstroke {
+
+/// Heights of a bed's cells, height(row, col) in m; row-major, as files and pictures take it.
+using HeightGrid = Eigen::Array<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+/// Cells that neither give nor take sand.
+using WallGrid = Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+/// How sand that lies too steep flows. m is a cell's height, m_i its neighbour's, and T_i = tan(talus) times
+/// the distance between the two. c is a share, 1/2 for paper and 1/4 for the others.
+///   paper:     dm = c max_i(m - m_i - T_i) over the 8 neighbours, shared among those with m - m_i > T_i in
+///              proportion to m - m_i (section 3.2)
+///   isotropic: upwind slope |g| = sqrt(gx^2 + gy^2), gx = max(0, m - west, m - east)/dx; each lower axis
+///              neighbour gets c (1 - tan(talus)/|g|) (m - m_i); monotone for c <= 1/4
+///   faces:     the same with |g| at the face between the two cells, so that a crest that slides on one side
+///              gives nothing to the other. Along the face's normal the slope is the drop M = m - m_i, and
+///              n^2 / (3 max(M, n)) with n = min(M, N) where the giver falls by N to its other side, too.
+///              (Heights are means: those of a crest of slope T whose top is in the cell drop by M and N with
+///              M + N^2 / (3 M) = T dx, N <= M.) Across it the slope is the mean of both cells' central
+///              differences, one-sided at walls.
+enum class RelaxationLaw { paper, isotropic, faces };
+
+/// tan(talus angle [deg]): rise over run.
+double talus_slope(double talus_angle);
+
+/// A law with its numbers: which slopes are too steep, as height differences [m] between neighbours.
+struct TalusLaw {
+  RelaxationLaw law;
+  double share;          ///< c
+  double axis_drop;      ///< T of an axis neighbour: tan(talus) dx
+  double diagonal_drop;  ///< T of a diagonal neighbour: tan(talus) sqrt(2) dx
+  double axis_limit;     ///< a cell with a larger drop gives: T (1 + tolerance)
+  double diagonal_limit;
+
+  /// talus_angle [deg]. tolerance: a share of tan(talus). cell_size [m].
+  TalusLaw(RelaxationLaw law, double share, double talus_angle, double tolerance, double cell_size);
+};
+
+/// What one pass does.
+struct TalusPass {
+  HeightGrid heights;  ///< m, afterwards
+  bool flows;          ///< some cell gives
+  double residual;     ///< before the pass: the steepest slope over tan(talus), less 1; at least 0
+};
+
+/// One pass over all cells at once, from the old heights to the new: the talus condition and what it moves.
+/// Adds the heights [m] that cells give to `moved`. Nothing crosses the border, nor gets into or out of
+/// walls.
+TalusPass talus_pass(const HeightGrid& heights, const WallGrid& walls, const TalusLaw& law,
+                     CompensatedSum& moved);
+
+}  // namespace sandstroke
