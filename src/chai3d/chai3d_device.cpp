@@ -8,7 +8,7 @@
 #include "core/error.h"
 // Only this file includes CHAI3D's headers.
 #ifndef LINUX
-#error "CHAI3D was compiled with LINUX; without it its classes have other sizes here than in its library"
+#error "CHAI3D was compiled with LINUX; define it here, too, or classes get other sizes than in its library"
 #endif
 #include "devices/CGenericHapticDevice.h"
 #include "devices/CHapticDeviceHandler.h"
@@ -74,14 +74,15 @@ std::unique_ptr<HapticDevice> make_chai3d_device(int index) {
   const int count = static_cast<int>(handler.getNumDevices());
   if (count == 0)
     throw_io_error(
-        "CHAI3D finds no haptic device: connect it, switch it on and let this user reach it (Force "
-        "Dimension: the udev rule in CHAI3D's externals/DHD/doc/linux; 3D Systems: libHD.so and CHAI3D's "
-        "libhdPhantom.so where the loader finds them)");
+        "CHAI3D finds no haptic device: connect it, switch it on and give this user access to it (Force "
+        "Dimension: install the udev rule in CHAI3D's externals/DHD/doc/linux; 3D Systems: put libHD.so and "
+        "CHAI3D's libhdPhantom.so where the loader finds them)");
   if (index < 0 || index >= count)
-    throw_input_error("there is no haptic device {}: CHAI3D finds {}, counted from 0", index, count);
+    throw_input_error("there is no haptic device {}: CHAI3D finds {} in all and counts them from 0", index,
+                      count);
   chai3d::cGenericHapticDevicePtr device;
   if (!handler.getDevice(device, static_cast<unsigned>(index)))
-    throw_io_error("CHAI3D does not give out haptic device {}: unplug it, plug it in again, and try again",
+    throw_io_error("CHAI3D gives no access to haptic device {}: unplug it, plug it in again, and try again",
                    index);
   return device->m_specifications.m_manufacturerName == "Force Dimension"
              ? std::make_unique<Chai3dDevice>(device, drd_is_calibrated)
@@ -96,7 +97,7 @@ Chai3dDevice::Chai3dDevice(std::shared_ptr<chai3d::cGenericHapticDevice> device,
   const cHapticDeviceInfo& info = device_->m_specifications;
   if (!device_->isDeviceAvailable() || !info.m_sensedPosition ||
       info.m_model == chai3d::C_HAPTIC_DEVICE_VIRTUAL)
-    throw_io_error("\"{}\" is no real haptic device: connect one, and switch it on", info.m_modelName);
+    throw_io_error("\"{}\" is not a real haptic device: connect one, and switch it on", info.m_modelName);
   specification_ = specification_of(info);
   phantom_ = is_phantom(info.m_model);
 }
@@ -123,8 +124,8 @@ void Chai3dDevice::calibrate() {
   device_->enableForces(false);  // Force Dimension's driver leaves the motors on
   if (!calibrated)
     throw_io_error(
-        "the haptic device {} did not calibrate: clear its way, or calibrate it by hand as its manual "
-        "says, and try again",
+        "the haptic device {} could not calibrate itself: remove what blocks its arm, or calibrate it by "
+        "hand as its manual describes, and try again",
         specification_.model);
   if (asks_calibrated_) calibrated_ = asks_calibrated_();
 }

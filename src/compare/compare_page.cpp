@@ -86,7 +86,7 @@ PageOfParts run_page(const RunFile& golden, const RunFile& run, const Comparison
   });
   page.add_part("Both in 3-D", [&]() -> Json {
     if (!a || !b || a->rows() != b->rows() || a->cols() != b->cols()) return nullptr;
-    SandPart part("Both in 3-D", "The final surfaces, and how far they are apart.", *a);
+    SandPart part("Both in 3-D", "The final surfaces and their difference.", *a);
     part.add(page.data["golden"].value("label", "golden"), *a);
     part.add(page.data["run"].value("label", "run"), *b);
     part.offer_difference("by the difference");

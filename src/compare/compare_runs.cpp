@@ -32,7 +32,9 @@ Check cells_check(const RunFile& golden, const RunFile& run, bool coarsen) {
   } else if (factor > 1) {
     check.sentence += fmt::format("; --coarsen compares {}", means);
   } else if (coarsen) {
-    check.sentence += "; no whole number of one fills the other over the same ground: nothing is coarsened";
+    check.sentence +=
+        "; --coarsen has no effect: the beds differ in size, or the larger cell is no whole multiple of the "
+        "smaller one";
   }
   return check;
 }

@@ -25,7 +25,7 @@ constexpr OutputKind provenance_output{"a golden entry's provenance", "version =
 fs::path existing(const GoldenEntry& entry, const char* name) {
   const fs::path file = entry.folder / name;
   if (!fs::exists(file))
-    throw_input_error("{}: is missing; restore it, or make it anew: {}", file.string(), entry.update);
+    throw_input_error("{}: is missing; restore it, or make it again with: {}", file.string(), entry.update);
   return file;
 }
 
@@ -75,7 +75,8 @@ void copy_entry(const fs::path& entry, const fs::path& made) {
 /// change: what has changed, or empty.
 Check same_check(const std::string& what, const GoldenEntry& entry, const std::string& change) {
   if (change.empty()) return fact_check(what, true, "as recorded");
-  return fact_check(what, false, fmt::format("{}; if that is wanted: {}", change, entry.update));
+  return fact_check(what, false,
+                    fmt::format("{}; if this change is intended, run: {}", change, entry.update));
 }
 
 Check scene_check(const GoldenEntry& entry, const GoldenContent& golden, const RunFile& run) {
@@ -97,8 +98,8 @@ Check stroke_check(const GoldenEntry& entry, const RunFile& run) {
 Check drift_check(double drift) {
   constexpr double most = 1e-12;  // of the volume moved; rounding alone is far below
   Check check = limit_check("volume drift", drift, most, "",
-                            fmt::format("{:.3g} of the sand that moved was lost or made", drift));
-  if (!check.passed) check.sentence += "; no step may do that: please report it";
+                            fmt::format("{:.3g} of the sand that moved was lost or created", drift));
+  if (!check.passed) check.sentence += "; every step must keep the volume: please report this";
   return check;
 }
 
@@ -147,7 +148,7 @@ void write_golden(const fs::path& entry, const GoldenRun& run) {
     sync_folder_of(made / content_name);
     replace_folder(made, entry);
   } catch (const fs::filesystem_error& failure) {
-    throw_io_error("{}: cannot be written ({}); check the folder's rights", entry.string(),
+    throw_io_error("{}: cannot be written ({}); check the folder's permissions", entry.string(),
                    failure.code().message());
   }
 }

@@ -33,7 +33,8 @@ HeightGrid read_change(const Hdf5Reader& file, const std::string& update) {
                     row + static_cast<double>(block.rows()) <= rows &&
                     col + static_cast<double>(block.cols()) <= cols;
   if (!fits)
-    throw_input_error("{}: /surface/change does not lie in the bed; make it again: {}", file.name(), update);
+    throw_input_error("{}: /surface/change does not lie in the bed; make the file again with: {}",
+                      file.name(), update);
   check_memory(4.0 * sizeof(double) * rows * cols,
                fmt::format("{}: working with a bed of {} x {} cells", file.name(), rows, cols),
                "name another file");
@@ -46,12 +47,12 @@ HeightGrid read_change(const Hdf5Reader& file, const std::string& update) {
 std::vector<TickRecord> read_trace(const Hdf5Reader& file, const std::string& update) {
   const HeightGrid table = file.grid("/trace/ticks");
   if (table.rows() != packed_trace_rows)
-    throw_input_error("{}: /trace/ticks does not have {} rows; make it again: {}", file.name(),
+    throw_input_error("{}: /trace/ticks does not have {} rows; make the file again with: {}", file.name(),
                       packed_trace_rows, update);
   const double servo_rate = file.number_attribute("/trace", "servo_rate");
   if (!(servo_rate > 0.0 && std::isfinite(servo_rate)))
-    throw_input_error("{}: /trace has a servo_rate of {} Hz; make it again: {}", file.name(), servo_rate,
-                      update);
+    throw_input_error("{}: /trace has a servo_rate of {} Hz; make the file again with: {}", file.name(),
+                      servo_rate, update);
   return unpacked_trace(table, servo_rate);
 }
 
@@ -78,7 +79,7 @@ void write_golden_content(const std::filesystem::path& path, const RunFile& run)
     throw_input_error("{}: was cut off; only a complete run can become golden", run.name());
   const HeightGrid initial = run.initial(), change = height_change(run);
   if (!change.allFinite())
-    throw_input_error("{}: has heights that are not finite; it cannot become golden", run.name());
+    throw_input_error("{}: has heights that are not finite; this run cannot become golden", run.name());
   CellRange block =
       changed_cells(HeightGrid::Zero(change.rows(), change.cols()), change, 0.5 * height_quantum);
   if (block.empty()) block = {0, 1, 0, 1};
@@ -112,7 +113,7 @@ GoldenContent read_golden_content(const std::filesystem::path& path, const std::
   if (const double version = file.number_attribute("/", "format_version"); version != golden_format) {
     throw_input_error(
         "{}: has format {}, and this program reads format {}; {}", file.name(), version, golden_format,
-        version > golden_format ? "use a newer version of sandstroke" : "make it anew: " + update);
+        version > golden_format ? "use a newer version of sandstroke" : "make it again with: " + update);
   }
   GoldenContent content{file.text("/scene"), file.cell_size("/surface"),
                         file.text_attribute("/surface", "initial_hash"), read_change(file, update),

@@ -53,7 +53,7 @@ std::vector<std::string> golden_names(const GoldenFolders& folders,
                                       const std::vector<std::string>& asked_for) {
   if (!fs::is_directory(folders.strokes)) {
     throw_io_error(
-        "{}: is not a folder of scenes; start in the folder that has it, or name it with --strokes",
+        "{}: is not a folder; start sandstroke in the folder that contains it, or name it with --strokes",
         folders.strokes.string());
   }
   std::set<std::string> known = folders_in(folders.golden);
@@ -66,7 +66,7 @@ std::vector<std::string> golden_names(const GoldenFolders& folders,
   if (asked_for.empty()) return {known.begin(), known.end()};
   for (const std::string& name : asked_for) {
     if (!known.contains(name)) {
-      throw_input_error("{}: neither {} nor {} exists; known are: {}", name, folders.scene(name).string(),
+      throw_input_error("{}: neither {} nor {} exists; known scenes: {}", name, folders.scene(name).string(),
                         folders.entry(name).folder.string(), fmt::join(known, ", "));
     }
   }
@@ -86,7 +86,8 @@ Comparison check_golden(const std::string& name, const GoldenFolders& folders, c
                                        folders.scene(name).string()));
   const GoldenEntry entry = folders.entry(name);
   if (!fs::is_directory(entry.folder))
-    return failed("golden entry", "does not exist; look at the run, then: " + entry.update);
+    return failed("golden entry",
+                  "does not exist; look at the run, then make the entry with: " + entry.update);
 
   const TemporaryFolder folder;
   GoldenRun run;

@@ -24,11 +24,13 @@ HeightGrid whole_numbers(const std::vector<TickRecord>& trace, double servo_rate
         is_lifted ? lifted : tick.contact * in_contact;
     if (!(column.abs() <= most_steps).all())
       throw_input_error(
-          "{}: a force, depth or level at time {} s is not finite or too large; it cannot become golden",
+          "{}: a force, depth or level at time {} s is not finite or too large; this run cannot become "
+          "golden",
           name, tick.time);
     if (column[0] / servo_rate != tick.time)
-      throw_input_error("{}: time {} s is no whole multiple of the servo period; it cannot become golden",
-                        name, tick.time);
+      throw_input_error(
+          "{}: time {} s is not a whole multiple of the servo period; this run cannot become golden", name,
+          tick.time);
   }
   return table;
 }

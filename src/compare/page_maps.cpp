@@ -32,7 +32,7 @@ constexpr double most_shown = 5e7;  // cells: each costs some 40 bytes of memory
 HeightGrid block(const HeightField& bed, const CellRange& cells) {
   if (static_cast<double>(cells.rows()) * cells.cols() > most_shown)
     throw_input_error(
-        "{} x {} cells are to be shown, too many for a page; read them from both files, for example with "
+        "{} x {} cells are too many to show on a page; read the heights from both files, for example with "
         "h5py",
         cells.rows(), cells.cols());
   return HeightGrid::NullaryExpr(cells.rows(), cells.cols(), [&](Eigen::Index row, Eigen::Index col) {
@@ -113,12 +113,11 @@ Json numbers_json(const HeightGrid& golden, const HeightGrid& difference) {
 
 std::string shown_text(const BedGeometry& bed, const CellRange& shown) {
   const std::string cells = fmt::format("{} x {} cells of {:.4g} m", bed.cols(), bed.rows(), bed.cell_size());
-  if (shown == bed.cells()) return fmt::format("The whole bed of {}.", cells);
+  if (shown == bed.cells()) return fmt::format("The whole bed: {}.", cells);
   const double half = 0.5 * bed.cell_size();
   return fmt::format(
-      "Of the bed of {}, x from {:.4g} to {:.4g} m and y from {:.4g} to {:.4g} m: where sand was moved in "
-      "one "
-      "of them, or where they differ by more than the limit.",
+      "The bed has {}. The maps show x from {:.4g} to {:.4g} m and y from {:.4g} to {:.4g} m, the area where "
+      "one of the two moved sand or where they differ by more than the limit.",
       cells, bed.x_of(shown.col_begin) - half, bed.x_of(shown.col_end - 1) + half,
       bed.y_of(shown.row_begin) - half, bed.y_of(shown.row_end - 1) + half);
 }

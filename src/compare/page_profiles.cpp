@@ -100,8 +100,8 @@ Json profiles_part(const TipPath& path, double tool_radius, const HeightField& i
   const std::vector<Station> stations = subdivided(coarse, std::max(cell, length / most_stations));
   Json part{{"kind", "profiles"},
             {"title", "Profiles of the sand"},
-            {"text", fmt::format("The tip went {:.4g} m while it touched the sand. Heights are those of the "
-                                 "cells that the profile passes.",
+            {"text", fmt::format("The tip moved {:.4g} m while it touched the sand. The heights are those of "
+                                 "the cells under the profile.",
                                  length)},
             {"profiles", Json::array()}};
   if (length >= 0.5 * tool_radius) {
@@ -110,8 +110,9 @@ Json profiles_part(const TipPath& path, double tool_radius, const HeightField& i
       if (station.begins && station.length > 0.0) along.break_off(station.length);
       along.add(station.length, station.place, initial, last.surface);
     }
-    part["profiles"].push_back(along.json(
-        "Along the stroke", "Where the tip was lifted, the curves break off.", "way of the tip", last));
+    part["profiles"].push_back(along.json("Along the stroke",
+                                          "The curves have a gap where the tip was lifted.",
+                                          "length along the path", last));
   }
   const auto from_middle = [&](const Station& station) { return std::abs(station.length - 0.5 * length); };
   const auto middle = static_cast<std::size_t>(
@@ -126,9 +127,10 @@ Json profiles_part(const TipPath& path, double tool_radius, const HeightField& i
   for (int k = -reach; k <= reach; ++k) across.add(k * cell, centre + k * cell * left, initial, last.surface);
   part["profiles"].push_back(across.json(
       "Across the stroke",
-      fmt::format("At the middle of the way, x = {:.4g} m, y = {:.4g} m. What lies to its left is positive.",
-                  centre.x(), centre.y()),
-      "distance from the way", last));
+      fmt::format(
+          "At the middle of the path, x = {:.4g} m, y = {:.4g} m. Distances to its left are positive.",
+          centre.x(), centre.y()),
+      "distance from the path", last));
   return part;
 }
 

@@ -20,7 +20,7 @@ std::string packed(const std::string& bytes) {
   std::string small(size, '\0');
   if (compress2(reinterpret_cast<Bytef*>(small.data()), &size, reinterpret_cast<const Bytef*>(bytes.data()),
                 bytes.size(), Z_DEFAULT_COMPRESSION) != Z_OK)
-    throw_io_error("zlib could not pack a surface; there may be too little memory");
+    throw_io_error("zlib could not compress a surface; there may be too little memory");
   small.resize(size);
   return base64(small);
 }

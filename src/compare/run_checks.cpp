@@ -89,9 +89,10 @@ std::vector<Check> trace_checks(const std::optional<std::vector<TickRecord>>& go
                                 const Tolerances& tolerances) {
   if (!golden && !run) return {fact_check("trace", true, "neither has a trace")};
   if (!golden || !run) {
-    return {fact_check("trace", false,
-                       fmt::format("{} has no trace, the other one has; set output.trace alike",
-                                   golden ? "the run" : "golden"))};
+    return {
+        fact_check("trace", false,
+                   fmt::format("{} has no trace, but the other one has; set output.trace the same in both",
+                               golden ? "the run" : "golden"))};
   }
   Check ticks = fact_check("ticks", golden->size() == run->size(),
                            fmt::format("golden has {} ticks, the run {}", golden->size(), run->size()));

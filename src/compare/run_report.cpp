@@ -28,11 +28,11 @@ Json figures_of(const std::vector<TickRecord>& trace, const std::optional<Furrow
   Json figures = Json::array();
   add_figure(figures, "Stroke", trace.back().time - trace.front().time, "s");
   add_figure(figures, "Largest force", force, "N");
-  add_figure(figures, "Deepest", 1e3 * depth, "mm");
+  add_figure(figures, "Largest depth", 1e3 * depth, "mm");
   add_figure(figures, "Energy into the sand", absorbed_energy(trace).back(), "J");
   if (furrow) {
-    add_figure(figures, "Furrow", 1e3 * furrow->depth, "mm");
-    add_figure(figures, "Depth that was asked for", 1e3 * furrow->asked_depth, "mm");
+    add_figure(figures, "Furrow depth", 1e3 * furrow->depth, "mm");
+    add_figure(figures, "Depth that the hand wanted", 1e3 * furrow->asked_depth, "mm");
   }
   return figures;
 }
@@ -40,15 +40,16 @@ Json figures_of(const std::vector<TickRecord>& trace, const std::optional<Furrow
 Json error_part(const std::optional<ErrorEstimate>& error) {
   Json figures = Json::array();
   std::string text =
-      "None was made. With --estimate-error, a run says how far it is from one with ever smaller steps.";
+      "This run has no error estimate. sandstroke run --estimate-error estimates how far a run is from one "
+      "with infinitely small steps.";
   if (error) {
-    text = error->at_rest ? "How far this run is from one with ever smaller steps."
-                          : "The sand was not at rest, so this says little.";
-    add_figure(figures, "Sand that lies elsewhere, of what changed", 100.0 * error->height_share, "%");
-    add_figure(figures, "Height, root mean square over the cells that changed", error->height_rms, "m");
-    add_figure(figures, "Height, at most", error->height_max, "m");
+    text = error->at_rest ? "The estimated difference from a run with infinitely small steps."
+                          : "The sand was not at rest, so this estimate says little.";
+    add_figure(figures, "Part of the displaced sand that lies elsewhere", 100.0 * error->height_share, "%");
+    add_figure(figures, "Height, root mean square over the changed cells", error->height_rms, "m");
+    add_figure(figures, "Height, largest", error->height_max, "m");
     add_figure(figures, "Force, root mean square", error->force_rms, "N");
-    add_figure(figures, "Force, at most", error->force_max, "N");
+    add_figure(figures, "Force, largest", error->force_max, "N");
   }
   return {{"kind", "figures"}, {"title", "Error estimate"}, {"text", text}, {"figures", figures}};
 }
@@ -57,8 +58,8 @@ Json error_part(const std::optional<ErrorEstimate>& error) {
 Json sand_part(const RunFile& run, const LastSurface& last) {
   constexpr std::size_t most_frames = 60;
   const HeightField initial = run.initial_bed();
-  SandPart part("The sand in 3-D",
-                "The bed as it was at the start, while the tool went through it, and at the end.", initial);
+  SandPart part("The sand in 3-D", "The bed at the start, while the tool moved through it, and at the end.",
+                initial);
   part.add("initial surface", initial);
   const std::vector<double> times = run.frame_times();
   const std::size_t shown = std::min(times.size(), most_frames);
@@ -79,9 +80,11 @@ void add_stroke(PageOfParts& page, const RunFile& run, const LastSurface& last) 
   std::vector<TickRecord> trace;
   page.add_part("The stroke", [&] {
     scene = run.scene();
-    if (!scene.stroke) throw_input_error("{}: the scene has none; the bed only came to rest", run.name());
+    if (!scene.stroke)
+      throw_input_error("{}: the scene has no stroke; the bed only came to rest", run.name());
     if (!run.has_trace())
-      throw_input_error("{}: holds no trace of it; run the scene with output.trace = true", run.name());
+      throw_input_error("{}: holds no trace of the stroke; run the scene with output.trace = true",
+                        run.name());
     trace = run.trace();
     if (trace.empty()) throw_input_error("{}: was cut off before its first tick", run.name());
     return traces_part(trace);
@@ -92,7 +95,7 @@ void add_stroke(PageOfParts& page, const RunFile& run, const LastSurface& last) 
   for (const TickRecord& tick : trace) gatherer.on_tick(tick);
   page.data["figures"] = figures_of(trace, gatherer.furrow(initial, last.surface));
   page.add_part("A profile of the sand", [&] {
-    if (gatherer.path().points.empty()) throw_input_error("{}: the tool never touched it", run.name());
+    if (gatherer.path().points.empty()) throw_input_error("{}: the tool never touched the sand", run.name());
     return profiles_part(gatherer.path(), tool_reach(scene.tool), initial, last);
   });
 }

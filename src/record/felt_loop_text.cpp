@@ -10,7 +10,7 @@ namespace {
 /// "set force.k_f = 9.4"
 std::string remedy_text(const FeltLoop& loop, const Scene& scene) {
   const std::optional<Scene> settling = settling_scene(loop, scene);
-  if (!settling) return "take a smaller tool";
+  if (!settling) return "use a smaller tool";
   std::string text = "set ";
   const auto say = [&text](const char* key, double value, double before) {
     if (value != before) text += fmt::format("{}{} = {:.2g}", text.back() == ' ' ? "" : " and ", key, value);
@@ -37,33 +37,34 @@ std::string named_text(const FeltSand& named) {
 
 std::string assumed_text(const DeviceSettings& device) {
   return fmt::format(
-      "{:.6g} Hz, force {} {} late, {:.3g} kg, damping {:.3g} N s/m, hand {:.3g} N/m and {:.3g} N s/m",
+      "{:.6g} Hz, force {} {} late, device of {:.3g} kg and {:.3g} N s/m, hand of {:.3g} N/m and "
+      "{:.3g} N s/m",
       device.servo_rate, device.delay, device.delay == 1 ? "tick" : "ticks", device.mass, device.damping,
       device.hand_stiffness, device.hand_damping);
 }
 
 std::string verdict_text(const FeltLoop& loop, const Scene& scene) {
   if (!loop.is_stable()) return "REFUSED: the hand would shake; " + remedy_text(loop, scene);
-  if (!loop.is_within_named()) return "settles in theory, but is beyond what the device names";
+  if (!loop.is_within_named()) return "stable in theory, but beyond the limits that the device states";
   if (loop.named.stiffness <= 0.0 || loop.named.drag <= 0.0)
-    return "settles in theory; what the device can hold is not known";
-  return "settles in theory, and is within what the device names";
+    return "stable in theory; the device does not state all its limits";
+  return "stable in theory, and within the limits that the device states";
 }
 
 void check_felt_loop(const FeltLoop& loop, const Scene& scene, const std::string& name) {
   if (!loop.is_stable())
     throw_input_error(
-        "{}: on this device the sand has {} at {:.3g} N, and a loop settles up to {} ({}); the hand would "
-        "shake. To mend it, {} (--set), or take a smaller --max-force; if the device or the hand is another, "
-        "set device.mass, device.damping, device.hand_stiffness and device.hand_damping",
+        "{}: the hand would shake. On this device the sand has {} at {:.3g} N, but the loop is stable only "
+        "up to {} (assuming {}). To avoid this, {} (--set), or lower --max-force; if your device or hand is "
+        "different, set device.mass, device.damping, device.hand_stiffness and device.hand_damping",
         name, felt_sand_text(loop.felt), loop.force, felt_sand_text(loop.stable), assumed_text(loop.device),
         remedy_text(loop, scene));
   if (!loop.is_within_named())
     spdlog::warn(
-        "{}: the sand has {} at {:.3g} N, and the device names {} as its most. In theory the hand settles; "
-        "lower --max-force{} if it buzzes",
+        "{}: the sand has {} at {:.3g} N, but the device states limits of {}. In theory the loop is stable; "
+        "if the device buzzes, lower --max-force{}",
         name, felt_sand_text(loop.felt), loop.force, named_text(loop.named),
-        is_contact_law(scene) ? ", or raise force.yield," : " or force.k_f");
+        is_contact_law(scene) ? ", or raise force.yield" : " or force.k_f");
 }
 
 }  // namespace sandstroke

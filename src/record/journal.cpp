@@ -58,7 +58,9 @@ void put_block(std::string& blocks, BlockKind kind, const Part& part) {
 FileLock share_finished(const fs::path& path) {
   std::optional<FileLock> lock = FileLock::try_share(path);
   if (!lock)
-    throw_io_error("{}: is still being recorded; wait for its end, or end that program first", path.string());
+    throw_io_error(
+        "{}: is still being recorded; wait until the recording ends, or end the program that records it",
+        path.string());
   return std::move(*lock);
 }
 
@@ -74,8 +76,8 @@ void check_no_journal(const fs::path& path) {
   if (!fs::exists(path)) return;
   if (fs::is_regular_file(path)) share_finished(path);
   throw_io_error(
-      "{}: already exists and is a recording that was cut off; make a stroke of it (sandstroke stroke repair "
-      "{}), then remove it, or choose another name",
+      "{}: already exists and is a recording that was cut off; turn it into a stroke (sandstroke stroke "
+      "repair {}) and remove it, or choose another name",
       path.string(), path.string());
 }
 
@@ -185,7 +187,7 @@ JournalReader::JournalReader(const fs::path& path) : name_(path.string()), file_
     }
   } catch (const nlohmann::json::exception&) {  // treated as cut off
   }
-  throw_input_error("{}: is cut off or damaged within its header, and has no sample; remove it", name_);
+  throw_input_error("{}: its header is cut off or damaged, and it has no samples; remove it", name_);
 }
 
 bool JournalReader::read(void* bytes, std::size_t count) { return file_.read(bytes, count) == count; }

@@ -22,7 +22,7 @@ const HeightField& checked(const Scene& scene, const HeightField& bed) {
       throw_input_error("{}: {}; to feel sand live (--feel), leave it out or change it with --set", key, why);
   };
   refuse_unless(scene.device.model == DeviceModel::kinematic, "device.model",
-                "\"dynamic\" simulates a device, and the hand holds a real one");
+                "\"dynamic\" simulates a device, but the hand holds a real one");
   if (scene.stroke) {
     const StrokePlacement& placement = scene.stroke->placement;
     refuse_unless(placement.plane == StrokePlane::keep, "stroke.plane",
@@ -41,7 +41,8 @@ const HeightField& checked(const Scene& scene, const HeightField& bed) {
   }
   // The servo loop and the eroder each hold their own bed, and what the other knows of it.
   check_memory(4.0 * bed.tile_count() * static_cast<double>(HeightField::bytes_per_tile()),
-               fmt::format("bed.cells = [{}, {}], felt live,", bed.cols(), bed.rows()), "take fewer", 0.5);
+               fmt::format("live sand with bed.cells = [{}, {}]", bed.cols(), bed.rows()), "use fewer cells",
+               0.5);
   return bed;
 }
 

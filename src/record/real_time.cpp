@@ -41,16 +41,16 @@ bool memory_may_be_locked() {
 }
 
 std::string advice(int refused_priority, bool memory_refused) {
-  const std::string cost = fmt::format(
-      "{}{}{}", refused_priority > 0 ? "other programs can hold the loop up for milliseconds" : "",
-      refused_priority > 0 && memory_refused ? ", and " : "",
-      memory_refused ? "memory that was swapped out can hold it up for as long as a disk takes" : "");
+  const std::string cost =
+      fmt::format("{}{}{}", refused_priority > 0 ? "other programs can delay the loop by milliseconds" : "",
+                  refused_priority > 0 && memory_refused ? ", and " : "",
+                  memory_refused ? "swapped-out memory can delay the loop until the disk has read it" : "");
   const std::string limits = fmt::format(
       "{}{}{}", refused_priority > 0 ? fmt::format("rtprio {}", watchdog_priority(refused_priority)) : "",
       refused_priority > 0 && memory_refused ? " and " : "", memory_refused ? "memlock unlimited" : "");
   return fmt::format(
-      "{} refused: {}; allow your user {} in /etc/security/limits.conf and log in again, or the program by "
-      "setcap cap_sys_nice,cap_ipc_lock+ep, or run it as root",
+      "{} refused: {}; allow your user {} in /etc/security/limits.conf and log in again, or give the program "
+      "the right by setcap cap_sys_nice,cap_ipc_lock+ep, or run it as root",
       refused_priority == 0 ? "locked memory was"
       : memory_refused      ? "SCHED_FIFO and locked memory were"
                             : "SCHED_FIFO was",

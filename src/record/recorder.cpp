@@ -48,18 +48,19 @@ void check_calibrated(const HapticDevice& device, const FeltWorld* world, const 
       world && settings.servo.force.max_force > 0.0 && device.specification().max_force > 0.0;
   if (calibrated == false && gives_force && !settings.allow_uncalibrated)
     throw_input_error(
-        "the haptic device {} is not calibrated, so its positions and forces may be wrong: calibrate it with "
-        "--calibrate (which may move its arm), or record without --feel; --allow-uncalibrated gives forces "
-        "all the same",
+        "the haptic device {} is not calibrated, so its positions and forces may be wrong; calibrate it with "
+        "--calibrate (which may move its arm), record without --feel, or give forces anyway with "
+        "--allow-uncalibrated",
         model);
   if (calibrated == false)
     spdlog::warn(
-        "the haptic device {} is not calibrated: its positions may be wrong; --calibrate calibrates it",
+        "the haptic device {} is not calibrated, so its positions may be wrong; calibrate it with "
+        "--calibrate",
         model);
   if (!calibrated && gives_force)
     spdlog::warn(
-        "the driver does not say whether the haptic device {} is calibrated: calibrate it as its manual says "
-        "(a Touch by its inkwell)",
+        "the driver does not say whether the haptic device {} is calibrated; calibrate it as its manual "
+        "describes (a Touch in its inkwell)",
         model);
 }
 

@@ -47,11 +47,11 @@ struct Fit {
 
 void check(const ViewSettings& view) {
   if (!(view.field_of_view >= 1.0 && view.field_of_view <= 120.0))
-    throw_input_error("view: field_of_view = {} deg cannot be drawn; take 1 to 120", view.field_of_view);
+    throw_input_error("view: field_of_view = {} deg cannot be drawn; use 1 to 120", view.field_of_view);
   if (!(view.elevation >= -90.0 && view.elevation <= 90.0))
-    throw_input_error("view: elevation = {} deg is no elevation; take -90 to 90", view.elevation);
+    throw_input_error("view: elevation = {} deg is not an elevation; use -90 to 90", view.elevation);
   if (!(view.distance >= 0.0 && std::isfinite(view.distance)))
-    throw_input_error("view: distance = {} m is no distance; take 0 (what frames the subject) or more",
+    throw_input_error("view: distance = {} m is not a distance; use 0 (frames the subject) or more",
                       view.distance);
   if (!std::isfinite(view.azimuth) || !view.target.allFinite())
     throw_input_error("view: azimuth and target must be finite numbers");

@@ -9,8 +9,9 @@ namespace sandstroke {
 
 CellRange changed_cells(const HeightGrid& initial, const HeightGrid& final, double threshold) {
   if (initial.rows() != final.rows() || initial.cols() != final.cols())
-    throw_input_error("surfaces of {} x {} and {} x {} cells cannot be compared; take two of the same bed",
-                      initial.cols(), initial.rows(), final.cols(), final.rows());
+    throw_input_error(
+        "surfaces of {} x {} and {} x {} cells cannot be compared; use two surfaces of the same bed",
+        initial.cols(), initial.rows(), final.cols(), final.rows());
   CellRange range{static_cast<int>(initial.rows()), 0, static_cast<int>(initial.cols()), 0};
   for (int row = 0; row < initial.rows(); ++row) {
     for (int col = 0; col < initial.cols(); ++col) {

@@ -12,7 +12,7 @@ CurrentContext::CurrentContext() {
   // Where Mesa or its compiler finds no memory, it ends the program. Measured: 90 MB, and threads' stacks.
   // Others who draw at the same time may not have taken theirs yet.
   check_memory(living_.count * (100e6 + 10e6 * std::thread::hardware_concurrency()), "drawing",
-               "allow more, or do without pictures");
+               "allow more memory, or leave out pictures");
   context_ = make_offscreen_context();
   context_->make_current();
   load_gl_functions();

@@ -17,14 +17,15 @@ GlObject storage(GLenum format, int samples, int width, int height) {
 void check_complete(int width, int height) {
   check_gl("making a framebuffer");
   if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
-    throw_io_error("this OpenGL cannot draw a picture of {} x {} pixels; take a smaller one", width, height);
+    throw_io_error("this OpenGL cannot draw a picture of {} x {} pixels; choose a smaller one", width,
+                   height);
 }
 
 }  // namespace
 
 Framebuffer::Framebuffer(int width, int height) : width_(width), height_(height) {
   if (std::min(width, height) < smallest || std::max(width, height) > largest)
-    throw_input_error("a picture of {} x {} pixels cannot be drawn; take sides from {} to {}", width, height,
+    throw_input_error("a picture of {} x {} pixels cannot be drawn; use sides from {} to {}", width, height,
                       smallest, largest);
   constexpr int samples = 4;
   colour_ = storage(GL_RGBA8, samples, width, height);

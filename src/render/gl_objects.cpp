@@ -51,7 +51,7 @@ GlObject make_renderbuffer() {
 void check_gl(const char* doing) {
   if (const GLenum failure = glGetError(); failure != GL_NO_ERROR)
     throw_io_error("OpenGL error 0x{:04x} while {}{}", failure, doing,
-                   failure == GL_OUT_OF_MEMORY ? ": take a smaller picture or bed" : "");
+                   failure == GL_OUT_OF_MEMORY ? ": use a smaller picture or bed" : "");
 }
 
 ShaderProgram::ShaderProgram(const std::string& name, const std::string& vertex, const std::string& fragment)

@@ -197,7 +197,7 @@ void HeightFieldRenderer::Drawing::check(const HeightField& surface, const ViewS
                       bed_.rows(), surface.cols(), surface.rows());
   if (!(view.light_elevation > 0.0 && view.light_elevation <= 90.0))
     throw_input_error(
-        "view: light_elevation = {} deg puts the sun below the ground; take more than 0, at most 90",
+        "view: light_elevation = {} deg puts the sun below the ground; use more than 0, at most 90",
         view.light_elevation);
 }
 

@@ -114,7 +114,7 @@ uniform vec4 tool;           // centre and radius; radius 0 = none
 uniform float widest_pixel;  // m, of this tile
 out vec4 colour;
 
-// Grains and patches: octaves of noise, each gone before a pixel covers half a wave, so that nothing shimmers.
+// Grains and patches: octaves of noise. Each fades out before a pixel covers half a wave, so nothing shimmers.
 // x: relative change of the albedo; yz: slope of the grains.
 vec3 grain(vec2 place, float pixel) {
   const int octaves = 8;
@@ -133,7 +133,7 @@ vec3 grain(vec2 place, float pixel) {
   return sum;
 }
 
-// What the tool leaves of the sun (x) and of the sky (y).
+// The fractions of the sun (x) and of the sky (y) that the tool does not hide.
 vec2 past_tool(vec3 place, vec3 normal) {
   if (tool.w == 0.0) return vec2(1.0);
   vec3 to = tool.xyz - place;
@@ -168,7 +168,7 @@ void main() {
 
   vec3 albedo = sand_albedo(world.z) * max(1.0 + grains.x, 0.1);
 
-  // Light that furrow walls throw at each other makes corners less dark, and warmer.
+  // Furrow walls light each other, which makes corners less dark, and warmer.
   vec3 sky = part.y / (1.0 - albedo * (1.0 - part.y));
   vec3 received = sun_colour * part.x * max(rough_diffuse(normal, sun_direction, to_eye(world)), 0.0) +
                   ambient(normal) * sky;
@@ -179,13 +179,13 @@ void main() {
 
 std::string map_fragment() {
   return std::string(version) + light + bed + R"(
-uniform sampler2D values;    // m, what the colours show
+uniform sampler2D values;    // m, shown by the colours
 uniform sampler2D colours;   // the colour map, from low to high
 uniform vec2 range;          // m, its ends
 uniform float contour_interval;  // m
 uniform float relief;        // how much the light models the surface: 0 none, 1 fully
 out vec4 colour;
-// Slope of the values, smooth across cells and triangles, as the width of a line must be.
+// Slope of the values. It is smooth across cells and triangles, so that the width of lines is.
 vec2 slope_of(sampler2D field, float pixel) {
   float reach = max(pixel / cell_size, 1.0), detail = log2(reach);
   vec2 at = texture_place(), x = vec2(0.5 * reach / float(cells.x), 0.0), y = vec2(0.0, 0.5 * reach / float(cells.y));
@@ -204,8 +204,8 @@ void main() {
   float shade = (fill + max(dot(normal, sun_direction), 0.0)) / (fill + sun_direction.z);
   mapped *= mix(1.0, clamp(shade, 0.35, 1.25), relief);
 
-  // A contour line: one and a half pixels wide, from the value's change per pixel. Where that is nearly nothing (a
-  // plane at the height of a line) or so much that lines would touch, there is none.
+  // A contour line: one and a half pixels wide, from the value's change per pixel. There is no line where the change
+  // is almost zero (a plane at the height of a line), or so large that lines would touch.
   vec2 change = slope_of(values, pixel);
   float per_pixel = length(vec2(dot(change, dFdx(world.xy)), dot(change, dFdy(world.xy))));
   float away = abs(value / contour_interval - round(value / contour_interval)) * contour_interval;
@@ -258,7 +258,7 @@ void main() {
   vec3 mirror = reflect(-viewer, normal), halfway = normalize(viewer + sun_direction);
   float edge = pow(1.0 - max(dot(normal, viewer), 0.0), 5.0);
   vec3 albedo = vec3(0.11, 0.15, 0.20);
-  // The surroundings, as the polished steel sees them: sand below, sky above.
+  // The surroundings that the polished steel reflects: sand below, sky above.
   vec3 around = mix(vec3(0.55, 0.40, 0.26), vec3(0.62, 0.74, 0.92), smoothstep(-0.12, 0.12, mirror.z));
   float glint = pow(max(dot(normal, halfway), 0.0), 220.0);
   vec3 received = sun_colour * max(dot(normal, sun_direction), 0.0) + ambient(normal);
@@ -272,7 +272,7 @@ std::string surroundings_fragment() {
 uniform vec3 lower, upper;       // sRGB, at the borders of the picture
 uniform mat4 from_clip;
 uniform vec3 eye;
-uniform vec3 box_low, box_high;  // m, what stands on the ground
+uniform vec3 box_low, box_high;  // m, of the box that stands on the ground
 uniform vec3 sun_direction;
 uniform float shadow;            // 0 none, 1 fully
 in vec2 place;
@@ -281,7 +281,7 @@ float outside_box(vec2 p) {
   vec2 away = max(box_low.xy - p, p - box_high.xy);
   return length(max(away, 0.0)) + min(max(away.x, away.y), 0.0);
 }
-// The box's shadow is the box swept along `way`: how far a point lies outside of its farthest side, [m].
+// How far [m] a point lies outside the farthest side of the box's shadow, which is the box swept along `way`.
 float outside_shadow(vec2 p, vec2 way) {
   vec2 away = max(box_low.xy + min(way, 0.0) - p, p - box_high.xy - max(way, 0.0));
   vec2 across = vec2(-way.y, way.x) / max(length(way), 1e-6 * (box_high.x - box_low.x));
@@ -293,8 +293,8 @@ void main() {
   vec3 tint = mix(lower, upper, smoothstep(-1.0, 1.0, place.y));
   vec4 near = from_clip * vec4(place, -1.0, 1.0), far = from_clip * vec4(place, 1.0, 1.0);
   vec3 from = near.xyz / near.w, ray = far.xyz / far.w - from;
-  if ((box_low.z - eye.z) / ray.z > 0.0) {   // the ground lies ahead, be it nearer than all else
-    // The ground darkens where the box takes its sky, and in its shadow, which the wall's height sets.
+  if ((box_low.z - eye.z) / ray.z > 0.0) {   // the ground lies ahead, even if nearer than all else
+    // The ground is darker where the box hides the sky, and in its shadow, whose length is set by the wall's height.
     vec2 ground = from.xy + (box_low.z - from.z) / ray.z * ray.xy;
     float size = max(box_high.x - box_low.x, box_high.y - box_low.y), height = box_high.z - box_low.z;
     float sky = 1.0 - 0.30 * exp(-max(outside_box(ground), 0.0) / (0.035 * size));

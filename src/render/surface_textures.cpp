@@ -67,11 +67,11 @@ void SurfaceTextures::check_size(int rows, int cols) {
   GLint largest = 0;
   glGetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
   if (std::max(rows, cols) > largest || std::min(rows, cols) < 2)
-    throw_input_error("a bed of {} x {} cells cannot be drawn; pictures take 2 to {} cells a side", cols,
-                      rows, largest);
+    throw_input_error("a bed of {} x {} cells cannot be drawn; a picture can show 2 to {} cells per side",
+                      cols, rows, largest);
   constexpr double bytes_per_cell = 64.0;  // measured: heights, textures, and what is drawn as doubles
   check_memory(bytes_per_cell * rows * cols, fmt::format("drawing a bed of {} x {} cells", cols, rows),
-               "take fewer");
+               "use fewer cells");
 }
 
 SurfaceTextures::SurfaceTextures(const BedGeometry& bed) : bed_(bed) {

@@ -25,7 +25,7 @@ Curve thinned_curve(const Curve& curve, std::size_t most);
 nlohmann::ordered_json curve_json(const Curve& curve);
 inline constexpr std::size_t most_points = 2000;
 inline constexpr std::string_view curves_are_thinned =
-    "A curve with more than 2000 points shows of each stretch the least and the greatest value, so that no "
+    "A curve with more than 2000 points shows the least and the greatest value of each stretch, so that no "
     "extreme is lost.";
 
 }  // namespace sandstroke

@@ -45,19 +45,22 @@ double check_extent(const TriangleMesh& mesh, const std::string& name) {
   Eigen::AlignedBox3d box;
   for (const Eigen::Vector3d& vertex : mesh.vertices) {
     if (!vertex.allFinite() || vertex.cwiseAbs().maxCoeff() > 1e6)
-      throw_input_error("{}: a corner lies at ({:g}, {:g}, {:g}), which is no place; export the mesh again",
-                        name, vertex.x(), vertex.y(), vertex.z());
+      throw_input_error(
+          "{}: a corner lies at ({:g}, {:g}, {:g}), which is not a usable position; export the mesh again",
+          name, vertex.x(), vertex.y(), vertex.z());
     box.extend(vertex);
   }
   const double extent = box.sizes().maxCoeff();
   if (extent > largest_tool)
     throw_input_error(
-        "{}: is {:.4g} m large; if it is in millimetres set tool.scale = 0.001, else a smaller one", name,
-        extent);
+        "{}: is {:.4g} m large, too large for a tool; if the mesh is in millimetres, set tool.scale = 0.001, "
+        "otherwise a smaller scale",
+        name, extent);
   const double away = box.exteriorDistance(Eigen::Vector3d(Eigen::Vector3d::Zero()));
   if (away > extent)
-    throw_input_error("{}: lies {:.4g} m away from its origin, which is the tool's tip; move it there", name,
-                      away);
+    throw_input_error(
+        "{}: lies {:.4g} m away from its origin, which must be the tool's tip; move the mesh to the origin",
+        name, away);
   return extent;
 }
 
@@ -80,13 +83,13 @@ void check_closed(const TriangleMesh& mesh, const std::string& name) {
   }
   if (turned > 0)
     throw_input_error(
-        "{}: some triangles go round the other way than their neighbours ({} edges); unify the normals in "
-        "the program that made it",
+        "{}: some triangles are oriented opposite to their neighbours (at {} edges); unify the normals in "
+        "the program that made the mesh",
         name, turned);
   if (open > 0)
     throw_input_error(
-        "{}: is no closed surface: {} edges have a triangle on one side only; close its holes in the "
-        "program that made it",
+        "{}: is not a closed surface: {} edges have a triangle on one side only; close the holes in the "
+        "program that made the mesh",
         name, open);
 }
 
@@ -94,8 +97,8 @@ void check_closed(const TriangleMesh& mesh, const std::string& name) {
 
 TriangleMesh checked_mesh(const TriangleMesh& mesh, const std::string& name) {
   if (mesh.triangles.size() > most_triangles)
-    throw_input_error("{}: has {} triangles, and a tool at most {}; simplify it", name, mesh.triangles.size(),
-                      most_triangles);
+    throw_input_error("{}: has {} triangles, but a tool may have at most {}; simplify the mesh", name,
+                      mesh.triangles.size(), most_triangles);
   if (mesh.triangles.empty()) throw_input_error("{}: has no triangles; export the mesh again", name);
   TriangleMesh checked = welded(mesh, check_extent(mesh, name));
   if (checked.triangles.empty()) throw_input_error("{}: has no triangles; export the mesh again", name);
@@ -103,10 +106,10 @@ TriangleMesh checked_mesh(const TriangleMesh& mesh, const std::string& name) {
   const double volume = enclosed_volume(checked);
   if (!(std::abs(volume) > 1e-15))
     throw_input_error(
-        "{}: encloses {:.3g} m^3, no volume to push sand with; take a solid, or a larger tool.scale", name,
-        volume);
+        "{}: encloses {:.3g} m^3, which is too little to displace sand; use a solid, or a larger tool.scale",
+        name, volume);
   if (volume < 0.0) {
-    spdlog::warn("{}: is inside out; it is taken the other way round", name);
+    spdlog::warn("{}: is inside out; its triangles are turned over", name);
     for (auto& corners : checked.triangles) std::swap(corners[1], corners[2]);
   }
   return checked;

@@ -144,8 +144,7 @@ TriangleMesh tool_surface(const ToolSettings& tool) {
       add_rake(mesh, tool);
       break;
     case ToolShape::mesh:
-      if (!tool.mesh)
-        throw_input_error("tool.shape = \"mesh\": the mesh is not read here; use sandstroke run");
+      if (!tool.mesh) throw_input_error("tool.shape = \"mesh\": the mesh was not read; use sandstroke run");
       return *tool.mesh;
   }
   return mesh;

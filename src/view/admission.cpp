@@ -15,7 +15,7 @@ std::string random_token() {
   std::array<unsigned char, 16> bits;
   if (getrandom(bits.data(), bits.size(), 0) != static_cast<ssize_t>(bits.size()))
     throw_io_error(
-        "--view: the system gives no random numbers, so no address can be made that others do not know");
+        "--view: the system gives no random numbers for the page's secret address; leave out --view");
   return fmt::format("{:02x}", fmt::join(bits, ""));
 }
 
@@ -43,16 +43,16 @@ Admission::Admission(int port)
 std::optional<Refusal> Admission::refuses(const ViewRequest& request) const {
   const auto is_ours = [this](std::string_view host) { return host == hosts_[0] || host == hosts_[1]; };
   if (!request.host || !is_ours(*request.host))
-    return Refusal{403, "This address is not the one that was printed: open that one.\n"};
+    return Refusal{403, "This is the wrong address: open the one that sandstroke printed.\n"};
   constexpr std::string_view scheme = "http://";
   if (request.origin &&
       (!request.origin->starts_with(scheme) || !is_ours(request.origin->substr(scheme.size()))))
-    return Refusal{403, "A page of another site may not see this.\n"};
+    return Refusal{403, "Pages of other sites have no access.\n"};
   if (!same_secret(token_of(request.target), token_))
-    return Refusal{403, "The token is missing or wrong: open the whole address that was printed.\n"};
-  if (request.method != "GET") return Refusal{405, "Only GET is answered.\n"};
+    return Refusal{403, "The token is missing or wrong: open the whole address that sandstroke printed.\n"};
+  if (request.method != "GET") return Refusal{405, "Only GET requests are answered.\n"};
   const std::string_view path = path_of(request.target);
-  if (path != "/" && path != "/live") return Refusal{404, "There is nothing here.\n"};
+  if (path != "/" && path != "/live") return Refusal{404, "There is no page at this path.\n"};
   return std::nullopt;
 }
 

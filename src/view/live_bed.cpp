@@ -24,8 +24,8 @@ void copy_inside(const double* from, const CellRange& cells, float* to) {
 LiveBed::LiveBed(const HeightField& bed) : BedGeometry(bed), untouched_(bed.untouched_bed()) {
   if (static_cast<double>(bed.rows()) * bed.cols() > most_cells_seen)
     throw_input_error(
-        "bed.cells = [{}, {}]: --view shows up to 4096 x 4096 cells; take fewer, or leave it out", bed.cols(),
-        bed.rows());
+        "bed.cells = [{}, {}]: --view shows up to 4096 x 4096 cells; use fewer, or leave out --view",
+        bed.cols(), bed.rows());
   const auto tiles = static_cast<std::size_t>(tile_count());
   published_.resize(tiles, HeightField::new_tile_revision);
   versions_.resize(tiles, 1);

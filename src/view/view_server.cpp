@@ -230,9 +230,10 @@ class Connection : public std::enable_shared_from_this<Connection> {
       return answer(refusal->status, "text/plain; charset=utf-8", refusal->sentence);
     if (path_of(asked.target) == "/") return answer(200, "text/html; charset=utf-8", shared_.sources.page);
     if (!websocket::is_upgrade(request))
-      return answer(426, "text/plain; charset=utf-8", "This address is for the page itself.\n");
+      return answer(426, "text/plain; charset=utf-8", "Only the page itself may use this address.\n");
     if (shared_.ended || shared_.page_count >= shared_.limits.pages)
-      return answer(503, "text/plain; charset=utf-8", "As many pages watch as may: close one of them.\n");
+      return answer(503, "text/plain; charset=utf-8",
+                    "The view has ended, or too many pages are open: close one.\n");
     stream_.expires_never();  // the page has its own limits
     std::make_shared<Page>(stream_.release_socket(), shared_)->start(request);
   }
@@ -309,7 +310,7 @@ class ViewServer::Implementation {
       fcntl(acceptor.native_handle(), F_SETFD, FD_CLOEXEC);  // not for the browser that this program opens
       return acceptor;
     } catch (const boost::system::system_error& failure) {
-      throw_io_error("--view: no port on 127.0.0.1 can be opened: {}; leave --view out",
+      throw_io_error("--view: cannot open a port on 127.0.0.1: {}; leave out --view",
                      failure.code().message());
     }
   }
@@ -320,7 +321,7 @@ class ViewServer::Implementation {
       try {
         io_.run();
       } catch (const std::exception& failure) {
-        spdlog::warn("a page of the view was given up: {}", failure.what());
+        spdlog::warn("an error ended a page of the view: {}", failure.what());
       }
     }
   }

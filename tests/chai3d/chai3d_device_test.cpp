@@ -66,7 +66,7 @@ TEST(Chai3dLibrary, GivesOutADummyThatIsRefused) {
   ASSERT_FALSE(handler.getDevice(dummy, chai3d::C_MAX_HAPTIC_DEVICES));
   ASSERT_TRUE(dummy);
   const std::string sentence = refusal([&] { Chai3dDevice{dummy}; });
-  EXPECT_NE(sentence.find("\"no device\" is no real haptic device"), std::string::npos) << sentence;
+  EXPECT_NE(sentence.find("\"no device\" is not a real haptic device"), std::string::npos) << sentence;
 }
 
 TEST(Chai3dDevice, RefusesAVirtualOne) {

@@ -92,7 +92,7 @@ TEST_F(GoldenContentTest, ATraceThatItCannotKeepIsRefused) {
            {"at time 0.05 s is not finite", [](TickRecord& tick) { tick.depth = -HUGE_VAL; }},
            {"at time 0.05 s is not finite", [](TickRecord& tick) { tick.level = std::nan(""); }},
            {"at time 0.05 s is not finite or too large", [](TickRecord& tick) { tick.level = 1e9; }},
-           {"time 0.0504 s is no whole multiple", [](TickRecord& tick) { tick.time = 0.0504; }}}) {
+           {"time 0.0504 s is not a whole multiple", [](TickRecord& tick) { tick.time = 0.0504; }}}) {
     run = SyntheticRun();
     change(run.trace[50]);
     try {
@@ -107,9 +107,9 @@ TEST_F(GoldenContentTest, ATraceThatItCannotKeepIsRefused) {
 TEST_F(GoldenContentTest, AnEntryOfAnotherFormatSaysWhatToDo) {
   write_golden(folder / "golden/dune", finished());
   for (const auto& [version, words] :
-       {std::pair{
-            1.0,
-            "has format 1, and this program reads format 2; make it anew: sandstroke golden update dune"},
+       {std::pair{1.0,
+                  "has format 1, and this program reads format 2; make it again with: sandstroke golden "
+                  "update dune"},
         {3.0, "has format 3, and this program reads format 2; use a newer version"}}) {
     Hdf5Writer file(folder / "golden/dune/golden.h5", output_kind(InputKind::golden));
     file.attribute("/", "format_version", version);

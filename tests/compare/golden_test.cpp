@@ -208,7 +208,7 @@ TEST_F(Golden, AChangedSceneNamesItsSettingsWithBothValues) {
   expect_only_failure("scene",
                       "changed: tool.radius was 0.01, is 0.02; tool.profile was \"paper\", is gone; "
                       "view.size was [80, 45], is [80, 46]; tool.solid is new, true; "
-                      "if that is wanted: sandstroke golden update dune");
+                      "if this change is intended, run: sandstroke golden update dune");
 }
 
 TEST_F(Golden, ASettingThatTheEntrysBuildDidNotHaveHadItsDefault) {
@@ -232,8 +232,9 @@ TEST_F(Golden, AChangedStrokeNamesItsFile) {
   run.scene += "[stroke]\nfile = \"hand.h5\"\n";
   write_golden(folder / "golden/dune", finished());
   run.stroke_hash = "";
-  expect_only_failure(
-      "stroke", "changed: hand.h5 holds another stroke; if that is wanted: sandstroke golden update dune");
+  expect_only_failure("stroke",
+                      "changed: hand.h5 holds another stroke; if this change is intended, run: sandstroke "
+                      "golden update dune");
 }
 
 TEST_F(Golden, WhatPassesDoesNotSayThatItFailed) {
@@ -243,7 +244,7 @@ TEST_F(Golden, WhatPassesDoesNotSayThatItFailed) {
   ran.result.volume_drift = 3e-17;
   const Comparison comparison = compare_golden(entry(), ran, Tolerances{});
   for (const Check& check : comparison.checks)
-    for (const char* word : {"changed", "no step", "must", "golden update"})
+    for (const char* word : {"changed", "every step", "must", "golden update"})
       EXPECT_EQ(check.sentence.find(word), std::string::npos) << check.name << ": " << check.sentence;
   for (const Check& check : comparison.checks)
     if (check.measured == 0.0 && check.name != "cell size") {
@@ -251,7 +252,7 @@ TEST_F(Golden, WhatPassesDoesNotSayThatItFailed) {
     }
   ran.result.volume_drift = 3e-9;
   sandstroke::expect_only_failure(compare_golden(entry(), ran, Tolerances{}), "volume drift",
-                                  "no step may do that");
+                                  "every step must keep the volume");
 }
 
 TEST_F(Golden, TheRunsTimeIsThatOfItsCheckAndNothingIsCountedTwice) {

@@ -59,7 +59,7 @@ TEST(RunReport, FiguresAreThoseOfTheTrace) {
   };
   EXPECT_NEAR(value("Stroke"), 0.104, 1e-12);
   EXPECT_NEAR(value("Largest force"), std::hypot(2.0, 1000.0 * std::expm1(0.5 * 0.0104)), 1e-12);
-  EXPECT_NEAR(value("Deepest"), 10.4, 1e-9);                       // mm
+  EXPECT_NEAR(value("Largest depth"), 10.4, 1e-9);                 // mm
   EXPECT_NEAR(value("Energy into the sand"), 2.0 * 0.104, 1e-12);  // force times way
 }
 

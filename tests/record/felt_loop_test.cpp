@@ -105,9 +105,9 @@ TEST(FeltLoop, ThatIsRefusedNamesTheNumbersAndTheSettings) {
   };
   Scene scene;
   EXPECT_EQ(sentence(scene), "") << "only warned of";
-  EXPECT_NE(
-      verdict_text(*felt_loop(scene, touch(), any_force, 1000.0), scene).find("beyond what the device names"),
-      std::string::npos);
+  EXPECT_NE(verdict_text(*felt_loop(scene, touch(), any_force, 1000.0), scene)
+                .find("beyond the limits that the device states"),
+            std::string::npos);
   scene.force.k_f = 200.0;
   const std::string drag = sentence(scene);
   for (const char* part :
@@ -166,7 +166,7 @@ TEST(FeltLoop, AToolThatNoYieldWayMakesSoftEnoughIsNamed) {
   scene.tool.size = {0.2, 0.2, 0.02};
   const FeltLoop loop = felt_loop(scene, touch(), any_force, 1000.0).value();
   EXPECT_FALSE(settling_scene(loop, scene));
-  EXPECT_NE(verdict_text(loop, scene).find("take a smaller tool"), std::string::npos);
+  EXPECT_NE(verdict_text(loop, scene).find("use a smaller tool"), std::string::npos);
 }
 
 }  // namespace

@@ -10,7 +10,7 @@
 namespace sandstroke {
 namespace {
 
-constexpr const char* remedy = "allow more, or do without pictures";
+constexpr const char* remedy = "allow more memory, or leave out pictures";
 
 /// The library. It is loaded when the first context is made, because it brings a whole compiler.
 class OsMesa {
@@ -46,7 +46,7 @@ class OsMesa {
   [[noreturn]] static void throw_missing() {
     throw_io_error(
         "pictures are drawn by the library OSMesa, which cannot be loaded ({}); install it (Debian: apt-get "
-        "install libosmesa6), or do without pictures",
+        "install libosmesa6), or leave out pictures",
         dlerror());
   }
 

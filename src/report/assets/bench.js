@@ -41,7 +41,7 @@ drawPage((data, main) => {
     if (!plotted(problem, "converged_to")) return;
     const look = { colour: "#5b6670", dash: "dotted" };
     lines.push(lineOf("converged", [[x.from, problem.converged_to], [x.to, problem.converged_to]], x, y, look));
-    legend.push({ name: "converged", text: "how far the reference is converged", series: true, ...look });
+    legend.push({ name: "converged", text: "error of the reference itself", series: true, ...look });
   };
 
   /** Run time against error, with the points as they were run. No run beats a run on the front in both. */
@@ -55,7 +55,7 @@ drawPage((data, main) => {
     const front = points.filter((run) => run.pareto).sort((a, b) => a.wall_seconds - b.wall_seconds);
     const left = own.length - points.length;
     const note = "Lower left is better." +
-      (left > 0 ? ` ${left} of ${own.length} runs have no place on logarithmic axes: see the table.` : "");
+      (left > 0 ? ` ${left} of ${own.length} runs cannot be drawn on logarithmic axes: see the table.` : "");
     const lines = shown.map((series) =>
       curve(problem, series, points.filter((run) => run.series === series), x, y, "wall_seconds"));
     const legend = legendOf(shown);
@@ -104,7 +104,8 @@ drawPage((data, main) => {
     addReference(problem, x, y, lines, legend);
     return chart({
       title: "Error against resolution",
-      note: "The smallest error of each series at each resolution. Orders as fitted, with their confidence.",
+      note: "The smallest error of each series at each resolution. The legend gives the fitted orders " +
+        "with their 95 % ranges.",
       legend, option: frame(problem, x, y, lines),
     });
   }
@@ -150,7 +151,7 @@ drawPage((data, main) => {
     legend.push({ name: "bound", text: "no error, and ±0.15°", series: true, colour: "#1d2329", dash: "dashed" });
     return chart({
       title: "Slope error by direction",
-      note: "Degrees of slope too steep (outwards) or too flat (inwards), at the finest resolution. " +
+      note: "Degrees by which the slope is too steep (outwards) or too flat (inwards), at the finest resolution. " +
         "Linear within ±0.15°, logarithmic beyond.",
       legend, height: "25rem",
       option: {
@@ -197,7 +198,7 @@ drawPage((data, main) => {
      ...[["measured", "Measured"], ["model", "The law"]].map(([name, title]) =>
        ({ name, title, cell: (row) => toTwo(row[name]) })),
      { name: "off", title: "Off by", unit: "%", value: (row) => Math.round(100 * row.off) },
-     { name: "source", title: "Source" }], rows, { label: "The law beside measurements" }).element;
+     { name: "source", title: "Source" }], rows, { label: "The law against measurements" }).element;
 
   /** Times of ticks: a row for each tool and setting, a column for each law. */
   function tickTable(own) {
@@ -218,16 +219,16 @@ drawPage((data, main) => {
 
   main.append(el("h1", {}, document.title), machineLine(data.machine));
   if (data.quick)
-    main.append(el("p", { class: "warning" }, "A quick run: few and coarse runs, to see that all works."));
+    main.append(el("p", { class: "warning" }, "A quick bench: few and coarse runs, to check that everything works."));
   if (data.disturbance) main.append(el("p", { class: "warning" }, data.disturbance));
   if (runs.length === 0) {
-    main.append(el("p", {}, "Nothing was measured: this study holds no runs."));
+    main.append(el("p", {}, "Nothing was measured: this bench holds no runs."));
   } else {
     main.append(el("p", {},
-      "Each point is a run. Run time is the least of repeats. The repeats take turns, so a change of the " +
-      "machine's speed affects all runs alike. The error is the distance to the known answer, or to a converged " +
-      "solution. Errors below the dotted line mean nothing, because that answer is no more exact. Point at a " +
-      "symbol for its figures. Click on a name to hide its line."));
+      "Each point is a run. Its run time is the shortest of several repeats. The runs take turns, so a change of " +
+      "the machine's speed affects all of them alike. The error is the distance to the known answer, or to a " +
+      "converged solution. Errors below the dotted line mean nothing, because the converged solution is no more " +
+      "exact. Point at a symbol for its figures. Click on a name to hide its line."));
   }
   const titleOf = new Map(problems.map((problem) => [problem.name, problem.title]));
   const sections = problems.map((problem, i) => [`problem-${i + 1}`, problem.title]);
@@ -246,7 +247,7 @@ drawPage((data, main) => {
     section.append(drawn.length ? el("div", { class: "charts lead" }, ...drawn)
                                 : el("p", { class: "quiet" }, "No run of this problem can be drawn."));
     if (problem.measured?.length)
-      section.append(el("h3", {}, "The law beside measurements"), el("p", {}, problem.measured_text),
+      section.append(el("h3", {}, "The law against measurements"), el("p", {}, problem.measured_text),
                      measuredTable(problem.measured));
   });
 
@@ -254,8 +255,8 @@ drawPage((data, main) => {
                           value: (row) => titleOf.get(row.problem) ?? row.problem };
   const bodies = {
     orders: () => [
-      el("p", {}, "The error falls as the resolution to the power of the order; the range is that of 95 % " +
-                  "confidence."),
+      el("p", {}, "The error is proportional to the step (such as the cell size) to the power of the order. " +
+                  "The range is the 95 % confidence interval."),
       table([problemColumn, { name: "series", title: "Series" },
              { name: "error", title: "Error", value: (row) => column(row.error).title },
              ...[["order", "Order"], ["low", "from"], ["high", "to"]].map(([name, title]) =>
@@ -265,7 +266,7 @@ drawPage((data, main) => {
       const outside = (row) => isNumber(row.ratio) && (row.ratio < 1 / 3 || row.ratio > 3);
       const known = estimates.filter((row) => isNumber(row.ratio)), count = known.filter(outside).length;
       return [
-        el("p", {}, "What a run states as its own error, against the true one. ",
+        el("p", {}, "The error that a run estimates for itself, against the true error. ",
            el("span", { class: count ? "bad" : "good" },
               count ? `${count} of ${known.length} are not within a factor of 3.`
                     : `All ${known.length} are within a factor of 3.`)),

@@ -31,8 +31,8 @@ function checkTable(checks) {
   const failedFirst = [...checks].sort((a, b) => a.passed - b.passed);
   return table([
     { name: "name", title: "Check" },
-    { name: "passed", title: "Verdict", value: (check) => (check.passed ? "holds" : "failed"),
-      cell: (check) => el("span", { class: check.passed ? "good" : "bad" }, check.passed ? "holds" : "failed") },
+    { name: "passed", title: "Verdict", value: (check) => (check.passed ? "passed" : "failed"),
+      cell: (check) => el("span", { class: check.passed ? "good" : "bad" }, check.passed ? "passed" : "failed") },
     { name: "measured", title: "Measured", cell: (check) => format(check.measured) },
     { name: "limit", title: "Limit", cell: (check) => format(check.limit) }, { name: "unit", title: "Unit" },
     { name: "sentence", title: "What was found" },

@@ -68,7 +68,8 @@ function groupCharts(group, quantities, whole) {
   const apart = quantities[0].difference && curveChart({
     title: `${group}: difference`, whole, over: overTime,
     note: `${labelOf("run")} − ${labelOf("golden")}, tick by tick` +
-      (quantities.some(({ name }) => name === "magnitude") ? "; of the magnitude, the length of the difference." : "."),
+      (quantities.some(({ name }) => name === "magnitude")
+        ? "; for the magnitude, the length of the difference vector." : "."),
     legend: [{ name: "difference", ...lookOfDifference, dash: "solid" },
              { name: "limit", text: "within the limit", fill: "#dff2ec" }],
   });
@@ -102,7 +103,7 @@ function zoomTogether(curveCharts, whole) {
     buttons: el("span", { class: "buttons", role: "group", "aria-label": "Zoom over time" },
                 button("+", "zoom in", about(0.5)), button("−", "zoom out", about(2)),
                 button("←", "earlier", by(-0.5)), button("→", "later", by(0.5)),
-                button("whole", "all of the time", () => show(...whole))),
+                button("whole", "show the whole time", () => show(...whole))),
     again: () => show(from, to),
     listen: () => curveCharts.forEach(({ one }) => one.drawn.on("datazoom", (event) => {
       const { start, end } = event.batch?.[0] ?? event;
@@ -131,7 +132,7 @@ function drawTraces(part) {
     } }, ...names.map((one, i) => el("option", { value: i }, one))));
   return [el("p", {}, part.text),
           el("div", { class: "controls" }, ...groups.filter(({ names }) => names.length > 1).map(choiceOf), el("span", {}, "Zoom ", zoom.buttons)),
-          el("p", { class: "quiet" }, "The wheel of the mouse with Ctrl zooms as well, and dragging moves."),
+          el("p", { class: "quiet" }, "Ctrl and the mouse wheel zoom as well, and dragging moves the curves."),
           el("div", { class: "charts single" }, ...all.map(({ element }) => element))];
 }
 

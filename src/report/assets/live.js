@@ -93,7 +93,7 @@ function pointerHand(view, send, depthChanged) {
 
 function drawLive(main) {
   const said = el("p", { class: "said", role: "status" }), title = el("h1", {}, document.title);
-  const numbers = numberTable(["time", "depth", "force", "rate", "late", "at most"]);
+  const numbers = numberTable(["time", "depth", "force", "rate", "lateness", "largest lateness"]);
   const tools = el("div", { class: "corner tools" });
   const place = el("div", { class: "sand" });
   const help = el("p", {}, viewHelp, " F follows the tool.");
@@ -116,7 +116,7 @@ function drawLive(main) {
     const span = Math.max(high - low, 0.01);
     const view = sandView({ rows, cols, cellSize, x0, y0, low: low - span / 2, high: high + span / 2 }, "Live sand");
     if (!view) {
-      place.prepend(el("p", { class: "warning" }, "This browser has no WebGL 2, so it shows numbers and no sand."));
+      place.prepend(el("p", { class: "warning" }, "This browser has no WebGL 2, so it shows numbers, but no sand."));
       return;
     }
     live.view = view;
@@ -125,7 +125,7 @@ function drawLive(main) {
     view.canvas.focus({ preventScroll: true });
     const colour = switchButton("Colours by height", false, view.act.colour);
     const follow = switchButton("Follow the tool", false, view.act.follow);
-    const all = el("button", { type: "button", click: () => { view.act.all(); view.changed(); } }, "Look at all");
+    const all = el("button", { type: "button", click: () => { view.act.all(); view.changed(); } }, "Show all");
     tools.append(colour, follow, all);
     view.acted = () => {   // by a key, too
       colour.setAttribute("aria-pressed", String(view.coloured));
@@ -146,8 +146,8 @@ function drawLive(main) {
                                          () => { depth.value = live.depth; });
     tools.append(el("br"), draw, el("label", {}, "Depth", depth),
                  el("button", { type: "button", class: "finish", click: finish }, "Finish"));
-    help.prepend("Press and draw in the sand. The right button turns the view, as D and any button do; the wheel, while " +
-                 "you press, sets the depth. ");
+    help.prepend("Press and drag to draw in the sand; the wheel then sets the depth. Drag with the right button to " +
+                 "turn the view. D turns drawing off and on; while it is off, any button turns the view. ");
     view.drawing = hand;
     view.canvas.addEventListener("keydown", (event) => {
       if (event.key.toLowerCase() === "d") draw.click();
@@ -179,11 +179,11 @@ function drawLive(main) {
     const { hello, status, end, drawing } = JSON.parse(data);
     if (hello) begin(hello);
     if (status !== undefined) say(status, status !== "");
-    if (drawing === false && live.hello?.pointer) say("another page is the hand; this one watches");
+    if (drawing === false && live.hello?.pointer) say("another page holds the tool; this one only watches");
     if (drawing === true) say("");
     if (end !== undefined) {
       live.ended = true;
-      say(`It has ended: ${end}.`);
+      say(`Ended: ${end}.`);
     }
   };
   socket.onclose = () => {

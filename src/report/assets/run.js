@@ -12,6 +12,6 @@ drawPage((data, main) => {
            [...map].map(([name, value]) => ({ name, value })), { label }).element];
   drawSections(main, [...sectionsOf(parts),
                       ["settings", "Settings", pairs(settingsOf(scene), "Setting", "Settings of the scene")],
-                      ["file", "File", pairs(new Map(provenance), "Entry", "What the file says of itself")]]);
+                      ["file", "File", pairs(new Map(provenance), "Entry", "Origin of the file")]]);
 });
 afterDrawing();

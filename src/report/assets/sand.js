@@ -45,7 +45,7 @@ uniform ivec2 cells;
 uniform float cell_size;
 out vec4 light;
 float height(ivec2 cell) { return texelFetch(heights, clamp(cell, ivec2(0), cells - 1), 0).r; }
-// Tangent of the highest elevation on the way from a cell, in steps that grow.
+// Tangent of the highest elevation on the way from a cell. The steps grow.
 float horizon(ivec2 cell, float here, vec2 way, float steps, float growth) {
   float highest = -1.0, distance = 1.0;
   for (float i = 0.0; i < steps; i += 1.0) {
@@ -55,7 +55,7 @@ float horizon(ivec2 cell, float here, vec2 way, float steps, float growth) {
   }
   return highest;
 }
-// Grains and patches, of waves that cells can show.
+// Grains and patches whose waves the cells can show.
 float grains(vec2 place) {
   float sum = 0.04 * noise(place / 0.06);
   if (cell_size < 0.003) sum += 0.08 * noise(place / 0.008);
@@ -105,7 +105,7 @@ uniform vec2 origin;
 uniform vec3 sun_direction;
 uniform vec3 tool;         // its centre
 uniform float radius;      // 0: there is none
-uniform vec3 range;        // of colours: low, high, and 1 where there are any
+uniform vec3 range;        // of the colours: low, high, and 1 if they are used
 uniform bool diverging;
 in vec3 world;
 out vec4 colour;
@@ -120,7 +120,7 @@ vec3 scale_colour(float value) {
   int i = min(int(share * 5.0), 4);
   return mix(low_to_high[i], low_to_high[i + 1], share * 5.0 - float(i));
 }
-// What the tool leaves of the light, as it looks: its shadow, and the sky that it takes.
+// The fraction of the light that the tool leaves: it casts a shadow and hides part of the sky. An approximation.
 float past_tool() {
   vec3 to = tool - world;
   float away = length(to), along = dot(to, sun_direction), miss = length(to - along * sun_direction) - radius;

@@ -43,7 +43,8 @@ function drawSand(part) {
   const { rows, cols, cell_size: cellSize, x0, y0, low, high, surfaces, difference } = part;
   const bed = { rows, cols, cellSize, x0, y0, low, high };
   const view = sandView(bed, part.title);
-  if (!view) return [el("p", {}, "This browser has no WebGL 2, which draws sand in 3-D. Pictures on this page show it.")];
+  if (!view)
+    return [el("p", {}, "This browser has no WebGL 2 and cannot draw sand in 3-D. The pictures on this page show it.")];
   const profile = chartPlace({ class: "profile" });
   const state = { view, part, heights: [], shown: surfaces.length - 1, line: null, ready: false };
   sandParts.push(state);

@@ -42,8 +42,8 @@ function orbitCamera(bed, size) {
   };
 }
 
-const viewHelp = "Drag to turn, with Shift to shift; the wheel zooms. Keys: arrows turn, Shift+arrows shift, + and − zoom, " +
-  "C colours by height, Home looks at all.";
+const viewHelp = "Drag to turn, Shift+drag to shift; the wheel zooms. Keys: arrows turn, Shift+arrows shift, + and − " +
+  "zoom, C colours by height, Home shows all.";
 
 /**
  * A view of a bed; null where it cannot be drawn. It has canvas; picture (sandPicture): call changed() when it changed;

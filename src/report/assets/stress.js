@@ -82,8 +82,8 @@ function boundaryCharts(boundaries) {
   const one = lineOf("exact", [[x.from, 1], [x.to, 1]], x, ratio, { colour: "#333333", width: 1 });
   const charts = [chart({
     title: "Measured against exact boundary",
-    note: "The largest stable stiffness, by bisection, over that at which an eigenvalue of the one-tick map " +
-      "leaves the unit circle.",
+    note: "The largest stable stiffness, found by bisection, divided by the stiffness at which an eigenvalue of the " +
+      "one-tick map leaves the unit circle.",
     legend: [{ name: "measured", ...blue, dash: "none", series: true },
              { name: "band", text: "within 2 %", fill: "#dff2ec" }],
     option: { ...base, xAxis: x.axis, yAxis: { ...ratio.axis, nameGap: 46 }, series: [one, measured] },
@@ -94,9 +94,9 @@ function boundaryCharts(boundaries) {
     const y = scaleOf(usable.flatMap((item) => [item.measured, item.passive]),
                       { logarithmic: true, title: "stiffness", unit: "N/m" });
     charts.push(chart({
-      title: "The passivity condition is the narrower one",
-      note: "Stiffness up to which Colgate & Schenkel's condition promises stability, and up to which the loop " +
-        "is stable.",
+      title: "The passivity condition is stricter than stability",
+      note: "The stiffness up to which Colgate & Schenkel's condition promises stability, and the stiffness " +
+        "up to which the loop is stable.",
       legend: [{ name: "measured", text: "stable up to, measured", ...blue, dash: "none", series: true },
                { name: "passive", text: "passive up to", ...orange, dash: "none", series: true },
                { name: "exact", text: "exact boundary", colour: "#333333", dash: "solid", series: true }],
@@ -120,7 +120,7 @@ function boundaryText(boundaries) {
   return el("p", {}, say(outside, `${outside} of ${all} are not within 2 % of the exact boundary`,
                          `All ${all} are within 2 % of the exact boundary`),
             off.length ? ` (at most ${(100 * Math.max(...off)).toFixed(2)} % off); ` : "; ",
-            say(unstable, `${unstable} not seen stable as far as the passivity condition holds.`,
+            say(unstable, `${unstable} of ${all} were not found stable wherever the passivity condition holds.`,
                 "every loop is stable where the passivity condition holds."));
 }
 
