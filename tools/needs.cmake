@@ -68,6 +68,6 @@ endif()
 if(missing)
   list(REMOVE_DUPLICATES missing_packages)
   list(JOIN missing_packages " " missing_packages)
-  message(FATAL_ERROR "sandstroke needs what is not here. With the names of Debian's packages:${missing}\n"
+  message(FATAL_ERROR "sandstroke needs these missing packages (Debian's names):${missing}\n"
                       "apt-get install ${missing_packages}, or tools/setup, which installs all.")
 endif()

@@ -49,7 +49,7 @@ std::unique_ptr<ViewOpener> announce_view(const ViewServer& server, bool opens) 
 }
 
 void wait_for_page(const ViewServer& server, const char* what) {
-  fmt::print(stderr, "the {} begins when the page is open\n", what);
+  fmt::print(stderr, "the {} begins when a page is open\n", what);
   while (server.pages() == 0 && !interrupted())
     std::this_thread::sleep_for(std::chrono::duration<double>(picture_interval));
 }

@@ -61,16 +61,16 @@ void add_bench_command(CLI::App& app, Command& chosen) {
   command->add_flag("--quick", arguments->study.quick,
                     "Take 15 seconds instead of 5 minutes, with coarser grids and shorter strokes");
   command
-      ->add_option("--repeats", arguments->study.repeats,
-                   "Number of times that each run is timed; the median counts. Default: 5, with --quick 3")
+      ->add_option(
+          "--repeats", arguments->study.repeats,
+          "Number of times that each run is timed; the least time counts. Default: 5, with --quick 3")
       ->check(CLI::Range(1, 1000));
   command->add_option("--threads", arguments->study.threads, "Threads per run, unless the run varies them")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
-  arguments->plugin.add_to(
-      *command,
-      "Laws of your own (.so), beside the program's: in heaps, a stroke and a plunge, which "
-      "are then all that runs unless --scene says otherwise");
+  arguments->plugin.add_to(*command,
+                           "Plugin (.so) whose laws are measured beside the program's: in heaps, a stroke "
+                           "and a plunge. Only these problems run, unless --scene names others");
   command->add_flag("--json", arguments->json,
                     "Print the page's data as one JSON object instead of the tables");
   command->footer("Example:  sandstroke bench --quick -o bench");

@@ -63,7 +63,7 @@ int compare(const CompareArguments& arguments) {
         arguments.golden.string(), arguments.run.string());
   }
   if (arguments.coarsen && has_picture_name(arguments.golden))
-    throw_input_error("--coarsen: {} is a picture; leave it away, or compare two run files",
+    throw_input_error("--coarsen: {} is a picture; leave out --coarsen, or compare two run files",
                       arguments.golden.string());
   std::vector<fs::path> files = {arguments.golden, arguments.run};
   if (!arguments.report.empty()) {
@@ -100,10 +100,9 @@ void add_compare_command(CLI::App& app, Command& chosen) {
       ->type_name("FILE.h5|.png")
       ->required();
   add_tolerance_options(*command, arguments->given, false);
-  command->add_flag(
-      "--coarsen", arguments->coarsen,
-      "Compare beds with different cells over the same ground: average the finer one over the other's "
-      "cells");
+  command->add_flag("--coarsen", arguments->coarsen,
+                    "Compare beds of the same size with different cells: average the finer bed over the "
+                    "cells of the coarser one");
   command
       ->add_option("--report", arguments->report,
                    "Folder for a page, compare.html: checks, maps of the difference, forces")

@@ -45,7 +45,8 @@ constexpr std::string_view png = ".png", trace = ".csv";
 const std::vector<ExportFormat>& formats() {
   static const std::vector<ExportFormat> all = {
       {png, height_png_output, nullptr, nullptr,
-       "heights, 16-bit grayscale, y upwards. It says their range, so bed.surface.file reads it"},
+       "heights, 16-bit grayscale, y upwards. The file contains their range, so bed.surface.file can read "
+       "it"},
       {".npy", npy_format.kind, &npy_format, nullptr, "heights [m], for numpy.load: float64 (y, x)"},
       {".asc", esri_grid_format.kind, &esri_grid_format, nullptr,
        "heights [m], an ESRI ASCII grid for QGIS, GDAL and others"},
@@ -66,15 +67,15 @@ const ExportFormat& format_of(const fs::path& output) {
     if (format.ending == small_ending(output)) return format;
     endings.push_back(format.ending);
   }
-  throw_input_error("{}: its ending says no format; take one of {}", output.string(),
-                    fmt::join(endings, ", "));
+  throw_input_error("{}: unknown file name ending; use one of {}", output.string(), fmt::join(endings, ", "));
 }
 
 /// Refuses options that would change nothing in this format.
 void reject_ignored(const ExportArguments& arguments, const ExportFormat& format) {
   const auto reject = [&](bool given, const char* option, bool taken, const char* wanted) {
     if (given && !taken)
-      throw_input_error("{} is for {}; {} is none of them", option, wanted, arguments.output.string());
+      throw_input_error("{} works only for {}; {} has another format", option, wanted,
+                        arguments.output.string());
   };
   reject(!arguments.frame.empty(), "--frame", format.ending != trace, "surfaces");
   reject(arguments.base.has_value(), "--base", format.mesh, "triangles (.stl, .ply, .obj)");
@@ -115,9 +116,9 @@ void write_height_png(const RunFile& run, const ExportArguments& arguments) {
   const GrayRange range = range_of(run, heights, arguments);
   const auto [low, high] = std::minmax(range.black, range.white);
   if (const auto beyond = (heights < low || heights > high).count(); beyond > 0)
-    spdlog::warn("{} of {} cells are beyond the range, and are cut to it", beyond, heights.size());
+    spdlog::warn("{} of {} cells are outside the range and were clipped", beyond, heights.size());
   write_text_file(arguments.output, encode_height_png(heights, range), height_png_output);
-  spdlog::info("{}: black is {} m, white {} m; from gray to gray it is {:.3g} um", arguments.output.string(),
+  spdlog::info("{}: black is {} m, white {} m; one gray level is {:.3g} um", arguments.output.string(),
                range.black, range.white, 1e6 * (high - low) / 65535.0);
 }
 
@@ -132,7 +133,7 @@ bool write_mesh(const MeshFormat& format, const RunFile& run, const ExportArgume
   const MeshSize size = mesh_size(run.rows(), run.cols(), !arguments.surface_only);
   const auto check_count = [&](std::uint64_t count, double most, const char* what) {
     if (static_cast<double>(count) > most)
-      throw_input_error("{}: {} x {} cells make {} {}, and {} holds at most {:.0f}; export heights (.npy)",
+      throw_input_error("{}: {} x {} cells need {} {}, but {} holds at most {:.0f}; export heights (.npy)",
                         arguments.output.string(), run.cols(), run.rows(), count, what, format.kind.name,
                         most);
   };
@@ -190,12 +191,12 @@ void add_export_command(CLI::App& app, Command& chosen) {
   CLI::App* command =
       app.add_subcommand("export", "Write a surface or the trace of a run for other programs");
   command->add_option("RUN", arguments->run, "Run file (HDF5)")->type_name("FILE.h5")->required();
-  std::string endings, footer = "The ending of the output says what is written:\n";
+  std::string endings, footer = "The ending of the output file chooses the format:\n";
   for (const ExportFormat& format : formats()) {
     endings += (endings.empty() ? "" : "|") + std::string(format.ending);
     footer += fmt::format("  {}  {}\n", format.ending, format.text);
   }
-  command->add_option("-o,--output", arguments->output, "File to write. Its ending says the format")
+  command->add_option("-o,--output", arguments->output, "File to write. Its ending chooses the format")
       ->type_name("FILE" + endings)
       ->required();
   command
@@ -214,8 +215,8 @@ void add_export_command(CLI::App& app, Command& chosen) {
       ->excludes(base);
   command
       ->add_option("--range", arguments->range,
-                   "Heights of a PNG's black and white [m]. Default: those of the PNG that the bed began as, "
-                   "where all sand lies between them; otherwise the lowest and the highest")
+                   "Heights of a PNG's black and white [m]. Default: those of the PNG from which the bed was "
+                   "read, if all sand lies between them; otherwise the lowest and the highest sand")
       ->type_name("BLACK,WHITE")
       ->delimiter(',')
       ->expected(2)

@@ -16,7 +16,7 @@ namespace {
 std::vector<DeviceSpecification> list_chai3d_devices() { return {}; }
 std::unique_ptr<HapticDevice> make_chai3d_device(int) {
   throw_input_error(
-      "--device chai3d: this program was built without CHAI3D; {}, or play a stroke: scripted:FILE.toml or "
+      "--device chai3d: this program was built without CHAI3D; {}, or use a stand-in: scripted:FILE.toml or "
       "replay:FILE.h5",
       how_to_build_with_chai3d);
 }
@@ -57,8 +57,8 @@ std::unique_ptr<HapticDevice> find_device(const std::string& name, const ForceSe
   Stroke stroke = load_stroke(file, force);
   if (stroke.follows_sand)
     throw_input_error(
-        "--device {}: its heights count from the sand (as those of a script with a force do), which a device "
-        "does not know; give depths instead, or play it: sandstroke run SCENE --stroke {}",
+        "--device {}: its heights are relative to the sand (as in scripts with a force), and a device does "
+        "not know the sand; use depths, or play the stroke: sandstroke run SCENE --stroke {}",
         name, file.string());
   return std::make_unique<StrokeDevice>(std::move(stroke), name);
 }

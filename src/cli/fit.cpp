@@ -66,7 +66,7 @@ std::string text_of(const FittedConstant& one) {
   const char* const unit = one.constant.unit;
   if (one.determined()) return value_text(one.value, one.error, unit);
   return (std::isfinite(one.error) ? value_text(one.value, one.error, unit)
-                                   : fmt::format("{:.4g} {}, the scene's", one.value, unit)) +
+                                   : fmt::format("{:.4g} {} (from the scene)", one.value, unit)) +
          ": the recording does not determine it";
 }
 
@@ -84,8 +84,8 @@ void print_fit(const ForceFit& fit) {
   for (const FittedConstant& one : fit.constants) print_row(one.constant.key, text_of(one));
   const std::string meaning = fmt::format("{}: {}", fit.of_scale.unit, fit.of_scale.meaning);
   print_row(fit.of_scale.name, value_text(fit.scale, fit.scale_error, meaning.c_str()));
-  print_row("left", fmt::format("{:.3g} N rms; with the scene's constants {:.3g} N", fit.residual,
-                                fit.start_residual));
+  print_row("residual", fmt::format("{:.3g} N rms; with the scene's constants {:.3g} N", fit.residual,
+                                    fit.start_residual));
   print_row("explained",
             fmt::format("{:.0f} % of the recorded force (of its mean square)", 100.0 * fit.explained));
 }
@@ -93,14 +93,13 @@ void print_fit(const ForceFit& fit) {
 void warn_of(const ForceFit& fit, const Scene& scene) {
   if (fit.explained_reversed >= most_of_it)
     spdlog::warn(
-        "the recorded force has the other sign: turned round, the model explains {:.0f} % of it. It must be "
-        "the "
-        "force on the hand; convert the stroke again with the other sign",
+        "the recorded force seems to have the wrong sign: with the sign reversed, the model explains {:.0f} "
+        "% of it. It must be the force on the hand; convert the stroke again with the other --force-sign",
         100.0 * fit.explained_reversed);
   else
     spdlog::warn(
-        "the model cannot explain this force: with the best constants {:.3g} of {:.3g} N rms are left. It "
-        "{}; the recorded one does something else{}",
+        "the model cannot explain this force: with the best constants {:.3g} of {:.3g} N rms remain. The "
+        "model's force {}; the recorded force behaves differently{}",
         fit.residual, fit.recorded_rms, nature_of(scene.force.law),
         fit.constants.size() < constants_of(scene.force.law).size()
             ? ", or needs a constant that --constants leaves out"
@@ -147,7 +146,7 @@ int fit(const FitArguments& arguments) {
 std::string constants_text(ForceLaw law) {
   std::vector<std::string> names;
   for (const ForceConstant& one : constants_of(law))
-    names.push_back(one.name + std::string(one.by_default ? "" : " (where asked for)"));
+    names.push_back(one.name + std::string(one.by_default ? "" : " (only with --constants)"));
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
@@ -155,8 +154,7 @@ std::string constants_text(ForceLaw law) {
 
 void add_fit_command(CLI::App& app, Command& chosen) {
   auto arguments = std::make_shared<FitArguments>();
-  CLI::App* command =
-      app.add_subcommand("fit", "Find the force constants that come nearest to a recorded force");
+  CLI::App* command = app.add_subcommand("fit", "Find the force constants that fit a recorded force best");
   command->add_option("SCENE", arguments->scene, "Scene file (TOML)")->type_name("FILE.toml")->required();
   command
       ->add_option("--stroke", arguments->stroke,
@@ -175,11 +173,11 @@ void add_fit_command(CLI::App& app, Command& chosen) {
       "  paper       {}\n"
       "  rft         {}\n"
       "  archimedes  {}\n"
-      "Of the last two the force goes with friction_angle and density by one number, the sand's resistance;\n"
-      "so the scene's force.density must be right.\n"
+      "With the last two laws the force depends on friction_angle and density through one number, the\n"
+      "sand's resistance, so the scene's force.density must be right.\n"
       "\n"
-      "The stroke is played through the scene's sand. Depths count from the sand under the tool, which lies\n"
-      "lower in the tool's own furrow. The force of the model is held against the recorded one, by least\n"
+      "fit plays the stroke through the scene's sand. Depths count from the sand under the tool, which lies\n"
+      "lower in the tool's own furrow. fit compares the model's force with the recorded one by least\n"
       "squares. Errors are standard errors (jackknife over ten stretches of time).\n"
       "Example:  sandstroke fit strokes/wscg/scene.toml --stroke tracing.h5 --set stroke.depth=0.004",
       constants_text(ForceLaw::paper), constants_text(ForceLaw::rft), constants_text(ForceLaw::archimedes)));

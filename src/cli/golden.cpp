@@ -136,7 +136,7 @@ void add_golden_command(CLI::App& app, Command& chosen) {
   check_command->callback([arguments, &chosen] { chosen = [arguments] { return check(*arguments); }; });
 
   CLI::App* update_command =
-      golden->add_subcommand("update", "Replace the golden entries of scenes by what the scenes give now");
+      golden->add_subcommand("update", "Replace the golden entries of scenes by the scenes' present results");
   update_command->footer("Example:  sandstroke golden update wscg");
   update_command->add_option("NAME", arguments->names, "Scenes")->type_name("SCENE")->required();
   add_folder_options(update_command, *arguments);

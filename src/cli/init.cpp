@@ -29,13 +29,13 @@ struct ExampleFile {
 
 int init(const fs::path& folder) {
   const std::array<ExampleFile, 3> files = {{
-      {"scene.toml", "what is simulated: sand, tool, forces, view", SANDSTROKE_ASSET(init_scene)},
-      {"stroke.toml", "what the hand draws", SANDSTROKE_ASSET(init_stroke)},
+      {"scene.toml", "the scene: sand, tool, forces, view", SANDSTROKE_ASSET(init_scene)},
+      {"stroke.toml", "the hand's stroke", SANDSTROKE_ASSET(init_stroke)},
       {"sweep.toml", "a sweep: the same scene with other settings", SANDSTROKE_ASSET(init_sweep)},
   }};
   for (const ExampleFile& file : files)
     if (fs::exists(fs::symlink_status(folder / file.name)))
-      throw_input_error("{}: already exists, and init replaces no file; name another folder",
+      throw_input_error("{}: already exists, and init does not replace files; name another folder",
                         (folder / file.name).string());
   make_folder(folder);
   try {

@@ -62,19 +62,19 @@ int run_program(int argc, char** argv) {
   app.footer(
       "Exit codes:\n"
       "  0        fine\n"
-      "  1        a comparison failed, or a machine is not fit to record\n"
+      "  1        a comparison or record --check failed, or a recording skipped too many ticks\n"
       "  2        bad input or usage\n"
       "  3        a run is not at rest or unstable, a sweep's point failed, or stress found a surprise\n"
       "  4        a file or a device cannot be read or written\n"
       "  128 + n  stopped by signal n: 130 by Ctrl-C, 143 by kill\n"
-      "Begin with: sandstroke init FOLDER. A recording of yours: sandstroke run SCENE --stroke FILE. Help on "
-      "a command: sandstroke run --help\n"
+      "Begin with: sandstroke init FOLDER. To play your own recording: sandstroke run SCENE --stroke FILE. "
+      "Help on a command: sandstroke run --help\n"
       "In Python: import sandstroke; run = sandstroke.run(\"scene.toml\"); run.final");
   bool quiet = false;
   app.add_flag("-q,--quiet", quiet, "Print only results, warnings and errors");
   bool overwrite = false;
   app.add_flag("--overwrite", overwrite,
-               "Let outputs replace any file. Without it they replace only what sandstroke wrote there, but "
+               "Let outputs replace any file. Without it they replace only files that sandstroke wrote, and "
                "never a stroke, a recording, a film, or an exported .npy or .asc");
 
   Command chosen;

@@ -113,12 +113,11 @@ std::string keys_text(const std::vector<KeySection>& sections) {
 const std::vector<HelpTopic>& help_topics() {
   static constexpr const char* keys_with_defaults = "Every key with its default.";
   static const std::vector<HelpTopic> topics = {
-      {"scene", "what sandstroke run simulates (TOML); --set takes each of its keys", keys_with_defaults,
+      {"scene", "scene for sandstroke run (TOML); --set overrides any of its keys", keys_with_defaults,
        all_scene_keys},
       {"script", "strokes written as text (TOML)", keys_with_defaults, script_keys},
-      {"plan", "what sandstroke sweep varies (TOML)", keys_with_defaults, all_plan_keys},
-      {"metrics", "what sandstroke sweep measures", "Every metric with its unit and definition.",
-       metric_keys},
+      {"plan", "plan for sandstroke sweep (TOML)", keys_with_defaults, all_plan_keys},
+      {"metrics", "metrics of sandstroke sweep", "Every metric with its unit and definition.", metric_keys},
   };
   return topics;
 }

@@ -12,14 +12,15 @@ void PluginOptions::add_to(CLI::App& command, const std::string& help) {
   command.add_option("--plugin", file, help)->type_name("FILE");
   command.add_option("--law", names, "Only this law of the plugin (repeatable)")->allow_extra_args(false);
   command
-      .add_option("--parameters", parameters, "Up to 4 numbers for its laws, as model.parameters: 0.25,500")
+      .add_option("--parameters", parameters,
+                  "Up to 4 numbers for the plugin's laws (model.parameters), such as 0.25,500")
       ->delimiter(',')
       ->expected(1, static_cast<int>(OwnLawSettings{}.parameters.size()));
 }
 
 std::vector<OwnLawSettings> PluginOptions::laws() const {
   if (file.empty() && !(names.empty() && parameters.empty()))
-    throw_input_error("--law and --parameters are for the laws of a plugin; name it: --plugin FILE.so");
+    throw_input_error("--law and --parameters need a plugin; add --plugin FILE.so");
   if (file.empty()) return {};
   OwnLawSettings plugin;
   plugin.plugin = file.string();

@@ -52,7 +52,7 @@ double servo_rate(const RecordArguments& arguments, const std::optional<Scene>& 
   const double rate = felt->device.servo_rate;
   if (!(rate >= slowest && rate <= fastest))
     throw_input_error(
-        "device.servo_rate: {} Hz is not a rate that can be recorded ({} to {} Hz); set another with --rate",
+        "device.servo_rate: {} Hz is outside the recordable range ({} to {} Hz); choose a rate with --rate",
         rate, slowest, fastest);
   return rate;
 }
@@ -128,8 +128,8 @@ void warn(const RecordingReport& report, const std::string& output, double max_s
   const TickCounts& ticks = footer.ticks;
   if (skipped_share(ticks) > 0.01 * max_skipped)
     spdlog::warn(
-        "{}: {} of {} ticks were skipped ({:.2g} %, more than --max-skipped {:g}): other programs held the "
-        "loop up; end them, lower --rate, or see sandstroke record --check",
+        "{}: {} of {} ticks were skipped ({:.2g} %, more than --max-skipped {:g}), because other programs "
+        "delayed the loop; close them, lower --rate, or see sandstroke record --check",
         output, ticks.skipped, ticks.elapsed, 100.0 * skipped_share(ticks), max_skipped);
   if (!report.disk_error.empty()) spdlog::warn("{}", report.disk_error);
   if (!report.header.scheduling.advice.empty()) spdlog::warn("{}", report.header.scheduling.advice);
@@ -160,8 +160,8 @@ std::optional<Scene> felt_scene(const RecordArguments& arguments) {
                                   std::pair("displacement", own.displacement), std::pair("force", own.force)})
     if (!name.empty())
       throw_input_error(
-          "{}: model.{} = \"{}\" is a law of a plugin, and no hand may feel those, for nothing is known of "
-          "their time; leave it out of the scene that --feel names",
+          "{}: model.{} = \"{}\" is a plugin law, which record --feel does not take, because its run time is "
+          "unknown; remove it from the scene",
           arguments.felt_scene, key, name);
   scene.tool = with_mesh(scene.tool, fs::path(arguments.felt_scene).parent_path());
   return scene;
@@ -171,8 +171,8 @@ int check(const RecordArguments& arguments) {
   if (!arguments.output.empty()) throw_input_error("record --check records nothing; leave out -o");
   if (!arguments.device.empty() && arguments.felt_scene.empty())
     throw_input_error(
-        "record --check needs no device; leave out --device, or name the sand that it is to hold with "
-        "--feel");
+        "record --check needs no device; leave out --device, or add --feel SCENE to compare the sand with "
+        "the device's limits");
   const std::optional<Scene> felt = felt_scene(arguments);
   DeviceSpecification device;
   device.max_force = std::numeric_limits<double>::infinity();  // without --device the scene's limit holds
@@ -250,7 +250,7 @@ CLI::Validator recording_rate() {
         double rate = 0.0;
         return CLI::detail::lexical_cast(text, rate) && rate >= slowest && rate <= fastest
                    ? ""
-                   : fmt::format("{} is not a number of {} to {}", text, slowest, fastest);
+                   : fmt::format("{} is not a number from {} to {}", text, slowest, fastest);
       },
       fmt::format("{} to {}", slowest, fastest));
 }
@@ -262,12 +262,13 @@ void add_switch(CLI::App& app, const char* name, int& number, const char* help) 
 /// Adds the options for the beginning and end of the recording.
 void add_time_options(CLI::App& app, RecordArguments& arguments) {
   StartSettings& start = arguments.settings.servo.start;
-  app.add_option("--duration", arguments.duration,
-                 "Length of the recording [s]. Default: until its stroke, q or --stop-switch ends it")
+  app.add_option(
+         "--duration", arguments.duration,
+         "Length of the recording [s]. Default: until the end of the played stroke, q or --stop-switch")
       ->check(positive_number())
       ->option_text("S");
   app.add_option("--countdown", start.countdown,
-                 "Seconds until the recording begins. What is before its beginning is not in the stroke")
+                 "Seconds until the recording begins. The stroke contains nothing from before")
       ->check(not_negative_number())
       ->option_text("S");
   add_switch(app, "--start-switch", arguments.start_switch,
@@ -278,8 +279,8 @@ void add_time_options(CLI::App& app, RecordArguments& arguments) {
   add_switch(app, "--stop-switch", arguments.stop_switch,
              "Switch of the device that ends the recording, counted from 0");
   app.add_option("--max-skipped", arguments.max_skipped,
-                 "Share of skipped ticks [%] above which there is a warning. Above 10 % too, the stroke is "
-                 "marked starved and the exit code is 1")
+                 "Percentage of skipped ticks above which record warns. If it is also above 10 %, the stroke "
+                 "is marked starved and the exit code is 1")
       ->check(CLI::Range(0.0, 100.0))
       ->capture_default_str()
       ->option_text("PERCENT");
@@ -300,7 +301,7 @@ void add_force_options(CLI::App& app, RecordArguments& arguments) {
       ->option_text("N")
       ->needs(feel);
   app.add_option("--force-ramp", force.ramp,
-                 "Time over which the force grows to full, once the tool was out of the sand [s]")
+                 "Time in which the force grows to its full value, after the tool was out of the sand [s]")
       ->check(not_negative_number())
       ->capture_default_str()
       ->needs(feel);
@@ -328,11 +329,10 @@ void add_record_command(CLI::App& app, Command& chosen) {
       ->type_name("{chai3d,pointer,replay:,scripted:}")
       ->option_text("NAME");
   auto* list = command->add_flag("--list", arguments->list, "List devices and stand-ins");
-  auto* check =
-      command->add_flag("--check", arguments->check,
-                        "Measure how well this machine keeps the loop's rate. Takes 10 s, or --duration. "
-                        "With --feel, also hold "
-                        "the sand against what --device names and what theory allows. Moves nothing");
+  auto* check = command->add_flag(
+      "--check", arguments->check,
+      "Measure how well this machine keeps the loop's rate. Takes 10 s, or --duration. With --feel, also "
+      "compare the sand with the limits of --device and of theory. Does not move the device");
   list->excludes(check);
   command
       ->add_option("--rate", arguments->rate,
@@ -340,16 +340,16 @@ void add_record_command(CLI::App& app, Command& chosen) {
       ->check(recording_rate())
       ->option_text("HZ");
   add_force_options(*command, *arguments);
-  command->add_flag(
-      "--view", arguments->view,
-      "Begin once a page is open, and show the sand of --feel live in it. The address is printed, "
-      "and opened where there is a desktop");
+  command->add_flag("--view", arguments->view,
+                    "Wait until a page is open in a browser, and show the sand of --feel live in it. Prints "
+                    "the address, and opens it on a desktop");
   command->add_flag("--no-open", arguments->no_open, "Print the address of --view, but do not open it");
   add_time_options(*command, *arguments);
   command->add_flag("--calibrate", settings.calibrate,
                     "Calibrate the device first. THIS MAY MOVE ITS ARM: keep clear");
-  command->add_flag("--allow-uncalibrated", settings.allow_uncalibrated,
-                    "Give forces on a device that says it is not calibrated. They may push where nothing is");
+  command->add_flag(
+      "--allow-uncalibrated", settings.allow_uncalibrated,
+      "Give forces on a device that reports no calibration. They may push where there is no sand");
   command
       ->add_option("--priority", settings.priority,
                    fmt::format("Real-time priority (SCHED_FIFO) of the loop, 1 to {}. 0 asks for none",
@@ -363,10 +363,10 @@ void add_record_command(CLI::App& app, Command& chosen) {
       "If anything else ends it, such as Ctrl-C, it is kept and marked incomplete.\n"
       "After kill -9 or a power failure it is in STROKE.h5.recording.\n"
       "Save it with: sandstroke stroke repair STROKE.h5\n"
-      "With --feel no force is given until the tool was out of the sand. Sand in which a hand on the device "
-      "would\n"
-      "shake is refused. That is judged by the largest force, the rate, and the scene's device.mass,\n"
-      "device.damping, device.hand_stiffness and device.hand_damping: set them if yours are others.\n"
+      "With --feel there is no force until the tool was out of the sand once. record refuses sand in which\n"
+      "the hand and the device would shake. It judges by the largest force, the rate, and the scene's\n"
+      "device.mass, device.damping, device.hand_stiffness and device.hand_damping: set them to your\n"
+      "device's values.\n"
       "Examples:  sandstroke record --device scripted:strokes/wscg/stroke.toml -o hand.h5\n"
       "           sandstroke record --device pointer --feel strokes/wscg/scene.toml -o hand.h5");
   command->callback([arguments, &chosen] {

@@ -16,8 +16,7 @@ constexpr int not_fit = 1;
 
 /// Advice for a machine that already gave the requested scheduling.
 constexpr const char* other_remedies =
-    "close other programs, switch power saving off (cpupower frequency-set -g performance), or take a lower "
-    "--rate";
+    "close other programs, switch power saving off (cpupower frequency-set -g performance), or lower --rate";
 
 void print_table(const LoopCheck& check, const ServoSettings& servo) {
   print_row("loop", fmt::format("{:.3f} s at {:.6g} Hz",
@@ -89,7 +88,7 @@ int check_machine(const RecorderSettings& settings, const std::optional<Scene>& 
     print_table(check, settings.servo);
     if (sand) print_felt_loop(*sand, *felt);
     if (felt && !sand)
-      print_row("sand", "held against no limit: no force is given, or none that a device names");
+      print_row("sand", "no limit to compare with: there is no force, or the device states no limit");
   }
   if (interrupted()) return 128 + interrupted();
   return check.fit && (!sand || sand->is_stable()) ? 0 : not_fit;

@@ -71,7 +71,7 @@ int list_devices(bool json) {
   } else {
     print_text("{}", aligned_text(devices));
   }
-  print_text("\nstand-ins, where there is no device:\n");
+  print_text("\nstand-ins for a device:\n");
   for (const auto& [name, help] : stand_ins) print_text("{:<20}{}\n", name, help);
   return 0;
 }

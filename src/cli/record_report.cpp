@@ -16,16 +16,17 @@ std::string force_text(double limit, const TickCounts& ticks) {
   if (ticks.ramped > 0) text += fmt::format("; still fading in during {} ticks", ticks.ramped);
   if (ticks.clamped > 0) text += fmt::format(", cut to the limit in {}", ticks.clamped);
   if (ticks.rate_limited > 0) text += fmt::format(", its change limited in {}", ticks.rate_limited);
-  if (ticks.refused > 0) text += fmt::format(", not a number in {}", ticks.refused);
+  if (ticks.refused > 0) text += fmt::format(", not finite in {}", ticks.refused);
   return text;
 }
 
 std::string sand_text(const LiveSandReport& felt) {
   return fmt::format(
       "touched in {} ticks, relaxed {} times, {}{}", felt.contact_ticks, felt.erosion.relaxations,
-      felt.erosion.converged ? "at rest" : "still slipping at the end",
+      felt.erosion.converged ? "at rest" : "still relaxing at the end",
       felt.held_ticks > 0
-          ? fmt::format("; in {} ticks the tool did not dig, because relaxation was late", felt.held_ticks)
+          ? fmt::format("; in {} ticks the tool displaced no sand, because relaxation was late",
+                        felt.held_ticks)
           : "");
 }
 
@@ -45,8 +46,8 @@ std::string ticks_text(const TickCounts& ticks) {
   if (ticks.recorded == ticks.elapsed) return fmt::format("{}, all recorded", ticks.elapsed);
   std::string text = fmt::format("{}: {} recorded", ticks.elapsed, ticks.recorded);
   if (ticks.skipped > 0) text += fmt::format(", {} skipped (the loop was late)", ticks.skipped);
-  if (ticks.unread > 0) text += fmt::format(", {} unread (the device gave nothing)", ticks.unread);
-  if (ticks.dropped > 0) text += fmt::format(", {} dropped (the disk was behind)", ticks.dropped);
+  if (ticks.unread > 0) text += fmt::format(", {} unread (the device sent no data)", ticks.unread);
+  if (ticks.dropped > 0) text += fmt::format(", {} dropped (the disk was too slow)", ticks.dropped);
   return text;
 }
 

@@ -129,8 +129,8 @@ void add_view_options(CLI::App& app, RenderArguments& arguments) {
   app.add_option("--size", arguments.size, "Picture size in pixels, like 1280x720" + scenes)
       ->type_name("WxH");
   app.add_option("--view", arguments.view,
-                 "What is shown: the whole bed, the part under the stroke (if the run has a trace), a map "
-                 "from above, or a custom aim" +
+                 "View: the whole bed, the part under the stroke (if the run has a trace), a map from above, "
+                 "or a custom camera" +
                      scenes)
       ->check(CLI::IsMember(view_names));
   app.add_option("--style", arguments.style,

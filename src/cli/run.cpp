@@ -55,13 +55,13 @@ void print_summary(const RunResult& r, const Scene& scene, const std::string& ou
     print_row("stroke", fmt::format("{:.3f} s, {} ticks, {} in contact", r.simulated_seconds, r.ticks,
                                     r.contact_ticks));
     print_row("speed", fmt::format("{:.1f} times real time", r.simulated_seconds / r.wall_seconds));
-    print_row("deepest", fmt::format("{:.3f} mm", 1e3 * r.max_depth));
+    print_row("largest depth", fmt::format("{:.3f} mm", 1e3 * r.max_depth));
     const bool drag = r.furrow && r.furrow->length >= tool_reach(scene.tool);  // a plunge has no furrow
     if (drag && !std::isnan(r.furrow->depth) && !std::isnan(r.furrow->asked_depth))
       print_row("furrow",
-                fmt::format("{:.2f} mm deep; the stroke {} {:.2f} mm (medians)", 1e3 * r.furrow->depth,
-                            r.followed ? "led below the sand as it was by" : "asked for",
-                            1e3 * r.furrow->asked_depth));
+                fmt::format("{:.2f} mm deep; the stroke {} {:.2f} mm{} (medians)", 1e3 * r.furrow->depth,
+                            r.followed ? "went" : "asked for", 1e3 * r.furrow->asked_depth,
+                            r.followed ? " below the starting surface" : ""));
     if (r.followed && r.followed->ticks > 0)
       print_row("on the sand",
                 fmt::format("asked {:.2f} mm and {:.3g} N, reached {:.2f} mm and {:.3g} N (means)",
@@ -73,16 +73,16 @@ void print_summary(const RunResult& r, const Scene& scene, const std::string& ou
                               ? fmt::format(", limited in {} ticks", r.device.saturated_ticks)
                               : ""));
     if (r.recorded_force) print_row("recorded force", text_of(*r.recorded_force));
-    print_row(
-        "energy into sand",
-        fmt::format("{:.4g} J{}", r.device.absorbed_energy,
-                    returned_energy(r.device) ? fmt::format(", at worst {:.3g} J more returned than taken",
-                                                            -r.device.least_absorbed_energy)
-                                              : ""));
+    print_row("energy into sand",
+              fmt::format("{:.4g} J{}", r.device.absorbed_energy,
+                          returned_energy(r.device)
+                              ? fmt::format(", but the sand returned up to {:.3g} J more than it took",
+                                            -r.device.least_absorbed_energy)
+                              : ""));
     if (r.stroke.gaps > 0) print_row("gaps", played_text(r.stroke));
   }
   print_row("sand moved",
-            fmt::format("{:.6g} m^3; the volume changed by {:.1e} of that", r.moved_volume, r.volume_drift));
+            fmt::format("{:.6g} m^3; volume drift {:.1e} of it", r.moved_volume, r.volume_drift));
   const std::string steps =
       r.relaxation.super_steps > 0 ? fmt::format(" in {} super steps", r.relaxation.super_steps) : "";
   print_row("relaxation",
@@ -105,7 +105,8 @@ void check_default_output(const fs::path& output, const fs::path& scene_path, co
   for (const auto& [name, value] : run.provenance())
     if (name == "scene_file" && value != scene_file_entry(scene_path, output))
       throw_input_error(
-          "{}: is the run of another scene ({}); name another file with -o, or this one to replace it",
+          "{}: holds the run of another scene ({}); choose another file with -o, or name this one with -o to "
+          "replace it",
           output.string(), value);
 }
 
@@ -136,8 +137,7 @@ int run(const RunArguments& arguments) {
     check_film_name(arguments.video);
     check(arguments.video, film_output);
     if (scene.output.frames == 0.0)
-      throw_input_error(
-          "--video shows the surfaces that a run keeps, and this one keeps none; add --frames 10");
+      throw_input_error("--video needs frames, and this run keeps none; add --frames 10");
   }
 
   catch_interrupts();
@@ -177,7 +177,7 @@ int run(const RunArguments& arguments) {
   warn_of_run(result, scene);
   if (view && view->lag())
     spdlog::warn(
-        "the run was up to {:.2f} s behind real time; its result is the same. Fewer bed.cells are faster",
+        "the run was up to {:.2f} s behind real time. The result is the same; fewer bed.cells are faster",
         *view->lag());
   if (!result.relaxation.converged || result.device.swings_from) return static_cast<int>(ErrorKind::unstable);
   if (options.second && !result.error)  // the run is complete, but the estimate failed
@@ -230,10 +230,10 @@ void add_run_command(CLI::App& app, Command& chosen) {
           ->check(CLI::IsMember(second_solution_names));
   command->add_flag("--error-map", arguments->error_map, "Keep the estimated error of each cell's height too")
       ->needs(estimate);
-  auto* shown = command->add_flag("--view", arguments->view,
-                                  "Play the stroke in real time, once a page is open, and show the sand live "
-                                  "in a browser. The address is "
-                                  "printed, and opened where there is a desktop. The result is the same");
+  auto* shown = command->add_flag(
+      "--view", arguments->view,
+      "Wait until a page is open in a browser, then play the stroke in real time and show the sand live in "
+      "it. Prints the address, and opens it on a desktop. The result is the same");
   command->add_flag("--no-open", arguments->no_open, "Print the address of --view, but do not open it")
       ->needs(shown);
   command->add_flag("--json", arguments->json, "Print the summary as one JSON object");

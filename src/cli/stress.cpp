@@ -112,12 +112,11 @@ void add_stress_command(CLI::App& app, Command& chosen) {
       ->capture_default_str();
   command->add_flag("--quick", arguments->quick,
                     "Take 10 seconds instead of 7 minutes, with coarser maps, fewer and shorter cases");
-  arguments->plugin.add_to(*command, "Test laws of your own (.so), and not the program's");
+  arguments->plugin.add_to(*command, "Plugin (.so) whose laws are tested instead of the program's");
   command->add_flag("--json", arguments->json,
                     "Print the page's data as one JSON object instead of the table");
   command->footer(
-      "Each case has an expected verdict. A case that ends otherwise is a surprise. The exit code is then "
-      "3.\n"
+      "Each case has expected verdicts. A case with another verdict is a surprise. The exit code is then 3.\n"
       "Example:  sandstroke stress --quick -o out/stress");
   command->callback([arguments, &chosen] { chosen = [arguments] { return stress(*arguments); }; });
 }

@@ -70,7 +70,7 @@ std::string recording_rows(const RecordingInfo& recording, const StrokeSummary& 
   std::string device = header.device.model;
   if (!header.device.manufacturer.empty()) device += fmt::format(" ({})", header.device.manufacturer);
   if (header.device.max_force > 0.0 && header.device.max_force < any_force)
-    device += fmt::format(", gives up to {:.4g} N", header.device.max_force);
+    device += fmt::format(", up to {:.4g} N", header.device.max_force);
   return table_row("device", device) + table_row("recorded", header.started) +
          table_row("loop", fmt::format("{:.6g} Hz asked, {:.6g} samples a second; {}", header.nominal_rate,
                                        reached_rate(summary), scheduling_text(header.scheduling))) +
@@ -137,10 +137,10 @@ std::string quality_rows(const StrokeQuality& quality) {
                                repeats.period > 1 ? fmt::format(", up to {} alike", repeats.period) : "")) +
          table_row("noise", fmt::format("{:.3g} mm rms", 1e3 * quality.noise)) +
          table_row("plane", plane.is_line()
-                                ? "none: it is drawn along a line"
+                                ? "none: the stroke is a line"
                                 : fmt::format("tilted {:.3g} deg, {:.3g} mm rms off it, {:.3g} mm at most",
                                               plane.tilt(), 1e3 * plane.rms(), 1e3 * plane.largest)) +
-         table_row("speed", fmt::format("{:.4g} m/s usually, {:.4g} m/s at most (at {:.4g} s), gaps aside",
+         table_row("speed", fmt::format("{:.4g} m/s usually, {:.4g} m/s at most (at {:.4g} s), without gaps",
                                         quality.usual_speed, quality.top_speed, quality.top_time));
 }
 
@@ -155,7 +155,7 @@ std::string as_table(const std::string& file, const Stroke& stroke, const Stroke
   row("frame", stroke.frame);
   row("complete", stroke.complete ? "yes"
                   : recording     ? fmt::format("no: {}", stop_reason_text(recording->footer.reason))
-                                  : "no: cut off while being recorded");
+                                  : "no: the recording was cut off");
   row("samples",
       std::to_string(summary.samples) +
           (stroke.contact.empty() ? "" : fmt::format(", {} with the pen down", summary.drawn_samples)));

@@ -67,12 +67,12 @@ nlohmann::ordered_json describe(const Task& task, const Repair& done, bool remov
 std::string lost_text(const Repair& done) {
   std::string text;
   if (done.lost_bytes > 0)
-    text = fmt::format("{} bytes after the last sound sample, cut off or damaged (a sample has {}); ",
+    text = fmt::format("{} bytes after the last complete sample, cut off or damaged (a sample has {}); ",
                        done.lost_bytes, journal_sample_bytes);
   if (done.recording.footer.reason == StopReason::cut_off)
     text +=
-        "what was not yet written: about 0.1 s if the program was killed, 1 s if the machine stopped, more "
-        "if the disk was slow";
+        "samples not yet written: about 0.1 s if the program was killed, 1 s if the machine stopped, more if "
+        "the disk was slow";
   return text.empty() ? "nothing: the recording was finished" : text;
 }
 
@@ -84,9 +84,8 @@ void print_table(const Task& task, const Repair& done, bool removed) {
   print_row("ticks", recorded_ticks_text(footer));
   print_row("ended", stop_reason_text(footer.reason));
   print_row("lost", lost_text(done));
-  print_row("journal",
-            fmt::format("{}: {}", task.journal.string(),
-                        removed ? "removed" : "kept; remove it when the stroke is as it should be"));
+  print_row("journal", fmt::format("{}: {}", task.journal.string(),
+                                   removed ? "removed" : "kept; remove it after you checked the stroke"));
 }
 
 int repair_command(const RepairArguments& arguments) {

@@ -200,7 +200,7 @@ void add_sweep_folder_command(CLI::App& sweep, const char* name, const char* hel
 void add_sweep_command(CLI::App& app, Command& chosen) {
   CLI::App* command = app.add_subcommand("sweep", "Run a scene many times with different settings");
   auto arguments = std::make_shared<SweepArguments>();
-  command->add_option("PLAN", arguments->plan, "What to vary (TOML)")->type_name("FILE.toml");
+  command->add_option("PLAN", arguments->plan, "Plan of the sweep (TOML)")->type_name("FILE.toml");
   command
       ->add_option("-o,--output", arguments->output,
                    "Folder for the results. Default: the name of PLAN without .toml, in this folder. A sweep "

@@ -44,7 +44,7 @@ void add_slurm_options(CLI::App& sweep, SlurmArguments& arguments) {
   add("--cpus-per-task", options.cpus_per_task, "Cores per task. A task runs that many simulations at once")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
-  add("--mem", options.memory, "Memory per task, as sbatch takes it: 4G");
+  add("--mem", options.memory, "Memory per task in sbatch's format, such as 4G");
   add("--time", options.time, "Time limit per task: 2:00:00");
   add("--partition", options.partition, "Slurm partition");
   add("--account", options.account, "Slurm account");
@@ -73,8 +73,10 @@ int submit_sweep(const SlurmArguments& arguments, const fs::path& plan, const Sw
                                       {"array", jobs.array},
                                       {"collect", jobs.collect}});
   else
-    print_text("submitted job array {} of {} tasks, and job {} that collects\nsandstroke sweep status {}\n",
-               jobs.array, jobs.tasks.size(), jobs.collect, folder.path().string());
+    print_text(
+        "submitted job array {} of {} tasks, and job {} to collect them\n"
+        "sandstroke sweep status {}\n",
+        jobs.array, jobs.tasks.size(), jobs.collect, folder.path().string());
   return 0;
 }
 

@@ -110,7 +110,7 @@ Stroke stroke_of(const py::dict& columns) {
       if (const auto text = name.cast<std::string>();
           text != "gap_threshold" && std::find(names.begin(), names.end(), text) == names.end())
         throw_input_error(
-            "stroke: '{}' is no column of a stroke; it has {}, and may have pen_down and gap_threshold{}",
+            "stroke: '{}' is not a column of a stroke; the columns are {}, also pen_down and gap_threshold{}",
             text, fmt::join(names, ", "),
             text == "x" || text == "y" || text == "z" ? "; x, y and z are the columns of position (n, 3)"
                                                       : "");

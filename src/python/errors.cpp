@@ -50,13 +50,13 @@ py::handle input_error, unstable_error, file_error;
 }  // namespace
 
 void add_errors(py::module_& module) {
-  const py::handle error =
-      new_error(module, "Error", PyExc_Exception, {}, "What sandstroke ends with: one sentence.");
-  input_error =
-      new_error(module, "InputError", error, PyExc_ValueError, "Something that was given is wrong.");
+  const py::handle error = new_error(module, "Error", PyExc_Exception, {},
+                                     "Base of all errors of sandstroke. The message is one sentence.");
+  input_error = new_error(module, "InputError", error, PyExc_ValueError,
+                          "An argument, a setting or a file's content is wrong.");
   unstable_error = new_error(module, "UnstableError", error, PyExc_ArithmeticError,
-                             "The run does not settle; other settings may.");
-  file_error = new_error(module, "FileError", error, PyExc_OSError, "The system would not read or write.");
+                             "The run is unstable or does not come to rest; try other settings.");
+  file_error = new_error(module, "FileError", error, PyExc_OSError, "A file could not be read or written.");
   py::register_exception_translator([](std::exception_ptr thrown) {
     try {
       if (thrown) std::rethrow_exception(thrown);

@@ -118,7 +118,7 @@ std::string comparison(const std::filesystem::path& golden, const std::filesyste
   for (const auto& [name, value] : given) {
     bool known = false;
     for (const ToleranceKey& key : tolerance_keys) known |= key.name == name;
-    if (!known) throw_input_error("'{}' is no tolerance; take height, force or depth", name);
+    if (!known) throw_input_error("'{}' is not a tolerance; use height, force or depth", name);
   }
   const Tolerances tolerances = values_of(used_tolerances(given));
   return to_json(compare_runs(RunFile(golden), RunFile(run), tolerances, coarsen)).dump();

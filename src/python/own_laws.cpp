@@ -82,7 +82,7 @@ class PythonRelaxer : public Relaxer {
         outcome.passes = passes.is_none() ? 1 : passes.cast<std::int64_t>();
       } catch (const py::cast_error&) {
         throw std::runtime_error(
-            "it must change heights in place, and return nothing or how many passes it took");
+            "it must change heights in place, and return nothing or the number of passes");
       }
       const auto after = heights.unchecked<2>();
       for (int row = 0; row < bed.rows(); ++row)
@@ -169,12 +169,12 @@ SceneHere with_python_laws(SceneHere here, const py::dict& laws) {
   if (laws.empty()) return here;
   OwnLawSettings& own = here.scene.own;
   if (!own.plugin.empty())
-    throw_input_error("laws: the scene has those of model.plugin; leave one of the two out");
+    throw_input_error("laws: the scene already has laws from model.plugin; remove one of the two");
   auto made = std::make_shared<OwnLaws>();
   for (const auto& [key, function] : laws) {
     const auto kind = key.cast<std::string>();
     const std::string name = py::str(py::getattr(function, "__name__", py::str("law")));
-    if (!PyCallable_Check(function.ptr())) throw_input_error("laws: {} is no function", kind);
+    if (!PyCallable_Check(function.ptr())) throw_input_error("laws: {} is not a function", kind);
     const Function law(py::reinterpret_borrow<py::object>(function));
     if (kind == "relaxation") {
       own.relaxation = name;
@@ -192,7 +192,7 @@ SceneHere with_python_laws(SceneHere here, const py::dict& laws) {
         return std::make_unique<PythonForce>(law, scene, cell_size);
       };
     } else {
-      throw_input_error("laws: '{}' is none of relaxation, displacement and force", kind);
+      throw_input_error("laws: unknown kind '{}'; use relaxation, displacement or force", kind);
     }
   }
   own.laws = std::move(made);

@@ -102,27 +102,29 @@ py::dict relax(Stepped& stepped) {
 }  // namespace
 
 void add_stepped(py::module_& module) {
-  py::class_<TickRecord>(module, "Tick", "What the tool felt in a tick.")
+  py::class_<TickRecord>(module, "Tick", "The state of tool and force in a tick.")
       .def_readonly("time", &TickRecord::time, "Start of the tick [s].")
       .def_property_readonly(
           "force", [](const TickRecord& tick) { return array_of(tick.device_force); },
-          "On the device [N]: what its largest force and delays leave of the sand's.")
+          "Force on the device [N], after limit and delay.")
       .def_property_readonly(
           "sand_force",
           [](const TickRecord& tick) {
             return array_of(Eigen::Vector3d(tick.repulse_force + tick.drag_force));
           },
-          "Of the sand on the tool [N].")
+          "Force of the sand on the tool [N], before limit and delay.")
       .def_property_readonly(
           "torque", [](const TickRecord& tick) { return array_of(tick.wrench.torque); },
-          "Of the sand on the tool about its tip [N m]; 0 with force.law = \"paper\".")
-      .def_readonly("depth", &TickRecord::depth, "Of the tip below the sand's level [m]; negative above it.")
+          "Torque of the sand on the tool about its tip [N m]; 0 with force.law = \"paper\".")
+      .def_readonly("depth", &TickRecord::depth,
+                    "Depth of the tip below the sand's level [m]; negative above it.")
       .def_readonly("level", &TickRecord::level, "Height of the sand under the tool [m]; nan: there is none.")
       .def_readonly("contact", &TickRecord::contact, "Whether the tool touches sand.")
-      .def_readonly("displaced_volume", &TickRecord::displaced_volume, "Sand pushed aside [m^3].")
+      .def_readonly("displaced_volume", &TickRecord::displaced_volume,
+                    "Volume of the sand displaced in the tick [m^3].")
       .def_property_readonly(
           "position", [](const TickRecord& tick) { return array_of(tick.device_position); },
-          "Of the device, as it was read [m].")
+          "Position of the device as read [m].")
       .def("__repr__", [](const TickRecord& tick) {
         return fmt::format("<sandstroke.Tick at {:.4f} s: depth {:.3g} m, force ({:.3g}, {:.3g}, {:.3g}) N>",
                            tick.time, tick.depth, tick.device_force.x(), tick.device_force.y(),

@@ -28,7 +28,7 @@ void read_surfaces(CollectedSweep& sweep, CollectReport& report) {
   }
   if (report.surfaces_missing > 0)
     report.sentences.push_back(
-        fmt::format("{} missing; remove the files of these points and sweep again. The first: {}",
+        fmt::format("{} missing; remove the files of these points and run the sweep again. The first: {}",
                     counted(report.surfaces_missing, "surface"), first_missing));
   if (first && alike) sweep.bed = first->bed;
   if (!alike)

@@ -28,7 +28,7 @@ const std::vector<Metric> metric_list = {
      [](O o) { return in_contact(o, o.run.device.mean_force); }},
     {"work", "work done on the sand", "J",
      "-sum of F . dx over all ticks but those in gaps of the stroke; dx is the way of the device in a tick. "
-     "Where the tool is below the sand after a gap, the work of a plunge to there counts too",
+     "If the tool is below the sand after a gap, the work of a plunge to that depth is added",
      [](O o) { return o.run.device.absorbed_energy; }},
     {"returned_energy", "most energy that the sand returned", "J",
      "max(0, -w); w is the least value that the work had at any time",
@@ -48,25 +48,24 @@ const std::vector<Metric> metric_list = {
      "largest depth of the tip below the mean height of the sand around it, of the ticks in contact",
      [](O o) { return in_contact(o, o.run.max_depth); }},
     {"displaced_volume", "sand displaced by the tool", "m^3",
-     "sum over all ticks of the sand that the tool took from where it is",
-     [](O o) { return o.run.displaced_volume; }},
-    {"moved_volume", "sand moved, with what slipped", "m^3",
+     "sum over all ticks of the sand that the tool displaced", [](O o) { return o.run.displaced_volume; }},
+    {"moved_volume", "sand moved, including relaxation", "m^3",
      "displaced_volume + sand that flowed from cell to cell in relaxation",
      [](O o) { return o.run.moved_volume; }},
     {"volume_drift", "volume drift per sand moved", "",
-     "|volume at the end - volume at the start| / moved_volume; 0 where nothing moved",
+     "|volume at the end - volume at the start| / moved_volume; 0 if nothing moved",
      [](O o) { return o.run.volume_drift; }},
     {"furrow_depth", "furrow depth", "m",
-     "how far the lowest point within a tool radius of the path lies below the surface as it was; median "
-     "over cross-sections",
+     "depth of the lowest point within a tool radius of the path, below the starting surface; median over "
+     "cross-sections",
      [](O o) { return of_furrow(o, &FurrowMeasures::depth); }},
     {"furrow_width", "furrow width", "m",
      "distance between the points left and right of the lowest one where the change of height is 0; median "
      "over cross-sections",
      [](O o) { return of_furrow(o, &FurrowMeasures::width); }},
     {"rampart_height", "rampart height", "m",
-     "how far the first raised sand beside the furrow, on its higher side, rises above the surface as it "
-     "was; median over cross-sections",
+     "height of the first raised sand beside the furrow, on its higher side, above the starting surface; "
+     "median over cross-sections",
      [](O o) { return of_furrow(o, &FurrowMeasures::rampart); }},
     {"slope_mean", "mean slope of changed sand, by geometry", "deg",
      "mean of the geometric slope over the cells that changed. It is the angle of the steepest way down "
@@ -97,10 +96,10 @@ const std::vector<Metric> metric_list = {
     {"golden_rms", "RMS difference from the golden surface", "m",
      "sqrt(mean of (h - h_golden)^2) over all cells", [](O o) { return of_golden(o, &FieldDifference::rms); },
      Metric::golden},
-    {"golden_volume", "sand more than in the golden surface", "m^3",
+    {"golden_volume", "volume minus that of the golden surface", "m^3",
      "sum (h - h_golden) dx^2 over all cells; dx is the cell size",
      [](O o) { return of_golden(o, &FieldDifference::volume); }, Metric::golden},
-    {"error_share", "estimated error: sand that lies elsewhere", "",
+    {"error_share", "estimated error: misplaced sand", "",
      "sum |e| / sum |h - h_start| over all cells; e is Richardson's estimate of a height's error: the "
      "distance from a second solution with steps twice or half as large, times 1 or 2",
      [](O o) { return of_error(o, &ErrorEstimate::height_share); }, Metric::error},
@@ -130,7 +129,7 @@ const std::vector<Metric>& all_metrics() { return metric_list; }
 
 std::vector<KeySection> metric_keys() {
   KeySection section{
-      "", "what a sweep measures of each point (sweep.metrics of a plan): name, unit, definition", {}};
+      "", "metrics of each point of a sweep (sweep.metrics of a plan): name, unit, definition", {}};
   for (const Metric& metric : all_metrics())
     section.keys.push_back({metric.name, "", metric.unit.empty() ? "1" : metric.unit, "",
                             metric.title + ": " + metric.definition});

@@ -49,12 +49,12 @@ AxisRange read_range(const TomlReader& toml, const std::string& key, int most) {
     toml.fail(key + ".count", "is 1; give 2 or more, or a list with one value");
   if (!keys.step) return range;
   const double step = *keys.step;
-  if (range.logarithmic) toml.fail(key + ".step", "does not go with scale = \"log\"; give count");
-  if (step == 0.0) toml.fail(key + ".step", "is 0; give one that leads from `from` to `to`");
+  if (range.logarithmic) toml.fail(key + ".step", "cannot be used with scale = \"log\"; give count");
+  if (step == 0.0) toml.fail(key + ".step", "is 0; give a step from `from` towards `to`");
   const double steps = std::floor((range.to - range.from) / step + 1e-9);
   if (!(steps >= 0.0))
-    toml.fail(key + ".step",
-              fmt::format("is {}, which does not lead from {} to {}", step, range.from, range.to));
+    toml.fail(key + ".step", fmt::format("is {}, which goes away from `to`: from = {}, to = {}", step,
+                                         range.from, range.to));
   if (steps >= most)
     toml.fail(key + ".step", fmt::format("gives {:.0f} values; sweep.max_points is {}", steps + 1.0, most));
   range.count = static_cast<std::size_t>(steps) + 1;
@@ -64,7 +64,7 @@ AxisRange read_range(const TomlReader& toml, const std::string& key, int most) {
 
 void check_distinct(const TomlReader& toml, const std::string& key, const std::vector<std::string>& values) {
   if (std::set(values.begin(), values.end()).size() < values.size())
-    toml.fail(key, "has a value twice; give each once");
+    toml.fail(key, "contains a value twice; give each value once");
 }
 
 /// The axis of sweep.strokes. None if the plan has no such key.
@@ -102,7 +102,7 @@ std::pair<SweepAxis, AxisRange> read_axis(const TomlReader& toml, const std::str
   if (range.count > 0)
     axis.values = as_literals(spread(range.from, range.to, range.count, range.logarithmic));
   else if (grid)
-    toml.fail(key, "does not say how many values; add count or step");
+    toml.fail(key, "has no number of values; add count or step");
   return {axis, range};
 }
 
@@ -138,7 +138,8 @@ SweepDesign read_design(const TomlReader& toml, const PlanKeys& keys, const Swee
   std::size_t all_values = 0;
   const auto count_values = [&](std::size_t more) {
     if ((all_values += more) > most_values)
-      toml.fail("axes", fmt::format("give over {} values, each to be tried; take fewer", most_values));
+      toml.fail("axes",
+                fmt::format("have over {} values, and each must be checked; use fewer values", most_values));
   };
   std::vector<AxisRange> ranges;  // one for each axis
   if (std::optional<SweepAxis> strokes = read_strokes(toml, keys, plan)) {
@@ -153,7 +154,8 @@ SweepDesign read_design(const TomlReader& toml, const PlanKeys& keys, const Swee
     ranges.push_back(range);
   }
   if (design.axes.empty())
-    toml.fail("axes", "is missing or empty; name what varies, such as [axes] force.k_s = [500, 1000]");
+    toml.fail("axes",
+              "is missing or empty; name the settings to vary, such as [axes] force.k_s = [500, 1000]");
 
   if (design.grid) {
     check_points(toml, design, keys.max_points);

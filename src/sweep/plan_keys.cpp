@@ -9,7 +9,7 @@
 namespace sandstroke {
 
 void show_plan(KeyVisitor& v, PlanKeys& keys) {
-  v.section("sweep", "the scene of every point, and what is kept; files are relative to the plan");
+  v.section("sweep", "the scene of all points, and the results to keep; files are relative to the plan");
   v.require("scene");
   v.text("scene", keys.scene, "scene that every point starts from");
   v.texts("strokes", keys.strokes, "strokes (files) instead of the scene's; they are the first axis");
@@ -31,11 +31,12 @@ void show_plan(KeyVisitor& v, PlanKeys& keys) {
                   "estimate_error); sandstroke help metrics defines them",
                   fmt::join(metrics, ", "))
           .c_str());
-  v.texts("keep", keys.keep, "what to keep of each point: surface, picture; default: neither");
+  v.texts("keep", keys.keep, "results to keep from each point: surface, picture; default: neither");
   v.choice("estimate_error", keys.second, {"none", "coarser", "finer"},
            "estimate each point's error by a second run, as run --estimate-error does");
   v.given("golden");
-  v.text("golden", keys.golden, "run file whose final surface each point's is compared with");
+  v.text("golden", keys.golden,
+         "run file; the final surface of each point is compared with its final surface");
 }
 
 void show_range(KeyVisitor& v, const std::string& name, RangeKeys& keys, int most_values) {
@@ -51,9 +52,9 @@ void show_range(KeyVisitor& v, const std::string& name, RangeKeys& keys, int mos
     v.integers("count", &keys.count.emplace(1), 1, 1, most_values,
                "number of values, at most sweep.max_points");
   if (v.given("step"))
-    v.number(
-        "step", keys.step.emplace(1.0), any_number, "",
-        "distance between values, instead of count; without both a Latin hypercube takes any value between");
+    v.number("step", keys.step.emplace(1.0), any_number, "",
+             "distance between values, instead of count. Without count and step, a Latin hypercube takes any "
+             "value of the range");
 }
 
 std::vector<KeySection> all_plan_keys() {
@@ -63,8 +64,8 @@ std::vector<KeySection> all_plan_keys() {
     show_plan(visitor, plan);
     visitor.section("set", "settings of every point: keys of scenes, such as bed.cells = [500, 500]");
     visitor.section("axes",
-                    "what varies, the last one fastest: keys of scenes, each with a list of values, such as "
-                    "model.preset = [\"paper\", \"accurate\"], or a range");
+                    "the settings to vary (the last one varies fastest): keys of scenes, each with a list of "
+                    "values, such as model.preset = [\"paper\", \"accurate\"], or a range");
     show_range(visitor, "axes.KEY", range, plan.max_points);
   });
 }

@@ -50,7 +50,7 @@ Number leading_number(const std::string& text, Number otherwise) {
 }
 
 [[noreturn]] void fail_without_slurm() {
-  throw_io_error("sbatch is not installed here; submit the sweep where Slurm is, or leave out --slurm");
+  throw_io_error("sbatch is not installed; submit from a machine with Slurm, or leave out --slurm");
 }
 
 /// Submits a script and returns the job's id.
@@ -81,8 +81,8 @@ void refuse_if_alive(const fs::path& sweep_folder) {
                                    [](const QueuedTask& task) { return task.alive(); });
   if (alive > 0)
     throw_input_error(
-        "{}: was already submitted, and {} of its jobs {} still queued; let them end, or end them: scancel "
-        "{} {}",
+        "{}: was already submitted, and {} of its jobs {} still queued; wait for them, or cancel them: "
+        "scancel {} {}",
         sweep_folder.string(), alive, alive == 1 ? "is" : "are", last->array,
         last->collect ? std::to_string(last->collect) : "");
 }
@@ -105,7 +105,8 @@ std::optional<SlurmJobs> read_slurm_jobs(const fs::path& sweep_folder) {
     }
     return jobs;
   } catch (const Json::exception&) {
-    throw_input_error("{}: is damaged; see with squeue what is queued, and remove the file", path.string());
+    throw_input_error("{}: is damaged; check with squeue what is queued, then remove the file",
+                      path.string());
   }
 }
 
@@ -140,7 +141,7 @@ SlurmQueue ask_slurm_queue(const SlurmJobs& jobs) {
   const std::optional<ChildResult> result = run_child(
       {"squeue", "--noheader", "--array", "--states=all",
        fmt::format("--jobs={},{}", jobs.array, jobs.collect ? jobs.collect : jobs.array), queue_format});
-  if (!result) return {std::nullopt, "squeue is not installed here"};
+  if (!result) return {std::nullopt, "squeue is not installed"};
   if (result->exit_code != 0) return {std::nullopt, result->err};
   return {parse_queue(result->out), ""};
 }
@@ -149,7 +150,7 @@ void check_slurm() {
   if (!run_child({"sbatch", "--version"})) fail_without_slurm();
   const std::optional<ChildResult> queue = run_child({"squeue", "--noheader", "--me"});
   if (queue && queue->exit_code != 0)
-    throw_io_error("no cluster answers here ({}); submit the sweep where Slurm is, or leave out --slurm",
+    throw_io_error("no cluster answers ({}); submit from a machine with Slurm, or leave out --slurm",
                    queue->err.substr(queue->err.rfind('\n') + 1));
 }
 

@@ -18,7 +18,8 @@ bool has_control_character(const std::string& text) {
 /// "#SBATCH --NAME=VALUE". Empty without a value.
 std::string option_line(const std::string& name, const std::string& value) {
   if (has_control_character(value) || value.find_first_of(" '\"\\#") != std::string::npos)
-    throw_input_error("{}: '{}' is not one plain word; name it as sbatch knows it", name, value);
+    throw_input_error("{}: '{}' is not a single word without special characters; use sbatch's form", name,
+                      value);
   return value.empty() ? "" : fmt::format("#SBATCH {}={}\n", name, value);
 }
 

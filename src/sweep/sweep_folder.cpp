@@ -124,10 +124,9 @@ SweepFolder SweepFolder::make(const fs::path& path, const SweepManifest& manifes
             "{}: was begun by another version of sandstroke ({}, {}), whose results may differ; choose "
             "another -o, or remove the folder",
             path.string(), there.manifest_.version, there.manifest_.commit);
-      throw_input_error(
-          "{}: holds another sweep: its {} differ{} from this one's; choose another -o, or remove the folder",
-          path.string(), key == "inputs" ? "scene, strokes or other files" : key,
-          key == "axes" || key == "inputs" || key == "settings" || key == "metrics" ? "" : "s");
+      throw_input_error("{}: holds another sweep, whose {} differ{}; choose another -o, or remove the folder",
+                        path.string(), key == "inputs" ? "scene, strokes or other files" : key,
+                        key == "axes" || key == "inputs" || key == "settings" || key == "metrics" ? "" : "s");
     }
     make_folder(path / "points");  // if somebody removed it, all points are missing
     return there;
@@ -165,7 +164,7 @@ SweepFolder SweepFolder::open(const fs::path& path) {
   const fs::path file = manifest_path(path);
   if (!fs::exists(file))
     throw_io_error(
-        "{}: is not the folder of a sweep, because it has no manifest.json; name the folder that -o named",
+        "{}: is not a sweep folder, because it has no manifest.json; name the folder that was given with -o",
         path.string());
   try {
     const Json json = Json::parse(read_text_file(file, most_note_bytes));

@@ -78,7 +78,7 @@ class Thumbnails {
   void report_missing(CollectReport& report) const {
     if (pictures_missing_ > 0)
       report.sentences.push_back(
-          fmt::format("{} missing; remove the files of these points and sweep again. The first: {}",
+          fmt::format("{} missing; remove the files of these points and run the sweep again. The first: {}",
                       counted(pictures_missing_, "picture"), first_missing_));
   }
 

@@ -33,8 +33,8 @@ std::vector<std::string> read_metrics(const TomlReader& toml, const PlanKeys& ke
       toml.fail(
           "sweep.metrics",
           fmt::format("names '{}'; take from: {}{}{}", metric, fmt::join(known, ", "),
-                      golden ? "" : " (and with sweep.golden what differs from it)",
-                      error ? "" : " (and with sweep.estimate_error the errors)") +
+                      golden ? "" : " (and with sweep.golden the golden_* metrics)",
+                      error ? "" : " (and with sweep.estimate_error the error_* metrics)") +
               (metric == "slope_max" ? "; slope_max is now slope_max_geometric, beside slope_max_law" : ""));
     if (std::count(metrics.begin(), metrics.end(), metric) > 1)
       toml.fail("sweep.metrics", fmt::format("names '{}' twice; name it once", metric));

@@ -93,7 +93,7 @@ std::string SweepStatus::advice() const {
                        collected ? "sweep.html shows them" : "collect them with sandstroke sweep collect");
   if (!array) return fmt::format("{} missing: {}", counted(missing, "point"), again);
   if (!queue_trouble.empty())
-    return fmt::format("{} missing, and it is unknown what is queued: {}; when nothing is queued, {}",
+    return fmt::format("{} missing, and the queue cannot be asked: {}; when nothing is queued, {}",
                        counted(missing, "point"), queue_trouble, again);
   std::size_t alive = 0, held = 0, gone = 0, left = 0;
   for (const TaskStatus& task : tasks) {

@@ -189,7 +189,7 @@ TEST(CliExport, ARangeThatIsAskedForCutsWhatIsBeyondAndSaysSo) {
   EXPECT_EQ(cut.exit_code, 0) << cut.err;
   const HeightGrid heights = RunFile(folder / "a.h5").final();
   EXPECT_NE(
-      cut.err.find(fmt::format("{} of 15000 cells are beyond the range", (heights.abs() > 0.001).count())),
+      cut.err.find(fmt::format("{} of 15000 cells are outside the range", (heights.abs() > 0.001).count())),
       std::string::npos)
       << cut.err;
   const HeightGrid gray = -0.001 + 0.002 * read_height_png(folder / "a.png");
@@ -221,11 +221,11 @@ TEST(CliExport, RefusesWhatItCannotWriteOrWouldIgnore) {
   for (const char* name : {"a", "a.txt", "a.h5x", "a.tif"})
     expect_refused(export_to(folder, name),
                    std::string(name) +
-                       ": its ending says no format; take one of .png, .npy, .asc, .stl, .ply, .obj, .csv");
-  expect_refused(export_to(folder, "a.npy", {"--base", "2"}), "--base is for triangles");
-  expect_refused(export_to(folder, "a.png", {"--surface-only"}), "--surface-only is for triangles");
-  expect_refused(export_to(folder, "a.csv", {"--frame", "initial"}), "--frame is for surfaces");
-  expect_refused(export_to(folder, "a.stl", {"--range", "0,1"}), "--range is for PNG files");
+                       ": unknown file name ending; use one of .png, .npy, .asc, .stl, .ply, .obj, .csv");
+  expect_refused(export_to(folder, "a.npy", {"--base", "2"}), "--base works only for triangles");
+  expect_refused(export_to(folder, "a.png", {"--surface-only"}), "--surface-only works only for triangles");
+  expect_refused(export_to(folder, "a.csv", {"--frame", "initial"}), "--frame works only for surfaces");
+  expect_refused(export_to(folder, "a.stl", {"--range", "0,1"}), "--range works only for PNG files");
   expect_refused(export_to(folder, "a.stl", {"--base", "0"}), "--base");
   expect_refused(export_to(folder, "a.stl", {}, "scene.toml"), "scene.toml: is a scene, not a run file");
   write_file(folder / "still.toml", "[bed]\ncells = [20, 20]\n");
@@ -244,9 +244,9 @@ TEST(CliExport, MoreThanAFormatCanCountIsRefusedAtOnce) {
   write_file(folder / "huge.toml", "[bed]\nsize = [65.536, 65.536]\ncells = [65536, 65536]\n");
   ASSERT_EQ(run_program({"run", "huge.toml", "-o", "a.h5"}, folder).exit_code, 0);
   expect_refused(export_to(folder, "a.stl"),
-                 "a.stl: 65536 x 65536 cells make 8590983182 triangles, and an STL file holds at most "
+                 "a.stl: 65536 x 65536 cells need 8590983182 triangles, but an STL file holds at most "
                  "4294967295; export heights (.npy)");
-  expect_refused(export_to(folder, "a.ply"), "vertices, and a PLY file holds at most 2147483647");
+  expect_refused(export_to(folder, "a.ply"), "vertices, but a PLY file holds at most 2147483647");
   EXPECT_EQ(std::distance(fs::directory_iterator(folder), fs::directory_iterator()), 5);  // and the XDMF file
 }
 

@@ -49,7 +49,7 @@ TEST(CliFit, SaysWhenTheModelCannotExplainTheForceOrItsSignIsTheOther) {
   write_felt_stroke(folder / "a.h5", folder / "turned.h5", -1.0);
   const ProgramResult turned = run_program({"fit", "scene.toml", "--stroke", "turned.h5"}, folder);
   EXPECT_EQ(turned.exit_code, 0);
-  EXPECT_NE(turned.err.find("the other sign"), std::string::npos) << turned.err;
+  EXPECT_NE(turned.err.find("the other --force-sign"), std::string::npos) << turned.err;
   Stroke odd = read_stroke_file(folder / "turned.h5");
   for (std::size_t i = 0; i < odd.size(); ++i) odd.force[i] = {i % 2 == 0 ? 3.0 : -3.0, 0.0, 0.0};
   write_stroke_file(folder / "odd.h5", odd);

@@ -324,7 +324,7 @@ TEST(CliRecord, WhatIsWrongIsSaidBeforeAnythingIsRecorded) {
       {with(to_a, {"chai3d:-1"}), 2, "unknown device"},
       {with(to_a, {"scripted:none.toml"}), 4, "none.toml"},
       {with(to_a, {"replay:scene.toml"}), 2, "scene.toml"},
-      {with(to_a, {"scripted:press.toml"}), 2, "give depths instead"},
+      {with(to_a, {"scripted:press.toml"}), 2, "use depths"},
       {with(record_line, {"--duration", "-1"}), 2, "--duration"},
       {with(record_line, {"--duration", "nan"}), 2, "--duration"},
       {with(record_line, {"--rate", "0"}), 2, "--rate"},
@@ -569,7 +569,7 @@ TEST(CliRecord, CheckHoldsSandAgainstTheory) {
   EXPECT_EQ(hard.exit_code, 1) << hard.out;
   EXPECT_NE(hard.out.find("REFUSED: the hand would shake; set force.k_f = "), std::string::npos) << hard.out;
   const ProgramResult stand_in = check({"--device", "scripted:line.toml", "--set", "force.k_f=1000"});
-  EXPECT_NE(stand_in.out.find("held against no limit"), std::string::npos) << stand_in.out;
+  EXPECT_NE(stand_in.out.find("no limit to compare with"), std::string::npos) << stand_in.out;
   EXPECT_FALSE(fs::exists(folder / "a.h5"));
 }
 

@@ -28,7 +28,7 @@ TEST(CliRun, WritesARunFileXdmfAndPicture) {
   EXPECT_TRUE(RunFile(folder / "a.h5").complete());
   EXPECT_TRUE(fs::exists(folder / "a.xdmf"));
   EXPECT_GT(fs::file_size(folder / "a.png"), 1000u);
-  EXPECT_NE(run.out.find("the volume changed by"), std::string::npos);
+  EXPECT_NE(run.out.find("volume drift"), std::string::npos);
   EXPECT_NE(run.out.find("for ParaView       a.xdmf\n"), std::string::npos) << run.out;
   EXPECT_NE(run.out.find("picture            a.png\n"), std::string::npos) << run.out;
 }
@@ -139,9 +139,10 @@ TEST(CliRun, TheDefaultNameNeverCostsAnotherScenesRun) {
 
   const ProgramResult other = run_program({"run", "other/scene.toml"}, folder);
   EXPECT_EQ(other.exit_code, 2);
-  EXPECT_EQ(other.err,
-            "sandstroke: scene.h5: is the run of another scene (scene.toml); name another file with -o, or "
-            "this one to replace it\n");
+  EXPECT_EQ(
+      other.err,
+      "sandstroke: scene.h5: holds the run of another scene (scene.toml); choose another file with -o, or "
+      "name this one with -o to replace it\n");
   EXPECT_EQ(read_file(folder / "scene.h5"), first);
 
   // Again, with other settings, and from elsewhere: the same scene.

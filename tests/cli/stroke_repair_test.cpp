@@ -93,7 +93,7 @@ TEST(CliStrokeRepair, AKilledRecordingCanBePlayed) {
   EXPECT_EQ(repair.exit_code, 0) << repair.err;
   EXPECT_THAT(repair.out,
               AllOf(HasSubstr("299, the last 0.299 s after"), HasSubstr("299 recorded, 1 missing"),
-                    HasSubstr("cut off"), HasSubstr("was not yet written"), HasSubstr("kept")));
+                    HasSubstr("cut off"), HasSubstr("not yet written"), HasSubstr("kept")));
   EXPECT_TRUE(fs::exists(folder / "hand.h5.recording")) << "nothing of the user's is removed unasked";
 
   const ProgramResult run =
@@ -123,7 +123,7 @@ TEST(CliStrokeRepair, SaysWhatIsLost) {
 
   const ProgramResult again = run_program({"stroke", "repair", "hand.h5.recording"}, folder);
   EXPECT_THAT(again.out,
-              AllOf(HasSubstr("143 bytes after the last sound sample"), HasSubstr("a sample has 144")));
+              AllOf(HasSubstr("143 bytes after the last complete sample"), HasSubstr("a sample has 144")));
 }
 
 TEST(CliStrokeRepair, AFinishedJournalBecomesACompleteStroke) {

@@ -76,7 +76,7 @@ TEST_F(CliSweep, WithoutAClusterNothingIsLeft) {
   conditions.path = folder.string();  // where no sbatch is
   const ProgramResult result = sweep({"plan.toml", "-o", "out", "--slurm"}, conditions);
   EXPECT_EQ(result.exit_code, 4);
-  EXPECT_NE(result.err.find("sbatch is not installed here"), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find("sbatch is not installed"), std::string::npos) << result.err;
   EXPECT_FALSE(fs::exists(folder / "out"));
 }
 
@@ -189,11 +189,11 @@ TEST_F(CliSweep, RefusesInASentenceAndTouchesNothing) {
       {{"plan.toml", "--shard", "1"}, 2, "--shard 1"},
       {{"plan.toml", "--shard", "1/2x"}, 2, "--shard 1/2x"},
       {{"plan.toml", "--jobs", "-1"}, 2, "--jobs"},
-      {{"other.toml", "-o", "out"}, 2, "out: holds another sweep: its axes differ"},
+      {{"other.toml", "-o", "out"}, 2, "out: holds another sweep, whose axes differ"},
       {{"plan.toml", "-o", "mine"}, 2, "mine: holds other files"},
       {{"plan.toml", "-o", "scene.toml"}, 4, "scene.toml"},
-      {{"status", "mine"}, 4, "mine: is not the folder of a sweep"},
-      {{"collect", "none"}, 4, "none: is not the folder of a sweep"},
+      {{"status", "mine"}, 4, "mine: is not a sweep folder"},
+      {{"collect", "none"}, 4, "none: is not a sweep folder"},
   };
   for (const auto& [arguments, exit_code, sentence] : cases) {
     const ProgramResult result = sweep(arguments);

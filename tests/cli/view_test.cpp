@@ -120,7 +120,7 @@ TEST(CliView, ARunThatNobodyWatchesCanBeEnded) {
   Conditions interrupted;
   interrupted.signal = SIGINT;
   interrupted.when = [err = folder / "err.txt"] {
-    return read_file(err).find("begins when the page is open") != std::string::npos;
+    return read_file(err).find("begins when a page is open") != std::string::npos;
   };
   Viewed running({"run", "scene.toml", "-o", "a.h5", "--view", "--no-open"}, folder, interrupted);
   EXPECT_EQ(running.end().exit_code, 128 + SIGINT);

@@ -88,10 +88,10 @@ def failing(*_, **__):
     ({"force": failing}, sandstroke.InputError, "failing.*no idea"),
     ({"force": lambda *_, **__: (0.0, np.nan, 0.0)}, sandstroke.UnstableError, "not a number"),
     ({"force": lambda *_, **__: 3.0}, sandstroke.InputError, "three numbers"),
-    ({"force": 3.0}, sandstroke.InputError, "no function"),
+    ({"force": 3.0}, sandstroke.InputError, "is not a function"),
     ({"relaxation": lambda heights, *_, **__: heights}, sandstroke.InputError, "change heights in place"),
     (spring, sandstroke.InputError, "laws: give"),
-    ({"friction": failing}, sandstroke.InputError, "'friction' is none of relaxation, displacement and force"),
+    ({"friction": failing}, sandstroke.InputError, "unknown kind 'friction'; use relaxation, displacement or force"),
 ])
 def test_wrong_laws_are_told(small, line, laws, error, sentence):
     with pytest.raises(error, match=sentence):

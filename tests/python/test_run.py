@@ -177,7 +177,7 @@ def test_xarray_is_what_it_makes_of_the_file(tmp_path):
                 if name != "final":  # the file's says the furrow, too
                     assert dict(variable.attrs) == dict(mine[name].attrs), name
         xarray.testing.assert_equal(sandstroke.read(tmp_path / "run.h5").to_xarray(group), mine)
-    with pytest.raises(sandstroke.InputError, match="it has surface, trace and relaxation"):
+    with pytest.raises(sandstroke.InputError, match="the groups are surface, trace and relaxation"):
         run.to_xarray("sand")
 
 
@@ -187,7 +187,7 @@ def test_xarray_is_what_it_makes_of_the_file(tmp_path):
     ({"bed.cells": [100, 61]}, "bed.cells"),
     ({"tool.radius": float("nan")}, "tool.radius"),
     ({"tool.radius": "wide"}, "tool.radius"),
-    ({"tool.radius": None}, "no value of a scene"),
+    ({"tool.radius": None}, "not a value for a scene"),
 ])
 def test_wrong_settings_are_told(small, line, change, sentence):
     with pytest.raises(sandstroke.InputError, match=sentence) as told:
@@ -205,7 +205,7 @@ def test_wrong_settings_are_told(small, line, change, sentence):
     ({"time": [1.0, 0.0], "position": np.zeros((2, 3))}, "time"),
     ({"time": [0.0, np.nan], "position": np.zeros((2, 3))}, "time"),
     ({"time": [0.0, 1.0], "position": np.full((2, 3), np.inf)}, "position"),
-    ({"time": [0.0, 1.0], "position": np.zeros((2, 3)), "speed": [1, 2]}, "'speed' is no column"),
+    ({"time": [0.0, 1.0], "position": np.zeros((2, 3)), "speed": [1, 2]}, "'speed' is not a column"),
     ({"time": [0.0, 1.0], "position": "here"}, "array of numbers"),
     ({"time": [0.0], "x": [0.0], "y": [0.0], "z": [0.0]}, "x, y and z are the columns of position"),
     ({"time": [], "position": np.zeros((0, 3))}, "stroke"),
@@ -228,7 +228,7 @@ def test_files_that_are_not_there_are_told(tmp_path, small, line):
         sandstroke.read(tmp_path / "nothing.h5")
     with pytest.raises(sandstroke.InputError, match="needs a file"):
         sandstroke.compare(sandstroke.run(small, line), tmp_path / "nothing.h5")
-    with pytest.raises(sandstroke.InputError, match="'hight' is no tolerance"):
+    with pytest.raises(sandstroke.InputError, match="'hight' is not a tolerance"):
         sandstroke.compare(tmp_path / "a.h5", tmp_path / "b.h5", hight=1.0)
 
 

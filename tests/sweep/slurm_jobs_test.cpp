@@ -113,7 +113,7 @@ TEST_F(SlurmJobsTest, AreNotSubmittedTwiceWhileTheyAreQueued) {
   slurm_.queue("41|1|COMPLETED|0|None|\n41|3|RUNNING|0|None|\n42|N/A|PENDING|0|Dependency|\n");
   EXPECT_EQ(sentence_of([&] { submit(); }), (folder_ / "out").string() +
                                                 ": was already submitted, and 2 of its jobs are still "
-                                                "queued; let them end, or end them: scancel 41 42");
+                                                "queued; wait for them, or cancel them: scancel 41 42");
   slurm_.queue("41|1|COMPLETED|0|None|\n41|3|TIMEOUT|0|None|\n");
   EXPECT_EQ(submit().array, 43);
 }
@@ -139,8 +139,8 @@ TEST_F(SlurmJobsTest, AreQueuedEvenIfNothingWillCollectThem) {
 TEST_F(SlurmJobsTest, WithoutSlurmThereIsASentence) {
   const std::string path = getenv("PATH");
   setenv("PATH", "/nowhere", 1);
-  EXPECT_NE(sentence_of([&] { submit(); }).find("sbatch is not installed here"), std::string::npos);
-  EXPECT_EQ(ask_slurm_queue({}).trouble, "squeue is not installed here");
+  EXPECT_NE(sentence_of([&] { submit(); }).find("sbatch is not installed"), std::string::npos);
+  EXPECT_EQ(ask_slurm_queue({}).trouble, "squeue is not installed");
   setenv("PATH", path.c_str(), 1);
 }
 

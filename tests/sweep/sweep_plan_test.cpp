@@ -149,8 +149,8 @@ TEST_F(APlan, IsRefusedInOneSentenceThatSaysWhere) {
       {start + "[axes]\n", "axes is missing or empty"},
       {start + "colour = 1\n[axes]\nforce.k_s = [1]\n", "plan.toml:3: unknown key sweep.colour"},
       {axes + "force.k_s = []\n", "plan.toml:4: axes.force.k_s is empty"},
-      {axes + "force.k_s = [1, 1]\n", "plan.toml:4: axes.force.k_s has a value twice"},
-      {axes + "device.delay = [16, 0x10]\n", "plan.toml:4: axes.device.delay has a value twice"},
+      {axes + "force.k_s = [1, 1]\n", "plan.toml:4: axes.force.k_s contains a value twice"},
+      {axes + "device.delay = [16, 0x10]\n", "plan.toml:4: axes.device.delay contains a value twice"},
       {axes + "force.ks = [1]\n",
        "plan.toml:4: axes.force.ks cannot be 1: unknown key force.ks; did you mean force.k_s?"},
       {axes + "force.k_s = [1]\nrelaxation.talus_angle = [30, 95]\n",
@@ -166,11 +166,12 @@ TEST_F(APlan, IsRefusedInOneSentenceThatSaysWhere) {
       {axes + "force.k_s = { start = 1, stop = 2 }\n",
        "plan.toml:4: axes.force.k_s.start cannot be 1: force.k_s is a table; give a number"},
       {axes + "force.k_s = { from = 1, to = 1, count = 3 }\n",
-       "plan.toml:4: axes.force.k_s has a value twice"},
-      {start + "strokes = [\"other.toml\", \"scenes/../other.toml\"]\n", "sweep.strokes has a value twice"},
-      {axes + "force.k_s = { from = 1, to = 2 }\n", "does not say how many values; add count or step"},
+       "plan.toml:4: axes.force.k_s contains a value twice"},
+      {start + "strokes = [\"other.toml\", \"scenes/../other.toml\"]\n",
+       "sweep.strokes contains a value twice"},
+      {axes + "force.k_s = { from = 1, to = 2 }\n", "has no number of values; add count or step"},
       {axes + "force.k_s = { from = 1, to = 2, step = 0 }\n", "axes.force.k_s.step"},
-      {axes + "force.k_s = { from = 1, to = 2, step = -1 }\n", "does not lead from 1 to 2"},
+      {axes + "force.k_s = { from = 1, to = 2, step = -1 }\n", "goes away from `to`: from = 1, to = 2"},
       {axes + "force.k_s = { from = 1, to = 2, count = 0 }\n", "axes.force.k_s.count is 0"},
       {axes + "force.k_s = { from = 1, to = 2, count = 2, step = 1 }\n", "both count and step"},
       {axes + "force.k_s = { from = 0, to = 2, count = 2, scale = \"log\" }\n", "give from and to above 0"},
@@ -221,11 +222,11 @@ TEST_F(APlan, ValuesWithoutEndAreRefusedBeforeTheyAreMade) {
     ranges += fmt::format("a.b{} = {{ from = 0, to = 1, count = 10000 }}\n", i);
     open_ranges += fmt::format("a.b{} = {{ from = 0, to = 1 }}\n", i);
   }
-  EXPECT_NE(refusal(std::string(begin_plan) + "[axes]\n" + ranges).find("axes give over 1000000 values"),
+  EXPECT_NE(refusal(std::string(begin_plan) + "[axes]\n" + ranges).find("axes have over 1000000 values"),
             std::string::npos);
   const std::string latin = std::string(begin_plan) + "design = \"latin\"\nmax_points = 10000000\n";
   EXPECT_NE(
-      refusal(latin + "samples = 10000000\n[axes]\n" + open_ranges).find("axes give over 1000000 values"),
+      refusal(latin + "samples = 10000000\n[axes]\n" + open_ranges).find("axes have over 1000000 values"),
       std::string::npos);
 }
 

@@ -121,11 +121,11 @@ TEST_F(SweepStatusTest, WithoutAQueueTheFolderIsWhatIsKnown) {
   done({0, 1, 2, 3, 4, 5, 6});
   const SweepStatus status =
       sweep_status(folder, SlurmJobs{12, 13, 2, {{1, {0, 2, 4, 6}}, {2, {1, 3, 5, 7}}}},
-                   {std::nullopt, "squeue is not installed here"});
+                   {std::nullopt, "squeue is not installed"});
   EXPECT_EQ(status.tasks[0].state, "done");
   EXPECT_EQ(status.tasks[1].state, "unknown");
   EXPECT_EQ(status.advice(),
-            "1 point is missing, and it is unknown what is queued: squeue is not installed here; when "
+            "1 point is missing, and the queue cannot be asked: squeue is not installed; when "
             "nothing is queued, run the same command again");
 }
 

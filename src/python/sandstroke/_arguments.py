@@ -1,4 +1,4 @@
-"""Scenes and strokes, in the forms in which people have them."""
+"""Converts scenes and strokes from the forms that users pass."""
 
 from __future__ import annotations
 
@@ -31,7 +31,8 @@ def _toml(value: Any) -> str:
         return "[" + ", ".join(map(_toml, value)) + "]"
     shown = repr(value)
     shown = shown if len(shown) <= 80 else shown[:77] + "..."
-    raise _core.InputError(f"{shown} is no value of a scene; give a number, a text, True or False, or a list of them")
+    raise _core.InputError(
+        f"{shown} is not a value for a scene; give a number, a string, True or False, or a list of them")
 
 
 def _flat(settings: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:
@@ -108,15 +109,15 @@ def _scene_again(text: str, folder: str) -> Scene:
 Laws = Mapping[str, Callable[..., Any]]
 """Laws of your own, for trying out: "relaxation", "displacement" and "force", each a function.
 
-relaxation(heights, walls, **numbers): changes heights [m] in place, but no cell that walls marks; may return how many
-passes it took.
-displacement(heights, underside, motion, **numbers): of the cells around the tool; takes out what stands above the tool's
-underside [m] (inf beside it), and puts it elsewhere in heights; motion [m] is that of the tool in the tick.
-force(depth, motion, tip, **numbers): returns the force on the tool [N], three numbers; depth [m] is that of its lowest
-point below the level around it.
+relaxation(heights, walls, **numbers): changes heights [m] in place, except cells marked in walls; may return the number
+of passes.
+displacement(heights, underside, motion, **numbers): gets the cells around the tool. Takes out the sand above the tool's
+underside [m] (inf beside the tool), and puts it elsewhere in heights. motion [m]: the tool's in the tick.
+force(depth, motion, tip, **numbers): returns the force on the tool [N], three numbers. depth [m]: depth of the tool's
+lowest point below the level around it.
 
 numbers: cell_size [m], talus_slope, tolerance, radius [m], servo_rate [Hz], parameters (model.parameters).
-A run fails where a law makes or loses sand, or gives what is not a number.
+A run fails if a law makes or loses sand, or returns NaN or infinity.
 """
 
 
@@ -124,7 +125,7 @@ IN_ARRAYS = "<arrays>"  # the file name in a scene of a stroke that is in no fil
 
 
 def stroke_columns(stroke: Any) -> dict[str, Any]:
-    """Of an array of time [s], x, y, z [m] in four columns, a table with these names, or a mapping of arrays."""
+    """The columns of a stroke: an array of time [s], x, y, z [m], a table with these names, or a mapping of arrays."""
     if isinstance(stroke, Mapping):
         columns = dict(stroke)
         if "pen_down" in columns:
@@ -144,7 +145,7 @@ def stroke_columns(stroke: Any) -> dict[str, Any]:
 
 
 def with_stroke(scene: SceneLike, stroke: StrokeLike | None, settings: Mapping[str, Any] | None) -> tuple[Any, Any]:
-    """The scene that plays the stroke, and its samples where these are not in a file."""
+    """The scene that plays the stroke, and its samples if they are not in a file."""
     if stroke is None:
         whole = Scene(scene, settings)
         if f'file = "{IN_ARRAYS}"' in whole.text:
@@ -157,12 +158,12 @@ def with_stroke(scene: SceneLike, stroke: StrokeLike | None, settings: Mapping[s
 
 
 def check_laws(laws: Laws) -> dict[str, Any]:
-    """As a dictionary, of which the module sees to names and functions."""
+    """The laws as a dict. The extension module checks names and functions."""
     if not isinstance(laws, Mapping):
         raise _core.InputError('laws: give {"relaxation": f}, {"displacement": f} or {"force": f}, or several of them')
     return dict(laws)
 
 
 def with_laws(here: Any, laws: Laws | None) -> Any:
-    """The scene with laws of one's own."""
+    """The scene with the user's laws."""
     return here if laws is None else _core._with_laws(here, check_laws(laws))

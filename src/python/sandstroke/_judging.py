@@ -1,4 +1,4 @@
-"""Whether a law of one's own converges, conserves and stays stable."""
+"""Tests whether a user's law converges, conserves sand and stays stable."""
 
 from __future__ import annotations
 
@@ -13,17 +13,17 @@ from ._arguments import Laws, check_laws
 
 def bench(laws: Laws, folder: str | os.PathLike[str] = "bench", *, parameters: Sequence[float] = (), quick: bool = True,
           problems: Sequence[str] = ()) -> dict[str, Any]:
-    """Holds laws of your own (as in run()) against problems with known answers, beside the program's.
+    """Measures your own laws (as in run()) on problems with known answers, beside the program's.
 
     Writes folder/bench.html, a page of errors, orders and times, and gives its data. parameters: up to four numbers,
-    as model.parameters. quick=False takes finer grids. problems: names of some (`sandstroke bench --help`); without,
-    those that such laws take part in. A Python law may take minutes.
+    as model.parameters. quick=False takes finer grids. problems: names (`sandstroke bench --help`); default:
+    those in which such laws take part. A Python law may take minutes.
     """
     return json.loads(_core._bench(check_laws(laws), _four(parameters), os.fspath(folder), quick, list(problems)))
 
 
 def stress(laws: Laws, *, parameters: Sequence[float] = (), quick: bool = True) -> dict[str, Any]:
-    """Seeks where laws of your own lose sand, give what is no number, or find no end, as `sandstroke stress`.
+    """Seeks cases in which your own laws lose sand, return NaN, or do not end, as `sandstroke stress` does.
 
     Gives the page's data: "cases" have a verdict and whether it was a surprise.
     """

@@ -17,16 +17,16 @@ def render(sand: Run | Array, scene: SceneLike | None = None, *, start: Array | 
            **view: Any) -> np.ndarray:
     """A picture of a run's end, or of heights [m], as an array of 8 bits: (height, width, 3).
 
-    scene: whose bed and tool it is; of a run, its own. start: heights before [m], from which camera and colours
-    follow; of a run, its own. tool: where the tip is [m], to draw it; orientation: of the hand (x, y, z, w). view:
-    keys of the scene's [view]: name="top", style="height" or "difference", azimuth, elevation [deg], size=(w, h).
+    scene: the scene of these heights; default: the run's. start: heights at the start [m], which determine camera and
+    colours; default: the run's. tool: position of the tip [m], to draw the tool; orientation: the hand's (x, y, z, w).
+    view: keys of the scene's [view]: name="top", style="height" or "difference", azimuth, elevation [deg], size=(w, h).
     """
     if isinstance(sand, Run):
         scene = sand.scene if scene is None else scene
         start = sand.initial if start is None else start
         sand = sand.final
     elif scene is None:
-        raise _core.InputError("render: heights need the scene whose bed they are; give scene=...")
+        raise _core.InputError("render: heights need their scene; give scene=...")
     settings: Mapping[str, Any] = {f"view.{key}": value for key, value in view.items()}
     here = Scene(scene, settings)._here
     place = None if tool is None else tuple(float(x) for x in tool)

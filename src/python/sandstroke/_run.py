@@ -1,4 +1,4 @@
-"""Whole runs: of a scene, of a run file, and how two of them differ."""
+"""Runs a scene, reads a run file, and compares two runs."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 
 class Run:
-    """What a run left. Its arrays are read only, and none of them is a copy."""
+    """The results of a run. Its arrays are read only and not copies."""
 
     def __init__(self, kept: Any) -> None:
         self._kept = kept
@@ -50,12 +50,12 @@ class Run:
 
     @property
     def frames(self) -> np.ndarray:
-        """Heights during the run [m], as output.frames asks: (frame, row, column)."""
+        """Heights during the run [m], if output.frames is set: (frame, row, column)."""
         return self._kept.frames
 
     @property
     def frame_times(self) -> np.ndarray:
-        """When the frames were [s]."""
+        """Times of the frames [s]."""
         return self._kept.frame_times
 
     @cached_property
@@ -73,7 +73,7 @@ class Run:
 
     @cached_property
     def summary(self) -> dict[str, Any]:
-        """What `sandstroke run --json` prints. Empty of a run that was read."""
+        """The output of `sandstroke run --json`. Empty for a run read from a file."""
         return json.loads(self._kept.summary) or {}
 
     @property
@@ -83,7 +83,7 @@ class Run:
 
     @property
     def path(self) -> str | None:
-        """Of its file, where it has one."""
+        """Path of the run's file, or None."""
         return self._kept.path or None
 
     def __reduce__(self) -> Any:
@@ -108,7 +108,7 @@ class Run:
                                      {"units": "m", "long_name": "height of the sand over time"})
             return xarray.Dataset(heights, axes, {"cell_size": self.cell_size})
         if group not in ("trace", "relaxation"):
-            raise _core.InputError(f"'{group}' is no group of a run; it has surface, trace and relaxation")
+            raise _core.InputError(f"'{group}' is not a group of a run; the groups are surface, trace and relaxation")
         if group == "trace" and not self.trace:
             raise _core.InputError("the run kept no trace; it has no stroke, or output.trace is false")
         columns = self._kept.trace_columns() if group == "trace" else self._kept.relaxation_columns()
@@ -140,15 +140,15 @@ def run(scene: SceneLike, stroke: StrokeLike | None = None, *, settings: Mapping
     the scene's. output: also write the run file (.h5). threads: 0 is all cores; the result does not depend on it.
 
     laws: functions of your own, slow, for trying out: "relaxation", "displacement", "force".
-      relaxation(heights, walls, **numbers) changes heights [m], (row along y, column along x), in place, but no cell
-        that walls marks; returns nothing, or how many passes it took.
-      displacement(heights, underside, motion, **numbers): the same of the cells around the tool; what stands above
-        the tool's underside [m; inf beside it] goes elsewhere in heights.
+      relaxation(heights, walls, **numbers) changes heights [m], (row along y, column along x), in place, except cells
+        marked in walls; returns nothing, or the number of passes.
+      displacement(heights, underside, motion, **numbers) does the same with the cells around the tool: it puts the sand
+        above the tool's underside [m; inf beside the tool] elsewhere in heights.
       force(depth, motion, tip, **numbers) returns the force on the tool [N], three numbers, before the device's limit.
-        It is asked in ticks in which the tool touches sand.
-      depth [m]: of the tool's lowest point below the level around it. motion [m]: of the tool on the bed since the tick
-        before; times servo_rate it is its velocity. tip [m]: its place on the bed. numbers: cell_size [m], talus_slope,
-        tolerance, radius [m], servo_rate [Hz], parameters (model.parameters).
+        It is called in ticks in which the tool touches sand.
+      depth [m]: depth of the tool's lowest point below the level around it. motion [m]: the tool's motion on the bed
+        since the last tick; motion * servo_rate is its velocity. tip [m]: the tip's position on the bed. numbers:
+        cell_size [m], talus_slope, tolerance, radius [m], servo_rate [Hz], parameters (model.parameters).
 
     Lets other Python threads run meanwhile; Ctrl-C ends it.
     """
@@ -162,7 +162,7 @@ def read(path: str | os.PathLike[str]) -> Run:
 
 
 class Check(NamedTuple):
-    """One thing that was compared. measured and limit are in `unit`; None: there is no number."""
+    """One check of a comparison. measured and limit are in `unit`; None: there is no number."""
 
     name: str
     passed: bool
@@ -173,7 +173,7 @@ class Check(NamedTuple):
 
 
 class Comparison(NamedTuple):
-    """passed: all checks did."""
+    """passed: true if all checks passed."""
 
     passed: bool
     checks: list[Check]
@@ -184,9 +184,9 @@ class Comparison(NamedTuple):
 
 def compare(golden: str | os.PathLike[str] | Run, other: str | os.PathLike[str] | Run, *, coarsen: bool = False,
             **tolerances: float) -> Comparison:
-    """Holds two runs against each other, as `sandstroke compare`: files, or runs that have one.
+    """Compares two runs, as `sandstroke compare` does. Takes files, or runs that have a file.
 
-    tolerances: height [m], force [N], depth [m]. coarsen: see finer cells over as large ones.
+    tolerances: height [m], force [N], depth [m]. coarsen: average the finer bed over the cells of the coarser one.
     """
     paths = []
     for one in (golden, other):

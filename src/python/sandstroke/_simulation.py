@@ -1,4 +1,4 @@
-"""A simulation that somebody drives, tick by tick."""
+"""A simulation that the caller steps tick by tick."""
 
 from __future__ import annotations
 
@@ -31,19 +31,19 @@ class Simulation:
 
     def tick(self, position: Array, velocity: Array | None = None, *, down: bool = True,
              orientation: Array | None = None) -> Tick:
-        """The hand is there [m] now; 1 / device.servo_rate later comes the next tick.
+        """Moves the hand to this position [m] and computes one tick. The next tick is 1 / device.servo_rate later.
 
-        velocity [m/s]: None is that of the way since the tick before. down: False lifts the tool. orientation: of the
-        hand, a quaternion (x, y, z, w), from how tool.orientation holds the tool. Beside the bed nothing is felt.
+        velocity [m/s]; None: computed from the last tick's position. down: False lifts the tool. orientation: the
+        hand's rotation from tool.orientation, a quaternion (x, y, z, w). Beside the bed there is no force.
         """
         raise NotImplementedError  # each instance has its own tick, which saves a call
 
     def relax(self) -> dict[str, Any]:
-        """Sand slips to rest: passes, residual, moved_volume [m^3], converged."""
+        """Relaxes the sand to rest. Returns passes, residual, moved_volume [m^3], converged."""
         return self._stepped.relax()
 
     def lift(self) -> None:
-        """The tool touches nothing until the next tick."""
+        """Lifts the tool out of the sand until the next tick."""
         self._stepped.lift()
 
     @property
@@ -52,17 +52,17 @@ class Simulation:
         return self._stepped.heights
 
     def height_at(self, x: float, y: float) -> float:
-        """Of the cell there [m]; nan beside the bed."""
+        """Height of the sand at (x, y) [m]; nan beside the bed."""
         return self._stepped.height_at(x, y)
 
     @property
     def time(self) -> float:
-        """Of the next tick [s]."""
+        """Time of the next tick [s]."""
         return self._stepped.time
 
     @property
     def volume(self) -> float:
-        """Of the sand above z = 0, less what is missing below [m^3]."""
+        """Volume of the sand above z = 0, minus the missing volume below [m^3]."""
         return self._stepped.volume
 
     @property

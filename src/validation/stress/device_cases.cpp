@@ -70,7 +70,7 @@ Outcome simulate(const Scene& scene) {
         swing, 1e3 * result.max_depth, device.max_force, device.absorbed_energy,
         loop_returned_energy(device, scene.device)
             ? fmt::format("which returned up to {:.3g} J more than it took", -device.least_absorbed_energy)
-            : "no more returned than taken",
+            : "which returned no more than it took",
         device.least_passivity_margin);
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::unstable) outcome.verdict = Verdict::refused;
@@ -179,13 +179,13 @@ void add_device_cases(StressReport& report) {
     report.cases.push_back({"device loop, whole simulation", plan.name, plan.settings, expected_of(scene),
                             outcome.verdict, outcome.detail});
   }
-  report.traces.push_back(trace_of(
-      "late-loop", "A late loop throws the tool out of the sand",
-      "The paper's remark: the hand plunges the tool, draws it along and holds it; a force that comes late "
-      "lets it sink too deep, throws it out of the sand, and lets it fall back. Drag left out.",
-      "depth of the tip below the level [mm]", held,
-      {{"on time", late_by(0)}, {"20 ms late", late_by(20)}, {"40 ms late", late_by(40)}},
-      [](const TickRecord& tick) { return 1e3 * tick.depth; }));
+  report.traces.push_back(
+      trace_of("late-loop", "A late loop throws the tool out of the sand",
+               "The paper's remark: if the force is late, the tool sinks too deep, is thrown out of the "
+               "sand, and falls back. The hand plunges the tool, draws it along and holds it. Without drag.",
+               "depth of the tip below the level [mm]", held,
+               {{"on time", late_by(0)}, {"20 ms late", late_by(20)}, {"40 ms late", late_by(40)}},
+               [](const TickRecord& tick) { return 1e3 * tick.depth; }));
   report.traces.push_back(trace_of("drag", "Drag by an old velocity and by the velocity in the tick",
                                    "200 Hz and k_f = 50 s/m: sampled drag overshoots within a tick and "
                                    "changes its sign in the next; implicit "

@@ -63,18 +63,17 @@ LoopMapPlan plan(std::string name, std::string title, std::string text, MapAxis 
 /// The map with dropped ticks. Random products of exact tick maps decide, as an eigenvalue does without
 /// drops. Where the dampers take all energy that the oldest force can return, the loop must be stable.
 LoopMapPlan dropped_ticks(const MapAxis& x, const MapAxis& stiffness) {
-  LoopMapPlan map =
-      plan("dropped-stiffness", "Dropped ticks and stiffness",
-           "A two-sided wall at 1 kHz and a loop that is late in a share of its ticks: the last force stays, "
-           "which "
-           "works like a delay. Expected is what random products of the two exact tick maps do.",
-           x, stiffness, [](double share, double K) {
-             LoopSettings loop;
-             loop.device = ideal_device();
-             loop.device.dropped_ticks = share;
-             loop.against = Wall{K, 0.0};
-             return loop;
-           });
+  LoopMapPlan map = plan(
+      "dropped-stiffness", "Dropped ticks and stiffness",
+      "A two-sided wall at 1 kHz, and a loop that drops a fraction of its ticks: there the last force stays, "
+      "which works like a delay. The expected verdicts come from random products of the two exact tick maps.",
+      x, stiffness, [](double share, double K) {
+        LoopSettings loop;
+        loop.device = ideal_device();
+        loop.device.dropped_ticks = share;
+        loop.against = Wall{K, 0.0};
+        return loop;
+      });
   constexpr std::int64_t all_ticks = 20'000;
   map.ticks = [](const LoopSettings&) { return all_ticks; };
   map.surprising = [](const LoopSettings& loop, const LoopRun& run, std::int64_t ticks) {
@@ -143,8 +142,8 @@ LoopMapPlan drag(DragVelocity velocity, const MapAxis& k_f, const MapAxis& force
 
 LoopMapPlan wall_plan(const MapAxis& rate, const MapAxis& stiffness) {
   return plan("wall-rate-stiffness", "A two-sided wall: servo rate and stiffness",
-              "The default device (0.25 kg, 9 N s/m with the hand's) against a spring that pulls as well: "
-              "what is not stable diverges.",
+              "The default device (0.25 kg, 9 N s/m with the hand's) against a spring that also pulls: loops "
+              "that are not stable diverge.",
               rate, stiffness, [](double servo_rate, double K) {
                 LoopSettings loop;
                 loop.device = ideal_device();
@@ -169,8 +168,8 @@ LoopMapPlan hand_plan(const MapAxis& stiffness, const MapAxis& damping) {
 
 LoopMapPlan depth_plan(const MapAxis& k_c, const MapAxis& depths) {
   return plan("depth", "Growth of the force (k_c) and depth",
-              "k_s = 10 N at 1 kHz, no force limit: an exponential law is soft above and stiff below, stable "
-              "down to a depth.",
+              "k_s = 10 N at 1 kHz, no force limit. An exponential law is soft at the top and stiff below, "
+              "so the loop is stable down to some depth.",
               k_c, depths, [](double growth, double depth_of_tip) {
                 ForceSettings force;
                 force.k_s = 10.0, force.k_c = growth, force.k_f = 0.0;
@@ -206,16 +205,16 @@ std::vector<LoopMapPlan> device_map_plans(bool quick) {
   const MapAxis servo_rate = x("servo rate", "Hz", 50.0, 20e3), stiffness = y("stiffness", "N/m", 100.0, 1e6);
   return {
       wall_plan(servo_rate, stiffness),
-      plan(
-          "sand-rate-stiffness", "Sand: servo rate and stiffness (k_s)",
-          "The same device pressed with 3 N into sand, which only pushes, without a force limit: beyond the "
-          "boundary it bounces, and far beyond it bounces ever higher. Theory does not say which of the two.",
-          servo_rate, stiffness,
-          [](double rate, double K) {
-            DeviceSettings device = ideal_device();
-            device.servo_rate = rate;
-            return sand_of_stiffness(K, device);
-          }),
+      plan("sand-rate-stiffness", "Sand: servo rate and stiffness (k_s)",
+           "The same device pressed with 3 N into sand, which only pushes, without a force limit. Beyond the "
+           "boundary it bounces, and far beyond it bounces higher each time. Theory does not tell the two "
+           "apart.",
+           servo_rate, stiffness,
+           [](double rate, double K) {
+             DeviceSettings device = ideal_device();
+             device.servo_rate = rate;
+             return sand_of_stiffness(K, device);
+           }),
       plan(
           "mass-damping", "Mass and damping of the device",
           "Sand of 20 kN/m under 3 N at 1 kHz, 12 N at most, the hand without damping. Stable from b = K T/2 "

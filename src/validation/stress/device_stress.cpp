@@ -41,7 +41,7 @@ void add_boundaries(StressReport& report) {
   });
   report.cases.push_back(
       {"device loop, boundary",
-       "what is passive is stable",
+       "passive loops are stable",
        fmt::format("{} loops at 99.9 % of the gain up to which they are passive", many.size()),
        {Verdict::stable},
        unstable == 0 ? Verdict::stable : Verdict::broken,

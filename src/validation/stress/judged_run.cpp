@@ -33,7 +33,7 @@ std::string fault_of(const HeightGrid& start, const HeightGrid& end, double cell
   const double outside = std::max({0.0, low - end.minCoeff(), end.maxCoeff() - high});
   run.overshoot = size > 0.0 ? outside / size : 0.0;
   if (keeps_range && run.overshoot > 1e-12)
-    return fmt::format("a height left the range of the starting ones by {:.3g} of the highest",
+    return fmt::format("a height left the range of the starting heights by {:.3g} of the highest",
                        run.overshoot);
   return "";
 }

@@ -175,7 +175,7 @@ StressCase shares(const Method& method, double share, bool quick) {
 
 /// Relaxes beds whose numbers no double can hold.
 StressCase beyond_numbers(const Method& method) {
-  Variations all = variations(fmt::format("{}, beyond numbers", method.name),
+  Variations all = variations(fmt::format("{}, out of a double's range", method.name),
                               "cells of 1e-307, 1e-160 and 1e110 m; heights of 1e307 m; at most 100 passes",
                               {Verdict::refused});
   for (const auto& [dx, height] : {std::pair(1e-307, 1e-306), std::pair(1e-160, 1e-159),

@@ -40,7 +40,7 @@ const ExtremeStroke strokes[] = {
     {"a metre deep", "down to 1 m at 2 m/s", [](double t) { return V(0.0, 0.0, -std::min(2.0 * t, 1.0)); }},
     {"a kilometre deep", "down to 1000 m at 2 km/s",
      [](double t) { return V(0.0, 0.0, -std::min(2e3 * t, 1e3)); }},
-    {"beyond numbers deep", "down to 1e6 m, where exp(k_c depth) overflows",
+    {"too deep for a double", "down to 1e6 m, where exp(k_c depth) overflows",
      [](double t) { return V(0.02 * t, 0.0, -std::min(2e6 * t, 1e6)); }},
     {"full circles on the spot", "1 mm across at 400 turns a second, 5 mm deep",
      [](double t) {
@@ -148,7 +148,7 @@ void refuse(StressReport& report) {
                               "5 mm deep, to 50 mm beyond the bed", {Verdict::refused}));
   Stroke endless = stroke_of(leaves, 0.5, 1000.0);
   endless.time.back() = 1e300;
-  report.cases.push_back(play(scene, endless, "beyond numbers long", "1e300 s", {Verdict::refused}));
+  report.cases.push_back(play(scene, endless, "too long to count its ticks", "1e300 s", {Verdict::refused}));
 }
 
 }  // namespace

@@ -52,7 +52,7 @@ Problem plunge_problem(const ProblemOptions& options) {
   }
   for (const OwnLawSettings& own : options.own) {
     if (own.force.empty()) continue;
-    problem.text += " A plugin's law is held against itself at 128 kHz.";
+    problem.text += " A plugin's law is compared with itself at 128 kHz.";
     const auto by_law = [=](double rate) {
       Scene scene = at_rate(rate);
       scene.own = own;

@@ -121,11 +121,11 @@ Problem plate_force_problem(const ProblemOptions& options) {
 }
 
 Problem sphere_force_problem(const ProblemOptions& options) {
-  Problem problem = force_problem(
-      "force-sphere", "Force on a sphere (rft)",
-      "A sphere of 10 mm radius is pushed into the sand, and dragged; the truth is resistive "
-      "force theory, summed over the surface that leads. Dragged, no order is fitted: what trails "
-      "by less than 3 degrees counts a little in the program, whatever the cells.");
+  Problem problem =
+      force_problem("force-sphere", "Force on a sphere (rft)",
+                    "A sphere of 10 mm radius is pushed into the sand, and dragged; the truth is resistive "
+                    "force theory, summed over the leading surface. No order is fitted for the drag: parts "
+                    "that trail by less than 3 degrees count a little in the program, with any cells.");
   const ToolSettings sphere{0.01};
   for (const int cells_per_radius : {5, 10, 20, 40}) {
     if (options.quick && cells_per_radius > 20) continue;

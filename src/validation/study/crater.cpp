@@ -41,9 +41,10 @@ Trial drain(int cells, const ExactCrater& crater, const RelaxationSettings& sett
 }  // namespace
 
 Problem crater_problem(const ProblemOptions& options) {
-  Problem problem = shape_problem("octagon", "Drained crater: octagon or cone",
-                                  "Sand drains through a hole until none follows; all of it has slid, so the "
-                                  "truth is the steepest shape of the law: the paper's octagon, or a cone.");
+  Problem problem =
+      shape_problem("octagon", "Drained crater: octagon or cone",
+                    "Sand drains through a hole until none flows. All sand of the crater's slope has slid, "
+                    "so the truth is the steepest shape of the law: the paper's octagon, or a cone.");
   const auto add = [&](const std::string& series, const std::string& label, int cells,
                        const RelaxationSettings& settings, bool refines) {
     const double dx = crater_bed_width / cells;

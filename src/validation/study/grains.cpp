@@ -60,16 +60,15 @@ Contender grain_contender(const GrainStroke& grains, ModelPreset preset, int cel
 }  // namespace
 
 Problem grains_problem(const ProblemOptions& options) {
-  Problem problem{
-      "grains",
-      "Strokes through simulated grains",
-      "A sphere goes through beds of grains (discrete elements, R = 8 grains), and through "
-      "sand of the same talus angle; depths count from first touch. The difference of the sections "
-      "counts, over the grains' change.",
-      "l1",
-      "difference of the sections, of the grains' change",
-      "",
-      {}};
+  Problem problem{"grains",
+                  "Strokes through simulated grains",
+                  "A sphere goes through beds of grains (discrete elements, R = 8 grains), and through sand "
+                  "of the same talus angle; depths count from first touch. The error is the difference of "
+                  "the sections over the grains' change.",
+                  "l1",
+                  "difference of the sections, of the grains' change",
+                  "",
+                  {}};
   problem.measured_text = "Grains, and the accurate preset with 10 cells per radius and force.law = \"rft\".";
   for (const GrainStroke& grains : grain_strokes) {
     const GrainReply reply = reply_to(grains, grain_scene(grains, ModelPreset::accurate, 10));

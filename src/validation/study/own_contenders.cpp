@@ -30,7 +30,7 @@ std::vector<OwnLawSettings> single_laws(const OwnLawSettings& plugin, const std:
   known.erase(std::unique(known.begin(), known.end()), known.end());
   for (const std::string& name : names)
     if (!std::binary_search(known.begin(), known.end(), name))
-      throw_input_error("{}: has no law '{}'; take some of: {}", plugin.plugin, name, fmt::join(known, ", "));
+      throw_input_error("{}: has no law '{}'; choose from: {}", plugin.plugin, name, fmt::join(known, ", "));
   return found;
 }
 

@@ -173,7 +173,7 @@ Problem truncated_problem(const ProblemOptions& options) {
   const double radius = 0.5, height = 0.2;
   Problem problem = shape_problem("truncated", "Low cylinder to truncated cone",
                                   "A low cylinder loses its edge; the truth is the truncated talus cone of "
-                                  "its volume, whose plateau nothing has reached.");
+                                  "its volume, whose plateau is untouched.");
   PileField(problem,
             heap(SurfaceKind::cylinder, radius, height, collapsed_cylinder(radius, height, talus_angle)),
             options)
@@ -184,7 +184,7 @@ Problem truncated_problem(const ProblemOptions& options) {
 Problem cone_problem(const ProblemOptions& options) {
   const double radius = 0.5, height = 0.6;
   Problem problem = shape_problem("cone", "Steep cone to talus cone",
-                                  "A cone of 50 degrees slips; the truth is the talus cone of its volume.");
+                                  "A cone of 50 degrees relaxes; the truth is the talus cone of its volume.");
   PileField(problem, heap(SurfaceKind::cone, radius, height, collapsed_cone(radius, height, talus_angle)),
             options)
       .add_laws_and_methods();
@@ -195,10 +195,10 @@ Problem cliff_problem(const ProblemOptions& options) {
   SurfaceSettings cliff;
   cliff.kind = SurfaceKind::cliff;
   cliff.height = 0.4;
-  Problem problem = shape_problem("cliff", "Cliff to ramp",
-                                  "A vertical cliff slips; the truth is a ramp of the talus angle centred "
-                                  "on its edge. Both laws are exact along an axis: the tolerance is all that "
-                                  "is left.");
+  Problem problem =
+      shape_problem("cliff", "Cliff to ramp",
+                    "A vertical cliff relaxes; the truth is a ramp of the talus angle centred on its edge. "
+                    "Along an axis both laws are exact: only the tolerance is left.");
   Pile pile;
   pile.start = [cliff](int cells) { return make_surface(cliff, band_rows, cells, pile_bed_width / cells); };
   pile.shape.exact = collapsed_cliff(cliff.height, talus_angle), pile.shape.height = cliff.height;

@@ -23,7 +23,7 @@ Score score_of(const HeightField& bed, const HeightField& start, const Relaxatio
 }
 
 Problem shape_problem(const char* name, const char* title, const char* text) {
-  return {name, title, text, "l1", "misplaced sand, of the sand that has to move", "", {}};
+  return {name, title, text, "l1", "misplaced sand, fraction of the sand that has to move", "", {}};
 }
 
 }  // namespace sandstroke

@@ -89,12 +89,12 @@ Problem stroke_problem(const StrokeCase& given, const ProblemOptions& options) {
   Problem problem{
       given.name,
       given.title,
-      fmt::format("At 2 kHz; in place of the truth stands the same stroke with cell size and the time or way "
-                  "between relaxations divided by {}. How far that is from their division by {} is the "
-                  "dotted line.",
-                  finest, finest / 2),
+      fmt::format(
+          "At 2 kHz. The reference is the same stroke with cell size and the time or way between relaxations "
+          "divided by {}. The dotted line is its distance from the stroke with these divided by {}.",
+          finest, finest / 2),
       "l1",
-      "misplaced sand, of the sand that moves",
+      "misplaced sand, fraction of the sand that moves",
       "",
       {}};
   const auto all = [preset](int by) { return refined(preset, by, by); };
@@ -109,7 +109,7 @@ Problem stroke_problem(const StrokeCase& given, const ProblemOptions& options) {
   for (int by = 1; by < finest; by *= 2) add(all_finer, fmt::format("1/{} of all", by), all(by));
   for (const OwnLawSettings& own : options.own) {
     if (own.displacement.empty()) continue;
-    problem.text += " A rule of a plugin is held against itself, as fine.";
+    problem.text += " A plugin's law is compared with itself in equally fine steps.";
     const auto by_law = [=](int by) {
       Scene scene = all(by);
       scene.own = own;
@@ -127,7 +127,7 @@ Problem stroke_problem(const StrokeCase& given, const ProblemOptions& options) {
   }
   if (!paper)
     for (int by = 1; by < finest; by *= 2)
-      add("sand slips into the tool, 240 a second", fmt::format("1/{} of all", by), pumping(by));
+      add("without a solid tool, 240 relaxations a second", fmt::format("1/{} of all", by), pumping(by));
   const auto vary = [&](const std::string& series, std::initializer_list<double> values,
                         double& (*knob)(Scene&), const std::string& label) {
     for (const double value : values) {
@@ -190,7 +190,7 @@ Problem deep_stroke_problem(const ProblemOptions& options) {
 }
 
 Problem reworked_stroke_problem(const ProblemOptions& options) {
-  return stroke_problem({"stroke-reworked", "A scribble 5 mm deep over its own ground, accurate preset",
+  return stroke_problem({"stroke-reworked", "A scribble 5 mm deep over its own furrows, accurate preset",
                          ModelPreset::accurate, scribble(0.005, 0.25, options.quick), true},
                         options);
 }
@@ -204,12 +204,12 @@ Problem paper_stroke_problem(const ProblemOptions& options) {
 Problem hands_problem(const ProblemOptions& options) {
   Problem problem{
       "hands",
-      "What hands change",
+      "Influence of the hand",
       "A curved stroke 4 mm deep, and one as deep as the radius, with five cells per radius at 1 kHz, at the "
       "speeds, with the noise in z and the slopes of hands, against the same preset's stroke at 0.25 m/s "
       "without any. A stroke's outcome should depend on none of them.",
       "l1",
-      "sand that lies elsewhere, of the sand that moves",
+      "misplaced sand, fraction of the sand that moves",
       "",
       {}};
   struct Case {

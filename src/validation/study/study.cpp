@@ -31,7 +31,7 @@ std::vector<ProblemMaker> chosen_makers(const std::vector<std::string>& names) {
   }
   for (const std::string& name : names)
     if (std::none_of(chosen.begin(), chosen.end(), [&](const ProblemMaker& one) { return name == one.name; }))
-      throw_input_error("unknown problem '{}'; take one of: {}", name, known);
+      throw_input_error("unknown problem '{}'; use one of: {}", name, known);
   return chosen;
 }
 
@@ -79,15 +79,15 @@ class Race {
     for (std::size_t j = 0; j < i; ++j)
       if (problem_.contenders[j].series == contender.series) before = last, last = &runs_[j];
     if (!last) return true;
-    if (last->repeats == 0) return left_out(contender, "a coarser run was");
+    if (last->repeats == 0) return left_out(contender, "a coarser run was left out or failed");
     const double foreseen = foreseen_visits(contender.settings.cells, *last, before);
     return !(foreseen > limits_.cells_visited) ||
            left_out(contender, fmt::format("it would visit some {:.0e} cells (limit {:.0e})", foreseen,
                                            limits_.cells_visited));
   }
   bool left_out(const Contender& contender, const std::string& why) {
-    study_.notes.push_back(
-        fmt::format("{}: {}, {}: left out, for {}.", problem_.title, contender.series, contender.label, why));
+    study_.notes.push_back(fmt::format("{}: {}, {}: left out, because {}.", problem_.title, contender.series,
+                                       contender.label, why));
     return false;
   }
 

@@ -30,11 +30,11 @@ const std::vector<Column> columns = {
     {"cell_size", "Cell size", "m", NUMBER(run.settings.cell_size)},
     {"tolerance", "Tolerance", "", NUMBER(run.settings.tolerance)},
     {"step_tolerance", "Step tolerance", "", NUMBER(run.settings.step_tolerance)},
-    {"share", "Share of a pass", "", NUMBER(run.settings.share)},
+    {"share", "Fraction of the excess moved per pass (c)", "", NUMBER(run.settings.share)},
     {"servo_rate", "Servo rate", "Hz", NUMBER(run.settings.servo_rate)},
     {"relaxation_rate", "Relaxation rate", "Hz", NUMBER(run.settings.relaxation_rate)},
     {"tool", "Tool", "", TEXT(run.settings.tool)},
-    {"force_law", "Law of the force", "", TEXT(run.settings.force_law)},
+    {"force_law", "Force law", "", TEXT(run.settings.force_law)},
     {"threads", "Threads", "", NUMBER(run.settings.threads)},
     {"wall_seconds", "Time", "s", NUMBER(run.wall_seconds)},
     {"wall_median", "Median time", "s", NUMBER(run.median_seconds)},
@@ -43,7 +43,7 @@ const std::vector<Column> columns = {
     {"disturbed", "Disturbed by other programs", "", NUMBER(run.disturbed)},
     {"passes", "Passes", "", NUMBER(run.score.passes)},
     {"cells_visited", "Cells visited", "", NUMBER(run.score.cells_visited)},
-    {"l1", "Misplaced sand, of the moved", "", NUMBER(run.score.l1)},
+    {"l1", "Misplaced sand, fraction of the moved sand", "", NUMBER(run.score.l1)},
     {"rms_height", "Height error, rms", "m", NUMBER(run.score.rms_height)},
     {"largest_height", "Height error, largest", "m", NUMBER(run.score.largest_height)},
     {"rms_relative", "Height error, rms of the shape's height", "", NUMBER(run.score.rms_relative)},
@@ -194,7 +194,7 @@ std::string ticks_text(const std::vector<StudyRun>& runs) {
   if (times.empty()) return "";
   return "\nTime of a tick\n" + aligned_text({{{"tool", "Tool", "", tools},
                                                {"label", "Settings", "", labels},
-                                               {"force_law", "Law of the force", "", laws},
+                                               {"force_law", "Force law", "", laws},
                                                {"tick_microseconds", "Time", "us", times},
                                                {"of_paper", "Over paper", "", of_paper},
                                                {"disturbed", "", "", marks}}},
@@ -262,20 +262,18 @@ std::string study_summary(const Study& study) {
   }
   for (const StudyRun& run : study.runs)
     if (run.foreign) foreign.push_back(run);
-  std::string text = "Nearest to the truth, and the fastest with no more than twice that error\n" +
+  std::string text = "Most accurate run, and fastest run with at most twice its error\n" +
                      runs_text(study, best, {"problem", "series", "label", "wall_seconds", "passes"});
   if (!foreign.empty())
-    text +=
-        "\nRules that are not the program's (converged: 1 at rest; the drift is a share of the moved "
-        "sand)\n" +
-        runs_text(study, foreign,
-                  {"problem", "series", "label", "wall_seconds", "passes", "converged", "volume_drift"});
+    text += "\nRules from outside the program (converged: 1 = at rest; drift: fraction of the moved sand)\n" +
+            runs_text(study, foreign,
+                      {"problem", "series", "label", "wall_seconds", "passes", "converged", "volume_drift"});
   if (!study.orders.empty())
     text += "\nOrders of convergence\n" + aligned_text(orders_table(study.orders), 3);
   text += ticks_text(study.runs);
   for (const Problem& problem : study.problems)
     if (!std::isnan(problem.converged_to))
-      text += fmt::format("\n{}: the reference itself is converged to {:.2g}\n", problem.title,
+      text += fmt::format("\n{}: the reference has an error of about {:.2g}\n", problem.title,
                           problem.converged_to);
   for (const std::string& note : study.notes) text += "\n" + note + "\n";
   if (const std::string said = disturbance(study.runs); !said.empty()) text += "\n* " + said + "\n";

@@ -76,10 +76,10 @@ ToolSettings wedge(double flank) {
 }  // namespace
 
 Problem blade_problem(const ProblemOptions& options) {
-  Problem problem = heap_problem(
-      "blade", "Heap of a blade",
-      "A blade d deep goes s across a trough. What it cuts, d s, lies before it as a wedge of the "
-      "talus slope t: its height is the square root of 2 t d s.");
+  Problem problem =
+      heap_problem("blade", "Heap of a blade",
+                   "A blade d deep moves s along a trough. The displaced sand, d s, lies before it as a "
+                   "wedge of the talus slope t. Its height is the square root of 2 t d s.");
   constexpr double depth = 0.004, way = 0.12, from = -0.1, speed = 0.1;  // m, m/s
   for (const double cell : {0.004, 0.002, 0.001, 0.0005}) {
     if (options.quick && cell < 0.001) continue;
