@@ -1,7 +1,6 @@
 #pragma once
 
 #include "haptics/simulated_device.h"
-#include "rules/force.h"
 
 namespace sandstroke {
 
@@ -12,10 +11,6 @@ namespace sandstroke {
 /// theorem, but no counterexample among thousands of loops, tests/stress.) Dropped ticks are not in it. K
 /// [N/m], B [N s/m].
 double passivity_margin(double stiffness, double drag, const DeviceSettings& device);
-
-/// The same with the sand's K and B (felt_sand) at a depth [m]. repulse [N] = |F_r| there.
-double passivity_margin(double depth, double repulse, const ForceSettings& force,
-                        const DeviceSettings& device);
 
 /// Energy that a device has given to the sand (Hannaford & Ryu 2002), exactly for a force held during each
 /// tick.

@@ -5,27 +5,17 @@
 
 #include <algorithm>
 #include <limits>
-#include <vector>
 
 #include "core/error.h"
-#include "haptics/sand_force.h"
 
 namespace sandstroke {
-namespace {
-
-SimulatedDevice::State as_state(const Hand& hand) { return {hand.position, hand.velocity}; }
-
-}  // namespace
 
 DeviceSide::DeviceSide(const Scene& scene)
-    : force_(scene.force),
-      of_contact_(is_contact_law(scene)),
-      device_(scene.device, as_state(Hand{})),
-      late_force_(scene.device) {
+    : force_(make_device_force(scene)), device_(scene.device, state_of(Hand{})), late_force_(scene.device) {
   result_.least_passivity_margin = std::numeric_limits<double>::infinity();
 }
 
-void DeviceSide::start(const Hand& hand) { device_.put(as_state(hand)); }
+void DeviceSide::start(const Hand& hand) { device_.put(state_of(hand)); }
 
 double DeviceSide::faded_in(const TickRecord& record) {
   if (lifted_ && record.hand.down) {
@@ -34,68 +24,30 @@ double DeviceSide::faded_in(const TickRecord& record) {
   }
   if (!fading_since_) return 1.0;
   const double share = record.contact ? (record.time - *fading_since_) / fade_in : 1.0;
-  if (record.contact) energy_.give((std::min(share, 1.0) - share_) * stored(record));
+  if (record.contact)
+    energy_.give((std::min(share, 1.0) - share_) * force_->stored(record, device_.settings()));
   share_ = share;
   if (share >= 1.0) fading_since_.reset();
   return std::min(share, 1.0);
 }
 
-double DeviceSide::stored(const TickRecord& record) const {
-  const DeviceSettings& d = device_.settings();
-  const double of_sand = of_contact_ ? record.wrench.limited(d.max_force).stored
-                                     : plunge_work(record.depth, d.max_force, force_);
-  return of_sand / d.scale;
-}
-
-double DeviceSide::stiffness(const TickRecord& record) const {
-  const double scale = device_.settings().scale;
-  return of_contact_ ? scale * record.wrench.limited(device_.settings().max_force).stiffness
-                     : felt_sand(record.depth, 0.0, scale, force_).stiffness;
-}
-
-void DeviceSide::feel_contact(TickRecord& record, double share, Eigen::Vector3d& computed) {
-  const Eigen::Vector3d& force = record.wrench.force;
-  const double most = device_.settings().max_force;
-  record.repulse_force = {0.0, 0.0, force.z()};
-  record.drag_force = {force.x(), force.y(), 0.0};
-  record.saturated = most > 0.0 && record.wrench.strength > most;
-  result_.max_drag_force = std::max(result_.max_drag_force, length_of(record.drag_force));
-  computed = share * record.wrench.limited(most).force;
-}
-
-void DeviceSide::feel_paper(TickRecord& record, double share, Eigen::Vector3d& computed) {
-  const SandForce force =
-      force_on_device(record.depth, device_, as_state(record.hand), as_state(record.next), force_);
-  record.repulse_force = {0.0, 0.0, force.repulse};
-  record.drag_force = force.drag;
-  record.saturated = force.saturated;
-  result_.max_drag_force = std::max(result_.max_drag_force, length_of(force.drag));
-  if (force.held_drag) {
-    ++result_.held_drag_ticks;
-    result_.held_drag = std::max(
-        result_.held_drag, felt_sand(record.depth, force.repulse, device_.settings().scale, force_).drag);
-  }
-  computed = share * force.total;
-}
-
 void DeviceSide::feel(TickRecord& record) {
   Eigen::Vector3d computed = Eigen::Vector3d::Zero();
+  FeltSand felt;
   const double share = faded_in(record);
-  if (record.contact)
-    of_contact_ ? feel_contact(record, share, computed) : feel_paper(record, share, computed);
+  if (record.contact) {
+    computed = share * force_->feel(record, device_, result_);
+    felt = force_->felt_sand(record, device_.settings());
+    result_.max_drag_force = std::max(result_.max_drag_force, length_of(record.drag_force));
+  }
   record.device_force = late_force_.act(computed);
   record.dropped = late_force_.dropped();
-  if (of_contact_)  // no drag that grows with speed
-    record.passivity_margin =
-        passivity_margin(record.contact ? stiffness(record) : 0.0, 0.0, device_.settings());
-  else
-    record.passivity_margin = passivity_margin(record.contact ? record.depth : 0.0, record.repulse_force.z(),
-                                               force_, device_.settings());
+  record.passivity_margin = passivity_margin(felt.stiffness, felt.drag, device_.settings());
 }
 
 void DeviceSide::move(const TickRecord& record) {
   const Eigen::Vector3d before = device_.state().position;
-  device_.advance(as_state(record.hand), as_state(record.next), record.device_force);
+  device_.advance(state_of(record.hand), state_of(record.next), record.device_force);
   const Eigen::Vector3d motion = device_.state().position - before;
   energy_.add(record.device_force, motion);
   if (device_.settings().model == DeviceModel::dynamic) watch(record, motion);
@@ -105,8 +57,8 @@ void DeviceSide::watch(const TickRecord& record, const Eigen::Vector3d& motion) 
   const DeviceSettings& d = device_.settings();
   Eigen::Vector3d returned = record.device_force.cwiseProduct(motion);
   if (record.contact) {
-    most_stored_ = std::max(most_stored_, stored(record));
-    returned.z() -= 0.5 * d.resolution * stiffness(record) * std::abs(motion.z());
+    most_stored_ = std::max(most_stored_, force_->stored(record, d));
+    returned.z() -= 0.5 * d.resolution * force_->felt_sand(record, d).stiffness * std::abs(motion.z());
   }
   const Eigen::Vector3d hand = d.servo_rate * (record.next.position - record.hand.position);
   const bool swings = swing_.add(device_.state().velocity - hand, hand, returned, most_stored_, d.mass);
@@ -149,13 +101,12 @@ DeviceResult DeviceSide::result() const {
 
 std::string loop_remedies(const Scene& scene, double max_drag_force) {
   const DeviceSettings& device = scene.device;
-  const bool paper = !is_contact_law(scene), own = !scene.own.force.empty();
-  std::vector<std::string> lower = {own ? "what model.force gives" : paper ? "force.k_s" : "force.density"};
-  if (paper && max_drag_force > 0.0) lower.emplace_back("force.k_f");
+  auto [lower, raise] = make_device_force(scene)->remedy(max_drag_force);
   if (device.delay > 0) lower.emplace_back("device.delay");
   if (device.dropped_ticks > 0.0) lower.emplace_back("device.dropped_ticks");
+  if (!raise.empty()) raise += " or ";
   return fmt::format("lower {}, or raise {}device.servo_rate or device.damping", fmt::join(lower, " or "),
-                     paper || own ? "" : "force.yield or ");
+                     raise);
 }
 
 }  // namespace sandstroke

@@ -6,11 +6,8 @@
 #include "core/compensated_sum.h"
 #include "haptics/late_force.h"
 #include "haptics/passivity.h"
-#include "haptics/simulated_device.h"
 #include "haptics/swing_watch.h"
-#include "rules/force.h"
-#include "sim/run_result.h"
-#include "sim/scene.h"
+#include "sim/device_force.h"
 
 namespace sandstroke {
 
@@ -45,15 +42,8 @@ class DeviceSide {
   void move(const TickRecord& record);
   void watch(const TickRecord& record, const Eigen::Vector3d& motion);
   double faded_in(const TickRecord& record);
-  /// At most, that the sand may give back there [J, of the device].
-  double stored(const TickRecord& record) const;
-  /// Of the sand there, as the device feels it [N/m].
-  double stiffness(const TickRecord& record) const;
-  void feel_paper(TickRecord& record, double share, Eigen::Vector3d& computed);
-  void feel_contact(TickRecord& record, double share, Eigen::Vector3d& computed);
 
-  ForceSettings force_;
-  bool of_contact_;  // is_contact_law()
+  std::unique_ptr<DeviceForce> force_;
   SimulatedDevice device_;
   LateForce late_force_;
   EnergyAccount energy_;

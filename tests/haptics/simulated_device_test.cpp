@@ -198,10 +198,11 @@ TEST(Passivity, MarginIsColgateAndSchenkels) {
   const ForceSettings force;
   const double depth = 0.006, repulse = repulse_force(depth, force);
   const double K = 2.0 * 1000.0 * 0.5 * std::exp(0.003), B = 2.0 * 10.0 * repulse;
-  EXPECT_NEAR(passivity_margin(depth, repulse, force, device), 7.0 - (K * 1e-3 / 2.0 + B), 1e-12);
-  EXPECT_EQ(passivity_margin(0.0, 0.0, force, device), 7.0);
+  const FeltSand sand = felt_sand(depth, repulse, device.scale, force);
+  EXPECT_NEAR(passivity_margin(sand.stiffness, sand.drag, device), 7.0 - (K * 1e-3 / 2.0 + B), 1e-12);
+  EXPECT_EQ(passivity_margin(0.0, 0.0, device), 7.0);
   device.delay = 3;  // a spring that acts three ticks late is (1/2 + 3) T old on average
-  EXPECT_NEAR(passivity_margin(depth, repulse, force, device), 7.0 - (K * 3.5e-3 + B), 1e-12);
+  EXPECT_NEAR(passivity_margin(sand.stiffness, sand.drag, device), 7.0 - (K * 3.5e-3 + B), 1e-12);
 }
 
 TEST(EnergyAccount, CountsWhatTheDeviceGives) {
