@@ -37,7 +37,7 @@ struct Tile {
   TileFlow flow;
 
   Tile(RelaxationLaw relaxation_law, SandState state, const CellFlags& active = square_of_cells(0, tile_side))
-      : law(relaxation_settings(relaxation_law), 1.0),
+      : law(talus_law(relaxation_settings(relaxation_law), 1.0)),
         bed(noisy_plane(3 * tile_side, 3 * tile_side, state)),
         cells(active),
         rows(row_span(active)) {

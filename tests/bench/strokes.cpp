@@ -11,7 +11,7 @@
 #include "core/hash.h"
 #include "core/stopwatch.h"
 #include "haptics/stroke_script.h"
-#include "sand/active_sand.h"
+#include "sand/relaxation.h"
 #include "sim/simulation.h"
 
 namespace sandstroke {
@@ -90,8 +90,9 @@ nlohmann::json against_reference(const Scene& scene, const Stroke& stroke, const
     tiles = replay(scene, beginning);
     tiles_seconds.push_back(tiles->relaxation_seconds);
   }
-  const Replay reference =
-      replay(scene, beginning, make_plain_relaxer(scene.relaxation, scene.bed.cell_size()));
+  RelaxationSettings plain = scene.relaxation;
+  plain.method = RelaxationMethod::plain;
+  const Replay reference = replay(scene, beginning, make_relaxer(plain, scene.bed.cell_size()));
 
   const HeightGrid a = tiles->bed.grid(), b = reference.bed.grid();
   const bool same = std::memcmp(a.data(), b.data(), static_cast<std::size_t>(a.size()) * sizeof(double)) == 0;
