@@ -32,7 +32,7 @@ ChildOutputs outputs_of(const std::string& program) {
   ChildOutputs outputs;
   outputs.out.reset(std::tmpfile()), outputs.err.reset(std::tmpfile());
   if (!outputs.out || !outputs.err)
-    throw_io_error("no temporary file for the output of {}; free disk space in /tmp", program);
+    throw_io_error("cannot make a temporary file for the output of {}; free disk space in /tmp", program);
   return outputs;
 }
 
@@ -84,7 +84,8 @@ std::optional<FedChild> FedChild::start(const std::vector<std::string>& words) {
   ChildOutputs outputs = outputs_of(words[0]);
   int ends[2];  // sockets, not a pipe: writing to a child that has ended raises no SIGPIPE
   if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0)
-    throw_io_error("{} cannot be fed: {}; close other programs", words[0], std::strerror(errno));
+    throw_io_error("no connection to {} can be opened: {}; close other programs", words[0],
+                   std::strerror(errno));
   const std::unique_ptr<int, void (*)(int*)> its_end(&ends[1], [](int* end) { close(*end); });
   FedChild child(0, ends[0], std::move(outputs));
   child.process_ = spawn(words, ends[1], child.outputs_);

@@ -75,7 +75,7 @@ bool FileLock::lock(const std::filesystem::path& path, short type, int how) {
   std::call_once(told, [&] {
     spdlog::warn(
         "{}: this file system has no locks ({}), so two commands could write the same file; give each "
-        "command another output",
+        "command its own output",
         path.string(), std::strerror(error));
   });
   return true;

@@ -18,7 +18,7 @@ InputFile::InputFile(const fs::path& path, Pipe pipe) : name_(path.string()) {
   const fs::file_status status = fs::status(path);
   if (fs::is_directory(status)) throw_io_error("{}: is a folder; name a file", name_);
   if (fs::exists(status) && !fs::is_regular_file(status) && !(pipe == Pipe::taken && fs::is_fifo(status)))
-    throw_io_error("{}: is not a regular file; name one", name_);
+    throw_io_error("{}: is not a regular file; name a regular file", name_);
   file_ = open(path.c_str(), O_RDONLY | O_CLOEXEC);
   if (file_ < 0) throw_io_error("{}: cannot be opened ({}); check the path", name_, std::strerror(errno));
 }
@@ -71,8 +71,8 @@ std::string read_text_file(const fs::path& path, std::size_t most_bytes) {
     if (text.size() <= most_bytes) continue;
     const bool has_size = fs::is_regular_file(path);  // a pipe has none
     throw_input_error(
-        "{}: has {} MB, and a text has at most {:g} MB; shorten it (a long stroke can be a table of samples: "
-        "sandstroke stroke convert --help)",
+        "{}: has {} MB, but a text file may have at most {:g} MB; shorten it (a long stroke can be a table "
+        "of samples: sandstroke stroke convert --help)",
         path.string(),
         has_size ? fmt::format("{:.1f}", 1e-6 * static_cast<double>(fs::file_size(path))) : "too many",
         1e-6 * static_cast<double>(most_bytes));

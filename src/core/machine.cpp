@@ -64,7 +64,7 @@ double room_of(__rlimit_resource resource, const char* taken) {
 
 /// The room that the limit of the address space leaves, and the message about it.
 double address_room() { return room_of(RLIMIT_AS, "VmSize:"); }
-constexpr const char* addresses_left = "the limit of its address space (ulimit -v) leaves it {:.3g} GB";
+constexpr const char* addresses_left = "the limit of the address space (ulimit -v) leaves {:.3g} GB";
 
 }  // namespace
 
@@ -82,9 +82,9 @@ MemoryRoom memory_room() {
     if (room < least.bytes) least = {std::max(0.0, room), reason};
   };
   consider(control_group_room(groups.str(), "/sys/fs/cgroup"),
-           "its control group (container or job) leaves it {:.3g} GB");
+           "the control group (container or job) leaves {:.3g} GB");
   consider(address_room(), addresses_left);
-  consider(room_of(RLIMIT_DATA, "VmData:"), "the limit of its data (ulimit -d) leaves it {:.3g} GB");
+  consider(room_of(RLIMIT_DATA, "VmData:"), "the limit of data (ulimit -d) leaves {:.3g} GB");
   least.reason = fmt::format(fmt::runtime(least.reason), 1e-9 * least.bytes);
   return least;
 }
@@ -92,26 +92,25 @@ MemoryRoom memory_room() {
 void check_memory(double bytes, const std::string& what, const std::string& remedy, double share) {
   const MemoryRoom room = memory_room();
   if (bytes > share * room.bytes)
-    throw NotEnoughMemory(
-        fmt::format("{} takes about {:.3g} GB of memory{}, and {}; {}", what, 1e-9 * bytes,
-                    share < 1.0 ? fmt::format(", which may be {:.3g} of what there is", share) : "",
-                    room.reason, remedy));
+    throw NotEnoughMemory(fmt::format(
+        "{} takes about {:.3g} GB of memory, but {}{}; {}", what, 1e-9 * bytes, room.reason,
+        share < 1.0 ? fmt::format(", and at most {:.3g} of that may be used", share) : "", remedy));
 }
 
 void check_addresses(double bytes, const std::string& what, const std::string& remedy) {
   const double room = std::max(0.0, address_room());
   if (bytes > room)
-    throw NotEnoughMemory(fmt::format("{} takes about {:.3g} GB of addresses, and {}; {}", what, 1e-9 * bytes,
-                                      fmt::format(addresses_left, 1e-9 * room), remedy));
+    throw NotEnoughMemory(fmt::format("{} takes about {:.3g} GB of address space, but {}; {}", what,
+                                      1e-9 * bytes, fmt::format(addresses_left, 1e-9 * room), remedy));
 }
 
 void check_disk(const fs::path& path, double bytes, const std::string& remedy) {
   const auto refuse_beyond = [&](double room, const char* reason) {
     if (bytes > room)
-      throw_io_error("{}: takes about {:.3g} GB, and {} {:.3g} GB; {}", path.string(), 1e-9 * bytes, reason,
+      throw_io_error("{}: takes about {:.3g} GB, but {} {:.3g} GB; {}", path.string(), 1e-9 * bytes, reason,
                      1e-9 * room, remedy);
   };
-  refuse_beyond(limit_of(RLIMIT_FSIZE), "the limit of a file's size (ulimit -f) is");
+  refuse_beyond(limit_of(RLIMIT_FSIZE), "the limit of the file size (ulimit -f) is");
   const fs::path folder = fs::absolute(path).parent_path();
   struct statvfs disk = {};
   if (statvfs(folder.c_str(), &disk) != 0 || disk.f_blocks == 0) return;  // the system does not say
@@ -119,7 +118,7 @@ void check_disk(const fs::path& path, double bytes, const std::string& remedy) {
   const std::uintmax_t before = fs::file_size(part_path(path), none);
   refuse_beyond(static_cast<double>(disk.f_bavail) * static_cast<double>(disk.f_frsize) +
                     (none ? 0.0 : static_cast<double>(before)),
-                "there is room for");
+                "the disk has room for");
 }
 
 void share_heap_if_limited() {

@@ -33,7 +33,7 @@ bool is_own(const fs::path& path, const OutputKind& kind) {
 void check_name(const fs::path& path, const OutputKind& kind) {
   const std::string ending = path.extension().string();
   if (kind.hdf5 && !has_hdf5_name(path) && ending.find_first_not_of(".0123456789") != std::string::npos)
-    throw_input_error("{}: is not a name for {}, which is HDF5; end it with .h5", path.string(), kind.name);
+    throw_input_error("{}: {} is an HDF5 file; give it a name that ends with .h5", path.string(), kind.name);
 }
 
 void refuse(const fs::path& path, const OutputKind& kind) {
@@ -131,7 +131,7 @@ void check_output(const fs::path& output, const std::vector<fs::path>& others, c
     }
   if (fs::is_directory(output)) throw_io_error("{}: is a folder; name a file", output.string());
   if (fs::exists(output) && !fs::is_regular_file(output))
-    throw_io_error("{}: is not a regular file; name one", output.string());
+    throw_io_error("{}: is not a regular file; name a regular file", output.string());
   const fs::path folder = folder_of(output);
   if (!fs::is_directory(folder))
     throw_io_error("{}: cannot be written, because the folder {} does not exist; make it first",

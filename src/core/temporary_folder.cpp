@@ -16,7 +16,7 @@ TemporaryFolder::TemporaryFolder() {
   if (failure) throw_io_error("TMPDIR is not a folder ({}); set it to a writable folder", failure.message());
   std::string name = (place / "sandstroke-XXXXXX").string();
   if (!mkdtemp(name.data()))
-    throw_io_error("{}: no folder can be made there ({}); set TMPDIR to another place", name,
+    throw_io_error("{}: this temporary folder cannot be made ({}); set TMPDIR to another place", name,
                    std::strerror(errno));
   path_ = name;
 }

@@ -17,7 +17,7 @@ class ContactLaw : public FeltLaw {
   void add(const std::vector<Wrench>& felt, const Eigen::Vector3d& recorded);
   std::span<const ForceConstant> constants() const override { return contact_constants(grid_.law()); }
   ForceScale scale() const override {
-    return {"resistance", "resistance", "N/m^3", "of the sand, by which all its force goes"};
+    return {"resistance", "resistance", "N/m^3", "the sand's force is proportional to it"};
   }
   const Eigen::VectorXd& start() const override { return grid_.start(); }
   Eigen::VectorXd weak() const override;

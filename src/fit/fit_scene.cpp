@@ -35,8 +35,8 @@ FeltStroke felt_stroke(const Scene& asked, const std::filesystem::path& scene_fo
     throw_input_error("the scene has no stroke; name one that was recorded with forces: --stroke FILE");
   if (!asked.own.force.empty())
     throw_input_error(
-        "model.force = \"{}\" is a law of a plugin, whose constants fit does not know; vary its "
-        "model.parameters in a sweep, or leave it out to fit force.law",
+        "model.force = \"{}\" is a plugin law, and fit does not know its constants; vary model.parameters in "
+        "a sweep, or leave out model.force to fit force.law",
         asked.own.force);
   Scene scene = with_files(asked, scene_folder);
   scene.device.model = DeviceModel::kinematic;
@@ -45,8 +45,8 @@ FeltStroke felt_stroke(const Scene& asked, const std::filesystem::path& scene_fo
   Stroke stroke = placed_stroke(scene, path, hash);
   if (stroke.force.empty())
     throw_input_error(
-        "{}: has no forces, so there is nothing to fit; name their columns and unit (stroke.table.force, "
-        "force_unit), or another --stroke",
+        "{}: has no forces, so there is nothing to fit; name the force columns and their unit "
+        "(stroke.table.force and force_unit), or give another --stroke",
         samples_name(path));
   return {scene, load_surface(scene.bed, scene_folder), std::move(stroke)};
 }

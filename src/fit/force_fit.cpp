@@ -80,8 +80,8 @@ VectorXd without(VectorXd values, Eigen::Index constant) {
 void check_enough(const FeltLaw& law) {
   if (law.ticks() < least_ticks)
     throw_input_error(
-        "in {} ticks the tool touches sand and has a recorded force, and a fit takes {}; lay the stroke "
-        "deeper (stroke.depth), or name one with forces",
+        "only {} ticks have both contact with sand and a recorded force, but a fit needs {}; lay the stroke "
+        "deeper (stroke.depth), or name a stroke with forces",
         law.ticks(), least_ticks);
   if (law.recorded().isZero(0.0))
     throw_input_error("the recorded force is 0 in all {} ticks in contact, so there is nothing to fit",
@@ -94,8 +94,9 @@ void check_limit(const FeltLaw& law, const VectorXd& values) {
                      cut = (law.forces(values, true).array() != free.array()).colwise().any().count();
   if (cut > 0 && felt - cut < least_ticks)
     throw_input_error(
-        "the device's limit (device.max_force = {:.4g} N) cuts the force in {} of {} ticks, so its constants "
-        "hardly show; take a recording with smaller forces, or raise the limit if the recording had another",
+        "the device's limit (device.max_force = {:.4g} N) cuts the force in {} of {} ticks, so too few ticks "
+        "show the constants; take a recording with smaller forces, or raise device.max_force if the "
+        "recording had a higher limit",
         law.max_force(), cut, felt);
 }
 
@@ -112,7 +113,7 @@ std::vector<bool> chosen_constants(std::span<const ForceConstant> constants,
   }
   for (const std::string& name : names)
     if (std::find(all.begin(), all.end(), name) == all.end())
-      throw_input_error("'{}' is no constant of the scene's force.law; take some of {}", name,
+      throw_input_error("'{}' is not a constant of the scene's force.law; choose from {}", name,
                         fmt::join(all, ", "));
   return chosen;
 }

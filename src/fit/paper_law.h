@@ -26,7 +26,7 @@ class PaperLaw : public FeltLaw {
 
   std::span<const ForceConstant> constants() const override { return paper_constants; }
   ForceScale scale() const override {
-    return {"k_s k_c", "stiffness", "N/m", "how the force begins to grow with depth"};
+    return {"k_s k_c", "stiffness", "N/m", "growth of the force with depth, at small depths"};
   }
   const Eigen::VectorXd& start() const override { return start_; }
   Eigen::VectorXd weak() const override;

@@ -168,7 +168,8 @@ void Hdf5Reader::read(const std::string& dataset, const Hdf5Handle& opened, hid_
   constexpr double most_chunks = 2e5;  // HDF5 takes memory for each chunk
   if (const double chunks = chunk_count(opened); chunks > most_chunks)
     fail(dataset,
-         fmt::format("is cut into {:.0f} chunks; make them larger: h5repack -l CHUNK=... OLD NEW", chunks));
+         fmt::format("has {:.0f} chunks, which are too many; make them larger: h5repack -l CHUNK=... OLD NEW",
+                     chunks));
   if (H5Dread(opened, memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) < 0)
     fail_to_read(dataset, "cannot be read; the file is damaged");
 }
@@ -233,7 +234,8 @@ BedGeometry Hdf5Reader::bed_geometry(const std::string& dataset, double cell_siz
   open_numbers(dataset, 2, shape);
   constexpr hsize_t largest = BedGeometry::most_cells;
   if (shape[0] > largest || shape[1] > largest)
-    fail(dataset, fmt::format("has {} x {} cells; a bed has at most {} a side", shape[0], shape[1], largest));
+    fail(dataset,
+         fmt::format("has {} x {} cells; a bed has at most {} per side", shape[0], shape[1], largest));
   return {static_cast<int>(shape[0]), static_cast<int>(shape[1]), cell_size};
 }
 
@@ -321,7 +323,7 @@ double Hdf5Reader::number_attribute(const std::string& object, const std::string
   double value = 0.0;
   if (!is_number(type) || H5Sget_simple_extent_npoints(space) != 1 ||
       H5Aread(opened, H5T_NATIVE_DOUBLE, &value) < 0)
-    fail_to_read(object, fmt::format("attribute '{}' is not one number", attribute));
+    fail_to_read(object, fmt::format("attribute '{}' is not a single number", attribute));
   return value;
 }
 
@@ -336,7 +338,7 @@ std::string Hdf5Reader::text_attribute(const std::string& object, const std::str
         if (H5Aread(opened, memory_type, buffer) < 0)
           fail_to_read(object, fmt::format("attribute '{}' cannot be read; the file is damaged", attribute));
       });
-  if (!is_text) fail(object, fmt::format("attribute '{}' is not one string", attribute));
+  if (!is_text) fail(object, fmt::format("attribute '{}' is not a single string", attribute));
   return text;
 }
 

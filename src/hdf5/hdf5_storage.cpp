@@ -97,7 +97,7 @@ std::string layout_fault(const Hdf5Handle& dataset, double file_bytes) {
   const Chunks chunks(properties, dataset);
   if (!are_known(chunks.filters)) return "has an unknown compression; repack it: h5repack -f GZIP=1 OLD NEW";
   if (!(chunks.bytes > 0.0 && chunks.bytes <= most_unpacked(file_bytes)))
-    return fmt::format("is in chunks of {:.0f} bytes, more than its file can hold; it is damaged",
+    return fmt::format("has chunks of {:.0f} bytes, more than its file can hold; it is damaged",
                        chunks.bytes);
   return "";
 }

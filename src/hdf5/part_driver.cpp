@@ -303,7 +303,8 @@ Hdf5Handle part_access() {
   static const hid_t driver = H5FDregister(&part_class());
   if (driver < 0)
     throw_io_error(
-        "the HDF5 library does not take sandstroke's file driver; build sandstroke with its headers");
+        "the HDF5 library does not accept sandstroke's file driver; build sandstroke with the headers of "
+        "this library");
   Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   H5Pset_driver(access, driver, nullptr);
   return access;

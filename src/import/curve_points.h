@@ -14,8 +14,8 @@ inline constexpr double most_curve_points = 5e6;
 inline void check_curve_points(double pieces, std::size_t points, const std::string& file, std::size_t line) {
   if (pieces + static_cast<double>(points) <= most_curve_points) return;
   throw_input_error(
-      "{}:{}: the curves up to here have more than {:g} points; correct the line or cut the file", file, line,
-      most_curve_points);
+      "{}:{}: the curves up to here have more than {:g} points; correct the line or split the file", file,
+      line, most_curve_points);
 }
 
 }  // namespace sandstroke

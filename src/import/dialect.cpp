@@ -44,7 +44,7 @@ long score_of(const std::vector<std::string>& lines, const Dialect& dialect, std
 }  // namespace
 
 std::string Dialect::text() const {
-  constexpr const char* separators[] = {"", "commas", "semicolons", "tabs", "blanks"};
+  constexpr const char* separators[] = {"", "commas", "semicolons", "tabs", "spaces"};
   return fmt::format("{}, decimal {}", separators[static_cast<int>(separator)],
                      decimal == DecimalMark::comma ? "commas" : "points");
 }

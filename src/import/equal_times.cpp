@@ -23,7 +23,8 @@ void check_times(const Stroke& stroke, const std::vector<std::size_t>& lines, co
     }
     if (stroke.time[i] == stroke.time[i - 1] && !equal_allowed) {
       throw_input_error(
-          "{}: time {} s also stands in {}; set {} to drop (keep the first) or spread (space them evenly)",
+          "{}: time {} s is the same as in {}; set {} to drop (keep the first sample) or spread (space the "
+          "samples evenly)",
           place(i), stroke.time[i], line(i - 1), option_and_key("equal_times"));
     }
   }

@@ -13,7 +13,7 @@ inline SampleTable finite_samples(SampleTable table, const std::string& name) {
   for (const SampleColumn& column : table.columns)
     for (std::size_t i = 0; i < column.values.size(); ++i)
       if (!std::isfinite(column.values[i]))
-        throw_input_error("{}: {} of sample {} is too large a number; correct its units, rate or speed", name,
+        throw_input_error("{}: {} of sample {} is too large; correct its unit, rate or speed", name,
                           column.name, i + 1);
   return table;
 }

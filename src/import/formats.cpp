@@ -27,10 +27,10 @@ struct KindNotRead {
 };
 
 constexpr const char* as_csv = "save or export it as CSV";
-constexpr const char* unpack = "unpack it and name the file that is in it";
+constexpr const char* unpack = "unpack it and name the file inside";
 constexpr KindNotRead kinds_not_read[] = {
     {"#ROSBAG V", "", "a ROS 1 bag",
-     "convert it: rosbags-convert --src FILE.bag --dst FOLDER, and name the .db3 in there"},
+     "convert it: rosbags-convert --src FILE.bag --dst FOLDER, and name the .db3 file in that folder"},
     {"\x89MCAP0\r\n", "", "an MCAP file (ROS 2)", "convert it to a .db3: ros2 bag convert"},
     {"PK\x03\x04", ".xlsx", "an Excel file (.xlsx)", as_csv},
     {"PK\x03\x04", ".xlsm", "an Excel file (.xlsm)", as_csv},
@@ -45,7 +45,7 @@ constexpr KindNotRead kinds_not_read[] = {
      "save it as CSV: pandas.read_feather('FILE').to_csv('samples.csv', index=False)"},
     {"\x93NUMPY", "", "a NumPy file (.npy)",
      "save a table: numpy.savetxt('samples.csv', numpy.load('FILE'), delimiter=',', header='x,y,z')"},
-    {"\x89HDF\r\n\x1A\n", "", "an HDF5 file without a stroke of this program",
+    {"\x89HDF\r\n\x1A\n", "", "an HDF5 file without a stroke from sandstroke",
      "save its columns as CSV: pandas.DataFrame({'x': x, 'y': y}).to_csv('samples.csv', index=False)"},
     {"%PDF", "", "a PDF", "name the file with the samples themselves"},
     {"\x89PNG", "", "a PNG picture", "name the file with the samples themselves"},
@@ -59,7 +59,7 @@ constexpr KindNotRead kinds_not_read[] = {
     {"7z\xBC\xAF", "", "a 7z archive", unpack},
     {"", ".pkl", "a Python pickle", "save a table: DataFrame.to_csv('samples.csv', index=False)"},
     {"", ".c3d", "a C3D file (motion capture)", "export its points as CSV"},
-    {"", ".svg", "an SVG drawing", "make G-code of it, for a plotter"},
+    {"", ".svg", "an SVG drawing", "convert it to G-code for a plotter"},
     {"", ".plt", "a plot in HPGL", "save it as G-code"},
     {"", ".hpgl", "a plot in HPGL", "save it as G-code"},
 };
@@ -76,21 +76,22 @@ std::string head_of(const fs::path& path) {
 void refuse_kinds_not_read(const fs::path& path, std::string_view head) {
   for (const KindNotRead& kind : kinds_not_read)
     if (head.starts_with(kind.begin) && (kind.ending.empty() || has_ending(path, kind.ending)))
-      throw_input_error("{}: is {}, which is not read; {}", path.string(), kind.name, kind.way_out);
+      throw_input_error("{}: is {}, which sandstroke cannot read; {}", path.string(), kind.name,
+                        kind.way_out);
 }
 
 /// Refuses text that begins as XML or JSON, which other programs read. A script begins with [[segment]] or a
 /// name.
 void refuse_trees_of_text(const fs::path& path, std::string_view text) {
   if (text.starts_with('<'))
-    throw_input_error("{}: is XML or HTML without ink (InkML); {}", path.string(), as_csv);
+    throw_input_error("{}: is XML or HTML, but not InkML; {}", path.string(), as_csv);
   const std::string_view inner = text.starts_with('[') ? without_blanks(text.substr(1)) : "";
   const bool is_list =
       !inner.empty() && std::string_view("{[-0123456789\"").find(inner[0]) != std::string_view::npos;
   if (text.starts_with('{') || (is_list && !text.starts_with("[[")) || has_ending(path, ".json")) {
     throw_input_error(
-        "{}: is JSON, which is not read; save it as CSV: pandas.read_json('FILE').to_csv('samples.csv', "
-        "index=False)",
+        "{}: is JSON, which sandstroke cannot read; save it as CSV: "
+        "pandas.read_json('FILE').to_csv('samples.csv', index=False)",
         path.string());
   }
 }
@@ -119,7 +120,7 @@ std::optional<SampleTable> read_known_format(const fs::path& path, const TableSe
   if (!part.empty()) throw_input_error("{}: has no parts; leave out --part {}", path.string(), part);
   refuse_kinds_not_read(path, head);
   if (is_binary(head)) {
-    throw_input_error("{}: is neither text nor of a format that is read (ROS 2 bag, MATLAB); {}",
+    throw_input_error("{}: is neither text nor a binary format that sandstroke reads (ROS 2 bag, MATLAB); {}",
                       path.string(), as_csv);
   }
   const std::string_view text = without_blanks(without_byte_order_mark(head));

@@ -49,8 +49,8 @@ class GcodeReader {
   GcodeReader(const std::string& name, const std::string& pen_up)
       : name_(name), pen_up_text_(pen_up), pen_up_(gcode_words(pen_up, "pen_up")) {
     if (!pen_up.empty() && pen_up_.m.size() != 1)
-      throw_input_error("pen_up = \"{}\" is no word by which a pen is lifted; give one such as \"M280 S90\"",
-                        pen_up);
+      throw_input_error(
+          "pen_up = \"{}\" is not a G-code word that lifts a pen; give a word such as \"M280 S90\"", pen_up);
   }
 
   void take_line(std::string_view text, std::size_t number) {
@@ -73,7 +73,8 @@ class GcodeReader {
   SampleTable table() const {
     if (pen_up_.m.empty() && servo_angles_.size() > 1)
       throw_input_error(
-          "{}:{}: M{} moves a pen, at S {}, and which of them lifts it is not known; give {} \"M{} S{}\"",
+          "{}:{}: M{} moves a pen to S {}, but it is not known which of them lifts it; set {} to the one "
+          "that lifts, such as \"M{} S{}\"",
           name_, servo_line_, servo_ / 10, fmt::join(servo_angles_, " and "), option_and_key("pen_up"),
           servo_ / 10, *servo_angles_.rbegin());
     SampleTable table = table_of_gcode(path_, name_);
@@ -137,7 +138,7 @@ class GcodeReader {
       case 940:
         return true;
       default:
-        throw_input_error("{}: G{:g} is not read; write the path as G0 to G3", place(), code / 10.0);
+        throw_input_error("{}: G{:g} is not supported; write the path with G0 to G3", place(), code / 10.0);
     }
   }
 
@@ -191,9 +192,9 @@ class GcodeReader {
 
   void arc(const GcodeWords& words) {
     if (plane_ != 17)
-      throw_input_error("{}: an arc that is not in the plane of X and Y (G17); write lines", place());
+      throw_input_error("{}: the arc is not in the plane of X and Y (G17); write lines instead", place());
     if (words['P'] && *words['P'] != 1.0)
-      throw_input_error("{}: an arc of several turns (P); write each turn in a line of its own", place());
+      throw_input_error("{}: the arc has several turns (P); write one line for each turn", place());
     const Vector3d begin = position_, end = target(words);
     GcodeArc curve;
     curve.centre =
@@ -237,10 +238,10 @@ class GcodeReader {
   Vector2d centre_by_radius(const Vector2d& end, double radius) const {
     const Vector2d way = end - position_.head<2>();
     const double half = 0.5 * way.norm();
-    if (half == 0.0) throw_input_error("{}: an arc by R ends where it begins; give I and J", place());
+    if (half == 0.0) throw_input_error("{}: the arc with R ends where it begins; give I and J", place());
     if (half > std::abs(radius) * (1.0 + 1e-4) + 0.005)
-      throw_input_error("{}: R is {:g} mm, too short for an arc over {:g} mm; correct it", place(),
-                        std::abs(radius), 2.0 * half);
+      throw_input_error("{}: R is {:g} mm, too small for an arc between points {:g} mm apart; correct it",
+                        place(), std::abs(radius), 2.0 * half);
     const double height = std::sqrt(std::max(radius * radius - half * half, 0.0));
     const Vector2d left = Vector2d(-way.y(), way.x()) / (2.0 * half);
     const bool centre_left = (motion_ == 3) == (radius > 0.0);

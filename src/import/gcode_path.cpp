@@ -79,8 +79,8 @@ SampleTable table_of_gcode(const GcodePath& path, const std::string& name) {
     throw_input_error(
         "{}: the pen is never down; {}", name,
         has_word && !is_spindle
-            ? fmt::format("pen_up = \"{}\" lifts it all the time: name the other position", path.pen_word)
-            : "let M3 (S above 0) or Z lower it before a move by G1");
+            ? fmt::format("pen_up = \"{}\" lifts it all the time; name the other position", path.pen_word)
+            : "lower it with M3 (S above 0) or Z before a G1 move");
 
   std::vector<std::string> passed;
   for (const int code : path.passed_over) passed.push_back(fmt::format("G{:g}", code / 10.0));
@@ -91,9 +91,9 @@ SampleTable table_of_gcode(const GcodePath& path, const std::string& name) {
                           : "",
                   is_spindle                    ? ", the pen is down after M3"
                   : has_word                    ? fmt::format(", the pen is up after {}", path.pen_word)
-                  : path.draws_rapidly && !by_z ? ", G0 draws, too, for nothing lifts a pen"
+                  : path.draws_rapidly && !by_z ? ", G0 draws too, because nothing lifts the pen"
                                                 : "",
-                  passed.empty() ? "" : fmt::format(", {} passed over", fmt::join(passed, ", ")));
+                  passed.empty() ? "" : fmt::format(", {} skipped", fmt::join(passed, ", ")));
   return table;
 }
 

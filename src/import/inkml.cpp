@@ -144,7 +144,7 @@ class InkmlReader {
       const bool same = std::equal(channels.begin(), channels.end(), channels_.begin(), channels_.end(),
                                    [](const InkChannel& a, const InkChannel& b) { return a.name == b.name; });
       if (format != nodes_.formats.front() && !same)
-        throw_input_error("{}: its traces have several formats (traceFormat); save them in files of one each",
+        throw_input_error("{}: its traces have several formats (traceFormat); save one file for each format",
                           name_);
       channels_ = channels;
     }
@@ -167,8 +167,9 @@ class InkmlReader {
         const std::optional<double> value = values[i].cut(point);
         if (!value) {
           throw_input_error(
-              "{}: trace {}, point {}: '{}' has no finite number for each of {} channels; correct it", name_,
-              trace_, table_.lifts.size() - begin + 1, whole.substr(0, 60), channels_.size());
+              "{}: trace {}, point {}: '{}' does not have a finite number for each of the {} channels; "
+              "correct it",
+              name_, trace_, table_.lifts.size() - begin + 1, whole.substr(0, 60), channels_.size());
         }
         table_.columns[i].values.push_back(*value / channels_[i].per_unit);
       }
@@ -195,7 +196,7 @@ SampleTable parse_inkml(std::string_view text, const std::string& name) {
   const pugi::xml_parse_result result = document.load_buffer(text.data(), text.size());
   if (!result) {
     const auto until = text.begin() + std::min<std::ptrdiff_t>(result.offset, std::ssize(text));
-    throw_input_error("{}:{}: is not sound XML ({}); save the file again", name,
+    throw_input_error("{}:{}: is not valid XML ({}); save the file again", name,
                       1 + std::count(text.begin(), until, '\n'), result.description());
   }
   return finite_samples(InkmlReader(document, name).table(), name);

@@ -44,7 +44,8 @@ class MatReader {
     std::vector<MatVariable> found;
     while (const MatHandle variable{Mat_VarReadNextInfo(file_.get())}) {
       if (found.size() > most)
-        throw_input_error("{}: has more than {} variables; save those of one stroke", name_, most);
+        throw_input_error("{}: has more than {} variables; save only the variables of one stroke", name_,
+                          most);
       const std::string name = variable->name ? variable->name : "";
       if (variable->class_type != MAT_C_STRUCT) {
         take(variable.get(), name, found);
@@ -149,9 +150,8 @@ std::vector<MatVariable> chosen(std::vector<MatVariable> variables, const std::s
                       name, part, listed(variables));
   if (lengths.size() == 1) return fit;
   throw_input_error(
-      "{}: its variables differ in length; name one by stroke.table.part (stroke convert: --part), and those "
-      "as "
-      "long are taken with it: {}",
+      "{}: its variables differ in length; name one with stroke.table.part (stroke convert: --part), and all "
+      "variables of that length are read: {}",
       name, listed(fit));
 }
 
@@ -185,9 +185,8 @@ SampleTable read_mat(const fs::path& path, const std::string& part) {
   std::vector<MatVariable> variables = MatReader(path).variables();
   if (variables.empty()) {
     throw_input_error(
-        "{}: has no numeric vectors or matrices (tables and timeseries are not read); save columns: s = "
-        "table2struct(T, "
-        "'ToScalar', true); save('FILE.mat', '-struct', 's')",
+        "{}: has no numeric vectors or matrices (tables and timeseries are not supported); save columns: s = "
+        "table2struct(T, 'ToScalar', true); save('FILE.mat', '-struct', 's')",
         path.string());
   }
   SampleTable table;
@@ -198,8 +197,8 @@ SampleTable read_mat(const fs::path& path, const std::string& part) {
   const std::size_t left_out = leave_out_unknown(table.columns);
   if (table.size() == 0)
     throw_input_error(
-        "{}: no sample has finite numbers only; name other variables by --part (in a scene: "
-        "stroke.table.part)",
+        "{}: every sample has a number that is NaN or infinite; name other variables with stroke.table.part "
+        "(stroke convert: --part)",
         path.string());
   table.description = fmt::format("MATLAB file: {} columns, {} samples{}", table.columns.size(), table.size(),
                                   left_out ? fmt::format(", {} with NaN left out", left_out) : "");

@@ -14,9 +14,8 @@ double offset_of(const ImportedStroke& first, const ImportedStroke& second, doub
                  const std::string& first_name, const std::string& second_name) {
   if (first.clock.has_value() != second.clock.has_value() && shift == 0.0)
     throw_input_error(
-        "{}: only one of it and {} has the stamps of a clock, so how their times belong together is not "
-        "known; "
-        "give {}: seconds that are added to its times",
+        "{}: only one of this table and {} has clock times, so their times cannot be aligned; give {}: the "
+        "seconds to add to the times of this table",
         second_name, first_name, option_and_key("merge_shift"));
   if (!first.clock || !second.clock) return shift;
   constexpr std::int64_t second_ns = 1'000'000'000;
@@ -30,25 +29,24 @@ void merge_strokes(ImportedStroke& first, const ImportedStroke& second, double s
                    const std::string& first_name, const std::string& second_name) {
   const Stroke& from = second.stroke;
   if (from.force.empty() && from.orientation.empty())
-    throw_input_error("{}: has neither a force nor an orientation by its names; name them with {} or {}",
+    throw_input_error("{}: no columns are named as a force or an orientation; name the columns with {} or {}",
                       second_name, option_and_key("force"), option_and_key("orientation"));
   const double offset = offset_of(first, second, shift, first_name, second_name);
   Stroke& stroke = first.stroke;
   const double begin = from.time.front() + offset, end = from.time.back() + offset;
-  first.description +=
-      fmt::format("; merged {}: begins {:+.6g} s and ends {:+.6g} s after it ({})", second_name,
-                  begin - stroke.time.front(), end - stroke.time.back(), second.description);
+  first.description += fmt::format(
+      "; merged {}: begins {:+.6g} s after the first table begins, ends {:+.6g} s after it ends ({})",
+      second_name, begin - stroke.time.front(), end - stroke.time.back(), second.description);
   first.warnings.insert(first.warnings.end(), second.warnings.begin(), second.warnings.end());
   if (begin > stroke.time.back() || end < stroke.time.front())
-    throw_input_error(
-        "{}: its time, {:.6g} to {:.6g} s, shares nothing with {:.6g} to {:.6g} s of {}; give {}",
-        second_name, begin, end, stroke.time.front(), stroke.time.back(), first_name,
-        option_and_key("merge_shift"));
+    throw_input_error("{}: its times, {:.6g} to {:.6g} s, do not overlap {:.6g} to {:.6g} s of {}; give {}",
+                      second_name, begin, end, stroke.time.front(), stroke.time.back(), first_name,
+                      option_and_key("merge_shift"));
   const double before = std::max(begin - stroke.time.front(), 0.0),
                after = std::max(stroke.time.back() - end, 0.0);
   if (before > 0.0 || after > 0.0)
     first.warnings.push_back(fmt::format(
-        "{}: {:.6g} s at its beginning and {:.6g} s at its end are left out, for {} does not cover them",
+        "{}: {:.6g} s at its beginning and {:.6g} s at its end are left out, because {} does not cover them",
         first_name, before, after, second_name));
   const auto sample_at = [&](double time) {
     return static_cast<std::size_t>(std::lower_bound(stroke.time.begin(), stroke.time.end(), time) -
@@ -57,8 +55,8 @@ void merge_strokes(ImportedStroke& first, const ImportedStroke& second, double s
   const std::size_t kept_end = static_cast<std::size_t>(
       std::upper_bound(stroke.time.begin(), stroke.time.end(), end) - stroke.time.begin());
   if (sample_at(begin) >= kept_end)
-    throw_input_error("{}: no sample of {} lies within its time; give {}", second_name, first_name,
-                      option_and_key("merge_shift"));
+    throw_input_error("{}: no sample of {} lies within the times of this table; give {}", second_name,
+                      first_name, option_and_key("merge_shift"));
   keep_samples(stroke, sample_at(begin), kept_end);
 
   if (!from.force.empty()) stroke.force_sign = from.force_sign;

@@ -85,8 +85,7 @@ Statement Ros2Bag::query(const char* sql) {
   if (failure == SQLITE_ERROR) {
     throw_input_error(
         "{}: is an SQLite file without ROS messages (tables topics and messages); name a bag, or save a "
-        "table of "
-        "samples as CSV",
+        "table of samples as CSV",
         name_);
   }
   if (failure != SQLITE_OK)
@@ -175,9 +174,10 @@ SampleTable Ros2Bag::table(const BagTopic& topic) {
       std::any_of(stamps.begin(), stamps.end(), [](std::int64_t stamp) { return stamp != 0; });
   table.columns.insert(table.columns.begin(), {"time", "ns", {}});
   set_stamps(table, has_stamps ? stamps : received);
-  table.description = fmt::format("ROS 2 bag: {} messages of {} ({}), time by {}{}", stamps.size(),
-                                  topic.name, topic.type, has_stamps ? "their headers" : "the bag",
-                                  left_out ? fmt::format(", {} that are not finite left out", left_out) : "");
+  table.description =
+      fmt::format("ROS 2 bag: {} messages of {} ({}), time from {}{}", stamps.size(), topic.name, topic.type,
+                  has_stamps ? "their headers" : "the bag",
+                  left_out ? fmt::format(", {} left out because they are not finite", left_out) : "");
   return table;
 }
 
@@ -201,9 +201,10 @@ SampleTable read_ros2_bag(const fs::path& path, const std::string& topic) {
         "Stamped); it has: {}",
         path.string(), all.empty() ? "none" : fmt::format("{}", fmt::join(all, ", ")));
   }
-  const std::string choose = fmt::format(
-      "name one of its topics by stroke.table.part (stroke convert: --part): {}", fmt::join(readable, ", "));
-  if (topic.empty()) throw_input_error("{}: several topics could be meant; {}", path.string(), choose);
+  const std::string choose =
+      fmt::format("name one of its topics with stroke.table.part (stroke convert: --part): {}",
+                  fmt::join(readable, ", "));
+  if (topic.empty()) throw_input_error("{}: several topics can be read; {}", path.string(), choose);
   throw_input_error("{}: topic '{}' cannot be read; {}", path.string(), topic, choose);
 }
 

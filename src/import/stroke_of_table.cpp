@@ -98,7 +98,7 @@ class StrokeMaker {
     for (const ColumnChoice& choice : choices) units.push_back(table_.columns[choice.column].unit);
     const bool none =
         std::all_of(units.begin(), units.end(), [](const std::string& unit) { return unit.empty(); });
-    return none ? "not known" : fmt::format("not one ({})", fmt::join(units, ", "));
+    return none ? "not known" : fmt::format("not the same in all columns ({})", fmt::join(units, ", "));
   }
 
   std::vector<Vector3d> vectors(const ColumnChoices& choices, const Unit& unit) const {
@@ -119,10 +119,11 @@ class StrokeMaker {
     std::string unit = settings_.position_unit;
     if (unit.empty()) unit = own_unit(layout_.position);
     if (unit.empty() || (unit == "radius" && settings_.position_unit.empty())) {
-      asks_.push_back(fmt::format("the unit of {} is {}; give {}: {}", names(layout_.position),
-                                  unit.empty() ? unit_not_known(layout_.position) : "the pattern's radius",
-                                  option_and_key("position_unit"),
-                                  unit.empty() ? "m, cm, mm, um, in, px or metres" : "its metres"));
+      asks_.push_back(
+          fmt::format("the unit of {} is {}; give {}: {}", names(layout_.position),
+                      unit.empty() ? unit_not_known(layout_.position) : "the pattern's radius",
+                      option_and_key("position_unit"),
+                      unit.empty() ? "m, cm, mm, um, in, px or a number of metres" : "the radius in metres"));
       unit = "m";
     }
     length_ = unit_of(Quantity::length, unit, settings_.pixel_size);
@@ -132,11 +133,11 @@ class StrokeMaker {
     const bool counts_down = layout_.position[1].sign > 0.0 &&
                              std::any_of(y.begin(), y.end(), [](double value) { return value > 0.0; });
     if (unit == "px" && counts_down)
-      made_.warnings.push_back(fmt::format(
-          "{}: on screens and tablets y counts downwards, and here it is taken upwards: if the shape is "
-          "upside down, set {} \"{},-{}\"",
-          name_, option_and_key("position"), table_.columns[layout_.position[0].column].name,
-          table_.columns[layout_.position[1].column].name));
+      made_.warnings.push_back(
+          fmt::format("{}: y is taken to point upwards, but on screens and tablets it points downwards; if "
+                      "the shape is upside down, set {} to \"{},-{}\"",
+                      name_, option_and_key("position"), table_.columns[layout_.position[0].column].name,
+                      table_.columns[layout_.position[1].column].name));
     if (layout_.position.size() == 3 && layout_.axes.determinant() < 0.0)
       made_.warnings.push_back(fmt::format(
           "{}: the axes {} are left-handed, so the shape is mirrored; change one sign, or swap two", name_,
@@ -152,8 +153,8 @@ class StrokeMaker {
       throw_input_error("{}: the unit of {} is not known; give {}", name_, names(choices),
                         option_and_key(key));
     if (asked || !unit.empty() || known_unit(quantity, found)) return found;
-    const std::string left_out =
-        fmt::format("{} left out, for its unit is not known; give {}", names(choices), option_and_key(key));
+    const std::string left_out = fmt::format("{} left out, because its unit is not known; give {}",
+                                             names(choices), option_and_key(key));
     if (quantity == Quantity::force)
       made_.warnings.push_back(fmt::format("{}: {}", name_, left_out));
     else
@@ -179,17 +180,17 @@ class StrokeMaker {
     tell(fmt::format("force {} ({})", names(layout_.force), unit));
     made_.stroke.force_sign = settings_.force_sign;
     if (settings_.force_sign == ForceSign::not_said)
-      made_.warnings.push_back(fmt::format(
-          "{}: whether {} is the force on the device or by the hand is not said, and taken as on the "
-          "device; set {}",
-          name_, names(layout_.force), option_and_key("force_sign")));
+      made_.warnings.push_back(
+          fmt::format("{}: the table does not say whether {} is the force on the device or by the hand; it "
+                      "is taken as on the device; set {} to say which",
+                      name_, names(layout_.force), option_and_key("force_sign")));
   }
 
   void take_orientation() {
     if (layout_.orientation.empty()) return;
     if (layout_.axes.determinant() < 0.0) {
       if (!settings_.orientation.empty())
-        throw_input_error("{}: left-handed axes have no orientation; change a sign of {}", name_,
+        throw_input_error("{}: orientation cannot be read with left-handed axes; change a sign of {}", name_,
                           names(layout_.position));
       return;
     }
@@ -210,7 +211,7 @@ class StrokeMaker {
         q = is_rotation ? Eigen::Quaterniond(matrix) : Eigen::Quaterniond(0.0, 0.0, 0.0, 0.0);
       }
       if (!(q.norm() > 0.5 && q.norm() < 2.0))
-        throw_input_error("{}: columns {} are no {}; name others, or correct it", place(i),
+        throw_input_error("{}: columns {} are not a {}; name other columns, or correct the sample", place(i),
                           names(layout_.orientation),
                           layout_.orientation.size() == 4 ? "quaternion of length 1" : "rotation matrix");
       made_.stroke.orientation.emplace_back((turn * q.normalized()).coeffs());
@@ -246,7 +247,7 @@ class StrokeMaker {
   void take_times() {
     const bool asked = !settings_.time.empty();
     if (asked + (settings_.rate > 0.0) + (settings_.speed > 0.0) > 1)
-      throw_input_error("{}: the times are given twice; give one of time, rate and speed", name_);
+      throw_input_error("{}: the times are given twice; give only one of time, rate and speed", name_);
     Stroke& stroke = made_.stroke;
     const double rate = settings_.rate > 0.0 ? settings_.rate : table_.rate;
     if (layout_.time) {
@@ -259,14 +260,14 @@ class StrokeMaker {
       tell(fmt::format("{} Hz", rate));
     } else {
       if (table_.line_tolerance > 0.0)
-        asks_.push_back(fmt::format("the file says no speed; give {} in m/s", option_and_key("speed")));
+        asks_.push_back(fmt::format("the file gives no speed; give {} in m/s", option_and_key("speed")));
       else if (is_second_)
         asks_.push_back(
-            fmt::format("the times are unknown, for no column is named time or t; give {}, or {} in Hz",
+            fmt::format("the times are unknown, because no column is named time or t; give {}, or {} in Hz",
                         option_and_key(own_key("time")), option_and_key(own_key("rate"))));
       else
         asks_.push_back(fmt::format(
-            "the times are unknown, for no column is named time or t; give {}, {} in Hz, or {} in m/s",
+            "the times are unknown, because no column is named time or t; give {}, {} in Hz, or {} in m/s",
             option_and_key("time"), option_and_key("rate"), option_and_key("speed")));
     }
   }

@@ -199,8 +199,9 @@ TableLayout table_layout(const std::vector<SampleColumn>& columns, const TableSe
     layout.position = finder.found(Means::position, 2, 3, true);
     if (layout.position.empty())
       throw_input_error(
-          "{}: no columns are named x, y and z; name or number the position's with {}; they are: {}", place,
-          option_and_key("position"), finder.all_names());
+          "{}: no columns are named x, y and z; give the names or numbers of the position's columns with {}; "
+          "the columns are: {}",
+          place, option_and_key("position"), finder.all_names());
   }
   layout.axes = of_first ? *of_first : finder.axes_of(layout.position);
   const auto vector = [&](const std::string& list, const char* key, Means means) {

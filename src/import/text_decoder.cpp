@@ -20,7 +20,7 @@ TextDecoder::~TextDecoder() {
 void TextDecoder::open() {
   const iconv_t opened = iconv_open("UTF-8", encoding_.c_str());
   if (opened == reinterpret_cast<iconv_t>(-1))
-    throw_input_error("{}: '{}' is no encoding that is known here; iconv --list names them", name_,
+    throw_input_error("{}: '{}' is not a known encoding; iconv --list prints the known ones", name_,
                       encoding_);
   iconv_ = opened;
 }
@@ -50,8 +50,9 @@ std::string_view TextDecoder::end() {
   if (!begun_) begin();
   const std::string_view last = convert();
   if (iconv_ && !bytes_.empty())
-    throw_input_error("{}: ends within a character of {}; take a whole copy, or another encoding", name_,
-                      encoding_);
+    throw_input_error(
+        "{}: ends in the middle of a character of {}; take a complete copy, or name another encoding", name_,
+        encoding_);
   return last;
 }
 

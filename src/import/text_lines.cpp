@@ -37,8 +37,8 @@ void TextLines::extend_line(std::string_view part) {
 void TextLines::end_line(const Take& take) {
   const std::string_view line = ++line_ == 1 ? without_byte_order_mark(rest_) : rest_;
   if (line.find('\0') != std::string_view::npos)
-    throw_input_error("{}:{}: holds a zero byte, so the file is no text; export it as a table (CSV)", name_,
-                      line_);
+    throw_input_error("{}:{}: contains a zero byte, so the file is not text; export it as a table (CSV)",
+                      name_, line_);
   take(without_blanks(line, " \t\r"), line_);
   rest_.clear();
 }

@@ -160,9 +160,8 @@ class TextTable::Rows {
     const auto second =
         std::find_if(waiting_.begin() + 1, waiting_.end(), [](const Line& l) { return !l.lifts; });
     throw_input_error(
-        "{}:{}: '{}' is no row of two numbers or more, with whatever separator and decimal mark; give a "
-        "table "
-        "with one row per sample (--skip-lines and --skip pass over other lines)",
+        "{}:{}: '{}' is not a row of two or more numbers, with any known separator and decimal mark; give a "
+        "table with one row per sample (--skip-lines and --skip leave out other lines)",
         name_, second->number, excerpt(second->text));
   }
 
@@ -181,8 +180,8 @@ class TextTable::Rows {
       }
     if (!first.empty())
       throw_input_error(
-          "{}: \"{}\" may be thousands or a decimal; give {}, or save the table without thousands "
-          "separators",
+          "{}: the comma in \"{}\" may separate thousands or decimals; give {}, or save the table without "
+          "thousands separators",
           name_, first, option_and_key("decimal"));
   }
 
@@ -210,7 +209,7 @@ class TextTable::Rows {
                            (fields.size() == fields_of_most_ + 1 && fields.back().empty());
     if (!names_all)
       throw_input_error(
-          "{}: the first line has {} fields ({}), and most lines have {}; pass over it with {} or {}", here,
+          "{}: the first line has {} fields ({}), but most lines have {}; leave it out with {} or {}", here,
           fields.size(), excerpt(fmt::format("{}", fmt::join(fields, ", "))), fields_of_most_,
           option_and_key("skip_lines"), option_and_key("skip"));
     if (is_header) {
@@ -278,7 +277,8 @@ class TextTable::Rows {
       std::string plain = field;
       if (dialect_->decimal == DecimalMark::comma) std::replace(plain.begin(), plain.end(), ',', '.');
       const auto time = stamps_.read(plain);
-      if (!time) refuse_field(*layout_.time, field, "a time like those before, or a finite number");
+      if (!time)
+        refuse_field(*layout_.time, field, "a time in the format of the rows before, or a finite number");
       table_.columns[*layout_.time].values.push_back(*time);
     }
     for (const std::size_t column : wanted_) {

@@ -34,8 +34,9 @@ PolarPoint thr_point(std::string_view line, const std::string& name, std::size_t
   }
   if (std::abs(*rho) > 1.01) {  // digits are few, and some tracks go a little beyond the table
     throw_input_error(
-        "{}:{}: rho is {}, but it is a share of the table's radius, up to 1; divide rho by the largest", name,
-        number, *rho);
+        "{}:{}: rho is {}, but it must be a fraction of the table's radius, at most 1; divide all rho by the "
+        "largest",
+        name, number, *rho);
   }
   return {*theta, *rho};
 }
@@ -72,8 +73,9 @@ SampleTable parse_thr(std::string_view text, const std::string& name) {
     last = next;
   }
   if (points == 0) throw_input_error("{}: has no points; give lines of theta (rad) and rho (0 to 1)", name);
-  table.description = fmt::format(
-      "theta-rho track of a sand table: {} points, {} along the spirals between them", points, table.size());
+  table.description =
+      fmt::format("theta-rho track of a sand table: {} points, {} samples along the spirals between them",
+                  points, table.size());
   return table;
 }
 

@@ -64,8 +64,8 @@ class UnipenReader {
     for (std::string_view word = cut_word(rest); !word.empty(); word = cut_word(rest))
       names.push_back(column_name(word));
     if (rows_ > 0 && names != names_)
-      throw_input_error("{}:{}: .COORD names other columns than before; cut the file in two here", name_,
-                        line_);
+      throw_input_error("{}:{}: .COORD changes the columns within the file; split the file before this line",
+                        name_, line_);
     for (const char* needed : {"x", "y"})
       if (std::count(names.begin(), names.end(), needed) != 1)
         throw_input_error("{}:{}: .COORD must name X and Y once each; correct it", name_, line_);

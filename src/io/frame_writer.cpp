@@ -70,7 +70,7 @@ std::vector<Hdf5GridWriter::Patch> FrameWriter::patches() const {
 void FrameWriter::add(double time, const HeightField& surface) {
   if (times_.empty()) {
     time_ = file_.column(time_name);
-    file_.describe(time_name, "s", "of a frame");
+    file_.describe(time_name, "s", "time of a frame");
     file_.make_scale(time_name);
   }
   const auto k = static_cast<int>(times_.size());

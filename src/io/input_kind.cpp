@@ -41,7 +41,7 @@ constexpr std::array<KindText, 11> kinds{{
     {InputKind::script, "a stroke script", "", is_script, use_of_stroke},
     {InputKind::stroke, "a stroke", "", nullptr, use_of_stroke},
     {InputKind::recording, "the journal of a recording that was cut off", "", nullptr,
-     "make a stroke of it first: sandstroke stroke repair {0}"},
+     "convert it to a stroke first: sandstroke stroke repair {0}"},
     {InputKind::run, "a run file", "sandstroke.run", nullptr,
      "show it: sandstroke info {0}; draw it: sandstroke render {0}", 2},
     {InputKind::golden, "a golden entry", "sandstroke.golden", nullptr,

@@ -54,7 +54,7 @@ bool is_binary(const std::string& bytes) {
 TriangleMesh binary_mesh(const std::string& bytes, const std::string& name) {
   const std::size_t begin = header + sizeof(std::uint32_t), count = number_at<std::uint32_t>(bytes, header);
   if (bytes.size() < begin + per_triangle * count)
-    throw_input_error("{}: ends too soon: its {} triangles take {} bytes, and it has {}; export it again",
+    throw_input_error("{}: is cut off: its {} triangles take {} bytes, but the file has {}; export it again",
                       name, count, begin + per_triangle * count, bytes.size());
   TriangleMesh mesh;
   for (std::size_t i = 0; i < count; ++i) {
@@ -93,7 +93,7 @@ TriangleMesh text_mesh(const std::string& bytes, const std::string& name) {
   Words words(bytes);
   if (words.next() != "solid")
     throw_input_error(
-        "{}: is no STL file: it neither begins with \"solid\" nor is long enough for a binary one", name);
+        "{}: is not an STL file: it neither begins with \"solid\" nor is long enough for a binary one", name);
   std::array<Eigen::Vector3d, 3> corners;
   std::size_t corner = 0;
   for (std::string_view word = words.next(); !word.empty(); word = words.next()) {
@@ -106,7 +106,8 @@ TriangleMesh text_mesh(const std::string& bytes, const std::string& name) {
       if (!word.empty() && word.front() == '+') word.remove_prefix(1);
       const auto [end, failure] = std::from_chars(word.data(), word.data() + word.size(), x);
       if (word.empty() || failure != std::errc() || end != word.data() + word.size())
-        throw_input_error("{}:{}: '{}' is no number; a vertex has three", name, words.line(), word);
+        throw_input_error("{}:{}: '{}' is not a number; a vertex has three numbers", name, words.line(),
+                          word);
     }
     if (++corner == 3) add_triangle(mesh, corners);
   }

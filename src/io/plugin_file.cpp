@@ -15,8 +15,8 @@ Function* function_of(void* library, const char* name, const std::string& file) 
   void* const found = dlsym(library, name);
   if (!found)
     throw_input_error(
-        "{}: is no plugin, for it has no {}; write SANDSTROKE_LAWS(laws) {{ ... }} in one of its files, and "
-        "build it again",
+        "{}: is not a plugin, because it has no {}; write SANDSTROKE_LAWS(laws) {{ ... }} in one of its "
+        "files, and build it again",
         file, name);
   return reinterpret_cast<Function*>(found);
 }
@@ -32,20 +32,20 @@ std::shared_ptr<const OwnLaws> load_plugin(const std::filesystem::path& path) {
   if (!library) {
     const char* const why = dlerror();
     throw_input_error(
-        "{}: is no plugin that can be loaded ({}); build it again, with add_library(... MODULE ...)", file,
+        "{}: cannot be loaded as a plugin ({}); build it again, with add_library(... MODULE ...)", file,
         why ? why : "no reason given");
   }
   const std::string theirs = function_of<const char*()>(library, "sandstroke_plugin_interface", file)(),
                     ours = plugin_interface();
   if (theirs != ours)
-    throw_input_error("{}: was built for {}, and this program is {}; build it again", file, theirs, ours);
+    throw_input_error("{}: was built for {}, but this program is {}; build it again", file, theirs, ours);
   const auto add_laws = function_of<void(OwnLaws&)>(library, "sandstroke_plugin_laws", file);
   try {
     add_laws(*laws);
   } catch (const Error&) {
     throw;
   } catch (const std::exception& failure) {
-    throw_input_error("{}: failed to name its laws: {}; correct it", file, failure.what());
+    throw_input_error("{}: SANDSTROKE_LAWS failed: {}; correct it", file, failure.what());
   }
   if (laws->relaxations.empty() && laws->displacements.empty() && laws->forces.empty())
     throw_input_error("{}: has no laws; add some in its SANDSTROKE_LAWS", file);
@@ -60,8 +60,8 @@ OwnLawSettings with_plugin(OwnLawSettings own, const std::filesystem::path& fold
 void check_own_force(const Scene& scene, const std::filesystem::path& stroke_file) {
   if (scene.own.force.empty() || !stroke_depends_on_force(stroke_file)) return;
   throw_input_error(
-      "{}: it presses by force, which is known for the paper's law only; give depths, or leave out "
-      "model.force = \"{}\"",
+      "{}: the script gives forces, but only the paper's law can turn forces into depths; give depths, or "
+      "leave out model.force = \"{}\"",
       stroke_file.string(), scene.own.force);
 }
 

@@ -58,8 +58,8 @@ class PngReader {
   /// Must be called before memory is taken for the pixels.
   void check_size() const {
     if (width() > largest_png_side || height() > largest_png_side)
-      throw_input_error("{}: has {} x {} pixels, which is too large; at most {} per side", name_, width(),
-                        height(), largest_png_side);
+      throw_input_error("{}: has {} x {} pixels, which are too many; a picture has at most {} per side",
+                        name_, width(), height(), largest_png_side);
   }
 
   /// Pixels of `pixel_bytes` each, rows from the top: 3 = 8-bit RGB, 2 = 16-bit gray as stored (big-endian).

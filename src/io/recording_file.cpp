@@ -62,8 +62,9 @@ class SampleColumns {
 };
 
 constexpr const char* attribute_units =
-    "s, Hz, m, N, N/m, N s/m; clock_start: ns; yes and no: 1 and 0; of the device 0 means none or unknown, "
-    "a force of 1.8e308 N any. A sample's wall time: started + monotonic_time / 1e9 - started_monotonic";
+    "s, Hz, m, N, N/m, N s/m; clock_start: ns; yes and no: 1 and 0; for the device's values 0 means none or "
+    "unknown, and a force of 1.8e308 N means any. A sample's wall time: started + monotonic_time / 1e9 - "
+    "started_monotonic";
 
 /// The footer, with counts that fit the samples there are. recorded: the samples' counts; `elapsed` ends with
 /// the last sample.

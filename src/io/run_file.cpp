@@ -24,7 +24,7 @@ RunFile::RunFile(const std::filesystem::path& path) try : file_(path) {
   const int own_version = output_kind(InputKind::run).version;
   if (version_ != first_version && version_ != own_version)
     throw_input_error(
-        "{}: has run format {}, and this program reads formats {} and {}; use a newer version of sandstroke",
+        "{}: has run format {}, but this program reads formats {} and {}; use a newer version of sandstroke",
         file_.name(), version_, first_version, own_version);
 } catch (const Error&) {
   expect_kind(path, {InputKind::run});
@@ -92,8 +92,8 @@ std::vector<RelaxationRecord> RunFile::relaxations() const {
     const std::string name = std::string("/relaxation/") + field.name;
     const std::vector<double> column = file_.doubles(name);
     if (column.size() != count)
-      throw_input_error("{}: {} has {} rows and /relaxation/time {}; the file is damaged", file_.name(), name,
-                        column.size(), count);
+      throw_input_error("{}: {} has {} rows, but /relaxation/time has {}; the file is damaged", file_.name(),
+                        name, column.size(), count);
     using Value = std::decay_t<decltype(of(relaxations.front()))>;
     for (std::size_t i = 0; i < count; ++i) of(relaxations[i]) = static_cast<Value>(column[i]);
   });
@@ -114,7 +114,7 @@ std::vector<TickRecord> RunFile::trace() const {
   visit_trace([&](const std::string& name, const auto&) {
     const std::vector<hsize_t> shape = file_.shape(name);
     if (shape.empty() || shape[0] != count)
-      throw_input_error("{}: {} has {} rows and /trace/time {}; the file is damaged", file_.name(), name,
+      throw_input_error("{}: {} has {} rows, but /trace/time has {}; the file is damaged", file_.name(), name,
                         shape.empty() ? 0 : shape[0], count);
   });
   check_memory(static_cast<double>(count) * sizeof(TickRecord),

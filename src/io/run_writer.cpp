@@ -79,11 +79,12 @@ void visit_trace(const TraceContent& content, const Visit& visit) {
 
 void write_tool_mesh(Hdf5GridWriter& file, const TriangleMesh& mesh) {
   file.write("/tool/vertices", mesh.vertices);
-  file.describe("/tool/vertices", "m", "of the tool's surface in its own frame: x, y, z");
+  file.describe("/tool/vertices", "m", "vertices of the tool's surface in the tool's frame: x, y, z");
   Hdf5Column triangles = file.column<std::int32_t>("/tool/triangles", 3);
   triangles.append(mesh.triangles.data()->data(), mesh.triangles.size());
-  file.describe("/tool/triangles", "",
-                "of the tool's surface: its corners' rows, counterclockwise from outside");
+  file.describe(
+      "/tool/triangles", "",
+      "triangles of the tool's surface: rows of their corners in vertices, counterclockwise from outside");
 }
 
 }  // namespace
@@ -187,7 +188,7 @@ void RunWriter::end(const RunResult& result, const HeightField& surface) {
   file_.attribute(provenance, "threads", result.threads);
   if (result.interrupted) {
     file_.flush();
-    spdlog::warn("stopped; the part that was run is in {}", part_path(path_).string());
+    spdlog::warn("stopped; the results up to here are in {}", part_path(path_).string());
     return;
   }
   frames_.finish();

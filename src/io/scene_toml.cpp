@@ -34,7 +34,7 @@ Scene read_scene(TomlReader toml, const std::vector<std::string>& overrides,
   toml.skip("relaxation.engine");  // in older scenes and run files: all engines gave the same bits
   if (constexpr const char* travel = "relaxation.travel"; toml.has(travel)) {
     if (written == Written::by_a_user && !is_void(travel, toml.literal(travel)))
-      toml.fail(travel, "is now relaxation.way, in tool radii instead of cells");
+      toml.fail(travel, "was replaced by relaxation.way, in tool radii instead of cells; set that");
     toml.skip(travel);
   }
   toml.reject_unread([] { return conditions(all_scene_keys()); });

@@ -16,20 +16,21 @@ struct ColumnText {
   bool is_vector = false;
 };
 constexpr ColumnText column_texts[] = {
-    {"time", "s", "since the first sample: right before the device was read"},
-    {"position", "m", "as the device gave it, in its frame (attribute frame of /stroke)", true},
-    {"velocity", "m/s", "as the device gave it, in its frame", true},
-    {"force", "N", "on the hand, commanded after this reading and held until the next, in the device's frame",
-     true},
-    {"orientation", "", "of the tool, as a unit quaternion x, y, z, w, in the positions' frame"},
-    {"pressure", "", "of the pen, in its own unit"},
-    {"switches", "", "that were pressed: switch k is bit k"},
+    {"time", "s", "time since the first sample, taken right before the device was read"},
+    {"position", "m", "position as the device gave it, in its frame (attribute frame of /stroke)", true},
+    {"velocity", "m/s", "velocity as the device gave it, in its frame", true},
+    {"force", "N",
+     "force on the hand, commanded after this reading and held until the next, in the device's frame", true},
+    {"orientation", "", "orientation of the tool, as a unit quaternion x, y, z, w, in the positions' frame"},
+    {"pressure", "", "pressure of the pen, in its own unit"},
+    {"switches", "", "pressed switches: switch k is bit k"},
     {"sequence", "", "number of the tick, from 0; ticks without a sample are missing"},
     {"monotonic_time", "ns", "time, as the system's clock gave it (attribute clock of /stroke)"},
     {"flags", "",
      "sum of: 1 read over half a tick late, 2 ticks before it are missing, 4 force cut to the limit, 8 force "
-     "fading in, 16 change of force limited, 32 force was not a number and not given, 64 tool did not dig "
-     "because relaxation was late, 128 no force given because the tool had not been out of the sand before"},
+     "fading in, 16 change of force limited, 32 force was not a number and not given, 64 tool did not "
+     "displace sand because relaxation was late, 128 no force given because the tool had not been out of the "
+     "sand before"},
     {"contact", "", "pen: 0 is up, 1 is down, 2 lifts right after this sample"},
 };
 
@@ -46,7 +47,7 @@ void check_stroke_format(const Hdf5Reader& file) {
                              : 0.0;
   if (version != format_version) {
     throw_input_error(
-        "{}: {} has format_version {} (0 = none), and this program reads {}; convert the stroke again",
+        "{}: {} has format_version {} (0 = none), but this program reads {}; convert the stroke again",
         file.name(), stroke_group, version, format_version);
   }
 }

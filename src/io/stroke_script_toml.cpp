@@ -19,22 +19,22 @@ struct PressKeys {
 };
 
 void show_press(KeyVisitor& v, PressKeys& press) {
-  v.profile("depth", press.depth, depth_range, "m", "depth below z = 0; a list is spread along the segment");
-  v.profile(
-      "force", press.force, force_range, "N",
-      "repulse force that is felt, instead of depth: all heights then count from the sand as it lies; a list "
-      "is spread too");
+  v.profile("depth", press.depth, depth_range, "m",
+            "depth below z = 0; a list gives values evenly spaced along the segment");
+  v.profile("force", press.force, force_range, "N",
+            "repulse force that is felt, instead of depth; all heights then count from the surface of the "
+            "sand; a list works as for depth");
 }
 
 void show_turn(KeyVisitor& v, ToolTurn& turn) {
   int heading = static_cast<int>(turn.heading);
   v.choice("heading", heading, {"fixed", "path"},
-           "the tool keeps its heading, or its +x points along the path");
+           "fixed: the tool keeps its heading; path: its +x points along the path");
   turn.heading = static_cast<ToolTurn::Heading>(heading);
   v.profile("turn", turn.turn, degrees, "deg",
-            "turn of the tool about z from its heading, from +x towards +y; a list is spread");
+            "rotation of the tool about z from its heading, from +x towards +y; a list works as for depth");
   v.profile("tilt", turn.tilt, degrees, "deg",
-            "lean of the tool, its upper end towards its own +x; a list is spread");
+            "tilt of the tool: its upper end leans towards the tool's +x; a list works as for depth");
 }
 
 /// The script's values, which segments take if they have none of their own.
@@ -45,12 +45,12 @@ struct Defaults {
 };
 
 void show_script(KeyVisitor& v, StrokeScript& script, Defaults& defaults) {
-  v.numbers("start", script.start.data(), 2, any_number, "m", "where the tool begins, in the air");
-  v.number("clearance", script.clearance, {0.0, 1.0}, "m", "height above z = 0 at which it travels");
+  v.numbers("start", script.start.data(), 2, any_number, "m", "where the tool starts, in the air");
+  v.number("clearance", script.clearance, {0.0, 1.0}, "m", "height above z = 0 at which the tool travels");
   v.number("travel_speed", script.travel_speed, speed_range, "m/s", "speed between segments, in the air");
   v.number("plunge_speed", script.plunge_speed, speed_range, "m/s", "speed down into the sand and up again");
   v.number("turn_speed", script.turn_speed, {0.0, 1e5, true}, "deg/s",
-           "speed of the tool where it turns in its place");
+           "speed at which the tool turns while it stays in place");
   v.number("rate", script.rate, {20.0, 1e6}, "Hz", "samples per second");  // slower ones would count as gaps
   v.integers("repeat", &script.repeat, 1, 1, 1000, "number of times that the segments are drawn");
   v.number("speed", defaults.speed, speed_range, "m/s", "speed of the tip while it draws");
@@ -82,7 +82,8 @@ void show_shape(KeyVisitor& v, ScriptArc& arc) {
   show_point(v, "centre", arc.centre, "centre of the circle");
   show_number(v, "radius", arc.radius, positive, "m", "radius of the circle");
   show_number(v, "start_angle", arc.start_angle, any_number, "deg", "start of the arc, from +x towards +y");
-  show_number(v, "end_angle", arc.end_angle, any_number, "deg", "end of the arc; clockwise if below start");
+  show_number(v, "end_angle", arc.end_angle, any_number, "deg",
+              "end of the arc; clockwise if below start_angle");
 }
 
 void show_shape(KeyVisitor& v, ScriptSpline& spline) {
@@ -104,11 +105,11 @@ void show_segment(KeyVisitor& v, ScriptSegment& segment, PressKeys& press) {
   int kind = 0;
   v.require("kind");
   v.choice("kind", kind, {"move", "line", "arc", "spline", "text"},
-           "what it draws; move draws nothing, in the air");
+           "what the segment draws; move draws nothing: the tool travels in the air");
   const decltype(segment.shape) shapes[] = {ScriptMove{}, ScriptLine{}, ScriptArc{}, ScriptSpline{},
                                             ScriptText{}};
   segment.shape = shapes[kind];
-  v.number("wait", segment.wait, not_negative, "s", "rest at the end");
+  v.number("wait", segment.wait, not_negative, "s", "pause at the end of the segment");
   if (kind > 0) {
     v.number("speed", segment.speed, speed_range, "m/s", "speed of the tip; default: that of the script");
     show_press(v, press);
@@ -120,7 +121,7 @@ void show_segment(KeyVisitor& v, ScriptSegment& segment, PressKeys& press) {
 /// The depth or force of a table, else the fallback.
 PressProfile press_of(const TomlReader& toml, const PressKeys& given, const PressProfile& fallback) {
   if (!given.depth.empty() && !given.force.empty())
-    toml.fail("force", "cannot stand beside depth; give only one of them");
+    toml.fail("force", "cannot be given together with depth; give only one of them");
   if (!given.depth.empty()) return {PressProfile::Kind::depth, given.depth};
   if (!given.force.empty()) return {PressProfile::Kind::force, given.force};
   return fallback;
@@ -142,7 +143,7 @@ ScriptSegment read_segment(const TomlReader& toml, const PressProfile& default_p
   read_keys(toml, [&](KeyVisitor& visitor) { show_segment(visitor, segment, press); });
   segment.press = press_of(toml, press, default_press);
   if (segment.press.values.empty() && !std::holds_alternative<ScriptMove>(segment.shape))
-    toml.fail("kind", "has neither depth nor force; give one, here or for all");
+    toml.fail("kind", "needs a depth or a force; give one, in the segment or for the whole script");
   if (const auto* spline = std::get_if<ScriptSpline>(&segment.shape); spline && spline->points.size() < 2)
     toml.fail("points", "needs at least 2 points; add more");
   if (const auto* text = std::get_if<ScriptText>(&segment.shape)) check_letters(toml, text->text);
@@ -170,9 +171,9 @@ std::vector<KeySection> script_keys() {
     ScriptSegment segment;
     Defaults defaults;
     PressKeys press;
-    visitor.section("", "Keys of the whole script; from speed on they are defaults of the segments");
+    visitor.section("", "Keys of the whole script; speed and the keys below it are defaults of the segments");
     show_script(visitor, script, defaults);
-    visitor.section("segment", "the parts that are drawn in turn; each begins with [[segment]]");
+    visitor.section("segment", "the parts of the stroke, drawn in order; each begins with [[segment]]");
     show_segment(visitor, segment, press);
   });
 }

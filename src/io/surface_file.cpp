@@ -32,8 +32,8 @@ HeightField load_surface(const BedSettings& settings, const std::filesystem::pat
   if (has_picture_name(path)) {
     if (surface.low == surface.high)
       throw_input_error(
-          "{}: names no heights, and bed.surface.low and high are both {} m; set them to those of black and "
-          "white",
+          "{}: the PNG does not say its heights, and bed.surface.low and high are both {} m; set them to the "
+          "heights of black and white",
           path.string(), surface.low);
     const HeightGrid gray = read_height_png(path);
     heights = (gray == 1.0).select(surface.high, surface.low + (surface.high - surface.low) * gray);

@@ -205,13 +205,13 @@ void TomlReader::fail(std::string_view key, const std::string& sentence) const {
 double TomlReader::checked(std::string_view key, const toml::node& node, Range range,
                            std::string_view unit) const {
   if (const auto* text = node.as_string(); text && begins_as_number(text->get()))
-    fail(key, fmt::format("is '{}'; give it without a unit{}", text->get(),
+    fail(key, fmt::format("is '{}'; give only the number{}", text->get(),
                           unit.empty() ? "" : fmt::format(", in {}", unit)));
   if (!node.is_number()) fail(key, fmt::format("is {}; give a number", type_name(node)));
   const std::optional<double> held = node.value<double>();  // none for most integers beyond 2^53
   if (!held)
-    fail(key, fmt::format("is {}, a whole number beyond 2^53 = 9007199254740992, up to which all are exact; "
-                          "give a smaller one, or write it with a decimal point",
+    fail(key, fmt::format("is {}, but whole numbers are exact only up to 2^53 = 9007199254740992; give a "
+                          "smaller one, or write it with a decimal point",
                           node.value<std::int64_t>().value_or(0)));
   const double number = *held;
   if (!std::isfinite(number)) fail(key, fmt::format("is {}; give a finite number", number));
@@ -383,7 +383,8 @@ void TomlReader::reject_unread(const Conditions& conditions) const {
         set.empty() ? fmt::format("{}:{}", document_->name, node.source().begin.line) : set;
     const auto known = conditions ? conditions() : std::map<std::string, std::string>{};
     if (const auto found = known.find(key); found != known.end())
-      throw_input_error("{}: {} applies only where {}; remove it, or change that", place, key, found->second);
+      throw_input_error("{}: {} applies only where {}; remove it, or change that setting", place, key,
+                        found->second);
     for (const auto& [other, condition] : known) document_->asked_for.insert(other);
     const std::string suggestion = nearest_name(key, document_->asked_for);
     throw_input_error("{}: unknown key {}{}", place, key,

@@ -14,7 +14,7 @@ class RunProgress : public SimulationObserver {
   }
   void on_pass(std::int64_t passes, const BedNow&) override {
     const bool after_the_stroke = fraction_ == 0.0 || fraction_ == 1.0;
-    if (after_the_stroke) bar_.count(passes, "passes towards rest");
+    if (after_the_stroke) bar_.count(passes, "relaxation passes");
   }
 
  private:

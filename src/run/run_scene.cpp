@@ -44,12 +44,12 @@ std::optional<ErrorEstimate> estimated_error(const Scene& scene, const HeightFie
     if (interrupted()) return std::nullopt;
     if (!error.at_rest)
       spdlog::warn(
-          "the estimated error says little, for the sand is not at rest in both solutions; raise "
-          "relaxation.max_passes");
+          "the estimated error is not reliable, because the sand did not come to rest in both solutions; "
+          "raise relaxation.max_passes");
     return error;
   } catch (const Error& failure) {
     if (failure.kind() != ErrorKind::unstable) throw;
-    spdlog::warn("the error cannot be estimated, for the {} solution is unstable: {}",
+    spdlog::warn("the error cannot be estimated, because the {} solution is unstable: {}",
                  which == SecondSolution::finer ? "finer" : "coarser", failure.what());
     return std::nullopt;
   }
@@ -68,8 +68,9 @@ Stroke placed_samples(const Scene& scene, const Stroke& loaded, const std::strin
   const double smooth = scene.stroke->placement.smooth;
   if (smooth > 0.0 && !is_smoothed(loaded, smooth))
     spdlog::warn(
-        "{}: stroke.smooth = {:.4g} Hz changes nothing, for its samples come at less than twice that", name,
-        smooth);
+        "{}: stroke.smooth = {:.4g} Hz changes nothing, because the stroke's sampling rate is less than "
+        "twice that",
+        name, smooth);
   if (!scripted)
     for (const std::string& warning : quality_warnings(quality_of(placed)))
       spdlog::warn("{}: {}", name, warning);
@@ -83,7 +84,7 @@ Stroke placed_stroke(const Scene& scene, const std::filesystem::path& path, std:
   check_own_force(scene, path);
   const Stroke loaded = load_stroke(path, scene.force, scene.stroke->table.value_or(TableSettings{}));
   if (!loaded.complete)
-    spdlog::warn("{}: was cut off while it was recorded; the run ends where the stroke does", name);
+    spdlog::warn("{}: was cut off while it was recorded; the run ends where the stroke ends", name);
   // A recorded stroke's bytes also tell which build wrote them, so its content is hashed instead.
   hash = is_script(path) ? file_hash(path) : content_hash(loaded);
   return placed_samples(scene, loaded, name, is_script(path));
@@ -128,8 +129,8 @@ RunResult run_scene(const Scene& asked, const std::filesystem::path& output, con
     warn_if_any(depth_warning(scene, simulation.bed(), *stroke, stroke_name));
     if (!output.empty())
       check_disk(output, least_bytes(simulation),
-                 "choose another place or free disk space; output.trace = false, fewer output.frames or a "
-                 "stroke.stop keep less");
+                 "choose another place, free disk space, or store less: output.trace = false, fewer "
+                 "output.frames or an earlier stroke.stop");
   }
   const std::string scene_file =
       options.scene_file.empty() ? "" : scene_file_entry(options.scene_file, output);

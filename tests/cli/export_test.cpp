@@ -180,7 +180,7 @@ TEST(CliExport, APngThatABedBeganAsComesOutAsItWentIn) {
   expect_refused(run_program({"run", "flat.toml", "-o", "e.h5", "--set", "bed.surface.kind=file", "--set",
                               "bed.surface.file=silent.png"},
                              folder),
-                 "silent.png: names no heights, and bed.surface.low and high are both 0 m");
+                 "silent.png: the PNG does not say its heights, and bed.surface.low and high are both 0 m");
 }
 
 TEST(CliExport, ARangeThatIsAskedForCutsWhatIsBeyondAndSaysSo) {

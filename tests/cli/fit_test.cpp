@@ -120,10 +120,10 @@ TEST(CliFit, RefusesInASentence) {
             std::string::npos);
   EXPECT_NE(refusal({"fit", "scene.toml", "--stroke", "felt.h5", "--set", "force.law=archimedes",
                      "--constants", "k_s"})
-                .find("take some of friction_angle, yield"),
+                .find("choose from friction_angle, yield"),
             std::string::npos);
   EXPECT_NE(refusal({"fit", "scene.toml", "--stroke", "felt.h5", "--set", "stroke.offset=[0, 0, 1]"})
-                .find("touches sand and has a recorded force"),
+                .find("have both contact with sand and a recorded force"),
             std::string::npos);
 }
 

@@ -69,7 +69,8 @@ TEST(InputFile, ATextIsNoLongerThanSomebodyWrites) {
   EXPECT_EQ(read_text_file(folder / "text").size(), most_text_bytes);
   fs::resize_file(folder / "text", 300'000'000);
   const std::string sentence = refusal([&] { read_text_file(folder / "text"); }, ErrorKind::input);
-  EXPECT_NE(sentence.find("text: has 300.0 MB, and a text has at most 10 MB; shorten it"), std::string::npos)
+  EXPECT_NE(sentence.find("text: has 300.0 MB, but a text file may have at most 10 MB; shorten it"),
+            std::string::npos)
       << sentence;
 }
 

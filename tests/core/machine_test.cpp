@@ -86,7 +86,7 @@ TEST(MemoryDeathTest, MoreAddressesThanTheLimitLeavesAreRefused) {
           check_addresses(2e15, "a desert", "take a smaller one");
         } catch (const Error& refused) {
           const std::string sentence = refused.what();
-          const bool said = sentence.starts_with("a desert takes about 2e+06 GB of addresses, and ") &&
+          const bool said = sentence.starts_with("a desert takes about 2e+06 GB of address space, but ") &&
                             sentence.ends_with(" GB; take a smaller one");
           _exit(said && refused.kind() == ErrorKind::input ? 0 : 1);
         }
@@ -107,7 +107,7 @@ TEST(DiskDeathTest, MoreThanThereIsRoomForIsRefusedWithWhatToDo) {
     }
     return "";
   };
-  for (const char* part : {"a.h5: takes about 1e+12 GB, and there is room for", "GB; keep less"})
+  for (const char* part : {"a.h5: takes about 1e+12 GB, but the disk has room for", "GB; keep less"})
     EXPECT_NE(refusal(1e21).find(part), std::string::npos) << refusal(1e21);
   EXPECT_EXIT(
       {

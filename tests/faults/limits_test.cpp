@@ -198,7 +198,7 @@ TEST(LimitedMemory, AContainersLimitIsRespected) {
     };
     const ProgramResult result = run_program({"run", "large.toml"}, folder, {.in_child = mounts_of_its_own});
     EXPECT_EQ(result.exit_code, input_error) << version << result.err;
-    EXPECT_NE(result.err.find("its control group (container or job) leaves it 0.4 GB"), std::string::npos)
+    EXPECT_NE(result.err.find("the control group (container or job) leaves 0.4 GB"), std::string::npos)
         << version << result.err;
   }
   tell("scene larger than the memory allowed (control groups 1 and 2)", "run", 2,

@@ -141,11 +141,12 @@ TEST_F(Hdf5Storage, TakesNoMoreMemoryThanItsFileCanFill) {
   make({hsize_t{1} << 28, 3});
   EXPECT_SAYS(refusal([](const Hdf5Reader& file) { file.vectors("/x"); }), "claims 268435456 rows");
   make({hsize_t{1} << 28}, {hsize_t{1} << 28}, {H5Z_FILTER_DEFLATE});
-  EXPECT_SAYS(refusal(), "in chunks of 2147483648 bytes");
+  EXPECT_SAYS(refusal(), "has chunks of 2147483648 bytes");
   make({60000, 60000}, {16384, 16384}, {H5Z_FILTER_DEFLATE});
-  EXPECT_SAYS(refusal([](const Hdf5Reader& file) { file.bed("/x", 0.01); }), "in chunks of 2147483648 bytes");
+  EXPECT_SAYS(refusal([](const Hdf5Reader& file) { file.bed("/x", 0.01); }),
+              "has chunks of 2147483648 bytes");
   make({1000, 1000}, {1, 1});
-  EXPECT_SAYS(refusal([](const Hdf5Reader& file) { file.grid("/x"); }), "cut into 1000000 chunks");
+  EXPECT_SAYS(refusal([](const Hdf5Reader& file) { file.grid("/x"); }), "has 1000000 chunks");
 
   const Hdf5Handle text(H5Tcopy(H5T_C_S1), H5Tclose), none(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
   H5Tset_size(text, 3'000'000'000);

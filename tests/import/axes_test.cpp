@@ -75,7 +75,7 @@ TEST(TableAxes, PixelsCountDownwards) {
   settings.position_unit = "px";
   const std::string text = "x,y\n1,2\n3,4\n";
   EXPECT_THAT(import_stroke_text(text, "in.csv", settings).warnings,
-              ElementsAre(HasSubstr("--position) \"x,-y\"")));
+              ElementsAre(HasSubstr("--position) to \"x,-y\"")));
   EXPECT_THAT(import_stroke_text("x,y\n1,-2\n3,-4\n", "in.csv", settings).warnings, ElementsAre())
       << "below the origin: somebody turned it over";
   settings.position = "x,-y";
@@ -85,7 +85,7 @@ TEST(TableAxes, PixelsCountDownwards) {
 TEST(TableColumns, WhatIsNotUsedIsSaid) {
   const ImportedStroke imported = with_position("x,y", "x_mm,y_mm,fx,fy,gripper,mode\n1,2,3,4,5,6\n");
   EXPECT_THAT(imported.description, HasSubstr("not used: gripper, mode"));
-  EXPECT_THAT(imported.warnings, ElementsAre(HasSubstr("fx, fy left out, for its unit is not known")));
+  EXPECT_THAT(imported.warnings, ElementsAre(HasSubstr("fx, fy left out, because its unit is not known")));
   EXPECT_THAT(imported.stroke.force, ElementsAre());
 }
 
@@ -222,7 +222,8 @@ TEST_F(MergedTables, ClocksSayHowTimesBelongTogether) {
   EXPECT_THAT(both.stroke.time, ElementsAre(0.5, 1.0));  // before, there is no force
   EXPECT_TRUE(both.stroke.force[0].isApprox(Vector3d(2, 0, 0), 1e-9));
   EXPECT_TRUE(both.stroke.force[1].isApprox(Vector3d(4, 0, 0), 1e-9));
-  EXPECT_THAT(both.description, HasSubstr("begins +0.25 s and ends +1.25 s after it"));
+  EXPECT_THAT(both.description,
+              HasSubstr("begins +0.25 s after the first table begins, ends +1.25 s after it ends"));
   EXPECT_THAT(both.warnings,
               ElementsAre(HasSubstr("0.25 s at its beginning and 0 s at its end are left out")));
 
@@ -232,8 +233,9 @@ TEST_F(MergedTables, ClocksSayHowTimesBelongTogether) {
   EXPECT_THAT(refusal(first, "t_s,fx_N,fy_N,fz_N\n0,1,0,0\n2,1,0,0\n"), HasSubstr("--merge-shift"));
   EXPECT_EQ(merged(first, "t_s,fx_N,fy_N,fz_N\n7,1,0,0\n9,1,0,0\n", -7.0).stroke.size(), 3u);
   EXPECT_THAT(refusal("t_s,x_m,y_m\n0,0,0\n1,1,0\n", "t_s,fx_N,fy_N,fz_N\n7,1,0,0\n9,1,0,0\n"),
-              HasSubstr("shares nothing"));
-  EXPECT_THAT(refusal("t_s,x_m,y_m\n0,0,0\n1,1,0\n", "t_s,a,b\n7,1,0\n"), HasSubstr("neither a force nor"));
+              HasSubstr("do not overlap"));
+  EXPECT_THAT(refusal("t_s,x_m,y_m\n0,0,0\n1,1,0\n", "t_s,a,b\n7,1,0\n"),
+              HasSubstr("no columns are named as a force"));
 }
 
 }  // namespace

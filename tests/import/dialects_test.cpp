@@ -65,16 +65,16 @@ INSTANTIATE_TEST_SUITE_P(
         Dialected{"tabs, decimal points",
                   "time (ms)\tX (mm)\tY (mm)\tZ (mm)\n0\t1.5\t-2\t0.25\n10\t1.75\t3\t0.5\n"},
         Dialected{"tabs, decimal commas", "t_ms\tx_mm\ty_mm\tz_mm\n0\t1,5\t-2\t0,25\n10\t1,75\t3\t0,5\n"},
-        Dialected{"blanks, decimal points", "t_ms  x_mm y_mm   z_mm\n 0  1.5 -2 0.25\n10 1.75  3 0.5  \n"},
-        Dialected{"blanks, decimal commas", "t_ms x_mm y_mm z_mm\n0 1,5 -2 0,25\n10 1,75 3 0,5\n"},
+        Dialected{"spaces, decimal points", "t_ms  x_mm y_mm   z_mm\n 0  1.5 -2 0.25\n10 1.75  3 0.5  \n"},
+        Dialected{"spaces, decimal commas", "t_ms x_mm y_mm z_mm\n0 1,5 -2 0,25\n10 1,75 3 0,5\n"},
         Dialected{"commas, decimal commas",
                   "\"t_ms\",\"x_mm\",y_mm,z_mm\n0,\"1,5\",-2,\"0,25\"\n10,\"1,75\",3,\"0,5\"\n"},
         // numpy.savetxt(header="...")
-        Dialected{"blanks, decimal points", "# t_ms x_mm y_mm z_mm\n0 1.5e+00 -2 2.5e-01\n10 1.75 3 5e-1\n"},
+        Dialected{"spaces, decimal points", "# t_ms x_mm y_mm z_mm\n0 1.5e+00 -2 2.5e-01\n10 1.75 3 5e-1\n"},
         Dialected{"commas, decimal points",
                   "# of a robot\n#t_ms,x_mm,y_mm,z_mm\n0,1.5,-2,0.25\n# late\n10,1.75,3,0.5\n"},
         // R's write.table: its header lacks the names of rows
-        Dialected{"blanks, decimal points, 5 columns",
+        Dialected{"spaces, decimal points, 5 columns",
                   "\"t_ms\" \"x_mm\" \"y_mm\" \"z_mm\"\n\"1\" 0 1.5 -2 0.25\n\"2\" 10 1.75 3 0.5\n"},
         Dialected{"commas, decimal points, 5 columns",
                   "\"\",\"t_ms\",\"x_mm\",\"y_mm\",\"z_mm\"\n\"1\",0,1.5,-2,0.25\n\"2\",10,1.75,3,0.5\n"},
@@ -102,14 +102,15 @@ TEST(Dialect, WhatIsNamedIsNotLookedFor) {
   settings.decimal = DecimalMark::comma;
   EXPECT_EQ(import_text("x y\n1,2 3,4\n", settings).stroke.position[0], Vector3d(1.2, 3.4, 0));
   settings.separator = Separator::semicolon;
-  EXPECT_THAT(refusal("x y\n1,2 3,4\n", settings), HasSubstr("in.csv:2: '1,2 3,4' is no row of two numbers"));
+  EXPECT_THAT(refusal("x y\n1,2 3,4\n", settings),
+              HasSubstr("in.csv:2: '1,2 3,4' is not a row of two or more numbers"));
   settings = {};
   settings.encoding = "ISO-8859-1";
   settings.rate = 1.0;
   settings.position_unit = "mm";
   EXPECT_EQ(import_text("x;y;\xB5\n1;2;3\n", settings).stroke.position[0], Vector3d(0.001, 0.002, 0));
   settings.encoding = "EBCDIC-of-mine";
-  EXPECT_THAT(refusal("x,y\n1,2\n", settings), HasSubstr("'EBCDIC-of-mine' is no encoding"));
+  EXPECT_THAT(refusal("x,y\n1,2\n", settings), HasSubstr("'EBCDIC-of-mine' is not a known encoding"));
 }
 
 TEST(Dialect, ColumnsWithoutNamesHaveNumbers) {
@@ -155,9 +156,9 @@ TEST(Dialect, LinesWithOneOfSeveralWordsAreSkipped) {
 
 TEST(Dialect, WhatIsNoTableIsSaidWithItsLine) {
   EXPECT_THAT(refusal("Dear all,\nthis is no table\nbut a letter\n"),
-              AllOf(HasSubstr("in.csv:2: 'this is no table' is no row"), HasSubstr("--skip")));
+              AllOf(HasSubstr("in.csv:2: 'this is no table' is not a row"), HasSubstr("--skip")));
   EXPECT_THAT(refusal("Robot: UR5\nx_m;y_m\n1;2\n3;4\n"),
-              AllOf(HasSubstr("in.csv:1: the first line has 1 fields (Robot: UR5), and most lines have 2"),
+              AllOf(HasSubstr("in.csv:1: the first line has 1 fields (Robot: UR5), but most lines have 2"),
                     HasSubstr("--skip-lines")));
   EXPECT_THAT(refusal("3\nx_m;y_m\n1;2\n3;4\n"), HasSubstr("--skip-lines"));
   EXPECT_THAT(refusal("x,y,z\n"), HasSubstr("no samples"));
@@ -165,8 +166,8 @@ TEST(Dialect, WhatIsNoTableIsSaidWithItsLine) {
   EXPECT_THAT(refusal("x_m,y_m\n1,2\n"),
               AllOf(HasSubstr("--time)"), HasSubstr("--rate)"), HasSubstr("--speed)")));
   EXPECT_THAT(refusal("a_x,a_y,u_x,u_y,b_x,b_y\n1,2,3,4,5,6\n"), HasSubstr("'b_x' and 'u_x' may both be"));
-  EXPECT_THAT(refusal(std::string("x,y\n1,2\0\n", 9)), HasSubstr("in.csv:2: holds a zero byte"));
-  EXPECT_THAT(refusal("\xFF\xFEx"), HasSubstr("ends within a character"));
+  EXPECT_THAT(refusal(std::string("x,y\n1,2\0\n", 9)), HasSubstr("in.csv:2: contains a zero byte"));
+  EXPECT_THAT(refusal("\xFF\xFEx"), HasSubstr("ends in the middle of a character"));
   TableSettings settings;
   settings.encoding = "ASCII";
   EXPECT_THAT(refusal("x,\xE4\n1,2\n", settings), HasSubstr("is not text in ASCII"));
@@ -187,7 +188,7 @@ TEST(Dialect, ThousandsAreNotTakenForDecimals) {
   settings.rate = 10.0;
   settings.position_unit = "mm";
   EXPECT_THAT(refusal("x,y\n\"1,000\",\"12,500\"\n999,\"1,001\"\n", settings),
-              HasSubstr("\"1,000\" may be thousands or a decimal"));
+              HasSubstr("the comma in \"1,000\" may separate thousands or decimals"));
   const std::string decimals = "x,y\n\"1,000\",\"12,500\"\n999,\"1,25\"\n";
   EXPECT_EQ(import_text(decimals, settings).stroke.position[1], Vector3d(0.999, 1.25e-3, 0));
   settings.decimal = DecimalMark::comma;
@@ -198,7 +199,8 @@ TEST(Dialect, ThousandsAreNotTakenForDecimals) {
 TEST(Dialect, WhatIsMissingIsAskedForInOneSentence) {
   const std::string said = refusal("x,y\n1,2\n", {});
   EXPECT_THAT(said, AllOf(HasSubstr("unit of x, y is not known"), HasSubstr("; and the times are unknown")));
-  EXPECT_THAT(refusal("x_m,y_mm,t_s\n1,2,0\n", {}), HasSubstr("unit of x_m, y_mm is not one (m, mm)"));
+  EXPECT_THAT(refusal("x_m,y_mm,t_s\n1,2,0\n", {}),
+              HasSubstr("unit of x_m, y_mm is not the same in all columns (m, mm)"));
 }
 
 TEST(TableUnits, WholeNumbersBecomeTheNearestDouble) {

@@ -83,7 +83,7 @@ TEST(Inkml, SaysWhatIsWrong) {
   EXPECT_THAT(complaint("<trace>1 2, 3</trace>"), AllOf(HasSubstr("trace 1, point 2"), HasSubstr("'3'")));
   EXPECT_THAT(complaint("<trace>1 2, ? 3</trace>"), HasSubstr("point 2"));
   EXPECT_THAT(complaint("<trace>1 2, nan 3</trace>"), HasSubstr("point 2"));
-  EXPECT_THAT(complaint("<trace>1 2"), HasSubstr("pen.inkml:3: is not sound XML"));
+  EXPECT_THAT(complaint("<trace>1 2"), HasSubstr("pen.inkml:3: is not valid XML"));
   EXPECT_THAT(complaint(""), HasSubstr("no points"));
   EXPECT_THAT(complaint("<traceFormat><channel name='X'/></traceFormat><trace>1</trace>"),
               HasSubstr("X and Y"));
@@ -96,7 +96,7 @@ TEST(Inkml, SaysWhatIsWrong) {
 TEST(Inkml, DeepNestsAreNoTrouble) {
   std::string deep;
   for (int i = 0; i < 100'000; ++i) deep += "<g>";
-  EXPECT_THAT(complaint_of([&] { ink(deep); }), HasSubstr("not sound XML"));
+  EXPECT_THAT(complaint_of([&] { ink(deep); }), HasSubstr("not valid XML"));
 }
 
 }  // namespace

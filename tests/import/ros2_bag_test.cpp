@@ -105,7 +105,7 @@ TEST(Ros2Bag, WithoutStampsTheBagsTimeIsTaken) {
   const SampleTable table = read_ros2_bag(folder / "bag.db3");
   EXPECT_THAT(column(table, "time").values, ElementsAre(0));
   EXPECT_EQ(column(table, "time").origin, 1'700'000'000'250'000'000);
-  EXPECT_THAT(table.description, HasSubstr("time by the bag"));
+  EXPECT_THAT(table.description, HasSubstr("time from the bag"));
 }
 
 TEST(Ros2Bag, ASimulationMayBeginAtZero) {
@@ -156,7 +156,7 @@ TEST(Ros2Bag, MessagesThatAreNotFiniteAreLeftOut) {
   bag.message(4, 3000, point(11, 0, std::nan("")));
   const SampleTable table = read_ros2_bag(folder / "bag.db3");
   EXPECT_EQ(table.size(), 2u);
-  EXPECT_THAT(table.description, HasSubstr("1 that are not finite left out"));
+  EXPECT_THAT(table.description, HasSubstr("1 left out because they are not finite"));
 }
 
 TEST(Ros2Bag, TheFileIsLeftAsItIs) {

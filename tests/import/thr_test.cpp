@@ -72,7 +72,7 @@ TEST(Thr, SaysWhatIsWrong) {
               AllOf(HasSubstr("track.thr:2"), HasSubstr("theta and rho")));
   EXPECT_THAT(complaint_of([] { thr_table("0 nan\n"); }), HasSubstr("track.thr:1"));
   EXPECT_THAT(complaint_of([] { thr_table("0\n"); }), HasSubstr("track.thr:1"));
-  EXPECT_THAT(complaint_of([] { thr_table("0 250\n"); }), HasSubstr("divide rho"));
+  EXPECT_THAT(complaint_of([] { thr_table("0 250\n"); }), HasSubstr("divide all rho"));
   EXPECT_THAT(complaint_of([] { thr_table("# nothing\n"); }), HasSubstr("no points"));
   EXPECT_THAT(complaint_of([] { thr_table("0 0\n1e9 1\n"); }), HasSubstr("more than 5e+06 points"));
   EXPECT_THAT(complaint_of([] { thr_table("0 0\n1e300 1\n"); }), HasSubstr("more than 5e+06 points"));

@@ -65,7 +65,7 @@ TEST(Unipen, SaysWhatIsWrong) {
   EXPECT_THAT(complaint(".PEN_DOWN\n1 inf\n"), AllOf(HasSubstr("pen.unp:2"), HasSubstr("'inf'")));
   EXPECT_THAT(complaint(".PEN_UP\n1 2\n"), HasSubstr("no samples"));
   EXPECT_THAT(complaint(".COORD X T\n"), HasSubstr("X and Y"));
-  EXPECT_THAT(complaint(".PEN_DOWN\n1 2\n.COORD Y X\n"), HasSubstr("cut the file"));
+  EXPECT_THAT(complaint(".PEN_DOWN\n1 2\n.COORD Y X\n"), HasSubstr("split the file"));
   EXPECT_THAT(complaint(".POINTS_PER_SECOND 0\n"), HasSubstr("above 0"));
   EXPECT_THAT(complaint(".DT\n"), HasSubstr("needs a number"));
 }

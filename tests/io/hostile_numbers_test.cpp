@@ -82,12 +82,11 @@ TEST(HostileNumbers, AWholeNumberThatNoDoubleIsIsSaidToBeSo) {
       scene_from_text("", "scene.toml", {std::string("device.offset=[0, 0, ") + number + "]"});
       ADD_FAILURE() << number;
     } catch (const Error& error) {
-      EXPECT_EQ(
-          error.what(),
-          fmt::format("--set device.offset=[0, 0, {0}]: device.offset is {0}, a whole number beyond 2^53 = "
-                      "9007199254740992, up to which all are exact; give a smaller one, or write it with "
-                      "a decimal point",
-                      number));
+      EXPECT_EQ(error.what(),
+                fmt::format("--set device.offset=[0, 0, {0}]: device.offset is {0}, but whole numbers are "
+                            "exact only up to 2^53 = "
+                            "9007199254740992; give a smaller one, or write it with a decimal point",
+                            number));
     }
   }
   const Scene scene =

@@ -217,7 +217,7 @@ TEST_F(PngFile, RefusesTooLargePictures) {
       raw_png("large.png", 20000, 1, 8, PNG_COLOR_TYPE_GRAY, std::vector<std::uint8_t>(20000));
   const std::string message = refusal([&] { read_png(path); });
   EXPECT_NE(message.find("large.png"), std::string::npos);
-  EXPECT_NE(message.find("20000 x 1 pixels, which is too large"), std::string::npos);
+  EXPECT_NE(message.find("20000 x 1 pixels, which are too many"), std::string::npos);
 }
 
 TEST_F(PngFile, UnwritablePlaceIsAnError) {

@@ -182,7 +182,7 @@ TEST(SceneToml, RefusesWhatCannotBeMeant) {
   refuses("[relaxation]\nlaw = 'magic'\n", "paper, isotropic");
   refuses("[relaxation]\nlaw = 'isotropic'\nshare = 0.3\n", "0.25");
   refuses("[relaxation]\ntravel = 2.0\n",
-          "scene.toml:2: relaxation.travel is now relaxation.way, in tool radii instead of cells");
+          "scene.toml:2: relaxation.travel was replaced by relaxation.way, in tool radii instead of cells");
   refuses("[relaxation]\nengin = 1\n", "unknown key relaxation.engin; did you mean relaxation.law?");
   refuses("[tool]\nradius = 3.0\n[stroke]\nfile = \"x.toml\"\n", "fit");
   refuses("[tool]\nradius = 1e-4\n[stroke]\nfile = 'x.h5'\n", "half a cell");

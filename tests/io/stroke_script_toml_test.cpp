@@ -196,7 +196,7 @@ TEST(StrokeScriptToml, ErrorsNameFileLineAndKey) {
   EXPECT_THAT(script_complaint("depth = 0.01\nforce = 1\n[[segment]]\n"),
               AllOf(HasSubstr("s.toml:2:"), HasSubstr("only one")));
   EXPECT_THAT(script_complaint("[[segment]]\nkind = \"line\"\nto = [1, 2]\n"),
-              AllOf(HasSubstr("s.toml:2:"), HasSubstr("neither depth nor force")));
+              AllOf(HasSubstr("s.toml:2:"), HasSubstr("needs a depth or a force")));
   EXPECT_THAT(script_complaint(segment("kind = \"spline\"\npoints = [[0, 0]]\n")),
               AllOf(HasSubstr("s.toml:4:"), HasSubstr("2 points")));
   EXPECT_THAT(script_complaint(segment("kind = \"arc\"\ncentre = [0, 0]\nradius = -1\n")),

@@ -103,7 +103,7 @@ class Run:
                 "final": (("y", "x"), self.final, {"units": "m", "long_name": "height of the sand at the end"}),
             }
             if len(self.frame_times):
-                axes["time"] = ("time", self.frame_times, {"units": "s", "long_name": "of a frame"})
+                axes["time"] = ("time", self.frame_times, {"units": "s", "long_name": "time of a frame"})
                 heights["frames"] = (("time", "y", "x"), self.frames,
                                      {"units": "m", "long_name": "height of the sand over time"})
             return xarray.Dataset(heights, axes, {"cell_size": self.cell_size})
