@@ -1,4 +1,5 @@
-# CHAI3D as chai3d_system, found where somebody has built it (README). The repository has nothing of it.
+# CHAI3D as chai3d_system, found where somebody has built it (src/record/README.md says how). The repository has nothing
+# of it.
 set(given "${chai3d_DIR}")
 find_package(chai3d CONFIG QUIET)  # lower case, and without a version: its version file is malformed
 if(NOT chai3d_FOUND)

@@ -38,8 +38,8 @@ class TickLoop {
 
   /// The device is where the hand is, and moves as it does.
   void start(const Hand& hand) { device_.start(hand); }
-  /// The stages of a tick in the order of the README's model: the device is read, the tool displaces sand,
-  /// and the device feels the sand's force.
+  /// The stages of a tick, in this order: the device is read, the tool displaces sand, and the device
+  /// feels the sand's force.
   TickRecord step(const TickInput& tick);
   /// The device goes to the tick's end; where the hand is lifted before it (record.lifts), with it. Error:
   /// unstable, where force or device leave all bounds.
