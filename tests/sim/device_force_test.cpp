@@ -1,0 +1,75 @@
+#include "sim/device_force.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace sandstroke {
+namespace {
+
+/// A device whose tool moves twice as far as its handle, with 5 N at most.
+Scene scaled_scene(ForceLaw law) {
+  Scene scene;
+  scene.force.law = law;
+  scene.device.scale = 2.0;
+  scene.device.max_force = 5.0;
+  return scene;
+}
+
+TickRecord in_contact() {
+  TickRecord record;
+  record.contact = true;
+  record.depth = 0.006;
+  record.wrench.force = {-3.0, 0.0, 4.0};
+  record.wrench.stiffness = 300.0;
+  record.wrench.stored = 0.02;
+  record.wrench.strength = 10.0;
+  return record;
+}
+
+TEST(DeviceForce, PapersLawGoesByDepthAndVelocity) {
+  const Scene scene = scaled_scene(ForceLaw::paper);
+  const SimulatedDevice device(scene.device, {});
+  const auto force = make_device_force(scene);
+  TickRecord record = in_contact();
+  DeviceResult result;
+  const Eigen::Vector3d given = force->feel(record, device, result);
+  const double repulse = 1000.0 * std::expm1(0.003);
+  EXPECT_NEAR(record.repulse_force.z(), repulse, 1e-12);
+  EXPECT_NEAR(given.z(), repulse, 1e-12);
+  EXPECT_FALSE(record.saturated);
+  const FeltSand sand = force->felt_sand(record, scene.device);
+  EXPECT_NEAR(sand.stiffness, 2.0 * 500.0 * std::exp(0.003), 1e-9);
+  EXPECT_NEAR(sand.drag, 2.0 * 10.0 * repulse, 1e-9);
+  EXPECT_NEAR(force->stored(record, scene.device), plunge_work(0.006, 5.0, scene.force) / 2.0, 1e-15);
+}
+
+TEST(DeviceForce, OtherLawsGoByTheWrenchAndTheDevicesLimitWeakensTheSand) {
+  for (const ForceLaw law : {ForceLaw::rft, ForceLaw::archimedes}) {
+    const Scene scene = scaled_scene(law);
+    const SimulatedDevice device(scene.device, {});
+    const auto force = make_device_force(scene);
+    TickRecord record = in_contact();
+    DeviceResult result;
+    const Eigen::Vector3d given = force->feel(record, device, result);
+    EXPECT_EQ(record.repulse_force, Eigen::Vector3d(0.0, 0.0, 4.0));
+    EXPECT_EQ(record.drag_force, Eigen::Vector3d(-3.0, 0.0, 0.0));
+    EXPECT_TRUE(record.saturated);  // 10 N of strength for a device of 5
+    EXPECT_NEAR((given - Eigen::Vector3d(-1.5, 0.0, 2.0)).norm(), 0.0, 1e-12);
+    const FeltSand sand = force->felt_sand(record, scene.device);
+    EXPECT_NEAR(sand.stiffness, 2.0 * 150.0, 1e-9);
+    EXPECT_EQ(sand.drag, 0.0);
+    EXPECT_NEAR(force->stored(record, scene.device), 0.01 / 2.0, 1e-15);
+  }
+}
+
+TEST(DeviceForce, NamesTheKeysThatCalmALoop) {
+  EXPECT_EQ(make_device_force(scaled_scene(ForceLaw::paper))->remedy(0.0).lower,
+            std::vector<std::string>{"force.k_s"});
+  EXPECT_EQ(make_device_force(scaled_scene(ForceLaw::paper))->remedy(1.0).lower,
+            (std::vector<std::string>{"force.k_s", "force.k_f"}));
+  EXPECT_EQ(make_device_force(scaled_scene(ForceLaw::rft))->remedy(0.0).raise, "force.yield");
+}
+
+}  // namespace
+}  // namespace sandstroke
