@@ -16,7 +16,7 @@ Scene scaled_scene(ForceLaw law) {
   return scene;
 }
 
-TickRecord in_contact() {
+TickRecord contact_tick() {
   TickRecord record;
   record.contact = true;
   record.depth = 0.006;
@@ -31,7 +31,7 @@ TEST(DeviceForce, PapersLawGoesByDepthAndVelocity) {
   const Scene scene = scaled_scene(ForceLaw::paper);
   const SimulatedDevice device(scene.device, {});
   const auto force = make_device_force(scene);
-  TickRecord record = in_contact();
+  TickRecord record = contact_tick();
   DeviceResult result;
   const Eigen::Vector3d given = force->feel(record, device, result);
   const double repulse = 1000.0 * std::expm1(0.003);
@@ -49,7 +49,7 @@ TEST(DeviceForce, OtherLawsGoByTheWrenchAndTheDevicesLimitWeakensTheSand) {
     const Scene scene = scaled_scene(law);
     const SimulatedDevice device(scene.device, {});
     const auto force = make_device_force(scene);
-    TickRecord record = in_contact();
+    TickRecord record = contact_tick();
     DeviceResult result;
     const Eigen::Vector3d given = force->feel(record, device, result);
     EXPECT_EQ(record.repulse_force, Eigen::Vector3d(0.0, 0.0, 4.0));
