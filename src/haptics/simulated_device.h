@@ -31,9 +31,8 @@ struct DeviceSettings {
   double hand_stiffness = 400.0;                     ///< N/m
   double hand_damping = 8.0;                         ///< N s/m
   // The dynamic model's loop (LateForce):
-  int delay = 0;  ///< ticks from reading the position to the force that follows from it
-  double dropped_ticks =
-      0.0;  ///< fraction of ticks, below 1, in which the loop is late: the last force stays
+  int delay = 0;               ///< ticks from reading the position to the force that follows from it
+  double dropped_ticks = 0.0;  ///< fraction of ticks (below 1) with a late loop: its last force stays
   DragVelocity drag = DragVelocity::sampled;
   ReadVelocity velocity = ReadVelocity::exact;
   int velocity_window = 4;  ///< ticks, as in record --feel
