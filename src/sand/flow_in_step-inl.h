@@ -1,5 +1,5 @@
-// What the sweep over a flow records besides, and where it puts the gains. Included once per instruction set,
-// like lanes-inl.h.
+// Policies of the sweep over a flow: what it records besides, and where it puts the gains. Included once per
+// instruction set, like lanes-inl.h.
 #if defined(SANDSTROKE_SAND_FLOW_IN_STEP_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef SANDSTROKE_SAND_FLOW_IN_STEP_INL_H_
 #undef SANDSTROKE_SAND_FLOW_IN_STEP_INL_H_
@@ -51,7 +51,7 @@ class SteppedSand {
  public:
   SteppedSand(const FirstFlow& first, const FlowScratch& scratch)
       : first_(first), givers_(scratch.givers.data()), difference_(hn::Zero(d)) {}
-  /// Flags of a row's cells from column c on.
+  /// The cells of a row, from column c on, that may give.
   HWY_INLINE Mask may_give(int row, int c) const {
     const FlowScratch::Row& flags = givers_[row + 1];
     const std::uint64_t west = flags.west, east = flags.east;

@@ -35,8 +35,8 @@ struct Carved {
 Carved carve_for_ring(const FootprintShape& shape, ToolFootprint& footprint, double tip_height,
                       const RingFront& front);
 
-/// Result of carve_under. highest [m above the tip]: the highest point that touched sand, -infinity if none
-/// did. It carves with any tool by its envelope; underside() is infinite beside the footprint.
+/// Result of carve_under, which carves with any tool by its envelope; underside() is infinite beside the
+/// footprint. highest [m above the tip]: the highest point that touched sand, -infinity if none did.
 struct CarvedUnder {
   double pushed, highest;
 };
