@@ -65,7 +65,7 @@ class LevelSand {
 
 double contact_stiffness(const Scene& scene, double max_force, bool turns) {
   constexpr double seen = 2e-5;    // m: about what devices measure
-  constexpr double deepest = 1.0;  // m; deeper is not tried if the strength never reaches max_force
+  constexpr double deepest = 1.0;  // m; here a strength that never reaches max_force has stopped growing
   constexpr int all_around = 400, each_when_turned = 100;
   // deg, like tool.orientation: upright and leaning tools, turned in several directions.
   const std::array<Vector3d, 6> leans = {Vector3d(10.0, 20.0, 30.0), {-35.0, 5.0, 60.0}, {0.0, 45.0, 0.0},

@@ -171,7 +171,7 @@ struct ForceAgreement {
 /// The distance of a run from the limit of ever smaller steps (cells, ticks, times between relaxations,
 /// tolerances).
 struct ErrorEstimate {
-  double height_share = 0.0;  ///< sand that lies elsewhere, as a fraction of the sand that moved
+  double height_share = 0.0;  ///< sand that lies elsewhere, as a fraction of sand that is not where it was
   double height_rms = 0.0;    ///< m, over the cells that changed
   double height_max = 0.0;    ///< m
   double force_rms = 0.0;     ///< N, over the ticks with a force

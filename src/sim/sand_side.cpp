@@ -18,8 +18,8 @@ constexpr double longest_step = 0.5;
 /// cells would ask for that.
 constexpr double least_way = 0.25;
 /// Height of sand above the rim [radii] from which the way is the short one: strokes at tip depth R are
-/// deeper. With 0.5 a scribble R/2 deep over its own ground leaves 6.6 % of its sand elsewhere, with 0.2 5.5
-/// %, with 0.1 5.2 %; a sand table takes 0.35, 0.46 and 0.84 s with 0.5, 0.2 and 0.
+/// deeper. With 0.5 a scribble R/2 deep over its own ground leaves 6.6 % of its sand elsewhere, 5.5 % with
+/// 0.2, 5.2 % with 0.1; a sand table takes 0.35, 0.46 and 0.84 s with 0.5, 0.2 and 0.
 constexpr double deep_at_rim = 0.2;
 
 }  // namespace

@@ -48,7 +48,7 @@ class SandSide {
   /// Puts the tool here [m], in contact or not as the caller says. Displaces nothing.
   void put(const HeightField& bed, const Eigen::Vector3d& read_tip, bool contact);
   /// Lifts the tool: it touches nothing until the next move(), which begins anew and displaces nothing on the
-  /// way.
+  /// way there.
   void lift() {
     last_tip_.reset();
     contact_ = false;
