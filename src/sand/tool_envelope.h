@@ -11,8 +11,7 @@ namespace sandstroke {
 /// Where sand leaves a tool: how far [cells] and where to, for the samples of a phase that a part of the tool
 /// covers.
 struct WayOut {
-  std::vector<double> x,
-      y;  ///< laid out like the samples of a phase; both 0 if no edge is nearest
+  std::vector<double> x, y;  ///< laid out like a phase of samples; both 0 if no edge is nearest
 };
 
 /// The underside of a tool that does not turn: the lowest height of its surface above every place, on a grid
