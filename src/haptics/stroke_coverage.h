@@ -17,8 +17,9 @@ std::string played_text(const PlayedPart& part);
 
 /// Returns a warning in three cases. Over a minute of the stroke, and over 99 % of it, has no samples
 /// (Stroke::sampled_between): milliseconds were taken for seconds, or one time is wrong. A starved recorder
-/// made it: the warning tells where the tool is lifted. Most samples are joined to no other. Otherwise empty,
-/// since hands do rest between two drags. `name` is the stroke's.
+/// made it: the warning tells how much of it a run plays, and in how many gaps the tool is lifted. Most
+/// samples are joined to no other. Otherwise empty, since hands do rest between two drags. `name` is the
+/// stroke's.
 std::string coverage_warning(const Stroke& stroke, const std::string& name);
 
 }  // namespace sandstroke
