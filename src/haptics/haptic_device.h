@@ -8,58 +8,60 @@
 
 namespace sandstroke {
 
-/// N: the maximum of what takes any force and feels none. A number, for infinity is none in files.
+/// The maximum [N] of a device that takes any force and feels none. It is finite, since files hold no
+/// infinity.
 inline constexpr double any_force = std::numeric_limits<double>::max();
 
-/// What a device says of itself.
+/// The properties that a device reports.
 struct DeviceSpecification {
   std::string model, manufacturer;
-  std::string frame = "device";   ///< of its positions and forces, as Stroke::frame
+  std::string frame = "device";   ///< frame of its positions and forces, as Stroke::frame
   double max_force = 0.0;         ///< N; 0 = it gives none
   double max_stiffness = 0.0;     ///< N/m, of a closed loop; 0 = unknown
   double max_damping = 0.0;       ///< N s/m, of a closed loop; 0 = unknown
   double workspace_radius = 0.0;  ///< m; 0 = unknown
-  int switches = 0;               ///< how many it has; 0 = none, or unknown
+  int switches = 0;               ///< number of switches; 0 = none, or unknown
   bool measures_velocity = false;
   bool measures_orientation = false;
 };
 
-/// One look at a device, as it gave it out: no scaling, no filter.
+/// One reading of a device, as the device gives it: no scaling, no filter.
 struct DeviceReading {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();               ///< m, in the device's frame
-  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();               ///< m/s; 0 where it measures none
-  std::uint32_t switches = 0;                                       ///< bit by bit
-  Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();  ///< of its grip, where it measures that
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();               ///< m/s; 0 if it measures none
+  std::uint32_t switches = 0;                                       ///< a bit per switch
+  Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();  ///< of its grip, if it measures that
 };
 
-/// A haptic device as the recorder knows it: a real one (chai3d/), or what stands in for one. After open(),
-/// one thread calls it; only release() may come from another.
+/// A haptic device as the recorder uses it: a real one (chai3d/), or a stand-in. After open(), only one
+/// thread calls it; another thread may only call release().
 class HapticDevice {
  public:
   virtual ~HapticDevice() = default;
 
-  /// Makes it ready; it moves nothing and gives no force. Error: io, with what to do.
+  /// Makes the device ready, without motion or force. Error: io, with what to do.
   virtual void open() = 0;
-  /// May move the arm, so nobody calls it unasked. Error: io.
+  /// Calibrates the device. This may move the arm, so it happens on request only. Error: io.
   virtual void calibrate() = 0;
-  /// Known before it is opened, but for what only an open device tells of itself (not its frame).
+  /// Known before open(), except what only an open device reports. The frame is always known.
   virtual const DeviceSpecification& specification() const = 0;
-  /// Of an open device: whether its positions are right; none: it does not say.
+  /// Whether the positions of an open device are right; none: it does not say.
   virtual std::optional<bool> is_calibrated() const { return true; }
-  /// For how long there is something to record [s]; none: as long as a hand holds it.
+  /// How long there is something to record [s]; none: as long as a hand holds the device.
   virtual std::optional<double> duration() const { return std::nullopt; }
-  /// For how long it may give nothing and is still there [s]: a recorded stroke that is played has gaps.
+  /// The longest time without readings that is no failure [s]: a recorded stroke that is played has gaps.
   virtual double longest_silence() const { return 0.0; }
 
-  /// In the servo loop, and so without waiting, throwing or taking memory. time [s]: since the loop began, or
-  /// its countdown ended; a real device does not need it, what stands in for a hand moves by it. False: it
-  /// gave nothing.
+  /// Reads the device. Called in the servo loop, so it must not wait, throw or take memory. time [s]: since
+  /// the loop began, or its countdown ended; a real device ignores it, a stand-in for a hand moves by it.
+  /// False: there is no reading.
   virtual bool read(double time, DeviceReading& reading) noexcept = 0;
-  /// force [N] on the hand, in the device's frame, held until the next one. False: it took nothing.
+  /// Sets the force [N] on the hand, in the device's frame, until the next call. False: the device did not
+  /// take it.
   virtual bool command(const Eigen::Vector3d& force) noexcept = 0;
-  /// Zero force, at once, from any thread, even while another call hangs.
+  /// Sets zero force at once. Any thread may call it, even while another call hangs.
   virtual void release() noexcept = 0;
-  /// Zero force, motors off, closed; nothing where it is not open.
+  /// Sets zero force, turns the motors off and closes the device. Does nothing if it is not open.
   virtual void close() noexcept = 0;
 };
 

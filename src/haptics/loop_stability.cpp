@@ -36,7 +36,7 @@ Eigen::RowVectorXd windowed_feedback(const FeltSand& felt, int window, double se
 }
 
 FeltSand stable_sand(const DeviceSettings& device, DragDirection direction, double drag, int window) {
-  const auto settles = [&](const FeltSand& felt) {  // or stays, as a device that no hand holds
+  const auto settles = [&](const FeltSand& felt) {  // or stays, like a device that no hand holds
     return spectral_radius(loop_map(device, windowed_feedback(felt, window, device.servo_rate))) < 1.0 + 1e-9;
   };
   FeltSand largest;

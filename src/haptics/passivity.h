@@ -4,24 +4,24 @@
 
 namespace sandstroke {
 
-/// b + b_h - (K (T / 2 + delay) + |B|) [N s/m]: where it is positive, the sampled loop cannot create energy.
+/// b + b_h - (K (T / 2 + delay) + |B|) [N s/m]: if it is positive, the sampled loop cannot create energy.
 /// Colgate & Schenkel (1997) ask for b > T/2 max over angles w of Re((1 - e^-iw) H(e^iw)) / (1 - cos w). For
 /// a spring that acts n ticks late, H = K e^-inw, that is K T/2 sin((n + 1/2) w) / sin(w/2) <= K T (n + 1/2);
-/// for drag by differences of positions, at most |B| whatever n. (Drag here is by the velocity read: no
-/// theorem, but no counterexample among thousands of loops, tests/stress.) Dropped ticks are not in it. K
-/// [N/m], B [N s/m].
+/// for drag by differences of positions, at most |B| whatever n. (Here drag is by the velocity read. There is
+/// no theorem for that, but tests/stress found no counterexample among thousands of loops.) It does not count
+/// dropped ticks. K [N/m], B [N s/m].
 double passivity_margin(double stiffness, double drag, const DeviceSettings& device);
 
-/// Energy that a device has given to the sand (Hannaford & Ryu 2002), exactly for a force held during each
+/// Energy that a device has given to the sand (Hannaford & Ryu 2002). Exact for a force held during each
 /// tick.
 class EnergyAccount {
  public:
-  /// force [N] on the device while it moved by `motion` [m].
+  /// Adds a force [N] on the device while it moved by `motion` [m].
   void add(const Eigen::Vector3d& force, const Eigen::Vector3d& motion) {
     absorbed_ -= force.dot(motion);
     least_ = absorbed_ < least_ ? absorbed_ : least_;
   }
-  /// energy [J] that the sand was given otherwise, and may return.
+  /// Adds energy [J] that the sand received in another way, and may return.
   void give(double energy) { absorbed_ += energy; }
   double absorbed() const { return absorbed_; }  ///< J
   double least() const {

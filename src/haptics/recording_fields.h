@@ -4,11 +4,11 @@
 
 namespace sandstroke {
 
-// What header and footer of a recording say, field by field, under the names that they have in every file:
-// visit(name, field), of std::string, double, int, std::int64_t, bool or StopReason. Who reads and who writes
-// goes through the same list. The first three are also what any stroke file says.
+// The fields of a recording's header and footer, under their names in every file: visit(name, field). A field
+// is a std::string, double, int, std::int64_t, bool or StopReason. Readers and writers go through this same
+// list. Every stroke file also has the first three.
 
-/// Header: RecordingHeader, const where it is only read.
+/// Header: RecordingHeader, const if it is only read.
 template <class Header, class Visit>
 void visit_header(Header& header, const Visit& visit) {
   visit("source", header.source);
@@ -33,7 +33,7 @@ void visit_header(Header& header, const Visit& visit) {
   visit("felt_scene", header.felt_scene);
 }
 
-/// Footer: RecordingFooter, const where it is only read.
+/// Footer: RecordingFooter, const if it is only read.
 template <class Footer, class Visit>
 void visit_footer(Footer& footer, const Visit& visit) {
   visit("stop_reason", footer.reason);

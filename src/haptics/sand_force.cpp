@@ -16,7 +16,7 @@ struct ImplicitDrag {
 ImplicitDrag implicit_drag(double depth, const SimulatedDevice& device, const State& hand,
                            const State& hand_after, const ForceSettings& settings) {
   const DeviceSettings& d = device.settings();
-  // So large that the velocity depends on it no more; beyond, it would be infinity / infinity.
+  // Above 1e100 the velocity does not depend on it any more, and would become infinity / infinity.
   const double repulse = std::min(repulse_force(depth, settings), 1e100);
   const double drag = felt_sand(depth, repulse, d.scale, settings).drag;
   const auto velocity = [&](double share) {

@@ -5,14 +5,14 @@
 
 namespace sandstroke {
 
-/// What sand does to a device whose tip is `depth` [m] below the level, as a controller computes it in the
-/// tick in which the hand goes from one place to the next: drag by the velocity that device.drag says.
+/// The sand's force on a device whose tip is `depth` [m] below the level, as a controller computes it in the
+/// tick in which the hand goes from one place to the next. Drag is by the velocity that device.drag says.
 ///
-/// Implicit drag with a limit: the force that acts is share (R - B u), u = drag_velocity() of share R and
-/// share B, with share = 1, or that at which it is max_force; R is the repulse force, B the
-/// drag felt. Where share B <= strongest_drag(), u is the mean velocity of the tick under the force that
-/// acts. With horizontal drag that force grows with the share, so there is one solution; with full drag the
-/// smallest share is taken, at which drag is not held if there is such. Drag takes energy for any share
+/// Implicit drag with a limit: the force that acts is share (R - B u), where R is the repulse force, B the
+/// drag felt, and u = drag_velocity() of share R and share B. share is 1, or such that the force is
+/// max_force. If share B <= strongest_drag(), u is the mean velocity of the tick under the force that acts.
+/// With horizontal drag that force grows with the share, so there is one solution. With full drag the
+/// smallest share is taken, one at which drag is not held if there is one. Drag takes energy for any share
 /// (drag_velocity).
 SandForce force_on_device(double depth, const SimulatedDevice& device, const SimulatedDevice::State& hand,
                           const SimulatedDevice::State& hand_after, const ForceSettings& settings);

@@ -32,8 +32,7 @@ DeviceSettings ideal_device() {
 }
 
 Eigen::Matrix<double, 2, 5> device_tick_map(const DeviceSettings& settings) {
-  // State (x, v, x_hand, v_hand, F): the inputs are carried along as states that move uniformly or not at
-  // all.
+  // State (x, v, x_hand, v_hand, F). The inputs are states, too, which move uniformly or not at all.
   Eigen::Matrix<double, 5, 5> rate = Eigen::Matrix<double, 5, 5>::Zero();
   const double m = settings.mass;
   rate(0, 1) = 1.0;

@@ -8,12 +8,11 @@ namespace sandstroke {
 /// kinematic: the device is where the hand is. dynamic: a mass held by the hand's spring, which feels the
 /// force.
 enum class DeviceModel { kinematic, dynamic };
-/// Of which velocity the drag is taken. sampled: the one read at the start of the tick, as published.
-/// implicit: one of the tick itself (SimulatedDevice::drag_velocity), so that drag can only take
-/// energy.
+/// The velocity that drag depends on. sampled: the one read at the start of the tick, as published. implicit:
+/// one of the tick itself (SimulatedDevice::drag_velocity), so that drag can only take energy.
 enum class DragVelocity { sampled, implicit };
-/// Which velocity is read. exact: the device's own. encoders: a difference of read positions, over
-/// velocity_window ticks, as of devices that measure none; it lags by half of them.
+/// The velocity that is read. exact: the device's own. encoders: a difference of read positions over
+/// velocity_window ticks, as with devices that measure no velocity; it lags by half of them.
 enum class ReadVelocity { exact, encoders };
 enum class DevicePreset { omega3, phantom_desktop, touch, ideal };
 
@@ -31,70 +30,71 @@ struct DeviceSettings {
   double damping = 1.0;                              ///< N s/m
   double hand_stiffness = 400.0;                     ///< N/m
   double hand_damping = 8.0;                         ///< N s/m
-  // Of the dynamic model's loop (LateForce):
+  // The dynamic model's loop (LateForce):
   int delay = 0;               ///< ticks from reading the position to the force that follows from it
-  double dropped_ticks = 0.0;  ///< share of ticks, below 1, in which the loop is late: its last force stays
+  double dropped_ticks = 0.0;  ///< fraction of ticks (below 1) with a late loop: its last force stays
   DragVelocity drag = DragVelocity::sampled;
   ReadVelocity velocity = ReadVelocity::exact;
-  int velocity_window = 4;  ///< ticks, as record --feel takes
+  int velocity_window = 4;  ///< ticks, as in record --feel
 };
 
 /// Sets max_force and resolution to those of settings.preset.
 void apply_device_preset(DeviceSettings& settings);
 
-/// Where on the bed a device's tip is [m] that is at `position` [device m].
+/// Place on the bed [m] of the tip of a device that is at `position` [device m].
 inline Eigen::Vector3d tip_of(const DeviceSettings& settings, const Eigen::Vector3d& position) {
   return settings.scale * position + settings.offset;
 }
 
-/// Dynamic, with exact encoders and no force limit; all else as by default.
+/// A dynamic device with exact encoders and no force limit; all else is the default.
 DeviceSettings ideal_device();
 
-/// One tick of the device along one axis, exactly (matrix exponential of the linear plant
-/// m a = k_h (x_hand - x) + b_h (v_hand - v) - b v + F), with the force F held and the hand moving uniformly
-/// during it: (x, v) after = map * (x, v, x_hand, v_hand, F) before.
+/// The exact map of one tick of the device along one axis (matrix exponential of the linear plant m a = k_h
+/// (x_hand - x) + b_h (v_hand - v) - b v + F). During the tick the force F is held and the hand moves
+/// uniformly: (x, v) after = map * (x, v, x_hand, v_hand, F) before.
 Eigen::Matrix<double, 2, 5> device_tick_map(const DeviceSettings& settings);
 
-/// The device's motion, in device metres. What instability there is is the sampled-data system's own.
+/// The device's motion, in device metres. Any instability is the sampled-data system's own.
 class SimulatedDevice {
  public:
   struct State {
     Eigen::Vector3d position, velocity;  ///< m, m/s
   };
 
-  /// Starts with the hand, as fast as the hand.
+  /// Starts at the hand, with its velocity.
   SimulatedDevice(const DeviceSettings& settings, const State& hand);
 
-  /// Somebody else has put it there: it is at the hand, as fast as the hand.
+  /// Puts the device at the hand, with the hand's velocity.
   void put(const State& hand) {
     state_ = hand;
     past_.clear();
   }
-  /// As the controller reads it (dynamic model): the position rounded to the encoders' resolution, and the
-  /// velocity; by encoders 0 at first, then over as many ticks as there are.
+  /// The state as the controller reads it (dynamic model): the position rounded to the encoders' resolution,
+  /// and the velocity. By encoders it is 0 at first, then over as many ticks as there are.
   State read() const;
-  /// As it is.
+  /// The true state.
   const State& state() const { return state_; }
   const DeviceSettings& settings() const { return settings_; }
 
-  /// The velocity u [m/s], per axis, for which a held drag force -drag u, drag >= 0 [N s/m], beside the held
-  /// `force` [N] takes energy whatever the drag, mass, hand and time step T (DragVelocity::implicit).
-  /// With way = x_free - x, where the tick leads without drag, and g = map(0,4) > 0, the way that a held
+  /// The velocity u [m/s], per axis, for DragVelocity::implicit. With it a held drag force -drag u, drag >= 0
+  /// [N s/m], beside the held `force` [N], takes energy whatever the drag, mass, hand and time step T.
+  /// With way = x_free - x, the way of the tick without drag, and g = map(0,4) > 0, the way that a held
   /// newton makes: u = way / (g drag + max(T, g drag)).
-  /// - g drag <= T: u = (way - g drag u) / T, the mean velocity of the very tick: second order in T.
-  /// - Above it that drag would reverse the motion (v -> -v for drag -> infinity): u is then as large as
+  /// - If g drag <= T: u = (way - g drag u) / T, the mean velocity of this very tick: second order in T.
+  /// - Above it that drag would reverse the motion (v -> -v for drag -> infinity). Then u is as large as
   ///   stops a free mass at the tick's end, where g = T^2 / (2 m).
-  /// Either way the device moves by way - g drag u, of the sign of u: the energy drag u (way - g drag u) >= 0
-  /// goes into the sand. (Not so for drag by the velocity at the tick's end: map(1,4) < 0 where the hand
-  /// swings the mass through more than half a period in a tick.) Presumes that the force acts in this very
-  /// tick, and knows the hand's way in it.
+  /// In both cases the device moves by way - g drag u, which has the sign of u: the energy
+  /// drag u (way - g drag u) >= 0 goes into the sand. (Drag by the velocity at the tick's end may not:
+  /// map(1,4) < 0 if the hand swings the mass through more than half a period in a tick.) Assumes that the
+  /// force acts in this very tick, and that the hand's way in it is known.
   Eigen::Vector3d drag_velocity(const State& hand, const State& hand_after, const Eigen::Vector3d& force,
                                 double drag) const;
 
-  /// T / g [N s/m], 2 m / T of a free mass: drag_velocity() holds larger drag to what stops it.
+  /// T / g [N s/m], which is 2 m / T for a free mass. drag_velocity() holds larger drag to what stops the
+  /// device.
   double strongest_drag() const { return time_step_ / map_(0, 4); }
 
-  /// Moves on by one tick, during which the hand goes from one place to the next and `force` [N] is held.
+  /// Advances by one tick, during which the hand goes from one place to the next and `force` [N] is held.
   void advance(const State& hand, const State& hand_after, const Eigen::Vector3d& force);
 
  private:
@@ -108,7 +108,7 @@ class SimulatedDevice {
   double time_step_;
   Eigen::Matrix<double, 2, 5> map_;
   State state_;
-  std::deque<Eigen::Vector3d> past_;  // m, read in the last ticks; of ReadVelocity::encoders
+  std::deque<Eigen::Vector3d> past_;  // m, read in the last ticks, for ReadVelocity::encoders
 };
 
 }  // namespace sandstroke

@@ -7,7 +7,7 @@
 namespace sandstroke {
 namespace {
 
-// Beyond these, speeds between samples and the cubic terms of a curve through them are no numbers any more.
+// Beyond these limits, speeds between samples and the cubic terms of a curve through them are not finite.
 constexpr double most = 1e50;         // s, m
 constexpr double least_step = 1e-50;  // s
 

@@ -7,12 +7,11 @@
 
 namespace sandstroke {
 
-/// Whether the pen is down at a sample. Where every sample was drawn, no flag is left for the gaps between
-/// pen strokes: so the last sample of a pen stroke says that the pen lifts right after it.
+/// Whether the pen is down at a sample. If every sample was drawn, none can mark the gaps between pen
+/// strokes. So the last sample of a pen stroke says that the pen lifts right after it.
 enum PenState : std::uint8_t { pen_up = 0, pen_down = 1, pen_lifts = 2 };
 
-/// Whose force a stroke's is: that of its surroundings on the device, which the hand feels, or that of the
-/// hand.
+/// Which force a stroke holds: the force on the device, which the hand feels, or the force by the hand.
 enum class ForceSign { not_said, on_device, by_hand };
 inline const std::vector<std::string> force_sign_names = {"unknown", "on device", "by hand"};
 
@@ -25,12 +24,12 @@ struct Stroke {
   std::vector<Eigen::Vector3d> force;          ///< N, as recorded (optional)
   std::vector<Eigen::Vector4d> orientation;    ///< of the tool: unit quaternions x, y, z, w (optional)
   std::vector<double> pressure;                ///< of the pen, in its own unit (optional)
-  std::vector<std::uint32_t> switches;         ///< device switches, bit by bit (optional)
+  std::vector<std::uint32_t> switches;         ///< a bit per device switch (optional)
   std::vector<std::uint32_t> flags;            ///< a recorder's SampleFlag bits (optional)
   std::vector<std::uint8_t> contact;           ///< a PenState each (optional); without it the pen is down
   double nominal_rate = 0.0;                   ///< Hz; 0 = unknown
   double gap_threshold = 0.1;                  ///< s; samples further apart are not joined: the tool lifts
-  double tip_speed = 0.0;                      ///< m/s that `time` was made for, in any size; 0: recorded
+  double tip_speed = 0.0;                      ///< m/s that `time` was made for, at any scale; 0: recorded
   std::string source;                          ///< where it came from, for people
   std::string frame = "bed";                   ///< "bed" or "device"
   ForceSign force_sign = ForceSign::not_said;  ///< of `force`
@@ -41,19 +40,19 @@ struct Stroke {
   std::size_t size() const { return time.size(); }
   double duration() const { return time.empty() ? 0.0 : time.back() - time.front(); }
 
-  /// The pen is down at sample i.
+  /// Whether the pen is down at sample i.
   bool pen_down(std::size_t i) const { return contact.empty() || contact[i] != pen_up; }
-  /// It is known where the hand is between samples i and i + 1.
+  /// Whether it is known where the hand is between samples i and i + 1.
   bool sampled_between(std::size_t i) const {
     return i + 1 < size() && time[i + 1] - time[i] <= gap_threshold &&
            (contact.empty() || contact[i] != pen_lifts);
   }
-  /// Samples i and i + 1 are drawn as one line; otherwise the tool is lifted between them.
+  /// Whether samples i and i + 1 are drawn as one line; otherwise the tool is lifted between them.
   bool joined(std::size_t i) const { return sampled_between(i) && pen_down(i) && pen_down(i + 1); }
 };
 
-/// The one list of a stroke's columns: visit(name, column), by their names in files. Optional ones may be
-/// empty.
+/// Calls visit(name, column) for each column of a stroke, with its name in files. It is the only list of
+/// them. Optional ones may be empty.
 template <class AnyStroke, class Visit>
 void visit_columns(AnyStroke& stroke, const Visit& visit) {
   visit("time", stroke.time);
@@ -67,13 +66,13 @@ void visit_columns(AnyStroke& stroke, const Visit& visit) {
   visit("contact", stroke.contact);
 }
 
-/// Keeps of all columns the samples from begin to before end, or these, in their order.
+/// Keeps the samples [begin, end), or these samples in their order, and removes all others from all columns.
 void keep_samples(Stroke& stroke, std::size_t begin, std::size_t end);
 void keep_samples(Stroke& stroke, const std::vector<std::size_t>& samples);
 
-/// What every reader and maker of a stroke guarantees: at least one sample, columns of equal length, finite
-/// numbers, times and positions of at most 1e50, times that increase by at least 1e-50 s. Error: input;
-/// `name` says which stroke, the sentence names column and sample.
+/// Checks what every reader and maker of a stroke guarantees: at least one sample, columns of equal length,
+/// finite numbers, times and positions of at most 1e50, times that increase by at least 1e-50 s. Error:
+/// input; `name` says which stroke, the sentence names column and sample.
 void check_stroke(const Stroke& stroke, const std::string& name);
 
 }  // namespace sandstroke

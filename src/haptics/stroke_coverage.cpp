@@ -5,7 +5,7 @@
 namespace sandstroke {
 namespace {
 
-/// Samples that no line joins, though the pen is down there and is not said to lift; and all such.
+/// Numbers of samples at which the pen is down and does not lift: those that no line joins, and all.
 struct LoneSamples {
   std::size_t alone = 0, all = 0;
 };

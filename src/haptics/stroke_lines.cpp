@@ -6,14 +6,14 @@
 namespace sandstroke {
 namespace {
 
-/// On the line from one sample to the next.
+/// A place on the line from one sample to the next.
 struct PlaceOnLine {
   std::size_t sample;
-  double share;  // of the line
+  double share;  // fraction of the line
 };
 
-/// s: over no longer time may the curve's velocity be wrong by this at both ends of a line. The cubic's error
-/// is at most 4/27 of the time and of each end's error.
+/// The longest time [s] of a line if the curve's velocity is wrong by `velocity` at both ends. The cubic's
+/// error is at most 4/27 of the time and of each end's error.
 double time_in_tolerance(double velocity, double tolerance) { return tolerance * 27.0 / (8.0 * velocity); }
 
 template <class Value>
@@ -29,7 +29,8 @@ std::vector<PlaceOnLine> places_of(const Stroke& stroke, double tolerance) {
   const auto velocity = [&](std::size_t i) -> Eigen::Vector3d {
     return (stroke.position[i + 1] - stroke.position[i]) / time(i);
   };
-  // Share of line i that is close to the corner between lines `before` and `before` + 1; 0: it needs none.
+  // The fraction of line i up to a sample near the corner between lines `before` and `before` + 1; 0: it
+  // needs none.
   const auto close_share = [&](std::size_t i, std::size_t before) {
     const double corner = (velocity(before + 1) - velocity(before)).norm();
     const double longest = time_in_tolerance(corner, tolerance);
@@ -38,7 +39,7 @@ std::vector<PlaceOnLine> places_of(const Stroke& stroke, double tolerance) {
   std::vector<PlaceOnLine> places;
   const auto add = [&](std::size_t i, double share) {
     const double at = between(stroke.time[i], stroke.time[i + 1], share);
-    const bool is_time = stroke.time[i] < at && at < stroke.time[i + 1];  // that a double can tell
+    const bool is_time = stroke.time[i] < at && at < stroke.time[i + 1];  // as doubles
     if (share > 0.0 && share < 1.0 && is_time) places.push_back({i, share});
   };
   for (std::size_t i = 0; i + 1 < stroke.size(); ++i) {

@@ -15,7 +15,7 @@ struct StrokePiece {
   double duration(const std::vector<double>& time) const { return time[end - 1] - time[begin]; }  ///< s
 };
 
-/// All of a stroke, in order; a sample in the air is a piece of its own.
+/// All pieces of a stroke, in order; a sample in the air is a piece of its own.
 inline std::vector<StrokePiece> joined_pieces(const Stroke& stroke) {
   std::vector<StrokePiece> pieces;
   for (std::size_t begin = 0, end = 0; begin < stroke.size(); begin = end) {

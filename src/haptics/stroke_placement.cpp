@@ -46,7 +46,7 @@ void speed_up(Stroke& stroke, double times) {
   stroke.nominal_rate *= times;
 }
 
-/// A stroke whose times were made for a speed keeps it.
+/// Scales a stroke. If its times were made for a speed, it keeps that speed.
 void resize(Stroke& stroke, double scale) {
   for (Vector3d& p : stroke.position) p *= scale;
   for (Vector3d& v : stroke.velocity) v *= scale;
@@ -90,7 +90,8 @@ void lay_level(Stroke& stroke, const StrokePlacement& placement, const std::stri
   const UpNormal up = up_normal(stroke, plane, placement.up, name);
   const Matrix3d level = Eigen::Quaterniond::FromTwoVectors(up.normal, Vector3d::UnitZ()).toRotationMatrix();
 
-  // About the centroid, which lies on the plane: small numbers, and z = 0 is the plane at once.
+  // Turns the stroke about the centroid, which lies on the plane: numbers stay small, and the plane becomes z
+  // = 0.
   for (Vector3d& p : stroke.position) p -= plane.centroid;
   rotate(stroke, level);
   bring_to(Eigen::Vector2d::Zero(), stroke);
@@ -99,7 +100,7 @@ void lay_level(Stroke& stroke, const StrokePlacement& placement, const std::stri
     if (stroke.pen_down(i)) stroke.position[i].z() = 0.0;
 }
 
-/// By which the stroke, already turned, fills its share of the bed.
+/// The scale at which the stroke, already turned, fills its fraction of the bed.
 double fitting_scale(const Stroke& stroke, double share, const Eigen::AlignedBox2d& bed,
                      const std::string& name) {
   const Eigen::AlignedBox3d extent = drawn_extent(stroke);
@@ -136,7 +137,7 @@ double full_press(const Stroke& stroke, const StrokePlacement& placement, const 
   return full;
 }
 
-/// Raises drawn samples that are lowered by the whole depth to where they are as deep as they press.
+/// Raises drawn samples, which are lowered by the whole depth, to the depth of their pressure or force.
 void raise_to_press(Stroke& stroke, const StrokePlacement& placement, double full, const std::string& name) {
   const Eigen::AlignedBox3d extent = drawn_extent(stroke);
   if (placement.plane == StrokePlane::keep && extent.min().z() < extent.max().z())

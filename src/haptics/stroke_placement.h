@@ -11,9 +11,9 @@
 namespace sandstroke {
 
 /// keep: as recorded. fit: the plane through the tracing is laid level, with the tracing's centre on the
-/// origin. flatten: so, and the tracing is moved onto the plane.
+/// origin. flatten: the same, and the tracing is moved onto the plane.
 enum class StrokePlane { keep, fit, flatten };
-/// What the heights of a stroke count from: the bed's z = 0, or the sand as it lies under the tip.
+/// The zero of a stroke's heights: the bed's z = 0, or the sand as it lies under the tip.
 enum class StrokeFollow { bed, sand };
 /// none: `depth` everywhere. pressure, force: `depth` where the recorded pressure, or the size of the
 /// recorded force, is largest, and in proportion elsewhere.
@@ -22,10 +22,10 @@ inline const std::vector<std::string> depth_by_names = {"none", "pressure", "for
 /// keep: where it is. centre: the middle of its drawn extent goes onto the middle of the bed.
 enum class StrokePlace { keep, centre };
 
-/// Where a stroke goes on the bed ([stroke] in a scene).
+/// How a stroke is placed on the bed ([stroke] in a scene).
 struct StrokePlacement {
   double scale = 1.0;  ///< of positions and velocities, > 0
-  double fit = 0.0;    ///< > 0: the share of the bed's width or depth that it fills, instead of the scale
+  double fit = 0.0;    ///< > 0: the fraction of the bed's width or depth that it fills, instead of the scale
   StrokePlace place = StrokePlace::keep;
   Eigen::Vector3d offset = Eigen::Vector3d::Zero();  ///< m
   double rotate_z = 0.0;                             ///< deg, from +x towards +y
@@ -36,14 +36,14 @@ struct StrokePlacement {
   double full_depth_at = 0.0;  ///< the pressure, or force [N], of full depth; 0: the largest of the stroke
   StrokeFollow follow = StrokeFollow::bed;
   HeldSamples held = HeldSamples::keep;
-  double smooth = 0.0;  ///< Hz, cut-off of the filter that takes tremble and noise out (smoothed); 0: none
+  double smooth = 0.0;  ///< Hz, cut-off of the filter against tremble and noise (smoothed); 0: none
   double speed = 1.0;   ///< times faster, > 0
   double start = 0.0;   ///< s after the first sample: earlier samples are cut
   double stop = std::numeric_limits<double>::infinity();  ///< s after the first sample: later samples are cut
 };
 
-/// Where single points of a stroke go; all of a placement but the fit of a plane, which needs the whole
-/// stroke.
+/// The placement of single points of a stroke. It has all of a placement but the fit of a plane, which needs
+/// the whole stroke.
 struct PointPlacement {
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< from the stroke's frame to the bed's
   double scale = 1.0;
@@ -51,7 +51,7 @@ struct PointPlacement {
   Eigen::Vector3d shift = Eigen::Vector3d::Zero();     ///< m
 
   Eigen::Vector3d position(const Eigen::Vector3d& p) const { return turn * (scale * (axes * p)) + shift; }
-  /// The point that is placed there.
+  /// The inverse: the point that is placed at `placed`.
   Eigen::Vector3d position_back(const Eigen::Vector3d& placed) const {
     return axes.transpose() * (turn.transpose() * (placed - shift)) / scale;
   }
@@ -61,7 +61,7 @@ struct PointPlacement {
     const Eigen::Quaterniond to_bed(axes);
     return Eigen::Quaterniond(turn) * to_bed * q * to_bed.conjugate();
   }
-  /// A force on the bed's axes, on those of the stroke's frame.
+  /// Converts a force from the bed's axes to those of the stroke's frame.
   Eigen::Vector3d force_back(const Eigen::Vector3d& force) const {
     return axes.transpose() * (turn.transpose() * force);
   }
@@ -73,16 +73,16 @@ PointPlacement point_placement(const StrokePlacement& placement, const std::stri
 
 /// The stroke as it is played: cut to start..stop, without held samples, smoothed, turned from the device's
 /// axes (frame "device") to the bed's, laid level (plane), scaled, turned about z, lowered by `depth`,
-/// brought onto the bed (place), moved by `offset`; its time begins at 0, and is `speed` times shorter.
-/// Times that were made for a speed of the tip (Stroke::tip_speed) are those of the size on the bed.
+/// brought onto the bed (place), moved by `offset`; its time begins at 0, and is `speed` times shorter. Times
+/// that were made for a speed of the tip (Stroke::tip_speed) give that speed at the size on the bed.
 /// Velocities turn and scale with it, forces and orientations turn. The drawn extent is that of the samples
-/// at which the pen is down. `bed` [m]: where the bed is, for what asks for it (fit, place).
+/// at which the pen is down. `bed` [m]: the bed's rectangle, for fit and place.
 ///
 /// The plane is the least-squares plane through the samples at which the pen is down (plane_through). It is
 /// turned by the smallest rotation that brings up_normal() to z, and shifted onto z = 0; bumps about the
-/// plane stay, but for flatten. With depth_by, a drawn sample goes no deeper than `depth`, and one without
-/// pressure (or force) not at all. Error: input, naming the stroke by `name`, where nothing is left of it,
-/// its samples span no plane or are no tracing in one, it has no extent to fit, or depth_by finds no
+/// plane stay, except with flatten. With depth_by, a drawn sample goes no deeper than `depth`, and one
+/// without pressure (or force) not at all. Error: input, naming the stroke by `name`, if nothing is left of
+/// it, its samples span no plane or are no tracing in one, it has no extent to fit, or depth_by finds no
 /// pressure, or heights that differ without a plane.
 Stroke place_stroke(const Stroke& stroke, const StrokePlacement& placement,
                     const std::string& name = "stroke", const Eigen::AlignedBox2d& bed = {});

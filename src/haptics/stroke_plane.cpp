@@ -36,7 +36,7 @@ StrokeUp nearest_axis(const Vector3d& normal) {
   return normal[axis] < 0.0 ? opposite(positive) : positive;
 }
 
-/// m above the plane, the mean of the samples with the pen up; 0 where there are none.
+/// Mean height [m] above the plane of the samples with the pen up; 0 if there are none.
 double lifted_height(const Stroke& stroke, const LeastSquaresPlane& plane) {
   double sum = 0.0;
   std::size_t count = 0;
@@ -48,7 +48,7 @@ double lifted_height(const Stroke& stroke, const LeastSquaresPlane& plane) {
   return count > 0 ? sum / static_cast<double>(count) : 0.0;
 }
 
-/// The share of the way in an upright plane that is more than 10 deg off both z and the horizontal.
+/// The fraction of the way in an upright plane that is more than 10 deg off both z and the horizontal.
 double oblique_share(const Stroke& stroke) {
   const double least = elementary::sin(to_radians(10.0));
   double oblique = 0.0, whole = 0.0;
@@ -127,7 +127,7 @@ UpNormal up_normal(const Stroke& stroke, const LeastSquaresPlane& plane, StrokeU
   const double lifted = lifted_height(stroke, plane);
   found.lifted = std::abs(lifted) > 3.0 * plane.rms() && std::abs(lifted) > 0.01 * plane.widths[2];
   const bool table = found.axis == StrokeUp::z;
-  // A positive axis, but for the side to which the pen is lifted.
+  // Takes a positive axis, unless the pen is lifted to the other side.
   if (found.lifted ? lifted < 0.0 : found.axis > StrokeUp::z)
     found = {-found.normal, opposite(found.axis), found.lifted};
   if (!table && !found.lifted && oblique_share(stroke) <= 0.5)

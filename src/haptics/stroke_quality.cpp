@@ -15,10 +15,10 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double widest_hand = 3.0;    // m, that an arm reaches across
-constexpr double fastest_hand = 10.0;  // m/s, of a throw less
+constexpr double widest_hand = 3.0;    // m, the widest reach of an arm
+constexpr double fastest_hand = 10.0;  // m/s; a throw is slower
 
-/// m^2, of four samples: how far they are from any parabola over time, as the square of one sample's noise.
+/// How far four samples are from any parabola over time [m^2], as the square of one sample's noise.
 double squared_residual(const Stroke& stroke, std::size_t first) {
   const double spacing = (stroke.time[first + 3] - stroke.time[first]) / 3.0;
   Vector3d sum = Vector3d::Zero();

@@ -17,7 +17,8 @@ double inner_slope(double h0, double secant0, double h1, double secant1) {
   return (weight0 + weight1) / (weight0 / secant0 + weight1 / secant1);
 }
 
-/// Of the parabola through the last three samples of a piece; h0 and secant0 belong to the end's own spacing.
+/// Slope at the end of a piece, of the parabola through its last three samples; h0 and secant0 belong to the
+/// end's own spacing.
 template <class Slope>
 Slope parabola_at_end(double h0, const Slope& secant0, double h1, const Slope& secant1) {
   return ((2.0 * h0 + h1) * secant0 - h0 * secant1) / (h0 + h1);
@@ -32,13 +33,13 @@ double outer_slope(double h0, double secant0, double h1, double secant1) {
   return slope;
 }
 
-/// At most so fast.
+/// The velocity, with its speed limited to `most`.
 Vector2d limited(const Vector2d& velocity, double most) {
   const double speed = velocity.norm();
   return speed > most ? Vector2d(velocity * (most / speed)) : velocity;
 }
 
-/// As inner_slope(), of the way in the plane.
+/// Like inner_slope(), for the motion in the plane.
 Vector2d inner_velocity(double h0, const Vector2d& secant0, double h1, const Vector2d& secant1) {
   const double speed0 = secant0.norm(), speed1 = secant1.norm();
   if (speed0 == 0.0 || speed1 == 0.0) return Vector2d::Zero();
@@ -46,14 +47,14 @@ Vector2d inner_velocity(double h0, const Vector2d& secant0, double h1, const Vec
   return limited((h1 * secant0 + h0 * secant1) / (h0 + h1), (1.0 + cosine) * std::min(speed0, speed1));
 }
 
-/// As outer_slope(), of the way in the plane.
+/// Like outer_slope(), for the motion in the plane.
 Vector2d outer_velocity(double h0, const Vector2d& secant0, double h1, const Vector2d& secant1) {
   const Vector2d velocity = parabola_at_end(h0, secant0, h1, secant1);
   if (!(velocity.dot(secant0) > 0.0)) return Vector2d::Zero();
   return limited(velocity, 3.0 * secant0.norm());
 }
 
-/// Rounding must not carry the height out of its bracket either.
+/// Keeps the height between those of a and b, despite rounding.
 Vector3d between(Vector3d position, const Vector3d& a, const Vector3d& b) {
   position.z() = std::clamp(position.z(), std::min(a.z(), b.z()), std::max(a.z(), b.z()));
   return position;

@@ -8,7 +8,7 @@
 
 namespace sandstroke {
 
-/// Where the hand is at one instant.
+/// The hand at one instant.
 struct Hand {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();               ///< m
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();               ///< m/s, the derivative of position
@@ -41,15 +41,15 @@ class StrokeSampler {
   /// The stroke must have passed check_stroke.
   explicit StrokeSampler(Stroke stroke);
 
-  /// Cheap (amortised O(1)) where t does not decrease from call to call; right in any order. Before the start
-  /// and after the end the hand rests, lifted.
+  /// The hand at time t. Cheap (amortised O(1)) if t does not decrease from call to call; right in any order.
+  /// Before the start and after the end the hand rests, lifted.
   Hand at(double t);
 
   const Stroke& stroke() const { return stroke_; }
   double start_time() const { return stroke_.time.front(); }
   double end_time() const { return stroke_.time.back(); }
   const std::vector<StrokeGap>& gaps() const { return gaps_; }
-  /// Whether the tool is lifted at any time between two [s], begin < end, themselves left out.
+  /// Whether the tool is lifted at any time after begin and before end [s]; begin < end.
   bool lifts_between(double begin, double end) const;
 
  private:

@@ -15,10 +15,10 @@ namespace {
 using Eigen::Vector2d;
 
 constexpr double most_samples = 2e7;   // over five hours at 1000 Hz, 640 MB
-constexpr int most_legs = 20'000'000;  // straight or round: seconds of work, however few samples they give
+constexpr int most_legs = 20'000'000;  // lines or arcs: seconds of work, however few samples they give
 constexpr double same_point = 1e-9;    // m
 
-constexpr double smooth_turn = 10.0;  // deg: a path's corner up to here is taken on the way
+constexpr double smooth_turn = 10.0;  // deg: at corners up to here the tool turns without a stop
 
 /// A straight line, or an arc about `centre`.
 struct Curve {
@@ -100,7 +100,7 @@ Profile height_profile(const PressProfile& press, const ForceSettings& force) {
   return Profile(std::move(heights));
 }
 
-/// How a pen is held: a height [m], and angles [deg] as of ToolTurn.
+/// How a pen is held: a height [m], and angles [deg] as in ToolTurn.
 struct Posture {
   double z, turn = 0.0, tilt = 0.0;
   Posture towards(const Posture& other, double share) const {
@@ -124,7 +124,7 @@ class PostureProfile {
         tilt_(turn.tilt),
         along_path_(turn.heading == ToolTurn::Heading::path) {}
 
-  /// At a fraction of the path, which is one of that curve.
+  /// The posture at a fraction of the path, which is the fraction `of_curve` of that curve.
   Posture at(double fraction, const Curve& curve, double of_curve) const {
     return {height_.at(fraction), turn_.at(fraction) + (along_path_ ? curve.heading(of_curve) : 0.0),
             tilt_.at(fraction)};
@@ -147,7 +147,7 @@ bool turns_tool(const StrokeScript& script) {
                      [](const ScriptSegment& segment) { return segment.turn.turns(); });
 }
 
-/// The pen, moved leg by leg; samples are taken as it goes.
+/// Moves the pen leg by leg, and takes samples on the way.
 class Pen {
  public:
   explicit Pen(const StrokeScript& script)
@@ -161,7 +161,7 @@ class Pen {
     lift();
     run(Curve::line(point_, to), 0.0, 1.0, held_, script_.travel_speed);
   }
-  /// Goes to the path's first point, lifted where that is elsewhere, and draws the path.
+  /// Goes to the path's first point, lifted if that is elsewhere, and draws the path.
   void draw(const Path& path, const PostureProfile& profile, double speed) {
     const Vector2d& first = path.front().from;
     if ((first - point_).norm() > same_point) travel(first);
@@ -188,7 +188,7 @@ class Pen {
     }
   }
 
-  /// The samples so far and one more, at which the pen has come to rest.
+  /// Takes one more sample, at which the pen has come to rest, and returns the stroke.
   Stroke finish() {
     sample(point_, held_);
     stroke_.nominal_rate = script_.rate;
@@ -200,7 +200,7 @@ class Pen {
   void climb_to(double z) {
     run(Curve::line(point_, point_), 0.0, 1.0, {z, held_.turn, held_.tilt}, script_.plunge_speed);
   }
-  /// Turns the tool in its place, the shorter way round; by no more than smooth_turn it takes no time.
+  /// Turns the tool in its place, the shorter way round. A turn of up to smooth_turn takes no time.
   void turn_to(const Posture& posture) {
     if (!turns_) return;
     const double whole_turns = 360.0 * std::round((posture.turn - held_.turn) / 360.0);
@@ -212,7 +212,8 @@ class Pen {
     else
       held_ = turned;
   }
-  /// Along a curve from one fraction to another while the posture changes linearly: constant speed in space.
+  /// Moves along a curve from one fraction to another, at constant speed in space, while the posture changes
+  /// linearly.
   void run(const Curve& curve, double begin, double end, const Posture& after, double speed) {
     add(curve, begin, end, after, elementary::hypot((end - begin) * curve.length, after.z - held_.z) / speed);
   }
@@ -255,8 +256,8 @@ Path spline_path(const std::vector<Vector2d>& points) {
   double length = 0.0;  // m, about
   for (std::size_t i = 0; i + 1 < count; ++i) length += (points[i + 1] - points[i]).norm();
   if (!std::isfinite(length)) throw_input_error("its points lie infinitely far apart; move them closer");
-  // Aimed at for a leg: as far as a tool at 0.1 m/s gets within a servo tick of 1 ms; farther where there
-  // would be millions of legs.
+  // The target length of a leg: the way of a tool at 0.1 m/s within a servo tick of 1 ms; more if there would
+  // be millions of legs.
   const double fine = std::max(1e-4, 1e-6 * length);  // m
   Path path;
   for (std::size_t i = 0; i + 1 < count; ++i) {

@@ -16,13 +16,14 @@ namespace sandstroke {
 struct PressProfile {
   enum class Kind { depth, force };
   Kind kind = Kind::depth;
-  /// depth: m below z = 0. force: N >= 0, the repulse force that is felt. Where anything presses by force,
+  /// depth: m below z = 0. force: N >= 0, the repulse force that is felt. If any segment presses by force,
   /// the stroke follows the sand (Stroke::follows_sand), and depths count from there, too.
   std::vector<double> values;
 };
 
-/// How the tool is turned while a segment is drawn: leant over by `tilt` about its own y axis, its upper end
-/// towards its +x, then turned about z. Each a list in deg, spread like a PressProfile's; none: 0.
+/// How the tool is turned while a segment is drawn. It leans by `tilt` about its own y axis, its upper end
+/// towards its +x; then it turns by `turn` about z. Each is a list in deg, spread like a PressProfile's;
+/// empty: 0.
 struct ToolTurn {
   enum class Heading { fixed, path };
   Heading heading = Heading::fixed;  ///< path: its +x points along the path, and `turn` counts from there
@@ -32,12 +33,12 @@ struct ToolTurn {
   bool turns() const { return heading == Heading::path || !turn.empty() || !tilt.empty(); }
 };
 
-// What a segment draws, in the xy plane. All lengths in m, angles in deg counted from +x towards +y.
+// Shapes that a segment draws, in the xy plane. All lengths in m, angles in deg counted from +x towards +y.
 struct ScriptMove {
   Eigen::Vector2d to = Eigen::Vector2d::Zero();  ///< reached in the air
 };
 struct ScriptLine {
-  std::optional<Eigen::Vector2d> from;  ///< without: the current point
+  std::optional<Eigen::Vector2d> from;  ///< none: the current point
   Eigen::Vector2d to = Eigen::Vector2d::Zero();
 };
 struct ScriptArc {
@@ -61,12 +62,12 @@ struct ScriptSegment {
   PressProfile press = {};  ///< unused by a move; a text presses like this along each of its pen strokes
   double speed = 0.1;       ///< m/s, of the tip along its path in space; unused by a move
   double wait = 0.0;        ///< s, rest at the segment's end
-  ToolTurn turn = {};       ///< as press; a move keeps the tool turned as it is
+  ToolTurn turn = {};       ///< like press; a move does not turn the tool
 };
 
-/// A stroke described by what it draws. The tool starts and ends in the air, at height `clearance`. A segment
-/// that begins away from the current point is reached lifted: up, across, down. Where the tool has to be
-/// turned otherwise, at a segment's beginning or a corner that it follows, it turns in its place.
+/// A stroke described by what it draws. The tool starts and ends in the air, at height `clearance`. If a
+/// segment begins away from the current point, the tool goes there lifted: up, across, down. If the tool must
+/// turn, at a segment's beginning or a corner that it follows, it turns in its place.
 struct StrokeScript {
   std::string name = "script";                      ///< for messages
   Eigen::Vector2d start = Eigen::Vector2d::Zero();  ///< m
@@ -79,12 +80,12 @@ struct StrokeScript {
   std::vector<ScriptSegment> segments;
 };
 
-/// Whether the force constants decide how deep any of it goes.
+/// Whether any segment presses by force, so that the force constants decide its depth.
 bool presses_by_force(const StrokeScript& script);
 
-/// Samples at times i / rate. Lines and arcs are exact (an arc under a sloping depth is a helix); the speed
-/// of the tip in space is the asked one throughout a path, so between samples it is never more. Error: input,
-/// naming script and segment.
+/// Samples a script at times i / rate. Lines and arcs are exact (an arc under a sloping depth is a helix).
+/// The tip has the asked speed in space throughout a path, so between samples it is never faster. Error:
+/// input, naming script and segment.
 Stroke trace_script(const StrokeScript& script, const ForceSettings& force);
 
 }  // namespace sandstroke

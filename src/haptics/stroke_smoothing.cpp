@@ -15,10 +15,10 @@ namespace {
 using Eigen::Vector3d;
 using Sparse = Eigen::SparseMatrix<double>;
 
-/// (2 pi f h)^4: the solution's relative error is about 1e-16 of its inverse (measured: 2e-4).
+/// The smallest (2 pi f h)^4. The solution's relative error is about 1e-16 of its inverse (measured: 2e-4).
 constexpr double least_bend = 1e-12;
 
-/// Hz, the mean.
+/// The mean rate [Hz].
 double rate_of(const Stroke& stroke, const StrokePiece& piece) {
   return static_cast<double>(piece.size() - 1) / piece.duration(stroke.time);
 }

@@ -5,20 +5,21 @@
 
 namespace sandstroke {
 
-/// Finds a device that swings by itself: a loop that is unstable, also where the force limit, or the air
-/// above the sand, bounds the swing. By energy, so that the time it takes is the loop's own: along an axis,
-/// over successive periods (between two changes of the sign of the velocity relative to the hand's, upwards)
-/// in which
-/// - the hand is less than half as fast as the device is relative to it, so that it is not the hand's motion,
+/// Finds a device that swings by itself: its loop is unstable, even if the force limit, or the air above the
+/// sand, bounds the swing. It judges by energy, so it takes as long as the loop itself does. It looks at
+/// periods along an axis, each between two changes of sign, upwards, of the velocity relative to the hand's.
+/// The device swings by itself if, over successive periods in which
+/// - the hand is less than half as fast as the device is relative to it, so that the hand does not move it,
 /// and
-/// - the kinetic energy at the fastest has not fallen to half of the largest of these periods, as what
-/// settles does, the sand returned, net, more than ten times that largest kinetic energy, and more than it
-/// can store.
+/// - the kinetic energy at the fastest has not fallen to half of the largest of these periods, as it does
+/// when a device settles,
+/// the sand returned, net, more than ten times that largest kinetic energy, and more than it can store.
 class SwingWatch {
  public:
-  /// A tick. relative: velocity to the hand at its end; hand: the hand's [m/s]; returned: by the sand along
-  /// each axis, without what the encoders' rounding may have given [J]; stored: the most that sand can have
-  /// stored so far [J]; mass [kg]. True: it swings by itself.
+  /// Adds a tick. relative: the device's velocity relative to the hand, at the tick's end; hand: the hand's
+  /// velocity [m/s]; returned: what the sand returned along each axis, without what the encoders' rounding
+  /// may have given [J]; stored: the most that sand can have stored so far [J]; mass [kg]. True: the device
+  /// swings by itself.
   bool add(const Eigen::Vector3d& relative, const Eigen::Vector3d& hand, const Eigen::Vector3d& returned,
            double stored, double mass);
 
@@ -26,7 +27,7 @@ class SwingWatch {
   struct Axis {
     double last = 0.0;                                         // m/s
     double fastest = 0.0, hand_fastest = 0.0, returned = 0.0;  // in this period: m/s, m/s, J
-    double sum = 0.0, largest = 0.0;                           // over the row of periods: J, J
+    double sum = 0.0, largest = 0.0;                           // over the successive periods: J, J
   };
   std::array<Axis, 3> axes_;
 };

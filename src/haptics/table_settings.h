@@ -10,16 +10,16 @@ namespace sandstroke {
 enum class Separator { found, comma, semicolon, tab, blanks };
 enum class DecimalMark { found, point, comma };
 
-/// What to do where a time stamp equals the one before it: report it; keep only the first sample with that
+/// How to treat a time stamp that equals the one before it: report it; keep only the first sample with that
 /// stamp; or space the samples evenly up to the next stamp.
 enum class EqualTimes { error, drop, spread };
 
-/// How a table of samples becomes a stroke ([stroke.table] in a scene). What is empty, 0 or `found` is taken
-/// from the table. Columns are named, or numbered from 1; lists are parted by commas.
+/// How a table of samples becomes a stroke ([stroke.table] in a scene). Settings that are empty, 0 or `found`
+/// come from the table. Columns are named, or numbered from 1; commas separate lists.
 struct TableSettings {
-  std::string position;       ///< 2 or 3 columns, each with - in front where its sign changes: "-x,z,y"
+  std::string position;       ///< 2 or 3 columns, each with - in front if its sign changes: "-x,z,y"
   std::string position_unit;  ///< m cm mm um in px, or metres: "1e-5"
-  double pixel_size = 0.0;    ///< m, of px
+  double pixel_size = 0.0;    ///< m, for px
   std::string time, time_unit;
   double rate = 0.0;   ///< Hz, instead of times
   double speed = 0.0;  ///< m/s, instead of times: they follow from the length of the way
@@ -30,12 +30,12 @@ struct TableSettings {
   std::string orientation;  ///< 4 columns (quaternion x, y, z, w) or 9 (rotation matrix, row by row)
   std::string pressure;     ///< column of the pen's pressure, in any unit
   std::string part;         ///< one of several recordings in a file: a bag's topic, a variable of a .mat file
-  std::string columns;      ///< names of all, where the table has no header
+  std::string columns;      ///< names of all columns, if the table has no header
   Separator separator = Separator::found;
   DecimalMark decimal = DecimalMark::found;
   std::string encoding;        ///< as iconv names it
   int skip_lines = 0;          ///< at the beginning
-  std::string skip, pen_up;    ///< words with which lines begin
+  std::string skip, pen_up;    ///< first words of lines
   double gap_threshold = 0.0;  ///< s; 0: as in Stroke, and none with `speed`
   std::string frame = "bed";   ///< "bed" or "device"
   std::string merge;           ///< a second table, with force or orientation at its own times
@@ -45,7 +45,8 @@ struct TableSettings {
   double merge_shift = 0.0;  ///< s, added to the times of the second table
 };
 
-/// The one list of its keys: of [stroke.table], which is open, and of the options of `stroke convert`.
+/// Shows all keys of [stroke.table], which is open, and all options of `stroke convert`. It is the only list
+/// of them.
 void describe_table(KeyVisitor& visitor, TableSettings& table);
 
 }  // namespace sandstroke

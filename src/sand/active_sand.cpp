@@ -38,7 +38,7 @@ void ActiveSand::look_at_active_cells() {
 
 void ActiveSand::load_rim(const HeightField& bed, TilePatch& patch, RowSpan rows,
                           const CellFlags& cells) const {
-  // Kernels look at whole groups around those of the cells.
+  // Kernels compute whole groups, those of the cells' neighbours included.
   const std::uint64_t seen =
       columns_of(cells, {std::max(rows.begin, 0), std::min(rows.end, TilePatch::side)});
   constexpr int near = cells_per_group + 1;

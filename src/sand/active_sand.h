@@ -11,56 +11,56 @@
 
 namespace sandstroke {
 
-/// What a tile that takes part in a relaxation has while that lasts.
+/// The working data of a tile while it takes part in a relaxation.
 struct RelaxedTile {
-  TilePatch patch;    ///< its heights: the bed's are as they were, until they are written back
-  TileFlow flow;      ///< of the last pass
-  CellFlags changed;  ///< in that, in the flow's rows
+  TilePatch patch;    ///< its heights; the bed keeps the old ones until write_back()
+  TileFlow flow;      ///< flow of the last pass
+  CellFlags changed;  ///< cells that the last pass changed, in the flow's rows
 };
 
-/// The sand of a bed that can move, and one law's flow in it: what the steppers (passes, rkl) are made of. A
-/// pass is compute_flow, then advance: two sweeps over the active tiles, on more threads where that pays,
-/// with the same bits for any number of them.
+/// The sand of a bed that can move, and its flow by one law. The steppers (passes, rkl) are built on it. A
+/// pass calls compute_flow, then advance. Each sweeps the active tiles once, on several threads where that
+/// pays; the bits are the same for any number of threads.
 class ActiveSand {
  public:
-  // Passes with less work go on one thread: handing out tiles would cost more than it saves. In cells; a tile
-  // with any active ones costs as much as 400 more (measured: tests/bench/active_sand_bench.cpp).
+  // Passes with less work [cells] run on one thread, since handing out tiles would cost more than it saves. A
+  // tile with any active cell costs as much as 400 more cells (measured: tests/bench/active_sand_bench.cpp).
   static constexpr std::int64_t work_worth_threads = 8'000, work_per_tile = 400;
 
-  /// tells_givers: super-steps will ask which cells may give.
+  /// tells_givers: also track which cells may give, for super-steps.
   ActiveSand(const TalusLaw& law, double cell_size, bool tells_givers = false,
              std::int64_t worth_threads = work_worth_threads);
 
-  /// Takes up what was set since the last relaxation.
+  /// Begins a relaxation: activates the sand around the cells that were set since the last one.
   void begin(HeightField& bed);
   bool at_rest() const { return activity_.tiles().empty(); }
-  const std::vector<int>& tiles() const { return activity_.tiles(); }  ///< active ones, by slot
+  const std::vector<int>& tiles() const { return activity_.tiles(); }  ///< slots of the active tiles
   const CellFlags& cells(int slot) const { return activity_.cells(slot); }
   void rest() { activity_.rest(); }  ///< nothing is active any more
-  /// Tiles are counted as they join a relaxation, so that a stepper can keep things for each.
+  /// Each tile gets a number (its place) when it joins a relaxation, so that a stepper can keep data for it.
   std::size_t place_of(int slot) const { return static_cast<std::size_t>(places_[slot]); }
   std::size_t places() const { return joined_; }
   RelaxedTile& tile_at(std::size_t place) { return *tiles_[place]; }
   RelaxedTile& tile(int slot) { return *tiles_[place_of(slot)]; }
   const RelaxedTile& tile(int slot) const { return *tiles_[place_of(slot)]; }
 
-  /// Every active cell's gain in a pass. Returns the sum of outflows [m]. in_step(slot, tile): what a
-  /// super-step has to do with a tile's flow (FlowInStep): in one only cells within one of a change may give,
-  /// and all others are held still, however steep (tells_givers). join(slot) is called before for each active
-  /// tile, one after the other; the first time when places() has just grown by it.
+  /// Computes every active cell's gain in a pass. Returns the sum of outflows [m]. in_step(slot, tile)
+  /// returns what a super-step does with a tile's flow (FlowInStep). In a super-step only cells within one of
+  /// a change may give; all others are held still, however steep (tells_givers). join(slot) is called first,
+  /// for one active tile after the other; at a tile's first call places() has just grown by it.
   template <class InStep, class Join>
   double compute_flow(HeightField& bed, const InStep& in_step, const Join& join);
-  /// What the pass has to look at, in cells.
+  /// The cost of the pass, in cells: its active cells, and work_per_tile for each active tile.
   std::int64_t work() const { return work_; }
-  /// body(slot, tile) for each active tile.
+  /// Calls body(slot, tile) for each active tile.
   template <class Body>
   void for_each_tile(const Body& body) {
     for_active_tiles([&](int slot) { body(slot, tile(slot)); });
   }
 
-  /// Calls apply(slot, tile) for each active tile: it changes the tile's patch, and flags in `changed` the
-  /// cells that are another number now. Next active: the cells that see a change. False where nothing
-  /// changed, and nothing is active.
+  /// Calls apply(slot, tile) for each active tile. apply changes the tile's patch, and flags in `changed` the
+  /// cells whose height changed. The cells that see a change are active next. Returns false if nothing
+  /// changed; then nothing is active.
   template <class Apply>
   bool advance(HeightField& bed, const Apply& apply) {
     for_each_tile(apply);
@@ -70,7 +70,7 @@ class ActiveSand {
     return !at_rest();
   }
 
-  /// Brings to the bed what the passes so far have made of it.
+  /// Writes the heights after the passes so far to the bed.
   void write_back(HeightField& bed) const;
 
   /// Heap memory for each tile that takes part in a relaxation [bytes].
@@ -79,8 +79,9 @@ class ActiveSand {
            TileActivity::bytes_per_tile();
   }
 
-  /// Ends a relaxation: writes back; residual of the whole bed, and the counters since begin(). The flow of
-  /// what is still active must have been computed: only what takes part is looked at.
+  /// Ends a relaxation: writes the heights back, and fills in the residual of the whole bed and the counters
+  /// since begin(). Only tiles that take part are looked at, so the flow of the active ones must have been
+  /// computed.
   void end(HeightField& bed, RelaxationOutcome& outcome);
 
  private:
@@ -98,11 +99,12 @@ class ActiveSand {
   double stable_slope_;  // rise over run
   TileActivity activity_;
 
-  // Of this relaxation: by place; those beyond joined_ are left from others.
+  // Tiles of this relaxation, by place. Those beyond joined_ are left from earlier ones.
   std::vector<std::unique_ptr<RelaxedTile>> tiles_;
   std::size_t joined_ = 0;
   std::vector<int> places_;  // per slot; -1: takes no part
-  // Residual of each group of cells, per slot, and their largest; after the last relaxation that saw them.
+  // Residual of each group of cells, per slot, and the largest per slot, after the last relaxation that saw
+  // them.
   using Residuals = std::array<double, HeightField::tile_area / cells_per_group>;
   std::vector<Residuals> group_residuals_;
   std::vector<double> residuals_;
@@ -118,7 +120,7 @@ double ActiveSand::compute_flow(HeightField& bed, const InStep& in_step, const J
     join(slot);
   }
   look_at_active_cells();
-  // What the next heights of cells depend on is two cells away.
+  // The next height of a cell depends on cells up to two away.
   const auto seen_rows = [&](int slot) {
     const RowSpan rows = activity_.rows(slot);
     return RowSpan{rows.begin - TilePatch::rim, rows.end + TilePatch::rim};
@@ -137,7 +139,7 @@ double ActiveSand::compute_flow(HeightField& bed, const InStep& in_step, const J
   return given.value();
 }
 
-// The relaxers of each method.
+// One relaxer per method.
 std::unique_ptr<Relaxer> make_plain_relaxer(const RelaxationSettings& settings, double cell_size);
 std::unique_ptr<Relaxer> make_tile_relaxer(const RelaxationSettings& settings, double cell_size);
 std::unique_ptr<Relaxer> make_rkl_relaxer(const RelaxationSettings& settings, double cell_size);

@@ -16,7 +16,7 @@ struct CellRange {
   bool operator==(const CellRange&) const = default;
 };
 
-/// What of its rectangle a bed fills: all of it; or the largest circle in it, as a sand table does.
+/// The part of its rectangle that a bed fills: all of it, or the largest circle in it, as a sand table does.
 enum class BedShape { rectangle, round };
 
 /// Half-open: begin <= col < end.
@@ -28,7 +28,8 @@ struct ColumnRange {
 /// they are grouped into square tiles.
 class BedGeometry {
  public:
-  /// Cells. 64: a row of a tile is one machine word of flags and eight AVX-512 vectors.
+  /// Side of a tile [cells]. With 64, the flags of a row are one machine word, and its heights eight AVX-512
+  /// vectors.
   static constexpr int tile_side = 64;
   static constexpr int tile_area = tile_side * tile_side;
   static constexpr int most_cells = 65536;  ///< along a side
@@ -50,7 +51,7 @@ class BedGeometry {
   double cell_area() const { return cell_size_ * cell_size_; }
   CellRange cells() const { return {0, rows_, 0, cols_}; }
   BedShape shape() const { return shape_; }
-  /// m, of a round bed.
+  /// Radius of a round bed's wall [m].
   double wall_radius() const { return wall_radius_in_cells() * cell_size_; }
   /// The cells of a row that have sand: those whose centres lie within the shape. All others are wall.
   ColumnRange sand_cols(int row) const {
@@ -69,7 +70,7 @@ class BedGeometry {
     if (shape_ == BedShape::round) return elementary::hypot(x, y) - wall_radius();
     return std::max(std::abs(x) - 0.5 * cols_ * cell_size_, std::abs(y) - 0.5 * rows_ * cell_size_);
   }
-  /// As many cells, of the same size.
+  /// Whether the other bed has as many rows and columns, and cells of the same size.
   bool same_grid(const BedGeometry& other) const {
     return rows_ == other.rows_ && cols_ == other.cols_ && cell_size_ == other.cell_size_;
   }
@@ -95,7 +96,7 @@ class BedGeometry {
     const int row = tile / tile_cols_ * tile_side, col = tile % tile_cols_ * tile_side;
     return {row, std::min(row + tile_side, rows_), col, std::min(col + tile_side, cols_)};
   }
-  /// The tile so many tile rows and columns away; -1 outside the bed.
+  /// The tile that lies row_step tile rows and col_step tile columns away; -1 outside the bed.
   int tile_beside(int tile, int row_step, int col_step) const {
     const int row = tile / tile_cols_ + row_step, col = tile % tile_cols_ + col_step;
     return row < 0 || row >= tile_rows_ || col < 0 || col >= tile_cols_ ? -1 : tile_index(row, col);

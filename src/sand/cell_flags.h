@@ -38,14 +38,15 @@ inline RowSpan row_span(const CellFlags& flags, RowSpan within = all_rows) {
   return span;
 }
 
-/// Which columns have a flag in these rows.
+/// The columns that have a flag in any of these rows.
 inline std::uint64_t columns_of(const CellFlags& flags, RowSpan rows = all_rows) {
   std::uint64_t all = 0;
   for (int row = rows.begin; row < rows.end; ++row) all |= flags[row];
   return all;
 }
 
-/// Not with std::popcount, which is a call per word where the compiler may not assume the instruction.
+/// The number of flags. std::popcount would be a call per word where the compiler may not assume the
+/// instruction.
 inline int count(const CellFlags& flags, RowSpan rows = all_rows) {
   constexpr std::uint64_t twos = 0x3333333333333333u, fours = 0x0f0f0f0f0f0f0f0fu,
                           bytes = 0x00ff00ff00ff00ffu;
@@ -60,10 +61,11 @@ inline int count(const CellFlags& flags, RowSpan rows = all_rows) {
   return static_cast<int>((sums * 0x0001000100010001u) >> 48);
 }
 
-/// Cells are computed in groups of so many neighbours in a row, whatever the width of the machine's vectors.
+/// Cells are computed in groups of this many neighbours in a row, whatever the width of the machine's
+/// vectors.
 inline constexpr int cells_per_group = 8;
 
-/// Bit g: one of the flags 8 g ... 8 g + 7 is set.
+/// Bit g of the result: one of the flags 8 g ... 8 g + 7 is set.
 inline unsigned groups_of(std::uint64_t row) {
   row |= row >> 4;
   row |= row >> 2;

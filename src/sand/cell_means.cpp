@@ -33,7 +33,8 @@ double CellMeans::operator()(Eigen::Index row, Eigen::Index col) const {
 std::set<int> touched_tiles(const HeightField& other, const HeightField& bed) {
   std::set<int> tiles;
   for (int slot = 0; slot < bed.allocated_tiles(); ++slot) tiles.insert(bed.tile_of(slot));
-  // The cell at the border before row or column `at` of the other bed, and the one after it.
+  // The last cell of `bed` that begins before row or column `at` of the other bed, and the first that ends
+  // after it.
   const auto last_before = [](std::int64_t at, int there, int here) {
     return (at * here + there - 1) / there - 1;
   };

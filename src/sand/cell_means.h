@@ -14,7 +14,8 @@ class CellMeans {
   double operator()(Eigen::Index row, Eigen::Index col) const;
 
  private:
-  /// Which cells of the bed, along an axis, one of the grid covers, and what share of it each does.
+  /// The cells of the bed, along an axis, that one cell of the grid covers, and the fraction of it that each
+  /// fills.
   struct Cover {
     int begin = 0;
     std::vector<double> share;
@@ -25,14 +26,15 @@ class CellMeans {
   std::vector<Cover> rows_, cols_;
 };
 
-/// Tiles of a bed in which it, or another one over the same rectangle, is no longer as its rule says.
+/// The tiles of `bed` that are allocated, or that overlap an allocated tile of another bed over the same
+/// rectangle.
 std::set<int> touched_tiles(const HeightField& other, const HeightField& bed);
 
-/// Sets the cells of those tiles to the means of the other one over them, times a factor.
+/// Sets the cells of those tiles to the other bed's means over them, times a factor.
 void take_means(const HeightField& other, HeightField& bed, double times = 1.0);
 
-/// The means of factor x factor cells, where that divides rows and cols; with 1 the bed itself. Where a level
-/// bed has no tile, this one has none either.
+/// A bed whose cells are means of factor x factor cells of `fine`. The factor must divide rows and cols; with
+/// 1 it is the bed itself. Where a level bed has no tile, the result has none either.
 HeightField coarsened(HeightField fine, int factor);
 
 }  // namespace sandstroke

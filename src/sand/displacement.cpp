@@ -8,30 +8,32 @@
 namespace sandstroke {
 namespace {
 
-/// For a drag only the ring's front half; in between, blended by how much of the motion is horizontal, so
-/// that a plunge that turns into a drag makes no jump.
+/// The part of the ring that a motion fills. With Deposit::ahead it is the front half for a drag. In between
+/// it is blended by the horizontal fraction of the motion, so that a plunge that turns into a drag makes no
+/// jump.
 RingFront front_of(const Eigen::Vector3d& motion, Deposit deposit) {
   const double horizontal = elementary::hypot(motion.x(), motion.y());
   if (deposit != Deposit::ahead || horizontal == 0.0) return {0.0, Eigen::Vector2d::Zero()};
   return {horizontal / (horizontal + std::abs(motion.z())), motion.head<2>() / horizontal};
 }
 
-/// Adding and taking away again what this returns rounds to multiples of a quantum so small and so large that
-/// sums of parts of `whole` are exact, and so the same in any order: a symmetric tool leaves symmetric sand.
+/// x + shift - shift rounds x to multiples of a quantum. The quantum is such that sums of parts of `whole`
+/// are exact, and so the same in any order: a symmetric tool leaves symmetric sand.
 double rounding_shift(double whole) { return std::scalbn(3.0, std::ilogb(whole) + 1); }
 
-/// The same of any tool but the sphere: outward only.
+/// dig() for any tool but the sphere: it deposits outward only.
 double dig_any(const HeightField& bed, ToolFootprint& footprint, double tip_height, double distance) {
   const double pushed = footprint.carve(tip_height);
   if (pushed == 0.0 || !std::isfinite(pushed)) return pushed;
   const double spread =
       spread_outward(footprint, {distance, rounding_shift(pushed), footprint.way_out(distance)});
   if (spread > 0.0) return heap(footprint, pushed / spread, false), pushed;
-  footprint.read_heights(bed);  // all around is tool or wall
+  footprint.read_heights(bed);  // all cells around are tool or wall
   return 0.0;
 }
 
-/// Lowers the sand and puts it where the settings say; what moved [m], 0 where none did.
+/// Carves the sand and deposits it where the settings say. Returns the sum of heights moved [m], 0 if none
+/// moved.
 double dig(const HeightField& bed, ToolFootprint& footprint, double tip_height, const Eigen::Vector3d& motion,
            const DisplacementSettings& settings) {
   if (!footprint.is_sphere()) return dig_any(bed, footprint, tip_height, settings.distance);
@@ -41,11 +43,11 @@ double dig(const HeightField& bed, ToolFootprint& footprint, double tip_height, 
     const Outward outward{settings.distance * footprint.radius(), rounding_shift(pushed)};
     const double spread = std::isfinite(pushed) ? spread_outward(footprint, outward) : 0.0;
     if (spread > 0.0) return heap(footprint, pushed / spread, false), pushed;
-    footprint.read_heights(bed);  // all around is bowl or wall: the ring takes the sand
+    footprint.read_heights(bed);  // all cells around are bowl or wall: the ring takes the sand
   }
   const Carved carved =
       carve_for_ring(footprint.shape(), footprint, tip_height, front_of(motion, settings.deposit));
-  // A wall right ahead may cut off the whole front: what is left of the ring takes the sand.
+  // A wall right ahead may cut off the whole front; then the rest of the ring takes the sand.
   const bool whole_ring = !(carved.front_weight > 0.0);
   const double weight = whole_ring ? carved.ring_weight : carved.front_weight;
   if (carved.pushed == 0.0 || !(weight > 0.0)) return 0.0;

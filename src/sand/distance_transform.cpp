@@ -7,7 +7,7 @@
 namespace sandstroke {
 namespace {
 
-constexpr double far_away = 1e7;  // samples: whole, and farther than any
+constexpr double far_away = 1e7;  // samples: a whole number, larger than any distance
 
 /// min over q of (p - q)^2 + f(q), for each p of a line of `count` numbers: the lower envelope of parabolas.
 void nearest_along(double* f, int count, std::vector<int>& apex, std::vector<double>& from,

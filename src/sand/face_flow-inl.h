@@ -1,4 +1,4 @@
-// The flow of RelaxationLaw::faces. Included once per instruction set, as lanes-inl.h.
+// The flow of RelaxationLaw::faces. Included once per instruction set, like lanes-inl.h.
 #if defined(SANDSTROKE_SAND_FACE_FLOW_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef SANDSTROKE_SAND_FACE_FLOW_INL_H_
 #undef SANDSTROKE_SAND_FACE_FLOW_INL_H_
@@ -12,16 +12,16 @@ HWY_BEFORE_NAMESPACE();
 namespace sandstroke {
 namespace HWY_NAMESPACE {
 
-/// The face between a cell and its neighbour one step `along`: right of it, or below.
+/// The slope at the face between a cell and its neighbour one step `along`: right of it, or below.
 struct FaceSlope {
   V drop;    ///< to the neighbour; NaN at a wall
-  V square;  ///< of dx |g|
+  V square;  ///< the square of dx |g|
 
   HWY_INLINE FaceSlope(const double* cell, std::ptrdiff_t along, std::ptrdiff_t across) {
     const V m = hn::LoadU(d, cell), next = hn::LoadU(d, cell + along), zero = hn::Zero(d);
     drop = m - next;
     const V fall = hn::Abs(drop);
-    // What the giver falls to its other side, where it is a crest.
+    // The giver's drop to its other side; above 0 if the giver is a crest.
     const V behind = Max(zero, hn::IfThenElse(drop > zero, m - hn::LoadU(d, cell - along),
                                               next - hn::LoadU(d, cell + 2 * along)));
     V slope = fall;
@@ -43,7 +43,7 @@ struct FaceSlope {
   }
 };
 
-/// Flags of a row's faces to the right of its cells, and of the one at its western end.
+/// Flags of the faces to the right of a row's cells, and of the face at the row's western end.
 struct RightFaces {
   std::uint64_t own;
   bool west;
@@ -64,7 +64,8 @@ class FaceFluxes {
   double* right(int row) const { return scratch_.factors.data() + TilePatch::start(row); }
   double* below(int row) const { return scratch_.below.data() + TilePatch::start(row); }
 
-  /// The flux [m a pass] through the faces beside the flagged cells; returns those through which sand flows.
+  /// Computes the flux [m per pass] through the faces beside the flagged cells. Returns the faces through
+  /// which sand flows.
   HWY_INLINE RightFaces to_the_right(int row, std::uint64_t cells) {
     RightFaces flowing{0, false};
     if (cells & 1) flowing.west = group_of_faces(row, -group, 0) >> (group - 1) & 1;
@@ -84,7 +85,7 @@ class FaceFluxes {
   }
 
  private:
-  /// Of eight cells: their faces below them (down: 1), or to the right of them (0).
+  /// Computes the faces below eight cells (down: 1), or to the right of them (0).
   HWY_INLINE unsigned group_of_faces(int row, int begin, int down) {
     double* out = (down ? below(row) : right(row)) + begin;
     const double* cells = patch_.heights(row) + begin;

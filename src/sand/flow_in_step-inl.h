@@ -1,4 +1,5 @@
-// What the sweep that computes a flow does besides. Included once per instruction set, as lanes-inl.h.
+// Policies of the sweep over a flow: what it records besides, and where it puts the gains. Included once per
+// instruction set, like lanes-inl.h.
 #if defined(SANDSTROKE_SAND_FLOW_IN_STEP_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef SANDSTROKE_SAND_FLOW_IN_STEP_INL_H_
 #undef SANDSTROKE_SAND_FLOW_IN_STEP_INL_H_
@@ -17,7 +18,7 @@ namespace HWY_NAMESPACE {
 
 constexpr int side = BedGeometry::tile_side;
 
-/// The higher one; a wall (NaN) as `a` loses.
+/// The higher of both; a wall (NaN) as `a` is ignored.
 HWY_INLINE V higher(V a, V b) {
 #if HWY_ARCH_X86
   return hn::Max(a, b);
@@ -26,15 +27,16 @@ HWY_INLINE V higher(V a, V b) {
 #endif
 }
 
-/// The largest drops met, lane by lane; isotropic: axis holds their squares' sum.
+/// The largest drops found so far, per lane. For isotropic and faces, axis holds the largest square of dx
+/// |g|.
 struct Drops {
   V axis, diagonal;
   HWY_INLINE Drops() : axis(hn::Zero(d)), diagonal(hn::Zero(d)) {}
 };
 
-// Which cells may give, and what is looked at besides.
+// The following types say which cells may give, and what is recorded besides.
 
-/// All may, and nothing is.
+/// Plain passes: every cell may give, and nothing is recorded.
 struct FreeSand {
   HWY_INLINE Mask may_give(int, int) const { return hn::FirstN(d, lanes); }
   HWY_INLINE void meet(V, V) {}
@@ -43,12 +45,13 @@ struct FreeSand {
   HWY_INLINE void report(const TalusLaw&, TileFlow&) {}
 };
 
-/// In a super-step: those with a flag; how steep the sand is; and how its flow differs from the first one.
+/// Super-steps: flagged cells may give. Records how steep the sand is, and how its flow differs from the
+/// first one.
 class SteppedSand {
  public:
   SteppedSand(const FirstFlow& first, const FlowScratch& scratch)
       : first_(first), givers_(scratch.givers.data()), difference_(hn::Zero(d)) {}
-  /// The cells of a row from column c on.
+  /// The cells of a row, from column c on, that may give.
   HWY_INLINE Mask may_give(int row, int c) const {
     const FlowScratch::Row& flags = givers_[row + 1];
     const std::uint64_t west = flags.west, east = flags.east;
@@ -69,7 +72,7 @@ class SteppedSand {
     difference_ = Max(difference_, hn::Abs(gain - before));
     product_.add(c, gain * before);
   }
-  /// Groups of the row that do not flow any more.
+  /// Records the groups of the row that flowed at first and do not flow any more.
   HWY_INLINE void ends(int row, unsigned moved) {
     for_vectors(first_.moved[row] & ~moved, [&](int c) {
       difference_ = Max(difference_, hn::Abs(hn::Load(d, first_.gain.data() + row * side + c)));
@@ -93,9 +96,9 @@ class SteppedSand {
   LaneSum product_;
 };
 
-// Where the gains of the active cells go.
+// The following types say where the gains of the active cells go.
 
-/// They are kept.
+/// Keeps the gains in the flow.
 class KeptGain {
  public:
   explicit KeptGain(TileFlow& flow) : gain_(flow.gain.data()) {}
@@ -108,7 +111,7 @@ class KeptGain {
   double *gain_, *row_ = nullptr;
 };
 
-/// The stage ahead is taken with them: as super_stage, into the other heights.
+/// Takes the stage ahead with them, as super_stage does, but writes it into the other heights (tile.before).
 class TakenStage {
  public:
   TakenStage(const TilePatch& patch, const StageAhead& ahead)
@@ -128,7 +131,7 @@ class TakenStage {
       const V now = hn::Load(d, now_ + c);
       take(c, now, momentum_of(c, now));
     });
-    ahead_.changed[row] = changed_ & active_;  // beside them may be walls, which equal nothing
+    ahead_.changed[row] = changed_ & active_;  // a wall (NaN) beside them always compares as changed
     ahead_.tile.stepped[row] |= static_cast<std::uint8_t>(wanted);
     copy_others(row, wanted);
   }
@@ -149,7 +152,7 @@ class TakenStage {
     range_.add(next, lanes_of(active_ >> c));
     changed_ |= static_cast<std::uint64_t>(bits(next != now)) << c;
   }
-  /// Groups that are not active stay as they are: in the other heights, too.
+  /// Copies the groups that are not active to the other heights.
   HWY_INLINE void copy_others(int row, unsigned active) {
     std::uint8_t& same = ahead_.tile.same[row];
     const double* from = patch_.heights(row);
@@ -162,16 +165,16 @@ class TakenStage {
   const StageAhead& ahead_;
   V momentum_, step_;
   Range range_;
-  // Of this row.
+  // State of the current row.
   const double* now_ = nullptr;
   double* out_ = nullptr;
   std::uint64_t active_ = 0, changed_ = 0;
   unsigned stepped_ = 0;
 };
 
-/// One sweep over the active rows. cells_of(row): the active cells that gain or give, as flags; what gain_of
-/// needs of the row is ready then. gain_of(row, column, those cells, given): the gains of a vector of cells
-/// [m]; adds what they give to `given`.
+/// Sweeps once over the active rows. cells_of(row) returns the cells that gain or give, as flags, and
+/// prepares what gain_of needs of the row. gain_of(row, column, those cells, given) returns the gains of a
+/// vector of cells [m], and adds what they give to `given`.
 template <class Sand, class Sink, class CellsOf, class GainOf>
 HWY_INLINE void sweep_rows(const TalusLaw& law, const CellFlags& active, RowSpan rows, Sand& sand, Sink& sink,
                            TileFlow& flow, const CellsOf& cells_of, const GainOf& gain_of) {

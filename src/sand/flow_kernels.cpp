@@ -1,5 +1,6 @@
-// The fast form of talus_pass (rules/talus.h): only cells that may move, many at once. tests/sand/
-// engine_equality_test.cpp and tests/run/golden_engine_test.cpp hold both to the same bits.
+// The fast form of talus_pass (rules/talus.h): only cells that may move, many at once.
+// tests/sand/engine_equality_test.cpp and tests/run/golden_engine_test.cpp check that both give the same
+// bits.
 #include "sand/flow_kernels.h"
 
 #include <bit>
@@ -18,7 +19,7 @@ namespace HWY_NAMESPACE {
 
 constexpr int groups = side / group;
 
-/// The lower one; a wall (NaN) as `a` loses.
+/// The lower of both; a wall (NaN) as `a` is ignored.
 HWY_INLINE V lower(V a, V b) {
 #if HWY_ARCH_X86
   return hn::Min(a, b);  // min*pd: the second operand where one is NaN
@@ -29,7 +30,7 @@ HWY_INLINE V lower(V a, V b) {
 
 HWY_INLINE V above(V x, V threshold) { return where(x > threshold, x); }
 
-/// A cell and its neighbours, `lanes` of them from column `c`.
+/// The heights of `lanes` cells from column `c`, and of their axis neighbours.
 struct Around {
   V m, w, e, n, s;
   HWY_INLINE Around(const double* row, int c)
@@ -59,8 +60,8 @@ HWY_INLINE V squared_slope(const Around& a) {
   return gx * gx + gy * gy;
 }
 
-// Factors of the cells in a vector: what a cell gives a lower neighbour is its factor x (m - m_i). Bits:
-// those that are not 0.
+// The following types compute the factors of the cells in a vector: a cell gives each lower neighbour factor
+// x (m - m_i). They return flags of the factors that are not 0.
 
 /// dm = c max_i(m - m_i - T_i), shared in proportion to m - m_i: the factor is dm / sum(m - m_i), over
 /// neighbours with m - m_i > T_i (paper 3.2).
@@ -94,7 +95,7 @@ struct PaperFactors {
   }
 };
 
-/// c (1 - T / |g|), |g| as a drop.
+/// The factor is c (1 - T / |g|), with |g| as a drop.
 struct IsotropicFactors {
   V T, limit, surely_at_rest, share, one;
   explicit IsotropicFactors(const TalusLaw& law)
@@ -119,14 +120,14 @@ struct IsotropicFactors {
   }
 };
 
-/// Flags of a row's cells and of its rim's.
+/// Flags of a row's cells, and of the rim cell on each side.
 using WideRow = FlowScratch::Row;
 HWY_INLINE WideRow widened(std::uint64_t row) {
   return {row | row << 1 | row >> 1, (row & 1) != 0, row >> (side - 1) != 0};
 }
 
-/// Computes the factors of a row's flagged groups (others keep what they had: no active cell sees them);
-/// returns the cells that have one.
+/// Computes the factors of a row's flagged groups. (Others keep their old factors, which no active cell
+/// sees.) Returns the cells whose factor is not 0.
 template <class Factors, class Sand>
 HWY_INLINE WideRow factor_row(const Factors& factors_of, const double* heights, double* factors, int row,
                               const WideRow& cells, Sand& sand) {
@@ -146,7 +147,7 @@ HWY_INLINE WideRow factor_row(const Factors& factors_of, const double* heights, 
   return moving;
 }
 
-/// What a cell gives to (out) and takes from (in, negative) one neighbour; at most one of them is not 0.
+/// Flow from a cell to one neighbour (out) and back (in, negative); at most one of them is not 0.
 struct Exchange {
   V out, in;
 };
@@ -165,7 +166,7 @@ struct GainOf {
         D(all(law.diagonal_drop)),
         minus_D(hn::Neg(D)) {}
 
-  /// Inflow less outflow of the flagged cells; adds the outflow to `given`.
+  /// Returns inflow less outflow of the flagged cells; adds the outflow to `given`.
   HWY_INLINE V operator()(const double* row, const double* factors, int c, Mask cells, LaneSum& given) const {
     const Around m(row, c), f(factors, c);
     const auto axis = [&](V m_i, V f_i) { return exchange(m.m, f.m, m_i, f_i, T, minus_T); };
@@ -186,7 +187,7 @@ HWY_INLINE void flow_of(const TalusLaw& law, const TilePatch& patch, const CellF
                         Sand& sand, Sink& sink, FlowScratch& scratch, TileFlow& flow) {
   const auto active_row = [&](int row) { return row < rows.begin || row >= rows.end ? 0 : active[row]; };
   const auto factors_in = [&](int row) { return scratch.factors.data() + TilePatch::start(row); };
-  std::array<WideRow, side + 2> moving;  // from row -1; those around the span
+  std::array<WideRow, side + 2> moving;  // from row -1: the rows of the span and one on each side
   const Factors factors(law);
   for (int row = rows.begin - 1; row <= rows.end; ++row)
     moving[row + 1] = factor_row(factors, patch.heights(row), factors_in(row), row,
@@ -234,7 +235,7 @@ void ApplyFlow(const TileFlow& flow, TilePatch& patch, CellFlags& changed) {
       hn::Store(next, d, cell);
       flags |= static_cast<std::uint64_t>(bits(next != old)) << c;
     });
-    changed[row] = flags & flow.moved[row];  // beside them may be walls, which equal nothing
+    changed[row] = flags & flow.moved[row];  // a wall (NaN) beside them always compares as changed
   }
 }
 
@@ -247,7 +248,7 @@ void ComputeResiduals(const TalusLaw& law, const TilePatch& patch, const CellFla
       Drops drops;
       for (int c = g * group; c < (g + 1) * group; c += lanes) {
         const double* heights = patch.heights(row);
-        if (faces) {  // each is one cell's
+        if (faces) {  // each face counts for one cell
           drops.axis = higher(FaceSlope(heights + c, 1, TilePatch::stride).square, drops.axis);
           drops.axis = higher(FaceSlope(heights + c, TilePatch::stride, 1).square, drops.axis);
           continue;

@@ -1,5 +1,6 @@
 // The fast form of the filter and of PlainDisplacement (rules/displacement.h), many cells at once.
-// tests/sand/ engine_equality_test.cpp and tests/run/golden_displacement_test.cpp hold both to the same bits.
+// tests/sand/engine_equality_test.cpp and tests/run/golden_displacement_test.cpp check that both give the
+// same bits.
 #include "sand/footprint_kernels.h"
 
 #include <algorithm>
@@ -28,10 +29,10 @@ HWY_INLINE V sine(V u) {
   return u + u * (u2 * sum);
 }
 
-/// Between 0 and 1.
+/// x, limited to 0 ... 1.
 HWY_INLINE V clamped(V x) { return Min(Max(x, hn::Zero(d)), all(1.0)); }
 
-/// The cells of a vector, by its first column in the window, that have sand.
+/// Flags the cells with sand, in a vector whose first column in the window is `col`.
 HWY_INLINE Mask has_sand(const ColumnRange& sand, int col) {
   const V at = hn::Iota(d, col);
   return hn::And(at >= all(sand.begin), at < all(sand.end));
@@ -57,7 +58,7 @@ class Offsets {
   double first_x_, first_y_, axis_x_, axis_y_;
 };
 
-/// More and less than a squared distance, by what rounding may change.
+/// Factors for bounds just above and below a squared distance, wider than its rounding.
 constexpr double above = 1.0 + 1e-14, below = 1.0 - 1e-14;
 
 double LevelOf(const FootprintShape& shape, const ToolFootprint& f) {
@@ -167,8 +168,8 @@ double CarveOnly(const FootprintShape& shape, ToolFootprint& f, double tip_heigh
 CarvedUnder CarveUnder(const EnvelopePlace& envelope, ToolFootprint& f, double tip_height) {
   const V zero = hn::Zero(d), half = all(0.5), tip = all(tip_height);
   const V infinite = all(std::numeric_limits<double>::infinity());
-  // What is cut is a multiple of 2^-40 cells or less, so that its sum is exact, in any order; it leaves a
-  // second time nothing to cut.
+  // The cut heights are multiples of 2^-40 cells or less. So their sum is exact in any order, and a second
+  // carve finds nothing to cut.
   const V shift = all(std::scalbn(1.5 * 0x1p12, std::ilogb(f.cell_size()))),
           nearly = all(-0x1p-38 * f.cell_size());
   LaneSum pushed;
@@ -178,7 +179,7 @@ CarvedUnder CarveUnder(const EnvelopePlace& envelope, ToolFootprint& f, double t
     double* heights = f.heights(row);
     unsigned char* flags = f.flags(row);
     std::fill_n(flags, f.stride() / group, static_cast<unsigned char>(0));
-    // Diagonal corners first: a quarter turn has the same bits.
+    // Adds diagonal corners first, so that a quarter turn gives the same bits.
     const auto between = [&](const double* const* corners, int col) {
       const auto part = [&](int i) {
         return all(envelope.weight[i]) * hn::LoadU(d, corners[i] + row * envelope.stride + col);
@@ -217,8 +218,8 @@ void CoverUpTo(ToolFootprint& f, double height) {
   }
 }
 
-/// A group of cut cells: where they lie from the axis [cells], their sand [m], where that goes [cells from
-/// the axis; not a number: nowhere], and to which cells.
+/// A group of cut cells: their places [cells from the axis], their sand [m], its targets [cells from the
+/// axis; NaN: nowhere], and the cells that take it.
 struct CutCells {
   alignas(64) double x[group], y[group], excess[group];
   alignas(64) double to_x[group], to_y[group];
@@ -226,8 +227,8 @@ struct CutCells {
   alignas(64) std::int64_t to[4][group];
 };
 
-/// Away from the axis of a sphere; nowhere from right on it. aside: from so far beside the cells' centres,
-/// round the axis [cells].
+/// Aims sand away from the axis of a sphere; sand right on the axis goes nowhere. aside: the sand starts this
+/// far beside the cells' centres, around the axis [cells].
 HWY_INLINE void aim_from_axis(const ToolFootprint& f, const Outward& outward, double aside, CutCells& cells,
                               int i) {
   const V x = hn::Load(d, cells.x + i), y = hn::Load(d, cells.y + i);
@@ -243,7 +244,7 @@ HWY_INLINE V spread_cells(const ToolFootprint& f, const Outward& outward, CutCel
   const V zero = hn::Zero(d), one = all(1.0), shift = all(outward.shift);
   const V axis_x = all(f.axis_x() - f.first_x()), axis_y = all(f.axis_y() - f.first_y());  // columns, rows
   const V to_x = hn::Load(d, cells.to_x + i), to_y = hn::Load(d, cells.to_y + i);
-  // Rounded towards 0; below 0 that is not down, but no cell of the window lies there.
+  // Rounded towards 0. Below 0 that rounds up, but no cell of the window lies there.
   const V first_col = hn::Trunc(axis_x + to_x), first_row = hn::Trunc(axis_y + to_y);
   const V rows = all(f.cells().rows()), cols = all(f.cells().cols()), stride = all(f.stride());
   const auto share = [&](int down, int right, V& to) {
@@ -274,7 +275,7 @@ double SpreadOutward(ToolFootprint& f, const Outward& outward) {
   for (int row = 0; row < f.cells().rows(); ++row) std::fill_n(f.weights(row), f.stride(), 0.0);
   CutCells cells;
   int count = 0;
-  V total = hn::Zero(d);  // of parts whose sums are exact: in any order the same
+  V total = hn::Zero(d);  // sums of these parts are exact, in any order
   const auto put = [&] {
     for (int i = 0; i < group; i += lanes) total += spread_cells(f, outward, cells, i);
     for (int i = 0; i < group; ++i)
@@ -283,8 +284,8 @@ double SpreadOutward(ToolFootprint& f, const Outward& outward) {
   const auto spread = [&] {
     count = 0;
     if (outward.way) return put();
-    // In three parts, each along its own direction: a cell is wide against its distance from the axis. (16
-    // parts are no better.)
+    // Each cell's sand goes in three parts, each in its own direction, because a cell is wide compared with
+    // its distance from the axis. (16 parts are no better.)
     for (double& excess : cells.excess) excess /= 3.0;
     for (const double aside : {-1.0 / 3.0, 0.0, 1.0 / 3.0}) {
       for (int i = 0; i < group; i += lanes) aim_from_axis(f, outward, aside, cells, i);

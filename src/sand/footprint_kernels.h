@@ -12,49 +12,52 @@ namespace sandstroke {
 /// The sand level [m] of a placed footprint; NaN where no cell counts.
 double level_of(const FootprintShape& shape, const ToolFootprint& footprint);
 
-// First pass: fills underside() and takes(), lowers heights() to the tool's underside, its tip at tip_height
-// [m], and flags those cells, with their excess(). pushed [m]: the sum of heights taken out.
+// First pass (carve): fills underside() and takes(), lowers heights() to the underside of a tool whose tip is
+// at tip_height [m], flags the lowered cells, and keeps their excess(). pushed: the sum of heights taken out
+// [m].
 
-/// And no more: for a tool whose sand is spread, or that only stands there (tip_height infinite).
+/// Carves only, and returns `pushed`: for a sphere whose sand goes outward, or that only stands there
+/// (tip_height infinite).
 double carve(const FootprintShape& shape, ToolFootprint& footprint, double tip_height);
 
-/// How much of the ring a motion fills: all of it where drag_share is 0, its front half where it is 1. A cell
-/// that lies p [m] ahead of the axis keeps 1 - drag_share (1 - clamp(p / dx + 1/2, 0, 1)) of its rampart.
+/// The part of the ring that a motion fills: all of it if drag_share is 0, its front half if it is 1. A cell
+/// p [m] ahead of the axis keeps the fraction 1 - drag_share (1 - clamp(p / dx + 1/2, 0, 1)) of its rampart.
 struct RingFront {
   double drag_share;
   Eigen::Vector2d direction;  ///< of the drag, a unit vector
 };
 struct Carved {
   double pushed;
-  double front_weight;  ///< sums of weights over the ring: of those left in weights(), ...
-  double ring_weight;   ///< ... and of the rampart
+  double front_weight;  ///< sum of weights() over the ring
+  double ring_weight;   ///< sum of rampart()
 };
-/// And fills rampart(), and weights() with its share for a motion.
+/// Carves, and fills rampart() and, with the part of it that the motion fills, weights().
 Carved carve_for_ring(const FootprintShape& shape, ToolFootprint& footprint, double tip_height,
                       const RingFront& front);
 
-/// And so of any tool, by its envelope: underside() is infinite beside its footprint. highest [m above the
-/// tip]: of what touched sand, -infinity where nothing did.
+/// Result of carve_under, which carves with any tool by its envelope; underside() is infinite beside the
+/// footprint. highest [m above the tip]: the highest point that touched sand, -infinity if none did.
 struct CarvedUnder {
   double pushed, highest;
 };
 CarvedUnder carve_under(const EnvelopePlace& envelope, ToolFootprint& footprint, double tip_height);
-/// Of underside() only what is no higher than `height` [m above the tip] counts: it is infinite elsewhere,
-/// and takes() sand.
+/// Keeps underside() where it is no higher than `height` [m above the tip]. Elsewhere it becomes infinite,
+/// and takes() becomes 1 where there is sand.
 void cover_up_to(ToolFootprint& footprint, double height);
 
-/// Where the cut cells' sand goes along the tool's outward normal: of a sphere to `distance` [m] from the
-/// axis, of any other tool by its way out.
+/// Where the cut cells' sand goes along the tool's outward normal: to `distance` [m] from the axis of a
+/// sphere, or along the way out of any other tool.
 struct Outward {
   double distance;
   double shift;  ///< m: x + shift - shift rounds x so that sums of such parts are exact
   std::optional<WayOutPlace> way = {};
 };
-/// Fills weights() with that sand: each cell's is shared among the four cells around its place (linearly)
-/// that take any. Sand right on the axis, or with no such cell, is left out. Returns the sum.
+/// Fills weights() with that sand [m]. Each cell's sand is divided (linearly) among the four cells around its
+/// target, as far as they take any. Sand right on the axis, or with no such cell, is left out. Returns the
+/// sum.
 double spread_outward(ToolFootprint& footprint, const Outward& outward);
 
-/// Second pass: heights() += rise x weights() (or the rampart), which it flags.
+/// Second pass (deposit): heights() += rise x weights() (or the rampart). Flags the raised cells.
 void heap(ToolFootprint& footprint, double rise, bool whole_ring);
 
 }  // namespace sandstroke

@@ -95,7 +95,8 @@ void HeightField::clear_disturbed() {
 }
 
 void HeightField::hold(const std::vector<RowCells>& cells) {
-  // Those of `rows` that the bed does not hold: of the new ones before, and of the old ones after the change.
+  // Marks the cells of `rows` that are no walls as disturbed: the new ones before the change, the old ones
+  // after it.
   const auto disturb_unheld = [this](const std::vector<RowCells>& rows) {
     for (const RowCells& row : rows)
       if (const std::uint64_t unheld = row.cells & ~tiles_[row.slot]->held[row.row_in_tile])
@@ -133,7 +134,7 @@ double HeightField::volume() const {
     for (int row = 0; row < cells.rows(); ++row)
       for (int col = 0; col < cells.cols(); ++col) sum.add(sign * block[row * tile_side + col]);
   };
-  // What the rule gives ...
+  // First the volume that the rule gives ...
   visit_quarters({0, tile_rows(), 0, tile_cols()}, [&](const CellRange& tiles) {
     const CellRange cells = cells_of_tiles(tiles);
     if (const std::optional<double> height = untouched_->level(*this, cells)) {
@@ -146,7 +147,7 @@ double HeightField::volume() const {
     }
     return true;
   });
-  // ... and what the tiles that exist have more or less.
+  // ... then the difference that the allocated tiles make.
   for (int slot = 0; slot < allocated_tiles(); ++slot) {
     const CellRange cells = tile_cells(tile_of(slot));
     untouched_->fill(*this, cells, block.data(), tile_side);

@@ -20,17 +20,18 @@ struct RowCells {
   std::uint64_t cells;
 };
 
-/// Mean cell heights [m] of a bed. A tile of cells is allocated when something touches it; until then it is
-/// the initial surface by rule. So memory follows what is touched, not the bed. Allocated tiles are numbered
-/// by `slot`, in order of allocation, and each has a revision that changes when one of its cells does.
+/// Mean cell heights [m] of a bed. A tile of cells is allocated when something touches it; until then a rule
+/// gives its initial surface. So memory grows with the sand that is touched, not with the bed. Allocated
+/// tiles are numbered by `slot`, in order of allocation. Each has a revision that changes when one of its
+/// cells does.
 class HeightField : public BedGeometry {
  public:
-  /// A flat bed at z = 0. cell_size [m] > 0. What lies beyond the shape's wall neither gives nor takes sand.
+  /// A flat bed at z = 0. cell_size [m] > 0. Cells beyond the shape's wall neither give nor take sand.
   HeightField(int rows, int cols, double cell_size, BedShape shape = BedShape::rectangle);
   /// A bed that follows a rule.
   HeightField(int rows, int cols, double cell_size, std::shared_ptr<const SurfaceRule> untouched,
               BedShape shape = BedShape::rectangle);
-  /// All tiles are allocated.
+  /// A bed with these heights. All tiles are allocated.
   HeightField(const HeightGrid& heights, double cell_size, BedShape shape = BedShape::rectangle);
   HeightField(const HeightField& other);
   HeightField& operator=(const HeightField& other);
@@ -41,23 +42,23 @@ class HeightField : public BedGeometry {
     const int slot = slot_of(tile_index(row / tile_side, col / tile_side));
     return slot < 0 ? untouched_->height(*this, row, col) : tiles_[slot]->heights[in_tile(row, col)];
   }
-  /// Of the cell at a place [m]; not-a-number outside the bed.
+  /// Height of the cell at a place [m]; NaN outside the bed.
   double height_at(double x, double y) const;
-  /// Sets one cell. The next relaxation looks at it.
+  /// Sets one cell. The next relaxation looks there.
   void set(int row, int col, double height) {
     const int slot = allocate(tile_index(row / tile_side, col / tile_side));
     tiles_[slot]->heights[in_tile(row, col)] = height;
     mark_disturbed(slot, row % tile_side, std::uint64_t{1} << (col % tile_side));
   }
 
-  /// A rectangle of cells by its first row and column.
+  /// Sets a rectangle of cells that begins at this row and column.
   void set_block(int first_row, int first_col, const HeightGrid& heights) {
     for (int row = 0; row < heights.rows(); ++row)
       for (int col = 0; col < heights.cols(); ++col) set(first_row + row, first_col + col, heights(row, col));
   }
 
   const SurfaceRule& untouched() const { return *untouched_; }
-  /// The same bed with no tile allocated: as its rule says throughout.
+  /// The same bed with no tile allocated: the rule gives all heights.
   HeightField untouched_bed() const;
 
   // --- allocated tiles ---
@@ -65,14 +66,14 @@ class HeightField : public BedGeometry {
   /// The slot of a tile (by its index); -1 while it is not allocated.
   int slot_of(int tile) const { return static_cast<int>(slots_.get()[tile]) - 1; }
   int tile_of(int slot) const { return tiles_[slot]->index; }
-  /// Allocates a tile, as its rule says, if that has not been done; its slot.
+  /// Allocates a tile, with the rule's heights, unless it is allocated already. Returns its slot.
   int allocate(int tile) {
     const int slot = slot_of(tile);
     return slot >= 0 ? slot : make_tile(tile);
   }
   /// tile_side x tile_side heights, row-major, on a 64-byte boundary; those outside the bed are unused.
   const double* tile_heights(int slot) const { return tiles_[slot]->heights.data(); }
-  /// For writing; whoever writes calls mark_changed, or mark_disturbed where the next relaxation is to know.
+  /// The same, for writing. Then call mark_changed, or mark_disturbed if the next relaxation must look there.
   double* tile_heights(int slot) { return tiles_[slot]->heights.data(); }
   void mark_changed(int slot) { ++tiles_[slot]->revision; }
   void mark_disturbed(int slot, int row_in_tile, std::uint64_t cells) {
@@ -84,16 +85,15 @@ class HeightField : public BedGeometry {
     disturbed_.push_back(slot);
   }
 
-  /// Slots of the tiles, and in each the cells, that were set since clear_disturbed().
+  /// Slots of the tiles, and their cells, that were set since clear_disturbed().
   const std::vector<int>& disturbed_tiles() const { return disturbed_; }
   const CellFlags& disturbed_cells(int slot) const { return tiles_[slot]->disturbed; }
   void clear_disturbed();
 
-  /// The next relaxations take these cells for walls, besides those beyond the bed's own wall, and no others:
-  /// a solid tool stands on them. The next one looks at those that are held now and were not, or the other
-  /// way round.
+  /// Marks the cells under a solid tool as walls, until the next call. The bed's own wall stays. The next
+  /// relaxation looks at the cells that became walls or ceased to be walls.
   void hold(const std::vector<RowCells>& cells);
-  /// What hold() was given last.
+  /// The cells of the last hold().
   const std::vector<RowCells>& held() const { return held_; }
   /// All walls in a tile.
   const CellFlags& held_cells(int slot) const { return tiles_[slot]->held; }
@@ -102,20 +102,21 @@ class HeightField : public BedGeometry {
     return slot < 0 ? !has_sand(row, col) : (held_cells(slot)[row % tile_side] >> (col % tile_side) & 1) != 0;
   }
 
-  /// Changes whenever a cell of the tile may have changed; 0 while it is not allocated. By tile index.
-  /// new_tile_revision: it is still as the rule says.
+  /// The revision of a tile (by index): it changes whenever a cell of the tile may have changed. It is 0
+  /// while the tile is not allocated, and new_tile_revision while it still has the rule's heights.
   static constexpr std::uint64_t new_tile_revision = 1;
   std::uint64_t tile_revision(int tile) const {
     const int slot = slot_of(tile);
     return slot < 0 ? 0 : tiles_[slot]->revision;
   }
-  /// Copies a tile, allocated or not, by its index, rows `stride` apart; not the cells outside the bed.
+  /// Copies a tile (by index), allocated or not, to `out`, rows `stride` apart. Leaves out cells outside the
+  /// bed.
   void read_tile(int tile, double* out, std::ptrdiff_t stride = tile_side) const;
 
   HeightGrid grid() const;
   /// sum(h) dx^2 [m^3], compensated. Tiles that are not allocated cost nothing where they are level.
   double volume() const;
-  /// No cell is higher [m]: exact for cells in allocated tiles, the rule's bound for others.
+  /// Upper bound of all heights [m]: exact for allocated tiles, the rule's bound for others.
   double highest() const;
 
   /// Heap memory of the allocated tiles [bytes].
@@ -144,18 +145,18 @@ class HeightField : public BedGeometry {
   std::uint64_t beyond_wall(int tile, int row_in_tile) const;
 
   std::shared_ptr<const SurfaceRule> untouched_;
-  // Per tile of the bed: slot + 1, or 0. From calloc: pages of a huge bed that nobody touches stay unreal.
+  // Per tile of the bed: slot + 1, or 0. From calloc, so that untouched pages of a huge bed take no memory.
   std::unique_ptr<std::uint32_t, Free> slots_;
   std::vector<std::unique_ptr<Tile>> tiles_;
   std::vector<int> disturbed_;
   std::vector<RowCells> held_;
 };
 
-/// Where neither bed (of one shape) has an allocated tile, both are known to have the same heights.
+/// Whether two beds of one shape are known to have the same heights where neither has an allocated tile.
 bool same_where_untouched(const HeightField& one, const HeightField& other);
 
-/// visit(row, col, height in one, height in other) [m] for every cell of every tile in which two beds of one
-/// shape may differ.
+/// Calls visit(row, col, height in one, height in other) [m] for every cell of every tile in which two beds
+/// of one shape may differ.
 template <class Visit>
 void visit_cells_of_both(const HeightField& one, const HeightField& other, const Visit& visit) {
   const bool skip_untouched = same_where_untouched(one, other);

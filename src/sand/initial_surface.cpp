@@ -12,7 +12,7 @@
 namespace sandstroke {
 namespace {
 
-/// Area of {0 <= y - y0 <= y1 - y0} under the arc sqrt(r^2 - x^2), for x0 <= x <= x1, all >= 0.
+/// Area between y0 and y1 under the arc sqrt(r^2 - x^2), for x0 <= x <= x1; all are >= 0.
 double quadrant_area(double r, double x0, double x1, double y0, double y1) {
   const auto arc_at = [r](double s) { return s < r ? std::sqrt((r - s) * (r + s)) : 0.0; };
   const auto primitive = [&](double x) {
@@ -83,7 +83,7 @@ class FormulaRule : public SurfaceRule {
     for (int row = cells.row_begin; row < cells.row_end; ++row, out += stride)
       for (int col = cells.col_begin; col < cells.col_end; ++col)
         out[col - cells.col_begin] =
-            height_(bed.x_of(col), bed.y_of(row)) + 0.0;  // no -0.0: equal is the same bits
+            height_(bed.x_of(col), bed.y_of(row)) + 0.0;  // no -0.0: equal heights have the same bits
   }
   double steepest(const BedGeometry& bed, const CellRange& cells) const override {
     return steepest_(bed, cells);
@@ -101,7 +101,8 @@ auto everywhere(double slope) {
   return [slope](const BedGeometry&, const CellRange&) { return slope; };
 }
 
-/// By the distance of a range's cells from the z axis, to the next cell.
+/// A slope bound by the distance of a range's cells from the z axis, to within a cell: 0 beyond the radius,
+/// `inside` within it, else `at_the_rim`.
 auto slope_by_distance(double inside, double at_the_rim, double radius) {
   return [=](const BedGeometry& b, const CellRange& cells) {
     const auto [nearest, farthest] = distances(b, cells);
@@ -113,7 +114,7 @@ auto slope_by_distance(double inside, double at_the_rim, double radius) {
 }  // namespace
 
 double disk_cell_area(double radius, double x, double y, double cell_size) {
-  // Folded into one octant, so that the area has the symmetries of the square to the bit.
+  // Folds the cell into one octant, so that the area has the symmetries of the square to the bit.
   struct Span {
     double begin, end, copies;
   };
@@ -135,7 +136,7 @@ HeightField make_surface(const SurfaceSettings& settings, int rows, int cols, do
         std::make_shared<FormulaRule<decltype(height), decltype(steepest)>>(height, steepest, highest),
         shape);
   };
-  const SurfaceSettings s = settings;  // into the rules, by value
+  const SurfaceSettings s = settings;  // the rules capture this copy by value
   switch (s.kind) {
     case SurfaceKind::flat:
     case SurfaceKind::file:
@@ -146,7 +147,7 @@ HeightField make_surface(const SurfaceSettings& settings, int rows, int cols, do
             return s.height * (disk_cell_area(s.radius, x, y, cell_size) / (cell_size * cell_size));
           },
           slope_by_distance(1e-9, any_slope, s.radius),
-          std::max(0.0, s.height));  // inside, equal but for rounding
+          std::max(0.0, s.height));  // 1e-9: heights inside differ by rounding only
     case SurfaceKind::cone: {
       const double slope = std::abs(s.height) / s.radius;
       return with([=](double x, double y) { return cone_average(x, y, cell_size, s); },

@@ -9,7 +9,7 @@ namespace sandstroke {
 
 enum class SurfaceKind { flat, cylinder, cone, cliff, noise, ripples, file };
 
-/// What the sand looks like before anything touches it. Which fields count depends on the kind.
+/// The surface of the sand before anything touches it. The kind decides which fields count.
 struct SurfaceSettings {
   SurfaceKind kind = SurfaceKind::flat;
   double radius = 0.2;           ///< m: cylinder, cone (its foot)
@@ -21,8 +21,9 @@ struct SurfaceSettings {
   double low = 0.0, high = 0.0;  ///< m: heights that a PNG's black and white stand for
 };
 
-/// A bed of rows x cols with any surface but `file`, centred on the origin, by rule: no tile exists yet.
-/// Cells hold averages: exact for cylinder, cliff and ripples, 8 x 8 samples for the cone.
+/// Makes a bed of rows x cols, centred on the origin, with any surface but `file`. A rule gives the heights;
+/// no tile is allocated yet. Cells hold averages: exact for cylinder, cliff and ripples, 8 x 8 samples for
+/// the cone.
 HeightField make_surface(const SurfaceSettings& settings, int rows, int cols, double cell_size,
                          BedShape shape = BedShape::rectangle);
 

@@ -4,7 +4,8 @@
 
 namespace sandstroke {
 
-/// The instruction set that the kernels use on this machine ("AVX3", "AVX2", "SSE4"): a matter of speed only.
+/// The instruction set that the kernels use on this machine ("AVX3", "AVX2", "SSE4"). It changes the speed
+/// only.
 std::string instruction_set();
 
 }  // namespace sandstroke

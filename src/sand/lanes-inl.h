@@ -1,5 +1,5 @@
-// Vectors as all kernels here use them: groups of 8 doubles, as many vectors as that takes. Included once per
-// instruction set (Highway's convention for -inl.h files).
+// Vector helpers of all kernels here. They work on groups of 8 doubles, in as many vectors as that takes.
+// Included once per instruction set (Highway's convention for -inl.h files).
 #if defined(SANDSTROKE_SAND_LANES_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef SANDSTROKE_SAND_LANES_INL_H_
 #undef SANDSTROKE_SAND_LANES_INL_H_
@@ -32,7 +32,7 @@ HWY_INLINE V all(double x) { return hn::Set(d, x); }
 /// x in the lanes of the mask, elsewhere 0.
 HWY_INLINE V where(Mask mask, V x) { return hn::IfThenElseZero(mask, x); }
 
-/// Flags of a vector's lanes, as the low bits.
+/// The lanes of a mask as flags, in the low bits.
 HWY_INLINE unsigned bits(Mask mask) {
   uint8_t bytes[8] = {};
   hn::StoreMaskBits(d, mask, bytes);
@@ -47,7 +47,8 @@ HWY_INLINE Mask lanes_of(std::uint64_t flags) {
 HWY_INLINE double largest(V v) { return hn::GetLane(hn::MaxOfLanes(d, v)); }
 HWY_INLINE double least(V v) { return hn::GetLane(hn::MinOfLanes(d, v)); }
 
-/// A sum that does not depend on the vectors' width: one for each of a group's 8 places, added up at the end.
+/// A sum whose bits do not depend on the vectors' width: one sum for each of a group's 8 places, added up at
+/// the end.
 class LaneSum {
  public:
   HWY_INLINE LaneSum() {

@@ -1,4 +1,5 @@
-// Relaxes the whole bed by the rule as it is written down (rules/talus.h). The other relaxers are held to it.
+// Relaxes the whole bed by the rule as it is written down (rules/talus.h). Tests compare the other relaxers
+// with it.
 #include "core/interrupt.h"
 #include "sand/active_sand.h"
 

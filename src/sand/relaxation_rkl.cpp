@@ -1,19 +1,19 @@
-// Super time stepping: first-order Runge-Kutta-Legendre steps (Meyer, Balsara & Aslam, MNRAS 422, 2012) that
-// do not know in advance how long they will be. At its stability limit c, the scheme of s stages is
-//   Y(j+1) = Y(j) + j/(j+1) (Y(j) - Y(j-1)) + c (2j+1)/(j+1) F(Y(j)),
-// without s in it: every Y(j) is the end of a valid step of length c j(j+1)/2, which j plain passes would
-// take to c j. So stages go on until F(Y(j)), which the next one needs anyway, says stop; nothing is computed
-// for the controller alone.
-//   e = tau/2 max|F - F0| / (travelled + tau max|F0|), foreseen for the stage to come, is the error of the
-//   step relative to how far sand has moved in this relaxation; it stays below the step tolerance. A step
-//   also ends where the flow has decayed or turned against its start (sum F F0 < 2 % of sum F0^2): momentum
-//   would overspread.
-// The stages flow wherever the slope exceeds tan(talus); the tolerance says only when all is done. (With a
-// gate in the stages, its jumps make long steps chatter.) But only cells within one of a change give: all
-// other sand is held still, or a grain that falls on a heap at rest would set its whole surface flowing
-// within the tolerance. (A plane so steep everywhere that its cells pass on what they take is held, too,
-// until the change at its ends comes near: 0.9 % of the moved sand from the small-step limit, instead of
-// 0.5.)
+// Super time stepping: first-order Runge-Kutta-Legendre steps (Meyer, Balsara & Aslam, MNRAS 422, 2012) whose
+// length is not fixed in advance. At its stability limit c, the scheme of s stages is
+//   Y(j+1) = Y(j) + j/(j+1) (Y(j) - Y(j-1)) + c (2j+1)/(j+1) F(Y(j)).
+// It does not contain s: every Y(j) is the end of a valid step of length c j(j+1)/2, while j plain passes
+// would reach c j. So stages go on until F(Y(j)), which the next one needs anyway, says stop. Nothing is
+// computed for the controller alone.
+//   e = tau/2 max|F - F0| / (travelled + tau max|F0|), expected for the next stage, is the error of the step
+//   relative to how far sand has moved in this relaxation. It stays below the step tolerance. A step also
+//   ends when the flow has decayed or turned against its start (sum F F0 < 2 % of sum F0^2), because momentum
+//   would carry sand too far.
+// In the stages sand flows wherever the slope exceeds tan(talus); the tolerance only says when all is done.
+// (If the stages used the tolerance, its jumps would make long steps chatter.) But only cells within one of a
+// change give. All other sand is held still; otherwise a grain that falls on a heap at rest would set its
+// whole surface flowing within the tolerance. (This also holds a plane so steep everywhere that its cells
+// pass on what they take, until the change at its ends comes near. The result is then 0.9 % of the moved sand
+// from the small-step limit, instead of 0.5.)
 #include <algorithm>
 #include <limits>
 #include <memory>
@@ -28,7 +28,7 @@
 namespace sandstroke {
 namespace {
 
-/// As the law is between stages: no tolerance, and a flow F for c = 1.
+/// The law inside a super-step: no tolerance, and its flow F is for c = 1.
 TalusLaw ungated(const RelaxationSettings& settings, double cell_size) {
   RelaxationSettings law = settings;
   law.tolerance = 0.0;
@@ -36,17 +36,18 @@ TalusLaw ungated(const RelaxationSettings& settings, double cell_size) {
   return talus_law(law, cell_size);
 }
 
-// Found on cones, rough beds and furrows (tests/accuracy and tests/bench hold them):
-// c: the isotropic law's limit; what kept the paper's near its small steps.
+// These constants were found on cones, rough beds and furrows (checked by tests/accuracy and tests/bench). c:
+// the isotropic law's limit. It also keeps the paper's law near its small steps.
 constexpr double largest_share = 0.25;
-// Of it, doubled from step to step: small steps through a violent start.
+// The fraction of c in the first step. It doubles from step to step, so that a violent start has small steps.
 constexpr double first_share = 1.0 / 8.0;
-// Of sum F0^2: with 0.05 a tenth more passes, with 0 momentum overspreads.
+// A step ends when sum F F0 falls below this fraction of sum F0^2. 0.05 takes a tenth more passes; with 0
+// momentum carries sand too far.
 constexpr double decayed = 0.02;
 
-// From so much on [cells], memory is what a sweep waits for: where the error foreseen lets a step go on, its
-// next stage is taken with the flow, and dropped if it does not. 32 bytes a cell pass instead of 72, with the
-// same bits.
+// From this work on [cells], sweeps wait for memory. Then, if the expected error lets a step go on, its next
+// stage is taken in the same sweep as the flow, and dropped if the step ends after all. 32 bytes a cell pass
+// instead of 72, with the same bits.
 constexpr std::int64_t work_worth_ahead = 20'000;
 
 class RklRelaxer : public Relaxer {
@@ -85,10 +86,10 @@ class RklRelaxer : public Relaxer {
 
   struct StepTile {
     SuperStepTile kept;
-    FlowSize first{};        // of F0, where it is active at the step's start
-    HeightRange range{};     // of the active cells, after the last stage
-    std::int64_t step = -1;  // super-step that it takes part in
-    std::int64_t pass = -1;  // the last in which it was active
+    FlowSize first{};        // size of F0, if the tile is active at the step's start
+    HeightRange range{};     // heights of the active cells after the last stage
+    std::int64_t step = -1;  // the last super-step that it took part in
+    std::int64_t pass = -1;  // the last pass in which it was active
   };
 
  private:
@@ -103,8 +104,8 @@ class RklRelaxer : public Relaxer {
     ++outcome_.super_steps;
     const FlowSize first = start_step();
     double tau = 0.0, flowing = 0.0;
-    double foreseen = std::numeric_limits<double>::infinity();  // error, with the stage to come
-    bool ahead = false;                                         // the stage to come is taken
+    double foreseen = std::numeric_limits<double>::infinity();  // error expected after the next stage
+    bool ahead = false;                                         // the next stage is already taken
     for (int j = 0;; ++j) {
       const Stage stage = stage_of(j, share);
       if (!(ahead ? go_ahead(bed) : advance(bed, stage))) break;  // what still flows is below rounding
@@ -117,7 +118,7 @@ class RklRelaxer : public Relaxer {
       flowing = stage.momentum * flowing + stage.step * given_;
       moved_.add(flowing);
       tau = share * (j + 1.0) * (j + 2.0) / 2.0;
-      const double growth = (j + 3.0) / (j + 1.0);  // of tau in the stage to come
+      const double growth = (j + 3.0) / (j + 1.0);  // of tau in the next stage
       const double squared = growth * growth;       // of the error
       ahead = sand_.work() >= work_worth_ahead && foreseen * squared <= step_tolerance_;
       if (ahead)
@@ -128,7 +129,7 @@ class RklRelaxer : public Relaxer {
       const FlowChange change = change_from_start();
       foreseen = 0.5 * tau * change.difference / (travelled_ + tau * first.peak) * squared;
       if (foreseen > step_tolerance_ || change.product < decayed * first.square) {
-        if (ahead) compute_flow(bed);  // the gains themselves, for the next step
+        if (ahead) compute_flow(bed);  // computes the gains, for the next step
         break;
       }
     }
@@ -140,8 +141,8 @@ class RklRelaxer : public Relaxer {
   };
   static Stage stage_of(int j, double share) { return {j / (j + 1.0), share * (2.0 * j + 1.0) / (j + 1.0)}; }
 
-  /// F of the heights as they are, how it differs from F0, and whether any slope is beyond the tolerance.
-  /// ahead: with the stage that will be next if the step goes on, instead of the gains.
+  /// Computes F of the current heights, how it differs from F0, and whether any slope is beyond the
+  /// tolerance. ahead: takes the stage that will be next if the step goes on, instead of keeping the gains.
   void compute_flow(HeightField& bed, const std::optional<Stage>& ahead = {}) {
     const auto in_step = [&](int slot, RelaxedTile& relaxed) {
       StepTile& one = tile(slot);
@@ -158,10 +159,10 @@ class RklRelaxer : public Relaxer {
     }
   }
 
-  /// Gives an active tile its place in the step, and its starting heights theirs in the range.
+  /// Lets an active tile join the step, and adds its starting heights to the range.
   void take_in(const HeightField& bed, int slot) {
     if (tiles_.size() < sand_.places()) tiles_.push_back(std::make_unique<StepTile>());
-    if (taken_in_ < sand_.places()) {  // as this relaxation's last
+    if (taken_in_ < sand_.places()) {  // the tile is new in this relaxation
       ++taken_in_;
       tile(slot).step = -1;
       const CellRange cells = bed.tile_cells(bed.tile_of(slot));
@@ -179,7 +180,7 @@ class RklRelaxer : public Relaxer {
     joining.kept.rows = joining.kept.first.rows = {};
   }
 
-  /// Keeps the flow as F0.
+  /// Keeps the flow as F0. Returns its size.
   FlowSize start_step() {
     for (const int slot : sand_.tiles()) join(slot);
     sand_.for_each_tile([this](int slot, RelaxedTile& relaxed) {
@@ -198,8 +199,8 @@ class RklRelaxer : public Relaxer {
     double difference;  // m: max |F - F0|
     double product;     // m^2: sum F F0
   };
-  /// How the flow as computed last differs from F0. A tile that flowed then is active until the step ends,
-  /// even where its flow is over: it goes on by its momentum.
+  /// How the last computed flow differs from F0. A tile that flowed at the step's start stays active until
+  /// the step ends, even if its flow is over: its momentum still moves it.
   FlowChange change_from_start() const {
     double difference = 0.0;
     CompensatedSum product;
@@ -210,20 +211,20 @@ class RklRelaxer : public Relaxer {
     return {difference, product.value()};
   }
 
-  /// One stage. False where no height is another number now: all is at rest.
+  /// Takes one stage. Returns false if no height changed: all is at rest.
   bool advance(HeightField& bed, const Stage& stage) {
     return sand_.advance(bed, [&](int slot, RelaxedTile& relaxed) {
       tile(slot).range = super_stage(relaxed.flow, sand_.cells(slot), stage.momentum, stage.step,
                                      relaxed.patch, tile(slot).kept, relaxed.changed);
     });
   }
-  /// The same by the stage that was taken with the flow.
+  /// The same, with the stage that was already taken with the flow.
   bool go_ahead(HeightField& bed) {
     return sand_.advance(
         bed, [&](int slot, RelaxedTile& relaxed) { relaxed.patch.exchange(tile(slot).kept.before); });
   }
 
-  /// Calls body(tile, its step's tile) for those that take part in this super-step.
+  /// Calls body(tile, its step's tile) for the tiles that take part in this super-step.
   template <class Body>
   void for_tiles_in_step(const Body& body) {
     for (std::size_t place = 0; place < taken_in_; ++place)
@@ -255,12 +256,12 @@ class RklRelaxer : public Relaxer {
   std::vector<std::unique_ptr<StepTile>> tiles_;  // by place in sand_
   std::int64_t step_ = 0;                         // which super-step this is
 
-  // Of this relaxation.
+  // State of this relaxation.
   RelaxationOutcome outcome_;
   std::size_t taken_in_ = 0;  // how many tiles have taken part
   CompensatedSum moved_;
   double low_ = 0.0, high_ = 0.0;  // m: range of the starting heights, in the tiles that took part
-  double travelled_ = 0.0;         // m: how far sand has moved, sum of tau max |F0|
+  double travelled_ = 0.0;         // m: how far sand has moved: the sum of tau max |F0|
   double given_ = 0.0;             // m: sum of outflows of F
   bool too_steep_ = false;
 };

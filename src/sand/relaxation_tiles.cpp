@@ -1,4 +1,4 @@
-// Relaxes only the cells that can move, tile by tile; the same bits as the reference.
+// Relaxes only the cells that can move, tile by tile, with the same bits as relaxation_plain.cpp.
 #include "core/compensated_sum.h"
 #include "core/interrupt.h"
 #include "sand/active_sand.h"

@@ -44,7 +44,7 @@ void ResistiveForce::lift() {
 Wrench ResistiveForce::feel(const ToolFootprint& footprint, const Eigen::Vector3d& tip,
                             const SandPlane& plane, const Eigen::Vector3d& motion, const SandStrength& sand) {
   if (footprint.cells().empty() || std::isnan(plane.height)) return lift(), Wrench{};
-  // An element at r, turned, was at (old rotation) (new rotation)^T r.
+  // An element that is now at r was at (old rotation) (new rotation)^T r.
   Eigen::Matrix3d spin = Eigen::Matrix3d::Zero();
   if (felt_ && rotation_ != felt_rotation_)
     spin = (Eigen::Matrix3d::Identity() - felt_rotation_ * rotation_.transpose()) / sand.yield_way;

@@ -12,12 +12,12 @@ namespace sandstroke {
 /// Sands by name. dry: typical. quikrete: as Agarwal, Goldman and Kamrin (2023) measured it.
 enum class SandPreset { dry, quikrete };
 
-/// What sand and a tool's surface are for a force: all of it measurable.
+/// The properties of sand and of a tool's surface that the force depends on. All can be measured.
 struct SandStrength {
   double friction_angle = 30.0;  ///< deg, internal friction phi
   double density = 1560.0;       ///< kg/m^3, of the bulk
   double tool_friction = 0.4;    ///< mu_s, of the tool's surface
-  double yield_way = 0.001;      ///< m, of the tool until the sand's resistance is all there
+  double yield_way = 0.001;      ///< m that the tool moves until the sand resists fully
   SandPreset preset = SandPreset::dry;
 };
 
@@ -28,54 +28,55 @@ void apply_sand_preset(SandStrength& sand);
 /// Goldman, Kamrin, PNAS 120, 2023).
 double resistance(const SandStrength& sand);
 
-/// alpha, of three-dimensional resistive force theory (there, equations 6 to 8 and table 1): the force of the
-/// sand on an element over xi x area x depth. normal: outward; motion: unit vectors. The part along the
-/// surface is at most tool_friction of the part across it.
+/// alpha of three-dimensional resistive force theory (there, equations 6 to 8 and table 1): the force of the
+/// sand on an element, divided by xi x area x depth. normal points outward; normal and motion are unit
+/// vectors. The part along the surface is at most tool_friction times the part across it.
 Eigen::Vector3d resistive_stress(const Eigen::Vector3d& normal, const Eigen::Vector3d& motion,
                                  double tool_friction);
 
-/// What sand does to a tool.
+/// The force of sand on a tool, with its torque, stiffness and energy.
 struct Wrench {
   Eigen::Vector3d force = Eigen::Vector3d::Zero();   ///< N
   Eigen::Vector3d torque = Eigen::Vector3d::Zero();  ///< N m, about the tip
-  double stiffness = 0.0;                            ///< N/m, how the force grows with the tool's way
-  double stored = 0.0;                               ///< J, at most, that it may give back
-  double strength = 0.0;  ///< N, of all its parts, whatever their directions, once the tool has yielded
+  double stiffness = 0.0;                            ///< N/m, growth of the force with the tool's way
+  double stored = 0.0;                               ///< J that the sand may give back, at most
+  double strength = 0.0;  ///< N, sum of the sizes of all elements' forces once the tool has yielded
 
-  /// The sand made weaker, so that its strength is no more than max_force [N] (0: as it is): what a device of
-  /// that maximum gives. To cut the force alone would leave sand as stiff as before where the tool turns
-  /// round, and turn it round late.
+  /// The wrench of weaker sand, whose strength is at most max_force [N], as a device of that maximum gives it
+  /// (0: unchanged). If only the force were cut, the sand would stay as stiff as before when the tool
+  /// reverses, and reverse the force late.
   Wrench limited(double max_force) const;
 };
 
-/// What of a tool lies below the sand's plane.
+/// The part of a tool below the sand's plane.
 struct VolumeBelow {
   double volume = 0.0;                  ///< m^3
-  Eigen::Vector2d moment = {0.0, 0.0};  ///< m^4, the volume times its centroid's way from the tip
-  double area = 0.0;                    ///< m^2, by which it grows as the tool sinks
+  Eigen::Vector2d moment = {0.0, 0.0};  ///< m^4, the volume times its centroid's offset from the tip
+  double area = 0.0;                    ///< m^2, growth of the volume per depth that the tool sinks
 };
-/// Below a plane that lies `height` [m] above the tip, and slopes from there: by the divergence theorem.
+/// For a plane that lies `height` [m] above the tip, and has this slope. Computed by the divergence theorem.
 VolumeBelow volume_below(const ToolElements& elements, double height, const Eigen::Vector2d& slope);
 
-/// Resistive force theory over the surface that touches sand. The law knows a direction of motion and no
-/// speed. What stands for it is each element's way through the sand since it met it, in units of the yield
-/// way and no longer than 1 (a way beyond that is cut off: a projection): so the force does not depend on
-/// speed, holds while the tool rests, and turns round within the yield way when the tool does. In steady
-/// motion it is the theory's. Depths count from the plane around the tool; an element touches sand that
-/// reaches it beside or below. No memory of disturbed sand, no shadow of one tooth on the next.
+/// Resistive force theory over the surface that touches sand. The theory uses a direction of motion and no
+/// speed. The direction here is each element's displacement through the sand since it met the sand, in units
+/// of yield_way, and cut to length 1 (a projection). So the force does not depend on speed, stays while the
+/// tool rests, and reverses within yield_way when the tool does. In steady motion it is the theory's. Depths
+/// count from the plane around the tool. An element touches sand that reaches it from beside or below. The
+/// force ignores that sand was disturbed before, and that one tooth shields the next.
 class ResistiveForce {
  public:
   /// surface: in its own frame, tip at the origin. element_size [m].
   ResistiveForce(const TriangleMesh& surface, double element_size);
 
-  /// How the tool lies in the bed from now on. The next feel() counts the turn as motion, if the one before
-  /// felt something.
+  /// Sets the tool's orientation in the bed. The next feel() counts the turn as motion, unless the tool was
+  /// lifted.
   void turn(const Eigen::Matrix3d& rotation);
 
-  /// The tool went by `motion` [m] to where the footprint lies, its tip at `tip` [m].
+  /// Returns the wrench after the tool has moved by `motion` [m] to where the footprint lies, with its tip at
+  /// `tip` [m].
   Wrench feel(const ToolFootprint& footprint, const Eigen::Vector3d& tip, const SandPlane& plane,
               const Eigen::Vector3d& motion, const SandStrength& sand);
-  /// It touches nothing: what was known of its way is gone.
+  /// Tells that the tool touches nothing: forgets the elements' displacements.
   void lift();
 
   const ToolElements& elements() const { return elements_; }

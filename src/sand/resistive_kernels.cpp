@@ -39,9 +39,9 @@ HWY_INLINE V polynomial(const double* c, V x1, V x2, V x3) {
   return all(c[0]) + x1 * in_x1 + x2 * in_x2 + x3 * in_x3;
 }
 
-/// The theory's stress on a plate, n being its normal that looks down: its tilt is from -90 to 90 degrees,
-/// all that its polynomials were fitted to. In vectors, with gravity along -z: x1, x2 and x3 are the cosines
-/// between motion and gravity, normal and gravity, and normal and motion; alpha = f1 n + f2 u - f3 z.
+/// The theory's stress on a plate whose normal n points down: a tilt of -90 to 90 degrees, which is all that
+/// its polynomials were fitted to. In vectors, with gravity along -z: x1, x2 and x3 are the cosines between
+/// motion and gravity, normal and gravity, and normal and motion; alpha = f1 n + f2 u - f3 z.
 HWY_INLINE Vector plate_stress(const Vector& n, const Vector& u) {
   const V x1 = Neg(u.z), x2 = Neg(n.z), x3 = u.dot(n);
   const V f1 = polynomial(table[0], x1, x2, x3), f2 = polynomial(table[1], x1, x2, x3),
@@ -51,9 +51,10 @@ HWY_INLINE Vector plate_stress(const Vector& n, const Vector& u) {
   return alpha;
 }
 
-/// resistive_stress() of as many elements. Of one that looks up, the plate's normal is the other side's. An
-/// upright plate has both, of which the polynomials make 0.192 and 0.229 where it is dragged face on: from an
-/// upright element to one that looks up by 3 degrees the first goes over into the second.
+/// resistive_stress() of a vector of elements. If an element faces up, the plate's normal is that of its
+/// other side. An upright plate has both normals, and the polynomials give 0.192 and 0.229 when it is dragged
+/// face on. So the first value blends into the second from an upright element to one that faces up by 3
+/// degrees.
 HWY_INLINE Vector stress(const Vector& n, const Vector& u, V tool_friction) {
   constexpr double goes_over = 0.05;
   const V zero = hn::Zero(d), one = all(1.0);
@@ -73,8 +74,8 @@ HWY_INLINE Vector stress(const Vector& n, const Vector& u, V tool_friction) {
   return n.times(across).plus(along.times(share));
 }
 
-/// Elements that trail by less than so much of a right angle's cosine fade out: an upright side that is
-/// pushed along itself would else be dragged at or not as its motion trembles.
+/// The cosine between motion and normal below 0 over which trailing elements fade out. Otherwise the drag on
+/// an upright side that moves along itself would switch on and off as its motion trembles.
 constexpr double fade = 0.05;
 
 Wrench ResistiveWrench(const ResistiveTick& tick) {
@@ -89,7 +90,7 @@ Wrench ResistiveWrench(const ResistiveTick& tick) {
           stride = all(f.stride());
   const V height0 = all(tick.plane.height - tick.tip.z()), slope_x = all(tick.plane.slope.x()),
           slope_y = all(tick.plane.slope.y()), tip_z = all(tick.tip.z());
-  const V half_cell = all(0.5 * dx), per_touch = all(4.0 / dx);  // it fades in over a quarter of a cell
+  const V half_cell = all(0.5 * dx), per_touch = all(4.0 / dx);  // contact fades in over a quarter of a cell
   const Vector motion = {all(tick.motion.x()), all(tick.motion.y()), all(tick.motion.z())};
   const auto spin_of = [&](int axis) {
     return Vector{all(tick.spin(axis, 0)), all(tick.spin(axis, 1)), all(tick.spin(axis, 2))};
@@ -108,11 +109,11 @@ Wrench ResistiveWrench(const ResistiveTick& tick) {
     }
     const Vector n = {hn::Load(d, e.normal_x() + i), hn::Load(d, e.normal_y() + i),
                       hn::Load(d, e.normal_z() + i)};
-    // The sand right outside of it.
+    // The cell with the sand just outside the element.
     const V col = Min(Max(hn::Floor(col0 + r.x * per_cell + n.x + half), zero), last_col);
     const V row = Min(Max(hn::Floor(row0 + r.y * per_cell + n.y + half), zero), last_row);
     const hn::RebindToSigned<decltype(d)> di;
-    // A cell was cut at its centre: beside it a slanting element lies higher.
+    // Cells are carved at their centres; beside a centre a slanting element lies higher.
     const V slack = half_cell * (hn::Abs(n.x) + hn::Abs(n.y));
     const V height = hn::GatherIndex(d, f.heights(0), hn::ConvertTo(di, row * stride + col));
     const V touches = where(depth > zero, between_0_and_1((height + slack - tip_z - r.z) * per_touch + one));
@@ -122,7 +123,7 @@ Wrench ResistiveWrench(const ResistiveTick& tick) {
         Vector{hn::Load(d, ways_x + i), hn::Load(d, ways_y + i), hn::Load(d, ways_z + i)}.plus(motion);
     if (spins) way = way.plus({spin_x.dot(r), spin_y.dot(r), spin_z.dot(r)});
     const V length = Sqrt(way.dot(way)), per_length = one / Max(length, all(1e-300));
-    const Vector u = way.times(where(length > zero, per_length));  // whose square may be no number any more
+    const Vector u = way.times(where(length > zero, per_length));  // a tiny way's square may underflow
     way = way.times(where(in_sand, Min(per_length, one)));
     hn::Store(way.x, d, ways_x + i);
     hn::Store(way.y, d, ways_y + i);
@@ -160,7 +161,7 @@ VolumeBelow VolumeBelowPlane(const ToolElements& e, double height, const Eigen::
     const int place = static_cast<int>(i);
     const V x = hn::Load(d, e.x() + i), y = hn::Load(d, e.y() + i);
     const V depth = height0 + slope_x * x + slope_y * y - hn::Load(d, e.z() + i);
-    // Up from each element to the plane.
+    // The column from each element up to the plane.
     const V level = where(depth > zero, Neg(hn::Load(d, e.normal_z() + i)) * hn::Load(d, e.area() + i));
     const V above = level * depth;
     area.add(place, level);

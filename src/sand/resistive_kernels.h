@@ -4,15 +4,16 @@
 
 namespace sandstroke {
 
-/// A tick of resistive force theory: vector code (Highway), the same bits for every instruction set.
+/// The input of one tick of resistive force theory. Vector code (Highway), the same bits for every
+/// instruction set.
 struct ResistiveTick {
   const ToolFootprint& footprint;
   const ToolElements& elements;
-  double* ways;  ///< x, y, z of each element, in yield ways; brought up to date
+  double* ways;  ///< x, y, z of each element's displacement, in yield ways; updated
   Eigen::Vector3d tip;
   SandPlane plane;
   Eigen::Vector3d motion;  ///< of the tip, in yield ways
-  Eigen::Matrix3d spin;    ///< 1/m; times an element's place: its motion beside the tip's, in yield ways
+  Eigen::Matrix3d spin;    ///< 1/m; times an element's place: its motion relative to the tip, in yield ways
   double resistance;       ///< N/m^3, xi
   double tool_friction, yield_way;
 };

@@ -9,7 +9,7 @@
 namespace sandstroke {
 namespace {
 
-/// The places, without sand.
+/// The places where the sand is sampled, without heights.
 SeenSand all_places() {
   constexpr int per_circle = 16;
   SeenSand places{};

@@ -32,7 +32,7 @@ Eigen::Vector3d LeastDeviations(const SeenSand& sand, double reach) {
       wxx.add(i, weight_x * x), wxy.add(i, weight_x * y), wyy.add(i, weight_y * y);
       wxz.add(i, weight_x * z), wyz.add(i, weight_y * z);
     }
-    if (turn > 0 && largest(most_off) < 1e-6 * reach) break;  // all lie in it
+    if (turn > 0 && largest(most_off) < 1e-6 * reach) break;  // all places lie in the plane
     const double x = wx.total(), y = wy.total(), xy = wxy.total();
     const Eigen::Matrix3d normal{{w.total(), x, y}, {x, wxx.total(), xy}, {y, xy, wyy.total()}};
     plane = normal.inverse() * Eigen::Vector3d(wz.total(), wxz.total(), wyz.total());

@@ -1,4 +1,4 @@
-// What both ways to take a super-step's stage share. Included once per instruction set, as lanes-inl.h.
+// Code for both ways to take a stage of a super-step. Included once per instruction set, like lanes-inl.h.
 #if defined(SANDSTROKE_SAND_STAGE_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef SANDSTROKE_SAND_STAGE_INL_H_
 #undef SANDSTROKE_SAND_STAGE_INL_H_
@@ -15,7 +15,7 @@ HWY_BEFORE_NAMESPACE();
 namespace sandstroke {
 namespace HWY_NAMESPACE {
 
-/// Lowest and highest, lane by lane.
+/// The lowest and highest height, per lane.
 struct Range {
   V low, high;
   HWY_INLINE Range() : low(all(std::numeric_limits<double>::infinity())), high(hn::Neg(low)) {}
@@ -26,7 +26,7 @@ struct Range {
   HWY_INLINE HeightRange over_lanes() const { return {least(low), largest(high)}; }
 };
 
-/// Y + momentum (Y - Z), where there is a Z.
+/// Y + momentum (Y - Z), or Y if there is no Z.
 HWY_INLINE V with_momentum(V now, bool stepped, V momentum, const double* before) {
   return stepped ? now + momentum * (now - hn::Load(d, before)) : now;
 }

@@ -8,14 +8,14 @@
 namespace sandstroke {
 
 /// The slope (rise over run) up to which the law leaves all sand at rest. Laws compare slopes along rows,
-/// columns and diagonals; isotropic adds up two of them, faces 4/3 of one (M + M / 3) and another.
+/// columns and diagonals. isotropic combines two of them; faces combines 4/3 of one (M + M / 3) with another.
 inline double stable_slope(const TalusLaw& law, double cell_size) {
   const double added = law.law == RelaxationLaw::faces ? 5.0 / 3.0 : std::numbers::sqrt2;
   return law.axis_drop / cell_size / added * (1.0 - 1e-9);
 }
 
-/// Calls visit(tile) for the tiles whose rule allows a slope (rise over run) above `slope` between their
-/// cells or to those beside them.
+/// Calls visit(tile) for the tiles whose rule allows a slope (rise over run) above `slope`, between their own
+/// cells or to a neighbouring tile's.
 template <class Visit>
 void visit_steep_tiles(const HeightField& bed, double slope, const Visit& visit) {
   visit_quarters({0, bed.tile_rows(), 0, bed.tile_cols()}, [&](const CellRange& tiles) {

@@ -68,7 +68,7 @@ HeightRange SuperStage(const TileFlow& flow, const CellFlags& active, double mom
         flags |= static_cast<std::uint64_t>(bits(next != now)) << c;
       }
     }
-    changed[row] = flags & active[row];  // beside them may be walls, which equal nothing
+    changed[row] = flags & active[row];  // a wall (NaN) beside them always compares as changed
     tile.stepped[row] |= static_cast<std::uint8_t>(wanted);
     tile.same[row] &= static_cast<std::uint8_t>(~wanted);
   }

@@ -11,12 +11,12 @@ struct FlowSize {
 /// Keeps a flow as F0.
 FlowSize keep_first_flow(const TileFlow& flow, FirstFlow& first);
 
-/// Of a tile's cells that lie inside the bed.
+/// The range of a tile's heights inside the bed.
 HeightRange range_of(const double* heights, int rows, int cols);
 
-/// heights Y, tile.before Z: Y, Z = Y + momentum (Y - Z) + step F, Y, in the active cells' groups. Flags, in
-/// the flow's rows, the cells that are another number now. Returns the range of the active cells' new
-/// heights.
+/// Takes a stage in the active cells' groups. With Y the heights and Z = tile.before: the new Y is Y +
+/// momentum (Y - Z) + step F, the new Z is the old Y. Flags the cells whose height changed, in the flow's
+/// rows. Returns the range of the active cells' new heights.
 HeightRange super_stage(const TileFlow& flow, const CellFlags& active, double momentum, double step,
                         TilePatch& patch, SuperStepTile& tile, CellFlags& changed);
 

@@ -7,16 +7,16 @@
 
 namespace sandstroke {
 
-/// The height of every cell before anything touches it, as a rule: sand that nobody touches needs no memory.
+/// A rule for the height of every cell before anything touches it, so that untouched sand needs no memory.
 class SurfaceRule {
  public:
   virtual ~SurfaceRule() = default;
   /// Heights [m] of `cells`, row after row, rows `stride` apart in `out`.
   virtual void fill(const BedGeometry& bed, const CellRange& cells, double* out,
                     std::ptrdiff_t stride) const = 0;
-  /// No slope (rise over run) between cells of this range is larger; 0 where all have the same height.
+  /// An upper bound of the slope (rise over run) between cells of this range; 0 if all have the same height.
   virtual double steepest(const BedGeometry& bed, const CellRange& cells) const = 0;
-  /// No cell is higher [m].
+  /// An upper bound of all heights [m].
   virtual double highest() const = 0;
 
   double height(const BedGeometry& bed, int row, int col) const {
@@ -24,7 +24,7 @@ class SurfaceRule {
     fill(bed, {row, row + 1, col, col + 1}, &height, 1);
     return height;
   }
-  /// The one height [m] of all cells of this range; none where they differ.
+  /// The common height [m] of all cells of this range; none if they differ.
   std::optional<double> level(const BedGeometry& bed, const CellRange& cells) const {
     if (steepest(bed, cells) != 0.0) return std::nullopt;
     return height(bed, cells.row_begin, cells.col_begin);

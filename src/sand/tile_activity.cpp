@@ -65,13 +65,13 @@ void TileActivity::wake(HeightField& bed, int tile, int row_begin, const std::ui
 
 namespace {
 
-/// Flags within `by` cells of a tile's flagged ones, in the tile and in those beside it, in rows [begin,
+/// Flags of the cells within `by` of a tile's flagged ones, in the tile and its neighbours, in rows [begin,
 /// end). Row r is row r - reach of the tile.
 struct Spread {
   std::array<std::uint64_t, side + 2 * reach> own, west, east;
   std::uint64_t any_west = 0, any_east = 0;
 
-  /// flags: from row -2 reach of the tile on.
+  /// flags: the first is of row -2 reach of the tile.
   template <int by>
   void fill(const std::uint64_t* flags, int begin, int end) {
     for (int r = begin; r < end; ++r) {
@@ -94,7 +94,7 @@ void TileActivity::wake_around(HeightField& bed, int slot, const Changed& change
   const RowSpan span = row_span(changed.cells, changed.rows);
   if (span.empty()) return;
   const int begin = span.begin, end = span.end + 2 * reach;
-  std::array<std::uint64_t, side + 4 * reach> flags;  // with rows that have none around the span
+  std::array<std::uint64_t, side + 4 * reach> flags;  // with empty rows around the span
   std::fill(flags.begin() + begin, flags.begin() + begin + 2 * reach, 0);
   std::copy(changed.cells.begin() + span.begin, changed.cells.begin() + span.end,
             flags.begin() + begin + 2 * reach);

@@ -8,26 +8,26 @@
 
 namespace sandstroke {
 
-/// Which cells of a bed may change in the coming pass. What a cell does in a pass depends on cells up to two
-/// away (its neighbours' shares depend on theirs), so it can change only if one of those changed in the pass
-/// before, or was set from outside. Flags cross borders and corners of tiles, so the pattern does not depend
-/// on tiles at all.
+/// Tracks which cells of a bed may change in the next pass. What a cell does in a pass depends on cells up to
+/// two away (its neighbours' flows depend on their neighbours). So it can change only if one of those changed
+/// in the pass before, or was set from outside. Flags cross borders and corners of tiles, so the pattern does
+/// not depend on tiles at all.
 class TileActivity {
  public:
-  /// tells_givers: also say which cells may give, those within one of a change, for a stepper that holds all
-  /// other sand still.
+  /// tells_givers: also track which cells may give (those within one of a change), for a stepper that holds
+  /// all other sand still.
   explicit TileActivity(bool tells_givers) : tells_givers_(tells_givers) {}
 
-  /// Takes up which cells are disturbed, and clears that (HeightField::clear_disturbed). The first time it
-  /// wakes every allocated tile, and allocates those whose rule allows a slope above stable_slope (rise over
-  /// run) and wakes them.
+  /// Wakes the cells around the disturbed ones, and clears these (HeightField::clear_disturbed). The first
+  /// call wakes every allocated tile. It also allocates and wakes the tiles whose rule allows a slope above
+  /// stable_slope (rise over run).
   void wake_disturbed(HeightField& bed, double stable_slope);
 
   /// Slots of the tiles with active cells. All tiles that an active cell can see are allocated.
   const std::vector<int>& tiles() const { return tiles_; }
   const CellFlags& cells(int slot) const { return marks_[slot].active; }
-  RowSpan rows(int slot) const { return marks_[slot].rows; }  ///< those that have them
-  /// Which were active at some time since look_away(), or would have been if the bed did not hold them.
+  RowSpan rows(int slot) const { return marks_[slot].rows; }  ///< rows with active cells
+  /// Cells that were active at some time since look_away(), or would have been if they were no walls.
   const CellFlags& seen(int slot) const { return marks_[slot].seen; }
   void look_away(int slot) { marks_[slot].seen = {}; }
 
@@ -36,7 +36,8 @@ class TileActivity {
     const CellFlags& cells;
     RowSpan rows;
   };
-  /// Next active: all cells within two of those that changed; changed(slot) in each of tiles().
+  /// Makes the cells active that lie within two of those that changed. changed(slot) tells these, for each of
+  /// tiles().
   template <class ChangedIn>
   void advance(HeightField& bed, const ChangedIn& changed) {
     std::swap(tiles_before_, tiles_);
@@ -61,17 +62,17 @@ class TileActivity {
   std::int64_t wake_ups() const { return wake_ups_; }
 
  private:
-  /// Wakes all cells within two of those.
+  /// Wakes all cells within two of the changed ones.
   void wake_around(HeightField& bed, int slot, const Changed& changed);
-  /// Flags rows [row_begin, row_begin + count) of a tile; those outside the bed are left out, and cells that
-  /// it holds, which never change.
+  /// Flags cells in rows [row_begin, row_begin + count) of a tile, except cells outside the bed and walls,
+  /// which never change.
   void wake(HeightField& bed, int tile, int row_begin, const std::uint64_t* active,
             const std::uint64_t* givers, int count);
   void make_seen_tiles(HeightField& bed);
 
   struct Marks {
     CellFlags active{}, givers{}, seen{};
-    RowSpan rows;             // that hold the flags of the first two
+    RowSpan rows;             // rows that hold the flags of active and givers
     bool listed = false;      // in tiles_
     bool was_active = false;  // in tiles_before_
     void sleep() {

@@ -14,14 +14,14 @@ namespace sandstroke {
 /// begins with column 0 on a 64-byte boundary.
 struct PatchLayout {
   static constexpr int side = BedGeometry::tile_side;
-  static constexpr int rim = 2;  ///< inflow comes from one cell away, whose share depends on one cell further
+  static constexpr int rim = 2;  ///< a neighbour one cell away gives inflow, and depends on one cell further
   static constexpr int margin = cells_per_group;  ///< doubles before column 0 and after the last
   static constexpr int stride = side + 2 * margin;
   static constexpr int size = (side + 2 * rim) * stride + 2 * margin;  // vectors reach beyond the margins
   static int start(int row) { return margin + (row + rim) * stride + margin; }
 };
 
-/// Heights so laid out [m]; NaN at first.
+/// Heights [m] in this layout; NaN at first.
 class PatchHeights : public PatchLayout {
  public:
   PatchHeights();
@@ -32,33 +32,33 @@ class PatchHeights : public PatchLayout {
   alignas(64) std::array<double, size> values_;
 };
 
-/// A tile's heights with a rim of two cells around them, as a relaxation pass reads them, and what the tile's
-/// cells become in it: the working copy of one relaxation. Outside the bed, where no tile exists, and where
-/// the bed holds them, cells are NaN: every comparison with them is false.
+/// The working copy of a tile in one relaxation: its heights, which the passes change, and a rim of two cells
+/// around them. Cells outside the bed, in tiles that do not exist, and walls are NaN: every comparison with
+/// them is false.
 class TilePatch : public PatchLayout {
  public:
-  /// Becomes the copy of another tile, of which nothing is loaded yet.
+  /// Becomes the copy of another tile, with nothing loaded yet.
   void begin(int slot) { slot_ = slot, loaded_ = {}; }
   int slot() const { return slot_; }
 
-  /// Loads the tile's own rows within `rows`, and keeps those that are there.
+  /// Loads the tile's own rows within `rows`, except those that are loaded already.
   void load_rows(const HeightField& bed, RowSpan rows);
-  /// Copies the rim beside the rows, those above and below the tile among them where `rows` reaches there,
-  /// and to the west or the east where asked to. patch_of(slot): the copy of another tile, or null; its own
-  /// rows that are not as in the bed have been loaded.
+  /// Copies the rim beside the rows: to the west or the east if asked, and above and below the tile if `rows`
+  /// reaches there. patch_of(slot): the copy of another tile, or null. That copy must have loaded all its
+  /// rows that differ from the bed.
   template <class PatchOf>
   void load_rim(const HeightField& bed, RowSpan rows, bool west, bool east, const PatchOf& patch_of);
-  /// Brings the flagged cells' heights to the bed, but for those that it holds.
+  /// Writes the flagged cells' heights to the bed, except in walls.
   void write_back(HeightField& bed, const CellFlags& cells) const;
 
   double* heights(int row) { return heights_->row(row); }
   const double* heights(int row) const { return std::as_const(*heights_).row(row); }
-  RowSpan loaded_rows() const { return loaded_; }  ///< of the tile's own
-  /// The tile's own loaded rows must be in them.
+  RowSpan loaded_rows() const { return loaded_; }  ///< rows of the tile itself
+  /// Swaps the heights for others, which must hold the tile's own loaded rows.
   void exchange(std::unique_ptr<PatchHeights>& heights) { heights_.swap(heights); }
 
  private:
-  /// Columns [first, last) of a row of the bed's tile, as `out` ..., walls as NaN.
+  /// Copies columns [first, last) of a row of the bed's tile to `out`, walls as NaN.
   static void copy_cells(const HeightField& bed, int slot, int row, int first, int last, double* out);
 
   int slot_ = -1;

@@ -14,7 +14,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// A cube, and the side of a finer one about the origin through which normals point.
+/// A cube of space, and the components of the normal, rounded.
 using Place = std::array<std::int64_t, 6>;
 
 struct Patch {
@@ -23,7 +23,7 @@ struct Patch {
   double area = 0.0;                   // m^2
 };
 
-/// The layer of cubes, and where its normal points.
+/// The layer of cubes, and the angle of the normal around z.
 using Order = std::pair<std::int64_t, double>;
 
 /// A number from 0 to 4 that grows with the angle of (x, y) from +x towards +y.
@@ -46,7 +46,7 @@ class Patches {
     const Vector3d facing = 0.5 * (b - a).cross(c - a), centre = (a + b + c) / 3.0;
     const double area = facing.norm();
     if (!(area > 0.0)) return;
-    constexpr double directions = 1.0;  // so many either way along an axis: about 50 degrees each
+    constexpr double directions = 1.0;  // steps on each side of 0 along an axis: about 50 degrees each
     Place place;
     for (std::size_t i = 0; i < 3; ++i) {
       const auto axis = static_cast<Eigen::Index>(i);
@@ -58,7 +58,7 @@ class Patches {
   }
 
  private:
-  /// In two, across its longest side.
+  /// Divides a triangle in two across its longest side.
   void divide(const Vector3d& a, const Vector3d& b, const Vector3d& c, double longest) {
     if ((b - a).norm() == longest) return halves(a, b, c);
     if ((c - b).norm() == longest) return halves(b, c, a);
@@ -83,8 +83,8 @@ ToolElements::ToolElements(const TriangleMesh& surface, double size) {
   size_ = (patches.all.size() + cells_per_group - 1) / cells_per_group * cells_per_group;
   columns_ = hwy::AllocateAligned<double>(7 * size_);
   std::fill_n(columns_.get(), 7 * size_, 0.0);
-  // Layer by layer, and around in each: then the groups of a kernel lie deep or not, and lead or trail, as a
-  // whole.
+  // Sorts by layer, and by direction in each layer. So most groups of a kernel lie as a whole above or below
+  // the sand, and lead or trail as a whole.
   std::vector<std::pair<Order, const Patch*>> order;
   for (const auto& [place, patch] : patches.all)
     order.push_back({{place[2], around(patch.facing.x(), patch.facing.y())}, &patch});
@@ -94,7 +94,7 @@ ToolElements::ToolElements(const TriangleMesh& surface, double size) {
     const Patch& patch = *order[i].second;
     places_.emplace_back(patch.moment / patch.area);
     normals_.emplace_back(patch.facing.normalized());
-    // The vector sum: then the whole surface's is 0, as that of a closed one must be.
+    // The area of the vector sum. So the sum over the whole surface is 0, as for any closed surface.
     columns_[6 * size_ + i] = patch.facing.norm();
   }
   turn(Eigen::Matrix3d::Identity());

@@ -8,17 +8,17 @@
 
 namespace sandstroke {
 
-/// A tool's surface as elements of about one size: what forces are summed over. As it is not turned, the
-/// lowest come first, in layers of that size, and within a layer those that face alike lie together. Columns
-/// of size(), which is a multiple of 8: what is beyond count() has no area.
+/// A tool's surface as elements of about one size. Forces are summed over them. They are sorted by their
+/// height on the unturned tool, the lowest first, in layers of that size; within a layer, elements that face
+/// alike lie together. Columns have size() entries, a multiple of 8; entries beyond count() have no area.
 class ToolElements {
  public:
-  /// Triangles larger than `size` [m] are divided, and those that lie in one cube of that size and face about
-  /// the same way are one element: so the number of elements follows the surface, not the mesh. surface: in
+  /// Divides triangles larger than `size` [m]. Those that lie in one cube of that size and face about the
+  /// same way become one element, so the number of elements follows the surface, not the mesh. surface: in
   /// its own frame, tip at the origin [m].
   ToolElements(const TriangleMesh& surface, double size);
 
-  /// Places and normals are from now on those of the surface turned about the tip.
+  /// Sets places and normals to those of the surface turned about the tip.
   void turn(const Eigen::Matrix3d& rotation);
 
   std::size_t size() const { return size_; }

@@ -18,7 +18,7 @@ using Eigen::Vector3d;
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr double most_samples = 1.6e7;  // 130 MB per field
-constexpr double most_distance = 1.4;   // as displacement.distance may be
+constexpr double most_distance = 1.4;   // the largest displacement.distance
 
 double cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
 
@@ -72,7 +72,7 @@ void ToolEnvelope::rasterise(const TriangleMesh& surface) {
   inradius_ = *std::max_element(inside.begin(), inside.end()) * cell_size_ / phases_;
 }
 
-/// The samples over a triangle, its edges among them, take its height where that is lower.
+/// Lowers the samples over a triangle, its edges included, to its height if that is lower.
 void ToolEnvelope::draw_triangle(const Vector3d& a, const Vector3d& b, const Vector3d& c) {
   const double per_metre = phases_ / cell_size_;
   const auto place = [&](const Vector3d& p) { return Vector2d(per_metre * p.x(), per_metre * p.y()); };
@@ -95,7 +95,8 @@ void ToolEnvelope::draw_triangle(const Vector3d& a, const Vector3d& b, const Vec
     }
 }
 
-/// Between a covered sample and its neighbour heights are interpolated: that needs one there.
+/// Gives the samples just beyond the edge a height, since heights are interpolated between a covered sample
+/// and its neighbour.
 void ToolEnvelope::continue_beyond_edge() {
   std::vector<double> continued = underside_;
   for (int row = 1; row < sample_rows() - 1; ++row)
@@ -113,7 +114,7 @@ void ToolEnvelope::continue_beyond_edge() {
 }
 
 double ToolEnvelope::covered_height(double height) const {
-  // A cell above the lowest point, then 1.5 and 2 cells, 3 and 4, ...
+  // Levels: one cell above the lowest point, then 1.5 and 2 cells, 3 and 4, ...
   double steps = cell_size_;
   for (int k = 0; lowest_ + steps < height && lowest_ + steps < highest_; ++k)
     steps *= k % 2 == 0 ? 1.5 : 4.0 / 3.0;
@@ -165,8 +166,8 @@ WayOut ToolEnvelope::make_way_out(const Part& part, double distance, int phase_y
   for (int row = phase_y; row < rows - around; row += phases_)
     for (int col = phase_x; col < cols - around; col += phases_) {
       if (row < around || col < around || !(inside[index(row, col)] > 0.0)) continue;
-      // Outward: down the distance, by least squares. The sums are of multiples of a quantum, so exact, and
-      // nothing where two edges are as near.
+      // Outward is down the gradient of the distance, by least squares. The terms are multiples of a quantum,
+      // so the sums are exact, and exactly 0 if two edges are equally near.
       Vector2d outward = Vector2d::Zero();
       for (int r = -around; r <= around; ++r)
         for (int c = -around; c <= around; ++c) outward -= inside[index(row + r, col + c)] * Vector2d(c, r);

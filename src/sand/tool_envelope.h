@@ -8,55 +8,55 @@
 
 namespace sandstroke {
 
-/// Where sand leaves a tool: of the samples of a phase that a part of it covers, how far [cells] and where
-/// to.
+/// Where sand leaves a tool: how far [cells] and where to, for the samples of a phase that a part of the tool
+/// covers.
 struct WayOut {
-  std::vector<double> x, y;  ///< as a phase's of ToolEnvelope's samples; both 0 where no edge is nearest
+  std::vector<double> x, y;  ///< laid out like a phase of samples; both 0 if no edge is nearest
 };
 
-/// A tool's underside over the bed while it does not turn: the lowest height of its surface above every
-/// place, on a grid of `phases` samples per cell and direction. Samples are kept phase by phase, so that the
-/// cells of a bed, wherever the tool is, read neighbouring numbers. A tool is solid from there up: sand that
-/// lies on top of an overhang is pushed aside, too.
+/// The underside of a tool that does not turn: the lowest height of its surface above every place, on a grid
+/// of `phases` samples per cell and direction. Samples are stored phase by phase, so that the cells of a bed,
+/// wherever the tool is, read neighbouring numbers. A tool counts as solid from its underside up: it also
+/// displaces sand on top of an overhang.
 class ToolEnvelope {
  public:
-  /// surface: as it is turned, tip at the origin [m]. Error: input, where it covers no sample.
+  /// surface: already turned, tip at the origin [m]. Error: input, if it covers no sample, or too many.
   ToolEnvelope(const TriangleMesh& surface, double cell_size);
 
   double cell_size() const { return cell_size_; }
   int phases() const { return phases_; }
-  /// The samples' grid, in cells of the bed from the tip's: first and how many. Three cells and what sand is
-  /// put beside the tool are around its footprint.
+  /// The grid of the samples, in cells of the bed from the tip's: first and number. It reaches beyond the
+  /// footprint by three cells and by the way that displaced sand goes.
   int first_col() const { return first_col_; }
   int first_row() const { return first_row_; }
   int cols() const { return cols_; }
   int rows() const { return rows_; }
-  /// From a row to the next in the samples of a phase; whole groups may be read from any of cols().
+  /// Distance from a row to the next in the samples of a phase. Whole groups may be read from any of cols().
   int stride() const { return stride_; }
-  /// Of a sample `phase_x` and `phase_y` samples right of and above the lower left corner of a cell of the
-  /// grid.
+  /// Index of the sample that lies `phase_x` samples right of and `phase_y` above the lower left corner of a
+  /// grid cell.
   std::size_t at(int row, int col, int phase_y, int phase_x) const {
     return (static_cast<std::size_t>(phase_y * phases_ + phase_x) * static_cast<std::size_t>(rows_) +
             static_cast<std::size_t>(row)) *
                static_cast<std::size_t>(stride_) +
            static_cast<std::size_t>(col);
   }
-  /// m above the tip; beside the footprint as at its edge.
+  /// m above the tip; beside the footprint the same as at its edge.
   const double* underside() const { return underside_.data(); }
-  /// 1 under the tool, else 0: its edge is where what lies between two samples is 1/2.
+  /// 1 under the tool, else 0. The tool's edge is where the value interpolated between samples is 1/2.
   const double* cover() const { return cover_.data(); }
   double lowest() const { return lowest_; }      ///< m above the tip, of the underside
   double highest() const { return highest_; }    ///< m
-  double reach() const { return reach_; }        ///< m, of the footprint from the axis
+  double reach() const { return reach_; }        ///< m, from the axis, of the footprint
   double inradius() const { return inradius_; }  ///< m, of the largest circle in the footprint
 
-  /// The way to the nearest edge of the part of the footprint that is no higher than `height` [m above the
-  /// tip], and beyond it by (distance - 1) times that part's inradius, half a cell at least: of one phase's
-  /// samples, which is all that a place of the tool needs. Made when it is asked for first.
+  /// The ways from the samples of one phase to the nearest edge of the part of the footprint that is no
+  /// higher than `height` [m above the tip], and beyond the edge by (distance - 1) times that part's
+  /// inradius, at least half a cell. A place of the tool needs only one phase. Computed when first asked for.
   const WayOut& way_out(double height, double distance, int phase_y, int phase_x);
-  /// Makes all that way_out() may be asked for with that distance: then it takes neither time nor memory.
+  /// Computes all ways out for that distance, so that way_out() then takes neither time nor memory.
   void make_ways_out(double distance);
-  /// That height, rounded up to one of a few: so often the way is made anew.
+  /// Rounds a height up to one of a few levels. Only for these are ways out computed.
   double covered_height(double height) const;
 
  private:
@@ -68,7 +68,7 @@ class ToolEnvelope {
   std::size_t at_sample(int row, int col) const {
     return rows_at_[static_cast<std::size_t>(row)] + cols_at_[static_cast<std::size_t>(col)];
   }
-  /// The samples in the part that is no higher, row after row.
+  /// Flags the covered samples that are no higher than `height`, row after row.
   std::vector<unsigned char> covered_up_to(double height) const;
   /// How far each sample lies inside a part of the footprint, and the deepest [samples].
   struct Part {
@@ -84,7 +84,7 @@ class ToolEnvelope {
   std::vector<std::size_t> rows_at_, cols_at_;  // at() of a sample's row, and what its column adds
   std::vector<double> underside_, cover_;
   std::map<double, Part> parts_;                             // by covered height
-  std::map<std::tuple<double, int, int>, WayOut> ways_out_;  // and phase
+  std::map<std::tuple<double, int, int>, WayOut> ways_out_;  // by covered height and phase
 };
 
 }  // namespace sandstroke

@@ -11,9 +11,11 @@
 namespace sandstroke {
 namespace {
 
-/// [begin, end) of `count` cells in a line whose centres lie between two places, in cells from its centre.
+/// The range [begin, end) of the cells whose centres lie between two places, in a line of `count` cells.
+/// Places count in cells from the line's centre.
 std::pair<int, int> cells_between(double low, double high, int count) {
-  // That centre is cell (count - 1) / 2, maybe a half: adding that first rounds alike for any even count.
+  // The centre is at cell (count - 1) / 2, maybe a half. Adding the half first rounds alike for any even
+  // count.
   const int centre = (count - 1) / 2;
   const double half = count % 2 == 0 ? 0.5 : 0.0;
   return {std::max(0, centre + static_cast<int>(std::ceil(low + half))),
@@ -110,7 +112,7 @@ void ToolFootprint::place_envelope(const HeightField& bed) {
 }
 
 void ToolFootprint::find_first_sample() {
-  // On multiples of 2^-30 what is left to a sample and to the next one are exact, either way round.
+  // For multiples of 2^-30 the distances to a sample and to the next one are both exact.
   const auto split = [&](double cells, int first, int& sample, double& rest) {
     const double place = std::round(envelope_->phases() * cells * 0x1p30) * 0x1p-30;
     const double whole = std::floor(place);
@@ -171,8 +173,8 @@ WayOutPlace ToolFootprint::way_out(double distance) {
 void ToolFootprint::make_room() {
   const std::size_t needed = at(cells_.rows());
   if (needed <= room_) return;
-  // As the tool moves, the window gains a row or a column, and so perhaps a group of the stride: not in a
-  // servo loop.
+  // Takes room for one row and one group more: the window may grow so as the tool moves, and a servo loop
+  // must not allocate memory.
   room_ = static_cast<std::size_t>(cells_.rows() + 1) * (stride_ + cells_per_group);
   for (auto* memory : {&heights_, &underside_, &takes_, &rampart_, &weights_, &excess_}) {
     *memory = hwy::AllocateAligned<double>(room_);
@@ -194,7 +196,7 @@ void for_tile_columns(const CellRange& cells, const Body& body) {
   }
 }
 
-/// `flags`, a group to a byte from column `first` of the bed on, as those of their tile column.
+/// Converts `flags` (a byte per group, from the window's first column on) to flags of the columns of a tile.
 std::uint64_t flags_in_tile(const unsigned char* flags, const CellRange& cells, int tile_col, int first,
                             int end) {
   std::uint64_t in_tile = 0;  // no flag lies beyond the window's last column

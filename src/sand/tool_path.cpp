@@ -8,11 +8,11 @@
 namespace sandstroke {
 namespace {
 
-/// The part [begin, end] of a way, as shares of it.
+/// The part [begin, end] of a way, as fractions of it.
 struct Part {
   double begin = 0.0, end = 1.0;
 
-  /// Keeps the shares at which start + share * change lies between low and high.
+  /// Keeps the fractions at which start + fraction * change lies between low and high.
   void clip(double start, double change, double low, double high) {
     if (change == 0.0) {
       if (!(start >= low && start <= high)) end = -1.0;

@@ -16,7 +16,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Spread evenly over a sphere (by the golden angle), and up, down and along the axes.
+/// Directions spread evenly over a sphere (by the golden angle), and up, down and along the axes.
 std::vector<Vector3d> directions(int count) {
   std::vector<Vector3d> all;
   for (int axis = 0; axis < 3; ++axis)
@@ -29,7 +29,7 @@ std::vector<Vector3d> directions(int count) {
   return all;
 }
 
-/// A tool on level sand that gets out of its way, so that only the law is at work.
+/// A tool on level sand that is not displaced, so that only the law is at work.
 class LevelSand {
  public:
   explicit LevelSand(const Scene& scene)
@@ -41,7 +41,7 @@ class LevelSand {
     sand_.look(bed_, Vector3d::Zero());
   }
 
-  /// At a depth [m], after the tool has yielded in a direction, and went by `then` [m].
+  /// The wrench at a depth [m], after the tool has yielded in a direction and moved by `then` [m].
   Wrench at(double depth, const Vector3d& yielded, const Vector3d& then) {
     const Vector3d tip(0.0, 0.0, -depth - sand_.footprint().lowest());
     law_.lift();
@@ -50,7 +50,7 @@ class LevelSand {
   }
 
  private:
-  /// The circles on which the law looks for level sand are inside.
+  /// Enough cells for the circles on which the law looks for level sand.
   int cells(const Scene& scene) const {
     return 2 * static_cast<int>(std::ceil(3.0 * tool_reach(scene.tool) / cell_)) + 9;
   }
@@ -65,9 +65,9 @@ class LevelSand {
 
 double contact_stiffness(const Scene& scene, double max_force, bool turns) {
   constexpr double seen = 2e-5;    // m: about what devices measure
-  constexpr double deepest = 1.0;  // m, where lift that never reaches max_force does not grow any more
+  constexpr double deepest = 1.0;  // m; here a strength that never reaches max_force has stopped growing
   constexpr int all_around = 400, each_when_turned = 100;
-  // deg, as tool.orientation: upright and leaning, each way round.
+  // deg, like tool.orientation: upright and leaning tools, turned in several directions.
   const std::array<Vector3d, 6> leans = {Vector3d(10.0, 20.0, 30.0), {-35.0, 5.0, 60.0}, {0.0, 45.0, 0.0},
                                          {60.0, -10.0, 20.0},        {90.0, 0.0, 45.0},  {5.0, 80.0, -15.0}};
   const double step = std::min(0.05 * scene.strength.yield_way, seen);

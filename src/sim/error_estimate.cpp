@@ -21,7 +21,7 @@ struct Distance {
   }
 };
 
-/// each: where given, of the coarser bed's cells, gets the distance in each.
+/// each: a field of the coarser bed's cells; if given, it gets the distance in each cell.
 Distance height_distance(const HeightField& fine, const HeightField& coarse, HeightField* each) {
   Distance distance;
   const CellMeans means(fine, coarse.rows(), coarse.cols());
@@ -37,7 +37,7 @@ Distance height_distance(const HeightField& fine, const HeightField& coarse, Hei
   return distance;
 }
 
-/// Over the ticks that both have: every second one of `fine` is one of `coarse`, to the bit of its time.
+/// Compares the ticks that both have: every second one of `fine` is one of `coarse`, to the bit of its time.
 Distance force_distance(const Kept<Eigen::Vector3d>& fine, const Kept<Eigen::Vector3d>& coarse) {
   Distance distance;
   std::size_t i = 0;
@@ -49,7 +49,7 @@ Distance force_distance(const Kept<Eigen::Vector3d>& fine, const Kept<Eigen::Vec
   return distance;
 }
 
-/// Where cells cannot be made anew by rule, they are averaged, or split.
+/// The second solution's start. If no rule can make its cells anew, they are averaged, or split.
 HeightField start_of(const Scene& second, const HeightField& start) {
   const SurfaceSettings& surface = second.bed.surface;
   const bool cell_by_cell =
@@ -60,7 +60,7 @@ HeightField start_of(const Scene& second, const HeightField& start) {
   return HeightField(HeightGrid::NullaryExpr(rows, cols, means), second.bed.cell_size(), second.bed.shape);
 }
 
-/// The sand that is not where it was.
+/// The sand that is not where it was: volume, and area of the changed cells.
 struct Change {
   double volume = 0.0, area = 0.0;  // m^3, m^2
 };
@@ -102,7 +102,7 @@ Scene second_scene(const Scene& scene, SecondSolution which) {
         "long; take an even one, or the finer solution",
         device.delay);
   Scene second = scene;
-  second.device.delay = coarser ? device.delay / 2 : 2 * device.delay;  // as late
+  second.device.delay = coarser ? device.delay / 2 : 2 * device.delay;  // the same delay in time
   second.bed.rows = scene.bed.rows / units * units_then;
   second.bed.cols = scene.bed.cols / units * units_then;
   second.device.servo_rate /= factor;

@@ -10,17 +10,18 @@ namespace {
 
 constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t most_stations = 8000;
-// Radii. On ground that is worked again depths jump from furrow to furrow: the median settles with their
-// number.
+// Radii. On ground that is worked again, depths jump from furrow to furrow; only many stations give a steady
+// median.
 constexpr double between_stations = 0.125;
 
-// Radii. A tip at depth D takes at most 2 R D from each section. Slumped at slope t to a V that is flanked by
-// two heaps of half its area each, that has its crests sqrt(2 R D / t) (1 + 1/sqrt 2) from the path: within 6
-// R down to D = 3.5 R for a talus angle of 30 degrees, and 2.2 R for 20, more than the arm of a tool is long.
+// Radii. A tip at depth D takes at most 2 R D from each section. Relaxed at slope t, that is a V with a heap
+// of half its area on each side. The heaps' crests lie sqrt(2 R D / t) (1 + 1/sqrt 2) from the path. This is
+// within 6 R down to D = 3.5 R for a talus angle of 30 degrees, and 2.2 R for 20, more than the arm of a tool
+// is long.
 constexpr double reach = 6.0;
 
-/// A piece of the path, thinned to points half a radius apart: servo ticks lie so close together that
-/// rounding by the encoders would decide on direction and length.
+/// A piece of the path, thinned to points half a radius apart. Servo ticks lie so close together that
+/// rounding by the encoders would decide direction and length.
 class Piece {
  public:
   explicit Piece(const Eigen::Vector2d& first) : points_{first}, lengths_{0.0} {}
@@ -84,7 +85,7 @@ class Section {
 
   double step() const { return 0.5 * change_.bed().cell_size(); }
 
-  /// Not-a-number outside the bed; between its border and the nearest centres as there.
+  /// NaN outside the bed. Between the bed's border and the nearest centres the value is that at the centres.
   double operator()(int k) const {
     const BedGeometry& bed = change_.bed();
     const Eigen::Vector2d place = centre_ + k * step() * left_;
@@ -102,7 +103,8 @@ class Section {
   Eigen::Vector2d centre_, left_;
 };
 
-/// Outwards from the lowest point: where the furrow ends, in samples, and how high the sand beyond it is.
+/// One side of the furrow, outwards from the lowest point: where it ends, in samples, and how high the sand
+/// beyond it is.
 struct Side {
   double edge = nothing, crest = nothing;
 };
@@ -116,9 +118,10 @@ Side walk(const Section& section, int from, int direction, int far) {
     here = section(k += direction);
   }
   if (std::isnan(here)) return {};  // outside the bed
-  // Where it is zero, linear in between.
+  // The edge is where the change is zero, linear in between.
   Side side{.edge = from == k ? k : k - direction * here / (here - before), .crest = 0.0};
-  // Sand that nobody touched may lie between; what comes after the first that was raised is another stroke's.
+  // Untouched sand may come next. The first raised sand after it counts; what follows that is another
+  // stroke's.
   for (; std::abs(k) <= far && here >= 0.0 && !(here == 0.0 && side.crest > 0.0);
        here = section(k += direction))
     side.crest = std::max(side.crest, here);
@@ -138,7 +141,7 @@ FurrowMeasures measure(const Section& section, double tool_radius) {
           .rampart = std::fmax(left.crest, right.crest)};
 }
 
-/// Of those that are numbers; not-a-number where none is.
+/// The median of the values that are numbers; NaN if there is none.
 double median(std::vector<double> values) {
   std::erase_if(values, [](double value) { return std::isnan(value); });
   if (values.empty()) return nothing;
@@ -164,7 +167,7 @@ void TipPathGatherer::on_tick(const TickRecord& tick) {
 
 namespace {
 
-/// Not-a-number where nobody asked, or outside the bed.
+/// NaN if no depth was asked for, or outside the bed.
 double asked_depth(const HeightField& initial, const TipPath& path) {
   std::vector<double> depths;
   for (std::size_t i = 0; i < path.asked.size(); ++i)
@@ -185,7 +188,7 @@ FurrowMeasures measure_furrow(const HeightField& initial, const HeightField& fin
   if (path.points.empty()) return {};
   const HeightChange change(initial, final);
   const std::vector<Piece> pieces = thinned(path, 0.5 * tool_radius);
-  // Stations are spread over pieces by their length; a contact at a point counts as one radius.
+  // Stations are spread over the pieces by their length; a contact at a point counts as one radius.
   const auto weight = [&](const Piece& piece) { return std::max(piece.length(), tool_radius); };
   double total = 0.0;
   for (const Piece& piece : pieces) total += weight(piece);
@@ -201,7 +204,7 @@ FurrowMeasures measure_furrow(const HeightField& initial, const HeightField& fin
     };
     for (; station < stations && place() < weight(piece); ++station) {
       const double length = place() / weight(piece) * piece.length();
-      // Over a radius: the middle of a chord of a circle goes its way exactly.
+      // Taken over a radius: on a circle the chord is then exactly parallel to the way at its middle.
       const Eigen::Vector2d travel =
           piece.at(length + 0.5 * tool_radius) - piece.at(length - 0.5 * tool_radius);
       const Section section(change, piece.at(length),

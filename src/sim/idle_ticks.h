@@ -13,11 +13,11 @@ struct TickRange {
   std::int64_t begin = 0, end = 0;
 };
 
-/// Ticks of a stroke that say nothing, in order: those at least half a second away from any sample, between
-/// two that tell nothing of the way between them (Stroke::sampled_between). There the hand goes straight,
-/// lifted, and feels nothing; only sand may still slip. They depend on stroke and device alone, so that runs
-/// of one stroke have the same ticks. None where the device still swings, or feels forces late. The stroke
-/// must have passed check_stroke, and have less than 1e15 ticks.
+/// The ticks of a stroke in which nothing happens, in order. They are at least half a second away from any
+/// sample, between two samples that do not tell the way between them (Stroke::sampled_between). There the
+/// hand goes straight, lifted, and feels nothing; only sand may still relax. They depend on stroke and device
+/// alone, so runs of one stroke have the same ticks. There are none if the device still swings, or feels
+/// forces late. The stroke must have passed check_stroke, and have less than 1e15 ticks.
 std::vector<TickRange> idle_ticks(const Stroke& stroke, const DeviceSettings& device);
 
 }  // namespace sandstroke

@@ -8,8 +8,8 @@
 
 namespace sandstroke {
 
-/// What a plugin has to agree on with the program that loads it: the library, the C++ ABI of the compiler,
-/// and how objects lie in memory. To be raised by hand: `interface`, where a class that laws derive from
+/// Text in which a plugin must agree with the program that loads it: the library, the C++ ABI of the
+/// compiler, and how objects lie in memory. Raise `interface` by hand when a class that laws derive from
 /// changes.
 inline std::string plugin_interface() {
   constexpr int interface = 1;
@@ -21,9 +21,8 @@ inline std::string plugin_interface() {
 
 }  // namespace sandstroke
 
-/// Once in a plugin (a shared library that links sandstroke::sim), before a body that adds its laws to
-/// `laws`:
-///   SANDSTROKE_LAWS(laws) { laws.forces["spring"] = [](const Scene& scene, double) { ... }; }
+/// To be used once in a plugin (a shared library that links sandstroke::sim), before a body that adds the
+/// plugin's laws to `laws`:
 #define SANDSTROKE_LAWS(laws)                                            \
   extern "C" const char* sandstroke_plugin_interface() {                 \
     static const std::string interface = sandstroke::plugin_interface(); \

@@ -15,10 +15,10 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double most_lag = 0.5;                  // s
-constexpr std::ptrdiff_t most_lags = 1'000;       // on each side, then those around the best
+constexpr std::ptrdiff_t most_lags = 1'000;       // on each side; then as many as lie around the best
 constexpr std::ptrdiff_t most_searched = 20'000;  // ticks, at each lag
 
-/// Sums over ticks with a run's force a and a recorded one b.
+/// Sums over ticks that have a run's force a and a recorded one b.
 struct Moments {
   double ticks = 0.0, aa = 0.0, bb = 0.0, ab = 0.0;
   Vector3d a = Vector3d::Zero(), b = Vector3d::Zero();
@@ -30,14 +30,14 @@ struct Moments {
   }
   double correlation() const {
     const double run = aa - a.squaredNorm() / ticks, recorded = bb - b.squaredNorm() / ticks;
-    const double least = 1e-12;  // of the squares: what rounding leaves of a force that does not change
+    const double least = 1e-12;  // of the squares: rounding leaves this of a constant force
     if (!(run > least * aa) || !(recorded > least * bb)) return std::numeric_limits<double>::quiet_NaN();
     return (ab - a.dot(b) / ticks) / std::sqrt(run * recorded);
   }
 };
 
-/// The run's force `lag` ticks after the recorded one, of every `stride`-th tick. Ticks that the trace leaves
-/// out have no pair.
+/// Pairs the run's force `lag` ticks later with the recorded one, for every `stride`-th tick. Ticks that the
+/// trace leaves out have no pair.
 Moments moments(const std::vector<ForcePair>& ticks, std::ptrdiff_t lag, std::ptrdiff_t stride,
                 double tick_seconds) {
   Moments sums;
@@ -69,7 +69,7 @@ void correlate(const std::vector<ForcePair>& ticks, ForceAgreement& agreement) {
       static_cast<std::ptrdiff_t>(std::min(most_lag / tick_seconds, static_cast<double>(count)));
   const std::ptrdiff_t stride = 1 + count / most_searched;
   std::ptrdiff_t best = 0;
-  // Tries lags on both sides of the middle, the nearest first: of equals the least is kept.
+  // Tries lags on both sides of the middle, the nearest first; of equal correlations it keeps the first.
   const auto search = [&](std::ptrdiff_t middle, std::ptrdiff_t steps, std::ptrdiff_t step) {
     for (std::ptrdiff_t k = 0; k <= 2 * steps; ++k) {
       const std::ptrdiff_t lag = middle + (k % 2 == 0 ? step : -step) * ((k + 1) / 2);  // 0, -1, 1, -2, ...
@@ -83,7 +83,7 @@ void correlate(const std::vector<ForcePair>& ticks, ForceAgreement& agreement) {
   const std::ptrdiff_t coarse = 1 + most / most_lags;
   search(0, most / coarse, coarse);
   if (coarse > 1) search(best, coarse - 1, 1);
-  if (std::abs(best) > most - coarse) {  // it still grows there: that is no maximum
+  if (std::abs(best) > most - coarse) {  // it still grows there, so that is no maximum
     agreement.best_correlation = agreement.correlation;
     best = 0;
   }

@@ -9,15 +9,15 @@
 
 namespace sandstroke {
 
-/// The force that the hand felt when its stroke was recorded, at any time: linear between samples.
+/// The force that was recorded with a stroke, at any time: linear between samples.
 class RecordedForce {
  public:
   /// placed: the stroke as it is played.
   explicit RecordedForce(const Stroke& placed)
       : stroke_(placed), sign_(placed.force_sign == ForceSign::by_hand ? -1.0 : 1.0) {}
-  /// [N] on the device, in the stroke's frame, `time` [s] after its first sample; not called with earlier
-  /// times later. Not-a-number where none was recorded, where the recorder altered it (SampleFlag), and
-  /// between samples that are not joined.
+  /// The force [N] on the device, in the stroke's frame, `time` [s] after its first sample. Later calls must
+  /// not have earlier times. NaN if none was recorded, if the recorder altered it (SampleFlag), and between
+  /// samples that are not joined.
   Eigen::Vector3d at(double time);
 
  private:
@@ -31,23 +31,23 @@ class RecordedForce {
 /// The forces of one tick.
 struct ForcePair {
   double time;                    ///< s
-  Eigen::Vector3d run, recorded;  ///< N; recorded: not-a-number where it is not known
+  Eigen::Vector3d run, recorded;  ///< N; recorded: NaN if unknown
 };
 inline ForcePair forces_of(const TickRecord& tick) {
   return {tick.time, tick.device_force, tick.recorded_force};
 }
 
-/// How well the forces of a run and those that were recorded agree, over the ticks that have both. None: no
-/// tick has.
+/// How well the forces of a run and those that were recorded agree, over the ticks that have both. None if no
+/// tick has both.
 ///
 /// The correlation is that of the vectors, each less its mean: sum(a.b) / sqrt(sum(a.a) sum(b.b)). The lag is
-/// that at which the correlation is largest, of whole ticks up to half a second either way and with at least
-/// half of the ticks in both; long traces are searched through evenly chosen ticks. Where
-/// it still grows at half a second, there is no lag: 0. A force that never changes correlates with nothing:
-/// not-a-number.
+/// the one at which the correlation is largest. It is a whole number of ticks, up to half a second either
+/// way, with at least half of the ticks in both; long traces are searched through evenly chosen ticks. If the
+/// correlation still grows at half a second, there is no lag: 0. A force that never changes has no
+/// correlation: NaN.
 std::optional<ForceAgreement> force_agreement(const std::vector<ForcePair>& ticks);
 
-/// "differs from the run's by 0.3 N rms ...": in a sentence that begins with the recorded force.
+/// The agreement as text, "differs from the run's by 0.3 N rms ...", to follow "the recorded force".
 std::string text_of(const ForceAgreement& agreement);
 
 }  // namespace sandstroke

@@ -22,23 +22,23 @@ struct TickRecord {
   Eigen::Vector3d device_force = Eigen::Vector3d::Zero();     ///< N, on the device, saturated
   Eigen::Vector3d repulse_force = Eigen::Vector3d::Zero();    ///< N
   Eigen::Vector3d drag_force = Eigen::Vector3d::Zero();       ///< N
-  /// N, that the hand felt when its stroke was recorded (sim/recorded_force.h); NaN: not known.
+  /// N, the force on the hand that was recorded with the stroke (sim/recorded_force.h); NaN: not known.
   Eigen::Vector3d recorded_force = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
   Wrench wrench =
-      {};  ///< of the contact, where force.law is not the paper's: force and torque on the bed's axes
+      {};  ///< of the contact, if force.law is not the paper's: force and torque on the bed's axes
   double level = std::numeric_limits<double>::quiet_NaN();  ///< m, sand level under the tool; NaN: lifted
   double depth = 0.0;             ///< m, of the tip below the level; negative = above
-  double displaced_volume = 0.0;  ///< m^3, pushed aside in this tick
+  double displaced_volume = 0.0;  ///< m^3, displaced in this tick
   double passivity_margin = 0.0;  ///< N s/m, Colgate & Schenkel
   bool contact = false;           ///< the tool touches sand (depth > 0)
   bool saturated = false;         ///< the device's maximum force cut the force
   bool dropped = false;           ///< the loop was late: the force of the tick before is given out again
   bool lifts = false;             ///< the hand is lifted before the tick ends
-  /// m, below the sand, that the hand asks for; NaN: it is lifted, or does not follow the sand.
+  /// Depth below the sand that the hand asks for [m]; NaN: it is lifted, or does not follow the sand.
   double asked_depth = std::numeric_limits<double>::quiet_NaN();
 };
 
-/// What the traces of some runs hold, and others have no need of.
+/// The fields that only the traces of some runs hold.
 struct TraceContent {
   bool recorded_force = false;  ///< the stroke was recorded with forces
   bool dropped_ticks = false;   ///< the device has dropped ticks
@@ -47,13 +47,13 @@ struct TraceContent {
   bool orientation = false;     ///< the stroke turns the tool
 };
 
-/// A field of a record, for who reads it in a file.
+/// A field of a record, described for readers of a file.
 struct FieldText {
-  const char *name, *units, *meaning;       // units: empty of what has none, "1" of a count or ratio
-  bool TraceContent::*only_with = nullptr;  // else missing, and the record's default stands for it
+  const char *name, *units, *meaning;       // units: empty if it has none, "1" for a count or ratio
+  bool TraceContent::*only_with = nullptr;  // without it the field is missing, and keeps its default
 };
 
-/// The numbers that a field is made of, a letter each; none: it is one number.
+/// The names of the components of a field, a letter each; empty: the field is one number.
 template <class Field>
 constexpr std::string_view components_of() {
   if constexpr (std::is_same_v<Field, Eigen::Vector3d>)
@@ -64,8 +64,8 @@ constexpr std::string_view components_of() {
     return "";
 }
 
-/// The columns of /trace: visit(FieldText, of), where of(tick) is the field. Who writes and who reads a run
-/// file goes through this list.
+/// Calls visit(FieldText, of) for the columns of /trace; of(tick) is the field. Writers and readers of a run
+/// file go through this list.
 template <class Visit>
 void visit_tick_fields(const Visit& visit) {
   using Text = FieldText;
@@ -161,26 +161,26 @@ void visit_relaxation_fields(const Visit& visit) {
 
 /// How well the forces of a run and those that were recorded agree (sim/recorded_force.h).
 struct ForceAgreement {
-  std::int64_t ticks = 0;                                              ///< that have both
+  std::int64_t ticks = 0;                                              ///< ticks that have both
   double rms = 0.0, max = 0.0;                                         ///< N, of the difference's magnitude
   double correlation = std::numeric_limits<double>::quiet_NaN();       ///< -1 to 1; NaN: one never changes
   double best_correlation = std::numeric_limits<double>::quiet_NaN();  ///< with the run's moved by -lag
-  double lag = 0.0;  ///< s, by which the run's force comes later
+  double lag = 0.0;  ///< s; the run's force comes later by this
 };
 
-/// How far a run is from what ever smaller steps (cells, ticks, times between relaxations, tolerances) would
-/// give.
+/// The distance of a run from the limit of ever smaller steps (cells, ticks, times between relaxations,
+/// tolerances).
 struct ErrorEstimate {
-  double height_share = 0.0;  ///< sand that lies elsewhere, as a share of the sand that is not where it was
+  double height_share = 0.0;  ///< sand that lies elsewhere, as a fraction of sand that is not where it was
   double height_rms = 0.0;    ///< m, over the cells that changed
   double height_max = 0.0;    ///< m
   double force_rms = 0.0;     ///< N, over the ticks with a force
   double force_max = 0.0;     ///< N
   bool at_rest = true;        ///< both solutions came to rest; otherwise the estimate says little
-  double wall_seconds = 0.0;  ///< what the estimate took
+  double wall_seconds = 0.0;  ///< time that the estimate took
 };
 
-/// The numbers of an error estimate, as visit_tick_fields(): those of the outcome, not of the clock.
+/// The same for an error estimate: the numbers of the outcome, not of the clock.
 template <class Visit>
 void visit_error_fields(const Visit& visit) {
   using Text = FieldText;
@@ -204,23 +204,22 @@ void visit_error_fields(const Visit& visit) {
       [](auto& error) -> auto& { return error.at_rest; });
 }
 
-/// What a stroke left of itself, in cross-sections of the change of height (final - initial), so that the
-/// shape the bed had before does not count (sim/furrow.h). Not-a-number: nothing to measure.
+/// The furrow that a stroke left, measured in cross-sections of the change of height (final - initial), so
+/// that the bed's earlier shape does not count (sim/furrow.h). NaN: nothing to measure.
 struct FurrowMeasures {
-  /// m, how far below the surface as it was the lowest point lies, of those within a tool radius of the path;
-  /// 0 where there is no furrow.
+  /// Depth of the lowest point below the initial surface [m], within a tool radius of the path; 0 if there is
+  /// no furrow.
   double depth = std::numeric_limits<double>::quiet_NaN();
-  /// m, between the points left and right of the lowest one where the change comes back to zero.
+  /// Distance [m] between the points left and right of the lowest one where the change comes back to zero.
   double width = std::numeric_limits<double>::quiet_NaN();
-  /// m, highest point, of either side, of the first sand outwards from there that was raised (and what joins
-  /// it).
+  /// Highest point [m], on either side, of the first raised sand outwards from there (and what joins it).
   double rampart = std::numeric_limits<double>::quiet_NaN();
-  /// m, how far below the surface as it was the hand wanted the tip.
+  /// Depth below the initial surface at which the hand wanted the tip [m].
   double asked_depth = std::numeric_limits<double>::quiet_NaN();
   double length = 0.0;  ///< m, of the way in contact
 };
 
-/// What the device felt in a run.
+/// Forces and energy of the device in a run.
 struct DeviceResult {
   std::int64_t saturated_ticks = 0;
   double max_force = 0.0;        ///< N
@@ -235,10 +234,10 @@ struct DeviceResult {
   std::int64_t held_drag_ticks = 0;
   double held_drag = 0.0;
   std::optional<double> swings_from =
-      {};  ///< s, where a dynamic device was found to swing by itself (SwingWatch)
+      {};  ///< s, from when a dynamic device was found to swing by itself (SwingWatch)
 };
 
-/// What a stroke that follows the sand reached: means over the ticks in which it asked to be in it.
+/// The result of a stroke that follows the sand: means over the ticks in which it asked to be in the sand.
 struct FollowedSand {
   std::int64_t ticks = 0;
   double asked_depth = 0.0, depth = 0.0;  ///< m
@@ -247,15 +246,15 @@ struct FollowedSand {
   void add(double asked, double reached, double force_asked, double force_reached);
 };
 
-/// What a whole run amounts to (`run --json`).
+/// The result of a whole run (`run --json`).
 struct RunResult {
   double wall_seconds = 0.0;  ///< the simulation, without start-up and file writing
   std::int64_t ticks = 0;
   double simulated_seconds = 0.0;
   std::int64_t contact_ticks = 0;
-  PlayedPart stroke;  ///< how much of it is played, with the tool down, and how many gaps are not
+  PlayedPart stroke;  ///< how much of it is played with the tool down, and the gaps
   std::int64_t relaxations = 0;
-  /// Of all relaxations; residual and converged are the last one's.
+  /// The sum of all relaxations; residual and converged are the last one's.
   RelaxationOutcome relaxation{.converged = true};
   DeviceResult device;
   double volume_initial = 0.0;     ///< m^3
@@ -265,17 +264,18 @@ struct RunResult {
   double volume_drift = 0.0;       ///< |final - initial| / moved volume; 0 where nothing moved
   double max_depth = 0.0;          ///< m
   double max_contact_speed = 0.0;  ///< m/s, of the tool in the bed
-  /// m, the largest depth of a tool that is down, touching or not; -infinity: it is never down over the bed.
+  /// The largest depth of a tool that is down, touching or not [m]; -infinity: it is never down over the bed.
   double nearest = -std::numeric_limits<double>::infinity();
   double nearest_time = 0.0;  ///< s
-  /// m, how far beyond the bed's edge a tool that is down beside the bed is at least; infinity: it never is.
+  /// The least distance beyond the bed's edge of a tool that is down beside the bed [m]; infinity: it never
+  /// is.
   double least_beside = std::numeric_limits<double>::infinity();
   int threads = 1;
   bool interrupted = false;
-  std::optional<FurrowMeasures> furrow;          ///< where the stroke touched sand
-  std::optional<FollowedSand> followed;          ///< where the stroke follows the sand
-  std::optional<ErrorEstimate> error;            ///< where it was asked for
-  std::optional<ForceAgreement> recorded_force;  ///< where the stroke was recorded with forces
+  std::optional<FurrowMeasures> furrow;          ///< if the stroke touched sand
+  std::optional<FollowedSand> followed;          ///< if the stroke follows the sand
+  std::optional<ErrorEstimate> error;            ///< if it was asked for
+  std::optional<ForceAgreement> recorded_force;  ///< if the stroke was recorded with forces
 };
 
 }  // namespace sandstroke

@@ -8,24 +8,24 @@
 
 namespace sandstroke {
 
-/// Takes a hand whose heights count from the sand (Stroke::follows_sand) to where it is: by the level of the
-/// sand under the tip as it lies there just now, the mean height from which the force's depth counts
-/// (ToolFootprint::sand_level). Beside the bed the last level goes on.
+/// Converts a hand whose heights count from the sand (Stroke::follows_sand) to heights on the bed. It adds
+/// the level of the sand that lies under the tip at that moment: the mean height from which the force's depth
+/// counts (ToolFootprint::sand_level). Beside the bed it keeps the last level.
 class SandFollower {
  public:
   SandFollower(const ToolSettings& tool, const DeviceSettings& device) : footprint_(tool), device_(device) {}
 
-  /// Calls come a servo tick apart: what the level changed meanwhile is in the velocity.
+  /// To be called once per servo tick: the velocity includes the change of the level since the last call.
   Hand follow(Hand hand, const HeightField& bed);
-  double asked_depth() const { return asked_depth_; }  ///< m, below the sand, of the last hand
-  /// The next call is no tick after the last one.
+  double asked_depth() const { return asked_depth_; }  ///< m below the sand, of the last hand
+  /// Call this if the next call is not one tick after the last one.
   void restart() { rise_.reset(); }
 
  private:
   ToolFootprint footprint_;
   DeviceSettings device_;
   double asked_depth_ = 0.0;
-  std::optional<double> rise_;  // m, of the hand, in the last call
+  std::optional<double> rise_;  // m, that the hand was raised in the last call
 };
 
 }  // namespace sandstroke

@@ -10,14 +10,16 @@
 namespace sandstroke {
 namespace {
 
-/// Of the radius. A drag at 2 radii a tick then leaves the mean furrow depth of 20 times as many ticks within
-/// 2.5 %, with steps of a whole radius within 9 %, without any 49 % short (4 and 10 mm deep).
+/// The longest step, as a fraction of the radius. With it a drag at 2 radii a tick leaves the mean furrow
+/// depth of 20 times as many ticks within 2.5 %; with steps of a whole radius within 9 %, without any 49 %
+/// short (4 and 10 mm deep).
 constexpr double longest_step = 0.5;
-/// Cells: sand that relaxes more often than that has hardly moved. A plate of two cells would ask for it.
+/// The least way between relaxations [cells]: sand that relaxes more often has hardly moved. A plate of two
+/// cells would ask for that.
 constexpr double least_way = 0.25;
-/// Radii of sand above the rim, where the way is the short one: strokes at tip depth R are deeper. With 0.5 a
-/// scribble R/2 deep over its own ground leaves 6.6 % of its sand elsewhere, with 0.2 5.5 %, with 0.1 5.2 %;
-/// a sand table takes 0.35, 0.46 and 0.84 s with 0.5, 0.2 and 0.
+/// Height of sand above the rim [radii] from which the way is the short one: strokes at tip depth R are
+/// deeper. With 0.5 a scribble R/2 deep over its own ground leaves 6.6 % of its sand elsewhere, 5.5 % with
+/// 0.2, 5.2 % with 0.1; a sand table takes 0.35, 0.46 and 0.84 s with 0.5, 0.2 and 0.
 constexpr double deep_at_rim = 0.2;
 
 }  // namespace
@@ -98,9 +100,9 @@ Interaction SandSide::move(HeightField& bed, const Eigen::Vector3d& read_tip, co
 double SandSide::way_to_next_relaxation(const HeightField& bed) {
   if (way_at_rim_ <= 0.0 || way_at_rim_ >= way_)
     return std::max(way_ * footprint_.radius(), least_way * bed.cell_size());
-  // What a sphere pushed outward and what falls in behind it run from one crest, once sand stands at its rim.
-  // At the sides of any other tool it always does. (A plough that goes 0.4 inradii leaves 25 % of its sand
-  // elsewhere than one that goes 0.05; 0.1: 7 %.)
+  // Once sand stands at a sphere's rim, the sand displaced outward and the sand that falls in behind the
+  // sphere run from one crest. At the sides of any other tool that is always so. (A plough that goes 0.4
+  // inradii leaves 25 % of its sand elsewhere than one that goes 0.05; 0.1: 7 %.)
   double buried = 1.0;
   if (footprint_.is_sphere()) {
     const double above_rim = seen(bed).highest_at_rim() - (tip_.z() + footprint_.radius());

@@ -11,7 +11,7 @@
 
 namespace sandstroke {
 
-/// What sand and tool have to do with each other in one tick.
+/// How sand and tool interact in one tick.
 struct Interaction {
   double level =
       std::numeric_limits<double>::quiet_NaN();  ///< m, of the sand under the tool; NaN: none there
@@ -20,57 +20,60 @@ struct Interaction {
   bool contact = false;                          ///< depth > 0
 };
 
-/// The sand's side of a tick: a tool that goes through a bed, from place to place.
+/// The sand's side of a tick: moves a tool through a bed, from place to place.
 class SandSide {
  public:
-  /// relaxation: its ways (RelaxationByWay); without them no relaxation is due by way. own: replaces the
-  /// displacement of the settings.
+  /// relaxation: its ways (RelaxationByWay); without them no relaxation is due by way. own: a plugin law that
+  /// replaces the displacement of the settings.
   SandSide(const ToolSettings& tool, const DisplacementSettings& displacement,
            const RelaxationSettings& relaxation = {}, std::unique_ptr<Displacer> own = nullptr);
 
-  /// How the tool lies in the bed from the next move() on (ToolFootprint::turn): all of its way there it is
-  /// turned like this.
+  /// Sets the tool's orientation from the next move() on (ToolFootprint::turn). The tool keeps it during the
+  /// whole move.
   void turn(const Eigen::Matrix3d& rotation) { footprint_.turn(rotation); }
-  /// Displaces along the way from the last tick's place and at this one [m]. read_tip: as the device's
-  /// encoders read it; true_tip: where it is, for encoder steps are no motion. relax() is
-  /// called with the tool at the places where a relaxation is due by its way; it calls hold() and relaxed().
-  /// highest [m]: no sand is higher; none: it is looked up where it matters, which visits every tile.
+  /// Displaces sand along the way from the last tick's place to this one [m], and there. read_tip: as the
+  /// device's encoders read it; true_tip: where it is, since encoder steps are no motion. Calls relax() with
+  /// the tool at the places where a relaxation is due by its way; relax() must call hold() and relaxed().
+  /// highest [m]: an upper bound of the sand; none: it is looked up if needed, which visits every tile.
   Interaction move(HeightField& bed, const Eigen::Vector3d& read_tip, const Eigen::Vector3d& true_tip,
                    const std::function<void()>& relax, std::optional<double> highest = {});
-  /// The same place, without displacing anything.
+  /// Places the tool there, without displacing anything.
   Interaction look(const HeightField& bed, const Eigen::Vector3d& read_tip);
-  /// Takes all memory that a tool that does not turn needs on this bed: move() then takes none of its own.
+  /// Allocates all memory that a tool that does not turn needs on this bed, so that move() allocates none of
+  /// its own.
   void take_memory(const HeightField& bed) {
     look(bed, Eigen::Vector3d::Zero());
     footprint_.make_ways_out(displacement_.distance);
   }
-  /// The tool is here [m], in contact or not, by somebody else's account: nothing is displaced.
+  /// Puts the tool here [m], in contact or not as the caller says. Displaces nothing.
   void put(const HeightField& bed, const Eigen::Vector3d& read_tip, bool contact);
-  /// The tool touches nothing until the next move(), which begins anew: nothing is displaced on the way to
-  /// it.
+  /// Lifts the tool: it touches nothing until the next move(), which begins anew and displaces nothing on the
+  /// way there.
   void lift() {
     last_tip_.reset();
     contact_ = false;
   }
   bool relaxation_is_due() const { return by_way_.is_due(tip_, contact_); }
-  /// Marks the cells under a solid tool in contact as walls for the next relaxation; of any other, none.
+  /// Marks the cells under a solid tool in contact as walls for the next relaxation. Any other tool makes no
+  /// walls.
   void hold(HeightField& bed);
-  /// Sand has relaxed. How far the tool may go until the next time depends on how the sand lies now.
+  /// To be called when sand has relaxed. The sand as it lies now decides how far the tool may go until the
+  /// next time.
   void relaxed(const HeightField& bed);
 
-  /// The footprint where it is, with the sand as it lies there now.
+  /// The footprint at its place, with the sand as it lies now.
   const ToolFootprint& seen(const HeightField& bed) {
     footprint_.read_heights(bed);
     return footprint_;
   }
   const ToolFootprint& footprint() const { return footprint_; }
-  /// To put another one in its place; seen at the next move().
+  /// For replacing the footprint; takes effect at the next move().
   ToolFootprint& footprint() { return footprint_; }
-  /// Where it was in the last tick [m]; none where it was lifted since.
+  /// Place of the tool in the last tick [m]; none if it was lifted since.
   const std::optional<Eigen::Vector3d>& last_tip() const { return last_tip_; }
 
  private:
-  /// m
+  /// The way [m] that the tool may go until the next relaxation.
   double way_to_next_relaxation(const HeightField& bed);
   Interaction dig(HeightField& bed, const Eigen::Vector3d& tip, const Eigen::Vector3d& motion);
   /// The volume moved [m^3].
@@ -83,8 +86,8 @@ class SandSide {
   double way_, way_at_rim_;  // radii
   RelaxationByWay by_way_;
   std::optional<Eigen::Vector3d> last_tip_;        // the true one
-  Eigen::Vector3d tip_ = Eigen::Vector3d::Zero();  // as read, where it dug last
-  bool contact_ = false;                           // there
+  Eigen::Vector3d tip_ = Eigen::Vector3d::Zero();  // as read, where it displaced last
+  bool contact_ = false;                           // at tip_
 };
 
 }  // namespace sandstroke

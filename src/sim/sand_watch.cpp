@@ -12,9 +12,9 @@
 namespace sandstroke {
 namespace {
 
-constexpr double rounding = 1e-9;  // share: a law of plain sums stays far below it, however long it runs
+constexpr double rounding = 1e-9;  // fraction: a law of plain sums stays far below it, however long it runs
 
-/// visit(row, col, height) for every cell of the tiles that something touched.
+/// Calls visit(row, col, height) for every cell of the allocated tiles.
 template <class Visit>
 void visit_touched(const HeightField& bed, const Visit& visit) {
   for (int slot = 0; slot < bed.allocated_tiles(); ++slot) {
@@ -41,7 +41,7 @@ std::string no_number(const HeightField& bed, const std::string& law) {
 SandWatch::SandWatch(const HeightField& bed) : untouched_(bed.untouched_bed()), at_first_(gained(bed)) {}
 
 double SandWatch::gained(const HeightField& bed) {
-  const bool replaced = &bed.untouched() != &untouched_.untouched();  // by another bed, of other revisions
+  const bool replaced = &bed.untouched() != &untouched_.untouched();  // by another bed, with other revisions
   if (replaced || replaced_) sums_.clear();
   replaced_ = replaced;
   sums_.resize(static_cast<std::size_t>(bed.allocated_tiles()));
@@ -71,7 +71,7 @@ double SandWatch::gained(const HeightField& bed) {
 
 void SandWatch::check(const HeightField& bed, const std::string& law) {
   const double more = gained(bed) - at_first_;
-  if (more == 0.0 || !std::isfinite(at_first_)) return;  // or as it was given
+  if (more == 0.0 || !std::isfinite(at_first_)) return;  // or the given bed was not finite
   if (!std::isfinite(more)) throw Error(ErrorKind::unstable, no_number(bed, law));
   double sand = 0.0;
   for (const TileSum& sum : sums_) sand += sum.sand;

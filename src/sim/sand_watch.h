@@ -8,23 +8,23 @@
 
 namespace sandstroke {
 
-/// Sees that laws which are not this library's neither make sand nor lose it.
+/// Checks that plugin laws neither make nor lose sand.
 class SandWatch {
  public:
-  /// Of a bed before such a law touches it.
+  /// bed: before such a law touches it.
   explicit SandWatch(const HeightField& bed);
-  /// After `law` (in words) changed it; looks at the tiles whose revision is another one than last time.
-  /// Error: unstable, naming the law: where a height is not a number, or there is more or less sand than at
-  /// first, by more than 1e-9 of what lies above and below z = 0.
+  /// Call this after `law` (in words) changed the bed. Looks at the tiles whose revision has changed. Error:
+  /// unstable, naming the law: if a height is not a number, or if there is more or less sand than at first,
+  /// by more than 1e-9 of what lies above and below z = 0.
   void check(const HeightField& bed, const std::string& law);
 
  private:
   struct TileSum {
     int tile = -1;
     std::uint64_t revision = 0;
-    double gained = 0.0, sand = 0.0;  // m, sums of h - what the rule says, and of |h|
+    double gained = 0.0, sand = 0.0;  // m, sums of h less the rule's height, and of |h|
   };
-  /// What tiles have more than the rule says [m], in sums_.
+  /// The sum of heights that the tiles have beyond the rule's [m]; updates sums_.
   double gained(const HeightField& bed);
 
   HeightField untouched_;      // keeps the rule

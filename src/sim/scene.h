@@ -20,7 +20,7 @@
 
 namespace sandstroke {
 
-/// As published (paper), or with each choice for accuracy: solid sphere, outward, isotropic, rkl, relaxed by
+/// paper: as published. accurate: each choice for accuracy: solid sphere, outward, faces, rkl, relaxed by
 /// way.
 enum class ModelPreset { paper, accurate };
 inline const std::vector<std::string> preset_names = {"paper", "accurate"};
@@ -35,13 +35,13 @@ struct BedSettings {
   SurfaceSettings surface;
   double cell_size() const { return width / cols; }
 };
-/// The surface that a scene starts from, where no file has to be read for it.
+/// The surface that a scene starts from, if no file has to be read for it.
 HeightField starting_bed(const BedSettings& bed);
 
 struct StrokeSettings {
   std::string file;  ///< .toml (scripted), .h5 (recorded), or a table of samples
   StrokePlacement placement;
-  std::optional<TableSettings> table;  ///< how a table is read; none: as it says itself
+  std::optional<TableSettings> table;  ///< how a table is read; none: as the table itself says
 };
 
 struct OutputSettings {
@@ -51,14 +51,14 @@ struct OutputSettings {
 
 struct OwnLaws;
 
-/// Laws that are not this library's (sim/own_laws.h), by name; empty: as the scene says otherwise.
+/// Plugin laws (sim/own_laws.h), by name; empty: the scene's other settings hold.
 struct OwnLawSettings {
-  std::string plugin;                     ///< file that has them, relative to the scene
+  std::string plugin;                     ///< file with the laws, relative to the scene
   std::string relaxation;                 ///< in place of relaxation.law and method
   std::string displacement;               ///< in place of displacement.deposit
   std::string force;                      ///< in place of force.law
-  std::array<double, 4> parameters = {};  ///< what each law makes of them
-  std::shared_ptr<const OwnLaws> laws;    ///< that are there; the plugin's, once it is loaded
+  std::array<double, 4> parameters = {};  ///< their meaning depends on the law
+  std::shared_ptr<const OwnLaws> laws;    ///< the available laws; the plugin's, once it is loaded
 };
 
 /// All settings of a run. describe_scene() is the one list of their keys.
@@ -77,21 +77,21 @@ struct Scene {
   ViewSettings view;
 };
 
-/// The force is that of the contact: neither by name nor by force.law the paper's.
+/// Whether the force comes from the contact: neither a plugin law nor the paper's.
 bool is_contact_law(const Scene& scene);
 
-/// Sets what scene.preset stands for.
+/// Sets the settings that scene.preset stands for.
 void apply_model_preset(Scene& scene);
 
 /// Shows every setting to the visitor, in the order of a scene file.
 void describe_scene(KeyVisitor& visitor, Scene& scene);
 
-/// The stroke as the scene plays it, on its bed (haptics/stroke_placement.h); the scene has a stroke. Error:
-/// input, naming the stroke by `name`.
+/// The stroke as the scene plays it on its bed (haptics/stroke_placement.h). The scene must have a stroke.
+/// Error: input, naming the stroke by `name`.
 Stroke place_on_bed(const Stroke& stroke, const Scene& scene, const std::string& name);
 
-/// What no single key can say: square cells, a tool that fits bed and cells, memory. Error: input, naming the
-/// keys; `name` is the scene's file.
+/// Checks what no single key can tell: square cells, a tool that fits bed and cells, memory. Error: input,
+/// naming the keys; `name` is the scene's file.
 void check_scene(const Scene& scene, const std::string& name);
 
 }  // namespace sandstroke

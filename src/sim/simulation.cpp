@@ -104,7 +104,7 @@ std::int64_t Simulation::idle(const TickRange& ticks) {
     if (tick == ticks.end) break;
     if (tick == due) {
       const RelaxationOutcome outcome = relax(static_cast<double>(tick) / servo_rate);
-      if (outcome.converged && outcome.cells_visited == 0) at_rest_from = tick + 1;  // and all that come
+      if (outcome.converged && outcome.cells_visited == 0) at_rest_from = tick + 1;  // and all later ones
     }
     if (tick == frame) keep_frame(static_cast<double>(tick + 1) / servo_rate);
   }

@@ -12,38 +12,38 @@
 
 namespace sandstroke {
 
-/// The tick loop: hand, device, level, depth and force, displacement, and
-/// relaxation at its own rate; after the last tick the bed is relaxed to equilibrium. Idle ticks take no time
-/// and are not told; in all else it is as if they were played.
+/// Runs the tick loop: hand, device, level, depth and force, displacement, and relaxation at its own rate.
+/// After the last tick the bed is relaxed to equilibrium. Idle ticks take no time and are not reported;
+/// otherwise all is as if they were played.
 class Simulation {
  public:
-  /// stroke: as place_stroke() leaves it; none where the bed is only relaxed. relaxer: none = as the scene
-  /// says. Error: input, if the stroke may enter sand outside the bed: there, below the highest that the
-  /// surface can be; or if it has 1e15 ticks or more.
+  /// stroke: as place_stroke() returns it; none: the bed is only relaxed. relaxer: none: as the scene says.
+  /// Error: input, if the stroke may enter sand outside the bed (where it is below the surface's highest
+  /// possible point), or if it has 1e15 ticks or more.
   Simulation(const Scene& scene, HeightField bed, std::optional<Stroke> stroke,
              std::unique_ptr<Relaxer> relaxer = nullptr);
 
   const Scene& scene() const { return loop_.scene(); }
   const HeightField& bed() const { return loop_.bed(); }
-  /// Of how many ticks run() tells: all of the stroke but idle ones.
+  /// The number of ticks that run() reports: all of the stroke but idle ones.
   std::int64_t told_ticks() const;
   TraceContent trace_content() const;
   double stroke_seconds() const { return stroke_ ? stroke_->stroke().duration() : 0.0; }
 
-  /// Runs once, to the end or until interrupted(). Error: unstable, where force or device leave all bounds.
+  /// Runs once, to the end or until interrupted(). Error: unstable, if force or device leave all bounds.
   RunResult run(const Observers& observers = {});
 
  private:
   void check_inside(const Stroke& stroke) const;
   void run_stroke();
-  /// What sand and device do in the tick at whose end the stroke is at next_time.
+  /// Plays the tick at whose end the stroke is at next_time.
   TickRecord tick(double time, const Hand& hand, double next_time, const std::function<void()>& relax);
-  /// Where the stroke's hand is at that time of the stroke, on the sand as it lies now.
+  /// The stroke's hand at that time of the stroke, on the sand as it lies now.
   Hand hand_at(double time);
-  /// Adds what a tick reached.
+  /// Adds a tick to the result.
   void account(const TickRecord& record);
-  /// Idle ticks: sand that is not at rest relaxes when it is due, and frames come. The tick after the last
-  /// one.
+  /// Plays idle ticks: relaxes sand that is not at rest when that is due, and keeps frames. Returns the tick
+  /// after the last one.
   std::int64_t idle(const TickRange& ticks);
   RelaxationOutcome relax(double time);
   void keep_frame(double time);
@@ -61,12 +61,13 @@ class Simulation {
   RunResult result_;
 };
 
-/// The sand returned more energy than it took, by more than rounding and a force held for a tick do: a share
-/// of 1e-3.
+/// Whether the sand returned more energy than it took, by more than rounding and a force held for a tick do:
+/// a fraction of 1e-3.
 bool returned_energy(const DeviceResult& result);
 
-/// returned_energy(), and the loop may be to blame: it was not passive throughout. A passive loop, too, may
-/// return a little, which its dampers take, or lift the tool on sand that rises under it.
+/// Whether returned_energy() is true and the loop may be to blame, because it was not passive throughout. A
+/// passive loop, too, may return a little, which its dampers take, or lift the tool on sand that rises under
+/// it.
 bool loop_returned_energy(const DeviceResult& result, const DeviceSettings& device);
 
 }  // namespace sandstroke

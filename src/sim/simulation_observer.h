@@ -8,24 +8,24 @@
 
 namespace sandstroke {
 
-/// Told what happens while a simulation runs.
+/// Receives what happens while a simulation runs.
 class SimulationObserver {
  public:
   virtual ~SimulationObserver() = default;
-  virtual void on_tick(const TickRecord&) {}  ///< but for idle ones (idle_ticks.h)
+  virtual void on_tick(const TickRecord&) {}  ///< every tick but idle ones
   virtual void on_relaxation(const RelaxationRecord&) {}
-  /// output.frames times a second, the first at time 0.
+  /// Called output.frames times a second, first at time 0.
   virtual void on_frame(double /*time*/, const HeightField&) {}
-  /// Share of the stroke that is done, 0 to 1.
+  /// fraction: the part of the stroke that is done, 0 to 1.
   virtual void on_progress(double /*fraction*/) {}
-  /// Passes of the relaxation that is going on.
+  /// passes: of the current relaxation, so far.
   virtual void on_pass(std::int64_t /*passes*/, const BedNow& /*bed_now*/) {}
 };
 
-/// Told in this order; they outlive the run.
+/// Observers, called in this order. They must outlive the run.
 using Observers = std::vector<SimulationObserver*>;
 
-/// Keeps of every n-th tick that it is told of, from the first on, what value(tick) makes of it.
+/// Keeps value(tick) of every n-th reported tick, from the first on.
 template <class Value>
 class Kept : public SimulationObserver {
  public:
@@ -43,7 +43,7 @@ class Kept : public SimulationObserver {
   std::int64_t every_, ticks_ = 0;
 };
 
-/// Of a tick: the force on the device [N].
+/// The force on the device in a tick [N].
 inline Eigen::Vector3d force_of(const TickRecord& tick) { return tick.device_force; }
 
 }  // namespace sandstroke

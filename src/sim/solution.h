@@ -4,7 +4,7 @@
 
 namespace sandstroke {
 
-/// What a scene comes to, in memory.
+/// The outcome of a scene, in memory.
 struct Solution {
   HeightField surface;
   RunResult result;

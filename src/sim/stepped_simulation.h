@@ -6,24 +6,25 @@
 
 namespace sandstroke {
 
-/// A run that somebody else drives, tick by tick: a controller, an optimiser, a learner. With the hand of a
+/// A run that the caller drives, tick by tick: a controller, an optimiser, a learner. With the hand of a
 /// stroke, its velocities and its lifts it has the same bits as Simulation.
 class SteppedSimulation {
  public:
-  /// relaxes: sand relaxes as the scene says (relaxation.rate, way); else only where relax() is called.
-  /// Error: input, where device.drag is implicit: it knows where the hand goes in the tick.
+  /// relaxes: sand relaxes as the scene says (relaxation.rate, way); otherwise only when relax() is called.
+  /// Error: input, if device.drag is implicit, which must know where the hand goes in the tick.
   SteppedSimulation(const Scene& scene, HeightField bed, bool relaxes = true);
 
   const Scene& scene() const { return loop_.scene(); }
   const HeightField& bed() const { return loop_.bed(); }
-  /// s, of the next tick.
+  /// Time of the next tick [s].
   double time() const;
 
-  /// The hand is there now. velocity [m/s]: none: by the way since the tick before. turns: the tool with the
-  /// hand. What the device felt; with device.model = "dynamic" it has gone from where it was while the hand
-  /// went here. Error: input, where a number is none; unstable.
+  /// Plays a tick with the hand at its new place. knows_velocity: hand.velocity [m/s] is given; otherwise it
+  /// follows from the way since the tick before. turns: the tool turns with the hand. Returns what the device
+  /// felt. With device.model = "dynamic" it has moved from its old place while the hand went here. Error:
+  /// input, if a number is not finite; unstable.
   const TickRecord& tick(Hand hand, bool knows_velocity, bool turns);
-  /// Sand relaxes to rest; the tool stays where it is. After the last tick, lift() first.
+  /// Relaxes sand to rest; the tool stays where it is. After the last tick, call lift() first.
   RelaxationOutcome relax(const PassWatcher& watcher = {}) { return loop_.relax(watcher); }
   void lift() { loop_.lift(); }
 
@@ -31,7 +32,7 @@ class SteppedSimulation {
   TickLoop loop_;
   bool relaxes_;
   std::int64_t ticks_ = 0;
-  std::optional<TickRecord> last_;  // not advanced yet: where the hand goes in it is known with the next one
+  std::optional<TickRecord> last_;  // not advanced yet: the next call tells where the hand goes
 };
 
 }  // namespace sandstroke

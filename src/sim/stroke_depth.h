@@ -9,23 +9,23 @@
 
 namespace sandstroke {
 
-/// Where a stroke's tip lies deepest below the sand as it is at the start.
+/// The place where a stroke's tip lies deepest below the initial sand.
 struct DeepestPlace {
   double depth = 0.0;  ///< m; 0: nowhere below the sand of the bed
   double time = 0.0;   ///< s
 };
 
-/// stroke: as place_stroke() leaves it. Looks at its samples; those outside the bed count for nothing.
+/// stroke: as place_stroke() returns it. Looks at its samples; those outside the bed do not count.
 DeepestPlace deepest_place(const Scene& scene, const HeightField& bed, const Stroke& stroke);
 
-/// Where on the bed a stroke draws, and what brings it there: for whoever draws elsewhere.
+/// A sentence on where a stroke draws, and what brings it onto the bed, for strokes that draw elsewhere.
 std::string way_onto_the_bed(const Stroke& stroke, const Scene& scene);
 
-/// A sentence for whoever sees the tool never touch the sand: how far it stayed away, and what mends it.
+/// A sentence for a tool that never touches the sand: how far it stayed away, and what to change.
 std::string untouched_text(const Scene& scene, const RunResult& result);
 
-/// A sentence for whoever gave millimetres where metres are meant: the stroke goes over 20 tool radii deep.
-/// Empty: it does not. `name` is the stroke's.
+/// A warning if the stroke goes over 20 tool radii deep, as when millimetres are given instead of metres.
+/// Otherwise empty. `name` is the stroke's.
 std::string depth_warning(const Scene& scene, const HeightField& bed, const Stroke& stroke,
                           const std::string& name);
 

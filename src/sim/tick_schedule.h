@@ -7,7 +7,7 @@
 
 namespace sandstroke {
 
-/// The first tick of a range in which it comes due; its end where there is none.
+/// The first tick of a range in which an event of this rate is due; the range's end if there is none.
 inline std::int64_t next_due(const TickRange& ticks, double servo_rate, double rate) {
   const double due = times_due(ticks.begin, servo_rate, rate);
   if (times_due(ticks.end, servo_rate, rate) == due) return ticks.end;

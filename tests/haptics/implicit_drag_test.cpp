@@ -1,4 +1,4 @@
-// SimulatedDevice::drag_velocity, and the drag made of it: what device.drag = "implicit" rests on.
+// SimulatedDevice::drag_velocity and the drag by it, on which device.drag = "implicit" rests.
 #include <gtest/gtest.h>
 
 #include <algorithm>

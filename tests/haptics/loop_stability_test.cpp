@@ -16,7 +16,8 @@ DeviceSettings held_device(double rate, int delay) {
   return device;
 }
 
-/// Metres that a device is off its rest after so many ticks, of the loop tick by tick: no matrix.
+/// The distance [m] of a device from its rest after this many ticks, by running the loop tick by tick,
+/// without a matrix.
 double off_rest(const DeviceSettings& settings, const FeltSand& felt, int window, int ticks) {
   const SimulatedDevice::State rest{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
   SimulatedDevice device(settings, {{1e-3, 0.0, 0.0}, Eigen::Vector3d::Zero()});

@@ -16,7 +16,7 @@ using Eigen::Vector3d;
 
 constexpr double line_tolerance = 1e-5;  // m
 
-/// Lines of these ends, joined whatever their time, at these speeds.
+/// Lines with these ends at these speeds, joined whatever their time.
 Stroke lines_through(const std::vector<Vector3d>& ends, const std::vector<double>& speeds) {
   Stroke stroke;
   stroke.position = ends;
@@ -27,7 +27,8 @@ Stroke lines_through(const std::vector<Vector3d>& ends, const std::vector<double
   return stroke;
 }
 
-/// m, between a line's point and the sampled curve's, at equal times: so in shape and in speed.
+/// The largest distance [m] between a line's point and the sampled curve's at equal times: so in shape and in
+/// speed.
 double largest_distance(const Stroke& lines, StrokeSampler sampler) {
   double largest = 0.0;
   for (std::size_t i = 0; i + 1 < lines.size(); ++i) {

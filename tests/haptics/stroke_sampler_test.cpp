@@ -13,7 +13,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Irregular times, rough and resting coordinates, gaps of both kinds.
+/// A stroke with irregular times, rough and resting coordinates, and gaps of both kinds.
 Stroke random_stroke(unsigned seed, std::size_t count) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> uniform(0.0, 1.0);
@@ -40,7 +40,7 @@ Stroke evenly_spaced(const std::vector<Vector3d>& points, double spacing) {
   return stroke;
 }
 
-/// m, of a point to the straight line from a to b.
+/// Distance [m] of a point from the straight line from a to b.
 double distance_to(const Vector3d& point, const Vector3d& a, const Vector3d& b) {
   const double square = (b - a).squaredNorm();
   const double share = square > 0.0 ? std::clamp((point - a).dot(b - a) / square, 0.0, 1.0) : 0.0;

@@ -24,8 +24,8 @@ constexpr double pi = std::numbers::pi;
 PressProfile depth(std::vector<double> values) { return {PressProfile::Kind::depth, std::move(values)}; }
 PressProfile force(std::vector<double> values) { return {PressProfile::Kind::force, std::move(values)}; }
 
-/// Starts at the first drawn point, so that the script is plunge, drawing, lift. The plunge takes 0.5 s for
-/// 10 mm of depth: 0.03 m at 0.06 m/s.
+/// A script that starts at the first drawn point, so that it is plunge, drawing, lift. The plunge takes 0.5 s
+/// for 10 mm of depth: 0.03 m at 0.06 m/s.
 StrokeScript script_of(std::vector<ScriptSegment> segments) {
   StrokeScript script;
   script.name = "test.toml";

@@ -15,7 +15,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Samples of a sine along a direction, at a mean rate [Hz], from 0 to 4 s; jitter is a share of the spacing.
+/// Samples of a sine along a direction, at a mean rate [Hz], from 0 to 4 s; jitter is a fraction of the
+/// spacing.
 Stroke sine(double frequency, double rate, double jitter = 0.0) {
   Stroke stroke;
   std::mt19937 random(5);
@@ -28,7 +29,7 @@ Stroke sine(double frequency, double rate, double jitter = 0.0) {
   return stroke;
 }
 
-/// Of a smoothed sine, away from its ends, by least squares: in phase and a quarter behind.
+/// Amplitudes of a smoothed sine, away from its ends, by least squares: in phase and a quarter behind.
 Eigen::Vector2d gain(const Stroke& smooth, double frequency) {
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();
   double squares = 0.0;

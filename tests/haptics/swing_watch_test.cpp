@@ -8,8 +8,8 @@
 namespace sandstroke {
 namespace {
 
-/// A swing at 5 Hz for so many periods along an axis, at 1 kHz. Its energy falls by `loss` a period; the sand
-/// returns `share` of its kinetic energy in each.
+/// A swing at 5 Hz for this many periods along an axis, at 1 kHz. Its energy falls by `loss` a period; the
+/// sand returns the fraction `share` of its kinetic energy in each.
 struct Swing {
   int axis = 2, periods = 40;
   double loss = 0.0, share = 0.5, hand = 0.0, stored = 1e-3;

@@ -1,4 +1,4 @@
-// Tools of any shape: what their envelope and the sand beside them must be.
+// Tools of any shape: their envelope and the sand beside them.
 #include <gtest/gtest.h>
 
 #include <spdlog/fmt/fmt.h>

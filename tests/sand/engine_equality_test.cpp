@@ -1,4 +1,4 @@
-// The engine against the plain references, bit for bit: random beds, tools and angles, on any number of
+// Compares the engine with the plain references, bit for bit: random beds, tools and angles, on any number of
 // threads and every instruction set of the machine.
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
@@ -36,8 +36,9 @@ void on_threads(int threads, const Body& body) {
   tbb::task_arena(threads).execute(body);
 }
 
-/// A bed, and a tool that works on it, drawn at random: sizes that are no whole number of tiles, walls and
-/// tile borders hugged, gentle and steep talus angles, flat, rough, bumpy and cliff beds, some of them round.
+/// A bed and a tool that works on it, drawn at random. Sizes are not whole numbers of tiles, tools lie close
+/// to walls and tile borders, talus angles are gentle and steep. Beds are flat, rough, bumpy or cliffs, some
+/// of them round.
 class RandomScene {
  public:
   RandomScene(unsigned seed, int least_side, int largest_side) : random_(seed) {
@@ -67,7 +68,7 @@ class RandomScene {
     double x, y, depth;
     Eigen::Vector3d motion;
   };
-  /// Anywhere, along a tile border, or along a wall; along one axis, or none, now and then.
+  /// A place anywhere, along a tile border, or along a wall; now and then along one axis, or none.
   Push draw_push() {
     const int at = whole(0, 2);
     const double row = at == 0 ? real(0, bed.rows()) : at == 1 ? real(61, 67) : real(-2, 3);
@@ -79,7 +80,7 @@ class RandomScene {
             {along_axis(), along_axis(), along_axis()}};
   }
 
-  /// Pushes the tool into each bed, at the same place. There it stays, or not, as a solid one.
+  /// Pushes the tool into each bed, at the same place. As a solid tool it stays there, or not.
   void push(std::initializer_list<HeightField*> beds) {
     const Push at = draw_push();
     const bool stays = whole(0, 1) == 1;

@@ -1,4 +1,4 @@
-// What RelaxationOutcome::moved_volume means: each volume of sand counts as often as it goes from cell to
+// The meaning of RelaxationOutcome::moved_volume: each volume of sand counts as often as it goes from cell to
 // cell.
 #include <gtest/gtest.h>
 
@@ -12,8 +12,8 @@ namespace {
 
 constexpr double line_cell = 0.01;
 
-/// In a line of cells, where sand went through each face in one direction only: what is beyond the face more
-/// than before went through it. m^3.
+/// Moved volume [m^3] in a line of cells where sand goes through each face in one direction only: what lies
+/// beyond a face more than before went through it.
 double through_faces(const HeightGrid& before, const HeightGrid& after) {
   double beyond = 0.0, volume = 0.0;
   for (Eigen::Index i = 0; i < before.size(); ++i) {
@@ -23,7 +23,7 @@ double through_faces(const HeightGrid& before, const HeightGrid& after) {
   return volume * line_cell * line_cell;
 }
 
-/// Twice `half_width` cells of this height [cells] amid 100, along a row or down a column.
+/// A block of twice `half_width` cells of this height [cells] among 100, along a row or down a column.
 HeightGrid block_of_sand(bool along_row, int half_width, double height) {
   HeightGrid heights = HeightGrid::Zero(along_row ? 1 : 100, along_row ? 100 : 1);
   for (int i = 50 - half_width; i < 50 + half_width; ++i) heights(i) = height * line_cell;

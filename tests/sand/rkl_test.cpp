@@ -1,5 +1,5 @@
-// Super time stepping against a plain whole-field implementation, and what it must keep: volume, range,
-// symmetry, bits.
+// Compares super time stepping with a plain whole-field implementation, and checks that it keeps volume,
+// range, symmetry and bits.
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 #include <tbb/task_arena.h>
@@ -44,7 +44,7 @@ HeightField cylinder(int side, double radius, double height) {
   return make_surface(pile, side, side, 1.0);
 }
 
-/// A law's flow for c = 1 without tolerance, as written down; the steepest slope as a share of tan(talus),
+/// A law's flow for c = 1 without tolerance, as written down; the steepest slope as a fraction of tan(talus),
 /// and the sum of what cells give.
 struct PlainFlow {
   HeightGrid gain;
@@ -140,7 +140,7 @@ RelaxationOutcome plain_rkl(HeightGrid& y, const RelaxationSettings& settings) {
       ++outcome.passes;
       if (j > 0 && (next.minCoeff() < low || next.maxCoeff() > high)) {
         ++outcome.rejected_stages;
-        break;  // as if this stage had not been
+        break;  // drops this stage
       }
       flowing = momentum * flowing + step * f.given;
       outcome.moved_volume += flowing;

@@ -1,5 +1,5 @@
-// Beds that exist as a rule only: what a rule says of its slopes and heights, and that sand flows on such a
-// bed as if all of its tiles existed.
+// Beds that exist only as a rule: the rule's slopes and heights, and sand that flows on such a bed as if all
+// of its tiles existed.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// A tool that sand does not slip into: cells that a bed holds are walls to whatever relaxes it.
+// A tool that sand does not flow into: cells that a bed holds are walls for every relaxer.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -31,7 +31,7 @@ Relaxers engine_and_reference() {
   return relaxers;
 }
 
-/// A tool that has dug itself a pit, and stands in it.
+/// A tool that has displaced a pit, and stands in it.
 struct Standing {
   HeightField bed{129, 129, cell};
   ToolFootprint footprint{{tool_radius, ToolProfile::sphere, true}};

@@ -1,5 +1,5 @@
-// Planes a little flatter and a little steeper than what rests, in every direction, for each law and method:
-// which of a cell's eight slopes a law compares, and with what, is all there is to it.
+// Planes a little flatter and a little steeper than the steepest that rests, in every direction, for each law
+// and method. This shows which of a cell's eight slopes a law compares, and with what.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -16,7 +16,7 @@ namespace {
 
 constexpr double plane_cell = 0.003;
 
-/// Rises by `slope` (rise over run) towards `direction` [deg, from +x towards +y].
+/// A plane that rises by `slope` (rise over run) towards `direction` [deg, from +x towards +y].
 class PlaneRule : public SurfaceRule {
  public:
   PlaneRule(double slope, double direction)

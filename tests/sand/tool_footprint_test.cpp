@@ -11,10 +11,10 @@ namespace sandstroke {
 namespace {
 
 constexpr double radius = 0.01;
-constexpr double high_above = 1.0;  // m, of a tip that cuts nothing
+constexpr double high_above = 1.0;  // m, height of a tip that carves nothing
 
 /// Calls body(distance to the tool's axis, underside, rampart) for each cell of the footprint, and checks
-/// that what lies beyond its columns means nothing to the tool.
+/// that entries beyond its columns have no weight.
 template <class Body>
 void for_each_cell(const HeightField& bed, ToolFootprint& footprint, const Body& body) {
   carve_for_ring(footprint.shape(), footprint, high_above, {0.0, Eigen::Vector2d::Zero()});

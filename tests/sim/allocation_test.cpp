@@ -7,7 +7,7 @@
 namespace sandstroke {
 namespace {
 
-/// Counts what is allocated from one tick to another.
+/// Counts allocations from one tick to another.
 struct AllocationsBetween : SimulationObserver {
   std::int64_t from, to, tick = 0, before = 0, between = -1;
   AllocationsBetween(std::int64_t first, std::int64_t last) : from(first), to(last) {}

@@ -19,7 +19,7 @@ Scene scene_of(ForceLaw law, ToolShape shape) {
   return scene;
 }
 
-/// On level sand that gets out of the way, after the tool has yielded downwards.
+/// The wrench on level sand that is not displaced, after the tool has yielded downwards.
 Wrench pressed(const Scene& scene, double depth) {
   HeightField bed = starting_bed(scene.bed);
   ContactForce law(scene, bed.cell_size());

@@ -28,8 +28,8 @@ struct Profile {
     const double u = (distance - half_width) / heap;
     return u < 1.0 ? 4.0 * rampart() * u * (1.0 - u) : 0.0;
   }
-  /// No measured height is further off. The slope bounds how much it changes from the cells that are
-  /// interpolated, half a cell's diagonal away on average, and to the next sample, a quarter of a cell;
+  /// The largest error of a measured height. The slope bounds how much the height changes from the cells that
+  /// are interpolated, half a cell's diagonal away on average, and to the next sample, a quarter of a cell;
   /// `aside`: how far [m] chords of a curved path lie from it.
   double height_error(double cell, double aside) const {
     return slope() * ((std::numbers::sqrt2 / 2 + 0.25) * cell + aside);
@@ -49,7 +49,7 @@ const Shape flat = [](double, double) { return 0.0; };
 const Shape slanting = [](double x, double y) { return 0.3 * x - 0.1 * y; };
 const Shape rippled = [](double x, double) { return 0.004 * std::sin(400.0 * x); };
 
-/// One piece, as ticks at 1 kHz and 0.1 m/s give it.
+/// A path of one piece, as ticks at 1 kHz and 0.1 m/s give it.
 TipPath path_along(const std::function<Vector2d(double)>& place, double length) {
   TipPath path{{}, {0}};
   for (double s = 0.0; s <= length; s += 1e-4) path.points.push_back(place(s));
@@ -68,7 +68,7 @@ struct Line {
   }
 };
 
-/// On a bed with cells of 1 mm, 240 x 300.
+/// Measures on a bed of 240 x 300 cells of 1 mm.
 FurrowMeasures measured(const Shape& initial, const Shape& change, const TipPath& path) {
   const Shape sum = [&](double x, double y) { return initial(x, y) + change(x, y); };
   return measure_furrow(bed_of(240, 300, 1e-3, initial), bed_of(240, 300, 1e-3, sum), path, radius);
@@ -81,7 +81,7 @@ void expect_profile(const FurrowMeasures& measures, const Profile& profile, doub
   EXPECT_NEAR(measures.width, 2.0 * profile.half_width, 2.0 * error / profile.slope());
 }
 
-/// Where the tip is in contact.
+/// The places where the tip is in contact.
 class ContactPath : public SimulationObserver {
  public:
   explicit ContactPath(const Scene& scene) : gatherer_(scene) {}

@@ -11,8 +11,8 @@
 namespace sandstroke {
 namespace {
 
-/// Two drags of about 0.3 s through the sand, and so long [s] between them. watched: the lifted hand is
-/// sampled there, on its straight way; so the same is known, and no tick is idle.
+/// Two drags of about 0.3 s through the sand, with a pause of this length [s] between them. watched: the
+/// lifted hand is sampled in the pause, on its straight way, so the motion is the same and no tick is idle.
 Stroke two_drags(double apart, bool watched) {
   Stroke stroke;
   const auto add = [&](double time, const Eigen::Vector3d& position, PenState pen) {
@@ -77,7 +77,7 @@ void expect_equal(const TickRecord& a, const TickRecord& b) {
   EXPECT_LT((a.device_position - b.device_position).norm(), 1e-15) << a.time;
 }
 
-/// But for idle ticks, what `idle` tells is what `all` tells.
+/// Expects that `idle` reports the same as `all`, except idle ticks.
 void expect_equal(const GapRun& idle, const GapRun& all) {
   const RunResult &a = idle.result, &b = all.result;
   EXPECT_EQ(a.ticks, b.ticks);

@@ -12,7 +12,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// What an Error says of work that has to fail.
+/// The message of the Error from work that has to fail.
 template <class Work>
 std::string refusal_of(const Work& work, ErrorKind kind = ErrorKind::input) {
   try {
@@ -28,7 +28,7 @@ bool says(const std::string& sentence, const std::string& part) {
   return sentence.find(part) != std::string::npos;
 }
 
-/// The program's law, as if it were somebody else's.
+/// The program's law, as a plugin law.
 class BorrowedLaw : public Relaxer {
  public:
   BorrowedLaw(const RelaxationSettings& settings, double cell_size)
@@ -55,7 +55,7 @@ class BorrowedRule : public Displacer {
   DisplacementSettings settings_;
 };
 
-/// Keeps what it was told.
+/// Keeps all that it receives.
 struct Heard {
   int felt = 0, lifted = 0;
   double deepest = 0.0;
@@ -85,7 +85,7 @@ Scene scene_with_laws(const OwnLaws& laws) {
   return scene;
 }
 
-/// Down, through the sand, and up.
+/// A stroke down, through the sand, and up.
 Stroke down_and_along() {
   Stroke stroke;
   stroke.gap_threshold = 1.0;

@@ -11,7 +11,7 @@
 namespace sandstroke {
 namespace {
 
-/// Recorded at 0, 1, 2 and 3 s, with forces 0, 2, 4 and 6 N upward.
+/// A stroke recorded at 0, 1, 2 and 3 s, with forces 0, 2, 4 and 6 N upward.
 Stroke rising() {
   Stroke stroke;
   stroke.gap_threshold = 10.0;
@@ -23,7 +23,7 @@ Stroke rising() {
   return stroke;
 }
 
-/// Along z; not-a-number where it is not known.
+/// The force along z; NaN if it is not known.
 double recorded_at(RecordedForce& recorded, double time) { return recorded.at(time).z(); }
 
 TEST(RecordedForce, IsLinearBetweenSamples) {

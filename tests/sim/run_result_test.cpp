@@ -13,7 +13,7 @@
 namespace sandstroke {
 namespace {
 
-/// All that a run tells, and what follows from it.
+/// All that a run reports, and what follows from it.
 struct ToldRun : Told {
   std::int64_t count(const std::function<bool(const TickRecord&)>& holds) const {
     return std::count_if(ticks.begin(), ticks.end(), holds);
@@ -60,8 +60,8 @@ double plain_volume(const HeightField& bed) {
   return sum * bed.cell_size() * bed.cell_size();
 }
 
-/// A dynamic device whose late loop gives and takes: down into the sand, along, out, and into the air for so
-/// long that no force is left.
+/// A dynamic device whose late loop gives and takes energy: down into the sand, along, out, and long enough
+/// in the air that no force is left.
 Scene late_scene() {
   Scene scene = narrow_scene();
   scene.bed.surface.kind = SurfaceKind::ripples;

@@ -19,7 +19,7 @@ Scene stepped_scene() {
   return scene;
 }
 
-/// In and out of the sand, perhaps lifted for a while, and turning.
+/// A hand that goes in and out of the sand, perhaps lifted for a while, and turns.
 Stroke stepped_stroke(double seconds, bool lifts) {
   Stroke stroke;
   for (int k = 0; k < static_cast<int>(1000.0 * seconds); ++k) {
