@@ -101,7 +101,7 @@ TEST(ProfilesPart, WhereTheTipWasLiftedCurvesBreakOffAndTheWayDoesNotCount) {
   int gaps = 0;
   for (const Json& value : initial["value"]) gaps += std::isnan(value.get<double>());
   EXPECT_EQ(gaps, 1);
-  EXPECT_NE(part["text"].get<std::string>().find("went 0.2 m"), std::string::npos) << part["text"];
+  EXPECT_NE(part["text"].get<std::string>().find("moved 0.2 m"), std::string::npos) << part["text"];
 }
 
 TEST(ProfilesPart, APlungeIsOnlyCrossed) {

@@ -135,10 +135,10 @@ TEST(SceneToml, AKeyThatDoesNotApplyIsToldWhereItWould) {
   };
   EXPECT_EQ(complaint("[bed.surface]\nkind = 'file'\nfile = 'a.png'\namplitude = 0.01\n"),
             "scene.toml:4: bed.surface.amplitude applies only where bed.surface.kind is noise or ripples; "
-            "remove it, or change that");
+            "remove it, or change that setting");
   EXPECT_EQ(complaint("[device]\n", {"device.delay=2"}),
             "--set device.delay=2: device.delay applies only where device.model is dynamic; remove it, or "
-            "change that");
+            "change that setting");
   EXPECT_EQ(complaint("[relaxation]\nstep_tolerence = 0.1\n"),
             "scene.toml:2: unknown key relaxation.step_tolerence; did you mean relaxation.step_tolerance?");
   EXPECT_EQ(complaint("", {"bed.surface=4"}),
@@ -148,7 +148,7 @@ TEST(SceneToml, AKeyThatDoesNotApplyIsToldWhereItWould) {
   // What a preset chooses can be chosen without it.
   EXPECT_EQ(complaint("[displacement]\ndistance = 1.1\n"),
             "scene.toml:2: displacement.distance applies only where displacement.deposit is outward; remove "
-            "it, or change that");
+            "it, or change that setting");
   EXPECT_EQ(complaint("[model]\npreset = 'accurate'\n[displacement]\ndistance = 1.1\n"), "");
 }
 

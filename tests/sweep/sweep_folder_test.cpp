@@ -61,7 +61,7 @@ TEST_F(AFolder, OfAnotherSweepIsRefusedAndSaysWhatDiffers) {
   SweepFolder::make(path, manifest());
   SweepManifest other = manifest();
   other.design.axes[0].values.push_back("40");
-  EXPECT_NE(refusal(path, other).find("its axes differ"), std::string::npos) << refusal(path, other);
+  EXPECT_NE(refusal(path, other).find("whose axes differ"), std::string::npos) << refusal(path, other);
   other = manifest();
   other.inputs[0].second = "4567";
   EXPECT_NE(refusal(path, other).find("scene, strokes or other files"), std::string::npos);
