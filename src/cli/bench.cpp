@@ -10,7 +10,7 @@
 #include "cli/print_text.h"
 #include "core/interrupt.h"
 #include "core/progress.h"
-#include "validation/study/own_contenders.h"
+#include "validation/study/plugin_contenders.h"
 #include "validation/study/study_files.h"
 #include "validation/study/study_table.h"
 
@@ -26,7 +26,7 @@ struct BenchArguments {
 
 int bench(const BenchArguments& arguments) {
   StudyOptions options = arguments.study;
-  add_own_laws(options, arguments.plugin.laws());  // without a plugin: no laws, all problems
+  add_plugin_laws(options, arguments.plugin.laws());  // without a plugin: no laws, all problems
   const StudyFiles files(arguments.folder);
   catch_interrupts();
   std::optional<Progress> bar(std::in_place, "bench");

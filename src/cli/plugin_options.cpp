@@ -4,7 +4,7 @@
 
 #include "core/error.h"
 #include "io/plugin_file.h"
-#include "validation/study/own_contenders.h"
+#include "validation/study/plugin_contenders.h"
 
 namespace sandstroke {
 
@@ -15,14 +15,14 @@ void PluginOptions::add_to(CLI::App& command, const std::string& help) {
       .add_option("--parameters", parameters,
                   "Up to 4 numbers for the plugin's laws (model.parameters), such as 0.25,500")
       ->delimiter(',')
-      ->expected(1, static_cast<int>(OwnLawSettings{}.parameters.size()));
+      ->expected(1, static_cast<int>(PluginLawSettings{}.parameters.size()));
 }
 
-std::vector<OwnLawSettings> PluginOptions::laws() const {
+std::vector<PluginLawSettings> PluginOptions::laws() const {
   if (file.empty() && !(names.empty() && parameters.empty()))
     throw_input_error("--law and --parameters need a plugin; add --plugin FILE.so");
   if (file.empty()) return {};
-  OwnLawSettings plugin;
+  PluginLawSettings plugin;
   plugin.plugin = file.string();
   std::copy(parameters.begin(), parameters.end(), plugin.parameters.begin());
   plugin.laws = load_plugin(file);

@@ -19,7 +19,7 @@ struct PluginOptions {
   /// command.
   void add_to(CLI::App& command, const std::string& help);
   /// The chosen laws, each in its own settings. Empty without --plugin. Error: input, io.
-  std::vector<OwnLawSettings> laws() const;
+  std::vector<PluginLawSettings> laws() const;
 };
 
 }  // namespace sandstroke

@@ -155,7 +155,7 @@ std::unique_ptr<HapticDevice> named_device(const RecordArguments& arguments, con
 std::optional<Scene> felt_scene(const RecordArguments& arguments) {
   if (arguments.felt_scene.empty()) return std::nullopt;
   Scene scene = load_scene(arguments.felt_scene, arguments.overrides);
-  const OwnLawSettings& own = scene.own;
+  const PluginLawSettings& own = scene.plugin_laws;
   for (const auto& [key, name] : {std::pair("relaxation", own.relaxation),
                                   std::pair("displacement", own.displacement), std::pair("force", own.force)})
     if (!name.empty())

@@ -73,7 +73,7 @@ int stress(const StressArguments& arguments) {
   const fs::path page = arguments.output / "stress.html";
   StressOptions options;
   options.quick = arguments.quick;
-  options.own = arguments.plugin.laws();
+  options.plugin_laws = arguments.plugin.laws();
   make_folder(arguments.output);
   check_output(page, {}, page_output);
   catch_interrupts();

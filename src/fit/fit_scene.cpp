@@ -33,11 +33,11 @@ std::span<const ForceConstant> constants_of(ForceLaw law) {
 FeltStroke felt_stroke(const Scene& asked, const std::filesystem::path& scene_folder) {
   if (!asked.stroke)
     throw_input_error("the scene has no stroke; name one that was recorded with forces: --stroke FILE");
-  if (!asked.own.force.empty())
+  if (!asked.plugin_laws.force.empty())
     throw_input_error(
         "model.force = \"{}\" is a plugin law, and fit does not know its constants; vary model.parameters in "
         "a sweep, or leave out model.force to fit force.law",
-        asked.own.force);
+        asked.plugin_laws.force);
   Scene scene = with_files(asked, scene_folder);
   scene.device.model = DeviceModel::kinematic;
   const std::filesystem::path path = stroke_path(scene, scene_folder);

@@ -23,9 +23,9 @@ Function* function_of(void* library, const char* name, const std::string& file) 
 
 }  // namespace
 
-std::shared_ptr<const OwnLaws> load_plugin(const std::filesystem::path& path) {
+std::shared_ptr<const PluginLaws> load_plugin(const std::filesystem::path& path) {
   const std::string file = path.string();
-  auto laws = std::make_shared<OwnLaws>();
+  auto laws = std::make_shared<PluginLaws>();
   laws->hash = file_hash(path);  // this reports a file that cannot be read
   // The library is never closed: its laws, and what they throw, may be in use anywhere.
   void* const library = dlopen(std::filesystem::absolute(path).c_str(), RTLD_NOW | RTLD_LOCAL);
@@ -39,7 +39,7 @@ std::shared_ptr<const OwnLaws> load_plugin(const std::filesystem::path& path) {
                     ours = plugin_interface();
   if (theirs != ours)
     throw_input_error("{}: was built for {}, but this program is {}; build it again", file, theirs, ours);
-  const auto add_laws = function_of<void(OwnLaws&)>(library, "sandstroke_plugin_laws", file);
+  const auto add_laws = function_of<void(PluginLaws&)>(library, "sandstroke_plugin_laws", file);
   try {
     add_laws(*laws);
   } catch (const Error&) {
@@ -52,17 +52,17 @@ std::shared_ptr<const OwnLaws> load_plugin(const std::filesystem::path& path) {
   return laws;
 }
 
-OwnLawSettings with_plugin(OwnLawSettings own, const std::filesystem::path& folder) {
+PluginLawSettings with_plugin(PluginLawSettings own, const std::filesystem::path& folder) {
   if (!own.plugin.empty() && !own.laws) own.laws = load_plugin(folder / own.plugin);
   return own;
 }
 
-void check_own_force(const Scene& scene, const std::filesystem::path& stroke_file) {
-  if (scene.own.force.empty() || !stroke_depends_on_force(stroke_file)) return;
+void check_plugin_force(const Scene& scene, const std::filesystem::path& stroke_file) {
+  if (scene.plugin_laws.force.empty() || !stroke_depends_on_force(stroke_file)) return;
   throw_input_error(
       "{}: the script gives forces, but only the paper's law can turn forces into depths; give depths, or "
       "leave out model.force = \"{}\"",
-      stroke_file.string(), scene.own.force);
+      stroke_file.string(), scene.plugin_laws.force);
 }
 
 }  // namespace sandstroke

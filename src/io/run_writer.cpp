@@ -13,7 +13,7 @@
 #include "io/run_file.h"
 #include "io/scene_toml.h"
 #include "sand/instruction_set.h"
-#include "sim/own_laws.h"
+#include "sim/plugin_laws.h"
 
 namespace sandstroke {
 namespace {
@@ -118,7 +118,7 @@ RunWriter::RunWriter(const std::filesystem::path& path, const Simulation& simula
   file_.attribute(provenance, "instruction_set", instruction_set());
   file_.attribute(provenance, "scene_hash", content_hash(scene));
   file_.attribute(provenance, "stroke_hash", stroke_hash);
-  const OwnLaws* const laws = simulation.scene().own.laws.get();
+  const PluginLaws* const laws = simulation.scene().plugin_laws.laws.get();
   if (laws && !laws->hash.empty()) file_.attribute(provenance, "plugin_hash", laws->hash);
   if (!scene_file.empty()) file_.attribute(provenance, "scene_file", scene_file);
   write_bed_axes(file_, "/surface", bed);

@@ -79,7 +79,7 @@ std::vector<std::filesystem::path> input_files(const Scene& scene, const std::fi
     files = sample_files(stroke_path(scene, folder), scene.stroke->table.value_or(TableSettings{}));
   if (scene.bed.surface.kind == SurfaceKind::file) files.push_back(folder / scene.bed.surface.file);
   if (scene.tool.shape == ToolShape::mesh) files.push_back(folder / scene.tool.file);
-  if (!scene.own.plugin.empty()) files.push_back(folder / scene.own.plugin);
+  if (!scene.plugin_laws.plugin.empty()) files.push_back(folder / scene.plugin_laws.plugin);
   return files;
 }
 

@@ -6,9 +6,9 @@
 #include <array>
 
 #include "python/errors.h"
-#include "python/own_laws.h"
+#include "python/plugin_laws.h"
 #include "validation/stress/stress.h"
-#include "validation/study/own_contenders.h"
+#include "validation/study/plugin_contenders.h"
 #include "validation/study/study_files.h"
 #include "validation/study/study_table.h"
 
@@ -17,23 +17,23 @@ namespace {
 
 namespace py = pybind11;
 
-std::vector<OwnLawSettings> settings_of(const py::dict& laws, const std::array<double, 4>& parameters) {
-  OwnLawSettings own = with_python_laws({}, laws).scene.own;
-  own.plugin = "Python";
-  own.parameters = parameters;
-  return single_laws(own, {});
+std::vector<PluginLawSettings> settings_of(const py::dict& laws, const std::array<double, 4>& parameters) {
+  PluginLawSettings plugin_laws = with_python_laws({}, laws).scene.plugin_laws;
+  plugin_laws.plugin = "Python";
+  plugin_laws.parameters = parameters;
+  return single_laws(plugin_laws, {});
 }
 
 /// Runs the bench and returns JSON text. folder: for the page.
 std::string bench(const py::dict& laws, const std::array<double, 4>& parameters,
                   const std::filesystem::path& folder, bool quick, const std::vector<std::string>& problems) {
-  const std::vector<OwnLawSettings> own = settings_of(laws, parameters);
+  const std::vector<PluginLawSettings> plugin_laws = settings_of(laws, parameters);
   return or_what_ended_it([&] {
     const py::gil_scoped_release let_go;
     StudyOptions options;
     options.quick = quick;
     options.problems = problems;
-    add_own_laws(options, own);
+    add_plugin_laws(options, plugin_laws);
     SignalWatch signals;
     options.progress = [&](double) { signals.look(); };
     const StudyFiles files(folder);
@@ -45,7 +45,7 @@ std::string bench(const py::dict& laws, const std::array<double, 4>& parameters,
 
 std::string stress(const py::dict& laws, const std::array<double, 4>& parameters, bool quick) {
   StressOptions options;
-  options.own = settings_of(laws, parameters);
+  options.plugin_laws = settings_of(laws, parameters);
   options.quick = quick;
   return or_what_ended_it([&] {
     const py::gil_scoped_release let_go;

@@ -16,7 +16,7 @@
 #include "python/errors.h"
 #include "python/judging.h"
 #include "python/kept_run.h"
-#include "python/own_laws.h"
+#include "python/plugin_laws.h"
 #include "python/stepped.h"
 #include "render/height_field_renderer.h"
 #include "tool/tool_surface.h"

@@ -81,7 +81,7 @@ Stroke placed_samples(const Scene& scene, const Stroke& loaded, const std::strin
 
 Stroke placed_stroke(const Scene& scene, const std::filesystem::path& path, std::string& hash) {
   const std::string name = samples_name(path);
-  check_own_force(scene, path);
+  check_plugin_force(scene, path);
   const Stroke loaded = load_stroke(path, scene.force, scene.stroke->table.value_or(TableSettings{}));
   if (!loaded.complete)
     spdlog::warn("{}: was cut off while it was recorded; the run ends where the stroke ends", name);
@@ -98,7 +98,7 @@ std::string scene_file_entry(const std::filesystem::path& scene_file, const std:
 Scene with_files(Scene scene, const std::filesystem::path& folder) {
   scene.bed = with_own_range(scene.bed, folder);  // so that a run file contains it
   scene.tool = with_mesh(scene.tool, folder);
-  scene.own = with_plugin(scene.own, folder);
+  scene.plugin_laws = with_plugin(scene.plugin_laws, folder);
   return scene;
 }
 

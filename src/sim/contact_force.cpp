@@ -55,7 +55,7 @@ Wrench ContactForce::archimedes(const Eigen::Vector3d& tip, const SandPlane& pla
 
 std::string theory_warning(const Scene& scene, double fastest) {
   const SandStrength& sand = scene.strength;
-  if (scene.force.law == ForceLaw::paper || !scene.own.force.empty()) return "";
+  if (scene.force.law == ForceLaw::paper || !scene.plugin_laws.force.empty()) return "";
   const double friction = elementary::tan(to_radians(sand.friction_angle));
   if (friction < 0.3 || friction > 0.9)
     return fmt::format(

@@ -79,7 +79,7 @@ class ContactWrench : public DeviceForce {
 }  // namespace
 
 std::unique_ptr<DeviceForce> make_device_force(const Scene& scene) {
-  if (is_contact_law(scene)) return std::make_unique<ContactWrench>(!scene.own.force.empty());
+  if (is_contact_law(scene)) return std::make_unique<ContactWrench>(!scene.plugin_laws.force.empty());
   return std::make_unique<DepthForce>(scene.force);
 }
 

@@ -4,7 +4,7 @@
 
 #include "core/error.h"
 #include "core/version.h"
-#include "sim/own_laws.h"
+#include "sim/plugin_laws.h"
 
 namespace sandstroke {
 
@@ -28,4 +28,4 @@ inline std::string plugin_interface() {
     static const std::string interface = sandstroke::plugin_interface(); \
     return interface.c_str();                                            \
   }                                                                      \
-  extern "C" void sandstroke_plugin_laws(sandstroke::OwnLaws& laws)
+  extern "C" void sandstroke_plugin_laws(sandstroke::PluginLaws& laws)

@@ -25,10 +25,10 @@ constexpr double deep_at_rim = 0.2;
 }  // namespace
 
 SandSide::SandSide(const ToolSettings& tool, const DisplacementSettings& displacement,
-                   const RelaxationSettings& relaxation, std::unique_ptr<Displacer> own)
+                   const RelaxationSettings& relaxation, std::unique_ptr<Displacer> plugin_law)
     : footprint_(tool),
       displacement_(displacement),
-      own_(std::move(own)),
+      plugin_law_(std::move(plugin_law)),
       solid_(tool.solid),
       way_(relaxation.way),
       way_at_rim_(relaxation.way_at_rim),
@@ -45,10 +45,10 @@ Interaction SandSide::look(const HeightField& bed, const Eigen::Vector3d& read_t
 }
 
 double SandSide::displace_sand(HeightField& bed, const Eigen::Vector3d& tip, const Eigen::Vector3d& motion) {
-  if (!own_) return displace(bed, footprint_, tip.z(), motion, displacement_);
+  if (!plugin_law_) return displace(bed, footprint_, tip.z(), motion, displacement_);
   if (footprint_.cells().empty()) return 0.0;
   footprint_.meet(bed, tip.z());
-  return own_->displace(bed, footprint_, tip.z(), motion);
+  return plugin_law_->displace(bed, footprint_, tip.z(), motion);
 }
 
 Interaction SandSide::dig(HeightField& bed, const Eigen::Vector3d& tip, const Eigen::Vector3d& motion) {

@@ -26,7 +26,7 @@ class SandSide {
   /// relaxation: its ways (RelaxationByWay); without them no relaxation is due by way. own: a plugin law that
   /// replaces the displacement of the settings.
   SandSide(const ToolSettings& tool, const DisplacementSettings& displacement,
-           const RelaxationSettings& relaxation = {}, std::unique_ptr<Displacer> own = nullptr);
+           const RelaxationSettings& relaxation = {}, std::unique_ptr<Displacer> plugin_law = nullptr);
 
   /// Sets the tool's orientation from the next move() on (ToolFootprint::turn). The tool keeps it during the
   /// whole move.
@@ -81,7 +81,7 @@ class SandSide {
 
   ToolFootprint footprint_;
   DisplacementSettings displacement_;
-  std::unique_ptr<Displacer> own_;
+  std::unique_ptr<Displacer> plugin_law_;
   bool solid_;
   double way_, way_at_rim_;  // radii
   RelaxationByWay by_way_;

@@ -230,29 +230,32 @@ double memory_of_bed(const Scene& scene) {
 }
 
 /// Written only where a scene has laws of its own: all others are as they were before there were any.
-void describe_own_laws(KeyVisitor& v, OwnLawSettings& own) {
-  const bool any = !(own.plugin.empty() && own.relaxation.empty() && own.displacement.empty() &&
-                     own.force.empty() && own.parameters == OwnLawSettings{}.parameters);
+void describe_plugin_laws(KeyVisitor& v, PluginLawSettings& plugin_laws) {
+  const bool any =
+      !(plugin_laws.plugin.empty() && plugin_laws.relaxation.empty() && plugin_laws.displacement.empty() &&
+        plugin_laws.force.empty() && plugin_laws.parameters == PluginLawSettings{}.parameters);
   if (!any && !v.reads()) return;
-  v.text("plugin", own.plugin, "laws of your own (.so), relative to the scene");
-  v.text("relaxation", own.relaxation, "the plugin's law that takes the place of relaxation.law and method");
-  v.text("displacement", own.displacement, "the plugin's rule that takes the place of displacement.deposit");
-  v.text("force", own.force, "the plugin's law that takes the place of force.law");
-  v.numbers("parameters", own.parameters.data(), static_cast<int>(own.parameters.size()), any_number, "",
-            "what the plugin's laws make of them");
+  v.text("plugin", plugin_laws.plugin, "laws of your own (.so), relative to the scene");
+  v.text("relaxation", plugin_laws.relaxation,
+         "the plugin's law that takes the place of relaxation.law and method");
+  v.text("displacement", plugin_laws.displacement,
+         "the plugin's rule that takes the place of displacement.deposit");
+  v.text("force", plugin_laws.force, "the plugin's law that takes the place of force.law");
+  v.numbers("parameters", plugin_laws.parameters.data(), static_cast<int>(plugin_laws.parameters.size()),
+            any_number, "", "what the plugin's laws make of them");
 }
 
 }  // namespace
 
 bool is_contact_law(const Scene& scene) {
-  return scene.force.law != ForceLaw::paper || !scene.own.force.empty();
+  return scene.force.law != ForceLaw::paper || !scene.plugin_laws.force.empty();
 }
 
 void describe_scene(KeyVisitor& v, Scene& scene) {
   v.section("model", "the set of defaults that the other settings start from, and laws of your own");
   choose(v, "preset", scene.preset, preset_names, "as published, or the choices for accuracy");
   if (v.reads()) apply_model_preset(scene);
-  describe_own_laws(v, scene.own);
+  describe_plugin_laws(v, scene.plugin_laws);
 
   describe_bed(v, scene.bed);
 
@@ -329,7 +332,7 @@ void check_scene(const Scene& scene, const std::string& name) {
                "take fewer cells");
 
   const bool is_sphere = scene.tool.shape == ToolShape::sphere;
-  if (!is_sphere && scene.own.displacement.empty() && scene.displacement.deposit != Deposit::outward)
+  if (!is_sphere && scene.plugin_laws.displacement.empty() && scene.displacement.deposit != Deposit::outward)
     throw_input_error(
         "{}: the paper's ring of sand (displacement.deposit) is a sphere's; for any other tool.shape set "
         "model.preset = \"accurate\", or displacement.deposit = \"outward\"",
@@ -352,7 +355,7 @@ void check_scene(const Scene& scene, const std::string& name) {
         scene.tool.radius, dx);
 
   const RelaxationSettings& r = scene.relaxation;
-  if (scene.own.relaxation.empty() && r.law != RelaxationLaw::paper && flow_share(r) > 0.25)
+  if (scene.plugin_laws.relaxation.empty() && r.law != RelaxationLaw::paper && flow_share(r) > 0.25)
     throw_input_error(
         "{}: relaxation.share = {} is stable only with relaxation.law = paper; take 0.25 or less", name,
         r.share);

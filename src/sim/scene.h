@@ -49,23 +49,23 @@ struct OutputSettings {
   bool trace = true;    ///< keep every tick
 };
 
-struct OwnLaws;
+struct PluginLaws;
 
-/// Plugin laws (sim/own_laws.h), by name; empty: the scene's other settings hold.
-struct OwnLawSettings {
-  std::string plugin;                     ///< file with the laws, relative to the scene
-  std::string relaxation;                 ///< in place of relaxation.law and method
-  std::string displacement;               ///< in place of displacement.deposit
-  std::string force;                      ///< in place of force.law
-  std::array<double, 4> parameters = {};  ///< their meaning depends on the law
-  std::shared_ptr<const OwnLaws> laws;    ///< the available laws; the plugin's, once it is loaded
+/// Plugin laws (sim/plugin_laws.h), by name; empty: the scene's other settings hold.
+struct PluginLawSettings {
+  std::string plugin;                      ///< file with the laws, relative to the scene
+  std::string relaxation;                  ///< in place of relaxation.law and method
+  std::string displacement;                ///< in place of displacement.deposit
+  std::string force;                       ///< in place of force.law
+  std::array<double, 4> parameters = {};   ///< their meaning depends on the law
+  std::shared_ptr<const PluginLaws> laws;  ///< the available laws; the plugin's, once it is loaded
 };
 
 /// All settings of a run. describe_scene() is the one list of their keys.
 struct Scene {
   BedSettings bed;
   ModelPreset preset = ModelPreset::paper;
-  OwnLawSettings own;
+  PluginLawSettings plugin_laws;
   ToolSettings tool;
   DisplacementSettings displacement;
   ForceSettings force;

@@ -1,7 +1,7 @@
 #include "sim/tick_loop.h"
 
 #include "core/error.h"
-#include "sim/own_laws.h"
+#include "sim/plugin_laws.h"
 #include "tool/tool_surface.h"
 
 namespace sandstroke {
@@ -11,11 +11,11 @@ TickLoop::TickLoop(const Scene& scene, HeightField bed, bool plays, std::unique_
       bed_(std::move(bed)),
       own_rotation_(own_rotation(scene.tool)),
       sand_(scene.tool, scene.displacement, scene.relaxation,
-            plays ? make_own_displacer(scene, bed_.cell_size()) : nullptr),
+            plays ? make_plugin_displacer(scene, bed_.cell_size()) : nullptr),
       contact_force_(plays ? make_tool_force(scene, bed_.cell_size()) : nullptr),
       device_(scene),
       relaxer_(relaxer ? std::move(relaxer) : make_relaxer(scene, bed_.cell_size())) {
-  if (!scene.own.relaxation.empty() || !scene.own.displacement.empty()) watch_.emplace(bed_);
+  if (!scene.plugin_laws.relaxation.empty() || !scene.plugin_laws.displacement.empty()) watch_.emplace(bed_);
 }
 
 TickRecord TickLoop::step(const TickInput& tick) {
@@ -74,10 +74,10 @@ void TickLoop::lift() {
 
 RelaxationOutcome TickLoop::relax(const PassWatcher& watcher) {
   sand_.hold(bed_);
-  check_own_law("displacement", scene_.own.displacement);
+  check_plugin_law("displacement", scene_.plugin_laws.displacement);
   const RelaxationOutcome outcome = relaxer_->relax(bed_, watcher);
   sand_.relaxed(bed_);
-  check_own_law("relaxation", scene_.own.relaxation);
+  check_plugin_law("relaxation", scene_.plugin_laws.relaxation);
   return outcome;
 }
 
@@ -92,8 +92,8 @@ void TickLoop::check_near(const TickRecord& record) const {
                             record.time, distance, loop_remedies(scene_, device_.result().max_drag_force)));
 }
 
-void TickLoop::check_own_law(const char* key, const std::string& name) {
-  if (!name.empty()) watch_->check(bed_, law_in_words(scene_.own, key, name));
+void TickLoop::check_plugin_law(const char* key, const std::string& name) {
+  if (!name.empty()) watch_->check(bed_, law_in_words(scene_.plugin_laws, key, name));
 }
 
 }  // namespace sandstroke

@@ -55,7 +55,7 @@ class TickLoop {
   void turn_tool(const Hand& hand);
   void displace(TickRecord& record, const TickInput& tick);
   void check_near(const TickRecord& record) const;
-  void check_own_law(const char* key, const std::string& name);
+  void check_plugin_law(const char* key, const std::string& name);
 
   Scene scene_;
   HeightField bed_;

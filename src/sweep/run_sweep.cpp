@@ -153,7 +153,7 @@ bool Sweep::run_group(const SweepFolder& folder, const std::vector<std::size_t>&
     bed = inputs_.bed(scenes.front().bed);
     for (Scene& scene : scenes) {
       scene.tool = inputs_.tool(scene.tool);
-      scene.own = inputs_.own(scene.own);
+      scene.plugin_laws = inputs_.plugin_laws(scene.plugin_laws);
     }
   } catch (const Error& error) {
     if (is_of_the_machine(error)) throw;

@@ -27,7 +27,7 @@ std::shared_ptr<const SweepStroke> SweepInputs::stroke(const Scene& scene) {
   const std::scoped_lock lock(files_);
   const auto [by_force, is_new] = by_force_.try_emplace(path.string());
   if (is_new) by_force->second = stroke_depends_on_force(path);
-  check_own_force(scene, path);
+  check_plugin_force(scene, path);
   Scene named;
   named.stroke = scene.stroke;
   named.bed.width = scene.bed.width, named.bed.depth = scene.bed.depth;  // the stroke's placement
@@ -74,14 +74,14 @@ ToolSettings SweepInputs::tool(const ToolSettings& settings) {
   return tool;
 }
 
-OwnLawSettings SweepInputs::own(const OwnLawSettings& settings) {
+PluginLawSettings SweepInputs::plugin_laws(const PluginLawSettings& settings) {
   const std::scoped_lock lock(files_);
-  OwnLawSettings own = settings;
-  std::shared_ptr<const OwnLaws>& laws = plugins_[settings.plugin];
-  own.laws = laws;
-  own = with_plugin(own, scene_folder_);
-  laws = own.laws;
-  return own;
+  PluginLawSettings plugin_laws = settings;
+  std::shared_ptr<const PluginLaws>& laws = plugins_[settings.plugin];
+  plugin_laws.laws = laws;
+  plugin_laws = with_plugin(plugin_laws, scene_folder_);
+  laws = plugin_laws.laws;
+  return plugin_laws;
 }
 
 std::string sand_key(const Scene& scene, const SweepStroke* stroke) {

@@ -30,7 +30,7 @@ class SweepInputs {
   /// The same tool, with its mesh if it is a mesh.
   ToolSettings tool(const ToolSettings& settings);
   /// The same settings, with the laws of their plugin if they name one.
-  OwnLawSettings own(const OwnLawSettings& settings);
+  PluginLawSettings plugin_laws(const PluginLawSettings& settings);
 
   int strokes_loaded() const { return strokes_loaded_; }
   int beds_loaded() const { return beds_loaded_; }
@@ -46,7 +46,7 @@ class SweepInputs {
   std::map<std::string, std::shared_ptr<const HeightField>> beds_;     // by their settings
   double bed_bytes_ = 0.0;                                             // size of beds_
   std::map<std::pair<std::string, double>, std::shared_ptr<const TriangleMesh>> meshes_;  // by file and scale
-  std::map<std::string, std::shared_ptr<const OwnLaws>> plugins_;                         // by file
+  std::map<std::string, std::shared_ptr<const PluginLaws>> plugins_;                      // by file
   int strokes_loaded_ = 0, beds_loaded_ = 0;
 };
 

@@ -42,13 +42,13 @@ const std::vector<std::string> mesh = {"displacement.deposit=outward", "tool.sha
 /// All values differ from the defaults, and those of neighbours from each other.
 const std::vector<KeyCase> cases = {
     {"model.preset=accurate", [](S s) { return s.preset == ModelPreset::accurate && s.tool.solid; }},
-    {"model.plugin=laws.so", [](S s) { return s.own.plugin == "laws.so"; }},
-    {"model.relaxation=slow", [](S s) { return s.own.relaxation == "slow"; }},
-    {"model.displacement=left", [](S s) { return s.own.displacement == "left"; }},
-    {"model.force=spring", [](S s) { return s.own.force == "spring"; }},
+    {"model.plugin=laws.so", [](S s) { return s.plugin_laws.plugin == "laws.so"; }},
+    {"model.relaxation=slow", [](S s) { return s.plugin_laws.relaxation == "slow"; }},
+    {"model.displacement=left", [](S s) { return s.plugin_laws.displacement == "left"; }},
+    {"model.force=spring", [](S s) { return s.plugin_laws.force == "spring"; }},
     {"model.parameters=[1.5, -2, 3, 4]",
      [](S s) {
-       return s.own.parameters == std::array<double, 4>{1.5, -2.0, 3.0, 4.0};
+       return s.plugin_laws.parameters == std::array<double, 4>{1.5, -2.0, 3.0, 4.0};
      }},
     {"bed.size=[3.0, 1.5]",
      [](S s) { return s.bed.width == 3.0 && s.bed.depth == 1.5; },

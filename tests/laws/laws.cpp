@@ -19,7 +19,7 @@ class PlainPasses : public Relaxer {
   PlainPasses(const Scene& scene, double cell_size)
       : drop_(talus_slope(scene.relaxation.talus_angle) * cell_size),
         tolerance_(scene.relaxation.tolerance),
-        share_(or_else(scene.own.parameters[0], 0.25)),
+        share_(or_else(scene.plugin_laws.parameters[0], 0.25)),
         max_passes_(scene.relaxation.max_passes) {}
 
   RelaxationOutcome relax(HeightField& bed, const PassWatcher& after_pass) override {
@@ -111,8 +111,8 @@ class AllAhead : public Displacer {
 class SpringAndFriction : public ToolForce {
  public:
   explicit SpringAndFriction(const Scene& scene)
-      : stiffness_(or_else(scene.own.parameters[1], 500.0)),
-        friction_(or_else(scene.own.parameters[2], scene.strength.tool_friction)),
+      : stiffness_(or_else(scene.plugin_laws.parameters[1], 500.0)),
+        friction_(or_else(scene.plugin_laws.parameters[2], scene.strength.tool_friction)),
         yield_(scene.strength.yield_way) {}
 
   Wrench feel(const ToolInSand& touch) override {

@@ -66,7 +66,8 @@ SANDSTROKE_LAWS(laws) {
       relaxer_that([](HeightField&) { throw std::out_of_range("row 7 is not in the table"); });
   laws.relaxations["nothing"] = [](const Scene&, double) { return nullptr; };
   laws.relaxations["particular"] = [](const Scene& scene, double) -> std::unique_ptr<Relaxer> {
-    throw_input_error("model.parameters[0] = {} is no share; take 0 to 0.25", scene.own.parameters[0]);
+    throw_input_error("model.parameters[0] = {} is no share; take 0 to 0.25",
+                      scene.plugin_laws.parameters[0]);
   };
   laws.displacements["loses"] = [](const Scene&, double) { return std::make_unique<LosingDisplacer>(); };
   laws.forces["no-number"] = [](const Scene&, double) { return std::make_unique<WrongForce>(false); };

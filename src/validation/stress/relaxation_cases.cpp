@@ -70,12 +70,12 @@ struct Method {
   std::string name;
   RelaxationLaw law;
   RelaxationMethod method;
-  OwnLawSettings own = {};
+  PluginLawSettings plugin_laws = {};
 };
 
 /// The program's methods of relaxation, or those of a plugin.
 std::vector<Method> methods_of(const StressOptions& options) {
-  if (options.own.empty())
+  if (options.plugin_laws.empty())
     return {{"paper, passes", RelaxationLaw::paper, RelaxationMethod::passes},
             {"paper, rkl", RelaxationLaw::paper, RelaxationMethod::rkl},
             {"isotropic, passes", RelaxationLaw::isotropic, RelaxationMethod::passes},
@@ -83,9 +83,10 @@ std::vector<Method> methods_of(const StressOptions& options) {
             {"faces, passes", RelaxationLaw::faces, RelaxationMethod::passes},
             {"faces, rkl", RelaxationLaw::faces, RelaxationMethod::rkl}};
   std::vector<Method> methods;
-  for (const OwnLawSettings& own : options.own)
-    if (!own.relaxation.empty())
-      methods.push_back({"plugin: " + own.relaxation, RelaxationLaw::paper, RelaxationMethod::passes, own});
+  for (const PluginLawSettings& plugin_laws : options.plugin_laws)
+    if (!plugin_laws.relaxation.empty())
+      methods.push_back(
+          {"plugin: " + plugin_laws.relaxation, RelaxationLaw::paper, RelaxationMethod::passes, plugin_laws});
   return methods;
 }
 
@@ -95,7 +96,7 @@ Scene scene_of(const BedSize& size, const Method& method) {
   scene.bed.width = size.cols * size.dx, scene.bed.depth = size.rows * size.dx;
   scene.relaxation.law = method.law;
   scene.relaxation.method = method.method;
-  scene.own = method.own;
+  scene.plugin_laws = method.plugin_laws;
   return scene;
 }
 
@@ -111,7 +112,8 @@ StressCase beds(const Method& method, BedKind kind, double talus_angle, bool qui
       quick ? Values{1e-310, 1e-12, 1e-4, 1e4} : Values{5e-324, 1e-310, 1e-12, 1e-6, 1e-3, 1.0, 1e3, 1e6};
   const Values cell_sizes = quick ? Values{1e-6, 1e3} : Values{1e-6, 1e-3, 1.0, 1e3};
   const double most = quick ? 100.0 : 1000.0;
-  const bool few_cells = quick && !method.own.relaxation.empty();  // a plugin law may visit all, slowly
+  const bool few_cells =
+      quick && !method.plugin_laws.relaxation.empty();  // a plugin law may visit all, slowly
   Variations all = variations(
       fmt::format("{}, {}, talus {}", method.name, name_of(kind), talus_angle),
       fmt::format("talus angle {} deg; cells of 1e-6 to 1e3 m; heights from {} m to {} cells; 1 x 1, "
@@ -205,7 +207,7 @@ void stress_relaxation(StressReport& report, const StressOptions& options) {
       for (const BedKind kind : bed_kinds) add(beds(method, kind, talus_angle, options.quick));
       options.progress(done += 0.8 / static_cast<double>(methods.size() * talus_angles.size()));
     }
-    if (method.own.relaxation.empty())
+    if (method.plugin_laws.relaxation.empty())
       for (const double share : shares_tried) add(shares(method, share, options.quick));
     add(towers(method, options.quick));
     add(beyond_numbers(method));

@@ -14,7 +14,7 @@ StressReport stress_all(const StressOptions& options) {
   double begin = 0.0;
   for (const Part& part : parts) {
     if (interrupted()) break;
-    if (part.run == stress_device_loop && !options.own.empty()) continue;  // it uses no plugin laws
+    if (part.run == stress_device_loop && !options.plugin_laws.empty()) continue;  // it uses no plugin laws
     StressOptions of_part = options;
     of_part.progress = [&](double fraction) { options.progress(begin + fraction * (part.end - begin)); };
     part.run(report, of_part);

@@ -75,7 +75,7 @@ struct StressReport {
 struct StressOptions {
   bool quick = false;  ///< coarser maps, fewer and shorter cases: under a minute
   /// Plugin laws, each in its own settings. If there are any, they are tested instead of the program's.
-  std::vector<OwnLawSettings> own;
+  std::vector<PluginLawSettings> plugin_laws;
   std::function<void(double)> progress = [](double) {};  ///< gets the fraction of the test that is done
 };
 

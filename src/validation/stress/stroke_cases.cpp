@@ -63,14 +63,16 @@ Stroke stroke_of(const Motion& at, double seconds, double rate) {
 struct Model {
   std::string name;
   ModelPreset preset;
-  OwnLawSettings own = {};
+  PluginLawSettings plugin_laws = {};
 };
 
 std::vector<Model> models_of(const StressOptions& options) {
-  if (options.own.empty()) return {{"paper", ModelPreset::paper}, {"accurate", ModelPreset::accurate}};
+  if (options.plugin_laws.empty())
+    return {{"paper", ModelPreset::paper}, {"accurate", ModelPreset::accurate}};
   std::vector<Model> models;
-  for (const OwnLawSettings& own : options.own)
-    models.push_back({"plugin: " + own.relaxation + own.displacement + own.force, ModelPreset::paper, own});
+  for (const PluginLawSettings& plugin_laws : options.plugin_laws)
+    models.push_back({"plugin: " + plugin_laws.relaxation + plugin_laws.displacement + plugin_laws.force,
+                      ModelPreset::paper, plugin_laws});
   return models;
 }
 
@@ -81,7 +83,7 @@ Scene scene_of(const Model& model, DeviceModel device) {
   scene.device.model = device;
   scene.preset = model.preset;
   apply_model_preset(scene);
-  scene.own = model.own;
+  scene.plugin_laws = model.plugin_laws;
   scene.stroke.emplace();
   scene.stroke->file = "in memory";
   scene.output.trace = false;
@@ -164,7 +166,7 @@ void stress_strokes(StressReport& report, const StressOptions& options) {
       play_extreme(report, extreme, model, stroke_of(extreme.at, seconds, 1000.0));
       options.progress(done += share * short_ones / std::size(strokes));
     }
-  if (options.own.empty()) refuse(report);
+  if (options.plugin_laws.empty()) refuse(report);
   const auto circle = [](double t) { return V(0.06 * std::cos(t), 0.06 * std::sin(t), -0.005); };
   const auto rest = [](double) { return V(0.0, 0.0, -0.006); };
   for (const Model& model : models) {

@@ -7,7 +7,7 @@
 #include "validation/study/contact_scene.h"
 #include "validation/study/error_checks.h"
 #include "validation/study/exact_shapes.h"
-#include "validation/study/own_contenders.h"
+#include "validation/study/plugin_contenders.h"
 #include "validation/study/problem.h"
 
 namespace sandstroke {
@@ -21,8 +21,8 @@ Trial work_trial(const Scene& scene, const HeightField& bed, const Stroke& strok
 }
 
 Contender work_contender(const std::string& series, const std::string& label, const Scene& scene, int threads,
-                         double step, std::function<Trial()> run, bool foreign = false) {
-  return {series, label, settings_of(scene, threads), step, std::move(run), foreign};
+                         double step, std::function<Trial()> run, bool external = false) {
+  return {series, label, settings_of(scene, threads), step, std::move(run), external};
 }
 
 Problem work_problem(const char* name, const char* title, const std::string& text) {
@@ -50,12 +50,12 @@ Problem plunge_problem(const ProblemOptions& options) {
         "force held for a tick", fmt::format("servo rate {} Hz", rate), scene, options.threads, 1.0 / rate,
         [=] { return work_trial(scene, starting_bed(scene.bed), stroke, exact); }));
   }
-  for (const OwnLawSettings& own : options.own) {
+  for (const PluginLawSettings& own : options.plugin_laws) {
     if (own.force.empty()) continue;
     problem.text += " A plugin's law is compared with itself at 128 kHz.";
     const auto by_law = [=](double rate) {
       Scene scene = at_rate(rate);
-      scene.own = own;
+      scene.plugin_laws = own;
       return scene;
     };
     const auto law_truth = truth_when_asked<double>([=] {

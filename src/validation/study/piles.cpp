@@ -66,7 +66,7 @@ class PileField {
       for (int cells = 64; cells <= most_cells(); cells *= 2) {
         Contender contender{peer.name, fmt::format("{} cells", cells), {}, pile_bed_width / cells, nullptr};
         contender.settings.method = "peer";
-        contender.foreign = true;
+        contender.external = true;
         contender.settings.cells = cells, contender.settings.cell_size = pile_bed_width / cells;
         contender.run = [pile = pile_, cells, relax = peer.relax] {
           return collapse(*pile, cells, [&](HeightField& sand) { return relax(sand, talus_angle); });

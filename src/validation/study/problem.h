@@ -60,7 +60,7 @@ struct Contender {
   RunSettings settings;
   double step = not_applicable;  ///< what the series refines (cell size [m] or time step [s]), for its order
   std::function<Trial()> run;    ///< gives the same score each time
-  bool foreign = false;          ///< from outside this library: if it fails, the others go on
+  bool external = false;         ///< from outside this library: if it fails, the others go on
 };
 
 /// A run's estimate of its own error (sim/error_estimate.h), beside its true error.
@@ -121,7 +121,7 @@ struct ProblemOptions {
   std::vector<Peer> peers;
   /// A plugin's laws of displacement and force, each in its own settings. Their strokes and plunges are
   /// compared with the same in finer steps.
-  std::vector<OwnLawSettings> own;
+  std::vector<PluginLawSettings> plugin_laws;
 };
 
 /// Makes one problem, and computes its truth if no closed form gives it.

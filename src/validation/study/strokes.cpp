@@ -3,7 +3,7 @@
 
 #include "sim/error_estimate.h"
 #include "validation/study/hand_strokes.h"
-#include "validation/study/own_contenders.h"
+#include "validation/study/plugin_contenders.h"
 #include "validation/study/stroke_replay.h"
 
 namespace sandstroke {
@@ -107,17 +107,17 @@ Problem stroke_problem(const StrokeCase& given, const ProblemOptions& options) {
         stroke_contender(series, label, scene, options.threads, step, stroke, truth));
   };
   for (int by = 1; by < finest; by *= 2) add(all_finer, fmt::format("1/{} of all", by), all(by));
-  for (const OwnLawSettings& own : options.own) {
-    if (own.displacement.empty()) continue;
+  for (const PluginLawSettings& plugin_laws : options.plugin_laws) {
+    if (plugin_laws.displacement.empty()) continue;
     problem.text += " A plugin's law is compared with itself in equally fine steps.";
     const auto by_law = [=](int by) {
       Scene scene = all(by);
-      scene.own = own;
+      scene.plugin_laws = plugin_laws;
       return scene;
     };
     const auto law_truth = truth_when_asked<Replay>([=] { return replay(by_law(finest), stroke); });
     for (int by = 1; by < finest; by *= 2)
-      problem.contenders.push_back({series_of(own), fmt::format("1/{} of all", by),
+      problem.contenders.push_back({series_of(plugin_laws), fmt::format("1/{} of all", by),
                                     settings_of(by_law(by), options.threads), by_law(by).bed.cell_size(),
                                     [=] {
                                       const Replay run = replay(by_law(by), stroke);

@@ -101,7 +101,7 @@ class Race {
     try {
       trial = contender.run();
     } catch (const Error& failure) {
-      if (!contender.foreign) throw;
+      if (!contender.external) throw;
       runs_[i].repeats = 0;
       study_.notes.push_back(fmt::format("{}: {}, {}: failed: {}.", problem_.title, contender.series,
                                          contender.label, failure.what()));
@@ -111,7 +111,7 @@ class Race {
     run.problem = problem_.name, run.series = contender.series, run.label = contender.label;
     run.settings = contender.settings;
     run.step = contender.step;
-    run.foreign = contender.foreign;
+    run.external = contender.external;
     run.score = trial.score;
     // Only for one thread the program knows how long it waited for a processor.
     const double idle_share =

@@ -21,7 +21,7 @@ struct StudyRun {
   double error = not_applicable;     ///< in the problem's error column
   double of_paper = not_applicable;  ///< time of a tick, over that of the paper's law in the same bench
   bool pareto = false;               ///< no other run of the problem has as small an error and time
-  bool foreign = false;              ///< Contender::foreign
+  bool external = false;             ///< Contender::external
 };
 
 /// The order at which a series' error falls with its step, with its 95 % confidence interval (Student's t).

@@ -255,18 +255,18 @@ std::string runs_text(const Study& study, const std::vector<StudyRun>& runs,
 }  // namespace
 
 std::string study_summary(const Study& study) {
-  std::vector<StudyRun> best, foreign;
+  std::vector<StudyRun> best, external;
   for (const Problem& problem : study.problems) {
     const std::vector<const StudyRun*> ends = best_of(study.runs, problem.name);
     for (const StudyRun* run : ends) best.push_back(*run);
   }
   for (const StudyRun& run : study.runs)
-    if (run.foreign) foreign.push_back(run);
+    if (run.external) external.push_back(run);
   std::string text = "Most accurate run, and fastest run with at most twice its error\n" +
                      runs_text(study, best, {"problem", "series", "label", "wall_seconds", "passes"});
-  if (!foreign.empty())
+  if (!external.empty())
     text += "\nRules from outside the program (converged: 1 = at rest; drift: fraction of the moved sand)\n" +
-            runs_text(study, foreign,
+            runs_text(study, external,
                       {"problem", "series", "label", "wall_seconds", "passes", "converged", "volume_drift"});
   if (!study.orders.empty())
     text += "\nOrders of convergence\n" + aligned_text(orders_table(study.orders), 3);

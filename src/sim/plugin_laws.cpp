@@ -1,4 +1,4 @@
-#include "sim/own_laws.h"
+#include "sim/plugin_laws.h"
 
 #include <spdlog/fmt/ranges.h>
 
@@ -35,15 +35,15 @@ auto by_law(const std::string& law, const Work& work) {
 
 class WatchedRelaxer : public Relaxer {
  public:
-  WatchedRelaxer(std::string law, std::unique_ptr<Relaxer> own)
-      : law_(std::move(law)), own_(std::move(own)) {}
+  WatchedRelaxer(std::string law, std::unique_ptr<Relaxer> plugin_law)
+      : law_(std::move(law)), plugin_law_(std::move(plugin_law)) {}
 
   RelaxationOutcome relax(HeightField& bed, const PassWatcher& after_pass) override {
     const BedGeometry before = bed;
     RelaxationOutcome outcome;
     try {
       outcome = by_law(law_, [&] {
-        return own_->relax(bed, [&](std::int64_t passes, const BedNow& bed_now) {
+        return plugin_law_->relax(bed, [&](std::int64_t passes, const BedNow& bed_now) {
           if (after_pass) after_pass(passes, bed_now);
           if (interrupted()) throw Stopped();
         });
@@ -63,17 +63,18 @@ class WatchedRelaxer : public Relaxer {
 
  private:
   std::string law_;
-  std::unique_ptr<Relaxer> own_;
+  std::unique_ptr<Relaxer> plugin_law_;
 };
 
 class WatchedDisplacer : public Displacer {
  public:
-  WatchedDisplacer(std::string law, std::unique_ptr<Displacer> own)
-      : law_(std::move(law)), own_(std::move(own)) {}
+  WatchedDisplacer(std::string law, std::unique_ptr<Displacer> plugin_law)
+      : law_(std::move(law)), plugin_law_(std::move(plugin_law)) {}
 
   double displace(HeightField& bed, const ToolFootprint& footprint, double tip_height,
                   const Eigen::Vector3d& motion) override {
-    const double moved = by_law(law_, [&] { return own_->displace(bed, footprint, tip_height, motion); });
+    const double moved =
+        by_law(law_, [&] { return plugin_law_->displace(bed, footprint, tip_height, motion); });
     if (!(moved >= 0.0 && std::isfinite(moved)))
       throw Error(ErrorKind::unstable,
                   fmt::format("{} says that it moved {} m^3; correct the law", law_, moved));
@@ -82,16 +83,16 @@ class WatchedDisplacer : public Displacer {
 
  private:
   std::string law_;
-  std::unique_ptr<Displacer> own_;
+  std::unique_ptr<Displacer> plugin_law_;
 };
 
 class WatchedForce : public ToolForce {
  public:
-  WatchedForce(std::string law, std::unique_ptr<ToolForce> own)
-      : law_(std::move(law)), own_(std::move(own)) {}
+  WatchedForce(std::string law, std::unique_ptr<ToolForce> plugin_law)
+      : law_(std::move(law)), plugin_law_(std::move(plugin_law)) {}
 
   Wrench feel(const ToolInSand& touch) override {
-    Wrench wrench = by_law(law_, [&] { return own_->feel(touch); });
+    Wrench wrench = by_law(law_, [&] { return plugin_law_->feel(touch); });
     if (!(wrench.force.allFinite() && wrench.torque.allFinite() && std::isfinite(wrench.stiffness) &&
           std::isfinite(wrench.stored) && std::isfinite(wrench.strength)))
       throw Error(ErrorKind::unstable,
@@ -102,30 +103,33 @@ class WatchedForce : public ToolForce {
     return wrench;
   }
   void lift() override {
-    by_law(law_, [&] { own_->lift(); });
+    by_law(law_, [&] { plugin_law_->lift(); });
   }
   void turn(const Eigen::Matrix3d& rotation) override {
-    by_law(law_, [&] { own_->turn(rotation); });
+    by_law(law_, [&] { plugin_law_->turn(rotation); });
   }
 
  private:
   std::string law_;
-  std::unique_ptr<ToolForce> own_;
+  std::unique_ptr<ToolForce> plugin_law_;
 };
 
-std::string file_of(const OwnLawSettings& own) { return own.plugin.empty() ? "" : own.plugin + ": "; }
+std::string file_of(const PluginLawSettings& plugin_law) {
+  return plugin_law.plugin.empty() ? "" : plugin_law.plugin + ": ";
+}
 
 /// The law that a key names, made for the scene and watched; nullptr: it names none.
 template <class Watched, class Law>
-std::unique_ptr<Law> make_own(const Scene& scene, double cell_size, const char* key, const std::string& name,
-                              const std::map<std::string, LawMaker<Law>> OwnLaws::*kind) {
+std::unique_ptr<Law> make_plugin_law(const Scene& scene, double cell_size, const char* key,
+                                     const std::string& name,
+                                     const std::map<std::string, LawMaker<Law>> PluginLaws::*kind) {
   if (name.empty()) return nullptr;
-  if (!scene.own.laws)
+  if (!scene.plugin_laws.laws)
     throw_input_error("model.{} = \"{}\" is a law of a plugin; name its file: model.plugin", key, name);
-  const auto& makers = (*scene.own.laws).*kind;
-  const std::string file = file_of(scene.own);
+  const auto& makers = (*scene.plugin_laws.laws).*kind;
+  const std::string file = file_of(scene.plugin_laws);
   if (const auto maker = makers.find(name); maker != makers.end()) {
-    const std::string law = law_in_words(scene.own, key, name);
+    const std::string law = law_in_words(scene.plugin_laws, key, name);
     std::unique_ptr<Law> made = by_law(law, [&] { return maker->second(scene, cell_size); });
     if (!made) throw_input_error("{} was not made: its maker returns nothing; correct the law", law);
     return std::make_unique<Watched>(law, std::move(made));
@@ -139,28 +143,28 @@ std::unique_ptr<Law> make_own(const Scene& scene, double cell_size, const char* 
 
 }  // namespace
 
-std::string law_in_words(const OwnLawSettings& own, const char* key, const std::string& name) {
-  return fmt::format("{}{} '{}'", file_of(own), key, name);
+std::string law_in_words(const PluginLawSettings& plugin_law, const char* key, const std::string& name) {
+  return fmt::format("{}{} '{}'", file_of(plugin_law), key, name);
 }
 
 std::unique_ptr<Relaxer> make_relaxer(const Scene& scene, double cell_size) {
-  std::unique_ptr<Relaxer> own =
-      make_own<WatchedRelaxer>(scene, cell_size, "relaxation", scene.own.relaxation, &OwnLaws::relaxations);
-  return own ? std::move(own) : make_relaxer(scene.relaxation, cell_size);
+  std::unique_ptr<Relaxer> plugin_law = make_plugin_law<WatchedRelaxer>(
+      scene, cell_size, "relaxation", scene.plugin_laws.relaxation, &PluginLaws::relaxations);
+  return plugin_law ? std::move(plugin_law) : make_relaxer(scene.relaxation, cell_size);
 }
 
-std::unique_ptr<Displacer> make_own_displacer(const Scene& scene, double cell_size) {
-  return make_own<WatchedDisplacer>(scene, cell_size, "displacement", scene.own.displacement,
-                                    &OwnLaws::displacements);
+std::unique_ptr<Displacer> make_plugin_displacer(const Scene& scene, double cell_size) {
+  return make_plugin_law<WatchedDisplacer>(scene, cell_size, "displacement", scene.plugin_laws.displacement,
+                                           &PluginLaws::displacements);
 }
 
 std::unique_ptr<ToolForce> make_tool_force(const Scene& scene, double cell_size) {
   if (!is_contact_law(scene)) return nullptr;
-  std::unique_ptr<ToolForce> own =
-      make_own<WatchedForce>(scene, cell_size, "force", scene.own.force, &OwnLaws::forces);
-  if (!own) return std::make_unique<ContactForce>(scene, cell_size);
-  own->turn(own_rotation(scene.tool));
-  return own;
+  std::unique_ptr<ToolForce> plugin_law =
+      make_plugin_law<WatchedForce>(scene, cell_size, "force", scene.plugin_laws.force, &PluginLaws::forces);
+  if (!plugin_law) return std::make_unique<ContactForce>(scene, cell_size);
+  plugin_law->turn(own_rotation(scene.tool));
+  return plugin_law;
 }
 
 }  // namespace sandstroke

@@ -1,4 +1,4 @@
-#include "validation/study/own_contenders.h"
+#include "validation/study/plugin_contenders.h"
 
 #include <spdlog/fmt/fmt.h>
 #include <spdlog/fmt/ranges.h>
@@ -6,26 +6,27 @@
 #include <algorithm>
 
 #include "core/error.h"
-#include "sim/own_laws.h"
+#include "sim/plugin_laws.h"
 #include "sim/sand_watch.h"
 
 namespace sandstroke {
 
-std::vector<OwnLawSettings> single_laws(const OwnLawSettings& plugin, const std::vector<std::string>& names) {
-  std::vector<OwnLawSettings> found;
+std::vector<PluginLawSettings> single_laws(const PluginLawSettings& plugin,
+                                           const std::vector<std::string>& names) {
+  std::vector<PluginLawSettings> found;
   std::vector<std::string> known;
-  const auto add_kind = [&](const auto& makers, std::string OwnLawSettings::*key) {
+  const auto add_kind = [&](const auto& makers, std::string PluginLawSettings::*key) {
     for (const auto& [name, maker] : makers) {
       known.push_back(name);
       if (!names.empty() && std::find(names.begin(), names.end(), name) == names.end()) continue;
-      OwnLawSettings& law = found.emplace_back(plugin);
+      PluginLawSettings& law = found.emplace_back(plugin);
       law.relaxation = law.displacement = law.force = "";
       law.*key = name;
     }
   };
-  add_kind(plugin.laws->relaxations, &OwnLawSettings::relaxation);
-  add_kind(plugin.laws->displacements, &OwnLawSettings::displacement);
-  add_kind(plugin.laws->forces, &OwnLawSettings::force);
+  add_kind(plugin.laws->relaxations, &PluginLawSettings::relaxation);
+  add_kind(plugin.laws->displacements, &PluginLawSettings::displacement);
+  add_kind(plugin.laws->forces, &PluginLawSettings::force);
   std::sort(known.begin(), known.end());
   known.erase(std::unique(known.begin(), known.end()), known.end());
   for (const std::string& name : names)
@@ -34,32 +35,32 @@ std::vector<OwnLawSettings> single_laws(const OwnLawSettings& plugin, const std:
   return found;
 }
 
-std::string series_of(const OwnLawSettings& law) {
+std::string series_of(const PluginLawSettings& law) {
   return "plugin: " + law.relaxation + law.displacement + law.force;  // one of the three names a law
 }
 
-std::vector<std::string> problems_of(const std::vector<OwnLawSettings>& laws) {
-  const auto any = [&](std::string OwnLawSettings::*key) {
+std::vector<std::string> problems_of(const std::vector<PluginLawSettings>& laws) {
+  const auto any = [&](std::string PluginLawSettings::*key) {
     return std::any_of(laws.begin(), laws.end(), [&](const auto& law) { return !(law.*key).empty(); });
   };
   std::vector<std::string> names;
-  if (any(&OwnLawSettings::relaxation)) names = {"cylinder", "truncated", "cone", "cliff", "trench"};
-  if (any(&OwnLawSettings::displacement)) names.emplace_back("stroke-accurate");
-  if (any(&OwnLawSettings::force)) names.emplace_back("plunge");
+  if (any(&PluginLawSettings::relaxation)) names = {"cylinder", "truncated", "cone", "cliff", "trench"};
+  if (any(&PluginLawSettings::displacement)) names.emplace_back("stroke-accurate");
+  if (any(&PluginLawSettings::force)) names.emplace_back("plunge");
   return names;
 }
 
-void add_own_laws(StudyOptions& study, const std::vector<OwnLawSettings>& laws) {
-  study.own = laws;
-  for (const OwnLawSettings& law : laws)
+void add_plugin_laws(StudyOptions& study, const std::vector<PluginLawSettings>& laws) {
+  study.plugin_laws = laws;
+  for (const PluginLawSettings& law : laws)
     if (!law.relaxation.empty()) study.peers.push_back(peer_of(law));
   if (study.problems.empty()) study.problems = problems_of(laws);
 }
 
-Peer peer_of(const OwnLawSettings& law) {
+Peer peer_of(const PluginLawSettings& law) {
   return {series_of(law), [law](HeightField& bed, double talus_angle) {
             Scene scene;
-            scene.own = law;
+            scene.plugin_laws = law;
             scene.bed.cols = bed.cols(), scene.bed.rows = bed.rows();
             scene.bed.width = bed.cols() * bed.cell_size(), scene.bed.depth = bed.rows() * bed.cell_size();
             scene.relaxation.talus_angle = talus_angle;

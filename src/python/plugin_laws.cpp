@@ -1,4 +1,4 @@
-#include "python/own_laws.h"
+#include "python/plugin_laws.h"
 
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>
@@ -11,7 +11,7 @@
 #include "core/error.h"
 #include "python/arrays.h"
 #include "python/errors.h"
-#include "sim/own_laws.h"
+#include "sim/plugin_laws.h"
 
 namespace sandstroke {
 namespace {
@@ -60,7 +60,7 @@ py::dict numbers_of(const Scene& scene, double cell_size) {
   using namespace py::literals;
   return py::dict("cell_size"_a = cell_size, "talus_slope"_a = talus_slope(scene.relaxation.talus_angle),
                   "tolerance"_a = scene.relaxation.tolerance, "radius"_a = scene.tool.radius,
-                  "servo_rate"_a = scene.device.servo_rate, "parameters"_a = scene.own.parameters);
+                  "servo_rate"_a = scene.device.servo_rate, "parameters"_a = scene.plugin_laws.parameters);
 }
 
 class PythonRelaxer : public Relaxer {
@@ -167,27 +167,27 @@ class PythonForce : public ToolForce {
 
 SceneHere with_python_laws(SceneHere here, const py::dict& laws) {
   if (laws.empty()) return here;
-  OwnLawSettings& own = here.scene.own;
-  if (!own.plugin.empty())
+  PluginLawSettings& plugin_laws = here.scene.plugin_laws;
+  if (!plugin_laws.plugin.empty())
     throw_input_error("laws: the scene already has laws from model.plugin; remove one of the two");
-  auto made = std::make_shared<OwnLaws>();
+  auto made = std::make_shared<PluginLaws>();
   for (const auto& [key, function] : laws) {
     const auto kind = key.cast<std::string>();
     const std::string name = py::str(py::getattr(function, "__name__", py::str("law")));
     if (!PyCallable_Check(function.ptr())) throw_input_error("laws: {} is not a function", kind);
     const Function law(py::reinterpret_borrow<py::object>(function));
     if (kind == "relaxation") {
-      own.relaxation = name;
+      plugin_laws.relaxation = name;
       made->relaxations[name] = [law](const Scene& scene, double cell_size) {
         return std::make_unique<PythonRelaxer>(law, scene, cell_size);
       };
     } else if (kind == "displacement") {
-      own.displacement = name;
+      plugin_laws.displacement = name;
       made->displacements[name] = [law](const Scene& scene, double cell_size) {
         return std::make_unique<PythonDisplacer>(law, scene, cell_size);
       };
     } else if (kind == "force") {
-      own.force = name;
+      plugin_laws.force = name;
       made->forces[name] = [law](const Scene& scene, double cell_size) {
         return std::make_unique<PythonForce>(law, scene, cell_size);
       };
@@ -195,7 +195,7 @@ SceneHere with_python_laws(SceneHere here, const py::dict& laws) {
       throw_input_error("laws: unknown kind '{}'; use relaxation, displacement or force", kind);
     }
   }
-  own.laws = std::move(made);
+  plugin_laws.laws = std::move(made);
   return here;
 }
 

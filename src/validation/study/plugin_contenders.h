@@ -12,19 +12,20 @@ namespace sandstroke {
 
 /// Lists the laws of a loaded plugin one by one: each result sets one of the keys relaxation, displacement
 /// and force. names: the laws to list; empty: all. Error: input, for a name that no law has.
-std::vector<OwnLawSettings> single_laws(const OwnLawSettings& plugin, const std::vector<std::string>& names);
+std::vector<PluginLawSettings> single_laws(const PluginLawSettings& plugin,
+                                           const std::vector<std::string>& names);
 
 /// "plugin: NAME", the law's name in charts.
-std::string series_of(const OwnLawSettings& law);
+std::string series_of(const PluginLawSettings& law);
 
 /// The problems in which plugin laws take part: the heaps, a stroke, a plunge.
-std::vector<std::string> problems_of(const std::vector<OwnLawSettings>& laws);
+std::vector<std::string> problems_of(const std::vector<PluginLawSettings>& laws);
 
 /// Adds plugin laws to a bench. If it names no problems, it gets those of problems_of().
-void add_own_laws(StudyOptions& study, const std::vector<OwnLawSettings>& laws);
+void add_plugin_laws(StudyOptions& study, const std::vector<PluginLawSettings>& laws);
 
 /// A plugin's law of relaxation, for heaps. A SandWatch checks its sand.
-Peer peer_of(const OwnLawSettings& law);
+Peer peer_of(const PluginLawSettings& law);
 
 /// Computes the truth for contenders when it is first asked for. So a law that fails there fails only its own
 /// contenders. For one thread.

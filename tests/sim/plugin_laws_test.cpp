@@ -1,4 +1,4 @@
-#include "sim/own_laws.h"
+#include "sim/plugin_laws.h"
 
 #include <gtest/gtest.h>
 
@@ -77,11 +77,11 @@ class ForceThatHears : public ToolForce {
   Wrench wrench_;
 };
 
-Scene scene_with_laws(const OwnLaws& laws) {
+Scene scene_with_laws(const PluginLaws& laws) {
   Scene scene;
   scene.bed.width = scene.bed.depth = 0.12;
   scene.bed.cols = scene.bed.rows = 60;
-  scene.own.laws = std::make_shared<OwnLaws>(laws);
+  scene.plugin_laws.laws = std::make_shared<PluginLaws>(laws);
   return scene;
 }
 
@@ -104,8 +104,8 @@ EndOfRun run_drag(const Scene& scene) {
   return {simulation.bed().grid(), result};
 }
 
-TEST(OwnLaws, TheProgramsOwnLawsUnderAnotherNameGiveTheSameBits) {
-  OwnLaws laws;
+TEST(PluginLaws, TheProgramsOwnLawsUnderAnotherNameGiveTheSameBits) {
+  PluginLaws laws;
   laws.relaxations["borrowed"] = [](const Scene& scene, double cell_size) {
     return std::make_unique<BorrowedLaw>(scene.relaxation, cell_size);
   };
@@ -117,7 +117,7 @@ TEST(OwnLaws, TheProgramsOwnLawsUnderAnotherNameGiveTheSameBits) {
     scene.preset = preset;
     apply_model_preset(scene);
     const EndOfRun theirs = run_drag(scene);
-    scene.own.relaxation = scene.own.displacement = "borrowed";
+    scene.plugin_laws.relaxation = scene.plugin_laws.displacement = "borrowed";
     const EndOfRun own = run_drag(scene);
     EXPECT_TRUE((own.heights == theirs.heights).all());
     EXPECT_EQ(own.result.moved_volume, theirs.result.moved_volume);
@@ -125,16 +125,16 @@ TEST(OwnLaws, TheProgramsOwnLawsUnderAnotherNameGiveTheSameBits) {
   }
 }
 
-TEST(OwnLaws, AForceIsToldOfEachTickInContactAndGivesTheDeviceItsOwn) {
+TEST(PluginLaws, AForceIsToldOfEachTickInContactAndGivesTheDeviceItsOwn) {
   Heard heard;
   Wrench wrench;
   wrench.force = {3.0, 0.0, 4.0};
-  OwnLaws laws;
+  PluginLaws laws;
   laws.forces["constant"] = [&](const Scene&, double) {
     return std::make_unique<ForceThatHears>(heard, wrench);
   };
   Scene scene = scene_with_laws(laws);
-  scene.own.force = "constant";
+  scene.plugin_laws.force = "constant";
   scene.device.max_force = 0.0;
   const RunResult unlimited = run_drag(scene).result;
   EXPECT_EQ(heard.felt, unlimited.contact_ticks);
@@ -146,8 +146,8 @@ TEST(OwnLaws, AForceIsToldOfEachTickInContactAndGivesTheDeviceItsOwn) {
   EXPECT_DOUBLE_EQ(run_drag(scene).result.device.max_force, 2.5);
 }
 
-TEST(OwnLaws, MakersAreGivenTheSceneAndTheBedsCells) {
-  OwnLaws laws;
+TEST(PluginLaws, MakersAreGivenTheSceneAndTheBedsCells) {
+  PluginLaws laws;
   Scene seen;
   double cell = 0.0;
   laws.relaxations["borrowed"] = [&](const Scene& scene, double cell_size) {
@@ -155,35 +155,35 @@ TEST(OwnLaws, MakersAreGivenTheSceneAndTheBedsCells) {
     return std::make_unique<BorrowedLaw>(scene.relaxation, cell_size);
   };
   Scene scene = scene_with_laws(laws);
-  scene.own.relaxation = "borrowed";
-  scene.own.parameters = {1.0, 2.0, 3.0, 4.0};
+  scene.plugin_laws.relaxation = "borrowed";
+  scene.plugin_laws.parameters = {1.0, 2.0, 3.0, 4.0};
   scene.relaxation.talus_angle = 41.0;
   Simulation(scene, HeightField(10, 10, 0.5), std::nullopt);
   EXPECT_EQ(cell, 0.5);
-  EXPECT_EQ(seen.own.parameters, scene.own.parameters);
+  EXPECT_EQ(seen.plugin_laws.parameters, scene.plugin_laws.parameters);
   EXPECT_EQ(seen.relaxation.talus_angle, 41.0);
 }
 
-TEST(OwnLaws, ANameThatIsNotThereIsRefusedWithThoseThatAre) {
+TEST(PluginLaws, ANameThatIsNotThereIsRefusedWithThoseThatAre) {
   Scene scene = scene_with_laws({});
   const auto begin = [&] { Simulation(scene, starting_bed(scene.bed), down_and_along()); };
-  scene.own.plugin = "laws.so";
-  scene.own.relaxation = "slow";
+  scene.plugin_laws.plugin = "laws.so";
+  scene.plugin_laws.relaxation = "slow";
   EXPECT_EQ(refusal_of(begin), "laws.so: has no relaxation 'slow' (model.relaxation); it has none at all");
-  OwnLaws laws;
+  PluginLaws laws;
   const auto none = [](const Scene&, double) { return nullptr; };
   laws.relaxations["fast"] = laws.relaxations["fair"] = none;
-  scene.own.laws = std::make_shared<OwnLaws>(laws);
+  scene.plugin_laws.laws = std::make_shared<PluginLaws>(laws);
   EXPECT_EQ(refusal_of(begin),
             "laws.so: has no relaxation 'slow' (model.relaxation); take one of: fair, fast");
-  scene.own.relaxation = "fast";
+  scene.plugin_laws.relaxation = "fast";
   EXPECT_TRUE(says(refusal_of(begin), "laws.so: relaxation 'fast' was not made"));
-  scene.own.laws = nullptr;
+  scene.plugin_laws.laws = nullptr;
   EXPECT_TRUE(says(refusal_of(begin), "name its file: model.plugin"));
 }
 
-TEST(OwnLaws, WhatALawThrowsNamesIt) {
-  OwnLaws laws;
+TEST(PluginLaws, WhatALawThrowsNamesIt) {
+  PluginLaws laws;
   laws.displacements["thrown"] = [](const Scene&, double) -> std::unique_ptr<Displacer> {
     throw std::runtime_error("no table");
   };
@@ -193,11 +193,11 @@ TEST(OwnLaws, WhatALawThrowsNamesIt) {
   };
   Scene scene = scene_with_laws(laws);
   const auto begin = [&] { Simulation(scene, starting_bed(scene.bed), down_and_along()); };
-  scene.own.displacement = "thrown";
+  scene.plugin_laws.displacement = "thrown";
   EXPECT_EQ(refusal_of(begin), "displacement 'thrown' failed: no table; correct the law");
-  scene.own.displacement = "number";
+  scene.plugin_laws.displacement = "number";
   EXPECT_TRUE(says(refusal_of(begin), "displacement 'number' failed"));
-  scene.own.displacement = "sentence";
+  scene.plugin_laws.displacement = "sentence";
   EXPECT_EQ(refusal_of(begin), "model.parameters[0] = 0 is no length");
 }
 
