@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "sand/whole_bed_relaxer.h"
 #include "sim/plugin.h"
 
 using namespace sandstroke;
@@ -14,59 +15,47 @@ double or_else(double parameter, double usual) { return parameter > 0.0 ? parame
 
 /// The slope of a cell towards its lower neighbours; where it is too steep, each gets its share of the
 /// excess.
-class PlainPasses : public Relaxer {
+class PlainPasses : public WholeBedRelaxer {
  public:
   PlainPasses(const Scene& scene, double cell_size)
-      : drop_(talus_slope(scene.relaxation.talus_angle) * cell_size),
+      : WholeBedRelaxer(scene.relaxation.max_passes),
+        drop_(talus_slope(scene.relaxation.talus_angle) * cell_size),
         tolerance_(scene.relaxation.tolerance),
-        share_(or_else(scene.plugin_laws.parameters[0], 0.25)),
-        max_passes_(scene.relaxation.max_passes) {}
+        share_(or_else(scene.plugin_laws.parameters[0], 0.25)) {}
 
-  RelaxationOutcome relax(HeightField& bed, const PassWatcher& after_pass) override {
-    HeightGrid heights = bed.grid();
-    RelaxationOutcome outcome;
-    while (!outcome.converged && outcome.passes < max_passes_) {
-      const HeightGrid before = heights;
-      outcome.residual = 0.0;
-      for (int row = 0; row < bed.rows(); ++row)
-        for (int col = 0; col < bed.cols(); ++col)
-          if (!bed.is_held(row, col)) slip(bed, before, row, col, heights, outcome);
-      outcome.cells_visited += heights.size();
-      outcome.converged = outcome.residual <= tolerance_;
-      if (outcome.converged) break;  // what was looked at last is at rest
-      ++outcome.passes;
-      after_pass(outcome.passes, [&]() -> const HeightField& { return bed; });
-    }
-    for (int row = 0; row < bed.rows(); ++row)
-      for (int col = 0; col < bed.cols(); ++col)
-        if (bed(row, col) != heights(row, col)) bed.set(row, col, heights(row, col));
-    return outcome;
+ protected:
+  TalusPass pass(const HeightGrid& heights, const WallGrid& walls, CompensatedSum& moved) const override {
+    TalusPass pass{heights, false, 0.0};
+    for (int row = 0; row < heights.rows(); ++row)
+      for (int col = 0; col < heights.cols(); ++col)
+        if (!walls(row, col)) relax(heights, walls, row, col, pass, moved);
+    return pass;
   }
 
  private:
-  void slip(const HeightField& bed, const HeightGrid& before, int row, int col, HeightGrid& heights,
-            RelaxationOutcome& outcome) const {
+  void relax(const HeightGrid& heights, const WallGrid& walls, int row, int col, TalusPass& pass,
+             CompensatedSum& moved) const {
     double drops[4], steepest[2] = {0.0, 0.0};
     for (int side = 0; side < 4; ++side) {
       const int i = row + (side == 2) - (side == 3), j = col + (side == 0) - (side == 1);
-      const bool wall = i < 0 || j < 0 || i >= bed.rows() || j >= bed.cols() || bed.is_held(i, j);
-      drops[side] = wall ? 0.0 : before(row, col) - before(i, j);
+      const bool wall = i < 0 || j < 0 || i >= heights.rows() || j >= heights.cols() || walls(i, j);
+      drops[side] = wall ? 0.0 : heights(row, col) - heights(i, j);
       steepest[side / 2] = std::max(steepest[side / 2], drops[side]);
     }
     const double slope = std::hypot(steepest[0], steepest[1]);
+    pass.residual = std::max(pass.residual, slope / drop_ - 1.0);
     if (slope <= drop_ * (1.0 + tolerance_)) return;
-    outcome.residual = std::max(outcome.residual, slope / drop_ - 1.0);
+    pass.flows = true;
     for (int side = 0; side < 4; ++side) {
       if (drops[side] <= 0.0) continue;
       const double amount = share_ * (1.0 - drop_ / slope) * drops[side];
-      heights(row, col) -= amount;
-      heights(row + (side == 2) - (side == 3), col + (side == 0) - (side == 1)) += amount;
-      outcome.moved_volume += amount * bed.cell_area();
+      pass.heights(row, col) -= amount;
+      pass.heights(row + (side == 2) - (side == 3), col + (side == 0) - (side == 1)) += amount;
+      moved.add(amount);
     }
   }
 
   double drop_, tolerance_, share_;
-  std::int64_t max_passes_;
 };
 
 /// All sand in the tool's way goes onto the cells beside it that lie ahead of its motion, each as much.

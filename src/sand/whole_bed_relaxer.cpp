@@ -1,0 +1,68 @@
+#include "sand/whole_bed_relaxer.h"
+
+#include "core/interrupt.h"
+#include "sand/active_sand.h"
+
+namespace sandstroke {
+namespace {
+
+void write_back(const HeightGrid& heights, HeightField& bed) {
+  for (int row = 0; row < bed.rows(); ++row)
+    for (int col = 0; col < bed.cols(); ++col)
+      if (bed(row, col) != heights(row, col)) bed.set(row, col, heights(row, col));
+}
+
+/// The rule as it is written down. The other relaxers are held to it.
+class PlainRelaxer : public WholeBedRelaxer {
+ public:
+  PlainRelaxer(const RelaxationSettings& settings, double cell_size)
+      : WholeBedRelaxer(settings.max_passes), law_(talus_law(settings, cell_size)) {}
+
+ protected:
+  TalusPass pass(const HeightGrid& heights, const WallGrid& walls, CompensatedSum& moved) const override {
+    return talus_pass(heights, walls, law_, moved);
+  }
+
+ private:
+  TalusLaw law_;
+};
+
+}  // namespace
+
+RelaxationOutcome WholeBedRelaxer::relax(HeightField& bed, const PassWatcher& after_pass) {
+  RelaxationOutcome outcome;
+  outcome.tiles_active_max = bed.tile_count();
+  HeightGrid heights = bed.grid();
+  WallGrid walls(bed.rows(), bed.cols());
+  for (int row = 0; row < bed.rows(); ++row)
+    for (int col = 0; col < bed.cols(); ++col) walls(row, col) = bed.is_held(row, col);
+  const BedNow bed_now = [&]() -> const HeightField& {
+    write_back(heights, bed);
+    return bed;
+  };
+  CompensatedSum moved;
+  while (true) {
+    CompensatedSum moved_then = moved;
+    TalusPass next = pass(heights, walls, moved_then);
+    outcome.cells_visited += heights.size();
+    outcome.residual = next.residual;
+    outcome.converged = !next.flows;
+    if (outcome.converged || outcome.passes == max_passes_ || interrupted()) break;
+    moved = moved_then;
+    outcome.converged = (next.heights == heights).all();  // what still flows is below rounding
+    if (outcome.converged) break;
+    heights.swap(next.heights);
+    ++outcome.passes;
+    if (after_pass) after_pass(outcome.passes, bed_now);
+  }
+  outcome.moved_volume = moved.value() * bed.cell_area();
+  write_back(heights, bed);
+  bed.clear_disturbed();
+  return outcome;
+}
+
+std::unique_ptr<Relaxer> make_plain_relaxer(const RelaxationSettings& settings, double cell_size) {
+  return std::make_unique<PlainRelaxer>(settings, cell_size);
+}
+
+}  // namespace sandstroke
