@@ -21,28 +21,32 @@ RingFront front_of(const Eigen::Vector3d& motion, Deposit deposit) {
 /// are exact, and so the same in any order: a symmetric tool leaves symmetric sand.
 double rounding_shift(double whole) { return std::scalbn(3.0, std::ilogb(whole) + 1); }
 
-/// dig() for any tool but the sphere: it deposits outward only.
-double dig_any(const HeightField& bed, ToolFootprint& footprint, double tip_height, double distance) {
-  const double pushed = footprint.carve(tip_height);
-  if (pushed == 0.0 || !std::isfinite(pushed)) return pushed;
+/// Displaces with any tool but the sphere, which deposits outward only. Returns the sum of heights moved [m].
+double displace_any(const HeightField& bed, ToolFootprint& footprint, double tip_height, double distance) {
+  const double carved = footprint.carve(tip_height);
+  if (carved == 0.0 || !std::isfinite(carved)) return carved;
   const double spread =
-      spread_outward(footprint, {distance, rounding_shift(pushed), footprint.way_out(distance)});
-  if (spread > 0.0) return heap(footprint, pushed / spread, false), pushed;
-  footprint.read_heights(bed);  // all cells around are tool or wall
-  return 0.0;
+      spread_outward(footprint, {distance, rounding_shift(carved), footprint.way_out(distance)});
+  if (spread <= 0.0) {
+    footprint.read_heights(bed);  // all cells around are tool or wall
+    return 0.0;
+  }
+  deposit(footprint, carved / spread, false);
+  return carved;
 }
 
-/// Carves the sand and deposits it where the settings say. Returns the sum of heights moved [m], 0 if none
-/// moved.
-double dig(const HeightField& bed, ToolFootprint& footprint, double tip_height, const Eigen::Vector3d& motion,
-           const DisplacementSettings& settings) {
-  if (!footprint.is_sphere()) return dig_any(bed, footprint, tip_height, settings.distance);
+/// Displaces with the sphere. Returns the sum of heights moved [m], 0 if none moved.
+double displace_sphere(const HeightField& bed, ToolFootprint& footprint, double tip_height,
+                       const Eigen::Vector3d& motion, const DisplacementSettings& settings) {
   if (settings.deposit == Deposit::outward) {
-    const double pushed = carve(footprint.shape(), footprint, tip_height);
-    if (pushed == 0.0) return 0.0;
-    const Outward outward{settings.distance * footprint.radius(), rounding_shift(pushed)};
-    const double spread = std::isfinite(pushed) ? spread_outward(footprint, outward) : 0.0;
-    if (spread > 0.0) return heap(footprint, pushed / spread, false), pushed;
+    const double carved = carve(footprint.shape(), footprint, tip_height);
+    if (carved == 0.0) return 0.0;
+    const Outward outward{settings.distance * footprint.radius(), rounding_shift(carved)};
+    const double spread = std::isfinite(carved) ? spread_outward(footprint, outward) : 0.0;
+    if (spread > 0.0) {
+      deposit(footprint, carved / spread, false);
+      return carved;
+    }
     footprint.read_heights(bed);  // all cells around are bowl or wall: the ring takes the sand
   }
   const Carved carved =
@@ -50,9 +54,9 @@ double dig(const HeightField& bed, ToolFootprint& footprint, double tip_height, 
   // A wall right ahead may cut off the whole front; then the rest of the ring takes the sand.
   const bool whole_ring = !(carved.front_weight > 0.0);
   const double weight = whole_ring ? carved.ring_weight : carved.front_weight;
-  if (carved.pushed == 0.0 || !(weight > 0.0)) return 0.0;
-  heap(footprint, carved.pushed / weight, whole_ring);
-  return carved.pushed;
+  if (carved.sum == 0.0 || !(weight > 0.0)) return 0.0;
+  deposit(footprint, carved.sum / weight, whole_ring);
+  return carved.sum;
 }
 
 }  // namespace
@@ -60,9 +64,10 @@ double dig(const HeightField& bed, ToolFootprint& footprint, double tip_height, 
 double displace(HeightField& bed, ToolFootprint& footprint, double tip_height, const Eigen::Vector3d& motion,
                 const DisplacementSettings& settings) {
   if (footprint.cells().empty()) return 0.0;
-  const double pushed = dig(bed, footprint, tip_height, motion, settings);
-  if (pushed > 0.0) footprint.write_flagged(bed);
-  return pushed * bed.cell_area();
+  const double moved = footprint.is_sphere() ? displace_sphere(bed, footprint, tip_height, motion, settings)
+                                             : displace_any(bed, footprint, tip_height, settings.distance);
+  if (moved > 0.0) footprint.write_flagged(bed);
+  return moved * bed.cell_area();
 }
 
 }  // namespace sandstroke

@@ -106,17 +106,17 @@ HWY_INLINE Carved carve(const FootprintShape& shape, ToolFootprint& f, double ti
   const V cell = all(f.cell_size()), drag = all(front.drag_share);
   const bool sphere = shape.profile == ToolProfile::sphere;
   const Offsets offsets(f);
-  LaneSum pushed, front_weight, ring_weight;
+  LaneSum sum, front_weight, ring_weight;
   for (int row = 0; row < f.cells().rows(); ++row) {
     const V y = all(offsets.y(row)), y2 = y * y, ahead_y = all(offsets.y(row) * front.direction.y());
     const ColumnRange sand = f.sand_cols(row);
-    double *heights = f.heights(row), *undersides = f.underside(row), *ramparts = f.rampart(row),
+    double *heights = f.heights(row), *undersides = f.underside(row), *ring_weights = f.ring_weight(row),
            *weights = f.weights(row);
     unsigned char* flags = f.flags(row);
     std::fill_n(flags, f.stride() / group, static_cast<unsigned char>(0));
     for (int col = 0, end = f.stride(); col < end; col += lanes) {
       const V x = offsets.x(sand, col), rho2 = x * x + y2;
-      V underside = infinite, takes = where(rho2 < infinite, one), rampart = zero;
+      V underside = infinite, takes = where(rho2 < infinite, one), on_ring = zero;
       if (sphere && hn::AllTrue(d, rho2 <= under)) {
         underside = R - Sqrt(R2 - rho2);
         takes = zero;
@@ -126,7 +126,7 @@ HWY_INLINE Carved carve(const FootprintShape& shape, ToolFootprint& f, double ti
         // The root's argument may fall below 0 by rounding at the rim.
         underside = hn::IfThenElse(bowl, sphere ? R - Sqrt(Max(R2 - rho2, zero)) : a * sin_u, infinite);
         takes = hn::IfThenZeroElse(bowl, takes);
-        if (ring) rampart = where(hn::And(u > u0, u <= u1), Max(sin_u - offset, zero));
+        if (ring) on_ring = where(hn::And(u > u0, u <= u1), Max(sin_u - offset, zero));
       }
       hn::Store(underside, d, undersides + col);
       const V height = hn::Load(d, heights + col);
@@ -135,26 +135,26 @@ HWY_INLINE Carved carve(const FootprintShape& shape, ToolFootprint& f, double ti
       if (!hn::AllFalse(d, cut)) {
         hn::Store(height - excess, d, heights + col);
         hn::Store(excess, d, f.excess(row) + col);
-        pushed.add(col, excess);
+        sum.add(col, excess);
         set_flags(flags, col, cut);
       }
       if (!ring) {
         hn::Store(takes, d, f.takes(row) + col);
         continue;
       }
-      V weight = rampart;
-      const Mask in_ring = rampart > zero;  // elsewhere offsets may be infinite
+      V weight = on_ring;
+      const Mask in_ring = on_ring > zero;  // elsewhere offsets may be infinite
       if (front.drag_share > 0.0 && !hn::AllFalse(d, in_ring)) {
         const V p = x * all(front.direction.x()) + ahead_y;
-        weight = where(in_ring, rampart * (one - drag * (one - clamped(p / cell + half))));
+        weight = where(in_ring, on_ring * (one - drag * (one - clamped(p / cell + half))));
       }
-      hn::Store(rampart, d, ramparts + col);
+      hn::Store(on_ring, d, ring_weights + col);
       hn::Store(weight, d, weights + col);
       front_weight.add(col, weight);
-      ring_weight.add(col, rampart);
+      ring_weight.add(col, on_ring);
     }
   }
-  return {pushed.total(), front_weight.total(), ring_weight.total()};
+  return {sum.total(), front_weight.total(), ring_weight.total()};
 }
 
 Carved CarveForRing(const FootprintShape& shape, ToolFootprint& f, double tip_height,
@@ -162,7 +162,7 @@ Carved CarveForRing(const FootprintShape& shape, ToolFootprint& f, double tip_he
   return carve<true>(shape, f, tip_height, front);
 }
 double CarveOnly(const FootprintShape& shape, ToolFootprint& f, double tip_height) {
-  return carve<false>(shape, f, tip_height, {0.0, Eigen::Vector2d::Zero()}).pushed;
+  return carve<false>(shape, f, tip_height, {0.0, Eigen::Vector2d::Zero()}).sum;
 }
 
 CarvedUnder CarveUnder(const EnvelopePlace& envelope, ToolFootprint& f, double tip_height) {
@@ -172,7 +172,7 @@ CarvedUnder CarveUnder(const EnvelopePlace& envelope, ToolFootprint& f, double t
   // carve finds nothing to cut.
   const V shift = all(std::scalbn(1.5 * 0x1p12, std::ilogb(f.cell_size()))),
           nearly = all(-0x1p-38 * f.cell_size());
-  LaneSum pushed;
+  LaneSum sum;
   V highest = all(-std::numeric_limits<double>::infinity());
   for (int row = 0; row < f.cells().rows(); ++row) {
     const ColumnRange sand = f.sand_cols(row);
@@ -198,11 +198,11 @@ CarvedUnder CarveUnder(const EnvelopePlace& envelope, ToolFootprint& f, double t
       if (hn::AllFalse(d, cut)) continue;
       hn::Store(height - excess, d, heights + col);
       hn::Store(excess, d, f.excess(row) + col);
-      pushed.add(col, excess);
+      sum.add(col, excess);
       set_flags(flags, col, cut);
     }
   }
-  return {pushed.total(), largest(highest)};
+  return {sum.total(), largest(highest)};
 }
 
 void CoverUpTo(ToolFootprint& f, double height) {
@@ -313,9 +313,9 @@ double SpreadOutward(ToolFootprint& f, const Outward& outward) {
   return sum;
 }
 
-void Heap(ToolFootprint& f, double rise, bool whole_ring) {
+void DepositWeights(ToolFootprint& f, double rise, bool whole_ring) {
   for (int row = 0; row < f.cells().rows(); ++row) {
-    const double* weights = whole_ring ? f.rampart(row) : f.weights(row);
+    const double* weights = whole_ring ? f.ring_weight(row) : f.weights(row);
     for (int col = 0; col < f.stride(); col += lanes) {
       const V weight = hn::Load(d, weights + col);
       const Mask heaped = weight > hn::Zero(d);
@@ -340,7 +340,7 @@ HWY_EXPORT(CarveForRing);
 HWY_EXPORT(CarveUnder);
 HWY_EXPORT(CoverUpTo);
 HWY_EXPORT(SpreadOutward);
-HWY_EXPORT(Heap);
+HWY_EXPORT(DepositWeights);
 
 double level_of(const FootprintShape& shape, const ToolFootprint& footprint) {
   return HWY_DYNAMIC_DISPATCH(LevelOf)(shape, footprint);
@@ -361,8 +361,8 @@ void cover_up_to(ToolFootprint& footprint, double height) {
 double spread_outward(ToolFootprint& footprint, const Outward& outward) {
   return HWY_DYNAMIC_DISPATCH(SpreadOutward)(footprint, outward);
 }
-void heap(ToolFootprint& footprint, double rise, bool whole_ring) {
-  HWY_DYNAMIC_DISPATCH(Heap)(footprint, rise, whole_ring);
+void deposit(ToolFootprint& footprint, double rise, bool whole_ring) {
+  HWY_DYNAMIC_DISPATCH(DepositWeights)(footprint, rise, whole_ring);
 }
 
 }  // namespace sandstroke

@@ -13,32 +13,33 @@ namespace sandstroke {
 double level_of(const FootprintShape& shape, const ToolFootprint& footprint);
 
 // First pass (carve): fills underside() and takes(), lowers heights() to the underside of a tool whose tip is
-// at tip_height [m], flags the lowered cells, and keeps their excess(). pushed: the sum of heights taken out
+// at tip_height [m], flags the lowered cells, and keeps their excess(). sum: the sum of heights taken out
 // [m].
 
-/// Carves only, and returns `pushed`: for a sphere whose sand goes outward, or that only stands there
+/// Carves only, and returns `sum`: for a sphere whose sand goes outward, or that only stands there
 /// (tip_height infinite).
 double carve(const FootprintShape& shape, ToolFootprint& footprint, double tip_height);
 
 /// The part of the ring that a motion fills: all of it if drag_share is 0, its front half if it is 1. A cell
-/// p [m] ahead of the axis keeps the fraction 1 - drag_share (1 - clamp(p / dx + 1/2, 0, 1)) of its rampart.
+/// p [m] ahead of the axis keeps the fraction 1 - drag_share (1 - clamp(p / dx + 1/2, 0, 1)) of its
+/// ring_weight.
 struct RingFront {
   double drag_share;
   Eigen::Vector2d direction;  ///< of the drag, a unit vector
 };
 struct Carved {
-  double pushed;
+  double sum;
   double front_weight;  ///< sum of weights() over the ring
-  double ring_weight;   ///< sum of rampart()
+  double ring_weight;   ///< sum of ring_weight()
 };
-/// Carves, and fills rampart() and, with the part of it that the motion fills, weights().
+/// Carves, and fills ring_weight() and, with the part of it that the motion fills, weights().
 Carved carve_for_ring(const FootprintShape& shape, ToolFootprint& footprint, double tip_height,
                       const RingFront& front);
 
 /// Result of carve_under, which carves with any tool by its envelope; underside() is infinite beside the
 /// footprint. highest [m above the tip]: the highest point that touched sand, -infinity if none did.
 struct CarvedUnder {
-  double pushed, highest;
+  double sum, highest;
 };
 CarvedUnder carve_under(const EnvelopePlace& envelope, ToolFootprint& footprint, double tip_height);
 /// Keeps underside() where it is no higher than `height` [m above the tip]. Elsewhere it becomes infinite,
@@ -57,7 +58,7 @@ struct Outward {
 /// sum.
 double spread_outward(ToolFootprint& footprint, const Outward& outward);
 
-/// Second pass (deposit): heights() += rise x weights() (or the rampart). Flags the raised cells.
-void heap(ToolFootprint& footprint, double rise, bool whole_ring);
+/// Second pass (deposit): heights() += rise x weights() (or the ring_weight). Flags the raised cells.
+void deposit(ToolFootprint& footprint, double rise, bool whole_ring);
 
 }  // namespace sandstroke

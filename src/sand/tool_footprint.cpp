@@ -147,7 +147,7 @@ double ToolFootprint::carve(double tip_height) {
   touches_ = std::isfinite(carved.highest);
   covered_ = covered_height(tip_height, carved.highest);
   cover_up_to(*this, covered_);
-  return carved.pushed;
+  return carved.sum;
 }
 
 void ToolFootprint::meet(const HeightField& bed, double tip_height) {
@@ -176,7 +176,7 @@ void ToolFootprint::make_room() {
   // Takes room for one row and one group more: the window may grow so as the tool moves, and a servo loop
   // must not allocate memory.
   room_ = static_cast<std::size_t>(cells_.rows() + 1) * (stride_ + cells_per_group);
-  for (auto* memory : {&heights_, &underside_, &takes_, &rampart_, &weights_, &excess_}) {
+  for (auto* memory : {&heights_, &underside_, &takes_, &ring_weight_, &weights_, &excess_}) {
     *memory = hwy::AllocateAligned<double>(room_);
     std::fill_n(memory->get(), room_, 0.0);
   }

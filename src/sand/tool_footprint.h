@@ -105,8 +105,8 @@ class ToolFootprint {
   double* takes(int row) { return takes_.get() + at(row); }
   const double* takes(int row) const { return takes_.get() + at(row); }
   /// Positive filter sin(u) - 0.53; 0 outside the ring (u0 < u <= u1).
-  double* rampart(int row) { return rampart_.get() + at(row); }
-  const double* rampart(int row) const { return rampart_.get() + at(row); }
+  double* ring_weight(int row) { return ring_weight_.get() + at(row); }
+  const double* ring_weight(int row) const { return ring_weight_.get() + at(row); }
   // Data of one displacement (displace): the weight of each cell in the deposit, and a flag for each cell
   // whose height was changed here (a byte per group). write_flagged writes the flagged cells to the bed.
   double* weights(int row) { return weights_.get() + at(row); }
@@ -170,7 +170,7 @@ class ToolFootprint {
   int stride_ = 0;
   double axis_x_ = 0.0, axis_y_ = 0.0, first_x_ = 0.0, first_y_ = 0.0, level_;
   std::size_t room_ = 0;
-  hwy::AlignedFreeUniquePtr<double[]> heights_, underside_, takes_, rampart_, weights_, excess_;
+  hwy::AlignedFreeUniquePtr<double[]> heights_, underside_, takes_, ring_weight_, weights_, excess_;
   std::vector<RowCells> bowl_;  // buffer of hold_bowl()
   hwy::AlignedFreeUniquePtr<unsigned char[]> flags_;
 };

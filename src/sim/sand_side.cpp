@@ -51,7 +51,7 @@ double SandSide::displace_sand(HeightField& bed, const Eigen::Vector3d& tip, con
   return plugin_law_->displace(bed, footprint_, tip.z(), motion);
 }
 
-Interaction SandSide::dig(HeightField& bed, const Eigen::Vector3d& tip, const Eigen::Vector3d& motion) {
+Interaction SandSide::displace_at(HeightField& bed, const Eigen::Vector3d& tip, const Eigen::Vector3d& motion) {
   Interaction interaction = look(bed, tip);
   // Any tool but the sphere may meet a heap beside the level around it.
   if (interaction.contact || !footprint_.is_sphere())
@@ -83,14 +83,14 @@ Interaction SandSide::move(HeightField& bed, const Eigen::Vector3d& read_tip, co
     while (const std::optional<double> share = by_way_.way_to_next(from, steps.at(i) - from)) {
       if (interrupted()) break;
       from += *share * (steps.at(i) - from);
-      on_the_way += dig(bed, from, steps.way).displaced_volume;
+      on_the_way += displace_at(bed, from, steps.way).displaced_volume;
       relax();
     }
     if (i == steps.count) break;
-    on_the_way += dig(bed, steps.at(i), steps.way).displaced_volume;
+    on_the_way += displace_at(bed, steps.at(i), steps.way).displaced_volume;
     if (relaxation_is_due()) relax();
   }
-  Interaction interaction = dig(bed, read_tip, motion);
+  Interaction interaction = displace_at(bed, read_tip, motion);
   if (relaxation_is_due()) relax();
   interaction.displaced_volume += on_the_way;
   last_tip_ = true_tip;

@@ -75,7 +75,7 @@ class SandSide {
  private:
   /// The way [m] that the tool may go until the next relaxation.
   double way_to_next_relaxation(const HeightField& bed);
-  Interaction dig(HeightField& bed, const Eigen::Vector3d& tip, const Eigen::Vector3d& motion);
+  Interaction displace_at(HeightField& bed, const Eigen::Vector3d& tip, const Eigen::Vector3d& motion);
   /// The volume moved [m^3].
   double displace_sand(HeightField& bed, const Eigen::Vector3d& tip, const Eigen::Vector3d& motion);
 

@@ -13,7 +13,7 @@ namespace {
 constexpr double radius = 0.01;
 constexpr double high_above = 1.0;  // m, height of a tip that carves nothing
 
-/// Calls body(distance to the tool's axis, underside, rampart) for each cell of the footprint, and checks
+/// Calls body(distance to the tool's axis, underside, ring_weight) for each cell of the footprint, and checks
 /// that entries beyond its columns have no weight.
 template <class Body>
 void for_each_cell(const HeightField& bed, ToolFootprint& footprint, const Body& body) {
@@ -24,10 +24,10 @@ void for_each_cell(const HeightField& bed, ToolFootprint& footprint, const Body&
       const double x = (footprint.first_x() + c - footprint.axis_x()) * bed.cell_size();
       const double y = (footprint.first_y() + r - footprint.axis_y()) * bed.cell_size();
       if (c < cells.cols()) {
-        body(std::sqrt(x * x + y * y), footprint.underside(r)[c], footprint.rampart(r)[c]);
+        body(std::sqrt(x * x + y * y), footprint.underside(r)[c], footprint.ring_weight(r)[c]);
       } else {
         EXPECT_TRUE(std::isinf(footprint.underside(r)[c]));
-        EXPECT_EQ(footprint.rampart(r)[c], 0.0);
+        EXPECT_EQ(footprint.ring_weight(r)[c], 0.0);
       }
     }
 }
@@ -58,11 +58,11 @@ TEST(ToolFootprint, SampledFilterSumsToZeroAsCellsShrink) {
     footprint.place(bed, 0.0, 0.0);
     const double s2 = radius * radius / filter::u0;
     double sum = 0.0, magnitude = 0.0;
-    for_each_cell(bed, footprint, [&](double rho, double underside, double rampart) {
-      if (std::isinf(underside) && rampart == 0.0) return;
+    for_each_cell(bed, footprint, [&](double rho, double underside, double ring_weight) {
+      if (std::isinf(underside) && ring_weight == 0.0) return;
       const double g = std::sin(rho * rho / s2) - 0.53;
-      if (rampart > 0.0) {
-        EXPECT_NEAR(rampart, g, 1e-15);
+      if (ring_weight > 0.0) {
+        EXPECT_NEAR(ring_weight, g, 1e-15);
       }
       sum += g;
       magnitude += std::abs(g);
@@ -76,13 +76,13 @@ TEST(ToolFootprint, BothUndersidesHaveTheSpheresCurvatureAndWidth) {
   for (const ToolProfile profile : {ToolProfile::paper, ToolProfile::sphere}) {
     ToolFootprint footprint({radius, profile});
     footprint.place(bed, 0.0, 0.0);
-    for_each_cell(bed, footprint, [&](double rho, double underside, double rampart) {
+    for_each_cell(bed, footprint, [&](double rho, double underside, double ring_weight) {
       const bool in_bowl = std::isfinite(underside);
       if (std::abs(rho - radius) > 1e-12) {
         EXPECT_EQ(in_bowl, rho < radius) << rho;
       }
       if (in_bowl) {
-        EXPECT_EQ(rampart, 0.0);
+        EXPECT_EQ(ring_weight, 0.0);
       }
       if (in_bowl && profile == ToolProfile::paper) {
         EXPECT_NEAR(underside,
