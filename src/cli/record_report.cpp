@@ -22,8 +22,8 @@ std::string force_text(double limit, const TickCounts& ticks) {
 
 std::string sand_text(const LiveSandReport& felt) {
   return fmt::format(
-      "touched in {} ticks, relaxed {} times, {}{}", felt.contact_ticks, felt.erosion.relaxations,
-      felt.erosion.converged ? "at rest" : "still relaxing at the end",
+      "touched in {} ticks, relaxed {} times, {}{}", felt.contact_ticks, felt.relaxation.relaxations,
+      felt.relaxation.converged ? "at rest" : "still relaxing at the end",
       felt.held_ticks > 0
           ? fmt::format("; in {} ticks the tool displaced no sand, because relaxation was late",
                         felt.held_ticks)
@@ -70,9 +70,9 @@ void print_recording(const RecordingReport& report, const std::optional<LiveSand
     if (felt)
       object["felt"] = {{"contact_ticks", felt->contact_ticks},
                         {"held_ticks", felt->held_ticks},
-                        {"relaxations", felt->erosion.relaxations},
-                        {"passes", felt->erosion.passes},
-                        {"converged", felt->erosion.converged}};
+                        {"relaxations", felt->relaxation.relaxations},
+                        {"passes", felt->relaxation.passes},
+                        {"converged", felt->relaxation.converged}};
     print_json(object);
     return;
   }

@@ -44,7 +44,7 @@ void RecordView::show(const ServoProgress& progress) {
 }
 
 void RecordView::end(const std::string& reason) {
-  bed_.publish(sand_->eroding_bed());
+  bed_.publish(sand_->relaxed_bed());
   server_.end(reason);
 }
 

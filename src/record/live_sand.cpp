@@ -39,7 +39,7 @@ const HeightField& checked(const Scene& scene, const HeightField& bed) {
                   "stroke.held, stroke.smooth and stroke.speed",
                   "they change a stroke that does not exist yet");
   }
-  // The servo loop and the eroder each hold their own bed, and what the other knows of it.
+  // The servo loop and the live_relaxer each hold their own bed, and what the other knows of it.
   check_memory(4.0 * bed.tile_count() * static_cast<double>(HeightField::bytes_per_tile()),
                fmt::format("live sand with bed.cells = [{}, {}]", bed.cols(), bed.rows()), "use fewer cells",
                0.5);
@@ -53,11 +53,11 @@ LiveSand::LiveSand(const Scene& scene, const HeightField& bed, const FeltDevice&
       device_(scene.device),
       placement_(point_placement(scene.stroke ? scene.stroke->placement : StrokePlacement{}, device.frame)),
       highest_(bed.highest()),
-      dug_(ring_size),
+      displaced_(ring_size),
       relaxed_(ring_size),
       places_(most_places),
       replica_(checked(scene, bed)),
-      eroder_(bed, scene.tool, scene.relaxation, dug_, places_, relaxed_),
+      relaxer_thread_(bed, scene.tool, scene.relaxation, displaced_, places_, relaxed_),
       sand_(scene.tool, scene.displacement),
       largest_force_(device_.max_force > 0.0 ? std::min(device.largest_force, device_.max_force)
                                              : device.largest_force),
@@ -70,7 +70,7 @@ LiveSand::LiveSand(const Scene& scene, const HeightField& bed, const FeltDevice&
 }
 
 void LiveSand::start() {
-  eroder_.start();
+  relaxer_thread_.start();
   if (shaper_) shaper_->start();
 }
 
@@ -158,10 +158,10 @@ FeltForce LiveSand::feel(double time, const DeviceReading& reading) noexcept {
 
   FeltForce felt;
   Interaction interaction;
-  if (dug_.room() >= changes_of_move(tip)) {
+  if (displaced_.room() >= changes_of_move(tip)) {
     interaction = sand_.move(replica_.bed(), tip, tip, {}, highest_);
     replica_.tell_disturbed([this](const SandChange& change) {
-      dug_.push(change);
+      displaced_.push(change);
       highest_ = std::max(highest_, replica_.bed()(change.row, change.col));
     });
   } else {
@@ -172,7 +172,7 @@ FeltForce LiveSand::feel(double time, const DeviceReading& reading) noexcept {
   }
   places_.push({tip, interaction.contact,
                 shaper_ ? std::optional(shaper_->rotation())
-                        : std::nullopt});  // where the ring is full the eroder knows an older place
+                        : std::nullopt});  // where the ring is full the live_relaxer knows an older place
   depth_.store(interaction.contact ? interaction.depth : std::numeric_limits<double>::quiet_NaN(),
                std::memory_order_relaxed);
   felt.is_above_or_in_sand = !is_beside(interaction, tip);
@@ -186,13 +186,13 @@ LiveSandReport LiveSand::finish() {
     shaper_->stop();
     if (shaper_->failure()) std::rethrow_exception(shaper_->failure());
   }
-  eroder_.stop();
-  if (eroder_.failure()) std::rethrow_exception(eroder_.failure());
+  relaxer_thread_.stop();
+  if (relaxer_thread_.failure()) std::rethrow_exception(relaxer_thread_.failure());
   do {
-    eroder_.exchange();
+    relaxer_thread_.exchange();
     take_slipped(static_cast<int>(ring_size));
-  } while (!eroder_.all_given());
-  report_.erosion = eroder_.report();
+  } while (!relaxer_thread_.all_given());
+  report_.relaxation = relaxer_thread_.report();
   return report_;
 }
 

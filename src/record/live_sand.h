@@ -7,8 +7,8 @@
 #include <string>
 
 #include "haptics/stroke_placement.h"
-#include "record/eroder.h"
 #include "record/felt_force.h"
+#include "record/live_relaxer.h"
 #include "record/tool_shaper.h"
 #include "sim/contact_force.h"
 #include "sim/scene.h"
@@ -24,7 +24,7 @@ struct FeltDevice {
 
 /// A report on sand that was felt live.
 struct LiveSandReport {
-  ErosionReport erosion;
+  RelaxationReport relaxation;
   std::int64_t contact_ticks = 0;
   std::int64_t held_ticks = 0;  ///< the tool displaced nothing, because the relaxing bed was too far behind
 };
@@ -56,7 +56,9 @@ class LiveSand : public FeltWorld {
   LiveSand(const Scene& scene, const HeightField& bed, const FeltDevice& device);
 
   /// Shows the relaxing bed to `onlooker`, in the thread that relaxes it. Call it before start().
-  void show_to(std::function<void(const HeightField&)> onlooker) { eroder_.show_to(std::move(onlooker)); }
+  void show_to(std::function<void(const HeightField&)> onlooker) {
+    relaxer_thread_.show_to(std::move(onlooker));
+  }
   /// Starts relaxation, just before the recording begins.
   void start();
   FeltForce feel(double time, const DeviceReading& reading) noexcept override;
@@ -66,7 +68,7 @@ class LiveSand : public FeltWorld {
   LiveSandReport finish();
 
   /// Relaxes once, where start() was not called: for a loop whose time is not the wall's.
-  void erode() { eroder_.turn(); }
+  void relax_once() { relaxer_thread_.turn(); }
   /// Makes the tool's shape once, likewise: the shape that the hand asked for last.
   void shape() {
     if (shaper_) shaper_->work();
@@ -84,7 +86,7 @@ class LiveSand : public FeltWorld {
   /// The bed that the hand feels.
   const HeightField& bed() const { return replica_.bed(); }
   /// The bed that relaxes.
-  const HeightField& eroding_bed() const { return eroder_.bed(); }
+  const HeightField& relaxed_bed() const { return relaxer_thread_.bed(); }
 
  private:
   struct Past {
@@ -110,10 +112,10 @@ class LiveSand : public FeltWorld {
   DeviceSettings device_;
   PointPlacement placement_;
   double highest_;  // m: no sand is higher
-  SandRing dug_, relaxed_;
+  SandRing displaced_, relaxed_;
   PlaceRing places_;
   BedReplica replica_;
-  Eroder eroder_;
+  LiveRelaxer relaxer_thread_;
   SandSide sand_;
   std::optional<ContactForce> contact_force_;  // where force.law is not the paper's
   double largest_force_;                       // N

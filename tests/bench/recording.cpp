@@ -174,9 +174,9 @@ nlohmann::json recorded(double seconds, bool load, bool sand, bool view = false)
     result["contact_ticks"] = felt.contact_ticks;
     result["held_ticks"] = felt.held_ticks;
     result["rate_limited"] = ticks.rate_limited;
-    result["relaxations"] = felt.erosion.relaxations;
-    result["passes"] = felt.erosion.passes;
-    result["most_changes_waiting"] = felt.erosion.most_waiting;
+    result["relaxations"] = felt.relaxation.relaxations;
+    result["passes"] = felt.relaxation.passes;
+    result["most_changes_waiting"] = felt.relaxation.most_waiting;
     if (watched) result["view"] = watched->end();
   }
   return result;

@@ -499,8 +499,8 @@ TEST(CliRecord, SandThatWasNeverTouchedIsTold) {
 }
 
 TEST(CliRecord, ARunOfAFeltStrokeHasTheForcesThatWereFelt) {
-  // The bound of live_sand.h, with the spacing that this machine reached; without erosion during the stroke,
-  // whose times are the wall's.
+  // The bound of live_sand.h, with the spacing that this machine reached; without relaxation during the
+  // stroke, whose times are the wall's.
   const fs::path folder = test_folder();
   constexpr double radius = 0.04, turn = 3.0, dip = 0.006, dive = 9.0;  // m, 1/s
   Stroke hand;

@@ -51,17 +51,17 @@ TEST(BedReplica, ARelaxedBedIsToldWholeAndLosesNoSand) {
   HeightField steep(130, 130, 0.01);
   for (int i = 60; i < 70; ++i)
     for (int j = 60; j < 70; ++j) steep.set(i, j, 0.2);
-  BedReplica servo(steep), eroding(steep);
+  BedReplica servo(steep), relaxing(steep);
   RelaxationSettings settings;
   const auto relaxer = make_relaxer(settings, 0.01);
-  ASSERT_GT(relaxer->relax(eroding.bed()).passes, 0);
+  ASSERT_GT(relaxer->relax(relaxing.bed()).passes, 0);
   std::size_t told = 0;
-  eroding.tell_changed([&](const SandChange& change) {
+  relaxing.tell_changed([&](const SandChange& change) {
     servo.take(change, false);
     ++told;
   });
   EXPECT_GT(told, 100u);
-  EXPECT_LT((servo.bed().grid() - eroding.bed().grid()).abs().maxCoeff(), 1e-16);
+  EXPECT_LT((servo.bed().grid() - relaxing.bed().grid()).abs().maxCoeff(), 1e-16);
   EXPECT_NEAR(servo.bed().volume() / steep.volume(), 1.0, 1e-14);
 }
 

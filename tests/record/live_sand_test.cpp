@@ -49,7 +49,7 @@ struct Ticks : SimulationObserver {
 
 struct Feeling {
   std::vector<Eigen::Vector3d> forces;  // N, per sample
-  HeightGrid bed, eroding;
+  HeightGrid bed, relaxing;
   LiveSandReport report;
 };
 
@@ -60,11 +60,11 @@ Feeling feel_all(const Scene& scene, const std::vector<double>& times) {
   for (const double t : times) {
     feeling.forces.push_back(sand.feel(t, {SmoothHand::at(t)}).force);
     const double rate = scene.relaxation.rate, next = std::floor((t + 1e-3) * rate + 1e-9);
-    if (next > std::floor(t * rate + 1e-9)) sand.erode();
+    if (next > std::floor(t * rate + 1e-9)) sand.relax_once();
   }
   feeling.report = sand.finish();
   feeling.bed = sand.bed().grid();
-  feeling.eroding = sand.eroding_bed().grid();
+  feeling.relaxing = sand.relaxed_bed().grid();
   return feeling;
 }
 
@@ -90,7 +90,7 @@ TEST_P(LiveTool, OfEvenTicksHasTheSandAndTheRepulseForceThatARunOfThemHas) {
   const std::vector<double> times = even_times(2.5);
   const Feeling felt = feel_all(scene, times);
   EXPECT_GT(felt.report.contact_ticks, 500);
-  EXPECT_GT(felt.report.erosion.passes, 100);
+  EXPECT_GT(felt.report.relaxation.passes, 100);
   EXPECT_EQ(felt.report.held_ticks, 0);
 
   scene.stroke.emplace();
@@ -113,7 +113,7 @@ TEST_P(LiveTool, OfEvenTicksHasTheSandAndTheRepulseForceThatARunOfThemHas) {
     most = std::max(most, felt.forces[k].norm());
   }
   EXPECT_GT(most, 2.0);
-  EXPECT_LT((felt.bed - felt.eroding).abs().maxCoeff(), 1e-12);
+  EXPECT_LT((felt.bed - felt.relaxing).abs().maxCoeff(), 1e-12);
   // At the end of a run a solid tool is gone, and sand falls in where it stood.
   const Eigen::Vector3d last = SmoothHand::at(times.back());
   double apart = 0.0;
@@ -189,7 +189,7 @@ TEST(LiveSand, TurnsTheToolWithTheHandAsARunDoes) {
     forces.push_back(sand.feel(t, reading).force.z());
     sand.shape();
     stroke.position.push_back(reading.position);
-    stroke.orientation.push_back(turning(t - 1e-3).coeffs());  // what digs is a tick behind
+    stroke.orientation.push_back(turning(t - 1e-3).coeffs());  // what displaces is a tick behind
   }
   EXPECT_TRUE(sand.orientation().isApprox(turning(1.5), 1e-12));
   scene.stroke.emplace();
@@ -208,7 +208,7 @@ TEST(LiveSand, TurnsTheToolWithTheHandAsARunDoes) {
   EXPECT_GT((straight.bed().grid() - ran).abs().sum(), 0.3 * ran.abs().sum());
 }
 
-TEST(LiveSand, OfAToolThatTurnsTakesNoMemoryInTheLoopAndItsErosionTurnsWithIt) {
+TEST(LiveSand, OfAToolThatTurnsTakesNoMemoryInTheLoopAndItsRelaxationTurnsWithIt) {
   Scene scene = contact_scene(ForceLaw::rft, ToolShape::plate);
   scene.relaxation.rate = 60.0;
   scene.relaxation.max_passes = RelaxationSettings{}.max_passes;
@@ -222,13 +222,14 @@ TEST(LiveSand, OfAToolThatTurnsTakesNoMemoryInTheLoopAndItsErosionTurnsWithIt) {
     std::this_thread::sleep_for(std::chrono::microseconds(200));
   };
   for (const double t : times) feel(t);
-  // A thread makes the turned shapes, whenever it has its turn. The hand holds until it has dug across x.
+  // A thread makes the turned shapes, whenever it has its turn. The hand holds until it has displaced across
+  // x.
   for (double t = times.back() + 1e-3; !(sand.bed()(75, 75 + 20) < -0.003); t += 1e-3) feel(t);
   if (allocations_are_counted()) {
     EXPECT_EQ(allocations_of_this_thread(), before);
   }
   sand.finish();
-  EXPECT_LT((sand.bed().grid() - sand.eroding_bed().grid()).abs().maxCoeff(), 1e-12);
+  EXPECT_LT((sand.bed().grid() - sand.relaxed_bed().grid()).abs().maxCoeff(), 1e-12);
   EXPECT_LT(std::abs(sand.bed().volume() - start.volume()), 1e-15);
 }
 
@@ -301,7 +302,7 @@ TEST(LiveSand, WhatIsWeakenedBeyondTheScenesLimitIsFlagged) {
 }
 
 TEST(LiveSand, OfALawOfTheContactGoesOnWhileTheToolIsHeldFromDigging) {
-  // The eroding bed is far behind, and the hand rises: lift is gone after the yield way.
+  // The relaxing bed is far behind, and the hand rises: lift is gone after the yield way.
   Scene scene = contact_scene(ForceLaw::archimedes, ToolShape::box);
   LiveSand sand(scene, starting_bed(scene.bed), {"bed"});
   int k = 0;
@@ -382,7 +383,7 @@ TEST(LiveSand, OfUnevenTicksIsWithinTheBoundOfSampling) {
   simulation.run({&run});
   // The run's tick before or after a sample is as near as a tick; the hand has gone that far, its force
   // changed by as much, and the level under it by the tool's own furrow, which is no deeper than the hand
-  // goes in that time, plus what it had not yet dug on its way there: twice the way in all.
+  // goes in that time, plus what it had not yet displaced on its way there: twice the way in all.
   const double longest = 6e-3;  // s, between samples
   const double way = SmoothHand::speed() * 1e-3, lag = 0.5 * LiveSand::velocity_window * 1e-3 + longest;
   const double stiffness = scene.force.k_s * scene.force.k_c * std::exp(scene.force.k_c * 0.01);
@@ -403,7 +404,7 @@ TEST(LiveSand, OfUnevenTicksIsWithinTheBoundOfSampling) {
   RecordProperty("largest_share_of_the_bound", std::to_string(worst));
 }
 
-TEST(LiveSand, ErodingInItsOwnThreadLosesNoSand) {
+TEST(LiveSand, RelaxingInItsOwnThreadLosesNoSand) {
   Scene scene = small_scene();
   scene.relaxation.rate = 1000.0;
   const HeightField start = starting_bed(scene.bed);
@@ -416,7 +417,7 @@ TEST(LiveSand, ErodingInItsOwnThreadLosesNoSand) {
       std::this_thread::sleep_for(std::chrono::milliseconds(1));  // its turn, most likely
   }
   sand.finish();
-  EXPECT_LT((sand.bed().grid() - sand.eroding_bed().grid()).abs().maxCoeff(), 1e-12);
+  EXPECT_LT((sand.bed().grid() - sand.relaxed_bed().grid()).abs().maxCoeff(), 1e-12);
   EXPECT_LT(std::abs(sand.bed().volume() - start.volume()), 1e-15);
 }
 
@@ -461,9 +462,9 @@ TEST(LiveSand, OfAToolOfAnyShapeTakesNoMemoryInTheLoop) {
   }
 }
 
-TEST(LiveSand, ThatErodesTooSlowlyIsFeltButNotDug) {
-  // Nobody takes what is dug: when the way to the eroding bed is full, the tool stops digging, and says so;
-  // no sand is lost.
+TEST(LiveSand, ThatRelaxesTooSlowlyIsFeltButNotDisplaced) {
+  // Nobody takes what is displaced: when the way to the relaxing bed is full, the tool stops displacing, and
+  // says so; no sand is lost.
   Scene scene = small_scene();
   const HeightField start = starting_bed(scene.bed);
   LiveSand sand(scene, start, {"bed"});
@@ -479,7 +480,7 @@ TEST(LiveSand, ThatErodesTooSlowlyIsFeltButNotDug) {
   EXPECT_GT(felt.force.z(), 0.0);
   const LiveSandReport report = sand.finish();
   EXPECT_EQ(report.held_ticks, 1);
-  EXPECT_LT((sand.bed().grid() - sand.eroding_bed().grid()).abs().maxCoeff(), 1e-12);
+  EXPECT_LT((sand.bed().grid() - sand.relaxed_bed().grid()).abs().maxCoeff(), 1e-12);
   EXPECT_LT(std::abs(sand.bed().volume() - start.volume()), 1e-13);
 }
 
@@ -601,7 +602,7 @@ TEST(LiveSand, NothingIsDugOrSlipsBeforeTheRecordingBegins) {
     EXPECT_FALSE(sand.touches({Eigen::Vector3d(0.0, 0.0, 0.01)}));
     std::this_thread::sleep_for(std::chrono::milliseconds(2));
   }
-  EXPECT_EQ(sand.finish().erosion.relaxations, 0);
+  EXPECT_EQ(sand.finish().relaxation.relaxations, 0);
   EXPECT_EQ((sand.bed().grid() - start.grid()).abs().maxCoeff(), 0.0);
 }
 

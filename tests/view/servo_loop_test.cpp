@@ -61,7 +61,7 @@ TEST(ServoLoopBesideAView, TakesNoMemoryAndShowsWhatIsDug) {
         return ++k > 30 ? std::optional(StopReason::key) : std::nullopt;
       });
   sand.finish();
-  live.publish(sand.eroding_bed());
+  live.publish(sand.relaxed_bed());
   EXPECT_EQ(device.allocated(), 0);  // nor counted under sanitizers
   EXPECT_EQ(report.footer.reason, StopReason::key);
   std::jthread ending([&] { server.end(""); });
@@ -69,8 +69,8 @@ TEST(ServoLoopBesideAView, TakesNoMemoryAndShowsWhatIsDug) {
   double deepest = 0.0;
   for (int row = 0; row < 200; ++row)
     for (int col = 0; col < 200; ++col) {
-      ASSERT_EQ(page.height(row, col), static_cast<float>(sand.eroding_bed()(row, col)));
-      deepest = std::min(deepest, sand.eroding_bed()(row, col));
+      ASSERT_EQ(page.height(row, col), static_cast<float>(sand.relaxed_bed()(row, col)));
+      deepest = std::min(deepest, sand.relaxed_bed()(row, col));
     }
   EXPECT_LT(deepest, -0.001);
 }

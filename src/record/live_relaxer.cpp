@@ -1,4 +1,4 @@
-#include "record/eroder.h"
+#include "record/live_relaxer.h"
 
 #include <algorithm>
 #include <chrono>
@@ -21,19 +21,20 @@ RelaxationSettings in_short_turns(RelaxationSettings settings) {
 
 }  // namespace
 
-Eroder::Eroder(const HeightField& bed, const ToolSettings& tool, const RelaxationSettings& settings,
-               SandRing& dug, PlaceRing& places, SandRing& relaxed, std::unique_ptr<Relaxer> relaxer)
+LiveRelaxer::LiveRelaxer(const HeightField& bed, const ToolSettings& tool, const RelaxationSettings& settings,
+                         SandRing& displaced, PlaceRing& places, SandRing& relaxed,
+                         std::unique_ptr<Relaxer> relaxer)
     : replica_(bed),
       rate_(settings.rate),
       by_way_(settings.way > 0.0),
       solid_(tool.solid),
       tool_(tool, {}, settings),
       relaxer_(relaxer ? std::move(relaxer) : make_relaxer(in_short_turns(settings), bed.cell_size())),
-      dug_(dug),
+      displaced_(displaced),
       places_(places),
       relaxed_(relaxed) {}
 
-void Eroder::give(const SandChange& change) {
+void LiveRelaxer::give(const SandChange& change) {
   while (!relaxed_.push(change)) {
     if (stopping_) {
       held_.push_back(change);
@@ -43,7 +44,7 @@ void Eroder::give(const SandChange& change) {
   }
 }
 
-void Eroder::exchange() {
+void LiveRelaxer::exchange() {
   std::vector<SandChange> before;
   before.swap(held_);
   for (const SandChange& change : before) give(change);
@@ -57,19 +58,19 @@ void Eroder::exchange() {
   }
   begun_ = begun_ || told;
   SandChange change;
-  while (dug_.pop(change)) replica_.take(change, true);
+  while (displaced_.pop(change)) replica_.take(change, true);
 }
 
-bool Eroder::relaxation_is_due() const {
+bool LiveRelaxer::relaxation_is_due() const {
   return by_way_ && (!report_.converged || tool_.relaxation_is_due());
 }
 
-void Eroder::turn() {
+void LiveRelaxer::turn() {
   exchange();
   relax();
 }
 
-void Eroder::relax() {
+void LiveRelaxer::relax() {
   if (rate_ <= 0.0 && !by_way_) return;
   if (solid_ && place_.rotation) {  // not in exchange(), because it takes long
     tool_.turn(*place_.rotation);
@@ -85,7 +86,7 @@ void Eroder::relax() {
   report_.most_waiting = std::max(report_.most_waiting, relaxed_.size());
 }
 
-void Eroder::start() {
+void LiveRelaxer::start() {
   stopping_ = false;
   thread_ = std::thread([this] {
     try {
@@ -96,7 +97,7 @@ void Eroder::start() {
   });
 }
 
-void Eroder::run() {
+void LiveRelaxer::run() {
   using Seconds = std::chrono::duration<double>;
   const auto now = [] { return Seconds(std::chrono::steady_clock::now().time_since_epoch()); };
   const Seconds period(rate_ > 0.0 ? 1.0 / rate_ : std::numeric_limits<double>::infinity());
@@ -118,7 +119,7 @@ void Eroder::run() {
   }
 }
 
-void Eroder::stop() {
+void LiveRelaxer::stop() {
   stopping_ = true;
   if (thread_.joinable()) thread_.join();
 }

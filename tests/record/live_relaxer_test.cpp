@@ -1,4 +1,4 @@
-#include "record/eroder.h"
+#include "record/live_relaxer.h"
 
 #include <gtest/gtest.h>
 
@@ -8,41 +8,41 @@
 namespace sandstroke {
 namespace {
 
-TEST(Eroder, ThatErodesOnceInAnAgeTakesWhatIsDugMeanwhileAndEndsWhenItIsAsked) {
+TEST(LiveRelaxer, ThatRelaxesSeldomTakesWhatIsDisplacedMeanwhileAndEndsWhenItIsAsked) {
   for (const double rate : {1e-4, 1e-300, 0.0}) {
     RelaxationSettings settings;
     settings.rate = rate;
-    SandRing dug(8), relaxed(8);
+    SandRing displaced(8), relaxed(8);
     PlaceRing places(8);
-    Eroder eroder(HeightField(10, 10, 0.01), {}, settings, dug, places, relaxed);
+    LiveRelaxer live_relaxer(HeightField(10, 10, 0.01), {}, settings, displaced, places, relaxed);
     places.push({});  // from the first place on
-    eroder.start();
+    live_relaxer.start();
     for (int i = 0; i < 3; ++i) {
-      dug.push({5, i, -1e-6});
-      while (dug.size() > 0) std::this_thread::yield();
+      displaced.push({5, i, -1e-6});
+      while (displaced.size() > 0) std::this_thread::yield();
     }
-    eroder.stop();
-    for (int i = 0; i < 3; ++i) EXPECT_EQ(eroder.bed()(5, i), -1e-6);
-    EXPECT_EQ(eroder.report().relaxations, rate > 0.0 ? 1 : 0);
+    live_relaxer.stop();
+    for (int i = 0; i < 3; ++i) EXPECT_EQ(live_relaxer.bed()(5, i), -1e-6);
+    EXPECT_EQ(live_relaxer.report().relaxations, rate > 0.0 ? 1 : 0);
   }
 }
 
 /// A bed with a heap where a solid tool stands, and slips as often as the tool goes its way.
-TEST(Eroder, UnderASolidToolNothingSlipsUntilItHasGone) {
+TEST(LiveRelaxer, UnderASolidToolNothingSlipsUntilItHasGone) {
   const ToolSettings tool{0.03, ToolProfile::sphere, true};
   RelaxationSettings settings;
   settings.rate = 0.0, settings.way = 1.0 / 3.0;  // of 30 mm: a cell
-  SandRing dug(64), relaxed(64);
+  SandRing displaced(64), relaxed(64);
   PlaceRing places(8);
-  Eroder eroder(HeightField(41, 41, 0.01), tool, settings, dug, places, relaxed);
-  dug.push({20, 20, 0.05});
+  LiveRelaxer live_relaxer(HeightField(41, 41, 0.01), tool, settings, displaced, places, relaxed);
+  displaced.push({20, 20, 0.05});
   places.push({{0.0, 0.0, -0.01}, true});
-  eroder.turn();
-  EXPECT_EQ(eroder.bed()(20, 20), 0.05);
+  live_relaxer.turn();
+  EXPECT_EQ(live_relaxer.bed()(20, 20), 0.05);
   EXPECT_EQ(relaxed.size(), 0u);
   places.push({{0.0, 0.0, 0.1}, false});
-  eroder.turn();
-  EXPECT_LT(eroder.bed()(20, 20), 0.05);
+  live_relaxer.turn();
+  EXPECT_LT(live_relaxer.bed()(20, 20), 0.05);
   EXPECT_GT(relaxed.size(), 0u);
 }
 
@@ -61,20 +61,20 @@ class CountingRelaxer : public Relaxer {
   std::atomic<int>& count_;
 };
 
-TEST(Eroder, SlipsInItsThreadAsOftenAsTheToolHasGoneItsWay) {
+TEST(LiveRelaxer, SlipsInItsThreadAsOftenAsTheToolHasGoneItsWay) {
   RelaxationSettings settings;
   settings.rate = 0.0, settings.way = 1.0 / 3.0;  // of 30 mm: a cell
-  SandRing dug(64), relaxed(64);
+  SandRing displaced(64), relaxed(64);
   PlaceRing places(8);
   std::atomic<int> slips = 0;
-  Eroder eroder(HeightField(41, 41, 0.01), {0.03, ToolProfile::sphere, true}, settings, dug, places, relaxed,
-                std::make_unique<CountingRelaxer>(slips));
+  LiveRelaxer live_relaxer(HeightField(41, 41, 0.01), {0.03, ToolProfile::sphere, true}, settings, displaced,
+                           places, relaxed, std::make_unique<CountingRelaxer>(slips));
   const auto go_to = [&](double x, bool contact) {
     places.push({{x, 0.0, contact ? -0.01 : 0.1}, contact});
     while (places.size() > 0) std::this_thread::yield();
   };
   places.push({{0.0, 0.0, -0.01}, true});  // it touches down
-  eroder.start();
+  live_relaxer.start();
   while (slips < 1) std::this_thread::yield();
   for (int cells = 1; cells <= 3; ++cells) {
     for (int i = 1; i < 10; ++i) go_to(0.01 * (cells - 1) + 0.001 * i, true);  // less than a cell: nothing
@@ -84,7 +84,7 @@ TEST(Eroder, SlipsInItsThreadAsOftenAsTheToolHasGoneItsWay) {
   }
   go_to(0.03, false);  // it leaves
   while (slips < 5) std::this_thread::yield();
-  eroder.stop();
+  live_relaxer.stop();
   EXPECT_EQ(slips, 5);
 }
 
@@ -94,63 +94,64 @@ class FailingRelaxer : public Relaxer {
   RelaxationOutcome relax(HeightField&, const PassWatcher&) override { throw std::bad_alloc(); }
 };
 
-TEST(Eroder, ThatFailsEndsItsThreadAndNotTheProgram) {
-  SandRing dug(8), relaxed(8);
+TEST(LiveRelaxer, ThatFailsEndsItsThreadAndNotTheProgram) {
+  SandRing displaced(8), relaxed(8);
   PlaceRing places(8);
-  Eroder eroder(HeightField(10, 10, 0.01), {}, {}, dug, places, relaxed, std::make_unique<FailingRelaxer>());
-  dug.push({5, 5, -1e-6});
+  LiveRelaxer live_relaxer(HeightField(10, 10, 0.01), {}, {}, displaced, places, relaxed,
+                           std::make_unique<FailingRelaxer>());
+  displaced.push({5, 5, -1e-6});
   places.push({});
-  eroder.start();
-  while (dug.size() > 0) std::this_thread::yield();  // in the first turn, which fails right after
-  eroder.stop();
-  ASSERT_TRUE(eroder.failure());
-  EXPECT_THROW(std::rethrow_exception(eroder.failure()), std::bad_alloc);
+  live_relaxer.start();
+  while (displaced.size() > 0) std::this_thread::yield();  // in the first turn, which fails right after
+  live_relaxer.stop();
+  ASSERT_TRUE(live_relaxer.failure());
+  EXPECT_THROW(std::rethrow_exception(live_relaxer.failure()), std::bad_alloc);
 }
 
-TEST(Eroder, TurnsAreAsShortAsTheSettingsSayAndTheirPassesAddUp) {
+TEST(LiveRelaxer, TurnsAreAsShortAsTheSettingsSayAndTheirPassesAddUp) {
   for (const auto& [most, in_a_turn] : {std::pair<std::int64_t, std::int64_t>{7, 7}, {1'000'000, 50}}) {
     RelaxationSettings settings;
     settings.max_passes = most;
-    SandRing dug(8), relaxed(std::size_t{1} << 16);
+    SandRing displaced(8), relaxed(std::size_t{1} << 16);
     PlaceRing places(8);
     HeightField heap(61, 61, 0.01);
     for (int row = 25; row < 36; ++row)
       for (int col = 25; col < 36; ++col) heap.set(row, col, 0.3);
-    Eroder eroder(heap, {}, settings, dug, places, relaxed);
+    LiveRelaxer live_relaxer(heap, {}, settings, displaced, places, relaxed);
     for (int turn = 1; turn <= 3; ++turn) {
-      eroder.turn();
-      EXPECT_EQ(eroder.report().relaxations, turn);
-      EXPECT_EQ(eroder.report().passes, turn * in_a_turn);
-      EXPECT_FALSE(eroder.report().converged);
+      live_relaxer.turn();
+      EXPECT_EQ(live_relaxer.report().relaxations, turn);
+      EXPECT_EQ(live_relaxer.report().passes, turn * in_a_turn);
+      EXPECT_FALSE(live_relaxer.report().converged);
     }
   }
 }
 
-TEST(Eroder, WhatWasDugSlips) {
+TEST(LiveRelaxer, WhatWasDugSlips) {
   RelaxationSettings settings;
-  SandRing dug(8), relaxed(1024);
+  SandRing displaced(8), relaxed(1024);
   PlaceRing places(8);
-  Eroder eroder(HeightField(41, 41, 0.01), {}, settings, dug, places, relaxed);
-  eroder.turn();
+  LiveRelaxer live_relaxer(HeightField(41, 41, 0.01), {}, settings, displaced, places, relaxed);
+  live_relaxer.turn();
   EXPECT_EQ(relaxed.size(), 0u);
-  dug.push({20, 20, 0.05});
-  eroder.turn();
-  EXPECT_LT(eroder.bed()(20, 20), 0.05);
-  EXPECT_GT(eroder.bed()(20, 21), 0.0);
+  displaced.push({20, 20, 0.05});
+  live_relaxer.turn();
+  EXPECT_LT(live_relaxer.bed()(20, 20), 0.05);
+  EXPECT_GT(live_relaxer.bed()(20, 21), 0.0);
 }
 
-TEST(Eroder, SandThatAsksByWayAndHasFarToGoGoesOnWithoutTheToolsMoving) {
+TEST(LiveRelaxer, SandThatAsksByWayAndHasFarToGoGoesOnWithoutTheToolsMoving) {
   RelaxationSettings settings;
   settings.rate = 0.0, settings.way = 1.0 / 3.0;  // of 30 mm: a cell
-  SandRing dug(8), relaxed(std::size_t{1} << 18);
+  SandRing displaced(8), relaxed(std::size_t{1} << 18);
   PlaceRing places(8);
   HeightField heap(61, 61, 0.01);
   for (int row = 25; row < 36; ++row)
     for (int col = 25; col < 36; ++col) heap.set(row, col, 0.3);
   places.push({{0.2, 0.2, -0.01}, true});  // it touches down beside the heap, and rests
-  Eroder eroder(heap, {0.01, ToolProfile::sphere, false}, settings, dug, places, relaxed);
-  eroder.start();
-  RelaxationSettings looser = settings;  // changes add up to the eroder's own heights but for rounding
+  LiveRelaxer live_relaxer(heap, {0.01, ToolProfile::sphere, false}, settings, displaced, places, relaxed);
+  live_relaxer.start();
+  RelaxationSettings looser = settings;  // changes add up to the live_relaxer's own heights but for rounding
   looser.tolerance *= 2.0;
   const auto rests = [&] {
     HeightField copy = heap;
@@ -161,8 +162,8 @@ TEST(Eroder, SandThatAsksByWayAndHasFarToGoGoesOnWithoutTheToolsMoving) {
       heap.set(change.row, change.col, heap(change.row, change.col) + change.change);
     std::this_thread::yield();
   }
-  eroder.stop();
-  EXPECT_GT(eroder.report().relaxations, 2);
+  live_relaxer.stop();
+  EXPECT_GT(live_relaxer.report().relaxations, 2);
 }
 
 }  // namespace

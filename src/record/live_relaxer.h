@@ -25,23 +25,24 @@ using SandRing = SpscRing<SandChange>;
 using PlaceRing = SpscRing<ToolPlace>;
 
 /// How the relaxation of a live bed went.
-struct ErosionReport {
+struct RelaxationReport {
   std::int64_t relaxations = 0, passes = 0;
   bool converged = true;         ///< the last relaxation
   std::size_t most_waiting = 0;  ///< most changes that waited for the servo loop
 };
 
-/// Relaxes a bed that is felt live, outside the servo loop as in the paper (section 4). It takes displaced
-/// sand from `dug` and the tool's place from `places`, relaxes its own replica (with walls under a solid tool
-/// at its last known place), and puts the changes into `relaxed`.
-class Eroder {
+/// Relaxes a bed that is felt live, outside the servo loop as in the paper (section 5). It takes displaced
+/// sand from `displaced` and the tool's place from `places`, relaxes its own replica (with walls under a
+/// solid tool at its last known place), and puts the changes into `relaxed`.
+class LiveRelaxer {
  public:
   /// relaxer: null = as the settings say.
-  Eroder(const HeightField& bed, const ToolSettings& tool, const RelaxationSettings& settings, SandRing& dug,
-         PlaceRing& places, SandRing& relaxed, std::unique_ptr<Relaxer> relaxer = nullptr);
-  ~Eroder() { stop(); }
+  LiveRelaxer(const HeightField& bed, const ToolSettings& tool, const RelaxationSettings& settings,
+              SandRing& displaced, PlaceRing& places, SandRing& relaxed,
+              std::unique_ptr<Relaxer> relaxer = nullptr);
+  ~LiveRelaxer() { stop(); }
 
-  /// Shows the bed to `onlooker` after every turn, in the eroder's thread. Call it before start().
+  /// Shows the bed to `onlooker` after every turn, in the live_relaxer's thread. Call it before start().
   void show_to(std::function<void(const HeightField&)> onlooker) { onlooker_ = std::move(onlooker); }
   /// Starts a thread that relaxes settings.rate times a second and by the tool's way, from the first place of
   /// the tool on. Where a relaxation takes longer, the next one follows at once. Sand with far to go takes
@@ -61,7 +62,7 @@ class Eroder {
   /// No change is left to be given.
   bool all_given() const { return held_.empty(); }
   const HeightField& bed() const { return replica_.bed(); }
-  const ErosionReport& report() const { return report_; }
+  const RelaxationReport& report() const { return report_; }
 
  private:
   void run();
@@ -77,13 +78,13 @@ class Eroder {
   ToolPlace place_;     // the last that was told
   bool begun_ = false;  // a place was told; until then sand stays as a run of the stroke finds it
   std::unique_ptr<Relaxer> relaxer_;
-  SandRing& dug_;
+  SandRing& displaced_;
   PlaceRing& places_;
   SandRing& relaxed_;
   std::vector<SandChange> held_;  // changes that could not be given before the stop
   std::atomic<bool> stopping_ = true;
   std::function<void(const HeightField&)> onlooker_;
-  ErosionReport report_;
+  RelaxationReport report_;
   std::exception_ptr failure_;  // only the thread uses it while it runs
   std::thread thread_;
 };
