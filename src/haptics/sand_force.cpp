@@ -23,10 +23,10 @@ ImplicitDrag implicit_drag(double depth, const SimulatedDevice& device, const St
     return device.drag_velocity(hand, hand_after, {0.0, 0.0, share * repulse}, share * drag);
   };
   const auto too_much = [&](double share) {
-    Eigen::Vector3d slip = velocity(share);
-    if (settings.drag == DragDirection::horizontal) slip.z() = 0.0;
+    Eigen::Vector3d dragged = velocity(share);
+    if (settings.drag == DragDirection::horizontal) dragged.z() = 0.0;
     const Eigen::Vector3d repulsed(0.0, 0.0, share * repulse);
-    return d.max_force > 0.0 && length_of(repulsed - share * drag * slip) > d.max_force;
+    return d.max_force > 0.0 && length_of(repulsed - share * drag * dragged) > d.max_force;
   };
   double share = 1.0;
   if (too_much(1.0)) {

@@ -8,7 +8,7 @@ const vec3 moist_sand = vec3(0.41, 0.275, 0.155);
 
 vec3 ambient(vec3 normal) { return mix(bounce_colour, sky_colour, 0.5 + 0.5 * normal.z); }
 
-// Dug sand is moist and dark, heaped sand dry and light; both keep growing slowly with the height [m].
+// Carved sand is moist and dark, deposited sand dry and light. Both effects grow slowly with the height [m].
 vec3 sand_albedo(float height) {
   float heap = height / (abs(height) + 0.006);
   return mix(dry_sand, heap < 0.0 ? moist_sand : dry_sand * 1.13, abs(heap) * (heap < 0.0 ? 0.55 : 0.75));

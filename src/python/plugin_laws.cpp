@@ -91,7 +91,7 @@ class PythonRelaxer : public Relaxer {
             throw std::runtime_error(fmt::format("it changed the wall in row {}, column {}", row, col));
       outcome.moved_volume = take_changes(bed, 0, 0, before, heights);
     }
-    // The scene's own law decides, without moving sand, whether the bed is at rest.
+    // The law of the scene's settings decides, without moving sand, whether the bed is at rest.
     HeightField seen = bed;
     RelaxationSettings look = scene_.relaxation;
     look.max_passes = 0;

@@ -43,15 +43,15 @@ SandForce sand_force(double depth, const Eigen::Vector3d& velocity, double max_f
   SandForce force;
   force.repulse = repulse_force(depth, settings);
   if (force.repulse == 0.0) return force;
-  Eigen::Vector3d slip = velocity;
-  if (settings.drag == DragDirection::horizontal) slip.z() = 0.0;
+  Eigen::Vector3d dragged = velocity;
+  if (settings.drag == DragDirection::horizontal) dragged.z() = 0.0;
   const double drag = product(settings.k_f, force.repulse);
-  force.drag = -slip.unaryExpr([drag](double speed) { return product(drag, speed); });
+  force.drag = -dragged.unaryExpr([drag](double speed) { return product(drag, speed); });
   force.total = force.drag + Eigen::Vector3d(0.0, 0.0, force.repulse);
   const bool within = force.total.allFinite() && length_of(force.total) <= max_force;
   if (max_force > 0.0 && !within) {
     // At a depth beyond any sense the forces overflow, too; their direction does not depend on it.
-    const Eigen::Vector3d direction = Eigen::Vector3d::UnitZ() - settings.k_f * slip;
+    const Eigen::Vector3d direction = Eigen::Vector3d::UnitZ() - settings.k_f * dragged;
     force.total = max_force * direction.stableNormalized();
     force.saturated = true;
   }

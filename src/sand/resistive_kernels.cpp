@@ -69,8 +69,8 @@ HWY_INLINE Vector stress(const Vector& n, const Vector& u, V tool_friction) {
   const V across = alpha.dot(n);
   const Vector along = alpha.plus(n.times(Neg(across)));
   const V along2 = along.dot(along), most = tool_friction * hn::Abs(across);
-  const Mask slips = along2 > most * most;
-  const V share = hn::IfThenElse(slips, most / Sqrt(Max(along2, all(1e-300))), all(1.0));
+  const Mask slides = along2 > most * most;
+  const V share = hn::IfThenElse(slides, most / Sqrt(Max(along2, all(1e-300))), all(1.0));
   return n.times(across).plus(along.times(share));
 }
 

@@ -16,7 +16,7 @@ namespace {
 
 struct Stopped {};  // thrown through a law, which is not to catch it: no std::exception
 
-/// Does something of an own law's. An Error passes: it is a sentence already, of the law or of who watches
+/// Does something of a plugin law's. An Error passes: it is a sentence already, of the law or of who watches
 /// it.
 template <class Work>
 auto by_law(const std::string& law, const Work& work) {

@@ -29,10 +29,10 @@ struct PluginLaws {
 std::string law_in_words(const PluginLawSettings& laws, const char* key, const std::string& name);
 
 // What a run of the scene goes by. Error: input, naming the key, where scene.plugin_laws names a law that
-// scene.plugin_laws.laws has not. An own law is watched: what it throws, other than an Error, becomes one
+// scene.plugin_laws.laws has not. A plugin law is watched: what it throws, other than an Error, becomes one
 // that names it; so does a force that is not a number (unstable).
 
-/// scene.plugin_laws.relaxation, or else as scene.relaxation says. An own law is told to stop, by an
+/// scene.plugin_laws.relaxation, or else as scene.relaxation says. A plugin law is told to stop, by an
 /// exception from its PassWatcher, where the program is interrupted().
 std::unique_ptr<Relaxer> make_relaxer(const Scene& scene, double cell_size);
 /// scene.plugin_laws.displacement; nullptr: as scene.displacement says.

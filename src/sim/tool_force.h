@@ -8,7 +8,7 @@ namespace sandstroke {
 /// What a law of force is told of a tick in which the tool touches the sand.
 struct ToolInSand {
   const HeightField& bed;
-  const ToolFootprint& footprint;  ///< where the tool dug last; its heights() are the bed's
+  const ToolFootprint& footprint;  ///< where the tool displaced last; its heights() are the bed's
   Eigen::Vector3d tip;             ///< m
   Eigen::Vector3d motion;          ///< m, by which the tool went there in this tick
   double depth;                    ///< m, of its lowest point below the level around it
@@ -25,7 +25,8 @@ class ToolForce {
   /// How the tool lies in the bed from the next feel() on.
   virtual void turn(const Eigen::Matrix3d& /*rotation*/) {}
 
-  /// Of any tick, after the tool went by `motion` [m] to where it dug last, `tip` [m], in contact or not.
+  /// Of any tick, after the tool went by `motion` [m] to where it displaced last, `tip` [m], in contact or
+  /// not.
   Wrench in_tick(SandSide& sand, const HeightField& bed, const Eigen::Vector3d& tip,
                  const Eigen::Vector3d& motion, bool contact) {
     if (!contact) return lift(), Wrench{};

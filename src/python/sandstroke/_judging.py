@@ -13,7 +13,7 @@ from ._arguments import Laws, check_laws
 
 def bench(laws: Laws, folder: str | os.PathLike[str] = "bench", *, parameters: Sequence[float] = (), quick: bool = True,
           problems: Sequence[str] = ()) -> dict[str, Any]:
-    """Measures your own laws (as in run()) on problems with known answers, beside the program's.
+    """Measures laws of yours (as in run()) on problems with known answers, beside the program's.
 
     Writes folder/bench.html, a page of errors, orders and times, and gives its data. parameters: up to four numbers,
     as model.parameters. quick=False takes finer grids. problems: names (`sandstroke bench --help`); default:
@@ -23,7 +23,7 @@ def bench(laws: Laws, folder: str | os.PathLike[str] = "bench", *, parameters: S
 
 
 def stress(laws: Laws, *, parameters: Sequence[float] = (), quick: bool = True) -> dict[str, Any]:
-    """Seeks cases in which your own laws lose sand, return NaN, or do not end, as `sandstroke stress` does.
+    """Seeks cases in which laws of yours lose sand, return NaN, or do not end, as `sandstroke stress` does.
 
     Gives the page's data: "cases" have a verdict and whether it was a surprise.
     """
