@@ -77,7 +77,7 @@ struct Scene {
   ViewSettings view;
 };
 
-/// Whether the force comes from the contact: neither a plugin law nor the paper's.
+/// Whether the force comes from the contact: by a plugin law, or by any law but the paper's.
 bool is_contact_law(const Scene& scene);
 
 /// Sets the settings that scene.preset stands for.
