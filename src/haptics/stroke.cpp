@@ -33,7 +33,7 @@ void check_orientation(const Stroke& stroke, const std::string& name) {
   for (std::size_t i = 0; i < stroke.size(); ++i) {
     if (std::abs(stroke.orientation[i].norm() - 1.0) < 1e-6) continue;
     throw_input_error(
-        "{}: orientation of sample {} is no unit quaternion (its length is {}); correct or remove that "
+        "{}: orientation of sample {} is not a unit quaternion (its length is {}); correct or remove that "
         "sample",
         name, i, stroke.orientation[i].norm());
   }
@@ -67,8 +67,8 @@ void check_stroke(const Stroke& stroke, const std::string& name) {
           name, i, t, most);
     if (i > 0 && !(t - stroke.time[i - 1] >= least_step)) {
       throw_input_error(
-          "{}: time of sample {} is {} s, not later than the {} s before it; times must increase by {} s or "
-          "more; correct or remove that sample",
+          "{}: time of sample {} is {} s, not later than {} s, the time of the sample before; times must "
+          "increase by {} s or more; correct or remove that sample",
           name, i, t, stroke.time[i - 1], least_step);
     }
   }

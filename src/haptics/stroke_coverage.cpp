@@ -43,18 +43,18 @@ std::string coverage_warning(const Stroke& stroke, const std::string& name) {
   }
   if (stroke.starved)
     return fmt::format(
-        "{}: over a tenth of its ticks were skipped while it was recorded; a run {}; record it again on a "
-        "machine that sandstroke record --check finds fit",
+        "{}: over a tenth of its ticks were skipped during recording; a run {}; record it again on a machine "
+        "that passes sandstroke record --check",
         name, played_text(played_part(StrokeSampler(stroke))));
   if (missing > 60.0 && missing > 0.99 * stroke.duration())
     return fmt::format(
         "{}: samples cover {:.4g} s of {:.10g} s, and the tool is lifted in the rest; the largest gap is "
         "{:.10g} s, from {:.10g} s to {:.10g} s; check the unit of the times (stroke convert --time-unit), "
-        "and the times there",
+        "and the times at that gap",
         name, stroke.duration() - missing, stroke.duration(), end - begin, begin, end);
   if (const auto [alone, all] = lone_samples(stroke); alone > 1 && 2 * alone > all)
     return fmt::format(
-        "{}: {} of its {} samples are over {:.4g} s from the next, and the tool is lifted between them: "
+        "{}: {} of its {} samples are more than {:.4g} s from the next, and the tool is lifted between them: "
         "hardly anything is drawn; check the unit of the times, or give a larger gap threshold (stroke "
         "convert --gap-threshold, stroke.table.gap_threshold)",
         name, alone, all, stroke.gap_threshold);

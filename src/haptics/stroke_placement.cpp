@@ -22,8 +22,8 @@ void cut_time(Stroke& stroke, double start, double stop, const std::string& name
   while (begin < end && stroke.time[begin] - first < start) ++begin;
   while (end > begin && stroke.time[end - 1] - first > stop) --end;
   if (begin == end) {
-    throw_input_error("{}: no sample lies between start = {} s and stop = {} s; it lasts {} s", name, start,
-                      std::min(stop, stroke.duration()), stroke.duration());
+    throw_input_error("{}: no sample lies between start = {} s and stop = {} s; the stroke lasts {} s", name,
+                      start, std::min(stop, stroke.duration()), stroke.duration());
   }
   keep_samples(stroke, begin, end);
   const double played_first = stroke.time.front();
@@ -108,8 +108,7 @@ double fitting_scale(const Stroke& stroke, double share, const Eigen::AlignedBox
   const double scale = share * bed.sizes().cwiseQuotient(size).minCoeff();
   if (!std::isfinite(scale) || !(scale > 0.0))
     throw_input_error(
-        "{}: stroke.fit = {} has nothing to scale, because it is drawn at one place; set "
-        "stroke.scale instead",
+        "{}: stroke.fit = {} cannot scale a stroke that is drawn at one place; set stroke.scale instead",
         name, share);
   return scale;
 }
@@ -124,8 +123,8 @@ double full_press(const Stroke& stroke, const StrokePlacement& placement, const 
   const std::string& by = depth_by_names[static_cast<std::size_t>(placement.depth_by)];
   if (placement.depth_by == DepthBy::pressure ? stroke.pressure.empty() : stroke.force.empty())
     throw_input_error(
-        "{}: stroke.depth_by = \"{}\", but it has no {}; name its column, if it is a table, with "
-        "stroke.table.{}, or leave stroke.depth_by out",
+        "{}: stroke.depth_by = \"{}\", but the stroke has no {}; for a table, name the column with "
+        "stroke.table.{}; otherwise leave stroke.depth_by out",
         name, by, by, by);
   if (placement.full_depth_at > 0.0) return placement.full_depth_at;
   double full = 0.0;
@@ -142,7 +141,7 @@ void raise_to_press(Stroke& stroke, const StrokePlacement& placement, double ful
   const Eigen::AlignedBox3d extent = drawn_extent(stroke);
   if (placement.plane == StrokePlane::keep && extent.min().z() < extent.max().z())
     throw_input_error(
-        "{}: stroke.depth_by needs a stroke in one plane, and its heights differ by {:.3g} mm; set "
+        "{}: stroke.depth_by needs a stroke in one plane, but its heights differ by {:.3g} mm; set "
         "stroke.plane = \"fit\" or \"flatten\"",
         name, 1e3 * extent.sizes().z());
   for (std::size_t i = 0; i < stroke.size(); ++i) {

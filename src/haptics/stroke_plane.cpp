@@ -104,9 +104,9 @@ std::string off_plane_warning(const Stroke& stroke, const std::string& name) {
   constexpr double thin = 0.005;  // of its length: no middle counts as flatter
   if (!(largest > far * std::max(middle.rms(), thin * middle.widths[2]))) return "";
   return fmt::format(
-      "{}: it begins or ends up to {:.3g} mm off the plane of its middle ({:.3g} mm rms), as an approach or "
-      "a lift do, and they pull the plane; cut them off with stroke.start and stroke.stop (s), or give pen "
-      "states",
+      "{}: it begins or ends up to {:.3g} mm off the plane of its middle ({:.3g} mm rms), like an approach "
+      "or a lift, which tilts the fitted plane; cut it off with stroke.start and stroke.stop (s), or give "
+      "pen states",
       name, 1e3 * largest, 1e3 * middle.rms());
 }
 
@@ -132,9 +132,9 @@ UpNormal up_normal(const Stroke& stroke, const LeastSquaresPlane& plane, StrokeU
     found = {-found.normal, opposite(found.axis), found.lifted};
   if (!table && !found.lifted && oblique_share(stroke) <= 0.5)
     throw_input_error(
-        "{}: its samples with the pen down fit a plane tilted {:.3g} deg, and go along or across z, as a "
-        "plunge, a drag and a lift do; for such a stroke into sand set stroke.plane = \"keep\"; for a "
-        "tracing on a wall, or with another axis up, set stroke.up = \"{}\" (or \"{}\" for its other side)",
+        "{}: its samples with the pen down fit a plane tilted {:.3g} deg, and move along or across z, like a "
+        "plunge, a drag and a lift; for such a stroke into sand set stroke.plane = \"keep\"; for a tracing "
+        "on a wall, or with another axis up, set stroke.up = \"{}\" (or \"{}\" for its other side)",
         name, plane.tilt(), name_of(found.axis), name_of(opposite(found.axis)));
   return found;
 }

@@ -73,10 +73,10 @@ StrokeQuality quality_of(const Stroke& stroke) {
 std::vector<std::string> quality_warnings(const StrokeQuality& quality) {
   std::vector<std::string> warnings;
   if (const double widest = quality.extent.maxCoeff(); widest > widest_hand)
-    warnings.push_back(fmt::format(
-        "it is {:.4g} m wide: if its positions are not metres, convert it with their unit, or set "
-        "stroke.scale (0.001 for millimetres) or stroke.fit = 0.8",
-        widest));
+    warnings.push_back(
+        fmt::format("it is {:.4g} m wide: if its positions are not in metres, convert it with their unit, or "
+                    "set stroke.scale (0.001 for millimetres) or stroke.fit = 0.8",
+                    widest));
   if (quality.repeats.share > 0.1 && quality.repeats.period > 1)
     warnings.push_back(fmt::format(
         "{:.0f} % of its samples repeat the one before (up to {} alike): its device was read faster than it "
@@ -85,16 +85,15 @@ std::vector<std::string> quality_warnings(const StrokeQuality& quality) {
   if (!(quality.top_speed > fastest_hand)) return warnings;
   if (quality.top_speed > 10.0 * quality.usual_speed)
     warnings.push_back(fmt::format(
-        "it jumps at {:.4g} s, at {:.4g} m/s, {:.0f} times its usual speed: if the pen was lifted there, "
-        "give "
-        "its pen states or a smaller gap threshold when you convert it; otherwise try stroke.held = \"drop\" "
-        "or stroke.smooth",
+        "it jumps at {:.4g} s at a speed of {:.4g} m/s, {:.0f} times its usual speed: if the pen was "
+        "lifted there, give its pen states or a smaller gap threshold when you convert it; "
+        "otherwise try stroke.held = \"drop\" or stroke.smooth",
         quality.top_time, quality.top_speed, quality.top_speed / quality.usual_speed));
   else
-    warnings.push_back(fmt::format(
-        "it moves at up to {:.4g} m/s, usually {:.4g} m/s, as no hand does: check the units of its "
-        "times and positions, or set stroke.speed or stroke.scale",
-        quality.top_speed, quality.usual_speed));
+    warnings.push_back(
+        fmt::format("it moves at up to {:.4g} m/s, usually {:.4g} m/s, faster than any hand: check the units "
+                    "of its times and positions, or set stroke.speed or stroke.scale",
+                    quality.top_speed, quality.usual_speed));
   return warnings;
 }
 

@@ -338,10 +338,10 @@ void run_segment(Pen& pen, const ScriptSegment& segment, const StrokeScript& scr
                         profile.highest(), script.clearance);
     }
     const std::vector<Path> paths = std::visit(ToPaths{pen.point()}, segment.shape);
-    if (paths.empty()) throw_input_error("it draws nothing; give it letters that leave a mark");
+    if (paths.empty()) throw_input_error("it draws nothing; give it at least one visible letter");
     for (const Path& path : paths) {
       if (!(length_of(path) > 0.0))
-        throw_input_error("it has no length; let it end elsewhere than it begins");
+        throw_input_error("it has no length; give it an end that differs from its start");
       pen.draw(path, profile, segment.speed);
     }
   }
@@ -359,8 +359,8 @@ bool presses_by_force(const StrokeScript& script) {
 Stroke trace_script(const StrokeScript& script, const ForceSettings& force) {
   if (presses_by_force(script) && force.law != ForceLaw::paper)
     throw_input_error(
-        "{}: it presses by force, which is known for the paper's law only; give depths, or set force.law = "
-        "\"paper\"",
+        "{}: the script gives forces, but only the paper's law can turn forces into depths; give depths, or "
+        "set force.law = \"paper\"",
         script.name);
   if (script.segments.empty()) throw_input_error("{}: it has no segments; add at least one", script.name);
   Pen pen(script);

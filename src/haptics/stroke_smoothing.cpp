@@ -97,8 +97,8 @@ Stroke smoothed(const Stroke& stroke, double cut_off) {
     const double turn = 2.0 * std::numbers::pi * cut_off / rate, square = turn * turn;
     if (square * square < least_bend)
       throw_input_error(
-          "stroke.smooth = {:.4g} Hz is too low for samples at {:.6g} Hz: rounding would move them; set "
-          "{:.2g} Hz or more",
+          "stroke.smooth = {:.4g} Hz is too low for samples at {:.6g} Hz: rounding errors would displace "
+          "them; set {:.2g} Hz or more",
           cut_off, rate, 1.01 * rate * std::sqrt(std::sqrt(least_bend)) / (2.0 * std::numbers::pi));
     const PieceFilter filter(stroke.time, piece, cut_off);
     filter.apply(smooth.position);

@@ -7,7 +7,7 @@ void describe_table(KeyVisitor& v, TableSettings& t) {
          "columns of the tip, by name or number: \"x,y,z\" with z up, or \"x,y\" (then z = 0); \"-x,z,y\" "
          "negates x and swaps the others");
   v.text("position_unit", t.position_unit,
-         "unit of the position: m, cm, mm, um, in, px, or a number of metres");
+         "unit of the position: m, cm, mm, um, in, px, or its length in metres");
   v.number("pixel_size", t.pixel_size, not_negative, "m", "size of a pixel, for unit px");
   v.text("time", t.time, "column of the time: numbers, or ISO 8601");
   v.text("time_unit", t.time_unit, "unit of the time: s, ms, us or ns");
@@ -15,7 +15,8 @@ void describe_table(KeyVisitor& v, TableSettings& t) {
   v.number("speed", t.speed, not_negative, "m/s", "speed of the tip on the bed, instead of times");
   choose(v, "equal_times", t.equal_times, {"error", "drop", "spread"},
          "what to do with samples of equal times: stop with an error, keep the first, or space them evenly");
-  v.text("velocity", t.velocity, "columns of the tip's velocity, which the stroke keeps and no run uses");
+  v.text("velocity", t.velocity,
+         "columns of the tip's velocity; the stroke keeps it, but runs do not use it");
   v.text("velocity_unit", t.velocity_unit, "unit of the velocity: m/s, cm/s or mm/s");
   v.text("force", t.force, "columns of the recorded force");
   v.text("force_unit", t.force_unit, "unit of the force: N, mN or kN");
@@ -26,18 +27,19 @@ void describe_table(KeyVisitor& v, TableSettings& t) {
   v.text("pressure", t.pressure, "column of the pen's pressure, in any unit");
   v.text("part", t.part,
          "one of several recordings in a file: a topic of a ROS 2 bag, a variable of a MATLAB file");
-  v.text("columns", t.columns, "names of all columns, where no header line has them: \"x,y,t\"");
+  v.text("columns", t.columns, "names of all columns, if no header line has them: \"x,y,t\"");
   choose(v, "separator", t.separator, {"found", "comma", "semicolon", "tab", "blanks"},
-         "what stands between columns");
+         "separator between columns");
   choose(v, "decimal", t.decimal, {"found", "point", "comma"}, "decimal mark");
   v.text("encoding", t.encoding, "encoding of the text, such as UTF-16LE");
-  v.integers("skip_lines", &t.skip_lines, 1, 0, 1'000'000, "lines to pass over at the beginning");
-  v.text("skip", t.skip, "lines that begin with one of these words are passed over: \"START,END\"");
+  v.integers("skip_lines", &t.skip_lines, 1, 0, 1'000'000, "number of lines to skip at the beginning");
+  v.text("skip", t.skip, "lines that begin with one of these words are skipped: \"START,END\"");
   v.text("pen_up", t.pen_up,
-         "lines that begin with one of these words lift the pen; of G-code, the word of its servo: \"M280 "
-         "S90\"");
-  v.number("gap_threshold", t.gap_threshold, not_negative, "s",
-           "samples further apart are not joined: the tool lifts; 0: 0.1 s, or no gaps with speed");
+         "lines that begin with one of these words lift the pen; for G-code, the command of its servo: "
+         "\"M280 S90\"");
+  v.number(
+      "gap_threshold", t.gap_threshold, not_negative, "s",
+      "samples further apart in time are not joined: the tool lifts; 0: 0.1 s, or no gaps if speed is given");
   int device = t.frame == "device" ? 1 : 0;
   v.choice("frame", device, {"bed", "device"}, "axes of the positions");
   t.frame = device == 1 ? "device" : "bed";

@@ -59,17 +59,15 @@ std::string theory_warning(const Scene& scene, double fastest) {
   const double friction = elementary::tan(to_radians(sand.friction_angle));
   if (friction < 0.3 || friction > 0.9)
     return fmt::format(
-        "force.friction_angle = {} deg is outside of what the force's constants were fitted for (16.7 to 42 "
-        "deg); "
-        "take its forces for a guess",
+        "force.friction_angle = {} deg is outside 16.7 to 42 deg, for which the force's constants were "
+        "fitted; its forces are a guess",
         sand.friction_angle);
   constexpr double gravity = 9.81, most = 0.4;
   const double length = 2.0 * tool_reach(scene.tool), froude = fastest / std::sqrt(gravity * length);
   if (froude <= most) return "";
   return fmt::format(
-      "the tool goes at {:.3g} m/s through the sand, {:.2g} times the square root of g times its width; the "
-      "force's "
-      "theory is for less than {}: expect more force than it says",
+      "the tool moves through the sand at {:.3g} m/s, {:.2g} times the square root of g times its width; the "
+      "force's theory holds below {} times: the real force is larger",
       fastest, froude, most);
 }
 

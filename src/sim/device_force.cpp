@@ -68,7 +68,7 @@ class ContactWrench : public DeviceForce {
   }
 
   Remedy remedy(double /*max_drag_force*/) const override {
-    if (by_plugin_) return {{"what model.force gives"}, ""};
+    if (by_plugin_) return {{"the force that model.force gives"}, ""};
     return {{"force.density"}, "force.yield"};
   }
 

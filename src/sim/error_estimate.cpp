@@ -87,19 +87,19 @@ Scene second_scene(const Scene& scene, SecondSolution which) {
             units_then = coarser ? (units + 1) / 2 : 2 * units;
   if (units_then == units)
     throw_input_error(
-        "the error cannot be estimated: bed.cells = [{}, {}] cannot be made coarser, because larger square "
-        "cells do not fill the bed; take even numbers, or the finer solution",
+        "the error cannot be estimated: larger square cells than those of bed.cells = [{}, {}] do not fill "
+        "the bed; take even numbers of cells, or the finer solution",
         scene.bed.cols, scene.bed.rows);
   const DeviceSettings& device = scene.device;
   if (device.dropped_ticks > 0.0)
     throw_input_error(
-        "the error cannot be estimated: device.dropped_ticks = {} is a share of ticks, so with other ticks "
-        "the loop is late by another time; set it to 0",
+        "the error cannot be estimated: device.dropped_ticks = {} is a fraction of ticks, and the second "
+        "solution has ticks of another length; set it to 0",
         device.dropped_ticks);
   if (coarser && device.delay % 2 != 0)
     throw_input_error(
-        "the error cannot be estimated: device.delay = {} is not a whole number of ticks that are twice as "
-        "long; take an even one, or the finer solution",
+        "the error cannot be estimated: device.delay = {} ticks is odd, and the coarser solution has ticks "
+        "twice as long; take an even delay, or the finer solution",
         device.delay);
   Scene second = scene;
   second.device.delay = coarser ? device.delay / 2 : 2 * device.delay;  // the same delay in time
@@ -112,8 +112,8 @@ Scene second_scene(const Scene& scene, SecondSolution which) {
   second.relaxation.tolerance *= factor;
   second.relaxation.step_tolerance *= factor;
   second.output.frames = 0.0;
-  check_scene(second, coarser ? "the coarser solution that tells the error"
-                              : "the finer solution that tells the error");
+  check_scene(second, coarser ? "the coarser solution for the error estimate"
+                              : "the finer solution for the error estimate");
   return second;
 }
 

@@ -231,11 +231,11 @@ std::string furrow_warning(const Scene& scene, const FurrowMeasures& furrow) {
   const bool solid = scene.tool.solid && scene.displacement.deposit == Deposit::outward;
   if (!solid && furrow.asked_depth < 2.0 * reach)
     return left +
-           ": sand slips into the tool, or is pushed into the furrow behind it, as published; set "
+           ": in the published model, sand flows into the tool or is pushed into the furrow behind it; set "
            "tool.solid = true and displacement.deposit = \"outward\", as model.preset = \"accurate\" does";
   return left +
-         ": sand falls back into so deep a furrow behind the tool; a larger tool.radius or a steeper "
-         "relaxation.talus_angle leaves more of it";
+         ": behind the tool, sand falls back into such a deep furrow; a larger tool.radius or a steeper "
+         "relaxation.talus_angle leaves a deeper one";
 }
 
 }  // namespace sandstroke

@@ -29,7 +29,7 @@ auto by_law(const std::string& law, const Work& work) {
   } catch (const Stopped&) {
     throw;
   } catch (...) {
-    throw_input_error("{} failed, and does not say of what; correct the law", law);
+    throw_input_error("{} failed without an error message; correct the law", law);
   }
 }
 
@@ -52,11 +52,16 @@ class WatchedRelaxer : public Relaxer {
     }
     if (!(bed.rows() == before.rows() && bed.cols() == before.cols() && bed.shape() == before.shape() &&
           bed.cell_size() == before.cell_size()))
-      throw_input_error("{} made another bed of {} x {} cells; set the heights of the bed it is given", law_,
-                        bed.cols(), bed.rows());
+      throw_input_error(
+          "{} replaced the bed by another one of {} x {} cells; let it only set the heights of the bed that "
+          "it is given",
+          law_, bed.cols(), bed.rows());
     if (!(outcome.moved_volume >= 0.0 && std::isfinite(outcome.moved_volume)))
-      throw Error(ErrorKind::unstable,
-                  fmt::format("{} says that it moved {} m^3; correct the law", law_, outcome.moved_volume));
+      throw Error(
+          ErrorKind::unstable,
+          fmt::format(
+              "{} reports a moved volume of {} m^3; it must be 0 or more, and finite; correct the law", law_,
+              outcome.moved_volume));
     bed.clear_disturbed();
     return outcome;
   }
@@ -76,8 +81,11 @@ class WatchedDisplacer : public Displacer {
     const double moved =
         by_law(law_, [&] { return plugin_law_->displace(bed, footprint, tip_height, motion); });
     if (!(moved >= 0.0 && std::isfinite(moved)))
-      throw Error(ErrorKind::unstable,
-                  fmt::format("{} says that it moved {} m^3; correct the law", law_, moved));
+      throw Error(
+          ErrorKind::unstable,
+          fmt::format(
+              "{} reports a moved volume of {} m^3; it must be 0 or more, and finite; correct the law", law_,
+              moved));
     return moved;
   }
 
@@ -125,19 +133,20 @@ std::unique_ptr<Law> make_plugin_law(const Scene& scene, double cell_size, const
                                      const std::map<std::string, LawMaker<Law>> PluginLaws::*kind) {
   if (name.empty()) return nullptr;
   if (!scene.plugin_laws.laws)
-    throw_input_error("model.{} = \"{}\" is a law of a plugin; name its file: model.plugin", key, name);
+    throw_input_error("model.{} = \"{}\" names a plugin law; set model.plugin to the plugin's file", key,
+                      name);
   const auto& makers = (*scene.plugin_laws.laws).*kind;
   const std::string file = file_of(scene.plugin_laws);
   if (const auto maker = makers.find(name); maker != makers.end()) {
     const std::string law = law_in_words(scene.plugin_laws, key, name);
     std::unique_ptr<Law> made = by_law(law, [&] { return maker->second(scene, cell_size); });
-    if (!made) throw_input_error("{} was not made: its maker returns nothing; correct the law", law);
+    if (!made) throw_input_error("{} was not made: its maker returned a null pointer; correct the law", law);
     return std::make_unique<Watched>(law, std::move(made));
   }
   std::vector<std::string> known;
   for (const auto& [one, maker] : makers) known.push_back(one);
-  throw_input_error("{}has no {} '{}' (model.{}); {}", file, key, name, key,
-                    known.empty() ? std::string("it has none at all")
+  throw_input_error("{}has no {} law '{}' (model.{}); {}", file, key, name, key,
+                    known.empty() ? std::string("it has no such law at all")
                                   : fmt::format("take one of: {}", fmt::join(known, ", ")));
 }
 

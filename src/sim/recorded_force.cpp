@@ -133,7 +133,7 @@ std::string text_of(const ForceAgreement& agreement) {
   if (std::isnan(agreement.correlation)) return text;
   text += fmt::format("; correlation {:.3f}", agreement.correlation);
   if (agreement.lag != 0.0)
-    text += fmt::format(", {:.3f} where the run's is taken {:.1f} ms {}", agreement.best_correlation,
+    text += fmt::format(", {:.3f} if the run's force is read {:.1f} ms {}", agreement.best_correlation,
                         1e3 * std::abs(agreement.lag), agreement.lag > 0.0 ? "later" : "earlier");
   return text;
 }

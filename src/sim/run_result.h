@@ -73,51 +73,50 @@ void visit_tick_fields(const Visit& visit) {
       Text{"time", "s", "start of the tick"}, [](auto& tick) -> auto& { return tick.time; });
   visit(
       Text{"hand_position", "m",
-           "where the hand wants the tip at the start of the tick, in the device's frame; until the next "
-           "one it goes straight and uniformly"},
+           "where the hand wants the tip at the start of the tick, in the device's frame; it moves straight "
+           "and uniformly until the next tick"},
       [](auto& tick) -> auto& { return tick.hand.position; });
   visit(
       Text{"orientation", "",
-           "of the hand, as a unit quaternion; it turns the tool from how tool.orientation holds it",
+           "the hand's orientation as a unit quaternion; it turns the tool, starting from tool.orientation",
            &TraceContent::orientation},
       [](auto& tick) -> auto& { return tick.hand.orientation.coeffs(); });
   visit(
       Text{"device_position", "m",
-           "tip as the device read it, rounded to its encoders, in its frame (on the bed: device.scale x "
-           "this + device.offset)"},
+           "position of the tip that the device read, rounded to its encoders' resolution, in its frame (on "
+           "the bed: device.scale x this + device.offset)"},
       [](auto& tick) -> auto& { return tick.device_position; });
   visit(
       Text{"device_force", "N",
-           "force that acts on the device in the tick: cut to its largest, late by device.delay and "
+           "force that acts on the device in the tick: limited to its largest, delayed by device.delay and "
            "dropped ticks, faded in after a gap"},
       [](auto& tick) -> auto& { return tick.device_force; });
   visit(
-      Text{"repulse_force", "N", "force by which the sand repulses the tool there, neither late nor cut"},
+      Text{"repulse_force", "N", "repulse force of the sand on the tool there, without delay or limit"},
       [](auto& tick) -> auto& { return tick.repulse_force; });
   visit(
-      Text{"drag_force", "N", "force by which the sand drags at the tool there, neither late nor cut"},
+      Text{"drag_force", "N", "drag force of the sand on the tool there, without delay or limit"},
       [](auto& tick) -> auto& { return tick.drag_force; });
   visit(
       Text{"torque", "N m", "torque of the sand on the tool about its tip", &TraceContent::torque},
       [](auto& tick) -> auto& { return tick.wrench.torque; });
   visit(
       Text{"recorded_force", "N",
-           "force on the hand that was recorded with the stroke, in the device's frame; not a number where "
-           "it is "
-           "not known or the recorder altered it",
+           "force on the hand, recorded with the stroke, in the device's frame; not a number where it is "
+           "unknown or the recorder altered it",
            &TraceContent::recorded_force},
       [](auto& tick) -> auto& { return tick.recorded_force; });
   visit(
-      Text{"level", "m", "height of the sand under the tool; not a number where it is lifted"},
+      Text{"level", "m", "height of the sand under the tool; not a number where the tool is lifted"},
       [](auto& tick) -> auto& { return tick.level; });
   visit(
       Text{"depth", "m", "depth of the tip, as read, below that level; negative above it"},
       [](auto& tick) -> auto& { return tick.depth; });
   visit(
-      Text{
-          "asked_depth", "m",
-          "depth below the sand that the stroke asks for; negative above it, not a number where it is lifted",
-          &TraceContent::asked_depth},
+      Text{"asked_depth", "m",
+           "depth below the sand that the stroke asks for; negative above it, not a number where the tool is "
+           "lifted",
+           &TraceContent::asked_depth},
       [](auto& tick) -> auto& { return tick.asked_depth; });
   visit(
       Text{"displaced_volume", "m^3", "sand pushed aside in the tick"},
@@ -128,10 +127,10 @@ void visit_tick_fields(const Visit& visit) {
   visit(
       Text{"contact", "", "whether the tool touches sand"}, [](auto& tick) -> auto& { return tick.contact; });
   visit(
-      Text{"saturated", "", "whether the device's largest force cut the force"},
+      Text{"saturated", "", "whether the force was limited to the device's largest"},
       [](auto& tick) -> auto& { return tick.saturated; });
   visit(
-      Text{"dropped", "", "whether the loop was late: the force of the tick before is given out again",
+      Text{"dropped", "", "whether the loop was late and repeated the force of the tick before",
            &TraceContent::dropped_ticks},
       [](auto& tick) -> auto& { return tick.dropped; });
 }
@@ -152,10 +151,10 @@ void visit_relaxation_fields(const Visit& visit) {
       Text{"passes", "1", "passes over the active sand"},
       [](auto& record) -> auto& { return record.outcome.passes; });
   visit(
-      Text{"residual", "1", "largest excess of a slope over the talus slope that is left"},
+      Text{"residual", "1", "largest remaining excess of a slope over the talus slope"},
       [](auto& record) -> auto& { return record.outcome.residual; });
   visit(
-      Text{"moved_volume", "m^3", "sand that slipped"},
+      Text{"moved_volume", "m^3", "sand that flowed"},
       [](auto& record) -> auto& { return record.outcome.moved_volume; });
 }
 
@@ -185,7 +184,7 @@ template <class Visit>
 void visit_error_fields(const Visit& visit) {
   using Text = FieldText;
   visit(
-      Text{"height_share", "1", "sand that lies elsewhere, of the sand that is not where it was"},
+      Text{"height_share", "1", "sand in the wrong place, as a fraction of the sand that changed place"},
       [](auto& error) -> auto& { return error.height_share; });
   visit(
       Text{"height_rms", "m", "error of heights, rms over the cells that changed"},

@@ -25,7 +25,8 @@ void visit_touched(const HeightField& bed, const Visit& visit) {
 }
 
 std::string no_number(const HeightField& bed, const std::string& law) {
-  std::string sentence = fmt::format("{} left heights that are too large for a number; correct the law", law);
+  std::string sentence =
+      fmt::format("{} left heights whose sum is too large for a number; correct the law", law);
   bool found = false;
   visit_touched(bed, [&](int row, int col, double height) {
     if (std::isfinite(height) || std::exchange(found, true)) return;
@@ -78,8 +79,8 @@ void SandWatch::check(const HeightField& bed, const std::string& law) {
   const double share = std::abs(more) / sand;
   if (share <= rounding) return;
   throw Error(ErrorKind::unstable,
-              fmt::format("{} {} {:.3g} m^3 of sand, {:.2g} of what lies above and below z = 0; correct the "
-                          "law: what it takes from a cell it has to give to others",
+              fmt::format("{} {} {:.3g} m^3 of sand, a fraction of {:.2g} of the sand above and below z = 0; "
+                          "correct the law: it must give to other cells what it takes from a cell",
                           law, more < 0.0 ? "lost" : "made", std::abs(more) * bed.cell_area(), share));
 }
 

@@ -17,13 +17,14 @@ void describe_bed(KeyVisitor& v, BedSettings& bed) {
   v.numbers("size", size, 2, positive, "m", "extent along x and y");
   bed.width = size[0], bed.depth = size[1];
   int cells[2] = {bed.cols, bed.rows};
-  v.integers("cells", cells, 2, 1, BedGeometry::most_cells, "cells along x and y; they must come out square");
+  v.integers("cells", cells, 2, 1, BedGeometry::most_cells,
+             "number of cells along x and y; the cells must be square");
   bed.cols = cells[0], bed.rows = cells[1];
   choose(v, "shape", bed.shape, {"rectangle", "round"},
-         "all of its rectangle, or the largest circle in it, inside a wall: a sand table");
+         "the whole rectangle, or the largest circle in it with a wall around it, as in a sand table");
 
   SurfaceSettings& s = bed.surface;
-  v.section("bed.surface", "the sand before anything touches it");
+  v.section("bed.surface", "the sand at the start of the run");
   choose(v, "kind", s.kind, {"flat", "cylinder", "cone", "cliff", "noise", "ripples", "file"}, "its shape");
   const auto is = [&](auto... kinds) { return ((s.kind == kinds) || ...); };
   using enum SurfaceKind;
@@ -42,19 +43,19 @@ void describe_bed(KeyVisitor& v, BedSettings& bed) {
   }
   if (is(file)) {
     v.text("file", s.file, "a run file (its final surface) or a 16-bit grayscale PNG");
-    v.number("low", s.low, any_number, "m", "height of a PNG's black; low = high: as the PNG says");
-    v.number("high", s.high, any_number, "m", "height of a PNG's white; low = high: as the PNG says");
+    v.number("low", s.low, any_number, "m", "height of a PNG's black; low = high: the PNG's own range");
+    v.number("high", s.high, any_number, "m", "height of a PNG's white; low = high: the PNG's own range");
   }
 }
 
 void describe_tool(KeyVisitor& v, ToolSettings& tool) {
   v.section("tool", "what is pushed through the sand");
   choose(v, "shape", tool.shape, {"sphere", "cylinder", "cone", "box", "plate", "rake", "mesh"},
-         "its shape; its tip is the middle of its underside, a mesh's the origin of its file");
+         "its shape; its tip is the middle of its underside, or the origin of a mesh's file");
   const auto is = [&](auto... shapes) { return ((tool.shape == shapes) || ...); };
   using enum ToolShape;
   if (is(sphere, cylinder, cone, rake))
-    v.number("radius", tool.radius, positive, "m", "radius; of a cone at its top, of a rake's teeth");
+    v.number("radius", tool.radius, positive, "m", "radius (cone: at its top; rake: of each tooth)");
   if (is(cylinder, cone, plate, rake)) v.number("height", tool.height, positive, "m", "height above the tip");
   if (is(box)) v.numbers("size", tool.size.data(), 3, positive, "m", "extent along x, y and z");
   if (is(plate)) {
@@ -67,23 +68,23 @@ void describe_tool(KeyVisitor& v, ToolSettings& tool) {
   }
   if (is(mesh)) {
     v.text("file", tool.file, "a closed surface (.stl), z up, relative to the scene");
-    v.number("scale", tool.scale, positive, "m", "length of the file's unit (0.001: it is in millimetres)");
+    v.number("scale", tool.scale, positive, "m", "length of the file's unit (0.001: millimetres)");
   }
   if (is(sphere)) {
-    choose(v, "profile", tool.profile, {"paper", "sphere"}, "underside: the paper's filter, or the sphere");
+    choose(v, "profile", tool.profile, {"paper", "sphere"},
+           "shape of the underside: the paper's filter, or a sphere");
   } else {
     v.numbers("orientation", tool.orientation.data(), 3, degrees, "deg",
-              "how it is held: turned about x, then about y, then about z");
+              "rotation about x, then about y, then about z");
   }
-  v.flag("solid", tool.solid, "no sand slips under the tool while it touches the sand");
+  v.flag("solid", tool.solid, "no sand flows under the tool while the tool touches sand");
 }
 
 void describe_force(KeyVisitor& v, ForceSettings& force, SandStrength& sand) {
   v.section("force", "the force of the sand on the device");
   choose(v, "law", force.law, {"paper", "rft", "archimedes"},
-         "of depth and velocity as published; resistive force theory over the tool's surface, in newtons; or "
-         "that "
-         "theory's lift of the volume in the sand, without drag");
+         "the published law of depth and velocity; resistive force theory over the tool's surface, in "
+         "newtons; or only that theory's lift, from the volume in the sand, without drag");
   if (force.law == ForceLaw::paper) {
     v.number("k_s", force.k_s, not_negative, "N", "repulse force k_s (exp(k_c depth) - 1)");
     v.number("k_c", force.k_c, positive, "1/m", "growth of the repulse force with depth");
@@ -95,34 +96,34 @@ void describe_force(KeyVisitor& v, ForceSettings& force, SandStrength& sand) {
          "sets friction_angle and density: typical dry sand, or Quikrete (Agarwal et al. 2023)");
   if (v.reads()) apply_sand_preset(sand);
   v.number("friction_angle", sand.friction_angle, {5.0, 60.0, false}, "deg",
-           "internal friction of the sand, as a shear test gives it");
-  v.number("density", sand.density, positive, "kg/m^3", "of the sand in bulk");
+           "angle of internal friction of the sand, from a shear test");
+  v.number("density", sand.density, positive, "kg/m^3", "bulk density of the sand");
   if (force.law == ForceLaw::rft)
     v.number("tool_friction", sand.tool_friction, not_negative, "", "friction of sand on the tool's surface");
   v.number("yield", sand.yield_way, {1e-6, 1.0, false}, "m",
-           "way of the tool until the sand's resistance is all there, or has turned round");
+           "distance that the tool moves until the sand resists fully, or until its resistance has reversed");
 }
 
 void describe_relaxation(KeyVisitor& v, RelaxationSettings& r) {
   v.section("relaxation", "how sand that lies too steep flows");
-  choose(
-      v, "law", r.law, {std::begin(relaxation_law_names), std::end(relaxation_law_names)},
-      "8 neighbours as published, the same slope in every direction, or that slope between each two cells");
+  choose(v, "law", r.law, {std::begin(relaxation_law_names), std::end(relaxation_law_names)},
+         "8 neighbours as published; the same talus slope in every direction; or that slope between each two "
+         "cells");
   choose(v, "method", r.method, {"passes", "rkl", "plain"},
-         "passes, or super time steps, which are far fewer; or the rule cell by cell, which is slow");
+         "passes; super time steps, which are far fewer; or the rule cell by cell, which is slow");
   if (r.method == RelaxationMethod::rkl)
     v.number("step_tolerance", r.step_tolerance, {1e-6, 10.0, false}, "",
-             "error of a super step, as a share of how far sand has moved");
+             "error of a super step, as a fraction of the distance that sand has moved");
   v.number("talus_angle", r.talus_angle, sharp_angle, "deg", "angle of repose");
   v.number("tolerance", r.tolerance, {1e-12, 1.0, false}, "",
-           "how much steeper than tan(talus_angle) a slope may stay, as a share of it");
+           "a slope may stay steeper than tan(talus_angle) by this fraction of it");
   v.number("rate", r.rate, not_negative, "Hz", "relaxations per second of stroke; 0: none");
   v.number("way", r.way, not_negative, "tool radii",
            "how far the tool moves through sand between relaxations; 0: none");
   v.number("way_at_rim", r.way_at_rim, not_negative, "tool radii",
-           "the same where sand stands R/5 above its rim; 0: no shorter");
+           "the same where sand stands R/5 above the tool's rim; 0: as way");
   v.number("share", r.share, {0.0, 1.0, false}, "",
-           "part of the excess that a pass moves; 0: 1/2 (paper) or 1/4 (others)");
+           "fraction of the excess that a pass moves; 0: 1/2 (paper) or 1/4 (others)");
   double passes = static_cast<double>(r.max_passes);
   v.number("max_passes", passes, {0.0, 1e15, false, true}, "", "largest number of passes in one relaxation");
   r.max_passes = static_cast<std::int64_t>(passes);
@@ -131,11 +132,11 @@ void describe_relaxation(KeyVisitor& v, RelaxationSettings& r) {
 void describe_device(KeyVisitor& v, DeviceSettings& d) {
   v.section("device", "the simulated haptic device");
   choose(v, "model", d.model, {"kinematic", "dynamic"},
-         "moved by the stroke, or a mass that the hand's spring pulls");
+         "the stroke moves it exactly, or the hand pulls a mass by a spring");
   choose(v, "preset", d.preset, {"omega3", "phantom-desktop", "touch", "ideal"},
          "sets max_force and resolution");
   if (v.reads()) apply_device_preset(d);
-  v.number("servo_rate", d.servo_rate, {1.0, 1e6, false}, "Hz", "ticks of the haptic loop");
+  v.number("servo_rate", d.servo_rate, {1.0, 1e6, false}, "Hz", "ticks per second of the haptic loop");
   v.number("scale", d.scale, positive, "", "bed metres per device metre");
   v.numbers("offset", d.offset.data(), 3, any_number, "m", "bed position of the device's origin");
   v.number("max_force", d.max_force, not_negative, "N", "largest force of the device; 0: no limit");
@@ -146,11 +147,12 @@ void describe_device(KeyVisitor& v, DeviceSettings& d) {
   v.number("hand_damping", d.hand_damping, not_negative, "N s/m", "damping of the hand");
   if (d.model != DeviceModel::dynamic) return;
   v.integers("delay", &d.delay, 1, 0, 1000, "ticks until the sand's force acts");
-  v.number("dropped_ticks", d.dropped_ticks, {0.0, 0.99, false}, "",
-           "share of late ticks (the same in every run); the force of the tick before stays");
+  v.number(
+      "dropped_ticks", d.dropped_ticks, {0.0, 0.99, false}, "",
+      "fraction of ticks that are late (the same ones in every run) and repeat the force of the tick before");
   choose(v, "drag", d.drag, {"sampled", "implicit"},
-         "velocity that causes drag: read before the tick, or in it (implicit: no controller can, for it "
-         "knows the hand's way)");
+         "velocity that causes drag: read before the tick, or the velocity in the tick (implicit; a real "
+         "controller cannot: it would have to know the hand's motion ahead)");
   choose(v, "velocity", d.velocity, {"exact", "encoders"},
          "velocity read: the device's own, or differences of positions read 4 ticks apart");
 }
@@ -158,41 +160,42 @@ void describe_device(KeyVisitor& v, DeviceSettings& d) {
 void describe_stroke(KeyVisitor& v, StrokeSettings& stroke) {
   StrokePlacement& p = stroke.placement;
   v.text("file", stroke.file,
-         "scripted (.toml), recorded (.h5) or a table of samples, relative to the scene");
+         "a script (.toml), a recording (.h5) or a table of samples, relative to the scene");
   choose(v, "plane", p.plane, {"keep", "fit", "flatten"},
-         "keep recorded heights, or turn and shift the stroke so that its plane is level, or so and move it "
-         "onto the plane exactly");
+         "keep recorded heights; turn and shift the stroke so that its plane is level; or also move it "
+         "exactly onto that plane");
   if (p.plane != StrokePlane::keep)
     choose(v, "up", p.up, stroke_up_names,
-           "axis of the stroke that points up from its plane, about; auto: the side to which the pen lifts, "
+           "axis of the stroke that points roughly up from its plane; auto: the side to which the pen lifts, "
            "or the nearest positive axis");
-  v.number("fit", p.fit, not_negative, "", "share of the bed that it fills; 0: it keeps its size");
-  v.number("scale", p.scale, positive, "", "scale of the positions, where fit is 0");
-  choose(v, "place", p.place, {"keep", "centre"},
-         "keep its place, or bring the middle of what it draws onto the middle of the bed");
+  v.number("fit", p.fit, not_negative, "", "fraction of the bed that it fills; 0: it keeps its size");
+  v.number("scale", p.scale, positive, "", "scale of the positions, if fit is 0");
+  choose(v, "place", p.place, {"keep", "centre"}, "keep its place, or centre what it draws on the bed");
   v.number("rotate_z", p.rotate_z, degrees, "deg", "turn about z, from +x towards +y");
   v.number("depth", p.depth, any_number, "m",
            "how far it is lowered; with plane = fit or flatten: how far below z = 0 it runs");
   choose(v, "depth_by", p.depth_by, depth_by_names,
-         "as deep everywhere, or in proportion to the pressure or the size of the force that was recorded");
+         "the same depth everywhere, or in proportion to the recorded pressure or to the size of the "
+         "recorded force");
   if (p.depth_by != DepthBy::none)
     v.number("full_depth_at", p.full_depth_at, not_negative, "",
-             "pressure, or force in N, of the full depth; 0: the largest of the stroke");
+             "pressure, or force in N, at the full depth; 0: the stroke's largest");
   choose(v, "follow", p.follow, {"bed", "sand"},
-         "its heights count from z = 0, or from the sand as it lies under the tool (as do those of a script "
-         "with a force)");
-  v.numbers("offset", p.offset.data(), 3, any_number, "m", "shift on the bed, after all else");
+         "its heights are measured from z = 0, or from the sand under the tool (always so in a script with a "
+         "force)");
+  v.numbers("offset", p.offset.data(), 3, any_number, "m", "shift on the bed, applied last");
   choose(v, "held", p.held, {"keep", "drop"},
-         "samples that a device repeated, because it was read faster than it measures");
+         "keep or drop samples that a device repeated, because it was read faster than it measures");
   v.number("smooth", p.smooth, not_negative, "Hz",
-           "smooths the hand without delay: a tremble of that frequency is halved; 0: as recorded");
-  v.number("speed", p.speed, positive, "", "times faster than recorded");
-  v.number("start", p.start, not_negative, "s", "time at which it begins, as recorded");
+           "smooths the hand's motion without delay: it halves a tremble of this frequency; 0: as recorded");
+  v.number("speed", p.speed, positive, "", "how many times faster than recorded it is played");
+  v.number("start", p.start, not_negative, "s", "time in the recording at which it begins");
   double stop = std::isinf(p.stop) ? 0.0 : p.stop;
-  v.number("stop", stop, not_negative, "s", "time at which it ends, as recorded; 0: its own end");
+  v.number("stop", stop, not_negative, "s",
+           "time in the recording at which it ends; 0: at the recording's end");
   p.stop = stop > 0.0 ? stop : std::numeric_limits<double>::infinity();
   if (!v.optional_section("stroke.table", stroke.table.has_value(),
-                          "how a table of samples is read; what is not given is found in the table"))
+                          "how a table of samples is read; a key that is not given is found from the table"))
     return;
   if (!stroke.table) stroke.table.emplace();
   describe_table(v, *stroke.table);
@@ -235,14 +238,13 @@ void describe_plugin_laws(KeyVisitor& v, PluginLawSettings& plugin_laws) {
       !(plugin_laws.plugin.empty() && plugin_laws.relaxation.empty() && plugin_laws.displacement.empty() &&
         plugin_laws.force.empty() && plugin_laws.parameters == PluginLawSettings{}.parameters);
   if (!any && !v.reads()) return;
-  v.text("plugin", plugin_laws.plugin, "laws of your own (.so), relative to the scene");
+  v.text("plugin", plugin_laws.plugin, "the plugin's file (.so), relative to the scene");
   v.text("relaxation", plugin_laws.relaxation,
-         "the plugin's law that takes the place of relaxation.law and method");
-  v.text("displacement", plugin_laws.displacement,
-         "the plugin's rule that takes the place of displacement.deposit");
-  v.text("force", plugin_laws.force, "the plugin's law that takes the place of force.law");
+         "plugin law that replaces relaxation.law and relaxation.method");
+  v.text("displacement", plugin_laws.displacement, "plugin law that replaces displacement.deposit");
+  v.text("force", plugin_laws.force, "plugin law that replaces force.law");
   v.numbers("parameters", plugin_laws.parameters.data(), static_cast<int>(plugin_laws.parameters.size()),
-            any_number, "", "what the plugin's laws make of them");
+            any_number, "", "numbers for the plugin laws, which give them their meaning");
 }
 
 }  // namespace
@@ -252,8 +254,8 @@ bool is_contact_law(const Scene& scene) {
 }
 
 void describe_scene(KeyVisitor& v, Scene& scene) {
-  v.section("model", "the set of defaults that the other settings start from, and laws of your own");
-  choose(v, "preset", scene.preset, preset_names, "as published, or the choices for accuracy");
+  v.section("model", "the set of defaults that the other settings start from, and plugin laws");
+  choose(v, "preset", scene.preset, preset_names, "the published model, or the choices for accuracy");
   if (v.reads()) apply_model_preset(scene);
   describe_plugin_laws(v, scene.plugin_laws);
 
@@ -334,7 +336,7 @@ void check_scene(const Scene& scene, const std::string& name) {
   const bool is_sphere = scene.tool.shape == ToolShape::sphere;
   if (!is_sphere && scene.plugin_laws.displacement.empty() && scene.displacement.deposit != Deposit::outward)
     throw_input_error(
-        "{}: the paper's ring of sand (displacement.deposit) is a sphere's; for any other tool.shape set "
+        "{}: displacement.deposit = \"ring\" and \"ahead\" need a sphere; for any other tool.shape set "
         "model.preset = \"accurate\", or displacement.deposit = \"outward\"",
         name);
   if (scene.tool.shape == ToolShape::mesh && scene.tool.file.empty())
@@ -362,18 +364,18 @@ void check_scene(const Scene& scene, const std::string& name) {
   const DeviceSettings& device = scene.device;
   if (device.drag == DragVelocity::implicit && (device.delay > 0 || device.dropped_ticks > 0.0))
     throw_input_error(
-        "{}: device.drag = implicit is for a force that acts in the tick it is computed in; set device.delay "
-        "= 0 and device.dropped_ticks = 0, or device.drag = sampled",
+        "{}: device.drag = implicit needs a force that acts in the tick in which it is computed; set "
+        "device.delay = 0 and device.dropped_ticks = 0, or device.drag = sampled",
         name);
   if (device.drag == DragVelocity::implicit && device.velocity == ReadVelocity::encoders)
     throw_input_error(
-        "{}: device.drag = implicit goes by no velocity that is read; set device.velocity = exact, or "
-        "device.drag = sampled",
+        "{}: device.drag = implicit does not use the velocity that encoders read; set device.velocity = "
+        "exact, or device.drag = sampled",
         name);
   if (is_contact_law(scene) && device.drag == DragVelocity::implicit)
     throw_input_error(
-        "{}: device.drag = implicit is for the paper's drag; set force.law = paper and no model.force, or "
-        "device.drag = sampled",
+        "{}: device.drag = implicit works only with the paper's drag; set force.law = paper and no "
+        "model.force, or device.drag = sampled",
         name);
   if (scene.stroke && scene.stroke->file.empty())
     throw_input_error(

@@ -18,7 +18,7 @@ Simulation::Simulation(const Scene& scene, HeightField bed, std::optional<Stroke
   if (!stroke) return;
   if (!(stroke->duration() * scene.device.servo_rate < 1e15))
     throw_input_error(
-        "the stroke lasts {} s, more ticks at {} Hz than can be played; correct its times, or set "
+        "the stroke lasts {} s: at {} Hz a run cannot play that many ticks; correct its times, or set "
         "stroke.stop",
         stroke->duration(), scene.device.servo_rate);
   check_inside(*stroke);
@@ -38,8 +38,8 @@ void Simulation::check_inside(const Stroke& stroke) const {
     const double beyond = bed().beyond_edge(tip.x(), tip.y());
     if (beyond > 0.0 && stroke.pen_down(i) && tip.z() < highest)
       throw_input_error(
-          "the stroke enters the sand outside the bed: at {:.3f} s it is {:.4g} mm beyond its edge, at x = "
-          "{:.4g} m, y = {:.4g} m; {}",
+          "the stroke enters the sand outside the bed: at {:.3f} s it is {:.4g} mm beyond the bed's edge, at "
+          "x = {:.4g} m, y = {:.4g} m; {}",
           stroke.time[i], 1e3 * beyond, tip.x(), tip.y(), way_onto_the_bed(stroke, scene()));
   }
 }

@@ -11,9 +11,8 @@ SteppedSimulation::SteppedSimulation(const Scene& scene, HeightField bed, bool r
     : loop_(scene, std::move(bed), true), relaxes_(relaxes) {
   if (scene.device.model == DeviceModel::dynamic && scene.device.drag == DragVelocity::implicit)
     throw_input_error(
-        "device.drag = \"implicit\" knows where the hand goes in a tick, which is not known tick by tick; "
-        "set "
-        "\"sampled\"");
+        "device.drag = \"implicit\" needs the hand's motion in a tick before the tick begins; a simulation "
+        "that is stepped does not know it; set \"sampled\"");
 }
 
 double SteppedSimulation::time() const { return static_cast<double>(ticks_) / scene().device.servo_rate; }

@@ -27,10 +27,10 @@ std::string way_onto_the_bed(const Stroke& stroke, const Scene& scene) {
   const Eigen::Vector2d bed(scene.bed.width, scene.bed.depth);
   const bool too_large = (drawn.sizes().array() > bed.array()).any();
   return fmt::format(
-      "it draws from x = {:.4g} to {:.4g} m and y = {:.4g} to {:.4g} m, and the bed ends at {:.4g} and "
-      "{:.4g} m; set stroke.place = \"centre\"{}",
+      "it draws from x = {:.4g} to {:.4g} m and y = {:.4g} to {:.4g} m, and the bed ends at x = {:.4g} m and "
+      "y = {:.4g} m; set stroke.place = \"centre\"{}",
       drawn.min().x(), drawn.max().x(), drawn.min().y(), drawn.max().y(), 0.5 * bed.x(), 0.5 * bed.y(),
-      too_large ? " and stroke.fit = 0.8 (or change stroke.scale; 0.001 makes metres of millimetres)"
+      too_large ? " and stroke.fit = 0.8 (or change stroke.scale; 0.001 converts millimetres to metres)"
                 : ", or change stroke.offset, stroke.scale or bed.size");
 }
 
@@ -38,13 +38,12 @@ std::string untouched_text(const Scene& scene, const RunResult& result) {
   constexpr const char* tracing =
       "for a tracing on a table set stroke.plane = \"fit\" and stroke.depth = 0.004";
   if (!(result.stroke.played > 0.0))
-    return "the tool never touched the sand: the stroke is never down; see its gaps and pen states with "
-           "sandstroke stroke info";
+    return "the tool never touched the sand: the pen is never down in the stroke; see its gaps and pen "
+           "states with sandstroke stroke info";
   if (std::isinf(result.nearest))
     return fmt::format(
-        "the tool never touched the sand: it is never down over the bed, but {:.4g} mm beyond its edge at "
-        "least; "
-        "set stroke.place = \"centre\"; {}",
+        "the tool never touched the sand: it is down only outside the bed, {:.4g} mm or more beyond its "
+        "edge; set stroke.place = \"centre\"; {}",
         1e3 * result.least_beside, tracing);
   const double away = -result.nearest, depth = scene.stroke->placement.depth;
   return fmt::format(

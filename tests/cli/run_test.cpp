@@ -499,11 +499,11 @@ TEST(CliRun, AToolBesideTheBedIsToldHowFar) {
   EXPECT_EQ(said(rectangle).err.find("beyond its edge"), std::string::npos);
   const ProgramResult above = said(round);  // |(3, 3)| = 4.243, and the wall is at 4
   EXPECT_EQ(above.exit_code, 0);
-  EXPECT_NE(above.err.find("242.6 mm beyond its edge at least"), std::string::npos) << above.err;
+  EXPECT_NE(above.err.find("242.6 mm or more beyond its edge"), std::string::npos) << above.err;
   round.push_back("stroke.depth=0.02");
   const ProgramResult inside = said(round);
   EXPECT_EQ(inside.exit_code, 2);
-  EXPECT_NE(inside.err.find("242.6 mm beyond its edge, at x = 3 m"), std::string::npos) << inside.err;
+  EXPECT_NE(inside.err.find("242.6 mm beyond the bed's edge, at x = 3 m"), std::string::npos) << inside.err;
 }
 
 TEST(CliRun, AStrokeInMillimetresIsPointedOut) {

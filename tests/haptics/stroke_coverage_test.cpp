@@ -59,8 +59,9 @@ TEST(StrokeCoverage, SamplesThatNoLineJoinsAreTold) {
   Stroke corners;
   corners.time = {0.0, 4.0, 8.0, 12.0, 16.0};
   corners.position.assign(5, Eigen::Vector3d::Zero());
-  EXPECT_NE(coverage_warning(corners, "square.csv").find("5 of its 5 samples are over 0.1 s from the next"),
-            std::string::npos)
+  EXPECT_NE(
+      coverage_warning(corners, "square.csv").find("5 of its 5 samples are more than 0.1 s from the next"),
+      std::string::npos)
       << coverage_warning(corners, "");
   corners.gap_threshold = 4.0;
   EXPECT_EQ(coverage_warning(corners, ""), "");

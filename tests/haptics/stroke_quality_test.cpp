@@ -62,7 +62,7 @@ TEST(StrokeQuality, EachThingThatMattersIsOneSentence) {
   Stroke jump = noisy_circle(0.0);
   for (std::size_t i = 1000; i < jump.size(); ++i) jump.position[i].x() += 0.04;
   const std::string jumps = only_warning(jump);
-  EXPECT_NE(jumps.find("jumps at 1.998 s, at 20"), std::string::npos) << jumps;
+  EXPECT_NE(jumps.find("jumps at 1.998 s at a speed of 20"), std::string::npos) << jumps;
 
   Stroke fast = noisy_circle(0.0);
   for (double& t : fast.time) t *= 0.001;

@@ -169,17 +169,18 @@ TEST(PluginLaws, ANameThatIsNotThereIsRefusedWithThoseThatAre) {
   const auto begin = [&] { Simulation(scene, starting_bed(scene.bed), down_and_along()); };
   scene.plugin_laws.plugin = "laws.so";
   scene.plugin_laws.relaxation = "slow";
-  EXPECT_EQ(refusal_of(begin), "laws.so: has no relaxation 'slow' (model.relaxation); it has none at all");
+  EXPECT_EQ(refusal_of(begin),
+            "laws.so: has no relaxation law 'slow' (model.relaxation); it has no such law at all");
   PluginLaws laws;
   const auto none = [](const Scene&, double) { return nullptr; };
   laws.relaxations["fast"] = laws.relaxations["fair"] = none;
   scene.plugin_laws.laws = std::make_shared<PluginLaws>(laws);
   EXPECT_EQ(refusal_of(begin),
-            "laws.so: has no relaxation 'slow' (model.relaxation); take one of: fair, fast");
+            "laws.so: has no relaxation law 'slow' (model.relaxation); take one of: fair, fast");
   scene.plugin_laws.relaxation = "fast";
   EXPECT_TRUE(says(refusal_of(begin), "laws.so: relaxation 'fast' was not made"));
   scene.plugin_laws.laws = nullptr;
-  EXPECT_TRUE(says(refusal_of(begin), "name its file: model.plugin"));
+  EXPECT_TRUE(says(refusal_of(begin), "set model.plugin to the plugin's file"));
 }
 
 TEST(PluginLaws, WhatALawThrowsNamesIt) {

@@ -70,8 +70,8 @@ TEST(StrokeDepth, BesideTheBedTheWayOntoItIsSaid) {
     return way_onto_the_bed(played.stroke, played.scene);
   };
   EXPECT_TRUE(
-      way(0.1).starts_with("it draws from x = 1 to 1.1 m and y = 2 to 2.05 m, and the bed ends at 0.15 "
-                           "and 0.1 m; set stroke.place = \"centre\", or "))
+      way(0.1).starts_with("it draws from x = 1 to 1.1 m and y = 2 to 2.05 m, and the bed ends at x = 0.15 m "
+                           "and y = 0.1 m; set stroke.place = \"centre\", or "))
       << way(0.1);
   EXPECT_NE(way(0.4).find("\"centre\" and stroke.fit = 0.8"), std::string::npos) << way(0.4);
 }
@@ -85,7 +85,7 @@ TEST(StrokeDepth, OfAToolThatNeverTouchedSaysHowFarItStayed) {
   result.stroke.played = 1.0;
   result.least_beside = 0.25;
   const std::string beside = untouched_text(played.scene, result);
-  EXPECT_NE(beside.find("250 mm beyond its edge at least; set stroke.place = \"centre\""), std::string::npos);
+  EXPECT_NE(beside.find("250 mm or more beyond its edge; set stroke.place = \"centre\""), std::string::npos);
   result.nearest = -0.003, result.nearest_time = 0.25;
   const std::string text = untouched_text(played.scene, result);
   EXPECT_NE(text.find("3 mm above it (nearest at 0.250 s)"), std::string::npos) << text;
