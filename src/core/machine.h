@@ -16,7 +16,7 @@ struct MemoryRoom {
 };
 MemoryRoom memory_room();
 
-/// Error: input, "WHAT takes about 3 GB of memory, and this machine has 2 GB free; REMEDY", if `bytes` is
+/// Error: input, "WHAT takes about 3 GB of memory, but this machine has 2 GB free; REMEDY", if `bytes` is
 /// more than `share` times memory_room(). Call it before the memory is taken.
 void check_memory(double bytes, const std::string& what, const std::string& remedy, double share = 1.0);
 
@@ -24,9 +24,9 @@ void check_memory(double bytes, const std::string& what, const std::string& reme
 /// such as those of a library.
 void check_addresses(double bytes, const std::string& what, const std::string& remedy);
 
-/// Error: io, "PATH: takes about 3 GB, and there is room for 2 GB; REMEDY", if a file of so many bytes has no
-/// room there or is larger than the system allows (ulimit -f). The room of an old PATH.part counts as free.
-/// Call it before any work.
+/// Error: io, "PATH: takes about 3 GB, but the disk has room for 2 GB; REMEDY", if a file of so many bytes
+/// has no room there or is larger than the system allows (ulimit -f). The room of an old PATH.part counts as
+/// free. Call it before any work.
 void check_disk(const std::filesystem::path& path, double bytes, const std::string& remedy);
 
 /// Makes threads share one heap if the address space is limited (ulimit -v): otherwise each thread reserves

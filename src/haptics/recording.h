@@ -66,7 +66,7 @@ struct RecordingHeader {
 /// Counts of ticks: elapsed = recorded + skipped + unread + dropped. If a recording was cut off, it is not
 /// known why ticks are missing; all of them count as skipped.
 struct TickCounts {
-  std::int64_t elapsed = 0;   ///< ticks since the first, included
+  std::int64_t elapsed = 0;   ///< ticks from the first one on
   std::int64_t recorded = 0;  ///< in the file
   std::int64_t skipped = 0;   ///< their time had passed when the loop woke; never made up
   std::int64_t unread = 0;    ///< the device gave nothing, or no number

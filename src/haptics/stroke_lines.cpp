@@ -29,8 +29,8 @@ std::vector<PlaceOnLine> places_of(const Stroke& stroke, double tolerance) {
   const auto velocity = [&](std::size_t i) -> Eigen::Vector3d {
     return (stroke.position[i + 1] - stroke.position[i]) / time(i);
   };
-  // The fraction of line i up to a sample near the corner between lines `before` and `before` + 1; 0: it
-  // needs none.
+  // The fraction of line i between its corner (of lines `before` and `before` + 1) and the sample close to
+  // that; 0: it needs none.
   const auto close_share = [&](std::size_t i, std::size_t before) {
     const double corner = (velocity(before + 1) - velocity(before)).norm();
     const double longest = time_in_tolerance(corner, tolerance);

@@ -16,7 +16,7 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double widest_hand = 3.0;    // m, the widest reach of an arm
-constexpr double fastest_hand = 10.0;  // m/s; a throw is slower
+constexpr double fastest_hand = 10.0;  // m/s; a hand that draws is slower
 
 /// How far four samples are from any parabola over time [m^2], as the square of one sample's noise.
 double squared_residual(const Stroke& stroke, std::size_t first) {

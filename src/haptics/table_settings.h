@@ -15,7 +15,7 @@ enum class DecimalMark { found, point, comma };
 enum class EqualTimes { error, drop, spread };
 
 /// How a table of samples becomes a stroke ([stroke.table] in a scene). Settings that are empty, 0 or `found`
-/// come from the table. Columns are named, or numbered from 1; commas separate lists.
+/// come from the table. Columns are named, or numbered from 1; lists have commas between their items.
 struct TableSettings {
   std::string position;       ///< 2 or 3 columns, each with - in front if its sign changes: "-x,z,y"
   std::string position_unit;  ///< m cm mm um in px, or metres: "1e-5"

@@ -48,7 +48,8 @@ inline void prepare_hdf5() {
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
 }
 
-/// Opens files without HDF5's own lock, which fails where there are no locks, and on NFS beside a FileLock.
+/// Access properties without HDF5's own lock, which fails where there are no locks, and on NFS beside a
+/// FileLock.
 inline Hdf5Handle without_locks() {
   Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   H5Pset_file_locking(access, false, true);

@@ -91,7 +91,7 @@ class Hdf5Writer {
   /// Writes numbers from 0 to 2^53 as 64-bit integers, strongly compressed. For few rows and many columns.
   void write_whole_numbers(const std::string& dataset, const HeightGrid& numbers);
   void write(const std::string& dataset, const std::string& text);
-  void write(const std::string& dataset, const std::vector<std::string>& texts);  ///< all of one length
+  void write(const std::string& dataset, const std::vector<std::string>& texts);  ///< padded to the longest
 
   template <class Number>
   requires std::is_arithmetic_v<Number>

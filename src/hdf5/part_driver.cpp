@@ -107,7 +107,8 @@ struct PartFile : H5FD_t {
 PartFile& part_of(H5FD_t* file) { return static_cast<PartFile&>(*file); }
 const PartFile& part_of(const H5FD_t* file) { return static_cast<const PartFile&>(*file); }
 
-/// Takes back the pages of a commit that a kill interrupted. False: the file cannot be read.
+/// Holds the appended pages of a commit that a kill interrupted after its seal. False: the file cannot be
+/// read.
 bool PartFile::take_appended() {
   struct stat status {};
   if (fstat(file, &status) != 0) return false;

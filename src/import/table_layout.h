@@ -19,7 +19,7 @@ using ColumnChoices = std::vector<ColumnChoice>;
 
 /// The columns of a table by their meaning.
 struct TableLayout {
-  ColumnChoices position;         ///< 2 or 3; none in a second table without one
+  ColumnChoices position;         ///< 2 or 3; none in a second table
   ColumnChoices velocity, force;  ///< 2 or 3, or none
   ColumnChoices orientation;      ///< 4, 9 or none
   std::optional<std::size_t> time, pressure;

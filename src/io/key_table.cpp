@@ -10,7 +10,7 @@
 namespace sandstroke {
 namespace {
 
-/// Collects the keys that it is shown. Before, it sets key `name` to `chosen`, as if read from a file.
+/// Collects the keys that it is shown. It sets the key `name` to `chosen`, as if read from a file.
 class KeyLister : public KeyVisitor {
  public:
   explicit KeyLister(bool reads, std::string name = "", std::string chosen = "")

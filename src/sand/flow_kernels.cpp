@@ -30,7 +30,7 @@ HWY_INLINE V lower(V a, V b) {
 
 HWY_INLINE V above(V x, V threshold) { return where(x > threshold, x); }
 
-/// The heights of `lanes` cells from column `c`, and of their axis neighbours.
+/// The heights, or the factors, of `lanes` cells from column `c`, and of their axis neighbours.
 struct Around {
   V m, w, e, n, s;
   HWY_INLINE Around(const double* row, int c)

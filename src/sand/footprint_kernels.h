@@ -32,7 +32,8 @@ struct Carved {
   double front_weight;  ///< sum of weights() over the ring
   double ring_weight;   ///< sum of ring_weight()
 };
-/// Carves, and fills ring_weight() and, with the part of it that the motion fills, weights().
+/// Carves, but leaves takes() alone. Fills ring_weight() and, with the part of it that the motion fills,
+/// weights().
 Carved carve_for_ring(const FootprintShape& shape, ToolFootprint& footprint, double tip_height,
                       const RingFront& front);
 

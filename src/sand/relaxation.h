@@ -24,7 +24,7 @@ struct RelaxationSettings {
   double step_tolerance = 0.1;  ///< rkl: error of a super-step, as a fraction of how far sand has moved
   double rate = 60.0;       ///< Hz, relaxations during a stroke; 0 = none by time (paper: the visual loop)
   double way = 0.0;         ///< tool radii that the tool moves in sand between relaxations; 0 = none by way
-  double way_at_rim = 0.0;  ///< tool radii: the same while sand stands R/5 above its rim; 0 = as `way`
+  double way_at_rim = 0.0;  ///< tool radii: the same with R/5 of sand or more above its rim; 0 = as `way`
   double share = 0.0;       ///< c: 0 = the law's default (paper 1/2; isotropic 1/4, its limit; faces 1/4)
   std::int64_t max_passes = 1'000'000;  ///< per relaxation
 };
@@ -70,7 +70,7 @@ class Relaxer {
 };
 
 /// The number of tiles that are allocated, or whose rule is steep enough to move. The first relaxation wakes
-/// them, and allocates those beside them.
+/// them, and allocates those beside them. With `plain`: the number of all tiles.
 std::int64_t tiles_to_relax(const HeightField& bed, const RelaxationSettings& settings);
 /// Memory that relaxing takes for each of them [bytes], the bed's own included.
 std::size_t bytes_per_relaxed_tile(const RelaxationSettings& settings);

@@ -1,4 +1,5 @@
-// Relaxes only the cells that can move, tile by tile, with the same bits as relaxation_plain.cpp.
+// Relaxes only the cells that can move, tile by tile, with the same bits as PlainRelaxer
+// (whole_bed_relaxer.cpp).
 #include "core/compensated_sum.h"
 #include "core/interrupt.h"
 #include "sand/active_sand.h"

@@ -94,7 +94,8 @@ ToolElements::ToolElements(const TriangleMesh& surface, double size) {
     const Patch& patch = *order[i].second;
     places_.emplace_back(patch.moment / patch.area);
     normals_.emplace_back(patch.facing.normalized());
-    // The area of the vector sum. So the sum over the whole surface is 0, as for any closed surface.
+    // The length of the vector sum: area x normal adds up to 0 over the whole surface, as it must if that is
+    // closed.
     columns_[6 * size_ + i] = patch.facing.norm();
   }
   turn(Eigen::Matrix3d::Identity());

@@ -121,8 +121,8 @@ class ToolFootprint {
 
   // --- for any tool but the sphere (!is_sphere()), if the window is not empty ---
   /// Carves the sand to the tool's underside, for a tip at `tip_height` [m]. Returns the sum of heights taken
-  /// out [m]. Only the part of the tool below twice its depth, or below its highest contact, covers cells. A
-  /// high overhang covers none.
+  /// out [m]. The tool covers cells only from its lowest point up to twice its depth, or up to its highest
+  /// contact if that is higher. A high overhang covers none.
   double carve(double tip_height);
   /// Whether sand reached the underside in the last carve().
   bool touches() const { return touches_; }

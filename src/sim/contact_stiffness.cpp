@@ -29,7 +29,7 @@ std::vector<Vector3d> directions(int count) {
   return all;
 }
 
-/// A tool on level sand that is not displaced, so that only the law is at work.
+/// A tool on level sand. It displaces none, so that only the law is at work.
 class LevelSand {
  public:
   explicit LevelSand(const Scene& scene)

@@ -44,7 +44,7 @@ class DepthForce : public DeviceForce {
   ForceSettings settings_;
 };
 
-/// The wrench of the sand on the tool, by a law that no speed makes larger.
+/// The wrench of the sand on the tool, by any other law. Its drag is taken not to grow with speed.
 class ContactWrench : public DeviceForce {
  public:
   explicit ContactWrench(bool by_plugin) : by_plugin_(by_plugin) {}

@@ -13,8 +13,8 @@ namespace sandstroke {
 
 /// s: a tool that is below the sand after a gap of the stroke did not come down through it. Its force is
 /// multiplied by t / fade_in until t = fade_in after the first tick in the sand, or until it leaves the sand.
-/// The energy that it stores meanwhile is not the hand's: plunge_work(), by the growth of that factor, counts
-/// as given.
+/// The energy that it stores meanwhile is not the hand's: DeviceForce::stored(), by the growth of that
+/// factor, counts as given.
 inline constexpr double fade_in = 0.1;
 
 /// The device's side of a run: where it is, what it feels of the sand, and what that amounts to. The sand's
@@ -58,7 +58,8 @@ class DeviceSide {
 };
 
 /// What to change where a loop is unstable or returns energy: the keys of a scene that have a part in it.
-/// "lower force.k_s or device.delay, or raise ..."; of any law but the paper's "raise force.yield ...".
+/// "lower force.k_s or device.delay, or raise ..."; with rft and archimedes "lower
+/// force.density ..., or raise force.yield ..."; with a plugin law "lower what model.force gives ...".
 /// max_drag_force [N]: 0 where drag did nothing.
 std::string loop_remedies(const Scene& scene, double max_drag_force);
 

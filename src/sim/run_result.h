@@ -24,8 +24,7 @@ struct TickRecord {
   Eigen::Vector3d drag_force = Eigen::Vector3d::Zero();       ///< N
   /// N, the force on the hand that was recorded with the stroke (sim/recorded_force.h); NaN: not known.
   Eigen::Vector3d recorded_force = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
-  Wrench wrench =
-      {};  ///< of the contact, if force.law is not the paper's: force and torque on the bed's axes
+  Wrench wrench = {};  ///< of the contact, by any law but the paper's: force and torque on the bed's axes
   double level = std::numeric_limits<double>::quiet_NaN();  ///< m, sand level under the tool; NaN: lifted
   double depth = 0.0;             ///< m, of the tip below the level; negative = above
   double displaced_volume = 0.0;  ///< m^3, displaced in this tick
@@ -43,7 +42,7 @@ struct TraceContent {
   bool recorded_force = false;  ///< the stroke was recorded with forces
   bool dropped_ticks = false;   ///< the device has dropped ticks
   bool asked_depth = false;     ///< the stroke follows the sand
-  bool torque = false;          ///< force.law is not the paper's
+  bool torque = false;          ///< the law of force is not the paper's
   bool orientation = false;     ///< the stroke turns the tool
 };
 
@@ -179,7 +178,7 @@ struct ErrorEstimate {
   double wall_seconds = 0.0;  ///< time that the estimate took
 };
 
-/// The same for an error estimate: the numbers of the outcome, not of the clock.
+/// Like visit_tick_fields(), for an error estimate: the numbers of the outcome, not of the clock.
 template <class Visit>
 void visit_error_fields(const Visit& visit) {
   using Text = FieldText;

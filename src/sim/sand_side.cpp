@@ -17,9 +17,9 @@ constexpr double longest_step = 0.5;
 /// The least way between relaxations [cells]: sand that relaxes more often has hardly moved. A plate of two
 /// cells would ask for that.
 constexpr double least_way = 0.25;
-/// Height of sand above the rim [radii] from which the way is the short one: strokes at tip depth R are
-/// deeper. With 0.5 a scribble R/2 deep over its own ground leaves 6.6 % of its sand elsewhere, 5.5 % with
-/// 0.2, 5.2 % with 0.1; a sand table takes 0.35, 0.46 and 0.84 s with 0.5, 0.2 and 0.
+/// Height of sand above the rim [radii] from which the way is the short one. Where the tip is R deep, sand
+/// stands higher. With 0.5 a scribble R/2 deep over its own ground leaves 6.6 % of its sand elsewhere, 5.5 %
+/// with 0.2, 5.2 % with 0.1; a sand table takes 0.35, 0.46 and 0.84 s with 0.5, 0.2 and 0.
 constexpr double deep_at_rim = 0.2;
 
 }  // namespace
@@ -51,7 +51,8 @@ double SandSide::displace_sand(HeightField& bed, const Eigen::Vector3d& tip, con
   return plugin_law_->displace(bed, footprint_, tip.z(), motion);
 }
 
-Interaction SandSide::displace_at(HeightField& bed, const Eigen::Vector3d& tip, const Eigen::Vector3d& motion) {
+Interaction SandSide::displace_at(HeightField& bed, const Eigen::Vector3d& tip,
+                                  const Eigen::Vector3d& motion) {
   Interaction interaction = look(bed, tip);
   // Any tool but the sphere may meet a heap beside the level around it.
   if (interaction.contact || !footprint_.is_sphere())

@@ -23,8 +23,8 @@ struct Interaction {
 /// The sand's side of a tick: moves a tool through a bed, from place to place.
 class SandSide {
  public:
-  /// relaxation: its ways (RelaxationByWay); without them no relaxation is due by way. own: a plugin law that
-  /// replaces the displacement of the settings.
+  /// relaxation: its ways (RelaxationByWay); without them no relaxation is due by way. plugin_law: replaces
+  /// the displacement of the settings.
   SandSide(const ToolSettings& tool, const DisplacementSettings& displacement,
            const RelaxationSettings& relaxation = {}, std::unique_ptr<Displacer> plugin_law = nullptr);
 

@@ -36,7 +36,7 @@ class Simulation {
  private:
   void check_inside(const Stroke& stroke) const;
   void run_stroke();
-  /// Plays the tick at whose end the stroke is at next_time.
+  /// The stages of the tick at whose end the stroke is at next_time (TickLoop::step).
   TickRecord tick(double time, const Hand& hand, double next_time, const std::function<void()>& relax);
   /// The stroke's hand at that time of the stroke, on the sand as it lies now.
   Hand hand_at(double time);
