@@ -30,7 +30,7 @@ struct LiveSandReport {
 };
 
 /// Sand under a recorded hand: the scene's tool, displacement and force in the servo loop, its relaxation in
-/// a thread of its own (paper 4). A `run` of the recorded stroke in the same scene has the same sand and
+/// a thread of its own (paper 5). A `run` of the recorded stroke in the same scene has the same sand and
 /// forces, except for
 /// - time: a run plays a smooth curve through the samples, at even ticks;
 /// - velocity: a run knows that of the curve, and here only the past is known (velocity_window);
