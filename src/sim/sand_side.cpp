@@ -51,7 +51,8 @@ double SandSide::displace_sand(HeightField& bed, const Eigen::Vector3d& tip, con
   return plugin_law_->displace(bed, footprint_, tip.z(), motion);
 }
 
-Interaction SandSide::displace_at(HeightField& bed, const Eigen::Vector3d& tip, const Eigen::Vector3d& motion) {
+Interaction SandSide::displace_at(HeightField& bed, const Eigen::Vector3d& tip,
+                                  const Eigen::Vector3d& motion) {
   Interaction interaction = look(bed, tip);
   // Any tool but the sphere may meet a heap beside the level around it.
   if (interaction.contact || !footprint_.is_sphere())
