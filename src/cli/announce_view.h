@@ -26,9 +26,8 @@ class ViewOpener {
 /// it in a browser, if there is a desktop and not in CI. Keep the result while the view lives.
 std::unique_ptr<ViewOpener> announce_view(const ViewServer& server, bool opens);
 
-/// Waits until the first page watches, so that it sees all, or until an interrupt. Tells on stderr that
-/// `what`
-/// ("run") begins then.
+/// Waits until the first page watches, so that it sees all, or until an interrupt. Says on stderr what begins
+/// then. what: "run", for example.
 void wait_for_page(const ViewServer& server, const char* what);
 
 }  // namespace sandstroke

@@ -349,7 +349,7 @@ void add_record_command(CLI::App& app, Command& chosen) {
                     "Calibrate the device first. THIS MAY MOVE ITS ARM: keep clear");
   command->add_flag(
       "--allow-uncalibrated", settings.allow_uncalibrated,
-      "Give forces on a device that reports no calibration. They may push where there is no sand");
+      "Give forces on a device that says it is not calibrated. They may push where there is no sand");
   command
       ->add_option("--priority", settings.priority,
                    fmt::format("Real-time priority (SCHED_FIFO) of the loop, 1 to {}. 0 asks for none",

@@ -45,7 +45,7 @@ Json error_part(const std::optional<ErrorEstimate>& error) {
   if (error) {
     text = error->at_rest ? "The estimated difference from a run with infinitely small steps."
                           : "The sand was not at rest, so this estimate says little.";
-    add_figure(figures, "Part of the displaced sand that lies elsewhere", 100.0 * error->height_share, "%");
+    add_figure(figures, "Part of the changed sand that lies elsewhere", 100.0 * error->height_share, "%");
     add_figure(figures, "Height, root mean square over the changed cells", error->height_rms, "m");
     add_figure(figures, "Height, largest", error->height_max, "m");
     add_figure(figures, "Force, root mean square", error->force_rms, "N");

@@ -19,8 +19,8 @@ FeltStroke felt_stroke(const Scene& scene, const std::filesystem::path& scene_fo
 
 /// Fits the scene's law to the stroke's forces. is_free: which of constants_of() may change. If the force of
 /// a contact is not linear in these, the run is played again, with sands around the best values so far, until
-/// these change by at most 1 %, at most five times. None if it was interrupted. Error: as fit_force(), and
-/// those of a run.
+/// these change by at most 1 %, but no more than five times in all. None if it was interrupted. Error: as
+/// fit_force(), and those of a run.
 std::optional<ForceFit> fit_stroke(const FeltStroke& felt, const std::vector<bool>& is_free);
 
 }  // namespace sandstroke

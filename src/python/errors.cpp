@@ -55,7 +55,7 @@ void add_errors(py::module_& module) {
   input_error = new_error(module, "InputError", error, PyExc_ValueError,
                           "An argument, a setting or a file's content is wrong.");
   unstable_error = new_error(module, "UnstableError", error, PyExc_ArithmeticError,
-                             "The run is unstable or does not come to rest; try other settings.");
+                             "The run is unstable, or a law makes or loses sand; try other settings.");
   file_error = new_error(module, "FileError", error, PyExc_OSError, "A file could not be read or written.");
   py::register_exception_translator([](std::exception_ptr thrown) {
     try {

@@ -42,7 +42,7 @@ class LiveRelaxer {
               std::unique_ptr<Relaxer> relaxer = nullptr);
   ~LiveRelaxer() { stop(); }
 
-  /// Shows the bed to `onlooker` after every turn, in the live_relaxer's thread. Call it before start().
+  /// Shows the bed to `onlooker` after every turn, in the thread that relaxes. Call it before start().
   void show_to(std::function<void(const HeightField&)> onlooker) { onlooker_ = std::move(onlooker); }
   /// Starts a thread that relaxes settings.rate times a second and by the tool's way, from the first place of
   /// the tool on. Where a relaxation takes longer, the next one follows at once. Sand with far to go takes

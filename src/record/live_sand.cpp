@@ -39,7 +39,7 @@ const HeightField& checked(const Scene& scene, const HeightField& bed) {
                   "stroke.held, stroke.smooth and stroke.speed",
                   "they change a stroke that does not exist yet");
   }
-  // The servo loop and the live_relaxer each hold their own bed, and what the other knows of it.
+  // The servo loop and the LiveRelaxer each hold their own bed, and what the other knows of it.
   check_memory(4.0 * bed.tile_count() * static_cast<double>(HeightField::bytes_per_tile()),
                fmt::format("live sand with bed.cells = [{}, {}]", bed.cols(), bed.rows()), "use fewer cells",
                0.5);
@@ -172,7 +172,7 @@ FeltForce LiveSand::feel(double time, const DeviceReading& reading) noexcept {
   }
   places_.push({tip, interaction.contact,
                 shaper_ ? std::optional(shaper_->rotation())
-                        : std::nullopt});  // where the ring is full the live_relaxer knows an older place
+                        : std::nullopt});  // where the ring is full the LiveRelaxer knows an older place
   depth_.store(interaction.contact ? interaction.depth : std::numeric_limits<double>::quiet_NaN(),
                std::memory_order_relaxed);
   felt.is_above_or_in_sand = !is_beside(interaction, tip);

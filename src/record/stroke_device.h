@@ -28,7 +28,7 @@ class StrokeDevice : public HapticDevice {
   std::optional<double> duration() const override { return sampler_.stroke().duration(); }
   /// Its longest gap.
   double longest_silence() const override { return longest_silence_; }
-  /// time [s]: since the stroke's first sample. The switches are those of the last sample before `time`.
+  /// time [s]: since the stroke's first sample. The switches are those of the last sample up to `time`.
   bool read(double time, DeviceReading& reading) noexcept override;
   bool command(const Eigen::Vector3d& force) noexcept override;
   void release() noexcept override { command(Eigen::Vector3d::Zero()); }

@@ -14,9 +14,8 @@ namespace sandstroke {
 ///   point              the index
 ///   verdict            flag_values, flag_meanings of the CF conventions
 ///   reason             why points have no metrics; only if some have a reason
-///   surface            (shape, ny, nx) m over scales y and x, if all beds are the same. Virtual: it is read
-///   from
-///                      points/, which must go with the file
+///   surface            (shape, ny, nx) m over scales y and x, if all beds are the same. Virtual: points/
+///                      holds the heights, and must go with the file
 ///   /timing/NAME       the only metrics that differ from run to run
 /// Attributes of the root: format = "sandstroke.sweep", format_version, content_hash, version, commit, scene.
 /// Error: io.

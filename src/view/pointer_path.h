@@ -21,8 +21,9 @@ struct PointerKnot {
 /// Every coordinate is a cubic from knot to knot. Its slopes come from three knots (the parabola through
 /// them), limited so that it never leaves the range of the two knots around it (Steffen, Astron. Astrophys.
 /// 239, 1990). So its speed has no steps. The error is of third order in the knots' spacing, and of second
-/// order where a coordinate turns round, if the knots lie on a smooth way and are known long enough for their
-/// slopes. The way comes to rest at the last knot that is known in time: a pointer that rests sends nothing.
+/// order where a coordinate turns round, if the knots lie on a smooth way, and each is known early enough
+/// for the slope at the knot before it. The way comes to rest at the last knot that is known in time: a
+/// pointer that rests sends nothing.
 class PointerPath {
  public:
   /// The tip rests at `home` first. interval [ns]: from rest, it sets out at most so long before the next

@@ -147,7 +147,7 @@ function drawLive(main) {
     tools.append(el("br"), draw, el("label", {}, "Depth", depth),
                  el("button", { type: "button", class: "finish", click: finish }, "Finish"));
     help.prepend("Press and drag to draw in the sand; the wheel then sets the depth. Drag with the right button to " +
-                 "turn the view. D turns drawing off and on; while it is off, any button turns the view. ");
+                 "turn the view. D turns drawing off and on; while it is off, the main button turns the view, too. ");
     view.drawing = hand;
     view.canvas.addEventListener("keydown", (event) => {
       if (event.key.toLowerCase() === "d") draw.click();

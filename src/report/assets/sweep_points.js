@@ -135,7 +135,7 @@ function gallery(sweep, view, select, keys) {
       shown = sliceOf(sweep, view).shown;
       if (rows && x.order.length <= 12 && rows.order.length <= 40) {
         arrangement.textContent =
-          `${withUnit(x.name, x.unit)} grows from left to right, ${withUnit(rows.name, rows.unit)} from bottom to top.`;
+          `From left to right: ${withUnit(x.name, x.unit)}. From bottom to top: ${withUnit(rows.name, rows.unit)}.`;
         drawRows(x, rows);
         return;
       }

@@ -6,9 +6,8 @@ namespace sandstroke {
 
 /// A granular medium in two-dimensional resistive force theory: the Fourier coefficients of the stress on a
 /// plate over its depth [N/cm^3], fitted to measurements (Li, Zhang, Goldman, Science 339, 2013, supplement,
-/// table S2). The generic medium has what all media have in common, scaled so that a flat plate pushed
-/// straight down feels
-/// 1. NaN: not known here.
+/// table S2). The generic medium has what all media have in common, scaled so that the stress on a flat plate
+/// that is pushed straight down is 1. NaN: not known here.
 struct PlanarMedium {
   const char* name;
   double a00, a10, b11, b01, b_11;  ///< of the vertical stress; b_11: m = -1, n = 1
