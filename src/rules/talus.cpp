@@ -14,9 +14,9 @@ namespace sandstroke {
 
 double talus_slope(double talus_angle) { return elementary::tan(to_radians(talus_angle)); }
 
-TalusLaw::TalusLaw(RelaxationLaw law, double share, double talus_angle, double tolerance, double cell_size)
-    : law(law),
-      share(share),
+TalusLaw::TalusLaw(RelaxationLaw by, double part, double talus_angle, double tolerance, double cell_size)
+    : law(by),
+      share(part),
       axis_drop(talus_slope(talus_angle) * cell_size),
       diagonal_drop(axis_drop * std::numbers::sqrt2),
       axis_limit(axis_drop * (1.0 + tolerance)),

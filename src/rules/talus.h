@@ -37,8 +37,8 @@ struct TalusLaw {
   double axis_limit;     ///< a cell with a larger drop gives: T (1 + tolerance)
   double diagonal_limit;
 
-  /// talus_angle [deg]. tolerance: a share of tan(talus). cell_size [m].
-  TalusLaw(RelaxationLaw law, double share, double talus_angle, double tolerance, double cell_size);
+  /// by, part: the law and its c. talus_angle [deg]. tolerance: a share of tan(talus). cell_size [m].
+  TalusLaw(RelaxationLaw by, double part, double talus_angle, double tolerance, double cell_size);
 };
 
 /// What one pass does.
