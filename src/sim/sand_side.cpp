@@ -98,18 +98,18 @@ Interaction SandSide::move(HeightField& bed, const Eigen::Vector3d& read_tip, co
   return interaction;
 }
 
-double SandSide::way_to_next_relaxation(const HeightField& bed) {
-  if (way_at_rim_ <= 0.0 || way_at_rim_ >= way_)
-    return std::max(way_ * footprint_.radius(), least_way * bed.cell_size());
+double SandSide::buried(const HeightField& bed) {
   // Once sand stands at a sphere's rim, the sand displaced outward and the sand that falls in behind the
   // sphere run from one crest. At the sides of any other tool that is always so. (A plough that goes 0.4
   // inradii leaves 25 % of its sand elsewhere than one that goes 0.05; 0.1: 7 %.)
-  double buried = 1.0;
-  if (footprint_.is_sphere()) {
-    const double above_rim = seen(bed).highest_at_rim() - (tip_.z() + footprint_.radius());
-    buried = std::clamp(above_rim / (deep_at_rim * footprint_.radius()), 0.0, 1.0);
-  }
-  const double way = way_ * elementary::pow(way_at_rim_ / way_, buried);
+  if (!footprint_.is_sphere()) return 1.0;
+  const double above_rim = seen(bed).highest_at_rim() - (tip_.z() + footprint_.radius());
+  return std::clamp(above_rim / (deep_at_rim * footprint_.radius()), 0.0, 1.0);
+}
+
+double SandSide::way_to_next_relaxation(const HeightField& bed) {
+  double way = way_;
+  if (0.0 < way_at_rim_ && way_at_rim_ < way_) way *= elementary::pow(way_at_rim_ / way_, buried(bed));
   return std::max(way * footprint_.radius(), least_way * bed.cell_size());
 }
 

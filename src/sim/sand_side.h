@@ -73,6 +73,8 @@ class SandSide {
   const std::optional<Eigen::Vector3d>& last_tip() const { return last_tip_; }
 
  private:
+  /// How far the sand at the tool's rim calls for the short way: from 0, none stands at it, to 1.
+  double buried(const HeightField& bed);
   /// The way [m] that the tool may go until the next relaxation.
   double way_to_next_relaxation(const HeightField& bed);
   Interaction displace_at(HeightField& bed, const Eigen::Vector3d& tip, const Eigen::Vector3d& motion);
