@@ -33,6 +33,15 @@ auto by_law(const std::string& law, const Work& work) {
   }
 }
 
+/// Error: unstable, where the volume [m^3] that a law says it has moved cannot be true.
+void check_moved_volume(const std::string& law, double volume) {
+  if (!(volume >= 0.0 && std::isfinite(volume)))
+    throw Error(
+        ErrorKind::unstable,
+        fmt::format("{} reports a moved volume of {} m^3; it must be 0 or more, and finite; correct the law",
+                    law, volume));
+}
+
 class WatchedRelaxer : public Relaxer {
  public:
   WatchedRelaxer(std::string law, std::unique_ptr<Relaxer> plugin_law)
@@ -56,12 +65,7 @@ class WatchedRelaxer : public Relaxer {
           "{} replaced the bed by another one of {} x {} cells; let it only set the heights of the bed that "
           "it is given",
           law_, bed.cols(), bed.rows());
-    if (!(outcome.moved_volume >= 0.0 && std::isfinite(outcome.moved_volume)))
-      throw Error(
-          ErrorKind::unstable,
-          fmt::format(
-              "{} reports a moved volume of {} m^3; it must be 0 or more, and finite; correct the law", law_,
-              outcome.moved_volume));
+    check_moved_volume(law_, outcome.moved_volume);
     bed.clear_disturbed();
     return outcome;
   }
@@ -80,12 +84,7 @@ class WatchedDisplacer : public Displacer {
                   const Eigen::Vector3d& motion) override {
     const double moved =
         by_law(law_, [&] { return plugin_law_->displace(bed, footprint, tip_height, motion); });
-    if (!(moved >= 0.0 && std::isfinite(moved)))
-      throw Error(
-          ErrorKind::unstable,
-          fmt::format(
-              "{} reports a moved volume of {} m^3; it must be 0 or more, and finite; correct the law", law_,
-              moved));
+    check_moved_volume(law_, moved);
     return moved;
   }
 
