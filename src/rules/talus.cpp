@@ -14,13 +14,10 @@ namespace sandstroke {
 
 double talus_slope(double talus_angle) { return elementary::tan(to_radians(talus_angle)); }
 
-TalusLaw::TalusLaw(RelaxationLaw by, double part, double talus_angle, double tolerance, double cell_size)
-    : law(by),
-      share(part),
-      axis_drop(talus_slope(talus_angle) * cell_size),
-      diagonal_drop(axis_drop * std::numbers::sqrt2),
-      axis_limit(axis_drop * (1.0 + tolerance)),
-      diagonal_limit(diagonal_drop * (1.0 + tolerance)) {}
+TalusLaw talus_law(RelaxationLaw law, double share, double talus_angle, double tolerance, double cell_size) {
+  const double axis = talus_slope(talus_angle) * cell_size, diagonal = axis * std::numbers::sqrt2;
+  return {law, share, axis, diagonal, axis * (1.0 + tolerance), diagonal * (1.0 + tolerance)};
+}
 
 namespace {
 

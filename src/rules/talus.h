@@ -36,10 +36,9 @@ struct TalusLaw {
   double diagonal_drop;  ///< T of a diagonal neighbour: tan(talus) sqrt(2) dx
   double axis_limit;     ///< a cell with a larger drop gives: T (1 + tolerance)
   double diagonal_limit;
-
-  /// by, part: the law and its c. talus_angle [deg]. tolerance: a share of tan(talus). cell_size [m].
-  TalusLaw(RelaxationLaw by, double part, double talus_angle, double tolerance, double cell_size);
 };
+/// talus_angle [deg]. tolerance: a share of tan(talus). cell_size [m].
+TalusLaw talus_law(RelaxationLaw law, double share, double talus_angle, double tolerance, double cell_size);
 
 /// What one pass does.
 struct TalusPass {

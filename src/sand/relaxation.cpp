@@ -23,7 +23,7 @@ double flow_share(const RelaxationSettings& settings) {
 }
 
 TalusLaw talus_law(const RelaxationSettings& settings, double cell_size) {
-  return {settings.law, flow_share(settings), settings.talus_angle, settings.tolerance, cell_size};
+  return talus_law(settings.law, flow_share(settings), settings.talus_angle, settings.tolerance, cell_size);
 }
 
 std::int64_t tiles_to_relax(const HeightField& bed, const RelaxationSettings& settings) {

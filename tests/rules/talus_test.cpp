@@ -12,7 +12,7 @@ const double t = std::tan(M_PI / 6.0);  // on cells of 1 m
 
 TalusPass pass_over(const HeightGrid& heights, RelaxationLaw law, double share, CompensatedSum& moved) {
   const WallGrid walls = WallGrid::Zero(heights.rows(), heights.cols());
-  return talus_pass(heights, walls, TalusLaw(law, share, talus, 0.0, 1.0), moved);
+  return talus_pass(heights, walls, talus_law(law, share, talus, 0.0, 1.0), moved);
 }
 
 TEST(TalusPass, PaperSharesTheExcessInProportionToTheDrops) {
@@ -52,7 +52,7 @@ TEST(TalusPass, AtTheTalusAndInWallsNothingFlows) {
     EXPECT_FALSE(pass_over(heights, law, 0.25, moved).flows);
     const HeightGrid cliff = 10.0 * heights;
     WallGrid walls = WallGrid::Ones(6, 6);
-    const TalusPass held = talus_pass(cliff, walls, TalusLaw(law, 0.25, talus, 0.0, 1.0), moved);
+    const TalusPass held = talus_pass(cliff, walls, talus_law(law, 0.25, talus, 0.0, 1.0), moved);
     EXPECT_FALSE(held.flows);
     EXPECT_EQ(moved.value(), 0.0);
   }
