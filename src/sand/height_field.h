@@ -57,6 +57,13 @@ class HeightField : public BedGeometry {
       for (int col = 0; col < heights.cols(); ++col) set(first_row + row, first_col + col, heights(row, col));
   }
 
+  /// Sets the cells whose height differs: those it does not change stay undisturbed.
+  void set_changed(const HeightGrid& heights) {
+    for (int row = 0; row < rows(); ++row)
+      for (int col = 0; col < cols(); ++col)
+        if ((*this)(row, col) != heights(row, col)) set(row, col, heights(row, col));
+  }
+
   const SurfaceRule& untouched() const { return *untouched_; }
   /// The same bed with no tile allocated: the rule gives all heights.
   HeightField untouched_bed() const;

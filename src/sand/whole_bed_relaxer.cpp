@@ -6,12 +6,6 @@
 namespace sandstroke {
 namespace {
 
-void write_back(const HeightGrid& heights, HeightField& bed) {
-  for (int row = 0; row < bed.rows(); ++row)
-    for (int col = 0; col < bed.cols(); ++col)
-      if (bed(row, col) != heights(row, col)) bed.set(row, col, heights(row, col));
-}
-
 /// The rule as it is written down. The other relaxers are held to it.
 class PlainRelaxer : public WholeBedRelaxer {
  public:
@@ -37,7 +31,7 @@ RelaxationOutcome WholeBedRelaxer::relax(HeightField& bed, const PassWatcher& af
   for (int row = 0; row < bed.rows(); ++row)
     for (int col = 0; col < bed.cols(); ++col) walls(row, col) = bed.is_held(row, col);
   const BedNow bed_now = [&]() -> const HeightField& {
-    write_back(heights, bed);
+    bed.set_changed(heights);
     return bed;
   };
   CompensatedSum moved;
@@ -56,7 +50,7 @@ RelaxationOutcome WholeBedRelaxer::relax(HeightField& bed, const PassWatcher& af
     if (after_pass) after_pass(outcome.passes, bed_now);
   }
   outcome.moved_volume = moved.value() * bed.cell_area();
-  write_back(heights, bed);
+  bed.set_changed(heights);
   bed.clear_disturbed();
   return outcome;
 }
