@@ -26,7 +26,7 @@ std::pair<int, int> cells_between(double low, double high, int count) {
 
 ToolFootprint::ToolFootprint(const ToolSettings& settings)
     : shape_{settings.profile, settings.radius, settings.radius * settings.radius / filter::u0,
-             settings.radius / (2.0 * filter::u0), settings.radius * std::sqrt(filter::u1 / filter::u0)},
+             settings.radius / (2.0 * filter::u0), filter::reach(settings.radius)},
       level_(std::numeric_limits<double>::quiet_NaN()) {
   if (settings.shape == ToolShape::sphere) return;
   surface_ = tool_surface(settings);
