@@ -217,17 +217,17 @@ Problem hands_problem(const ProblemOptions& options) {
     ModelPreset preset;
     double depth;  // m
   };
-  for (const auto& [name, preset, depth] : {Case{"paper", ModelPreset::paper, 0.004},
-                                            {"accurate", ModelPreset::accurate, 0.004},
-                                            {"accurate, deep", ModelPreset::accurate, 0.01}}) {
-    const Scene scene = hand_scene(preset);
-    const Stroke clean = s_curve(depth, 0.25, options.quick);
+  for (const Case& hands : {Case{"paper", ModelPreset::paper, 0.004},
+                            {"accurate", ModelPreset::accurate, 0.004},
+                            {"accurate, deep", ModelPreset::accurate, 0.01}}) {
+    const Scene scene = hand_scene(hands.preset);
+    const Stroke clean = s_curve(hands.depth, 0.25, options.quick);
     const auto truth = std::make_shared<const Replay>(replay(scene, clean));
     const auto add = [&](const std::string& what, const std::string& label, const Stroke& stroke,
                          double rate = 0.0) {
       Scene one = scene;
       if (rate > 0.0) one.relaxation.rate = rate;
-      Contender contender = stroke_contender(fmt::format("{}, {}", name, what), label, one, options.threads,
+      Contender contender = stroke_contender(fmt::format("{}, {}", hands.name, what), label, one, options.threads,
                                              not_applicable, stroke, truth);
       if (what == "speed")  // its forces and places belong to other times
         contender.run = [run = contender.run] {
