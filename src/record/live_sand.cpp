@@ -64,7 +64,7 @@ LiveSand::LiveSand(const Scene& scene, const HeightField& bed, const FeltDevice&
       own_rotation_(own_rotation(scene.tool)),
       turns_(device.turns) {
   sand_.take_memory(replica_.bed());
-  if (turns_ && !sand_.footprint().is_sphere())
+  if (turns_ && scene.tool.shape != ToolShape::sphere)
     shaper_.emplace(scene.tool, scene.displacement.distance, bed.cell_size());
   if (force_.law != ForceLaw::paper) contact_force_.emplace(scene, bed.cell_size());
 }
@@ -81,7 +81,7 @@ void LiveSand::turn_tool(const Eigen::Quaterniond& orientation) {
   for (Eigen::Index i = 0; i < 4; ++i)
     orientation_[static_cast<std::size_t>(i)].store(placed.coeffs()[i], std::memory_order_relaxed);
   const Eigen::Matrix3d rotation = rotation_of(placed) * own_rotation_;
-  if (shaper_) shaper_->follow(rotation, sand_.footprint());
+  if (shaper_) shaper_->follow(rotation, sand_.exchangeable_tool());
   if (contact_force_) contact_force_->turn(rotation);
 }
 
@@ -112,10 +112,10 @@ void LiveSand::take_slipped(int most) {
 }
 
 std::size_t LiveSand::changes_of_move(const Eigen::Vector3d& tip) const {
-  const ToolFootprint& footprint = sand_.footprint();
-  const double cells = 2.0 * footprint.reach() / replica_.bed().cell_size() + 3.0;
+  const Tool& tool = sand_.tool();
+  const double cells = 2.0 * tool.reach() / replica_.bed().cell_size() + 3.0;
   const double way = sand_.last_tip() ? (tip - *sand_.last_tip()).head<2>().norm() : 0.0;
-  const double most = cells * cells * (2.0 * way / footprint.radius() + 2.0);
+  const double most = cells * cells * (2.0 * way / tool.radius() + 2.0);
   return most < static_cast<double>(ring_size) ? static_cast<std::size_t>(most) : ring_size + 1;
 }
 

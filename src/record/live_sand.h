@@ -96,7 +96,7 @@ class LiveSand : public FeltWorld {
 
   /// True where the tool is beside the bed, and lower than its highest sand. tip: in the bed [m].
   bool is_beside(const Interaction& interaction, const Eigen::Vector3d& tip) const {
-    return std::isnan(interaction.level) && tip.z() + sand_.footprint().lowest() <= highest_;
+    return std::isnan(interaction.level) && tip.z() + sand_.tool().lowest() <= highest_;
   }
   Eigen::Vector3d velocity(double time, const Eigen::Vector3d& tip);
   void turn_tool(const Eigen::Quaterniond& orientation);

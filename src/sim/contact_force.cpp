@@ -24,11 +24,14 @@ void ContactForce::lift() {
 }
 
 Wrench ContactForce::feel(const ToolInSand& touch) {
-  const SandPlane plane = fit_sand_plane(touch.bed, touch.tip.x(), touch.tip.y(),
-                                         sphere_radius_.value_or(touch.footprint.reach()));
-  if (std::isnan(plane.height)) return lift(), Wrench{};
+  const SandPlane plane =
+      fit_sand_plane(touch.bed, touch.tip.x(), touch.tip.y(), sphere_radius_.value_or(touch.tool.reach()));
+  if (std::isnan(plane.height)) {
+    lift();
+    return {};
+  }
   if (law_ == ForceLaw::archimedes) return archimedes(touch.tip, plane, -touch.motion.z());
-  return resistive_.feel(touch.footprint, touch.tip, plane, touch.motion, sand_);
+  return resistive_.feel(touch.tool.footprint(), touch.tip, plane, touch.motion, sand_);
 }
 
 VolumeBelow ContactForce::volume_below(const Eigen::Vector3d& tip, const SandPlane& plane) const {

@@ -341,7 +341,7 @@ void check_scene(const Scene& scene, const std::string& name) {
         name);
   if (scene.tool.shape == ToolShape::mesh && scene.tool.file.empty())
     throw_input_error("{}: tool.file is missing; name a mesh (.stl)", name);
-  const double reach = is_sphere ? ToolFootprint(scene.tool).reach() : tool_reach(scene.tool);
+  const double reach = is_sphere ? filter::reach(scene.tool.radius) : tool_reach(scene.tool);
   if (!is_sphere && scene.stroke && 2.0 * reach > std::min(bed.width, bed.depth))
     throw_input_error(
         "{}: the tool is {:.3g} m wide and does not fit the bed ({} m by {} m); take a smaller one", name,

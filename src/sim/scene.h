@@ -11,12 +11,12 @@
 #include "haptics/stroke_placement.h"
 #include "haptics/table_settings.h"
 #include "picture/view.h"
+#include "rules/displacement.h"
 #include "rules/force.h"
-#include "sand/displacement.h"
 #include "sand/initial_surface.h"
 #include "sand/relaxation.h"
 #include "sand/resistive_force.h"
-#include "sand/tool_footprint.h"
+#include "tool/tool_settings.h"
 
 namespace sandstroke {
 

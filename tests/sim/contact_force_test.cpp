@@ -25,7 +25,7 @@ Wrench pressed(const Scene& scene, double depth) {
   ContactForce law(scene, bed.cell_size());
   SandSide sand(scene.tool, scene.displacement);
   sand.look(bed, Vector3d::Zero());
-  const Vector3d tip(0.0, 0.0, -depth - sand.footprint().lowest());
+  const Vector3d tip(0.0, 0.0, -depth - sand.tool().lowest());
   return law.in_tick(sand, bed, tip, {0.0, 0.0, -2.0 * scene.strength.yield_way}, true);
 }
 
