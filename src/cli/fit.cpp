@@ -14,7 +14,7 @@
 #include "core/error.h"
 #include "core/interrupt.h"
 #include "io/scene_toml.h"
-#include "sim/contact_force.h"
+#include "sim/device_force.h"
 
 namespace sandstroke {
 namespace {
@@ -104,7 +104,8 @@ void show_use(const ForceFit& fit, const FitArguments& arguments) {
   std::vector<std::string> overrides = arguments.overrides;
   overrides.insert(overrides.end(), settings.begin(), settings.end());
   try {
-    const std::string doubt = theory_warning(load_scene(arguments.scene, overrides), 0.0);
+    const Scene scene = load_scene(arguments.scene, overrides);
+    const std::string doubt = make_device_force(scene)->theory_warning(scene, 0.0);
     if (!arguments.json)
       print_row("to use it", fmt::format("sandstroke run SCENE --set {}", fmt::join(overrides, " --set ")));
     if (!doubt.empty()) spdlog::warn("{}", doubt);
