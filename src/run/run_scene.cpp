@@ -26,7 +26,7 @@
 #include "io/stroke_file.h"
 #include "io/surface_file.h"
 #include "run/run_progress.h"
-#include "sim/contact_force.h"
+#include "sim/device_force.h"
 #include "sim/furrow.h"
 #include "sim/recorded_force.h"
 #include "sim/stroke_depth.h"
@@ -153,7 +153,7 @@ RunResult run_scene(const Scene& asked, const std::filesystem::path& output, con
   bar.reset();
   if (options.at_end) options.at_end(simulation, result);
   if (writer) writer->end(result, simulation.bed());
-  if (stroke) warn_if_any(theory_warning(scene, result.max_contact_speed));
+  if (stroke) warn_if_any(make_device_force(scene)->theory_warning(scene, result.max_contact_speed));
   if (result.interrupted) return result;
   if (options.second) {
     if (options.progress) spdlog::info("estimating the error");
