@@ -102,7 +102,7 @@ Scene with_files(Scene scene, const std::filesystem::path& folder) {
   return scene;
 }
 
-RunResult run_scene(const Scene& asked, const std::filesystem::path& output, const RunOptions& options) {
+RunResult run_scene(const SceneFile& asked, const std::filesystem::path& output, const RunOptions& options) {
   const Scene scene = with_files(asked, options.scene_folder);
   const int cores = tbb::info::default_concurrency();
   const int threads = options.threads > 0 ? std::min(options.threads, cores) : cores;
@@ -135,7 +135,7 @@ RunResult run_scene(const Scene& asked, const std::filesystem::path& output, con
   const std::string scene_file =
       options.scene_file.empty() ? "" : scene_file_entry(options.scene_file, output);
   std::optional<RunWriter> writer;
-  if (!output.empty()) writer.emplace(output, simulation, stroke_hash, scene_file);
+  if (!output.empty()) writer.emplace(output, simulation, asked.view, stroke_hash, scene_file);
   TipPathGatherer path(scene);
   std::optional<RunProgress> bar;
   Kept force(force_of);

@@ -10,7 +10,6 @@
 #include "haptics/simulated_device.h"
 #include "haptics/stroke_placement.h"
 #include "haptics/table_settings.h"
-#include "picture/view.h"
 #include "rules/displacement.h"
 #include "rules/force.h"
 #include "sand/initial_surface.h"
@@ -74,7 +73,6 @@ struct Scene {
   DeviceSettings device;
   std::optional<StrokeSettings> stroke;  ///< without one, the bed is only relaxed
   OutputSettings output;
-  ViewSettings view;
 };
 
 /// Whether the force comes from the contact: by a plugin law, or by any law but the paper's.
