@@ -35,7 +35,7 @@ class ContactTicks : public SimulationObserver {
     Scene scene = run.scene();
     for (const SandStrength& sand : law.grid().sands()) {
       scene.strength = sand;
-      forces_.emplace_back(scene, run.bed().cell_size());
+      forces_.push_back(make_contact_force(scene, run.bed().cell_size()));
     }
     felt_.resize(forces_.size());
   }
@@ -48,7 +48,7 @@ class ContactTicks : public SimulationObserver {
  private:
   void lift() {
     last_tip_.reset();
-    for (ContactForce& force : forces_) force.lift();
+    for (const auto& force : forces_) force->lift();
   }
 
   void feel(const TickRecord& tick) {
@@ -58,13 +58,13 @@ class ContactTicks : public SimulationObserver {
     if (turns_) turn(rotation_of(tick.hand.orientation) * own_rotation_);
     sand_.look(run_.bed(), tip);
     for (std::size_t i = 0; i < forces_.size(); ++i)
-      felt_[i] = forces_[i].in_tick(sand_, run_.bed(), tip, motion, tick.contact);
+      felt_[i] = forces_[i]->in_tick(sand_, run_.bed(), tip, motion, tick.contact);
     if (is_felt(tick)) law_.add(felt_, tick.recorded_force);
   }
 
   void turn(const Eigen::Matrix3d& rotation) {
     sand_.turn(rotation);
-    for (ContactForce& force : forces_) force.turn(rotation);
+    for (const auto& force : forces_) force->turn(rotation);
   }
 
   const Simulation& run_;
@@ -72,7 +72,7 @@ class ContactTicks : public SimulationObserver {
   bool turns_;  // the tool turns with the hand
   Eigen::Matrix3d own_rotation_;
   SandSide sand_;
-  std::vector<ContactForce> forces_;
+  std::vector<std::unique_ptr<ToolForce>> forces_;
   std::vector<Wrench> felt_;
   std::optional<Eigen::Vector3d> last_tip_;
 };

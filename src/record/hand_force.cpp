@@ -30,16 +30,16 @@ class DepthOnHand : public HandForce {
 class ContactOnHand : public HandForce {
  public:
   ContactOnHand(const Scene& scene, double cell_size, const PointPlacement& placement, double largest_force)
-      : force_(scene, cell_size),
+      : force_(make_contact_force(scene, cell_size)),
         placement_(placement),
         scene_limit_(scene.device.max_force),
         largest_force_(scene_limit_ > 0.0 ? std::min(largest_force, scene_limit_) : largest_force) {}
 
-  void turn(const Eigen::Matrix3d& rotation) override { force_.turn(rotation); }
-  void lift() override { force_.lift(); }
+  void turn(const Eigen::Matrix3d& rotation) override { force_->turn(rotation); }
+  void lift() override { force_->lift(); }
 
   void feel(const MovedTool& tool, FeltForce& felt) override {
-    const Wrench full = force_.in_tick(tool.sand, tool.bed, tool.tip, tool.motion, tool.interaction.contact);
+    const Wrench full = force_->in_tick(tool.sand, tool.bed, tool.tip, tool.motion, tool.interaction.contact);
     const Wrench given = full.limited(largest_force_);
     felt.force = placement_.force_back(given.force);
     felt.due = given.strength;
@@ -48,7 +48,7 @@ class ContactOnHand : public HandForce {
   }
 
  private:
-  ContactForce force_;
+  std::unique_ptr<ToolForce> force_;
   PointPlacement placement_;
   double scene_limit_, largest_force_;  // N; scene_limit_ 0: none
 };

@@ -31,12 +31,6 @@ ResistiveForce::ResistiveForce(const TriangleMesh& surface, double element_size)
   lift();
 }
 
-void ResistiveForce::turn(const Eigen::Matrix3d& rotation) {
-  if (rotation == rotation_) return;
-  rotation_ = rotation;
-  elements_.turn(rotation);
-}
-
 void ResistiveForce::lift() {
   std::fill_n(ways_.get(), 3 * elements_.size(), 0.0);
   felt_ = false;
@@ -49,10 +43,11 @@ Wrench ResistiveForce::feel(const ToolFootprint& footprint, const Eigen::Vector3
     return {};
   }
   // An element that is now at r was at (old rotation) (new rotation)^T r.
+  const Eigen::Matrix3d& rotation = elements_.rotation();
   Eigen::Matrix3d spin = Eigen::Matrix3d::Zero();
-  if (felt_ && rotation_ != felt_rotation_)
-    spin = (Eigen::Matrix3d::Identity() - felt_rotation_ * rotation_.transpose()) / sand.yield_way;
-  felt_rotation_ = rotation_;
+  if (felt_ && rotation != felt_rotation_)
+    spin = (Eigen::Matrix3d::Identity() - felt_rotation_ * rotation.transpose()) / sand.yield_way;
+  felt_rotation_ = rotation;
   felt_ = true;
   return resistive_wrench({footprint, elements_, ways_.get(), tip, plane, motion / sand.yield_way, spin,
                            resistance(sand), sand.tool_friction, sand.yield_way});

@@ -70,7 +70,7 @@ class ResistiveForce {
 
   /// Sets the tool's orientation in the bed. The next feel() counts the turn as motion, unless the tool was
   /// lifted.
-  void turn(const Eigen::Matrix3d& rotation);
+  void turn(const Eigen::Matrix3d& rotation) { elements_.turn(rotation); }
 
   /// Returns the wrench after the tool has moved by `motion` [m] to where the footprint lies, with its tip at
   /// `tip` [m].
@@ -80,14 +80,11 @@ class ResistiveForce {
   void lift();
 
   const ToolElements& elements() const { return elements_; }
-  VolumeBelow volume_below(const Eigen::Vector3d& tip, const SandPlane& plane) const {
-    return sandstroke::volume_below(elements_, plane.height - tip.z(), plane.slope);
-  }
 
  private:
   ToolElements elements_;
   hwy::AlignedFreeUniquePtr<double[]> ways_;  // 3 columns: x, y, z
-  Eigen::Matrix3d rotation_ = Eigen::Matrix3d::Identity(), felt_rotation_ = Eigen::Matrix3d::Identity();
+  Eigen::Matrix3d felt_rotation_ = Eigen::Matrix3d::Identity();
   bool felt_ = false;  // since the last lift()
 };
 

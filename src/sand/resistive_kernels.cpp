@@ -78,6 +78,35 @@ HWY_INLINE Vector stress(const Vector& n, const Vector& u, V tool_friction) {
 /// an upright side that moves along itself would switch on and off as its motion trembles.
 constexpr double fade = 0.05;
 
+/// The sums over all elements that make up the wrench.
+class WrenchSum {
+ public:
+  /// size: of an element's force per depth [N/m], once it has fully yielded; `mobilised` is the part of it
+  /// that acts.
+  HWY_INLINE void add(int place, const Vector& r, const Vector& force, V size, V depth, V mobilised) {
+    force_x_.add(place, force.x);
+    force_y_.add(place, force.y);
+    force_z_.add(place, force.z);
+    torque_x_.add(place, r.y * force.z - r.z * force.y);
+    torque_y_.add(place, r.z * force.x - r.x * force.z);
+    torque_z_.add(place, r.x * force.y - r.y * force.x);
+    const V full = size * Max(depth, hn::Zero(d));
+    growth_.add(place, size);
+    strength_.add(place, full);
+    amount_.add(place, full * mobilised);
+  }
+  Wrench total(double yield_way) const {
+    return {{force_x_.total(), force_y_.total(), force_z_.total()},
+            {torque_x_.total(), torque_y_.total(), torque_z_.total()},
+            growth_.total() + strength_.total() / yield_way,
+            0.5 * yield_way * amount_.total(),
+            strength_.total()};
+  }
+
+ private:
+  LaneSum force_x_, force_y_, force_z_, torque_x_, torque_y_, torque_z_, growth_, strength_, amount_;
+};
+
 Wrench ResistiveWrench(const ResistiveTick& tick) {
   const ToolFootprint& f = tick.footprint;
   const ToolElements& e = tick.elements;
@@ -98,7 +127,7 @@ Wrench ResistiveWrench(const ResistiveTick& tick) {
   const Vector spin_x = spin_of(0), spin_y = spin_of(1), spin_z = spin_of(2);
   const bool spins = !tick.spin.isZero(0.0);
   double *ways_x = tick.ways, *ways_y = tick.ways + e.size(), *ways_z = tick.ways + 2 * e.size();
-  LaneSum force_x, force_y, force_z, torque_x, torque_y, torque_z, growth, strength, amount;
+  WrenchSum sum;
   for (std::size_t i = 0; i < e.size(); i += lanes) {
     const int place = static_cast<int>(i);
     const Vector r = {hn::Load(d, e.x() + i), hn::Load(d, e.y() + i), hn::Load(d, e.z() + i)};
@@ -135,23 +164,9 @@ Wrench ResistiveWrench(const ResistiveTick& tick) {
     if (hn::AllFalse(d, area > zero)) continue;
     const Vector alpha = stress(n, u, all(tick.tool_friction));
     const V size = Sqrt(alpha.dot(alpha)) * area;
-    const Vector force = alpha.times(area * depth * mobilised);
-    force_x.add(place, force.x);
-    force_y.add(place, force.y);
-    force_z.add(place, force.z);
-    torque_x.add(place, r.y * force.z - r.z * force.y);
-    torque_y.add(place, r.z * force.x - r.x * force.z);
-    torque_z.add(place, r.x * force.y - r.y * force.x);
-    const V full = size * Max(depth, zero);
-    growth.add(place, size);
-    strength.add(place, full);
-    amount.add(place, full * mobilised);
+    sum.add(place, r, alpha.times(area * depth * mobilised), size, depth, mobilised);
   }
-  return {{force_x.total(), force_y.total(), force_z.total()},
-          {torque_x.total(), torque_y.total(), torque_z.total()},
-          growth.total() + strength.total() / tick.yield_way,
-          0.5 * tick.yield_way * amount.total(),
-          strength.total()};
+  return sum.total(tick.yield_way);
 }
 
 VolumeBelow VolumeBelowPlane(const ToolElements& e, double height, const Eigen::Vector2d& slope) {

@@ -3,53 +3,105 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "tool/tool_surface.h"
 
 namespace sandstroke {
+namespace {
 
-ContactForce::ContactForce(const Scene& scene, double cell_size)
-    : law_(scene.force.law), sand_(scene.strength), resistive_(tool_surface(scene.tool), cell_size) {
-  resistive_.turn(own_rotation(scene.tool));
-  if (scene.tool.shape == ToolShape::sphere) sphere_radius_ = scene.tool.radius;
-}
-
-void ContactForce::lift() {
-  resistive_.lift();
-  sunk_ = 0.0;
-}
-
-Wrench ContactForce::feel(const ToolInSand& touch) {
-  const SandPlane plane =
-      fit_sand_plane(touch.bed, touch.tip.x(), touch.tip.y(), sphere_radius_.value_or(touch.tool.reach()));
-  if (std::isnan(plane.height)) {
-    lift();
-    return {};
+/// A force that goes by the plane of the sand around the tool.
+class PlaneForce : public ToolForce {
+ public:
+  explicit PlaneForce(const Scene& scene) {
+    if (scene.tool.shape == ToolShape::sphere) sphere_radius_ = scene.tool.radius;
   }
-  if (law_ == ForceLaw::archimedes) return archimedes(touch.tip, plane, -touch.motion.z());
-  return resistive_.feel(touch.tool.footprint(), touch.tip, plane, touch.motion, sand_);
-}
 
-VolumeBelow ContactForce::volume_below(const Eigen::Vector3d& tip, const SandPlane& plane) const {
-  if (!sphere_radius_) return resistive_.volume_below(tip, plane);
-  const double R = *sphere_radius_, depth = std::clamp(plane.height - tip.z(), 0.0, 2.0 * R);
-  return {std::numbers::pi * depth * depth * (R - depth / 3.0),
-          {0.0, 0.0},
-          std::numbers::pi * depth * (2.0 * R - depth)};
-}
+  Wrench feel(const ToolInSand& touch) override {
+    const SandPlane plane =
+        fit_sand_plane(touch.bed, touch.tip.x(), touch.tip.y(), sphere_radius_.value_or(touch.tool.reach()));
+    if (std::isnan(plane.height)) {
+      lift();
+      return {};
+    }
+    return feel_from(plane, touch);
+  }
 
-Wrench ContactForce::archimedes(const Eigen::Vector3d& tip, const SandPlane& plane, double sinks) {
-  constexpr double plate = 0.87574;
-  const double yield = sand_.yield_way, share = plate * resistance(sand_);
-  sunk_ = std::clamp(sunk_ + sinks / yield, 0.0, 1.0);
-  const VolumeBelow below = volume_below(tip, plane);
-  Wrench wrench;
-  wrench.strength = share * below.volume;
-  wrench.force.z() = wrench.strength * sunk_;
-  wrench.torque = share * sunk_ * Eigen::Vector3d(below.moment.y(), -below.moment.x(), 0.0);
-  wrench.stiffness = share * (below.area + below.volume / yield);  // it grows with volume and way
-  wrench.stored = 0.5 * yield * wrench.force.z();
-  return wrench;
+ protected:
+  virtual Wrench feel_from(const SandPlane& plane, const ToolInSand& touch) = 0;
+
+  std::optional<double> sphere_radius_;  // m
+};
+
+class RftForce : public PlaneForce {
+ public:
+  RftForce(const Scene& scene, double cell_size)
+      : PlaneForce(scene), sand_(scene.strength), resistive_(tool_surface(scene.tool), cell_size) {
+    resistive_.turn(own_rotation(scene.tool));
+  }
+
+  void lift() override { resistive_.lift(); }
+  void turn(const Eigen::Matrix3d& rotation) override { resistive_.turn(rotation); }
+
+ private:
+  Wrench feel_from(const SandPlane& plane, const ToolInSand& touch) override {
+    return resistive_.feel(touch.tool.footprint(), touch.tip, plane, touch.motion, sand_);
+  }
+
+  SandStrength sand_;
+  ResistiveForce resistive_;
+};
+
+class ArchimedesForce : public PlaneForce {
+ public:
+  ArchimedesForce(const Scene& scene, double cell_size)
+      : PlaneForce(scene), sand_(scene.strength), elements_(tool_surface(scene.tool), cell_size) {
+    elements_.turn(own_rotation(scene.tool));
+  }
+
+  void lift() override { sunk_ = 0.0; }
+  void turn(const Eigen::Matrix3d& rotation) override { elements_.turn(rotation); }
+
+ private:
+  Wrench feel_from(const SandPlane& plane, const ToolInSand& touch) override {
+    constexpr double plate = 0.87574;
+    const double yield = sand_.yield_way, per_volume = plate * resistance(sand_);
+    sunk_ = std::clamp(sunk_ - touch.motion.z() / yield, 0.0, 1.0);
+    const VolumeBelow below = volume_in_sand(touch.tip, plane);
+    Wrench wrench;
+    wrench.strength = per_volume * below.volume;
+    wrench.force.z() = wrench.strength * sunk_;
+    wrench.torque = per_volume * sunk_ * Eigen::Vector3d(below.moment.y(), -below.moment.x(), 0.0);
+    wrench.stiffness = per_volume * (below.area + below.volume / yield);  // it grows with volume and way
+    wrench.stored = 0.5 * yield * wrench.force.z();
+    return wrench;
+  }
+
+  VolumeBelow volume_in_sand(const Eigen::Vector3d& tip, const SandPlane& plane) const {
+    if (!sphere_radius_) return volume_below(elements_, plane.height - tip.z(), plane.slope);
+    const double R = *sphere_radius_, depth = std::clamp(plane.height - tip.z(), 0.0, 2.0 * R);
+    return {std::numbers::pi * depth * depth * (R - depth / 3.0),
+            {0.0, 0.0},
+            std::numbers::pi * depth * (2.0 * R - depth)};
+  }
+
+  SandStrength sand_;
+  ToolElements elements_;
+  double sunk_ = 0.0;  // yield ways, 0 to 1
+};
+
+}  // namespace
+
+std::unique_ptr<ToolForce> make_contact_force(const Scene& scene, double cell_size) {
+  switch (scene.force.law) {
+    case ForceLaw::rft:
+      return std::make_unique<RftForce>(scene, cell_size);
+    case ForceLaw::archimedes:
+      return std::make_unique<ArchimedesForce>(scene, cell_size);
+    case ForceLaw::paper:
+      break;
+  }
+  return std::make_unique<NoToolForce>();
 }
 
 }  // namespace sandstroke

@@ -35,7 +35,7 @@ class LevelSand {
   explicit LevelSand(const Scene& scene)
       : cell_(scene.bed.cell_size()),
         yield_(scene.strength.yield_way),
-        law_(scene, cell_),
+        law_(make_contact_force(scene, cell_)),
         sand_(scene.tool, scene.displacement),
         bed_(cells(scene), cells(scene), cell_) {
     sand_.look(bed_, Vector3d::Zero());
@@ -44,9 +44,9 @@ class LevelSand {
   /// The wrench at a depth [m], after the tool has yielded in a direction and moved by `then` [m].
   Wrench at(double depth, const Vector3d& yielded, const Vector3d& then) {
     const Vector3d tip(0.0, 0.0, -depth - sand_.tool().lowest());
-    law_.lift();
-    const Wrench full = law_.in_tick(sand_, bed_, tip, yield_ * yielded, true);
-    return then.isZero(0.0) ? full : law_.in_tick(sand_, bed_, tip + then, then, true);
+    law_->lift();
+    const Wrench full = law_->in_tick(sand_, bed_, tip, yield_ * yielded, true);
+    return then.isZero(0.0) ? full : law_->in_tick(sand_, bed_, tip + then, then, true);
   }
 
  private:
@@ -56,7 +56,7 @@ class LevelSand {
   }
 
   double cell_, yield_;
-  ContactForce law_;
+  std::unique_ptr<ToolForce> law_;
   SandSide sand_;
   HeightField bed_;
 };

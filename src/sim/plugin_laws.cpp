@@ -166,10 +166,9 @@ std::unique_ptr<Displacer> make_plugin_displacer(const Scene& scene, double cell
 }
 
 std::unique_ptr<ToolForce> make_tool_force(const Scene& scene, double cell_size) {
-  if (!is_contact_law(scene)) return nullptr;
   std::unique_ptr<ToolForce> plugin_law =
       make_plugin_law<WatchedForce>(scene, cell_size, "force", scene.plugin_laws.force, &PluginLaws::forces);
-  if (!plugin_law) return std::make_unique<ContactForce>(scene, cell_size);
+  if (!plugin_law) return make_contact_force(scene, cell_size);
   plugin_law->turn(own_rotation(scene.tool));
   return plugin_law;
 }

@@ -37,7 +37,7 @@ std::string law_in_words(const PluginLawSettings& laws, const char* key, const s
 std::unique_ptr<Relaxer> make_relaxer(const Scene& scene, double cell_size);
 /// scene.plugin_laws.displacement; nullptr: as scene.displacement says.
 std::unique_ptr<Displacer> make_plugin_displacer(const Scene& scene, double cell_size);
-/// scene.plugin_laws.force, or else ContactForce; nullptr: the paper's law, which knows no contact.
+/// scene.plugin_laws.force, or else make_contact_force().
 std::unique_ptr<ToolForce> make_tool_force(const Scene& scene, double cell_size);
 
 }  // namespace sandstroke

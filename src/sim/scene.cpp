@@ -230,6 +230,77 @@ void describe_plugin_laws(KeyVisitor& v, PluginLawSettings& plugin_laws) {
             any_number, "", "numbers for the plugin laws, which give them their meaning");
 }
 
+void check_bed(const Scene& scene, const std::string& name) {
+  const BedSettings& bed = scene.bed;
+  const double dx = bed.cell_size(), dy = bed.depth / bed.rows;
+  if (std::abs(dx - dy) > 1e-9 * dx)
+    throw_input_error("{}: bed.size and bed.cells give cells of {} m by {} m; make them square", name, dx,
+                      dy);
+  // Cubes of lengths, and squares of drops between cells, must be numbers: sand in cells of 1e-160 m lies
+  // still.
+  if (!(dx >= 1e-100 && dx <= 1e100))
+    throw_input_error("{}: bed.size and bed.cells give cells of {} m; take cells of 1e-100 to 1e100 m", name,
+                      dx);
+
+  const SurfaceSettings& s = bed.surface;
+  const bool waves = s.kind == SurfaceKind::ripples || (s.kind == SurfaceKind::noise && s.wavelength > 0.0);
+  if (waves &&
+      !(std::max(bed.width, bed.depth) / s.wavelength < 0x1p53))  // beyond it no place in a wave is left
+    throw_input_error(
+        "{}: bed.surface.wavelength = {} m is too small for a bed of {} m by {} m; take a larger one", name,
+        s.wavelength, bed.width, bed.depth);
+
+  check_memory(memory_of_bed(scene), fmt::format("{}: bed.cells = [{}, {}]", name, bed.cols, bed.rows),
+               "take fewer cells");
+  if (s.kind == SurfaceKind::file && s.file.empty())
+    throw_input_error("{}: bed.surface.file is missing; name a run file or a 16-bit PNG", name);
+}
+
+void check_tool(const Scene& scene, const std::string& name) {
+  const BedSettings& bed = scene.bed;
+  const bool is_sphere = scene.tool.shape == ToolShape::sphere;
+  if (!is_sphere && scene.plugin_laws.displacement.empty() && scene.displacement.deposit != Deposit::outward)
+    throw_input_error(
+        "{}: displacement.deposit = \"ring\" and \"ahead\" need a sphere; for any other tool.shape set "
+        "model.preset = \"accurate\", or displacement.deposit = \"outward\"",
+        name);
+  if (scene.tool.shape == ToolShape::mesh && scene.tool.file.empty())
+    throw_input_error("{}: tool.file is missing; name a mesh (.stl)", name);
+  const double reach = is_sphere ? filter::reach(scene.tool.radius) : tool_reach(scene.tool);
+  if (!is_sphere && scene.stroke && 2.0 * reach > std::min(bed.width, bed.depth))
+    throw_input_error(
+        "{}: the tool is {:.3g} m wide and does not fit the bed ({} m by {} m); take a smaller one", name,
+        2.0 * reach, bed.width, bed.depth);
+  if (is_sphere && scene.stroke && 2.0 * reach > std::min(bed.width, bed.depth))
+    throw_input_error(
+        "{}: tool.radius = {} m: the tool and its rampart ({:.3g} m) do not fit the bed ({} m by {} m); take "
+        "a smaller radius",
+        name, scene.tool.radius, 2.0 * reach, bed.width, bed.depth);
+  if (is_sphere && scene.stroke && scene.tool.radius < 0.5 * bed.cell_size())
+    throw_input_error(
+        "{}: tool.radius = {} m is less than half a cell ({} m); take more bed.cells or a larger tool", name,
+        scene.tool.radius, bed.cell_size());
+}
+
+void check_device(const Scene& scene, const std::string& name) {
+  const DeviceSettings& device = scene.device;
+  if (device.drag == DragVelocity::implicit && (device.delay > 0 || device.dropped_ticks > 0.0))
+    throw_input_error(
+        "{}: device.drag = implicit needs a force that acts in the tick in which it is computed; set "
+        "device.delay = 0 and device.dropped_ticks = 0, or device.drag = sampled",
+        name);
+  if (device.drag == DragVelocity::implicit && device.velocity == ReadVelocity::encoders)
+    throw_input_error(
+        "{}: device.drag = implicit does not use the velocity that encoders read; set device.velocity = "
+        "exact, or device.drag = sampled",
+        name);
+  if (is_contact_law(scene) && device.drag == DragVelocity::implicit)
+    throw_input_error(
+        "{}: device.drag = implicit works only with the paper's drag; set force.law = paper and no "
+        "model.force, or device.drag = sampled",
+        name);
+}
+
 }  // namespace
 
 bool is_contact_law(const Scene& scene) {
@@ -292,78 +363,18 @@ Stroke place_on_bed(const Stroke& stroke, const Scene& scene, const std::string&
 }
 
 void check_scene(const Scene& scene, const std::string& name) {
-  const BedSettings& bed = scene.bed;
-  const double dx = bed.cell_size(), dy = bed.depth / bed.rows;
-  if (std::abs(dx - dy) > 1e-9 * dx)
-    throw_input_error("{}: bed.size and bed.cells give cells of {} m by {} m; make them square", name, dx,
-                      dy);
-  // Cubes of lengths, and squares of drops between cells, must be numbers: sand in cells of 1e-160 m lies
-  // still.
-  if (!(dx >= 1e-100 && dx <= 1e100))
-    throw_input_error("{}: bed.size and bed.cells give cells of {} m; take cells of 1e-100 to 1e100 m", name,
-                      dx);
-
-  const SurfaceSettings& s = bed.surface;
-  const bool waves = s.kind == SurfaceKind::ripples || (s.kind == SurfaceKind::noise && s.wavelength > 0.0);
-  if (waves &&
-      !(std::max(bed.width, bed.depth) / s.wavelength < 0x1p53))  // beyond it no place in a wave is left
-    throw_input_error(
-        "{}: bed.surface.wavelength = {} m is too small for a bed of {} m by {} m; take a larger one", name,
-        s.wavelength, bed.width, bed.depth);
-
-  check_memory(memory_of_bed(scene), fmt::format("{}: bed.cells = [{}, {}]", name, bed.cols, bed.rows),
-               "take fewer cells");
-
-  const bool is_sphere = scene.tool.shape == ToolShape::sphere;
-  if (!is_sphere && scene.plugin_laws.displacement.empty() && scene.displacement.deposit != Deposit::outward)
-    throw_input_error(
-        "{}: displacement.deposit = \"ring\" and \"ahead\" need a sphere; for any other tool.shape set "
-        "model.preset = \"accurate\", or displacement.deposit = \"outward\"",
-        name);
-  if (scene.tool.shape == ToolShape::mesh && scene.tool.file.empty())
-    throw_input_error("{}: tool.file is missing; name a mesh (.stl)", name);
-  const double reach = is_sphere ? filter::reach(scene.tool.radius) : tool_reach(scene.tool);
-  if (!is_sphere && scene.stroke && 2.0 * reach > std::min(bed.width, bed.depth))
-    throw_input_error(
-        "{}: the tool is {:.3g} m wide and does not fit the bed ({} m by {} m); take a smaller one", name,
-        2.0 * reach, bed.width, bed.depth);
-  if (is_sphere && scene.stroke && 2.0 * reach > std::min(bed.width, bed.depth))
-    throw_input_error(
-        "{}: tool.radius = {} m: the tool and its rampart ({:.3g} m) do not fit the bed ({} m by {} m); take "
-        "a smaller radius",
-        name, scene.tool.radius, 2.0 * reach, bed.width, bed.depth);
-  if (is_sphere && scene.stroke && scene.tool.radius < 0.5 * dx)
-    throw_input_error(
-        "{}: tool.radius = {} m is less than half a cell ({} m); take more bed.cells or a larger tool", name,
-        scene.tool.radius, dx);
-
+  check_bed(scene, name);
+  check_tool(scene, name);
   const RelaxationSettings& r = scene.relaxation;
   if (scene.plugin_laws.relaxation.empty() && r.law != RelaxationLaw::paper && flow_share(r) > 0.25)
     throw_input_error(
         "{}: relaxation.share = {} is stable only with relaxation.law = paper; take 0.25 or less", name,
         r.share);
-  const DeviceSettings& device = scene.device;
-  if (device.drag == DragVelocity::implicit && (device.delay > 0 || device.dropped_ticks > 0.0))
-    throw_input_error(
-        "{}: device.drag = implicit needs a force that acts in the tick in which it is computed; set "
-        "device.delay = 0 and device.dropped_ticks = 0, or device.drag = sampled",
-        name);
-  if (device.drag == DragVelocity::implicit && device.velocity == ReadVelocity::encoders)
-    throw_input_error(
-        "{}: device.drag = implicit does not use the velocity that encoders read; set device.velocity = "
-        "exact, or device.drag = sampled",
-        name);
-  if (is_contact_law(scene) && device.drag == DragVelocity::implicit)
-    throw_input_error(
-        "{}: device.drag = implicit works only with the paper's drag; set force.law = paper and no "
-        "model.force, or device.drag = sampled",
-        name);
+  check_device(scene, name);
   if (scene.stroke && scene.stroke->file.empty())
     throw_input_error(
         "{}: stroke.file is missing; name a stroke (.toml, .h5 or a table of samples) or remove [stroke]",
         name);
-  if (s.kind == SurfaceKind::file && s.file.empty())
-    throw_input_error("{}: bed.surface.file is missing; name a run file or a 16-bit PNG", name);
 }
 
 HeightField starting_bed(const BedSettings& bed) {

@@ -12,7 +12,7 @@ TickLoop::TickLoop(const Scene& scene, HeightField bed, bool plays, std::unique_
       own_rotation_(own_rotation(scene.tool)),
       sand_(scene.tool, scene.displacement, scene.relaxation,
             plays ? make_plugin_displacer(scene, bed_.cell_size()) : nullptr),
-      contact_force_(plays ? make_tool_force(scene, bed_.cell_size()) : nullptr),
+      tool_force_(plays ? make_tool_force(scene, bed_.cell_size()) : std::make_unique<NoToolForce>()),
       device_(scene),
       relaxer_(relaxer ? std::move(relaxer) : make_relaxer(scene, bed_.cell_size())) {
   if (!scene.plugin_laws.relaxation.empty() || !scene.plugin_laws.displacement.empty()) watch_.emplace(bed_);
@@ -43,7 +43,7 @@ TickRecord TickLoop::read_device(const TickInput& tick) const {
 void TickLoop::turn_tool(const Hand& hand) {
   const Eigen::Matrix3d rotation = rotation_of(hand.orientation) * own_rotation_;
   sand_.turn(rotation);
-  if (contact_force_) contact_force_->turn(rotation);
+  tool_force_->turn(rotation);
 }
 
 /// Depth, both passes of the displacement along the tool's path, relaxations by its way, and what the sand
@@ -54,7 +54,7 @@ void TickLoop::displace(TickRecord& record, const TickInput& tick) {
   const std::optional<Eigen::Vector3d> before = sand_.last_tip();
   const Interaction interaction = sand_.move(bed_, tip, true_tip, tick.relax);
   const Eigen::Vector3d motion = before ? Eigen::Vector3d(true_tip - *before) : Eigen::Vector3d::Zero();
-  if (contact_force_) record.wrench = contact_force_->in_tick(sand_, bed_, tip, motion, interaction.contact);
+  record.wrench = tool_force_->in_tick(sand_, bed_, tip, motion, interaction.contact);
   record.level = interaction.level;
   record.depth = interaction.depth;
   record.displaced_volume = interaction.displaced_volume;
@@ -69,7 +69,7 @@ void TickLoop::advance(const TickRecord& record) {
 
 void TickLoop::lift() {
   sand_.lift();
-  if (contact_force_) contact_force_->lift();
+  tool_force_->lift();
 }
 
 RelaxationOutcome TickLoop::relax(const PassWatcher& watcher) {

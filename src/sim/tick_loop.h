@@ -33,7 +33,7 @@ class TickLoop {
   const Scene& scene() const { return scene_; }
   const HeightField& bed() const { return bed_; }
   /// The trace has torques.
-  bool has_torque() const { return contact_force_ != nullptr; }
+  bool has_torque() const { return tool_force_->gives_wrench(); }
   DeviceResult device_result() const { return device_.result(); }
 
   /// The device is where the hand is, and moves as it does.
@@ -61,7 +61,7 @@ class TickLoop {
   HeightField bed_;
   Eigen::Matrix3d own_rotation_;  // of the tool
   SandSide sand_;
-  std::unique_ptr<ToolForce> contact_force_;  // none: the paper's law
+  std::unique_ptr<ToolForce> tool_force_;
   DeviceSide device_;
   std::unique_ptr<Relaxer> relaxer_;
   std::optional<SandWatch> watch_;  // where a law that is not this library's moves sand

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <memory>
+
 #include "sand/resistive_force.h"
 #include "sim/sand_side.h"
 
@@ -18,23 +20,37 @@ struct ToolInSand {
 class ToolForce {
  public:
   virtual ~ToolForce() = default;
-  /// Of a tick in contact. A device of limited force gets Wrench::limited(), so `strength` counts.
+  /// Feels in a tick in contact. A device of limited force gets Wrench::limited(), so `strength` counts.
   virtual Wrench feel(const ToolInSand& touch) = 0;
   /// The tool touches no sand: what was known of its way is gone.
   virtual void lift() {}
   /// How the tool lies in the bed from the next feel() on.
   virtual void turn(const Eigen::Matrix3d& /*rotation*/) {}
 
-  /// Of any tick, after the tool went by `motion` [m] to where it displaced last, `tip` [m], in contact or
-  /// not.
-  Wrench in_tick(SandSide& sand, const HeightField& bed, const Eigen::Vector3d& tip,
-                 const Eigen::Vector3d& motion, bool contact) {
+  /// False for a law that never gives a wrench.
+  virtual bool gives_wrench() const { return true; }
+
+  /// Feels in any tick, in contact or not, after the tool went by `motion` [m] to where it displaced last,
+  /// `tip` [m].
+  virtual Wrench in_tick(SandSide& sand, const HeightField& bed, const Eigen::Vector3d& tip,
+                         const Eigen::Vector3d& motion, bool contact) {
     if (!contact) {
       lift();
       return {};
     }
     const Tool& tool = sand.tool_on(bed);
     return feel({bed, tool, tip, motion, tool.sand_level() - (tip.z() + tool.lowest())});
+  }
+};
+
+/// The paper's law has none: it gives the device a force by depth and velocity (DeviceForce).
+class NoToolForce : public ToolForce {
+ public:
+  Wrench feel(const ToolInSand& /*touch*/) override { return {}; }
+  bool gives_wrench() const override { return false; }
+  Wrench in_tick(SandSide& /*sand*/, const HeightField& /*bed*/, const Eigen::Vector3d& /*tip*/,
+                 const Eigen::Vector3d& /*motion*/, bool /*contact*/) override {
+    return {};
   }
 };
 

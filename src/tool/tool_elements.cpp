@@ -102,6 +102,8 @@ ToolElements::ToolElements(const TriangleMesh& surface, double size) {
 }
 
 void ToolElements::turn(const Eigen::Matrix3d& rotation) {
+  if (rotation == rotation_) return;
+  rotation_ = rotation;
   for (std::size_t i = 0; i < places_.size(); ++i) {
     const Vector3d place = rotation * places_[i], normal = rotation * normals_[i];
     for (Eigen::Index axis = 0; axis < 3; ++axis) {

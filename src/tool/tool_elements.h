@@ -20,6 +20,7 @@ class ToolElements {
 
   /// Sets places and normals to those of the surface turned about the tip.
   void turn(const Eigen::Matrix3d& rotation);
+  const Eigen::Matrix3d& rotation() const { return rotation_; }
 
   std::size_t size() const { return size_; }
   int count() const { return count_; }
@@ -36,7 +37,8 @@ class ToolElements {
 
   std::size_t size_ = 0;
   int count_ = 0;
-  std::vector<Eigen::Vector3d> places_, normals_;  // in its own frame
+  Eigen::Matrix3d rotation_ = Eigen::Matrix3d::Zero();  // none yet
+  std::vector<Eigen::Vector3d> places_, normals_;       // in its own frame
   hwy::AlignedFreeUniquePtr<double[]> columns_;
 };
 

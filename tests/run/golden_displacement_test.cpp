@@ -12,6 +12,8 @@
 #include "io/scene_toml.h"
 #include "io/stroke_file.h"
 #include "rules/displacement.h"
+#include "sand/relaxation.h"
+#include "sand/sphere_tool.h"
 #include "sanitized.h"
 
 namespace sandstroke {

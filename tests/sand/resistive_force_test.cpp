@@ -207,15 +207,15 @@ TEST(ResistiveForce, OfAWayWhoseSquareIsNoNumberAnyMoreIsANumber) {
 
 TEST(ResistiveForce, VolumeBelowThePlaneIsTheCap) {
   const double R = 0.01, depth = 0.006;
-  const ResistiveForce force(tool_surface(ToolSettings{R}), R / 20.0);
+  const ToolElements elements(tool_surface(ToolSettings{R}), R / 20.0);
   const double cap = pi * depth * depth * (R - depth / 3.0);
-  const VolumeBelow below = force.volume_below({0.0, 0.0, -depth}, {0.0});
+  const VolumeBelow below = volume_below(elements, depth, {0.0, 0.0});
   EXPECT_NEAR(below.volume, cap, 0.01 * cap);
   const double area = pi * depth * (2.0 * R - depth);
   EXPECT_NEAR(below.area, area, 0.02 * area);
   EXPECT_LT(below.moment.norm(), 1e-6 * R * cap);
   // Under a plane that slopes, the centroid lies where the sand is deeper.
-  EXPECT_GT(force.volume_below({0.0, 0.0, -depth}, {0.0, {0.3, 0.0}}).moment.x(), 0.01 * R * cap);
+  EXPECT_GT(volume_below(elements, depth, {0.3, 0.0}).moment.x(), 0.01 * R * cap);
 }
 
 TEST(ResistiveForce, OfABladeThatTurnsInItsPlaceIsATorque) {

@@ -22,11 +22,11 @@ Scene scene_of(ForceLaw law, ToolShape shape) {
 /// The wrench on level sand that is not displaced, after the tool has yielded downwards.
 Wrench pressed(const Scene& scene, double depth) {
   HeightField bed = starting_bed(scene.bed);
-  ContactForce law(scene, bed.cell_size());
+  const std::unique_ptr<ToolForce> law = make_contact_force(scene, bed.cell_size());
   SandSide sand(scene.tool, scene.displacement);
   sand.look(bed, Vector3d::Zero());
   const Vector3d tip(0.0, 0.0, -depth - sand.tool().lowest());
-  return law.in_tick(sand, bed, tip, {0.0, 0.0, -2.0 * scene.strength.yield_way}, true);
+  return law->in_tick(sand, bed, tip, {0.0, 0.0, -2.0 * scene.strength.yield_way}, true);
 }
 
 TEST(ContactForce, LiftOfArchimedesActsAtTheCentroidOfWhatIsInTheSand) {

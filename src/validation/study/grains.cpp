@@ -52,7 +52,7 @@ Contender grain_contender(const GrainStroke& grains, ModelPreset preset, int cel
             const GrainReply reply = reply_to(grains, scene);
             Trial trial{reply.result.wall_seconds, score_of(reply.result)};
             trial.score.l1 = section_error(reply.change, grains);
-            if (scene.force.law == ForceLaw::rft) trial.score.force_error = force_error(reply, grains);
+            if (preset == ModelPreset::accurate) trial.score.force_error = force_error(reply, grains);
             return trial;
           }};
 }
