@@ -8,8 +8,8 @@
 #include <string>
 
 #include "haptics/passivity.h"
+#include "measure/force_agreement.h"
 #include "report/curve.h"
-#include "sim/recorded_force.h"
 
 namespace sandstroke {
 namespace {

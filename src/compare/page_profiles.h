@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "io/last_surface.h"
-#include "sim/furrow.h"
+#include "measure/furrow.h"
 
 namespace sandstroke {
 

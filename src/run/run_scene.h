@@ -4,7 +4,7 @@
 #include <functional>
 #include <optional>
 
-#include "sim/error_estimate.h"
+#include "measure/error_estimate.h"
 #include "sim/run_result.h"
 #include "sim/scene.h"
 #include "sim/simulation.h"

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "sim/error_estimate.h"
+#include "measure/error_estimate.h"
 #include "sweep/sweep_design.h"
 
 namespace sandstroke {

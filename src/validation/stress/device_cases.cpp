@@ -7,7 +7,7 @@
 
 #include "core/bisection.h"
 #include "core/error.h"
-#include "sim/solution.h"
+#include "measure/solution.h"
 #include "validation/stress/loop_theory.h"
 
 namespace sandstroke {

@@ -1,7 +1,7 @@
 // Strokes without a closed form. The truth is the same run in finer steps.
 #include <spdlog/fmt/fmt.h>
 
-#include "sim/error_estimate.h"
+#include "measure/error_estimate.h"
 #include "validation/study/hand_strokes.h"
 #include "validation/study/plugin_contenders.h"
 #include "validation/study/stroke_replay.h"

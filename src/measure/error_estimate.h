@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "sim/solution.h"
+#include "measure/solution.h"
 
 namespace sandstroke {
 

@@ -1,4 +1,4 @@
-#include "sim/error_estimate.h"
+#include "measure/error_estimate.h"
 
 #include <gtest/gtest.h>
 
@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "core/error.h"
+#include "sim/two_drags.h"
 
 namespace sandstroke {
 namespace {
@@ -317,6 +318,19 @@ TEST(ErrorEstimate, SaysWhereOneOfBothIsNotAtRest) {
         estimate_error(scene, starting_bed(scene.bed), {}, restless, Kept(force_of), SecondSolution::coarser)
             .at_rest);
   }
+}
+
+TEST(ErrorEstimate, IsTheSameWhereIdleTicksAreLeftOut) {
+  const Scene scene = bed_of_two_drags();
+  const auto estimate = [&](bool watched) {
+    const Stroke stroke = two_drags(1.5, watched);
+    return estimated(scene, FeltRun(scene, stroke), stroke, SecondSolution::coarser);
+  };
+  const ErrorEstimate idle = estimate(false), all = estimate(true);
+  EXPECT_GT(all.force_rms, 0.0);
+  EXPECT_EQ(idle.force_rms, all.force_rms);
+  EXPECT_EQ(idle.force_max, all.force_max);
+  EXPECT_EQ(idle.height_rms, all.height_rms);
 }
 
 }  // namespace

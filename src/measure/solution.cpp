@@ -1,6 +1,6 @@
-#include "sim/solution.h"
+#include "measure/solution.h"
 
-#include "sim/furrow.h"
+#include "measure/furrow.h"
 
 namespace sandstroke {
 

@@ -1,4 +1,4 @@
-#include "sim/furrow.h"
+#include "measure/furrow.h"
 
 #include <spdlog/fmt/fmt.h>
 

@@ -1,4 +1,4 @@
-#include "sim/error_estimate.h"
+#include "measure/error_estimate.h"
 
 #include <algorithm>
 #include <cmath>

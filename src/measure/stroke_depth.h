@@ -18,9 +18,6 @@ struct DeepestPlace {
 /// stroke: as place_stroke() returns it. Looks at its samples; those outside the bed do not count.
 DeepestPlace deepest_place(const Scene& scene, const HeightField& bed, const Stroke& stroke);
 
-/// A sentence on where a stroke draws, and what brings it onto the bed, for strokes that draw elsewhere.
-std::string way_onto_the_bed(const Stroke& stroke, const Scene& scene);
-
 /// A sentence for a tool that never touches the sand: how far it stayed away, and what to change.
 std::string untouched_text(const Scene& scene, const RunResult& result);
 

@@ -1,4 +1,4 @@
-#include "sim/stroke_depth.h"
+#include "measure/stroke_depth.h"
 
 #include <gtest/gtest.h>
 
@@ -61,19 +61,6 @@ TEST(StrokeDepth, TwentyRadiiAreWhatIsWarnedOf) {
     EXPECT_EQ(below.warning(), "");
     EXPECT_NE(above.warning(), "");
   }
-}
-
-TEST(StrokeDepth, BesideTheBedTheWayOntoItIsSaid) {
-  const auto way = [](double size) {
-    Played played({{1.0, 2.0, -0.01}, {1.0 + size, 2.0 + 0.5 * size, -0.01}, {9, 9, 9}});
-    played.stroke.contact = {pen_down, pen_down, pen_up};
-    return way_onto_the_bed(played.stroke, played.scene);
-  };
-  EXPECT_TRUE(
-      way(0.1).starts_with("it draws from x = 1 to 1.1 m and y = 2 to 2.05 m, and the bed ends at x = 0.15 m "
-                           "and y = 0.1 m; set stroke.place = \"centre\", or "))
-      << way(0.1);
-  EXPECT_NE(way(0.4).find("\"centre\" and stroke.fit = 0.8"), std::string::npos) << way(0.4);
 }
 
 TEST(StrokeDepth, OfAToolThatNeverTouchedSaysHowFarItStayed) {

@@ -1,10 +1,10 @@
-#include "sim/stroke_depth.h"
-#include "tool/tool_surface.h"
+#include "measure/stroke_depth.h"
 
 #include <spdlog/fmt/fmt.h>
 
-#include <Eigen/Geometry>
 #include <cmath>
+
+#include "tool/tool_surface.h"
 
 namespace sandstroke {
 
@@ -18,20 +18,6 @@ DeepestPlace deepest_place(const Scene& scene, const HeightField& bed, const Str
     if (depth > deepest.depth) deepest = {depth, stroke.time[i]};
   }
   return deepest;
-}
-
-std::string way_onto_the_bed(const Stroke& stroke, const Scene& scene) {
-  Eigen::AlignedBox2d drawn;
-  for (std::size_t i = 0; i < stroke.size(); ++i)
-    if (stroke.pen_down(i)) drawn.extend(tip_of(scene.device, stroke.position[i]).head<2>());
-  const Eigen::Vector2d bed(scene.bed.width, scene.bed.depth);
-  const bool too_large = (drawn.sizes().array() > bed.array()).any();
-  return fmt::format(
-      "it draws from x = {:.4g} to {:.4g} m and y = {:.4g} to {:.4g} m, and the bed ends at x = {:.4g} m and "
-      "y = {:.4g} m; set stroke.place = \"centre\"{}",
-      drawn.min().x(), drawn.max().x(), drawn.min().y(), drawn.max().y(), 0.5 * bed.x(), 0.5 * bed.y(),
-      too_large ? " and stroke.fit = 0.8 (or change stroke.scale; 0.001 converts millimetres to metres)"
-                : ", or change stroke.offset, stroke.scale or bed.size");
 }
 
 std::string untouched_text(const Scene& scene, const RunResult& result) {

@@ -1,4 +1,4 @@
-#include "sim/recorded_force.h"
+#include "measure/force_agreement.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,6 @@
 #include <spdlog/fmt/fmt.h>
 
 #include "core/compensated_sum.h"
-#include "haptics/recording.h"
 
 namespace sandstroke {
 namespace {
@@ -91,25 +90,6 @@ void correlate(const std::vector<ForcePair>& ticks, ForceAgreement& agreement) {
 }
 
 }  // namespace
-
-bool RecordedForce::unaltered(std::size_t sample) const {
-  constexpr std::uint32_t altered =
-      clamped_force | ramped_force | rate_limited_force | refused_force | held_sand | interlocked_force;
-  return stroke_.flags.empty() || (stroke_.flags[sample] & altered) == 0;
-}
-
-Vector3d RecordedForce::at(double since_first) {
-  const Vector3d unknown = Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
-  if (stroke_.force.empty()) return unknown;
-  const double time = stroke_.time.front() + since_first;
-  while (cursor_ + 1 < stroke_.size() && stroke_.time[cursor_ + 1] <= time) ++cursor_;
-  const Vector3d recorded = sign_ * stroke_.force[cursor_];
-  if (!unaltered(cursor_)) return unknown;
-  if (time == stroke_.time[cursor_]) return recorded;
-  if (!stroke_.joined(cursor_) || !unaltered(cursor_ + 1)) return unknown;
-  const double share = (time - stroke_.time[cursor_]) / (stroke_.time[cursor_ + 1] - stroke_.time[cursor_]);
-  return recorded + share * (sign_ * stroke_.force[cursor_ + 1] - recorded);
-}
 
 std::optional<ForceAgreement> force_agreement(const std::vector<ForcePair>& ticks) {
   ForceAgreement agreement;
