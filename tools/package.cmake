@@ -36,7 +36,7 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libsandstroke-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
     "libeigen3-dev, libspdlog-dev, libtbb-dev, libhwy-dev")
-set(CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION "For programs of your own: the simulation (sand, haptics, sim, measure) as static
+set(CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION "For programs of your own: the simulation (sand, haptics, sim) as static
 libraries, with headers and a CMake package.")
 
 set(CPACK_DEBIAN_PYTHON_DEBIAN_PACKAGE_NAME python3-sandstroke)

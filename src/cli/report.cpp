@@ -4,9 +4,9 @@
 #include "cli/commands.h"
 #include "cli/print_text.h"
 #include "cli/run_picture.h"
-#include "compare/run_report.h"
 #include "core/error.h"
 #include "core/output_file.h"
+#include "pages/run_report.h"
 #include "report/page.h"
 
 namespace sandstroke {

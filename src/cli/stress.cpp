@@ -87,8 +87,7 @@ int stress(const StressArguments& arguments) {
   data["machine"] = describe_machine();
   data["quick"] = arguments.quick;
   data["seconds"] = watch.seconds();
-  write_text_file(page, html_page("sandstroke stress: numerical stability", PageScript::stress, data),
-                  page_output);
+  write_text_file(page, stress_page(data), page_output);
   if (arguments.json) {
     print_json(data);
   } else {

@@ -1,4 +1,4 @@
-#include "compare/page_profiles.h"
+#include "pages/profiles.h"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,11 @@
-#include "compare/compare_page.h"
+#include "pages/compare_page.h"
 
 #include <gtest/gtest.h>
 
 #include "browser.h"
 #include "compare/compare_runs.h"
+#include "compare/synthetic_run.h"
 #include "report/hostile_text.h"
-#include "synthetic_run.h"
 
 namespace sandstroke {
 namespace {

@@ -1,4 +1,4 @@
-#include "compare/page_maps.h"
+#include "pages/maps.h"
 
 #include <spdlog/fmt/fmt.h>
 
@@ -6,11 +6,11 @@
 #include <bit>
 #include <cmath>
 
-#include "compare/difference_map.h"
 #include "compare/field_difference.h"
 #include "compare/image_difference.h"
 #include "core/error.h"
 #include "io/png_file.h"
+#include "pages/difference_map.h"
 #include "render/changed_cells.h"
 #include "render/colour_map.h"
 #include "render/plain_map.h"

@@ -1,4 +1,4 @@
-#include "compare/run_report.h"
+#include "pages/run_report.h"
 
 #include <spdlog/fmt/fmt.h>
 
@@ -6,12 +6,15 @@
 #include <cmath>
 #include <filesystem>
 
-#include "compare/page_curves.h"
-#include "compare/page_maps.h"
-#include "compare/page_profiles.h"
-#include "compare/page_sand.h"
 #include "compare/trace_difference.h"
+#include "core/asset.h"
+#include "pages/curves.h"
+#include "pages/maps.h"
+#include "pages/profiles.h"
+#include "pages/sand_part.h"
 #include "tool/tool_surface.h"
+
+SANDSTROKE_DECLARE_ASSET(run);
 
 namespace sandstroke {
 namespace {
@@ -105,7 +108,7 @@ void add_stroke(PageOfParts& page, const RunFile& run, const LastSurface& last) 
 PageOfParts run_report(const RunFile& run, const std::function<Image(const LastSurface&)>& draw,
                        const std::optional<ErrorEstimate>& error) {
   const std::filesystem::path file = run.name();
-  PageOfParts page{PageScript::run, file.filename().string(), {}};
+  PageOfParts page{SANDSTROKE_ASSET(run), file.filename().string(), {}};
   page.data = {{"figures", Json::array()},
                {"parts", Json::array()},
                {"missing", Json::array()},

@@ -1,4 +1,4 @@
-#include "compare/difference_map.h"
+#include "pages/difference_map.h"
 
 #include <gtest/gtest.h>
 

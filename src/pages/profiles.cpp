@@ -1,4 +1,4 @@
-#include "compare/page_profiles.h"
+#include "pages/profiles.h"
 
 #include <spdlog/fmt/fmt.h>
 

@@ -1,4 +1,4 @@
-#include "compare/page_sand.h"
+#include "pages/sand_part.h"
 
 #include <zlib.h>
 

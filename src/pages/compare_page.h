@@ -5,9 +5,9 @@
 
 #include "compare/check.h"
 #include "compare/golden.h"
-#include "compare/page_of_parts.h"
 #include "compare/run_checks.h"
 #include "io/run_file.h"
+#include "pages/page_of_parts.h"
 #include "picture/image.h"
 
 namespace sandstroke {

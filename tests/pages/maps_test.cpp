@@ -1,14 +1,14 @@
-#include "compare/page_maps.h"
+#include "pages/maps.h"
 
 #include <gtest/gtest.h>
 
 #include <bit>
 #include <cmath>
 
-#include "compare/difference_map.h"
 #include "core/error.h"
 #include "core/output_file.h"
 #include "io/png_file.h"
+#include "pages/difference_map.h"
 #include "test_folder.h"
 
 namespace sandstroke {

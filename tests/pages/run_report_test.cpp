@@ -1,10 +1,10 @@
-#include "compare/run_report.h"
+#include "pages/run_report.h"
 
 #include <gtest/gtest.h>
 
 #include "browser.h"
+#include "compare/synthetic_run.h"
 #include "report/hostile_text.h"
-#include "synthetic_run.h"
 
 namespace sandstroke {
 namespace {

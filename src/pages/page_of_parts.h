@@ -3,22 +3,22 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <string_view>
 
 #include "core/error.h"
-#include "report/page.h"
 
 namespace sandstroke {
 
 /// A page on one run or two: a head and parts. Its data has at least the lists `parts` and `missing`.
 struct PageOfParts {
-  PageScript script;
+  std::string_view script;  ///< its own, beside those of parts
   std::string title;
   nlohmann::ordered_json data;
 
   /// Appends what `make` returns, unless that is null. Where `make` finds its data missing or damaged (Error:
   /// input), the page says why `name` is not shown.
   void add_part(const std::string& name, const std::function<nlohmann::ordered_json()>& make);
-  std::string html() const { return html_page(title, script, data); }
+  std::string html() const;
 };
 
 /// The result of `make`, or an empty one where the file does not hold it (Error: input).

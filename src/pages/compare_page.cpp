@@ -1,4 +1,4 @@
-#include "compare/compare_page.h"
+#include "pages/compare_page.h"
 
 #include <spdlog/fmt/fmt.h>
 
@@ -9,11 +9,14 @@
 #include <vector>
 
 #include "compare/compare_runs.h"
-#include "compare/page_curves.h"
-#include "compare/page_maps.h"
-#include "compare/page_sand.h"
+#include "core/asset.h"
 #include "core/error.h"
+#include "pages/curves.h"
+#include "pages/maps.h"
+#include "pages/sand_part.h"
 #include "report/page.h"
+
+SANDSTROKE_DECLARE_ASSET(compare);
 
 namespace sandstroke {
 namespace {
@@ -37,7 +40,7 @@ Json side(const RunFile& run) {
 
 PageOfParts start_page(const std::string& title, const Comparison& comparison, Json golden, Json run) {
   const nlohmann::json compared = to_json(comparison);
-  return {PageScript::compare,
+  return {SANDSTROKE_ASSET(compare),
           title,
           {{"machine", describe_machine()},
            {"passed", comparison.passed()},

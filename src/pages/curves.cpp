@@ -1,4 +1,4 @@
-#include "compare/page_curves.h"
+#include "pages/curves.h"
 
 #include <spdlog/fmt/fmt.h>
 

@@ -3,8 +3,8 @@
 #include <functional>
 #include <optional>
 
-#include "compare/page_of_parts.h"
 #include "io/last_surface.h"
+#include "pages/page_of_parts.h"
 #include "picture/image.h"
 
 namespace sandstroke {

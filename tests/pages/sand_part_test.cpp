@@ -1,12 +1,15 @@
-#include "compare/page_sand.h"
+#include "pages/sand_part.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "browser.h"
+#include "core/asset.h"
 #include "core/error.h"
-#include "report/page.h"
+#include "pages/page_of_parts.h"
+
+SANDSTROKE_DECLARE_ASSET(run);
 
 namespace sandstroke {
 namespace {
@@ -22,12 +25,13 @@ HeightField slope(int rows, int cols, double lift) {
 }
 
 std::string page_of(const Json& part) {
-  return html_page("sand", PageScript::run,
-                   {{"figures", Json::array()},
-                    {"parts", {part}},
-                    {"missing", Json::array()},
-                    {"scene", ""},
-                    {"provenance", Json::array()}});
+  PageOfParts page{SANDSTROKE_ASSET(run), "sand", {}};
+  page.data = {{"figures", Json::array()},
+               {"parts", {part}},
+               {"missing", Json::array()},
+               {"scene", ""},
+               {"provenance", Json::array()}};
+  return page.html();
 }
 
 TEST(SandPart, SaysTheBedAsItIsUpToItsLargestSide) {
