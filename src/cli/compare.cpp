@@ -7,8 +7,7 @@
 #include <vector>
 
 #include "cli/commands.h"
-#include "cli/print_json.h"
-#include "cli/print_text.h"
+#include "cli/standard_output.h"
 #include "cli/tolerance_options.h"
 #include "compare/compare_runs.h"
 #include "compare/junit.h"

@@ -7,8 +7,6 @@
 #include <vector>
 
 #include "cli/commands.h"
-#include "cli/print_json.h"
-#include "cli/print_text.h"
 #include "cli/run_picture.h"
 #include "cli/standard_output.h"
 #include "cli/tolerance_options.h"

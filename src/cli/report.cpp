@@ -2,8 +2,8 @@
 #include <memory>
 
 #include "cli/commands.h"
-#include "cli/print_text.h"
 #include "cli/run_picture.h"
+#include "cli/standard_output.h"
 #include "core/error.h"
 #include "core/output_file.h"
 #include "pages/run_report.h"

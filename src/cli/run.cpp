@@ -7,11 +7,10 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/commands.h"
-#include "cli/print_json.h"
-#include "cli/print_row.h"
 #include "cli/run_film.h"
 #include "cli/run_picture.h"
 #include "cli/run_view.h"
+#include "cli/standard_output.h"
 #include "core/error.h"
 #include "core/interrupt.h"
 #include "core/log.h"

@@ -2,7 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "io/last_surface.h"
+#include "io/run_file.h"
 #include "measure/furrow.h"
 
 namespace sandstroke {

@@ -3,7 +3,7 @@
 #include <functional>
 #include <optional>
 
-#include "io/last_surface.h"
+#include "io/run_file.h"
 #include "pages/page_of_parts.h"
 #include "picture/image.h"
 

@@ -7,8 +7,8 @@
 #include "core/interrupt.h"
 #include "core/stopwatch.h"
 #include "haptics/recorded_force.h"
+#include "rules/schedule.h"
 #include "sim/check_inside.h"
-#include "sim/tick_schedule.h"
 
 namespace sandstroke {
 

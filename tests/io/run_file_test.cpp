@@ -1,4 +1,4 @@
-#include "io/last_surface.h"
+#include "io/run_file.h"
 
 #include <gtest/gtest.h>
 
