@@ -1,4 +1,4 @@
-#include "sim/contact_stiffness.h"
+#include "measure/contact_stiffness.h"
 
 #include <Eigen/SVD>
 #include <algorithm>
