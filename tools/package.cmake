@@ -4,7 +4,7 @@ set(doc ${CMAKE_INSTALL_DATAROOTDIR}/doc)
 install(FILES README.md DESTINATION ${doc}/sandstroke COMPONENT program)
 install(DIRECTORY strokes/ DESTINATION ${doc}/sandstroke/examples COMPONENT program)
 # Debian has the texts of common licences. It requires one file that says which licence applies to which files.
-install(FILES LICENSE src/report/assets/echarts.LICENSE src/report/assets/echarts.NOTICE src/picture/futural.NOTICE
+install(FILES LICENSE src/report/assets/echarts.LICENSE src/report/assets/echarts.NOTICE src/lettering/futural.NOTICE
         DESTINATION ${doc}/sandstroke COMPONENT licences)
 
 set(CPACK_GENERATOR DEB)

@@ -1,4 +1,4 @@
-#include "fit/fit_scene.h"
+#include "fit/fitted_law.h"
 
 #include <spdlog/fmt/ranges.h>
 #include <spdlog/spdlog.h>
@@ -13,7 +13,7 @@
 #include "core/error.h"
 #include "core/interrupt.h"
 #include "io/scene_toml.h"
-#include "sim/contact_force.h"
+#include "sim/device_force.h"
 
 namespace sandstroke {
 namespace {
@@ -49,13 +49,6 @@ nlohmann::ordered_json as_json(const ForceFit& fit) {
   return json;
 }
 
-/// Describes a law's force, for a sentence that begins with "it".
-const char* nature_of(ForceLaw law) {
-  if (law == ForceLaw::paper) return "grows with the depth in the sand and, sideways, with the speed";
-  if (law == ForceLaw::archimedes) return "points up and grows with the volume of the tool in the sand";
-  return "grows with the depth of each part of the tool in the sand and is the same at any speed";
-}
-
 /// Writes a value and its error, with units.
 std::string value_text(double value, double error, const char* unit) {
   return fmt::format("{:.4g} +- {:.2g} {}", value, error, unit);
@@ -89,7 +82,7 @@ void print_fit(const ForceFit& fit) {
             fmt::format("{:.0f} % of the recorded force (of its mean square)", 100.0 * fit.explained));
 }
 
-void warn_of(const ForceFit& fit, const Scene& scene) {
+void warn_of(const ForceFit& fit, const FittedLaw& law) {
   if (fit.explained_reversed >= most_of_it)
     spdlog::warn(
         "the recorded force seems to have the wrong sign: with the sign reversed, the model explains {:.0f} "
@@ -99,10 +92,9 @@ void warn_of(const ForceFit& fit, const Scene& scene) {
     spdlog::warn(
         "the model cannot explain this force: with the best constants {:.3g} of {:.3g} N rms remain. The "
         "model's force {}; the recorded force behaves differently{}",
-        fit.residual, fit.recorded_rms, nature_of(scene.force.law),
-        fit.constants.size() < constants_of(scene.force.law).size()
-            ? ", or needs a constant that --constants leaves out"
-            : "");
+        fit.residual, fit.recorded_rms, law.nature,
+        fit.constants.size() < law.constants.size() ? ", or needs a constant that --constants leaves out"
+                                                    : "");
 }
 
 /// Says how to play a scene with the fitted constants, or why no scene can have them.
@@ -111,7 +103,8 @@ void show_use(const ForceFit& fit, const FitArguments& arguments) {
   std::vector<std::string> overrides = arguments.overrides;
   overrides.insert(overrides.end(), settings.begin(), settings.end());
   try {
-    const std::string doubt = theory_warning(load_scene(arguments.scene, overrides), 0.0);
+    const Scene scene = load_scene(arguments.scene, overrides);
+    const std::string doubt = make_device_force(scene)->theory_warning(scene, 0.0);
     if (!arguments.json)
       print_row("to use it", fmt::format("sandstroke run SCENE --set {}", fmt::join(overrides, " --set ")));
     if (!doubt.empty()) spdlog::warn("{}", doubt);
@@ -126,9 +119,10 @@ int fit(const FitArguments& arguments) {
   std::vector<std::string> overrides = arguments.overrides;
   if (!arguments.stroke.empty()) overrides.push_back(stroke_override(arguments.stroke));
   const Scene scene = load_scene(scene_path, overrides);
-  const std::vector<bool> asked = chosen_constants(constants_of(scene.force.law), arguments.constants);
+  const FittedLaw& law = fitted_law(scene.force.law);
+  const std::vector<bool> asked = chosen_constants(law.constants, arguments.constants);
   catch_interrupts();
-  const std::optional<ForceFit> found = fit_stroke(felt_stroke(scene, scene_path.parent_path()), asked);
+  const std::optional<ForceFit> found = law.fit(felt_stroke(scene, scene_path.parent_path()), asked);
   if (!found) return 128 + interrupted();
   if (arguments.json)
     print_json(as_json(*found));
@@ -137,16 +131,20 @@ int fit(const FitArguments& arguments) {
   if (explains(*found))
     show_use(*found, arguments);
   else
-    warn_of(*found, scene);
+    warn_of(*found, law);
   return 0;
 }
 
-/// Lists a law's constants, "k_s, k_c and k_f", and marks those that are not fitted by default.
-std::string constants_text(ForceLaw law) {
-  std::vector<std::string> names;
-  for (const ForceConstant& one : constants_of(law))
-    names.push_back(one.name + std::string(one.by_default ? "" : " (only with --constants)"));
-  return fmt::format("{}", fmt::join(names, ", "));
+/// Lists the laws with their constants, and marks those that are not fitted by default.
+std::string constants_text() {
+  std::string text;
+  for (const FittedLaw& law : fitted_laws()) {
+    std::vector<std::string> names;
+    for (const ForceConstant& one : law.constants)
+      names.push_back(one.name + std::string(one.by_default ? "" : " (only with --constants)"));
+    text += fmt::format("  {:<12}{}\n", law.name, fmt::join(names, ", "));
+  }
+  return text;
 }
 
 }  // namespace
@@ -169,9 +167,7 @@ void add_fit_command(CLI::App& app, Command& chosen) {
   command->add_flag("--json", arguments->json, "Print one JSON object in SI units");
   command->footer(fmt::format(
       "Constants of force.law:\n"
-      "  paper       {}\n"
-      "  rft         {}\n"
-      "  archimedes  {}\n"
+      "{}"
       "With the last two laws the force depends on friction_angle and density through one number, the\n"
       "sand's resistance, so the scene's force.density must be right.\n"
       "\n"
@@ -179,7 +175,7 @@ void add_fit_command(CLI::App& app, Command& chosen) {
       "lower in the tool's own furrow. fit compares the model's force with the recorded one by least\n"
       "squares. Errors are standard errors (jackknife over ten stretches of time).\n"
       "Example:  sandstroke fit strokes/wscg/scene.toml --stroke tracing.h5 --set stroke.depth=0.004",
-      constants_text(ForceLaw::paper), constants_text(ForceLaw::rft), constants_text(ForceLaw::archimedes)));
+      constants_text()));
   command->callback([arguments, &chosen] { chosen = [arguments] { return fit(*arguments); }; });
 }
 

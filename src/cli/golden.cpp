@@ -32,7 +32,7 @@ struct GoldenArguments {
 };
 
 GoldenRun run_golden_scene(const fs::path& scene_file, const fs::path& run_file) {
-  Scene scene = load_scene(scene_file);
+  SceneFile scene = load_scene(scene_file);
   RunOptions arguments;
   arguments.scene_folder = scene_file.parent_path();
   arguments.progress = true;

@@ -30,7 +30,8 @@ struct InfoArguments {
 nlohmann::ordered_json range_of(const HeightField& bed) {
   double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
   const auto take = [&](double height) {
-    lowest = std::min(lowest, height), highest = std::max(highest, height);
+    lowest = std::min(lowest, height);
+    highest = std::max(highest, height);
   };
   if (bed.allocated_tiles() < bed.tile_count()) take(bed.untouched().height(bed, 0, 0));
   for (int slot = 0; slot < bed.allocated_tiles(); ++slot) {

@@ -46,7 +46,7 @@ struct RecordArguments {
 constexpr double slowest = 100.0, fastest = 10000.0;
 
 /// The given rate, or the rate at which `run` will play the stroke in the felt scene.
-double servo_rate(const RecordArguments& arguments, const std::optional<Scene>& felt) {
+double servo_rate(const RecordArguments& arguments, const std::optional<SceneFile>& felt) {
   if (arguments.rate > 0.0) return arguments.rate;
   if (!felt) return ServoSettings{}.rate;
   const double rate = felt->device.servo_rate;
@@ -57,7 +57,7 @@ double servo_rate(const RecordArguments& arguments, const std::optional<Scene>& 
   return rate;
 }
 
-RecorderSettings recorder_settings(const RecordArguments& arguments, const std::optional<Scene>& felt) {
+RecorderSettings recorder_settings(const RecordArguments& arguments, const std::optional<SceneFile>& felt) {
   RecorderSettings settings = arguments.settings;
   settings.servo.rate = servo_rate(arguments, felt);
   if (arguments.duration > 0.0) settings.servo.duration = arguments.duration;
@@ -71,7 +71,7 @@ RecorderSettings recorder_settings(const RecordArguments& arguments, const std::
 }
 
 /// The files that the command reads and must not overwrite.
-std::vector<fs::path> inputs(const RecordArguments& arguments, const std::optional<Scene>& felt) {
+std::vector<fs::path> inputs(const RecordArguments& arguments, const std::optional<SceneFile>& felt) {
   std::vector<fs::path> files;
   if (const fs::path played = file_played(arguments.device); !played.empty()) files.push_back(played);
   if (!felt) return files;
@@ -144,7 +144,8 @@ int exit_code(const RecordingFooter& footer, double max_skipped) {
 }
 
 /// Makes the named device. start: the felt scene's bed, which a pointer needs; none without --feel.
-std::unique_ptr<HapticDevice> named_device(const RecordArguments& arguments, const std::optional<Scene>& felt,
+std::unique_ptr<HapticDevice> named_device(const RecordArguments& arguments,
+                                           const std::optional<SceneFile>& felt,
                                            const std::optional<HeightField>& start, LoopClock& clock) {
   if (arguments.device != pointer_name)
     return find_device(arguments.device, felt ? felt->force : ForceSettings{});
@@ -152,9 +153,9 @@ std::unique_ptr<HapticDevice> named_device(const RecordArguments& arguments, con
 }
 
 /// The scene whose sand the hand feels. None without --feel.
-std::optional<Scene> felt_scene(const RecordArguments& arguments) {
+std::optional<SceneFile> felt_scene(const RecordArguments& arguments) {
   if (arguments.felt_scene.empty()) return std::nullopt;
-  Scene scene = load_scene(arguments.felt_scene, arguments.overrides);
+  SceneFile scene = load_scene(arguments.felt_scene, arguments.overrides);
   const PluginLawSettings& own = scene.plugin_laws;
   for (const auto& [key, name] : {std::pair("relaxation", own.relaxation),
                                   std::pair("displacement", own.displacement), std::pair("force", own.force)})
@@ -173,7 +174,7 @@ int check(const RecordArguments& arguments) {
     throw_input_error(
         "record --check needs no device; leave out --device, or add --feel SCENE to compare the sand with "
         "the device's limits");
-  const std::optional<Scene> felt = felt_scene(arguments);
+  const std::optional<SceneFile> felt = felt_scene(arguments);
   DeviceSpecification device;
   device.max_force = std::numeric_limits<double>::infinity();  // without --device the scene's limit holds
   if (arguments.device == pointer_name)
@@ -201,7 +202,7 @@ int record(const RecordArguments& arguments) {
         "record --view and --device pointer show and shape the sand of a scene; name it with --feel "
         "SCENE.toml");
 
-  std::optional<Scene> felt = felt_scene(arguments);
+  std::optional<SceneFile> felt = felt_scene(arguments);
   const RecorderSettings settings = recorder_settings(arguments, felt);
   check_output(arguments.output, inputs(arguments, felt), recording_output);
   check_no_journal(journal_path(arguments.output));

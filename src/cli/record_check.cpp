@@ -57,7 +57,7 @@ nlohmann::ordered_json felt_loop_json(const FeltLoop& loop) {
 
 }  // namespace
 
-int check_machine(const RecorderSettings& settings, const std::optional<Scene>& felt,
+int check_machine(const RecorderSettings& settings, const std::optional<SceneFile>& felt,
                   const DeviceSpecification& device, bool json) {
   const double seconds = settings.servo.duration.value_or(10.0);
   LoopCheck check;

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "io/scene_file.h"
 #include "record/live_sand.h"
 #include "record/recorder.h"
 
@@ -16,7 +17,7 @@ int list_devices(bool json);
 /// `record --check`: measures how well this machine keeps a loop with these settings, without a device, for
 /// 10 s unless the settings have a duration. felt: a scene whose sand is then compared with the device's
 /// limits, or none.
-int check_machine(const RecorderSettings& settings, const std::optional<Scene>& felt,
+int check_machine(const RecorderSettings& settings, const std::optional<SceneFile>& felt,
                   const DeviceSpecification& device, bool json);
 
 /// Prints a recording as a table or as one JSON object. felt: none without sand.

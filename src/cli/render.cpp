@@ -54,7 +54,7 @@ void reject_ignored(const RenderArguments& arguments, const ViewSettings& view) 
 }
 
 /// The scene's view, changed by the command line.
-ViewSettings view_of(const Scene& scene, const RenderArguments& arguments) {
+ViewSettings view_of(const SceneFile& scene, const RenderArguments& arguments) {
   ViewSettings view = scene.view;
   if (!arguments.view.empty()) view.name = named<ViewName>(view_names, arguments.view);
   if (!arguments.style.empty()) view.style = named<RenderStyle>(style_names, arguments.style);
@@ -101,7 +101,7 @@ int draw_pictures(const RunFile& run, const FrameLook& look, const RenderArgumen
 int render(const RenderArguments& arguments) {
   if (!arguments.video.empty()) check_film_name(arguments.video);
   const RunFile run(arguments.run);
-  const Scene scene = run.scene();
+  const SceneFile scene = run.scene();
   const ViewSettings view = view_of(scene, arguments);
   if (arguments.frame == "all") {
     catch_interrupts();

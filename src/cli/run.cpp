@@ -97,7 +97,7 @@ void print_summary(const RunResult& r, const Scene& scene, const std::string& ou
 }
 
 /// Checks that the default output does not replace a finished run of another scene.
-void check_default_output(const fs::path& output, const fs::path& scene_path, const Scene& scene) {
+void check_default_output(const fs::path& output, const fs::path& scene_path, const SceneFile& scene) {
   if (kind_of(output) != InputKind::run) return;
   const RunFile run(output);
   if (run.scene_text() == scene_text(scene)) return;
@@ -114,7 +114,7 @@ int run(const RunArguments& arguments) {
   std::vector<std::string> overrides = arguments.overrides;
   if (!arguments.stroke.empty()) overrides.push_back(stroke_override(arguments.stroke));
   if (arguments.frames >= 0.0) overrides.push_back(fmt::format("output.frames={}", arguments.frames));
-  const Scene scene = load_scene(scene_path, overrides);
+  const SceneFile scene = load_scene(scene_path, overrides);
   const std::string output = arguments.output.empty() ? scene_path.stem().string() + ".h5" : arguments.output;
 
   const fs::path folder = scene_path.parent_path();

@@ -17,10 +17,11 @@ void ContactLaw::add(const std::vector<Wrench>& felt, const Eigen::Vector3d& rec
   if (recorded_.size() <= most_fitted_ticks) return;
   const auto sands = static_cast<std::ptrdiff_t>(felt.size());
   std::size_t kept = 0;
-  for (std::size_t i = 0; i < recorded_.size(); i += 2, ++kept) {
+  for (std::size_t i = 0; i < recorded_.size(); i += 2) {
     recorded_[kept] = recorded_[i];
     std::copy_n(felt_.begin() + static_cast<std::ptrdiff_t>(i) * sands, sands,
                 felt_.begin() + static_cast<std::ptrdiff_t>(kept) * sands);
+    ++kept;
   }
   recorded_.resize(kept);
   felt_.resize(kept * felt.size());

@@ -15,7 +15,7 @@ class ContactLaw : public FeltLaw {
   /// Adds the next tick: a force for each of the grid's sands. To limit memory, it drops every second tick if
   /// there are too many, and every second of those to come, too.
   void add(const std::vector<Wrench>& felt, const Eigen::Vector3d& recorded);
-  std::span<const ForceConstant> constants() const override { return contact_constants(grid_.law()); }
+  std::span<const ForceConstant> constants() const override { return grid_.constants(); }
   ForceScale scale() const override {
     return {"resistance", "resistance", "N/m^3", "the sand's force is proportional to it"};
   }

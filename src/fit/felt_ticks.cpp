@@ -79,20 +79,20 @@ class ContactTicks : public SimulationObserver {
 
 }  // namespace
 
-std::vector<FeltTick> FeltStroke::paper_ticks() const {
-  Simulation run(scene, bed, stroke);
-  PaperTicks felt(scene.device.scale);
+std::vector<FeltTick> felt_ticks(const FeltStroke& felt) {
+  Simulation run(felt.scene, felt.bed, felt.stroke);
+  PaperTicks ticks(felt.scene.device.scale);
   RunProgress bar;
-  run.run({&felt, &bar});
-  return std::move(felt.ticks);
+  run.run({&ticks, &bar});
+  return std::move(ticks.ticks);
 }
 
-ContactLaw FeltStroke::contact_law(SandGrid grid) const {
-  Simulation run(scene, bed, stroke);
-  ContactLaw law(std::move(grid), scene.device.max_force);
-  ContactTicks felt(run, law);
+ContactLaw felt_in(const FeltStroke& felt, SandGrid grid) {
+  Simulation run(felt.scene, felt.bed, felt.stroke);
+  ContactLaw law(std::move(grid), felt.scene.device.max_force);
+  ContactTicks ticks(run, law);
   RunProgress bar;
-  run.run({&felt, &bar});
+  run.run({&ticks, &bar});
   return law;
 }
 

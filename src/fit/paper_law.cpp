@@ -28,7 +28,9 @@ PaperLaw::PaperLaw(const std::vector<FeltTick>& ticks, const ForceSettings& star
 
 ForceSettings PaperLaw::settings(const VectorXd& values) const {
   ForceSettings settings = settings_;
-  settings.k_s = values[k_s], settings.k_c = values[k_c], settings.k_f = values[k_f];
+  settings.k_s = values[k_s];
+  settings.k_c = values[k_c];
+  settings.k_f = values[k_f];
   return settings;
 }
 

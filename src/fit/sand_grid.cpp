@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 
 #include "core/bisection.h"
 #include "core/elementary.h"
@@ -15,32 +16,28 @@ constexpr double nearest = 0.02;  // distance of the nearest node from the middl
 
 /// A constant of a sand, and its limits.
 struct SandConstant {
+  std::string_view name;
   double SandStrength::*member;
   double least, most;                ///< stand for 0 and for more than any sand has
   double least_middle, most_middle;  ///< limits of a grid's middle
 };
 
-/// The constants of a law, in the order of contact_constants().
-std::vector<SandConstant> sand_constants(ForceLaw law) {
-  const SandConstant angle = {&SandStrength::friction_angle, 0.0, 90.0, 0.0, 90.0},
-                     friction = {&SandStrength::tool_friction, 0.0, 1e3, 0.02, 3.0},
-                     yield = {&SandStrength::yield_way, 1e-6, 1.0, 1e-5, 0.1};
-  if (law == ForceLaw::archimedes) return {angle, yield};
-  return {angle, friction, yield};
+constexpr SandConstant sand_constants[] = {
+    {"friction_angle", &SandStrength::friction_angle, 0.0, 90.0, 0.0, 90.0},
+    {"tool_friction", &SandStrength::tool_friction, 0.0, 1e3, 0.02, 3.0},
+    {"yield", &SandStrength::yield_way, 1e-6, 1.0, 1e-5, 0.1}};
+
+const SandConstant& in_sand(const ForceConstant& constant) {
+  return *std::find_if(std::begin(sand_constants), std::end(sand_constants),
+                       [&](const SandConstant& one) { return one.name == constant.name; });
 }
 
 }  // namespace
 
-std::span<const ForceConstant> contact_constants(ForceLaw law) {
-  if (law == ForceLaw::archimedes) return archimedes_constants;
-  return rft_constants;
-}
-
-VectorXd contact_values(ForceLaw law, const SandStrength& sand) {
-  const auto constants = sand_constants(law);
+VectorXd values_in(const SandStrength& sand, std::span<const ForceConstant> constants) {
   VectorXd values(constants.size());
   std::transform(constants.begin(), constants.end(), values.begin(),
-                 [&](const SandConstant& one) { return sand.*one.member; });
+                 [&](const ForceConstant& one) { return sand.*in_sand(one).member; });
   return values;
 }
 
@@ -51,21 +48,22 @@ double friction_angle_of(double resistance, double density) {
   });
 }
 
-SandGrid::SandGrid(ForceLaw law, const SandStrength& scene, const VectorXd& about,
+SandGrid::SandGrid(std::span<const ForceConstant> constants, const SandStrength& scene, const VectorXd& about,
                    const std::vector<bool>& is_free)
-    : law_(law), start_(contact_values(law, scene)), sands_(2, scene) {
-  const auto constants = sand_constants(law);
-  for (std::size_t i = 1; i < constants.size(); ++i)
+    : constants_(constants), start_(values_in(scene, constants)), sands_(2, scene) {
+  for (std::size_t i = 1; i < constants.size(); ++i) {
+    const SandConstant& one = in_sand(constants[i]);
     if (is_free[i])
-      sands_[1].*constants[i].member = std::clamp(about[static_cast<Eigen::Index>(i)],
-                                                  constants[i].least_middle, constants[i].most_middle);
+      sands_[1].*one.member =
+          std::clamp(about[static_cast<Eigen::Index>(i)], one.least_middle, one.most_middle);
+  }
   for (std::size_t i = 1; i < constants.size(); ++i)
     if (is_free[i]) add_nodes(i);
 }
 
 void SandGrid::add_nodes(std::size_t constant) {
   constexpr int on_each_side = 9;
-  const SandConstant one = sand_constants(law_)[constant];
+  const SandConstant& one = in_sand(constants_[constant]);
   const double middle = sands_[1].*one.member;
   Axis axis{static_cast<Eigen::Index>(constant), sands_.size(), {}};
   std::vector<double> values = {one.least, one.most, sands_[0].*one.member, middle};
@@ -85,12 +83,12 @@ void SandGrid::add_nodes(std::size_t constant) {
 
 std::vector<double> SandGrid::extremes(std::size_t constant) const {
   if (constant == 0) return {};
-  const SandConstant one = sand_constants(law_)[constant];
+  const SandConstant& one = in_sand(constants_[constant]);
   return {one.least, one.most};
 }
 
 bool SandGrid::is_close_about(const VectorXd& values) const {
-  const VectorXd middle = contact_values(law_, sands_[1]);
+  const VectorXd middle = values_in(sands_[1], constants_);
   return std::all_of(axes_.begin(), axes_.end(), [&](const Axis& axis) {
     return std::abs(values[axis.constant] - middle[axis.constant]) <= 0.5 * nearest * middle[axis.constant];
   });

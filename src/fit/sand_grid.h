@@ -1,7 +1,6 @@
 #pragma once
 
 #include "fit/felt_law.h"
-#include "rules/force.h"
 #include "sand/resistive_force.h"
 
 namespace sandstroke {
@@ -12,11 +11,9 @@ inline constexpr ForceConstant rft_constants[] = {{"friction_angle", "deg", "for
                                                   {"tool_friction", "", "force.tool_friction"},
                                                   {"yield", "m", "force.yield", false}};
 inline constexpr ForceConstant archimedes_constants[] = {rft_constants[0], rft_constants[2]};
-/// The constants of any law but the paper's.
-std::span<const ForceConstant> contact_constants(ForceLaw law);
 
 /// The values of these constants in a sand.
-Eigen::VectorXd contact_values(ForceLaw law, const SandStrength& sand);
+Eigen::VectorXd values_in(const SandStrength& sand, std::span<const ForceConstant> constants);
 
 /// The friction angle [deg] of sand with that resistance [N/m^3] and density [kg/m^3]: the inverse of
 /// resistance(), which grows with the angle all the way from 0 to 90 deg. It may be an angle that no scene
@@ -25,18 +22,17 @@ double friction_angle_of(double resistance, double density);
 
 /// The sands in which every tick is felt, so that the force between them is known. They are the scene's, a
 /// middle one, and for each constant but the angle some that differ from the middle in that constant alone.
-/// Constants are counted as in contact_constants().
 class SandGrid {
  public:
-  /// about: values of the constants. The middle sand has these where a constant is free, within what sand and
-  /// tools are like; in all else it is the scene's. The nodes of a free constant are the scene's value and
-  /// the middle's, nine on each side of the middle, the nearest 2 % away and each twice as far as the one
-  /// before, and the values that stand for 0 and for more than any (tool_friction 0 and 1000, yield 1e-6 and
-  /// 1 m).
-  SandGrid(ForceLaw law, const SandStrength& scene, const Eigen::VectorXd& about,
+  /// constants: of the law, the angle first. about: their values. The middle sand has these where a constant
+  /// is free, within what sand and tools are like; in all else it is the scene's. The nodes of a free
+  /// constant are the scene's value and the middle's, nine on each side of the middle, the nearest 2 % away
+  /// and each twice as far as the one before, and the values that stand for 0 and for more than any
+  /// (tool_friction 0 and 1000, yield 1e-6 and 1 m).
+  SandGrid(std::span<const ForceConstant> constants, const SandStrength& scene, const Eigen::VectorXd& about,
            const std::vector<bool>& is_free);
 
-  ForceLaw law() const { return law_; }
+  std::span<const ForceConstant> constants() const { return constants_; }
   /// The values that stand for 0 and for more than any; none for the angle.
   std::vector<double> extremes(std::size_t constant) const;
   /// True if the grid knows the force of these values to about 1e-4 of it: they lie less than half the way to
@@ -58,7 +54,7 @@ class SandGrid {
 
   void add_nodes(std::size_t constant);
 
-  ForceLaw law_;
+  std::span<const ForceConstant> constants_;
   Eigen::VectorXd start_;
   std::vector<SandStrength> sands_;
   std::vector<Axis> axes_;

@@ -7,7 +7,7 @@
 #include "core/angle.h"
 #include "core/elementary.h"
 #include "core/error.h"
-#include "picture/hershey_text.h"
+#include "lettering/hershey_text.h"
 
 namespace sandstroke {
 namespace {

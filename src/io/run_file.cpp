@@ -185,8 +185,8 @@ std::optional<HeightField> RunFile::error_map() const {
 
 std::string RunFile::scene_text() const { return file_.text("/scene"); }
 
-Scene RunFile::scene() const {
-  Scene scene = stored_scene(scene_text(), name() + ": /scene");
+SceneFile RunFile::scene() const {
+  SceneFile scene = stored_scene(scene_text(), name() + ": /scene");
   if (scene.tool.shape == ToolShape::mesh && file_.has("/tool/triangles"))
     scene.tool.mesh = std::make_shared<TriangleMesh>(tool_mesh());
   return scene;

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "hdf5/hdf5_file.h"
+#include "io/scene_file.h"
 #include "sim/run_result.h"
-#include "sim/scene.h"
 
 namespace sandstroke {
 
@@ -45,7 +45,7 @@ class RunFile {
   std::optional<ErrorEstimate> error_estimate() const;
   std::optional<HeightField> error_map() const;
   std::string scene_text() const;  ///< the resolved scene (TOML)
-  Scene scene() const;             ///< the same, with its tool's mesh
+  SceneFile scene() const;         ///< the same, with its tool's mesh
   /// Name and value of each attribute of /provenance.
   std::vector<std::pair<std::string, std::string>> provenance() const;
 

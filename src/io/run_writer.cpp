@@ -101,14 +101,14 @@ double least_bytes(const Simulation& simulation) {
 }
 
 RunWriter::RunWriter(const std::filesystem::path& path, const Simulation& simulation,
-                     const std::string& stroke_hash, const std::string& scene_file)
+                     const ViewSettings& view, const std::string& stroke_hash, const std::string& scene_file)
     : path_(path),
       file_(path, output_kind(InputKind::run)),
       keeps_trace_(simulation.scene().output.trace && simulation.scene().stroke),
       content_(simulation.trace_content()),
       frames_(file_, simulation.bed()) {
   const HeightField& bed = simulation.bed();
-  const std::string scene = scene_text(simulation.scene());
+  const std::string scene = scene_text({simulation.scene(), view});
   file_.attribute("/", "complete", false);
   file_.write("/scene", scene);
   file_.make_group(provenance);

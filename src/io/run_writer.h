@@ -10,6 +10,7 @@
 #include "hdf5/hdf5_grid_writer.h"
 #include "io/frame_writer.h"
 #include "io/xdmf.h"
+#include "picture/view.h"
 #include "sim/simulation.h"
 
 namespace sandstroke {
@@ -21,9 +22,10 @@ double least_bytes(const Simulation& simulation);
 /// killed run can be read up to there, and renamed when complete. Error: io.
 class RunWriter : public SimulationObserver {
  public:
-  /// For /provenance: the hash of the stroke, and the path of the scene's file; empty: none.
-  RunWriter(const std::filesystem::path& path, const Simulation& simulation, const std::string& stroke_hash,
-            const std::string& scene_file = "");
+  /// view: how pictures of the run show the sand. For /provenance: the hash of the stroke, and the path of
+  /// the scene's file; empty: none.
+  RunWriter(const std::filesystem::path& path, const Simulation& simulation, const ViewSettings& view,
+            const std::string& stroke_hash, const std::string& scene_file = "");
 
   void on_tick(const TickRecord& tick) override;
   void on_relaxation(const RelaxationRecord& relaxation) override;

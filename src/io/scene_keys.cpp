@@ -2,20 +2,20 @@
 
 namespace sandstroke {
 
-std::vector<KeySection> scene_settings(const Scene& scene) {
-  Scene copy = scene;  // a visitor could change it; this one does not
-  return listed_keys([&](KeyVisitor& visitor) { describe_scene(visitor, copy); });
+std::vector<KeySection> scene_settings(const SceneFile& scene) {
+  SceneFile copy = scene;  // a visitor could change it; this one does not
+  return listed_keys([&](KeyVisitor& visitor) { describe_scene_file(visitor, copy); });
 }
 
 std::vector<KeySection> all_scene_keys() {
   return all_keys([](KeyVisitor& visitor) {
-    Scene scene;
+    SceneFile scene;
     scene.stroke.emplace().table.emplace();
-    describe_scene(visitor, scene);
+    describe_scene_file(visitor, scene);
   });
 }
 
-std::string setting_unit(const Scene& scene, const std::string& name) {
+std::string setting_unit(const SceneFile& scene, const std::string& name) {
   for (const KeySection& section : scene_settings(scene))
     for (const KeyRow& key : section.keys)
       if (key.name == name) return key.unit;

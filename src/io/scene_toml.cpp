@@ -26,11 +26,11 @@ void check(const Scene& scene, const TomlReader& toml) {
 
 enum class Written { by_a_user, by_a_run };
 
-Scene read_scene(TomlReader toml, const std::vector<std::string>& overrides,
-                 Written written = Written::by_a_user) {
+SceneFile read_scene(TomlReader toml, const std::vector<std::string>& overrides,
+                     Written written = Written::by_a_user) {
   for (const std::string& assignment : overrides) toml.override_with(assignment);
-  Scene scene;
-  read_keys(toml, [&](KeyVisitor& visitor) { describe_scene(visitor, scene); });
+  SceneFile scene;
+  read_keys(toml, [&](KeyVisitor& visitor) { describe_scene_file(visitor, scene); });
   toml.skip("relaxation.engine");  // in older scenes and run files: all engines gave the same bits
   if (constexpr const char* travel = "relaxation.travel"; toml.has(travel)) {
     if (written == Written::by_a_user && !is_void(travel, toml.literal(travel)))
@@ -48,7 +48,7 @@ bool is_void(const std::string& key, const std::string& literal) {
   return key == "relaxation.travel" && literal == "0";
 }
 
-Scene load_scene(const std::filesystem::path& path, const std::vector<std::string>& overrides) {
+SceneFile load_scene(const std::filesystem::path& path, const std::vector<std::string>& overrides) {
   return read_as({InputKind::scene}, path, [&] {
     TomlReader toml = TomlReader::from_file(path);
     if (toml.has("stroke") && toml.text("stroke.file", "") == "-")
@@ -60,12 +60,12 @@ Scene load_scene(const std::filesystem::path& path, const std::vector<std::strin
   });
 }
 
-Scene scene_from_text(const std::string& text, const std::string& name,
-                      const std::vector<std::string>& overrides) {
+SceneFile scene_from_text(const std::string& text, const std::string& name,
+                          const std::vector<std::string>& overrides) {
   return read_scene(TomlReader::from_text(text, name), overrides);
 }
 
-Scene stored_scene(const std::string& text, const std::string& name) {
+SceneFile stored_scene(const std::string& text, const std::string& name) {
   return read_scene(TomlReader::from_text(text, name), {}, Written::by_a_run);
 }
 
@@ -83,7 +83,7 @@ std::vector<std::filesystem::path> input_files(const Scene& scene, const std::fi
   return files;
 }
 
-std::string scene_text(const Scene& scene) {
+std::string scene_text(const SceneFile& scene) {
   std::string text;
   for (const KeySection& section : scene_settings(scene)) {
     text += fmt::format("{}[{}]\n", text.empty() ? "" : "\n", section.name);

@@ -4,22 +4,22 @@
 #include <string>
 #include <vector>
 
-#include "sim/scene.h"
+#include "io/scene_file.h"
 
 namespace sandstroke {
 
 /// Reads a scene (TOML) and checks it. overrides: "key=value" as --set takes them. Error: input, naming file,
 /// line, key and remedy; io where the file cannot be read. Only an override may take the stroke from standard
 /// input ("stroke.file=-").
-Scene load_scene(const std::filesystem::path& path, const std::vector<std::string>& overrides = {});
+SceneFile load_scene(const std::filesystem::path& path, const std::vector<std::string>& overrides = {});
 
 /// The same from text; `name` stands for the file in messages.
-Scene scene_from_text(const std::string& text, const std::string& name,
-                      const std::vector<std::string>& overrides = {});
+SceneFile scene_from_text(const std::string& text, const std::string& name,
+                          const std::vector<std::string>& overrides = {});
 
 /// The scene that an earlier run stored, for looking at its results. It passes over the old key
 /// relaxation.travel, a way in cells.
-Scene stored_scene(const std::string& text, const std::string& name);
+SceneFile stored_scene(const std::string& text, const std::string& name);
 
 /// The path of the scene's stroke, from `folder`, the scene's; "-": standard input.
 std::filesystem::path stroke_path(const Scene& scene, const std::filesystem::path& folder);
@@ -32,6 +32,6 @@ std::vector<std::filesystem::path> input_files(const Scene& scene, const std::fi
 bool is_void(const std::string& key, const std::string& literal);
 
 /// Every setting of a scene as TOML. Reading it back gives the same scene.
-std::string scene_text(const Scene& scene);
+std::string scene_text(const SceneFile& scene);
 
 }  // namespace sandstroke

@@ -43,7 +43,7 @@ class LevelSand {
 
   /// The wrench at a depth [m], after the tool has yielded in a direction and moved by `then` [m].
   Wrench at(double depth, const Vector3d& yielded, const Vector3d& then) {
-    const Vector3d tip(0.0, 0.0, -depth - sand_.footprint().lowest());
+    const Vector3d tip(0.0, 0.0, -depth - sand_.tool().lowest());
     law_.lift();
     const Wrench full = law_.in_tick(sand_, bed_, tip, yield_ * yielded, true);
     return then.isZero(0.0) ? full : law_.in_tick(sand_, bed_, tip + then, then, true);

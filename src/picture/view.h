@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "core/key_visitor.h"
+
 namespace sandstroke {
 
 /// Named places of the camera. `custom` takes azimuth, elevation, distance and target from the settings.
@@ -28,5 +30,8 @@ struct ViewSettings {
   double light_elevation = 20.0;                     ///< deg
   int width = 1280, height = 720;                    ///< pixels
 };
+
+/// Shows all keys of [view] to the visitor. It is the only list of them.
+void describe_view(KeyVisitor& visitor, ViewSettings& view);
 
 }  // namespace sandstroke

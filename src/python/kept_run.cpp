@@ -59,7 +59,7 @@ std::shared_ptr<KeptRun> kept_run(const SceneHere& scene, std::optional<Stroke> 
   options.stroke = std::move(stroke);
   options.surface = std::move(surface);
   options.onlooker = [&](const Simulation& simulation) -> SimulationObserver& {
-    run->scene.scene = simulation.scene();
+    run->scene.scene = {simulation.scene(), scene.scene.view};
     run->bed = simulation.bed();
     run->initial = simulation.bed().grid();
     run->content = simulation.trace_content();

@@ -13,7 +13,7 @@ namespace sandstroke {
 
 /// A scene, and the folder to which its files are relative.
 struct SceneHere {
-  Scene scene;
+  SceneFile scene;
   std::filesystem::path folder;
 };
 

@@ -77,7 +77,7 @@ SceneHere scene_of_text(const std::string& text, const std::filesystem::path& fo
 /// Draws an array (height, width, 3) of 8 bits. Without tip it draws no tool.
 py::array picture(const SceneHere& here, const py::object& heights, const py::object& start,
                   const std::optional<std::array<double, 3>>& tip, const std::array<double, 4>& orientation) {
-  const Scene& scene = here.scene;
+  const SceneFile& scene = here.scene;
   const HeightGrid shown = grid_of("heights", heights), before = grid_of("start", start);
   if (before.rows() != shown.rows() || before.cols() != shown.cols())
     throw_input_error("start: must have as many rows and columns as heights");

@@ -112,9 +112,10 @@ class PythonDisplacer : public Displacer {
   PythonDisplacer(Function law, const Scene& scene, double cell_size)
       : law_(std::move(law)), scene_(scene), cell_size_(cell_size) {}
 
-  double displace(HeightField& bed, const ToolFootprint& footprint, double tip_height,
+  double displace(HeightField& bed, const Tool& tool, double tip_height,
                   const Eigen::Vector3d& motion) override {
     const py::gil_scoped_acquire interpreter;
+    const ToolFootprint& footprint = tool.footprint();
     const CellRange& cells = footprint.cells();
     HeightGrid before(cells.rows(), cells.cols()), underside(cells.rows(), cells.cols());
     for (int row = 0; row < cells.rows(); ++row)

@@ -18,11 +18,12 @@ namespace {
 
 namespace py = pybind11;
 
-/// The simulation, and the folder to which its scene's files are relative.
+/// The simulation, and what else its scene's file says: the folder of the files it names, and the view.
 class Stepped {
  public:
   /// Without surface it takes the scene's.
-  Stepped(const SceneHere& here, bool slips, const py::object& surface) : folder_(here.folder) {
+  Stepped(const SceneHere& here, bool slips, const py::object& surface)
+      : folder_(here.folder), view_(here.scene.view) {
     std::optional<HeightField> start;
     if (!surface.is_none()) start = surface_of(here.scene, grid_of("surface", surface));
     Warnings warnings;
@@ -37,10 +38,11 @@ class Stepped {
 
   const SteppedSimulation* operator->() const { return simulation_.get(); }
   SteppedSimulation* operator->() { return simulation_.get(); }
-  SceneHere scene() const { return {simulation_->scene(), folder_}; }
+  SceneHere scene() const { return {{simulation_->scene(), view_}, folder_}; }
 
  private:
   std::filesystem::path folder_;
+  ViewSettings view_;
   std::unique_ptr<SteppedSimulation> simulation_;
 };
 

@@ -3,6 +3,7 @@
 #include <spdlog/spdlog.h>
 
 #include "core/error.h"
+#include "record/loop_sand.h"
 
 namespace sandstroke {
 namespace {
@@ -62,9 +63,9 @@ void check_felt_loop(const FeltLoop& loop, const Scene& scene, const std::string
   if (!loop.is_within_named())
     spdlog::warn(
         "{}: the sand has {} at {:.3g} N, but the device states limits of {}. In theory the loop is stable; "
-        "if the device buzzes, lower --max-force{}",
+        "if the device buzzes, {}",
         name, felt_sand_text(loop.felt), loop.force, named_text(loop.named),
-        is_contact_law(scene) ? ", or raise force.yield" : " or force.k_f");
+        make_loop_sand(scene, loop.scale, loop.turns)->remedy());
 }
 
 }  // namespace sandstroke

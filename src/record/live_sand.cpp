@@ -49,8 +49,7 @@ const HeightField& checked(const Scene& scene, const HeightField& bed) {
 }  // namespace
 
 LiveSand::LiveSand(const Scene& scene, const HeightField& bed, const FeltDevice& device)
-    : force_(scene.force),
-      device_(scene.device),
+    : device_(scene.device),
       placement_(point_placement(scene.stroke ? scene.stroke->placement : StrokePlacement{}, device.frame)),
       highest_(bed.highest()),
       displaced_(ring_size),
@@ -59,14 +58,12 @@ LiveSand::LiveSand(const Scene& scene, const HeightField& bed, const FeltDevice&
       replica_(checked(scene, bed)),
       relaxer_thread_(bed, scene.tool, scene.relaxation, displaced_, places_, relaxed_),
       sand_(scene.tool, scene.displacement),
-      largest_force_(device_.max_force > 0.0 ? std::min(device.largest_force, device_.max_force)
-                                             : device.largest_force),
+      force_(make_hand_force(scene, bed.cell_size(), placement_, device.largest_force)),
       own_rotation_(own_rotation(scene.tool)),
       turns_(device.turns) {
   sand_.take_memory(replica_.bed());
-  if (turns_ && !sand_.footprint().is_sphere())
+  if (turns_ && scene.tool.shape != ToolShape::sphere)
     shaper_.emplace(scene.tool, scene.displacement.distance, bed.cell_size());
-  if (force_.law != ForceLaw::paper) contact_force_.emplace(scene, bed.cell_size());
 }
 
 void LiveSand::start() {
@@ -81,8 +78,8 @@ void LiveSand::turn_tool(const Eigen::Quaterniond& orientation) {
   for (Eigen::Index i = 0; i < 4; ++i)
     orientation_[static_cast<std::size_t>(i)].store(placed.coeffs()[i], std::memory_order_relaxed);
   const Eigen::Matrix3d rotation = rotation_of(placed) * own_rotation_;
-  if (shaper_) shaper_->follow(rotation, sand_.footprint());
-  if (contact_force_) contact_force_->turn(rotation);
+  if (shaper_) shaper_->follow(rotation, sand_.exchangeable_tool());
+  force_->turn(rotation);
 }
 
 Eigen::Quaterniond LiveSand::orientation() const {
@@ -103,7 +100,7 @@ Eigen::Vector3d LiveSand::velocity(double time, const Eigen::Vector3d& tip) {
   return velocity;
 }
 
-void LiveSand::take_slipped(int most) {
+void LiveSand::take_relaxed(int most) {
   SandChange change;
   for (int i = 0; i < most && relaxed_.pop(change); ++i) {
     replica_.take(change, false);
@@ -112,10 +109,10 @@ void LiveSand::take_slipped(int most) {
 }
 
 std::size_t LiveSand::changes_of_move(const Eigen::Vector3d& tip) const {
-  const ToolFootprint& footprint = sand_.footprint();
-  const double cells = 2.0 * footprint.reach() / replica_.bed().cell_size() + 3.0;
+  const Tool& tool = sand_.tool();
+  const double cells = 2.0 * tool.reach() / replica_.bed().cell_size() + 3.0;
   const double way = sand_.last_tip() ? (tip - *sand_.last_tip()).head<2>().norm() : 0.0;
-  const double most = cells * cells * (2.0 * way / footprint.radius() + 2.0);
+  const double most = cells * cells * (2.0 * way / tool.radius() + 2.0);
   return most < static_cast<double>(ring_size) ? static_cast<std::size_t>(most) : ring_size + 1;
 }
 
@@ -126,28 +123,12 @@ bool LiveSand::touches(const DeviceReading& reading) noexcept {
   return interaction.contact || is_beside(interaction, tip);
 }
 
-void LiveSand::give_force(const Interaction& interaction, const Eigen::Vector3d& tip,
-                          const Eigen::Vector3d& motion, const Eigen::Vector3d& speed, FeltForce& felt) {
-  if (!contact_force_) {
-    if (!interaction.contact) return;
-    const double most = device_.max_force;
-    felt.force = placement_.force_back(sand_force(interaction.depth, speed, most, force_).total);
-    return;
-  }
-  const Wrench full = contact_force_->in_tick(sand_, replica_.bed(), tip, motion, interaction.contact);
-  const Wrench given = full.limited(largest_force_);
-  felt.force = placement_.force_back(given.force);
-  felt.due = given.strength;
-  // Cut by more than a run of the scene would cut it.
-  if (full.limited(device_.max_force).strength > given.strength) felt.flags |= clamped_force;
-}
-
 FeltForce LiveSand::feel(double time, const DeviceReading& reading) noexcept {
-  take_slipped(most_taken);
+  take_relaxed(most_taken);
   const Eigen::Vector3d tip = this->tip(reading.position);
   if (readings_ > 0 && time - past(readings_ - 1).time > gap_threshold) {
     sand_.lift();
-    if (contact_force_) contact_force_->lift();
+    force_->lift();
     readings_ = 0;
   }
   // Also where the tool displaced no sand.
@@ -177,7 +158,7 @@ FeltForce LiveSand::feel(double time, const DeviceReading& reading) noexcept {
                std::memory_order_relaxed);
   felt.is_above_or_in_sand = !is_beside(interaction, tip);
   report_.contact_ticks += interaction.contact;
-  give_force(interaction, tip, motion, speed, felt);
+  force_->feel({sand_, replica_.bed(), interaction, tip, motion, speed}, felt);
   return felt;
 }
 
@@ -190,7 +171,7 @@ LiveSandReport LiveSand::finish() {
   if (relaxer_thread_.failure()) std::rethrow_exception(relaxer_thread_.failure());
   do {
     relaxer_thread_.exchange();
-    take_slipped(static_cast<int>(ring_size));
+    take_relaxed(static_cast<int>(ring_size));
   } while (!relaxer_thread_.all_given());
   report_.relaxation = relaxer_thread_.report();
   return report_;

@@ -7,10 +7,9 @@
 #include <string>
 
 #include "haptics/stroke_placement.h"
-#include "record/felt_force.h"
+#include "record/hand_force.h"
 #include "record/live_relaxer.h"
 #include "record/tool_shaper.h"
-#include "sim/contact_force.h"
 #include "sim/scene.h"
 
 namespace sandstroke {
@@ -96,19 +95,15 @@ class LiveSand : public FeltWorld {
 
   /// True where the tool is beside the bed, and lower than its highest sand. tip: in the bed [m].
   bool is_beside(const Interaction& interaction, const Eigen::Vector3d& tip) const {
-    return std::isnan(interaction.level) && tip.z() + sand_.footprint().lowest() <= highest_;
+    return std::isnan(interaction.level) && tip.z() + sand_.tool().lowest() <= highest_;
   }
   Eigen::Vector3d velocity(double time, const Eigen::Vector3d& tip);
   void turn_tool(const Eigen::Quaterniond& orientation);
-  /// Sets the force after the tool moved by `motion` [m].
-  void give_force(const Interaction& interaction, const Eigen::Vector3d& tip, const Eigen::Vector3d& motion,
-                  const Eigen::Vector3d& speed, FeltForce& felt);
   /// One of the last velocity_window readings, by its number.
   Past& past(std::int64_t reading) { return past_[static_cast<std::size_t>(reading % velocity_window)]; }
-  void take_slipped(int most);
+  void take_relaxed(int most);
   std::size_t changes_of_move(const Eigen::Vector3d& tip) const;
 
-  ForceSettings force_;
   DeviceSettings device_;
   PointPlacement placement_;
   double highest_;  // m: no sand is higher
@@ -117,11 +112,10 @@ class LiveSand : public FeltWorld {
   BedReplica replica_;
   LiveRelaxer relaxer_thread_;
   SandSide sand_;
-  std::optional<ContactForce> contact_force_;  // where force.law is not the paper's
-  double largest_force_;                       // N
-  Eigen::Matrix3d own_rotation_;               // of the tool
-  bool turns_;                                 // the tool turns with the hand
-  std::optional<ToolShaper> shaper_;           // for a tool that turns, and is no sphere
+  std::unique_ptr<HandForce> force_;
+  Eigen::Matrix3d own_rotation_;      // of the tool
+  bool turns_;                        // the tool turns with the hand
+  std::optional<ToolShaper> shaper_;  // for a tool that turns, and is no sphere
   std::array<Past, velocity_window> past_;
   std::int64_t readings_ = 0;                                             // since the tool was lifted
   std::atomic<double> depth_ = std::numeric_limits<double>::quiet_NaN();  // m

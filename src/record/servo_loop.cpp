@@ -141,8 +141,10 @@ void ServoLoop::await_start() noexcept {
                              touches ? std::numeric_limits<double>::infinity() : 0.0);
       const Awaited awaited = gate.see(now, reading.switches, touches);
       publish_waiting(now - countdown_end, awaited);
-      if (awaited == Awaited::nothing)
-        return asked.at_contact && read_before ? begin(*read_before, &before) : begin(now, nullptr);
+      if (awaited == Awaited::nothing) {
+        if (asked.at_contact && read_before) return begin(*read_before, &before);
+        return begin(now, nullptr);
+      }
       before = reading;
       read_before = now;
     } else {

@@ -5,15 +5,15 @@
 #include <utility>
 
 #include "core/error.h"
+#include "sand/shaped_tool.h"
 #include "tool/tool_surface.h"
 
 namespace sandstroke {
 
 ToolShaper::ToolShaper(const ToolSettings& tool, double distance, double cell_size)
-    : tool_(tool),
+    : settings_(tool),
       distance_(distance),
       cell_size_(cell_size),
-      spare_(tool),
       rotation_(own_rotation(tool)),
       asked_(rotation_) {}
 
@@ -36,13 +36,13 @@ void ToolShaper::stop() {
 bool ToolShaper::work() noexcept {
   if (state_.load(std::memory_order_acquire) != asked) return true;
   try {
-    ToolFootprint footprint(tool_);
-    footprint.turn(asked_);
+    auto tool = std::make_unique<ShapedTool>(settings_);
+    tool->turn(asked_);
     // On a bed that holds the whole footprint, so that it takes its memory now.
-    const int cells = 2 * static_cast<int>(std::ceil(1.5 * footprint.farthest() / cell_size_)) + 16;
-    footprint.place(HeightField(cells, cells, cell_size_), 0.0, 0.0);
-    footprint.make_ways_out(distance_);
-    spare_ = std::move(footprint);
+    const int cells = 2 * static_cast<int>(std::ceil(1.5 * tool->farthest() / cell_size_)) + 16;
+    tool->place(HeightField(cells, cells, cell_size_), 0.0, 0.0);
+    tool->prepare(distance_);
+    spare_ = std::move(tool);
     state_.store(made, std::memory_order_release);
     return true;
   } catch (const Error&) {  // too thin for the cells
@@ -53,15 +53,15 @@ bool ToolShaper::work() noexcept {
   return false;
 }
 
-bool ToolShaper::follow(const Eigen::Matrix3d& rotation, ToolFootprint& footprint) noexcept {
+bool ToolShaper::follow(const Eigen::Matrix3d& rotation, std::unique_ptr<Tool>& tool) noexcept {
   const State state = state_.load(std::memory_order_acquire);
   if (state == asked) return false;
   if (state == made) {
-    std::swap(footprint, spare_);
+    std::swap(tool, spare_);
     rotation_ = asked_;
   }
   state_.store(idle, std::memory_order_relaxed);
-  if (footprint.would_turn(rotation)) {
+  if (tool->would_turn(rotation)) {
     asked_ = rotation;
     state_.store(asked, std::memory_order_release);
   }

@@ -2,9 +2,10 @@
 
 #include <atomic>
 #include <exception>
+#include <memory>
 #include <thread>
 
-#include "sand/tool_footprint.h"
+#include "sand/tool.h"
 
 namespace sandstroke {
 
@@ -26,17 +27,17 @@ class ToolShaper {
   const std::exception_ptr& failure() const { return failure_; }
 
   /// For the servo loop: the hand holds the tool like this now. Takes neither time nor memory. True:
-  /// `footprint` is newer, turned by rotation(). A tool that is too thin for the cells in this orientation
+  /// `tool` is newer, turned by rotation(). A tool that is too thin for the cells in this orientation
   /// keeps its footprint.
-  bool follow(const Eigen::Matrix3d& rotation, ToolFootprint& footprint) noexcept;
+  bool follow(const Eigen::Matrix3d& rotation, std::unique_ptr<Tool>& tool) noexcept;
   const Eigen::Matrix3d& rotation() const { return rotation_; }
 
  private:
   enum State { idle, asked, made };  // who uses spare_ and asked_: the loop, the thread, the loop
 
-  ToolSettings tool_;
+  ToolSettings settings_;
   double distance_, cell_size_;
-  ToolFootprint spare_;
+  std::unique_ptr<Tool> spare_;
   Eigen::Matrix3d rotation_, asked_;
   std::exception_ptr failure_;  // only the thread uses it while it runs
   std::atomic<State> state_{idle};

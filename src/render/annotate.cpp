@@ -7,7 +7,7 @@
 #include <cmath>
 #include <vector>
 
-#include "picture/hershey_text.h"
+#include "lettering/hershey_text.h"
 #include "render/colour_map.h"
 #include "render/round_scale.h"
 

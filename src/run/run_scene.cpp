@@ -29,7 +29,7 @@
 #include "measure/furrow.h"
 #include "measure/stroke_depth.h"
 #include "run/run_progress.h"
-#include "sim/contact_force.h"
+#include "sim/device_force.h"
 
 namespace sandstroke {
 namespace {
@@ -102,7 +102,7 @@ Scene with_files(Scene scene, const std::filesystem::path& folder) {
   return scene;
 }
 
-RunResult run_scene(const Scene& asked, const std::filesystem::path& output, const RunOptions& options) {
+RunResult run_scene(const SceneFile& asked, const std::filesystem::path& output, const RunOptions& options) {
   const Scene scene = with_files(asked, options.scene_folder);
   const int cores = tbb::info::default_concurrency();
   const int threads = options.threads > 0 ? std::min(options.threads, cores) : cores;
@@ -135,7 +135,7 @@ RunResult run_scene(const Scene& asked, const std::filesystem::path& output, con
   const std::string scene_file =
       options.scene_file.empty() ? "" : scene_file_entry(options.scene_file, output);
   std::optional<RunWriter> writer;
-  if (!output.empty()) writer.emplace(output, simulation, stroke_hash, scene_file);
+  if (!output.empty()) writer.emplace(output, simulation, asked.view, stroke_hash, scene_file);
   TipPathGatherer path(scene);
   std::optional<RunProgress> bar;
   Kept force(force_of);
@@ -153,7 +153,7 @@ RunResult run_scene(const Scene& asked, const std::filesystem::path& output, con
   bar.reset();
   if (options.at_end) options.at_end(simulation, result);
   if (writer) writer->end(result, simulation.bed());
-  if (stroke) warn_if_any(theory_warning(scene, result.max_contact_speed));
+  if (stroke) warn_if_any(make_device_force(scene)->theory_warning(scene, result.max_contact_speed));
   if (result.interrupted) return result;
   if (options.second) {
     if (options.progress) spdlog::info("estimating the error");

@@ -4,9 +4,9 @@
 #include <functional>
 #include <optional>
 
+#include "io/scene_file.h"
 #include "measure/error_estimate.h"
 #include "sim/run_result.h"
-#include "sim/scene.h"
 #include "sim/simulation.h"
 
 namespace sandstroke {
@@ -41,6 +41,6 @@ std::string scene_file_entry(const std::filesystem::path& scene_file, const std:
 /// Loads bed and stroke, simulates, writes the run file (output empty: none) and, if asked, estimates the
 /// error. There is no estimate if the run was interrupted, or if the second solution is unstable; it warns of
 /// the latter. Error: input, io or unstable.
-RunResult run_scene(const Scene& scene, const std::filesystem::path& output, const RunOptions& options);
+RunResult run_scene(const SceneFile& scene, const std::filesystem::path& output, const RunOptions& options);
 
 }  // namespace sandstroke

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 
+#include "core/cells_per_group.h"
 #include "sand/bed_geometry.h"
 
 namespace sandstroke {
@@ -60,10 +61,6 @@ inline int count(const CellFlags& flags, RowSpan rows = all_rows) {
   }
   return static_cast<int>((sums * 0x0001000100010001u) >> 48);
 }
-
-/// Cells are computed in groups of this many neighbours in a row, whatever the width of the machine's
-/// vectors.
-inline constexpr int cells_per_group = 8;
 
 /// Bit g of the result: one of the flags 8 g ... 8 g + 7 is set.
 inline unsigned groups_of(std::uint64_t row) {

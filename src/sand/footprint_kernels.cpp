@@ -13,6 +13,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "rules/filter.h"
 #include "sand/lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -61,7 +62,7 @@ class Offsets {
 /// Factors for bounds just above and below a squared distance, wider than its rounding.
 constexpr double above = 1.0 + 1e-14, below = 1.0 - 1e-14;
 
-double LevelOf(const FootprintShape& shape, const ToolFootprint& f) {
+double LevelOf(const SphereShape& shape, const ToolFootprint& f) {
   const double reach2 = shape.reach * shape.reach, beyond = shape.reach + f.cell_size();
   const V one = all(1.0), rho1 = all(shape.reach), cell = all(f.cell_size());
   const V near2 = all(reach2 * below), far2 = all(beyond * beyond * above);
@@ -94,7 +95,7 @@ HWY_INLINE void set_flags(unsigned char* flags, int col, Mask mask) {
 }
 
 template <bool ring>
-HWY_INLINE Carved carve(const FootprintShape& shape, ToolFootprint& f, double tip_height,
+HWY_INLINE Carved carve(const SphereShape& shape, ToolFootprint& f, double tip_height,
                         const RingFront& front) {
   const V zero = hn::Zero(d), one = all(1.0), half = all(0.5);
   const V infinite = all(std::numeric_limits<double>::infinity()), tip = all(tip_height);
@@ -157,15 +158,14 @@ HWY_INLINE Carved carve(const FootprintShape& shape, ToolFootprint& f, double ti
   return {sum.total(), front_weight.total(), ring_weight.total()};
 }
 
-Carved CarveForRing(const FootprintShape& shape, ToolFootprint& f, double tip_height,
-                    const RingFront& front) {
+Carved CarveForRing(const SphereShape& shape, ToolFootprint& f, double tip_height, const RingFront& front) {
   return carve<true>(shape, f, tip_height, front);
 }
-double CarveOnly(const FootprintShape& shape, ToolFootprint& f, double tip_height) {
+double CarveOnly(const SphereShape& shape, ToolFootprint& f, double tip_height) {
   return carve<false>(shape, f, tip_height, {0.0, Eigen::Vector2d::Zero()}).sum;
 }
 
-CarvedUnder CarveUnder(const EnvelopePlace& envelope, ToolFootprint& f, double tip_height) {
+CarvedUnder CarveUnder(const EnvelopeWindow& envelope, ToolFootprint& f, double tip_height) {
   const V zero = hn::Zero(d), half = all(0.5), tip = all(tip_height);
   const V infinite = all(std::numeric_limits<double>::infinity());
   // The cut heights are multiples of 2^-40 cells or less. So their sum is exact in any order, and a second
@@ -239,9 +239,9 @@ HWY_INLINE void aim_from_axis(const ToolFootprint& f, const Outward& outward, do
   hn::Store(ratio * from_y, d, cells.to_y + i);
 }
 
-HWY_INLINE V spread_cells(const ToolFootprint& f, const Outward& outward, CutCells& cells, int i) {
+HWY_INLINE V spread_cells(const ToolFootprint& f, double rounding_shift, CutCells& cells, int i) {
   const hn::RebindToSigned<decltype(d)> di;
-  const V zero = hn::Zero(d), one = all(1.0), shift = all(outward.shift);
+  const V zero = hn::Zero(d), one = all(1.0), shift = all(rounding_shift);
   const V axis_x = all(f.axis_x() - f.first_x()), axis_y = all(f.axis_y() - f.first_y());  // columns, rows
   const V to_x = hn::Load(d, cells.to_x + i), to_y = hn::Load(d, cells.to_y + i);
   // Rounded towards 0. Below 0 that rounds up, but no cell of the window lies there.
@@ -271,13 +271,16 @@ HWY_INLINE V spread_cells(const ToolFootprint& f, const Outward& outward, CutCel
   return total;
 }
 
-double SpreadOutward(ToolFootprint& f, const Outward& outward) {
+double SpreadOutward(ToolFootprint& f, double carved, const Outward& outward) {
+  // x + shift - shift rounds x to multiples of a quantum. The quantum is such that sums of parts of `carved`
+  // are exact, and so the same in any order: a symmetric tool leaves symmetric sand.
+  const double shift = std::scalbn(3.0, std::ilogb(carved) + 1);
   for (int row = 0; row < f.cells().rows(); ++row) std::fill_n(f.weights(row), f.stride(), 0.0);
   CutCells cells;
   int count = 0;
   V total = hn::Zero(d);  // sums of these parts are exact, in any order
   const auto put = [&] {
-    for (int i = 0; i < group; i += lanes) total += spread_cells(f, outward, cells, i);
+    for (int i = 0; i < group; i += lanes) total += spread_cells(f, shift, cells, i);
     for (int i = 0; i < group; ++i)
       for (int corner = 0; corner < 4; ++corner) f.weights(0)[cells.to[corner][i]] += cells.part[corner][i];
   };
@@ -313,9 +316,9 @@ double SpreadOutward(ToolFootprint& f, const Outward& outward) {
   return sum;
 }
 
-void DepositWeights(ToolFootprint& f, double rise, bool whole_ring) {
+void DepositWeights(ToolFootprint& f, double rise, DepositBy by) {
   for (int row = 0; row < f.cells().rows(); ++row) {
-    const double* weights = whole_ring ? f.ring_weight(row) : f.weights(row);
+    const double* weights = by == DepositBy::ring_weight ? f.ring_weight(row) : f.weights(row);
     for (int col = 0; col < f.stride(); col += lanes) {
       const V weight = hn::Load(d, weights + col);
       const Mask heaped = weight > hn::Zero(d);
@@ -342,27 +345,27 @@ HWY_EXPORT(CoverUpTo);
 HWY_EXPORT(SpreadOutward);
 HWY_EXPORT(DepositWeights);
 
-double level_of(const FootprintShape& shape, const ToolFootprint& footprint) {
+double level_of(const SphereShape& shape, const ToolFootprint& footprint) {
   return HWY_DYNAMIC_DISPATCH(LevelOf)(shape, footprint);
 }
-double carve(const FootprintShape& shape, ToolFootprint& footprint, double tip_height) {
+double carve(const SphereShape& shape, ToolFootprint& footprint, double tip_height) {
   return HWY_DYNAMIC_DISPATCH(CarveOnly)(shape, footprint, tip_height);
 }
-Carved carve_for_ring(const FootprintShape& shape, ToolFootprint& footprint, double tip_height,
+Carved carve_for_ring(const SphereShape& shape, ToolFootprint& footprint, double tip_height,
                       const RingFront& front) {
   return HWY_DYNAMIC_DISPATCH(CarveForRing)(shape, footprint, tip_height, front);
 }
-CarvedUnder carve_under(const EnvelopePlace& envelope, ToolFootprint& footprint, double tip_height) {
+CarvedUnder carve_under(const EnvelopeWindow& envelope, ToolFootprint& footprint, double tip_height) {
   return HWY_DYNAMIC_DISPATCH(CarveUnder)(envelope, footprint, tip_height);
 }
 void cover_up_to(ToolFootprint& footprint, double height) {
   HWY_DYNAMIC_DISPATCH(CoverUpTo)(footprint, height);
 }
-double spread_outward(ToolFootprint& footprint, const Outward& outward) {
-  return HWY_DYNAMIC_DISPATCH(SpreadOutward)(footprint, outward);
+double spread_outward(ToolFootprint& footprint, double carved, const Outward& outward) {
+  return HWY_DYNAMIC_DISPATCH(SpreadOutward)(footprint, carved, outward);
 }
-void deposit(ToolFootprint& footprint, double rise, bool whole_ring) {
-  HWY_DYNAMIC_DISPATCH(DepositWeights)(footprint, rise, whole_ring);
+void deposit(ToolFootprint& footprint, double rise, DepositBy by) {
+  HWY_DYNAMIC_DISPATCH(DepositWeights)(footprint, rise, by);
 }
 
 }  // namespace sandstroke

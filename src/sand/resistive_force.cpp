@@ -33,7 +33,8 @@ ResistiveForce::ResistiveForce(const TriangleMesh& surface, double element_size)
 
 void ResistiveForce::turn(const Eigen::Matrix3d& rotation) {
   if (rotation == rotation_) return;
-  elements_.turn(rotation_ = rotation);
+  rotation_ = rotation;
+  elements_.turn(rotation);
 }
 
 void ResistiveForce::lift() {
@@ -43,7 +44,10 @@ void ResistiveForce::lift() {
 
 Wrench ResistiveForce::feel(const ToolFootprint& footprint, const Eigen::Vector3d& tip,
                             const SandPlane& plane, const Eigen::Vector3d& motion, const SandStrength& sand) {
-  if (footprint.cells().empty() || std::isnan(plane.height)) return lift(), Wrench{};
+  if (footprint.cells().empty() || std::isnan(plane.height)) {
+    lift();
+    return {};
+  }
   // An element that is now at r was at (old rotation) (new rotation)^T r.
   Eigen::Matrix3d spin = Eigen::Matrix3d::Zero();
   if (felt_ && rotation_ != felt_rotation_)

@@ -4,8 +4,8 @@
 #include <memory>
 
 #include "sand/sand_plane.h"
-#include "sand/tool_elements.h"
 #include "sand/tool_footprint.h"
+#include "tool/tool_elements.h"
 
 namespace sandstroke {
 

@@ -1,13 +1,9 @@
 #include "sim/contact_force.h"
 
-#include <spdlog/fmt/fmt.h>
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "core/angle.h"
-#include "core/elementary.h"
 #include "tool/tool_surface.h"
 
 namespace sandstroke {
@@ -24,11 +20,14 @@ void ContactForce::lift() {
 }
 
 Wrench ContactForce::feel(const ToolInSand& touch) {
-  const SandPlane plane = fit_sand_plane(touch.bed, touch.tip.x(), touch.tip.y(),
-                                         sphere_radius_.value_or(touch.footprint.reach()));
-  if (std::isnan(plane.height)) return lift(), Wrench{};
+  const SandPlane plane =
+      fit_sand_plane(touch.bed, touch.tip.x(), touch.tip.y(), sphere_radius_.value_or(touch.tool.reach()));
+  if (std::isnan(plane.height)) {
+    lift();
+    return {};
+  }
   if (law_ == ForceLaw::archimedes) return archimedes(touch.tip, plane, -touch.motion.z());
-  return resistive_.feel(touch.footprint, touch.tip, plane, touch.motion, sand_);
+  return resistive_.feel(touch.tool.footprint(), touch.tip, plane, touch.motion, sand_);
 }
 
 VolumeBelow ContactForce::volume_below(const Eigen::Vector3d& tip, const SandPlane& plane) const {
@@ -51,24 +50,6 @@ Wrench ContactForce::archimedes(const Eigen::Vector3d& tip, const SandPlane& pla
   wrench.stiffness = share * (below.area + below.volume / yield);  // it grows with volume and way
   wrench.stored = 0.5 * yield * wrench.force.z();
   return wrench;
-}
-
-std::string theory_warning(const Scene& scene, double fastest) {
-  const SandStrength& sand = scene.strength;
-  if (scene.force.law == ForceLaw::paper || !scene.plugin_laws.force.empty()) return "";
-  const double friction = elementary::tan(to_radians(sand.friction_angle));
-  if (friction < 0.3 || friction > 0.9)
-    return fmt::format(
-        "force.friction_angle = {} deg is outside 16.7 to 42 deg, for which the force's constants were "
-        "fitted; its forces are a guess",
-        sand.friction_angle);
-  constexpr double gravity = 9.81, most = 0.4;
-  const double length = 2.0 * tool_reach(scene.tool), froude = fastest / std::sqrt(gravity * length);
-  if (froude <= most) return "";
-  return fmt::format(
-      "the tool moves through the sand at {:.3g} m/s, {:.2g} times the square root of g times its width; the "
-      "force's theory holds below {} times: the real force is larger",
-      fastest, froude, most);
 }
 
 }  // namespace sandstroke

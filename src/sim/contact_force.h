@@ -32,8 +32,4 @@ class ContactForce : public ToolForce {
   double sunk_ = 0.0;  // yield ways, 0 to 1
 };
 
-/// Where the theory holds no more: a tool faster than 0.4 sqrt(g L) (Agarwal et al. 2023), L its width, or
-/// sand whose friction is outside of what it was fitted for. Empty: it holds.
-std::string theory_warning(const Scene& scene, double fastest);
-
 }  // namespace sandstroke

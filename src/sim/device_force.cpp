@@ -1,8 +1,14 @@
 #include "sim/device_force.h"
 
-#include <algorithm>
+#include <spdlog/fmt/fmt.h>
 
+#include <algorithm>
+#include <cmath>
+
+#include "core/angle.h"
+#include "core/elementary.h"
 #include "haptics/sand_force.h"
+#include "tool/tool_surface.h"
 
 namespace sandstroke {
 namespace {
@@ -44,11 +50,9 @@ class DepthForce : public DeviceForce {
   ForceSettings settings_;
 };
 
-/// The wrench of the sand on the tool, by any other law. Its drag is taken not to grow with speed.
+/// The wrench of the sand on the tool. Its drag is taken not to grow with speed.
 class ContactWrench : public DeviceForce {
  public:
-  explicit ContactWrench(bool by_plugin) : by_plugin_(by_plugin) {}
-
   Eigen::Vector3d feel(TickRecord& record, const SimulatedDevice& device,
                        DeviceResult& /*result*/) const override {
     const Eigen::Vector3d& force = record.wrench.force;
@@ -67,19 +71,43 @@ class ContactWrench : public DeviceForce {
     return record.wrench.limited(device.max_force).stored / device.scale;
   }
 
+  Remedy remedy(double /*max_drag_force*/) const override { return {{"force.density"}, "force.yield"}; }
+
+  /// The theory holds for tools up to 0.4 sqrt(g L) (Agarwal et al. 2023), L the tool's width, and for the
+  /// sand that it was fitted for.
+  std::string theory_warning(const Scene& scene, double fastest) const override {
+    const SandStrength& sand = scene.strength;
+    const double friction = elementary::tan(to_radians(sand.friction_angle));
+    if (friction < 0.3 || friction > 0.9)
+      return fmt::format(
+          "force.friction_angle = {} deg is outside 16.7 to 42 deg, for which the force's constants were "
+          "fitted; its forces are a guess",
+          sand.friction_angle);
+    constexpr double gravity = 9.81, most = 0.4;
+    const double length = 2.0 * tool_reach(scene.tool), froude = fastest / std::sqrt(gravity * length);
+    if (froude <= most) return "";
+    return fmt::format(
+        "the tool moves through the sand at {:.3g} m/s, {:.2g} times the square root of g times its width; "
+        "the force's theory holds below {} times: the real force is larger",
+        fastest, froude, most);
+  }
+};
+
+/// The wrench by a plugin law, whose keys and theory only the plugin knows.
+class PluginWrench : public ContactWrench {
+ public:
   Remedy remedy(double /*max_drag_force*/) const override {
-    if (by_plugin_) return {{"the force that model.force gives"}, ""};
-    return {{"force.density"}, "force.yield"};
+    return {{"the force that model.force gives"}, ""};
   }
 
- private:
-  bool by_plugin_;
+  std::string theory_warning(const Scene& /*scene*/, double /*fastest*/) const override { return ""; }
 };
 
 }  // namespace
 
 std::unique_ptr<DeviceForce> make_device_force(const Scene& scene) {
-  if (is_contact_law(scene)) return std::make_unique<ContactWrench>(!scene.plugin_laws.force.empty());
+  if (!scene.plugin_laws.force.empty()) return std::make_unique<PluginWrench>();
+  if (is_contact_law(scene)) return std::make_unique<ContactWrench>();
   return std::make_unique<DepthForce>(scene.force);
 }
 

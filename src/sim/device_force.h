@@ -35,6 +35,9 @@ class DeviceForce {
   };
   /// max_drag_force [N]: 0 where drag did nothing.
   virtual Remedy remedy(double max_drag_force) const = 0;
+  /// Where the law's theory does not hold in a scene whose tool goes through the sand at `fastest` [m/s].
+  /// Empty: it holds.
+  virtual std::string theory_warning(const Scene& /*scene*/, double /*fastest*/) const { return ""; }
 };
 
 std::unique_ptr<DeviceForce> make_device_force(const Scene& scene);

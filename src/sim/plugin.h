@@ -16,7 +16,7 @@ inline std::string plugin_interface() {
   return fmt::format("sandstroke {}, laws {}, C++ ABI {}.{}, Eigen {}.{}.{}, objects of {} {} {} {} {} bytes",
                      version, interface, __GXX_ABI_VERSION, _GLIBCXX_USE_CXX11_ABI, EIGEN_WORLD_VERSION,
                      EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION, sizeof(Scene), sizeof(HeightField),
-                     sizeof(ToolFootprint), sizeof(RelaxationOutcome), sizeof(Wrench));
+                     sizeof(ToolFootprint), sizeof(Tool), sizeof(RelaxationOutcome), sizeof(Wrench));
 }
 
 }  // namespace sandstroke

@@ -80,10 +80,9 @@ class WatchedDisplacer : public Displacer {
   WatchedDisplacer(std::string law, std::unique_ptr<Displacer> plugin_law)
       : law_(std::move(law)), plugin_law_(std::move(plugin_law)) {}
 
-  double displace(HeightField& bed, const ToolFootprint& footprint, double tip_height,
+  double displace(HeightField& bed, const Tool& tool, double tip_height,
                   const Eigen::Vector3d& motion) override {
-    const double moved =
-        by_law(law_, [&] { return plugin_law_->displace(bed, footprint, tip_height, motion); });
+    const double moved = by_law(law_, [&] { return plugin_law_->displace(bed, tool, tip_height, motion); });
     check_moved_volume(law_, moved);
     return moved;
   }

@@ -5,7 +5,7 @@
 #include <memory>
 #include <string>
 
-#include "sand/displacement.h"
+#include "sand/displacer.h"
 #include "sand/relaxation.h"
 #include "sim/scene.h"
 #include "sim/tool_force.h"

@@ -6,8 +6,8 @@ namespace sandstroke {
 
 Hand SandFollower::follow(Hand hand, const HeightField& bed) {
   const Eigen::Vector3d tip = tip_of(device_, hand.position);
-  footprint_.place(bed, tip.x(), tip.y());
-  const double level = footprint_.sand_level();
+  tool_->place(bed, tip.x(), tip.y());
+  const double level = tool_->sand_level();
   const double rise = std::isnan(level) ? rise_.value_or(0.0) : level / device_.scale;
   asked_depth_ = -tip.z();
   hand.position.z() += rise;

@@ -1,19 +1,21 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 
 #include "haptics/simulated_device.h"
 #include "haptics/stroke_sampler.h"
-#include "sand/tool_footprint.h"
+#include "sand/tool.h"
 
 namespace sandstroke {
 
 /// Converts a hand whose heights count from the sand (Stroke::follows_sand) to heights on the bed. It adds
 /// the level of the sand that lies under the tip at that moment: the mean height from which the force's depth
-/// counts (ToolFootprint::sand_level). Beside the bed it keeps the last level.
+/// counts (Tool::sand_level). Beside the bed it keeps the last level.
 class SandFollower {
  public:
-  SandFollower(const ToolSettings& tool, const DeviceSettings& device) : footprint_(tool), device_(device) {}
+  SandFollower(const ToolSettings& tool, const DeviceSettings& device)
+      : tool_(make_tool(tool)), device_(device) {}
 
   /// To be called once per servo tick: the velocity includes the change of the level since the last call.
   Hand follow(Hand hand, const HeightField& bed);
@@ -22,7 +24,7 @@ class SandFollower {
   void restart() { rise_.reset(); }
 
  private:
-  ToolFootprint footprint_;
+  std::unique_ptr<Tool> tool_;
   DeviceSettings device_;
   double asked_depth_ = 0.0;
   std::optional<double> rise_;  // m, that the hand was raised in the last call

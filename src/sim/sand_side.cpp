@@ -26,7 +26,7 @@ constexpr double deep_at_rim = 0.2;
 
 SandSide::SandSide(const ToolSettings& tool, const DisplacementSettings& displacement,
                    const RelaxationSettings& relaxation, std::unique_ptr<Displacer> plugin_law)
-    : footprint_(tool),
+    : tool_(make_tool(tool)),
       displacement_(displacement),
       plugin_law_(std::move(plugin_law)),
       solid_(tool.solid),
@@ -35,37 +35,36 @@ SandSide::SandSide(const ToolSettings& tool, const DisplacementSettings& displac
       by_way_(relaxation.way > 0.0) {}
 
 Interaction SandSide::look(const HeightField& bed, const Eigen::Vector3d& read_tip) {
-  footprint_.place(bed, read_tip.x(), read_tip.y());
+  tool_->place(bed, read_tip.x(), read_tip.y());
   Interaction interaction;
-  interaction.level = footprint_.sand_level();
-  const double depth = interaction.level - (read_tip.z() + footprint_.lowest());
+  interaction.level = tool_->sand_level();
+  const double depth = interaction.level - (read_tip.z() + tool_->lowest());
   interaction.contact = depth > 0.0;
   if (!std::isnan(depth)) interaction.depth = depth;
   return interaction;
 }
 
 double SandSide::displace_sand(HeightField& bed, const Eigen::Vector3d& tip, const Eigen::Vector3d& motion) {
-  if (!plugin_law_) return displace(bed, footprint_, tip.z(), motion, displacement_);
-  if (footprint_.cells().empty()) return 0.0;
-  footprint_.meet(bed, tip.z());
-  return plugin_law_->displace(bed, footprint_, tip.z(), motion);
+  if (!plugin_law_) return tool_->displace(bed, tip.z(), motion, displacement_);
+  if (tool_->footprint().cells().empty()) return 0.0;
+  tool_->meet(bed, tip.z());
+  return plugin_law_->displace(bed, *tool_, tip.z(), motion);
 }
 
 Interaction SandSide::displace_at(HeightField& bed, const Eigen::Vector3d& tip,
                                   const Eigen::Vector3d& motion) {
   Interaction interaction = look(bed, tip);
-  // Any tool but the sphere may meet a heap beside the level around it.
-  if (interaction.contact || !footprint_.is_sphere())
+  if (interaction.contact || tool_->may_touch_heaps())
     interaction.displaced_volume = displace_sand(bed, tip, motion);
-  if (!footprint_.is_sphere()) interaction.contact |= !footprint_.cells().empty() && footprint_.touches();
+  interaction.contact |= tool_->touches();
   tip_ = tip;
   contact_ = interaction.contact;
   return interaction;
 }
 
 void SandSide::put(const HeightField& bed, const Eigen::Vector3d& read_tip, bool contact) {
-  footprint_.place(bed, read_tip.x(), read_tip.y());
-  if (!footprint_.is_sphere()) footprint_.stand(read_tip.z());
+  tool_->place(bed, read_tip.x(), read_tip.y());
+  tool_->stand(read_tip.z());
   tip_ = read_tip;
   contact_ = contact;
 }
@@ -74,9 +73,9 @@ Interaction SandSide::move(HeightField& bed, const Eigen::Vector3d& read_tip, co
                            const std::function<void()>& relax, std::optional<double> highest) {
   const Eigen::Vector3d motion = last_tip_ ? Eigen::Vector3d(true_tip - *last_tip_) : Eigen::Vector3d::Zero();
   TipSteps steps{read_tip - motion, motion, 1};
-  const double longest = longest_step * footprint_.radius();
+  const double longest = longest_step * tool_->radius();
   if (elementary::hypot(motion.x(), motion.y()) > longest)
-    steps = steps_between(bed, footprint_.reach(), steps.begin, read_tip, longest,
+    steps = steps_between(bed, tool_->reach(), steps.begin, read_tip, longest,
                           highest ? *highest : bed.highest());
   double on_the_way = 0.0;
   for (std::int64_t i = 1; i <= steps.count; ++i) {
@@ -102,21 +101,19 @@ double SandSide::buried(const HeightField& bed) {
   // Once sand stands at a sphere's rim, the sand displaced outward and the sand that falls in behind the
   // sphere run from one crest. At the sides of any other tool that is always so. (A plough that goes 0.4
   // inradii leaves 25 % of its sand elsewhere than one that goes 0.05; 0.1: 7 %.)
-  if (!footprint_.is_sphere()) return 1.0;
-  const double above_rim = seen(bed).highest_at_rim() - (tip_.z() + footprint_.radius());
-  return std::clamp(above_rim / (deep_at_rim * footprint_.radius()), 0.0, 1.0);
+  return std::clamp(tool_on(bed).sand_above_rim(tip_.z()) / (deep_at_rim * tool_->radius()), 0.0, 1.0);
 }
 
 double SandSide::way_to_next_relaxation(const HeightField& bed) {
   double way = way_;
   if (0.0 < way_at_rim_ && way_at_rim_ < way_) way *= elementary::pow(way_at_rim_ / way_, buried(bed));
-  return std::max(way * footprint_.radius(), least_way * bed.cell_size());
+  return std::max(way * tool_->radius(), least_way * bed.cell_size());
 }
 
 void SandSide::hold(HeightField& bed) {
   if (!solid_) return;
   if (contact_)
-    footprint_.hold_bowl(bed);
+    tool_->hold_bowl(bed);
   else
     bed.hold({});
 }

@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "rules/schedule.h"
-#include "sand/displacement.h"
+#include "sand/displacer.h"
 #include "sand/relaxation.h"
 
 namespace sandstroke {
@@ -28,9 +28,9 @@ class SandSide {
   SandSide(const ToolSettings& tool, const DisplacementSettings& displacement,
            const RelaxationSettings& relaxation = {}, std::unique_ptr<Displacer> plugin_law = nullptr);
 
-  /// Sets the tool's orientation from the next move() on (ToolFootprint::turn). The tool keeps it during the
+  /// Sets the tool's orientation from the next move() on (Tool::turn). The tool keeps it during the
   /// whole move.
-  void turn(const Eigen::Matrix3d& rotation) { footprint_.turn(rotation); }
+  void turn(const Eigen::Matrix3d& rotation) { tool_->turn(rotation); }
   /// Displaces sand along the way from the last tick's place to this one [m], and there. read_tip: as the
   /// device's encoders read it; true_tip: where it is, since encoder steps are no motion. Calls relax() with
   /// the tool at the places where a relaxation is due by its way; relax() must call hold() and relaxed().
@@ -43,7 +43,7 @@ class SandSide {
   /// its own.
   void take_memory(const HeightField& bed) {
     look(bed, Eigen::Vector3d::Zero());
-    footprint_.make_ways_out(displacement_.distance);
+    tool_->prepare(displacement_.distance);
   }
   /// Puts the tool here [m], in contact or not as the caller says. Displaces nothing.
   void put(const HeightField& bed, const Eigen::Vector3d& read_tip, bool contact);
@@ -61,14 +61,15 @@ class SandSide {
   /// next time.
   void relaxed(const HeightField& bed);
 
-  /// The footprint at its place, with the sand as it lies now.
-  const ToolFootprint& seen(const HeightField& bed) {
-    footprint_.read_heights(bed);
-    return footprint_;
+  /// The tool where it was placed last. Its footprint has the sand as it was then.
+  const Tool& tool() const { return *tool_; }
+  /// The same, with the sand as it lies now.
+  const Tool& tool_on(const HeightField& bed) {
+    tool_->read_heights(bed);
+    return *tool_;
   }
-  const ToolFootprint& footprint() const { return footprint_; }
-  /// For replacing the footprint; takes effect at the next move().
-  ToolFootprint& footprint() { return footprint_; }
+  /// For exchanging the tool; takes effect at the next move().
+  std::unique_ptr<Tool>& exchangeable_tool() { return tool_; }
   /// Place of the tool in the last tick [m]; none if it was lifted since.
   const std::optional<Eigen::Vector3d>& last_tip() const { return last_tip_; }
 
@@ -81,7 +82,7 @@ class SandSide {
   /// The volume moved [m^3].
   double displace_sand(HeightField& bed, const Eigen::Vector3d& tip, const Eigen::Vector3d& motion);
 
-  ToolFootprint footprint_;
+  std::unique_ptr<Tool> tool_;
   DisplacementSettings displacement_;
   std::unique_ptr<Displacer> plugin_law_;
   bool solid_;

@@ -201,23 +201,6 @@ void describe_stroke(KeyVisitor& v, StrokeSettings& stroke) {
   describe_table(v, *stroke.table);
 }
 
-void describe_view(KeyVisitor& v, ViewSettings& view) {
-  v.section("view", "how pictures show the sand");
-  choose(v, "name", view.name, view_names,
-         "the whole bed, the part under the stroke, a map from above, or a custom aim");
-  choose(v, "style", view.style, style_names, "sand in the sun, or colour maps with contour lines");
-  v.number("azimuth", view.azimuth, degrees, "deg", "direction of the camera, from +x towards +y");
-  v.number("elevation", view.elevation, {0.0, 90.0, false}, "deg", "height of the camera above the horizon");
-  v.number("distance", view.distance, not_negative, "m", "distance to target; 0 fits the subject");
-  v.numbers("target", view.target.data(), 3, any_number, "m", "the point looked at (name = custom)");
-  v.number("field_of_view", view.field_of_view, {1.0, 120.0, false}, "deg", "vertical angle of view");
-  v.number("light_azimuth", view.light_azimuth, degrees, "deg", "direction of the sun, from +x towards +y");
-  v.number("light_elevation", view.light_elevation, sharp_angle, "deg", "height of the sun");
-  int size[2] = {view.width, view.height};
-  v.integers("size", size, 2, 16, 8192, "width and height in pixels");
-  view.width = size[0], view.height = size[1];
-}
-
 /// About what the bed takes at the start of a run [bytes]: sand that rests by rule until something touches it
 /// takes nothing.
 double memory_of_bed(const Scene& scene) {
@@ -285,8 +268,6 @@ void describe_scene(KeyVisitor& v, Scene& scene) {
   v.number("frames", scene.output.frames, not_negative, "Hz",
            "surfaces kept per second of stroke; 0: only first and last");
   v.flag("trace", scene.output.trace, "keep position, force and depth of every tick");
-
-  describe_view(v, scene.view);
 }
 
 void apply_model_preset(Scene& scene) {
@@ -341,7 +322,7 @@ void check_scene(const Scene& scene, const std::string& name) {
         name);
   if (scene.tool.shape == ToolShape::mesh && scene.tool.file.empty())
     throw_input_error("{}: tool.file is missing; name a mesh (.stl)", name);
-  const double reach = is_sphere ? ToolFootprint(scene.tool).reach() : tool_reach(scene.tool);
+  const double reach = is_sphere ? filter::reach(scene.tool.radius) : tool_reach(scene.tool);
   if (!is_sphere && scene.stroke && 2.0 * reach > std::min(bed.width, bed.depth))
     throw_input_error(
         "{}: the tool is {:.3g} m wide and does not fit the bed ({} m by {} m); take a smaller one", name,

@@ -10,13 +10,12 @@
 #include "haptics/simulated_device.h"
 #include "haptics/stroke_placement.h"
 #include "haptics/table_settings.h"
-#include "picture/view.h"
+#include "rules/displacement.h"
 #include "rules/force.h"
-#include "sand/displacement.h"
 #include "sand/initial_surface.h"
 #include "sand/relaxation.h"
 #include "sand/resistive_force.h"
-#include "sand/tool_footprint.h"
+#include "tool/tool_settings.h"
 
 namespace sandstroke {
 
@@ -74,7 +73,6 @@ struct Scene {
   DeviceSettings device;
   std::optional<StrokeSettings> stroke;  ///< without one, the bed is only relaxed
   OutputSettings output;
-  ViewSettings view;
 };
 
 /// Whether the force comes from the contact: by a plugin law, or by any law but the paper's.

@@ -8,10 +8,10 @@ namespace sandstroke {
 /// What a law of force is told of a tick in which the tool touches the sand.
 struct ToolInSand {
   const HeightField& bed;
-  const ToolFootprint& footprint;  ///< where the tool displaced last; its heights() are the bed's
-  Eigen::Vector3d tip;             ///< m
-  Eigen::Vector3d motion;          ///< m, by which the tool went there in this tick
-  double depth;                    ///< m, of its lowest point below the level around it
+  const Tool& tool;        ///< where it displaced last; its footprint's heights() are the bed's
+  Eigen::Vector3d tip;     ///< m
+  Eigen::Vector3d motion;  ///< m, by which the tool went there in this tick
+  double depth;            ///< m, of its lowest point below the level around it
 };
 
 /// A law of the force of the contact: what the sand does to the tool, on the bed's axes.
@@ -29,9 +29,12 @@ class ToolForce {
   /// not.
   Wrench in_tick(SandSide& sand, const HeightField& bed, const Eigen::Vector3d& tip,
                  const Eigen::Vector3d& motion, bool contact) {
-    if (!contact) return lift(), Wrench{};
-    const ToolFootprint& footprint = sand.seen(bed);
-    return feel({bed, footprint, tip, motion, footprint.sand_level() - (tip.z() + footprint.lowest())});
+    if (!contact) {
+      lift();
+      return {};
+    }
+    const Tool& tool = sand.tool_on(bed);
+    return feel({bed, tool, tip, motion, tool.sand_level() - (tip.z() + tool.lowest())});
   }
 };
 

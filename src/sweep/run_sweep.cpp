@@ -30,14 +30,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string view_text(const Scene& scene) {
-  Scene named;
-  named.view = scene.view;
-  return scene_text(named);
-}
+std::string view_text(const SceneFile& scene) { return scene_text({{}, scene.view}); }
 
 /// The cells that view `stroke` shows: those where the hand takes the tool below the starting surface.
-CellRange stroke_cells(const Scene& scene, const HeightField& bed, const SweepStroke* stroke) {
+CellRange stroke_cells(const SceneFile& scene, const HeightField& bed, const SweepStroke* stroke) {
   if (!stroke || scene.view.name != ViewName::stroke) return {};
   std::vector<Eigen::Vector3d> tips;
   for (std::size_t i = 0; i < stroke->stroke.size(); ++i)
@@ -86,7 +82,7 @@ Sweep::Sweep(SweepPlan plan) : plan_(std::move(plan)), inputs_(plan_.scene_folde
   std::map<std::string, std::size_t> group_of;  // by sand_key
   for (std::size_t point = 0; point < plan_.design.points() && !interrupted(); ++point) {
     try {
-      const Scene scene = plan_.scene_of(point);
+      const SceneFile scene = plan_.scene_of(point);
       if (plan_.keep_picture) check_drawable(scene.bed.rows, scene.bed.cols);
       golden_fits =
           golden_fits || (golden_ && golden_->rows() == scene.bed.rows && golden_->cols() == scene.bed.cols);
@@ -136,7 +132,7 @@ bool Sweep::run_group(const SweepFolder& folder, const std::vector<std::size_t>&
     }
     written(result);
   };
-  std::vector<Scene> scenes;
+  std::vector<SceneFile> scenes;
   const auto refuse = [&](const std::string& reason) {
     for (std::size_t i = 0; i < points.size(); ++i)
       write(points[i], failed_point(PointVerdict::refused, reason, metrics),
@@ -151,7 +147,7 @@ bool Sweep::run_group(const SweepFolder& folder, const std::vector<std::size_t>&
   std::shared_ptr<const HeightField> bed;
   try {
     bed = inputs_.bed(scenes.front().bed);
-    for (Scene& scene : scenes) {
+    for (SceneFile& scene : scenes) {
       scene.tool = inputs_.tool(scene.tool);
       scene.plugin_laws = inputs_.plugin_laws(scene.plugin_laws);
     }
@@ -160,7 +156,7 @@ bool Sweep::run_group(const SweepFolder& folder, const std::vector<std::size_t>&
     return refuse(error.what());
   }
   const std::optional<SharedRunResult> result =
-      run_shared(scenes, *bed, stroke ? &stroke->stroke : nullptr, folder.metrics(),
+      run_shared({scenes.begin(), scenes.end()}, *bed, stroke ? &stroke->stroke : nullptr, folder.metrics(),
                  golden_ ? &*golden_ : nullptr, plan_.second);
   if (!result) return false;
   if (stroke) {

@@ -14,7 +14,7 @@ constexpr std::size_t most_samples_kept = 10'000'000;  // in all strokes: about 
 
 /// The text of a scene with this bed and default settings otherwise: a key for the bed.
 std::string text_of(const BedSettings& bed) {
-  Scene scene;
+  SceneFile scene;
   scene.bed = bed;
   return scene_text(scene);
 }
@@ -28,7 +28,7 @@ std::shared_ptr<const SweepStroke> SweepInputs::stroke(const Scene& scene) {
   const auto [by_force, is_new] = by_force_.try_emplace(path.string());
   if (is_new) by_force->second = stroke_depends_on_force(path);
   check_plugin_force(scene, path);
-  Scene named;
+  SceneFile named;
   named.stroke = scene.stroke;
   named.bed.width = scene.bed.width, named.bed.depth = scene.bed.depth;  // the stroke's placement
   named.device.scale = scene.device.scale, named.device.offset = scene.device.offset;
@@ -85,10 +85,9 @@ PluginLawSettings SweepInputs::plugin_laws(const PluginLawSettings& settings) {
 }
 
 std::string sand_key(const Scene& scene, const SweepStroke* stroke) {
-  Scene named = scene;
+  SceneFile named{scene};
   named.stroke.reset();
   named.output = {};
-  named.view = {};
   named.preset = ModelPreset::paper;  // it only sets other settings
   if (scene.device.model == DeviceModel::kinematic) {
     named.force = {};

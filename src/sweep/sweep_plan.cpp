@@ -43,8 +43,8 @@ std::vector<std::string> read_metrics(const TomlReader& toml, const PlanKeys& ke
 }
 
 /// Tries a scene. An error names the plan's key that gave the wrong setting.
-Scene try_scene(const TomlReader& toml, const SweepPlan& plan, const std::vector<std::string>& settings,
-                const std::string& tried_key) {
+SceneFile try_scene(const TomlReader& toml, const SweepPlan& plan, const std::vector<std::string>& settings,
+                    const std::string& tried_key) {
   try {
     return plan.scene_with(settings);
   } catch (const Error& failure) {
@@ -77,7 +77,7 @@ bool fails_without_axes(const SweepPlan& plan) {
 void check_values(const TomlReader& toml, SweepPlan& plan) {
   std::vector<std::string> firsts = plan.settings;
   for (const std::string& setting : plan.design.settings(0)) firsts.push_back(setting);
-  const Scene scene = try_scene(toml, plan, firsts, fails_without_axes(plan) ? "" : "axes");
+  const SceneFile scene = try_scene(toml, plan, firsts, fails_without_axes(plan) ? "" : "axes");
   for (std::size_t i = 0; i < plan.design.axes.size(); ++i) {
     SweepAxis& axis = plan.design.axes[i];
     axis.unit = setting_unit(scene, axis.key);
@@ -111,13 +111,13 @@ void fill_plan(const TomlReader& toml, const PlanKeys& keys, SweepPlan& plan) {
 
 }  // namespace
 
-Scene SweepPlan::scene_with(const std::vector<std::string>& all_settings) const {
-  Scene made = scene_from_text(scene_text, scene.string(), all_settings);
+SceneFile SweepPlan::scene_with(const std::vector<std::string>& all_settings) const {
+  SceneFile made = scene_from_text(scene_text, scene.string(), all_settings);
   if (second) second_scene(made, *second);  // throws here if there is no second solution
   return made;
 }
 
-Scene SweepPlan::scene_of(std::size_t point) const {
+SceneFile SweepPlan::scene_of(std::size_t point) const {
   std::vector<std::string> all = settings;
   for (const std::string& setting : design.settings(point)) all.push_back(setting);
   return scene_with(all);

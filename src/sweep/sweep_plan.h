@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "io/scene_file.h"
 #include "measure/error_estimate.h"
 #include "sweep/sweep_design.h"
 
@@ -22,8 +23,8 @@ struct SweepPlan {
   std::optional<SecondSolution> second;  ///< the solution for estimating each point's error
 
   /// The scene with these settings. Error: input, if they contradict each other.
-  Scene scene_with(const std::vector<std::string>& all_settings) const;
-  Scene scene_of(std::size_t point) const;
+  SceneFile scene_with(const std::vector<std::string>& all_settings) const;
+  SceneFile scene_of(std::size_t point) const;
   /// The folder to which file names in scenes are relative.
   std::filesystem::path scene_folder() const { return scene.parent_path(); }
 };

@@ -14,19 +14,19 @@ constexpr double step = 0.25e-3;  // m per tick: 0.25 m/s at 1 kHz
 
 /// Place, level and both displacement passes, 4 mm deep, back and forth over fresh sand.
 void tool_tick(benchmark::State& state, ToolProfile profile, Deposit deposit) {
-  ToolSettings tool;
-  tool.profile = profile;
+  ToolSettings sphere;
+  sphere.profile = profile;
   const HeightField flat(1000, 1000, dx);
   const DisplacementSettings settings{deposit};
-  ToolFootprint footprint(tool);
+  SphereTool tool(sphere);
   HeightField bed = flat;
   constexpr double margin = 0.9;  // m
   double x = -margin, y = -margin, direction = 1.0;
   for (auto _ : state) {
     x += direction * step;
-    footprint.place(bed, x, y);
-    benchmark::DoNotOptimize(displace(bed, footprint, footprint.sand_level() - 0.004,
-                                      Eigen::Vector3d(direction * step, 0.0, 0.0), settings));
+    tool.place(bed, x, y);
+    benchmark::DoNotOptimize(
+        tool.displace(bed, tool.sand_level() - 0.004, Eigen::Vector3d(direction * step, 0.0, 0.0), settings));
     if (std::abs(x) < margin) continue;
     direction = -direction;
     y += 0.04;

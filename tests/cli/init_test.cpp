@@ -86,7 +86,7 @@ TEST(CliInit, SettingsInCommentsAreTheDefaults) {
 
 TEST(CliInit, CommentsNameTheUnits) {
   const fs::path file = example() / "scene.toml";
-  const Scene scene = load_scene(file);
+  const SceneFile scene = load_scene(file);
   std::string section;
   int units = 0;
   for (const std::string& line : lines_of(read_file(file))) {

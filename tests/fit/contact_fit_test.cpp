@@ -5,7 +5,8 @@
 #include <random>
 
 #include "core/error.h"
-#include "fit/fit_scene.h"
+#include "fit/felt_ticks.h"
+#include "fit/fitted_law.h"
 
 namespace sandstroke {
 namespace {
@@ -75,7 +76,8 @@ Stroke recorded_in(const Scene& scene, const Stroke& stroke, double noise = 0.0)
 
 ForceFit fitted(const Scene& scene, const Stroke& recorded, const std::vector<std::string>& names = {}) {
   const FeltStroke felt{scene, starting_bed(scene.bed), recorded};
-  return fit_stroke(felt, chosen_constants(constants_of(scene.force.law), names)).value();
+  const FittedLaw& law = fitted_law(scene.force.law);
+  return law.fit(felt, chosen_constants(law.constants, names)).value();
 }
 
 Scene with(Scene scene, const SandStrength& sand) {
@@ -104,8 +106,9 @@ TEST(ContactFit, NothingIsLeftOfARunsOwnForceWithItsConstants) {
         stroke.orientation.push_back(
             Eigen::Quaterniond(Eigen::AngleAxisd(0.01 * static_cast<double>(i), Vector3d::UnitZ())).coeffs());
       const FeltStroke felt{scene, starting_bed(scene.bed), recorded_in(scene, stroke)};
-      const ContactLaw known =
-          felt.contact_law({law, scene.strength, contact_values(law, scene.strength), {true, false, false}});
+      const std::span<const ForceConstant> constants = fitted_law(law).constants;
+      const ContactLaw known = felt_in(
+          felt, {constants, scene.strength, values_in(scene.strength, constants), {true, false, false}});
       ASSERT_GT(known.ticks(), 500);
       const Eigen::Matrix3Xd left = known.forces(known.start(), true) - known.recorded();
       EXPECT_LT(left.cwiseAbs().maxCoeff(), 1e-12 * known.recorded().cwiseAbs().maxCoeff());
@@ -241,8 +244,7 @@ TEST(ContactFit, AForceThatNoSandGivesHasAnAngleBeyondTheKeysRange) {
 /// With more ticks than memory is taken for, every second one is let go, again and again.
 TEST(ContactLaw, KeepsAnEvenPartOfVeryManyTicks) {
   const SandStrength sand;
-  ContactLaw law({ForceLaw::archimedes, sand, contact_values(ForceLaw::archimedes, sand), {true, false}},
-                 0.0);
+  ContactLaw law({archimedes_constants, sand, values_in(sand, archimedes_constants), {true, false}}, 0.0);
   const int ticks = 230'000;
   for (int i = 0; i < ticks; ++i) {
     const std::vector<Wrench> felt(law.grid().sands().size(),

@@ -3,25 +3,26 @@
 
 #include "fuzz.h"
 #include "io/mesh_file.h"
-#include "sand/displacement.h"
 #include "sand/resistive_force.h"
+#include "sand/tool.h"
 #include "tool/tool_surface.h"
 
 using namespace sandstroke;
 
 namespace {
 
-void dig(const ToolSettings& tool) {
-  const double reach = std::max(tool_reach(tool), 1e-4), cell = reach / 8.0;
+void dig(const ToolSettings& settings) {
+  const double reach = std::max(tool_reach(settings), 1e-4), cell = reach / 8.0;
   HeightField bed(64, 64, cell);
-  ToolFootprint footprint(tool);
-  ResistiveForce force(tool_surface(tool), cell);
+  const auto made = make_tool(settings);
+  Tool& tool = *made;
+  ResistiveForce force(tool_surface(settings), cell);
   for (int i = 0; i < 3; ++i) {
     const Eigen::Vector3d motion(cell, 0.0, -0.5 * cell), tip = (i + 1) * motion;
-    footprint.place(bed, tip.x(), tip.y());
-    displace(bed, footprint, tip.z(), motion, {Deposit::outward});
-    footprint.read_heights(bed);
-    require(force.feel(footprint, tip, {0.0}, motion, {}).force.allFinite());
+    tool.place(bed, tip.x(), tip.y());
+    tool.displace(bed, tip.z(), motion, {Deposit::outward});
+    tool.read_heights(bed);
+    require(force.feel(tool.footprint(), tip, {0.0}, motion, {}).force.allFinite());
   }
   require(bed.grid().allFinite());
   require(std::abs(bed.volume()) < 1e-9 * 4096.0 * cell * cell * reach);

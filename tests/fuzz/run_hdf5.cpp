@@ -20,7 +20,7 @@ struct Place {
   Place() {
     std::ofstream(folder / "line.toml") << "plunge_speed = 10.0\nspeed = 1.0\n[[segment]]\nkind = 'line'\n"
                                            "to = [0.004, 0.0]\ndepth = 0.004\n";
-    const Scene scene = scene_from_text(
+    const SceneFile scene = scene_from_text(
         "[bed]\nsize = [0.08, 0.07]\ncells = [8, 7]\n[stroke]\nfile = 'line.toml'\n[output]\nframes = 500\n",
         "scene.toml");
     RunOptions options;

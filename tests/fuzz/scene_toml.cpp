@@ -15,7 +15,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       for (std::string_view line = take_line(text); line != "---"; line = take_line(text))
         overrides.emplace_back(line);
 
-    const Scene scene = scene_from_text(std::string(text), "scene.toml", overrides);
+    const SceneFile scene = scene_from_text(std::string(text), "scene.toml", overrides);
     const std::string written = scene_text(scene);
     bool same = false;
     try_input([&] { same = scene_text(scene_from_text(written, "written.toml")) == written; });

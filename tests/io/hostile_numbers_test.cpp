@@ -31,7 +31,7 @@ void try_setting(const std::string& base, const std::string& key, const std::str
   const std::string setting = key + "=" + (count > 1 ? "[" + value + "]" : value);
   SCOPED_TRACE(base + setting);
   try {
-    const Scene scene = scene_from_text(base, "scene.toml", {setting});
+    const SceneFile scene = scene_from_text(base, "scene.toml", {setting});
     const double meant = std::strtod(literal.c_str(), nullptr);
     for (const double number : numbers_in(scene_text(scene), key))
       EXPECT_LT(std::abs(number - meant), 1e-300);

@@ -19,7 +19,7 @@ LastSurface left_by(int frames, bool interrupted) {
   scene.bed.width = scene.bed.depth = 1.0;
   scene.bed.rows = scene.bed.cols = 100;
   const Simulation simulation(scene, starting_bed(scene.bed), std::nullopt);
-  std::optional<RunWriter> writer(std::in_place, file, simulation, "");
+  std::optional<RunWriter> writer(std::in_place, file, simulation, ViewSettings{}, "");
   HeightField bed = simulation.bed();
   double height = 0.0;
   for (int frame = 0; frame < frames; ++frame) {

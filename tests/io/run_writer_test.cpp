@@ -71,7 +71,7 @@ class RunWriterTest : public testing::Test {
  protected:
   void begin(const Scene& scene, const std::string& stroke_hash = "abc", const std::string& scene_file = "") {
     simulation_.emplace(scene, starting_bed(scene.bed), std::nullopt);
-    writer_.emplace(path_, *simulation_, stroke_hash, scene_file);
+    writer_.emplace(path_, *simulation_, ViewSettings{}, stroke_hash, scene_file);
   }
   Hdf5Reader finished(const RunResult& result = {}) {
     writer_->end(result, simulation_->bed());
@@ -192,7 +192,7 @@ TEST_F(RunWriterTest, AFrameHoldsTheTilesThatChangedSinceTheOneBefore) {
   HeightField touched = starting_bed(scene.bed);
   touched.set(99, 0, 0.125);  // before the run begins: tile 3
   simulation_.emplace(scene, touched, std::nullopt);
-  writer_.emplace(path_, *simulation_, "");
+  writer_.emplace(path_, *simulation_, ViewSettings{}, "");
   HeightField bed = simulation_->bed();
   std::vector<HeightGrid> surfaces;
   const auto keep = [&](double time) {

@@ -13,7 +13,7 @@
 namespace sandstroke {
 namespace {
 
-using S = const Scene&;
+using S = const SceneFile&;
 
 /// A setting, what else it takes, and what it must make of the scene.
 struct KeyCase {
@@ -208,10 +208,10 @@ TEST(SceneKeys, EachSetsTheFieldOfItsNameAndIsInTheResolvedText) {
     std::vector<std::string> settings = one.with;
     if (key_of(one) == "stroke.file") settings.clear();
     settings.push_back(one.setting);
-    const Scene scene = scene_from_text("", "scene.toml", settings);
+    const SceneFile scene = scene_from_text("", "scene.toml", settings);
     EXPECT_TRUE(one.is_set(scene)) << one.setting;
     const std::string text = scene_text(scene);
-    const Scene read_back = scene_from_text(text, "again.toml");
+    const SceneFile read_back = scene_from_text(text, "again.toml");
     EXPECT_TRUE(one.is_set(read_back)) << one.setting;
     EXPECT_EQ(scene_text(read_back), text) << one.setting;
   }
@@ -242,7 +242,7 @@ TEST(SceneKeys, EachChangesTheHashOfTheScene) {
 }
 
 TEST(SceneKeys, UnitsAreThoseOfTheTable) {
-  const Scene scene = scene_from_text("", "scene.toml", {"stroke.file=x.h5", "device.model=dynamic"});
+  const SceneFile scene = scene_from_text("", "scene.toml", {"stroke.file=x.h5", "device.model=dynamic"});
   for (const auto& [name, unit] : {std::pair{"bed.size", "m"},
                                    {"tool.radius", "m"},
                                    {"force.k_s", "N"},

@@ -11,7 +11,7 @@
 namespace sandstroke {
 namespace {
 
-Scene read(const std::string& text, const std::vector<std::string>& overrides = {}) {
+SceneFile read(const std::string& text, const std::vector<std::string>& overrides = {}) {
   return scene_from_text(text, "scene.toml", overrides);
 }
 
@@ -64,7 +64,7 @@ TEST(SceneToml, ALateLoopIsADynamicDevices) {
 }
 
 TEST(SceneToml, TheResolvedTextReadsBackAsTheSameScene) {
-  const Scene scene = read(
+  const SceneFile scene = read(
       "[model]\npreset = 'accurate'\n[bed]\nsize = [0.5, 1.0]\ncells = [100, 200]\n"
       "surface = { kind = 'noise', amplitude = 0.003, seed = 9 }\n[tool]\nradius = 0.0123456789\n"
       "[device]\npreset = 'touch'\nmax_force = 2.5\nmodel = 'dynamic'\n"

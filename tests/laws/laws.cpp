@@ -61,14 +61,15 @@ class PlainPasses : public WholeBedRelaxer {
 /// All sand in the tool's way goes onto the cells beside it that lie ahead of its motion, each as much.
 class AllAhead : public Displacer {
  public:
-  double displace(HeightField& bed, const ToolFootprint& footprint, double tip_height,
+  double displace(HeightField& bed, const Tool& tool, double tip_height,
                   const Eigen::Vector3d& motion) override {
     struct Cell {
       int row, col;
     };
     std::vector<Cell> under, ahead;
+    const ToolFootprint& footprint = tool.footprint();
     const CellRange& window = footprint.cells();
-    const double reach = footprint.reach() / footprint.cell_size();  // in cells, as all places here
+    const double reach = tool.reach() / footprint.cell_size();  // in cells, as all places here
     for (int row = 0; row < window.rows(); ++row) {
       const ColumnRange sand = footprint.sand_cols(row);
       for (int col = sand.begin; col < sand.end; ++col) {

@@ -35,8 +35,8 @@ void set_middle(HeightField& bed, double height) { bed.set(bed.rows() / 2, bed.c
 
 class LosingDisplacer : public Displacer {
  public:
-  double displace(HeightField& bed, const ToolFootprint& footprint, double, const Eigen::Vector3d&) override {
-    const CellRange& cells = footprint.cells();
+  double displace(HeightField& bed, const Tool& tool, double, const Eigen::Vector3d&) override {
+    const CellRange& cells = tool.footprint().cells();
     bed.set(cells.row_begin, cells.col_begin, bed(cells.row_begin, cells.col_begin) - 1e-4);
     return 0.0;
   }

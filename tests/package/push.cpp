@@ -3,8 +3,8 @@
 #include <cmath>
 #include <iostream>
 
-#include "sand/displacement.h"
 #include "sand/relaxation.h"
+#include "sand/sphere_tool.h"
 #include "sim/simulation.h"
 
 using namespace sandstroke;
@@ -12,11 +12,11 @@ using namespace sandstroke;
 int main() {
   constexpr double cell_size = 0.002, depth = 0.005, step = 0.001;  // m
   HeightField bed(100, 150, cell_size);
-  ToolFootprint tool({.radius = 0.012});
+  SphereTool tool({.radius = 0.012});
   double pushed = 0.0;
   for (double x = -0.05; x < 0.05; x += step) {
     tool.place(bed, x, 0.0);
-    pushed += displace(bed, tool, -depth, {step, 0.0, 0.0}, {.deposit = Deposit::ahead});
+    pushed += tool.displace(bed, -depth, {step, 0.0, 0.0}, {.deposit = Deposit::ahead});
   }
   const RelaxationOutcome rest = make_relaxer({}, cell_size)->relax(bed);
   std::cout << "pushed " << pushed << " m^3; volume afterwards " << bed.volume() << " m^3, highest "

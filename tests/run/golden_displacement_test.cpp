@@ -36,7 +36,7 @@ TEST_P(GoldenStroke, DisplacesAsThePlainRuleDoesInEveryTick) {
   HeightGrid expected = sand.grid();
   const WallGrid no_walls = WallGrid::Zero(sand.rows(), sand.cols());
   const auto relaxer = make_relaxer(scene.relaxation, sand.cell_size());
-  ToolFootprint footprint(scene.tool);
+  SphereTool tool(scene.tool);
   Eigen::Vector3d tip_before = tip_of(scene.device, stroke.at(stroke.start_time()).position);
   int pushed = 0;
   for (int tick = 0; stroke.start_time() + 1e-3 * tick <= stroke.end_time(); ++tick) {
@@ -44,18 +44,18 @@ TEST_P(GoldenStroke, DisplacesAsThePlainRuleDoesInEveryTick) {
     const Eigen::Vector3d tip = tip_of(scene.device, hand.position);
     const Eigen::Vector3d motion = tip - std::exchange(tip_before, tip);
     if (!hand.down) continue;
-    footprint.place(sand, tip.x(), tip.y());
+    tool.place(sand, tip.x(), tip.y());
     const PlainDisplacement plain(scene.tool.profile, scene.tool.radius, no_walls, sand.cell_size(), tip.x(),
                                   tip.y());
-    ASSERT_EQ(footprint.sand_level(), plain.sand_level(expected)) << "tick " << tick;
-    const double volume = displace(sand, footprint, tip.z(), motion, scene.displacement);
+    ASSERT_EQ(tool.sand_level(), plain.sand_level(expected)) << "tick " << tick;
+    const double volume = tool.displace(sand, tip.z(), motion, scene.displacement);
     ASSERT_EQ(volume, plain.displace(expected, tip.z(), motion, scene.displacement)) << "tick " << tick;
     pushed += volume > 0.0;
     if (sanitized && pushed > 100) break;
     if (tick % 16 != 0) continue;
     const HeightGrid displaced = sand.grid();
     ASSERT_EQ(std::memcmp(displaced.data(), expected.data(), sizeof(double) * expected.size()), 0) << tick;
-    if (scene.tool.solid) footprint.hold_bowl(sand);
+    if (scene.tool.solid) tool.hold_bowl(sand);
     relaxer->relax(sand);
     expected = sand.grid();
   }

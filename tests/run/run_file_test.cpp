@@ -34,11 +34,11 @@ class RunFileTest : public testing::Test {
                                             "to = [0.05, 0.0]\ndepth = 0.004\n";
   }
 
-  Scene scene(const std::vector<std::string>& overrides = {}) {
+  SceneFile scene(const std::vector<std::string>& overrides = {}) {
     return scene_from_text("[bed]\nsize = [0.3, 0.2]\ncells = [150, 100]\n[stroke]\nfile = 'line.toml'\n",
                            "scene.toml", overrides);
   }
-  RunResult run(const Scene& scene, const std::string& name, int threads = 1) {
+  RunResult run(const SceneFile& scene, const std::string& name, int threads = 1) {
     RunOptions options;
     options.scene_folder = folder_.path();
     options.threads = threads;
@@ -48,7 +48,7 @@ class RunFileTest : public testing::Test {
 };
 
 TEST_F(RunFileTest, HoldsWhatTheDesignPromises) {
-  const RunResult result = run(scene({"output.frames=5"}), "a.h5");
+  const RunResult result = run(scene({"output.frames=5", "view.azimuth=30"}), "a.h5");
   const RunFile file(folder_ / "a.h5");
   EXPECT_TRUE(file.complete());
   EXPECT_EQ(file.cell_size(), 0.002);
@@ -63,7 +63,8 @@ TEST_F(RunFileTest, HoldsWhatTheDesignPromises) {
   EXPECT_EQ(max_force, result.device.max_force);
   EXPECT_EQ(std::count_if(trace.begin(), trace.end(), [](const TickRecord& tick) { return tick.contact; }),
             result.contact_ticks);
-  EXPECT_EQ(scene_text(scene_from_text(file.scene_text(), "stored")), scene_text(scene({"output.frames=5"})));
+  EXPECT_EQ(scene_text(scene_from_text(file.scene_text(), "stored")),
+            scene_text(scene({"output.frames=5", "view.azimuth=30"})));
 
   const std::vector<double> times = file.frame_times();
   ASSERT_GT(times.size(), 3u);
@@ -112,7 +113,8 @@ TEST_F(RunFileTest, FramesHoldTilesThatCameIntoBeingBetweenThem) {
     }
   } frames;
   // Ripples that rest by rule: a tile may come into being and stay as it was.
-  const Scene rippled = scene({"output.frames=20", "bed.surface={ kind = 'ripples', amplitude = 0.001 }"});
+  const SceneFile rippled =
+      scene({"output.frames=20", "bed.surface={ kind = 'ripples', amplitude = 0.001 }"});
   run(rippled, "a.h5");
   Simulation(
       rippled, load_surface(rippled.bed, folder_.path()),
@@ -190,7 +192,7 @@ TEST_F(RunFileTest, HoldsTheEstimatedErrorAndItsMap) {
 
 TEST_F(RunFileTest, ASurfaceCanComeFromARunFile) {
   run(scene(), "first.h5");
-  Scene second = scene({"bed.surface={ kind = 'file', file = 'first.h5' }"});
+  SceneFile second = scene({"bed.surface={ kind = 'file', file = 'first.h5' }"});
   run(second, "second.h5");
   EXPECT_TRUE((RunFile(folder_ / "second.h5").initial() == RunFile(folder_ / "first.h5").final()).all());
   EXPECT_THROW(
@@ -212,7 +214,7 @@ TEST_F(RunFileTest, SaysOfWhatItIsAndWithHowManyThreads) {
   options.scene_file = folder_ / "scenes" / "dune.toml";
   options.threads = 2;
   fs::create_directory(folder_ / "runs");
-  const auto provenance = [&](const Scene& scene) {
+  const auto provenance = [&](const SceneFile& scene) {
     run_scene(scene, folder_ / "runs" / "a.h5", options);
     std::map<std::string, std::string> entries;
     for (const auto& [name, value] : RunFile(folder_ / "runs" / "a.h5").provenance()) entries[name] = value;
@@ -233,7 +235,7 @@ TEST_F(RunFileTest, SaysOfWhatItIsAndWithHowManyThreads) {
 }
 
 TEST_F(RunFileTest, ForcesThatWereRecordedAreHeldAgainstThoseOfTheRun) {
-  const Scene at_hand = scene({"relaxation.rate=0"});
+  const SceneFile at_hand = scene({"relaxation.rate=0"});
   ASSERT_FALSE(run(at_hand, "a.h5").recorded_force);
   const std::vector<TickRecord> trace = RunFile(folder_ / "a.h5").trace();
   Stroke felt;  // in every tick what the run felt in it, in one of them 0.25 N more

@@ -14,9 +14,9 @@
 #include "rules/displacement.h"
 #include "sand/active_sand.h"
 #include "sand/all_laws.h"
-#include "sand/displacement.h"
 #include "sand/initial_surface.h"
 #include "sand/relaxation.h"
+#include "sand/sphere_tool.h"
 #include "sanitized.h"
 
 namespace sandstroke {
@@ -85,11 +85,13 @@ class RandomScene {
     const Push at = draw_push();
     const bool stays = whole(0, 1) == 1;
     for (HeightField* one : beds) {
-      ToolFootprint footprint(tool);
-      footprint.place(*one, at.x, at.y);
-      if (!footprint.cells().empty())
-        displace(*one, footprint, footprint.sand_level() - at.depth, at.motion, deposit);
-      stays ? footprint.hold_bowl(*one) : one->hold({});
+      SphereTool placed(tool);
+      placed.place(*one, at.x, at.y);
+      placed.displace(*one, placed.sand_level() - at.depth, at.motion, deposit);
+      if (stays)
+        placed.hold_bowl(*one);
+      else
+        one->hold({});
     }
   }
 
@@ -228,23 +230,22 @@ TEST(Tool, EqualsThePlainRuleOn400RandomScenes) {
     const WallGrid walls = beyond_wall(scene.bed);
     for (int i = 0; i < 6; ++i) {
       const RandomScene::Push at = scene.draw_push();
-      ToolFootprint footprint(scene.tool);
-      footprint.place(scene.bed, at.x, at.y);
+      SphereTool tool(scene.tool);
+      tool.place(scene.bed, at.x, at.y);
       HeightGrid heights = expected.grid();
       const PlainDisplacement plain(scene.tool.profile, scene.tool.radius, walls, scene.dx, at.x, at.y);
       const double level = plain.sand_level(heights);
-      ASSERT_TRUE(footprint.sand_level() == level ||
-                  (std::isnan(level) && std::isnan(footprint.sand_level())));
+      ASSERT_TRUE(tool.sand_level() == level || (std::isnan(level) && std::isnan(tool.sand_level())));
       if (std::isnan(level)) continue;
 
-      const double volume = displace(scene.bed, footprint, level - at.depth, at.motion, scene.deposit);
+      const double volume = tool.displace(scene.bed, level - at.depth, at.motion, scene.deposit);
       ASSERT_EQ(volume, plain.displace(heights, level - at.depth, at.motion, scene.deposit));
       expected.set_changed(heights);
       ASSERT_TRUE(same_bits(scene.bed.grid(), expected.grid()));
       ASSERT_TRUE(same_disturbed(scene.bed, expected));
       pushed += volume > 0.0;
 
-      footprint.hold_bowl(scene.bed);
+      tool.hold_bowl(scene.bed);
       for (int row = 0; row < scene.bed.rows(); ++row)
         for (int col = 0; col < scene.bed.cols(); ++col)
           ASSERT_EQ(scene.bed.is_held(row, col), plain.covers(row, col) || walls(row, col))
@@ -265,10 +266,10 @@ TEST(Tool, IsTheSameBitsWithEveryInstructionSet) {
       const InstructionSet set(target);
       RandomScene scene(seed, 20, 140);
       for (int i = 0; i < 3; ++i) scene.push({&scene.bed});
-      ToolFootprint footprint(scene.tool);
-      footprint.place(scene.bed, 0.1 * scene.dx, -0.3 * scene.dx);
+      SphereTool tool(scene.tool);
+      tool.place(scene.bed, 0.1 * scene.dx, -0.3 * scene.dx);
       beds.push_back(scene.bed.grid());
-      levels.push_back(footprint.sand_level());
+      levels.push_back(tool.sand_level());
     }
     for (std::size_t i = 1; i < targets.size(); ++i) {
       EXPECT_TRUE(same_bits(beds[i], beds[0])) << hwy::TargetName(targets[i]) << ", seed " << seed;

@@ -5,7 +5,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "sand/displacement.h"
+#include "sand/shaped_tool.h"
+#include "sand/sphere_tool.h"
 #include "tool/tool_surface.h"
 
 namespace sandstroke {
@@ -83,18 +84,19 @@ TEST(Resistance, OfQuikreteIsWhatWasMeasuredWithinAFewPercent) {
 
 /// A tool pushed straight down into sand that stays as it is but for what it takes the place of. off: of a
 /// cell, from one's centre.
-Wrench pushed_in(const ToolSettings& tool, double depth, const SandStrength& sand, double cell,
+Wrench pushed_in(const ToolSettings& settings, double depth, const SandStrength& sand, double cell,
                  double element, const Vector3d& then = Vector3d::Zero(), double off = 0.0) {
   const int side = 2 * static_cast<int>(0.03 / cell) + 1;
   HeightField bed(side, side, cell);
-  ToolFootprint footprint(tool);
-  ResistiveForce force(turned(tool_surface(tool), own_rotation(tool)), element);
+  const auto made = make_tool(settings);
+  Tool& tool = *made;
+  ResistiveForce force(turned(tool_surface(settings), own_rotation(settings)), element);
   Wrench felt;
   const auto go = [&](const Vector3d& to, const Vector3d& motion) {
-    footprint.place(bed, to.x() + off * cell, to.y() + 0.7 * off * cell);
-    displace(bed, footprint, to.z(), motion, {Deposit::outward});
-    footprint.read_heights(bed);
-    felt = force.feel(footprint, to, {0.0}, motion, sand);
+    tool.place(bed, to.x() + off * cell, to.y() + 0.7 * off * cell);
+    tool.displace(bed, to.z(), motion, {Deposit::outward});
+    tool.read_heights(bed);
+    felt = force.feel(tool.footprint(), to, {0.0}, motion, sand);
   };
   constexpr double step = 2.5e-4;
   const int steps = static_cast<int>(std::lround(depth / step));
@@ -171,33 +173,33 @@ TEST(ResistiveForce, DependsOnTheWayAndNotOnTheTimeItTakes) {
   // Twice as many ticks: the same ways, in smaller parts.
   const SandStrength sand;
   HeightField bed(61, 61, 0.001);
-  ToolFootprint footprint(ToolSettings{0.01, ToolProfile::sphere, true});
+  SphereTool tool(ToolSettings{0.01, ToolProfile::sphere, true});
   const TriangleMesh sphere = tool_surface(ToolSettings{0.01});
   ResistiveForce coarse(sphere, 0.001), fine(sphere, 0.001);
-  footprint.place(bed, 0.0, 0.0);
-  displace(bed, footprint, -0.005, falling, {Deposit::outward});
-  footprint.read_heights(bed);
+  tool.place(bed, 0.0, 0.0);
+  tool.displace(bed, -0.005, falling, {Deposit::outward});
+  tool.read_heights(bed);
   const Vector3d tip(0.0, 0.0, -0.005), way(3e-4, -1e-4, -4e-4);
-  const Vector3d once = coarse.feel(footprint, tip, {0.0}, way, sand).force;
-  fine.feel(footprint, tip, {0.0}, 0.5 * way, sand);
-  const Vector3d twice = fine.feel(footprint, tip, {0.0}, 0.5 * way, sand).force;
+  const Vector3d once = coarse.feel(tool.footprint(), tip, {0.0}, way, sand).force;
+  fine.feel(tool.footprint(), tip, {0.0}, 0.5 * way, sand);
+  const Vector3d twice = fine.feel(tool.footprint(), tip, {0.0}, 0.5 * way, sand).force;
   EXPECT_LT((once - twice).norm(), 1e-12 * once.norm());
   // It holds where the tool rests, and is soon gone where it rises.
-  EXPECT_LT((fine.feel(footprint, tip, {0.0}, Vector3d::Zero(), sand).force - twice).norm(),
+  EXPECT_LT((fine.feel(tool.footprint(), tip, {0.0}, Vector3d::Zero(), sand).force - twice).norm(),
             1e-12 * twice.norm());
-  fine.feel(footprint, tip, {0.0}, {0.0, 0.0, 2.0 * sand.yield_way}, sand);
-  EXPECT_LT(fine.feel(footprint, tip, {0.0}, {0.0, 0.0, 2.0 * sand.yield_way}, sand).force.z(),
+  fine.feel(tool.footprint(), tip, {0.0}, {0.0, 0.0, 2.0 * sand.yield_way}, sand);
+  EXPECT_LT(fine.feel(tool.footprint(), tip, {0.0}, {0.0, 0.0, 2.0 * sand.yield_way}, sand).force.z(),
             0.05 * twice.z());
 }
 
 TEST(ResistiveForce, OfAWayWhoseSquareIsNoNumberAnyMoreIsANumber) {
   HeightField bed(61, 61, 0.001);
   const ToolSettings sphere{0.01, ToolProfile::sphere, true};
-  ToolFootprint footprint(sphere);
-  footprint.place(bed, 0.0, 0.0);
+  SphereTool tool(sphere);
+  tool.place(bed, 0.0, 0.0);
   for (const double way : {0.0, 1e-158, 1e-165, 1e-200, 1e-320}) {
     ResistiveForce force(tool_surface(sphere), 0.001);
-    const Wrench felt = force.feel(footprint, {0.0, 0.0, -0.005}, {0.0}, {way, 0.0, -way}, {});
+    const Wrench felt = force.feel(tool.footprint(), {0.0, 0.0, -0.005}, {0.0}, {way, 0.0, -way}, {});
     EXPECT_LT(felt.force.norm(), 1e-100) << way;
     EXPECT_TRUE(std::isfinite(felt.strength)) << way;
   }
@@ -224,17 +226,17 @@ TEST(ResistiveForce, OfABladeThatTurnsInItsPlaceIsATorque) {
   blade.width = 0.04, blade.height = 0.03, blade.thickness = 0.002;
   const double depth = 0.012, angle = 0.02;
   HeightField bed(101, 101, 0.0005);
-  ToolFootprint footprint(blade);
+  ShapedTool tool(blade);
   ResistiveForce force(tool_surface(blade), 0.001);
   const SandStrength sand{30.0, 1560.0, 0.0, 1e-6};
-  footprint.place(bed, 0.0, 0.0);
-  displace(bed, footprint, -depth, falling, {Deposit::outward});
-  footprint.read_heights(bed);
+  tool.place(bed, 0.0, 0.0);
+  tool.displace(bed, -depth, falling, {Deposit::outward});
+  tool.read_heights(bed);
   const Vector3d tip(0.0, 0.0, -depth);
-  EXPECT_EQ(force.feel(footprint, tip, {0.0}, Vector3d::Zero(), sand).torque, Vector3d::Zero());
+  EXPECT_EQ(force.feel(tool.footprint(), tip, {0.0}, Vector3d::Zero(), sand).torque, Vector3d::Zero());
   const auto turn = [&](double by) {
     force.turn(Eigen::AngleAxisd(by, Vector3d::UnitZ()).toRotationMatrix());
-    return force.feel(footprint, tip, {0.0}, Vector3d::Zero(), sand);
+    return force.feel(tool.footprint(), tip, {0.0}, Vector3d::Zero(), sand);
   };
   const Wrench left = turn(angle);
   const double expected = 0.192 * resistance(sand) * depth * depth * 0.04 * 0.04 / 8.0;

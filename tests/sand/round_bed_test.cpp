@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "sand/all_laws.h"
-#include "sand/displacement.h"
 #include "sand/initial_surface.h"
 #include "sand/relaxation.h"
+#include "sand/sphere_tool.h"
 
 namespace sandstroke {
 namespace {
@@ -32,7 +32,7 @@ TEST(RoundBed, HasTheCellsWhoseCentresLieInItsLargestCircle) {
 
 TEST(RoundBed, ItsWallStaysWhereAToolStood) {
   HeightField bed(130, 130, width, BedShape::round);
-  ToolFootprint tool({0.01, ToolProfile::sphere, true});
+  SphereTool tool({0.01, ToolProfile::sphere, true});
   tool.place(bed, bed.wall_radius() - 0.005, 0.0);
   tool.hold_bowl(bed);
   bed.hold({});
@@ -72,11 +72,11 @@ TEST(RoundBed, AToolAtTheWallPushesSandInside) {
   for (const Deposit deposit : {Deposit::ring, Deposit::ahead, Deposit::outward}) {
     HeightField bed(130, 130, width, BedShape::round);
     const HeightField before = bed;
-    ToolFootprint tool({0.01, ToolProfile::sphere, true});
+    SphereTool tool({0.01, ToolProfile::sphere, true});
     const double along = (bed.wall_radius() - 0.005) * std::sqrt(0.5);
     tool.place(bed, along, along);
     EXPECT_EQ(tool.sand_level(), 0.0);
-    EXPECT_GT(displace(bed, tool, -0.004, {1e-3, 1e-3, 0.0}, {deposit}), 0.0);
+    EXPECT_GT(tool.displace(bed, -0.004, {1e-3, 1e-3, 0.0}, {deposit}), 0.0);
     expect_kept_inside(before, bed);
   }
 }
@@ -86,17 +86,17 @@ TEST(RoundBed, TheLevelUnderAToolIsThatOfTheSandAlone) {
   for (int row = 0; row < 130; ++row)
     for (int col = 0; col < 130; ++col)
       if (!bed.has_sand(row, col)) bed.set(row, col, 1.0);
-  ToolFootprint tool({0.01, ToolProfile::sphere, true});
+  SphereTool tool({0.01, ToolProfile::sphere, true});
   tool.place(bed, 0.0, bed.wall_radius() - 0.003);
   EXPECT_EQ(tool.sand_level(), 0.0);
 }
 
 TEST(RoundBed, AToolBeyondTheWallFindsNoLevel) {
   HeightField bed(130, 130, width, BedShape::round);
-  ToolFootprint tool({0.01, ToolProfile::sphere, true});
+  SphereTool tool({0.01, ToolProfile::sphere, true});
   tool.place(bed, bed.wall_radius(), bed.wall_radius());  // a corner of the rectangle
   EXPECT_TRUE(std::isnan(tool.sand_level()));
-  EXPECT_EQ(displace(bed, tool, -0.004, Eigen::Vector3d::Zero(), {}), 0.0);
+  EXPECT_EQ(tool.displace(bed, -0.004, Eigen::Vector3d::Zero(), {}), 0.0);
 }
 
 }  // namespace

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "sand/active_sand.h"
-#include "sand/displacement.h"
+#include "sand/sphere_tool.h"
 #include "sand/symmetry.h"
 #include "sanitized.h"
 
@@ -34,11 +34,11 @@ Relaxers engine_and_reference() {
 /// A tool that has displaced a pit, and stands in it.
 struct Standing {
   HeightField bed{129, 129, cell};
-  ToolFootprint footprint{{tool_radius, ToolProfile::sphere, true}};
+  SphereTool tool{{tool_radius, ToolProfile::sphere, true}};
   Standing() {
-    footprint.place(bed, 0.0, 0.0);
-    displace(bed, footprint, -0.007, plunge, {Deposit::outward});
-    footprint.hold_bowl(bed);
+    tool.place(bed, 0.0, 0.0);
+    tool.displace(bed, -0.007, plunge, {Deposit::outward});
+    tool.hold_bowl(bed);
   }
 };
 
@@ -88,15 +88,15 @@ TEST(SolidTool, AtRestChangesNothingEver) {
     Standing standing;
     relaxer->relax(standing.bed);
     // The rim's own cells are the bowl's: what stands there is taken out once.
-    standing.footprint.place(standing.bed, 0.0, 0.0);
-    displace(standing.bed, standing.footprint, -0.007, plunge, {Deposit::outward});
-    standing.footprint.hold_bowl(standing.bed);
+    standing.tool.place(standing.bed, 0.0, 0.0);
+    standing.tool.displace(standing.bed, -0.007, plunge, {Deposit::outward});
+    standing.tool.hold_bowl(standing.bed);
     relaxer->relax(standing.bed);
     const HeightGrid rest = standing.bed.grid();
     for (int i = 0; i < (sanitized ? 20 : 1000); ++i) {
-      standing.footprint.place(standing.bed, 0.0, 0.0);
-      EXPECT_EQ(displace(standing.bed, standing.footprint, -0.007, plunge, {Deposit::outward}), 0.0);
-      standing.footprint.hold_bowl(standing.bed);
+      standing.tool.place(standing.bed, 0.0, 0.0);
+      EXPECT_EQ(standing.tool.displace(standing.bed, -0.007, plunge, {Deposit::outward}), 0.0);
+      standing.tool.hold_bowl(standing.bed);
       EXPECT_EQ(relaxer->relax(standing.bed).passes, 0);
     }
     EXPECT_TRUE((standing.bed.grid() == rest).all());
@@ -106,11 +106,11 @@ TEST(SolidTool, AtRestChangesNothingEver) {
 TEST(SolidTool, APlungeAtACellCentreIsSymmetricToTheBit) {
   for (const auto& relaxer : engine()) {
     HeightField bed(129, 129, cell);
-    ToolFootprint footprint({tool_radius, ToolProfile::sphere, true});
+    SphereTool tool({tool_radius, ToolProfile::sphere, true});
     for (int i = 1; i <= 30; ++i) {
-      footprint.place(bed, 0.0, 0.0);
-      displace(bed, footprint, -3e-4 * i, plunge, {Deposit::outward});
-      footprint.hold_bowl(bed);
+      tool.place(bed, 0.0, 0.0);
+      tool.displace(bed, -3e-4 * i, plunge, {Deposit::outward});
+      tool.hold_bowl(bed);
       relaxer->relax(bed);
     }
     EXPECT_TRUE(has_square_symmetry(bed.grid()));
@@ -120,10 +120,10 @@ TEST(SolidTool, APlungeAtACellCentreIsSymmetricToTheBit) {
 
 TEST(SolidTool, HoldsOnlyWhereItIsNow) {
   HeightField bed(129, 129, cell);
-  ToolFootprint footprint({tool_radius, ToolProfile::sphere, true});
+  SphereTool tool({tool_radius, ToolProfile::sphere, true});
   for (const double x : {0.03, 0.0, -0.05}) {
-    footprint.place(bed, x, 0.01);
-    footprint.hold_bowl(bed);
+    tool.place(bed, x, 0.01);
+    tool.hold_bowl(bed);
     for (int row = 0; row < 129; ++row)
       for (int col = 0; col < 129; ++col)
         ASSERT_EQ(bed.is_held(row, col),

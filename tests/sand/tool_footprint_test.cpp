@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "sand/footprint_kernels.h"
+#include "sand/sphere_tool.h"
 
 namespace sandstroke {
 namespace {
@@ -16,18 +16,18 @@ constexpr double high_above = 1.0;  // m, height of a tip that carves nothing
 /// Calls body(distance to the tool's axis, underside, ring_weight) for each cell of the footprint, and checks
 /// that entries beyond its columns have no weight.
 template <class Body>
-void for_each_cell(const HeightField& bed, ToolFootprint& footprint, const Body& body) {
-  carve_for_ring(footprint.shape(), footprint, high_above, {0.0, Eigen::Vector2d::Zero()});
-  const CellRange& cells = footprint.cells();
+void for_each_cell(HeightField& bed, SphereTool& tool, const Body& body) {
+  tool.displace(bed, high_above, Eigen::Vector3d::Zero(), {Deposit::ring});
+  const CellRange& cells = tool.footprint().cells();
   for (int r = 0; r < cells.rows(); ++r)
-    for (int c = 0; c < footprint.stride(); ++c) {
-      const double x = (footprint.first_x() + c - footprint.axis_x()) * bed.cell_size();
-      const double y = (footprint.first_y() + r - footprint.axis_y()) * bed.cell_size();
+    for (int c = 0; c < tool.footprint().stride(); ++c) {
+      const double x = (tool.footprint().first_x() + c - tool.footprint().axis_x()) * bed.cell_size();
+      const double y = (tool.footprint().first_y() + r - tool.footprint().axis_y()) * bed.cell_size();
       if (c < cells.cols()) {
-        body(std::sqrt(x * x + y * y), footprint.underside(r)[c], footprint.ring_weight(r)[c]);
+        body(std::sqrt(x * x + y * y), tool.footprint().underside(r)[c], tool.footprint().ring_weight(r)[c]);
       } else {
-        EXPECT_TRUE(std::isinf(footprint.underside(r)[c]));
-        EXPECT_EQ(footprint.ring_weight(r)[c], 0.0);
+        EXPECT_TRUE(std::isinf(tool.footprint().underside(r)[c]));
+        EXPECT_EQ(tool.footprint().ring_weight(r)[c], 0.0);
       }
     }
 }
@@ -53,12 +53,12 @@ TEST(Filter, ItsPlaneIntegralIsZero) {
 TEST(ToolFootprint, SampledFilterSumsToZeroAsCellsShrink) {
   for (const int n : {101, 201, 401}) {
     const double dx = 0.04 / n;
-    const HeightField bed(n, n, dx);
-    ToolFootprint footprint({radius, ToolProfile::paper});
-    footprint.place(bed, 0.0, 0.0);
+    HeightField bed(n, n, dx);
+    SphereTool tool({radius, ToolProfile::paper});
+    tool.place(bed, 0.0, 0.0);
     const double s2 = radius * radius / filter::u0;
     double sum = 0.0, magnitude = 0.0;
-    for_each_cell(bed, footprint, [&](double rho, double underside, double ring_weight) {
+    for_each_cell(bed, tool, [&](double rho, double underside, double ring_weight) {
       if (std::isinf(underside) && ring_weight == 0.0) return;
       const double g = std::sin(rho * rho / s2) - 0.53;
       if (ring_weight > 0.0) {
@@ -72,11 +72,11 @@ TEST(ToolFootprint, SampledFilterSumsToZeroAsCellsShrink) {
 }
 
 TEST(ToolFootprint, BothUndersidesHaveTheSpheresCurvatureAndWidth) {
-  const HeightField bed(401, 401, 1e-4);
+  HeightField bed(401, 401, 1e-4);
   for (const ToolProfile profile : {ToolProfile::paper, ToolProfile::sphere}) {
-    ToolFootprint footprint({radius, profile});
-    footprint.place(bed, 0.0, 0.0);
-    for_each_cell(bed, footprint, [&](double rho, double underside, double ring_weight) {
+    SphereTool tool({radius, profile});
+    tool.place(bed, 0.0, 0.0);
+    for_each_cell(bed, tool, [&](double rho, double underside, double ring_weight) {
       const bool in_bowl = std::isfinite(underside);
       if (std::abs(rho - radius) > 1e-12) {
         EXPECT_EQ(in_bowl, rho < radius) << rho;
@@ -104,22 +104,22 @@ TEST(ToolFootprint, LevelOfAPlaneIsItsHeightUnderTheToolAtAnySubCellPosition) {
   HeightField bed(200, 200, 0.001);
   for (int row = 0; row < 200; ++row)
     for (int col = 0; col < 200; ++col) bed.set(row, col, 0.3 * bed.x_of(col) - 0.2 * bed.y_of(row));
-  ToolFootprint footprint({radius, ToolProfile::paper});
+  SphereTool tool({radius, ToolProfile::paper});
   for (const double shift : {0.0, 0.25e-3, 0.5e-3, 0.9e-3}) {
-    footprint.place(bed, 0.01 + shift, 0.02 - shift);
+    tool.place(bed, 0.01 + shift, 0.02 - shift);
     const double hundredth_of_a_cell = 0.01 * 0.001 * std::hypot(0.3, 0.2);
-    EXPECT_NEAR(footprint.sand_level(), 0.3 * (0.01 + shift) - 0.2 * (0.02 - shift), hundredth_of_a_cell);
+    EXPECT_NEAR(tool.sand_level(), 0.3 * (0.01 + shift) - 0.2 * (0.02 - shift), hundredth_of_a_cell);
   }
 }
 
 TEST(ToolFootprint, LevelHasNoJumpsWhileTheToolMoves) {
   HeightField bed(60, 60, 0.002);
   bed.set(30, 37, 0.005);  // one high cell, which the rim passes over
-  ToolFootprint footprint({radius, ToolProfile::paper});
+  SphereTool tool({radius, ToolProfile::paper});
   double last = 0.0;
   for (int i = 0; i <= 4000; ++i) {
-    footprint.place(bed, -0.02 + 1e-5 * i, 0.0);
-    const double level = footprint.sand_level();
+    tool.place(bed, -0.02 + 1e-5 * i, 0.0);
+    const double level = tool.sand_level();
     if (i > 0) {
       // The cell's weight changes at most by step / dx = 0.005 of about 1/160 of 5 mm.
       EXPECT_LT(std::abs(level - last), 1e-5 / 0.002 * 0.005 / 140.0);
@@ -130,11 +130,11 @@ TEST(ToolFootprint, LevelHasNoJumpsWhileTheToolMoves) {
 
 TEST(ToolFootprint, IsEmptyOutsideTheBedAndHasNoLevel) {
   const HeightField bed(50, 50, 0.002);
-  ToolFootprint footprint({radius, ToolProfile::paper});
+  SphereTool tool({radius, ToolProfile::paper});
   for (const double far : {0.2, 1e300, -1e300, std::numeric_limits<double>::quiet_NaN()}) {
-    footprint.place(bed, far, 0.0);
-    EXPECT_TRUE(footprint.cells().empty());
-    EXPECT_TRUE(std::isnan(footprint.sand_level()));
+    tool.place(bed, far, 0.0);
+    EXPECT_TRUE(tool.footprint().cells().empty());
+    EXPECT_TRUE(std::isnan(tool.sand_level()));
   }
 }
 

@@ -71,5 +71,18 @@ TEST(DeviceForce, NamesTheKeysThatCalmALoop) {
   EXPECT_EQ(make_device_force(scaled_scene(ForceLaw::rft))->remedy(0.0).raise, "force.yield");
 }
 
+TEST(DeviceForce, OnlyTheProgramsContactLawsDoubtTheirTheory) {
+  constexpr double fast = 10.0;  // m/s
+  Scene scene = scaled_scene(ForceLaw::rft);
+  EXPECT_EQ(make_device_force(scene)->theory_warning(scene, 0.0), "");
+  EXPECT_NE(make_device_force(scene)->theory_warning(scene, fast), "");
+  scene.strength.friction_angle = 50.0;
+  EXPECT_NE(make_device_force(scene)->theory_warning(scene, 0.0), "");
+  scene.plugin_laws.force = "spring";
+  EXPECT_EQ(make_device_force(scene)->theory_warning(scene, fast), "");
+  EXPECT_EQ(make_device_force(scene)->remedy(0.0).raise, "");
+  EXPECT_EQ(make_device_force(scaled_scene(ForceLaw::paper))->theory_warning(scene, fast), "");
+}
+
 }  // namespace
 }  // namespace sandstroke

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "core/error.h"
+#include "sand/sphere_tool.h"
 #include "sim/sand_watch.h"
 #include "sim/simulation.h"
 #include "tool/tool_surface.h"
@@ -44,14 +45,14 @@ class BorrowedLaw : public Relaxer {
 class BorrowedRule : public Displacer {
  public:
   explicit BorrowedRule(const Scene& scene) : tool_(scene.tool), settings_(scene.displacement) {}
-  double displace(HeightField& bed, const ToolFootprint& footprint, double tip_height,
-                  const Vector3d& motion) override {
-    tool_.place(bed, footprint.axis_x() * bed.cell_size(), footprint.axis_y() * bed.cell_size());
-    return sandstroke::displace(bed, tool_, tip_height, motion, settings_);
+  double displace(HeightField& bed, const Tool& tool, double tip_height, const Vector3d& motion) override {
+    tool_.place(bed, tool.footprint().axis_x() * bed.cell_size(),
+                tool.footprint().axis_y() * bed.cell_size());
+    return tool_.displace(bed, tip_height, motion, settings_);
   }
 
  private:
-  ToolFootprint tool_;
+  SphereTool tool_;
   DisplacementSettings settings_;
 };
 

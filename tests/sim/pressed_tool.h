@@ -20,7 +20,7 @@ inline Wrench pressed(const Scene& scene, double depth) {
   ContactForce law(scene, bed.cell_size());
   SandSide sand(scene.tool, scene.displacement);
   sand.look(bed, Eigen::Vector3d::Zero());
-  const Eigen::Vector3d tip(0.0, 0.0, -depth - sand.footprint().lowest());
+  const Eigen::Vector3d tip(0.0, 0.0, -depth - sand.tool().lowest());
   return law.in_tick(sand, bed, tip, {0.0, 0.0, -2.0 * scene.strength.yield_way}, true);
 }
 

@@ -7,6 +7,8 @@
 #include <limits>
 #include <vector>
 
+#include "sand/sphere_tool.h"
+
 namespace sandstroke {
 namespace {
 
@@ -24,13 +26,13 @@ TEST(SandSide, AFastTickDisplacesAsTicksInBetweenWould) {
   const double volume = fast.move(one, to, to, no_slip).displaced_volume;
 
   const int steps = 11;  // 52.3 mm along the bed in steps of half a radius at most
-  ToolFootprint footprint(tool);
+  SphereTool sphere(tool);
   double expected = 0.0;
   for (int i = 0; i <= steps; ++i) {
     const Eigen::Vector3d tip = i == steps ? to : Eigen::Vector3d(from + i / double{steps} * (to - from));
-    footprint.place(many, tip.x(), tip.y());
+    sphere.place(many, tip.x(), tip.y());
     const Eigen::Vector3d motion = i == 0 ? Eigen::Vector3d::Zero() : Eigen::Vector3d(to - from);
-    const double moved = displace(many, footprint, tip.z(), motion, ahead);
+    const double moved = sphere.displace(many, tip.z(), motion, ahead);
     if (i > 0) expected += moved;
   }
   EXPECT_GT(expected, 0.0);
@@ -50,9 +52,9 @@ TEST(SandSide, ATickOfHalfARadiusDisplacesOnlyWhereItEnds) {
   HeightField path(100, 100, 0.002), place = path;
   const Eigen::Vector3d to(0.0049, 0.0, -0.02);
   const double volume = displaced_between(path, {0.0, 0.0, 0.001}, to);
-  ToolFootprint footprint({0.01, ToolProfile::sphere});
-  footprint.place(place, to.x(), to.y());
-  EXPECT_EQ(volume, displace(place, footprint, to.z(), {0.0049, 0.0, -0.021}, {Deposit::ahead}));
+  SphereTool tool({0.01, ToolProfile::sphere});
+  tool.place(place, to.x(), to.y());
+  EXPECT_EQ(volume, tool.displace(place, to.z(), {0.0049, 0.0, -0.021}, {Deposit::ahead}));
   EXPECT_TRUE((path.grid() == place.grid()).all());
 }
 

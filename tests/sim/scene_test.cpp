@@ -122,7 +122,7 @@ TEST(CheckScene, ToolAndRampartMustFitTheShorterSide) {
   for (const bool wide : {true, false}) {
     Scene scene = wide ? stroked_scene(0.3, 150, 0.2, 100) : stroked_scene(0.2, 100, 0.3, 150);
     scene.tool.radius = 0.01;
-    const double radii = ToolFootprint(scene.tool).reach() / 0.01;  // of rampart and tool
+    const double radii = filter::reach(1.0);  // of rampart and tool
     for (const auto& [share, taken] : {std::pair{0.95, true}, {1.05, false}}) {
       scene.tool.radius = share * 0.1 / radii;
       EXPECT_EQ(is_taken(scene), taken) << share;

@@ -230,16 +230,14 @@ TEST(SandKey, OnlyWhatSandDoesNotFeelIsShared) {
   Scene scene = small_scene();
   scene.stroke.reset();  // the key has its content instead
   std::set<std::string> shared = shared_settings(scene);
-  std::erase_if(
-      shared, [](const std::string& key) { return key.starts_with("view.") || key.starts_with("output."); });
+  std::erase_if(shared, [](const std::string& key) { return key.starts_with("output."); });
   EXPECT_EQ(shared,
             (std::set<std::string>{"model.preset", "force.k_s", "force.k_c", "force.k_f", "force.drag",
                                    "device.preset", "device.max_force", "device.resolution", "device.mass",
                                    "device.damping", "device.hand_stiffness", "device.hand_damping"}));
   scene.device.model = DeviceModel::dynamic;  // pushed about by the sand
   shared = shared_settings(scene);
-  std::erase_if(
-      shared, [](const std::string& key) { return key.starts_with("view.") || key.starts_with("output."); });
+  std::erase_if(shared, [](const std::string& key) { return key.starts_with("output."); });
   EXPECT_EQ(shared, std::set<std::string>{"model.preset"});
 }
 

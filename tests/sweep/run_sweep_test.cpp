@@ -189,7 +189,7 @@ TEST_F(ASweep, AnotherProcessAtTheSamePartIsRefusedAndAtAnotherPartIsNot) {
 
 TEST_F(ASweep, AGoldenSurfaceOfAnotherShapeIsRefusedOrComparedWithThoseItFits) {
   Sweep first = sweep("", "force.k_s = [1000]\n");
-  const Scene scene = first.plan().scene_of(0);
+  const SceneFile scene = first.plan().scene_of(0);
   RunOptions options;
   options.scene_folder = temporary.path();
   run_scene(scene, temporary / "golden.h5", options);

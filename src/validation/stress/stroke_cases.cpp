@@ -121,8 +121,9 @@ void play_extreme(StressReport& report, const ExtremeStroke& extreme, const Mode
       }
       if (!limited) {
         scene.device.max_force = 0.0;
-        if (dynamic && (deepest > 1.0 || is_contact_law(scene))) expected.push_back(Verdict::refused);
-        if (!dynamic && !is_contact_law(scene) && std::isinf(std::exp(scene.force.k_c * deepest)))
+        const bool by_plugin = !model.plugin_laws.force.empty();
+        if (dynamic && (deepest > 1.0 || by_plugin)) expected.push_back(Verdict::refused);
+        if (!dynamic && !by_plugin && std::isinf(std::exp(scene.force.k_c * deepest)))
           expected = {Verdict::refused};
       }
       report.cases.push_back(play(scene, stroke,

@@ -93,7 +93,7 @@ Problem drag_problem(const ProblemOptions& options) {
       for (int col = 0; col < cells && share > 0.0; ++col) bed.set(row, col, -slot_depth * share);
     }
     bed.clear_disturbed();
-    const double level = -slot_depth * strip_share_of_disk(ToolFootprint(scene.tool).reach(), half_width);
+    const double level = -slot_depth * strip_share_of_disk(make_tool(scene.tool)->reach(), half_width);
     const double tip = -0.97 * slot_depth;
     const double exact = drag_work(level - tip, speed, length, scene.force);
     const Stroke stroke =

@@ -227,8 +227,8 @@ Problem hands_problem(const ProblemOptions& options) {
                          double rate = 0.0) {
       Scene one = scene;
       if (rate > 0.0) one.relaxation.rate = rate;
-      Contender contender = stroke_contender(fmt::format("{}, {}", hands.name, what), label, one, options.threads,
-                                             not_applicable, stroke, truth);
+      Contender contender = stroke_contender(fmt::format("{}, {}", hands.name, what), label, one,
+                                             options.threads, not_applicable, stroke, truth);
       if (what == "speed")  // its forces and places belong to other times
         contender.run = [run = contender.run] {
           Trial trial = run();

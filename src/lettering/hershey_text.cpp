@@ -1,4 +1,4 @@
-#include "picture/hershey_text.h"
+#include "lettering/hershey_text.h"
 
 #include <charconv>
 #include <filesystem>

@@ -1,4 +1,4 @@
-#include "sand/tool_elements.h"
+#include "tool/tool_elements.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -7,7 +7,7 @@
 #include <map>
 #include <vector>
 
-#include "sand/cell_flags.h"
+#include "core/cells_per_group.h"
 
 namespace sandstroke {
 namespace {

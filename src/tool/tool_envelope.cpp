@@ -1,14 +1,14 @@
-#include "sand/tool_envelope.h"
+#include "tool/tool_envelope.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "core/cells_per_group.h"
 #include "core/elementary.h"
 #include "core/error.h"
-#include "sand/cell_flags.h"
-#include "sand/distance_transform.h"
+#include "tool/distance_transform.h"
 
 namespace sandstroke {
 namespace {

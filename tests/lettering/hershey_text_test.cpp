@@ -1,4 +1,4 @@
-#include "picture/hershey_text.h"
+#include "lettering/hershey_text.h"
 
 #include <gtest/gtest.h>
 
@@ -68,7 +68,7 @@ TEST(HersheyText, OtherFontsAreReadWhereTheyAreInstalled) {
   std::ostringstream debians;
   debians << std::ifstream(folder / "futural.jhf").rdbuf();
   std::ostringstream ours;
-  ours << std::ifstream(SANDSTROKE_SOURCE "/src/picture/futural.jhf").rdbuf();
+  ours << std::ifstream(SANDSTROKE_SOURCE "/src/lettering/futural.jhf").rdbuf();
   EXPECT_EQ(ours.str(), debians.str());
 }
 

@@ -1,4 +1,4 @@
-#include "sand/distance_transform.h"
+#include "tool/distance_transform.h"
 
 #include <algorithm>
 #include <cmath>

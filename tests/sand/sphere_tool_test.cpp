@@ -1,4 +1,4 @@
-#include "sand/displacement.h"
+#include "sand/sphere_tool.h"
 
 #include <gtest/gtest.h>
 
@@ -19,10 +19,10 @@ const Eigen::Vector3d down(0.0, 0.0, -1e-4);
 
 TEST(Displacement, TakesOutTheBowlAndHeapsTheRing) {
   HeightField bed(41, 41, dx);
-  ToolFootprint footprint({R, ToolProfile::sphere});
-  footprint.place(bed, 0.0, 0.0);
+  SphereTool tool({R, ToolProfile::sphere});
+  tool.place(bed, 0.0, 0.0);
   const double tip = -0.004;
-  const double volume = displace(bed, footprint, tip, down, {Deposit::ring});
+  const double volume = tool.displace(bed, tip, down, {Deposit::ring});
 
   // By hand: every cell under the sphere is cut to its underside; the ring shares what was cut by sin(u) -
   // 0.53.
@@ -44,12 +44,12 @@ TEST(Displacement, TakesOutTheBowlAndHeapsTheRing) {
 
 TEST(Displacement, KeepsTheSandLevelUnderAToolAtRest) {
   HeightField bed(60, 60, dx);
-  ToolFootprint footprint({R, ToolProfile::paper});
-  footprint.place(bed, 0.0007, -0.0003);
-  const double before = footprint.sand_level();
-  ASSERT_GT(displace(bed, footprint, -0.006, down, {Deposit::ring}), 0.0);
-  footprint.place(bed, 0.0007, -0.0003);
-  EXPECT_NEAR(footprint.sand_level(), before, 1e-15);
+  SphereTool tool({R, ToolProfile::paper});
+  tool.place(bed, 0.0007, -0.0003);
+  const double before = tool.sand_level();
+  ASSERT_GT(tool.displace(bed, -0.006, down, {Deposit::ring}), 0.0);
+  tool.place(bed, 0.0007, -0.0003);
+  EXPECT_NEAR(tool.sand_level(), before, 1e-15);
 }
 
 TEST(Displacement, APlungeAtACellCentreIsSymmetricToTheBit) {
@@ -57,13 +57,13 @@ TEST(Displacement, APlungeAtACellCentreIsSymmetricToTheBit) {
     for (const Deposit deposit : {Deposit::ring, Deposit::ahead, Deposit::outward})
       for (const RelaxationLaw law : all_laws) {
         HeightField bed(129, 129, dx);  // the tile border runs through the patch
-        ToolFootprint footprint({R, profile});
+        SphereTool tool({R, profile});
         RelaxationSettings relaxation;
         relaxation.law = law;
         const auto relaxer = make_relaxer(relaxation, dx);
         for (int i = 1; i <= 30; ++i) {
-          footprint.place(bed, 0.0, 0.0);
-          displace(bed, footprint, -3e-4 * i, down, {deposit});
+          tool.place(bed, 0.0, 0.0);
+          tool.displace(bed, -3e-4 * i, down, {deposit});
           relaxer->relax(bed);
         }
         EXPECT_TRUE(has_square_symmetry(bed.grid()));
@@ -74,9 +74,9 @@ TEST(Displacement, APlungeAtACellCentreIsSymmetricToTheBit) {
 TEST(Displacement, AheadPutsNothingBehindADragAndRingPutsHalfThere) {
   for (const Deposit deposit : {Deposit::ring, Deposit::ahead}) {
     HeightField bed(61, 61, dx);
-    ToolFootprint footprint({R, ToolProfile::sphere});
-    footprint.place(bed, 0.0, 0.0);
-    displace(bed, footprint, -0.004, {1e-4, 0.0, 0.0}, {deposit});
+    SphereTool tool({R, ToolProfile::sphere});
+    tool.place(bed, 0.0, 0.0);
+    tool.displace(bed, -0.004, {1e-4, 0.0, 0.0}, {deposit});
     double ahead = 0.0, behind = 0.0;
     for (int row = 0; row < 61; ++row)
       for (int col = 0; col < 61; ++col) {
@@ -99,10 +99,10 @@ TEST(Displacement, ConservesVolumeAnywhereAtWallsAndCorners) {
     for (int row = 0; row < 60; ++row)
       for (int col = 0; col < 60; ++col) bed.set(row, col, height(random));
     const double before = bed.volume();
-    ToolFootprint footprint({R, ToolProfile::paper});
-    footprint.place(bed, place(random), place(random));
-    const double moved = displace(bed, footprint, -0.005, {motion(random), motion(random), motion(random)},
-                                  {std::array{Deposit::ring, Deposit::ahead, Deposit::outward}[i % 3]});
+    SphereTool tool({R, ToolProfile::paper});
+    tool.place(bed, place(random), place(random));
+    const double moved = tool.displace(bed, -0.005, {motion(random), motion(random), motion(random)},
+                                       {std::array{Deposit::ring, Deposit::ahead, Deposit::outward}[i % 3]});
     EXPECT_NEAR(bed.volume(), before, 1e-15 * 3600 * 0.002 * dx * dx + 1e-12 * moved);
   }
 }
@@ -118,14 +118,15 @@ TEST(Displacement, OutwardCarriesEachCellsSandAlongItsOwnNormal) {
       const int row = static_cast<int>(std::lround(bed.row_at(y))),
                 col = static_cast<int>(std::lround(bed.col_at(x)));
       bed.set(row, col, 0.005);
-      ToolFootprint footprint({R, ToolProfile::sphere});
-      footprint.place(bed, axis, 0.0);
-      carve(footprint.shape(), footprint, std::numeric_limits<double>::infinity());
+      SphereTool tool({R, ToolProfile::sphere});
+      tool.place(bed, axis, 0.0);
+      tool.meet(bed, std::numeric_limits<double>::infinity());
       const double tip =
           0.005 - 1e-4 -
-          footprint.underside(row - footprint.cells().row_begin)[col - footprint.cells().col_begin];
+          tool.footprint().underside(
+              row - tool.footprint().cells().row_begin)[col - tool.footprint().cells().col_begin];
       HeightField other = bed;
-      const double volume = displace(bed, footprint, tip, down, {Deposit::outward, 1.3});
+      const double volume = tool.displace(bed, tip, down, {Deposit::outward, 1.3});
       EXPECT_NEAR(volume, 1e-4 * dx * dx, 1e-18);
       Eigen::Vector2d centre = Eigen::Vector2d::Zero();
       for (int r = 0; r < 61; ++r)
@@ -136,8 +137,8 @@ TEST(Displacement, OutwardCarriesEachCellsSandAlongItsOwnNormal) {
       const double apart = std::atan(dx / 3.0 / from_axis.norm()),
                    thirds = (1.0 + 2.0 * std::cos(apart)) / 3.0;
       EXPECT_LT((centre - 1.3 * R * thirds * from_axis.normalized()).norm(), 1e-9) << angle;
-      footprint.place(other, axis, 0.0);
-      displace(other, footprint, tip, {1e-3, -2e-3, 0.0}, {Deposit::outward, 1.3});
+      tool.place(other, axis, 0.0);
+      tool.displace(other, tip, {1e-3, -2e-3, 0.0}, {Deposit::outward, 1.3});
       EXPECT_TRUE((other.grid() == bed.grid()).all());
     }
 }
@@ -151,11 +152,11 @@ TEST(Displacement, OutwardGivesNothingToTheBowlAndTakesItOutOnce) {
     for (int row = 0; row < 60; ++row)
       for (int col = 0; col < 60; ++col) bed.set(row, col, height(random));
     const double x = place(random), y = place(random);
-    ToolFootprint footprint({R, ToolProfile::sphere});
-    footprint.place(bed, x, y);
-    ASSERT_GT(displace(bed, footprint, -0.006, down, {Deposit::outward}), 0.0);
-    footprint.place(bed, x, y);
-    EXPECT_LT(displace(bed, footprint, -0.006, down, {Deposit::outward}), 1e-15 * R * R * R);
+    SphereTool tool({R, ToolProfile::sphere});
+    tool.place(bed, x, y);
+    ASSERT_GT(tool.displace(bed, -0.006, down, {Deposit::outward}), 0.0);
+    tool.place(bed, x, y);
+    EXPECT_LT(tool.displace(bed, -0.006, down, {Deposit::outward}), 1e-15 * R * R * R);
   }
 }
 
@@ -163,9 +164,9 @@ TEST(Displacement, OutwardGivesNothingToTheBowlAndTakesItOutOnce) {
 /// wall.
 HeightGrid dragged_against_the_wall(Deposit deposit, double cells_beyond) {
   HeightField bed(41, 41, dx);
-  ToolFootprint footprint({R, ToolProfile::sphere});
-  footprint.place(bed, (20.0 + cells_beyond) * dx, 0.0);
-  EXPECT_GT(displace(bed, footprint, -0.004, {1e-3, 0.0, 0.0}, {deposit}), 0.0);
+  SphereTool tool({R, ToolProfile::sphere});
+  tool.place(bed, (20.0 + cells_beyond) * dx, 0.0);
+  EXPECT_GT(tool.displace(bed, -0.004, {1e-3, 0.0, 0.0}, {deposit}), 0.0);
   EXPECT_NEAR(bed.volume(), 0.0, 1e-20);
   return bed.grid();
 }
@@ -188,9 +189,9 @@ TEST(Displacement, AllWallsAndCornersAreAlike) {
     for (const double across : {0.0, 0.0371}) {
       const auto at = [&](double x, double y, double drag_x, double drag_y) {
         HeightField bed(41, 41, dx);
-        ToolFootprint footprint({R, ToolProfile::paper});
-        footprint.place(bed, x, y);
-        EXPECT_GT(displace(bed, footprint, -0.004, {drag_x, drag_y, -2e-4}, {deposit}), 0.0);
+        SphereTool tool({R, ToolProfile::paper});
+        tool.place(bed, x, y);
+        EXPECT_GT(tool.displace(bed, -0.004, {drag_x, drag_y, -2e-4}, {deposit}), 0.0);
         EXPECT_NEAR(bed.volume(), 0.0, 1e-20);
         return bed.grid();
       };
@@ -205,9 +206,9 @@ TEST(Displacement, AllWallsAndCornersAreAlike) {
 
 TEST(Displacement, WhereNoRingIsInsideTheBedNothingMoves) {
   HeightField bed(4, 4, 0.002);  // the bowl covers all of it
-  ToolFootprint footprint({R, ToolProfile::paper});
-  footprint.place(bed, 0.0, 0.0);
-  EXPECT_EQ(displace(bed, footprint, -0.005, down, {Deposit::ring}), 0.0);
+  SphereTool tool({R, ToolProfile::paper});
+  tool.place(bed, 0.0, 0.0);
+  EXPECT_EQ(tool.displace(bed, -0.005, down, {Deposit::ring}), 0.0);
   EXPECT_TRUE((bed.grid() == 0.0).all());
 }
 

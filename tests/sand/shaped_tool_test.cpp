@@ -8,9 +8,8 @@
 #include <random>
 
 #include "core/error.h"
-#include "sand/displacement.h"
-#include "sand/distance_transform.h"
 #include "sand/relaxation.h"
+#include "sand/shaped_tool.h"
 #include "tool/tool_surface.h"
 
 namespace sandstroke {
@@ -47,57 +46,42 @@ std::unique_ptr<Relaxer> rkl_relaxer(double cell, double talus = RelaxationSetti
   return make_relaxer(settings, cell);
 }
 
-TEST(SignedDistance, IsThatToTheNearestOtherSample) {
-  constexpr int rows = 13, cols = 17;
-  std::vector<unsigned char> covered(rows * cols);
-  for (int i = 0; i < rows * cols; ++i) covered[i] = (i * 7919) % 11 < 8 && i / cols > 1;
-  const std::vector<double> found = signed_distance(covered, rows, cols),
-                            inside = distance_inside(covered, rows, cols);
-  for (int i = 0; i < rows * cols; ++i) {
-    double nearest = 1e9;
-    for (int j = 0; j < rows * cols; ++j)
-      if (covered[j] != covered[i])
-        nearest = std::min(nearest, std::hypot(i % cols - j % cols, i / cols - j / cols));
-    EXPECT_EQ(inside[i], std::max(found[i], 0.0));
-    EXPECT_NEAR(found[i], covered[i] ? nearest - 0.5 : 0.5 - nearest, 1e-6);
-  }
-}
-
-TEST(AnyTool, TakesOutWhatStandsAboveItsUndersideAndKeepsAllSand) {
+TEST(ShapedTool, TakesOutWhatStandsAboveItsUndersideAndKeepsAllSand) {
   for (const ToolShape shape : any_shape) {
     HeightField bed(161, 161, cell_side);
-    ToolFootprint footprint(solid_tool(shape));
-    footprint.place(bed, 0.00031, -0.00047);
-    const double pushed = displace(bed, footprint, -0.004, {0.0, 0.0, -0.004}, out);
+    ShapedTool tool(solid_tool(shape));
+    tool.place(bed, 0.00031, -0.00047);
+    const double pushed = tool.displace(bed, -0.004, {0.0, 0.0, -0.004}, out);
     EXPECT_GT(pushed, 0.0);
     EXPECT_NEAR(bed.volume(), 0.0, 1e-12 * pushed);
-    const ToolSettings tool = solid_tool(shape);
+    const ToolSettings settings = solid_tool(shape);
     const double d = 0.004;
     const double tooth = pi * (0.004 * d * d - d * d * d / 3.0);  // a cap of its sphere
     const double expected = shape == ToolShape::cylinder ? pi * 1e-4 * d
                             : shape == ToolShape::cone   ? pi * std::pow(d / 3.0, 2) * d / 3.0
-                            : shape == ToolShape::box    ? tool.size.x() * tool.size.y() * d
-                            : shape == ToolShape::plate  ? tool.thickness * tool.width * d
+                            : shape == ToolShape::box    ? settings.size.x() * settings.size.y() * d
+                            : shape == ToolShape::plate  ? settings.thickness * settings.width * d
                                                          : 3.0 * tooth;
     EXPECT_NEAR(pushed, expected, 0.12 * expected) << static_cast<int>(shape);
     // A second time there is nothing to take out.
-    footprint.place(bed, 0.00031, -0.00047);
-    EXPECT_EQ(displace(bed, footprint, -0.004, {0.0, 0.0, 0.0}, out), 0.0);
+    tool.place(bed, 0.00031, -0.00047);
+    EXPECT_EQ(tool.displace(bed, -0.004, {0.0, 0.0, 0.0}, out), 0.0);
   }
 }
 
-TEST(AnyTool, ASphereAsAMeshLeavesWhatTheSphereLeaves) {
+TEST(ShapedTool, ASphereAsAMeshLeavesWhatTheSphereLeaves) {
   const double R = 0.01;
   for (const double cell : {0.002, 0.001, 0.0005}) {
     const int side = static_cast<int>(std::lround(0.12 / cell)) + 1;
-    const auto relaxed_after = [&](const ToolSettings& tool) {
+    const auto relaxed_after = [&](const ToolSettings& settings) {
       const auto relaxer = rkl_relaxer(cell);
       HeightField bed(side, side, cell);
-      ToolFootprint footprint(tool);
+      const auto made = make_tool(settings);
+      Tool& tool = *made;
       for (int i = 0; i <= 40; ++i) {
-        footprint.place(bed, -0.02 + 0.001 * i + 0.0001, 0.0003);
-        displace(bed, footprint, -0.006, {0.001, 0.0, 0.0}, out);
-        footprint.hold_bowl(bed);
+        tool.place(bed, -0.02 + 0.001 * i + 0.0001, 0.0003);
+        tool.displace(bed, -0.006, {0.001, 0.0, 0.0}, out);
+        tool.hold_bowl(bed);
         relaxer->relax(bed);
       }
       bed.hold({});
@@ -115,18 +99,18 @@ TEST(AnyTool, ASphereAsAMeshLeavesWhatTheSphereLeaves) {
 /// A drag with a plunge, at places that `turn` quarter turns take to others.
 HeightGrid dragged(ToolShape shape, int quarters, int side) {
   HeightField bed(side, side, cell_side);
-  ToolFootprint footprint(solid_tool(shape));
+  ShapedTool tool(solid_tool(shape));
   const double half = 0.25 * pi * quarters;
-  footprint.turn(rotation_of(Eigen::Quaterniond(std::cos(half), 0.0, 0.0, std::sin(half))));
+  tool.turn(rotation_of(Eigen::Quaterniond(std::cos(half), 0.0, 0.0, std::sin(half))));
   RelaxationSettings settings;
   settings.law = RelaxationLaw::isotropic;
   const auto relaxer = make_relaxer(settings, cell_side);
   for (int i = 0; i <= 12; ++i) {
     Eigen::Vector2d at(0.0007 * i - 0.004, 0.00033 + 0.0002 * i);
     for (int turn = 0; turn < quarters; ++turn) at = Eigen::Vector2d(-at.y(), at.x());
-    footprint.place(bed, at.x(), at.y());
-    displace(bed, footprint, -0.0053, {0.0, 0.0, 0.0}, out);
-    footprint.hold_bowl(bed);
+    tool.place(bed, at.x(), at.y());
+    tool.displace(bed, -0.0053, {0.0, 0.0, 0.0}, out);
+    tool.hold_bowl(bed);
     relaxer->relax(bed);
   }
   bed.hold({});
@@ -134,7 +118,7 @@ HeightGrid dragged(ToolShape shape, int quarters, int side) {
   return bed.grid();
 }
 
-TEST(AnyTool, TurnedByAQuarterItLeavesTheSameBits) {
+TEST(ShapedTool, TurnedByAQuarterItLeavesTheSameBits) {
   for (const ToolShape shape : any_shape)
     for (const int side : {128, 129}) {
       const HeightGrid one = dragged(shape, 0, side), turned = dragged(shape, 1, side);
@@ -145,15 +129,15 @@ TEST(AnyTool, TurnedByAQuarterItLeavesTheSameBits) {
     }
 }
 
-TEST(AnyTool, APlateCarriesSandAheadOfItAndNoneBehind) {
+TEST(ShapedTool, APlateCarriesSandAheadOfItAndNoneBehind) {
   HeightField bed(121, 121, cell_side);
   ToolSettings plate = solid_tool(ToolShape::plate);
-  ToolFootprint footprint(plate);
-  footprint.place(bed, 0.0, 0.0);
-  displace(bed, footprint, -0.003, {0.0, 0.0, 0.0}, out);
+  ShapedTool tool(plate);
+  tool.place(bed, 0.0, 0.0);
+  tool.displace(bed, -0.003, {0.0, 0.0, 0.0}, out);
   const HeightGrid before = bed.grid();
-  footprint.place(bed, 0.0015, 0.0);
-  ASSERT_GT(displace(bed, footprint, -0.003, {0.0015, 0.0, 0.0}, out), 0.0);
+  tool.place(bed, 0.0015, 0.0);
+  ASSERT_GT(tool.displace(bed, -0.003, {0.0015, 0.0, 0.0}, out), 0.0);
   const HeightGrid change = bed.grid() - before;
   EXPECT_GT(change.rightCols(60).maxCoeff(), 0.0);
   EXPECT_EQ(change.leftCols(60).maxCoeff(), 0.0);
@@ -163,15 +147,15 @@ TEST(AnyTool, APlateCarriesSandAheadOfItAndNoneBehind) {
 HeightField drawn_at(double angle, ToolShape shape, double cell) {
   const int side = static_cast<int>(std::lround(0.18 / cell)) + 1;
   HeightField bed(side, side, cell);
-  ToolFootprint footprint(solid_tool(shape));
-  footprint.turn(Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitZ()).toRotationMatrix());
+  ShapedTool tool(solid_tool(shape));
+  tool.turn(Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitZ()).toRotationMatrix());
   const auto relaxer = rkl_relaxer(cell);
   const Eigen::Vector3d way(std::cos(angle), std::sin(angle), 0.0);
   for (int i = 0; i <= 30; ++i) {
     const Eigen::Vector3d at = (0.001 * i - 0.015) * way;
-    footprint.place(bed, at.x(), at.y());
-    displace(bed, footprint, -0.005, 0.001 * way, out);
-    footprint.hold_bowl(bed);
+    tool.place(bed, at.x(), at.y());
+    tool.displace(bed, -0.005, 0.001 * way, out);
+    tool.hold_bowl(bed);
     relaxer->relax(bed);
   }
   bed.hold({});
@@ -179,7 +163,7 @@ HeightField drawn_at(double angle, ToolShape shape, double cell) {
   return bed;
 }
 
-TEST(AnyTool, TurnedByThirtyDegreesItLeavesTheSameWithinTheCellsError) {
+TEST(ShapedTool, TurnedByThirtyDegreesItLeavesTheSameWithinTheCellsError) {
   const double angle = pi / 6.0;
   for (const ToolShape shape : any_shape) {
     std::vector<double> shares;
@@ -202,21 +186,21 @@ TEST(AnyTool, TurnedByThirtyDegreesItLeavesTheSameWithinTheCellsError) {
   }
 }
 
-TEST(AnyTool, ABladeAcrossATroughPushesTheHeapOfItsSand) {
+TEST(ShapedTool, ABladeAcrossATroughPushesTheHeapOfItsSand) {
   // What it cuts, d s, lies before it as a wedge of the talus slope t: h^2 / (2 t).
   const double depth = 0.004, way = 0.12, talus = 35.0, slope = std::tan(talus * pi / 180.0);
   for (const double cell : {0.002, 0.001, 0.0005}) {
     HeightField bed(10, static_cast<int>(std::lround(0.3 / cell)), cell);
     ToolSettings blade = solid_tool(ToolShape::plate);
     blade.width = 1.0, blade.height = 0.1, blade.thickness = 0.004;
-    ToolFootprint footprint(blade);
+    ShapedTool tool(blade);
     const auto relaxer = rkl_relaxer(cell, talus);
     const double step = 0.25 * cell;
     const int steps = static_cast<int>(std::lround(way / step));
     for (int i = 0; i <= steps; ++i) {
-      footprint.place(bed, -0.1 + step * i, 0.0);
-      displace(bed, footprint, -depth, {step, 0.0, 0.0}, out);
-      footprint.hold_bowl(bed);
+      tool.place(bed, -0.1 + step * i, 0.0);
+      tool.displace(bed, -depth, {step, 0.0, 0.0}, out);
+      tool.hold_bowl(bed);
       relaxer->relax(bed);
     }
     const double expected = std::sqrt(2.0 * slope * depth * way), heap = bed.grid().maxCoeff();
@@ -239,22 +223,22 @@ ToolSettings wedge(double slope, double half_length) {
   return tool;
 }
 
-TEST(AnyTool, AWedgeLeavesLeveesOfTheSandThatItTookThePlaceOf) {
+TEST(ShapedTool, AWedgeLeavesLeveesOfTheSandThatItTookThePlaceOf) {
   // On each side d^2 / (2 s) of sand, as a levee of the talus slope t both ways: its height is d sqrt(t / (2
   // s)).
   const double depth = 0.01, flank = 0.4, talus = 33.0, slope = std::tan(talus * pi / 180.0);
   for (const double cell : {0.001, 0.0005, 0.00025}) {
     HeightField bed(12, static_cast<int>(std::lround(0.24 / cell)), cell);
-    const ToolSettings tool = wedge(flank, 20.0 * cell);
-    EXPECT_GT(enclosed_volume(*tool.mesh), 0.0);
-    ToolFootprint footprint(tool);
+    const ToolSettings settings = wedge(flank, 20.0 * cell);
+    EXPECT_GT(enclosed_volume(*settings.mesh), 0.0);
+    ShapedTool tool(settings);
     const auto relaxer = rkl_relaxer(cell, talus);
     const double step = 0.1 * cell;
     const int steps = static_cast<int>(std::lround(depth / step));
     for (int i = 1; i <= steps; ++i) {
-      footprint.place(bed, 0.0, 0.0);
-      displace(bed, footprint, -step * i, {0.0, 0.0, -step}, out);
-      footprint.hold_bowl(bed);
+      tool.place(bed, 0.0, 0.0);
+      tool.displace(bed, -step * i, {0.0, 0.0, -step}, out);
+      tool.hold_bowl(bed);
       relaxer->relax(bed);
     }
     bed.hold({});
@@ -265,29 +249,30 @@ TEST(AnyTool, AWedgeLeavesLeveesOfTheSandThatItTookThePlaceOf) {
   }
 }
 
-TEST(AnyTool, HoweverItIsMadeAndHeldItLosesNoSand) {
+TEST(ShapedTool, HoweverItIsMadeAndHeldItLosesNoSand) {
   std::mt19937 random(7);
   const auto upto = [&](double most) { return most * static_cast<double>(random()) / 0x1p32; };
   const auto length = [&] { return std::pow(10.0, -4.0 + upto(2.6)); };  // 0.1 to 40 mm
   int refused = 0;
   for (int i = 0; i < 200; ++i) {
-    ToolSettings tool{length(), ToolProfile::sphere, true};
-    tool.shape = any_shape[random() % any_shape.size()];
-    tool.height = length(), tool.width = length(), tool.thickness = length(), tool.spacing = length();
-    tool.size = {length(), length(), length()};
-    tool.teeth = 1 + static_cast<int>(random() % 6);
-    tool.orientation = {upto(720.0) - 360.0, upto(720.0) - 360.0, upto(720.0) - 360.0};
+    ToolSettings settings{length(), ToolProfile::sphere, true};
+    settings.shape = any_shape[random() % any_shape.size()];
+    settings.height = length(), settings.width = length(), settings.thickness = length(),
+    settings.spacing = length();
+    settings.size = {length(), length(), length()};
+    settings.teeth = 1 + static_cast<int>(random() % 6);
+    settings.orientation = {upto(720.0) - 360.0, upto(720.0) - 360.0, upto(720.0) - 360.0};
     HeightField bed(97, 131, cell_side);
-    ToolFootprint footprint(tool);
+    ShapedTool tool(settings);
     double pushed = 0.0;
     try {
       for (int step = 0; step < 4; ++step) {
-        footprint.turn(Eigen::AngleAxisd(upto(7.0), Eigen::Vector3d(upto(1.0), upto(1.0), 0.1).normalized())
-                           .toRotationMatrix());
-        footprint.place(bed, upto(0.14) - 0.07, upto(0.1) - 0.05);
-        if (!footprint.cells().empty())
-          pushed += displace(bed, footprint, upto(0.04) - 0.03, {1e-3, 0, 0}, out);
-        footprint.hold_bowl(bed);
+        tool.turn(Eigen::AngleAxisd(upto(7.0), Eigen::Vector3d(upto(1.0), upto(1.0), 0.1).normalized())
+                      .toRotationMatrix());
+        tool.place(bed, upto(0.14) - 0.07, upto(0.1) - 0.05);
+        if (!tool.footprint().cells().empty())
+          pushed += tool.displace(bed, upto(0.04) - 0.03, {1e-3, 0, 0}, out);
+        tool.hold_bowl(bed);
       }
     } catch (const Error& error) {
       EXPECT_EQ(error.kind(), ErrorKind::input) << error.what();

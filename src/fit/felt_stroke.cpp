@@ -1,0 +1,32 @@
+#include "fit/felt_stroke.h"
+
+#include "core/error.h"
+#include "import/import_stroke.h"
+#include "io/scene_toml.h"
+#include "io/surface_file.h"
+#include "run/run_scene.h"
+
+namespace sandstroke {
+
+FeltStroke felt_stroke(const Scene& asked, const std::filesystem::path& scene_folder) {
+  if (!asked.stroke)
+    throw_input_error("the scene has no stroke; name one that was recorded with forces: --stroke FILE");
+  if (!asked.plugin_laws.force.empty())
+    throw_input_error(
+        "model.force = \"{}\" is a plugin law, and fit does not know its constants; vary model.parameters in "
+        "a sweep, or leave out model.force to fit force.law",
+        asked.plugin_laws.force);
+  Scene scene = with_files(asked, scene_folder);
+  scene.device.model = DeviceModel::kinematic;
+  const std::filesystem::path path = stroke_path(scene, scene_folder);
+  std::string hash;
+  Stroke stroke = placed_stroke(scene, path, hash);
+  if (stroke.force.empty())
+    throw_input_error(
+        "{}: has no forces, so there is nothing to fit; name the force columns and their unit "
+        "(stroke.table.force and force_unit), or give another --stroke",
+        samples_name(path));
+  return {scene, load_surface(scene.bed, scene_folder), std::move(stroke)};
+}
+
+}  // namespace sandstroke
