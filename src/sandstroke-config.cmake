@@ -1,4 +1,4 @@
-# find_package(sandstroke): targets sandstroke::core, ::sand, ::haptics and ::sim, each with what it links.
+# find_package(sandstroke): targets sandstroke::core, ::sand, ::haptics, ::sim and ::measure, each with what it links.
 include(CMakeFindDependencyMacro)
 foreach(dependency Eigen3 spdlog TBB hwy)
   find_dependency(${dependency} CONFIG)

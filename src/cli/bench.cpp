@@ -6,8 +6,7 @@
 
 #include "cli/commands.h"
 #include "cli/plugin_options.h"
-#include "cli/print_json.h"
-#include "cli/print_text.h"
+#include "cli/standard_output.h"
 #include "core/interrupt.h"
 #include "core/progress.h"
 #include "validation/study/plugin_contenders.h"

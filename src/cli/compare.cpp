@@ -7,15 +7,14 @@
 #include <vector>
 
 #include "cli/commands.h"
-#include "cli/print_json.h"
-#include "cli/print_text.h"
+#include "cli/standard_output.h"
 #include "cli/tolerance_options.h"
-#include "compare/compare_page.h"
 #include "compare/compare_runs.h"
 #include "compare/junit.h"
 #include "core/error.h"
 #include "core/output_file.h"
 #include "io/png_file.h"
+#include "pages/compare_page.h"
 #include "report/page.h"
 
 namespace sandstroke {

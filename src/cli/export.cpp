@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "cli/commands.h"
-#include "cli/print_text.h"
 #include "cli/run_surface.h"
+#include "cli/standard_output.h"
 #include "core/error.h"
 #include "core/interrupt.h"
 #include "core/machine.h"

@@ -9,8 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/commands.h"
-#include "cli/print_json.h"
-#include "cli/print_row.h"
+#include "cli/standard_output.h"
 #include "core/error.h"
 #include "core/interrupt.h"
 #include "io/scene_toml.h"

@@ -7,8 +7,6 @@
 #include <vector>
 
 #include "cli/commands.h"
-#include "cli/print_json.h"
-#include "cli/print_text.h"
 #include "cli/run_picture.h"
 #include "cli/standard_output.h"
 #include "cli/tolerance_options.h"
@@ -17,6 +15,7 @@
 #include "core/interrupt.h"
 #include "core/output_file.h"
 #include "io/scene_toml.h"
+#include "pages/compare_page.h"
 #include "report/page.h"
 #include "run/run_scene.h"
 
@@ -54,6 +53,19 @@ std::string summary(const Comparison& comparison) {
   return lines;
 }
 
+fs::path page_path(const fs::path& report, const std::string& name) { return report / (name + ".html"); }
+
+/// Writes a page for each scene that was compared, if a folder for them is given.
+ComparisonWatcher page_writer(const fs::path& report) {
+  if (report.empty()) return {};
+  return [report](const GoldenEntry& entry, const GoldenRun& run, const Comparison& comparison,
+                  const Tolerances& tolerances) {
+    make_folder(report);
+    write_text_file(page_path(report, entry.name), golden_page(entry, run, comparison, tolerances).html(),
+                    page_output);
+  };
+}
+
 int check(const GoldenArguments& arguments) {
   const std::vector<std::string> names = golden_names(arguments.folders, arguments.names);
   std::vector<fs::path> files;
@@ -63,16 +75,15 @@ int check(const GoldenArguments& arguments) {
     files.push_back(arguments.junit);
   }
   if (!arguments.report.empty()) {
-    for (const std::string& name : names)
-      check_output(golden_page_path(arguments.report, name), files, page_output);
+    for (const std::string& name : names) check_output(page_path(arguments.report, name), files, page_output);
   }
   catch_interrupts();
   std::vector<Comparison> comparisons;
   nlohmann::json scenes = nlohmann::json::array();
   bool passed = true;
   for (const std::string& name : names) {
-    comparisons.push_back(
-        check_golden(name, arguments.folders, run_golden_scene, arguments.tolerances, arguments.report));
+    comparisons.push_back(check_golden(name, arguments.folders, run_golden_scene, arguments.tolerances,
+                                       page_writer(arguments.report)));
     if (interrupted()) return 128 + interrupted();
     passed = passed && comparisons.back().passed();
     scenes.push_back(to_json(comparisons.back()));
@@ -83,9 +94,8 @@ int check(const GoldenArguments& arguments) {
   if (arguments.json)
     print_json(nlohmann::json{{"passed", passed}, {"scenes", scenes}});
   else if (!arguments.report.empty() &&
-           std::any_of(comparisons.begin(), comparisons.end(), [&](const auto& one) {
-             return fs::exists(golden_page_path(arguments.report, one.name));
-           }))
+           std::any_of(comparisons.begin(), comparisons.end(),
+                       [&](const auto& one) { return fs::exists(page_path(arguments.report, one.name)); }))
     print_text("pages   {}\n", arguments.report.string());
   return passed ? 0 : 1;
 }

@@ -6,7 +6,7 @@
 #include "cli/commands.h"
 #include "cli/help_formatter.h"
 #include "cli/manual.h"
-#include "cli/print_text.h"
+#include "cli/standard_output.h"
 #include "core/error.h"
 
 namespace sandstroke {

@@ -8,8 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/commands.h"
-#include "cli/print_json.h"
-#include "cli/print_text.h"
+#include "cli/standard_output.h"
 #include "compare/field_difference.h"
 #include "compare/trace_difference.h"
 #include "core/error.h"

@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "cli/commands.h"
-#include "cli/print_text.h"
+#include "cli/standard_output.h"
 #include "core/asset.h"
 #include "core/error.h"
 #include "core/output_file.h"

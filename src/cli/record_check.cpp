@@ -1,8 +1,7 @@
 #include <spdlog/spdlog.h>
 
-#include "cli/print_json.h"
-#include "cli/print_row.h"
 #include "cli/record_parts.h"
+#include "cli/standard_output.h"
 #include "core/interrupt.h"
 #include "core/progress.h"
 #include "record/felt_loop_text.h"

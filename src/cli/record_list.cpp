@@ -3,9 +3,8 @@
 #include <limits>
 
 #include "cli/find_device.h"
-#include "cli/print_json.h"
-#include "cli/print_text.h"
 #include "cli/record_parts.h"
+#include "cli/standard_output.h"
 #include "io/table.h"
 
 namespace sandstroke {

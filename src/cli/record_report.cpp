@@ -1,8 +1,7 @@
 #include <spdlog/fmt/fmt.h>
 
-#include "cli/print_json.h"
-#include "cli/print_row.h"
 #include "cli/record_parts.h"
+#include "cli/standard_output.h"
 #include "record/recording_json.h"
 
 namespace sandstroke {

@@ -1,6 +1,6 @@
 #include "cli/record_view.h"
 
-#include "report/page.h"
+#include "view/live_page.h"
 
 namespace sandstroke {
 namespace {
@@ -16,8 +16,7 @@ ViewHello hello_of(const std::string& title, const Scene& scene, const HeightFie
 RecordView::RecordView(const std::string& title, const Scene& scene, const HeightField& start,
                        double max_force, PointerDevice* pointer, bool opens)
     : bed_(start),
-      server_({bed_, state_, hello_of(title, scene, start, max_force, pointer),
-               html_page(title, PageScript::live, {}), pointer}),
+      server_({bed_, state_, hello_of(title, scene, start, max_force, pointer), live_page(title), pointer}),
       opener_(announce_view(server_, opens)) {
   if (!pointer) wait_for_page(server_, "recording");
 }

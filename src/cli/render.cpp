@@ -8,10 +8,10 @@
 
 #include "cli/commands.h"
 #include "cli/parse_number.h"
-#include "cli/print_text.h"
 #include "cli/run_film.h"
 #include "cli/run_picture.h"
 #include "cli/run_surface.h"
+#include "cli/standard_output.h"
 #include "core/error.h"
 #include "core/interrupt.h"
 #include "core/output_file.h"

@@ -2,11 +2,11 @@
 #include <memory>
 
 #include "cli/commands.h"
-#include "cli/print_text.h"
 #include "cli/run_picture.h"
-#include "compare/run_report.h"
+#include "cli/standard_output.h"
 #include "core/error.h"
 #include "core/output_file.h"
+#include "pages/run_report.h"
 #include "report/page.h"
 
 namespace sandstroke {

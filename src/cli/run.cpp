@@ -7,11 +7,10 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/commands.h"
-#include "cli/print_json.h"
-#include "cli/print_row.h"
 #include "cli/run_film.h"
 #include "cli/run_picture.h"
 #include "cli/run_view.h"
+#include "cli/standard_output.h"
 #include "core/error.h"
 #include "core/interrupt.h"
 #include "core/log.h"
@@ -22,13 +21,13 @@
 #include "io/run_file.h"
 #include "io/scene_toml.h"
 #include "io/xdmf.h"
+#include "measure/force_agreement.h"
+#include "measure/furrow.h"
+#include "measure/stroke_depth.h"
 #include "run/run_scene.h"
 #include "run/run_summary.h"
 #include "run/run_warnings.h"
-#include "sim/furrow.h"
-#include "sim/recorded_force.h"
 #include "sim/simulation.h"
-#include "sim/stroke_depth.h"
 #include "tool/tool_surface.h"
 
 namespace sandstroke {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/error.h"
-#include "io/last_surface.h"
+#include "io/run_file.h"
 #include "render/change_picture.h"
 #include "tool/tool_surface.h"
 

@@ -6,7 +6,7 @@
 #include <thread>
 
 #include "core/interrupt.h"
-#include "report/page.h"
+#include "view/live_page.h"
 
 namespace sandstroke {
 namespace {
@@ -23,7 +23,7 @@ RunView::RunView(const Simulation& simulation, const std::string& title, bool op
       server_({bed_, shown_,
                ViewHello{title, simulation.bed(), height_range(simulation.bed()), simulation.scene().tool,
                          simulation.scene().device.max_force, std::nullopt},
-               html_page(title, PageScript::live, {})}),
+               live_page(title)}),
       opener_(announce_view(server_, opens)),
       playing_(simulation.stroke_seconds() > 0.0) {
   wait_for_page(server_, "run");

@@ -10,8 +10,7 @@
 
 #include "cli/commands.h"
 #include "cli/plugin_options.h"
-#include "cli/print_json.h"
-#include "cli/print_text.h"
+#include "cli/standard_output.h"
 #include "core/error.h"
 #include "core/interrupt.h"
 #include "core/output_file.h"
@@ -87,8 +86,7 @@ int stress(const StressArguments& arguments) {
   data["machine"] = describe_machine();
   data["quick"] = arguments.quick;
   data["seconds"] = watch.seconds();
-  write_text_file(page, html_page("sandstroke stress: numerical stability", PageScript::stress, data),
-                  page_output);
+  write_text_file(page, stress_page(data), page_output);
   if (arguments.json) {
     print_json(data);
   } else {

@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "cli/commands.h"
-#include "cli/print_json.h"
+#include "cli/standard_output.h"
 #include "cli/stroke_parts.h"
 #include "cli/table_options.h"
 #include "core/error.h"

@@ -4,9 +4,8 @@
 #include <cmath>
 #include <memory>
 
-#include "cli/print_json.h"
-#include "cli/print_text.h"
 #include "cli/record_parts.h"
+#include "cli/standard_output.h"
 #include "cli/stroke_parts.h"
 #include "core/log.h"
 #include "core/median.h"

@@ -1,8 +1,7 @@
 #include <filesystem>
 #include <memory>
 
-#include "cli/print_json.h"
-#include "cli/print_row.h"
+#include "cli/standard_output.h"
 #include "cli/stroke_parts.h"
 #include "core/error.h"
 #include "core/output_file.h"

@@ -6,9 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/commands.h"
-#include "cli/print_json.h"
-#include "cli/print_row.h"
-#include "cli/print_text.h"
+#include "cli/standard_output.h"
 #include "cli/sweep_parts.h"
 #include "core/counted.h"
 #include "core/error.h"

@@ -2,8 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "cli/print_json.h"
-#include "cli/print_row.h"
+#include "cli/standard_output.h"
 #include "cli/sweep_parts.h"
 
 namespace sandstroke {

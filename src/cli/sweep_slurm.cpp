@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "cli/print_json.h"
-#include "cli/print_text.h"
+#include "cli/standard_output.h"
 #include "cli/sweep_parts.h"
 #include "sweep/slurm_jobs.h"
 

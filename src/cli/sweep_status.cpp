@@ -5,9 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "cli/print_json.h"
-#include "cli/print_row.h"
-#include "cli/print_text.h"
+#include "cli/standard_output.h"
 #include "cli/sweep_parts.h"
 
 namespace sandstroke {

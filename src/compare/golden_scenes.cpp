@@ -4,14 +4,12 @@
 
 #include <set>
 
-#include "compare/compare_page.h"
 #include "core/error.h"
 #include "core/output_file.h"
 #include "core/shell_text.h"
 #include "core/stopwatch.h"
 #include "core/temporary_folder.h"
 #include "io/scene_toml.h"
-#include "report/page.h"
 
 namespace sandstroke {
 namespace {
@@ -74,7 +72,7 @@ std::vector<std::string> golden_names(const GoldenFolders& folders,
 }
 
 Comparison check_golden(const std::string& name, const GoldenFolders& folders, const SceneRunner& runner,
-                        const GivenTolerances& options, const fs::path& report) {
+                        const GivenTolerances& options, const ComparisonWatcher& compared) {
   const Stopwatch watch;
   const auto failed = [&](const std::string& name_of_check, const std::string& sentence) {
     Check check = fact_check(name_of_check, false, sentence);
@@ -110,11 +108,7 @@ Comparison check_golden(const std::string& name, const GoldenFolders& folders, c
   const Tolerances tolerances = values_of(used);
   Comparison comparison = compare_golden(entry, run, tolerances);
   comparison.tolerances = used;
-  if (!report.empty()) {
-    make_folder(report);
-    write_text_file(golden_page_path(report, name), golden_page(entry, run, comparison, tolerances).html(),
-                    page_output);
-  }
+  if (compared) compared(entry, run, comparison, tolerances);
   return comparison;
 }
 

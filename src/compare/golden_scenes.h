@@ -26,17 +26,16 @@ struct GoldenFolders {
 std::vector<std::string> golden_names(const GoldenFolders& folders,
                                       const std::vector<std::string>& asked_for);
 
-/// Where check_golden writes a scene's page, in the folder of pages.
-inline std::filesystem::path golden_page_path(const std::filesystem::path& report, const std::string& name) {
-  return report / (name + ".html");
-}
+/// Called with what was compared, while the files of the run are there.
+using ComparisonWatcher =
+    std::function<void(const GoldenEntry&, const GoldenRun&, const Comparison&, const Tolerances&)>;
 
 /// Runs one scene and compares it with its golden entry. Tolerances in `options` override those of the
 /// entry's own tolerances.toml. These are failed checks: a scene without entry, an entry without scene, a
-/// file of tolerances with bad input, and a run that stops with bad input or is interrupted. report: a folder
-/// for the page, or empty.
+/// file of tolerances with bad input, and a run that stops with bad input or is interrupted. compared: called
+/// if the run was compared; or empty.
 Comparison check_golden(const std::string& name, const GoldenFolders& folders, const SceneRunner& runner,
-                        const GivenTolerances& options, const std::filesystem::path& report);
+                        const GivenTolerances& options, const ComparisonWatcher& compared = {});
 
 /// Runs one scene and makes the result its golden entry. Returns false, and changes nothing, where the run
 /// was interrupted. Error: input where there is no such scene.

@@ -10,7 +10,9 @@ namespace sandstroke {
 /// for drag by differences of positions, at most |B| whatever n. (Here drag is by the velocity read. There is
 /// no theorem for that, but tests/stress found no counterexample among thousands of loops.) It does not count
 /// dropped ticks. K [N/m], B [N s/m].
-double passivity_margin(double stiffness, double drag, const DeviceSettings& device);
+inline double passivity_margin(double stiffness, double drag, const DeviceSettings& device) {
+  return device.damping + device.hand_damping - ((0.5 + device.delay) * stiffness / device.servo_rate + drag);
+}
 
 /// Energy that a device has given to the sand (Hannaford & Ryu 2002). Exact for a force held during each
 /// tick.

@@ -9,10 +9,9 @@
 #include "core/elementary.h"
 #include "core/error.h"
 #include "core/input_file.h"
-#include "import/curve_points.h"
-#include "import/finite_samples.h"
 #include "import/gcode_path.h"
 #include "import/gcode_words.h"
+#include "import/sample_checks.h"
 #include "import/table_layout.h"
 #include "import/text_parts.h"
 

@@ -5,7 +5,7 @@
 #include "core/elementary.h"
 #include "core/error.h"
 #include "core/input_file.h"
-#include "import/curve_points.h"
+#include "import/sample_checks.h"
 #include "import/text_parts.h"
 
 namespace sandstroke {

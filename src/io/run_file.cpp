@@ -1,5 +1,7 @@
 #include "io/run_file.h"
 
+#include <spdlog/fmt/fmt.h>
+
 #include <limits>
 
 #include "core/error.h"
@@ -227,6 +229,17 @@ HeightGrid RunFrames::surface(int k) {
   }
   for (; applied_ <= k; ++applied_) tiles_read_ += run_.apply_frame(applied_, *surface_);
   return surface_->grid();
+}
+
+LastSurface last_surface(const RunFile& run) {
+  if (run.has_final()) return {run.final_bed(), "final surface"};
+  LastSurface last{run.initial_bed(), "initial surface"};
+  const std::vector<double> times = run.frame_times();
+  for (std::size_t k = 0; k < times.size(); ++k) {
+    run.apply_frame(static_cast<int>(k), last.surface);
+    last.name = fmt::format("surface at {:.4g} s", times[k]);
+  }
+  return last;
 }
 
 }  // namespace sandstroke

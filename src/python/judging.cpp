@@ -1,4 +1,4 @@
-#include "python/judging.h"
+#include "python/module_parts.h"
 
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>

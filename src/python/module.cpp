@@ -14,10 +14,9 @@
 #include "io/scene_toml.h"
 #include "python/arrays.h"
 #include "python/errors.h"
-#include "python/judging.h"
 #include "python/kept_run.h"
+#include "python/module_parts.h"
 #include "python/plugin_laws.h"
-#include "python/stepped.h"
 #include "render/height_field_renderer.h"
 #include "tool/tool_surface.h"
 

@@ -1,4 +1,4 @@
-#include "python/stepped.h"
+#include "python/module_parts.h"
 
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>

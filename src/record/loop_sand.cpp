@@ -5,8 +5,8 @@
 
 #include "core/bisection.h"
 #include "haptics/loop_stability.h"
+#include "measure/contact_stiffness.h"
 #include "record/live_sand.h"
-#include "sim/contact_stiffness.h"
 
 namespace sandstroke {
 namespace {

@@ -3,7 +3,6 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <thread>
-#include <vector>
 
 #include "core/asset.h"
 #include "core/machine.h"
@@ -18,61 +17,14 @@ SANDSTROKE_DECLARE_ASSET(charts_notice);
 SANDSTROKE_DECLARE_ASSET(style);
 SANDSTROKE_DECLARE_ASSET(page);
 SANDSTROKE_DECLARE_ASSET(plot);
-SANDSTROKE_DECLARE_ASSET(bench);
-SANDSTROKE_DECLARE_ASSET(stress);
-SANDSTROKE_DECLARE_ASSET(sweep_charts);
-SANDSTROKE_DECLARE_ASSET(sweep_points);
-SANDSTROKE_DECLARE_ASSET(sweep);
-SANDSTROKE_DECLARE_ASSET(sweep_style);
-SANDSTROKE_DECLARE_ASSET(maps);
-SANDSTROKE_DECLARE_ASSET(curves);
-SANDSTROKE_DECLARE_ASSET(parts);
-SANDSTROKE_DECLARE_ASSET(parts_style);
-SANDSTROKE_DECLARE_ASSET(compare);
-SANDSTROKE_DECLARE_ASSET(run);
 SANDSTROKE_DECLARE_ASSET(gl);
 SANDSTROKE_DECLARE_ASSET(sand);
 SANDSTROKE_DECLARE_ASSET(sand_view);
-SANDSTROKE_DECLARE_ASSET(sand_part);
 SANDSTROKE_DECLARE_ASSET(sand_style);
 SANDSTROKE_DECLARE_ASSET(sand_look);  // of picture
-SANDSTROKE_DECLARE_ASSET(live);
-SANDSTROKE_DECLARE_ASSET(live_style);
 
 namespace sandstroke {
 namespace {
-
-/// The parts of a page that not all pages have.
-struct PageAssets {
-  std::vector<std::string_view> scripts, styles;
-  bool charts = true, sand = false;
-};
-
-PageAssets assets_of(PageScript script) {
-  const auto of_parts = [](std::string_view own) {
-    return PageAssets{{SANDSTROKE_ASSET(maps), SANDSTROKE_ASSET(curves), SANDSTROKE_ASSET(sand_part),
-                       SANDSTROKE_ASSET(parts), own},
-                      {SANDSTROKE_ASSET(parts_style)},
-                      true,
-                      true};
-  };
-  switch (script) {
-    case PageScript::bench:
-      return {{SANDSTROKE_ASSET(bench)}, {}};
-    case PageScript::stress:
-      return {{SANDSTROKE_ASSET(stress)}, {}};
-    case PageScript::sweep:
-      return {{SANDSTROKE_ASSET(sweep_charts), SANDSTROKE_ASSET(sweep_points), SANDSTROKE_ASSET(sweep)},
-              {SANDSTROKE_ASSET(sweep_style)}};
-    case PageScript::compare:
-      return of_parts(SANDSTROKE_ASSET(compare));
-    case PageScript::run:
-      return of_parts(SANDSTROKE_ASSET(run));
-    case PageScript::live:
-      return {{SANDSTROKE_ASSET(live)}, {SANDSTROKE_ASSET(live_style)}, false, true};
-  }
-  return {};
-}
 
 /// Appends the scripts of a page, in order.
 void add_scripts(const PageAssets& own, std::string& page) {
@@ -104,8 +56,7 @@ std::string script_safe(const nlohmann::ordered_json& data) {
 
 }  // namespace
 
-std::string html_page(std::string_view title, PageScript script, const nlohmann::ordered_json& data) {
-  const PageAssets own = assets_of(script);
+std::string html_page(std::string_view title, const PageAssets& own, const nlohmann::ordered_json& data) {
   const std::string name = xml_escaped(title);
   std::string page = fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"

@@ -3,14 +3,18 @@
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "core/output_file.h"
 
 namespace sandstroke {
 
-/// The scripts of a page: page.js, which all pages share, and its own. live: sand while it is shaped, from
-/// the server that the page came from; it has no charts.
-enum class PageScript { bench, stress, sweep, compare, run, live };
+/// What a page has beside the frame that all pages share.
+struct PageAssets {
+  std::vector<std::string_view> scripts = {}, styles = {};  ///< its own
+  bool charts = true;                                       ///< the chart library
+  bool sand = false;                                        ///< sand in 3-D
+};
 
 /// The generator tells a page from other files.
 inline constexpr OutputKind page_output{"a page", "<!DOCTYPE html>\n",
@@ -19,7 +23,7 @@ inline constexpr OutputKind page_output{"a page", "<!DOCTYPE html>\n",
 /// One self-contained HTML page: style, chart library (with its licence), scripts and data are embedded, so
 /// it needs no network. Text in `data` may come from anywhere: it cannot end the page's script element, and
 /// the scripts put it into the page as text only.
-std::string html_page(std::string_view title, PageScript script, const nlohmann::ordered_json& data);
+std::string html_page(std::string_view title, const PageAssets& own, const nlohmann::ordered_json& data);
 
 /// The machine and the build that measured: cpu, cores, compiler, instruction_set, version, commit.
 nlohmann::ordered_json describe_machine();

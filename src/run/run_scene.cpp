@@ -25,11 +25,11 @@
 #include "io/scene_toml.h"
 #include "io/stroke_file.h"
 #include "io/surface_file.h"
+#include "measure/force_agreement.h"
+#include "measure/furrow.h"
+#include "measure/stroke_depth.h"
 #include "run/run_progress.h"
 #include "sim/device_force.h"
-#include "sim/furrow.h"
-#include "sim/recorded_force.h"
-#include "sim/stroke_depth.h"
 
 namespace sandstroke {
 namespace {

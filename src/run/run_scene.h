@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "io/scene_file.h"
-#include "sim/error_estimate.h"
+#include "measure/error_estimate.h"
 #include "sim/run_result.h"
 #include "sim/simulation.h"
 

@@ -3,9 +3,9 @@
 #include <spdlog/spdlog.h>
 
 #include "core/log.h"
-#include "sim/furrow.h"
+#include "measure/furrow.h"
+#include "measure/stroke_depth.h"
 #include "sim/simulation.h"
-#include "sim/stroke_depth.h"
 
 namespace sandstroke {
 namespace {

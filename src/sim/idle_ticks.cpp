@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "rules/schedule.h"
+
 namespace sandstroke {
 
 std::vector<TickRange> idle_ticks(const Stroke& stroke, const DeviceSettings& device) {
@@ -17,6 +19,18 @@ std::vector<TickRange> idle_ticks(const Stroke& stroke, const DeviceSettings& de
     if (range.begin < range.end) idle.push_back(range);
   }
   return idle;
+}
+
+std::int64_t next_due(const TickRange& ticks, double servo_rate, double rate) {
+  const double due = times_due(ticks.begin, servo_rate, rate);
+  if (times_due(ticks.end, servo_rate, rate) == due) return ticks.end;
+  // Bisection: due(low) == due < due(high).
+  std::int64_t low = ticks.begin, high = ticks.end;
+  while (high - low > 1) {
+    const std::int64_t middle = low + (high - low) / 2;
+    (times_due(middle, servo_rate, rate) == due ? low : high) = middle;
+  }
+  return low;
 }
 
 }  // namespace sandstroke

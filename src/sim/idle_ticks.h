@@ -20,4 +20,7 @@ struct TickRange {
 /// forces late. The stroke must have passed check_stroke, and have less than 1e15 ticks.
 std::vector<TickRange> idle_ticks(const Stroke& stroke, const DeviceSettings& device);
 
+/// The first tick of a range in which an event of this rate is due; the range's end if there is none.
+std::int64_t next_due(const TickRange& ticks, double servo_rate, double rate);
+
 }  // namespace sandstroke

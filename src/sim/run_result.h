@@ -22,7 +22,7 @@ struct TickRecord {
   Eigen::Vector3d device_force = Eigen::Vector3d::Zero();     ///< N, on the device, saturated
   Eigen::Vector3d repulse_force = Eigen::Vector3d::Zero();    ///< N
   Eigen::Vector3d drag_force = Eigen::Vector3d::Zero();       ///< N
-  /// N, the force on the hand that was recorded with the stroke (sim/recorded_force.h); NaN: not known.
+  /// N, the force on the hand that was recorded with the stroke (haptics/recorded_force.h); NaN: not known.
   Eigen::Vector3d recorded_force = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
   Wrench wrench = {};  ///< of the contact, by any law but the paper's: force and torque on the bed's axes
   double level = std::numeric_limits<double>::quiet_NaN();  ///< m, sand level under the tool; NaN: lifted
@@ -157,7 +157,7 @@ void visit_relaxation_fields(const Visit& visit) {
       [](auto& record) -> auto& { return record.outcome.moved_volume; });
 }
 
-/// How well the forces of a run and those that were recorded agree (sim/recorded_force.h).
+/// How well the forces of a run and those that were recorded agree (measure/force_agreement.h).
 struct ForceAgreement {
   std::int64_t ticks = 0;                                              ///< ticks that have both
   double rms = 0.0, max = 0.0;                                         ///< N, of the difference's magnitude
@@ -203,7 +203,7 @@ void visit_error_fields(const Visit& visit) {
 }
 
 /// The furrow that a stroke left, measured in cross-sections of the change of height (final - initial), so
-/// that the bed's earlier shape does not count (sim/furrow.h). NaN: nothing to measure.
+/// that the bed's earlier shape does not count (measure/furrow.h). NaN: nothing to measure.
 struct FurrowMeasures {
   /// Depth of the lowest point below the initial surface [m], within a tool radius of the path; 0 if there is
   /// no furrow.

@@ -6,9 +6,9 @@
 #include "core/error.h"
 #include "core/interrupt.h"
 #include "core/stopwatch.h"
-#include "sim/recorded_force.h"
-#include "sim/stroke_depth.h"
-#include "sim/tick_schedule.h"
+#include "haptics/recorded_force.h"
+#include "rules/schedule.h"
+#include "sim/check_inside.h"
 
 namespace sandstroke {
 
@@ -21,7 +21,7 @@ Simulation::Simulation(const Scene& scene, HeightField bed, std::optional<Stroke
         "the stroke lasts {} s: at {} Hz a run cannot play that many ticks; correct its times, or set "
         "stroke.stop",
         stroke->duration(), scene.device.servo_rate);
-  check_inside(*stroke);
+  check_inside(*stroke, loop_.scene(), loop_.bed());
   ticks_ = static_cast<std::int64_t>(std::floor(stroke->duration() * scene.device.servo_rate + 1e-9)) + 1;
   idle_ = idle_ticks(*stroke, scene.device);
   if (stroke->follows_sand) {
@@ -29,19 +29,6 @@ Simulation::Simulation(const Scene& scene, HeightField bed, std::optional<Stroke
     result_.followed.emplace();
   }
   stroke_.emplace(std::move(*stroke));
-}
-
-void Simulation::check_inside(const Stroke& stroke) const {
-  const double highest = stroke.follows_sand ? 0.0 : bed().highest();
-  for (std::size_t i = 0; i < stroke.size(); ++i) {
-    const Eigen::Vector3d tip = tip_of(scene().device, stroke.position[i]);
-    const double beyond = bed().beyond_edge(tip.x(), tip.y());
-    if (beyond > 0.0 && stroke.pen_down(i) && tip.z() < highest)
-      throw_input_error(
-          "the stroke enters the sand outside the bed: at {:.3f} s it is {:.4g} mm beyond the bed's edge, at "
-          "x = {:.4g} m, y = {:.4g} m; {}",
-          stroke.time[i], 1e3 * beyond, tip.x(), tip.y(), way_onto_the_bed(stroke, scene()));
-  }
 }
 
 Hand Simulation::hand_at(double time) {

@@ -34,7 +34,6 @@ class Simulation {
   RunResult run(const Observers& observers = {});
 
  private:
-  void check_inside(const Stroke& stroke) const;
   void run_stroke();
   /// The stages of the tick at whose end the stroke is at next_time (TickLoop::step).
   TickRecord tick(double time, const Hand& hand, double next_time, const std::function<void()>& relax);

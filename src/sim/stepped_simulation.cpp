@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "core/error.h"
-#include "sim/tick_schedule.h"
+#include "rules/schedule.h"
 
 namespace sandstroke {
 

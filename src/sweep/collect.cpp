@@ -58,9 +58,7 @@ CollectReport collect(const SweepFolder& folder) {
   const CollectedSweep sweep(folder, report);
   write_sweep_file(folder.path() / "sweep.h5", sweep, report.content_hash);
   write_text_file(folder.path() / "sweep.csv", csv_text(sweep_table(sweep)), table_output);
-  const nlohmann::ordered_json data = sweep_page_data(sweep, report);
-  const std::string title = "Sweep " + data["title"].get<std::string>();
-  write_text_file(folder.path() / "sweep.html", html_page(title, PageScript::sweep, data), page_output);
+  write_text_file(folder.path() / "sweep.html", sweep_page(sweep_page_data(sweep, report)), page_output);
   return report;
 }
 

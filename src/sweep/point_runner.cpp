@@ -5,7 +5,7 @@
 
 #include "core/error.h"
 #include "core/interrupt.h"
-#include "sim/solution.h"
+#include "measure/solution.h"
 
 namespace sandstroke {
 namespace {

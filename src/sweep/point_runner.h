@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "haptics/stroke.h"
-#include "sim/error_estimate.h"
+#include "measure/error_estimate.h"
 #include "sweep/metrics.h"
 
 namespace sandstroke {

@@ -21,7 +21,7 @@
 #include "io/png_file.h"
 #include "io/run_file.h"
 #include "io/scene_toml.h"
-#include "sim/stroke_depth.h"
+#include "measure/stroke_depth.h"
 #include "sweep/point_runner.h"
 #include "tool/tool_surface.h"
 

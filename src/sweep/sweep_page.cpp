@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 
+#include "core/asset.h"
 #include "core/counted.h"
 #include "core/error.h"
 #include "io/png_file.h"
@@ -10,6 +11,11 @@
 #include "report/data_uri.h"
 #include "report/page.h"
 #include "sweep/thumbnail.h"
+
+SANDSTROKE_DECLARE_ASSET(sweep);
+SANDSTROKE_DECLARE_ASSET(sweep_charts);
+SANDSTROKE_DECLARE_ASSET(sweep_points);
+SANDSTROKE_DECLARE_ASSET(sweep_style);
 
 namespace sandstroke {
 namespace {
@@ -145,6 +151,13 @@ Json sweep_page_data(const CollectedSweep& sweep, CollectReport& report) {
             {"done", report.done},
             {"failed", report.failed},
             {"missing", report.missing + report.unreadable}}}};
+}
+
+std::string sweep_page(const Json& data) {
+  const PageAssets own{
+      .scripts = {SANDSTROKE_ASSET(sweep_charts), SANDSTROKE_ASSET(sweep_points), SANDSTROKE_ASSET(sweep)},
+      .styles = {SANDSTROKE_ASSET(sweep_style)}};
+  return html_page("Sweep " + data["title"].get<std::string>(), own, data);
 }
 
 }  // namespace sandstroke

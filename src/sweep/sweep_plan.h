@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "io/scene_file.h"
-#include "sim/error_estimate.h"
+#include "measure/error_estimate.h"
 #include "sweep/sweep_design.h"
 
 namespace sandstroke {

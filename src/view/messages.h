@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -39,6 +40,16 @@ struct PointerSample {
   /// The page's button "Finish" presses this switch.
   static constexpr int finish_switch = 31;
   std::uint32_t switches = 0;
+};
+
+/// Takes what a pointer in a page does. Called by the server's thread.
+class PointerSink {
+ public:
+  virtual ~PointerSink() = default;
+  /// Takes samples that just came from the page whose pointer is the hand.
+  virtual void take(std::span<const PointerSample> samples) = 0;
+  /// That page is gone.
+  virtual void leave() = 0;
 };
 
 // To the page, as JSON:

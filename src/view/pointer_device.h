@@ -13,7 +13,6 @@
 #include "sim/scene.h"
 #include "view/messages.h"
 #include "view/pointer_path.h"
-#include "view/pointer_sink.h"
 
 namespace sandstroke {
 

@@ -6,7 +6,6 @@
 #include "view/live_bed.h"
 #include "view/live_state.h"
 #include "view/messages.h"
-#include "view/pointer_sink.h"
 
 namespace sandstroke {
 

@@ -9,8 +9,8 @@
 
 #include "haptics/stroke_placement.h"
 #include "import/import_stroke.h"
+#include "measure/error_estimate.h"
 #include "sanitized.h"
-#include "sim/error_estimate.h"
 #include "validation/study/hand_strokes.h"
 #include "validation/study/stroke_replay.h"
 #include "validation/study/study.h"

@@ -6,6 +6,8 @@
 #include <chrono>
 #include <cmath>
 
+#include "sand/sphere_tool.h"
+
 namespace sandstroke {
 namespace {
 

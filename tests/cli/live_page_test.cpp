@@ -9,8 +9,8 @@
 
 #include "browser.h"
 #include "cli/viewed_program.h"
-#include "io/last_surface.h"
 #include "io/png_file.h"
+#include "io/run_file.h"
 #include "io/stroke_file.h"
 
 namespace sandstroke {

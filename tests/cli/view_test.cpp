@@ -8,7 +8,7 @@
 #include <thread>
 
 #include "cli/viewed_program.h"
-#include "io/last_surface.h"
+#include "io/run_file.h"
 #include "io/stroke_file.h"
 #include "view/view_client.h"
 

@@ -2,8 +2,8 @@
 #include "io/scene_toml.h"
 
 #include "fuzz.h"
+#include "measure/error_estimate.h"
 #include "play.h"
-#include "sim/error_estimate.h"
 
 using namespace sandstroke;
 

@@ -7,7 +7,7 @@ A fault is a dict:
   at           where in there, in bytes
   text         what it is in there
   replacement  what stands there instead
-  tests        the programs that should notice, in turn: ["sand", "sim:Furrow.*"]
+  tests        the programs that should notice, in turn: ["sand", "measure:Furrow.*"]
 
 Each job has a copy and a build of its own in build/mutants. Only the test programs that are asked for are built: the
 first time takes as long as that does.

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "core/error.h"
-#include "sim/contact_stiffness.h"
+#include "measure/contact_stiffness.h"
 
 namespace sandstroke {
 namespace {

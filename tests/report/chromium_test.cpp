@@ -7,7 +7,8 @@
 #include <set>
 
 #include "hostile_text.h"
-#include "report/page.h"
+#include "validation/stress/stress_report.h"
+#include "validation/study/study_table.h"
 
 namespace sandstroke {
 namespace {
@@ -20,8 +21,10 @@ Json data_of(const char* name) {
 Json bench_data() { return data_of("bench_data.json"); }
 Json stress_data() { return data_of("stress_data.json"); }
 
-OpenedPage open(PageScript script, const Json& data, const std::string& probe) {
-  return open_in_chromium(html_page("Title", script, data), probe);
+using Page = std::string (*)(const Json& data);
+
+OpenedPage open(Page page, const Json& data, const std::string& probe) {
+  return open_in_chromium(page(data), probe);
 }
 
 /// A probe from statements that return its value.
@@ -33,14 +36,14 @@ using AnyPage = BrowserTest;
 
 TEST_F(Bench, LoadsWithoutErrorsAndDrawsTheChartsOfItsData) {
   // The cone varies its cells and knows directions, the drag does neither.
-  const OpenedPage page = open(PageScript::bench, bench_data(), page_state);
+  const OpenedPage page = open(bench_page, bench_data(), page_state);
   EXPECT_EQ(page.answer, Json({"true", 4, 0}));
   EXPECT_TRUE(page.console.empty()) << page.console.front();
 }
 
 TEST_F(Bench, EverySeriesOfAProblemHasItsCurveAndItsNameInTheLegend) {
   const Json data = bench_data();
-  const OpenedPage page = open(PageScript::bench, data, function(R"js(
+  const OpenedPage page = open(bench_page, data, function(R"js(
     return [...document.querySelectorAll("section[id^=problem]")].map((section) => {
       const figure = section.querySelector("figure");
       return [...figure.querySelectorAll(".legend button")].map((button) => {
@@ -65,7 +68,7 @@ TEST_F(Bench, EverySeriesOfAProblemHasItsCurveAndItsNameInTheLegend) {
 
 TEST_F(Bench, APowerLawIsAStraightLine) {
   // rkl on the cone: the error halves as the cells double, three times. The path is "Mx yLx yLx y".
-  const OpenedPage page = open(PageScript::bench, bench_data(), function(R"js(
+  const OpenedPage page = open(bench_page, bench_data(), function(R"js(
     const path = document.querySelectorAll("figure")[1].querySelector(`.canvas path[stroke="${colours[0]}"]`);
     return path.getAttribute("d").match(/[-0-9.]+/g).map(Number);)js"));
   const std::vector<double> at = page.answer;
@@ -77,7 +80,7 @@ TEST_F(Bench, APowerLawIsAStraightLine) {
 }
 
 TEST_F(Bench, MarksTheParetoFrontAndTheErrorOfTheReference) {
-  const OpenedPage page = open(PageScript::bench, bench_data(), function(R"js(
+  const OpenedPage page = open(bench_page, bench_data(), function(R"js(
     return charts.filter((one) => one.option.series.some(({ name }) => name === "front")).map((one) => [
       one.option.series.find(({ name, type }) => name === "front" && type === "scatter").data.length,
       one.option.series.some(({ name }) => name === "converged")]);)js"));
@@ -86,13 +89,13 @@ TEST_F(Bench, MarksTheParetoFrontAndTheErrorOfTheReference) {
 
 TEST_F(Bench, AnErrorOfZeroIsLeftOutOfALogarithmicChartAndSaidSo) {
   const OpenedPage page =
-      open(PageScript::bench, bench_data(),
+      open(bench_page, bench_data(),
            "[...document.querySelectorAll('figcaption small')].map((note) => note.textContent).at(-1)");
   EXPECT_NE(page.answer.get<std::string>().find("1 of 4 runs"), std::string::npos) << page.answer;
 }
 
 TEST_F(Bench, EverySymbolShowsItsFiguresUnderThePointer) {
-  browser().open_text(html_page("Title", PageScript::bench, bench_data()));
+  browser().open_text(bench_page(bench_data()));
   browser().centre(".canvas");
   const Json places = browser().evaluate(function(R"js(
     const { canvas, drawn, option } = charts[0], box = canvas.getBoundingClientRect();
@@ -108,7 +111,7 @@ TEST_F(Bench, EverySymbolShowsItsFiguresUnderThePointer) {
 }
 
 TEST_F(Bench, ANameInTheLegendHidesItsCurveAndShowsItAgain) {
-  const OpenedPage page = open(PageScript::bench, bench_data(), function(R"js(
+  const OpenedPage page = open(bench_page, bench_data(), function(R"js(
     const figure = document.querySelector("figure"), button = figure.querySelector(".legend button");
     const drawn = () => {
       charts[0].drawn.getZr().flush();
@@ -124,7 +127,7 @@ TEST_F(Bench, ANameInTheLegendHidesItsCurveAndShowsItAgain) {
 
 TEST_F(Bench, ATableSortsByItsHeadsWithNoneLastAndFiltersByProblem) {
   const Json data = bench_data();
-  const OpenedPage page = open(PageScript::bench, data, function(R"js(
+  const OpenedPage page = open(bench_page, data, function(R"js(
     const section = document.getElementById("runs");
     const head = [...section.querySelectorAll("thead button")].find((one) => one.textContent === "Passes");
     const place = [...head.closest("tr").children].indexOf(head.parentElement);
@@ -158,28 +161,28 @@ TEST_F(Bench, ATableSortsByItsHeadsWithNoneLastAndFiltersByProblem) {
 
 TEST_F(Bench, MarksEstimatesThatAreNotWithinAFactorOfThree) {
   const OpenedPage page =
-      open(PageScript::bench, bench_data(),
+      open(bench_page, bench_data(),
            "[...document.querySelectorAll('#estimates tbody tr')].map((line) => line.className)");
   EXPECT_EQ(page.answer, Json({"", "surprise"}));
 }
 
 TEST_F(Stress, LoadsWithoutErrorsAndDrawsTheChartsOfItsData) {
   // Two maps, two charts of boundaries, a trace.
-  const OpenedPage page = open(PageScript::stress, stress_data(), page_state);
+  const OpenedPage page = open(stress_page, stress_data(), page_state);
   EXPECT_EQ(page.answer, Json({"true", 5, 0}));
   EXPECT_TRUE(page.console.empty()) << page.console.front();
 }
 
 TEST_F(Stress, SaysTheOutcomeUpFront) {
   const OpenedPage page =
-      open(PageScript::stress, stress_data(),
+      open(stress_page, stress_data(),
            "[...document.querySelectorAll('.facts div')].map((fact) => fact.textContent).slice(0, 4)");
   EXPECT_EQ(page.answer, Json({"Surprises2", "Cases4", "Map cells18", "Boundaries2"}));
 }
 
 TEST_F(Stress, AMapHasACellOfItsVerdictsColourForEachPairAndOutlinesSurprises) {
   const Json data = stress_data();
-  const OpenedPage page = open(PageScript::stress, data, function(R"js(
+  const OpenedPage page = open(stress_page, data, function(R"js(
     const figures = [...document.querySelectorAll("#maps figure")];
     const all = (figure, attribute, colour) =>
       figure.querySelectorAll(`.canvas path[${attribute}="${colour}"]`).length;
@@ -200,7 +203,7 @@ TEST_F(Stress, AMapHasACellOfItsVerdictsColourForEachPairAndOutlinesSurprises) {
 
 TEST_F(Stress, ACurveCrossesTheCellItsPointIsIn) {
   // Logarithmic axes: the eigenvalue's (1000 Hz, 100 N/m) is the middle of the only limit cycle.
-  const OpenedPage page = open(PageScript::stress, stress_data(), function(R"js(
+  const OpenedPage page = open(stress_page, stress_data(), function(R"js(
     const figure = document.querySelector("#maps figure");
     const path = figure.querySelector(`.canvas path[stroke="${theory[0].colour}"]`);
     const cell = figure.querySelector(`.canvas path[fill="${verdicts.get("limit cycle").fill}"]`).getBBox();
@@ -215,16 +218,15 @@ TEST_F(Stress, SaysHowManyBoundariesAreOffAndWhichPassiveLoopsAreNotStable) {
   const std::string probe =
       "[...document.querySelectorAll('#boundaries p span')].map((one) => [one.className, "
       "one.textContent.split(' ').slice(0, 3).join(' ')])";
-  EXPECT_EQ(open(PageScript::stress, data, probe).answer,
+  EXPECT_EQ(open(stress_page, data, probe).answer,
             Json::array({{"good", "All 2 are"}, {"good", "every loop is"}}));
   data["boundaries"][0]["measured"] = 206.0;  // 3 % off
   data["boundaries"][1]["measured"] = nullptr;
-  EXPECT_EQ(open(PageScript::stress, data, probe).answer,
-            Json::array({{"bad", "2 of 2"}, {"bad", "1 of 2"}}));
+  EXPECT_EQ(open(stress_page, data, probe).answer, Json::array({{"bad", "2 of 2"}, {"bad", "1 of 2"}}));
 }
 
 TEST_F(Stress, SurprisesOnlyLeavesSurprisesOnly) {
-  const OpenedPage page = open(PageScript::stress, stress_data(), function(R"js(
+  const OpenedPage page = open(stress_page, stress_data(), function(R"js(
     const shown = () => [...document.querySelectorAll("#cases tbody tr")]
       .filter((line) => line.offsetParent !== null).map((line) => line.children[0].textContent);
     const all = shown().length;
@@ -239,11 +241,10 @@ TEST_F(AnyPage, WithoutDataSaysSo) {
                       {"orders", none},   {"estimates", none}, {"notes", none}};
   const Json stress = {
       {"surprises", 0}, {"cases", none}, {"maps", none}, {"boundaries", none}, {"traces", none}};
-  for (const auto& [script, data, sentence] :
-       {std::tuple{PageScript::bench, bench, "Nothing was measured"},
-        std::tuple{PageScript::stress, stress, "Nothing was tested"}}) {
+  for (const auto& [page_of, data, sentence] : {std::tuple{&bench_page, bench, "Nothing was measured"},
+                                                std::tuple{&stress_page, stress, "Nothing was tested"}}) {
     const OpenedPage page =
-        open(script, data, "[" + page_state + ", document.getElementById('page').textContent]");
+        open(page_of, data, "[" + page_state + ", document.getElementById('page').textContent]");
     EXPECT_EQ(page.answer[0], Json({"true", 0, 0}));
     EXPECT_NE(page.answer[1].get<std::string>().find(sentence), std::string::npos) << page.answer[1];
     EXPECT_TRUE(page.console.empty()) << page.console.front();
@@ -272,10 +273,10 @@ TEST_F(AnyPage, ValuesWithoutASpreadOrAPlaceAreNoErrors) {
   trace["time"] = {0.5};
   for (Json& series : trace["series"]) series["values"] = {1e300};
   // The cone's run times; the map and the trace.
-  for (const auto& [script, data, charts] :
-       {std::tuple{PageScript::bench, bench, 1}, std::tuple{PageScript::stress, stress, 2}}) {
+  for (const auto& [page_of, data, charts] :
+       {std::tuple{&bench_page, bench, 1}, std::tuple{&stress_page, stress, 2}}) {
     const OpenedPage page = open(
-        script, data,
+        page_of, data,
         function(
             R"js(
       return [)js" +
@@ -288,7 +289,7 @@ TEST_F(AnyPage, ValuesWithoutASpreadOrAPlaceAreNoErrors) {
 }
 
 TEST_F(AnyPage, AnErrorIsCountedAndShown) {
-  const OpenedPage page = open(PageScript::bench, {{"runs", 5}},
+  const OpenedPage page = open(bench_page, {{"runs", 5}},
                                "[" + page_state + ", document.querySelector('.warning')?.textContent]");
   EXPECT_EQ(page.answer[0], Json({"true", 0, 1}));
   EXPECT_NE(page.answer[1].get<std::string>().find("could not be drawn"), std::string::npos);
@@ -296,8 +297,8 @@ TEST_F(AnyPage, AnErrorIsCountedAndShown) {
 }
 
 TEST_F(AnyPage, TextOfTheDataStaysText) {
-  for (const auto& [script, clean] :
-       {std::pair{PageScript::bench, bench_data()}, std::pair{PageScript::stress, stress_data()}}) {
+  for (const auto& [page_of, clean] :
+       {std::pair{&bench_page, bench_data()}, std::pair{&stress_page, stress_data()}}) {
     Json data = clean;
     poison(data);
     // Tooltips are shown too, of every item of every series.
@@ -312,8 +313,8 @@ TEST_F(AnyPage, TextOfTheDataStaysText) {
         page_state +
         R"js(, text: main.textContent, kinds: kinds(main), tips: main.querySelectorAll(".tip").length,
                drawn: [...main.querySelectorAll(".canvas svg text")].map((one) => one.textContent).join("") };)js");
-    const OpenedPage page = open(script, data, probe);
-    const int charts = script == PageScript::bench ? 4 : 5;
+    const OpenedPage page = open(page_of, data, probe);
+    const int charts = page_of == bench_page ? 4 : 5;
     EXPECT_EQ(page.answer["state"], Json({"true", charts, 0}));
     EXPECT_TRUE(page.console.empty()) << page.console.front();
     EXPECT_NE(page.answer["text"].get<std::string>().find(hostile), std::string::npos);
@@ -328,7 +329,7 @@ TEST_F(AnyPage, TextOfTheDataStaysText) {
 }
 
 TEST_F(AnyPage, ChartsTakeTheWidthOfTheirPlace) {
-  const OpenedPage page = open(PageScript::stress, stress_data(), function(R"js(
+  const OpenedPage page = open(stress_page, stress_data(), function(R"js(
     const widths = () => [...document.querySelectorAll(".canvas")].map((canvas) =>
       Math.abs(canvas.querySelector("svg").getBoundingClientRect().width - canvas.clientWidth));
     const wide = widths();

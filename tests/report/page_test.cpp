@@ -6,14 +6,14 @@ namespace sandstroke {
 namespace {
 
 TEST(Page, HoldsAllItNeedsAndNothingFromAnywhereElse) {
-  const std::string page = html_page("Sand & stress", PageScript::stress, {{"key", "value"}});
+  const std::string page = html_page("Sand & stress", {}, {{"key", "value"}});
   EXPECT_EQ(page.find("<script src"), std::string::npos);
   EXPECT_EQ(page.find("<link"), std::string::npos);
   EXPECT_NE(page.find("<title>Sand &amp; stress</title>"), std::string::npos);
 }
 
 TEST(Page, HoldsTheLicenceAndTheNoticeOfTheChartLibraryInAComment) {
-  const std::string page = html_page("t", PageScript::bench, {});
+  const std::string page = html_page("t", {}, {});
   const std::size_t begin = page.find("<!--"), end = page.find("-->", begin);
   ASSERT_NE(end, std::string::npos);
   const std::string comment = page.substr(begin, end - begin);
@@ -23,8 +23,7 @@ TEST(Page, HoldsTheLicenceAndTheNoticeOfTheChartLibraryInAComment) {
 }
 
 TEST(Page, DataCannotEndItsScriptElement) {
-  const std::string page =
-      html_page("t", PageScript::bench, {{"name", "</script><script>alert(1)</script>"}});
+  const std::string page = html_page("t", {}, {{"name", "</script><script>alert(1)</script>"}});
   EXPECT_EQ(page.find("<script>alert(1)"), std::string::npos);
   EXPECT_NE(page.find("\\u003c/script>"), std::string::npos);
 }

@@ -5,7 +5,7 @@
 
 #include "browser.h"
 #include "hostile_text.h"
-#include "report/page.h"
+#include "sweep/sweep_page.h"
 
 namespace sandstroke {
 namespace {
@@ -113,7 +113,7 @@ const std::string as_map = "x=relaxation.talus_angle&second=force.k_s&chart=map"
 class SweepPage : public BrowserTest {
  protected:
   static void open(const Json& data, const std::string& state = "") {
-    browser().open_text(html_page("Sweep", PageScript::sweep, data));
+    browser().open_text(sweep_page(data));
     EXPECT_EQ(browser().evaluate("document.documentElement.dataset.errors"), "0");
     if (state.empty()) return;
     browser().evaluate(

@@ -5,40 +5,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/error_estimate.h"
+#include "sim/simulation.h"
 #include "sim/told.h"
+#include "sim/two_drags.h"
 
 namespace sandstroke {
 namespace {
-
-/// Two drags of about 0.3 s through the sand, with a pause of this length [s] between them. watched: the
-/// lifted hand is sampled in the pause, on its straight way, so the motion is the same and no tick is idle.
-Stroke two_drags(double apart, bool watched) {
-  Stroke stroke;
-  const auto add = [&](double time, const Eigen::Vector3d& position, PenState pen) {
-    stroke.time.push_back(time);
-    stroke.position.push_back(position);
-    stroke.contact.push_back(pen);
-  };
-  const Eigen::Vector3d left(-0.04, 0.0, -0.006), right(0.03, 0.01, -0.004);
-  const double lifts = 7.3005, lands = lifts + apart;
-  for (int i = 0; i <= 6; ++i)
-    add(7.0 + i * (lifts - 7.0) / 6, left + 0.01 * i * Eigen::Vector3d::UnitX(), pen_down);
-  if (watched)
-    for (int i = 1; i < 64; ++i)
-      add(lifts + i * apart / 64, stroke.position[6] + i / 64.0 * (right - stroke.position[6]), pen_up);
-  for (int i = 0; i <= 6; ++i) add(lands + 0.05 * i, right - 0.01 * i * Eigen::Vector3d::UnitX(), pen_down);
-  return stroke;
-}
-
-Scene small_bed() {
-  Scene scene;
-  scene.bed.width = scene.bed.depth = 0.2;
-  scene.bed.cols = scene.bed.rows = 64;
-  scene.stroke.emplace();
-  scene.stroke->file = "in memory";
-  return scene;
-}
 
 struct GapRun : Told {
   std::vector<double> highest;  // m, sand of each frame
@@ -119,7 +91,7 @@ void expect_equal(const GapRun& idle, const GapRun& all) {
 }
 
 TEST(IdleTicks, AreLeftOutOfARunThatIsTheSame) {
-  std::vector<Scene> scenes(7, small_bed());
+  std::vector<Scene> scenes(7, bed_of_two_drags());
   scenes[1].preset = ModelPreset::accurate, apply_model_preset(scenes[1]);
   scenes[2].output.frames = 7.0;
   scenes[3].relaxation.max_passes = 1, scenes[3].relaxation.rate = 10.0;  // sand slips all the time
@@ -157,28 +129,13 @@ TEST(IdleTicks, AreNoneOfADeviceThatStillSwingsOrFeels) {
 }
 
 TEST(IdleTicks, OfYearsTakeNoTime) {
-  Scene scene = small_bed();
+  Scene scene = bed_of_two_drags();
   const GapRun seconds(scene, two_drags(3.0, false)), years(scene, two_drags(1e9, false));
   EXPECT_EQ(years.told, seconds.told);
   EXPECT_NEAR(years.result.simulated_seconds, 1e9, 1.0);
   EXPECT_NEAR(static_cast<double>(years.result.relaxations), 60e9, 60.0);
   EXPECT_NEAR(static_cast<double>(years.result.contact_ticks),
               static_cast<double>(seconds.result.contact_ticks), 2.0);
-}
-
-TEST(IdleTicks, ChangeNoEstimateOfAnError) {
-  const Scene scene = small_bed();
-  const auto estimated = [&](bool watched) {
-    const Stroke stroke = two_drags(1.5, watched);
-    Kept force(force_of);
-    const Solution run = solve(scene, starting_bed(scene.bed), stroke, {&force});
-    return estimate_error(scene, starting_bed(scene.bed), stroke, run, force, SecondSolution::coarser);
-  };
-  const ErrorEstimate idle = estimated(false), all = estimated(true);
-  EXPECT_GT(all.force_rms, 0.0);
-  EXPECT_EQ(idle.force_rms, all.force_rms);
-  EXPECT_EQ(idle.force_max, all.force_max);
-  EXPECT_EQ(idle.height_rms, all.height_rms);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "validation/stress/device_cases.h"
+#include "validation/stress/device_parts.h"
 
 #include <spdlog/fmt/fmt.h>
 
@@ -7,7 +7,7 @@
 
 #include "core/bisection.h"
 #include "core/error.h"
-#include "sim/solution.h"
+#include "measure/solution.h"
 #include "validation/stress/loop_theory.h"
 
 namespace sandstroke {

@@ -1,4 +1,4 @@
-#include "validation/stress/device_maps.h"
+#include "validation/stress/device_parts.h"
 
 #include <algorithm>
 #include <cmath>

@@ -6,9 +6,7 @@
 #include "core/bisection.h"
 #include "core/interrupt.h"
 #include "core/parallel.h"
-#include "validation/stress/device_boundaries.h"
-#include "validation/stress/device_cases.h"
-#include "validation/stress/device_maps.h"
+#include "validation/stress/device_parts.h"
 #include "validation/stress/loop_theory.h"
 #include "validation/stress/stress.h"
 

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "sim/solution.h"
+#include "measure/solution.h"
 #include "validation/stress/stress_report.h"
 
 namespace sandstroke {

@@ -2,6 +2,11 @@
 
 #include <algorithm>
 
+#include "core/asset.h"
+#include "report/page.h"
+
+SANDSTROKE_DECLARE_ASSET(stress);
+
 namespace sandstroke {
 
 const char* name_of(Verdict verdict) {
@@ -93,6 +98,10 @@ nlohmann::ordered_json as_json(const StressReport& report) {
                               {"series", series}});
   }
   return json;
+}
+
+std::string stress_page(const nlohmann::ordered_json& data) {
+  return html_page("sandstroke stress: numerical stability", {.scripts = {SANDSTROKE_ASSET(stress)}}, data);
 }
 
 }  // namespace sandstroke

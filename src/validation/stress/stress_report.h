@@ -79,7 +79,10 @@ struct StressOptions {
   std::function<void(double)> progress = [](double) {};  ///< gets the fraction of the test that is done
 };
 
-/// The data of the HTML page.
+/// The data of the page, but for machine, options and time.
 nlohmann::ordered_json as_json(const StressReport& report);
+
+/// The page that draws them (assets/stress.js), as HTML.
+std::string stress_page(const nlohmann::ordered_json& data);
 
 }  // namespace sandstroke

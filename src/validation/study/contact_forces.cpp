@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "measure/solution.h"
 #include "sim/simulation.h"
-#include "sim/solution.h"
 #include "tool/tool_surface.h"
 #include "validation/study/contact_scene.h"
 #include "validation/study/measured_stress.h"

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "sim/error_estimate.h"
+#include "measure/error_estimate.h"
 #include "validation/study/problem.h"
 
 namespace sandstroke {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "measure/solution.h"
 #include "sim/simulation.h"
-#include "sim/solution.h"
 #include "validation/study/contact_scene.h"
 
 namespace sandstroke {

@@ -42,7 +42,7 @@ struct Score {
   double position_error = not_applicable;    ///< m, rms
   double volume_drift = not_applicable;      ///< fraction of the moved volume
   double displaced_volume = not_applicable;  ///< m^3, by the tool; counts the same sand each time
-  double furrow_depth = not_applicable;      ///< m, the median (sim/furrow.h)
+  double furrow_depth = not_applicable;      ///< m, the median (measure/furrow.h)
   double timed_ticks = not_applicable;       ///< how many ticks the run's time covers
   bool converged = true;
   std::vector<double> slope_errors = {};  ///< deg, by flank_directions(); may be empty
@@ -63,7 +63,7 @@ struct Contender {
   bool external = false;         ///< from outside this library: if it fails, the others go on
 };
 
-/// A run's estimate of its own error (sim/error_estimate.h), beside its true error.
+/// A run's estimate of its own error (measure/error_estimate.h), beside its true error.
 struct ErrorCheck {
   std::string problem, label;
   std::string quantity;  ///< "height" (fraction of the changed sand) or "force" (rms, N)

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "sim/solution.h"
+#include "measure/solution.h"
 #include "validation/study/problem.h"
 
 namespace sandstroke {

@@ -1,7 +1,7 @@
 // Strokes without a closed form. The truth is the same run in finer steps.
 #include <spdlog/fmt/fmt.h>
 
-#include "sim/error_estimate.h"
+#include "measure/error_estimate.h"
 #include "validation/study/hand_strokes.h"
 #include "validation/study/plugin_contenders.h"
 #include "validation/study/stroke_replay.h"
@@ -238,7 +238,7 @@ Problem hands_problem(const ProblemOptions& options) {
       problem.contenders.push_back(std::move(contender));
     };
     for (const double speed : {0.02, 0.05, 0.1, 0.5, 1.0})
-      add("speed", fmt::format("{} m/s", speed), s_curve(depth, speed, options.quick));
+      add("speed", fmt::format("{} m/s", speed), s_curve(hands.depth, speed, options.quick));
     for (const double noise : {0.0, 2e-6, 10e-6, 55e-6})
       add("noise", fmt::format("{:.0f} um rms", 1e6 * noise), with_noise(clean, noise));
     for (const double rate : {60.0, 960.0})

@@ -42,7 +42,7 @@ void StudyFiles::write(const Study& study) const {
   file.attribute("/directions", "units", "deg");
   file.write("/machine", describe_machine().dump());
   file.finish();
-  write_text_file(page(), html_page("sandstroke bench", PageScript::bench, study_json(study)), page_output);
+  write_text_file(page(), bench_page(study_json(study)), page_output);
 }
 
 }  // namespace sandstroke

@@ -5,9 +5,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/asset.h"
 #include "core/error.h"
 #include "report/page.h"
 #include "validation/study/surface_error.h"
+
+SANDSTROKE_DECLARE_ASSET(bench);
 
 namespace sandstroke {
 namespace {
@@ -228,6 +231,10 @@ Json study_json(const Study& study) {
                                  {"truth", number_or_null(one.truth)},
                                  {"ratio", number_or_null(one.estimate / one.truth)}});
   return json;
+}
+
+std::string bench_page(const Json& study) {
+  return html_page("sandstroke bench", {.scripts = {SANDSTROKE_ASSET(bench)}}, study);
 }
 
 namespace {

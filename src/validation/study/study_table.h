@@ -12,8 +12,11 @@ Table orders_table(const std::vector<ConvergenceOrder>& orders);
 /// The run's number in a column.
 double number_in(const std::string& column, const StudyRun& run);
 
-/// The data that the page draws (report/assets/bench.js).
+/// The data that the page draws (assets/bench.js).
 nlohmann::ordered_json study_json(const Study& study);
+
+/// The page that draws them, as HTML.
+std::string bench_page(const nlohmann::ordered_json& study);
 
 /// The result for a terminal: the fastest and the nearest of each problem, and the orders.
 std::string study_summary(const Study& study);

@@ -5,8 +5,8 @@
 #include <cstdint>
 
 #include "core/stopwatch.h"
+#include "measure/solution.h"
 #include "sim/simulation.h"
-#include "sim/solution.h"
 #include "tool/tool_surface.h"
 #include "validation/study/contact_scene.h"
 #include "validation/study/problem.h"

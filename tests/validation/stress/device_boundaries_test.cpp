@@ -1,4 +1,4 @@
-#include "validation/stress/device_boundaries.h"
+#include "validation/stress/device_parts.h"
 
 #include <gtest/gtest.h>
 

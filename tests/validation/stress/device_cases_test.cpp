@@ -1,4 +1,3 @@
-#include "validation/stress/device_cases.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +5,7 @@
 
 #include "haptics/passivity.h"
 #include "sanitized.h"
-#include "validation/stress/device_boundaries.h"
+#include "validation/stress/device_parts.h"
 #include "validation/stress/loop_theory.h"
 #include "validation/stress/stress.h"
 

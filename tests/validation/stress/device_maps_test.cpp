@@ -1,10 +1,10 @@
-#include "validation/stress/device_maps.h"
-#include "sanitized.h"
-
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
 #include <cmath>
+
+#include "sanitized.h"
+#include "validation/stress/device_parts.h"
 
 namespace sandstroke {
 namespace {

@@ -1,0 +1,17 @@
+#include "measure/solution.h"
+
+#include "measure/furrow.h"
+
+namespace sandstroke {
+
+Solution solve(const Scene& scene, const HeightField& start, const std::optional<Stroke>& stroke,
+               Observers observers) {
+  TipPathGatherer path(scene);
+  observers.push_back(&path);
+  Simulation simulation(scene, start, stroke);
+  RunResult result = simulation.run(observers);
+  result.furrow = path.furrow(start, simulation.bed());
+  return {simulation.bed(), result};
+}
+
+}  // namespace sandstroke
