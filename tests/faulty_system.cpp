@@ -76,8 +76,14 @@ ssize_t given(int file, std::size_t count) {
   const long read = ++reads;
   const bool fails =
       (fail_from && read >= std::atol(fail_from)) || (fail_once && read == std::atol(fail_once));
-  if (fails) return errno = EIO, -1;
-  if (few && read % 2 == 0) return errno = EINTR, -1;
+  if (fails) {
+    errno = EIO;
+    return -1;
+  }
+  if (few && read % 2 == 0) {
+    errno = EINTR;
+    return -1;
+  }
   return static_cast<ssize_t>(few ? std::min(count, most) : count);
 }
 

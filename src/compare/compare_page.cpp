@@ -60,7 +60,10 @@ PageOfParts start_page_of_files(const fs::path& golden_file, const fs::path& run
   const bool same = golden_file.filename() == run_file.filename();
   const std::string a = (same ? golden_file : golden_file.filename()).string(),
                     b = (same ? run_file : run_file.filename()).string();
-  if (a != b) golden["label"] = a, run["label"] = b;
+  if (a != b) {
+    golden["label"] = a;
+    run["label"] = b;
+  }
   return start_page(fmt::format("{} against {}", b, a), comparison, std::move(golden), std::move(run));
 }
 
@@ -80,7 +83,8 @@ PageOfParts run_page(const RunFile& golden, const RunFile& run, const Comparison
   std::optional<HeightField> a, b;  // final, once they are read
   page.add_part("Final height", [&] {
     const RunPair pair = run_pair(golden, run, coarsen);
-    a = pair.golden.final(), b = pair.run.final();
+    a = pair.golden.final();
+    b = pair.run.final();
     return surfaces_part(
         {"Final height", *a, pair.golden.initial(), *b, pair.run.initial(), tolerances.height});
   });

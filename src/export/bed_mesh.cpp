@@ -7,7 +7,10 @@ namespace sandstroke {
 MeshSize mesh_size(int rows, int cols, bool body) {
   const std::uint64_t r = static_cast<std::uint64_t>(rows) + 1, c = static_cast<std::uint64_t>(cols) + 1;
   MeshSize size{(r + 1) * (c + 1), 2 * r * c};
-  if (body) size.vertices += 2 * (r + c) + 1, size.triangles += 3 * 2 * (r + c);
+  if (body) {
+    size.vertices += 2 * (r + c) + 1;
+    size.triangles += 3 * 2 * (r + c);
+  }
   return size;
 }
 

@@ -53,7 +53,10 @@ StrokeQuality quality_of(const Stroke& stroke) {
     spacings.push_back(stroke.time[i + 1] - stroke.time[i]);
     const double speed = (stroke.position[i + 1] - stroke.position[i]).norm() / spacings.back();
     if (speed > 0.0) speeds.push_back(speed);
-    if (speed > quality.top_speed) quality.top_speed = speed, quality.top_time = stroke.time[i];
+    if (speed > quality.top_speed) {
+      quality.top_speed = speed;
+      quality.top_time = stroke.time[i];
+    }
   }
   const double usual_spacing = median(spacings);
   double squares = 0.0;

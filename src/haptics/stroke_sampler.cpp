@@ -98,7 +98,10 @@ Hand StrokeSampler::at(double t) {
   seek(within);
   Hand hand = joined_or_lifted(within);
   if (!stroke_.orientation.empty()) hand.orientation = orientation_at(within);
-  if (t != within) hand.velocity.setZero(), hand.down = false;
+  if (t != within) {
+    hand.velocity.setZero();
+    hand.down = false;
+  }
   return hand;
 }
 

@@ -40,6 +40,12 @@ struct Seal {
 
 int failure = 0;  // errno
 
+/// Keeps the reason of a failure. Returns false.
+bool fail_with(int error) {
+  failure = error;
+  return false;
+}
+
 haddr_t up_to_page(haddr_t bytes) { return (bytes + page_bytes - 1) / page_bytes * page_bytes; }
 
 /// Transfers all bytes, with as many calls as it takes. call(bytes done): returns what the system call does.
@@ -48,7 +54,7 @@ bool transfer(std::size_t count, std::size_t& done, const Call& call) {
   for (done = 0; done < count;) {
     const ssize_t some = call(done);
     if (some < 0 && errno == EINTR) continue;
-    if (some < 0) return failure = errno, false;
+    if (some < 0) return fail_with(errno);
     if (some == 0) break;  // the file ends here
     done += static_cast<std::size_t>(some);
   }
@@ -138,7 +144,10 @@ bool PartFile::take_appended() {
 }
 
 Page* PartFile::page_at(haddr_t place) {
-  if (held.size() >= most_pages && !held.contains(place)) return failure = EFBIG, nullptr;
+  if (held.size() >= most_pages && !held.contains(place)) {
+    fail_with(EFBIG);
+    return nullptr;
+  }
   const auto [entry, is_new] = held.try_emplace(place);
   Page& page = entry->second;
   page.place = place;
@@ -150,11 +159,11 @@ Page* PartFile::page_at(haddr_t place) {
 bool PartFile::reserve(haddr_t bytes) const {
   if (fallocate(file, FALLOC_FL_KEEP_SIZE, 0, static_cast<off_t>(bytes)) == 0) return true;
   if (errno != ENOSPC && errno != EDQUOT) return true;  // not every file system can
-  return failure = errno, false;
+  return fail_with(errno);
 }
 
 bool PartFile::cut_off(haddr_t bytes) const {
-  return ftruncate(file, static_cast<off_t>(bytes)) == 0 || (failure = errno, false);
+  return ftruncate(file, static_cast<off_t>(bytes)) == 0 || fail_with(errno);
 }
 
 /// Appends the held pages, and the seal.
@@ -220,7 +229,10 @@ H5FD_t* open_part(const char* name, unsigned flags, hid_t, haddr_t) {
     part->writes = (flags & H5F_ACC_RDWR) != 0;
     part->bare = (flags & H5F_ACC_TRUNC) != 0;
     part->file = open(name, (part->writes ? O_RDWR : O_RDONLY) | O_CLOEXEC);
-    if (part->file < 0) return failure = errno, nullptr;
+    if (part->file < 0) {
+      fail_with(errno);
+      return nullptr;
+    }
     if (part->bare && !part->cut_off(0)) return nullptr;
     return part->take_appended() ? part.release() : nullptr;
   });
@@ -239,9 +251,15 @@ herr_t query(const H5FD_t*, unsigned long* features) {
 }
 
 haddr_t get_allocated(const H5FD_t* file, H5FD_mem_t) { return part_of(file).allocated; }
-herr_t set_allocated(H5FD_t* file, H5FD_mem_t, haddr_t end) { return part_of(file).allocated = end, 0; }
+herr_t set_allocated(H5FD_t* file, H5FD_mem_t, haddr_t end) {
+  part_of(file).allocated = end;
+  return 0;
+}
 haddr_t get_end(const H5FD_t* file, H5FD_mem_t) { return part_of(file).end; }
-herr_t get_handle(H5FD_t* file, hid_t, void** handle) { return *handle = file, 0; }
+herr_t get_handle(H5FD_t* file, hid_t, void** handle) {
+  *handle = file;
+  return 0;
+}
 
 herr_t read_part(H5FD_t* file, H5FD_mem_t, hid_t, haddr_t place, std::size_t count, void* bytes) {
   const PartFile& part = part_of(file);
@@ -262,12 +280,19 @@ herr_t write_part(H5FD_t* file, H5FD_mem_t, hid_t, haddr_t place, std::size_t co
   const auto* from = static_cast<const char*>(bytes);
   while (place < std::min(stop, up_to_page(part.committed))) {
     Page* const page = guarded<Page*>(nullptr, [&] { return part.page_at(place / page_bytes * page_bytes); });
-    if (!page) return part.failed = true, -1;
+    if (!page) {
+      part.failed = true;
+      return -1;
+    }
     const haddr_t some = std::min(stop, page->place + page_bytes) - place;
     std::memcpy(page->bytes.data() + (place - page->place), from, some);
-    from += some, place += some;
+    from += some;
+    place += some;
   }
-  if (place < stop && !write_at(part.file, place, from, stop - place)) return part.failed = true, -1;
+  if (place < stop && !write_at(part.file, place, from, stop - place)) {
+    part.failed = true;
+    return -1;
+  }
   part.end = std::max(part.end, stop);
   return 0;
 }

@@ -158,7 +158,10 @@ class GcodeReader {
     if (power && of_spindle && !std::count(words.g.begin(), words.g.end(), 40)) power_ = *power;
     for (const int code : words.m) {
       take_servo(code, words);
-      if (code == 30 || code == 40) spindle_ = true, path_.pen_word = gcode_spindle;
+      if (code == 30 || code == 40) {
+        spindle_ = true;
+        path_.pen_word = gcode_spindle;
+      }
       if (code == 50) spindle_ = false;
     }
   }
@@ -175,7 +178,10 @@ class GcodeReader {
     }
     constexpr double most_angle = 180.0;  // M300 with more is a tone
     if ((code != 2800 && code != 3000) || !words['S'] || *words['S'] > most_angle) return;
-    if (servo_angles_.empty()) servo_ = code, servo_line_ = line_;
+    if (servo_angles_.empty()) {
+      servo_ = code;
+      servo_line_ = line_;
+    }
     if (code == servo_) servo_angles_.insert(*words['S']);
   }
   bool pen_down() const { return spindle_ && power_ != 0.0; }

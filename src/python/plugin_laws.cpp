@@ -96,7 +96,8 @@ class PythonRelaxer : public Relaxer {
     RelaxationSettings look = scene_.relaxation;
     look.max_passes = 0;
     const RelaxationOutcome left = make_relaxer(look, cell_size_)->relax(seen);
-    outcome.residual = left.residual, outcome.converged = left.converged;
+    outcome.residual = left.residual;
+    outcome.converged = left.converged;
     if (after_pass) after_pass(outcome.passes, [&]() -> const HeightField& { return bed; });
     return outcome;
   }

@@ -69,7 +69,8 @@ PixelRect Camera::pixels_of(const Eigen::AlignedBox3d& box, int width, int heigh
     const Eigen::Vector4d clip = to_clip * p.homogeneous();
     if (clip.w() <= 0.0) return {0, 0, width, height};  // a corner is beside the eye or behind it
     const Eigen::Array2d place = (clip.head<2>() / clip.w()).array().max(-1.0).min(1.0);
-    low = low.min(place), high = high.max(place);
+    low = low.min(place);
+    high = high.max(place);
   }
   const auto pixel = [](double place, int pixels, int beyond) {  // two more: samples lie around centres
     return std::clamp(static_cast<int>(std::floor(0.5 * (place + 1.0) * pixels)) + beyond, 0, pixels);

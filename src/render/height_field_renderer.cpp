@@ -178,14 +178,16 @@ Legend HeightFieldRenderer::Drawing::prepare_values(const RenderSubject& subject
                         bed_.rows());
     if (!difference_) difference_ = std::make_unique<SurfaceTextures>(bed_);
     difference_->update(HeightField(*subject.difference, bed_.cell_size()));
-    least = difference_->lowest(), greatest = difference_->highest();
+    least = difference_->lowest();
+    greatest = difference_->highest();
     legend.quantity = "difference";
     legend.diverging = true;
   }
   const ValueRange range = subject.range ? *subject.range : value_range(least, greatest, difference);
   if (!(range.low < range.high))
     throw_input_error("a colour scale from {} to {} m is empty", range.low, range.high);
-  legend.low = range.low, legend.high = range.high;
+  legend.low = range.low;
+  legend.high = range.high;
   legend.contour_interval =
       subject.contour_interval > 0.0 ? subject.contour_interval : round_interval(range.high - range.low, 14);
   return legend;

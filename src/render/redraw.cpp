@@ -28,7 +28,8 @@ std::vector<Eigen::AlignedBox3d> boxes_of(const ToolBody& tool, const Sun& sun,
     return Eigen::AlignedBox3d(place.array() - reach, place.array() + reach);
   };
   const auto on_sand = [&](Eigen::AlignedBox3d box) {
-    box.min().z() = low, box.max().z() = high;
+    box.min().z() = low;
+    box.max().z() = high;
     return box;
   };
   if (tool.mesh) return {tool.box()};  // a mesh throws no shadow

@@ -145,7 +145,8 @@ int SurfaceTextures::update(const HeightField& surface) {
   });
 
   const double highest_before = filled_ ? highest_ : -1e300;
-  lowest_ = 1e300, highest_ = -1e300;
+  lowest_ = 1e300;
+  highest_ = -1e300;
   for (const TileDetail& detail : details_) {
     lowest_ = std::min(lowest_, detail.lowest);
     highest_ = std::max(highest_, detail.highest);

@@ -20,7 +20,8 @@ namespace {
 
 /// Cells and times of a scene divided.
 Scene finer(Scene scene, int by) {
-  scene.bed.cols *= by, scene.bed.rows *= by;
+  scene.bed.cols *= by;
+  scene.bed.rows *= by;
   scene.device.servo_rate *= by;
   return scene;
 }
@@ -65,7 +66,8 @@ double estimated_error(const Scene& scene, const Stroke& stroke) {
 }
 
 Scene half_the_way(Scene scene) {
-  scene.relaxation.way /= 2, scene.relaxation.way_at_rim /= 2;
+  scene.relaxation.way /= 2;
+  scene.relaxation.way_at_rim /= 2;
   return scene;
 }
 

@@ -98,7 +98,8 @@ class Watched {
     reader_ = std::thread([this] {
       ViewClient page(server_.address());
       page.hear_to_end();
-      pictures_ = page.pictures, tiles_ = page.tiles_taken;
+      pictures_ = page.pictures;
+      tiles_ = page.tiles_taken;
     });
   }
   void show(const ServoProgress& progress) {

@@ -173,7 +173,10 @@ nlohmann::json measure_bed_sizes(const BenchOptions& options) {
   nlohmann::json rows = nlohmann::json::array();
   for (std::size_t i = 0; i < sides.size(); ++i) {
     std::vector<double> ns, rss;
-    for (const auto& run : runs[i]) ns.push_back(run["ns_per_tick"]), rss.push_back(run["peak_rss_bytes"]);
+    for (const auto& run : runs[i]) {
+      ns.push_back(run["ns_per_tick"]);
+      rss.push_back(run["peak_rss_bytes"]);
+    }
     nlohmann::json row = runs[i].front();
     row["cells"] = sides[i];
     row["ns_per_tick"] = spread(ns);

@@ -69,7 +69,8 @@ TEST_F(CliLivePage, ShowsTheFurrowWhereTheStrokeWentAndTurnsByMouseAndKeys) {
     int dark = 1000, light = 0;
     for (double y = -0.012; y <= 0.012; y += 0.001) {
       const int here = brightness(window, seen(x, y));
-      dark = std::min(dark, here), light = std::max(light, here);
+      dark = std::min(dark, here);
+      light = std::max(light, here);
     }
     return light - dark;
   };

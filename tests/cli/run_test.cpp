@@ -260,7 +260,11 @@ TEST(CliRun, ASceneThatNobodyWritesIsNotWaitedForAfterASignal) {
 std::function<void()> nobody_reads(int descriptor) {
   return [descriptor] {
     int ends[2];
-    if (pipe(ends) == 0) dup2(ends[1], descriptor), close(ends[0]), close(ends[1]);
+    if (pipe(ends) == 0) {
+      dup2(ends[1], descriptor);
+      close(ends[0]);
+      close(ends[1]);
+    }
   };
 }
 

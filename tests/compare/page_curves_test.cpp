@@ -124,7 +124,9 @@ TEST(TracesPart, EachQuantityHasItsOwnValuesUnitAndLimit) {
   for (TickRecord& tick : golden) tick.level = 5.0;
   for (TickRecord& tick : run) tick.level = 55.0;
   Tolerances tolerances;
-  tolerances.height = 0.1, tolerances.force = 0.2, tolerances.depth = 0.3;
+  tolerances.height = 0.1;
+  tolerances.force = 0.2;
+  tolerances.depth = 0.3;
   const Json part = traces_part(golden, run, tolerances);
   const std::vector<std::tuple<double, double, const char*, double>> expected = {{1.0, 11.0, "N", 0.2},
                                                                                  {2.0, 22.0, "N", 0.2},

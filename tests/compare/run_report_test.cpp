@@ -115,7 +115,10 @@ TEST(RunReport, APictureThatCannotBeDrawnIsSaid) {
 
 TEST(RunReport, SaysTheErrorThatWasEstimated) {
   ErrorEstimate error;
-  error.height_share = 0.25, error.height_rms = 1e-4, error.height_max = 2e-3, error.force_rms = 0.1,
+  error.height_share = 0.25;
+  error.height_rms = 1e-4;
+  error.height_max = 2e-3;
+  error.force_rms = 0.1;
   error.force_max = 0.5;
   const Json part = Reported().page(error).data["parts"][4];
   std::vector<double> values;

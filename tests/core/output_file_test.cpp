@@ -29,7 +29,10 @@ TEST(OutputFile, ThatIsNotWrittenToItsEndLeavesWhatWasThere) {
   const TestFolder folder;
   const fs::path path = folder / "file";
   EXPECT_TRUE(write_file(path, text_kind, [](std::ostream& file) { return bool(file << "first"); }));
-  EXPECT_FALSE(write_file(path, text_kind, [](std::ostream& file) { return file << "fi", false; }));
+  EXPECT_FALSE(write_file(path, text_kind, [](std::ostream& file) {
+    file << "fi";
+    return false;
+  }));
   EXPECT_THROW(write_file(path, text_kind,
                           [](std::ostream& file) -> bool {
                             file << "fi" << std::flush;

@@ -16,8 +16,10 @@ enum class Way { draws, plunges };
 
 Scene scene_with(ForceLaw law, ToolShape shape) {
   Scene scene;
-  scene.bed.width = 0.16, scene.bed.depth = 0.12;
-  scene.bed.cols = 80, scene.bed.rows = 60;
+  scene.bed.width = 0.16;
+  scene.bed.depth = 0.12;
+  scene.bed.cols = 80;
+  scene.bed.rows = 60;
   apply_model_preset(scene);
   scene.force.law = law;
   scene.tool.shape = shape;

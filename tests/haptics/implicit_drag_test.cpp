@@ -13,8 +13,10 @@ using State = SimulatedDevice::State;
 
 DeviceSettings light_device(double servo_rate) {
   DeviceSettings settings = ideal_device();
-  settings.mass = 0.05, settings.damping = 0.1;
-  settings.hand_stiffness = 2000.0, settings.hand_damping = 0.5;
+  settings.mass = 0.05;
+  settings.damping = 0.1;
+  settings.hand_stiffness = 2000.0;
+  settings.hand_damping = 0.5;
   settings.servo_rate = servo_rate;
   return settings;
 }

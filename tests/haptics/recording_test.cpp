@@ -13,7 +13,11 @@ namespace {
 TEST(TickCounts, EachFlagCountsItsOwn) {
   const auto count = [](std::uint32_t flags) {
     TickCounts t;
-    t.elapsed = 10, t.recorded = 20, t.skipped = 30, t.unread = 40, t.dropped = 50;
+    t.elapsed = 10;
+    t.recorded = 20;
+    t.skipped = 30;
+    t.unread = 40;
+    t.dropped = 50;
     count_flags(flags, t);
     EXPECT_EQ(t.elapsed + t.recorded + t.skipped + t.unread + t.dropped, 150);
     return std::vector{t.late, t.clamped, t.ramped, t.rate_limited, t.refused, t.held, t.interlocked};
@@ -64,9 +68,14 @@ TEST(RecordingFields, EveryFieldHasANameOfItsOwn) {
 
 TEST(RecordingFields, AreUnderTheirNames) {
   RecordingHeader header;
-  header.nominal_rate = 1, header.device.max_force = 2, header.device.max_stiffness = 3;
-  header.device.workspace_radius = 4, header.device.switches = 5, header.force_limit = 6;
-  header.scheduling.priority = 7, header.device.max_damping = 8;
+  header.nominal_rate = 1;
+  header.device.max_force = 2;
+  header.device.max_stiffness = 3;
+  header.device.workspace_radius = 4;
+  header.device.switches = 5;
+  header.force_limit = 6;
+  header.scheduling.priority = 7;
+  header.device.max_damping = 8;
   RecordingFooter footer;
   footer.ticks = {11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 21, 22};
   footer.lateness = {31, 32, 33};
@@ -95,7 +104,8 @@ TEST(RecordingFields, AreUnderTheirNames) {
 TEST(TickCounts, AreStarvedWhereMoreThanATenthWasSkipped) {
   const auto of = [](std::int64_t skipped) {
     TickCounts ticks;
-    ticks.elapsed = 1000, ticks.skipped = skipped;
+    ticks.elapsed = 1000;
+    ticks.skipped = skipped;
     return ticks;
   };
   EXPECT_EQ(skipped_share(of(5)), 0.005);

@@ -42,7 +42,8 @@ TEST(ForceOnDevice, ImplicitDragOfALimitedDeviceIsByTheWayThatTheLimitedForceLea
     for (const double k_f : {1.0, 10.0, 50.0, 200.0})
       for (const double max_force : {0.1, 1.0, 3.0, 5.9}) {
         ForceSettings force;
-        force.drag = direction, force.k_f = k_f;
+        force.drag = direction;
+        force.k_f = k_f;
         DeviceSettings settings = device_with(DragVelocity::implicit).settings();
         settings.max_force = max_force;
         SimulatedDevice device(settings, moving);

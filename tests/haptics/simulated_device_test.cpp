@@ -194,7 +194,10 @@ TEST(DynamicDevice, SpringWallTurnsUnstableWhereTheEigenvalueSays) {
 
 TEST(Passivity, MarginIsColgateAndSchenkels) {
   DeviceSettings device;
-  device.scale = 2.0, device.damping = 3.0, device.hand_damping = 4.0, device.servo_rate = 1000.0;
+  device.scale = 2.0;
+  device.damping = 3.0;
+  device.hand_damping = 4.0;
+  device.servo_rate = 1000.0;
   const ForceSettings force;
   const double depth = 0.006, repulse = repulse_force(depth, force);
   const double K = 2.0 * 1000.0 * 0.5 * std::exp(0.003), B = 2.0 * 10.0 * repulse;

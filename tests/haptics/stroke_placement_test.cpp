@@ -230,7 +230,9 @@ TEST(StrokePlacement, TheSideThatIsUpIsThatOfTheLiftsOrTheOneNamed) {
     EXPECT_NEAR(place_stroke(lifted, fit).position.back().z(), 0.05, 1e-12);
     // Without the pen's state the named axis decides.
     fit.up = side > 0.0 ? StrokeUp::y : StrokeUp::minus_y;
-    lifted.contact.pop_back(), lifted.time.pop_back(), lifted.position.pop_back();
+    lifted.contact.pop_back();
+    lifted.time.pop_back();
+    lifted.position.pop_back();
     lifted.force.assign(lifted.size(), Vector3d(0, side, 0));
     EXPECT_NEAR(place_stroke(lifted, fit).force[0].z(), 1.0, 1e-12);
     fit.up = StrokeUp::automatic;
@@ -328,7 +330,8 @@ TEST(StrokePlacement, DepthIsAsTheHandPresses) {
   placement.depth = 0.004;
   for (const DepthBy by : {DepthBy::pressure, DepthBy::force})
     for (const StrokePlane plane : {StrokePlane::keep, StrokePlane::fit, StrokePlane::flatten}) {
-      placement.depth_by = by, placement.plane = plane;
+      placement.depth_by = by;
+      placement.plane = plane;
       const Stroke placed = place_stroke(stroke, placement);
       const double surface = plane == StrokePlane::keep ? 0.25 : 0.0;
       for (std::size_t i = 0; i < stroke.size(); ++i)
@@ -340,7 +343,9 @@ TEST(StrokePlacement, DepthIsAsTheHandPresses) {
 TEST(StrokePlacement, FullDepthIsThatOfTheWholeStrokeOrOfWhatIsNamed) {
   Stroke stroke = pressed_tracing();
   StrokePlacement placement;
-  placement.depth = 0.004, placement.plane = StrokePlane::flatten, placement.depth_by = DepthBy::pressure;
+  placement.depth = 0.004;
+  placement.plane = StrokePlane::flatten;
+  placement.depth_by = DepthBy::pressure;
   placement.stop = 1.0;  // a part goes as deep as in the whole
   EXPECT_NEAR(place_stroke(stroke, placement).position.back().z(), -0.004 * 100 / 199, 1e-12);
   placement.full_depth_at = 50.0;  // more goes no deeper
@@ -357,7 +362,8 @@ TEST(StrokePlacement, FullDepthIsThatOfTheWholeStrokeOrOfWhatIsNamed) {
 
 TEST(StrokePlacement, SaysWhyNoDepthFollowsThePressure) {
   StrokePlacement placement;
-  placement.depth = 0.004, placement.depth_by = DepthBy::pressure;
+  placement.depth = 0.004;
+  placement.depth_by = DepthBy::pressure;
   const Stroke flat = stroke_through(flat_tracing());
   EXPECT_THAT(complaint(flat, placement), testing::AllOf(HasSubstr("hand.h5"), HasSubstr("no pressure"),
                                                          HasSubstr("stroke.table.pressure")));
@@ -425,7 +431,8 @@ TEST(StrokePlacement, ASampleAtTheCutIsKept) {
                           {0.0, 0.0, 0, 0},
                           {2.0, 3.0, 8, 8}}) {
     StrokePlacement placement;
-    placement.start = one.start, placement.stop = one.stop;
+    placement.start = one.start;
+    placement.stop = one.stop;
     const Stroke placed = place_stroke(stroke, placement);
     ASSERT_EQ(placed.size(), one.last - one.first + 1u) << one.start;
     EXPECT_EQ(placed.time.front(), 0.0);
@@ -436,7 +443,8 @@ TEST(StrokePlacement, ASampleAtTheCutIsKept) {
     EXPECT_EQ(placed.force.back().y(), one.last);
   }
   StrokePlacement nothing;
-  nothing.start = 1.05 * 0.5, nothing.stop = 0.95 * 0.75;
+  nothing.start = 1.05 * 0.5;
+  nothing.stop = 0.95 * 0.75;
   EXPECT_THAT(complaint(stroke, nothing), HasSubstr("no sample lies between"));
 }
 
@@ -444,7 +452,9 @@ TEST(StrokePlacement, OfAPointGoesWhereTheStrokesPointGoes) {
   Stroke stroke = stroke_through({{0.1, -0.2, 0.3}});
   stroke.frame = "device";
   StrokePlacement placement;
-  placement.scale = 3.0, placement.rotate_z = 25.0, placement.depth = 0.07;
+  placement.scale = 3.0;
+  placement.rotate_z = 25.0;
+  placement.depth = 0.07;
   placement.offset = {1.0, 2.0, 4.0};
   const PointPlacement point = point_placement(placement, "device");
   EXPECT_LT((point.position(stroke.position[0]) - place_stroke(stroke, placement).position[0]).norm(), 1e-15);

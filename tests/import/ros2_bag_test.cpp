@@ -189,9 +189,15 @@ TEST(Ros2Bag, SaysWhatIsWrong) {
   EXPECT_THAT(complaint([](BagFile&) {}), HasSubstr("it has: none"));
   EXPECT_THAT(complaint([](BagFile& bag) { bag.topic(1, "/camera", "sensor_msgs/msg/Image"); }),
               HasSubstr("it has: /camera (sensor_msgs/msg/Image, 0 messages)"));
-  EXPECT_THAT(complaint([](BagFile& bag) { fill(bag), bag.message(4, 0, "short"); }),
+  EXPECT_THAT(complaint([](BagFile& bag) {
+                fill(bag);
+                bag.message(4, 0, "short");
+              }),
               HasSubstr("message 1 of /tool"));
-  EXPECT_THAT(complaint([](BagFile& bag) { fill(bag), bag.message(4, 9000, "\x28\xB5\x2F\xFD..."); }),
+  EXPECT_THAT(complaint([](BagFile& bag) {
+                fill(bag);
+                bag.message(4, 9000, "\x28\xB5\x2F\xFD...");
+              }),
               AllOf(HasSubstr("message 3"), HasSubstr("compressed")));
   // What a stranger may put in the place of a table.
   EXPECT_THAT(complaint([](BagFile& bag) {

@@ -201,7 +201,10 @@ TEST_F(RecordingFile, SaysHowItWasRecorded) {
     expected.footer.reason = static_cast<StopReason>(reason);
     // made_samples(20) has the flags 0, 1, ..., 19.
     TickCounts& ticks = expected.footer.ticks;
-    ticks.late = 10, ticks.clamped = 8, ticks.ramped = 8, ticks.rate_limited = 4;
+    ticks.late = 10;
+    ticks.clamped = 8;
+    ticks.ramped = 8;
+    ticks.rate_limited = 4;
     ticks.refused = ticks.held = ticks.interlocked = 0;
     const RecordingInfo written = write(made_samples(20), expected.footer);
     EXPECT_EQ(fields(written), fields(expected));
@@ -299,7 +302,10 @@ class LongRecording : public Recording {
   const RecordingHeader& header() const override { return header_; }
   std::vector<RecordedSample> next(std::size_t most) override {
     std::vector<RecordedSample> samples(std::min<std::uint64_t>(most, left_));
-    for (RecordedSample& sample : samples) sample.sequence = sequence_++, sample.time = time_ += 1000000;
+    for (RecordedSample& sample : samples) {
+      sample.sequence = sequence_++;
+      sample.time = time_ += 1000000;
+    }
     left_ -= samples.size();
     return samples;
   }

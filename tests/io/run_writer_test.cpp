@@ -257,8 +257,11 @@ TEST_F(RunWriterTest, SaysWhatItIsOfAndInWhichUnit) {
   RunResult result;
   result.threads = 3;
   result.furrow.emplace();
-  result.furrow->depth = 0.004, result.furrow->asked_depth = 0.005;
-  result.furrow->width = 0.006, result.furrow->rampart = 0.007, result.furrow->length = 0.008;
+  result.furrow->depth = 0.004;
+  result.furrow->asked_depth = 0.005;
+  result.furrow->width = 0.006;
+  result.furrow->rampart = 0.007;
+  result.furrow->length = 0.008;
   const Hdf5Reader file = finished(result);
   EXPECT_FALSE(fs::exists(part_path(path_)));
 

@@ -15,7 +15,10 @@ TEST(HersheyText, CapitalsStandOnTheBaseLineAndAreOneHigh) {
   const SingleStrokeText text = hershey_text("H");
   double low = 1e9, high = -1e9;
   for (const auto& line : text.polylines)
-    for (const auto& point : line) low = std::min(low, point.y()), high = std::max(high, point.y());
+    for (const auto& point : line) {
+      low = std::min(low, point.y());
+      high = std::max(high, point.y());
+    }
   EXPECT_EQ(text.polylines.size(), 3u);  // two uprights and a bar
   EXPECT_DOUBLE_EQ(low, 0.0);
   EXPECT_DOUBLE_EQ(high, 1.0);

@@ -31,7 +31,8 @@ TEST(LiveRelaxer, ThatRelaxesSeldomTakesWhatIsDisplacedMeanwhileAndEndsWhenItIsA
 TEST(LiveRelaxer, UnderASolidToolNothingSlipsUntilItHasGone) {
   const ToolSettings tool{0.03, ToolProfile::sphere, true};
   RelaxationSettings settings;
-  settings.rate = 0.0, settings.way = 1.0 / 3.0;  // of 30 mm: a cell
+  settings.rate = 0.0;
+  settings.way = 1.0 / 3.0;  // of 30 mm: a cell
   SandRing displaced(64), relaxed(64);
   PlaceRing places(8);
   LiveRelaxer live_relaxer(HeightField(41, 41, 0.01), tool, settings, displaced, places, relaxed);
@@ -63,7 +64,8 @@ class CountingRelaxer : public Relaxer {
 
 TEST(LiveRelaxer, SlipsInItsThreadAsOftenAsTheToolHasGoneItsWay) {
   RelaxationSettings settings;
-  settings.rate = 0.0, settings.way = 1.0 / 3.0;  // of 30 mm: a cell
+  settings.rate = 0.0;
+  settings.way = 1.0 / 3.0;  // of 30 mm: a cell
   SandRing displaced(64), relaxed(64);
   PlaceRing places(8);
   std::atomic<int> slips = 0;
@@ -142,7 +144,8 @@ TEST(LiveRelaxer, WhatWasDugSlips) {
 
 TEST(LiveRelaxer, SandThatAsksByWayAndHasFarToGoGoesOnWithoutTheToolsMoving) {
   RelaxationSettings settings;
-  settings.rate = 0.0, settings.way = 1.0 / 3.0;  // of 30 mm: a cell
+  settings.rate = 0.0;
+  settings.way = 1.0 / 3.0;  // of 30 mm: a cell
   SandRing displaced(8), relaxed(std::size_t{1} << 18);
   PlaceRing places(8);
   HeightField heap(61, 61, 0.01);

@@ -204,7 +204,10 @@ TEST(LiveSand, TurnsTheToolWithTheHandAsARunDoes) {
   EXPECT_GT(forces.back(), 1.0);
   // Of a device that does not measure how it is turned, nothing turns.
   LiveSand straight(scene, starting_bed(scene.bed), {"bed"});
-  for (const double t : times) straight.feel(t, turning_reading(t)), straight.shape();
+  for (const double t : times) {
+    straight.feel(t, turning_reading(t));
+    straight.shape();
+  }
   EXPECT_GT((straight.bed().grid() - ran).abs().sum(), 0.3 * ran.abs().sum());
 }
 
@@ -326,7 +329,10 @@ TEST(LiveSand, AHandThatIsNotTurnedInItsFrameDoesNotTurnTheTool) {
   LiveSand sand(scene, starting_bed(scene.bed), {"device", any_force, true});
   DeviceReading reading;
   reading.position = {0.0, 0.0, -0.005};
-  for (int k = 0; k < 3; ++k) sand.feel(1e-3 * k, reading), sand.shape();
+  for (int k = 0; k < 3; ++k) {
+    sand.feel(1e-3 * k, reading);
+    sand.shape();
+  }
   EXPECT_TRUE(sand.orientation().isApprox(Eigen::Quaterniond::Identity(), 1e-12));
   EXPECT_LT(sand.bed()(75 + 20, 75), -0.003) << "its width is along y";
   // Turned about the axis towards the operator, which is the bed's -y.

@@ -735,7 +735,10 @@ TEST_F(ServoLoopTest, GivesNoForceThatItMustNotWhateverHappens) {
       if (clock.now() - start > 500 * ms) reading.switches = clock.now() - start > 520 * ms;
       read_fails = chance(unread);
       const std::int64_t now = clock.now();
-      if (read_fails || (last && now - *last > 25 * ms)) may_open = false, clear_since.reset();
+      if (read_fails || (last && now - *last > 25 * ms)) {
+        may_open = false;
+        clear_since.reset();
+      }
       last = now;
       if (read_fails || z < 0.0) {
         clear_since.reset();
@@ -751,7 +754,10 @@ TEST_F(ServoLoopTest, GivesNoForceThatItMustNotWhateverHappens) {
       Vector3d force(0.0, 0.0, z < 0.0 ? 1.0 - 500.0 * z : 0.0);
       const bool none = z < 0.0 && chance(0.002);
       if (none) force.y() = no_number;
-      if (none) may_open = false, allowed[static_cast<std::size_t>((*last - start) / ms)] = 0;
+      if (none) {
+        may_open = false;
+        allowed[static_cast<std::size_t>((*last - start) / ms)] = 0;
+      }
       return FeltForce{force, 0};
     });
     run(&world);

@@ -85,7 +85,8 @@ TEST(Framing, FilmsAndOtherRunsOfASceneHaveOneCamera) {
 TEST(Framing, TheRimOfARippledBedIsLevel) {
   SurfaceSettings ripples;
   ripples.kind = SurfaceKind::ripples;
-  ripples.amplitude = 0.02, ripples.wavelength = 0.15;
+  ripples.amplitude = 0.02;
+  ripples.wavelength = 0.15;
   RenderSubject subject = small_subject();
   subject.view.azimuth = -90.0;
   subject.view.elevation = 0.0;  // the nearest edge is the highest line of the picture

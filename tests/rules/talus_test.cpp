@@ -18,7 +18,8 @@ TalusPass pass_over(const HeightGrid& heights, RelaxationLaw law, double share, 
 TEST(TalusPass, PaperSharesTheExcessInProportionToTheDrops) {
   // A column 2 m high, beside it a cell 1 m high to the east, all else at 0: both are too steep for it.
   HeightGrid heights = HeightGrid::Zero(5, 5);
-  heights(2, 2) = 2.0, heights(2, 3) = 1.0;
+  heights(2, 2) = 2.0;
+  heights(2, 3) = 1.0;
   CompensatedSum moved;
   const TalusPass pass = pass_over(heights, RelaxationLaw::paper, 0.5, moved);
   EXPECT_TRUE(pass.flows);

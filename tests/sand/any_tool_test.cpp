@@ -191,7 +191,8 @@ TEST(AnyTool, TurnedByThirtyDegreesItLeavesTheSameWithinTheCellsError) {
           const double height = one.height_at(x, y);
           const double there = turned.height_at(std::cos(angle) * x - std::sin(angle) * y,
                                                 std::sin(angle) * x + std::cos(angle) * y);
-          apart += std::abs(height - there), moved += std::abs(height);
+          apart += std::abs(height - there);
+          moved += std::abs(height);
         }
       RecordProperty(fmt::format("shape_{}_{}", static_cast<int>(shape), 1e3 * cell),
                      fmt::format("{:.4f}", apart / moved));
@@ -208,7 +209,9 @@ TEST(AnyTool, ABladeAcrossATroughPushesTheHeapOfItsSand) {
   for (const double cell : {0.002, 0.001, 0.0005}) {
     HeightField bed(10, static_cast<int>(std::lround(0.3 / cell)), cell);
     ToolSettings blade = solid_tool(ToolShape::plate);
-    blade.width = 1.0, blade.height = 0.1, blade.thickness = 0.004;
+    blade.width = 1.0;
+    blade.height = 0.1;
+    blade.thickness = 0.004;
     ToolFootprint footprint(blade);
     const auto relaxer = rkl_relaxer(cell, talus);
     const double step = 0.25 * cell;
@@ -273,7 +276,10 @@ TEST(AnyTool, HoweverItIsMadeAndHeldItLosesNoSand) {
   for (int i = 0; i < 200; ++i) {
     ToolSettings tool{length(), ToolProfile::sphere, true};
     tool.shape = any_shape[random() % any_shape.size()];
-    tool.height = length(), tool.width = length(), tool.thickness = length(), tool.spacing = length();
+    tool.height = length();
+    tool.width = length();
+    tool.thickness = length();
+    tool.spacing = length();
     tool.size = {length(), length(), length()};
     tool.teeth = 1 + static_cast<int>(random() % 6);
     tool.orientation = {upto(720.0) - 360.0, upto(720.0) - 360.0, upto(720.0) - 360.0};

@@ -150,7 +150,8 @@ TEST(Engine, EqualsTheReferenceInASteadyFlow) {
 TEST(Engine, SaysThatSandRestsWhereThePassesJustSufficed) {
   SurfaceSettings cylinder;
   cylinder.kind = SurfaceKind::cylinder;
-  cylinder.radius = 10.0, cylinder.height = 12.0;
+  cylinder.radius = 10.0;
+  cylinder.height = 12.0;
   RelaxationSettings settings;
   HeightField bed = make_surface(cylinder, 80, 80, 1.0);
   settings.max_passes = make_relaxer(settings, 1.0)->relax(bed).passes;
@@ -250,7 +251,8 @@ TEST(Tool, EqualsThePlainRuleOn400RandomScenes) {
           ASSERT_EQ(scene.bed.is_held(row, col), plain.covers(row, col) || walls(row, col))
               << row << ", " << col;
       scene.bed.hold({});
-      scene.bed.clear_disturbed(), expected.clear_disturbed();
+      scene.bed.clear_disturbed();
+      expected.clear_disturbed();
     }
   }
   EXPECT_GT(pushed, sanitized ? 100 : 1000);

@@ -85,11 +85,23 @@ TEST(MovedVolume, OfASteadyFlowIsThatOfItsMirrorImage) {
 
 TEST(RelaxationOutcome, OfOneAfterAnotherCountsBothAndRestsAsTheLast) {
   RelaxationOutcome first, next;
-  first.passes = 1, first.super_steps = 2, first.rejected_stages = 3, first.cells_visited = 4;
-  first.wake_ups = 5, first.tiles_active_max = 6, first.moved_volume = 7.0, first.residual = 8.0;
+  first.passes = 1;
+  first.super_steps = 2;
+  first.rejected_stages = 3;
+  first.cells_visited = 4;
+  first.wake_ups = 5;
+  first.tiles_active_max = 6;
+  first.moved_volume = 7.0;
+  first.residual = 8.0;
   first.converged = true;
-  next.passes = 10, next.super_steps = 20, next.rejected_stages = 30, next.cells_visited = 40;
-  next.wake_ups = 50, next.tiles_active_max = 5, next.moved_volume = 70.0, next.residual = 0.5;
+  next.passes = 10;
+  next.super_steps = 20;
+  next.rejected_stages = 30;
+  next.cells_visited = 40;
+  next.wake_ups = 50;
+  next.tiles_active_max = 5;
+  next.moved_volume = 70.0;
+  next.residual = 0.5;
   first.add(next);
   EXPECT_EQ(first.passes, 11);
   EXPECT_EQ(first.super_steps, 22);

@@ -221,7 +221,9 @@ TEST(ResistiveForce, OfABladeThatTurnsInItsPlaceIsATorque) {
   // other faces trail.
   ToolSettings blade{0.01, ToolProfile::sphere, true};
   blade.shape = ToolShape::plate;
-  blade.width = 0.04, blade.height = 0.03, blade.thickness = 0.002;
+  blade.width = 0.04;
+  blade.height = 0.03;
+  blade.thickness = 0.002;
   const double depth = 0.012, angle = 0.02;
   HeightField bed(101, 101, 0.0005);
   ToolFootprint footprint(blade);

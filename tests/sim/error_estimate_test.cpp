@@ -42,7 +42,8 @@ Stroke stroke_of(double speed) {
 
 TEST(SecondScene, HasEveryStepTwiceOrHalfAsLarge) {
   Scene scene = cylinder_scene(128);
-  scene.bed.cols = 192, scene.bed.width = 3.0;
+  scene.bed.cols = 192;
+  scene.bed.width = 3.0;
   for (const auto& [which, factor] :
        {std::pair(SecondSolution::coarser, 2.0), std::pair(SecondSolution::finer, 0.5)}) {
     const Scene second = second_scene(scene, which);
@@ -58,7 +59,8 @@ TEST(SecondScene, HasEveryStepTwiceOrHalfAsLarge) {
 TEST(SecondScene, OddBedsGetCellsAsNearAsSquareOnesFill) {
   Scene scene = cylinder_scene(9);
   EXPECT_EQ(second_scene(scene, SecondSolution::coarser).bed.cols, 5);
-  scene.bed.rows = 10, scene.bed.depth = 2.0 / 9.0 * 10.0;
+  scene.bed.rows = 10;
+  scene.bed.depth = 2.0 / 9.0 * 10.0;
   EXPECT_THROW(second_scene(scene, SecondSolution::coarser), Error);
   EXPECT_EQ(second_scene(scene, SecondSolution::finer).bed.rows, 20);
 }
@@ -74,7 +76,8 @@ TEST(SecondScene, IsAsLateAsTheRun) {
   scene.device.delay = 5;
   EXPECT_THROW(second_scene(scene, SecondSolution::coarser), Error);
   EXPECT_EQ(second_scene(scene, SecondSolution::finer).device.delay, 10);
-  scene.device.delay = 0, scene.device.dropped_ticks = 0.1;
+  scene.device.delay = 0;
+  scene.device.dropped_ticks = 0.1;
   EXPECT_THROW(second_scene(scene, SecondSolution::finer), Error);
 }
 
@@ -111,7 +114,8 @@ TEST(ErrorEstimate, IsNothingBeyondARoundWall) {
   Scene scene = cylinder_scene(32);
   scene.bed.shape = BedShape::round;
   scene.bed.surface.kind = SurfaceKind::noise;
-  scene.bed.surface.amplitude = 0.2, scene.bed.surface.wavelength = 0.0;  // cells are split
+  scene.bed.surface.amplitude = 0.2;
+  scene.bed.surface.wavelength = 0.0;  // cells are split
   const FeltRun run(scene);
   HeightField map(32, 32, scene.bed.cell_size());
   const ErrorEstimate e = estimate_error(scene, starting_bed(scene.bed), {}, run.solution, run.force,
@@ -228,7 +232,9 @@ TEST(ErrorEstimate, IsTheDistanceToTheSecondSolutionTimesRichardsonsFactor) {
   // Over tiles of a bed that is not square, near its end along x: the coarser one has 1 x 3 of them, the
   // finer one 3 x 10.
   Scene drag = stroke_scene(300);
-  drag.bed.width = 0.6, drag.bed.rows = 90, drag.bed.depth = 0.18;
+  drag.bed.width = 0.6;
+  drag.bed.rows = 90;
+  drag.bed.depth = 0.18;
   // In the air for the first 20 of 250 ms: ticks without a force.
   Stroke stroke = stroke_of(0.1);
   for (Eigen::Vector3d& place : stroke.position) place += Eigen::Vector3d(0.26, 0.0, 1.2e-3);
@@ -241,7 +247,8 @@ TEST(ErrorEstimate, IsTheDistanceToTheSecondSolutionTimesRichardsonsFactor) {
 TEST(ErrorEstimate, OfABedThatNoSquareCellsHalveIsTakenOverTheirCommonParts) {
   // 9 x 27 cells, and 5 x 15: each of these covers 1.8 of those along each side.
   Scene heap = cylinder_scene(9);
-  heap.bed.cols = 27, heap.bed.width = 6.0;
+  heap.bed.cols = 27;
+  heap.bed.width = 6.0;
   heap.relaxation.tolerance = 1e-2;
   ASSERT_EQ(second_scene(heap, SecondSolution::coarser).bed.cols, 15);
   expect_richardson(heap, {}, SecondSolution::coarser, starting_bed(heap.bed),
@@ -268,9 +275,11 @@ TEST(ErrorEstimate, ItsMapIsAsSymmetricAsTheBedWhateverTheRatioOfCells) {
 TEST(ErrorEstimate, CellsThatNoRuleMakesAnewAreAveragedOrSplit) {
   Scene rough = stroke_scene(20);
   rough.stroke.reset();
-  rough.bed.rows = 30, rough.bed.depth = 0.15;
+  rough.bed.rows = 30;
+  rough.bed.depth = 0.15;
   rough.bed.surface.kind = SurfaceKind::noise;
-  rough.bed.surface.wavelength = 0.0, rough.bed.surface.amplitude = 0.02;
+  rough.bed.surface.wavelength = 0.0;
+  rough.bed.surface.amplitude = 0.02;
   // Heights of which sums and halves are exact: of beds that differ by rounding other cells may come to rest.
   const HeightGrid steps = (starting_bed(rough.bed).grid() * 0x1p20).round() * 0x1p-20;
   const HeightField start(steps, rough.bed.cell_size());
@@ -285,8 +294,10 @@ TEST(ErrorEstimate, OfSandThatOnlyOneSolutionMovedIsAllOfItWhereverItIs) {
   // A flat bed, on which nothing moves: four cells that the run is said to have raised, one of the coarser
   // bed's, and eight of them that it lowered, two of the coarser bed's.
   Scene scene;
-  scene.bed.width = 6.0, scene.bed.cols = 600;
-  scene.bed.depth = 2.0, scene.bed.rows = 200;
+  scene.bed.width = 6.0;
+  scene.bed.cols = 600;
+  scene.bed.depth = 2.0;
+  scene.bed.rows = 200;
   const HeightField start = starting_bed(scene.bed);
   for (const auto& [row, col] : {std::pair{0, 0}, {6, 500}, {150, 40}, {198, 596}}) {
     HeightField raised = start;

@@ -120,9 +120,11 @@ void expect_equal(const GapRun& idle, const GapRun& all) {
 
 TEST(IdleTicks, AreLeftOutOfARunThatIsTheSame) {
   std::vector<Scene> scenes(7, small_bed());
-  scenes[1].preset = ModelPreset::accurate, apply_model_preset(scenes[1]);
+  scenes[1].preset = ModelPreset::accurate;
+  apply_model_preset(scenes[1]);
   scenes[2].output.frames = 7.0;
-  scenes[3].relaxation.max_passes = 1, scenes[3].relaxation.rate = 10.0;  // sand slips all the time
+  scenes[3].relaxation.max_passes = 1;
+  scenes[3].relaxation.rate = 10.0;  // sand slips all the time
   scenes[3].output.frames = 2000.0;
   scenes[4].relaxation.rate = 0.7;
   scenes[5].relaxation.rate = 1e6;

@@ -38,8 +38,10 @@ double force_length(const TickRecord& tick) { return std::sqrt(tick.device_force
 /// A bed that is not square, of 0.3 m x 0.2 m.
 Scene narrow_scene() {
   Scene scene;
-  scene.bed.width = 0.3, scene.bed.depth = 0.2;
-  scene.bed.cols = 150, scene.bed.rows = 100;
+  scene.bed.width = 0.3;
+  scene.bed.depth = 0.2;
+  scene.bed.cols = 150;
+  scene.bed.rows = 100;
   scene.stroke.emplace();
   scene.stroke->file = "in memory";
   return scene;
@@ -361,7 +363,8 @@ TEST(RunResult, AfterAGapADynamicDeviceIsWhereTheHandIsAndNoLateForceIsLeft) {
 TEST(RunResult, ALoopReturnedEnergyWhereMoreThanAThousandthCameBack) {
   const auto device = [](double absorbed, double least, double margin) {
     DeviceResult result;
-    result.absorbed_energy = absorbed, result.least_absorbed_energy = least;
+    result.absorbed_energy = absorbed;
+    result.least_absorbed_energy = least;
     result.least_passivity_margin = margin;
     return result;
   };

@@ -89,7 +89,10 @@ std::vector<double> slips_of_a_drag(double tick) {
     // Held are the cells under the tool where it is now: their middle.
     double sum = 0.0, cells = 0.0;
     for (int col = 0; col < 100; ++col)
-      if (bed.is_held(50, col)) sum += bed.x_of(col), cells += 1.0;
+      if (bed.is_held(50, col)) {
+        sum += bed.x_of(col);
+        cells += 1.0;
+      }
     slips.push_back(cells > 0.0 ? sum / cells : std::numeric_limits<double>::quiet_NaN());
     sand.relaxed(bed);
   };
@@ -121,7 +124,10 @@ int slips_on_a_drag(const RelaxationSettings& relaxation, double depth, double l
   int slips = 0;
   for (int i = 0; i <= 400; ++i) {
     const Eigen::Vector3d tip(-0.06 + length * i / 400, 0.0, -depth);
-    sand.move(bed, tip, tip, [&] { ++slips, sand.relaxed(bed); });
+    sand.move(bed, tip, tip, [&] {
+      ++slips;
+      sand.relaxed(bed);
+    });
   }
   return slips;
 }
@@ -215,7 +221,8 @@ TEST(SandSide, IsInContactBelowTheLevelAndNotAtIt) {
 
 TEST(SandSide, ARakeThatGoesFarInATickLeavesFurrowsAndNoPits) {
   ToolSettings rake{0.004, ToolProfile::sphere, true, ToolShape::rake};
-  rake.teeth = 3, rake.spacing = 0.02;
+  rake.teeth = 3;
+  rake.spacing = 0.02;
   HeightField bed(120, 120, 0.001);
   SandSide side(rake, {Deposit::outward});
   const Eigen::Vector3d from(-0.03, 0.0, -0.003), to(0.03, 0.0, -0.003);

@@ -81,7 +81,8 @@ TEST(Simulation, EncoderStepsDoNotTurnTheDepositOfASlowDrag) {
     scene.device.model = DeviceModel::dynamic;
     scene.device.max_force = 0.0;
     scene.device.resolution = resolution;
-    scene.device.hand_stiffness = 1e4, scene.device.hand_damping = 60.0;
+    scene.device.hand_stiffness = 1e4;
+    scene.device.hand_damping = 60.0;
     Simulation simulation(scene, starting_bed(scene.bed),
                           through({{-0.02, 0, -0.006}, {0.02, 0, -0.006}}, 4.0));
     simulation.run();
@@ -320,7 +321,8 @@ TEST(Simulation, ASceneWithoutAStrokeIsACollapse) {
   Scene scene = small_scene();
   scene.stroke.reset();
   scene.bed.surface.kind = SurfaceKind::cylinder;
-  scene.bed.surface.radius = 0.05, scene.bed.surface.height = 0.05;
+  scene.bed.surface.radius = 0.05;
+  scene.bed.surface.height = 0.05;
   Simulation simulation(scene, starting_bed(scene.bed), std::nullopt);
   Told recording;
   const RunResult result = simulation.run({&recording});
@@ -344,7 +346,8 @@ TEST(Simulation, RefusesAStrokeThatEntersTheSandOutsideTheBed) {
 
 TEST(Simulation, TheBedEndsAtItsBordersForAStrokeInTheSand) {
   Scene scene = small_scene();
-  scene.bed.width = 0.4, scene.bed.cols = 200;  // 0.4 m x 0.3 m
+  scene.bed.width = 0.4;
+  scene.bed.cols = 200;  // 0.4 m x 0.3 m
   scene.device.offset = {0.0, 0.0, 0.005};
   const auto is_taken = [&](const Eigen::Vector3d& tip, PenState pen = pen_down) {
     Stroke stroke = through({{0, 0, 0.01}, tip - scene.device.offset}, 1.0);
@@ -380,7 +383,8 @@ TEST(Simulation, PlaysUpTo1e15Ticks) {
 TEST(Simulation, ADeviceIsLostFurtherAwayThanAHundredBeds) {
   // Nothing holds it: it goes on as fast as the hand threw it. The hand rests 2 m above the bed.
   Scene scene = small_scene();
-  scene.bed.width = 0.4, scene.bed.cols = 200;
+  scene.bed.width = 0.4;
+  scene.bed.cols = 200;
   scene.device.model = DeviceModel::dynamic;
   scene.device.hand_stiffness = scene.device.hand_damping = scene.device.damping = 0.0;
   Stroke thrown = through({{0, 0, 1}, {0, 0, 2}, {0, 0, 2}}, 0.0);

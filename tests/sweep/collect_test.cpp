@@ -35,7 +35,8 @@ SweepManifest grid_manifest() {
                {"model.preset", "", false, {"\"paper\"", "\"accurate\""}}}};
   m.metrics = {"max_force", "wall_seconds", "furrow_depth"};
   m.inputs = {{"scene.toml", "0123"}};
-  m.version = "1", m.commit = "abc";
+  m.version = "1";
+  m.commit = "abc";
   return m;
 }
 

@@ -79,7 +79,9 @@ TEST(LawSlope, OnAPlaneIsTheLawsOwn) {
 TEST(LawSlope, OnAPeakIsOfTheSteeperSidesAndInAPitAndOnAWallZero) {
   HeightField bed(3, 3, cell_size);
   bed.set(1, 1, 3.0 * cell_size);
-  bed.set(1, 0, 2.0 * cell_size), bed.set(0, 1, cell_size), bed.set(2, 1, -cell_size);
+  bed.set(1, 0, 2.0 * cell_size);
+  bed.set(0, 1, cell_size);
+  bed.set(2, 1, -cell_size);
   EXPECT_NEAR(law_slope(bed, 1, 1, RelaxationLaw::paper), 4.0, 1e-13);
   EXPECT_NEAR(law_slope(bed, 1, 1, RelaxationLaw::isotropic), std::hypot(3.0, 4.0), 1e-13);
   // To the right, or below: a crest that falls by 3 and 1, or 4 and 2, and half of either's rise across it

@@ -30,7 +30,8 @@ SweepManifest manifest() {
                {"model.preset", "", false, {"\"paper\"", "\"accurate\""}}}};
   m.metrics = {"max_force", "work"};
   m.inputs = {{"scene.toml", "0123"}};
-  m.version = "1", m.commit = "abc";
+  m.version = "1";
+  m.commit = "abc";
   return m;
 }
 
@@ -46,7 +47,8 @@ std::string refusal(const fs::path& path, const SweepManifest& m) {
 TEST_F(AFolder, IsTakenUpBySameSweepAndOpenedAsItWasMade) {
   SweepFolder::make(path, manifest());
   SweepManifest moved = manifest();
-  moved.scene = "/elsewhere/scene.toml", moved.inputs[0].first = "there.toml";
+  moved.scene = "/elsewhere/scene.toml";
+  moved.inputs[0].first = "there.toml";
   EXPECT_EQ(SweepFolder::make(path, moved).manifest().scene, manifest().scene);
   const SweepFolder opened = SweepFolder::open(path);
   EXPECT_EQ(opened.points(), 4u);

@@ -24,7 +24,8 @@ SweepManifest page_manifest() {
               {{"relaxation.talus_angle", "deg", false, {"20", "22.5"}},
                {"model.preset", "", false, {"\"paper\"", "\"accurate\""}}}};
   m.metrics = {"max_force", "work"};
-  m.version = "1", m.commit = "abc";
+  m.version = "1";
+  m.commit = "abc";
   return m;
 }
 
@@ -98,7 +99,8 @@ TEST_F(ASweepPage, ShowsThePictureThatWasKeptOrAMapOfTheSurface) {
   m.keep_picture = m.keep_surface = true;
   const SweepFolder folder = make(m);
   HeightField bed(40, 60, 0.1), higher = bed;
-  bed.set(3, 4, -0.1), higher.set(3, 4, 0.3);
+  bed.set(3, 4, -0.1);
+  higher.set(3, 4, 0.3);
   Image picture(400, 300);
   std::fill(picture.rgb.begin(), picture.rgb.end(), std::uint8_t{99});
   write_png(folder.picture_file(0), picture);

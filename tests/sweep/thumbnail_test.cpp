@@ -77,7 +77,10 @@ TEST_F(ASurface, IsKnownAndMadeCoarseWithoutBeingRead) {
 
 TEST_F(ASurface, ShowsAFurrowNarrowerThanAPixelAndSmallBedsInWholePixels) {
   HeightField bed(1000, 1000, 0.002);
-  for (int col = 0; col < 1000; ++col) bed.set(500, col, -0.1), bed.set(501, col, 0.05);
+  for (int col = 0; col < 1000; ++col) {
+    bed.set(500, col, -0.1);
+    bed.set(501, col, 0.05);
+  }
   write(bed);
   const Image map = surface_thumbnail(path, 0.1);
   ASSERT_EQ(map.width, 167);  // blocks of 6 cells

@@ -20,8 +20,10 @@ constexpr double rests_within = 1e-3;  // N: a tool at rest feels a force that s
 /// The paper's sand on a small bed, and a device with a force limit and exact encoders.
 Scene small_scene() {
   Scene scene;
-  scene.bed.width = 0.24, scene.bed.depth = 0.12;
-  scene.bed.cols = 120, scene.bed.rows = 60;
+  scene.bed.width = 0.24;
+  scene.bed.depth = 0.12;
+  scene.bed.cols = 120;
+  scene.bed.rows = 60;
   scene.device.model = DeviceModel::dynamic;
   scene.device.resolution = 0.0;
   return scene;
@@ -111,23 +113,54 @@ struct Plan {
 const Plan plans[] = {
     {"as published", "k_s 1000 N, k_c 0.5 1/m, k_f 10 s/m, 1 kHz", [](Scene&) {}},
     {"without drag", "k_f 0", [](Scene& s) { s.force.k_f = 0.0; }},
-    {"a little late", "k_f 0, 10 ticks late", [](Scene& s) { s.force.k_f = 0.0, s.device.delay = 10; }},
+    {"a little late", "k_f 0, 10 ticks late",
+     [](Scene& s) {
+       s.force.k_f = 0.0;
+       s.device.delay = 10;
+     }},
     {"the paper's late loop", "k_f 0, 40 ticks late",
-     [](Scene& s) { s.force.k_f = 0.0, s.device.delay = 40; }},
+     [](Scene& s) {
+       s.force.k_f = 0.0;
+       s.device.delay = 40;
+     }},
     {"late drag", "k_f 10 s/m, 20 ticks late", [](Scene& s) { s.device.delay = 20; }},
     {"half of the ticks dropped", "k_f 0, half of the ticks late",
-     [](Scene& s) { s.force.k_f = 0.0, s.device.dropped_ticks = 0.5; }},
-    {"stiff sand", "k_f 0, k_s 20 kN", [](Scene& s) { s.force.k_f = 0.0, s.force.k_s = 20e3; }},
+     [](Scene& s) {
+       s.force.k_f = 0.0;
+       s.device.dropped_ticks = 0.5;
+     }},
+    {"stiff sand", "k_f 0, k_s 20 kN",
+     [](Scene& s) {
+       s.force.k_f = 0.0;
+       s.force.k_s = 20e3;
+     }},
     {"stiff sand, slow loop", "k_f 0, k_s 20 kN, 200 Hz",
-     [](Scene& s) { s.force.k_f = 0.0, s.force.k_s = 20e3, s.device.servo_rate = 200.0; }},
-    {"large workspace", "k_f 0, scale 10", [](Scene& s) { s.force.k_f = 0.0, s.device.scale = 10.0; }},
+     [](Scene& s) {
+       s.force.k_f = 0.0;
+       s.force.k_s = 20e3;
+       s.device.servo_rate = 200.0;
+     }},
+    {"large workspace", "k_f 0, scale 10",
+     [](Scene& s) {
+       s.force.k_f = 0.0;
+       s.device.scale = 10.0;
+     }},
     {"large workspace, slow loop", "k_f 0, scale 10, 100 Hz",
-     [](Scene& s) { s.force.k_f = 0.0, s.device.scale = 10.0, s.device.servo_rate = 100.0; }},
+     [](Scene& s) {
+       s.force.k_f = 0.0;
+       s.device.scale = 10.0;
+       s.device.servo_rate = 100.0;
+     }},
     {"strong drag, sampled", "k_f 50 s/m, 200 Hz",
-     [](Scene& s) { s.force.k_f = 50.0, s.device.servo_rate = 200.0; }},
+     [](Scene& s) {
+       s.force.k_f = 50.0;
+       s.device.servo_rate = 200.0;
+     }},
     {"strong drag, implicit", "k_f 50 s/m, 200 Hz, device.drag = implicit",
      [](Scene& s) {
-       s.force.k_f = 50.0, s.device.servo_rate = 200.0, s.device.drag = DragVelocity::implicit;
+       s.force.k_f = 50.0;
+       s.device.servo_rate = 200.0;
+       s.device.drag = DragVelocity::implicit;
      }},
 };
 

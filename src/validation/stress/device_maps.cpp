@@ -161,7 +161,8 @@ LoopMapPlan hand_plan(const MapAxis& stiffness, const MapAxis& damping) {
       stiffness, damping, [](double stiffness_of_hand, double damping_of_hand) {
         DeviceSettings device = limited_device();
         device.servo_rate = 100.0;
-        device.hand_stiffness = stiffness_of_hand, device.hand_damping = damping_of_hand;
+        device.hand_stiffness = stiffness_of_hand;
+        device.hand_damping = damping_of_hand;
         return sand_of_stiffness(2e3, device);
       });
 }
@@ -172,7 +173,9 @@ LoopMapPlan depth_plan(const MapAxis& k_c, const MapAxis& depths) {
               "so the loop is stable down to some depth.",
               k_c, depths, [](double growth, double depth_of_tip) {
                 ForceSettings force;
-                force.k_s = 10.0, force.k_c = growth, force.k_f = 0.0;
+                force.k_s = 10.0;
+                force.k_c = growth;
+                force.k_f = 0.0;
                 return pressed_to(depth_of_tip, ideal_device(), force);
               });
 }
@@ -222,7 +225,9 @@ std::vector<LoopMapPlan> device_map_plans(bool quick) {
           x("mass", "kg", 0.01, 10.0), y("damping", "N s/m", 0.1, 100.0),
           [](double mass, double damping) {
             DeviceSettings device = limited_device();
-            device.mass = mass, device.damping = damping, device.hand_damping = 0.0;
+            device.mass = mass;
+            device.damping = damping;
+            device.hand_damping = 0.0;
             return sand_of_stiffness(20e3, device);
           }),
       hand_plan(x("hand stiffness", "N/m", 10.0, 1e4), y("hand damping", "N s/m", 0.1, 100.0)),
@@ -232,7 +237,8 @@ std::vector<LoopMapPlan> device_map_plans(bool quick) {
            servo_rate, y("scale", "", 0.1, 1000.0),
            [](double rate, double scale) {
              DeviceSettings device = limited_device();
-             device.servo_rate = rate, device.scale = scale;
+             device.servo_rate = rate;
+             device.scale = scale;
              return pressed_with(pressing, device, ForceSettings{});
            }),
       plan("delay-stiffness", "Delay and stiffness",

@@ -44,7 +44,10 @@ Stroke push(double cell, double depth, double drag) {
   const double x = 0.3 * cell, y = 0.17 * cell;
   std::vector<Eigen::Vector3d> places = {{x, y, above}, {x, y, -depth}};
   std::vector<double> seconds = {(above + depth) / speed};
-  if (drag > 0.0) places.emplace_back(x + drag, y, -depth), seconds.push_back(drag / speed);
+  if (drag > 0.0) {
+    places.emplace_back(x + drag, y, -depth);
+    seconds.push_back(drag / speed);
+  }
   return straight(places, seconds);
 }
 
@@ -104,7 +107,9 @@ Problem plate_force_problem(const ProblemOptions& options) {
   ToolSettings plate, blade;
   plate.shape = ToolShape::cylinder;
   blade.shape = ToolShape::plate;
-  blade.width = 0.04, blade.height = 0.03, blade.thickness = 0.004;
+  blade.width = 0.04;
+  blade.height = 0.03;
+  blade.thickness = 0.004;
   for (const double cell : {0.002, 0.001, 0.0005, 0.00025}) {
     if (options.quick && cell < 0.0005) continue;
     const std::string label = fmt::format("cells of {:.3g} mm", 1e3 * cell);

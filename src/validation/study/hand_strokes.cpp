@@ -55,7 +55,8 @@ Stroke scribble(double depth, double speed, bool cut) {
     for (int i = 0; i <= std::lround(2.0 * half[across] / apart); ++i) {
       Eigen::Vector2d from, to;
       from[across] = to[across] = i * apart - half[across];
-      from[along] = i % 2 ? half[along] : -half[along], to[along] = -from[along];
+      from[along] = i % 2 ? half[along] : -half[along];
+      to[along] = -from[along];
       for (const Eigen::Vector2d& point : {from, to}) {
         if (point == at) continue;
         script.segments.push_back({ScriptLine{{}, point}, {PressProfile::Kind::depth, {depth}}, speed});

@@ -67,7 +67,8 @@ class PileField {
         Contender contender{peer.name, fmt::format("{} cells", cells), {}, pile_bed_width / cells, nullptr};
         contender.settings.method = "peer";
         contender.external = true;
-        contender.settings.cells = cells, contender.settings.cell_size = pile_bed_width / cells;
+        contender.settings.cells = cells;
+        contender.settings.cell_size = pile_bed_width / cells;
         contender.run = [pile = pile_, cells, relax = peer.relax] {
           return collapse(*pile, cells, [&](HeightField& sand) { return relax(sand, talus_angle); });
         };
@@ -98,7 +99,8 @@ class PileField {
     scene.bed.cols = options_.quick ? 128 : 256;
     const HeightField start = pile_->start(scene.bed.cols);
     scene.bed.rows = start.rows();
-    scene.bed.width = pile_bed_width, scene.bed.depth = start.rows() * start.cell_size();
+    scene.bed.width = pile_bed_width;
+    scene.bed.depth = start.rows() * start.cell_size();
     scene.bed.surface = pile_->surface;
     problem_.check_errors = [=, pile = pile_] {
       return check_errors(
@@ -147,7 +149,8 @@ class PileField {
 Pile heap(SurfaceKind kind, double radius, double height, const ExactCone& cone) {
   SurfaceSettings surface;
   surface.kind = kind;
-  surface.radius = radius, surface.height = height;
+  surface.radius = radius;
+  surface.height = height;
   return {[surface](int cells) { return make_surface(surface, cells, cells, pile_bed_width / cells); },
           {cone, cone.top(), Flank{cone.slope, cone.plateau, cone.foot}},
           surface};
@@ -201,7 +204,8 @@ Problem cliff_problem(const ProblemOptions& options) {
                     "Along an axis both laws are exact: only the tolerance is left.");
   Pile pile;
   pile.start = [cliff](int cells) { return make_surface(cliff, band_rows, cells, pile_bed_width / cells); };
-  pile.shape.exact = collapsed_cliff(cliff.height, talus_angle), pile.shape.height = cliff.height;
+  pile.shape.exact = collapsed_cliff(cliff.height, talus_angle);
+  pile.shape.height = cliff.height;
   pile.surface = cliff;
   PileField(problem, pile, options).add_laws_and_methods();
   return problem;

@@ -14,7 +14,8 @@ LoopSettings wall(double stiffness, double damping, double mass) {
   LoopSettings loop;
   loop.device = ideal_device();
   loop.device.mass = mass;
-  loop.device.damping = 10.0, loop.device.hand_damping = loop.device.hand_stiffness = 0.0;
+  loop.device.damping = 10.0;
+  loop.device.hand_damping = loop.device.hand_stiffness = 0.0;
   loop.against = Wall{stiffness, damping};
   return loop;
 }
@@ -57,7 +58,9 @@ TEST(SpectralRadius, ImplicitDragIsStableWhateverItsStrength) {
         loop.device.servo_rate = rate;
         loop.device.drag = DragVelocity::implicit;
         PressedSand sand;
-        sand.force.k_f = k_f, sand.force.k_s = 10.0, sand.force.drag = direction;
+        sand.force.k_f = k_f;
+        sand.force.k_s = 10.0;
+        sand.force.drag = direction;
         sand.depth = 0.01;
         loop.against = sand;
         EXPECT_LE(spectral_radius(loop), 1.0) << rate << " Hz, k_f " << k_f;

@@ -33,7 +33,9 @@ TEST(ConvergenceOrder, NeedsThreeDifferentSteps) {
 
 StudyRun run_of(const char* problem, double seconds, double error) {
   StudyRun run;
-  run.problem = problem, run.wall_seconds = seconds, run.error = error;
+  run.problem = problem;
+  run.wall_seconds = seconds;
+  run.error = error;
   return run;
 }
 
@@ -60,7 +62,8 @@ TEST(Disturbance, IsWhatRepeatsDifferByOrWaited) {
 
 TEST(Disturbance, OfTheTickThatIsComparedWithCountsToo) {
   std::vector<StudyRun> runs = {run_of("ticks", 1.0, 2.0), run_of("ticks", 1.0, 4.0)};
-  runs[0].settings.force_law = "paper", runs[1].settings.force_law = "rft";
+  runs[0].settings.force_law = "paper";
+  runs[1].settings.force_law = "rft";
   runs[0].disturbed = true;
   compare_ticks(runs);
   EXPECT_EQ(runs[1].of_paper, 2.0);
