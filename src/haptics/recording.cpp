@@ -8,7 +8,7 @@ void count_flags(std::uint32_t flags, TickCounts& ticks) {
   ticks.ramped += (flags & ramped_force) != 0;
   ticks.rate_limited += (flags & rate_limited_force) != 0;
   ticks.refused += (flags & refused_force) != 0;
-  ticks.held += (flags & held_sand) != 0;
+  ticks.deferred += (flags & deferred_sand) != 0;
   ticks.interlocked += (flags & interlocked_force) != 0;
 }
 

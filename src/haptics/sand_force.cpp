@@ -10,7 +10,7 @@ using State = SimulatedDevice::State;
 
 struct ImplicitDrag {
   Eigen::Vector3d velocity;  // m/s, of the device
-  bool held;
+  bool limited;
 };
 
 ImplicitDrag implicit_drag(double depth, const SimulatedDevice& device, const State& hand,
@@ -30,8 +30,8 @@ ImplicitDrag implicit_drag(double depth, const SimulatedDevice& device, const St
   };
   double share = 1.0;
   if (too_much(1.0)) {
-    const double held_from = device.strongest_drag() / drag;
-    double low = 1e-120, high = held_from < 1.0 && too_much(held_from) ? held_from : 1.0;
+    const double limited_from = device.strongest_drag() / drag;
+    double low = 1e-120, high = limited_from < 1.0 && too_much(limited_from) ? limited_from : 1.0;
     for (int i = 0; i < 64; ++i) {
       const double middle = std::sqrt(low * high);
       (too_much(middle) ? high : low) = middle;
@@ -50,7 +50,7 @@ SandForce force_on_device(double depth, const SimulatedDevice& device, const Sta
     return sand_force(depth, d.scale * device.read().velocity, d.max_force, settings);
   const ImplicitDrag drag = implicit_drag(depth, device, hand, hand_after, settings);
   SandForce force = sand_force(depth, d.scale * drag.velocity, d.max_force, settings);
-  force.held_drag = drag.held;
+  force.limited_drag = drag.limited;
   return force;
 }
 

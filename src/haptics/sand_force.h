@@ -12,7 +12,7 @@ namespace sandstroke {
 /// drag felt, and u = drag_velocity() of share R and share B. share is 1, or such that the force is
 /// max_force. If share B <= strongest_drag(), u is the mean velocity of the tick under the force that acts.
 /// With horizontal drag that force grows with the share, so there is one solution. With full drag the
-/// smallest share is taken, one at which drag is not held if there is one. Drag takes energy for any share
+/// smallest share is taken, one at which drag is not limited if there is one. Drag takes energy for any share
 /// (drag_velocity).
 SandForce force_on_device(double depth, const SimulatedDevice& device, const SimulatedDevice::State& hand,
                           const SimulatedDevice::State& hand_after, const ForceSettings& settings);

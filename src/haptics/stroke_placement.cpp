@@ -169,7 +169,7 @@ Stroke place_stroke(const Stroke& stroke, const StrokePlacement& placement, cons
     throw_input_error("{}: scale is {}; it must be positive", name, placement.scale);
   Stroke placed = stroke;
   cut_time(placed, placement.start, placement.stop, name);
-  if (placement.held == HeldSamples::drop) placed = without_held_samples(placed);
+  if (placement.repeated == RepeatedSamples::drop) placed = without_repeated_samples(placed);
   if (placement.smooth > 0.0) placed = smoothed(placed, placement.smooth);
   const PointPlacement place = point_placement(placement, placed.frame);
   rotate(placed, place.axes);

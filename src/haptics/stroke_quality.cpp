@@ -64,7 +64,7 @@ StrokeQuality quality_of(const Stroke& stroke) {
   if (!spacings.empty()) quality.jitter = std::sqrt(squares / static_cast<double>(spacings.size()));
   quality.usual_speed = median(std::move(speeds));
   quality.repeats = repeats_of(stroke);
-  quality.noise = noise_of(without_held_samples(stroke));
+  quality.noise = noise_of(without_repeated_samples(stroke));
   const std::vector<Vector3d> drawn = drawn_points(stroke);
   quality.plane = plane_through(drawn);
   Eigen::AlignedBox3d extent;

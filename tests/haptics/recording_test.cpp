@@ -20,7 +20,7 @@ TEST(TickCounts, EachFlagCountsItsOwn) {
     t.dropped = 50;
     count_flags(flags, t);
     EXPECT_EQ(t.elapsed + t.recorded + t.skipped + t.unread + t.dropped, 150);
-    return std::vector{t.late, t.clamped, t.ramped, t.rate_limited, t.refused, t.held, t.interlocked};
+    return std::vector{t.late, t.clamped, t.ramped, t.rate_limited, t.refused, t.deferred, t.interlocked};
   };
   using Counts = std::vector<std::int64_t>;
   EXPECT_EQ(count(0), (Counts{0, 0, 0, 0, 0, 0, 0}));
@@ -30,9 +30,9 @@ TEST(TickCounts, EachFlagCountsItsOwn) {
   EXPECT_EQ(count(ramped_force), (Counts{0, 0, 1, 0, 0, 0, 0}));
   EXPECT_EQ(count(rate_limited_force), (Counts{0, 0, 0, 1, 0, 0, 0}));
   EXPECT_EQ(count(refused_force), (Counts{0, 0, 0, 0, 1, 0, 0}));
-  EXPECT_EQ(count(held_sand), (Counts{0, 0, 0, 0, 0, 1, 0}));
+  EXPECT_EQ(count(deferred_sand), (Counts{0, 0, 0, 0, 0, 1, 0}));
   EXPECT_EQ(count(interlocked_force), (Counts{0, 0, 0, 0, 0, 0, 1}));
-  EXPECT_EQ(count(late_sample | refused_force | held_sand), (Counts{1, 0, 0, 0, 1, 1, 0}));
+  EXPECT_EQ(count(late_sample | refused_force | deferred_sand), (Counts{1, 0, 0, 0, 1, 1, 0}));
 }
 
 TEST(StopReason, HasATextOfItsOwnAndIsFoundByIt) {

@@ -57,7 +57,7 @@ TEST(ForceOnDevice, ImplicitDragOfALimitedDeviceIsByTheWayThatTheLimitedForceLea
         if (direction == DragDirection::horizontal) slip.z() = 0.0;
         // Held back drag takes energy, too; else it is the model's, by the mean velocity of the tick.
         EXPECT_LE(sand.drag.dot(motion), 0.0);
-        if (!sand.held_drag) {
+        if (!sand.limited_drag) {
           EXPECT_NEAR((sand.drag + k_f * sand.repulse * slip).norm(), 0.0, 1e-9 * (1.0 + sand.drag.norm()))
               << k_f << " s/m, " << max_force << " N";
         }
@@ -77,7 +77,7 @@ TEST(ForceOnDevice, HeldImplicitDragIsToldAndStopsAFreeMassAtMost) {
       SimulatedDevice device(settings, moving);
       EXPECT_NEAR(device.strongest_drag(), strongest, 1e-9 * strongest);
       const SandForce sand = force_on_device(0.006, device, hand, hand_after, force);
-      EXPECT_EQ(sand.held_drag, share > 1.0 && max_force != 4.0) << share << ", " << max_force;
+      EXPECT_EQ(sand.limited_drag, share > 1.0 && max_force != 4.0) << share << ", " << max_force;
       device.advance(hand, hand_after, sand.total);
       EXPECT_GE(device.state().velocity.x() * moving.velocity.x(), -1e-15) << "drag reversed the motion";
     }

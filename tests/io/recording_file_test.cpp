@@ -205,7 +205,7 @@ TEST_F(RecordingFile, SaysHowItWasRecorded) {
     ticks.clamped = 8;
     ticks.ramped = 8;
     ticks.rate_limited = 4;
-    ticks.refused = ticks.held = ticks.interlocked = 0;
+    ticks.refused = ticks.deferred = ticks.interlocked = 0;
     const RecordingInfo written = write(made_samples(20), expected.footer);
     EXPECT_EQ(fields(written), fields(expected));
     const std::optional<RecordingInfo> back = read_recording_info(path_);

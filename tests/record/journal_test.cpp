@@ -134,7 +134,7 @@ TEST(RecordingJson, WhatAnEarlierVersionDidNotSayIsAsByDefault) {
   EXPECT_EQ(header_from_json(header).device.max_damping, 0.0);
   EXPECT_EQ(header_from_json(header).device.max_stiffness, full_header().device.max_stiffness);
   EXPECT_EQ(footer_from_json(footer).ticks.interlocked, 0);
-  EXPECT_EQ(footer_from_json(footer).ticks.held, full_footer().ticks.held);
+  EXPECT_EQ(footer_from_json(footer).ticks.deferred, full_footer().ticks.deferred);
 }
 
 TEST(RecordingJson, AReasonOfALaterVersionIsNotTakenForOneOfThis) {

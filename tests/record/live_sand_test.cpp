@@ -91,7 +91,7 @@ TEST_P(LiveTool, OfEvenTicksHasTheSandAndTheRepulseForceThatARunOfThemHas) {
   const Feeling felt = feel_all(scene, times);
   EXPECT_GT(felt.report.contact_ticks, 500);
   EXPECT_GT(felt.report.relaxation.passes, 100);
-  EXPECT_EQ(felt.report.held_ticks, 0);
+  EXPECT_EQ(felt.report.deferred_ticks, 0);
 
   scene.stroke.emplace();
   Simulation simulation(scene, starting_bed(scene.bed), sampled(times));
@@ -310,13 +310,13 @@ TEST(LiveSand, OfALawOfTheContactGoesOnWhileTheToolIsHeldFromDigging) {
   LiveSand sand(scene, starting_bed(scene.bed), {"bed"});
   int k = 0;
   std::uint32_t flags = 0;
-  for (; k < 200'000 && !(flags & held_sand); ++k) {
+  for (; k < 200'000 && !(flags & deferred_sand); ++k) {
     const double angle = 0.05 * k;
     flags =
         sand.feel(1e-3 * k, {Eigen::Vector3d(0.1 * std::cos(angle), 0.1 * std::sin(angle), -0.01 - 1e-7 * k)})
             .flags;
   }
-  ASSERT_TRUE(flags & held_sand);
+  ASSERT_TRUE(flags & deferred_sand);
   const double angle = 0.05 * (k - 1), z = -0.01 - 1e-7 * (k - 1);
   FeltForce felt;
   for (int i = 1; i <= 20; ++i, ++k)
@@ -476,16 +476,16 @@ TEST(LiveSand, ThatRelaxesTooSlowlyIsFeltButNotDisplaced) {
   LiveSand sand(scene, start, {"bed"});
   std::uint32_t flags = 0;
   FeltForce felt;
-  for (int k = 0; k < 100'000 && !(flags & held_sand); ++k) {
+  for (int k = 0; k < 100'000 && !(flags & deferred_sand); ++k) {
     const double angle = 0.05 * k;
     felt = sand.feel(k * 1e-3,
                      {Eigen::Vector3d(0.1 * std::cos(angle), 0.1 * std::sin(angle), -0.01 - 1e-6 * k)});
     flags |= felt.flags;
   }
-  EXPECT_EQ(flags, held_sand);
+  EXPECT_EQ(flags, deferred_sand);
   EXPECT_GT(felt.force.z(), 0.0);
   const LiveSandReport report = sand.finish();
-  EXPECT_EQ(report.held_ticks, 1);
+  EXPECT_EQ(report.deferred_ticks, 1);
   EXPECT_LT((sand.bed().grid() - sand.relaxed_bed().grid()).abs().maxCoeff(), 1e-12);
   EXPECT_LT(std::abs(sand.bed().volume() - start.volume()), 1e-13);
 }
@@ -637,7 +637,7 @@ TEST(LiveSand, CountsTheTicksInContact) {
   EXPECT_EQ(contact, 200);
   const LiveSandReport report = sand.finish();
   EXPECT_EQ(report.contact_ticks, 200);
-  EXPECT_EQ(report.held_ticks, 0);
+  EXPECT_EQ(report.deferred_ticks, 0);
 }
 
 }  // namespace

@@ -52,7 +52,7 @@ class ServoLoopTest : public testing::Test {
     EXPECT_EQ(ticks.ramped, with(ramped_force));
     EXPECT_EQ(ticks.rate_limited, with(rate_limited_force));
     EXPECT_EQ(ticks.refused, with(refused_force));
-    EXPECT_EQ(ticks.held, with(held_sand));
+    EXPECT_EQ(ticks.deferred, with(deferred_sand));
     EXPECT_EQ(ticks.interlocked, with(interlocked_force));
     EXPECT_EQ(device.held, Vector3d::Zero());
     std::uint64_t expected = 0;
@@ -303,7 +303,7 @@ TEST_F(ServoLoopTest, EndsWhenTheStopSwitchIsHeld) {
 }
 
 TEST_F(ServoLoopTest, GivesWhatTheWorldMakesFelt) {
-  FakeWorld world([](double time) { return FeltForce{{0.0, 0.0, 20.0 * time}, held_sand}; });
+  FakeWorld world([](double time) { return FeltForce{{0.0, 0.0, 20.0 * time}, deferred_sand}; });
   Vector3d commanded = Vector3d::Zero();
   device.takes_force = [&](const Vector3d& force) {
     commanded = force;
@@ -317,7 +317,7 @@ TEST_F(ServoLoopTest, GivesWhatTheWorldMakesFelt) {
   for (const RecordedSample& s : samples) {
     EXPECT_NEAR(s.force[2], 0.02 * static_cast<double>(s.sequence), 1e-12);
   }
-  EXPECT_EQ(footer.ticks.held, 100);
+  EXPECT_EQ(footer.ticks.deferred, 100);
   EXPECT_EQ(device.commands, 101);
 }
 
@@ -788,7 +788,7 @@ TEST_F(ServoLoopTest, AllocatesNothing) {
   settings.stop_switch = 0;
   settings.force = {8.0, 0.02, 1000.0, 0.0};
   FakeWorld world([](double time) {
-    return FeltForce{Vector3d::Constant(10.0 * std::sin(time)), held_sand};
+    return FeltForce{Vector3d::Constant(10.0 * std::sin(time)), deferred_sand};
   });
   device.reads = [&](double time, DeviceReading& reading) {
     const auto tick = std::llround(time * 1000);
