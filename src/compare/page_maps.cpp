@@ -51,8 +51,8 @@ Json scale_json(const std::string& title, const ValueRange& range, const std::st
                 bool around_zero) {
   Json colours = Json::array();
   for (int i = 0; i < scale_colours; ++i) {
-    const double unit_place = i / (scale_colours - 1.0);
-    const auto colour = scale_colour(unit_place, 0.0, 1.0, around_zero);
+    const double fraction = i / (scale_colours - 1.0);
+    const auto colour = scale_colour(fraction, 0.0, 1.0, around_zero);
     colours.push_back(fmt::format("#{:02x}{:02x}{:02x}", std::lround(255 * colour[0]),
                                   std::lround(255 * colour[1]), std::lround(255 * colour[2])));
   }
@@ -83,7 +83,8 @@ Image height_map(const HeightGrid& values, const ValueRange& range, bool around_
                    std::max(1, static_cast<int>(std::lround(rows * scale))));
 }
 
-/// Gives each cell the value of its spot. The grid keeps its size, so that a place stays in the same pixel.
+/// Gives each cell the value of its spot. The grid keeps its size, so that a position stays in the same
+/// pixel.
 HeightGrid spread(const HeightGrid& values, const Spots& spots) {
   const HeightGrid seen = at_spots(values, spots);
   return HeightGrid::NullaryExpr(values.rows(), values.cols(), [&](Eigen::Index row, Eigen::Index col) {
@@ -135,7 +136,7 @@ CellRange shown_cells(const ComparedSurfaces& s) {
                           std::min(all.col_begin, range.col_begin), std::max(all.col_end, range.col_end)};
   };
   const auto add_moved = [&](const HeightField& initial, const HeightField& final) {
-    add(differing_cells(initial, final, settled_share * field_difference(initial, final).max));
+    add(differing_cells(initial, final, settled_fraction * field_difference(initial, final).max));
   };
   add_moved(s.golden_initial, s.golden);
   add_moved(s.run_initial, s.run);
@@ -214,7 +215,7 @@ Json pictures_part(const std::string& title, const Image& golden, const Image& r
                scale_json("difference", range, "of 255", 1.0, true),
                fmt::format("Largest {} of 255 at pixel x = {}, y = {}, limit {}; {:.4g} % of the pixels "
                            "differ. Each pixel has the colour of its channel that differs most.",
-                           whole.max, whole.x, whole.y, limit, 100.0 * whole.share)));
+                           whole.max, whole.x, whole.y, limit, 100.0 * whole.fraction)));
   part["extent"] = {{"x", {0, golden.width}}, {"y", {golden.height, 0}}};
   if (whole.max > 0) part["largest"] = {{"x", whole.x + 0.5}, {"y", whole.y + 0.5}};
   return part;

@@ -9,7 +9,7 @@
 namespace sandstroke {
 
 // A part of a page with maps of golden, run and their difference. All maps of a part have equally many pixels
-// and show the same place in the same pixel. Where golden and run differ in shape this does not hold, and
+// and show the same position in the same pixel. Where golden and run differ in shape this does not hold, and
 // there is no map of the difference.
 
 /// Two surfaces, or two changes of height, each with its initial one.
@@ -20,7 +20,7 @@ struct ComparedSurfaces {
   bool around_zero = false;  ///< colours of heights: from blue to red, with white at zero
 };
 
-/// The part of the bed where sand was moved in one of them (by more than settled_share of its largest
+/// The part of the bed where sand was moved in one of them (by more than settled_fraction of its largest
 /// change), or where they differ by more than the limit; with a margin. The whole bed where there is no such
 /// part, or where a height is not finite; empty where they differ in shape.
 CellRange shown_cells(const ComparedSurfaces& surfaces);

@@ -114,8 +114,8 @@ std::vector<Check> picture_checks(const Image& golden, const Image& run, const T
                       difference.max == 0 ? "the same in every pixel"
                                           : fmt::format("differs by {}/255 at pixel x = {}, y = {}",
                                                         difference.max, difference.x, difference.y)),
-          limit_check("picture share", 100.0 * difference.share, 100.0 * tolerances.pixel_share, "%",
-                      fmt::format("{:.4g} % of the pixels differ", 100.0 * difference.share))};
+          limit_check("picture share", 100.0 * difference.fraction, 100.0 * tolerances.pixel_share, "%",
+                      fmt::format("{:.4g} % of the pixels differ", 100.0 * difference.fraction))};
 }
 
 void add_checks(std::vector<Check>& checks, const std::string& name,

@@ -77,7 +77,7 @@ struct TickCounts {
 };
 
 /// The fraction of the elapsed ticks that were skipped.
-double skipped_share(const TickCounts& ticks);
+double skipped_fraction(const TickCounts& ticks);
 
 /// Counts a recorded sample's flags.
 void count_flags(std::uint32_t flags, TickCounts& ticks);

@@ -9,7 +9,7 @@ enum class RepeatedSamples { keep, drop };
 
 /// Repeated samples, as of a device that is read faster than it measures.
 struct Repeats {
-  double share = 0.0;      ///< fraction of the samples that have the position of the one before
+  double fraction = 0.0;   ///< of the samples, those that have the position of the one before
   std::size_t period = 1;  ///< samples from one measurement to the next
 };
 /// period: the length that nine of ten runs of equal positions do not exceed. The others are rests.

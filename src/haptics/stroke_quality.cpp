@@ -80,11 +80,11 @@ std::vector<std::string> quality_warnings(const StrokeQuality& quality) {
         fmt::format("it is {:.4g} m wide: if its positions are not in metres, convert it with their unit, or "
                     "set stroke.scale (0.001 for millimetres) or stroke.fit = 0.8",
                     widest));
-  if (quality.repeats.share > 0.1 && quality.repeats.period > 1)
+  if (quality.repeats.fraction > 0.1 && quality.repeats.period > 1)
     warnings.push_back(fmt::format(
         "{:.0f} % of its samples repeat the one before (up to {} alike): its device was read faster than it "
         "measures, and speeds look up to {} times too high; set stroke.held = \"drop\"",
-        100.0 * quality.repeats.share, quality.repeats.period, quality.repeats.period));
+        100.0 * quality.repeats.fraction, quality.repeats.period, quality.repeats.period));
   if (!(quality.top_speed > fastest_hand)) return warnings;
   if (quality.top_speed > 10.0 * quality.usual_speed)
     warnings.push_back(fmt::format(

@@ -78,9 +78,9 @@ class Profile {
   double at(double fraction) const {
     const std::size_t knots = values_.size();
     if (knots == 1) return values_.front();
-    const double place = fraction * static_cast<double>(knots - 1);
-    const std::size_t knot = std::min(static_cast<std::size_t>(place), knots - 2);
-    return values_[knot] + (place - static_cast<double>(knot)) * (values_[knot + 1] - values_[knot]);
+    const double at = fraction * static_cast<double>(knots - 1);
+    const std::size_t knot = std::min(static_cast<std::size_t>(at), knots - 2);
+    return values_[knot] + (at - static_cast<double>(knot)) * (values_[knot + 1] - values_[knot]);
   }
   /// The fractions at which the profile bends.
   void add_knots(std::vector<double>& found) const {
@@ -103,9 +103,9 @@ Profile height_profile(const PressProfile& press, const ForceSettings& force) {
 /// The posture of a pen: a height [m], and angles [deg] as in ToolTurn.
 struct Posture {
   double z, turn = 0.0, tilt = 0.0;
-  Posture towards(const Posture& other, double share) const {
-    return {z + share * (other.z - z), turn + share * (other.turn - turn),
-            tilt + share * (other.tilt - tilt)};
+  Posture towards(const Posture& other, double fraction) const {
+    return {z + fraction * (other.z - z), turn + fraction * (other.turn - turn),
+            tilt + fraction * (other.tilt - tilt)};
   }
   Eigen::Vector4d quaternion() const {
     const double half_turn = 0.5 * to_radians(turn), half_tilt = 0.5 * to_radians(tilt);
@@ -201,7 +201,7 @@ class Pen {
   void climb_to(double z) {
     run(Curve::line(point_, point_), 0.0, 1.0, {z, posture_.turn, posture_.tilt}, script_.plunge_speed);
   }
-  /// Turns the tool in its place, the shorter way round. A turn of up to smooth_turn takes no time.
+  /// Turns the tool where it stands, the shorter way round. A turn of up to smooth_turn takes no time.
   void turn_to(const Posture& posture) {
     if (!turns_) return;
     const double whole_turns = 360.0 * std::round((posture.turn - posture_.turn) / 360.0);

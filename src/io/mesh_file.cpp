@@ -38,9 +38,9 @@ void add_triangle(TriangleMesh& mesh, const std::array<Eigen::Vector3d, 3>& corn
 constexpr std::size_t header = 80, per_triangle = 50;
 
 template <class Number>
-Number number_at(const std::string& bytes, std::size_t place) {
+Number number_at(const std::string& bytes, std::size_t offset) {
   Number number;
-  std::memcpy(&number, bytes.data() + place, sizeof number);
+  std::memcpy(&number, bytes.data() + offset, sizeof number);
   return number;
 }
 

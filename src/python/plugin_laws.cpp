@@ -22,9 +22,9 @@ namespace py = pybind11;
 class Function {
  public:
   explicit Function(py::object function)
-      : function_(new py::object(std::move(function)), [](py::object* held) {
+      : function_(new py::object(std::move(function)), [](py::object* kept) {
           const py::gil_scoped_acquire interpreter;
-          delete held;
+          delete kept;
         }) {}
   /// Call it with the interpreter lock. An exception of the function becomes an error sentence.
   template <class... Arguments>

@@ -18,9 +18,9 @@ constexpr std::array<std::uint32_t, 11> blue_white_red = {0x053061, 0x2166ac, 0x
 template <std::size_t count>
 std::array<double, 3> between(const std::array<std::uint32_t, count>& points, double unit) {
   if (std::isnan(unit)) return {0.5, 0.5, 0.5};
-  const double place = std::clamp(unit, 0.0, 1.0) * (count - 1);
-  const auto first = std::min(static_cast<std::size_t>(place), count - 2);
-  const double part = place - static_cast<double>(first);
+  const double at = std::clamp(unit, 0.0, 1.0) * (count - 1);
+  const auto first = std::min(static_cast<std::size_t>(at), count - 2);
+  const double part = at - static_cast<double>(first);
   std::array<double, 3> colour;
   for (int channel = 0; channel < 3; ++channel) {
     const int shift = 16 - 8 * channel;

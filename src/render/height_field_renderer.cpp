@@ -144,8 +144,8 @@ void HeightFieldRenderer::Drawing::draw_tiles(const ShaderProgram& program, cons
   program.set("shading", 1);
   surface_.bind_heights(0);
   surface_.bind_shading(1);
-  const GLint tile_origin = program.place("tile_origin"), skirt_height = program.place("skirt_height"),
-              widest = program.place("widest_pixel");
+  const GLint tile_origin = program.location("tile_origin"), skirt_height = program.location("skirt_height"),
+              widest = program.location("widest_pixel");
   for (int tile = 0; tile < bed_.tile_count(); ++tile) {
     const CellRange patch = surface_.patch(tile);
     const TileDetail& detail = surface_.detail(tile);

@@ -24,8 +24,8 @@ std::vector<Eigen::AlignedBox3d> boxes_of(const ToolBody& tool, const Sun& sun,
                                           const SurfaceTextures& surface) {
   const Eigen::Vector3d centre = tool.centre(), up = sun.direction();
   const double low = surface.lowest(), high = surface.highest(), radius = tool.radius;
-  const auto around = [](const Eigen::Vector3d& place, double reach) {
-    return Eigen::AlignedBox3d(place.array() - reach, place.array() + reach);
+  const auto around = [](const Eigen::Vector3d& position, double reach) {
+    return Eigen::AlignedBox3d(position.array() - reach, position.array() + reach);
   };
   const auto on_sand = [&](Eigen::AlignedBox3d box) {
     box.min().z() = low;

@@ -54,8 +54,8 @@ struct RenderSubject {
 /// by a tenth and at least by `margin` [m], cut to the bed.
 CellRange framed_cells(const CellRange& focus, int rows, int cols, double cell_size, double margin);
 
-/// The cells under a tool [radius, m] at those of the places `tips` that are below `highest` [m]; empty where
-/// there is none. A stroke covers these cells, whatever the sand then does.
+/// The cells under a tool [radius, m] at those of the positions `tips` that are below `highest` [m]; empty
+/// where there is none. A stroke covers these cells, whatever the sand then does.
 CellRange cells_under(const std::vector<Eigen::Vector3d>& tips, double radius, const BedGeometry& bed,
                       double highest);
 

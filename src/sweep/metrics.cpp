@@ -83,7 +83,7 @@ const std::vector<Metric> metric_list = {
     {"slope_at_talus", "share of changed sand within 1 deg of the talus angle", "",
      "cells that changed and whose geometric slope (slope_mean) is within 1 deg of relaxation.talus_angle "
      "/ cells that changed",
-     [](O o) { return o.slopes.share_at_talus; }, Metric::slopes},
+     [](O o) { return o.slopes.fraction_at_talus; }, Metric::slopes},
     {"passes", "relaxation passes", "",
      "passes of all relaxations; with relaxation.method rkl, stages of super time steps",
      [](O o) { return static_cast<double>(o.run.relaxation.passes); }},

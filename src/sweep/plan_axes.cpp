@@ -31,10 +31,11 @@ struct AxisRange {
   std::size_t count = 0;
   bool logarithmic = false;
 
-  /// The value at 0 <= share < 1 of the range.
-  double at(double share) const {
-    return std::clamp(logarithmic ? from * elementary::pow(to / from, share) : from + (to - from) * share,
-                      std::min(from, to), std::max(from, to));
+  /// The value at 0 <= fraction < 1 of the range.
+  double at(double fraction) const {
+    return std::clamp(
+        logarithmic ? from * elementary::pow(to / from, fraction) : from + (to - from) * fraction,
+        std::min(from, to), std::max(from, to));
   }
 };
 
@@ -118,14 +119,14 @@ void check_points(const TomlReader& toml, const SweepDesign& grid, int most) {
 /// Samples the values of each axis, or its range if it has no values.
 void sample(SweepDesign& latin, const std::vector<AxisRange>& ranges, std::size_t samples,
             std::uint32_t seed) {
-  const auto shares = latin_hypercube(latin.axes.size(), samples, seed);
+  const auto fractions = latin_hypercube(latin.axes.size(), samples, seed);
   for (std::size_t i = 0; i < latin.axes.size(); ++i) {
     std::vector<std::string> values;
     const std::vector<std::string>& listed = latin.axes[i].values;
-    for (const double share : shares[i])
+    for (const double fraction : fractions[i])
       values.push_back(listed.empty()
-                           ? fmt::format("{:.12g}", ranges[i].at(share))
-                           : listed[static_cast<std::size_t>(share * static_cast<double>(listed.size()))]);
+                           ? fmt::format("{:.12g}", ranges[i].at(fraction))
+                           : listed[static_cast<std::size_t>(fraction * static_cast<double>(listed.size()))]);
     latin.axes[i].values = std::move(values);
   }
 }

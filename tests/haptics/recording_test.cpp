@@ -108,8 +108,8 @@ TEST(TickCounts, AreStarvedWhereMoreThanATenthWasSkipped) {
     ticks.skipped = skipped;
     return ticks;
   };
-  EXPECT_EQ(skipped_share(of(5)), 0.005);
-  EXPECT_EQ(skipped_share(TickCounts{}), 0.0);
+  EXPECT_EQ(skipped_fraction(of(5)), 0.005);
+  EXPECT_EQ(skipped_fraction(TickCounts{}), 0.0);
   EXPECT_FALSE(is_starved({of(100), {}, StopReason::duration}));
   EXPECT_TRUE(is_starved({of(101), {}, StopReason::duration}));
   EXPECT_FALSE(is_starved({of(900), {}, StopReason::cut_off}));  // nobody knows why they are missing

@@ -51,7 +51,7 @@ TEST(RepeatedSamples, WithoutRepeatsTheHandIsAsFastAsItWas) {
 TEST(RepeatedSamples, AreCounted) {
   const Repeats repeats = repeats_of(read_at_200_hz(0.015));
   EXPECT_EQ(repeats.period, 3u);
-  EXPECT_NEAR(repeats.share, 1.0 - 2.0 / 3.0 / 3.0, 0.01);  // one in three in motion, none at rest
+  EXPECT_NEAR(repeats.fraction, 1.0 - 2.0 / 3.0 / 3.0, 0.01);  // one in three in motion, none at rest
   EXPECT_EQ(repeats_of(read_at_200_hz(0.005)).period, 1u);
 }
 

@@ -34,7 +34,7 @@ RunResult a_run() {
   return run;
 }
 
-const SlopeMeasures slopes{.mean = 12.0, .steepest = 29.0, .law_steepest = 28.0, .share_at_talus = 0.4};
+const SlopeMeasures slopes{.mean = 12.0, .steepest = 29.0, .law_steepest = 28.0, .fraction_at_talus = 0.4};
 const std::optional<FieldDifference> golden = FieldDifference{.max = 0.005, .rms = 0.0007, .volume = -2e-6};
 
 std::map<std::string, double> values(const RunResult& run, const std::optional<FieldDifference>& against) {

@@ -133,15 +133,15 @@ TEST(Slopes, AreOfCellsThatChanged) {
   EXPECT_NEAR(measures.mean, (58.0 * flank + first) / 60.0, 1e-10);
   EXPECT_NEAR(measures.steepest, std::max(first, flank), 1e-10);
   EXPECT_NEAR(measures.law_steepest, std::max(first, flank), 1e-10);  // along an axis
-  EXPECT_NEAR(measures.share_at_talus, 58.0 / 60.0, 1e-15);
-  EXPECT_EQ(measure_slopes(before, after, talus(flank + 1.1)).share_at_talus, 0.0);
+  EXPECT_NEAR(measures.fraction_at_talus, 58.0 / 60.0, 1e-15);
+  EXPECT_EQ(measure_slopes(before, after, talus(flank + 1.1)).fraction_at_talus, 0.0);
 }
 
 TEST(Slopes, NothingChangedMeansNone) {
   const HeightField bed = bed_of(20, [](double x, double) { return 0.4 * x; });
   const SlopeMeasures measures = measure_slopes(bed, bed, talus(30.0));
   EXPECT_TRUE(std::isnan(measures.mean) && std::isnan(measures.steepest) &&
-              std::isnan(measures.law_steepest) && std::isnan(measures.share_at_talus));
+              std::isnan(measures.law_steepest) && std::isnan(measures.fraction_at_talus));
 }
 
 TEST(Slopes, OnTheLargestBedOnlyItsTilesAreLookedAt) {
@@ -150,7 +150,7 @@ TEST(Slopes, OnTheLargestBedOnlyItsTilesAreLookedAt) {
   after.set(40000, 63, cell_size);  // beside a tile that does not exist
   const SlopeMeasures measures = measure_slopes(before, after, talus(45.0));
   EXPECT_NEAR(measures.mean, 45.0, 1e-12);
-  EXPECT_NEAR(measures.share_at_talus, 1.0, 0.0);
+  EXPECT_NEAR(measures.fraction_at_talus, 1.0, 0.0);
 }
 
 TEST(Slopes, OfSandAtRestByThePapersLawAreAtMostItsOctagons) {
@@ -179,7 +179,7 @@ TEST(Slopes, OfAConeAreItsAngle) {
   const SlopeMeasures measures = measure_slopes(before, cone, talus(30.0));
   // Cells within r of the middle are off by 1 / r (cells) at most, the last ring at the foot by any amount.
   EXPECT_NEAR(measures.mean, 30.0, 0.5);
-  EXPECT_GT(measures.share_at_talus, 0.9);
+  EXPECT_GT(measures.fraction_at_talus, 0.9);
 }
 
 }  // namespace

@@ -67,10 +67,10 @@ LoopMapPlan dropped_ticks(const MapAxis& x, const MapAxis& stiffness) {
       "dropped-stiffness", "Dropped ticks and stiffness",
       "A two-sided wall at 1 kHz, and a loop that drops a fraction of its ticks: there the last force stays, "
       "which works like a delay. The expected verdicts come from random products of the two exact tick maps.",
-      x, stiffness, [](double share, double K) {
+      x, stiffness, [](double fraction, double K) {
         LoopSettings loop;
         loop.device = ideal_device();
-        loop.device.dropped_ticks = share;
+        loop.device.dropped_ticks = fraction;
         loop.against = Wall{K, 0.0};
         return loop;
       });

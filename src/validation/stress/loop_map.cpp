@@ -9,7 +9,7 @@
 namespace sandstroke {
 namespace {
 
-/// The lowest place on the axis where value(y) changes its sign between neighbouring values.
+/// The lowest position on the axis where value(y) changes its sign between neighbouring values.
 template <class Value>
 std::optional<double> sign_change(const MapAxis& axis, const Value& value) {
   for (std::size_t i = 0; i + 1 < axis.values.size(); ++i) {
@@ -27,8 +27,8 @@ std::optional<double> sign_change(const MapAxis& axis, const Value& value) {
 MapAxis map_axis(std::string name, std::string unit, bool logarithmic, double low, double high, int count) {
   MapAxis axis{std::move(name), std::move(unit), logarithmic, {}};
   for (int i = 0; i < count; ++i) {
-    const double share = static_cast<double>(i) / (count - 1);
-    axis.values.push_back(logarithmic ? low * std::pow(high / low, share) : low + (high - low) * share);
+    const double fraction = static_cast<double>(i) / (count - 1);
+    axis.values.push_back(logarithmic ? low * std::pow(high / low, fraction) : low + (high - low) * fraction);
   }
   return axis;
 }

@@ -89,15 +89,15 @@ Stroke hand_of(const GrainStroke& stroke) {
   constexpr double above = 0.0005, lifted = 0.005;     // m
   constexpr double down = 0.1, along = 0.2, up = 0.3;  // m/s
   const double from = start_of(stroke), to = from + stroke.way;
-  std::vector<Eigen::Vector3d> places = {{from, 0.0, above}, {from, 0.0, -stroke.depth}};
+  std::vector<Eigen::Vector3d> positions = {{from, 0.0, above}, {from, 0.0, -stroke.depth}};
   std::vector<double> seconds = {(above + stroke.depth) / down};
   if (is_drag(stroke)) {
-    places.emplace_back(to, 0.0, -stroke.depth);
+    positions.emplace_back(to, 0.0, -stroke.depth);
     seconds.push_back(stroke.way / along);
   }
-  places.emplace_back(to, 0.0, lifted);
+  positions.emplace_back(to, 0.0, lifted);
   seconds.push_back((lifted + stroke.depth) / up);
-  return straight(places, seconds);
+  return straight(positions, seconds);
 }
 
 GrainReply reply_to(const GrainStroke& stroke, const Scene& scene) {

@@ -121,11 +121,11 @@ class Race {
     run.external = contender.external;
     run.score = trial.score;
     // Only for one thread the program knows how long it waited for a processor.
-    const double idle_share =
+    const double idle_fraction =
         contender.settings.threads == 1 ? 1.0 - (processor_seconds() - worked_before) / watch.seconds() : 0.0;
     std::vector<double>& seconds = seconds_[i];
     seconds.insert(std::upper_bound(seconds.begin(), seconds.end(), trial.seconds), trial.seconds);
-    if (trial.seconds == seconds.front()) waited_[i] = idle_share * trial.seconds;
+    if (trial.seconds == seconds.front()) waited_[i] = idle_fraction * trial.seconds;
     run.wall_seconds = seconds.front();
     run.median_seconds = 0.5 * (seconds[(seconds.size() - 1) / 2] + seconds[seconds.size() / 2]);
     run.largest_seconds = seconds.back();
@@ -245,12 +245,12 @@ Study run_study(const StudyOptions& options) {
   const Limits limits = options.quick ? Limits{5e7, 0.5} : Limits{1.5e9, 8.0};
   Study study;
   study.quick = options.quick;
-  const auto share = 1.0 / static_cast<double>(makers.size());
+  const auto fraction = 1.0 / static_cast<double>(makers.size());
   for (std::size_t i = 0; i < makers.size() && !interrupted(); ++i) {
     study.problems.push_back(make(makers[i], options));
     const Problem& problem = study.problems.back();
     std::vector<StudyRun> runs = Race(problem, limits, study).run(repeats, [&](double done) {
-      options.progress(share * (static_cast<double>(i) + done));
+      options.progress(fraction * (static_cast<double>(i) + done));
     });
     if (problem.times_ticks) {
       compare_ticks(runs);

@@ -66,10 +66,10 @@ TEST(ExactShapes, WorkIsTheForceAlongTheWay) {
 }
 
 TEST(ExactShapes, AStripCoversItsShareOfADisk) {
-  EXPECT_NEAR(strip_share_of_disk(2.0, 2.0), 1.0, 1e-15);
-  EXPECT_NEAR(strip_share_of_disk(2.0, 5.0), 1.0, 1e-15);
-  EXPECT_NEAR(strip_share_of_disk(1.0, 1e-6) / (4e-6 / pi), 1.0, 1e-9);
-  EXPECT_NEAR(strip_share_of_disk(1.0, 0.5), (pi / 3.0 + std::sqrt(3.0) / 2.0) / pi, 1e-15);
+  EXPECT_NEAR(strip_fraction_of_disk(2.0, 2.0), 1.0, 1e-15);
+  EXPECT_NEAR(strip_fraction_of_disk(2.0, 5.0), 1.0, 1e-15);
+  EXPECT_NEAR(strip_fraction_of_disk(1.0, 1e-6) / (4e-6 / pi), 1.0, 1e-9);
+  EXPECT_NEAR(strip_fraction_of_disk(1.0, 0.5), (pi / 3.0 + std::sqrt(3.0) / 2.0) / pi, 1e-15);
 }
 
 }  // namespace
