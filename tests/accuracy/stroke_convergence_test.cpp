@@ -41,7 +41,7 @@ const Scene& accurate() {
   return scene;
 }
 
-TEST(StrokeConvergence, OfAnSCurveFourMillimetresDeep) {
+TEST(StrokeConvergence, HoldsForAnSCurveFourMillimetresDeep) {
   const Stroke stroke = s_curve(0.004, 0.25);
   const int finest = sanitized ? 2 : 8;
   const Replay truth = replay(finer(accurate(), finest), stroke);
@@ -95,7 +95,7 @@ void expect_true_estimate(double estimate, double error) {
   EXPECT_LT(estimate, 2.0 * error);
 }
 
-TEST(StrokeConvergence, AsDeepAsTheToolsRadiusItIsWorse) {
+TEST(StrokeConvergence, IsWorseAsDeepAsTheToolsRadius) {
   // What is pushed out and what falls in behind the tool run from one crest, 2 mm from its rim: one cell of
   // five.
   if (sanitized) GTEST_SKIP() << "takes long under sanitizers";
@@ -107,7 +107,7 @@ TEST(StrokeConvergence, AsDeepAsTheToolsRadiusItIsWorse) {
   EXPECT_LT(errors.middle_way, 0.03);
 }
 
-TEST(StrokeConvergence, OfAScribbleOverItsOwnGround) {
+TEST(StrokeConvergence, HoldsForAScribbleOverItsOwnGround) {
   if (sanitized) GTEST_SKIP() << "takes long under sanitizers";
   const Convergence errors = convergence_of(accurate(), scribble(0.005, 0.25));
   expect_true_estimate(errors.estimate, errors.coarse);
@@ -142,7 +142,7 @@ TEST(StrokeConvergence, RelaxationsBesidesThoseByWayChangeLittle) {
     scene.relaxation.rate = rate;
     runs.push_back(replay(scene, stroke));
     for (const Replay& before : runs) EXPECT_LT(apart(runs.back(), before), 0.03) << rate;
-    // The pump: sand that slips into a tool is pushed out of it again with each relaxation.
+    // The pump: sand that flows into a tool is pushed out of it again with each relaxation.
     EXPECT_LT(runs.back().result.displaced_volume, 1.03 * runs.front().result.displaced_volume) << rate;
   }
 }
@@ -177,7 +177,7 @@ TEST(StrokeConvergence, NorDoSlopes) {
 }
 
 TEST(StrokeConvergence, AFastPenLeavesItsFurrowToo) {
-  // 6 m/s: three cells a tick, and sand slips within the tick.
+  // 6 m/s: three cells a tick, and sand relaxes within the tick.
   const Replay slow = replay(accurate(), s_curve(0.004, 0.25)),
                fast = replay(accurate(), s_curve(0.004, 6.0));
   EXPECT_LE(std::abs(fast.result.relaxations - slow.result.relaxations),

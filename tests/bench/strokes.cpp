@@ -245,7 +245,7 @@ nlohmann::json measure_long_stroke(const BenchOptions& options) {
     ContentHash hash;
     hash.add(heights.data(), static_cast<std::size_t>(heights.size()) * sizeof(double));
     const std::vector<double>&cpu = minutes.cpu_seconds, &memory = minutes.resident_bytes;
-    // The first minutes dig what later ones find dug, so the end is compared with the second ten.
+    // The first minutes carve what later ones find carved, so the end is compared with the second ten.
     const auto of = [&](const std::vector<double>& values, std::size_t first) {
       return median({values.begin() + first, values.begin() + first + 10});
     };

@@ -92,7 +92,7 @@ TEST(CliHelp, ValuesAreInAReadersWords) {
   EXPECT_NE(printed({"help", "sweep"}).find("--shard I/N (not with --dry-run, --slurm)"), std::string::npos);
 }
 
-TEST(CliHelp, OfFilesIsInTopics) {
+TEST(CliHelp, ExplainsFilesInTopics) {
   for (const auto& [command, topic] :
        std::map<std::string, std::string>{{"sweep", "plan"}, {"script", "script"}}) {
     const std::string help =

@@ -573,7 +573,7 @@ TEST(CliRecord, CheckHoldsSandAgainstTheory) {
   EXPECT_FALSE(fs::exists(folder / "a.h5"));
 }
 
-TEST(CliRecord, WithoutPermissionForRealTimeItRecordsAndSaysWhatThatCosts) {
+TEST(CliRecord, RecordsWithoutPermissionForRealTimeAndSaysWhatThatCosts) {
   const fs::path folder = test_folder();
   Conditions refused;
   refused.real_time_refused = true;

@@ -36,7 +36,7 @@ TEST(CliStart, NothingToDrawWithIsLoadedWithoutAPicture) {
   EXPECT_TRUE(names(loaded, "libLLVM"));
 }
 
-TEST(CliStart, WhereOsMesaIsMissingOnlyPicturesFailAndSayWhatToInstall) {
+TEST(CliStart, OnlyPicturesFailWithoutOsMesaAndSayWhatToInstall) {
   const fs::path folder = test_folder();
   if (!names(loaded_by({"run", "scene.toml", "-o", "run.h5", "--png", "run.png"}, folder), "libOSMesa"))
     GTEST_SKIP() << "pictures are drawn through EGL";

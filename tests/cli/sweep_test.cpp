@@ -71,7 +71,7 @@ TEST_F(CliSweep, PicturesOfPointsAreThoseOfTheirRuns) {
   }
 }
 
-TEST_F(CliSweep, WithoutAClusterNothingIsLeft) {
+TEST_F(CliSweep, LeavesNothingWithoutACluster) {
   Conditions conditions;
   conditions.path = folder.string();  // where no sbatch is
   const ProgramResult result = sweep({"plan.toml", "-o", "out", "--slurm"}, conditions);
@@ -136,7 +136,7 @@ TEST_F(CliSweep, InterruptedAndKilledItGoesOnToTheSameEnd) {
   EXPECT_EQ(resumed["content_hash"], content("whole"));
 }
 
-TEST_F(CliSweep, InterruptedItStopsBetweenPointsThatShareASimulation) {
+TEST_F(CliSweep, StopsBetweenPointsThatShareASimulationWhenInterrupted) {
   const int points = sanitized ? 400 : 4000;
   plan(fmt::format("force.k_s = {{ from = 100, to = 2000, count = {} }}\n", points),
        "metrics = [\"max_force\"]\n");

@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Sand that does not slip, so that nothing but sampling differs between what was seen and what a run plays.
+// Sand that does not relax, so that nothing but sampling differs between what was seen and what a run plays.
 const std::vector<std::string> firm = {"--set", "relaxation.talus_angle=85", "--set", "relaxation.rate=0"};
 
 std::vector<std::string> plus(std::vector<std::string> arguments, const std::vector<std::string>& more) {

@@ -41,7 +41,7 @@ std::vector<std::string> names_in(const Json& list, const char* key) {
 }
 using Names = std::vector<std::string>;
 
-TEST(ComparePage, OfTwoRunsHasSurfacesAndTraces) {
+TEST(ComparePage, HasSurfacesAndTracesOfTwoRuns) {
   const PageOfParts page = Pair().page();
   EXPECT_EQ(page.title, "run.h5 against golden.h5");
   EXPECT_EQ(page.data["passed"], true);
@@ -74,7 +74,7 @@ TEST(ComparePage, ShowsAFinerBedInTheMeansThatAreCompared) {
   EXPECT_EQ(maps(true), 3u);
 }
 
-TEST(ComparePage, OfACutOffRunShowsWhatThereIsAndSaysWhatIsNot) {
+TEST(ComparePage, ShowsWhatACutOffRunHasAndSaysWhatIsMissing) {
   Pair pair;
   pair.run.complete = pair.run.has_final = false;
   const PageOfParts page = pair.page();
@@ -83,7 +83,7 @@ TEST(ComparePage, OfACutOffRunShowsWhatThereIsAndSaysWhatIsNot) {
   EXPECT_NE(page.data["missing"][0]["sentence"].get<std::string>().find("cut off"), std::string::npos);
 }
 
-TEST(ComparePage, OfADamagedTraceShowsTheSurfaces) {
+TEST(ComparePage, ShowsTheSurfacesBesideADamagedTrace) {
   Pair pair;
   pair.run.missing_column = "depth";
   const PageOfParts page = pair.page();
@@ -91,7 +91,7 @@ TEST(ComparePage, OfADamagedTraceShowsTheSurfaces) {
   EXPECT_EQ(names_in(page.data["missing"], "name"), Names{"Traces"});
 }
 
-TEST(ComparePage, OfAGoldenEntryHasChangePictureAndTraces) {
+TEST(ComparePage, HasChangePictureAndTracesOfAGoldenEntry) {
   Pair pair;
   pair.page();
   const GoldenRun run{pair.folder / "golden.h5", Image(72, 40), {}};
@@ -115,7 +115,7 @@ TEST(ComparePage, OfAGoldenEntryHasChangePictureAndTraces) {
   EXPECT_EQ(names_in(page()["missing"], "name"), (Names{"Change of height", "Traces"}));
 }
 
-TEST(ComparePage, OfAGoldenEntryTellsItFromTheRun) {
+TEST(ComparePage, TellsAGoldenEntryFromTheRun) {
   Pair pair;
   pair.run.initial = HeightGrid(pair.run.initial.topRows(20));
   pair.run.final = HeightGrid(pair.run.final.topRows(20));
@@ -245,7 +245,7 @@ TEST_F(ComparePageInBrowser, WipesToTheDifferenceToo) {
   EXPECT_EQ(cut(), edge());
 }
 
-TEST_F(ComparePageInBrowser, PointingAtAPlaceReadsOffItsHeights) {
+TEST_F(ComparePageInBrowser, PointingAtAPositionReadsOffItsHeights) {
   DifferentPair pair;
   open(pair.page());
   // The middle of cell (12, 25), from the extent of what is shown.

@@ -61,7 +61,7 @@ TEST_F(CompareRuns, AFinerBedIsComparedInMeansWhereThatIsAskedFor) {
   }
 }
 
-TEST_F(CompareRuns, AFinerCellCountsByItsShareOfTheMean) {
+TEST_F(CompareRuns, AFinerCellCountsByItsPartOfTheMean) {
   refine(run);
   coarsen = true;
   run.final(11, 15) += 4.0 * 0.95e-6;
@@ -235,7 +235,7 @@ TEST_F(CompareRuns, WhatIsNoRunFileIsBadInput) {
   EXPECT_THROW(RunFile(folder / "other.h5"), Error);
 }
 
-TEST(Comparison, OfNothingHasNotPassed) { EXPECT_FALSE(Comparison{}.passed()); }
+TEST(Comparison, HasNotPassedWithoutChecks) { EXPECT_FALSE(Comparison{}.passed()); }
 
 TEST(CheckTable, IsAlignedAndExplainsWhatFailed) {
   const Comparison comparison{"run",

@@ -12,7 +12,7 @@ bool passes(const Image& golden, const Image& run) {
   return Comparison{"pictures", picture_checks(golden, run, Tolerances{})}.passed();
 }
 
-TEST(ImageDifference, FindsTheChannelThePlaceAndTheShare) {
+TEST(ImageDifference, FindsTheChannelThePixelAndTheFraction) {
   const Image golden(20, 10);
   Image run = golden;
   run.pixel(3, 4)[1] = 7;

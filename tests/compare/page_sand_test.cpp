@@ -107,7 +107,7 @@ TEST_F(SandPartInBrowser, ShowsHowFarTwoSurfacesAreApart) {
   EXPECT_TRUE(browser().errors().empty()) << browser().errors().front();
 }
 
-TEST_F(SandPartInBrowser, WithoutWebGlThePageSaysWhereThePictureIs) {
+TEST_F(SandPartInBrowser, SaysWhereThePictureIsWithoutWebGl) {
   SandPart part("Sand", "", slope(40, 60, 0.0));
   part.add("one", slope(40, 60, 0.0));
   std::string page = page_of(part.json());

@@ -63,7 +63,7 @@ TEST(RunReport, FiguresAreThoseOfTheTrace) {
   EXPECT_NEAR(value("Energy into the sand"), 2.0 * 0.104, 1e-12);  // force times way
 }
 
-TEST(RunReport, OfACutOffRunShowsWhatThereIs) {
+TEST(RunReport, ShowsWhatACutOffRunHas) {
   Reported reported;
   reported.run.complete = reported.run.has_final = false;
   const PageOfParts page = reported.page();
@@ -74,7 +74,7 @@ TEST(RunReport, OfACutOffRunShowsWhatThereIs) {
   EXPECT_EQ(page.data["parts"][0]["maps"][0]["name"], "initial surface");
 }
 
-TEST(RunReport, WithoutAStrokeOrATraceThereIsThePictureAndASentence) {
+TEST(RunReport, HasThePictureAndASentenceWithoutAStrokeOrATrace) {
   struct Case {
     std::function<void(SyntheticRun&)> change;
     std::string sentence;
@@ -94,7 +94,7 @@ TEST(RunReport, WithoutAStrokeOrATraceThereIsThePictureAndASentence) {
   }
 }
 
-TEST(RunReport, WithoutAContactThereAreCurvesAndNoProfile) {
+TEST(RunReport, HasCurvesAndNoProfileWithoutAContact) {
   Reported reported;
   for (TickRecord& tick : reported.run.trace) tick.contact = false;
   const PageOfParts page = reported.page();

@@ -39,7 +39,7 @@ struct Case {
   double from, to;
 };
 
-TEST(Elementary, OfOneArgumentEachIsTheNearestDouble) {
+TEST(Elementary, FunctionsOfOneArgumentAreTheNearestDouble) {
   for (const Case& c : {
            Case{"sin", elementary::sin, std::sin, -10.0, 10.0},
            {"sin", elementary::sin, std::sin, -1e6, 1e6},
@@ -67,7 +67,7 @@ TEST(Elementary, OfOneArgumentEachIsTheNearestDouble) {
   }
 }
 
-TEST(Elementary, OfTwoArgumentsEachIsTheNearestDouble) {
+TEST(Elementary, FunctionsOfTwoArgumentsAreTheNearestDouble) {
   for (int k = 0; k < numbers_of_each; ++k) {
     const double x = number(2 * k, -1.0, 1.0), y = number(2 * k + 1, -1.0, 1.0);
     const double base = x + 2.0, power = 9.0 * y;
@@ -117,7 +117,7 @@ TEST(Elementary, AnglesAreThoseOfTheirQuadrant) {
   EXPECT_EQ(elementary::acos(-1.0), pi);
 }
 
-TEST(Elementary, AtTheEdgesEachIsWhatItIsElsewhere) {
+TEST(Elementary, FunctionsAreAtTheEdgesWhatTheyAreElsewhere) {
   EXPECT_EQ(elementary::exp(0.0), 1.0);
   EXPECT_EQ(elementary::exp(709.79), infinity);
   EXPECT_EQ(elementary::exp(-infinity), 0.0);

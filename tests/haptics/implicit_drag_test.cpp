@@ -36,14 +36,14 @@ TEST(DragVelocity, IsTheMeanOneOfTheTick) {
     }
 }
 
-TEST(DragVelocity, WithoutDragIsTheFreeDevices) {
+TEST(DragVelocity, IsTheFreeDevicesWithoutDrag) {
   SimulatedDevice device(light_device(1000.0), fast);
   const Eigen::Vector3d velocity = device.drag_velocity(held_hand, next_hand, Eigen::Vector3d::Zero(), 0.0);
   device.advance(held_hand, next_hand, Eigen::Vector3d::Zero());
   EXPECT_NEAR((device.state().position - fast.position - 1e-3 * velocity).norm(), 0.0, 1e-15);
 }
 
-TEST(DragVelocity, OfAShortTickIsTheVelocityReadBeforeIt) {
+TEST(DragVelocity, TendsToTheReadVelocityInShortTicks) {
   const SimulatedDevice device(light_device(1e6), fast);
   const Eigen::Vector3d velocity = device.drag_velocity(held_hand, held_hand, Eigen::Vector3d::Zero(), 10.0);
   EXPECT_NEAR((velocity - fast.velocity).norm(), 0.0, 1e-3 * fast.velocity.norm());

@@ -46,7 +46,7 @@ TEST(StopReason, HasATextOfItsOwnAndIsFoundByIt) {
   EXPECT_EQ(stop_reason_of("unknown"), std::nullopt);
 }
 
-TEST(StopReason, OfWhatSomebodyAskedForLeavesACompleteRecording) {
+TEST(StopReason, LeavesACompleteRecordingIfSomebodyAskedForIt) {
   using enum StopReason;
   for (const StopReason asked : {duration, stroke_end, stop_switch, key}) EXPECT_TRUE(is_complete(asked));
   for (const StopReason other : {signal, device_lost, stall, disk, no_number, error, cut_off})

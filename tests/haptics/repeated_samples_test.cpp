@@ -32,7 +32,7 @@ double fastest_step(const Stroke& stroke) {
   return top;
 }
 
-TEST(RepeatedSamples, WithoutRepeatsTheHandIsAsFastAsItWas) {
+TEST(RepeatedSamples, AreDroppedSoThatTheHandIsAsFastAsItWas) {
   for (const double period : {0.01, 0.015, 0.0167}) {
     const Stroke stroke = read_at_200_hz(period), thinned = without_repeated_samples(stroke);
     EXPECT_GT(fastest_step(stroke), 1.9) << period;

@@ -31,9 +31,9 @@ TEST(ForceOnDevice, ImplicitDragIsByTheWayOfTheTickItself) {
     SimulatedDevice device = device_with(DragVelocity::implicit);
     const SandForce sand = force_on_device(0.006, device, hand, hand_after, force);
     device.advance(hand, hand_after, sand.total);
-    Eigen::Vector3d slip = 2.0 * (device.state().position - moving.position) * 1000.0;
-    if (direction == DragDirection::horizontal) slip.z() = 0.0;
-    EXPECT_NEAR((sand.drag + force.k_f * sand.repulse * slip).norm(), 0.0, 1e-9);
+    Eigen::Vector3d velocity = 2.0 * (device.state().position - moving.position) * 1000.0;
+    if (direction == DragDirection::horizontal) velocity.z() = 0.0;
+    EXPECT_NEAR((sand.drag + force.k_f * sand.repulse * velocity).norm(), 0.0, 1e-9);
   }
 }
 
@@ -53,18 +53,19 @@ TEST(ForceOnDevice, ImplicitDragOfALimitedDeviceIsByTheWayThatTheLimitedForceLea
         }
         device.advance(hand, hand_after, sand.total);
         const Eigen::Vector3d motion = device.state().position - moving.position;
-        Eigen::Vector3d slip = 2.0 * motion * 1000.0;
-        if (direction == DragDirection::horizontal) slip.z() = 0.0;
-        // Held back drag takes energy, too; else it is the model's, by the mean velocity of the tick.
+        Eigen::Vector3d velocity = 2.0 * motion * 1000.0;
+        if (direction == DragDirection::horizontal) velocity.z() = 0.0;
+        // Limited drag takes energy, too; else it is the model's, by the mean velocity of the tick.
         EXPECT_LE(sand.drag.dot(motion), 0.0);
         if (!sand.limited_drag) {
-          EXPECT_NEAR((sand.drag + k_f * sand.repulse * slip).norm(), 0.0, 1e-9 * (1.0 + sand.drag.norm()))
+          EXPECT_NEAR((sand.drag + k_f * sand.repulse * velocity).norm(), 0.0,
+                      1e-9 * (1.0 + sand.drag.norm()))
               << k_f << " s/m, " << max_force << " N";
         }
       }
 }
 
-TEST(ForceOnDevice, HeldImplicitDragIsToldAndStopsAFreeMassAtMost) {
+TEST(ForceOnDevice, LimitedImplicitDragIsToldAndStopsAFreeMassAtMost) {
   DeviceSettings settings = device_with(DragVelocity::implicit).settings();
   settings.scale = 1.0;
   settings.damping = settings.hand_damping = settings.hand_stiffness = 0.0;
@@ -89,7 +90,7 @@ TEST(ForceOnDevice, AKinematicDeviceIsDraggedByItsOwnVelocity) {
   EXPECT_EQ(sand.total, sand_force(0.006, 2.0 * moving.velocity, 0.0, ForceSettings{}).total);
 }
 
-TEST(ForceOnDevice, OfALimitedDeviceIsANumberAtAnyDepthWithImplicitDragToo) {
+TEST(ForceOnDevice, IsANumberAtAnyDepthOnALimitedDeviceWithImplicitDragToo) {
   ForceSettings full;
   full.drag = DragDirection::full;
   DeviceSettings settings;

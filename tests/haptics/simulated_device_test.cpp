@@ -105,7 +105,7 @@ TEST(DynamicDevice, ReadsTheNearestStepOfItsEncoders) {
   EXPECT_EQ(SimulatedDevice(settings, resting_at(0.1)).read().position.z(), 0.1);
 }
 
-TEST(DynamicDevice, TheHandGoesUniformlyFromPlaceToPlaceInATick) {
+TEST(DynamicDevice, TheHandGoesUniformlyFromPositionToPositionInATick) {
   // Whatever its velocities at either end: they are not asked for.
   const DeviceSettings settings = ideal_device();
   const SimulatedDevice::State from{{0, 0, 0}, {9, 9, 9}}, to{{1e-4, -2e-4, 0}, {-7, 0, 7}};
@@ -221,7 +221,7 @@ TEST(EnergyAccount, CountsWhatTheDeviceGives) {
   EXPECT_EQ(EnergyAccount{}.least(), 0.0);
 }
 
-TEST(SimulatedDevice, ByEncodersTheVelocityIsADifferenceOfReadPositions) {
+TEST(SimulatedDevice, DifferentiatesReadPositionsWithEncoders) {
   DeviceSettings settings = ideal_device();
   settings.velocity = ReadVelocity::encoders;
   settings.velocity_window = 4;

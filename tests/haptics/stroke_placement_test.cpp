@@ -40,7 +40,7 @@ std::string complaint(const Stroke& stroke, const StrokePlacement& placement) {
   return "";
 }
 
-TEST(StrokePlacement, ByDefaultOnlyTimeMoves) {
+TEST(StrokePlacement, MovesOnlyTimeByDefault) {
   const Stroke stroke = stroke_through(flat_tracing());
   const Stroke placed = place_stroke(stroke, {});
   EXPECT_EQ(placed.position, stroke.position);
@@ -277,7 +277,7 @@ TEST(StrokePlacement, FlattenMovesWhatIsDrawnOntoThePlaneAndNothingElse) {
   }
 }
 
-TEST(StrokePlacement, CentredAndFittedItFillsItsShareOfTheBed) {
+TEST(StrokePlacement, FillsItsFractionOfTheBedCentredAndFitted) {
   std::vector<Vector3d> points = flat_tracing();
   for (Vector3d& p : points) p += Vector3d(3, -2, 0.25);
   points.emplace_back(50, 60, 70);  // in the air
@@ -448,7 +448,7 @@ TEST(StrokePlacement, ASampleAtTheCutIsKept) {
   EXPECT_THAT(complaint(stroke, nothing), HasSubstr("no sample lies between"));
 }
 
-TEST(StrokePlacement, OfAPointGoesWhereTheStrokesPointGoes) {
+TEST(StrokePlacement, MovesAPointAsTheStrokesPoint) {
   Stroke stroke = stroke_through({{0.1, -0.2, 0.3}});
   stroke.frame = "device";
   StrokePlacement placement;

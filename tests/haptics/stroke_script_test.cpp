@@ -71,7 +71,7 @@ TEST(StrokeScript, PlungesDrawsAndLifts) {
   EXPECT_EQ(stroke.nominal_rate, 1000.0);
 }
 
-TEST(StrokeScript, ReachesAnotherPlaceLifted) {
+TEST(StrokeScript, ReachesAnotherPositionLifted) {
   StrokeScript script = script_of({{ScriptLine{Vector2d(0.3, 0.4), {0.4, 0.4}}, depth({0.01}), 0.1}});
   script.travel_speed = 0.5;
   const Stroke stroke = trace_script(script, {});  // 0.5 m across at 0.5 m/s: 1 s in the air
@@ -335,7 +335,7 @@ double heading(const Stroke& stroke, double time, const Vector3d& axis = Vector3
   return std::atan2(points.y(), points.x()) * 180.0 / pi;
 }
 
-TEST(StrokeScript, WithoutATurnItHasNoOrientation) {
+TEST(StrokeScript, HasNoOrientationWithoutATurn) {
   EXPECT_TRUE(trace_script(script_of({{ScriptLine{{}, {0.1, 0}}, depth({0.01})}}), {}).orientation.empty());
 }
 
@@ -356,7 +356,7 @@ TEST(StrokeScript, AToolThatFollowsThePathPointsAlongIt) {
   }
 }
 
-TEST(StrokeScript, AtACornerTheToolTurnsInItsPlaceTheShorterWay) {
+TEST(StrokeScript, TurnsTheToolAtACornerTheShorterWayWhereItStands) {
   ScriptSegment there{ScriptLine{{}, {-0.1, 0.001}}, depth({0.01}), 0.1};
   there.turn.heading = ToolTurn::Heading::path;
   ScriptSegment up{ScriptLine{{}, {-0.2, -0.099}}, depth({0.01}), 0.1};

@@ -117,7 +117,7 @@ TEST(Gcode, AHelixClimbsEvenly) {
   EXPECT_THAT(table.lifts, ElementsAre());
 }
 
-TEST(Gcode, LargeArcsAreKeptToAShareOfTheirRadius) {
+TEST(Gcode, LargeArcsAreKeptToAFractionOfTheirRadius) {
   const SampleTable table = gcode_table("G1 X1e0 Y0\nX1000000 Y0\nG3 I-1000000\n");
   EXPECT_LT(table.size(), 1000u);
 }

@@ -81,7 +81,7 @@ TEST(Ros2Bag, TheOneTopicThatFitsIsTaken) {
   EXPECT_THAT(table.description, AllOf(HasSubstr("2 messages of /tool"), HasSubstr("headers")));
 }
 
-TEST(Ros2Bag, OfSeveralTopicsOneIsAskedFor) {
+TEST(Ros2Bag, AsksForOneOfSeveralTopics) {
   const TestFolder folder;
   BagFile bag(folder / "bag.db3");
   fill(bag);
@@ -97,7 +97,7 @@ TEST(Ros2Bag, OfSeveralTopicsOneIsAskedFor) {
   EXPECT_EQ(read_ros2_bag(folder / "bag.db3", "/tool").size(), 2u);
 }
 
-TEST(Ros2Bag, WithoutStampsTheBagsTimeIsTaken) {
+TEST(Ros2Bag, TakesTheBagsTimeWithoutStamps) {
   const TestFolder folder;
   BagFile bag(folder / "bag.db3");
   bag.topic(1, "/tool", "geometry_msgs/msg/Point");

@@ -141,7 +141,7 @@ TEST(TextTable, DroppedSamplesLeaveTheLift) {
   EXPECT_THAT(stroke.contact, ElementsAre(pen_down, pen_lifts, pen_down, pen_down));
 }
 
-TEST(TextTable, OfEqualTimesTheFirstSampleStaysWhole) {
+TEST(TextTable, KeepsTheFirstSampleOfEqualTimesWhole) {
   // Of each run its first sample: with its own velocity and force, not the next one's.
   TableSettings format = txyz();
   format.velocity_unit = "m/s";

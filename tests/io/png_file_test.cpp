@@ -100,7 +100,7 @@ TEST_F(PngFile, SaysWhichBuildMadeIt) {
   std::fclose(in);
 }
 
-TEST_F(PngFile, InMemoryItIsWhatIsWritten) {
+TEST_F(PngFile, IsTheSameInMemoryAndOnDisk) {
   write_png(file("a.png"), test_image(37, 23));
   EXPECT_EQ(encode_png(test_image(37, 23)), read_text_file(file("a.png")));
 }
@@ -220,7 +220,7 @@ TEST_F(PngFile, RefusesTooLargePictures) {
   EXPECT_NE(message.find("20000 x 1 pixels, which are too many"), std::string::npos);
 }
 
-TEST_F(PngFile, UnwritablePlaceIsAnError) {
+TEST_F(PngFile, AnUnwritablePathIsAnError) {
   const std::string message =
       refusal([&] { write_png(file("no/such/folder.png"), test_image(4, 4)); }, ErrorKind::io);
   EXPECT_NE(message.find("folder.png"), std::string::npos);

@@ -218,7 +218,7 @@ TEST_F(RecordingFile, SaysHowItWasRecorded) {
   EXPECT_EQ(file.number_attribute("/stroke", "clock_start"), std::pow(2.0, 52));
 }
 
-TEST_F(RecordingFile, WithoutAFooterItsTicksAreCounted) {
+TEST_F(RecordingFile, CountsItsTicksWithoutAFooter) {
   write(made_samples(20), std::nullopt);
   const RecordingInfo info = *read_recording_info(path_);
   EXPECT_FALSE(info.complete());

@@ -174,7 +174,7 @@ TEST_F(RunWriterTest, EachColumnOfTheRelaxationsHoldsItsOwnField) {
   }
 }
 
-TEST_F(RunWriterTest, WithoutATraceTheRelaxationsAreKept) {
+TEST_F(RunWriterTest, KeepsTheRelaxationsWithoutATrace) {
   Scene scene = narrow_scene();
   scene.output.trace = false;
   begin(scene);
@@ -313,7 +313,7 @@ TEST_F(RunWriterTest, SaysOfEveryDatasetWhatItIs) {
   }
 }
 
-TEST_F(RunWriterTest, WithoutAFurrowAndASceneFileNothingIsSaidOfThem) {
+TEST_F(RunWriterTest, SaysNothingOfAFurrowAndASceneFileThatAreNotThere) {
   begin(narrow_scene());
   const Hdf5Reader file = finished();
   EXPECT_FALSE(file.has_attribute("/surface/final", "furrow_depth"));

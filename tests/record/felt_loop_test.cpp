@@ -40,7 +40,7 @@ TEST(FeltLoop, IsTheSandAtTheLargestForce) {
   EXPECT_FALSE(of(3.0));
 }
 
-TEST(FeltLoop, IsHeldAgainstTheDeviceAndTheory) {
+TEST(FeltLoop, IsComparedWithTheDeviceAndTheory) {
   Scene scene;
   const FeltLoop default_sand = felt_loop(scene, touch(), any_force, 1000.0).value();
   EXPECT_TRUE(default_sand.is_stable());
@@ -133,7 +133,7 @@ Scene contact_scene(ToolShape shape) {
   return scene;
 }
 
-TEST(FeltLoop, OfALawOfTheContactIsAsStiffAsThatAndDragsAtAnySpeedAlike) {
+TEST(FeltLoop, IsAsStiffAsALawOfTheContactAndDragsAtAnySpeedAlike) {
   Scene scene = contact_scene(ToolShape::sphere);
   scene.device.scale = 2.0;
   const FeltLoop loop = felt_loop(scene, touch(), 2.0, 1000.0).value();

@@ -164,7 +164,7 @@ TEST_F(Journal, ComesBackToTheBit) {
   }
 }
 
-TEST_F(Journal, OfTheVersionBeforeIsRead) {  // whose samples were 96 bytes and had no orientation
+TEST_F(Journal, IsReadFromTheVersionBefore) {  // whose samples were 96 bytes and had no orientation
   const std::vector<RecordedSample> samples = made_samples(1);
   std::string bytes = bytes_of(samples);
   bytes[20] = 1;
@@ -392,7 +392,7 @@ TEST_F(Journal, AFullDiskKeepsWhatWasThere) {
   }
 }
 
-TEST_F(Journal, AfterAFullDiskItGoesOn) {
+TEST_F(Journal, GoesOnAfterAFullDisk) {
   const std::vector<RecordedSample> samples = made_samples(4);
   const std::size_t header_end = bytes_of({}).size();
   in_child([&] {
@@ -430,7 +430,7 @@ TEST_F(Journal, OneThatSomebodyRemovedOrReplacedIsNotWrittenOnInVain) {
   EXPECT_EQ(read_text_file(path), "another's");
 }
 
-TEST_F(Journal, WithoutRoomForTheHeaderNothingStays) {
+TEST_F(Journal, LeavesNothingWithoutRoomForTheHeader) {
   in_child([&] {
     limit_files(100);
     try {

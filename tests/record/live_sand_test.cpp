@@ -53,7 +53,7 @@ struct Feeling {
   LiveSandReport report;
 };
 
-/// Feels at these times; the sand slips as often as the scene says, by the loop's own time.
+/// Feels at these times; the sand relaxes as often as the scene says, by the loop's own time.
 Feeling feel_all(const Scene& scene, const std::vector<double>& times) {
   LiveSand sand(scene, starting_bed(scene.bed), {"bed"});
   Feeling feeling;
@@ -79,7 +79,7 @@ std::vector<double> even_times(double seconds) {
 class LiveTool : public testing::TestWithParam<bool> {};
 INSTANTIATE_TEST_SUITE_P(Solid, LiveTool, testing::Bool());
 
-TEST_P(LiveTool, OfEvenTicksHasTheSandAndTheRepulseForceThatARunOfThemHas) {
+TEST_P(LiveTool, HasTheSandAndTheRepulseForceOfARunInEvenTicks) {
   Scene scene = small_scene();
   scene.tool.solid = GetParam();
   if (scene.tool.solid) {
@@ -129,7 +129,7 @@ TEST_P(LiveTool, OfEvenTicksHasTheSandAndTheRepulseForceThatARunOfThemHas) {
   EXPECT_GT(result.moved_volume, 0.0);
 }
 
-/// accurate, with a law of the contact, and sand that does not slip.
+/// accurate, with a law of the contact, and sand that does not relax.
 Scene contact_scene(ForceLaw law, ToolShape shape) {
   Scene scene = small_scene();
   scene.preset = ModelPreset::accurate;
@@ -144,7 +144,7 @@ Scene contact_scene(ForceLaw law, ToolShape shape) {
   return scene;
 }
 
-TEST(LiveSand, OfALawOfTheContactHasTheForceThatARunHas) {
+TEST(LiveSand, HasTheForceOfARunWithALawOfTheContact) {
   for (const ForceLaw law : {ForceLaw::rft, ForceLaw::archimedes})
     for (const ToolShape shape : {ToolShape::sphere, ToolShape::cone, ToolShape::plate}) {
       Scene scene = contact_scene(law, shape);
@@ -211,7 +211,7 @@ TEST(LiveSand, TurnsTheToolWithTheHandAsARunDoes) {
   EXPECT_GT((straight.bed().grid() - ran).abs().sum(), 0.3 * ran.abs().sum());
 }
 
-TEST(LiveSand, OfAToolThatTurnsTakesNoMemoryInTheLoopAndItsRelaxationTurnsWithIt) {
+TEST(LiveSand, TakesNoMemoryInTheLoopAndTurnsItsRelaxationWithATool) {
   Scene scene = contact_scene(ForceLaw::rft, ToolShape::plate);
   scene.relaxation.rate = 60.0;
   scene.relaxation.max_passes = RelaxationSettings{}.max_passes;
@@ -261,7 +261,7 @@ double shaking(const Scene& scene) {
   return fastest;
 }
 
-TEST(LiveSand, OfALawOfTheContactLetsAHandRestWhereTheoryDoes) {
+TEST(LiveSand, LetsAHandRestWhereTheoryDoesWithALawOfTheContact) {
   Scene scene = contact_scene(ForceLaw::rft, ToolShape::sphere);
   DeviceSpecification touch;
   touch.max_force = 3.3;
@@ -304,7 +304,7 @@ TEST(LiveSand, WhatIsWeakenedBeyondTheScenesLimitIsFlagged) {
   }
 }
 
-TEST(LiveSand, OfALawOfTheContactGoesOnWhileTheToolIsHeldFromDigging) {
+TEST(LiveSand, KeepsTheForceOfALawOfTheContactWhileDisplacementIsDeferred) {
   // The relaxing bed is far behind, and the hand rises: lift is gone after the yield way.
   Scene scene = contact_scene(ForceLaw::archimedes, ToolShape::box);
   LiveSand sand(scene, starting_bed(scene.bed), {"bed"});
@@ -350,7 +350,7 @@ TEST(LiveSand, BesideTheBedTheLowestPointOfTheToolCounts) {
   EXPECT_TRUE(sand.feel(0.001, {Eigen::Vector3d(0.5, 0.0, 0.04)}).is_above_or_in_sand);
 }
 
-TEST(LiveSand, OfALawOfTheContactPastACornerOfTheBedIsANumber) {
+TEST(LiveSand, GivesANumberPastACornerOfTheBedWithALawOfTheContact) {
   for (const ForceLaw law : {ForceLaw::rft, ForceLaw::archimedes}) {
     const Scene scene = contact_scene(law, ToolShape::sphere);
     LiveSand sand(scene, starting_bed(scene.bed), {"bed"});
@@ -361,7 +361,7 @@ TEST(LiveSand, OfALawOfTheContactPastACornerOfTheBedIsANumber) {
   }
 }
 
-TEST(LiveSand, OfALawOfTheContactBeginsAnewAfterAGap) {
+TEST(LiveSand, BeginsALawOfTheContactAnewAfterAGap) {
   const Scene scene = contact_scene(ForceLaw::rft, ToolShape::sphere);
   LiveSand sand(scene, starting_bed(scene.bed), {"bed"});
   FeltForce felt;
@@ -372,8 +372,8 @@ TEST(LiveSand, OfALawOfTheContactBeginsAnewAfterAGap) {
   EXPECT_EQ(sand.feel(0.3, {there}).force.norm(), 0.0) << "its way there is not known";
 }
 
-TEST(LiveSand, OfUnevenTicksIsWithinTheBoundOfSampling) {
-  // Ticks up to 0.4 ms late, some missing; sand that does not slip, so that nothing but sampling differs.
+TEST(LiveSand, IsWithinTheBoundOfSamplingInUnevenTicks) {
+  // Ticks up to 0.4 ms late, some missing; sand that does not relax, so that nothing but sampling differs.
   Scene scene = small_scene();
   scene.relaxation.rate = 0.0;
   std::mt19937 random(3);
@@ -452,7 +452,7 @@ TEST_P(LiveTool, TakesNoMemoryInTheLoop) {
   expect_no_memory_in_loop(scene, 3.0, 500);
 }
 
-TEST(LiveSand, OfAToolOfAnyShapeTakesNoMemoryInTheLoop) {
+TEST(LiveSand, TakesNoMemoryInTheLoopForAToolOfAnyShape) {
   if (!allocations_are_counted()) GTEST_SKIP() << "allocations are not counted under sanitizers";
   for (const ToolShape shape : {ToolShape::cone, ToolShape::plate, ToolShape::rake}) {
     Scene scene = small_scene();
@@ -505,7 +505,7 @@ TEST(LiveSand, FeelsInTheDevicesAxesAndScale) {
   EXPECT_NEAR(felt.force.y(), 0.0, 1e-12);
 }
 
-TEST(LiveSand, AFarJumpDoesNotDigAcrossTheBed) {
+TEST(LiveSand, AFarJumpDoesNotCarveAcrossTheBed) {
   // Two readings more than the gap threshold apart are not joined.
   Scene scene = small_scene();
   scene.relaxation.rate = 0.0;
@@ -517,7 +517,7 @@ TEST(LiveSand, AFarJumpDoesNotDigAcrossTheBed) {
   EXPECT_LT(sand.bed()(75, 125), 0.0);
 }
 
-TEST(LiveSand, AfterAGapTheHandBeginsAtRest) {
+TEST(LiveSand, BeginsWithTheHandAtRestAfterAGap) {
   // At 0.1 m/s through the sand, a gap, and on at the same speed elsewhere. Drag / repulse is k_f v, with v
   // the mean over the readings since the gap: nobody knows how fast the hand was in it.
   for (const double gap : {0.095, 0.105}) {  // s; the threshold is 0.1 s
@@ -596,7 +596,7 @@ TEST(LiveSand, TheVelocityOfDragIsTheMeanOverTheLastFourReadings) {
   }
 }
 
-TEST(LiveSand, NothingIsDugOrSlipsBeforeTheRecordingBegins) {
+TEST(LiveSand, NothingIsDisplacedOrRelaxesBeforeTheRecordingBegins) {
   // A run of the recorded stroke begins with the bed as it was, too.
   const Scene scene = small_scene();
   HeightField start = starting_bed(scene.bed);

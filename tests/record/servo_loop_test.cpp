@@ -286,7 +286,7 @@ TEST_F(ServoLoopTest, CountsWhatTheFullRingDidNotTake) {
   }
 }
 
-TEST_F(ServoLoopTest, EndsWhenTheStopSwitchIsHeld) {
+TEST_F(ServoLoopTest, EndsWhenTheStopSwitchIsKeptPressed) {
   settings.duration.reset();
   settings.stop_switch = 2;
   device.reads = [&](double time, DeviceReading& reading) {
@@ -412,7 +412,7 @@ TEST_F(ServoLoopTest, GivesNoForceToAHandThatRestsInTheSand) {
   }
 }
 
-TEST_F(ServoLoopTest, WithoutForceWaitsForNoLifting) {
+TEST_F(ServoLoopTest, WaitsForNoLiftingWithoutForce) {
   settings.force.max_force = 0.0;
   FakeWorld world([](double) { return FeltForce{{0.0, 0.0, 5.0}, 0}; });
   device.reads = [&](double, DeviceReading&) {

@@ -102,7 +102,7 @@ TEST(HeightFieldRenderer, UpdatedPictureEqualsAFreshOne) {
   }
 }
 
-/// A hand digs and heaps sand along its way, under a high and under a low sun, seen from above and from a
+/// A hand carves and heaps sand along its way, under a high and under a low sun, seen from above and from a
 /// side.
 TEST(HeightFieldRenderer, AFilmsFramesEqualFreshPicturesAndTakeFewPixels) {
   for (const double elevation : {8.0, 40.0, 90.0}) {

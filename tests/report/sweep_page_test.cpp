@@ -169,7 +169,7 @@ TEST_F(SweepPage, SaysWhatWasSweptAndWhatCameOfIt) {
   EXPECT_EQ(text(".detail .bad"), "too steep");
 }
 
-TEST_F(SweepPage, AMapHasACellForEachPointInItsPlaceAndColour) {
+TEST_F(SweepPage, AMapHasACellForEachPointInItsPositionAndColour) {
   const Json data = grid_data();
   open(data, as_map);
   const Json cells = items("cells")[0];
@@ -533,7 +533,7 @@ TEST_F(SweepPage, OnePointIsEnough) {
   EXPECT_EQ(text("figcaption small"), "No point here has a value of this metric.");
 }
 
-TEST_F(SweepPage, WithoutPointsOrMetricsItSaysSo) {
+TEST_F(SweepPage, SaysThatThereAreNoPointsOrMetrics) {
   Json none = sweep_data(Json::array({axis("relaxation.talus_angle", "deg", Json::array())}));
   open(none);
   EXPECT_NE(text("main").get<std::string>().find("Nothing was swept"), std::string::npos);

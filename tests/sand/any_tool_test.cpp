@@ -268,7 +268,7 @@ TEST(AnyTool, AWedgeLeavesLeveesOfTheSandThatItTookThePlaceOf) {
   }
 }
 
-TEST(AnyTool, HoweverItIsMadeAndHeldItLosesNoSand) {
+TEST(AnyTool, LosesNoSandOfAnyShapeAndOrientation) {
   std::mt19937 random(7);
   const auto upto = [&](double most) { return most * static_cast<double>(random()) / 0x1p32; };
   const auto length = [&] { return std::pow(10.0, -4.0 + upto(2.6)); };  // 0.1 to 40 mm

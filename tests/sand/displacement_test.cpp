@@ -170,7 +170,7 @@ HeightGrid dragged_against_the_wall(Deposit deposit, double cells_beyond) {
   return bed.grid();
 }
 
-TEST(Displacement, AtAWallWithNothingAheadTheWholeRingTakesTheSand) {
+TEST(Displacement, TheWholeRingTakesTheSandAtAWallWithNothingAhead) {
   // A cell lies ahead where it is less than half a cell behind the axis.
   const HeightGrid beyond = dragged_against_the_wall(Deposit::ahead, 0.525);
   EXPECT_TRUE((beyond == dragged_against_the_wall(Deposit::ring, 0.525)).all());
@@ -203,7 +203,7 @@ TEST(Displacement, AllWallsAndCornersAreAlike) {
     }
 }
 
-TEST(Displacement, WhereNoRingIsInsideTheBedNothingMoves) {
+TEST(Displacement, MovesNothingWhereNoRingIsInsideTheBed) {
   HeightField bed(4, 4, 0.002);  // the bowl covers all of it
   ToolFootprint footprint({R, ToolProfile::paper});
   footprint.place(bed, 0.0, 0.0);

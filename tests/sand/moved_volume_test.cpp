@@ -56,7 +56,7 @@ TEST(MovedVolume, IsWhatWentThroughTheFacesWhateverLawAndMethod) {
         }
 }
 
-TEST(MovedVolume, OfACollapsedBlockIsThatOfItsTriangle) {
+TEST(MovedVolume, IsThatOfTheTriangleOfACollapsedBlock) {
   // The centre of each half goes from w / 2 to L / 3, with L^2 tan(talus) = 2 w h.
   constexpr double w = 10.0, h = 20.0, volume = 2.0 * w * h;  // cells
   const double L = std::sqrt(volume / talus_slope(30.0));
@@ -69,7 +69,7 @@ TEST(MovedVolume, OfACollapsedBlockIsThatOfItsTriangle) {
     }
 }
 
-TEST(MovedVolume, OfASteadyFlowIsThatOfItsMirrorImage) {
+TEST(MovedVolume, IsThatOfTheMirrorImageOfASteadyFlow) {
   // A ramp whose inner cells pass on what they take: which of them count does not go by columns.
   for (const RelaxationLaw law : all_laws)
     for (const std::int64_t passes : {1, 5, 30}) {
@@ -83,7 +83,7 @@ TEST(MovedVolume, OfASteadyFlowIsThatOfItsMirrorImage) {
     }
 }
 
-TEST(RelaxationOutcome, OfOneAfterAnotherCountsBothAndRestsAsTheLast) {
+TEST(RelaxationOutcome, CountsOneAfterAnotherAndRestsAsTheLast) {
   RelaxationOutcome first, next;
   first.passes = 1;
   first.super_steps = 2;

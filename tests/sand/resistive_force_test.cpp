@@ -16,7 +16,7 @@ using std::numbers::pi;
 
 const Vector3d falling(0.0, 0.0, -1.0);
 
-TEST(ResistiveStress, OfAPlateIsThatOfTheTheory) {
+TEST(ResistiveStress, IsThatOfTheTheoryOnAPlate) {
   // Pushed down: -f1 - f2 - f3 at (1, 1, 1). Dragged face on: |f1 + f2| at (0, 0, 1).
   const Vector3d down = resistive_stress(falling, falling, 10.0);
   EXPECT_NEAR(down.z(), 0.87574, 1e-9);
@@ -35,7 +35,7 @@ TEST(ResistiveStress, TurnsWithNormalAndMotionAboutTheVertical) {
       1e-15);
 }
 
-TEST(ResistiveStress, AlongTheSurfaceIsAtMostFriction) {
+TEST(ResistiveStress, IsAtMostFrictionAlongTheSurface) {
   const Vector3d normal = Vector3d(0.2, 0.1, -0.9).normalized(),
                  motion = Vector3d(0.9, 0.3, -0.1).normalized();
   for (const double friction : {0.0, 0.1, 0.3}) {
@@ -45,7 +45,7 @@ TEST(ResistiveStress, AlongTheSurfaceIsAtMostFriction) {
   }
 }
 
-TEST(ResistiveStress, OfWhatLeadsTakesEnergyWhereverItLooks) {
+TEST(ResistiveStress, TakesEnergyOnWhatLeadsWhereverItFaces) {
   // The polynomials are a fit: where they come to nearly nothing they may give a hundredth of a push.
   const double push = resistive_stress({0.0, 0.0, -1.0}, {0.0, 0.0, -1.0}, 0.4).z();
   for (int tilt = -9; tilt <= 9; ++tilt)
@@ -59,7 +59,7 @@ TEST(ResistiveStress, OfWhatLeadsTakesEnergyWhereverItLooks) {
       }
 }
 
-TEST(ResistiveStress, OfAPlatePulledUpIsAThirdOfAPushAtMost) {
+TEST(ResistiveStress, IsAtMostAThirdOfAPushOnAPlatePulledUp) {
   // -0.20 to -0.30 of it, measured in three media (Li, Zhang, Goldman 2013); the polynomials have -0.09.
   const double push = resistive_stress({0.0, 0.0, -1.0}, {0.0, 0.0, -1.0}, 0.4).z(),
                pull = resistive_stress({0.0, 0.0, 1.0}, {0.0, 0.0, 1.0}, 0.4).z();
@@ -76,7 +76,7 @@ TEST(ResistiveStress, ChangesSteadilyFromAnUprightElementToOneThatLooksUp) {
     EXPECT_LT((dragged(up + 0.001) - dragged(up)).norm(), 0.003) << up;
 }
 
-TEST(Resistance, OfQuikreteIsWhatWasMeasuredWithinAFewPercent) {
+TEST(Resistance, IsWithinAFewPercentOfTheMeasuredOneInQuikrete) {
   // 2.02 N/cm^3 measured under a plate; the formula gives 2.13.
   EXPECT_NEAR(0.87574 * resistance({34.0, 1560.0}) * 1e-6, 2.13, 0.005);
 }
@@ -120,7 +120,7 @@ Vector3d theory_of_sphere(double radius, double depth, const Vector3d& motion, c
 
 constexpr double depths[] = {0.002, 0.004, 0.006, 0.010, 0.020};
 
-TEST(ResistiveForce, OfASphereIsThatOfTheTable) {
+TEST(ResistiveForce, IsThatOfTheTableOnASphere) {
   const ToolSettings sphere{0.01, ToolProfile::sphere, true};
   const double repulse30[] = {0.17, 0.64, 1.3, 2.9, 7.1}, repulse34[] = {0.28, 1.07, 2.2, 4.9, 11.9},
                drag30[] = {0.08, 0.11, 0.14, 0.18, 0.27};
@@ -149,7 +149,7 @@ TEST(ResistiveForce, OfASphereIsThatOfTheTable) {
     }
 }
 
-TEST(ResistiveForce, OfASphereConvergesWhereverItsAxisLiesBetweenCells) {
+TEST(ResistiveForce, ConvergesOnASphereWhereverItsAxisLiesBetweenCells) {
   const ToolSettings sphere{0.01, ToolProfile::sphere, true};
   const SandStrength sand{30.0, 1560.0, 0.4, 1e-6};
   const double depth = 0.004, theory = theory_of_sphere(0.01, depth, falling, sand).z();
@@ -190,7 +190,7 @@ TEST(ResistiveForce, DependsOnTheWayAndNotOnTheTimeItTakes) {
             0.05 * twice.z());
 }
 
-TEST(ResistiveForce, OfAWayWhoseSquareIsNoNumberAnyMoreIsANumber) {
+TEST(ResistiveForce, IsANumberForAWayWhoseSquareIsNone) {
   HeightField bed(61, 61, 0.001);
   const ToolSettings sphere{0.01, ToolProfile::sphere, true};
   ToolFootprint footprint(sphere);
@@ -216,7 +216,7 @@ TEST(ResistiveForce, VolumeBelowThePlaneIsTheCap) {
   EXPECT_GT(force.volume_below({0.0, 0.0, -depth}, {0.0, {0.3, 0.0}}).moment.x(), 0.01 * R * cap);
 }
 
-TEST(ResistiveForce, OfABladeThatTurnsInItsPlaceIsATorque) {
+TEST(ResistiveForce, IsATorqueOnABladeThatTurnsWhereItStands) {
   // Each half leads with one face: 2 x the integral over it of 0.192 xi depth y = 0.192 xi D^2 W^2 / 8. The
   // other faces trail.
   ToolSettings blade{0.01, ToolProfile::sphere, true};

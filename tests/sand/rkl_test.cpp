@@ -232,7 +232,7 @@ TEST_P(RklLaws, BeginsAnewWithEachRelaxation) {
   EXPECT_TRUE((bed.grid() == anew.grid()).all());
 }
 
-TEST_P(RklLaws, WhereOneTilesSandRestsItsErrorCountsOn) {
+TEST_P(RklLaws, CountTheErrorOfATileWhoseSandRests) {
   // A small heap comes to rest in its own tile while the large one in another goes on.
   HeightGrid heights = HeightGrid::Zero(40, 110);
   heights.block(18, 20, 3, 3) = 6.0;

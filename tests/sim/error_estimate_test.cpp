@@ -125,7 +125,7 @@ TEST(ErrorEstimate, IsNothingBeyondARoundWall) {
     for (int col = 0; col < 3; ++col) EXPECT_NEAR(map(row, col), 0.0, 1e-15) << row << ", " << col;
 }
 
-TEST(ErrorEstimate, OfAPlungesForceIsNothingSinceTheForceDependsOnDepthAlone) {
+TEST(ErrorEstimate, IsZeroForAPlungesForceWhichDependsOnDepthAlone) {
   Scene scene = stroke_scene(50);
   scene.relaxation.rate = 0.0;
   const Stroke plunge = stroke_of(0.0);
@@ -147,7 +147,7 @@ std::pair<double, double> distance(const FeltRun& run, const FeltRun& truth) {
   return {sum / coarse.abs().sum(), std::sqrt(force / static_cast<double>(of_run.size()))};
 }
 
-TEST(ErrorEstimate, OfADragIsWithinAFactorOfThreeOfItsDistanceToAQuarterOfTheSteps) {
+TEST(ErrorEstimate, IsWithinAFactorOfThreeOfADragsDistanceToAQuarterOfTheSteps) {
   const Stroke drag = stroke_of(0.1);
   for (const DeviceModel model : {DeviceModel::kinematic, DeviceModel::dynamic}) {
     Scene scene = stroke_scene(50), fine = scene;
@@ -244,7 +244,7 @@ TEST(ErrorEstimate, IsTheDistanceToTheSecondSolutionTimesRichardsonsFactor) {
   }
 }
 
-TEST(ErrorEstimate, OfABedThatNoSquareCellsHalveIsTakenOverTheirCommonParts) {
+TEST(ErrorEstimate, TakesCommonPartsOfCellsWhereNoSquareCellsHalveTheBed) {
   // 9 x 27 cells, and 5 x 15: each of these covers 1.8 of those along each side.
   Scene heap = cylinder_scene(9);
   heap.bed.cols = 27;
@@ -290,7 +290,7 @@ TEST(ErrorEstimate, CellsThatNoRuleMakesAnewAreAveragedOrSplit) {
   }
 }
 
-TEST(ErrorEstimate, OfSandThatOnlyOneSolutionMovedIsAllOfItWhereverItIs) {
+TEST(ErrorEstimate, CountsAllSandThatOnlyOneSolutionMoved) {
   // A flat bed, on which nothing moves: four cells that the run is said to have raised, one of the coarser
   // bed's, and eight of them that it lowered, two of the coarser bed's.
   Scene scene;

@@ -92,7 +92,7 @@ class ContactPath : public SimulationObserver {
   TipPathGatherer gatherer_;
 };
 
-TEST(Furrow, OnCentresOfCellsIsExact) {
+TEST(Furrow, IsExactOnCentresOfCells) {
   // The line lies on a row's centres; edges, crests and the deepest point are on samples.
   const HeightField before(239, 300, 1e-3);
   const Profile profile;
@@ -118,7 +118,7 @@ TEST(Furrow, HasItsMeasuresInAnyDirectionOnAnyBed) {
     }
 }
 
-TEST(Furrow, AlongACircleToo) {
+TEST(Furrow, IsExactAlongACircleToo) {
   const Profile profile;
   const double bend = 0.07;
   const TipPath path = path_along(
@@ -238,7 +238,7 @@ TEST(Furrow, NextToTheBorderHasItsDepthAndOneRampart) {
   EXPECT_TRUE(std::isnan(outside.depth) && std::isnan(outside.width) && std::isnan(outside.rampart));
 }
 
-TEST(Furrow, WithoutContactThereIsNothingAndWithoutChangeNoFurrow) {
+TEST(Furrow, IsNothingWithoutContactAndNoFurrowWithoutChange) {
   const FurrowMeasures none = measured(slanting, flat, TipPath{});
   EXPECT_TRUE(std::isnan(none.depth) && std::isnan(none.width) && std::isnan(none.rampart));
   const Line line{{-0.08, 0.0}, {1.0, 0.0}, 0.16};
@@ -254,7 +254,7 @@ TEST(Furrow, WithoutContactThereIsNothingAndWithoutChangeNoFurrow) {
   EXPECT_NEAR(filled.rampart, 0.004, 1e-3);
 }
 
-TEST(Furrow, OnTheLargestBedOnlyItsTilesAreLookedAt) {
+TEST(Furrow, LooksOnlyAtTilesOnTheLargestBed) {
   const HeightField before(65536, 65536, 1e-3);
   HeightField after = before;
   const Profile profile;
@@ -265,7 +265,7 @@ TEST(Furrow, OnTheLargestBedOnlyItsTilesAreLookedAt) {
   expect_profile(measure_furrow(before, after, line.path(), radius), profile);
 }
 
-TEST(Furrow, OfAShallowDragIsAsDeepAsItsTipWhicheverWayItGoes) {
+TEST(Furrow, IsAsDeepAsTheTipInAShallowDragInAnyDirection) {
   // At 2 mm what the tool pushes ahead of it stays out of the furrow.
   for (const double angle : {0.0, 0.5, std::numbers::pi / 4}) {
     Scene scene;
@@ -291,7 +291,7 @@ TEST(Furrow, OfAShallowDragIsAsDeepAsItsTipWhicheverWayItGoes) {
   }
 }
 
-TEST(Furrow, ATipThatTremblesAtTheSurfaceIsOnePlaceOfItsPath) {
+TEST(Furrow, ATipThatTremblesAtTheSurfaceIsOnePointOfItsPath) {
   const Scene scene;
   TipPathGatherer gatherer(scene);
   TickRecord tick;

@@ -39,7 +39,7 @@ TEST(RecordedForce, IsLinearBetweenSamples) {
     EXPECT_NEAR(recorded_at(late, time), force, 1e-14);
 }
 
-TEST(RecordedForce, OfTheHandOnTheDeviceIsTurnedRound) {
+TEST(RecordedForce, IsTurnedRoundIfItIsTheHandsOnTheDevice) {
   Stroke stroke = rising();
   stroke.force_sign = ForceSign::by_hand;
   RecordedForce recorded(stroke);
@@ -87,7 +87,7 @@ Eigen::Vector3d spiral(int tick, int late = 0, double scale = 1.0) {
   return scale * t * Eigen::Vector3d(std::cos(t), std::sin(t), 0.3 * std::cos(3.0 * t));
 }
 
-TEST(ForceAgreement, OfNothingRecordedIsNone) {
+TEST(ForceAgreement, IsNoneWithoutARecordedForce) {
   EXPECT_FALSE(force_agreement({}));
   EXPECT_FALSE(force_agreement({{0.0, {1.0, 0.0, 0.0}, {unknown, unknown, unknown}}}));
 }

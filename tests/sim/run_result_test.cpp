@@ -128,14 +128,14 @@ TEST(RunResult, IsWhatItsTicksAddUpTo) {
   EXPECT_NEAR(result.device.absorbed_energy, absorbed, 1e-12);
   EXPECT_NEAR(result.device.least_absorbed_energy, least, 1e-12);
 
-  double slipped = 0.0;
-  for (const RelaxationRecord& one : told.relaxations) slipped += one.outcome.moved_volume;
+  double relaxed = 0.0;
+  for (const RelaxationRecord& one : told.relaxations) relaxed += one.outcome.moved_volume;
   const double displaced = told.sum([](const TickRecord& tick) { return tick.displaced_volume; });
   ASSERT_GT(displaced, 0.0);
-  ASSERT_GT(slipped, 0.0);
+  ASSERT_GT(relaxed, 0.0);
   EXPECT_NEAR(result.displaced_volume, displaced, 1e-12 * displaced);
-  EXPECT_NEAR(result.relaxation.moved_volume, slipped, 1e-12 * slipped);
-  EXPECT_NEAR(result.moved_volume, displaced + slipped, 1e-12 * slipped);
+  EXPECT_NEAR(result.relaxation.moved_volume, relaxed, 1e-12 * relaxed);
+  EXPECT_NEAR(result.moved_volume, displaced + relaxed, 1e-12 * relaxed);
   EXPECT_NEAR(result.volume_initial, volume_before, 1e-15);
   EXPECT_NEAR(result.volume_final, plain_volume(simulation.bed()), 1e-15);
   EXPECT_EQ(result.volume_drift, std::abs(result.volume_final - result.volume_initial) / result.moved_volume);
@@ -337,7 +337,7 @@ TEST(RunResult, BelowTheSandAfterAGapTheForceFadesInAndNoEnergyIsOwed) {
   }
 }
 
-TEST(RunResult, AfterAGapADynamicDeviceIsWhereTheHandIsAndNoLateForceIsLeft) {
+TEST(RunResult, HasADynamicDeviceAtTheHandAndNoLateForceAfterAGap) {
   Scene scene = narrow_scene();
   scene.device.model = DeviceModel::dynamic;
   scene.device.resolution = 0.0;

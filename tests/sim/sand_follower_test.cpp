@@ -64,7 +64,7 @@ TEST(SandFollower, TheTipIsAsDeepAsAskedOnAHillAsOnTheFlat) {
   }
 }
 
-TEST(SandFollower, SlippingSandIsFollowedWithinATick) {
+TEST(SandFollower, RelaxingSandIsFollowedWithinATick) {
   Scene scene = hill();
   for (const bool accurate : {false, true}) {
     if (accurate) {
@@ -80,7 +80,7 @@ TEST(SandFollower, SlippingSandIsFollowedWithinATick) {
   }
 }
 
-TEST(SandFollower, ARestingToolDigsNoShaft) {
+TEST(SandFollower, ARestingToolCarvesNoShaft) {
   Scene scene = hill();
   scene.bed.surface = {};
   Stroke rest = drag(0.004);

@@ -148,7 +148,7 @@ TEST(Simulation, WhatIsReachedLiftedIsNoPath) {
   EXPECT_EQ(simulation.bed().grid().middleCols(60, 30).abs().maxCoeff(), 0.0);
 }
 
-TEST(Simulation, ALimitedDeviceIsHeldByItsLimitAtAnyDepth) {
+TEST(Simulation, ALimitedDeviceKeepsToItsLimitAtAnyDepth) {
   Scene scene = small_scene();
   const Stroke plunge = through({{0, 0, 0}, {0, 0, -1e4}}, 0.01);  // exp(k_c d) overflows
   Told recording;
@@ -404,7 +404,7 @@ TEST(Simulation, ADeviceIsLostFurtherAwayThanAHundredBeds) {
   EXPECT_NEAR(recording.ticks.back().time, lost_at - 1.5e-3, 0.5e-3) << "the tick before that, at its start";
 }
 
-TEST(Simulation, AtItsEndTheToolIsGoneAndTheSandRestsWithoutIt) {
+TEST(Simulation, EndsWithTheToolGoneAndTheSandAtRestWithoutIt) {
   Scene scene = small_scene();
   scene.preset = ModelPreset::accurate;
   apply_model_preset(scene);
@@ -460,7 +460,7 @@ TEST(Simulation, AToolThatTurnsOnItsWayKeepsAllSandAndEndsTurned) {
   EXPECT_LT(turning.result.volume_drift, 1e-12);
   EXPECT_GT(turning.result.moved_volume, 0.0);
   for (const TickRecord& tick : turning.ticks) ASSERT_TRUE(tick.wrench.torque.allFinite()) << tick.time;
-  // Across the way at first, it digs a furrow of its width; at last along it, one of its thickness.
+  // Across the way at first, it carves a furrow of its width; at last along it, one of its thickness.
   const Eigen::Vector3d end = turning.ticks.back().hand.orientation * Eigen::Vector3d::UnitX();
   EXPECT_NEAR(end.y(), 1.0, 1e-4);
   const auto dug_cells = [&](int col) { return (turning.surface.col(col) < -0.0015).count(); };

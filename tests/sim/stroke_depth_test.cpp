@@ -78,7 +78,7 @@ TEST(StrokeDepth, BesideTheBedTheWayOntoItIsSaid) {
   EXPECT_NE(way(0.4).find("\"centre\" and stroke.fit = 0.8"), std::string::npos) << way(0.4);
 }
 
-TEST(StrokeDepth, OfAToolThatNeverTouchedSaysHowFarItStayed) {
+TEST(StrokeDepth, SaysHowFarAToolStayedThatNeverTouched) {
   Played played({{0, 0, 0.02}});
   played.scene.stroke.emplace();
   played.scene.stroke->placement.depth = 0.001;

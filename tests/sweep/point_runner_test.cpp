@@ -130,7 +130,7 @@ TEST(SharedRun, VerdictsTellHowItWent) {
   EXPECT_NE(refused.reason.find("outside the bed"), std::string::npos);
 }
 
-TEST(SharedRun, WithoutAStrokeMeasuresTheSandAlone) {
+TEST(SharedRun, MeasuresTheSandAloneWithoutAStroke) {
   Scene scene = small_scene();
   scene.stroke.reset();
   scene.bed.surface.kind = SurfaceKind::cylinder;
@@ -148,7 +148,7 @@ TEST(SharedRun, WithoutAStrokeMeasuresTheSandAlone) {
             std::atan(talus * (1.0 + metric(point, "residual"))) * 180.0 / M_PI + 1e-9);
 }
 
-TEST(SharedRun, WithoutAStrokeEachSceneHasTheMarginOfItsOwnDevice) {
+TEST(SharedRun, GivesEachSceneTheMarginOfItsDeviceWithoutAStroke) {
   std::vector<Scene> scenes(2, small_scene());
   for (Scene& scene : scenes) scene.stroke.reset();
   scenes[1].device.damping += 4.0;

@@ -49,7 +49,7 @@ TEST(DescentSlope, NothingFallsBeyondAWall) {
   EXPECT_EQ(descent_slope(HeightField(HeightGrid::Constant(1, 1, 3.0), cell_size), 0, 0), 0.0);
 }
 
-TEST(DescentSlope, OfAConeIsItsOwnUpToTheBendOfItsContours) {
+TEST(DescentSlope, IsAConesUpToTheBendOfItsContours) {
   // The way down turns by 1 / distance; half of a cell's turn on the triangle's first side, one and a
   // half on its second, which begins a cell away.
   const HeightField cone = bed_of(101, [](double x, double y) { return -0.6 * std::hypot(x, y); });
@@ -95,7 +95,7 @@ TEST(LawSlope, OnAPeakIsOfTheSteeperSidesAndInAPitAndOnAWallZero) {
   EXPECT_EQ(law_slope(alone, 0, 0, RelaxationLaw::isotropic), 0.0);
 }
 
-TEST(Slopes, OfSandAtRestAreByItsLawNoMoreThanTalusAngleAndResidual) {
+TEST(Slopes, AreAtMostTalusAngleAndResidualByTheLawAtRest) {
   for (const RelaxationLaw law : all_laws)
     for (const RelaxationMethod method : {RelaxationMethod::passes, RelaxationMethod::rkl})
       for (const double angle : {10.0, 20.0, 35.0, 45.0}) {
@@ -144,7 +144,7 @@ TEST(Slopes, NothingChangedMeansNone) {
               std::isnan(measures.law_steepest) && std::isnan(measures.fraction_at_talus));
 }
 
-TEST(Slopes, OnTheLargestBedOnlyItsTilesAreLookedAt) {
+TEST(Slopes, LookOnlyAtTilesOnTheLargestBed) {
   const HeightField before(65536, 65536, cell_size);
   HeightField after = before;
   after.set(40000, 63, cell_size);  // beside a tile that does not exist
@@ -153,7 +153,7 @@ TEST(Slopes, OnTheLargestBedOnlyItsTilesAreLookedAt) {
   EXPECT_NEAR(measures.fraction_at_talus, 1.0, 0.0);
 }
 
-TEST(Slopes, OfSandAtRestByThePapersLawAreAtMostItsOctagons) {
+TEST(Slopes, AreAtMostTheOctagonsAtRestByThePapersLaw) {
   // Drops to axis neighbours of at most T and to diagonal ones of at most sqrt 2 T bound a triangle's slope
   // by sqrt(1 + (sqrt 2 - 1)^2) = 1.0824 T.
   const HeightField before = bed_of(96, [](double x, double y) {
@@ -171,7 +171,7 @@ TEST(Slopes, OfSandAtRestByThePapersLawAreAtMostItsOctagons) {
   EXPECT_LT(measures.mean, measures.steepest);
 }
 
-TEST(Slopes, OfAConeAreItsAngle) {
+TEST(Slopes, AreTheAngleOfACone) {
   const double slope = std::tan(std::numbers::pi / 6);
   const HeightField before(201, 201, cell_size);
   const HeightField cone =

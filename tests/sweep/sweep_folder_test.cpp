@@ -59,7 +59,7 @@ TEST_F(AFolder, IsTakenUpBySameSweepAndOpenedAsItWasMade) {
             "relaxation.talus_angle=30 --set 'model.preset=\"paper\"' -o point-000002.h5");
 }
 
-TEST_F(AFolder, OfAnotherSweepIsRefusedAndSaysWhatDiffers) {
+TEST_F(AFolder, IsRefusedWithWhatDiffersIfAnotherSweepMadeIt) {
   SweepFolder::make(path, manifest());
   SweepManifest other = manifest();
   other.design.axes[0].values.push_back("40");
@@ -72,7 +72,7 @@ TEST_F(AFolder, OfAnotherSweepIsRefusedAndSaysWhatDiffers) {
   EXPECT_NE(refusal(path, other).find("another version of sandstroke (1, abc)"), std::string::npos);
 }
 
-TEST_F(AFolder, WithFilesOfOthersOrADamagedManifestIsRefused) {
+TEST_F(AFolder, IsRefusedIfItHasFilesOfOthersOrADamagedManifest) {
   fs::create_directories(path);
   put_text(path / "thesis.txt", "precious");
   EXPECT_NE(refusal(path, manifest()).find("other files"), std::string::npos);
@@ -96,7 +96,7 @@ TEST_F(AFolder, WhosePointsLieElsewhereIsRefused) {
   EXPECT_NE(refusal(path, manifest()).find("is a link"), std::string::npos) << refusal(path, manifest());
 }
 
-TEST_F(AFolder, WithPointsButNoManifestIsRefused) {
+TEST_F(AFolder, IsRefusedIfItHasPointsButNoManifest) {
   SweepFolder::make(path, manifest()).write(0, {PointVerdict::at_rest, "", {1.0, 2.0}}, "", nullptr);
   fs::remove(path / "manifest.json");
   EXPECT_NE(refusal(path, manifest()).find("holds points"), std::string::npos) << refusal(path, manifest());

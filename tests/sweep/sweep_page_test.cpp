@@ -83,7 +83,7 @@ TEST_F(ASweepPage, ShowsDesignPointsAndCounts) {
   EXPECT_EQ(data["counts"], Json::parse(R"({"points": 4, "done": 1, "failed": 1, "missing": 2})"));
 }
 
-TEST_F(ASweepPage, OfALatinHypercubeHasAValueForEachPoint) {
+TEST_F(ASweepPage, HasAValueForEachPointOfALatinHypercube) {
   SweepManifest m = page_manifest();
   m.design = {false,
               {{"force.k_s", "N", true, {"1", "3", "2"}}, {"force.k_f", "s/m", false, {"7", "8", "9"}}}};
@@ -128,7 +128,7 @@ TEST_F(ASweepPage, ShowsLevelSandToo) {
             uri(surface_thumbnail(folder.point_file(0), 1.0)));
 }
 
-TEST_F(ASweepPage, OfVeryManyPointsHasNoPicturesAndSaysSo) {
+TEST_F(ASweepPage, HasNoPicturesOfVeryManyPointsAndSaysSo) {
   SweepManifest m = page_manifest();
   m.keep_surface = true;
   std::vector<std::string> values;

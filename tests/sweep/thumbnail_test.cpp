@@ -93,7 +93,7 @@ TEST_F(ASurface, ShowsAFurrowNarrowerThanAPixelAndSmallBedsInWholePixels) {
   EXPECT_EQ(surface_thumbnail(path, 0.1).height, 90);
 }
 
-TEST_F(ASurface, OfTheLargestBedIsAThumbnailLikeAnyOther) {
+TEST_F(ASurface, IsAThumbnailForTheLargestBedToo) {
   HeightField bed(65536, 32768, 0.5);
   for (int row = 40000; row < 40800; ++row)
     for (int col = 3000; col < 3500; ++col) bed.set(row, col, -0.2);
@@ -101,7 +101,7 @@ TEST_F(ASurface, OfTheLargestBedIsAThumbnailLikeAnyOther) {
   const Image map = surface_thumbnail(path, 0.2);
   ASSERT_EQ(map.width, 96);
   ASSERT_EQ(map.height, 192);
-  // A pixel is 342 cells wide; this one, from below the 118th, lies in what was dug, the other is level.
+  // A pixel is 342 cells wide; this one, from below the 118th, lies in what was carved, the other is level.
   const auto expect_colour = [&](const std::uint8_t* pixel, double height) {
     const auto colour = scale_colour(height, -0.2, 0.2, true);
     for (int channel = 0; channel < 3; ++channel)

@@ -99,7 +99,7 @@ TEST(PointerDevice, NothingIsReadBeforeAPointerIsThereAndThenItAppearsOutOfTheSa
   EXPECT_LT((hand.wait(1000 * ms) - Vector3d(0.0625, 0.03125, hover)).norm(), 1e-12);
 }
 
-TEST(PointerDevice, APlaceThatIsRepeatedIsNoMotion) {
+TEST(PointerDevice, ARepeatedPositionIsNoMotion) {
   Hand hand;
   hand.point(0.0, 0.0, 0.5);
   const Vector3d there = hand.wait(500 * ms);
@@ -132,7 +132,7 @@ TEST(PointerDevice, IsWhereThePointerWasALatencyAgo) {
   }
 }
 
-TEST(PointerDevice, APointerThatIsHeldDoesNotSink) {
+TEST(PointerDevice, APointerKeptPressedDoesNotSink) {
   Hand hand;
   hand.point(0.0, 0.0, 1.0);
   const Vector3d once = hand.wait(200 * ms);

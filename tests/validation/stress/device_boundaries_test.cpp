@@ -24,7 +24,7 @@ TEST(DeviceBoundaries, EverythingThatIsPassiveIsStable) {
   }
 }
 
-TEST(DeviceBoundaries, PassiveIsStableWhateverTheShareOfDrag) {
+TEST(DeviceBoundaries, PassiveIsStableWhateverTheFractionOfDrag) {
   for (const double share : {0.01, 1.0, 10.0, 100.0, 1000.0})  // B / (K T); the paper's under 3 N: 60
     for (LoopSettings loop : varied_loops(sanitized ? 20 : 400)) {
       loop.against = Wall{1.0, share / loop.device.servo_rate};

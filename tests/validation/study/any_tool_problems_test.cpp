@@ -59,7 +59,7 @@ TEST(AnyToolProblems, ForcesOnASphereAreThoseOfTheTheory) {
   }
 }
 
-TEST(AnyToolProblems, TicksAreHeldAgainstThoseOfThePapersLaw) {
+TEST(AnyToolProblems, TicksAreComparedWithThoseOfThePapersLaw) {
   std::vector<StudyRun> runs(4);
   const auto set = [&](std::size_t i, const char* law, const char* tool, double time) {
     runs[i].settings.force_law = law;

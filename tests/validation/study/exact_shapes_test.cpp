@@ -65,7 +65,7 @@ TEST(ExactShapes, WorkIsTheForceAlongTheWay) {
   EXPECT_NEAR(drag_work(0.006, 0.1, 2.0, force), 10.0 * 0.1 * repulse_force(0.006, force) * 2.0, 1e-12);
 }
 
-TEST(ExactShapes, AStripCoversItsShareOfADisk) {
+TEST(ExactShapes, AStripCoversItsFractionOfADisk) {
   EXPECT_NEAR(strip_fraction_of_disk(2.0, 2.0), 1.0, 1e-15);
   EXPECT_NEAR(strip_fraction_of_disk(2.0, 5.0), 1.0, 1e-15);
   EXPECT_NEAR(strip_fraction_of_disk(1.0, 1e-6) / (4e-6 / pi), 1.0, 1e-9);

@@ -41,7 +41,7 @@ TEST(StudyFilesTest, PageTableAndDataSayTheSame) {
   EXPECT_NE(read_text_file(files.page()).find("Work of a heap"), std::string::npos);
 }
 
-TEST(StudyFilesTest, APlaceThatCannotBeWrittenIsRefusedAtOnce) {
+TEST(StudyFilesTest, APathThatCannotBeWrittenIsRefusedAtOnce) {
   const TestFolder folder;
   std::ofstream(folder / "file") << "text";
   try {

@@ -38,7 +38,7 @@ TEST(SurfaceError, MeasuresInUnitsOfTheSandThatHasToMove) {
   EXPECT_DOUBLE_EQ(error.largest, 1.0);
 }
 
-TEST(FlankSlopes, OfAnExactConeAreRightInEveryDirectionUpAndDown) {
+TEST(FlankSlopes, AreRightInEveryDirectionUpAndDownAnExactCone) {
   const ExactCone cone = collapsed_cylinder(0.5, 0.2, 30.0);
   for (const double sign : {1.0, -1.0}) {
     const HeightField bed = sampled([&](double x, double y) { return sign * cone(x, y); }, 128);
