@@ -35,7 +35,7 @@ Function* real(const char* name) {
   return reinterpret_cast<Function*>(dlsym(RTLD_NEXT, name));
 }
 
-/// What SANDSTROKE_FAULT says of this kind; null where it names another one.
+/// The text of SANDSTROKE_FAULT for this kind; null where it names another one.
 const char* fault(const char* kind) {
   const char* text = std::getenv("SANDSTROKE_FAULT");
   const std::size_t length = std::strlen(kind);
@@ -44,7 +44,7 @@ const char* fault(const char* kind) {
 
 std::atomic<long> calls = 0, reads = 0;
 
-/// To be asked before every call that changes a file. False: the disk is full.
+/// Counts a call that changes a file, before it is made. False: the disk is full.
 bool goes_on() {
   static const char* const kill_at = fault("kill:");
   static const char* const full_from = fault("full:");
@@ -58,7 +58,7 @@ bool goes_on() {
 /// 0, 1 and 2 are what the program says, not its files.
 bool takes(int file) { return file <= 2 || goes_on(); }
 
-/// Of the user, and not of the system and its libraries.
+/// True for a file of the user, not of the system and its libraries.
 bool is_users(int file) {
   char link[32], folder[PATH_MAX] = "", path[PATH_MAX] = "";
   std::snprintf(link, sizeof link, "/proc/self/fd/%d", file);
@@ -67,7 +67,7 @@ bool is_users(int file) {
   return std::strncmp(path, folder, length) == 0 && path[length] == '/';
 }
 
-/// To be asked before every read: how many bytes it may give; -1: none, for it fails.
+/// The bytes that a read may give, asked before each; -1: none, for it fails.
 ssize_t given(int file, std::size_t count) {
   static const char *const fail_from = fault("read:"), *const fail_once = fault("once:");
   static const bool few = fault("short");
@@ -150,7 +150,7 @@ int fallocate64(int file, int mode, off_t place, off_t size) {
 }
 int fallocate(int file, int mode, off_t place, off_t size) { return fallocate64(file, mode, place, size); }
 
-// What needs no room never finds the disk full.
+// Calls that need no room never find the disk full.
 int ftruncate64(int file, off_t size) noexcept {
   const bool room = goes_on();
   return room || size == 0 ? real<int(int, off_t)>("ftruncate64")(file, size) : -1;

@@ -1,4 +1,4 @@
-// What a drag leaves behind: the paper's figure 6 says that a stronger push removes more.
+// A stronger push removes more sand, as the paper's figure 6 says.
 #include <gtest/gtest.h>
 
 #include <algorithm>

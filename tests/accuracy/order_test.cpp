@@ -1,4 +1,4 @@
-// How the error of a collapse falls with the cell size, and how steep its flanks are in every direction.
+// The error of a collapse falls with the cell size; its flanks are right in every direction.
 #include <gtest/gtest.h>
 
 #include <cmath>

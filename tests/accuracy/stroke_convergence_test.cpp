@@ -1,4 +1,4 @@
-// What strokes converge to with a solid tool, and what their outcome does not depend on: speed, relaxations,
+// Strokes with a solid tool converge, and their outcome does not depend on speed, relaxations,
 // and the noise of hands.
 #include <gtest/gtest.h>
 
@@ -26,7 +26,8 @@ Scene finer(Scene scene, int by) {
   return scene;
 }
 
-/// In place of the truth: 20 cells per radius, relaxed twenty times per radius, of a scene that has five.
+/// The scene that stands for the truth: 20 cells per radius, relaxed twenty times per radius, of a scene that
+/// has five.
 Scene truth_of(const Scene& scene) {
   Scene truth = finer(scene, 4);
   truth.relaxation.way = truth.relaxation.way_at_rim = 0.05;
@@ -96,8 +97,8 @@ void expect_true_estimate(double estimate, double error) {
 }
 
 TEST(StrokeConvergence, IsWorseAsDeepAsTheToolsRadius) {
-  // What is pushed out and what falls in behind the tool run from one crest, 2 mm from its rim: one cell of
-  // five.
+  // The sand that is pushed out and the sand that falls in behind the tool run from one crest, 2 mm from its
+  // rim: one cell of five.
   if (sanitized) GTEST_SKIP() << "takes long under sanitizers";
   const Convergence errors = convergence_of(accurate(), s_curve(0.01, 0.25));
   expect_true_estimate(errors.estimate, errors.coarse);
@@ -152,7 +153,7 @@ TEST(StrokeConvergence, ASlowHandLeavesWhatAFastOneLeaves) {
   for (const double speed : sanitized ? std::vector{0.25, 1.0} : std::vector{0.02, 0.1, 0.25, 1.0}) {
     runs.push_back(replay(accurate(), s_curve(0.004, speed)));
     for (const Replay& before : runs) EXPECT_LT(apart(runs.back(), before), 0.02) << speed;
-    // At the same places, so as often, whatever the speed.
+    // The sand relaxes at the same positions, so as often, whatever the speed.
     EXPECT_EQ(runs.back().result.relaxations, runs.front().result.relaxations) << speed;
   }
 }
@@ -215,7 +216,7 @@ class PandaRecording : public testing::Test {
     scene.bed.cols = scene.bed.rows = 200;  // five cells per radius
   }
 
-  /// With a Gaussian that halves the power at `frequency` [Hz].
+  /// Smooths with a Gaussian that halves the power at `frequency` [Hz].
   Stroke low_passed(double frequency) const {
     Stroke smooth = recorded;
     const double width = std::sqrt(std::log(2.0)) / (2.0 * std::numbers::pi * frequency) * 1000.0;  // samples

@@ -19,7 +19,7 @@ struct Method {
 constexpr Method passes{"passes", RelaxationMethod::passes};
 constexpr Method rkl{"rkl", RelaxationMethod::rkl};
 
-/// What both are held against: the same law in small steps.
+/// The reference for both: the same law in small steps.
 Method small_steps(double share) { return {"small steps", RelaxationMethod::passes, share}; }
 
 Method with_law(Method method, RelaxationLaw law) {

@@ -1,5 +1,5 @@
-// What a user waits for, measured through the program itself; so that another build of it can be measured in
-// the same run, in turn: machines differ, and so do their hours.
+// Times that a user waits for, measured through the program itself, so that another build of it can be
+// measured in the same run, in turn: machines differ, and so do their hours.
 #include <sys/resource.h>
 
 #include <algorithm>
@@ -18,7 +18,7 @@
 namespace sandstroke {
 namespace {
 
-/// Of a run of the program: wall and cpu [s, its children's included], peak [bytes, resident], and out, what
+/// Runs the program. Gives wall and cpu [s, its children's included], peak [bytes, resident], and out, what
 /// it said.
 nlohmann::json run(const std::string& program, std::vector<std::string> words) {
   words.insert(words.begin(), program);
@@ -40,7 +40,7 @@ nlohmann::json run(const std::string& program, std::vector<std::string> words) {
   });
 }
 
-/// Of a scene, with these words besides.
+/// The words that run a scene, with these besides.
 std::vector<std::string> run_words(const std::string& scene, const TemporaryFolder& folder,
                                    std::vector<std::string> more = {}) {
   std::vector<std::string> words = {"run", scene, "-o", (folder / "run.h5").string(), "--overwrite"};
@@ -108,7 +108,7 @@ std::vector<Line> lines(bool quick) {
                           "--set", "stroke.place=centre", "--set", "stroke.depth=0.004", "--set",
                           "model.preset=accurate"})["real_time_factor"];
         });
-  // How many passes a pile took is known from when it was timed.
+  // The passes of a pile are known from when it was timed.
   const auto passes = std::make_shared<std::map<std::pair<std::string, int>, double>>();
   for (const int n : quick ? std::vector{128, 256} : std::vector{512, 1024, 2048, 4096}) {
     const std::string pile = "pile on " + std::to_string(n) + "²";

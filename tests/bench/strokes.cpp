@@ -23,7 +23,7 @@ double seconds_since(Clock::time_point begin) {
   return std::chrono::duration<double>(Clock::now() - begin).count();
 }
 
-/// As strokes/wscg: "WSCG" at 0.25 m/s, 4 mm deep; one line of it per base line.
+/// A stroke like strokes/wscg: "WSCG" at 0.25 m/s, 4 mm deep; one line of it per base line.
 Stroke wscg(double letter_height, double left, const std::vector<double>& base_lines,
             double least_seconds = 0.0) {
   StrokeScript script;
@@ -188,7 +188,7 @@ nlohmann::json measure_bed_sizes(const BenchOptions& options) {
   return rows;
 }
 
-/// What the cells that the strokes/wscg run changes would take in tiles of other sizes: counted, not timed.
+/// The memory of the cells that the strokes/wscg run changes in tiles of other sizes: counted, not timed.
 nlohmann::json measure_tile_sizes() {
   const Replay run = replay({}, wscg(0.44, -0.9, {-0.18}));
   const HeightGrid heights = run.bed.grid();
@@ -211,7 +211,7 @@ nlohmann::json measure_tile_sizes() {
 
 namespace {
 
-/// At the end of each minute of a stroke: the CPU time it took, and the memory that is resident.
+/// The CPU time of each minute of a stroke, and the memory that is resident at its end.
 class Minutes : public SimulationObserver {
  public:
   explicit Minutes(double seconds) : seconds_(seconds) {}

@@ -145,7 +145,8 @@ TEST(CliHelp, HasNoPageOfWhatIsNotThere) {
   }
 }
 
-/// What bash offers for the last of these words, parted as bash does it, by the folder's file `completion`.
+/// The words that bash offers for the last of these, parted as bash does it, by the folder's file
+/// `completion`.
 std::set<std::string> completed(const fs::path& folder, const std::string& words) {
   write_file(folder / "ask", "set -u\nsource ./completion\nCOMP_WORDS=(sandstroke " + words +
                                  ")\nCOMP_CWORD=$((${#COMP_WORDS[@]} - 1))\ncompopt() { :; }\n_sandstroke\n"

@@ -1,4 +1,4 @@
-// What a stranger's file says reaches people's terminals as text only; and its numbers, as numbers or not at
+// A stranger's file reaches people's terminals as text only; and its numbers, as numbers or not at
 // all.
 #include <gtest/gtest.h>
 

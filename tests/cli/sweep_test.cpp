@@ -100,7 +100,7 @@ TEST_F(CliSweep, APointsCommandGivesThePointsFigures) {
   const std::string command = data["points"][3]["command"];
   const std::string start = "sandstroke run ";
   ASSERT_TRUE(command.starts_with(start));
-  // As a shell takes it.
+  // The command as a shell takes it.
   const std::string line = "cd '" + folder.string() + "' && " + SANDSTROKE_PROGRAM + " run " +
                            command.substr(start.size()) + " --json > run.json";
   ASSERT_EQ(std::system(line.c_str()), 0) << line;

@@ -138,7 +138,7 @@ class ComparePageInBrowser : public BrowserTest {
     EXPECT_EQ(browser().evaluate("Number(document.documentElement.dataset.errors)"), 0);
     EXPECT_TRUE(browser().errors().empty()) << browser().errors().front();
   }
-  /// Where the edge of the wipe is, and what is cut from the upper picture [% of the width].
+  /// The position of the wipe's edge, and what is cut from the upper picture [% of the width].
   double edge() { return browser().evaluate("parseFloat(document.querySelector('.edge').style.left)"); }
   double cut() {
     return browser().evaluate(
@@ -363,7 +363,7 @@ TEST_F(ComparePageInBrowser, PicturesOfTwoFiles) {
 }
 
 TEST_F(ComparePageInBrowser, TextOfTheFilesStaysText) {
-  // What comes from files: their names, provenance and scenes, and sentences that tell of them.
+  // Texts that come from files: their names, provenance and scenes, and sentences that tell of them.
   PageOfParts page = DifferentPair().page();
   page.data["golden"]["scene"] = "[tool]\nradius = 0.01\n";
   page.data["run"]["scene"] = "[tool]\nradius = \"" + hostile + "\"\n";

@@ -29,7 +29,7 @@ struct Surfaces {
   double height(double col, double row) const { return 1e-3 * col + 1e-5 * row * row; }
 };
 
-/// Through the centres of cells {col, row}; a piece begins at each index of `pieces`.
+/// A path through the centres of cells {col, row}; a piece begins at each index of `pieces`.
 TipPath path_through(const std::vector<std::pair<int, int>>& cells, std::vector<std::size_t> pieces = {0}) {
   const BedGeometry bed(60, 80, cell);
   TipPath path;

@@ -154,7 +154,7 @@ TEST_F(RunReportInBrowser, DrawsPictureCurvesProfilesAndTables) {
   EXPECT_EQ(browser().evaluate("Promise.all([...document.images].map((one) => one.decode()))"
                                ".then(() => [document.images.length, document.images[0].naturalWidth])"),
             Json({1, 72}));
-  // What the charts hold: the work of 2 N over 104 mm, and the way of the tip in contact.
+  // The charts hold the work of 2 N over 104 mm, and the way of the tip in contact.
   EXPECT_NEAR(browser().evaluate("charts[2].drawn.getOption().series[0].data.at(-1)[1]"), 0.208, 1e-12);
   EXPECT_EQ(browser().evaluate("charts.map(({ drawn }) => drawn.getOption().yAxis[0].name)"),
             Json({"magnitude (N)", "depth (m)", "energy (J)", "height (m)", "height (m)"}));

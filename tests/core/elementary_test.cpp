@@ -16,8 +16,8 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 long double wide(double x) { return static_cast<long double>(x); }
 
-/// How far the result is from `exact`, the same function in long double (64 bits on x86-64, 113 on arm64), in
-/// units in the last place: of the nearest double half a unit, and what long double itself is off.
+/// The distance of the result from `exact`, the same function in long double (64 bits on x86-64, 113 on
+/// arm64), in units in the last place: of the nearest double half a unit, and what long double itself is off.
 double units_off(double result, long double exact) {
   const double size = std::abs(result), unit = std::nextafter(size, infinity) - size;
   return static_cast<double>(std::abs(wide(result) - exact) / wide(unit));

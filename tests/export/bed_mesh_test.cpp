@@ -19,7 +19,7 @@ HeightGrid rough(int rows, int cols) {
   return heights;
 }
 
-/// How often each directed edge occurs.
+/// The number of times that each directed edge occurs.
 std::map<std::pair<std::uint64_t, std::uint64_t>, int> edges_of(const BedMesh& mesh) {
   std::map<std::pair<std::uint64_t, std::uint64_t>, int> edges;
   mesh.visit_triangles([&](const BedMesh::Triangle& t) {
@@ -28,7 +28,7 @@ std::map<std::pair<std::uint64_t, std::uint64_t>, int> edges_of(const BedMesh& m
   return edges;
 }
 
-/// By the divergence theorem [m^3].
+/// The volume by the divergence theorem [m^3].
 double volume_of(const BedMesh& mesh) {
   double volume = 0.0;
   mesh.visit_triangles([&](const BedMesh::Triangle& t) {

@@ -50,7 +50,7 @@ TEST_P(Disk, FullFromAnyCallOnLeavesNothingHalfWritten) {
   for (const long call : some_calls(calls)) {
     const std::string where = fmt::format("full from call {} of {} on", call, calls);
     const ProgramResult result = disturbed.run({.in_child = faulty_system(fmt::format("full:{}", call))});
-    // What comes last needs no room.
+    // The last calls need no room.
     EXPECT_TRUE(result.exit_code == io_error ||
                 (result.exit_code == 0 && disturbed.state() == "all of the result"))
         << where << ": " << result.exit_code << " " << result.err;

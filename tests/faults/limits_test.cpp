@@ -179,7 +179,7 @@ TEST(LimitedMemory, ASceneThatTakesMoreIsRefusedBeforeItIsTaken) {
 TEST(LimitedMemory, AContainersLimitIsRespected) {
   if (!have_own_mounts()) GTEST_SKIP() << "nothing can be mounted here";
   const fs::path folder = folder_with_large_scene(), groups = folder / "groups";
-  // As Docker shows it: the container's own group, whatever its path, is the topmost one.
+  // The container's own group, whatever its path, is the topmost one, as Docker shows it.
   for (const char* version : {"1", "2"}) {
     fs::remove_all(groups);
     fs::create_directories(groups / "memory");

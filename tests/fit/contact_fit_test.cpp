@@ -52,8 +52,8 @@ class Told : public SimulationObserver {
   std::vector<TickRecord> ticks;
 };
 
-/// What a device that plays the stroke in that scene would record, with noise of that share of its rms force
-/// on each component.
+/// The recording of a device that plays the stroke in that scene, with noise of that fraction of its rms
+/// force on each component.
 Stroke recorded_in(const Scene& scene, const Stroke& stroke, double noise = 0.0) {
   Simulation run(scene, starting_bed(scene.bed), stroke);
   Told told;
@@ -96,7 +96,7 @@ TEST(FrictionAngle, IsTheOneOfTheResistanceWhateverTheDensity) {
     }
 }
 
-/// What is felt beside a run is what the run feels.
+/// The forces computed beside a run are those of the run.
 TEST(ContactFit, NothingIsLeftOfARunsOwnForceWithItsConstants) {
   for (const ForceLaw law : {ForceLaw::rft, ForceLaw::archimedes})
     for (const ToolShape shape : {ToolShape::sphere, ToolShape::plate, ToolShape::box}) {
@@ -192,7 +192,7 @@ TEST(ContactFit, APlungeOfABoxDoesNotTellItsFriction) {
   }
 }
 
-/// Where sand nowhere slides along the tool, more friction does nothing.
+/// More friction does nothing where sand nowhere slides along the tool.
 TEST(ContactFit, ARoughToolTellsHardlyMoreThanThatItIsRough) {
   const SandStrength rough{34.0, 1560.0, 1e6};
   const Scene scene = scene_with(ForceLaw::rft, ToolShape::sphere);
@@ -240,7 +240,7 @@ TEST(ContactFit, AForceThatNoSandGivesHasAnAngleBeyondTheKeysRange) {
   EXPECT_NEAR(fit.explained, 1.0, 1e-9);
 }
 
-/// With more ticks than memory is taken for, every second one is let go, again and again.
+/// Every second tick is let go, again and again, where there are more than memory is taken for.
 TEST(ContactLaw, KeepsAnEvenPartOfVeryManyTicks) {
   const SandStrength sand;
   ContactLaw law({ForceLaw::archimedes, sand, contact_values(ForceLaw::archimedes, sand), {true, false}},

@@ -11,7 +11,7 @@ using namespace sandstroke;
 
 namespace {
 
-/// Where plans are: with what they can name.
+/// The folder of the plans, with what they can name.
 struct Place {
   TemporaryFolder folder;
   Place() {

@@ -353,7 +353,7 @@ TEST(StrokePlacement, FullDepthIsThatOfTheWholeStrokeOrOfWhatIsNamed) {
   EXPECT_NEAR(place_stroke(stroke, placement).position[25].z(), -0.002, 1e-12);
   stroke.pressure[25] = -3.0;  // a pen at rest that is badly calibrated
   EXPECT_NEAR(place_stroke(stroke, placement).position[25].z(), 0.0, 1e-12);
-  // In the air nothing presses.
+  // Nothing presses in the air.
   stroke.contact.assign(stroke.size(), pen_down);
   stroke.contact[199] = pen_up;
   placement.full_depth_at = 0.0;

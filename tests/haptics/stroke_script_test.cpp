@@ -172,7 +172,7 @@ TEST(StrokeScript, ASplineRunsThroughItsPointsAtItsSpeed) {
     EXPECT_LT(nearest, 1e-5);  // a sample every 1e-5 m
   }
   EXPECT_LE(top_speed(stroke), 0.1 + 1e-11);
-  // Between samples in the middle of the fine polyline the speed is all but reached.
+  // The speed is all but reached between samples in the middle of the fine polyline.
   EXPECT_GT((stroke.position[8000] - stroke.position[7999]).norm() * 10000, 0.0999);
 }
 
@@ -188,9 +188,9 @@ TEST(StrokeScript, ASplineThroughPointsOnALineIsThatLine) {
 }
 
 TEST(StrokeScript, ASplineIsTheCentripetalCatmullRom) {
-  // As cubic Hermite pieces, another way to write it: at each inner point the slope is
+  // The spline as cubic Hermite pieces, another way to write it: the slope at each inner point is
   // (P1 - P0) / a - (P2 - P0) / (a + b) + (P2 - P1) / b, with a = |P1 - P0|^(1/2) and b = |P2 - P1|^(1/2);
-  // beyond the ends the points go on straight.
+  // the points go on straight beyond the ends.
   const std::vector<Vector2d> points = {{0, 0}, {0.05, 0.03}, {0.06, 0.08}, {0.2, 0.0}};
   std::vector<Vector2d> all = points;
   all.insert(all.begin(), 2.0 * points[0] - points[1]);
@@ -317,7 +317,7 @@ TEST(StrokeScript, LongSplinesTakeNoMoreThanTheirStroke) {
 
 TEST(StrokeScript, RefusesWorkWithoutEndThatGivesFewSamples) {
   if (sanitized) GTEST_SKIP() << "draws as much as is let through, a hundred times slower";
-  // On the spot nearly, so that its time says nothing of how much is drawn.
+  // The path nearly stays on the spot, so its time says nothing of how much is drawn.
   ScriptSpline spline;
   for (int i = 0; i < 2000; ++i) spline.points.emplace_back(1e-12 * i, 0.0);
   StrokeScript script = script_of({{spline, depth({0.01}), 50.0}});
@@ -393,7 +393,7 @@ TEST(StrokeScript, TurnAndTiltRunThroughTheirValues) {
   const Stroke stroke = trace_script(script_of({line}), {});
   EXPECT_NEAR(heading(stroke, 1.0), 15.0, 0.1);
   EXPECT_NEAR(heading(stroke, 2.0), 45.0, 0.1);
-  // In the middle it leans by 40 deg, its upper end towards its own +x.
+  // It leans by 40 deg in the middle, its upper end towards its own +x.
   const Vector3d up = Eigen::Quaterniond(stroke.orientation[1500]) * Vector3d::UnitZ();
   EXPECT_NEAR(std::acos(up.z()) * 180.0 / pi, 40.0, 0.1);
   EXPECT_NEAR(heading(stroke, 1.5, Vector3d::UnitZ()), 30.0, 0.1);

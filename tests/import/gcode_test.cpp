@@ -31,7 +31,7 @@ std::vector<double> gcode_values(const SampleTable& table, const std::string& na
   return column(table, name).values;
 }
 
-/// Of the line through the samples, closed: above 0 counterclockwise.
+/// The area in the closed line through the samples: above 0 counterclockwise.
 double enclosed_area(const SampleTable& table) {
   const std::vector<double> x = gcode_values(table, "x"), y = gcode_values(table, "y");
   double twice = 0.0;

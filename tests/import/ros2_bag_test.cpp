@@ -199,7 +199,7 @@ TEST(Ros2Bag, SaysWhatIsWrong) {
                 bag.message(4, 9000, "\x28\xB5\x2F\xFD...");
               }),
               AllOf(HasSubstr("message 3"), HasSubstr("compressed")));
-  // What a stranger may put in the place of a table.
+  // Things that a stranger may put in place of a table.
   EXPECT_THAT(complaint([](BagFile& bag) {
                 bag.run(
                     "DROP TABLE messages; CREATE VIEW messages AS WITH RECURSIVE n(i) AS (SELECT 1 UNION ALL "

@@ -142,7 +142,7 @@ TEST(TextTable, DroppedSamplesLeaveTheLift) {
 }
 
 TEST(TextTable, KeepsTheFirstSampleOfEqualTimesWhole) {
-  // Of each run its first sample: with its own velocity and force, not the next one's.
+  // The first sample of each run stays, with its own velocity and force, not the next one's.
   TableSettings format = txyz();
   format.velocity_unit = "m/s";
   format.force_unit = "N";

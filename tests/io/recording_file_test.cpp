@@ -28,7 +28,7 @@ namespace fs = std::filesystem;
 using testing::AllOf;
 using testing::HasSubstr;
 
-/// Of samples in memory.
+/// A recording of samples in memory.
 class KeptRecording : public Recording {
  public:
   KeptRecording(std::vector<RecordedSample> samples, std::optional<RecordingFooter> footer,
@@ -295,7 +295,7 @@ TEST_F(RecordingFile, RefusesCountsThatAreNone) {
   }
 }
 
-/// As long as one likes.
+/// A recording as long as one likes.
 class LongRecording : public Recording {
  public:
   explicit LongRecording(std::uint64_t samples) : left_(samples) {}

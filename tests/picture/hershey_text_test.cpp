@@ -25,7 +25,7 @@ TEST(HersheyText, CapitalsStandOnTheBaseLineAndAreOneHigh) {
 }
 
 TEST(HersheyText, APointIsCountedFromTheLeftEdgeAndTheBaseLine) {
-  // In the font "12345  9MWRFRT RRYQZR[SZRY": from M to W are 10 units, and 21 to a capital.
+  // The font has "12345  9MWRFRT RRYQZR[SZRY": from M to W are 10 units, and 21 to a capital.
   const SingleStrokeText text = hershey_text("!");
   ASSERT_EQ(text.polylines.size(), 2u);
   EXPECT_DOUBLE_EQ(text.width, 10.0 / 21.0);

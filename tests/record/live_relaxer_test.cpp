@@ -90,7 +90,7 @@ TEST(LiveRelaxer, RelaxesInItsThreadAsOftenAsTheToolHasGoneItsWay) {
   EXPECT_EQ(relaxations, 5);
 }
 
-/// Of a machine without memory left.
+/// A relaxer on a machine without memory left.
 class FailingRelaxer : public Relaxer {
  public:
   RelaxationOutcome relax(HeightField&, const PassWatcher&) override { throw std::bad_alloc(); }

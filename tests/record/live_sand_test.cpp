@@ -75,7 +75,7 @@ std::vector<double> even_times(double seconds) {
   return times;
 }
 
-/// Whether its tool is solid, too.
+/// A scene whose tool may be solid, too.
 class LiveTool : public testing::TestWithParam<bool> {};
 INSTANTIATE_TEST_SUITE_P(Solid, LiveTool, testing::Bool());
 
@@ -114,7 +114,7 @@ TEST_P(LiveTool, HasTheSandAndTheRepulseForceOfARunInEvenTicks) {
   }
   EXPECT_GT(most, 2.0);
   EXPECT_LT((felt.bed - felt.relaxing).abs().maxCoeff(), 1e-12);
-  // At the end of a run a solid tool is gone, and sand falls in where it stood.
+  // A solid tool is gone at the end of a run, and sand falls in where it stood.
   const Eigen::Vector3d last = SmoothHand::at(times.back());
   double apart = 0.0;
   for (int row = 0; row < felt.bed.rows(); ++row)
@@ -202,7 +202,7 @@ TEST(LiveSand, TurnsTheToolWithTheHandAsARunDoes) {
   for (std::size_t k = 202; k < times.size(); ++k)  // since it turns
     EXPECT_NEAR(forces[k - 1], run.ticks[k].device_force.z(), 1e-6) << times[k];
   EXPECT_GT(forces.back(), 1.0);
-  // Of a device that does not measure how it is turned, nothing turns.
+  // Nothing turns with a device that does not measure how it is turned.
   LiveSand straight(scene, starting_bed(scene.bed), {"bed"});
   for (const double t : times) {
     straight.feel(t, turning_reading(t));
@@ -274,7 +274,7 @@ TEST(LiveSand, LetsAHandRestWhereTheoryDoesWithALawOfTheContact) {
 }
 
 TEST(LiveSand, AToolThatRestsDeepIsDueAForceThatItDoesNotFeel) {
-  // So that the interlock stays closed (ForceGuard): at the beginning, and after a gap.
+  // The interlock must stay closed (ForceGuard) at the beginning, and after a gap.
   for (const ForceLaw law : {ForceLaw::rft, ForceLaw::archimedes})
     for (const ToolShape shape : {ToolShape::sphere, ToolShape::plate}) {
       const Scene scene = contact_scene(law, shape);
@@ -427,7 +427,7 @@ TEST(LiveSand, RelaxingInItsOwnThreadLosesNoSand) {
   EXPECT_LT(std::abs(sand.bed().volume() - start.volume()), 1e-15);
 }
 
-/// Of so many seconds, in more than so many ticks of contact.
+/// Expects this of so many seconds, with more than so many ticks of contact.
 void expect_no_memory_in_loop(const Scene& scene, double seconds, std::int64_t least_contact) {
   SCOPED_TRACE(static_cast<int>(scene.force.law));
   LiveSand sand(scene, starting_bed(scene.bed), {"bed"});
@@ -518,8 +518,8 @@ TEST(LiveSand, AFarJumpDoesNotCarveAcrossTheBed) {
 }
 
 TEST(LiveSand, BeginsWithTheHandAtRestAfterAGap) {
-  // At 0.1 m/s through the sand, a gap, and on at the same speed elsewhere. Drag / repulse is k_f v, with v
-  // the mean over the readings since the gap: nobody knows how fast the hand was in it.
+  // The hand goes at 0.1 m/s through the sand and, after a gap, at the same speed elsewhere. Drag / repulse
+  // is k_f v, with v the mean over the readings since the gap: nobody knows how fast the hand was in it.
   for (const double gap : {0.095, 0.105}) {  // s; the threshold is 0.1 s
     Scene scene = small_scene();
     scene.relaxation.rate = 0.0;

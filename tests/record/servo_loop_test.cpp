@@ -569,7 +569,7 @@ TEST_F(ServoLoopTest, TellsHowLateItWas) {
 
 // --- Before the recording begins ---
 
-/// Which world times a FakeWorld was asked for.
+/// The world times that a FakeWorld was asked for.
 class TimedWorld : public FakeWorld {
  public:
   std::vector<double> times;
@@ -722,7 +722,7 @@ TEST_F(ServoLoopTest, GivesNoForceThatItMustNotWhateverHappens) {
     double z = chance(0.5) ? -0.05 : 0.05;  // m: it may rest in the sand
     bool in_air = false;
 
-    // What the interlock must allow, told by the readings alone.
+    // The readings alone tell what the interlock must allow.
     std::optional<std::int64_t> last, clear_since;
     bool may_open = false;
     std::vector<char> allowed(10'000, 0);  // by ms since the start

@@ -45,7 +45,7 @@ TEST(RelaxationByWay, FindsWhereOnAStepTheNextRelaxationIsDue) {
   EXPECT_FALSE(schedule.way_to_next({0.004, 0.0, 0.0}, {0.0, 0.0, -1.0}));  // straight down
   // Back through where it relaxed, and out on the other side.
   EXPECT_NEAR(schedule.way_to_next({0.005, 0.0, 0.0}, {-0.02, 0.0, 0.0}).value(), 0.75, 1e-12);
-  // From a position 10 mm behind the one where sand relaxed, to 10 mm ahead of it.
+  // A step from 10 mm behind the position where sand relaxed, to 10 mm ahead of it.
   EXPECT_NEAR(schedule.way_to_next({-0.0099999, 0.0, 0.0}, {0.04, 0.0, 0.0}).value(), 0.5, 1e-4);
 }
 

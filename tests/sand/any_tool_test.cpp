@@ -204,7 +204,7 @@ TEST(AnyTool, TurnedByThirtyDegreesItLeavesTheSameWithinTheCellsError) {
 }
 
 TEST(AnyTool, ABladeAcrossATroughPushesTheHeapOfItsSand) {
-  // What it cuts, d s, lies before it as a wedge of the talus slope t: h^2 / (2 t).
+  // The sand that it cuts, d s, lies before it as a wedge of the talus slope t: h^2 / (2 t).
   const double depth = 0.004, way = 0.12, talus = 35.0, slope = std::tan(talus * pi / 180.0);
   for (const double cell : {0.002, 0.001, 0.0005}) {
     HeightField bed(10, static_cast<int>(std::lround(0.3 / cell)), cell);
@@ -243,7 +243,7 @@ ToolSettings wedge(double slope, double half_length) {
 }
 
 TEST(AnyTool, AWedgeLeavesLeveesOfTheSandThatItTookThePlaceOf) {
-  // On each side d^2 / (2 s) of sand, as a levee of the talus slope t both ways: its height is d sqrt(t / (2
+  // Each side has d^2 / (2 s) of sand, as a levee of the talus slope t both ways: its height is d sqrt(t / (2
   // s)).
   const double depth = 0.01, flank = 0.4, talus = 33.0, slope = std::tan(talus * pi / 180.0);
   for (const double cell : {0.001, 0.0005, 0.00025}) {

@@ -53,7 +53,7 @@ TEST(Coarsened, AHugeLevelBedStaysOneAndKeepsWhatWasTouched) {
   EXPECT_EQ(coarse(19999, 0), 0.25);
 }
 
-/// As high as it is far along x.
+/// A bed as high as it is far along x.
 class Ramp : public SurfaceRule {
   void fill(const BedGeometry& bed, const CellRange& cells, double* out,
             std::ptrdiff_t stride) const override {

@@ -24,8 +24,8 @@ TEST(Displacement, TakesOutTheBowlAndHeapsTheRing) {
   const double tip = -0.004;
   const double volume = displace(bed, footprint, tip, down, {Deposit::ring});
 
-  // By hand: every cell under the sphere is cut to its underside; the ring shares what was cut by sin(u) -
-  // 0.53.
+  // The rule by hand: every cell under the sphere is cut to its underside; the ring shares what was cut by
+  // sin(u) - 0.53.
   double cut = 0.0, weights = 0.0;
   const double s2 = R * R / std::asin(0.53);
   for (int row = 0; row < 41; ++row)

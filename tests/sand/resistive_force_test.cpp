@@ -125,14 +125,14 @@ TEST(ResistiveForce, IsThatOfTheTableOnASphere) {
   const double repulse30[] = {0.17, 0.64, 1.3, 2.9, 7.1}, repulse34[] = {0.28, 1.07, 2.2, 4.9, 11.9},
                drag30[] = {0.08, 0.11, 0.14, 0.18, 0.27};
   for (int i = 0; i < 5; ++i) {
-    // In the table's digits, but for its own rounding.
+    // The digits are the table's, but for its own rounding.
     EXPECT_NEAR(theory_of_sphere(0.01, depths[i], falling, {30.0}).z(), repulse30[i], 0.03 * repulse30[i]);
     EXPECT_NEAR(theory_of_sphere(0.01, depths[i], falling, {34.0}).z(), repulse34[i], 0.03 * repulse34[i]);
     const Vector3d dragged = theory_of_sphere(0.01, depths[i], Vector3d::UnitX(), {30.0});
     const double plunged = theory_of_sphere(0.01, depths[i], falling, {30.0}).z();
     EXPECT_NEAR(-dragged.x() / plunged, drag30[i], 0.005);
   }
-  // What a footprint on cells feels: within 1 % at 10 cells per radius, but for what has not yielded yet;
+  // The force on a footprint on cells is within 1 % at 10 cells per radius, but for what has not yielded yet;
   // with a way of 1 mm that is 8 % at 2 mm and 2 % at 4 mm.
   for (const double cell : {0.001, 0.0005})
     for (int i = 0; i < 5; ++i) {
@@ -143,7 +143,7 @@ TEST(ResistiveForce, IsThatOfTheTableOnASphere) {
       EXPECT_LT(felt.head<2>().norm(), 1e-3 * felt.z());
       if (i == 4) continue;  // a sphere that is buried shuts the sand off above it
       const double dragged = theory_of_sphere(0.01, depths[i], Vector3d::UnitX(), sand).x();
-      // What trails by less than 3 degrees counts a little: 1.7 % at 2 mm.
+      // Elements that trail by less than 3 degrees count a little: 1.7 % at 2 mm.
       EXPECT_NEAR(pushed_in(sphere, depths[i], sand, cell, cell, {0.006, 0.0, 0.0}).force.x(), dragged,
                   0.02 * std::abs(dragged));
     }

@@ -79,7 +79,7 @@ TEST(ContactStiffness, IsAtLeastThatOfASandThatYieldsInTheDirectionOfItsForce) {
   for (const ToolShape shape : {ToolShape::sphere, ToolShape::cone, ToolShape::plate}) {
     Scene scene = scene_of(ForceLaw::rft, shape);
     const double force = 2.0, stiff = contact_stiffness(scene, force);
-    // Where the tool goes on a straight way back and forth its whole force turns round within two yield ways.
+    // The whole force turns round within two yield ways where the tool goes straight back and forth.
     const Wrench deep = pressed(scene, 0.03).limited(force);
     EXPECT_GT(stiff, deep.force.norm() / scene.strength.yield_way);
     // A way twice as long yields half as stiffly, but for the growth with depth and steps of 20 um.

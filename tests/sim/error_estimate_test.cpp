@@ -189,7 +189,8 @@ std::pair<double, double> rms_and_max(const std::vector<double>& values, const s
   return {std::sqrt(squares / count), most};
 }
 
-/// By the definition, cell by cell: of a run and its second solution, times Richardson's factor.
+/// Expects the estimate by its definition, cell by cell: the distance of a run from its second solution,
+/// times Richardson's factor.
 void expect_richardson(const Scene& scene, const std::optional<Stroke>& stroke, SecondSolution which,
                        const HeightField& start, const HeightField& second_start) {
   Kept force(force_of), second_force(force_of);
@@ -235,7 +236,7 @@ TEST(ErrorEstimate, IsTheDistanceToTheSecondSolutionTimesRichardsonsFactor) {
   drag.bed.width = 0.6;
   drag.bed.rows = 90;
   drag.bed.depth = 0.18;
-  // In the air for the first 20 of 250 ms: ticks without a force.
+  // The tool is in the air for the first 20 of 250 ms: ticks without a force.
   Stroke stroke = stroke_of(0.1);
   for (Eigen::Vector3d& place : stroke.position) place += Eigen::Vector3d(0.26, 0.0, 1.2e-3);
   for (const SecondSolution which : {SecondSolution::coarser, SecondSolution::finer}) {

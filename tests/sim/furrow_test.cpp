@@ -143,7 +143,7 @@ TEST(Furrow, IsTheSameThereAndBackAndWithAHandThatTrembles) {
   EXPECT_NEAR(back_again.depth, there.depth, 1e-12);
   EXPECT_NEAR(back_again.width, there.width, 1e-12);
   EXPECT_NEAR(back_again.rampart, there.rampart, 1e-12);
-  // By a tenth of a millimetre, more than an encoder's step, and as far as a tick's way.
+  // The hand trembles by a tenth of a millimetre, more than an encoder's step, and as far as a tick's way.
   for (std::size_t i = 0; i < trembling.points.size(); ++i) trembling.points[i].y() += i % 2 ? 5e-5 : -5e-5;
   expect_profile(measured(flat, change, trembling), profile, 5e-5);
   // A tool that rests before it lifts adds no stations.
@@ -266,7 +266,7 @@ TEST(Furrow, LooksOnlyAtTilesOnTheLargestBed) {
 }
 
 TEST(Furrow, IsAsDeepAsTheTipInAShallowDragInAnyDirection) {
-  // At 2 mm what the tool pushes ahead of it stays out of the furrow.
+  // The sand that the tool pushes ahead of it stays out of the furrow at 2 mm.
   for (const double angle : {0.0, 0.5, std::numbers::pi / 4}) {
     Scene scene;
     scene.bed.width = scene.bed.depth = 0.3;
@@ -285,7 +285,7 @@ TEST(Furrow, IsAsDeepAsTheTipInAShallowDragInAnyDirection) {
         measure_furrow(before, simulation.bed(), contact.path(), scene.tool.radius);
     EXPECT_NEAR(measures.depth, 0.002, 0.1 * 0.002) << angle;
     EXPECT_GT(measures.rampart, 0.0);
-    // Between the width of the tool's cap at that depth and that of the sphere.
+    // The width lies between that of the tool's cap at that depth and that of the sphere.
     EXPECT_GT(measures.width, 2.0 * std::sqrt(2.0 * 0.01 * 0.002 - 0.002 * 0.002) - 0.002) << angle;
     EXPECT_LT(measures.width, 0.02) << angle;
   }

@@ -254,7 +254,7 @@ TEST(RunResult, AWholeNumberOfTicksIsThePeriodOfARelaxationInDoublesToo) {
 }
 
 TEST(RunResult, AStrokesLastTickIsAtItsEndWhereThatIsAWholeNumberOfTicks) {
-  // In doubles 1.001 x 1000 is below 1001, and 0.29 x 1000 below 290.
+  // 1.001 x 1000 is below 1001 in doubles, and 0.29 x 1000 below 290.
   for (const double begin : {0.0, 0.003, 12.7})
     for (const auto& [duration, ticks] :
          {std::pair{1.001, 1002}, {0.29, 291}, {0.57, 571}, {0.005, 6}, {0.0104, 11}, {0.0106, 11}}) {

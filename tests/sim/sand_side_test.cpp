@@ -39,7 +39,7 @@ TEST(SandSide, AFastTickDisplacesAsTicksInBetweenWould) {
   EXPECT_NEAR(one.volume(), 0.0, 1e-12 * volume);
 }
 
-/// What a second tick there displaces, after a first one here that displaces nothing (in the air).
+/// The volume that a second tick there displaces, after a first one here that displaces nothing (in the air).
 double displaced_between(HeightField& bed, const Eigen::Vector3d& here, const Eigen::Vector3d& there) {
   SandSide sand({0.01, ToolProfile::sphere}, {Deposit::ahead});
   EXPECT_EQ(sand.move(bed, here, here, no_slip).displaced_volume, 0.0);
@@ -76,7 +76,7 @@ TEST(SandSide, DisplacesOnlyAlongTheWayThroughSandFromBeyondAllMeasure) {
   }
 }
 
-/// Where sand relaxes along a drag of 40 mm in ticks of this length [m].
+/// The positions where sand relaxes along a drag of 40 mm in ticks of this length [m].
 std::vector<double> relaxations_of_a_drag(double tick) {
   HeightField bed(100, 100, 0.002);
   RelaxationSettings relaxation;
@@ -117,7 +117,7 @@ TEST(SandSide, RelaxesAtTheSamePositionsWhateverTheTicks) {
   }
 }
 
-/// How often sand relaxes in a drag of this length through flat sand, the tip this far below it [m].
+/// The number of relaxations in a drag of this length through flat sand, the tip this far below it [m].
 int count_relaxations(const RelaxationSettings& relaxation, double depth, double length) {
   HeightField bed(100, 100, 0.002);
   SandSide sand({0.01, ToolProfile::sphere, true}, {Deposit::outward}, relaxation);
@@ -132,7 +132,7 @@ int count_relaxations(const RelaxationSettings& relaxation, double depth, double
   return relaxations;
 }
 
-/// How far the sphere of 10 mm goes [m] until sand relaxes again, where a step in front of it rises from its
+/// The way of the sphere of 10 mm [m] until sand relaxes again, where a step in front of it rises from its
 /// rim by this [m].
 double way_before_a_step(const RelaxationSettings& relaxation, double above_rim) {
   HeightField bed(100, 100, 0.002);
@@ -152,7 +152,7 @@ TEST(SandSide, TheWayFallsAsSandRisesAtTheRim) {
   relaxation.way = 0.4;
   EXPECT_NEAR(way_before_a_step(relaxation, 0.02), 0.004, 3e-5);
   relaxation.way_at_rim = 0.1;
-  // From 0.4 R to 0.1 R while sand rises by R/5: half the way after half of that.
+  // The way falls from 0.4 R to 0.1 R while sand rises by R/5: half the way after half of that.
   EXPECT_NEAR(way_before_a_step(relaxation, -0.001), 0.004, 3e-5);
   EXPECT_NEAR(way_before_a_step(relaxation, 0.0), 0.004, 3e-5);
   EXPECT_NEAR(way_before_a_step(relaxation, 0.001), 0.002, 3e-5);

@@ -90,7 +90,7 @@ TEST(CheckScene, CellsMustHaveVolumesThatAreNumbers) {
   }
 }
 
-/// Whether a scene with a stroke is taken.
+/// True if a scene with a stroke is taken.
 bool is_taken(const Scene& scene) {
   try {
     check_scene(scene, "scene");

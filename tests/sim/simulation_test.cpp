@@ -278,7 +278,7 @@ TEST(Simulation, TheForceThatActsIsTheOneComputedTicksBefore) {
   Told recording;
   const RunResult result = simulation.run({&recording});
   ASSERT_GT(result.contact_ticks, 100);
-  // What acts moves the device: along z the exact map of each tick gives the next position.
+  // The force that acts moves the device: along z the exact map of each tick gives the next position.
   const Eigen::Matrix<double, 2, 5> map = device_tick_map(scene.device);
   LateForce late(scene.device);
   double absorbed = 0.0;

@@ -59,7 +59,7 @@ TEST(DescentSlope, IsAConesUpToTheBendOfItsContours) {
       if (distance < cell_size) continue;
       EXPECT_NEAR(descent_slope(cone, row, col), 0.6, 0.6 * 2.0 * cell_size / distance) << row << ' ' << col;
     }
-  // At the tip: that of the octagonal pyramid through the cells around it.
+  // The slope at the tip is that of the octagonal pyramid through the cells around it.
   EXPECT_NEAR(descent_slope(cone, 50, 50), 0.6 * std::hypot(1.0, std::numbers::sqrt2 - 1.0), 1e-13);
 }
 
@@ -84,8 +84,8 @@ TEST(LawSlope, OnAPeakIsOfTheSteeperSidesAndInAPitAndOnAWallZero) {
   bed.set(2, 1, -cell_size);
   EXPECT_NEAR(law_slope(bed, 1, 1, RelaxationLaw::paper), 4.0, 1e-13);
   EXPECT_NEAR(law_slope(bed, 1, 1, RelaxationLaw::isotropic), std::hypot(3.0, 4.0), 1e-13);
-  // To the right, or below: a crest that falls by 3 and 1, or 4 and 2, and half of either's rise across it
-  // and at the other cell.
+  // The slope to the right, or below: a crest that falls by 3 and 1, or 4 and 2, and half of either's rise
+  // across it and at the other cell.
   EXPECT_NEAR(law_slope(bed, 1, 1, RelaxationLaw::faces),
               std::hypot(4.0 + 2.0 * 2.0 / (3.0 * 4.0), 0.5 * (0.5 * (3.0 - 1.0) + 0.0)), 1e-13);
   EXPECT_EQ(law_slope(bed, 2, 1, RelaxationLaw::paper), 0.0);

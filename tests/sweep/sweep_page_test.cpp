@@ -110,7 +110,7 @@ TEST_F(ASweepPage, ShowsThePictureThatWasKeptOrAMapOfTheSurface) {
   std::ofstream(folder.picture_file(2)) << "no picture";
   const Json points = data_of(folder, report)["points"];
   EXPECT_EQ(points[0]["thumbnail"], uri(shrunk(picture, thumbnail_width)));
-  // On one scale, which the highest of all points ends.
+  // All are on one scale, which the highest of all points ends.
   EXPECT_EQ(points[1]["thumbnail"], uri(surface_thumbnail(folder.point_file(1), 0.3)));
   EXPECT_EQ(points[2]["thumbnail"], uri(surface_thumbnail(folder.point_file(2), 0.3)));
   EXPECT_EQ(points[3]["thumbnail"], nullptr);

@@ -1,4 +1,4 @@
-// What server and page tell each other, byte by byte.
+// Messages between server and page, byte by byte.
 #include "view/messages.h"
 
 #include <gtest/gtest.h>

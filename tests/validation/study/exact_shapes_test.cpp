@@ -11,7 +11,7 @@ namespace {
 constexpr double pi = std::numbers::pi;
 const double t = std::tan(pi / 6.0);
 
-/// By the midpoint rule over a square of this half side.
+/// The volume by the midpoint rule over a square of this half side.
 double volume(const ExactSurface& surface, double half_side) {
   constexpr int n = 1000;
   const double dx = 2.0 * half_side / n;
