@@ -124,7 +124,8 @@ PageOfParts golden_page(const GoldenEntry& entry, const GoldenRun& run_of_scene,
     const HeightField expected(golden.change, golden.cell_size), change(height_change(run), golden.cell_size);
     const HeightField none(expected.rows(), expected.cols(), expected.cell_size());
     const HeightField none_of_run(change.rows(), change.cols(), change.cell_size());
-    return surfaces_part({"Change of height", expected, none, change, none_of_run, tolerances.height, true});
+    return surfaces_part(
+        {"Change of height", expected, none, change, none_of_run, tolerances.height, ColourScale::diverging});
   });
   page.add_part("Picture", [&] {
     return pictures_part("Picture", read_golden_picture(entry), run_of_scene.picture,

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "picture/image.h"
+#include "render/colour_map.h"
 #include "sand/height_field.h"
 
 namespace sandstroke {
@@ -16,8 +17,8 @@ namespace sandstroke {
 struct ComparedSurfaces {
   std::string title;  ///< "Final height"
   HeightField golden, golden_initial, run, run_initial;
-  double limit = 0.0;        ///< m; up to it they count as equal
-  bool around_zero = false;  ///< colours of heights: from blue to red, with white at zero
+  double limit = 0.0;                             ///< m; up to it they count as equal
+  ColourScale colours = ColourScale::sequential;  ///< of the heights; diverging: white at zero
 };
 
 /// The part of the bed where sand was moved in one of them (by more than settled_fraction of its largest

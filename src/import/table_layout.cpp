@@ -53,9 +53,12 @@ class LayoutFinder {
 
   std::size_t one(const std::string& wanted) const { return find_column(wanted); }
 
+  /// Of two groups that are equally plain the first is taken, or they are refused.
+  enum class Ties { first, refused };
+
   /// The plainest group that has its first `least` axes; all of its first `most` axes, if it has those.
-  /// Empty: there is no such group. only: two groups must not be equally plain.
-  ColumnChoices found(Means means, int least, int most, bool only = false) const {
+  /// Empty: there is no such group.
+  ColumnChoices found(Means means, int least, int most, Ties ties = Ties::first) const {
     std::map<std::string, Group> groups;
     for (std::size_t i = 0; i < names_.size(); ++i) {
       const ColumnName& parts = names_[i].parts;
@@ -74,7 +77,7 @@ class LayoutFinder {
       plainest.push_back(&group);
     }
     if (plainest.empty()) return {};
-    if (only && plainest.size() > 1)
+    if (ties == Ties::refused && plainest.size() > 1)
       throw_input_error("{}: columns '{}' and '{}' may both be the position; name its columns with {}",
                         location_, name_of(*plainest[0]), name_of(*plainest[1]), option_and_key("position"));
     ColumnChoices choices;
@@ -196,7 +199,7 @@ TableLayout table_layout(const std::vector<SampleColumn>& columns, const TableSe
   if (!settings.position.empty()) {
     layout.position = finder.named(settings.position, "position", {2, 3});
   } else if (!of_first) {
-    layout.position = finder.found(Means::position, 2, 3, true);
+    layout.position = finder.found(Means::position, 2, 3, LayoutFinder::Ties::refused);
     if (layout.position.empty())
       throw_input_error(
           "{}: no columns are named x, y and z; give the names or numbers of the position's columns with {}; "

@@ -39,9 +39,9 @@ std::array<double, 3> diverging_colour(double minus_one_to_one) {
   return between(blue_white_red, 0.5 * (minus_one_to_one + 1.0));
 }
 
-std::array<double, 3> scale_colour(double value, double low, double high, bool diverging) {
+std::array<double, 3> scale_colour(double value, double low, double high, ColourScale scale) {
   const double unit = (value - low) / (high - low);
-  return diverging ? diverging_colour(2.0 * unit - 1.0) : sequential_colour(unit);
+  return scale == ColourScale::diverging ? diverging_colour(2.0 * unit - 1.0) : sequential_colour(unit);
 }
 
 Rgb as_bytes(const std::array<double, 3>& colour) {

@@ -21,11 +21,11 @@
 namespace sandstroke {
 namespace {
 
-GlObject colour_map_texture(bool diverging) {
+GlObject colour_map_texture(ColourScale scale) {
   constexpr int entries = 256;
   std::vector<float> colours;
   for (int i = 0; i < entries; ++i)
-    for (const double channel : scale_colour(i, 0.0, entries - 1, diverging))
+    for (const double channel : scale_colour(i, 0.0, entries - 1, scale))
       colours.push_back(static_cast<float>(channel));
   GlObject texture = make_texture();
   glBindTexture(GL_TEXTURE_2D, texture);
@@ -52,8 +52,8 @@ class HeightFieldRenderer::Drawing {
         wall_("box", shaders::solid_vertex(), shaders::box_fragment()),
         ball_("tool", shaders::solid_vertex(), shaders::tool_fragment()),
         surroundings_("surroundings", shaders::surroundings_vertex(), shaders::surroundings_fragment()),
-        sequential_(colour_map_texture(false)),
-        diverging_(colour_map_texture(true)),
+        sequential_(colour_map_texture(ColourScale::sequential)),
+        diverging_(colour_map_texture(ColourScale::diverging)),
         no_vertices_(make_vertex_array()) {
     check_gl("setting up");
   }
@@ -181,9 +181,9 @@ Legend HeightFieldRenderer::Drawing::prepare_values(const RenderSubject& subject
     least = difference_->lowest();
     greatest = difference_->highest();
     legend.quantity = "difference";
-    legend.diverging = true;
+    legend.scale = ColourScale::diverging;
   }
-  const ValueRange range = subject.range ? *subject.range : value_range(least, greatest, difference);
+  const ValueRange range = subject.range ? *subject.range : value_range(least, greatest, legend.scale);
   if (!(range.low < range.high))
     throw_input_error("a colour scale from {} to {} m is empty", range.low, range.high);
   legend.low = range.low;
@@ -238,7 +238,7 @@ void HeightFieldRenderer::Drawing::draw_map(const RenderSubject& subject, const 
   map_.set("relief", subject.view.name == ViewName::top ? 0.0 : 1.0);
   (subject.view.style == RenderStyle::difference ? *difference_ : surface_).bind_filtered_heights(2);
   glActiveTexture(GL_TEXTURE3);
-  glBindTexture(GL_TEXTURE_2D, legend.diverging ? diverging_ : sequential_);
+  glBindTexture(GL_TEXTURE_2D, legend.scale == ColourScale::diverging ? diverging_ : sequential_);
   draw_tiles(map_, camera, subject.tile_levels);
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "picture/view.h"
+#include "render/colour_map.h"
 #include "sand/height_field.h"
 #include "tool/triangle_mesh.h"
 
@@ -63,7 +64,7 @@ CellRange cells_under(const std::vector<Eigen::Vector3d>& tips, double radius, c
 Eigen::AlignedBox3d box_over(const BedGeometry& bed, const CellRange& cells, double lowest, double highest);
 
 /// The colour scale of values without a given range. It goes from the least to the greatest. It is symmetric
-/// about zero where `diverging`, and one millimetre wide where all values are equal.
-ValueRange value_range(double least, double greatest, bool diverging);
+/// about zero if it is diverging, and one millimetre wide where all values are equal.
+ValueRange value_range(double least, double greatest, ColourScale scale);
 
 }  // namespace sandstroke

@@ -140,7 +140,7 @@ int SurfaceTextures::update(const HeightField& surface) {
   }
   for (int tile = 0; tile < static_cast<int>(details_.size()); ++tile)
     if (!changed_of[tile].empty()) changes_.push_back({tile, changed_of[tile], details_[tile]});
-  parallel_for(changes_.size(), true, [&](std::size_t i) {
+  parallel_for(changes_.size(), [&](std::size_t i) {
     details_[changes_[i].tile] = tile_detail(heights_, patch(changes_[i].tile));
   });
 
@@ -202,7 +202,7 @@ void SurfaceTextures::update_shading(const Sun& sun) {
     sky_.resize(bed_.rows(), bed_.cols());
   }
   std::vector<CellRange> changed(outdated.size());
-  parallel_for(outdated.size(), true, [&](std::size_t i) {
+  parallel_for(outdated.size(), [&](std::size_t i) {
     const CellRange cells = bed_.tile_cells(outdated[i]);
     const auto here = [&](const DrawnHeights& values) {
       return values.block(cells.row_begin, cells.col_begin, cells.rows(), cells.cols());

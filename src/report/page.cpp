@@ -50,11 +50,10 @@ struct PageAssets {
 
 PageAssets assets_of(PageScript script) {
   const auto of_parts = [](std::string_view own) {
-    return PageAssets{{SANDSTROKE_ASSET(maps), SANDSTROKE_ASSET(curves), SANDSTROKE_ASSET(sand_part),
-                       SANDSTROKE_ASSET(parts), own},
-                      {SANDSTROKE_ASSET(parts_style)},
-                      true,
-                      true};
+    return PageAssets{.scripts = {SANDSTROKE_ASSET(maps), SANDSTROKE_ASSET(curves),
+                                  SANDSTROKE_ASSET(sand_part), SANDSTROKE_ASSET(parts), own},
+                      .styles = {SANDSTROKE_ASSET(parts_style)},
+                      .sand = true};
   };
   switch (script) {
     case PageScript::bench:
@@ -69,7 +68,10 @@ PageAssets assets_of(PageScript script) {
     case PageScript::run:
       return of_parts(SANDSTROKE_ASSET(run));
     case PageScript::live:
-      return {{SANDSTROKE_ASSET(live)}, {SANDSTROKE_ASSET(live_style)}, false, true};
+      return {.scripts = {SANDSTROKE_ASSET(live)},
+              .styles = {SANDSTROKE_ASSET(live_style)},
+              .charts = false,
+              .sand = true};
   }
   return {};
 }

@@ -72,7 +72,8 @@ void check_distinct(const TomlReader& toml, const std::string& key, const std::v
 std::optional<SweepAxis> read_strokes(const TomlReader& toml, const PlanKeys& keys, const SweepPlan& plan) {
   const char* key = "sweep.strokes";
   if (!toml.has(key)) return std::nullopt;
-  SweepAxis axis{stroke_key, "", false, {}};
+  SweepAxis axis;
+  axis.key = stroke_key;
   for (const std::string& stroke : keys.strokes) {
     const fs::path path = plan.file.parent_path() / stroke;
     check_readable(path);
@@ -92,7 +93,8 @@ std::pair<SweepAxis, AxisRange> read_axis(const TomlReader& toml, const std::str
                                           int most) {
   const std::string key = "axes." + name;
   if (toml.has("set." + name)) toml.fail(key, "is also in [set]; remove one of them");
-  SweepAxis axis{name, "", false, {}};
+  SweepAxis axis;
+  axis.key = name;
   if (!toml.is_table(key)) {
     axis.values = toml.literals(key);
     if (axis.values.empty()) toml.fail(key, "is empty; give at least one value");

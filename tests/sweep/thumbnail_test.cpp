@@ -85,7 +85,7 @@ TEST_F(ASurface, ShowsAFurrowNarrowerThanAPixelAndSmallBedsInWholePixels) {
   const Image map = surface_thumbnail(path, 0.1);
   ASSERT_EQ(map.width, 167);  // blocks of 6 cells
   ASSERT_EQ(map.height, 167);
-  const auto furrow = scale_colour(-0.1, -0.1, 0.1, true);
+  const auto furrow = scale_colour(-0.1, -0.1, 0.1, ColourScale::diverging);
   for (int x = 0; x < map.width; ++x) EXPECT_EQ(map.pixel(x, 166 - 83)[2], std::lround(255.0 * furrow[2]));
 
   write(HeightField(30, 50, 0.002));
@@ -103,7 +103,7 @@ TEST_F(ASurface, IsAThumbnailForTheLargestBedToo) {
   ASSERT_EQ(map.height, 192);
   // A pixel is 342 cells wide; this one, from below the 118th, lies in what was carved, the other is level.
   const auto expect_colour = [&](const std::uint8_t* pixel, double height) {
-    const auto colour = scale_colour(height, -0.2, 0.2, true);
+    const auto colour = scale_colour(height, -0.2, 0.2, ColourScale::diverging);
     for (int channel = 0; channel < 3; ++channel)
       EXPECT_EQ(pixel[channel], std::lround(255.0 * colour[channel]));
   };

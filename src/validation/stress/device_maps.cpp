@@ -200,10 +200,10 @@ LoopMapPlan yield_plan(const MapAxis& yield, const MapAxis& strength) {
 std::vector<LoopMapPlan> device_map_plans(bool quick) {
   const int cols = quick ? 8 : 24, rows = quick ? 7 : 20;
   const auto x = [&](const char* name, const char* unit, double low, double high) {
-    return map_axis(name, unit, true, low, high, cols);
+    return map_axis(name, unit, AxisScale::logarithmic, low, high, cols);
   };
   const auto y = [&](const char* name, const char* unit, double low, double high) {
-    return map_axis(name, unit, true, low, high, rows);
+    return map_axis(name, unit, AxisScale::logarithmic, low, high, rows);
   };
   const MapAxis servo_rate = x("servo rate", "Hz", 50.0, 20e3), stiffness = y("stiffness", "N/m", 100.0, 1e6);
   return {
@@ -243,13 +243,13 @@ std::vector<LoopMapPlan> device_map_plans(bool quick) {
            }),
       plan("delay-stiffness", "Delay and stiffness",
            "Sand under 3 N at 1 kHz, 12 N at most, whose force acts some ticks late.",
-           map_axis("delay", "ticks", false, 0.0, 20.0, quick ? 6 : 21), stiffness,
+           map_axis("delay", "ticks", AxisScale::linear, 0.0, 20.0, quick ? 6 : 21), stiffness,
            [](double delay, double K) {
              DeviceSettings device = limited_device();
              device.delay = static_cast<int>(std::lround(delay));
              return sand_of_stiffness(K, device);
            }),
-      dropped_ticks(map_axis("dropped ticks", "", false, 0.0, 0.9, quick ? 7 : 19), stiffness),
+      dropped_ticks(map_axis("dropped ticks", "", AxisScale::linear, 0.0, 0.9, quick ? 7 : 19), stiffness),
       encoder_steps(x("encoder resolution", "m", 1e-7, 1e-3), stiffness),
       yield_plan(x("yield way", "m", 1e-5, 1e-2), y("strength", "N", 0.1, 100.0)),
       depth_plan(x("k_c", "1/m", 10.0, 400.0), y("depth", "m", 5e-4, 0.05)),
