@@ -121,11 +121,11 @@ ssize_t write(int file, const void* bytes, size_t count) {
 ssize_t writev(int file, const iovec* parts, int count) {
   return takes(file) ? real<decltype(writev)>("writev")(file, parts, count) : -1;
 }
-ssize_t pwrite(int file, const void* bytes, size_t count, off_t place) {
-  return takes(file) ? real<decltype(pwrite)>("pwrite")(file, bytes, count, place) : -1;
+ssize_t pwrite(int file, const void* bytes, size_t count, off_t offset) {
+  return takes(file) ? real<decltype(pwrite)>("pwrite")(file, bytes, count, offset) : -1;
 }
-ssize_t pwrite64(int file, const void* bytes, size_t count, off_t place) {
-  return takes(file) ? real<decltype(pwrite)>("pwrite64")(file, bytes, count, place) : -1;
+ssize_t pwrite64(int file, const void* bytes, size_t count, off_t offset) {
+  return takes(file) ? real<decltype(pwrite)>("pwrite64")(file, bytes, count, offset) : -1;
 }
 
 ssize_t read(int file, void* bytes, size_t count) {
@@ -136,19 +136,21 @@ ssize_t readv(int file, const iovec* parts, int count) {
   if (count < 1) return 0;
   return read(file, parts->iov_base, parts->iov_len);  // of the first part, which it may
 }
-ssize_t pread(int file, void* bytes, size_t count, off_t place) {
+ssize_t pread(int file, void* bytes, size_t count, off_t offset) {
   const ssize_t most = given(file, count);
-  return most < 0 ? -1 : real<decltype(pread)>("pread")(file, bytes, most, place);
+  return most < 0 ? -1 : real<decltype(pread)>("pread")(file, bytes, most, offset);
 }
-ssize_t pread64(int file, void* bytes, size_t count, off_t place) { return pread(file, bytes, count, place); }
+ssize_t pread64(int file, void* bytes, size_t count, off_t offset) {
+  return pread(file, bytes, count, offset);
+}
 
 int fsync(int file) { return takes(file) ? real<decltype(fsync)>("fsync")(file) : -1; }
 int fdatasync(int file) { return takes(file) ? real<decltype(fdatasync)>("fdatasync")(file) : -1; }
 
-int fallocate64(int file, int mode, off_t place, off_t size) {
-  return takes(file) ? real<decltype(fallocate64)>("fallocate64")(file, mode, place, size) : -1;
+int fallocate64(int file, int mode, off_t offset, off_t size) {
+  return takes(file) ? real<decltype(fallocate64)>("fallocate64")(file, mode, offset, size) : -1;
 }
-int fallocate(int file, int mode, off_t place, off_t size) { return fallocate64(file, mode, place, size); }
+int fallocate(int file, int mode, off_t offset, off_t size) { return fallocate64(file, mode, offset, size); }
 
 // Calls that need no room never find the disk full.
 int ftruncate64(int file, off_t size) noexcept {
@@ -169,9 +171,9 @@ int unlink(const char* path) noexcept {
   goes_on();
   return real<int(const char*)>("unlink")(path);
 }
-int unlinkat(int place, const char* path, int flags) noexcept {
+int unlinkat(int folder, const char* path, int flags) noexcept {
   goes_on();
-  return real<int(int, const char*, int)>("unlinkat")(place, path, flags);
+  return real<int(int, const char*, int)>("unlinkat")(folder, path, flags);
 }
 int remove(const char* path) noexcept {
   goes_on();

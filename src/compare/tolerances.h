@@ -54,7 +54,7 @@ inline constexpr std::array<ToleranceKey, 5> tolerance_keys{{
      {0.0, 1.0},
      0.0,
      "",
-     "Share of pixels that may differ"},
+     "Fraction of pixels that may differ"},
 }};
 
 /// Tolerances that somebody set, by name.

@@ -108,7 +108,7 @@ double fitting_scale(const Stroke& stroke, double fraction, const Eigen::Aligned
   const double scale = fraction * bed.sizes().cwiseQuotient(size).minCoeff();
   if (!std::isfinite(scale) || !(scale > 0.0))
     throw_input_error(
-        "{}: stroke.fit = {} cannot scale a stroke that is drawn at one place; set stroke.scale instead",
+        "{}: stroke.fit = {} cannot scale a stroke that is drawn at one point; set stroke.scale instead",
         name, fraction);
   return scale;
 }

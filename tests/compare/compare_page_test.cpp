@@ -144,7 +144,7 @@ class ComparePageInBrowser : public BrowserTest {
     return browser().evaluate(
         "parseFloat(document.querySelector('.wipe .layer .layer:last-child').style.clipPath.split(' ')[3])");
   }
-  /// A place on the wipe, in shares of its width and height.
+  /// A position on the wipe, in fractions of its width and height.
   Point on_wipe(double right, double down) {
     browser().centre(".wipe");  // scrolls
     const Json box = browser().evaluate(

@@ -57,8 +57,8 @@ TEST(DragVelocity, StopsAFreeMassAtMost) {
     SimulatedDevice device(settings, fast);
     const Eigen::Vector3d velocity = device.drag_velocity(fast, fast, Eigen::Vector3d::Zero(), drag);
     device.advance(fast, fast, -drag * velocity);
-    const double share = std::min(drag / deadbeat, 1.0);  // the trapezoidal rule's, as far as it brakes
-    const Eigen::Vector3d expected = (1.0 - share) / (1.0 + share) * fast.velocity;
+    const double fraction = std::min(drag / deadbeat, 1.0);  // the trapezoidal rule's, as far as it brakes
+    const Eigen::Vector3d expected = (1.0 - fraction) / (1.0 + fraction) * fast.velocity;
     EXPECT_NEAR((device.state().velocity - expected).norm(), 0.0, 1e-12) << drag;
   }
 }

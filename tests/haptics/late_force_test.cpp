@@ -69,15 +69,15 @@ TEST(LateForce, ALateLoopGivesOutItsLastForceAgain) {
 
 TEST(DropsTick, DropsTheFractionAskedForWithoutAPattern) {
   constexpr int ticks = 200'000;
-  for (const double share : {0.0, 0.01, 0.3, 0.9}) {
-    const double deviation = std::sqrt(share * (1.0 - share) / ticks);  // of the mean of as many coins
+  for (const double fraction : {0.0, 0.01, 0.3, 0.9}) {
+    const double deviation = std::sqrt(fraction * (1.0 - fraction) / ticks);  // of the mean of as many coins
     int dropped = 0, twice = 0;
     for (int k = 0; k < ticks; ++k) {
-      dropped += drops_tick(k, share);
-      twice += drops_tick(k, share) && drops_tick(k + 1, share);
+      dropped += drops_tick(k, fraction);
+      twice += drops_tick(k, fraction) && drops_tick(k + 1, fraction);
     }
-    EXPECT_NEAR(dropped / double{ticks}, share, 4.0 * deviation);
-    EXPECT_NEAR(twice / double{ticks}, share * share, 8.0 * deviation);  // neighbours are independent
+    EXPECT_NEAR(dropped / double{ticks}, fraction, 4.0 * deviation);
+    EXPECT_NEAR(twice / double{ticks}, fraction * fraction, 8.0 * deviation);  // neighbours are independent
   }
 }
 

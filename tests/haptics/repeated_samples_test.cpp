@@ -10,7 +10,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// The place of a hand at a time [s]: it goes along x at 1 m/s, rests from 1 to 2 s, and goes on.
+/// The position of a hand at a time [s]: it goes along x at 1 m/s, rests from 1 to 2 s, and goes on.
 Vector3d pausing_hand(double t) { return {t < 1.0 ? t : std::max(1.0, t - 1.0), 0.0, 0.0}; }
 
 /// The same hand for 3 s, read at 200 Hz from a device that measures every `period` seconds.

@@ -71,14 +71,14 @@ TEST(ForceOnDevice, LimitedImplicitDragIsToldAndStopsAFreeMassAtMost) {
   settings.damping = settings.hand_damping = settings.hand_stiffness = 0.0;
   ForceSettings force;
   const double repulse = repulse_force(0.006, force), strongest = 2.0 * settings.mass * settings.servo_rate;
-  for (const double share : {0.5, 0.999, 1.001, 100.0})
+  for (const double fraction : {0.5, 0.999, 1.001, 100.0})
     for (const double max_force : {0.0, 4.0, 1e3}) {
       settings.max_force = max_force;
-      force.k_f = share * strongest / repulse;
+      force.k_f = fraction * strongest / repulse;
       SimulatedDevice device(settings, moving);
       EXPECT_NEAR(device.strongest_drag(), strongest, 1e-9 * strongest);
       const SandForce sand = force_on_device(0.006, device, hand, hand_after, force);
-      EXPECT_EQ(sand.limited_drag, share > 1.0 && max_force != 4.0) << share << ", " << max_force;
+      EXPECT_EQ(sand.limited_drag, fraction > 1.0 && max_force != 4.0) << fraction << ", " << max_force;
       device.advance(hand, hand_after, sand.total);
       EXPECT_GE(device.state().velocity.x() * moving.velocity.x(), -1e-15) << "drag reversed the motion";
     }

@@ -296,9 +296,9 @@ TEST(StrokePlacement, FillsItsFractionOfTheBedCentredAndFitted) {
     Eigen::AlignedBox3d extent;
     for (std::size_t i = 0; i + 1 < placed.size(); ++i) extent.extend(placed.position[i]);
     EXPECT_LT((extent.center().head<2>() - Eigen::Vector2d(1.1, 1.25)).norm(), 1e-12);
-    const Eigen::Vector2d share = extent.sizes().head<2>().cwiseQuotient(bed.sizes());
-    EXPECT_NEAR(share.maxCoeff(), 0.8, 1e-12);
-    EXPECT_LT(share.minCoeff(), 0.8);
+    const Eigen::Vector2d fraction = extent.sizes().head<2>().cwiseQuotient(bed.sizes());
+    EXPECT_NEAR(fraction.maxCoeff(), 0.8, 1e-12);
+    EXPECT_LT(fraction.minCoeff(), 0.8);
     // One scale for all three coordinates.
     const double scale = (placed.position[1] - placed.position[0]).norm() / (points[1] - points[0]).norm();
     EXPECT_NEAR(placed.position[0].z() + 0.01, 0.25 * scale, 1e-12);

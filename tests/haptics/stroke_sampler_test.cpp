@@ -43,8 +43,8 @@ Stroke evenly_spaced(const std::vector<Vector3d>& points, double spacing) {
 /// Distance [m] of a point from the straight line from a to b.
 double distance_to(const Vector3d& point, const Vector3d& a, const Vector3d& b) {
   const double square = (b - a).squaredNorm();
-  const double share = square > 0.0 ? std::clamp((point - a).dot(b - a) / square, 0.0, 1.0) : 0.0;
-  return (point - a - share * (b - a)).norm();
+  const double fraction = square > 0.0 ? std::clamp((point - a).dot(b - a) / square, 0.0, 1.0) : 0.0;
+  return (point - a - fraction * (b - a)).norm();
 }
 
 TEST(StrokeSampler, NeverOvershootsAndNeverTouchesInAGap) {

@@ -133,8 +133,8 @@ TEST(StrokeScript, DepthIsSpreadOverTheWholeOfABentPath) {
   const Stroke stroke =
       trace_script(script_of({{ScriptArc{{-0.1, 0}, 0.1, 0, 180}, depth({0.01, 0.0}), 0.1}}), {});
   const double length = std::hypot(0.1 * pi, 0.01);  // of the helix
-  for (double share = 0.0; share <= 1.0; share += 0.05) {
-    const double t = 0.5 + share * length / 0.1;
+  for (double fraction = 0.0; fraction <= 1.0; fraction += 0.05) {
+    const double t = 0.5 + fraction * length / 0.1;
     const auto i = static_cast<std::size_t>(std::floor(t * 1000));
     const double exact = (stroke.time[i] - 0.5) / (length / 0.1);
     if (exact < 0.0) continue;
@@ -230,10 +230,10 @@ TEST(StrokeScript, TextGrowsWithItsHeight) {
 }
 
 TEST(StrokeScript, PressesUpToItsClearance) {
-  for (const double share : {0.95, 1.05}) {
+  for (const double fraction : {0.95, 1.05}) {
     const std::string sentence =
-        complaint(script_of({{ScriptLine{{}, {0.1, 0}}, depth({0.01, -share * 0.02}), 0.1}}));
-    EXPECT_EQ(sentence.empty(), share < 1.0) << sentence;
+        complaint(script_of({{ScriptLine{{}, {0.1, 0}}, depth({0.01, -fraction * 0.02}), 0.1}}));
+    EXPECT_EQ(sentence.empty(), fraction < 1.0) << sentence;
   }
 }
 
@@ -350,8 +350,8 @@ TEST(StrokeScript, AToolThatFollowsThePathPointsAlongIt) {
     const Stroke stroke = trace_script(script, {});
     // Turned by 90 deg in the air first: 0.5 s; then 0.5 s of plunge.
     const double drawn = 0.1 * pi / 2 / 0.1;
-    for (const double share : {0.001, 0.3, 0.5, 0.99})
-      EXPECT_NEAR(heading(stroke, 1.0 + share * drawn), 90.0 + side * 90.0 * share, 0.2);
+    for (const double fraction : {0.001, 0.3, 0.5, 0.99})
+      EXPECT_NEAR(heading(stroke, 1.0 + fraction * drawn), 90.0 + side * 90.0 * fraction, 0.2);
     for (const Eigen::Vector4d& q : stroke.orientation) EXPECT_NEAR(q.norm(), 1.0, 1e-12);
   }
 }

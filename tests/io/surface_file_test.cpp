@@ -108,21 +108,21 @@ TEST(SurfaceFile, APngMaySayItsHeightsWhereTheSceneSaysNone) {
 
 TEST(SurfaceFile, ARunsFinalSurfaceNeedsCellsOfTheBedsSize) {
   const TestFolder folder;
-  for (const auto& [share, taken] :
+  for (const auto& [fraction, taken] :
        {std::pair{0.0, true}, {0.95e-9, true}, {-0.95e-9, true}, {1.05e-9, false}, {-1.05e-9, false}}) {
     Hdf5Writer file(folder / "run.h5", output_kind(InputKind::run));
     file.attribute("/", "complete", 1.0);
     file.make_group("/surface");
-    file.attribute("/surface", "cell_size", 0.1 * (1.0 + share));
+    file.attribute("/surface", "cell_size", 0.1 * (1.0 + fraction));
     file.write("/surface/initial", HeightGrid::Zero(2, 3));
     HeightGrid final(2, 3);
     final << 1, 2, 3, 4, 5, 6;
     file.write("/surface/final", final);
     file.finish();
     if (taken)
-      EXPECT_TRUE((load_surface(bed_from("run.h5"), folder.path()).grid() == final).all()) << share;
+      EXPECT_TRUE((load_surface(bed_from("run.h5"), folder.path()).grid() == final).all()) << fraction;
     else
-      EXPECT_THROW(load_surface(bed_from("run.h5"), folder.path()), Error) << share;
+      EXPECT_THROW(load_surface(bed_from("run.h5"), folder.path()), Error) << fraction;
   }
   BedSettings turned = bed_from("run.h5");
   std::swap(turned.rows, turned.cols);

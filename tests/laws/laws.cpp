@@ -68,7 +68,7 @@ class AllAhead : public Displacer {
     };
     std::vector<Cell> under, ahead;
     const CellRange& window = footprint.cells();
-    const double reach = footprint.reach() / footprint.cell_size();  // in cells, as all places here
+    const double reach = footprint.reach() / footprint.cell_size();  // in cells, as all positions here
     for (int row = 0; row < window.rows(); ++row) {
       const ColumnRange sand = footprint.sand_cols(row);
       for (int col = sand.begin; col < sand.end; ++col) {

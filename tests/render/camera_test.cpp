@@ -12,8 +12,8 @@ namespace {
 
 const Eigen::AlignedBox3d bed(Eigen::Vector3d(-1.0, -1.0, -0.05), Eigen::Vector3d(1.0, 1.0, 0.1));
 
-Eigen::Vector3d in_picture(const Camera& camera, const Eigen::Vector3d& place) {
-  return (camera.to_clip * place.homogeneous()).hnormalized();
+Eigen::Vector3d in_picture(const Camera& camera, const Eigen::Vector3d& position) {
+  return (camera.to_clip * position.homogeneous()).hnormalized();
 }
 
 struct Extent {

@@ -82,11 +82,11 @@ TEST(SandForce, IsCutFromItsLimitOn) {
   for (const Eigen::Vector3d& velocity : {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(0.03, -0.04, 0.7)}) {
     // k_f v is 0 or 1/2 along the sand, so that the whole is sqrt(1 + 1/4) of repulse.
     const double whole = std::hypot(1.0, 10.0 * velocity.head<2>().norm());
-    for (const double share : {0.95, 1.05}) {
-      const double depth = depth_of_repulse_force(share * 12.0 / whole, paper);
+    for (const double fraction : {0.95, 1.05}) {
+      const double depth = depth_of_repulse_force(fraction * 12.0 / whole, paper);
       const SandForce force = sand_force(depth, velocity, 12.0, paper);
-      EXPECT_EQ(force.saturated, share > 1.0);
-      EXPECT_NEAR(force.total.norm(), 12.0 * std::min(share, 1.0), 1e-12);
+      EXPECT_EQ(force.saturated, fraction > 1.0);
+      EXPECT_NEAR(force.total.norm(), 12.0 * std::min(fraction, 1.0), 1e-12);
     }
   }
 }

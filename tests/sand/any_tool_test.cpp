@@ -112,7 +112,7 @@ TEST(AnyTool, ASphereAsAMeshLeavesWhatTheSphereLeaves) {
   }
 }
 
-/// A drag with a plunge, at places that `turn` quarter turns take to others.
+/// A drag with a plunge, at positions that `turn` quarter turns take to others.
 HeightGrid dragged(ToolShape shape, int quarters, int side) {
   HeightField bed(side, side, cell_side);
   ToolFootprint footprint(solid_tool(shape));

@@ -109,8 +109,8 @@ TEST(Displacement, ConservesVolumeAnywhereAtWallsAndCorners) {
 
 TEST(Displacement, OutwardCarriesEachCellsSandAlongItsOwnNormal) {
   // One grain, at an angle from the axis, lands at that angle, `distance` radii away: in thirds, as the three
-  // thirds of its cell lie side by side round the axis. Their places between cells are kept (their mean place
-  // is theirs), and nothing depends on the motion.
+  // thirds of its cell lie side by side round the axis. Their positions between cells are kept (their mean
+  // position is theirs), and nothing depends on the motion.
   for (const double angle : {0.0, 0.3, 1.2, 2.5, 4.0})
     for (const double axis : {0.0, 0.0007}) {
       HeightField bed(61, 61, dx);
@@ -143,7 +143,7 @@ TEST(Displacement, OutwardCarriesEachCellsSandAlongItsOwnNormal) {
 }
 
 TEST(Displacement, OutwardGivesNothingToTheBowlAndTakesItOutOnce) {
-  // A projection: what was taken out is out, so that a second time, at the same place, takes out nothing.
+  // A projection: what was taken out is out, so that a second time, at the same position, takes out nothing.
   std::mt19937 random(3);
   std::uniform_real_distribution<double> place(-0.01, 0.01), height(-0.002, 0.002);
   for (int i = 0; i < 50; ++i) {

@@ -68,7 +68,7 @@ class RandomScene {
     double x, y, depth;
     Eigen::Vector3d motion;
   };
-  /// A place anywhere, along a tile border, or along a wall; now and then along one axis, or none.
+  /// A position anywhere, along a tile border, or along a wall; now and then along one axis, or none.
   Push draw_push() {
     const int at = whole(0, 2);
     const double row = at == 0 ? real(0, bed.rows()) : at == 1 ? real(61, 67) : real(-2, 3);
@@ -80,7 +80,7 @@ class RandomScene {
             {along_axis(), along_axis(), along_axis()}};
   }
 
-  /// Pushes the tool into each bed, at the same place. As a solid tool it stays there, or not.
+  /// Pushes the tool into each bed, at the same position. As a solid tool it stays there, or not.
   void push(std::initializer_list<HeightField*> beds) {
     const Push at = draw_push();
     const bool stays = whole(0, 1) == 1;

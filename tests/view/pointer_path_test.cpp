@@ -55,12 +55,12 @@ TEST(PointerPath, ConvergesInThirdOrderAndInSecondWhereACoordinateTurns) {
 
 TEST(PointerPath, IsSmoothInSpeedAndStaysBetweenItsKnots) {
   std::mt19937 random(7);
-  std::uniform_real_distribution<double> place(-1.0, 1.0);
+  std::uniform_real_distribution<double> position(-1.0, 1.0);
   std::uniform_int_distribution<std::int64_t> spacing(8 * millisecond, 30 * millisecond);
   std::vector<PointerKnot> knots;
   std::int64_t time = path_begin;
   for (int k = 0; k < 100; ++k, time += spacing(random))
-    knots.push_back({time, {place(random), place(random), place(random)}, 0});
+    knots.push_back({time, {position(random), position(random), position(random)}, 0});
   constexpr std::int64_t tick = millisecond / 20;
   const std::vector<Vector3d> way = followed(knots, 70 * millisecond, tick, time);
   // No cubic bends more from knot to knot than 6 (|d| + |slopes|) / h, with slopes of at most 2 d.
