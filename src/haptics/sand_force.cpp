@@ -34,7 +34,10 @@ ImplicitDrag implicit_drag(double depth, const SimulatedDevice& device, const St
     double low = 1e-120, high = limited_from < 1.0 && too_much(limited_from) ? limited_from : 1.0;
     for (int i = 0; i < 64; ++i) {
       const double middle = std::sqrt(low * high);
-      (too_much(middle) ? high : low) = middle;
+      if (too_much(middle))
+        high = middle;
+      else
+        low = middle;
     }
     fraction = low;
   }

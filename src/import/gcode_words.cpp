@@ -62,7 +62,8 @@ GcodeWords gcode_words(std::string_view line, const std::string& location) {
     if (letter == 'G' || letter == 'M') {
       const double code = std::clamp(number, 0.0, 1e6);
       if (letter == 'M' && is_followed_by_text(code)) return words;
-      (letter == 'G' ? words.g : words.m).push_back(static_cast<int>(std::lround(10.0 * code)));
+      auto& codes = letter == 'G' ? words.g : words.m;
+      codes.push_back(static_cast<int>(std::lround(10.0 * code)));
     } else {
       words.value[static_cast<std::size_t>(letter - 'A')] = number;
     }

@@ -236,7 +236,8 @@ void HeightFieldRenderer::Drawing::draw_map(const RenderSubject& subject, const 
   map_.set("range", Eigen::Vector2d(legend.low, legend.high));
   map_.set("contour_interval", legend.contour_interval);
   map_.set("relief", subject.view.name == ViewName::top ? 0.0 : 1.0);
-  (subject.view.style == RenderStyle::difference ? *difference_ : surface_).bind_filtered_heights(2);
+  SurfaceTextures& shown = subject.view.style == RenderStyle::difference ? *difference_ : surface_;
+  shown.bind_filtered_heights(2);
   glActiveTexture(GL_TEXTURE3);
   glBindTexture(GL_TEXTURE_2D, legend.scale == ColourScale::diverging ? diverging_ : sequential_);
   draw_tiles(map_, camera, subject.tile_levels);
