@@ -82,9 +82,8 @@ std::string tables(const CLI::App& app) {
         choices += one_case("'" + key.name + "'", fmt::format("{}", fmt::join(key.choices, " ")));
     }
   }
-  return "\n# The commands of a command, its options, and the values of its options and positions; settings "
-         "of "
-         "scenes." +
+  return "\n# The commands of a command, its options, and the values of its options and positions; "
+         "settings of scenes." +
          table("_sandstroke_commands", commands) + table("_sandstroke_options", options) +
          table("_sandstroke_value", values) + table("_sandstroke_settings", one_case("*", settings)) +
          table("_sandstroke_setting", choices);

@@ -173,7 +173,7 @@ nlohmann::json recorded(double seconds, bool load, bool sand, bool view = false)
   if (live) {
     const LiveSandReport felt = live->finish();
     result["contact_ticks"] = felt.contact_ticks;
-    result["held_ticks"] = felt.held_ticks;
+    result["held_ticks"] = felt.deferred_ticks;
     result["rate_limited"] = ticks.rate_limited;
     result["relaxations"] = felt.relaxation.relaxations;
     result["passes"] = felt.relaxation.passes;
