@@ -230,7 +230,7 @@ Problem hands_problem(const ProblemOptions& options) {
       if (rate > 0.0) one.relaxation.rate = rate;
       Contender contender = stroke_contender(fmt::format("{}, {}", hands.name, what), label, one,
                                              options.threads, not_applicable, stroke, truth);
-      if (what == "speed")  // its forces and places belong to other times
+      if (what == "speed")  // its forces and positions belong to other times
         contender.run = [run = contender.run] {
           Trial trial = run();
           trial.score.force_error = trial.score.position_error = not_applicable;
@@ -239,7 +239,7 @@ Problem hands_problem(const ProblemOptions& options) {
       problem.contenders.push_back(std::move(contender));
     };
     for (const double speed : {0.02, 0.05, 0.1, 0.5, 1.0})
-      add("speed", fmt::format("{} m/s", speed), s_curve(depth, speed, options.quick));
+      add("speed", fmt::format("{} m/s", speed), s_curve(hands.depth, speed, options.quick));
     for (const double noise : {0.0, 2e-6, 10e-6, 55e-6})
       add("noise", fmt::format("{:.0f} um rms", 1e6 * noise), with_noise(clean, noise));
     for (const double rate : {60.0, 960.0})
