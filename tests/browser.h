@@ -34,7 +34,7 @@ class Browser {
   /// The same for a page that a server has.
   void open_address(const std::string& address);
 
-  /// What the window shows, as a PNG file's bytes.
+  /// The window's picture, as a PNG file's bytes.
   std::string screenshot();
 
   /// The value of a JavaScript expression, as JSON; a promise is awaited. What scripts declared is in sight.
@@ -45,15 +45,15 @@ class Browser {
   /// The middle of the element that a CSS selector names first, once it is scrolled into sight.
   Point centre(const std::string& selector);
 
-  // With the mouse. An element is met in its middle, and must not lie under another one.
+  // The mouse. An element is met in its middle, and must not lie under another one.
   void click(const std::string& selector) { click(centre(selector)); }
   void click(Point at);
   void hover(const std::string& selector) { hover(centre(selector)); }
   void hover(Point at);
-  /// In so many steps; rate [1/s] of them: as a hand does; 0: at once.
+  /// Drags in this number of steps; rate: how many a second, as a hand does; 0: at once.
   void drag(Point from, Point to, int steps = 8, double rate = 0.0);
 
-  // With the keyboard, at what has the focus.
+  // The keyboard, at what has the focus.
   /// One key: a character, or by name as in KeyboardEvent.key (Tab, Enter, ArrowDown, Space, ...); after
   /// "Shift+" or "Control+" with that held down.
   void press(const std::string& key);

@@ -23,7 +23,7 @@ inline const std::string chromium_command =
     "--disable-quic --no-first-run "
     "--disable-background-networking --disable-component-update --disable-sync";
 
-/// What headless Chromium made of a page.
+/// A page as headless Chromium made it.
 struct OpenedPage {
   std::string dom;                   ///< the document once it had settled
   std::vector<std::string> console;  ///< what scripts and browser wrote to the console

@@ -35,7 +35,7 @@ Function* real(const char* name) {
   return reinterpret_cast<Function*>(dlsym(RTLD_NEXT, name));
 }
 
-/// What SANDSTROKE_FAULT says of this kind; null where it names another one.
+/// The text of SANDSTROKE_FAULT for this kind; null where it names another one.
 const char* fault(const char* kind) {
   const char* text = std::getenv("SANDSTROKE_FAULT");
   const std::size_t length = std::strlen(kind);
@@ -44,7 +44,7 @@ const char* fault(const char* kind) {
 
 std::atomic<long> calls = 0, reads = 0;
 
-/// To be asked before every call that changes a file. False: the disk is full.
+/// Counts a call that changes a file, before it is made. False: the disk is full.
 bool goes_on() {
   static const char* const kill_at = fault("kill:");
   static const char* const full_from = fault("full:");
@@ -58,7 +58,7 @@ bool goes_on() {
 /// 0, 1 and 2 are what the program says, not its files.
 bool takes(int file) { return file <= 2 || goes_on(); }
 
-/// Of the user, and not of the system and its libraries.
+/// True for a file of the user, not of the system and its libraries.
 bool is_users(int file) {
   char link[32], folder[PATH_MAX] = "", path[PATH_MAX] = "";
   std::snprintf(link, sizeof link, "/proc/self/fd/%d", file);
@@ -67,7 +67,7 @@ bool is_users(int file) {
   return std::strncmp(path, folder, length) == 0 && path[length] == '/';
 }
 
-/// To be asked before every read: how many bytes it may give; -1: none, for it fails.
+/// The bytes that a read may give, asked before each; -1: none, for it fails.
 ssize_t given(int file, std::size_t count) {
   static const char *const fail_from = fault("read:"), *const fail_once = fault("once:");
   static const bool few = fault("short");
@@ -76,8 +76,14 @@ ssize_t given(int file, std::size_t count) {
   const long read = ++reads;
   const bool fails =
       (fail_from && read >= std::atol(fail_from)) || (fail_once && read == std::atol(fail_once));
-  if (fails) return errno = EIO, -1;
-  if (few && read % 2 == 0) return errno = EINTR, -1;
+  if (fails) {
+    errno = EIO;
+    return -1;
+  }
+  if (few && read % 2 == 0) {
+    errno = EINTR;
+    return -1;
+  }
   return static_cast<ssize_t>(few ? std::min(count, most) : count);
 }
 
@@ -115,11 +121,11 @@ ssize_t write(int file, const void* bytes, size_t count) {
 ssize_t writev(int file, const iovec* parts, int count) {
   return takes(file) ? real<decltype(writev)>("writev")(file, parts, count) : -1;
 }
-ssize_t pwrite(int file, const void* bytes, size_t count, off_t place) {
-  return takes(file) ? real<decltype(pwrite)>("pwrite")(file, bytes, count, place) : -1;
+ssize_t pwrite(int file, const void* bytes, size_t count, off_t offset) {
+  return takes(file) ? real<decltype(pwrite)>("pwrite")(file, bytes, count, offset) : -1;
 }
-ssize_t pwrite64(int file, const void* bytes, size_t count, off_t place) {
-  return takes(file) ? real<decltype(pwrite)>("pwrite64")(file, bytes, count, place) : -1;
+ssize_t pwrite64(int file, const void* bytes, size_t count, off_t offset) {
+  return takes(file) ? real<decltype(pwrite)>("pwrite64")(file, bytes, count, offset) : -1;
 }
 
 ssize_t read(int file, void* bytes, size_t count) {
@@ -130,21 +136,23 @@ ssize_t readv(int file, const iovec* parts, int count) {
   if (count < 1) return 0;
   return read(file, parts->iov_base, parts->iov_len);  // of the first part, which it may
 }
-ssize_t pread(int file, void* bytes, size_t count, off_t place) {
+ssize_t pread(int file, void* bytes, size_t count, off_t offset) {
   const ssize_t most = given(file, count);
-  return most < 0 ? -1 : real<decltype(pread)>("pread")(file, bytes, most, place);
+  return most < 0 ? -1 : real<decltype(pread)>("pread")(file, bytes, most, offset);
 }
-ssize_t pread64(int file, void* bytes, size_t count, off_t place) { return pread(file, bytes, count, place); }
+ssize_t pread64(int file, void* bytes, size_t count, off_t offset) {
+  return pread(file, bytes, count, offset);
+}
 
 int fsync(int file) { return takes(file) ? real<decltype(fsync)>("fsync")(file) : -1; }
 int fdatasync(int file) { return takes(file) ? real<decltype(fdatasync)>("fdatasync")(file) : -1; }
 
-int fallocate64(int file, int mode, off_t place, off_t size) {
-  return takes(file) ? real<decltype(fallocate64)>("fallocate64")(file, mode, place, size) : -1;
+int fallocate64(int file, int mode, off_t offset, off_t size) {
+  return takes(file) ? real<decltype(fallocate64)>("fallocate64")(file, mode, offset, size) : -1;
 }
-int fallocate(int file, int mode, off_t place, off_t size) { return fallocate64(file, mode, place, size); }
+int fallocate(int file, int mode, off_t offset, off_t size) { return fallocate64(file, mode, offset, size); }
 
-// What needs no room never finds the disk full.
+// Calls that need no room never find the disk full.
 int ftruncate64(int file, off_t size) noexcept {
   const bool room = goes_on();
   return room || size == 0 ? real<int(int, off_t)>("ftruncate64")(file, size) : -1;
@@ -163,9 +171,9 @@ int unlink(const char* path) noexcept {
   goes_on();
   return real<int(const char*)>("unlink")(path);
 }
-int unlinkat(int place, const char* path, int flags) noexcept {
+int unlinkat(int folder, const char* path, int flags) noexcept {
   goes_on();
-  return real<int(int, const char*, int)>("unlinkat")(place, path, flags);
+  return real<int(int, const char*, int)>("unlinkat")(folder, path, flags);
 }
 int remove(const char* path) noexcept {
   goes_on();

@@ -4,7 +4,7 @@
 
 namespace sandstroke {
 
-/// From here on no signal is ignored or blocked, though what started the tests may ignore some (nohup).
+/// No signal is ignored or blocked from here on, though what started the tests may ignore some (nohup).
 inline void reset_signals() {
   for (int number = 1; number < NSIG; ++number) signal(number, SIG_DFL);
   sigset_t none;

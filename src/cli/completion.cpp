@@ -66,12 +66,12 @@ std::string tables(const CLI::App& app) {
         values += one_case("'" + dashed(*option, command.name + " ", "='|'") + "='", value_kind(*option));
     }
     options += one_case("'" + command.name + "'", names.substr(1));
-    int place = 0;
+    int position = 0;
     for (const CLI::Option* option : positional_options(*command.app)) {
       const bool repeated = option->get_items_expected_max() >= CLI::detail::expected_max_vector_size;
-      const std::string places = repeated ? "'[0-9]*" : std::to_string(++place) + "'";
+      const std::string positions = repeated ? "'[0-9]*" : std::to_string(++position) + "'";
       if (value_kind(*option) != "none")
-        values += one_case("'" + command.name + " " + places, value_kind(*option));
+        values += one_case("'" + command.name + " " + positions, value_kind(*option));
     }
   }
   std::string settings, choices;
@@ -82,8 +82,8 @@ std::string tables(const CLI::App& app) {
         choices += one_case("'" + key.name + "'", fmt::format("{}", fmt::join(key.choices, " ")));
     }
   }
-  return "\n# The commands of a command, its options, and the values of its options and places; settings of "
-         "scenes." +
+  return "\n# The commands of a command, its options, and the values of its options and positions; "
+         "settings of scenes." +
          table("_sandstroke_commands", commands) + table("_sandstroke_options", options) +
          table("_sandstroke_value", values) + table("_sandstroke_settings", one_case("*", settings)) +
          table("_sandstroke_setting", choices);

@@ -126,11 +126,11 @@ void warn(const RecordingReport& report, const std::string& output, double max_s
     spdlog::warn("{} is incomplete, because {}; it holds what was recorded until then", output,
                  stop_reason_text(footer.reason));
   const TickCounts& ticks = footer.ticks;
-  if (skipped_share(ticks) > 0.01 * max_skipped)
+  if (skipped_fraction(ticks) > 0.01 * max_skipped)
     spdlog::warn(
         "{}: {} of {} ticks were skipped ({:.2g} %, more than --max-skipped {:g}), because other programs "
         "delayed the loop; close them, lower --rate, or see sandstroke record --check",
-        output, ticks.skipped, ticks.elapsed, 100.0 * skipped_share(ticks), max_skipped);
+        output, ticks.skipped, ticks.elapsed, 100.0 * skipped_fraction(ticks), max_skipped);
   if (!report.disk_error.empty()) spdlog::warn("{}", report.disk_error);
   if (!report.header.scheduling.advice.empty()) spdlog::warn("{}", report.header.scheduling.advice);
 }
@@ -138,7 +138,7 @@ void warn(const RecordingReport& report, const std::string& output, double max_s
 int exit_code(const RecordingFooter& footer, double max_skipped) {
   const StopReason reason = footer.reason;
   if (is_complete(reason))
-    return is_starved(footer) && skipped_share(footer.ticks) > 0.01 * max_skipped ? 1 : 0;
+    return is_starved(footer) && skipped_fraction(footer.ticks) > 0.01 * max_skipped ? 1 : 0;
   if (reason == StopReason::signal) return 128 + interrupted();
   return static_cast<int>(reason == StopReason::no_number ? ErrorKind::unstable : ErrorKind::io);
 }

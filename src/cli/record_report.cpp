@@ -23,9 +23,9 @@ std::string sand_text(const LiveSandReport& felt) {
   return fmt::format(
       "touched in {} ticks, relaxed {} times, {}{}", felt.contact_ticks, felt.relaxation.relaxations,
       felt.relaxation.converged ? "at rest" : "still relaxing at the end",
-      felt.held_ticks > 0
+      felt.deferred_ticks > 0
           ? fmt::format("; in {} ticks the tool displaced no sand, because relaxation was late",
-                        felt.held_ticks)
+                        felt.deferred_ticks)
           : "");
 }
 
@@ -68,7 +68,7 @@ void print_recording(const RecordingReport& report, const std::optional<LiveSand
     object.erase("felt_scene");  // a long text, which the file contains
     if (felt)
       object["felt"] = {{"contact_ticks", felt->contact_ticks},
-                        {"held_ticks", felt->held_ticks},
+                        {"held_ticks", felt->deferred_ticks},
                         {"relaxations", felt->relaxation.relaxations},
                         {"passes", felt->relaxation.passes},
                         {"converged", felt->relaxation.converged}};

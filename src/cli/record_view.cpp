@@ -37,7 +37,7 @@ void RecordView::show(const ServoProgress& progress) {
   state.lateness = progress.lateness;
   state.max_lateness = progress.max_lateness;
   state.tip_known = progress.read;
-  state.force_held_back = progress.awaited == Awaited::lift;
+  state.force_withheld = progress.awaited == Awaited::lift;
   state_.publish(state);
   state_.say(hint_of(progress));
 }

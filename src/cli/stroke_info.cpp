@@ -83,7 +83,7 @@ std::string recording_rows(const RecordingInfo& recording, const StrokeSummary& 
 
 nlohmann::ordered_json as_json(const StrokeQuality& quality) {
   return {{"jitter", quality.jitter},
-          {"repeated_share", quality.repeats.share},
+          {"repeated_share", quality.repeats.fraction},
           {"repeat_period", quality.repeats.period},
           {"noise", quality.noise},
           {"top_speed", quality.top_speed},
@@ -132,7 +132,7 @@ std::string quality_rows(const StrokeQuality& quality) {
   const Repeats& repeats = quality.repeats;
   return table_row("jitter", fmt::format("{:.3g} ms rms of the spacing", 1e3 * quality.jitter)) +
          table_row("repeats",
-                   fmt::format("{:.3g} % of the samples{}", 100.0 * repeats.share,
+                   fmt::format("{:.3g} % of the samples{}", 100.0 * repeats.fraction,
                                repeats.period > 1 ? fmt::format(", up to {} alike", repeats.period) : "")) +
          table_row("noise", fmt::format("{:.3g} mm rms", 1e3 * quality.noise)) +
          table_row("plane", plane.is_line()

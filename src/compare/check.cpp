@@ -25,6 +25,16 @@ Check fact_check(std::string name, bool passed, std::string sentence) {
   return {std::move(name), passed, Check::no_number, Check::no_number, "", std::move(sentence)};
 }
 
+Check passed_check(std::string name, std::string sentence) {
+  constexpr bool passed = true;
+  return fact_check(std::move(name), passed, std::move(sentence));
+}
+
+Check failed_check(std::string name, std::string sentence) {
+  constexpr bool passed = false;
+  return fact_check(std::move(name), passed, std::move(sentence));
+}
+
 bool Comparison::passed() const { return !checks.empty() && failures() == 0; }
 
 int Comparison::failures() const {

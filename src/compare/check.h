@@ -27,6 +27,8 @@ Check limit_check(std::string name, double measured, double limit, std::string u
 
 /// A check of a fact, without numbers.
 Check fact_check(std::string name, bool passed, std::string sentence);
+Check passed_check(std::string name, std::string sentence);
+Check failed_check(std::string name, std::string sentence);
 
 /// The checks of one pair of runs or pictures, or of one scene.
 struct Comparison {

@@ -21,7 +21,8 @@ int cells_along(const RunFile& fine, const RunFile& coarse) {
 Check cells_check(const RunFile& golden, const RunFile& run, bool coarsen) {
   Check check = cell_size_check(golden.cell_size(), run.cell_size());
   if (check.passed) return check;
-  const RunPair pair = run_pair(golden, run, true);
+  constexpr bool in_means = true;
+  const RunPair pair = run_pair(golden, run, in_means);
   const int factor = std::max(pair.golden.factor, pair.run.factor);
   const std::string means =
       fmt::format("means of {0} x {0} cells of {1}", factor, pair.run.factor > 1 ? "the run" : "golden");

@@ -42,7 +42,8 @@ FieldDifference field_difference(const HeightField& golden, const HeightField& r
                : was_finite || earlier;
     if (!worse) return;
     result.max = finite ? size : std::numeric_limits<double>::quiet_NaN();
-    result.row = row, result.col = col;
+    result.row = row;
+    result.col = col;
   };
   visit_differences(golden, run, [&](int row, int col, double difference) {
     compare(row, col, difference);

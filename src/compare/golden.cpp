@@ -74,9 +74,8 @@ void copy_entry(const fs::path& entry, const fs::path& made) {
 
 /// change: what has changed, or empty.
 Check same_check(const std::string& what, const GoldenEntry& entry, const std::string& change) {
-  if (change.empty()) return fact_check(what, true, "as recorded");
-  return fact_check(what, false,
-                    fmt::format("{}; if this change is intended, run: {}", change, entry.update));
+  if (change.empty()) return passed_check(what, "as recorded");
+  return failed_check(what, fmt::format("{}; if this change is intended, run: {}", change, entry.update));
 }
 
 Check scene_check(const GoldenEntry& entry, const GoldenContent& golden, const RunFile& run) {

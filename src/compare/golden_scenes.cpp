@@ -75,7 +75,7 @@ Comparison check_golden(const std::string& name, const GoldenFolders& folders, c
                         const GivenTolerances& options, const ComparisonWatcher& compared) {
   const Stopwatch watch;
   const auto failed = [&](const std::string& name_of_check, const std::string& sentence) {
-    Check check = fact_check(name_of_check, false, sentence);
+    Check check = failed_check(name_of_check, sentence);
     check.seconds = watch.seconds();
     return Comparison{name, {check}};
   };

@@ -27,7 +27,7 @@ ImageDifference image_difference(const Image& golden, const Image& run) {
       }
     }
   }
-  result.share = static_cast<double>(differing) / (static_cast<double>(golden.width) * golden.height);
+  result.fraction = static_cast<double>(differing) / (static_cast<double>(golden.width) * golden.height);
   return result;
 }
 

@@ -36,9 +36,9 @@ Check positions_check(const std::vector<TickRecord>& golden, const std::vector<T
   for (const auto& [which, trace] : {std::pair("golden", &golden), {"the run", &run}})
     for (const TickRecord& tick : *trace)
       if (!tick.hand.position.allFinite() || !tick.device_position.allFinite())
-        return fact_check("finite positions", false,
-                          fmt::format("{}: not a number at time {:.9g} s", which, tick.time));
-  return fact_check("finite positions", true, "all are numbers");
+        return failed_check("finite positions",
+                            fmt::format("{}: not a number at time {:.9g} s", which, tick.time));
+  return passed_check("finite positions", "all are numbers");
 }
 
 }  // namespace
@@ -56,17 +56,17 @@ Check frames_check(const RunFile& golden, const RunFile& run) {
     const auto frames = static_cast<int>(file->frame_times().size());
     for (int k = 0; k < frames; ++k) file->apply_frame(k, surface);
   }
-  return fact_check("frames", true, "all can be read");
+  return passed_check("frames", "all can be read");
 }
 
 Check height_check(const std::string& name, const HeightField& golden, const HeightField& run, double limit) {
   const bool same_size = cell_size_check(golden.cell_size(), run.cell_size()).passed;
   if (golden.rows() != run.rows() || golden.cols() != run.cols() || !same_size) {
-    return fact_check(name, false,
-                      fmt::format("golden has {} x {} cells (x, y) of {} m, the run {} x {} of {} m, so the "
-                                  "cells do not match; compare runs of the same bed",
-                                  golden.cols(), golden.rows(), golden.cell_size(), run.cols(), run.rows(),
-                                  run.cell_size()));
+    return failed_check(
+        name, fmt::format("golden has {} x {} cells (x, y) of {} m, the run {} x {} of {} m, so the "
+                          "cells do not match; compare runs of the same bed",
+                          golden.cols(), golden.rows(), golden.cell_size(), run.cols(), run.rows(),
+                          run.cell_size()));
   }
   const FieldDifference difference = field_difference(golden, run);
   if (difference.max == 0.0) return limit_check(name, 0.0, limit, "m", "the same in every cell");
@@ -87,12 +87,11 @@ Check cell_size_check(double golden, double run) {
 std::vector<Check> trace_checks(const std::optional<std::vector<TickRecord>>& golden,
                                 const std::optional<std::vector<TickRecord>>& run,
                                 const Tolerances& tolerances) {
-  if (!golden && !run) return {fact_check("trace", true, "neither has a trace")};
+  if (!golden && !run) return {passed_check("trace", "neither has a trace")};
   if (!golden || !run) {
-    return {
-        fact_check("trace", false,
-                   fmt::format("{} has no trace, but the other one has; set output.trace the same in both",
-                               golden ? "the run" : "golden"))};
+    return {failed_check(
+        "trace", fmt::format("{} has no trace, but the other one has; set output.trace the same in both",
+                             golden ? "the run" : "golden"))};
   }
   Check ticks = fact_check("ticks", golden->size() == run->size(),
                            fmt::format("golden has {} ticks, the run {}", golden->size(), run->size()));
@@ -114,8 +113,8 @@ std::vector<Check> picture_checks(const Image& golden, const Image& run, const T
                       difference.max == 0 ? "the same in every pixel"
                                           : fmt::format("differs by {}/255 at pixel x = {}, y = {}",
                                                         difference.max, difference.x, difference.y)),
-          limit_check("picture share", 100.0 * difference.share, 100.0 * tolerances.pixel_share, "%",
-                      fmt::format("{:.4g} % of the pixels differ", 100.0 * difference.share))};
+          limit_check("picture share", 100.0 * difference.fraction, 100.0 * tolerances.pixel_share, "%",
+                      fmt::format("{:.4g} % of the pixels differ", 100.0 * difference.fraction))};
 }
 
 void add_checks(std::vector<Check>& checks, const std::string& name,
@@ -126,7 +125,7 @@ void add_checks(std::vector<Check>& checks, const std::string& name,
     made.checks = make();
   } catch (const Error& error) {
     if (is_of_the_machine(error)) throw;
-    made.checks = {fact_check(name, false, error.what())};
+    made.checks = {failed_check(name, error.what())};
   }
   if (!made.checks.empty()) made.checks.front().seconds += std::max(0.0, watch.seconds() - made.seconds());
   std::move(made.checks.begin(), made.checks.end(), std::back_inserter(checks));

@@ -14,10 +14,14 @@ std::vector<UsedTolerance> used_tolerances(const GivenTolerances& options, const
   std::vector<UsedTolerance> all;
   for (const ToleranceKey& key : tolerance_keys) {
     UsedTolerance& used = all.emplace_back(UsedTolerance{key, Tolerances().*key.value, default_source});
-    if (const auto found = in_file.find(key.name); found != in_file.end())
-      used.value = found->second, used.source = file.string();
-    if (const auto found = options.find(key.name); found != options.end())
-      used.value = found->second, used.source = key.option;
+    if (const auto found = in_file.find(key.name); found != in_file.end()) {
+      used.value = found->second;
+      used.source = file.string();
+    }
+    if (const auto found = options.find(key.name); found != options.end()) {
+      used.value = found->second;
+      used.source = key.option;
+    }
   }
   return all;
 }

@@ -30,7 +30,9 @@ struct ToleranceKey {
   const char* help;
 
   /// The values it may have where a run is compared with a golden entry.
-  constexpr Range golden_range() const { return {golden_least, range.highest, false, range.whole}; }
+  constexpr Range golden_range() const {
+    return {.lowest = golden_least, .highest = range.highest, .whole = range.whole};
+  }
 };
 inline constexpr std::array<ToleranceKey, 5> tolerance_keys{{
     {"height", "--height-tolerance", &Tolerances::height, not_negative, 1e-9, "m",
@@ -42,7 +44,7 @@ inline constexpr std::array<ToleranceKey, 5> tolerance_keys{{
     {"pixel",
      "--pixel-tolerance",
      &Tolerances::pixel,
-     {0.0, 255.0, false, true},
+     {.lowest = 0.0, .highest = 255.0, .whole = true},
      0.0,
      "of 255",
      "Largest channel difference"},
@@ -52,7 +54,7 @@ inline constexpr std::array<ToleranceKey, 5> tolerance_keys{{
      {0.0, 1.0},
      0.0,
      "",
-     "Share of pixels that may differ"},
+     "Fraction of pixels that may differ"},
 }};
 
 /// Tolerances that somebody set, by name.

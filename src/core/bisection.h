@@ -15,7 +15,10 @@ template <class Middle, class Condition>
 double boundary_between(double low, double high, int halvings, const Middle& middle, const Condition& holds) {
   for (; halvings > 0; --halvings) {
     const double between = middle(low, high);
-    (holds(between) ? low : high) = between;
+    if (holds(between))
+      low = between;
+    else
+      high = between;
   }
   return middle(low, high);
 }

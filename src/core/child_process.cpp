@@ -30,7 +30,8 @@ std::string written_to(std::FILE* output) {
 
 ChildOutputs outputs_of(const std::string& program) {
   ChildOutputs outputs;
-  outputs.out.reset(std::tmpfile()), outputs.err.reset(std::tmpfile());
+  outputs.out.reset(std::tmpfile());
+  outputs.err.reset(std::tmpfile());
   if (!outputs.out || !outputs.err)
     throw_io_error("cannot make a temporary file for the output of {}; free disk space in /tmp", program);
   return outputs;
@@ -53,7 +54,9 @@ pid_t spawn(const std::vector<std::string>& words, int input, const ChildOutputs
   posix_spawnattr_t attributes;
   posix_spawnattr_init(&attributes);
   sigset_t ignored_here;  // ignore_write_signals(), which a child would inherit
-  sigemptyset(&ignored_here), sigaddset(&ignored_here, SIGPIPE), sigaddset(&ignored_here, SIGXFSZ);
+  sigemptyset(&ignored_here);
+  sigaddset(&ignored_here, SIGPIPE);
+  sigaddset(&ignored_here, SIGXFSZ);
   posix_spawnattr_setsigdefault(&attributes, &ignored_here);
   posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF);
   pid_t process = 0;
@@ -115,7 +118,8 @@ bool FedChild::feed(const void* bytes, std::size_t count) {
     if (interrupted()) return false;
     const ssize_t taken = send(input_, rest, count, MSG_DONTWAIT | MSG_NOSIGNAL);
     if (taken >= 0) {
-      rest += taken, count -= static_cast<std::size_t>(taken);
+      rest += taken;
+      count -= static_cast<std::size_t>(taken);
     } else if (errno == EAGAIN) {
       pollfd room{input_, POLLOUT, 0};
       poll(&room, 1, look_ms);

@@ -224,7 +224,9 @@ double hypot(double x, double y, double z) {
   if (std::isinf(x) || std::isinf(y) || std::isinf(z)) return infinity;
   const double largest = std::max({std::abs(x), std::abs(y), std::abs(z)});
   if (largest == 0.0) return x + y + z;  // NaN if one of them is NaN
-  x /= largest, y /= largest, z /= largest;
+  x /= largest;
+  y /= largest;
+  z /= largest;
   return largest * std::sqrt(x * x + y * y + z * z);
 }
 

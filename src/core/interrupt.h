@@ -15,7 +15,7 @@ void catch_interrupts();
 
 /// The same, also for Ctrl-\. Ctrl-Z, and using a terminal that another job has, do nothing. It is for work
 /// that must not stand still, nor end before it has let go. Signals within a second of the first count as
-/// one: a closed terminal sends two, a held key many.
+/// one: a closed terminal sends two, a key kept pressed many.
 void catch_all_interrupts();
 
 /// The signal caught so far, or 0.

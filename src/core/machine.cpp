@@ -89,12 +89,12 @@ MemoryRoom memory_room() {
   return least;
 }
 
-void check_memory(double bytes, const std::string& what, const std::string& remedy, double share) {
+void check_memory(double bytes, const std::string& what, const std::string& remedy, double fraction) {
   const MemoryRoom room = memory_room();
-  if (bytes > share * room.bytes)
+  if (bytes > fraction * room.bytes)
     throw NotEnoughMemory(fmt::format(
         "{} takes about {:.3g} GB of memory, but {}{}; {}", what, 1e-9 * bytes, room.reason,
-        share < 1.0 ? fmt::format(", and at most {:.3g} of that may be used", share) : "", remedy));
+        fraction < 1.0 ? fmt::format(", and at most {:.3g} of that may be used", fraction) : "", remedy));
 }
 
 void check_addresses(double bytes, const std::string& what, const std::string& remedy) {

@@ -17,8 +17,8 @@ struct MemoryRoom {
 MemoryRoom memory_room();
 
 /// Error: input, "WHAT takes about 3 GB of memory, but this machine has 2 GB free; REMEDY", if `bytes` is
-/// more than `share` times memory_room(). Call it before the memory is taken.
-void check_memory(double bytes, const std::string& what, const std::string& remedy, double share = 1.0);
+/// more than `fraction` times memory_room(). Call it before the memory is taken.
+void check_memory(double bytes, const std::string& what, const std::string& remedy, double fraction = 1.0);
 
 /// Error: input, if the address space (ulimit -v) has no room for so many more bytes that are only mapped,
 /// such as those of a library.

@@ -43,7 +43,7 @@ void refuse(const fs::path& path, const OutputKind& kind) {
 }
 
 /// Refuses what no output replaces. True: a regular file is there, and --overwrite is not given.
-bool check_place(const fs::path& path) {
+bool check_path(const fs::path& path) {
   const fs::file_status there = fs::symlink_status(path);
   if (!fs::exists(there) || fs::is_directory(there)) return false;
   if (fs::is_symlink(there))
@@ -58,7 +58,7 @@ bool check_place(const fs::path& path) {
 
 void check_part_replaceable(const fs::path& path, const OutputKind& kind) {
   const fs::path part = part_path(path);
-  if (check_place(part) && !is_own(part, kind)) refuse(part, kind);
+  if (check_path(part) && !is_own(part, kind)) refuse(part, kind);
 }
 
 }  // namespace
@@ -78,7 +78,7 @@ bool has_hdf5_name(const fs::path& path) {
 
 void check_replaceable(const fs::path& path, const OutputKind& kind) {
   check_name(path, kind);
-  if (check_place(path) && (kind.kept || !is_own(path, kind))) refuse(path, kind);
+  if (check_path(path) && (kind.kept || !is_own(path, kind))) refuse(path, kind);
 }
 
 fs::path part_path(const fs::path& path) {
@@ -121,11 +121,11 @@ void check_takes_files(const fs::path& folder) {
 }  // namespace
 
 void check_output(const fs::path& output, const std::vector<fs::path>& others, const OutputKind& kind) {
-  const auto place = [](const fs::path& path) { return fs::weakly_canonical(fs::absolute(path)); };
+  const auto absolute = [](const fs::path& path) { return fs::weakly_canonical(fs::absolute(path)); };
   for (const fs::path& other : others)
     for (const fs::path& written : {output, part_path(output)}) {
       std::error_code not_there;
-      if (place(written) == place(other) || fs::equivalent(written, other, not_there))
+      if (absolute(written) == absolute(other) || fs::equivalent(written, other, not_there))
         throw_input_error("{}: is named twice in this command; give the output another name",
                           written.string());
     }

@@ -27,6 +27,12 @@ struct OutputKind {
   int version = 1;         ///< of the format
 };
 
+/// The kind, of which no output is replaced, not even by its own kind.
+constexpr OutputKind irreplaceable(OutputKind kind) {
+  kind.kept = true;
+  return kind;
+}
+
 /// The ending of a name in small letters: ".h5" for "A.H5".
 std::string small_ending(const std::filesystem::path& path);
 /// True if PATH ends in .h5 or .hdf5, in small or capital letters.

@@ -30,4 +30,11 @@ void parallel_for(std::size_t count, bool worth_threads, const Body& body) {
 #endif
 }
 
+/// Calls body(i) for each i in [0, count) on threads, as above.
+template <class Body>
+void parallel_for(std::size_t count, const Body& body) {
+  constexpr bool worth_threads = true;
+  parallel_for(count, worth_threads, body);
+}
+
 }  // namespace sandstroke

@@ -7,7 +7,10 @@ namespace sandstroke {
 MeshSize mesh_size(int rows, int cols, bool body) {
   const std::uint64_t r = static_cast<std::uint64_t>(rows) + 1, c = static_cast<std::uint64_t>(cols) + 1;
   MeshSize size{(r + 1) * (c + 1), 2 * r * c};
-  if (body) size.vertices += 2 * (r + c) + 1, size.triangles += 3 * 2 * (r + c);
+  if (body) {
+    size.vertices += 2 * (r + c) + 1;
+    size.triangles += 3 * 2 * (r + c);
+  }
   return size;
 }
 
@@ -31,14 +34,14 @@ Eigen::Vector3d BedMesh::vertex(std::uint64_t number) const {
 
 Eigen::Vector3d BedMesh::on_surface(std::uint64_t number) const {
   // The coordinate of vertex i among n. Between the walls it is the centre of cell i - 1.
-  const auto place = [&](std::uint64_t i, std::uint64_t n, int& cell) {
+  const auto coordinate = [&](std::uint64_t i, std::uint64_t n, int& cell) {
     cell = std::clamp(static_cast<int>(i) - 1, 0, static_cast<int>(n) - 3);
     const double half = 0.5 * static_cast<double>(n - 2);
     const double cells = i == 0 ? -half : i == n - 1 ? half : cell - (half - 0.5);
     return cells * bed_.cell_size();
   };
   int row = 0, col = 0;
-  const double x = place(number % cols_, cols_, col), y = place(number / cols_, rows_, row);
+  const double x = coordinate(number % cols_, cols_, col), y = coordinate(number / cols_, rows_, row);
   return {x, y, heights_(row, col)};
 }
 

@@ -8,9 +8,9 @@
 
 namespace sandstroke {
 
-/// Whether the loop is late in a tick. It is late in the fraction `share` (0 to 1) of the ticks, spread at
+/// Whether the loop is late in a tick. It is late in this fraction (0 to 1) of the ticks, spread at
 /// random by a hash of the tick's number, and so the same in every run.
-bool drops_tick(std::int64_t tick, double share);
+bool drops_tick(std::int64_t tick, double fraction);
 
 /// Delays a force on its way from the sand's model to the device's motors. In a dropped tick the loop is not
 /// done in time, and the last force is given out again. A force that is given out in tick k acts in tick k +
@@ -29,7 +29,7 @@ class LateForce {
   void clear();
 
  private:
-  double dropped_share_;
+  double dropped_fraction_;
   std::int64_t tick_ = 0;
   bool dropped_ = false;
   Eigen::Vector3d given_out_;

@@ -8,7 +8,7 @@ namespace sandstroke {
 
 bool RecordedForce::unaltered(std::size_t sample) const {
   constexpr std::uint32_t altered =
-      clamped_force | ramped_force | rate_limited_force | refused_force | held_sand | interlocked_force;
+      clamped_force | ramped_force | rate_limited_force | refused_force | deferred_sand | interlocked_force;
   return stroke_.flags.empty() || (stroke_.flags[sample] & altered) == 0;
 }
 

@@ -8,16 +8,16 @@ void count_flags(std::uint32_t flags, TickCounts& ticks) {
   ticks.ramped += (flags & ramped_force) != 0;
   ticks.rate_limited += (flags & rate_limited_force) != 0;
   ticks.refused += (flags & refused_force) != 0;
-  ticks.held += (flags & held_sand) != 0;
+  ticks.deferred += (flags & deferred_sand) != 0;
   ticks.interlocked += (flags & interlocked_force) != 0;
 }
 
-double skipped_share(const TickCounts& ticks) {
+double skipped_fraction(const TickCounts& ticks) {
   return ticks.skipped > 0 ? static_cast<double>(ticks.skipped) / static_cast<double>(ticks.elapsed) : 0.0;
 }
 
 bool is_starved(const RecordingFooter& footer) {
-  return footer.reason != StopReason::cut_off && skipped_share(footer.ticks) > 0.1;
+  return footer.reason != StopReason::cut_off && skipped_fraction(footer.ticks) > 0.1;
 }
 
 const char* stop_reason_text(StopReason reason) {

@@ -21,9 +21,9 @@ enum SampleFlag : std::uint32_t {
   after_skipped_ticks = 2,  ///< ticks before it were skipped, unread or dropped: more than a tick has passed
   clamped_force = 4,        ///< the force was cut to the limit
   ramped_force = 8,         ///< the force was still being faded in
-  rate_limited_force = 16,  ///< the force was held back from jumping
+  rate_limited_force = 16,  ///< the force was kept from jumping
   refused_force = 32,       ///< the force was no number: none was given
-  held_sand = 64,           ///< the tool did not displace, because the relaxing bed was too far behind
+  deferred_sand = 64,       ///< the tool did not displace, because the relaxing bed was too far behind
   interlocked_force = 128,  ///< no force: the tool had not left the sand since a beginning
 };
 
@@ -72,11 +72,12 @@ struct TickCounts {
   std::int64_t unread = 0;    ///< the device gave nothing, or no number
   std::int64_t dropped = 0;   ///< the ring was full: the disk did not keep up
   // Recorded ticks, by flag:
-  std::int64_t late = 0, clamped = 0, ramped = 0, rate_limited = 0, refused = 0, held = 0, interlocked = 0;
+  std::int64_t late = 0, clamped = 0, ramped = 0, rate_limited = 0, refused = 0, deferred = 0,
+               interlocked = 0;
 };
 
 /// The fraction of the elapsed ticks that were skipped.
-double skipped_share(const TickCounts& ticks);
+double skipped_fraction(const TickCounts& ticks);
 
 /// Counts a recorded sample's flags.
 void count_flags(std::uint32_t flags, TickCounts& ticks);

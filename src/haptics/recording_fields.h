@@ -47,7 +47,7 @@ void visit_footer(Footer& footer, const Visit& visit) {
   visit("ticks_ramped", footer.ticks.ramped);
   visit("ticks_rate_limited", footer.ticks.rate_limited);
   visit("ticks_refused", footer.ticks.refused);
-  visit("ticks_held", footer.ticks.held);
+  visit("ticks_held", footer.ticks.deferred);
   visit("ticks_interlocked", footer.ticks.interlocked);
   visit("lateness_mean", footer.lateness.mean);
   visit("lateness_p99", footer.lateness.p99);

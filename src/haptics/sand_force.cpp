@@ -10,7 +10,7 @@ using State = SimulatedDevice::State;
 
 struct ImplicitDrag {
   Eigen::Vector3d velocity;  // m/s, of the device
-  bool held;
+  bool limited;
 };
 
 ImplicitDrag implicit_drag(double depth, const SimulatedDevice& device, const State& hand,
@@ -19,26 +19,29 @@ ImplicitDrag implicit_drag(double depth, const SimulatedDevice& device, const St
   // Above 1e100 the velocity does not depend on it any more, and would become infinity / infinity.
   const double repulse = std::min(repulse_force(depth, settings), 1e100);
   const double drag = felt_sand(depth, repulse, d.scale, settings).drag;
-  const auto velocity = [&](double share) {
-    return device.drag_velocity(hand, hand_after, {0.0, 0.0, share * repulse}, share * drag);
+  const auto velocity = [&](double fraction) {
+    return device.drag_velocity(hand, hand_after, {0.0, 0.0, fraction * repulse}, fraction * drag);
   };
-  const auto too_much = [&](double share) {
-    Eigen::Vector3d dragged = velocity(share);
+  const auto too_much = [&](double fraction) {
+    Eigen::Vector3d dragged = velocity(fraction);
     if (settings.drag == DragDirection::horizontal) dragged.z() = 0.0;
-    const Eigen::Vector3d repulsed(0.0, 0.0, share * repulse);
-    return d.max_force > 0.0 && length_of(repulsed - share * drag * dragged) > d.max_force;
+    const Eigen::Vector3d repulsed(0.0, 0.0, fraction * repulse);
+    return d.max_force > 0.0 && length_of(repulsed - fraction * drag * dragged) > d.max_force;
   };
-  double share = 1.0;
+  double fraction = 1.0;
   if (too_much(1.0)) {
-    const double held_from = device.strongest_drag() / drag;
-    double low = 1e-120, high = held_from < 1.0 && too_much(held_from) ? held_from : 1.0;
+    const double limited_from = device.strongest_drag() / drag;
+    double low = 1e-120, high = limited_from < 1.0 && too_much(limited_from) ? limited_from : 1.0;
     for (int i = 0; i < 64; ++i) {
       const double middle = std::sqrt(low * high);
-      (too_much(middle) ? high : low) = middle;
+      if (too_much(middle))
+        high = middle;
+      else
+        low = middle;
     }
-    share = low;
+    fraction = low;
   }
-  return {velocity(share), share * drag > device.strongest_drag()};
+  return {velocity(fraction), fraction * drag > device.strongest_drag()};
 }
 
 }  // namespace
@@ -50,7 +53,7 @@ SandForce force_on_device(double depth, const SimulatedDevice& device, const Sta
     return sand_force(depth, d.scale * device.read().velocity, d.max_force, settings);
   const ImplicitDrag drag = implicit_drag(depth, device, hand, hand_after, settings);
   SandForce force = sand_force(depth, d.scale * drag.velocity, d.max_force, settings);
-  force.held_drag = drag.held;
+  force.limited_drag = drag.limited;
   return force;
 }
 

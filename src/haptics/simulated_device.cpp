@@ -9,16 +9,20 @@ namespace sandstroke {
 void apply_device_preset(DeviceSettings& settings) {
   switch (settings.preset) {
     case DevicePreset::omega3:
-      settings.max_force = 12.0, settings.resolution = 9e-6;
+      settings.max_force = 12.0;
+      settings.resolution = 9e-6;
       break;
     case DevicePreset::phantom_desktop:
-      settings.max_force = 20.0, settings.resolution = 30e-6;
+      settings.max_force = 20.0;
+      settings.resolution = 30e-6;
       break;
     case DevicePreset::touch:
-      settings.max_force = 3.3, settings.resolution = 55e-6;
+      settings.max_force = 3.3;
+      settings.resolution = 55e-6;
       break;
     case DevicePreset::ideal:
-      settings.max_force = 0.0, settings.resolution = 0.0;
+      settings.max_force = 0.0;
+      settings.resolution = 0.0;
       break;
   }
 }

@@ -41,7 +41,7 @@ struct DeviceSettings {
 /// Sets max_force and resolution to those of settings.preset.
 void apply_device_preset(DeviceSettings& settings);
 
-/// Place on the bed [m] of the tip of a device that is at `position` [device m].
+/// Position on the bed [m] of the tip of a device that is at `position` [device m].
 inline Eigen::Vector3d tip_of(const DeviceSettings& settings, const Eigen::Vector3d& position) {
   return settings.scale * position + settings.offset;
 }
@@ -94,7 +94,7 @@ class SimulatedDevice {
   /// device.
   double strongest_drag() const { return time_step_ / map_(0, 4); }
 
-  /// Advances by one tick, during which the hand goes from one place to the next and `force` [N] is held.
+  /// Advances by one tick, during which the hand goes from one position to the next and `force` [N] is held.
   void advance(const State& hand, const State& hand_after, const Eigen::Vector3d& force);
 
  private:

@@ -39,7 +39,10 @@ std::string coverage_warning(const Stroke& stroke, const std::string& name) {
   for (std::size_t i = 0; i + 1 < stroke.size(); ++i) {
     if (stroke.sampled_between(i)) continue;
     missing += stroke.time[i + 1] - stroke.time[i];
-    if (stroke.time[i + 1] - stroke.time[i] > end - begin) begin = stroke.time[i], end = stroke.time[i + 1];
+    if (stroke.time[i + 1] - stroke.time[i] > end - begin) {
+      begin = stroke.time[i];
+      end = stroke.time[i + 1];
+    }
   }
   if (stroke.starved)
     return fmt::format(

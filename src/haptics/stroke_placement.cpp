@@ -101,15 +101,15 @@ void lay_level(Stroke& stroke, const StrokePlacement& placement, const std::stri
 }
 
 /// The scale at which the stroke, already turned, fills its fraction of the bed.
-double fitting_scale(const Stroke& stroke, double share, const Eigen::AlignedBox2d& bed,
+double fitting_scale(const Stroke& stroke, double fraction, const Eigen::AlignedBox2d& bed,
                      const std::string& name) {
   const Eigen::AlignedBox3d extent = drawn_extent(stroke);
   const Eigen::Vector2d size = extent.isEmpty() ? Eigen::Vector2d::Zero() : extent.sizes().head<2>().eval();
-  const double scale = share * bed.sizes().cwiseQuotient(size).minCoeff();
+  const double scale = fraction * bed.sizes().cwiseQuotient(size).minCoeff();
   if (!std::isfinite(scale) || !(scale > 0.0))
     throw_input_error(
-        "{}: stroke.fit = {} cannot scale a stroke that is drawn at one place; set stroke.scale instead",
-        name, share);
+        "{}: stroke.fit = {} cannot scale a stroke that is drawn at one point; set stroke.scale instead",
+        name, fraction);
   return scale;
 }
 
@@ -146,8 +146,8 @@ void raise_to_press(Stroke& stroke, const StrokePlacement& placement, double ful
         name, 1e3 * extent.sizes().z());
   for (std::size_t i = 0; i < stroke.size(); ++i) {
     if (!stroke.pen_down(i)) continue;
-    const double share = std::min(press(stroke, i, placement.depth_by) / full, 1.0);
-    stroke.position[i].z() += (1.0 - share) * placement.depth;
+    const double fraction = std::min(press(stroke, i, placement.depth_by) / full, 1.0);
+    stroke.position[i].z() += (1.0 - fraction) * placement.depth;
   }
 }
 
@@ -169,7 +169,7 @@ Stroke place_stroke(const Stroke& stroke, const StrokePlacement& placement, cons
     throw_input_error("{}: scale is {}; it must be positive", name, placement.scale);
   Stroke placed = stroke;
   cut_time(placed, placement.start, placement.stop, name);
-  if (placement.held == HeldSamples::drop) placed = without_held_samples(placed);
+  if (placement.repeated == RepeatedSamples::drop) placed = without_repeated_samples(placed);
   if (placement.smooth > 0.0) placed = smoothed(placed, placement.smooth);
   const PointPlacement place = point_placement(placement, placed.frame);
   rotate(placed, place.axes);

@@ -4,7 +4,7 @@
 #include <limits>
 #include <string>
 
-#include "haptics/held_samples.h"
+#include "haptics/repeated_samples.h"
 #include "haptics/stroke.h"
 #include "haptics/stroke_plane.h"
 
@@ -35,7 +35,7 @@ struct StrokePlacement {
   DepthBy depth_by = DepthBy::none;
   double full_depth_at = 0.0;  ///< the pressure, or force [N], of full depth; 0: the largest of the stroke
   StrokeFollow follow = StrokeFollow::bed;
-  HeldSamples held = HeldSamples::keep;
+  RepeatedSamples repeated = RepeatedSamples::keep;
   double smooth = 0.0;  ///< Hz, cut-off of the filter against tremble and noise (smoothed); 0: none
   double speed = 1.0;   ///< times faster, > 0
   double start = 0.0;   ///< s after the first sample: earlier samples are cut
@@ -71,12 +71,12 @@ struct PointPlacement {
 /// sits at the bed's -y.
 PointPlacement point_placement(const StrokePlacement& placement, const std::string& frame);
 
-/// The stroke as it is played: cut to start..stop, without held samples, smoothed, turned from the device's
-/// axes (frame "device") to the bed's, laid level (plane), scaled, turned about z, lowered by `depth`,
-/// brought onto the bed (place), moved by `offset`; its time begins at 0, and is `speed` times shorter. Times
-/// that were made for a speed of the tip (Stroke::tip_speed) give that speed at the size on the bed.
-/// Velocities turn and scale with it, forces and orientations turn. The drawn extent is that of the samples
-/// at which the pen is down. `bed` [m]: the bed's rectangle, for fit and place.
+/// The stroke as it is played: cut to start..stop, without repeated samples, smoothed, turned from the
+/// device's axes (frame "device") to the bed's, laid level (plane), scaled, turned about z, lowered by
+/// `depth`, brought onto the bed (place), moved by `offset`; its time begins at 0, and is `speed` times
+/// shorter. Times that were made for a speed of the tip (Stroke::tip_speed) give that speed at the size on
+/// the bed. Velocities turn and scale with it, forces and orientations turn. The drawn extent is that of the
+/// samples at which the pen is down. `bed` [m]: the bed's rectangle, for fit and place.
 ///
 /// The plane is the least-squares plane through the samples at which the pen is down (plane_through). It is
 /// turned by the smallest rotation that brings up_normal() to z, and shifted onto z = 0; bumps about the

@@ -49,7 +49,7 @@ double lifted_height(const Stroke& stroke, const LeastSquaresPlane& plane) {
 }
 
 /// The fraction of the way in an upright plane that is more than 10 deg off both z and the horizontal.
-double oblique_share(const Stroke& stroke) {
+double oblique_fraction(const Stroke& stroke) {
   const double least = elementary::sin(to_radians(10.0));
   double oblique = 0.0, whole = 0.0;
   for (std::size_t i = 0; i + 1 < stroke.size(); ++i) {
@@ -130,7 +130,7 @@ UpNormal up_normal(const Stroke& stroke, const LeastSquaresPlane& plane, StrokeU
   // Takes a positive axis, unless the pen is lifted to the other side.
   if (found.lifted ? lifted < 0.0 : found.axis > StrokeUp::z)
     found = {-found.normal, opposite(found.axis), found.lifted};
-  if (!table && !found.lifted && oblique_share(stroke) <= 0.5)
+  if (!table && !found.lifted && oblique_fraction(stroke) <= 0.5)
     throw_input_error(
         "{}: its samples with the pen down fit a plane tilted {:.3g} deg, and move along or across z, like a "
         "plunge, a drag and a lift; for such a stroke into sand set stroke.plane = \"keep\"; for a tracing "

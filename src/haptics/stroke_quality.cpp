@@ -53,7 +53,10 @@ StrokeQuality quality_of(const Stroke& stroke) {
     spacings.push_back(stroke.time[i + 1] - stroke.time[i]);
     const double speed = (stroke.position[i + 1] - stroke.position[i]).norm() / spacings.back();
     if (speed > 0.0) speeds.push_back(speed);
-    if (speed > quality.top_speed) quality.top_speed = speed, quality.top_time = stroke.time[i];
+    if (speed > quality.top_speed) {
+      quality.top_speed = speed;
+      quality.top_time = stroke.time[i];
+    }
   }
   const double usual_spacing = median(spacings);
   double squares = 0.0;
@@ -61,7 +64,7 @@ StrokeQuality quality_of(const Stroke& stroke) {
   if (!spacings.empty()) quality.jitter = std::sqrt(squares / static_cast<double>(spacings.size()));
   quality.usual_speed = median(std::move(speeds));
   quality.repeats = repeats_of(stroke);
-  quality.noise = noise_of(without_held_samples(stroke));
+  quality.noise = noise_of(without_repeated_samples(stroke));
   const std::vector<Vector3d> drawn = drawn_points(stroke);
   quality.plane = plane_through(drawn);
   Eigen::AlignedBox3d extent;
@@ -77,11 +80,11 @@ std::vector<std::string> quality_warnings(const StrokeQuality& quality) {
         fmt::format("it is {:.4g} m wide: if its positions are not in metres, convert it with their unit, or "
                     "set stroke.scale (0.001 for millimetres) or stroke.fit = 0.8",
                     widest));
-  if (quality.repeats.share > 0.1 && quality.repeats.period > 1)
+  if (quality.repeats.fraction > 0.1 && quality.repeats.period > 1)
     warnings.push_back(fmt::format(
         "{:.0f} % of its samples repeat the one before (up to {} alike): its device was read faster than it "
         "measures, and speeds look up to {} times too high; set stroke.held = \"drop\"",
-        100.0 * quality.repeats.share, quality.repeats.period, quality.repeats.period));
+        100.0 * quality.repeats.fraction, quality.repeats.period, quality.repeats.period));
   if (!(quality.top_speed > fastest_hand)) return warnings;
   if (quality.top_speed > 10.0 * quality.usual_speed)
     warnings.push_back(fmt::format(

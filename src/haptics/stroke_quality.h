@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "haptics/held_samples.h"
+#include "haptics/repeated_samples.h"
 #include "haptics/stroke.h"
 #include "haptics/stroke_plane.h"
 

@@ -98,7 +98,10 @@ Hand StrokeSampler::at(double t) {
   seek(within);
   Hand hand = joined_or_lifted(within);
   if (!stroke_.orientation.empty()) hand.orientation = orientation_at(within);
-  if (t != within) hand.velocity.setZero(), hand.down = false;
+  if (t != within) {
+    hand.velocity.setZero();
+    hand.down = false;
+  }
   return hand;
 }
 
@@ -114,8 +117,8 @@ Eigen::Quaterniond StrokeSampler::orientation_at(double t) const {
   const Eigen::Vector4d& a = stroke_.orientation[cursor_];
   if (t == stroke_.time[cursor_]) return Eigen::Quaterniond(a);
   const Eigen::Vector4d& b = stroke_.orientation[cursor_ + 1];
-  const double share = (t - stroke_.time[cursor_]) / (stroke_.time[cursor_ + 1] - stroke_.time[cursor_]);
-  return Eigen::Quaterniond((1.0 - share) * a + (a.dot(b) < 0.0 ? -share : share) * b).normalized();
+  const double fraction = (t - stroke_.time[cursor_]) / (stroke_.time[cursor_ + 1] - stroke_.time[cursor_]);
+  return Eigen::Quaterniond((1.0 - fraction) * a + (a.dot(b) < 0.0 ? -fraction : fraction) * b).normalized();
 }
 
 Hand StrokeSampler::on_curve(double t) const {

@@ -78,9 +78,9 @@ class Profile {
   double at(double fraction) const {
     const std::size_t knots = values_.size();
     if (knots == 1) return values_.front();
-    const double place = fraction * static_cast<double>(knots - 1);
-    const std::size_t knot = std::min(static_cast<std::size_t>(place), knots - 2);
-    return values_[knot] + (place - static_cast<double>(knot)) * (values_[knot + 1] - values_[knot]);
+    const double at = fraction * static_cast<double>(knots - 1);
+    const std::size_t knot = std::min(static_cast<std::size_t>(at), knots - 2);
+    return values_[knot] + (at - static_cast<double>(knot)) * (values_[knot + 1] - values_[knot]);
   }
   /// The fractions at which the profile bends.
   void add_knots(std::vector<double>& found) const {
@@ -100,12 +100,12 @@ Profile height_profile(const PressProfile& press, const ForceSettings& force) {
   return Profile(std::move(heights));
 }
 
-/// How a pen is held: a height [m], and angles [deg] as in ToolTurn.
+/// The posture of a pen: a height [m], and angles [deg] as in ToolTurn.
 struct Posture {
   double z, turn = 0.0, tilt = 0.0;
-  Posture towards(const Posture& other, double share) const {
-    return {z + share * (other.z - z), turn + share * (other.turn - turn),
-            tilt + share * (other.tilt - tilt)};
+  Posture towards(const Posture& other, double fraction) const {
+    return {z + fraction * (other.z - z), turn + fraction * (other.turn - turn),
+            tilt + fraction * (other.tilt - tilt)};
   }
   Eigen::Vector4d quaternion() const {
     const double half_turn = 0.5 * to_radians(turn), half_tilt = 0.5 * to_radians(tilt);
@@ -115,7 +115,7 @@ struct Posture {
   }
 };
 
-/// How a pen is held along a path.
+/// The posture of a pen along a path.
 class PostureProfile {
  public:
   PostureProfile(Profile height, const ToolTurn& turn)
@@ -151,15 +151,15 @@ bool turns_tool(const StrokeScript& script) {
 class Pen {
  public:
   explicit Pen(const StrokeScript& script)
-      : script_(script), turns_(turns_tool(script)), point_(script.start), held_{script.clearance} {}
+      : script_(script), turns_(turns_tool(script)), point_(script.start), posture_{script.clearance} {}
 
   const Vector2d& point() const { return point_; }
 
-  void wait(double seconds) { add(Curve::line(point_, point_), 0.0, 1.0, held_, seconds); }
+  void wait(double seconds) { add(Curve::line(point_, point_), 0.0, 1.0, posture_, seconds); }
   void lift() { climb_to(script_.clearance); }
   void travel(const Vector2d& to) {
     lift();
-    run(Curve::line(point_, to), 0.0, 1.0, held_, script_.travel_speed);
+    run(Curve::line(point_, to), 0.0, 1.0, posture_, script_.travel_speed);
   }
   /// Goes to the path's first point, lifted if that is elsewhere, and draws the path.
   void draw(const Path& path, const PostureProfile& profile, double speed) {
@@ -168,7 +168,8 @@ class Pen {
     const Posture begin = profile.at(0.0, path.front(), 0.0);
     turn_to(begin);
     climb_to(begin.z);
-    if (first != point_) run(Curve::line(point_, first), 0.0, 1.0, held_, speed);  // rounding of an arc's end
+    if (first != point_)
+      run(Curve::line(point_, first), 0.0, 1.0, posture_, speed);  // rounding of an arc's end
 
     const double length = length_of(path);
     const std::vector<double> knots = profile.knots();
@@ -190,7 +191,7 @@ class Pen {
 
   /// Takes one more sample, at which the pen has come to rest, and returns the stroke.
   Stroke finish() {
-    sample(point_, held_);
+    sample(point_, posture_);
     stroke_.nominal_rate = script_.rate;
     stroke_.source = "script " + script_.name;
     return std::move(stroke_);
@@ -198,24 +199,26 @@ class Pen {
 
  private:
   void climb_to(double z) {
-    run(Curve::line(point_, point_), 0.0, 1.0, {z, held_.turn, held_.tilt}, script_.plunge_speed);
+    run(Curve::line(point_, point_), 0.0, 1.0, {z, posture_.turn, posture_.tilt}, script_.plunge_speed);
   }
-  /// Turns the tool in its place, the shorter way round. A turn of up to smooth_turn takes no time.
+  /// Turns the tool where it stands, the shorter way round. A turn of up to smooth_turn takes no time.
   void turn_to(const Posture& posture) {
     if (!turns_) return;
-    const double whole_turns = 360.0 * std::round((posture.turn - held_.turn) / 360.0);
-    held_.turn += whole_turns;
-    const double most = std::max(std::abs(posture.turn - held_.turn), std::abs(posture.tilt - held_.tilt));
-    const Posture turned{held_.z, posture.turn, posture.tilt};
+    const double whole_turns = 360.0 * std::round((posture.turn - posture_.turn) / 360.0);
+    posture_.turn += whole_turns;
+    const double most =
+        std::max(std::abs(posture.turn - posture_.turn), std::abs(posture.tilt - posture_.tilt));
+    const Posture turned{posture_.z, posture.turn, posture.tilt};
     if (most > smooth_turn)
       add(Curve::line(point_, point_), 0.0, 1.0, turned, most / script_.turn_speed);
     else
-      held_ = turned;
+      posture_ = turned;
   }
   /// Moves along a curve from one fraction to another, at constant speed in space, while the posture changes
   /// linearly.
   void run(const Curve& curve, double begin, double end, const Posture& after, double speed) {
-    add(curve, begin, end, after, elementary::hypot((end - begin) * curve.length, after.z - held_.z) / speed);
+    add(curve, begin, end, after,
+        elementary::hypot((end - begin) * curve.length, after.z - posture_.z) / speed);
   }
   void add(const Curve& curve, double begin, double end, const Posture& after, double seconds) {
     if (++legs_ > most_legs)
@@ -228,23 +231,23 @@ class Pen {
     }
     while (next_time() < end_time) {
       const double u = std::clamp((next_time() - time_) / seconds, 0.0, 1.0);
-      sample(curve.at(begin + u * (end - begin)), held_.towards(after, u));
+      sample(curve.at(begin + u * (end - begin)), posture_.towards(after, u));
     }
     time_ = end_time;
-    held_ = after;
+    posture_ = after;
     point_ = end == 1.0 ? curve.to : curve.at(end);
   }
   double next_time() const { return static_cast<double>(stroke_.size()) / script_.rate; }
-  void sample(const Vector2d& point, const Posture& held) {
+  void sample(const Vector2d& point, const Posture& posture) {
     stroke_.time.push_back(next_time());
-    stroke_.position.emplace_back(point.x(), point.y(), held.z);
-    if (turns_) stroke_.orientation.push_back(held.quaternion());
+    stroke_.position.emplace_back(point.x(), point.y(), posture.z);
+    if (turns_) stroke_.orientation.push_back(posture.quaternion());
   }
 
   const StrokeScript& script_;
   bool turns_;
   Vector2d point_;
-  Posture held_;
+  Posture posture_;
   double time_ = 0.0;
   int legs_ = 0;
   Stroke stroke_;

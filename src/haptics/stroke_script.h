@@ -67,14 +67,14 @@ struct ScriptSegment {
 
 /// A stroke described by what it draws. The tool starts and ends in the air, at height `clearance`. If a
 /// segment begins away from the current point, the tool goes there lifted: up, across, down. If the tool must
-/// turn, at a segment's beginning or a corner that it follows, it turns in its place.
+/// turn, at a segment's beginning or a corner that it follows, it turns where it stands.
 struct StrokeScript {
   std::string name = "script";                      ///< for messages
   Eigen::Vector2d start = Eigen::Vector2d::Zero();  ///< m
   double clearance = 0.02;                          ///< m above z = 0
   double travel_speed = 0.2;                        ///< m/s, across
   double plunge_speed = 0.05;                       ///< m/s, up and down
-  double turn_speed = 180.0;                        ///< deg/s, of turns in its place
+  double turn_speed = 180.0;                        ///< deg/s, of turns where it stands
   double rate = 1000.0;                             ///< Hz, samples of the stroke
   int repeat = 1;                                   ///< times the segments are run
   std::vector<ScriptSegment> segments;

@@ -84,7 +84,8 @@ void Hdf5GridWriter::write_virtual(const std::string& dataset, const Shape& oute
   const Hdf5Handle part_space(H5Screate_simple(2, part, nullptr), H5Sclose);
   const Hdf5Handle properties = virtual_properties();
   std::vector<hsize_t> start(shape.size(), 0), count(shape.size(), 1);
-  count[outer.size()] = rows, count[outer.size() + 1] = cols;
+  count[outer.size()] = rows;
+  count[outer.size() + 1] = cols;
   for (const Block& block : blocks) {
     std::size_t rest = block.index;
     for (std::size_t axis = outer.size(); axis-- > 0; rest /= outer[axis]) start[axis] = rest % outer[axis];

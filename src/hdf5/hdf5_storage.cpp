@@ -42,7 +42,9 @@ bool are_known(const std::vector<H5Z_filter_t>& filters) {
   auto next = known.begin();
   return std::all_of(filters.begin(), filters.end(), [&](H5Z_filter_t filter) {
     next = std::find(next, known.end(), filter);
-    return next != known.end() && (++next, true);
+    if (next == known.end()) return false;
+    ++next;
+    return true;
   });
 }
 

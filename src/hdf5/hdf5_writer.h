@@ -64,9 +64,11 @@ class Hdf5Chunks {
 };
 
 /// A kind of output that is an HDF5 file. Until the first flush it holds only its superblock.
-constexpr OutputKind hdf5_output(std::string_view name, std::string_view mark, bool kept = false,
-                                 int format_version = 1) {
-  return {name, hdf5_signature, mark, 96, kept, true, format_version};
+constexpr OutputKind hdf5_output(std::string_view name, std::string_view mark, int format_version = 1) {
+  OutputKind kind{name, hdf5_signature, mark, 96};
+  kind.hdf5 = true;
+  kind.version = format_version;
+  return kind;
 }
 
 /// Writes an HDF5 file as PATH.part, which finish() renames to PATH. It makes the groups on the way to a

@@ -21,12 +21,12 @@ namespace sandstroke {
 namespace {
 
 constexpr haddr_t page_bytes = 4096;
-constexpr haddr_t first_bytes = 64 * 1024;   // all held in memory until the first commit writes them
+constexpr haddr_t first_bytes = 64 * 1024;   // all are kept in memory until the first commit writes them
 constexpr std::size_t most_pages = 1 << 18;  // in a commit: 1 GiB
 
 /// A page as a commit appends it.
 struct Page {
-  std::uint64_t place = 0;  // bytes from the file's beginning
+  std::uint64_t address = 0;  // bytes from the file's beginning
   std::array<char, page_bytes> bytes{};
 };
 
@@ -40,6 +40,12 @@ struct Seal {
 
 int failure = 0;  // errno
 
+/// Keeps the reason of a failure. Returns false.
+bool fail_with(int error) {
+  failure = error;
+  return false;
+}
+
 haddr_t up_to_page(haddr_t bytes) { return (bytes + page_bytes - 1) / page_bytes * page_bytes; }
 
 /// Transfers all bytes, with as many calls as it takes. call(bytes done): returns what the system call does.
@@ -48,29 +54,29 @@ bool transfer(std::size_t count, std::size_t& done, const Call& call) {
   for (done = 0; done < count;) {
     const ssize_t some = call(done);
     if (some < 0 && errno == EINTR) continue;
-    if (some < 0) return failure = errno, false;
+    if (some < 0) return fail_with(errno);
     if (some == 0) break;  // the file ends here
     done += static_cast<std::size_t>(some);
   }
   return true;
 }
 
-bool write_at(int file, haddr_t place, const void* bytes, std::size_t count) {
+bool write_at(int file, haddr_t address, const void* bytes, std::size_t count) {
   std::size_t done = 0;
   return transfer(count, done,
                   [&](std::size_t from) {
                     return pwrite(file, static_cast<const char*>(bytes) + from, count - from,
-                                  static_cast<off_t>(place + from));
+                                  static_cast<off_t>(address + from));
                   }) &&
          done == count;
 }
 
 /// Reads bytes; behind the file's end they are zeros.
-bool read_at(int file, haddr_t place, void* bytes, std::size_t count) {
+bool read_at(int file, haddr_t address, void* bytes, std::size_t count) {
   auto* const to = static_cast<char*>(bytes);
   std::size_t done = 0;
   const bool read = transfer(count, done, [&](std::size_t from) {
-    return pread(file, to + from, count - from, static_cast<off_t>(place + from));
+    return pread(file, to + from, count - from, static_cast<off_t>(address + from));
   });
   std::fill(to + done, to + count, '\0');
   return read;
@@ -89,7 +95,7 @@ struct PartFile : H5FD_t {
   haddr_t allocated = 0;  // by HDF5 (its "end of allocation")
   haddr_t end = 0;        // of the bytes that were written
   haddr_t committed = first_bytes;
-  std::map<haddr_t, Page> held;  // by place
+  std::map<haddr_t, Page> pages;  // by address, until a commit writes them
 
   PartFile() : H5FD_t{} {}
   ~PartFile() {
@@ -101,13 +107,13 @@ struct PartFile : H5FD_t {
   bool put_in_place() const;
   bool cut_off(haddr_t bytes) const;
   bool commit();
-  Page* page_at(haddr_t place);
+  Page* page_at(haddr_t address);
 };
 
 PartFile& part_of(H5FD_t* file) { return static_cast<PartFile&>(*file); }
 const PartFile& part_of(const H5FD_t* file) { return static_cast<const PartFile&>(*file); }
 
-/// Holds the appended pages of a commit that a kill interrupted after its seal. False: the file cannot be
+/// Takes the appended pages of a commit that a kill interrupted after its seal. False: the file cannot be
 /// read.
 bool PartFile::take_appended() {
   struct stat status {};
@@ -126,23 +132,26 @@ bool PartFile::take_appended() {
     Page page;
     if (!read_at(file, start + i * sizeof page, &page, sizeof page)) return false;
     checksum = checksum_of(checksum, page);
-    const bool in_order = appended.empty() || page.place > appended.rbegin()->first;
-    if (!in_order || page.place % page_bytes != 0 || page.place >= start) return true;
-    appended.emplace_hint(appended.end(), page.place, page);
+    const bool in_order = appended.empty() || page.address > appended.rbegin()->first;
+    if (!in_order || page.address % page_bytes != 0 || page.address >= start) return true;
+    appended.emplace_hint(appended.end(), page.address, page);
   }
   if (checksum != seal.checksum) return true;
-  held = std::move(appended);
+  pages = std::move(appended);
   end = start;
   committed = std::max(first_bytes, end);
   return true;
 }
 
-Page* PartFile::page_at(haddr_t place) {
-  if (held.size() >= most_pages && !held.contains(place)) return failure = EFBIG, nullptr;
-  const auto [entry, is_new] = held.try_emplace(place);
+Page* PartFile::page_at(haddr_t address) {
+  if (pages.size() >= most_pages && !pages.contains(address)) {
+    fail_with(EFBIG);
+    return nullptr;
+  }
+  const auto [entry, is_new] = pages.try_emplace(address);
   Page& page = entry->second;
-  page.place = place;
-  if (is_new && !read_at(file, place, page.bytes.data(), page_bytes)) return nullptr;
+  page.address = address;
+  if (is_new && !read_at(file, address, page.bytes.data(), page_bytes)) return nullptr;
   return &page;
 }
 
@@ -150,35 +159,35 @@ Page* PartFile::page_at(haddr_t place) {
 bool PartFile::reserve(haddr_t bytes) const {
   if (fallocate(file, FALLOC_FL_KEEP_SIZE, 0, static_cast<off_t>(bytes)) == 0) return true;
   if (errno != ENOSPC && errno != EDQUOT) return true;  // not every file system can
-  return failure = errno, false;
+  return fail_with(errno);
 }
 
 bool PartFile::cut_off(haddr_t bytes) const {
-  return ftruncate(file, static_cast<off_t>(bytes)) == 0 || (failure = errno, false);
+  return ftruncate(file, static_cast<off_t>(bytes)) == 0 || fail_with(errno);
 }
 
-/// Appends the held pages, and the seal.
+/// Appends the pages, and the seal.
 bool PartFile::append(haddr_t start) const {
   Seal seal;
-  haddr_t place = start;
-  for (const auto& [at, page] : held) {
+  haddr_t address = start;
+  for (const auto& [at, page] : pages) {
     seal.checksum = checksum_of(seal.checksum, page);
-    if (!write_at(file, place, &page, sizeof page)) return false;
-    place += sizeof page;
+    if (!write_at(file, address, &page, sizeof page)) return false;
+    address += sizeof page;
   }
-  seal.pages = held.size();
-  return write_at(file, place, &seal, sizeof seal);
+  seal.pages = pages.size();
+  return write_at(file, address, &seal, sizeof seal);
 }
 
 /// The first commit writes everything in one call: a kill before it leaves an empty file.
 bool PartFile::put_in_place() const {
-  if (bare && !held.empty()) {
-    std::vector<char> begin(held.rbegin()->first + page_bytes);
-    for (const auto& [at, page] : held)
+  if (bare && !pages.empty()) {
+    std::vector<char> begin(pages.rbegin()->first + page_bytes);
+    for (const auto& [at, page] : pages)
       std::copy(page.bytes.begin(), page.bytes.end(), begin.begin() + static_cast<std::ptrdiff_t>(at));
     return write_at(file, 0, begin.data(), begin.size());
   }
-  return std::all_of(held.begin(), held.end(), [&](const auto& entry) {
+  return std::all_of(pages.begin(), pages.end(), [&](const auto& entry) {
     return write_at(file, entry.first, entry.second.bytes.data(), page_bytes);
   });
 }
@@ -187,14 +196,14 @@ bool PartFile::commit() {
   if (failed) return false;
   failed = true;  // until all is done
   const haddr_t start =
-      up_to_page(std::max({end, allocated, held.empty() ? 0 : held.rbegin()->first + page_bytes}));
-  if (!reserve(start) || (!bare && !held.empty() && !append(start))) {
+      up_to_page(std::max({end, allocated, pages.empty() ? 0 : pages.rbegin()->first + page_bytes}));
+  if (!reserve(start) || (!bare && !pages.empty() && !append(start))) {
     cut_off(end);
     return false;
   }
   if (!put_in_place()) return false;
   bare = false;
-  held.clear();
+  pages.clear();
   end = std::max(end, allocated);
   if (!cut_off(end)) return false;
   committed = std::max(first_bytes, end);
@@ -220,7 +229,10 @@ H5FD_t* open_part(const char* name, unsigned flags, hid_t, haddr_t) {
     part->writes = (flags & H5F_ACC_RDWR) != 0;
     part->bare = (flags & H5F_ACC_TRUNC) != 0;
     part->file = open(name, (part->writes ? O_RDWR : O_RDONLY) | O_CLOEXEC);
-    if (part->file < 0) return failure = errno, nullptr;
+    if (part->file < 0) {
+      fail_with(errno);
+      return nullptr;
+    }
     if (part->bare && !part->cut_off(0)) return nullptr;
     return part->take_appended() ? part.release() : nullptr;
   });
@@ -239,35 +251,49 @@ herr_t query(const H5FD_t*, unsigned long* features) {
 }
 
 haddr_t get_allocated(const H5FD_t* file, H5FD_mem_t) { return part_of(file).allocated; }
-herr_t set_allocated(H5FD_t* file, H5FD_mem_t, haddr_t end) { return part_of(file).allocated = end, 0; }
+herr_t set_allocated(H5FD_t* file, H5FD_mem_t, haddr_t end) {
+  part_of(file).allocated = end;
+  return 0;
+}
 haddr_t get_end(const H5FD_t* file, H5FD_mem_t) { return part_of(file).end; }
-herr_t get_handle(H5FD_t* file, hid_t, void** handle) { return *handle = file, 0; }
+herr_t get_handle(H5FD_t* file, hid_t, void** handle) {
+  *handle = file;
+  return 0;
+}
 
-herr_t read_part(H5FD_t* file, H5FD_mem_t, hid_t, haddr_t place, std::size_t count, void* bytes) {
+herr_t read_part(H5FD_t* file, H5FD_mem_t, hid_t, haddr_t address, std::size_t count, void* bytes) {
   const PartFile& part = part_of(file);
-  if (!read_at(part.file, place, bytes, count)) return -1;
-  const haddr_t stop = place + count;
-  for (auto entry = part.held.lower_bound(place / page_bytes * page_bytes);
-       entry != part.held.end() && entry->first < stop; ++entry) {
-    const haddr_t from = std::max(place, entry->first), to = std::min(stop, entry->first + page_bytes);
-    std::memcpy(static_cast<char*>(bytes) + (from - place),
+  if (!read_at(part.file, address, bytes, count)) return -1;
+  const haddr_t stop = address + count;
+  for (auto entry = part.pages.lower_bound(address / page_bytes * page_bytes);
+       entry != part.pages.end() && entry->first < stop; ++entry) {
+    const haddr_t from = std::max(address, entry->first), to = std::min(stop, entry->first + page_bytes);
+    std::memcpy(static_cast<char*>(bytes) + (from - address),
                 entry->second.bytes.data() + (from - entry->first), to - from);
   }
   return 0;
 }
 
-herr_t write_part(H5FD_t* file, H5FD_mem_t, hid_t, haddr_t place, std::size_t count, const void* bytes) {
+herr_t write_part(H5FD_t* file, H5FD_mem_t, hid_t, haddr_t address, std::size_t count, const void* bytes) {
   PartFile& part = part_of(file);
-  const haddr_t stop = place + count;
+  const haddr_t stop = address + count;
   const auto* from = static_cast<const char*>(bytes);
-  while (place < std::min(stop, up_to_page(part.committed))) {
-    Page* const page = guarded<Page*>(nullptr, [&] { return part.page_at(place / page_bytes * page_bytes); });
-    if (!page) return part.failed = true, -1;
-    const haddr_t some = std::min(stop, page->place + page_bytes) - place;
-    std::memcpy(page->bytes.data() + (place - page->place), from, some);
-    from += some, place += some;
+  while (address < std::min(stop, up_to_page(part.committed))) {
+    Page* const page =
+        guarded<Page*>(nullptr, [&] { return part.page_at(address / page_bytes * page_bytes); });
+    if (!page) {
+      part.failed = true;
+      return -1;
+    }
+    const haddr_t some = std::min(stop, page->address + page_bytes) - address;
+    std::memcpy(page->bytes.data() + (address - page->address), from, some);
+    from += some;
+    address += some;
   }
-  if (place < stop && !write_at(part.file, place, from, stop - place)) return part.failed = true, -1;
+  if (address < stop && !write_at(part.file, address, from, stop - address)) {
+    part.failed = true;
+    return -1;
+  }
   part.end = std::max(part.end, stop);
   return 0;
 }

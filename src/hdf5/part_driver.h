@@ -11,7 +11,7 @@ namespace sandstroke {
 // the file stays as the last commit left it. The driver writes new bytes behind the end at once. Pages that
 // replace old ones wait in memory. A commit
 //   1. appends these pages to the file, and a seal,
-//   2. writes them into their places,
+//   2. writes them to their addresses,
 //   3. cuts off what it appended.
 // A kill before the seal leaves the old state. After a later kill this driver reads the pages behind the end.
 // This protects against kills only: a power failure would need writes to be forced to the disk in between.

@@ -45,9 +45,9 @@ void take_unit(const std::string& name, ColumnName& column) {
     return;
   }
   for (const char mark : {'_', '/', ' '}) {
-    const auto place = name.find(mark, 1);  // the unit of "v_m/s" follows the first mark
-    if (place == std::string::npos) continue;
-    for (const auto at : {name.rfind(mark), place}) {
+    const auto first = name.find(mark, 1);  // the unit of "v_m/s" follows the first mark
+    if (first == std::string::npos) continue;
+    for (const auto at : {name.rfind(mark), first}) {
       if (at == 0 || !is_unit(name.substr(at + 1))) continue;
       column.unit = name.substr(at + 1);
       column.bare = trimmed(name.substr(0, at));
@@ -97,8 +97,8 @@ int take_number(const std::string& bare, std::vector<std::string>& words) {
   return axis;
 }
 
-/// The place of "r11" to "r33" (first = '1'), or "r00" to "r22" (first = '0'), in a matrix, row by row.
-int matrix_place(const std::string& word, char first) {
+/// The position of "r11" to "r33" (first = '1'), or "r00" to "r22" (first = '0'), in a matrix, row by row.
+int matrix_position(const std::string& word, char first) {
   if (word.size() != 3 || word[0] != 'r') return -1;
   const int row = word[1] - first, column = word[2] - first;
   return row >= 0 && row < 3 && column >= 0 && column < 3 ? 3 * row + column : -1;
@@ -126,7 +126,7 @@ ColumnName column_name(const std::string& name) {
     return column;
   }
   for (const char first : {'1', '0'}) {
-    column.axis = matrix_place(words.back(), first);
+    column.axis = matrix_position(words.back(), first);
     if (column.axis < 0) continue;
     column.means = matrix;
     column.group = first;

@@ -29,17 +29,17 @@ struct GcodeArc {
   double start = 0.0, sweep = 0.0;        // rad, above 0 counterclockwise
 
   double chords() const {
-    const double share = std::max(gcode_arc_share, gcode_arc_tolerance / std::max(radius, end_radius));
-    const double step = 2.0 * elementary::acos(std::max(1.0 - share, 0.0));
+    const double fraction = std::max(gcode_arc_fraction, gcode_arc_tolerance / std::max(radius, end_radius));
+    const double step = 2.0 * elementary::acos(std::max(1.0 - fraction, 0.0));
     return std::ceil(std::abs(sweep) / step);
   }
   double length(double climb) const {
     return elementary::hypot(0.5 * (radius + end_radius) * sweep, end_radius - radius, climb);
   }
-  Vector2d at(double share) const {
-    const double angle = start + share * sweep;
+  Vector2d at(double fraction) const {
+    const double angle = start + fraction * sweep;
     return centre +
-           std::lerp(radius, end_radius, share) * Vector2d(elementary::cos(angle), elementary::sin(angle));
+           std::lerp(radius, end_radius, fraction) * Vector2d(elementary::cos(angle), elementary::sin(angle));
   }
 };
 
@@ -54,7 +54,7 @@ class GcodeReader {
 
   void take_line(std::string_view text, std::size_t number) {
     line_ = number;
-    const GcodeWords words = gcode_words(text, place());
+    const GcodeWords words = gcode_words(text, location());
     take_speed(words);
     bool moves = true;
     for (const int code : words.g) moves = take_g(code, words) && moves;
@@ -84,7 +84,7 @@ class GcodeReader {
   }
 
  private:
-  std::string place() const { return fmt::format("{}:{}", name_, line_); }
+  std::string location() const { return fmt::format("{}:{}", name_, line_); }
 
   /// True if the line's other words still belong to a motion.
   bool take_g(int code, const GcodeWords& words) {
@@ -137,7 +137,8 @@ class GcodeReader {
       case 940:
         return true;
       default:
-        throw_input_error("{}: G{:g} is not supported; write the path with G0 to G3", place(), code / 10.0);
+        throw_input_error("{}: G{:g} is not supported; write the path with G0 to G3", location(),
+                          code / 10.0);
     }
   }
 
@@ -145,7 +146,7 @@ class GcodeReader {
     for (const int code : words.g)
       if (code == 200 || code == 210) take_g(code, words);  // applies to its whole line
     if (const auto& feed = words['F']) {
-      if (!(*feed > 0.0)) throw_input_error("{}: speed F{} is not above 0; correct it", place(), *feed);
+      if (!(*feed > 0.0)) throw_input_error("{}: speed F{} is not above 0; correct it", location(), *feed);
       feed_ = *feed * scale_ / 60.0;
     }
   }
@@ -157,7 +158,10 @@ class GcodeReader {
     if (power && of_spindle && !std::count(words.g.begin(), words.g.end(), 40)) power_ = *power;
     for (const int code : words.m) {
       take_servo(code, words);
-      if (code == 30 || code == 40) spindle_ = true, path_.pen_word = gcode_spindle;
+      if (code == 30 || code == 40) {
+        spindle_ = true;
+        path_.pen_word = gcode_spindle;
+      }
       if (code == 50) spindle_ = false;
     }
   }
@@ -174,7 +178,10 @@ class GcodeReader {
     }
     constexpr double most_angle = 180.0;  // M300 with more is a tone
     if ((code != 2800 && code != 3000) || !words['S'] || *words['S'] > most_angle) return;
-    if (servo_angles_.empty()) servo_ = code, servo_line_ = line_;
+    if (servo_angles_.empty()) {
+      servo_ = code;
+      servo_line_ = line_;
+    }
     if (code == servo_) servo_angles_.insert(*words['S']);
   }
   bool pen_down() const { return spindle_ && power_ != 0.0; }
@@ -186,14 +193,14 @@ class GcodeReader {
       if (const auto& value = words["XYZ"[axis]])
         end[axis] = *value * scale_ + (relative_ ? position_ : origin_)[axis];
     if (end.cwiseAbs().maxCoeff() <= most) return end;
-    throw_input_error("{}: the move ends more than {:g} mm away; correct it", place(), most);
+    throw_input_error("{}: the move ends more than {:g} mm away; correct it", location(), most);
   }
 
   void arc(const GcodeWords& words) {
     if (plane_ != 17)
-      throw_input_error("{}: the arc is not in the plane of X and Y (G17); write lines instead", place());
+      throw_input_error("{}: the arc is not in the plane of X and Y (G17); write lines instead", location());
     if (words['P'] && *words['P'] != 1.0)
-      throw_input_error("{}: the arc has several turns (P); write one line for each turn", place());
+      throw_input_error("{}: the arc has several turns (P); write one line for each turn", location());
     const Vector3d begin = position_, end = target(words);
     GcodeArc curve;
     curve.centre =
@@ -202,12 +209,12 @@ class GcodeReader {
     curve.radius = from.norm();
     curve.end_radius = to.norm();
     if (!(curve.radius >= 1e-6 && curve.radius <= most))
-      throw_input_error("{}: the arc's radius is {:g} mm; correct I and J, or R", place(), curve.radius);
+      throw_input_error("{}: the arc's radius is {:g} mm; correct I and J, or R", location(), curve.radius);
     const double off = std::abs(curve.radius - curve.end_radius);
     if (!(off <= 0.5 && off <= std::max(0.005, 0.001 * curve.radius))) {  // the limits of Grbl and LinuxCNC
       throw_input_error(
           "{}: the arc begins {:g} mm from its centre and ends {:g} mm from it; correct X, Y, I or J",
-          place(), curve.radius, curve.end_radius);
+          location(), curve.radius, curve.end_radius);
     }
     curve.start = elementary::atan2(from.y(), from.x());
     curve.sweep = elementary::atan2(to.y(), to.x()) - curve.start;
@@ -237,10 +244,10 @@ class GcodeReader {
   Vector2d centre_by_radius(const Vector2d& end, double radius) const {
     const Vector2d way = end - position_.head<2>();
     const double half = 0.5 * way.norm();
-    if (half == 0.0) throw_input_error("{}: the arc with R ends where it begins; give I and J", place());
+    if (half == 0.0) throw_input_error("{}: the arc with R ends where it begins; give I and J", location());
     if (half > std::abs(radius) * (1.0 + 1e-4) + 0.005)
       throw_input_error("{}: R is {:g} mm, too small for an arc between points {:g} mm apart; correct it",
-                        place(), std::abs(radius), 2.0 * half);
+                        location(), std::abs(radius), 2.0 * half);
     const double height = std::sqrt(std::max(radius * radius - half * half, 0.0));
     const Vector2d left = Vector2d(-way.y(), way.x()) / (2.0 * half);
     const bool centre_left = (motion_ == 3) == (radius > 0.0);

@@ -18,8 +18,9 @@ namespace sandstroke {
 /// and in G0. A pen on a servo (M280, or M300 with an angle) is up after the word that pen_up names ("M280
 /// S90"), and down after that M word with other numbers; only its user knows which angle is up. Points with
 /// the pen up are left out, and the sample before them lifts. The path begins where the first move ends. The
-/// place before it is not known; G91 and arcs take it as (0, 0, 0). Words that do not move the tool along a
-/// path are passed over (M words, tools, dwelling, G28: going home). Error: io; input, naming file and line.
+/// position before it is not known; G91 and arcs take it as (0, 0, 0). Words that do not move the tool along
+/// a path are passed over (M words, tools, dwelling, G28: going home). Error: io; input, naming file and
+/// line.
 SampleTable read_gcode(const std::filesystem::path& path, const std::string& pen_up = "");
 /// The same from text; `name` stands for the file in messages.
 SampleTable parse_gcode(std::string_view text, const std::string& name, const std::string& pen_up = "");
@@ -27,6 +28,6 @@ SampleTable parse_gcode(std::string_view text, const std::string& name, const st
 /// How far the chords of an arc may be off it: Grbl's tolerance (its setting $12), and for large arcs this
 /// fraction of the radius.
 inline constexpr double gcode_arc_tolerance = 0.002;  // mm
-inline constexpr double gcode_arc_share = 1e-5;
+inline constexpr double gcode_arc_fraction = 1e-5;
 
 }  // namespace sandstroke

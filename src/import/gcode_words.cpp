@@ -44,7 +44,7 @@ bool GcodeWords::has_any_of(std::string_view letters) const {
                      [this](char letter) { return (*this)[letter].has_value(); });
 }
 
-GcodeWords gcode_words(std::string_view line, const std::string& place) {
+GcodeWords gcode_words(std::string_view line, const std::string& location) {
   GcodeWords words;
   const std::string bare = bare_gcode(line);
   for (std::string_view rest = bare; !rest.empty();) {
@@ -56,13 +56,14 @@ GcodeWords gcode_words(std::string_view line, const std::string& place) {
     if (letter < 'A' || letter > 'Z' || failure != std::errc() || !std::isfinite(number)) {
       if (!words.m.empty()) return words;  // M117 and others are followed by text
       throw_input_error("{}: '{}' is not a word of G-code (a letter and a number); correct or remove it",
-                        place, fmt::format("{}{}", letter, rest.substr(0, 20)));
+                        location, fmt::format("{}{}", letter, rest.substr(0, 20)));
     }
     rest.remove_prefix(static_cast<std::size_t>(end - rest.data()));
     if (letter == 'G' || letter == 'M') {
       const double code = std::clamp(number, 0.0, 1e6);
       if (letter == 'M' && is_followed_by_text(code)) return words;
-      (letter == 'G' ? words.g : words.m).push_back(static_cast<int>(std::lround(10.0 * code)));
+      auto& codes = letter == 'G' ? words.g : words.m;
+      codes.push_back(static_cast<int>(std::lround(10.0 * code)));
     } else {
       words.value[static_cast<std::size_t>(letter - 'A')] = number;
     }

@@ -20,8 +20,8 @@ struct GcodeWords {
 };
 
 /// The words of a line, without comments, checksum, blanks and commands to the machine ($H). Error: input;
-/// `place` is the file and line.
-GcodeWords gcode_words(std::string_view line, const std::string& place);
+/// `location` is the file and line.
+GcodeWords gcode_words(std::string_view line, const std::string& location);
 
 /// True if a text looks like G-code: some line has a G word of motion, units or coordinates.
 bool looks_like_gcode(std::string_view text);

@@ -67,12 +67,12 @@ void merge_strokes(ImportedStroke& first, const ImportedStroke& second, double s
     const double own = std::clamp(time - offset, from.time.front(), from.time.back());
     while (k + 2 < from.size() && from.time[k + 1] <= own) ++k;
     const std::size_t next = std::min(k + 1, from.size() - 1);
-    const double share = next == k ? 0.0 : (own - from.time[k]) / (from.time[next] - from.time[k]);
+    const double fraction = next == k ? 0.0 : (own - from.time[k]) / (from.time[next] - from.time[k]);
     if (!from.force.empty())
-      stroke.force.push_back(from.force[k] + share * (from.force[next] - from.force[k]));
+      stroke.force.push_back(from.force[k] + fraction * (from.force[next] - from.force[k]));
     if (!from.orientation.empty())
       stroke.orientation.push_back(Eigen::Quaterniond(from.orientation[k])
-                                       .slerp(share, Eigen::Quaterniond(from.orientation[next]))
+                                       .slerp(fraction, Eigen::Quaterniond(from.orientation[next]))
                                        .coeffs());
   }
 }

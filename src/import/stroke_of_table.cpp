@@ -211,8 +211,8 @@ class StrokeMaker {
         q = is_rotation ? Eigen::Quaterniond(matrix) : Eigen::Quaterniond(0.0, 0.0, 0.0, 0.0);
       }
       if (!(q.norm() > 0.5 && q.norm() < 2.0))
-        throw_input_error("{}: columns {} are not a {}; name other columns, or correct the sample", place(i),
-                          names(layout_.orientation),
+        throw_input_error("{}: columns {} are not a {}; name other columns, or correct the sample",
+                          location(i), names(layout_.orientation),
                           layout_.orientation.size() == 4 ? "quaternion of length 1" : "rotation matrix");
       made_.stroke.orientation.emplace_back((turn * q.normalized()).coeffs());
     }
@@ -239,7 +239,7 @@ class StrokeMaker {
     tell(fmt::format("the pen is up in {} samples without pressure", std::ssize(stroke.pressure) - pressed));
   }
 
-  std::string place(std::size_t i) const {
+  std::string location(std::size_t i) const {
     return table_.lines.empty() ? fmt::format("{}: sample {}", name_, i)
                                 : fmt::format("{}:{}", name_, table_.lines[i]);
   }

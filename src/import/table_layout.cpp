@@ -32,7 +32,7 @@ struct Group {
 
 class LayoutFinder {
  public:
-  LayoutFinder(const std::vector<SampleColumn>& columns, const std::string& place) : place_(place) {
+  LayoutFinder(const std::vector<SampleColumn>& columns, const std::string& location) : location_(location) {
     for (const SampleColumn& column : columns) names_.push_back({column.name, column_name(column.name)});
   }
 
@@ -41,21 +41,24 @@ class LayoutFinder {
     ColumnChoices choices;
     for (const std::string& wanted : parts_of_list(list)) choices.push_back(find(wanted));
     if (std::find(counts.begin(), counts.end(), choices.size()) == counts.end())
-      throw_input_error("{}: {} names {} columns ({}); name {}", place_, key, choices.size(), list,
+      throw_input_error("{}: {} names {} columns ({}); name {}", location_, key, choices.size(), list,
                         fmt::join(counts, " or "));
     for (std::size_t i = 0; i < choices.size(); ++i)
       for (std::size_t k = 0; k < i; ++k)
         if (choices[i].column == choices[k].column)
-          throw_input_error("{}: {} names column '{}' twice ({}); name each once", place_, key,
+          throw_input_error("{}: {} names column '{}' twice ({}); name each once", location_, key,
                             names_[choices[i].column].name, list);
     return choices;
   }
 
   std::size_t one(const std::string& wanted) const { return find_column(wanted); }
 
+  /// Of two groups that are equally plain the first is taken, or they are refused.
+  enum class Ties { first, refused };
+
   /// The plainest group that has its first `least` axes; all of its first `most` axes, if it has those.
-  /// Empty: there is no such group. only: two groups must not be equally plain.
-  ColumnChoices found(Means means, int least, int most, bool only = false) const {
+  /// Empty: there is no such group.
+  ColumnChoices found(Means means, int least, int most, Ties ties = Ties::first) const {
     std::map<std::string, Group> groups;
     for (std::size_t i = 0; i < names_.size(); ++i) {
       const ColumnName& parts = names_[i].parts;
@@ -74,9 +77,9 @@ class LayoutFinder {
       plainest.push_back(&group);
     }
     if (plainest.empty()) return {};
-    if (only && plainest.size() > 1)
+    if (ties == Ties::refused && plainest.size() > 1)
       throw_input_error("{}: columns '{}' and '{}' may both be the position; name its columns with {}",
-                        place_, name_of(*plainest[0]), name_of(*plainest[1]), option_and_key("position"));
+                        location_, name_of(*plainest[0]), name_of(*plainest[1]), option_and_key("position"));
     ColumnChoices choices;
     const Group& group = *plainest.front();
     for (int axis = 0; axis < (group.has(most) ? most : least); ++axis) {
@@ -149,21 +152,21 @@ class LayoutFinder {
     if (failure == std::errc() && end == wanted.data() + wanted.size() && number >= 1 &&
         number <= names_.size())
       return number - 1;
-    throw_input_error("{}: column '{}' is missing; the columns are: {}", place_, wanted, all_names());
+    throw_input_error("{}: column '{}' is missing; the columns are: {}", location_, wanted, all_names());
   }
 
   void check_only_one(const std::string& name) const {
     const auto count =
         std::count_if(names_.begin(), names_.end(), [&](const Named& other) { return other.name == name; });
     if (count > 1)
-      throw_input_error("{}: {} columns are named '{}'; give each its own name", place_, count, name);
+      throw_input_error("{}: {} columns are named '{}'; give each its own name", location_, count, name);
   }
 
   const std::string& name_of(const Group& group) const {
     return names_[static_cast<std::size_t>(group.axes[0])].name;
   }
 
-  std::string place_;
+  std::string location_;
   std::vector<Named> names_;
 };
 
@@ -190,18 +193,18 @@ std::string option_and_key(const std::string& key) {
 }
 
 TableLayout table_layout(const std::vector<SampleColumn>& columns, const TableSettings& settings,
-                         const std::string& place, const std::optional<Eigen::Matrix3d>& of_first) {
-  const LayoutFinder finder(columns, place);
+                         const std::string& location, const std::optional<Eigen::Matrix3d>& of_first) {
+  const LayoutFinder finder(columns, location);
   TableLayout layout;
   if (!settings.position.empty()) {
     layout.position = finder.named(settings.position, "position", {2, 3});
   } else if (!of_first) {
-    layout.position = finder.found(Means::position, 2, 3, true);
+    layout.position = finder.found(Means::position, 2, 3, LayoutFinder::Ties::refused);
     if (layout.position.empty())
       throw_input_error(
           "{}: no columns are named x, y and z; give the names or numbers of the position's columns with {}; "
           "the columns are: {}",
-          place, option_and_key("position"), finder.all_names());
+          location, option_and_key("position"), finder.all_names());
   }
   layout.axes = of_first ? *of_first : finder.axes_of(layout.position);
   const auto vector = [&](const std::string& list, const char* key, Means means) {

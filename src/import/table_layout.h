@@ -29,9 +29,9 @@ struct TableLayout {
 
 /// Takes the columns that the settings name, and else those whose names tell their meaning. of_first: the
 /// axes of the first table, with which this one is merged, and which has the position then. The columns may
-/// have no values yet. Error: input; `place` says where the names stand.
+/// have no values yet. Error: input; `location` says where the names stand.
 TableLayout table_layout(const std::vector<SampleColumn>& columns, const TableSettings& settings,
-                         const std::string& place, const std::optional<Eigen::Matrix3d>& of_first = {});
+                         const std::string& location, const std::optional<Eigen::Matrix3d>& of_first = {});
 
 /// The option of `stroke convert` for a key: "--position-unit".
 std::string option_of(const std::string& key);

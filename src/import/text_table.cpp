@@ -51,7 +51,7 @@ bool is_unit_or_empty(const std::string& field) {
 /// A number with commas: "12,040" of 12040.
 std::string grouped(std::size_t number) {
   std::string digits = std::to_string(number);
-  for (std::size_t place = digits.size(); place > 3;) digits.insert(place -= 3, ",");
+  for (std::size_t at = digits.size(); at > 3;) digits.insert(at -= 3, ",");
   return digits;
 }
 
@@ -233,9 +233,9 @@ class TextTable::Rows {
     return false;
   }
 
-  void set_columns(const std::vector<std::string>& names, const std::string& place) {
+  void set_columns(const std::vector<std::string>& names, const std::string& location) {
     for (const std::string& name : names) table_.columns.push_back({name, column_name(name).unit, {}, 0});
-    place_ = place;
+    location_ = location;
     after_header_ = true;
   }
 
@@ -252,7 +252,7 @@ class TextTable::Rows {
 
   void begin_samples() {
     after_header_ = false;
-    layout_ = table_layout(table_.columns, settings_, place_, of_first_);
+    layout_ = table_layout(table_.columns, settings_, location_, of_first_);
     const auto want = [&](const ColumnChoices& choices) {
       for (const ColumnChoice& choice : choices) wanted_.push_back(choice.column);
     };
@@ -314,7 +314,7 @@ class TextTable::Rows {
   std::optional<Dialect> dialect_;
   std::size_t fields_of_most_ = 0;
   LineSplitter splitter_;
-  std::string place_;          // of the columns' names
+  std::string location_;       // of the columns' names
   bool after_header_ = false;  // no sample yet
   bool has_no_header_ = false;
   TableLayout layout_;

@@ -66,8 +66,8 @@ SampleTable parse_thr(std::string_view text, const std::string& name) {
       const double count = chords(last, next);
       check_curve_points(count, table.size(), name, number);
       for (double k = 1.0; k <= count; ++k) {
-        const double share = k / count;
-        add(std::lerp(last.theta, next.theta, share), std::lerp(last.rho, next.rho, share), number);
+        const double fraction = k / count;
+        add(std::lerp(last.theta, next.theta, fraction), std::lerp(last.rho, next.rho, fraction), number);
       }
     }
     last = next;

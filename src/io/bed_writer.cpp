@@ -75,12 +75,12 @@ void write_bed(Hdf5Writer& file, const std::string& dataset, const HeightField& 
 }
 
 void write_bed_axes(Hdf5GridWriter& file, const std::string& group, const BedGeometry& bed) {
-  std::vector<double> places;
-  for (int row = 0; row < bed.rows(); ++row) places.push_back(bed.y_of(row));
-  file.write_scale(group + "/y", places, "m", "centre of a row of cells");
-  places.clear();
-  for (int col = 0; col < bed.cols(); ++col) places.push_back(bed.x_of(col));
-  file.write_scale(group + "/x", places, "m", "centre of a column of cells");
+  std::vector<double> centres;
+  for (int row = 0; row < bed.rows(); ++row) centres.push_back(bed.y_of(row));
+  file.write_scale(group + "/y", centres, "m", "centre of a row of cells");
+  centres.clear();
+  for (int col = 0; col < bed.cols(); ++col) centres.push_back(bed.x_of(col));
+  file.write_scale(group + "/x", centres, "m", "centre of a column of cells");
 }
 
 }  // namespace sandstroke

@@ -81,7 +81,7 @@ InputKind kind_of_toml(const fs::path& path) {
 
 OutputKind output_kind(InputKind kind) {
   const KindText& text = text_of(kind);
-  return hdf5_output(text.name, text.format, false, text.version);
+  return hdf5_output(text.name, text.format, text.version);
 }
 
 bool has_format(const Hdf5Reader& file, InputKind kind) {

@@ -42,7 +42,8 @@ class KeyReader : public KeyVisitor {
       values[0] = toml_.integer(prefix_ + key, values[0], lowest, highest);
       return;
     }
-    const Range range{static_cast<double>(lowest), static_cast<double>(highest), false, true};
+    const Range range{
+        .lowest = static_cast<double>(lowest), .highest = static_cast<double>(highest), .whole = true};
     const auto read = toml_.numbers(prefix_ + key, std::vector<double>(values, values + count), range);
     for (int i = 0; i < count; ++i) values[i] = static_cast<int>(read[i]);
   }

@@ -13,8 +13,9 @@ namespace {
 /// Collects the keys that it is shown. It sets the key `name` to `chosen`, as if read from a file.
 class KeyLister : public KeyVisitor {
  public:
-  explicit KeyLister(bool reads, std::string name = "", std::string chosen = "")
-      : reads_(reads), name_(std::move(name)), chosen_(std::move(chosen)) {}
+  KeyLister() = default;
+  KeyLister(std::string name, std::string chosen)
+      : reads_(true), name_(std::move(name)), chosen_(std::move(chosen)) {}
   std::vector<KeySection> sections;
 
   void section(const char* name, const char* help) override { sections.push_back({name, help, {}}); }
@@ -79,14 +80,14 @@ class KeyLister : public KeyVisitor {
     return digits;
   }
 
-  bool reads_;
+  bool reads_ = false;
   std::string name_, chosen_;
   bool no_default_ = false, required_ = false;  // of the next key
 };
 
 /// The keys with their defaults, except for one choice; no name: no exception.
 std::vector<KeySection> keys_with(const ShowKeys& show, const std::string& name, const std::string& chosen) {
-  KeyLister lister(true, name, chosen);
+  KeyLister lister(name, chosen);
   show(lister);
   return std::move(lister.sections);
 }
@@ -144,7 +145,7 @@ std::string KeyRow::explanation() const {
 }
 
 std::vector<KeySection> listed_keys(const ShowKeys& show) {
-  KeyLister lister(false);
+  KeyLister lister;
   show(lister);
   return std::move(lister.sections);
 }

@@ -38,9 +38,9 @@ void add_triangle(TriangleMesh& mesh, const std::array<Eigen::Vector3d, 3>& corn
 constexpr std::size_t header = 80, per_triangle = 50;
 
 template <class Number>
-Number number_at(const std::string& bytes, std::size_t place) {
+Number number_at(const std::string& bytes, std::size_t offset) {
   Number number;
-  std::memcpy(&number, bytes.data() + place, sizeof number);
+  std::memcpy(&number, bytes.data() + offset, sizeof number);
   return number;
 }
 
@@ -73,7 +73,10 @@ class Words {
   explicit Words(std::string_view text) : rest_(text) {}
   /// Empty at the end.
   std::string_view next() {
-    while (!rest_.empty() && is_space(rest_.front())) line_ += rest_.front() == '\n', rest_.remove_prefix(1);
+    while (!rest_.empty() && is_space(rest_.front())) {
+      line_ += rest_.front() == '\n';
+      rest_.remove_prefix(1);
+    }
     std::size_t length = 0;
     while (length < rest_.size() && !is_space(rest_[length])) ++length;
     const std::string_view word = rest_.substr(0, length);

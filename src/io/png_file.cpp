@@ -234,8 +234,8 @@ std::string encode_height_png(const HeightGrid& heights, const GrayRange& range)
   pixels.reserve(static_cast<std::size_t>(heights.size()));
   for (Eigen::Index row = heights.rows() - 1; row >= 0; --row)
     for (Eigen::Index col = 0; col < heights.cols(); ++col) {
-      const double share = (heights(row, col) - range.black) / (range.white - range.black);
-      pixels.push_back(static_cast<png_uint_16>(std::lround(65535.0 * std::clamp(share, 0.0, 1.0))));
+      const double fraction = (heights(row, col) - range.black) / (range.white - range.black);
+      pixels.push_back(static_cast<png_uint_16>(std::lround(65535.0 * std::clamp(fraction, 0.0, 1.0))));
     }
   return encode_gray(static_cast<int>(heights.cols()), static_cast<int>(heights.rows()), pixels.data(),
                      text_chunk("Software", fmt::format("height map of {}", build)) +

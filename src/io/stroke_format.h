@@ -13,8 +13,9 @@ inline constexpr const char* stroke_group = "/stroke";
 
 // The strokes that this program writes. The mark is in the root; strokes of other programs have none there.
 inline constexpr OutputKind stroke_output =
-    hdf5_output("a stroke of a script or table", "sandstroke.converted_stroke", true);
-inline constexpr OutputKind recording_output = hdf5_output("a recording", "sandstroke.recorded_stroke", true);
+    irreplaceable(hdf5_output("a stroke of a script or table", "sandstroke.converted_stroke"));
+inline constexpr OutputKind recording_output =
+    irreplaceable(hdf5_output("a recording", "sandstroke.recorded_stroke"));
 
 /// Error: input, unless the file is a stroke in the format of this program.
 void check_stroke_format(const Hdf5Reader& file);

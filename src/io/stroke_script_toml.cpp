@@ -22,7 +22,7 @@ void show_press(KeyVisitor& v, PressKeys& press) {
   v.profile("depth", press.depth, depth_range, "m",
             "depth below z = 0; a list gives values evenly spaced along the segment");
   v.profile("force", press.force, force_range, "N",
-            "repulse force that is felt, instead of depth; all heights then count from the surface of the "
+            "repulse force on the hand, instead of depth; all heights then count from the surface of the "
             "sand; a list works as for depth");
 }
 

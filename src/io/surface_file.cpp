@@ -12,8 +12,10 @@ BedSettings with_own_range(BedSettings bed, const std::filesystem::path& folder)
   SurfaceSettings& surface = bed.surface;
   if (surface.kind != SurfaceKind::file || !has_picture_name(surface.file) || surface.low != surface.high)
     return bed;
-  if (const std::optional<GrayRange> own = read_gray_range(folder / surface.file))
-    surface.low = own->black, surface.high = own->white;
+  if (const std::optional<GrayRange> own = read_gray_range(folder / surface.file)) {
+    surface.low = own->black;
+    surface.high = own->white;
+  }
   return bed;
 }
 

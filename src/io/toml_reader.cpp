@@ -196,8 +196,8 @@ void TomlReader::fail(std::string_view key, const std::string& sentence) const {
   if (const std::string set = override_of(full); !set.empty())
     throw_input_error("{}: {} {}", set, full, sentence);
   const toml::node* node = table_->at_path(key).node();
-  const toml::node* place = node ? node : table_;
-  if (const auto line = place->source().begin.line; line > 0 && (node || !prefix_.empty()))
+  const toml::node* located = node ? node : table_;
+  if (const auto line = located->source().begin.line; line > 0 && (node || !prefix_.empty()))
     throw_input_error("{}:{}: {} {}", document_->name, line, full, sentence);
   throw_input_error("{}: {} {}", document_->name, full, sentence);
 }
@@ -208,12 +208,12 @@ double TomlReader::checked(std::string_view key, const toml::node& node, Range r
     fail(key, fmt::format("is '{}'; give only the number{}", text->get(),
                           unit.empty() ? "" : fmt::format(", in {}", unit)));
   if (!node.is_number()) fail(key, fmt::format("is {}; give a number", type_name(node)));
-  const std::optional<double> held = node.value<double>();  // none for most integers beyond 2^53
-  if (!held)
+  const std::optional<double> converted = node.value<double>();  // none for most integers beyond 2^53
+  if (!converted)
     fail(key, fmt::format("is {}, but whole numbers are exact only up to 2^53 = 9007199254740992; give a "
                           "smaller one, or write it with a decimal point",
                           node.value<std::int64_t>().value_or(0)));
-  const double number = *held;
+  const double number = *converted;
   if (!std::isfinite(number)) fail(key, fmt::format("is {}; give a finite number", number));
   if (!range.contains(number)) fail(key, fmt::format("is {}; give a number {}", number, range_text(range)));
   if (range.whole && number != std::floor(number))
@@ -379,15 +379,15 @@ std::string TomlReader::override_of(const std::string& key) const {
 void TomlReader::reject_unread(const Conditions& conditions) const {
   const auto reject = [&](const std::string& key, const toml::node& node) {
     const std::string set = override_of(key);
-    const std::string place =
+    const std::string location =
         set.empty() ? fmt::format("{}:{}", document_->name, node.source().begin.line) : set;
     const auto known = conditions ? conditions() : std::map<std::string, std::string>{};
     if (const auto found = known.find(key); found != known.end())
-      throw_input_error("{}: {} applies only where {}; remove it, or change that setting", place, key,
+      throw_input_error("{}: {} applies only where {}; remove it, or change that setting", location, key,
                         found->second);
     for (const auto& [other, condition] : known) document_->asked_for.insert(other);
     const std::string suggestion = nearest_name(key, document_->asked_for);
-    throw_input_error("{}: unknown key {}{}", place, key,
+    throw_input_error("{}: unknown key {}{}", location, key,
                       suggestion.empty()
                           ? "; remove it (sandstroke help scene, script or plan lists the keys)"
                           : fmt::format("; did you mean {}?", suggestion));

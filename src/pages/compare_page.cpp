@@ -63,7 +63,10 @@ PageOfParts start_page_of_files(const fs::path& golden_file, const fs::path& run
   const bool same = golden_file.filename() == run_file.filename();
   const std::string a = (same ? golden_file : golden_file.filename()).string(),
                     b = (same ? run_file : run_file.filename()).string();
-  if (a != b) golden["label"] = a, run["label"] = b;
+  if (a != b) {
+    golden["label"] = a;
+    run["label"] = b;
+  }
   return start_page(fmt::format("{} against {}", b, a), comparison, std::move(golden), std::move(run));
 }
 
@@ -83,7 +86,8 @@ PageOfParts run_page(const RunFile& golden, const RunFile& run, const Comparison
   std::optional<HeightField> a, b;  // final, once they are read
   page.add_part("Final height", [&] {
     const RunPair pair = run_pair(golden, run, coarsen);
-    a = pair.golden.final(), b = pair.run.final();
+    a = pair.golden.final();
+    b = pair.run.final();
     return surfaces_part(
         {"Final height", *a, pair.golden.initial(), *b, pair.run.initial(), tolerances.height});
   });
@@ -123,7 +127,8 @@ PageOfParts golden_page(const GoldenEntry& entry, const GoldenRun& run_of_scene,
     const HeightField expected(golden.change, golden.cell_size), change(height_change(run), golden.cell_size);
     const HeightField none(expected.rows(), expected.cols(), expected.cell_size());
     const HeightField none_of_run(change.rows(), change.cols(), change.cell_size());
-    return surfaces_part({"Change of height", expected, none, change, none_of_run, tolerances.height, true});
+    return surfaces_part(
+        {"Change of height", expected, none, change, none_of_run, tolerances.height, ColourScale::diverging});
   });
   page.add_part("Picture", [&] {
     return pictures_part("Picture", read_golden_picture(entry), run_of_scene.picture,

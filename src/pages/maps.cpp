@@ -48,11 +48,11 @@ ValueRange finite_range(const HeightGrid& values) {
 
 /// A colour scale from low to high. `one` is the size of its unit [m], or 1 for numbers without a unit.
 Json scale_json(const std::string& title, const ValueRange& range, const std::string& unit, double one,
-                bool around_zero) {
+                ColourScale colour_scale) {
   Json colours = Json::array();
   for (int i = 0; i < scale_colours; ++i) {
-    const double unit_place = i / (scale_colours - 1.0);
-    const auto colour = scale_colour(unit_place, 0.0, 1.0, around_zero);
+    const double fraction = i / (scale_colours - 1.0);
+    const auto colour = scale_colour(fraction, 0.0, 1.0, colour_scale);
     colours.push_back(fmt::format("#{:02x}{:02x}{:02x}", std::lround(255 * colour[0]),
                                   std::lround(255 * colour[1]), std::lround(255 * colour[2])));
   }
@@ -60,9 +60,9 @@ Json scale_json(const std::string& title, const ValueRange& range, const std::st
           {"high", range.high / one}, {"one", one},   {"colours", colours}};
 }
 
-Json height_scale(const std::string& title, const ValueRange& range, bool around_zero) {
+Json height_scale(const std::string& title, const ValueRange& range, ColourScale colours) {
   const LengthUnit unit = length_unit(std::max(std::abs(range.low), std::abs(range.high)));
-  return scale_json(title, range, unit.name, unit.metres, around_zero);
+  return scale_json(title, range, unit.name, unit.metres, colours);
 }
 
 Json map_json(const std::string& name, const Image& image, const Json& scale, const std::string& text = "") {
@@ -75,15 +75,16 @@ Json map_json(const std::string& name, const Image& image, const Json& scale, co
   return json;
 }
 
-Image height_map(const HeightGrid& values, const ValueRange& range, bool around_zero) {
+Image height_map(const HeightGrid& values, const ValueRange& range, ColourScale colours) {
   const auto rows = static_cast<double>(values.rows()), cols = static_cast<double>(values.cols());
   const double scale = std::min(1.0, most_pixels / std::max(rows, cols));
-  return plain_map(values, range.low, range.high, around_zero,
+  return plain_map(values, range.low, range.high, colours,
                    std::max(1, static_cast<int>(std::lround(cols * scale))),
                    std::max(1, static_cast<int>(std::lround(rows * scale))));
 }
 
-/// Gives each cell the value of its spot. The grid keeps its size, so that a place stays in the same pixel.
+/// Gives each cell the value of its spot. The grid keeps its size, so that a position stays in the same
+/// pixel.
 HeightGrid spread(const HeightGrid& values, const Spots& spots) {
   const HeightGrid seen = at_spots(values, spots);
   return HeightGrid::NullaryExpr(values.rows(), values.cols(), [&](Eigen::Index row, Eigen::Index col) {
@@ -135,7 +136,7 @@ CellRange shown_cells(const ComparedSurfaces& s) {
                           std::min(all.col_begin, range.col_begin), std::max(all.col_end, range.col_end)};
   };
   const auto add_moved = [&](const HeightField& initial, const HeightField& final) {
-    add(differing_cells(initial, final, settled_share * field_difference(initial, final).max));
+    add(differing_cells(initial, final, settled_fraction * field_difference(initial, final).max));
   };
   add_moved(s.golden_initial, s.golden);
   add_moved(s.run_initial, s.run);
@@ -149,12 +150,12 @@ Json surfaces_part(const ComparedSurfaces& s) {
   const HeightGrid golden = block(s.golden, alike ? shown : s.golden.cells());
   const HeightGrid run = block(s.run, alike ? shown : s.run.cells());
   const ValueRange a = finite_range(golden), b = finite_range(run);
-  const ValueRange range = value_range(std::min(a.low, b.low), std::max(a.high, b.high), s.around_zero);
-  const Json scale = height_scale(s.title, range, s.around_zero);
+  const ValueRange range = value_range(std::min(a.low, b.low), std::max(a.high, b.high), s.colours);
+  const Json scale = height_scale(s.title, range, s.colours);
   Json part{{"kind", "maps"}, {"title", s.title}, {"maps", Json::array()}};
   Json& maps = part["maps"];
-  maps.push_back(map_json("golden", height_map(golden, range, s.around_zero), scale));
-  maps.push_back(map_json("run", height_map(run, range, s.around_zero), scale));
+  maps.push_back(map_json("golden", height_map(golden, range, s.colours), scale));
+  maps.push_back(map_json("run", height_map(run, range, s.colours), scale));
   if (!alike) {
     part["text"] = fmt::format("They differ in shape: golden has {} x {} cells, the run {} x {}.",
                                golden.cols(), golden.rows(), run.cols(), run.rows());
@@ -164,7 +165,7 @@ Json surfaces_part(const ComparedSurfaces& s) {
 
   const HeightGrid difference = run - golden;
   const double span = std::max(finite_magnitude(difference), s.limit);
-  const ValueRange difference_range = value_range(-span, span, true);
+  const ValueRange difference_range = value_range(-span, span, ColourScale::diverging);
   const Spots spots = spots_of(difference, most_spots);
   const FieldDifference whole = field_difference(s.golden, s.run);
   std::string text = fmt::format(
@@ -174,8 +175,9 @@ Json surfaces_part(const ComparedSurfaces& s) {
   if (spots.side > 1)
     text +=
         fmt::format(" Each spot of {0} x {0} cells has the colour of its largest difference.", spots.side);
-  maps.push_back(map_json("difference", height_map(spread(difference, spots), difference_range, true),
-                          height_scale("difference", difference_range, true), text));
+  maps.push_back(map_json("difference",
+                          height_map(spread(difference, spots), difference_range, ColourScale::diverging),
+                          height_scale("difference", difference_range, ColourScale::diverging), text));
 
   const BedGeometry& bed = s.golden;
   const double half = 0.5 * bed.cell_size();
@@ -211,10 +213,10 @@ Json pictures_part(const std::string& title, const Image& golden, const Image& r
   const ValueRange range{-static_cast<double>(span), static_cast<double>(span)};
   maps.push_back(
       map_json("difference", picture_difference_map(golden, run, span),
-               scale_json("difference", range, "of 255", 1.0, true),
+               scale_json("difference", range, "of 255", 1.0, ColourScale::diverging),
                fmt::format("Largest {} of 255 at pixel x = {}, y = {}, limit {}; {:.4g} % of the pixels "
                            "differ. Each pixel has the colour of its channel that differs most.",
-                           whole.max, whole.x, whole.y, limit, 100.0 * whole.share)));
+                           whole.max, whole.x, whole.y, limit, 100.0 * whole.fraction)));
   part["extent"] = {{"x", {0, golden.width}}, {"y", {golden.height, 0}}};
   if (whole.max > 0) part["largest"] = {{"x", whole.x + 0.5}, {"y", whole.y + 0.5}};
   return part;

@@ -4,23 +4,24 @@
 #include <string>
 
 #include "picture/image.h"
+#include "render/colour_map.h"
 #include "sand/height_field.h"
 
 namespace sandstroke {
 
 // A part of a page with maps of golden, run and their difference. All maps of a part have equally many pixels
-// and show the same place in the same pixel. Where golden and run differ in shape this does not hold, and
+// and show the same position in the same pixel. Where golden and run differ in shape this does not hold, and
 // there is no map of the difference.
 
 /// Two surfaces, or two changes of height, each with its initial one.
 struct ComparedSurfaces {
   std::string title;  ///< "Final height"
   HeightField golden, golden_initial, run, run_initial;
-  double limit = 0.0;        ///< m; up to it they count as equal
-  bool around_zero = false;  ///< colours of heights: from blue to red, with white at zero
+  double limit = 0.0;                             ///< m; up to it they count as equal
+  ColourScale colours = ColourScale::sequential;  ///< of the heights; diverging: white at zero
 };
 
-/// The part of the bed where sand was moved in one of them (by more than settled_share of its largest
+/// The part of the bed where sand was moved in one of them (by more than settled_fraction of its largest
 /// change), or where they differ by more than the limit; with a margin. The whole bed where there is no such
 /// part, or where a height is not finite; empty where they differ in shape.
 CellRange shown_cells(const ComparedSurfaces& surfaces);

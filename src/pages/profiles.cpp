@@ -17,10 +17,10 @@ using Json = nlohmann::ordered_json;
 constexpr double side_reach = 6.0;  // radii, as furrows are measured
 constexpr double most_stations = 1e5;
 
-/// A place on the path of the tip.
+/// A position on the path of the tip.
 struct Station {
   double length;  // m, from the start of the path
-  Eigen::Vector2d place;
+  Eigen::Vector2d position;
   bool begins;  // the tip came down here
 };
 
@@ -51,19 +51,19 @@ std::vector<Station> subdivided(const std::vector<Station>& coarse, double step)
       const double parts = std::ceil((next.length - before.length) / step);
       for (double part = 1.0; part < parts; ++part)
         fine.push_back({std::lerp(before.length, next.length, part / parts),
-                        before.place + part / parts * (next.place - before.place), false});
+                        before.position + part / parts * (next.position - before.position), false});
     }
     fine.push_back(next);
   }
   return fine;
 }
 
-/// The initial and the last surface at places that are added in order.
+/// The initial and the last surface at positions that are added in order.
 struct Profile {
   Curve initial, last;
-  void add(double at, const Eigen::Vector2d& place, const HeightField& a, const HeightField& b) {
-    initial.add(at, a.height_at(place.x(), place.y()));
-    last.add(at, b.height_at(place.x(), place.y()));
+  void add(double at, const Eigen::Vector2d& position, const HeightField& a, const HeightField& b) {
+    initial.add(at, a.height_at(position.x(), position.y()));
+    last.add(at, b.height_at(position.x(), position.y()));
   }
   void break_off(double at) {
     initial.add(at, std::numeric_limits<double>::quiet_NaN());
@@ -79,14 +79,14 @@ struct Profile {
   }
 };
 
-/// The direction over half a radius to either side, but not past a lift; x where the tip stayed in place.
+/// The direction over half a radius to either side, but not past a lift; x where the tip stayed.
 Eigen::Vector2d direction_at(const std::vector<Station>& stations, std::size_t middle, double radius) {
   std::size_t from = middle, to = middle;
   while (!stations[from].begins && stations[middle].length - stations[from].length < 0.5 * radius) --from;
   while (to + 1 < stations.size() && !stations[to + 1].begins &&
          stations[to].length - stations[middle].length < 0.5 * radius)
     ++to;
-  const Eigen::Vector2d way = stations[to].place - stations[from].place;
+  const Eigen::Vector2d way = stations[to].position - stations[from].position;
   return way.isZero(0.0) ? Eigen::Vector2d(1.0, 0.0) : way.normalized();
 }
 
@@ -108,7 +108,7 @@ Json profiles_part(const TipPath& path, double tool_radius, const HeightField& i
     Profile along;
     for (const Station& station : stations) {
       if (station.begins && station.length > 0.0) along.break_off(station.length);
-      along.add(station.length, station.place, initial, last.surface);
+      along.add(station.length, station.position, initial, last.surface);
     }
     part["profiles"].push_back(along.json("Along the stroke",
                                           "The curves have a gap where the tip was lifted.",
@@ -119,7 +119,7 @@ Json profiles_part(const TipPath& path, double tool_radius, const HeightField& i
       std::min_element(stations.begin(), stations.end(),
                        [&](const Station& a, const Station& b) { return from_middle(a) < from_middle(b); }) -
       stations.begin());
-  const Eigen::Vector2d centre = stations[middle].place, way = direction_at(stations, middle, tool_radius);
+  const Eigen::Vector2d centre = stations[middle].position, way = direction_at(stations, middle, tool_radius);
   const Eigen::Vector2d left(-way.y(), way.x());
   const auto reach = static_cast<int>(
       std::min(std::ceil(side_reach * tool_radius / cell), 1.0 * initial.rows() + initial.cols()));

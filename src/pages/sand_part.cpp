@@ -57,12 +57,14 @@ void SandPart::add(const std::string& name, const HeightField& surface) {
       if (!(std::abs(quanta) < 1e9))
         throw_input_error("{}: height {} m at row {}, column {} cannot be shown in 3-D", name, height, row,
                           col);
-      low = std::min(low, height), high = std::max(high, height);
+      low = std::min(low, height);
+      high = std::max(high, height);
       const auto change = static_cast<std::uint32_t>(static_cast<std::int32_t>(quanta) - before_(row, col));
       before_(row, col) = static_cast<std::int32_t>(quanta);
       for (const int shift : {0, 8, 16, 24}) bytes += static_cast<char>(change >> shift & 255u);
     }
-  part_["low"] = low, part_["high"] = high;
+  part_["low"] = low;
+  part_["high"] = high;
   part_["surfaces"].push_back({{"name", name}, {"data", packed(bytes)}});
 }
 

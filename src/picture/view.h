@@ -8,7 +8,7 @@
 
 namespace sandstroke {
 
-/// Named places of the camera. `custom` takes azimuth, elevation, distance and target from the settings.
+/// Named positions of the camera. `custom` takes azimuth, elevation, distance and target from the settings.
 enum class ViewName { overview, stroke, top, custom };
 /// sand: natural look. height, difference: colour maps with contour lines and a legend, for measuring.
 enum class RenderStyle { sand, height, difference };

@@ -59,15 +59,15 @@ py::array_t<double> copy_of(const HeightGrid& grid) {
 }
 
 py::array_t<double> columns_of(const BedGeometry& bed) {
-  py::array_t<double> places(bed.cols());
-  for (int col = 0; col < bed.cols(); ++col) places.mutable_at(col) = bed.x_of(col);
-  return places;
+  py::array_t<double> centres(bed.cols());
+  for (int col = 0; col < bed.cols(); ++col) centres.mutable_at(col) = bed.x_of(col);
+  return centres;
 }
 
 py::array_t<double> rows_of(const BedGeometry& bed) {
-  py::array_t<double> places(bed.rows());
-  for (int row = 0; row < bed.rows(); ++row) places.mutable_at(row) = bed.y_of(row);
-  return places;
+  py::array_t<double> centres(bed.rows());
+  for (int row = 0; row < bed.rows(); ++row) centres.mutable_at(row) = bed.y_of(row);
+  return centres;
 }
 
 HeightGrid grid_of(const char* name, const py::object& given) {

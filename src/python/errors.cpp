@@ -103,7 +103,7 @@ void SignalWatch::look() {
   const double now = Seconds(std::chrono::steady_clock::now().time_since_epoch()).count();
   if (now < next_) return;
   next_ = now + interval;
-  const py::gil_scoped_acquire held;
+  const py::gil_scoped_acquire gil;
   if (PyErr_CheckSignals() != 0) throw py::error_already_set();
 }
 

@@ -22,9 +22,9 @@ namespace py = pybind11;
 class Function {
  public:
   explicit Function(py::object function)
-      : function_(new py::object(std::move(function)), [](py::object* held) {
+      : function_(new py::object(std::move(function)), [](py::object* kept) {
           const py::gil_scoped_acquire interpreter;
-          delete held;
+          delete kept;
         }) {}
   /// Call it with the interpreter lock. An exception of the function becomes an error sentence.
   template <class... Arguments>
@@ -96,7 +96,8 @@ class PythonRelaxer : public Relaxer {
     RelaxationSettings look = scene_.relaxation;
     look.max_passes = 0;
     const RelaxationOutcome left = make_relaxer(look, cell_size_)->relax(seen);
-    outcome.residual = left.residual, outcome.converged = left.converged;
+    outcome.residual = left.residual;
+    outcome.converged = left.converged;
     if (after_pass) after_pass(outcome.passes, [&]() -> const HeightField& { return bed; });
     return outcome;
   }

@@ -22,7 +22,7 @@ namespace py = pybind11;
 class Stepped {
  public:
   /// Without surface it takes the scene's.
-  Stepped(const SceneHere& here, bool slips, const py::object& surface)
+  Stepped(const SceneHere& here, bool relaxes, const py::object& surface)
       : folder_(here.folder), view_(here.scene.view) {
     std::optional<HeightField> start;
     if (!surface.is_none()) start = surface_of(here.scene, grid_of("surface", surface));
@@ -31,7 +31,7 @@ class Stepped {
       const py::gil_scoped_release let_go;
       const Scene scene = with_files(here.scene, folder_);
       simulation_ = std::make_unique<SteppedSimulation>(
-          scene, start ? *start : load_surface(scene.bed, folder_), slips);
+          scene, start ? *start : load_surface(scene.bed, folder_), relaxes);
     }
     warnings.give();
   }

@@ -35,9 +35,9 @@ const HeightField& checked(const Scene& scene, const HeightField& bed) {
                   "the hand itself decides how deep it goes");
     refuse_unless(placement.start == 0.0 && std::isinf(placement.stop), "stroke.start and stroke.stop",
                   "they cut a stroke that does not exist yet");
-    refuse_unless(placement.held == HeldSamples::keep && placement.smooth == 0.0 && placement.speed == 1.0,
-                  "stroke.held, stroke.smooth and stroke.speed",
-                  "they change a stroke that does not exist yet");
+    refuse_unless(
+        placement.repeated == RepeatedSamples::keep && placement.smooth == 0.0 && placement.speed == 1.0,
+        "stroke.held, stroke.smooth and stroke.speed", "they change a stroke that does not exist yet");
   }
   // The servo loop and the LiveRelaxer each hold their own bed, and what the other knows of it.
   check_memory(4.0 * bed.tile_count() * static_cast<double>(HeightField::bytes_per_tile()),
@@ -148,8 +148,8 @@ FeltForce LiveSand::feel(double time, const DeviceReading& reading) noexcept {
   } else {
     interaction = sand_.look(replica_.bed(), tip);
     sand_.lift();
-    felt.flags |= held_sand;
-    ++report_.held_ticks;
+    felt.flags |= deferred_sand;
+    ++report_.deferred_ticks;
   }
   places_.push({tip, interaction.contact,
                 shaper_ ? std::optional(shaper_->rotation())

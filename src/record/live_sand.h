@@ -25,7 +25,8 @@ struct FeltDevice {
 struct LiveSandReport {
   RelaxationReport relaxation;
   std::int64_t contact_ticks = 0;
-  std::int64_t held_ticks = 0;  ///< the tool displaced nothing, because the relaxing bed was too far behind
+  std::int64_t deferred_ticks =
+      0;  ///< the tool displaced nothing, because the relaxing bed was too far behind
 };
 
 /// Sand under a recorded hand: the scene's tool, displacement and force in the servo loop, its relaxation in

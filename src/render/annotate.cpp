@@ -127,7 +127,7 @@ void draw_legend(Image& image, const Legend& legend) {
   for (int y = static_cast<int>(top); y < static_cast<int>(bottom); ++y) {
     const double value = legend.low + (bottom - y - 0.5) / (bottom - top) * (legend.high - legend.low);
     fill_rectangle(image, left, y, left + layout.bar_width, y + 1,
-                   as_bytes(scale_colour(value, legend.low, legend.high, legend.diverging)));
+                   as_bytes(scale_colour(value, legend.low, legend.high, legend.scale)));
   }
   const double line = std::max(1.0, 0.08 * cap);
   const double spacing = legend.contour_interval / (legend.high - legend.low) * (bottom - top);  // pixels

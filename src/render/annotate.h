@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "picture/image.h"
+#include "render/colour_map.h"
 
 namespace sandstroke {
 
@@ -21,7 +22,7 @@ double annotation_cap_height(int image_height);
 struct Legend {
   std::string quantity = "height";
   double low = 0.0, high = 1.0;  ///< m
-  bool diverging = false;
+  ColourScale scale = ColourScale::sequential;
   double contour_interval =
       0.0;  ///< m; > 0: the bar shows the picture's contour lines, unless they would touch
 };

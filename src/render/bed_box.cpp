@@ -9,7 +9,7 @@ namespace sandstroke {
 namespace {
 
 struct Vertex {
-  Eigen::Vector3f place, normal;
+  Eigen::Vector3f position, normal;
 };
 
 /// A line around the bed at one height [m], on each side `out` [m] away from the outermost cells.
@@ -30,7 +30,8 @@ void add_band(std::vector<Vertex>& vertices, const Eigen::Vector2d& half_bed, co
     const Eigen::Vector3d a = corner(from, i), b = corner(from, next), c = corner(to, next),
                           d = corner(to, i);
     const Eigen::Vector3f normal = (b - a).cross(d - a).normalized().cast<float>();
-    for (const Eigen::Vector3d& place : {a, b, c, a, c, d}) vertices.push_back({place.cast<float>(), normal});
+    for (const Eigen::Vector3d& position : {a, b, c, a, c, d})
+      vertices.push_back({position.cast<float>(), normal});
   }
 }
 

@@ -68,11 +68,12 @@ PixelRect Camera::pixels_of(const Eigen::AlignedBox3d& box, int width, int heigh
   for (const Eigen::Vector3d& p : corners(box)) {
     const Eigen::Vector4d clip = to_clip * p.homogeneous();
     if (clip.w() <= 0.0) return {0, 0, width, height};  // a corner is beside the eye or behind it
-    const Eigen::Array2d place = (clip.head<2>() / clip.w()).array().max(-1.0).min(1.0);
-    low = low.min(place), high = high.max(place);
+    const Eigen::Array2d position = (clip.head<2>() / clip.w()).array().max(-1.0).min(1.0);
+    low = low.min(position);
+    high = high.max(position);
   }
-  const auto pixel = [](double place, int pixels, int beyond) {  // two more: samples lie around centres
-    return std::clamp(static_cast<int>(std::floor(0.5 * (place + 1.0) * pixels)) + beyond, 0, pixels);
+  const auto pixel = [](double position, int pixels, int beyond) {  // two more: samples lie around centres
+    return std::clamp(static_cast<int>(std::floor(0.5 * (position + 1.0) * pixels)) + beyond, 0, pixels);
   };
   return {pixel(low.x(), width, -2), pixel(low.y(), height, -2), pixel(high.x(), width, 3),
           pixel(high.y(), height, 3)};

@@ -7,7 +7,7 @@
 
 namespace sandstroke {
 
-/// Place, direction and scale of a view. The picture's x and y run from -1 to 1 from its left and lower
+/// Position, direction and scale of a view. The picture's x and y run from -1 to 1 from its left and lower
 /// border.
 struct Camera {
   Eigen::Vector3d eye = Eigen::Vector3d::Zero();        ///< m
@@ -22,7 +22,7 @@ struct Camera {
   bool misses(const Eigen::AlignedBox3d& box) const;
   /// All pixels of a picture of this size on which a box may be seen.
   PixelRect pixels_of(const Eigen::AlignedBox3d& box, int width, int height) const;
-  /// A bound on how far [m] the place under a pixel moves, seen from above, from one pixel to the next, on a
+  /// A bound on how far [m] the point under a pixel moves, seen from above, from one pixel to the next, on a
   /// surface in a box. steepest: the surface's largest slope. Infinite where it may be seen edge-on.
   double widest_pixel(const Eigen::AlignedBox3d& box, double steepest) const;
 };

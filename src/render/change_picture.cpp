@@ -13,10 +13,10 @@ RenderSubject subject_of_change(const HeightGrid& initial, const HeightGrid& las
   subject.start = start_heights(initial);
   if (view.style == RenderStyle::difference) {
     const double most = (last - initial).abs().maxCoeff();
-    subject.range = value_range(-most, most, true);
+    subject.range = value_range(-most, most, ColourScale::diverging);
   } else {
     subject.range = value_range(std::min(subject.start->lowest, last.minCoeff()),
-                                std::max(subject.start->highest, last.maxCoeff()), false);
+                                std::max(subject.start->highest, last.maxCoeff()), ColourScale::sequential);
   }
   return subject;
 }

@@ -18,9 +18,9 @@ constexpr std::array<std::uint32_t, 11> blue_white_red = {0x053061, 0x2166ac, 0x
 template <std::size_t count>
 std::array<double, 3> between(const std::array<std::uint32_t, count>& points, double unit) {
   if (std::isnan(unit)) return {0.5, 0.5, 0.5};
-  const double place = std::clamp(unit, 0.0, 1.0) * (count - 1);
-  const auto first = std::min(static_cast<std::size_t>(place), count - 2);
-  const double part = place - static_cast<double>(first);
+  const double at = std::clamp(unit, 0.0, 1.0) * (count - 1);
+  const auto first = std::min(static_cast<std::size_t>(at), count - 2);
+  const double part = at - static_cast<double>(first);
   std::array<double, 3> colour;
   for (int channel = 0; channel < 3; ++channel) {
     const int shift = 16 - 8 * channel;
@@ -39,9 +39,9 @@ std::array<double, 3> diverging_colour(double minus_one_to_one) {
   return between(blue_white_red, 0.5 * (minus_one_to_one + 1.0));
 }
 
-std::array<double, 3> scale_colour(double value, double low, double high, bool diverging) {
+std::array<double, 3> scale_colour(double value, double low, double high, ColourScale scale) {
   const double unit = (value - low) / (high - low);
-  return diverging ? diverging_colour(2.0 * unit - 1.0) : sequential_colour(unit);
+  return scale == ColourScale::diverging ? diverging_colour(2.0 * unit - 1.0) : sequential_colour(unit);
 }
 
 Rgb as_bytes(const std::array<double, 3>& colour) {

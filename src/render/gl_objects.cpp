@@ -72,19 +72,19 @@ ShaderProgram::ShaderProgram(const std::string& name, const std::string& vertex,
 
 void ShaderProgram::set(const char* name, const Eigen::Vector2d& value) const {
   const Eigen::Vector2f narrow = value.cast<float>();
-  glUniform2fv(place(name), 1, narrow.data());
+  glUniform2fv(location(name), 1, narrow.data());
 }
 void ShaderProgram::set(const char* name, const Eigen::Vector3d& value) const {
   const Eigen::Vector3f narrow = value.cast<float>();
-  glUniform3fv(place(name), 1, narrow.data());
+  glUniform3fv(location(name), 1, narrow.data());
 }
 void ShaderProgram::set(const char* name, const Eigen::Vector4d& value) const {
   const Eigen::Vector4f narrow = value.cast<float>();
-  glUniform4fv(place(name), 1, narrow.data());
+  glUniform4fv(location(name), 1, narrow.data());
 }
 void ShaderProgram::set(const char* name, const Eigen::Matrix4d& value) const {
   const Eigen::Matrix4f narrow = value.cast<float>();
-  glUniformMatrix4fv(place(name), 1, GL_FALSE, narrow.data());
+  glUniformMatrix4fv(location(name), 1, GL_FALSE, narrow.data());
 }
 
 }  // namespace sandstroke

@@ -47,15 +47,15 @@ class ShaderProgram {
   void use() const { glUseProgram(program_); }
 
   // These set values of the program in use. Names that the compiler has optimised away are ignored.
-  void set(const char* name, int value) const { glUniform1i(place(name), value); }
-  void set(const char* name, double value) const { glUniform1f(place(name), static_cast<float>(value)); }
-  void set(const char* name, int x, int y) const { glUniform2i(place(name), x, y); }
+  void set(const char* name, int value) const { glUniform1i(location(name), value); }
+  void set(const char* name, double value) const { glUniform1f(location(name), static_cast<float>(value)); }
+  void set(const char* name, int x, int y) const { glUniform2i(location(name), x, y); }
   void set(const char* name, const Eigen::Vector2d& value) const;
   void set(const char* name, const Eigen::Vector3d& value) const;
   void set(const char* name, const Eigen::Vector4d& value) const;
   void set(const char* name, const Eigen::Matrix4d& value) const;
-  /// The place of a name, for glUniform calls that are made often.
-  GLint place(const char* name) const { return glGetUniformLocation(program_, name); }
+  /// The location of a name, for glUniform calls that are made often.
+  GLint location(const char* name) const { return glGetUniformLocation(program_, name); }
 
  private:
   GlObject program_;

@@ -21,11 +21,11 @@
 namespace sandstroke {
 namespace {
 
-GlObject colour_map_texture(bool diverging) {
+GlObject colour_map_texture(ColourScale scale) {
   constexpr int entries = 256;
   std::vector<float> colours;
   for (int i = 0; i < entries; ++i)
-    for (const double channel : scale_colour(i, 0.0, entries - 1, diverging))
+    for (const double channel : scale_colour(i, 0.0, entries - 1, scale))
       colours.push_back(static_cast<float>(channel));
   GlObject texture = make_texture();
   glBindTexture(GL_TEXTURE_2D, texture);
@@ -52,8 +52,8 @@ class HeightFieldRenderer::Drawing {
         wall_("box", shaders::solid_vertex(), shaders::box_fragment()),
         ball_("tool", shaders::solid_vertex(), shaders::tool_fragment()),
         surroundings_("surroundings", shaders::surroundings_vertex(), shaders::surroundings_fragment()),
-        sequential_(colour_map_texture(false)),
-        diverging_(colour_map_texture(true)),
+        sequential_(colour_map_texture(ColourScale::sequential)),
+        diverging_(colour_map_texture(ColourScale::diverging)),
         no_vertices_(make_vertex_array()) {
     check_gl("setting up");
   }
@@ -144,8 +144,8 @@ void HeightFieldRenderer::Drawing::draw_tiles(const ShaderProgram& program, cons
   program.set("shading", 1);
   surface_.bind_heights(0);
   surface_.bind_shading(1);
-  const GLint tile_origin = program.place("tile_origin"), skirt_height = program.place("skirt_height"),
-              widest = program.place("widest_pixel");
+  const GLint tile_origin = program.location("tile_origin"), skirt_height = program.location("skirt_height"),
+              widest = program.location("widest_pixel");
   for (int tile = 0; tile < bed_.tile_count(); ++tile) {
     const CellRange patch = surface_.patch(tile);
     const TileDetail& detail = surface_.detail(tile);
@@ -178,14 +178,16 @@ Legend HeightFieldRenderer::Drawing::prepare_values(const RenderSubject& subject
                         bed_.rows());
     if (!difference_) difference_ = std::make_unique<SurfaceTextures>(bed_);
     difference_->update(HeightField(*subject.difference, bed_.cell_size()));
-    least = difference_->lowest(), greatest = difference_->highest();
+    least = difference_->lowest();
+    greatest = difference_->highest();
     legend.quantity = "difference";
-    legend.diverging = true;
+    legend.scale = ColourScale::diverging;
   }
-  const ValueRange range = subject.range ? *subject.range : value_range(least, greatest, difference);
+  const ValueRange range = subject.range ? *subject.range : value_range(least, greatest, legend.scale);
   if (!(range.low < range.high))
     throw_input_error("a colour scale from {} to {} m is empty", range.low, range.high);
-  legend.low = range.low, legend.high = range.high;
+  legend.low = range.low;
+  legend.high = range.high;
   legend.contour_interval =
       subject.contour_interval > 0.0 ? subject.contour_interval : round_interval(range.high - range.low, 14);
   return legend;
@@ -234,9 +236,10 @@ void HeightFieldRenderer::Drawing::draw_map(const RenderSubject& subject, const 
   map_.set("range", Eigen::Vector2d(legend.low, legend.high));
   map_.set("contour_interval", legend.contour_interval);
   map_.set("relief", subject.view.name == ViewName::top ? 0.0 : 1.0);
-  (subject.view.style == RenderStyle::difference ? *difference_ : surface_).bind_filtered_heights(2);
+  SurfaceTextures& shown = subject.view.style == RenderStyle::difference ? *difference_ : surface_;
+  shown.bind_filtered_heights(2);
   glActiveTexture(GL_TEXTURE3);
-  glBindTexture(GL_TEXTURE_2D, legend.diverging ? diverging_ : sequential_);
+  glBindTexture(GL_TEXTURE_2D, legend.scale == ColourScale::diverging ? diverging_ : sequential_);
   draw_tiles(map_, camera, subject.tile_levels);
 }
 

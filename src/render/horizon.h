@@ -9,7 +9,7 @@ namespace sandstroke {
 /// Heights as they are drawn, [m], row-major: single precision resolves 1e-7 of the height.
 using DrawnHeights = Eigen::Array<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-/// The sun's place in the sky, and how wide its penumbra is.
+/// The sun's position in the sky, and how wide its penumbra is.
 struct Sun {
   double azimuth = 145.0;   ///< deg, from +x towards +y
   double elevation = 28.0;  ///< deg, > 0
@@ -21,7 +21,7 @@ struct Sun {
 /// How far [cells] a height difference of `relief` [m] can throw a shadow.
 int shadow_reach(const Sun& sun, double relief, double cell_size);
 
-/// The part of the sun seen from each of `cells`, 0 to 1, written to the same places of `visible`. It is 1/2
+/// The part of the sun seen from each of `cells`, 0 to 1, written to the same cells of `visible`. It is 1/2
 /// where the horizon towards the sun stands as high as the sun. The search for the horizon goes one cell at a
 /// time along the main axis, linear between cells across it. Nothing outside the bed throws a shadow. highest
 /// [m]: of all cells.

@@ -20,8 +20,10 @@ struct PixelRect {
       *this = other;
       return;
     }
-    left = std::min(left, other.left), right = std::max(right, other.right);
-    bottom = std::min(bottom, other.bottom), top = std::max(top, other.top);
+    left = std::min(left, other.left);
+    right = std::max(right, other.right);
+    bottom = std::min(bottom, other.bottom);
+    top = std::max(top, other.top);
   }
 };
 

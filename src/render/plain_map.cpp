@@ -7,7 +7,7 @@
 
 namespace sandstroke {
 
-Image plain_map(const HeightGrid& values, double low, double high, bool diverging, int width, int height) {
+Image plain_map(const HeightGrid& values, double low, double high, ColourScale scale, int width, int height) {
   const auto rows = static_cast<double>(values.rows()), cols = static_cast<double>(values.cols());
   // The cells of pixel k of `pixels` pixels: [first, last), at least one.
   const auto first = [](int k, int pixels, double cells) {
@@ -23,7 +23,7 @@ Image plain_map(const HeightGrid& values, double low, double high, bool divergin
     for (int x = 0; x < width; ++x) {
       const Eigen::Index col = first(x, width, cols), col_count = last(x, width, cols) - col;
       const double mean = values.block(row, col, row_count, col_count).mean();
-      const Rgb rgb = as_bytes(scale_colour(std::isfinite(mean) ? mean : std::nan(""), low, high, diverging));
+      const Rgb rgb = as_bytes(scale_colour(std::isfinite(mean) ? mean : std::nan(""), low, high, scale));
       std::copy(rgb.begin(), rgb.end(), map.pixel(x, y));
     }
   }

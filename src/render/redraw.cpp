@@ -24,11 +24,12 @@ std::vector<Eigen::AlignedBox3d> boxes_of(const ToolBody& tool, const Sun& sun,
                                           const SurfaceTextures& surface) {
   const Eigen::Vector3d centre = tool.centre(), up = sun.direction();
   const double low = surface.lowest(), high = surface.highest(), radius = tool.radius;
-  const auto around = [](const Eigen::Vector3d& place, double reach) {
-    return Eigen::AlignedBox3d(place.array() - reach, place.array() + reach);
+  const auto around = [](const Eigen::Vector3d& position, double reach) {
+    return Eigen::AlignedBox3d(position.array() - reach, position.array() + reach);
   };
   const auto on_sand = [&](Eigen::AlignedBox3d box) {
-    box.min().z() = low, box.max().z() = high;
+    box.min().z() = low;
+    box.max().z() = high;
     return box;
   };
   if (tool.mesh) return {tool.box()};  // a mesh throws no shadow

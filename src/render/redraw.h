@@ -18,7 +18,7 @@ struct PictureState {
   std::optional<ToolBody> tool;
 };
 
-/// A bound on how far [m] the place under a pixel moves, from one pixel to the next, on the sand of a tile of
+/// A bound on how far [m] the point under a pixel moves, from one pixel to the next, on the sand of a tile of
 /// this detail. Shading is never a mean over more, so changes elsewhere cannot reach the tile. It is a power
 /// of two, at most about the bed's side, so it seldom changes.
 double widest_pixel(const SurfaceTextures& surface, int tile, const TileDetail& detail, const Camera& camera);

@@ -51,8 +51,8 @@ Eigen::AlignedBox3d box_over(const BedGeometry& bed, const CellRange& cells, dou
           Eigen::Vector3d(bed.x_of(cells.col_end - 1), bed.y_of(cells.row_end - 1), highest)};
 }
 
-ValueRange value_range(double least, double greatest, bool diverging) {
-  if (diverging) {
+ValueRange value_range(double least, double greatest, ColourScale scale) {
+  if (scale == ColourScale::diverging) {
     const double most = std::max(std::abs(least), std::abs(greatest));
     return most > 0.0 ? ValueRange{-most, most} : ValueRange{-5e-4, 5e-4};
   }

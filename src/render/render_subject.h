@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "picture/view.h"
+#include "render/colour_map.h"
 #include "sand/height_field.h"
 #include "tool/triangle_mesh.h"
 
@@ -54,8 +55,8 @@ struct RenderSubject {
 /// by a tenth and at least by `margin` [m], cut to the bed.
 CellRange framed_cells(const CellRange& focus, int rows, int cols, double cell_size, double margin);
 
-/// The cells under a tool [radius, m] at those of the places `tips` that are below `highest` [m]; empty where
-/// there is none. A stroke covers these cells, whatever the sand then does.
+/// The cells under a tool [radius, m] at those of the positions `tips` that are below `highest` [m]; empty
+/// where there is none. A stroke covers these cells, whatever the sand then does.
 CellRange cells_under(const std::vector<Eigen::Vector3d>& tips, double radius, const BedGeometry& bed,
                       double highest);
 
@@ -63,7 +64,7 @@ CellRange cells_under(const std::vector<Eigen::Vector3d>& tips, double radius, c
 Eigen::AlignedBox3d box_over(const BedGeometry& bed, const CellRange& cells, double lowest, double highest);
 
 /// The colour scale of values without a given range. It goes from the least to the greatest. It is symmetric
-/// about zero where `diverging`, and one millimetre wide where all values are equal.
-ValueRange value_range(double least, double greatest, bool diverging);
+/// about zero if it is diverging, and one millimetre wide where all values are equal.
+ValueRange value_range(double least, double greatest, ColourScale scale);
 
 }  // namespace sandstroke

@@ -14,7 +14,7 @@ const std::string light = std::string(SANDSTROKE_ASSET(sand_look)) + R"(
 uniform vec3 eye;
 uniform vec3 forward;        // used where the camera is orthographic
 uniform bool orthographic;
-vec3 to_eye(vec3 place) { return orthographic ? -forward : normalize(eye - place); }
+vec3 to_eye(vec3 position) { return orthographic ? -forward : normalize(eye - position); }
 )";
 
 /// Smooth random values over the bed, anchored in metres. Every machine computes them from the same integers.
@@ -49,12 +49,12 @@ uniform float cell_size;
 uniform float wall_radius;   // m, of a round bed; 0: the bed is not round
 in vec3 world;
 bool beyond_wall() { return wall_radius > 0.0 && length(world.xy) > wall_radius; }
-vec2 texture_place() { return (world.xy / cell_size + bed_origin + 0.5) / vec2(cells); }
+vec2 texture_position() { return (world.xy / cell_size + bed_origin + 0.5) / vec2(cells); }
 // Metres per pixel, along the longer side of the pixel's footprint.
 float pixel_footprint() { return max(length(dFdx(world.xy)), length(dFdy(world.xy))); }
 // A texture's mean over a pixel.
 vec4 mean_over(sampler2D field, float pixel) {
-  return textureLod(field, texture_place(), log2(max(pixel / cell_size, 1.0)));
+  return textureLod(field, texture_position(), log2(max(pixel / cell_size, 1.0)));
 }
 )";
 
@@ -99,10 +99,10 @@ void main() {
 
 std::string surroundings_vertex() {
   return std::string(version) + R"(
-out vec2 place;   // in the picture, -1 to 1
+out vec2 position;   // in the picture, -1 to 1
 void main() {
-  place = vec2(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0);
-  gl_Position = vec4(place, 1.0, 1.0);
+  position = vec2(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0);
+  gl_Position = vec4(position, 1.0, 1.0);
 }
 )";
 }
@@ -116,7 +116,7 @@ out vec4 colour;
 
 // Grains and patches: octaves of noise. Each fades out before a pixel covers half a wave, so nothing shimmers.
 // x: relative change of the albedo; yz: slope of the grains.
-vec3 grain(vec2 place, float pixel) {
+vec3 grain(vec2 position, float pixel) {
   const int octaves = 8;
   const float waves[octaves] = float[octaves](0.00045, 0.0008, 0.0014, 0.0027, 0.006, 0.016, 0.05, 0.21);
   const float albedo[octaves] = float[octaves](0.38, 0.36, 0.28, 0.13, 0.06, 0.035, 0.04, 0.05);
@@ -126,7 +126,7 @@ vec3 grain(vec2 place, float pixel) {
   mat2 frame = mat2(1.0);
   for (int i = octaves - 1; i >= 0 && pixel < 0.5 * waves[i]; --i) {   // ends early: a mere `if` saves no time here
     frame = turn * frame;
-    vec3 n = gradient_noise(frame * place / waves[i], uint(i));
+    vec3 n = gradient_noise(frame * position / waves[i], uint(i));
     float weight = 1.0 - smoothstep(0.25, 0.5, pixel / waves[i]);
     sum += weight * vec3(albedo[i] * n.x, relief[i] * (n.yz * frame));
   }
@@ -134,9 +134,9 @@ vec3 grain(vec2 place, float pixel) {
 }
 
 // The fractions of the sun (x) and of the sky (y) that the tool does not hide.
-vec2 past_tool(vec3 place, vec3 normal) {
+vec2 past_tool(vec3 position, vec3 normal) {
   if (tool.w == 0.0) return vec2(1.0);
-  vec3 to = tool.xyz - place;
+  vec3 to = tool.xyz - position;
   float distance = length(to), along = dot(to, sun_direction);
   float miss = length(to - along * sun_direction) - tool.w;
   float penumbra = 0.03 * max(along, 0.0) + 0.04 * tool.w;
@@ -188,7 +188,7 @@ out vec4 colour;
 // Slope of the values. It is smooth across cells and triangles, so that the width of lines is.
 vec2 slope_of(sampler2D field, float pixel) {
   float reach = max(pixel / cell_size, 1.0), detail = log2(reach);
-  vec2 at = texture_place(), x = vec2(0.5 * reach / float(cells.x), 0.0), y = vec2(0.0, 0.5 * reach / float(cells.y));
+  vec2 at = texture_position(), x = vec2(0.5 * reach / float(cells.x), 0.0), y = vec2(0.0, 0.5 * reach / float(cells.y));
   float ne = textureLod(field, at + x + y, detail).r, nw = textureLod(field, at - x + y, detail).r;
   float se = textureLod(field, at + x - y, detail).r, sw = textureLod(field, at - x - y, detail).r;
   return 0.5 * vec2(ne - nw + se - sw, ne - se + nw - sw) / (reach * cell_size);
@@ -275,7 +275,7 @@ uniform vec3 eye;
 uniform vec3 box_low, box_high;  // m, of the box that stands on the ground
 uniform vec3 sun_direction;
 uniform float shadow;            // 0 none, 1 fully
-in vec2 place;
+in vec2 position;
 out vec4 colour;
 float outside_box(vec2 p) {
   vec2 away = max(box_low.xy - p, p - box_high.xy);
@@ -290,8 +290,8 @@ float outside_shadow(vec2 p, vec2 way) {
   return max(max(away.x, away.y), beside);
 }
 void main() {
-  vec3 tint = mix(lower, upper, smoothstep(-1.0, 1.0, place.y));
-  vec4 near = from_clip * vec4(place, -1.0, 1.0), far = from_clip * vec4(place, 1.0, 1.0);
+  vec3 tint = mix(lower, upper, smoothstep(-1.0, 1.0, position.y));
+  vec4 near = from_clip * vec4(position, -1.0, 1.0), far = from_clip * vec4(position, 1.0, 1.0);
   vec3 from = near.xyz / near.w, ray = far.xyz / far.w - from;
   if ((box_low.z - eye.z) / ray.z > 0.0) {   // the ground lies ahead, even if nearer than all else
     // The ground is darker where the box hides the sky, and in its shadow, whose length is set by the wall's height.

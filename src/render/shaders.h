@@ -4,8 +4,8 @@
 
 namespace sandstroke::shaders {
 
-// The sources of the vertex and fragment shaders, OpenGL 3.3 core. `world` is a place in bed coordinates [m].
-// The tool takes sky from places up to this distance, in its radii.
+// The sources of the vertex and fragment shaders, OpenGL 3.3 core. `world` is a position in bed coordinates
+// [m]. The tool takes sky from points up to this distance, in its radii.
 inline constexpr double tool_reach = 8.0;
 std::string surface_vertex();       ///< a tile: heights from a texture
 std::string solid_vertex();         ///< the box and the tool: vertices times `scale` plus `offset`

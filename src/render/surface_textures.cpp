@@ -140,12 +140,13 @@ int SurfaceTextures::update(const HeightField& surface) {
   }
   for (int tile = 0; tile < static_cast<int>(details_.size()); ++tile)
     if (!changed_of[tile].empty()) changes_.push_back({tile, changed_of[tile], details_[tile]});
-  parallel_for(changes_.size(), true, [&](std::size_t i) {
+  parallel_for(changes_.size(), [&](std::size_t i) {
     details_[changes_[i].tile] = tile_detail(heights_, patch(changes_[i].tile));
   });
 
   const double highest_before = filled_ ? highest_ : -1e300;
-  lowest_ = 1e300, highest_ = -1e300;
+  lowest_ = 1e300;
+  highest_ = -1e300;
   for (const TileDetail& detail : details_) {
     lowest_ = std::min(lowest_, detail.lowest);
     highest_ = std::max(highest_, detail.highest);
@@ -201,7 +202,7 @@ void SurfaceTextures::update_shading(const Sun& sun) {
     sky_.resize(bed_.rows(), bed_.cols());
   }
   std::vector<CellRange> changed(outdated.size());
-  parallel_for(outdated.size(), true, [&](std::size_t i) {
+  parallel_for(outdated.size(), [&](std::size_t i) {
     const CellRange cells = bed_.tile_cells(outdated[i]);
     const auto here = [&](const DrawnHeights& values) {
       return values.block(cells.row_begin, cells.col_begin, cells.rows(), cells.cols());

@@ -9,16 +9,16 @@ namespace sandstroke {
 /// A curve as a page draws it.
 struct Curve {
   std::vector<double> at;     ///< in order: times, say
-  std::vector<double> value;  ///< one for each place; NaN: a gap
-  void add(double place, double height) {
-    at.push_back(place);
+  std::vector<double> value;  ///< one for each position; NaN: a gap
+  void add(double position, double height) {
+    at.push_back(position);
     value.push_back(height);
   }
 };
 
 /// A curve with at most about `most` points in place of a longer one. It has most / 2 stretches with equally
 /// many points. Each keeps its least and greatest point, in their order, and the first point that is not
-/// finite, if any. So every extreme stays as it is, in its place. Each place has a value.
+/// finite, if any. So every extreme stays as it is, where it is. Each position has a value.
 Curve thinned_curve(const Curve& curve, std::size_t most);
 
 /// {at, value}, thinned to what a page can draw.

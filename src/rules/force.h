@@ -36,7 +36,7 @@ struct SandForce {
   Eigen::Vector3d drag = Eigen::Vector3d::Zero();   ///< N
   Eigen::Vector3d total = Eigen::Vector3d::Zero();  ///< N, on the device, limited to its maximum
   bool saturated = false;                           ///< the limit cut it
-  bool held_drag = false;                           ///< implicit drag was held to what stops the device
+  bool limited_drag = false;                        ///< implicit drag was limited to what stops the device
 };
 
 /// |F_r| = k_s (exp(k_c d) - 1) for depth d > 0 [m], else 0 (paper eq. 1 with the sign and bracket mended).

@@ -114,7 +114,8 @@ RunResult run_scene(const SceneFile& asked, const std::filesystem::path& output,
   if (scene.stroke && options.stroke) {
     stroke_name = options.stroke->source;
     stroke_hash = content_hash(*options.stroke);
-    stroke = placed_samples(scene, *options.stroke, stroke_name, false);
+    constexpr bool scripted = false;
+    stroke = placed_samples(scene, *options.stroke, stroke_name, scripted);
   } else if (scene.stroke) {
     const std::filesystem::path file = stroke_path(scene, options.scene_folder);
     stroke_name = samples_name(file);

@@ -40,7 +40,7 @@ nlohmann::ordered_json run_summary(const RunResult& r, const Scene& scene, const
       {"max_depth", r.max_depth},
       {"asked_depth", r.furrow ? r.furrow->asked_depth : none},
       {"furrow_depth", r.furrow ? r.furrow->depth : none},
-      {"held_drag_ticks", r.device.held_drag_ticks},
+      {"held_drag_ticks", r.device.limited_drag_ticks},
       {"swings_from", r.device.swings_from.value_or(none)},
       {"absorbed_energy", r.device.absorbed_energy},
       {"least_absorbed_energy", r.device.least_absorbed_energy},

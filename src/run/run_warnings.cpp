@@ -10,13 +10,13 @@
 namespace sandstroke {
 namespace {
 
-void warn_of_held_drag(const DeviceResult& result, const Scene& scene) {
+void warn_of_limited_drag(const DeviceResult& result, const Scene& scene) {
   const double most = SimulatedDevice(scene.device, {}).strongest_drag();
   spdlog::warn(
       "device.drag = implicit limited the drag in {} ticks: it would have been up to {:.4g} N s/m, but "
       "{:.4g} N s/m (2 m / T) already stop the device within a tick; raise device.servo_rate, or lower "
       "force.k_f to {:.3g} s/m",
-      result.held_drag_ticks, result.held_drag, most, scene.force.k_f * most / result.held_drag);
+      result.limited_drag_ticks, result.limited_drag, most, scene.force.k_f * most / result.limited_drag);
 }
 
 }  // namespace
@@ -27,7 +27,7 @@ void warn_of_run(const RunResult& result, const Scene& scene) {
   if (scene.device.model == DeviceModel::dynamic && loop_returned_energy(result.device, scene.device))
     spdlog::warn("the loop was not passive: the sand returned up to {:.3g} J more than it had taken; {}",
                  -result.device.least_absorbed_energy, loop_remedies(scene, result.device.max_drag_force));
-  if (result.device.held_drag_ticks > 0) warn_of_held_drag(result.device, scene);
+  if (result.device.limited_drag_ticks > 0) warn_of_limited_drag(result.device, scene);
   if (result.device.swings_from)
     spdlog::error(
         "the loop is unstable: from {:.3f} s on the device swings by itself, with energy that the sand "

@@ -25,9 +25,9 @@ class DepthForce : public DeviceForce {
     record.repulse_force = {0.0, 0.0, force.repulse};
     record.drag_force = force.drag;
     record.saturated = force.saturated;
-    if (force.held_drag) {
-      ++result.held_drag_ticks;
-      result.held_drag = std::max(result.held_drag, felt_sand(record, device.settings()).drag);
+    if (force.limited_drag) {
+      ++result.limited_drag_ticks;
+      result.limited_drag = std::max(result.limited_drag, felt_sand(record, device.settings()).drag);
     }
     return force.total;
   }

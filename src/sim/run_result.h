@@ -227,10 +227,10 @@ struct DeviceResult {
       0.0;  ///< J, its minimum over time; negative = sand returned more than it took
   double least_passivity_margin = 0.0;  ///< N s/m, over contact ticks
   double max_drag_force = 0.0;          ///< N, before delay and limit
-  /// Ticks in which implicit drag was held to what stops the device, and the sand's largest drag in them [N
-  /// s/m].
-  std::int64_t held_drag_ticks = 0;
-  double held_drag = 0.0;
+  /// Ticks in which implicit drag was limited to what stops the device, and the sand's largest drag in them
+  /// [N s/m].
+  std::int64_t limited_drag_ticks = 0;
+  double limited_drag = 0.0;
   std::optional<double> swings_from =
       {};  ///< s, from when a dynamic device was found to swing by itself (SwingWatch)
 };

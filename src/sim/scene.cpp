@@ -184,7 +184,7 @@ void describe_stroke(KeyVisitor& v, StrokeSettings& stroke) {
          "its heights are measured from z = 0, or from the sand under the tool (always so in a script with a "
          "force)");
   v.numbers("offset", p.offset.data(), 3, any_number, "m", "shift on the bed, applied last");
-  choose(v, "held", p.held, {"keep", "drop"},
+  choose(v, "held", p.repeated, {"keep", "drop"},
          "keep or drop samples that a device repeated, because it was read faster than it measures");
   v.number("smooth", p.smooth, not_negative, "Hz",
            "smooths the hand's motion without delay: it halves a tremble of this frequency; 0: as recorded");

@@ -38,7 +38,7 @@ const std::vector<Metric> metric_list = {
      "and B are stiffness and drag of the sand, T is the tick. Where it is above 0, the loop cannot create "
      "energy",
      [](O o) { return o.run.device.least_passivity_margin; }},
-    {"saturated_share", "share of contact at the device's limit", "",
+    {"saturated_share", "fraction of contact at the device's limit", "",
      "ticks in which the device's maximum cut the force / ticks in contact",
      [](O o) {
        return in_contact(
@@ -80,10 +80,10 @@ const std::vector<Metric> metric_list = {
      "neighbours / its distance. isotropic: sqrt(gx^2 + gy^2), gx = max(0, h - west, h - east)/dx. "
      "tan(slope_max_law) <= tan(talus angle) (1 + residual)",
      [](O o) { return o.slopes.law_steepest; }, Metric::slopes},
-    {"slope_at_talus", "share of changed sand within 1 deg of the talus angle", "",
+    {"slope_at_talus", "fraction of changed sand within 1 deg of the talus angle", "",
      "cells that changed and whose geometric slope (slope_mean) is within 1 deg of relaxation.talus_angle "
      "/ cells that changed",
-     [](O o) { return o.slopes.share_at_talus; }, Metric::slopes},
+     [](O o) { return o.slopes.fraction_at_talus; }, Metric::slopes},
     {"passes", "relaxation passes", "",
      "passes of all relaxations; with relaxation.method rkl, stages of super time steps",
      [](O o) { return static_cast<double>(o.run.relaxation.passes); }},

@@ -31,10 +31,11 @@ struct AxisRange {
   std::size_t count = 0;
   bool logarithmic = false;
 
-  /// The value at 0 <= share < 1 of the range.
-  double at(double share) const {
-    return std::clamp(logarithmic ? from * elementary::pow(to / from, share) : from + (to - from) * share,
-                      std::min(from, to), std::max(from, to));
+  /// The value at 0 <= fraction < 1 of the range.
+  double at(double fraction) const {
+    return std::clamp(
+        logarithmic ? from * elementary::pow(to / from, fraction) : from + (to - from) * fraction,
+        std::min(from, to), std::max(from, to));
   }
 };
 
@@ -71,7 +72,8 @@ void check_distinct(const TomlReader& toml, const std::string& key, const std::v
 std::optional<SweepAxis> read_strokes(const TomlReader& toml, const PlanKeys& keys, const SweepPlan& plan) {
   const char* key = "sweep.strokes";
   if (!toml.has(key)) return std::nullopt;
-  SweepAxis axis{stroke_key, "", false, {}};
+  SweepAxis axis;
+  axis.key = stroke_key;
   for (const std::string& stroke : keys.strokes) {
     const fs::path path = plan.file.parent_path() / stroke;
     check_readable(path);
@@ -91,7 +93,8 @@ std::pair<SweepAxis, AxisRange> read_axis(const TomlReader& toml, const std::str
                                           int most) {
   const std::string key = "axes." + name;
   if (toml.has("set." + name)) toml.fail(key, "is also in [set]; remove one of them");
-  SweepAxis axis{name, "", false, {}};
+  SweepAxis axis;
+  axis.key = name;
   if (!toml.is_table(key)) {
     axis.values = toml.literals(key);
     if (axis.values.empty()) toml.fail(key, "is empty; give at least one value");
@@ -118,14 +121,14 @@ void check_points(const TomlReader& toml, const SweepDesign& grid, int most) {
 /// Samples the values of each axis, or its range if it has no values.
 void sample(SweepDesign& latin, const std::vector<AxisRange>& ranges, std::size_t samples,
             std::uint32_t seed) {
-  const auto shares = latin_hypercube(latin.axes.size(), samples, seed);
+  const auto fractions = latin_hypercube(latin.axes.size(), samples, seed);
   for (std::size_t i = 0; i < latin.axes.size(); ++i) {
     std::vector<std::string> values;
     const std::vector<std::string>& listed = latin.axes[i].values;
-    for (const double share : shares[i])
+    for (const double fraction : fractions[i])
       values.push_back(listed.empty()
-                           ? fmt::format("{:.12g}", ranges[i].at(share))
-                           : listed[static_cast<std::size_t>(share * static_cast<double>(listed.size()))]);
+                           ? fmt::format("{:.12g}", ranges[i].at(fraction))
+                           : listed[static_cast<std::size_t>(fraction * static_cast<double>(listed.size()))]);
     latin.axes[i].values = std::move(values);
   }
 }

@@ -109,7 +109,8 @@ SweepManifest Sweep::manifest() const {
   m.settings = plan_.settings;
   m.design = plan_.design;
   m.metrics = plan_.metrics;
-  m.keep_surface = plan_.keep_surface, m.keep_picture = plan_.keep_picture;
+  m.keep_surface = plan_.keep_surface;
+  m.keep_picture = plan_.keep_picture;
   if (plan_.second) m.estimate_error = second_solution_names[static_cast<std::size_t>(*plan_.second)];
   m.inputs.emplace_back(m.scene, content_hash(plan_.scene_text));
   for (const auto& [file, hash] : files_) m.inputs.emplace_back(file, hash);
@@ -117,7 +118,8 @@ SweepManifest Sweep::manifest() const {
     m.golden = fs::absolute(plan_.golden).lexically_normal().string();
     m.inputs.emplace_back(m.golden, file_hash(plan_.golden));
   }
-  m.version = version, m.commit = commit;
+  m.version = version;
+  m.commit = commit;
   return m;
 }
 

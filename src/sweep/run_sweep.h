@@ -86,7 +86,7 @@ class Sweep {
   std::map<std::size_t, std::string> refused_;
   std::mutex too_deep_mutex_;
   std::map<std::size_t, std::string> too_deep_;
-  // The files that scenes name, and their hashes, in the order of use, which does not depend on their places.
+  // The files that scenes name, and their hashes, in the order of use, which does not depend on their paths.
   std::vector<std::pair<std::string, std::string>> files_;
 };
 

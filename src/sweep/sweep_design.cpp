@@ -76,10 +76,10 @@ std::vector<double> spread(double from, double to, std::size_t count, bool logar
   std::vector<double> values(count, from);
   const double size = logarithmic ? 0.0 : std::max(std::abs(from), std::abs(to));
   for (std::size_t i = 1; i < count; ++i) {
-    const double share = static_cast<double>(i) / static_cast<double>(count - 1);
+    const double fraction = static_cast<double>(i) / static_cast<double>(count - 1);
     values[i] = i + 1 == count ? to
-                               : rounded(logarithmic ? from * elementary::pow(to / from, share)
-                                                     : from + (to - from) * share,
+                               : rounded(logarithmic ? from * elementary::pow(to / from, fraction)
+                                                     : from + (to - from) * fraction,
                                          size);
   }
   return values;

@@ -44,8 +44,8 @@ double rounded(double value, double size);
 /// The ends are exact, the others rounded().
 std::vector<double> spread(double from, double to, std::size_t count, bool logarithmic);
 
-/// Latin hypercube (McKay, Beckman & Conover 1979): for each axis n numbers in [0, 1), one at a random place
-/// in each n-th of it, in random order. The same seed gives the same numbers on any machine.
+/// Latin hypercube (McKay, Beckman & Conover 1979): for each axis n numbers in [0, 1), one at a random
+/// position in each n-th of it, in random order. The same seed gives the same numbers on any machine.
 std::vector<std::vector<double>> latin_hypercube(std::size_t axes, std::size_t n, std::uint32_t seed);
 
 }  // namespace sandstroke

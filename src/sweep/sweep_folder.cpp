@@ -62,7 +62,7 @@ SweepManifest from_json(const Json& json) {
 }
 
 /// The parts of a manifest that decide the results. A moved scene is still the same.
-Json without_places(Json manifest) {
+Json without_paths(Json manifest) {
   manifest.erase("scene");
   manifest.erase("golden");
   for (Json& input : manifest["inputs"]) input.erase("file");
@@ -115,8 +115,7 @@ SweepFolder SweepFolder::make(const fs::path& path, const SweepManifest& manifes
   refuse_link(path / "points");
   if (fs::exists(manifest_path(path))) {
     SweepFolder there = open(path);
-    const Json old_one = without_places(to_json(there.manifest_)),
-               new_one = without_places(to_json(manifest));
+    const Json old_one = without_paths(to_json(there.manifest_)), new_one = without_paths(to_json(manifest));
     for (const auto& [key, value] : new_one.items()) {
       if (old_one.at(key) == value) continue;
       if (key == "version" || key == "commit")

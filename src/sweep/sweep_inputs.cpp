@@ -30,8 +30,10 @@ std::shared_ptr<const SweepStroke> SweepInputs::stroke(const Scene& scene) {
   check_plugin_force(scene, path);
   SceneFile named;
   named.stroke = scene.stroke;
-  named.bed.width = scene.bed.width, named.bed.depth = scene.bed.depth;  // the stroke's placement
-  named.device.scale = scene.device.scale, named.device.offset = scene.device.offset;
+  named.bed.width = scene.bed.width;
+  named.bed.depth = scene.bed.depth;  // the stroke's placement
+  named.device.scale = scene.device.scale;
+  named.device.offset = scene.device.offset;
   if (by_force->second) named.force = scene.force;
   const std::string key = scene_text(named);
   if (const auto found = strokes_.find(key); found != strokes_.end()) return found->second;

@@ -31,10 +31,10 @@ struct PageAxis {
     for (std::size_t i = 0; i < axis.values.size(); ++i) {
       const auto [text, is_new] = seen.try_emplace(axis.label(i), values.size());
       if (join_texts && !numeric && !is_new) {
-        place.push_back(text->second);
+        index.push_back(text->second);
         continue;
       }
-      place.push_back(values.size());
+      index.push_back(values.size());
       values.push_back(numeric ? Json(axis.number(i)) : Json(axis.label(i)));
     }
     json = {{"name", axis.key},
@@ -45,11 +45,11 @@ struct PageAxis {
   }
 
   Json values = Json::array(), json;
-  std::vector<std::size_t> place;  // place of each of the axis's values in `values`
+  std::vector<std::size_t> index;  // index of each of the axis's values in `values`
 };
 
 std::vector<PageAxis> page_axes(const SweepDesign& design) {
-  // The page tells points apart by their places on the axes.
+  // The page tells points apart by their positions on the axes.
   const bool join_texts = std::any_of(design.axes.begin(), design.axes.end(),
                                       [](const SweepAxis& axis) { return axis.numeric(); });
   std::vector<PageAxis> axes;
@@ -110,7 +110,7 @@ Json points_json(const CollectedSweep& sweep, const std::vector<PageAxis>& axes,
   for (std::size_t point = 0; point < sweep.results.size(); ++point) {
     Json at = Json::array(), metrics = Json::array();
     for (std::size_t axis = 0; axis < design.axes.size(); ++axis)
-      at.push_back(axes[axis].place[design.value_at(point, axis)]);
+      at.push_back(axes[axis].index[design.value_at(point, axis)]);
     for (std::size_t metric = 0; metric < sweep.folder.metrics().size(); ++metric)
       metrics.push_back(number_or_null(sweep.metric(point, metric)));
     points.push_back({{"point", point},

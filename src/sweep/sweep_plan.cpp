@@ -99,7 +99,10 @@ void fill_plan(const TomlReader& toml, const PlanKeys& keys, SweepPlan& plan) {
   for (const std::string& kept : keys.keep) {
     if (kept != "surface" && kept != "picture")
       toml.fail("sweep.keep", fmt::format("names '{}'; take from: surface, picture", kept));
-    (kept == "surface" ? plan.keep_surface : plan.keep_picture) = true;
+    if (kept == "surface")
+      plan.keep_surface = true;
+    else
+      plan.keep_picture = true;
   }
   if (toml.has("sweep.golden")) {
     plan.golden = plan.file.parent_path() / keys.golden;

@@ -18,7 +18,7 @@ struct ViewState {
   double rate = 0.0;                                                ///< Hz, reached
   double lateness = 0.0, max_lateness = 0.0;                        ///< s
   bool tip_known = false;
-  bool force_held_back = false;  ///< until the tool has been above the sand
+  bool force_withheld = false;  ///< until the tool has been above the sand
 };
 
 /// The newest state, from the one who knows it to those who show it. It locks, so the servo loop must not use

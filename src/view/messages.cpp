@@ -90,7 +90,7 @@ void put_picture(const ViewState& state, const LiveBed::Tiles& tiles, std::strin
   for (const double number : {state.depth, state.rate, state.lateness, state.max_lateness})
     put(message, static_cast<float>(number));
   const unsigned flags =
-      (std::isnan(state.depth) ? 0u : 1u) | (state.tip_known ? 2u : 0u) | (state.force_held_back ? 4u : 0u);
+      (std::isnan(state.depth) ? 0u : 1u) | (state.tip_known ? 2u : 0u) | (state.force_withheld ? 4u : 0u);
   put(message, std::uint32_t{flags});
   for (const double part : state.orientation.coeffs()) put(message, static_cast<float>(part));
   put(message, std::uint32_t{0});

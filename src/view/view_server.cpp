@@ -96,29 +96,29 @@ class Page : public std::enable_shared_from_this<Page> {
   /// Sends a picture; called when it is time for one.
   void send_picture() {
     if (writing_ || closing_ || !said_hello_) return;
-    if (fill_picture()) write(picture_, false);
+    if (fill_picture()) write(picture_, Message::binary);
   }
   /// Sends texts that may have changed. Only the newest are sent, not those in between.
   void send_texts() {
     if (writing_ || closing_) return;
     if (!said_hello_) {
       said_hello_ = true;
-      return write(shared_.hello, true);
+      return write(shared_.hello, Message::text);
     }
     const std::string status = shared_.sources.state.status();
     if (status != said_status_) {
       said_status_ = status;
-      return write(text_ = status_message(status), true);
+      return write(text_ = status_message(status), Message::text);
     }
     if (const bool drawing = shared_.hand == this; shared_.hand && drawing != said_drawing_) {
       said_drawing_ = drawing;
-      return write(text_ = drawing_message(drawing), true);
+      return write(text_ = drawing_message(drawing), Message::text);
     }
     if (!shared_.hand && said_drawing_) said_drawing_.reset();
     if (!shared_.ended) return;
-    if (fill_picture()) return write(picture_, false);
+    if (fill_picture()) return write(picture_, Message::binary);
     closing_ = true;
-    write(shared_.end, true);
+    write(shared_.end, Message::text);
   }
   /// Forgets a page that is closed or must be closed: nothing is sent to it any more.
   void gone() {
@@ -139,9 +139,10 @@ class Page : public std::enable_shared_from_this<Page> {
     return true;
   }
 
-  void write(const std::string& message, bool text) {
+  enum class Message { text, binary };
+  void write(const std::string& message, Message kind) {
     writing_ = true;
-    stream_.text(text);
+    stream_.text(kind == Message::text);
     stream_.async_write(asio::buffer(message), [self = shared_from_this()](error_code failure, std::size_t) {
       self->writing_ = false;
       if (failure) return self->gone();

@@ -1,4 +1,4 @@
-// What a drag leaves behind: the paper's figure 6 says that a stronger push removes more.
+// A stronger push removes more sand, as the paper's figure 6 says.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -14,8 +14,10 @@ constexpr double tip_depths[] = {0.002, 0.004, 0.006, 0.008, 0.010, 0.015, 0.020
 /// Depth [m] of the furrow half-way along a drag of 0.3 m at 0.1 m/s, relaxed at 60 Hz: the mean over two
 /// tool radii.
 double furrow_depth(double tip_depth, Scene scene) {
-  scene.bed.width = 0.4, scene.bed.depth = 0.2;
-  scene.bed.cols = 200, scene.bed.rows = 100;
+  scene.bed.width = 0.4;
+  scene.bed.depth = 0.2;
+  scene.bed.cols = 200;
+  scene.bed.rows = 100;
   Stroke stroke;
   stroke.gap_threshold = 10.0;
   stroke.time = {0.0, 0.5, 3.5};

@@ -1,4 +1,4 @@
-// How the error of a collapse falls with the cell size, and how steep its flanks are in every direction.
+// The error of a collapse falls with the cell size; its flanks are right in every direction.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -23,7 +23,7 @@ class Collapse : public testing::TestWithParam<Problem (*)(const ProblemOptions&
 INSTANTIATE_TEST_SUITE_P(OfA, Collapse, testing::Values(cylinder_problem, cone_problem),
                          [](const auto& problem) { return problem.param({}).name; });
 
-TEST_P(Collapse, OfTheIsotropicLawIsOfFirstOrderAndItsFlanksAreRightAllAround) {
+TEST_P(Collapse, IsOfFirstOrderWithRightFlanksAllAroundByTheIsotropicLaw) {
   if (sanitized) GTEST_SKIP() << "long; what it runs through, shorter tests do";
   std::vector<std::pair<double, double>> errors;
   for (const auto& [contender, score] : run_series(GetParam()({}), "isotropic rkl", 1024)) {
@@ -40,7 +40,7 @@ TEST_P(Collapse, OfTheIsotropicLawIsOfFirstOrderAndItsFlanksAreRightAllAround) {
   EXPECT_GE(fit.order, 1.0);
 }
 
-TEST_P(Collapse, OfThePapersLawStaysThatFarFromTheConeWhateverTheCells) {
+TEST_P(Collapse, StaysThatFarFromTheConeByThePapersLawWhateverTheCells) {
   const auto scores = run_series(GetParam()({}), "paper passes", 256);
   ASSERT_EQ(scores.size(), 3u);
   EXPECT_GT(scores.back().second.l1, 0.8 * scores.front().second.l1);

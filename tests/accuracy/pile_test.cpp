@@ -31,7 +31,8 @@ double error_of_collapse(const SurfaceSettings& surface, RelaxationLaw law, int 
 double cylinder_error(double radius, double height, int n) {
   SurfaceSettings cylinder;
   cylinder.kind = SurfaceKind::cylinder;
-  cylinder.radius = radius, cylinder.height = height;
+  cylinder.radius = radius;
+  cylinder.height = height;
   return error_of_collapse(cylinder, RelaxationLaw::isotropic, n, collapsed_cylinder(radius, height, 30.0));
 }
 
@@ -86,7 +87,8 @@ TEST(PaperLaw, SandThatDrainsThroughAHoleLeavesTheOctagon) {
 TEST(PaperLaw, NoPileIsSteeperThanTheOctagonAndACollapseReachesIt) {
   SurfaceSettings cylinder;
   cylinder.kind = SurfaceKind::cylinder;
-  cylinder.radius = 0.3, cylinder.height = 0.5;
+  cylinder.radius = 0.3;
+  cylinder.height = 0.5;
   const HeightField bed = collapsed(cylinder, RelaxationLaw::paper, 129);
   double steepest = 0.0;
   for (int row = 1; row < 128; ++row)

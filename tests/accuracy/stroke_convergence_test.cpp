@@ -1,4 +1,4 @@
-// What strokes converge to with a solid tool, and what their outcome does not depend on: speed, relaxations,
+// Strokes with a solid tool converge, and their outcome does not depend on speed, relaxations,
 // and the noise of hands.
 #include <gtest/gtest.h>
 
@@ -20,12 +20,14 @@ namespace {
 
 /// Cells and times of a scene divided.
 Scene finer(Scene scene, int by) {
-  scene.bed.cols *= by, scene.bed.rows *= by;
+  scene.bed.cols *= by;
+  scene.bed.rows *= by;
   scene.device.servo_rate *= by;
   return scene;
 }
 
-/// In place of the truth: 20 cells per radius, relaxed twenty times per radius, of a scene that has five.
+/// The scene that stands for the truth: 20 cells per radius, relaxed twenty times per radius, of a scene that
+/// has five.
 Scene truth_of(const Scene& scene) {
   Scene truth = finer(scene, 4);
   truth.relaxation.way = truth.relaxation.way_at_rim = 0.05;
@@ -40,7 +42,7 @@ const Scene& accurate() {
   return scene;
 }
 
-TEST(StrokeConvergence, OfAnSCurveFourMillimetresDeep) {
+TEST(StrokeConvergence, HoldsForAnSCurveFourMillimetresDeep) {
   const Stroke stroke = s_curve(0.004, 0.25);
   const int finest = sanitized ? 2 : 8;
   const Replay truth = replay(finer(accurate(), finest), stroke);
@@ -65,7 +67,8 @@ double estimated_error(const Scene& scene, const Stroke& stroke) {
 }
 
 Scene half_the_way(Scene scene) {
-  scene.relaxation.way /= 2, scene.relaxation.way_at_rim /= 2;
+  scene.relaxation.way /= 2;
+  scene.relaxation.way_at_rim /= 2;
   return scene;
 }
 
@@ -93,9 +96,9 @@ void expect_true_estimate(double estimate, double error) {
   EXPECT_LT(estimate, 2.0 * error);
 }
 
-TEST(StrokeConvergence, AsDeepAsTheToolsRadiusItIsWorse) {
-  // What is pushed out and what falls in behind the tool run from one crest, 2 mm from its rim: one cell of
-  // five.
+TEST(StrokeConvergence, IsWorseAsDeepAsTheToolsRadius) {
+  // The sand that is pushed out and the sand that falls in behind the tool run from one crest, 2 mm from its
+  // rim: one cell of five.
   if (sanitized) GTEST_SKIP() << "takes long under sanitizers";
   const Convergence errors = convergence_of(accurate(), s_curve(0.01, 0.25));
   expect_true_estimate(errors.estimate, errors.coarse);
@@ -105,7 +108,7 @@ TEST(StrokeConvergence, AsDeepAsTheToolsRadiusItIsWorse) {
   EXPECT_LT(errors.middle_way, 0.03);
 }
 
-TEST(StrokeConvergence, OfAScribbleOverItsOwnGround) {
+TEST(StrokeConvergence, HoldsForAScribbleOverItsOwnGround) {
   if (sanitized) GTEST_SKIP() << "takes long under sanitizers";
   const Convergence errors = convergence_of(accurate(), scribble(0.005, 0.25));
   expect_true_estimate(errors.estimate, errors.coarse);
@@ -140,7 +143,7 @@ TEST(StrokeConvergence, RelaxationsBesidesThoseByWayChangeLittle) {
     scene.relaxation.rate = rate;
     runs.push_back(replay(scene, stroke));
     for (const Replay& before : runs) EXPECT_LT(apart(runs.back(), before), 0.03) << rate;
-    // The pump: sand that slips into a tool is pushed out of it again with each relaxation.
+    // The pump: sand that flows into a tool is pushed out of it again with each relaxation.
     EXPECT_LT(runs.back().result.displaced_volume, 1.03 * runs.front().result.displaced_volume) << rate;
   }
 }
@@ -150,7 +153,7 @@ TEST(StrokeConvergence, ASlowHandLeavesWhatAFastOneLeaves) {
   for (const double speed : sanitized ? std::vector{0.25, 1.0} : std::vector{0.02, 0.1, 0.25, 1.0}) {
     runs.push_back(replay(accurate(), s_curve(0.004, speed)));
     for (const Replay& before : runs) EXPECT_LT(apart(runs.back(), before), 0.02) << speed;
-    // At the same places, so as often, whatever the speed.
+    // The sand relaxes at the same positions, so as often, whatever the speed.
     EXPECT_EQ(runs.back().result.relaxations, runs.front().result.relaxations) << speed;
   }
 }
@@ -175,7 +178,7 @@ TEST(StrokeConvergence, NorDoSlopes) {
 }
 
 TEST(StrokeConvergence, AFastPenLeavesItsFurrowToo) {
-  // 6 m/s: three cells a tick, and sand slips within the tick.
+  // 6 m/s: three cells a tick, and sand relaxes within the tick.
   const Replay slow = replay(accurate(), s_curve(0.004, 0.25)),
                fast = replay(accurate(), s_curve(0.004, 6.0));
   EXPECT_LE(std::abs(fast.result.relaxations - slow.result.relaxations),
@@ -213,7 +216,7 @@ class PandaRecording : public testing::Test {
     scene.bed.cols = scene.bed.rows = 200;  // five cells per radius
   }
 
-  /// With a Gaussian that halves the power at `frequency` [Hz].
+  /// Smooths with a Gaussian that halves the power at `frequency` [Hz].
   Stroke low_passed(double frequency) const {
     Stroke smooth = recorded;
     const double width = std::sqrt(std::log(2.0)) / (2.0 * std::numbers::pi * frequency) * 1000.0;  // samples

@@ -22,7 +22,8 @@ struct PeersCone {
   HeightField start() const {
     SurfaceSettings cylinder;
     cylinder.kind = SurfaceKind::cylinder;
-    cylinder.radius = radius, cylinder.height = height;
+    cylinder.radius = radius;
+    cylinder.height = height;
     return make_surface(cylinder, side, side, 1.0);
   }
   /// RMS over the field / apex.

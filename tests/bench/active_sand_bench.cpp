@@ -103,7 +103,10 @@ void wake_bench(benchmark::State& state) {
   for (auto _ : state) {
     bed.set(tile / tiles * side + 20, tile % tiles * side + 20, height);
     if (relaxer->relax(bed).passes) state.SkipWithError("the sand moved");
-    if (++tile == tiles * tiles) tile = 0, height = 0.1 - height;
+    if (++tile == tiles * tiles) {
+      tile = 0;
+      height = 0.1 - height;
+    }
   }
 }
 BENCHMARK(wake_bench)->Name("wake/tiles")->Arg(1)->Arg(8)->Arg(32);

@@ -7,7 +7,7 @@
 
 namespace sandstroke {
 
-/// How thoroughly to measure.
+/// The thoroughness of the measurement.
 struct BenchOptions {
   bool quick = false;  ///< seconds rather than minutes: smaller beds, shorter strokes
   std::string before;  ///< another build of the program, for `speed` to compare with

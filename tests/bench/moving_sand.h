@@ -36,7 +36,7 @@ inline HeightField noisy_plane(int rows, int cols, SandState state) {
   return HeightField(heights, 1.0);
 }
 
-/// From construction to report() it times a benchmark's loop, to say what a cell costs. (Rates of the library
+/// Times a benchmark's loop from construction to report(), to say what a cell costs. (Rates of the library
 /// print in seconds.) On one thread by its CPU time, which other programs disturb less.
 class CellClock {
  public:

@@ -31,7 +31,8 @@ RelaxationOutcome settle_pairs(HeightField& bed, double talus_angle, double shar
     const double difference = a - b;
     if (std::abs(difference) <= limit) return false;
     const double amount = share * (std::abs(difference) - drop);
-    a -= std::copysign(amount, difference), b += std::copysign(amount, difference);
+    a -= std::copysign(amount, difference);
+    b += std::copysign(amount, difference);
     moved += amount;
     return true;
   };

@@ -19,7 +19,7 @@ struct Method {
 constexpr Method passes{"passes", RelaxationMethod::passes};
 constexpr Method rkl{"rkl", RelaxationMethod::rkl};
 
-/// What both are held against: the same law in small steps.
+/// The reference for both: the same law in small steps.
 Method small_steps(double share) { return {"small steps", RelaxationMethod::passes, share}; }
 
 Method with_law(Method method, RelaxationLaw law) {
@@ -62,7 +62,8 @@ struct Cone {
 Cone cone(const Method& method, int n) {
   SurfaceSettings cylinder;
   cylinder.kind = SurfaceKind::cylinder;
-  cylinder.radius = 60.0 / 512.0 * n, cylinder.height = 80.0 / 512.0 * n;
+  cylinder.radius = 60.0 / 512.0 * n;
+  cylinder.height = 80.0 / 512.0 * n;
   HeightField bed = make_surface(cylinder, n, n, 1.0);
   nlohmann::json row = relax(bed, method);
 
@@ -162,7 +163,8 @@ nlohmann::json measure_paper_law(const BenchOptions& options) {
   const int n = options.quick ? 64 : 256;
   SurfaceSettings cylinder;
   cylinder.kind = SurfaceKind::cylinder;
-  cylinder.radius = 60.0 / 512.0 * n, cylinder.height = 80.0 / 512.0 * n;
+  cylinder.radius = 60.0 / 512.0 * n;
+  cylinder.height = 80.0 / 512.0 * n;
   const auto as_json = [](const Comparison& one) {
     return nlohmann::json{
         {"rows", one.rows},

@@ -98,7 +98,8 @@ class Watched {
     reader_ = std::thread([this] {
       ViewClient page(server_.address());
       page.hear_to_end();
-      pictures_ = page.pictures, tiles_ = page.tiles_taken;
+      pictures_ = page.pictures;
+      tiles_ = page.tiles_taken;
     });
   }
   void show(const ServoProgress& progress) {
@@ -133,7 +134,12 @@ class Watched {
   std::thread reader_;
 };
 
-nlohmann::json recorded(double seconds, bool load, bool sand, bool view = false) {
+/// What goes on beside a recording.
+struct Beside {
+  bool load = false, sand = false, view = false;
+};
+
+nlohmann::json recorded(double seconds, const Beside& beside) {
   const TemporaryFolder folder;
   WatchedDevice device(winding(seconds), "winding");
   RecorderSettings settings;
@@ -142,14 +148,14 @@ nlohmann::json recorded(double seconds, bool load, bool sand, bool view = false)
   settings.servo.force.ramp = 0.0;
   std::optional<Watched> watched;
   std::optional<LiveSand> live;
-  if (sand) {
+  if (beside.sand) {
     const Scene scene = collapsing_scene();
     const HeightField bed = starting_bed(scene.bed);
     live.emplace(scene, bed, FeltDevice{"bed"});
-    if (view) watched.emplace(scene, bed, *live, seconds);
-    if (view) settings.watch = 1.0 / 60.0;
+    if (beside.view) watched.emplace(scene, bed, *live, seconds);
+    if (beside.view) settings.watch = 1.0 / 60.0;
   }
-  const Load busy(load);
+  const Load busy(beside.load);
   if (live) live->start();
   const RecordingReport report = record(device, live ? &*live : nullptr, settings, {}, folder / "journal",
                                         [&](const ServoProgress& progress) {
@@ -172,7 +178,7 @@ nlohmann::json recorded(double seconds, bool load, bool sand, bool view = false)
   if (live) {
     const LiveSandReport felt = live->finish();
     result["contact_ticks"] = felt.contact_ticks;
-    result["held_ticks"] = felt.held_ticks;
+    result["held_ticks"] = felt.deferred_ticks;
     result["rate_limited"] = ticks.rate_limited;
     result["relaxations"] = felt.relaxation.relaxations;
     result["passes"] = felt.relaxation.passes;
@@ -187,16 +193,16 @@ nlohmann::json recorded(double seconds, bool load, bool sand, bool view = false)
 nlohmann::json measure_recording(const BenchOptions& options) {
   const double seconds = options.quick ? 1.0 : 60.0;
   return {{"seconds", seconds},
-          {"alone", recorded(seconds, false, false)},
-          {"under_load", recorded(seconds, true, false)},
-          {"sand_alone", recorded(seconds, false, true)},
-          {"sand_under_load", recorded(seconds, true, true)},
-          {"sand_and_view", recorded(seconds, false, true, true)},
-          {"sand_and_view_under_load", recorded(seconds, true, true, true)}};
+          {"alone", recorded(seconds, {})},
+          {"under_load", recorded(seconds, {.load = true})},
+          {"sand_alone", recorded(seconds, {.sand = true})},
+          {"sand_under_load", recorded(seconds, {.load = true, .sand = true})},
+          {"sand_and_view", recorded(seconds, {.sand = true, .view = true})},
+          {"sand_and_view_under_load", recorded(seconds, {.load = true, .sand = true, .view = true})}};
 }
 
 nlohmann::json measure_soak(const BenchOptions& options) {
-  return recorded(options.quick ? 5.0 : 600.0, false, true, true);
+  return recorded(options.quick ? 5.0 : 600.0, {.sand = true, .view = true});
 }
 
 }  // namespace sandstroke

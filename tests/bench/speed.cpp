@@ -1,5 +1,5 @@
-// What a user waits for, measured through the program itself; so that another build of it can be measured in
-// the same run, in turn: machines differ, and so do their hours.
+// Times that a user waits for, measured through the program itself, so that another build of it can be
+// measured in the same run, in turn: machines differ, and so do their hours.
 #include <sys/resource.h>
 
 #include <algorithm>
@@ -18,7 +18,7 @@
 namespace sandstroke {
 namespace {
 
-/// Of a run of the program: wall and cpu [s, its children's included], peak [bytes, resident], and out, what
+/// Runs the program. Gives wall and cpu [s, its children's included], peak [bytes, resident], and out, what
 /// it said.
 nlohmann::json run(const std::string& program, std::vector<std::string> words) {
   words.insert(words.begin(), program);
@@ -40,7 +40,7 @@ nlohmann::json run(const std::string& program, std::vector<std::string> words) {
   });
 }
 
-/// Of a scene, with these words besides.
+/// The words that run a scene, with these besides.
 std::vector<std::string> run_words(const std::string& scene, const TemporaryFolder& folder,
                                    std::vector<std::string> more = {}) {
   std::vector<std::string> words = {"run", scene, "-o", (folder / "run.h5").string(), "--overwrite"};
@@ -78,22 +78,23 @@ double sweep_seconds(const std::string& program, int jobs) {
                        std::to_string(jobs)})["wall"];
 }
 
+enum class Better { more, less };
+
 /// A line of the table, by a program.
 struct Line {
   std::string name, unit;
-  bool more_is_better;
+  Better better;
   int repeats;
   std::function<double(const std::string&)> measure;
 };
 
 std::vector<Line> lines(bool quick) {
   std::vector<Line> all;
-  const auto add = [&](std::string name, std::string unit, bool more_is_better, auto measure,
-                       int repeats = 7) {
-    all.push_back({std::move(name), std::move(unit), more_is_better, quick ? 1 : repeats, measure});
+  const auto add = [&](std::string name, std::string unit, Better better, auto measure, int repeats = 7) {
+    all.push_back({std::move(name), std::move(unit), better, quick ? 1 : repeats, measure});
   };
   for (const char* preset : {"paper", "accurate"})
-    add("stroke of 29 s (strokes/wscg), `" + std::string(preset) + "`", "times real time", true,
+    add("stroke of 29 s (strokes/wscg), `" + std::string(preset) + "`", "times real time", Better::more,
         [preset](const std::string& program) -> double {
           return summary(program, wscg_scene,
                          {"--set", std::string("model.preset=") + preset})["real_time_factor"];
@@ -101,19 +102,19 @@ std::vector<Line> lines(bool quick) {
   const std::string robot =
       std::string(SANDSTROKE_SHARED_DATA) + "/panda_comanip_force_1khz/symbol17_rec2.csv";
   if (std::filesystem::exists(robot))
-    add("a robot's drawing of 9 s, as recorded, `accurate`", "times real time", true,
+    add("a robot's drawing of 9 s, as recorded, `accurate`", "times real time", Better::more,
         [robot](const std::string& program) -> double {
           return summary(program, wscg_scene,
                          {"--stroke", robot, "--set", "stroke.table.rate=1000", "--set", "stroke.plane=fit",
                           "--set", "stroke.place=centre", "--set", "stroke.depth=0.004", "--set",
                           "model.preset=accurate"})["real_time_factor"];
         });
-  // How many passes a pile took is known from when it was timed.
+  // The passes of a pile are known from when it was timed.
   const auto passes = std::make_shared<std::map<std::pair<std::string, int>, double>>();
   for (const int n : quick ? std::vector{128, 256} : std::vector{512, 1024, 2048, 4096}) {
     const std::string pile = "pile on " + std::to_string(n) + "²";
     add(
-        pile, "s", false,
+        pile, "s", Better::less,
         [=](const std::string& program) -> double {
           const nlohmann::json outcome = collapse(program, n, 1);
           (*passes)[{program, n}] = outcome["passes"];
@@ -121,7 +122,7 @@ std::vector<Line> lines(bool quick) {
         },
         n > 2000 ? 1 : 5);
     add(
-        pile, "passes", false,
+        pile, "passes", Better::less,
         [=](const std::string& program) {
           return passes->at({program, n});
         },
@@ -129,7 +130,7 @@ std::vector<Line> lines(bool quick) {
   }
   const int large = quick ? 256 : 2048;
   add(
-      "pile on " + std::to_string(large) + "², two threads over one", "times as fast", true,
+      "pile on " + std::to_string(large) + "², two threads over one", "times as fast", Better::more,
       [large](const std::string& program) {
         return collapse(program, large, 1)["wall_seconds"].get<double>() /
                collapse(program, large, 2)["wall_seconds"].get<double>();
@@ -137,16 +138,16 @@ std::vector<Line> lines(bool quick) {
       2);
   if (!quick)
     add(
-        "sweep of 20 points, two jobs over one", "times as fast", true,
+        "sweep of 20 points, two jobs over one", "times as fast", Better::more,
         [](const std::string& program) { return sweep_seconds(program, 1) / sweep_seconds(program, 2); }, 5);
   add(
-      "`--version`", "ms", false,
+      "`--version`", "ms", Better::less,
       [](const std::string& program) { return 1e3 * run(program, {"--version"})["wall"].get<double>(); }, 21);
   add(
-      "`--version`", "MB", false,
+      "`--version`", "MB", Better::less,
       [](const std::string& program) { return 1e-6 * run(program, {"--version"})["peak"].get<double>(); }, 3);
   add(
-      "a run of an empty bed", "MB", false,
+      "a run of an empty bed", "MB", Better::less,
       [](const std::string& program) {
         const TemporaryFolder folder;
         std::ofstream(folder / "empty.toml") << "[bed]\ncells = [64, 64]\nsize = [0.128, 0.128]\n";
@@ -154,7 +155,7 @@ std::vector<Line> lines(bool quick) {
       },
       3);
   add(
-      "a frame of a film, 1280 x 720", "ms of CPU", false,
+      "a frame of a film, 1280 x 720", "ms of CPU", Better::less,
       [](const std::string& program) {
         const TemporaryFolder folder;
         constexpr int frames = 21;  // of two seconds
@@ -176,9 +177,10 @@ std::vector<Line> lines(bool quick) {
     return with[cost].get<double>() - without[cost].get<double>();
   };
   const std::string name = "a picture of 1280 x 720, beside its run";
-  add(name, "s", false, [=](const std::string& program) { return picture(program, "wall"); });
+  add(name, "s", Better::less, [=](const std::string& program) { return picture(program, "wall"); });
   add(
-      name, "MB", false, [=](const std::string& program) { return 1e-6 * picture(program, "peak"); }, 3);
+      name, "MB", Better::less, [=](const std::string& program) { return 1e-6 * picture(program, "peak"); },
+      3);
   return all;
 }
 
@@ -190,12 +192,12 @@ nlohmann::json measure_speed(const BenchOptions& options) {
   nlohmann::json rows = nlohmann::json::array();
   for (const Line& line : lines(options.quick)) {
     std::vector<double> best(programs.size(),
-                             line.more_is_better ? 0.0 : std::numeric_limits<double>::infinity());
+                             line.better == Better::more ? 0.0 : std::numeric_limits<double>::infinity());
     std::vector<std::vector<double>> values(programs.size());
     for (int repeat = 0; repeat < line.repeats; ++repeat)
       for (std::size_t i = 0; i < programs.size(); ++i) {  // in turn
         const double value = line.measure(programs[i]);
-        best[i] = line.more_is_better ? std::max(best[i], value) : std::min(best[i], value);
+        best[i] = line.better == Better::more ? std::max(best[i], value) : std::min(best[i], value);
         values[i].push_back(value);
       }
     nlohmann::json row = {{"name", line.name}, {"unit", line.unit}, {"value", best.back()}};
@@ -205,7 +207,7 @@ nlohmann::json measure_speed(const BenchOptions& options) {
     });
     if (programs.size() > 1) {
       row["before"] = best.front();
-      row["ratio"] = line.more_is_better ? best.back() / best.front() : best.front() / best.back();
+      row["ratio"] = line.better == Better::more ? best.back() / best.front() : best.front() / best.back();
     }
     rows.push_back(row);
   }

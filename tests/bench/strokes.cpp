@@ -23,7 +23,7 @@ double seconds_since(Clock::time_point begin) {
   return std::chrono::duration<double>(Clock::now() - begin).count();
 }
 
-/// As strokes/wscg: "WSCG" at 0.25 m/s, 4 mm deep; one line of it per base line.
+/// A stroke like strokes/wscg: "WSCG" at 0.25 m/s, 4 mm deep; one line of it per base line.
 Stroke wscg(double letter_height, double left, const std::vector<double>& base_lines,
             double least_seconds = 0.0) {
   StrokeScript script;
@@ -173,7 +173,10 @@ nlohmann::json measure_bed_sizes(const BenchOptions& options) {
   nlohmann::json rows = nlohmann::json::array();
   for (std::size_t i = 0; i < sides.size(); ++i) {
     std::vector<double> ns, rss;
-    for (const auto& run : runs[i]) ns.push_back(run["ns_per_tick"]), rss.push_back(run["peak_rss_bytes"]);
+    for (const auto& run : runs[i]) {
+      ns.push_back(run["ns_per_tick"]);
+      rss.push_back(run["peak_rss_bytes"]);
+    }
     nlohmann::json row = runs[i].front();
     row["cells"] = sides[i];
     row["ns_per_tick"] = spread(ns);
@@ -185,7 +188,7 @@ nlohmann::json measure_bed_sizes(const BenchOptions& options) {
   return rows;
 }
 
-/// What the cells that the strokes/wscg run changes would take in tiles of other sizes: counted, not timed.
+/// The memory of the cells that the strokes/wscg run changes in tiles of other sizes: counted, not timed.
 nlohmann::json measure_tile_sizes() {
   const Replay run = replay({}, wscg(0.44, -0.9, {-0.18}));
   const HeightGrid heights = run.bed.grid();
@@ -208,7 +211,7 @@ nlohmann::json measure_tile_sizes() {
 
 namespace {
 
-/// At the end of each minute of a stroke: the CPU time it took, and the memory that is resident.
+/// The CPU time of each minute of a stroke, and the memory that is resident at its end.
 class Minutes : public SimulationObserver {
  public:
   explicit Minutes(double seconds) : seconds_(seconds) {}
@@ -242,7 +245,7 @@ nlohmann::json measure_long_stroke(const BenchOptions& options) {
     ContentHash hash;
     hash.add(heights.data(), static_cast<std::size_t>(heights.size()) * sizeof(double));
     const std::vector<double>&cpu = minutes.cpu_seconds, &memory = minutes.resident_bytes;
-    // The first minutes dig what later ones find dug, so the end is compared with the second ten.
+    // The first minutes carve what later ones find carved, so the end is compared with the second ten.
     const auto of = [&](const std::vector<double>& values, std::size_t first) {
       return median({values.begin() + first, values.begin() + first + 10});
     };

@@ -52,7 +52,7 @@ TEST(Chai3dLibrary, HasClassesOfTheSizeThatItsHeadersSayHere) {
                           [](unsigned char byte) { return byte == untouched; }));
 }
 
-TEST(Chai3dLibrary, WithoutADeviceListsNoneAndSaysWhatToDo) {
+TEST(Chai3dLibrary, ListsNothingWithoutADeviceAndSaysWhatToDo) {
   if (chai3d::cHapticDeviceHandler().getNumDevices() > 0)
     GTEST_SKIP() << "a haptic device is connected: what is said without one is not tested";
   EXPECT_TRUE(list_chai3d_devices().empty());
@@ -168,7 +168,7 @@ TEST(Chai3dDevice, GivesNothingOnceUnplugged) {
   }
 }
 
-TEST(Chai3dDevice, OfAPhantomTakesThePositionThoughItIsToldThatItFailed) {
+TEST(Chai3dDevice, TakesAPhantomsPositionThoughTheReadingSaysThatItFailed) {
   for (const auto model : {chai3d::C_HAPTIC_DEVICE_PHANTOM_TOUCH, chai3d::C_HAPTIC_DEVICE_PHANTOM_OMNI,
                            chai3d::C_HAPTIC_DEVICE_PHANTOM_DESKTOP, chai3d::C_HAPTIC_DEVICE_PHANTOM_15_6DOF,
                            chai3d::C_HAPTIC_DEVICE_PHANTOM_30_6DOF, chai3d::C_HAPTIC_DEVICE_PHANTOM_OTHER}) {

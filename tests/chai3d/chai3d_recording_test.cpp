@@ -19,7 +19,7 @@ RecordingReport record_without_force(const std::shared_ptr<FakeChai3d>& fake) {
   return record(device, nullptr, settings, {}, folder.path() / "a.h5.recording", {});
 }
 
-TEST(Chai3dRecording, WithoutForceLeavesMotorsAndCalibrationAlone) {
+TEST(Chai3dRecording, LeavesMotorsAndCalibrationAloneWithoutForce) {
   const auto fake = std::make_shared<FakeChai3d>();
   const RecordingReport report = record_without_force(fake);
   EXPECT_EQ(report.footer.reason, StopReason::duration);
@@ -27,7 +27,7 @@ TEST(Chai3dRecording, WithoutForceLeavesMotorsAndCalibrationAlone) {
   EXPECT_EQ(fake->calls(), (std::vector<std::string>{"open", "motors off", "close"}));
 }
 
-TEST(Chai3dRecording, OfAPhantomIsNotOverThoughEachReadingSaysThatItFailed) {
+TEST(Chai3dRecording, GoesOnWithAPhantomThoughEachReadingSaysThatItFailed) {
   const auto fake = std::make_shared<FakePhantom>(chai3d::C_HAPTIC_DEVICE_PHANTOM_TOUCH);
   const TickCounts ticks = record_without_force(fake).footer.ticks;
   EXPECT_EQ(ticks.elapsed, 100);

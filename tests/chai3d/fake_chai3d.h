@@ -13,7 +13,7 @@ namespace sandstroke {
 /// A device of CHAI3D's own kind that does as a test says, and remembers what was done to it.
 class FakeChai3d : public chai3d::cGenericHapticDevice {
  public:
-  // What it gives:
+  // Readings that it gives:
   bool opens = true, calibrates = true;
   bool gives_position = true, gives_velocity = true, gives_switches = true, takes_force = true;
   bool switches_on = true;
@@ -35,10 +35,10 @@ class FakeChai3d : public chai3d::cGenericHapticDevice {
     m_deviceAvailable = true;
   }
 
-  /// As when its cable is pulled out.
+  /// Fails as when its cable is pulled out.
   void unplug() { m_deviceAvailable = m_deviceReady = false; }
 
-  // What was done to it:
+  // Calls that were made to it:
   std::vector<std::string> calls() const {
     const std::scoped_lock lock(mutex_);
     return calls_;
@@ -110,7 +110,7 @@ class FakeChai3d : public chai3d::cGenericHapticDevice {
   bool motors_ = false;
 };
 
-/// As cPhantomDevice of 3.3.0: false where it read, true where not.
+/// A device like cPhantomDevice of 3.3.0, which says false where it read, and true where not.
 class FakePhantom : public FakeChai3d {
  public:
   using FakeChai3d::FakeChai3d;

@@ -74,7 +74,7 @@ class PlayedDevice : public chai3d::cGenericHapticDevice {
   DeviceReading reading_;
 };
 
-/// What the recorder gets to see of it.
+/// The device as the recorder gets to see it.
 class SeenDevice : public HapticDevice {
  public:
   explicit SeenDevice(FakeDevice& played)

@@ -21,7 +21,7 @@ TEST(CliBench, LeavesItsPageAndSaysWhere) {
   EXPECT_NE(run.out.find("Orders of convergence"), std::string::npos) << run.out;
 }
 
-TEST(CliBench, AsJsonIsThePagesData) {
+TEST(CliBench, PrintsThePagesDataAsJson) {
   const fs::path folder = test_folder();
   const ProgramResult run =
       run_program({"bench", "--quick", "--scene", "drag", "--repeats", "1", "--json"}, folder);

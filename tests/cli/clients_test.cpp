@@ -1,4 +1,4 @@
-// What is written is opened by the programs that people have.
+// The programs that people have open what is written.
 #include <gtest/gtest.h>
 #include <spdlog/fmt/fmt.h>
 
@@ -19,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
-/// What a script of tests/clients says, a line of JSON each.
+/// The output of a script of tests/clients, a line of JSON each.
 std::vector<Json> said_by(std::vector<std::string> words) {
   for (std::string& word : words)
     if (word.ends_with(".py")) word = std::string(SANDSTROKE_SOURCE) + "/tests/clients/" + word;

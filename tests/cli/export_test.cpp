@@ -97,7 +97,7 @@ TEST(CliExport, AdMeshFindsNothingToRepairInAnStl) {
     EXPECT_TRUE(std::regex_search(found, value, std::regex(name + " *[:=] *([-0-9.]+)"))) << name << found;
     return std::stod(value[1]);
   };
-  // In mm: the bed's size, and the sand above a floor that is 5 mm below the lowest of it.
+  // The mesh has, in mm, the bed's size, and the sand above a floor that is 5 mm below the lowest of it.
   EXPECT_NEAR(value_of("Min X"), -150.0, 1e-3);
   EXPECT_NEAR(value_of("Max Y"), 100.0, 1e-3);
   const HeightGrid heights = 1e3 * RunFile(folder / "a.h5").final();

@@ -12,7 +12,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
-/// What a run felt, as a recording of it.
+/// The forces of a run, as a recording of it.
 void write_felt_stroke(const fs::path& run, const fs::path& stroke, double sign = 1.0) {
   Stroke felt;
   for (const TickRecord& tick : RunFile(run).trace()) {

@@ -78,7 +78,7 @@ void write_stroke(const fs::path& folder, double spike) {
   ASSERT_EQ(made.exit_code, 0) << made.err;
 }
 
-/// How far two runs (--json) are apart in the force.
+/// The difference of two runs (--json) in the force.
 double force_difference(const nlohmann::json& comparison) {
   for (const auto& check : comparison["checks"])
     if (check["name"] == "force") return check["measured"];

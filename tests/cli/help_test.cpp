@@ -92,7 +92,7 @@ TEST(CliHelp, ValuesAreInAReadersWords) {
   EXPECT_NE(printed({"help", "sweep"}).find("--shard I/N (not with --dry-run, --slurm)"), std::string::npos);
 }
 
-TEST(CliHelp, OfFilesIsInTopics) {
+TEST(CliHelp, ExplainsFilesInTopics) {
   for (const auto& [command, topic] :
        std::map<std::string, std::string>{{"sweep", "plan"}, {"script", "script"}}) {
     const std::string help =
@@ -145,7 +145,8 @@ TEST(CliHelp, HasNoPageOfWhatIsNotThere) {
   }
 }
 
-/// What bash offers for the last of these words, parted as bash does it, by the folder's file `completion`.
+/// The words that bash offers for the last of these, parted as bash does it, by the folder's file
+/// `completion`.
 std::set<std::string> completed(const fs::path& folder, const std::string& words) {
   write_file(folder / "ask", "set -u\nsource ./completion\nCOMP_WORDS=(sandstroke " + words +
                                  ")\nCOMP_CWORD=$((${#COMP_WORDS[@]} - 1))\ncompopt() { :; }\n_sandstroke\n"

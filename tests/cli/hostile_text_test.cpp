@@ -1,4 +1,4 @@
-// What a stranger's file says reaches people's terminals as text only; and its numbers, as numbers or not at
+// A stranger's file reaches people's terminals as text only; and its numbers, as numbers or not at
 // all.
 #include <gtest/gtest.h>
 
@@ -38,7 +38,7 @@ void write_stroke(const fs::path& path) {
   write_stroke_file(path, stroke);
 }
 
-TEST(CliHostileText, OfFilesIsShownAndNotObeyed) {
+TEST(CliHostileText, IsShownAndNotObeyed) {
   const fs::path folder = test_folder();
   write_stroke(folder / "hostile.h5");
   write_file(folder / "rows.csv", "t,x,y,z\n0,0,0,0\n1,\x1b[2J,0,0\n");
@@ -70,7 +70,7 @@ TEST(CliHostileText, OfFilesIsShownAndNotObeyed) {
   EXPECT_EQ(bytes.err, terminal_text(bytes.err));
 }
 
-TEST(CliHostileText, AsJsonIsWhatItWas) {
+TEST(CliHostileText, IsWhatItWasAsJson) {
   const fs::path folder = test_folder();
   write_stroke(folder / "hostile.h5");
   const ProgramResult result = run_program({"stroke", "info", "hostile.h5", "--json"}, folder);

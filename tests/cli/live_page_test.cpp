@@ -25,7 +25,7 @@ class CliLivePage : public BrowserTest {
     browser().open_address(program.address());
     browser().wait_for("live.view !== null && live.messages > 0");
   }
-  /// Where a place of the bed [m] is in the window.
+  /// The position in the window of a position on the bed [m].
   Point seen(double x, double y, double z = 0.0) {
     const nlohmann::json at = browser().evaluate(fmt::format(
         "(() => {{ const box = live.view.canvas.getBoundingClientRect(), {{ width, height }} = box, "
@@ -61,7 +61,7 @@ TEST_F(CliLivePage, ShowsTheFurrowWhereTheStrokeWentAndTurnsByMouseAndKeys) {
   open(program);
   browser().wait_for("live.ended");
   EXPECT_EQ(program.end().exit_code, 0);
-  // From above, without the tool: the furrow along x is darker where it faces away from the sun.
+  // The furrow along x, seen from above without the tool, is darker where it faces away from the sun.
   browser().evaluate("(() => { const view = live.view; view.tool = null; view.camera.turn(0, 2); })()");
   settle();
   const Image window = picture();
@@ -69,13 +69,14 @@ TEST_F(CliLivePage, ShowsTheFurrowWhereTheStrokeWentAndTurnsByMouseAndKeys) {
     int dark = 1000, light = 0;
     for (double y = -0.012; y <= 0.012; y += 0.001) {
       const int here = brightness(window, seen(x, y));
-      dark = std::min(dark, here), light = std::max(light, here);
+      dark = std::min(dark, here);
+      light = std::max(light, here);
     }
     return light - dark;
   };
   EXPECT_GT(contrast(0.0), 120);  // in the stroke
   EXPECT_LT(contrast(0.09), 60);  // beyond its end
-  // What the page knows is what was recorded: deeper than 2 mm in the middle, level far away.
+  // The page knows what was recorded: deeper than 2 mm in the middle, level far away.
   EXPECT_LT(browser().evaluate("(() => { const { heights } = live.view.picture, { rows, cols } = live.hello; "
                                "return heights[Math.floor(rows / 2) * cols + Math.floor(cols / 2)]; })()"),
             -0.002);
@@ -157,7 +158,7 @@ TEST_F(CliLivePage, AMouseDrawsAStrokeWhoseRunIsWhatWasSeen) {
       apart = std::max(apart, std::abs(run(row, col) - there));
     }
   EXPECT_LT(deepest, -0.002);
-  // Between two samples neither knows more than both: the longest way from one to the next.
+  // Neither knows more between two samples than both: the longest way from one to the next.
   const Stroke stroke = read_stroke_file(test_folder_ / "hand.h5");
   double way = 0.0;  // m
   for (std::size_t i = 1; i < stroke.size(); ++i)

@@ -1,4 +1,4 @@
-// Where what is read may lead the program: to files, not to devices, and never to write elsewhere; and no
+// Content that is read may lead the program to files, not to devices, and never to write elsewhere; and no
 // name is taken for anything but a name.
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -133,7 +133,7 @@ using CliOddNames = ChromiumTest;
 
 TEST_F(CliOddNames, PagesShowNamesAndRunNothing) {
   const fs::path above = test_folder();
-  // With the slash of the folders between, an end of a script in the middle.
+  // The slash between the folders makes an end of a script in the middle.
   const std::string odd =
       "it's \"<img src=x onerror=\"document.documentElement.dataset.hacked=1\"><"
       "/script><script>document.documentElement.dataset.hacked=1<"

@@ -37,7 +37,7 @@ std::string written_to(int file) {
   return pread(file, text.data(), text.size(), 0) < 0 ? "" : text;
 }
 
-/// For what is executed next.
+/// The settings of the program that is executed next.
 void refuse_real_time() {
   const rlimit none{0, 0};
   setrlimit(RLIMIT_RTPRIO, &none);
@@ -50,7 +50,7 @@ void refuse_real_time() {
 
 ProgramResult run_program(const std::vector<std::string>& arguments, const fs::path& folder,
                           const Conditions& conditions) {
-  // In memory: the folder may be full, read-only, or gone.
+  // The output stays in memory: the folder may be full, read-only, or gone.
   const int out = conditions.out ? open(conditions.out, O_WRONLY | O_CLOEXEC)
                                  : memfd_create("out", MFD_CLOEXEC),
             err = memfd_create("err", MFD_CLOEXEC);
@@ -99,7 +99,7 @@ ProgramResult run_program(const std::vector<std::string>& arguments, const fs::p
 }
 
 fs::path test_folder() {
-  // Of this process alone, for several may run the same tests; stays where one fails.
+  // The folder belongs to this process, for several may run the same tests; it stays where one fails.
   static const std::shared_ptr<TestFolder> all(new TestFolder, [](const TestFolder* folder) {
     if (!testing::UnitTest::GetInstance()->Failed()) delete folder;
   });

@@ -7,14 +7,14 @@
 
 namespace sandstroke {
 
-/// How a run of the real program ended.
+/// The end of a run of the real program.
 struct ProgramResult {
   int exit_code = -1;  ///< 128 + signal, if one ended it
   std::string out, err;
   double peak_memory = 0.0;  ///< bytes, resident
 };
 
-/// What a run of the program meets with.
+/// The conditions that a run of the program meets with.
 struct Conditions {
   int signal = 0;                       ///< sent to it ...
   double after_ms = 0.0;                ///< ... so long after its start ...

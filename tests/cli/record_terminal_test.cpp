@@ -183,7 +183,7 @@ TEST(CliRecordTerminal, OtherKeysDoNothing) {
   EXPECT_EQ(program.wait(), 0) << program.shown();
 }
 
-TEST(CliRecordTerminal, ATerminalThatIsHeldDoesNotHoldTheRecording) {
+TEST(CliRecordTerminal, APausedTerminalDoesNotPauseTheRecording) {
   const fs::path folder = folder_with_resting_hand();
   AtTerminal program(record_to_json, folder);
   ASSERT_TRUE(program.shows(" Hz")) << program.shown();
@@ -249,7 +249,7 @@ TEST(CliRecordTerminal, TheLineStaysOneLineInANarrowTerminal) {
   }
 }
 
-TEST(CliRecordTerminal, InTheBackgroundItDrawsNothing) {
+TEST(CliRecordTerminal, DrawsNothingInTheBackground) {
   const fs::path folder = folder_with_resting_hand();
   std::vector<std::string> arguments = record_to_json;
   arguments.insert(arguments.end(), {"--duration", "0.5"});

@@ -36,7 +36,7 @@ std::function<bool()> recording(const fs::path& folder, std::uintmax_t bytes = 2
   };
 }
 
-/// So that what ends the recording comes before its stroke's end, however late it comes.
+/// A stroke so long that the recording ends before it, however late that comes.
 fs::path folder_with_long_stroke() {
   const fs::path folder = test_folder();
   write_file(folder / "line.toml", read_file(folder / "line.toml") +
@@ -89,7 +89,7 @@ TEST(CliRecord, TheRecordingDrawsWhatTheScriptDraws) {
   for (std::size_t i = 0; i < std::min(script.size(), recorded.size()); ++i)
     ASSERT_LE((script[i].hand.position - recorded[i].hand.position).norm(), apart) << i;
 
-  // At rest sand slopes by tan(talus) at most, so a surface moved by so much changes by no more than this.
+  // Sand at rest slopes by tan(talus) at most, so a surface moved by so much changes by no more than this.
   const double height = apart * std::tan(30.0 * std::acos(-1.0) / 180.0);
   const HeightGrid difference =
       RunFile(folder / "script.h5").final() - RunFile(folder / "recorded.h5").final();
@@ -97,17 +97,17 @@ TEST(CliRecord, TheRecordingDrawsWhatTheScriptDraws) {
 }
 
 TEST(CliRecord, SaysWhereTooManyTicksWereSkipped) {
-  // Of any machine some ticks are skipped at 0 % allowed, or none are: both are told truly.
+  // Some ticks are skipped at 0 % allowed, or none are, on any machine: both are told truly.
   const fs::path folder = test_folder();
   const ProgramResult result =
       run_program({"record", "-o", "a.h5", "--device", "scripted:line.toml", "--duration", "0.2", "--rate",
                    "10000", "--priority", "0", "--max-skipped", "0", "--json"},
                   folder);
   const json said = json::parse(result.out);
-  const double share = said["ticks_skipped"].get<double>() / said["ticks_elapsed"].get<double>();
-  EXPECT_EQ(result.err.find("ticks were skipped") != std::string::npos, share > 0.0) << result.err;
-  EXPECT_EQ(result.exit_code, share > 0.1 ? 1 : 0);
-  EXPECT_EQ(read_stroke_file(folder / "a.h5").starved, share > 0.1);
+  const double fraction = said["ticks_skipped"].get<double>() / said["ticks_elapsed"].get<double>();
+  EXPECT_EQ(result.err.find("ticks were skipped") != std::string::npos, fraction > 0.0) << result.err;
+  EXPECT_EQ(result.exit_code, fraction > 0.1 ? 1 : 0);
+  EXPECT_EQ(read_stroke_file(folder / "a.h5").starved, fraction > 0.1);
   EXPECT_GT(said["ticks_recorded"], 0);
 }
 
@@ -573,7 +573,7 @@ TEST(CliRecord, CheckHoldsSandAgainstTheory) {
   EXPECT_FALSE(fs::exists(folder / "a.h5"));
 }
 
-TEST(CliRecord, WithoutPermissionForRealTimeItRecordsAndSaysWhatThatCosts) {
+TEST(CliRecord, RecordsWithoutPermissionForRealTimeAndSaysWhatThatCosts) {
   const fs::path folder = test_folder();
   Conditions refused;
   refused.real_time_refused = true;

@@ -1,4 +1,4 @@
-// What an output may replace: what sandstroke wrote there for the same purpose, and nothing else unasked.
+// An output replaces what sandstroke wrote there for the same purpose, and nothing else unasked.
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
@@ -48,7 +48,7 @@ const std::vector<Writer> writers = {
     {{"sweep", "collect", "sweep"}, {"sweep/sweep.h5", "sweep/sweep.csv", "sweep/sweep.html"}},
 };
 
-/// With a scene and its golden entry.
+/// A folder with a scene and its golden entry.
 fs::path folder_with_golden_scene() {
   const fs::path folder = test_folder(), scenes = folder / "strokes/tiny";
   fs::create_directories(scenes);
@@ -58,7 +58,7 @@ fs::path folder_with_golden_scene() {
   return folder;
 }
 
-/// With what all of them read.
+/// A folder with the files that all writers read.
 fs::path folder_for_writers() {
   const fs::path folder = folder_with_golden_scene();
   write_file(folder / "table.csv", "x,y,z\n0,0,0\n0.01,0,0\n");

@@ -87,13 +87,13 @@ TEST(CliRun, JsonSaysWhatTheRunFileHolds) {
   EXPECT_NEAR(json["displaced_volume"], displaced, 1e-12 * displaced);
 
   const Hdf5Reader plain(folder / "a.h5");
-  double passes = 0.0, slipped = 0.0;
+  double passes = 0.0, relaxed = 0.0;
   for (const double one : plain.doubles("/relaxation/passes")) passes += one;
-  for (const double one : plain.doubles("/relaxation/moved_volume")) slipped += one;
+  for (const double one : plain.doubles("/relaxation/moved_volume")) relaxed += one;
   EXPECT_EQ(json["passes"], passes);
   EXPECT_EQ(json["relaxations"], plain.doubles("/relaxation/time").size());
   EXPECT_EQ(json["residual"], plain.doubles("/relaxation/residual").back());
-  EXPECT_NEAR(json["moved_volume"], slipped + displaced, 1e-12 * slipped);
+  EXPECT_NEAR(json["moved_volume"], relaxed + displaced, 1e-12 * relaxed);
   const double area = file.cell_size() * file.cell_size();
   EXPECT_NEAR(json["volume_initial"], file.initial().sum() * area, 1e-12);
   EXPECT_NEAR(json["volume_final"], file.final().sum() * area, 1e-12);
@@ -260,7 +260,11 @@ TEST(CliRun, ASceneThatNobodyWritesIsNotWaitedForAfterASignal) {
 std::function<void()> nobody_reads(int descriptor) {
   return [descriptor] {
     int ends[2];
-    if (pipe(ends) == 0) dup2(ends[1], descriptor), close(ends[0]), close(ends[1]);
+    if (pipe(ends) == 0) {
+      dup2(ends[1], descriptor);
+      close(ends[0]);
+      close(ends[1]);
+    }
   };
 }
 

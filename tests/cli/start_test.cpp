@@ -1,4 +1,4 @@
-// What the program loads, and when: libraries to draw take 20 ms and 50 MB, which only pictures are to cost.
+// The program loads libraries to draw only for pictures: they take 20 ms and 50 MB.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -36,7 +36,7 @@ TEST(CliStart, NothingToDrawWithIsLoadedWithoutAPicture) {
   EXPECT_TRUE(names(loaded, "libLLVM"));
 }
 
-TEST(CliStart, WhereOsMesaIsMissingOnlyPicturesFailAndSayWhatToInstall) {
+TEST(CliStart, OnlyPicturesFailWithoutOsMesaAndSayWhatToInstall) {
   const fs::path folder = test_folder();
   if (!names(loaded_by({"run", "scene.toml", "-o", "run.h5", "--png", "run.png"}, folder), "libOSMesa"))
     GTEST_SKIP() << "pictures are drawn through EGL";

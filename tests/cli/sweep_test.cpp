@@ -71,7 +71,7 @@ TEST_F(CliSweep, PicturesOfPointsAreThoseOfTheirRuns) {
   }
 }
 
-TEST_F(CliSweep, WithoutAClusterNothingIsLeft) {
+TEST_F(CliSweep, LeavesNothingWithoutACluster) {
   Conditions conditions;
   conditions.path = folder.string();  // where no sbatch is
   const ProgramResult result = sweep({"plan.toml", "-o", "out", "--slurm"}, conditions);
@@ -100,7 +100,7 @@ TEST_F(CliSweep, APointsCommandGivesThePointsFigures) {
   const std::string command = data["points"][3]["command"];
   const std::string start = "sandstroke run ";
   ASSERT_TRUE(command.starts_with(start));
-  // As a shell takes it.
+  // The command as a shell takes it.
   const std::string line = "cd '" + folder.string() + "' && " + SANDSTROKE_PROGRAM + " run " +
                            command.substr(start.size()) + " --json > run.json";
   ASSERT_EQ(std::system(line.c_str()), 0) << line;
@@ -136,7 +136,7 @@ TEST_F(CliSweep, InterruptedAndKilledItGoesOnToTheSameEnd) {
   EXPECT_EQ(resumed["content_hash"], content("whole"));
 }
 
-TEST_F(CliSweep, InterruptedItStopsBetweenPointsThatShareASimulation) {
+TEST_F(CliSweep, StopsBetweenPointsThatShareASimulationWhenInterrupted) {
   const int points = sanitized ? 400 : 4000;
   plan(fmt::format("force.k_s = {{ from = 100, to = 2000, count = {} }}\n", points),
        "metrics = [\"max_force\"]\n");

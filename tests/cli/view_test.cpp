@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Sand that does not slip, so that nothing but sampling differs between what was seen and what a run plays.
+// Sand that does not relax, so that nothing but sampling differs between what was seen and what a run plays.
 const std::vector<std::string> firm = {"--set", "relaxation.talus_angle=85", "--set", "relaxation.rate=0"};
 
 std::vector<std::string> plus(std::vector<std::string> arguments, const std::vector<std::string>& more) {
@@ -153,8 +153,10 @@ TEST(CliView, TheAddressIsOpenedWhereThereIsADesktop) {
     conditions.path = (folder / "bin").string() + ":/usr/bin:/bin";
     conditions.in_child = [=] {
       unsetenv("WAYLAND_DISPLAY");
-      desktop ? setenv("DISPLAY", ":99", 1) : unsetenv("DISPLAY");
-      ci ? setenv("CI", "true", 1) : unsetenv("CI");
+      unsetenv("DISPLAY");
+      unsetenv("CI");
+      if (desktop) setenv("DISPLAY", ":99", 1);
+      if (ci) setenv("CI", "true", 1);
     };
     std::vector<std::string> arguments = {"record",     "--device", "pointer", "--feel",
                                           "scene.toml", "-o",       "a.h5",    "--overwrite"};

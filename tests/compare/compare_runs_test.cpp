@@ -61,7 +61,7 @@ TEST_F(CompareRuns, AFinerBedIsComparedInMeansWhereThatIsAskedFor) {
   }
 }
 
-TEST_F(CompareRuns, AFinerCellCountsByItsShareOfTheMean) {
+TEST_F(CompareRuns, AFinerCellCountsByItsPartOfTheMean) {
   refine(run);
   coarsen = true;
   run.final(11, 15) += 4.0 * 0.95e-6;
@@ -95,10 +95,9 @@ TEST_F(CompareRuns, BedsThatDoNotFitAreNotCoarsened) {
 }
 
 TEST(Verdict, IsOneLine) {
-  const Check good = fact_check("cell size", true, ""), bad = fact_check("force", false, "");
+  const Check good = passed_check("cell size", ""), bad = failed_check("force", "");
   EXPECT_EQ(verdict({"run", {good}}), "same within the tolerances");
-  EXPECT_EQ(verdict({"run", {bad, good, fact_check("final height", false, "")}}),
-            "differs: force, final height");
+  EXPECT_EQ(verdict({"run", {bad, good, failed_check("final height", "")}}), "differs: force, final height");
 }
 
 TEST_F(CompareRuns, AFileEqualsItself) {
@@ -235,7 +234,7 @@ TEST_F(CompareRuns, WhatIsNoRunFileIsBadInput) {
   EXPECT_THROW(RunFile(folder / "other.h5"), Error);
 }
 
-TEST(Comparison, OfNothingHasNotPassed) { EXPECT_FALSE(Comparison{}.passed()); }
+TEST(Comparison, HasNotPassedWithoutChecks) { EXPECT_FALSE(Comparison{}.passed()); }
 
 TEST(CheckTable, IsAlignedAndExplainsWhatFailed) {
   const Comparison comparison{"run",
@@ -249,8 +248,7 @@ TEST(CheckTable, IsAlignedAndExplainsWhatFailed) {
 }
 
 TEST(CheckJson, HasNullForWhatIsNotANumber) {
-  const nlohmann::json json =
-      nlohmann::json::parse(to_json({"run", {fact_check("trace", false, "none")}}).dump());
+  const nlohmann::json json = nlohmann::json::parse(to_json({"run", {failed_check("trace", "none")}}).dump());
   EXPECT_EQ(json["passed"], false);
   EXPECT_TRUE(json["checks"][0]["measured"].is_null());
   EXPECT_EQ(json["checks"][0]["sentence"], "none");

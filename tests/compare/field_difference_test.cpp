@@ -18,7 +18,7 @@ TEST(FieldDifference, IsZeroForEqualSurfaces) {
   EXPECT_EQ(difference.volume, 0.0);
 }
 
-TEST(FieldDifference, OneCellGivesPlaceRmsAndVolume) {
+TEST(FieldDifference, OneCellGivesPositionRmsAndVolume) {
   const HeightGrid golden = HeightGrid::Zero(4, 9);
   HeightGrid run = golden;
   run(3, 6) = -0.25;
@@ -33,7 +33,7 @@ TEST(FieldDifference, OneCellGivesPlaceRmsAndVolume) {
   EXPECT_DOUBLE_EQ(difference.volume, -0.25 * 0.25);
 }
 
-TEST(FieldDifference, OfHugeBedsCostsWhatIsTouchedAndIsTheSame) {
+TEST(FieldDifference, CostsWhatIsTouchedOfHugeBedsAndIsTheSame) {
   HeightField golden(65536, 65536, 0.5), run = golden;
   golden.set(40000, 7, 1.0);  // only on one side
   run.set(123, 60000, -2.0);

@@ -12,7 +12,7 @@ bool passes(const Image& golden, const Image& run) {
   return Comparison{"pictures", picture_checks(golden, run, Tolerances{})}.passed();
 }
 
-TEST(ImageDifference, FindsTheChannelThePlaceAndTheShare) {
+TEST(ImageDifference, FindsTheChannelThePixelAndTheFraction) {
   const Image golden(20, 10);
   Image run = golden;
   run.pixel(3, 4)[1] = 7;
@@ -21,9 +21,9 @@ TEST(ImageDifference, FindsTheChannelThePlaceAndTheShare) {
   EXPECT_EQ(difference.max, 200);
   EXPECT_EQ(difference.x, 13);
   EXPECT_EQ(difference.y, 9);
-  EXPECT_DOUBLE_EQ(difference.share, 2.0 / 200.0);
+  EXPECT_DOUBLE_EQ(difference.fraction, 2.0 / 200.0);
   EXPECT_EQ(image_difference(run, golden).max, 200) << "the sign does not matter";
-  EXPECT_EQ(image_difference(run, run).share, 0.0);
+  EXPECT_EQ(image_difference(run, run).fraction, 0.0);
 }
 
 TEST(ImageDifference, RefusesDifferentSizes) {

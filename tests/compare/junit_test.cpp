@@ -99,8 +99,8 @@ class StrictXml {
 
 TEST(Junit, CountsAndNamesWhatFailed) {
   const std::vector<Comparison> comparisons{
-      {"letters", {fact_check("scene", true, "same"), limit_check("force", 2.0, 1.0, "N", "differs by 2 N")}},
-      {"collapse", {fact_check("scene", false, "scene changed"), fact_check("picture", false, "gone")}}};
+      {"letters", {passed_check("scene", "same"), limit_check("force", 2.0, 1.0, "N", "differs by 2 N")}},
+      {"collapse", {failed_check("scene", "scene changed"), failed_check("picture", "gone")}}};
   const Element root = StrictXml(junit_report(comparisons)).document();
   EXPECT_EQ(root.name, "testsuites");
   EXPECT_EQ(root.attributes.at("name"), build);
@@ -129,7 +129,7 @@ TEST(Junit, CountsAndNamesWhatFailed) {
 }
 
 TEST(Junit, SaysHowLongEachTookAndHowLongAll) {
-  Check run = fact_check("run complete", true, ""), force = fact_check("force", false, "no");
+  Check run = passed_check("run complete", ""), force = failed_check("force", "no");
   run.seconds = 12.25;
   force.seconds = 0.5;
   const Element root = StrictXml(junit_report({{"letters", {run, force}}, {"collapse", {force}}})).document();
@@ -142,7 +142,7 @@ TEST(Junit, SaysHowLongEachTookAndHowLongAll) {
 
 TEST(Junit, EscapesWhatXmlReserves) {
   const std::string nasty = "a < b && \"c\" > 'd' &amp; ]]>\n\tM\xc3\xbcnchen";
-  const Element root = StrictXml(junit_report({{nasty, {fact_check(nasty, false, nasty)}}})).document();
+  const Element root = StrictXml(junit_report({{nasty, {failed_check(nasty, nasty)}}})).document();
   const Element& suite = root.children.at(0);
   EXPECT_EQ(suite.attributes.at("name"), nasty);
   EXPECT_EQ(suite.children.at(0).attributes.at("name"), nasty);

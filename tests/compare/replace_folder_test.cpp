@@ -15,7 +15,7 @@
 
 namespace {
 
-/// What the system refuses this program's calls.
+/// The calls of this program that the system refuses.
 struct Refused {
   bool exchange = false;  // as file systems that cannot
   std::string place;      // what is to be put there, once
@@ -28,7 +28,7 @@ int really_rename(const char* from, const char* to, unsigned flags) {
 
 }  // namespace
 
-// In place of the system's own: this program calls these.
+// This program calls these in place of the system's own.
 extern "C" {
 int renameat2(int, const char* from, int, const char* to, unsigned flags) noexcept {
   if (!refused.exchange) return really_rename(from, to, flags);
@@ -61,7 +61,7 @@ class ReplacedFolder : public testing::TestWithParam<bool> {
     replace_folder(made, place);
     fs::remove_all(made);  // the old one
   }
-  /// Of what is in place, where that is all there is.
+  /// The content of what is in place, which must be all there is.
   std::string content() const {
     EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), fs::directory_iterator()), 1);
     return read_text_file(place / "content");

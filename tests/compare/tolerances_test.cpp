@@ -32,9 +32,7 @@ TEST(Tolerances, AnOptionCountsBeforeTheFileAndThatBeforeTheDefault) {
   EXPECT_EQ(changed_tolerances(used_tolerances({})), "");
 }
 
-TEST(Tolerances, WithoutAFileNoneAreGiven) {
-  EXPECT_TRUE(read_tolerances("/nosuch/tolerances.toml").empty());
-}
+TEST(Tolerances, AreNotGivenWithoutAFile) { EXPECT_TRUE(read_tolerances("/nosuch/tolerances.toml").empty()); }
 
 }  // namespace
 }  // namespace sandstroke

@@ -71,7 +71,8 @@ TEST(TraceDifference, ALevelMayOnlyBeMissingWhereBothAreLifted) {
   const std::vector<TickRecord> golden = SyntheticRun().trace;
   for (const auto& [golden_touches, run_touches] : {std::pair{true, false}, {false, true}, {true, true}}) {
     std::vector<TickRecord> a = golden, b = golden;  // lifted in tick 7
-    a[7].contact = golden_touches, b[7].contact = run_touches;
+    a[7].contact = golden_touches;
+    b[7].contact = run_touches;
     EXPECT_TRUE(std::isnan(trace_difference(a, b).level.max));
     EXPECT_EQ(trace_difference(a, b).level.tick, 7u);
   }

@@ -16,8 +16,8 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 long double wide(double x) { return static_cast<long double>(x); }
 
-/// How far the result is from `exact`, the same function in long double (64 bits on x86-64, 113 on arm64), in
-/// units in the last place: of the nearest double half a unit, and what long double itself is off.
+/// The distance of the result from `exact`, the same function in long double (64 bits on x86-64, 113 on
+/// arm64), in units in the last place: of the nearest double half a unit, and what long double itself is off.
 double units_off(double result, long double exact) {
   const double size = std::abs(result), unit = std::nextafter(size, infinity) - size;
   return static_cast<double>(std::abs(wide(result) - exact) / wide(unit));
@@ -39,7 +39,7 @@ struct Case {
   double from, to;
 };
 
-TEST(Elementary, OfOneArgumentEachIsTheNearestDouble) {
+TEST(Elementary, FunctionsOfOneArgumentAreTheNearestDouble) {
   for (const Case& c : {
            Case{"sin", elementary::sin, std::sin, -10.0, 10.0},
            {"sin", elementary::sin, std::sin, -1e6, 1e6},
@@ -67,7 +67,7 @@ TEST(Elementary, OfOneArgumentEachIsTheNearestDouble) {
   }
 }
 
-TEST(Elementary, OfTwoArgumentsEachIsTheNearestDouble) {
+TEST(Elementary, FunctionsOfTwoArgumentsAreTheNearestDouble) {
   for (int k = 0; k < numbers_of_each; ++k) {
     const double x = number(2 * k, -1.0, 1.0), y = number(2 * k + 1, -1.0, 1.0);
     const double base = x + 2.0, power = 9.0 * y;
@@ -117,7 +117,7 @@ TEST(Elementary, AnglesAreThoseOfTheirQuadrant) {
   EXPECT_EQ(elementary::acos(-1.0), pi);
 }
 
-TEST(Elementary, AtTheEdgesEachIsWhatItIsElsewhere) {
+TEST(Elementary, FunctionsAreAtTheEdgesWhatTheyAreElsewhere) {
   EXPECT_EQ(elementary::exp(0.0), 1.0);
   EXPECT_EQ(elementary::exp(709.79), infinity);
   EXPECT_EQ(elementary::exp(-infinity), 0.0);

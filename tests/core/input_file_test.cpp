@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Of several blocks, no two of which are the same.
+/// A text of several blocks, no two of which are the same.
 std::string long_text() {
   std::string text;
   for (int i = 0; text.size() < 300'001; ++i) text += std::to_string(i * i) + '\n';

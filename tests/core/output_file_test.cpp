@@ -25,11 +25,14 @@ TEST(OutputFile, IsPutInPlaceWhole) {
   EXPECT_FALSE(fs::exists(part_path(path)));
 }
 
-TEST(OutputFile, ThatIsNotWrittenToItsEndLeavesWhatWasThere) {
+TEST(OutputFile, LeavesWhatWasThereIfItIsNotWrittenToItsEnd) {
   const TestFolder folder;
   const fs::path path = folder / "file";
   EXPECT_TRUE(write_file(path, text_kind, [](std::ostream& file) { return bool(file << "first"); }));
-  EXPECT_FALSE(write_file(path, text_kind, [](std::ostream& file) { return file << "fi", false; }));
+  EXPECT_FALSE(write_file(path, text_kind, [](std::ostream& file) {
+    file << "fi";
+    return false;
+  }));
   EXPECT_THROW(write_file(path, text_kind,
                           [](std::ostream& file) -> bool {
                             file << "fi" << std::flush;
@@ -65,7 +68,7 @@ TEST(OutputFile, IsNotWrittenByTwoAtATime) {
   EXPECT_EQ(read_text_file(path), "mine");
 }
 
-TEST(OutputFile, ThatTakesAPlaceOfAFolderIsRefusedAndLeavesNothing) {
+TEST(OutputFile, IsRefusedAtTheNameOfAFolderAndLeavesNothing) {
   const TestFolder folder;
   make_folder(folder / "file.part");
   EXPECT_THROW(write_text_file(folder / "file", "text"), Error);
@@ -107,7 +110,7 @@ TEST(OutputFile, NothingIsWrittenThroughALinkOrPipe) {
   EXPECT_TRUE(fs::is_symlink(path));
 }
 
-TEST(OutputFile, TakesNoPlaceOfWhatIsNotOfItsKind) {
+TEST(OutputFile, ReplacesNothingOfAnotherKind) {
   const TestFolder folder;
   const fs::path path = folder / "file";
   struct Case {

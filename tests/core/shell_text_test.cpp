@@ -8,7 +8,7 @@
 namespace sandstroke {
 namespace {
 
-/// What a shell makes of the word.
+/// The word as a shell reads it.
 std::string echoed(const std::string& word) {
   FILE* shell = popen(("printf %s " + shell_quoted(word)).c_str(), "r");
   std::array<char, 256> text{};

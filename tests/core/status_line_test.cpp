@@ -11,8 +11,8 @@
 namespace sandstroke {
 namespace {
 
-/// What a terminal is sent by a program that draws a line, perhaps loses the terminal to another job, and
-/// clears the line.
+/// The text that a terminal is sent by a program that draws a line, perhaps loses the terminal to another
+/// job, and clears the line.
 std::string sent_to_terminal(bool goes_to_background) {
   int terminal = -1;
   const pid_t program = forkpty(&terminal, nullptr, nullptr, nullptr);

@@ -19,7 +19,7 @@ HeightGrid rough(int rows, int cols) {
   return heights;
 }
 
-/// How often each directed edge occurs.
+/// The number of times that each directed edge occurs.
 std::map<std::pair<std::uint64_t, std::uint64_t>, int> edges_of(const BedMesh& mesh) {
   std::map<std::pair<std::uint64_t, std::uint64_t>, int> edges;
   mesh.visit_triangles([&](const BedMesh::Triangle& t) {
@@ -28,7 +28,7 @@ std::map<std::pair<std::uint64_t, std::uint64_t>, int> edges_of(const BedMesh& m
   return edges;
 }
 
-/// By the divergence theorem [m^3].
+/// The volume by the divergence theorem [m^3].
 double volume_of(const BedMesh& mesh) {
   double volume = 0.0;
   mesh.visit_triangles([&](const BedMesh::Triangle& t) {
@@ -37,7 +37,7 @@ double volume_of(const BedMesh& mesh) {
   return volume;
 }
 
-TEST(BedMesh, OfABodyIsClosed) {
+TEST(BedMesh, IsClosedForABody) {
   for (const auto& [rows, cols] : {std::pair(1, 1), {1, 4}, {5, 2}, {7, 9}}) {
     const HeightGrid heights = rough(rows, cols);
     const BedMesh mesh(heights, cell_size, base);
@@ -66,7 +66,7 @@ TEST(BedMesh, HoldsTheSandAboveItsFloor) {
   EXPECT_NEAR(volume_of(mesh), sand, 1e-14);
 }
 
-TEST(BedMesh, OfAFlatBedIsABoxOfItsSize) {
+TEST(BedMesh, IsABoxForAFlatBed) {
   const HeightGrid heights = HeightGrid::Constant(20, 30, 0.003);
   const BedMesh mesh(heights, cell_size, base);
   Eigen::AlignedBox3d box;
@@ -92,7 +92,7 @@ TEST(BedMesh, FacesOutwards) {
   });
 }
 
-TEST(BedMesh, OfASurfaceHasItsHeightsAtTheCentresOfCells) {
+TEST(BedMesh, HasASurfacesHeightsAtTheCentresOfCells) {
   const HeightGrid heights = rough(3, 5);
   const BedMesh mesh(heights, cell_size, std::nullopt);
   EXPECT_EQ(mesh.size().vertices, 5u * 7u);
@@ -113,7 +113,7 @@ TEST(BedMesh, OfASurfaceHasItsHeightsAtTheCentresOfCells) {
   EXPECT_EQ(open, 2u * (4 + 6));
 }
 
-TEST(BedMesh, OfTheLargestBedIsCounted) {
+TEST(BedMesh, CountsTheLargestBed) {
   const MeshSize surface = mesh_size(65536, 65536, false), body = mesh_size(65536, 65536, true);
   EXPECT_EQ(surface.vertices, 65538ull * 65538);
   EXPECT_EQ(surface.triangles, 2ull * 65537 * 65537);

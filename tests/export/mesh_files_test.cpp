@@ -39,7 +39,7 @@ Eigen::Vector3f take_vector(const std::string& bytes, std::size_t& at) {
   return {x, y, z};
 }
 
-/// What the files must hold: mm.
+/// The mesh that the files must hold, in mm.
 std::vector<Corners> corners_of(const BedMesh& mesh) {
   std::vector<Corners> all;
   mesh.visit_triangles([&](const BedMesh::Triangle& t) {

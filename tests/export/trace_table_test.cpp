@@ -12,15 +12,20 @@ TEST(TraceTable, HasAColumnForEveryNumberOfEveryField) {
   tick.time = 1.0 / 3.0;
   tick.hand.position = {1.1, 2.2, 3.3};
   tick.device_position = {-1.1, -2.2, -3.3};
-  tick.device_force = {0.1, 0.2, 0.3}, tick.repulse_force = {0.4, 0.5, 0.6},
+  tick.device_force = {0.1, 0.2, 0.3};
+  tick.repulse_force = {0.4, 0.5, 0.6};
   tick.drag_force = {0.7, 0.8, 0.9};
-  tick.depth = 1e-300, tick.displaced_volume = 5e-8, tick.passivity_margin = -3.5;
+  tick.depth = 1e-300;
+  tick.displaced_volume = 5e-8;
+  tick.passivity_margin = -3.5;
   tick.contact = true;
   std::ostringstream file;
   write_csv(file, trace_table({tick, TickRecord{}}));
   std::istringstream lines(file.str());
   std::string header, first, second, none;
-  std::getline(lines, header), std::getline(lines, first), std::getline(lines, second);
+  std::getline(lines, header);
+  std::getline(lines, first);
+  std::getline(lines, second);
   EXPECT_EQ(header,
             "time [s],hand_position_x [m],hand_position_y [m],hand_position_z [m],device_position_x [m],"
             "device_position_y [m],device_position_z [m],device_force_x [N],device_force_y [N],"

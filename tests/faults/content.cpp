@@ -35,7 +35,7 @@ void add_values(hid_t type, hid_t space, const std::string& object, ContentHash&
   H5Dvlen_reclaim(memory_type, space, H5P_DEFAULT, bytes.data());
 }
 
-/// Of the machine and the moment, not of what was asked for.
+/// True for what tells of the machine and the moment, not of what was asked for.
 bool is_measured(const std::string& name) {
   for (const char* part : {"timing", "wall_seconds", "real_time_factor"})
     if (name.find(part) != std::string::npos) return true;
@@ -123,7 +123,7 @@ bool can_be_read(const fs::path& part) {
 std::string damage_in(const fs::path& folder) {
   for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder)) {
     const fs::path path = entry.path();
-    // Not under their names yet; and the journal of a recording, which has checks of its own.
+    // Skips files not yet under their names, and the journal of a recording, which has its own checks.
     const bool in_part = path.string().find(".part") != std::string::npos;
     if (!entry.is_regular_file() || in_part || path.extension() == ".recording") continue;
     if (path.filename().string().starts_with(".")) continue;  // locks

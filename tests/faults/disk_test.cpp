@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 class Disk : public CommandsTest {};
 SANDSTROKE_FOR_EACH_COMMAND(Disk);
 
-TEST_P(Disk, Full) {
+TEST_P(Disk, FullIsAnErrorThatLeavesNothingHalfWritten) {
   Disturbed disturbed(GetParam());
   SmallDisk disk(disturbed.folder(), 1000);
   if (!disk.mounted()) GTEST_SKIP() << "nothing can be mounted here";
@@ -42,7 +42,7 @@ TEST_P(Disk, Full) {
   tell("full disk (tmpfs)", GetParam().name, outcomes);
 }
 
-TEST_P(Disk, FullFromAnyCallOn) {
+TEST_P(Disk, FullFromAnyCallOnLeavesNothingHalfWritten) {
   if (sanitized) GTEST_SKIP() << "a sanitizer must be loaded first, and so must be what fails";
   Disturbed disturbed(GetParam());
   std::map<std::string, int> outcomes;
@@ -50,7 +50,7 @@ TEST_P(Disk, FullFromAnyCallOn) {
   for (const long call : some_calls(calls)) {
     const std::string where = fmt::format("full from call {} of {} on", call, calls);
     const ProgramResult result = disturbed.run({.in_child = faulty_system(fmt::format("full:{}", call))});
-    // What comes last needs no room.
+    // The last calls need no room.
     EXPECT_TRUE(result.exit_code == io_error ||
                 (result.exit_code == 0 && disturbed.state() == "all of the result"))
         << where << ": " << result.exit_code << " " << result.err;
@@ -61,7 +61,7 @@ TEST_P(Disk, FullFromAnyCallOn) {
   tell("full disk, from some call on", GetParam().name, outcomes);
 }
 
-TEST_P(Disk, ReadOnly) {
+TEST_P(Disk, ReadOnlyIsAnErrorThatLeavesNothingHalfWritten) {
   Disturbed disturbed(GetParam());
   SmallDisk disk(disturbed.folder(), 4 * disturbed.kilobytes_after());
   if (!disk.mounted()) GTEST_SKIP() << "nothing can be mounted here";
@@ -98,7 +98,7 @@ Conditions removes(const fs::path& folder, bool whole_folder) {
   return conditions;
 }
 
-TEST_P(Disk, OutputRemovedWhileItIsWritten) {
+TEST_P(Disk, OutputRemovedWhileItIsWrittenLeavesNothingHalfWritten) {
   Disturbed disturbed(GetParam());
   std::map<std::string, int> outcomes;
   for (const bool whole_folder : {false, true}) {

@@ -68,7 +68,7 @@ std::vector<std::string> frames(int count) {
   return files;
 }
 
-/// As a file system of pages counts.
+/// The size of a folder as a file system of pages counts it.
 long kilobytes_of(const fs::path& folder) {
   long sum = 0;
   for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder))
@@ -76,7 +76,7 @@ long kilobytes_of(const fs::path& folder) {
   return sum;
 }
 
-/// What a user does before the same recording again: what was recorded is not written over.
+/// Does as a user before the same recording again: what was recorded is not written over.
 void save_recording(const fs::path& folder) {
   if (!fs::exists(folder / "hand.h5.recording")) return;
   const ProgramResult repair = run_program({"stroke", "repair", "hand.h5", "saved.h5", "--remove"}, folder);

@@ -30,11 +30,11 @@ class Disturbed {
 
   double seconds() const { return seconds_; }              ///< that it takes undisturbed
   const std::string& printed() const { return printed_; }  ///< undisturbed, to standard output
-  /// In a fresh folder: prepare() and start().
+  /// Runs it in a fresh folder: prepare() and start().
   ProgramResult run(const Conditions& conditions);
   void prepare();
   ProgramResult start(Conditions conditions = {}) const;
-  /// Of calls when it is undisturbed.
+  /// Numbers of calls when it is undisturbed.
   struct Counts {
     long changes = 0;  ///< of files
     long reads = 0;    ///< of the user's files
@@ -64,16 +64,16 @@ class Disturbed {
   long kilobytes_before_ = 0, kilobytes_after_ = 0;  // of all files
 };
 
-/// What the program is run under: SANDSTROKE_FAULT for tests/faulty_system.cpp.
+/// Sets SANDSTROKE_FAULT for tests/faulty_system.cpp, under which the program is run.
 std::function<void()> faulty_system(const std::string& fault);
 /// Some of so many calls, counted from 1: all of the last ones, where results are put in place, and as many
 /// of those before.
 std::vector<long> some_calls(long calls);
 
-/// How it ended, and what is there now, in words.
+/// The end of the program, and the state of its files now, in words.
 std::string outcome(const ProgramResult& result, const Disturbed& disturbed);
 
-/// Of the environment: SANDSTROKE_FAULT_REPEATS, or a few.
+/// SANDSTROKE_FAULT_REPEATS of the environment, or a few.
 int fault_repeats();
 
 /// Adds a row to the table of faults, where the environment names a file for it: SANDSTROKE_FAULT_TABLE.

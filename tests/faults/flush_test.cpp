@@ -1,4 +1,4 @@
-// What a file had when it was flushed can be read, wherever a kill comes after that, also into a flush.
+// A file's content when it was flushed can be read, wherever a kill comes after that, also into a flush.
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <spdlog/fmt/fmt.h>

@@ -14,7 +14,7 @@ namespace {
 class Kill : public CommandsTest {};
 SANDSTROKE_FOR_EACH_COMMAND(Kill);
 
-TEST_P(Kill, AtAnyMoment) {
+TEST_P(Kill, LeavesNothingHalfWrittenAtAnyMoment) {
   Disturbed disturbed(GetParam());
   std::mt19937 random(7);
   std::uniform_real_distribution<double> within(0.0, 1.0);
@@ -32,7 +32,7 @@ TEST_P(Kill, AtAnyMoment) {
   tell("kill -9 at a random moment", GetParam().name, outcomes);
 }
 
-TEST_P(Kill, BetweenAnyTwoChangesOfFiles) {
+TEST_P(Kill, LeavesNothingHalfWrittenBetweenAnyTwoChangesOfFiles) {
   if (sanitized) GTEST_SKIP() << "a sanitizer must be loaded first, and so must be what fails";
   Disturbed disturbed(GetParam());
   const long calls = disturbed.calls().changes;

@@ -48,7 +48,7 @@ void expect_clear(const ProgramResult& result, const Disturbed& disturbed, const
   EXPECT_NE(result.err, "") << where;
 }
 
-TEST_P(Limits, FileDescriptors) {
+TEST_P(Limits, FewFileDescriptorsAreEnoughOrAClearError) {
   if (sanitized) GTEST_SKIP() << "a sanitizer looks at objects through pipes of its own";
   Disturbed disturbed(GetParam());
   std::map<std::string, int> outcomes;
@@ -63,7 +63,7 @@ TEST_P(Limits, FileDescriptors) {
   tell("few file descriptors (3 to 12)", GetParam().name, outcomes);
 }
 
-TEST_P(Limits, AddressSpace) {
+TEST_P(Limits, ASmallAddressSpaceIsEnoughOrAClearError) {
   if (sanitized) GTEST_SKIP() << "a sanitizer takes an address space of its own";
   Disturbed disturbed(GetParam());
   std::map<std::string, int> outcomes;
@@ -80,7 +80,7 @@ TEST_P(Limits, AddressSpace) {
   tell("address space of 200 to 600 MB (ulimit -v)", GetParam().name, outcomes);
 }
 
-TEST_P(Limits, ClockThatJumps) {
+TEST_P(Limits, AClockThatJumpsChangesNothing) {
   if (sanitized) GTEST_SKIP() << "a sanitizer must be loaded first, and so must be what fails";
   Disturbed disturbed(GetParam());
   const ProgramResult result = disturbed.run({.in_child = faulty_system("clock")});
@@ -90,7 +90,7 @@ TEST_P(Limits, ClockThatJumps) {
   disturbed.expect_nothing_half("clock");
 }
 
-TEST_P(Limits, AFileSystemWithoutLocks) {
+TEST_P(Limits, AFileSystemWithoutLocksIsWarnedOf) {
   if (sanitized) GTEST_SKIP() << "a sanitizer must be loaded first, and so must be what fails";
   Disturbed disturbed(GetParam());
   std::map<std::string, int> outcomes;
@@ -179,7 +179,7 @@ TEST(LimitedMemory, ASceneThatTakesMoreIsRefusedBeforeItIsTaken) {
 TEST(LimitedMemory, AContainersLimitIsRespected) {
   if (!have_own_mounts()) GTEST_SKIP() << "nothing can be mounted here";
   const fs::path folder = folder_with_large_scene(), groups = folder / "groups";
-  // As Docker shows it: the container's own group, whatever its path, is the topmost one.
+  // The container's own group, whatever its path, is the topmost one, as Docker shows it.
   for (const char* version : {"1", "2"}) {
     fs::remove_all(groups);
     fs::create_directories(groups / "memory");

@@ -150,7 +150,7 @@ TEST(ReadingOnce, GivesTheSameOrSaysThatItCannot) {
   }
 }
 
-/// Not as above: a recording that was cut off is never complete.
+/// A recording that was cut off is never complete, unlike the files above.
 TEST(ReadingAJournal, GivesTheSameOrSaysThatItCannot) {
   if (sanitized) GTEST_SKIP() << "a sanitizer must be loaded first, and so must be what fails";
   const fs::path folder = test_folder();

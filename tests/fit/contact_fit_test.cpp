@@ -17,8 +17,10 @@ enum class Way { draws, plunges };
 
 Scene scene_with(ForceLaw law, ToolShape shape) {
   Scene scene;
-  scene.bed.width = 0.16, scene.bed.depth = 0.12;
-  scene.bed.cols = 80, scene.bed.rows = 60;
+  scene.bed.width = 0.16;
+  scene.bed.depth = 0.12;
+  scene.bed.cols = 80;
+  scene.bed.rows = 60;
   apply_model_preset(scene);
   scene.force.law = law;
   scene.tool.shape = shape;
@@ -51,8 +53,8 @@ class Told : public SimulationObserver {
   std::vector<TickRecord> ticks;
 };
 
-/// What a device that plays the stroke in that scene would record, with noise of that share of its rms force
-/// on each component.
+/// The recording of a device that plays the stroke in that scene, with noise of that fraction of its rms
+/// force on each component.
 Stroke recorded_in(const Scene& scene, const Stroke& stroke, double noise = 0.0) {
   Simulation run(scene, starting_bed(scene.bed), stroke);
   Told told;
@@ -96,7 +98,7 @@ TEST(FrictionAngle, IsTheOneOfTheResistanceWhateverTheDensity) {
     }
 }
 
-/// What is felt beside a run is what the run feels.
+/// The forces computed beside a run are those of the run.
 TEST(ContactFit, NothingIsLeftOfARunsOwnForceWithItsConstants) {
   for (const ForceLaw law : {ForceLaw::rft, ForceLaw::archimedes})
     for (const ToolShape shape : {ToolShape::sphere, ToolShape::plate, ToolShape::box}) {
@@ -193,7 +195,7 @@ TEST(ContactFit, APlungeOfABoxDoesNotTellItsFriction) {
   }
 }
 
-/// Where sand nowhere slides along the tool, more friction does nothing.
+/// More friction does nothing where sand nowhere slides along the tool.
 TEST(ContactFit, ARoughToolTellsHardlyMoreThanThatItIsRough) {
   const SandStrength rough{34.0, 1560.0, 1e6};
   const Scene scene = scene_with(ForceLaw::rft, ToolShape::sphere);
@@ -241,7 +243,7 @@ TEST(ContactFit, AForceThatNoSandGivesHasAnAngleBeyondTheKeysRange) {
   EXPECT_NEAR(fit.explained, 1.0, 1e-9);
 }
 
-/// With more ticks than memory is taken for, every second one is let go, again and again.
+/// Every second tick is let go, again and again, where there are more than memory is taken for.
 TEST(ContactLaw, KeepsAnEvenPartOfVeryManyTicks) {
   const SandStrength sand;
   ContactLaw law({archimedes_constants, sand, values_in(sand, archimedes_constants), {true, false}}, 0.0);

@@ -98,7 +98,8 @@ TEST(ForceFit, FitsWhatIsAskedForAndKeepsTheOthers) {
 TEST(ForceFit, SaysThatAForceInShallowSandTellsOnlyTheProduct) {
   const ForceSettings paper;  // k_c d = 0.002: the force is k_s k_c d to one in a thousand
   ForceSettings start = paper;
-  start.k_s = 300.0, start.k_c = 2.0;
+  start.k_s = 300.0;
+  start.k_c = 2.0;
   const PaperFit fit = fit_force(felt(paper, 0.001, 0.004, 0.05), start, no_limit, all);
   EXPECT_EQ(fit.force.k_c, start.k_c);
   EXPECT_TRUE(std::isinf(fit.constants[1].error));

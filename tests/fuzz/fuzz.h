@@ -7,7 +7,7 @@
 
 #include "core/error.h"
 
-// What every fuzzing target includes: it defines LLVMFuzzerTestOneInput, and gives the input to what the
+// Every fuzzing target includes this: it defines LLVMFuzzerTestOneInput, and gives the input to what the
 // program's commands call.
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
@@ -23,7 +23,7 @@ void try_input(const Use& use) {
   }
 }
 
-/// What must be true of any input.
+/// Ends the program if a fact is false that must hold for any input.
 inline void require(bool fact) {
   if (!fact) std::abort();
 }

@@ -213,8 +213,8 @@ bool has_filter(const Hdf5Handle& properties, H5Z_filter_t filter) {
   return H5Pget_filter_by_id2(properties, filter, &flags, &parameters, nullptr, 0, nullptr, &config) >= 0;
 }
 
-/// Not into other files, nor, through them, into itself; nor through filters that HDF5 1.10.8 itself falls
-/// over when they pack (which only writing does, and what is fuzzed is reading).
+/// Writes neither into other files, nor, through them, into itself; nor through filters that HDF5 1.10.8
+/// itself falls over when they pack (which only writing does, and what is fuzzed is reading).
 void write_dataset(const Hdf5Handle& dataset, Bytes& bytes) {
   const Hdf5Handle properties(H5Dget_create_plist(dataset), H5Pclose);
   if (H5Pget_layout(properties) == H5D_VIRTUAL || H5Pget_external_count(properties) > 0 ||
@@ -324,7 +324,7 @@ void write_edited(const fs::path& good, const fs::path& edited, const std::uint8
     return;
   }
   prepare_hdf5();
-  // Not copy_file, which libFuzzer's clock interrupts.
+  // copy_file would not do: libFuzzer's clock interrupts it.
   std::ofstream(edited, std::ios::binary) << std::ifstream(good, std::ios::binary).rdbuf();
   Hdf5Handle file(H5Fopen(edited.c_str(), H5F_ACC_RDWR, without_locks()), H5Fclose);
   constexpr int most_edits = 8;

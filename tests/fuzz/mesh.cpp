@@ -1,4 +1,4 @@
-// An STL file: what is taken for a tool digs, feels, and loses no sand.
+// An STL file: what is taken for a tool carves, feels, and loses no sand.
 #include <cmath>
 
 #include "fuzz.h"
@@ -11,7 +11,7 @@ using namespace sandstroke;
 
 namespace {
 
-void dig(const ToolSettings& settings) {
+void carve(const ToolSettings& settings) {
   const double reach = std::max(tool_reach(settings), 1e-4), cell = reach / 8.0;
   HeightField bed(64, 64, cell);
   const auto made = make_tool(settings);
@@ -37,7 +37,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     tool.mesh = std::make_shared<TriangleMesh>(
         parse_mesh(std::string(reinterpret_cast<const char*>(data), size), 1.0, "tool.stl"));
     require(enclosed_volume(*tool.mesh) > 0.0);
-    dig(tool);
+    carve(tool);
   });
   return 0;
 }

@@ -8,7 +8,7 @@ namespace sandstroke {
 /// A scene of a few cells.
 Scene small_scene();
 
-/// What `run` does with a stroke that was read: places it, in both ways, looks where the hand is throughout,
+/// Does what `run` does with a stroke: places it in both ways, looks where the hand is throughout,
 /// and plays its first ticks on a small bed.
 void play(const Stroke& stroke);
 

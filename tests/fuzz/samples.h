@@ -7,7 +7,7 @@
 
 namespace sandstroke {
 
-/// What every reader of samples guarantees.
+/// Requires what every reader of samples guarantees.
 inline void require_sound(const SampleTable& table) {
   require(table.size() > 0);
   for (const SampleColumn& column : table.columns) {
@@ -18,7 +18,7 @@ inline void require_sound(const SampleTable& table) {
   require(table.lifts.empty() || table.lifts.size() == table.size());
 }
 
-/// Of a path that takes its time: its lines are drawn.
+/// Requires it of a path, too, whose lines are drawn at a speed.
 inline void require_path(const SampleTable& table) {
   require_sound(table);
   TableSettings settings;

@@ -11,7 +11,7 @@ using namespace sandstroke;
 
 namespace {
 
-/// Where plans are: with what they can name.
+/// The folder of the plans, with what they can name.
 struct Place {
   TemporaryFolder folder;
   Place() {
@@ -39,7 +39,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     for (std::size_t point = 0; point < points; point += 1 + points / 50)
       try_input([&] { plan.scene_of(point); });
     for (const SweepAxis& axis : plan.design.axes)
-      for (std::size_t value = 0; value < axis.values.size(); ++value) axis.label(value), axis.number(value);
+      for (std::size_t value = 0; value < axis.values.size(); ++value) {
+        axis.label(value);
+        axis.number(value);
+      }
     plan.design.shape();
   });
   return 0;

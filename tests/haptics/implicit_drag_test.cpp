@@ -13,8 +13,10 @@ using State = SimulatedDevice::State;
 
 DeviceSettings light_device(double servo_rate) {
   DeviceSettings settings = ideal_device();
-  settings.mass = 0.05, settings.damping = 0.1;
-  settings.hand_stiffness = 2000.0, settings.hand_damping = 0.5;
+  settings.mass = 0.05;
+  settings.damping = 0.1;
+  settings.hand_stiffness = 2000.0;
+  settings.hand_damping = 0.5;
   settings.servo_rate = servo_rate;
   return settings;
 }
@@ -34,14 +36,14 @@ TEST(DragVelocity, IsTheMeanOneOfTheTick) {
     }
 }
 
-TEST(DragVelocity, WithoutDragIsTheFreeDevices) {
+TEST(DragVelocity, IsTheFreeDevicesWithoutDrag) {
   SimulatedDevice device(light_device(1000.0), fast);
   const Eigen::Vector3d velocity = device.drag_velocity(held_hand, next_hand, Eigen::Vector3d::Zero(), 0.0);
   device.advance(held_hand, next_hand, Eigen::Vector3d::Zero());
   EXPECT_NEAR((device.state().position - fast.position - 1e-3 * velocity).norm(), 0.0, 1e-15);
 }
 
-TEST(DragVelocity, OfAShortTickIsTheVelocityReadBeforeIt) {
+TEST(DragVelocity, TendsToTheReadVelocityInShortTicks) {
   const SimulatedDevice device(light_device(1e6), fast);
   const Eigen::Vector3d velocity = device.drag_velocity(held_hand, held_hand, Eigen::Vector3d::Zero(), 10.0);
   EXPECT_NEAR((velocity - fast.velocity).norm(), 0.0, 1e-3 * fast.velocity.norm());
@@ -55,8 +57,8 @@ TEST(DragVelocity, StopsAFreeMassAtMost) {
     SimulatedDevice device(settings, fast);
     const Eigen::Vector3d velocity = device.drag_velocity(fast, fast, Eigen::Vector3d::Zero(), drag);
     device.advance(fast, fast, -drag * velocity);
-    const double share = std::min(drag / deadbeat, 1.0);  // the trapezoidal rule's, as far as it brakes
-    const Eigen::Vector3d expected = (1.0 - share) / (1.0 + share) * fast.velocity;
+    const double fraction = std::min(drag / deadbeat, 1.0);  // the trapezoidal rule's, as far as it brakes
+    const Eigen::Vector3d expected = (1.0 - fraction) / (1.0 + fraction) * fast.velocity;
     EXPECT_NEAR((device.state().velocity - expected).norm(), 0.0, 1e-12) << drag;
   }
 }

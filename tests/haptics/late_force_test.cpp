@@ -67,21 +67,21 @@ TEST(LateForce, ALateLoopGivesOutItsLastForceAgain) {
   }
 }
 
-TEST(DropsTick, DropsTheShareAskedForWithoutAPattern) {
+TEST(DropsTick, DropsTheFractionAskedForWithoutAPattern) {
   constexpr int ticks = 200'000;
-  for (const double share : {0.0, 0.01, 0.3, 0.9}) {
-    const double deviation = std::sqrt(share * (1.0 - share) / ticks);  // of the mean of as many coins
+  for (const double fraction : {0.0, 0.01, 0.3, 0.9}) {
+    const double deviation = std::sqrt(fraction * (1.0 - fraction) / ticks);  // of the mean of as many coins
     int dropped = 0, twice = 0;
     for (int k = 0; k < ticks; ++k) {
-      dropped += drops_tick(k, share);
-      twice += drops_tick(k, share) && drops_tick(k + 1, share);
+      dropped += drops_tick(k, fraction);
+      twice += drops_tick(k, fraction) && drops_tick(k + 1, fraction);
     }
-    EXPECT_NEAR(dropped / double{ticks}, share, 4.0 * deviation);
-    EXPECT_NEAR(twice / double{ticks}, share * share, 8.0 * deviation);  // neighbours are independent
+    EXPECT_NEAR(dropped / double{ticks}, fraction, 4.0 * deviation);
+    EXPECT_NEAR(twice / double{ticks}, fraction * fraction, 8.0 * deviation);  // neighbours are independent
   }
 }
 
-TEST(DropsTick, AreSplitMix64sNumbers) {
+TEST(DropsTick, FollowsSplitMix64sNumbers) {
   // The first five of seed 0, as published with the generator; the upper half is enough here.
   const double published[] = {0xe220a8397b1dcdafp-64, 0x6e789e6aa1b965f4p-64, 0x06c45d188009454fp-64,
                               0xf88bb8a8724c81ecp-64, 0x1b39896a51a8749bp-64};
@@ -91,7 +91,7 @@ TEST(DropsTick, AreSplitMix64sNumbers) {
   }
 }
 
-TEST(DropsTick, AHigherShareDropsMoreTicksAndNoneLess) {
+TEST(DropsTick, AHigherFractionDropsMoreTicksAndNoneLess) {
   for (int k = 0; k < 1000; ++k) EXPECT_LE(drops_tick(k, 0.2), drops_tick(k, 0.3));
 }
 

@@ -47,7 +47,7 @@ TEST(LoopStability, TheMapIsTheLoopTickByTick) {
   }
 }
 
-TEST(LoopStability, BeyondItsBoundaryALoopGrowsAndBelowItDies) {
+TEST(LoopStability, ALoopGrowsBeyondItsBoundaryAndDiesBelowIt) {
   for (const int delay : {0, 1, 4}) {
     const DeviceSettings device = held_device(1000.0, delay);
     const FeltSand most = stable_sand(device, DragDirection::horizontal, 0.0, 4);

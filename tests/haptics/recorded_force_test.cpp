@@ -68,7 +68,7 @@ TEST(RecordedForce, OnlyFlagsThatSayTheForceWasAlteredLeaveASampleOut) {
                                     {ramped_force, false},
                                     {rate_limited_force, false},
                                     {refused_force, false},
-                                    {held_sand, false},
+                                    {deferred_sand, false},
                                     {interlocked_force, false}}) {
     Stroke stroke = rising();
     stroke.flags = {0, flag, 0, 0};

@@ -13,10 +13,14 @@ namespace {
 TEST(TickCounts, EachFlagCountsItsOwn) {
   const auto count = [](std::uint32_t flags) {
     TickCounts t;
-    t.elapsed = 10, t.recorded = 20, t.skipped = 30, t.unread = 40, t.dropped = 50;
+    t.elapsed = 10;
+    t.recorded = 20;
+    t.skipped = 30;
+    t.unread = 40;
+    t.dropped = 50;
     count_flags(flags, t);
     EXPECT_EQ(t.elapsed + t.recorded + t.skipped + t.unread + t.dropped, 150);
-    return std::vector{t.late, t.clamped, t.ramped, t.rate_limited, t.refused, t.held, t.interlocked};
+    return std::vector{t.late, t.clamped, t.ramped, t.rate_limited, t.refused, t.deferred, t.interlocked};
   };
   using Counts = std::vector<std::int64_t>;
   EXPECT_EQ(count(0), (Counts{0, 0, 0, 0, 0, 0, 0}));
@@ -26,9 +30,9 @@ TEST(TickCounts, EachFlagCountsItsOwn) {
   EXPECT_EQ(count(ramped_force), (Counts{0, 0, 1, 0, 0, 0, 0}));
   EXPECT_EQ(count(rate_limited_force), (Counts{0, 0, 0, 1, 0, 0, 0}));
   EXPECT_EQ(count(refused_force), (Counts{0, 0, 0, 0, 1, 0, 0}));
-  EXPECT_EQ(count(held_sand), (Counts{0, 0, 0, 0, 0, 1, 0}));
+  EXPECT_EQ(count(deferred_sand), (Counts{0, 0, 0, 0, 0, 1, 0}));
   EXPECT_EQ(count(interlocked_force), (Counts{0, 0, 0, 0, 0, 0, 1}));
-  EXPECT_EQ(count(late_sample | refused_force | held_sand), (Counts{1, 0, 0, 0, 1, 1, 0}));
+  EXPECT_EQ(count(late_sample | refused_force | deferred_sand), (Counts{1, 0, 0, 0, 1, 1, 0}));
 }
 
 TEST(StopReason, HasATextOfItsOwnAndIsFoundByIt) {
@@ -42,7 +46,7 @@ TEST(StopReason, HasATextOfItsOwnAndIsFoundByIt) {
   EXPECT_EQ(stop_reason_of("unknown"), std::nullopt);
 }
 
-TEST(StopReason, OfWhatSomebodyAskedForLeavesACompleteRecording) {
+TEST(StopReason, LeavesACompleteRecordingIfSomebodyAskedForIt) {
   using enum StopReason;
   for (const StopReason asked : {duration, stroke_end, stop_switch, key}) EXPECT_TRUE(is_complete(asked));
   for (const StopReason other : {signal, device_lost, stall, disk, no_number, error, cut_off})
@@ -64,9 +68,14 @@ TEST(RecordingFields, EveryFieldHasANameOfItsOwn) {
 
 TEST(RecordingFields, AreUnderTheirNames) {
   RecordingHeader header;
-  header.nominal_rate = 1, header.device.max_force = 2, header.device.max_stiffness = 3;
-  header.device.workspace_radius = 4, header.device.switches = 5, header.force_limit = 6;
-  header.scheduling.priority = 7, header.device.max_damping = 8;
+  header.nominal_rate = 1;
+  header.device.max_force = 2;
+  header.device.max_stiffness = 3;
+  header.device.workspace_radius = 4;
+  header.device.switches = 5;
+  header.force_limit = 6;
+  header.scheduling.priority = 7;
+  header.device.max_damping = 8;
   RecordingFooter footer;
   footer.ticks = {11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 21, 22};
   footer.lateness = {31, 32, 33};
@@ -95,11 +104,12 @@ TEST(RecordingFields, AreUnderTheirNames) {
 TEST(TickCounts, AreStarvedWhereMoreThanATenthWasSkipped) {
   const auto of = [](std::int64_t skipped) {
     TickCounts ticks;
-    ticks.elapsed = 1000, ticks.skipped = skipped;
+    ticks.elapsed = 1000;
+    ticks.skipped = skipped;
     return ticks;
   };
-  EXPECT_EQ(skipped_share(of(5)), 0.005);
-  EXPECT_EQ(skipped_share(TickCounts{}), 0.0);
+  EXPECT_EQ(skipped_fraction(of(5)), 0.005);
+  EXPECT_EQ(skipped_fraction(TickCounts{}), 0.0);
   EXPECT_FALSE(is_starved({of(100), {}, StopReason::duration}));
   EXPECT_TRUE(is_starved({of(101), {}, StopReason::duration}));
   EXPECT_FALSE(is_starved({of(900), {}, StopReason::cut_off}));  // nobody knows why they are missing

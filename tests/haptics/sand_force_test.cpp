@@ -31,9 +31,9 @@ TEST(ForceOnDevice, ImplicitDragIsByTheWayOfTheTickItself) {
     SimulatedDevice device = device_with(DragVelocity::implicit);
     const SandForce sand = force_on_device(0.006, device, hand, hand_after, force);
     device.advance(hand, hand_after, sand.total);
-    Eigen::Vector3d slip = 2.0 * (device.state().position - moving.position) * 1000.0;
-    if (direction == DragDirection::horizontal) slip.z() = 0.0;
-    EXPECT_NEAR((sand.drag + force.k_f * sand.repulse * slip).norm(), 0.0, 1e-9);
+    Eigen::Vector3d velocity = 2.0 * (device.state().position - moving.position) * 1000.0;
+    if (direction == DragDirection::horizontal) velocity.z() = 0.0;
+    EXPECT_NEAR((sand.drag + force.k_f * sand.repulse * velocity).norm(), 0.0, 1e-9);
   }
 }
 
@@ -42,7 +42,8 @@ TEST(ForceOnDevice, ImplicitDragOfALimitedDeviceIsByTheWayThatTheLimitedForceLea
     for (const double k_f : {1.0, 10.0, 50.0, 200.0})
       for (const double max_force : {0.1, 1.0, 3.0, 5.9}) {
         ForceSettings force;
-        force.drag = direction, force.k_f = k_f;
+        force.drag = direction;
+        force.k_f = k_f;
         DeviceSettings settings = device_with(DragVelocity::implicit).settings();
         settings.max_force = max_force;
         SimulatedDevice device(settings, moving);
@@ -52,31 +53,32 @@ TEST(ForceOnDevice, ImplicitDragOfALimitedDeviceIsByTheWayThatTheLimitedForceLea
         }
         device.advance(hand, hand_after, sand.total);
         const Eigen::Vector3d motion = device.state().position - moving.position;
-        Eigen::Vector3d slip = 2.0 * motion * 1000.0;
-        if (direction == DragDirection::horizontal) slip.z() = 0.0;
-        // Held back drag takes energy, too; else it is the model's, by the mean velocity of the tick.
+        Eigen::Vector3d velocity = 2.0 * motion * 1000.0;
+        if (direction == DragDirection::horizontal) velocity.z() = 0.0;
+        // Limited drag takes energy, too; else it is the model's, by the mean velocity of the tick.
         EXPECT_LE(sand.drag.dot(motion), 0.0);
-        if (!sand.held_drag) {
-          EXPECT_NEAR((sand.drag + k_f * sand.repulse * slip).norm(), 0.0, 1e-9 * (1.0 + sand.drag.norm()))
+        if (!sand.limited_drag) {
+          EXPECT_NEAR((sand.drag + k_f * sand.repulse * velocity).norm(), 0.0,
+                      1e-9 * (1.0 + sand.drag.norm()))
               << k_f << " s/m, " << max_force << " N";
         }
       }
 }
 
-TEST(ForceOnDevice, HeldImplicitDragIsToldAndStopsAFreeMassAtMost) {
+TEST(ForceOnDevice, LimitedImplicitDragIsToldAndStopsAFreeMassAtMost) {
   DeviceSettings settings = device_with(DragVelocity::implicit).settings();
   settings.scale = 1.0;
   settings.damping = settings.hand_damping = settings.hand_stiffness = 0.0;
   ForceSettings force;
   const double repulse = repulse_force(0.006, force), strongest = 2.0 * settings.mass * settings.servo_rate;
-  for (const double share : {0.5, 0.999, 1.001, 100.0})
+  for (const double fraction : {0.5, 0.999, 1.001, 100.0})
     for (const double max_force : {0.0, 4.0, 1e3}) {
       settings.max_force = max_force;
-      force.k_f = share * strongest / repulse;
+      force.k_f = fraction * strongest / repulse;
       SimulatedDevice device(settings, moving);
       EXPECT_NEAR(device.strongest_drag(), strongest, 1e-9 * strongest);
       const SandForce sand = force_on_device(0.006, device, hand, hand_after, force);
-      EXPECT_EQ(sand.held_drag, share > 1.0 && max_force != 4.0) << share << ", " << max_force;
+      EXPECT_EQ(sand.limited_drag, fraction > 1.0 && max_force != 4.0) << fraction << ", " << max_force;
       device.advance(hand, hand_after, sand.total);
       EXPECT_GE(device.state().velocity.x() * moving.velocity.x(), -1e-15) << "drag reversed the motion";
     }
@@ -88,7 +90,7 @@ TEST(ForceOnDevice, AKinematicDeviceIsDraggedByItsOwnVelocity) {
   EXPECT_EQ(sand.total, sand_force(0.006, 2.0 * moving.velocity, 0.0, ForceSettings{}).total);
 }
 
-TEST(ForceOnDevice, OfALimitedDeviceIsANumberAtAnyDepthWithImplicitDragToo) {
+TEST(ForceOnDevice, IsANumberAtAnyDepthOnALimitedDeviceWithImplicitDragToo) {
   ForceSettings full;
   full.drag = DragDirection::full;
   DeviceSettings settings;

@@ -105,7 +105,7 @@ TEST(DynamicDevice, ReadsTheNearestStepOfItsEncoders) {
   EXPECT_EQ(SimulatedDevice(settings, resting_at(0.1)).read().position.z(), 0.1);
 }
 
-TEST(DynamicDevice, TheHandGoesUniformlyFromPlaceToPlaceInATick) {
+TEST(DynamicDevice, TheHandGoesUniformlyFromPositionToPositionInATick) {
   // Whatever its velocities at either end: they are not asked for.
   const DeviceSettings settings = ideal_device();
   const SimulatedDevice::State from{{0, 0, 0}, {9, 9, 9}}, to{{1e-4, -2e-4, 0}, {-7, 0, 7}};
@@ -194,7 +194,10 @@ TEST(DynamicDevice, SpringWallTurnsUnstableWhereTheEigenvalueSays) {
 
 TEST(Passivity, MarginIsColgateAndSchenkels) {
   DeviceSettings device;
-  device.scale = 2.0, device.damping = 3.0, device.hand_damping = 4.0, device.servo_rate = 1000.0;
+  device.scale = 2.0;
+  device.damping = 3.0;
+  device.hand_damping = 4.0;
+  device.servo_rate = 1000.0;
   const ForceSettings force;
   const double depth = 0.006, repulse = repulse_force(depth, force);
   const double K = 2.0 * 1000.0 * 0.5 * std::exp(0.003), B = 2.0 * 10.0 * repulse;
@@ -218,7 +221,7 @@ TEST(EnergyAccount, CountsWhatTheDeviceGives) {
   EXPECT_EQ(EnergyAccount{}.least(), 0.0);
 }
 
-TEST(SimulatedDevice, ByEncodersTheVelocityIsADifferenceOfReadPositions) {
+TEST(SimulatedDevice, DifferentiatesReadPositionsWithEncoders) {
   DeviceSettings settings = ideal_device();
   settings.velocity = ReadVelocity::encoders;
   settings.velocity_window = 4;

@@ -14,7 +14,7 @@ Stroke a_second_and_then(const std::vector<double>& times) {
   return stroke;
 }
 
-TEST(StrokeCoverage, ATimeThatIsWrongIsToldWithItsPlace) {
+TEST(StrokeCoverage, ATimeThatIsWrongIsToldWithItsPosition) {
   const std::string said = coverage_warning(a_second_and_then({1.5, 1e9}), "hand.h5");
   for (const char* part :
        {"hand.h5", "cover 1 s of 1000000000 s", "999999998.5 s, from 1.5 s to 1000000000 s"})

@@ -33,8 +33,8 @@ double largest_distance(const Stroke& lines, StrokeSampler sampler) {
   double largest = 0.0;
   for (std::size_t i = 0; i + 1 < lines.size(); ++i) {
     for (int k = 0; k <= 4000; ++k) {
-      const double share = 1e-6 + (1.0 - 2e-6) * k / 4000.0;
-      const double fine = k % 2 ? share : share * share * share;  // corners are short
+      const double fraction = 1e-6 + (1.0 - 2e-6) * k / 4000.0;
+      const double fine = k % 2 ? fraction : fraction * fraction * fraction;  // corners are short
       for (const double s : {fine, 1.0 - fine}) {
         const double t = std::lerp(lines.time[i], lines.time[i + 1], s);
         const Vector3d p = lines.position[i] + s * (lines.position[i + 1] - lines.position[i]);

@@ -40,7 +40,7 @@ std::string complaint(const Stroke& stroke, const StrokePlacement& placement) {
   return "";
 }
 
-TEST(StrokePlacement, ByDefaultOnlyTimeMoves) {
+TEST(StrokePlacement, MovesOnlyTimeByDefault) {
   const Stroke stroke = stroke_through(flat_tracing());
   const Stroke placed = place_stroke(stroke, {});
   EXPECT_EQ(placed.position, stroke.position);
@@ -230,7 +230,9 @@ TEST(StrokePlacement, TheSideThatIsUpIsThatOfTheLiftsOrTheOneNamed) {
     EXPECT_NEAR(place_stroke(lifted, fit).position.back().z(), 0.05, 1e-12);
     // Without the pen's state the named axis decides.
     fit.up = side > 0.0 ? StrokeUp::y : StrokeUp::minus_y;
-    lifted.contact.pop_back(), lifted.time.pop_back(), lifted.position.pop_back();
+    lifted.contact.pop_back();
+    lifted.time.pop_back();
+    lifted.position.pop_back();
     lifted.force.assign(lifted.size(), Vector3d(0, side, 0));
     EXPECT_NEAR(place_stroke(lifted, fit).force[0].z(), 1.0, 1e-12);
     fit.up = StrokeUp::automatic;
@@ -275,7 +277,7 @@ TEST(StrokePlacement, FlattenMovesWhatIsDrawnOntoThePlaneAndNothingElse) {
   }
 }
 
-TEST(StrokePlacement, CentredAndFittedItFillsItsShareOfTheBed) {
+TEST(StrokePlacement, FillsItsFractionOfTheBedCentredAndFitted) {
   std::vector<Vector3d> points = flat_tracing();
   for (Vector3d& p : points) p += Vector3d(3, -2, 0.25);
   points.emplace_back(50, 60, 70);  // in the air
@@ -294,9 +296,9 @@ TEST(StrokePlacement, CentredAndFittedItFillsItsShareOfTheBed) {
     Eigen::AlignedBox3d extent;
     for (std::size_t i = 0; i + 1 < placed.size(); ++i) extent.extend(placed.position[i]);
     EXPECT_LT((extent.center().head<2>() - Eigen::Vector2d(1.1, 1.25)).norm(), 1e-12);
-    const Eigen::Vector2d share = extent.sizes().head<2>().cwiseQuotient(bed.sizes());
-    EXPECT_NEAR(share.maxCoeff(), 0.8, 1e-12);
-    EXPECT_LT(share.minCoeff(), 0.8);
+    const Eigen::Vector2d fraction = extent.sizes().head<2>().cwiseQuotient(bed.sizes());
+    EXPECT_NEAR(fraction.maxCoeff(), 0.8, 1e-12);
+    EXPECT_LT(fraction.minCoeff(), 0.8);
     // One scale for all three coordinates.
     const double scale = (placed.position[1] - placed.position[0]).norm() / (points[1] - points[0]).norm();
     EXPECT_NEAR(placed.position[0].z() + 0.01, 0.25 * scale, 1e-12);
@@ -328,7 +330,8 @@ TEST(StrokePlacement, DepthIsAsTheHandPresses) {
   placement.depth = 0.004;
   for (const DepthBy by : {DepthBy::pressure, DepthBy::force})
     for (const StrokePlane plane : {StrokePlane::keep, StrokePlane::fit, StrokePlane::flatten}) {
-      placement.depth_by = by, placement.plane = plane;
+      placement.depth_by = by;
+      placement.plane = plane;
       const Stroke placed = place_stroke(stroke, placement);
       const double surface = plane == StrokePlane::keep ? 0.25 : 0.0;
       for (std::size_t i = 0; i < stroke.size(); ++i)
@@ -340,7 +343,9 @@ TEST(StrokePlacement, DepthIsAsTheHandPresses) {
 TEST(StrokePlacement, FullDepthIsThatOfTheWholeStrokeOrOfWhatIsNamed) {
   Stroke stroke = pressed_tracing();
   StrokePlacement placement;
-  placement.depth = 0.004, placement.plane = StrokePlane::flatten, placement.depth_by = DepthBy::pressure;
+  placement.depth = 0.004;
+  placement.plane = StrokePlane::flatten;
+  placement.depth_by = DepthBy::pressure;
   placement.stop = 1.0;  // a part goes as deep as in the whole
   EXPECT_NEAR(place_stroke(stroke, placement).position.back().z(), -0.004 * 100 / 199, 1e-12);
   placement.full_depth_at = 50.0;  // more goes no deeper
@@ -348,7 +353,7 @@ TEST(StrokePlacement, FullDepthIsThatOfTheWholeStrokeOrOfWhatIsNamed) {
   EXPECT_NEAR(place_stroke(stroke, placement).position[25].z(), -0.002, 1e-12);
   stroke.pressure[25] = -3.0;  // a pen at rest that is badly calibrated
   EXPECT_NEAR(place_stroke(stroke, placement).position[25].z(), 0.0, 1e-12);
-  // In the air nothing presses.
+  // Nothing presses in the air.
   stroke.contact.assign(stroke.size(), pen_down);
   stroke.contact[199] = pen_up;
   placement.full_depth_at = 0.0;
@@ -357,7 +362,8 @@ TEST(StrokePlacement, FullDepthIsThatOfTheWholeStrokeOrOfWhatIsNamed) {
 
 TEST(StrokePlacement, SaysWhyNoDepthFollowsThePressure) {
   StrokePlacement placement;
-  placement.depth = 0.004, placement.depth_by = DepthBy::pressure;
+  placement.depth = 0.004;
+  placement.depth_by = DepthBy::pressure;
   const Stroke flat = stroke_through(flat_tracing());
   EXPECT_THAT(complaint(flat, placement), testing::AllOf(HasSubstr("hand.h5"), HasSubstr("no pressure"),
                                                          HasSubstr("stroke.table.pressure")));
@@ -425,7 +431,8 @@ TEST(StrokePlacement, ASampleAtTheCutIsKept) {
                           {0.0, 0.0, 0, 0},
                           {2.0, 3.0, 8, 8}}) {
     StrokePlacement placement;
-    placement.start = one.start, placement.stop = one.stop;
+    placement.start = one.start;
+    placement.stop = one.stop;
     const Stroke placed = place_stroke(stroke, placement);
     ASSERT_EQ(placed.size(), one.last - one.first + 1u) << one.start;
     EXPECT_EQ(placed.time.front(), 0.0);
@@ -436,15 +443,18 @@ TEST(StrokePlacement, ASampleAtTheCutIsKept) {
     EXPECT_EQ(placed.force.back().y(), one.last);
   }
   StrokePlacement nothing;
-  nothing.start = 1.05 * 0.5, nothing.stop = 0.95 * 0.75;
+  nothing.start = 1.05 * 0.5;
+  nothing.stop = 0.95 * 0.75;
   EXPECT_THAT(complaint(stroke, nothing), HasSubstr("no sample lies between"));
 }
 
-TEST(StrokePlacement, OfAPointGoesWhereTheStrokesPointGoes) {
+TEST(StrokePlacement, MovesAPointAsTheStrokesPoint) {
   Stroke stroke = stroke_through({{0.1, -0.2, 0.3}});
   stroke.frame = "device";
   StrokePlacement placement;
-  placement.scale = 3.0, placement.rotate_z = 25.0, placement.depth = 0.07;
+  placement.scale = 3.0;
+  placement.rotate_z = 25.0;
+  placement.depth = 0.07;
   placement.offset = {1.0, 2.0, 4.0};
   const PointPlacement point = point_placement(placement, "device");
   EXPECT_LT((point.position(stroke.position[0]) - place_stroke(stroke, placement).position[0]).norm(), 1e-15);

@@ -10,7 +10,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// A circle of 0.1 m drawn at 0.3 m/s for 4 s, sampled at 500 Hz, with noise [m rms] of the place.
+/// A circle of 0.1 m drawn at 0.3 m/s for 4 s, sampled at 500 Hz, with noise [m rms] of the position.
 Stroke noisy_circle(double noise, double jitter = 0.0) {
   std::mt19937 random(2);
   std::normal_distribution<double> normal(0.0, 1.0);

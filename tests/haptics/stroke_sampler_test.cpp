@@ -43,8 +43,8 @@ Stroke evenly_spaced(const std::vector<Vector3d>& points, double spacing) {
 /// Distance [m] of a point from the straight line from a to b.
 double distance_to(const Vector3d& point, const Vector3d& a, const Vector3d& b) {
   const double square = (b - a).squaredNorm();
-  const double share = square > 0.0 ? std::clamp((point - a).dot(b - a) / square, 0.0, 1.0) : 0.0;
-  return (point - a - share * (b - a)).norm();
+  const double fraction = square > 0.0 ? std::clamp((point - a).dot(b - a) / square, 0.0, 1.0) : 0.0;
+  return (point - a - fraction * (b - a)).norm();
 }
 
 TEST(StrokeSampler, NeverOvershootsAndNeverTouchesInAGap) {
@@ -153,9 +153,9 @@ TEST(StrokeSampler, OnAStraightLineItGoesNeitherBackNorTooFarWhateverTheDirectio
 }
 
 TEST(StrokeSampler, ACornersVelocityIsTheParabolasAtMostOncePlusCosineTheSlowerSecant) {
-  // At t = 0, 1, 3 (x 0.01 s). Secants (1, 0) and (0, 1/2): the parabola's (2 (1, 0) + (0, 1/2)) / 3 is
-  // longer than the slower secant, 1/2; their angle is right. Then (1, 0) and (1, 1): (1, 1/3), within (1 +
-  // 0.71) 1.
+  // Samples at t = 0, 1, 3 (x 0.01 s). Secants (1, 0) and (0, 1/2): the parabola's (2 (1, 0) + (0, 1/2)) / 3
+  // is longer than the slower secant, 1/2; their angle is right. Then (1, 0) and (1, 1): (1, 1/3), within (1
+  // + 0.71) 1.
   Stroke stroke;
   stroke.time = {0.0, 0.01, 0.03};
   stroke.position = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}};
@@ -163,7 +163,7 @@ TEST(StrokeSampler, ACornersVelocityIsTheParabolasAtMostOncePlusCosineTheSlowerS
   EXPECT_LT((corner - 100.0 * 0.5 * Vector3d(2, 0.5, 0).normalized()).norm(), 1e-10);
   stroke.position[2] = {3, 2, 0};
   EXPECT_LT((StrokeSampler(stroke).at(0.01).velocity - 100.0 * Vector3d(1, 1.0 / 3, 0)).norm(), 1e-10);
-  // At the ends, of (1, 0) and (0, 1/2): (4 (1, 0) - (0, 1/2)) / 3 and (5 (0, 1/2) - 2 (1, 0)) / 3.
+  // The ends of (1, 0) and (0, 1/2): (4 (1, 0) - (0, 1/2)) / 3 and (5 (0, 1/2) - 2 (1, 0)) / 3.
   stroke.position[2] = {1, 1, 0};
   EXPECT_LT((StrokeSampler(stroke).at(0.0).velocity - 100.0 * Vector3d(4, -0.5, 0) / 3.0).norm(), 1e-10);
   EXPECT_LT((StrokeSampler(stroke).at(0.03).velocity - 100.0 * Vector3d(-2, 2.5, 0) / 3.0).norm(), 1e-10);
@@ -206,8 +206,9 @@ Stroke upright(const std::vector<double>& times, const std::vector<double>& heig
 }
 
 TEST(StrokeSampler, SlopesOfTheHeightAreThoseOfPchip) {
-  // At t = 0, 1, 2 (in units of 0.01 s). 0, 1, 3: secants 1 and 2. Inner slope: harmonic mean 4/3; ends by
-  // the parabola: (3*1 - 2)/2 = 1/2 and (3*2 - 1)/2 = 5/2. 0, 1, 0: a turning point, inner slope 0; ends (3*1
+  // Samples at t = 0, 1, 2 (in units of 0.01 s). 0, 1, 3: secants 1 and 2. Inner slope: harmonic mean 4/3;
+  // ends by the parabola: (3*1 - 2)/2 = 1/2 and (3*2 - 1)/2 = 5/2. 0, 1, 0: a turning point, inner slope 0;
+  // ends (3*1
   // + 1)/2 = 2 and -2. 0, 1, 6: secants 1 and 5; end (3*1 - 5)/2 < 0 is set to 0; inner 2*5/6 = 5/3; end (15
   // - 1)/2 = 7. At t = 0, 1, 3, so h = 1, 2. Inner slope of secants a, b: 9 / (5/a + 4/b), the weights being
   // 2 h1 + h0 and h1 + 2 h0. Ends: (4 a - b) / 3 and (5 b - 2 a) / 3. Secants 1, 1/2: inner 9/13, ends 7/6

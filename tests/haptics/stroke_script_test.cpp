@@ -71,7 +71,7 @@ TEST(StrokeScript, PlungesDrawsAndLifts) {
   EXPECT_EQ(stroke.nominal_rate, 1000.0);
 }
 
-TEST(StrokeScript, ReachesAnotherPlaceLifted) {
+TEST(StrokeScript, ReachesAnotherPositionLifted) {
   StrokeScript script = script_of({{ScriptLine{Vector2d(0.3, 0.4), {0.4, 0.4}}, depth({0.01}), 0.1}});
   script.travel_speed = 0.5;
   const Stroke stroke = trace_script(script, {});  // 0.5 m across at 0.5 m/s: 1 s in the air
@@ -133,8 +133,8 @@ TEST(StrokeScript, DepthIsSpreadOverTheWholeOfABentPath) {
   const Stroke stroke =
       trace_script(script_of({{ScriptArc{{-0.1, 0}, 0.1, 0, 180}, depth({0.01, 0.0}), 0.1}}), {});
   const double length = std::hypot(0.1 * pi, 0.01);  // of the helix
-  for (double share = 0.0; share <= 1.0; share += 0.05) {
-    const double t = 0.5 + share * length / 0.1;
+  for (double fraction = 0.0; fraction <= 1.0; fraction += 0.05) {
+    const double t = 0.5 + fraction * length / 0.1;
     const auto i = static_cast<std::size_t>(std::floor(t * 1000));
     const double exact = (stroke.time[i] - 0.5) / (length / 0.1);
     if (exact < 0.0) continue;
@@ -172,7 +172,7 @@ TEST(StrokeScript, ASplineRunsThroughItsPointsAtItsSpeed) {
     EXPECT_LT(nearest, 1e-5);  // a sample every 1e-5 m
   }
   EXPECT_LE(top_speed(stroke), 0.1 + 1e-11);
-  // Between samples in the middle of the fine polyline the speed is all but reached.
+  // The speed is all but reached between samples in the middle of the fine polyline.
   EXPECT_GT((stroke.position[8000] - stroke.position[7999]).norm() * 10000, 0.0999);
 }
 
@@ -188,9 +188,9 @@ TEST(StrokeScript, ASplineThroughPointsOnALineIsThatLine) {
 }
 
 TEST(StrokeScript, ASplineIsTheCentripetalCatmullRom) {
-  // As cubic Hermite pieces, another way to write it: at each inner point the slope is
+  // The spline as cubic Hermite pieces, another way to write it: the slope at each inner point is
   // (P1 - P0) / a - (P2 - P0) / (a + b) + (P2 - P1) / b, with a = |P1 - P0|^(1/2) and b = |P2 - P1|^(1/2);
-  // beyond the ends the points go on straight.
+  // the points go on straight beyond the ends.
   const std::vector<Vector2d> points = {{0, 0}, {0.05, 0.03}, {0.06, 0.08}, {0.2, 0.0}};
   std::vector<Vector2d> all = points;
   all.insert(all.begin(), 2.0 * points[0] - points[1]);
@@ -230,10 +230,10 @@ TEST(StrokeScript, TextGrowsWithItsHeight) {
 }
 
 TEST(StrokeScript, PressesUpToItsClearance) {
-  for (const double share : {0.95, 1.05}) {
+  for (const double fraction : {0.95, 1.05}) {
     const std::string sentence =
-        complaint(script_of({{ScriptLine{{}, {0.1, 0}}, depth({0.01, -share * 0.02}), 0.1}}));
-    EXPECT_EQ(sentence.empty(), share < 1.0) << sentence;
+        complaint(script_of({{ScriptLine{{}, {0.1, 0}}, depth({0.01, -fraction * 0.02}), 0.1}}));
+    EXPECT_EQ(sentence.empty(), fraction < 1.0) << sentence;
   }
 }
 
@@ -317,7 +317,7 @@ TEST(StrokeScript, LongSplinesTakeNoMoreThanTheirStroke) {
 
 TEST(StrokeScript, RefusesWorkWithoutEndThatGivesFewSamples) {
   if (sanitized) GTEST_SKIP() << "draws as much as is let through, a hundred times slower";
-  // On the spot nearly, so that its time says nothing of how much is drawn.
+  // The path nearly stays on the spot, so its time says nothing of how much is drawn.
   ScriptSpline spline;
   for (int i = 0; i < 2000; ++i) spline.points.emplace_back(1e-12 * i, 0.0);
   StrokeScript script = script_of({{spline, depth({0.01}), 50.0}});
@@ -335,7 +335,7 @@ double heading(const Stroke& stroke, double time, const Vector3d& axis = Vector3
   return std::atan2(points.y(), points.x()) * 180.0 / pi;
 }
 
-TEST(StrokeScript, WithoutATurnItHasNoOrientation) {
+TEST(StrokeScript, HasNoOrientationWithoutATurn) {
   EXPECT_TRUE(trace_script(script_of({{ScriptLine{{}, {0.1, 0}}, depth({0.01})}}), {}).orientation.empty());
 }
 
@@ -350,13 +350,13 @@ TEST(StrokeScript, AToolThatFollowsThePathPointsAlongIt) {
     const Stroke stroke = trace_script(script, {});
     // Turned by 90 deg in the air first: 0.5 s; then 0.5 s of plunge.
     const double drawn = 0.1 * pi / 2 / 0.1;
-    for (const double share : {0.001, 0.3, 0.5, 0.99})
-      EXPECT_NEAR(heading(stroke, 1.0 + share * drawn), 90.0 + side * 90.0 * share, 0.2);
+    for (const double fraction : {0.001, 0.3, 0.5, 0.99})
+      EXPECT_NEAR(heading(stroke, 1.0 + fraction * drawn), 90.0 + side * 90.0 * fraction, 0.2);
     for (const Eigen::Vector4d& q : stroke.orientation) EXPECT_NEAR(q.norm(), 1.0, 1e-12);
   }
 }
 
-TEST(StrokeScript, AtACornerTheToolTurnsInItsPlaceTheShorterWay) {
+TEST(StrokeScript, TurnsTheToolAtACornerTheShorterWayWhereItStands) {
   ScriptSegment there{ScriptLine{{}, {-0.1, 0.001}}, depth({0.01}), 0.1};
   there.turn.heading = ToolTurn::Heading::path;
   ScriptSegment up{ScriptLine{{}, {-0.2, -0.099}}, depth({0.01}), 0.1};
@@ -393,7 +393,7 @@ TEST(StrokeScript, TurnAndTiltRunThroughTheirValues) {
   const Stroke stroke = trace_script(script_of({line}), {});
   EXPECT_NEAR(heading(stroke, 1.0), 15.0, 0.1);
   EXPECT_NEAR(heading(stroke, 2.0), 45.0, 0.1);
-  // In the middle it leans by 40 deg, its upper end towards its own +x.
+  // It leans by 40 deg in the middle, its upper end towards its own +x.
   const Vector3d up = Eigen::Quaterniond(stroke.orientation[1500]) * Vector3d::UnitZ();
   EXPECT_NEAR(std::acos(up.z()) * 180.0 / pi, 40.0, 0.1);
   EXPECT_NEAR(heading(stroke, 1.5, Vector3d::UnitZ()), 30.0, 0.1);

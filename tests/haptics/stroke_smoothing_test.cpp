@@ -84,7 +84,8 @@ TEST(StrokeSmoothing, PiecesKnowNothingOfEachOther) {
   both.contact.assign(both.size(), pen_down);
   both.contact[200] = pen_lifts;
   for (std::size_t i = 201; i < both.size(); ++i) both.position[i] += Vector3d(9, 9, 9);
-  first.time.resize(201), first.position.resize(201);
+  first.time.resize(201);
+  first.position.resize(201);
   const Stroke smooth = smoothed(both, 6.0), alone = smoothed(first, 6.0);
   for (std::size_t i = 0; i <= 200; ++i) EXPECT_EQ(smooth.position[i], alone.position[i]);
 }

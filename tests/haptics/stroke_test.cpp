@@ -123,12 +123,12 @@ TEST(CheckStroke, ItsLimitsAreWhereItSays) {
     set(stroke);
     return complaint(stroke).empty();
   };
-  for (const double share : {0.95, 1.05}) {
-    const bool more = share > 1.0;
-    EXPECT_EQ(accepts([=](Stroke& s) { s.time[2] = share * 1e50; }), !more);
-    EXPECT_EQ(accepts([=](Stroke& s) { s.time[0] = -share * 1e50; }), !more);
-    EXPECT_EQ(accepts([=](Stroke& s) { s.position[1].z() = -share * 1e50; }), !more);
-    EXPECT_EQ(accepts([=](Stroke& s) { s.time = {0.0, share * 1e-50, 1.0}; }), more);
+  for (const double fraction : {0.95, 1.05}) {
+    const bool more = fraction > 1.0;
+    EXPECT_EQ(accepts([=](Stroke& s) { s.time[2] = fraction * 1e50; }), !more);
+    EXPECT_EQ(accepts([=](Stroke& s) { s.time[0] = -fraction * 1e50; }), !more);
+    EXPECT_EQ(accepts([=](Stroke& s) { s.position[1].z() = -fraction * 1e50; }), !more);
+    EXPECT_EQ(accepts([=](Stroke& s) { s.time = {0.0, fraction * 1e-50, 1.0}; }), more);
   }
   for (const PenState contact : {pen_up, pen_down, pen_lifts}) {
     EXPECT_TRUE(accepts([=](Stroke& s) { s.contact = {1, contact, 1}; }));

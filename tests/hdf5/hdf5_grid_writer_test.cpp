@@ -68,7 +68,7 @@ TEST_F(AGrid, HasArraysOfAnyRankOverNamedAxes) {
   for (char* text : texts) H5free_memory(text);
 }
 
-TEST_F(AGrid, OfOtherFilesReadsTheirNumbersAndNothingWhereThereAreNone) {
+TEST_F(AGrid, ReadsTheNumbersOfOtherFilesAndNothingWhereThereAreNone) {
   for (const double part : {0.0, 1.0, 2.0}) {
     Hdf5Writer file(folder / fmt::format("part{}.h5", part));
     HeightGrid heights(2, 3);

@@ -20,7 +20,7 @@ using Filters = std::vector<H5Z_filter_t>;
 /// Files as other programs, and enemies, write them: "/x" is a dataset of doubles.
 class Hdf5Storage : public testing::Test {
  protected:
-  /// Not written yet.
+  /// Makes a dataset that is not written yet.
   void make(const Extent& shape, const Extent& chunk = {}, const Filters& filters = {}) {
     const Hdf5Handle properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
     if (!chunk.empty()) H5Pset_chunk(properties, static_cast<int>(chunk.size()), chunk.data());

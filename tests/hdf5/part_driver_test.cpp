@@ -42,7 +42,7 @@ TEST_F(PartDriver, WhatWasNotCommittedIsNotThere) {
 TEST_F(PartDriver, WhateverLiesBehindTheEndIsNotBelieved) {
   const std::string bytes = flushed_and_written_to();
   constexpr std::size_t page = 8 + 4096;
-  std::string pages(3 * page, '\xff');  // of place 2^64 - 1
+  std::string pages(3 * page, '\xff');  // of address 2^64 - 1
   const std::string mark = "sandstroke pages";
   for (const std::uint64_t count : {std::uint64_t{0}, std::uint64_t{3}, std::uint64_t{1} << 60}) {
     std::string seal = mark + std::string(16, '\0');
@@ -58,20 +58,20 @@ TEST_F(PartDriver, PagesThatNoCommitWritesAreNotBelieved) {
   const auto number = [](std::uint64_t value) {
     return std::string(reinterpret_cast<const char*>(&value), 8);
   };
-  for (const std::vector<std::uint64_t>& places : {std::vector<std::uint64_t>{0, 0},  // as in a hole
-                                                   {4096, 0},
-                                                   {100},
-                                                   {1ULL << 40}}) {
+  for (const std::vector<std::uint64_t>& addresses : {std::vector<std::uint64_t>{0, 0},  // as in a hole
+                                                      {4096, 0},
+                                                      {100},
+                                                      {1ULL << 40}}) {
     std::string pages;
     uLong checksum = 0;
-    for (const std::uint64_t place : places) {
-      const std::string page = number(place) + std::string(4096, '\xff');
+    for (const std::uint64_t address : addresses) {
+      const std::string page = number(address) + std::string(4096, '\xff');
       checksum = crc32(checksum, reinterpret_cast<const Bytef*>(page.data()), static_cast<uInt>(page.size()));
       pages += page;
     }
     std::ofstream(part_, std::ios::binary)
-        << begin << pages << "sandstroke pages" << number(places.size()) << number(checksum);
-    EXPECT_EQ(Hdf5Reader(part_).doubles("/number").size(), 5000u) << places.front();
+        << begin << pages << "sandstroke pages" << number(addresses.size()) << number(checksum);
+    EXPECT_EQ(Hdf5Reader(part_).doubles("/number").size(), 5000u) << addresses.front();
   }
 }
 

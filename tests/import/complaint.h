@@ -11,7 +11,7 @@
 
 namespace sandstroke {
 
-/// What a reader says of bad input; empty where it takes it.
+/// The sentence of a reader about bad input; empty where it takes it.
 template <class Read>
 std::string complaint_of(const Read& read) {
   try {

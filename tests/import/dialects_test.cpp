@@ -1,6 +1,8 @@
 #include <gmock/gmock-matchers.h>
 #include <gtest/gtest.h>
 
+#include <bit>
+
 #include "core/error.h"
 #include "import/import_stroke.h"
 #include "import/units.h"
@@ -29,8 +31,11 @@ std::string refusal(const std::string& text, const TableSettings& settings = {})
   return "";
 }
 
+enum class ByteMark { none, first };
+
 /// ASCII as UTF-16.
-std::string utf16(const std::string& text, bool big_endian, bool mark) {
+std::string utf16(const std::string& text, std::endian order, ByteMark byte_mark) {
+  const bool big_endian = order == std::endian::big, mark = byte_mark == ByteMark::first;
   std::string bytes = !mark ? "" : big_endian ? "\xFE\xFF" : "\xFF\xFE";
   for (const char c : text) bytes += big_endian ? std::string{'\0', c} : std::string{c, '\0'};
   return bytes;
@@ -83,10 +88,12 @@ INSTANTIATE_TEST_SUITE_P(
                   "sep=;\r\nt_ms;x_mm;y_mm;z_mm\r\n0;1,5;-2;0,25\r\n10;1,75;3;0,5\r\n"},
         Dialected{"semicolons", "\xEF\xBB\xBFt_ms;x_mm;y_mm;z_mm\n0;1,5;-2;0,25\n10;1,75;3;0,5\n"},
         Dialected{"UTF-16LE, tabs",
-                  utf16("t_ms\tx_mm\ty_mm\tz_mm\r\n0\t1.5\t-2\t0.25\r\n10\t1.75\t3\t0.5\r\n", false, true)},
-        Dialected{"UTF-16BE, commas", utf16("t_ms,x_mm,y_mm,z_mm\n0,1.5,-2,0.25\n10,1.75,3,0.5", true, true)},
-        Dialected{"UTF-16LE, commas",
-                  utf16("t_ms,x_mm,y_mm,z_mm\n0,1.5,-2,0.25\n10,1.75,3,0.5", false, false)},
+                  utf16("t_ms\tx_mm\ty_mm\tz_mm\r\n0\t1.5\t-2\t0.25\r\n10\t1.75\t3\t0.5\r\n",
+                        std::endian::little, ByteMark::first)},
+        Dialected{"UTF-16BE, commas", utf16("t_ms,x_mm,y_mm,z_mm\n0,1.5,-2,0.25\n10,1.75,3,0.5",
+                                            std::endian::big, ByteMark::first)},
+        Dialected{"UTF-16LE, commas", utf16("t_ms,x_mm,y_mm,z_mm\n0,1.5,-2,0.25\n10,1.75,3,0.5",
+                                            std::endian::little, ByteMark::none)},
         // a row of units; other columns with text
         Dialected{"commas, decimal points, 5 columns",
                   "note,time,pos.x,pos.y,pos.z\n,ms,mm,mm,mm\na,0,1.5,-2,0.25\nb,10,1.75,3,0.5\n"},

@@ -31,7 +31,7 @@ std::vector<double> gcode_values(const SampleTable& table, const std::string& na
   return column(table, name).values;
 }
 
-/// Of the line through the samples, closed: above 0 counterclockwise.
+/// The area in the closed line through the samples: above 0 counterclockwise.
 double enclosed_area(const SampleTable& table) {
   const std::vector<double> x = gcode_values(table, "x"), y = gcode_values(table, "y");
   double twice = 0.0;
@@ -117,7 +117,7 @@ TEST(Gcode, AHelixClimbsEvenly) {
   EXPECT_THAT(table.lifts, ElementsAre());
 }
 
-TEST(Gcode, LargeArcsAreKeptToAShareOfTheirRadius) {
+TEST(Gcode, LargeArcsAreKeptToAFractionOfTheirRadius) {
   const SampleTable table = gcode_table("G1 X1e0 Y0\nX1000000 Y0\nG3 I-1000000\n");
   EXPECT_LT(table.size(), 1000u);
 }

@@ -91,7 +91,9 @@ TEST(Mat, NumbersOfAnyKindAreRead) {
 TEST(Mat, AMatrixOfVectorsIsFoundByItsName) {
   const TestFolder folder;
   TableSettings settings;
-  settings.rate = 10.0, settings.position_unit = "mm", settings.force_unit = "N";
+  settings.rate = 10.0;
+  settings.position_unit = "mm";
+  settings.force_unit = "N";
   for (const char* name : {"pos", "position", "xyz", "p", "tip_pos"}) {
     const std::filesystem::path path = folder / fmt::format("{}.mat", name);
     {

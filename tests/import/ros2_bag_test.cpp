@@ -81,7 +81,7 @@ TEST(Ros2Bag, TheOneTopicThatFitsIsTaken) {
   EXPECT_THAT(table.description, AllOf(HasSubstr("2 messages of /tool"), HasSubstr("headers")));
 }
 
-TEST(Ros2Bag, OfSeveralTopicsOneIsAskedFor) {
+TEST(Ros2Bag, AsksForOneOfSeveralTopics) {
   const TestFolder folder;
   BagFile bag(folder / "bag.db3");
   fill(bag);
@@ -97,7 +97,7 @@ TEST(Ros2Bag, OfSeveralTopicsOneIsAskedFor) {
   EXPECT_EQ(read_ros2_bag(folder / "bag.db3", "/tool").size(), 2u);
 }
 
-TEST(Ros2Bag, WithoutStampsTheBagsTimeIsTaken) {
+TEST(Ros2Bag, TakesTheBagsTimeWithoutStamps) {
   const TestFolder folder;
   BagFile bag(folder / "bag.db3");
   bag.topic(1, "/tool", "geometry_msgs/msg/Point");
@@ -189,11 +189,17 @@ TEST(Ros2Bag, SaysWhatIsWrong) {
   EXPECT_THAT(complaint([](BagFile&) {}), HasSubstr("it has: none"));
   EXPECT_THAT(complaint([](BagFile& bag) { bag.topic(1, "/camera", "sensor_msgs/msg/Image"); }),
               HasSubstr("it has: /camera (sensor_msgs/msg/Image, 0 messages)"));
-  EXPECT_THAT(complaint([](BagFile& bag) { fill(bag), bag.message(4, 0, "short"); }),
+  EXPECT_THAT(complaint([](BagFile& bag) {
+                fill(bag);
+                bag.message(4, 0, "short");
+              }),
               HasSubstr("message 1 of /tool"));
-  EXPECT_THAT(complaint([](BagFile& bag) { fill(bag), bag.message(4, 9000, "\x28\xB5\x2F\xFD..."); }),
+  EXPECT_THAT(complaint([](BagFile& bag) {
+                fill(bag);
+                bag.message(4, 9000, "\x28\xB5\x2F\xFD...");
+              }),
               AllOf(HasSubstr("message 3"), HasSubstr("compressed")));
-  // What a stranger may put in the place of a table.
+  // Things that a stranger may put in place of a table.
   EXPECT_THAT(complaint([](BagFile& bag) {
                 bag.run(
                     "DROP TABLE messages; CREATE VIEW messages AS WITH RECURSIVE n(i) AS (SELECT 1 UNION ALL "

@@ -141,8 +141,8 @@ TEST(TextTable, DroppedSamplesLeaveTheLift) {
   EXPECT_THAT(stroke.contact, ElementsAre(pen_down, pen_lifts, pen_down, pen_down));
 }
 
-TEST(TextTable, OfEqualTimesTheFirstSampleStaysWhole) {
-  // Of each run its first sample: with its own velocity and force, not the next one's.
+TEST(TextTable, KeepsTheFirstSampleOfEqualTimesWhole) {
+  // The first sample of each run stays, with its own velocity and force, not the next one's.
   TableSettings format = txyz();
   format.velocity_unit = "m/s";
   format.force_unit = "N";

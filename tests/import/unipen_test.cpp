@@ -35,7 +35,7 @@ TEST(Unipen, PointsPerInchGiveMillimetres) {
   EXPECT_EQ(column(inches, "y").unit, "mm");
   const SampleTable mm = unipen_table(".X_POINTS_PER_MM 100\n.Y_POINTS_PER_MM 100\n.PEN_DOWN\n10 20\n");
   EXPECT_THAT(column(mm, "y").values, ElementsAre(0.2));
-  // Of one axis alone nothing can be said.
+  // Nothing can be said of one axis alone.
   EXPECT_EQ(column(unipen_table(".X_POINTS_PER_MM 100\n.PEN_DOWN\n10 20\n"), "x").unit, "");
 }
 

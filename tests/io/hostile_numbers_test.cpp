@@ -13,12 +13,12 @@
 namespace sandstroke {
 namespace {
 
-/// How often numbers were read, and refused.
+/// The number of times that numbers were read, and refused.
 struct Outcomes {
   int read = 0, refused = 0;
 };
 
-/// What a scene as text says of a key.
+/// The value of a key in a scene as text.
 std::vector<double> numbers_in(const std::string& scene, const std::string& key) {
   return TomlReader::from_text(scene, "written.toml").profile(key, {});
 }

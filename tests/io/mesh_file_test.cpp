@@ -118,13 +118,13 @@ TEST_F(MeshFile, TwoHundredHostileFilesAreReadOrRefused) {
   for (int i = 0; i < 200; ++i) {
     const std::string file = whole[i % 2].first;
     std::string bytes = whole[i % 2].second;
-    const auto place = [&] { return random() % bytes.size(); };
-    if (i % 3 == 0) bytes.resize(place());
+    const auto position = [&] { return random() % bytes.size(); };
+    if (i % 3 == 0) bytes.resize(position());
     for (unsigned k = 0; !bytes.empty() && k < 1 + random() % 6; ++k) {
       if (i % 5 == 4)
-        bytes.insert(place(), "nan -1e999 ");
+        bytes.insert(position(), "nan -1e999 ");
       else
-        bytes[place()] = static_cast<char>(random());
+        bytes[position()] = static_cast<char>(random());
     }
     const std::string said = complaint(bytes, file);
     refused += !said.empty();

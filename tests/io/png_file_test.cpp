@@ -100,7 +100,7 @@ TEST_F(PngFile, SaysWhichBuildMadeIt) {
   std::fclose(in);
 }
 
-TEST_F(PngFile, InMemoryItIsWhatIsWritten) {
+TEST_F(PngFile, IsTheSameInMemoryAndOnDisk) {
   write_png(file("a.png"), test_image(37, 23));
   EXPECT_EQ(encode_png(test_image(37, 23)), read_text_file(file("a.png")));
 }
@@ -153,7 +153,7 @@ TEST_F(PngFile, HeightsSayTheirRangeToTheBit) {
   }
   write_png(file("picture.png"), test_image(2, 2));
   EXPECT_FALSE(read_gray_range(file("picture.png")));
-  // What others say so is not taken for a range.
+  // A text of others is not taken for a range.
   for (const std::string text :
        {"1 to", "a to b m", "1 to 2 km", "0 to inf m", "1e999 to 2 m", " 1 to 2 m"}) {
     std::string bytes = encode_height_png(heights, {0.0, 1.0});
@@ -188,7 +188,7 @@ TEST_F(PngFile, RefusesWhatIsNoPng) {
   EXPECT_NE(refusal([&] { read_png(file("absent.png")); }, ErrorKind::io).find("absent.png"),
             std::string::npos);
   EXPECT_NE(refusal([&] { read_png(folder_.path()); }, ErrorKind::io).find("folder"), std::string::npos);
-  // At address 0 of this process there is nothing: reading it is an error of the disk.
+  // Nothing is at address 0 of this process: reading it is an error of the disk.
   EXPECT_NE(refusal([&] { read_png("/proc/self/mem"); }, ErrorKind::io).find("Input/output error"),
             std::string::npos);
 }
@@ -220,7 +220,7 @@ TEST_F(PngFile, RefusesTooLargePictures) {
   EXPECT_NE(message.find("20000 x 1 pixels, which are too many"), std::string::npos);
 }
 
-TEST_F(PngFile, UnwritablePlaceIsAnError) {
+TEST_F(PngFile, AnUnwritablePathIsAnError) {
   const std::string message =
       refusal([&] { write_png(file("no/such/folder.png"), test_image(4, 4)); }, ErrorKind::io);
   EXPECT_NE(message.find("folder.png"), std::string::npos);

@@ -28,7 +28,7 @@ namespace fs = std::filesystem;
 using testing::AllOf;
 using testing::HasSubstr;
 
-/// Of samples in memory.
+/// A recording of samples in memory.
 class KeptRecording : public Recording {
  public:
   KeptRecording(std::vector<RecordedSample> samples, std::optional<RecordingFooter> footer,
@@ -201,8 +201,11 @@ TEST_F(RecordingFile, SaysHowItWasRecorded) {
     expected.footer.reason = static_cast<StopReason>(reason);
     // made_samples(20) has the flags 0, 1, ..., 19.
     TickCounts& ticks = expected.footer.ticks;
-    ticks.late = 10, ticks.clamped = 8, ticks.ramped = 8, ticks.rate_limited = 4;
-    ticks.refused = ticks.held = ticks.interlocked = 0;
+    ticks.late = 10;
+    ticks.clamped = 8;
+    ticks.ramped = 8;
+    ticks.rate_limited = 4;
+    ticks.refused = ticks.deferred = ticks.interlocked = 0;
     const RecordingInfo written = write(made_samples(20), expected.footer);
     EXPECT_EQ(fields(written), fields(expected));
     const std::optional<RecordingInfo> back = read_recording_info(path_);
@@ -215,7 +218,7 @@ TEST_F(RecordingFile, SaysHowItWasRecorded) {
   EXPECT_EQ(file.number_attribute("/stroke", "clock_start"), std::pow(2.0, 52));
 }
 
-TEST_F(RecordingFile, WithoutAFooterItsTicksAreCounted) {
+TEST_F(RecordingFile, CountsItsTicksWithoutAFooter) {
   write(made_samples(20), std::nullopt);
   const RecordingInfo info = *read_recording_info(path_);
   EXPECT_FALSE(info.complete());
@@ -292,14 +295,17 @@ TEST_F(RecordingFile, RefusesCountsThatAreNone) {
   }
 }
 
-/// As long as one likes.
+/// A recording as long as one likes.
 class LongRecording : public Recording {
  public:
   explicit LongRecording(std::uint64_t samples) : left_(samples) {}
   const RecordingHeader& header() const override { return header_; }
   std::vector<RecordedSample> next(std::size_t most) override {
     std::vector<RecordedSample> samples(std::min<std::uint64_t>(most, left_));
-    for (RecordedSample& sample : samples) sample.sequence = sequence_++, sample.time = time_ += 1000000;
+    for (RecordedSample& sample : samples) {
+      sample.sequence = sequence_++;
+      sample.time = time_ += 1000000;
+    }
     left_ -= samples.size();
     return samples;
   }

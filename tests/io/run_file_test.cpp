@@ -11,7 +11,7 @@
 namespace sandstroke {
 namespace {
 
-/// What a run leaves whose sand rose by 1 cm in each frame (0.25 s), and by another before it ended.
+/// The last surface of a run whose sand rose by 1 cm in each frame (0.25 s), and by another before it ended.
 LastSurface left_by(int frames, bool interrupted) {
   const TestFolder folder;
   const std::filesystem::path file = folder / "run.h5";

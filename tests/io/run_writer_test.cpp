@@ -22,11 +22,9 @@ namespace {
 namespace fs = std::filesystem;
 
 /// 100 x 150 cells of 2 mm: 2 x 3 tiles.
-Scene narrow_scene(bool with_stroke = true) {
-  return scene_from_text(std::string("[bed]\nsize = [0.3, 0.2]\ncells = [150, 100]\n") +
-                             (with_stroke ? "[stroke]\nfile = 'line.toml'\n" : ""),
-                         "scene.toml");
-}
+const std::string narrow_bed = "[bed]\nsize = [0.3, 0.2]\ncells = [150, 100]\n";
+Scene narrow_scene() { return scene_from_text(narrow_bed + "[stroke]\nfile = 'line.toml'\n", "scene.toml"); }
+Scene scene_without_stroke() { return scene_from_text(narrow_bed, "scene.toml"); }
 
 /// No two numbers of any two ticks are the same.
 TickRecord made_tick(int k) {
@@ -154,7 +152,7 @@ TEST_F(RunWriterTest, WhatIsReadBackIsEachFieldThatWasWritten) {
 }
 
 TEST_F(RunWriterTest, EachColumnOfTheRelaxationsHoldsItsOwnField) {
-  begin(narrow_scene(false));
+  begin(scene_without_stroke());
   for (int k = 0; k < 1500; ++k) writer_->on_relaxation(made_relaxation(k));
   writer_->on_tick(made_tick(0));
   const Hdf5Reader file = finished();
@@ -174,7 +172,7 @@ TEST_F(RunWriterTest, EachColumnOfTheRelaxationsHoldsItsOwnField) {
   }
 }
 
-TEST_F(RunWriterTest, WithoutATraceTheRelaxationsAreKept) {
+TEST_F(RunWriterTest, KeepsTheRelaxationsWithoutATrace) {
   Scene scene = narrow_scene();
   scene.output.trace = false;
   begin(scene);
@@ -257,8 +255,11 @@ TEST_F(RunWriterTest, SaysWhatItIsOfAndInWhichUnit) {
   RunResult result;
   result.threads = 3;
   result.furrow.emplace();
-  result.furrow->depth = 0.004, result.furrow->asked_depth = 0.005;
-  result.furrow->width = 0.006, result.furrow->rampart = 0.007, result.furrow->length = 0.008;
+  result.furrow->depth = 0.004;
+  result.furrow->asked_depth = 0.005;
+  result.furrow->width = 0.006;
+  result.furrow->rampart = 0.007;
+  result.furrow->length = 0.008;
   const Hdf5Reader file = finished(result);
   EXPECT_FALSE(fs::exists(part_path(path_)));
 
@@ -310,7 +311,7 @@ TEST_F(RunWriterTest, SaysOfEveryDatasetWhatItIs) {
   }
 }
 
-TEST_F(RunWriterTest, WithoutAFurrowAndASceneFileNothingIsSaidOfThem) {
+TEST_F(RunWriterTest, SaysNothingOfAFurrowAndASceneFileThatAreNotThere) {
   begin(narrow_scene());
   const Hdf5Reader file = finished();
   EXPECT_FALSE(file.has_attribute("/surface/final", "furrow_depth"));

@@ -138,7 +138,7 @@ const std::vector<KeyCase> cases = {
     {"stroke.fit=0.65", [](S s) { return s.stroke->placement.fit == 0.65; }, stroke},
     {"stroke.place=centre", [](S s) { return s.stroke->placement.place == StrokePlace::centre; }, stroke},
     {"stroke.follow=sand", [](S s) { return s.stroke->placement.follow == StrokeFollow::sand; }, stroke},
-    {"stroke.held=drop", [](S s) { return s.stroke->placement.held == HeldSamples::drop; }, stroke},
+    {"stroke.held=drop", [](S s) { return s.stroke->placement.repeated == RepeatedSamples::drop; }, stroke},
     {"stroke.smooth=66.5", [](S s) { return s.stroke->placement.smooth == 66.5; }, stroke},
     {"stroke.speed=66.7", [](S s) { return s.stroke->placement.speed == 66.7; }, stroke},
     {"stroke.scale=66", [](S s) { return s.stroke->placement.scale == 66.0; }, stroke},

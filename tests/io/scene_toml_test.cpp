@@ -76,7 +76,8 @@ TEST(SceneToml, TheResolvedTextReadsBackAsTheSameScene) {
   EXPECT_EQ(read(text).stroke->file, "a \"b\".h5");
 }
 
-/// What brings a key: "bed.surface.kind=noise" of "bed.surface.kind is noise or ripples"; empty: nothing.
+/// The setting that brings a key: "bed.surface.kind=noise" of "bed.surface.kind is noise or ripples"; empty:
+/// nothing.
 std::vector<std::string> settings_that_bring(const KeyRow& row) {
   std::smatch found;
   if (!std::regex_match(row.condition, found, std::regex("([\\w.]+) is (.*)"))) return {};
@@ -145,7 +146,7 @@ TEST(SceneToml, AKeyThatDoesNotApplyIsToldWhereItWould) {
             "--set bed.surface=4: bed.surface.kind 'surface' is an integer, not a table");
   EXPECT_EQ(complaint("", {"relaxation.rate.x=4"}),
             "--set relaxation.rate.x=4: relaxation.rate is a table; give a number");
-  // What a preset chooses can be chosen without it.
+  // Each choice of a preset can be made without it.
   EXPECT_EQ(complaint("[displacement]\ndistance = 1.1\n"),
             "scene.toml:2: displacement.distance applies only where displacement.deposit is outward; remove "
             "it, or change that setting");

@@ -47,7 +47,8 @@ TEST(SurfaceFile, APngGivesHeightsBetweenLowAndHighWithItsTopAtLargeY) {
   bed.cols = bed.rows = 2;
   bed.surface.kind = SurfaceKind::file;
   bed.surface.file = "heights.png";
-  bed.surface.low = -0.01, bed.surface.high = 0.03;
+  bed.surface.low = -0.01;
+  bed.surface.high = 0.03;
   const HeightField surface = load_surface(bed, folder.path());
   EXPECT_NEAR(surface(1, 0), -0.01, 1e-15);  // row 1 is the larger y
   EXPECT_NEAR(surface(1, 1), 0.03, 1e-15);
@@ -63,8 +64,10 @@ TEST(SurfaceFile, APngGivesHeightsBetweenLowAndHighWithItsTopAtLargeY) {
 
 BedSettings bed_from(const std::string& file) {
   BedSettings bed;
-  bed.width = 0.3, bed.cols = 3;
-  bed.depth = 0.2, bed.rows = 2;
+  bed.width = 0.3;
+  bed.cols = 3;
+  bed.depth = 0.2;
+  bed.rows = 2;
   bed.surface.kind = SurfaceKind::file;
   bed.surface.file = file;
   return bed;
@@ -74,7 +77,8 @@ TEST(SurfaceFile, APngThatIsNotSquareHasItsColumnsAlongX) {
   const TestFolder folder;
   write_gray16(folder / "heights.png", 3, 2, {0, 13107, 26214, 39321, 52428, 65535});
   BedSettings bed = bed_from("heights.png");
-  bed.surface.low = 1.0, bed.surface.high = 2.0;
+  bed.surface.low = 1.0;
+  bed.surface.high = 2.0;
   const HeightField surface = load_surface(bed, folder.path());
   ASSERT_EQ(surface.rows(), 2);
   ASSERT_EQ(surface.cols(), 3);
@@ -97,30 +101,32 @@ TEST(SurfaceFile, APngMaySayItsHeightsWhereTheSceneSaysNone) {
   EXPECT_EQ(own(0, 2), 0.3);
   EXPECT_EQ(with_own_range(bed, folder.path()).surface.low, -0.1);
   EXPECT_EQ(with_own_range(bed, folder.path()).surface.high, 0.3);
-  bed.surface.low = 1.0, bed.surface.high = 2.0;
+  bed.surface.low = 1.0;
+  bed.surface.high = 2.0;
   EXPECT_EQ(load_surface(bed, folder.path())(0, 2), 2.0);
 }
 
 TEST(SurfaceFile, ARunsFinalSurfaceNeedsCellsOfTheBedsSize) {
   const TestFolder folder;
-  for (const auto& [share, taken] :
+  for (const auto& [fraction, taken] :
        {std::pair{0.0, true}, {0.95e-9, true}, {-0.95e-9, true}, {1.05e-9, false}, {-1.05e-9, false}}) {
     Hdf5Writer file(folder / "run.h5", output_kind(InputKind::run));
     file.attribute("/", "complete", 1.0);
     file.make_group("/surface");
-    file.attribute("/surface", "cell_size", 0.1 * (1.0 + share));
+    file.attribute("/surface", "cell_size", 0.1 * (1.0 + fraction));
     file.write("/surface/initial", HeightGrid::Zero(2, 3));
     HeightGrid final(2, 3);
     final << 1, 2, 3, 4, 5, 6;
     file.write("/surface/final", final);
     file.finish();
     if (taken)
-      EXPECT_TRUE((load_surface(bed_from("run.h5"), folder.path()).grid() == final).all()) << share;
+      EXPECT_TRUE((load_surface(bed_from("run.h5"), folder.path()).grid() == final).all()) << fraction;
     else
-      EXPECT_THROW(load_surface(bed_from("run.h5"), folder.path()), Error) << share;
+      EXPECT_THROW(load_surface(bed_from("run.h5"), folder.path()), Error) << fraction;
   }
   BedSettings turned = bed_from("run.h5");
-  std::swap(turned.rows, turned.cols), std::swap(turned.width, turned.depth);
+  std::swap(turned.rows, turned.cols);
+  std::swap(turned.width, turned.depth);
   EXPECT_THROW(load_surface(turned, folder.path()), Error);
 }
 

@@ -32,11 +32,11 @@ std::vector<std::string> fixed_length_texts(const std::filesystem::path& path, c
   return texts;
 }
 
-TEST(Table, AsCsvQuotesWhatNeedsItAndLeavesEmptyWhatIsNotThere) {
+TEST(Table, QuotesWhatNeedsItAsCsvAndLeavesEmptyWhatIsNotThere) {
   EXPECT_EQ(csv_text(small_table()), "name,time,count\na,0.1,512\n\"b, \"\"c\"\"\",,1e-07\n");
 }
 
-TEST(Table, AsJsonHasNullWhereThereIsNoNumber) {
+TEST(Table, HasNullWhereThereIsNoNumberAsJson) {
   const nlohmann::ordered_json row = row_json(small_table(), 1), columns = columns_json(small_table());
   EXPECT_EQ(row["name"], "b, \"c\"");
   EXPECT_TRUE(row["time"].is_null());
@@ -49,7 +49,7 @@ TEST(Table, NoughtIsANumber) {
   for (const double value : {none, HUGE_VAL, -HUGE_VAL}) EXPECT_TRUE(number_or_null(value).is_null());
 }
 
-TEST(Table, AsHdf5HasADatasetPerColumnWithItsUnit) {
+TEST(Table, HasADatasetPerColumnWithItsUnitAsHdf5) {
   const TestFolder folder;
   {
     Hdf5Writer file(folder / "table.h5");
@@ -67,14 +67,14 @@ TEST(Table, AsHdf5HasADatasetPerColumnWithItsUnit) {
   EXPECT_FALSE(file.has_attribute("/runs/count", "units"));
 }
 
-TEST(Table, AsTextIsAlignedNumbersToTheRight) {
+TEST(Table, IsAlignedAsTextNumbersToTheRight) {
   EXPECT_EQ(aligned_text(small_table(), 3),
             "Name    Time [s]  Count\n"
             "a            0.1    512\n"
             "b, \"c\"         -  1e-07\n");
 }
 
-TEST(Table, WithoutRowsIsItsNames) {
+TEST(Table, IsItsNamesWithoutRows) {
   const Table empty{{{"a", "A", "", std::vector<double>{}}, {"b", "B", "", std::vector<std::string>{}}}};
   EXPECT_EQ(csv_text(empty), "a,b\n");
   const TestFolder folder;

@@ -77,7 +77,7 @@ TEST(TomlReader, RejectsKeysOfManyParts) {
                 "more than 16 parts");
     EXPECT_SAYS(toml_of("").override_with(key(17, word) + "=1"), "--set", "more than 16 parts");
   }
-  // Where dots are no key's.
+  // Dots that belong to no key.
   const std::string dots = key(50, "a");
   EXPECT_NO_THROW(toml_of("# " + dots + "\nx = '" + dots + "' # " + dots + "\ny = '''\n" + dots + "\n'''\n"));
   EXPECT_NO_THROW(toml_of("x = [" + std::string(50 * 4, ' ').replace(0, 8, "1.0, 2.0") + "]\n"));

@@ -69,7 +69,7 @@ class AllAhead : public Displacer {
     std::vector<Cell> under, ahead;
     const ToolFootprint& footprint = tool.footprint();
     const CellRange& window = footprint.cells();
-    const double reach = tool.reach() / footprint.cell_size();  // in cells, as all places here
+    const double reach = tool.reach() / footprint.cell_size();  // in cells, as all positions here
     for (int row = 0; row < window.rows(); ++row) {
       const ColumnRange sand = footprint.sand_cols(row);
       for (int col = sand.begin; col < sand.end; ++col) {

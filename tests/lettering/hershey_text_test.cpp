@@ -15,14 +15,17 @@ TEST(HersheyText, CapitalsStandOnTheBaseLineAndAreOneHigh) {
   const SingleStrokeText text = hershey_text("H");
   double low = 1e9, high = -1e9;
   for (const auto& line : text.polylines)
-    for (const auto& point : line) low = std::min(low, point.y()), high = std::max(high, point.y());
+    for (const auto& point : line) {
+      low = std::min(low, point.y());
+      high = std::max(high, point.y());
+    }
   EXPECT_EQ(text.polylines.size(), 3u);  // two uprights and a bar
   EXPECT_DOUBLE_EQ(low, 0.0);
   EXPECT_DOUBLE_EQ(high, 1.0);
 }
 
 TEST(HersheyText, APointIsCountedFromTheLeftEdgeAndTheBaseLine) {
-  // In the font "12345  9MWRFRT RRYQZR[SZRY": from M to W are 10 units, and 21 to a capital.
+  // The font has "12345  9MWRFRT RRYQZR[SZRY": from M to W are 10 units, and 21 to a capital.
   const SingleStrokeText text = hershey_text("!");
   ASSERT_EQ(text.polylines.size(), 2u);
   EXPECT_DOUBLE_EQ(text.width, 10.0 / 21.0);

@@ -43,7 +43,8 @@ Stroke stroke_of(double speed) {
 
 TEST(SecondScene, HasEveryStepTwiceOrHalfAsLarge) {
   Scene scene = cylinder_scene(128);
-  scene.bed.cols = 192, scene.bed.width = 3.0;
+  scene.bed.cols = 192;
+  scene.bed.width = 3.0;
   for (const auto& [which, factor] :
        {std::pair(SecondSolution::coarser, 2.0), std::pair(SecondSolution::finer, 0.5)}) {
     const Scene second = second_scene(scene, which);
@@ -59,7 +60,8 @@ TEST(SecondScene, HasEveryStepTwiceOrHalfAsLarge) {
 TEST(SecondScene, OddBedsGetCellsAsNearAsSquareOnesFill) {
   Scene scene = cylinder_scene(9);
   EXPECT_EQ(second_scene(scene, SecondSolution::coarser).bed.cols, 5);
-  scene.bed.rows = 10, scene.bed.depth = 2.0 / 9.0 * 10.0;
+  scene.bed.rows = 10;
+  scene.bed.depth = 2.0 / 9.0 * 10.0;
   EXPECT_THROW(second_scene(scene, SecondSolution::coarser), Error);
   EXPECT_EQ(second_scene(scene, SecondSolution::finer).bed.rows, 20);
 }
@@ -75,7 +77,8 @@ TEST(SecondScene, IsAsLateAsTheRun) {
   scene.device.delay = 5;
   EXPECT_THROW(second_scene(scene, SecondSolution::coarser), Error);
   EXPECT_EQ(second_scene(scene, SecondSolution::finer).device.delay, 10);
-  scene.device.delay = 0, scene.device.dropped_ticks = 0.1;
+  scene.device.delay = 0;
+  scene.device.dropped_ticks = 0.1;
   EXPECT_THROW(second_scene(scene, SecondSolution::finer), Error);
 }
 
@@ -112,7 +115,8 @@ TEST(ErrorEstimate, IsNothingBeyondARoundWall) {
   Scene scene = cylinder_scene(32);
   scene.bed.shape = BedShape::round;
   scene.bed.surface.kind = SurfaceKind::noise;
-  scene.bed.surface.amplitude = 0.2, scene.bed.surface.wavelength = 0.0;  // cells are split
+  scene.bed.surface.amplitude = 0.2;
+  scene.bed.surface.wavelength = 0.0;  // cells are split
   const FeltRun run(scene);
   HeightField map(32, 32, scene.bed.cell_size());
   const ErrorEstimate e = estimate_error(scene, starting_bed(scene.bed), {}, run.solution, run.force,
@@ -122,7 +126,7 @@ TEST(ErrorEstimate, IsNothingBeyondARoundWall) {
     for (int col = 0; col < 3; ++col) EXPECT_NEAR(map(row, col), 0.0, 1e-15) << row << ", " << col;
 }
 
-TEST(ErrorEstimate, OfAPlungesForceIsNothingSinceTheForceDependsOnDepthAlone) {
+TEST(ErrorEstimate, IsZeroForAPlungesForceWhichDependsOnDepthAlone) {
   Scene scene = stroke_scene(50);
   scene.relaxation.rate = 0.0;
   const Stroke plunge = stroke_of(0.0);
@@ -144,7 +148,7 @@ std::pair<double, double> distance(const FeltRun& run, const FeltRun& truth) {
   return {sum / coarse.abs().sum(), std::sqrt(force / static_cast<double>(of_run.size()))};
 }
 
-TEST(ErrorEstimate, OfADragIsWithinAFactorOfThreeOfItsDistanceToAQuarterOfTheSteps) {
+TEST(ErrorEstimate, IsWithinAFactorOfThreeOfADragsDistanceToAQuarterOfTheSteps) {
   const Stroke drag = stroke_of(0.1);
   for (const DeviceModel model : {DeviceModel::kinematic, DeviceModel::dynamic}) {
     Scene scene = stroke_scene(50), fine = scene;
@@ -186,7 +190,8 @@ std::pair<double, double> rms_and_max(const std::vector<double>& values, const s
   return {std::sqrt(squares / count), most};
 }
 
-/// By the definition, cell by cell: of a run and its second solution, times Richardson's factor.
+/// Expects the estimate by its definition, cell by cell: the distance of a run from its second solution,
+/// times Richardson's factor.
 void expect_richardson(const Scene& scene, const std::optional<Stroke>& stroke, SecondSolution which,
                        const HeightField& start, const HeightField& second_start) {
   Kept force(force_of), second_force(force_of);
@@ -229,8 +234,10 @@ TEST(ErrorEstimate, IsTheDistanceToTheSecondSolutionTimesRichardsonsFactor) {
   // Over tiles of a bed that is not square, near its end along x: the coarser one has 1 x 3 of them, the
   // finer one 3 x 10.
   Scene drag = stroke_scene(300);
-  drag.bed.width = 0.6, drag.bed.rows = 90, drag.bed.depth = 0.18;
-  // In the air for the first 20 of 250 ms: ticks without a force.
+  drag.bed.width = 0.6;
+  drag.bed.rows = 90;
+  drag.bed.depth = 0.18;
+  // The tool is in the air for the first 20 of 250 ms: ticks without a force.
   Stroke stroke = stroke_of(0.1);
   for (Eigen::Vector3d& place : stroke.position) place += Eigen::Vector3d(0.26, 0.0, 1.2e-3);
   for (const SecondSolution which : {SecondSolution::coarser, SecondSolution::finer}) {
@@ -239,10 +246,11 @@ TEST(ErrorEstimate, IsTheDistanceToTheSecondSolutionTimesRichardsonsFactor) {
   }
 }
 
-TEST(ErrorEstimate, OfABedThatNoSquareCellsHalveIsTakenOverTheirCommonParts) {
+TEST(ErrorEstimate, TakesCommonPartsOfCellsWhereNoSquareCellsHalveTheBed) {
   // 9 x 27 cells, and 5 x 15: each of these covers 1.8 of those along each side.
   Scene heap = cylinder_scene(9);
-  heap.bed.cols = 27, heap.bed.width = 6.0;
+  heap.bed.cols = 27;
+  heap.bed.width = 6.0;
   heap.relaxation.tolerance = 1e-2;
   ASSERT_EQ(second_scene(heap, SecondSolution::coarser).bed.cols, 15);
   expect_richardson(heap, {}, SecondSolution::coarser, starting_bed(heap.bed),
@@ -269,9 +277,11 @@ TEST(ErrorEstimate, ItsMapIsAsSymmetricAsTheBedWhateverTheRatioOfCells) {
 TEST(ErrorEstimate, CellsThatNoRuleMakesAnewAreAveragedOrSplit) {
   Scene rough = stroke_scene(20);
   rough.stroke.reset();
-  rough.bed.rows = 30, rough.bed.depth = 0.15;
+  rough.bed.rows = 30;
+  rough.bed.depth = 0.15;
   rough.bed.surface.kind = SurfaceKind::noise;
-  rough.bed.surface.wavelength = 0.0, rough.bed.surface.amplitude = 0.02;
+  rough.bed.surface.wavelength = 0.0;
+  rough.bed.surface.amplitude = 0.02;
   // Heights of which sums and halves are exact: of beds that differ by rounding other cells may come to rest.
   const HeightGrid steps = (starting_bed(rough.bed).grid() * 0x1p20).round() * 0x1p-20;
   const HeightField start(steps, rough.bed.cell_size());
@@ -282,12 +292,14 @@ TEST(ErrorEstimate, CellsThatNoRuleMakesAnewAreAveragedOrSplit) {
   }
 }
 
-TEST(ErrorEstimate, OfSandThatOnlyOneSolutionMovedIsAllOfItWhereverItIs) {
+TEST(ErrorEstimate, CountsAllSandThatOnlyOneSolutionMoved) {
   // A flat bed, on which nothing moves: four cells that the run is said to have raised, one of the coarser
   // bed's, and eight of them that it lowered, two of the coarser bed's.
   Scene scene;
-  scene.bed.width = 6.0, scene.bed.cols = 600;
-  scene.bed.depth = 2.0, scene.bed.rows = 200;
+  scene.bed.width = 6.0;
+  scene.bed.cols = 600;
+  scene.bed.depth = 2.0;
+  scene.bed.rows = 200;
   const HeightField start = starting_bed(scene.bed);
   for (const auto& [row, col] : {std::pair{0, 0}, {6, 500}, {150, 40}, {198, 596}}) {
     HeightField raised = start;

@@ -17,7 +17,7 @@ Eigen::Vector3d spiral(int tick, int late = 0, double scale = 1.0) {
   return scale * t * Eigen::Vector3d(std::cos(t), std::sin(t), 0.3 * std::cos(3.0 * t));
 }
 
-TEST(ForceAgreement, OfNothingRecordedIsNone) {
+TEST(ForceAgreement, IsNoneWithoutARecordedForce) {
   EXPECT_FALSE(force_agreement({}));
   EXPECT_FALSE(force_agreement({{0.0, {1.0, 0.0, 0.0}, {unknown, unknown, unknown}}}));
 }

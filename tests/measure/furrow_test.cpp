@@ -92,7 +92,7 @@ class ContactPath : public SimulationObserver {
   TipPathGatherer gatherer_;
 };
 
-TEST(Furrow, OnCentresOfCellsIsExact) {
+TEST(Furrow, IsExactOnCentresOfCells) {
   // The line lies on a row's centres; edges, crests and the deepest point are on samples.
   const HeightField before(239, 300, 1e-3);
   const Profile profile;
@@ -118,7 +118,7 @@ TEST(Furrow, HasItsMeasuresInAnyDirectionOnAnyBed) {
     }
 }
 
-TEST(Furrow, AlongACircleToo) {
+TEST(Furrow, IsExactAlongACircleToo) {
   const Profile profile;
   const double bend = 0.07;
   const TipPath path = path_along(
@@ -143,7 +143,7 @@ TEST(Furrow, IsTheSameThereAndBackAndWithAHandThatTrembles) {
   EXPECT_NEAR(back_again.depth, there.depth, 1e-12);
   EXPECT_NEAR(back_again.width, there.width, 1e-12);
   EXPECT_NEAR(back_again.rampart, there.rampart, 1e-12);
-  // By a tenth of a millimetre, more than an encoder's step, and as far as a tick's way.
+  // The hand trembles by a tenth of a millimetre, more than an encoder's step, and as far as a tick's way.
   for (std::size_t i = 0; i < trembling.points.size(); ++i) trembling.points[i].y() += i % 2 ? 5e-5 : -5e-5;
   expect_profile(measured(flat, change, trembling), profile, 5e-5);
   // A tool that rests before it lifts adds no stations.
@@ -238,7 +238,7 @@ TEST(Furrow, NextToTheBorderHasItsDepthAndOneRampart) {
   EXPECT_TRUE(std::isnan(outside.depth) && std::isnan(outside.width) && std::isnan(outside.rampart));
 }
 
-TEST(Furrow, WithoutContactThereIsNothingAndWithoutChangeNoFurrow) {
+TEST(Furrow, IsNothingWithoutContactAndNoFurrowWithoutChange) {
   const FurrowMeasures none = measured(slanting, flat, TipPath{});
   EXPECT_TRUE(std::isnan(none.depth) && std::isnan(none.width) && std::isnan(none.rampart));
   const Line line{{-0.08, 0.0}, {1.0, 0.0}, 0.16};
@@ -254,7 +254,7 @@ TEST(Furrow, WithoutContactThereIsNothingAndWithoutChangeNoFurrow) {
   EXPECT_NEAR(filled.rampart, 0.004, 1e-3);
 }
 
-TEST(Furrow, OnTheLargestBedOnlyItsTilesAreLookedAt) {
+TEST(Furrow, LooksOnlyAtTilesOnTheLargestBed) {
   const HeightField before(65536, 65536, 1e-3);
   HeightField after = before;
   const Profile profile;
@@ -265,8 +265,8 @@ TEST(Furrow, OnTheLargestBedOnlyItsTilesAreLookedAt) {
   expect_profile(measure_furrow(before, after, line.path(), radius), profile);
 }
 
-TEST(Furrow, OfAShallowDragIsAsDeepAsItsTipWhicheverWayItGoes) {
-  // At 2 mm what the tool pushes ahead of it stays out of the furrow.
+TEST(Furrow, IsAsDeepAsTheTipInAShallowDragInAnyDirection) {
+  // The sand that the tool pushes ahead of it stays out of the furrow at 2 mm.
   for (const double angle : {0.0, 0.5, std::numbers::pi / 4}) {
     Scene scene;
     scene.bed.width = scene.bed.depth = 0.3;
@@ -285,13 +285,13 @@ TEST(Furrow, OfAShallowDragIsAsDeepAsItsTipWhicheverWayItGoes) {
         measure_furrow(before, simulation.bed(), contact.path(), scene.tool.radius);
     EXPECT_NEAR(measures.depth, 0.002, 0.1 * 0.002) << angle;
     EXPECT_GT(measures.rampart, 0.0);
-    // Between the width of the tool's cap at that depth and that of the sphere.
+    // The width lies between that of the tool's cap at that depth and that of the sphere.
     EXPECT_GT(measures.width, 2.0 * std::sqrt(2.0 * 0.01 * 0.002 - 0.002 * 0.002) - 0.002) << angle;
     EXPECT_LT(measures.width, 0.02) << angle;
   }
 }
 
-TEST(Furrow, ATipThatTremblesAtTheSurfaceIsOnePlaceOfItsPath) {
+TEST(Furrow, ATipThatTremblesAtTheSurfaceIsOnePointOfItsPath) {
   const Scene scene;
   TipPathGatherer gatherer(scene);
   TickRecord tick;

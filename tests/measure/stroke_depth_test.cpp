@@ -11,8 +11,10 @@ struct Played {
   Stroke stroke;
 
   explicit Played(const std::vector<Eigen::Vector3d>& points) {
-    scene.bed.width = 0.3, scene.bed.depth = 0.2;
-    scene.bed.cols = 150, scene.bed.rows = 100;
+    scene.bed.width = 0.3;
+    scene.bed.depth = 0.2;
+    scene.bed.cols = 150;
+    scene.bed.rows = 100;
     stroke.position = points;
     for (std::size_t i = 0; i < points.size(); ++i) stroke.time.push_back(static_cast<double>(i));
   }
@@ -63,7 +65,7 @@ TEST(StrokeDepth, TwentyRadiiAreWhatIsWarnedOf) {
   }
 }
 
-TEST(StrokeDepth, OfAToolThatNeverTouchedSaysHowFarItStayed) {
+TEST(StrokeDepth, SaysHowFarAToolStayedThatNeverTouched) {
   Played played({{0, 0, 0.02}});
   played.scene.stroke.emplace();
   played.scene.stroke->placement.depth = 0.001;
@@ -73,7 +75,8 @@ TEST(StrokeDepth, OfAToolThatNeverTouchedSaysHowFarItStayed) {
   result.least_beside = 0.25;
   const std::string beside = untouched_text(played.scene, result);
   EXPECT_NE(beside.find("250 mm or more beyond its edge; set stroke.place = \"centre\""), std::string::npos);
-  result.nearest = -0.003, result.nearest_time = 0.25;
+  result.nearest = -0.003;
+  result.nearest_time = 0.25;
   const std::string text = untouched_text(played.scene, result);
   EXPECT_NE(text.find("3 mm above it (nearest at 0.250 s)"), std::string::npos) << text;
   EXPECT_NE(text.find("stroke.depth above 0.0025 m (it is 0.001 m)"), std::string::npos) << text;

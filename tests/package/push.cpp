@@ -23,7 +23,10 @@ int main() {
             << bed.highest() << " m, " << (rest.converged ? "at rest" : "NOT AT REST") << '\n';
 
   Scene scene;
-  scene.bed.width = 0.3, scene.bed.depth = 0.2, scene.bed.cols = 150, scene.bed.rows = 100;
+  scene.bed.width = 0.3;
+  scene.bed.depth = 0.2;
+  scene.bed.cols = 150;
+  scene.bed.rows = 100;
   Stroke stroke;
   stroke.time = {0.0, 0.05, 0.1};
   stroke.position = {{0.0, 0.0, 0.01}, {0.0, 0.0, -depth}, {0.0, 0.0, 0.01}};

@@ -41,7 +41,7 @@ std::vector<std::string> names_in(const Json& list, const char* key) {
 }
 using Names = std::vector<std::string>;
 
-TEST(ComparePage, OfTwoRunsHasSurfacesAndTraces) {
+TEST(ComparePage, HasSurfacesAndTracesOfTwoRuns) {
   const PageOfParts page = Pair().page();
   EXPECT_EQ(page.title, "run.h5 against golden.h5");
   EXPECT_EQ(page.data["passed"], true);
@@ -74,7 +74,7 @@ TEST(ComparePage, ShowsAFinerBedInTheMeansThatAreCompared) {
   EXPECT_EQ(maps(true), 3u);
 }
 
-TEST(ComparePage, OfACutOffRunShowsWhatThereIsAndSaysWhatIsNot) {
+TEST(ComparePage, ShowsWhatACutOffRunHasAndSaysWhatIsMissing) {
   Pair pair;
   pair.run.complete = pair.run.has_final = false;
   const PageOfParts page = pair.page();
@@ -83,7 +83,7 @@ TEST(ComparePage, OfACutOffRunShowsWhatThereIsAndSaysWhatIsNot) {
   EXPECT_NE(page.data["missing"][0]["sentence"].get<std::string>().find("cut off"), std::string::npos);
 }
 
-TEST(ComparePage, OfADamagedTraceShowsTheSurfaces) {
+TEST(ComparePage, ShowsTheSurfacesBesideADamagedTrace) {
   Pair pair;
   pair.run.missing_column = "depth";
   const PageOfParts page = pair.page();
@@ -91,7 +91,7 @@ TEST(ComparePage, OfADamagedTraceShowsTheSurfaces) {
   EXPECT_EQ(names_in(page.data["missing"], "name"), Names{"Traces"});
 }
 
-TEST(ComparePage, OfAGoldenEntryHasChangePictureAndTraces) {
+TEST(ComparePage, HasChangePictureAndTracesOfAGoldenEntry) {
   Pair pair;
   pair.page();
   const GoldenRun run{pair.folder / "golden.h5", Image(72, 40), {}};
@@ -115,7 +115,7 @@ TEST(ComparePage, OfAGoldenEntryHasChangePictureAndTraces) {
   EXPECT_EQ(names_in(page()["missing"], "name"), (Names{"Change of height", "Traces"}));
 }
 
-TEST(ComparePage, OfAGoldenEntryTellsItFromTheRun) {
+TEST(ComparePage, TellsAGoldenEntryFromTheRun) {
   Pair pair;
   pair.run.initial = HeightGrid(pair.run.initial.topRows(20));
   pair.run.final = HeightGrid(pair.run.final.topRows(20));
@@ -138,13 +138,13 @@ class ComparePageInBrowser : public BrowserTest {
     EXPECT_EQ(browser().evaluate("Number(document.documentElement.dataset.errors)"), 0);
     EXPECT_TRUE(browser().errors().empty()) << browser().errors().front();
   }
-  /// Where the edge of the wipe is, and what is cut from the upper picture [% of the width].
+  /// The position of the wipe's edge, and what is cut from the upper picture [% of the width].
   double edge() { return browser().evaluate("parseFloat(document.querySelector('.edge').style.left)"); }
   double cut() {
     return browser().evaluate(
         "parseFloat(document.querySelector('.wipe .layer .layer:last-child').style.clipPath.split(' ')[3])");
   }
-  /// A place on the wipe, in shares of its width and height.
+  /// A position on the wipe, in fractions of its width and height.
   Point on_wipe(double right, double down) {
     browser().centre(".wipe");  // scrolls
     const Json box = browser().evaluate(
@@ -245,7 +245,7 @@ TEST_F(ComparePageInBrowser, WipesToTheDifferenceToo) {
   EXPECT_EQ(cut(), edge());
 }
 
-TEST_F(ComparePageInBrowser, PointingAtAPlaceReadsOffItsHeights) {
+TEST_F(ComparePageInBrowser, PointingAtAPositionReadsOffItsHeights) {
   DifferentPair pair;
   open(pair.page());
   // The middle of cell (12, 25), from the extent of what is shown.
@@ -363,7 +363,7 @@ TEST_F(ComparePageInBrowser, PicturesOfTwoFiles) {
 }
 
 TEST_F(ComparePageInBrowser, TextOfTheFilesStaysText) {
-  // What comes from files: their names, provenance and scenes, and sentences that tell of them.
+  // Texts that come from files: their names, provenance and scenes, and sentences that tell of them.
   PageOfParts page = DifferentPair().page();
   page.data["golden"]["scene"] = "[tool]\nradius = 0.01\n";
   page.data["run"]["scene"] = "[tool]\nradius = \"" + hostile + "\"\n";

@@ -36,7 +36,7 @@ TEST(AbsorbedEnergy, IsTheForceTimesTheWayOfTheTickBefore) {
   EXPECT_TRUE(absorbed_energy({}).empty());
 }
 
-TEST(TracesPart, OfOneRunHasItsQuantitiesAndItsEnergy) {
+TEST(TracesPart, HasTheQuantitiesAndTheEnergyOfOneRun) {
   std::vector<TickRecord> trace = trace_of(3, {0.0, 3.0, 4.0}, 0.5);
   for (std::size_t tick = 0; tick < 3; ++tick)
     trace[tick].device_position.y() = -0.5 * static_cast<double>(tick);
@@ -50,7 +50,7 @@ TEST(TracesPart, OfOneRunHasItsQuantitiesAndItsEnergy) {
   EXPECT_EQ(part["quantities"][6]["run"]["value"], Json({0.0, 1.5, 3.0}));
 }
 
-TEST(TracesPart, OfARunOfAContactLawHasItsTorque) {
+TEST(TracesPart, HasTheTorqueOfAContactLaw) {
   std::vector<TickRecord> trace(3);
   for (std::size_t tick = 0; tick < trace.size(); ++tick) {
     trace[tick].time = 0.5 * static_cast<double>(tick);
@@ -99,7 +99,7 @@ TEST(TracesPart, HasEachQuantityOfBothAndTheirDifferenceWhereBothHaveTicks) {
       << "a gap while the tool is lifted";
 }
 
-TEST(TracesPart, WhoeverHasNoTraceHasNoCurves) {
+TEST(TracesPart, HasNoCurvesOfARunWithoutATrace) {
   const Json part = traces_part(trace_of(3, {0.0, 3.0, 4.0}, 0.5), std::nullopt, {});
   for (const Json& quantity : part["quantities"]) {
     EXPECT_TRUE(quantity.contains("golden"));
@@ -124,7 +124,9 @@ TEST(TracesPart, EachQuantityHasItsOwnValuesUnitAndLimit) {
   for (TickRecord& tick : golden) tick.level = 5.0;
   for (TickRecord& tick : run) tick.level = 55.0;
   Tolerances tolerances;
-  tolerances.height = 0.1, tolerances.force = 0.2, tolerances.depth = 0.3;
+  tolerances.height = 0.1;
+  tolerances.force = 0.2;
+  tolerances.depth = 0.3;
   const Json part = traces_part(golden, run, tolerances);
   const std::vector<std::tuple<double, double, const char*, double>> expected = {{1.0, 11.0, "N", 0.2},
                                                                                  {2.0, 22.0, "N", 0.2},

@@ -53,9 +53,9 @@ TEST(PictureDifferenceMap, ShowsTheChannelThatDiffersMostWithItsSign) {
   golden.rgb = {10, 10, 10, 10, 10, 10};
   run.rgb = {11, 5, 10, 10, 10, 30};
   const Image map = picture_difference_map(golden, run, 20);
-  const auto expect = [&](int x, double share) {
+  const auto expect = [&](int x, double fraction) {
     for (int channel = 0; channel < 3; ++channel)
-      EXPECT_EQ(map.pixel(x, 0)[channel], std::lround(255 * diverging_colour(share)[channel]));
+      EXPECT_EQ(map.pixel(x, 0)[channel], std::lround(255 * diverging_colour(fraction)[channel]));
   };
   expect(0, -5.0 / 20);
   expect(1, 1.0);

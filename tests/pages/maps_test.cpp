@@ -101,7 +101,7 @@ TEST(ShownCells, AreTheWholeBedWhereNothingMovedOrSomethingIsNotFinite) {
   EXPECT_EQ(shown_cells({"Final height", flat, flat, flat, flat, limit}), whole);
 }
 
-TEST(SurfacesPart, APlaceIsTheSamePixelInAllThreeMaps) {
+TEST(SurfacesPart, APositionIsTheSamePixelInAllThreeMaps) {
   const int row = 152, col = 140;
   const ComparedSurfaces s = furrow(300, 300, row, col);
   const Json part = surfaces_part(s);
@@ -138,7 +138,7 @@ TEST(SurfacesPart, GoldenAndRunHaveOneScaleAndTheDifferenceOneAroundZero) {
   EXPECT_NE(golden["colours"], difference["colours"]);
 }
 
-TEST(SurfacesPart, OfALargeBedASingleCellIsSeenAndReadOff) {
+TEST(SurfacesPart, ShowsASingleCellOfALargeBed) {
   ComparedSurfaces s = furrow(900, 3000, 2, 3);
   s.run.set(897, 2996, s.golden(897, 2996) - 0.002);
   const Json part = surfaces_part(s);
@@ -165,7 +165,7 @@ TEST(SurfacesPart, OfALargeBedASingleCellIsSeenAndReadOff) {
             std::count_if(heights.begin(), heights.end(), [](float h) { return h < 0.0f; }));
 }
 
-TEST(SurfacesPart, OfDifferentShapesHasBothAndNoDifference) {
+TEST(SurfacesPart, HasBothSurfacesOfDifferentShapesAndNoDifference) {
   ComparedSurfaces s = furrow(60, 40, 30, 20);
   s.run = s.run_initial = level(50, 40);
   const Json part = surfaces_part(s);
@@ -190,7 +190,7 @@ TEST(SurfacesPart, NumbersThatAreNoneAreGreyAndLeaveTheRestVisible) {
   }
 }
 
-TEST(SurfacesPart, OfEqualSurfacesAndNoToleranceHasAScaleToo) {
+TEST(SurfacesPart, HasAScaleForEqualSurfacesAndNoToleranceToo) {
   ComparedSurfaces s = furrow(60, 60, 30, 30);
   s.golden = s.run;
   s.limit = 0.0;
@@ -199,7 +199,7 @@ TEST(SurfacesPart, OfEqualSurfacesAndNoToleranceHasAScaleToo) {
   EXPECT_FALSE(part.contains("largest"));
 }
 
-TEST(SurfacesPart, OfAHugeBedShowsWhatWasTouched) {
+TEST(SurfacesPart, ShowsWhatWasTouchedOfAHugeBed) {
   const int side = BedGeometry::most_cells;
   ComparedSurfaces s{"Final height",    level(side, side), level(side, side),
                      level(side, side), level(side, side), limit};
@@ -227,7 +227,7 @@ TEST(PicturesPart, HoldsThePicturesAsTheyAreAndTheirDifference) {
   EXPECT_EQ(pictures_part("Picture", golden, Image(30, 21), 2)["maps"].size(), 2u);
 }
 
-TEST(SurfacesPart, OfABedThatIsNotSquareHasItsExtentAndNumbersRowsFirst) {
+TEST(SurfacesPart, HasTheExtentOfABedThatIsNotSquareAndNumbersRowsFirst) {
   ComparedSurfaces s = furrow(120, 300, 70, 140);
   const Json part = surfaces_part(s);
   const CellRange shown = shown_cells(s);

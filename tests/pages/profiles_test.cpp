@@ -29,7 +29,7 @@ struct Surfaces {
   double height(double col, double row) const { return 1e-3 * col + 1e-5 * row * row; }
 };
 
-/// Through the centres of cells {col, row}; a piece begins at each index of `pieces`.
+/// A path through the centres of cells {col, row}; a piece begins at each index of `pieces`.
 TipPath path_through(const std::vector<std::pair<int, int>>& cells, std::vector<std::size_t> pieces = {0}) {
   const BedGeometry bed(60, 80, cell);
   TipPath path;
@@ -44,7 +44,7 @@ std::vector<double> numbers(const Json& list) {
   return values;
 }
 
-TEST(ProfilesPart, AlongTheWayAreTheCellsThatItPasses) {
+TEST(ProfilesPart, HasTheCellsThatTheWayPasses) {
   const Surfaces s;
   // 20 cells to the right, 10 up; in steps of more than a cell, which are divided.
   const Json part =
@@ -69,7 +69,7 @@ TEST(ProfilesPart, AlongTheWayAreTheCellsThatItPasses) {
   }
 }
 
-TEST(ProfilesPart, AcrossItsMiddleTheLeftIsPositive) {
+TEST(ProfilesPart, TheLeftIsPositiveAcrossTheMiddleOfTheWay) {
   const Surfaces s;
   struct Case {
     std::vector<std::pair<int, int>> way;
@@ -92,7 +92,7 @@ TEST(ProfilesPart, AcrossItsMiddleTheLeftIsPositive) {
   }
 }
 
-TEST(ProfilesPart, WhereTheTipWasLiftedCurvesBreakOffAndTheWayDoesNotCount) {
+TEST(ProfilesPart, CurvesBreakOffAndTheWayDoesNotCountWhereTheTipWasLifted) {
   const Surfaces s;
   const Json part =
       profiles_part(path_through({{20, 20}, {30, 20}, {50, 40}, {60, 40}}, {0, 2}), 0.02, s.initial, s.last);
@@ -124,7 +124,7 @@ TEST(ProfilesPart, APathFarBeyondTheBedTakesNoMoreThanItMay) {
   EXPECT_THROW(profiles_part(path, 0.02, s.initial, s.last), Error);
 }
 
-TEST(ProfilesPart, OutsideTheBedThereIsNothing) {
+TEST(ProfilesPart, HasNothingOutsideTheBed) {
   const Surfaces s;
   const Json part = profiles_part(path_through({{30, 2}, {50, 2}}), 0.02, s.initial, s.last);
   const std::vector<double> initial = numbers(part["profiles"][1]["curves"]["initial"]["value"]);

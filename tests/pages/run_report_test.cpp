@@ -63,7 +63,7 @@ TEST(RunReport, FiguresAreThoseOfTheTrace) {
   EXPECT_NEAR(value("Energy into the sand"), 2.0 * 0.104, 1e-12);  // force times way
 }
 
-TEST(RunReport, OfACutOffRunShowsWhatThereIs) {
+TEST(RunReport, ShowsWhatACutOffRunHas) {
   Reported reported;
   reported.run.complete = reported.run.has_final = false;
   const PageOfParts page = reported.page();
@@ -74,7 +74,7 @@ TEST(RunReport, OfACutOffRunShowsWhatThereIs) {
   EXPECT_EQ(page.data["parts"][0]["maps"][0]["name"], "initial surface");
 }
 
-TEST(RunReport, WithoutAStrokeOrATraceThereIsThePictureAndASentence) {
+TEST(RunReport, HasThePictureAndASentenceWithoutAStrokeOrATrace) {
   struct Case {
     std::function<void(SyntheticRun&)> change;
     std::string sentence;
@@ -94,7 +94,7 @@ TEST(RunReport, WithoutAStrokeOrATraceThereIsThePictureAndASentence) {
   }
 }
 
-TEST(RunReport, WithoutAContactThereAreCurvesAndNoProfile) {
+TEST(RunReport, HasCurvesAndNoProfileWithoutAContact) {
   Reported reported;
   for (TickRecord& tick : reported.run.trace) tick.contact = false;
   const PageOfParts page = reported.page();
@@ -115,7 +115,10 @@ TEST(RunReport, APictureThatCannotBeDrawnIsSaid) {
 
 TEST(RunReport, SaysTheErrorThatWasEstimated) {
   ErrorEstimate error;
-  error.height_share = 0.25, error.height_rms = 1e-4, error.height_max = 2e-3, error.force_rms = 0.1,
+  error.height_share = 0.25;
+  error.height_rms = 1e-4;
+  error.height_max = 2e-3;
+  error.force_rms = 0.1;
   error.force_max = 0.5;
   const Json part = Reported().page(error).data["parts"][4];
   std::vector<double> values;
@@ -151,7 +154,7 @@ TEST_F(RunReportInBrowser, DrawsPictureCurvesProfilesAndTables) {
   EXPECT_EQ(browser().evaluate("Promise.all([...document.images].map((one) => one.decode()))"
                                ".then(() => [document.images.length, document.images[0].naturalWidth])"),
             Json({1, 72}));
-  // What the charts hold: the work of 2 N over 104 mm, and the way of the tip in contact.
+  // The charts hold the work of 2 N over 104 mm, and the way of the tip in contact.
   EXPECT_NEAR(browser().evaluate("charts[2].drawn.getOption().series[0].data.at(-1)[1]"), 0.208, 1e-12);
   EXPECT_EQ(browser().evaluate("charts.map(({ drawn }) => drawn.getOption().yAxis[0].name)"),
             Json({"magnitude (N)", "depth (m)", "energy (J)", "height (m)", "height (m)"}));

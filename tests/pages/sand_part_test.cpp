@@ -70,7 +70,7 @@ TEST_F(SandPartInBrowser, ShowsEverySurfaceAndHeightsAlongALine) {
   for (const double lift : {0.0, 0.01, -0.02, 0.03}) part.add("lift", slope(40, 60, lift));
   browser().open_text(page_of(part.json()));
   browser().wait_for("sandParts[0].ready");
-  // To half a quantum, which is a thousandth of a cell.
+  // Heights are right to half a quantum, which is a thousandth of a cell.
   const std::string apart =
       "Math.max(...sandParts[0].heights.map((heights, k) => Math.max(...heights.map((height, i) "
       "=> Math.abs(height - 1e-3 * (i % 60) - (i >= 20 * 60 ? [0, 0.01, -0.02, 0.03][k] : 0))))))";
@@ -111,7 +111,7 @@ TEST_F(SandPartInBrowser, ShowsHowFarTwoSurfacesAreApart) {
   EXPECT_TRUE(browser().errors().empty()) << browser().errors().front();
 }
 
-TEST_F(SandPartInBrowser, WithoutWebGlThePageSaysWhereThePictureIs) {
+TEST_F(SandPartInBrowser, SaysWhereThePictureIsWithoutWebGl) {
   SandPart part("Sand", "", slope(40, 60, 0.0));
   part.add("one", slope(40, 60, 0.0));
   std::string page = page_of(part.json());

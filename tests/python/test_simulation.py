@@ -26,8 +26,8 @@ def test_ticks_have_the_bits_of_a_run(small, line):
     assert np.array_equal(sim.x, run.x) and np.array_equal(sim.y, run.y)
 
 
-def test_sand_keeps_its_volume_and_slips_when_told(small):
-    sim = sandstroke.Simulation(small, slips=False)
+def test_sand_keeps_its_volume_and_relaxes_when_told(small):
+    sim = sandstroke.Simulation(small, relaxes=False)
     for k in range(200):
         sim.tick([-0.05 + 5e-4 * k, 0.0, -0.006])
     steep = np.abs(np.diff(sim.heights, axis=0)).max()
@@ -36,6 +36,14 @@ def test_sand_keeps_its_volume_and_slips_when_told(small):
     assert np.abs(np.diff(sim.heights, axis=0)).max() < steep
     assert abs(sim.volume) < 1e-15
     assert sim.height_at(0.0, 0.0) < -0.002 and np.isnan(sim.height_at(1.0, 0.0))
+
+
+def test_relaxation_has_a_former_name(small):
+    one, other = (sandstroke.Simulation(small, **{name: False}) for name in ("relaxes", "slips"))
+    for sim in (one, other):
+        for k in range(20):
+            sim.tick([-0.05 + 5e-4 * k, 0.0, -0.006])
+    assert np.array_equal(one.heights, other.heights)
 
 
 def test_a_hand_that_is_lifted_or_turned(small):

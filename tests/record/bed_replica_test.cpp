@@ -37,7 +37,8 @@ TEST(BedReplica, TwoThatChangeTheSameCellsMeetWhateverTheOrder) {
     if (round % 7 != 6 && round != 49) continue;
     for (const SandChange& told : from_one) other.take(told, true);
     for (const SandChange& told : from_other) one.take(told, false);
-    from_one.clear(), from_other.clear();
+    from_one.clear();
+    from_other.clear();
     EXPECT_LT((one.bed().grid() - other.bed().grid()).abs().maxCoeff(), 1e-15);
   }
   // Nothing is left to be told: what was taken is not told back.

@@ -40,12 +40,13 @@ TEST(FeltLoop, IsTheSandAtTheLargestForce) {
   EXPECT_FALSE(of(3.0));
 }
 
-TEST(FeltLoop, IsHeldAgainstTheDeviceAndTheory) {
+TEST(FeltLoop, IsComparedWithTheDeviceAndTheory) {
   Scene scene;
   const FeltLoop default_sand = felt_loop(scene, touch(), any_force, 1000.0).value();
   EXPECT_TRUE(default_sand.is_stable());
   EXPECT_FALSE(default_sand.is_within_named());  // 33 N s/m, and it names 4
-  scene.force.k_s = 700.0, scene.force.k_f = 1.0;
+  scene.force.k_s = 700.0;
+  scene.force.k_f = 1.0;
   EXPECT_TRUE(felt_loop(scene, touch(), any_force, 1000.0)->is_within_named());
   scene.force.k_s = 900.0;
   EXPECT_FALSE(felt_loop(scene, touch(), any_force, 1000.0)->is_within_named());
@@ -77,7 +78,9 @@ TEST(FeltLoop, ItsRemedySettlesAndNothingMuchHarderDoes) {
   for (const DragDirection drag : {DragDirection::horizontal, DragDirection::full})
     for (const auto& [k_s, k_f] : {std::pair{1000.0, 200.0}, {1e6, 10.0}, {1e6, 200.0}}) {
       Scene scene;
-      scene.force.k_s = k_s, scene.force.k_f = k_f, scene.force.drag = drag;
+      scene.force.k_s = k_s;
+      scene.force.k_f = k_f;
+      scene.force.drag = drag;
       const FeltLoop loop = felt_loop(scene, touch(), any_force, 1000.0).value();
       EXPECT_FALSE(loop.is_stable());
       const ForceSettings settling = settling_scene(loop, scene).value().force;
@@ -130,7 +133,7 @@ Scene contact_scene(ToolShape shape) {
   return scene;
 }
 
-TEST(FeltLoop, OfALawOfTheContactIsAsStiffAsThatAndDragsAtAnySpeedAlike) {
+TEST(FeltLoop, IsAsStiffAsALawOfTheContactAndDragsAtAnySpeedAlike) {
   Scene scene = contact_scene(ToolShape::sphere);
   scene.device.scale = 2.0;
   const FeltLoop loop = felt_loop(scene, touch(), 2.0, 1000.0).value();

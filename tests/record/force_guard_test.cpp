@@ -28,9 +28,9 @@ ForceGuard open_for(double seconds, const ForceLimits& limits, double servo_rate
 
 TEST(ForceGuard, LetsThroughWhatKeepsToAllLimits) {
   ForceGuard guard = open_for(0.5, limits(5.0, 0.5, 1000.0));
-  const FeltForce given = guard.admit(10.0, {{1.0, 2.0, 3.0}, held_sand}, {1.0, 2.0, 2.5});
+  const FeltForce given = guard.admit(10.0, {{1.0, 2.0, 3.0}, deferred_sand}, {1.0, 2.0, 2.5});
   EXPECT_EQ(given.force, Vector3d(1.0, 2.0, 3.0));
-  EXPECT_EQ(given.flags, held_sand);
+  EXPECT_EQ(given.flags, deferred_sand);
 }
 
 TEST(ForceGuard, RefusesWhatIsNoNumberAtOnce) {
@@ -39,9 +39,9 @@ TEST(ForceGuard, RefusesWhatIsNoNumberAtOnce) {
       ForceGuard guard = open_for(0.0, limits(5.0, 0.0, 1000.0));
       Vector3d wanted(1.0, 1.0, 1.0);
       wanted[axis] = bad;
-      const FeltForce given = guard.admit(10.0, {wanted, held_sand}, {0.0, 0.0, 5.0});
+      const FeltForce given = guard.admit(10.0, {wanted, deferred_sand}, {0.0, 0.0, 5.0});
       EXPECT_EQ(given.force, Vector3d::Zero());
-      EXPECT_EQ(given.flags, held_sand | refused_force);
+      EXPECT_EQ(given.flags, deferred_sand | refused_force);
       EXPECT_FALSE(guard.interlock().is_open());
     }
   }
@@ -216,18 +216,18 @@ TEST(ForceGuard, GivesNoneBeforeTheToolWasOutOfTheSand) {
   double time = 0.0;
   const auto admit = [&](double force) {
     time += 1e-3;
-    return guard.admit(time, {{0.0, 0.0, force}, held_sand}, Vector3d::Zero());
+    return guard.admit(time, {{0.0, 0.0, force}, deferred_sand}, Vector3d::Zero());
   };
   for (int tick = 0; tick < 2000; ++tick) {  // longer than the fade-in
     const FeltForce given = admit(12.0);
     ASSERT_EQ(given.force, Vector3d::Zero());
-    ASSERT_EQ(given.flags, held_sand | interlocked_force);
+    ASSERT_EQ(given.flags, deferred_sand | interlocked_force);
   }
-  while (!guard.interlock().is_open()) ASSERT_EQ(admit(0.0).flags, held_sand) << "nothing is withheld";
+  while (!guard.interlock().is_open()) ASSERT_EQ(admit(0.0).flags, deferred_sand) << "nothing is withheld";
   const double opened = time;
   for (int tick = 0; tick < 400; ++tick) {  // and fades in from then
     const FeltForce given = admit(4.0);
-    ASSERT_EQ(given.flags, held_sand | ramped_force);
+    ASSERT_EQ(given.flags, deferred_sand | ramped_force);
     ASSERT_NEAR(given.force.z(), 4.0 * (time - opened) / 0.5, 1e-9);
   }
 }

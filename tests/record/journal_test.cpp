@@ -79,7 +79,7 @@ class Journal : public testing::Test {
     if (footer) writer.finish(*footer);
     return read_text_file(path);
   }
-  /// In memory, for thousands of files would keep a disk busy.
+  /// A folder in memory, for thousands of files would keep a disk busy.
   fs::path file_of(const std::string& bytes) {
     EXPECT_EQ(ftruncate(memory_.get(), 0), 0);
     EXPECT_EQ(pwrite(memory_.get(), bytes.data(), bytes.size(), 0), static_cast<ssize_t>(bytes.size()));
@@ -94,7 +94,7 @@ TEST_F(Journal, LiesBesideItsStroke) {
   EXPECT_EQ(journal_path("a.b/stroke.h5"), fs::path("a.b/stroke.h5.recording"));
 }
 
-/// With checksums that are right: only a writer gone wrong, or an enemy, makes such.
+/// The checksums are right: only a writer gone wrong, or an enemy, makes such files.
 TEST_F(Journal, NumbersBeyondAllCountsAreDamage) {
   std::vector<RecordedSample> samples = made_samples(3);
   samples[2].sequence = std::uint64_t{1} << 62;
@@ -134,7 +134,7 @@ TEST(RecordingJson, WhatAnEarlierVersionDidNotSayIsAsByDefault) {
   EXPECT_EQ(header_from_json(header).device.max_damping, 0.0);
   EXPECT_EQ(header_from_json(header).device.max_stiffness, full_header().device.max_stiffness);
   EXPECT_EQ(footer_from_json(footer).ticks.interlocked, 0);
-  EXPECT_EQ(footer_from_json(footer).ticks.held, full_footer().ticks.held);
+  EXPECT_EQ(footer_from_json(footer).ticks.deferred, full_footer().ticks.deferred);
 }
 
 TEST(RecordingJson, AReasonOfALaterVersionIsNotTakenForOneOfThis) {
@@ -164,7 +164,7 @@ TEST_F(Journal, ComesBackToTheBit) {
   }
 }
 
-TEST_F(Journal, OfTheVersionBeforeIsRead) {  // whose samples were 96 bytes and had no orientation
+TEST_F(Journal, IsReadFromTheVersionBefore) {  // whose samples were 96 bytes and had no orientation
   const std::vector<RecordedSample> samples = made_samples(1);
   std::string bytes = bytes_of(samples);
   bytes[20] = 1;
@@ -289,7 +289,7 @@ TEST_F(Journal, WhatFollowsTheFooterIsNoSample) {
   EXPECT_EQ(reader.lost_bytes(), sample_block);
 }
 
-/// What follows the signature: anything, also such blocks as could be ones.
+/// Bytes that follow the signature: anything, also such blocks as could be ones.
 std::string garbage(std::mt19937_64& random) {
   const auto upto = [&random](std::uint64_t most) { return random() % (most + 1); };
   std::string bytes;
@@ -392,7 +392,7 @@ TEST_F(Journal, AFullDiskKeepsWhatWasThere) {
   }
 }
 
-TEST_F(Journal, AfterAFullDiskItGoesOn) {
+TEST_F(Journal, GoesOnAfterAFullDisk) {
   const std::vector<RecordedSample> samples = made_samples(4);
   const std::size_t header_end = bytes_of({}).size();
   in_child([&] {
@@ -430,7 +430,7 @@ TEST_F(Journal, OneThatSomebodyRemovedOrReplacedIsNotWrittenOnInVain) {
   EXPECT_EQ(read_text_file(path), "another's");
 }
 
-TEST_F(Journal, WithoutRoomForTheHeaderNothingStays) {
+TEST_F(Journal, LeavesNothingWithoutRoomForTheHeader) {
   in_child([&] {
     limit_files(100);
     try {
@@ -477,7 +477,7 @@ TEST_F(Journal, SaysWhatCannotBeRead) {
   EXPECT_THAT(complaint(ErrorKind::io, [&] { JournalReader{folder_ / "absent"}; }), HasSubstr("absent"));
   EXPECT_THAT(complaint(ErrorKind::io, [&] { JournalReader{folder_.path()}; }), HasSubstr("folder"));
   EXPECT_THAT(complaint(ErrorKind::io, [&] { JournalReader{"/dev/zero"}; }), HasSubstr("regular file"));
-  // At address 0 of this process there is nothing: reading it is an error of the disk.
+  // Nothing is at address 0 of this process: reading it is an error of the disk.
   EXPECT_THAT(complaint(ErrorKind::io, [&] { JournalReader{"/proc/self/mem"}; }),
               HasSubstr("cannot be read (Input/output error)"));
   EXPECT_THAT(complaint(ErrorKind::input, [&] { JournalReader{file_of("no journal")}; }),

@@ -27,11 +27,12 @@ TEST(LiveRelaxer, ThatRelaxesSeldomTakesWhatIsDisplacedMeanwhileAndEndsWhenItIsA
   }
 }
 
-/// A bed with a heap where a solid tool stands, and slips as often as the tool goes its way.
-TEST(LiveRelaxer, UnderASolidToolNothingSlipsUntilItHasGone) {
+/// A bed with a heap where a solid tool stands, and relaxes as often as the tool goes its way.
+TEST(LiveRelaxer, RelaxesNothingUnderASolidToolUntilItHasGone) {
   const ToolSettings tool{0.03, ToolProfile::sphere, true};
   RelaxationSettings settings;
-  settings.rate = 0.0, settings.way = 1.0 / 3.0;  // of 30 mm: a cell
+  settings.rate = 0.0;
+  settings.way = 1.0 / 3.0;  // of 30 mm: a cell
   SandRing displaced(64), relaxed(64);
   PlaceRing places(8);
   LiveRelaxer live_relaxer(HeightField(41, 41, 0.01), tool, settings, displaced, places, relaxed);
@@ -61,34 +62,35 @@ class CountingRelaxer : public Relaxer {
   std::atomic<int>& count_;
 };
 
-TEST(LiveRelaxer, SlipsInItsThreadAsOftenAsTheToolHasGoneItsWay) {
+TEST(LiveRelaxer, RelaxesInItsThreadAsOftenAsTheToolHasGoneItsWay) {
   RelaxationSettings settings;
-  settings.rate = 0.0, settings.way = 1.0 / 3.0;  // of 30 mm: a cell
+  settings.rate = 0.0;
+  settings.way = 1.0 / 3.0;  // of 30 mm: a cell
   SandRing displaced(64), relaxed(64);
   PlaceRing places(8);
-  std::atomic<int> slips = 0;
+  std::atomic<int> relaxations = 0;
   LiveRelaxer live_relaxer(HeightField(41, 41, 0.01), {0.03, ToolProfile::sphere, true}, settings, displaced,
-                           places, relaxed, std::make_unique<CountingRelaxer>(slips));
+                           places, relaxed, std::make_unique<CountingRelaxer>(relaxations));
   const auto go_to = [&](double x, bool contact) {
     places.push({{x, 0.0, contact ? -0.01 : 0.1}, contact});
     while (places.size() > 0) std::this_thread::yield();
   };
   places.push({{0.0, 0.0, -0.01}, true});  // it touches down
   live_relaxer.start();
-  while (slips < 1) std::this_thread::yield();
+  while (relaxations < 1) std::this_thread::yield();
   for (int cells = 1; cells <= 3; ++cells) {
     for (int i = 1; i < 10; ++i) go_to(0.01 * (cells - 1) + 0.001 * i, true);  // less than a cell: nothing
-    EXPECT_EQ(slips, cells);
+    EXPECT_EQ(relaxations, cells);
     go_to((0.01 + 1e-12) * cells, true);
-    while (slips < cells + 1) std::this_thread::yield();
+    while (relaxations < cells + 1) std::this_thread::yield();
   }
   go_to(0.03, false);  // it leaves
-  while (slips < 5) std::this_thread::yield();
+  while (relaxations < 5) std::this_thread::yield();
   live_relaxer.stop();
-  EXPECT_EQ(slips, 5);
+  EXPECT_EQ(relaxations, 5);
 }
 
-/// Of a machine without memory left.
+/// A relaxer on a machine without memory left.
 class FailingRelaxer : public Relaxer {
  public:
   RelaxationOutcome relax(HeightField&, const PassWatcher&) override { throw std::bad_alloc(); }
@@ -127,7 +129,7 @@ TEST(LiveRelaxer, TurnsAreAsShortAsTheSettingsSayAndTheirPassesAddUp) {
   }
 }
 
-TEST(LiveRelaxer, WhatWasDugSlips) {
+TEST(LiveRelaxer, RelaxesWhatWasDisplaced) {
   RelaxationSettings settings;
   SandRing displaced(8), relaxed(1024);
   PlaceRing places(8);
@@ -142,7 +144,8 @@ TEST(LiveRelaxer, WhatWasDugSlips) {
 
 TEST(LiveRelaxer, SandThatAsksByWayAndHasFarToGoGoesOnWithoutTheToolsMoving) {
   RelaxationSettings settings;
-  settings.rate = 0.0, settings.way = 1.0 / 3.0;  // of 30 mm: a cell
+  settings.rate = 0.0;
+  settings.way = 1.0 / 3.0;  // of 30 mm: a cell
   SandRing displaced(8), relaxed(std::size_t{1} << 18);
   PlaceRing places(8);
   HeightField heap(61, 61, 0.01);

@@ -53,7 +53,7 @@ struct Feeling {
   LiveSandReport report;
 };
 
-/// Feels at these times; the sand slips as often as the scene says, by the loop's own time.
+/// Feels at these times; the sand relaxes as often as the scene says, by the loop's own time.
 Feeling feel_all(const Scene& scene, const std::vector<double>& times) {
   LiveSand sand(scene, starting_bed(scene.bed), {"bed"});
   Feeling feeling;
@@ -75,11 +75,11 @@ std::vector<double> even_times(double seconds) {
   return times;
 }
 
-/// Whether its tool is solid, too.
+/// A scene whose tool may be solid, too.
 class LiveTool : public testing::TestWithParam<bool> {};
 INSTANTIATE_TEST_SUITE_P(Solid, LiveTool, testing::Bool());
 
-TEST_P(LiveTool, OfEvenTicksHasTheSandAndTheRepulseForceThatARunOfThemHas) {
+TEST_P(LiveTool, HasTheSandAndTheRepulseForceOfARunInEvenTicks) {
   Scene scene = small_scene();
   scene.tool.solid = GetParam();
   if (scene.tool.solid) {
@@ -91,7 +91,7 @@ TEST_P(LiveTool, OfEvenTicksHasTheSandAndTheRepulseForceThatARunOfThemHas) {
   const Feeling felt = feel_all(scene, times);
   EXPECT_GT(felt.report.contact_ticks, 500);
   EXPECT_GT(felt.report.relaxation.passes, 100);
-  EXPECT_EQ(felt.report.held_ticks, 0);
+  EXPECT_EQ(felt.report.deferred_ticks, 0);
 
   scene.stroke.emplace();
   Simulation simulation(scene, starting_bed(scene.bed), sampled(times));
@@ -114,7 +114,7 @@ TEST_P(LiveTool, OfEvenTicksHasTheSandAndTheRepulseForceThatARunOfThemHas) {
   }
   EXPECT_GT(most, 2.0);
   EXPECT_LT((felt.bed - felt.relaxing).abs().maxCoeff(), 1e-12);
-  // At the end of a run a solid tool is gone, and sand falls in where it stood.
+  // A solid tool is gone at the end of a run, and sand falls in where it stood.
   const Eigen::Vector3d last = SmoothHand::at(times.back());
   double apart = 0.0;
   for (int row = 0; row < felt.bed.rows(); ++row)
@@ -129,7 +129,7 @@ TEST_P(LiveTool, OfEvenTicksHasTheSandAndTheRepulseForceThatARunOfThemHas) {
   EXPECT_GT(result.moved_volume, 0.0);
 }
 
-/// accurate, with a law of the contact, and sand that does not slip.
+/// accurate, with a law of the contact, and sand that does not relax.
 Scene contact_scene(ForceLaw law, ToolShape shape) {
   Scene scene = small_scene();
   scene.preset = ModelPreset::accurate;
@@ -144,7 +144,7 @@ Scene contact_scene(ForceLaw law, ToolShape shape) {
   return scene;
 }
 
-TEST(LiveSand, OfALawOfTheContactHasTheForceThatARunHas) {
+TEST(LiveSand, HasTheForceOfARunWithALawOfTheContact) {
   for (const ForceLaw law : {ForceLaw::rft, ForceLaw::archimedes})
     for (const ToolShape shape : {ToolShape::sphere, ToolShape::cone, ToolShape::plate}) {
       Scene scene = contact_scene(law, shape);
@@ -202,13 +202,16 @@ TEST(LiveSand, TurnsTheToolWithTheHandAsARunDoes) {
   for (std::size_t k = 202; k < times.size(); ++k)  // since it turns
     EXPECT_NEAR(forces[k - 1], run.ticks[k].device_force.z(), 1e-6) << times[k];
   EXPECT_GT(forces.back(), 1.0);
-  // Of a device that does not measure how it is turned, nothing turns.
+  // Nothing turns with a device that does not measure how it is turned.
   LiveSand straight(scene, starting_bed(scene.bed), {"bed"});
-  for (const double t : times) straight.feel(t, turning_reading(t)), straight.shape();
+  for (const double t : times) {
+    straight.feel(t, turning_reading(t));
+    straight.shape();
+  }
   EXPECT_GT((straight.bed().grid() - ran).abs().sum(), 0.3 * ran.abs().sum());
 }
 
-TEST(LiveSand, OfAToolThatTurnsTakesNoMemoryInTheLoopAndItsRelaxationTurnsWithIt) {
+TEST(LiveSand, TakesNoMemoryInTheLoopAndTurnsItsRelaxationWithATool) {
   Scene scene = contact_scene(ForceLaw::rft, ToolShape::plate);
   scene.relaxation.rate = 60.0;
   scene.relaxation.max_passes = RelaxationSettings{}.max_passes;
@@ -258,7 +261,7 @@ double shaking(const Scene& scene) {
   return fastest;
 }
 
-TEST(LiveSand, OfALawOfTheContactLetsAHandRestWhereTheoryDoes) {
+TEST(LiveSand, LetsAHandRestWhereTheoryDoesWithALawOfTheContact) {
   Scene scene = contact_scene(ForceLaw::rft, ToolShape::sphere);
   DeviceSpecification touch;
   touch.max_force = 3.3;
@@ -271,7 +274,7 @@ TEST(LiveSand, OfALawOfTheContactLetsAHandRestWhereTheoryDoes) {
 }
 
 TEST(LiveSand, AToolThatRestsDeepIsDueAForceThatItDoesNotFeel) {
-  // So that the interlock stays closed (ForceGuard): at the beginning, and after a gap.
+  // The interlock must stay closed (ForceGuard) at the beginning, and after a gap.
   for (const ForceLaw law : {ForceLaw::rft, ForceLaw::archimedes})
     for (const ToolShape shape : {ToolShape::sphere, ToolShape::plate}) {
       const Scene scene = contact_scene(law, shape);
@@ -301,19 +304,19 @@ TEST(LiveSand, WhatIsWeakenedBeyondTheScenesLimitIsFlagged) {
   }
 }
 
-TEST(LiveSand, OfALawOfTheContactGoesOnWhileTheToolIsHeldFromDigging) {
+TEST(LiveSand, KeepsTheForceOfALawOfTheContactWhileDisplacementIsDeferred) {
   // The relaxing bed is far behind, and the hand rises: lift is gone after the yield way.
   Scene scene = contact_scene(ForceLaw::archimedes, ToolShape::box);
   LiveSand sand(scene, starting_bed(scene.bed), {"bed"});
   int k = 0;
   std::uint32_t flags = 0;
-  for (; k < 200'000 && !(flags & held_sand); ++k) {
+  for (; k < 200'000 && !(flags & deferred_sand); ++k) {
     const double angle = 0.05 * k;
     flags =
         sand.feel(1e-3 * k, {Eigen::Vector3d(0.1 * std::cos(angle), 0.1 * std::sin(angle), -0.01 - 1e-7 * k)})
             .flags;
   }
-  ASSERT_TRUE(flags & held_sand);
+  ASSERT_TRUE(flags & deferred_sand);
   const double angle = 0.05 * (k - 1), z = -0.01 - 1e-7 * (k - 1);
   FeltForce felt;
   for (int i = 1; i <= 20; ++i, ++k)
@@ -326,7 +329,10 @@ TEST(LiveSand, AHandThatIsNotTurnedInItsFrameDoesNotTurnTheTool) {
   LiveSand sand(scene, starting_bed(scene.bed), {"device", any_force, true});
   DeviceReading reading;
   reading.position = {0.0, 0.0, -0.005};
-  for (int k = 0; k < 3; ++k) sand.feel(1e-3 * k, reading), sand.shape();
+  for (int k = 0; k < 3; ++k) {
+    sand.feel(1e-3 * k, reading);
+    sand.shape();
+  }
   EXPECT_TRUE(sand.orientation().isApprox(Eigen::Quaterniond::Identity(), 1e-12));
   EXPECT_LT(sand.bed()(75 + 20, 75), -0.003) << "its width is along y";
   // Turned about the axis towards the operator, which is the bed's -y.
@@ -344,7 +350,7 @@ TEST(LiveSand, BesideTheBedTheLowestPointOfTheToolCounts) {
   EXPECT_TRUE(sand.feel(0.001, {Eigen::Vector3d(0.5, 0.0, 0.04)}).is_above_or_in_sand);
 }
 
-TEST(LiveSand, OfALawOfTheContactPastACornerOfTheBedIsANumber) {
+TEST(LiveSand, GivesANumberPastACornerOfTheBedWithALawOfTheContact) {
   for (const ForceLaw law : {ForceLaw::rft, ForceLaw::archimedes}) {
     const Scene scene = contact_scene(law, ToolShape::sphere);
     LiveSand sand(scene, starting_bed(scene.bed), {"bed"});
@@ -355,7 +361,7 @@ TEST(LiveSand, OfALawOfTheContactPastACornerOfTheBedIsANumber) {
   }
 }
 
-TEST(LiveSand, OfALawOfTheContactBeginsAnewAfterAGap) {
+TEST(LiveSand, BeginsALawOfTheContactAnewAfterAGap) {
   const Scene scene = contact_scene(ForceLaw::rft, ToolShape::sphere);
   LiveSand sand(scene, starting_bed(scene.bed), {"bed"});
   FeltForce felt;
@@ -366,8 +372,8 @@ TEST(LiveSand, OfALawOfTheContactBeginsAnewAfterAGap) {
   EXPECT_EQ(sand.feel(0.3, {there}).force.norm(), 0.0) << "its way there is not known";
 }
 
-TEST(LiveSand, OfUnevenTicksIsWithinTheBoundOfSampling) {
-  // Ticks up to 0.4 ms late, some missing; sand that does not slip, so that nothing but sampling differs.
+TEST(LiveSand, IsWithinTheBoundOfSamplingInUnevenTicks) {
+  // Ticks up to 0.4 ms late, some missing; sand that does not relax, so that nothing but sampling differs.
   Scene scene = small_scene();
   scene.relaxation.rate = 0.0;
   std::mt19937 random(3);
@@ -421,7 +427,7 @@ TEST(LiveSand, RelaxingInItsOwnThreadLosesNoSand) {
   EXPECT_LT(std::abs(sand.bed().volume() - start.volume()), 1e-15);
 }
 
-/// Of so many seconds, in more than so many ticks of contact.
+/// Expects this of so many seconds, with more than so many ticks of contact.
 void expect_no_memory_in_loop(const Scene& scene, double seconds, std::int64_t least_contact) {
   SCOPED_TRACE(static_cast<int>(scene.force.law));
   LiveSand sand(scene, starting_bed(scene.bed), {"bed"});
@@ -446,7 +452,7 @@ TEST_P(LiveTool, TakesNoMemoryInTheLoop) {
   expect_no_memory_in_loop(scene, 3.0, 500);
 }
 
-TEST(LiveSand, OfAToolOfAnyShapeTakesNoMemoryInTheLoop) {
+TEST(LiveSand, TakesNoMemoryInTheLoopForAToolOfAnyShape) {
   if (!allocations_are_counted()) GTEST_SKIP() << "allocations are not counted under sanitizers";
   for (const ToolShape shape : {ToolShape::cone, ToolShape::plate, ToolShape::rake}) {
     Scene scene = small_scene();
@@ -470,16 +476,16 @@ TEST(LiveSand, ThatRelaxesTooSlowlyIsFeltButNotDisplaced) {
   LiveSand sand(scene, start, {"bed"});
   std::uint32_t flags = 0;
   FeltForce felt;
-  for (int k = 0; k < 100'000 && !(flags & held_sand); ++k) {
+  for (int k = 0; k < 100'000 && !(flags & deferred_sand); ++k) {
     const double angle = 0.05 * k;
     felt = sand.feel(k * 1e-3,
                      {Eigen::Vector3d(0.1 * std::cos(angle), 0.1 * std::sin(angle), -0.01 - 1e-6 * k)});
     flags |= felt.flags;
   }
-  EXPECT_EQ(flags, held_sand);
+  EXPECT_EQ(flags, deferred_sand);
   EXPECT_GT(felt.force.z(), 0.0);
   const LiveSandReport report = sand.finish();
-  EXPECT_EQ(report.held_ticks, 1);
+  EXPECT_EQ(report.deferred_ticks, 1);
   EXPECT_LT((sand.bed().grid() - sand.relaxed_bed().grid()).abs().maxCoeff(), 1e-12);
   EXPECT_LT(std::abs(sand.bed().volume() - start.volume()), 1e-13);
 }
@@ -499,7 +505,7 @@ TEST(LiveSand, FeelsInTheDevicesAxesAndScale) {
   EXPECT_NEAR(felt.force.y(), 0.0, 1e-12);
 }
 
-TEST(LiveSand, AFarJumpDoesNotDigAcrossTheBed) {
+TEST(LiveSand, AFarJumpDoesNotCarveAcrossTheBed) {
   // Two readings more than the gap threshold apart are not joined.
   Scene scene = small_scene();
   scene.relaxation.rate = 0.0;
@@ -511,9 +517,9 @@ TEST(LiveSand, AFarJumpDoesNotDigAcrossTheBed) {
   EXPECT_LT(sand.bed()(75, 125), 0.0);
 }
 
-TEST(LiveSand, AfterAGapTheHandBeginsAtRest) {
-  // At 0.1 m/s through the sand, a gap, and on at the same speed elsewhere. Drag / repulse is k_f v, with v
-  // the mean over the readings since the gap: nobody knows how fast the hand was in it.
+TEST(LiveSand, BeginsWithTheHandAtRestAfterAGap) {
+  // The hand goes at 0.1 m/s through the sand and, after a gap, at the same speed elsewhere. Drag / repulse
+  // is k_f v, with v the mean over the readings since the gap: nobody knows how fast the hand was in it.
   for (const double gap : {0.095, 0.105}) {  // s; the threshold is 0.1 s
     Scene scene = small_scene();
     scene.relaxation.rate = 0.0;
@@ -590,7 +596,7 @@ TEST(LiveSand, TheVelocityOfDragIsTheMeanOverTheLastFourReadings) {
   }
 }
 
-TEST(LiveSand, NothingIsDugOrSlipsBeforeTheRecordingBegins) {
+TEST(LiveSand, NothingIsDisplacedOrRelaxesBeforeTheRecordingBegins) {
   // A run of the recorded stroke begins with the bed as it was, too.
   const Scene scene = small_scene();
   HeightField start = starting_bed(scene.bed);
@@ -631,7 +637,7 @@ TEST(LiveSand, CountsTheTicksInContact) {
   EXPECT_EQ(contact, 200);
   const LiveSandReport report = sand.finish();
   EXPECT_EQ(report.contact_ticks, 200);
-  EXPECT_EQ(report.held_ticks, 0);
+  EXPECT_EQ(report.deferred_ticks, 0);
 }
 
 }  // namespace

@@ -10,7 +10,7 @@
 namespace sandstroke {
 namespace {
 
-/// In a process of its own: a user without privileges, who may lock so much memory.
+/// Makes this process that of a user without privileges, who may lock so much memory.
 void become_a_user(rlim_t memory) {
   const rlimit none{0, 0}, locked{memory, memory};
   setrlimit(RLIMIT_RTPRIO, &none);
@@ -18,7 +18,7 @@ void become_a_user(rlim_t memory) {
   if (geteuid() == 0 && setresuid(65534, 65534, 65534) != 0) _exit(77);
 }
 
-/// Of what is said of SCHED_FIFO and locked memory, each is there exactly where the other is not.
+/// True if the advice on SCHED_FIFO, and on locked memory, is there exactly where each was refused.
 bool says_what_was_refused(const Scheduling& given) {
   const auto says = [&](const char* word) { return given.advice.find(word) != std::string::npos; };
   return says("rtprio") == (given.policy != "SCHED_FIFO") && says("memlock") == !given.memory_locked;

@@ -45,7 +45,7 @@ class RecorderTest : public testing::Test {
     EXPECT_GE(device.released, 1);
     EXPECT_EQ(device.held, Vector3d::Zero());
   }
-  /// What the journal holds: how many samples, and whether there is a footer.
+  /// The content of the journal: how many samples, and whether there is a footer.
   std::pair<std::int64_t, std::optional<RecordingFooter>> kept() const {
     JournalReader reader(journal);
     std::int64_t samples = 0;
@@ -277,7 +277,7 @@ TEST_F(RecorderTest, KeepsWhatADiskTookBeforeItWasFull) {
   expect_device_left_safe();
 }
 
-/// Whose read hangs in one tick, until somebody releases it.
+/// A device whose read hangs in one tick, until somebody releases it.
 class HangingDevice : public FakeDevice {
  public:
   bool read(double, DeviceReading&) noexcept override {

@@ -77,7 +77,7 @@ TEST(SampleWriter, WritesWhileItIsFilled) {
   EXPECT_EQ(parts.ring.size(), 0u);
 }
 
-TEST(SampleWriter, WithoutSamplesItWritesNone) {
+TEST(SampleWriter, WritesNothingWithoutSamples) {
   const TestFolder folder;
   {
     Parts parts(folder / "a", 100);

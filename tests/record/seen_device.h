@@ -10,7 +10,7 @@ namespace sandstroke {
 /// it is the fake itself, and into test_chai3d, where it is the fake as a device of CHAI3D's.
 std::shared_ptr<HapticDevice> seen(FakeDevice& device);
 
-/// Whether a device that holds no force is sent a zero force all the same.
+/// True if a device that holds no force is sent a zero force all the same.
 extern const bool zero_is_sent_twice;
 
 }  // namespace sandstroke

@@ -52,7 +52,7 @@ class ServoLoopTest : public testing::Test {
     EXPECT_EQ(ticks.ramped, with(ramped_force));
     EXPECT_EQ(ticks.rate_limited, with(rate_limited_force));
     EXPECT_EQ(ticks.refused, with(refused_force));
-    EXPECT_EQ(ticks.held, with(held_sand));
+    EXPECT_EQ(ticks.deferred, with(deferred_sand));
     EXPECT_EQ(ticks.interlocked, with(interlocked_force));
     EXPECT_EQ(device.held, Vector3d::Zero());
     std::uint64_t expected = 0;
@@ -286,7 +286,7 @@ TEST_F(ServoLoopTest, CountsWhatTheFullRingDidNotTake) {
   }
 }
 
-TEST_F(ServoLoopTest, EndsWhenTheStopSwitchIsHeld) {
+TEST_F(ServoLoopTest, EndsWhenTheStopSwitchIsKeptPressed) {
   settings.duration.reset();
   settings.stop_switch = 2;
   device.reads = [&](double time, DeviceReading& reading) {
@@ -303,7 +303,7 @@ TEST_F(ServoLoopTest, EndsWhenTheStopSwitchIsHeld) {
 }
 
 TEST_F(ServoLoopTest, GivesWhatTheWorldMakesFelt) {
-  FakeWorld world([](double time) { return FeltForce{{0.0, 0.0, 20.0 * time}, held_sand}; });
+  FakeWorld world([](double time) { return FeltForce{{0.0, 0.0, 20.0 * time}, deferred_sand}; });
   Vector3d commanded = Vector3d::Zero();
   device.takes_force = [&](const Vector3d& force) {
     commanded = force;
@@ -317,7 +317,7 @@ TEST_F(ServoLoopTest, GivesWhatTheWorldMakesFelt) {
   for (const RecordedSample& s : samples) {
     EXPECT_NEAR(s.force[2], 0.02 * static_cast<double>(s.sequence), 1e-12);
   }
-  EXPECT_EQ(footer.ticks.held, 100);
+  EXPECT_EQ(footer.ticks.deferred, 100);
   EXPECT_EQ(device.commands, 101);
 }
 
@@ -412,7 +412,7 @@ TEST_F(ServoLoopTest, GivesNoForceToAHandThatRestsInTheSand) {
   }
 }
 
-TEST_F(ServoLoopTest, WithoutForceWaitsForNoLifting) {
+TEST_F(ServoLoopTest, WaitsForNoLiftingWithoutForce) {
   settings.force.max_force = 0.0;
   FakeWorld world([](double) { return FeltForce{{0.0, 0.0, 5.0}, 0}; });
   device.reads = [&](double, DeviceReading&) {
@@ -569,7 +569,7 @@ TEST_F(ServoLoopTest, TellsHowLateItWas) {
 
 // --- Before the recording begins ---
 
-/// Which world times a FakeWorld was asked for.
+/// The world times that a FakeWorld was asked for.
 class TimedWorld : public FakeWorld {
  public:
   std::vector<double> times;
@@ -722,7 +722,7 @@ TEST_F(ServoLoopTest, GivesNoForceThatItMustNotWhateverHappens) {
     double z = chance(0.5) ? -0.05 : 0.05;  // m: it may rest in the sand
     bool in_air = false;
 
-    // What the interlock must allow, told by the readings alone.
+    // The readings alone tell what the interlock must allow.
     std::optional<std::int64_t> last, clear_since;
     bool may_open = false;
     std::vector<char> allowed(10'000, 0);  // by ms since the start
@@ -735,7 +735,10 @@ TEST_F(ServoLoopTest, GivesNoForceThatItMustNotWhateverHappens) {
       if (clock.now() - start > 500 * ms) reading.switches = clock.now() - start > 520 * ms;
       read_fails = chance(unread);
       const std::int64_t now = clock.now();
-      if (read_fails || (last && now - *last > 25 * ms)) may_open = false, clear_since.reset();
+      if (read_fails || (last && now - *last > 25 * ms)) {
+        may_open = false;
+        clear_since.reset();
+      }
       last = now;
       if (read_fails || z < 0.0) {
         clear_since.reset();
@@ -751,7 +754,10 @@ TEST_F(ServoLoopTest, GivesNoForceThatItMustNotWhateverHappens) {
       Vector3d force(0.0, 0.0, z < 0.0 ? 1.0 - 500.0 * z : 0.0);
       const bool none = z < 0.0 && chance(0.002);
       if (none) force.y() = no_number;
-      if (none) may_open = false, allowed[static_cast<std::size_t>((*last - start) / ms)] = 0;
+      if (none) {
+        may_open = false;
+        allowed[static_cast<std::size_t>((*last - start) / ms)] = 0;
+      }
       return FeltForce{force, 0};
     });
     run(&world);
@@ -782,7 +788,7 @@ TEST_F(ServoLoopTest, AllocatesNothing) {
   settings.stop_switch = 0;
   settings.force = {8.0, 0.02, 1000.0, 0.0};
   FakeWorld world([](double time) {
-    return FeltForce{Vector3d::Constant(10.0 * std::sin(time)), held_sand};
+    return FeltForce{Vector3d::Constant(10.0 * std::sin(time)), deferred_sand};
   });
   device.reads = [&](double time, DeviceReading& reading) {
     const auto tick = std::llround(time * 1000);

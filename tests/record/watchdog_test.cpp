@@ -32,7 +32,7 @@ class StalledLoopTest : public testing::Test {
     opened->open();
     loop.emplace(*opened, &world, clock, ring, settings);
   }
-  /// As the watchdog's thread would find it.
+  /// The state as the watchdog's thread would find it.
   bool look() { return release_if_stalled(loop.value(), *opened, clock.now(), limit); }
   void hang(std::int64_t time) { clock.add(time); }
   static bool in_tick(double time, int tick) { return std::llround(time * 1000) == tick; }

@@ -67,7 +67,7 @@ TEST(Annotate, LettersThatTheFontLacksAreAnError) {
 }
 
 TEST(Annotate, LegendStaysInsideItsStrip) {
-  const Legend legend{"difference", -2e-4, 2e-4, true, 5e-5};
+  const Legend legend{"difference", -2e-4, 2e-4, ColourScale::diverging, 5e-5};
   for (const auto& [width, height] : {std::pair{640, 360}, {1920, 1080}}) {
     Image image = white(width, height);
     draw_legend(image, legend);
@@ -88,7 +88,7 @@ TEST(Annotate, WhatALegendLeavesOfThePictureDoesNotDependOnItsNumbers) {
 TEST(Annotate, LegendShowsNoContourLinesThatWouldTouchHoweverManyThereAre) {
   const auto drawn = [](double contour_interval) {
     Image image = white(400, 300);
-    draw_legend(image, {"height", -1.0, 1.0, false, contour_interval});
+    draw_legend(image, {"height", -1.0, 1.0, ColourScale::sequential, contour_interval});
     return image.rgb;
   };
   EXPECT_NE(drawn(0.1), drawn(0.0));
@@ -96,7 +96,7 @@ TEST(Annotate, LegendShowsNoContourLinesThatWouldTouchHoweverManyThereAre) {
 }
 
 TEST(Annotate, LegendBarRunsThroughTheColourMap) {
-  const Legend legend{"height", 0.0, 1.0, false, 0.0};
+  const Legend legend{"height", 0.0, 1.0, ColourScale::sequential, 0.0};
   Image image = white(800, 600);
   draw_legend(image, legend);
   const int x = 800 - legend_width(legend, 600) + static_cast<int>(1.5 * annotation_cap_height(600));

@@ -12,8 +12,8 @@ namespace {
 
 const Eigen::AlignedBox3d bed(Eigen::Vector3d(-1.0, -1.0, -0.05), Eigen::Vector3d(1.0, 1.0, 0.1));
 
-Eigen::Vector3d in_picture(const Camera& camera, const Eigen::Vector3d& place) {
-  return (camera.to_clip * place.homogeneous()).hnormalized();
+Eigen::Vector3d in_picture(const Camera& camera, const Eigen::Vector3d& position) {
+  return (camera.to_clip * position.homogeneous()).hnormalized();
 }
 
 struct Extent {
@@ -33,7 +33,10 @@ TEST(Camera, OverviewFramesTheSubjectTightlyFromEveryAngle) {
     for (const double elevation : {5.0, 40.0, 90.0}) {
       for (const auto& [width, height] : {std::pair{1280, 720}, {500, 900}}) {
         ViewSettings view;
-        view.azimuth = azimuth, view.elevation = elevation, view.width = width, view.height = height;
+        view.azimuth = azimuth;
+        view.elevation = elevation;
+        view.width = width;
+        view.height = height;
         const Extent e = extent(make_camera(view, bed, bed), bed);
         EXPECT_GE(e.left, -0.9 - 1e-9);
         EXPECT_LE(e.right, 0.9 + 1e-9);
@@ -57,7 +60,10 @@ TEST(Camera, LeavesTheRightMarginFree) {
 TEST(Camera, CustomStandsWhereItIsTold) {
   ViewSettings view;
   view.name = ViewName::custom;
-  view.azimuth = -90.0, view.elevation = 30.0, view.distance = 2.0, view.target = {0.3, 0.1, 0.02};
+  view.azimuth = -90.0;
+  view.elevation = 30.0;
+  view.distance = 2.0;
+  view.target = {0.3, 0.1, 0.02};
   const Camera camera = make_camera(view, bed, bed);
   EXPECT_NEAR((camera.eye - Eigen::Vector3d(0.3, 0.1 - std::sqrt(3.0), 1.02)).norm(), 0.0, 1e-12);
   const Eigen::Vector3d target = in_picture(camera, view.target);
@@ -71,7 +77,10 @@ TEST(Camera, CustomStandsWhereItIsTold) {
 TEST(Camera, FieldOfViewIsVertical) {
   ViewSettings view;
   view.name = ViewName::custom;
-  view.azimuth = -90.0, view.elevation = 0.0, view.distance = 1.0, view.field_of_view = 90.0;
+  view.azimuth = -90.0;
+  view.elevation = 0.0;
+  view.distance = 1.0;
+  view.field_of_view = 90.0;
   const Camera camera = make_camera(view, bed, bed);
   EXPECT_NEAR(in_picture(camera, {0.0, 0.0, 1.0}).y(), 1.0, 1e-12);
   EXPECT_NEAR(in_picture(camera, {16.0 / 9.0, 0.0, 0.0}).x(), 1.0, 1e-12);
@@ -105,7 +114,9 @@ TEST(Camera, TheSceneIsInsideTheDepthRange) {
 TEST(Camera, MissesWhatIsOutsideThePictureOnly) {
   ViewSettings view;
   view.name = ViewName::custom;
-  view.azimuth = -90.0, view.elevation = 20.0, view.distance = 0.5;
+  view.azimuth = -90.0;
+  view.elevation = 20.0;
+  view.distance = 0.5;
   const Camera camera = make_camera(view, bed, bed);
   EXPECT_FALSE(camera.misses(bed));
   EXPECT_FALSE(camera.misses(

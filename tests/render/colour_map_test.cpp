@@ -37,9 +37,9 @@ TEST(ColourMap, ClampsAndShowsWhatIsNoNumberInGray) {
 }
 
 TEST(ColourMap, ScaleGoesFromLowToHigh) {
-  EXPECT_EQ(scale_colour(2.0, 2.0, 6.0, false), sequential_colour(0.0));
-  EXPECT_EQ(scale_colour(5.0, 2.0, 6.0, false), sequential_colour(0.75));
-  EXPECT_EQ(scale_colour(0.0, -3.0, 3.0, true), diverging_colour(0.0));
+  EXPECT_EQ(scale_colour(2.0, 2.0, 6.0, ColourScale::sequential), sequential_colour(0.0));
+  EXPECT_EQ(scale_colour(5.0, 2.0, 6.0, ColourScale::sequential), sequential_colour(0.75));
+  EXPECT_EQ(scale_colour(0.0, -3.0, 3.0, ColourScale::diverging), diverging_colour(0.0));
 }
 
 }  // namespace

@@ -13,7 +13,7 @@ constexpr std::array<double, 3> magenta = {1.0, 0.0, 1.0};
 
 bool is_magenta(const std::uint8_t* pixel) { return pixel[0] == 255 && pixel[1] == 0 && pixel[2] == 255; }
 
-/// With the same renderer as the picture before, where that is of the same bed.
+/// Draws with the same renderer as the picture before, where that is of the same bed.
 Image picture_of(const HeightField& surface, const RenderSubject& subject) {
   // Made here, as all statics go in turn: the renderer before the library that is loaded for it.
   static BedGeometry bed = surface;
@@ -85,7 +85,8 @@ TEST(Framing, FilmsAndOtherRunsOfASceneHaveOneCamera) {
 TEST(Framing, TheRimOfARippledBedIsLevel) {
   SurfaceSettings ripples;
   ripples.kind = SurfaceKind::ripples;
-  ripples.amplitude = 0.02, ripples.wavelength = 0.15;
+  ripples.amplitude = 0.02;
+  ripples.wavelength = 0.15;
   RenderSubject subject = small_subject();
   subject.view.azimuth = -90.0;
   subject.view.elevation = 0.0;  // the nearest edge is the highest line of the picture
@@ -102,7 +103,7 @@ TEST(Framing, TheRimOfARippledBedIsLevel) {
   EXPECT_EQ(columns, 560);
 }
 
-/// How bright each pixel is beside that of the same box under a sun in the zenith: 0.72 in full shadow.
+/// The brightness of each pixel beside that of the same box under a sun in the zenith: 0.72 in full shadow.
 struct Shadow {
   Shadow(const HeightField& surface, RenderSubject subject) {
     picture = picture_of(surface, subject);

@@ -19,7 +19,9 @@ constexpr double pi = 3.14159265358979323846;
 double noise(int row, int col) {
   std::uint32_t h =
       static_cast<std::uint32_t>(row) * 2654435761u ^ static_cast<std::uint32_t>(col) * 2246822519u;
-  h ^= h >> 15, h *= 2654435769u, h ^= h >> 13;
+  h ^= h >> 15;
+  h *= 2654435769u;
+  h ^= h >> 13;
   return static_cast<double>(h) / 2147483647.5 - 1.0;
 }
 
@@ -100,7 +102,7 @@ TEST(HeightFieldRenderer, UpdatedPictureEqualsAFreshOne) {
   }
 }
 
-/// A hand digs and heaps sand along its way, under a high and under a low sun, seen from above and from a
+/// A hand carves and heaps sand along its way, under a high and under a low sun, seen from above and from a
 /// side.
 TEST(HeightFieldRenderer, AFilmsFramesEqualFreshPicturesAndTakeFewPixels) {
   for (const double elevation : {8.0, 40.0, 90.0}) {

@@ -25,7 +25,7 @@ DrawnHeights cliff(int rows, int cols, int edge, double height) {
   return heights;
 }
 
-/// Where the sun's visibility along a row crosses 1/2, from the shadow into the light, in cells.
+/// The position where the sun's visibility along a row crosses 1/2, from the shadow into the light, in cells.
 double crossing(const DrawnHeights& seen, int row, int from) {
   for (int col = from; col + 1 < seen.cols(); ++col)
     if (seen(row, col) < 0.5f && seen(row, col + 1) >= 0.5f)

@@ -55,12 +55,12 @@ TEST(RenderSubject, AStrokeCoversTheCellsUnderTheToolWhereItIsBelowTheSand) {
 }
 
 TEST(RenderSubject, RangesHoldTheValuesAndAreNeverEmpty) {
-  EXPECT_EQ(value_range(-1.0, 3.0, false).low, -1.0);
-  EXPECT_EQ(value_range(-1.0, 3.0, true).low, -3.0);
-  EXPECT_EQ(value_range(-1.0, 3.0, true).high, 3.0);
-  EXPECT_LT(value_range(0.2, 0.2, false).low, 0.2);
-  EXPECT_GT(value_range(0.2, 0.2, false).high, 0.2);
-  EXPECT_GT(value_range(0.0, 0.0, true).high, 0.0);
+  EXPECT_EQ(value_range(-1.0, 3.0, ColourScale::sequential).low, -1.0);
+  EXPECT_EQ(value_range(-1.0, 3.0, ColourScale::diverging).low, -3.0);
+  EXPECT_EQ(value_range(-1.0, 3.0, ColourScale::diverging).high, 3.0);
+  EXPECT_LT(value_range(0.2, 0.2, ColourScale::sequential).low, 0.2);
+  EXPECT_GT(value_range(0.2, 0.2, ColourScale::sequential).high, 0.2);
+  EXPECT_GT(value_range(0.0, 0.0, ColourScale::diverging).high, 0.0);
 }
 
 }  // namespace

@@ -235,7 +235,7 @@ TEST_F(Stress, SurprisesOnlyLeavesSurprisesOnly) {
   EXPECT_EQ(page.answer, Json({4, {"in a corner"}}));
 }
 
-TEST_F(AnyPage, WithoutDataSaysSo) {
+TEST_F(AnyPage, SaysThatItHasNoData) {
   const Json none = Json::array();
   const Json bench = {{"problems", none}, {"columns", none},   {"runs", none},
                       {"orders", none},   {"estimates", none}, {"notes", none}};
@@ -252,7 +252,7 @@ TEST_F(AnyPage, WithoutDataSaysSo) {
 }
 
 // Numbers that leave a chart no room, or nothing to draw.
-TEST_F(AnyPage, ValuesWithoutASpreadOrAPlaceAreNoErrors) {
+TEST_F(AnyPage, ValuesWithoutASpreadOrAPositionAreNoErrors) {
   Json bench = bench_data();
   for (Json& run : bench["runs"]) {
     run["wall_seconds"] = 1.0;
@@ -328,7 +328,7 @@ TEST_F(AnyPage, TextOfTheDataStaysText) {
   }
 }
 
-TEST_F(AnyPage, ChartsTakeTheWidthOfTheirPlace) {
+TEST_F(AnyPage, ChartsTakeTheWidthOfTheirFrame) {
   const OpenedPage page = open(stress_page, stress_data(), function(R"js(
     const widths = () => [...document.querySelectorAll(".canvas")].map((canvas) =>
       Math.abs(canvas.querySelector("svg").getBoundingClientRect().width - canvas.clientWidth));

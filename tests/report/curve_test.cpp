@@ -28,7 +28,7 @@ TEST(ThinnedCurve, LeavesAShortOneAlone) {
   EXPECT_EQ(kept.value, curve.value);
 }
 
-TEST(ThinnedCurve, OfARampKeepsTheEndsOfEachStretch) {
+TEST(ThinnedCurve, KeepsTheEndsOfEachStretchOfARamp) {
   // 1000 points in 10 stretches: the least of stretch k is point 100 k, the greatest point 100 k + 99.
   const Curve kept = thinned_curve(curve_of(1000, [](std::size_t i) { return static_cast<double>(i); }), 20);
   ASSERT_EQ(kept.value.size(), 20u);
@@ -72,7 +72,7 @@ TEST(ThinnedCurve, KeepsGapsAndTheExtremesBesideThem) {
   EXPECT_EQ(std::count(kept.value.begin(), kept.value.end(), -7.0), 1);
 }
 
-TEST(ThinnedCurve, OfGapsAloneIsGaps) {
+TEST(ThinnedCurve, KeepsGapsWhereThereAreOnlyGaps) {
   const Curve kept = thinned_curve(curve_of(100, [](std::size_t) { return nan; }), 10);
   EXPECT_EQ(kept.value.size(), 5u);
 }

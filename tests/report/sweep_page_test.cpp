@@ -138,7 +138,7 @@ class SweepPage : public BrowserTest {
         "own.querySelectorAll('svg').forEach((picture) => picture.remove()); return own.textContent; })");
   }
   static Json selected() { return text(".detail h2"); }
-  /// Where data's (x, y), in places of the chart's axes, is in the window.
+  /// The position in the window of data's (x, y), which are positions of the chart's axes.
   static Point at(const Json& x, const Json& y) {
     browser().centre(".canvas");
     const Json place = ask(
@@ -169,7 +169,7 @@ TEST_F(SweepPage, SaysWhatWasSweptAndWhatCameOfIt) {
   EXPECT_EQ(text(".detail .bad"), "too steep");
 }
 
-TEST_F(SweepPage, AMapHasACellForEachPointInItsPlaceAndColour) {
+TEST_F(SweepPage, AMapHasACellForEachPointInItsPositionAndColour) {
   const Json data = grid_data();
   open(data, as_map);
   const Json cells = items("cells")[0];
@@ -257,7 +257,7 @@ TEST_F(SweepPage, LinesAreTheValuesOfTheData) {
   const Json signs = items("without")[0];
   ASSERT_EQ(signs.size(), 4u);
   for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(signs[i][0], (std::vector{4, 5, 7, 9}[i]));
-  // By mouse: a symbol of a line, and a sign on the ground.
+  // The mouse points at a symbol of a line, and at a sign on the ground.
   browser().click(at(25, data["points"][8]["metrics"][0]));
   EXPECT_EQ(selected(), "Point 8");
   const Point ground = at(27.5, signs[3][1][1]);
@@ -343,7 +343,7 @@ TEST_F(SweepPage, SelectingAPointElsewhereBringsTheChartToIt) {
 TEST_F(SweepPage, PicturesStandAsTheAxesOfTheChart) {
   const Json data = grid_data();
   open(data);
-  // From the top: the largest stiffness; from the left: the smallest angle.
+  // The largest stiffness is at the top, the smallest angle on the left.
   EXPECT_EQ(ask("[...document.querySelectorAll('.picture')].map((one) => one.title.split(':')[0])"),
             Json({"point 2", "point 5", "point 8", "point 11", "point 1", "point 4", "point 7", "point 10",
                   "point 0", "point 3", "point 6", "point 9"}));
@@ -404,7 +404,7 @@ TEST_F(SweepPage, SelectsTheCommandLineWhereItMayNotCopy) {
 
 TEST_F(SweepPage, TheKeyboardReachesAll) {
   open(grid_data());
-  // Where Tab leads, each once, and whether that can be seen.
+  // The elements that Tab reaches, each once, and whether each shows the focus.
   std::vector<std::string> stops;
   const auto walk_to = [&](const std::string& selector) {
     for (int i = 0; i < 100; ++i) {
@@ -533,7 +533,7 @@ TEST_F(SweepPage, OnePointIsEnough) {
   EXPECT_EQ(text("figcaption small"), "No point here has a value of this metric.");
 }
 
-TEST_F(SweepPage, WithoutPointsOrMetricsItSaysSo) {
+TEST_F(SweepPage, SaysThatThereAreNoPointsOrMetrics) {
   Json none = sweep_data(Json::array({axis("relaxation.talus_angle", "deg", Json::array())}));
   open(none);
   EXPECT_NE(text("main").get<std::string>().find("Nothing was swept"), std::string::npos);

@@ -7,7 +7,7 @@ namespace {
 
 TEST(Filter, VanishesAtU0AndItsIntegralOverThePlaneAtU1) {
   EXPECT_NEAR(std::sin(filter::u0), filter::offset, 1e-15);
-  // With u = rho^2 / s^2 the integral over the plane is pi s^2 times that of sin(u) - 0.53 over u.
+  // The integral over the plane, with u = rho^2 / s^2, is pi s^2 times that of sin(u) - 0.53 over u.
   EXPECT_NEAR(1.0 - std::cos(filter::u1), filter::offset * filter::u1, 1e-15);
 }
 

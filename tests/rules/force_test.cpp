@@ -82,11 +82,11 @@ TEST(SandForce, IsCutFromItsLimitOn) {
   for (const Eigen::Vector3d& velocity : {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(0.03, -0.04, 0.7)}) {
     // k_f v is 0 or 1/2 along the sand, so that the whole is sqrt(1 + 1/4) of repulse.
     const double whole = std::hypot(1.0, 10.0 * velocity.head<2>().norm());
-    for (const double share : {0.95, 1.05}) {
-      const double depth = depth_of_repulse_force(share * 12.0 / whole, paper);
+    for (const double fraction : {0.95, 1.05}) {
+      const double depth = depth_of_repulse_force(fraction * 12.0 / whole, paper);
       const SandForce force = sand_force(depth, velocity, 12.0, paper);
-      EXPECT_EQ(force.saturated, share > 1.0);
-      EXPECT_NEAR(force.total.norm(), 12.0 * std::min(share, 1.0), 1e-12);
+      EXPECT_EQ(force.saturated, fraction > 1.0);
+      EXPECT_NEAR(force.total.norm(), 12.0 * std::min(fraction, 1.0), 1e-12);
     }
   }
 }
@@ -105,8 +105,8 @@ TEST(FeltSand, IsTheSlopeOfItsForces) {
   EXPECT_EQ(felt_sand(0.0, 0.0, scale, paper).stiffness, 0.0);  // at the surface: above the sand
 }
 
-TEST(SandForce, OfALimitedDeviceIsDefinedAtAnyDepth) {
-  // exp(k_c d) overflows; the limit leaves max_force along e_z - k_f slip.
+TEST(SandForce, IsDefinedAtAnyDepthOnALimitedDevice) {
+  // exp(k_c d) overflows; the limit leaves max_force along e_z - k_f v.
   const Eigen::Vector3d velocity(0.2, 0.0, -0.1);
   const Eigen::Vector3d direction = Eigen::Vector3d(-10.0 * 0.2, 0.0, 1.0).normalized();
   for (const double depth : {1e2, 1e3, 1e4, 1e300}) {
@@ -120,14 +120,14 @@ TEST(SandForce, OfALimitedDeviceIsDefinedAtAnyDepth) {
   EXPECT_FALSE(free.total.hasNaN());
 }
 
-TEST(SandForce, OfALimitedDeviceIsDefinedWhereInfiniteDragMeetsInfiniteRepulse) {
+TEST(SandForce, IsDefinedOnALimitedDeviceWhereInfiniteDragMeetsInfiniteRepulse) {
   ForceSettings full = paper;
   full.drag = DragDirection::full;
   const SandForce rising = sand_force(1e4, {0.0, 0.0, 0.05}, 12.0, full);  // drag is half of repulse
   EXPECT_NEAR((rising.total - Eigen::Vector3d(0.0, 0.0, 12.0)).norm(), 0.0, 1e-13);
 }
 
-TEST(SandForce, WithoutStiffnessOrDragStaysZeroAtAnyDepth) {
+TEST(SandForce, StaysZeroAtAnyDepthWithoutStiffnessOrDrag) {
   ForceSettings nothing = paper;
   nothing.k_s = 0.0;
   EXPECT_EQ(sand_force(1e4, {0.1, 0.0, 0.0}, 0.0, nothing).total.norm(), 0.0);

@@ -15,10 +15,11 @@ TalusPass pass_over(const HeightGrid& heights, RelaxationLaw law, double share, 
   return talus_pass(heights, walls, talus_law(law, share, talus, 0.0, 1.0), moved);
 }
 
-TEST(TalusPass, PaperSharesTheExcessInProportionToTheDrops) {
+TEST(TalusPass, PaperDividesTheExcessInProportionToTheDrops) {
   // A column 2 m high, beside it a cell 1 m high to the east, all else at 0: both are too steep for it.
   HeightGrid heights = HeightGrid::Zero(5, 5);
-  heights(2, 2) = 2.0, heights(2, 3) = 1.0;
+  heights(2, 2) = 2.0;
+  heights(2, 3) = 1.0;
   CompensatedSum moved;
   const TalusPass pass = pass_over(heights, RelaxationLaw::paper, 0.5, moved);
   EXPECT_TRUE(pass.flows);
@@ -43,7 +44,7 @@ TEST(TalusPass, EveryLawMovesAStraightSlopeByItsExcess) {
   }
 }
 
-TEST(TalusPass, AtTheTalusAndInWallsNothingFlows) {
+TEST(TalusPass, MovesNothingAtTheTalusAndInWalls) {
   HeightGrid heights(6, 6);
   for (int row = 0; row < 6; ++row)
     for (int col = 0; col < 6; ++col) heights(row, col) = 0.999 * t * col;

@@ -212,7 +212,7 @@ TEST_P(GoldenScene, EngineEqualsItsVariantsAndTheReference) {
   Scene scene = load_scene(folder / "scene.toml", {});
   if (scene.bed.surface.kind == SurfaceKind::file) GTEST_SKIP() << "continues from another scene's run file";
   if (scene.tool.shape != ToolShape::sphere)
-    GTEST_SKIP() << "what a large tool lets go slips farther than the windows that are compared here";
+    GTEST_SKIP() << "what a large tool lets go flows farther than the windows that are compared here";
   scene.relaxation.method = RelaxationMethod::passes;
   scene.relaxation.way_at_rim = 0.0;  // as often as in shallow sand is enough for bits
   std::optional<Stroke> stroke;

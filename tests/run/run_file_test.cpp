@@ -139,7 +139,7 @@ TEST_F(RunFileTest, FramesHoldTilesThatCameIntoBeingBetweenThem) {
   EXPECT_EQ(in_sequence.tiles_read(), tiles_held) << "each change is read once";
 }
 
-TEST_F(RunFileTest, OfTheFirstFormatIsReadButForItsFrames) {
+TEST_F(RunFileTest, ReadsTheFirstFormatButForItsFrames) {
   const fs::path path = folder_ / "old.h5";
   {
     Hdf5Writer file(path, output_kind(InputKind::run));
@@ -234,7 +234,7 @@ TEST_F(RunFileTest, SaysOfWhatItIsAndWithHowManyThreads) {
             content_hash(stroke));
 }
 
-TEST_F(RunFileTest, ForcesThatWereRecordedAreHeldAgainstThoseOfTheRun) {
+TEST_F(RunFileTest, RecordedForcesAreComparedWithThoseOfTheRun) {
   const SceneFile at_hand = scene({"relaxation.rate=0"});
   ASSERT_FALSE(run(at_hand, "a.h5").recorded_force);
   const std::vector<TickRecord> trace = RunFile(folder_ / "a.h5").trace();

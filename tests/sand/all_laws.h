@@ -13,7 +13,7 @@ inline constexpr RelaxationLaw all_laws[] = {RelaxationLaw::paper, RelaxationLaw
 
 inline std::string name_of(RelaxationLaw law) { return relaxation_law_names[static_cast<int>(law)]; }
 
-/// Of a test for each of them.
+/// The name of a test for each of them.
 inline std::string law_name(const testing::TestParamInfo<RelaxationLaw>& law) { return name_of(law.param); }
 
 }  // namespace sandstroke

@@ -53,7 +53,7 @@ TEST(Coarsened, AHugeLevelBedStaysOneAndKeepsWhatWasTouched) {
   EXPECT_EQ(coarse(19999, 0), 0.25);
 }
 
-/// As high as it is far along x.
+/// A bed as high as it is far along x.
 class Ramp : public SurfaceRule {
   void fill(const BedGeometry& bed, const CellRange& cells, double* out,
             std::ptrdiff_t stride) const override {
@@ -69,14 +69,14 @@ TEST(Coarsened, ABedThatIsNotLevelIsTakenAsAWhole) {
   for (int col = 0; col < coarse.cols(); ++col) EXPECT_NEAR(coarse(7, col), coarse.x_of(col), 1e-15);
 }
 
-TEST(CellMeans, CellsThatAreCutCountByTheirShare) {
+TEST(CellMeans, CellsThatAreCutCountByTheirFraction) {
   const HeightField bed(HeightGrid{{1.0, 2.0, 4.0}, {1.0, 2.0, 4.0}}, 1.0);
   const CellMeans means(bed, 1, 2);
   EXPECT_NEAR(means(0, 0), (1.0 + 0.5 * 2.0) / 1.5, 1e-15);
   EXPECT_NEAR(means(0, 1), (0.5 * 2.0 + 4.0) / 1.5, 1e-15);
 }
 
-TEST(Coarsened, ByOneIsTheBedItselfAtNoCost) {
+TEST(Coarsened, IsTheBedItselfAtNoCostByAFactorOfOne) {
   HeightField bed(100, 200, 0.01, std::make_shared<Ramp>());
   EXPECT_EQ(coarsened(bed, 1).allocated_tiles(), 0);
   bed.set(70, 3, 0.5);

@@ -68,7 +68,7 @@ class RandomScene {
     double x, y, depth;
     Eigen::Vector3d motion;
   };
-  /// A place anywhere, along a tile border, or along a wall; now and then along one axis, or none.
+  /// A position anywhere, along a tile border, or along a wall; now and then along one axis, or none.
   Push draw_push() {
     const int at = whole(0, 2);
     const double row = at == 0 ? real(0, bed.rows()) : at == 1 ? real(61, 67) : real(-2, 3);
@@ -80,7 +80,7 @@ class RandomScene {
             {along_axis(), along_axis(), along_axis()}};
   }
 
-  /// Pushes the tool into each bed, at the same place. As a solid tool it stays there, or not.
+  /// Pushes the tool into each bed, at the same position. As a solid tool it stays there, or not.
   void push(std::initializer_list<HeightField*> beds) {
     const Push at = draw_push();
     const bool stays = whole(0, 1) == 1;
@@ -152,7 +152,8 @@ TEST(Engine, EqualsTheReferenceInASteadyFlow) {
 TEST(Engine, SaysThatSandRestsWhereThePassesJustSufficed) {
   SurfaceSettings cylinder;
   cylinder.kind = SurfaceKind::cylinder;
-  cylinder.radius = 10.0, cylinder.height = 12.0;
+  cylinder.radius = 10.0;
+  cylinder.height = 12.0;
   RelaxationSettings settings;
   HeightField bed = make_surface(cylinder, 80, 80, 1.0);
   settings.max_passes = make_relaxer(settings, 1.0)->relax(bed).passes;
@@ -251,7 +252,8 @@ TEST(Tool, EqualsThePlainRuleOn400RandomScenes) {
           ASSERT_EQ(scene.bed.is_held(row, col), plain.covers(row, col) || walls(row, col))
               << row << ", " << col;
       scene.bed.hold({});
-      scene.bed.clear_disturbed(), expected.clear_disturbed();
+      scene.bed.clear_disturbed();
+      expected.clear_disturbed();
     }
   }
   EXPECT_GT(pushed, sanitized ? 100 : 1000);

@@ -139,7 +139,7 @@ TEST(HeightField, HighestIsThatOfCellsAndOfWhatIsUntouched) {
   EXPECT_EQ(HeightField(HeightGrid::Constant(5, 5, -3.0), 0.01).highest(), -3.0);  // no cell is untouched
 }
 
-TEST(HeightField, HeightAtAPlaceIsThatOfItsCell) {
+TEST(HeightField, HeightAtAPointIsThatOfItsCell) {
   HeightField bed(4, 3, 0.5);
   for (int row = 0; row < 4; ++row)
     for (int col = 0; col < 3; ++col) bed.set(row, col, 10.0 * row + col);
@@ -156,7 +156,7 @@ TEST(HeightField, HeightAtAPlaceIsThatOfItsCell) {
   }
 }
 
-TEST(HeightField, OfTwoBedsEveryCellThatMayDifferIsVisited) {
+TEST(HeightField, VisitsEveryCellInWhichTwoBedsMayDiffer) {
   const auto level = [](double height) {
     return HeightField(100, 200, 0.01, std::make_shared<LevelRule>(height));
   };

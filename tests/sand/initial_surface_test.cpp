@@ -36,7 +36,8 @@ TEST(DiskCellArea, KnownCells) {
 
 TEST(Surface, CylinderHasItsVolumeAndSymmetryToTheBit) {
   SurfaceSettings s = kind(SurfaceKind::cylinder);
-  s.radius = 0.3, s.height = 0.2;
+  s.radius = 0.3;
+  s.height = 0.2;
   const HeightField bed = make_surface(s, 101, 101, 1.0 / 101);
   EXPECT_NEAR(bed.volume(), std::numbers::pi * 0.09 * 0.2, 1e-14);
   EXPECT_TRUE(has_square_symmetry(bed.grid()));
@@ -44,7 +45,8 @@ TEST(Surface, CylinderHasItsVolumeAndSymmetryToTheBit) {
 
 TEST(Surface, ConeHasItsVolume) {
   SurfaceSettings s = kind(SurfaceKind::cone);
-  s.radius = 0.4, s.height = 0.2;
+  s.radius = 0.4;
+  s.height = 0.2;
   const HeightField bed = make_surface(s, 200, 200, 1.0 / 200);
   EXPECT_NEAR(bed.volume(), std::numbers::pi * 0.16 * 0.2 / 3.0, 1e-6);
 }
@@ -63,7 +65,9 @@ TEST(Surface, CliffIsHalfwayInTheMiddleCellOfAnOddBed) {
 TEST(Surface, NoiseIsReproducibleBoundedCentredAndSeeded) {
   for (const double wavelength : {0.0, 0.05}) {
     SurfaceSettings s = kind(SurfaceKind::noise);
-    s.amplitude = 0.01, s.wavelength = wavelength, s.seed = 5;
+    s.amplitude = 0.01;
+    s.wavelength = wavelength;
+    s.seed = 5;
     const HeightGrid a = make_surface(s, 200, 200, 0.005).grid(), b = make_surface(s, 200, 200, 0.005).grid();
     s.seed = 6;
     const HeightGrid other = make_surface(s, 200, 200, 0.005).grid();
@@ -77,7 +81,8 @@ TEST(Surface, NoiseIsReproducibleBoundedCentredAndSeeded) {
 
 TEST(Surface, RipplesAreCellMeansOfASine) {
   SurfaceSettings s = kind(SurfaceKind::ripples);
-  s.amplitude = 0.01, s.wavelength = 0.1;
+  s.amplitude = 0.01;
+  s.wavelength = 0.1;
   const HeightField bed = make_surface(s, 1, 40, 0.02);
   const double k = 2.0 * std::numbers::pi / 0.1;
   for (int col = 0; col < 40; ++col) {

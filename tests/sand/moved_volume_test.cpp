@@ -56,7 +56,7 @@ TEST(MovedVolume, IsWhatWentThroughTheFacesWhateverLawAndMethod) {
         }
 }
 
-TEST(MovedVolume, OfACollapsedBlockIsThatOfItsTriangle) {
+TEST(MovedVolume, IsThatOfTheTriangleOfACollapsedBlock) {
   // The centre of each half goes from w / 2 to L / 3, with L^2 tan(talus) = 2 w h.
   constexpr double w = 10.0, h = 20.0, volume = 2.0 * w * h;  // cells
   const double L = std::sqrt(volume / talus_slope(30.0));
@@ -69,7 +69,7 @@ TEST(MovedVolume, OfACollapsedBlockIsThatOfItsTriangle) {
     }
 }
 
-TEST(MovedVolume, OfASteadyFlowIsThatOfItsMirrorImage) {
+TEST(MovedVolume, IsThatOfTheMirrorImageOfASteadyFlow) {
   // A ramp whose inner cells pass on what they take: which of them count does not go by columns.
   for (const RelaxationLaw law : all_laws)
     for (const std::int64_t passes : {1, 5, 30}) {
@@ -83,13 +83,25 @@ TEST(MovedVolume, OfASteadyFlowIsThatOfItsMirrorImage) {
     }
 }
 
-TEST(RelaxationOutcome, OfOneAfterAnotherCountsBothAndRestsAsTheLast) {
+TEST(RelaxationOutcome, CountsOneAfterAnotherAndRestsAsTheLast) {
   RelaxationOutcome first, next;
-  first.passes = 1, first.super_steps = 2, first.rejected_stages = 3, first.cells_visited = 4;
-  first.wake_ups = 5, first.tiles_active_max = 6, first.moved_volume = 7.0, first.residual = 8.0;
+  first.passes = 1;
+  first.super_steps = 2;
+  first.rejected_stages = 3;
+  first.cells_visited = 4;
+  first.wake_ups = 5;
+  first.tiles_active_max = 6;
+  first.moved_volume = 7.0;
+  first.residual = 8.0;
   first.converged = true;
-  next.passes = 10, next.super_steps = 20, next.rejected_stages = 30, next.cells_visited = 40;
-  next.wake_ups = 50, next.tiles_active_max = 5, next.moved_volume = 70.0, next.residual = 0.5;
+  next.passes = 10;
+  next.super_steps = 20;
+  next.rejected_stages = 30;
+  next.cells_visited = 40;
+  next.wake_ups = 50;
+  next.tiles_active_max = 5;
+  next.moved_volume = 70.0;
+  next.residual = 0.5;
   first.add(next);
   EXPECT_EQ(first.passes, 11);
   EXPECT_EQ(first.super_steps, 22);

@@ -272,12 +272,18 @@ TEST_P(AllLaws, SymmetricBedsStaySymmetricToTheBit) {
 TEST_P(AllLaws, WhatSandDoesDependsOnItsNeighbourhoodOnly) {
   // Two piles far apart end as each does alone.
   const auto pile = [](HeightField& bed, int col) {
-    for (int row = 30; row < 34; ++row) bed.set(row, col, 3.0), bed.set(row, col + 1, 2.0);
+    for (int row = 30; row < 34; ++row) {
+      bed.set(row, col, 3.0);
+      bed.set(row, col + 1, 2.0);
+    }
   };
   HeightField both(64, 400, 1.0), left(64, 400, 1.0), right(64, 400, 1.0);
-  pile(both, 50), pile(left, 50);
-  pile(both, 350), pile(right, 350);
-  right.set(20, 350, 4.0), both.set(20, 350, 4.0);
+  pile(both, 50);
+  pile(left, 50);
+  pile(both, 350);
+  pile(right, 350);
+  right.set(20, 350, 4.0);
+  both.set(20, 350, 4.0);
   for (HeightField* bed : {&both, &left, &right}) make_relaxer(settings(GetParam()), 1.0)->relax(*bed);
   EXPECT_TRUE((both.grid() == left.grid() + right.grid()).all());
 }
@@ -308,8 +314,9 @@ TEST(TileRelaxer, CountsTheMostTilesAtOnce) {
   HeightField bed(64, 64 * 5, 1.0);
   const auto relaxer = make_relaxer(settings(RelaxationLaw::paper), 1.0);
   relaxer->relax(bed);  // the first time all tiles that exist are looked at, and what is beside them
-  bed.set(32, 32, 1.0), bed.set(32, 4 * 64 + 32, 1.0);  // one pass moves them, and then they rest
-  bed.set(32, 2 * 64 + 32, 9.0);                        // goes on
+  bed.set(32, 32, 1.0);
+  bed.set(32, 4 * 64 + 32, 1.0);  // one pass moves them, and then they rest
+  bed.set(32, 2 * 64 + 32, 9.0);  // goes on
   EXPECT_EQ(relaxer->relax(bed).tiles_active_max, 3);
   bed.set(32, 32, 1.0);
   EXPECT_LE(relaxer->relax(bed).tiles_active_max, 1);

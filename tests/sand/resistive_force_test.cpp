@@ -17,7 +17,7 @@ using std::numbers::pi;
 
 const Vector3d falling(0.0, 0.0, -1.0);
 
-TEST(ResistiveStress, OfAPlateIsThatOfTheTheory) {
+TEST(ResistiveStress, IsThatOfTheTheoryOnAPlate) {
   // Pushed down: -f1 - f2 - f3 at (1, 1, 1). Dragged face on: |f1 + f2| at (0, 0, 1).
   const Vector3d down = resistive_stress(falling, falling, 10.0);
   EXPECT_NEAR(down.z(), 0.87574, 1e-9);
@@ -36,7 +36,7 @@ TEST(ResistiveStress, TurnsWithNormalAndMotionAboutTheVertical) {
       1e-15);
 }
 
-TEST(ResistiveStress, AlongTheSurfaceIsAtMostFriction) {
+TEST(ResistiveStress, IsAtMostFrictionAlongTheSurface) {
   const Vector3d normal = Vector3d(0.2, 0.1, -0.9).normalized(),
                  motion = Vector3d(0.9, 0.3, -0.1).normalized();
   for (const double friction : {0.0, 0.1, 0.3}) {
@@ -46,7 +46,7 @@ TEST(ResistiveStress, AlongTheSurfaceIsAtMostFriction) {
   }
 }
 
-TEST(ResistiveStress, OfWhatLeadsTakesEnergyWhereverItLooks) {
+TEST(ResistiveStress, TakesEnergyOnWhatLeadsWhereverItFaces) {
   // The polynomials are a fit: where they come to nearly nothing they may give a hundredth of a push.
   const double push = resistive_stress({0.0, 0.0, -1.0}, {0.0, 0.0, -1.0}, 0.4).z();
   for (int tilt = -9; tilt <= 9; ++tilt)
@@ -60,7 +60,7 @@ TEST(ResistiveStress, OfWhatLeadsTakesEnergyWhereverItLooks) {
       }
 }
 
-TEST(ResistiveStress, OfAPlatePulledUpIsAThirdOfAPushAtMost) {
+TEST(ResistiveStress, IsAtMostAThirdOfAPushOnAPlatePulledUp) {
   // -0.20 to -0.30 of it, measured in three media (Li, Zhang, Goldman 2013); the polynomials have -0.09.
   const double push = resistive_stress({0.0, 0.0, -1.0}, {0.0, 0.0, -1.0}, 0.4).z(),
                pull = resistive_stress({0.0, 0.0, 1.0}, {0.0, 0.0, 1.0}, 0.4).z();
@@ -77,7 +77,7 @@ TEST(ResistiveStress, ChangesSteadilyFromAnUprightElementToOneThatLooksUp) {
     EXPECT_LT((dragged(up + 0.001) - dragged(up)).norm(), 0.003) << up;
 }
 
-TEST(Resistance, OfQuikreteIsWhatWasMeasuredWithinAFewPercent) {
+TEST(Resistance, IsWithinAFewPercentOfTheMeasuredOneInQuikrete) {
   // 2.02 N/cm^3 measured under a plate; the formula gives 2.13.
   EXPECT_NEAR(0.87574 * resistance({34.0, 1560.0}) * 1e-6, 2.13, 0.005);
 }
@@ -122,19 +122,19 @@ Vector3d theory_of_sphere(double radius, double depth, const Vector3d& motion, c
 
 constexpr double depths[] = {0.002, 0.004, 0.006, 0.010, 0.020};
 
-TEST(ResistiveForce, OfASphereIsThatOfTheTable) {
+TEST(ResistiveForce, IsThatOfTheTableOnASphere) {
   const ToolSettings sphere{0.01, ToolProfile::sphere, true};
   const double repulse30[] = {0.17, 0.64, 1.3, 2.9, 7.1}, repulse34[] = {0.28, 1.07, 2.2, 4.9, 11.9},
                drag30[] = {0.08, 0.11, 0.14, 0.18, 0.27};
   for (int i = 0; i < 5; ++i) {
-    // In the table's digits, but for its own rounding.
+    // The digits are the table's, but for its own rounding.
     EXPECT_NEAR(theory_of_sphere(0.01, depths[i], falling, {30.0}).z(), repulse30[i], 0.03 * repulse30[i]);
     EXPECT_NEAR(theory_of_sphere(0.01, depths[i], falling, {34.0}).z(), repulse34[i], 0.03 * repulse34[i]);
     const Vector3d dragged = theory_of_sphere(0.01, depths[i], Vector3d::UnitX(), {30.0});
     const double plunged = theory_of_sphere(0.01, depths[i], falling, {30.0}).z();
     EXPECT_NEAR(-dragged.x() / plunged, drag30[i], 0.005);
   }
-  // What a footprint on cells feels: within 1 % at 10 cells per radius, but for what has not yielded yet;
+  // The force on a footprint on cells is within 1 % at 10 cells per radius, but for what has not yielded yet;
   // with a way of 1 mm that is 8 % at 2 mm and 2 % at 4 mm.
   for (const double cell : {0.001, 0.0005})
     for (int i = 0; i < 5; ++i) {
@@ -145,13 +145,13 @@ TEST(ResistiveForce, OfASphereIsThatOfTheTable) {
       EXPECT_LT(felt.head<2>().norm(), 1e-3 * felt.z());
       if (i == 4) continue;  // a sphere that is buried shuts the sand off above it
       const double dragged = theory_of_sphere(0.01, depths[i], Vector3d::UnitX(), sand).x();
-      // What trails by less than 3 degrees counts a little: 1.7 % at 2 mm.
+      // Elements that trail by less than 3 degrees count a little: 1.7 % at 2 mm.
       EXPECT_NEAR(pushed_in(sphere, depths[i], sand, cell, cell, {0.006, 0.0, 0.0}).force.x(), dragged,
                   0.02 * std::abs(dragged));
     }
 }
 
-TEST(ResistiveForce, OfASphereConvergesWhereverItsAxisLiesBetweenCells) {
+TEST(ResistiveForce, ConvergesOnASphereWhereverItsAxisLiesBetweenCells) {
   const ToolSettings sphere{0.01, ToolProfile::sphere, true};
   const SandStrength sand{30.0, 1560.0, 0.4, 1e-6};
   const double depth = 0.004, theory = theory_of_sphere(0.01, depth, falling, sand).z();
@@ -192,7 +192,7 @@ TEST(ResistiveForce, DependsOnTheWayAndNotOnTheTimeItTakes) {
             0.05 * twice.z());
 }
 
-TEST(ResistiveForce, OfAWayWhoseSquareIsNoNumberAnyMoreIsANumber) {
+TEST(ResistiveForce, IsANumberForAWayWhoseSquareIsNone) {
   HeightField bed(61, 61, 0.001);
   const ToolSettings sphere{0.01, ToolProfile::sphere, true};
   SphereTool tool(sphere);
@@ -218,12 +218,14 @@ TEST(ResistiveForce, VolumeBelowThePlaneIsTheCap) {
   EXPECT_GT(volume_below(elements, depth, {0.3, 0.0}).moment.x(), 0.01 * R * cap);
 }
 
-TEST(ResistiveForce, OfABladeThatTurnsInItsPlaceIsATorque) {
+TEST(ResistiveForce, IsATorqueOnABladeThatTurnsWhereItStands) {
   // Each half leads with one face: 2 x the integral over it of 0.192 xi depth y = 0.192 xi D^2 W^2 / 8. The
   // other faces trail.
   ToolSettings blade{0.01, ToolProfile::sphere, true};
   blade.shape = ToolShape::plate;
-  blade.width = 0.04, blade.height = 0.03, blade.thickness = 0.002;
+  blade.width = 0.04;
+  blade.height = 0.03;
+  blade.thickness = 0.002;
   const double depth = 0.012, angle = 0.02;
   HeightField bed(101, 101, 0.0005);
   ShapedTool tool(blade);

@@ -81,7 +81,10 @@ struct PlainFlow {
     };
     for_steep([&](int, int, double m, double least) {
       steepest = std::max(steepest, m / least);
-      if (m > least) most = std::max(most, m - least), sum += m;
+      if (m > least) {
+        most = std::max(most, m - least);
+        sum += m;
+      }
     });
     for_steep([&](int down, int right, double m, double least) {
       if (m > least) give(row, col, down, right, most * m / sum);
@@ -144,7 +147,8 @@ RelaxationOutcome plain_rkl(HeightGrid& y, const RelaxationSettings& settings) {
       }
       flowing = momentum * flowing + step * f.given;
       outcome.moved_volume += flowing;
-      z = y, y = next;
+      z = y;
+      y = next;
       f = PlainFlow(y, settings.law, T);
       tau = share * (j + 1.0) * (j + 2.0) / 2.0;
       if (f.steepest <= limit) break;
@@ -228,7 +232,7 @@ TEST_P(RklLaws, BeginsAnewWithEachRelaxation) {
   EXPECT_TRUE((bed.grid() == anew.grid()).all());
 }
 
-TEST_P(RklLaws, WhereOneTilesSandRestsItsErrorCountsOn) {
+TEST_P(RklLaws, CountTheErrorOfATileWhoseSandRests) {
   // A small heap comes to rest in its own tile while the large one in another goes on.
   HeightGrid heights = HeightGrid::Zero(40, 110);
   heights.block(18, 20, 3, 3) = 6.0;

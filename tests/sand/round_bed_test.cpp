@@ -54,7 +54,7 @@ void expect_kept_inside(const HeightField& before, const HeightField& after) {
   EXPECT_NEAR(after.volume(), before.volume(), 1e-15);
 }
 
-TEST(RoundBed, SandThatSlipsStaysInside) {
+TEST(RoundBed, SandThatRelaxesStaysInside) {
   SurfaceSettings cliff;
   cliff.kind = SurfaceKind::cliff;
   cliff.height = 0.02;

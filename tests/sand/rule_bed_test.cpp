@@ -21,7 +21,8 @@ constexpr double rule_cell = 0.002;
 SurfaceSettings surface_of(SurfaceKind kind, double radius, double height) {
   SurfaceSettings s;
   s.kind = kind;
-  s.radius = radius, s.height = height;
+  s.radius = radius;
+  s.height = height;
   return s;
 }
 

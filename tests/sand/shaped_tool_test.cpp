@@ -96,7 +96,7 @@ TEST(ShapedTool, ASphereAsAMeshLeavesWhatTheSphereLeaves) {
   }
 }
 
-/// A drag with a plunge, at places that `turn` quarter turns take to others.
+/// A drag with a plunge, at positions that `turn` quarter turns take to others.
 HeightGrid dragged(ToolShape shape, int quarters, int side) {
   HeightField bed(side, side, cell_side);
   ShapedTool tool(solid_tool(shape));
@@ -175,7 +175,8 @@ TEST(ShapedTool, TurnedByThirtyDegreesItLeavesTheSameWithinTheCellsError) {
           const double height = one.height_at(x, y);
           const double there = turned.height_at(std::cos(angle) * x - std::sin(angle) * y,
                                                 std::sin(angle) * x + std::cos(angle) * y);
-          apart += std::abs(height - there), moved += std::abs(height);
+          apart += std::abs(height - there);
+          moved += std::abs(height);
         }
       RecordProperty(fmt::format("shape_{}_{}", static_cast<int>(shape), 1e3 * cell),
                      fmt::format("{:.4f}", apart / moved));
@@ -187,12 +188,14 @@ TEST(ShapedTool, TurnedByThirtyDegreesItLeavesTheSameWithinTheCellsError) {
 }
 
 TEST(ShapedTool, ABladeAcrossATroughPushesTheHeapOfItsSand) {
-  // What it cuts, d s, lies before it as a wedge of the talus slope t: h^2 / (2 t).
+  // The sand that it cuts, d s, lies before it as a wedge of the talus slope t: h^2 / (2 t).
   const double depth = 0.004, way = 0.12, talus = 35.0, slope = std::tan(talus * pi / 180.0);
   for (const double cell : {0.002, 0.001, 0.0005}) {
     HeightField bed(10, static_cast<int>(std::lround(0.3 / cell)), cell);
     ToolSettings blade = solid_tool(ToolShape::plate);
-    blade.width = 1.0, blade.height = 0.1, blade.thickness = 0.004;
+    blade.width = 1.0;
+    blade.height = 0.1;
+    blade.thickness = 0.004;
     ShapedTool tool(blade);
     const auto relaxer = rkl_relaxer(cell, talus);
     const double step = 0.25 * cell;
@@ -224,7 +227,7 @@ ToolSettings wedge(double slope, double half_length) {
 }
 
 TEST(ShapedTool, AWedgeLeavesLeveesOfTheSandThatItTookThePlaceOf) {
-  // On each side d^2 / (2 s) of sand, as a levee of the talus slope t both ways: its height is d sqrt(t / (2
+  // Each side has d^2 / (2 s) of sand, as a levee of the talus slope t both ways: its height is d sqrt(t / (2
   // s)).
   const double depth = 0.01, flank = 0.4, talus = 33.0, slope = std::tan(talus * pi / 180.0);
   for (const double cell : {0.001, 0.0005, 0.00025}) {
@@ -249,7 +252,7 @@ TEST(ShapedTool, AWedgeLeavesLeveesOfTheSandThatItTookThePlaceOf) {
   }
 }
 
-TEST(ShapedTool, HoweverItIsMadeAndHeldItLosesNoSand) {
+TEST(ShapedTool, LosesNoSandOfAnyShapeAndOrientation) {
   std::mt19937 random(7);
   const auto upto = [&](double most) { return most * static_cast<double>(random()) / 0x1p32; };
   const auto length = [&] { return std::pow(10.0, -4.0 + upto(2.6)); };  // 0.1 to 40 mm
@@ -257,7 +260,9 @@ TEST(ShapedTool, HoweverItIsMadeAndHeldItLosesNoSand) {
   for (int i = 0; i < 200; ++i) {
     ToolSettings settings{length(), ToolProfile::sphere, true};
     settings.shape = any_shape[random() % any_shape.size()];
-    settings.height = length(), settings.width = length(), settings.thickness = length(),
+    settings.height = length();
+    settings.width = length();
+    settings.thickness = length();
     settings.spacing = length();
     settings.size = {length(), length(), length()};
     settings.teeth = 1 + static_cast<int>(random() % 6);

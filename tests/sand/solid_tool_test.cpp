@@ -52,7 +52,7 @@ TEST(SolidTool, HoldsTheCellsOfItsBowlAndNoOthers) {
     }
 }
 
-TEST(SolidTool, NoSandSlipsUnderItAndWhereItWasItDoes) {
+TEST(SolidTool, NoSandRelaxesUnderItAndWhereItWasItDoes) {
   for (const auto& relaxer : engine_and_reference()) {
     Standing standing;
     HeightField& bed = standing.bed;
@@ -83,7 +83,7 @@ TEST(SolidTool, NoSandSlipsUnderItAndWhereItWasItDoes) {
   }
 }
 
-TEST(SolidTool, AtRestChangesNothingEver) {
+TEST(SolidTool, ChangesNothingEverAtRest) {
   for (const auto& relaxer : engine_and_reference()) {
     Standing standing;
     relaxer->relax(standing.bed);

@@ -24,8 +24,8 @@ TEST(Displacement, TakesOutTheBowlAndHeapsTheRing) {
   const double tip = -0.004;
   const double volume = tool.displace(bed, tip, down, {Deposit::ring});
 
-  // By hand: every cell under the sphere is cut to its underside; the ring shares what was cut by sin(u) -
-  // 0.53.
+  // The rule by hand: every cell under the sphere is cut to its underside; the ring shares what was cut by
+  // sin(u) - 0.53.
   double cut = 0.0, weights = 0.0;
   const double s2 = R * R / std::asin(0.53);
   for (int row = 0; row < 41; ++row)
@@ -109,8 +109,8 @@ TEST(Displacement, ConservesVolumeAnywhereAtWallsAndCorners) {
 
 TEST(Displacement, OutwardCarriesEachCellsSandAlongItsOwnNormal) {
   // One grain, at an angle from the axis, lands at that angle, `distance` radii away: in thirds, as the three
-  // thirds of its cell lie side by side round the axis. Their places between cells are kept (their mean place
-  // is theirs), and nothing depends on the motion.
+  // thirds of its cell lie side by side round the axis. Their positions between cells are kept (their mean
+  // position is theirs), and nothing depends on the motion.
   for (const double angle : {0.0, 0.3, 1.2, 2.5, 4.0})
     for (const double axis : {0.0, 0.0007}) {
       HeightField bed(61, 61, dx);
@@ -144,7 +144,7 @@ TEST(Displacement, OutwardCarriesEachCellsSandAlongItsOwnNormal) {
 }
 
 TEST(Displacement, OutwardGivesNothingToTheBowlAndTakesItOutOnce) {
-  // A projection: what was taken out is out, so that a second time, at the same place, takes out nothing.
+  // A projection: what was taken out is out, so that a second time, at the same position, takes out nothing.
   std::mt19937 random(3);
   std::uniform_real_distribution<double> place(-0.01, 0.01), height(-0.002, 0.002);
   for (int i = 0; i < 50; ++i) {
@@ -171,7 +171,7 @@ HeightGrid dragged_against_the_wall(Deposit deposit, double cells_beyond) {
   return bed.grid();
 }
 
-TEST(Displacement, AtAWallWithNothingAheadTheWholeRingTakesTheSand) {
+TEST(Displacement, TheWholeRingTakesTheSandAtAWallWithNothingAhead) {
   // A cell lies ahead where it is less than half a cell behind the axis.
   const HeightGrid beyond = dragged_against_the_wall(Deposit::ahead, 0.525);
   EXPECT_TRUE((beyond == dragged_against_the_wall(Deposit::ring, 0.525)).all());
@@ -204,7 +204,7 @@ TEST(Displacement, AllWallsAndCornersAreAlike) {
     }
 }
 
-TEST(Displacement, WhereNoRingIsInsideTheBedNothingMoves) {
+TEST(Displacement, MovesNothingWhereNoRingIsInsideTheBed) {
   HeightField bed(4, 4, 0.002);  // the bowl covers all of it
   SphereTool tool({R, ToolProfile::paper});
   tool.place(bed, 0.0, 0.0);

@@ -138,7 +138,7 @@ TEST_P(TiltedPlane, ComesToRestWithinTheTolerance) {
   }
 }
 
-TEST_P(TiltedPlane, ByRuleIsLookedAtWhereItMayMove) {
+TEST_P(TiltedPlane, MadeByARuleIsVisitedWhereItMayMove) {
   // Laws rest for sure where no slope is above tan(talus) / sqrt 2, or by faces above 3/5 of it.
   const double least = GetParam().law == RelaxationLaw::faces ? 0.6 : 1.0 / std::numbers::sqrt2;
   for (const double ratio : {0.95, 1.05}) {

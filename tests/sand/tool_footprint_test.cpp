@@ -93,7 +93,7 @@ TEST(ToolFootprint, BothUndersidesHaveTheSpheresCurvatureAndWidth) {
         EXPECT_NEAR(underside, rho * rho / (2.0 * radius), 3e-3 * rho * rho / radius);
       }
       if (in_bowl && profile == ToolProfile::sphere) {
-        // On the sphere: rho^2 + (R - z)^2 = R^2; at the rim only this form keeps its digits.
+        // The sphere has rho^2 + (R - z)^2 = R^2; only this form keeps its digits at the rim.
         EXPECT_NEAR(rho * rho + std::pow(radius - underside, 2), radius * radius, 1e-18);
       }
     });

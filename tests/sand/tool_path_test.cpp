@@ -18,7 +18,7 @@ TEST(ToolPath, GoesInEqualStepsOfTheLongestAtMost) {
   for (int i = 0; i <= 11; ++i) EXPECT_LT((steps.at(i) - (from + i / 11.0 * (to - from))).norm(), 1e-17);
 }
 
-TEST(ToolPath, InTheAirOrBesideTheBedThereAreNoSteps) {
+TEST(ToolPath, HasNoStepsInTheAirOrBesideTheBed) {
   EXPECT_EQ(steps_between(hall, tool_reach, {-0.05, 0.0, 0.001}, {0.05, 0.0, 0.001}, longest, 0.0).count, 0);
   EXPECT_EQ(steps_between(hall, tool_reach, {-5.0, 3.0, -0.01}, {5.0, 3.0, -0.01}, longest, 0.0).count, 0);
   // The part of a dive below the highest sand: a tenth of it.
@@ -27,7 +27,7 @@ TEST(ToolPath, InTheAirOrBesideTheBedThereAreNoSteps) {
   EXPECT_EQ(dive.count, 2);
 }
 
-TEST(ToolPath, FromBeyondAllMeasureCountsOnlyWhatCrossesTheSand) {
+TEST(ToolPath, CountsOnlyTheWayThroughSandFromBeyondAllMeasure) {
   for (const double far : {1.0, 1e6, 1e20, 1e300}) {
     const TipSteps steps =
         steps_between(hall, tool_reach, {-far, 0.0, -0.005}, {far, 0.0, -0.005}, longest, no_limit);

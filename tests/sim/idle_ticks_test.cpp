@@ -92,9 +92,11 @@ void expect_equal(const GapRun& idle, const GapRun& all) {
 
 TEST(IdleTicks, AreLeftOutOfARunThatIsTheSame) {
   std::vector<Scene> scenes(7, bed_of_two_drags());
-  scenes[1].preset = ModelPreset::accurate, apply_model_preset(scenes[1]);
+  scenes[1].preset = ModelPreset::accurate;
+  apply_model_preset(scenes[1]);
   scenes[2].output.frames = 7.0;
-  scenes[3].relaxation.max_passes = 1, scenes[3].relaxation.rate = 10.0;  // sand slips all the time
+  scenes[3].relaxation.max_passes = 1;
+  scenes[3].relaxation.rate = 10.0;  // sand relaxes all the time
   scenes[3].output.frames = 2000.0;
   scenes[4].relaxation.rate = 0.7;
   scenes[5].relaxation.rate = 1e6;
@@ -128,7 +130,7 @@ TEST(IdleTicks, AreNoneOfADeviceThatStillSwingsOrFeels) {
     EXPECT_TRUE(idle_ticks(two_drags(3.0, false), device).empty());
 }
 
-TEST(IdleTicks, OfYearsTakeNoTime) {
+TEST(IdleTicks, TakeNoTimeForYears) {
   Scene scene = bed_of_two_drags();
   const GapRun seconds(scene, two_drags(3.0, false)), years(scene, two_drags(1e9, false));
   EXPECT_EQ(years.told, seconds.told);

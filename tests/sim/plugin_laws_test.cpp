@@ -152,7 +152,8 @@ TEST(PluginLaws, MakersAreGivenTheSceneAndTheBedsCells) {
   Scene seen;
   double cell = 0.0;
   laws.relaxations["borrowed"] = [&](const Scene& scene, double cell_size) {
-    seen = scene, cell = cell_size;
+    seen = scene;
+    cell = cell_size;
     return std::make_unique<BorrowedLaw>(scene.relaxation, cell_size);
   };
   Scene scene = scene_with_laws(laws);
@@ -209,7 +210,10 @@ TEST(SandWatch, SeesSandThatIsMadeOrLostButNoRounding) {
   SandWatch watch(bed);
   const auto check = [&] { watch.check(bed, "law 'x'"); };
   EXPECT_NO_THROW(check());
-  for (int i = 0; i < 30; ++i) bed.set(10, 10 + i, 0.1), bed.set(40, 10 + i, -0.1);
+  for (int i = 0; i < 30; ++i) {
+    bed.set(10, 10 + i, 0.1);
+    bed.set(40, 10 + i, -0.1);
+  }
   bed.set(10, 10, 0.1 + 1e-12);
   EXPECT_NO_THROW(check());
   bed.set(10, 10, 0.1 + 1e-6);

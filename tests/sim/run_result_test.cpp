@@ -38,8 +38,10 @@ double force_length(const TickRecord& tick) { return std::sqrt(tick.device_force
 /// A bed that is not square, of 0.3 m x 0.2 m.
 Scene narrow_scene() {
   Scene scene;
-  scene.bed.width = 0.3, scene.bed.depth = 0.2;
-  scene.bed.cols = 150, scene.bed.rows = 100;
+  scene.bed.width = 0.3;
+  scene.bed.depth = 0.2;
+  scene.bed.cols = 150;
+  scene.bed.rows = 100;
   scene.stroke.emplace();
   scene.stroke->file = "in memory";
   return scene;
@@ -126,14 +128,14 @@ TEST(RunResult, IsWhatItsTicksAddUpTo) {
   EXPECT_NEAR(result.device.absorbed_energy, absorbed, 1e-12);
   EXPECT_NEAR(result.device.least_absorbed_energy, least, 1e-12);
 
-  double slipped = 0.0;
-  for (const RelaxationRecord& one : told.relaxations) slipped += one.outcome.moved_volume;
+  double relaxed = 0.0;
+  for (const RelaxationRecord& one : told.relaxations) relaxed += one.outcome.moved_volume;
   const double displaced = told.sum([](const TickRecord& tick) { return tick.displaced_volume; });
   ASSERT_GT(displaced, 0.0);
-  ASSERT_GT(slipped, 0.0);
+  ASSERT_GT(relaxed, 0.0);
   EXPECT_NEAR(result.displaced_volume, displaced, 1e-12 * displaced);
-  EXPECT_NEAR(result.relaxation.moved_volume, slipped, 1e-12 * slipped);
-  EXPECT_NEAR(result.moved_volume, displaced + slipped, 1e-12 * slipped);
+  EXPECT_NEAR(result.relaxation.moved_volume, relaxed, 1e-12 * relaxed);
+  EXPECT_NEAR(result.moved_volume, displaced + relaxed, 1e-12 * relaxed);
   EXPECT_NEAR(result.volume_initial, volume_before, 1e-15);
   EXPECT_NEAR(result.volume_final, plain_volume(simulation.bed()), 1e-15);
   EXPECT_EQ(result.volume_drift, std::abs(result.volume_final - result.volume_initial) / result.moved_volume);
@@ -252,7 +254,7 @@ TEST(RunResult, AWholeNumberOfTicksIsThePeriodOfARelaxationInDoublesToo) {
 }
 
 TEST(RunResult, AStrokesLastTickIsAtItsEndWhereThatIsAWholeNumberOfTicks) {
-  // In doubles 1.001 x 1000 is below 1001, and 0.29 x 1000 below 290.
+  // 1.001 x 1000 is below 1001 in doubles, and 0.29 x 1000 below 290.
   for (const double begin : {0.0, 0.003, 12.7})
     for (const auto& [duration, ticks] :
          {std::pair{1.001, 1002}, {0.29, 291}, {0.57, 571}, {0.005, 6}, {0.0104, 11}, {0.0106, 11}}) {
@@ -335,7 +337,7 @@ TEST(RunResult, BelowTheSandAfterAGapTheForceFadesInAndNoEnergyIsOwed) {
   }
 }
 
-TEST(RunResult, AfterAGapADynamicDeviceIsWhereTheHandIsAndNoLateForceIsLeft) {
+TEST(RunResult, HasADynamicDeviceAtTheHandAndNoLateForceAfterAGap) {
   Scene scene = narrow_scene();
   scene.device.model = DeviceModel::dynamic;
   scene.device.resolution = 0.0;
@@ -361,7 +363,8 @@ TEST(RunResult, AfterAGapADynamicDeviceIsWhereTheHandIsAndNoLateForceIsLeft) {
 TEST(RunResult, ALoopReturnedEnergyWhereMoreThanAThousandthCameBack) {
   const auto device = [](double absorbed, double least, double margin) {
     DeviceResult result;
-    result.absorbed_energy = absorbed, result.least_absorbed_energy = least;
+    result.absorbed_energy = absorbed;
+    result.least_absorbed_energy = least;
     result.least_passivity_margin = margin;
     return result;
   };

@@ -20,7 +20,8 @@ Scene hill() {
   scene.bed.width = scene.bed.depth = 0.3;
   scene.bed.cols = scene.bed.rows = 150;
   scene.bed.surface.kind = SurfaceKind::cone;
-  scene.bed.surface.radius = 0.12, scene.bed.surface.height = 0.03;
+  scene.bed.surface.radius = 0.12;
+  scene.bed.surface.height = 0.03;
   scene.relaxation.rate = 0.0;
   return scene;
 }
@@ -63,7 +64,7 @@ TEST(SandFollower, TheTipIsAsDeepAsAskedOnAHillAsOnTheFlat) {
   }
 }
 
-TEST(SandFollower, SlippingSandIsFollowedWithinATick) {
+TEST(SandFollower, RelaxingSandIsFollowedWithinATick) {
   Scene scene = hill();
   for (const bool accurate : {false, true}) {
     if (accurate) {
@@ -79,7 +80,7 @@ TEST(SandFollower, SlippingSandIsFollowedWithinATick) {
   }
 }
 
-TEST(SandFollower, ARestingToolDigsNoShaft) {
+TEST(SandFollower, ARestingToolCarvesNoShaft) {
   Scene scene = hill();
   scene.bed.surface = {};
   Stroke rest = drag(0.004);

@@ -41,7 +41,7 @@ TEST(SandSide, AFastTickDisplacesAsTicksInBetweenWould) {
   EXPECT_NEAR(one.volume(), 0.0, 1e-12 * volume);
 }
 
-/// What a second tick there displaces, after a first one here that displaces nothing (in the air).
+/// The volume that a second tick there displaces, after a first one here that displaces nothing (in the air).
 double displaced_between(HeightField& bed, const Eigen::Vector3d& here, const Eigen::Vector3d& there) {
   SandSide sand({0.01, ToolProfile::sphere}, {Deposit::ahead});
   EXPECT_EQ(sand.move(bed, here, here, no_slip).displaced_volume, 0.0);
@@ -58,14 +58,14 @@ TEST(SandSide, ATickOfHalfARadiusDisplacesOnlyWhereItEnds) {
   EXPECT_TRUE((path.grid() == place.grid()).all());
 }
 
-TEST(SandSide, InTheAirOrBesideTheBedNothingIsDisplaced) {
+TEST(SandSide, DisplacesNothingInTheAirOrBesideTheBed) {
   HeightField bed(100, 100, 0.002);
   EXPECT_EQ(displaced_between(bed, {-0.05, 0.0, 0.001}, {0.05, 0.0, 0.001}), 0.0);
   EXPECT_EQ(displaced_between(bed, {-5.0, 3.0, -0.01}, {5.0, 3.0, -0.01}), 0.0);
   EXPECT_EQ(bed.allocated_tiles(), 0);
 }
 
-TEST(SandSide, FromBeyondAllMeasureItDisplacesOnlyWhatCrossesTheSand) {
+TEST(SandSide, DisplacesOnlyAlongTheWayThroughSandFromBeyondAllMeasure) {
   for (const double far : {1.0, 1e6, 1e20, 1e300}) {
     HeightField bed(100, 100, 0.002);
     const double volume = displaced_between(bed, {-far, 0.0, -0.005}, {far, 0.0, -0.005});
@@ -78,57 +78,63 @@ TEST(SandSide, FromBeyondAllMeasureItDisplacesOnlyWhatCrossesTheSand) {
   }
 }
 
-/// Where sand slips along a drag of 40 mm in ticks of this length [m].
-std::vector<double> slips_of_a_drag(double tick) {
+/// The positions where sand relaxes along a drag of 40 mm in ticks of this length [m].
+std::vector<double> relaxations_of_a_drag(double tick) {
   HeightField bed(100, 100, 0.002);
   RelaxationSettings relaxation;
   relaxation.way = 0.4;
   SandSide sand({0.01, ToolProfile::sphere, true}, {Deposit::outward}, relaxation);
-  std::vector<double> slips;
+  std::vector<double> relaxations;
   Eigen::Vector3d tip(-0.02, 0.0, -0.003);
-  const auto slip = [&] {
+  const auto relax = [&] {
     sand.hold(bed);
     // Held are the cells under the tool where it is now: their middle.
     double sum = 0.0, cells = 0.0;
     for (int col = 0; col < 100; ++col)
-      if (bed.is_held(50, col)) sum += bed.x_of(col), cells += 1.0;
-    slips.push_back(cells > 0.0 ? sum / cells : std::numeric_limits<double>::quiet_NaN());
+      if (bed.is_held(50, col)) {
+        sum += bed.x_of(col);
+        cells += 1.0;
+      }
+    relaxations.push_back(cells > 0.0 ? sum / cells : std::numeric_limits<double>::quiet_NaN());
     sand.relaxed(bed);
   };
   const auto ticks = static_cast<int>(std::lround(0.04 / tick));
   for (int i = 0; i <= ticks; ++i) {
     tip.x() = -0.02 + 0.04 * i / ticks;
-    sand.move(bed, tip, tip, slip);
+    sand.move(bed, tip, tip, relax);
   }
   tip.z() = 0.02;
-  sand.move(bed, tip, tip, slip);
+  sand.move(bed, tip, tip, relax);
   EXPECT_TRUE(bed.held().empty());
-  return slips;
+  return relaxations;
 }
 
-TEST(SandSide, SandSlipsAtTheSamePlacesWhateverTheTicks) {
+TEST(SandSide, RelaxesAtTheSamePositionsWhateverTheTicks) {
   for (const double tick : {1e-4, 0.7e-3, 2.5e-3, 10e-3, 40e-3}) {
-    const std::vector<double> slips = slips_of_a_drag(tick);
-    ASSERT_GE(slips.size(), 11u) << tick;  // as it touches down, nine or ten times, as it leaves
-    ASSERT_LE(slips.size(), 12u) << tick;
-    for (int i = 0; i < 10; ++i) EXPECT_NEAR(slips[i], -0.02 + 0.004 * i, 0.5 * 0.002 + 1e-9) << tick;
-    EXPECT_TRUE(std::isnan(slips.back())) << tick;
+    const std::vector<double> relaxations = relaxations_of_a_drag(tick);
+    ASSERT_GE(relaxations.size(), 11u) << tick;  // as it touches down, nine or ten times, as it leaves
+    ASSERT_LE(relaxations.size(), 12u) << tick;
+    for (int i = 0; i < 10; ++i) EXPECT_NEAR(relaxations[i], -0.02 + 0.004 * i, 0.5 * 0.002 + 1e-9) << tick;
+    EXPECT_TRUE(std::isnan(relaxations.back())) << tick;
   }
 }
 
-/// How often sand slips in a drag of this length through flat sand, the tip this far below it [m].
-int slips_on_a_drag(const RelaxationSettings& relaxation, double depth, double length) {
+/// The number of relaxations in a drag of this length through flat sand, the tip this far below it [m].
+int count_relaxations(const RelaxationSettings& relaxation, double depth, double length) {
   HeightField bed(100, 100, 0.002);
   SandSide sand({0.01, ToolProfile::sphere, true}, {Deposit::outward}, relaxation);
-  int slips = 0;
+  int relaxations = 0;
   for (int i = 0; i <= 400; ++i) {
     const Eigen::Vector3d tip(-0.06 + length * i / 400, 0.0, -depth);
-    sand.move(bed, tip, tip, [&] { ++slips, sand.relaxed(bed); });
+    sand.move(bed, tip, tip, [&] {
+      ++relaxations;
+      sand.relaxed(bed);
+    });
   }
-  return slips;
+  return relaxations;
 }
 
-/// How far the sphere of 10 mm goes [m] until sand slips again, where a step in front of it rises from its
+/// The way of the sphere of 10 mm [m] until sand relaxes again, where a step in front of it rises from its
 /// rim by this [m].
 double way_before_a_step(const RelaxationSettings& relaxation, double above_rim) {
   HeightField bed(100, 100, 0.002);
@@ -148,7 +154,7 @@ TEST(SandSide, TheWayFallsAsSandRisesAtTheRim) {
   relaxation.way = 0.4;
   EXPECT_NEAR(way_before_a_step(relaxation, 0.02), 0.004, 3e-5);
   relaxation.way_at_rim = 0.1;
-  // From 0.4 R to 0.1 R while sand rises by R/5: half the way after half of that.
+  // The way falls from 0.4 R to 0.1 R while sand rises by R/5: half the way after half of that.
   EXPECT_NEAR(way_before_a_step(relaxation, -0.001), 0.004, 3e-5);
   EXPECT_NEAR(way_before_a_step(relaxation, 0.0), 0.004, 3e-5);
   EXPECT_NEAR(way_before_a_step(relaxation, 0.001), 0.002, 3e-5);
@@ -158,19 +164,19 @@ TEST(SandSide, TheWayFallsAsSandRisesAtTheRim) {
   EXPECT_NEAR(way_before_a_step(relaxation, 0.02), 0.004, 3e-5);
 }
 
-TEST(SandSide, SandSlipsMoreOftenInDeepStrokes) {
+TEST(SandSide, RelaxesMoreOftenInDeepStrokes) {
   RelaxationSettings relaxation;
   relaxation.way = 0.4;
   relaxation.way_at_rim = 0.1;
-  const auto slips = [&](double depth) { return slips_on_a_drag(relaxation, depth, 0.042); };
-  EXPECT_EQ(slips(0.003), 1 + 10);  // as it touches down, and every 4 mm of 42
-  EXPECT_NEAR(slips(0.02), 42, 3);  // a radius below the sand: every 1 mm
+  const auto relaxations = [&](double depth) { return count_relaxations(relaxation, depth, 0.042); };
+  EXPECT_EQ(relaxations(0.003), 1 + 10);  // as it touches down, and every 4 mm of 42
+  EXPECT_NEAR(relaxations(0.02), 42, 3);  // a radius below the sand: every 1 mm
 }
 
-TEST(SandSide, SandSlipsEveryQuarterOfACellAtMost) {
+TEST(SandSide, RelaxesEveryQuarterOfACellAtMost) {
   RelaxationSettings relaxation;
   relaxation.way = 1e-9;
-  EXPECT_EQ(slips_on_a_drag(relaxation, 0.003, 0.0052), 1 + 10);  // 5.2 mm in steps of 0.5 mm
+  EXPECT_EQ(count_relaxations(relaxation, 0.003, 0.0052), 1 + 10);  // 5.2 mm in steps of 0.5 mm
 }
 
 TEST(SandSide, ALiftedToolHoldsNothing) {
@@ -217,7 +223,8 @@ TEST(SandSide, IsInContactBelowTheLevelAndNotAtIt) {
 
 TEST(SandSide, ARakeThatGoesFarInATickLeavesFurrowsAndNoPits) {
   ToolSettings rake{0.004, ToolProfile::sphere, true, ToolShape::rake};
-  rake.teeth = 3, rake.spacing = 0.02;
+  rake.teeth = 3;
+  rake.spacing = 0.02;
   HeightField bed(120, 120, 0.001);
   SandSide side(rake, {Deposit::outward});
   const Eigen::Vector3d from(-0.03, 0.0, -0.003), to(0.03, 0.0, -0.003);

@@ -90,7 +90,7 @@ TEST(CheckScene, CellsMustHaveVolumesThatAreNumbers) {
   }
 }
 
-/// Whether a scene with a stroke is taken.
+/// True if a scene with a stroke is taken.
 bool is_taken(const Scene& scene) {
   try {
     check_scene(scene, "scene");
@@ -103,8 +103,10 @@ bool is_taken(const Scene& scene) {
 
 Scene stroked_scene(double width, int cols, double depth, int rows) {
   Scene scene;
-  scene.bed.width = width, scene.bed.cols = cols;
-  scene.bed.depth = depth, scene.bed.rows = rows;
+  scene.bed.width = width;
+  scene.bed.cols = cols;
+  scene.bed.depth = depth;
+  scene.bed.rows = rows;
   scene.stroke.emplace();
   scene.stroke->file = "in memory";
   return scene;
@@ -140,7 +142,8 @@ TEST(CheckScene, OnlyThePapersLawTakesMoreThanAQuarter) {
   Scene scene = stroked_scene(0.3, 150, 0.2, 100);
   for (const RelaxationLaw law : all_laws)
     for (const double share : {0.2375, 0.25, 0.2625}) {
-      scene.relaxation.law = law, scene.relaxation.share = share;
+      scene.relaxation.law = law;
+      scene.relaxation.share = share;
       EXPECT_EQ(is_taken(scene), law == RelaxationLaw::paper || share <= 0.25) << share;
     }
 }

@@ -81,7 +81,8 @@ TEST(Simulation, EncoderStepsDoNotTurnTheDepositOfASlowDrag) {
     scene.device.model = DeviceModel::dynamic;
     scene.device.max_force = 0.0;
     scene.device.resolution = resolution;
-    scene.device.hand_stiffness = 1e4, scene.device.hand_damping = 60.0;
+    scene.device.hand_stiffness = 1e4;
+    scene.device.hand_damping = 60.0;
     Simulation simulation(scene, starting_bed(scene.bed),
                           through({{-0.02, 0, -0.006}, {0.02, 0, -0.006}}, 4.0));
     simulation.run();
@@ -147,7 +148,7 @@ TEST(Simulation, WhatIsReachedLiftedIsNoPath) {
   EXPECT_EQ(simulation.bed().grid().middleCols(60, 30).abs().maxCoeff(), 0.0);
 }
 
-TEST(Simulation, ALimitedDeviceIsHeldByItsLimitAtAnyDepth) {
+TEST(Simulation, ALimitedDeviceKeepsToItsLimitAtAnyDepth) {
   Scene scene = small_scene();
   const Stroke plunge = through({{0, 0, 0}, {0, 0, -1e4}}, 0.01);  // exp(k_c d) overflows
   Told recording;
@@ -277,7 +278,7 @@ TEST(Simulation, TheForceThatActsIsTheOneComputedTicksBefore) {
   Told recording;
   const RunResult result = simulation.run({&recording});
   ASSERT_GT(result.contact_ticks, 100);
-  // What acts moves the device: along z the exact map of each tick gives the next position.
+  // The force that acts moves the device: along z the exact map of each tick gives the next position.
   const Eigen::Matrix<double, 2, 5> map = device_tick_map(scene.device);
   LateForce late(scene.device);
   double absorbed = 0.0;
@@ -320,7 +321,8 @@ TEST(Simulation, ASceneWithoutAStrokeIsACollapse) {
   Scene scene = small_scene();
   scene.stroke.reset();
   scene.bed.surface.kind = SurfaceKind::cylinder;
-  scene.bed.surface.radius = 0.05, scene.bed.surface.height = 0.05;
+  scene.bed.surface.radius = 0.05;
+  scene.bed.surface.height = 0.05;
   Simulation simulation(scene, starting_bed(scene.bed), std::nullopt);
   Told recording;
   const RunResult result = simulation.run({&recording});
@@ -344,7 +346,8 @@ TEST(Simulation, RefusesAStrokeThatEntersTheSandOutsideTheBed) {
 
 TEST(Simulation, TheBedEndsAtItsBordersForAStrokeInTheSand) {
   Scene scene = small_scene();
-  scene.bed.width = 0.4, scene.bed.cols = 200;  // 0.4 m x 0.3 m
+  scene.bed.width = 0.4;
+  scene.bed.cols = 200;  // 0.4 m x 0.3 m
   scene.device.offset = {0.0, 0.0, 0.005};
   const auto is_taken = [&](const Eigen::Vector3d& tip, PenState pen = pen_down) {
     Stroke stroke = through({{0, 0, 0.01}, tip - scene.device.offset}, 1.0);
@@ -380,7 +383,8 @@ TEST(Simulation, PlaysUpTo1e15Ticks) {
 TEST(Simulation, ADeviceIsLostFurtherAwayThanAHundredBeds) {
   // Nothing holds it: it goes on as fast as the hand threw it. The hand rests 2 m above the bed.
   Scene scene = small_scene();
-  scene.bed.width = 0.4, scene.bed.cols = 200;
+  scene.bed.width = 0.4;
+  scene.bed.cols = 200;
   scene.device.model = DeviceModel::dynamic;
   scene.device.hand_stiffness = scene.device.hand_damping = scene.device.damping = 0.0;
   Stroke thrown = through({{0, 0, 1}, {0, 0, 2}, {0, 0, 2}}, 0.0);
@@ -400,7 +404,7 @@ TEST(Simulation, ADeviceIsLostFurtherAwayThanAHundredBeds) {
   EXPECT_NEAR(recording.ticks.back().time, lost_at - 1.5e-3, 0.5e-3) << "the tick before that, at its start";
 }
 
-TEST(Simulation, AtItsEndTheToolIsGoneAndTheSandRestsWithoutIt) {
+TEST(Simulation, EndsWithTheToolGoneAndTheSandAtRestWithoutIt) {
   Scene scene = small_scene();
   scene.preset = ModelPreset::accurate;
   apply_model_preset(scene);
@@ -456,7 +460,7 @@ TEST(Simulation, AToolThatTurnsOnItsWayKeepsAllSandAndEndsTurned) {
   EXPECT_LT(turning.result.volume_drift, 1e-12);
   EXPECT_GT(turning.result.moved_volume, 0.0);
   for (const TickRecord& tick : turning.ticks) ASSERT_TRUE(tick.wrench.torque.allFinite()) << tick.time;
-  // Across the way at first, it digs a furrow of its width; at last along it, one of its thickness.
+  // Across the way at first, it carves a furrow of its width; at last along it, one of its thickness.
   const Eigen::Vector3d end = turning.ticks.back().hand.orientation * Eigen::Vector3d::UnitX();
   EXPECT_NEAR(end.y(), 1.0, 1e-4);
   const auto dug_cells = [&](int col) { return (turning.surface.col(col) < -0.0015).count(); };

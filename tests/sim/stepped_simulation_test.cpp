@@ -78,27 +78,27 @@ TEST(SteppedSimulation, HasTheBitsOfARunOfTheSameHand) {
     }
 }
 
-TEST(SteppedSimulation, OfADynamicDeviceIsPushedAsInARun) {
+TEST(SteppedSimulation, PushesADynamicDeviceAsARunDoes) {
   Scene scene = stepped_scene();
   scene.device.model = DeviceModel::dynamic;
   scene.device.delay = 2;
   expect_bits_of_a_run(scene, false);  // a run puts a lifted device to the hand
 }
 
-TEST(SteppedSimulation, SlipsOnlyWhenToldWhereThatIsAsked) {
+TEST(SteppedSimulation, RelaxesOnlyWhenToldWhereThatIsAsked) {
   const Scene scene = stepped_scene();
-  SteppedSimulation stepped(scene, starting_bed(scene.bed), false), slips(scene, starting_bed(scene.bed));
+  SteppedSimulation stepped(scene, starting_bed(scene.bed), false), relaxing(scene, starting_bed(scene.bed));
   for (int k = 0; k < 200; ++k) {
     const Hand hand{Eigen::Vector3d(-0.04 + 4e-4 * k, 0.0, -0.008), Eigen::Vector3d::Zero(), true};
     stepped.tick(hand, false, false);
-    slips.tick(hand, false, false);
+    relaxing.tick(hand, false, false);
   }
-  EXPECT_GT(stepped.bed().highest(), 1.5 * slips.bed().highest());
+  EXPECT_GT(stepped.bed().highest(), 1.5 * relaxing.bed().highest());
   EXPECT_GT(stepped.relax().passes, 0);
   EXPECT_TRUE(stepped.relax().converged);
 }
 
-TEST(SteppedSimulation, WithoutAVelocityTakesThatOfTheWay) {
+TEST(SteppedSimulation, TakesTheVelocityOfTheWayWithoutOne) {
   const Scene scene = stepped_scene();
   SteppedSimulation told(scene, starting_bed(scene.bed)), guesses(scene, starting_bed(scene.bed));
   for (int k = 0; k < 100; ++k) {

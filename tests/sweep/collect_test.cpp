@@ -35,7 +35,8 @@ SweepManifest grid_manifest() {
                {"model.preset", "", false, {"\"paper\"", "\"accurate\""}}}};
   m.metrics = {"max_force", "wall_seconds", "furrow_depth"};
   m.inputs = {{"scene.toml", "0123"}};
-  m.version = "1", m.commit = "abc";
+  m.version = "1";
+  m.commit = "abc";
   return m;
 }
 
@@ -163,7 +164,7 @@ TEST_F(Collect, ALatinHypercubeIsArraysAlongItsPoints) {
   EXPECT_EQ(opened.text_attribute("max_force", "coordinates"), "force.k_s model.preset");
 }
 
-/// For as long as it lives.
+/// Changes the working directory for as long as it lives.
 class WorkingDirectory {
  public:
   explicit WorkingDirectory(const fs::path& path) : before_(fs::current_path()) { fs::current_path(path); }
@@ -261,7 +262,7 @@ TEST_F(Collect, HugeBedsCostWhatIsInThem) {
   EXPECT_LT(fs::file_size(file()), 2'000'000u);
 }
 
-/// Of a folder of its own to which all points of the grid are written in this order.
+/// The hash of a new folder to which all points of the grid are written in this order.
 std::string hash_of(const std::vector<std::size_t>& order,
                     const std::function<void(PointResult&)>& change = {}, double change_of_surface = 0.0) {
   const TestFolder parent;

@@ -12,22 +12,29 @@ namespace {
 /// Every number of its own, so that none can stand for another.
 RunResult a_run() {
   RunResult run;
-  run.wall_seconds = 0.25, run.simulated_seconds = 4.0, run.ticks = 4000, run.contact_ticks = 1000;
-  run.relaxation.passes = 77, run.relaxation.residual = 0.011;
+  run.wall_seconds = 0.25;
+  run.simulated_seconds = 4.0;
+  run.ticks = 4000;
+  run.contact_ticks = 1000;
+  run.relaxation.passes = 77;
+  run.relaxation.residual = 0.011;
   run.device = {.saturated_ticks = 50,
                 .max_force = 3.5,
                 .mean_force = 1.25,
                 .absorbed_energy = 0.75,
                 .least_absorbed_energy = -0.0625,
                 .least_passivity_margin = -2.5};
-  run.displaced_volume = 1e-6, run.moved_volume = 3e-6, run.volume_drift = 1e-13, run.max_depth = 0.004;
+  run.displaced_volume = 1e-6;
+  run.moved_volume = 3e-6;
+  run.volume_drift = 1e-13;
+  run.max_depth = 0.004;
   run.furrow = FurrowMeasures{.depth = 0.003, .width = 0.02, .rampart = 0.001};
   run.error = ErrorEstimate{
       .height_share = 0.07, .height_rms = 8e-5, .height_max = 9e-5, .force_rms = 0.11, .force_max = 0.13};
   return run;
 }
 
-const SlopeMeasures slopes{.mean = 12.0, .steepest = 29.0, .law_steepest = 28.0, .share_at_talus = 0.4};
+const SlopeMeasures slopes{.mean = 12.0, .steepest = 29.0, .law_steepest = 28.0, .fraction_at_talus = 0.4};
 const std::optional<FieldDifference> golden = FieldDifference{.max = 0.005, .rms = 0.0007, .volume = -2e-6};
 
 std::map<std::string, double> values(const RunResult& run, const std::optional<FieldDifference>& against) {

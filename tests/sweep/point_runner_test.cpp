@@ -44,8 +44,11 @@ SharedRunResult run(const std::vector<Scene>& scenes) {
 TEST(SharedRun, IsToTheBitWhatEachSceneGivesAlone) {
   std::vector<Scene> scenes(4, small_scene());
   scenes[1].force.k_s = 20'000.0;  // reaches the device's limit
-  scenes[2].force.k_f = 100.0, scenes[2].force.drag = DragDirection::full;
-  scenes[3].force.k_c = 40.0, scenes[3].device.max_force = 0.5, scenes[3].device.damping = 5.0;
+  scenes[2].force.k_f = 100.0;
+  scenes[2].force.drag = DragDirection::full;
+  scenes[3].force.k_c = 40.0;
+  scenes[3].device.max_force = 0.5;
+  scenes[3].device.damping = 5.0;
   const SharedRunResult shared = run(scenes);
   for (std::size_t i = 0; i < scenes.size(); ++i) {
     Simulation alone(scenes[i], starting_bed(scenes[i].bed), a_drag());
@@ -99,7 +102,9 @@ TEST(SharedRun, EstimatesTheErrorOfEachSceneAsIfItHadBeenRunAlone) {
 
 TEST(SharedRun, AForceBeyondAnyNumberFailsItsOwnPointOnly) {
   std::vector<Scene> scenes(3, small_scene());
-  scenes[0].force.k_s = 1e308, scenes[0].force.k_f = 1e308, scenes[0].device.max_force = 0.0;
+  scenes[0].force.k_s = 1e308;
+  scenes[0].force.k_f = 1e308;
+  scenes[0].device.max_force = 0.0;
   const SharedRunResult shared = run(scenes);
   EXPECT_EQ(shared.points[0].verdict, PointVerdict::unstable);
   EXPECT_NE(shared.points[0].reason.find("the force is too large for a number"), std::string::npos);
@@ -114,7 +119,9 @@ TEST(SharedRun, VerdictsTellHowItWent) {
   EXPECT_EQ(run({scene}).points[0].verdict, PointVerdict::not_at_rest);
   scene = small_scene();
   scene.device = ideal_device();
-  scene.force.k_s = 1e6, scene.force.k_c = 100.0, scene.device.damping = 0.0;
+  scene.force.k_s = 1e6;
+  scene.force.k_c = 100.0;
+  scene.device.damping = 0.0;
   EXPECT_EQ(run({scene}).points[0].verdict, PointVerdict::unstable);
   scene = small_scene();
   scene.device.scale = 10.0;  // out of the bed
@@ -123,11 +130,12 @@ TEST(SharedRun, VerdictsTellHowItWent) {
   EXPECT_NE(refused.reason.find("outside the bed"), std::string::npos);
 }
 
-TEST(SharedRun, WithoutAStrokeMeasuresTheSandAlone) {
+TEST(SharedRun, MeasuresTheSandAloneWithoutAStroke) {
   Scene scene = small_scene();
   scene.stroke.reset();
   scene.bed.surface.kind = SurfaceKind::cylinder;
-  scene.bed.surface.radius = 0.05, scene.bed.surface.height = 0.03;
+  scene.bed.surface.radius = 0.05;
+  scene.bed.surface.height = 0.03;
   const PointResult point =
       run_shared({scene}, starting_bed(scene.bed), nullptr, all_metrics(), nullptr)->points[0];
   EXPECT_EQ(point.verdict, PointVerdict::at_rest);
@@ -140,7 +148,7 @@ TEST(SharedRun, WithoutAStrokeMeasuresTheSandAlone) {
             std::atan(talus * (1.0 + metric(point, "residual"))) * 180.0 / M_PI + 1e-9);
 }
 
-TEST(SharedRun, WithoutAStrokeEachSceneHasTheMarginOfItsOwnDevice) {
+TEST(SharedRun, GivesEachSceneTheMarginOfItsDeviceWithoutAStroke) {
   std::vector<Scene> scenes(2, small_scene());
   for (Scene& scene : scenes) scene.stroke.reset();
   scenes[1].device.damping += 4.0;

@@ -83,7 +83,7 @@ TEST_F(ASweep, PointsOfEqualSandShareASimulationAndTheirInputs) {
   EXPECT_EQ(counters.failed(), 0u);
 }
 
-TEST_F(ASweep, OfADynamicDeviceSharesNothingButInputs) {
+TEST_F(ASweep, SharesOnlyInputsWithADynamicDevice) {
   Sweep s = sweep("", "device.model = [\"dynamic\"]\nforce.k_s = [500, 1000]\n");
   const SweepCounters counters = s.run(folder(s, "out"), {});
   EXPECT_EQ(counters.simulations, 2u);

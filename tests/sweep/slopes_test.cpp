@@ -49,7 +49,7 @@ TEST(DescentSlope, NothingFallsBeyondAWall) {
   EXPECT_EQ(descent_slope(HeightField(HeightGrid::Constant(1, 1, 3.0), cell_size), 0, 0), 0.0);
 }
 
-TEST(DescentSlope, OfAConeIsItsOwnUpToTheBendOfItsContours) {
+TEST(DescentSlope, IsAConesUpToTheBendOfItsContours) {
   // The way down turns by 1 / distance; half of a cell's turn on the triangle's first side, one and a
   // half on its second, which begins a cell away.
   const HeightField cone = bed_of(101, [](double x, double y) { return -0.6 * std::hypot(x, y); });
@@ -59,7 +59,7 @@ TEST(DescentSlope, OfAConeIsItsOwnUpToTheBendOfItsContours) {
       if (distance < cell_size) continue;
       EXPECT_NEAR(descent_slope(cone, row, col), 0.6, 0.6 * 2.0 * cell_size / distance) << row << ' ' << col;
     }
-  // At the tip: that of the octagonal pyramid through the cells around it.
+  // The slope at the tip is that of the octagonal pyramid through the cells around it.
   EXPECT_NEAR(descent_slope(cone, 50, 50), 0.6 * std::hypot(1.0, std::numbers::sqrt2 - 1.0), 1e-13);
 }
 
@@ -79,11 +79,13 @@ TEST(LawSlope, OnAPlaneIsTheLawsOwn) {
 TEST(LawSlope, OnAPeakIsOfTheSteeperSidesAndInAPitAndOnAWallZero) {
   HeightField bed(3, 3, cell_size);
   bed.set(1, 1, 3.0 * cell_size);
-  bed.set(1, 0, 2.0 * cell_size), bed.set(0, 1, cell_size), bed.set(2, 1, -cell_size);
+  bed.set(1, 0, 2.0 * cell_size);
+  bed.set(0, 1, cell_size);
+  bed.set(2, 1, -cell_size);
   EXPECT_NEAR(law_slope(bed, 1, 1, RelaxationLaw::paper), 4.0, 1e-13);
   EXPECT_NEAR(law_slope(bed, 1, 1, RelaxationLaw::isotropic), std::hypot(3.0, 4.0), 1e-13);
-  // To the right, or below: a crest that falls by 3 and 1, or 4 and 2, and half of either's rise across it
-  // and at the other cell.
+  // The slope to the right, or below: a crest that falls by 3 and 1, or 4 and 2, and half of either's rise
+  // across it and at the other cell.
   EXPECT_NEAR(law_slope(bed, 1, 1, RelaxationLaw::faces),
               std::hypot(4.0 + 2.0 * 2.0 / (3.0 * 4.0), 0.5 * (0.5 * (3.0 - 1.0) + 0.0)), 1e-13);
   EXPECT_EQ(law_slope(bed, 2, 1, RelaxationLaw::paper), 0.0);
@@ -93,7 +95,7 @@ TEST(LawSlope, OnAPeakIsOfTheSteeperSidesAndInAPitAndOnAWallZero) {
   EXPECT_EQ(law_slope(alone, 0, 0, RelaxationLaw::isotropic), 0.0);
 }
 
-TEST(Slopes, OfSandAtRestAreByItsLawNoMoreThanTalusAngleAndResidual) {
+TEST(Slopes, AreAtMostTalusAngleAndResidualByTheLawAtRest) {
   for (const RelaxationLaw law : all_laws)
     for (const RelaxationMethod method : {RelaxationMethod::passes, RelaxationMethod::rkl})
       for (const double angle : {10.0, 20.0, 35.0, 45.0}) {
@@ -131,27 +133,27 @@ TEST(Slopes, AreOfCellsThatChanged) {
   EXPECT_NEAR(measures.mean, (58.0 * flank + first) / 60.0, 1e-10);
   EXPECT_NEAR(measures.steepest, std::max(first, flank), 1e-10);
   EXPECT_NEAR(measures.law_steepest, std::max(first, flank), 1e-10);  // along an axis
-  EXPECT_NEAR(measures.share_at_talus, 58.0 / 60.0, 1e-15);
-  EXPECT_EQ(measure_slopes(before, after, talus(flank + 1.1)).share_at_talus, 0.0);
+  EXPECT_NEAR(measures.fraction_at_talus, 58.0 / 60.0, 1e-15);
+  EXPECT_EQ(measure_slopes(before, after, talus(flank + 1.1)).fraction_at_talus, 0.0);
 }
 
 TEST(Slopes, NothingChangedMeansNone) {
   const HeightField bed = bed_of(20, [](double x, double) { return 0.4 * x; });
   const SlopeMeasures measures = measure_slopes(bed, bed, talus(30.0));
   EXPECT_TRUE(std::isnan(measures.mean) && std::isnan(measures.steepest) &&
-              std::isnan(measures.law_steepest) && std::isnan(measures.share_at_talus));
+              std::isnan(measures.law_steepest) && std::isnan(measures.fraction_at_talus));
 }
 
-TEST(Slopes, OnTheLargestBedOnlyItsTilesAreLookedAt) {
+TEST(Slopes, LookOnlyAtTilesOnTheLargestBed) {
   const HeightField before(65536, 65536, cell_size);
   HeightField after = before;
   after.set(40000, 63, cell_size);  // beside a tile that does not exist
   const SlopeMeasures measures = measure_slopes(before, after, talus(45.0));
   EXPECT_NEAR(measures.mean, 45.0, 1e-12);
-  EXPECT_NEAR(measures.share_at_talus, 1.0, 0.0);
+  EXPECT_NEAR(measures.fraction_at_talus, 1.0, 0.0);
 }
 
-TEST(Slopes, OfSandAtRestByThePapersLawAreAtMostItsOctagons) {
+TEST(Slopes, AreAtMostTheOctagonsAtRestByThePapersLaw) {
   // Drops to axis neighbours of at most T and to diagonal ones of at most sqrt 2 T bound a triangle's slope
   // by sqrt(1 + (sqrt 2 - 1)^2) = 1.0824 T.
   const HeightField before = bed_of(96, [](double x, double y) {
@@ -169,7 +171,7 @@ TEST(Slopes, OfSandAtRestByThePapersLawAreAtMostItsOctagons) {
   EXPECT_LT(measures.mean, measures.steepest);
 }
 
-TEST(Slopes, OfAConeAreItsAngle) {
+TEST(Slopes, AreTheAngleOfACone) {
   const double slope = std::tan(std::numbers::pi / 6);
   const HeightField before(201, 201, cell_size);
   const HeightField cone =
@@ -177,7 +179,7 @@ TEST(Slopes, OfAConeAreItsAngle) {
   const SlopeMeasures measures = measure_slopes(before, cone, talus(30.0));
   // Cells within r of the middle are off by 1 / r (cells) at most, the last ring at the foot by any amount.
   EXPECT_NEAR(measures.mean, 30.0, 0.5);
-  EXPECT_GT(measures.share_at_talus, 0.9);
+  EXPECT_GT(measures.fraction_at_talus, 0.9);
 }
 
 }  // namespace

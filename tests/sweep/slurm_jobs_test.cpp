@@ -136,7 +136,7 @@ TEST_F(SlurmJobsTest, AreQueuedEvenIfNothingWillCollectThem) {
   EXPECT_EQ(read_slurm_jobs(folder_ / "out")->array, 41);
 }
 
-TEST_F(SlurmJobsTest, WithoutSlurmThereIsASentence) {
+TEST_F(SlurmJobsTest, SaysThatThereIsNoSlurm) {
   const std::string path = getenv("PATH");
   setenv("PATH", "/nowhere", 1);
   EXPECT_NE(sentence_of([&] { submit(); }).find("sbatch is not installed"), std::string::npos);

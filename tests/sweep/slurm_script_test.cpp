@@ -32,7 +32,7 @@ testing::AssertionResult has(const std::vector<std::string>& lines, const std::s
 
 SlurmWork work_in(const fs::path& start) { return {"/opt/sandstroke", start, "plan.toml", "out"}; }
 
-/// What a shell makes of a script: where the program is started, and with what words.
+/// A script as a shell runs it: where the program is started, and with what words.
 std::vector<std::string> started(const std::string& script, const fs::path& folder) {
   std::ofstream(folder / "job.sh") << script;
   setenv("SLURM_ARRAY_TASK_ID", "3", 1);
@@ -52,7 +52,7 @@ void write_program(const fs::path& path) {
 
 TEST(SlurmScript, ATaskRunsItsShardWhereTheSweepWasSubmitted) {
   const TestFolder folder;
-  // What a shell, or Slurm, would take for something else.
+  // Names that a shell, or Slurm, would take for something else.
   for (const std::string name :
        {"plain", "two words", "$HOME", "it's", "a;touch gone", "%A_%a", "-o", "#", "*"}) {
     const fs::path start = folder / name;

@@ -30,7 +30,8 @@ SweepManifest manifest() {
                {"model.preset", "", false, {"\"paper\"", "\"accurate\""}}}};
   m.metrics = {"max_force", "work"};
   m.inputs = {{"scene.toml", "0123"}};
-  m.version = "1", m.commit = "abc";
+  m.version = "1";
+  m.commit = "abc";
   return m;
 }
 
@@ -46,7 +47,8 @@ std::string refusal(const fs::path& path, const SweepManifest& m) {
 TEST_F(AFolder, IsTakenUpBySameSweepAndOpenedAsItWasMade) {
   SweepFolder::make(path, manifest());
   SweepManifest moved = manifest();
-  moved.scene = "/elsewhere/scene.toml", moved.inputs[0].first = "there.toml";
+  moved.scene = "/elsewhere/scene.toml";
+  moved.inputs[0].first = "there.toml";
   EXPECT_EQ(SweepFolder::make(path, moved).manifest().scene, manifest().scene);
   const SweepFolder opened = SweepFolder::open(path);
   EXPECT_EQ(opened.points(), 4u);
@@ -57,7 +59,7 @@ TEST_F(AFolder, IsTakenUpBySameSweepAndOpenedAsItWasMade) {
             "relaxation.talus_angle=30 --set 'model.preset=\"paper\"' -o point-000002.h5");
 }
 
-TEST_F(AFolder, OfAnotherSweepIsRefusedAndSaysWhatDiffers) {
+TEST_F(AFolder, IsRefusedWithWhatDiffersIfAnotherSweepMadeIt) {
   SweepFolder::make(path, manifest());
   SweepManifest other = manifest();
   other.design.axes[0].values.push_back("40");
@@ -70,7 +72,7 @@ TEST_F(AFolder, OfAnotherSweepIsRefusedAndSaysWhatDiffers) {
   EXPECT_NE(refusal(path, other).find("another version of sandstroke (1, abc)"), std::string::npos);
 }
 
-TEST_F(AFolder, WithFilesOfOthersOrADamagedManifestIsRefused) {
+TEST_F(AFolder, IsRefusedIfItHasFilesOfOthersOrADamagedManifest) {
   fs::create_directories(path);
   put_text(path / "thesis.txt", "precious");
   EXPECT_NE(refusal(path, manifest()).find("other files"), std::string::npos);
@@ -94,7 +96,7 @@ TEST_F(AFolder, WhosePointsLieElsewhereIsRefused) {
   EXPECT_NE(refusal(path, manifest()).find("is a link"), std::string::npos) << refusal(path, manifest());
 }
 
-TEST_F(AFolder, WithPointsButNoManifestIsRefused) {
+TEST_F(AFolder, IsRefusedIfItHasPointsButNoManifest) {
   SweepFolder::make(path, manifest()).write(0, {PointVerdict::at_rest, "", {1.0, 2.0}}, "", nullptr);
   fs::remove(path / "manifest.json");
   EXPECT_NE(refusal(path, manifest()).find("holds points"), std::string::npos) << refusal(path, manifest());

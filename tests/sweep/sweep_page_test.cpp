@@ -24,7 +24,8 @@ SweepManifest page_manifest() {
               {{"relaxation.talus_angle", "deg", false, {"20", "22.5"}},
                {"model.preset", "", false, {"\"paper\"", "\"accurate\""}}}};
   m.metrics = {"max_force", "work"};
-  m.version = "1", m.commit = "abc";
+  m.version = "1";
+  m.commit = "abc";
   return m;
 }
 
@@ -82,7 +83,7 @@ TEST_F(ASweepPage, ShowsDesignPointsAndCounts) {
   EXPECT_EQ(data["counts"], Json::parse(R"({"points": 4, "done": 1, "failed": 1, "missing": 2})"));
 }
 
-TEST_F(ASweepPage, OfALatinHypercubeHasAValueForEachPoint) {
+TEST_F(ASweepPage, HasAValueForEachPointOfALatinHypercube) {
   SweepManifest m = page_manifest();
   m.design = {false,
               {{"force.k_s", "N", true, {"1", "3", "2"}}, {"force.k_f", "s/m", false, {"7", "8", "9"}}}};
@@ -98,7 +99,8 @@ TEST_F(ASweepPage, ShowsThePictureThatWasKeptOrAMapOfTheSurface) {
   m.keep_picture = m.keep_surface = true;
   const SweepFolder folder = make(m);
   HeightField bed(40, 60, 0.1), higher = bed;
-  bed.set(3, 4, -0.1), higher.set(3, 4, 0.3);
+  bed.set(3, 4, -0.1);
+  higher.set(3, 4, 0.3);
   Image picture(400, 300);
   std::fill(picture.rgb.begin(), picture.rgb.end(), std::uint8_t{99});
   write_png(folder.picture_file(0), picture);
@@ -108,7 +110,7 @@ TEST_F(ASweepPage, ShowsThePictureThatWasKeptOrAMapOfTheSurface) {
   std::ofstream(folder.picture_file(2)) << "no picture";
   const Json points = data_of(folder, report)["points"];
   EXPECT_EQ(points[0]["thumbnail"], uri(shrunk(picture, thumbnail_width)));
-  // On one scale, which the highest of all points ends.
+  // All are on one scale, which the highest of all points ends.
   EXPECT_EQ(points[1]["thumbnail"], uri(surface_thumbnail(folder.point_file(1), 0.3)));
   EXPECT_EQ(points[2]["thumbnail"], uri(surface_thumbnail(folder.point_file(2), 0.3)));
   EXPECT_EQ(points[3]["thumbnail"], nullptr);
@@ -126,7 +128,7 @@ TEST_F(ASweepPage, ShowsLevelSandToo) {
             uri(surface_thumbnail(folder.point_file(0), 1.0)));
 }
 
-TEST_F(ASweepPage, OfVeryManyPointsHasNoPicturesAndSaysSo) {
+TEST_F(ASweepPage, HasNoPicturesOfVeryManyPointsAndSaysSo) {
   SweepManifest m = page_manifest();
   m.keep_surface = true;
   std::vector<std::string> values;

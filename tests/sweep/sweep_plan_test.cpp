@@ -34,7 +34,7 @@ class APlan : public testing::Test {
     put_text(folder / "plan.toml", text);
     return load_plan(folder / "plan.toml");
   }
-  /// What it is refused with.
+  /// The sentence with which it is refused.
   std::string refusal(const std::string& text) {
     try {
       load(text);

@@ -117,7 +117,7 @@ TEST_F(SweepStatusTest, OtherJobsOfTheQueueAreNotIts) {
   EXPECT_EQ(queued("11|3|RUNNING|0|None|\n13|3|RUNNING|0|None|\n").tasks[2].state, "gone");
 }
 
-TEST_F(SweepStatusTest, WithoutAQueueTheFolderIsWhatIsKnown) {
+TEST_F(SweepStatusTest, KnowsOnlyTheFolderWithoutAQueue) {
   done({0, 1, 2, 3, 4, 5, 6});
   const SweepStatus status =
       sweep_status(folder, SlurmJobs{12, 13, 2, {{1, {0, 2, 4, 6}}, {2, {1, 3, 5, 7}}}},

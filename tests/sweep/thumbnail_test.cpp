@@ -77,12 +77,15 @@ TEST_F(ASurface, IsKnownAndMadeCoarseWithoutBeingRead) {
 
 TEST_F(ASurface, ShowsAFurrowNarrowerThanAPixelAndSmallBedsInWholePixels) {
   HeightField bed(1000, 1000, 0.002);
-  for (int col = 0; col < 1000; ++col) bed.set(500, col, -0.1), bed.set(501, col, 0.05);
+  for (int col = 0; col < 1000; ++col) {
+    bed.set(500, col, -0.1);
+    bed.set(501, col, 0.05);
+  }
   write(bed);
   const Image map = surface_thumbnail(path, 0.1);
   ASSERT_EQ(map.width, 167);  // blocks of 6 cells
   ASSERT_EQ(map.height, 167);
-  const auto furrow = scale_colour(-0.1, -0.1, 0.1, true);
+  const auto furrow = scale_colour(-0.1, -0.1, 0.1, ColourScale::diverging);
   for (int x = 0; x < map.width; ++x) EXPECT_EQ(map.pixel(x, 166 - 83)[2], std::lround(255.0 * furrow[2]));
 
   write(HeightField(30, 50, 0.002));
@@ -90,7 +93,7 @@ TEST_F(ASurface, ShowsAFurrowNarrowerThanAPixelAndSmallBedsInWholePixels) {
   EXPECT_EQ(surface_thumbnail(path, 0.1).height, 90);
 }
 
-TEST_F(ASurface, OfTheLargestBedIsAThumbnailLikeAnyOther) {
+TEST_F(ASurface, IsAThumbnailForTheLargestBedToo) {
   HeightField bed(65536, 32768, 0.5);
   for (int row = 40000; row < 40800; ++row)
     for (int col = 3000; col < 3500; ++col) bed.set(row, col, -0.2);
@@ -98,9 +101,9 @@ TEST_F(ASurface, OfTheLargestBedIsAThumbnailLikeAnyOther) {
   const Image map = surface_thumbnail(path, 0.2);
   ASSERT_EQ(map.width, 96);
   ASSERT_EQ(map.height, 192);
-  // A pixel is 342 cells wide; this one, from below the 118th, lies in what was dug, the other is level.
+  // A pixel is 342 cells wide; this one, from below the 118th, lies in what was carved, the other is level.
   const auto expect_colour = [&](const std::uint8_t* pixel, double height) {
-    const auto colour = scale_colour(height, -0.2, 0.2, true);
+    const auto colour = scale_colour(height, -0.2, 0.2, ColourScale::diverging);
     for (int channel = 0; channel < 3; ++channel)
       EXPECT_EQ(pixel[channel], std::lround(255.0 * colour[channel]));
   };

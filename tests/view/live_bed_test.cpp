@@ -114,7 +114,8 @@ TEST(LiveBed, RefusesABedThatNoPageCouldShow) {
 TEST(LiveBed, IsReadWhileItIsPublished) {
   // All cells of a tile are set to one height at a time: no reader ever sees a tile of two heights.
   HeightField bed(64, 128, 0.01);
-  bed.allocate(0), bed.allocate(1);
+  bed.allocate(0);
+  bed.allocate(1);
   LiveBed live(bed);
   std::jthread publisher([&](const std::stop_token& stop) {
     for (double height = 1.0; !stop.stop_requested(); height += 1.0) {

@@ -1,4 +1,4 @@
-// What server and page tell each other, byte by byte.
+// Messages between server and page, byte by byte.
 #include "view/messages.h"
 
 #include <gtest/gtest.h>
@@ -27,7 +27,7 @@ TEST(ViewMessages, APictureIsItsBytes) {
   state.lateness = 0.125;
   state.max_lateness = 4.0;
   state.orientation = {0.5, 0.5, 0.5, -0.5};  // w, x, y, z
-  state.force_held_back = true;
+  state.force_withheld = true;
   LiveBed::Tiles tiles;
   tiles.index = {258};
   tiles.heights.assign(BedGeometry::tile_area, 1.0f);
@@ -46,7 +46,7 @@ TEST(ViewMessages, APictureIsItsBytes) {
   EXPECT_EQ(message.substr(80, 8), bytes({2, 1, 0, 0, 0, 0, 0x80, 0x3f}));
   EXPECT_EQ(message.substr(message.size() - 8), bytes({0, 0, 0x80, 0x3f, 0, 0, 0, 0xc0}));
 
-  state.force_held_back = false;
+  state.force_withheld = false;
   state.tip_known = true;
   state.depth = std::numeric_limits<double>::quiet_NaN();
   put_picture(state, {}, message);

@@ -99,7 +99,7 @@ TEST(PointerDevice, NothingIsReadBeforeAPointerIsThereAndThenItAppearsOutOfTheSa
   EXPECT_LT((hand.wait(1000 * ms) - Vector3d(0.0625, 0.03125, hover)).norm(), 1e-12);
 }
 
-TEST(PointerDevice, APlaceThatIsRepeatedIsNoMotion) {
+TEST(PointerDevice, ARepeatedPositionIsNoMotion) {
   Hand hand;
   hand.point(0.0, 0.0, 0.5);
   const Vector3d there = hand.wait(500 * ms);
@@ -124,7 +124,7 @@ TEST(PointerDevice, IsWhereThePointerWasALatencyAgo) {
     hand.point(x_at(k), 0.05, 0.5);
     const Vector3d tip = hand.wait(16 * ms);
     if (k < 8) continue;
-    // At the constant speed of 0.002 m in 16 ms.
+    // The tip goes at the constant speed of 0.002 m in 16 ms.
     const double x = x_at(k) + 0.002 * (1.0 - static_cast<double>(PointerDevice::latency) / (16.0 * ms));
     EXPECT_NEAR(tip.x(), x, 1e-8);  // of a float's rounding
     EXPECT_NEAR(tip.y(), 0.05, 1e-8);
@@ -132,7 +132,7 @@ TEST(PointerDevice, IsWhereThePointerWasALatencyAgo) {
   }
 }
 
-TEST(PointerDevice, APointerThatIsHeldDoesNotSink) {
+TEST(PointerDevice, APointerKeptPressedDoesNotSink) {
   Hand hand;
   hand.point(0.0, 0.0, 1.0);
   const Vector3d once = hand.wait(200 * ms);

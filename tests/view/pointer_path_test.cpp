@@ -14,7 +14,7 @@ using Eigen::Vector3d;
 constexpr std::int64_t millisecond = 1'000'000;  // ns
 constexpr std::int64_t path_begin = 5'000 * millisecond;
 
-/// Where the path is, tick by tick, while each knot comes `lead` before it is due.
+/// The positions of the path, tick by tick, while each knot comes `lead` before it is due.
 std::vector<Vector3d> followed(const std::vector<PointerKnot>& knots, std::int64_t lead, std::int64_t tick,
                                std::int64_t end) {
   PointerPath path(knots.front().tip, 17 * millisecond);
@@ -55,15 +55,15 @@ TEST(PointerPath, ConvergesInThirdOrderAndInSecondWhereACoordinateTurns) {
 
 TEST(PointerPath, IsSmoothInSpeedAndStaysBetweenItsKnots) {
   std::mt19937 random(7);
-  std::uniform_real_distribution<double> place(-1.0, 1.0);
+  std::uniform_real_distribution<double> position(-1.0, 1.0);
   std::uniform_int_distribution<std::int64_t> spacing(8 * millisecond, 30 * millisecond);
   std::vector<PointerKnot> knots;
   std::int64_t time = path_begin;
   for (int k = 0; k < 100; ++k, time += spacing(random))
-    knots.push_back({time, {place(random), place(random), place(random)}, 0});
+    knots.push_back({time, {position(random), position(random), position(random)}, 0});
   constexpr std::int64_t tick = millisecond / 20;
   const std::vector<Vector3d> way = followed(knots, 70 * millisecond, tick, time);
-  // From knot to knot no cubic bends more than 6 (|d| + |slopes|) / h, with slopes of at most 2 d.
+  // No cubic bends more from knot to knot than 6 (|d| + |slopes|) / h, with slopes of at most 2 d.
   const double most_bend = 6.0 * (2.0 + 4.0) / (8e-3 * 8e-3) * 1.01, h = 1e-9 * tick;
   std::size_t knot = 0;
   for (std::size_t i = 1; i + 1 < way.size(); ++i) {

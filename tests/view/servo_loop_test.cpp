@@ -32,7 +32,7 @@ class WatchedPointer : public PointerDevice {
   std::int64_t last_ = 0;
 };
 
-TEST(ServoLoopBesideAView, TakesNoMemoryAndShowsWhatIsDug) {
+TEST(ServoLoopBesideAView, TakesNoMemoryAndShowsWhatIsCarved) {
   const TestFolder folder;
   Scene scene;
   scene.bed.cols = scene.bed.rows = 200;

@@ -133,7 +133,11 @@ void ViewClient::point(double time, float x, float y, float pressure, std::uint3
   const auto put = [&message](auto number) {
     message.append(reinterpret_cast<const char*>(&number), sizeof number);
   };
-  put(time), put(x), put(y), put(pressure), put(switches);
+  put(time);
+  put(x);
+  put(y);
+  put(pressure);
+  put(switches);
   send(message);
 }
 

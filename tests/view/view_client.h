@@ -12,7 +12,7 @@
 
 namespace sandstroke {
 
-/// What a server answered to one request.
+/// The answer of a server to one request.
 struct HttpAnswer {
   int status = 0;  ///< 0: nothing, the connection was closed
   std::map<std::string, std::string> fields;

@@ -50,8 +50,8 @@ function curveChart({ title, note, legend, whole, over }) {
       update({ ...axes(...whole), series: series() });
     },
     show: (from, to) => {
-      const share = (t) => (100 * (t - whole[0])) / (whole[1] - whole[0]);
-      update({ ...axes(from, to), dataZoom: [{ start: share(from), end: share(to) }] });
+      const fraction = (t) => (100 * (t - whole[0])) / (whole[1] - whole[0]);
+      update({ ...axes(from, to), dataZoom: [{ start: fraction(from), end: fraction(to) }] });
     },
   };
 }
@@ -96,7 +96,7 @@ function zoomTogether(curveCharts, whole) {
   };
   const about = (factor) => () =>
     show((from + to) / 2 - (factor * (to - from)) / 2, (from + to) / 2 + (factor * (to - from)) / 2);
-  const by = (share) => () => show(from + share * (to - from), to + share * (to - from));
+  const by = (fraction) => () => show(from + fraction * (to - from), to + fraction * (to - from));
   const button = (text, label, click) =>
     el("button", { type: "button", "aria-label": label, title: label, click }, text);
   return {
@@ -107,7 +107,7 @@ function zoomTogether(curveCharts, whole) {
     again: () => show(from, to),
     listen: () => curveCharts.forEach(({ one }) => one.drawn.on("datazoom", (event) => {
       const { start, end } = event.batch?.[0] ?? event;
-      const at = (share) => whole[0] + (share / 100) * (whole[1] - whole[0]);
+      const at = (fraction) => whole[0] + (fraction / 100) * (whole[1] - whole[0]);
       show(at(start), at(end));
     })),
   };

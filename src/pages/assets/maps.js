@@ -13,7 +13,7 @@ const barOf = ({ title, unit, low, high, colours: stops }) =>
   colourBar({ name: withUnit(title, unitText(unit)), low, high, stops,
               ticks: roundTicks(low, high, 5).map((tick) => [tick, tickText(tick)]) });
 
-/** A map that fills its place. The map of the difference has a ring around its largest value. */
+/** A map that fills its frame. The map of the difference has a ring around its largest value. */
 function layer(part, map) {
   const picture = el("img", { src: map.picture, width: map.width, height: map.height, draggable: "false",
                               alt: `${part.title}: ${labelOf(map.name)}` });
@@ -23,14 +23,14 @@ function layer(part, map) {
   }).observe(picture);
   const ringed = map.name === "difference" && part.largest;
   const { x, y } = part.extent ?? {};
-  const share = ([from, to], value) => `${(100 * (value - from)) / (to - from)}%`;
+  const fraction = ([from, to], value) => `${(100 * (value - from)) / (to - from)}%`;
   return el("div", { class: "layer" }, picture, ringed
     ? el("div", { class: "ring", title: "the largest difference",
-                  style: `left: ${share(x, part.largest.x)}; bottom: ${share(y, part.largest.y)}` })
+                  style: `left: ${fraction(x, part.largest.x)}; bottom: ${fraction(y, part.largest.y)}` })
     : null);
 }
 
-/** Gives the values under the pointer: a function of the place, as shares of width and height from the upper left. */
+/** Gives the values under the pointer: a function of the position, as fractions of width and height from the upper left. */
 function reader(part) {
   if (!part.spots) return null;
   const floats = (text) => {
@@ -81,25 +81,25 @@ const mapFigure = (part, map) => {
 function wipe(part) {
   const named = new Map(part.maps.map((map) => [map.name, map]));
   const pairs = [["golden", "run"], ["golden", "difference"], ["run", "difference"]];
-  const places = el("div", { class: "layer" });
+  const layers = el("div", { class: "layer" });
   const edge = el("div", { class: "edge" });
   const tags = [el("span", { class: "tag" }), el("span", { class: "tag right" })];
   const scales = el("div", { class: "charts" });
   const slider = el("input", { type: "range", min: 0, max: 100, step: "any", value: 50, input: () => move() });
   const size = part.maps[0];
-  const { element, readout } = stage(part, size, places, edge, ...tags);
+  const { element, readout } = stage(part, size, layers, edge, ...tags);
 
   let pair = pairs[0];
   const move = () => {
-    const share = Number(slider.value);
-    edge.style.left = `${share}%`;
-    places.lastChild.style.clipPath = `inset(0 0 0 ${share}%)`;
+    const fraction = Number(slider.value);
+    edge.style.left = `${fraction}%`;
+    layers.lastChild.style.clipPath = `inset(0 0 0 ${fraction}%)`;
     slider.setAttribute("aria-valuetext",
-                        `${labelOf(pair[0])} on the left ${Math.round(share)} %, ${labelOf(pair[1])} on the right`);
+                        `${labelOf(pair[0])} on the left ${Math.round(fraction)} %, ${labelOf(pair[1])} on the right`);
   };
   const choose = (chosen) => {
     pair = chosen;
-    places.replaceChildren(...pair.map((name) => layer(part, named.get(name))));
+    layers.replaceChildren(...pair.map((name) => layer(part, named.get(name))));
     tags.forEach((tag, i) => { tag.textContent = labelOf(pair[i]); });
     const seen = [...new Map(pair.map((name) => named.get(name).scale).filter(Boolean).map((one) => [one.title, one]))
       .values()];

@@ -15,14 +15,14 @@ async function unpackSurfaces({ surfaces, rows, cols, quantum }) {
   return all;
 }
 
-/** Heights under a line between two places, a cell apart: [way, height]. */
+/** Heights under a line between two positions, a cell apart: [way, height]. */
 function heightsAlong(bed, heights, [from, to]) {
   const long = Math.hypot(to[0] - from[0], to[1] - from[1]), n = Math.max(2, Math.ceil(long / bed.cellSize) + 1);
   return Array.from({ length: n }, (_, i) => {
-    const share = i / (n - 1);
+    const fraction = i / (n - 1);
     const [col, row] = [[0, bed.x0, bed.cols], [1, bed.y0, bed.rows]].map(([axis, first, count]) =>
-      Math.min(Math.max(Math.round((from[axis] + share * (to[axis] - from[axis]) - first) / bed.cellSize), 0), count - 1));
-    return [share * long, heights[row * bed.cols + col]];
+      Math.min(Math.max(Math.round((from[axis] + fraction * (to[axis] - from[axis]) - first) / bed.cellSize), 0), count - 1));
+    return [fraction * long, heights[row * bed.cols + col]];
   });
 }
 
@@ -45,7 +45,7 @@ function drawSand(part) {
   const view = sandView(bed, part.title);
   if (!view)
     return [el("p", {}, "This browser has no WebGL 2 and cannot draw sand in 3-D. The pictures on this page show it.")];
-  const profile = chartPlace({ class: "profile" });
+  const profile = chartFrame({ class: "profile" });
   const state = { view, part, heights: [], shown: surfaces.length - 1, line: null, ready: false };
   sandParts.push(state);
 
@@ -64,7 +64,7 @@ function drawSand(part) {
     const first = { name: surfaces[other].name, heights: state.heights[other], look: lookOfSurface.initial };
     profile.show(profileChart(bed, state.line, [first, last]));
   };
-  /** Draws a line on the bed, between two places. */
+  /** Draws a line on the bed, between two positions. */
   state.draw = (line) => {
     state.line = line;
     view.picture.setLine(line.map((at) => [at[0], at[1], at[2] ?? 0]));
@@ -91,9 +91,9 @@ function drawSand(part) {
     view.canvas.classList.toggle("draws", on);
     let from = null;
     view.drawing = !on ? null : (event) => {
-      const place = view.place(event);
-      if (event.type === "pointerdown") from = place;
-      if (event.type === "pointermove" && from && place) state.draw([from, place]);
+      const position = view.position(event);
+      if (event.type === "pointerdown") from = position;
+      if (event.type === "pointermove" && from && position) state.draw([from, position]);
       if (["pointerup", "pointercancel"].includes(event.type)) from = null;
       return event.type !== "wheel";
     };

@@ -15,18 +15,20 @@ from ._sandstroke import Tick
 class Simulation:
     """A device whose hand you move, for a controller, an optimiser or a learner.
 
-    scene, settings, surface, laws: as in run(); a stroke of the scene is not played. slips: sand relaxes as the scene
-    says; with False only when relax() is called. With the hand of a stroke and its velocities, ticks have the bits of
-    run().
+    scene, settings, surface, laws: as in run(); a stroke of the scene is not played. relaxes: sand relaxes as the
+    scene says; with False only when relax() is called (slips: the former name). With the hand of a stroke and its
+    velocities, ticks have the bits of run().
 
         sim = sandstroke.Simulation("scene.toml")
         tick = sim.tick((0.01, 0.0, -0.004))
         tick.force, tick.depth, tick.torque
     """
 
-    def __init__(self, scene: SceneLike = {}, *, settings: Mapping[str, Any] | None = None, slips: bool = True,
-                 surface: Array | None = None, laws: Laws | None = None) -> None:
-        self._stepped = _core._Simulation(with_laws(Scene(scene, settings)._here, laws), slips, surface)
+    def __init__(self, scene: SceneLike = {}, *, settings: Mapping[str, Any] | None = None, relaxes: bool = True,
+                 surface: Array | None = None, laws: Laws | None = None, slips: bool | None = None) -> None:
+        if slips is not None:
+            relaxes = slips
+        self._stepped = _core._Simulation(with_laws(Scene(scene, settings)._here, laws), relaxes, surface)
         self.tick = self._stepped.tick
 
     def tick(self, position: Array, velocity: Array | None = None, *, down: bool = True,

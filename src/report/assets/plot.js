@@ -59,8 +59,8 @@ function logarithmicTicks(low, high) {
 }
 
 /**
- * The places of values on an axis. `values` are what it must hold (on a logarithmic axis only positive values have a
- * place). `margin` is the share of the axis that is left free at each end.
+ * The positions of values on an axis. `values` are what it must hold (on a logarithmic axis only positive values have a
+ * position). `margin` is the fraction of the axis that is left free at each end.
  */
 function scaleOf(values, { logarithmic = false, margin = 0.05, title = "", unit = "" } = {}) {
   const at = (value) => {
@@ -68,8 +68,8 @@ function scaleOf(values, { logarithmic = false, margin = 0.05, title = "", unit 
     return logarithmic ? Math.log10(value) : value;
   };
   let low = Infinity, high = -Infinity;
-  for (const place of values.map(at))
-    if (place !== null) [low, high] = [Math.min(low, place), Math.max(high, place)];
+  for (const position of values.map(at))
+    if (position !== null) [low, high] = [Math.min(low, position), Math.max(high, position)];
   if (low > high) [low, high] = [0, 1];
   const least = logarithmic ? 0.3 : Math.max(Math.abs(high) * 1e-6, 1e-12);
   if (high === low || (margin > 0 && high - low < least)) [low, high] = [low - least / 2, high + least / 2];
@@ -79,22 +79,22 @@ function scaleOf(values, { logarithmic = false, margin = 0.05, title = "", unit 
   const { ticks, labelled } = logarithmic
     ? logarithmicTicks(low, high)
     : { ticks: roundTicks(low, high), labelled: roundTicks(low, high) };
-  const back = (place) => (logarithmic ? 10 ** place : place);
+  const back = (position) => (logarithmic ? 10 ** position : position);
   const axis = axisOf(low, high, withUnit(title, unit), ticks.map(at), labelled.map(at),
-                      (place) => tickText(back(place)));
+                      (position) => tickText(back(position)));
   axis.splitLine.lineStyle.color = ticks.map((tick) => (labelled.includes(tick) ? "#dde2e6" : "#f1f3f5"));
   return { at, low, high, from: back(low), to: back(high), axis };
 }
 
-/** The places of names on an axis: the i-th is at i. */
+/** The positions of names on an axis: the i-th is at i. */
 function nameScale(names, { title = "" } = {}) {
-  const [low, high] = [-0.5, names.length - 0.5], places = names.map((_, i) => i);
-  const axis = axisOf(low, high, title, places, places, (i) => names[i]);
+  const [low, high] = [-0.5, names.length - 0.5], positions = names.map((_, i) => i);
+  const axis = axisOf(low, high, title, positions, positions, (i) => names[i]);
   Object.assign(axis.axisLabel, { width: 56, overflow: "truncate" });
   return { at: (i) => i, low, high, axis };
 }
 
-/** An axis with ticks, some of which have labels: text(place). */
+/** An axis with ticks, some of which have labels: text(position). */
 const axisOf = (low, high, name, ticks, labelled, text) => ({
   type: "value", min: low, max: high, name, nameLocation: "middle", nameGap: 30,
   nameTextStyle: { color: "#1d2329", fontSize: 12 },
@@ -106,12 +106,12 @@ const axisOf = (low, high, name, ticks, labelled, text) => ({
 
 // ---- Colours for numbers: from light to dark, so that grey print keeps their order.
 const rampColours = ["#fdf5cc", "#cbe7bf", "#76c5bf", "#3394bd", "#2b60a4", "#222a63"];
-/** The colour at a share between 0 and 1. */
-const ramp = (share) => echarts.color.lerp(Math.min(Math.max(share, 0), 1), rampColours);
+/** The colour at a fraction between 0 and 1. */
+const ramp = (fraction) => echarts.color.lerp(Math.min(Math.max(fraction, 0), 1), rampColours);
 /** The colour of text on that colour. */
-const rampInk = (share) => (share > 0.55 ? "#ffffff" : "#1d2329");
-/** The place of a value on a scale (without margin), as a share of the scale. */
-const shareOf = (scale, value) => (scale.at(value) - scale.low) / (scale.high - scale.low);
+const rampInk = (fraction) => (fraction > 0.55 ? "#ffffff" : "#1d2329");
+/** The position of a value on a scale (without margin), as a fraction of the scale. */
+const fractionOf = (scale, value) => (scale.at(value) - scale.low) / (scale.high - scale.low);
 
 /** A colour bar: colour stops from low to high, with ticks [value, text]. */
 function colourBar({ name, low, high, ticks, stops }) {
@@ -122,9 +122,9 @@ function colourBar({ name, low, high, ticks, stops }) {
                el("div", { class: "marks" }, ...marks)));
 }
 
-/** The ramp's colour bar over a scale, from the share `from` of the ramp on. */
+/** The ramp's colour bar over a scale, from the fraction `from` of the ramp on. */
 function rampBar({ low, high, axis: { name, axisLabel } }, from = 0) {
-  const ticks = axisLabel.customValues.map((place) => [place, axisLabel.formatter(place)]);
+  const ticks = axisLabel.customValues.map((position) => [position, axisLabel.formatter(position)]);
   const stops = Array.from({ length: 11 }, (_, i) => ramp(from + (1 - from) * (i / 10)));
   return colourBar({ name, low, high, ticks, stops });
 }
@@ -197,8 +197,8 @@ function drawChart(one) {
   one.observer.observe(one.canvas);
 }
 
-/** A place for one chart after the other: show(what) draws chart(what) there; change(option) changes what is drawn. */
-function chartPlace(attributes) {
+/** A frame for one chart after the other: show(what) draws chart(what) there; change(option) changes what is drawn. */
+function chartFrame(attributes) {
   const element = el("div", attributes);
   let one = null;
   const remove = () => {
@@ -240,13 +240,13 @@ const lineOf = (name, points, x, y, look, more = {}) => ({
   lineStyle: { color: look.colour, type: look.dash ?? "solid", width: look.width ?? 1.5 }, ...more,
 });
 
-// ---- Maps: rectangles, which are items with `value: [left, bottom, right, top]` in places of the axes.
+// ---- Maps: rectangles, which are items with `value: [left, bottom, right, top]` in positions of the axes.
 
-/** The borders between cells: midway between their places. */
-function borders(places) {
-  const middle = places.slice(1).map((place, i) => (place + places[i]) / 2);
-  if (middle.length === 0) return [places[0] - 0.5, places[0] + 0.5];
-  return [2 * places[0] - middle[0], ...middle, 2 * places.at(-1) - middle.at(-1)];
+/** The borders between cells: midway between their positions. */
+function borders(positions) {
+  const middle = positions.slice(1).map((position, i) => (position + positions[i]) / 2);
+  if (middle.length === 0) return [positions[0] - 0.5, positions[0] + 0.5];
+  return [2 * positions[0] - middle[0], ...middle, 2 * positions.at(-1) - middle.at(-1)];
 }
 
 function rectangle(api) {

@@ -56,10 +56,10 @@ float horizon(ivec2 cell, float here, vec2 way, float steps, float growth) {
   return highest;
 }
 // Grains and patches whose waves the cells can show.
-float grains(vec2 place) {
-  float sum = 0.04 * noise(place / 0.06);
-  if (cell_size < 0.003) sum += 0.08 * noise(place / 0.008);
-  if (cell_size < 0.0012) sum += 0.10 * noise(place / 0.0026);
+float grains(vec2 position) {
+  float sum = 0.04 * noise(position / 0.06);
+  if (cell_size < 0.003) sum += 0.08 * noise(position / 0.008);
+  if (cell_size < 0.0012) sum += 0.10 * noise(position / 0.0026);
   return sum;
 }
 void main() {
@@ -112,13 +112,13 @@ out vec4 colour;
 ${paletteShader("low_to_high", palettes.sequential)}
 ${paletteShader("blue_to_red", palettes.diverging)}
 vec3 scale_colour(float value) {
-  float share = clamp((value - range.x) / (range.y - range.x), 0.0, 1.0);
+  float fraction = clamp((value - range.x) / (range.y - range.x), 0.0, 1.0);
   if (diverging) {
-    int i = min(int(share * 4.0), 3);
-    return mix(blue_to_red[i], blue_to_red[i + 1], share * 4.0 - float(i));
+    int i = min(int(fraction * 4.0), 3);
+    return mix(blue_to_red[i], blue_to_red[i + 1], fraction * 4.0 - float(i));
   }
-  int i = min(int(share * 5.0), 4);
-  return mix(low_to_high[i], low_to_high[i + 1], share * 5.0 - float(i));
+  int i = min(int(fraction * 5.0), 4);
+  return mix(low_to_high[i], low_to_high[i + 1], fraction * 5.0 - float(i));
 }
 // The fraction of the light that the tool leaves: it casts a shadow and hides part of the sky. An approximation.
 float past_tool() {
@@ -146,14 +146,14 @@ void main() {
 const solidVertex = `
 in vec3 vertex;
 uniform mat4 to_picture;
-uniform vec3 place, scale, axis;   // the mesh's z goes along the axis,
+uniform vec3 position, scale, axis;   // the mesh's z goes along the axis,
 uniform vec4 turn;                 // after it was turned by a quaternion (x, y, z, w)
 out vec3 mesh, world;
 void main() {
   vec3 x = normalize(abs(axis.z) < 0.9 ? cross(vec3(0.0, 0.0, 1.0), axis) : cross(vec3(0.0, 1.0, 0.0), axis));
   mesh = vertex;
   vec3 turned = vertex + 2.0 * cross(turn.xyz, cross(turn.xyz, vertex) + turn.w * vertex);
-  world = place + mat3(x, cross(axis, x), axis) * (turned * scale);
+  world = position + mat3(x, cross(axis, x), axis) * (turned * scale);
   gl_Position = to_picture * vec4(world, 1.0);
 }`;
 
@@ -323,17 +323,17 @@ function sandPicture(canvas, bed) {
            range: colouring ? [colouring.low, colouring.high, 1] : [0, 1, 0], diverging: colouring?.diverging ?? false });
     drawTiles(camera, canvas.height / (2 * camera.tan * coarseness));
     const upright = { ...world, axis: [0, 0, 1], turn: [0, 0, 0, 1], gloss: 0 };
-    drawSolid(box, { ...upright, place: [0, 0, 0], scale: [1, 1, 1], paint: [0.27, 0.16, 0.09, 1] });
+    drawSolid(box, { ...upright, position: [0, 0, 0], scale: [1, 1, 1], paint: [0.27, 0.16, 0.09, 1] });
     if (line) {
       const along = plus(line[1], line[0], -1), thin = 0.002 * size;
       gl.disable(gl.DEPTH_TEST);
-      drawSolid(rod, { ...upright, axis: unitOf(along), place: line[0], scale: [thin, thin, lengthOf(along)],
+      drawSolid(rod, { ...upright, axis: unitOf(along), position: line[0], scale: [thin, thin, lengthOf(along)],
                        paint: [0.0, 0.2, 0.6, 1] });
       gl.enable(gl.DEPTH_TEST);
     }
     if (!tool) return;
-    const { radius } = tool, ball = { place: centre, scale: [radius, radius, radius], gloss: 2.5 };
-    const body = { ...upright, ...(toolMesh ? { place: tool.tip, scale: [1, 1, 1], turn: tool.turn } : ball) };
+    const { radius } = tool, ball = { position: centre, scale: [radius, radius, radius], gloss: 2.5 };
+    const body = { ...upright, ...(toolMesh ? { position: tool.tip, scale: [1, 1, 1], turn: tool.turn } : ball) };
     const drawTool = (opacity) => drawSolid(toolMesh ?? sphere, { ...body, paint: [0.12, 0.16, 0.21, opacity] });
     drawTool(1);
     gl.enable(gl.BLEND);
@@ -346,7 +346,7 @@ function sandPicture(canvas, bed) {
     gl.disable(gl.BLEND);
     const push = lengthOf(tool.force);
     if (push > 0.2 * radius)
-      drawSolid(arrow, { ...upright, axis: unitOf(tool.force), place: centre, paint: [0.75, 0.13, 0.02, 1],
+      drawSolid(arrow, { ...upright, axis: unitOf(tool.force), position: centre, paint: [0.75, 0.13, 0.02, 1],
                          scale: [0.3 * radius, 0.3 * radius, radius + push] });
   };
 
@@ -369,7 +369,7 @@ function sandPicture(canvas, bed) {
     setToolMesh: (vertices, triangles) => {
       toolMesh = glMesh(gl, Float32Array.from(vertices), Uint32Array.from(triangles));
     },
-    /** Sets a line between two places; null: there is none. */
+    /** Sets a line between two positions; null: there is none. */
     setLine: (one) => { line = one; },
     /** Sets colours for values (by cell; null: the heights themselves) from low to high; null: sand. */
     setColours: (one) => {
@@ -396,7 +396,7 @@ function sandPicture(canvas, bed) {
       unfinished = gl.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
       gl.flush();
     },
-    /** The place where a ray meets the sand [m]; null: nowhere. */
+    /** The position where a ray meets the sand [m]; null: nowhere. */
     meet: ([from, way]) => {
       const reaches = [0, 1].map((i) => [[origin[i] - from[i]], [origin[i] + (cells[i] - 1) * cellSize - from[i]]]
         .map(([d]) => d / (way[i] || 1e-12)).sort((a, b) => a - b));

@@ -23,7 +23,7 @@ function orbitCamera(bed, size) {
       now.azimuth -= right;
       now.elevation = clamp(now.elevation + up, 0.02, Math.PI / 2 - 1e-3);
     },
-    /** Shifts by shares of the picture's height. */
+    /** Shifts by fractions of the picture's height. */
     shift: (right, up) => {
       const camera = of(1), metres = 2 * tan * camera.distance;
       const ahead = [-Math.cos(now.azimuth), -Math.sin(now.azimuth), 0];
@@ -33,7 +33,7 @@ function orbitCamera(bed, size) {
     zoom: (factor) => { now.distance = clamp(now.distance * factor, 0.06 * size, 4 * size); },
     look: (at) => { now.target = [...at]; },
     reset: () => Object.assign(now, start, { target: [...start.target] }),
-    /** Eye and direction through a place in the picture (x, y from -1 to 1, y up). */
+    /** Eye and direction through a position in the picture (x, y from -1 to 1, y up). */
     ray: (x, y, aspect) => {
       const camera = of(aspect);
       return [camera.eye, unitOf(plus(plus(camera.forward, camera.right, x * tan * aspect), camera.up, y * tan))];
@@ -47,7 +47,7 @@ const viewHelp = "Drag to turn, Shift+drag to shift; the wheel zooms. Keys: arro
 
 /**
  * A view of a bed; null where it cannot be drawn. It has canvas; picture (sandPicture): call changed() when it changed;
- * place(event): the place on the sand under the pointer; and drawing: a function that takes pointer events of the main
+ * position(event): the position on the sand under the pointer; and drawing: a function that takes pointer events of the main
  * button instead of turning, and then returns true.
  */
 function sandView(bed, label) {
@@ -127,16 +127,16 @@ function sandView(bed, label) {
     },
   };
 
-  // ---- The pointer. Its place is where a ray through it meets the sand.
-  const sharesOf = (event) => {
+  // ---- The pointer. Its position is where a ray through it meets the sand.
+  const fractionsOf = (event) => {
     const { left, top, width, height } = canvas.getBoundingClientRect();
     return [(2 * (event.clientX - left)) / width - 1, 1 - (2 * (event.clientY - top)) / height, width / height];
   };
-  view.place = (event) => picture.meet(camera.ray(...sharesOf(event)));
+  view.position = (event) => picture.meet(camera.ray(...fractionsOf(event)));
 
-  const held = new Map();  // pointers that turn, shift or zoom, by id
+  const pressed = new Map();  // pointers that turn, shift or zoom, by id
   const step = (event) => {
-    const before = held.get(event.pointerId), others = [...held.values()].filter((one) => one !== before);
+    const before = pressed.get(event.pointerId), others = [...pressed.values()].filter((one) => one !== before);
     const height = canvas.clientHeight;
     const [right, down] = [(event.clientX - before.x) / height, (event.clientY - before.y) / height];
     if (others.length > 0) {
@@ -155,16 +155,16 @@ function sandView(bed, label) {
     canvas.focus({ preventScroll: true });
     event.preventDefault();
     canvas.setPointerCapture(event.pointerId);  // until it is let go, wherever it goes
-    if (event.button === 0 && !event.shiftKey && held.size === 0 && view.drawing?.(event)) return;
-    held.set(event.pointerId, { x: event.clientX, y: event.clientY, shifts: event.button === 1 });
+    if (event.button === 0 && !event.shiftKey && pressed.size === 0 && view.drawing?.(event)) return;
+    pressed.set(event.pointerId, { x: event.clientX, y: event.clientY, shifts: event.button === 1 });
   });
   canvas.addEventListener("pointermove", (event) => {
-    if (held.has(event.pointerId)) step(event);
+    if (pressed.has(event.pointerId)) step(event);
     else view.drawing?.(event);
   });
   for (const name of ["pointerup", "pointercancel"])
     canvas.addEventListener(name, (event) => {
-      if (!held.delete(event.pointerId)) view.drawing?.(event);
+      if (!pressed.delete(event.pointerId)) view.drawing?.(event);
     });
   canvas.addEventListener("pointerleave", (event) => { view.drawing?.(event); });
   canvas.addEventListener("contextmenu", (event) => event.preventDefault());

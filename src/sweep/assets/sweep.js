@@ -6,8 +6,8 @@
 function readSweep(data) {
   const shown = (one) => ({ ...one, unit: unitText(one.unit) });
   const axes = data.axes.map(shown).map(prepareAxis), metrics = data.metrics.map(shown);
-  const byPlace = new Map(data.points.map((point) => [point.at.join(), point]));
-  return { ...data, axes, metrics, latin: data.design === "latin", pointAt: (at) => byPlace.get(at.join()) ?? null };
+  const byPosition = new Map(data.points.map((point) => [point.at.join(), point]));
+  return { ...data, axes, metrics, latin: data.design === "latin", pointAt: (at) => byPosition.get(at.join()) ?? null };
 }
 
 /** The axes and the size of the sweep, in words. */
@@ -136,10 +136,10 @@ drawPage((data, main) => {
   /** One step along the chart's axes; where there is no grid, over the points in their order. */
   const step = (dx, dy) => {
     if (latin) {
-      const along = (k) => ({ at }) => axes[k].place(at[k]);
-      const place = dx ? along(view.x) : view.second !== null ? along(view.second)
+      const along = (k) => ({ at }) => axes[k].position(at[k]);
+      const position = dx ? along(view.x) : view.second !== null ? along(view.second)
         : ({ metrics: values }) => values[view.metric] ?? -Number.MAX_VALUE;
-      const order = [...points].sort((a, b) => place(a) - place(b));
+      const order = [...points].sort((a, b) => position(a) - position(b));
       const next = order[order.indexOf(sweep.pointAt(view.at)) + dx + dy];
       if (next) select(next);
       return;
@@ -158,7 +158,7 @@ drawPage((data, main) => {
     after();
   };
 
-  const place = chartPlace({ class: "keys", tabindex: "0", role: "application", keydown: keys(() => {}),
+  const chart = chartFrame({ class: "keys", tabindex: "0", role: "application", keydown: keys(() => {}),
                              "aria-label": "Chart: the arrow keys select the next point along its axes" });
   const controls = viewControls(sweep, view, () => redraw(), (axis, i) =>
     selectAt(view.at.map((old, k) => (k === axis ? i : old))));
@@ -170,14 +170,14 @@ drawPage((data, main) => {
     detail.show(point);
     rows.mark(point);
     pictures?.mark(point);
-    if (drawn) place.change({ series: drawn.mark(point) });
+    if (drawn) chart.change({ series: drawn.mark(point) });
     write();
   };
   const redraw = () => {
     controls.sync();
     if (metrics.length > 0) {
       drawn = (latin ? scatterChart : kindOf(view) === "map" ? mapChart : linesChart)(sweep, view);
-      place.show({ ...drawn, click: ({ data }) => data?.point && select(data.point) });
+      chart.show({ ...drawn, click: ({ data }) => data?.point && select(data.point) });
     }
     pictures?.show();
     mark();
@@ -186,7 +186,7 @@ drawPage((data, main) => {
   const reasons = mishaps(points, select);
   if (reasons) main.append(reasons);
   main.append(el("div", { class: "explore" },
-    el("div", {}, metrics.length > 0 ? el("section", {}, controls.element, place.element)
+    el("div", {}, metrics.length > 0 ? el("section", {}, controls.element, chart.element)
                                      : el("p", { class: "quiet" }, "No metrics were collected."),
        pictures?.element, rows.element),
     detail.element));

@@ -1,6 +1,6 @@
 "use strict";
 // The charts of a sweep's report: a metric along an axis as lines, over two axes as a map, and the scattered points of
-// a Latin hypercube. In each, points without a value have a place and a sign.
+// a Latin hypercube. In each, points without a value have a position and a sign.
 
 const cross = "M0.5 2l1.5-1.5 3 3 3-3 1.5 1.5-3 3 3 3-1.5 1.5-3-3-3 3-1.5-1.5 3-3z";
 // The look of a verdict in maps. `mark` is its symbol where a point has no value because of it.
@@ -23,29 +23,29 @@ const isDoubtful = ({ verdict }) => verdict === "not at rest" || verdict === "ac
 const selectedColour = "#ff5fb0";
 const manyItems = 1500;
 
-/** An axis with the place of its i-th value, the order of its values, and their text. */
+/** An axis with the position of its i-th value, the order of its values, and their text. */
 function prepareAxis(axis) {
   const { name, unit, values } = axis;
   const numeric = axis.numeric && values.every(isNumber);
   const logarithmic = numeric && axis.log && values.every((value) => value > 0);
-  const place = (i) => (numeric ? (logarithmic ? Math.log10(values[i]) : values[i]) : i);
-  const order = values.map((_, i) => i).sort((a, b) => place(a) - place(b));
+  const position = (i) => (numeric ? (logarithmic ? Math.log10(values[i]) : values[i]) : i);
+  const order = values.map((_, i) => i).sort((a, b) => position(a) - position(b));
   const rank = [];
   order.forEach((i, k) => { rank[i] = k; });
   const text = (i) => (numeric ? exact(values[i]) : String(values[i] ?? "–"));
   const scale = (margin) => (numeric
-    ? { ...scaleOf(values, { logarithmic, margin, title: name, unit }), at: place }
+    ? { ...scaleOf(values, { logarithmic, margin, title: name, unit }), at: position }
     : nameScale(values.map(String), { title: withUnit(name, unit) }));
   /** The scale on which the cell of the i-th value reaches from edges[i][0] to edges[i][1]. */
   const cells = () => {
-    const found = borders(order.map(place));
+    const found = borders(order.map(position));
     const back = (at) => (logarithmic ? 10 ** at : at);
     return {
       ...(numeric ? scaleOf(found.map(back), { logarithmic, margin: 0, title: name, unit }) : scale()),
       edges: values.map((_, i) => [found[rank[i]], found[rank[i] + 1]]),
     };
   };
-  return { ...axis, numeric, logarithmic, place, order, rank, text, scale, cells };
+  return { ...axis, numeric, logarithmic, position, order, rank, text, scale, cells };
 }
 
 /** The points that a view shows: those that have the selected point's values of the `fixed` axes. */
@@ -79,8 +79,8 @@ function viewOf(sweep, view) {
     const own = without.filter((point) => nameWithout(point) === name);
     return { name, text: `${name}: ${count(own.length, "point")}`, ...lookWithout(own[0]) };
   });
-  const held = fixed.map((i) => `${axes[i].name} = ${axes[i].text(view.at[i])} ${axes[i].unit}`.trim());
-  const note = [held.length > 0 && `At ${held.join(", ")}.`,
+  const fixedTexts = fixed.map((i) => `${axes[i].name} = ${axes[i].text(view.at[i])} ${axes[i].unit}`.trim());
+  const note = [fixedTexts.length > 0 && `At ${fixedTexts.join(", ")}.`,
                 without.length === shown.length && "No point here has a value of this metric."]
     .filter(Boolean).join(" ") || null;
   return { metric, x, second, valueOf, shown, without, scaled, tip, legend, note };
@@ -103,11 +103,11 @@ const ring = (data) => ({
   symbolSize: 17, itemStyle: { color: "none", borderColor: "#111111", borderWidth: 2.5 },
 });
 
-/** Symbols of points that have no value, at place(point). */
-const signSeries = (points, place, offset = () => 0) =>
+/** Symbols of points that have no value, at position(point). */
+const signSeries = (points, position, offset = () => 0) =>
   points.map((point) => {
     const { symbol, colour, hollow } = lookWithout(point).mark;
-    return { point, value: place(point), symbol: outlined(symbol), symbolOffset: [0, offset(point)],
+    return { point, value: position(point), symbol: outlined(symbol), symbolOffset: [0, offset(point)],
              itemStyle: { color: hollow ? "#ffffff" : colour, borderColor: colour, borderWidth: hollow ? 1.75 : 0 } };
   });
 
@@ -115,7 +115,7 @@ const signSeries = (points, place, offset = () => 0) =>
 function linesChart(sweep, view) {
   const { metric, x, second, valueOf, shown, without, scaled, tip, legend, note } = viewOf(sweep, view);
   const xScale = x.scale(), y = scaled(0.08);
-  // Signs stand one above the other where lines lack a value at the same place, in room of their own.
+  // Signs stand one above the other where lines lack a value at the same position, in room of their own.
   const height = new Map(), steps = new Map();
   for (const point of without) {
     const step = steps.get(point.at[view.x]) ?? 0;
@@ -147,11 +147,11 @@ function linesChart(sweep, view) {
     type: "scatter", name: "without", symbolSize: 9, z: 5, clip: false,
     data: signSeries(without, (point) => [xScale.at(point.at[view.x]), y.low], (point) => height.get(point)),
   };
-  const place = (point) => (isNumber(valueOf(point))
+  const position = (point) => (isNumber(valueOf(point))
     ? { value: [xScale.at(point.at[view.x]), y.at(valueOf(point))] }
     : { value: [xScale.at(point.at[view.x]), y.low], symbolOffset: [0, height.get(point) ?? -8] });
   return {
-    mark: (point) => [ring(point ? [{ point, ...place(point) }] : [])],
+    mark: (point) => [ring(point ? [{ point, ...position(point) }] : [])],
     title: `${metric.title} along ${x.name}`, note, many: shown.length > manyItems,
     bar: bar ? rampBar(second.scale(0), gradeFrom) : null,
     legend: [
@@ -174,9 +174,9 @@ function mapChart(sweep, view) {
   };
   const look = ({ point }) => {
     if (!isNumber(valueOf(point))) return lookWithout(point);
-    const share = shareOf(scale, valueOf(point));
+    const fraction = fractionOf(scale, valueOf(point));
     const sign = isDoubtful(point) ? lookOfVerdict(point.verdict).sign : "";
-    return { fill: ramp(share), sign, ink: rampInk(share) };
+    return { fill: ramp(fraction), sign, ink: rampInk(fraction) };
   };
   const doubtful = [...new Set(shown.filter(isDoubtful).map(({ verdict }) => verdict))].map((name) =>
     ({ name, ...lookOfVerdict(name), fill: "#ffffff", ink: "#1d2329" }));
@@ -195,7 +195,7 @@ function scatterChart(sweep, view) {
   const { metric, x, second, valueOf, shown, without, scaled, tip, legend, note } = viewOf(sweep, view);
   const xScale = x.scale(), y = second ? second.scale() : scaled(0.08), colour = second && scaled(0);
   if (!second && without.length > 0) addGround(y, 1);
-  const place = (point) => [xScale.at(point.at[view.x]),
+  const position = (point) => [xScale.at(point.at[view.x]),
                             second ? y.at(point.at[view.second]) : y.at(valueOf(point)) ?? y.low];
   const offset = (point) => (second || isNumber(valueOf(point)) ? 0 : -8);
   const size = shown.length > manyItems ? 5 : 10;
@@ -203,16 +203,16 @@ function scatterChart(sweep, view) {
     type: "scatter", name: "known", symbolSize: size, symbol: outlined(symbols[0]), progressive: 0,
     data: shown.filter((point) => isNumber(valueOf(point))).map((point) => {
       const doubtful = isDoubtful(point), fill = doubtful ? "#ffffff" : colours[0];
-      return { point, value: place(point), itemStyle: colour
-        ? { color: ramp(shareOf(colour, valueOf(point))), borderColor: doubtful ? "#111111" : "#5b6670",
+      return { point, value: position(point), itemStyle: colour
+        ? { color: ramp(fractionOf(colour, valueOf(point))), borderColor: doubtful ? "#111111" : "#5b6670",
             borderWidth: doubtful ? 2.25 : 0.75, opacity: 1 }
         : { color: fill, borderColor: colours[0], borderWidth: doubtful ? 2 : 0 } };
     }),
   };
   const signs = { type: "scatter", name: "without", symbolSize: 9, z: 5, clip: false,
-                  data: signSeries(without, place, offset) };
+                  data: signSeries(without, position, offset) };
   return {
-    mark: (point) => [ring(point ? [{ point, value: place(point), symbolOffset: [0, offset(point)] }] : [])],
+    mark: (point) => [ring(point ? [{ point, value: position(point), symbolOffset: [0, offset(point)] }] : [])],
     title: second ? `${metric.title} over ${x.name} and ${second.name}` : `${metric.title} against ${x.name}`,
     note, many: shown.length > manyItems, bar: colour && rampBar(colour), height: second && "26rem",
     legend: [...doubtfulEntry(shown, colour ? "heavy edge" : "hollow"), ...legend.map(marked)],

@@ -80,11 +80,11 @@ function gallery(sweep, view, select, keys) {
   const body = el("div", { role: "group", "aria-label": "Pictures", keydown: keys });
   const buttons = new Map();
   const button = (point) => {
-    const places = axes.map((axis, i) => `${axis.name} ${axis.text(point.at[i])}`).join(", ");
+    const positions = axes.map((axis, i) => `${axis.name} ${axis.text(point.at[i])}`).join(", ");
     const source = thumbnailOf(point), look = lookOfVerdict(point.verdict);
     const one = el("button", { type: "button", class: "picture", tabindex: "-1", click: () => select(point),
-                               title: `point ${point.point}: ${places}`,
-                               "aria-label": `point ${point.point}, ${point.verdict}, ${places}` },
+                               title: `point ${point.point}: ${positions}`,
+                               "aria-label": `point ${point.point}, ${point.verdict}, ${positions}` },
                    source ? el("img", { src: source, alt: "", loading: "lazy" })
                           : el("span", { style: `background: ${look.fill}; color: ${look.ink}` }, look.sign || "∅"));
     buttons.set(point, one);

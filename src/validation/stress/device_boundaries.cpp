@@ -81,7 +81,10 @@ double measured_boundary_gain(const LoopSettings& settings) {
   double low = passive_gain(settings);
   while (!settles(low)) low *= 0.5;
   double high = 2.0 * low;
-  while (settles(high)) low = high, high *= 2.0;
+  while (settles(high)) {
+    low = high;
+    high *= 2.0;
+  }
   return boundary_between(low, high, 10, geometric_mean, settles);
 }
 

@@ -15,7 +15,7 @@ using State = SimulatedDevice::State;
 /// The force on the device at rest [N].
 Eigen::Vector3d force_at_rest(const LoopSettings& settings) {
   if (const auto* yielding = std::get_if<YieldingSand>(&settings.against))
-    return {0.0, 0.0, YieldingSand::share_at_rest * yielding->strength};
+    return {0.0, 0.0, YieldingSand::fraction_at_rest * yielding->strength};
   const auto* sand = std::get_if<PressedSand>(&settings.against);
   if (!sand) return Eigen::Vector3d::Zero();
   const double drag = felt_about_rest(settings).x.damping;
@@ -68,8 +68,8 @@ DeviceLoop::DeviceLoop(const LoopSettings& settings)
       read_z_(rest_.position.z()) {
   // At rest the hand's spring balances sand and damping: k_h lead = b v - F.
   const DeviceSettings& d = settings.device;
-  const Eigen::Vector3d held = d.damping * rest_.velocity - force_;
-  if (!held.isZero(0.0)) lead_ = held / d.hand_stiffness;
+  const Eigen::Vector3d from_hand = d.damping * rest_.velocity - force_;
+  if (!from_hand.isZero(0.0)) lead_ = from_hand / d.hand_stiffness;
 }
 
 State DeviceLoop::hand_at(std::int64_t tick) const {
@@ -113,16 +113,16 @@ LoopRun run_loop(const LoopSettings& settings, std::int64_t ticks) {
   DeviceLoop loop(settings);
   LoopRun run;
   for (std::size_t w = 0; w < windows; ++w) {
-    Eigen::AlignedBox3d places;
+    Eigen::AlignedBox3d positions;
     for (std::int64_t k = 0; k < window; ++k) {
-      places.extend(loop.heading_off_rest());
+      positions.extend(loop.heading_off_rest());
       loop.tick();
       if (!(loop.off_rest().cwiseAbs().maxCoeff() < settings.far)) {  // NaN also counts as far
         const double infinite = std::numeric_limits<double>::infinity();
         return {Verdict::diverged, infinite, infinite};
       }
     }
-    swing[w] = places.sizes().maxCoeff();
+    swing[w] = positions.sizes().maxCoeff();
     run.swing = swing[w];
     run.growth = swing[w] / swing[w / 2];
     run.verdict = Verdict::stable;

@@ -30,7 +30,7 @@ struct PressedSand {
 struct YieldingSand {
   double strength = 0.0;  ///< N, the force once the sand has yielded
   double yield = 0.001;   ///< m in the bed
-  static constexpr double share_at_rest = 0.5;
+  static constexpr double fraction_at_rest = 0.5;
 };
 
 /// A dynamic device that a hand holds against something. It starts a little off its rest.
@@ -41,7 +41,7 @@ struct LoopSettings {
   double far = 1e3;           ///< m off its rest: a device beyond it has diverged
 };
 
-/// Multiplies all forces at the same place by `gain` (for sand: k_s or strength).
+/// Multiplies all forces at the same position by `gain` (for sand: k_s or strength).
 LoopSettings with_gain(LoopSettings settings, double gain);
 
 /// The stiffness and damping that resist the device's motion along x and z about its rest.
@@ -56,10 +56,10 @@ class DeviceLoop {
   explicit DeviceLoop(const LoopSettings& settings);
 
   void tick();
-  /// Distance [m] from the device's rest or, when drawn along, from its steady place.
+  /// Distance [m] from the device's rest or, when drawn along, from its steady position.
   Eigen::Vector3d off_rest() const;
   /// off_rest() one tick later [m], if the device kept its speed. A device that swings at half the servo rate
-  /// is at the same place at the start of every tick: only its speed shows the swing.
+  /// is at the same position at the start of every tick: only its speed shows the swing.
   Eigen::Vector3d heading_off_rest() const;
   const SimulatedDevice& device() const { return device_; }
   const Eigen::Vector3d& force() const { return force_; }  ///< N, acted in the last tick
@@ -75,8 +75,8 @@ class DeviceLoop {
   SimulatedDevice device_;
   LateForce late_force_;
   Eigen::Vector3d force_;
-  double yielded_ = YieldingSand::share_at_rest;  // YieldingSand: force over strength, -1 to 1, and
-  double read_z_;                                 // where the device was read then, m
+  double yielded_ = YieldingSand::fraction_at_rest;  // YieldingSand: force over strength, -1 to 1, and
+  double read_z_;                                    // where the device was read then, m
 };
 
 struct LoopRun {

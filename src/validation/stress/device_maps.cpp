@@ -67,10 +67,10 @@ LoopMapPlan dropped_ticks(const MapAxis& x, const MapAxis& stiffness) {
       "dropped-stiffness", "Dropped ticks and stiffness",
       "A two-sided wall at 1 kHz, and a loop that drops a fraction of its ticks: there the last force stays, "
       "which works like a delay. The expected verdicts come from random products of the two exact tick maps.",
-      x, stiffness, [](double share, double K) {
+      x, stiffness, [](double fraction, double K) {
         LoopSettings loop;
         loop.device = ideal_device();
-        loop.device.dropped_ticks = share;
+        loop.device.dropped_ticks = fraction;
         loop.against = Wall{K, 0.0};
         return loop;
       });
@@ -161,7 +161,8 @@ LoopMapPlan hand_plan(const MapAxis& stiffness, const MapAxis& damping) {
       stiffness, damping, [](double stiffness_of_hand, double damping_of_hand) {
         DeviceSettings device = limited_device();
         device.servo_rate = 100.0;
-        device.hand_stiffness = stiffness_of_hand, device.hand_damping = damping_of_hand;
+        device.hand_stiffness = stiffness_of_hand;
+        device.hand_damping = damping_of_hand;
         return sand_of_stiffness(2e3, device);
       });
 }
@@ -172,7 +173,9 @@ LoopMapPlan depth_plan(const MapAxis& k_c, const MapAxis& depths) {
               "so the loop is stable down to some depth.",
               k_c, depths, [](double growth, double depth_of_tip) {
                 ForceSettings force;
-                force.k_s = 10.0, force.k_c = growth, force.k_f = 0.0;
+                force.k_s = 10.0;
+                force.k_c = growth;
+                force.k_f = 0.0;
                 return pressed_to(depth_of_tip, ideal_device(), force);
               });
 }
@@ -197,10 +200,10 @@ LoopMapPlan yield_plan(const MapAxis& yield, const MapAxis& strength) {
 std::vector<LoopMapPlan> device_map_plans(bool quick) {
   const int cols = quick ? 8 : 24, rows = quick ? 7 : 20;
   const auto x = [&](const char* name, const char* unit, double low, double high) {
-    return map_axis(name, unit, true, low, high, cols);
+    return map_axis(name, unit, AxisScale::logarithmic, low, high, cols);
   };
   const auto y = [&](const char* name, const char* unit, double low, double high) {
-    return map_axis(name, unit, true, low, high, rows);
+    return map_axis(name, unit, AxisScale::logarithmic, low, high, rows);
   };
   const MapAxis servo_rate = x("servo rate", "Hz", 50.0, 20e3), stiffness = y("stiffness", "N/m", 100.0, 1e6);
   return {
@@ -222,7 +225,9 @@ std::vector<LoopMapPlan> device_map_plans(bool quick) {
           x("mass", "kg", 0.01, 10.0), y("damping", "N s/m", 0.1, 100.0),
           [](double mass, double damping) {
             DeviceSettings device = limited_device();
-            device.mass = mass, device.damping = damping, device.hand_damping = 0.0;
+            device.mass = mass;
+            device.damping = damping;
+            device.hand_damping = 0.0;
             return sand_of_stiffness(20e3, device);
           }),
       hand_plan(x("hand stiffness", "N/m", 10.0, 1e4), y("hand damping", "N s/m", 0.1, 100.0)),
@@ -232,18 +237,19 @@ std::vector<LoopMapPlan> device_map_plans(bool quick) {
            servo_rate, y("scale", "", 0.1, 1000.0),
            [](double rate, double scale) {
              DeviceSettings device = limited_device();
-             device.servo_rate = rate, device.scale = scale;
+             device.servo_rate = rate;
+             device.scale = scale;
              return pressed_with(pressing, device, ForceSettings{});
            }),
       plan("delay-stiffness", "Delay and stiffness",
            "Sand under 3 N at 1 kHz, 12 N at most, whose force acts some ticks late.",
-           map_axis("delay", "ticks", false, 0.0, 20.0, quick ? 6 : 21), stiffness,
+           map_axis("delay", "ticks", AxisScale::linear, 0.0, 20.0, quick ? 6 : 21), stiffness,
            [](double delay, double K) {
              DeviceSettings device = limited_device();
              device.delay = static_cast<int>(std::lround(delay));
              return sand_of_stiffness(K, device);
            }),
-      dropped_ticks(map_axis("dropped ticks", "", false, 0.0, 0.9, quick ? 7 : 19), stiffness),
+      dropped_ticks(map_axis("dropped ticks", "", AxisScale::linear, 0.0, 0.9, quick ? 7 : 19), stiffness),
       encoder_steps(x("encoder resolution", "m", 1e-7, 1e-3), stiffness),
       yield_plan(x("yield way", "m", 1e-5, 1e-2), y("strength", "N", 0.1, 100.0)),
       depth_plan(x("k_c", "1/m", 10.0, 400.0), y("depth", "m", 5e-4, 0.05)),

@@ -19,7 +19,7 @@ constexpr double agreement = 0.02;
 void add_boundaries(StressReport& report) {
   const std::vector<LoopSettings> loops = varied_loops(boundaries);
   std::vector<Boundary> found(loops.size());
-  parallel_for(loops.size(), true, [&](std::size_t i) { found[i] = boundary_of(loops[i]); });
+  parallel_for(loops.size(), [&](std::size_t i) { found[i] = boundary_of(loops[i]); });
   for (const Boundary& boundary : found) {
     const double off = boundary.measured / boundary.exact - 1.0;
     const bool agrees = std::abs(off) <= agreement && boundary.measured >= boundary.passive;

@@ -15,7 +15,7 @@ struct JudgedRun {
   std::string reason;  ///< what is wrong with the run, or the error sentence of a refusal
   RunResult result;    ///< empty where the run was refused
   double overshoot =
-      0.0;  ///< how far the end leaves the range of the starting heights, as a share of the highest
+      0.0;  ///< how far the end leaves the range of the starting heights, as a fraction of the highest
 };
 
 /// Checks a scene as for a user (check_scene, Simulation), runs it and judges it, in this order:

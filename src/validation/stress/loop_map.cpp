@@ -9,7 +9,7 @@
 namespace sandstroke {
 namespace {
 
-/// The lowest place on the axis where value(y) changes its sign between neighbouring values.
+/// The lowest position on the axis where value(y) changes its sign between neighbouring values.
 template <class Value>
 std::optional<double> sign_change(const MapAxis& axis, const Value& value) {
   for (std::size_t i = 0; i + 1 < axis.values.size(); ++i) {
@@ -24,11 +24,12 @@ std::optional<double> sign_change(const MapAxis& axis, const Value& value) {
 
 }  // namespace
 
-MapAxis map_axis(std::string name, std::string unit, bool logarithmic, double low, double high, int count) {
+MapAxis map_axis(std::string name, std::string unit, AxisScale scale, double low, double high, int count) {
+  const bool logarithmic = scale == AxisScale::logarithmic;
   MapAxis axis{std::move(name), std::move(unit), logarithmic, {}};
   for (int i = 0; i < count; ++i) {
-    const double share = static_cast<double>(i) / (count - 1);
-    axis.values.push_back(logarithmic ? low * std::pow(high / low, share) : low + (high - low) * share);
+    const double fraction = static_cast<double>(i) / (count - 1);
+    axis.values.push_back(logarithmic ? low * std::pow(high / low, fraction) : low + (high - low) * fraction);
   }
   return axis;
 }
@@ -38,7 +39,7 @@ StabilityMap draw_map(const LoopMapPlan& plan) {
   StabilityMap map{plan.name, plan.title, plan.text, plan.x, plan.y, {}, {}, {}};
   map.verdict.assign(rows, std::vector<Verdict>(cols));
   map.surprise.assign(rows, std::vector<bool>(cols));
-  parallel_for(rows, true, [&](std::size_t row) {
+  parallel_for(rows, [&](std::size_t row) {
     for (std::size_t col = 0; col < cols; ++col) {
       const LoopSettings loop = plan.loop(plan.x.values[col], plan.y.values[row]);
       const std::int64_t ticks = plan.ticks(loop);
@@ -49,7 +50,7 @@ StabilityMap draw_map(const LoopMapPlan& plan) {
   });
   std::vector<std::vector<std::optional<double>>> crossing(plan.curves.size(),
                                                            std::vector<std::optional<double>>(cols));
-  parallel_for(plan.curves.size() * cols, true, [&](std::size_t i) {
+  parallel_for(plan.curves.size() * cols, [&](std::size_t i) {
     const double x = plan.x.values[i % cols];
     crossing[i / cols][i % cols] =
         sign_change(plan.y, [&](double y) { return plan.curves[i / cols].second(plan.loop(x, y)); });

@@ -19,8 +19,11 @@ struct LoopMapPlan {
   std::vector<std::pair<std::string, std::function<double(const LoopSettings&)>>> curves;
 };
 
-/// An axis of `count` values from low to high, at even distances or (logarithmic) at even ratios.
-MapAxis map_axis(std::string name, std::string unit, bool logarithmic, double low, double high, int count);
+/// How the values of an axis are spread. linear: at even distances. logarithmic: at even ratios.
+enum class AxisScale { linear, logarithmic };
+
+/// An axis of `count` values from low to high.
+MapAxis map_axis(std::string name, std::string unit, AxisScale scale, double low, double high, int count);
 
 /// Runs every cell, rows in parallel. The result is the same for any number of threads.
 StabilityMap draw_map(const LoopMapPlan& plan);

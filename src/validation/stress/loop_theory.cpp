@@ -21,8 +21,8 @@ Eigen::RowVector2d feedback(const DeviceSettings& device, const Eigen::Matrix<do
                             const Wall& felt, bool implicit) {
   if (!implicit) return {felt.stiffness, felt.damping};
   const double g = map(0, 4) * felt.damping;
-  const double share = felt.damping / (g + std::max(1.0 / device.servo_rate, g));
-  return {felt.stiffness + share * (map(0, 0) - 1.0 - map(0, 4) * felt.stiffness), share * map(0, 1)};
+  const double fraction = felt.damping / (g + std::max(1.0 / device.servo_rate, g));
+  return {felt.stiffness + fraction * (map(0, 0) - 1.0 - map(0, 4) * felt.stiffness), fraction * map(0, 1)};
 }
 
 /// The loop's one-tick map along an axis (haptics/loop_stability.h).

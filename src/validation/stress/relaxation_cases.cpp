@@ -92,8 +92,10 @@ std::vector<Method> methods_of(const StressOptions& options) {
 
 Scene scene_of(const BedSize& size, const Method& method) {
   Scene scene;
-  scene.bed.cols = size.cols, scene.bed.rows = size.rows;
-  scene.bed.width = size.cols * size.dx, scene.bed.depth = size.rows * size.dx;
+  scene.bed.cols = size.cols;
+  scene.bed.rows = size.rows;
+  scene.bed.width = size.cols * size.dx;
+  scene.bed.depth = size.rows * size.dx;
   scene.relaxation.law = method.law;
   scene.relaxation.method = method.method;
   scene.plugin_laws = method.plugin_laws;

@@ -160,21 +160,21 @@ void stress_strokes(StressReport& report, const StressOptions& options) {
   const double short_ones = options.quick ? 0.8 : 0.05;  // their fraction of the time of all strokes
   const double seconds = options.quick ? 0.5 : 1.0;
   const std::vector<Model> models = models_of(options);
-  const double share = 1.0 / static_cast<double>(models.size());
+  const double fraction = 1.0 / static_cast<double>(models.size());
   double done = 0.0;
   for (const ExtremeStroke& extreme : strokes)
     for (const Model& model : models) {
       play_extreme(report, extreme, model, stroke_of(extreme.at, seconds, 1000.0));
-      options.progress(done += share * short_ones / std::size(strokes));
+      options.progress(done += fraction * short_ones / std::size(strokes));
     }
   if (options.plugin_laws.empty()) refuse(report);
   const auto circle = [](double t) { return V(0.06 * std::cos(t), 0.06 * std::sin(t), -0.005); };
   const auto rest = [](double) { return V(0.0, 0.0, -0.006); };
   for (const Model& model : models) {
     play_long(report, model, "rests for long", rest, options.quick ? 20.0 : 3600.0, 1.0);
-    options.progress(done += 0.2 * share * (1.0 - short_ones));
+    options.progress(done += 0.2 * fraction * (1.0 - short_ones));
     play_long(report, model, "circles for long", circle, options.quick ? 20.0 : 1e4, 20.0);
-    options.progress(done += 0.8 * share * (1.0 - short_ones));
+    options.progress(done += 0.8 * fraction * (1.0 - short_ones));
   }
 }
 

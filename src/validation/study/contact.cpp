@@ -89,11 +89,11 @@ Problem drag_problem(const ProblemOptions& options) {
     const double dx = bed.cell_size(), centre = 0.13 * dx;  // m, the slot's middle, off every grid line
     for (int row = 0; row < cells; ++row) {
       const double from_wall = half_width - std::abs(bed.y_of(row) - centre);
-      const double share = std::clamp(from_wall / dx + 0.5, 0.0, 1.0);  // fraction of the cell in the slot
-      for (int col = 0; col < cells && share > 0.0; ++col) bed.set(row, col, -slot_depth * share);
+      const double fraction = std::clamp(from_wall / dx + 0.5, 0.0, 1.0);  // fraction of the cell in the slot
+      for (int col = 0; col < cells && fraction > 0.0; ++col) bed.set(row, col, -slot_depth * fraction);
     }
     bed.clear_disturbed();
-    const double level = -slot_depth * strip_share_of_disk(make_tool(scene.tool)->reach(), half_width);
+    const double level = -slot_depth * strip_fraction_of_disk(make_tool(scene.tool)->reach(), half_width);
     const double tip = -0.97 * slot_depth;
     const double exact = drag_work(level - tip, speed, length, scene.force);
     const Stroke stroke =

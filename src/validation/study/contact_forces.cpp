@@ -21,7 +21,7 @@ class LastWrench : public SimulationObserver {
 };
 
 /// A scene whose sand yields at once (0.001 mm), so that force.yield adds no error to that of the cells.
-Scene felt_scene(const ToolSettings& tool, double cell, double tool_friction) {
+Scene force_scene(const ToolSettings& tool, double cell, double tool_friction) {
   constexpr double width = 0.16;  // m
   Scene scene = contact_scene(width, static_cast<int>(std::lround(width / cell)), 1000.0);
   scene.preset = ModelPreset::accurate;
@@ -42,10 +42,13 @@ Scene felt_scene(const ToolSettings& tool, double cell, double tool_friction) {
 Stroke push(double cell, double depth, double drag) {
   constexpr double speed = 0.05, above = 0.001;  // m/s, m
   const double x = 0.3 * cell, y = 0.17 * cell;
-  std::vector<Eigen::Vector3d> places = {{x, y, above}, {x, y, -depth}};
+  std::vector<Eigen::Vector3d> positions = {{x, y, above}, {x, y, -depth}};
   std::vector<double> seconds = {(above + depth) / speed};
-  if (drag > 0.0) places.emplace_back(x + drag, y, -depth), seconds.push_back(drag / speed);
-  return straight(places, seconds);
+  if (drag > 0.0) {
+    positions.emplace_back(x + drag, y, -depth);
+    seconds.push_back(drag / speed);
+  }
+  return straight(positions, seconds);
 }
 
 /// Compares the force along `axis` with `exact` [N].
@@ -104,11 +107,13 @@ Problem plate_force_problem(const ProblemOptions& options) {
   ToolSettings plate, blade;
   plate.shape = ToolShape::cylinder;
   blade.shape = ToolShape::plate;
-  blade.width = 0.04, blade.height = 0.03, blade.thickness = 0.004;
+  blade.width = 0.04;
+  blade.height = 0.03;
+  blade.thickness = 0.004;
   for (const double cell : {0.002, 0.001, 0.0005, 0.00025}) {
     if (options.quick && cell < 0.0005) continue;
     const std::string label = fmt::format("cells of {:.3g} mm", 1e3 * cell);
-    const Scene pushed = felt_scene(plate, cell, 0.0), dragged = felt_scene(blade, cell, 0.0);
+    const Scene pushed = force_scene(plate, cell, 0.0), dragged = force_scene(blade, cell, 0.0);
     const double xi = resistance(pushed.strength);
     problem.contenders.push_back(force_contender(
         "plate pushed down", label, pushed, options.threads, not_applicable, push(cell, depth, 0.0), 2,
@@ -129,7 +134,7 @@ Problem sphere_force_problem(const ProblemOptions& options) {
   const ToolSettings sphere{0.01};
   for (const int cells_per_radius : {5, 10, 20, 40}) {
     if (options.quick && cells_per_radius > 20) continue;
-    const Scene scene = felt_scene(sphere, sphere.radius / cells_per_radius, SandStrength{}.tool_friction);
+    const Scene scene = force_scene(sphere, sphere.radius / cells_per_radius, SandStrength{}.tool_friction);
     const std::string label = fmt::format("{} cells per radius", cells_per_radius);
     const auto add = [&](const std::string& series, double depth, double drag) {
       const bool drags = drag > 0.0;

@@ -15,11 +15,11 @@ Scene contact_scene(double width, int cells, double servo_rate) {
   return scene;
 }
 
-Stroke straight(const std::vector<Eigen::Vector3d>& places, const std::vector<double>& seconds) {
+Stroke straight(const std::vector<Eigen::Vector3d>& positions, const std::vector<double>& seconds) {
   Stroke stroke;
   stroke.time = {0.0};
   for (const double one : seconds) stroke.time.push_back(stroke.time.back() + one);
-  stroke.position = places;
+  stroke.position = positions;
   stroke.gap_threshold = 2.0 * stroke.time.back();
   return stroke;
 }

@@ -9,7 +9,7 @@ namespace sandstroke {
 /// tool moves, so its level follows a closed form.
 Scene contact_scene(double width, int cells, double servo_rate);
 
-/// A stroke that moves uniformly from place to place [m]; seconds[i] is the time of the i-th move.
-Stroke straight(const std::vector<Eigen::Vector3d>& places, const std::vector<double>& seconds);
+/// A stroke that moves uniformly from position to position [m]; seconds[i] is the time of the i-th move.
+Stroke straight(const std::vector<Eigen::Vector3d>& positions, const std::vector<double>& seconds);
 
 }  // namespace sandstroke

@@ -46,10 +46,10 @@ Problem crater_problem(const ProblemOptions& options) {
                     "Sand drains through a hole until none flows. All sand of the crater's slope has slid, "
                     "so the truth is the steepest shape of the law: the paper's octagon, or a cone.");
   const auto add = [&](const std::string& series, const std::string& label, int cells,
-                       const RelaxationSettings& settings, bool refines) {
+                       const RelaxationSettings& settings, double step) {
     const double dx = crater_bed_width / cells;
     Contender contender{series, label, settings_of(settings, BedGeometry(cells, cells, dx), options.threads),
-                        refines ? dx : not_applicable, nullptr};
+                        step, nullptr};
     contender.run = [=] {
       return drain(cells, drained_crater(depth, settings.talus_angle, settings.law), settings);
     };
@@ -62,12 +62,14 @@ Problem crater_problem(const ProblemOptions& options) {
         std::tuple("isotropic passes", isotropic, passes), std::tuple("isotropic rkl", isotropic, rkl)})
     for (const int cells : {32, 48, 64, 96, 128, 192, 256}) {
       if (options.quick && cells > 96) continue;
-      add(series, fmt::format("{} cells", cells), cells, {.law = law, .method = method}, true);
+      add(series, fmt::format("{} cells", cells), cells, {.law = law, .method = method},
+          crater_bed_width / cells);
     }
   for (const double tolerance : {1e-2, 3e-3, 1e-3, 3e-4, 1e-4}) {
     RelaxationSettings settings{.law = paper, .method = passes};
     settings.tolerance = tolerance;
-    add("paper passes, tolerance", fmt::format("tolerance {}, 64 cells", tolerance), 64, settings, false);
+    add("paper passes, tolerance", fmt::format("tolerance {}, 64 cells", tolerance), 64, settings,
+        not_applicable);
   }
   return problem;
 }

@@ -59,7 +59,7 @@ double drag_work(double depth, double speed, double length, const ForceSettings&
   return force.k_f * speed * repulse_force(depth, force) * length;
 }
 
-double strip_share_of_disk(double radius, double half_width) {
+double strip_fraction_of_disk(double radius, double half_width) {
   const double w = std::min(half_width / radius, 1.0);
   return 2.0 / std::numbers::pi * (w * std::sqrt(1.0 - w * w) + std::asin(w));
 }

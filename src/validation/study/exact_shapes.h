@@ -59,6 +59,6 @@ double plunge_work(double depth, const ForceSettings& force);
 /// Work [J] against the drag over `length` [m] at constant speed [m/s] and depth.
 double drag_work(double depth, double speed, double length, const ForceSettings& force);
 /// Fraction of a disk's area that lies within `half_width` of a line through its centre.
-double strip_share_of_disk(double radius, double half_width);
+double strip_fraction_of_disk(double radius, double half_width);
 
 }  // namespace sandstroke

@@ -35,7 +35,10 @@ class MeanForce : public SimulationObserver {
     const Eigen::Vector3d &from = tick.hand.position, &to = tick.next.position;
     const bool counts = is_drag(stroke_) ? is_measured(to.x() - drag_start)
                                          : to.z() < from.z() && to.z() < 4e-4 - stroke_.depth;
-    if (counts) sum_ += tick.wrench.force, ++ticks_;
+    if (counts) {
+      sum_ += tick.wrench.force;
+      ++ticks_;
+    }
   }
   Eigen::Vector3d mean() const { return sum_ / std::max(ticks_, 1); }
 
@@ -53,7 +56,10 @@ std::vector<double> mean_changes(const HeightField& bed, const GrainStroke& stro
       if (is_drag(stroke) && !is_measured(x)) continue;
       const double distance = is_drag(stroke) ? std::abs(y) : std::hypot(x, y);
       const auto bin = static_cast<std::size_t>(distance / grain_bin);
-      if (bin < sums.size()) sums[bin] += bed(row, col), cells[bin] += 1.0;
+      if (bin < sums.size()) {
+        sums[bin] += bed(row, col);
+        cells[bin] += 1.0;
+      }
     }
   for (std::size_t bin = 0; bin < sums.size(); ++bin) sums[bin] /= cells[bin];
   return sums;
@@ -83,11 +89,15 @@ Stroke hand_of(const GrainStroke& stroke) {
   constexpr double above = 0.0005, lifted = 0.005;     // m
   constexpr double down = 0.1, along = 0.2, up = 0.3;  // m/s
   const double from = start_of(stroke), to = from + stroke.way;
-  std::vector<Eigen::Vector3d> places = {{from, 0.0, above}, {from, 0.0, -stroke.depth}};
+  std::vector<Eigen::Vector3d> positions = {{from, 0.0, above}, {from, 0.0, -stroke.depth}};
   std::vector<double> seconds = {(above + stroke.depth) / down};
-  if (is_drag(stroke)) places.emplace_back(to, 0.0, -stroke.depth), seconds.push_back(stroke.way / along);
-  places.emplace_back(to, 0.0, lifted), seconds.push_back((lifted + stroke.depth) / up);
-  return straight(places, seconds);
+  if (is_drag(stroke)) {
+    positions.emplace_back(to, 0.0, -stroke.depth);
+    seconds.push_back(stroke.way / along);
+  }
+  positions.emplace_back(to, 0.0, lifted);
+  seconds.push_back((lifted + stroke.depth) / up);
+  return straight(positions, seconds);
 }
 
 GrainReply reply_to(const GrainStroke& stroke, const Scene& scene) {

@@ -55,7 +55,8 @@ Stroke scribble(double depth, double speed, bool cut) {
     for (int i = 0; i <= std::lround(2.0 * half[across] / apart); ++i) {
       Eigen::Vector2d from, to;
       from[across] = to[across] = i * apart - half[across];
-      from[along] = i % 2 ? half[along] : -half[along], to[along] = -from[along];
+      from[along] = i % 2 ? half[along] : -half[along];
+      to[along] = -from[along];
       for (const Eigen::Vector2d& point : {from, to}) {
         if (point == at) continue;
         script.segments.push_back({ScriptLine{{}, point}, {PressProfile::Kind::depth, {depth}}, speed});
@@ -70,10 +71,11 @@ Stroke scribble(double depth, double speed, bool cut) {
 
 Stroke with_noise(const Stroke& stroke, double rms) {
   std::mt19937 random(5);
-  std::uniform_real_distribution<double> share(-0.5, 0.5);  // std::normal_distribution depends on the library
+  // std::normal_distribution depends on the library.
+  std::uniform_real_distribution<double> uniform(-0.5, 0.5);
   return recorded(stroke, [&](const Eigen::Vector3d&, double) {
     double sum = 0.0;  // the sum of twelve has variance 1
-    for (int i = 0; i < 12; ++i) sum += share(random);
+    for (int i = 0; i < 12; ++i) sum += uniform(random);
     return rms * sum;
   });
 }

@@ -36,6 +36,9 @@ Trial collapse(const Pile& pile, int cells, const Relaxing& relax) {
   return trial;
 }
 
+/// over_cells: its points differ in the cell size alone, so they show an order of convergence.
+enum class PileCurve { over_cells, other };
+
 /// The contenders of one pile.
 class PileField {
  public:
@@ -43,10 +46,10 @@ class PileField {
       : problem_(problem), pile_(std::make_shared<const Pile>(std::move(pile))), options_(options) {}
 
   void add(const std::string& series, const std::string& label, int cells, const RelaxationSettings& settings,
-           int threads, bool refines) {
+           int threads, PileCurve curve) {
     const HeightField bed = pile_->start(cells);
     Contender contender{series, label, settings_of(settings, bed, threads),
-                        refines ? bed.cell_size() : not_applicable, nullptr};
+                        curve == PileCurve::over_cells ? bed.cell_size() : not_applicable, nullptr};
     contender.run = [pile = pile_, cells, settings] {
       return collapse(*pile, cells, [&](HeightField& sand) {
         return make_relaxer(settings, sand.cell_size())->relax(sand);
@@ -58,7 +61,7 @@ class PileField {
   /// Adds a curve over the cell size. (The bench leaves out runs that take too long.)
   void add_sizes(const std::string& series, const RelaxationSettings& settings) {
     for (int cells = 64; cells <= most_cells(); cells *= 2)
-      add(series, fmt::format("{} cells", cells), cells, settings, options_.threads, true);
+      add(series, fmt::format("{} cells", cells), cells, settings, options_.threads, PileCurve::over_cells);
   }
 
   void add_peers() {
@@ -67,7 +70,8 @@ class PileField {
         Contender contender{peer.name, fmt::format("{} cells", cells), {}, pile_bed_width / cells, nullptr};
         contender.settings.method = "peer";
         contender.external = true;
-        contender.settings.cells = cells, contender.settings.cell_size = pile_bed_width / cells;
+        contender.settings.cells = cells;
+        contender.settings.cell_size = pile_bed_width / cells;
         contender.run = [pile = pile_, cells, relax = peer.relax] {
           return collapse(*pile, cells, [&](HeightField& sand) { return relax(sand, talus_angle); });
         };
@@ -98,7 +102,8 @@ class PileField {
     scene.bed.cols = options_.quick ? 128 : 256;
     const HeightField start = pile_->start(scene.bed.cols);
     scene.bed.rows = start.rows();
-    scene.bed.width = pile_bed_width, scene.bed.depth = start.rows() * start.cell_size();
+    scene.bed.width = pile_bed_width;
+    scene.bed.depth = start.rows() * start.cell_size();
     scene.bed.surface = pile_->surface;
     problem_.check_errors = [=, pile = pile_] {
       return check_errors(
@@ -117,23 +122,23 @@ class PileField {
       RelaxationSettings settings = super;
       settings.step_tolerance = step_tolerance;
       add("step tolerance", fmt::format("step tolerance {}, {} cells", step_tolerance, cells), cells,
-          settings, options_.threads, false);
+          settings, options_.threads, PileCurve::other);
     }
     for (const double tolerance : {1e-2, 3e-3, 1e-3, 3e-4, 1e-4, 1e-5}) {
       RelaxationSettings settings = super;
       settings.tolerance = tolerance;
       add("tolerance", fmt::format("tolerance {}, {} cells", tolerance, cells), cells, settings,
-          options_.threads, false);
+          options_.threads, PileCurve::other);
     }
     for (const double share : {0.25, 0.2, 0.1, 0.05}) {
       RelaxationSettings settings{.law = RelaxationLaw::isotropic, .method = RelaxationMethod::passes};
       settings.share = share;
       add("share of a pass", fmt::format("share {}, 128 cells", share), 128, settings, options_.threads,
-          false);
+          PileCurve::other);
     }
     for (const int threads : {1, 2})
       add("threads", fmt::format("{} thread{}, {} cells", threads, threads == 1 ? "" : "s", most_cells()),
-          most_cells(), super, threads, false);
+          most_cells(), super, threads, PileCurve::other);
   }
 
  private:
@@ -147,7 +152,8 @@ class PileField {
 Pile heap(SurfaceKind kind, double radius, double height, const ExactCone& cone) {
   SurfaceSettings surface;
   surface.kind = kind;
-  surface.radius = radius, surface.height = height;
+  surface.radius = radius;
+  surface.height = height;
   return {[surface](int cells) { return make_surface(surface, cells, cells, pile_bed_width / cells); },
           {cone, cone.top(), Flank{cone.slope, cone.plateau, cone.foot}},
           surface};
@@ -201,7 +207,8 @@ Problem cliff_problem(const ProblemOptions& options) {
                     "Along an axis both laws are exact: only the tolerance is left.");
   Pile pile;
   pile.start = [cliff](int cells) { return make_surface(cliff, band_rows, cells, pile_bed_width / cells); };
-  pile.shape.exact = collapsed_cliff(cliff.height, talus_angle), pile.shape.height = cliff.height;
+  pile.shape.exact = collapsed_cliff(cliff.height, talus_angle);
+  pile.shape.height = cliff.height;
   pile.surface = cliff;
   PileField(problem, pile, options).add_laws_and_methods();
   return problem;

@@ -61,8 +61,10 @@ Peer peer_of(const PluginLawSettings& law) {
   return {series_of(law), [law](HeightField& bed, double talus_angle) {
             Scene scene;
             scene.plugin_laws = law;
-            scene.bed.cols = bed.cols(), scene.bed.rows = bed.rows();
-            scene.bed.width = bed.cols() * bed.cell_size(), scene.bed.depth = bed.rows() * bed.cell_size();
+            scene.bed.cols = bed.cols();
+            scene.bed.rows = bed.rows();
+            scene.bed.width = bed.cols() * bed.cell_size();
+            scene.bed.depth = bed.rows() * bed.cell_size();
             scene.relaxation.talus_angle = talus_angle;
             SandWatch watch(bed);
             const RelaxationOutcome outcome = make_relaxer(scene, bed.cell_size())->relax(bed);

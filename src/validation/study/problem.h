@@ -56,7 +56,7 @@ struct Trial {
 /// One way to solve a problem: a point on a curve.
 struct Contender {
   std::string series;  ///< the curve
-  std::string label;   ///< the place on the curve, in words
+  std::string label;   ///< the position on the curve, in words
   RunSettings settings;
   double step = not_applicable;  ///< what the series refines (cell size [m] or time step [s]), for its order
   std::function<Trial()> run;    ///< gives the same score each time

@@ -11,8 +11,10 @@ Score score_of(const HeightField& bed, const HeightField& start, const Relaxatio
   score.passes = static_cast<double>(outcome.passes);
   score.cells_visited = static_cast<double>(outcome.cells_visited);
   score.l1 = error.l1;
-  score.rms_height = error.rms, score.rms_relative = error.rms / shape.height;
-  score.largest_height = error.largest, score.largest_relative = error.largest / shape.height;
+  score.rms_height = error.rms;
+  score.rms_relative = error.rms / shape.height;
+  score.largest_height = error.largest;
+  score.largest_relative = error.largest / shape.height;
   score.converged = outcome.converged;
   if (shape.flank) {
     score.slope_errors = flank_slope_errors(bed, *shape.flank);

@@ -55,8 +55,10 @@ Score judge(const Replay& run, const Replay& truth) {
   const SurfaceError error = surface_distance(run.heights, truth);
   const double height = truth.heights.maxCoeff() - truth.heights.minCoeff();
   score.l1 = error.l1;
-  score.rms_height = error.rms, score.rms_relative = error.rms / height;
-  score.largest_height = error.largest, score.largest_relative = error.largest / height;
+  score.rms_height = error.rms;
+  score.rms_relative = error.rms / height;
+  score.largest_height = error.largest;
+  score.largest_relative = error.largest / height;
   score.force_error = rms_distance(run.force, truth.force) / largest(truth.force);
   score.position_error = rms_distance(run.position, truth.position);
   score.displaced_volume = run.result.displaced_volume;

@@ -53,7 +53,8 @@ namespace {
 /// `period_by`. The servo rate suits the finest.
 Scene refined(ModelPreset preset, int cells_by, int period_by) {
   Scene scene = hand_scene(preset);
-  scene.bed.cols *= cells_by, scene.bed.rows *= cells_by;
+  scene.bed.cols *= cells_by;
+  scene.bed.rows *= cells_by;
   scene.relaxation.rate *= period_by;
   scene.relaxation.way /= period_by;
   scene.relaxation.way_at_rim /= period_by;
@@ -229,7 +230,7 @@ Problem hands_problem(const ProblemOptions& options) {
       if (rate > 0.0) one.relaxation.rate = rate;
       Contender contender = stroke_contender(fmt::format("{}, {}", hands.name, what), label, one,
                                              options.threads, not_applicable, stroke, truth);
-      if (what == "speed")  // its forces and places belong to other times
+      if (what == "speed")  // its forces and positions belong to other times
         contender.run = [run = contender.run] {
           Trial trial = run();
           trial.score.force_error = trial.score.position_error = not_applicable;

@@ -56,7 +56,9 @@ class Race {
   /// progress gets the fraction of this problem that is done.
   std::vector<StudyRun> run(int repeats, const std::function<void(double)>& progress) {
     const std::size_t count = problem_.contenders.size();
-    runs_.resize(count), seconds_.resize(count), waited_.resize(count);
+    runs_.resize(count);
+    seconds_.resize(count);
+    waited_.resize(count);
     for (int repeat = 0; repeat < repeats; ++repeat)
       for (std::size_t i = 0; i < count; ++i) {
         if (interrupted()) return {};
@@ -77,7 +79,10 @@ class Race {
     const Contender& contender = problem_.contenders[i];
     const StudyRun *last = nullptr, *before = nullptr;  // runs of the same series
     for (std::size_t j = 0; j < i; ++j)
-      if (problem_.contenders[j].series == contender.series) before = last, last = &runs_[j];
+      if (problem_.contenders[j].series == contender.series) {
+        before = last;
+        last = &runs_[j];
+      }
     if (!last) return true;
     if (last->repeats == 0) return left_out(contender, "a coarser run was left out or failed");
     const double foreseen = foreseen_visits(contender.settings.cells, *last, before);
@@ -108,17 +113,19 @@ class Race {
       return;
     }
     StudyRun& run = runs_[i];
-    run.problem = problem_.name, run.series = contender.series, run.label = contender.label;
+    run.problem = problem_.name;
+    run.series = contender.series;
+    run.label = contender.label;
     run.settings = contender.settings;
     run.step = contender.step;
     run.external = contender.external;
     run.score = trial.score;
     // Only for one thread the program knows how long it waited for a processor.
-    const double idle_share =
+    const double idle_fraction =
         contender.settings.threads == 1 ? 1.0 - (processor_seconds() - worked_before) / watch.seconds() : 0.0;
     std::vector<double>& seconds = seconds_[i];
     seconds.insert(std::upper_bound(seconds.begin(), seconds.end(), trial.seconds), trial.seconds);
-    if (trial.seconds == seconds.front()) waited_[i] = idle_share * trial.seconds;
+    if (trial.seconds == seconds.front()) waited_[i] = idle_fraction * trial.seconds;
     run.wall_seconds = seconds.front();
     run.median_seconds = 0.5 * (seconds[(seconds.size() - 1) / 2] + seconds[seconds.size() / 2]);
     run.largest_seconds = seconds.back();
@@ -147,7 +154,9 @@ void add_orders(const Problem& problem, const std::vector<StudyRun>& runs,
   for (const std::string& series : names) {
     ConvergenceOrder order = fit_order(points[series]);
     if (std::isnan(order.order)) continue;
-    order.problem = problem.name, order.series = series, order.error = problem.error;
+    order.problem = problem.name;
+    order.series = series;
+    order.error = problem.error;
     orders.push_back(order);
   }
 }
@@ -196,7 +205,8 @@ ConvergenceOrder fit_order(const std::vector<std::pair<double, double>>& points)
   double x = 0.0, y = 0.0;
   for (const auto& [step, error] : points) {
     steps.push_back(step);
-    x += std::log(step) / n, y += std::log(error) / n;
+    x += std::log(step) / n;
+    y += std::log(error) / n;
   }
   std::sort(steps.begin(), steps.end());
   ConvergenceOrder fit{
@@ -212,7 +222,8 @@ ConvergenceOrder fit_order(const std::vector<std::pair<double, double>>& points)
     left += std::pow(std::log(error) - y - fit.order * (std::log(step) - x), 2);
   const int freedom = fit.points - 2;
   const double half = student_t(freedom) * std::sqrt(left / freedom / xx);
-  fit.low = fit.order - half, fit.high = fit.order + half;
+  fit.low = fit.order - half;
+  fit.high = fit.order + half;
   return fit;
 }
 
@@ -234,12 +245,12 @@ Study run_study(const StudyOptions& options) {
   const Limits limits = options.quick ? Limits{5e7, 0.5} : Limits{1.5e9, 8.0};
   Study study;
   study.quick = options.quick;
-  const auto share = 1.0 / static_cast<double>(makers.size());
+  const auto fraction = 1.0 / static_cast<double>(makers.size());
   for (std::size_t i = 0; i < makers.size() && !interrupted(); ++i) {
     study.problems.push_back(make(makers[i], options));
     const Problem& problem = study.problems.back();
     std::vector<StudyRun> runs = Race(problem, limits, study).run(repeats, [&](double done) {
-      options.progress(share * (static_cast<double>(i) + done));
+      options.progress(fraction * (static_cast<double>(i) + done));
     });
     if (problem.times_ticks) {
       compare_ticks(runs);

@@ -112,8 +112,12 @@ Table orders_table(const std::vector<ConvergenceOrder>& orders) {
   std::vector<std::string> problems, series, errors;
   std::vector<double> order, low, high, points;
   for (const ConvergenceOrder& one : orders) {
-    problems.push_back(one.problem), series.push_back(one.series), errors.push_back(one.error);
-    order.push_back(one.order), low.push_back(one.low), high.push_back(one.high);
+    problems.push_back(one.problem);
+    series.push_back(one.series);
+    errors.push_back(one.error);
+    order.push_back(one.order);
+    low.push_back(one.low);
+    high.push_back(one.high);
     points.push_back(one.points);
   }
   return {{{"problem", "Problem", "", problems},
@@ -191,8 +195,12 @@ std::string ticks_text(const std::vector<StudyRun>& runs) {
   std::vector<double> times, of_paper;
   for (const StudyRun& run : runs) {
     if (std::isnan(run.of_paper)) continue;
-    tools.push_back(run.settings.tool), labels.push_back(run.label), laws.push_back(run.settings.force_law);
-    times.push_back(run.error), of_paper.push_back(run.of_paper), marks.push_back(mark_of(run));
+    tools.push_back(run.settings.tool);
+    labels.push_back(run.label);
+    laws.push_back(run.settings.force_law);
+    times.push_back(run.error);
+    of_paper.push_back(run.of_paper);
+    marks.push_back(mark_of(run));
   }
   if (times.empty()) return "";
   return "\nTime of a tick\n" + aligned_text({{{"tool", "Tool", "", tools},
@@ -244,7 +252,10 @@ std::string runs_text(const Study& study, const std::vector<StudyRun>& runs,
                       std::initializer_list<const char*> names) {
   std::vector<double> errors;
   std::vector<std::string> marks;
-  for (const StudyRun& run : runs) errors.push_back(run.error), marks.push_back(mark_of(run));
+  for (const StudyRun& run : runs) {
+    errors.push_back(run.error);
+    marks.push_back(mark_of(run));
+  }
   Table table;
   const Table all = runs_table(runs);
   for (const char* name : names)

@@ -38,7 +38,10 @@ class LineFit {
  public:
   void add(double x, double y) {
     ++count_;
-    x_ += x, y_ += y, xx_ += x * x, xy_ += x * y;
+    x_ += x;
+    y_ += y;
+    xx_ += x * x;
+    xy_ += x * y;
   }
   double slope() const { return (count_ * xy_ - x_ * y_) / (count_ * xx_ - x_ * x_); }
 

@@ -85,7 +85,9 @@ Problem blade_problem(const ProblemOptions& options) {
     if (options.quick && cell < 0.001) continue;
     ToolSettings blade;
     blade.shape = ToolShape::plate;
-    blade.width = 1.0, blade.height = 0.1, blade.thickness = 0.004;
+    blade.width = 1.0;
+    blade.height = 0.1;
+    blade.thickness = 0.004;
     const Scene scene = trough(0.3, cell, 10, blade);
     const double slope = talus_slope(scene.relaxation.talus_angle);
     const Stroke stroke =
@@ -135,7 +137,8 @@ Problem mesh_problem(const ProblemOptions& options) {
     if (options.quick && cells_per_radius > 10) continue;
     Scene sphere = hand_scene(ModelPreset::accurate);
     const int by = cells_per_radius / 5;
-    sphere.bed.cols *= by, sphere.bed.rows *= by;
+    sphere.bed.cols *= by;
+    sphere.bed.rows *= by;
     sphere.relaxation.way = sphere.relaxation.way_at_rim = 0.2;  // a mesh always relaxes by way_at_rim
     Scene mesh = sphere;
     mesh.tool.shape = ToolShape::mesh;

@@ -3,7 +3,7 @@
 // and how well the loop keeps its times. Where the page may be the hand (a pointer), it sends back what it draws.
 
 const recordBytes = { head: 80, tile: 4 + 4 * tileSide * tileSide, sample: 24 };
-const placed = 2;  // a flag: the tool's place is known
+const placed = 2;  // a flag: the tool's position is known
 
 /** Reads what a server's message says about the tool and the loop; numbers are as on the wire. */
 function readHead(bytes) {
@@ -51,10 +51,10 @@ function switchButton(text, pressed, act) {
  */
 function pointerHand(view, send, depthChanged) {
   const sampleOf = (event, pressed) => {
-    const place = view.place(event);
-    if (!place) return null;
+    const position = view.position(event);
+    if (!position) return null;
     const pressure = pressed ? live.depth * (event.pointerType === "pen" ? 2 * event.pressure : 1) : 0;
-    return { time: event.timeStamp, x: place[0], y: place[1], pressure: Math.min(pressure, 1), switches: event.buttons };
+    return { time: event.timeStamp, x: position[0], y: position[1], pressure: Math.min(pressure, 1), switches: event.buttons };
   };
   let pressed = null, last = null;  // pressed: the id of the pointer that is down
   const tell = (samples) => {
@@ -78,7 +78,7 @@ function pointerHand(view, send, depthChanged) {
     const events = event.type === "pointermove" ? event.getCoalescedEvents?.() ?? [] : [];
     const samples = (events.length ? events : [event]).map((one) => sampleOf(one, pressed !== null)).filter(Boolean);
     last = samples.at(-1) ?? last;
-    // Off the sand's edge the tool is lifted at its last place.
+    // Off the sand's edge the tool is lifted at its last position.
     if (samples.length === 0 && last) samples.push({ ...last, time: event.timeStamp, pressure: 0 });
     tell(samples);
     return true;
@@ -95,10 +95,10 @@ function drawLive(main) {
   const said = el("p", { class: "said", role: "status" }), title = el("h1", {}, document.title);
   const numbers = numberTable(["time", "depth", "force", "rate", "lateness", "largest lateness"]);
   const tools = el("div", { class: "corner tools" });
-  const place = el("div", { class: "sand" });
+  const frame = el("div", { class: "sand" });
   const help = el("p", {}, viewHelp, " F follows the tool.");
-  main.append(place);
-  place.append(el("div", { class: "corner top" }, title, said), tools,
+  main.append(frame);
+  frame.append(el("div", { class: "corner top" }, title, said), tools,
                el("div", { class: "corner numbers" }, numbers.element),
                el("details", { class: "corner help" }, el("summary", {}, "Mouse and keys"), help));
   const socket = new WebSocket(`${location.origin.replace(/^http/, "ws")}/live${location.search}`);
@@ -116,12 +116,12 @@ function drawLive(main) {
     const span = Math.max(high - low, 0.01);
     const view = sandView({ rows, cols, cellSize, x0, y0, low: low - span / 2, high: high + span / 2 }, "Live sand");
     if (!view) {
-      place.prepend(el("p", { class: "warning" }, "This browser has no WebGL 2, so it shows numbers, but no sand."));
+      frame.prepend(el("p", { class: "warning" }, "This browser has no WebGL 2, so it shows numbers, but no sand."));
       return;
     }
     live.view = view;
     if (hello.tool.vertices) view.picture.setToolMesh(hello.tool.vertices, hello.tool.triangles.flat());
-    place.prepend(view.canvas, view.scale);
+    frame.prepend(view.canvas, view.scale);
     view.canvas.focus({ preventScroll: true });
     const colour = switchButton("Colours by height", false, view.act.colour);
     const follow = switchButton("Follow the tool", false, view.act.follow);

@@ -24,12 +24,12 @@ TEST(DeviceBoundaries, EverythingThatIsPassiveIsStable) {
   }
 }
 
-TEST(DeviceBoundaries, PassiveIsStableWhateverTheShareOfDrag) {
-  for (const double share : {0.01, 1.0, 10.0, 100.0, 1000.0})  // B / (K T); the paper's under 3 N: 60
+TEST(DeviceBoundaries, PassiveIsStableWhateverTheFractionOfDrag) {
+  for (const double fraction : {0.01, 1.0, 10.0, 100.0, 1000.0})  // B / (K T); the paper's under 3 N: 60
     for (LoopSettings loop : varied_loops(sanitized ? 20 : 400)) {
-      loop.against = Wall{1.0, share / loop.device.servo_rate};
+      loop.against = Wall{1.0, fraction / loop.device.servo_rate};
       EXPECT_LT(spectral_radius(with_gain(loop, 0.999 * passive_gain(loop))), 1.0)
-          << share << ", delay " << loop.device.delay;
+          << fraction << ", delay " << loop.device.delay;
     }
 }
 

@@ -34,7 +34,7 @@ TEST(DeviceLoop, APassiveLoopReturnsNoMoreThanItsDampersTake) {
       z = after;
       most = std::max(most, returned - damping * motions);
     }
-    // What the spring held at the start may come back.
+    // The energy of the spring at the start may come back.
     const FeltAlong felt = felt_about_rest(passive);
     const double held = sand ? repulse_force(sand->depth, sand->force) * sand->depth / passive.device.scale
                              : 0.5 * felt.z.stiffness * start * start;

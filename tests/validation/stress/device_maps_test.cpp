@@ -41,9 +41,9 @@ TEST(DrawMap, CurvesAreWhereAValueChangesItsSign) {
 }
 
 TEST(MapAxis, IsEvenOrEvenInRatio) {
-  EXPECT_EQ(map_axis("delay", "ticks", false, 0.0, 20.0, 6).values,
+  EXPECT_EQ(map_axis("delay", "ticks", AxisScale::linear, 0.0, 20.0, 6).values,
             (std::vector<double>{0.0, 4.0, 8.0, 12.0, 16.0, 20.0}));
-  const std::vector<double> decades = map_axis("mass", "kg", true, 0.01, 10.0, 4).values;
+  const std::vector<double> decades = map_axis("mass", "kg", AxisScale::logarithmic, 0.01, 10.0, 4).values;
   for (std::size_t i = 0; i < 4; ++i) EXPECT_NEAR(decades[i] / std::pow(10.0, double(i) - 2.0), 1.0, 1e-12);
 }
 

@@ -14,7 +14,8 @@ LoopSettings wall(double stiffness, double damping, double mass) {
   LoopSettings loop;
   loop.device = ideal_device();
   loop.device.mass = mass;
-  loop.device.damping = 10.0, loop.device.hand_damping = loop.device.hand_stiffness = 0.0;
+  loop.device.damping = 10.0;
+  loop.device.hand_damping = loop.device.hand_stiffness = 0.0;
   loop.against = Wall{stiffness, damping};
   return loop;
 }
@@ -22,7 +23,7 @@ LoopSettings wall(double stiffness, double damping, double mass) {
 constexpr double T = 1e-3, b = 10.0;
 constexpr double no_mass = 1e-5;  // kg: its speed follows the force within a hundredth of a tick
 
-TEST(SpectralRadius, OfAFreeMassBetweenSpringsGrowsAsTheDeterminantSays) {
+TEST(SpectralRadius, GrowsAsTheDeterminantSaysForAFreeMassBetweenSprings) {
   LoopSettings loop = wall(500.0, 0.0, 0.25);
   loop.device.damping = 0.0;
   EXPECT_NEAR(spectral_radius(loop), std::sqrt(1.0 + 500.0 * T * T / (2.0 * 0.25)), 1e-12);
@@ -57,7 +58,9 @@ TEST(SpectralRadius, ImplicitDragIsStableWhateverItsStrength) {
         loop.device.servo_rate = rate;
         loop.device.drag = DragVelocity::implicit;
         PressedSand sand;
-        sand.force.k_f = k_f, sand.force.k_s = 10.0, sand.force.drag = direction;
+        sand.force.k_f = k_f;
+        sand.force.k_s = 10.0;
+        sand.force.drag = direction;
         sand.depth = 0.01;
         loop.against = sand;
         EXPECT_LE(spectral_radius(loop), 1.0) << rate << " Hz, k_f " << k_f;
@@ -82,14 +85,14 @@ TEST(OldestForce, IsDelayAndLongestRowOfDroppedTicks) {
   EXPECT_DOUBLE_EQ(oldest_force(loop.device, 1000), (5.0 + longest) * T);
 }
 
-TEST(MeanGrowthWithDrops, WithoutDropsIsTheEigenvalue) {
+TEST(MeanGrowthWithDrops, IsTheEigenvalueIfNothingDrops) {
   for (const double stiffness : {1e3, 1e4, 1e5}) {
     const LoopSettings loop = wall(stiffness, 0.0, 0.25);
     EXPECT_NEAR(std::log(mean_growth_with_drops(loop)), std::log(spectral_radius(loop)), 2e-4) << stiffness;
   }
 }
 
-TEST(SwingOfEncoders, WithoutMassIsOneStep) {
+TEST(SwingOfEncoders, IsOneStepWithoutMass) {
   // x(k+1) = x(k) - K T/b (x(k) + e(k)): what one rounding moves decays by 1 - K T/b; in all, e itself.
   LoopSettings loop = wall(2000.0, 0.0, no_mass);
   loop.device.resolution = 1e-5;

@@ -26,9 +26,9 @@ TEST_P(StressPart, HasNoSurpriseAndSaysHowFarItIs) {
   options.quick = true;
   double done = 0.0;
   struct Enough {};
-  options.progress = [&done](double share) {
-    EXPECT_GE(share, done);
-    done = share;
+  options.progress = [&done](double fraction) {
+    EXPECT_GE(fraction, done);
+    done = fraction;
     if (sanitized && done > 0.0) throw Enough{};
   };
   try {

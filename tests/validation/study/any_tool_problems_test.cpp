@@ -59,14 +59,18 @@ TEST(AnyToolProblems, ForcesOnASphereAreThoseOfTheTheory) {
   }
 }
 
-TEST(AnyToolProblems, TicksAreHeldAgainstThoseOfThePapersLaw) {
+TEST(AnyToolProblems, TicksAreComparedWithThoseOfThePapersLaw) {
   std::vector<StudyRun> runs(4);
   const auto set = [&](std::size_t i, const char* law, const char* tool, double time) {
-    runs[i].settings.force_law = law, runs[i].settings.tool = tool, runs[i].label = "deep";
+    runs[i].settings.force_law = law;
+    runs[i].settings.tool = tool;
+    runs[i].label = "deep";
     runs[i].error = time;
   };
-  set(0, "paper", "sphere", 2.0), set(1, "rft", "sphere", 5.0);
-  set(2, "paper", "blade", 4.0), set(3, "rft", "blade", 6.0);
+  set(0, "paper", "sphere", 2.0);
+  set(1, "rft", "sphere", 5.0);
+  set(2, "paper", "blade", 4.0);
+  set(3, "rft", "blade", 6.0);
   compare_ticks(runs);
   EXPECT_EQ(runs[0].of_paper, 1.0);
   EXPECT_EQ(runs[1].of_paper, 2.5);

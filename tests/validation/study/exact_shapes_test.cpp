@@ -11,7 +11,7 @@ namespace {
 constexpr double pi = std::numbers::pi;
 const double t = std::tan(pi / 6.0);
 
-/// By the midpoint rule over a square of this half side.
+/// The volume by the midpoint rule over a square of this half side.
 double volume(const ExactSurface& surface, double half_side) {
   constexpr int n = 1000;
   const double dx = 2.0 * half_side / n;
@@ -65,11 +65,11 @@ TEST(ExactShapes, WorkIsTheForceAlongTheWay) {
   EXPECT_NEAR(drag_work(0.006, 0.1, 2.0, force), 10.0 * 0.1 * repulse_force(0.006, force) * 2.0, 1e-12);
 }
 
-TEST(ExactShapes, AStripCoversItsShareOfADisk) {
-  EXPECT_NEAR(strip_share_of_disk(2.0, 2.0), 1.0, 1e-15);
-  EXPECT_NEAR(strip_share_of_disk(2.0, 5.0), 1.0, 1e-15);
-  EXPECT_NEAR(strip_share_of_disk(1.0, 1e-6) / (4e-6 / pi), 1.0, 1e-9);
-  EXPECT_NEAR(strip_share_of_disk(1.0, 0.5), (pi / 3.0 + std::sqrt(3.0) / 2.0) / pi, 1e-15);
+TEST(ExactShapes, AStripCoversItsFractionOfADisk) {
+  EXPECT_NEAR(strip_fraction_of_disk(2.0, 2.0), 1.0, 1e-15);
+  EXPECT_NEAR(strip_fraction_of_disk(2.0, 5.0), 1.0, 1e-15);
+  EXPECT_NEAR(strip_fraction_of_disk(1.0, 1e-6) / (4e-6 / pi), 1.0, 1e-9);
+  EXPECT_NEAR(strip_fraction_of_disk(1.0, 0.5), (pi / 3.0 + std::sqrt(3.0) / 2.0) / pi, 1e-15);
 }
 
 }  // namespace

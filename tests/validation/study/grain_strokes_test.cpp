@@ -50,7 +50,10 @@ TEST(GrainStrokes, AreTheMeansOfTheTables) {
       EXPECT_NEAR(stroke.change[bin], sum / beds, 1e-6) << stroke.name << bin;
     }
     double against = 0.0, up = 0.0;
-    for (const std::vector<double>& row : force) against += row[0], up += row[2];
+    for (const std::vector<double>& row : force) {
+      against += row[0];
+      up += row[2];
+    }
     if (stroke.way > 0.0) {
       EXPECT_NEAR(stroke.against, against / beds, 1e-5) << stroke.name;
     }

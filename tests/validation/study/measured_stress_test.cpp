@@ -17,7 +17,7 @@ TEST(LawStress, IsThatOfTheTheorysTwoPlates) {
   EXPECT_NEAR(law_stress(right_angle, 0.0).against, 0.192, 5e-4);
 }
 
-TEST(LawStress, OfAPlateThatLeansToEitherSideIsTheSameToWhatGoesStraightDown) {
+TEST(LawStress, IsTheSameStraightDownForAPlateThatLeansToEitherSide) {
   for (const double angle : {0.1, 0.7, 1.2}) {
     const PlanarStress left = law_stress(angle, right_angle), right = law_stress(-angle, right_angle);
     EXPECT_NEAR(left.up, right.up, 1e-12);

@@ -10,13 +10,13 @@ namespace {
 
 constexpr double upright = 0.5 * std::numbers::pi;
 
-TEST(PlanarStress, OfTheGenericMediumIsOneUnderAFlatPlate) {
+TEST(PlanarStress, IsOneUnderAFlatPlateInTheGenericMedium) {
   const PlanarStress down = planar_stress(generic_medium, 0.0, upright);
   EXPECT_NEAR(down.up, 1.0, 1e-12);
   EXPECT_NEAR(down.against, 0.0, 1e-12);
 }
 
-TEST(PlanarStress, OfMeasuredMediaIsWhatTheirSeriesSumUpTo) {
+TEST(PlanarStress, IsTheSumOfTheSeriesOfMeasuredMedia) {
   // N/cm^3: a flat plate pushed down, A00 + A10 + B11 + B01 + B-11; a blade dragged, C01 - C11 - C-11.
   constexpr double pushed[] = {0.254, 0.464, 0.218}, dragged[] = {0.083, 0.107};
   for (std::size_t i = 0; i < measured_media.size(); ++i)

@@ -20,7 +20,9 @@ TEST(StudyFilesTest, PageTableAndDataSayTheSame) {
   study.problems.push_back({"heap", "Work of a heap", "What it is.", "work_error", "work", "", {}});
   for (const double error : {0.5, 0.25}) {
     StudyRun run;
-    run.problem = "heap", run.series = "s, t", run.label = "l";
+    run.problem = "heap";
+    run.series = "s, t";
+    run.label = "l";
     run.score.work_error = run.error = error;
     study.runs.push_back(run);
   }
@@ -39,7 +41,7 @@ TEST(StudyFilesTest, PageTableAndDataSayTheSame) {
   EXPECT_NE(read_text_file(files.page()).find("Work of a heap"), std::string::npos);
 }
 
-TEST(StudyFilesTest, APlaceThatCannotBeWrittenIsRefusedAtOnce) {
+TEST(StudyFilesTest, APathThatCannotBeWrittenIsRefusedAtOnce) {
   const TestFolder folder;
   std::ofstream(folder / "file") << "text";
   try {

@@ -12,7 +12,9 @@ Study small_study() {
   study.problems.push_back({"heap", "A heap", "What it is.", "l1", "misplaced sand", "", {}});
   for (const double error : {0.5, 0.25, 0.24}) {
     StudyRun run;
-    run.problem = "heap", run.series = "s", run.label = "l";
+    run.problem = "heap";
+    run.series = "s";
+    run.label = "l";
     run.wall_seconds = 1.0 / error;
     run.score.l1 = run.error = error;
     run.pareto = true;
@@ -62,7 +64,8 @@ TEST(StudyJson, HoldsWhatComesWithAProblem) {
 
 TEST(StudySummary, SaysWhatTicksTake) {
   Study study = small_study();
-  study.runs[0].settings.tool = "rake", study.runs[0].settings.force_law = "rft";
+  study.runs[0].settings.tool = "rake";
+  study.runs[0].settings.force_law = "rft";
   study.runs[0].of_paper = 2.25;
   const std::string text = study_summary(study);
   EXPECT_NE(text.find("rake"), std::string::npos) << text;
@@ -74,7 +77,8 @@ TEST(StudySummary, MarksWhatABusyMachineDisturbed) {
   EXPECT_EQ(study_summary(study).find('*'), std::string::npos);
   EXPECT_EQ(study_json(study)["disturbance"], "");
   study.runs[2].disturbed = true;
-  study.runs[0].disturbed = true, study.runs[0].of_paper = 2.25;
+  study.runs[0].disturbed = true;
+  study.runs[0].of_paper = 2.25;
   const std::string text = study_summary(study);
   EXPECT_NE(text.find("0.24  *\n"), std::string::npos) << text;
   EXPECT_NE(text.find("2.25  *\n"), std::string::npos) << text;

@@ -10,7 +10,7 @@
 namespace sandstroke {
 namespace {
 
-TEST(ConvergenceOrder, OfAPowerLawIsItsExponentForCertain) {
+TEST(ConvergenceOrder, IsTheExponentOfAPowerLawForCertain) {
   const ConvergenceOrder fit = fit_order({{1.0, 3.0}, {0.5, 0.75}, {0.25, 0.1875}, {0.125, 0.046875}});
   EXPECT_NEAR(fit.order, 2.0, 1e-14);
   EXPECT_NEAR(fit.low, 2.0, 1e-6);
@@ -33,7 +33,9 @@ TEST(ConvergenceOrder, NeedsThreeDifferentSteps) {
 
 StudyRun run_of(const char* problem, double seconds, double error) {
   StudyRun run;
-  run.problem = problem, run.wall_seconds = seconds, run.error = error;
+  run.problem = problem;
+  run.wall_seconds = seconds;
+  run.error = error;
   return run;
 }
 
@@ -58,9 +60,10 @@ TEST(Disturbance, IsWhatRepeatsDifferByOrWaited) {
   EXPECT_TRUE(is_disturbed(1.0, 1.0, 0.21));  // all repeats waited alike
 }
 
-TEST(Disturbance, OfTheTickThatIsComparedWithCountsToo) {
+TEST(Disturbance, CountsForTheTickToCompareWithToo) {
   std::vector<StudyRun> runs = {run_of("ticks", 1.0, 2.0), run_of("ticks", 1.0, 4.0)};
-  runs[0].settings.force_law = "paper", runs[1].settings.force_law = "rft";
+  runs[0].settings.force_law = "paper";
+  runs[1].settings.force_law = "rft";
   runs[0].disturbed = true;
   compare_ticks(runs);
   EXPECT_EQ(runs[1].of_paper, 2.0);

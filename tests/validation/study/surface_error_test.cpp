@@ -27,8 +27,10 @@ TEST(SurfaceError, IsNoneForTheShapeItselfAndOneWhereNothingHasMoved) {
 
 TEST(SurfaceError, MeasuresInUnitsOfTheSandThatHasToMove) {
   HeightGrid start = HeightGrid::Zero(4, 4), exact = start, heights = start;
-  exact(1, 1) = 3.0, exact(2, 2) = -1.0;      // 4 have to move
-  heights(1, 1) = 2.0, heights(0, 0) = -1.0;  // and 3 are wrong
+  exact(1, 1) = 3.0;
+  exact(2, 2) = -1.0;  // 4 have to move
+  heights(1, 1) = 2.0;
+  heights(0, 0) = -1.0;  // and 3 are wrong
   heights(2, 2) = 0.0;
   const SurfaceError error = surface_error(heights, start, exact);
   EXPECT_DOUBLE_EQ(error.l1, 3.0 / 4.0);
@@ -36,7 +38,7 @@ TEST(SurfaceError, MeasuresInUnitsOfTheSandThatHasToMove) {
   EXPECT_DOUBLE_EQ(error.largest, 1.0);
 }
 
-TEST(FlankSlopes, OfAnExactConeAreRightInEveryDirectionUpAndDown) {
+TEST(FlankSlopes, AreRightInEveryDirectionUpAndDownAnExactCone) {
   const ExactCone cone = collapsed_cylinder(0.5, 0.2, 30.0);
   for (const double sign : {1.0, -1.0}) {
     const HeightField bed = sampled([&](double x, double y) { return sign * cone(x, y); }, 128);

@@ -21,7 +21,7 @@ function mapChart(map) {
   const named = ({ name, unit, logarithmic }) => ({ logarithmic, margin: 0, title: name, unit });
   const edges = ({ values, logarithmic }) => {
     const found = borders(logarithmic ? values.map(Math.log10) : values);
-    return logarithmic ? found.map((place) => 10 ** place) : found;
+    return logarithmic ? found.map((position) => 10 ** position) : found;
   };
   const [xEdges, yEdges] = [edges(map.x), edges(map.y)];
   const x = scaleOf(xEdges, named(map.x)), y = scaleOf(yEdges, named(map.y));

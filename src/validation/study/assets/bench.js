@@ -4,7 +4,7 @@
 
 /** The series, in the order of the runs. */
 const seriesOf = (runs) => [...new Set(runs.map((run) => run.series))];
-/** Whether the row has a place on logarithmic axes. */
+/** Whether the row has a position on logarithmic axes. */
 const plotted = (row, ...names) => names.every((name) => isNumber(row[name]) && row[name] > 0);
 const toTwo = (value) => (isNumber(value) ? withMinus(value.toFixed(2)) : "–");
 
@@ -119,8 +119,8 @@ drawPage((data, main) => {
     if (known.length === 0) return null;
     const finest = seriesOf(known).map((series) => known.filter((run) => run.series === series)
       .reduce((best, run) => ((run.cells ?? 0) > (best.cells ?? 0) ? run : best)));
-    const places = finest.flatMap((run) => run.slope_error.map(at)).filter((place) => place !== null);
-    const low = Math.min(at(-bound), ...places) - 0.6, high = Math.max(at(bound), ...places) + 0.15;
+    const positions = finest.flatMap((run) => run.slope_error.map(at)).filter((position) => position !== null);
+    const low = Math.min(at(-bound), ...positions) - 0.6, high = Math.max(at(bound), ...positions) + 0.15;
     const rings = [0, bound, 0.5, 2, 8, 30].flatMap((value) => (value > 0 ? [-value, value] : [value]))
       .filter((value) => at(value) > low + 0.4 && at(value) < high).sort((a, b) => a - b);
     const circle = (value) => ({
@@ -165,7 +165,7 @@ drawPage((data, main) => {
                       splitLine: { show: false }, z: 5, axisLabel: {
                         customValues: rings.filter((value) => value !== -bound).map(at), fontSize: 10,
                         backgroundColor: "#ffffffd0", padding: [1, 2], color: "#1d2329",
-                        formatter: (place) => tickText(Number((bound * Math.sinh(place)).toPrecision(3))) } },
+                        formatter: (position) => tickText(Number((bound * Math.sinh(position)).toPrecision(3))) } },
         series: [...rings.map(circle), ...lines],
       },
     });
@@ -177,9 +177,10 @@ drawPage((data, main) => {
     const y = scaleOf(curves.flatMap((curve) => curve.y), { title: y_title });
     const names = [...new Set(curves.map(({ name }) => name))];
     const lookIn = { line: { dash: "solid" }, dashed: { dash: "dashed" }, points: { dash: "none", symbol: symbols[0] } };
-    const series = curves.map(({ name, look, x: places, y: values }) => {
+    const series = curves.map(({ name, look, x: positions, y: values }) => {
       const { colour } = lookOf(names.indexOf(name)), { dash, symbol } = lookIn[look];
-      const data = places.map((place, i) => ({ value: [x.at(place), y.at(values[i])], place, value_there: values[i] }));
+      const data = positions.map((position, i) => ({ value: [x.at(position), y.at(values[i])], along: position,
+                                                      value_there: values[i] }));
       return { type: "line", name, data, symbol: symbol ? outlined(symbol) : "none", symbolSize: 8,
                itemStyle: { color: colour },
                lineStyle: { color: colour, type: dash === "none" ? "solid" : dash, width: symbol ? 0 : 1.75 } };
@@ -187,7 +188,7 @@ drawPage((data, main) => {
     const legend = [...names.map((name, i) => ({ name, series: true, colour: lookOf(i).colour })),
                     ...meanings.map(({ look, text }) => ({ name: text, colour: "#333333", ...lookIn[look] }))];
     const option = {
-      ...chartBase(({ seriesName, data }) => tipOf(seriesName, [[x_title, data.place], [y_title, data.value_there]])),
+      ...chartBase(({ seriesName, data }) => tipOf(seriesName, [[x_title, data.along], [y_title, data.value_there]])),
       xAxis: x.axis, yAxis: { ...y.axis, nameGap: 46 }, series };
     return chart({ title, note, legend, option });
   }

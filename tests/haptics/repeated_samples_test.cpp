@@ -1,4 +1,4 @@
-#include "haptics/held_samples.h"
+#include "haptics/repeated_samples.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// The place of a hand at a time [s]: it goes along x at 1 m/s, rests from 1 to 2 s, and goes on.
+/// The position of a hand at a time [s]: it goes along x at 1 m/s, rests from 1 to 2 s, and goes on.
 Vector3d pausing_hand(double t) { return {t < 1.0 ? t : std::max(1.0, t - 1.0), 0.0, 0.0}; }
 
 /// The same hand for 3 s, read at 200 Hz from a device that measures every `period` seconds.
@@ -32,9 +32,9 @@ double fastest_step(const Stroke& stroke) {
   return top;
 }
 
-TEST(HeldSamples, WithoutRepeatsTheHandIsAsFastAsItWas) {
+TEST(RepeatedSamples, AreDroppedSoThatTheHandIsAsFastAsItWas) {
   for (const double period : {0.01, 0.015, 0.0167}) {
-    const Stroke stroke = read_at_200_hz(period), thinned = without_held_samples(stroke);
+    const Stroke stroke = read_at_200_hz(period), thinned = without_repeated_samples(stroke);
     EXPECT_GT(fastest_step(stroke), 1.9) << period;
     EXPECT_LT(fastest_step(thinned), 1.7) << period;  // times are those of reading: up to 5 ms late
     EXPECT_EQ(thinned.time.back(), stroke.time.back());
@@ -45,22 +45,22 @@ TEST(HeldSamples, WithoutRepeatsTheHandIsAsFastAsItWas) {
                                        [](const Vector3d& p) { return std::abs(p.x() - 1.0) < 0.02; });
     EXPECT_GT(resting, 40) << period;
   }
-  EXPECT_NEAR(fastest_step(without_held_samples(read_at_200_hz(0.015))), 1.0, 1e-9);
+  EXPECT_NEAR(fastest_step(without_repeated_samples(read_at_200_hz(0.015))), 1.0, 1e-9);
 }
 
-TEST(HeldSamples, AreCounted) {
+TEST(RepeatedSamples, AreCounted) {
   const Repeats repeats = repeats_of(read_at_200_hz(0.015));
   EXPECT_EQ(repeats.period, 3u);
-  EXPECT_NEAR(repeats.share, 1.0 - 2.0 / 3.0 / 3.0, 0.01);  // one in three in motion, none at rest
+  EXPECT_NEAR(repeats.fraction, 1.0 - 2.0 / 3.0 / 3.0, 0.01);  // one in three in motion, none at rest
   EXPECT_EQ(repeats_of(read_at_200_hz(0.005)).period, 1u);
 }
 
-TEST(HeldSamples, ARestOfADeviceThatRepeatsNothingStays) {
+TEST(RepeatedSamples, ARestOfADeviceThatRepeatsNothingStays) {
   const Stroke stroke = read_at_200_hz(0.005);
-  EXPECT_EQ(without_held_samples(stroke).time, stroke.time);
+  EXPECT_EQ(without_repeated_samples(stroke).time, stroke.time);
 }
 
-TEST(HeldSamples, AllColumnsAndPenStatesGoWithThem) {
+TEST(RepeatedSamples, AllColumnsAndPenStatesGoWithThem) {
   Stroke stroke;
   for (int i = 0; i < 12; ++i) {
     stroke.time.push_back(0.01 * i);
@@ -71,7 +71,7 @@ TEST(HeldSamples, AllColumnsAndPenStatesGoWithThem) {
     stroke.flags.push_back(static_cast<std::uint32_t>(i));
     stroke.contact.push_back(i == 4 ? pen_lifts : pen_down);
   }
-  const Stroke thinned = without_held_samples(stroke);
+  const Stroke thinned = without_repeated_samples(stroke);
   const std::vector<std::uint32_t> kept = {0, 3, 4, 5, 6, 9, 11};
   EXPECT_EQ(thinned.switches, kept);
   EXPECT_EQ(thinned.flags, kept);
@@ -84,15 +84,15 @@ TEST(HeldSamples, AllColumnsAndPenStatesGoWithThem) {
   }
 }
 
-TEST(HeldSamples, NothingIsTornApart) {
+TEST(RepeatedSamples, NothingIsTornApart) {
   Stroke stroke = read_at_200_hz(0.06);
   stroke.gap_threshold = 0.02;
-  const Stroke thinned = without_held_samples(stroke);
+  const Stroke thinned = without_repeated_samples(stroke);
   EXPECT_LT(thinned.size(), stroke.size() / 2);
   for (std::size_t i = 0; i + 1 < thinned.size(); ++i) EXPECT_TRUE(thinned.joined(i));
 }
 
-TEST(HeldSamples, AreLeftOutOfEveryColumn) {
+TEST(RepeatedSamples, AreLeftOutOfEveryColumn) {
   Stroke stroke = read_at_200_hz(0.01);
   const std::size_t count = stroke.size();
   stroke.velocity.assign(count, Vector3d::Zero());
@@ -102,7 +102,7 @@ TEST(HeldSamples, AreLeftOutOfEveryColumn) {
   stroke.switches.assign(count, 0);
   stroke.flags.assign(count, 0);
   stroke.contact.assign(count, pen_down);
-  const Stroke thinned = without_held_samples(stroke);
+  const Stroke thinned = without_repeated_samples(stroke);
   EXPECT_LT(thinned.size(), count);
   visit_columns(thinned, [&](const char* name, const auto& column) {
     EXPECT_EQ(column.size(), thinned.size()) << name;

@@ -1,4 +1,4 @@
-#include "haptics/held_samples.h"
+#include "haptics/repeated_samples.h"
 
 #include <algorithm>
 
@@ -38,7 +38,7 @@ Repeats repeats_of(const Stroke& stroke) {
   return {1.0 - static_cast<double>(runs.size()) / static_cast<double>(stroke.size()), usual_size(runs)};
 }
 
-Stroke without_held_samples(const Stroke& stroke) {
+Stroke without_repeated_samples(const Stroke& stroke) {
   const std::vector<StrokePiece> runs = equal_runs(stroke);
   const std::size_t period = usual_size(runs);
   std::vector<std::size_t> kept;

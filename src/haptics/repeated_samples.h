@@ -5,11 +5,11 @@
 namespace sandstroke {
 
 /// keep: as recorded. drop: without samples that repeat the last one.
-enum class HeldSamples { keep, drop };
+enum class RepeatedSamples { keep, drop };
 
 /// Repeated samples, as of a device that is read faster than it measures.
 struct Repeats {
-  double share = 0.0;      ///< fraction of the samples that have the position of the one before
+  double fraction = 0.0;   ///< of the samples, those that have the position of the one before
   std::size_t period = 1;  ///< samples from one measurement to the next
 };
 /// period: the length that nine of ten runs of equal positions do not exceed. The others are rests.
@@ -19,6 +19,6 @@ Repeats repeats_of(const Stroke& stroke);
 /// positions, and every period-th after it that has a period's samples after it in the run. So a rest stays a
 /// rest, which ends one measurement before the motion does. Also keeps the end of a joined piece, and the
 /// samples that hold it together.
-Stroke without_held_samples(const Stroke& stroke);
+Stroke without_repeated_samples(const Stroke& stroke);
 
 }  // namespace sandstroke
