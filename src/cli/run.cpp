@@ -109,16 +109,10 @@ void check_default_output(const fs::path& output, const fs::path& scene_path, co
           output.string(), value);
 }
 
-int run(const RunArguments& arguments) {
-  const fs::path scene_path = arguments.scene;
-  std::vector<std::string> overrides = arguments.overrides;
-  if (!arguments.stroke.empty()) overrides.push_back(stroke_override(arguments.stroke));
-  if (arguments.frames >= 0.0) overrides.push_back(fmt::format("output.frames={}", arguments.frames));
-  const SceneFile scene = load_scene(scene_path, overrides);
-  const std::string output = arguments.output.empty() ? scene_path.stem().string() + ".h5" : arguments.output;
-
-  const fs::path folder = scene_path.parent_path();
-  std::vector<fs::path> files = input_files(scene, folder);
+/// Checks every file that the run is to write, before any work. scene_path, output: as run() reads them.
+void check_outputs(const RunArguments& arguments, const SceneFile& scene, const fs::path& scene_path,
+                   const std::string& output) {
+  std::vector<fs::path> files = input_files(scene, scene_path.parent_path());
   files.push_back(scene_path);
   const auto check = [&files](const fs::path& written, const OutputKind& kind) {
     check_output(written, files, kind);
@@ -132,23 +126,50 @@ int run(const RunArguments& arguments) {
     check(arguments.picture, picture_output);
   }
   if (!arguments.picture.empty() || !arguments.video.empty()) check_drawable(scene.bed.rows, scene.bed.cols);
-  if (!arguments.video.empty()) {
-    check_film_name(arguments.video);
-    check(arguments.video, film_output);
-    if (scene.output.frames == 0.0)
-      throw_input_error("--video needs frames, and this run keeps none; add --frames 10");
-  }
+  if (arguments.video.empty()) return;
+  check_film_name(arguments.video);
+  check(arguments.video, film_output);
+  if (scene.output.frames == 0.0)
+    throw_input_error("--video needs frames, and this run keeps none; add --frames 10");
+}
 
-  catch_interrupts();
+RunOptions options_of(const RunArguments& arguments) {
   RunOptions options;
-  options.scene_folder = folder;
-  options.scene_file = scene_path;
+  options.scene_folder = fs::path(arguments.scene).parent_path();
+  options.scene_file = arguments.scene;
   options.threads = arguments.threads;
   options.progress = true;
   options.error_map = arguments.error_map;
   if (!arguments.estimate_error.empty())
     options.second = arguments.estimate_error == second_solution_names.back() ? SecondSolution::finer
                                                                               : SecondSolution::coarser;
+  return options;
+}
+
+/// Draws the picture and the film that were asked for. Returns the film's exit code.
+int draw(const RunArguments& arguments, const SceneFile& scene, const std::string& output) {
+  if (!arguments.picture.empty()) {
+    write_png(arguments.picture, run_picture(RunFile(output), scene.view));
+    if (!arguments.json) print_row("picture", arguments.picture);
+  }
+  if (arguments.video.empty()) return 0;
+  const int exit_code = draw_film(RunFile(output), {scene.view}, std::nullopt, arguments.video);
+  if (exit_code == 0 && !arguments.json) print_row("film", arguments.video);
+  return exit_code;
+}
+
+int run(const RunArguments& arguments) {
+  const fs::path scene_path = arguments.scene;
+  std::vector<std::string> overrides = arguments.overrides;
+  if (!arguments.stroke.empty()) overrides.push_back(stroke_override(arguments.stroke));
+  if (arguments.frames >= 0.0) overrides.push_back(fmt::format("output.frames={}", arguments.frames));
+  const SceneFile scene = load_scene(scene_path, overrides);
+  const std::string output = arguments.output.empty() ? scene_path.stem().string() + ".h5" : arguments.output;
+
+  check_outputs(arguments, scene, scene_path, output);
+
+  catch_interrupts();
+  RunOptions options = options_of(arguments);
   std::optional<RunView> view;
   if (arguments.view)
     options.onlooker = [&](const Simulation& simulation) -> SimulationObserver& {
@@ -164,15 +185,7 @@ int run(const RunArguments& arguments) {
     print_summary(result, scene, written);
   }
   if (result.interrupted) return 128 + interrupted();
-  if (!arguments.picture.empty()) {
-    write_png(arguments.picture, run_picture(RunFile(output), scene.view));
-    if (!arguments.json) print_row("picture", arguments.picture);
-  }
-  if (!arguments.video.empty()) {
-    const int exit_code = draw_film(RunFile(output), {scene.view}, std::nullopt, arguments.video);
-    if (exit_code != 0) return exit_code;
-    if (!arguments.json) print_row("film", arguments.video);
-  }
+  if (const int exit_code = draw(arguments, scene, output); exit_code != 0) return exit_code;
   warn_of_run(result, scene);
   if (view && view->lag())
     spdlog::warn(

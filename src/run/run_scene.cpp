@@ -102,6 +102,32 @@ Scene with_files(Scene scene, const std::filesystem::path& folder) {
   return scene;
 }
 
+namespace {
+
+/// A stroke on its bed; none where the bed is only relaxed.
+struct PlacedStroke {
+  std::optional<Stroke> stroke;
+  std::string name, hash;
+};
+
+PlacedStroke load_placed(const Scene& scene, const RunOptions& options) {
+  PlacedStroke placed;
+  if (!scene.stroke) return placed;
+  if (options.stroke) {
+    placed.name = options.stroke->source;
+    placed.hash = content_hash(*options.stroke);
+    constexpr bool scripted = false;
+    placed.stroke = placed_samples(scene, *options.stroke, placed.name, scripted);
+  } else {
+    const std::filesystem::path file = stroke_path(scene, options.scene_folder);
+    placed.name = samples_name(file);
+    placed.stroke = placed_stroke(scene, file, placed.hash);
+  }
+  return placed;
+}
+
+}  // namespace
+
 RunResult run_scene(const SceneFile& asked, const std::filesystem::path& output, const RunOptions& options) {
   const Scene scene = with_files(asked, options.scene_folder);
   const int cores = tbb::info::default_concurrency();
@@ -109,18 +135,7 @@ RunResult run_scene(const SceneFile& asked, const std::filesystem::path& output,
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                   static_cast<std::size_t>(threads));
 
-  std::string stroke_name, stroke_hash;
-  std::optional<Stroke> stroke;
-  if (scene.stroke && options.stroke) {
-    stroke_name = options.stroke->source;
-    stroke_hash = content_hash(*options.stroke);
-    constexpr bool scripted = false;
-    stroke = placed_samples(scene, *options.stroke, stroke_name, scripted);
-  } else if (scene.stroke) {
-    const std::filesystem::path file = stroke_path(scene, options.scene_folder);
-    stroke_name = samples_name(file);
-    stroke = placed_stroke(scene, file, stroke_hash);
-  }
+  const auto [stroke, stroke_name, stroke_hash] = load_placed(scene, options);
   if (options.second) second_scene(scene, *options.second);  // if this is refused, then before any work
   HeightField bed = options.surface ? *options.surface : load_surface(scene.bed, options.scene_folder);
   std::optional<HeightField> start;

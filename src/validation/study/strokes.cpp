@@ -81,6 +81,26 @@ struct StrokeCase {
   bool at_rim;  // sand stands at the tool's rim: then more steps and their order matter
 };
 
+/// Adds a plugin's law of displacement, with all steps divided by 1, 2, 4 ... below `finest`.
+void add_plugin_law(Problem& problem, const PluginLawSettings& plugin_laws, ModelPreset preset,
+                    const Stroke& stroke, int finest, const ProblemOptions& options) {
+  problem.text += " A plugin's law is compared with itself in equally fine steps.";
+  const auto by_law = [=](int by) {
+    Scene scene = refined(preset, by, by);
+    scene.plugin_laws = plugin_laws;
+    return scene;
+  };
+  const auto law_truth = truth_when_asked<Replay>([=] { return replay(by_law(finest), stroke); });
+  for (int by = 1; by < finest; by *= 2)
+    problem.contenders.push_back({series_of(plugin_laws), fmt::format("1/{} of all", by),
+                                  settings_of(by_law(by), options.threads), by_law(by).bed.cell_size(),
+                                  [=] {
+                                    const Replay run = replay(by_law(by), stroke);
+                                    return Trial{run.result.wall_seconds, judge(run, law_truth())};
+                                  },
+                                  true});
+}
+
 Problem stroke_problem(const StrokeCase& given, const ProblemOptions& options) {
   const ModelPreset preset = given.preset;
   const Stroke stroke = given.stroke;
@@ -108,24 +128,9 @@ Problem stroke_problem(const StrokeCase& given, const ProblemOptions& options) {
         stroke_contender(series, label, scene, options.threads, step, stroke, truth));
   };
   for (int by = 1; by < finest; by *= 2) add(all_finer, fmt::format("1/{} of all", by), all(by));
-  for (const PluginLawSettings& plugin_laws : options.plugin_laws) {
-    if (plugin_laws.displacement.empty()) continue;
-    problem.text += " A plugin's law is compared with itself in equally fine steps.";
-    const auto by_law = [=](int by) {
-      Scene scene = all(by);
-      scene.plugin_laws = plugin_laws;
-      return scene;
-    };
-    const auto law_truth = truth_when_asked<Replay>([=] { return replay(by_law(finest), stroke); });
-    for (int by = 1; by < finest; by *= 2)
-      problem.contenders.push_back({series_of(plugin_laws), fmt::format("1/{} of all", by),
-                                    settings_of(by_law(by), options.threads), by_law(by).bed.cell_size(),
-                                    [=] {
-                                      const Replay run = replay(by_law(by), stroke);
-                                      return Trial{run.result.wall_seconds, judge(run, law_truth())};
-                                    },
-                                    true});
-  }
+  for (const PluginLawSettings& plugin_laws : options.plugin_laws)
+    if (!plugin_laws.displacement.empty())
+      add_plugin_law(problem, plugin_laws, preset, stroke, finest, options);
   if (!paper)
     for (int by = 1; by < finest; by *= 2)
       add("without a solid tool, 240 relaxations a second", fmt::format("1/{} of all", by), pumping(by));
