@@ -81,6 +81,7 @@ constexpr double fade = 0.05;
 /// The sums over all elements that make up the wrench.
 class WrenchSum {
  public:
+  HWY_INLINE WrenchSum() {}  // an implicit one would not have the instruction set's attributes
   /// size: of an element's force per depth [N/m], once it has fully yielded; `mobilised` is the part of it
   /// that acts.
   HWY_INLINE void add(int place, const Vector& r, const Vector& force, V size, V depth, V mobilised) {
