@@ -3,6 +3,8 @@
 #include <Eigen/Core>
 #include <deque>
 
+#include "rules/schedule.h"
+
 namespace sandstroke {
 
 /// kinematic: the device is where the hand is. dynamic: a mass held by the hand's spring, which feels the
@@ -21,7 +23,7 @@ enum class DevicePreset { omega3, phantom_desktop, touch, ideal };
 struct DeviceSettings {
   DeviceModel model = DeviceModel::kinematic;
   DevicePreset preset = DevicePreset::omega3;
-  double servo_rate = 1000.0;                        ///< Hz
+  double servo_rate = published_servo_rate;          ///< Hz
   double scale = 1.0;                                ///< bed metres per device metre
   Eigen::Vector3d offset = Eigen::Vector3d::Zero();  ///< m, bed position of the device's origin
   double max_force = 12.0;                           ///< N; 0 = no limit

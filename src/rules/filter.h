@@ -9,7 +9,7 @@ namespace sandstroke {
 /// Underside of the sphere: the paper's filter a sin(rho^2/s^2), or the sphere itself.
 enum class ToolProfile { paper, sphere };
 
-/// The paper's filter g(u) = sin(u) - 0.53 with u = (rho/s)^2, rho being the distance from the tool's axis
+/// The paper's filter f(u) = sin(u) - 0.53 with u = (rho/s)^2, rho being the distance from the tool's axis
 /// (section 3.1, figure 2). It is negative up to u0 = asin(0.53), under the tool, and positive from there to
 /// u1, on the ring around it. At u1 its integral over the plane vanishes: 1 - cos(u1) = 0.53 u1.
 namespace filter {

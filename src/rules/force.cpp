@@ -10,7 +10,7 @@ namespace sandstroke {
 
 namespace {
 
-/// Nothing stays nothing, also times infinity.
+/// 0 times infinity is 0 here, not NaN.
 double product(double a, double b) { return a == 0.0 || b == 0.0 ? 0.0 : a * b; }
 
 }  // namespace

@@ -9,9 +9,12 @@
 
 namespace sandstroke {
 
-/// How often something at `rate` [Hz] has come due before this tick of a loop at servo_rate [Hz] (section 5:
-/// forces at 1 kHz, erosion and pictures at 60 Hz). It comes due once per period, in the last tick before
-/// each multiple of it, and at most once a tick.
+/// The rates of the paper (section 5) [Hz]: a force every millisecond, and the visual loop, in which sand
+/// relaxes.
+inline constexpr double published_servo_rate = 1000.0, published_relaxation_rate = 60.0;
+
+/// How often something at `rate` [Hz] has come due before this tick of a loop at servo_rate [Hz]. It comes
+/// due once per period, in the last tick before each multiple of it, and at most once a tick.
 inline double times_due(std::int64_t tick, double servo_rate, double rate) {
   if (rate <= 0.0) return 0.0;
   if (rate >= servo_rate) return static_cast<double>(tick);  // also where rate x tick overflows

@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 
+#include "rules/schedule.h"
 #include "rules/talus.h"
 #include "sand/height_field.h"
 
@@ -22,7 +23,8 @@ struct RelaxationSettings {
   double talus_angle = 30.0;    ///< deg (angle of repose), above 0, below 90
   double tolerance = 1e-3;      ///< a cell rests if its slope exceeds tan(talus) by at most this fraction
   double step_tolerance = 0.1;  ///< rkl: error of a super-step, as a fraction of how far sand has moved
-  double rate = 60.0;       ///< Hz, relaxations during a stroke; 0 = none by time (paper: the visual loop)
+  /// Hz, relaxations during a stroke; 0 = none by time
+  double rate = published_relaxation_rate;
   double way = 0.0;         ///< tool radii that the tool moves in sand between relaxations; 0 = none by way
   double way_at_rim = 0.0;  ///< tool radii: the same with R/5 of sand or more above its rim; 0 = as `way`
   double share = 0.0;       ///< c: 0 = the law's default (paper 1/2; isotropic 1/4, its limit; faces 1/4)
