@@ -37,7 +37,7 @@ LiveRelaxer::LiveRelaxer(const HeightField& bed, const ToolSettings& tool, const
 void LiveRelaxer::give(const SandChange& change) {
   while (!relaxed_.push(change)) {
     if (stopping_) {
-      held_.push_back(change);
+      ungiven_.push_back(change);
       return;
     }
     std::this_thread::sleep_for(1ms);
@@ -46,7 +46,7 @@ void LiveRelaxer::give(const SandChange& change) {
 
 void LiveRelaxer::exchange() {
   std::vector<SandChange> before;
-  before.swap(held_);
+  before.swap(ungiven_);
   for (const SandChange& change : before) give(change);
   // Places first: a place is told after the sand displaced there, so the sand is never older than the tool.
   ToolPlace place;
@@ -76,7 +76,7 @@ void LiveRelaxer::relax() {
     tool_.turn(*place_.rotation);
     tool_.put(replica_.bed(), place_.tip, place_.contact);
   }
-  tool_.hold(replica_.bed());
+  tool_.make_walls(replica_.bed());
   const RelaxationOutcome outcome = relaxer_->relax(replica_.bed());
   tool_.relaxed(replica_.bed());
   report_.relaxations += 1;

@@ -60,7 +60,7 @@ class LiveRelaxer {
   /// The error that ended the thread, if there was one.
   const std::exception_ptr& failure() const { return failure_; }
   /// No change is left to be given.
-  bool all_given() const { return held_.empty(); }
+  bool all_given() const { return ungiven_.empty(); }
   const HeightField& bed() const { return replica_.bed(); }
   const RelaxationReport& report() const { return report_; }
 
@@ -81,7 +81,7 @@ class LiveRelaxer {
   SandRing& displaced_;
   PlaceRing& places_;
   SandRing& relaxed_;
-  std::vector<SandChange> held_;  // changes that could not be given before the stop
+  std::vector<SandChange> ungiven_;  // changes that could not be given before the stop
   std::atomic<bool> stopping_ = true;
   std::function<void(const HeightField&)> onlooker_;
   RelaxationReport report_;

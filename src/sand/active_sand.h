@@ -46,7 +46,7 @@ class ActiveSand {
 
   /// Computes every active cell's gain in a pass. Returns the sum of outflows [m]. in_step(slot, tile)
   /// returns what a super-step does with a tile's flow (FlowInStep). In a super-step only cells within one of
-  /// a change may give; all others are held still, however steep (tells_givers). join(slot) is called first,
+  /// a change may give; no other cell gives, however steep (tells_givers). join(slot) is called first,
   /// for one active tile after the other; at a tile's first call places() has just grown by it.
   template <class InStep, class Join>
   double compute_flow(HeightField& bed, const InStep& in_step, const Join& join);

@@ -60,7 +60,7 @@ using PassWatcher = std::function<void(std::int64_t passes, const BedNow& bed_no
 /// Jacobi: all cells at once, from the old heights. A cell at rest (its slope is within the tolerance) gives
 /// nothing. So what a patch of sand does depends on its neighbourhood only, not on whether sand elsewhere
 /// still moves. (The stages of rkl have no tolerance, and its steps are as long as the whole of the moving
-/// sand allows.) No sand crosses the border, or enters or leaves walls (HeightField::hold).
+/// sand allows.) No sand crosses the border, or enters or leaves walls (HeightField::set_tool_walls).
 class Relaxer {
  public:
   virtual ~Relaxer() = default;

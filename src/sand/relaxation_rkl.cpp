@@ -10,10 +10,10 @@
 //   would carry sand too far.
 // In the stages sand flows wherever the slope exceeds tan(talus); the tolerance only says when all is done.
 // (If the stages used the tolerance, its jumps would make long steps chatter.) But only cells within one of a
-// change give. All other sand is held still; otherwise a grain that falls on a heap at rest would set its
-// whole surface flowing within the tolerance. (This also holds a plane so steep everywhere that its cells
-// pass on what they take, until the change at its ends comes near. The result is then 0.9 % of the moved sand
-// from the small-step limit, instead of 0.5.)
+// change give. All other sand stays; otherwise a grain that falls on a heap at rest would set its whole
+// surface flowing within the tolerance. (A plane so steep everywhere that its cells pass on what they take
+// also stays, until the change at its ends comes near. The result is then 0.9 % of the moved sand from the
+// small-step limit, instead of 0.5.)
 #include <algorithm>
 #include <limits>
 #include <memory>

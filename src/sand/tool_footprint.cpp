@@ -113,7 +113,7 @@ void ToolFootprint::write_flagged(HeightField& bed) {
   });
 }
 
-void ToolFootprint::hold_bowl(HeightField& bed) {
+void ToolFootprint::make_walls(HeightField& bed) {
   constexpr int side = BedGeometry::tile_side;
   bowl_.clear();
   for (int row = 0; row < cells_.rows(); ++row) {
@@ -128,7 +128,7 @@ void ToolFootprint::hold_bowl(HeightField& bed) {
       if (bowl) bowl_.push_back({bed.allocate(bed.tile_index(row / side, tile_col)), row % side, bowl});
     }
   });
-  bed.hold(bowl_);
+  bed.set_tool_walls(bowl_);
 }
 
 }  // namespace sandstroke

@@ -110,12 +110,12 @@ double SandSide::way_to_next_relaxation(const HeightField& bed) {
   return std::max(way * tool_->radius(), least_way * bed.cell_size());
 }
 
-void SandSide::hold(HeightField& bed) {
+void SandSide::make_walls(HeightField& bed) {
   if (!solid_) return;
   if (contact_)
-    tool_->hold_bowl(bed);
+    tool_->make_walls(bed);
   else
-    bed.hold({});
+    bed.set_tool_walls({});
 }
 
 void SandSide::relaxed(const HeightField& bed) {

@@ -24,7 +24,7 @@ TEST(RoundBed, HasTheCellsWhoseCentresLieInItsLargestCircle) {
         if (std::abs(from_centre - radius) < 1e-12) continue;  // on the wall: as rounding has it
         EXPECT_DOUBLE_EQ(bed.beyond_edge(bed.x_of(col), bed.y_of(row)), from_centre - radius);
         ASSERT_EQ(bed.has_sand(row, col), from_centre < radius) << row << ", " << col;
-        ASSERT_EQ(bed.is_held(row, col), !bed.has_sand(row, col)) << "before its tile is there";
+        ASSERT_EQ(bed.is_wall(row, col), !bed.has_sand(row, col)) << "before its tile is there";
         ASSERT_EQ(bed.has_sand(row, col), bed.has_sand(rows - 1 - row, cols - 1 - col)) << "symmetric";
       }
   }
@@ -34,10 +34,10 @@ TEST(RoundBed, ItsWallStaysWhereAToolStood) {
   HeightField bed(130, 130, width, BedShape::round);
   SphereTool tool({0.01, ToolProfile::sphere, true});
   tool.place(bed, bed.wall_radius() - 0.005, 0.0);
-  tool.hold_bowl(bed);
-  bed.hold({});
+  tool.make_walls(bed);
+  bed.set_tool_walls({});
   for (int row = 0; row < 130; ++row)
-    for (int col = 0; col < 130; ++col) ASSERT_EQ(bed.is_held(row, col), !bed.has_sand(row, col));
+    for (int col = 0; col < 130; ++col) ASSERT_EQ(bed.is_wall(row, col), !bed.has_sand(row, col));
 }
 
 /// Sand moves, none beyond the wall, and none is lost.

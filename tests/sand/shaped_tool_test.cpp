@@ -81,10 +81,10 @@ TEST(ShapedTool, ASphereAsAMeshLeavesWhatTheSphereLeaves) {
       for (int i = 0; i <= 40; ++i) {
         tool.place(bed, -0.02 + 0.001 * i + 0.0001, 0.0003);
         tool.displace(bed, -0.006, {0.001, 0.0, 0.0}, out);
-        tool.hold_bowl(bed);
+        tool.make_walls(bed);
         relaxer->relax(bed);
       }
-      bed.hold({});
+      bed.set_tool_walls({});
       relaxer->relax(bed);
       return bed.grid();
     };
@@ -110,10 +110,10 @@ HeightGrid dragged(ToolShape shape, int quarters, int side) {
     for (int turn = 0; turn < quarters; ++turn) at = Eigen::Vector2d(-at.y(), at.x());
     tool.place(bed, at.x(), at.y());
     tool.displace(bed, -0.0053, {0.0, 0.0, 0.0}, out);
-    tool.hold_bowl(bed);
+    tool.make_walls(bed);
     relaxer->relax(bed);
   }
-  bed.hold({});
+  bed.set_tool_walls({});
   relaxer->relax(bed);
   return bed.grid();
 }
@@ -155,10 +155,10 @@ HeightField drawn_at(double angle, ToolShape shape, double cell) {
     const Eigen::Vector3d at = (0.001 * i - 0.015) * way;
     tool.place(bed, at.x(), at.y());
     tool.displace(bed, -0.005, 0.001 * way, out);
-    tool.hold_bowl(bed);
+    tool.make_walls(bed);
     relaxer->relax(bed);
   }
-  bed.hold({});
+  bed.set_tool_walls({});
   relaxer->relax(bed);
   return bed;
 }
@@ -203,7 +203,7 @@ TEST(ShapedTool, ABladeAcrossATroughPushesTheHeapOfItsSand) {
     for (int i = 0; i <= steps; ++i) {
       tool.place(bed, -0.1 + step * i, 0.0);
       tool.displace(bed, -depth, {step, 0.0, 0.0}, out);
-      tool.hold_bowl(bed);
+      tool.make_walls(bed);
       relaxer->relax(bed);
     }
     const double expected = std::sqrt(2.0 * slope * depth * way), heap = bed.grid().maxCoeff();
@@ -241,10 +241,10 @@ TEST(ShapedTool, AWedgeLeavesLeveesOfTheSandThatItTookThePlaceOf) {
     for (int i = 1; i <= steps; ++i) {
       tool.place(bed, 0.0, 0.0);
       tool.displace(bed, -step * i, {0.0, 0.0, -step}, out);
-      tool.hold_bowl(bed);
+      tool.make_walls(bed);
       relaxer->relax(bed);
     }
-    bed.hold({});
+    bed.set_tool_walls({});
     relaxer->relax(bed);
     const double expected = depth * std::sqrt(slope / (2.0 * flank)), levee = bed.grid().maxCoeff();
     RecordProperty(fmt::format("levee_{}", 1e3 * cell), fmt::format("{:.4f}", levee / expected));
@@ -277,7 +277,7 @@ TEST(ShapedTool, LosesNoSandOfAnyShapeAndOrientation) {
         tool.place(bed, upto(0.14) - 0.07, upto(0.1) - 0.05);
         if (!tool.footprint().cells().empty())
           pushed += tool.displace(bed, upto(0.04) - 0.03, {1e-3, 0, 0}, out);
-        tool.hold_bowl(bed);
+        tool.make_walls(bed);
       }
     } catch (const Error& error) {
       EXPECT_EQ(error.kind(), ErrorKind::input) << error.what();

@@ -87,11 +87,11 @@ std::vector<double> relaxations_of_a_drag(double tick) {
   std::vector<double> relaxations;
   Eigen::Vector3d tip(-0.02, 0.0, -0.003);
   const auto relax = [&] {
-    sand.hold(bed);
+    sand.make_walls(bed);
     // Held are the cells under the tool where it is now: their middle.
     double sum = 0.0, cells = 0.0;
     for (int col = 0; col < 100; ++col)
-      if (bed.is_held(50, col)) {
+      if (bed.is_wall(50, col)) {
         sum += bed.x_of(col);
         cells += 1.0;
       }
@@ -105,7 +105,7 @@ std::vector<double> relaxations_of_a_drag(double tick) {
   }
   tip.z() = 0.02;
   sand.move(bed, tip, tip, relax);
-  EXPECT_TRUE(bed.held().empty());
+  EXPECT_TRUE(bed.tool_walls().empty());
   return relaxations;
 }
 
@@ -184,16 +184,16 @@ TEST(SandSide, ALiftedToolHoldsNothing) {
   SandSide sand({0.01, ToolProfile::sphere, true}, {Deposit::outward});
   const Eigen::Vector3d tip(0.0, 0.0, -0.003);
   sand.move(bed, tip, tip, no_slip);
-  sand.hold(bed);
-  EXPECT_FALSE(bed.held().empty());
+  sand.make_walls(bed);
+  EXPECT_FALSE(bed.tool_walls().empty());
   sand.lift();
-  sand.hold(bed);
-  EXPECT_TRUE(bed.held().empty());
+  sand.make_walls(bed);
+  EXPECT_TRUE(bed.tool_walls().empty());
 
   SandSide hollow({0.01, ToolProfile::sphere}, {Deposit::outward});
   hollow.move(bed, tip, tip, no_slip);
-  hollow.hold(bed);
-  EXPECT_TRUE(bed.held().empty());
+  hollow.make_walls(bed);
+  EXPECT_TRUE(bed.tool_walls().empty());
 }
 
 TEST(SandSide, BesideTheBedThereIsNoLevelAndNoContact) {

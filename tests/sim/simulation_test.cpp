@@ -31,7 +31,7 @@ Stroke through(const std::vector<Eigen::Vector3d>& points, double interval) {
 }
 
 TEST(Simulation, FindsALoopThatSwingsByItself) {
-  // Down at 0.1 m/s and held: late by 40 ticks it never comes to rest; on time it does.
+  // Down at 0.1 m/s, then at rest: late by 40 ticks it never comes to rest; on time it does.
   const auto swings_from = [](int delay) {
     Scene scene = small_scene();
     scene.force.k_f = 0.0;
@@ -299,7 +299,7 @@ TEST(Simulation, TheForceThatActsIsTheOneComputedTicksBefore) {
   EXPECT_NEAR(result.device.absorbed_energy, absorbed, 0.01 * absorbed);  // the last tick is not in the sum
 }
 
-TEST(Simulation, ImplicitDragHoldsWhereSampledDragThrowsTheDevice) {
+TEST(Simulation, ImplicitDragIsStableWhereSampledDragThrowsTheDevice) {
   // B = k_f F_r = 10 s/m x 60 N is above 2 m / T = 500 N s/m.
   Scene scene = small_scene();
   scene.device = ideal_device();
@@ -312,9 +312,9 @@ TEST(Simulation, ImplicitDragHoldsWhereSampledDragThrowsTheDevice) {
     return simulation.run({&recording});
   };
   EXPECT_THROW(run(DragVelocity::sampled), Error);
-  const RunResult held = run(DragVelocity::implicit);
-  EXPECT_GT(held.device.max_force, 50.0);
-  EXPECT_GT(held.device.absorbed_energy, 0.0);
+  const RunResult stable = run(DragVelocity::implicit);
+  EXPECT_GT(stable.device.max_force, 50.0);
+  EXPECT_GT(stable.device.absorbed_energy, 0.0);
 }
 
 TEST(Simulation, ASceneWithoutAStrokeIsACollapse) {
@@ -412,7 +412,7 @@ TEST(Simulation, EndsWithTheToolGoneAndTheSandAtRestWithoutIt) {
                         through({{-0.02, 0, -0.008}, {0.02, 0, -0.008}}, 0.2));
   const RunResult result = simulation.run();
   EXPECT_GT(result.contact_ticks, 0);
-  EXPECT_TRUE(simulation.bed().held().empty());
+  EXPECT_TRUE(simulation.bed().tool_walls().empty());
   HeightField alone(simulation.bed().grid(), simulation.bed().cell_size());
   const RelaxationOutcome more = make_relaxer(scene.relaxation, alone.cell_size())->relax(alone);
   EXPECT_LE(more.moved_volume, 1e-3 * result.moved_volume);
