@@ -162,13 +162,13 @@ ForceFit fit_force(const FeltLaw& law, const std::vector<bool>& asked) {
   fit.ticks = law.ticks();
   fit.start_residual = problem.residual(law.start());
   fit.residual = problem.residual(fit.values);
-  const auto share = [&](double residual) {
+  const auto explained_by = [&](double residual) {
     const double part = residual / fit.recorded_rms;
     return 1.0 - part * part;
   };
-  fit.explained = share(fit.residual);
+  fit.explained = explained_by(fit.residual);
   const LeastSquares reversed{law, -problem.recorded, asked};
-  fit.explained_reversed = share(reversed.residual(reversed.best()));
+  fit.explained_reversed = explained_by(reversed.residual(reversed.best()));
   return fit;
 }
 

@@ -32,7 +32,7 @@ inline double sine(double u) {
 /// Whether a cell lies under the tool: there the filter is negative, and sand is taken out.
 inline bool is_negative(double u) { return u <= u0; }
 
-/// The positive filter, the ring's share of the sand that was taken out; 0 outside the ring.
+/// The positive filter. The ring takes the sand in proportion to it; it is 0 outside the ring.
 inline double positive(double u) { return u > u0 && u <= u1 ? std::max(sine(u) - offset, 0.0) : 0.0; }
 
 /// The tool's underside above its tip [m]; infinite where the tool is not. paper: R sin(u) / (2 u0), which

@@ -65,7 +65,7 @@ class BedGeometry {
     const ColumnRange sand = sand_cols(row);
     return col >= sand.begin && col < sand.end;
   }
-  /// How far a place [m] lies beyond the bed's edge [m]; negative inside.
+  /// How far a position [m] lies beyond the bed's edge [m]; negative inside.
   double beyond_edge(double x, double y) const {
     if (shape_ == BedShape::round) return elementary::hypot(x, y) - wall_radius();
     return std::max(std::abs(x) - 0.5 * cols_ * cell_size_, std::abs(y) - 0.5 * rows_ * cell_size_);

@@ -52,11 +52,11 @@ double level_of(const SphereShape& shape, const ToolFootprint& footprint);
 /// (tip_height infinite).
 double carve(const SphereShape& shape, ToolFootprint& footprint, double tip_height);
 
-/// The part of the ring that a motion fills: all of it if drag_share is 0, its front half if it is 1. A cell
-/// p [m] ahead of the axis keeps the fraction 1 - drag_share (1 - clamp(p / dx + 1/2, 0, 1)) of its
+/// The part of the ring that a motion fills: all of it if drag_fraction is 0, its front half if it is 1. A
+/// cell p [m] ahead of the axis keeps the fraction 1 - drag_fraction (1 - clamp(p / dx + 1/2, 0, 1)) of its
 /// ring_weight.
 struct RingFront {
-  double drag_share;
+  double drag_fraction;
   Eigen::Vector2d direction;  ///< of the drag, a unit vector
 };
 struct Carved {

@@ -42,7 +42,7 @@ class HeightField : public BedGeometry {
     const int slot = slot_of(tile_index(row / tile_side, col / tile_side));
     return slot < 0 ? untouched_->height(*this, row, col) : tiles_[slot]->heights[in_tile(row, col)];
   }
-  /// Height of the cell at a place [m]; NaN outside the bed.
+  /// Height of the cell at a position [m]; NaN outside the bed.
   double height_at(double x, double y) const;
   /// Sets one cell. The next relaxation looks there.
   void set(int row, int col, double height) {

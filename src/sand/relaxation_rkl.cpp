@@ -96,7 +96,7 @@ class RklRelaxer : public Relaxer {
   bool goes_on() const {
     return !sand_.at_rest() && too_steep_ && outcome_.passes < max_passes_ && !interrupted();
   }
-  StepTile& tile(int slot) { return *tiles_[sand_.place_of(slot)]; }
+  StepTile& tile(int slot) { return *tiles_[sand_.number_of(slot)]; }
 
   template <class Told>
   void super_step(HeightField& bed, double share, const Told& told) {
@@ -161,8 +161,8 @@ class RklRelaxer : public Relaxer {
 
   /// Lets an active tile join the step, and adds its starting heights to the range.
   void take_in(const HeightField& bed, int slot) {
-    if (tiles_.size() < sand_.places()) tiles_.push_back(std::make_unique<StepTile>());
-    if (taken_in_ < sand_.places()) {  // the tile is new in this relaxation
+    if (tiles_.size() < sand_.joined()) tiles_.push_back(std::make_unique<StepTile>());
+    if (taken_in_ < sand_.joined()) {  // the tile is new in this relaxation
       ++taken_in_;
       tile(slot).step = -1;
       const CellRange cells = bed.tile_cells(bed.tile_of(slot));
@@ -227,8 +227,8 @@ class RklRelaxer : public Relaxer {
   /// Calls body(tile, its step's tile) for the tiles that take part in this super-step.
   template <class Body>
   void for_tiles_in_step(const Body& body) {
-    for (std::size_t place = 0; place < taken_in_; ++place)
-      if (tiles_[place]->step == step_) body(sand_.tile_at(place), *tiles_[place]);
+    for (std::size_t number = 0; number < taken_in_; ++number)
+      if (tiles_[number]->step == step_) body(sand_.tile_at(number), *tiles_[number]);
   }
 
   /// Whether the last stage took any height out of the range of the starting ones.
@@ -253,7 +253,7 @@ class RklRelaxer : public Relaxer {
   double largest_share_;
   ActiveSand sand_;
 
-  std::vector<std::unique_ptr<StepTile>> tiles_;  // by place in sand_
+  std::vector<std::unique_ptr<StepTile>> tiles_;  // by number in sand_
   std::int64_t step_ = 0;                         // which super-step this is
 
   // State of this relaxation.

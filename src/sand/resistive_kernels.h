@@ -13,8 +13,8 @@ struct ResistiveTick {
   Eigen::Vector3d tip;
   SandPlane plane;
   Eigen::Vector3d motion;  ///< of the tip, in yield ways
-  Eigen::Matrix3d spin;    ///< 1/m; times an element's place: its motion relative to the tip, in yield ways
-  double resistance;       ///< N/m^3, xi
+  Eigen::Matrix3d spin;  ///< 1/m; times an element's position: its motion relative to the tip, in yield ways
+  double resistance;     ///< N/m^3, xi
   double tool_friction, yield_way;
 };
 Wrench resistive_wrench(const ResistiveTick& tick);

@@ -7,8 +7,8 @@
 namespace sandstroke {
 namespace {
 
-/// The range [begin, end) of the cells whose centres lie between two places, in a line of `count` cells.
-/// Places count in cells from the line's centre.
+/// The range [begin, end) of the cells whose centres lie between two positions, in a line of `count` cells.
+/// Positions count in cells from the line's centre.
 std::pair<int, int> cells_between(double low, double high, int count) {
   // The centre is at cell (count - 1) / 2, maybe a half. Adding the half first rounds alike for any even
   // count.

@@ -49,7 +49,7 @@ class DeviceSide {
   EnergyAccount energy_;
   bool lifted_ = false;
   std::optional<double> fading_since_;  // s
-  double share_ = 1.0;                  // of the force, in the last tick
+  double fraction_ = 1.0;               // of the force, in the last tick
   CompensatedSum contact_force_;        // N, over contact ticks
   std::int64_t contact_ticks_ = 0;
   SwingWatch swing_;

@@ -71,7 +71,7 @@ class SandSide {
   }
   /// For exchanging the tool; takes effect at the next move().
   std::unique_ptr<Tool>& exchangeable_tool() { return tool_; }
-  /// Place of the tool in the last tick [m]; none if it was lifted since.
+  /// Position of the tool in the last tick [m]; none if it was lifted since.
   const std::optional<Eigen::Vector3d>& last_tip() const { return last_tip_; }
 
  private:

@@ -245,7 +245,7 @@ void check_bed(const Scene& scene, const std::string& name) {
   const SurfaceSettings& s = bed.surface;
   const bool waves = s.kind == SurfaceKind::ripples || (s.kind == SurfaceKind::noise && s.wavelength > 0.0);
   if (waves &&
-      !(std::max(bed.width, bed.depth) / s.wavelength < 0x1p53))  // beyond it no place in a wave is left
+      !(std::max(bed.width, bed.depth) / s.wavelength < 0x1p53))  // beyond it no position in a wave is left
     throw_input_error(
         "{}: bed.surface.wavelength = {} m is too small for a bed of {} m by {} m; take a larger one", name,
         s.wavelength, bed.width, bed.depth);

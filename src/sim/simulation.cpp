@@ -182,8 +182,8 @@ RunResult Simulation::run(const Observers& observers) {
 }
 
 void FollowedSand::add(double asked, double reached, double force_asked, double force_reached) {
-  const auto mean = [share = 1.0 / static_cast<double>(++ticks)](double& of, double value) {
-    of += share * (value - of);
+  const auto mean = [fraction = 1.0 / static_cast<double>(++ticks)](double& of, double value) {
+    of += fraction * (value - of);
   };
   mean(asked_depth, asked), mean(depth, reached), mean(asked_force, force_asked), mean(force, force_reached);
 }

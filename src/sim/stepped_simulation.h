@@ -19,10 +19,10 @@ class SteppedSimulation {
   /// Time of the next tick [s].
   double time() const;
 
-  /// Plays a tick with the hand at its new place. knows_velocity: hand.velocity [m/s] is given; otherwise it
-  /// follows from the way since the tick before. turns: the tool turns with the hand. Returns what the device
-  /// felt. With device.model = "dynamic" it has moved from its old place while the hand went here. Error:
-  /// input, if a number is not finite; unstable.
+  /// Plays a tick with the hand at its new position. knows_velocity: hand.velocity [m/s] is given; otherwise
+  /// it follows from the way since the tick before. turns: the tool turns with the hand. Returns what the
+  /// device felt. With device.model = "dynamic" it has moved from its old position while the hand went here.
+  /// Error: input, if a number is not finite; unstable.
   const TickRecord& tick(Hand hand, bool knows_velocity, bool turns);
   /// Relaxes sand to rest; the tool stays where it is. After the last tick, call lift() first.
   RelaxationOutcome relax(const PassWatcher& watcher = {}) { return loop_.relax(watcher); }

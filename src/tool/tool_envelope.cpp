@@ -60,9 +60,9 @@ void ToolEnvelope::rasterise(const TriangleMesh& surface) {
       if (height == infinite) continue;
       cover_[at_sample(row, col)] = 1.0;
       lowest_ = std::min(lowest_, height), highest_ = std::max(highest_, height);
-      const Vector2d place(first_col_ + static_cast<double>(col) / phases_,
-                           first_row_ + static_cast<double>(row) / phases_);
-      reach_ = std::max(reach_, cell_size_ * elementary::hypot(place.x(), place.y()));
+      const Vector2d position(first_col_ + static_cast<double>(col) / phases_,
+                              first_row_ + static_cast<double>(row) / phases_);
+      reach_ = std::max(reach_, cell_size_ * elementary::hypot(position.x(), position.y()));
     }
   if (lowest_ == infinite)
     throw_input_error(
@@ -75,8 +75,8 @@ void ToolEnvelope::rasterise(const TriangleMesh& surface) {
 /// Lowers the samples over a triangle, its edges included, to its height if that is lower.
 void ToolEnvelope::draw_triangle(const Vector3d& a, const Vector3d& b, const Vector3d& c) {
   const double per_metre = phases_ / cell_size_;
-  const auto place = [&](const Vector3d& p) { return Vector2d(per_metre * p.x(), per_metre * p.y()); };
-  const Vector2d A = place(a), B = place(b), C = place(c);
+  const auto in_samples = [&](const Vector3d& p) { return Vector2d(per_metre * p.x(), per_metre * p.y()); };
+  const Vector2d A = in_samples(a), B = in_samples(b), C = in_samples(c);
   const double area = cross(B - A, C - A);
   if (std::abs(area) < 1e-9) return;  // upright: its neighbours cover its edges
   const double slack = -1e-9 * std::abs(area), low_z = std::min({a.z(), b.z(), c.z()}),

@@ -407,7 +407,7 @@ TEST(LiveSand, IsWithinTheBoundOfSamplingInUnevenTicks) {
     most = std::max(most, felt.forces[i].norm());
   }
   EXPECT_GT(most, 2.0);
-  RecordProperty("largest_share_of_the_bound", std::to_string(worst));
+  RecordProperty("largest_fraction_of_the_bound", std::to_string(worst));
 }
 
 TEST(LiveSand, RelaxingInItsOwnThreadLosesNoSand) {
@@ -582,14 +582,14 @@ TEST(LiveSand, TheVelocityOfDragIsTheMeanOverTheLastFourReadings) {
   scene.device.max_force = 0.0;
   LiveSand sand(scene, starting_bed(scene.bed), {"bed"});
   const std::vector<double> times = {0.0, 0.001, 0.003, 0.004, 0.007, 0.0075, 0.009, 0.0101};
-  const auto place = [](double t) -> Eigen::Vector3d { return {20.0 * t * t, -0.3 * t, -0.004}; };
+  const auto position = [](double t) -> Eigen::Vector3d { return {20.0 * t * t, -0.3 * t, -0.004}; };
   for (std::size_t i = 0; i < times.size(); ++i) {
-    const FeltForce felt = sand.feel(times[i], {place(times[i])});
+    const FeltForce felt = sand.feel(times[i], {position(times[i])});
     ASSERT_GT(felt.force.z(), 0.0);
     Eigen::Vector3d velocity = Eigen::Vector3d::Zero();
     if (i > 0) {
       const double before = times[i < 4 ? 0 : i - 4];
-      velocity = (place(times[i]) - place(before)) / (times[i] - before);
+      velocity = (position(times[i]) - position(before)) / (times[i] - before);
     }
     const Eigen::Vector2d drag = -scene.force.k_f * felt.force.z() * velocity.head<2>();
     EXPECT_NEAR((felt.force.head<2>() - drag).norm(), 0.0, 1e-12) << i;

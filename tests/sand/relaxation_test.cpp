@@ -71,11 +71,11 @@ TEST(IsotropicLaw, OnePassOfOneHighCellIsAsWritten) {
   s.max_passes = 1;
   make_relaxer(s, 1.0)->relax(bed);
   // gx = gy = 2, |g| = 2 sqrt 2: each axis neighbour gets 1/4 (1 - tan 30 / |g|) 2; the corners nothing.
-  const double share = 0.25 * (1.0 - tan30 / (2.0 * std::sqrt(2.0))) * 2.0;
-  EXPECT_NEAR(bed(0, 1), share, 1e-15);
-  EXPECT_NEAR(bed(1, 2), share, 1e-15);
+  const double gain = 0.25 * (1.0 - tan30 / (2.0 * std::sqrt(2.0))) * 2.0;
+  EXPECT_NEAR(bed(0, 1), gain, 1e-15);
+  EXPECT_NEAR(bed(1, 2), gain, 1e-15);
   EXPECT_EQ(bed(0, 0), 0.0);
-  EXPECT_NEAR(bed(1, 1), 2.0 - 4.0 * share, 1e-15);
+  EXPECT_NEAR(bed(1, 1), 2.0 - 4.0 * gain, 1e-15);
 }
 
 TEST_P(AllLaws, TheShareAskedForIsWhatFlows) {

@@ -166,7 +166,7 @@ HeightField drawn_at(double angle, ToolShape shape, double cell) {
 TEST(ShapedTool, TurnedByThirtyDegreesItLeavesTheSameWithinTheCellsError) {
   const double angle = pi / 6.0;
   for (const ToolShape shape : any_shape) {
-    std::vector<double> shares;
+    std::vector<double> fractions;
     for (const double cell : {0.002, 0.001, 0.0005}) {
       const HeightField one = drawn_at(0.0, shape, cell), turned = drawn_at(angle, shape, cell);
       double apart = 0.0, moved = 0.0;
@@ -180,10 +180,10 @@ TEST(ShapedTool, TurnedByThirtyDegreesItLeavesTheSameWithinTheCellsError) {
         }
       RecordProperty(fmt::format("shape_{}_{}", static_cast<int>(shape), 1e3 * cell),
                      fmt::format("{:.4f}", apart / moved));
-      shares.push_back(apart / moved);
+      fractions.push_back(apart / moved);
     }
     // 0.15 to 0.66 of the moved sand (a cone of a cell), then 0.04 to 0.15.
-    EXPECT_LT(shares.back(), 0.45 * shares.front()) << static_cast<int>(shape);
+    EXPECT_LT(fractions.back(), 0.45 * fractions.front()) << static_cast<int>(shape);
   }
 }
 

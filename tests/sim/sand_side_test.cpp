@@ -49,13 +49,13 @@ double displaced_between(HeightField& bed, const Eigen::Vector3d& here, const Ei
 }
 
 TEST(SandSide, ATickOfHalfARadiusDisplacesOnlyWhereItEnds) {
-  HeightField path(100, 100, 0.002), place = path;
+  HeightField path(100, 100, 0.002), there = path;
   const Eigen::Vector3d to(0.0049, 0.0, -0.02);
   const double volume = displaced_between(path, {0.0, 0.0, 0.001}, to);
   SphereTool tool({0.01, ToolProfile::sphere});
-  tool.place(place, to.x(), to.y());
-  EXPECT_EQ(volume, tool.displace(place, to.z(), {0.0049, 0.0, -0.021}, {Deposit::ahead}));
-  EXPECT_TRUE((path.grid() == place.grid()).all());
+  tool.place(there, to.x(), to.y());
+  EXPECT_EQ(volume, tool.displace(there, to.z(), {0.0049, 0.0, -0.021}, {Deposit::ahead}));
+  EXPECT_TRUE((path.grid() == there.grid()).all());
 }
 
 TEST(SandSide, DisplacesNothingInTheAirOrBesideTheBed) {

@@ -67,7 +67,7 @@ TEST(Simulation, WorkOfAConstantSpeedPlungeIsTheClosedForm) {
   EXPECT_GT(result.displaced_volume, 0.0);
   EXPECT_NEAR(recording.ticks.back().depth, depth, 1e-14);  // displacement leaves the level where it is
   EXPECT_NEAR(result.device.max_force, k_s * std::expm1(k_c * depth), 1e-10);
-  // A force is held from the start of its tick: of a spring's work a share of v T / d is missing.
+  // A force is held from the start of its tick: of a spring's work a fraction of v T / d is missing.
   const double speed = depth / 3.0, missing = speed / scene.device.servo_rate / depth;
   const double work = k_s * (std::expm1(k_c * depth) / k_c - depth);
   EXPECT_NEAR(1.0 - result.device.absorbed_energy / work, missing, 0.01 * missing);
