@@ -24,8 +24,11 @@ struct Moments {
 
   void add(const Vector3d& run, const Vector3d& recorded) {
     ticks += 1.0;
-    a += run, b += recorded;
-    aa += run.squaredNorm(), bb += recorded.squaredNorm(), ab += run.dot(recorded);
+    a += run;
+    b += recorded;
+    aa += run.squaredNorm();
+    bb += recorded.squaredNorm();
+    ab += run.dot(recorded);
   }
   double correlation() const {
     const double run = aa - a.squaredNorm() / ticks, recorded = bb - b.squaredNorm() / ticks;

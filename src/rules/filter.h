@@ -24,8 +24,10 @@ inline double u_of(double rho2, double radius) { return rho2 / (radius * radius 
 /// sin(u) for u <= u1 by its series, to the last bit as the kernels take it.
 inline double sine(double u) {
   double sum = 0.0, factorial = 355687428096000.0;  // 17!
-  for (int k = 17; k >= 3; factorial /= k * (k - 1), k -= 2)
+  for (int k = 17; k >= 3; k -= 2) {
     sum = sum * (u * u) + (k % 4 == 1 ? 1.0 : -1.0) / factorial;
+    factorial /= k * (k - 1);
+  }
   return u + u * (u * u * sum);
 }
 

@@ -20,8 +20,11 @@ void ActiveSand::begin(HeightField& bed) {
 }
 
 void ActiveSand::take_part(int slot) {
-  if (numbers_.size() <= static_cast<std::size_t>(slot))
-    numbers_.resize(slot + 1, -1), group_residuals_.resize(slot + 1), residuals_.resize(slot + 1);
+  if (numbers_.size() <= static_cast<std::size_t>(slot)) {
+    numbers_.resize(slot + 1, -1);
+    group_residuals_.resize(slot + 1);
+    residuals_.resize(slot + 1);
+  }
   if (numbers_[slot] >= 0) return;
   numbers_[slot] = static_cast<int>(joined_++);
   if (tiles_.size() < joined_) tiles_.push_back(std::make_unique<RelaxedTile>());

@@ -302,7 +302,8 @@ double SpreadOutward(ToolFootprint& f, double carved, const Outward& outward) {
     for (int g = 0; g < f.stride() / group; ++g)
       for (unsigned flags = f.flags(row)[g]; flags != 0; flags &= flags - 1) {
         const int col = g * group + std::countr_zero(flags);
-        cells.x[count] = col - axis_x, cells.y[count] = row - axis_y;
+        cells.x[count] = col - axis_x;
+        cells.y[count] = row - axis_y;
         cells.excess[count] = f.excess(row)[col];
         if (outward.way)
           outward.way->aim(row, col, cells.x[count], cells.y[count], cells.to_x[count], cells.to_y[count]);

@@ -62,12 +62,16 @@ class RklRelaxer : public Relaxer {
   RelaxationOutcome relax(HeightField& bed, const PassWatcher& after_pass) override {
     outcome_ = {};
     moved_ = {};
-    low_ = std::numeric_limits<double>::infinity(), high_ = -low_;
+    low_ = std::numeric_limits<double>::infinity();
+    high_ = -low_;
     ++step_;
     taken_in_ = 0;
     travelled_ = 0.0;
     too_steep_ = false;
-    const BedNow bed_now = [&]() -> const HeightField& { return sand_.write_back(bed), bed; };
+    const BedNow bed_now = [&]() -> const HeightField& {
+      sand_.write_back(bed);
+      return bed;
+    };
     const auto told = [&] {
       if (after_pass) after_pass(outcome_.passes, bed_now);
     };
@@ -167,7 +171,8 @@ class RklRelaxer : public Relaxer {
       tile(slot).step = -1;
       const CellRange cells = bed.tile_cells(bed.tile_of(slot));
       const HeightRange range = range_of(bed.tile_heights(slot), cells.rows(), cells.cols());
-      low_ = std::min(low_, range.low), high_ = std::max(high_, range.high);
+      low_ = std::min(low_, range.low);
+      high_ = std::max(high_, range.high);
     }
     join(slot);
   }

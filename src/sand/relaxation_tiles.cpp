@@ -15,7 +15,10 @@ class TileRelaxer : public Relaxer {
   RelaxationOutcome relax(HeightField& bed, const PassWatcher& after_pass) override {
     RelaxationOutcome outcome;
     CompensatedSum moved;
-    const BedNow bed_now = [&]() -> const HeightField& { return sand_.write_back(bed), bed; };
+    const BedNow bed_now = [&]() -> const HeightField& {
+      sand_.write_back(bed);
+      return bed;
+    };
     sand_.begin(bed);
     while (!sand_.at_rest() && outcome.passes != max_passes_ && !interrupted()) {
       moved.add(compute_flow(bed));

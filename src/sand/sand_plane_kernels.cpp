@@ -28,9 +28,15 @@ Eigen::Vector3d LeastDeviations(const SeenSand& sand, double reach) {
       most_off = Max(most_off, off);
       const V weight = turn == 0 ? there : there * (one / (off + least));
       const V weight_x = weight * x, weight_y = weight * y;
-      w.add(i, weight), wx.add(i, weight_x), wy.add(i, weight_y), wz.add(i, weight * z);
-      wxx.add(i, weight_x * x), wxy.add(i, weight_x * y), wyy.add(i, weight_y * y);
-      wxz.add(i, weight_x * z), wyz.add(i, weight_y * z);
+      w.add(i, weight);
+      wx.add(i, weight_x);
+      wy.add(i, weight_y);
+      wz.add(i, weight * z);
+      wxx.add(i, weight_x * x);
+      wxy.add(i, weight_x * y);
+      wyy.add(i, weight_y * y);
+      wxz.add(i, weight_x * z);
+      wyz.add(i, weight_y * z);
     }
     if (turn > 0 && largest(most_off) < 1e-6 * reach) break;  // all samples lie in the plane
     const double x = wx.total(), y = wy.total(), xy = wxy.total();

@@ -78,12 +78,15 @@ struct Spread {
       std::uint64_t f = 0;
       for (int i = -by; i <= by; ++i) f |= flags[r + reach + i];
       own[r] = f | f << 1 | f >> 1;
-      west[r] = f << (side - 1), east[r] = f >> (side - 1);
+      west[r] = f << (side - 1);
+      east[r] = f >> (side - 1);
       if constexpr (by == 2) {
         own[r] |= f << 2 | f >> 2;
-        west[r] |= f << (side - 2), east[r] |= f >> (side - 2);
+        west[r] |= f << (side - 2);
+        east[r] |= f >> (side - 2);
       }
-      any_west |= west[r], any_east |= east[r];
+      any_west |= west[r];
+      any_east |= east[r];
     }
   }
 };

@@ -41,7 +41,10 @@ class TileActivity {
   template <class ChangedIn>
   void advance(HeightField& bed, const ChangedIn& changed) {
     std::swap(tiles_before_, tiles_);
-    for (const int slot : tiles_before_) marks_[slot].sleep(), marks_[slot].was_active = true;
+    for (const int slot : tiles_before_) {
+      marks_[slot].sleep();
+      marks_[slot].was_active = true;
+    }
     tiles_.clear();
     for (const int slot : tiles_before_) wake_around(bed, slot, changed(slot));
     for (const int slot : tiles_before_) marks_[slot].was_active = false;

@@ -20,7 +20,10 @@ void DeviceSide::start(const Hand& hand) { device_.put(state_of(hand)); }
 double DeviceSide::faded_in(const TickRecord& record) {
   if (lifted_ && record.hand.down) {
     lifted_ = false;
-    if (record.contact) fading_since_ = record.time, fraction_ = 0.0;
+    if (record.contact) {
+      fading_since_ = record.time;
+      fraction_ = 0.0;
+    }
   }
   if (!fading_since_) return 1.0;
   const double fraction = record.contact ? (record.time - *fading_since_) / fade_in : 1.0;

@@ -60,7 +60,8 @@ double SandWatch::gained(const HeightField& bed) {
       for (int row = 0; row < cells.rows(); ++row)
         for (int col = 0; col < cells.cols(); ++col) {
           const auto at = static_cast<std::size_t>(row * HeightField::tile_side + col);
-          more.add(heights[at]), more.add(-rule[at]);
+          more.add(heights[at]);
+          more.add(-rule[at]);
           sum.sand += std::abs(heights[at]);
         }
       sum.gained = more.value();

@@ -15,11 +15,13 @@ void describe_bed(KeyVisitor& v, BedSettings& bed) {
   v.section("bed", "the sand box, centred on the origin, z up");
   double size[2] = {bed.width, bed.depth};
   v.numbers("size", size, 2, positive, "m", "extent along x and y");
-  bed.width = size[0], bed.depth = size[1];
+  bed.width = size[0];
+  bed.depth = size[1];
   int cells[2] = {bed.cols, bed.rows};
   v.integers("cells", cells, 2, 1, BedGeometry::most_cells,
              "number of cells along x and y; the cells must be square");
-  bed.cols = cells[0], bed.rows = cells[1];
+  bed.cols = cells[0];
+  bed.rows = cells[1];
   choose(v, "shape", bed.shape, {"rectangle", "round"},
          "the whole rectangle, or the largest circle in it with a wall around it, as in a sand table");
 

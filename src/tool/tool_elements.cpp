@@ -54,7 +54,9 @@ class Patches {
       bin[i + 3] = static_cast<std::int64_t>(std::round(directions * facing[axis] / area));
     }
     Patch& patch = all[bin];
-    patch.moment += area * centre, patch.facing += facing, patch.area += area;
+    patch.moment += area * centre;
+    patch.facing += facing;
+    patch.area += area;
   }
 
  private:

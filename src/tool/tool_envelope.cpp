@@ -39,8 +39,10 @@ ToolEnvelope::ToolEnvelope(const TriangleMesh& surface, double cell_size) : cell
     throw_input_error(
         "the tool is {:.4g} m by {:.4g} m, which is {:.3g} cells; take a smaller tool or fewer bed.cells",
         size.x(), size.y(), size.x() * size.y() / (cell_size * cell_size));
-  first_col_ = static_cast<int>(first(box.min().x())), first_row_ = static_cast<int>(first(box.min().y()));
-  cols_ = static_cast<int>(cols), rows_ = static_cast<int>(rows);
+  first_col_ = static_cast<int>(first(box.min().x()));
+  first_row_ = static_cast<int>(first(box.min().y()));
+  cols_ = static_cast<int>(cols);
+  rows_ = static_cast<int>(rows);
   stride_ = cols_ + 2 * cells_per_group;
   for (int row = 0; row < sample_rows(); ++row) rows_at_.push_back(at(row / phases_, 0, row % phases_, 0));
   for (int col = 0; col < sample_cols(); ++col) cols_at_.push_back(at(0, col / phases_, 0, col % phases_));
@@ -53,13 +55,15 @@ void ToolEnvelope::rasterise(const TriangleMesh& surface) {
   cover_.assign(samples, 0.0);
   for (std::size_t i = 0; i < surface.triangles.size(); ++i)
     draw_triangle(surface.corner(i, 0), surface.corner(i, 1), surface.corner(i, 2));
-  lowest_ = infinite, highest_ = -infinite;
+  lowest_ = infinite;
+  highest_ = -infinite;
   for (int row = 0; row < sample_rows(); ++row)
     for (int col = 0; col < sample_cols(); ++col) {
       const double height = underside_[at_sample(row, col)];
       if (height == infinite) continue;
       cover_[at_sample(row, col)] = 1.0;
-      lowest_ = std::min(lowest_, height), highest_ = std::max(highest_, height);
+      lowest_ = std::min(lowest_, height);
+      highest_ = std::max(highest_, height);
       const Vector2d position(first_col_ + static_cast<double>(col) / phases_,
                               first_row_ + static_cast<double>(row) / phases_);
       reach_ = std::max(reach_, cell_size_ * elementary::hypot(position.x(), position.y()));

@@ -41,8 +41,8 @@ TEST(PaperLaw, OnePassOfOneHighCellIsAsWritten) {
   RelaxationSettings s = settings(RelaxationLaw::paper);
   s.max_passes = 1;
   const auto outcome = make_relaxer(s, 1.0)->relax(bed);
-  // All 8 neighbours lie 2 lower; the steepest excess is towards the axis ones: dm = 1/2 (2 - tan 30), equal
-  // shares.
+  // All 8 neighbours lie 2 lower; the steepest excess is towards the axis ones: dm = 1/2 (2 - tan 30), in
+  // equal parts.
   const double given = 0.5 * (2.0 - tan30);
   EXPECT_EQ(outcome.passes, 1);
   EXPECT_FALSE(outcome.converged);
@@ -52,7 +52,7 @@ TEST(PaperLaw, OnePassOfOneHighCellIsAsWritten) {
   EXPECT_NEAR(outcome.moved_volume, given, 1e-15);
 }
 
-TEST(PaperLaw, SharesGoInProportionToTheDrop) {
+TEST(PaperLaw, ACellGivesInProportionToTheDrop) {
   HeightField bed(1, 3, 1.0);
   bed.set(0, 1, 2.0);
   bed.set(0, 2, 1.0);  // drops: 2 to the left, 1 to the right, both over tan 30
