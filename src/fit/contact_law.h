@@ -32,8 +32,7 @@ class ContactLaw : public FeltLaw {
  private:
   SandGrid grid_;
   double max_force_;
-  std::vector<Eigen::Vector4d>
-      felt_;  // of each tick, for each sand: force and strength over resistance [m^3]
+  std::vector<Eigen::Vector4d> felt_;  // each tick's, for each sand: force and strength over resistance [m^3]
   std::vector<Eigen::Vector3d> recorded_;
   std::int64_t ticks_ = 0, every_ = 1;
 };

@@ -32,7 +32,7 @@ struct Moments {
   }
   double correlation() const {
     const double run = aa - a.squaredNorm() / ticks, recorded = bb - b.squaredNorm() / ticks;
-    const double least = 1e-12;  // of the squares: rounding leaves this of a constant force
+    const double least = 1e-12;  // the part of the squares that rounding leaves of a constant force
     if (!(run > least * aa) || !(recorded > least * bb)) return std::numeric_limits<double>::quiet_NaN();
     return (ab - a.dot(b) / ticks) / std::sqrt(run * recorded);
   }

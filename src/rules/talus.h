@@ -40,7 +40,7 @@ struct TalusLaw {
 /// talus_angle [deg]. tolerance: a fraction of tan(talus). cell_size [m].
 TalusLaw talus_law(RelaxationLaw law, double share, double talus_angle, double tolerance, double cell_size);
 
-/// What one pass does.
+/// The outcome of one pass.
 struct TalusPass {
   HeightGrid heights;  ///< m, afterwards
   bool flows;          ///< some cell gives

@@ -81,7 +81,7 @@ class BedGeometry {
   double col_at(double x) const { return x / cell_size_ + col_origin_; }
   double row_at(double y) const { return y / cell_size_ + row_origin_; }
 
-  /// From the bed's centre to a cell's, in cells: whole or half numbers, so exact.
+  /// The way from the bed's centre to a cell's [cells]: whole or half numbers, so exact.
   double cols_from_centre(int col) const { return col - col_origin_; }
   double rows_from_centre(int row) const { return row - row_origin_; }
 

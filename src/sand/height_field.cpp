@@ -57,7 +57,7 @@ std::uint64_t HeightField::beyond_wall(int tile, int row_in_tile) const {
   if (shape() == BedShape::rectangle) return 0;
   const CellRange cells = tile_cells(tile);
   const ColumnRange sand = sand_cols(cells.row_begin + row_in_tile);
-  const auto first_cells = [&](int end) {  // of the row, up to a column of the bed
+  const auto first_cells = [&](int end) {  // the row's, up to a column of the bed
     const int count = std::clamp(end - cells.col_begin, 0, tile_side);
     return count == tile_side ? ~std::uint64_t{0} : (std::uint64_t{1} << count) - 1;
   };

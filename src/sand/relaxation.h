@@ -45,7 +45,7 @@ struct RelaxationOutcome {
   std::int64_t cells_visited = 0;  ///< cells that might have moved, summed over passes and the last check
   int tiles_active_max = 0;
   std::int64_t wake_ups = 0;  ///< how often a tile at rest became active
-  bool converged = false;     ///< every cell rests, or what still flows is below rounding
+  bool converged = false;     ///< every cell rests, or the flow that is left is below rounding
 
   /// Adds the next relaxation: counts and volumes add up, residual and converged become the next one's.
   void add(const RelaxationOutcome& next);

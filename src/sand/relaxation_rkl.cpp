@@ -8,7 +8,7 @@
 //   relative to how far sand has moved in this relaxation. It stays below the step tolerance. A step also
 //   ends when the flow has decayed or turned against its start (sum F F0 < 2 % of sum F0^2), because momentum
 //   would carry sand too far.
-// In the stages sand flows wherever the slope exceeds tan(talus); the tolerance only says when all is done.
+// Sand flows in the stages wherever the slope exceeds tan(talus); the tolerance only says when all is done.
 // (If the stages used the tolerance, its jumps would make long steps chatter.) But only cells within one of a
 // change give. All other sand stays; otherwise a grain that falls on a heap at rest would set its whole
 // surface flowing within the tolerance. (A plane so steep everywhere that its cells pass on what they take
@@ -45,9 +45,9 @@ constexpr double first_share = 1.0 / 8.0;
 // momentum carries sand too far.
 constexpr double decayed = 0.02;
 
-// From this work on [cells], sweeps wait for memory. Then, if the expected error lets a step go on, its next
-// stage is taken in the same sweep as the flow, and dropped if the step ends after all. 32 bytes a cell pass
-// instead of 72, with the same bits.
+// Sweeps over this work [cells] or more wait for memory. Then, if the expected error lets a step go on, its
+// next stage is taken in the same sweep as the flow, and dropped if the step ends after all. 32 bytes a cell
+// pass instead of 72, with the same bits.
 constexpr std::int64_t work_worth_ahead = 20'000;
 
 class RklRelaxer : public Relaxer {
@@ -112,7 +112,7 @@ class RklRelaxer : public Relaxer {
     bool ahead = false;                                         // the next stage is already taken
     for (int j = 0;; ++j) {
       const Stage stage = stage_of(j, share);
-      if (!(ahead ? go_ahead(bed) : advance(bed, stage))) break;  // what still flows is below rounding
+      if (!(ahead ? go_ahead(bed) : advance(bed, stage))) break;  // the flow that is left is below rounding
       ++outcome_.passes;
       told();
       if (j > 0 && left_range()) {
@@ -122,8 +122,8 @@ class RklRelaxer : public Relaxer {
       flowing = stage.momentum * flowing + stage.step * given_;
       moved_.add(flowing);
       tau = share * (j + 1.0) * (j + 2.0) / 2.0;
-      const double growth = (j + 3.0) / (j + 1.0);  // of tau in the next stage
-      const double squared = growth * growth;       // of the error
+      const double growth = (j + 3.0) / (j + 1.0);  // tau's, in the next stage
+      const double squared = growth * growth;       // the error's
       ahead = sand_.work() >= work_worth_ahead && foreseen * squared <= step_tolerance_;
       if (ahead)
         compute_flow(bed, stage_of(j + 1, share));

@@ -24,7 +24,7 @@ class TileRelaxer : public Relaxer {
       moved.add(compute_flow(bed));
       const bool changed =
           sand_.advance(bed, [](int, RelaxedTile& tile) { apply_flow(tile.flow, tile.patch, tile.changed); });
-      if (!changed) break;  // what still flows is below rounding
+      if (!changed) break;  // the flow that is left is below rounding
       ++outcome.passes;
       if (after_pass) after_pass(outcome.passes, bed_now);
     }

@@ -43,7 +43,7 @@ RelaxationOutcome WholeBedRelaxer::relax(HeightField& bed, const PassWatcher& af
     outcome.converged = !next.flows;
     if (outcome.converged || outcome.passes == max_passes_ || interrupted()) break;
     moved = moved_then;
-    outcome.converged = (next.heights == heights).all();  // what still flows is below rounding
+    outcome.converged = (next.heights == heights).all();  // the flow that is left is below rounding
     if (outcome.converged) break;
     heights.swap(next.heights);
     ++outcome.passes;

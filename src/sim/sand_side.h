@@ -58,7 +58,7 @@ class SandSide {
   /// Marks the cells under a solid tool in contact as walls for the next relaxation. Any other tool makes no
   /// walls.
   void make_walls(HeightField& bed);
-  /// To be called when sand has relaxed. The sand as it lies now decides how far the tool may go until the
+  /// Call it when sand has relaxed. The sand as it lies now decides how far the tool may go until the
   /// next time.
   void relaxed(const HeightField& bed);
 

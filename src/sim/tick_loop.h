@@ -12,7 +12,7 @@
 
 namespace sandstroke {
 
-/// What a hand does in a tick.
+/// The hand's part in a tick.
 struct TickInput {
   double time;  ///< s, of its start
   Hand hand;    ///< at its start
@@ -59,7 +59,7 @@ class TickLoop {
 
   Scene scene_;
   HeightField bed_;
-  Eigen::Matrix3d own_rotation_;  // of the tool
+  Eigen::Matrix3d own_rotation_;  // the tool's
   SandSide sand_;
   std::unique_ptr<ToolForce> tool_force_;
   DeviceSide device_;

@@ -14,7 +14,7 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr int sides = 256;  // of round shapes: 1 - cos(pi / 256) = 7.5e-5
+constexpr int sides = 256;  // each round shape has so many: 1 - cos(pi / 256) = 7.5e-5
 
 void add_triangle(TriangleMesh& mesh, std::int32_t a, std::int32_t b, std::int32_t c) {
   mesh.triangles.push_back({a, b, c});

@@ -8,7 +8,7 @@
 namespace sandstroke {
 namespace {
 
-TEST(LiveRelaxer, ThatRelaxesSeldomTakesWhatIsDisplacedMeanwhileAndEndsWhenItIsAsked) {
+TEST(LiveRelaxer, TakesDisplacedSandBetweenRareRelaxationsAndEndsWhenAsked) {
   for (const double rate : {1e-4, 1e-300, 0.0}) {
     RelaxationSettings settings;
     settings.rate = rate;
@@ -96,7 +96,7 @@ class FailingRelaxer : public Relaxer {
   RelaxationOutcome relax(HeightField&, const PassWatcher&) override { throw std::bad_alloc(); }
 };
 
-TEST(LiveRelaxer, ThatFailsEndsItsThreadAndNotTheProgram) {
+TEST(LiveRelaxer, EndsItsThreadAndNotTheProgramWhereItFails) {
   SandRing displaced(8), relaxed(8);
   PoseRing poses(8);
   LiveRelaxer live_relaxer(HeightField(10, 10, 0.01), {}, {}, displaced, poses, relaxed,

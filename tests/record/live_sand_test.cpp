@@ -288,7 +288,7 @@ TEST(LiveSand, AToolThatRestsDeepIsDueAForceThatItDoesNotFeel) {
     }
 }
 
-TEST(LiveSand, WhatIsWeakenedBeyondTheScenesLimitIsFlagged) {
+TEST(LiveSand, FlagsAForceWeakenedBeyondTheScenesLimit) {
   const Scene scene = contact_scene(ForceLaw::rft, ToolShape::plate);  // of 3.3 N
   for (const double largest : {any_force, 3.3, 1.0}) {
     LiveSand sand(scene, starting_bed(scene.bed), {"bed", largest});
@@ -468,7 +468,7 @@ TEST(LiveSand, TakesNoMemoryInTheLoopForAToolOfAnyShape) {
   }
 }
 
-TEST(LiveSand, ThatRelaxesTooSlowlyIsFeltButNotDisplaced) {
+TEST(LiveSand, IsFeltButNotDisplacedWhereItRelaxesTooSlowly) {
   // Nobody takes what is displaced: when the way to the relaxing bed is full, the tool stops displacing, and
   // says so; no sand is lost.
   Scene scene = small_scene();

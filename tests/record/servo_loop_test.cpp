@@ -683,7 +683,7 @@ TEST_F(ServoLoopTest, TheWayThroughTheAirBeforeContactOpensTheInterlock) {
   }
 }
 
-TEST_F(ServoLoopTest, WhatEndsItWhileItWaitsLeavesNothing) {
+TEST_F(ServoLoopTest, AnEndWhileItWaitsLeavesNothing) {
   settings.start.start_switch = 0;
   settings.duration.reset();
   const auto reason = [&] {

@@ -259,7 +259,7 @@ TEST(Tool, EqualsThePlainRuleOn400RandomScenes) {
   EXPECT_GT(pushed, sanitized ? 100 : 1000);
 }
 
-TEST(Tool, IsTheSameBitsWithEveryInstructionSet) {
+TEST(Tool, HasTheSameBitsWithEveryInstructionSet) {
   const std::vector<std::int64_t> targets = hwy::SupportedAndGeneratedTargets();
   for (unsigned seed = 1; seed <= 40; ++seed) {
     std::vector<HeightGrid> beds;

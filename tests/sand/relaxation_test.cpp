@@ -269,7 +269,7 @@ TEST_P(AllLaws, SymmetricBedsStaySymmetricToTheBit) {
   }
 }
 
-TEST_P(AllLaws, WhatSandDoesDependsOnItsNeighbourhoodOnly) {
+TEST_P(AllLaws, SandMovesByItsNeighbourhoodOnly) {
   // Two piles far apart end as each does alone.
   const auto pile = [](HeightField& bed, int col) {
     for (int row = 30; row < 34; ++row) {
@@ -303,7 +303,7 @@ TEST(TileRelaxer, LooksOnlyAtWhatCanMove) {
   EXPECT_EQ(bed.allocated_tiles(), 0);
   bed.set(63, 64, 0.5);  // below the talus slope: nothing moves
   const auto look = relaxer->relax(bed);
-  EXPECT_EQ(look.cells_visited, 5 * 5);  // what can see it, in four tiles
+  EXPECT_EQ(look.cells_visited, 5 * 5);  // the cells that can see it, in four tiles
   EXPECT_EQ(look.wake_ups, 4);
   EXPECT_EQ(look.tiles_active_max, 4);
   EXPECT_EQ(look.passes, 0);

@@ -348,7 +348,7 @@ TEST(Rkl, WorksOnWhatIsDisturbedOnly) {
   EXPECT_EQ((bed.grid() - cone).leftCols(250).abs().maxCoeff(), 0.0);
 }
 
-TEST(Rkl, IsTheSameBitsForAnyThreadsAndInstructionSet) {
+TEST(Rkl, HasTheSameBitsForAnyThreadsAndInstructionSet) {
   std::vector<HeightGrid> beds;
   std::vector<std::int64_t> passes;
   for (const std::int64_t target : hwy::SupportedAndGeneratedTargets())

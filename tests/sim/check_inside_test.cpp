@@ -7,7 +7,7 @@
 namespace sandstroke {
 namespace {
 
-/// What is said of a stroke that draws a line of this size beside a bed of 0.3 m x 0.2 m.
+/// The refusal of a stroke that draws a line of this size beside a bed of 0.3 m x 0.2 m.
 std::string refusal(double size) {
   Scene scene;
   scene.bed.width = 0.3;

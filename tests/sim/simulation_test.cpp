@@ -138,7 +138,7 @@ TEST(Simulation, RefusesAStrokeOfMoreTicksThanCanBePlayed) {
   }
 }
 
-TEST(Simulation, WhatIsReachedLiftedIsNoPath) {
+TEST(Simulation, ALiftedHandLeavesNoPath) {
   const Scene scene = small_scene();
   Stroke stroke = through({{-0.08, 0, -0.006}, {0.08, 0, -0.006}}, 1e-3);
   stroke.contact = {pen_lifts, pen_down};
