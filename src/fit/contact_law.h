@@ -25,7 +25,7 @@ class ContactLaw : public FeltLaw {
   Eigen::VectorXd values(const Eigen::VectorXd& numbers) const override;
   std::vector<double> extremes(std::size_t constant) const override { return grid_.extremes(constant); }
   Eigen::Matrix3Xd recorded() const override;
-  Eigen::Matrix3Xd forces(const Eigen::VectorXd& values, bool limited) const override;
+  Eigen::Matrix3Xd forces(const Eigen::VectorXd& values, DeviceLimit limit) const override;
   double max_force() const override { return max_force_; }
   std::int64_t ticks() const override { return ticks_; }
 

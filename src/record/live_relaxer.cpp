@@ -58,7 +58,7 @@ void LiveRelaxer::exchange() {
   }
   begun_ = begun_ || told;
   SandChange change;
-  while (displaced_.pop(change)) replica_.take(change, true);
+  while (displaced_.pop(change)) replica_.take_displaced(change);
 }
 
 bool LiveRelaxer::relaxation_is_due() const {

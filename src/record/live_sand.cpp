@@ -103,7 +103,7 @@ Eigen::Vector3d LiveSand::velocity(double time, const Eigen::Vector3d& tip) {
 void LiveSand::take_relaxed(int most) {
   SandChange change;
   for (int i = 0; i < most && relaxed_.pop(change); ++i) {
-    replica_.take(change, false);
+    replica_.take_relaxed(change);
     highest_ = std::max(highest_, replica_.bed()(change.row, change.col));
   }
 }

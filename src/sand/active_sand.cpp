@@ -6,11 +6,11 @@
 
 namespace sandstroke {
 
-ActiveSand::ActiveSand(const TalusLaw& law, double cell_size, bool tells_givers, std::int64_t worth_threads)
+ActiveSand::ActiveSand(const TalusLaw& law, double cell_size, Givers givers, std::int64_t worth_threads)
     : law_(law),
       worth_threads_(worth_threads),
       stable_slope_(stable_slope(law, cell_size)),
-      activity_(tells_givers) {}
+      activity_(givers) {}
 
 void ActiveSand::begin(HeightField& bed) {
   cells_visited_ = 0;

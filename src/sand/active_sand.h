@@ -27,8 +27,8 @@ class ActiveSand {
   // tile with any active cell costs as much as 400 more cells (measured: tests/bench/active_sand_bench.cpp).
   static constexpr std::int64_t work_worth_threads = 8'000, work_per_tile = 400;
 
-  /// tells_givers: also track which cells may give, for super-steps.
-  ActiveSand(const TalusLaw& law, double cell_size, bool tells_givers = false,
+  /// givers: near_changes for super-steps.
+  ActiveSand(const TalusLaw& law, double cell_size, Givers givers = Givers::all,
              std::int64_t worth_threads = work_worth_threads);
 
   /// Begins a relaxation: activates the sand around the cells that were set since the last one.
@@ -46,8 +46,8 @@ class ActiveSand {
 
   /// Computes every active cell's gain in a pass. Returns the sum of outflows [m]. in_step(slot, tile)
   /// returns what a super-step does with a tile's flow (FlowInStep). In a super-step only cells within one of
-  /// a change may give; no other cell gives, however steep (tells_givers). join(slot) is called first,
-  /// for one active tile after the other; at a tile's first call joined() has just grown by it.
+  /// a change may give; no other cell gives, however steep (Givers::near_changes). join(slot) is called
+  /// first, for one active tile after the other; at a tile's first call joined() has just grown by it.
   template <class InStep, class Join>
   double compute_flow(HeightField& bed, const InStep& in_step, const Join& join);
   /// The cost of the pass, in cells: its active cells, and work_per_tile for each active tile.

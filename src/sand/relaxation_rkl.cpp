@@ -57,7 +57,7 @@ class RklRelaxer : public Relaxer {
         step_tolerance_(settings.step_tolerance),
         max_passes_(settings.max_passes),
         largest_share_(std::min(law_.share, largest_share)),
-        sand_(ungated(settings, cell_size), cell_size, true) {}
+        sand_(ungated(settings, cell_size), cell_size, Givers::near_changes) {}
 
   RelaxationOutcome relax(HeightField& bed, const PassWatcher& after_pass) override {
     outcome_ = {};

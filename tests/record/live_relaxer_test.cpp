@@ -29,7 +29,7 @@ TEST(LiveRelaxer, TakesDisplacedSandBetweenRareRelaxationsAndEndsWhenAsked) {
 
 /// A bed with a heap where a solid tool stands, and relaxes as often as the tool goes its way.
 TEST(LiveRelaxer, RelaxesNothingUnderASolidToolUntilItHasGone) {
-  const ToolSettings tool{0.03, ToolProfile::sphere, true};
+  const ToolSettings tool{.radius = 0.03, .profile = ToolProfile::sphere, .solid = true};
   RelaxationSettings settings;
   settings.rate = 0.0;
   settings.way = 1.0 / 3.0;  // of 30 mm: a cell
@@ -69,8 +69,9 @@ TEST(LiveRelaxer, RelaxesInItsThreadAsOftenAsTheToolHasGoneItsWay) {
   SandRing displaced(64), relaxed(64);
   PoseRing poses(8);
   std::atomic<int> relaxations = 0;
-  LiveRelaxer live_relaxer(HeightField(41, 41, 0.01), {0.03, ToolProfile::sphere, true}, settings, displaced,
-                           poses, relaxed, std::make_unique<CountingRelaxer>(relaxations));
+  LiveRelaxer live_relaxer(HeightField(41, 41, 0.01),
+                           {.radius = 0.03, .profile = ToolProfile::sphere, .solid = true}, settings,
+                           displaced, poses, relaxed, std::make_unique<CountingRelaxer>(relaxations));
   const auto go_to = [&](double x, bool contact) {
     poses.push({{x, 0.0, contact ? -0.01 : 0.1}, contact});
     while (poses.size() > 0) std::this_thread::yield();
@@ -152,7 +153,8 @@ TEST(LiveRelaxer, SandThatAsksByWayAndHasFarToGoGoesOnWithoutTheToolsMoving) {
   for (int row = 25; row < 36; ++row)
     for (int col = 25; col < 36; ++col) heap.set(row, col, 0.3);
   poses.push({{0.2, 0.2, -0.01}, true});  // it touches down beside the heap, and rests
-  LiveRelaxer live_relaxer(heap, {0.01, ToolProfile::sphere, false}, settings, displaced, poses, relaxed);
+  LiveRelaxer live_relaxer(heap, {.radius = 0.01, .profile = ToolProfile::sphere}, settings, displaced, poses,
+                           relaxed);
   live_relaxer.start();
   RelaxationSettings looser = settings;  // changes add up to the live_relaxer's own heights but for rounding
   looser.tolerance *= 2.0;

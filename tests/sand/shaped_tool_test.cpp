@@ -20,7 +20,7 @@ constexpr double cell_side = 0.001;
 const DisplacementSettings out{Deposit::outward};
 
 ToolSettings solid_tool(ToolShape shape) {
-  ToolSettings tool{0.01, ToolProfile::sphere, true};
+  ToolSettings tool{.radius = 0.01, .profile = ToolProfile::sphere, .solid = true};
   tool.shape = shape;
   tool.height = 0.03;
   tool.width = 0.03;
@@ -31,7 +31,8 @@ ToolSettings solid_tool(ToolShape shape) {
 }
 ToolSettings mesh_sphere(double radius) {
   ToolSettings sphere{radius};
-  ToolSettings tool{radius, ToolProfile::sphere, true, ToolShape::mesh};
+  ToolSettings tool{
+      .radius = radius, .profile = ToolProfile::sphere, .solid = true, .shape = ToolShape::mesh};
   tool.mesh = std::make_shared<TriangleMesh>(tool_surface(sphere));
   return tool;
 }
@@ -88,7 +89,7 @@ TEST(ShapedTool, ASphereAsAMeshLeavesWhatTheSphereLeaves) {
       relaxer->relax(bed);
       return bed.grid();
     };
-    const HeightGrid sphere = relaxed_after({R, ToolProfile::sphere, true}),
+    const HeightGrid sphere = relaxed_after({.radius = R, .profile = ToolProfile::sphere, .solid = true}),
                      mesh = relaxed_after(mesh_sphere(R));
     const double misplaced = (sphere - mesh).abs().sum() / sphere.abs().sum();
     RecordProperty("cell_" + std::to_string(side), std::to_string(misplaced));
@@ -221,7 +222,7 @@ ToolSettings wedge(double slope, double half_length) {
     for (const Eigen::Vector2d& xz : {Eigen::Vector2d(0, 0), {half, slope * half}, {-half, slope * half}})
       mesh->vertices.emplace_back(xz.x(), y, xz.y());
   mesh->triangles = {{0, 1, 2}, {3, 5, 4}, {0, 3, 4}, {0, 4, 1}, {0, 2, 5}, {0, 5, 3}, {1, 4, 5}, {1, 5, 2}};
-  ToolSettings tool{0.01, ToolProfile::sphere, true, ToolShape::mesh};
+  ToolSettings tool{.radius = 0.01, .profile = ToolProfile::sphere, .solid = true, .shape = ToolShape::mesh};
   tool.mesh = mesh;
   return tool;
 }
@@ -258,7 +259,7 @@ TEST(ShapedTool, LosesNoSandOfAnyShapeAndOrientation) {
   const auto length = [&] { return std::pow(10.0, -4.0 + upto(2.6)); };  // 0.1 to 40 mm
   int refused = 0;
   for (int i = 0; i < 200; ++i) {
-    ToolSettings settings{length(), ToolProfile::sphere, true};
+    ToolSettings settings{.radius = length(), .profile = ToolProfile::sphere, .solid = true};
     settings.shape = any_shape[random() % any_shape.size()];
     settings.height = length();
     settings.width = length();

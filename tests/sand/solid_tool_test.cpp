@@ -34,7 +34,7 @@ Relaxers engine_and_reference() {
 /// A tool that has displaced a pit, and stands in it.
 struct Standing {
   HeightField bed{129, 129, cell};
-  SphereTool tool{{tool_radius, ToolProfile::sphere, true}};
+  SphereTool tool{{.radius = tool_radius, .profile = ToolProfile::sphere, .solid = true}};
   Standing() {
     tool.place(bed, 0.0, 0.0);
     tool.displace(bed, -0.007, plunge, {Deposit::outward});
@@ -106,7 +106,7 @@ TEST(SolidTool, ChangesNothingEverAtRest) {
 TEST(SolidTool, APlungeAtACellCentreIsSymmetricToTheBit) {
   for (const auto& relaxer : engine()) {
     HeightField bed(129, 129, cell);
-    SphereTool tool({tool_radius, ToolProfile::sphere, true});
+    SphereTool tool({.radius = tool_radius, .profile = ToolProfile::sphere, .solid = true});
     for (int i = 1; i <= 30; ++i) {
       tool.place(bed, 0.0, 0.0);
       tool.displace(bed, -3e-4 * i, plunge, {Deposit::outward});
@@ -120,7 +120,7 @@ TEST(SolidTool, APlungeAtACellCentreIsSymmetricToTheBit) {
 
 TEST(SolidTool, MakesWallsOnlyWhereItIsNow) {
   HeightField bed(129, 129, cell);
-  SphereTool tool({tool_radius, ToolProfile::sphere, true});
+  SphereTool tool({.radius = tool_radius, .profile = ToolProfile::sphere, .solid = true});
   for (const double x : {0.03, 0.0, -0.05}) {
     tool.place(bed, x, 0.01);
     tool.make_walls(bed);

@@ -83,7 +83,8 @@ std::vector<double> relaxations_of_a_drag(double tick) {
   HeightField bed(100, 100, 0.002);
   RelaxationSettings relaxation;
   relaxation.way = 0.4;
-  SandSide sand({0.01, ToolProfile::sphere, true}, {Deposit::outward}, relaxation);
+  SandSide sand({.radius = 0.01, .profile = ToolProfile::sphere, .solid = true}, {Deposit::outward},
+                relaxation);
   std::vector<double> relaxations;
   Eigen::Vector3d tip(-0.02, 0.0, -0.003);
   const auto relax = [&] {
@@ -122,7 +123,8 @@ TEST(SandSide, RelaxesAtTheSamePositionsWhateverTheTicks) {
 /// The number of relaxations in a drag of this length through flat sand, the tip this far below it [m].
 int count_relaxations(const RelaxationSettings& relaxation, double depth, double length) {
   HeightField bed(100, 100, 0.002);
-  SandSide sand({0.01, ToolProfile::sphere, true}, {Deposit::outward}, relaxation);
+  SandSide sand({.radius = 0.01, .profile = ToolProfile::sphere, .solid = true}, {Deposit::outward},
+                relaxation);
   int relaxations = 0;
   for (int i = 0; i <= 400; ++i) {
     const Eigen::Vector3d tip(-0.06 + length * i / 400, 0.0, -depth);
@@ -140,7 +142,8 @@ double way_before_a_step(const RelaxationSettings& relaxation, double above_rim)
   HeightField bed(100, 100, 0.002);
   for (int row = 0; row < 100; ++row)
     for (int col = 50; col < 100; ++col) bed.set(row, col, 0.007 + above_rim);
-  SandSide sand({0.01, ToolProfile::sphere, true}, {Deposit::outward}, relaxation);
+  SandSide sand({.radius = 0.01, .profile = ToolProfile::sphere, .solid = true}, {Deposit::outward},
+                relaxation);
   sand.put(bed, {-0.0105, 0.0, -0.003}, true);
   sand.relaxed(bed);
   double way = 0.0;
@@ -181,7 +184,7 @@ TEST(SandSide, RelaxesEveryQuarterOfACellAtMost) {
 
 TEST(SandSide, ALiftedToolHoldsNothing) {
   HeightField bed(100, 100, 0.002);
-  SandSide sand({0.01, ToolProfile::sphere, true}, {Deposit::outward});
+  SandSide sand({.radius = 0.01, .profile = ToolProfile::sphere, .solid = true}, {Deposit::outward});
   const Eigen::Vector3d tip(0.0, 0.0, -0.003);
   sand.move(bed, tip, tip, no_slip);
   sand.make_walls(bed);
@@ -222,7 +225,7 @@ TEST(SandSide, IsInContactBelowTheLevelAndNotAtIt) {
 }
 
 TEST(SandSide, ARakeThatGoesFarInATickLeavesFurrowsAndNoPits) {
-  ToolSettings rake{0.004, ToolProfile::sphere, true, ToolShape::rake};
+  ToolSettings rake{.radius = 0.004, .profile = ToolProfile::sphere, .solid = true, .shape = ToolShape::rake};
   rake.teeth = 3;
   rake.spacing = 0.02;
   HeightField bed(120, 120, 0.001);
