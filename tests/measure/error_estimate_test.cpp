@@ -334,11 +334,11 @@ TEST(ErrorEstimate, SaysWhereOneOfBothIsNotAtRest) {
 
 TEST(ErrorEstimate, IsTheSameWhereIdleTicksAreLeftOut) {
   const Scene scene = bed_of_two_drags();
-  const auto estimate = [&](bool watched) {
-    const Stroke stroke = two_drags(1.5, watched);
+  const auto estimate = [&](Pause pause) {
+    const Stroke stroke = two_drags(1.5, pause);
     return estimated(scene, FeltRun(scene, stroke), stroke, SecondSolution::coarser);
   };
-  const ErrorEstimate idle = estimate(false), all = estimate(true);
+  const ErrorEstimate idle = estimate(Pause::unsampled), all = estimate(Pause::sampled);
   EXPECT_GT(all.force_rms, 0.0);
   EXPECT_EQ(idle.force_rms, all.force_rms);
   EXPECT_EQ(idle.force_max, all.force_max);
