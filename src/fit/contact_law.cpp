@@ -51,7 +51,7 @@ Eigen::Matrix3Xd ContactLaw::recorded() const {
   return Eigen::Matrix3Xd::Map(recorded_.data()->data(), 3, static_cast<Eigen::Index>(recorded_.size()));
 }
 
-Eigen::Matrix3Xd ContactLaw::forces(const VectorXd& values, bool limited) const {
+Eigen::Matrix3Xd ContactLaw::forces(const VectorXd& values, DeviceLimit limit) const {
   const VectorXd weights = numbers(values)[0] * grid_.weights(values);
   const Eigen::Index sands = weights.size();
   Eigen::Matrix3Xd forces(3, static_cast<Eigen::Index>(recorded_.size()));
@@ -60,7 +60,7 @@ Eigen::Matrix3Xd ContactLaw::forces(const VectorXd& values, bool limited) const 
     for (Eigen::Index i = 0; i < sands; ++i)
       if (weights[i] != 0.0) felt += weights[i] * felt_[static_cast<std::size_t>(tick * sands + i)];
     const Wrench wrench{.force = felt.head<3>(), .strength = felt[3]};
-    forces.col(tick) = (limited ? wrench.limited(max_force_) : wrench).force;
+    forces.col(tick) = (limit == DeviceLimit::applied ? wrench.limited(max_force_) : wrench).force;
   }
   return forces;
 }

@@ -25,15 +25,14 @@ class ContactLaw : public FeltLaw {
   Eigen::VectorXd values(const Eigen::VectorXd& numbers) const override;
   std::vector<double> extremes(std::size_t constant) const override { return grid_.extremes(constant); }
   Eigen::Matrix3Xd recorded() const override;
-  Eigen::Matrix3Xd forces(const Eigen::VectorXd& values, bool limited) const override;
+  Eigen::Matrix3Xd forces(const Eigen::VectorXd& values, DeviceLimit limit) const override;
   double max_force() const override { return max_force_; }
   std::int64_t ticks() const override { return ticks_; }
 
  private:
   SandGrid grid_;
   double max_force_;
-  std::vector<Eigen::Vector4d>
-      felt_;  // of each tick, for each sand: force and strength over resistance [m^3]
+  std::vector<Eigen::Vector4d> felt_;  // each tick's, for each sand: force and strength over resistance [m^3]
   std::vector<Eigen::Vector3d> recorded_;
   std::int64_t ticks_ = 0, every_ = 1;
 };

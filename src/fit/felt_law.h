@@ -18,6 +18,9 @@ struct ForceScale {
   const char *name, *json_name, *unit, *meaning;
 };
 
+/// Whether a force is cut at the device's limit, or is as if the device had none.
+enum class DeviceLimit { applied, ignored };
+
 /// A force law over the ticks of a run in which the tool touched sand and a force was recorded: what a fit
 /// must know of it. "values" are the values of constants(), in their order and unit. None is negative. A
 /// value of 0 switches off what the constant stands for.
@@ -50,8 +53,8 @@ class FeltLaw {
 
   /// The recorded force on the hand [N], a column for each tick.
   virtual Eigen::Matrix3Xd recorded() const = 0;
-  /// The law's force [N], a column for each tick; within the device's limit, or as if it had none.
-  virtual Eigen::Matrix3Xd forces(const Eigen::VectorXd& values, bool limited) const = 0;
+  /// The law's force [N], a column for each tick.
+  virtual Eigen::Matrix3Xd forces(const Eigen::VectorXd& values, DeviceLimit limit) const = 0;
   /// The device's limit [N]; 0: none.
   virtual double max_force() const = 0;
   /// The number of the run's ticks. The columns above may be some of them, evenly chosen.

@@ -48,7 +48,7 @@ Estimate estimate(const LeastSquares& problem) {
 
 /// The root mean square [N] of the difference of two forces, without the device's limit.
 double difference_rms(const FeltLaw& law, const VectorXd& one, const VectorXd& other) {
-  return rms(law.forces(one, false) - law.forces(other, false));
+  return rms(law.forces(one, DeviceLimit::ignored) - law.forces(other, DeviceLimit::ignored));
 }
 
 /// True if this value of a constant, with the others fitted anew, leaves clearly more of the force: the
@@ -60,7 +60,7 @@ bool fits_worse(LeastSquares problem, const VectorXd& best, Eigen::Index constan
   problem.is_free[static_cast<std::size_t>(constant)] = false;
   rival = problem.solved(rival);
   const auto squares = [&](const VectorXd& values) -> VectorXd {
-    return (problem.law.forces(values, true) - problem.recorded).colwise().squaredNorm();
+    return (problem.law.forces(values, DeviceLimit::applied) - problem.recorded).colwise().squaredNorm();
   };
   const VectorXd more = squares(rival) - squares(best);
   VectorXd sums(stretches);
@@ -89,9 +89,10 @@ void check_enough(const FeltLaw& law) {
 }
 
 void check_limit(const FeltLaw& law, const VectorXd& values) {
-  const Eigen::Matrix3Xd free = law.forces(values, false);
-  const Eigen::Index felt = (free.array() != 0.0).colwise().any().count(),
-                     cut = (law.forces(values, true).array() != free.array()).colwise().any().count();
+  const Eigen::Matrix3Xd free = law.forces(values, DeviceLimit::ignored);
+  const Eigen::Matrix3Xd limited = law.forces(values, DeviceLimit::applied);
+  const Eigen::Index felt = (free.array() != 0.0).colwise().any().count();
+  const Eigen::Index cut = (limited.array() != free.array()).colwise().any().count();
   if (cut > 0 && felt - cut < least_ticks)
     throw_input_error(
         "the device's limit (device.max_force = {:.4g} N) cuts the force in {} of {} ticks, so too few ticks "
@@ -162,13 +163,13 @@ ForceFit fit_force(const FeltLaw& law, const std::vector<bool>& asked) {
   fit.ticks = law.ticks();
   fit.start_residual = problem.residual(law.start());
   fit.residual = problem.residual(fit.values);
-  const auto share = [&](double residual) {
+  const auto explained_by = [&](double residual) {
     const double part = residual / fit.recorded_rms;
     return 1.0 - part * part;
   };
-  fit.explained = share(fit.residual);
+  fit.explained = explained_by(fit.residual);
   const LeastSquares reversed{law, -problem.recorded, asked};
-  fit.explained_reversed = share(reversed.residual(reversed.best()));
+  fit.explained_reversed = explained_by(reversed.residual(reversed.best()));
   return fit;
 }
 

@@ -21,7 +21,7 @@ struct FittedConstant {
 
 /// The force constants that come nearest to a recorded force.
 struct ForceFit {
-  Eigen::VectorXd values;                 ///< of all constants of the law
+  Eigen::VectorXd values;                 ///< all constants' of the law
   std::vector<FittedConstant> constants;  ///< those that were asked for
   ForceScale of_scale;
   double scale = 0.0, scale_error = 0.0;

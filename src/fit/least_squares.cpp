@@ -62,7 +62,8 @@ struct Residuals {
     return static_cast<int>(3 * (problem.recorded.cols() - (left_out.end - left_out.begin)));
   }
   int operator()(const VectorXd& roots, VectorXd& left) const {
-    const Eigen::Matrix3Xd all = problem.law.forces(free.values(roots), true) - problem.recorded;
+    const Eigen::Matrix3Xd all =
+        problem.law.forces(free.values(roots), DeviceLimit::applied) - problem.recorded;
     const Eigen::Index before = 3 * left_out.begin, after = 3 * (all.cols() - left_out.end);
     left.head(before) = all.reshaped().head(before);
     left.tail(after) = all.reshaped().tail(after);
@@ -79,7 +80,7 @@ double rms(const Eigen::Matrix3Xd& forces) {
 }
 
 double LeastSquares::residual(const VectorXd& values) const {
-  return rms(law.forces(values, true) - recorded);
+  return rms(law.forces(values, DeviceLimit::applied) - recorded);
 }
 
 VectorXd LeastSquares::solved(const VectorXd& from, Stretch left_out) const {

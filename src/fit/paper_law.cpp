@@ -62,12 +62,13 @@ Eigen::Matrix3Xd PaperLaw::recorded() const {
   return recorded;
 }
 
-Eigen::Matrix3Xd PaperLaw::forces(const VectorXd& values, bool limited) const {
+Eigen::Matrix3Xd PaperLaw::forces(const VectorXd& values, DeviceLimit limit) const {
   const ForceSettings force = settings(values);
+  const double max_force = limit == DeviceLimit::applied ? max_force_ : 0.0;
   Eigen::Matrix3Xd forces(3, ticks_.size());
   Eigen::Index i = 0;
   for (const FeltTick& tick : ticks_)
-    forces.col(i++) = sand_force(tick.depth, tick.velocity, limited ? max_force_ : 0.0, force).total;
+    forces.col(i++) = sand_force(tick.depth, tick.velocity, max_force, force).total;
   return forces;
 }
 

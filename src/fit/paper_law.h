@@ -34,7 +34,7 @@ class PaperLaw : public FeltLaw {
   Eigen::VectorXd values(const Eigen::VectorXd& numbers) const override;
   std::vector<Eigen::VectorXd> rivals(const Eigen::VectorXd& values, std::size_t constant) const override;
   Eigen::Matrix3Xd recorded() const override;
-  Eigen::Matrix3Xd forces(const Eigen::VectorXd& values, bool limited) const override;
+  Eigen::Matrix3Xd forces(const Eigen::VectorXd& values, DeviceLimit limit) const override;
   double max_force() const override { return max_force_; }
   std::int64_t ticks() const override { return all_ticks_; }
 

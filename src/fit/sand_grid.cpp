@@ -106,10 +106,10 @@ VectorXd SandGrid::weights(const VectorXd& values) const {
     const double value = values[axis.constant];
     const auto above = std::clamp(std::upper_bound(axis.values.begin(), axis.values.end(), value),
                                   axis.values.begin() + 1, axis.values.end() - 1);
-    const double share = (value - *(above - 1)) / (*above - *(above - 1));
+    const double fraction = (value - *(above - 1)) / (*above - *(above - 1));
     const auto node = static_cast<Eigen::Index>(axis.first) + (above - axis.values.begin());
-    weights[node - 1] += 1.0 - share;
-    weights[node] += share;
+    weights[node - 1] += 1.0 - fraction;
+    weights[node] += fraction;
     weights[1] -= 1.0;
   }
   return weights;

@@ -48,8 +48,8 @@ class SandGrid {
  private:
   struct Axis {
     Eigen::Index constant;
-    std::size_t first;           // of sands_
-    std::vector<double> values;  // of its nodes, increasing
+    std::size_t first;           // its index in sands_
+    std::vector<double> values;  // its nodes', increasing
   };
 
   void add_nodes(std::size_t constant);

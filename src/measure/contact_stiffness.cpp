@@ -71,8 +71,8 @@ double contact_stiffness(const Scene& scene, double max_force, bool turns) {
   const std::array<Vector3d, 6> leans = {Vector3d(10.0, 20.0, 30.0), {-35.0, 5.0, 60.0}, {0.0, 45.0, 0.0},
                                          {60.0, -10.0, 20.0},        {90.0, 0.0, 45.0},  {5.0, 80.0, -15.0}};
   const double step = std::min(0.05 * scene.strength.yield_way, seen);
-  const auto stiffest = [&](const Scene& held, int count) {
-    LevelSand sand(held);
+  const auto stiffest = [&](const Scene& posed, int count) {
+    LevelSand sand(posed);
     double most = 0.0;
     for (const Vector3d& yielded : directions(count)) {
       const double depth = std::min(deepest, boundary_of_positive([&](double deep) {
@@ -94,9 +94,9 @@ double contact_stiffness(const Scene& scene, double max_force, bool turns) {
   double most = stiffest(scene, all_around);
   if (!turns || scene.tool.shape == ToolShape::sphere) return most;
   for (const Vector3d& lean : leans) {
-    Scene held = scene;
-    held.tool.orientation += lean;
-    most = std::max(most, stiffest(held, each_when_turned));
+    Scene leaning = scene;
+    leaning.tool.orientation += lean;
+    most = std::max(most, stiffest(leaning, each_when_turned));
   }
   return most;
 }

@@ -133,7 +133,7 @@ ErrorEstimate estimate_error(const Scene& scene, const HeightField& start,
   const auto error_over_distance = [&](double r) { return (coarser ? 1.0 : r) / (r - 1.0); };
   const double height_factor = error_over_distance(coarse.surface.cell_size() / fine.surface.cell_size()),
                force_factor = error_over_distance(2.0);
-  std::optional<HeightField> distances;  // of heights, in the cells of the coarser bed
+  std::optional<HeightField> distances;  // the heights', in the cells of the coarser bed
   if (map) distances.emplace(coarse.surface.rows(), coarse.surface.cols(), coarse.surface.cell_size());
   const Distance of_height = height_distance(fine.surface, coarse.surface, distances ? &*distances : nullptr),
                  of_force = force_distance(fine_force, coarse_force);

@@ -24,12 +24,15 @@ struct Moments {
 
   void add(const Vector3d& run, const Vector3d& recorded) {
     ticks += 1.0;
-    a += run, b += recorded;
-    aa += run.squaredNorm(), bb += recorded.squaredNorm(), ab += run.dot(recorded);
+    a += run;
+    b += recorded;
+    aa += run.squaredNorm();
+    bb += recorded.squaredNorm();
+    ab += run.dot(recorded);
   }
   double correlation() const {
     const double run = aa - a.squaredNorm() / ticks, recorded = bb - b.squaredNorm() / ticks;
-    const double least = 1e-12;  // of the squares: rounding leaves this of a constant force
+    const double least = 1e-12;  // the part of the squares that rounding leaves of a constant force
     if (!(run > least * aa) || !(recorded > least * bb)) return std::numeric_limits<double>::quiet_NaN();
     return (ab - a.dot(b) / ticks) / std::sqrt(run * recorded);
   }

@@ -38,8 +38,8 @@ class Piece {
     if (points_.size() == 1 || length <= 0.0) return points_.front();
     const std::size_t next = std::min<std::size_t>(
         std::upper_bound(lengths_.begin(), lengths_.end(), length) - lengths_.begin(), lengths_.size() - 1);
-    const double share = (length - lengths_[next - 1]) / (lengths_[next] - lengths_[next - 1]);
-    return points_[next - 1] + std::min(share, 1.0) * (points_[next] - points_[next - 1]);
+    const double fraction = (length - lengths_[next - 1]) / (lengths_[next] - lengths_[next - 1]);
+    return points_[next - 1] + std::min(fraction, 1.0) * (points_[next] - points_[next - 1]);
   }
 
  private:
@@ -88,8 +88,8 @@ class Section {
   /// NaN outside the bed. Between the bed's border and the nearest centres the value is that at the centres.
   double operator()(int k) const {
     const BedGeometry& bed = change_.bed();
-    const Eigen::Vector2d place = centre_ + k * step() * left_;
-    const double row = bed.row_at(place.y()), col = bed.col_at(place.x());
+    const Eigen::Vector2d position = centre_ + k * step() * left_;
+    const double row = bed.row_at(position.y()), col = bed.col_at(position.x());
     if (!(row >= -0.5 && row <= bed.rows() - 0.5 && col >= -0.5 && col <= bed.cols() - 0.5)) return nothing;
     const double r = std::clamp(row, 0.0, bed.rows() - 1.0), c = std::clamp(col, 0.0, bed.cols() - 1.0);
     const int r0 = static_cast<int>(r), c0 = static_cast<int>(c);
@@ -199,11 +199,11 @@ FurrowMeasures measure_furrow(const HeightField& initial, const HeightField& fin
   std::size_t station = 0;
   double passed = 0.0;
   for (const Piece& piece : pieces) {
-    const auto place = [&] {
+    const auto into_piece = [&] {
       return (static_cast<double>(station) + 0.5) / static_cast<double>(stations) * total - passed;
     };
-    for (; station < stations && place() < weight(piece); ++station) {
-      const double length = place() / weight(piece) * piece.length();
+    for (; station < stations && into_piece() < weight(piece); ++station) {
+      const double length = into_piece() / weight(piece) * piece.length();
       // Taken over a radius: on a circle the chord is then exactly parallel to the way at its middle.
       const Eigen::Vector2d travel =
           piece.at(length + 0.5 * tool_radius) - piece.at(length - 0.5 * tool_radius);

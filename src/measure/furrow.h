@@ -11,8 +11,8 @@
 
 namespace sandstroke {
 
-/// The places of the tip while it was in contact [m], in order. A piece begins at each point whose index is
-/// in `pieces` (ascending, the first 0): before it the tool was lifted.
+/// The positions of the tip while it was in contact [m], in order. A piece begins at each point whose index
+/// is in `pieces` (ascending, the first 0): before it the tool was lifted.
 struct TipPath {
   std::vector<Eigen::Vector2d> points;
   std::vector<std::size_t> pieces;

@@ -8,8 +8,8 @@
 
 namespace sandstroke {
 
-DeepestPlace deepest_place(const Scene& scene, const HeightField& bed, const Stroke& stroke) {
-  DeepestPlace deepest;
+DeepestPoint deepest_point(const Scene& scene, const HeightField& bed, const Stroke& stroke) {
+  DeepestPoint deepest;
   for (std::size_t i = 0; i < stroke.size(); ++i) {
     if (!stroke.pen_down(i)) continue;
     const Eigen::Vector3d tip = tip_of(scene.device, stroke.position[i]);
@@ -41,7 +41,7 @@ std::string untouched_text(const Scene& scene, const RunResult& result) {
 std::string depth_warning(const Scene& scene, const HeightField& bed, const Stroke& stroke,
                           const std::string& name) {
   constexpr double most_radii = 20.0;  // strokes in sand stay within a few
-  const DeepestPlace deepest = deepest_place(scene, bed, stroke);
+  const DeepestPoint deepest = deepest_point(scene, bed, stroke);
   const double reach = tool_reach(scene.tool), radii = deepest.depth / reach;
   if (!(radii > most_radii)) return "";
   return fmt::format(

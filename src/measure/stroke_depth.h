@@ -9,14 +9,14 @@
 
 namespace sandstroke {
 
-/// The place where a stroke's tip lies deepest below the initial sand.
-struct DeepestPlace {
+/// The point where a stroke's tip lies deepest below the initial sand.
+struct DeepestPoint {
   double depth = 0.0;  ///< m; 0: nowhere below the sand of the bed
   double time = 0.0;   ///< s
 };
 
 /// stroke: as place_stroke() returns it. Looks at its samples; those outside the bed do not count.
-DeepestPlace deepest_place(const Scene& scene, const HeightField& bed, const Stroke& stroke);
+DeepestPoint deepest_point(const Scene& scene, const HeightField& bed, const Stroke& stroke);
 
 /// A sentence for a tool that never touches the sand: how far it stayed away, and what to change.
 std::string untouched_text(const Scene& scene, const RunResult& result);

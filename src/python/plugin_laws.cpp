@@ -76,7 +76,7 @@ class PythonRelaxer : public Relaxer {
       py::array_t<double> heights = copy_of(before);
       py::array_t<bool> walls({before.rows(), before.cols()});
       for (int row = 0; row < bed.rows(); ++row)
-        for (int col = 0; col < bed.cols(); ++col) walls.mutable_at(row, col) = bed.is_held(row, col);
+        for (int col = 0; col < bed.cols(); ++col) walls.mutable_at(row, col) = bed.is_wall(row, col);
       const py::object passes = law_(heights, walls, **numbers_of(scene_, cell_size_));
       try {
         outcome.passes = passes.is_none() ? 1 : passes.cast<std::int64_t>();

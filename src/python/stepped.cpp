@@ -83,7 +83,7 @@ TickRecord tick(Stepped& stepped, const py::object& position, const py::object& 
   }
   return or_what_ended_it([&] {
     const py::gil_scoped_release let_go;
-    return stepped->tick(hand, moves, turns);
+    return stepped->tick(hand, {.velocity = moves, .orientation = turns});
   });
 }
 

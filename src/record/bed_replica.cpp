@@ -18,17 +18,21 @@ BedReplica::BedReplica(const HeightField& bed) : bed_(with_all_tiles(bed)), know
     told_revisions_.push_back(bed_.tile_revision(bed_.tile_of(slot)));
 }
 
-void BedReplica::take(const SandChange& change, bool disturbs) {
+BedReplica::Cell BedReplica::add(const SandChange& change) {
   constexpr int side = HeightField::tile_side;
   const int slot = bed_.slot_of(bed_.tile_index(change.row / side, change.col / side));
   const int row = change.row % side, col = change.col % side;
   const int at = row * side + col;
   bed_.tile_heights(slot)[at] += change.change;
   known_.tile_heights(slot)[at] += change.change;
-  if (disturbs)
-    bed_.mark_disturbed(slot, row, std::uint64_t{1} << col);
-  else
-    bed_.mark_changed(slot);
+  return {slot, row, col};
 }
+
+void BedReplica::take_displaced(const SandChange& change) {
+  const Cell cell = add(change);
+  bed_.mark_disturbed(cell.slot, cell.row_in_tile, std::uint64_t{1} << cell.col_in_tile);
+}
+
+void BedReplica::take_relaxed(const SandChange& change) { bed_.mark_changed(add(change).slot); }
 
 }  // namespace sandstroke

@@ -24,8 +24,10 @@ class BedReplica {
   HeightField& bed() { return bed_; }
   const HeightField& bed() const { return bed_; }
 
-  /// Adds a change of the other thread. disturbs: the next relaxation looks at this cell.
-  void take(const SandChange& change, bool disturbs);
+  /// Adds a change of sand that the other thread displaced. The next relaxation looks at this cell.
+  void take_displaced(const SandChange& change);
+  /// Adds a change of sand that the other thread relaxed.
+  void take_relaxed(const SandChange& change);
 
   /// Calls tell(SandChange) for every cell that was disturbed here (HeightField::set, displacement), and
   /// clears the list of disturbed cells.
@@ -36,6 +38,11 @@ class BedReplica {
   void tell_changed(const Tell& tell);
 
  private:
+  struct Cell {
+    int slot, row_in_tile, col_in_tile;
+  };
+  /// Adds a change to both beds, and says to which cell.
+  Cell add(const SandChange& change);
   /// Tells of one cell unless the other thread knows its height.
   template <class Tell>
   void tell_cell(int slot, int row_in_tile, int col_in_tile, const Tell& tell) {

@@ -26,7 +26,7 @@ class DepthOnHand : public HandForce {
   double scene_limit_;  // N; 0: none
 };
 
-/// What sand weakened to what the hand may get does to the tool (Wrench::limited).
+/// The wrench of sand that is weakened to what the hand may get (Wrench::limited).
 class ContactOnHand : public HandForce {
  public:
   ContactOnHand(const Scene& scene, double cell_size, const PointPlacement& placement, double largest_force)

@@ -61,7 +61,7 @@ class JournalWriter {
   std::optional<FileLock> lock_;  // while it is being written
   std::uint64_t size_ = 0;        // bytes of whole blocks
   std::int64_t samples_ = 0;
-  std::string blocks_;  // of one append
+  std::string blocks_;  // one append's
 };
 
 /// Reads back a recording up to its last sound sample, whatever follows.

@@ -22,7 +22,7 @@ RelaxationSettings in_short_turns(RelaxationSettings settings) {
 }  // namespace
 
 LiveRelaxer::LiveRelaxer(const HeightField& bed, const ToolSettings& tool, const RelaxationSettings& settings,
-                         SandRing& displaced, PlaceRing& places, SandRing& relaxed,
+                         SandRing& displaced, PoseRing& poses, SandRing& relaxed,
                          std::unique_ptr<Relaxer> relaxer)
     : replica_(bed),
       rate_(settings.rate),
@@ -31,13 +31,13 @@ LiveRelaxer::LiveRelaxer(const HeightField& bed, const ToolSettings& tool, const
       tool_(tool, {}, settings),
       relaxer_(relaxer ? std::move(relaxer) : make_relaxer(in_short_turns(settings), bed.cell_size())),
       displaced_(displaced),
-      places_(places),
+      poses_(poses),
       relaxed_(relaxed) {}
 
 void LiveRelaxer::give(const SandChange& change) {
   while (!relaxed_.push(change)) {
     if (stopping_) {
-      held_.push_back(change);
+      ungiven_.push_back(change);
       return;
     }
     std::this_thread::sleep_for(1ms);
@@ -46,19 +46,19 @@ void LiveRelaxer::give(const SandChange& change) {
 
 void LiveRelaxer::exchange() {
   std::vector<SandChange> before;
-  before.swap(held_);
+  before.swap(ungiven_);
   for (const SandChange& change : before) give(change);
-  // Places first: a place is told after the sand displaced there, so the sand is never older than the tool.
-  ToolPlace place;
+  // Poses first: a pose is told after the sand displaced there, so the sand is never older than the tool.
+  ToolPose pose;
   bool told = false;
-  while (places_.pop(place)) told = true;
+  while (poses_.pop(pose)) told = true;
   if (told) {
-    place_ = place;
-    tool_.put(replica_.bed(), place.tip, place.contact);
+    pose_ = pose;
+    tool_.put(replica_.bed(), pose.tip, pose.contact);
   }
   begun_ = begun_ || told;
   SandChange change;
-  while (displaced_.pop(change)) replica_.take(change, true);
+  while (displaced_.pop(change)) replica_.take_displaced(change);
 }
 
 bool LiveRelaxer::relaxation_is_due() const {
@@ -72,11 +72,11 @@ void LiveRelaxer::turn() {
 
 void LiveRelaxer::relax() {
   if (rate_ <= 0.0 && !by_way_) return;
-  if (solid_ && place_.rotation) {  // not in exchange(), because it takes long
-    tool_.turn(*place_.rotation);
-    tool_.put(replica_.bed(), place_.tip, place_.contact);
+  if (solid_ && pose_.rotation) {  // not in exchange(), because it takes long
+    tool_.turn(*pose_.rotation);
+    tool_.put(replica_.bed(), pose_.tip, pose_.contact);
   }
-  tool_.hold(replica_.bed());
+  tool_.make_walls(replica_.bed());
   const RelaxationOutcome outcome = relaxer_->relax(replica_.bed());
   tool_.relaxed(replica_.bed());
   report_.relaxations += 1;

@@ -15,14 +15,14 @@
 namespace sandstroke {
 
 /// Where the tool was in a tick of the servo loop.
-struct ToolPlace {
+struct ToolPose {
   Eigen::Vector3d tip = Eigen::Vector3d::Zero();  ///< m, in the bed
   bool contact = false;
-  std::optional<Eigen::Matrix3d> rotation = {};  ///< of the tool's frame in the bed; none: fixed
+  std::optional<Eigen::Matrix3d> rotation = {};  ///< the tool's frame in the bed; none: fixed
 };
 
 using SandRing = SpscRing<SandChange>;
-using PlaceRing = SpscRing<ToolPlace>;
+using PoseRing = SpscRing<ToolPose>;
 
 /// How the relaxation of a live bed went.
 struct RelaxationReport {
@@ -32,19 +32,19 @@ struct RelaxationReport {
 };
 
 /// Relaxes a bed that is felt live, outside the servo loop as in the paper (section 5). It takes displaced
-/// sand from `displaced` and the tool's place from `places`, relaxes its own replica (with walls under a
-/// solid tool at its last known place), and puts the changes into `relaxed`.
+/// sand from `displaced` and the tool's pose from `poses`, relaxes its own replica (with walls under a
+/// solid tool at its last known pose), and puts the changes into `relaxed`.
 class LiveRelaxer {
  public:
   /// relaxer: null = as the settings say.
   LiveRelaxer(const HeightField& bed, const ToolSettings& tool, const RelaxationSettings& settings,
-              SandRing& displaced, PlaceRing& places, SandRing& relaxed,
+              SandRing& displaced, PoseRing& poses, SandRing& relaxed,
               std::unique_ptr<Relaxer> relaxer = nullptr);
   ~LiveRelaxer() { stop(); }
 
   /// Shows the bed to `onlooker` after every turn, in the thread that relaxes. Call it before start().
   void show_to(std::function<void(const HeightField&)> onlooker) { onlooker_ = std::move(onlooker); }
-  /// Starts a thread that relaxes settings.rate times a second and by the tool's way, from the first place of
+  /// Starts a thread that relaxes settings.rate times a second and by the tool's way, from the first pose of
   /// the tool on. Where a relaxation takes longer, the next one follows at once. Sand with far to go takes
   /// several turns. Displaced sand is taken at least 60 times a second.
   void start();
@@ -60,7 +60,7 @@ class LiveRelaxer {
   /// The error that ended the thread, if there was one.
   const std::exception_ptr& failure() const { return failure_; }
   /// No change is left to be given.
-  bool all_given() const { return held_.empty(); }
+  bool all_given() const { return ungiven_.empty(); }
   const HeightField& bed() const { return replica_.bed(); }
   const RelaxationReport& report() const { return report_; }
 
@@ -75,13 +75,13 @@ class LiveRelaxer {
   double rate_;  // Hz
   bool by_way_, solid_;
   SandSide tool_;       // as last told; it displaces nothing
-  ToolPlace place_;     // the last that was told
-  bool begun_ = false;  // a place was told; until then sand stays as a run of the stroke finds it
+  ToolPose pose_;       // the last that was told
+  bool begun_ = false;  // a pose was told; until then sand stays as a run of the stroke finds it
   std::unique_ptr<Relaxer> relaxer_;
   SandRing& displaced_;
-  PlaceRing& places_;
+  PoseRing& poses_;
   SandRing& relaxed_;
-  std::vector<SandChange> held_;  // changes that could not be given before the stop
+  std::vector<SandChange> ungiven_;  // changes that could not be given before the stop
   std::atomic<bool> stopping_ = true;
   std::function<void(const HeightField&)> onlooker_;
   RelaxationReport report_;

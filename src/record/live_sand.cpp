@@ -12,7 +12,7 @@ namespace sandstroke {
 namespace {
 
 constexpr std::size_t ring_size = std::size_t{1} << 20;  // changes: 16 MB each way
-constexpr std::size_t most_places = 1024;                // of the tool, not read yet: a second of ticks
+constexpr std::size_t most_poses = 1024;                 // the tool's, not read yet: a second of ticks
 constexpr int most_taken = 4096;                         // changes per tick: some 50 us
 const double gap_threshold = Stroke{}.gap_threshold;     // s: gaps that `run` does not join stay gaps
 
@@ -54,9 +54,9 @@ LiveSand::LiveSand(const Scene& scene, const HeightField& bed, const FeltDevice&
       highest_(bed.highest()),
       displaced_(ring_size),
       relaxed_(ring_size),
-      places_(most_places),
+      poses_(most_poses),
       replica_(checked(scene, bed)),
-      relaxer_thread_(bed, scene.tool, scene.relaxation, displaced_, places_, relaxed_),
+      relaxer_thread_(bed, scene.tool, scene.relaxation, displaced_, poses_, relaxed_),
       sand_(scene.tool, scene.displacement),
       force_(make_hand_force(scene, bed.cell_size(), placement_, device.largest_force)),
       own_rotation_(own_rotation(scene.tool)),
@@ -103,7 +103,7 @@ Eigen::Vector3d LiveSand::velocity(double time, const Eigen::Vector3d& tip) {
 void LiveSand::take_relaxed(int most) {
   SandChange change;
   for (int i = 0; i < most && relaxed_.pop(change); ++i) {
-    replica_.take(change, false);
+    replica_.take_relaxed(change);
     highest_ = std::max(highest_, replica_.bed()(change.row, change.col));
   }
 }
@@ -151,9 +151,9 @@ FeltForce LiveSand::feel(double time, const DeviceReading& reading) noexcept {
     felt.flags |= deferred_sand;
     ++report_.deferred_ticks;
   }
-  places_.push({tip, interaction.contact,
-                shaper_ ? std::optional(shaper_->rotation())
-                        : std::nullopt});  // where the ring is full the LiveRelaxer knows an older place
+  poses_.push({tip, interaction.contact,
+               shaper_ ? std::optional(shaper_->rotation())
+                       : std::nullopt});  // where the ring is full the LiveRelaxer knows an older pose
   depth_.store(interaction.contact ? interaction.depth : std::numeric_limits<double>::quiet_NaN(),
                std::memory_order_relaxed);
   felt.is_above_or_in_sand = !is_beside(interaction, tip);

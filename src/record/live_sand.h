@@ -73,7 +73,7 @@ class LiveSand : public FeltWorld {
   void shape() {
     if (shaper_) shaper_->work();
   }
-  /// The tip's place in the bed [m], from a device's position.
+  /// The tip's position in the bed [m], from a device's position.
   Eigen::Vector3d tip(const Eigen::Vector3d& position) const {
     return tip_of(device_, placement_.position(position));
   }
@@ -109,12 +109,12 @@ class LiveSand : public FeltWorld {
   PointPlacement placement_;
   double highest_;  // m: no sand is higher
   SandRing displaced_, relaxed_;
-  PlaceRing places_;
+  PoseRing poses_;
   BedReplica replica_;
   LiveRelaxer relaxer_thread_;
   SandSide sand_;
   std::unique_ptr<HandForce> force_;
-  Eigen::Matrix3d own_rotation_;      // of the tool
+  Eigen::Matrix3d own_rotation_;      // the tool's
   bool turns_;                        // the tool turns with the hand
   std::optional<ToolShaper> shaper_;  // for a tool that turns, and is no sphere
   std::array<Past, velocity_window> past_;

@@ -32,7 +32,7 @@ LoopCheck check_loop(double seconds, const RecorderSettings& settings, const Rec
   servo.stop_switch.reset();
   NoDevice device;
   MonotonicClock clock;
-  SpscRing<RecordedSample> ring(static_cast<std::size_t>(rate) + 1);  // of a second, emptied every 0.1 s
+  SpscRing<RecordedSample> ring(static_cast<std::size_t>(rate) + 1);  // a second's, emptied every 0.1 s
   ServoLoop loop(device, nullptr, clock, ring, servo);
   LoopThread thread(loop, settings.priority, settings.lock_memory);
   thread.start();

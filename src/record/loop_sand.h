@@ -13,11 +13,11 @@ class LoopSand {
 
   /// False where it gives no force at any depth.
   virtual bool resists() const = 0;
-  /// As the device feels it at this force [N].
+  /// The sand as the device feels it at this force [N].
   virtual FeltSand at(double force) const = 0;
   /// The same scene with sand that settles (settling_scene).
   virtual std::optional<Scene> settling(const FeltLoop& loop) const = 0;
-  /// What to do where the device buzzes.
+  /// The remedy where the device buzzes.
   virtual const char* remedy() const = 0;
 };
 

@@ -15,7 +15,8 @@ LoopThread::LoopThread(ServoLoop& loop, int priority, bool lock_memory) : loop_(
   footer_ = footer.get_future();
   thread_ = std::thread([&loop, priority, lock_memory, go = go_.get_future(),
                          scheduling = std::move(scheduling), footer = std::move(footer)]() mutable {
-    scheduling.set_value(ask_for_real_time(priority, lock_memory));
+    scheduling.set_value(
+        ask_for_real_time(priority, lock_memory ? MemoryLock::asked : MemoryLock::not_asked));
     go.wait();
     footer.set_value(loop.run());
   });

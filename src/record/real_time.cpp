@@ -59,7 +59,8 @@ std::string advice(int refused_priority, bool memory_refused) {
 
 }  // namespace
 
-Scheduling ask_for_real_time(int priority, bool lock_memory) noexcept {
+Scheduling ask_for_real_time(int priority, MemoryLock memory) noexcept {
+  const bool lock_memory = memory == MemoryLock::asked;
   Scheduling given;
   // Where SCHED_FIFO is refused, a sleep may otherwise end 50 us late, because the system saves power.
   prctl(PR_SET_TIMERSLACK, 1UL);  // ns

@@ -66,7 +66,7 @@ class ServoLoop {
   /// is the last (round(duration x rate) + 1 ticks of all of it).
   RecordingFooter run() noexcept;
 
-  // From any thread:
+  // Called from any thread:
   /// The first reason given counts. It may also be called before run().
   void stop(StopReason reason) noexcept;
   ServoProgress progress() const noexcept;

@@ -38,7 +38,7 @@ bool ToolShaper::work() noexcept {
   try {
     auto tool = std::make_unique<ShapedTool>(settings_);
     tool->turn(asked_);
-    // On a bed that holds the whole footprint, so that it takes its memory now.
+    // The bed holds the whole footprint, so that the tool takes its memory now.
     const int cells = 2 * static_cast<int>(std::ceil(1.5 * tool->farthest() / cell_size_)) + 16;
     tool->place(HeightField(cells, cells, cell_size_), 0.0, 0.0);
     tool->prepare(distance_);

@@ -68,14 +68,14 @@ double PlainDisplacement::sand_level(const HeightGrid& heights) const {
 double PlainDisplacement::displace(HeightGrid& heights, double tip_height, const Eigen::Vector3d& motion,
                                    const DisplacementSettings& settings) const {
   HeightGrid excess = HeightGrid::Zero(row_end_ - row_begin_, col_end_ - col_begin_), ring = excess,
-             weights = excess;  // of the window
+             weights = excess;  // the window's
   SumOfColumns taken, on_ring, on_part;
   for_cells([&](int row, int col) {
     const int r = row - row_begin_, c = col - col_begin_;
     const double underside = tip_height + filter::underside(profile_, radius_, rho2(row, col));
     excess(r, c) = std::max(0.0, heights(row, col) - underside);
     weights(r, c) = ring(r, c) = filter::positive(u(row, col));
-    if (settings.deposit == Deposit::ahead) weights(r, c) *= share_ahead(row, col, motion);
+    if (settings.deposit == Deposit::ahead) weights(r, c) *= fraction_ahead(row, col, motion);
     taken.add(c, excess(r, c));
     on_ring.add(c, ring(r, c));
     on_part.add(c, weights(r, c));
@@ -100,9 +100,9 @@ double PlainDisplacement::displace(HeightGrid& heights, double tip_height, const
   return V * (cell_size_ * cell_size_);
 }
 
-/// `ahead`: a drag deposits on the ring's front half only. The share follows how much of the motion is
+/// `ahead`: a drag deposits on the ring's front half only. The fraction follows how much of the motion is
 /// horizontal, so that a plunge that turns into a drag makes no jump.
-double PlainDisplacement::share_ahead(int row, int col, const Eigen::Vector3d& motion) const {
+double PlainDisplacement::fraction_ahead(int row, int col, const Eigen::Vector3d& motion) const {
   const double drag = elementary::hypot(motion.x(), motion.y());
   if (drag == 0.0) return 1.0;
   const double ahead = x_of(col) * (motion.x() / drag) + y_of(row) * (motion.y() / drag);
@@ -110,7 +110,7 @@ double PlainDisplacement::share_ahead(int row, int col, const Eigen::Vector3d& m
   return 1.0 - horizontal * (1.0 - std::clamp(ahead / cell_size_ + 0.5, 0.0, 1.0));
 }
 
-/// `outward`: what each cell's sand brings to the four cells around the place `distance` radii from the axis.
+/// `outward`: what each cell's sand brings to the four cells around the point `distance` radii from the axis.
 /// It goes in three parts, side by side round the axis.
 HeightGrid PlainDisplacement::spread_outward(const HeightGrid& excess, double taken, double distance) const {
   const double quantum = std::ldexp(1.0, std::ilogb(taken) - 50);  // its multiples add up exactly
@@ -129,16 +129,19 @@ HeightGrid PlainDisplacement::spread_outward(const HeightGrid& excess, double ta
     const double to_x = ratio * from_x, to_y = ratio * from_y;
     const int r0 = static_cast<int>(std::floor(axis_y + to_y)),
               c0 = static_cast<int>(std::floor(axis_x + to_x));
-    const auto share = [&](int r, int c) {  // by the distance to the cell's centre, along x and along y
+    // By the distance to the cell's centre, along x and along y.
+    const auto corner_weight = [&](int r, int c) {
       if (!takes(r, c)) return 0.0;
       return std::max(0.0, 1.0 - std::abs(c - axis_x - to_x)) *
              std::max(0.0, 1.0 - std::abs(r - axis_y - to_y));
     };
-    const double all = (share(r0, c0) + share(r0 + 1, c0 + 1)) + (share(r0, c0 + 1) + share(r0 + 1, c0));
+    const double all = (corner_weight(r0, c0) + corner_weight(r0 + 1, c0 + 1)) +
+                       (corner_weight(r0, c0 + 1) + corner_weight(r0 + 1, c0));
     for (int r = r0; r <= r0 + 1; ++r)
       for (int c = c0; c <= c0 + 1; ++c)
-        if (share(r, c) > 0.0)
-          weights(r, c) += std::nearbyint(excess(row, col) / 3.0 * (share(r, c) / all) / quantum) * quantum;
+        if (corner_weight(r, c) > 0.0)
+          weights(r, c) +=
+              std::nearbyint(excess(row, col) / 3.0 * (corner_weight(r, c) / all) / quantum) * quantum;
   };
   for (int row = 0; row < weights.rows(); ++row)
     for (int col = 0; col < weights.cols(); ++col)

@@ -14,14 +14,14 @@ enum class Deposit { ring, ahead, outward };
 
 struct DisplacementSettings {
   Deposit deposit = Deposit::ring;
-  /// outward: how far from the axis, in tool radii. The place hardly matters: with small cells 1.05 and 1.15
-  /// come within 0.7 % of the moved sand of each other, 1.25 within 3 % (bench: stroke-accurate).
+  /// outward: how far from the axis, in tool radii. The distance hardly matters: with small cells 1.05
+  /// and 1.15 come within 0.7 % of the moved sand of each other, 1.25 within 3 % (bench: stroke-accurate).
   double distance = 1.2;
 };
 
-/// The paper's two passes (section 3.1) of a sphere at one place, cell by cell. The first takes out the sand
-/// that stands above the tool's underside; its volume is V. The second deposits V: on the ring, each cell
-/// getting its part in proportion to the positive filter, or outward.
+/// The paper's two passes (section 3.1) of a sphere at one position, cell by cell. The first takes out the
+/// sand that stands above the tool's underside; its volume is V. The second deposits V: on the ring, each
+/// cell getting its part in proportion to the positive filter, or outward.
 class PlainDisplacement {
  public:
   /// The tool's axis stands at (x, y) [m] from the middle of the bed; its cells are cell_size [m] large. Sand
@@ -45,7 +45,7 @@ class PlainDisplacement {
   double y_of(int row) const { return (row - row_origin_ - axis_y_) * cell_size_; }
   double rho2(int row, int col) const;
   double u(int row, int col) const { return filter::u_of(rho2(row, col), radius_); }
-  double share_ahead(int row, int col, const Eigen::Vector3d& motion) const;
+  double fraction_ahead(int row, int col, const Eigen::Vector3d& motion) const;
   HeightGrid spread_outward(const HeightGrid& excess, double taken, double distance) const;
 
   ToolProfile profile_;

@@ -24,15 +24,17 @@ inline double u_of(double rho2, double radius) { return rho2 / (radius * radius 
 /// sin(u) for u <= u1 by its series, to the last bit as the kernels take it.
 inline double sine(double u) {
   double sum = 0.0, factorial = 355687428096000.0;  // 17!
-  for (int k = 17; k >= 3; factorial /= k * (k - 1), k -= 2)
+  for (int k = 17; k >= 3; k -= 2) {
     sum = sum * (u * u) + (k % 4 == 1 ? 1.0 : -1.0) / factorial;
+    factorial /= k * (k - 1);
+  }
   return u + u * (u * u * sum);
 }
 
 /// Whether a cell lies under the tool: there the filter is negative, and sand is taken out.
 inline bool is_negative(double u) { return u <= u0; }
 
-/// The positive filter, the ring's share of the sand that was taken out; 0 outside the ring.
+/// The positive filter. The ring takes the sand in proportion to it; it is 0 outside the ring.
 inline double positive(double u) { return u > u0 && u <= u1 ? std::max(sine(u) - offset, 0.0) : 0.0; }
 
 /// The tool's underside above its tip [m]; infinite where the tool is not. paper: R sin(u) / (2 u0), which

@@ -50,7 +50,7 @@ SandForce sand_force(double depth, const Eigen::Vector3d& velocity, double max_f
   force.total = force.drag + Eigen::Vector3d(0.0, 0.0, force.repulse);
   const bool within = force.total.allFinite() && length_of(force.total) <= max_force;
   if (max_force > 0.0 && !within) {
-    // At a depth beyond any sense the forces overflow, too; their direction does not depend on it.
+    // The forces overflow, too, at a depth beyond any sense; their direction does not depend on it.
     const Eigen::Vector3d direction = Eigen::Vector3d::UnitZ() - settings.k_f * dragged;
     force.total = max_force * direction.stableNormalized();
     force.saturated = true;

@@ -42,16 +42,16 @@ class RelaxationByWay {
     return elementary::hypot(away.x(), away.y()) >= next_ || std::abs(away.z()) >= next_;
   }
 
-  /// The share of a straight step of the tip, below 1, at which the next relaxation is due by the way along
-  /// the bed; none where none is due. (A tool that goes straight down is looked at when its step ends.)
+  /// The fraction of a straight step of the tip, below 1, at which the next relaxation is due by the way
+  /// along the bed; none where none is due. (A tool that goes straight down is looked at when its step ends.)
   std::optional<double> way_to_next(const Eigen::Vector3d& from, const Eigen::Vector3d& step) const {
     if (!on_ || !relaxed_at_) return std::nullopt;
-    // |away + share along| = next
+    // |away + fraction along| = next
     const Eigen::Vector2d away = (from - *relaxed_at_).head<2>(), along = step.head<2>();
     const double a = along.squaredNorm(), b = away.dot(along), c = away.squaredNorm() - next_ * next_;
     if (a == 0.0 || c >= 0.0) return std::nullopt;  // c: a reading jumped; the step's end sees to it
-    const double share = (std::sqrt(b * b - a * c) - b) / a;
-    return share < 1.0 ? std::optional(share) : std::nullopt;
+    const double fraction = (std::sqrt(b * b - a * c) - b) / a;
+    return fraction < 1.0 ? std::optional(fraction) : std::nullopt;
   }
 
   /// Sand has relaxed with the tip here [m], and does so again when the tip has gone `next` [m].

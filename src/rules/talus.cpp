@@ -92,7 +92,7 @@ double slope_across(const Bed& bed, int row, int col, Offset side) {
   return (after - before) * (has_after && has_before ? 0.5 : 1.0);
 }
 
-/// What flows from a cell to its neighbour by `faces`; negative the other way.
+/// The flow from a cell to its neighbour by `faces`; negative the other way.
 double face_flow(const Bed& bed, const TalusLaw& law, int row, int col, Offset to, double& residual) {
   const double down = bed.drop(row, col, to);
   if (!std::isfinite(down) || down == 0.0) return 0.0;

@@ -6,11 +6,11 @@
 
 namespace sandstroke {
 
-ActiveSand::ActiveSand(const TalusLaw& law, double cell_size, bool tells_givers, std::int64_t worth_threads)
+ActiveSand::ActiveSand(const TalusLaw& law, double cell_size, Givers givers, std::int64_t worth_threads)
     : law_(law),
       worth_threads_(worth_threads),
       stable_slope_(stable_slope(law, cell_size)),
-      activity_(tells_givers) {}
+      activity_(givers) {}
 
 void ActiveSand::begin(HeightField& bed) {
   cells_visited_ = 0;
@@ -20,10 +20,13 @@ void ActiveSand::begin(HeightField& bed) {
 }
 
 void ActiveSand::take_part(int slot) {
-  if (places_.size() <= static_cast<std::size_t>(slot))
-    places_.resize(slot + 1, -1), group_residuals_.resize(slot + 1), residuals_.resize(slot + 1);
-  if (places_[slot] >= 0) return;
-  places_[slot] = static_cast<int>(joined_++);
+  if (numbers_.size() <= static_cast<std::size_t>(slot)) {
+    numbers_.resize(slot + 1, -1);
+    group_residuals_.resize(slot + 1);
+    residuals_.resize(slot + 1);
+  }
+  if (numbers_[slot] >= 0) return;
+  numbers_[slot] = static_cast<int>(joined_++);
   if (tiles_.size() < joined_) tiles_.push_back(std::make_unique<RelaxedTile>());
   tile(slot).patch.begin(slot);
 }
@@ -45,7 +48,7 @@ void ActiveSand::load_rim(const HeightField& bed, TilePatch& patch, RowSpan rows
   patch.load_rim(bed, rows, (seen & columns_between(0, near)) != 0,
                  (seen & columns_between(TilePatch::side - near, TilePatch::side)) != 0, [this](int slot) {
                    const bool takes_part =
-                       static_cast<std::size_t>(slot) < places_.size() && places_[slot] >= 0;
+                       static_cast<std::size_t>(slot) < numbers_.size() && numbers_[slot] >= 0;
                    return takes_part ? &tile(slot).patch : nullptr;
                  });
 }
@@ -92,7 +95,7 @@ void ActiveSand::end(HeightField& bed, RelaxationOutcome& outcome) {
     residuals_[patch.slot()] = std::max(0.0, *std::max_element(residuals.begin(), residuals.end()));
   });
   for (std::size_t i = 0; i < joined_; ++i) {
-    places_[tiles_[i]->patch.slot()] = -1;
+    numbers_[tiles_[i]->patch.slot()] = -1;
     activity_.look_away(tiles_[i]->patch.slot());
   }
   joined_ = 0;

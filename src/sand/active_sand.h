@@ -27,8 +27,8 @@ class ActiveSand {
   // tile with any active cell costs as much as 400 more cells (measured: tests/bench/active_sand_bench.cpp).
   static constexpr std::int64_t work_worth_threads = 8'000, work_per_tile = 400;
 
-  /// tells_givers: also track which cells may give, for super-steps.
-  ActiveSand(const TalusLaw& law, double cell_size, bool tells_givers = false,
+  /// givers: near_changes for super-steps.
+  ActiveSand(const TalusLaw& law, double cell_size, Givers givers = Givers::all,
              std::int64_t worth_threads = work_worth_threads);
 
   /// Begins a relaxation: activates the sand around the cells that were set since the last one.
@@ -37,17 +37,17 @@ class ActiveSand {
   const std::vector<int>& tiles() const { return activity_.tiles(); }  ///< slots of the active tiles
   const CellFlags& cells(int slot) const { return activity_.cells(slot); }
   void rest() { activity_.rest(); }  ///< nothing is active any more
-  /// Each tile gets a number (its place) when it joins a relaxation, so that a stepper can keep data for it.
-  std::size_t place_of(int slot) const { return static_cast<std::size_t>(places_[slot]); }
-  std::size_t places() const { return joined_; }
-  RelaxedTile& tile_at(std::size_t place) { return *tiles_[place]; }
-  RelaxedTile& tile(int slot) { return *tiles_[place_of(slot)]; }
-  const RelaxedTile& tile(int slot) const { return *tiles_[place_of(slot)]; }
+  /// Each tile gets a number when it joins a relaxation, so that a stepper can keep data for it.
+  std::size_t number_of(int slot) const { return static_cast<std::size_t>(numbers_[slot]); }
+  std::size_t joined() const { return joined_; }  ///< how many have
+  RelaxedTile& tile_at(std::size_t number) { return *tiles_[number]; }
+  RelaxedTile& tile(int slot) { return *tiles_[number_of(slot)]; }
+  const RelaxedTile& tile(int slot) const { return *tiles_[number_of(slot)]; }
 
   /// Computes every active cell's gain in a pass. Returns the sum of outflows [m]. in_step(slot, tile)
   /// returns what a super-step does with a tile's flow (FlowInStep). In a super-step only cells within one of
-  /// a change may give; all others are held still, however steep (tells_givers). join(slot) is called first,
-  /// for one active tile after the other; at a tile's first call places() has just grown by it.
+  /// a change may give; no other cell gives, however steep (Givers::near_changes). join(slot) is called
+  /// first, for one active tile after the other; at a tile's first call joined() has just grown by it.
   template <class InStep, class Join>
   double compute_flow(HeightField& bed, const InStep& in_step, const Join& join);
   /// The cost of the pass, in cells: its active cells, and work_per_tile for each active tile.
@@ -99,10 +99,10 @@ class ActiveSand {
   double stable_slope_;  // rise over run
   TileActivity activity_;
 
-  // Tiles of this relaxation, by place. Those beyond joined_ are left from earlier ones.
+  // Tiles of this relaxation, by number. Those beyond joined_ are left from earlier ones.
   std::vector<std::unique_ptr<RelaxedTile>> tiles_;
   std::size_t joined_ = 0;
-  std::vector<int> places_;  // per slot; -1: takes no part
+  std::vector<int> numbers_;  // per slot; -1: takes no part
   // Residual of each group of cells, per slot, and the largest per slot, after the last relaxation that saw
   // them.
   using Residuals = std::array<double, HeightField::tile_area / cells_per_group>;

@@ -65,7 +65,7 @@ class BedGeometry {
     const ColumnRange sand = sand_cols(row);
     return col >= sand.begin && col < sand.end;
   }
-  /// How far a place [m] lies beyond the bed's edge [m]; negative inside.
+  /// How far a position [m] lies beyond the bed's edge [m]; negative inside.
   double beyond_edge(double x, double y) const {
     if (shape_ == BedShape::round) return elementary::hypot(x, y) - wall_radius();
     return std::max(std::abs(x) - 0.5 * cols_ * cell_size_, std::abs(y) - 0.5 * rows_ * cell_size_);
@@ -81,7 +81,7 @@ class BedGeometry {
   double col_at(double x) const { return x / cell_size_ + col_origin_; }
   double row_at(double y) const { return y / cell_size_ + row_origin_; }
 
-  /// From the bed's centre to a cell's, in cells: whole or half numbers, so exact.
+  /// The way from the bed's centre to a cell's [cells]: whole or half numbers, so exact.
   double cols_from_centre(int col) const { return col - col_origin_; }
   double rows_from_centre(int row) const { return row - row_origin_; }
 

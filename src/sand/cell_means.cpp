@@ -12,7 +12,7 @@ std::vector<CellMeans::Cover> CellMeans::covers(int here, int there) {
     const double from = i * ratio, to = (i + 1) * ratio;
     all[i].begin = std::min(static_cast<int>(from + 1e-9), there - 1);
     for (int k = all[i].begin; k < there && (k == all[i].begin || k < to - 1e-9); ++k)
-      all[i].share.push_back((std::min(to, k + 1.0) - std::max<double>(from, k)) / ratio);
+      all[i].fraction.push_back((std::min(to, k + 1.0) - std::max<double>(from, k)) / ratio);
   }
   return all;
 }
@@ -23,9 +23,9 @@ CellMeans::CellMeans(const HeightField& bed, int rows, int cols)
 double CellMeans::operator()(Eigen::Index row, Eigen::Index col) const {
   const Cover &rows = rows_[row], &cols = cols_[col];
   double sum = 0.0;
-  for (std::size_t i = 0; i < rows.share.size(); ++i)
-    for (std::size_t j = 0; j < cols.share.size(); ++j)
-      sum += rows.share[i] * cols.share[j] *
+  for (std::size_t i = 0; i < rows.fraction.size(); ++i)
+    for (std::size_t j = 0; j < cols.fraction.size(); ++j)
+      sum += rows.fraction[i] * cols.fraction[j] *
              bed_(rows.begin + static_cast<int>(i), cols.begin + static_cast<int>(j));
   return sum;
 }

@@ -18,7 +18,7 @@ class CellMeans {
   /// fills.
   struct Cover {
     int begin = 0;
-    std::vector<double> share;
+    std::vector<double> fraction;
   };
   static std::vector<Cover> covers(int here, int there);
 

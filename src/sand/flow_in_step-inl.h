@@ -117,8 +117,10 @@ class TakenStage {
   TakenStage(const TilePatch& patch, const StageAhead& ahead)
       : patch_(patch), ahead_(ahead), momentum_(all(ahead.momentum)), step_(all(ahead.step)) {}
   HWY_INLINE void begin_row(int row, std::uint64_t active) {
-    now_ = patch_.heights(row), out_ = ahead_.tile.before->row(row);
-    active_ = active, changed_ = 0;
+    now_ = patch_.heights(row);
+    out_ = ahead_.tile.before->row(row);
+    active_ = active;
+    changed_ = 0;
     stepped_ = ahead_.tile.stepped[row];
   }
   HWY_INLINE void take(int c, V gain) {

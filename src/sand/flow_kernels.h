@@ -27,7 +27,7 @@ struct FlowScratch {
   /// a patch.
   alignas(64) std::array<double, TilePatch::size> factors{};
   alignas(64) std::array<double, TilePatch::size> below{};  ///< m, what flows down from it (law: faces)
-  /// The cells that may give in a super-step, in a tile and one cell around it; all others are held still.
+  /// The cells that may give in a super-step, in a tile and one cell around it; no others may.
   struct Row {
     std::uint64_t own;
     bool west, east;

@@ -104,7 +104,7 @@ HWY_INLINE Carved carve(const SphereShape& shape, ToolFootprint& f, double tip_h
   const V beyond = all((ring ? shape.reach * shape.reach : square) * above);
   const V s2 = all(shape.filter_scale2), a = all(shape.amplitude), offset = all(filter::offset);
   const V u0 = all(filter::u0), u1 = all(filter::u1);
-  const V cell = all(f.cell_size()), drag = all(front.drag_share);
+  const V cell = all(f.cell_size()), drag = all(front.drag_fraction);
   const bool sphere = shape.profile == ToolProfile::sphere;
   const Offsets offsets(f);
   LaneSum sum, front_weight, ring_weight;
@@ -145,7 +145,7 @@ HWY_INLINE Carved carve(const SphereShape& shape, ToolFootprint& f, double tip_h
       }
       V weight = on_ring;
       const Mask in_ring = on_ring > zero;  // elsewhere offsets may be infinite
-      if (front.drag_share > 0.0 && !hn::AllFalse(d, in_ring)) {
+      if (front.drag_fraction > 0.0 && !hn::AllFalse(d, in_ring)) {
         const V p = x * all(front.direction.x()) + ahead_y;
         weight = where(in_ring, on_ring * (one - drag * (one - clamped(p / cell + half))));
       }
@@ -218,7 +218,7 @@ void CoverUpTo(ToolFootprint& f, double height) {
   }
 }
 
-/// A group of cut cells: their places [cells from the axis], their sand [m], its targets [cells from the
+/// A group of cut cells: their positions [cells from the axis], their sand [m], its targets [cells from the
 /// axis; NaN: nowhere], and the cells that take it.
 struct CutCells {
   alignas(64) double x[group], y[group], excess[group];
@@ -247,7 +247,7 @@ HWY_INLINE V spread_cells(const ToolFootprint& f, double rounding_shift, CutCell
   // Rounded towards 0. Below 0 that rounds up, but no cell of the window lies there.
   const V first_col = hn::Trunc(axis_x + to_x), first_row = hn::Trunc(axis_y + to_y);
   const V rows = all(f.cells().rows()), cols = all(f.cells().cols()), stride = all(f.stride());
-  const auto share = [&](int down, int right, V& to) {
+  const auto corner_weight = [&](int down, int right, V& to) {
     const V row = first_row + all(down), col = first_col + all(right);
     const Mask inside = hn::And(hn::And(row >= zero, row < rows), hn::And(col >= zero, col < cols));
     to = where(inside, row * stride + col);
@@ -257,13 +257,15 @@ HWY_INLINE V spread_cells(const ToolFootprint& f, double rounding_shift, CutCell
     return where(inside, near_x * near_y * takes);
   };
   V to[4];
-  const V shares[4] = {share(0, 0, to[0]), share(0, 1, to[1]), share(1, 0, to[2]), share(1, 1, to[3])};
-  const V whole = (shares[0] + shares[3]) + (shares[1] + shares[2]);  // symmetric
+  const V corner_weights[4] = {corner_weight(0, 0, to[0]), corner_weight(0, 1, to[1]),
+                               corner_weight(1, 0, to[2]), corner_weight(1, 1, to[3])};
+  const V whole =
+      (corner_weights[0] + corner_weights[3]) + (corner_weights[1] + corner_weights[2]);  // symmetric
   const Mask goes = whole > zero;
   const V excess = hn::Load(d, cells.excess + i);
   V total = zero;
   for (int corner = 0; corner < 4; ++corner) {
-    const V part = where(goes, excess * (shares[corner] / whole) + shift - shift);
+    const V part = where(goes, excess * (corner_weights[corner] / whole) + shift - shift);
     total += part;
     hn::Store(part, d, cells.part[corner] + i);
     hn::Store(hn::ConvertTo(di, where(goes, to[corner])), di, cells.to[corner] + i);
@@ -300,7 +302,8 @@ double SpreadOutward(ToolFootprint& f, double carved, const Outward& outward) {
     for (int g = 0; g < f.stride() / group; ++g)
       for (unsigned flags = f.flags(row)[g]; flags != 0; flags &= flags - 1) {
         const int col = g * group + std::countr_zero(flags);
-        cells.x[count] = col - axis_x, cells.y[count] = row - axis_y;
+        cells.x[count] = col - axis_x;
+        cells.y[count] = row - axis_y;
         cells.excess[count] = f.excess(row)[col];
         if (outward.way)
           outward.way->aim(row, col, cells.x[count], cells.y[count], cells.to_x[count], cells.to_y[count]);

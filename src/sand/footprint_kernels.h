@@ -30,7 +30,7 @@ struct EnvelopeWindow {
 };
 /// The ways on which the sand of a window's cells leaves the tool.
 struct WayOutWindow {
-  const double *x, *y;  ///< of the window's first cell [cells]
+  const double *x, *y;  ///< the window's first cell [cells]
   int stride;
   /// Computes where the sand of a cell at (at_x, at_y) goes, from the axis [cells]; NaN: nowhere.
   void aim(int row, int col, double at_x, double at_y, double& to_x, double& to_y) const {
@@ -52,12 +52,12 @@ double level_of(const SphereShape& shape, const ToolFootprint& footprint);
 /// (tip_height infinite).
 double carve(const SphereShape& shape, ToolFootprint& footprint, double tip_height);
 
-/// The part of the ring that a motion fills: all of it if drag_share is 0, its front half if it is 1. A cell
-/// p [m] ahead of the axis keeps the fraction 1 - drag_share (1 - clamp(p / dx + 1/2, 0, 1)) of its
+/// The part of the ring that a motion fills: all of it if drag_fraction is 0, its front half if it is 1. A
+/// cell p [m] ahead of the axis keeps the fraction 1 - drag_fraction (1 - clamp(p / dx + 1/2, 0, 1)) of its
 /// ring_weight.
 struct RingFront {
-  double drag_share;
-  Eigen::Vector2d direction;  ///< of the drag, a unit vector
+  double drag_fraction;
+  Eigen::Vector2d direction;  ///< the drag's, a unit vector
 };
 struct Carved {
   double sum;
@@ -90,7 +90,7 @@ struct Outward {
 /// is left out. Returns the sum.
 double spread_outward(ToolFootprint& footprint, double carved, const Outward& outward);
 
-/// What a deposit is in proportion to: weights() or ring_weight().
+/// The weights that a deposit is in proportion to: weights() or ring_weight().
 enum class DepositBy { weights, ring_weight };
 /// Second pass (deposit): heights() += rise x weights. Flags the raised cells.
 void deposit(ToolFootprint& footprint, double rise, DepositBy by);

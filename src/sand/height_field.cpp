@@ -43,7 +43,7 @@ HeightField::HeightField(const HeightField& other)
       untouched_(other.untouched_),
       slots_(zeros(tile_count())),
       disturbed_(other.disturbed_),
-      held_(other.held_) {
+      tool_walls_(other.tool_walls_) {
   tiles_.reserve(other.tiles_.size());
   for (const auto& tile : other.tiles_) {
     slots_.get()[tile->index] = static_cast<std::uint32_t>(tiles_.size()) + 1;
@@ -57,7 +57,7 @@ std::uint64_t HeightField::beyond_wall(int tile, int row_in_tile) const {
   if (shape() == BedShape::rectangle) return 0;
   const CellRange cells = tile_cells(tile);
   const ColumnRange sand = sand_cols(cells.row_begin + row_in_tile);
-  const auto first_cells = [&](int end) {  // of the row, up to a column of the bed
+  const auto first_cells = [&](int end) {  // the row's, up to a column of the bed
     const int count = std::clamp(end - cells.col_begin, 0, tile_side);
     return count == tile_side ? ~std::uint64_t{0} : (std::uint64_t{1} << count) - 1;
   };
@@ -73,7 +73,7 @@ int HeightField::make_tile(int tile) {
   made->index = tile;
   made->revision = new_tile_revision;
   untouched_->fill(*this, tile_cells(tile), made->heights.data(), tile_side);
-  for (int row = 0; row < tile_side; ++row) made->held[row] = beyond_wall(tile, row);
+  for (int row = 0; row < tile_side; ++row) made->walls[row] = beyond_wall(tile, row);
   tiles_.push_back(std::move(made));
   slots_.get()[tile] = static_cast<std::uint32_t>(tiles_.size());
   return allocated_tiles() - 1;
@@ -94,20 +94,20 @@ void HeightField::clear_disturbed() {
   disturbed_.clear();
 }
 
-void HeightField::hold(const std::vector<RowCells>& cells) {
-  // Marks the cells of `rows` that are no walls as disturbed: the new ones before the change, the old ones
+void HeightField::set_tool_walls(const std::vector<RowCells>& cells) {
+  // Marks the cells of `rows` that are no walls as disturbed: the new walls before the change, the old ones
   // after it.
-  const auto disturb_unheld = [this](const std::vector<RowCells>& rows) {
+  const auto disturb_free = [this](const std::vector<RowCells>& rows) {
     for (const RowCells& row : rows)
-      if (const std::uint64_t unheld = row.cells & ~tiles_[row.slot]->held[row.row_in_tile])
-        mark_disturbed(row.slot, row.row_in_tile, unheld);
+      if (const std::uint64_t free = row.cells & ~tiles_[row.slot]->walls[row.row_in_tile])
+        mark_disturbed(row.slot, row.row_in_tile, free);
   };
-  disturb_unheld(cells);
-  for (const RowCells& row : held_)
-    tiles_[row.slot]->held[row.row_in_tile] = beyond_wall(tiles_[row.slot]->index, row.row_in_tile);
-  for (const RowCells& row : cells) tiles_[row.slot]->held[row.row_in_tile] |= row.cells;
-  disturb_unheld(held_);
-  held_ = cells;
+  disturb_free(cells);
+  for (const RowCells& row : tool_walls_)
+    tiles_[row.slot]->walls[row.row_in_tile] = beyond_wall(tiles_[row.slot]->index, row.row_in_tile);
+  for (const RowCells& row : cells) tiles_[row.slot]->walls[row.row_in_tile] |= row.cells;
+  disturb_free(tool_walls_);
+  tool_walls_ = cells;
 }
 
 void HeightField::read_tile(int tile, double* out, std::ptrdiff_t stride) const {

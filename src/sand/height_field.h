@@ -42,7 +42,7 @@ class HeightField : public BedGeometry {
     const int slot = slot_of(tile_index(row / tile_side, col / tile_side));
     return slot < 0 ? untouched_->height(*this, row, col) : tiles_[slot]->heights[in_tile(row, col)];
   }
-  /// Height of the cell at a place [m]; NaN outside the bed.
+  /// Height of the cell at a position [m]; NaN outside the bed.
   double height_at(double x, double y) const;
   /// Sets one cell. The next relaxation looks there.
   void set(int row, int col, double height) {
@@ -99,14 +99,14 @@ class HeightField : public BedGeometry {
 
   /// Marks the cells under a solid tool as walls, until the next call. The bed's own wall stays. The next
   /// relaxation looks at the cells that became walls or ceased to be walls.
-  void hold(const std::vector<RowCells>& cells);
-  /// The cells of the last hold().
-  const std::vector<RowCells>& held() const { return held_; }
+  void set_tool_walls(const std::vector<RowCells>& cells);
+  /// The cells of the last set_tool_walls().
+  const std::vector<RowCells>& tool_walls() const { return tool_walls_; }
   /// All walls in a tile.
-  const CellFlags& held_cells(int slot) const { return tiles_[slot]->held; }
-  bool is_held(int row, int col) const {
+  const CellFlags& walls(int slot) const { return tiles_[slot]->walls; }
+  bool is_wall(int row, int col) const {
     const int slot = slot_of(tile_index(row / tile_side, col / tile_side));
-    return slot < 0 ? !has_sand(row, col) : (held_cells(slot)[row % tile_side] >> (col % tile_side) & 1) != 0;
+    return slot < 0 ? !has_sand(row, col) : (walls(slot)[row % tile_side] >> (col % tile_side) & 1) != 0;
   }
 
   /// The revision of a tile (by index): it changes whenever a cell of the tile may have changed. It is 0
@@ -134,7 +134,7 @@ class HeightField : public BedGeometry {
   struct alignas(64) Tile {
     std::array<double, tile_area> heights;
     CellFlags disturbed;
-    CellFlags held;
+    CellFlags walls;
     std::uint64_t revision;
     int index;
     bool listed;  // in disturbed_
@@ -156,7 +156,7 @@ class HeightField : public BedGeometry {
   std::unique_ptr<std::uint32_t, Free> slots_;
   std::vector<std::unique_ptr<Tile>> tiles_;
   std::vector<int> disturbed_;
-  std::vector<RowCells> held_;
+  std::vector<RowCells> tool_walls_;
 };
 
 /// Whether two beds of one shape are known to have the same heights where neither has an allocated tile.

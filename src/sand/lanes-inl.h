@@ -47,15 +47,15 @@ HWY_INLINE Mask lanes_of(std::uint64_t flags) {
 HWY_INLINE double largest(V v) { return hn::GetLane(hn::MaxOfLanes(d, v)); }
 HWY_INLINE double least(V v) { return hn::GetLane(hn::MinOfLanes(d, v)); }
 
-/// A sum whose bits do not depend on the vectors' width: one sum for each of a group's 8 places, added up at
+/// A sum whose bits do not depend on the vectors' width: one sum for each of a group's 8 numbers, added up at
 /// the end.
 class LaneSum {
  public:
   HWY_INLINE LaneSum() {
     for (V& sum : sums_) sum = hn::Zero(d);
   }
-  /// `place`: column of the vector's first lane.
-  HWY_INLINE void add(int place, V terms) { sums_[place % group / lanes] += terms; }
+  /// index: of the vector's first lane.
+  HWY_INLINE void add(int index, V terms) { sums_[index % group / lanes] += terms; }
   HWY_INLINE double total() const {
     alignas(64) double s[group];
     for (int i = 0; i < group; i += lanes) hn::Store(sums_[i / lanes], d, s + i);

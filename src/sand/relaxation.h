@@ -47,7 +47,7 @@ struct RelaxationOutcome {
   std::int64_t cells_visited = 0;  ///< cells that might have moved, summed over passes and the last check
   int tiles_active_max = 0;
   std::int64_t wake_ups = 0;  ///< how often a tile at rest became active
-  bool converged = false;     ///< every cell rests, or what still flows is below rounding
+  bool converged = false;     ///< every cell rests, or the flow that is left is below rounding
 
   /// Adds the next relaxation: counts and volumes add up, residual and converged become the next one's.
   void add(const RelaxationOutcome& next);
@@ -62,7 +62,7 @@ using PassWatcher = std::function<void(std::int64_t passes, const BedNow& bed_no
 /// Jacobi: all cells at once, from the old heights. A cell at rest (its slope is within the tolerance) gives
 /// nothing. So what a patch of sand does depends on its neighbourhood only, not on whether sand elsewhere
 /// still moves. (The stages of rkl have no tolerance, and its steps are as long as the whole of the moving
-/// sand allows.) No sand crosses the border, or enters or leaves walls (HeightField::hold).
+/// sand allows.) No sand crosses the border, or enters or leaves walls (HeightField::set_tool_walls).
 class Relaxer {
  public:
   virtual ~Relaxer() = default;

@@ -8,12 +8,12 @@
 //   relative to how far sand has moved in this relaxation. It stays below the step tolerance. A step also
 //   ends when the flow has decayed or turned against its start (sum F F0 < 2 % of sum F0^2), because momentum
 //   would carry sand too far.
-// In the stages sand flows wherever the slope exceeds tan(talus); the tolerance only says when all is done.
+// Sand flows in the stages wherever the slope exceeds tan(talus); the tolerance only says when all is done.
 // (If the stages used the tolerance, its jumps would make long steps chatter.) But only cells within one of a
-// change give. All other sand is held still; otherwise a grain that falls on a heap at rest would set its
-// whole surface flowing within the tolerance. (This also holds a plane so steep everywhere that its cells
-// pass on what they take, until the change at its ends comes near. The result is then 0.9 % of the moved sand
-// from the small-step limit, instead of 0.5.)
+// change give. All other sand stays; otherwise a grain that falls on a heap at rest would set its whole
+// surface flowing within the tolerance. (A plane so steep everywhere that its cells pass on what they take
+// also stays, until the change at its ends comes near. The result is then 0.9 % of the moved sand from the
+// small-step limit, instead of 0.5.)
 #include <algorithm>
 #include <limits>
 #include <memory>
@@ -45,9 +45,9 @@ constexpr double first_share = 1.0 / 8.0;
 // momentum carries sand too far.
 constexpr double decayed = 0.02;
 
-// From this work on [cells], sweeps wait for memory. Then, if the expected error lets a step go on, its next
-// stage is taken in the same sweep as the flow, and dropped if the step ends after all. 32 bytes a cell pass
-// instead of 72, with the same bits.
+// Sweeps over this work [cells] or more wait for memory. Then, if the expected error lets a step go on, its
+// next stage is taken in the same sweep as the flow, and dropped if the step ends after all. 32 bytes a cell
+// pass instead of 72, with the same bits.
 constexpr std::int64_t work_worth_ahead = 20'000;
 
 class RklRelaxer : public Relaxer {
@@ -57,17 +57,21 @@ class RklRelaxer : public Relaxer {
         step_tolerance_(settings.step_tolerance),
         max_passes_(settings.max_passes),
         largest_share_(std::min(law_.share, largest_share)),
-        sand_(ungated(settings, cell_size), cell_size, true) {}
+        sand_(ungated(settings, cell_size), cell_size, Givers::near_changes) {}
 
   RelaxationOutcome relax(HeightField& bed, const PassWatcher& after_pass) override {
     outcome_ = {};
     moved_ = {};
-    low_ = std::numeric_limits<double>::infinity(), high_ = -low_;
+    low_ = std::numeric_limits<double>::infinity();
+    high_ = -low_;
     ++step_;
     taken_in_ = 0;
     travelled_ = 0.0;
     too_steep_ = false;
-    const BedNow bed_now = [&]() -> const HeightField& { return sand_.write_back(bed), bed; };
+    const BedNow bed_now = [&]() -> const HeightField& {
+      sand_.write_back(bed);
+      return bed;
+    };
     const auto told = [&] {
       if (after_pass) after_pass(outcome_.passes, bed_now);
     };
@@ -96,7 +100,7 @@ class RklRelaxer : public Relaxer {
   bool goes_on() const {
     return !sand_.at_rest() && too_steep_ && outcome_.passes < max_passes_ && !interrupted();
   }
-  StepTile& tile(int slot) { return *tiles_[sand_.place_of(slot)]; }
+  StepTile& tile(int slot) { return *tiles_[sand_.number_of(slot)]; }
 
   template <class Told>
   void super_step(HeightField& bed, double share, const Told& told) {
@@ -108,7 +112,7 @@ class RklRelaxer : public Relaxer {
     bool ahead = false;                                         // the next stage is already taken
     for (int j = 0;; ++j) {
       const Stage stage = stage_of(j, share);
-      if (!(ahead ? go_ahead(bed) : advance(bed, stage))) break;  // what still flows is below rounding
+      if (!(ahead ? go_ahead(bed) : advance(bed, stage))) break;  // the flow that is left is below rounding
       ++outcome_.passes;
       told();
       if (j > 0 && left_range()) {
@@ -118,8 +122,8 @@ class RklRelaxer : public Relaxer {
       flowing = stage.momentum * flowing + stage.step * given_;
       moved_.add(flowing);
       tau = share * (j + 1.0) * (j + 2.0) / 2.0;
-      const double growth = (j + 3.0) / (j + 1.0);  // of tau in the next stage
-      const double squared = growth * growth;       // of the error
+      const double growth = (j + 3.0) / (j + 1.0);  // tau's, in the next stage
+      const double squared = growth * growth;       // the error's
       ahead = sand_.work() >= work_worth_ahead && foreseen * squared <= step_tolerance_;
       if (ahead)
         compute_flow(bed, stage_of(j + 1, share));
@@ -161,13 +165,14 @@ class RklRelaxer : public Relaxer {
 
   /// Lets an active tile join the step, and adds its starting heights to the range.
   void take_in(const HeightField& bed, int slot) {
-    if (tiles_.size() < sand_.places()) tiles_.push_back(std::make_unique<StepTile>());
-    if (taken_in_ < sand_.places()) {  // the tile is new in this relaxation
+    if (tiles_.size() < sand_.joined()) tiles_.push_back(std::make_unique<StepTile>());
+    if (taken_in_ < sand_.joined()) {  // the tile is new in this relaxation
       ++taken_in_;
       tile(slot).step = -1;
       const CellRange cells = bed.tile_cells(bed.tile_of(slot));
       const HeightRange range = range_of(bed.tile_heights(slot), cells.rows(), cells.cols());
-      low_ = std::min(low_, range.low), high_ = std::max(high_, range.high);
+      low_ = std::min(low_, range.low);
+      high_ = std::max(high_, range.high);
     }
     join(slot);
   }
@@ -227,8 +232,8 @@ class RklRelaxer : public Relaxer {
   /// Calls body(tile, its step's tile) for the tiles that take part in this super-step.
   template <class Body>
   void for_tiles_in_step(const Body& body) {
-    for (std::size_t place = 0; place < taken_in_; ++place)
-      if (tiles_[place]->step == step_) body(sand_.tile_at(place), *tiles_[place]);
+    for (std::size_t number = 0; number < taken_in_; ++number)
+      if (tiles_[number]->step == step_) body(sand_.tile_at(number), *tiles_[number]);
   }
 
   /// Whether the last stage took any height out of the range of the starting ones.
@@ -253,7 +258,7 @@ class RklRelaxer : public Relaxer {
   double largest_share_;
   ActiveSand sand_;
 
-  std::vector<std::unique_ptr<StepTile>> tiles_;  // by place in sand_
+  std::vector<std::unique_ptr<StepTile>> tiles_;  // by number in sand_
   std::int64_t step_ = 0;                         // which super-step this is
 
   // State of this relaxation.

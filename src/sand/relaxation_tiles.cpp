@@ -15,13 +15,16 @@ class TileRelaxer : public Relaxer {
   RelaxationOutcome relax(HeightField& bed, const PassWatcher& after_pass) override {
     RelaxationOutcome outcome;
     CompensatedSum moved;
-    const BedNow bed_now = [&]() -> const HeightField& { return sand_.write_back(bed), bed; };
+    const BedNow bed_now = [&]() -> const HeightField& {
+      sand_.write_back(bed);
+      return bed;
+    };
     sand_.begin(bed);
     while (!sand_.at_rest() && outcome.passes != max_passes_ && !interrupted()) {
       moved.add(compute_flow(bed));
       const bool changed =
           sand_.advance(bed, [](int, RelaxedTile& tile) { apply_flow(tile.flow, tile.patch, tile.changed); });
-      if (!changed) break;  // what still flows is below rounding
+      if (!changed) break;  // the flow that is left is below rounding
       ++outcome.passes;
       if (after_pass) after_pass(outcome.passes, bed_now);
     }

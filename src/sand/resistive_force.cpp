@@ -22,8 +22,8 @@ double resistance(const SandStrength& sand) {
 
 Wrench Wrench::limited(double max_force) const {
   if (!(max_force > 0.0) || strength <= max_force) return *this;
-  const double share = max_force / strength;
-  return {share * force, share * torque, share * stiffness, share * stored, max_force};
+  const double fraction = max_force / strength;
+  return {fraction * force, fraction * torque, fraction * stiffness, fraction * stored, max_force};
 }
 
 ResistiveForce::ResistiveForce(const TriangleMesh& surface, double element_size)

@@ -70,8 +70,8 @@ HWY_INLINE Vector stress(const Vector& n, const Vector& u, V tool_friction) {
   const Vector along = alpha.plus(n.times(Neg(across)));
   const V along2 = along.dot(along), most = tool_friction * hn::Abs(across);
   const Mask slides = along2 > most * most;
-  const V share = hn::IfThenElse(slides, most / Sqrt(Max(along2, all(1e-300))), all(1.0));
-  return n.times(across).plus(along.times(share));
+  const V fraction = hn::IfThenElse(slides, most / Sqrt(Max(along2, all(1e-300))), all(1.0));
+  return n.times(across).plus(along.times(fraction));
 }
 
 /// The cosine between motion and normal below 0 over which trailing elements fade out. Otherwise the drag on
@@ -84,17 +84,17 @@ class WrenchSum {
   HWY_INLINE WrenchSum() {}  // an implicit one would not have the instruction set's attributes
   /// size: of an element's force per depth [N/m], once it has fully yielded; `mobilised` is the part of it
   /// that acts.
-  HWY_INLINE void add(int place, const Vector& r, const Vector& force, V size, V depth, V mobilised) {
-    force_x_.add(place, force.x);
-    force_y_.add(place, force.y);
-    force_z_.add(place, force.z);
-    torque_x_.add(place, r.y * force.z - r.z * force.y);
-    torque_y_.add(place, r.z * force.x - r.x * force.z);
-    torque_z_.add(place, r.x * force.y - r.y * force.x);
+  HWY_INLINE void add(int index, const Vector& r, const Vector& force, V size, V depth, V mobilised) {
+    force_x_.add(index, force.x);
+    force_y_.add(index, force.y);
+    force_z_.add(index, force.z);
+    torque_x_.add(index, r.y * force.z - r.z * force.y);
+    torque_y_.add(index, r.z * force.x - r.x * force.z);
+    torque_z_.add(index, r.x * force.y - r.y * force.x);
     const V full = size * Max(depth, hn::Zero(d));
-    growth_.add(place, size);
-    strength_.add(place, full);
-    amount_.add(place, full * mobilised);
+    growth_.add(index, size);
+    strength_.add(index, full);
+    amount_.add(index, full * mobilised);
   }
   Wrench total(double yield_way) const {
     return {{force_x_.total(), force_y_.total(), force_z_.total()},
@@ -113,7 +113,7 @@ Wrench ResistiveWrench(const ResistiveTick& tick) {
   const ToolElements& e = tick.elements;
   const V zero = hn::Zero(d), one = all(1.0), half = all(0.5);
   const double dx = f.cell_size();
-  // A place from the tip [m] is (x + ...) / dx columns from the window's first.
+  // A position from the tip [m] is (x + ...) / dx columns from the window's first.
   const V per_cell = all(1.0 / dx), col0 = all(f.axis_x() - f.first_x()),
           row0 = all(f.axis_y() - f.first_y());
   const V last_col = all(f.cells().cols() - 1), last_row = all(f.cells().rows() - 1),
@@ -130,7 +130,7 @@ Wrench ResistiveWrench(const ResistiveTick& tick) {
   double *ways_x = tick.ways, *ways_y = tick.ways + e.size(), *ways_z = tick.ways + 2 * e.size();
   WrenchSum sum;
   for (std::size_t i = 0; i < e.size(); i += lanes) {
-    const int place = static_cast<int>(i);
+    const int index = static_cast<int>(i);
     const Vector r = {hn::Load(d, e.x() + i), hn::Load(d, e.y() + i), hn::Load(d, e.z() + i)};
     const V depth = height0 + slope_x * r.x + slope_y * r.y - r.z;
     if (hn::AllFalse(d, depth > zero)) {
@@ -165,7 +165,7 @@ Wrench ResistiveWrench(const ResistiveTick& tick) {
     if (hn::AllFalse(d, area > zero)) continue;
     const Vector alpha = stress(n, u, all(tick.tool_friction));
     const V size = Sqrt(alpha.dot(alpha)) * area;
-    sum.add(place, r, alpha.times(area * depth * mobilised), size, depth, mobilised);
+    sum.add(index, r, alpha.times(area * depth * mobilised), size, depth, mobilised);
   }
   return sum.total(tick.yield_way);
 }
@@ -174,16 +174,16 @@ VolumeBelow VolumeBelowPlane(const ToolElements& e, double height, const Eigen::
   const V slope_x = all(slope.x()), slope_y = all(slope.y()), height0 = all(height), zero = hn::Zero(d);
   LaneSum volume, moment_x, moment_y, area;
   for (std::size_t i = 0; i < e.size(); i += lanes) {
-    const int place = static_cast<int>(i);
+    const int index = static_cast<int>(i);
     const V x = hn::Load(d, e.x() + i), y = hn::Load(d, e.y() + i);
     const V depth = height0 + slope_x * x + slope_y * y - hn::Load(d, e.z() + i);
     // The column from each element up to the plane.
     const V level = where(depth > zero, Neg(hn::Load(d, e.normal_z() + i)) * hn::Load(d, e.area() + i));
     const V above = level * depth;
-    area.add(place, level);
-    volume.add(place, above);
-    moment_x.add(place, x * above);
-    moment_y.add(place, y * above);
+    area.add(index, level);
+    volume.add(index, above);
+    moment_x.add(index, x * above);
+    moment_y.add(index, y * above);
   }
   return {volume.total(), {moment_x.total(), moment_y.total()}, area.total()};
 }

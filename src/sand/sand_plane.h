@@ -6,7 +6,7 @@
 
 namespace sandstroke {
 
-/// The plane of the sand around a tool: z [m] = height + slope . (place - axis). NaN: there is no sand.
+/// The plane of the sand around a tool: z [m] = height + slope . (position - axis). NaN: there is no sand.
 struct SandPlane {
   double height;
   Eigen::Vector2d slope = Eigen::Vector2d::Zero();

@@ -21,18 +21,24 @@ Eigen::Vector3d LeastDeviations(const SeenSand& sand, double reach) {
     const V a = all(plane[0]), b = all(plane[1]), c = all(plane[2]);
     LaneSum w, wx, wy, wxx, wxy, wyy, wz, wxz, wyz;
     V most_off = hn::Zero(d);
-    for (int i = 0; i < plane_places; i += lanes) {
+    for (int i = 0; i < plane_samples; i += lanes) {
       const V x = hn::Load(d, sand.x + i), y = hn::Load(d, sand.y + i), z = hn::Load(d, sand.height + i),
               there = hn::Load(d, sand.there + i);
       const V off = there * hn::Abs(z - (a + x * b + y * c));
       most_off = Max(most_off, off);
       const V weight = turn == 0 ? there : there * (one / (off + least));
       const V weight_x = weight * x, weight_y = weight * y;
-      w.add(i, weight), wx.add(i, weight_x), wy.add(i, weight_y), wz.add(i, weight * z);
-      wxx.add(i, weight_x * x), wxy.add(i, weight_x * y), wyy.add(i, weight_y * y);
-      wxz.add(i, weight_x * z), wyz.add(i, weight_y * z);
+      w.add(i, weight);
+      wx.add(i, weight_x);
+      wy.add(i, weight_y);
+      wz.add(i, weight * z);
+      wxx.add(i, weight_x * x);
+      wxy.add(i, weight_x * y);
+      wyy.add(i, weight_y * y);
+      wxz.add(i, weight_x * z);
+      wyz.add(i, weight_y * z);
     }
-    if (turn > 0 && largest(most_off) < 1e-6 * reach) break;  // all places lie in the plane
+    if (turn > 0 && largest(most_off) < 1e-6 * reach) break;  // all samples lie in the plane
     const double x = wx.total(), y = wy.total(), xy = wxy.total();
     const Eigen::Matrix3d normal{{w.total(), x, y}, {x, wxx.total(), xy}, {y, xy, wyy.total()}};
     plane = normal.inverse() * Eigen::Vector3d(wz.total(), wxz.total(), wyz.total());

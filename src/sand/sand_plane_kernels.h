@@ -4,13 +4,13 @@
 
 namespace sandstroke {
 
-constexpr int plane_places = 48;  // on three circles
+constexpr int plane_samples = 48;  // on three circles
 
 /// Samples of the sand around a tool.
 struct SeenSand {
-  alignas(64) double x[plane_places], y[plane_places];  ///< from the axis, in reaches
-  alignas(64) double height[plane_places];              ///< m; 0 where there is none
-  alignas(64) double there[plane_places];               ///< 1, or 0 where there is none
+  alignas(64) double x[plane_samples], y[plane_samples];  ///< from the axis, in reaches
+  alignas(64) double height[plane_samples];               ///< m; 0 where there is none
+  alignas(64) double there[plane_samples];                ///< 1, or 0 where there is none
 };
 
 /// Returns a, b, c [m] of the plane a + b x + c y that has about the least sum of deviations from the sand,

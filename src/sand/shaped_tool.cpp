@@ -47,9 +47,9 @@ void ShapedTool::place(const HeightField& bed, double x, double y) {
 void ShapedTool::find_first_sample() {
   // For multiples of 2^-30 the distances to a sample and to the next one are both exact.
   const auto split = [&](double cells, int first, int& sample, double& rest) {
-    const double place = std::round(envelope_->phases() * cells * 0x1p30) * 0x1p-30;
-    const double whole = std::floor(place);
-    rest = place - whole;
+    const double position = std::round(envelope_->phases() * cells * 0x1p30) * 0x1p-30;
+    const double whole = std::floor(position);
+    rest = position - whole;
     sample = std::max(static_cast<int>(whole) - first * envelope_->phases(), 0);
   };
   split(footprint_.first_x() - footprint_.axis_x(), envelope_->first_col(), sample_col_, sample_x_);

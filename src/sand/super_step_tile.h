@@ -39,7 +39,7 @@ struct StageAhead {
   double momentum, step;
   SuperStepTile& tile;
   CellFlags& changed;  ///< in the flow's rows, the cells that the stage changes
-  HeightRange& range;  ///< of the active cells after the stage
+  HeightRange& range;  ///< the active cells' after the stage
 };
 
 }  // namespace sandstroke

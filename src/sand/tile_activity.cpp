@@ -46,11 +46,11 @@ void TileActivity::wake(HeightField& bed, int tile, int row_begin, const std::ui
   const int slot = bed.allocate(tile);
   if (marks_.size() <= static_cast<std::size_t>(slot)) marks_.resize(slot + 1);
   Marks& marks = marks_[slot];
-  const std::uint64_t* held = bed.held_cells(slot).data() + row_begin;
+  const std::uint64_t* walls = bed.walls(slot).data() + row_begin;
   RowSpan rows{row_begin + count, row_begin};
   for (int r = 0; r < count; ++r) {
     marks.seen[row_begin + r] |= active[r] & inside;
-    const std::uint64_t free = inside & ~held[r];
+    const std::uint64_t free = inside & ~walls[r];
     if (!(active[r] & free)) continue;
     marks.active[row_begin + r] |= active[r] & free;
     if (tells_givers_) marks.givers[row_begin + r] |= givers[r] & free;
@@ -78,12 +78,15 @@ struct Spread {
       std::uint64_t f = 0;
       for (int i = -by; i <= by; ++i) f |= flags[r + reach + i];
       own[r] = f | f << 1 | f >> 1;
-      west[r] = f << (side - 1), east[r] = f >> (side - 1);
+      west[r] = f << (side - 1);
+      east[r] = f >> (side - 1);
       if constexpr (by == 2) {
         own[r] |= f << 2 | f >> 2;
-        west[r] |= f << (side - 2), east[r] |= f >> (side - 2);
+        west[r] |= f << (side - 2);
+        east[r] |= f >> (side - 2);
       }
-      any_west |= west[r], any_east |= east[r];
+      any_west |= west[r];
+      any_east |= east[r];
     }
   }
 };

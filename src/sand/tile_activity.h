@@ -8,15 +8,17 @@
 
 namespace sandstroke {
 
+/// The active cells that may give sand: all, or only those within one of a change. The latter are tracked,
+/// too.
+enum class Givers { all, near_changes };
+
 /// Tracks which cells of a bed may change in the next pass. What a cell does in a pass depends on cells up to
 /// two away (its neighbours' flows depend on their neighbours). So it can change only if one of those changed
 /// in the pass before, or was set from outside. Flags cross borders and corners of tiles, so the pattern does
 /// not depend on tiles at all.
 class TileActivity {
  public:
-  /// tells_givers: also track which cells may give (those within one of a change), for a stepper that holds
-  /// all other sand still.
-  explicit TileActivity(bool tells_givers) : tells_givers_(tells_givers) {}
+  explicit TileActivity(Givers givers) : tells_givers_(givers == Givers::near_changes) {}
 
   /// Wakes the cells around the disturbed ones, and clears these (HeightField::clear_disturbed). The first
   /// call wakes every allocated tile. It also allocates and wakes the tiles whose rule allows a slope above
@@ -41,7 +43,10 @@ class TileActivity {
   template <class ChangedIn>
   void advance(HeightField& bed, const ChangedIn& changed) {
     std::swap(tiles_before_, tiles_);
-    for (const int slot : tiles_before_) marks_[slot].sleep(), marks_[slot].was_active = true;
+    for (const int slot : tiles_before_) {
+      marks_[slot].sleep();
+      marks_[slot].was_active = true;
+    }
     tiles_.clear();
     for (const int slot : tiles_before_) wake_around(bed, slot, changed(slot));
     for (const int slot : tiles_before_) marks_[slot].was_active = false;

@@ -20,8 +20,8 @@ void TilePatch::copy_cells(const HeightField& bed, int slot, int row, int first,
   if (first == until) return;
   const double* in = bed.tile_heights(slot) + row * side;
   std::copy(in + first, in + until, out + first);
-  for (std::uint64_t held = bed.held_cells(slot)[row] & columns_between(first, until); held; held &= held - 1)
-    out[std::countr_zero(held)] = wall;
+  for (std::uint64_t walls = bed.walls(slot)[row] & columns_between(first, until); walls; walls &= walls - 1)
+    out[std::countr_zero(walls)] = wall;
 }
 
 void TilePatch::load_rows(const HeightField& bed, RowSpan span) {
@@ -39,7 +39,7 @@ void TilePatch::write_back(HeightField& bed, const CellFlags& cells) const {
   bool changed = false;
   for (int row = loaded_.begin; row < loaded_.end; ++row) {
     double* out = bed.tile_heights(slot_) + row * side;
-    for (std::uint64_t flags = cells[row] & ~bed.held_cells(slot_)[row]; flags; flags &= flags - 1) {
+    for (std::uint64_t flags = cells[row] & ~bed.walls(slot_)[row]; flags; flags &= flags - 1) {
       const int col = std::countr_zero(flags);
       changed |= out[col] != heights(row)[col];
       out[col] = heights(row)[col];

@@ -38,7 +38,10 @@ class PatchHeights : public PatchLayout {
 class TilePatch : public PatchLayout {
  public:
   /// Becomes the copy of another tile, with nothing loaded yet.
-  void begin(int slot) { slot_ = slot, loaded_ = {}; }
+  void begin(int slot) {
+    slot_ = slot;
+    loaded_ = {};
+  }
   int slot() const { return slot_; }
 
   /// Loads the tile's own rows within `rows`, except those that are loaded already.

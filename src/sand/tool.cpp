@@ -19,9 +19,9 @@ void Tool::meet(const HeightField& bed, double tip_height) {
   footprint_.read_heights(bed);
 }
 
-void Tool::hold_bowl(HeightField& bed) {
+void Tool::make_walls(HeightField& bed) {
   if (!footprint_.cells().empty()) cover();
-  footprint_.hold_bowl(bed);
+  footprint_.make_walls(bed);
 }
 
 std::unique_ptr<Tool> make_tool(const ToolSettings& settings) {

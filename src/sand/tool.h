@@ -63,8 +63,8 @@ class Tool {
   /// Finds the cells that the tool covers where it was placed, as if no sand touched it.
   virtual void stand(double /*tip_height*/) {}
   /// Makes the cells that the tool covered in its last displace(), meet() or stand(), and no others, walls of
-  /// the bed (HeightField::hold).
-  void hold_bowl(HeightField& bed);
+  /// the bed (HeightField::set_tool_walls).
+  void make_walls(HeightField& bed);
   /// Computes ahead what place() and displace() compute once for every orientation. distance:
   /// DisplacementSettings::distance.
   virtual void prepare(double /*distance*/) {}
@@ -78,7 +78,7 @@ class Tool {
                                        const DisplacementSettings& settings) = 0;
   /// Carves only, as displace() does, and fills underside() and takes().
   virtual void carve_only(double tip_height) = 0;
-  /// Fills underside() with the cells that hold_bowl() makes walls.
+  /// Fills underside() with the cells that make_walls() makes walls.
   virtual void cover() = 0;
 
   double radius_, reach_;  // m

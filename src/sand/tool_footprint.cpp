@@ -7,8 +7,8 @@
 namespace sandstroke {
 namespace {
 
-/// The range [begin, end) of the cells whose centres lie between two places, in a line of `count` cells.
-/// Places count in cells from the line's centre.
+/// The range [begin, end) of the cells whose centres lie between two positions, in a line of `count` cells.
+/// Positions count in cells from the line's centre.
 std::pair<int, int> cells_between(double low, double high, int count) {
   // The centre is at cell (count - 1) / 2, maybe a half. Adding the half first rounds alike for any even
   // count.
@@ -113,7 +113,7 @@ void ToolFootprint::write_flagged(HeightField& bed) {
   });
 }
 
-void ToolFootprint::hold_bowl(HeightField& bed) {
+void ToolFootprint::make_walls(HeightField& bed) {
   constexpr int side = BedGeometry::tile_side;
   bowl_.clear();
   for (int row = 0; row < cells_.rows(); ++row) {
@@ -128,7 +128,7 @@ void ToolFootprint::hold_bowl(HeightField& bed) {
       if (bowl) bowl_.push_back({bed.allocate(bed.tile_index(row / side, tile_col)), row % side, bowl});
     }
   });
-  bed.hold(bowl_);
+  bed.set_tool_walls(bowl_);
 }
 
 }  // namespace sandstroke

@@ -64,8 +64,9 @@ class ToolFootprint {
   void read_heights(const HeightField& bed);
   /// Writes the heights of the flagged cells to the bed.
   void write_flagged(HeightField& bed);
-  /// Makes the cells of the bowl (finite underside), and no others, walls of the bed (HeightField::hold).
-  void hold_bowl(HeightField& bed);
+  /// Makes the cells of the bowl (finite underside), and no others, walls of the bed
+  /// (HeightField::set_tool_walls).
+  void make_walls(HeightField& bed);
 
  private:
   std::size_t at(int row) const { return static_cast<std::size_t>(row) * stride_; }
@@ -78,7 +79,7 @@ class ToolFootprint {
   std::size_t room_ = 0;
   hwy::AlignedFreeUniquePtr<double[]> heights_, underside_, takes_, ring_weight_, weights_, excess_;
   hwy::AlignedFreeUniquePtr<unsigned char[]> flags_;
-  std::vector<RowCells> bowl_;  // buffer of hold_bowl()
+  std::vector<RowCells> bowl_;  // buffer of make_walls()
 };
 
 }  // namespace sandstroke

@@ -17,10 +17,10 @@ struct TipSteps {
   }
 };
 
-/// Divides the way from one tick's place to the next one's [m] into steps of at most `longest` [m] along the
-/// bed, so that a fast drag leaves a furrow and not a row of pits. Only the part of the way counts from which
-/// a footprint of `reach` [m] meets the bed, and that lies below `highest` [m]. So even an extremely long way
-/// costs only what crosses the sand.
+/// Divides the way from one tick's position to the next one's [m] into steps of at most `longest` [m] along
+/// the bed, so that a fast drag leaves a furrow and not a row of pits. Only the part of the way counts from
+/// which a footprint of `reach` [m] meets the bed, and that lies below `highest` [m]. So even an extremely
+/// long way costs only what crosses the sand.
 TipSteps steps_between(const BedGeometry& bed, double reach, const Eigen::Vector3d& from,
                        const Eigen::Vector3d& to, double longest, double highest);
 

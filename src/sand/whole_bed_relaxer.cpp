@@ -6,7 +6,7 @@
 namespace sandstroke {
 namespace {
 
-/// The rule as it is written down. The other relaxers are held to it.
+/// The rule as it is written down. The other relaxers must do as it does.
 class PlainRelaxer : public WholeBedRelaxer {
  public:
   PlainRelaxer(const RelaxationSettings& settings, double cell_size)
@@ -29,7 +29,7 @@ RelaxationOutcome WholeBedRelaxer::relax(HeightField& bed, const PassWatcher& af
   HeightGrid heights = bed.grid();
   WallGrid walls(bed.rows(), bed.cols());
   for (int row = 0; row < bed.rows(); ++row)
-    for (int col = 0; col < bed.cols(); ++col) walls(row, col) = bed.is_held(row, col);
+    for (int col = 0; col < bed.cols(); ++col) walls(row, col) = bed.is_wall(row, col);
   const BedNow bed_now = [&]() -> const HeightField& {
     bed.set_changed(heights);
     return bed;
@@ -43,7 +43,7 @@ RelaxationOutcome WholeBedRelaxer::relax(HeightField& bed, const PassWatcher& af
     outcome.converged = !next.flows;
     if (outcome.converged || outcome.passes == max_passes_ || interrupted()) break;
     moved = moved_then;
-    outcome.converged = (next.heights == heights).all();  // what still flows is below rounding
+    outcome.converged = (next.heights == heights).all();  // the flow that is left is below rounding
     if (outcome.converged) break;
     heights.swap(next.heights);
     ++outcome.passes;

@@ -4,8 +4,8 @@
 
 namespace sandstroke {
 
-/// Relaxes by passes over all cells of a bed, until no cell gives or what still flows is below rounding. A
-/// law of your own derives from it and says what one pass does.
+/// Relaxes by passes over all cells of a bed, until no cell gives or the flow that is left is below rounding.
+/// A law of your own derives from it and says what one pass does.
 class WholeBedRelaxer : public Relaxer {
  public:
   explicit WholeBedRelaxer(std::int64_t max_passes) : max_passes_(max_passes) {}

@@ -20,23 +20,26 @@ void DeviceSide::start(const Hand& hand) { device_.put(state_of(hand)); }
 double DeviceSide::faded_in(const TickRecord& record) {
   if (lifted_ && record.hand.down) {
     lifted_ = false;
-    if (record.contact) fading_since_ = record.time, share_ = 0.0;
+    if (record.contact) {
+      fading_since_ = record.time;
+      fraction_ = 0.0;
+    }
   }
   if (!fading_since_) return 1.0;
-  const double share = record.contact ? (record.time - *fading_since_) / fade_in : 1.0;
+  const double fraction = record.contact ? (record.time - *fading_since_) / fade_in : 1.0;
   if (record.contact)
-    energy_.give((std::min(share, 1.0) - share_) * force_->stored(record, device_.settings()));
-  share_ = share;
-  if (share >= 1.0) fading_since_.reset();
-  return std::min(share, 1.0);
+    energy_.give((std::min(fraction, 1.0) - fraction_) * force_->stored(record, device_.settings()));
+  fraction_ = fraction;
+  if (fraction >= 1.0) fading_since_.reset();
+  return std::min(fraction, 1.0);
 }
 
 void DeviceSide::feel(TickRecord& record) {
   Eigen::Vector3d computed = Eigen::Vector3d::Zero();
   FeltSand felt;
-  const double share = faded_in(record);
+  const double fraction = faded_in(record);
   if (record.contact) {
-    computed = share * force_->feel(record, device_, result_);
+    computed = fraction * force_->feel(record, device_, result_);
     felt = force_->felt_sand(record, device_.settings());
     result_.max_drag_force = std::max(result_.max_drag_force, length_of(record.drag_force));
   }

@@ -49,7 +49,7 @@ class DeviceSide {
   EnergyAccount energy_;
   bool lifted_ = false;
   std::optional<double> fading_since_;  // s
-  double share_ = 1.0;                  // of the force, in the last tick
+  double fraction_ = 1.0;               // the part of the force that acted in the last tick
   CompensatedSum contact_force_;        // N, over contact ticks
   std::int64_t contact_ticks_ = 0;
   SwingWatch swing_;
@@ -57,7 +57,7 @@ class DeviceSide {
   DeviceResult result_;       // all but what the others hold
 };
 
-/// What to change where a loop is unstable or returns energy: the keys of a scene that have a part in it.
+/// The remedies for a loop that is unstable or returns energy: the keys of a scene that have a part in it.
 /// "lower force.k_s or device.delay, or raise ..."; with rft and archimedes "lower
 /// force.density ..., or raise force.yield ..."; with a plugin law "lower what model.force gives ...".
 /// max_drag_force [N]: 0 where drag did nothing.

@@ -21,8 +21,8 @@ inline std::string plugin_interface() {
 
 }  // namespace sandstroke
 
-/// To be used once in a plugin (a shared library that links sandstroke::sim), before a body that adds the
-/// plugin's laws to `laws`:
+/// The head of the function that a plugin (a shared library that links sandstroke::sim) defines once. Its
+/// body adds the plugin's laws to `laws`.
 #define SANDSTROKE_LAWS(laws)                                            \
   extern "C" const char* sandstroke_plugin_interface() {                 \
     static const std::string interface = sandstroke::plugin_interface(); \

@@ -22,15 +22,15 @@ struct PluginLaws {
   std::map<std::string, LawMaker<Relaxer>> relaxations;
   std::map<std::string, LawMaker<Displacer>> displacements;
   std::map<std::string, LawMaker<ToolForce>> forces;
-  std::string hash;  ///< of the file that they are from; empty: none
+  std::string hash;  ///< their file's; empty: none
 };
 
-/// As sentences call the law that a key of [model] names.
+/// The words for the law that a key of [model] names.
 std::string law_in_words(const PluginLawSettings& laws, const char* key, const std::string& name);
 
-// What a run of the scene goes by. Error: input, naming the key, where scene.plugin_laws names a law that
-// scene.plugin_laws.laws has not. A plugin law is watched: what it throws, other than an Error, becomes one
-// that names it; so does a force that is not a number (unstable).
+// The laws that a run of the scene goes by. Error: input, naming the key, where scene.plugin_laws names a law
+// that scene.plugin_laws.laws has not. A plugin law is watched: what it throws, other than an Error, becomes
+// one that names it; so does a force that is not a number (unstable).
 
 /// scene.plugin_laws.relaxation, or else as scene.relaxation says. A plugin law is told to stop, by an
 /// exception from its PassWatcher, where the program is interrupted().

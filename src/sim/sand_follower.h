@@ -17,7 +17,7 @@ class SandFollower {
   SandFollower(const ToolSettings& tool, const DeviceSettings& device)
       : tool_(make_tool(tool)), device_(device) {}
 
-  /// To be called once per servo tick: the velocity includes the change of the level since the last call.
+  /// Call it once per servo tick: the velocity includes the change of the level since the last call.
   Hand follow(Hand hand, const HeightField& bed);
   double asked_depth() const { return asked_depth_; }  ///< m below the sand, of the last hand
   /// Call this if the next call is not one tick after the last one.

@@ -80,9 +80,9 @@ Interaction SandSide::move(HeightField& bed, const Eigen::Vector3d& read_tip, co
   double on_the_way = 0.0;
   for (std::int64_t i = 1; i <= steps.count; ++i) {
     Eigen::Vector3d from = steps.at(i - 1);
-    while (const std::optional<double> share = by_way_.way_to_next(from, steps.at(i) - from)) {
+    while (const std::optional<double> fraction = by_way_.way_to_next(from, steps.at(i) - from)) {
       if (interrupted()) break;
-      from += *share * (steps.at(i) - from);
+      from += *fraction * (steps.at(i) - from);
       on_the_way += displace_at(bed, from, steps.way).displaced_volume;
       relax();
     }
@@ -110,12 +110,12 @@ double SandSide::way_to_next_relaxation(const HeightField& bed) {
   return std::max(way * tool_->radius(), least_way * bed.cell_size());
 }
 
-void SandSide::hold(HeightField& bed) {
+void SandSide::make_walls(HeightField& bed) {
   if (!solid_) return;
   if (contact_)
-    tool_->hold_bowl(bed);
+    tool_->make_walls(bed);
   else
-    bed.hold({});
+    bed.set_tool_walls({});
 }
 
 void SandSide::relaxed(const HeightField& bed) {

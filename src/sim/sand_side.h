@@ -20,7 +20,7 @@ struct Interaction {
   bool contact = false;                          ///< depth > 0
 };
 
-/// The sand's side of a tick: moves a tool through a bed, from place to place.
+/// The sand's side of a tick: moves a tool through a bed, from position to position.
 class SandSide {
  public:
   /// relaxation: its ways (RelaxationByWay); without them no relaxation is due by way. plugin_law: replaces
@@ -31,10 +31,11 @@ class SandSide {
   /// Sets the tool's orientation from the next move() on (Tool::turn). The tool keeps it during the
   /// whole move.
   void turn(const Eigen::Matrix3d& rotation) { tool_->turn(rotation); }
-  /// Displaces sand along the way from the last tick's place to this one [m], and there. read_tip: as the
+  /// Displaces sand along the way from the last tick's position to this one [m], and there. read_tip: as the
   /// device's encoders read it; true_tip: where it is, since encoder steps are no motion. Calls relax() with
-  /// the tool at the places where a relaxation is due by its way; relax() must call hold() and relaxed().
-  /// highest [m]: an upper bound of the sand; none: it is looked up if needed, which visits every tile.
+  /// the tool at the positions where a relaxation is due by its way; relax() must call make_walls() and
+  /// relaxed(). highest [m]: an upper bound of the sand; none: it is looked up if needed, which visits every
+  /// tile.
   Interaction move(HeightField& bed, const Eigen::Vector3d& read_tip, const Eigen::Vector3d& true_tip,
                    const std::function<void()>& relax, std::optional<double> highest = {});
   /// Places the tool there, without displacing anything.
@@ -56,8 +57,8 @@ class SandSide {
   bool relaxation_is_due() const { return by_way_.is_due(tip_, contact_); }
   /// Marks the cells under a solid tool in contact as walls for the next relaxation. Any other tool makes no
   /// walls.
-  void hold(HeightField& bed);
-  /// To be called when sand has relaxed. The sand as it lies now decides how far the tool may go until the
+  void make_walls(HeightField& bed);
+  /// Call it when sand has relaxed. The sand as it lies now decides how far the tool may go until the
   /// next time.
   void relaxed(const HeightField& bed);
 
@@ -70,7 +71,7 @@ class SandSide {
   }
   /// For exchanging the tool; takes effect at the next move().
   std::unique_ptr<Tool>& exchangeable_tool() { return tool_; }
-  /// Place of the tool in the last tick [m]; none if it was lifted since.
+  /// Position of the tool in the last tick [m]; none if it was lifted since.
   const std::optional<Eigen::Vector3d>& last_tip() const { return last_tip_; }
 
  private:

@@ -60,7 +60,8 @@ double SandWatch::gained(const HeightField& bed) {
       for (int row = 0; row < cells.rows(); ++row)
         for (int col = 0; col < cells.cols(); ++col) {
           const auto at = static_cast<std::size_t>(row * HeightField::tile_side + col);
-          more.add(heights[at]), more.add(-rule[at]);
+          more.add(heights[at]);
+          more.add(-rule[at]);
           sum.sand += std::abs(heights[at]);
         }
       sum.gained = more.value();
@@ -76,12 +77,12 @@ void SandWatch::check(const HeightField& bed, const std::string& law) {
   if (!std::isfinite(more)) throw Error(ErrorKind::unstable, no_number(bed, law));
   double sand = 0.0;
   for (const TileSum& sum : sums_) sand += sum.sand;
-  const double share = std::abs(more) / sand;
-  if (share <= rounding) return;
+  const double fraction = std::abs(more) / sand;
+  if (fraction <= rounding) return;
   throw Error(ErrorKind::unstable,
               fmt::format("{} {} {:.3g} m^3 of sand, a fraction of {:.2g} of the sand above and below z = 0; "
                           "correct the law: it must give to other cells what it takes from a cell",
-                          law, more < 0.0 ? "lost" : "made", std::abs(more) * bed.cell_area(), share));
+                          law, more < 0.0 ? "lost" : "made", std::abs(more) * bed.cell_area(), fraction));
 }
 
 }  // namespace sandstroke

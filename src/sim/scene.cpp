@@ -15,11 +15,13 @@ void describe_bed(KeyVisitor& v, BedSettings& bed) {
   v.section("bed", "the sand box, centred on the origin, z up");
   double size[2] = {bed.width, bed.depth};
   v.numbers("size", size, 2, positive, "m", "extent along x and y");
-  bed.width = size[0], bed.depth = size[1];
+  bed.width = size[0];
+  bed.depth = size[1];
   int cells[2] = {bed.cols, bed.rows};
   v.integers("cells", cells, 2, 1, BedGeometry::most_cells,
              "number of cells along x and y; the cells must be square");
-  bed.cols = cells[0], bed.rows = cells[1];
+  bed.cols = cells[0];
+  bed.rows = cells[1];
   choose(v, "shape", bed.shape, {"rectangle", "round"},
          "the whole rectangle, or the largest circle in it with a wall around it, as in a sand table");
 
@@ -245,7 +247,7 @@ void check_bed(const Scene& scene, const std::string& name) {
   const SurfaceSettings& s = bed.surface;
   const bool waves = s.kind == SurfaceKind::ripples || (s.kind == SurfaceKind::noise && s.wavelength > 0.0);
   if (waves &&
-      !(std::max(bed.width, bed.depth) / s.wavelength < 0x1p53))  // beyond it no place in a wave is left
+      !(std::max(bed.width, bed.depth) / s.wavelength < 0x1p53))  // beyond it no position in a wave is left
     throw_input_error(
         "{}: bed.surface.wavelength = {} m is too small for a bed of {} m by {} m; take a larger one", name,
         s.wavelength, bed.width, bed.depth);

@@ -53,9 +53,9 @@ struct PluginLaws;
 /// Plugin laws (sim/plugin_laws.h), by name; empty: the scene's other settings hold.
 struct PluginLawSettings {
   std::string plugin;                      ///< file with the laws, relative to the scene
-  std::string relaxation;                  ///< in place of relaxation.law and method
-  std::string displacement;                ///< in place of displacement.deposit
-  std::string force;                       ///< in place of force.law
+  std::string relaxation;                  ///< instead of relaxation.law and method
+  std::string displacement;                ///< instead of displacement.deposit
+  std::string force;                       ///< instead of force.law
   std::array<double, 4> parameters = {};   ///< their meaning depends on the law
   std::shared_ptr<const PluginLaws> laws;  ///< the available laws; the plugin's, once it is loaded
 };
@@ -68,7 +68,7 @@ struct Scene {
   ToolSettings tool;
   DisplacementSettings displacement;
   ForceSettings force;
-  SandStrength strength;  ///< of the sand, for any force.law but the paper's
+  SandStrength strength;  ///< the sand's, for any force.law but the paper's
   RelaxationSettings relaxation;
   DeviceSettings device;
   std::optional<StrokeSettings> stroke;  ///< without one, the bed is only relaxed

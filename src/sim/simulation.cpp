@@ -51,7 +51,10 @@ void Simulation::account(const TickRecord& record) {
     result_.least_beside = std::min(result_.least_beside, bed().beyond_edge(tip.x(), tip.y()));
     return;
   }
-  if (record.depth > result_.nearest) result_.nearest = record.depth, result_.nearest_time = record.time;
+  if (record.depth > result_.nearest) {
+    result_.nearest = record.depth;
+    result_.nearest_time = record.time;
+  }
   if (record.asked_depth > 0.0)
     result_.followed->add(record.asked_depth, record.depth, repulse_force(record.asked_depth, scene().force),
                           record.repulse_force.z());
@@ -182,10 +185,13 @@ RunResult Simulation::run(const Observers& observers) {
 }
 
 void FollowedSand::add(double asked, double reached, double force_asked, double force_reached) {
-  const auto mean = [share = 1.0 / static_cast<double>(++ticks)](double& of, double value) {
-    of += share * (value - of);
-  };
-  mean(asked_depth, asked), mean(depth, reached), mean(asked_force, force_asked), mean(force, force_reached);
+  ++ticks;
+  const double fraction = 1.0 / static_cast<double>(ticks);
+  const auto take_in = [fraction](double& mean, double value) { mean += fraction * (value - mean); };
+  take_in(asked_depth, asked);
+  take_in(depth, reached);
+  take_in(asked_force, force_asked);
+  take_in(force, force_reached);
 }
 
 bool returned_energy(const DeviceResult& result) {

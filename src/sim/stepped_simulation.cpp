@@ -17,10 +17,10 @@ SteppedSimulation::SteppedSimulation(const Scene& scene, HeightField bed, bool r
 
 double SteppedSimulation::time() const { return static_cast<double>(ticks_) / scene().device.servo_rate; }
 
-const TickRecord& SteppedSimulation::tick(Hand hand, bool knows_velocity, bool turns) {
+const TickRecord& SteppedSimulation::tick(Hand hand, const ToldMotion& told) {
   if (!hand.position.allFinite() || !hand.velocity.allFinite() || !hand.orientation.coeffs().allFinite())
     throw_input_error("at {:.4f} s the hand's position, velocity or orientation is not a number", time());
-  if (!knows_velocity)
+  if (!told.velocity)
     hand.velocity = last_
                         ? Eigen::Vector3d(scene().device.servo_rate * (hand.position - last_->hand.position))
                         : Eigen::Vector3d::Zero();
@@ -31,7 +31,7 @@ const TickRecord& SteppedSimulation::tick(Hand hand, bool knows_velocity, bool t
   } else {
     loop_.start(hand);
   }
-  last_ = loop_.step({time(), hand, turns, [&] { return hand; },
+  last_ = loop_.step({time(), hand, told.orientation, [&] { return hand; },
                       [this] {
                         if (relaxes_) relax();
                       }});

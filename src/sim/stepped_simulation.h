@@ -6,6 +6,12 @@
 
 namespace sandstroke {
 
+/// The part of a hand's motion that a caller tells with its position.
+struct ToldMotion {
+  bool velocity = false;     ///< hand.velocity [m/s]; otherwise it follows from the way since the tick before
+  bool orientation = false;  ///< hand.orientation: the tool turns with the hand
+};
+
 /// A run that the caller drives, tick by tick: a controller, an optimiser, a learner. With the hand of a
 /// stroke, its velocities and its lifts it has the same bits as Simulation.
 class SteppedSimulation {
@@ -19,11 +25,10 @@ class SteppedSimulation {
   /// Time of the next tick [s].
   double time() const;
 
-  /// Plays a tick with the hand at its new place. knows_velocity: hand.velocity [m/s] is given; otherwise it
-  /// follows from the way since the tick before. turns: the tool turns with the hand. Returns what the device
-  /// felt. With device.model = "dynamic" it has moved from its old place while the hand went here. Error:
-  /// input, if a number is not finite; unstable.
-  const TickRecord& tick(Hand hand, bool knows_velocity, bool turns);
+  /// Plays a tick with the hand at its new position. Returns what the device felt. With device.model =
+  /// "dynamic" it has moved from its old position while the hand went here. Error: input, if a number is not
+  /// finite; unstable.
+  const TickRecord& tick(Hand hand, const ToldMotion& told = {});
   /// Relaxes sand to rest; the tool stays where it is. After the last tick, call lift() first.
   RelaxationOutcome relax(const PassWatcher& watcher = {}) { return loop_.relax(watcher); }
   void lift() { loop_.lift(); }

@@ -73,7 +73,7 @@ void TickLoop::lift() {
 }
 
 RelaxationOutcome TickLoop::relax(const PassWatcher& watcher) {
-  sand_.hold(bed_);
+  sand_.make_walls(bed_);
   check_plugin_law("displacement", scene_.plugin_laws.displacement);
   const RelaxationOutcome outcome = relaxer_->relax(bed_, watcher);
   sand_.relaxed(bed_);

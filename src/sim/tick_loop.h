@@ -12,14 +12,14 @@
 
 namespace sandstroke {
 
-/// What a hand does in a tick.
+/// The hand's part in a tick.
 struct TickInput {
   double time;  ///< s, of its start
   Hand hand;    ///< at its start
   bool turns;   ///< the tool turns with the hand, from tool.orientation
   /// Where the hand is at its end, as far as that is known; called once the tool has displaced sand.
   std::function<Hand()> next_hand;
-  /// Called with the tool at the places where a relaxation is due by its way; calls TickLoop::relax().
+  /// Called with the tool at the positions where a relaxation is due by its way; calls TickLoop::relax().
   std::function<void()> relax;
 };
 
@@ -46,8 +46,8 @@ class TickLoop {
   void advance(const TickRecord& record);
   /// The tool touches nothing.
   void lift();
-  /// Relaxes the sand to rest, around a solid tool or into the place that it has left. Error: unstable, where
-  /// a plugin law makes or loses sand.
+  /// Relaxes the sand to rest, around a solid tool or into the hollow that it has left. Error: unstable,
+  /// where a plugin law makes or loses sand.
   RelaxationOutcome relax(const PassWatcher& watcher);
 
  private:
@@ -59,7 +59,7 @@ class TickLoop {
 
   Scene scene_;
   HeightField bed_;
-  Eigen::Matrix3d own_rotation_;  // of the tool
+  Eigen::Matrix3d own_rotation_;  // the tool's
   SandSide sand_;
   std::unique_ptr<ToolForce> tool_force_;
   DeviceSide device_;

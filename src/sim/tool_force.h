@@ -7,7 +7,7 @@
 
 namespace sandstroke {
 
-/// What a law of force is told of a tick in which the tool touches the sand.
+/// A tick in which the tool touches the sand, as a law of force is told of it.
 struct ToolInSand {
   const HeightField& bed;
   const Tool& tool;        ///< where it displaced last; its footprint's heights() are the bed's

@@ -22,14 +22,14 @@ TriangleMesh welded(const TriangleMesh& mesh, double extent) {
   std::map<std::array<double, 3>, std::int32_t> known;
   TriangleMesh result;
   std::vector<std::int32_t> to(mesh.vertices.size());
-  const auto place_of = [&](double x) { return std::round(x / (1e-6 * extent)) + 0.0; };
+  const auto in_millionths = [&](double x) { return std::round(x / (1e-6 * extent)) + 0.0; };
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
     const Eigen::Vector3d& vertex = mesh.vertices[i];
     const auto next = static_cast<std::int32_t>(result.vertices.size());
-    const auto [place, is_new] =
-        known.try_emplace({place_of(vertex.x()), place_of(vertex.y()), place_of(vertex.z())}, next);
+    const auto [entry, is_new] = known.try_emplace(
+        {in_millionths(vertex.x()), in_millionths(vertex.y()), in_millionths(vertex.z())}, next);
     if (is_new) result.vertices.push_back(vertex);
-    to[i] = place->second;
+    to[i] = entry->second;
   }
   for (const auto& corners : mesh.triangles) {
     const std::array<std::int32_t, 3> here = {to[static_cast<std::size_t>(corners[0])],

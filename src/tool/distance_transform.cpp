@@ -21,12 +21,12 @@ void nearest_along(double* f, int count, std::vector<int>& apex, std::vector<dou
       return ((value(q) + static_cast<double>(q) * q) - (value(other) + static_cast<double>(other) * other)) /
              (2.0 * (q - other));
     };
-    double place = meets(apex[static_cast<std::size_t>(last)]);
-    while (place <= from[static_cast<std::size_t>(last)])
-      place = meets(apex[static_cast<std::size_t>(--last)]);
+    double meeting = meets(apex[static_cast<std::size_t>(last)]);
+    while (meeting <= from[static_cast<std::size_t>(last)])
+      meeting = meets(apex[static_cast<std::size_t>(--last)]);
     ++last;
     apex[static_cast<std::size_t>(last)] = q;
-    from[static_cast<std::size_t>(last)] = place;
+    from[static_cast<std::size_t>(last)] = meeting;
   }
   int at = 0;
   for (int p = 0; p < count; ++p) {

@@ -15,7 +15,7 @@ namespace {
 using Eigen::Vector3d;
 
 /// A cube of space, and the components of the normal, rounded.
-using Place = std::array<std::int64_t, 6>;
+using Bin = std::array<std::int64_t, 6>;
 
 struct Patch {
   Vector3d moment = Vector3d::Zero();  // m^3: area x centre
@@ -38,7 +38,7 @@ double around(double x, double y) {
 class Patches {
  public:
   explicit Patches(double size) : size_(size) {}
-  std::map<Place, Patch> all;
+  std::map<Bin, Patch> all;
 
   void add(const Vector3d& a, const Vector3d& b, const Vector3d& c) {
     const double longest = std::max({(b - a).norm(), (c - b).norm(), (a - c).norm()});
@@ -47,14 +47,16 @@ class Patches {
     const double area = facing.norm();
     if (!(area > 0.0)) return;
     constexpr double directions = 1.0;  // steps on each side of 0 along an axis: about 50 degrees each
-    Place place;
+    Bin bin;
     for (std::size_t i = 0; i < 3; ++i) {
       const auto axis = static_cast<Eigen::Index>(i);
-      place[i] = static_cast<std::int64_t>(std::floor(centre[axis] / size_));
-      place[i + 3] = static_cast<std::int64_t>(std::round(directions * facing[axis] / area));
+      bin[i] = static_cast<std::int64_t>(std::floor(centre[axis] / size_));
+      bin[i + 3] = static_cast<std::int64_t>(std::round(directions * facing[axis] / area));
     }
-    Patch& patch = all[place];
-    patch.moment += area * centre, patch.facing += facing, patch.area += area;
+    Patch& patch = all[bin];
+    patch.moment += area * centre;
+    patch.facing += facing;
+    patch.area += area;
   }
 
  private:
@@ -86,13 +88,13 @@ ToolElements::ToolElements(const TriangleMesh& surface, double size) {
   // Sorts by layer, and by direction in each layer. So most groups of a kernel lie as a whole above or below
   // the sand, and lead or trail as a whole.
   std::vector<std::pair<Order, const Patch*>> order;
-  for (const auto& [place, patch] : patches.all)
-    order.push_back({{place[2], around(patch.facing.x(), patch.facing.y())}, &patch});
+  for (const auto& [bin, patch] : patches.all)
+    order.push_back({{bin[2], around(patch.facing.x(), patch.facing.y())}, &patch});
   std::stable_sort(order.begin(), order.end(),
                    [](const auto& one, const auto& other) { return one.first < other.first; });
   for (std::size_t i = 0; i < order.size(); ++i) {
     const Patch& patch = *order[i].second;
-    places_.emplace_back(patch.moment / patch.area);
+    centres_.emplace_back(patch.moment / patch.area);
     normals_.emplace_back(patch.facing.normalized());
     // The length of the vector sum: area x normal adds up to 0 over the whole surface, as it must if that is
     // closed.
@@ -104,10 +106,10 @@ ToolElements::ToolElements(const TriangleMesh& surface, double size) {
 void ToolElements::turn(const Eigen::Matrix3d& rotation) {
   if (rotation == rotation_) return;
   rotation_ = rotation;
-  for (std::size_t i = 0; i < places_.size(); ++i) {
-    const Vector3d place = rotation * places_[i], normal = rotation * normals_[i];
+  for (std::size_t i = 0; i < centres_.size(); ++i) {
+    const Vector3d centre = rotation * centres_[i], normal = rotation * normals_[i];
     for (Eigen::Index axis = 0; axis < 3; ++axis) {
-      columns_[static_cast<std::size_t>(axis) * size_ + i] = place[axis];
+      columns_[static_cast<std::size_t>(axis) * size_ + i] = centre[axis];
       columns_[static_cast<std::size_t>(axis + 3) * size_ + i] = normal[axis];
     }
   }

@@ -18,7 +18,7 @@ class ToolElements {
   /// its own frame, tip at the origin [m].
   ToolElements(const TriangleMesh& surface, double size);
 
-  /// Sets places and normals to those of the surface turned about the tip.
+  /// Sets positions and normals to those of the surface turned about the tip.
   void turn(const Eigen::Matrix3d& rotation);
   const Eigen::Matrix3d& rotation() const { return rotation_; }
 
@@ -38,7 +38,7 @@ class ToolElements {
   std::size_t size_ = 0;
   int count_ = 0;
   Eigen::Matrix3d rotation_ = Eigen::Matrix3d::Zero();  // none yet
-  std::vector<Eigen::Vector3d> places_, normals_;       // in its own frame
+  std::vector<Eigen::Vector3d> centres_, normals_;      // in its own frame
   hwy::AlignedFreeUniquePtr<double[]> columns_;
 };
 

@@ -39,8 +39,10 @@ ToolEnvelope::ToolEnvelope(const TriangleMesh& surface, double cell_size) : cell
     throw_input_error(
         "the tool is {:.4g} m by {:.4g} m, which is {:.3g} cells; take a smaller tool or fewer bed.cells",
         size.x(), size.y(), size.x() * size.y() / (cell_size * cell_size));
-  first_col_ = static_cast<int>(first(box.min().x())), first_row_ = static_cast<int>(first(box.min().y()));
-  cols_ = static_cast<int>(cols), rows_ = static_cast<int>(rows);
+  first_col_ = static_cast<int>(first(box.min().x()));
+  first_row_ = static_cast<int>(first(box.min().y()));
+  cols_ = static_cast<int>(cols);
+  rows_ = static_cast<int>(rows);
   stride_ = cols_ + 2 * cells_per_group;
   for (int row = 0; row < sample_rows(); ++row) rows_at_.push_back(at(row / phases_, 0, row % phases_, 0));
   for (int col = 0; col < sample_cols(); ++col) cols_at_.push_back(at(0, col / phases_, 0, col % phases_));
@@ -53,16 +55,18 @@ void ToolEnvelope::rasterise(const TriangleMesh& surface) {
   cover_.assign(samples, 0.0);
   for (std::size_t i = 0; i < surface.triangles.size(); ++i)
     draw_triangle(surface.corner(i, 0), surface.corner(i, 1), surface.corner(i, 2));
-  lowest_ = infinite, highest_ = -infinite;
+  lowest_ = infinite;
+  highest_ = -infinite;
   for (int row = 0; row < sample_rows(); ++row)
     for (int col = 0; col < sample_cols(); ++col) {
       const double height = underside_[at_sample(row, col)];
       if (height == infinite) continue;
       cover_[at_sample(row, col)] = 1.0;
-      lowest_ = std::min(lowest_, height), highest_ = std::max(highest_, height);
-      const Vector2d place(first_col_ + static_cast<double>(col) / phases_,
-                           first_row_ + static_cast<double>(row) / phases_);
-      reach_ = std::max(reach_, cell_size_ * elementary::hypot(place.x(), place.y()));
+      lowest_ = std::min(lowest_, height);
+      highest_ = std::max(highest_, height);
+      const Vector2d position(first_col_ + static_cast<double>(col) / phases_,
+                              first_row_ + static_cast<double>(row) / phases_);
+      reach_ = std::max(reach_, cell_size_ * elementary::hypot(position.x(), position.y()));
     }
   if (lowest_ == infinite)
     throw_input_error(
@@ -75,8 +79,8 @@ void ToolEnvelope::rasterise(const TriangleMesh& surface) {
 /// Lowers the samples over a triangle, its edges included, to its height if that is lower.
 void ToolEnvelope::draw_triangle(const Vector3d& a, const Vector3d& b, const Vector3d& c) {
   const double per_metre = phases_ / cell_size_;
-  const auto place = [&](const Vector3d& p) { return Vector2d(per_metre * p.x(), per_metre * p.y()); };
-  const Vector2d A = place(a), B = place(b), C = place(c);
+  const auto in_samples = [&](const Vector3d& p) { return Vector2d(per_metre * p.x(), per_metre * p.y()); };
+  const Vector2d A = in_samples(a), B = in_samples(b), C = in_samples(c);
   const double area = cross(B - A, C - A);
   if (std::abs(area) < 1e-9) return;  // upright: its neighbours cover its edges
   const double slack = -1e-9 * std::abs(area), low_z = std::min({a.z(), b.z(), c.z()}),

@@ -14,7 +14,7 @@ struct WayOut {
   std::vector<double> x, y;  ///< laid out like a phase of samples; both 0 if no edge is nearest
 };
 
-/// The underside of a tool that does not turn: the lowest height of its surface above every place, on a grid
+/// The underside of a tool that does not turn: the lowest height of its surface above every point, on a grid
 /// of `phases` samples per cell and direction. Samples are stored phase by phase, so that the cells of a bed,
 /// wherever the tool is, read neighbouring numbers. A tool counts as solid from its underside up: it also
 /// displaces sand on top of an overhang.
@@ -52,7 +52,8 @@ class ToolEnvelope {
 
   /// The ways from the samples of one phase to the nearest edge of the part of the footprint that is no
   /// higher than `height` [m above the tip], and beyond the edge by (distance - 1) times that part's
-  /// inradius, at least half a cell. A place of the tool needs only one phase. Computed when first asked for.
+  /// inradius, at least half a cell. A position of the tool needs only one phase. Computed when first asked
+  /// for.
   const WayOut& way_out(double height, double distance, int phase_y, int phase_x);
   /// Computes all ways out for that distance, so that way_out() then takes neither time nor memory.
   void make_ways_out(double distance);

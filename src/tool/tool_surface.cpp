@@ -14,7 +14,7 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr int sides = 256;  // of round shapes: 1 - cos(pi / 256) = 7.5e-5
+constexpr int sides = 256;  // each round shape has so many: 1 - cos(pi / 256) = 7.5e-5
 
 void add_triangle(TriangleMesh& mesh, std::int32_t a, std::int32_t b, std::int32_t c) {
   mesh.triangles.push_back({a, b, c});
@@ -38,6 +38,9 @@ Vector2d on_circle(int side) {
   return point;
 }
 
+/// Where the outside of a body's flat or pointed end looks.
+enum class Facing { down, up };
+
 /// Adds a body of revolution about z. profile: (radius, z) from the lowest to the highest point. An end on
 /// the axis is one point; another end is flat.
 void add_revolution(TriangleMesh& mesh, const std::vector<Vector2d>& profile, const Vector3d& at) {
@@ -49,10 +52,13 @@ void add_revolution(TriangleMesh& mesh, const std::vector<Vector2d>& profile, co
     }
     return first;
   };
-  const auto fan = [&](std::int32_t tip, std::int32_t ring, bool down) {
+  const auto fan = [&](std::int32_t tip, std::int32_t ring, Facing facing) {
     for (int side = 0; side < sides; ++side) {
       const std::int32_t one = ring + side, next = ring + (side + 1) % sides;
-      down ? add_triangle(mesh, tip, next, one) : add_triangle(mesh, tip, one, next);
+      if (facing == Facing::down)
+        add_triangle(mesh, tip, next, one);
+      else
+        add_triangle(mesh, tip, one, next);
     }
   };
   const auto end_point = [&](const Vector2d& end) {
@@ -63,12 +69,12 @@ void add_revolution(TriangleMesh& mesh, const std::vector<Vector2d>& profile, co
     const bool first = i == 0, last = i + 1 == profile.size();
     if (profile[i].x() == 0.0) {
       if (first) continue;
-      fan(end_point(profile[i]), below, false);
+      fan(end_point(profile[i]), below, Facing::up);
       return;
     }
     const std::int32_t ring = ring_of(profile[i]);
     if (below < 0) {
-      fan(end_point(first ? profile[i] : profile[i - 1]), ring, true);
+      fan(end_point(first ? profile[i] : profile[i - 1]), ring, Facing::down);
     } else {
       for (int side = 0; side < sides; ++side) {
         const int next = (side + 1) % sides;
@@ -77,13 +83,16 @@ void add_revolution(TriangleMesh& mesh, const std::vector<Vector2d>& profile, co
       }
     }
     below = ring;
-    if (last) fan(end_point(profile[i]), ring, false);
+    if (last) fan(end_point(profile[i]), ring, Facing::up);
   }
 }
 
-/// Points (radius, z), upwards, on a quarter or half circle of a sphere whose lowest point is at z = 0.
-std::vector<Vector2d> sphere_profile(double radius, bool whole) {
+enum class Arc { quarter_circle, half_circle };
+
+/// Points (radius, z), upwards, on an arc of a sphere whose lowest point is at z = 0.
+std::vector<Vector2d> sphere_profile(double radius, Arc arc) {
   std::vector<Vector2d> profile;
+  const bool whole = arc == Arc::half_circle;
   const int steps = whole ? sides / 2 : sides / 4;
   for (int i = 0; i <= steps; ++i) {
     const Vector2d point = on_circle(i);  // sin(angle from the axis) is its y
@@ -111,7 +120,7 @@ void add_upright_box(TriangleMesh& mesh, double along_x, double along_y, double 
 }
 
 void add_rake(TriangleMesh& mesh, const ToolSettings& tool) {
-  std::vector<Vector2d> tooth = sphere_profile(tool.radius, false);
+  std::vector<Vector2d> tooth = sphere_profile(tool.radius, Arc::quarter_circle);
   tooth.emplace_back(tool.radius, std::max(tool.height, tool.radius));
   const double middle = 0.5 * (tool.teeth - 1), top = tooth.back().y();
   for (int i = 0; i < tool.teeth; ++i) add_revolution(mesh, tooth, {0.0, (i - middle) * tool.spacing, 0.0});
@@ -126,7 +135,7 @@ TriangleMesh tool_surface(const ToolSettings& tool) {
   const Vector3d origin = Vector3d::Zero();
   switch (tool.shape) {
     case ToolShape::sphere:
-      add_revolution(mesh, sphere_profile(tool.radius, true), origin);
+      add_revolution(mesh, sphere_profile(tool.radius, Arc::half_circle), origin);
       break;
     case ToolShape::cylinder:
       add_revolution(mesh, {{tool.radius, 0.0}, {tool.radius, tool.height}}, origin);

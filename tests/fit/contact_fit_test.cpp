@@ -112,7 +112,7 @@ TEST(ContactFit, NothingIsLeftOfARunsOwnForceWithItsConstants) {
       const ContactLaw known = felt_in(
           felt, {constants, scene.strength, values_in(scene.strength, constants), {true, false, false}});
       ASSERT_GT(known.ticks(), 500);
-      const Eigen::Matrix3Xd left = known.forces(known.start(), true) - known.recorded();
+      const Eigen::Matrix3Xd left = known.forces(known.start(), DeviceLimit::applied) - known.recorded();
       EXPECT_LT(left.cwiseAbs().maxCoeff(), 1e-12 * known.recorded().cwiseAbs().maxCoeff());
     }
 }
@@ -254,7 +254,7 @@ TEST(ContactLaw, KeepsAnEvenPartOfVeryManyTicks) {
     law.add(felt, {0.0, 0.0, 1.0 * i});
   }
   EXPECT_EQ(law.ticks(), ticks);
-  const Eigen::Matrix3Xd recorded = law.recorded(), forces = law.forces(law.start(), true);
+  const Eigen::Matrix3Xd recorded = law.recorded(), forces = law.forces(law.start(), DeviceLimit::applied);
   ASSERT_GT(recorded.cols(), 25'000);
   ASSERT_LE(recorded.cols(), 50'000);
   const double every = recorded(2, 1);

@@ -7,7 +7,7 @@
 namespace sandstroke {
 namespace {
 
-TEST(ContactStiffness, OfLiftIsTheLimitOverTheYieldWayAndItsGrowth) {
+TEST(ContactStiffness, IsTheLimitOverTheYieldWayAndItsGrowthForLift) {
   // F = c (d + z) (1 + z / yield) for a level plate that rises, c d being the limit: F' = limit (1 / d + 1 /
   // yield); in all other directions less.
   Scene plate = contact_scene_of(ForceLaw::archimedes, ToolShape::cylinder);
@@ -15,8 +15,8 @@ TEST(ContactStiffness, OfLiftIsTheLimitOverTheYieldWayAndItsGrowth) {
   for (const double yield : {5e-4, 2e-3})
     for (const double limit : {1.0, 4.0}) {
       plate.strength.yield_way = yield;
-      const double share = 0.87574 * resistance(plate.strength),
-                   depth = limit / (share * 3.14159 * 0.02 * 0.02), step = std::min(0.05 * yield, 2e-5);
+      const double pressure = 0.87574 * resistance(plate.strength),
+                   depth = limit / (pressure * 3.14159 * 0.02 * 0.02), step = std::min(0.05 * yield, 2e-5);
       const double expected = (limit - limit * (1.0 - step / depth) * (1.0 - step / yield)) / step;
       EXPECT_NEAR(contact_stiffness(plate, limit), expected, 2e-3 * expected) << yield << " " << limit;
     }
@@ -36,7 +36,7 @@ TEST(ContactStiffness, IsAtLeastThatOfASandThatYieldsInTheDirectionOfItsForce) {
   }
 }
 
-TEST(ContactStiffness, OfATurnedToolIsAboutTheSame) {
+TEST(ContactStiffness, IsAboutTheSameForATurnedTool) {
   for (const ToolShape shape : {ToolShape::plate, ToolShape::cone}) {
     Scene scene = contact_scene_of(ForceLaw::rft, shape);
     scene.tool.width = 0.04;
@@ -48,7 +48,7 @@ TEST(ContactStiffness, OfATurnedToolIsAboutTheSame) {
   }
 }
 
-TEST(ContactStiffness, OfAToolThatTurnsIsThatOfAnyWayToHoldIt) {
+TEST(ContactStiffness, IsThatOfTheStiffestOrientationForAToolThatTurns) {
   Scene cone = contact_scene_of(ForceLaw::rft, ToolShape::cone);
   const double turning = contact_stiffness(cone, 3.0, true);
   EXPECT_GE(turning, contact_stiffness(cone, 3.0));

@@ -239,7 +239,7 @@ TEST(ErrorEstimate, IsTheDistanceToTheSecondSolutionTimesRichardsonsFactor) {
   drag.bed.depth = 0.18;
   // The tool is in the air for the first 20 of 250 ms: ticks without a force.
   Stroke stroke = stroke_of(0.1);
-  for (Eigen::Vector3d& place : stroke.position) place += Eigen::Vector3d(0.26, 0.0, 1.2e-3);
+  for (Eigen::Vector3d& position : stroke.position) position += Eigen::Vector3d(0.26, 0.0, 1.2e-3);
   for (const SecondSolution which : {SecondSolution::coarser, SecondSolution::finer}) {
     const Scene second = second_scene(drag, which);
     expect_richardson(drag, stroke, which, starting_bed(drag.bed), starting_bed(second.bed));
@@ -334,11 +334,11 @@ TEST(ErrorEstimate, SaysWhereOneOfBothIsNotAtRest) {
 
 TEST(ErrorEstimate, IsTheSameWhereIdleTicksAreLeftOut) {
   const Scene scene = bed_of_two_drags();
-  const auto estimate = [&](bool watched) {
-    const Stroke stroke = two_drags(1.5, watched);
+  const auto estimate = [&](Pause pause) {
+    const Stroke stroke = two_drags(1.5, pause);
     return estimated(scene, FeltRun(scene, stroke), stroke, SecondSolution::coarser);
   };
-  const ErrorEstimate idle = estimate(false), all = estimate(true);
+  const ErrorEstimate idle = estimate(Pause::unsampled), all = estimate(Pause::sampled);
   EXPECT_GT(all.force_rms, 0.0);
   EXPECT_EQ(idle.force_rms, all.force_rms);
   EXPECT_EQ(idle.force_max, all.force_max);

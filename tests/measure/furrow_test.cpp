@@ -50,9 +50,9 @@ const Shape slanting = [](double x, double y) { return 0.3 * x - 0.1 * y; };
 const Shape rippled = [](double x, double) { return 0.004 * std::sin(400.0 * x); };
 
 /// A path of one piece, as ticks at 1 kHz and 0.1 m/s give it.
-TipPath path_along(const std::function<Vector2d(double)>& place, double length) {
+TipPath path_along(const std::function<Vector2d(double)>& position, double length) {
   TipPath path{{}, {0}};
-  for (double s = 0.0; s <= length; s += 1e-4) path.points.push_back(place(s));
+  for (double s = 0.0; s <= length; s += 1e-4) path.points.push_back(position(s));
   return path;
 }
 
@@ -81,7 +81,7 @@ void expect_profile(const FurrowMeasures& measures, const Profile& profile, doub
   EXPECT_NEAR(measures.width, 2.0 * profile.half_width, 2.0 * error / profile.slope());
 }
 
-/// The places where the tip is in contact.
+/// The positions where the tip is in contact.
 class ContactPath : public SimulationObserver {
  public:
   explicit ContactPath(const Scene& scene) : gatherer_(scene) {}
@@ -377,8 +377,9 @@ TEST(Furrow, SectionsReachSixRadiiToEitherSide) {
 
 TEST(Furrow, AWarningBeginsWhereItSays) {
   const Scene scene;  // a radius of 10 mm
-  const auto warning = [&](double share_left, double asked, double radii) {
-    return furrow_warning(scene, {.depth = share_left * asked, .asked_depth = asked, .length = 0.01 * radii});
+  const auto warning = [&](double fraction_left, double asked, double radii) {
+    return furrow_warning(scene,
+                          {.depth = fraction_left * asked, .asked_depth = asked, .length = 0.01 * radii});
   };
   EXPECT_NE(warning(0.475, 0.004, 4.2), "");
   EXPECT_EQ(warning(0.525, 0.004, 4.2), "");

@@ -19,7 +19,7 @@ struct Played {
     for (std::size_t i = 0; i < points.size(); ++i) stroke.time.push_back(static_cast<double>(i));
   }
   HeightField bed() const { return starting_bed(scene.bed); }
-  DeepestPlace deepest() const { return deepest_place(scene, bed(), stroke); }
+  DeepestPoint deepest() const { return deepest_point(scene, bed(), stroke); }
   std::string warning() const { return depth_warning(scene, bed(), stroke, "stroke.h5"); }
 };
 

@@ -35,8 +35,8 @@ TEST(BedReplica, TwoThatChangeTheSameCellsMeetWhateverTheOrder) {
     one.tell_disturbed([&](const SandChange& told) { from_one.push_back(told); });
     other.tell_changed([&](const SandChange& told) { from_other.push_back(told); });
     if (round % 7 != 6 && round != 49) continue;
-    for (const SandChange& told : from_one) other.take(told, true);
-    for (const SandChange& told : from_other) one.take(told, false);
+    for (const SandChange& told : from_one) other.take_displaced(told);
+    for (const SandChange& told : from_other) one.take_relaxed(told);
     from_one.clear();
     from_other.clear();
     EXPECT_LT((one.bed().grid() - other.bed().grid()).abs().maxCoeff(), 1e-15);
@@ -58,7 +58,7 @@ TEST(BedReplica, ARelaxedBedIsToldWholeAndLosesNoSand) {
   ASSERT_GT(relaxer->relax(relaxing.bed()).passes, 0);
   std::size_t told = 0;
   relaxing.tell_changed([&](const SandChange& change) {
-    servo.take(change, false);
+    servo.take_relaxed(change);
     ++told;
   });
   EXPECT_GT(told, 100u);

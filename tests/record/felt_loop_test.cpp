@@ -94,7 +94,7 @@ TEST(FeltLoop, ItsRemedySettlesAndNothingMuchHarderDoes) {
     }
 }
 
-TEST(FeltLoop, ThatIsRefusedNamesTheNumbersAndTheSettings) {
+TEST(FeltLoop, NamesTheNumbersAndTheSettingsWhereItIsRefused) {
   const auto sentence = [](const Scene& scene) -> std::string {
     const FeltLoop loop = felt_loop(scene, touch(), any_force, 1000.0).value();
     try {

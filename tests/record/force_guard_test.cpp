@@ -73,17 +73,17 @@ TEST(ForceGuard, CutsTheMagnitudeAndKeepsTheDirection) {
 
 TEST(ForceGuard, ItsLimitsAreWhereTheyAreSet) {
   const Vector3d direction = Vector3d(2.0, -3.0, 6.0) / 7.0;
-  for (const double share : {0.95, 1.05}) {
+  for (const double ratio : {0.95, 1.05}) {
     const auto flags_of = [&](const ForceLimits& set, double time, double size, double held) {
       return open_for(time, set).admit(10.0, {size * direction}, held * direction).flags;
     };
-    EXPECT_EQ(flags_of(limits(5.0, 0.0, infinity), 1.0, share * 5.0, 0.0), share > 1.0 ? clamped_force : 0u);
+    EXPECT_EQ(flags_of(limits(5.0, 0.0, infinity), 1.0, ratio * 5.0, 0.0), ratio > 1.0 ? clamped_force : 0u);
     // 2 N per tick, up or down
-    EXPECT_EQ(flags_of(limits(9.0, 0.0, 2000.0), 1.0, 1.0 + share * 2.0, 1.0),
-              share > 1.0 ? rate_limited_force : 0u);
-    EXPECT_EQ(flags_of(limits(9.0, 0.0, 2000.0), 1.0, 4.0 - share * 2.0, 4.0),
-              share > 1.0 ? rate_limited_force : 0u);
-    EXPECT_EQ(flags_of(limits(9.0, 0.5, infinity), share * 0.5, 1.0, 0.0), share < 1.0 ? ramped_force : 0u);
+    EXPECT_EQ(flags_of(limits(9.0, 0.0, 2000.0), 1.0, 1.0 + ratio * 2.0, 1.0),
+              ratio > 1.0 ? rate_limited_force : 0u);
+    EXPECT_EQ(flags_of(limits(9.0, 0.0, 2000.0), 1.0, 4.0 - ratio * 2.0, 4.0),
+              ratio > 1.0 ? rate_limited_force : 0u);
+    EXPECT_EQ(flags_of(limits(9.0, 0.5, infinity), ratio * 0.5, 1.0, 0.0), ratio < 1.0 ? ramped_force : 0u);
   }
 }
 
@@ -148,15 +148,15 @@ TEST(ForceGuard, EachLimitBeginsWhereItSays) {
   const ForceLimits each = limits(5.0, 2.0, 1500.0);
   const auto guard_at = [&](double seconds) { return open_for(seconds, each, 500.0); };  // 3 N per tick
   const Vector3d along(0.48, -0.64, 0.6);
-  for (const double share : {0.95, 1.05}) {
-    const bool over = share > 1.0;
-    const FeltForce large = guard_at(3.0).admit(10.0, {5.0 * share * along}, 4.0 * along);
+  for (const double ratio : {0.95, 1.05}) {
+    const bool over = ratio > 1.0;
+    const FeltForce large = guard_at(3.0).admit(10.0, {5.0 * ratio * along}, 4.0 * along);
     EXPECT_EQ(large.flags, over ? clamped_force : 0u);
     EXPECT_NEAR(large.force.norm(), over ? 5.0 : 4.75, 1e-14);
-    const FeltForce jumping = guard_at(3.0).admit(10.0, {3.0 * share * along}, Vector3d::Zero());
+    const FeltForce jumping = guard_at(3.0).admit(10.0, {3.0 * ratio * along}, Vector3d::Zero());
     EXPECT_EQ(jumping.flags, over ? rate_limited_force : 0u);
     EXPECT_NEAR(jumping.force.norm(), over ? 3.0 : 2.85, 1e-14);
-    const FeltForce early = guard_at(2.0 * share).admit(10.0, {along}, Vector3d::Zero());
+    const FeltForce early = guard_at(2.0 * ratio).admit(10.0, {along}, Vector3d::Zero());
     EXPECT_EQ(early.flags, over ? 0u : ramped_force);
     EXPECT_NEAR(early.force.norm(), over ? 1.0 : 0.95, 1e-14);
   }

@@ -127,7 +127,7 @@ TEST(RecordingJson, ANumberThatIsNoneIsNullAndReadsAsNone) {
   EXPECT_EQ(back.lateness.max, footer.lateness.max);
 }
 
-TEST(RecordingJson, WhatAnEarlierVersionDidNotSayIsAsByDefault) {
+TEST(RecordingJson, FieldsThatAnEarlierVersionLeftOutHaveDefaults) {
   nlohmann::ordered_json header = as_json(full_header()), footer = as_json(full_footer());
   header.erase("device_max_damping");
   footer.erase("ticks_interlocked");
@@ -281,7 +281,7 @@ TEST_F(Journal, SamplesThatDoNotFollowEachOtherAreDamage) {
   EXPECT_EQ(sound_of([](auto& s) { s[0].time = -1; }), 0u);
 }
 
-TEST_F(Journal, WhatFollowsTheFooterIsNoSample) {
+TEST_F(Journal, BytesAfterTheFooterAreNoSample) {
   const std::string block = bytes_of(made_samples(3)).substr(bytes_of(made_samples(2)).size());
   JournalReader reader(file_of(bytes_of(made_samples(2), full_footer()) + block));
   EXPECT_EQ(all_samples(reader).size(), 2u);

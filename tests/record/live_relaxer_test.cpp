@@ -8,14 +8,14 @@
 namespace sandstroke {
 namespace {
 
-TEST(LiveRelaxer, ThatRelaxesSeldomTakesWhatIsDisplacedMeanwhileAndEndsWhenItIsAsked) {
+TEST(LiveRelaxer, TakesDisplacedSandBetweenRareRelaxationsAndEndsWhenAsked) {
   for (const double rate : {1e-4, 1e-300, 0.0}) {
     RelaxationSettings settings;
     settings.rate = rate;
     SandRing displaced(8), relaxed(8);
-    PlaceRing places(8);
-    LiveRelaxer live_relaxer(HeightField(10, 10, 0.01), {}, settings, displaced, places, relaxed);
-    places.push({});  // from the first place on
+    PoseRing poses(8);
+    LiveRelaxer live_relaxer(HeightField(10, 10, 0.01), {}, settings, displaced, poses, relaxed);
+    poses.push({});  // from the first pose on
     live_relaxer.start();
     for (int i = 0; i < 3; ++i) {
       displaced.push({5, i, -1e-6});
@@ -29,19 +29,19 @@ TEST(LiveRelaxer, ThatRelaxesSeldomTakesWhatIsDisplacedMeanwhileAndEndsWhenItIsA
 
 /// A bed with a heap where a solid tool stands, and relaxes as often as the tool goes its way.
 TEST(LiveRelaxer, RelaxesNothingUnderASolidToolUntilItHasGone) {
-  const ToolSettings tool{0.03, ToolProfile::sphere, true};
+  const ToolSettings tool{.radius = 0.03, .profile = ToolProfile::sphere, .solid = true};
   RelaxationSettings settings;
   settings.rate = 0.0;
   settings.way = 1.0 / 3.0;  // of 30 mm: a cell
   SandRing displaced(64), relaxed(64);
-  PlaceRing places(8);
-  LiveRelaxer live_relaxer(HeightField(41, 41, 0.01), tool, settings, displaced, places, relaxed);
+  PoseRing poses(8);
+  LiveRelaxer live_relaxer(HeightField(41, 41, 0.01), tool, settings, displaced, poses, relaxed);
   displaced.push({20, 20, 0.05});
-  places.push({{0.0, 0.0, -0.01}, true});
+  poses.push({{0.0, 0.0, -0.01}, true});
   live_relaxer.turn();
   EXPECT_EQ(live_relaxer.bed()(20, 20), 0.05);
   EXPECT_EQ(relaxed.size(), 0u);
-  places.push({{0.0, 0.0, 0.1}, false});
+  poses.push({{0.0, 0.0, 0.1}, false});
   live_relaxer.turn();
   EXPECT_LT(live_relaxer.bed()(20, 20), 0.05);
   EXPECT_GT(relaxed.size(), 0u);
@@ -67,15 +67,16 @@ TEST(LiveRelaxer, RelaxesInItsThreadAsOftenAsTheToolHasGoneItsWay) {
   settings.rate = 0.0;
   settings.way = 1.0 / 3.0;  // of 30 mm: a cell
   SandRing displaced(64), relaxed(64);
-  PlaceRing places(8);
+  PoseRing poses(8);
   std::atomic<int> relaxations = 0;
-  LiveRelaxer live_relaxer(HeightField(41, 41, 0.01), {0.03, ToolProfile::sphere, true}, settings, displaced,
-                           places, relaxed, std::make_unique<CountingRelaxer>(relaxations));
+  LiveRelaxer live_relaxer(HeightField(41, 41, 0.01),
+                           {.radius = 0.03, .profile = ToolProfile::sphere, .solid = true}, settings,
+                           displaced, poses, relaxed, std::make_unique<CountingRelaxer>(relaxations));
   const auto go_to = [&](double x, bool contact) {
-    places.push({{x, 0.0, contact ? -0.01 : 0.1}, contact});
-    while (places.size() > 0) std::this_thread::yield();
+    poses.push({{x, 0.0, contact ? -0.01 : 0.1}, contact});
+    while (poses.size() > 0) std::this_thread::yield();
   };
-  places.push({{0.0, 0.0, -0.01}, true});  // it touches down
+  poses.push({{0.0, 0.0, -0.01}, true});  // it touches down
   live_relaxer.start();
   while (relaxations < 1) std::this_thread::yield();
   for (int cells = 1; cells <= 3; ++cells) {
@@ -96,13 +97,13 @@ class FailingRelaxer : public Relaxer {
   RelaxationOutcome relax(HeightField&, const PassWatcher&) override { throw std::bad_alloc(); }
 };
 
-TEST(LiveRelaxer, ThatFailsEndsItsThreadAndNotTheProgram) {
+TEST(LiveRelaxer, EndsItsThreadAndNotTheProgramWhereItFails) {
   SandRing displaced(8), relaxed(8);
-  PlaceRing places(8);
-  LiveRelaxer live_relaxer(HeightField(10, 10, 0.01), {}, {}, displaced, places, relaxed,
+  PoseRing poses(8);
+  LiveRelaxer live_relaxer(HeightField(10, 10, 0.01), {}, {}, displaced, poses, relaxed,
                            std::make_unique<FailingRelaxer>());
   displaced.push({5, 5, -1e-6});
-  places.push({});
+  poses.push({});
   live_relaxer.start();
   while (displaced.size() > 0) std::this_thread::yield();  // in the first turn, which fails right after
   live_relaxer.stop();
@@ -115,11 +116,11 @@ TEST(LiveRelaxer, TurnsAreAsShortAsTheSettingsSayAndTheirPassesAddUp) {
     RelaxationSettings settings;
     settings.max_passes = most;
     SandRing displaced(8), relaxed(std::size_t{1} << 16);
-    PlaceRing places(8);
+    PoseRing poses(8);
     HeightField heap(61, 61, 0.01);
     for (int row = 25; row < 36; ++row)
       for (int col = 25; col < 36; ++col) heap.set(row, col, 0.3);
-    LiveRelaxer live_relaxer(heap, {}, settings, displaced, places, relaxed);
+    LiveRelaxer live_relaxer(heap, {}, settings, displaced, poses, relaxed);
     for (int turn = 1; turn <= 3; ++turn) {
       live_relaxer.turn();
       EXPECT_EQ(live_relaxer.report().relaxations, turn);
@@ -132,8 +133,8 @@ TEST(LiveRelaxer, TurnsAreAsShortAsTheSettingsSayAndTheirPassesAddUp) {
 TEST(LiveRelaxer, RelaxesWhatWasDisplaced) {
   RelaxationSettings settings;
   SandRing displaced(8), relaxed(1024);
-  PlaceRing places(8);
-  LiveRelaxer live_relaxer(HeightField(41, 41, 0.01), {}, settings, displaced, places, relaxed);
+  PoseRing poses(8);
+  LiveRelaxer live_relaxer(HeightField(41, 41, 0.01), {}, settings, displaced, poses, relaxed);
   live_relaxer.turn();
   EXPECT_EQ(relaxed.size(), 0u);
   displaced.push({20, 20, 0.05});
@@ -147,12 +148,13 @@ TEST(LiveRelaxer, SandThatAsksByWayAndHasFarToGoGoesOnWithoutTheToolsMoving) {
   settings.rate = 0.0;
   settings.way = 1.0 / 3.0;  // of 30 mm: a cell
   SandRing displaced(8), relaxed(std::size_t{1} << 18);
-  PlaceRing places(8);
+  PoseRing poses(8);
   HeightField heap(61, 61, 0.01);
   for (int row = 25; row < 36; ++row)
     for (int col = 25; col < 36; ++col) heap.set(row, col, 0.3);
-  places.push({{0.2, 0.2, -0.01}, true});  // it touches down beside the heap, and rests
-  LiveRelaxer live_relaxer(heap, {0.01, ToolProfile::sphere, false}, settings, displaced, places, relaxed);
+  poses.push({{0.2, 0.2, -0.01}, true});  // it touches down beside the heap, and rests
+  LiveRelaxer live_relaxer(heap, {.radius = 0.01, .profile = ToolProfile::sphere}, settings, displaced, poses,
+                           relaxed);
   live_relaxer.start();
   RelaxationSettings looser = settings;  // changes add up to the live_relaxer's own heights but for rounding
   looser.tolerance *= 2.0;

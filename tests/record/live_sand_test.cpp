@@ -288,7 +288,7 @@ TEST(LiveSand, AToolThatRestsDeepIsDueAForceThatItDoesNotFeel) {
     }
 }
 
-TEST(LiveSand, WhatIsWeakenedBeyondTheScenesLimitIsFlagged) {
+TEST(LiveSand, FlagsAForceWeakenedBeyondTheScenesLimit) {
   const Scene scene = contact_scene(ForceLaw::rft, ToolShape::plate);  // of 3.3 N
   for (const double largest : {any_force, 3.3, 1.0}) {
     LiveSand sand(scene, starting_bed(scene.bed), {"bed", largest});
@@ -407,7 +407,7 @@ TEST(LiveSand, IsWithinTheBoundOfSamplingInUnevenTicks) {
     most = std::max(most, felt.forces[i].norm());
   }
   EXPECT_GT(most, 2.0);
-  RecordProperty("largest_share_of_the_bound", std::to_string(worst));
+  RecordProperty("largest_fraction_of_the_bound", std::to_string(worst));
 }
 
 TEST(LiveSand, RelaxingInItsOwnThreadLosesNoSand) {
@@ -468,7 +468,7 @@ TEST(LiveSand, TakesNoMemoryInTheLoopForAToolOfAnyShape) {
   }
 }
 
-TEST(LiveSand, ThatRelaxesTooSlowlyIsFeltButNotDisplaced) {
+TEST(LiveSand, IsFeltButNotDisplacedWhereItRelaxesTooSlowly) {
   // Nobody takes what is displaced: when the way to the relaxing bed is full, the tool stops displacing, and
   // says so; no sand is lost.
   Scene scene = small_scene();
@@ -582,14 +582,14 @@ TEST(LiveSand, TheVelocityOfDragIsTheMeanOverTheLastFourReadings) {
   scene.device.max_force = 0.0;
   LiveSand sand(scene, starting_bed(scene.bed), {"bed"});
   const std::vector<double> times = {0.0, 0.001, 0.003, 0.004, 0.007, 0.0075, 0.009, 0.0101};
-  const auto place = [](double t) -> Eigen::Vector3d { return {20.0 * t * t, -0.3 * t, -0.004}; };
+  const auto position = [](double t) -> Eigen::Vector3d { return {20.0 * t * t, -0.3 * t, -0.004}; };
   for (std::size_t i = 0; i < times.size(); ++i) {
-    const FeltForce felt = sand.feel(times[i], {place(times[i])});
+    const FeltForce felt = sand.feel(times[i], {position(times[i])});
     ASSERT_GT(felt.force.z(), 0.0);
     Eigen::Vector3d velocity = Eigen::Vector3d::Zero();
     if (i > 0) {
       const double before = times[i < 4 ? 0 : i - 4];
-      velocity = (place(times[i]) - place(before)) / (times[i] - before);
+      velocity = (position(times[i]) - position(before)) / (times[i] - before);
     }
     const Eigen::Vector2d drag = -scene.force.k_f * felt.force.z() * velocity.head<2>();
     EXPECT_NEAR((felt.force.head<2>() - drag).norm(), 0.0, 1e-12) << i;

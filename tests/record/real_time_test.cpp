@@ -26,7 +26,7 @@ bool says_what_was_refused(const Scheduling& given) {
 
 TEST(AskForRealTime, AsksForNothingWhereNothingIsWanted) {
   std::thread([] {
-    const Scheduling given = ask_for_real_time(0, false);
+    const Scheduling given = ask_for_real_time(0, MemoryLock::not_asked);
     EXPECT_EQ(given.policy, "SCHED_OTHER");
     EXPECT_EQ(given.priority, 0);
     EXPECT_FALSE(given.memory_locked);
@@ -36,12 +36,13 @@ TEST(AskForRealTime, AsksForNothingWhereNothingIsWanted) {
 
 TEST(AskForRealTime, GetsItOrSaysHow) {
   std::thread([] {
-    const Scheduling given = ask_for_real_time(7, false);
+    const Scheduling given = ask_for_real_time(7, MemoryLock::not_asked);
     EXPECT_EQ(given.priority, given.policy == "SCHED_FIFO" ? 7 : 0);
     EXPECT_EQ(given.advice.empty(), given.policy == "SCHED_FIFO");
   }).join();
   std::thread([] {
-    EXPECT_NE(ask_for_real_time(0, false).policy, "SCHED_FIFO") << "it is the one thread's only";
+    EXPECT_NE(ask_for_real_time(0, MemoryLock::not_asked).policy, "SCHED_FIFO")
+        << "it is the one thread's only";
   }).join();
 }
 
@@ -49,7 +50,7 @@ TEST(AskForRealTimeDeathTest, LeavesAUserWithLittleLockedMemoryAllTheOther) {
   EXPECT_EXIT(
       {
         become_a_user(8 << 20);
-        const Scheduling given = ask_for_real_time(80, true);
+        const Scheduling given = ask_for_real_time(80, MemoryLock::asked);
         if (given.policy != "SCHED_OTHER" || given.priority != 0 || given.memory_locked) _exit(1);
         if (!says_what_was_refused(given)) _exit(2);
         if (given.advice.find("rtprio 81 ") == std::string::npos) _exit(4);  // the watchdog's, too
@@ -63,7 +64,7 @@ TEST(AskForRealTimeDeathTest, LocksMemoryForAUserWhoMayLockAnyAmount) {
   EXPECT_EXIT(
       {
         become_a_user(RLIM_INFINITY);
-        const Scheduling given = ask_for_real_time(80, true);
+        const Scheduling given = ask_for_real_time(80, MemoryLock::asked);
         _exit(given.memory_locked && says_what_was_refused(given) ? 0 : 1);
       },
       [](int status) { return WIFEXITED(status) && (WEXITSTATUS(status) == 0 || WEXITSTATUS(status) == 77); },

@@ -683,7 +683,7 @@ TEST_F(ServoLoopTest, TheWayThroughTheAirBeforeContactOpensTheInterlock) {
   }
 }
 
-TEST_F(ServoLoopTest, WhatEndsItWhileItWaitsLeavesNothing) {
+TEST_F(ServoLoopTest, AnEndWhileItWaitsLeavesNothing) {
   settings.start.start_switch = 0;
   settings.duration.reset();
   const auto reason = [&] {
@@ -711,7 +711,9 @@ TEST_F(ServoLoopTest, GivesNoForceThatItMustNotWhateverHappens) {
   for (unsigned seed = 0; seed < 60; ++seed) {
     samples.clear();
     std::mt19937 random(seed);
-    const auto chance = [&random](double share) { return 0x1p-32 * static_cast<double>(random()) < share; };
+    const auto chance = [&random](double probability) {
+      return 0x1p-32 * static_cast<double>(random()) < probability;
+    };
     const auto up_to = [&random](double most) { return most * 0x1p-32 * static_cast<double>(random()); };
     settings.duration = 4.0;
     settings.silence = 1e3;

@@ -37,7 +37,7 @@ TEST(RepulseForce, GrowsWithDepthAndInverts) {
   }
 }
 
-TEST(LengthOf, IsTheSameBitsWhereverTheVectorLiesAndDoesNotOverflow) {
+TEST(LengthOf, HasTheSameBitsWhereverTheVectorLiesAndDoesNotOverflow) {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> any(-12.0, 12.0);
   alignas(16) double memory[4];

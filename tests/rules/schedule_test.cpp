@@ -30,7 +30,7 @@ TEST(RelaxationByWay, EachWayIsItsOwn) {
   EXPECT_NEAR(schedule.way_to_next({0.01, 0.0, 0.0}, {0.004, 0.0, 0.0}).value(), 0.5, 1e-12);
 }
 
-TEST(RelaxationByWay, NotByWayNeverAsks) {
+TEST(RelaxationByWay, NeverAsksWhereItIsOff) {
   const RelaxationByWay schedule(false);
   EXPECT_FALSE(schedule.is_due({1.0, 2.0, 3.0}, true));
   EXPECT_FALSE(schedule.way_to_next({0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}));

@@ -53,8 +53,8 @@ TEST(TalusPass, MovesNothingAtTheTalusAndInWalls) {
     EXPECT_FALSE(pass_over(heights, law, 0.25, moved).flows);
     const HeightGrid cliff = 10.0 * heights;
     WallGrid walls = WallGrid::Ones(6, 6);
-    const TalusPass held = talus_pass(cliff, walls, talus_law(law, 0.25, talus, 0.0, 1.0), moved);
-    EXPECT_FALSE(held.flows);
+    const TalusPass walled = talus_pass(cliff, walls, talus_law(law, 0.25, talus, 0.0, 1.0), moved);
+    EXPECT_FALSE(walled.flows);
     EXPECT_EQ(moved.value(), 0.0);
   }
 }

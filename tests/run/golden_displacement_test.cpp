@@ -57,7 +57,7 @@ TEST_P(GoldenStroke, DisplacesAsThePlainRuleDoesInEveryTick) {
     if (tick % 16 != 0) continue;
     const HeightGrid displaced = sand.grid();
     ASSERT_EQ(std::memcmp(displaced.data(), expected.data(), sizeof(double) * expected.size()), 0) << tick;
-    if (scene.tool.solid) tool.hold_bowl(sand);
+    if (scene.tool.solid) tool.make_walls(sand);
     relaxer->relax(sand);
     expected = sand.grid();
   }

@@ -53,9 +53,9 @@ class Variant {
           bed_.set(r, c, bed(r, c));
         }
     }
-    std::vector<RowCells> held = bed.held();
-    for (RowCells& row : held) row.slot = bed_.allocate(bed.tile_of(row.slot));
-    bed_.hold(held);
+    std::vector<RowCells> walls = bed.tool_walls();
+    for (RowCells& row : walls) row.slot = bed_.allocate(bed.tile_of(row.slot));
+    bed_.set_tool_walls(walls);
     std::int64_t passes = 0;
     hwy::SetSupportedTargetsForTest(target_);
     arena_.execute([&] { passes = relaxer_->relax(bed_).passes; });
@@ -172,14 +172,14 @@ class CheckedRelaxer : public Relaxer {
       for (int col = 0; col < window.cols(); ++col)
         heights(row, col) = bed(window.row_begin + row, window.col_begin + col);
     HeightField field(heights, bed.cell_size());
-    std::vector<RowCells> held;
+    std::vector<RowCells> walls;
     for (int row = 0; row < window.rows(); ++row)
       for (int col = 0; col < window.cols(); ++col)
-        if (bed.is_held(window.row_begin + row, window.col_begin + col))
-          held.push_back(
+        if (bed.is_wall(window.row_begin + row, window.col_begin + col))
+          walls.push_back(
               {field.slot_of(field.tile_index(row / BedGeometry::tile_side, col / BedGeometry::tile_side)),
                row % BedGeometry::tile_side, std::uint64_t{1} << col % BedGeometry::tile_side});
-    field.hold(held);
+    field.set_tool_walls(walls);
     return field;
   }
 

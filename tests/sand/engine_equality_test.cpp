@@ -89,9 +89,9 @@ class RandomScene {
       placed.place(*one, at.x, at.y);
       placed.displace(*one, placed.sand_level() - at.depth, at.motion, deposit);
       if (stays)
-        placed.hold_bowl(*one);
+        placed.make_walls(*one);
       else
-        one->hold({});
+        one->set_tool_walls({});
     }
   }
 
@@ -246,12 +246,12 @@ TEST(Tool, EqualsThePlainRuleOn400RandomScenes) {
       ASSERT_TRUE(same_disturbed(scene.bed, expected));
       pushed += volume > 0.0;
 
-      tool.hold_bowl(scene.bed);
+      tool.make_walls(scene.bed);
       for (int row = 0; row < scene.bed.rows(); ++row)
         for (int col = 0; col < scene.bed.cols(); ++col)
-          ASSERT_EQ(scene.bed.is_held(row, col), plain.covers(row, col) || walls(row, col))
+          ASSERT_EQ(scene.bed.is_wall(row, col), plain.covers(row, col) || walls(row, col))
               << row << ", " << col;
-      scene.bed.hold({});
+      scene.bed.set_tool_walls({});
       scene.bed.clear_disturbed();
       expected.clear_disturbed();
     }
@@ -259,7 +259,7 @@ TEST(Tool, EqualsThePlainRuleOn400RandomScenes) {
   EXPECT_GT(pushed, sanitized ? 100 : 1000);
 }
 
-TEST(Tool, IsTheSameBitsWithEveryInstructionSet) {
+TEST(Tool, HasTheSameBitsWithEveryInstructionSet) {
   const std::vector<std::int64_t> targets = hwy::SupportedAndGeneratedTargets();
   for (unsigned seed = 1; seed <= 40; ++seed) {
     std::vector<HeightGrid> beds;

@@ -41,8 +41,8 @@ TEST(PaperLaw, OnePassOfOneHighCellIsAsWritten) {
   RelaxationSettings s = settings(RelaxationLaw::paper);
   s.max_passes = 1;
   const auto outcome = make_relaxer(s, 1.0)->relax(bed);
-  // All 8 neighbours lie 2 lower; the steepest excess is towards the axis ones: dm = 1/2 (2 - tan 30), equal
-  // shares.
+  // All 8 neighbours lie 2 lower; the steepest excess is towards the axis ones: dm = 1/2 (2 - tan 30), in
+  // equal parts.
   const double given = 0.5 * (2.0 - tan30);
   EXPECT_EQ(outcome.passes, 1);
   EXPECT_FALSE(outcome.converged);
@@ -52,7 +52,7 @@ TEST(PaperLaw, OnePassOfOneHighCellIsAsWritten) {
   EXPECT_NEAR(outcome.moved_volume, given, 1e-15);
 }
 
-TEST(PaperLaw, SharesGoInProportionToTheDrop) {
+TEST(PaperLaw, ACellGivesInProportionToTheDrop) {
   HeightField bed(1, 3, 1.0);
   bed.set(0, 1, 2.0);
   bed.set(0, 2, 1.0);  // drops: 2 to the left, 1 to the right, both over tan 30
@@ -71,11 +71,11 @@ TEST(IsotropicLaw, OnePassOfOneHighCellIsAsWritten) {
   s.max_passes = 1;
   make_relaxer(s, 1.0)->relax(bed);
   // gx = gy = 2, |g| = 2 sqrt 2: each axis neighbour gets 1/4 (1 - tan 30 / |g|) 2; the corners nothing.
-  const double share = 0.25 * (1.0 - tan30 / (2.0 * std::sqrt(2.0))) * 2.0;
-  EXPECT_NEAR(bed(0, 1), share, 1e-15);
-  EXPECT_NEAR(bed(1, 2), share, 1e-15);
+  const double gain = 0.25 * (1.0 - tan30 / (2.0 * std::sqrt(2.0))) * 2.0;
+  EXPECT_NEAR(bed(0, 1), gain, 1e-15);
+  EXPECT_NEAR(bed(1, 2), gain, 1e-15);
   EXPECT_EQ(bed(0, 0), 0.0);
-  EXPECT_NEAR(bed(1, 1), 2.0 - 4.0 * share, 1e-15);
+  EXPECT_NEAR(bed(1, 1), 2.0 - 4.0 * gain, 1e-15);
 }
 
 TEST_P(AllLaws, TheShareAskedForIsWhatFlows) {
@@ -269,7 +269,7 @@ TEST_P(AllLaws, SymmetricBedsStaySymmetricToTheBit) {
   }
 }
 
-TEST_P(AllLaws, WhatSandDoesDependsOnItsNeighbourhoodOnly) {
+TEST_P(AllLaws, SandMovesByItsNeighbourhoodOnly) {
   // Two piles far apart end as each does alone.
   const auto pile = [](HeightField& bed, int col) {
     for (int row = 30; row < 34; ++row) {
@@ -303,7 +303,7 @@ TEST(TileRelaxer, LooksOnlyAtWhatCanMove) {
   EXPECT_EQ(bed.allocated_tiles(), 0);
   bed.set(63, 64, 0.5);  // below the talus slope: nothing moves
   const auto look = relaxer->relax(bed);
-  EXPECT_EQ(look.cells_visited, 5 * 5);  // what can see it, in four tiles
+  EXPECT_EQ(look.cells_visited, 5 * 5);  // the cells that can see it, in four tiles
   EXPECT_EQ(look.wake_ups, 4);
   EXPECT_EQ(look.tiles_active_max, 4);
   EXPECT_EQ(look.passes, 0);

@@ -123,7 +123,7 @@ Vector3d theory_of_sphere(double radius, double depth, const Vector3d& motion, c
 constexpr double depths[] = {0.002, 0.004, 0.006, 0.010, 0.020};
 
 TEST(ResistiveForce, IsThatOfTheTableOnASphere) {
-  const ToolSettings sphere{0.01, ToolProfile::sphere, true};
+  const ToolSettings sphere{.radius = 0.01, .profile = ToolProfile::sphere, .solid = true};
   const double repulse30[] = {0.17, 0.64, 1.3, 2.9, 7.1}, repulse34[] = {0.28, 1.07, 2.2, 4.9, 11.9},
                drag30[] = {0.08, 0.11, 0.14, 0.18, 0.27};
   for (int i = 0; i < 5; ++i) {
@@ -152,7 +152,7 @@ TEST(ResistiveForce, IsThatOfTheTableOnASphere) {
 }
 
 TEST(ResistiveForce, ConvergesOnASphereWhereverItsAxisLiesBetweenCells) {
-  const ToolSettings sphere{0.01, ToolProfile::sphere, true};
+  const ToolSettings sphere{.radius = 0.01, .profile = ToolProfile::sphere, .solid = true};
   const SandStrength sand{30.0, 1560.0, 0.4, 1e-6};
   const double depth = 0.004, theory = theory_of_sphere(0.01, depth, falling, sand).z();
   double before = 1.0;
@@ -173,7 +173,7 @@ TEST(ResistiveForce, DependsOnTheWayAndNotOnTheTimeItTakes) {
   // Twice as many ticks: the same ways, in smaller parts.
   const SandStrength sand;
   HeightField bed(61, 61, 0.001);
-  SphereTool tool(ToolSettings{0.01, ToolProfile::sphere, true});
+  SphereTool tool(ToolSettings{.radius = 0.01, .profile = ToolProfile::sphere, .solid = true});
   const TriangleMesh sphere = tool_surface(ToolSettings{0.01});
   ResistiveForce coarse(sphere, 0.001), fine(sphere, 0.001);
   tool.place(bed, 0.0, 0.0);
@@ -194,7 +194,7 @@ TEST(ResistiveForce, DependsOnTheWayAndNotOnTheTimeItTakes) {
 
 TEST(ResistiveForce, IsANumberForAWayWhoseSquareIsNone) {
   HeightField bed(61, 61, 0.001);
-  const ToolSettings sphere{0.01, ToolProfile::sphere, true};
+  const ToolSettings sphere{.radius = 0.01, .profile = ToolProfile::sphere, .solid = true};
   SphereTool tool(sphere);
   tool.place(bed, 0.0, 0.0);
   for (const double way : {0.0, 1e-158, 1e-165, 1e-200, 1e-320}) {
@@ -221,7 +221,7 @@ TEST(ResistiveForce, VolumeBelowThePlaneIsTheCap) {
 TEST(ResistiveForce, IsATorqueOnABladeThatTurnsWhereItStands) {
   // Each half leads with one face: 2 x the integral over it of 0.192 xi depth y = 0.192 xi D^2 W^2 / 8. The
   // other faces trail.
-  ToolSettings blade{0.01, ToolProfile::sphere, true};
+  ToolSettings blade{.radius = 0.01, .profile = ToolProfile::sphere, .solid = true};
   blade.shape = ToolShape::plate;
   blade.width = 0.04;
   blade.height = 0.03;

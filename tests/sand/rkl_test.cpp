@@ -308,8 +308,9 @@ struct TooLongSteps {
     };
     const int rows = whole(1, 40), cols = whole(1, 40);
     heights.resize(rows, cols);
-    const double amplitude = real(1, 60), share = real(0.01, 0.5);
-    for (double& height : heights.reshaped()) height = real(0, 1) < share ? real(-amplitude, amplitude) : 0.0;
+    const double amplitude = real(1, 60), fraction = real(0.01, 0.5);
+    for (double& height : heights.reshaped())
+      height = real(0, 1) < fraction ? real(-amplitude, amplitude) : 0.0;
     settings.step_tolerance = 10.0;
     settings.talus_angle = real(5, 60);
   }
@@ -347,7 +348,7 @@ TEST(Rkl, WorksOnWhatIsDisturbedOnly) {
   EXPECT_EQ((bed.grid() - cone).leftCols(250).abs().maxCoeff(), 0.0);
 }
 
-TEST(Rkl, IsTheSameBitsForAnyThreadsAndInstructionSet) {
+TEST(Rkl, HasTheSameBitsForAnyThreadsAndInstructionSet) {
   std::vector<HeightGrid> beds;
   std::vector<std::int64_t> passes;
   for (const std::int64_t target : hwy::SupportedAndGeneratedTargets())

@@ -24,7 +24,7 @@ TEST(RoundBed, HasTheCellsWhoseCentresLieInItsLargestCircle) {
         if (std::abs(from_centre - radius) < 1e-12) continue;  // on the wall: as rounding has it
         EXPECT_DOUBLE_EQ(bed.beyond_edge(bed.x_of(col), bed.y_of(row)), from_centre - radius);
         ASSERT_EQ(bed.has_sand(row, col), from_centre < radius) << row << ", " << col;
-        ASSERT_EQ(bed.is_held(row, col), !bed.has_sand(row, col)) << "before its tile is there";
+        ASSERT_EQ(bed.is_wall(row, col), !bed.has_sand(row, col)) << "before its tile is there";
         ASSERT_EQ(bed.has_sand(row, col), bed.has_sand(rows - 1 - row, cols - 1 - col)) << "symmetric";
       }
   }
@@ -32,12 +32,12 @@ TEST(RoundBed, HasTheCellsWhoseCentresLieInItsLargestCircle) {
 
 TEST(RoundBed, ItsWallStaysWhereAToolStood) {
   HeightField bed(130, 130, width, BedShape::round);
-  SphereTool tool({0.01, ToolProfile::sphere, true});
+  SphereTool tool({.radius = 0.01, .profile = ToolProfile::sphere, .solid = true});
   tool.place(bed, bed.wall_radius() - 0.005, 0.0);
-  tool.hold_bowl(bed);
-  bed.hold({});
+  tool.make_walls(bed);
+  bed.set_tool_walls({});
   for (int row = 0; row < 130; ++row)
-    for (int col = 0; col < 130; ++col) ASSERT_EQ(bed.is_held(row, col), !bed.has_sand(row, col));
+    for (int col = 0; col < 130; ++col) ASSERT_EQ(bed.is_wall(row, col), !bed.has_sand(row, col));
 }
 
 /// Sand moves, none beyond the wall, and none is lost.
@@ -72,7 +72,7 @@ TEST(RoundBed, AToolAtTheWallPushesSandInside) {
   for (const Deposit deposit : {Deposit::ring, Deposit::ahead, Deposit::outward}) {
     HeightField bed(130, 130, width, BedShape::round);
     const HeightField before = bed;
-    SphereTool tool({0.01, ToolProfile::sphere, true});
+    SphereTool tool({.radius = 0.01, .profile = ToolProfile::sphere, .solid = true});
     const double along = (bed.wall_radius() - 0.005) * std::sqrt(0.5);
     tool.place(bed, along, along);
     EXPECT_EQ(tool.sand_level(), 0.0);
@@ -86,14 +86,14 @@ TEST(RoundBed, TheLevelUnderAToolIsThatOfTheSandAlone) {
   for (int row = 0; row < 130; ++row)
     for (int col = 0; col < 130; ++col)
       if (!bed.has_sand(row, col)) bed.set(row, col, 1.0);
-  SphereTool tool({0.01, ToolProfile::sphere, true});
+  SphereTool tool({.radius = 0.01, .profile = ToolProfile::sphere, .solid = true});
   tool.place(bed, 0.0, bed.wall_radius() - 0.003);
   EXPECT_EQ(tool.sand_level(), 0.0);
 }
 
 TEST(RoundBed, AToolBeyondTheWallFindsNoLevel) {
   HeightField bed(130, 130, width, BedShape::round);
-  SphereTool tool({0.01, ToolProfile::sphere, true});
+  SphereTool tool({.radius = 0.01, .profile = ToolProfile::sphere, .solid = true});
   tool.place(bed, bed.wall_radius(), bed.wall_radius());  // a corner of the rectangle
   EXPECT_TRUE(std::isnan(tool.sand_level()));
   EXPECT_EQ(tool.displace(bed, -0.004, Eigen::Vector3d::Zero(), {}), 0.0);

@@ -20,7 +20,7 @@ constexpr double cell_side = 0.001;
 const DisplacementSettings out{Deposit::outward};
 
 ToolSettings solid_tool(ToolShape shape) {
-  ToolSettings tool{0.01, ToolProfile::sphere, true};
+  ToolSettings tool{.radius = 0.01, .profile = ToolProfile::sphere, .solid = true};
   tool.shape = shape;
   tool.height = 0.03;
   tool.width = 0.03;
@@ -31,7 +31,8 @@ ToolSettings solid_tool(ToolShape shape) {
 }
 ToolSettings mesh_sphere(double radius) {
   ToolSettings sphere{radius};
-  ToolSettings tool{radius, ToolProfile::sphere, true, ToolShape::mesh};
+  ToolSettings tool{
+      .radius = radius, .profile = ToolProfile::sphere, .solid = true, .shape = ToolShape::mesh};
   tool.mesh = std::make_shared<TriangleMesh>(tool_surface(sphere));
   return tool;
 }
@@ -81,14 +82,14 @@ TEST(ShapedTool, ASphereAsAMeshLeavesWhatTheSphereLeaves) {
       for (int i = 0; i <= 40; ++i) {
         tool.place(bed, -0.02 + 0.001 * i + 0.0001, 0.0003);
         tool.displace(bed, -0.006, {0.001, 0.0, 0.0}, out);
-        tool.hold_bowl(bed);
+        tool.make_walls(bed);
         relaxer->relax(bed);
       }
-      bed.hold({});
+      bed.set_tool_walls({});
       relaxer->relax(bed);
       return bed.grid();
     };
-    const HeightGrid sphere = relaxed_after({R, ToolProfile::sphere, true}),
+    const HeightGrid sphere = relaxed_after({.radius = R, .profile = ToolProfile::sphere, .solid = true}),
                      mesh = relaxed_after(mesh_sphere(R));
     const double misplaced = (sphere - mesh).abs().sum() / sphere.abs().sum();
     RecordProperty("cell_" + std::to_string(side), std::to_string(misplaced));
@@ -110,10 +111,10 @@ HeightGrid dragged(ToolShape shape, int quarters, int side) {
     for (int turn = 0; turn < quarters; ++turn) at = Eigen::Vector2d(-at.y(), at.x());
     tool.place(bed, at.x(), at.y());
     tool.displace(bed, -0.0053, {0.0, 0.0, 0.0}, out);
-    tool.hold_bowl(bed);
+    tool.make_walls(bed);
     relaxer->relax(bed);
   }
-  bed.hold({});
+  bed.set_tool_walls({});
   relaxer->relax(bed);
   return bed.grid();
 }
@@ -155,10 +156,10 @@ HeightField drawn_at(double angle, ToolShape shape, double cell) {
     const Eigen::Vector3d at = (0.001 * i - 0.015) * way;
     tool.place(bed, at.x(), at.y());
     tool.displace(bed, -0.005, 0.001 * way, out);
-    tool.hold_bowl(bed);
+    tool.make_walls(bed);
     relaxer->relax(bed);
   }
-  bed.hold({});
+  bed.set_tool_walls({});
   relaxer->relax(bed);
   return bed;
 }
@@ -166,7 +167,7 @@ HeightField drawn_at(double angle, ToolShape shape, double cell) {
 TEST(ShapedTool, TurnedByThirtyDegreesItLeavesTheSameWithinTheCellsError) {
   const double angle = pi / 6.0;
   for (const ToolShape shape : any_shape) {
-    std::vector<double> shares;
+    std::vector<double> fractions;
     for (const double cell : {0.002, 0.001, 0.0005}) {
       const HeightField one = drawn_at(0.0, shape, cell), turned = drawn_at(angle, shape, cell);
       double apart = 0.0, moved = 0.0;
@@ -180,10 +181,10 @@ TEST(ShapedTool, TurnedByThirtyDegreesItLeavesTheSameWithinTheCellsError) {
         }
       RecordProperty(fmt::format("shape_{}_{}", static_cast<int>(shape), 1e3 * cell),
                      fmt::format("{:.4f}", apart / moved));
-      shares.push_back(apart / moved);
+      fractions.push_back(apart / moved);
     }
     // 0.15 to 0.66 of the moved sand (a cone of a cell), then 0.04 to 0.15.
-    EXPECT_LT(shares.back(), 0.45 * shares.front()) << static_cast<int>(shape);
+    EXPECT_LT(fractions.back(), 0.45 * fractions.front()) << static_cast<int>(shape);
   }
 }
 
@@ -203,7 +204,7 @@ TEST(ShapedTool, ABladeAcrossATroughPushesTheHeapOfItsSand) {
     for (int i = 0; i <= steps; ++i) {
       tool.place(bed, -0.1 + step * i, 0.0);
       tool.displace(bed, -depth, {step, 0.0, 0.0}, out);
-      tool.hold_bowl(bed);
+      tool.make_walls(bed);
       relaxer->relax(bed);
     }
     const double expected = std::sqrt(2.0 * slope * depth * way), heap = bed.grid().maxCoeff();
@@ -221,7 +222,7 @@ ToolSettings wedge(double slope, double half_length) {
     for (const Eigen::Vector2d& xz : {Eigen::Vector2d(0, 0), {half, slope * half}, {-half, slope * half}})
       mesh->vertices.emplace_back(xz.x(), y, xz.y());
   mesh->triangles = {{0, 1, 2}, {3, 5, 4}, {0, 3, 4}, {0, 4, 1}, {0, 2, 5}, {0, 5, 3}, {1, 4, 5}, {1, 5, 2}};
-  ToolSettings tool{0.01, ToolProfile::sphere, true, ToolShape::mesh};
+  ToolSettings tool{.radius = 0.01, .profile = ToolProfile::sphere, .solid = true, .shape = ToolShape::mesh};
   tool.mesh = mesh;
   return tool;
 }
@@ -241,10 +242,10 @@ TEST(ShapedTool, AWedgeLeavesLeveesOfTheSandThatItTookThePlaceOf) {
     for (int i = 1; i <= steps; ++i) {
       tool.place(bed, 0.0, 0.0);
       tool.displace(bed, -step * i, {0.0, 0.0, -step}, out);
-      tool.hold_bowl(bed);
+      tool.make_walls(bed);
       relaxer->relax(bed);
     }
-    bed.hold({});
+    bed.set_tool_walls({});
     relaxer->relax(bed);
     const double expected = depth * std::sqrt(slope / (2.0 * flank)), levee = bed.grid().maxCoeff();
     RecordProperty(fmt::format("levee_{}", 1e3 * cell), fmt::format("{:.4f}", levee / expected));
@@ -258,7 +259,7 @@ TEST(ShapedTool, LosesNoSandOfAnyShapeAndOrientation) {
   const auto length = [&] { return std::pow(10.0, -4.0 + upto(2.6)); };  // 0.1 to 40 mm
   int refused = 0;
   for (int i = 0; i < 200; ++i) {
-    ToolSettings settings{length(), ToolProfile::sphere, true};
+    ToolSettings settings{.radius = length(), .profile = ToolProfile::sphere, .solid = true};
     settings.shape = any_shape[random() % any_shape.size()];
     settings.height = length();
     settings.width = length();
@@ -277,7 +278,7 @@ TEST(ShapedTool, LosesNoSandOfAnyShapeAndOrientation) {
         tool.place(bed, upto(0.14) - 0.07, upto(0.1) - 0.05);
         if (!tool.footprint().cells().empty())
           pushed += tool.displace(bed, upto(0.04) - 0.03, {1e-3, 0, 0}, out);
-        tool.hold_bowl(bed);
+        tool.make_walls(bed);
       }
     } catch (const Error& error) {
       EXPECT_EQ(error.kind(), ErrorKind::input) << error.what();

@@ -1,4 +1,4 @@
-// A tool that sand does not flow into: cells that a bed holds are walls for every relaxer.
+// A tool that sand does not flow into: the cells under it are walls for every relaxer.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -34,21 +34,21 @@ Relaxers engine_and_reference() {
 /// A tool that has displaced a pit, and stands in it.
 struct Standing {
   HeightField bed{129, 129, cell};
-  SphereTool tool{{tool_radius, ToolProfile::sphere, true}};
+  SphereTool tool{{.radius = tool_radius, .profile = ToolProfile::sphere, .solid = true}};
   Standing() {
     tool.place(bed, 0.0, 0.0);
     tool.displace(bed, -0.007, plunge, {Deposit::outward});
-    tool.hold_bowl(bed);
+    tool.make_walls(bed);
   }
 };
 
-TEST(SolidTool, HoldsTheCellsOfItsBowlAndNoOthers) {
+TEST(SolidTool, MakesWallsOfTheCellsOfItsBowlAndOfNoOthers) {
   const Standing standing;
   for (int row = 0; row < 129; ++row)
     for (int col = 0; col < 129; ++col) {
       const double from_axis = std::hypot(standing.bed.x_of(col), standing.bed.y_of(row));
       if (std::abs(from_axis - tool_radius) < 1e-9) continue;  // on the rim: as rounding has it
-      EXPECT_EQ(standing.bed.is_held(row, col), from_axis < tool_radius) << row << ", " << col;
+      EXPECT_EQ(standing.bed.is_wall(row, col), from_axis < tool_radius) << row << ", " << col;
     }
 }
 
@@ -63,7 +63,7 @@ TEST(SolidTool, NoSandRelaxesUnderItAndWhereItWasItDoes) {
     double heap = 0.0;
     for (int row = 0; row < 129; ++row)
       for (int col = 0; col < 129; ++col) {
-        if (bed.is_held(row, col)) {
+        if (bed.is_wall(row, col)) {
           EXPECT_EQ(bed(row, col), before(row, col));
         }
         heap = std::max(heap, bed(row, col));
@@ -72,7 +72,7 @@ TEST(SolidTool, NoSandRelaxesUnderItAndWhereItWasItDoes) {
     EXPECT_NEAR(bed.volume(), 0.0, 1e-18);
 
     // Nothing else has changed: the cells that are free again are looked at, and the pit falls in.
-    bed.hold({});
+    bed.set_tool_walls({});
     const RelaxationOutcome after = relaxer->relax(bed);
     EXPECT_TRUE(after.converged);
     EXPECT_GT(after.passes, 0);
@@ -90,13 +90,13 @@ TEST(SolidTool, ChangesNothingEverAtRest) {
     // The rim's own cells are the bowl's: what stands there is taken out once.
     standing.tool.place(standing.bed, 0.0, 0.0);
     standing.tool.displace(standing.bed, -0.007, plunge, {Deposit::outward});
-    standing.tool.hold_bowl(standing.bed);
+    standing.tool.make_walls(standing.bed);
     relaxer->relax(standing.bed);
     const HeightGrid rest = standing.bed.grid();
     for (int i = 0; i < (sanitized ? 20 : 1000); ++i) {
       standing.tool.place(standing.bed, 0.0, 0.0);
       EXPECT_EQ(standing.tool.displace(standing.bed, -0.007, plunge, {Deposit::outward}), 0.0);
-      standing.tool.hold_bowl(standing.bed);
+      standing.tool.make_walls(standing.bed);
       EXPECT_EQ(relaxer->relax(standing.bed).passes, 0);
     }
     EXPECT_TRUE((standing.bed.grid() == rest).all());
@@ -106,11 +106,11 @@ TEST(SolidTool, ChangesNothingEverAtRest) {
 TEST(SolidTool, APlungeAtACellCentreIsSymmetricToTheBit) {
   for (const auto& relaxer : engine()) {
     HeightField bed(129, 129, cell);
-    SphereTool tool({tool_radius, ToolProfile::sphere, true});
+    SphereTool tool({.radius = tool_radius, .profile = ToolProfile::sphere, .solid = true});
     for (int i = 1; i <= 30; ++i) {
       tool.place(bed, 0.0, 0.0);
       tool.displace(bed, -3e-4 * i, plunge, {Deposit::outward});
-      tool.hold_bowl(bed);
+      tool.make_walls(bed);
       relaxer->relax(bed);
     }
     EXPECT_TRUE(has_square_symmetry(bed.grid()));
@@ -118,15 +118,15 @@ TEST(SolidTool, APlungeAtACellCentreIsSymmetricToTheBit) {
   }
 }
 
-TEST(SolidTool, HoldsOnlyWhereItIsNow) {
+TEST(SolidTool, MakesWallsOnlyWhereItIsNow) {
   HeightField bed(129, 129, cell);
-  SphereTool tool({tool_radius, ToolProfile::sphere, true});
+  SphereTool tool({.radius = tool_radius, .profile = ToolProfile::sphere, .solid = true});
   for (const double x : {0.03, 0.0, -0.05}) {
     tool.place(bed, x, 0.01);
-    tool.hold_bowl(bed);
+    tool.make_walls(bed);
     for (int row = 0; row < 129; ++row)
       for (int col = 0; col < 129; ++col)
-        ASSERT_EQ(bed.is_held(row, col),
+        ASSERT_EQ(bed.is_wall(row, col),
                   std::hypot(bed.x_of(col) - x, bed.y_of(row) - 0.01) <= tool_radius * (1.0 + 1e-12))
             << row << ", " << col;
   }
@@ -141,20 +141,20 @@ TEST(SolidTool, TheResidualLeavesOutWhatItStandsOn) {
     HeightField bed(30, 30, cell);
     bed.set(15, 15, 1.03 * talus_slope(30.0) * cell);  // at rest
     EXPECT_NEAR(relaxer->relax(bed).residual, 0.03, 1e-12);
-    bed.hold({{0, 15, std::uint64_t{1} << 15}});
+    bed.set_tool_walls({{0, 15, std::uint64_t{1} << 15}});
     EXPECT_EQ(relaxer->relax(bed).residual, 0.0);
-    bed.hold({});
+    bed.set_tool_walls({});
     EXPECT_NEAR(relaxer->relax(bed).residual, 0.03, 1e-12);
   }
 }
 
-TEST(SolidTool, ACopyHoldsWhatTheBedHolds) {
+TEST(SolidTool, ACopyOfABedHasItsWalls) {
   Standing standing;
   HeightField copy = standing.bed;
-  EXPECT_TRUE(copy.is_held(64, 64));
-  copy.hold({});
-  EXPECT_FALSE(copy.is_held(64, 64));
-  EXPECT_TRUE(standing.bed.is_held(64, 64));
+  EXPECT_TRUE(copy.is_wall(64, 64));
+  copy.set_tool_walls({});
+  EXPECT_FALSE(copy.is_wall(64, 64));
+  EXPECT_TRUE(standing.bed.is_wall(64, 64));
 }
 
 }  // namespace

@@ -24,7 +24,7 @@ TEST(Displacement, TakesOutTheBowlAndHeapsTheRing) {
   const double tip = -0.004;
   const double volume = tool.displace(bed, tip, down, {Deposit::ring});
 
-  // The rule by hand: every cell under the sphere is cut to its underside; the ring shares what was cut by
+  // The rule by hand: every cell under the sphere is cut to its underside; the ring takes what was cut by
   // sin(u) - 0.53.
   double cut = 0.0, weights = 0.0;
   const double s2 = R * R / std::asin(0.53);
@@ -93,14 +93,15 @@ TEST(Displacement, AheadPutsNothingBehindADragAndRingPutsHalfThere) {
 
 TEST(Displacement, ConservesVolumeAnywhereAtWallsAndCorners) {
   std::mt19937 random(7);
-  std::uniform_real_distribution<double> place(-0.065, 0.065), height(-0.002, 0.002), motion(-1e-3, 1e-3);
+  std::uniform_real_distribution<double> coordinate(-0.065, 0.065), height(-0.002, 0.002),
+      motion(-1e-3, 1e-3);
   for (int i = 0; i < 300; ++i) {
     HeightField bed(60, 60, dx);
     for (int row = 0; row < 60; ++row)
       for (int col = 0; col < 60; ++col) bed.set(row, col, height(random));
     const double before = bed.volume();
     SphereTool tool({R, ToolProfile::paper});
-    tool.place(bed, place(random), place(random));
+    tool.place(bed, coordinate(random), coordinate(random));
     const double moved = tool.displace(bed, -0.005, {motion(random), motion(random), motion(random)},
                                        {std::array{Deposit::ring, Deposit::ahead, Deposit::outward}[i % 3]});
     EXPECT_NEAR(bed.volume(), before, 1e-15 * 3600 * 0.002 * dx * dx + 1e-12 * moved);
@@ -146,12 +147,12 @@ TEST(Displacement, OutwardCarriesEachCellsSandAlongItsOwnNormal) {
 TEST(Displacement, OutwardGivesNothingToTheBowlAndTakesItOutOnce) {
   // A projection: what was taken out is out, so that a second time, at the same position, takes out nothing.
   std::mt19937 random(3);
-  std::uniform_real_distribution<double> place(-0.01, 0.01), height(-0.002, 0.002);
+  std::uniform_real_distribution<double> coordinate(-0.01, 0.01), height(-0.002, 0.002);
   for (int i = 0; i < 50; ++i) {
     HeightField bed(60, 60, dx);
     for (int row = 0; row < 60; ++row)
       for (int col = 0; col < 60; ++col) bed.set(row, col, height(random));
-    const double x = place(random), y = place(random);
+    const double x = coordinate(random), y = coordinate(random);
     SphereTool tool({R, ToolProfile::sphere});
     tool.place(bed, x, y);
     ASSERT_GT(tool.displace(bed, -0.006, down, {Deposit::outward}), 0.0);

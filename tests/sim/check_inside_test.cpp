@@ -7,11 +7,13 @@
 namespace sandstroke {
 namespace {
 
-/// What is said of a stroke that draws a line of this size beside a bed of 0.3 m x 0.2 m.
+/// The refusal of a stroke that draws a line of this size beside a bed of 0.3 m x 0.2 m.
 std::string refusal(double size) {
   Scene scene;
-  scene.bed.width = 0.3, scene.bed.depth = 0.2;
-  scene.bed.cols = 150, scene.bed.rows = 100;
+  scene.bed.width = 0.3;
+  scene.bed.depth = 0.2;
+  scene.bed.cols = 150;
+  scene.bed.rows = 100;
   Stroke stroke;
   stroke.time = {0.0, 1.0, 2.0};
   stroke.position = {{1.0, 2.0, -0.01}, {1.0 + size, 2.0 + 0.5 * size, -0.01}, {9, 9, 9}};

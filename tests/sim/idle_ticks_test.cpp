@@ -103,7 +103,7 @@ TEST(IdleTicks, AreLeftOutOfARunThatIsTheSame) {
   scenes[6].device.servo_rate = 333.3;
   for (const Scene& scene : scenes) {
     SCOPED_TRACE(&scene - scenes.data());
-    const GapRun idle(scene, two_drags(3.0, false)), all(scene, two_drags(3.0, true));
+    const GapRun idle(scene, two_drags(3.0, Pause::unsampled)), all(scene, two_drags(3.0, Pause::sampled));
     EXPECT_EQ(static_cast<std::int64_t>(idle.ticks.size()), idle.told);
     EXPECT_EQ(static_cast<std::int64_t>(all.ticks.size()), all.told);
     EXPECT_NEAR(static_cast<double>(all.told - idle.told), 2.0 * scene.device.servo_rate, 2.0);
@@ -112,13 +112,13 @@ TEST(IdleTicks, AreLeftOutOfARunThatIsTheSame) {
 }
 
 TEST(IdleTicks, AreAwayFromAllSamples) {
-  const Stroke stroke = two_drags(1.7, false);
+  const Stroke stroke = two_drags(1.7, Pause::unsampled);
   const std::vector<TickRange> idle = idle_ticks(stroke, DeviceSettings{});
   ASSERT_EQ(idle.size(), 1u);
   EXPECT_EQ(idle[0].begin, 801);  // 0.3005 s + 0.5 s
   EXPECT_EQ(idle[0].end, 1500);   // 2.0005 s - 0.5 s: tick 1500 is less than that before the sample
-  EXPECT_TRUE(idle_ticks(two_drags(1.0, false), DeviceSettings{}).empty());
-  EXPECT_TRUE(idle_ticks(two_drags(3.0, true), DeviceSettings{}).empty());
+  EXPECT_TRUE(idle_ticks(two_drags(1.0, Pause::unsampled), DeviceSettings{}).empty());
+  EXPECT_TRUE(idle_ticks(two_drags(3.0, Pause::sampled), DeviceSettings{}).empty());
 }
 
 TEST(IdleTicks, AreNoneOfADeviceThatStillSwingsOrFeels) {
@@ -127,12 +127,13 @@ TEST(IdleTicks, AreNoneOfADeviceThatStillSwingsOrFeels) {
   late.delay = 1;
   dropping.dropped_ticks = 0.1;
   for (const DeviceSettings& device : {dynamic, late, dropping})
-    EXPECT_TRUE(idle_ticks(two_drags(3.0, false), device).empty());
+    EXPECT_TRUE(idle_ticks(two_drags(3.0, Pause::unsampled), device).empty());
 }
 
 TEST(IdleTicks, TakeNoTimeForYears) {
   Scene scene = bed_of_two_drags();
-  const GapRun seconds(scene, two_drags(3.0, false)), years(scene, two_drags(1e9, false));
+  const GapRun seconds(scene, two_drags(3.0, Pause::unsampled)),
+      years(scene, two_drags(1e9, Pause::unsampled));
   EXPECT_EQ(years.told, seconds.told);
   EXPECT_NEAR(years.result.simulated_seconds, 1e9, 1.0);
   EXPECT_NEAR(static_cast<double>(years.result.relaxations), 60e9, 60.0);

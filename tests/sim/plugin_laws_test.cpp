@@ -185,7 +185,7 @@ TEST(PluginLaws, ANameThatIsNotThereIsRefusedWithThoseThatAre) {
   EXPECT_TRUE(says(refusal_of(begin), "set model.plugin to the plugin's file"));
 }
 
-TEST(PluginLaws, WhatALawThrowsNamesIt) {
+TEST(PluginLaws, AnErrorThatALawThrowsNamesIt) {
   PluginLaws laws;
   laws.displacements["thrown"] = [](const Scene&, double) -> std::unique_ptr<Displacer> {
     throw std::runtime_error("no table");

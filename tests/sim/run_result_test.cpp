@@ -268,8 +268,8 @@ TEST(RunResult, AStrokesLastTickIsAtItsEndWhereThatIsAWholeNumberOfTicks) {
       for (std::size_t k = 0; k < told.ticks.size(); ++k)
         EXPECT_EQ(told.ticks[k].time, static_cast<double>(k) / 1000.0);
       const TickRecord& last = told.ticks.back();
-      const double share = last.time / duration;  // of the way
-      EXPECT_NEAR((last.hand.position - (from + share * (to - from))).norm(), 0.0, 1e-12);
+      const double fraction = last.time / duration;  // the part of the way
+      EXPECT_NEAR((last.hand.position - (from + fraction * (to - from))).norm(), 0.0, 1e-12);
       EXPECT_NEAR((last.next.position - to).norm(), 0.0, 1e-12) << "no tick goes beyond the stroke";
       EXPECT_TRUE(last.contact);
     }
@@ -316,7 +316,7 @@ TEST(RunResult, BelowTheSandAfterAGapTheForceFadesInAndNoEnergyIsOwed) {
   scene.relaxation.rate = 0.0;
   scene.force.k_f = 0.0;
   scene.device.scale = 1.0;
-  for (const double max_force : {0.0, 1.0}) {  // of 2 N
+  for (const double max_force : {0.0, 1.0}) {  // the unlimited force is 2 N
     scene.device.max_force = max_force;
     ToldRun told;
     const RunResult result = Simulation(scene, starting_bed(scene.bed), with_gap_below(-0.004)).run({&told});

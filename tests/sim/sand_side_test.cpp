@@ -49,13 +49,13 @@ double displaced_between(HeightField& bed, const Eigen::Vector3d& here, const Ei
 }
 
 TEST(SandSide, ATickOfHalfARadiusDisplacesOnlyWhereItEnds) {
-  HeightField path(100, 100, 0.002), place = path;
+  HeightField path(100, 100, 0.002), there = path;
   const Eigen::Vector3d to(0.0049, 0.0, -0.02);
   const double volume = displaced_between(path, {0.0, 0.0, 0.001}, to);
   SphereTool tool({0.01, ToolProfile::sphere});
-  tool.place(place, to.x(), to.y());
-  EXPECT_EQ(volume, tool.displace(place, to.z(), {0.0049, 0.0, -0.021}, {Deposit::ahead}));
-  EXPECT_TRUE((path.grid() == place.grid()).all());
+  tool.place(there, to.x(), to.y());
+  EXPECT_EQ(volume, tool.displace(there, to.z(), {0.0049, 0.0, -0.021}, {Deposit::ahead}));
+  EXPECT_TRUE((path.grid() == there.grid()).all());
 }
 
 TEST(SandSide, DisplacesNothingInTheAirOrBesideTheBed) {
@@ -83,15 +83,16 @@ std::vector<double> relaxations_of_a_drag(double tick) {
   HeightField bed(100, 100, 0.002);
   RelaxationSettings relaxation;
   relaxation.way = 0.4;
-  SandSide sand({0.01, ToolProfile::sphere, true}, {Deposit::outward}, relaxation);
+  SandSide sand({.radius = 0.01, .profile = ToolProfile::sphere, .solid = true}, {Deposit::outward},
+                relaxation);
   std::vector<double> relaxations;
   Eigen::Vector3d tip(-0.02, 0.0, -0.003);
   const auto relax = [&] {
-    sand.hold(bed);
+    sand.make_walls(bed);
     // Held are the cells under the tool where it is now: their middle.
     double sum = 0.0, cells = 0.0;
     for (int col = 0; col < 100; ++col)
-      if (bed.is_held(50, col)) {
+      if (bed.is_wall(50, col)) {
         sum += bed.x_of(col);
         cells += 1.0;
       }
@@ -105,7 +106,7 @@ std::vector<double> relaxations_of_a_drag(double tick) {
   }
   tip.z() = 0.02;
   sand.move(bed, tip, tip, relax);
-  EXPECT_TRUE(bed.held().empty());
+  EXPECT_TRUE(bed.tool_walls().empty());
   return relaxations;
 }
 
@@ -122,7 +123,8 @@ TEST(SandSide, RelaxesAtTheSamePositionsWhateverTheTicks) {
 /// The number of relaxations in a drag of this length through flat sand, the tip this far below it [m].
 int count_relaxations(const RelaxationSettings& relaxation, double depth, double length) {
   HeightField bed(100, 100, 0.002);
-  SandSide sand({0.01, ToolProfile::sphere, true}, {Deposit::outward}, relaxation);
+  SandSide sand({.radius = 0.01, .profile = ToolProfile::sphere, .solid = true}, {Deposit::outward},
+                relaxation);
   int relaxations = 0;
   for (int i = 0; i <= 400; ++i) {
     const Eigen::Vector3d tip(-0.06 + length * i / 400, 0.0, -depth);
@@ -140,7 +142,8 @@ double way_before_a_step(const RelaxationSettings& relaxation, double above_rim)
   HeightField bed(100, 100, 0.002);
   for (int row = 0; row < 100; ++row)
     for (int col = 50; col < 100; ++col) bed.set(row, col, 0.007 + above_rim);
-  SandSide sand({0.01, ToolProfile::sphere, true}, {Deposit::outward}, relaxation);
+  SandSide sand({.radius = 0.01, .profile = ToolProfile::sphere, .solid = true}, {Deposit::outward},
+                relaxation);
   sand.put(bed, {-0.0105, 0.0, -0.003}, true);
   sand.relaxed(bed);
   double way = 0.0;
@@ -181,19 +184,19 @@ TEST(SandSide, RelaxesEveryQuarterOfACellAtMost) {
 
 TEST(SandSide, ALiftedToolHoldsNothing) {
   HeightField bed(100, 100, 0.002);
-  SandSide sand({0.01, ToolProfile::sphere, true}, {Deposit::outward});
+  SandSide sand({.radius = 0.01, .profile = ToolProfile::sphere, .solid = true}, {Deposit::outward});
   const Eigen::Vector3d tip(0.0, 0.0, -0.003);
   sand.move(bed, tip, tip, no_slip);
-  sand.hold(bed);
-  EXPECT_FALSE(bed.held().empty());
+  sand.make_walls(bed);
+  EXPECT_FALSE(bed.tool_walls().empty());
   sand.lift();
-  sand.hold(bed);
-  EXPECT_TRUE(bed.held().empty());
+  sand.make_walls(bed);
+  EXPECT_TRUE(bed.tool_walls().empty());
 
   SandSide hollow({0.01, ToolProfile::sphere}, {Deposit::outward});
   hollow.move(bed, tip, tip, no_slip);
-  hollow.hold(bed);
-  EXPECT_TRUE(bed.held().empty());
+  hollow.make_walls(bed);
+  EXPECT_TRUE(bed.tool_walls().empty());
 }
 
 TEST(SandSide, BesideTheBedThereIsNoLevelAndNoContact) {
@@ -222,7 +225,7 @@ TEST(SandSide, IsInContactBelowTheLevelAndNotAtIt) {
 }
 
 TEST(SandSide, ARakeThatGoesFarInATickLeavesFurrowsAndNoPits) {
-  ToolSettings rake{0.004, ToolProfile::sphere, true, ToolShape::rake};
+  ToolSettings rake{.radius = 0.004, .profile = ToolProfile::sphere, .solid = true, .shape = ToolShape::rake};
   rake.teeth = 3;
   rake.spacing = 0.02;
   HeightField bed(120, 120, 0.001);

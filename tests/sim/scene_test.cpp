@@ -125,17 +125,17 @@ TEST(CheckScene, ToolAndRampartMustFitTheShorterSide) {
     Scene scene = wide ? stroked_scene(0.3, 150, 0.2, 100) : stroked_scene(0.2, 100, 0.3, 150);
     scene.tool.radius = 0.01;
     const double radii = filter::reach(1.0);  // of rampart and tool
-    for (const auto& [share, taken] : {std::pair{0.95, true}, {1.05, false}}) {
-      scene.tool.radius = share * 0.1 / radii;
-      EXPECT_EQ(is_taken(scene), taken) << share;
+    for (const auto& [ratio, taken] : {std::pair{0.95, true}, {1.05, false}}) {
+      scene.tool.radius = ratio * 0.1 / radii;
+      EXPECT_EQ(is_taken(scene), taken) << ratio;
     }
   }
 }
 
 TEST(CheckScene, CellsMustBeSquareToABillionth) {
-  for (const auto& [share, taken] :
+  for (const auto& [longer, taken] :
        {std::pair{0.95e-9, true}, {1.05e-9, false}, {-0.95e-9, true}, {-1.05e-9, false}})
-    EXPECT_EQ(is_taken(stroked_scene(0.3, 150, 0.2 * (1.0 + share), 100)), taken) << share;
+    EXPECT_EQ(is_taken(stroked_scene(0.3, 150, 0.2 * (1.0 + longer), 100)), taken) << longer;
 }
 
 TEST(CheckScene, OnlyThePapersLawTakesMoreThanAQuarter) {

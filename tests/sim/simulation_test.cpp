@@ -31,7 +31,7 @@ Stroke through(const std::vector<Eigen::Vector3d>& points, double interval) {
 }
 
 TEST(Simulation, FindsALoopThatSwingsByItself) {
-  // Down at 0.1 m/s and held: late by 40 ticks it never comes to rest; on time it does.
+  // Down at 0.1 m/s, then at rest: late by 40 ticks it never comes to rest; on time it does.
   const auto swings_from = [](int delay) {
     Scene scene = small_scene();
     scene.force.k_f = 0.0;
@@ -67,7 +67,7 @@ TEST(Simulation, WorkOfAConstantSpeedPlungeIsTheClosedForm) {
   EXPECT_GT(result.displaced_volume, 0.0);
   EXPECT_NEAR(recording.ticks.back().depth, depth, 1e-14);  // displacement leaves the level where it is
   EXPECT_NEAR(result.device.max_force, k_s * std::expm1(k_c * depth), 1e-10);
-  // A force is held from the start of its tick: of a spring's work a share of v T / d is missing.
+  // A force is held from the start of its tick: of a spring's work a fraction of v T / d is missing.
   const double speed = depth / 3.0, missing = speed / scene.device.servo_rate / depth;
   const double work = k_s * (std::expm1(k_c * depth) / k_c - depth);
   EXPECT_NEAR(1.0 - result.device.absorbed_energy / work, missing, 0.01 * missing);
@@ -138,7 +138,7 @@ TEST(Simulation, RefusesAStrokeOfMoreTicksThanCanBePlayed) {
   }
 }
 
-TEST(Simulation, WhatIsReachedLiftedIsNoPath) {
+TEST(Simulation, ALiftedHandLeavesNoPath) {
   const Scene scene = small_scene();
   Stroke stroke = through({{-0.08, 0, -0.006}, {0.08, 0, -0.006}}, 1e-3);
   stroke.contact = {pen_lifts, pen_down};
@@ -299,7 +299,7 @@ TEST(Simulation, TheForceThatActsIsTheOneComputedTicksBefore) {
   EXPECT_NEAR(result.device.absorbed_energy, absorbed, 0.01 * absorbed);  // the last tick is not in the sum
 }
 
-TEST(Simulation, ImplicitDragHoldsWhereSampledDragThrowsTheDevice) {
+TEST(Simulation, ImplicitDragIsStableWhereSampledDragThrowsTheDevice) {
   // B = k_f F_r = 10 s/m x 60 N is above 2 m / T = 500 N s/m.
   Scene scene = small_scene();
   scene.device = ideal_device();
@@ -312,9 +312,9 @@ TEST(Simulation, ImplicitDragHoldsWhereSampledDragThrowsTheDevice) {
     return simulation.run({&recording});
   };
   EXPECT_THROW(run(DragVelocity::sampled), Error);
-  const RunResult held = run(DragVelocity::implicit);
-  EXPECT_GT(held.device.max_force, 50.0);
-  EXPECT_GT(held.device.absorbed_energy, 0.0);
+  const RunResult stable = run(DragVelocity::implicit);
+  EXPECT_GT(stable.device.max_force, 50.0);
+  EXPECT_GT(stable.device.absorbed_energy, 0.0);
 }
 
 TEST(Simulation, ASceneWithoutAStrokeIsACollapse) {
@@ -412,7 +412,7 @@ TEST(Simulation, EndsWithTheToolGoneAndTheSandAtRestWithoutIt) {
                         through({{-0.02, 0, -0.008}, {0.02, 0, -0.008}}, 0.2));
   const RunResult result = simulation.run();
   EXPECT_GT(result.contact_ticks, 0);
-  EXPECT_TRUE(simulation.bed().held().empty());
+  EXPECT_TRUE(simulation.bed().tool_walls().empty());
   HeightField alone(simulation.bed().grid(), simulation.bed().cell_size());
   const RelaxationOutcome more = make_relaxer(scene.relaxation, alone.cell_size())->relax(alone);
   EXPECT_LE(more.moved_volume, 1e-3 * result.moved_volume);

@@ -47,11 +47,11 @@ void expect_bits_of_a_run(const Scene& scene, bool lifts) {
   for (std::size_t k = 0; k < played.ticks.size(); ++k) {
     const TickRecord& asked = played.ticks[k];
     if (stepped.time() < asked.time - 1e-9) {  // an idle tick, of which nobody is told
-      stepped.tick(Hand{asked.hand.position}, false, true);
+      stepped.tick(Hand{asked.hand.position}, {.orientation = true});
       --k;
       continue;
     }
-    const TickRecord& tick = stepped.tick(asked.hand, true, true);
+    const TickRecord& tick = stepped.tick(asked.hand, {.velocity = true, .orientation = true});
     ASSERT_EQ(tick.device_force, asked.device_force) << asked.time;
     ASSERT_EQ(tick.wrench.torque, asked.wrench.torque) << asked.time;
     ASSERT_EQ(tick.depth, asked.depth) << asked.time;
@@ -90,8 +90,8 @@ TEST(SteppedSimulation, RelaxesOnlyWhenToldWhereThatIsAsked) {
   SteppedSimulation stepped(scene, starting_bed(scene.bed), false), relaxing(scene, starting_bed(scene.bed));
   for (int k = 0; k < 200; ++k) {
     const Hand hand{Eigen::Vector3d(-0.04 + 4e-4 * k, 0.0, -0.008), Eigen::Vector3d::Zero(), true};
-    stepped.tick(hand, false, false);
-    relaxing.tick(hand, false, false);
+    stepped.tick(hand);
+    relaxing.tick(hand);
   }
   EXPECT_GT(stepped.bed().highest(), 1.5 * relaxing.bed().highest());
   EXPECT_GT(stepped.relax().passes, 0);
@@ -104,9 +104,9 @@ TEST(SteppedSimulation, TakesTheVelocityOfTheWayWithoutOne) {
   for (int k = 0; k < 100; ++k) {
     Hand hand{Eigen::Vector3d(-0.02 + 2e-4 * k, 0.0, -0.004), Eigen::Vector3d(k > 0 ? 0.2 : 0.0, 0.0, 0.0),
               true};
-    const Eigen::Vector3d force = told.tick(hand, true, false).device_force;
+    const Eigen::Vector3d force = told.tick(hand, {.velocity = true}).device_force;
     hand.velocity.setZero();
-    EXPECT_LT((guesses.tick(hand, false, false).device_force - force).norm(), 1e-9);
+    EXPECT_LT((guesses.tick(hand).device_force - force).norm(), 1e-9);
   }
 }
 
@@ -115,7 +115,7 @@ TEST(SteppedSimulation, RefusesWhatIsNoNumberAndAHandThatMustBeKnownBefore) {
   SteppedSimulation stepped(scene, starting_bed(scene.bed));
   Hand hand{Eigen::Vector3d(0.0, std::numeric_limits<double>::quiet_NaN(), 0.0), Eigen::Vector3d::Zero(),
             true};
-  EXPECT_THROW(stepped.tick(hand, false, false), Error);
+  EXPECT_THROW(stepped.tick(hand), Error);
   scene.device.model = DeviceModel::dynamic;
   scene.device.drag = DragVelocity::implicit;
   EXPECT_THROW(SteppedSimulation(scene, starting_bed(scene.bed)), Error);

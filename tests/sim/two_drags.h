@@ -5,9 +5,12 @@
 
 namespace sandstroke {
 
-/// Two drags of about 0.3 s through the sand, with a pause of this length [s] between them. watched: the
-/// lifted hand is sampled in the pause, on its straight way, so the motion is the same and no tick is idle.
-inline Stroke two_drags(double apart, bool watched) {
+/// Whether the lifted hand is sampled in a pause, on its straight way: the motion is the same, but no tick is
+/// idle.
+enum class Pause { unsampled, sampled };
+
+/// Two drags of about 0.3 s through the sand, with a pause of this length [s] between them.
+inline Stroke two_drags(double apart, Pause pause) {
   Stroke stroke;
   const auto add = [&](double time, const Eigen::Vector3d& position, PenState pen) {
     stroke.time.push_back(time);
@@ -18,7 +21,7 @@ inline Stroke two_drags(double apart, bool watched) {
   const double lifts = 7.3005, lands = lifts + apart;
   for (int i = 0; i <= 6; ++i)
     add(7.0 + i * (lifts - 7.0) / 6, left + 0.01 * i * Eigen::Vector3d::UnitX(), pen_down);
-  if (watched)
+  if (pause == Pause::sampled)
     for (int i = 1; i < 64; ++i)
       add(lifts + i * apart / 64, stroke.position[6] + i / 64.0 * (right - stroke.position[6]), pen_up);
   for (int i = 0; i <= 6; ++i) add(lands + 0.05 * i, right - 0.01 * i * Eigen::Vector3d::UnitX(), pen_down);
