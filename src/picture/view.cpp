@@ -16,7 +16,8 @@ void describe_view(KeyVisitor& v, ViewSettings& view) {
   v.number("light_elevation", view.light_elevation, sharp_angle, "deg", "height of the sun");
   int size[2] = {view.width, view.height};
   v.integers("size", size, 2, 16, 8192, "width and height in pixels");
-  view.width = size[0], view.height = size[1];
+  view.width = size[0];
+  view.height = size[1];
 }
 
 }  // namespace sandstroke

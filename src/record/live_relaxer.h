@@ -18,7 +18,7 @@ namespace sandstroke {
 struct ToolPose {
   Eigen::Vector3d tip = Eigen::Vector3d::Zero();  ///< m, in the bed
   bool contact = false;
-  std::optional<Eigen::Matrix3d> rotation = {};  ///< the tool's frame in the bed; none: fixed
+  std::optional<Eigen::Matrix3d> rotation = {};  ///< how the tool's frame lies in the bed; none: fixed
 };
 
 using SandRing = SpscRing<SandChange>;

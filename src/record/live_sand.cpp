@@ -12,7 +12,7 @@ namespace sandstroke {
 namespace {
 
 constexpr std::size_t ring_size = std::size_t{1} << 20;  // changes: 16 MB each way
-constexpr std::size_t most_poses = 1024;                 // the tool's, not read yet: a second of ticks
+constexpr std::size_t most_poses = 1024;                 // of the tool, not read yet: a second of ticks
 constexpr int most_taken = 4096;                         // changes per tick: some 50 us
 const double gap_threshold = Stroke{}.gap_threshold;     // s: gaps that `run` does not join stay gaps
 
@@ -78,7 +78,7 @@ void LiveSand::turn_tool(const Eigen::Quaterniond& orientation) {
   for (Eigen::Index i = 0; i < 4; ++i)
     orientation_[static_cast<std::size_t>(i)].store(placed.coeffs()[i], std::memory_order_relaxed);
   const Eigen::Matrix3d rotation = rotation_of(placed) * own_rotation_;
-  if (shaper_) shaper_->follow(rotation, sand_.exchangeable_tool());
+  if (shaper_) shaper_->follow(rotation, sand_);
   force_->turn(rotation);
 }
 

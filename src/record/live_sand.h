@@ -114,7 +114,7 @@ class LiveSand : public FeltWorld {
   LiveRelaxer relaxer_thread_;
   SandSide sand_;
   std::unique_ptr<HandForce> force_;
-  Eigen::Matrix3d own_rotation_;      // the tool's
+  Eigen::Matrix3d own_rotation_;      // of the tool
   bool turns_;                        // the tool turns with the hand
   std::optional<ToolShaper> shaper_;  // for a tool that turns, and is no sphere
   std::array<Past, velocity_window> past_;

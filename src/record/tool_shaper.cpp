@@ -53,15 +53,15 @@ bool ToolShaper::work() noexcept {
   return false;
 }
 
-bool ToolShaper::follow(const Eigen::Matrix3d& rotation, std::unique_ptr<Tool>& tool) noexcept {
+bool ToolShaper::follow(const Eigen::Matrix3d& rotation, SandSide& sand) noexcept {
   const State state = state_.load(std::memory_order_acquire);
   if (state == asked) return false;
   if (state == made) {
-    std::swap(tool, spare_);
+    sand.exchange(spare_);
     rotation_ = asked_;
   }
   state_.store(idle, std::memory_order_relaxed);
-  if (tool->would_turn(rotation)) {
+  if (sand.tool().would_turn(rotation)) {
     asked_ = rotation;
     state_.store(asked, std::memory_order_release);
   }

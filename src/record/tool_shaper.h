@@ -5,7 +5,7 @@
 #include <memory>
 #include <thread>
 
-#include "sand/tool.h"
+#include "sim/sand_side.h"
 
 namespace sandstroke {
 
@@ -27,9 +27,9 @@ class ToolShaper {
   const std::exception_ptr& failure() const { return failure_; }
 
   /// For the servo loop: the hand holds the tool like this now. Takes neither time nor memory. True:
-  /// `tool` is newer, turned by rotation(). A tool that is too thin for the cells in this orientation
-  /// keeps its footprint.
-  bool follow(const Eigen::Matrix3d& rotation, std::unique_ptr<Tool>& tool) noexcept;
+  /// the sand has a newer tool, turned by rotation(). A tool that is too thin for the cells in this
+  /// orientation keeps its footprint.
+  bool follow(const Eigen::Matrix3d& rotation, SandSide& sand) noexcept;
   const Eigen::Matrix3d& rotation() const { return rotation_; }
 
  private:

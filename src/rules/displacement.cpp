@@ -68,7 +68,7 @@ double PlainDisplacement::sand_level(const HeightGrid& heights) const {
 double PlainDisplacement::displace(HeightGrid& heights, double tip_height, const Eigen::Vector3d& motion,
                                    const DisplacementSettings& settings) const {
   HeightGrid excess = HeightGrid::Zero(row_end_ - row_begin_, col_end_ - col_begin_), ring = excess,
-             weights = excess;  // the window's
+             weights = excess;  // of the window
   SumOfColumns taken, on_ring, on_part;
   for_cells([&](int row, int col) {
     const int r = row - row_begin_, c = col - col_begin_;

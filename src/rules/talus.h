@@ -12,7 +12,7 @@ using HeightGrid = Eigen::Array<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::R
 using WallGrid = Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 /// How sand that lies too steep flows. m is a cell's height, m_i its neighbour's, and T_i = tan(talus) times
-/// the distance between the two. c is a fraction, 1/2 for paper and 1/4 for the others.
+/// the distance between the two. c, the share, is 1/2 for paper and 1/4 for the others.
 ///   paper:     dm = c max_i(m - m_i - T_i) over the 8 neighbours, shared among those with m - m_i > T_i in
 ///              proportion to m - m_i (section 3.2)
 ///   isotropic: upwind slope |g| = sqrt(gx^2 + gy^2), gx = max(0, m - west, m - east)/dx; each lower axis

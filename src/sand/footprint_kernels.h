@@ -30,7 +30,7 @@ struct EnvelopeWindow {
 };
 /// The ways on which the sand of a window's cells leaves the tool.
 struct WayOutWindow {
-  const double *x, *y;  ///< the window's first cell [cells]
+  const double *x, *y;  ///< the ways, from the window's first cell on [cells]
   int stride;
   /// Computes where the sand of a cell at (at_x, at_y) goes, from the axis [cells]; NaN: nowhere.
   void aim(int row, int col, double at_x, double at_y, double& to_x, double& to_y) const {
@@ -57,7 +57,7 @@ double carve(const SphereShape& shape, ToolFootprint& footprint, double tip_heig
 /// ring_weight.
 struct RingFront {
   double drag_fraction;
-  Eigen::Vector2d direction;  ///< the drag's, a unit vector
+  Eigen::Vector2d direction;  ///< of the drag, a unit vector
 };
 struct Carved {
   double sum;

@@ -123,7 +123,7 @@ class RklRelaxer : public Relaxer {
       moved_.add(flowing);
       tau = share * (j + 1.0) * (j + 2.0) / 2.0;
       const double growth = (j + 3.0) / (j + 1.0);  // tau's, in the next stage
-      const double squared = growth * growth;       // the error's
+      const double squared = growth * growth;       // of the error
       ahead = sand_.work() >= work_worth_ahead && foreseen * squared <= step_tolerance_;
       if (ahead)
         compute_flow(bed, stage_of(j + 1, share));

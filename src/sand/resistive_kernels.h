@@ -12,7 +12,7 @@ struct ResistiveTick {
   double* ways;  ///< x, y, z of each element's displacement, in yield ways; updated
   Eigen::Vector3d tip;
   SandPlane plane;
-  Eigen::Vector3d motion;  ///< the tip's, in yield ways
+  Eigen::Vector3d motion;  ///< of the tip, in yield ways
   Eigen::Matrix3d spin;  ///< 1/m; times an element's position: its motion relative to the tip, in yield ways
   double resistance;     ///< N/m^3, xi
   double tool_friction, yield_way;

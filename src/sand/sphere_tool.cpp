@@ -59,7 +59,8 @@ void SphereTool::carve_only(double tip_height) { carve(shape_, footprint_, tip_h
 
 void SphereTool::cover() { carve(shape_, footprint_, std::numeric_limits<double>::infinity()); }
 
-double SphereTool::sand_above_rim(double tip_height) const {
+double SphereTool::sand_above_rim(const HeightField& bed, double tip_height) {
+  read_heights(bed);
   const ToolFootprint& f = footprint_;
   const double rim = radius_ / f.cell_size(), beyond = rim + 1.0;  // cells
   double highest = -std::numeric_limits<double>::infinity();

@@ -15,7 +15,7 @@ class SphereTool : public Tool {
   /// moves. Displacement moves sand only where the weight is 1, so it does not change the level.
   void place(const HeightField& bed, double x, double y) override;
   /// Looks at the cells within one cell outside the rim; -infinity if there are none.
-  double sand_above_rim(double tip_height) const override;
+  double sand_above_rim(const HeightField& bed, double tip_height) override;
 
  private:
   double displace_in_footprint(const HeightField& bed, double tip_height, const Eigen::Vector3d& motion,

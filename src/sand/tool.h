@@ -56,7 +56,7 @@ class Tool {
   virtual bool touches() const { return false; }
   /// Height [m] of the highest sand beside the tool's rim above that rim; infinite for a tool whose sides are
   /// always in its own heap.
-  virtual double sand_above_rim(double /*tip_height*/) const {
+  virtual double sand_above_rim(const HeightField& /*bed*/, double /*tip_height*/) {
     return std::numeric_limits<double>::infinity();
   }
 

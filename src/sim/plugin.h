@@ -12,11 +12,12 @@ namespace sandstroke {
 /// compiler, and how objects lie in memory. Raise `interface` by hand when a class that laws derive from
 /// changes.
 inline std::string plugin_interface() {
-  constexpr int interface = 1;
-  return fmt::format("sandstroke {}, laws {}, C++ ABI {}.{}, Eigen {}.{}.{}, objects of {} {} {} {} {} bytes",
-                     version, interface, __GXX_ABI_VERSION, _GLIBCXX_USE_CXX11_ABI, EIGEN_WORLD_VERSION,
-                     EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION, sizeof(Scene), sizeof(HeightField),
-                     sizeof(ToolFootprint), sizeof(Tool), sizeof(RelaxationOutcome), sizeof(Wrench));
+  constexpr int interface = 2;
+  return fmt::format(
+      "sandstroke {}, laws {}, C++ ABI {}.{}, Eigen {}.{}.{}, objects of {} {} {} {} {} {} bytes", version,
+      interface, __GXX_ABI_VERSION, _GLIBCXX_USE_CXX11_ABI, EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION,
+      EIGEN_MINOR_VERSION, sizeof(Scene), sizeof(HeightField), sizeof(ToolFootprint), sizeof(Tool),
+      sizeof(RelaxationOutcome), sizeof(Wrench));
 }
 
 }  // namespace sandstroke

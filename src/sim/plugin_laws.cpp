@@ -114,6 +114,7 @@ class WatchedForce : public ToolForce {
   void turn(const Eigen::Matrix3d& rotation) override {
     by_law(law_, [&] { plugin_law_->turn(rotation); });
   }
+  bool gives_wrench() const override { return plugin_law_->gives_wrench(); }
 
  private:
   std::string law_;

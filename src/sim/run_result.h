@@ -17,14 +17,14 @@ namespace sandstroke {
 /// Everything recorded about one servo tick (a row of /trace in a run file).
 struct TickRecord {
   double time = 0.0;  ///< s
-  Hand hand, next;    ///< the hand's wish at its start and end, device frame
+  Hand hand, next;    ///< where the hand wants to be at the tick's start and end, device frame
   Eigen::Vector3d device_position = Eigen::Vector3d::Zero();  ///< m, as read from the encoders, device frame
   Eigen::Vector3d device_force = Eigen::Vector3d::Zero();     ///< N, on the device, saturated
   Eigen::Vector3d repulse_force = Eigen::Vector3d::Zero();    ///< N
   Eigen::Vector3d drag_force = Eigen::Vector3d::Zero();       ///< N
   /// N, the force on the hand that was recorded with the stroke (haptics/recorded_force.h); NaN: not known.
   Eigen::Vector3d recorded_force = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
-  Wrench wrench = {};  ///< the contact's, by any law but the paper's: force and torque on the bed's axes
+  Wrench wrench = {};  ///< by any law but the paper's: force and torque on the bed's axes
   double level = std::numeric_limits<double>::quiet_NaN();  ///< m, sand level under the tool; NaN: lifted
   double depth = 0.0;             ///< m, of the tip below the level; negative = above
   double displaced_volume = 0.0;  ///< m^3, displaced in this tick

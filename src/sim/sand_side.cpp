@@ -101,7 +101,7 @@ double SandSide::buried(const HeightField& bed) {
   // Once sand stands at a sphere's rim, the sand displaced outward and the sand that falls in behind the
   // sphere run from one crest. At the sides of any other tool that is always so. (A plough that goes 0.4
   // inradii leaves 25 % of its sand elsewhere than one that goes 0.05; 0.1: 7 %.)
-  return std::clamp(tool_on(bed).sand_above_rim(tip_.z()) / (deep_at_rim * tool_->radius()), 0.0, 1.0);
+  return std::clamp(tool_->sand_above_rim(bed, tip_.z()) / (deep_at_rim * tool_->radius()), 0.0, 1.0);
 }
 
 double SandSide::way_to_next_relaxation(const HeightField& bed) {

@@ -69,8 +69,8 @@ class SandSide {
     tool_->read_heights(bed);
     return *tool_;
   }
-  /// For exchanging the tool; takes effect at the next move().
-  std::unique_ptr<Tool>& exchangeable_tool() { return tool_; }
+  /// Swaps the tool for another one, which is used from the next move() on.
+  void exchange(std::unique_ptr<Tool>& other) { std::swap(tool_, other); }
   /// Position of the tool in the last tick [m]; none if it was lifted since.
   const std::optional<Eigen::Vector3d>& last_tip() const { return last_tip_; }
 

@@ -68,7 +68,7 @@ struct Scene {
   ToolSettings tool;
   DisplacementSettings displacement;
   ForceSettings force;
-  SandStrength strength;  ///< the sand's, for any force.law but the paper's
+  SandStrength strength;  ///< of the sand, for any force.law but the paper's
   RelaxationSettings relaxation;
   DeviceSettings device;
   std::optional<StrokeSettings> stroke;  ///< without one, the bed is only relaxed

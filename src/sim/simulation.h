@@ -54,7 +54,7 @@ class Simulation {
   TickLoop loop_;
   std::optional<StrokeSampler> stroke_;
   std::optional<SandFollower> follower_;
-  std::int64_t ticks_ = 0;  // the stroke's
+  std::int64_t ticks_ = 0;  // of the stroke
   std::vector<TickRange> idle_;
   Observers observers_;
   RunResult result_;

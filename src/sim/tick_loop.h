@@ -59,7 +59,7 @@ class TickLoop {
 
   Scene scene_;
   HeightField bed_;
-  Eigen::Matrix3d own_rotation_;  // the tool's
+  Eigen::Matrix3d own_rotation_;  // of the tool
   SandSide sand_;
   std::unique_ptr<ToolForce> tool_force_;
   DeviceSide device_;

@@ -27,13 +27,14 @@ class ToolForce {
   /// How the tool lies in the bed from the next feel() on.
   virtual void turn(const Eigen::Matrix3d& /*rotation*/) {}
 
-  /// False for a law that never gives a wrench.
+  /// False for a law that never gives a wrench: then feel() is not called.
   virtual bool gives_wrench() const { return true; }
 
   /// Feels in any tick, in contact or not, after the tool went by `motion` [m] to where it displaced last,
   /// `tip` [m].
-  virtual Wrench in_tick(SandSide& sand, const HeightField& bed, const Eigen::Vector3d& tip,
-                         const Eigen::Vector3d& motion, bool contact) {
+  Wrench in_tick(SandSide& sand, const HeightField& bed, const Eigen::Vector3d& tip,
+                 const Eigen::Vector3d& motion, bool contact) {
+    if (!gives_wrench()) return {};
     if (!contact) {
       lift();
       return {};
@@ -48,10 +49,6 @@ class NoToolForce : public ToolForce {
  public:
   Wrench feel(const ToolInSand& /*touch*/) override { return {}; }
   bool gives_wrench() const override { return false; }
-  Wrench in_tick(SandSide& /*sand*/, const HeightField& /*bed*/, const Eigen::Vector3d& /*tip*/,
-                 const Eigen::Vector3d& /*motion*/, bool /*contact*/) override {
-    return {};
-  }
 };
 
 }  // namespace sandstroke

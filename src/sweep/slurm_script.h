@@ -20,7 +20,7 @@ struct SlurmWork {
   std::filesystem::path program;  ///< this program; absolute
   std::filesystem::path start;    ///< the folder in which the user submitted; absolute
   std::filesystem::path plan;     ///< as the user named it
-  std::filesystem::path folder;   ///< the sweep's, as the user named it
+  std::filesystem::path folder;   ///< of the sweep, as the user named it
 };
 
 /// The number of tasks with which each runs four simulations per processor. At most Slurm's default limit

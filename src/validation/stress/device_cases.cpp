@@ -66,7 +66,7 @@ Outcome simulate(const Scene& scene) {
     const bool creeps = swing < 0.7 * swing_between(ticks.values, waited - 0.5, waited - 0.25);
     outcome.verdict = swing < rests_within || creeps ? Verdict::stable : Verdict::limit_cycle;
     outcome.detail = fmt::format(
-        "the force swings by {:.3g} N at rest, up to {:.3g} mm deep and {:.3g} N; {:.3g} J into the sand, "
+        "the force swings by {:.3g} N at the end, up to {:.3g} mm deep and {:.3g} N; {:.3g} J into the sand, "
         "{}; "
         "least passivity margin {:.3g} N s/m",
         swing, 1e3 * result.max_depth, device.max_force, device.absorbed_energy,

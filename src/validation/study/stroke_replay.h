@@ -13,7 +13,7 @@ namespace sandstroke {
 struct Replay {
   RunResult result;
   HeightGrid heights;
-  std::vector<Eigen::Vector3d> force, position;  ///< the device's, 100 times a second
+  std::vector<Eigen::Vector3d> force, position;  ///< of the device, 100 times a second
 };
 
 /// Runs a stroke on the scene's starting surface. The servo rate must be a multiple of 100 Hz.
