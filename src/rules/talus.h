@@ -19,7 +19,7 @@ using WallGrid = Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMa
 ///              neighbour gets c (1 - tan(talus)/|g|) (m - m_i); monotone for c <= 1/4
 ///   faces:     the same with |g| at the face between the two cells, so that a crest that slides on one side
 ///              gives nothing to the other. Along the face's normal the slope is the drop M = m - m_i, and
-///              n^2 / (3 max(M, n)) with n = min(M, N) where the giver falls by N to its other side, too.
+///              n^2 / (3 max(M, N)) with n = min(M, N) where the giver falls by N to its other side, too.
 ///              (Heights are means: those of a crest of slope T whose top is in the cell drop by M and N with
 ///              M + N^2 / (3 M) = T dx, N <= M.) Across it the slope is the mean of both cells' central
 ///              differences, one-sided at walls.
