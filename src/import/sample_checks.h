@@ -9,7 +9,7 @@
 
 namespace sandstroke {
 
-// What readers of several formats check of the samples that they make.
+// Checks of the samples that readers of several formats make.
 
 /// Checks that samples are still finite after a reader has calculated with a file's numbers. Error: input.
 inline SampleTable finite_samples(SampleTable table, const std::string& name) {

@@ -5,7 +5,7 @@
 
 namespace sandstroke {
 
-/// What a scene file holds: the settings of a run, and how its pictures show the sand.
+/// The content of a scene file: the settings of a run, and how its pictures show the sand.
 struct SceneFile : Scene {
   ViewSettings view = {};
 };

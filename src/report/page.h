@@ -9,7 +9,7 @@
 
 namespace sandstroke {
 
-/// What a page has beside the frame that all pages share.
+/// The scripts and styles of a page, beside the frame that all pages share.
 struct PageAssets {
   std::vector<std::string_view> scripts = {}, styles = {};  ///< its own
   bool charts = true;                                       ///< the chart library

@@ -134,7 +134,7 @@ class Watched {
   std::thread reader_;
 };
 
-/// What goes on beside a recording.
+/// A load that runs beside a recording.
 struct Beside {
   bool load = false, sand = false, view = false;
 };
