@@ -312,6 +312,18 @@ void add_force_options(CLI::App& app, RecordArguments& arguments) {
       ->needs(feel);
 }
 
+constexpr const char* record_footer =
+    "A recording is complete if a time, its stroke, a switch or a key (q, Esc, Enter, space) ends it.\n"
+    "If anything else ends it, such as Ctrl-C, it is kept and marked incomplete.\n"
+    "After kill -9 or a power failure it is in STROKE.h5.recording.\n"
+    "Save it with: sandstroke stroke repair STROKE.h5\n"
+    "With --feel there is no force until the tool was out of the sand once. record refuses sand in which\n"
+    "the hand and the device would shake. It judges by the largest force, the rate, and the scene's\n"
+    "device.mass, device.damping, device.hand_stiffness and device.hand_damping: set them to your\n"
+    "device's values.\n"
+    "Examples:  sandstroke record --device scripted:strokes/wscg/stroke.toml -o hand.h5\n"
+    "           sandstroke record --device pointer --feel strokes/wscg/scene.toml -o hand.h5";
+
 }  // namespace
 
 void add_record_command(CLI::App& app, Command& chosen) {
@@ -359,17 +371,7 @@ void add_record_command(CLI::App& app, Command& chosen) {
       ->capture_default_str();
   command->add_flag("--no-memory-lock", arguments->no_memory_lock, "Do not lock the memory of the program");
   command->add_flag("--json", arguments->json, "One JSON object in SI units instead of a table");
-  command->footer(
-      "A recording is complete if a time, its stroke, a switch or a key (q, Esc, Enter, space) ends it.\n"
-      "If anything else ends it, such as Ctrl-C, it is kept and marked incomplete.\n"
-      "After kill -9 or a power failure it is in STROKE.h5.recording.\n"
-      "Save it with: sandstroke stroke repair STROKE.h5\n"
-      "With --feel there is no force until the tool was out of the sand once. record refuses sand in which\n"
-      "the hand and the device would shake. It judges by the largest force, the rate, and the scene's\n"
-      "device.mass, device.damping, device.hand_stiffness and device.hand_damping: set them to your\n"
-      "device's values.\n"
-      "Examples:  sandstroke record --device scripted:strokes/wscg/stroke.toml -o hand.h5\n"
-      "           sandstroke record --device pointer --feel strokes/wscg/scene.toml -o hand.h5");
+  command->footer(record_footer);
   command->callback([arguments, &chosen] {
     if (arguments->device == pointer_name) arguments->view = true;
     chosen = [arguments] { return record(*arguments); };

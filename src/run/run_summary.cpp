@@ -7,6 +7,18 @@
 
 namespace sandstroke {
 
+namespace {
+
+nlohmann::ordered_json followed_json(const FollowedSand& followed) {
+  return {{"ticks", followed.ticks},
+          {"asked_depth", followed.asked_depth},
+          {"depth", followed.depth},
+          {"asked_force", followed.asked_force},
+          {"force", followed.force}};
+}
+
+}  // namespace
+
 nlohmann::ordered_json run_summary(const RunResult& r, const Scene& scene, const std::string& output) {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();  // null
   nlohmann::ordered_json json = {
@@ -49,12 +61,7 @@ nlohmann::ordered_json run_summary(const RunResult& r, const Scene& scene, const
       {"instruction_set", instruction_set()},
       {"interrupted", r.interrupted},
   };
-  if (r.followed)
-    json["followed"] = {{"ticks", r.followed->ticks},
-                        {"asked_depth", r.followed->asked_depth},
-                        {"depth", r.followed->depth},
-                        {"asked_force", r.followed->asked_force},
-                        {"force", r.followed->force}};
+  if (r.followed) json["followed"] = followed_json(*r.followed);
   if (r.recorded_force)
     json["recorded_force"] = {{"ticks", r.recorded_force->ticks},
                               {"rms", r.recorded_force->rms},

@@ -159,7 +159,6 @@ Wrench ResistiveWrench(const ResistiveTick& tick) {
     hn::Store(way.y, d, ways_y + i);
     hn::Store(way.z, d, ways_z + i);
     const V mobilised = Min(length, one);
-
     const V leads = between_0_and_1(u.dot(n) * all(1.0 / fade) + one);
     const V area = where(in_sand, hn::Load(d, e.area() + i) * touches * leads) * all(tick.resistance);
     if (hn::AllFalse(d, area > zero)) continue;

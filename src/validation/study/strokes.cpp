@@ -72,6 +72,13 @@ Scene pumping(int cells_by) {
   return scene;
 }
 
+/// The accurate preset with the same talus slope in every direction.
+Scene isotropic(int by) {
+  Scene scene = refined(ModelPreset::accurate, by, by);
+  scene.relaxation.law = RelaxationLaw::isotropic;
+  return scene;
+}
+
 /// A stroke that is compared with the same stroke in smaller steps.
 struct StrokeCase {
   const char* name;
@@ -101,23 +108,35 @@ void add_plugin_law(Problem& problem, const PluginLawSettings& plugin_laws, Mode
                                   true});
 }
 
+// The numbers that are varied alone.
+double& rate_of(Scene& s) { return s.relaxation.rate; }
+double& way_at_rim_of(Scene& s) { return s.relaxation.way_at_rim; }
+double& tolerance_of(Scene& s) { return s.relaxation.tolerance; }
+double& step_tolerance_of(Scene& s) { return s.relaxation.step_tolerance; }
+double& way_of(Scene& s) { return s.relaxation.way; }
+double& distance_of(Scene& s) { return s.displacement.distance; }
+
+/// The problem without contenders.
+Problem described(const StrokeCase& given, int finest) {
+  return {given.name,
+          given.title,
+          fmt::format("At 2 kHz. The reference is the same stroke with cell size and the time or way between "
+                      "relaxations divided by {}. The dotted line is its distance from the stroke with these "
+                      "divided by {}.",
+                      finest, finest / 2),
+          "l1",
+          "misplaced sand, fraction of the sand that moves",
+          "",
+          {}};
+}
+
 Problem stroke_problem(const StrokeCase& given, const ProblemOptions& options) {
   const ModelPreset preset = given.preset;
   const Stroke stroke = given.stroke;
   const bool paper = preset == ModelPreset::paper;
   const int finest = options.quick || given.at_rim ? 4 : 8;
   const std::string all_finer = "all finer";
-  Problem problem{
-      given.name,
-      given.title,
-      fmt::format(
-          "At 2 kHz. The reference is the same stroke with cell size and the time or way between relaxations "
-          "divided by {}. The dotted line is its distance from the stroke with these divided by {}.",
-          finest, finest / 2),
-      "l1",
-      "misplaced sand, fraction of the sand that moves",
-      "",
-      {}};
+  Problem problem = described(given, finest);
   const auto all = [preset](int by) { return refined(preset, by, by); };
   const auto truth = std::make_shared<const Replay>(replay(all(finest), stroke));
   problem.converged_to = judge(replay(all(finest / 2), stroke), *truth).l1;
@@ -127,13 +146,14 @@ Problem stroke_problem(const StrokeCase& given, const ProblemOptions& options) {
     problem.contenders.push_back(
         stroke_contender(series, label, scene, options.threads, step, stroke, truth));
   };
-  for (int by = 1; by < finest; by *= 2) add(all_finer, fmt::format("1/{} of all", by), all(by));
+  const auto divide = [&](const std::string& series, const auto& scene_by) {
+    for (int by = 1; by < finest; by *= 2) add(series, fmt::format("1/{} of all", by), scene_by(by));
+  };
+  divide(all_finer, all);
   for (const PluginLawSettings& plugin_laws : options.plugin_laws)
     if (!plugin_laws.displacement.empty())
       add_plugin_law(problem, plugin_laws, preset, stroke, finest, options);
-  if (!paper)
-    for (int by = 1; by < finest; by *= 2)
-      add("without a solid tool, 240 relaxations a second", fmt::format("1/{} of all", by), pumping(by));
+  if (!paper) divide("without a solid tool, 240 relaxations a second", pumping);
   const auto vary = [&](const std::string& series, std::initializer_list<double> values,
                         double& (*knob)(Scene&), const std::string& label) {
     for (const double value : values) {
@@ -142,42 +162,24 @@ Problem stroke_problem(const StrokeCase& given, const ProblemOptions& options) {
       add(series, fmt::format(fmt::runtime(label), value), scene);
     }
   };
-  vary(
-      "relaxation rate alone", {15.0, 30.0, 60.0, 120.0, 240.0, 480.0, 960.0, 1920.0},
-      [](Scene& s) -> double& { return s.relaxation.rate; },
-      paper ? "{} relaxations a second" : "{} relaxations a second besides those by way");
-  if (!paper)
-    for (int by = 1; by < finest; by *= 2) {
-      Scene scene = all(by);
-      scene.relaxation.law = RelaxationLaw::isotropic;
-      add("law isotropic", fmt::format("1/{} of all", by), scene);
-    }
+  vary("relaxation rate alone", {15.0, 30.0, 60.0, 120.0, 240.0, 480.0, 960.0, 1920.0}, rate_of,
+       paper ? "{} relaxations a second" : "{} relaxations a second besides those by way");
+  if (!paper) divide("law isotropic", isotropic);
   problem.check_errors = [=] {
     return check_errors("5 cells per radius", refined(preset, 1, 1), stroke, *truth);
   };
-  if (given.at_rim)
-    vary(
-        "way at the rim alone", {0.025, 0.05, 0.1, 0.2, 0.4},
-        [](Scene& s) -> double& { return s.relaxation.way_at_rim; }, "{} radii");
+  if (given.at_rim) vary("way at the rim alone", {0.025, 0.05, 0.1, 0.2, 0.4}, way_at_rim_of, "{} radii");
   for (int by = 1; by <= finest; by *= 2) {
     const Scene scene = refined(preset, by, 1);
     add("cell size alone", fmt::format("{:.3g} cells per radius", scene.tool.radius / scene.bed.cell_size()),
         scene);
   }
   if (given.at_rim) return problem;
-  vary(
-      "tolerance alone", {1e-2, 1e-3, 1e-4}, [](Scene& s) -> double& { return s.relaxation.tolerance; },
-      "tolerance {}");
+  vary("tolerance alone", {1e-2, 1e-3, 1e-4}, tolerance_of, "tolerance {}");
   if (paper) return problem;
-  vary(
-      "step tolerance alone", {1.0, 0.1, 0.01},
-      [](Scene& s) -> double& { return s.relaxation.step_tolerance; }, "step tolerance {}");
-  vary(
-      "way between relaxations alone", {0.05, 0.1, 0.2, 0.4, 0.8},
-      [](Scene& s) -> double& { return s.relaxation.way; }, "{} radii");
-  vary(
-      "place of pushed sand alone", {1.05, 1.1, 1.15, 1.2, 1.25},
-      [](Scene& s) -> double& { return s.displacement.distance; }, "{} radii from the axis");
+  vary("step tolerance alone", {1.0, 0.1, 0.01}, step_tolerance_of, "step tolerance {}");
+  vary("way between relaxations alone", {0.05, 0.1, 0.2, 0.4, 0.8}, way_of, "{} radii");
+  vary("place of pushed sand alone", {1.05, 1.1, 1.15, 1.2, 1.25}, distance_of, "{} radii from the axis");
   return problem;
 }
 
