@@ -27,10 +27,15 @@ constexpr SandConstant sand_constants[] = {
     {"tool_friction", &SandStrength::tool_friction, 0.0, 1e3, 0.02, 3.0},
     {"yield", &SandStrength::yield_way, 1e-6, 1.0, 1e-5, 0.1}};
 
-const SandConstant& in_sand(const ForceConstant& constant) {
-  return *std::find_if(std::begin(sand_constants), std::end(sand_constants),
-                       [&](const SandConstant& one) { return one.name == constant.name; });
+constexpr const SandConstant* entry_of(const ForceConstant& constant) {
+  return std::find_if(std::begin(sand_constants), std::end(sand_constants),
+                      [&](const SandConstant& one) { return one.name == constant.name; });
 }
+static_assert(std::all_of(std::begin(rft_constants), std::end(rft_constants), [](const ForceConstant& one) {
+  return entry_of(one) != std::end(sand_constants);
+}));
+
+const SandConstant& in_sand(const ForceConstant& constant) { return *entry_of(constant); }
 
 }  // namespace
 
