@@ -30,11 +30,6 @@ std::vector<hsize_t> extent_of(const Hdf5Handle& dataset) {
   return shape;
 }
 
-bool is_number(hid_t type) {
-  const H5T_class_t kind = H5Tget_class(type);
-  return kind == H5T_INTEGER || kind == H5T_FLOAT || kind == H5T_ENUM;
-}
-
 /// Reads a scalar string, of fixed or variable length. False: it is no string. read: gets the memory type and
 /// the buffer.
 template <class Read>
@@ -76,6 +71,11 @@ bool is_being_written(const std::filesystem::path& path) {
 }
 
 }  // namespace
+
+bool is_hdf5_number(hid_t type) {
+  const H5T_class_t kind = H5Tget_class(type);
+  return kind == H5T_INTEGER || kind == H5T_FLOAT || kind == H5T_ENUM;
+}
 
 Hdf5Reader::Hdf5Reader(const std::filesystem::path& path) : name_(path.string()) {
   prepare_hdf5();
@@ -139,7 +139,7 @@ Hdf5Handle Hdf5Reader::open_dataset(const std::string& dataset) const {
 Hdf5Handle Hdf5Reader::open_numbers(const std::string& dataset, int rank, std::vector<hsize_t>& shape) const {
   Hdf5Handle opened = open_dataset(dataset);
   const Hdf5Handle type(H5Dget_type(opened), H5Tclose);
-  if (!is_number(type)) fail(dataset, "does not hold numbers; write it as float64");
+  if (!is_hdf5_number(type)) fail(dataset, "does not hold numbers; write it as float64");
   shape = extent_of(opened);
   if (static_cast<int>(shape.size()) != rank)
     fail(dataset, fmt::format("has {} dimensions; write it with {}", shape.size(), rank));
@@ -321,7 +321,7 @@ double Hdf5Reader::number_attribute(const std::string& object, const std::string
   const Hdf5Handle type(H5Aget_type(opened), H5Tclose);
   const Hdf5Handle space(H5Aget_space(opened), H5Sclose);
   double value = 0.0;
-  if (!is_number(type) || H5Sget_simple_extent_npoints(space) != 1 ||
+  if (!is_hdf5_number(type) || H5Sget_simple_extent_npoints(space) != 1 ||
       H5Aread(opened, H5T_NATIVE_DOUBLE, &value) < 0)
     fail_to_read(object, fmt::format("attribute '{}' is not a single number", attribute));
   return value;
@@ -333,7 +333,7 @@ std::string Hdf5Reader::text_attribute(const std::string& object, const std::str
   const Hdf5Handle space(H5Aget_space(opened), H5Sclose);
   std::string text;
   const bool is_text =
-      H5Sget_simple_extent_npoints(space) == 1 &&
+      H5Sget_simple_extent_npoints(space) == 1 && static_cast<double>(H5Tget_size(type)) <= file_bytes_ &&
       read_string(type, text, [&](hid_t memory_type, void* buffer) {
         if (H5Aread(opened, memory_type, buffer) < 0)
           fail_to_read(object, fmt::format("attribute '{}' cannot be read; the file is damaged", attribute));

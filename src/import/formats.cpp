@@ -10,6 +10,8 @@
 #include "import/gcode_words.h"
 #include "import/inkml.h"
 #include "import/mat.h"
+#include "import/npy.h"
+#include "import/npz.h"
 #include "import/ros2_bag.h"
 #include "import/text_parts.h"
 #include "import/thr.h"
@@ -35,16 +37,12 @@ constexpr KindNotRead kinds_not_read[] = {
     {"PK\x03\x04", ".xlsx", "an Excel file (.xlsx)", as_csv},
     {"PK\x03\x04", ".xlsm", "an Excel file (.xlsm)", as_csv},
     {"PK\x03\x04", ".ods", "a spreadsheet (.ods)", as_csv},
-    {"PK\x03\x04", ".npz", "a NumPy archive (.npz)",
-     "save a table: numpy.savetxt('samples.csv', samples, delimiter=',', header='x,y,z')"},
     {"PK\x03\x04", "", "a zip archive", unpack},
     {"\xD0\xCF\x11\xE0\xA1\xB1\x1A\xE1", "", "an old Excel or Office file", as_csv},
     {"PAR1", "", "a Parquet file",
      "save it as CSV: pandas.read_parquet('FILE').to_csv('samples.csv', index=False)"},
     {"ARROW1", "", "a Feather file (Arrow)",
      "save it as CSV: pandas.read_feather('FILE').to_csv('samples.csv', index=False)"},
-    {"\x93NUMPY", "", "a NumPy file (.npy)",
-     "save a table: numpy.savetxt('samples.csv', numpy.load('FILE'), delimiter=',', header='x,y,z')"},
     {"\x89HDF\r\n\x1A\n", "", "an HDF5 file without a stroke from sandstroke",
      "save its columns as CSV: pandas.DataFrame({'x': x, 'y': y}).to_csv('samples.csv', index=False)"},
     {"%PDF", "", "a PDF", "name the file with the samples themselves"},
@@ -117,11 +115,14 @@ std::optional<SampleTable> read_known_format(const fs::path& path, const TableSe
   const std::string head = head_of(path);
   if (head.starts_with(std::string_view("SQLite format 3\0", 16))) return read_ros2_bag(path, part);
   if (head.starts_with("MATLAB ") || has_ending(path, ".mat")) return read_mat(path, part);
+  if (has_ending(path, ".npz")) return read_npz(path, part);
   if (!part.empty()) throw_input_error("{}: has no parts; leave out --part {}", path.string(), part);
+  if (head.starts_with("\x93NUMPY")) return read_npy(path);
   refuse_kinds_not_read(path, head);
   if (is_binary(head)) {
-    throw_input_error("{}: is neither text nor a binary format that sandstroke reads (ROS 2 bag, MATLAB); {}",
-                      path.string(), as_csv);
+    throw_input_error(
+        "{}: is neither text nor a binary format that sandstroke reads (ROS 2 bag, MATLAB, NumPy); {}",
+        path.string(), as_csv);
   }
   const std::string_view text = without_blanks(without_byte_order_mark(head));
   if (is_inkml(text)) return read_inkml(path);
