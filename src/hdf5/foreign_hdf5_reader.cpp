@@ -2,7 +2,7 @@
 
 #include <spdlog/fmt/fmt.h>
 
-#include <cstring>
+#include <algorithm>
 
 #include "hdf5/hdf5_storage.h"
 
@@ -42,11 +42,13 @@ herr_t add_member(hid_t, const char* name, const Info* info, void* list) {
 std::vector<ForeignHdf5Reader::Member> ForeignHdf5Reader::own_members(const std::string& group,
                                                                       std::size_t most) const {
   Gathered gathered{{}, most};
-  if (H5Literate_by_name(file_, group.c_str(), H5_INDEX_NAME, H5_ITER_INC, nullptr, add_member<H5L_info_t>,
+  if (H5Literate_by_name(file_, group.c_str(), H5_INDEX_NAME, H5_ITER_NATIVE, nullptr, add_member<H5L_info_t>,
                          &gathered, access_) < 0)
     fail_to_read(group, "cannot be read; the file is damaged");
   if (gathered.members.size() > most)
     fail(group, fmt::format("has more than {} members; save only what belongs to one stroke", most));
+  std::sort(gathered.members.begin(), gathered.members.end(),
+            [](const Member& a, const Member& b) { return a.name < b.name; });
   for (Member& member : gathered.members) {
     member.path = (group == "/" ? "" : group) + "/" + member.name;
     const Hdf5Handle object(H5Oopen(file_, member.path.c_str(), access_), H5Oclose);

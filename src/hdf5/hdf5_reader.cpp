@@ -53,7 +53,8 @@ bool read_string(hid_t file_type, std::string& text, const Read& read) {
   return true;
 }
 
-/// HDF5 calls this for each link or attribute. It adds the name to a list.
+/// HDF5 calls this for each link or attribute. It adds the name to a list. HDF5 1.10 must not sort them: if
+/// it fails in between, it frees memory that it never took.
 template <class Info>
 herr_t add_name(hid_t, const char* name, const Info*, void* list) {
   static_cast<std::vector<std::string>*>(list)->emplace_back(name);
@@ -352,18 +353,20 @@ double Hdf5Reader::cell_size(const std::string& object) const {
 std::vector<std::string> Hdf5Reader::members(const std::string& group) const {
   if (!has(group)) fail(group, "is missing; name a file of the right kind");
   std::vector<std::string> names;
-  if (H5Literate_by_name(file_, group.c_str(), H5_INDEX_NAME, H5_ITER_INC, nullptr, add_name<H5L_info_t>,
+  if (H5Literate_by_name(file_, group.c_str(), H5_INDEX_NAME, H5_ITER_NATIVE, nullptr, add_name<H5L_info_t>,
                          &names, access_) < 0)
     fail_to_read(group, "is not a group; name a file of the right kind");
+  std::sort(names.begin(), names.end());
   return names;
 }
 
 std::vector<std::string> Hdf5Reader::attributes(const std::string& object) const {
   if (!has(object)) fail(object, "is missing; name a file of the right kind");
   std::vector<std::string> names;
-  if (H5Aiterate_by_name(file_, object.c_str(), H5_INDEX_NAME, H5_ITER_INC, nullptr, add_name<H5A_info_t>,
+  if (H5Aiterate_by_name(file_, object.c_str(), H5_INDEX_NAME, H5_ITER_NATIVE, nullptr, add_name<H5A_info_t>,
                          &names, access_) < 0)
     fail_to_read(object, "has attributes that cannot be read; the file is damaged");
+  std::sort(names.begin(), names.end());
   return names;
 }
 
