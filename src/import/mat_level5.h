@@ -11,7 +11,7 @@ namespace sandstroke {
 /// Deepest nesting of structs that is read.
 inline constexpr int most_mat_depth = 16;
 /// Most variables of a MATLAB file, fields of structs included.
-inline constexpr std::size_t most_mat_variables = 10'000;
+inline constexpr std::size_t most_mat_variables = 2'000;
 
 /// True for the bytes of a MATLAB file of level 5 (versions 5 to 7).
 bool is_mat_level5(std::string_view bytes);

@@ -16,7 +16,7 @@ namespace sandstroke {
 /// Reads a file again and again, each time with another bit flipped. Each answer must be one sentence, or
 /// columns of equal length. read: gets the path, and returns a SampleTable.
 template <class Read>
-void expect_answers_to_flips(const std::filesystem::path& path, const Read& read, int flips = 200) {
+void expect_answers_to_flips(const std::filesystem::path& path, const Read& read, int flips = 100) {
   std::ifstream file(path, std::ios::binary);
   const std::string whole{std::istreambuf_iterator<char>(file), {}};
   const std::filesystem::path flipped = path.parent_path() / ("flipped" + path.extension().string());
