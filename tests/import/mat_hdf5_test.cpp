@@ -9,6 +9,7 @@
 #include "flipped.h"
 #include "hdf5/hdf5_handle.h"
 #include "import/mat.h"
+#include "sanitized.h"
 #include "test_folder.h"
 
 namespace sandstroke {
@@ -239,6 +240,7 @@ TEST(MatHdf5, DamagedFilesAreRefused) {
 }
 
 TEST(MatHdf5, FlippedBitsGiveSentences) {
+  if (sanitized) GTEST_SKIP() << "HDF5 asks for all the memory that a damaged file names, and is refused";
   const TestFolder folder;
   for (const bool latest : {false, true}) {
     {
