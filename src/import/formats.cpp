@@ -10,6 +10,8 @@
 #include "import/gcode_words.h"
 #include "import/inkml.h"
 #include "import/mat.h"
+#include "import/mcap.h"
+#include "import/ros1_bag.h"
 #include "import/ros2_bag.h"
 #include "import/text_parts.h"
 #include "import/thr.h"
@@ -29,9 +31,9 @@ struct KindNotRead {
 constexpr const char* as_csv = "save or export it as CSV";
 constexpr const char* unpack = "unpack it and name the file inside";
 constexpr KindNotRead kinds_not_read[] = {
-    {"#ROSBAG V", "", "a ROS 1 bag",
-     "convert it: rosbags-convert --src FILE.bag --dst FOLDER, and name the .db3 file in that folder"},
-    {"\x89MCAP0\r\n", "", "an MCAP file (ROS 2)", "convert it to a .db3: ros2 bag convert"},
+    {"#ROSBAG V", "", "a ROS 1 bag of another version than 2.0", "convert it: rosbag fix FILE.bag NEW.bag"},
+    {"#ROSRECORD V", "", "an old ROS 1 bag", "convert it: rosbag fix FILE.bag NEW.bag"},
+    {"\x89MCAP", "", "an MCAP file of another version than 0", "convert it to a .db3: ros2 bag convert"},
     {"PK\x03\x04", ".xlsx", "an Excel file (.xlsx)", as_csv},
     {"PK\x03\x04", ".xlsm", "an Excel file (.xlsm)", as_csv},
     {"PK\x03\x04", ".ods", "a spreadsheet (.ods)", as_csv},
@@ -116,12 +118,15 @@ std::optional<SampleTable> read_known_format(const fs::path& path, const TableSe
   if (pipe) return {};
   const std::string head = head_of(path);
   if (head.starts_with(std::string_view("SQLite format 3\0", 16))) return read_ros2_bag(path, part);
+  if (head.starts_with(mcap_magic)) return read_mcap(path, part);
+  if (head.starts_with(ros1_bag_magic)) return read_ros1_bag(path, part);
   if (head.starts_with("MATLAB ") || has_ending(path, ".mat")) return read_mat(path, part);
   if (!part.empty()) throw_input_error("{}: has no parts; leave out --part {}", path.string(), part);
   refuse_kinds_not_read(path, head);
   if (is_binary(head)) {
-    throw_input_error("{}: is neither text nor a binary format that sandstroke reads (ROS 2 bag, MATLAB); {}",
-                      path.string(), as_csv);
+    throw_input_error(
+        "{}: is neither text nor a binary format that sandstroke reads (bags of ROS, MCAP, MATLAB); {}",
+        path.string(), as_csv);
   }
   const std::string_view text = without_blanks(without_byte_order_mark(head));
   if (is_inkml(text)) return read_inkml(path);

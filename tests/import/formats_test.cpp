@@ -59,8 +59,9 @@ TEST(Formats, KindsThatAreNotReadAreNamedWithTheWayOut) {
     std::string_view content;
     const char *kind, *way_out;
   } files[] = {
-      {"a.bag", "#ROSBAG V2.0\n", "a ROS 1 bag", "rosbags-convert"},
-      {"a.mcap", "\x89MCAP0\r\n", "an MCAP file", "ros2 bag convert"},
+      {"a.bag", "#ROSBAG V1.2\n", "a ROS 1 bag of another version", "rosbag fix"},
+      {"a.bag", "#ROSRECORD V1.1\n", "an old ROS 1 bag", "rosbag fix"},
+      {"a.mcap", "\x89MCAP1\r\n", "an MCAP file of another version", "ros2 bag convert"},
       {"a.xlsx", "PK\x03\x04...", "an Excel file", "CSV"},
       {"a.ods", "PK\x03\x04...", "a spreadsheet", "CSV"},
       {"a.zip", "PK\x03\x04...", "a zip archive", "unpack"},
