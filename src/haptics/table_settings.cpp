@@ -26,7 +26,8 @@ void describe_table(KeyVisitor& v, TableSettings& t) {
          "4 columns of a quaternion x,y,z,w, or 9 of a rotation matrix, row by row");
   v.text("pressure", t.pressure, "column of the pen's pressure, in any unit");
   v.text("part", t.part,
-         "one of several recordings in a file: a topic of a ROS 2 bag, a variable of a MATLAB file");
+         "one of several recordings in a file: a topic of a bag (/tf:FRAME for a frame of several), a "
+         "variable of a MATLAB file");
   v.text("columns", t.columns, "names of all columns, if no header line has them: \"x,y,t\"");
   choose(v, "separator", t.separator, {"found", "comma", "semicolon", "tab", "blanks"},
          "separator between columns");

@@ -162,7 +162,7 @@ TEST(Mcap, ARecordingThatIsCutOffIsReadAsFarAsItGoes) {
     const std::string first = mcap::chunk(channels() + records(0), packing);
     const std::string whole = mcap::head() + first + mcap::chunk(records(1), "");
     std::size_t most = 0;
-    for (std::size_t size = mcap::head().size() + first.size(); size < whole.size(); size += 7) {
+    for (std::size_t size = mcap::head().size() + first.size(); size < whole.size(); size += 53) {
       const SampleTable table = read_mcap_bytes(whole.substr(0, size));
       EXPECT_GE(table.size(), std::max<std::size_t>(most, 2)) << size;
       most = table.size();
@@ -218,6 +218,7 @@ TEST(Mcap, NoChangedByteIsFatal) {
   for (std::size_t i = mcap::magic.size(); i < whole.size(); ++i) {
     std::string changed = whole;
     changed[i] = static_cast<char>(changed[i] ^ "\x01\x80\xFF"[i % 3]);
+    std::filesystem::remove(folder / "a.mcap");  // truncating would wait for the disk
     put_text(folder / "a.mcap", changed);
     complaint_of([&] { EXPECT_GT(read_mcap(folder / "a.mcap", "/tool").size(), 0u); });
   }
