@@ -11,7 +11,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uint64_t magic_size = 8, record_head = 9, footer_size = 20;
+constexpr std::uint64_t mcap_magic_size = 8, mcap_record_head = 9, mcap_footer_size = 20;
 
 /// Kinds of records (mcap.dev/spec).
 enum McapOp : std::uint64_t {
@@ -33,8 +33,8 @@ class McapFile : public ChunkedRecording {
 
  private:
   Record next(PackedBytes& bytes) override;
-  std::uint64_t begin() const override { return magic_size; }
-  std::uint64_t end() const override { return closed_ ? file_size_ - magic_size : file_size_; }
+  std::uint64_t begin() const override { return mcap_magic_size; }
+  std::uint64_t end() const override { return closed_ ? file_size_ - mcap_magic_size : file_size_; }
 
   void read_summary();
   bool summary_is_sound(std::uint64_t begin, std::uint64_t end, std::uint32_t crc);
@@ -51,17 +51,17 @@ class McapFile : public ChunkedRecording {
 
 /// Reads topics and the index of chunks from the end of the file, if they are there.
 void McapFile::read_summary() {
-  constexpr std::uint64_t tail_size = record_head + footer_size + magic_size;
-  if (file_size_ < magic_size + tail_size) return;
+  constexpr std::uint64_t tail_size = mcap_record_head + mcap_footer_size + mcap_magic_size;
+  if (file_size_ < mcap_magic_size + tail_size) return;
   const std::uint64_t footer = file_size_ - tail_size;
   PackedBytes tail(file_, footer, tail_size);
-  const bool is_footer = tail.number(1) == mcap_footer && tail.number(8) == footer_size;
+  const bool is_footer = tail.number(1) == mcap_footer && tail.number(8) == mcap_footer_size;
   const std::uint64_t summary = tail.number(8);
   tail.number(8);  // where groups of the summary begin
   const auto crc = static_cast<std::uint32_t>(tail.number(4));
-  closed_ = is_footer && tail.bytes(magic_size) == mcap_magic;
+  closed_ = is_footer && tail.bytes(mcap_magic_size) == mcap_magic;
   if (!closed_ || summary == 0) return;
-  if (summary >= magic_size && summary <= footer && summary_is_sound(summary, footer, crc)) {
+  if (summary >= mcap_magic_size && summary <= footer && summary_is_sound(summary, footer, crc)) {
     for (const auto& [channel, count] : counts_)
       if (has_counts_ && !topics_.contains(channel)) has_counts_ = false;
     counted_ = has_counts_;
@@ -76,7 +76,7 @@ void McapFile::read_summary() {
 
 bool McapFile::summary_is_sound(std::uint64_t begin, std::uint64_t end, std::uint32_t crc) {
   if (crc != 0) {
-    const std::uint64_t size = end - begin + record_head + 16;  // up to the footer's checksum
+    const std::uint64_t size = end - begin + mcap_record_head + 16;  // up to the footer's checksum
     PackedBytes summed(file_, begin, size, Packing::none, size, true);
     summed.finish(crc);
     if (!summed.sound()) return false;

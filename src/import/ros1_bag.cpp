@@ -1,5 +1,7 @@
 #include "import/ros1_bag.h"
 
+#include <algorithm>
+
 #include "core/error.h"
 #include "import/chunked_recording.h"
 #include "import/ros_samples.h"
@@ -25,15 +27,16 @@ using BagFields = std::map<std::string, std::string, std::less<>>;
 BagFields bag_fields(PackedBytes& bytes, std::string_view text) {
   BagFields fields;
   while (!text.empty() && bytes.sound()) {
-    const std::uint64_t size = text.size() < 4 ? UINT64_MAX : little_endian(text.substr(0, 4));
-    const std::string_view field = size <= text.size() - 4 ? text.substr(4, size) : "";
+    const std::uint64_t size = little_endian(text.substr(0, 4));
+    text.remove_prefix(std::min<std::size_t>(text.size(), 4));
+    const std::string_view field = size <= text.size() ? text.substr(0, size) : "";
     const auto equals = field.find('=');
     if (field.empty() || equals == std::string_view::npos) {
       bytes.fail("its header is not made of fields NAME=VALUE");
       break;
     }
     fields.emplace(field.substr(0, equals), field.substr(equals + 1));
-    text.remove_prefix(4 + size);
+    text.remove_prefix(size);
   }
   return fields;
 }

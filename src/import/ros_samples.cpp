@@ -127,7 +127,7 @@ SampleTable RosSampleReader::table(const std::string& part) {
 }
 
 /// At most as many as a person reads.
-std::string listed(std::vector<std::string> names) {
+std::string list_of_names(std::vector<std::string> names) {
   constexpr std::size_t most = 40;
   const std::size_t more = names.size() - std::min(names.size(), most);
   names.resize(names.size() - more);
@@ -151,10 +151,11 @@ void RosSampleReader::ask(const std::string& part, const std::vector<RosPart>& f
     throw_input_error(
         "{}: no topic has messages with a position or a force that sandstroke reads ({}; in cdr or ros1); "
         "record the tool as one of these; the {} has: {}{}",
-        recording_.name(), ros_types_read(), recording_.kind(), listed(all), told);
+        recording_.name(), ros_types_read(), recording_.kind(), list_of_names(all), told);
   }
-  const std::string choose = fmt::format(
-      "name one of its topics with stroke.table.part (stroke convert: --part): {}{}", listed(choices), told);
+  const std::string choose =
+      fmt::format("name one of its topics with stroke.table.part (stroke convert: --part): {}{}",
+                  list_of_names(choices), told);
   if (fit.size() > 1)
     throw_input_error("{}: several {} can be read; {}", recording_.name(),
                       part.empty() ? "topics" : "frames of " + part, choose);

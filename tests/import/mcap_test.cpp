@@ -37,10 +37,10 @@ std::string tool_channel() {
   return mcap::schema(1, "geometry_msgs/msg/PointStamped") + mcap::channel(1, 1, "/tool");
 }
 /// Points 2 k and 2 k + 1 of /tool, a message of /camera between them.
-std::string records(int k) {
+std::string tool_records(int k) {
   return tool_message(2 * k) + mcap::message(2, begin_time, std::string(5000, 'p')) + tool_message(2 * k + 1);
 }
-std::string channels() { return tool_channel() + mcap::channel(2, 0, "/camera", "jpeg"); }
+std::string both_channels() { return tool_channel() + mcap::channel(2, 0, "/camera", "jpeg"); }
 
 void expect_points(const SampleTable& table, int count) {
   ASSERT_EQ(table.size(), static_cast<std::size_t>(count));
@@ -102,10 +102,11 @@ TEST(Mcap, AFileByHand) {
 
 TEST(Mcap, ChunksOfEveryPackingWithAndWithoutSummary) {
   for (const char* packing : {"", "lz4", "zstd"}) {
-    const std::string first = mcap::chunk(channels() + records(0), packing);
-    const std::string second = mcap::chunk(records(1), packing, 0, records(1).size());  // without checksum
+    const std::string first = mcap::chunk(both_channels() + tool_records(0), packing);
+    const std::string second =
+        mcap::chunk(tool_records(1), packing, 0, tool_records(1).size());  // without checksum
     const std::size_t at = mcap::head().size();
-    const std::string summary = channels() + mcap::chunk_index(at, {{1, 0}, {2, 0}}) +
+    const std::string summary = both_channels() + mcap::chunk_index(at, {{1, 0}, {2, 0}}) +
                                 mcap::chunk_index(at + first.size(), {{1, 0}, {2, 0}}) +
                                 mcap::statistics({{1, 4}, {2, 2}});
     for (const std::string& end : {std::string(), summary}) {
@@ -114,17 +115,18 @@ TEST(Mcap, ChunksOfEveryPackingWithAndWithoutSummary) {
       EXPECT_THAT(table.warnings, ElementsAre()) << packing;
     }
   }
-  expect_points(read_mcap_bytes(mcap::file(channels() + records(0) + records(1))), 4);  // no chunks
+  expect_points(read_mcap_bytes(mcap::file(both_channels() + tool_records(0) + tool_records(1))),
+                4);  // no chunks
 }
 
 /// Chunks without the topic are not opened: these bytes are no LZ4.
 TEST(Mcap, OnlyChunksWithTheTopicAreRead) {
-  const std::string first = mcap::chunk(channels() + records(0), "lz4");
+  const std::string first = mcap::chunk(both_channels() + tool_records(0), "lz4");
   std::string second = mcap::chunk(mcap::message(2, 5, "picture"), "lz4");
   second.replace(second.size() - 20, 20, 20, 'x');
   const std::size_t at = mcap::head().size();
   const auto summary = [&](int channel) {
-    return channels() + mcap::chunk_index(at, {{1, 0}}) +
+    return both_channels() + mcap::chunk_index(at, {{1, 0}}) +
            mcap::chunk_index(at + first.size(), {{channel, 0}}) + mcap::statistics({{1, 2}, {2, 2}});
   };
   expect_points(read_mcap_bytes(mcap::file(first + second, summary(2))), 2);
@@ -144,23 +146,23 @@ TEST(Mcap, MessagesInTheBytesOfRos1) {
 
 /// A summary that says other things than the file is told of.
 TEST(Mcap, ASummaryThatIsWrongIsTold) {
-  const std::string data = channels() + records(0);
-  EXPECT_THAT(read_mcap_bytes(mcap::file(data, channels() + mcap::statistics({{1, 3}}))).warnings,
+  const std::string data = both_channels() + tool_records(0);
+  EXPECT_THAT(read_mcap_bytes(mcap::file(data, both_channels() + mcap::statistics({{1, 3}}))).warnings,
               ElementsAre(AllOf(HasSubstr("has 2 messages"), HasSubstr("counts 3"))));
-  std::string damaged = mcap::file(data, channels() + mcap::statistics({{1, 2}}));
+  std::string damaged = mcap::file(data, both_channels() + mcap::statistics({{1, 2}}));
   damaged[damaged.size() - 40] ^= 1;
   const SampleTable table = read_mcap_bytes(damaged);
   expect_points(table, 2);
   EXPECT_THAT(table.warnings, ElementsAre(HasSubstr("is damaged; the messages themselves are read instead")));
   // Without counts the messages are counted.
-  EXPECT_THAT(read_mcap_bytes(mcap::file(data, channels())).warnings, ElementsAre());
+  EXPECT_THAT(read_mcap_bytes(mcap::file(data, both_channels())).warnings, ElementsAre());
 }
 
 /// A recorder that was killed: whole messages are read, also those of a chunk that is cut off.
 TEST(Mcap, ARecordingThatIsCutOffIsReadAsFarAsItGoes) {
   for (const char* packing : {"", "zstd"}) {
-    const std::string first = mcap::chunk(channels() + records(0), packing);
-    const std::string whole = mcap::head() + first + mcap::chunk(records(1), "");
+    const std::string first = mcap::chunk(both_channels() + tool_records(0), packing);
+    const std::string whole = mcap::head() + first + mcap::chunk(tool_records(1), "");
     std::size_t most = 0;
     for (std::size_t size = mcap::head().size() + first.size(); size < whole.size(); size += 53) {
       const SampleTable table = read_mcap_bytes(whole.substr(0, size));
@@ -180,7 +182,7 @@ TEST(Mcap, EveryDamageHasASentenceWithItsByte) {
   const auto complaint = [](const std::string& data) {
     return complaint_of([&] { read_mcap_bytes(mcap::file(data), "/tool"); });
   };
-  const std::string two = channels() + records(0);
+  const std::string two = both_channels() + tool_records(0);
   const std::size_t at = mcap::head().size();
   const std::string here = fmt::format("chunk at byte {}: ", at);
   EXPECT_THAT(complaint(mcap::chunk(two, "zstd", 1, two.size())),
@@ -189,8 +191,8 @@ TEST(Mcap, EveryDamageHasASentenceWithItsByte) {
               HasSubstr("bytes is longer than what is left"));
   EXPECT_THAT(complaint(mcap::chunk(two, "lz4", 0, two.size() + 1)),
               HasSubstr(here + fmt::format("it unpacks to {0} instead of {1}", two.size(), two.size() + 1)));
-  EXPECT_THAT(complaint(mcap::chunk(channels() + tool_message(0) + mcap::record(12, "12345678"), "zstd", 0,
-                                    channels().size() + tool_message(0).size())),
+  EXPECT_THAT(complaint(mcap::chunk(both_channels() + tool_message(0) + mcap::record(12, "12345678"), "zstd",
+                                    0, both_channels().size() + tool_message(0).size())),
               HasSubstr("it unpacks to more than"));
   EXPECT_THAT(complaint(mcap::chunk(two, "zstd", 0, 1'000'000'000'000)),
               HasSubstr("say that they unpack to 1e+12"));

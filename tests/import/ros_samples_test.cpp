@@ -17,7 +17,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::Not;
 
-constexpr std::int64_t start = 1'700'000'000'123'456'789;  // ns, as recorders count
+constexpr std::int64_t first_stamp = 1'700'000'000'123'456'789;  // ns, as recorders count
 
 /// A recording in memory.
 class Recording : public RosRecording {
@@ -51,33 +51,33 @@ CdrWriter stamped(std::int64_t stamp, const std::string& frame) {
   return writer.header(static_cast<std::int32_t>(stamp / 1'000'000'000),
                        static_cast<std::uint32_t>(stamp % 1'000'000'000), frame);
 }
-std::string point(std::int64_t stamp, double x, const std::string& frame = "base") {
+std::string stamped_point(std::int64_t stamp, double x, const std::string& frame = "base") {
   return stamped(stamp, frame).numbers({x, 2.0, 3.0}).bytes();
 }
-std::string pose(std::int64_t stamp, const std::vector<double>& orientation) {
+std::string stamped_pose(std::int64_t stamp, const std::vector<double>& orientation) {
   return stamped(stamp, "base").numbers({1.0, 2.0, 3.0}).numbers(orientation).bytes();
 }
-std::string transform(std::int64_t stamp, const std::string& child, double x) {
+std::string stamped_transform(std::int64_t stamp, const std::string& child, double x) {
   return stamped(stamp, "base").text(child).numbers({x, 0, 0, 0, 0, 0, 1}).bytes();
 }
 
 /// Points of /tool, one per second, that were recorded 1 ms after their stamps.
-Recording points(int count = 3) {
+Recording some_points(int count = 3) {
   Recording recording;
   recording.topic(1, "/tool", "geometry_msgs/msg/PointStamped");
   for (int i = 0; i < count; ++i) {
-    const std::int64_t stamp = start + i * 1'000'000'000LL;
-    recording.message(1, stamp + 1'000'000, point(stamp, i));
+    const std::int64_t stamp = first_stamp + i * 1'000'000'000LL;
+    recording.message(1, stamp + 1'000'000, stamped_point(stamp, i));
   }
   return recording;
 }
 
 TEST(RosSamples, TimesAreExactToTheNanosecond) {
-  Recording recording = points();
+  Recording recording = some_points();
   const SampleTable table = ros_samples(recording, "");
-  EXPECT_EQ(column(table, "time").origin, start);
+  EXPECT_EQ(column(table, "time").origin, first_stamp);
   EXPECT_THAT(column(table, "time").values, ElementsAre(0, 1e9, 2e9));
-  EXPECT_EQ(column(table, "recorded").origin, start + 1'000'000);
+  EXPECT_EQ(column(table, "recorded").origin, first_stamp + 1'000'000);
   EXPECT_THAT(column(table, "x").values, ElementsAre(0, 1, 2));
   EXPECT_THAT(table.warnings, ElementsAre());
   EXPECT_THAT(table.description,
@@ -86,9 +86,9 @@ TEST(RosSamples, TimesAreExactToTheNanosecond) {
 
 /// Two programs that send to one topic: messages are in the order of their times.
 TEST(RosSamples, IdsOfOneTopicAreJoined) {
-  Recording recording = points(2);
+  Recording recording = some_points(2);
   recording.topic(7, "/tool", "geometry_msgs/msg/PointStamped");
-  recording.message(7, start + 500'000'000, point(start + 500'000'000, 0.5));
+  recording.message(7, first_stamp + 500'000'000, stamped_point(first_stamp + 500'000'000, 0.5));
   EXPECT_THAT(column(ros_samples(recording, "/tool"), "x").values, ElementsAre(0, 0.5, 1));
 }
 
@@ -96,8 +96,8 @@ TEST(RosSamples, IdsOfOneTopicAreJoined) {
 TEST(RosSamples, EqualStampsAreOrderedByTheRecorder) {
   Recording recording;
   recording.topic(1, "/tool", "geometry_msgs/msg/PointStamped");
-  recording.message(1, 2000, point(5, 0.2));
-  recording.message(1, 1000, point(5, 0.1));
+  recording.message(1, 2000, stamped_point(5, 0.2));
+  recording.message(1, 1000, stamped_point(5, 0.1));
   EXPECT_THAT(column(ros_samples(recording, ""), "x").values, ElementsAre(0.1, 0.2));
 }
 
@@ -129,10 +129,10 @@ TEST(RosSamples, AFrameOfSeveralIsNamed) {
 TEST(RosSamples, TheOnlyFrameNeedsNoName) {
   Recording recording;
   recording.topic(1, "/hand", "geometry_msgs/msg/TransformStamped");
-  recording.message(1, 5, transform(5, "hand", 1.0));
+  recording.message(1, 5, stamped_transform(5, "hand", 1.0));
   for (const char* part : {"", "/hand", "/hand:hand"})
     EXPECT_EQ(ros_samples(recording, part).size(), 1u) << part;
-  recording.message(1, 6, transform(6, "glove", 1.0));
+  recording.message(1, 6, stamped_transform(6, "glove", 1.0));
   EXPECT_THAT(complaint_of([&] { ros_samples(recording, ""); }), HasSubstr("/hand:glove"));
 }
 
@@ -150,17 +150,17 @@ TEST(RosSamples, OdometryLeavesOutItsVelocity) {
 TEST(RosSamples, OrientationsOfZerosAreLeftOut) {
   Recording recording;
   recording.topic(1, "/tool", "geometry_msgs/msg/PoseStamped");
-  recording.message(1, 5, pose(5, {0, 0, 0, 0}));
+  recording.message(1, 5, stamped_pose(5, {0, 0, 0, 0}));
   EXPECT_THAT(ros_samples(recording, "").description, HasSubstr("orientation left out"));
   EXPECT_EQ(ros_samples(recording, "").columns.size(), 5u);
-  recording.message(1, 6, pose(6, {0, 0, 0, 1}));
+  recording.message(1, 6, stamped_pose(6, {0, 0, 0, 1}));
   EXPECT_EQ(ros_samples(recording, "").columns.size(), 9u);
 }
 
 TEST(RosSamples, NumbersThatAreNotFiniteAreNan) {
-  Recording recording = points(2);
-  recording.message(1, start + 2'000'000'000,
-                    point(start + 2'000'000'000, std::numeric_limits<double>::infinity()));
+  Recording recording = some_points(2);
+  recording.message(1, first_stamp + 2'000'000'000,
+                    stamped_point(first_stamp + 2'000'000'000, std::numeric_limits<double>::infinity()));
   const SampleTable table = ros_samples(recording, "");
   EXPECT_EQ(table.size(), 3u);
   EXPECT_TRUE(std::isnan(column(table, "x").values[2]));
@@ -176,24 +176,26 @@ TEST(RosSamples, NumbersThatAreNotFiniteAreNan) {
 /// Each warning names both things that disagree.
 TEST(RosSamples, WarnsOfWhatDisagrees) {
   const auto warning = [](const auto& change) {
-    Recording recording = points();
+    Recording recording = some_points();
     change(recording);
     const SampleTable table = ros_samples(recording, "");
     return table.warnings.size() == 1 ? table.warnings[0] : fmt::format("{} warnings", table.warnings.size());
   };
   EXPECT_THAT(warning([](Recording& recording) {
-                recording.message(1, start + 2'000'000'000, point(start + 2'000'000'000, 0.0, "map"));
+                recording.message(1, first_stamp + 2'000'000'000,
+                                  stamped_point(first_stamp + 2'000'000'000, 0.0, "map"));
               }),
               AllOf(HasSubstr("'base'"), HasSubstr("'map'")));
   EXPECT_THAT(warning([](Recording& recording) {
-                recording.message(1, start + 3'000'000'000, point(start + 13'000'000'000, 0.0));
+                recording.message(1, first_stamp + 3'000'000'000,
+                                  stamped_point(first_stamp + 13'000'000'000, 0.0));
               }),
               AllOf(HasSubstr("span 13.000 s"), HasSubstr("recorder's times 2.999 s"), HasSubstr("--time")));
   EXPECT_THAT(warning([](Recording& recording) { recording.topics_[0].messages = 4; }),
               AllOf(HasSubstr("has 3 messages"), HasSubstr("counts 4")));
   Recording simulated;
   simulated.topic(1, "/tool", "geometry_msgs/msg/PointStamped");
-  simulated.message(1, start, point(1, 0.0));
+  simulated.message(1, first_stamp, stamped_point(1, 0.0));
   EXPECT_THAT(ros_samples(simulated, "").warnings,
               ElementsAre(HasSubstr("begin 1700000000.123 s before the recorder's times")));
 }
@@ -211,7 +213,7 @@ TEST(RosSamples, NamesWhatCannotBeRead) {
                                HasSubstr("/json (no type in json, 0 messages)"), HasSubstr("PoseStamped"),
                                HasSubstr("Odometry"), HasSubstr("TFMessage")));
   recording.topic(4, "/tool", "geometry_msgs/msg/PointStamped");
-  recording.message(4, 5, point(5, 0.0));
+  recording.message(4, 5, stamped_point(5, 0.0));
   EXPECT_THAT(
       complaint_of([&] { ros_samples(recording, "/joints"); }),
       AllOf(HasSubstr("'/joints' cannot be read"), HasSubstr("--part): /tool"), Not(HasSubstr("/pose"))));
