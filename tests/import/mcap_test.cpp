@@ -6,6 +6,7 @@
 #include "cdr_writer.h"
 #include "complaint.h"
 #include "import/formats.h"
+#include "import/import_stroke.h"
 #include "recording_bytes.h"
 #include "test_folder.h"
 
@@ -142,6 +143,29 @@ TEST(Mcap, MessagesInTheBytesOfRos1) {
                  mcap::channel(1, 1, "/tool", "ros1") + mcap::message(1, 7'000'000'000, point)));
   EXPECT_EQ(column(table, "time").origin, 7'000'000'005);
   EXPECT_THAT(column(table, "z").values, ElementsAre(3.0));
+}
+
+/// The position from one topic, the force from another of the same file; then the recorder's clock.
+TEST(Mcap, TwoTopicsOfOneFileAreMerged) {
+  const std::string wrench =
+      CdrWriter().header(1'700'000'001, 5, "sensor").numbers({5.0, 0, 0, 0, 0, 0}).bytes();
+  const std::string data = both_channels() + tool_records(0) +
+                           mcap::schema(3, "geometry_msgs/msg/WrenchStamped") +
+                           mcap::channel(3, 3, "/force") + mcap::message(3, begin_time, wrench);
+  const TestFolder folder;
+  put_text(folder / "a.mcap", mcap::file(mcap::chunk(data, "zstd")));
+  TableSettings settings;
+  settings.part = "/tool";
+  settings.time = "recorded";
+  EXPECT_EQ(import_stroke(folder / "a.mcap", settings).clock, 1'700'000'000'000'000'000);
+  settings.time = "";
+  settings.merge = "a.mcap";
+  settings.merge_part = "/force";
+  settings.force_sign = ForceSign::on_device;
+  const Stroke stroke = import_stroke(folder / "a.mcap", settings).stroke;
+  ASSERT_EQ(stroke.size(), 1u);  // that the force covers
+  EXPECT_EQ(stroke.position[0], Eigen::Vector3d(0.1, 2.0, 3.0));
+  EXPECT_EQ(stroke.force[0], Eigen::Vector3d(5.0, 0.0, 0.0));
 }
 
 /// A summary that says other things than the file is told of.

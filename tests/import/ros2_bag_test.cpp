@@ -176,9 +176,9 @@ TEST(Ros2Bag, SaysWhatIsWrong) {
   };
   EXPECT_THAT(complaint([](BagFile& bag) { bag.run("DROP TABLE messages"); }),
               HasSubstr("without ROS messages"));
-  EXPECT_THAT(complaint([](BagFile&) {}), HasSubstr("it has: none"));
+  EXPECT_THAT(complaint([](BagFile&) {}), HasSubstr("the ROS 2 bag has: none"));
   EXPECT_THAT(complaint([](BagFile& bag) { bag.topic(1, "/camera", "sensor_msgs/msg/Image"); }),
-              HasSubstr("it has: /camera (sensor_msgs/msg/Image, 0 messages)"));
+              HasSubstr("the ROS 2 bag has: /camera (sensor_msgs/msg/Image, 0 messages)"));
   EXPECT_THAT(complaint([](BagFile& bag) {
                 fill(bag);
                 bag.message(4, 0, "short");
