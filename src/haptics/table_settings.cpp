@@ -9,7 +9,7 @@ void describe_table(KeyVisitor& v, TableSettings& t) {
   v.text("position_unit", t.position_unit,
          "unit of the position: m, cm, mm, um, in, px, or its length in metres");
   v.number("pixel_size", t.pixel_size, not_negative, "m", "size of a pixel, for unit px");
-  v.text("time", t.time, "column of the time: numbers, or ISO 8601");
+  v.text("time", t.time, "column of the time: numbers, or ISO 8601; or two columns, \"sec,nanosec\"");
   v.text("time_unit", t.time_unit, "unit of the time: s, ms, us or ns");
   v.number("rate", t.rate, not_negative, "Hz", "samples per second, instead of times");
   v.number("speed", t.speed, not_negative, "m/s", "speed of the tip on the bed, instead of times");
@@ -19,12 +19,16 @@ void describe_table(KeyVisitor& v, TableSettings& t) {
          "columns of the tip's velocity; the stroke keeps it, but runs do not use it");
   v.text("velocity_unit", t.velocity_unit, "unit of the velocity: m/s, cm/s or mm/s");
   v.text("force", t.force, "columns of the recorded force");
-  v.text("force_unit", t.force_unit, "unit of the force: N, mN or kN");
+  v.text("force_unit", t.force_unit, "unit of the force: N, mN, kN, gf, kgf, lbf, or its size in newtons");
   choose(v, "force_sign", t.force_sign, force_sign_names,
          "on device: the force of the sand on the device; by hand: the force of the hand, its opposite");
   v.text("orientation", t.orientation,
          "4 columns of a quaternion x,y,z,w, or 9 of a rotation matrix, row by row");
   v.text("pressure", t.pressure, "column of the pen's pressure, in any unit");
+  v.text("stroke_number", t.stroke_number,
+         "column whose value changes where another stroke of the pen begins");
+  v.text("pen_state", t.pen_state,
+         "column of the pen's state: down where it is not 0; \"-NAME\": down where it is 0");
   v.text("part", t.part,
          "one of several recordings in a file: a topic of a ROS 2 bag, a variable of a MATLAB file");
   v.text("columns", t.columns, "names of all columns, if no header line has them: \"x,y,t\"");

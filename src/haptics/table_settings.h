@@ -20,17 +20,20 @@ struct TableSettings {
   std::string position;       ///< 2 or 3 columns, each with - in front if its sign changes: "-x,z,y"
   std::string position_unit;  ///< m cm mm um in px, or metres: "1e-5"
   double pixel_size = 0.0;    ///< m, for px
-  std::string time, time_unit;
+  std::string time;           ///< or two columns: seconds and nanoseconds
+  std::string time_unit;
   double rate = 0.0;   ///< Hz, instead of times
   double speed = 0.0;  ///< m/s, instead of times: they follow from the length of the way
   EqualTimes equal_times = EqualTimes::error;
   std::string velocity, velocity_unit;
   std::string force, force_unit;
   ForceSign force_sign = ForceSign::not_said;
-  std::string orientation;  ///< 4 columns (quaternion x, y, z, w) or 9 (rotation matrix, row by row)
-  std::string pressure;     ///< column of the pen's pressure, in any unit
-  std::string part;         ///< one of several recordings in a file: a bag's topic, a variable of a .mat file
-  std::string columns;      ///< names of all columns, if the table has no header
+  std::string orientation;    ///< 4 columns (quaternion x, y, z, w) or 9 (rotation matrix, row by row)
+  std::string pressure;       ///< column of the pen's pressure, in any unit
+  std::string stroke_number;  ///< column that changes where another stroke of the pen begins
+  std::string pen_state;      ///< column: the pen is down where it is not 0; with - in front: up
+  std::string part;     ///< one of several recordings in a file: a bag's topic, a variable of a .mat file
+  std::string columns;  ///< names of all columns, if the table has no header
   Separator separator = Separator::found;
   DecimalMark decimal = DecimalMark::found;
   std::string encoding;        ///< as iconv names it

@@ -20,6 +20,8 @@ struct SampleColumn {
 
 /// The unit of a column of times that were dates; its values are in ns.
 inline constexpr const char* iso_unit = "ISO 8601";
+/// The unit of a column of seconds that was joined with one of their fractions; its values are in ns.
+inline constexpr const char* joined_unit = "s, and their fractions in a second column";
 
 /// Samples as they are in a file of any format.
 struct SampleTable {

@@ -7,6 +7,7 @@
 #include "core/error.h"
 #include "haptics/stroke_lines.h"
 #include "import/equal_times.h"
+#include "import/pen_states.h"
 #include "import/table_layout.h"
 #include "import/units.h"
 
@@ -68,8 +69,11 @@ class StrokeMaker {
     for (const ColumnChoices* choices :
          {&layout_.position, &layout_.velocity, &layout_.force, &layout_.orientation})
       for (const ColumnChoice& choice : *choices) used[choice.column] = true;
-    for (const std::optional<std::size_t>& column : {layout_.time, layout_.pressure})
+    for (const std::optional<std::size_t>& column :
+         {layout_.time, layout_.pressure, layout_.stroke_number, layout_.pen_state})
       if (column) used[*column] = true;
+    if (table_.columns[layout_.time.value_or(0)].unit == joined_unit && layout_.time_fraction)
+      used[*layout_.time_fraction] = true;
     constexpr std::size_t most = 8;
     std::vector<std::string> left;
     for (std::size_t i = 0; i < used.size(); ++i)
@@ -79,6 +83,11 @@ class StrokeMaker {
     left.resize(left.size() - more);
     tell(fmt::format("not used: {}{}", fmt::join(left, ", "),
                      more > 0 ? fmt::format(" and {} more", more) : ""));
+  }
+
+  /// The place of columns, for sentences.
+  std::string where(const ColumnChoices& choices) const {
+    return fmt::format("{}: column '{}'", name_, table_.columns[choices.front().column].name);
   }
 
   /// The key that names the times of this table.
@@ -126,13 +135,14 @@ class StrokeMaker {
                       unit.empty() ? "m, cm, mm, um, in, px or a number of metres" : "the radius in metres"));
       unit = "m";
     }
-    length_ = unit_of(Quantity::length, unit, settings_.pixel_size);
+    length_ = unit_of(Quantity::length, unit, settings_.pixel_size, where(layout_.position),
+                      option_and_key("position_unit"));
     made_.stroke.position = vectors(layout_.position, length_);
     tell(fmt::format("position {} ({})", names(layout_.position), unit));
     const std::vector<double>& y = table_.columns[layout_.position[1].column].values;
     const bool counts_down = layout_.position[1].sign > 0.0 &&
                              std::any_of(y.begin(), y.end(), [](double value) { return value > 0.0; });
-    if (unit == "px" && counts_down)
+    if (is_pixel(unit) && counts_down)
       made_.warnings.push_back(
           fmt::format("{}: y is taken to point upwards, but on screens and tablets it points downwards; if "
                       "the shape is upside down, set {} to \"{},-{}\"",
@@ -167,7 +177,9 @@ class StrokeMaker {
     const std::string unit = unit_or_none(layout_.velocity, settings_.velocity_unit,
                                           !settings_.velocity.empty(), "velocity_unit", Quantity::speed);
     if (unit.empty()) return;
-    made_.stroke.velocity = vectors(layout_.velocity, unit_of(Quantity::speed, unit));
+    made_.stroke.velocity = vectors(
+        layout_.velocity,
+        unit_of(Quantity::speed, unit, 0.0, where(layout_.velocity), option_and_key("velocity_unit")));
     tell(fmt::format("velocity {} ({})", names(layout_.velocity), unit));
   }
 
@@ -176,7 +188,8 @@ class StrokeMaker {
     const std::string unit = unit_or_none(layout_.force, settings_.force_unit, !settings_.force.empty(),
                                           "force_unit", Quantity::force);
     if (unit.empty()) return;
-    made_.stroke.force = vectors(layout_.force, unit_of(Quantity::force, unit));
+    made_.stroke.force = vectors(layout_.force, unit_of(Quantity::force, unit, 0.0, where(layout_.force),
+                                                        option_and_key("force_unit")));
     tell(fmt::format("force {} ({})", names(layout_.force), unit));
     made_.stroke.force_sign = settings_.force_sign;
     if (settings_.force_sign == ForceSign::not_said)
@@ -229,7 +242,10 @@ class StrokeMaker {
   /// A pen that presses in some samples hovers in those without pressure.
   void take_pen() {
     Stroke& stroke = made_.stroke;
-    for (const bool lifts : table_.lifts) stroke.contact.push_back(lifts ? pen_lifts : pen_down);
+    const PenStates pen = pen_states(table_, layout_, settings_, name_);
+    stroke.contact = pen.contact;
+    if (!pen.text.empty()) tell(pen.text);
+    made_.warnings.insert(made_.warnings.end(), pen.warnings.begin(), pen.warnings.end());
     const auto presses = [](double pressure) { return pressure > 0.0; };
     const auto pressed = std::count_if(stroke.pressure.begin(), stroke.pressure.end(), presses);
     if (pressed == 0 || pressed == std::ssize(stroke.pressure)) return;
@@ -276,7 +292,8 @@ class StrokeMaker {
     const auto digits = std::to_string(column.origin.value_or(0)).size();
     std::string unit = settings_.time_unit;
     if (unit.empty()) unit = column.unit;
-    if (column.unit == iso_unit) unit = "ns";
+    const bool counts_ns = column.unit == iso_unit || column.unit == joined_unit;
+    if (counts_ns) unit = "ns";
     if (unit.empty() && digits >= 10 && digits % 3 == 1) {  // clocks of today, since 1970
       unit = digits == 10 ? "s" : digits == 13 ? "ms" : digits == 16 ? "us" : "ns";
       // The time since a computer started can have as many digits, in a smaller unit.
@@ -289,14 +306,15 @@ class StrokeMaker {
                                   column.name, option_and_key(own_key("time_unit"))));
       return;
     }
-    const Unit of_time = unit_of(Quantity::time, unit);
+    const Unit of_time =
+        unit_of(Quantity::time, unit, 0.0, where({{*layout_.time}}), option_and_key(own_key("time_unit")));
     for (const double stamp : column.values) made_.stroke.time.push_back(of_time.to_si(stamp));
     if (column.origin) {
       const auto per_unit = static_cast<std::int64_t>(of_time.to_si(1e9));
       std::int64_t clock = 0;
       if (!__builtin_mul_overflow(*column.origin, per_unit, &clock)) made_.clock = clock;
     }
-    tell(fmt::format("time {} ({})", column.name, column.unit == iso_unit ? iso_unit : unit));
+    tell(fmt::format("time {} ({})", column.name, counts_ns ? column.unit : unit));
   }
 
   void times_by_way() {

@@ -39,7 +39,7 @@ void TextLines::end_line(const Take& take) {
   if (line.find('\0') != std::string_view::npos)
     throw_input_error("{}:{}: contains a zero byte, so the file is not text; export it as a table (CSV)",
                       name_, line_);
-  take(without_blanks(line, " \t\r"), line_);
+  take(without_blanks(line, " \r"), line_);
   rest_.clear();
 }
 
